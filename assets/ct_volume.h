@@ -1,0 +1,20 @@
+// A scanned jaw as loaded: Hounsfield units, tissue labels and the solid fraction, voxel for voxel on one grid.
+// Immutable after loading; any thread may read. 4 bytes a voxel. Not the bone while it is carved (haptics::CarvedBone).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "assets/tissue.h"
+#include "assets/volume_grid.h"
+
+namespace assets {
+
+struct CtVolume {
+  VolumeGrid grid;
+  std::vector<std::int16_t> hounsfield;  ///< grid.voxelCount() values, i fastest
+  std::vector<std::uint8_t> label;       ///< Tissue, same order
+  std::vector<std::uint8_t> solid;       ///< 0..255 = fraction of the voxel that is solid: what is felt and seen
+};
+
+}  // namespace assets

@@ -1,0 +1,42 @@
+// Where the voxels of a volume lie: a box of cubic voxels, axes along P (LPS), i fastest.
+// Index (0,0,0) is the voxel whose centre is `origin_P_mm`. Integer indices are voxels, never a frame.
+// Plain data, trivially copyable; any thread.
+#pragma once
+
+#include <cstddef>
+
+#include <glm/glm.hpp>
+
+namespace assets {
+
+/// Edge of a brick in voxels: the unit of carving hand-over, empty-space skipping and upload.
+inline constexpr int kBrickVoxels = 8;
+
+struct VolumeGrid {
+  glm::ivec3 size{0};           ///< voxels along i, j, k
+  double spacing_mm = 0.0;      ///< edge of a voxel
+  glm::dvec3 origin_P_mm{0.0};  ///< centre of voxel (0,0,0)
+
+  bool operator==(const VolumeGrid&) const = default;
+
+  std::size_t voxelCount() const {
+    return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);
+  }
+  std::size_t index(glm::ivec3 ijk) const {
+    return (static_cast<std::size_t>(ijk.z) * static_cast<std::size_t>(size.y) + static_cast<std::size_t>(ijk.y)) *
+               static_cast<std::size_t>(size.x) +
+           static_cast<std::size_t>(ijk.x);
+  }
+  bool contains(glm::ivec3 ijk) const {
+    return ijk.x >= 0 && ijk.y >= 0 && ijk.z >= 0 && ijk.x < size.x && ijk.y < size.y && ijk.z < size.z;
+  }
+  glm::dvec3 centre_P_mm(glm::ivec3 ijk) const { return origin_P_mm + spacing_mm * glm::dvec3(ijk); }
+  /// Continuous index: integer at voxel centres.
+  glm::dvec3 indexFromPoint(const glm::dvec3& p_P_mm) const { return (p_P_mm - origin_P_mm) / spacing_mm; }
+  double voxelVolume_mm3() const { return spacing_mm * spacing_mm * spacing_mm; }
+
+  /// Bricks along each axis; the last one may be partly outside the volume.
+  glm::ivec3 bricks() const { return (size + (kBrickVoxels - 1)) / kBrickVoxels; }
+};
+
+}  // namespace assets

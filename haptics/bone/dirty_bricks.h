@@ -1,0 +1,30 @@
+// Which bricks changed since they were last taken: one atomic bit each. One of the three things that cross threads.
+// The writer marks after storing voxels (release); one reader takes and clears (acquire), then copies the bricks.
+// mark(): wait-free. takeInto(): O(bricks / 64). No allocation after construction.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace haptics {
+
+class DirtyBricks {
+ public:
+  explicit DirtyBricks(glm::ivec3 bricks);
+
+  void mark(glm::ivec3 brick);
+  void markAll();
+  /// Appends the dirty bricks to `out` and clears them. Reader only.
+  void takeInto(std::vector<glm::ivec3>& out);
+
+ private:
+  glm::ivec3 bricks_;
+  std::size_t words_;
+  std::unique_ptr<std::atomic<std::uint64_t>[]> bits_;
+};
+
+}  // namespace haptics

@@ -1,0 +1,15 @@
+// What the hand does at one tick, as the servo sees it. Trivially copyable; recorded for replay, so it holds all input.
+#pragma once
+
+#include "calibration/geometry/frames.h"
+#include "calibration/geometry/pose.h"
+
+namespace haptics {
+
+struct HandSample {
+  calibration::Pose<calibration::Patient, calibration::Tool> X_PT;      ///< where the hand holds the tool
+  calibration::Vector<calibration::Patient> velocity_P_mm_per_s;        ///< of the tool's origin
+  bool drill_pedal = false;
+};
+
+}  // namespace haptics

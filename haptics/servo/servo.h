@@ -1,0 +1,30 @@
+// The servo step: bone, hand and command in, force out, bone carved. A pure function of its state: no clock, I/O,
+// allocation, lock, throw or log, so a session replays bit for bit. Frame P. Servo thread only.
+// Per step: contact and proxy (at most 6 overlap sums), law, safety, carving; cost grows with (R/s)^3, see README.
+#pragma once
+
+#include "haptics/bone/carved_bone.h"
+#include "haptics/servo/command.h"
+#include "haptics/servo/proxy.h"
+#include "haptics/servo/safety.h"
+#include "haptics/servo/tick.h"
+
+namespace haptics {
+
+class Servo {
+ public:
+  /// Borrows the bone, which must outlive this; becomes its one writer.
+  explicit Servo(CarvedBone& bone) : bone_(bone) {}
+
+  /// One tick of length `dt_s`. Never throws whatever the input; trouble is a Fault in the Tick.
+  Tick step(const HandSample& hand, const Command& command, double dt_s) noexcept;
+
+ private:
+  CarvedBone& bone_;
+  Proxy proxy_;
+  SafetyFilter safety_;
+  std::uint64_t next_index_ = 0;
+  double t_s_ = 0.0;
+};
+
+}  // namespace haptics

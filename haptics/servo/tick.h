@@ -1,0 +1,46 @@
+// The record of one servo tick: everything that went in and came out. Trivially copyable, fixed size; the tick log, the
+// session file, the status line and the renderer all read this. Frame P; forces act on the hand.
+#pragma once
+
+#include <cstdint>
+
+#include "haptics/servo/hand_sample.h"
+
+namespace haptics {
+
+/// Trouble met in a tick, as bits; the force ramps to zero while any but `clamped` and `slewed` is set.
+enum class Fault : std::uint32_t {
+  none = 0,
+  bad_pose = 1,      ///< the device gave a non-finite or absurd pose
+  bad_force = 2,     ///< the law gave a non-finite force
+  clamped = 4,       ///< magnitude limit reached
+  slewed = 8,        ///< rate limit reached
+  device = 16,       ///< the device reported trouble
+};
+constexpr Fault operator|(Fault a, Fault b) {
+  return static_cast<Fault>(static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b));
+}
+constexpr bool has(Fault set, Fault one) {
+  return (static_cast<std::uint32_t>(set) & static_cast<std::uint32_t>(one)) != 0;
+}
+
+struct Tick {
+  std::uint64_t index = 0;                                     ///< from 0, without gaps
+  double t_s = 0.0;                                            ///< simulated time, index * dt
+  double dt_s = 0.0;
+  std::uint64_t command_serial = 0;                            ///< the Command in force
+  HandSample hand;                                             ///< input
+  calibration::Point<calibration::Patient> proxy_P;            ///< where the bur is held by the surface
+  calibration::Vector<calibration::Patient> law_force_P_N;     ///< the law with its proxy, before safety
+  calibration::Vector<calibration::Patient> served_force_P_N;  ///< what the device is told
+  double overlap_mm3 = 0.0;                                    ///< of the bur at the proxy
+  double depth_mm = 0.0;                                       ///< equivalent depth of the law at the proxy
+  double removed_mm3 = 0.0;                                    ///< this tick
+  std::uint64_t bone_digest = 0;                               ///< after this tick
+  std::uint8_t contact_tissue = 0;                             ///< label with the largest overlap
+  bool drilling = false;
+  Fault faults = Fault::none;
+  float work_us = 0.0f;                                        ///< CPU time of the step, for statistics; not replayed
+};
+
+}  // namespace haptics
