@@ -3,7 +3,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "calibration/geometry/frames.h"
 #include "calibration/geometry/plane.h"
@@ -27,7 +26,11 @@ struct Rig {
   Point<World> cyclopeanEye() const { return {0.5 * (left_eye.mm + right_eye.mm)}; }
 };
 
-/// A desktop monitor without mirror: `width_mm` wide, centre at the origin of W, eyes 500 mm in front, IPD 63 mm.
-Rig desktopRig(glm::ivec2 px, double width_mm = 531.0);
+/// Distance between the pupils of an average adult (rendering reference §5a), mm.
+inline constexpr double kInterpupillary_mm = 63.0;
+
+/// A monitor on the desk, without mirror: its centre is the origin of W, `width_mm` wide, as high as the pixels ask,
+/// eyes `eye_distance_mm` in front of it. X_WP and X_WD are identity.
+Rig desktopRig(glm::ivec2 px, double width_mm = 531.0, double eye_distance_mm = 500.0);
 
 }  // namespace calibration

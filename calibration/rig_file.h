@@ -2,19 +2,16 @@
 // Blocks that other parts of calibration add beside these keys are left alone on reading.
 #pragma once
 
-#include <stdexcept>
 #include <string>
 
+#include "calibration/calibration_error.h"
 #include "calibration/rig.h"
 
 namespace calibration {
 
-struct CalibrationError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
-/// Throws CalibrationError, one line: what, where, what to do; for a missing, malformed, non-finite or degenerate rig.
+/// Throws CalibrationError for a missing, malformed, non-finite or degenerate rig.
 Rig readRig(const std::string& path);
+
 /// The text of a rig file; writing it to disk is the caller's.
 std::string rigText(const Rig& rig);
 

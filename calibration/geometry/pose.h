@@ -22,15 +22,25 @@ struct Vector {
 };
 
 template <class A>
-Vector<A> operator-(const Point<A>& a, const Point<A>& b) { return {a.mm - b.mm}; }
+Vector<A> operator-(const Point<A>& a, const Point<A>& b) {
+  return {a.mm - b.mm};
+}
 template <class A>
-Point<A> operator+(const Point<A>& p, const Vector<A>& v_mm) { return {p.mm + v_mm.xyz}; }
+Point<A> operator+(const Point<A>& p, const Vector<A>& v_mm) {
+  return {p.mm + v_mm.xyz};
+}
 template <class A>
-Vector<A> operator+(const Vector<A>& a, const Vector<A>& b) { return {a.xyz + b.xyz}; }
+Vector<A> operator+(const Vector<A>& a, const Vector<A>& b) {
+  return {a.xyz + b.xyz};
+}
 template <class A>
-Vector<A> operator-(const Vector<A>& a, const Vector<A>& b) { return {a.xyz - b.xyz}; }
+Vector<A> operator-(const Vector<A>& a, const Vector<A>& b) {
+  return {a.xyz - b.xyz};
+}
 template <class A>
-Vector<A> operator*(double s, const Vector<A>& v) { return {s * v.xyz}; }
+Vector<A> operator*(double s, const Vector<A>& v) {
+  return {s * v.xyz};
+}
 
 /// X_AB: the pose of frame B in frame A.
 template <class A, class B>

@@ -1,0 +1,13 @@
+// The one exception of this folder: a rig, picture or measurement that can not be used.
+// The text is one line: what, where, what to do.
+#pragma once
+
+#include <stdexcept>
+
+namespace calibration {
+
+struct CalibrationError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace calibration
