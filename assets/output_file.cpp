@@ -1,0 +1,180 @@
+#include "assets/output_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <random>
+
+#include "assets/load_error.h"
+
+namespace assets {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const std::string& path, const std::string& reason) {
+  throw LoadError("can not write " + path + ": " + reason);
+}
+
+[[noreturn]] void refuseForSystem(const std::string& path, int error) {
+  refuse(path, std::string(std::strerror(error)) + "; choose another place or make room there");
+}
+
+/// The place a name stands for: links followed, no slash at the end.
+std::string resolved(std::string path) {
+  if (path.empty()) refuse("''", "the name is empty; name a file or folder");
+  while (path.size() > 1 && path.back() == '/') path.pop_back();
+  std::error_code ignored;
+  if (!fs::is_symlink(path, ignored)) return path;
+  const fs::path target = fs::weakly_canonical(path, ignored);
+  return target.empty() ? path : target.string();
+}
+
+fs::path parentOf(const std::string& path) {
+  const fs::path parent = fs::path(path).parent_path();
+  return parent.empty() ? fs::path(".") : parent;
+}
+
+void refuseWithoutParent(const std::string& path) {
+  std::error_code error;
+  const fs::path parent = parentOf(path);
+  if (!fs::is_directory(parent, error)) refuse(path, "there is no folder " + parent.string() + "; create it first");
+  const std::string name = fs::path(path).filename().string();
+  if (name.empty() || name == "." || name == "..") refuse(path, "that is no name for something new; give it one");
+}
+
+/// A hidden name in the target's folder; the target's name stays at the end, extension and all.
+std::string temporaryNameFor(const std::string& path) {
+  static constexpr char kDigits[] = "0123456789abcdefghijklmnopqrstuvwxyz";
+  std::random_device source;
+  std::uniform_int_distribution<int> digit(0, 35);
+  std::string mark;
+  for (int i = 0; i < 8; ++i) mark += kDigits[digit(source)];
+  return (parentOf(path) / (".part-" + mark + "-" + fs::path(path).filename().string())).string();
+}
+
+bool exists(const std::string& path) {
+  struct stat status {};
+  return ::lstat(path.c_str(), &status) == 0;
+}
+
+void waitUntilOnDisk(const std::string& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
+/// rename(2) that does not replace; a file system without that flag falls back to look-then-rename.
+int renameOntoNothing(const std::string& from, const std::string& to) {
+  if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
+  if (errno != EINVAL && errno != ENOSYS) return errno;
+  if (exists(to)) return EEXIST;
+  return ::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
+}
+
+/// Exchanges two folders; a file system without that flag falls back to two renames, undone if the second fails.
+int exchange(const std::string& ours, const std::string& theirs) {
+  if (::renameat2(AT_FDCWD, ours.c_str(), AT_FDCWD, theirs.c_str(), RENAME_EXCHANGE) == 0) return 0;
+  if (errno != EINVAL && errno != ENOSYS) return errno;
+  const std::string aside = temporaryNameFor(theirs);
+  if (::rename(theirs.c_str(), aside.c_str()) != 0) return errno;
+  if (::rename(ours.c_str(), theirs.c_str()) != 0) {
+    const int error = errno;
+    ::rename(aside.c_str(), theirs.c_str());
+    return error;
+  }
+  return ::rename(aside.c_str(), ours.c_str()) == 0 ? 0 : errno;
+}
+
+}  // namespace
+
+OutputFile::OutputFile(std::string path, bool overwrite) : path_(resolved(std::move(path))), overwrite_(overwrite) {
+  refuseWithoutParent(path_);
+
+  struct stat status {};
+  if (::stat(path_.c_str(), &status) == 0) {
+    if (S_ISDIR(status.st_mode)) refuse(path_, "it is a folder; name a file");
+    if (!S_ISREG(status.st_mode)) refuse(path_, "it is not a plain file; name one");
+    if (!overwrite_) refuse(path_, "it exists; use --force to replace it");
+  }
+
+  // Claim the temporary now, so that an unwritable folder is known before the work is done.
+  temporary_path_ = temporaryNameFor(path_);
+  const int descriptor = ::open(temporary_path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (descriptor < 0) refuseForSystem(path_, errno);
+  ::close(descriptor);
+}
+
+OutputFile::~OutputFile() {
+  if (!committed_) ::unlink(temporary_path_.c_str());
+}
+
+void OutputFile::commit() {
+  waitUntilOnDisk(temporary_path_);
+  const int error = overwrite_ ? (::rename(temporary_path_.c_str(), path_.c_str()) == 0 ? 0 : errno)
+                               : renameOntoNothing(temporary_path_, path_);
+  if (error == EEXIST) refuse(path_, "it exists; use --force to replace it");
+  if (error != 0) refuseForSystem(path_, error);
+  committed_ = true;
+  waitUntilOnDisk(parentOf(path_).string());
+}
+
+OutputFolder::OutputFolder(std::string path, bool overwrite, std::vector<std::string> contents)
+    : path_(resolved(std::move(path))), contents_(std::move(contents)), overwrite_(overwrite) {
+  refuseWithoutParent(path_);
+  refuseUnlessReplaceable();
+  temporary_path_ = temporaryNameFor(path_);
+  if (::mkdir(temporary_path_.c_str(), 0777) != 0) refuseForSystem(path_, errno);
+}
+
+OutputFolder::~OutputFolder() {
+  std::error_code ignored;
+  if (!committed_) fs::remove_all(temporary_path_, ignored);
+}
+
+void OutputFolder::refuseUnlessReplaceable() const {
+  if (!exists(path_)) return;
+  std::error_code error;
+  if (!fs::is_directory(path_, error)) refuse(path_, "it exists and is no folder; choose another name");
+  if (fs::is_empty(path_, error) && !error) return;
+  if (!overwrite_) refuse(path_, "it exists; use --force to replace it");
+  fs::directory_iterator entry(path_, error);
+  if (error) refuseForSystem(path_, error.value());
+  for (const auto& found : entry) {
+    const std::string name = found.path().filename().string();
+    if (std::find(contents_.begin(), contents_.end(), name) == contents_.end())
+      refuse(path_, "it holds '" + name + "', which would be lost; move that away or choose another folder");
+  }
+}
+
+void OutputFolder::commit() {
+  // Files first, then the folder that names them.
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(temporary_path_, ignored)) waitUntilOnDisk(entry.path().string());
+  waitUntilOnDisk(temporary_path_);
+
+  refuseUnlessReplaceable();
+  int error = 0;
+  if (!exists(path_)) {
+    error = renameOntoNothing(temporary_path_, path_);
+  } else if (fs::is_empty(path_, ignored)) {
+    error = ::rename(temporary_path_.c_str(), path_.c_str()) == 0 ? 0 : errno;
+  } else {
+    error = exchange(temporary_path_, path_);
+    if (error == 0) fs::remove_all(temporary_path_, ignored);  // now the one that was there before
+  }
+  if (error == EEXIST) refuse(path_, "it exists; use --force to replace it");
+  if (error != 0) refuseForSystem(path_, error);
+  committed_ = true;
+  waitUntilOnDisk(parentOf(path_).string());
+}
+
+}  // namespace assets

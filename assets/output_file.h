@@ -1,0 +1,60 @@
+// What we write to disk, whole or not at all: built under a temporary name beside the target, renamed onto it at
+// commit. A killed or failing program leaves the target as it was; the destructor removes what was not committed.
+// Refused with one line (LoadError) at construction, before any work: no such parent folder, not writable, target there
+// and no leave to replace it, target not a plain file (a device, a folder).
+// Any thread, one thread per object. A few system calls; commit waits until the bytes are on the disk.
+// Not a writer: whoever holds one writes to `temporaryPath()` by any means.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace assets {
+
+class OutputFile {
+ public:
+  OutputFile(std::string path, bool overwrite);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  /// An empty file in the target's folder, whose name ends as the target's does.
+  const std::string& temporaryPath() const { return temporary_path_; }
+
+  /// Puts the file in place. Throws LoadError, leaving the target as it was.
+  void commit();
+
+ private:
+  std::string path_;
+  std::string temporary_path_;
+  bool overwrite_;
+  bool committed_ = false;
+};
+
+/// A folder built beside its target. A folder in place is replaced only with `overwrite`, and only if it holds nothing
+/// but `contents` (so that --force on the wrong folder destroys nothing); the two are exchanged, so one is always in
+/// place. An empty folder in place is filled without asking.
+class OutputFolder {
+ public:
+  OutputFolder(std::string path, bool overwrite, std::vector<std::string> contents);
+  ~OutputFolder();
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+  /// An empty folder beside the target.
+  const std::string& temporaryPath() const { return temporary_path_; }
+
+  /// Puts the folder in place. Throws LoadError, leaving the target as it was.
+  void commit();
+
+ private:
+  void refuseUnlessReplaceable() const;
+
+  std::string path_;
+  std::string temporary_path_;
+  std::vector<std::string> contents_;
+  bool overwrite_;
+  bool committed_ = false;
+};
+
+}  // namespace assets
