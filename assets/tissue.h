@@ -11,41 +11,41 @@
 namespace assets {
 
 enum class Tissue : std::uint8_t {
-  unlabelled = 0,      ///< air, or a scan without segmentation
+  unlabelled = 0,  ///< air, or a scan without segmentation
   cortical = 1,
   trabecular = 2,
-  other_teeth = 3,     ///< a tooth that is not to be touched, enamel and dentine not told apart
-  enamel = 4,          ///< of the third molar
-  dentine = 5,         ///< of the third molar
+  other_teeth = 3,  ///< a tooth that is not to be touched, enamel and dentine not told apart
+  enamel = 4,       ///< of the third molar
+  dentine = 5,      ///< of the third molar
   pulp = 6,
-  canal = 7,           ///< mandibular canal with nerve and vessels
-  ligament = 8,        ///< periodontal ligament or follicle
+  canal = 7,     ///< mandibular canal with nerve and vessels
+  ligament = 8,  ///< periodontal ligament or follicle
   gingiva = 9,
 };
 inline constexpr int kTissueCount = 10;
 
 struct TissueProperties {
-  std::string_view name;
+  std::string_view key;   ///< in files and on the command line
+  std::string_view name;  ///< for people
   double hounsfield;      ///< mean grey value of the synthetic patient
-  double removal_factor;  ///< fraction removed per second relative to cortical bone (enamel:dentine:cortical:cancellous:
-                          ///< pulp = 1:3:3:10:50, reference/physics, from hardness)
+  double
+      removal_factor;  ///< fraction removed per second relative to cortical bone (enamel:dentine:cortical:cancellous:
+                       ///< pulp = 1:3:3:10:50, reference/physics, from hardness)
 };
 
 inline constexpr std::array<TissueProperties, kTissueCount> kTissues = {{
-    {"unlabelled", -1000.0, 1.0},
-    {"cortical bone", 1350.0, 1.0},
-    {"trabecular bone", 420.0, 10.0 / 3.0},
-    {"other teeth", 1700.0, 1.0},
-    {"enamel", 2500.0, 1.0 / 3.0},
-    {"dentine", 1650.0, 1.0},
-    {"pulp", 150.0, 50.0 / 3.0},
-    {"canal", 40.0, 50.0 / 3.0},
-    {"ligament", 60.0, 50.0 / 3.0},
-    {"gingiva", 60.0, 50.0 / 3.0},
+    {"unlabelled", "unlabelled", -1000.0, 1.0},
+    {"cortical", "cortical bone", 1350.0, 1.0},
+    {"trabecular", "trabecular bone", 420.0, 10.0 / 3.0},
+    {"other_teeth", "other teeth", 1700.0, 1.0},
+    {"enamel", "enamel", 2500.0, 1.0 / 3.0},
+    {"dentine", "dentine", 1650.0, 1.0},
+    {"pulp", "pulp", 150.0, 50.0 / 3.0},
+    {"canal", "canal", 40.0, 50.0 / 3.0},
+    {"ligament", "ligament", 60.0, 50.0 / 3.0},
+    {"gingiva", "gingiva", 60.0, 50.0 / 3.0},
 }};
 
-constexpr const TissueProperties& properties(std::uint8_t label) {
-  return kTissues[label < kTissueCount ? label : 0];
-}
+constexpr const TissueProperties& properties(std::uint8_t label) { return kTissues[label < kTissueCount ? label : 0]; }
 
 }  // namespace assets

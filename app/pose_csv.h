@@ -1,0 +1,22 @@
+// Timed tool poses as CSV: `t_s,px_mm,py_mm,pz_mm,qw,qx,qy,qz[,drill]`, the pose X_PT in frame P.
+// Reading is strict: every row complete, finite, times rising, quaternions unit within 1 %. Not on the servo thread.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calibration/geometry/frames.h"
+#include "calibration/geometry/pose.h"
+
+namespace app {
+
+struct TimedPose {
+  double t_s = 0.0;
+  calibration::Pose<calibration::Patient, calibration::Tool> X_PT;
+  bool drill = true;  ///< the pedal from this row to the next; true where the file has no such column
+};
+
+/// At least one row. Throws UsageError naming file, line and column.
+std::vector<TimedPose> readPoses(const std::string& path);
+
+}  // namespace app

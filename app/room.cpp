@@ -1,0 +1,24 @@
+#include "app/room.h"
+
+#include <cassert>
+
+namespace app {
+
+using calibration::Patient;
+using calibration::Point;
+using calibration::Pose;
+using calibration::Vector;
+using calibration::World;
+
+Pose<World, Patient> standPatient(const Point<Patient>& site_P, const Vector<Patient>& eye_direction_P,
+                                  const Vector<Patient>& up_P) {
+  // The axes of W as seen from P are the rows of R_WP.
+  const glm::dvec3 z = glm::normalize(eye_direction_P.xyz);
+  const glm::dvec3 across = glm::cross(up_P.xyz, z);
+  assert(glm::length(across) > 1e-6 && "up must not be along the line of sight");
+  const glm::dvec3 x = glm::normalize(across), y = glm::cross(z, x);
+  const glm::dquat R_WP = glm::quat_cast(glm::transpose(glm::dmat3(x, y, z)));
+  return {R_WP, -(R_WP * site_P.mm)};
+}
+
+}  // namespace app

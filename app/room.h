@@ -1,0 +1,17 @@
+// How the patient stands at the display: the operating site at the centre of the virtual screen (rendering reference
+// §5a: there, tracking errors cancel), the surgeon's line of sight towards the viewer. Frames P and W, mm, 1:1.
+// Pure; start-up only.
+#pragma once
+
+#include "calibration/geometry/frames.h"
+#include "calibration/geometry/pose.h"
+
+namespace app {
+
+/// X_WP with `site_P` at the origin of W, `eye_direction_P` (site to eye) along +z and `up_P` as upright as that allows.
+calibration::Pose<calibration::World, calibration::Patient> standPatient(
+    const calibration::Point<calibration::Patient>& site_P,
+    const calibration::Vector<calibration::Patient>& eye_direction_P,
+    const calibration::Vector<calibration::Patient>& up_P);
+
+}  // namespace app

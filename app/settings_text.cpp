@@ -1,0 +1,63 @@
+#include "app/settings_text.h"
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "app/usage_error.h"
+
+namespace app {
+namespace {
+
+constexpr double kSmallestRadius_mm = 0.1, kLargestRadius_mm = 20.0;
+
+std::optional<double> numberIn(std::string_view text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::string short_(double value) {
+  std::string text = std::to_string(value);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+void applySettings(const std::vector<std::string>& texts, const std::map<std::string, Setting>& settings) {
+  std::set<std::string> seen;
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.find('=');
+    const std::string key = text.substr(0, equals);
+    const auto found = settings.find(key);
+    if (equals == std::string::npos || found == settings.end()) {
+      std::string keys;
+      for (const auto& [name, setting] : settings) keys += (keys.empty() ? "" : ", ") + name;
+      throw UsageError("--set " + text + ": no such setting, use key=value with one of " + keys);
+    }
+    if (!seen.insert(key).second) throw UsageError("--set " + key + ": it is given twice, give it once");
+    const auto value = numberIn(std::string_view(text).substr(equals + 1));
+    const Setting& setting = found->second;
+    if (!value || *value < setting.low || *value > setting.high)
+      throw UsageError("--set " + text + ": the value is out of range, give " + short_(setting.low) + " to " +
+                       short_(setting.high) + (*setting.unit ? " " : "") + setting.unit);
+    *setting.value = *value;
+  }
+}
+
+double sphereRadius_mm(const std::string& tool) {
+  const std::string_view text = tool;
+  if (!text.starts_with("sphere:"))
+    throw UsageError("--tool " + tool + ": not a tool of this version, give sphere:R with R in mm");
+  const auto radius = numberIn(text.substr(7));
+  if (!radius || *radius < kSmallestRadius_mm || *radius > kLargestRadius_mm)
+    throw UsageError("--tool " + tool + ": the radius is out of range, give " + short_(kSmallestRadius_mm) + " to " +
+                     short_(kLargestRadius_mm) + " mm");
+  return *radius;
+}
+
+}  // namespace app

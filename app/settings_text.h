@@ -1,0 +1,25 @@
+// `key=value` settings and `sphere:R` tools as people type them. Start-up only.
+// Throws UsageError that lists the keys there are.
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace app {
+
+/// A number a person may set, with the range it must stay in.
+struct Setting {
+  double* value = nullptr;
+  double low = 0.0, high = 0.0;
+  const char* unit = "";
+};
+
+/// Applies every `key=value` of `texts` to the settings; unknown keys, doubles and values out of range are refused.
+void applySettings(const std::vector<std::string>& texts, const std::map<std::string, Setting>& settings);
+
+/// The radius of `sphere:R`, mm, 0.1..20.
+double sphereRadius_mm(const std::string& tool);
+
+}  // namespace app
