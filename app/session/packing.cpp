@@ -1,0 +1,156 @@
+#include "app/session/packing.h"
+
+#include <bit>
+#include <concepts>
+#include <string>
+#include <type_traits>
+
+#include "app/session/session_error.h"
+
+namespace app {
+namespace {
+
+// A field added to either struct must be added to its list below, or replays would silently lose it.
+static_assert(sizeof(haptics::Tick) == 240, "teach forEachField() the changed fields of Tick");
+static_assert(sizeof(haptics::Command) == 144, "teach forEachField() the changed fields of Command");
+
+template <class Visit>
+void visitDvec3(auto& v, Visit&& visit) {
+  visit(v.x), visit(v.y), visit(v.z);
+}
+
+template <class Visit>
+void forEachField(auto& tick, Visit&& visit) requires std::same_as<std::remove_cvref_t<decltype(tick)>, haptics::Tick> {
+  visit(tick.index), visit(tick.t_s), visit(tick.dt_s), visit(tick.command_serial);
+  auto& q = tick.hand.X_PT.rotation;
+  visit(q.w), visit(q.x), visit(q.y), visit(q.z);
+  visitDvec3(tick.hand.X_PT.translation_mm, visit);
+  visitDvec3(tick.hand.velocity_P_mm_per_s.xyz, visit);
+  visit(tick.hand.drill_pedal);
+  visitDvec3(tick.proxy_P.mm, visit);
+  visitDvec3(tick.law_force_P_N.xyz, visit);
+  visitDvec3(tick.served_force_P_N.xyz, visit);
+  visit(tick.overlap_mm3), visit(tick.depth_mm), visit(tick.removed_mm3), visit(tick.bone_digest);
+  visit(tick.contact_tissue), visit(tick.drilling), visit(tick.faults), visit(tick.work_us);
+}
+
+template <class Visit>
+void forEachField(auto& command,
+                  Visit&& visit) requires std::same_as<std::remove_cvref_t<decltype(command)>, haptics::Command> {
+  visit(command.serial), visit(command.bur_radius_mm), visit(command.drill_enabled);
+  visit(command.agus.stiffness_N_per_mm), visit(command.agus.damping_Ns_per_mm);
+  visit(command.erosion.removal_rate_per_s);
+  for (auto& factor : command.erosion.tissue_factor) visit(factor);
+  visit(command.safety.peak_force_N), visit(command.safety.slew_N_per_s);
+}
+
+/// The unsigned integer that holds the bits of a field.
+template <class T>
+auto bitsOf(const T& field) {
+  if constexpr (std::is_enum_v<T>) {
+    return static_cast<std::make_unsigned_t<std::underlying_type_t<T>>>(field);
+  } else if constexpr (std::same_as<T, bool>) {
+    return static_cast<std::uint8_t>(field ? 1 : 0);
+  } else if constexpr (std::same_as<T, double>) {
+    return std::bit_cast<std::uint64_t>(field);
+  } else if constexpr (std::same_as<T, float>) {
+    return std::bit_cast<std::uint32_t>(field);
+  } else {
+    static_assert(std::unsigned_integral<T>);
+    return field;
+  }
+}
+
+template <class T, class Bits>
+void setFromBits(T& field, Bits bits) {
+  if constexpr (std::is_enum_v<T>) {
+    field = static_cast<T>(bits);
+  } else if constexpr (std::same_as<T, bool>) {
+    field = bits != 0;
+  } else if constexpr (std::floating_point<T>) {
+    field = std::bit_cast<T>(bits);
+  } else {
+    field = bits;
+  }
+}
+
+class Put {
+ public:
+  explicit Put(std::uint8_t* out) : out_(out) {}
+  template <class T>
+  void operator()(const T& field) {
+    const std::uint64_t bits = bitsOf(field);
+    for (std::size_t i = 0; i < sizeof(bitsOf(field)); ++i) *out_++ = static_cast<std::uint8_t>(bits >> (8 * i));
+  }
+
+ private:
+  std::uint8_t* out_;
+};
+
+class Get {
+ public:
+  explicit Get(const std::uint8_t* in) : in_(in) {}
+  template <class T>
+  void operator()(T& field) {
+    using Bits = decltype(bitsOf(field));
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < sizeof(Bits); ++i) bits |= static_cast<std::uint64_t>(*in_++) << (8 * i);
+    setFromBits(field, static_cast<Bits>(bits));
+  }
+
+ private:
+  const std::uint8_t* in_;
+};
+
+template <class T>
+std::size_t packedBytes() {
+  const T value{};
+  std::size_t bytes = 0;
+  forEachField(value, [&](const auto& field) { bytes += sizeof(bitsOf(field)); });
+  return bytes;
+}
+
+}  // namespace
+
+std::size_t packedTickBytes() { return packedBytes<haptics::Tick>(); }
+std::size_t packedCommandBytes() { return packedBytes<haptics::Command>(); }
+
+std::vector<std::uint8_t> packTicks(std::span<const haptics::Tick> ticks) {
+  const std::size_t row_bytes = packedTickBytes(), count = ticks.size();
+  std::vector<std::uint8_t> row(row_bytes), planes(row_bytes * count);
+  for (std::size_t t = 0; t < count; ++t) {
+    forEachField(ticks[t], Put(row.data()));
+    for (std::size_t b = 0; b < row_bytes; ++b) planes[b * count + t] = row[b];
+  }
+  return planes;
+}
+
+std::vector<haptics::Tick> unpackTicks(std::span<const std::uint8_t> bytes) {
+  const std::size_t row_bytes = packedTickBytes(), count = bytes.size() / row_bytes;
+  if (bytes.size() % row_bytes != 0) throw SessionError("a block of ticks has a wrong length: the session is damaged");
+  std::vector<std::uint8_t> row(row_bytes);
+  std::vector<haptics::Tick> ticks(count);
+  for (std::size_t t = 0; t < count; ++t) {
+    for (std::size_t b = 0; b < row_bytes; ++b) row[b] = bytes[b * count + t];
+    forEachField(ticks[t], Get(row.data()));
+  }
+  return ticks;
+}
+
+std::vector<std::uint8_t> packCommand(const haptics::Command& command) {
+  std::vector<std::uint8_t> bytes(packedCommandBytes());
+  forEachField(command, Put(bytes.data()));
+  return bytes;
+}
+
+haptics::Command unpackCommand(std::span<const std::uint8_t> bytes) {
+  if (bytes.size() != packedCommandBytes()) {
+    throw SessionError("a command has " + std::to_string(bytes.size()) + " bytes, not " +
+                       std::to_string(packedCommandBytes()) + ": recorded by another version of the program");
+  }
+  haptics::Command command;
+  forEachField(command, Get(bytes.data()));
+  return command;
+}
+
+}  // namespace app
