@@ -1,4 +1,5 @@
-// molar COMMAND [options]: exit 0 success, 1 the answer is "no", 2 bad input in one line `molar: what, where, what to do`.
+// molar COMMAND [options]: exit 0 success, 1 the answer is "no", 2 bad input in one line `molar: what, where, what to
+// do`.
 
 #include <cstdio>
 #include <exception>

@@ -8,7 +8,8 @@
 
 namespace app {
 
-/// X_WP with `site_P` at the origin of W, `eye_direction_P` (site to eye) along +z and `up_P` as upright as that allows.
+/// X_WP with `site_P` at the origin of W, `eye_direction_P` (site to eye) along +z and `up_P` as upright as that
+/// allows.
 calibration::Pose<calibration::World, calibration::Patient> standPatient(
     const calibration::Point<calibration::Patient>& site_P,
     const calibration::Vector<calibration::Patient>& eye_direction_P,

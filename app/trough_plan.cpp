@@ -1,0 +1,96 @@
+#include "app/trough_plan.h"
+
+#include <cmath>
+
+namespace app {
+namespace {
+
+using assets::CtVolume;
+using assets::Tissue;
+
+constexpr double kHalfLength_mm = 4.0, kStation_mm = 0.5;
+constexpr std::size_t kFewestStations = 5;
+constexpr double kRayStart_mm = 18.0, kRayLength_mm = 26.0, kRayStep_mm = 0.05;
+constexpr double kCrownFromCentroid_mm = 3.5;
+constexpr double kNearestBuccal_mm = 4.0, kFarthestBuccal_mm = 9.0;
+
+/// Trilinear solid fraction, air outside.
+double solidAt(const CtVolume& ct, const glm::dvec3& p_P_mm) {
+  const glm::dvec3 at = ct.grid.indexFromPoint(p_P_mm), low = glm::floor(at), f = at - low;
+  double sum = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::ivec3 step{corner & 1, (corner >> 1) & 1, corner >> 2};
+    const glm::ivec3 ijk = glm::ivec3(low) + step;
+    if (!ct.grid.contains(ijk)) continue;
+    const glm::dvec3 w = glm::mix(1.0 - f, f, glm::dvec3(step));
+    sum += w.x * w.y * w.z * ct.solid[ct.grid.index(ijk)] / 255.0;
+  }
+  return sum;
+}
+
+struct Hit {
+  glm::dvec3 p_P_mm;
+  bool bone;
+};
+
+/// First solid point along a ray, and whether it is bone.
+std::optional<Hit> firstSolid(const CtVolume& ct, const glm::dvec3& from_P_mm, const glm::dvec3& direction_P) {
+  for (double t = 0.0; t < kRayLength_mm; t += kRayStep_mm) {
+    const glm::dvec3 p = from_P_mm + t * direction_P;
+    if (solidAt(ct, p) < 0.5) continue;
+    // Labels are crisp and the surface soft: ask half a millimetre below it.
+    const glm::ivec3 below = glm::ivec3(glm::round(ct.grid.indexFromPoint(p + 0.5 * direction_P)));
+    const auto label = ct.grid.contains(below) ? Tissue{ct.label[ct.grid.index(below)]} : Tissue::unlabelled;
+    return Hit{p, label == Tissue::cortical || label == Tissue::trabecular};
+  }
+  return std::nullopt;
+}
+
+/// Direction of the dental arch at the third molar, mesial to distal, horizontal.
+glm::dvec3 archDirection(const CtVolume& ct, const glm::dvec3& third_molar_P_mm) {
+  glm::dvec3 sum{0.0};
+  double count = 0.0;
+  for (int k = 0; k < ct.grid.size.z; ++k)
+    for (int j = 0; j < ct.grid.size.y; ++j)
+      for (int i = 0; i < ct.grid.size.x; ++i) {
+        if (Tissue{ct.label[ct.grid.index({i, j, k})]} != Tissue::other_teeth) continue;
+        const glm::dvec3 p = ct.grid.centre_P_mm({i, j, k});
+        if (glm::distance(p, third_molar_P_mm) > 22.0) continue;
+        sum += p;
+        count += 1.0;
+      }
+  if (count == 0.0) return {0.0, 1.0, 0.0};
+  glm::dvec3 along = third_molar_P_mm - sum / count;
+  along.z = 0.0;
+  return glm::length(along) > 1.0 ? glm::normalize(along) : glm::dvec3(0.0, 1.0, 0.0);
+}
+
+}  // namespace
+
+std::optional<TroughPlan> planBuccalTrough(const assets::Patient& patient) {
+  if (!patient.site.known) return std::nullopt;
+  const glm::dvec3 distal = archDirection(patient.ct, patient.site.third_molar_P_mm), up{0.0, 0.0, 1.0};
+  const double lateral_x = patient.site.tooth_fdi == 48 ? -1.0 : 1.0;
+  glm::dvec3 buccal = glm::cross(up, distal);
+  if (buccal.x * lateral_x < 0.0) buccal = -buccal;
+  const glm::dvec3 outward = glm::normalize(0.45 * buccal + up);
+  const glm::dvec3 crown = patient.site.third_molar_P_mm + kCrownFromCentroid_mm * patient.site.crown_direction_P;
+
+  // Walk outwards from the crown until the line lies on bone all along.
+  TroughPlan best;
+  for (double out = kNearestBuccal_mm; out <= kFarthestBuccal_mm; out += 0.5) {
+    TroughPlan plan{{}, {outward}};
+    std::size_t stations = 0;
+    for (double s = -kHalfLength_mm; s <= kHalfLength_mm; s += kStation_mm, ++stations) {
+      const glm::dvec3 from = crown + s * distal + out * buccal + kRayStart_mm * outward;
+      const auto hit = firstSolid(patient.ct, from, -outward);
+      if (hit && hit->bone) plan.surface_P.push_back({hit->p_P_mm});
+    }
+    if (plan.surface_P.size() > best.surface_P.size()) best = plan;
+    if (best.surface_P.size() == stations) break;
+  }
+  if (best.surface_P.size() < kFewestStations) return std::nullopt;
+  return best;
+}
+
+}  // namespace app

@@ -1,0 +1,37 @@
+// The volume a command works on, as people name it: `--volume F.nrrd [--field hu/solid] [--iso HU --sigma HU]
+// [--labels L.nrrd]`. Start-up only. Solid fraction: as stored, or Phi((HU - iso) / sigma); without --sigma the
+// transition is widened to at least a voxel, as patients are (assets::classify).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "assets/volume_grid.h"
+
+namespace CLI {
+class App;
+}
+
+namespace app {
+
+struct SolidVolume {
+  assets::VolumeGrid grid;
+  std::vector<std::uint8_t> solid;
+  std::vector<std::uint8_t> label;  ///< empty: unlabelled
+};
+
+class VolumeOption {
+ public:
+  /// Adds the options to `command`.
+  void addTo(CLI::App& command);
+  bool given() const { return !path_.empty(); }
+  /// Throws UsageError or assets::LoadError.
+  SolidVolume load() const;
+
+ private:
+  std::string path_, field_ = "hu", labels_;
+  std::optional<double> iso_hu_, sigma_hu_;
+};
+
+}  // namespace app
