@@ -1,0 +1,73 @@
+#include "render/display/eye_projection.h"
+
+#include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace render {
+namespace {
+
+using calibration::Point;
+using calibration::Rig;
+using calibration::World;
+
+Point<World> onVirtualScreen(const Rig& rig, const Point<World>& corner_W) {
+  return rig.mirror ? rig.mirror->reflect(corner_W) : corner_W;
+}
+
+Point<World> placeOf(const Rig& rig, Eye eye) {
+  switch (eye) {
+    case Eye::left:
+      return rig.left_eye;
+    case Eye::right:
+      return rig.right_eye;
+    case Eye::cyclopean:
+      break;
+  }
+  return rig.cyclopeanEye();
+}
+
+double distanceToScreen_mm(const Rig& rig, const Point<World>& eye_W) {
+  const Point<World> pll = onVirtualScreen(rig, rig.screen.lower_left);
+  const Point<World> plr = onVirtualScreen(rig, rig.screen.lower_right);
+  const Point<World> pul = onVirtualScreen(rig, rig.screen.upper_left);
+  const glm::dvec3 normal = glm::normalize(glm::cross(plr.mm - pll.mm, pul.mm - pll.mm));
+  return std::abs(glm::dot(normal, eye_W.mm - pll.mm));
+}
+
+}  // namespace
+
+EyeView eyeView(const Rig& rig, Eye eye) {
+  // From a tenth of the way to the screen to twenty times as far; reverse-Z floats make the range free.
+  const Point<World> eye_W = placeOf(rig, eye);
+  const double distance_mm = std::max(distanceToScreen_mm(rig, eye_W), 1.0);
+  return eyeView(rig, eye_W, 0.1 * distance_mm, 20.0 * distance_mm);
+}
+
+EyeView eyeView(const Rig& rig, const Point<World>& eye_W, double near_mm, double far_mm) {
+  const glm::dvec3 e = eye_W.mm;
+  const glm::dvec3 pll = onVirtualScreen(rig, rig.screen.lower_left).mm;
+  const glm::dvec3 plr = onVirtualScreen(rig, rig.screen.lower_right).mm;
+  const glm::dvec3 pul = onVirtualScreen(rig, rig.screen.upper_left).mm;
+
+  // Basis of the virtual screen, its normal towards the eye.
+  const glm::dvec3 vr = glm::normalize(plr - pll), vu = glm::normalize(pul - pll);
+  glm::dvec3 vn = glm::normalize(glm::cross(vr, vu));
+  const bool mirrored = glm::dot(vn, e - pll) < 0.0;
+  if (mirrored) vn = -vn;
+
+  // The frustum through the screen's edges, at the near plane.
+  const double distance_mm = glm::dot(vn, e - pll);
+  const double k = near_mm / std::max(distance_mm, 1e-6);
+  const glm::dmat4 frustum = glm::frustumRH_NO(glm::dot(vr, pll - e) * k, glm::dot(vr, plr - e) * k,
+                                               glm::dot(vu, pll - e) * k, glm::dot(vu, pul - e) * k, near_mm, far_mm);
+  const glm::dmat4 turn = glm::transpose(
+      glm::dmat4(glm::dvec4(vr, 0.0), glm::dvec4(vu, 0.0), glm::dvec4(vn, 0.0), glm::dvec4(0.0, 0.0, 0.0, 1.0)));
+  return {.clip_from_W = frustum * turn * glm::translate(glm::dmat4(1.0), -e),
+          .eye_W = eye_W,
+          .lower_left_W = {pll},
+          .right_edge_W = {plr - pll},
+          .up_edge_W = {pul - pll},
+          .mirrored = mirrored};
+}
+
+}  // namespace render

@@ -1,0 +1,30 @@
+// What one eye sees through the screen: generalised off-axis projection with the panel reflected in the mirror.
+// With a mirror the basis of the virtual screen is left-handed; that is the whole flip, whichever way the panel hangs.
+// Eyes are never reflected, so the left eye stays the left eye. Frame W, mm. Any thread; pure.
+// Formula: Kooima, "Generalized Perspective Projection" (2009), with the reflected corners and the screen's normal
+// taken towards the eye.
+#pragma once
+
+#include "calibration/geometry/pose.h"
+#include "calibration/rig.h"
+
+namespace render {
+
+enum class Eye { left, right, cyclopean };
+
+struct EyeView {
+  glm::dmat4 clip_from_W{1.0};  ///< OpenGL clip space, z from -1 (near) to 1 (far)
+  calibration::Point<calibration::World> eye_W;
+  calibration::Point<calibration::World> lower_left_W;   ///< of the picture on the virtual screen
+  calibration::Vector<calibration::World> right_edge_W;  ///< along a row of the picture, its full width
+  calibration::Vector<calibration::World> up_edge_W;     ///< along a column, its full height
+  bool mirrored = false;                                 ///< left-handed: front faces turn clockwise in the picture
+};
+
+EyeView eyeView(const calibration::Rig& rig, Eye eye);
+
+/// `near_mm` and `far_mm` along the screen's normal.
+EyeView eyeView(const calibration::Rig& rig, const calibration::Point<calibration::World>& eye_W, double near_mm,
+                double far_mm);
+
+}  // namespace render

@@ -1,0 +1,23 @@
+// What every pass is told about the eye, the lamp and the face window, in frame P as floats: the std140 twin of
+// eye_block.glsl, made once per eye and frame from double-precision values. Any thread; pure.
+// The lamp hangs above and beside the surgeon's head and points at the site, the same for both eyes, so that highlights
+// have true parallax.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "render/display/eye_projection.h"
+#include "render/frame.h"
+
+namespace render {
+
+struct EyeBlock {
+  glm::mat4 clip_from_P;
+  glm::vec4 eye_P, lower_left_P, right_edge_P, up_edge_P, lamp_P, lamp_axis_P, up_P, window_eye_P, window_site_P,
+      viewport;
+};
+static_assert(sizeof(EyeBlock) == 64 + 10 * 16);
+
+EyeBlock eyeBlock(const Frame& frame, const EyeView& view, glm::ivec2 picture_px);
+
+}  // namespace render

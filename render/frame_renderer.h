@@ -1,0 +1,62 @@
+// Draws frames: jaw, face, gum and instrument for each eye, then the picture for the display. The one door to this
+// folder. Needs a current OpenGL 4.5 context (OffscreenContext or Window) that outlives it. Render thread only. Order
+// per eye: background, opaque meshes, volume, transparent meshes; linear light throughout, sRGB in the output pass.
+// Bricks given before render() are in both eyes of that very frame. Reading back waits for the GPU.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "assets/mesh.h"
+#include "assets/volume_grid.h"
+#include "render/display/eye_projection.h"
+#include "render/frame.h"
+#include "render/picture.h"
+#include "render/volume/occupancy.h"
+
+namespace render {
+
+struct RenderOptions {
+  int samples = 1;               ///< along each edge of a pixel; 2 for snapshots
+  bool skip_empty_space = true;  ///< false marches through everything, for tests
+};
+
+class FrameRenderer {
+ public:
+  /// `solid` and `label` in the order of `grid`; label may be empty. Throws GpuError.
+  FrameRenderer(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid,
+                std::span<const std::uint8_t> label, RenderOptions options = {});
+  ~FrameRenderer();
+
+  /// Empty models remove what was drawn. Face and gum in P; the instrument in T.
+  void setFace(const assets::MeshModel& face_P);
+  void setGum(const assets::MeshModel& gum_P);
+  void setInstrument(const assets::MeshModel& instrument_T);
+  /// New content of an 8x8x8 brick, i fastest.
+  void updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, Occupancy::kBrickValues> solid);
+
+  /// Draws the eyes that frame.display needs (mono: the cyclopean eye) and composes them, in frame.rig.screen.px.
+  void render(const Frame& frame);
+  /// Draws one eye alone at the full screen size, for readEye and readDistance.
+  void renderEye(const Frame& frame, Eye eye);
+
+  /// Scales the composed picture onto the current window's framebuffer.
+  void showOnWindow(glm::ivec2 window_px) const;
+  Picture readPicture() const;
+  /// The eye as last drawn; it must have been drawn.
+  Picture readEye(Eye eye);
+  DistancePicture readDistance(Eye eye);
+
+  /// Throws GpuError if OpenGL reported an error since the last call.
+  void throwIfError();
+
+ private:
+  struct Passes;
+  std::unique_ptr<Passes> passes_;
+};
+
+/// OpenGL clip space from frame P, for those who want to know where a point of the patient lands in the picture.
+glm::dmat4 clipFromPatient(const calibration::Rig& rig, const EyeView& view);
+
+}  // namespace render

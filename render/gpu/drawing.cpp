@@ -1,0 +1,73 @@
+#include "render/gpu/drawing.h"
+
+#include <epoxy/gl.h>
+
+#include <cstddef>
+
+#include "render/shaders/shared_numbers.glsl"
+
+namespace render {
+namespace {
+
+void enable(GLenum capability, bool on) { on ? glEnable(capability) : glDisable(capability); }
+
+void deleteVertexArray(unsigned name) { glDeleteVertexArrays(1, &name); }
+
+GlName newVertexArray() {
+  GLuint name = 0;
+  glCreateVertexArrays(1, &name);
+  return {name, &deleteVertexArray};
+}
+
+}  // namespace
+
+void apply(const DrawState& state) {
+  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  enable(GL_DEPTH_TEST, state.depth_test);
+  glDepthFunc(GL_GREATER);
+  glDepthMask(state.depth_write ? GL_TRUE : GL_FALSE);
+  enable(GL_BLEND, false);
+  if (state.blend) {
+    glEnablei(GL_BLEND, 0);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  }
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_FRAMEBUFFER_SRGB);
+  glFrontFace(state.mirrored ? GL_CW : GL_CCW);
+  const GLboolean distance = state.write_distance ? GL_TRUE : GL_FALSE;
+  glColorMaski(DISTANCE_TARGET, distance, distance, distance, distance);
+}
+
+void setViewport(glm::ivec2 corner, glm::ivec2 size) { glViewport(corner.x, corner.y, size.x, size.y); }
+
+void finishWritesBeforeReads() { glTextureBarrier(); }
+
+void drawScreen() {
+  const GlName nothing = newVertexArray();
+  glBindVertexArray(nothing.get());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+Triangles::Triangles(std::span<const MeshVertex> vertices, std::span<const std::uint32_t> indices)
+    : vertices_(std::as_bytes(vertices)),
+      indices_(std::as_bytes(indices)),
+      layout_(newVertexArray()),
+      index_count_(static_cast<int>(indices.size())) {
+  const auto attribute = [this](GLuint slot, GLint components, std::size_t offset) {
+    glEnableVertexArrayAttrib(layout_.get(), slot);
+    glVertexArrayAttribFormat(layout_.get(), slot, components, GL_FLOAT, GL_FALSE, static_cast<GLuint>(offset));
+    glVertexArrayAttribBinding(layout_.get(), slot, 0);
+  };
+  glVertexArrayVertexBuffer(layout_.get(), 0, vertices_.name(), 0, sizeof(MeshVertex));
+  glVertexArrayElementBuffer(layout_.get(), indices_.name());
+  attribute(POSITION_ATTRIBUTE, 3, offsetof(MeshVertex, position_mm));
+  attribute(NORMAL_ATTRIBUTE, 3, offsetof(MeshVertex, normal));
+  attribute(COLOUR_ATTRIBUTE, 4, offsetof(MeshVertex, colour));
+}
+
+void Triangles::draw() const {
+  glBindVertexArray(layout_.get());
+  glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
+}
+
+}  // namespace render

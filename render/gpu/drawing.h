@@ -1,0 +1,51 @@
+// The draw calls and the state they need, stated in full for every pass so that no pass depends on the one before.
+// Depth is reverse-Z in 0..1. Thread: the context's.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+
+#include "render/gpu/buffer.h"
+
+namespace render {
+
+struct DrawState {
+  bool depth_test = true;
+  bool depth_write = true;
+  bool blend = false;          ///< source over, alpha not premultiplied
+  bool mirrored = false;       ///< the view is left-handed: front faces turn clockwise
+  bool write_distance = true;  ///< second colour attachment
+};
+
+void apply(const DrawState& state);
+
+/// Restricts the following draws to a rectangle of the bound framebuffer, px from its lower left.
+void setViewport(glm::ivec2 corner, glm::ivec2 size);
+
+/// Makes what was drawn so far readable as a texture by the next draw into the same picture (ARB_texture_barrier).
+void finishWritesBeforeReads();
+
+/// The triangle of screen.vert.
+void drawScreen();
+
+/// One vertex as the mesh shaders read it.
+struct MeshVertex {
+  glm::vec3 position_mm;
+  glm::vec3 normal;
+  glm::vec4 colour;
+};
+
+/// Indexed triangles on the GPU. Move-only.
+class Triangles {
+ public:
+  Triangles(std::span<const MeshVertex> vertices, std::span<const std::uint32_t> indices);
+  void draw() const;
+
+ private:
+  Buffer vertices_, indices_;
+  GlName layout_;
+  int index_count_ = 0;
+};
+
+}  // namespace render

@@ -1,0 +1,81 @@
+#include "render/gpu/framebuffer.h"
+
+#include <epoxy/gl.h>
+
+#include <array>
+#include <string>
+
+#include "render/gpu/gpu_error.h"
+
+namespace render {
+namespace {
+
+void deleteFramebuffer(unsigned name) { glDeleteFramebuffers(1, &name); }
+
+unsigned newFramebuffer() {
+  GLuint name = 0;
+  glCreateFramebuffers(1, &name);
+  return name;
+}
+
+}  // namespace
+
+Framebuffer::Framebuffer(glm::ivec2 size, std::span<const TexelFormat> colours, bool depth)
+    : name_(newFramebuffer(), &deleteFramebuffer), size_(size) {
+  std::vector<GLenum> buffers;
+  for (const TexelFormat format : colours) {
+    const GLenum attachment = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(colours_.size());
+    colours_.push_back(Texture::picture(size, format));
+    glNamedFramebufferTexture(name_.get(), attachment, colours_.back().name(), 0);
+    buffers.push_back(attachment);
+  }
+  if (depth) {
+    depth_ = Texture::picture(size, TexelFormat::depth32f);
+    glNamedFramebufferTexture(name_.get(), GL_DEPTH_ATTACHMENT, depth_.name(), 0);
+  }
+  glNamedFramebufferDrawBuffers(name_.get(), static_cast<GLsizei>(buffers.size()), buffers.data());
+  if (glCheckNamedFramebufferStatus(name_.get(), GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+    throw GpuError("picture of " + std::to_string(size.x) + "x" + std::to_string(size.y) +
+                   " px, graphics driver: it can not be drawn into; choose a smaller one");
+}
+
+void Framebuffer::bind() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, name_.get());
+  glViewport(0, 0, size_.x, size_.y);
+}
+
+void Framebuffer::clear() {
+  const std::array<float, 4> nothing{0.0f, 0.0f, 0.0f, 0.0f};
+  const float far = 0.0f;
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  for (std::size_t i = 0; i < colours_.size(); ++i)
+    glClearNamedFramebufferfv(name_.get(), GL_COLOR, static_cast<GLint>(i), nothing.data());
+  if (depth_.name() != 0) {
+    glDepthMask(GL_TRUE);
+    glClearNamedFramebufferfv(name_.get(), GL_DEPTH, 0, &far);
+  }
+}
+
+std::vector<std::uint8_t> Framebuffer::readRgba8(int attachment) const {
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) * 4);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glGetTextureImage(colour(attachment).name(), 0, GL_RGBA, GL_UNSIGNED_BYTE, static_cast<GLsizei>(bytes.size()),
+                    bytes.data());
+  return bytes;
+}
+
+std::vector<float> Framebuffer::readFloat(int attachment) const {
+  std::vector<float> values(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y));
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glGetTextureImage(colour(attachment).name(), 0, GL_RED, GL_FLOAT, static_cast<GLsizei>(values.size() * sizeof(float)),
+                    values.data());
+  return values;
+}
+
+void Framebuffer::showOnWindow(glm::ivec2 window_size) const {
+  const GLenum filter = window_size == size_ ? GL_NEAREST : GL_LINEAR;
+  glBlitNamedFramebuffer(name_.get(), 0, 0, 0, size_.x, size_.y, 0, 0, window_size.x, window_size.y,
+                         GL_COLOR_BUFFER_BIT, filter);
+}
+
+}  // namespace render

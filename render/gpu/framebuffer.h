@@ -1,0 +1,38 @@
+// Something to draw into: colour attachments and depth that it owns. Move-only. Thread: the context's.
+// Reading back waits for the GPU: for snapshots, recordings and tests, not for every frame.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "render/gpu/texture.h"
+
+namespace render {
+
+class Framebuffer {
+ public:
+  Framebuffer() = default;
+  /// Colour attachments 0, 1, … in the order of `colours`; with `depth` a 32-bit float depth as well.
+  Framebuffer(glm::ivec2 size, std::span<const TexelFormat> colours, bool depth);
+
+  void bind() const;
+  /// Colour 0, distances 0, depth far (reverse-Z).
+  void clear();
+  const Texture& colour(int attachment) const { return colours_[static_cast<std::size_t>(attachment)]; }
+  glm::ivec2 size() const { return size_; }
+
+  /// Rows bottom first, as OpenGL keeps them.
+  std::vector<std::uint8_t> readRgba8(int attachment) const;
+  std::vector<float> readFloat(int attachment) const;
+  /// Copies attachment 0 onto the window, scaled to `window_size`.
+  void showOnWindow(glm::ivec2 window_size) const;
+
+ private:
+  GlName name_;
+  glm::ivec2 size_{0};
+  std::vector<Texture> colours_;
+  Texture depth_;
+};
+
+}  // namespace render

@@ -1,0 +1,40 @@
+#include "render/gpu/gl_debug_log.h"
+
+#include <epoxy/gl.h>
+
+#include "render/gpu/gpu_error.h"
+
+namespace render {
+namespace {
+
+void GLAPIENTRY keepFirstError(GLenum, GLenum type, GLuint, GLenum, GLsizei, const GLchar* message, const void* user) {
+  if (type != GL_DEBUG_TYPE_ERROR) return;
+  auto& text = *static_cast<std::string*>(const_cast<void*>(user));
+  if (text.empty()) text = message;
+}
+
+}  // namespace
+
+GlDebugLog::GlDebugLog(bool listen) : listening_(listen) {
+  if (!listening_) return;
+  glEnable(GL_DEBUG_OUTPUT);
+  glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+  glDebugMessageCallback(&keepFirstError, &first_error_);
+}
+
+GlDebugLog::~GlDebugLog() {
+  if (listening_) glDebugMessageCallback(nullptr, nullptr);
+}
+
+void GlDebugLog::throwIfError(std::string_view where) {
+  const GLenum code = glGetError();
+  if (code == GL_NO_ERROR && first_error_.empty()) return;
+  std::string text = "OpenGL error " + std::to_string(code) + ", " + std::string(where) + ": " +
+                     (first_error_.empty() ? "see the driver's log" : first_error_) + "; update the graphics driver";
+  for (char& c : text)
+    if (c == '\n') c = ' ';
+  first_error_.clear();
+  throw GpuError(text);
+}
+
+}  // namespace render

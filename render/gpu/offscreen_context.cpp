@@ -1,0 +1,84 @@
+#include "render/gpu/offscreen_context.h"
+
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "render/gpu/gpu_error.h"
+
+namespace render {
+namespace {
+
+bool hasClientExtension(const std::string& name) {
+  const char* all = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+  return all != nullptr && std::string(all).find(name) != std::string::npos;
+}
+
+// Displays worth trying, best first.
+std::vector<EGLDisplay> candidateDisplays() {
+  std::vector<EGLDisplay> displays;
+  if (hasClientExtension("EGL_MESA_platform_surfaceless"))
+    displays.push_back(eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
+  if (hasClientExtension("EGL_EXT_platform_device") && hasClientExtension("EGL_EXT_device_enumeration")) {
+    std::array<EGLDeviceEXT, 8> devices{};
+    EGLint count = 0;
+    if (eglQueryDevicesEXT(static_cast<EGLint>(devices.size()), devices.data(), &count))
+      for (EGLint i = 0; i < count; ++i)
+        displays.push_back(
+            eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[static_cast<std::size_t>(i)], nullptr));
+  }
+  displays.push_back(eglGetDisplay(EGL_DEFAULT_DISPLAY));
+  return displays;
+}
+
+// An OpenGL 4.5 core context current without a surface, or EGL_NO_CONTEXT.
+EGLContext contextOn(EGLDisplay display, bool debugging) {
+  if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) return EGL_NO_CONTEXT;
+  if (!eglBindAPI(EGL_OPENGL_API)) return EGL_NO_CONTEXT;
+  const std::array<EGLint, 5> wish{EGL_SURFACE_TYPE, EGL_DONT_CARE, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
+  EGLConfig config = nullptr;
+  EGLint count = 0;
+  if (!eglChooseConfig(display, wish.data(), &config, 1, &count) || count == 0) return EGL_NO_CONTEXT;
+  const std::array<EGLint, 9> attributes{EGL_CONTEXT_MAJOR_VERSION,
+                                         4,
+                                         EGL_CONTEXT_MINOR_VERSION,
+                                         5,
+                                         EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                         EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                         EGL_CONTEXT_OPENGL_DEBUG,
+                                         debugging ? EGL_TRUE : EGL_FALSE,
+                                         EGL_NONE};
+  const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
+  if (context == EGL_NO_CONTEXT) return EGL_NO_CONTEXT;
+  if (eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) return context;
+  eglDestroyContext(display, context);
+  return EGL_NO_CONTEXT;
+}
+
+}  // namespace
+
+OffscreenContext::OffscreenContext(Debugging debugging) {
+  for (const EGLDisplay display : candidateDisplays()) {
+    context_ = contextOn(display, debugging == Debugging::on);
+    display_ = display;
+    if (context_ != EGL_NO_CONTEXT) break;
+  }
+  if (context_ == EGL_NO_CONTEXT)
+    throw GpuError("no OpenGL 4.5 core context, EGL without display: install libegl-mesa0 and libgl1-mesa-dri");
+  log_ = std::make_unique<GlDebugLog>(debugging == Debugging::on);
+}
+
+// The display stays initialised: EGL counts no users of it, and another context may live there.
+OffscreenContext::~OffscreenContext() {
+  makeCurrent();
+  log_.reset();
+  eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+  eglDestroyContext(display_, context_);
+}
+
+void OffscreenContext::makeCurrent() { eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_); }
+
+}  // namespace render

@@ -1,0 +1,32 @@
+// An OpenGL 4.5 core context without window or X: EGL on Mesa's surfaceless platform, else on the first EGL device,
+// else on the default display. Current on the constructing thread from construction to destruction. Cost: some ten ms.
+// Not for quad-buffered stereo.
+#pragma once
+
+#include <memory>
+
+#include "render/gpu/gl_debug_log.h"
+
+namespace render {
+
+class OffscreenContext {
+ public:
+  enum class Debugging { off, on };
+
+  /// Throws GpuError when no OpenGL 4.5 can be had.
+  explicit OffscreenContext(Debugging debugging = Debugging::off);
+  ~OffscreenContext();
+  OffscreenContext(const OffscreenContext&) = delete;
+  OffscreenContext& operator=(const OffscreenContext&) = delete;
+
+  /// Makes it current on the calling thread again, after another context was.
+  void makeCurrent();
+  GlDebugLog& debugLog() { return *log_; }
+
+ private:
+  void* display_ = nullptr;
+  void* context_ = nullptr;
+  std::unique_ptr<GlDebugLog> log_;
+};
+
+}  // namespace render

@@ -1,0 +1,88 @@
+#include "render/gpu/texture.h"
+
+#include <epoxy/gl.h>
+
+#include <cassert>
+#include <string>
+
+#include "render/gpu/gpu_error.h"
+
+namespace render {
+namespace {
+
+struct FormatFacts {
+  GLenum internal, external, type;
+  std::size_t bytes;
+};
+
+FormatFacts factsOf(TexelFormat format) {
+  switch (format) {
+    case TexelFormat::r8ui:
+      return {GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, 1};
+    case TexelFormat::r16:
+      return {GL_R16, GL_RED, GL_UNSIGNED_SHORT, 2};
+    case TexelFormat::rgba8:
+      return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
+    case TexelFormat::rgba16f:
+      return {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8};
+    case TexelFormat::r32f:
+      return {GL_R32F, GL_RED, GL_FLOAT, 4};
+    case TexelFormat::depth32f:
+      return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4};
+  }
+  return {};
+}
+
+void deleteTexture(unsigned name) { glDeleteTextures(1, &name); }
+
+unsigned newTexture(GLenum target) {
+  GLuint name = 0;
+  glCreateTextures(target, 1, &name);
+  return name;
+}
+
+}  // namespace
+
+Texture::Texture(unsigned target, glm::ivec3 size, TexelFormat format)
+    : name_(newTexture(target), &deleteTexture), size_(size), format_(format) {
+  assert(size.x > 0 && size.y > 0 && size.z > 0);
+}
+
+Texture Texture::picture(glm::ivec2 size, TexelFormat format) {
+  Texture texture(GL_TEXTURE_2D, glm::ivec3(size, 1), format);
+  glTextureStorage2D(texture.name(), 1, factsOf(format).internal, size.x, size.y);
+  glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  glTextureParameteri(texture.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTextureParameteri(texture.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  return texture;
+}
+
+Texture Texture::volume(glm::ivec3 size, TexelFormat format) {
+  GLint largest = 0;
+  glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &largest);
+  if (size.x > largest || size.y > largest || size.z > largest)
+    throw GpuError("volume of " + std::to_string(glm::max(size.x, glm::max(size.y, size.z))) +
+                   " voxels along an edge, graphics driver: it takes " + std::to_string(largest) + "; crop the scan");
+  Texture texture(GL_TEXTURE_3D, size, format);
+  glTextureStorage3D(texture.name(), 1, factsOf(format).internal, size.x, size.y, size.z);
+  const GLint filter = format == TexelFormat::r8ui ? GL_NEAREST : GL_LINEAR;
+  glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, filter);
+  glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, filter);
+  for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+    glTextureParameteri(texture.name(), axis, GL_CLAMP_TO_BORDER);
+  return texture;
+}
+
+void Texture::upload(glm::ivec3 offset, glm::ivec3 extent, std::span<const std::byte> texels) {
+  const FormatFacts facts = factsOf(format_);
+  assert(texels.size() == facts.bytes * static_cast<std::size_t>(extent.x) * static_cast<std::size_t>(extent.y) *
+                              static_cast<std::size_t>(extent.z));
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTextureSubImage3D(name(), 0, offset.x, offset.y, offset.z, extent.x, extent.y, extent.z, facts.external, facts.type,
+                      texels.data());
+}
+
+void Texture::bind(int unit) const { glBindTextureUnit(static_cast<GLuint>(unit), name()); }
+
+}  // namespace render

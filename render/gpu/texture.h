@@ -1,0 +1,37 @@
+// An immutable-storage texture, 2-D or 3-D, one level. Move-only. Thread: the context's.
+// Outside a volume texture lies 0 (border colour); 2-D textures repeat their edge.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+
+#include "render/gpu/gl_name.h"
+
+namespace render {
+
+enum class TexelFormat { r8ui, r16, rgba8, rgba16f, r32f, depth32f };
+
+class Texture {
+ public:
+  Texture() = default;
+  static Texture picture(glm::ivec2 size, TexelFormat format);
+  /// Filtered linearly, except integers.
+  static Texture volume(glm::ivec3 size, TexelFormat format);
+
+  /// Copies texels into a box; `texels` tightly packed, x fastest, of the format's own type (r8ui: u8, r16: u16).
+  void upload(glm::ivec3 offset, glm::ivec3 extent, std::span<const std::byte> texels);
+  void bind(int unit) const;
+
+  glm::ivec3 size() const { return size_; }
+  TexelFormat format() const { return format_; }
+  unsigned name() const { return name_.get(); }
+
+ private:
+  Texture(unsigned target, glm::ivec3 size, TexelFormat format);
+
+  GlName name_;
+  glm::ivec3 size_{0};
+  TexelFormat format_ = TexelFormat::rgba8;
+};
+
+}  // namespace render

@@ -1,0 +1,62 @@
+#include "render/scene/mesh_pass.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "render/shaders/shared_numbers.glsl"
+
+namespace render {
+namespace {
+
+float finishNumber(Finish finish) {
+  switch (finish) {
+    case Finish::skin:
+      return FINISH_SKIN;
+    case Finish::gum:
+      return FINISH_GUM;
+    case Finish::instrument:
+      return FINISH_INSTRUMENT;
+  }
+  return FINISH_INSTRUMENT;
+}
+
+Triangles onGpu(const assets::MeshPart& part) {
+  std::vector<MeshVertex> vertices(part.position_mm.size());
+  for (std::size_t v = 0; v < vertices.size(); ++v)
+    vertices[v] = {.position_mm = part.position_mm[v],
+                   .normal = v < part.normal.size() ? part.normal[v] : glm::vec3(0.0f, 0.0f, 1.0f),
+                   .colour = v < part.colour.size() ? part.colour[v] : glm::vec4(1.0f)};
+  return {vertices, part.triangles};
+}
+
+}  // namespace
+
+SceneMesh::SceneMesh(const assets::MeshModel& model, Finish finish) : finish_(finish) {
+  for (const assets::MeshPart& part : model.parts)
+    if (!part.triangles.empty())
+      parts_.push_back({.triangles = onGpu(part), .material = part.material, .turns = part.name == "Bur"});
+}
+
+MeshPass::MeshPass() : program_("mesh.vert", "mesh.frag") {}
+
+void MeshPass::draw(const SceneMesh& mesh, Parts parts, const Placement& placement) {
+  const bool transparent = parts == Parts::transparent;
+  apply({.depth_test = true,
+         .depth_write = !transparent,
+         .blend = transparent,
+         .mirrored = placement.view_is_mirrored,
+         .write_distance = !transparent});
+  program_.use();
+  const glm::dmat4 turned =
+      placement.P_from_mesh * glm::rotate(glm::dmat4(1.0), placement.bur_angle_rad, glm::dvec3(0.0, 0.0, 1.0));
+  for (const SceneMesh::Part& part : mesh.parts_) {
+    if ((part.material.base_colour.a < 1.0f) != transparent) continue;
+    const float is_face = mesh.finish_ == Finish::skin ? 1.0f : 0.0f;
+    block_.set(PART_BLOCK,
+               {.P_from_mesh = glm::mat4(part.turns ? turned : placement.P_from_mesh),
+                .base_colour = part.material.base_colour,
+                .finish = {part.material.roughness, part.material.metallic, finishNumber(mesh.finish_), is_face}});
+    part.triangles.draw();
+  }
+}
+
+}  // namespace render

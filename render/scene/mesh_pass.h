@@ -1,0 +1,59 @@
+// Draws triangle meshes: face, gum, instrument. Frame P by a rigid pose given per draw. Render thread.
+// Opaque parts write depth and distance and come before the volume; transparent parts are blended after it, in the
+// order of the model. Face parts open around the line from the eyes to the operating site (EyeBlock). Nothing here is
+// felt.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "assets/mesh.h"
+#include "render/gpu/drawing.h"
+#include "render/gpu/program.h"
+
+namespace render {
+
+enum class Finish { skin, gum, instrument };
+
+/// std140 twin of part_block.glsl.
+struct PartBlock {
+  glm::mat4 P_from_mesh{1.0f};
+  glm::vec4 base_colour{1.0f};
+  glm::vec4 finish{0.0f};
+};
+static_assert(sizeof(PartBlock) == 96);
+
+/// A model on the GPU. A part named "Bur" turns about the mesh's z axis.
+class SceneMesh {
+ public:
+  SceneMesh(const assets::MeshModel& model, Finish finish);
+
+ private:
+  friend class MeshPass;
+  struct Part {
+    Triangles triangles;
+    assets::Material material;
+    bool turns = false;
+  };
+  std::vector<Part> parts_;
+  Finish finish_;
+};
+
+class MeshPass {
+ public:
+  enum class Parts { opaque, transparent };
+  struct Placement {
+    glm::dmat4 P_from_mesh{1.0};
+    double bur_angle_rad = 0.0;
+    bool view_is_mirrored = false;
+  };
+
+  MeshPass();
+  void draw(const SceneMesh& mesh, Parts parts, const Placement& placement);
+
+ private:
+  Program program_;
+  UniformBlock<PartBlock> block_;
+};
+
+}  // namespace render

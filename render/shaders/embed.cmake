@@ -1,0 +1,36 @@
+# Resolves `#include "name"` once per shader and writes the results twice: as files for the validator, as C++ to embed.
+# Run: cmake -DSHADER_DIR=… -DOUTPUT_DIR=… -DSHADERS=a.vert,b.frag -P embed.cmake
+cmake_minimum_required(VERSION 3.25)
+
+string(REPLACE "," ";" shaders "${SHADERS}")
+
+# Inserts the text of every included file at its first mention and nothing at later ones.
+function(resolve_includes text_variable)
+  set(text "${${text_variable}}")
+  set(seen "")
+  while(text MATCHES "#include \"([^\"]+)\"")
+    set(line "${CMAKE_MATCH_0}")
+    set(name "${CMAKE_MATCH_1}")
+    string(FIND "${text}" "${line}" start)
+    string(LENGTH "${line}" length)
+    math(EXPR after "${start} + ${length}")
+    string(SUBSTRING "${text}" 0 ${start} head)
+    string(SUBSTRING "${text}" ${after} -1 tail)
+    set(body "")
+    if(NOT name IN_LIST seen)
+      list(APPEND seen "${name}")
+      file(READ "${SHADER_DIR}/${name}" body)
+    endif()
+    set(text "${head}${body}${tail}")
+  endwhile()
+  set(${text_variable} "${text}" PARENT_SCOPE)
+endfunction()
+
+set(entries "")
+foreach(shader IN LISTS shaders)
+  file(READ "${SHADER_DIR}/${shader}" text)
+  resolve_includes(text)
+  file(WRITE "${OUTPUT_DIR}/${shader}" "${text}")
+  string(APPEND entries "    {\"${shader}\", R\"glsl(${text})glsl\"},\n")
+endforeach()
+file(WRITE "${OUTPUT_DIR}/shader_sources.inc" "${entries}")

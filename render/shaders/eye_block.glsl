@@ -1,0 +1,27 @@
+// What a pass knows of the eye it draws for. Frame P, mm; C++ twin: render::EyeBlock.
+#include "shared_numbers.glsl"
+
+layout(std140, binding = EYE_BLOCK) uniform EyeBlock {
+  mat4 clip_from_P;      // reverse-Z, 0..1
+  vec4 eye_P;
+  vec4 lower_left_P;     // corner of the virtual screen
+  vec4 right_edge_P;     // from there along the picture's rows …
+  vec4 up_edge_P;        // … and up its columns
+  vec4 lamp_P;           // w: distance at which the lamp gives its nominal light
+  vec4 lamp_axis_P;      // unit, from the lamp
+  vec4 up_P;             // unit, away from the floor
+  vec4 window_eye_P;     // the window in the face: around the line from here …
+  vec4 window_site_P;    // … to here; w: its radius, 0 for none
+  vec4 viewport;         // x, y: size in px
+} eye;
+
+// Unit direction from the eye through a place on the picture, 0..1 from its lower left.
+vec3 rayDirection(vec2 place) {
+  return normalize(eye.lower_left_P.xyz - eye.eye_P.xyz + place.x * eye.right_edge_P.xyz + place.y * eye.up_edge_P.xyz);
+}
+
+// Reverse-Z depth of a point, the same for rays and triangles.
+float depthOf(vec3 p_P) {
+  vec4 clip = eye.clip_from_P * vec4(p_P, 1.0);
+  return clip.z / clip.w;
+}

@@ -1,0 +1,61 @@
+#version 450
+// Skin, gum and steel. Both sides are drawn; the face opens around the line from the eye to the operating site.
+#include "part_block.glsl"
+#include "occlusion.glsl"
+
+layout(location = 0) in vec3 p_P;
+layout(location = 1) in vec3 normal_P;
+layout(location = 2) in vec4 vertex_tint;
+layout(location = COLOUR_TARGET) out vec4 colour;
+layout(location = DISTANCE_TARGET) out float distance_mm;
+
+// mm from the rim of the window in the face: negative inside, where nothing is drawn. Behind the site nothing is cut.
+float rimDistance(vec3 p) {
+  vec3 line = eye.window_site_P.xyz - eye.window_eye_P.xyz;
+  float reach = length(line);
+  vec3 axis = line / reach;
+  vec3 offset = p - eye.window_eye_P.xyz;
+  float along = dot(offset, axis);
+  float beyond = along - (reach - 2.0);
+  float across = length(offset - along * axis) - eye.window_site_P.w;
+  return max(across, beyond);
+}
+
+void main() {
+  vec3 to_eye = normalize(eye.eye_P.xyz - p_P);
+  vec3 normal = normalize(normal_P);
+  if (!gl_FrontFacing) normal = -normal;
+  vec4 base = part.base_colour * vertex_tint;
+  int finish = int(part.finish.z);
+
+  // The rim of the window is a cut edge: darker and redder within a millimetre or two.
+  float rim = 1.0;
+  if (part.finish.w > 0.5 && eye.window_site_P.w > 0.0) {
+    float away = rimDistance(p_P);
+    if (away < 0.0) discard;
+    rim = smoothstep(0.0, 2.5, away);
+  }
+
+  float metallic = part.finish.y;
+  Surface s;
+  s.roughness = clamp(part.finish.x, 0.06, 1.0);
+  s.albedo = base.rgb * (1.0 - metallic);
+  s.f0 = mix(vec3(0.04), base.rgb, metallic);
+  s.wrap = 0.0;
+  s.scatter = s.albedo;
+  if (finish == FINISH_SKIN) {
+    s.wrap = 0.35;
+    s.f0 = mix(vec3(0.028), base.rgb, metallic);
+    s.scatter = vec3(1.0, 0.42, 0.30);
+    s.albedo = mix(s.albedo * vec3(0.45, 0.14, 0.11), s.albedo, rim);
+  } else if (finish == FINISH_GUM) {
+    s.wrap = 0.30;
+    s.f0 = vec3(0.030);
+    s.scatter = vec3(1.0, 0.35, 0.30);
+  }
+  Shade shade = shadeFromVolume(p_P + 0.5 * normal, normal);
+  shade.ambient *= gl_FrontFacing ? 1.0 : 0.45;
+  shade.lamp *= gl_FrontFacing ? 1.0 : 0.35;
+  colour = vec4(lit(s, p_P, normal, to_eye, shade), base.a);
+  distance_mm = distance(p_P, eye.eye_P.xyz);
+}

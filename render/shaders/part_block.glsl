@@ -1,0 +1,8 @@
+// One part of a mesh. C++ twin: render::PartBlock.
+#include "shared_numbers.glsl"
+
+layout(std140, binding = PART_BLOCK) uniform PartBlock {
+  mat4 P_from_mesh;      // rigid
+  vec4 base_colour;      // linear, with opacity
+  vec4 finish;           // x: roughness, y: metallic, z: FINISH_…, w: 1 where the face window cuts
+} part;

@@ -1,0 +1,24 @@
+// The volume as the shaders see it. Places are continuous voxel indices: integer at voxel centres. C++ twin: VolumeBlock.
+#include "shared_numbers.glsl"
+
+layout(std140, binding = VOLUME_BLOCK) uniform VolumeBlock {
+  vec4 origin_P;         // centre of voxel (0,0,0); w: spacing, mm
+  ivec4 size;            // voxels; w: 1 to skip empty space
+  ivec4 bricks;
+  ivec4 ambient_size;    // cells of the ambient map; x is 0 when there is no volume
+} volume;
+
+layout(binding = SOLID_UNIT) uniform sampler3D solid_field;
+layout(binding = LABEL_UNIT) uniform usampler3D label_field;
+layout(binding = EMPTINESS_UNIT) uniform usampler3D emptiness;
+layout(binding = AMBIENT_UNIT) uniform sampler3D ambient_map;
+
+vec3 indexFromPoint(vec3 p_P) { return (p_P - volume.origin_P.xyz) / volume.origin_P.w; }
+
+// Solid fraction 0..1, trilinear, air outside.
+float solidAt(vec3 index) { return textureLod(solid_field, (index + 0.5) / vec3(volume.size.xyz), 0.0).r; }
+
+// Mean solid fraction of the cells around a place, 0..1, trilinear, air outside.
+float crowdingAt(vec3 index) {
+  return textureLod(ambient_map, (index + 0.5) / (float(AMBIENT_CELL_VOXELS) * vec3(volume.ambient_size.xyz)), 0.0).r;
+}

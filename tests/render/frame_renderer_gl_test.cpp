@@ -1,0 +1,292 @@
+// Whole frames: both eyes of every rig, meshes among bone, display modes, reading back.
+#include <gtest/gtest.h>
+
+#include "drawn_scene.h"
+#include "render/gpu/gpu_error.h"
+#include "render/gpu/offscreen_context.h"
+
+namespace render {
+namespace {
+
+using calibration::Rig;
+using testing::Ball;
+using testing::ballVolume;
+using testing::distanceToBall_mm;
+using testing::eye_P_mm;
+using testing::frameFor;
+using testing::pixelOf;
+using testing::pixelsThatDiffer;
+using testing::Random;
+using testing::randomRig;
+using testing::rayDirection_P;
+using testing::smallGrid;
+
+assets::MeshModel sphereMesh(const Ball& ball, glm::vec4 colour, const char* name = "ball") {
+  constexpr int kRows = 96, kColumns = 192;
+  assets::MeshPart part;
+  part.name = name;
+  part.material = {.base_colour = colour, .roughness = 1.0f};
+  for (int r = 0; r <= kRows; ++r)
+    for (int c = 0; c <= kColumns; ++c) {
+      const double polar = M_PI * r / kRows, turn = 2.0 * M_PI * c / kColumns;
+      const glm::dvec3 n{std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn), std::cos(polar)};
+      part.normal.push_back(n);
+      part.position_mm.push_back(ball.centre_P_mm + ball.radius_mm * n);
+    }
+  for (std::uint32_t r = 0; r < kRows; ++r)
+    for (std::uint32_t c = 0; c < kColumns; ++c) {
+      const std::uint32_t a = r * (kColumns + 1) + c, b = a + kColumns + 1;
+      for (const std::uint32_t index : {a, b, a + 1, a + 1, b, b + 1}) part.triangles.push_back(index);
+    }
+  return {{part}};
+}
+
+assets::CtVolume noBone() { return ballVolume(smallGrid(glm::ivec3(8), 1.0), {}); }
+
+const std::uint8_t* pixelAt(const Picture& picture, int x, int y) {
+  return &picture.rgba[4 * static_cast<std::size_t>(y * picture.w + x)];
+}
+
+TEST(FrameRenderer, ThreeBallsLandWherePredictedInBothEyesOfAnyRig) {
+  const OffscreenContext context(OffscreenContext::Debugging::on);
+  const std::vector<Ball> balls{{{-21, 3, -9}, 4.5}, {{20, -6, -12}, 3.5}, {{1, 4, 21}, 4.0}};
+  const assets::CtVolume ct = ballVolume(smallGrid(glm::ivec3(110), 0.5), balls);
+  FrameRenderer renderer(ct.grid, ct.solid, ct.label);
+  Random random(31);
+  int compared = 0;
+  for (int n = 0; n < 6; ++n) {
+    const Rig rig = randomRig(random, n % 2 == 1);
+    for (const Eye eye : {Eye::left, Eye::right}) {
+      const EyeView view = eyeView(rig, eye);
+      renderer.renderEye(frameFor(rig), eye);
+      const DistancePicture seen = renderer.readDistance(eye);
+
+      // Centroid of the pixels whose place lies on each ball; a ball hidden behind another does not count.
+      std::array<glm::dvec2, 3> sum{};
+      std::array<int, 3> count{}, expected{};
+      for (int y = 0; y < seen.h; ++y)
+        for (int x = 0; x < seen.w; ++x) {
+          const glm::dvec3 from = eye_P_mm(rig, view), along = rayDirection_P(rig, view, x, y);
+          const double mm = seen.mm[static_cast<std::size_t>(y * seen.w + x)];
+          for (std::size_t b = 0; b < 3; ++b) {
+            if (distanceToBall_mm(from, along, balls[b])) ++expected[b];
+            const double off_mm = glm::length(from + mm * along - balls[b].centre_P_mm) - balls[b].radius_mm;
+            if (mm > 0.0 && std::abs(off_mm) < 0.3) {
+              sum[b] += glm::dvec2(x + 0.5, y + 0.5);
+              ++count[b];
+            }
+          }
+        }
+      for (std::size_t b = 0; b < 3; ++b) {
+        if (count[b] < expected[b] - expected[b] / 50 || expected[b] < 50) continue;
+        ++compared;
+        const glm::dvec2 at = sum[b] / static_cast<double>(count[b]);
+        EXPECT_LT(glm::length(at - pixelOf(rig, view, balls[b].centre_P_mm)), 0.5) << "rig " << n << " ball " << b;
+      }
+    }
+  }
+  EXPECT_GE(compared, 24);
+  EXPECT_NO_THROW(renderer.throwIfError());
+}
+
+TEST(FrameRenderer, AMirroredRigShowsTheTurnedOverPicture) {
+  const OffscreenContext context;
+  const assets::CtVolume ct = ballVolume(smallGrid(), {{{-5, 2, 3}, 5.0}, {{6, -3, -4}, 3.0}});
+  FrameRenderer renderer(ct.grid, ct.solid, ct.label);
+  renderer.setGum(sphereMesh({{3, -4, 6}, 4.0}, {0.3f, 0.5f, 0.8f, 1.0f}));
+  Rig plain = cameraRig({.eye_P_mm = {80, -250, 60}, .fov_y_rad = 0.17}, {160, 120});
+
+  // The same virtual screen, reached by a mirror from a panel that shows its rows the other way round.
+  Rig mirrored = plain;
+  const calibration::Plane<calibration::World> mirror{glm::normalize(glm::dvec3(0.1, 1.0, 1.0)), 40.0};
+  const glm::dvec3 upper_right = plain.screen.upper_left.mm + plain.screen.lower_right.mm - plain.screen.lower_left.mm;
+  mirrored.mirror = mirror;
+  mirrored.screen.lower_left = mirror.reflect(plain.screen.lower_right);
+  mirrored.screen.lower_right = mirror.reflect(plain.screen.lower_left);
+  mirrored.screen.upper_left = mirror.reflect({upper_right});
+  for (const Eye eye : {Eye::left, Eye::right}) {
+    renderer.renderEye(frameFor(plain), eye);
+    Picture turned = renderer.readEye(eye);
+    renderer.renderEye(frameFor(mirrored), eye);
+    const Picture seen = renderer.readEye(eye);
+    EXPECT_GT(pixelsThatDiffer(seen, turned, 8), 1000u) << "control: it must be turned";
+    auto* pixels = reinterpret_cast<std::uint32_t*>(turned.rgba.data());
+    for (int y = 0; y < turned.h; ++y) std::reverse(pixels + y * turned.w, pixels + (y + 1) * turned.w);
+    EXPECT_LT(pixelsThatDiffer(seen, turned, 2), 40u) << "edges may fall either way";
+  }
+}
+
+TEST(FrameRenderer, DistanceReprojectsIntoTheOtherEye) {
+  const OffscreenContext context;
+  const assets::CtVolume ct = ballVolume(smallGrid(), {{{-5, 2, 3}, 7.0}, {{6, -3, -4}, 5.0}});
+  FrameRenderer renderer(ct.grid, ct.solid, ct.label);
+  Random random(32);
+  for (const bool with_mirror : {false, true}) {
+    Rig rig = randomRig(random, with_mirror);
+    const EyeView left = eyeView(rig, Eye::left), right = eyeView(rig, Eye::right);
+    renderer.renderEye(frameFor(rig), Eye::left);
+    renderer.renderEye(frameFor(rig), Eye::right);
+    const DistancePicture from_left = renderer.readDistance(Eye::left), from_right = renderer.readDistance(Eye::right);
+    std::vector<double> error_mm;
+    for (int y = 0; y < from_left.h; ++y)
+      for (int x = 0; x < from_left.w; ++x) {
+        const double mm = from_left.mm[static_cast<std::size_t>(y * from_left.w + x)];
+        if (mm == 0.0) continue;
+        const glm::dvec3 p = eye_P_mm(rig, left) + mm * rayDirection_P(rig, left, x, y);
+        const glm::ivec2 there(glm::floor(pixelOf(rig, right, p)));
+        if (there.x < 0 || there.y < 0 || there.x >= from_right.w || there.y >= from_right.h) continue;
+        const double other = from_right.mm[static_cast<std::size_t>(there.y * from_right.w + there.x)];
+        if (other > 0.0) error_mm.push_back(std::abs(other - glm::length(p - eye_P_mm(rig, right))));
+      }
+    ASSERT_GT(error_mm.size(), 100u);
+    std::ranges::nth_element(error_mm, error_mm.begin() + static_cast<std::ptrdiff_t>(error_mm.size() / 2));
+    EXPECT_LT(error_mm[error_mm.size() / 2], 0.3);
+  }
+}
+
+TEST(FrameRenderer, MeshAndBoneMeetOnTheCircleWhereTheyCross) {
+  const OffscreenContext context;
+  const Ball bone{{-3, 0, 0}, 8.0}, metal{{4, -2, 2}, 7.0};
+  const assets::CtVolume ct = ballVolume(smallGrid(), {bone});
+  FrameRenderer renderer(ct.grid, ct.solid, ct.label);
+  renderer.setGum(sphereMesh(metal, {0.02f, 0.05f, 0.9f, 1.0f}));
+  Random random(33);
+  for (const bool with_mirror : {false, true}) {
+    Rig rig = randomRig(random, with_mirror);
+    const EyeView view = eyeView(rig, Eye::right);
+    renderer.renderEye(frameFor(rig), Eye::right);
+    const Picture seen = renderer.readEye(Eye::right);
+    const DistancePicture distance = renderer.readDistance(Eye::right);
+    const glm::dvec3 from = eye_P_mm(rig, view);
+
+    // 0: nothing, 1: bone, 2: metal, by geometry alone.
+    const auto winner = [&](int x, int y) {
+      const auto b = distanceToBall_mm(from, rayDirection_P(rig, view, x, y), bone);
+      const auto m = distanceToBall_mm(from, rayDirection_P(rig, view, x, y), metal);
+      return !b && !m ? 0 : !m || (b && *b < *m) ? 1 : 2;
+    };
+    int wrong = 0, sure = 0;
+    for (int y = 1; y + 1 < seen.h; ++y)
+      for (int x = 1; x + 1 < seen.w; ++x) {
+        const int expected = winner(x, y);
+        bool beside_an_edge = false;
+        for (int n = 0; n < 9; ++n) beside_an_edge |= winner(x + n % 3 - 1, y + n / 3 - 1) != expected;
+        if (beside_an_edge) continue;
+        const std::uint8_t* c = pixelAt(seen, x, y);
+        const bool nothing = distance.mm[static_cast<std::size_t>(y * seen.w + x)] == 0.0f;
+        const int got = nothing ? 0 : c[2] > c[0] ? 2 : 1;
+        wrong += got != expected ? 1 : 0;
+        sure += expected != 0 ? 1 : 0;
+      }
+    EXPECT_EQ(wrong, 0);
+    EXPECT_GT(sure, 150);
+  }
+}
+
+TEST(FrameRenderer, EveryDisplayModePutsTheRightEyeInTheRightPixel) {
+  const OffscreenContext context;
+  const assets::CtVolume ct = ballVolume(smallGrid(), {{{-5, 2, 3}, 6.0}, {{6, -12, -4}, 4.0}});
+  FrameRenderer renderer(ct.grid, ct.solid, ct.label);
+  Frame frame = frameFor(cameraRig({.eye_P_mm = {60, -250, 60}, .fov_y_rad = 0.17}, {160, 120}));
+  const auto differing = [&](int x0, int y0, int step_of_channel, const Picture& eye, const Picture& all) {
+    int count = 0;
+    for (int y = 0; y < eye.h; ++y)
+      for (int x = 0; x < eye.w; ++x)
+        for (int c = 0; c < 3; ++c)
+          if (((step_of_channel >> c) & 1) != 0)
+            count += pixelAt(eye, x, y)[c] != pixelAt(all, x0 + x, y0 + y)[c] ? 1 : 0;
+    return count;
+  };
+  struct Case {
+    DisplayMode mode;
+    glm::ivec2 left_corner, right_corner;
+    int left_channels, right_channels;
+  };
+  for (const Case& c :
+       {Case{DisplayMode::side_by_side, {0, 0}, {80, 0}, 7, 7}, Case{DisplayMode::top_bottom, {0, 0}, {0, 60}, 7, 7},
+        Case{DisplayMode::anaglyph, {0, 0}, {0, 0}, 1, 6}}) {
+    frame.display = c.mode;
+    renderer.render(frame);
+    const Picture all = renderer.readPicture(), left = renderer.readEye(Eye::left),
+                  right = renderer.readEye(Eye::right);
+    ASSERT_EQ(all.w, 160);
+    ASSERT_EQ(all.h, 120);
+    EXPECT_EQ(differing(c.left_corner.x, c.left_corner.y, c.left_channels, left, all), 0);
+    EXPECT_EQ(differing(c.right_corner.x, c.right_corner.y, c.right_channels, right, all), 0);
+    EXPECT_GT(pixelsThatDiffer(left, right, 4), 200u) << "control: the eyes must differ";
+  }
+  frame.display = DisplayMode::mono;
+  renderer.render(frame);
+  EXPECT_EQ(renderer.readPicture().rgba, renderer.readEye(Eye::cyclopean).rgba);
+}
+
+TEST(FrameRenderer, TheFaceOpensAroundTheLineToTheSiteAndOnlyInFrontOfIt) {
+  const OffscreenContext context;
+  const assets::CtVolume ct = noBone();
+  FrameRenderer renderer(ct.grid, ct.solid, ct.label);
+  const Ball head{{0, 0, 0}, 12.0};
+  renderer.setFace(sphereMesh(head, {0.8f, 0.6f, 0.5f, 1.0f}));
+  Frame frame = frameFor(cameraRig({.eye_P_mm = {0, -250, 0}, .fov_y_rad = 0.17}, {160, 120}));
+  const auto centreDistance = [&] {
+    renderer.renderEye(frame, Eye::cyclopean);
+    return renderer.readDistance(Eye::cyclopean).mm[static_cast<std::size_t>(60 * 160 + 80)];
+  };
+  EXPECT_NEAR(centreDistance(), 238.0, 0.1);
+  frame.face_window_mm = 5.0;
+  EXPECT_NEAR(centreDistance(), 262.0, 0.1) << "through the hole, the far wall behind the site";
+  frame.site_P.mm = {0, -30, 0};
+  EXPECT_NEAR(centreDistance(), 238.0, 0.1) << "a site before the face opens nothing";
+}
+
+TEST(FrameRenderer, TheInstrumentStandsWhereTheToolIsAndHidesOnRequest) {
+  const OffscreenContext context;
+  const assets::CtVolume ct = noBone();
+  FrameRenderer renderer(ct.grid, ct.solid, ct.label);
+  renderer.setInstrument(sphereMesh({{0, 0, 0}, 3.0}, {0.7f, 0.7f, 0.7f, 1.0f}, "Bur"));
+  Frame frame = frameFor(cameraRig({.eye_P_mm = {0, -250, 0}, .fov_y_rad = 0.17}, {160, 120}));
+  frame.tool_visible = true;
+  frame.X_PT.translation_mm = {8, 0, 5};
+  frame.bur_angle_rad = 1.0;
+  renderer.renderEye(frame, Eye::left);
+  const glm::dvec2 at = pixelOf(frame.rig, eyeView(frame.rig, Eye::left), {8, 0, 5});
+  const auto distanceAt = [&](const glm::dvec2& px) {
+    const auto row = static_cast<std::size_t>(px.y), column = static_cast<std::size_t>(px.x);
+    return renderer.readDistance(Eye::left).mm[row * 160 + column];
+  };
+  EXPECT_GT(distanceAt(at), 200.0f);
+  frame.tool_visible = false;
+  renderer.renderEye(frame, Eye::left);
+  EXPECT_EQ(distanceAt(at), 0.0f);
+}
+
+TEST(FrameRenderer, TransparentPartsLetTheBoneThroughAndKeepItsDistance) {
+  const OffscreenContext context;
+  const Ball bone{{0, 0, 0}, 5.0};
+  const assets::CtVolume ct = ballVolume(smallGrid(), {bone});
+  FrameRenderer renderer(ct.grid, ct.solid, ct.label);
+  Frame frame = frameFor(cameraRig({.eye_P_mm = {0, -250, 0}, .fov_y_rad = 0.17}, {160, 120}));
+  renderer.renderEye(frame, Eye::left);
+  const Picture bare = renderer.readEye(Eye::left);
+  const DistancePicture bare_distance = renderer.readDistance(Eye::left);
+  renderer.setGum(sphereMesh({{0, 0, 0}, 9.0}, {0.6f, 0.2f, 0.2f, 0.4f}));
+  renderer.renderEye(frame, Eye::left);
+  EXPECT_GT(pixelsThatDiffer(renderer.readEye(Eye::left), bare, 8), 1000u);
+  EXPECT_EQ(renderer.readDistance(Eye::left).mm, bare_distance.mm);
+}
+
+TEST(FrameRenderer, SupersamplingSmoothsEdgesButMovesNoDistance) {
+  const OffscreenContext context;
+  const assets::CtVolume ct = ballVolume(smallGrid(), {{{0, 0, 0}, 8.0}});
+  FrameRenderer plain(ct.grid, ct.solid, ct.label), smooth(ct.grid, ct.solid, ct.label, {.samples = 2});
+  const Frame frame = frameFor(cameraRig({.eye_P_mm = {0, -250, 0}, .fov_y_rad = 0.17}, {160, 120}));
+  plain.renderEye(frame, Eye::left);
+  smooth.renderEye(frame, Eye::left);
+  EXPECT_EQ(smooth.readEye(Eye::left).w, 160);
+  EXPECT_GT(pixelsThatDiffer(smooth.readEye(Eye::left), plain.readEye(Eye::left), 16), 50u);
+  EXPECT_LT(pixelsThatDiffer(smooth.readEye(Eye::left), plain.readEye(Eye::left), 40), 1500u);
+  EXPECT_EQ(smooth.readDistance(Eye::left).mm, plain.readDistance(Eye::left).mm);
+  EXPECT_THROW(FrameRenderer(ct.grid, ct.solid, ct.label, {.samples = 0}), GpuError);
+}
+
+}  // namespace
+}  // namespace render

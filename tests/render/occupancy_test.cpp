@@ -1,0 +1,133 @@
+#include "render/volume/occupancy.h"
+
+#include <gtest/gtest.h>
+
+#include "ball_volume.h"
+
+namespace render {
+namespace {
+
+using testing::brickOf;
+using testing::Random;
+
+// Sparse random matter: a few boxes of random value in a volume whose edges are no multiples of a brick.
+assets::CtVolume randomMatter(Random& random, glm::ivec3 size) {
+  const assets::VolumeGrid grid = testing::smallGrid(size);
+  assets::CtVolume ct{grid, {}, {}, std::vector<std::uint8_t>(grid.voxelCount(), 0)};
+  const auto any = [&](int below) { return std::min(static_cast<int>(random.between(0.0, below)), below - 1); };
+  for (int box = 0; box < 6; ++box) {
+    const glm::ivec3 at{any(size.x), any(size.y), any(size.z)};
+    const auto value = static_cast<std::uint8_t>(any(256));
+    for (int n = 0; n < 27; ++n)
+      if (const glm::ivec3 voxel = at + glm::ivec3(n % 3, n / 3 % 3, n / 9); grid.contains(voxel))
+        ct.solid[grid.index(voxel)] = value;
+  }
+  return ct;
+}
+
+std::size_t indexOf(glm::ivec3 brick, glm::ivec3 bricks) {
+  return static_cast<std::size_t>((brick.z * bricks.y + brick.y) * bricks.x + brick.x);
+}
+
+TEST(Occupancy, NeverSkipsAPlaceWhoseTrilinearFootprintIsSolid) {
+  Random random(11);
+  for (int n = 0; n < 20; ++n) {
+    const assets::CtVolume ct = randomMatter(random, {37, 43, 50});
+    const Occupancy occupancy(ct.grid, ct.solid);
+    for (int k = 0; k < ct.grid.size.z; ++k)
+      for (int j = 0; j < ct.grid.size.y; ++j)
+        for (int i = 0; i < ct.grid.size.x; ++i) {
+          if (ct.solid[ct.grid.index({i, j, k})] < Occupancy::kSolidFrom) continue;
+          // Samples that touch this voxel lie less than one voxel from it.
+          for (int c = 0; c < 8; ++c) {
+            const glm::ivec3 touching = glm::ivec3(i, j, k) + glm::ivec3(c & 1, c >> 1 & 1, c >> 2) * 2 - 1;
+            const glm::ivec3 brick = glm::clamp(touching, glm::ivec3(0), ct.grid.size - 1) / 8;
+            ASSERT_EQ(occupancy.emptiness()[indexOf(brick, occupancy.bricks())], 0);
+          }
+        }
+  }
+}
+
+TEST(Occupancy, DistanceIsTheChessboardDistanceToTheNextOccupiedBrick) {
+  Random random(12);
+  for (int n = 0; n < 20; ++n) {
+    const assets::CtVolume ct = randomMatter(random, {70, 40, 90});
+    const Occupancy occupancy(ct.grid, ct.solid);
+    const glm::ivec3 bricks = occupancy.bricks();
+    std::vector<glm::ivec3> occupied;
+    const auto everyBrick = [&](auto&& visit) {
+      for (int k = 0; k < bricks.z; ++k)
+        for (int j = 0; j < bricks.y; ++j)
+          for (int i = 0; i < bricks.x; ++i) visit(glm::ivec3(i, j, k));
+    };
+    everyBrick([&](glm::ivec3 b) {
+      if (occupancy.largest()[indexOf(b, bricks)] >= Occupancy::kSolidFrom) occupied.push_back(b);
+    });
+    everyBrick([&](glm::ivec3 b) {
+      int nearest = Occupancy::kFarthest;
+      for (const glm::ivec3& o : occupied) {
+        const glm::ivec3 d = glm::abs(o - b);
+        nearest = std::min(nearest, std::max({d.x, d.y, d.z}));
+      }
+      ASSERT_EQ(occupancy.emptiness()[indexOf(b, bricks)], nearest);
+    });
+  }
+}
+
+TEST(Occupancy, BrickUpdatesEqualARebuild) {
+  Random random(13);
+  for (int n = 0; n < 30; ++n) {
+    const assets::CtVolume before = randomMatter(random, {37, 43, 50}), after = randomMatter(random, {37, 43, 50});
+    Occupancy updated(before.grid, before.solid);
+    for (int k = 0; k < updated.bricks().z; ++k)
+      for (int j = 0; j < updated.bricks().y; ++j)
+        for (int i = 0; i < updated.bricks().x; ++i) {
+          const std::vector<std::uint8_t> values = brickOf(after, {i, j, k});
+          updated.updateBrick({i, j, k}, std::span<const std::uint8_t, 512>(values));
+        }
+    updated.rebuildIfStale();
+    const Occupancy rebuilt(after.grid, after.solid);
+    EXPECT_TRUE(std::ranges::equal(updated.solid(), rebuilt.solid()));
+    EXPECT_TRUE(std::ranges::equal(updated.largest(), rebuilt.largest()));
+    EXPECT_TRUE(std::ranges::equal(updated.emptiness(), rebuilt.emptiness()));
+  }
+}
+
+TEST(Occupancy, StaysConservativeWhileStale) {
+  Random random(14);
+  for (int n = 0; n < 30; ++n) {
+    const assets::CtVolume before = randomMatter(random, {37, 43, 50}), after = randomMatter(random, {37, 43, 50});
+    Occupancy stale(before.grid, before.solid);
+    const glm::ivec3 bricks = stale.bricks();
+    assets::CtVolume mixed = before;
+    for (int step = 0; step < 10; ++step) {
+      const glm::ivec3 brick{static_cast<int>(random.between(0, bricks.x - 0.01)),
+                             static_cast<int>(random.between(0, bricks.y - 0.01)),
+                             static_cast<int>(random.between(0, bricks.z - 0.01))};
+      const std::vector<std::uint8_t> values = brickOf(after, brick);
+      stale.updateBrick(brick, std::span<const std::uint8_t, 512>(values));
+      for (std::size_t v = 0; v < 512; ++v)
+        if (const glm::ivec3 voxel = 8 * brick + glm::ivec3(v % 8, v / 8 % 8, v / 64); mixed.grid.contains(voxel))
+          mixed.solid[mixed.grid.index(voxel)] = values[v];
+      stale.refresh();
+      const Occupancy exact(mixed.grid, mixed.solid);
+      for (std::size_t b = 0; b < exact.emptiness().size(); ++b) ASSERT_LE(stale.emptiness()[b], exact.emptiness()[b]);
+    }
+  }
+}
+
+TEST(Occupancy, KeepsTheDistancesWhileBricksOnlyEmptyAndMendsThemOnRequest) {
+  const assets::CtVolume ct = testing::ballVolume(testing::smallGrid(), {{{0, 0, 0}, 6.0}});
+  Occupancy occupancy(ct.grid, ct.solid);
+  const std::vector<std::uint8_t> before(occupancy.emptiness().begin(), occupancy.emptiness().end());
+  const std::array<std::uint8_t, 512> air{};
+  for (int n = 0; n < 512; ++n) occupancy.updateBrick({n % 8, n / 8 % 8, n / 64}, air);
+  EXPECT_FALSE(occupancy.refresh());
+  EXPECT_TRUE(std::ranges::equal(occupancy.emptiness(), before));
+  EXPECT_TRUE(occupancy.rebuildIfStale());
+  EXPECT_TRUE(std::ranges::all_of(occupancy.emptiness(), [](int e) { return e == Occupancy::kFarthest; }));
+  EXPECT_FALSE(occupancy.rebuildIfStale());
+}
+
+}  // namespace
+}  // namespace render
