@@ -1,8 +1,9 @@
 // The bone while it is carved: what is left of every voxel. One writer, the servo; everyone else copies dirty bricks.
-// Frame P, mm, grid of the scan. `solid` 0..255 is the fraction of the voxel that is solid now; dose is how much of the
-// voxel's first content has gone, 0..65535. 4 bytes a voxel (solid, first solid, dose).
+// Frame P, mm, grid of the scan. `solid` 0..255 is the fraction of the voxel that is solid now; `dose` 0..65535 is how
+// much of its first content has gone; `reach` 0..255 is the largest part of it a bur has covered so far.
+// 6 bytes a voxel (solid, first solid, label, reach, dose).
 // Constructing allocates; every other call is bounded and never allocates, locks or throws.
-// Not the scan (assets::CtVolume, const): reset is a copy from it.
+// Not the scan (assets::CtVolume, const): reset is a copy from it. Not the cutting itself (bone/carve).
 #pragma once
 
 #include <cstdint>
@@ -11,26 +12,32 @@
 
 #include "assets/ct_volume.h"
 #include "haptics/bone/dirty_bricks.h"
+#include "haptics/bone/solid_field.h"
 
 namespace haptics {
 
 class CarvedBone {
  public:
   /// `solid` and `label` in the order of `grid`; label may be empty (all unlabelled). Copies both.
+  /// Spans that do not fit the grid are a bug of the caller (assert).
   CarvedBone(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid, std::span<const std::uint8_t> label);
 
   const assets::VolumeGrid& grid() const { return grid_; }
-  std::uint8_t label(std::size_t voxel) const { return label_[voxel]; }
+  std::uint8_t label(std::size_t voxel) const { return label_.empty() ? std::uint8_t{0} : label_[voxel]; }
 
   /// Writer's view: plain reads on the writing thread.
   std::span<const std::uint8_t> solid() const { return solid_; }
+  SolidField field() const { return {grid_, solid_, label_}; }
 
-  /// Takes `fraction` (0..1) of the voxel's first content away. Writer only. Rounds the 16-bit dose up or down by a
-  /// hash of (voxel, tick), so slow cutting loses nothing to rounding on average and a replay repeats it bit for bit.
-  /// Returns the solid fraction removed, 0..1.
-  double remove(std::size_t voxel, double fraction, std::uint64_t tick);
+  /// Takes `loss` (0..1) of the voxel's first content away, but never more of it in total than the largest `coverage`
+  /// (0..1) a bur ever had of it: a bur that stays for ever takes its own volume and no more. Writer only.
+  /// The dose rounds up or down by a low-discrepancy sequence over `tick`, the solid fraction by a fixed threshold per
+  /// voxel: slow cutting loses nothing to rounding, and a replay repeats it bit for bit.
+  /// Returns the solid steps removed, 0..255. The caller marks the brick in dirtyBricks() when it is done with it.
+  int remove(std::size_t voxel, double coverage, double loss, std::uint64_t tick);
 
-  /// Order-independent digest of every voxel's (solid, dose), kept up to date by remove(): equal bones, equal digests.
+  /// Order-independent digest of every voxel's (solid, reach, dose), kept up to date by remove(): equal bones, equal
+  /// digests.
   std::uint64_t digest() const { return digest_; }
 
   DirtyBricks& dirtyBricks() { return dirty_; }
@@ -39,8 +46,10 @@ class CarvedBone {
   void copyBrick(glm::ivec3 brick, std::span<std::uint8_t, 512> solid_out) const;
 
  private:
+  std::uint64_t digestOf(std::size_t voxel) const;
+
   assets::VolumeGrid grid_;
-  std::vector<std::uint8_t> solid_, first_solid_, label_;
+  std::vector<std::uint8_t> solid_, first_solid_, label_, reach_;
   std::vector<std::uint16_t> dose_;
   std::uint64_t digest_ = 0;
   DirtyBricks dirty_;

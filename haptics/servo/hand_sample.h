@@ -7,9 +7,10 @@
 namespace haptics {
 
 struct HandSample {
-  calibration::Pose<calibration::Patient, calibration::Tool> X_PT;      ///< where the hand holds the tool
-  calibration::Vector<calibration::Patient> velocity_P_mm_per_s;        ///< of the tool's origin
+  calibration::Pose<calibration::Patient, calibration::Tool> X_PT;  ///< where the hand holds the tool
+  calibration::Vector<calibration::Patient> velocity_P_mm_per_s;    ///< of the tool's origin
   bool drill_pedal = false;
+  bool device_healthy = true;  ///< false: the force ramps to zero
 };
 
 }  // namespace haptics

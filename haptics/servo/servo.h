@@ -5,11 +5,16 @@
 
 #include "haptics/bone/carved_bone.h"
 #include "haptics/servo/command.h"
+#include "haptics/servo/hand_guard.h"
 #include "haptics/servo/proxy.h"
 #include "haptics/servo/safety.h"
 #include "haptics/servo/tick.h"
 
 namespace haptics {
+
+/// The command as the servo obeys it: radius 0.1..6 mm, stiffness 0..5 N/mm, damping 0..0.1 N s/mm, and the defaults
+/// where a number is not finite.
+Command sanitised(const Command& command);
 
 class Servo {
  public:
@@ -21,6 +26,7 @@ class Servo {
 
  private:
   CarvedBone& bone_;
+  HandGuard guard_;
   Proxy proxy_;
   SafetyFilter safety_;
   std::uint64_t next_index_ = 0;

@@ -11,11 +11,11 @@ namespace haptics {
 /// Trouble met in a tick, as bits; the force ramps to zero while any but `clamped` and `slewed` is set.
 enum class Fault : std::uint32_t {
   none = 0,
-  bad_pose = 1,      ///< the device gave a non-finite or absurd pose
-  bad_force = 2,     ///< the law gave a non-finite force
-  clamped = 4,       ///< magnitude limit reached
-  slewed = 8,        ///< rate limit reached
-  device = 16,       ///< the device reported trouble
+  bad_pose = 1,   ///< the device gave a non-finite or absurd pose
+  bad_force = 2,  ///< the law gave a non-finite force
+  clamped = 4,    ///< magnitude limit reached
+  slewed = 8,     ///< rate limit reached
+  device = 16,    ///< the device reported trouble
 };
 constexpr Fault operator|(Fault a, Fault b) {
   return static_cast<Fault>(static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b));
@@ -25,8 +25,8 @@ constexpr bool has(Fault set, Fault one) {
 }
 
 struct Tick {
-  std::uint64_t index = 0;                                     ///< from 0, without gaps
-  double t_s = 0.0;                                            ///< simulated time, index * dt
+  std::uint64_t index = 0;  ///< from 0, without gaps
+  double t_s = 0.0;         ///< simulated time, index * dt
   double dt_s = 0.0;
   std::uint64_t command_serial = 0;                            ///< the Command in force
   HandSample hand;                                             ///< input
@@ -40,7 +40,7 @@ struct Tick {
   std::uint8_t contact_tissue = 0;                             ///< label with the largest overlap
   bool drilling = false;
   Fault faults = Fault::none;
-  float work_us = 0.0f;                                        ///< CPU time of the step, for statistics; not replayed
+  float work_us = 0.0f;  ///< CPU time of the step, for statistics; not replayed
 };
 
 }  // namespace haptics

@@ -1,0 +1,35 @@
+#include "haptics/contact/agus.h"
+
+#include <algorithm>
+
+#include "calibration/geometry/units.h"
+#include "haptics/contact/cap.h"
+
+namespace haptics {
+
+AgusContact agusContact(const SolidField& field, const calibration::Point<calibration::Patient>& centre_P,
+                        double radius_mm) noexcept {
+  const SphereOverlap overlap = sphereOverlap(field, centre_P, radius_mm);
+  AgusContact contact;
+  contact.volume_mm3 = overlap.volume_mm3;
+  contact.depth_mm = equivalentDepth_mm(radius_mm, overlap.volume_mm3, field.grid.spacing_mm);
+  if (contact.depth_mm <= 0.0) return contact;
+
+  // One percent of the largest moment a ball of this size, or a shell of this volume, can have: below it the direction
+  // fades instead of turning at random (reference/physics 2.5d). A shallow touch, |M1| ~ R V, is not faded.
+  const double largest =
+      std::min(0.25 * calibration::kPi * radius_mm * radius_mm * radius_mm * radius_mm, radius_mm * overlap.volume_mm3);
+  const double moment = glm::length(overlap.first_moment_P_mm4.xyz);
+  contact.normal_P.xyz = overlap.first_moment_P_mm4.xyz / -std::max(moment, 0.01 * largest);
+  return contact;
+}
+
+calibration::Vector<calibration::Patient> agusForce_N(
+    const AgusContact& contact, const AgusParameters& parameters,
+    const calibration::Vector<calibration::Patient>& velocity_P_mm_per_s) noexcept {
+  if (contact.depth_mm <= 0.0) return {};
+  return parameters.stiffness_N_per_mm * contact.depth_mm * contact.normal_P -
+         std::max(0.0, parameters.damping_Ns_per_mm) * velocity_P_mm_per_s;
+}
+
+}  // namespace haptics

@@ -1,0 +1,30 @@
+// Agus's contact: the force of bone on a spherical bur from the volume they share and where it lies (Agus et al., IEEE
+// VR 2002; Presence 12(1), 2003; reference/physics 1.1). Frame P; mm, N, s; the force acts on the hand.
+//   n = -M1 / |M1|,  h from V = pi h^2 (R - h/3) less the voxel bias,  F = k h n - b v while in contact.
+// The raw law: no proxy (servo/proxy), no limits (servo/safety). One overlap sum a call. Any thread.
+#pragma once
+
+#include "haptics/contact/overlap.h"
+
+namespace haptics {
+
+struct AgusParameters {
+  double stiffness_N_per_mm = 0.8;  ///< F = k h; 0.8 N/mm feels hard at 1 kHz and stays passive (reference/physics 6)
+  double damping_Ns_per_mm = 0.0;   ///< F -= b v while in contact; b >= 0
+};
+
+struct AgusContact {
+  double volume_mm3 = 0.0;
+  double depth_mm = 0.0;                               ///< equivalent depth in flat bone, 0..2R; 0: no contact
+  calibration::Vector<calibration::Patient> normal_P;  ///< out of the bone; shorter than 1 where bone is on all sides
+};
+
+AgusContact agusContact(const SolidField& field, const calibration::Point<calibration::Patient>& centre_P,
+                        double radius_mm) noexcept;
+
+/// F = k h n - b v; zero without contact. Damping only ever takes energy from the hand.
+calibration::Vector<calibration::Patient> agusForce_N(
+    const AgusContact& contact, const AgusParameters& parameters,
+    const calibration::Vector<calibration::Patient>& velocity_P_mm_per_s) noexcept;
+
+}  // namespace haptics

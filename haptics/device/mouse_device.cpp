@@ -1,0 +1,30 @@
+#include "haptics/device/mouse_device.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace haptics {
+
+MouseDevice::MouseDevice(const MouseTarget& start) : target_(start), rotation_(start.X_DH.rotation) {
+  hand_.place_mm = start.X_DH.translation_mm;
+}
+
+void MouseDevice::setTarget(const MouseTarget& target) {
+  const double norm = glm::dot(target.X_DH.rotation, target.X_DH.rotation);
+  if (!std::isfinite(glm::length(target.X_DH.translation_mm)) || !(norm > 0.25 && norm < 4.0)) return;
+  target_.publish(target);
+}
+
+HandleState MouseDevice::exchange(const calibration::Vector<calibration::Device>& force_D_N, double dt_s) noexcept {
+  const MouseTarget& target = target_.read();
+  hand_.advance(target.X_DH.translation_mm, glm::dvec3(0.0), force_D_N.xyz, dt_s);
+  // Turns with the time constant of the hand.
+  rotation_ = glm::slerp(rotation_, glm::normalize(target.X_DH.rotation), 1.0 - std::exp(-30.0 * dt_s));
+  HandleState state;
+  state.X_DH = {glm::normalize(rotation_), hand_.place_mm};
+  state.velocity_D_mm_per_s.xyz = hand_.velocity_mm_per_s;
+  state.pedal = target.pedal;
+  return state;
+}
+
+}  // namespace haptics

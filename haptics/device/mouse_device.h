@@ -1,0 +1,33 @@
+// The mouse as a haptic device: the window says where the hand wants to be, a virtual hand goes there smoothly, and the
+// force pushes it softly back. Frame D. setTarget(): one UI thread; exchange(): the servo thread; they meet in a
+// Latest. No allocation after construction. Not a force display: nobody feels it but the picture shows it.
+#pragma once
+
+#include "haptics/device/haptic_device.h"
+#include "haptics/device/virtual_hand.h"
+#include "haptics/latest.h"
+
+namespace haptics {
+
+struct MouseTarget {
+  calibration::Pose<calibration::Device, calibration::Handle> X_DH;
+  bool pedal = false;
+};
+
+class MouseDevice final : public HapticDevice {
+ public:
+  explicit MouseDevice(const MouseTarget& start = {});
+
+  /// UI thread. A target that is not finite is ignored.
+  void setTarget(const MouseTarget& target);
+
+  DeviceCapabilities capabilities() const override { return {}; }
+  HandleState exchange(const calibration::Vector<calibration::Device>& force_D_N, double dt_s) noexcept override;
+
+ private:
+  Latest<MouseTarget> target_;
+  VirtualHand hand_;
+  glm::dquat rotation_;
+};
+
+}  // namespace haptics

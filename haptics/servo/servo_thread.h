@@ -1,0 +1,64 @@
+// The servo's own thread: device in, Servo::step, device out, at a steady rate on absolute deadlines. Owns nothing it
+// serves; everything it borrows must outlive it and must not be restructured while it runs. Values cross by Latest and
+// TickLog alone. start() and stop() from one other thread. SCHED_FIFO and locked memory are asked for, and it is
+// reported whether they were granted; they are not required. After a long pre-emption it runs one tick, takes the next
+// deadline of the old grid and counts those it passed over. Simulated time is index * dt whatever the clock does, so a
+// replay needs no clock.
+#pragma once
+
+#include <atomic>
+#include <thread>
+
+#include "haptics/device/haptic_device.h"
+#include "haptics/latest.h"
+#include "haptics/servo/servo.h"
+#include "haptics/servo/servo_statistics.h"
+#include "haptics/servo/tick_log.h"
+
+namespace haptics {
+
+struct ServoSettings {
+  double rate_Hz = 1000.0;                                            ///< 500..4000
+  calibration::Pose<calibration::Patient, calibration::Device> X_PD;  ///< where the device stands
+  calibration::Pose<calibration::Handle, calibration::Tool> X_HT;     ///< how the handle holds the tool
+  bool realtime = true;                                               ///< ask for SCHED_FIFO and mlockall
+};
+
+/// The command with its limits cut down to what the device can give. Record this one: a replay has no device.
+Command limitedTo(const DeviceCapabilities& device, const Command& command);
+
+class ServoThread {
+ public:
+  /// Throws DeviceError when the rate is outside 500..4000 Hz or a pose is not finite and rigid.
+  ServoThread(Servo& servo, HapticDevice& device, Latest<Command>& commands, TickLog& log, Latest<Tick>& newest,
+              const ServoSettings& settings);
+  ~ServoThread();
+  ServoThread(const ServoThread&) = delete;
+  ServoThread& operator=(const ServoThread&) = delete;
+
+  void start();
+  /// Lets the force down to zero at the slew limit, then ends the thread. May be started again.
+  void stop();
+  ServoFigures figures() const { return statistics_.figures(); }
+
+ private:
+  void run() noexcept;
+  HandSample handFrom(const HandleState& state) noexcept;
+
+  Servo& servo_;
+  HapticDevice& device_;
+  Latest<Command>& commands_;
+  TickLog& log_;
+  Latest<Tick>& newest_;
+  ServoSettings settings_;
+  ServoStatistics statistics_;
+  std::atomic<bool> running_{false};
+  std::thread thread_;
+
+  // Of the running thread: the force on its way to the hand, and what turning adds to the tool's velocity.
+  calibration::Vector<calibration::Patient> force_P_N_;
+  glm::dvec3 last_arm_P_mm_{0.0}, arm_velocity_P_mm_per_s_{0.0};
+  bool has_arm_ = false;
+};
+
+}  // namespace haptics
