@@ -16,17 +16,20 @@ struct Shade {
   float lamp;           // 1: nothing between it and the lamp
 };
 
-const vec3 kLampLight = vec3(3.05, 2.95, 2.75);
-const vec3 kSkyLight = vec3(0.50, 0.53, 0.56);
-const vec3 kFloorLight = vec3(0.20, 0.17, 0.155);
+const vec3 kLampLight = vec3(2.75, 2.62, 2.40);
+const vec3 kSkyLight = vec3(0.300, 0.315, 0.33);
+const vec3 kFloorLight = vec3(0.105, 0.092, 0.085);
 const float kConeInner = 0.985, kConeOuter = 0.86;
 
-// What shines from a direction besides the lamp: ceiling, a bright panel overhead, floor.
+// What shines from a direction besides the lamp: walls, floor, a bright panel overhead and a window strip on each side.
 vec3 surroundings(vec3 direction, float roughness) {
   float height = dot(direction, eye.up_P.xyz);
-  vec3 light = mix(kFloorLight, kSkyLight, smoothstep(-0.6, 0.8, height));
-  float panel = smoothstep(0.55 - 0.5 * roughness, 0.75 + 0.5 * roughness, height);
-  return light + panel * vec3(0.9) * (1.0 - 0.6 * roughness);
+  float aside = abs(dot(direction, normalize(eye.right_edge_P.xyz)));
+  vec3 light = mix(0.6 * kFloorLight, kSkyLight, smoothstep(-0.5, 0.7, height));
+  float soft = 0.04 + 0.7 * roughness;
+  float panel = smoothstep(0.72 - soft, 0.72 + soft, height);
+  float strip = smoothstep(0.66 - soft, 0.66 + soft, aside) * (1.0 - smoothstep(0.86 - soft, 0.86 + soft, aside));
+  return light + (panel * vec3(2.2, 2.25, 2.3) + strip * vec3(1.0, 1.05, 1.1)) * (1.0 - 0.55 * roughness);
 }
 
 vec3 lampRadiance(vec3 p_P, vec3 to_lamp, float distance) {
@@ -41,6 +44,13 @@ vec3 ambientSpecular(vec3 f0, float roughness, float n_v) {
   float a = min(r.x * r.x, exp2(-9.28 * n_v)) * r.x + r.y;
   vec2 scale_bias = vec2(-1.04, 1.04) * a + r.zw;
   return f0 * scale_bias.x + scale_bias.y;
+}
+
+// Light that bounces within a cavity takes its colour: Jimenez et al., "Practical real-time strategies for accurate
+// indirect occlusion" (SIGGRAPH 2016), equation 8.
+vec3 bouncedAmbient(float open, vec3 albedo) {
+  vec3 a = 2.0404 * albedo - 0.3324, b = -4.7951 * albedo + 0.6417, c = 2.7552 * albedo + 0.6903;
+  return max(vec3(open), ((open * a + b) * open + c) * open);
 }
 
 vec3 lit(Surface s, vec3 p_P, vec3 normal, vec3 to_eye, Shade shade) {
@@ -64,8 +74,8 @@ vec3 lit(Surface s, vec3 p_P, vec3 normal, vec3 to_eye, Shade shade) {
 
   // The room.
   float sky = 0.5 + 0.5 * dot(normal, eye.up_P.xyz);
-  light += s.albedo * mix(kFloorLight, kSkyLight, sky) * shade.ambient;
+  light += s.albedo * mix(kFloorLight, kSkyLight, sky) * bouncedAmbient(shade.ambient, s.albedo);
   vec3 mirrored = reflect(-to_eye, normal);
-  light += ambientSpecular(s.f0, s.roughness, n_v) * surroundings(mirrored, s.roughness) * shade.ambient * 0.6;
+  light += ambientSpecular(s.f0, s.roughness, n_v) * surroundings(mirrored, s.roughness) * shade.ambient;
   return light;
 }

@@ -54,6 +54,11 @@ void main() {
     s.scatter = vec3(1.0, 0.35, 0.30);
   }
   Shade shade = shadeFromVolume(p_P + 0.5 * normal, normal);
+  if (finish == FINISH_INSTRUMENT) {
+    // Steel in a cavity still mirrors its bright mouth.
+    shade.ambient = mix(0.45, 1.0, shade.ambient);
+    shade.lamp = mix(0.35, 1.0, shade.lamp);
+  }
   shade.ambient *= gl_FrontFacing ? 1.0 : 0.45;
   shade.lamp *= gl_FrontFacing ? 1.0 : 0.35;
   colour = vec4(lit(s, p_P, normal, to_eye, shade), base.a);

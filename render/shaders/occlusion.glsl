@@ -3,9 +3,12 @@
 #include "volume_block.glsl"
 #include "lighting.glsl"
 
-float coneOpenness(vec3 index, vec3 direction) {
-  float near = crowdingAt(index + 5.0 * direction), far = crowdingAt(index + 11.0 * direction);
-  return (1.0 - near) * (1.0 - 0.75 * far);
+// Share of a cone of about 45 degrees that is open, by the crowding of three places along it.
+float coneOpenness(vec3 index, vec3 direction, float first) {
+  float near = crowdingAt(index + first * direction);
+  float middle = crowdingAt(index + 2.2 * first * direction);
+  float far = crowdingAt(index + 4.5 * first * direction);
+  return (1.0 - near) * (1.0 - 0.85 * middle) * (1.0 - 0.6 * far);
 }
 
 Shade shadeFromVolume(vec3 p_P, vec3 normal) {
@@ -14,20 +17,21 @@ Shade shadeFromVolume(vec3 p_P, vec3 normal) {
   vec3 side = normalize(abs(normal.x) < 0.7 ? cross(normal, vec3(1, 0, 0)) : cross(normal, vec3(0, 1, 0)));
   vec3 other = cross(normal, side);
 
-  // Four cones at 45 degrees and one upright.
-  float open = coneOpenness(index, normal);
+  // Four cones at 45 degrees and one upright. The first place lies beyond the blur of the surface's own cells.
+  float first = max(1.5 * float(AMBIENT_CELL_VOXELS), 1.2 / volume.origin_P.w);
   const float tilt = 0.70710678;
-  open += tilt * (coneOpenness(index, tilt * (normal + side)) + coneOpenness(index, tilt * (normal - side)) +
-                  coneOpenness(index, tilt * (normal + other)) + coneOpenness(index, tilt * (normal - other)));
+  float open = coneOpenness(index, normal, first);
+  open += tilt * (coneOpenness(index, tilt * (normal + side), first) + coneOpenness(index, tilt * (normal - side), first) +
+                  coneOpenness(index, tilt * (normal + other), first) + coneOpenness(index, tilt * (normal - other), first));
   open /= 1.0 + 4.0 * tilt;
 
   // Towards the lamp, with growing steps.
   vec3 to_lamp = normalize(eye.lamp_P.xyz - p_P);
   float through = 1.0;
-  float t = 6.0;
-  for (int i = 0; i < 7; ++i) {
-    through *= 1.0 - smoothstep(0.25, 1.0, crowdingAt(index + 2.0 * normal + t * to_lamp));
-    t *= 1.45;
+  float t = first;
+  for (int i = 0; i < 9; ++i) {
+    through *= 1.0 - smoothstep(0.15, 0.85, crowdingAt(index + 0.8 * first * normal + t * to_lamp));
+    t *= 1.4;
   }
-  return Shade(open * open, mix(0.12, 1.0, through));
+  return Shade(open * sqrt(open), mix(0.06, 1.0, through));
 }

@@ -72,7 +72,7 @@ float castRay(vec3 origin, vec3 direction, float limit) {
 // Outward normal of the surface, from fourteen samples on a cube around it: axes and corners together give a gradient
 // without preferred directions, wide enough to carry no terraces of the voxels.
 vec3 surfaceNormal(vec3 place) {
-  const float axis = 2.2, corner = 1.5;
+  const float axis = 2.5, corner = 1.7;
   vec3 slope = vec3(0.0);
   for (int i = 0; i < 3; ++i) {
     vec3 offset = vec3(0.0);

@@ -2,7 +2,7 @@
 
 #define BRICK_VOXELS 8           // edge of a brick in voxels, assets::kBrickVoxels
 #define TISSUE_COUNT 10          // assets::kTissueCount
-#define AMBIENT_CELL_VOXELS 4    // edge of a cell of the ambient map in voxels
+#define AMBIENT_CELL_VOXELS 2    // edge of a cell of the ambient map in voxels
 
 #define EYE_BLOCK 0              // uniform blocks
 #define VOLUME_BLOCK 1

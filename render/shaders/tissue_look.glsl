@@ -12,11 +12,11 @@ struct TissueLook {
 };
 
 const TissueLook kTissueLook[TISSUE_COUNT] = TissueLook[](
-    TissueLook(vec3(0.74, 0.64, 0.49), 0.55, 0.040, 0.10, 0.02),   // unlabelled: a scan without segmentation reads as bone
-    TissueLook(vec3(0.76, 0.66, 0.50), 0.55, 0.040, 0.10, 1.0),   // cortical
-    TissueLook(vec3(0.62, 0.34, 0.25), 0.60, 0.035, 0.15, 1.0),   // trabecular, only seen freshly cut: marrow and blood
-    TissueLook(vec3(0.82, 0.77, 0.66), 0.24, 0.050, 0.25, 1.0),   // other teeth
-    TissueLook(vec3(0.86, 0.84, 0.78), 0.18, 0.055, 0.30, 1.0),   // enamel
+    TissueLook(vec3(0.72, 0.615, 0.46), 0.52, 0.040, 0.10, 0.02),   // unlabelled: a scan without segmentation reads as bone
+    TissueLook(vec3(0.74, 0.63, 0.47), 0.48, 0.040, 0.10, 1.0),   // cortical
+    TissueLook(vec3(0.58, 0.30, 0.21), 0.42, 0.035, 0.15, 1.0),   // trabecular, only seen freshly cut: marrow and blood
+    TissueLook(vec3(0.70, 0.655, 0.54), 0.24, 0.050, 0.25, 1.0),   // other teeth
+    TissueLook(vec3(0.75, 0.73, 0.66), 0.18, 0.055, 0.30, 1.0),   // enamel
     TissueLook(vec3(0.78, 0.64, 0.38), 0.50, 0.045, 0.15, 1.0),   // dentine
     TissueLook(vec3(0.45, 0.06, 0.06), 0.35, 0.030, 0.20, 0.5),   // pulp
     TissueLook(vec3(0.90, 0.80, 0.30), 0.40, 0.030, 0.20, 0.5),   // canal

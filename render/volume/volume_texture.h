@@ -1,5 +1,5 @@
 // The live bone on the GPU: solid fraction (16 bits, so that filtering is not quantised), tissue labels, the emptiness
-// of its bricks and a coarse ambient map (mean of 4x4x4 voxels) for soft shade. The drawn surface is solid = 0.5. Frame
+// of its bricks and a coarse ambient map (mean of 2x2x2 voxels) for soft shade. The drawn surface is solid = 0.5. Frame
 // P by the grid. Render thread. Update: one 8x8x8 upload and about 10 us of book-keeping per brick. Not the bone that
 // is carved (the owner of that copies its bricks here) and not the scan.
 #pragma once
