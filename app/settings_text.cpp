@@ -19,7 +19,7 @@ std::optional<double> numberIn(std::string_view text) {
   return value;
 }
 
-std::string short_(double value) {
+std::string shortText(double value) {
   std::string text = std::to_string(value);
   text.erase(text.find_last_not_of('0') + 1);
   if (text.back() == '.') text.pop_back();
@@ -43,8 +43,8 @@ void applySettings(const std::vector<std::string>& texts, const std::map<std::st
     const auto value = numberIn(std::string_view(text).substr(equals + 1));
     const Setting& setting = found->second;
     if (!value || *value < setting.low || *value > setting.high)
-      throw UsageError("--set " + text + ": the value is out of range, give " + short_(setting.low) + " to " +
-                       short_(setting.high) + (*setting.unit ? " " : "") + setting.unit);
+      throw UsageError("--set " + text + ": the value is out of range, give " + shortText(setting.low) + " to " +
+                       shortText(setting.high) + (*setting.unit ? " " : "") + setting.unit);
     *setting.value = *value;
   }
 }
@@ -55,8 +55,8 @@ double sphereRadius_mm(const std::string& tool) {
     throw UsageError("--tool " + tool + ": not a tool of this version, give sphere:R with R in mm");
   const auto radius = numberIn(text.substr(7));
   if (!radius || *radius < kSmallestRadius_mm || *radius > kLargestRadius_mm)
-    throw UsageError("--tool " + tool + ": the radius is out of range, give " + short_(kSmallestRadius_mm) + " to " +
-                     short_(kLargestRadius_mm) + " mm");
+    throw UsageError("--tool " + tool + ": the radius is out of range, give " + shortText(kSmallestRadius_mm) + " to " +
+                     shortText(kLargestRadius_mm) + " mm");
   return *radius;
 }
 

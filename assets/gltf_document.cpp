@@ -118,9 +118,9 @@ class Reduction {
   }
 
   const json& list(const char* key) const {
-    static const json nothing = json::array();
+    static const json kNothing = json::array();
     const auto found = source_.find(key);
-    if (found == source_.end()) return nothing;
+    if (found == source_.end()) return kNothing;
     if (!found->is_array() || found->size() > kMaxObjects) refuse(std::string(key) + " is not a list in range");
     return *found;
   }

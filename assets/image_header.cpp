@@ -68,26 +68,26 @@ void ImageHeader::readNifti() {
   const bool is_big = bytes[3] == 0x5c && bytes[2] == 0x01;
   if (got != static_cast<int>(bytes.size()) || is_little == is_big)
     refuse(path_, "it is no NIfTI-1 file; export it as NIfTI-1");
-  const auto shortAt = [&](std::size_t at) {
+  const auto short_at = [&](std::size_t at) {
     const int low = bytes[is_little ? at : at + 1];
     const int high = bytes[is_little ? at + 1 : at];
     return static_cast<std::int16_t>(high << 8 | low);
   };
 
-  const int dimensions = shortAt(40);
+  const int dimensions = short_at(40);
   bool is_volume = dimensions >= 3 && dimensions <= 7;
   for (int d = 1; is_volume && d <= dimensions; ++d) {
-    const int size = shortAt(40 + 2 * static_cast<std::size_t>(d));
+    const int size = short_at(40 + 2 * static_cast<std::size_t>(d));
     is_volume = d <= 3 ? size >= 1 : size == 1;
   }
   if (!is_volume) refuse(path_, "it is no volume of three axes; give one");
 
   // uint8 2, int16 4, int32 8, float 16, double 64, int8 256, uint16 512, uint32 768, int64 1024, uint64 1280.
   constexpr std::array<int, 10> kScalarTypes = {2, 4, 8, 16, 64, 256, 512, 768, 1024, 1280};
-  if (std::find(kScalarTypes.begin(), kScalarTypes.end(), shortAt(70)) == kScalarTypes.end())
+  if (std::find(kScalarTypes.begin(), kScalarTypes.end(), short_at(70)) == kScalarTypes.end())
     refuse(path_, "its voxels are vectors, colours or complex numbers; give a volume with one value per voxel");
 
-  is_oriented_ = shortAt(252) > 0 || shortAt(254) > 0;
+  is_oriented_ = short_at(252) > 0 || short_at(254) > 0;
 }
 
 void ImageHeader::readText() {

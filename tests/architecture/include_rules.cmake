@@ -1,0 +1,126 @@
+# Who may include whom, over every #include of the product. Run: cmake -DROOT=<project> -P include_rules.cmake
+#   calibration < assets < { haptics | render } < app; tests see all. Left never includes right.
+#   haptics: { device | bone, tool } < contact < servo.   render: gpu < { volume | scene | display } < the frame renderer.
+# A third party belongs to the folders named here and to their .cpp files alone; GLM is the shared vocabulary.
+cmake_minimum_required(VERSION 3.25)
+
+set(calibration calibration/)
+set(assets calibration/ assets/)
+set(app calibration/ assets/ haptics/ render/ app/)
+set(tests ${app} tests/)
+
+# Inside haptics and render a sub-folder names what it may see; the folder itself sees all of its own.
+set(haptics ${assets} haptics/)
+set(haptics/device ${assets} haptics/device/)
+set(haptics/bone ${assets} haptics/bone/ haptics/tool/)
+set(haptics/tool ${assets} haptics/bone/ haptics/tool/)
+set(haptics/contact ${assets} haptics/bone/ haptics/tool/ haptics/contact/)
+set(haptics/servo ${haptics})
+set(render ${assets} render/)
+set(render_words ${assets} render/frame.h render/picture.h render/shaders/shared_numbers.glsl)
+set(render/gpu ${render_words} render/gpu/)
+foreach(part volume scene display)
+  set(render/${part} ${render_words} render/gpu/ render/${part}/)
+endforeach()
+
+# Third parties: a regular expression of what is included, and the folders that may.
+set(third_parties
+  "opencv2/" "calibration"
+  "openvdb/|nanovdb/|itk|gdcm|tiny_gltf|nifti1|toml\\+\\+/|zlib" "assets"
+  "nlohmann/" "assets|app"
+  "tbb/|oneapi/" "assets|haptics"
+  "libusb" "haptics"
+  "GLFW/" "render|app"
+  "epoxy/" "render"
+  "CLI/|spdlog/|fmt/|imgui|SQLiteCpp/|sqlite3|zstd|openssl/|portaudio|sndfile" "app")
+set(operating_system
+  "^(sys/[a-z]+|unistd|fcntl|pthread|sched|signal|spawn|time|poll|dlfcn|termios|immintrin|x86intrin)\\.h$")
+
+set(violations 0)
+macro(violation text)
+  math(EXPR violations "${violations} + 1")
+  message("${file}: ${text}")
+endmacro()
+
+function(starts_with_one_of result name)
+  set(${result} FALSE PARENT_SCOPE)
+  foreach(prefix IN LISTS ARGN)
+    string(FIND "${name}" "${prefix}" at)
+    if(at EQUAL 0)
+      set(${result} TRUE PARENT_SCOPE)
+    endif()
+  endforeach()
+endfunction()
+
+# What a file may see: the rule of its sub-folder if that has one, else of its top folder.
+macro(find_rule)
+  string(REGEX MATCH "^[^/]+" top "${file}")
+  string(REGEX MATCH "^[^/]+/[^/]+" rule "${file}")
+  if(NOT DEFINED ${rule})
+    set(rule ${top})
+  endif()
+endmacro()
+
+macro(check_own name)
+  starts_with_one_of(allowed "${name}" ${${rule}})
+  if(NOT allowed)
+    violation("includes \"${name}\", but ${rule} may include only: ${${rule}}")
+  elseif(NOT EXISTS "${ROOT}/${name}")
+    violation("includes \"${name}\", which does not exist from the project's root")
+  endif()
+endmacro()
+
+macro(check_third_party name)
+  set(home "")
+  set(parties ${third_parties})
+  while(parties)
+    list(POP_FRONT parties pattern folders)
+    if("${name}" MATCHES "^(${pattern})")
+      set(home "${folders}")
+    endif()
+  endwhile()
+  if("${name}" MATCHES "${operating_system}")
+    if(file MATCHES "\\.h$")
+      violation("is a header and includes <${name}>: keep the operating system in .cpp files")
+    endif()
+  elseif(NOT home)
+    violation("includes <${name}>, a third party that no folder declares (tests/architecture/include_rules.cmake)")
+  elseif(NOT top MATCHES "^(${home})$")
+    violation("includes <${name}>, which belongs to ${home}")
+  elseif(file MATCHES "\\.h$")
+    violation("is a header and includes <${name}>: keep third parties in .cpp files")
+  endif()
+endmacro()
+
+set(files "")
+foreach(folder calibration assets haptics render app tests)
+  file(GLOB_RECURSE found RELATIVE "${ROOT}" "${ROOT}/${folder}/*.h" "${ROOT}/${folder}/*.cpp" "${ROOT}/${folder}/*.c")
+  list(APPEND files ${found})
+endforeach()
+
+foreach(file IN LISTS files)
+  find_rule()
+  file(STRINGS "${ROOT}/${file}" lines REGEX "^[ \t]*#[ \t]*include")
+  foreach(line IN LISTS lines)
+    if(line MATCHES "include[ \t]*\"([^\"]+)\"")
+      set(name "${CMAKE_MATCH_1}")
+      if(NOT name MATCHES "^[a-z_]+\\.inc$")  # written by the build
+        check_own("${name}")
+      endif()
+    elseif(line MATCHES "include[ \t]*<([^>]+)>")
+      set(name "${CMAKE_MATCH_1}")
+      # The standard library, GLM, and whatever a test likes are free.
+      if(name MATCHES "[/.]" AND NOT name MATCHES "^glm/" AND NOT top STREQUAL "tests")
+        check_third_party("${name}")
+      endif()
+    endif()
+  endforeach()
+endforeach()
+
+list(LENGTH files count)
+if(count EQUAL 0)
+  message(FATAL_ERROR "no sources under ${ROOT}")
+elseif(violations GREATER 0)
+  message(FATAL_ERROR "${violations} includes against the rules in ${count} files")
+endif()
+message("${count} files keep the include rules")

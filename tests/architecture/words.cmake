@@ -1,0 +1,43 @@
+# Words that must not stand in the product: unfinished work and paths of one machine.
+# Run: cmake -DROOT=<project> -P words.cmake. Also says, without failing, which files are long enough to look at twice.
+cmake_minimum_required(VERSION 3.25)
+
+# Written so that this file does not find itself.
+set(forbidden "(^|[^A-Za-z])(TO[D]O|FIX[M]E|XX[X]|HA[C]K)([^A-Za-z]|$)" "(^|[^A-Za-z0-9_.])/(wor[k]|tm[p]|hom[e]|roo[t])/[A-Za-z0-9_.]")
+set(long 300)
+
+set(files "")
+foreach(folder app render haptics assets calibration tests .ci)
+  file(GLOB_RECURSE found RELATIVE "${ROOT}" "${ROOT}/${folder}/*")
+  list(APPEND files ${found})
+endforeach()
+file(GLOB found RELATIVE "${ROOT}" "${ROOT}/*.md" "${ROOT}/*.txt" "${ROOT}/*.json")
+list(APPEND files ${found})
+list(FILTER files EXCLUDE REGEX "\\.(png|jpg|nrrd|vdb|glb|swp|molar)$")
+
+set(violations 0)
+foreach(file IN LISTS files)
+  foreach(pattern IN LISTS forbidden)
+    file(STRINGS "${ROOT}/${file}" hits REGEX "${pattern}")
+    foreach(hit IN LISTS hits)
+      math(EXPR violations "${violations} + 1")
+      string(STRIP "${hit}" hit)
+      message("${file}: ${hit}")
+    endforeach()
+  endforeach()
+  if(file MATCHES "\\.(h|cpp|frag|vert|comp|glsl)$")
+    file(STRINGS "${ROOT}/${file}" lines)
+    list(LENGTH lines count)
+    if(count GREATER ${long})
+      message("note: ${file} has ${count} lines that are not blank: is it still one concept?")
+    endif()
+  endif()
+endforeach()
+
+list(LENGTH files count)
+if(count EQUAL 0)
+  message(FATAL_ERROR "no files under ${ROOT}")
+elseif(violations GREATER 0)
+  message(FATAL_ERROR "${violations} lines with words that do not belong in the product")
+endif()
+message("${count} files read")
