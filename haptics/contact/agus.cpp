@@ -12,6 +12,7 @@ AgusContact agusContact(const SolidField& field, const calibration::Point<calibr
   const SphereOverlap overlap = sphereOverlap(field, centre_P, radius_mm);
   AgusContact contact;
   contact.volume_mm3 = overlap.volume_mm3;
+  contact.moment_mm4 = glm::length(overlap.first_moment_P_mm4.xyz);
   contact.depth_mm = equivalentDepth_mm(radius_mm, overlap.volume_mm3, field.grid.spacing_mm);
   if (contact.depth_mm <= 0.0) return contact;
 
@@ -19,8 +20,7 @@ AgusContact agusContact(const SolidField& field, const calibration::Point<calibr
   // fades instead of turning at random (reference/physics 2.5d). A shallow touch, |M1| ~ R V, is not faded.
   const double largest =
       std::min(0.25 * calibration::kPi * radius_mm * radius_mm * radius_mm * radius_mm, radius_mm * overlap.volume_mm3);
-  const double moment = glm::length(overlap.first_moment_P_mm4.xyz);
-  contact.normal_P.xyz = overlap.first_moment_P_mm4.xyz / -std::max(moment, 0.01 * largest);
+  contact.normal_P.xyz = overlap.first_moment_P_mm4.xyz / -std::max(contact.moment_mm4, 0.01 * largest);
   return contact;
 }
 

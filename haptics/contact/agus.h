@@ -15,6 +15,7 @@ struct AgusParameters {
 
 struct AgusContact {
   double volume_mm3 = 0.0;
+  double moment_mm4 = 0.0;                             ///< |M1|
   double depth_mm = 0.0;                               ///< equivalent depth in flat bone, 0..2R; 0: no contact
   calibration::Vector<calibration::Patient> normal_P;  ///< out of the bone; shorter than 1 where bone is on all sides
 };

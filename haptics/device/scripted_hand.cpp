@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/geometry/units.h"
+
 namespace haptics {
 namespace {
 
 constexpr double kApproach_mm_per_s = 20.0;
-constexpr double kTilt_rad = 0.35;  // of the shaft towards the cheek, so that the handpiece clears the teeth
+constexpr int kFinishingPasses = 4;  // at full depth, while the bone gives way
+constexpr double kTilt_rad = 0.35;   // of the shaft towards the cheek, so that the handpiece clears the teeth
 
 double smooth(double u) {
   const double v = std::clamp(u, 0.0, 1.0);
@@ -33,7 +36,8 @@ ScriptedHand::ScriptedHand(const TroughPlan& plan) : plan_(plan) {
   const glm::dvec3 shaft = std::cos(kTilt_rad) * outward_ + std::sin(kTilt_rad) * buccal;
   rotation_ = glm::normalize(glm::quat_cast(glm::dmat3(glm::cross(along_, shaft), along_, shaft)));
 
-  passes_ = std::max(1, static_cast<int>(std::ceil(plan.depth_mm / (plan.bur_radius_mm / 8.0))));
+  deepening_passes_ = std::max(1, static_cast<int>(std::ceil(plan.depth_mm / (plan.bur_radius_mm / 8.0))));
+  passes_ = deepening_passes_ + kFinishingPasses;
   pass_s_ = plan.stroke_mm / plan.speed_mm_per_s;
   approach_s_ = retreat_s_ = plan.clearance_mm / kApproach_mm_per_s * 1.5;
   hand_.place_mm = at(0.0).place_mm;
@@ -43,16 +47,16 @@ ScriptedHand::Target ScriptedHand::at(double t_s) const {
   // Height of the bur's centre over the surface, place along the stroke.
   const double rest_mm = plan_.bur_radius_mm, high_mm = rest_mm + plan_.clearance_mm;
   const double cut_s = t_s - approach_s_, end_s = passes_ * pass_s_;
-  const double step_mm = plan_.depth_mm / passes_;
+  const double step_mm = plan_.depth_mm / deepening_passes_;
   double height_mm = high_mm, along_mm = -0.5 * plan_.stroke_mm;
   if (cut_s <= 0.0) {
     height_mm = glm::mix(high_mm, rest_mm, smooth(t_s / approach_s_));
   } else if (cut_s < end_s) {
     const double pass = std::floor(cut_s / pass_s_), u = cut_s / pass_s_ - pass;
     // Eases in and out of each turn; sinks to the pass's depth in its first fifth.
-    const double way = 0.5 - 0.5 * std::cos(u * 3.141592653589793);
+    const double way = 0.5 - 0.5 * std::cos(u * calibration::kPi);
     along_mm = plan_.stroke_mm * ((static_cast<int>(pass) % 2 == 0 ? way : 1.0 - way) - 0.5);
-    height_mm = rest_mm - step_mm * (pass + smooth(5.0 * u));
+    height_mm = rest_mm - std::min(plan_.depth_mm, step_mm * (pass + smooth(5.0 * u)));
   } else {
     along_mm = plan_.stroke_mm * ((passes_ % 2 == 0 ? 0.0 : 1.0) - 0.5);
     height_mm = glm::mix(rest_mm - plan_.depth_mm, high_mm, smooth((cut_s - end_s) / retreat_s_));

@@ -42,7 +42,7 @@ class ScriptedHand final : public HapticDevice {
   TroughPlan plan_;
   glm::dvec3 outward_, along_;
   glm::dquat rotation_;
-  int passes_ = 0;
+  int deepening_passes_ = 0, passes_ = 0;
   double approach_s_ = 0.0, pass_s_ = 0.0, retreat_s_ = 0.0, t_s_ = 0.0;
   VirtualHand hand_;
 };

@@ -13,6 +13,16 @@ using calibration::Vector;
 
 constexpr double kThinnestPlate_mm = 0.6;
 
+/// Agus's contact, faded where bone on opposite sides cancels out: in a slot narrower than the bur the bare law turns
+/// its full force round within a hundredth of a millimetre. Flat bone has |M1| of its cap, a conforming socket 2/3 of
+/// it; below 0.6 the direction is worth only its share.
+AgusContact steadyContact(const SolidField& field, const calibration::Point<Patient>& centre_P, double radius_mm) {
+  AgusContact contact = agusContact(field, centre_P, radius_mm);
+  const double needed_mm4 = 0.6 * capMoment_mm4(radius_mm, contact.depth_mm);
+  if (contact.moment_mm4 < needed_mm4) contact.normal_P.xyz *= contact.moment_mm4 / needed_mm4;
+  return contact;
+}
+
 /// The part of the way to the hand that the bone at the proxy allows: all of it along the surface, inwards only down to
 /// the depth where the proxy waits, outwards at least until it is no deeper.
 glm::dvec3 allowed(const glm::dvec3& to_hand, const AgusContact& contact, double deepest_mm) {
@@ -20,7 +30,7 @@ glm::dvec3 allowed(const glm::dvec3& to_hand, const AgusContact& contact, double
   if (contact.depth_mm <= 0.0 || length < 1e-6) return to_hand;
   const glm::dvec3 normal = contact.normal_P.xyz / length;
   const double outwards = glm::dot(to_hand, normal);
-  return to_hand + normal * (std::max(outwards, contact.depth_mm - deepest_mm) - outwards);
+  return to_hand + normal * (std::max(outwards, (contact.depth_mm - deepest_mm) * length) - outwards);
 }
 
 }  // namespace
@@ -50,7 +60,7 @@ Proxy::Held Proxy::follow(const SolidField& field, const calibration::Point<Pati
     if (held.sums > 0 && length <= enough_mm) break;
     if (length > longest_mm) move *= longest_mm / length;
     proxy_P_.mm += move;
-    contact_ = agusContact(field, proxy_P_, radius_mm);
+    contact_ = steadyContact(field, proxy_P_, radius_mm);
     ++held.sums;
   }
   held.contact = contact_;

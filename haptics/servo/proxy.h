@@ -3,8 +3,9 @@
 //   depth at the hand <= h_max:  the proxy is the hand and the law is Agus's alone.
 //   deeper:  the proxy q waits at depth h_max, sliding to the place nearest the hand p, and
 //            F = k h(q) n(q) + k (q - p),  which over flat bone is k H for every depth H of the hand.
-// The two meet without a step, whichever way the hand goes and while the bone is carved away.
-// Frame P. Servo thread. At most kMostSums overlap sums an update. Not damping, not limits (servo/safety).
+// The two meet without a step, whichever way the hand goes and while the bone is carved away. Between walls that face
+// each other the direction fades instead of flipping. Frame P. Servo thread. At most kMostSums overlap sums an update.
+// Not damping, not limits (servo/safety).
 #pragma once
 
 #include "haptics/contact/agus.h"

@@ -1,0 +1,10 @@
+// Counts every operator new of the process, so that a test can show that a stretch of code makes none.
+#pragma once
+
+#include <cstddef>
+
+namespace haptics::allocation_count {
+
+std::size_t now();
+
+}  // namespace haptics::allocation_count

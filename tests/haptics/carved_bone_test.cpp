@@ -1,0 +1,135 @@
+#include "haptics/bone/carved_bone.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <random>
+#include <thread>
+
+#include "haptics/bone/carve.h"
+#include "tests/haptics/phantom.h"
+
+namespace haptics {
+namespace {
+
+using namespace phantom;
+
+TEST(CarvedBone, NeverGivesMoreThanItHeldNorGrows) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> part(0.0, 1.0);
+  Phantom phantom = block(1.0, 0.25);
+  for (auto& solid : phantom.solid) solid = static_cast<std::uint8_t>(random() % 256);
+  CarvedBone bone = phantom.bone();
+  for (std::size_t voxel = 0; voxel < phantom.solid.size(); ++voxel) {
+    int given = 0;
+    for (std::uint64_t tick = 0; tick < 40; ++tick) {
+      const int before = bone.solid()[voxel], step = bone.remove(voxel, part(random), 0.2 * part(random), tick);
+      EXPECT_GE(step, 0);
+      EXPECT_EQ(bone.solid()[voxel], before - step);
+      given += step;
+    }
+    EXPECT_LE(given, phantom.solid[voxel]);
+  }
+}
+
+TEST(CarvedBone, LosesNoMoreThanWasCovered) {
+  CarvedBone bone = block(1.0, 0.25).bone();
+  double left = 0.0;
+  for (std::size_t voxel = 0; voxel < 512; ++voxel) {
+    for (std::uint64_t tick = 0; tick < 100; ++tick) bone.remove(voxel, 0.3, 0.3, tick);
+    left += bone.solid()[voxel] / 255.0 / 512.0;
+  }
+  EXPECT_NEAR(left, 0.7, 0.002);
+}
+
+TEST(CarvedBone, DigestTellsWhatWasCutAndNotInWhichOrder) {
+  CarvedBone one = block(1.0, 0.25).bone(), other = block(1.0, 0.25).bone();
+  EXPECT_EQ(one.digest(), other.digest());
+  for (std::size_t voxel = 0; voxel < 100; ++voxel) one.remove(voxel, 1.0, 0.4, 7);
+  EXPECT_NE(one.digest(), other.digest());
+  for (std::size_t voxel = 100; voxel-- > 0;) other.remove(voxel, 1.0, 0.4, 7);
+  EXPECT_EQ(one.digest(), other.digest());
+  one.remove(5, 1.0, 0.01, 8);
+  EXPECT_NE(one.digest(), other.digest());
+}
+
+TEST(CarvedBone, CopiesABrickWithAirBeyondTheEdge) {
+  Phantom phantom = block(1.25, 0.25);  // 10 voxels an edge: the second brick is mostly outside
+  for (std::size_t i = 0; i < phantom.solid.size(); ++i) phantom.solid[i] = static_cast<std::uint8_t>(1 + i % 255);
+  const CarvedBone bone = phantom.bone();
+  std::array<std::uint8_t, 512> brick{};
+  bone.copyBrick({1, 0, 1}, brick);
+  for (int k = 0; k < 8; ++k)
+    for (int j = 0; j < 8; ++j)
+      for (int i = 0; i < 8; ++i) {
+        const glm::ivec3 ijk(8 + i, j, 8 + k);
+        const std::uint8_t expected = bone.grid().contains(ijk) ? phantom.solid[bone.grid().index(ijk)] : 0;
+        EXPECT_EQ(brick[static_cast<std::size_t>((k * 8 + j) * 8 + i)], expected);
+      }
+}
+
+TEST(DirtyBricks, NamesEveryBrickOnce) {
+  DirtyBricks dirty({5, 4, 7});
+  dirty.mark({4, 3, 6});
+  dirty.mark({0, 0, 0});
+  dirty.mark({4, 3, 6});
+  std::vector<glm::ivec3> taken;
+  dirty.takeInto(taken);
+  ASSERT_EQ(taken.size(), 2u);
+  EXPECT_EQ(taken[0], glm::ivec3(0, 0, 0));
+  EXPECT_EQ(taken[1], glm::ivec3(4, 3, 6));
+  taken.clear();
+  dirty.takeInto(taken);
+  EXPECT_TRUE(taken.empty());
+  dirty.markAll();
+  dirty.takeInto(taken);
+  EXPECT_EQ(taken.size(), 140u);
+}
+
+TEST(DirtyBricks, NameEveryBrickThatCarvingChanged) {
+  CarvedBone bone = block(3.0, 0.1).bone();
+  const std::vector<std::uint8_t> before(bone.solid().begin(), bone.solid().end());
+  carveSphere(bone, {{0.21, -0.4, 0.3}}, 1.7, {}, 0.05, 0);
+  std::vector<glm::ivec3> taken;
+  bone.dirtyBricks().takeInto(taken);
+  const glm::ivec3 bricks = bone.grid().bricks();
+  std::vector<bool> dirty(static_cast<std::size_t>(bricks.x * bricks.y * bricks.z));
+  const auto at = [&](glm::ivec3 b) { return static_cast<std::size_t>((b.z * bricks.y + b.y) * bricks.x + b.x); };
+  for (glm::ivec3 brick : taken) dirty[at(brick)] = true;
+  for (int k = 0; k < bone.grid().size.z; ++k)
+    for (int j = 0; j < bone.grid().size.y; ++j)
+      for (int i = 0; i < bone.grid().size.x; ++i) {
+        const std::size_t voxel = bone.grid().index({i, j, k});
+        EXPECT_TRUE(bone.solid()[voxel] == before[voxel] || dirty[at(glm::ivec3(i, j, k) / 8)]);
+      }
+}
+
+TEST(CarvedBone, HandsItsBricksToAReaderWhileItIsCarved) {
+  CarvedBone bone = block(3.0, 0.2).bone();
+  std::vector<std::uint8_t> seen(bone.solid().begin(), bone.solid().end());
+  std::atomic<bool> done{false};
+  const auto take = [&] {
+    std::vector<glm::ivec3> bricks;
+    bone.dirtyBricks().takeInto(bricks);
+    for (glm::ivec3 brick : bricks) {
+      std::array<std::uint8_t, 512> copy{};
+      bone.copyBrick(brick, copy);
+      for (int n = 0; n < 512; ++n) {
+        const glm::ivec3 ijk = brick * 8 + glm::ivec3(n % 8, n / 8 % 8, n / 64);
+        if (bone.grid().contains(ijk)) seen[bone.grid().index(ijk)] = copy[static_cast<std::size_t>(n)];
+      }
+    }
+  };
+  std::thread reader([&] {
+    while (!done.load()) take();
+  });
+  for (std::uint64_t tick = 0; tick < 300; ++tick)
+    carveSphere(bone, {{-1.0 + 0.006 * static_cast<double>(tick), 0.0, 0.0}}, 1.0, {}, 2e-3, tick);
+  done.store(true);
+  reader.join();
+  take();
+  EXPECT_TRUE(std::equal(seen.begin(), seen.end(), bone.solid().begin()));
+}
+
+}  // namespace
+}  // namespace haptics

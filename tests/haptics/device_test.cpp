@@ -1,0 +1,123 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "haptics/device/mouse_device.h"
+#include "haptics/device/scripted_hand.h"
+
+namespace haptics {
+namespace {
+
+using calibration::Device;
+using calibration::Vector;
+
+TroughPlan plan() {
+  TroughPlan plan;
+  plan.site_D = {{10.0, -5.0, 3.0}};
+  plan.outward_D = {{0.0, 0.0, 1.0}};
+  plan.buccal_D = {{1.0, 0.0, 0.2}};
+  return plan;
+}
+
+TEST(VirtualHand, RestsWhereSpringAndForceBalance) {
+  VirtualHand hand;
+  for (int i = 0; i < 2000; ++i) hand.advance({1.0, 2.0, 3.0}, glm::dvec3(0.0), {0.5, 0.0, -1.0}, 1e-3);
+  EXPECT_NEAR(hand.place_mm.x, 2.0, 1e-9);
+  EXPECT_NEAR(hand.place_mm.z, 1.0, 1e-9);
+  EXPECT_NEAR(glm::length(hand.velocity_mm_per_s), 0.0, 1e-9);
+}
+
+TEST(VirtualHand, MovesTheSameAtEveryRate) {
+  VirtualHand fine, coarse;
+  for (int i = 0; i < 400; ++i) fine.advance({5.0, 0.0, 0.0}, glm::dvec3(0.0), {0.0, 0.1, 0.0}, 0.25e-3);
+  for (int i = 0; i < 5; ++i) coarse.advance({5.0, 0.0, 0.0}, glm::dvec3(0.0), {0.0, 0.1, 0.0}, 20e-3);
+  EXPECT_NEAR(glm::length(fine.place_mm - coarse.place_mm), 0.0, 1e-9);
+  EXPECT_NEAR(glm::length(fine.velocity_mm_per_s - coarse.velocity_mm_per_s), 0.0, 1e-7);
+}
+
+TEST(MouseDevice, GoesSmoothlyWhereItIsPutAndGivesWay) {
+  MouseDevice device;
+  MouseTarget target;
+  target.X_DH.translation_mm = {10.0, 0.0, 0.0};
+  target.pedal = true;
+  device.setTarget(target);
+  double last = 0.0, fastest = 0.0;
+  HandleState state;
+  for (int i = 0; i < 500; ++i) {
+    state = device.exchange({{0.0, 0.0, 1.0}}, 1e-3);
+    EXPECT_GE(state.X_DH.translation_mm.x, last);
+    fastest = std::max(fastest, state.X_DH.translation_mm.x - last);
+    last = state.X_DH.translation_mm.x;
+  }
+  EXPECT_NEAR(last, 10.0, 1e-6);
+  EXPECT_LT(fastest, 0.5);
+  EXPECT_NEAR(state.X_DH.translation_mm.z, 2.0, 1e-6);
+  EXPECT_TRUE(state.pedal);
+}
+
+TEST(MouseDevice, IgnoresATargetThatIsNoPose) {
+  MouseDevice device;
+  MouseTarget target;
+  target.X_DH.translation_mm.x = std::numeric_limits<double>::quiet_NaN();
+  device.setTarget(target);
+  target.X_DH = {glm::dquat(0.0, 0.0, 0.0, 0.0), {}};
+  device.setTarget(target);
+  EXPECT_EQ(device.exchange({}, 1e-3).X_DH.translation_mm, glm::dvec3(0.0));
+}
+
+TEST(ScriptedHand, SweepsTheTroughAndWithdraws) {
+  ScriptedHand hand(plan());
+  const double R = plan().bur_radius_mm;
+  double lowest = 1e9, least_along = 1e9, most_along = -1e9;
+  bool drilled = false;
+  HandleState state;
+  const int ticks = static_cast<int>(hand.duration_s() * 1000.0) + 500;
+  glm::dvec3 last = hand.exchange({}, 1e-3).X_DH.translation_mm;
+  for (int i = 0; i < ticks; ++i) {
+    state = hand.exchange({}, 1e-3);
+    const glm::dvec3 place = state.X_DH.translation_mm;
+    EXPECT_LT(glm::length(place - last), 0.1);
+    last = place;
+    lowest = std::min(lowest, place.z - R - plan().site_D.mm.z);
+    if (!state.pedal) continue;
+    drilled = true;
+    least_along = std::min(least_along, place.y - plan().site_D.mm.y);
+    most_along = std::max(most_along, place.y - plan().site_D.mm.y);
+    EXPECT_NEAR(place.x, plan().site_D.mm.x, 1e-9);
+  }
+  EXPECT_TRUE(drilled);
+  EXPECT_NEAR(lowest, -plan().depth_mm, 0.05);
+  EXPECT_NEAR(most_along, 4.0, 0.2);
+  EXPECT_NEAR(least_along, -4.0, 0.2);
+  EXPECT_FALSE(state.pedal);
+  EXPECT_NEAR(last.z - plan().site_D.mm.z - R, plan().clearance_mm, 0.01);
+}
+
+TEST(ScriptedHand, HoldsTheShaftOutOfTheMouth) {
+  ScriptedHand hand(plan());
+  const glm::dvec3 shaft = hand.exchange({}, 1e-3).X_DH.rotation * glm::dvec3(0.0, 0.0, 1.0);
+  EXPECT_GT(shaft.z, 0.8);
+  EXPECT_GT(shaft.x, 0.1);
+}
+
+TEST(ScriptedHand, GivesWayToForce) {
+  ScriptedHand pushed(plan()), free(plan());
+  HandleState a, b;
+  for (int i = 0; i < 1500; ++i) {
+    a = pushed.exchange({{0.0, 0.0, 0.5}}, 1e-3);
+    b = free.exchange({}, 1e-3);
+  }
+  EXPECT_NEAR(a.X_DH.translation_mm.z - b.X_DH.translation_mm.z, 1.0, 0.01);
+}
+
+TEST(ScriptedHand, RefusesAPlanWithoutDirection) {
+  TroughPlan bad = plan();
+  bad.buccal_D = bad.outward_D;
+  EXPECT_THROW(ScriptedHand{bad}, DeviceError);
+  bad = plan();
+  bad.depth_mm = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(ScriptedHand{bad}, DeviceError);
+}
+
+}  // namespace
+}  // namespace haptics

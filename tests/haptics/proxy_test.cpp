@@ -1,0 +1,162 @@
+#include "haptics/servo/proxy.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/haptics/phantom.h"
+
+namespace haptics {
+namespace {
+
+using namespace phantom;
+
+constexpr double kRadius_mm = 2.0;
+const AgusParameters kLaw{0.8, 0.0};
+
+glm::dvec3 forceAt(Proxy& proxy, const SolidField& field, const glm::dvec3& hand, double R = kRadius_mm) {
+  const Proxy::Held held = proxy.follow(field, {hand}, R);
+  EXPECT_LE(held.sums, Proxy::kMostSums);
+  return heldForce_N(held, kLaw, {}).xyz;
+}
+
+TEST(Proxy, IsAgusAloneWhileShallow) {
+  const Phantom phantom = halfSpace(4.0, 0.2);
+  Proxy proxy;
+  for (double h : {-0.5, 0.1, 0.5, 0.9}) {
+    const Point<Patient> hand{{0.3, -0.2, kRadius_mm - h}};
+    const Proxy::Held held = proxy.follow(phantom.field(), hand, kRadius_mm);
+    EXPECT_EQ(held.proxy_P.mm, hand.mm);
+    const AgusContact contact = agusContact(phantom.field(), hand, kRadius_mm);
+    EXPECT_EQ(heldForce_N(held, kLaw, {}).xyz, agusForce_N(contact, kLaw, {}).xyz);
+  }
+}
+
+TEST(Proxy, SpendsOneLookAtTheHandInSlowMotion) {
+  const Phantom phantom = halfSpace(4.0, 0.2);
+  Proxy proxy;
+  int sums = 0;
+  for (int tick = 0; tick < 100; ++tick)
+    sums += proxy.follow(phantom.field(), {{0.01 * tick, 0.0, 1.6}}, kRadius_mm).sums;
+  EXPECT_EQ(sums, 100);
+}
+
+TEST(Proxy, IsStiffnessTimesDepthOverFlatBoneForAnyDepth) {
+  const glm::dvec3 normal = glm::normalize(glm::dvec3(0.3, -0.4, 0.8));
+  const Phantom phantom = halfSpace(7.0, 0.2, normal);
+  Proxy proxy;
+  for (int step = 0; step <= 700; ++step) {
+    const double depth = 0.01 * step;
+    const glm::dvec3 force = forceAt(proxy, phantom.field(), (kRadius_mm - depth) * normal);
+    if (depth < 0.2) continue;
+    EXPECT_NEAR(glm::length(force), 0.8 * depth, 0.8 * (0.005 + 0.003 * depth)) << depth;
+    EXPECT_GT(glm::dot(glm::normalize(force), normal), 0.9998) << depth;
+  }
+}
+
+TEST(Proxy, MeetsAgusWithoutAStep) {
+  const Phantom phantom = halfSpace(7.0, 0.2, glm::normalize(glm::dvec3(0.1, 0.2, 0.9)));
+  const glm::dvec3 normal = glm::normalize(glm::dvec3(0.1, 0.2, 0.9));
+  Proxy proxy;
+  glm::dvec3 last = forceAt(proxy, phantom.field(), (kRadius_mm - 0.8) * normal);
+  for (int step = 1; step <= 800; ++step) {
+    // In and out again through the depth where the proxy stops.
+    const double depth = 0.8 + 0.4 * std::sin(step * 0.01);
+    const glm::dvec3 force = forceAt(proxy, phantom.field(), (kRadius_mm - depth) * normal);
+    EXPECT_LT(glm::length(force - last), 0.008) << depth;
+    last = force;
+  }
+}
+
+TEST(Proxy, SlidesAlongTheSurfaceAndNeverSticks) {
+  const Phantom phantom = halfSpace(8.0, 0.2);
+  Proxy proxy;
+  forceAt(proxy, phantom.field(), {-4.0, 0.0, -1.0});
+  for (int tick = 0; tick < 400; ++tick) {
+    const glm::dvec3 hand(-4.0 + 0.02 * tick, 0.0, -1.0);
+    const Proxy::Held held = proxy.follow(phantom.field(), {hand}, kRadius_mm);
+    if (tick < 5) continue;
+    // Straight above the hand, so the force has no drag to it.
+    EXPECT_NEAR(held.proxy_P.mm.x, hand.x, 0.02);
+    EXPECT_NEAR(held.proxy_P.mm.z, 1.0, 0.02);
+    EXPECT_LT(std::abs(heldForce_N(held, kLaw, {}).xyz.x), 0.02);
+  }
+}
+
+TEST(Proxy, HoldsAtAThinPlate) {
+  // 0.6 mm of bone, pushed through at 0.5 m/s and at a crawl.
+  for (double R : {1.0, 2.0, 4.0})
+    for (double speed_mm_per_s : {5.0, 500.0}) {
+      const Phantom phantom = filled(
+          R + 2.0, 0.2, [](const glm::dvec3& p) { return std::abs(p.z) - 0.3; }, glm::dvec3(0.03));
+      Proxy proxy;
+      const double start = R + 0.5;
+      const int ticks = static_cast<int>((start + 1.0) / speed_mm_per_s * 1000.0);
+      for (int tick = 0; tick <= ticks + 50; ++tick) {
+        const double z = std::max(start - speed_mm_per_s * 1e-3 * tick, -1.0);
+        const Proxy::Held held = proxy.follow(phantom.field(), {{0.0, 0.0, z}}, R);
+        ASSERT_GT(held.proxy_P.mm.z, 0.2 * R) << "R " << R << " at " << speed_mm_per_s << " mm/s, hand at " << z;
+      }
+    }
+}
+
+TEST(Proxy, HoldsAFastHandBackAtTheSurface) {
+  const Phantom phantom = halfSpace(6.0, 0.2);
+  Proxy proxy;
+  for (double z = 6.0; z > -3.0; z -= 0.5) {
+    const Proxy::Held held = proxy.follow(phantom.field(), {{0.0, 0.1 * z, z}}, 1.0);
+    EXPECT_GT(held.proxy_P.mm.z, 0.3);
+  }
+}
+
+TEST(Proxy, GlidesToTheHandWhenTheBoneIsCutAway) {
+  Phantom phantom = halfSpace(5.0, 0.2);
+  Proxy proxy;
+  glm::dvec3 last(0.0);
+  for (int tick = 0; tick < 50; ++tick) last = forceAt(proxy, phantom.field(), {0.0, 0.0, 0.0});
+  // The surface sinks by 2 micrometres a tick, as under a turning bur.
+  for (int tick = 0; tick < 1200; ++tick) {
+    const double level = -0.002 * tick;
+    if (tick % 5 == 0) phantom = filled(5.0, 0.2, [=](const glm::dvec3& p) { return p.z - level; });
+    const glm::dvec3 force = forceAt(proxy, phantom.field(), {0.0, 0.0, 0.0});
+    EXPECT_LT(glm::length(force - last), 0.05);
+    last = force;
+  }
+  EXPECT_LT(glm::length(last), 0.01);
+}
+
+TEST(Proxy, DoesNotBuzzInASlotNarrowerThanTheBur) {
+  for (double tight : {0.02, 0.1, 0.3}) {
+    const double half = kRadius_mm - tight;
+    const Phantom phantom = filled(4.0, 0.2, [=](const glm::dvec3& p) { return half - std::abs(p.y); });
+    Proxy proxy;
+    glm::dvec3 last = forceAt(proxy, phantom.field(), {0.03, -0.2, 0.02});
+    EXPECT_GT(last.y, 0.02);
+    for (int step = 1; step <= 400; ++step) {
+      const glm::dvec3 force = forceAt(proxy, phantom.field(), {0.03, -0.2 + 0.001 * step, 0.02});
+      EXPECT_LT(glm::length(force - last), 0.008) << tight;
+      last = force;
+    }
+    EXPECT_LT(last.y, -0.02);
+  }
+}
+
+TEST(Proxy, StaysFiniteAndContinuousInARandomWalkThroughRandomBone) {
+  std::mt19937 random(23);
+  std::normal_distribution<double> step(0.0, 0.02);
+  const Phantom phantom = filled(5.0, 0.25, [](const glm::dvec3& p) {
+    return std::sin(1.3 * p.x) + std::sin(1.7 * p.y) + std::sin(1.1 * p.z) + 0.5;
+  });
+  Proxy proxy;
+  glm::dvec3 hand(0.0, 0.0, 4.0);
+  for (int tick = 0; tick < 5000; ++tick) {
+    hand = glm::clamp(hand + glm::dvec3(step(random), step(random), step(random)), -5.0, 5.0);
+    const Proxy::Held held = proxy.follow(phantom.field(), {hand}, 0.8);
+    EXPECT_LE(held.sums, Proxy::kMostSums);
+    EXPECT_TRUE(std::isfinite(glm::length(heldForce_N(held, kLaw, {}).xyz)));
+    EXPECT_LE(glm::length(held.contact.normal_P.xyz), 1.0 + 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace haptics

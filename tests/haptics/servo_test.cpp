@@ -1,0 +1,211 @@
+#include "haptics/servo/servo.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+#include <random>
+
+#include "haptics/device/scripted_hand.h"
+#include "haptics/servo/tick_log.h"
+#include "tests/haptics/allocation_count.h"
+#include "tests/haptics/phantom.h"
+
+namespace haptics {
+namespace {
+
+using namespace phantom;
+
+HandSample handAt(const glm::dvec3& p, bool pedal = false) {
+  HandSample hand;
+  hand.X_PT.translation_mm = p;
+  hand.drill_pedal = pedal;
+  return hand;
+}
+
+/// A session of the scripted hand on flat bone; every tick through a log.
+std::vector<Tick> session(double seconds) {
+  CarvedBone bone = halfSpace(12.0, 0.25).bone(1);
+  Servo servo(bone);
+  TroughPlan plan;
+  plan.outward_D = {{0.0, 0.0, 1.0}};
+  plan.buccal_D = {{0.0, 1.0, 0.0}};
+  plan.bur_radius_mm = 1.5;
+  plan.clearance_mm = 2.0;
+  plan.depth_mm = 2.0;
+  ScriptedHand device(plan);
+  Command command;
+  command.bur_radius_mm = 1.5;
+  TickLog log(100'000);
+  Vector<Patient> force;
+  for (int i = 0; i < static_cast<int>(seconds * 1000.0); ++i) {
+    const HandleState state = device.exchange({force.xyz}, 1e-3);
+    HandSample hand;
+    hand.X_PT = {state.X_DH.rotation, state.X_DH.translation_mm};
+    hand.velocity_P_mm_per_s.xyz = state.velocity_D_mm_per_s.xyz;
+    hand.drill_pedal = state.pedal;
+    const Tick tick = servo.step(hand, command, 1e-3);
+    force = tick.served_force_P_N;
+    log.push(tick);
+  }
+  std::vector<Tick> ticks;
+  log.drainInto(ticks);
+  return ticks;
+}
+
+TEST(Servo, ReplaysBitForBit) {
+  const std::vector<Tick> recorded = session(1.5);
+  ASSERT_EQ(recorded.size(), 1500u);
+  CarvedBone bone = halfSpace(12.0, 0.25).bone(1);
+  Servo servo(bone);
+  Command command;
+  command.bur_radius_mm = 1.5;
+  for (const Tick& tick : recorded) {
+    const Tick again = servo.step(tick.hand, command, tick.dt_s);
+    ASSERT_EQ(again.index, tick.index);
+    ASSERT_EQ(std::memcmp(&again.law_force_P_N, &tick.law_force_P_N, sizeof tick.law_force_P_N), 0);
+    ASSERT_EQ(std::memcmp(&again.served_force_P_N, &tick.served_force_P_N, sizeof tick.served_force_P_N), 0);
+    ASSERT_EQ(std::memcmp(&again.proxy_P, &tick.proxy_P, sizeof tick.proxy_P), 0);
+    ASSERT_EQ(again.bone_digest, tick.bone_digest);
+    ASSERT_EQ(again.removed_mm3, tick.removed_mm3);
+  }
+}
+
+TEST(Servo, CutsATroughUnderTheScriptedHand) {
+  const std::vector<Tick> ticks = session(11.0);
+  double removed = 0.0, most_N = 0.0, deepest_mm = 0.0, roughest_N = 0.0;
+  glm::dvec3 last_N(0.0);
+  for (const Tick& tick : ticks) {
+    removed += tick.removed_mm3;
+    most_N = std::max(most_N, glm::length(tick.served_force_P_N.xyz));
+    if (tick.drilling) deepest_mm = std::min(deepest_mm, tick.proxy_P.mm.z - 1.5);
+    ASSERT_EQ(tick.faults, Fault::none);
+    roughest_N = std::max(roughest_N, glm::length(tick.served_force_P_N.xyz - last_N));
+    last_N = tick.served_force_P_N.xyz;
+  }
+  // A trough 8 mm long, 3 mm wide and 2 mm deep with a round floor and ends.
+  EXPECT_GT(removed, 27.0);
+  EXPECT_LT(removed, 50.0);
+  EXPECT_NEAR(deepest_mm, -1.8, 0.25);
+  EXPECT_GT(most_N, 0.05);
+  EXPECT_LT(most_N, 2.0);
+  EXPECT_LT(roughest_N, 0.1);
+}
+
+TEST(Servo, NeverServesMoreThanItsLimitsOrFasterInARandomWalk) {
+  CarvedBone bone = filled(5.0, 0.25, [](const glm::dvec3& p) {
+                      return std::sin(1.3 * p.x) + std::sin(1.7 * p.y) + std::sin(1.1 * p.z) + 0.5;
+                    }).bone(1);
+  Servo servo(bone);
+  Command command;
+  command.bur_radius_mm = 1.0;
+  command.agus.damping_Ns_per_mm = 0.001;
+  std::mt19937 random(2);
+  std::normal_distribution<double> step(0.0, 0.05);
+  glm::dvec3 hand(0.0), last(0.0);
+  for (int i = 0; i < 5000; ++i) {
+    const glm::dvec3 move(step(random), step(random), step(random));
+    hand = glm::clamp(hand + move, -6.0, 6.0);
+    HandSample sample = handAt(hand, i % 500 > 250);
+    sample.velocity_P_mm_per_s.xyz = move * 1000.0;
+    if (i % 97 == 0) sample.X_PT.translation_mm.y = std::numeric_limits<double>::quiet_NaN();
+    if (i % 211 == 0) sample.X_PT.translation_mm.x += 5000.0;
+    if (i % 307 == 0) sample.X_PT.rotation = glm::dquat(0.0, 0.0, 0.0, 0.0);
+    const Tick tick = servo.step(sample, command, 1e-3);
+    ASSERT_LE(glm::length(tick.served_force_P_N.xyz), 3.3 * (1.0 + 1e-12));
+    ASSERT_LE(glm::length(tick.served_force_P_N.xyz - last), 0.3 * (1.0 + 1e-12));
+    ASSERT_TRUE(std::isfinite(glm::length(tick.law_force_P_N.xyz)));
+    last = tick.served_force_P_N.xyz;
+  }
+}
+
+TEST(Servo, HoldsAndLetsGoWhenThePoseIsAbsurd) {
+  CarvedBone bone = halfSpace(4.0, 0.2).bone();
+  Servo servo(bone);
+  Tick tick;
+  for (int i = 0; i < 50; ++i) tick = servo.step(handAt({0.0, 0.0, 1.0}), {}, 1e-3);
+  EXPECT_NEAR(tick.served_force_P_N.xyz.z, 0.8, 0.01);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const glm::dvec3& absurd : {glm::dvec3(nan, 0.0, 0.0), glm::dvec3(0.0, 3000.0, 0.0), glm::dvec3(1e200)}) {
+    for (int i = 0; i < 20; ++i) {
+      tick = servo.step(handAt(absurd, true), {}, 1e-3);
+      EXPECT_TRUE(has(tick.faults, Fault::bad_pose));
+      EXPECT_FALSE(tick.drilling);
+      EXPECT_EQ(tick.removed_mm3, 0.0);
+    }
+    EXPECT_EQ(glm::length(tick.served_force_P_N.xyz), 0.0);
+    for (int i = 0; i < 50; ++i) tick = servo.step(handAt({0.0, 0.0, 1.0}), {}, 1e-3);
+    EXPECT_EQ(tick.faults, Fault::none);
+    EXPECT_NEAR(tick.served_force_P_N.xyz.z, 0.8, 0.01);
+  }
+}
+
+TEST(Servo, BelievesADeviceThatStaysFarAway) {
+  CarvedBone bone = halfSpace(4.0, 0.2).bone();
+  Servo servo(bone);
+  servo.step(handAt({0.0, 0.0, 50.0}), {}, 1e-3);
+  Tick tick;
+  for (int i = 0; i < 120; ++i) tick = servo.step(handAt({0.0, 0.0, 3000.0}), {}, 1e-3);
+  EXPECT_EQ(tick.faults, Fault::none);
+  EXPECT_EQ(tick.proxy_P.mm.z, 3000.0);
+}
+
+TEST(Servo, LetsGoWhenTheDeviceIsUnwell) {
+  CarvedBone bone = halfSpace(4.0, 0.2).bone();
+  Servo servo(bone);
+  HandSample hand = handAt({0.0, 0.0, 1.0});
+  for (int i = 0; i < 50; ++i) servo.step(hand, {}, 1e-3);
+  hand.device_healthy = false;
+  Tick tick;
+  for (int i = 0; i < 20; ++i) tick = servo.step(hand, {}, 1e-3);
+  EXPECT_TRUE(has(tick.faults, Fault::device));
+  EXPECT_EQ(glm::length(tick.served_force_P_N.xyz), 0.0);
+}
+
+TEST(Servo, CutsOnlyWithPedalAndPermission) {
+  CarvedBone bone = halfSpace(4.0, 0.2).bone();
+  Servo servo(bone);
+  Command off;
+  off.drill_enabled = false;
+  EXPECT_EQ(servo.step(handAt({0.0, 0.0, 1.0}, false), {}, 1e-3).removed_mm3, 0.0);
+  EXPECT_EQ(servo.step(handAt({0.0, 0.0, 1.0}, true), off, 1e-3).removed_mm3, 0.0);
+  double removed = 0.0;
+  for (int i = 0; i < 10; ++i) removed += servo.step(handAt({0.0, 0.0, 1.0}, true), {}, 1e-3).removed_mm3;
+  EXPECT_GT(removed, 0.0);
+}
+
+TEST(Servo, ObeysOnlyWhatIsSaneInACommand) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Command command;
+  command.bur_radius_mm = nan;
+  command.agus.stiffness_N_per_mm = nan;
+  command.agus.damping_Ns_per_mm = -3.0;
+  command.erosion.removal_rate_per_s = nan;
+  command.safety = {nan, nan};
+  const Command safe = sanitised(command);
+  EXPECT_EQ(safe.bur_radius_mm, Command{}.bur_radius_mm);
+  EXPECT_EQ(safe.agus.damping_Ns_per_mm, 0.0);
+  CarvedBone bone = halfSpace(4.0, 0.2).bone();
+  Servo servo(bone);
+  for (int i = 0; i < 10; ++i) {
+    const Tick tick = servo.step(handAt({0.0, 0.0, 0.0}, true), command, nan);
+    EXPECT_EQ(glm::length(tick.served_force_P_N.xyz), 0.0);
+    EXPECT_EQ(tick.removed_mm3, 0.0);
+    EXPECT_EQ(tick.dt_s, 1e-3);
+  }
+}
+
+TEST(Servo, AllocatesNothingInTenThousandTicks) {
+  CarvedBone bone = halfSpace(4.0, 0.25).bone(1);
+  Servo servo(bone);
+  TickLog log(10'000);
+  Command command;
+  command.bur_radius_mm = 1.0;
+  const std::size_t before = allocation_count::now();
+  for (int i = 0; i < 10'000; ++i)
+    log.push(servo.step(handAt({2.0 * std::sin(0.001 * i), 0.3, 0.6 - 0.0001 * i}, i > 100), command, 1e-3));
+  EXPECT_EQ(allocation_count::now(), before);
+}
+
+}  // namespace
+}  // namespace haptics
