@@ -19,7 +19,7 @@ class OffscreenContext {
   OffscreenContext(const OffscreenContext&) = delete;
   OffscreenContext& operator=(const OffscreenContext&) = delete;
 
-  /// Makes it current on the calling thread again, after another context was.
+  /// Makes it current on the calling thread, after it was current on no other or a window was opened.
   void makeCurrent();
   GlDebugLog& debugLog() { return *log_; }
 
