@@ -20,7 +20,7 @@ glm::vec4 packed(const glm::dvec3& xyz, double w = 0.0) { return {glm::vec3(xyz)
 
 }  // namespace
 
-EyeBlock eyeBlock(const Frame& frame, const EyeView& view, glm::ivec2 picture_px) {
+EyeBlock eyeBlock(const Frame& frame, const EyeView& view) {
   const calibration::Pose<Patient, World> X_PW = frame.rig.X_WP.inverse();
 
   // The lamp, a little nearer than the head's distance to the middle of the virtual screen.
@@ -40,8 +40,7 @@ EyeBlock eyeBlock(const Frame& frame, const EyeView& view, glm::ivec2 picture_px
           .lamp_axis_P = packed((X_PW * beam_W).xyz / beam_mm),
           .up_P = packed((X_PW * Vector<World>{{0.0, 1.0, 0.0}}).xyz),
           .window_eye_P = packed((X_PW * head_W).mm),
-          .window_site_P = packed(frame.site_P.mm, frame.face_window_mm),
-          .viewport = {picture_px.x, picture_px.y, 0.0f, 0.0f}};
+          .window_site_P = packed(frame.site_P.mm, frame.face_window_mm)};
 }
 
 }  // namespace render

@@ -60,7 +60,7 @@ struct FrameRenderer::Passes {
 
   EyePicture& picture(Eye eye) { return pictures[static_cast<std::size_t>(eye)]; }
   void drawEye(const Frame& frame, Eye eye, glm::ivec2 px);
-  void drawScene(const Frame& frame, Eye eye, glm::ivec2 px, int samples, Framebuffer& target);
+  void drawScene(const Frame& frame, Eye eye, Framebuffer& target);
 
   RenderOptions options;
   GlDebugLog log{false};
@@ -82,12 +82,12 @@ void FrameRenderer::Passes::drawEye(const Frame& frame, Eye eye, glm::ivec2 px) 
   to.px = px;
   to.frame = frame;
   to.drawn = true;
-  drawScene(frame, eye, px, options.samples, to.target);
+  drawScene(frame, eye, to.target);
 }
 
-void FrameRenderer::Passes::drawScene(const Frame& frame, Eye eye, glm::ivec2 px, int samples, Framebuffer& target) {
+void FrameRenderer::Passes::drawScene(const Frame& frame, Eye eye, Framebuffer& target) {
   const EyeView view = eyeView(frame.rig, eye);
-  eye_block.set(EYE_BLOCK, eyeBlock(frame, view, samples * px));
+  eye_block.set(EYE_BLOCK, eyeBlock(frame, view));
   caster.bind(volume);
   target.bind();
   target.clear();
@@ -176,7 +176,7 @@ DistancePicture FrameRenderer::readDistance(Eye eye) {
 
   // Samples lie beside the pixel's centre, where the distance is asked for: draw it there.
   Framebuffer centred(shown.px, kSceneTargets, true);
-  p.drawScene(shown.frame, eye, shown.px, 1, centred);
+  p.drawScene(shown.frame, eye, centred);
   return read(centred);
 }
 

@@ -12,7 +12,6 @@ layout(std140, binding = EYE_BLOCK) uniform EyeBlock {
   vec4 up_P;             // unit, away from the floor
   vec4 window_eye_P;     // the window in the face: around the line from here …
   vec4 window_site_P;    // … to here; w: its radius, 0 for none
-  vec4 viewport;         // x, y: size in px
 } eye;
 
 // Unit direction from the eye through a place on the picture, 0..1 from its lower left.

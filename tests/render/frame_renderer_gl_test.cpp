@@ -274,6 +274,22 @@ TEST(FrameRenderer, TransparentPartsLetTheBoneThroughAndKeepItsDistance) {
   EXPECT_EQ(renderer.readDistance(Eye::left).mm, bare_distance.mm);
 }
 
+TEST(FrameRenderer, TransparentPartsBehindTheBoneStayHidden) {
+  const OffscreenContext context;
+  const assets::CtVolume ct = ballVolume(smallGrid(), {{{0, 0, 0}, 9.0}});
+  FrameRenderer renderer(ct.grid, ct.solid, ct.label);
+  const Frame frame = frameFor(cameraRig({.eye_P_mm = {0, -250, 0}, .fov_y_rad = 0.17}, {160, 120}));
+  const auto seenWith = [&](double y_mm) {
+    renderer.setGum(sphereMesh({{0, y_mm, 0}, 2.0}, {0.1f, 0.2f, 0.9f, 0.5f}));
+    renderer.renderEye(frame, Eye::cyclopean);
+    return renderer.readEye(Eye::cyclopean);
+  };
+  // At the same place in the picture: a millimetre before the surface, a millimetre behind it, far behind it.
+  const Picture before = seenWith(-12.0), just_behind = seenWith(-6.0), behind = seenWith(40.0);
+  EXPECT_GT(pixelsThatDiffer(before, behind, 16), 100u);
+  EXPECT_LT(pixelsThatDiffer(just_behind, behind, 16), 10u);
+}
+
 TEST(FrameRenderer, SupersamplingSmoothsEdgesButMovesNoDistance) {
   const OffscreenContext context;
   const assets::CtVolume ct = ballVolume(smallGrid(), {{{0, 0, 0}, 8.0}});

@@ -83,6 +83,7 @@ TEST(Occupancy, BrickUpdatesEqualARebuild) {
       for (int j = 0; j < updated.bricks().y; ++j)
         for (int i = 0; i < updated.bricks().x; ++i) {
           const std::vector<std::uint8_t> values = brickOf(after, {i, j, k});
+          if (values == brickOf(before, {i, j, k})) continue;
           updated.updateBrick({i, j, k}, std::span<const std::uint8_t, 512>(values));
         }
     updated.rebuildIfStale();
