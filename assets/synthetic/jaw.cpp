@@ -1,0 +1,164 @@
+#include "assets/synthetic/jaw.h"
+
+#include <tbb/blocked_range3d.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string_view>
+
+#include "assets/load_error.h"
+#include "assets/solid_fraction.h"
+#include "assets/synthetic/jaw_anatomy.h"
+#include "assets/synthetic/scanner.h"
+
+namespace assets {
+namespace {
+
+// The scanned box in J; the segment's bone keeps 3 mm of air all round.
+constexpr LatticeBox kScanBox{{4.0, 0.5, -43.25}, {49.3, 69.5, 12.75}};
+
+void require(bool fine, std::string_view what, double value, std::string_view range) {
+  if (fine) return;
+  std::ostringstream line;
+  line << "synthetic jaw: " << what << ' ' << value << " is out of range; give " << range;
+  throw LoadError(line.str());
+}
+
+void validate(const JawParameters& p) {
+  const auto within = [](double value, double low, double high) { return value >= low && value <= high; };
+  require(within(p.winter_angle_deg, -79.0, 100.0), "Winter angle in degrees", p.winter_angle_deg, "-79 to 100");
+  require(within(p.depth_mm, 0.0, 8.0), "depth in mm", p.depth_mm, "0 to 8");
+  require(within(p.canal_distance_mm, 0.3, 6.0), "canal distance in mm", p.canal_distance_mm, "0.3 to 6");
+  require(within(p.spacing_mm, 0.15, 1.0), "voxel size in mm", p.spacing_mm, "0.15 to 1");
+}
+
+std::string_view winterClass(double angle_deg) {
+  if (angle_deg <= -10.5) return "disto-angular";
+  if (angle_deg < 10.5) return "vertical";
+  return angle_deg < 79.5 ? "mesio-angular" : "horizontal";
+}
+
+std::string titleOf(const JawParameters& p) {
+  std::ostringstream title;
+  title << "built-in patient, " << (p.right_side ? "right" : "left") << ", " << winterClass(p.winter_angle_deg) << ' '
+        << std::lround(p.winter_angle_deg) << " deg";
+  return title.str();
+}
+
+AnatomyParameters anatomyOf(const JawParameters& p) {
+  return {p.winter_angle_deg, p.depth_mm, p.canal_distance_mm, p.seed};
+}
+
+/// J to P and back: the right side is mirrored.
+glm::dvec3 mirrored(const glm::dvec3& v, bool right_side) { return {right_side ? -v.x : v.x, v.y, v.z}; }
+
+VolumeGrid gridOf(const JawParameters& p) {
+  VolumeGrid grid;
+  grid.spacing_mm = p.spacing_mm;
+  grid.size = glm::ivec3(glm::ceil((kScanBox.high_mm - kScanBox.low_mm) / p.spacing_mm));
+  const double width_mm = p.spacing_mm * (grid.size.x - 1);
+  grid.origin_P_mm = kScanBox.low_mm;
+  if (p.right_side) grid.origin_P_mm.x = -(kScanBox.low_mm.x + width_mm);
+  return grid;
+}
+
+/// Scans brick by brick; bricks that no tissue reaches get air and noise.
+void scan(const JawAnatomy& anatomy, const JawParameters& p, CtVolume& ct) {
+  const glm::ivec3 size = ct.grid.size;
+  const double edge_mm = edgeSpread_mm(p.spacing_mm);
+  const TrabecularTexture texture(p.seed + 100, edge_mm);
+  const double air_hu = properties(0).hounsfield;
+  const double brick_radius_mm = 0.5 * std::sqrt(3.0) * kBrickVoxels * p.spacing_mm;
+
+  const auto scan_brick = [&](glm::ivec3 brick) {
+    const glm::ivec3 low = brick * kBrickVoxels, high = glm::min(low + kBrickVoxels, size);
+    const glm::dvec3 middle_J =
+        kScanBox.low_mm + p.spacing_mm * (glm::dvec3(low) + 0.5 * static_cast<double>(kBrickVoxels - 1));
+    const Nearby nearby = anatomy.nearby(middle_J, brick_radius_mm);
+    for (int k = low.z; k < high.z; ++k)
+      for (int j = low.y; j < high.y; ++j)
+        for (int i = low.x; i < high.x; ++i) {
+          // Noise belongs to the voxel's place in J, so that the sides mirror each other exactly.
+          const std::uint64_t place = (static_cast<std::uint64_t>(k) << 42) | (static_cast<std::uint64_t>(j) << 21) |
+                                      static_cast<std::uint64_t>(i);
+          double grey_hu = air_hu;
+          const std::size_t voxel = ct.grid.index({p.right_side ? size.x - 1 - i : i, j, k});
+          if (nearby.anything) {
+            const glm::dvec3 p_J = kScanBox.low_mm + p.spacing_mm * glm::dvec3(i, j, k);
+            const TissueDistances distances = anatomy.at(p_J, nearby);
+            ct.label[voxel] = static_cast<std::uint8_t>(tissueAt(distances));
+            grey_hu = greyValue_hu(distances, p_J, texture, edge_mm);
+          }
+          ct.hounsfield[voxel] = static_cast<std::int16_t>(std::lround(grey_hu + scannerNoise_hu(p.seed, place)));
+        }
+  };
+
+  const glm::ivec3 bricks = ct.grid.bricks();
+  tbb::parallel_for(tbb::blocked_range3d<int>(0, bricks.z, 0, bricks.y, 0, bricks.x), [&](const auto& range) {
+    for (int z = range.pages().begin(); z < range.pages().end(); ++z)
+      for (int y = range.rows().begin(); y < range.rows().end(); ++y)
+        for (int x = range.cols().begin(); x < range.cols().end(); ++x) scan_brick({x, y, z});
+  });
+}
+
+OperatingSite siteOf(const CtVolume& ct, const JawAnatomy& anatomy, bool right_side) {
+  OperatingSite site;
+  glm::dvec3 sum(0.0);
+  double count = 0.0;
+  std::size_t voxel = 0;
+  for (int k = 0; k < ct.grid.size.z; ++k)
+    for (int j = 0; j < ct.grid.size.y; ++j)
+      for (int i = 0; i < ct.grid.size.x; ++i, ++voxel) {
+        const auto tissue = static_cast<Tissue>(ct.label[voxel]);
+        if (tissue != Tissue::enamel && tissue != Tissue::dentine) continue;
+        sum += glm::dvec3(i, j, k);
+        count += 1.0;
+      }
+  site.known = count > 0.0;
+  site.tooth_fdi = right_side ? 48 : 38;
+  if (site.known) site.third_molar_P_mm = ct.grid.origin_P_mm + ct.grid.spacing_mm * sum / count;
+  site.crown_direction_P = mirrored(anatomy.thirdMolar().axes_J[2], right_side);
+  return site;
+}
+
+}  // namespace
+
+Patient syntheticJaw(const JawParameters& parameters) {
+  validate(parameters);
+  const JawAnatomy anatomy(anatomyOf(parameters));
+
+  Patient patient;
+  patient.title = titleOf(parameters);
+  patient.ct.grid = gridOf(parameters);
+  patient.ct.hounsfield.resize(patient.ct.grid.voxelCount());
+  patient.ct.label.resize(patient.ct.grid.voxelCount());
+  scan(anatomy, parameters, patient.ct);
+  patient.ct.solid = classify(patient.ct.grid, patient.ct.hounsfield, patient.classification);
+
+  patient.site = siteOf(patient.ct, anatomy, parameters.right_side);
+  patient.canal_radius_mm = CanalPath::kRadius_mm;
+  for (const glm::dvec3& p_J : anatomy.canal().points_J_mm())
+    patient.canal_P_mm.push_back(mirrored(p_J, parameters.right_side));
+  return patient;
+}
+
+JawLandmarks syntheticLandmarks(const JawParameters& parameters) {
+  validate(parameters);
+  const DentalArch arch;
+  JawLandmarks landmarks;
+  for (int position = 1; position <= 7; ++position) {
+    const ArchStation station = arch.stationAt(alongOfTooth_mm(position));
+    const glm::dvec3 crown_J(station.centre_mm, -0.5 * crownHeightOfTooth_mm(position));
+    landmarks.lower_teeth.push_back({40 + position, mirrored(crown_J, true)});
+    landmarks.lower_teeth.push_back({30 + position, crown_J});
+  }
+  const PlacedTooth third =
+      impactedThirdMolar(arch, eruptedTooth(arch, 7), parameters.winter_angle_deg, parameters.depth_mm);
+  const glm::dvec3 crown_J = third.inJaw({0.0, 0.0, 0.5 * third.shape.form().crownHeight_mm()});
+  landmarks.lower_teeth.push_back({parameters.right_side ? 48 : 38, mirrored(crown_J, parameters.right_side)});
+  return landmarks;
+}
+
+}  // namespace assets

@@ -1,0 +1,272 @@
+#include "assets/synthetic/jaw.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "assets/load_error.h"
+#include "assets/synthetic/scanner.h"
+#include "calibration/geometry/units.h"
+
+namespace assets {
+namespace {
+
+constexpr double kTestSpacing_mm = 0.4;
+
+/// One jaw of each kind is made once and shared: making it is what costs.
+const Patient& standardJaw() {
+  static const Patient patient = syntheticJaw({.spacing_mm = kTestSpacing_mm});
+  return patient;
+}
+
+struct TissueCount {
+  std::array<double, kTissueCount> volume_mm3{};
+  std::array<double, kTissueCount> mean_hu{};
+};
+
+TissueCount countTissues(const CtVolume& ct) {
+  TissueCount count;
+  std::array<double, kTissueCount> voxels{};
+  for (std::size_t n = 0; n < ct.label.size(); ++n) {
+    voxels[ct.label[n]] += 1.0;
+    count.mean_hu[ct.label[n]] += ct.hounsfield[n];
+  }
+  for (std::size_t t = 0; t < voxels.size(); ++t) {
+    count.mean_hu[t] /= std::max(voxels[t], 1.0);
+    count.volume_mm3[t] = voxels[t] * ct.grid.voxelVolume_mm3();
+  }
+  return count;
+}
+
+double volumeOf(const TissueCount& count, Tissue tissue) { return count.volume_mm3[static_cast<std::size_t>(tissue)]; }
+
+template <class Visit>
+void forEachVoxel(const CtVolume& ct, Visit visit) {
+  std::size_t n = 0;
+  for (int k = 0; k < ct.grid.size.z; ++k)
+    for (int j = 0; j < ct.grid.size.y; ++j)
+      for (int i = 0; i < ct.grid.size.x; ++i, ++n) visit(glm::ivec3(i, j, k), n);
+}
+
+bool isThirdMolar(std::uint8_t label) {
+  const auto tissue = static_cast<Tissue>(label);
+  return tissue == Tissue::enamel || tissue == Tissue::dentine || tissue == Tissue::pulp;
+}
+
+/// Long axis of the third molar: principal axis of its voxels by power iteration, towards its enamel.
+glm::dvec3 longAxisOfThirdMolar(const CtVolume& ct) {
+  glm::dvec3 mean(0.0), enamel(0.0);
+  double count = 0.0, enamel_count = 0.0;
+  forEachVoxel(ct, [&](glm::ivec3 ijk, std::size_t n) {
+    if (!isThirdMolar(ct.label[n])) return;
+    mean += glm::dvec3(ijk);
+    count += 1.0;
+    if (ct.label[n] != static_cast<std::uint8_t>(Tissue::enamel)) return;
+    enamel += glm::dvec3(ijk);
+    enamel_count += 1.0;
+  });
+  mean /= count;
+  enamel /= enamel_count;
+  glm::dmat3 covariance(0.0);
+  forEachVoxel(ct, [&](glm::ivec3 ijk, std::size_t n) {
+    if (isThirdMolar(ct.label[n])) covariance += glm::outerProduct(glm::dvec3(ijk) - mean, glm::dvec3(ijk) - mean);
+  });
+  glm::dvec3 axis = glm::normalize(enamel - mean);
+  for (int step = 0; step < 200; ++step) axis = glm::normalize(covariance * axis);
+  return glm::dot(axis, enamel - mean) > 0.0 ? axis : -axis;
+}
+
+/// Angle in the sagittal plane of the arch at the third molar, crown to mesial positive; the second molar stands
+/// upright.
+double measuredWinterAngle_deg(const Patient& patient) {
+  const glm::dvec3 axis = longAxisOfThirdMolar(patient.ct);
+  const double outward = patient.site.tooth_fdi == 48 ? -1.0 : 1.0;
+  const glm::dvec3 mesial = glm::normalize(glm::dvec3(-0.26 * outward, -1.0, 0.0));
+  return calibration::degreesFromRad(std::atan2(glm::dot(axis, mesial), axis.z));
+}
+
+double thirdMolarToCanal_mm(const Patient& patient) {
+  double least_mm = 1e9;
+  const CtVolume& ct = patient.ct;
+  forEachVoxel(ct, [&](glm::ivec3 ijk, std::size_t n) {
+    if (!isThirdMolar(ct.label[n])) return;
+    for (const glm::dvec3& p : patient.canal_P_mm)
+      least_mm = std::min(least_mm, glm::distance(p, ct.grid.centre_P_mm(ijk)) - patient.canal_radius_mm);
+  });
+  return least_mm;
+}
+
+TEST(SyntheticJaw, HoldsEveryTissueInPlausibleAmounts) {
+  const TissueCount count = countTissues(standardJaw().ct);
+  // A real third molar: enamel 272, dentine 446, pulp 103 mm3.
+  EXPECT_NEAR(volumeOf(count, Tissue::enamel), 272.0, 60.0);
+  EXPECT_NEAR(volumeOf(count, Tissue::dentine), 446.0, 80.0);
+  EXPECT_NEAR(volumeOf(count, Tissue::pulp), 103.0, 35.0);
+  EXPECT_NEAR(volumeOf(count, Tissue::canal), 400.0, 120.0);
+  EXPECT_NEAR(volumeOf(count, Tissue::other_teeth), 2700.0, 500.0);
+  EXPECT_GT(volumeOf(count, Tissue::ligament), 200.0);
+  EXPECT_GT(volumeOf(count, Tissue::cortical), 5000.0);
+  EXPECT_GT(volumeOf(count, Tissue::trabecular), 5000.0);
+  EXPECT_GT(volumeOf(count, Tissue::gingiva), 2000.0);
+}
+
+TEST(SyntheticJaw, ShowsEachTissueInItsGreyValue) {
+  // Deep voxels only: the point spread mixes the rims.
+  const CtVolume& ct = standardJaw().ct;
+  std::map<Tissue, std::pair<double, double>> sum;
+  forEachVoxel(ct, [&](glm::ivec3 ijk, std::size_t n) {
+    for (int axis = 0; axis < 3; ++axis)
+      for (const int side : {-1, 1}) {
+        glm::ivec3 beside = ijk;
+        beside[axis] += side;
+        if (!ct.grid.contains(beside) || ct.label[ct.grid.index(beside)] != ct.label[n]) return;
+      }
+    auto& [total, voxels] = sum[static_cast<Tissue>(ct.label[n])];
+    total += ct.hounsfield[n];
+    voxels += 1.0;
+  });
+  for (const Tissue tissue : {Tissue::unlabelled, Tissue::cortical, Tissue::enamel, Tissue::dentine, Tissue::canal,
+                              Tissue::gingiva, Tissue::trabecular}) {
+    const auto [total, voxels] = sum[tissue];
+    ASSERT_GT(voxels, 20.0);
+    const TissueProperties& expected = properties(static_cast<std::uint8_t>(tissue));
+    EXPECT_NEAR(total / voxels, expected.hounsfield, 60.0) << expected.name;
+  }
+}
+
+TEST(SyntheticJaw, TurnsTheThirdMolarByTheWinterAngle) {
+  EXPECT_NEAR(measuredWinterAngle_deg(standardJaw()), 45.0, 5.0);
+  for (const double angle_deg : {0.0, 25.0, 70.0, 90.0, -30.0}) {
+    const Patient patient = syntheticJaw({.winter_angle_deg = angle_deg, .canal_distance_mm = 1.0, .spacing_mm = 0.6});
+    EXPECT_NEAR(measuredWinterAngle_deg(patient), angle_deg, 5.0);
+  }
+}
+
+TEST(SyntheticJaw, PutsTheCrownAtItsDepth) {
+  for (const double depth_mm : {1.0, 5.0}) {
+    const Patient patient = syntheticJaw({.depth_mm = depth_mm, .canal_distance_mm = 1.0, .spacing_mm = 0.5});
+    double top_mm = -1e9;
+    forEachVoxel(patient.ct, [&](glm::ivec3 ijk, std::size_t n) {
+      if (isThirdMolar(patient.ct.label[n])) top_mm = std::max(top_mm, patient.ct.grid.centre_P_mm(ijk).z);
+    });
+    EXPECT_NEAR(top_mm, -depth_mm, 0.5);
+  }
+}
+
+TEST(SyntheticJaw, KeepsTheWantedDistanceToTheCanal) {
+  for (const double distance_mm : {0.5, 2.0, 3.5}) {
+    const Patient patient = syntheticJaw({.canal_distance_mm = distance_mm, .spacing_mm = 0.4});
+    EXPECT_NEAR(thirdMolarToCanal_mm(patient), distance_mm, 0.4);
+  }
+}
+
+TEST(SyntheticJaw, RunsTheCanalLineInsideTheCanal) {
+  const Patient& patient = standardJaw();
+  int inside = 0;
+  for (const glm::dvec3& p : patient.canal_P_mm) {
+    const glm::ivec3 ijk(glm::round(patient.ct.grid.indexFromPoint(p)));
+    if (!patient.ct.grid.contains(ijk)) continue;
+    const auto tissue = static_cast<Tissue>(patient.ct.label[patient.ct.grid.index(ijk)]);
+    // Beyond the saw cut behind there is air.
+    if (tissue == Tissue::unlabelled && p.y > 65.0) continue;
+    EXPECT_EQ(tissue, Tissue::canal) << p.x << ' ' << p.y << ' ' << p.z;
+    ++inside;
+  }
+  EXPECT_GT(inside, 100);
+}
+
+TEST(SyntheticJaw, LeavesAirAllRoundTheBone) {
+  const CtVolume& ct = standardJaw().ct;
+  glm::ivec3 low = ct.grid.size, high(0);
+  forEachVoxel(ct, [&](glm::ivec3 ijk, std::size_t n) {
+    if (ct.label[n] == 0) return;
+    low = glm::min(low, ijk);
+    high = glm::max(high, ijk);
+  });
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_GE(low[axis] * kTestSpacing_mm, 3.0) << axis;
+    EXPECT_GE((ct.grid.size[axis] - 1 - high[axis]) * kTestSpacing_mm, 3.0) << axis;
+  }
+}
+
+TEST(SyntheticJaw, MirrorsTheLeftSideExactly) {
+  const Patient left = syntheticJaw({.right_side = false, .spacing_mm = 0.6});
+  const Patient right = syntheticJaw({.right_side = true, .spacing_mm = 0.6});
+  const VolumeGrid& grid = left.ct.grid;
+  std::size_t different = 0;
+  forEachVoxel(left.ct, [&](glm::ivec3 ijk, std::size_t n) {
+    const std::size_t mirror = grid.index({grid.size.x - 1 - ijk.x, ijk.y, ijk.z});
+    if (left.ct.label[n] != right.ct.label[mirror] || left.ct.hounsfield[n] != right.ct.hounsfield[mirror]) ++different;
+  });
+  EXPECT_EQ(different, 0u);
+  EXPECT_EQ(left.site.tooth_fdi, 38);
+  EXPECT_EQ(right.site.tooth_fdi, 48);
+  EXPECT_GT(left.site.third_molar_P_mm.x, 0.0);
+  EXPECT_NEAR(left.site.third_molar_P_mm.x, -right.site.third_molar_P_mm.x, 1e-9);
+  EXPECT_NEAR(left.canal_P_mm[50].x, -right.canal_P_mm[50].x, 1e-12);
+}
+
+TEST(SyntheticJaw, IsTheSameForTheSameSeedAndAnotherForAnother) {
+  const Patient first = syntheticJaw({.spacing_mm = 0.8, .seed = 5});
+  const Patient again = syntheticJaw({.spacing_mm = 0.8, .seed = 5});
+  const Patient other = syntheticJaw({.spacing_mm = 0.8, .seed = 6});
+  EXPECT_EQ(first.ct.hounsfield, again.ct.hounsfield);
+  EXPECT_EQ(first.ct.label, again.ct.label);
+  EXPECT_EQ(first.ct.solid, again.ct.solid);
+  EXPECT_NE(first.ct.hounsfield, other.ct.hounsfield);
+}
+
+TEST(SyntheticJaw, HasTheSameVolumesAtEveryVoxelSize) {
+  const TissueCount fine = countTissues(syntheticJaw({.spacing_mm = 0.3}).ct);
+  const TissueCount coarse = countTissues(syntheticJaw({.spacing_mm = 0.5}).ct);
+  for (const Tissue tissue : {Tissue::cortical, Tissue::trabecular, Tissue::other_teeth, Tissue::enamel,
+                              Tissue::dentine, Tissue::pulp, Tissue::canal, Tissue::gingiva})
+    EXPECT_NEAR(volumeOf(coarse, tissue) / volumeOf(fine, tissue), 1.0, 0.03)
+        << properties(static_cast<std::uint8_t>(tissue)).name;
+}
+
+TEST(SyntheticJaw, PointsTheSiteAtTheThirdMolar) {
+  const Patient& patient = standardJaw();
+  EXPECT_TRUE(patient.site.known);
+  const glm::dvec3 axis = longAxisOfThirdMolar(patient.ct);
+  EXPECT_GT(glm::dot(axis, patient.site.crown_direction_P), std::cos(calibration::radFromDegrees(8.0)));
+  const glm::ivec3 ijk(glm::round(patient.ct.grid.indexFromPoint(patient.site.third_molar_P_mm)));
+  EXPECT_TRUE(isThirdMolar(patient.ct.label[patient.ct.grid.index(ijk)]));
+}
+
+TEST(SyntheticJaw, NamesTheParameterThatIsOutOfRange) {
+  const auto messageOf = [](const JawParameters& parameters) -> std::string {
+    try {
+      syntheticJaw(parameters);
+    } catch (const LoadError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(messageOf({.winter_angle_deg = 200.0}).find("Winter angle"), std::string::npos);
+  EXPECT_NE(messageOf({.depth_mm = -4.0}).find("depth"), std::string::npos);
+  EXPECT_NE(messageOf({.canal_distance_mm = 0.0}).find("canal distance"), std::string::npos);
+  EXPECT_NE(messageOf({.spacing_mm = std::nan("")}).find("voxel size"), std::string::npos);
+  EXPECT_NE(messageOf({.winter_angle_deg = 0.0, .depth_mm = 8.0, .canal_distance_mm = 6.0}).find("does not fit"),
+            std::string::npos);
+}
+
+TEST(SyntheticLandmarks, LieInTheCrowns) {
+  const JawLandmarks landmarks = syntheticLandmarks({});
+  const CtVolume& ct = standardJaw().ct;
+  EXPECT_EQ(landmarks.lower_teeth.size(), 15u);
+  for (const ToothLandmark& tooth : landmarks.lower_teeth) {
+    if (tooth.fdi < 44) continue;
+    const glm::ivec3 ijk(glm::round(ct.grid.indexFromPoint(tooth.centroid_P_mm)));
+    const std::uint8_t label = ct.label[ct.grid.index(ijk)];
+    EXPECT_TRUE(tooth.fdi == 48 ? isThirdMolar(label) : label == static_cast<std::uint8_t>(Tissue::other_teeth))
+        << tooth.fdi;
+  }
+}
+
+}  // namespace
+}  // namespace assets
