@@ -20,6 +20,11 @@ constexpr std::uint64_t mixed(std::uint64_t x) {
 constexpr double kPerWord = 1.0 / 4294967296.0;
 constexpr std::uint64_t kGoldenRatio = 0x9E3779B97F4A7C15u;
 
+/// One voxel's part of the bone's digest.
+std::uint64_t stateDigest(std::size_t voxel, std::uint32_t solid, std::uint32_t reach, std::uint32_t dose) {
+  return mixed((static_cast<std::uint64_t>(voxel) << 32) ^ ((solid << 24) | (reach << 16) | dose));
+}
+
 }  // namespace
 
 CarvedBone::CarvedBone(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid,
@@ -33,43 +38,36 @@ CarvedBone::CarvedBone(const assets::VolumeGrid& grid, std::span<const std::uint
       dirty_(grid.bricks()) {
   assert(solid.size() == grid.voxelCount());
   assert(label.empty() || label.size() == grid.voxelCount());
-  for (std::size_t voxel = 0; voxel < solid_.size(); ++voxel) digest_ += digestOf(voxel);
+  for (std::size_t voxel = 0; voxel < solid_.size(); ++voxel) digest_ += stateDigest(voxel, solid_[voxel], 0, 0);
 }
 
 int CarvedBone::remove(std::size_t voxel, double coverage, double loss, std::uint64_t tick) {
-  if (solid_[voxel] == 0) return 0;
-  const std::uint64_t hash = mixed(voxel + 1);
-  const std::uint64_t before = digestOf(voxel);
+  const std::uint8_t before = solid_[voxel];
+  if (before == 0) return 0;
 
   // A bur reaches no further into a voxel than it has ever covered of it.
   const auto covered = static_cast<std::uint8_t>(std::clamp(coverage, 0.0, 1.0) * 255.0 + 0.5);
-  const std::uint8_t reach = std::max(reach_[voxel], covered);
-  const std::uint32_t dose = dose_[voxel];
-  const std::uint32_t cap = std::max(dose, reach * kDosePerReach);
+  const std::uint8_t old_reach = reach_[voxel], reach = std::max(old_reach, covered);
+  const std::uint32_t dose = dose_[voxel], cap = std::max(dose, reach * kDosePerReach);
+  if (cap == dose) return 0;
 
   // Golden-ratio steps from a start of the voxel's own: the rounded sum stays within a few steps of the true one.
+  const std::uint64_t hash = mixed(voxel + 1);
   const double dither = static_cast<double>((hash + tick * kGoldenRatio) >> 32) * kPerWord;
   const auto step = static_cast<std::uint32_t>(std::clamp(loss, 0.0, 1.0) * kFullDose + dither);
   const std::uint32_t new_dose = std::min(dose + step, cap);
-  if (new_dose == dose && reach == reach_[voxel]) return 0;
+  if (new_dose == dose && reach == old_reach) return 0;
 
   // What is left, rounded at the voxel's own threshold: never rises again, and right on average over voxels.
-  const std::uint32_t left =
-      first_solid_[voxel] * (kFullDose - new_dose) + static_cast<std::uint32_t>(hash & 0xFFFF) % kFullDose;
-  const auto solid = static_cast<std::uint8_t>(left / kFullDose);
-  const int removed = solid_[voxel] - solid;
+  const std::uint32_t threshold = static_cast<std::uint32_t>(hash & 0xFFFF) % kFullDose;
+  const std::uint32_t left = first_solid_[voxel] * (kFullDose - new_dose) + threshold;
+  const auto after = static_cast<std::uint8_t>(left / kFullDose);
 
   dose_[voxel] = static_cast<std::uint16_t>(new_dose);
   reach_[voxel] = reach;
-  if (removed != 0) std::atomic_ref<std::uint8_t>(solid_[voxel]).store(solid, std::memory_order_relaxed);
-  digest_ += digestOf(voxel) - before;
-  return removed;
-}
-
-std::uint64_t CarvedBone::digestOf(std::size_t voxel) const {
-  const std::uint64_t state =
-      (std::uint64_t{solid_[voxel]} << 24) | (std::uint64_t{reach_[voxel]} << 16) | dose_[voxel];
-  return mixed((static_cast<std::uint64_t>(voxel) << 32) ^ state);
+  if (after != before) std::atomic_ref<std::uint8_t>(solid_[voxel]).store(after, std::memory_order_relaxed);
+  digest_ += stateDigest(voxel, after, reach, new_dose) - stateDigest(voxel, before, old_reach, dose);
+  return before - after;
 }
 
 void CarvedBone::copyBrick(glm::ivec3 brick, std::span<std::uint8_t, 512> solid_out) const {

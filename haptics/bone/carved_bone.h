@@ -46,8 +46,6 @@ class CarvedBone {
   void copyBrick(glm::ivec3 brick, std::span<std::uint8_t, 512> solid_out) const;
 
  private:
-  std::uint64_t digestOf(std::size_t voxel) const;
-
   assets::VolumeGrid grid_;
   std::vector<std::uint8_t> solid_, first_solid_, label_, reach_;
   std::vector<std::uint16_t> dose_;

@@ -45,6 +45,8 @@ Proxy::Held Proxy::follow(const SolidField& field, const calibration::Point<Pati
                           double radius_mm) noexcept {
   // A step is short enough that no plate fits between two looks; a miss of a micrometre is not worth another look.
   const double longest_mm = 0.5 * radius_mm, enough_mm = 1e-3;
+  // Where one look is dear there are fewer: the proxy goes on in the next tick.
+  const int most_sums = radius_mm > 25.0 * field.grid.spacing_mm ? kMostSums / 2 : kMostSums;
   const double deepest_mm = deepestPureContact_mm(radius_mm);
 
   if (!placed_) {
@@ -54,7 +56,7 @@ Proxy::Held Proxy::follow(const SolidField& field, const calibration::Point<Pati
   }
   // The first step trusts what the last tick saw; every later one, and the force, what is there now.
   Held held;
-  while (held.sums < kMostSums) {
+  while (held.sums < most_sums) {
     glm::dvec3 move = allowed(hand_P.mm - proxy_P_.mm, contact_, deepest_mm);
     const double length = glm::length(move);
     if (held.sums > 0 && length <= enough_mm) break;
