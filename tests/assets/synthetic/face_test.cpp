@@ -1,0 +1,122 @@
+#include "assets/synthetic/face.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "assets/load_error.h"
+#include "assets/synthetic/mouth_interior.h"
+
+namespace assets {
+namespace {
+
+constexpr double kCoarse_mm = 2.0;
+constexpr glm::dvec3 kThirdMolar38_mm{26.0, 38.0, -5.0};
+
+const MeshModel& leftFace() {
+  static const MeshModel model = syntheticFace({.tooth_fdi = 38, .voxel_mm = kCoarse_mm});
+  return model;
+}
+
+// Distance along a ray to the nearest triangle, infinite if it is free (Moeller and Trumbore, 1997).
+double firstHit_mm(const MeshModel& model, const glm::dvec3& from, const glm::dvec3& direction) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const MeshPart& part : model.parts) {
+    for (std::size_t t = 0; t < part.triangles.size(); t += 3) {
+      const auto corner = [&](std::size_t i) { return glm::dvec3(part.position_mm[part.triangles[t + i]]); };
+      const glm::dvec3 a = corner(0), ab = corner(1) - a, ac = corner(2) - a;
+      const glm::dvec3 h = glm::cross(direction, ac);
+      const double det = glm::dot(ab, h);
+      if (std::abs(det) < 1e-12) continue;
+      const glm::dvec3 s = from - a, q = glm::cross(s, ab);
+      const double u = glm::dot(s, h) / det, v = glm::dot(direction, q) / det, t_mm = glm::dot(ac, q) / det;
+      if (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t_mm > 0.0) nearest = std::min(nearest, t_mm);
+    }
+  }
+  return nearest;
+}
+
+TEST(Face, LeavesTheSurgeonsSightOfTheThirdMolarFree) {
+  // A window of 8 mm around the crown, seen from the surgeon's eye.
+  const glm::dvec3 to_eye = surgeonEyeDirection(38);
+  const glm::dvec3 across = glm::normalize(glm::cross(to_eye, glm::dvec3(0, 0, 1)));
+  const glm::dvec3 up = glm::cross(across, to_eye);
+  for (const double radius_mm : {0.0, 4.0, 8.0}) {
+    for (int n = 0; n < 8; ++n) {
+      const double turn = 0.785398 * n;
+      const glm::dvec3 offset = radius_mm * (std::cos(turn) * across + std::sin(turn) * up);
+      const glm::dvec3 from = kThirdMolar38_mm + offset + 6.0 * to_eye;
+      EXPECT_TRUE(std::isinf(firstHit_mm(leftFace(), from, to_eye))) << radius_mm << " mm at " << turn;
+    }
+  }
+}
+
+TEST(Face, HidesTheMolarBehindTheFreeCheek) {
+  // The same view to the side that is not held away is blocked: the test above can fail.
+  const glm::dvec3 eye = surgeonEyeDirection(48);
+  const glm::dvec3 molar48(-kThirdMolar38_mm.x, kThirdMolar38_mm.y, kThirdMolar38_mm.z);
+  EXPECT_TRUE(std::isfinite(firstHit_mm(leftFace(), molar48 + 6.0 * eye, eye)));
+}
+
+TEST(Face, KeepsOutOfTheSpaceOfTheScannedJaw) {
+  for (const MeshPart& part : leftFace().parts) {
+    for (const glm::vec3& p : part.position_mm) ASSERT_GT(jawBed_mm(glm::dvec3(p)), -1.5) << part.name;
+  }
+}
+
+TEST(Face, IsSoundAndHasAllItsParts) {
+  std::set<std::string> names;
+  for (const MeshPart& part : leftFace().parts) {
+    names.insert(part.name);
+    ASSERT_FALSE(part.triangles.empty()) << part.name;
+    ASSERT_EQ(part.normal.size(), part.position_mm.size());
+    for (const std::uint32_t vertex : part.triangles) ASSERT_LT(vertex, part.position_mm.size());
+    for (const glm::vec3& n : part.normal) ASSERT_NEAR(glm::length(n), 1.0f, 1e-3f) << part.name;
+    for (const glm::vec4& c : part.colour)
+      ASSERT_TRUE(c.r >= 0 && c.r <= 1.2f && std::isfinite(c.g + c.b)) << part.name;
+  }
+  EXPECT_EQ(names, (std::set<std::string>{"Face", "Mouth", "UpperTeeth", "LowerTeeth", "Tongue", "Hair", "Cap", "Drape",
+                                          "Retractor"}));
+}
+
+TEST(Face, IsOpenByThirtyFiveToFortyMillimetres) {
+  // From the lower incisal edge to the upper one, on the midline.
+  double lower = -1e9;
+  double upper = 1e9;
+  for (const MeshPart& part : leftFace().parts) {
+    for (const glm::vec3& p : part.position_mm) {
+      if (std::abs(p.x) > 4.0f) continue;
+      if (part.name == "LowerTeeth") lower = std::max<double>(lower, p.z);
+      if (part.name == "UpperTeeth") upper = std::min<double>(upper, p.z);
+    }
+  }
+  EXPECT_NEAR(lower, 0.0, 1.0);
+  EXPECT_GE(upper - lower, 35.0);
+  EXPECT_LE(upper - lower, 40.0);
+}
+
+TEST(Face, IsTheMirrorImageOnTheOtherSide) {
+  const MeshModel right = syntheticFace({.tooth_fdi = 48, .voxel_mm = kCoarse_mm});
+  ASSERT_EQ(right.parts.size(), leftFace().parts.size());
+  for (std::size_t n = 0; n < right.parts.size(); ++n) {
+    const MeshPart& a = leftFace().parts[n];
+    const MeshPart& b = right.parts[n];
+    ASSERT_EQ(a.position_mm.size(), b.position_mm.size()) << a.name;
+    for (std::size_t i = 0; i < a.position_mm.size(); ++i) {
+      ASSERT_EQ(a.position_mm[i], b.position_mm[i] * glm::vec3(-1, 1, 1)) << a.name;
+    }
+    ASSERT_EQ(a.triangles[1], b.triangles[2]);
+  }
+}
+
+TEST(Face, RefusesAToothThatIsNoLowerThirdMolar) {
+  EXPECT_THROW(syntheticFace({.tooth_fdi = 18}), LoadError);
+  EXPECT_THROW(syntheticFace({.voxel_mm = 0.0}), LoadError);
+  EXPECT_THROW(syntheticFace({.voxel_mm = std::nan("")}), LoadError);
+}
+
+}  // namespace
+}  // namespace assets
