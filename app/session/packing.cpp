@@ -10,9 +10,7 @@
 namespace app {
 namespace {
 
-// A field added to either struct must be added to its list below, or replays would silently lose it.
-static_assert(sizeof(haptics::Tick) == 240, "teach forEachField() the changed fields of Tick");
-static_assert(sizeof(haptics::Command) == 144, "teach forEachField() the changed fields of Command");
+// Every struct is taken apart by a structured binding, so a field added to one does not compile until it is packed.
 
 template <class Visit>
 void visitDvec3(auto& v, Visit&& visit) {
@@ -20,28 +18,39 @@ void visitDvec3(auto& v, Visit&& visit) {
 }
 
 template <class Visit>
+void visitHand(auto& hand, Visit&& visit) {
+  auto& [X_PT, velocity_P_mm_per_s, drill_pedal, device_healthy] = hand;
+  auto& [rotation, translation_mm] = X_PT;
+  visit(rotation.w), visit(rotation.x), visit(rotation.y), visit(rotation.z);
+  visitDvec3(translation_mm, visit);
+  visitDvec3(velocity_P_mm_per_s.xyz, visit);
+  visit(drill_pedal), visit(device_healthy);
+}
+
+template <class Visit>
 void forEachField(auto& tick, Visit&& visit) requires std::same_as<std::remove_cvref_t<decltype(tick)>, haptics::Tick> {
-  visit(tick.index), visit(tick.t_s), visit(tick.dt_s), visit(tick.command_serial);
-  auto& q = tick.hand.X_PT.rotation;
-  visit(q.w), visit(q.x), visit(q.y), visit(q.z);
-  visitDvec3(tick.hand.X_PT.translation_mm, visit);
-  visitDvec3(tick.hand.velocity_P_mm_per_s.xyz, visit);
-  visit(tick.hand.drill_pedal);
-  visitDvec3(tick.proxy_P.mm, visit);
-  visitDvec3(tick.law_force_P_N.xyz, visit);
-  visitDvec3(tick.served_force_P_N.xyz, visit);
-  visit(tick.overlap_mm3), visit(tick.depth_mm), visit(tick.removed_mm3), visit(tick.bone_digest);
-  visit(tick.contact_tissue), visit(tick.drilling), visit(tick.faults), visit(tick.work_us);
+  auto& [index, t_s, dt_s, command_serial, hand, proxy_P, law_force_P_N, served_force_P_N, overlap_mm3, depth_mm,
+         removed_mm3, bone_digest, contact_tissue, drilling, faults, work_us] = tick;
+  visit(index), visit(t_s), visit(dt_s), visit(command_serial);
+  visitHand(hand, visit);
+  visitDvec3(proxy_P.mm, visit);
+  visitDvec3(law_force_P_N.xyz, visit);
+  visitDvec3(served_force_P_N.xyz, visit);
+  visit(overlap_mm3), visit(depth_mm), visit(removed_mm3), visit(bone_digest);
+  visit(contact_tissue), visit(drilling), visit(faults), visit(work_us);
 }
 
 template <class Visit>
 void forEachField(auto& command,
                   Visit&& visit) requires std::same_as<std::remove_cvref_t<decltype(command)>, haptics::Command> {
-  visit(command.serial), visit(command.bur_radius_mm), visit(command.drill_enabled);
-  visit(command.agus.stiffness_N_per_mm), visit(command.agus.damping_Ns_per_mm);
-  visit(command.erosion.removal_rate_per_s);
-  for (auto& factor : command.erosion.tissue_factor) visit(factor);
-  visit(command.safety.peak_force_N), visit(command.safety.slew_N_per_s);
+  auto& [serial, bur_radius_mm, drill_enabled, agus, erosion, safety] = command;
+  auto& [stiffness_N_per_mm, damping_Ns_per_mm] = agus;
+  auto& [removal_rate_per_s, tissue_factor] = erosion;
+  auto& [peak_force_N, slew_N_per_s] = safety;
+  visit(serial), visit(bur_radius_mm), visit(drill_enabled);
+  visit(stiffness_N_per_mm), visit(damping_Ns_per_mm), visit(removal_rate_per_s);
+  for (auto& factor : tissue_factor) visit(factor);
+  visit(peak_force_N), visit(slew_N_per_s);
 }
 
 /// The unsigned integer that holds the bits of a field.

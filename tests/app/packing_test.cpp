@@ -15,6 +15,7 @@ namespace {
 TEST(Packing, BringsEveryFieldOfATickBackBitForBit) {
   haptics::Tick tick = test::imaginedTick(123456789012ULL, 77);
   tick.faults = haptics::Fault::device | haptics::Fault::bad_force;
+  tick.hand.device_healthy = false;
   tick.hand.X_PT.translation_mm = {-0.0, std::numeric_limits<double>::denorm_min(), INFINITY};
   const auto back = unpackTicks(packTicks(std::vector{tick, test::imaginedTick(7)}));
   ASSERT_EQ(back.size(), 2u);
@@ -28,6 +29,7 @@ TEST(Packing, BringsEveryFieldOfATickBackBitForBit) {
   EXPECT_TRUE(std::signbit(b.hand.X_PT.translation_mm.x));
   EXPECT_EQ(b.hand.velocity_P_mm_per_s.xyz, tick.hand.velocity_P_mm_per_s.xyz);
   EXPECT_EQ(b.hand.drill_pedal, tick.hand.drill_pedal);
+  EXPECT_EQ(b.hand.device_healthy, tick.hand.device_healthy);
   EXPECT_EQ(b.proxy_P.mm, tick.proxy_P.mm);
   EXPECT_EQ(b.law_force_P_N.xyz, tick.law_force_P_N.xyz);
   EXPECT_EQ(b.served_force_P_N.xyz, tick.served_force_P_N.xyz);

@@ -1,6 +1,7 @@
-// The victim of the kill test: records made-up ticks in real time at 1 kHz until somebody kills it.
-// record_until_killed SESSION PROGRESS: PROGRESS is a file of two numbers that outlives the kill, kept up to date
-// through shared memory: ticks logged so far, and the longest time between two of the last 200 ticks in µs.
+// The victim of the kill test: a real servo carves a block of bone in real time at 1 kHz and is recorded, until
+// somebody kills it. record_until_killed SESSION PROGRESS: PROGRESS is a file of two numbers that outlives the kill,
+// kept up to date through shared memory: ticks logged so far, and the longest time between two of the last 200 ticks in
+// µs.
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -8,13 +9,10 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cmath>
 #include <deque>
-#include <ranges>
 #include <thread>
 
-#include "app/session/recorder.h"
-#include "tests/app/small_session.h"
+#include "tests/app/real_session.h"
 
 int main(int, char** argv) {
   using Clock = std::chrono::steady_clock;
@@ -23,13 +21,23 @@ int main(int, char** argv) {
   if (memory == MAP_FAILED) return 1;
   auto* progress = static_cast<std::atomic<std::uint64_t>*>(memory);
 
+  const app::test::BoneBlock block;
+  haptics::CarvedBone bone(block.grid, block.solid, block.label);
+  haptics::Servo servo(bone);
   haptics::TickLog log;
-  const app::test::SmallBone bone;
-  app::Recorder recorder(argv[1], false, bone.start(), log);
+  app::Recorder recorder(argv[1], false, block.start(), log);
+  haptics::Command command = block.start().command;
+
   std::deque<std::uint64_t> pauses;
   auto due = Clock::now(), before = due;
   for (std::uint64_t index = 0;; ++index) {
-    log.push(app::test::imaginedTick(index));
+    // A new command every 150 ms, so that kills fall around them too.
+    if (index % 150 == 149) {
+      ++command.serial;
+      command.bur_radius_mm = 0.8 + 0.1 * static_cast<double>(command.serial % 5);
+      recorder.command(command);
+    }
+    log.push(servo.step(app::test::sweepingHand(static_cast<double>(index) * 0.001), command, 0.001));
     const auto now = Clock::now();
     pauses.push_back(static_cast<std::uint64_t>((now - before) / std::chrono::microseconds(1)));
     if (pauses.size() > 200) pauses.pop_front();

@@ -1,0 +1,121 @@
+#include "app/session/metrics.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "app/session/replay.h"
+
+namespace app {
+namespace {
+
+using haptics::Fault;
+
+/// The value below which `fraction` of all lie; moves them about.
+double quantile(std::vector<float>& values, double fraction) {
+  if (values.empty()) return 0.0;
+  const auto place = static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + place, values.end());
+  return static_cast<double>(values[static_cast<std::size_t>(place)]);
+}
+
+/// Adds what one tick says; `before` is the tick before it.
+void addTick(SessionMetrics& sum, const haptics::Tick& tick, const std::optional<haptics::Tick>& before) {
+  const double force_N = glm::length(tick.served_force_P_N.xyz);
+  const bool touches = tick.overlap_mm3 > 0.0;
+  ++sum.ticks;
+  sum.duration_s = tick.t_s + tick.dt_s;
+  if (touches) sum.contact_s += tick.dt_s, sum.mean_contact_force_N += force_N * tick.dt_s;
+  if (tick.drilling) sum.drill_on_s += tick.dt_s;
+  if (tick.drilling && touches) sum.drill_in_contact_s += tick.dt_s;
+  sum.max_force_N = std::max(sum.max_force_N, force_N);
+  sum.max_depth_mm = std::max(sum.max_depth_mm, tick.depth_mm);
+  sum.removed_mm3 += tick.removed_mm3;
+  if (has(tick.faults, Fault::clamped | Fault::slewed)) sum.limited_s += tick.dt_s;
+  if (has(tick.faults, Fault::bad_pose | Fault::bad_force | Fault::device)) sum.faulty_s += tick.dt_s;
+  if (before && !has(tick.faults, Fault::bad_pose) && !has(before->faults, Fault::bad_pose)) {
+    const double way_mm = glm::distance(tick.hand.X_PT.translation_mm, before->hand.X_PT.translation_mm);
+    sum.path_mm += way_mm;
+    if (tick.drilling) sum.drilling_path_mm += way_mm;
+  }
+}
+
+std::array<double, assets::kTissueCount> removedByLabel(const ReplayedMoment& end) {
+  std::array<double, assets::kTissueCount> steps{};
+  const auto left = end.bone.solid();
+  for (std::size_t v = 0; v < left.size(); ++v) {
+    const std::size_t label = end.start.label[v] < assets::kTissueCount ? end.start.label[v] : 0;
+    steps[label] += static_cast<double>(end.start.solid[v]) - static_cast<double>(left[v]);
+  }
+  for (double& volume : steps) volume *= end.start.grid.voxelVolume_mm3() / 255.0;
+  return steps;
+}
+
+}  // namespace
+
+SessionMetrics metricsOf(const std::string& path) {
+  // Running it again also judges the file.
+  const ReplayedMoment end = replayTo(path, std::numeric_limits<double>::infinity());
+  SessionReader session(path);
+  SessionMetrics metrics;
+  metrics.patient_title = end.start.patient_title;
+  metrics.program_version = end.start.program_version;
+  metrics.closed = session.closed();
+  metrics.lost = session.lost();
+  metrics.commands = session.commands().size();
+  metrics.events = session.events().size();
+
+  std::vector<float> work_us;
+  std::optional<haptics::Tick> before;
+  for (auto block = session.nextTicks(); !block.empty(); block = session.nextTicks()) {
+    for (const haptics::Tick& tick : block) {
+      addTick(metrics, tick, before);
+      work_us.push_back(tick.work_us);
+      before = tick;
+    }
+  }
+  if (metrics.contact_s > 0.0) metrics.mean_contact_force_N /= metrics.contact_s;
+  metrics.removed_mm3_by_label = removedByLabel(end);
+  metrics.work_p50_us = quantile(work_us, 0.50);
+  metrics.work_p99_us = quantile(work_us, 0.99);
+  metrics.work_max_us = quantile(work_us, 1.00);
+  return metrics;
+}
+
+std::string metricsJson(const SessionMetrics& metrics) {
+  nlohmann::ordered_json by_label;
+  for (std::size_t label = 0; label < assets::kTissues.size(); ++label) {
+    if (metrics.removed_mm3_by_label[label] != 0.0) {
+      by_label[std::string(assets::kTissues[label].key)] = metrics.removed_mm3_by_label[label];
+    }
+  }
+  const nlohmann::ordered_json json = {
+      {"patient", metrics.patient_title},
+      {"program_version", metrics.program_version},
+      {"closed", metrics.closed},
+      {"ticks", metrics.ticks},
+      {"lost", metrics.lost},
+      {"commands", metrics.commands},
+      {"events", metrics.events},
+      {"duration_s", metrics.duration_s},
+      {"contact_s", metrics.contact_s},
+      {"drill_on_s", metrics.drill_on_s},
+      {"drill_in_contact_s", metrics.drill_in_contact_s},
+      {"path_mm", metrics.path_mm},
+      {"drilling_path_mm", metrics.drilling_path_mm},
+      {"max_force_N", metrics.max_force_N},
+      {"mean_contact_force_N", metrics.mean_contact_force_N},
+      {"max_depth_mm", metrics.max_depth_mm},
+      {"limited_s", metrics.limited_s},
+      {"faulty_s", metrics.faulty_s},
+      {"removed_mm3", metrics.removed_mm3},
+      {"removed_mm3_by_label", by_label.is_null() ? nlohmann::ordered_json::object() : by_label},
+      {"work_us", {{"p50", metrics.work_p50_us}, {"p99", metrics.work_p99_us}, {"max", metrics.work_max_us}}},
+  };
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace app

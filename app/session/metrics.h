@@ -1,0 +1,40 @@
+// What a session says about the hand: times, paths, forces, and what was taken of which tissue. Read from the recorded
+// ticks; the tissue figures from running them again. Frame P; mm, N, s. Any thread but the servo; start-up cost of a
+// replay (replay.h). Numbers only: what is good or bad is for a report to say.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "assets/tissue.h"
+
+namespace app {
+
+struct SessionMetrics {
+  std::string patient_title, program_version;
+  bool closed = false;  ///< ended by the program, not by a kill
+  std::uint64_t ticks = 0, lost = 0, commands = 0, events = 0;
+  double duration_s = 0.0;
+  double contact_s = 0.0;  ///< the bur shares volume with bone
+  double drill_on_s = 0.0;
+  double drill_in_contact_s = 0.0;
+  double path_mm = 0.0;  ///< way of the bur's centre
+  double drilling_path_mm = 0.0;
+  double max_force_N = 0.0;  ///< served
+  double mean_contact_force_N = 0.0;
+  double max_depth_mm = 0.0;  ///< equivalent depth of the law
+  double limited_s = 0.0;     ///< the force was clamped or slewed
+  double faulty_s = 0.0;      ///< the device or its poses could not be believed
+  double removed_mm3 = 0.0;
+  std::array<double, assets::kTissueCount> removed_mm3_by_label{};
+  double work_p50_us = 0.0, work_p99_us = 0.0, work_max_us = 0.0;  ///< CPU time of the servo step as recorded
+};
+
+/// Throws SessionError if the file is missing, no session, damaged, or misses ticks.
+SessionMetrics metricsOf(const std::string& path);
+
+/// One JSON object, keys as the fields; labels by the key of their tissue.
+std::string metricsJson(const SessionMetrics& metrics);
+
+}  // namespace app

@@ -1,0 +1,190 @@
+#include "app/session/replay.h"
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "app/session/metrics.h"
+#include "app/session/session_error.h"
+#include "app/session/session_writer.h"
+#include "tests/app/real_session.h"
+
+namespace app {
+namespace {
+
+constexpr std::size_t kTicks = 900, kChange = 500;
+
+/// One recorded rehearsal and the bone it left.
+struct Recorded {
+  test::ScratchFolder folder;
+  std::string path = folder.file("s.molar");
+  test::BoneBlock block;
+  haptics::CarvedBone bone{block.grid, block.solid, block.label};
+  std::vector<haptics::Tick> ticks = test::rehearse(bone, block.start().command, kTicks, kChange);
+
+  /// Writes `ticks` as they are now.
+  void write(bool closed = true) {
+    SessionWriter writer(path, true, block.start());
+    const auto change = ticks.begin() + static_cast<std::ptrdiff_t>(std::min(kChange, ticks.size()));
+    writer.write({{}, {ticks.begin(), change}, {}, {}});
+    writer.write({{{test::largerBur(block.start().command), kChange}}, {change, ticks.end()}, {{1, "note", "x"}}, {}});
+    if (closed) writer.seal(0);
+  }
+};
+
+TEST(Replay, FindsARehearsalIdentical) {
+  Recorded session;
+  ASSERT_GT(session.ticks[kTicks - 1].law_force_P_N.xyz.z + session.ticks[100].law_force_P_N.xyz.z, 0.0);
+  session.write();
+  const ReplayReport report = verify(session.path);
+  EXPECT_TRUE(report.verified()) << report.line();
+  EXPECT_EQ(report.replayed, kTicks);
+  EXPECT_NEAR(report.duration_s, 0.9, 1e-9);
+  EXPECT_TRUE(report.closed);
+  EXPECT_EQ(report.bone_digest, session.bone.digest());
+}
+
+TEST(Replay, NamesTheFirstTickWhoseForceDiffersByOneBit) {
+  Recorded session;
+  double& force_N = session.ticks[321].served_force_P_N.xyz.z;
+  force_N = std::nextafter(force_N, 10.0);
+  session.ticks[400].depth_mm += 1.0;
+  session.write();
+  const ReplayReport report = verify(session.path);
+  EXPECT_FALSE(report.verified());
+  ASSERT_TRUE(report.difference.has_value());
+  EXPECT_EQ(report.difference->tick, 321u);
+  EXPECT_EQ(report.difference->what, "the force served differs");
+  EXPECT_EQ(report.replayed, 321u);
+  EXPECT_EQ(report.ticks, kTicks);
+}
+
+TEST(Replay, NoticesEveryQuantityOfATick) {
+  const auto changed = [](auto&& change) {
+    Recorded session;
+    change(session.ticks[10]);
+    session.write();
+    const ReplayReport report = verify(session.path);
+    return report.difference ? report.difference->tick : kTicks;
+  };
+  using haptics::Tick;
+  EXPECT_EQ(changed([](Tick&) {}), kTicks);
+  EXPECT_EQ(changed([](Tick& t) { t.work_us += 1.0f; }), kTicks) << "CPU time is not replayed";
+  EXPECT_EQ(changed([](Tick& t) { t.t_s += 1e-15; }), 10u);
+  EXPECT_EQ(changed([](Tick& t) { t.hand.X_PT.translation_mm.z -= 1e-9; }), 10u);
+  EXPECT_EQ(changed([](Tick& t) { t.proxy_P.mm.x += 1e-12; }), 10u);
+  EXPECT_EQ(changed([](Tick& t) { t.law_force_P_N.xyz.y += 1e-12; }), 10u);
+  EXPECT_EQ(changed([](Tick& t) { t.overlap_mm3 += 1e-12; }), 10u);
+  EXPECT_EQ(changed([](Tick& t) { t.depth_mm += 1e-12; }), 10u);
+  EXPECT_EQ(changed([](Tick& t) { t.removed_mm3 += 1e-15; }), 10u);
+  EXPECT_EQ(changed([](Tick& t) { t.bone_digest ^= 1; }), 10u);
+  EXPECT_EQ(changed([](Tick& t) { t.contact_tissue ^= 1; }), 10u);
+  EXPECT_EQ(changed([](Tick& t) { t.drilling = !t.drilling; }), 10u);
+  EXPECT_EQ(changed([](Tick& t) { t.faults = t.faults | haptics::Fault::device; }), 10u);
+  EXPECT_EQ(changed([](Tick& t) { t.command_serial = 9; }), 10u);
+}
+
+TEST(Replay, StartsFromTheRecordedBone) {
+  Recorded session;
+  // One voxel under the bur, one grey step less than the hand felt.
+  session.block.solid[session.block.grid.index({20, 22, 18})] -= 1;
+  session.write();
+  EXPECT_FALSE(verify(session.path).verified());
+}
+
+TEST(Replay, SaysWhereTicksWereLost) {
+  Recorded session;
+  session.ticks.erase(session.ticks.begin() + 200, session.ticks.begin() + 207);
+  session.write();
+  const ReplayReport report = verify(session.path);
+  EXPECT_FALSE(report.verified());
+  EXPECT_EQ(report.difference->tick, 207u);
+  EXPECT_EQ(report.difference->what, "7 ticks before it were lost");
+  EXPECT_EQ(replayTo(session.path, 0.150).tick.index, 149u);
+  EXPECT_THROW(replayTo(session.path, 0.3), SessionError);
+}
+
+TEST(Replay, VerifiesAKilledSessionAndSaysSo) {
+  Recorded session;
+  session.write(false);
+  const ReplayReport report = verify(session.path);
+  EXPECT_TRUE(report.verified()) << report.line();
+  EXPECT_FALSE(report.closed);
+  EXPECT_NE(report.line().find("cut short by a kill"), std::string::npos);
+}
+
+TEST(Replay, ReportsAChangedFileInsteadOfRunningIt) {
+  Recorded session;
+  session.write();
+  std::string bytes = test::bytesOf(session.path);
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 4);
+  test::writeBytes(session.path, bytes);
+  const ReplayReport report = verify(session.path);
+  EXPECT_FALSE(report.verified());
+  EXPECT_TRUE(report.damage.has_value());
+  EXPECT_THROW(replayTo(session.path, 1.0), SessionError);
+  EXPECT_THROW(metricsOf(session.path), SessionError);
+}
+
+TEST(Replay, BringsBackTheBoneOfAnyMoment) {
+  Recorded session;
+  session.write();
+  EXPECT_TRUE(std::ranges::equal(replayTo(session.path, 0.0).bone.solid(), session.block.solid));
+  for (const std::size_t ticks : {1u, 50u, 437u, 500u, 501u}) {
+    haptics::CarvedBone bone(session.block.grid, session.block.solid, session.block.label);
+    test::rehearse(bone, session.block.start().command, ticks, kChange);
+    const ReplayedMoment moment = replayTo(session.path, (static_cast<double>(ticks) - 0.5) * 0.001);
+    EXPECT_TRUE(std::ranges::equal(moment.bone.solid(), bone.solid())) << ticks;
+    EXPECT_EQ(moment.tick.index, ticks - 1);
+    EXPECT_EQ(moment.command.serial, ticks <= kChange ? 1u : 2u);
+  }
+  const ReplayedMoment end = replayTo(session.path, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(end.bone.digest(), session.bone.digest());
+}
+
+TEST(Metrics, AddUpWhatTheTicksSay) {
+  Recorded session;
+  for (haptics::Tick& tick : session.ticks) tick.work_us = static_cast<float>(tick.index);
+  session.write();
+  const SessionMetrics metrics = metricsOf(session.path);
+  EXPECT_EQ(metrics.patient_title, "block of bone");
+  EXPECT_EQ(metrics.ticks, kTicks);
+  EXPECT_EQ(metrics.commands, 2u);
+  EXPECT_EQ(metrics.events, 1u);
+  EXPECT_NEAR(metrics.duration_s, 0.9, 1e-9);
+  EXPECT_NEAR(metrics.drill_on_s, 0.5, 0.002);
+
+  double path_mm = 0.0, removed_mm3 = 0.0, max_force_N = 0.0;
+  for (std::size_t n = 0; n < kTicks; ++n) {
+    const haptics::Tick& tick = session.ticks[n];
+    if (n > 0) path_mm += glm::distance(tick.hand.X_PT.translation_mm, session.ticks[n - 1].hand.X_PT.translation_mm);
+    removed_mm3 += tick.removed_mm3;
+    max_force_N = std::max(max_force_N, glm::length(tick.served_force_P_N.xyz));
+  }
+  EXPECT_NEAR(metrics.path_mm, path_mm, 1e-9);
+  EXPECT_NEAR(metrics.removed_mm3, removed_mm3, 1e-9);
+  EXPECT_EQ(metrics.max_force_N, max_force_N);
+  EXPECT_GT(metrics.removed_mm3, 0.1);
+
+  double by_label = 0.0;
+  for (const double volume : metrics.removed_mm3_by_label) by_label += volume;
+  EXPECT_NEAR(by_label, metrics.removed_mm3, 1e-6);
+  EXPECT_EQ(metrics.removed_mm3_by_label[4], 0.0) << "the bur never reached the enamel";
+  EXPECT_EQ(metrics.work_p50_us, 449.0);
+  EXPECT_EQ(metrics.work_max_us, 899.0);
+}
+
+TEST(Metrics, AreOneJsonObject) {
+  Recorded session;
+  session.write();
+  const std::string json = metricsJson(metricsOf(session.path));
+  EXPECT_EQ(json.front(), '{');
+  EXPECT_NE(json.find("\"duration_s\": 0.9"), std::string::npos) << json;
+  EXPECT_NE(json.find("\"ticks\": 900"), std::string::npos);
+  EXPECT_NE(json.find("\"removed_mm3_by_label\": {"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace app

@@ -1,0 +1,52 @@
+#include <gtest/gtest.h>
+
+#include "haptics/servo/latest.h"
+#include "haptics/servo/tick_log.h"
+#include "tests/app/real_session.h"
+#include "tests/architecture/forbid_blocking.h"
+
+namespace tests {
+namespace {
+
+TEST(ServoRealTime, NeitherAllocatesNorBlocksInTenThousandTicksOfCarving) {
+  if (ForbidBlocking::countsNothing()) GTEST_SKIP() << "a sanitizer owns malloc: nothing can be counted";
+  const app::test::BoneBlock block;
+  haptics::CarvedBone bone(block.grid, block.solid, block.label);
+  haptics::Servo servo(bone);
+  haptics::TickLog log(1000);
+  haptics::Latest<haptics::Command> commands(block.start().command);
+  haptics::Latest<haptics::Tick> newest;
+
+  double removed_mm3 = 0.0;
+  std::uint64_t in_contact = 0, faulty = 0;
+  const ForbidBlocking guard;
+  for (int n = 0; n < 10'000; ++n) {
+    haptics::HandSample hand = app::test::sweepingHand(n * 0.001);
+    // Deeper and deeper, now and then far away, in the middle of the bone, or nowhere at all.
+    hand.X_PT.translation_mm.z -= n * 3e-4;
+    if (n % 997 == 0) hand.X_PT.translation_mm.z = 100.0;
+    if (n % 1499 == 0) hand.X_PT.translation_mm = {0.0, 0.0, -2.5};
+    if (n % 1999 == 0) hand.X_PT.translation_mm.x = std::nan("");
+    if (n % 500 == 0) {
+      haptics::Command command = block.start().command;
+      command.serial = 1 + static_cast<std::uint64_t>(n / 500);
+      command.bur_radius_mm = 0.5 + 0.2 * (n / 500 % 8);
+      commands.publish(command);
+    }
+    const haptics::Tick tick = servo.step(hand, commands.read(), 0.001);
+    log.push(tick);
+    newest.publish(tick);
+    removed_mm3 += tick.removed_mm3;
+    in_contact += tick.overlap_mm3 > 0.0 ? 1 : 0;
+    faulty += tick.faults != haptics::Fault::none ? 1 : 0;
+  }
+  EXPECT_EQ(guard.allocations(), 0u);
+  EXPECT_EQ(guard.blockingCalls(), 0u);
+  // The ticks did what they are guarded for.
+  EXPECT_GT(in_contact, 5'000u);
+  EXPECT_GT(removed_mm3, 1.0);
+  EXPECT_GT(faulty, 0u);
+}
+
+}  // namespace
+}  // namespace tests
