@@ -21,8 +21,8 @@ struct MeshPart {
   std::string name;
   Material material;
   std::vector<glm::vec3> position_mm;
-  std::vector<glm::vec3> normal;      ///< one per position
-  std::vector<glm::vec4> colour;      ///< linear RGBA factor per position, or empty for white
+  std::vector<glm::vec3> normal;         ///< one per position
+  std::vector<glm::vec4> colour;         ///< linear RGBA factor per position, or empty for white
   std::vector<std::uint32_t> triangles;  ///< three indices each
 };
 

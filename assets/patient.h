@@ -33,8 +33,8 @@ struct Patient {
   OperatingSite site;
   std::vector<glm::dvec3> canal_P_mm;  ///< centre line of the mandibular canal, empty if unknown
   double canal_radius_mm = 1.4;
-  MeshModel gum;                       ///< gingiva as a surface, with the flap raised around the site; may be empty
-  MeshModel face;                      ///< context only; may be empty
+  MeshModel gum;   ///< gingiva as a surface, with the flap raised around the site; may be empty
+  MeshModel face;  ///< context only; may be empty
 };
 
 }  // namespace assets

@@ -89,8 +89,8 @@ class Keys {
 
 std::string titleOf(const toml::table& root, const std::string& where) {
   const auto title = root["title"].value<std::string>();
-  const auto isControl = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
-  if (!title || title->size() > kLongestTitle || std::any_of(title->begin(), title->end(), isControl))
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+  if (!title || title->size() > kLongestTitle || std::any_of(title->begin(), title->end(), is_control))
     throw LoadError(where + ": title must be one line of at most 200 bytes; correct it or import the scan again");
   return *title;
 }

@@ -100,14 +100,14 @@ void FrameRenderer::Passes::drawScene(const Frame& frame, Eye eye, Framebuffer& 
   const MeshPass::Placement in_P{.view_is_mirrored = view.mirrored};
   const MeshPass::Placement at_tool{
       .P_from_mesh = frame.X_PT.matrix(), .bur_angle_rad = frame.bur_angle_rad, .view_is_mirrored = view.mirrored};
-  const auto drawMeshes = [&](MeshPass::Parts parts) {
+  const auto draw_meshes = [&](MeshPass::Parts parts) {
     if (face) meshes.draw(*face, parts, in_P);
     if (instrument && frame.tool_visible) meshes.draw(*instrument, parts, at_tool);
     if (gum) meshes.draw(*gum, parts, in_P);
   };
-  drawMeshes(MeshPass::Parts::opaque);
+  draw_meshes(MeshPass::Parts::opaque);
   caster.draw(volume, target.colour(DISTANCE_TARGET));
-  drawMeshes(MeshPass::Parts::transparent);
+  draw_meshes(MeshPass::Parts::transparent);
 }
 
 FrameRenderer::FrameRenderer(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid,

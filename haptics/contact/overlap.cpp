@@ -182,7 +182,7 @@ SphereOverlap sphereOverlap(const SolidField& field, const calibration::Point<ca
   ShellSum shell(field.solid, ball, field.grid.size.x);
   const RowSum rows(field.solid);
   // The near shell in whole fours, the inside in words, the far shell in fours again.
-  const auto addRow = [&](const BallRow& row, std::size_t start, int j, int k) {
+  const auto add_row = [&](const BallRow& row, std::size_t start, int j, int k) {
     int i = row.outer_first;
     for (; i < row.inner_first; i += 4) shell.addFour(start, i, row);
     rows.add(start, i, row.inner_last, j, k, whole);
@@ -193,7 +193,7 @@ SphereOverlap sphereOverlap(const SolidField& field, const calibration::Point<ca
     for (int j = ball.first.y; j <= ball.last.y; ++j) {
       const int turn = (j - ball.first.y) % kRowsAtOnce;
       if (turn == 0) ball.rows(j, k, row);
-      addRow(row[static_cast<std::size_t>(turn)], field.grid.index({0, j, k}), j, k);
+      add_row(row[static_cast<std::size_t>(turn)], field.grid.index({0, j, k}), j, k);
     }
 
   double shell_volume = 0.0;

@@ -3,9 +3,9 @@
 
 #include <optional>
 
-#include "ball_volume.h"
 #include "render/display/camera.h"
 #include "render/frame_renderer.h"
+#include "tests/render/ball_volume.h"
 
 namespace render::testing {
 

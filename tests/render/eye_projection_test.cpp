@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "ball_volume.h"
 #include "render/display/camera.h"
 #include "render/gpu/gpu_error.h"
+#include "tests/render/ball_volume.h"
 
 namespace render {
 namespace {

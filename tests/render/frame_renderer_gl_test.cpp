@@ -1,9 +1,9 @@
 // Whole frames: both eyes of every rig, meshes among bone, display modes, reading back.
 #include <gtest/gtest.h>
 
-#include "drawn_scene.h"
 #include "render/gpu/gpu_error.h"
 #include "render/gpu/offscreen_context.h"
+#include "tests/render/drawn_scene.h"
 
 namespace render {
 namespace {

@@ -1,9 +1,9 @@
 // The volume as drawn: the surface is where it should be, skipping and carving change nothing but time and bone.
 #include <gtest/gtest.h>
 
-#include "drawn_scene.h"
 #include "render/gpu/gpu_error.h"
 #include "render/gpu/offscreen_context.h"
+#include "tests/render/drawn_scene.h"
 
 namespace render {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <cstdlib>
 
-#include "drawn_scene.h"
 #include "render/gpu/gpu_error.h"
+#include "tests/render/drawn_scene.h"
 
 namespace render {
 namespace {
