@@ -24,6 +24,8 @@ void refuseWithoutWidth(const Classification& classification) {
 }
 
 std::uint8_t solidAt(double sigmas_above_iso) {
+  if (sigmas_above_iso <= -3.0) return 0;  // 255 Phi(-3) = 0.34
+  if (sigmas_above_iso >= 3.0) return 255;
   const double fraction = 0.5 * std::erfc(-sigmas_above_iso / std::numbers::sqrt2);
   return static_cast<std::uint8_t>(std::lround(255.0 * fraction));
 }

@@ -104,6 +104,37 @@ TEST(ImageFile, ReadsObliqueAxesFromEveryFormat) {
   EXPECT_GT(images["a.mha"].hounsfield.size(), 60u);
 }
 
+// A scan with the gantry tilted: slices shifted against each other, axes not square. Read in place or refused, never
+// squared.
+TEST(ImageFile, KeepsTheShearOfATiltedGantry) {
+  on_disk::Scan scan{{20, 20, 20}, glm::dmat3(0.5), {10, -20, 30}};
+  scan.step[2] = {0, 0.2, 0.5};
+  const glm::dvec3 slope(30, 20, -25);
+  std::vector<std::int16_t> values;
+  for (int k = 0; k < 20; ++k)
+    for (int j = 0; j < 20; ++j)
+      for (int i = 0; i < 20; ++i)
+        values.push_back(
+            static_cast<std::int16_t>(std::lround(glm::dot(slope, scan.origin + scan.step * glm::dvec3(i, j, k)))));
+  const std::string data = on_disk::bytesOf(values);
+  const on_disk::Folder folder;
+  on_disk::write(folder.at("a.nrrd"), on_disk::nrrd(scan, "short", data));
+  on_disk::write(folder.at("a.mha"), on_disk::meta(scan, "MET_SHORT", data));
+  on_disk::write(folder.at("a.nii"), on_disk::nifti(scan, 4, 16, data));
+  for (const char* name : {"a.nrrd", "a.mha", "a.nii"}) {
+    assets::HounsfieldImage image;
+    const std::string refusal = refusalOf([&] { image = assets::readHounsfield(folder.at(name)); });
+    if (refusal != "accepted") {
+      EXPECT_STREQ(name, "a.nii") << refusal;
+      continue;
+    }
+    const glm::dvec3 p_P_mm = scan.origin + scan.step * glm::dvec3(9.3, 8.1, 15.4);
+    const glm::ivec3 ijk(glm::round(image.grid.indexFromPoint(p_P_mm)));
+    ASSERT_TRUE(image.grid.contains(ijk)) << name;
+    EXPECT_NEAR(image.hounsfield[image.grid.index(ijk)], glm::dot(slope, image.grid.centre_P_mm(ijk)), 1.1) << name;
+  }
+}
+
 template <class Stored>
 void expectReads(const on_disk::Folder& folder, const std::string& type) {
   const std::vector<Stored> values = {0, 1, 2, 100, 127, 7, 8, 9};
