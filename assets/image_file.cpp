@@ -3,7 +3,6 @@
 #include <itkMetaImageIO.h>
 #include <itkNiftiImageIO.h>
 #include <itkNrrdImageIO.h>
-#include <nifti1_io.h>
 
 #include <algorithm>
 #include <cassert>
@@ -27,13 +26,12 @@ using Component = itk::CommonEnums::IOComponent;
 
 [[noreturn]] void refuse(const std::string& path, const std::string& reason) { throw LoadError(path + ": " + reason); }
 
-/// ITK's and the NIfTI library's warnings go nowhere; nor does what MetaIO prints on std::cout and std::cerr while this
+/// ITK's warnings go nowhere; nor does what MetaIO prints on std::cout and std::cerr while this
 /// lives.
 class Silence {
  public:
   Silence() : cout_(std::cout.rdbuf(nothing_.rdbuf())), cerr_(std::cerr.rdbuf(nothing_.rdbuf())) {
     itk::Object::SetGlobalWarningDisplay(false);
-    nifti_set_debug_level(0);
   }
   ~Silence() {
     std::cout.rdbuf(cout_);

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <cmath>
 #include <limits>
@@ -50,6 +51,20 @@ on_disk::Scan turned() {
   scan.step[1] = {-0.5, 0, 0};
   scan.step[2] = {0, 0.5, 0};
   return scan;
+}
+
+std::string packed(const std::string& path, const std::string& bytes) {
+  gzFile file = gzopen(path.c_str(), "wb");
+  EXPECT_EQ(gzwrite(file, bytes.data(), static_cast<unsigned int>(bytes.size())), static_cast<int>(bytes.size()));
+  gzclose(file);
+  return on_disk::read(path);
+}
+
+std::vector<std::int16_t> noise() {
+  std::mt19937 random(1);
+  std::vector<std::int16_t> values(60);
+  for (auto& value : values) value = static_cast<std::int16_t>(random() % 2000);
+  return values;
 }
 
 std::map<std::string, std::string> inEveryFormat(const on_disk::Scan& scan) {
@@ -183,12 +198,10 @@ TEST(ImageFile, RefusesTruncatedFilesOfEveryFormat) {
   const on_disk::Folder folder;
   auto files = inEveryFormat(kSmall);
   {
-    auto packed = assets::nrrdOutput(folder.at("packed.nrrd"), false);
-    std::mt19937 random(1);
-    std::vector<std::int16_t> noise(60);
-    for (auto& value : noise) value = static_cast<std::int16_t>(random() % 2000);
-    assets::writeHounsfield({{3, 4, 5}, 0.5, {10, -20, 30}}, noise, packed);
+    auto packed_nrrd = assets::nrrdOutput(folder.at("packed.nrrd"), false);
+    assets::writeHounsfield({{3, 4, 5}, 0.5, {10, -20, 30}}, noise(), packed_nrrd);
     files["packed.nrrd"] = on_disk::read(folder.at("packed.nrrd"));
+    files["a.nii.gz"] = packed(folder.at("a.nii.gz"), on_disk::nifti(kSmall, 4, 16, on_disk::bytesOf(noise())));
   }
   for (const auto& [name, bytes] : files) {
     on_disk::write(folder.at(name), bytes);
@@ -316,17 +329,33 @@ TEST(ImageFile, TellsGridsApart) {
   EXPECT_FALSE(assets::isSameGrid(grid, other));
 }
 
+TEST(ImageFile, NoticesAChangedByteInAPackedFile) {
+  const on_disk::Folder folder;
+  auto file = assets::nrrdOutput(folder.at("packed.nrrd"), false);
+  assets::writeHounsfield({{3, 4, 5}, 0.5, {10, -20, 30}}, noise(), file);
+  packed(folder.at("a.nii.gz"), on_disk::nifti(kSmall, 4, 16, on_disk::bytesOf(noise())));
+  for (const char* name : {"packed.nrrd", "a.nii.gz"}) {
+    std::string bytes = on_disk::read(folder.at(name));
+    bytes[bytes.size() - 40] = static_cast<char>(bytes[bytes.size() - 40] ^ 0x10);
+    on_disk::write(folder.at(name), bytes);
+    EXPECT_THAT(refusalOf([&] { assets::readHounsfield(folder.at(name)); }), HasSubstr(name));
+  }
+}
+
 // Flipped bytes, cut tails, bytes put in: a file is read or refused, nothing else.
 TEST(ImageFile, ReadsOrRefusesAnyDamagedFile) {
   const on_disk::Folder folder;
   auto files = inEveryFormat(kSmall);
   {
-    auto packed = assets::nrrdOutput(folder.at("packed.nrrd"), false);
-    assets::writeHounsfield({{3, 4, 5}, 0.5, {10, -20, 30}}, counting(), packed);
+    auto packed_nrrd = assets::nrrdOutput(folder.at("packed.nrrd"), false);
+    assets::writeHounsfield({{3, 4, 5}, 0.5, {10, -20, 30}}, counting(), packed_nrrd);
     files["packed.nrrd"] = on_disk::read(folder.at("packed.nrrd"));
+    files["a.nii.gz"] = packed(folder.at("a.nii.gz"), on_disk::nifti(kSmall, 4, 16, on_disk::bytesOf(noise())));
   }
   std::mt19937 random(20);
   int refused = 0;
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
   for (const auto& [name, bytes] : files)
     for (int trial = 0; trial < 300; ++trial) {
       std::string damaged = bytes;
@@ -346,6 +375,8 @@ TEST(ImageFile, ReadsOrRefusesAnyDamagedFile) {
       refused += refusalOf([&] { assets::readHounsfield(folder.at(name)); }) == "accepted" ? 0 : 1;
     }
   EXPECT_GT(refused, 100);
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 }  // namespace
