@@ -50,11 +50,11 @@ void MeshPass::draw(const SceneMesh& mesh, Parts parts, const Placement& placeme
       placement.P_from_mesh * glm::rotate(glm::dmat4(1.0), placement.bur_angle_rad, glm::dvec3(0.0, 0.0, 1.0));
   for (const SceneMesh::Part& part : mesh.parts_) {
     if ((part.material.base_colour.a < 1.0f) != transparent) continue;
-    const float is_face = mesh.finish_ == Finish::skin ? 1.0f : 0.0f;
+    const float is_cut = mesh.finish_ == Finish::skin && part.material.metallic < 0.5f ? 1.0f : 0.0f;
     block_.set(PART_BLOCK,
                {.P_from_mesh = glm::mat4(part.turns ? turned : placement.P_from_mesh),
                 .base_colour = part.material.base_colour,
-                .finish = {part.material.roughness, part.material.metallic, finishNumber(mesh.finish_), is_face}});
+                .finish = {part.material.roughness, part.material.metallic, finishNumber(mesh.finish_), is_cut}});
     part.triangles.draw();
   }
 }

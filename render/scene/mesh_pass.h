@@ -1,6 +1,7 @@
 // Draws triangle meshes: face, gum, instrument. Frame P by a rigid pose given per draw. Render thread.
 // Opaque parts write depth and distance and come before the volume; transparent parts are blended after it, in the
-// order of the model. Face parts open around the line from the eyes to the operating site (EyeBlock). Nothing here is
+// order of the model. Parts of the face, but for metal (a retractor), open around the line
+// from the eyes to the operating site (EyeBlock). Nothing here is
 // felt.
 #pragma once
 

@@ -46,7 +46,8 @@ void main() {
   if (finish == FINISH_SKIN) {
     s.wrap = 0.35;
     s.f0 = mix(vec3(0.028), base.rgb, metallic);
-    s.scatter = vec3(1.0, 0.42, 0.30);
+    vec3 hue = s.albedo / max(max(s.albedo.r, s.albedo.g), max(s.albedo.b, 1e-3));
+    s.scatter = hue * hue;
     s.albedo = mix(s.albedo * vec3(0.45, 0.14, 0.11), s.albedo, rim);
   } else if (finish == FINISH_GUM) {
     s.wrap = 0.30;

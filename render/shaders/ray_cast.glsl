@@ -69,19 +69,10 @@ float castRay(vec3 origin, vec3 direction, float limit) {
   return span.x + high;
 }
 
-// Outward normal of the surface, from fourteen samples on a cube around it: axes and corners together give a gradient
-// without preferred directions, wide enough to carry no terraces of the voxels.
+// Outward normal of the surface: central differences of the smoothed field, so that no voxel shows as a terrace.
 vec3 surfaceNormal(vec3 place) {
-  const float axis = 2.5, corner = 1.7;
-  vec3 slope = vec3(0.0);
-  for (int i = 0; i < 3; ++i) {
-    vec3 offset = vec3(0.0);
-    offset[i] = axis;
-    slope[i] += 1.5 * axis * (solidAt(place + offset) - solidAt(place - offset));
-  }
-  for (int i = 0; i < 4; ++i) {
-    vec3 offset = corner * vec3(1.0, (i & 1) == 0 ? 1.0 : -1.0, (i & 2) == 0 ? 1.0 : -1.0);
-    slope += offset * (solidAt(place + offset) - solidAt(place - offset));
-  }
+  const vec2 h = vec2(1.0, 0.0);
+  vec3 slope = vec3(smoothAt(place + h.xyy) - smoothAt(place - h.xyy), smoothAt(place + h.yxy) - smoothAt(place - h.yxy),
+                    smoothAt(place + h.yyx) - smoothAt(place - h.yyx));
   return -slope * inversesqrt(max(dot(slope, slope), 1e-12));
 }

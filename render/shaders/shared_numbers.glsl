@@ -16,6 +16,7 @@
 #define SCENE_DISTANCE_UNIT 4
 #define LEFT_EYE_UNIT 5
 #define RIGHT_EYE_UNIT 6
+#define SMOOTH_UNIT 7
 
 #define POSITION_ATTRIBUTE 0     // vertex attributes
 #define NORMAL_ATTRIBUTE 1

@@ -9,6 +9,7 @@ layout(std140, binding = VOLUME_BLOCK) uniform VolumeBlock {
 } volume;
 
 layout(binding = SOLID_UNIT) uniform sampler3D solid_field;
+layout(binding = SMOOTH_UNIT) uniform sampler3D smooth_field;
 layout(binding = LABEL_UNIT) uniform usampler3D label_field;
 layout(binding = EMPTINESS_UNIT) uniform usampler3D emptiness;
 layout(binding = AMBIENT_UNIT) uniform sampler3D ambient_map;
@@ -17,6 +18,9 @@ vec3 indexFromPoint(vec3 p_P) { return (p_P - volume.origin_P.xyz) / volume.orig
 
 // Solid fraction 0..1, trilinear, air outside.
 float solidAt(vec3 index) { return textureLod(solid_field, (index + 0.5) / vec3(volume.size.xyz), 0.0).r; }
+
+// The same smoothed, for normals.
+float smoothAt(vec3 index) { return textureLod(smooth_field, (index + 0.5) / vec3(volume.size.xyz), 0.0).r; }
 
 // Mean solid fraction of the cells around a place, 0..1, trilinear, air outside.
 float crowdingAt(vec3 index) {

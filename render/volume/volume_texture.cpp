@@ -7,6 +7,7 @@
 
 #include "render/gpu/gpu_error.h"
 #include "render/shaders/shared_numbers.glsl"
+#include "render/volume/smooth_field.h"
 
 namespace render {
 namespace {
@@ -33,6 +34,7 @@ VolumeTexture::VolumeTexture(const assets::VolumeGrid& grid, std::span<const std
     : grid_(checked(grid, solid.size(), label.size())),
       occupancy_(grid, solid),
       solid_(Texture::volume(grid.size, TexelFormat::r16)),
+      smooth_(Texture::volume(grid.size, TexelFormat::r16)),
       label_(Texture::volume(grid.size, TexelFormat::r8ui)),
       emptiness_(Texture::volume(grid.bricks(), TexelFormat::r8ui)),
       ambient_(Texture::volume(grid.bricks() * kCells, TexelFormat::r16)) {
@@ -45,6 +47,10 @@ VolumeTexture::VolumeTexture(const assets::VolumeGrid& grid, std::span<const std
     for (std::size_t v = 0; v < slice_voxels; ++v) wide[v] = widened(row[v]);
     solid_.upload({0, 0, k}, slice, std::as_bytes(std::span(wide)));
   }
+
+  // The smoothed copy, in slabs of a brick's height to keep the working memory small.
+  for (int k = 0; k < grid.size.z; k += kB)
+    uploadSmooth({0, 0, k}, {grid.size.x, grid.size.y, glm::min(kB, grid.size.z - k)});
 
   // Labels.
   const std::vector<std::uint8_t> unlabelled(label.empty() ? grid.voxelCount() : 0);
@@ -84,6 +90,8 @@ void VolumeTexture::updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, 
   solid_.upload(first, extent, std::as_bytes(std::span(wide).first(n)));
   uploadAmbient(brick, inside);
   occupancy_.updateBrick(brick, values);
+  const glm::ivec3 low = glm::max(first - kSmoothReach, glm::ivec3(0));
+  uploadSmooth(low, glm::min(first + extent + kSmoothReach, grid_.size) - low);
   ++changes_since_prepare_;
 }
 
@@ -99,6 +107,11 @@ void VolumeTexture::uploadAmbient(glm::ivec3 brick, std::span<const std::uint8_t
   for (std::size_t c = 0; c < sum.size(); ++c)
     mean[c] = static_cast<std::uint16_t>(sum[c] * 257u / (kEdge * kEdge * kEdge));
   ambient_.upload(kCells * brick, glm::ivec3(kCells), std::as_bytes(std::span(mean)));
+}
+
+void VolumeTexture::uploadSmooth(glm::ivec3 first, glm::ivec3 extent) {
+  const std::vector<std::uint16_t> values = smoothed(grid_, occupancy_.solid(), first, extent);
+  smooth_.upload(first, extent, std::as_bytes(std::span(values)));
 }
 
 void VolumeTexture::uploadEmptiness() {
@@ -120,6 +133,7 @@ void VolumeTexture::prepare() {
 
 void VolumeTexture::bind() const {
   solid_.bind(SOLID_UNIT);
+  smooth_.bind(SMOOTH_UNIT);
   label_.bind(LABEL_UNIT);
   emptiness_.bind(EMPTINESS_UNIT);
   ambient_.bind(AMBIENT_UNIT);
