@@ -24,7 +24,7 @@ constexpr std::array<CourseKnot, 11> kCourse = {{{76.0, 4.6, -3.0},
                                                  {28.0, 2.7, -26.9},
                                                  {21.0, 3.2, -26.0},
                                                  {18.2, 4.3, -24.3},
-                                                 {19.4, 8.6, -22.6}}};
+                                                 {19.4, 7.2, -22.9}}};
 constexpr int kPointsPerSpan = 16;
 constexpr double kDropWidth_mm = 13.0;
 

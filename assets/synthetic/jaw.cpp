@@ -139,8 +139,10 @@ Patient syntheticJaw(const JawParameters& parameters) {
 
   patient.site = siteOf(patient.ct, anatomy, parameters.right_side);
   patient.canal_radius_mm = CanalPath::kRadius_mm;
+  // The line ends with the bone: at the mental foramen in front, at the saw cut behind.
   for (const glm::dvec3& p_J : anatomy.canal().points_J_mm())
-    patient.canal_P_mm.push_back(mirrored(p_J, parameters.right_side));
+    if (anatomy.at(p_J, anatomy.nearby(p_J, 0.0)).canal < -0.5)
+      patient.canal_P_mm.push_back(mirrored(p_J, parameters.right_side));
   return patient;
 }
 

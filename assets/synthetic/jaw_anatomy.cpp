@@ -13,11 +13,12 @@ namespace assets {
 namespace {
 
 constexpr double kLigament_mm = 0.25;
+constexpr double kLigamentAtCrest_mm = 0.5;
 constexpr double kFollicle_mm = 0.8;
 constexpr double kLaminaDura_mm = 0.45;
 constexpr double kSocketWall_mm = 0.85;  ///< bone over a root, at least
 constexpr double kMucosa_mm = 2.3;
-constexpr double kReach_mm = 3.2;  ///< no tooth or canal matters farther away than this
+constexpr double kReach_mm = 4.4;  ///< no tooth or canal matters farther away than this
 
 /// Bone that follows a root outward where the jaw is thin: the juga and the lingual bulge.
 double socketWall_mm(double tooth_mm, double over_cervix_mm) {
@@ -87,7 +88,7 @@ Nearby JawAnatomy::nearby(const glm::dvec3& centre_J, double radius_mm) const {
   const double reach_mm = 1.15 * radius_mm + 0.7;
   nearby.anything = mandible_.outer_mm(centre_J) < reach_mm + kMucosa_mm && mandible_.cut_mm(centre_J) < reach_mm;
   for (std::size_t n = 0; n < teeth_.size(); ++n) {
-    const double tooth_mm = teeth_[n].shape.outer_mm(teeth_[n].local(centre_J));
+    const double tooth_mm = teeth_[n].shape.outerAtLeast_mm(teeth_[n].local(centre_J));
     if (tooth_mm > reach_mm + kReach_mm) continue;
     nearby.teeth |= 1u << n;
     nearby.anything = true;
@@ -120,8 +121,8 @@ TissueDistances JawAnatomy::at(const glm::dvec3& p_J, const Nearby& nearby) cons
       (third ? d.third_molar_pulp : d.other_pulp) = std::min(pulp_mm, third ? d.third_molar_pulp : d.other_pulp);
     }
     bone_mm = smoothMin(bone_mm, socketWall_mm(outer_mm, over_cervix_mm), 1.8);
-    const double space_mm =
-        third ? glm::mix(kLigament_mm, kFollicle_mm, smoothStep(-2.0, 1.5, over_cervix_mm)) : kLigament_mm;
+    const double space_mm = third ? glm::mix(kLigament_mm, kFollicle_mm, smoothStep(-2.0, 1.5, over_cervix_mm))
+                                  : glm::mix(kLigament_mm, kLigamentAtCrest_mm, smoothStep(-3.8, -2.0, over_cervix_mm));
     lining_mm = std::min(lining_mm, outer_mm - space_mm);
     // The impacted crown lies under its mucosa; erupted necks wear a cuff.
     cuff_mm =
@@ -139,7 +140,7 @@ TissueDistances JawAnatomy::at(const glm::dvec3& p_J, const Nearby& nearby) cons
   const double cortex_mm = in_question ? mandible_.cortex_mm(p_J, arch_.coordinatesOf({p_J.x, p_J.y})) : 1.5;
   double spongy_mm = std::max(bone_mm + cortex_mm, -(lining_mm - kLaminaDura_mm));
   spongy_mm = std::max(spongy_mm, CanalPath::kWall_mm - lumen_mm);
-  d.canal = std::max(lumen_mm, cut_mm);
+  d.canal = std::max(lumen_mm, d.bone);
   d.trabecular = std::max(spongy_mm, cut_mm);
 
   // Mucosa thins out down the body and up the ramus.

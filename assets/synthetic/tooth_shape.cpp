@@ -20,13 +20,13 @@ double distanceToSegment_mm(const glm::dvec2& p, const glm::dvec2& a, const glm:
 
 /// Height of the chewing surface: the upper envelope of cusps and ridges; the valleys between them are the fissures.
 double occlusalHeight_mm(const ToothForm& form, const glm::dvec2& p) {
-  constexpr double kRounding_mm = 0.5, kFissure_mm = 0.25;
+  constexpr double kRounding_mm = 0.45, kFissure_mm = 0.16;
   double height_mm = -100.0;
   for (const CuspForm& cusp : form.cusps) {
     const glm::dvec2 d = p - cusp.tip_mm;
     const double r = std::sqrt(glm::dot(d, d) + kRounding_mm * kRounding_mm) - kRounding_mm;
     const double ridge = std::cos(4.0 * (std::atan2(d.y, d.x) - cusp.ridge_rad));
-    const double slope = cusp.slope * (1.0 - 0.24 * ridge * smoothStep(0.0, 1.5, r));
+    const double slope = cusp.slope * (1.0 - 0.30 * ridge * smoothStep(0.0, 1.5, r));
     height_mm = smoothMax(height_mm, cusp.height_mm - slope * r, kFissure_mm);
   }
   for (const RidgeForm& ridge : form.ridges) {

@@ -14,6 +14,7 @@ class ToothShape {
   explicit ToothShape(const ToothForm& form);
 
   double outer_mm(const glm::dvec3& p) const { return outer_.at(p); }
+  double outerAtLeast_mm(const glm::dvec3& p) const { return outer_.atLeast_mm(p); }
   /// Dentine and pulp: the tooth without its enamel, given the outer distance at p.
   double core_mm(const glm::dvec3& p, double outer_mm) const;
   double pulp_mm(const glm::dvec3& p) const { return pulp_.at(p); }

@@ -19,8 +19,8 @@ constexpr double kTestSpacing_mm = 0.4;
 
 /// One jaw of each kind is made once and shared: making it is what costs.
 const Patient& standardJaw() {
-  static const Patient patient = syntheticJaw({.spacing_mm = kTestSpacing_mm});
-  return patient;
+  static const Patient kPatient = syntheticJaw({.spacing_mm = kTestSpacing_mm});
+  return kPatient;
 }
 
 struct TissueCount {
@@ -166,17 +166,12 @@ TEST(SyntheticJaw, KeepsTheWantedDistanceToTheCanal) {
 
 TEST(SyntheticJaw, RunsTheCanalLineInsideTheCanal) {
   const Patient& patient = standardJaw();
-  int inside = 0;
+  EXPECT_GT(patient.canal_P_mm.size(), 100u);
   for (const glm::dvec3& p : patient.canal_P_mm) {
     const glm::ivec3 ijk(glm::round(patient.ct.grid.indexFromPoint(p)));
-    if (!patient.ct.grid.contains(ijk)) continue;
-    const auto tissue = static_cast<Tissue>(patient.ct.label[patient.ct.grid.index(ijk)]);
-    // Beyond the saw cut behind there is air.
-    if (tissue == Tissue::unlabelled && p.y > 65.0) continue;
-    EXPECT_EQ(tissue, Tissue::canal) << p.x << ' ' << p.y << ' ' << p.z;
-    ++inside;
+    ASSERT_TRUE(patient.ct.grid.contains(ijk));
+    EXPECT_EQ(static_cast<Tissue>(patient.ct.label[patient.ct.grid.index(ijk)]), Tissue::canal) << p.x << ' ' << p.y;
   }
-  EXPECT_GT(inside, 100);
 }
 
 TEST(SyntheticJaw, LeavesAirAllRoundTheBone) {
@@ -239,7 +234,7 @@ TEST(SyntheticJaw, PointsTheSiteAtTheThirdMolar) {
 }
 
 TEST(SyntheticJaw, NamesTheParameterThatIsOutOfRange) {
-  const auto messageOf = [](const JawParameters& parameters) -> std::string {
+  const auto message_of = [](const JawParameters& parameters) -> std::string {
     try {
       syntheticJaw(parameters);
     } catch (const LoadError& error) {
@@ -247,11 +242,11 @@ TEST(SyntheticJaw, NamesTheParameterThatIsOutOfRange) {
     }
     return "";
   };
-  EXPECT_NE(messageOf({.winter_angle_deg = 200.0}).find("Winter angle"), std::string::npos);
-  EXPECT_NE(messageOf({.depth_mm = -4.0}).find("depth"), std::string::npos);
-  EXPECT_NE(messageOf({.canal_distance_mm = 0.0}).find("canal distance"), std::string::npos);
-  EXPECT_NE(messageOf({.spacing_mm = std::nan("")}).find("voxel size"), std::string::npos);
-  EXPECT_NE(messageOf({.winter_angle_deg = 0.0, .depth_mm = 8.0, .canal_distance_mm = 6.0}).find("does not fit"),
+  EXPECT_NE(message_of({.winter_angle_deg = 200.0}).find("Winter angle"), std::string::npos);
+  EXPECT_NE(message_of({.depth_mm = -4.0}).find("depth"), std::string::npos);
+  EXPECT_NE(message_of({.canal_distance_mm = 0.0}).find("canal distance"), std::string::npos);
+  EXPECT_NE(message_of({.spacing_mm = std::nan("")}).find("voxel size"), std::string::npos);
+  EXPECT_NE(message_of({.winter_angle_deg = 0.0, .depth_mm = 8.0, .canal_distance_mm = 6.0}).find("does not fit"),
             std::string::npos);
 }
 
