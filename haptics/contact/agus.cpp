@@ -13,7 +13,7 @@ AgusContact agusContact(const SolidField& field, const calibration::Point<calibr
   AgusContact contact;
   contact.volume_mm3 = overlap.volume_mm3;
   contact.moment_mm4 = glm::length(overlap.first_moment_P_mm4.xyz);
-  contact.depth_mm = equivalentDepth_mm(radius_mm, overlap.volume_mm3, field.grid.spacing_mm);
+  contact.depth_mm = equivalentDepth_mm(radius_mm, overlap.volume_mm3, overlap.grey_mm3, field.grid.spacing_mm);
   if (contact.depth_mm <= 0.0) return contact;
 
   // One percent of the largest moment a ball of this size, or a shell of this volume, can have: below it the direction

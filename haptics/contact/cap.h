@@ -20,4 +20,12 @@ double capHeight_mm(double radius_mm, double volume_mm3);
 /// at depth 0 and with slope 1 and not, as the bare correction would have it, with an infinite slope at 0.35 sigma.
 double equivalentDepth_mm(double radius_mm, double volume_mm3, double spacing_mm);
 
+/// The same for a face as soft as it is. Where it lies along the voxels its softness hangs on where between two layers
+/// it falls: none on a boundary, most through a layer's middle. A layer filled to the fraction f is off by
+/// s^2 (f (1 - f) - 1/12) in sigma^2 (midpoint rule, exact to second order), so with `grey_mm3`, the sum of
+/// overlap times w (1 - w), and the area A = dV/dh of the face:  sigma^2 = eta^2/5 - s^2/12 + s grey/A.
+/// One voxel soft, grey/A is s/6 and this is the 0.4 s above; grey/A is taken as at most s/4, all one layer can have,
+/// and as s/6 at first touch, fading to what is found between half a voxel and one and a half of depth.
+double equivalentDepth_mm(double radius_mm, double volume_mm3, double grey_mm3, double spacing_mm);
+
 }  // namespace haptics

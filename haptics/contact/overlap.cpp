@@ -19,6 +19,7 @@ static_assert(std::endian::native == std::endian::little, "the row sum reads eig
 /// Exact integer moments of the solid bytes wholly inside the bur.
 struct WholeSum {
   std::int64_t weight = 0, x = 0, y = 0, z = 0;
+  std::int64_t grey = 0;  ///< sum of w (255 - w)
 };
 
 /// Sum and index-weighted sum of a row, eight bytes at a time in four 16-bit lanes of a machine word.
@@ -33,12 +34,14 @@ class RowSum {
       sum.x += chunk.along + chunk.weight * i;
       sum.y += chunk.weight * j;
       sum.z += chunk.weight * k;
+      sum.grey += chunk.grey;
     }
   }
 
  private:
   struct Chunk {
     std::int64_t weight = 0, along = 0;  ///< sum of the bytes, and of each times its place
+    std::int64_t grey = 0;
   };
   static constexpr std::uint64_t kLanes = 0x00FF00FF00FF00FFu;
   static constexpr std::uint64_t kOnes = 0x0001000100010001u;
@@ -57,28 +60,42 @@ class RowSum {
     return bytes;
   }
 
+  /// Sum of w (255 - w) over the bytes of a word; most words are all air and all bone.
+  static std::int64_t greyOf(std::uint64_t bytes) {
+    if (bytes == (bytes & 0x0101010101010101u) * 0xFF) return 0;
+    std::int64_t grey = 0;
+    for (; bytes != 0; bytes >>= 8) {
+      const auto w = static_cast<std::int64_t>(bytes & 0xFF);
+      grey += w * (255 - w);
+    }
+    return grey;
+  }
+
   /// A multiplication adds the lanes, or the lanes times their places, into the top 16 bits.
   static std::int64_t laneSum(std::uint64_t lanes) { return static_cast<std::int64_t>((lanes * kOnes) >> 48); }
   static std::int64_t placeSum(std::uint64_t lanes) { return static_cast<std::int64_t>((lanes * kPlaces) >> 48); }
 
   Chunk sumOf(std::size_t at, int count) const {
     std::uint64_t even = 0, odd = 0, earlier = 0;
+    std::int64_t grey = 0;
     const int words = count / 8;
     for (int w = 0; w < words; ++w) {
       const std::uint64_t bytes = word(at + 8 * static_cast<std::size_t>(w));
       earlier += even + odd;
       even += bytes & kLanes;
       odd += (bytes >> 8) & kLanes;
+      grey += greyOf(bytes);
     }
     const std::uint64_t rest = firstBytes(at + 8 * static_cast<std::size_t>(words), count % 8);
     earlier += even + odd;
     even += rest & kLanes;
     odd += (rest >> 8) & kLanes;
+    grey += greyOf(rest);
     if ((even | odd) == 0) return {};
     // A word at place w was counted (words - w) times among the earlier ones.
     const std::int64_t odds = laneSum(odd), weight = laneSum(even) + odds;
     const std::int64_t place = words * weight - laneSum(earlier);
-    return {weight, 8 * place + placeSum(even) + placeSum(odd) + odds};
+    return {weight, 8 * place + placeSum(even) + placeSum(odd) + odds, grey};
   }
 
   std::span<const std::uint8_t> solid_;
@@ -109,8 +126,8 @@ class ShellSum {
     if (++count_ == kBatch) sumBatch();
   }
 
-  /// Volume and moment of everything added, in voxels and steps of 1/255.
-  void finish(double& volume, glm::dvec3& moment) {
+  /// Volume, moment and greyness of everything added, in voxels and steps of 1/255 (of 1/255² for the greyness).
+  void finish(double& volume, glm::dvec3& moment, double& grey) {
     // Fill up with voxels of no weight.
     while (count_ != 0) {
       batch_[count_] = {ball_.radius, 0.0, 0.0, {0.0, 0.0, 0.0, 0.0}};
@@ -118,6 +135,7 @@ class ShellSum {
     }
     volume = volume_;
     moment = moment_;
+    grey = grey_;
   }
 
  private:
@@ -149,6 +167,7 @@ class ShellSum {
     for (std::size_t n = 0; n < kBatch; ++n) {
       const double caps = (cap[n][0] + cap[n][1]) + (cap[n][2] + cap[n][3]);
       volume_ += (volume[n][0] + volume[n][1]) + (volume[n][2] + volume[n][3]);
+      for (int i = 0; i < 4; ++i) grey_ += volume[n][i] * (255.0 - batch_[n].weight[i]);
       moment_.x += batch_[n].dx * caps + (cap[n][1] + (2.0 * cap[n][2] + 3.0 * cap[n][3]));
       moment_.y += batch_[n].dy * caps;
       moment_.z += batch_[n].dz * caps;
@@ -161,13 +180,13 @@ class ShellSum {
   int row_voxels_;
   std::size_t count_ = 0;
   alignas(32) std::array<Four, kBatch> batch_;
-  double volume_ = 0.0;
+  double volume_ = 0.0, grey_ = 0.0;
   glm::dvec3 moment_{0.0};
 };
 
-SphereOverlap scaled(double volume_voxels, const glm::dvec3& moment_voxels, double spacing_mm) {
+SphereOverlap scaled(double volume_voxels, const glm::dvec3& moment_voxels, double grey_voxels, double spacing_mm) {
   const double s3 = spacing_mm * spacing_mm * spacing_mm;
-  return {volume_voxels * s3, {moment_voxels * (s3 * spacing_mm)}};
+  return {volume_voxels * s3, {moment_voxels * (s3 * spacing_mm)}, grey_voxels * s3};
 }
 
 }  // namespace
@@ -196,19 +215,19 @@ SphereOverlap sphereOverlap(const SolidField& field, const calibration::Point<ca
       add_row(row[static_cast<std::size_t>(turn)], field.grid.index({0, j, k}), j, k);
     }
 
-  double shell_volume = 0.0;
+  double shell_volume = 0.0, shell_grey = 0.0;
   glm::dvec3 shell_moment{0.0};
-  shell.finish(shell_volume, shell_moment);
+  shell.finish(shell_volume, shell_moment, shell_grey);
   const auto weight = static_cast<double>(whole.weight);
   const glm::dvec3 inside{static_cast<double>(whole.x), static_cast<double>(whole.y), static_cast<double>(whole.z)};
   return scaled((weight + shell_volume) / 255.0, (inside - weight * ball.centre + shell_moment) / 255.0,
-                field.grid.spacing_mm);
+                (static_cast<double>(whole.grey) + shell_grey) / (255.0 * 255.0), field.grid.spacing_mm);
 }
 
 SphereOverlap sphereOverlapVoxelByVoxel(const SolidField& field,
                                         const calibration::Point<calibration::Patient>& centre_P, double radius_mm) {
   const BallRows ball(field.grid, centre_P, radius_mm);
-  double volume = 0.0;
+  double volume = 0.0, grey = 0.0;
   glm::dvec3 moment{0.0};
   for (int k = ball.first.z; k <= ball.last.z; ++k)
     for (int j = ball.first.y; j <= ball.last.y; ++j)
@@ -218,9 +237,10 @@ SphereOverlap sphereOverlapVoxelByVoxel(const SolidField& field,
         const double d = glm::length(offset);
         const Lens lens = lensOfSpheres(ball.radius, kVoxelSphereRadius, d);
         volume += solid * lens.volume;
+        grey += solid * (1.0 - solid) * lens.volume;
         if (d > 0.0) moment += solid * lens.moment / d * offset;
       }
-  return scaled(volume, moment, field.grid.spacing_mm);
+  return scaled(volume, moment, grey, field.grid.spacing_mm);
 }
 
 std::uint8_t dominantLabel(const SolidField& field, const calibration::Point<calibration::Patient>& centre_P,

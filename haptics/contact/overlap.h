@@ -16,6 +16,7 @@ namespace haptics {
 struct SphereOverlap {
   double volume_mm3 = 0.0;
   calibration::Vector<calibration::Patient> first_moment_P_mm4;  ///< about the bur's centre
+  double grey_mm3 = 0.0;  ///< sum of overlap times w (1 - w): how much of it is transition, see equivalentDepth_mm
 };
 
 /// Zero for a non-finite centre or radius.

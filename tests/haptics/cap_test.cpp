@@ -52,6 +52,36 @@ TEST(EquivalentDepth, TakesTheVoxelBiasAway) {
   }
 }
 
+TEST(EquivalentDepth, KnowsWhereBetweenTwoLayersTheFaceLies) {
+  // Layers of spheres under a flat face, the top one filled to a fraction: summed here slice by slice.
+  const double R = 2.0, s = 0.1, h = 0.2;
+  for (const double filled : {0.0, 0.25, 0.5, 0.8}) {
+    double volume = 0.0, grey = 0.0;
+    constexpr int kPhases = 50;
+    for (int phase = 0; phase < kPhases; ++phase) {
+      // The bur's lowest point at all places of the lattice; the face `h` above it, on the top layer's filled part.
+      for (int layer = 0; layer < 60; ++layer) {
+        const double weight = layer == 0 ? filled : 1.0;
+        const double face_to_centre = layer == 0 ? filled * s - 0.5 * s : filled * s + (layer - 0.5) * s;
+        const double u = h - face_to_centre;  // height of the layer's centre above the bur's lowest point
+        // A layer's spheres smear their disc by variance eta^2/5.
+        constexpr int kSlices = 21;
+        for (int n = 0; n < kSlices; ++n) {
+          const double z = (-1.0 + 2.0 * (n + 0.5) / kSlices) * kVoxelSphereRadius * s;
+          const double share = (1.0 - std::pow(z / (kVoxelSphereRadius * s), 2)) * 1.5 / kSlices;
+          const double disc = u + z > 0.0 ? kPi * (2.0 * R * (u + z) - (u + z) * (u + z)) : 0.0;
+          volume += weight * share * disc * s / kPhases;
+          grey += weight * (1.0 - weight) * share * disc * s / kPhases;
+        }
+      }
+    }
+    EXPECT_NEAR(equivalentDepth_mm(R, volume, grey, s), h, 0.004 * h) << filled;
+    if (filled == 0.0) {
+      EXPECT_LT(equivalentDepth_mm(R, volume, s), 0.985 * h) << "taken for one voxel soft";
+    }
+  }
+}
+
 TEST(EquivalentDepth, RisesFromNothingWithoutAJump) {
   const double R = 2.0, s = 0.2;
   double last = 0.0;
