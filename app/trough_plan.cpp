@@ -1,6 +1,7 @@
 #include "app/trough_plan.h"
 
 #include <cmath>
+#include <vector>
 
 namespace app {
 namespace {
@@ -67,7 +68,7 @@ glm::dvec3 archDirection(const CtVolume& ct, const glm::dvec3& third_molar_P_mm)
 
 }  // namespace
 
-std::optional<TroughPlan> planBuccalTrough(const assets::Patient& patient) {
+std::optional<haptics::TroughPlan> planBuccalTrough(const assets::Patient& patient, double bur_radius_mm) {
   if (!patient.site.known) return std::nullopt;
   const glm::dvec3 distal = archDirection(patient.ct, patient.site.third_molar_P_mm), up{0.0, 0.0, 1.0};
   const double lateral_x = patient.site.tooth_fdi == 48 ? -1.0 : 1.0;
@@ -77,20 +78,30 @@ std::optional<TroughPlan> planBuccalTrough(const assets::Patient& patient) {
   const glm::dvec3 crown = patient.site.third_molar_P_mm + kCrownFromCentroid_mm * patient.site.crown_direction_P;
 
   // Walk outwards from the crown until the line lies on bone all along.
-  TroughPlan best;
+  std::vector<glm::dvec3> surface;
   for (double out = kNearestBuccal_mm; out <= kFarthestBuccal_mm; out += 0.5) {
-    TroughPlan plan{{}, {outward}};
+    std::vector<glm::dvec3> found;
     std::size_t stations = 0;
     for (double s = -kHalfLength_mm; s <= kHalfLength_mm; s += kStation_mm, ++stations) {
       const glm::dvec3 from = crown + s * distal + out * buccal + kRayStart_mm * outward;
       const auto hit = firstSolid(patient.ct, from, -outward);
-      if (hit && hit->bone) plan.surface_P.push_back({hit->p_P_mm});
+      if (hit && hit->bone) found.push_back(hit->p_P_mm);
     }
-    if (plan.surface_P.size() > best.surface_P.size()) best = plan;
-    if (best.surface_P.size() == stations) break;
+    if (found.size() > surface.size()) surface = found;
+    if (surface.size() == stations) break;
   }
-  if (best.surface_P.size() < kFewestStations) return std::nullopt;
-  return best;
+  if (surface.size() < kFewestStations) return std::nullopt;
+
+  // The hand sweeps straight: along the line the surface takes, square to it outwards.
+  const glm::dvec3 along = glm::normalize(surface.back() - surface.front());
+  const glm::dvec3 square = glm::normalize(outward - glm::dot(outward, along) * along);
+  haptics::TroughPlan plan;
+  plan.site_D = {surface[surface.size() / 2]};
+  plan.outward_D = {square};
+  plan.buccal_D = {glm::normalize(buccal - glm::dot(buccal, square) * square - glm::dot(buccal, along) * along)};
+  plan.bur_radius_mm = bur_radius_mm;
+  plan.stroke_mm = 2.0 * kHalfLength_mm;
+  return plan;
 }
 
 }  // namespace app

@@ -31,24 +31,24 @@ assets::Patient blockWithMolar() {
 }
 
 TEST(TroughPlan, LiesOnTheBoneBesideTheCrown) {
-  const auto plan = planBuccalTrough(blockWithMolar());
+  const auto plan = planBuccalTrough(blockWithMolar(), 2.0);
   ASSERT_TRUE(plan.has_value());
-  for (const auto& p : plan->surface_P) {
-    EXPECT_NEAR(p.mm.z, 0.0, 0.5) << "on the surface";
-    EXPECT_LT(p.mm.x, -24.5) << "buccal of the crown, on the patient's right";
-  }
-  EXPECT_GT(plan->surface_P.back().mm.y, plan->surface_P.front().mm.y + 6.0) << "mesial to distal";
-  EXPECT_NEAR(glm::length(plan->outward_P.xyz), 1.0, 1e-12);
-  EXPECT_GT(plan->outward_P.xyz.z, 0.5);
+  EXPECT_NEAR(plan->site_D.mm.z, 0.0, 0.5) << "on the surface";
+  EXPECT_LT(plan->site_D.mm.x, -24.5) << "buccal of the crown, on the patient's right";
+  EXPECT_NEAR(plan->site_D.mm.y, 40.0, 2.0) << "beside the third molar";
+  EXPECT_NEAR(glm::length(plan->outward_D.xyz), 1.0, 1e-12);
+  EXPECT_GT(plan->outward_D.xyz.z, 0.5);
+  EXPECT_LT(plan->buccal_D.xyz.x, 0.0);
+  EXPECT_NEAR(glm::dot(plan->outward_D.xyz, plan->buccal_D.xyz), 0.0, 1e-9);
 }
 
 TEST(TroughPlan, IsNoneWithoutBoneOrMolar) {
   assets::Patient no_molar = blockWithMolar();
   no_molar.site.known = false;
-  EXPECT_FALSE(planBuccalTrough(no_molar).has_value());
+  EXPECT_FALSE(planBuccalTrough(no_molar, 2.0).has_value());
   assets::Patient no_bone = blockWithMolar();
   no_bone.ct.solid.assign(no_bone.ct.solid.size(), 0);
-  EXPECT_FALSE(planBuccalTrough(no_bone).has_value());
+  EXPECT_FALSE(planBuccalTrough(no_bone, 2.0).has_value());
 }
 
 }  // namespace

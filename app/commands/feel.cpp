@@ -1,0 +1,112 @@
+// `molar feel`: a force law on given poses, no device. CSV of forces out.
+
+#include <cstdio>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/commands/command.h"
+#include "app/pose_csv.h"
+#include "app/settings_text.h"
+#include "app/usage_error.h"
+#include "app/volume_option.h"
+#include "assets/output_file.h"
+#include "haptics/contact/agus.h"
+#include "haptics/servo/servo.h"
+
+namespace app {
+namespace {
+
+using calibration::Patient;
+using calibration::Vector;
+
+struct FeelOptions {
+  VolumeOption volume;
+  std::string tool, law = "agus", poses, out;
+  std::vector<std::string> settings;
+  bool raw = false, served = false, force = false;
+};
+
+struct FeltRow {
+  Vector<Patient> F_P_N;
+  double volume_mm3 = 0.0, depth_mm = 0.0;
+};
+
+/// Backward difference; zero at the first row.
+Vector<Patient> velocityAt(const std::vector<TimedPose>& poses, std::size_t i) {
+  if (i == 0) return {};
+  const double dt_s = poses[i].t_s - poses[i - 1].t_s;
+  return {(poses[i].X_PT.translation_mm - poses[i - 1].X_PT.translation_mm) / dt_s};
+}
+
+/// The law alone.
+std::vector<FeltRow> feelRaw(const SolidVolume& volume, const haptics::Command& command,
+                             const std::vector<TimedPose>& poses) {
+  const haptics::SolidField field{volume.grid, volume.solid, volume.label};
+  std::vector<FeltRow> rows;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const auto contact = haptics::agusContact(field, {poses[i].X_PT.translation_mm}, command.bur_radius_mm);
+    rows.push_back(
+        {haptics::agusForce_N(contact, command.agus, velocityAt(poses, i)), contact.volume_mm3, contact.depth_mm});
+  }
+  return rows;
+}
+
+/// With proxy and safety, as the servo serves it: one step per row, of the time since the row before.
+std::vector<FeltRow> feelServed(const SolidVolume& volume, const haptics::Command& command,
+                                const std::vector<TimedPose>& poses) {
+  haptics::CarvedBone bone(volume.grid, volume.solid, volume.label);
+  haptics::Servo servo(bone);
+  std::vector<FeltRow> rows;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const double dt_s = i == 0 ? 0.001 : poses[i].t_s - poses[i - 1].t_s;
+    const haptics::Tick tick = servo.step({poses[i].X_PT, velocityAt(poses, i), false}, command, dt_s);
+    rows.push_back({tick.served_force_P_N, tick.overlap_mm3, tick.depth_mm});
+  }
+  return rows;
+}
+
+int feel(const FeelOptions& options) {
+  haptics::Command command;
+  command.bur_radius_mm = sphereRadius_mm(options.tool);
+  applySettings(options.settings, {{"stiffness_N_per_mm", {&command.agus.stiffness_N_per_mm, 0.0, 100.0, "N/mm"}},
+                                   {"damping_Ns_per_mm", {&command.agus.damping_Ns_per_mm, 0.0, 1.0, "Ns/mm"}},
+                                   {"peak_force_N", {&command.safety.peak_force_N, 0.1, 40.0, "N"}},
+                                   {"slew_N_per_s", {&command.safety.slew_N_per_s, 1.0, 1e5, "N/s"}}});
+  assets::OutputFile out(options.out, options.force);
+  const std::vector<TimedPose> poses = readPoses(options.poses);
+  const SolidVolume volume = options.volume.load();
+  const auto rows = options.served ? feelServed(volume, command, poses) : feelRaw(volume, command, poses);
+
+  std::FILE* file = std::fopen(out.temporaryPath().c_str(), "w");
+  if (!file) throw UsageError("--out " + options.out + ": it can not be written, check the folder");
+  std::fputs("t_s,fx_N,fy_N,fz_N,tx_Nmm,ty_Nmm,tz_Nmm,volume_mm3,depth_mm\n", file);
+  // A sphere's force passes through the origin of T: no torque about it.
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    std::fprintf(file, "%.9g,%.9g,%.9g,%.9g,0,0,0,%.9g,%.9g\n", poses[i].t_s, rows[i].F_P_N.xyz.x, rows[i].F_P_N.xyz.y,
+                 rows[i].F_P_N.xyz.z, rows[i].volume_mm3, rows[i].depth_mm);
+  const bool written = !std::ferror(file);
+  if (std::fclose(file) != 0 || !written)
+    throw UsageError("--out " + options.out + ": it can not be written, check the free space");
+  out.commit();
+  return 0;
+}
+
+}  // namespace
+
+void addFeel(CLI::App& molar, Chosen& chosen) {
+  auto options = std::make_shared<FeelOptions>();
+  CLI::App* command = molar.add_subcommand("feel", "A force law on given poses, no device: CSV of forces, frame P");
+  options->volume.addTo(*command);
+  command->add_option("--tool", options->tool, "Cutting head: sphere:R (mm)")->required();
+  command->add_option("--law", options->law, "Force law")->check(CLI::IsMember({"agus"}))->capture_default_str();
+  command->add_option("--set", options->settings, "key=value: stiffness_N_per_mm, damping_Ns_per_mm, …");
+  command->add_option("--poses", options->poses, "t_s,px_mm,py_mm,pz_mm,qw,qx,qy,qz (X_PT)")->required();
+  command->add_option("--out", options->out, "Forces on the hand, CSV")->required();
+  auto* raw = command->add_flag("--raw", options->raw, "The law alone (default)");
+  command->add_flag("--served", options->served, "With proxy and safety, as the servo serves it")->excludes(raw);
+  command->add_flag("--force", options->force, "Replace the output if it exists");
+  command->callback([options, &chosen] { chosen.action = [options] { return feel(*options); }; });
+}
+
+}  // namespace app

@@ -1,0 +1,142 @@
+// `molar rehearse [PATIENT]`: the main job.
+
+#include <cstdlib>
+#include <map>
+#include <memory>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+
+#include "app/commands/command.h"
+#include "app/patient_source.h"
+#include "app/rehearsal.h"
+#include "app/room.h"
+#include "app/settings_text.h"
+#include "app/usage_error.h"
+#include "app/view_option.h"
+#include "assets/patient_folder.h"
+#include "assets/synthetic/face.h"
+#include "calibration/rig_file.h"
+
+namespace app {
+namespace {
+
+constexpr double kMonitorWidth_mm = 531.0;  ///< of a 24-inch monitor
+constexpr double kForeignFaceWindow_mm = 24.0;
+
+struct RehearseOptions {
+  std::string patient, device = "mouse", rig, display = "mono", record, snapshot, first_snapshot, face;
+  std::string tool = "sphere:1.5", law = "agus", size, snapshot_size = "1280x800";
+  std::string side = "right";
+  std::vector<std::string> settings;
+  assets::JawParameters jaw;
+  std::optional<double> seconds, face_window_mm;
+  double rate_Hz = 1000.0, loupes = 4.0;
+  bool headless = false, force = false;
+};
+
+/// On a desk the surgeon wears loupes: the same screen, its picture magnified. With a rig file everything is 1:1.
+calibration::Rig rigFor(const RehearseOptions& options, const assets::Patient& patient) {
+  if (!options.rig.empty()) {
+    calibration::Rig rig = calibration::readRig(options.rig);
+    if (!options.size.empty()) rig.screen.px = pictureSize(options.size);
+    return rig;
+  }
+  const glm::ivec2 px = options.size.empty() ? (options.headless ? glm::ivec2(640, 400) : glm::ivec2(1280, 800))
+                                             : pictureSize(options.size);
+  calibration::Rig rig = calibration::desktopRig(px, kMonitorWidth_mm / options.loupes);
+  rig.X_WP = standPatient({patient.site.third_molar_P_mm}, {assets::surgeonEyeDirection(patient.site.tooth_fdi)},
+                          {{0.0, 0.0, 1.0}});
+  return rig;
+}
+
+/// A software renderer would take every core; one is the servo's.
+void leaveACoreToTheServo() {
+  const unsigned cores = std::thread::hardware_concurrency();
+  const std::string threads = std::to_string(cores > 1 ? cores - 1 : 1);
+  setenv("LP_NUM_THREADS", threads.c_str(), 0);
+}
+
+int run(const RehearseOptions& options) {
+  RehearsalPlan plan;
+  plan.command.bur_radius_mm = sphereRadius_mm(options.tool);
+  applySettings(options.settings,
+                {{"stiffness_N_per_mm", {&plan.command.agus.stiffness_N_per_mm, 0.0, 5.0, "N/mm"}},
+                 {"damping_Ns_per_mm", {&plan.command.agus.damping_Ns_per_mm, 0.0, 0.1, "Ns/mm"}},
+                 {"removal_rate_per_s", {&plan.command.erosion.removal_rate_per_s, 0.0, 1000.0, "1/s"}},
+                 {"peak_force_N", {&plan.command.safety.peak_force_N, 0.1, 40.0, "N"}},
+                 {"slew_N_per_s", {&plan.command.safety.slew_N_per_s, 1.0, 1e5, "N/s"}}});
+  if (options.headless && options.device == "mouse")
+    throw UsageError("--headless: there is no mouse without a window, add --device scripted");
+  plan.hand = options.device == "mouse" ? Hand::mouse : Hand::scripted;
+  plan.display = std::map<std::string, render::DisplayMode>{{"mono", render::DisplayMode::mono},
+                                                            {"side-by-side", render::DisplayMode::side_by_side},
+                                                            {"top-bottom", render::DisplayMode::top_bottom},
+                                                            {"anaglyph", render::DisplayMode::anaglyph}}
+                     .at(options.display);
+  plan.rate_Hz = options.rate_Hz;
+  plan.seconds = options.seconds;
+  plan.snapshot = options.snapshot;
+  plan.first_snapshot = options.first_snapshot;
+  plan.snapshot_px = pictureSize(options.snapshot_size);
+  plan.headless = options.headless;
+  plan.overwrite = options.force;
+  if (!options.record.empty()) plan.recording = Recording{options.record, options.force};
+
+  assets::JawParameters jaw = options.jaw;
+  jaw.right_side = options.side == "right";
+  plan.patient = options.patient.empty() ? builtInPatient(jaw) : assets::loadPatient(options.patient);
+  if (!options.face.empty()) dressWithFace(plan.patient, options.face);
+  plan.face_window_mm = options.face_window_mm.value_or(options.face.empty() ? 0.0 : kForeignFaceWindow_mm);
+  plan.rig = rigFor(options, plan.patient);
+  leaveACoreToTheServo();
+  rehearse(std::move(plan));
+  return 0;
+}
+
+}  // namespace
+
+void addRehearse(CLI::App& molar, Chosen& chosen) {
+  auto o = std::make_shared<RehearseOptions>();
+  CLI::App* command = molar.add_subcommand("rehearse", "Rehearse a third-molar extraction, seen and felt");
+  command->add_option("PATIENT", o->patient, "Patient folder (default: the built-in patient)");
+  command->add_option("--device", o->device, "Hand: mouse or scripted")
+      ->check(CLI::IsMember({"mouse", "scripted"}))
+      ->capture_default_str();
+  command->add_option("--rig", o->rig, "Rig file: screen, mirror, eyes, patient pose; 1:1")->type_name("FILE");
+  command->add_option("--display", o->display, "mono, side-by-side, top-bottom or anaglyph")
+      ->check(CLI::IsMember({"mono", "side-by-side", "top-bottom", "anaglyph"}))
+      ->capture_default_str();
+  command->add_option("--size", o->size, "Picture size")->type_name("WxH");
+  command->add_option("--loupes", o->loupes, "Magnification on a desk (without --rig)")
+      ->check(CLI::Range(1.0, 8.0))
+      ->capture_default_str();
+  command->add_option("--face", o->face, "Face model, glTF; teeth.json beside it places the jaw")->type_name("FILE");
+  command->add_option("--face-window", o->face_window_mm, "Face cut away around the line of sight, mm")
+      ->check(CLI::Range(0.0, 100.0));
+  command->add_option("--tool", o->tool, "Cutting head: sphere:R (mm)")->capture_default_str();
+  command->add_option("--law", o->law, "Force law")->check(CLI::IsMember({"agus"}))->capture_default_str();
+  command->add_option("--set", o->settings, "key=value: stiffness_N_per_mm, removal_rate_per_s, peak_force_N, …");
+  command->add_option("--rate", o->rate_Hz, "Servo rate, Hz")->check(CLI::Range(500.0, 4000.0))->capture_default_str();
+  command->add_option("--seconds", o->seconds, "End after this time")->check(CLI::Range(0.1, 86400.0));
+  command->add_option("--record", o->record, "Session file to write")->type_name("FILE");
+  command->add_option("--snapshot", o->snapshot, "Pictures at the end: NAME_left.png, NAME_right.png");
+  command->add_option("--first-snapshot", o->first_snapshot, "The same before the first cut");
+  command->add_option("--snapshot-size", o->snapshot_size, "Size of those")->type_name("WxH")->capture_default_str();
+  command->add_flag("--headless", o->headless, "Without a window");
+  command->add_flag("--force", o->force, "Replace outputs that exist");
+  command->add_option("--side", o->side, "Built-in patient: right or left")
+      ->check(CLI::IsMember({"right", "left"}))
+      ->capture_default_str();
+  command->add_option("--winter-angle", o->jaw.winter_angle_deg, "Built-in patient: tilt, degrees")
+      ->capture_default_str();
+  command->add_option("--depth", o->jaw.depth_mm, "Built-in patient: crown below the occlusal plane, mm")
+      ->capture_default_str();
+  command->add_option("--canal-distance", o->jaw.canal_distance_mm, "Built-in patient: root to canal, mm")
+      ->capture_default_str();
+  command->add_option("--voxel", o->jaw.spacing_mm, "Built-in patient: voxel edge, mm")->capture_default_str();
+  command->add_option("--seed", o->jaw.seed, "Built-in patient: seed")->capture_default_str();
+  command->callback([o, &chosen] { chosen.action = [o] { return run(*o); }; });
+}
+
+}  // namespace app

@@ -1,0 +1,71 @@
+// `molar replay SESSION` and `molar metrics SESSION`: after the rehearsal.
+
+#include <cstdio>
+#include <memory>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+
+#include "app/commands/command.h"
+#include "app/session/metrics.h"
+#include "app/session/replay.h"
+#include "assets/image_file.h"
+
+namespace app {
+namespace {
+
+struct ReplayOptions {
+  std::string session, out;
+  std::optional<double> to_s;
+  bool verify = false, force = false;
+};
+
+/// 0: every byte and every bit as recorded; 1: not.
+int verifySession(const std::string& path) {
+  const ReplayReport report = verify(path);
+  std::printf("%s\n", report.line().c_str());
+  return report.verified() ? 0 : 1;
+}
+
+/// The bone as it was at a moment, as a volume.
+int bringBack(const ReplayOptions& options) {
+  assets::OutputFile out = assets::nrrdOutput(options.out, options.force);
+  const ReplayedMoment moment = replayTo(options.session, options.to_s.value_or(1e9));
+  assets::writeSolid(moment.start.grid, {moment.bone.solid().begin(), moment.bone.solid().end()}, out);
+  std::printf("bone after %.3f s written\n", moment.tick.t_s + moment.tick.dt_s);
+  return 0;
+}
+
+}  // namespace
+
+void addReplay(CLI::App& molar, Chosen& chosen) {
+  auto options = std::make_shared<ReplayOptions>();
+  CLI::App* command = molar.add_subcommand("replay", "Run a recorded session again");
+  command->add_option("SESSION", options->session, "Session file")->required();
+  auto* check =
+      command->add_flag("--verify", options->verify, "Compare every force and the bone, bit for bit (default)");
+  auto* to = command->add_option("--to", options->to_s, "Stop at this time, s")->check(CLI::Range(0.0, 1e9));
+  auto* out = command->add_option("--out", options->out, "Write the bone as it then was, .nrrd");
+  out->excludes(check);
+  to->needs(out);
+  command->add_flag("--force", options->force, "Replace the output if it exists");
+  command->callback([options, &chosen] {
+    chosen.action = [options] { return options->out.empty() ? verifySession(options->session) : bringBack(*options); };
+  });
+}
+
+void addMetrics(CLI::App& molar, Chosen& chosen) {
+  auto session = std::make_shared<std::string>();
+  CLI::App* command = molar.add_subcommand("metrics", "Numbers of a recorded session, JSON");
+  command->add_option("SESSION", *session, "Session file")->required();
+  command->add_flag(
+      "--json", [](std::int64_t) {}, "JSON (always)");
+  command->callback([session, &chosen] {
+    chosen.action = [session] {
+      std::printf("%s\n", metricsJson(metricsOf(*session)).c_str());
+      return 0;
+    };
+  });
+}
+
+}  // namespace app

@@ -1,0 +1,112 @@
+// `molar see`: one picture without a window. PNG, and on request the distances along the rays and the matrices.
+
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "app/commands/command.h"
+#include "app/usage_error.h"
+#include "app/view_option.h"
+#include "app/volume_option.h"
+#include "assets/image_file.h"
+#include "assets/output_file.h"
+#include "assets/patient_folder.h"
+#include "calibration/picture_file.h"
+#include "render/frame_renderer.h"
+#include "render/gpu/offscreen_context.h"
+
+namespace app {
+namespace {
+
+struct SeeOptions {
+  VolumeOption volume;
+  ViewOption view;
+  std::string patient, renderer = "gl-fragment", mode = "iso", out, depth, matrices;
+  int samples = 2;
+  bool bone_only = false, force = false;
+};
+
+void writeText(const std::string& text, assets::OutputFile& file) {
+  std::ofstream(file.temporaryPath()) << text;
+  file.commit();
+}
+
+std::string matricesText(const glm::dmat4& clip_from_P, glm::ivec2 px) {
+  std::vector<double> rows;
+  for (int r = 0; r < 4; ++r)
+    for (int c = 0; c < 4; ++c) rows.push_back(clip_from_P[c][r]);
+  return nlohmann::json{{"clip_from_P", rows}, {"size", {px.x, px.y}}}.dump(1) + "\n";
+}
+
+int see(const SeeOptions& options) {
+  if (options.volume.given() == !options.patient.empty())
+    throw UsageError("see: it needs one of --volume FILE and --patient DIR, give exactly one");
+  if (options.renderer != "gl-fragment")
+    throw UsageError("--renderer " + options.renderer + ": not in this version, use gl-fragment");
+  if (options.mode != "iso") throw UsageError("--mode " + options.mode + ": not in this version, use iso");
+
+  // Every output is claimed before any work.
+  assets::OutputFile out(options.out, options.force);
+  std::unique_ptr<assets::OutputFile> depth;
+  std::optional<assets::OutputFile> matrices;
+  if (!options.depth.empty()) depth.reset(new assets::OutputFile(assets::nrrdOutput(options.depth, options.force)));
+  if (!options.matrices.empty()) matrices.emplace(options.matrices, options.force);
+
+  SolidVolume volume;
+  assets::Patient patient;
+  if (options.patient.empty()) {
+    volume = options.volume.load();
+  } else {
+    patient = assets::loadPatient(options.patient);
+    volume = {patient.ct.grid, std::move(patient.ct.solid), std::move(patient.ct.label)};
+  }
+  render::Frame frame;
+  const render::Eye eye = options.view.apply(frame.rig, volume.grid);
+  frame.tool_visible = false;
+
+  render::OffscreenContext context;
+  render::FrameRenderer renderer(volume.grid, volume.solid, volume.label, {.samples = options.samples});
+  if (!options.bone_only) {
+    renderer.setFace(patient.face);
+    renderer.setGum(patient.gum);
+  }
+  renderer.renderEye(frame, eye);
+  const render::Picture picture = renderer.readEye(eye);
+  const glm::dmat4 clip_from_P = render::clipFromPatient(frame.rig, render::eyeView(frame.rig, eye));
+  if (depth) {
+    const render::DistancePicture distance = renderer.readDistance(eye);
+    assets::writeDepth(distance.w, distance.h, distance.mm, *depth);
+  }
+  renderer.throwIfError();
+  if (matrices) writeText(matricesText(clip_from_P, frame.rig.screen.px), *matrices);
+  calibration::writePng(out.temporaryPath(), {picture.w, picture.h}, picture.rgba);
+  out.commit();
+  return 0;
+}
+
+}  // namespace
+
+void addSee(CLI::App& molar, Chosen& chosen) {
+  auto options = std::make_shared<SeeOptions>();
+  CLI::App* command = molar.add_subcommand("see", "One picture without a window: PNG, depths, matrices");
+  options->volume.addTo(*command);
+  command->add_option("--patient", options->patient, "Patient folder, instead of --volume")->type_name("DIR");
+  options->view.addTo(*command);
+  command->add_option("--renderer", options->renderer, "gl-fragment")->capture_default_str();
+  command->add_option("--mode", options->mode, "iso")->capture_default_str();
+  command->add_option("--samples", options->samples, "Rays along each edge of a pixel, 1 to 4")
+      ->check(CLI::Range(1, 4))
+      ->capture_default_str();
+  command->add_flag("--bone-only", options->bone_only, "Without face and gum");
+  command->add_option("--out", options->out, "Picture, .png")->required();
+  command->add_option("--depth", options->depth, "Distances along the rays in mm, .nrrd");
+  command->add_option("--matrices", options->matrices, "clip_from_P and size, .json");
+  command->add_flag("--force", options->force, "Replace outputs that exist");
+  command->callback([options, &chosen] { chosen.action = [options] { return see(*options); }; });
+}
+
+}  // namespace app

@@ -1,0 +1,37 @@
+// Mouse and keys as a hand: window events move and turn the place where the tool is wanted, 1:1 on the screen.
+// Drag: in the plane of the screen; wheel: 0.5 mm a notch towards or away; arrows, Q, E: 3 degrees a press; space: the
+// pedal. Frame W, mm. Main thread. The device (haptics::MouseDevice) makes smooth motion of it.
+#pragma once
+
+#include <span>
+
+#include "calibration/geometry/frames.h"
+#include "calibration/geometry/pose.h"
+#include "render/display/window.h"
+
+namespace app {
+
+class HandInput {
+ public:
+  /// `X_WT` is where the tool starts; `mm_per_px` the size of a pixel on the (virtual) screen.
+  HandInput(const calibration::Pose<calibration::World, calibration::Tool>& X_WT, double mm_per_px)
+      : X_WT_(X_WT), mm_per_px_(mm_per_px) {}
+
+  void take(const render::WindowEvent& event);
+
+  const calibration::Pose<calibration::World, calibration::Tool>& X_WT() const { return X_WT_; }
+  bool pedal() const { return pedal_; }
+  bool endAsked() const { return end_asked_; }
+  /// True once for every press of P.
+  bool takeSnapshotAsked();
+
+ private:
+  void press(const render::KeyPressed& key);
+  void turn(const glm::dvec3& axis_W, double angle_rad);
+
+  calibration::Pose<calibration::World, calibration::Tool> X_WT_;
+  double mm_per_px_;
+  bool pedal_ = false, end_asked_ = false, snapshot_asked_ = false;
+};
+
+}  // namespace app

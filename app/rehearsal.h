@@ -1,0 +1,37 @@
+// The rehearsal itself: patient, hand, servo and pictures joined, from the first frame to the summary.
+// Main thread. Runs until the time is over, the window is closed, Esc, or an interrupt; whatever ends it, the force
+// goes to zero first and the recording is closed.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/workstation.h"
+#include "assets/patient.h"
+#include "calibration/rig.h"
+#include "haptics/servo/command.h"
+#include "render/frame.h"
+
+namespace app {
+
+enum class Hand { mouse, scripted };
+
+struct RehearsalPlan {
+  assets::Patient patient;
+  calibration::Rig rig;
+  render::DisplayMode display = render::DisplayMode::mono;
+  Hand hand = Hand::mouse;
+  haptics::Command command;
+  double rate_Hz = 1000.0;
+  std::optional<double> seconds;  ///< simulated time; a scripted hand ends by itself
+  std::optional<Recording> recording;
+  std::string snapshot, first_snapshot;  ///< PNG paths; `_left` and `_right` are put before the ending
+  glm::ivec2 snapshot_px{1280, 800};
+  double face_window_mm = 0.0;
+  bool headless = false, overwrite = false;
+};
+
+/// Throws what its parts throw before anything runs. Prints the summary on stdout.
+void rehearse(RehearsalPlan plan);
+
+}  // namespace app

@@ -1,0 +1,33 @@
+// What a rehearsal came to, as one screen of text with units. Carries the case's title, never a person's data. Pure.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "app/session/recorder.h"
+#include "assets/ct_volume.h"
+#include "haptics/bone/carved_bone.h"
+#include "haptics/servo/servo_statistics.h"
+
+namespace app {
+
+struct RehearsalFigures {
+  std::string patient_title;
+  double bur_radius_mm = 0.0;
+  double duration_s = 0.0;
+  std::array<double, assets::kTissueCount> removed_mm3{};
+  std::uint64_t frames = 0;
+  double frame_ms = 0.0;         ///< mean time between pictures
+  double first_picture_s = 0.0;  ///< from the start of the program's work to the first picture
+  haptics::ServoFigures servo;
+  double rate_Hz = 1000.0;
+  std::optional<RecordingSummary> recording;
+};
+
+/// mm³ of every tissue that `bone` has less of than the scan.
+std::array<double, assets::kTissueCount> removedByTissue(const assets::CtVolume& scan, const haptics::CarvedBone& bone);
+
+std::string summaryText(const RehearsalFigures& figures);
+
+}  // namespace app

@@ -1,0 +1,49 @@
+#include "app/workstation.h"
+
+namespace app {
+namespace {
+
+std::unique_ptr<Recorder> recorderOf(const std::optional<Recording>& recording, const assets::Patient& patient,
+                                     double rate_Hz, const haptics::Command& command, haptics::TickLog& log) {
+  if (!recording) return nullptr;
+  SessionStart start;
+  start.patient_title = patient.title;
+  start.program_version = std::string(MOLAR_VERSION);
+  start.dt_s = 1.0 / rate_Hz;
+  start.grid = patient.ct.grid;
+  start.solid = patient.ct.solid;
+  start.label = patient.ct.label;
+  start.command = command;
+  return std::make_unique<Recorder>(recording->path, recording->overwrite, start, log);
+}
+
+}  // namespace
+
+Workstation::Workstation(const assets::Patient& patient, std::unique_ptr<haptics::HapticDevice> device,
+                         const haptics::ServoSettings& settings, const haptics::Command& command,
+                         const std::optional<Recording>& recording)
+    : device_(std::move(device)),
+      bone_(patient.ct.grid, patient.ct.solid, patient.ct.label),
+      servo_(bone_),
+      command_(haptics::limitedTo(device_->capabilities(), command)),
+      commands_(command_),
+      recorder_(recorderOf(recording, patient, settings.rate_Hz, command_, log_)),
+      servo_thread_(servo_, *device_, commands_, log_, newest_, settings) {}
+
+RecordingSummary Workstation::stop() {
+  servo_thread_.stop();
+  return recorder_ ? recorder_->stop() : RecordingSummary{};
+}
+
+void Workstation::change(haptics::Command command) {
+  command.serial = command_.serial + 1;
+  command_ = haptics::limitedTo(device_->capabilities(), command);
+  if (recorder_) recorder_->command(command_);
+  commands_.publish(command_);
+}
+
+void Workstation::note(const std::string& kind, const std::string& text) {
+  if (recorder_) recorder_->event(kind, text);
+}
+
+}  // namespace app

@@ -1,0 +1,55 @@
+// The room while a rehearsal runs: the live bone, the servo on its thread, the hand, the recorder. The one place that
+// starts and stops threads. What the frame loop needs of it are values: the newest tick, the dirty bricks, figures.
+// Main thread. Construction copies the bone and opens the recording (0.1 s); nothing runs before start().
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/session/recorder.h"
+#include "assets/patient.h"
+#include "haptics/bone/carved_bone.h"
+#include "haptics/device/haptic_device.h"
+#include "haptics/servo/servo.h"
+#include "haptics/servo/servo_thread.h"
+
+namespace app {
+
+struct Recording {
+  std::string path;
+  bool overwrite = false;
+};
+
+class Workstation {
+ public:
+  /// Throws SessionError or haptics::DeviceError.
+  Workstation(const assets::Patient& patient, std::unique_ptr<haptics::HapticDevice> device,
+              const haptics::ServoSettings& settings, const haptics::Command& command,
+              const std::optional<Recording>& recording);
+
+  void start() { servo_thread_.start(); }
+  /// Force to zero, servo ended, recording closed.
+  RecordingSummary stop();
+
+  /// In force from a tick after this call; recorded.
+  void change(haptics::Command command);
+  void note(const std::string& kind, const std::string& text);
+
+  haptics::Tick newestTick() { return newest_.read(); }
+  haptics::CarvedBone& bone() { return bone_; }
+  haptics::ServoFigures figures() const { return servo_thread_.figures(); }
+
+ private:
+  std::unique_ptr<haptics::HapticDevice> device_;
+  haptics::CarvedBone bone_;
+  haptics::Servo servo_;
+  haptics::Command command_;
+  haptics::Latest<haptics::Command> commands_;
+  haptics::Latest<haptics::Tick> newest_;
+  haptics::TickLog log_;
+  std::unique_ptr<Recorder> recorder_;
+  haptics::ServoThread servo_thread_;
+};
+
+}  // namespace app

@@ -1,0 +1,54 @@
+#include <nlohmann/json.hpp>
+
+#include "tests/app/program.h"
+
+namespace app {
+namespace {
+
+/// A coarse patient keeps these quick; the cache is the test's own.
+class RehearseCommand : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    setenv("XDG_CACHE_HOME", (testing::TempDir() + "molar_test_cache").c_str(), 1);
+  }
+};
+
+constexpr char kCoarse[] = "rehearse --headless --device scripted --voxel 0.6 --size 96x64 ";
+
+TEST_F(RehearseCommand, RecordsWhatReplaysBitForBit) {
+  const Said said = molar(kCoarse + std::string("--seconds 4 --record ") + at("s.molar"));
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_NE(said.out.find("removed"), std::string::npos);
+  const Said replay = molar("replay " + at("s.molar") + " --verify");
+  EXPECT_EQ(replay.status, 0) << replay.out << replay.err;
+  const Said metrics = molar("metrics " + at("s.molar") + " --json");
+  ASSERT_EQ(metrics.status, 0) << metrics.err;
+  const auto json = nlohmann::json::parse(metrics.out);
+  EXPECT_GE(json.at("duration_s").get<double>(), 4.0);
+  EXPECT_GE(json.at("ticks").get<int>(), 4000);
+  EXPECT_GT(json.at("removed_mm3").get<double>(), 1.0) << "the scripted hand carves";
+  EXPECT_LE(json.at("max_force_N").get<double>(), 3.3 + 1e-9);
+
+  // Any changed byte is found.
+  std::string bytes = read("s.molar");
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+  write("t.molar", bytes);
+  EXPECT_NE(molar("replay " + at("t.molar") + " --verify").status, 0);
+}
+
+TEST_F(RehearseCommand, LeavesPicturesOfBothEyes) {
+  const Said said = molar(kCoarse + std::string("--seconds 0.2 --snapshot-size 160x100 --snapshot ") + at("end.png"));
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_EQ(read("end_left.png").substr(1, 3), "PNG");
+  EXPECT_NE(read("end_left.png"), read("end_right.png"));
+}
+
+TEST_F(RehearseCommand, KeepsAnOldRecording) {
+  write("s.molar", "precious");
+  expectRefusal(kCoarse + std::string("--seconds 0.2 --record ") + at("s.molar"), "s.molar");
+  EXPECT_EQ(read("s.molar"), "precious");
+}
+
+}  // namespace
+}  // namespace app
