@@ -38,11 +38,11 @@ volatile std::sig_atomic_t interrupted = 0;
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Where the mouse's tool begins: 12 mm in front of the site, the shaft towards the viewer's right hand.
-Pose<World, Tool> restingTool() {
-  const glm::dvec3 shaft_W = glm::normalize(glm::dvec3(0.45, 0.35, 0.85));
-  return {glm::dquat(glm::dvec3(0, 0, 1), shaft_W), {0.0, 6.0, 12.0}};
-}
+/// From the bur to the handle, W: towards the viewer and down over the lower lip, so that it does not hide the site.
+glm::dvec3 shaftDirection_W() { return glm::normalize(glm::dvec3(0.12, -0.38, 0.92)); }
+
+/// Where the mouse's tool begins: in front of the site.
+Pose<World, Tool> restingTool() { return {glm::dquat(glm::dvec3(0, 0, 1), shaftDirection_W()), {0.0, 6.0, 12.0}}; }
 
 /// The hand of this rehearsal, and how its frame stands to the patient.
 struct HandAtWork {
@@ -55,9 +55,10 @@ struct HandAtWork {
 HandAtWork handOf(const RehearsalPlan& plan) {
   HandAtWork hand;
   if (plan.hand == Hand::scripted) {
-    const auto trough = planBuccalTrough(plan.patient, plan.command.bur_radius_mm);
+    auto trough = planBuccalTrough(plan.patient, plan.command.bur_radius_mm);
     if (!trough)
       throw UsageError("--device scripted: this patient has no third molar with bone beside it, use --device mouse");
+    trough->shaft_D = {glm::conjugate(plan.rig.X_WP.rotation) * shaftDirection_W()};
     auto scripted = std::make_unique<haptics::ScriptedHand>(*trough);
     hand.duration_s = scripted->duration_s();
     hand.device = std::move(scripted);

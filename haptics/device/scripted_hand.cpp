@@ -26,6 +26,8 @@ ScriptedHand::ScriptedHand(const TroughPlan& plan) : plan_(plan) {
   const double area = glm::length(across);
   if (!(std::isfinite(glm::length(plan.site_D.mm)) && std::isfinite(area) && area > 1e-6))
     throw DeviceError("scripted hand, its site or directions are not usable, give finite ones that are not parallel");
+  if (!std::isfinite(glm::length(plan.shaft_D.xyz)))
+    throw DeviceError("scripted hand, its shaft direction is not finite, give one that is, or zero");
   if (!positive(plan.bur_radius_mm) || !positive(plan.stroke_mm) || !positive(plan.speed_mm_per_s) ||
       !positive(plan.depth_mm) || !positive(plan.clearance_mm))
     throw DeviceError("scripted hand, a size or speed of its plan is not positive, give positive ones");
@@ -33,8 +35,10 @@ ScriptedHand::ScriptedHand(const TroughPlan& plan) : plan_(plan) {
   outward_ = glm::normalize(plan.outward_D.xyz);
   along_ = across / area;
   const glm::dvec3 buccal = glm::cross(along_, outward_);
-  const glm::dvec3 shaft = std::cos(kTilt_rad) * outward_ + std::sin(kTilt_rad) * buccal;
-  rotation_ = glm::normalize(glm::quat_cast(glm::dmat3(glm::cross(along_, shaft), along_, shaft)));
+  const double shaft_length = glm::length(plan.shaft_D.xyz);
+  const glm::dvec3 shaft = shaft_length > 0.0 ? plan.shaft_D.xyz / shaft_length
+                                              : std::cos(kTilt_rad) * outward_ + std::sin(kTilt_rad) * buccal;
+  rotation_ = glm::normalize(glm::dquat(glm::dvec3(0.0, 0.0, 1.0), shaft));
 
   deepening_passes_ = std::max(1, static_cast<int>(std::ceil(plan.depth_mm / (plan.bur_radius_mm / 8.0))));
   passes_ = deepening_passes_ + kFinishingPasses;

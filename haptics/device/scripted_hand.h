@@ -14,6 +14,7 @@ struct TroughPlan {
   calibration::Point<calibration::Device> site_D;      ///< middle of the trough, on the bone's surface
   calibration::Vector<calibration::Device> outward_D;  ///< out of the bone, where the bur comes from
   calibration::Vector<calibration::Device> buccal_D;   ///< across the trough, away from the tooth
+  calibration::Vector<calibration::Device> shaft_D;    ///< from bur to handle; zero: outward, tilted to the cheek
   double bur_radius_mm = 2.0;
   double stroke_mm = 8.0;        ///< length of a sweep, 6..10
   double speed_mm_per_s = 12.0;  ///< along the sweep
