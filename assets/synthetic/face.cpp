@@ -105,7 +105,7 @@ void requireInRange(const FaceParameters& parameters) {
 }  // namespace
 
 glm::dvec3 surgeonEyeDirection(int tooth_fdi) {
-  return glm::normalize(dvec3(tooth_fdi == 48 ? -0.22 : 0.22, -0.87, 0.44));
+  return glm::normalize(dvec3(tooth_fdi == 48 ? -0.11 : 0.11, -0.87, 0.46));
 }
 
 MeshModel syntheticFace(const FaceParameters& parameters) {
