@@ -12,6 +12,7 @@
 namespace app {
 namespace {
 
+using session_format::kApplicationMark;
 using session_format::kTrailerBytes;
 using session_format::kTrailerMark;
 
@@ -65,6 +66,21 @@ FileSeal fileSeal(const std::string& path) {
   std::string found(kTrailerBytes, '\0');
   in.read(found.data(), static_cast<std::streamsize>(found.size()));
   return in && found == expected ? FileSeal::intact : FileSeal::broken;
+}
+
+bool bearsSessionMark(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  const std::uint64_t size = bytesIn(in);
+  const auto text_at = [&](std::uint64_t place, std::size_t bytes) {
+    std::string text(bytes, '\0');
+    in.clear();
+    in.seekg(static_cast<std::streamoff>(place));
+    in.read(text.data(), static_cast<std::streamsize>(bytes));
+    return text;
+  };
+  constexpr std::uint64_t kApplicationIdPlace = 68;  // https://www.sqlite.org/fileformat.html
+  return text_at(kApplicationIdPlace, kApplicationMark.size()) == kApplicationMark ||
+         (size > kTrailerBytes && text_at(size - kTrailerBytes, kTrailerMark.size()) == kTrailerMark);
 }
 
 }  // namespace app

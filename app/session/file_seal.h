@@ -14,4 +14,7 @@ void sealFile(const std::string& path);
 /// none: a file without trailer, as a killed program leaves it. broken: some byte of the file was changed.
 FileSeal fileSeal(const std::string& path);
 
+/// Whether the file was written as a session, whatever became of it: the mark of its header or that of its trailer.
+bool bearsSessionMark(const std::string& path);
+
 }  // namespace app

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <span>
 
+#include "app/session/file_seal.h"
 #include "app/session/session_error.h"
 #include "haptics/servo/servo.h"
 
@@ -62,24 +63,8 @@ std::optional<std::string> stepDifference(Rerun& rerun, const haptics::Tick& rec
   return differenceOf(recorded, again);
 }
 
-}  // namespace
-
-std::string ReplayReport::line() const {
-  if (damage) return "NOT verified: the file was changed: " + *damage;
-  char figures[96];
-  std::snprintf(figures, sizeof figures, "%llu ticks, %.3f s", static_cast<unsigned long long>(ticks), duration_s);
-  const std::string ended = closed ? "" : "; the recording was cut short by a kill and is whole up to there";
-  if (difference) {
-    return "NOT verified: at tick " + std::to_string(difference->tick) + " " + difference->what + " (of " + figures +
-           ")" + ended;
-  }
-  char digest[17];
-  std::snprintf(digest, sizeof digest, "%016llx", static_cast<unsigned long long>(bone_digest));
-  return std::string("verified: ") + figures + ", every force and the final bone (" + digest + ") bit-identical" +
-         ended;
-}
-
-ReplayReport verify(const std::string& path) {
+/// What there is to say of a session that can be opened.
+ReplayReport verifyReadable(const std::string& path) {
   SessionReader session(path);
   ReplayReport report;
   report.closed = session.closed();
@@ -105,6 +90,35 @@ ReplayReport verify(const std::string& path) {
   }
   report.bone_digest = bone.digest();
   return report;
+}
+
+}  // namespace
+
+std::string ReplayReport::line() const {
+  if (damage) return "NOT verified: the file was changed: " + *damage;
+  char figures[96];
+  std::snprintf(figures, sizeof figures, "%llu ticks, %.3f s", static_cast<unsigned long long>(ticks), duration_s);
+  const std::string ended = closed ? "" : "; the recording was cut short by a kill and is whole up to there";
+  if (difference) {
+    return "NOT verified: at tick " + std::to_string(difference->tick) + " " + difference->what + " (of " + figures +
+           ")" + ended;
+  }
+  char digest[17];
+  std::snprintf(digest, sizeof digest, "%016llx", static_cast<unsigned long long>(bone_digest));
+  return std::string("verified: ") + figures + ", every force and the final bone (" + digest + ") bit-identical" +
+         ended;
+}
+
+ReplayReport verify(const std::string& path) {
+  try {
+    return verifyReadable(path);
+  } catch (const SessionError& refusal) {
+    // A session too damaged to be read is an answer; a file that never was one is bad input.
+    if (!bearsSessionMark(path)) throw;
+    ReplayReport report;
+    report.damage = refusal.what();
+    return report;
+  }
 }
 
 ReplayedMoment replayTo(const std::string& path, double t_s) {

@@ -1,6 +1,6 @@
 // Runs a recorded session again: the bone from its start, the servo over the recorded hands and commands, and every
 // force, proxy, removed volume and bone digest compared bit for bit. No clock, no device, no thread of its own.
-// Frame P. Any thread but the servo; as long as the recording's CPU time (about 0.03 s per second recorded).
+// Frame P. Any thread but the servo; takes what the servo's own work in it took.
 // Bit-identical on any machine that runs the same program; another build of the servo may differ, and is told so.
 #pragma once
 
@@ -33,7 +33,7 @@ struct ReplayReport {
   std::string line() const;
 };
 
-/// Throws SessionError if the file is missing or no session at all; a damaged one is a report.
+/// Throws SessionError if the file is missing or never was a session; a damaged one is a report.
 ReplayReport verify(const std::string& path);
 
 /// A moment of the rehearsal, brought back.

@@ -1,6 +1,7 @@
 // Writes a session file: SQLite in WAL mode, this object its only user. Each write() is one transaction, on disk for
 // every process that opens the file later, whatever becomes of this one; after a power cut the last checkpoint stands.
-// One thread, never the servo; about 1 ms per write of 50 ticks. Not the queue in front of it (recorder.h).
+// One thread, never the servo; 0.2 ms per write of 50 ticks, now and then 50 ms while the log is folded into the file.
+// Not the queue in front of it (recorder.h).
 #pragma once
 
 #include <cstdint>

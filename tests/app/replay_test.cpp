@@ -128,6 +128,29 @@ TEST(Replay, ReportsAChangedFileInsteadOfRunningIt) {
   EXPECT_THROW(metricsOf(session.path), SessionError);
 }
 
+TEST(Replay, AnswersNoWhicheverByteWasChanged) {
+  Recorded session;
+  session.ticks.resize(60);
+  session.write();
+  const std::string whole = test::bytesOf(session.path);
+  std::mt19937 random(5);
+  for (std::size_t at = 0; at < whole.size(); at += at < 120 ? 1 : 1 + random() % 400) {
+    std::string changed = whole;
+    changed[at] = static_cast<char>(changed[at] ^ (1 << (random() % 8)));
+    test::writeBytes(session.path, changed);
+    EXPECT_FALSE(verify(session.path).verified()) << "byte " << at;
+  }
+  test::writeBytes(session.path, whole.substr(0, whole.size() / 2));
+  EXPECT_FALSE(verify(session.path).verified());
+}
+
+TEST(Replay, RefusesWhatNeverWasASession) {
+  const test::ScratchFolder folder;
+  test::writeBytes(folder.file("text"), std::string(5000, 'x'));
+  EXPECT_THROW(verify(folder.file("text")), SessionError);
+  EXPECT_THROW(verify(folder.file("missing")), SessionError);
+}
+
 TEST(Replay, BringsBackTheBoneOfAnyMoment) {
   Recorded session;
   session.write();
