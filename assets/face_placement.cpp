@@ -60,7 +60,7 @@ Slope slopeOf(const std::vector<glm::dvec3>& points) {
 // Voxels of the other lower teeth: the chewing plane is fitted to the tops of their columns, each time without those
 // that lie well below it (cut roots), and the teeth hang from it.
 LowerTeeth lowerTeethOf(const CtVolume& ct) {
-  const auto isTooth = [&](glm::ivec3 at) {
+  const auto is_tooth = [&](glm::ivec3 at) {
     return ct.label[ct.grid.index(at)] == static_cast<std::uint8_t>(Tissue::other_teeth);
   };
   std::vector<glm::ivec3> columns;
@@ -68,7 +68,7 @@ LowerTeeth lowerTeethOf(const CtVolume& ct) {
   for (int y = 0; y < ct.grid.size.y; ++y) {
     for (int x = 0; x < ct.grid.size.x; ++x) {
       for (int z = ct.grid.size.z - 1; z >= 0; --z) {
-        if (!isTooth({x, y, z})) continue;
+        if (!is_tooth({x, y, z})) continue;
         columns.emplace_back(x, y, z);
         tops.push_back(ct.grid.centre_P_mm({x, y, z}));
         break;
@@ -91,7 +91,7 @@ LowerTeeth lowerTeethOf(const CtVolume& ct) {
     for (int z = top.z; z >= 0; --z) {
       const glm::dvec3 p = ct.grid.centre_P_mm({top.x, top.y, z});
       if (p.z < plane.heightAt(p.x, p.y) - kToothHeight_mm) break;
-      if (isTooth({top.x, top.y, z})) teeth.voxels_P_mm.push_back(p);
+      if (is_tooth({top.x, top.y, z})) teeth.voxels_P_mm.push_back(p);
     }
   }
   return teeth;

@@ -31,21 +31,21 @@ openvdb::MaskGrid::Ptr gumVoxels(const CtVolume& ct) {
   constexpr int kUnder = 2;
   auto grid = openvdb::MaskGrid::create();
   auto accessor = grid->getAccessor();
-  const auto labelAt = [&](glm::ivec3 at) {
+  const auto label_at = [&](glm::ivec3 at) {
     return ct.grid.contains(at) ? ct.label[ct.grid.index(at)] : std::uint8_t{0};
   };
   glm::ivec3 at;
   for (at.z = 0; at.z < ct.grid.size.z; ++at.z) {
     for (at.y = 0; at.y < ct.grid.size.y; ++at.y) {
       for (at.x = 0; at.x < ct.grid.size.x; ++at.x) {
-        if (labelAt(at) != static_cast<std::uint8_t>(Tissue::gingiva)) continue;
+        if (label_at(at) != static_cast<std::uint8_t>(Tissue::gingiva)) continue;
         accessor.setValueOn({at.x, at.y, at.z});
         for (int axis = 0; axis < 3; ++axis) {
           for (const int step : {-1, 1}) {
             glm::ivec3 below = at;
             for (int depth = 0; depth < kUnder; ++depth) {
               below[axis] += step;
-              if (!isHard(labelAt(below))) break;
+              if (!isHard(label_at(below))) break;
               accessor.setValueOn({below.x, below.y, below.z});
             }
           }

@@ -27,12 +27,12 @@ constexpr MeshingBox kCapBox{{-100, -60, 0}, {100, 240, 240}};
 constexpr MeshingBox kDrapeBox{{-150, -40, -150}, {150, 190, 10}};
 
 MeshPart coloured(MeshPart part, const std::string& name, const Material& material,
-                  const std::function<glm::vec3(const dvec3& p, const dvec3& n)>& colourAt) {
+                  const std::function<glm::vec3(const dvec3& p, const dvec3& n)>& colour_at) {
   part.name = name;
   part.material = material;
   part.colour.resize(part.position_mm.size());
   tbb::parallel_for(std::size_t{0}, part.colour.size(), [&](std::size_t n) {
-    part.colour[n] = glm::vec4(colourAt(part.position_mm[n], part.normal[n]), 1.0f);
+    part.colour[n] = glm::vec4(colour_at(part.position_mm[n], part.normal[n]), 1.0f);
   });
   return part;
 }

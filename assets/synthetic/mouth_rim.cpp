@@ -27,7 +27,7 @@ double throughFour(double a, double b, double c, double d, double t) {
 
 }  // namespace
 
-MouthRim::MouthRim(const std::function<double(double, double)>& depthAt) {
+MouthRim::MouthRim(const std::function<double(double, double)>& depth_at) {
   // Catmull-Rom through the knots.
   constexpr std::size_t kPerSpan = kPoints / kKnots.size();
   std::array<double, kPoints> inward_mm{};
@@ -48,7 +48,7 @@ MouthRim::MouthRim(const std::function<double(double, double)>& depthAt) {
     const glm::dvec2 along = edge_[(n + 1) % kPoints] - edge_[(n + kPoints - 1) % kPoints];
     const glm::dvec2 outward = glm::normalize(glm::dvec2(-along.y, along.x));
     const glm::dvec2 centre = edge_[n] + radius_mm_[n] * outward;
-    lip_[n] = {centre.x, depthAt(centre.x, centre.y) + 0.9 + inward_mm[n], centre.y};
+    lip_[n] = {centre.x, depth_at(centre.x, centre.y) + 0.9 + inward_mm[n], centre.y};
   }
   // Depths of neighbours are evened out, so that the lip does not follow every dent of the skin.
   for (int pass = 0; pass < 6; ++pass) {

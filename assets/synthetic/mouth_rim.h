@@ -14,8 +14,8 @@ class MouthRim {
  public:
   static constexpr std::size_t kPoints = 120;
 
-  /// `depthAt(x, z)`: y of the closed face's skin, on which the rim is laid.
-  explicit MouthRim(const std::function<double(double x_mm, double z_mm)>& depthAt);
+  /// `depth_at(x, z)`: y of the closed face's skin, on which the rim is laid.
+  explicit MouthRim(const std::function<double(double x_mm, double z_mm)>& depth_at);
 
   struct Place {
     double distance_mm = 0.0;  ///< to the tube of lip around the rim, negative inside the lip
