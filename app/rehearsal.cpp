@@ -89,7 +89,6 @@ class Rehearsal {
         input_(restingTool(), mmPerPx(plan_.rig.screen)) {
     openDisplay();
     renderer_ = rendererWith(1, plan_.patient.ct.solid);
-    // Both eyes of one place on the desk see the same frame.
     frame_.rig = plan_.rig;
     frame_.display = plan_.display;
     frame_.bur_radius_mm = plan_.command.bur_radius_mm;
@@ -102,7 +101,7 @@ class Rehearsal {
 
   void run() {
     drawFrame();
-    first_picture_s_ = secondsSince(begun_);
+    first_picture_s_ = secondsSince(plan_.begun);
     if (!plan_.first_snapshot.empty()) takeSnapshot(plan_.first_snapshot, plan_.patient.ct.solid);
     workstation_->start();
     looping_since_ = Clock::now();
@@ -226,7 +225,7 @@ class Rehearsal {
     std::fputs(summaryText(figures).c_str(), stdout);
   }
 
-  Clock::time_point begun_ = Clock::now(), looping_since_, status_shown_;
+  Clock::time_point looping_since_, status_shown_;
   RehearsalPlan plan_;
   HandAtWork hand_;
   std::optional<double> duration_s_;

@@ -3,6 +3,7 @@
 // goes to zero first and the recording is closed.
 #pragma once
 
+#include <chrono>
 #include <optional>
 #include <string>
 
@@ -29,6 +30,7 @@ struct RehearsalPlan {
   glm::ivec2 snapshot_px{1280, 800};
   double face_window_mm = 0.0;
   bool headless = false, overwrite = false;
+  std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();  ///< when the user asked for it
 };
 
 /// Throws what its parts throw before anything runs. Prints the summary on stdout.

@@ -19,7 +19,7 @@ struct RehearsalFigures {
   std::array<double, assets::kTissueCount> removed_mm3{};
   std::uint64_t frames = 0;
   double frame_ms = 0.0;         ///< mean time between pictures
-  double first_picture_s = 0.0;  ///< from the start of the program's work to the first picture
+  double first_picture_s = 0.0;  ///< from the user's asking to the first picture, loading included
   haptics::ServoFigures servo;
   double rate_Hz = 1000.0;
   std::optional<RecordingSummary> recording;

@@ -1,0 +1,66 @@
+#include "app/brick_upload.h"
+
+#include <gtest/gtest.h>
+
+#include "haptics/servo/servo.h"
+#include "render/display/camera.h"
+#include "render/frame_renderer.h"
+#include "render/gpu/offscreen_context.h"
+
+namespace app {
+namespace {
+
+constexpr assets::VolumeGrid kGrid{{48, 48, 32}, 0.25, {-6.0, -6.0, -6.0}};
+
+/// A flat block of bone up to z = 0.
+std::vector<std::uint8_t> block() {
+  std::vector<std::uint8_t> solid(kGrid.voxelCount(), 0);
+  for (int k = 0; k < 24; ++k)
+    for (int j = 2; j < 46; ++j)
+      for (int i = 2; i < 46; ++i) solid[kGrid.index({i, j, k})] = 255;
+  return solid;
+}
+
+render::Frame frameAbove() {
+  render::Frame frame;
+  frame.rig = render::cameraRig({.eye_P_mm = {0, -40, 60}, .fov_y_rad = 0.25}, {96, 72});
+  frame.tool_visible = false;
+  return frame;
+}
+
+TEST(BrickUpload, ShowsWhatOneTickCutToBothEyesInTheNextFrame) {
+  const render::OffscreenContext context;
+  const std::vector<std::uint8_t> solid = block();
+  haptics::CarvedBone bone(kGrid, solid, {});
+  render::FrameRenderer shown(kGrid, solid, {});
+  const render::Frame frame = frameAbove();
+
+  // One tick of a fierce bur.
+  haptics::Servo servo(bone);
+  haptics::Command command;
+  command.bur_radius_mm = 1.5;
+  command.erosion.removal_rate_per_s = 1000.0;
+  const haptics::Tick tick = servo.step({{{1, 0, 0, 0}, {0.0, 0.0, 0.4}}, {}, true}, command, 0.001);
+  ASSERT_GT(tick.removed_mm3, 0.5);
+
+  // Before: without the hole. After: as a renderer that was given the carved bone from the start.
+  std::vector<std::uint8_t> uncut[2];
+  constexpr render::Eye kEyes[] = {render::Eye::left, render::Eye::right};
+  for (int e = 0; e < 2; ++e) {
+    shown.renderEye(frame, kEyes[e]);
+    uncut[e] = shown.readEye(kEyes[e]).rgba;
+  }
+  EXPECT_GT(BrickUpload().bring(bone, shown), 0u);
+  EXPECT_EQ(BrickUpload().bring(bone, shown), 0u) << "nothing is brought twice";
+  render::FrameRenderer fresh(kGrid, bone.solid(), {});
+  for (int e = 0; e < 2; ++e) {
+    shown.renderEye(frame, kEyes[e]);
+    fresh.renderEye(frame, kEyes[e]);
+    const auto cut = shown.readEye(kEyes[e]).rgba;
+    EXPECT_EQ(cut, fresh.readEye(kEyes[e]).rgba);
+    EXPECT_NE(cut, uncut[e]) << "the control: the hole is in sight";
+  }
+}
+
+}  // namespace
+}  // namespace app
