@@ -5,7 +5,9 @@
 #include <filesystem>
 
 #include "assets/face_frame.h"
+#include "assets/face_placement.h"
 #include "assets/gltf_file.h"
+#include "assets/gum_surface.h"
 #include "assets/load_error.h"
 #include "assets/patient_folder.h"
 #include "assets/synthetic/face.h"
@@ -16,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Rises when the built-in patient is made differently, so that an older cache is not taken for it.
-constexpr int kBuiltInRevision = 1;
+constexpr int kBuiltInRevision = 2;
 
 fs::path cacheFolder() {
   const char* cache = std::getenv("XDG_CACHE_HOME");
@@ -35,6 +37,7 @@ std::string cacheName(const assets::JawParameters& p) {
 
 assets::Patient generate(const assets::JawParameters& parameters) {
   assets::Patient patient = assets::syntheticJaw(parameters);
+  patient.gum = assets::gumSurface(patient.ct, patient.site);
   patient.face = assets::syntheticFace({.tooth_fdi = patient.site.tooth_fdi});
   return patient;
 }
@@ -65,5 +68,13 @@ assets::Patient builtInPatient(const assets::JawParameters& parameters) {
   return assets::loadPatient(folder.string());
 }
 
-void dressWithFace(assets::Patient&, const std::string&) {}
+assets::FacePose dressWithFace(assets::Patient& patient, const std::string& face_path) {
+  const assets::MeshModel face_F = assets::readGltf(face_path);
+  const fs::path teeth = fs::path(face_path).parent_path() / "teeth.json";
+  const assets::FacePlacement placed = assets::fitFace(patient.ct, patient.site, assets::readFaceTeeth(teeth.string()));
+  patient.face = assets::modelInPatientFrame(face_F, placed.X_PF);
+  std::fprintf(stderr, "molar: face placed on %d teeth, %.1f mm rms, 1:1\n", placed.teeth, placed.rms_mm);
+  return placed.X_PF;
+}
+
 }  // namespace app

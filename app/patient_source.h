@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "assets/face_frame.h"
 #include "assets/patient.h"
 #include "assets/synthetic/jaw.h"
 
@@ -13,7 +14,7 @@ namespace app {
 /// that can not be written is done without.
 assets::Patient builtInPatient(const assets::JawParameters& parameters);
 
-/// Replaces the patient's face by a glTF model: placed by the `teeth.json` beside it, 1:1.
-void dressWithFace(assets::Patient& patient, const std::string& face_path);
+/// Replaces the patient's face by a glTF model, placed by the `teeth.json` beside it, 1:1. Returns where it stands.
+assets::FacePose dressWithFace(assets::Patient& patient, const std::string& face_path);
 
 }  // namespace app

@@ -211,6 +211,8 @@ class Rehearsal {
     const RecordingSummary recorded = workstation_->stop();
     // One more picture of what the bone has become.
     followServo();
+    // A scripted hand that has withdrawn only hides its work.
+    frame_.tool_visible = frame_.tool_visible && (hand_.mouse || newest_.depth_mm > 0.0);
     if (!plan_.snapshot.empty()) takeSnapshot(plan_.snapshot, workstation_->bone().solid());
     figures.patient_title = plan_.patient.title;
     figures.bur_radius_mm = plan_.command.bur_radius_mm;

@@ -1,5 +1,6 @@
 #include "app/trough_plan.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -9,11 +10,11 @@ namespace {
 using assets::CtVolume;
 using assets::Tissue;
 
-constexpr double kHalfLength_mm = 4.0, kStation_mm = 0.5;
-constexpr std::size_t kFewestStations = 5;
-constexpr double kRayStart_mm = 18.0, kRayLength_mm = 26.0, kRayStep_mm = 0.05;
+constexpr double kHalfLength_mm = 4.0, kStation_mm = 0.5, kSteepest_mm = 3.0;
+constexpr std::size_t kStations = 17, kFewestStations = 7;
+constexpr double kRayStart_mm = 12.0, kRayLength_mm = 20.0, kRayStep_mm = 0.05;
 constexpr double kCrownFromCentroid_mm = 3.5;
-constexpr double kNearestBuccal_mm = 4.0, kFarthestBuccal_mm = 9.0;
+constexpr double kNearestBuccal_mm = 4.0, kFarthestBuccal_mm = 9.0, kFarthestMesial_mm = -5.0;
 
 /// Trilinear solid fraction, air outside.
 double solidAt(const CtVolume& ct, const glm::dvec3& p_P_mm) {
@@ -47,6 +48,29 @@ std::optional<Hit> firstSolid(const CtVolume& ct, const glm::dvec3& from_P_mm, c
   return std::nullopt;
 }
 
+/// The bone's surface along a line over `middle`, from mesial to distal: the stations that see it within
+/// kSteepest_mm of the line's median height.
+std::vector<glm::dvec3> levelBone(const CtVolume& ct, const glm::dvec3& middle, const glm::dvec3& distal,
+                                  const glm::dvec3& outward) {
+  std::vector<glm::dvec3> found;
+  std::vector<double> heights;
+  for (std::size_t n = 0; n < kStations; ++n) {
+    const double s = kStation_mm * static_cast<double>(n) - kHalfLength_mm;
+    const glm::dvec3 from = middle + s * distal + kRayStart_mm * outward;
+    if (solidAt(ct, from) >= 0.5) continue;
+    const auto hit = firstSolid(ct, from, -outward);
+    if (!hit || !hit->bone) continue;
+    found.push_back(hit->p_P_mm);
+    heights.push_back(glm::dot(hit->p_P_mm, outward));
+  }
+  if (found.empty()) return found;
+  std::nth_element(heights.begin(), heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2), heights.end());
+  const double median = heights[heights.size() / 2];
+  std::erase_if(found,
+                [&](const glm::dvec3& p) { return std::abs(glm::dot(p, outward) - median) > 0.5 * kSteepest_mm; });
+  return found;
+}
+
 /// Direction of the dental arch at the third molar, mesial to distal, horizontal.
 glm::dvec3 archDirection(const CtVolume& ct, const glm::dvec3& third_molar_P_mm) {
   glm::dvec3 sum{0.0};
@@ -77,19 +101,16 @@ std::optional<haptics::TroughPlan> planBuccalTrough(const assets::Patient& patie
   const glm::dvec3 outward = glm::normalize(0.45 * buccal + up);
   const glm::dvec3 crown = patient.site.third_molar_P_mm + kCrownFromCentroid_mm * patient.site.crown_direction_P;
 
-  // Walk outwards from the crown until the line lies on bone all along.
+  // Walk mesially along the crown and outwards from it until the line lies on bone all along and does not climb the
+  // ramus.
   std::vector<glm::dvec3> surface;
-  for (double out = kNearestBuccal_mm; out <= kFarthestBuccal_mm; out += 0.5) {
-    std::vector<glm::dvec3> found;
-    std::size_t stations = 0;
-    for (double s = -kHalfLength_mm; s <= kHalfLength_mm; s += kStation_mm, ++stations) {
-      const glm::dvec3 from = crown + s * distal + out * buccal + kRayStart_mm * outward;
-      const auto hit = firstSolid(patient.ct, from, -outward);
-      if (hit && hit->bone) found.push_back(hit->p_P_mm);
+  for (double shift = 0.0; shift >= kFarthestMesial_mm; shift -= 1.0)
+    for (double out = kNearestBuccal_mm; out <= kFarthestBuccal_mm; out += 0.5) {
+      const glm::dvec3 middle = crown + shift * distal + out * buccal;
+      std::vector<glm::dvec3> found = levelBone(patient.ct, middle, distal, outward);
+      if (found.size() > surface.size()) surface = std::move(found);
+      if (surface.size() == kStations) break;
     }
-    if (found.size() > surface.size()) surface = found;
-    if (surface.size() == stations) break;
-  }
   if (surface.size() < kFewestStations) return std::nullopt;
 
   // The hand sweeps straight: along the line the surface takes, square to it outwards.

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/command.h"
-#include "app/patient_source.h"
+#include "assets/gum_surface.h"
 #include "assets/import/scan_import.h"
 #include "assets/patient_folder.h"
 
@@ -16,7 +16,7 @@ namespace app {
 namespace {
 
 struct ImportOptions {
-  std::string source, out, face;
+  std::string source, out;
   assets::Classification classification;
   bool force = false;
 };
@@ -99,7 +99,7 @@ void printForPeople(const assets::Patient& patient, std::FILE* out) {
 
 int import(const ImportOptions& options) {
   assets::Patient patient = assets::importScan(options.source, options.classification);
-  if (!options.face.empty()) dressWithFace(patient, options.face);
+  patient.gum = assets::gumSurface(patient.ct, patient.site);
   assets::savePatient(patient, options.out, options.force);
   printForPeople(patient, stderr);
   return 0;
@@ -121,7 +121,6 @@ void addImport(CLI::App& molar, Chosen& chosen) {
   CLI::App* command = molar.add_subcommand("import", "A scan becomes a patient folder, de-identified");
   command->add_option("SOURCE", options->source, "Folder with ct.nrrd and labels.nrrd, or one volume file")->required();
   command->add_option("--out", options->out, "Patient folder to write")->required();
-  command->add_option("--face", options->face, "Face model, glTF, kept with the patient");
   command->add_option("--iso", options->classification.iso_hu, "Grey value of the bone's surface, HU")
       ->check(CLI::Range(-1000.0, 4000.0))
       ->capture_default_str();

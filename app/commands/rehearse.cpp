@@ -36,7 +36,8 @@ struct RehearseOptions {
 };
 
 /// On a desk the surgeon wears loupes: the same screen, its picture magnified. With a rig file everything is 1:1.
-calibration::Rig rigFor(const RehearseOptions& options, const assets::Patient& patient) {
+/// `X_PF` is how the head stands around the jaw: a placed face opens its mouth, which turns it against the scan.
+calibration::Rig rigFor(const RehearseOptions& options, const assets::Patient& patient, const assets::FacePose& X_PF) {
   if (!options.rig.empty()) {
     calibration::Rig rig = calibration::readRig(options.rig);
     if (!options.size.empty()) rig.screen.px = pictureSize(options.size);
@@ -45,8 +46,10 @@ calibration::Rig rigFor(const RehearseOptions& options, const assets::Patient& p
   const glm::ivec2 px = options.size.empty() ? (options.headless ? glm::ivec2(640, 400) : glm::ivec2(1280, 800))
                                              : pictureSize(options.size);
   calibration::Rig rig = calibration::desktopRig(px, kMonitorWidth_mm / options.loupes);
-  rig.X_WP = standPatient({patient.site.third_molar_P_mm}, {assets::surgeonEyeDirection(patient.site.tooth_fdi)},
-                          {{0.0, 0.0, 1.0}});
+  // The surgeon looks along the same line into every head: LPS axes of the head to F, then with the head to P.
+  const glm::dvec3 eye = assets::surgeonEyeDirection(patient.site.tooth_fdi);
+  const calibration::Vector<calibration::Face> eye_F{{eye.x, eye.z, -eye.y}}, up_F{{0.0, 1.0, 0.0}};
+  rig.X_WP = standPatient({patient.site.third_molar_P_mm}, X_PF * eye_F, X_PF * up_F);
   return rig;
 }
 
@@ -86,9 +89,10 @@ int run(const RehearseOptions& options) {
   assets::JawParameters jaw = options.jaw;
   jaw.right_side = options.side == "right";
   plan.patient = options.patient.empty() ? builtInPatient(jaw) : assets::loadPatient(options.patient);
-  if (!options.face.empty()) dressWithFace(plan.patient, options.face);
+  assets::FacePose X_PF = assets::kFaceAxes_PF;
+  if (!options.face.empty()) X_PF = dressWithFace(plan.patient, options.face);
   plan.face_window_mm = options.face_window_mm.value_or(options.face.empty() ? 0.0 : kForeignFaceWindow_mm);
-  plan.rig = rigFor(options, plan.patient);
+  plan.rig = rigFor(options, plan.patient, X_PF);
   leaveACoreToTheServo();
   rehearse(std::move(plan));
   return 0;
