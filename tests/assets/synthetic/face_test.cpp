@@ -8,6 +8,8 @@
 #include <set>
 
 #include "assets/load_error.h"
+#include "assets/synthetic/dental_arch.h"
+#include "assets/synthetic/mandible_shape.h"
 #include "assets/synthetic/mouth_interior.h"
 
 namespace assets {
@@ -64,6 +66,18 @@ TEST(Face, HidesTheMolarBehindTheFreeCheek) {
 TEST(Face, KeepsOutOfTheSpaceOfTheScannedJaw) {
   for (const MeshPart& part : leftFace().parts) {
     for (const glm::vec3& p : part.position_mm) ASSERT_GT(jawBed_mm(glm::dvec3(p)), -1.5) << part.name;
+  }
+}
+
+TEST(Face, KeepsOutOfTheBoneOfTheBuiltInJaw) {
+  const DentalArch arch;
+  const MandibleShape bone(arch, 1);
+  for (const MeshPart& part : leftFace().parts) {
+    for (const glm::vec3& p : part.position_mm) {
+      const glm::dvec3 p_J(p);
+      ASSERT_GT(std::max(bone.outer_mm(p_J), bone.cut_mm(p_J)), -0.1)
+          << part.name << " " << p.x << " " << p.y << " " << p.z;
+    }
   }
 }
 
