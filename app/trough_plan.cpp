@@ -10,11 +10,12 @@ namespace {
 using assets::CtVolume;
 using assets::Tissue;
 
-constexpr double kHalfLength_mm = 4.0, kStation_mm = 0.5, kSteepest_mm = 3.0;
+constexpr double kHalfLength_mm = 4.0, kStation_mm = 0.5, kSteepest = 0.8, kRoughest_mm = 0.8;
 constexpr std::size_t kStations = 17, kFewestStations = 7;
 constexpr double kRayStart_mm = 12.0, kRayLength_mm = 20.0, kRayStep_mm = 0.05;
+constexpr double kTroughDepth_mm = 4.0, kToothMargin_mm = 0.7;
 constexpr double kCrownFromCentroid_mm = 3.5;
-constexpr double kNearestBuccal_mm = 4.0, kFarthestBuccal_mm = 9.0, kFarthestMesial_mm = -5.0;
+constexpr double kNearestBuccal_mm = 5.0, kFarthestBuccal_mm = 9.0, kFarthestMesial_mm = -5.0;
 
 /// Trilinear solid fraction, air outside.
 double solidAt(const CtVolume& ct, const glm::dvec3& p_P_mm) {
@@ -48,27 +49,57 @@ std::optional<Hit> firstSolid(const CtVolume& ct, const glm::dvec3& from_P_mm, c
   return std::nullopt;
 }
 
-/// The bone's surface along a line over `middle`, from mesial to distal: the stations that see it within
-/// kSteepest_mm of the line's median height.
-std::vector<glm::dvec3> levelBone(const CtVolume& ct, const glm::dvec3& middle, const glm::dvec3& distal,
-                                  const glm::dvec3& outward) {
+/// Whether a tooth that must not be touched stands within `clearance_mm` of the way the bur takes down from a point.
+bool toothBelow(const CtVolume& ct, const glm::dvec3& surface_P_mm, const glm::dvec3& outward, double clearance_mm) {
+  const int reach = static_cast<int>(std::ceil(clearance_mm / ct.grid.spacing_mm));
+  for (double depth = 0.0; depth <= kTroughDepth_mm; depth += 1.0) {
+    const glm::dvec3 at = surface_P_mm - depth * outward;
+    const glm::ivec3 middle = glm::ivec3(glm::round(ct.grid.indexFromPoint(at)));
+    for (int k = -reach; k <= reach; ++k)
+      for (int j = -reach; j <= reach; ++j)
+        for (int i = -reach; i <= reach; ++i) {
+          const glm::ivec3 ijk = middle + glm::ivec3(i, j, k);
+          if (ct.grid.contains(ijk) && Tissue{ct.label[ct.grid.index(ijk)]} == Tissue::other_teeth &&
+              glm::distance(ct.grid.centre_P_mm(ijk), at) < clearance_mm)
+            return true;
+        }
+  }
+  return false;
+}
+
+/// The bone's surface along a line over `middle`, from mesial to distal: the stations that lie on one straight slope,
+/// none if it climbs like the ramus.
+std::vector<glm::dvec3> straightBone(const CtVolume& ct, const glm::dvec3& middle, const glm::dvec3& distal,
+                                     const glm::dvec3& outward, double clearance_mm) {
   std::vector<glm::dvec3> found;
-  std::vector<double> heights;
+  std::vector<glm::dvec2> way_and_height;
+  glm::dvec2 mean{0.0};
   for (std::size_t n = 0; n < kStations; ++n) {
     const double s = kStation_mm * static_cast<double>(n) - kHalfLength_mm;
     const glm::dvec3 from = middle + s * distal + kRayStart_mm * outward;
     if (solidAt(ct, from) >= 0.5) continue;
     const auto hit = firstSolid(ct, from, -outward);
-    if (!hit || !hit->bone) continue;
+    if (!hit || !hit->bone || toothBelow(ct, hit->p_P_mm, outward, clearance_mm)) continue;
     found.push_back(hit->p_P_mm);
-    heights.push_back(glm::dot(hit->p_P_mm, outward));
+    way_and_height.emplace_back(s, glm::dot(hit->p_P_mm, outward));
+    mean += way_and_height.back();
   }
-  if (found.empty()) return found;
-  std::nth_element(heights.begin(), heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2), heights.end());
-  const double median = heights[heights.size() / 2];
-  std::erase_if(found,
-                [&](const glm::dvec3& p) { return std::abs(glm::dot(p, outward) - median) > 0.5 * kSteepest_mm; });
-  return found;
+  if (found.size() < kFewestStations) return {};
+
+  // Least-squares line of height over way.
+  mean /= static_cast<double>(found.size());
+  double covariance = 0.0, variance = 0.0;
+  for (const glm::dvec2& p : way_and_height) {
+    covariance += (p.x - mean.x) * (p.y - mean.y);
+    variance += (p.x - mean.x) * (p.x - mean.x);
+  }
+  const double slope = covariance / variance;
+  if (std::abs(slope) > kSteepest) return {};
+  std::vector<glm::dvec3> straight;
+  for (std::size_t n = 0; n < found.size(); ++n)
+    if (std::abs(way_and_height[n].y - mean.y - slope * (way_and_height[n].x - mean.x)) < kRoughest_mm)
+      straight.push_back(found[n]);
+  return straight;
 }
 
 /// Direction of the dental arch at the third molar, mesial to distal, horizontal.
@@ -107,7 +138,8 @@ std::optional<haptics::TroughPlan> planBuccalTrough(const assets::Patient& patie
   for (double shift = 0.0; shift >= kFarthestMesial_mm; shift -= 1.0)
     for (double out = kNearestBuccal_mm; out <= kFarthestBuccal_mm; out += 0.5) {
       const glm::dvec3 middle = crown + shift * distal + out * buccal;
-      std::vector<glm::dvec3> found = levelBone(patient.ct, middle, distal, outward);
+      std::vector<glm::dvec3> found =
+          straightBone(patient.ct, middle, distal, outward, bur_radius_mm + kToothMargin_mm);
       if (found.size() > surface.size()) surface = std::move(found);
       if (surface.size() == kStations) break;
     }

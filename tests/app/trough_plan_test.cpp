@@ -42,6 +42,17 @@ TEST(TroughPlan, LiesOnTheBoneBesideTheCrown) {
   EXPECT_NEAR(glm::dot(plan->outward_D.xyz, plan->buccal_D.xyz), 0.0, 1e-9);
 }
 
+TEST(TroughPlan, KeepsOffTheNeighbouringTooth) {
+  const auto plan = planBuccalTrough(blockWithMolar(), 2.0);
+  ASSERT_TRUE(plan.has_value());
+  const glm::dvec2 neighbour{-20.0, 28.0};
+  const glm::dvec3 along = glm::cross(plan->outward_D.xyz, plan->buccal_D.xyz);
+  for (double s = -0.5; s <= 0.5; s += 0.1) {
+    const glm::dvec3 p = plan->site_D.mm + s * plan->stroke_mm * along;
+    EXPECT_GT(glm::distance(glm::dvec2(p), neighbour), 5.0 + 2.0) << "crown and bur";
+  }
+}
+
 TEST(TroughPlan, IsNoneWithoutBoneOrMolar) {
   assets::Patient no_molar = blockWithMolar();
   no_molar.site.known = false;
