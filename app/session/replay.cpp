@@ -98,11 +98,14 @@ std::string ReplayReport::line() const {
   if (damage) return "NOT verified: the file was changed: " + *damage;
   char figures[96];
   std::snprintf(figures, sizeof figures, "%llu ticks, %.3f s", static_cast<unsigned long long>(ticks), duration_s);
-  const std::string ended = closed ? "" : "; the recording was cut short by a kill and is whole up to there";
+  std::string ended;
+  if (lost > 0) ended += "; " + std::to_string(lost) + " ticks were lost";
+  if (!closed) ended += "; the recording ended early (killed, or the disk was full) and is whole up to there";
   if (difference) {
     return "NOT verified: at tick " + std::to_string(difference->tick) + " " + difference->what + " (of " + figures +
            ")" + ended;
   }
+  if (!verified()) return std::string("NOT verified: ") + figures + ", all of them bit-identical" + ended;
   char digest[17];
   std::snprintf(digest, sizeof digest, "%016llx", static_cast<unsigned long long>(bone_digest));
   return std::string("verified: ") + figures + ", every force and the final bone (" + digest + ") bit-identical" +

@@ -21,14 +21,15 @@ struct ReplayDifference {
 struct ReplayReport {
   std::uint64_t ticks = 0;     ///< in the file
   std::uint64_t replayed = 0;  ///< run again and found identical
-  std::uint64_t lost = 0;      ///< that the recorder could not take
+  std::uint64_t lost = 0;      ///< made, but not in the file; known only of a closed session
   double duration_s = 0.0;
-  bool closed = false;                         ///< false: the program was killed while recording
+  bool closed = false;                         ///< false: the recording ended early, by a kill or a full disk
   std::optional<std::string> damage;           ///< the checksum chain is broken here: nothing was run
   std::optional<ReplayDifference> difference;  ///< nothing was run past it
   std::uint64_t bone_digest = 0;               ///< of the bone after the last tick replayed
 
-  bool verified() const { return !damage && !difference && replayed == ticks; }
+  /// Every tick made is in the file and was found identical.
+  bool verified() const { return !damage && !difference && lost == 0 && replayed == ticks; }
   /// For people: what was found.
   std::string line() const;
 };

@@ -20,7 +20,7 @@ namespace {
 
 using session_format::kTables;
 
-/// A file without log beside it is opened as what can not change, so nothing is written next to it.
+/// A file without log beside it is opened as what can not change, so that nothing is written next to it.
 std::string address(const std::string& path) {
   std::string uri = "file:";
   for (const char c : std::filesystem::absolute(path).string()) {

@@ -1,6 +1,8 @@
-// Reads a session file, closed or left by a killed program, and changes nothing on disk. Never trusts it: whatever its
-// bytes, a call answers or throws SessionError (one line). Frame P. One thread; not the servo. Ticks are streamed block
-// by block, so an hour of rehearsal needs no more memory than its bone.
+// Reads a session file, closed or left by a killed program, and changes no byte of it or of its log. A closed one is
+// read without a trace; beside a killed one, FILE and FILE-wal, SQLite leaves its index FILE-shm, for which the folder
+// must be writable: a read-only connection can not take the exclusive lock that would spare it.
+// Never trusts the file: whatever its bytes, a call answers or throws SessionError (one line). Frame P. One thread; not
+// the servo. Ticks are streamed block by block, so an hour of rehearsal needs no more memory than its bone.
 #pragma once
 
 #include <memory>
@@ -29,7 +31,7 @@ class SessionReader {
   /// One line on the first stored byte found changed: chain over all rows, then the seal over the file. Reads it all.
   std::optional<std::string> damage();
 
-  /// Whether the recording was ended by the program, not by a kill.
+  /// Whether the recording was ended by the program, not by a kill or a full disk.
   bool closed() const;
   /// Ticks the recorder could not take; known only of a closed session.
   std::uint64_t lost() const;

@@ -25,12 +25,12 @@ struct Recorded {
   std::vector<haptics::Tick> ticks = test::rehearse(bone, block.start().command, kTicks, kChange);
 
   /// Writes `ticks` as they are now.
-  void write(bool closed = true) {
+  void write(bool closed = true, std::uint64_t lost = 0) {
     SessionWriter writer(path, true, block.start());
     const auto change = ticks.begin() + static_cast<std::ptrdiff_t>(std::min(kChange, ticks.size()));
     writer.write({{}, {ticks.begin(), change}, {}, {}});
     writer.write({{{test::largerBur(block.start().command), kChange}}, {change, ticks.end()}, {{1, "note", "x"}}, {}});
-    if (closed) writer.seal(0);
+    if (closed) writer.seal(lost);
   }
 };
 
@@ -106,13 +106,23 @@ TEST(Replay, SaysWhereTicksWereLost) {
   EXPECT_THROW(replayTo(session.path, 0.3), SessionError);
 }
 
+TEST(Replay, DoesNotVerifyASessionWhoseLastTicksWereLost) {
+  Recorded session;
+  session.write(true, 3);
+  const ReplayReport report = verify(session.path);
+  EXPECT_FALSE(report.verified());
+  EXPECT_EQ(report.replayed, kTicks);
+  EXPECT_EQ(report.line().find("NOT verified"), 0u) << report.line();
+  EXPECT_NE(report.line().find("; 3 ticks were lost"), std::string::npos) << report.line();
+}
+
 TEST(Replay, VerifiesAKilledSessionAndSaysSo) {
   Recorded session;
   session.write(false);
   const ReplayReport report = verify(session.path);
   EXPECT_TRUE(report.verified()) << report.line();
   EXPECT_FALSE(report.closed);
-  EXPECT_NE(report.line().find("cut short by a kill"), std::string::npos);
+  EXPECT_NE(report.line().find("ended early (killed, or the disk was full)"), std::string::npos);
 }
 
 TEST(Replay, ReportsAChangedFileInsteadOfRunningIt) {

@@ -117,11 +117,17 @@ TEST(SessionFile, IsFoundWhateverItsName) {
 
 TEST(SessionFile, LeftByAKillIsWholeToItsLastWrite) {
   const test::ScratchFolder folder;
-  writeKilledSession(folder.file("s.molar"));
-  SessionReader session(folder.file("s.molar"));
-  EXPECT_EQ(session.damage(), std::nullopt);
-  EXPECT_FALSE(session.closed());
-  EXPECT_EQ(readEverything(session), 200u);
+  const std::string path = folder.file("s.molar"), log = path + "-wal";
+  writeKilledSession(path);
+  const std::string path_before = bytesOf(path), log_before = bytesOf(log);
+  {
+    SessionReader session(path);
+    EXPECT_EQ(session.damage(), std::nullopt);
+    EXPECT_FALSE(session.closed());
+    EXPECT_EQ(readEverything(session), 200u);
+  }
+  EXPECT_EQ(bytesOf(path), path_before);
+  EXPECT_EQ(bytesOf(log), log_before);
 }
 
 TEST(SessionFile, OverwritesNothingUnasked) {
