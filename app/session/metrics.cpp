@@ -43,17 +43,6 @@ void addTick(SessionMetrics& sum, const haptics::Tick& tick, const std::optional
   }
 }
 
-std::array<double, assets::kTissueCount> removedByLabel(const ReplayedMoment& end) {
-  std::array<double, assets::kTissueCount> steps{};
-  const auto left = end.bone.solid();
-  for (std::size_t v = 0; v < left.size(); ++v) {
-    const std::size_t label = end.start.label[v] < assets::kTissueCount ? end.start.label[v] : 0;
-    steps[label] += static_cast<double>(end.start.solid[v]) - static_cast<double>(left[v]);
-  }
-  for (double& volume : steps) volume *= end.start.grid.voxelVolume_mm3() / 255.0;
-  return steps;
-}
-
 }  // namespace
 
 SessionMetrics metricsOf(const std::string& path) {
@@ -78,7 +67,7 @@ SessionMetrics metricsOf(const std::string& path) {
     }
   }
   if (metrics.contact_s > 0.0) metrics.mean_contact_force_N /= metrics.contact_s;
-  metrics.removed_mm3_by_label = removedByLabel(end);
+  metrics.removed_mm3_by_label = end.bone.removedByTissue_mm3();
   metrics.work_p50_us = quantile(work_us, 0.50);
   metrics.work_p99_us = quantile(work_us, 0.99);
   metrics.work_max_us = quantile(work_us, 1.00);

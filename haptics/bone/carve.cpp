@@ -101,6 +101,13 @@ class Cutter {
 
 }  // namespace
 
+CarveResult& CarveResult::operator+=(const CarveResult& part) noexcept {
+  removed_mm3 += part.removed_mm3;
+  for (std::size_t label = 0; label < removed_mm3_by_label.size(); ++label)
+    removed_mm3_by_label[label] += part.removed_mm3_by_label[label];
+  return *this;
+}
+
 CarveResult carveSphere(CarvedBone& bone, const calibration::Point<calibration::Patient>& centre_P, double radius_mm,
                         const ErosionParameters& erosion, double dt_s, std::uint64_t tick) noexcept {
   const BallRows ball(bone.grid(), centre_P, radius_mm);
@@ -137,11 +144,8 @@ CarveResult carveSweep(CarvedBone& bone, const calibration::Point<calibration::P
   for (int step = 0; step < steps; ++step) {
     const double along = steps == 1 ? 1.0 : static_cast<double>(step) / (steps - 1);  // both ends are reached
     const calibration::Point<calibration::Patient> centre_P{glm::mix(from_P.mm, to_P.mm, along)};
-    const CarveResult part = carveSphere(bone, centre_P, radius_mm, erosion, dt_s / steps,
-                                         tick * kMostSweepSteps + static_cast<std::uint64_t>(step));
-    total.removed_mm3 += part.removed_mm3;
-    for (std::size_t label = 0; label < part.removed_mm3_by_label.size(); ++label)
-      total.removed_mm3_by_label[label] += part.removed_mm3_by_label[label];
+    total += carveSphere(bone, centre_P, radius_mm, erosion, dt_s / steps,
+                         tick * kMostSweepSteps + static_cast<std::uint64_t>(step));
   }
   return total;
 }

@@ -19,6 +19,8 @@ namespace haptics {
 struct CarveResult {
   double removed_mm3 = 0.0;  ///< equals the change of the solid field
   std::array<double, assets::kTissueCount> removed_mm3_by_label{};
+
+  CarveResult& operator+=(const CarveResult& part) noexcept;
 };
 
 /// One step of `dt_s` with the bur at rest at `centre`. `tick` numbers the steps; it only steers rounding.

@@ -70,6 +70,18 @@ int CarvedBone::remove(std::size_t voxel, double coverage, double loss, std::uin
   return before - after;
 }
 
+std::array<double, assets::kTissueCount> CarvedBone::removedByTissue_mm3() const {
+  std::array<std::int64_t, assets::kTissueCount> steps{};
+  for (std::size_t voxel = 0; voxel < solid_.size(); ++voxel) {
+    const std::size_t tissue = label(voxel) < assets::kTissueCount ? label(voxel) : 0;
+    steps[tissue] += first_solid_[voxel] - solid_[voxel];
+  }
+  std::array<double, assets::kTissueCount> removed_mm3{};
+  for (std::size_t tissue = 0; tissue < steps.size(); ++tissue)
+    removed_mm3[tissue] = static_cast<double>(steps[tissue]) * grid_.voxelVolume_mm3() / 255.0;
+  return removed_mm3;
+}
+
 void CarvedBone::copyBrick(glm::ivec3 brick, std::span<std::uint8_t, 512> solid_out) const {
   const glm::ivec3 corner = brick * assets::kBrickVoxels;
   std::size_t out = 0;

@@ -6,11 +6,13 @@
 // Not the scan (assets::CtVolume, const): reset is a copy from it. Not the cutting itself (bone/carve).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "assets/ct_volume.h"
+#include "assets/tissue.h"
 #include "haptics/bone/dirty_bricks.h"
 #include "haptics/bone/solid_field.h"
 
@@ -41,6 +43,10 @@ class CarvedBone {
   std::uint64_t digest() const { return digest_; }
 
   DirtyBricks& dirtyBricks() { return dirty_; }
+
+  /// What is gone since construction, by assets::Tissue; a label that is none counts as 0. O(voxels), for the writing
+  /// thread or while nobody writes; not for the servo's tick.
+  std::array<double, assets::kTissueCount> removedByTissue_mm3() const;
 
   /// Reader's side, any one thread: copies the 8x8x8 voxels of a brick (i fastest; outside the volume: 0).
   void copyBrick(glm::ivec3 brick, std::span<std::uint8_t, 512> solid_out) const;

@@ -23,15 +23,6 @@ void DirtyBricks::mark(glm::ivec3 brick) {
   bits_[bit / 64].fetch_or(std::uint64_t{1} << (bit % 64), std::memory_order_release);
 }
 
-void DirtyBricks::markAll() {
-  const std::size_t count = brickCount(bricks_);
-  for (std::size_t word = 0; word < words_; ++word) {
-    const std::size_t left = count - word * 64;
-    const std::uint64_t all = left >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << left) - 1;
-    bits_[word].fetch_or(all, std::memory_order_release);
-  }
-}
-
 void DirtyBricks::takeInto(std::vector<glm::ivec3>& out) {
   const auto nx = static_cast<std::size_t>(bricks_.x), ny = static_cast<std::size_t>(bricks_.y);
   for (std::size_t word = 0; word < words_; ++word) {

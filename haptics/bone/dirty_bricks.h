@@ -17,7 +17,6 @@ class DirtyBricks {
   explicit DirtyBricks(glm::ivec3 bricks);
 
   void mark(glm::ivec3 brick);
-  void markAll();
   /// Appends the dirty bricks to `out` and clears them. Reader only.
   void takeInto(std::vector<glm::ivec3>& out);
 

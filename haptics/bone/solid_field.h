@@ -13,8 +13,6 @@ struct SolidField {
   assets::VolumeGrid grid;
   std::span<const std::uint8_t> solid;  ///< 0..255 = fraction of the voxel that is solid, i fastest
   std::span<const std::uint8_t> label;  ///< assets::Tissue, same order, or empty: unlabelled
-
-  std::uint8_t labelAt(std::size_t voxel) const { return label.empty() ? std::uint8_t{0} : label[voxel]; }
 };
 
 }  // namespace haptics

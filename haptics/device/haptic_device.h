@@ -23,7 +23,6 @@ struct HandleState {
 
 struct DeviceCapabilities {
   double peak_force_N = 3.3;
-  double rate_Hz = 1000.0;
 };
 
 class HapticDevice {

@@ -6,6 +6,7 @@
 #include <time.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "calibration/geometry/units.h"
@@ -65,7 +66,9 @@ ServoThread::ServoThread(Servo& servo, HapticDevice& device, Latest<Command>& co
 ServoThread::~ServoThread() { stop(); }
 
 void ServoThread::start() {
-  if (running_.exchange(true)) return;
+  assert(!started_);
+  started_ = true;
+  running_.store(true);
   thread_ = std::thread([this] { run(); });
 }
 

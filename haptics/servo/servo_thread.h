@@ -2,8 +2,8 @@
 // serves; everything it borrows must outlive it and must not be restructured while it runs. Values cross by Latest and
 // TickLog alone. start() and stop() from one other thread. SCHED_FIFO and locked memory are asked for, and it is
 // reported whether they were granted; they are not required. After a long pre-emption it runs one tick, takes the next
-// deadline of the old grid and counts those it passed over. Simulated time is index * dt whatever the clock does, so a
-// replay needs no clock.
+// deadline of the old grid and counts those it passed over. Simulated time is the sum of the ticks' dt whatever the
+// clock does, so a replay needs no clock. Runs once: start, stop, and no second start.
 #pragma once
 
 #include <atomic>
@@ -36,8 +36,9 @@ class ServoThread {
   ServoThread(const ServoThread&) = delete;
   ServoThread& operator=(const ServoThread&) = delete;
 
+  /// Once in its life (assert): the servo's safety filter holds the last force, which a second start would leap to.
   void start();
-  /// Lets the force down to zero at the slew limit, then ends the thread. May be started again.
+  /// Lets the force down to zero at the slew limit, then ends the thread.
   void stop();
   ServoFigures figures() const { return statistics_.figures(); }
 
@@ -52,6 +53,7 @@ class ServoThread {
   Latest<Tick>& newest_;
   ServoSettings settings_;
   ServoStatistics statistics_;
+  bool started_ = false;  ///< of the thread that starts and stops
   std::atomic<bool> running_{false};
   std::thread thread_;
 

@@ -26,7 +26,7 @@ constexpr bool has(Fault set, Fault one) {
 
 struct Tick {
   std::uint64_t index = 0;  ///< from 0, without gaps
-  double t_s = 0.0;         ///< simulated time, index * dt
+  double t_s = 0.0;         ///< simulated time at its start: the sum of the dt before it
   double dt_s = 0.0;
   std::uint64_t command_serial = 0;                            ///< the Command in force
   HandSample hand;                                             ///< input

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "haptics/servo/latest.h"
+#include "haptics/latest.h"
 #include "haptics/servo/tick_log.h"
 #include "tests/app/real_session.h"
 #include "tests/architecture/forbid_blocking.h"
