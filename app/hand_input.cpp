@@ -12,11 +12,11 @@ constexpr double kTurn_rad = calibration::radFromDegrees(3.0);
 
 }  // namespace
 
-void HandInput::take(const render::WindowEvent& event) {
+void HandInput::take(const render::WindowEvent& event, double mm_per_px) {
   if (const auto* moved = std::get_if<render::PointerMoved>(&event)) {
     // Pixels run downwards, W upwards.
     if (moved->button == render::MouseButton::left)
-      X_WT_.translation_mm += mm_per_px_ * glm::dvec3(moved->by_px.x, -moved->by_px.y, 0.0);
+      X_WT_.translation_mm += mm_per_px * glm::dvec3(moved->by_px.x, -moved->by_px.y, 0.0);
   } else if (const auto* wheel = std::get_if<render::WheelTurned>(&event)) {
     X_WT_.translation_mm.z -= kWheelNotch_mm * wheel->notches;
   } else if (const auto* key = std::get_if<render::KeyPressed>(&event)) {
@@ -38,12 +38,15 @@ void HandInput::press(const render::KeyPressed& key) {
   if (key.key == render::keyOf('Q')) turn({0, 0, 1}, kTurn_rad);
   if (key.key == render::keyOf('E')) turn({0, 0, 1}, -kTurn_rad);
   if (key.key == Key::escape) end_asked_ = true;
+  if (key.key == render::keyOf('D') && !key.repeated) drill_switch_asked_ = true;
   if (key.key == render::keyOf('P') && !key.repeated) snapshot_asked_ = true;
 }
 
 void HandInput::turn(const glm::dvec3& axis_W, double angle_rad) {
   X_WT_.rotation = glm::normalize(glm::angleAxis(angle_rad, axis_W) * X_WT_.rotation);
 }
+
+bool HandInput::takeDrillSwitchAsked() { return std::exchange(drill_switch_asked_, false); }
 
 bool HandInput::takeSnapshotAsked() { return std::exchange(snapshot_asked_, false); }
 

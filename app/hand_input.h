@@ -13,25 +13,26 @@ namespace app {
 
 class HandInput {
  public:
-  /// `X_WT` is where the tool starts; `mm_per_px` the size of a pixel on the (virtual) screen.
-  HandInput(const calibration::Pose<calibration::World, calibration::Tool>& X_WT, double mm_per_px)
-      : X_WT_(X_WT), mm_per_px_(mm_per_px) {}
+  /// `X_WT` is where the tool starts.
+  explicit HandInput(const calibration::Pose<calibration::World, calibration::Tool>& X_WT) : X_WT_(X_WT) {}
 
-  void take(const render::WindowEvent& event);
+  /// `mm_per_px`: what a pixel of the window measures on the (virtual) screen now.
+  void take(const render::WindowEvent& event, double mm_per_px);
 
   const calibration::Pose<calibration::World, calibration::Tool>& X_WT() const { return X_WT_; }
   bool pedal() const { return pedal_; }
   bool endAsked() const { return end_asked_; }
   /// True once for every press of P.
   bool takeSnapshotAsked();
+  /// True once for every press of D.
+  bool takeDrillSwitchAsked();
 
  private:
   void press(const render::KeyPressed& key);
   void turn(const glm::dvec3& axis_W, double angle_rad);
 
   calibration::Pose<calibration::World, calibration::Tool> X_WT_;
-  double mm_per_px_;
-  bool pedal_ = false, end_asked_ = false, snapshot_asked_ = false;
+  bool pedal_ = false, end_asked_ = false, snapshot_asked_ = false, drill_switch_asked_ = false;
 };
 
 }  // namespace app

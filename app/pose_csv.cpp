@@ -68,6 +68,11 @@ TimedPose poseFrom(const Row& row, bool has_drill) {
 
 }  // namespace
 
+void refuseLongRun(const std::vector<TimedPose>& poses, const std::string& path) {
+  if (poses.back().t_s - poses.front().t_s > kLongestRun_s)
+    throw UsageError("pose file " + path + ": t_s spans more than an hour, give seconds or split it");
+}
+
 std::vector<TimedPose> readPoses(const std::string& path) {
   std::error_code error;
   const auto bytes = std::filesystem::file_size(path, error);

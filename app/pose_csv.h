@@ -16,6 +16,12 @@ struct TimedPose {
   bool drill = true;  ///< the pedal from this row to the next; true where the file has no such column
 };
 
+/// Longest span of poses that is run through tick by tick, s.
+inline constexpr double kLongestRun_s = 3600.0;
+
+/// Refuses poses that take longer than kLongestRun_s.
+void refuseLongRun(const std::vector<TimedPose>& poses, const std::string& path);
+
 /// At least one row. Throws UsageError naming file, line and column.
 std::vector<TimedPose> readPoses(const std::string& path);
 

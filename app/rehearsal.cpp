@@ -5,6 +5,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <span>
 
 #include "app/brick_upload.h"
@@ -75,8 +76,8 @@ HandAtWork handOf(const RehearsalPlan& plan) {
   return hand;
 }
 
-double mmPerPx(const calibration::ScreenCorners& screen) {
-  return glm::distance(screen.lower_left.mm, screen.lower_right.mm) / screen.px.x;
+double width_mm(const calibration::ScreenCorners& screen) {
+  return glm::distance(screen.lower_left.mm, screen.lower_right.mm);
 }
 
 /// One rehearsal from the first frame on.
@@ -86,7 +87,10 @@ class Rehearsal {
       : plan_(std::move(plan)),
         hand_(handOf(plan_)),
         duration_s_(plan_.seconds ? plan_.seconds : hand_.duration_s),
-        input_(restingTool(), mmPerPx(plan_.rig.screen)) {
+        input_(restingTool()) {
+    // Every output is claimed before any work.
+    if (!plan_.snapshot.empty()) closing_pictures_.emplace(plan_.snapshot, plan_.overwrite);
+    if (!plan_.first_snapshot.empty()) first_pictures_.emplace(plan_.first_snapshot, plan_.overwrite);
     openDisplay();
     renderer_ = rendererWith(1, plan_.patient.ct.solid);
     frame_.rig = plan_.rig;
@@ -102,8 +106,9 @@ class Rehearsal {
   void run() {
     drawFrame();
     first_picture_s_ = secondsSince(plan_.begun);
-    if (!plan_.first_snapshot.empty()) takeSnapshot(plan_.first_snapshot, plan_.patient.ct.solid);
+    if (first_pictures_) takePictures(*first_pictures_, plan_.patient.ct.solid);
     workstation_->start();
+    workstation_->note("start", plan_.hand == Hand::mouse ? "mouse" : "scripted hand");
     looping_since_ = Clock::now();
     while (!isOver()) {
       takeInput();
@@ -120,7 +125,8 @@ class Rehearsal {
     if (plan_.headless)
       offscreen_.emplace();
     else
-      window_.emplace(render::Window::Options{.title = "Molar", .size_px = plan_.rig.screen.px});
+      window_.emplace(
+          render::Window::Options{.title = "Molar", .size_px = plan_.rig.screen.px, .full_screen = plan_.full_screen});
   }
 
   std::unique_ptr<render::FrameRenderer> rendererWith(int samples, std::span<const std::uint8_t> solid) const {
@@ -139,16 +145,23 @@ class Rehearsal {
 
   void takeInput() {
     if (!window_) return;
-    for (const render::WindowEvent& event : window_->takeEvents()) input_.take(event);
+    const double mm_per_px = width_mm(plan_.rig.screen) / std::max(1, window_->framebufferSize_px().x);
+    for (const render::WindowEvent& event : window_->takeEvents()) input_.take(event, mm_per_px);
     if (hand_.mouse) hand_.mouse->setTarget({{input_.X_WT().rotation, input_.X_WT().translation_mm}, input_.pedal()});
     if (input_.takeSnapshotAsked()) takeWindowSnapshot();
+    if (input_.takeDrillSwitchAsked()) {
+      plan_.command.drill_enabled = !plan_.command.drill_enabled;
+      workstation_->change(plan_.command);
+    }
   }
 
   /// The tick first, then the bricks: what that tick cut is in this very frame.
   void followServo() {
     newest_ = workstation_->newestTick();
     frame_.tool_visible = newest_.dt_s > 0.0;
-    frame_.X_PT = {newest_.hand.X_PT.rotation, newest_.proxy_P.mm};
+    // The servo holds the bur where it last believed the hand; so does the picture.
+    if (!haptics::has(newest_.faults, haptics::Fault::bad_pose)) frame_.X_PT.rotation = newest_.hand.X_PT.rotation;
+    frame_.X_PT.translation_mm = newest_.proxy_P.mm;
     if (newest_.drilling)
       frame_.bur_angle_rad = std::fmod(newest_.t_s * kBurTurnsPerSecond, 1.0) * 2.0 * calibration::kPi;
     upload_.bring(workstation_->bone(), *renderer_);
@@ -167,53 +180,68 @@ class Rehearsal {
   }
 
   void showStatus() {
-    if (!window_ || secondsSince(status_shown_) < 0.5) return;
+    if (secondsSince(status_shown_) < 0.5) return;
     status_shown_ = Clock::now();
+    noteTrouble();
+    if (!window_) return;
     const haptics::ServoFigures servo = workstation_->figures();
     char text[160];
     std::snprintf(text, sizeof text, "Molar   %.1f s   force %.2f N   depth %.2f mm   %s   servo p99 %.0f µs",
                   newest_.t_s, glm::length(newest_.served_force_P_N.xyz), newest_.depth_mm,
-                  newest_.drilling ? "drilling" : "drill off", servo.work_p99_us);
-    window_->setTitle(text);
+                  newest_.drilling              ? "drilling"
+                  : plan_.command.drill_enabled ? "drill off"
+                                                : "drill locked",
+                  servo.work_p99_us);
+    window_->setTitle(recording_ended_ ? std::string(text) + "   NOT RECORDING" : std::string(text));
+  }
+
+  /// Says and records, once, that the recording ended early or the device can not be believed.
+  void noteTrouble() {
+    if (const auto trouble = workstation_->recordingTrouble(); trouble && !recording_ended_) {
+      recording_ended_ = true;
+      std::fprintf(stderr, "molar: recording ended: %s\n", trouble->c_str());
+    }
+    const bool faulty =
+        haptics::has(newest_.faults, haptics::Fault::bad_pose | haptics::Fault::device | haptics::Fault::bad_force);
+    if (faulty != faulty_) workstation_->note("fault", faulty ? "hand not believed, force let down" : "over");
+    faulty_ = faulty;
   }
 
   /// Both eyes at full quality: `name_left.png`, `name_right.png`.
-  void takeSnapshot(const std::string& path, std::span<const std::uint8_t> solid) {
+  void takePictures(EyePictures& pictures, std::span<const std::uint8_t> solid) const {
     auto renderer = rendererWith(kSnapshotSamples, solid);
     render::Frame frame = frame_;
     frame.rig.screen.px = plan_.snapshot_px;
-    for (const auto& [eye, word] : {std::pair{render::Eye::left, "left"}, std::pair{render::Eye::right, "right"}}) {
-      renderer->renderEye(frame, eye);
-      savePng(renderer->readEye(eye), withSuffix(path, word), plan_.overwrite);
-    }
+    renderer->renderEye(frame, render::Eye::left);
+    renderer->renderEye(frame, render::Eye::right);
     renderer->throwIfError();
+    pictures.save(renderer->readEye(render::Eye::left), renderer->readEye(render::Eye::right));
   }
 
   /// The window's own picture, under the first free number.
   void takeWindowSnapshot() {
-    for (int n = 1; n < 10000; ++n) {
-      char path[64];
-      std::snprintf(path, sizeof path, "molar-snapshot-%04d.png", n);
-      try {
-        savePng(renderer_->readPicture(), path, false);
-        workstation_->note("snapshot", path);
-        std::fprintf(stderr, "molar: snapshot %s\n", path);
-        return;
-      } catch (const std::runtime_error&) {
-        continue;
-      }
+    std::string path;
+    for (int n = 1; path.empty() || std::filesystem::exists(path); ++n)
+      path = "molar-snapshot-" + std::to_string(n) + ".png";
+    try {
+      assets::OutputFile file(path, false);
+      savePng(renderer_->readPicture(), file);
+      workstation_->note("snapshot", path);
+      std::fprintf(stderr, "molar: snapshot %s\n", path.c_str());
+    } catch (const std::runtime_error& error) {
+      std::fprintf(stderr, "molar: no snapshot: %s\n", error.what());
     }
-    std::fprintf(stderr, "molar: no snapshot: this folder can not be written\n");
   }
 
   void finish() {
     RehearsalFigures figures;
+    workstation_->note("end", interrupted ? "interrupted" : input_.endAsked() ? "by the user" : "time over");
     const RecordingSummary recorded = workstation_->stop();
     // One more picture of what the bone has become.
     followServo();
     // A scripted hand that has withdrawn only hides its work.
     frame_.tool_visible = frame_.tool_visible && (hand_.mouse || newest_.depth_mm > 0.0);
-    if (!plan_.snapshot.empty()) takeSnapshot(plan_.snapshot, workstation_->bone().solid());
+    if (closing_pictures_) takePictures(*closing_pictures_, workstation_->bone().solid());
     figures.patient_title = plan_.patient.title;
     figures.bur_radius_mm = plan_.command.bur_radius_mm;
     figures.duration_s = newest_.t_s + newest_.dt_s;
@@ -232,6 +260,7 @@ class Rehearsal {
   HandAtWork hand_;
   std::optional<double> duration_s_;
   HandInput input_;
+  std::optional<EyePictures> first_pictures_, closing_pictures_;
   std::optional<render::OffscreenContext> offscreen_;
   std::optional<render::Window> window_;
   std::unique_ptr<render::FrameRenderer> renderer_;
@@ -241,6 +270,7 @@ class Rehearsal {
   haptics::Tick newest_;
   std::uint64_t frames_ = 0;
   double first_picture_s_ = 0.0, loop_s_ = 0.0;
+  bool recording_ended_ = false, faulty_ = false;
 };
 
 }  // namespace

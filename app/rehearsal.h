@@ -29,7 +29,7 @@ struct RehearsalPlan {
   std::string snapshot, first_snapshot;  ///< PNG paths; `_left` and `_right` are put before the ending
   glm::ivec2 snapshot_px{1280, 800};
   double face_window_mm = 0.0;
-  bool headless = false, overwrite = false;
+  bool headless = false, full_screen = false, overwrite = false;
   std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();  ///< when the user asked for it
 };
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "app/usage_error.h"
+#include "haptics/servo/servo.h"
 
 namespace app {
 namespace {
@@ -47,6 +48,18 @@ void applySettings(const std::vector<std::string>& texts, const std::map<std::st
                        shortText(setting.high) + (*setting.unit ? " " : "") + setting.unit);
     *setting.value = *value;
   }
+}
+
+void refuseUnlessObeyed(const haptics::Command& command) {
+  const haptics::Command obeyed = haptics::sanitised(command);
+  const auto check = [](const char* what, double asked, double taken, const char* unit) {
+    if (asked != taken)
+      throw UsageError(std::string(what) + " " + shortText(asked) + " " + unit + ": the servo goes no further than " +
+                       shortText(taken) + " " + unit + ", ask for that");
+  };
+  check("bur radius", command.bur_radius_mm, obeyed.bur_radius_mm, "mm");
+  check("stiffness", command.agus.stiffness_N_per_mm, obeyed.agus.stiffness_N_per_mm, "N/mm");
+  check("damping", command.agus.damping_Ns_per_mm, obeyed.agus.damping_Ns_per_mm, "Ns/mm");
 }
 
 double sphereRadius_mm(const std::string& tool) {

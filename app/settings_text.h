@@ -7,6 +7,10 @@
 #include <string>
 #include <vector>
 
+namespace haptics {
+struct Command;
+}
+
 namespace app {
 
 /// A number a person may set, with the range it must stay in.
@@ -18,6 +22,9 @@ struct Setting {
 
 /// Applies every `key=value` of `texts` to the settings; unknown keys, doubles and values out of range are refused.
 void applySettings(const std::vector<std::string>& texts, const std::map<std::string, Setting>& settings);
+
+/// Refuses a command of which the servo would obey only a part, so that what is asked is what is felt, cut and drawn.
+void refuseUnlessObeyed(const haptics::Command& command);
 
 /// The radius of `sphere:R`, mm, 0.1..20.
 double sphereRadius_mm(const std::string& tool);

@@ -2,20 +2,30 @@
 
 #include <filesystem>
 
-#include "assets/output_file.h"
 #include "calibration/picture_file.h"
 
 namespace app {
+namespace {
 
-void savePng(const render::Picture& picture, const std::string& path, bool overwrite) {
-  assets::OutputFile out(path, overwrite);
-  calibration::writePng(out.temporaryPath(), {picture.w, picture.h}, picture.rgba);
-  out.commit();
-}
-
-std::string withSuffix(const std::string& path, const std::string& word) {
+/// `folder/name.png` with a word before the ending: `folder/name_left.png`.
+std::string withWord(const std::string& path, const std::string& word) {
   const std::filesystem::path p(path);
   return (p.parent_path() / (p.stem().string() + "_" + word + p.extension().string())).string();
+}
+
+}  // namespace
+
+void savePng(const render::Picture& picture, assets::OutputFile& file) {
+  calibration::writePng(file.temporaryPath(), {picture.w, picture.h}, picture.rgba);
+  file.commit();
+}
+
+EyePictures::EyePictures(const std::string& path, bool overwrite)
+    : left_(withWord(path, "left"), overwrite), right_(withWord(path, "right"), overwrite) {}
+
+void EyePictures::save(const render::Picture& left, const render::Picture& right) {
+  savePng(left, left_);
+  savePng(right, right_);
 }
 
 }  // namespace app

@@ -42,6 +42,10 @@ void Workstation::change(haptics::Command command) {
   commands_.publish(command_);
 }
 
+std::optional<std::string> Workstation::recordingTrouble() const {
+  return recorder_ ? recorder_->trouble() : std::nullopt;
+}
+
 void Workstation::note(const std::string& kind, const std::string& text) {
   if (recorder_) recorder_->event(kind, text);
 }

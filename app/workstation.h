@@ -36,6 +36,9 @@ class Workstation {
   void change(haptics::Command command);
   void note(const std::string& kind, const std::string& text);
 
+  /// One line, once recording has ended early.
+  std::optional<std::string> recordingTrouble() const;
+
   haptics::Tick newestTick() { return newest_.read(); }
   haptics::CarvedBone& bone() { return bone_; }
   haptics::ServoFigures figures() const { return servo_thread_.figures(); }

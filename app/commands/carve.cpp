@@ -72,6 +72,7 @@ int carve(const CarveOptions& options) {
 
   assets::OutputFile out = assets::nrrdOutput(options.out, options.force);
   const std::vector<TimedPose> poses = readPoses(options.poses);
+  refuseLongRun(poses, options.poses);
   const SolidVolume volume = options.volume.load();
   haptics::CarvedBone bone(volume.grid, volume.solid, volume.label);
   const Removed removed = carveAlong(bone, poses, radius_mm, erosion);

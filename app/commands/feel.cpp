@@ -1,5 +1,7 @@
 // `molar feel`: a force law on given poses, no device. CSV of forces out.
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 
@@ -19,6 +21,8 @@ namespace {
 
 using calibration::Patient;
 using calibration::Vector;
+
+constexpr double kTick_s = 0.001;
 
 struct FeelOptions {
   VolumeOption volume;
@@ -52,15 +56,24 @@ std::vector<FeltRow> feelRaw(const SolidVolume& volume, const haptics::Command& 
   return rows;
 }
 
-/// With proxy and safety, as the servo serves it: one step per row, of the time since the row before.
+/// With proxy and safety, as the servo serves it: from row to row in a straight line, in ticks of at most a
+/// millisecond.
 std::vector<FeltRow> feelServed(const SolidVolume& volume, const haptics::Command& command,
                                 const std::vector<TimedPose>& poses) {
   haptics::CarvedBone bone(volume.grid, volume.solid, volume.label);
   haptics::Servo servo(bone);
   std::vector<FeltRow> rows;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    const double dt_s = i == 0 ? 0.001 : poses[i].t_s - poses[i - 1].t_s;
-    const haptics::Tick tick = servo.step({poses[i].X_PT, velocityAt(poses, i), false}, command, dt_s);
+    const double span_s = i == 0 ? kTick_s : poses[i].t_s - poses[i - 1].t_s;
+    const int ticks = static_cast<int>(std::max(1.0, std::ceil(span_s / kTick_s - 1e-6)));
+    haptics::Tick tick;
+    for (int n = 1; n <= ticks; ++n) {
+      haptics::HandSample hand{poses[i].X_PT, velocityAt(poses, i), false};
+      const double part = static_cast<double>(n) / ticks;
+      if (i > 0)
+        hand.X_PT.translation_mm = glm::mix(poses[i - 1].X_PT.translation_mm, poses[i].X_PT.translation_mm, part);
+      tick = servo.step(hand, command, span_s / ticks);
+    }
     rows.push_back({tick.served_force_P_N, tick.overlap_mm3, tick.depth_mm});
   }
   return rows;
@@ -75,6 +88,10 @@ int feel(const FeelOptions& options) {
                                    {"slew_N_per_s", {&command.safety.slew_N_per_s, 1.0, 1e5, "N/s"}}});
   assets::OutputFile out(options.out, options.force);
   const std::vector<TimedPose> poses = readPoses(options.poses);
+  if (options.served) {
+    refuseUnlessObeyed(command);
+    refuseLongRun(poses, options.poses);
+  }
   const SolidVolume volume = options.volume.load();
   const auto rows = options.served ? feelServed(volume, command, poses) : feelRaw(volume, command, poses);
 

@@ -47,8 +47,8 @@ calibration::Rig rigFor(const RehearseOptions& options, const assets::Patient& p
                                              : pictureSize(options.size);
   calibration::Rig rig = calibration::desktopRig(px, kMonitorWidth_mm / options.loupes);
   // The surgeon looks along the same line into every head: LPS axes of the head to F, then with the head to P.
-  const glm::dvec3 eye = assets::surgeonEyeDirection(patient.site.tooth_fdi);
-  const calibration::Vector<calibration::Face> eye_F{{eye.x, eye.z, -eye.y}}, up_F{{0.0, 1.0, 0.0}};
+  const calibration::Vector<calibration::Patient> eye_P{assets::surgeonEyeDirection(patient.site.tooth_fdi)};
+  const calibration::Vector<calibration::Face> eye_F = assets::kFaceAxes_PF.inverse() * eye_P, up_F{{0.0, 1.0, 0.0}};
   rig.X_WP = standPatient({patient.site.third_molar_P_mm}, X_PF * eye_F, X_PF * up_F);
   return rig;
 }
@@ -69,6 +69,7 @@ int run(const RehearseOptions& options) {
                  {"removal_rate_per_s", {&plan.command.erosion.removal_rate_per_s, 0.0, 1000.0, "1/s"}},
                  {"peak_force_N", {&plan.command.safety.peak_force_N, 0.1, 40.0, "N"}},
                  {"slew_N_per_s", {&plan.command.safety.slew_N_per_s, 1.0, 1e5, "N/s"}}});
+  refuseUnlessObeyed(plan.command);
   if (options.headless && options.device == "mouse")
     throw UsageError("--headless: there is no mouse without a window, add --device scripted");
   plan.hand = options.device == "mouse" ? Hand::mouse : Hand::scripted;
@@ -83,6 +84,7 @@ int run(const RehearseOptions& options) {
   plan.first_snapshot = options.first_snapshot;
   plan.snapshot_px = pictureSize(options.snapshot_size);
   plan.headless = options.headless;
+  plan.full_screen = !options.rig.empty();
   plan.overwrite = options.force;
   if (!options.record.empty()) plan.recording = Recording{options.record, options.force};
 
@@ -103,18 +105,20 @@ int run(const RehearseOptions& options) {
 void addRehearse(CLI::App& molar, Chosen& chosen) {
   auto o = std::make_shared<RehearseOptions>();
   CLI::App* command = molar.add_subcommand("rehearse", "Rehearse a third-molar extraction, seen and felt");
-  command->add_option("PATIENT", o->patient, "Patient folder (default: the built-in patient)");
+  auto* patient = command->add_option("PATIENT", o->patient, "Patient folder (default: the built-in patient)");
   command->add_option("--device", o->device, "Hand: mouse or scripted")
       ->check(CLI::IsMember({"mouse", "scripted"}))
       ->capture_default_str();
-  command->add_option("--rig", o->rig, "Rig file: screen, mirror, eyes, patient pose; 1:1")->type_name("FILE");
+  auto* rig =
+      command->add_option("--rig", o->rig, "Rig file: screen, mirror, eyes, patient pose; 1:1")->type_name("FILE");
   command->add_option("--display", o->display, "mono, side-by-side, top-bottom or anaglyph")
       ->check(CLI::IsMember({"mono", "side-by-side", "top-bottom", "anaglyph"}))
       ->capture_default_str();
   command->add_option("--size", o->size, "Picture size")->type_name("WxH");
   command->add_option("--loupes", o->loupes, "Magnification on a desk (without --rig)")
       ->check(CLI::Range(1.0, 8.0))
-      ->capture_default_str();
+      ->capture_default_str()
+      ->excludes(rig);
   command->add_option("--face", o->face, "Face model, glTF; teeth.json beside it places the jaw")->type_name("FILE");
   command->add_option("--face-window", o->face_window_mm, "Face cut away around the line of sight, mm")
       ->check(CLI::Range(0.0, 100.0));
@@ -131,15 +135,21 @@ void addRehearse(CLI::App& molar, Chosen& chosen) {
   command->add_flag("--force", o->force, "Replace outputs that exist");
   command->add_option("--side", o->side, "Built-in patient: right or left")
       ->check(CLI::IsMember({"right", "left"}))
-      ->capture_default_str();
+      ->capture_default_str()
+      ->excludes(patient);
   command->add_option("--winter-angle", o->jaw.winter_angle_deg, "Built-in patient: tilt, degrees")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->excludes(patient);
   command->add_option("--depth", o->jaw.depth_mm, "Built-in patient: crown below the occlusal plane, mm")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->excludes(patient);
   command->add_option("--canal-distance", o->jaw.canal_distance_mm, "Built-in patient: root to canal, mm")
-      ->capture_default_str();
-  command->add_option("--voxel", o->jaw.spacing_mm, "Built-in patient: voxel edge, mm")->capture_default_str();
-  command->add_option("--seed", o->jaw.seed, "Built-in patient: seed")->capture_default_str();
+      ->capture_default_str()
+      ->excludes(patient);
+  command->add_option("--voxel", o->jaw.spacing_mm, "Built-in patient: voxel edge, mm")
+      ->capture_default_str()
+      ->excludes(patient);
+  command->add_option("--seed", o->jaw.seed, "Built-in patient: seed")->capture_default_str()->excludes(patient);
   command->callback([o, &chosen] { chosen.action = [o] { return run(*o); }; });
 }
 

@@ -30,9 +30,11 @@ struct SeeOptions {
   bool bone_only = false, force = false;
 };
 
-void writeText(const std::string& text, assets::OutputFile& file) {
-  std::ofstream(file.temporaryPath()) << text;
-  file.commit();
+void writeText(const std::string& text, const std::string& path) {
+  std::ofstream file(path);
+  file << text;
+  file.close();
+  if (!file) throw UsageError("--matrices: it can not be written, check the free space");
 }
 
 std::string matricesText(const glm::dmat4& clip_from_P, glm::ivec2 px) {
@@ -77,13 +79,16 @@ int see(const SeeOptions& options) {
   renderer.renderEye(frame, eye);
   const render::Picture picture = renderer.readEye(eye);
   const glm::dmat4 clip_from_P = render::clipFromPatient(frame.rig, render::eyeView(frame.rig, eye));
+  renderer.throwIfError();
+
+  // Everything is written before anything is put in place.
+  calibration::writePng(out.temporaryPath(), {picture.w, picture.h}, picture.rgba);
+  if (matrices) writeText(matricesText(clip_from_P, frame.rig.screen.px), matrices->temporaryPath());
   if (depth) {
     const render::DistancePicture distance = renderer.readDistance(eye);
     assets::writeDepth(distance.w, distance.h, distance.mm, *depth);
   }
-  renderer.throwIfError();
-  if (matrices) writeText(matricesText(clip_from_P, frame.rig.screen.px), *matrices);
-  calibration::writePng(out.temporaryPath(), {picture.w, picture.h}, picture.rgba);
+  if (matrices) matrices->commit();
   out.commit();
   return 0;
 }

@@ -36,6 +36,10 @@ TEST_F(BadInput, FilesAreNamed) {
   for (const char* name : {"missing.nrrd", "empty.nrrd", "text.nrrd", "cut.nrrd"})
     expectRefusal(feel(name, "p.csv"), name);
   write("bad.csv", "t_s,px_mm\n0,1\n");
+  write("endless.csv", poseCsv({{0, 0, 0, 1}, {1e9, 0, 0, 1}}));
+  expectRefusal("carve --volume " + at("v.nrrd") + " --field solid --tool sphere:2 --poses " + at("endless.csv") +
+                    " --out " + at("c.nrrd"),
+                "hour");
   for (const char* name : {"missing.csv", "bad.csv", "v.nrrd"}) expectRefusal(feel("v.nrrd", name), name);
   expectRefusal("see --volume " + at("v.nrrd") + " --rig " + at("p.csv") + " --out " + at("a.png"), "rig file");
   expectRefusal("see --patient " + at("nobody") + " --out " + at("a.png"), "nobody");
@@ -49,6 +53,9 @@ TEST_F(BadInput, OptionsHaveRanges) {
   expectRefusal(feel("v.nrrd", "p.csv", "--set stiffness_N_per_mm=nan"), "stiffness_N_per_mm");
   expectRefusal(feel("v.nrrd", "p.csv", "--set colour=1"), "stiffness_N_per_mm");
   expectRefusal(feel("v.nrrd", "p.csv", "--law spring"));
+  expectRefusal(feel("v.nrrd", "p.csv", "--served --set stiffness_N_per_mm=50"), "stiffness");
+  expectRefusal("rehearse --headless --device scripted --tool sphere:10", "bur radius");
+  expectRefusal("rehearse " + at("nobody") + " --voxel 0.6", "--voxel");
   const std::string see = "see --volume " + at("v.nrrd") + " --field solid --out " + at("a.png");
   expectRefusal(see + " --size 0x0", "--size");
   expectRefusal(see + " --size 99999x10", "--size");

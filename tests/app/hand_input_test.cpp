@@ -9,41 +9,44 @@ using render::Key;
 using render::KeyPressed;
 
 TEST(HandInput, DragsInThePlaneOfTheScreenOneToOne) {
-  HandInput hand({}, 0.25);
-  hand.take(render::PointerMoved{{0, 0}, {8, 4}, render::MouseButton::left});
+  HandInput hand({});
+  hand.take(render::PointerMoved{{0, 0}, {8, 4}, render::MouseButton::left}, 0.25);
   EXPECT_EQ(hand.X_WT().translation_mm, glm::dvec3(2.0, -1.0, 0.0));
-  hand.take(render::PointerMoved{{0, 0}, {8, 4}, render::MouseButton::none});
+  hand.take(render::PointerMoved{{0, 0}, {8, 4}, render::MouseButton::none}, 0.25);
   EXPECT_EQ(hand.X_WT().translation_mm, glm::dvec3(2.0, -1.0, 0.0)) << "moving is not dragging";
 }
 
 TEST(HandInput, WheelGoesAway) {
-  HandInput hand({}, 0.25);
-  hand.take(render::WheelTurned{2.0});
+  HandInput hand({});
+  hand.take(render::WheelTurned{2.0}, 0.25);
   EXPECT_EQ(hand.X_WT().translation_mm.z, -1.0);
 }
 
 TEST(HandInput, PedalIsHeldWithSpace) {
-  HandInput hand({}, 0.25);
-  hand.take(KeyPressed{Key::space, true, false, false});
+  HandInput hand({});
+  hand.take(KeyPressed{Key::space, true, false, false}, 0.25);
   EXPECT_TRUE(hand.pedal());
-  hand.take(KeyPressed{Key::space, false, false, false});
+  hand.take(KeyPressed{Key::space, false, false, false}, 0.25);
   EXPECT_FALSE(hand.pedal());
 }
 
 TEST(HandInput, KeysTurnAboutTheBur) {
-  HandInput hand({{1, 0, 0, 0}, {1, 2, 3}}, 0.25);
-  for (int i = 0; i < 30; ++i) hand.take(KeyPressed{render::keyOf('Q'), true, false, false});
+  HandInput hand({{1, 0, 0, 0}, {1, 2, 3}});
+  for (int i = 0; i < 30; ++i) hand.take(KeyPressed{render::keyOf('Q'), true, false, false}, 0.25);
   EXPECT_LT(glm::distance(hand.X_WT().rotation * glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0)), 1e-9);
   EXPECT_EQ(hand.X_WT().translation_mm, glm::dvec3(1, 2, 3));
 }
 
 TEST(HandInput, AsksForEndAndSnapshots) {
-  HandInput hand({}, 0.25);
-  hand.take(KeyPressed{render::keyOf('P'), true, false, false});
+  HandInput hand({});
+  hand.take(KeyPressed{render::keyOf('P'), true, false, false}, 0.25);
   EXPECT_TRUE(hand.takeSnapshotAsked());
   EXPECT_FALSE(hand.takeSnapshotAsked());
+  hand.take(KeyPressed{render::keyOf('D'), true, false, false}, 0.25);
+  EXPECT_TRUE(hand.takeDrillSwitchAsked());
+  EXPECT_FALSE(hand.takeDrillSwitchAsked());
   EXPECT_FALSE(hand.endAsked());
-  hand.take(render::CloseAsked{});
+  hand.take(render::CloseAsked{}, 0.25);
   EXPECT_TRUE(hand.endAsked());
 }
 

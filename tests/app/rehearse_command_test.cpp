@@ -5,12 +5,12 @@
 namespace app {
 namespace {
 
-/// A coarse patient keeps these quick; the cache is the test's own.
+/// A coarse patient keeps these quick; the cache is this build's own.
 class RehearseCommand : public ProgramTest {
  protected:
   void SetUp() override {
     ProgramTest::SetUp();
-    setenv("XDG_CACHE_HOME", (testing::TempDir() + "molar_test_cache").c_str(), 1);
+    setenv("XDG_CACHE_HOME", MOLAR_TEST_CACHE, 1);
   }
 };
 

@@ -1,3 +1,5 @@
+#include <zlib.h>
+
 #include <nlohmann/json.hpp>
 
 #include "tests/app/half_space.h"
@@ -10,8 +12,25 @@ constexpr char kCamera[] = "'{\"eye_mm\":[3,-30,40],\"look_at_mm\":[0,0,0],\"up\
 
 class SeeCommand : public ProgramTest {};
 
-/// Distances of the picture that `see --depth` wrote: a 2-D gzip NRRD, read as a volume of one slice.
-TEST_F(SeeCommand, PutsTheFaceWhereTheMatricesSay) {
+/// The floats of a gzip NRRD.
+std::vector<float> floatsOf(const std::string& nrrd) {
+  EXPECT_NE(nrrd.find("type: float"), std::string::npos);
+  EXPECT_NE(nrrd.find("encoding: gzip"), std::string::npos);
+  const std::string packed = nrrd.substr(nrrd.find("\n\n") + 2);
+  std::vector<float> values(96 * 64);
+  z_stream stream{};
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
+  stream.avail_in = static_cast<uInt>(packed.size());
+  stream.next_out = reinterpret_cast<Bytef*>(values.data());
+  stream.avail_out = static_cast<uInt>(values.size() * sizeof(float));
+  EXPECT_EQ(inflateInit2(&stream, 15 + 32), Z_OK);
+  EXPECT_EQ(inflate(&stream, Z_FINISH), Z_STREAM_END);
+  EXPECT_EQ(stream.avail_out, 0u);
+  inflateEnd(&stream);
+  return values;
+}
+
+TEST_F(SeeCommand, MeasuresTheFaceAlongTheRays) {
   writeHalfSpace(at("v.nrrd"), 0.2, {0, 0, 1}, 0.0);
   const Said said =
       molar("see --volume " + at("v.nrrd") + " --field solid --size 96x64 --samples 1 --camera " + kCamera + " --out " +
@@ -22,9 +41,26 @@ TEST_F(SeeCommand, PutsTheFaceWhereTheMatricesSay) {
   EXPECT_EQ(json.at("size"), (nlohmann::json{96, 64}));
   const auto m = json.at("clip_from_P").get<std::vector<double>>();
   ASSERT_EQ(m.size(), 16u);
-  // The point looked at is in the middle of the picture.
-  EXPECT_NEAR(m[3] / m[15], 0.0, 1e-9);
-  EXPECT_NEAR(m[7] / m[15], 0.0, 1e-9);
+  glm::dmat4 clip_from_P;
+  for (int r = 0; r < 4; ++r)
+    for (int c = 0; c < 4; ++c) clip_from_P[c][r] = m[static_cast<std::size_t>(4 * r + c)];
+  const glm::dmat4 P_from_clip = glm::inverse(clip_from_P);
+
+  // Each ray from the eye through its pixel meets the plane z = 0 where the depth says.
+  const std::vector<float> depth_mm = floatsOf(read("d.nrrd"));
+  const glm::dvec3 eye{3, -30, 40};
+  int hits = 0;
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 96; ++x) {
+      const double found = depth_mm[static_cast<std::size_t>(y * 96 + x)];
+      const glm::dvec4 far = P_from_clip * glm::dvec4((x + 0.5) / 48.0 - 1.0, 1.0 - (y + 0.5) / 32.0, 0.9, 1.0);
+      const glm::dvec3 ray = glm::normalize(glm::dvec3(far) / far.w - eye);
+      const glm::dvec3 p = eye - eye.z / ray.z * ray;
+      if (glm::abs(p.x) > 4.5 || glm::abs(p.y) > 4.5) continue;
+      EXPECT_NEAR(found, glm::distance(eye, p), 0.02) << x << " " << y;
+      ++hits;
+    }
+  EXPECT_GT(hits, 500);
 }
 
 TEST_F(SeeCommand, DrawsTheSamePictureTwice) {
@@ -46,11 +82,14 @@ TEST_F(SeeCommand, ShowsWhatWasCarved) {
           .status,
       0);
   for (const char* name : {"v", "c"})
-    ASSERT_EQ(molar("see --volume " + at(name) + ".nrrd --field solid --size 64x48 --samples 1 --camera " +
-                    std::string(kCamera) + " --out " + at(name) + ".png")
+    ASSERT_EQ(molar("see --volume " + at(name) + ".nrrd --field solid --size 96x64 --samples 1 --camera " +
+                    std::string(kCamera) + " --out " + at(name) + ".png --depth " + at(name) + "_depth.nrrd")
                   .status,
               0);
-  EXPECT_NE(read("v.png"), read("c.png"));
+  const auto before = floatsOf(read("v_depth.nrrd")), after = floatsOf(read("c_depth.nrrd"));
+  // The middle ray meets the bottom of a hole of 1.5 mm; the corners of the picture do not change.
+  EXPECT_NEAR(after[32 * 96 + 48] - before[32 * 96 + 48], 1.75, 0.35);
+  EXPECT_EQ(after[0], before[0]);
 }
 
 }  // namespace
