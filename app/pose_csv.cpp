@@ -87,6 +87,7 @@ std::vector<TimedPose> readPoses(const std::string& path) {
   for (std::size_t line = 1; std::getline(file, text); ++line) {
     if (!text.empty() && text.back() == '\r') text.pop_back();
     if (line == 1) {
+      if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // spreadsheets write a byte-order mark
       has_drill = text == std::string(kHeader) + ",drill";
       if (!has_drill && text != kHeader)
         refuse(path, line, "the header is not " + std::string(kHeader) + "[,drill]", "add or correct it");

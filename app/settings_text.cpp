@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <set>
 
@@ -43,7 +44,8 @@ void applySettings(const std::vector<std::string>& texts, const std::map<std::st
     if (!seen.insert(key).second) throw UsageError("--set " + key + ": it is given twice, give it once");
     const auto value = numberIn(std::string_view(text).substr(equals + 1));
     const Setting& setting = found->second;
-    if (!value || *value < setting.low || *value > setting.high)
+    if (!value) throw UsageError("--set " + text + ": the value is not a number, correct it");
+    if (*value < setting.low || *value > setting.high)
       throw UsageError("--set " + text + ": the value is out of range, give " + shortText(setting.low) + " to " +
                        shortText(setting.high) + (*setting.unit ? " " : "") + setting.unit);
     *setting.value = *value;
@@ -62,12 +64,20 @@ void refuseUnlessObeyed(const haptics::Command& command) {
   check("damping", command.agus.damping_Ns_per_mm, obeyed.agus.damping_Ns_per_mm, "Ns/mm");
 }
 
+void refuseSameFile(const std::string& output, std::initializer_list<std::string> inputs) {
+  std::error_code ignored;
+  for (const std::string& input : inputs)
+    if (!input.empty() && std::filesystem::equivalent(output, input, ignored))
+      throw UsageError("--out " + output + ": it is also an input, give another name");
+}
+
 double sphereRadius_mm(const std::string& tool) {
   const std::string_view text = tool;
   if (!text.starts_with("sphere:"))
     throw UsageError("--tool " + tool + ": not a tool of this version, give sphere:R with R in mm");
   const auto radius = numberIn(text.substr(7));
-  if (!radius || *radius < kSmallestRadius_mm || *radius > kLargestRadius_mm)
+  if (!radius) throw UsageError("--tool " + tool + ": the radius is not a number, give sphere:R with R in mm");
+  if (*radius < kSmallestRadius_mm || *radius > kLargestRadius_mm)
     throw UsageError("--tool " + tool + ": the radius is out of range, give " + shortText(kSmallestRadius_mm) + " to " +
                      shortText(kLargestRadius_mm) + " mm");
   return *radius;

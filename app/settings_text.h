@@ -2,6 +2,7 @@
 // Throws UsageError that lists the keys there are.
 #pragma once
 
+#include <initializer_list>
 #include <map>
 #include <span>
 #include <string>
@@ -25,6 +26,9 @@ void applySettings(const std::vector<std::string>& texts, const std::map<std::st
 
 /// Refuses a command of which the servo would obey only a part, so that what is asked is what is felt, cut and drawn.
 void refuseUnlessObeyed(const haptics::Command& command);
+
+/// Refuses an output that is one of the inputs: --force must not eat what is being read.
+void refuseSameFile(const std::string& output, std::initializer_list<std::string> inputs);
 
 /// The radius of `sphere:R`, mm, 0.1..20.
 double sphereRadius_mm(const std::string& tool);

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "assets/load_error.h"
 #include "calibration/picture_file.h"
 
 namespace app {
@@ -10,7 +11,9 @@ namespace {
 /// `folder/name.png` with a word before the ending: `folder/name_left.png`.
 std::string withWord(const std::string& path, const std::string& word) {
   const std::filesystem::path p(path);
-  return (p.parent_path() / (p.stem().string() + "_" + word + p.extension().string())).string();
+  if (p.has_extension() && p.extension() != ".png")
+    throw assets::LoadError("picture " + path + ": pictures are PNG, let the name end in .png");
+  return (p.parent_path() / (p.stem().string() + "_" + word + ".png")).string();
 }
 
 }  // namespace

@@ -26,6 +26,7 @@ class VolumeOption {
   /// Adds the options to `command`.
   void addTo(CLI::App& command);
   bool given() const { return !path_.empty(); }
+  const std::string& path() const { return path_; }
   /// Throws UsageError or assets::LoadError.
   SolidVolume load() const;
 

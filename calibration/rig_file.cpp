@@ -118,7 +118,8 @@ class RigReader {
 
   std::optional<Plane<World>> mirror() const {
     const cv::FileNode node = map("mirror"), present = node["present"];
-    if (!present.isInt()) refuse(path_, "'mirror.present' is not 0 or 1", "correct it");
+    if (!present.isInt() || static_cast<int>(present) < 0 || static_cast<int>(present) > 1)
+      refuse(path_, "'mirror.present' is not 0 or 1", "correct it");
     if (static_cast<int>(present) == 0) return std::nullopt;
     const glm::dvec3 n = vector(node, "normal");
     const cv::FileNode offset = node["offset_mm"];

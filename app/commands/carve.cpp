@@ -70,6 +70,7 @@ int carve(const CarveOptions& options) {
     settings["factor_" + std::string(assets::kTissues[l].key)] = {&erosion.tissue_factor[l], 0.0, 1000.0, ""};
   applySettings(options.settings, settings);
 
+  refuseSameFile(options.out, {options.poses, options.volume.path()});
   assets::OutputFile out = assets::nrrdOutput(options.out, options.force);
   const std::vector<TimedPose> poses = readPoses(options.poses);
   refuseLongRun(poses, options.poses);

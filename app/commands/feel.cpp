@@ -86,6 +86,7 @@ int feel(const FeelOptions& options) {
                                    {"damping_Ns_per_mm", {&command.agus.damping_Ns_per_mm, 0.0, 1.0, "Ns/mm"}},
                                    {"peak_force_N", {&command.safety.peak_force_N, 0.1, 40.0, "N"}},
                                    {"slew_N_per_s", {&command.safety.slew_N_per_s, 1.0, 1e5, "N/s"}}});
+  refuseSameFile(options.out, {options.poses, options.volume.path()});
   assets::OutputFile out(options.out, options.force);
   const std::vector<TimedPose> poses = readPoses(options.poses);
   if (options.served) {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/command.h"
+#include "app/commands/number_range.h"
 #include "assets/gum_surface.h"
 #include "assets/import/scan_import.h"
 #include "assets/patient_folder.h"
@@ -122,10 +123,10 @@ void addImport(CLI::App& molar, Chosen& chosen) {
   command->add_option("SOURCE", options->source, "Folder with ct.nrrd and labels.nrrd, or one volume file")->required();
   command->add_option("--out", options->out, "Patient folder to write")->required();
   command->add_option("--iso", options->classification.iso_hu, "Grey value of the bone's surface, HU")
-      ->check(CLI::Range(-1000.0, 4000.0))
+      ->check(numberRange(-1000.0, 4000.0))
       ->capture_default_str();
   command->add_option("--sigma", options->classification.sigma_hu, "Width of the soft transition, HU")
-      ->check(CLI::Range(1.0, 2000.0))
+      ->check(numberRange(1.0, 2000.0))
       ->capture_default_str();
   command->add_flag("--force", options->force, "Replace the patient folder if it exists");
   command->callback([options, &chosen] { chosen.action = [options] { return import(*options); }; });

@@ -1,6 +1,7 @@
 // `molar rehearse [PATIENT]`: the main job.
 
 #include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <thread>
@@ -8,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/commands/command.h"
+#include "app/commands/number_range.h"
 #include "app/patient_source.h"
 #include "app/rehearsal.h"
 #include "app/room.h"
@@ -86,6 +88,11 @@ int run(const RehearseOptions& options) {
   plan.headless = options.headless;
   plan.full_screen = !options.rig.empty();
   plan.overwrite = options.force;
+  if (!options.record.empty() && std::filesystem::exists(options.record) &&
+      !std::filesystem::is_regular_file(options.record))
+    throw UsageError("--record " + options.record + ": it is not a plain file, choose another name");
+  if (!options.snapshot.empty() && options.snapshot == options.first_snapshot)
+    throw UsageError("--first-snapshot " + options.snapshot + ": the same as --snapshot, give another name");
   if (!options.record.empty()) plan.recording = Recording{options.record, options.force};
 
   assets::JawParameters jaw = options.jaw;
@@ -116,17 +123,17 @@ void addRehearse(CLI::App& molar, Chosen& chosen) {
       ->capture_default_str();
   command->add_option("--size", o->size, "Picture size")->type_name("WxH");
   command->add_option("--loupes", o->loupes, "Magnification on a desk (without --rig)")
-      ->check(CLI::Range(1.0, 8.0))
+      ->check(numberRange(1.0, 8.0))
       ->capture_default_str()
       ->excludes(rig);
   command->add_option("--face", o->face, "Face model, glTF; teeth.json beside it places the jaw")->type_name("FILE");
   command->add_option("--face-window", o->face_window_mm, "Face cut away around the line of sight, mm")
-      ->check(CLI::Range(0.0, 100.0));
+      ->check(numberRange(0.0, 100.0));
   command->add_option("--tool", o->tool, "Cutting head: sphere:R (mm)")->capture_default_str();
   command->add_option("--law", o->law, "Force law")->check(CLI::IsMember({"agus"}))->capture_default_str();
   command->add_option("--set", o->settings, "key=value: stiffness_N_per_mm, removal_rate_per_s, peak_force_N, …");
-  command->add_option("--rate", o->rate_Hz, "Servo rate, Hz")->check(CLI::Range(500.0, 4000.0))->capture_default_str();
-  command->add_option("--seconds", o->seconds, "End after this time")->check(CLI::Range(0.1, 86400.0));
+  command->add_option("--rate", o->rate_Hz, "Servo rate, Hz")->check(numberRange(500.0, 4000.0))->capture_default_str();
+  command->add_option("--seconds", o->seconds, "End after this time")->check(numberRange(0.1, 86400.0));
   command->add_option("--record", o->record, "Session file to write")->type_name("FILE");
   command->add_option("--snapshot", o->snapshot, "Pictures at the end: NAME_left.png, NAME_right.png");
   command->add_option("--first-snapshot", o->first_snapshot, "The same before the first cut");
@@ -139,16 +146,20 @@ void addRehearse(CLI::App& molar, Chosen& chosen) {
       ->excludes(patient);
   command->add_option("--winter-angle", o->jaw.winter_angle_deg, "Built-in patient: tilt, degrees")
       ->capture_default_str()
-      ->excludes(patient);
+      ->excludes(patient)
+      ->check(numberRange(-79.0, 100.0));
   command->add_option("--depth", o->jaw.depth_mm, "Built-in patient: crown below the occlusal plane, mm")
       ->capture_default_str()
-      ->excludes(patient);
+      ->excludes(patient)
+      ->check(numberRange(0.0, 8.0));
   command->add_option("--canal-distance", o->jaw.canal_distance_mm, "Built-in patient: root to canal, mm")
       ->capture_default_str()
-      ->excludes(patient);
+      ->excludes(patient)
+      ->check(numberRange(0.3, 6.0));
   command->add_option("--voxel", o->jaw.spacing_mm, "Built-in patient: voxel edge, mm")
       ->capture_default_str()
-      ->excludes(patient);
+      ->excludes(patient)
+      ->check(numberRange(0.15, 1.0));
   command->add_option("--seed", o->jaw.seed, "Built-in patient: seed")->capture_default_str()->excludes(patient);
   command->callback([o, &chosen] { chosen.action = [o] { return run(*o); }; });
 }

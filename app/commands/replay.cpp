@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/commands/command.h"
+#include "app/commands/number_range.h"
 #include "app/session/metrics.h"
 #include "app/session/replay.h"
 #include "assets/image_file.h"
@@ -44,7 +45,7 @@ void addReplay(CLI::App& molar, Chosen& chosen) {
   command->add_option("SESSION", options->session, "Session file")->required();
   auto* check =
       command->add_flag("--verify", options->verify, "Compare every force and the bone, bit for bit (default)");
-  auto* to = command->add_option("--to", options->to_s, "Stop at this time, s")->check(CLI::Range(0.0, 1e9));
+  auto* to = command->add_option("--to", options->to_s, "Stop at this time, s")->check(numberRange(0.0, 1e9));
   auto* out = command->add_option("--out", options->out, "Write the bone as it then was, .nrrd");
   out->excludes(check);
   to->needs(out);

@@ -55,6 +55,10 @@ TEST_F(BadInput, OptionsHaveRanges) {
   expectRefusal(feel("v.nrrd", "p.csv", "--law spring"));
   expectRefusal(feel("v.nrrd", "p.csv", "--served --set stiffness_N_per_mm=50"), "stiffness");
   expectRefusal("rehearse --headless --device scripted --tool sphere:10", "bur radius");
+  for (const char* nan : {"--seconds nan", "--loupes nan", "--winter-angle nan", "--voxel 0.001", "--rate nan"})
+    expectRefusal(std::string("rehearse --headless --device scripted ") + nan);
+  expectRefusal("rehearse --headless --device scripted --record /dev/full --force", "plain file");
+  expectRefusal("rehearse --headless --device scripted --snapshot " + at("a.png") + " --first-snapshot " + at("a.png"));
   expectRefusal("rehearse " + at("nobody") + " --voxel 0.6", "--voxel");
   const std::string see = "see --volume " + at("v.nrrd") + " --field solid --out " + at("a.png");
   expectRefusal(see + " --size 0x0", "--size");
@@ -69,6 +73,11 @@ TEST_F(BadInput, NothingIsOverwrittenOrLeftHalfWritten) {
   write("f.csv", "precious");
   expectRefusal(feel("v.nrrd", "p.csv"), "f.csv");
   EXPECT_EQ(read("f.csv"), "precious");
+  const std::string poses = read("p.csv");
+  expectRefusal("feel --volume " + at("v.nrrd") + " --field solid --tool sphere:2 --force --poses " + at("p.csv") +
+                    " --out " + at("p.csv"),
+                "input");
+  EXPECT_EQ(read("p.csv"), poses);
   const std::size_t before = fileCount();
   expectRefusal(feel("missing.nrrd", "p.csv", "--force"));
   EXPECT_EQ(read("f.csv"), "precious") << "a failing command keeps what was there";
