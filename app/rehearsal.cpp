@@ -245,7 +245,7 @@ class Rehearsal {
     figures.patient_title = plan_.patient.title;
     figures.bur_radius_mm = plan_.command.bur_radius_mm;
     figures.duration_s = newest_.t_s + newest_.dt_s;
-    figures.removed_mm3 = removedByTissue(plan_.patient.ct, workstation_->bone());
+    figures.removed_mm3 = workstation_->bone().removedByTissue_mm3();
     figures.frames = frames_;
     figures.frame_ms = 1000.0 * loop_s_ / static_cast<double>(std::max<std::uint64_t>(1, frames_ - 1));
     figures.first_picture_s = first_picture_s_;

@@ -19,20 +19,6 @@ namespace {
 
 }  // namespace
 
-std::array<double, assets::kTissueCount> removedByTissue(const assets::CtVolume& scan,
-                                                         const haptics::CarvedBone& bone) {
-  std::array<std::uint64_t, assets::kTissueCount> steps{};
-  const auto left = bone.solid();
-  for (std::size_t v = 0; v < left.size(); ++v) {
-    const std::uint8_t label = scan.label.empty() || scan.label[v] >= assets::kTissueCount ? 0 : scan.label[v];
-    steps[label] += static_cast<std::uint64_t>(scan.solid[v] - left[v]);
-  }
-  std::array<double, assets::kTissueCount> removed{};
-  for (std::size_t l = 0; l < removed.size(); ++l)
-    removed[l] = static_cast<double>(steps[l]) / 255.0 * scan.grid.voxelVolume_mm3();
-  return removed;
-}
-
 std::string summaryText(const RehearsalFigures& f) {
   std::string text = "Rehearsal\n";
   text += line("  patient          %s\n", f.patient_title.c_str());

@@ -6,8 +6,7 @@
 #include <string>
 
 #include "app/session/recorder.h"
-#include "assets/ct_volume.h"
-#include "haptics/bone/carved_bone.h"
+#include "assets/tissue.h"
 #include "haptics/servo/servo_statistics.h"
 
 namespace app {
@@ -24,9 +23,6 @@ struct RehearsalFigures {
   double rate_Hz = 1000.0;
   std::optional<RecordingSummary> recording;
 };
-
-/// mm³ of every tissue that `bone` has less of than the scan.
-std::array<double, assets::kTissueCount> removedByTissue(const assets::CtVolume& scan, const haptics::CarvedBone& bone);
 
 std::string summaryText(const RehearsalFigures& figures);
 

@@ -31,15 +31,10 @@ struct CarveOptions {
 /// Poses further apart in time are carved through in steps of this.
 constexpr double kLongestStep_s = 0.001;
 
-struct Removed {
-  double total_mm3 = 0.0;
-  std::array<double, assets::kTissueCount> by_label_mm3{};
-};
-
 /// Carves from each row to the next, straight, in equal steps of at most a millisecond.
-Removed carveAlong(haptics::CarvedBone& bone, const std::vector<TimedPose>& poses, double radius_mm,
-                   const haptics::ErosionParameters& erosion) {
-  Removed removed;
+haptics::CarveResult carveAlong(haptics::CarvedBone& bone, const std::vector<TimedPose>& poses, double radius_mm,
+                                const haptics::ErosionParameters& erosion) {
+  haptics::CarveResult removed;
   std::uint64_t tick = 0;
   for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
     const double span_s = poses[i + 1].t_s - poses[i].t_s;
@@ -52,11 +47,8 @@ Removed carveAlong(haptics::CarvedBone& bone, const std::vector<TimedPose>& pose
     const double dt_s = span_s / static_cast<double>(steps);
     for (std::uint64_t k = 0; k < steps; ++k, ++tick) {
       const auto at = [&](double n) { return Point<Patient>{glm::mix(from, to, n / static_cast<double>(steps))}; };
-      const auto result = haptics::carveSweep(bone, at(static_cast<double>(k)), at(static_cast<double>(k) + 1.0),
-                                              radius_mm, erosion, dt_s, tick);
-      removed.total_mm3 += result.removed_mm3;
-      for (std::size_t l = 0; l < removed.by_label_mm3.size(); ++l)
-        removed.by_label_mm3[l] += result.removed_mm3_by_label[l];
+      removed += haptics::carveSweep(bone, at(static_cast<double>(k)), at(static_cast<double>(k) + 1.0), radius_mm,
+                                     erosion, dt_s, tick);
     }
   }
   return removed;
@@ -76,14 +68,14 @@ int carve(const CarveOptions& options) {
   refuseLongRun(poses, options.poses);
   const SolidVolume volume = options.volume.load();
   haptics::CarvedBone bone(volume.grid, volume.solid, volume.label);
-  const Removed removed = carveAlong(bone, poses, radius_mm, erosion);
+  const haptics::CarveResult removed = carveAlong(bone, poses, radius_mm, erosion);
   assets::writeSolid(volume.grid, {bone.solid().begin(), bone.solid().end()}, out);
 
   nlohmann::json by_label = nlohmann::json::object();
-  for (std::size_t l = 0; l < removed.by_label_mm3.size(); ++l)
-    if (removed.by_label_mm3[l] > 0.0) by_label[std::to_string(l)] = removed.by_label_mm3[l];
+  for (std::size_t l = 0; l < removed.removed_mm3_by_label.size(); ++l)
+    if (removed.removed_mm3_by_label[l] > 0.0) by_label[std::to_string(l)] = removed.removed_mm3_by_label[l];
   std::printf("%s\n",
-              nlohmann::json{{"removed_mm3", removed.total_mm3}, {"removed_mm3_by_label", by_label}}.dump(2).c_str());
+              nlohmann::json{{"removed_mm3", removed.removed_mm3}, {"removed_mm3_by_label", by_label}}.dump(2).c_str());
   return 0;
 }
 
