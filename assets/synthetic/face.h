@@ -14,7 +14,6 @@ namespace assets {
 struct FaceParameters {
   int tooth_fdi = 48;         ///< 48: right cheek held away, 38: left
   double voxel_mm = 1.1;      ///< of the face; teeth and tongue are finer
-  bool lower_teeth = true;    ///< false: the scan shows all lower teeth itself
   std::uint32_t seed = 2026;  ///< hairs and the skin's mottling
 };
 

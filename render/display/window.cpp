@@ -16,22 +16,11 @@ static_assert(static_cast<int>(Key::space) == GLFW_KEY_SPACE && static_cast<int>
               static_cast<int>(Key::left) == GLFW_KEY_LEFT && static_cast<int>(Key::page_down) == GLFW_KEY_PAGE_DOWN &&
               static_cast<int>(Key::left_alt) == GLFW_KEY_LEFT_ALT && keyOf('A') == static_cast<Key>(GLFW_KEY_A));
 
-MouseButton buttonOf(int glfw_button) {
-  switch (glfw_button) {
-    case GLFW_MOUSE_BUTTON_LEFT:
-      return MouseButton::left;
-    case GLFW_MOUSE_BUTTON_RIGHT:
-      return MouseButton::right;
-    case GLFW_MOUSE_BUTTON_MIDDLE:
-      return MouseButton::middle;
-    default:
-      return MouseButton::none;
-  }
-}
-
 MouseButton heldButton(GLFWwindow* window) {
-  for (const int button : {GLFW_MOUSE_BUTTON_LEFT, GLFW_MOUSE_BUTTON_RIGHT, GLFW_MOUSE_BUTTON_MIDDLE})
-    if (glfwGetMouseButton(window, button) == GLFW_PRESS) return buttonOf(button);
+  const auto is_held = [window](int button) { return glfwGetMouseButton(window, button) == GLFW_PRESS; };
+  if (is_held(GLFW_MOUSE_BUTTON_LEFT)) return MouseButton::left;
+  if (is_held(GLFW_MOUSE_BUTTON_RIGHT)) return MouseButton::right;
+  if (is_held(GLFW_MOUSE_BUTTON_MIDDLE)) return MouseButton::middle;
   return MouseButton::none;
 }
 
@@ -103,17 +92,12 @@ void Window::Impl::listen() {
     self.events.push_back(PointerMoved{to_px, to_px - self.pointer_px, heldButton(w)});
     self.pointer_px = to_px;
   });
-  glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
-    Impl& self = of(w);
-    self.events.push_back(ButtonPressed{buttonOf(button), self.pointer_px, action == GLFW_PRESS});
-  });
   glfwSetScrollCallback(window,
                         [](GLFWwindow* w, double, double notches) { of(w).events.push_back(WheelTurned{notches}); });
   glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int modifiers) {
     of(w).events.push_back(KeyPressed{static_cast<Key>(key), action != GLFW_RELEASE, action == GLFW_REPEAT,
                                       (modifiers & GLFW_MOD_SHIFT) != 0});
   });
-  glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int x, int y) { of(w).events.push_back(Resized{{x, y}}); });
   glfwSetWindowCloseCallback(window, [](GLFWwindow* w) { of(w).events.push_back(CloseAsked{}); });
 }
 

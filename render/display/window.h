@@ -42,11 +42,6 @@ struct PointerMoved {
   glm::dvec2 to_px{0.0}, by_px{0.0};
   MouseButton button = MouseButton::none;
 };
-struct ButtonPressed {
-  MouseButton button = MouseButton::none;
-  glm::dvec2 at_px{0.0};
-  bool down = false;
-};
 /// Notches away from the user.
 struct WheelTurned {
   double notches = 0.0;
@@ -57,12 +52,9 @@ struct KeyPressed {
   bool repeated = false;
   bool shift = false;
 };
-struct Resized {
-  glm::ivec2 px{0};
-};
 struct CloseAsked {};
 
-using WindowEvent = std::variant<PointerMoved, ButtonPressed, WheelTurned, KeyPressed, Resized, CloseAsked>;
+using WindowEvent = std::variant<PointerMoved, WheelTurned, KeyPressed, CloseAsked>;
 
 class Window {
  public:

@@ -27,7 +27,6 @@ class VolumeTexture {
   void bind() const;
 
   const assets::VolumeGrid& grid() const { return grid_; }
-  const Occupancy& occupancy() const { return occupancy_; }
   glm::ivec3 ambientCells() const { return ambient_.size(); }
 
  private:

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "ball_volume.h"
+#include "tests/render/ball_volume.h"
 
 namespace render {
 namespace {
