@@ -51,16 +51,16 @@ double smearedDepth(double radius, double volume, double sigma) {
 /// Of a face one voxel soft, in voxels (reference/physics 0.6).
 const double kUsualSigma = std::sqrt(0.504 / kPi);
 
-/// Depth of any part of a ball; `sigmaAt` gives the smear for a volume of at most half of it.
+/// Depth of any part of a ball; `sigma_at` gives the smear for a volume of at most half of it.
 template <class Sigma>
-double depthOf(double radius_mm, double volume_mm3, Sigma sigmaAt) {
+double depthOf(double radius_mm, double volume_mm3, Sigma sigma_at) {
   const double ball = 4.0 / 3.0 * kPi * radius_mm * radius_mm * radius_mm;
   if (!(volume_mm3 > 0.0)) return 0.0;
   if (volume_mm3 >= ball) return 2.0 * radius_mm;
   // The face beyond the centre is the same sum seen from the other side.
   const bool beyond = volume_mm3 > 0.5 * ball;
   const double volume = beyond ? ball - volume_mm3 : volume_mm3;
-  const double h = smearedDepth(radius_mm, volume, sigmaAt(volume));
+  const double h = smearedDepth(radius_mm, volume, sigma_at(volume));
   return beyond ? 2.0 * radius_mm - h : h;
 }
 
