@@ -17,9 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Rises when the built-in patient is made differently, so that an older cache is not taken for it.
-constexpr int kBuiltInRevision = 2;
-
 fs::path cacheFolder() {
   const char* cache = std::getenv("XDG_CACHE_HOME");
   const char* home = std::getenv("HOME");
@@ -29,8 +26,8 @@ fs::path cacheFolder() {
 
 std::string cacheName(const assets::JawParameters& p) {
   char name[160];
-  std::snprintf(name, sizeof name, "built-in-%d-%s-%g-%g-%g-%g-%llu", kBuiltInRevision, p.right_side ? "right" : "left",
-                p.winter_angle_deg, p.depth_mm, p.canal_distance_mm, p.spacing_mm,
+  std::snprintf(name, sizeof name, "built-in-%d-%s-%g-%g-%g-%g-%llu", assets::kSyntheticPatientRevision,
+                p.right_side ? "right" : "left", p.winter_angle_deg, p.depth_mm, p.canal_distance_mm, p.spacing_mm,
                 static_cast<unsigned long long>(p.seed));
   return name;
 }
