@@ -52,25 +52,19 @@ class RigReader {
 
   template <class A, class B>
   Pose<A, B> pose(const char* key) const {
-    cv::Mat m;
-    if (const cv::FileNode node = root_[key]; node.isMap())
-      node >> m;
-    else if (node.isSeq())
-      m = listedMatrix(node, key);
-    if (m.rows != 4 || m.cols != 4 || m.channels() != 1)
-      refuse(path_, std::string("'") + key + "' is not a 4x4 matrix", "write it as !!opencv-matrix, row-major, mm");
-    m.convertTo(m, CV_64F);
+    // Row-major m[4 r + c].
+    const std::vector<double> m = sixteenNumbers(root_[key], key);
     glm::dmat3 R{1.0};
     glm::dvec3 p{0.0};
     for (int r = 0; r < 3; ++r) {
-      for (int c = 0; c < 3; ++c) R[c][r] = m.at<double>(r, c);
-      p[r] = m.at<double>(r, 3);
+      for (int c = 0; c < 3; ++c) R[c][r] = m[4 * r + c];
+      p[r] = m[4 * r + 3];
     }
     // A pose is rigid: orthonormal, determinant +1, last row 0 0 0 1.
     const glm::dmat3 gram = glm::transpose(R) * R;
-    double error = std::abs(m.at<double>(3, 3) - 1.0);
+    double error = std::abs(m[15] - 1.0);
     for (int c = 0; c < 3; ++c) {
-      error = std::max(error, std::abs(m.at<double>(3, c)));
+      error = std::max(error, std::abs(m[12 + c]));
       for (int r = 0; r < 3; ++r) error = std::max(error, std::abs(gram[c][r] - (r == c ? 1.0 : 0.0)));
     }
     const bool finite = std::isfinite(error) && std::isfinite(glm::dot(p, p));
@@ -80,14 +74,19 @@ class RigReader {
     return {glm::normalize(glm::quat_cast(R)), p};
   }
 
-  /// A matrix written by hand: 16 numbers, or four rows of four.
-  cv::Mat listedMatrix(const cv::FileNode& node, const char* key) const {
+  /// A 4x4 matrix as OpenCV writes it, or by hand: 16 numbers, or four rows of four. The sizes a file declares are
+  /// compared, never allocated.
+  std::vector<double> sixteenNumbers(const cv::FileNode& node, const char* key) const {
+    const auto declares = [&](const char* side) { return node[side].isInt() && static_cast<int>(node[side]) == 4; };
+    if (node.isMap() && declares("rows") && declares("cols")) return numbers(node["data"], key, 16);
+    if (node.isSeq() && node.size() == 16) return numbers(node, key, 16);
     std::vector<double> values;
-    if (node.size() == 16) values = numbers(node, key, 16);
-    if (node.size() == 4)
+    if (node.isSeq() && node.size() == 4)
       for (const cv::FileNode& row : node)
         for (const double v : numbers(row, key, 4)) values.push_back(v);
-    return values.size() == 16 ? cv::Mat(values, true).reshape(1, 4) : cv::Mat();
+    if (values.size() != 16)
+      refuse(path_, std::string("'") + key + "' is not a 4x4 matrix", "write it as !!opencv-matrix, row-major, mm");
+    return values;
   }
 
   void checkKind() const {

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <random>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace calibration {
@@ -94,6 +95,12 @@ TEST_F(RigFile, RefusesAPoseThatScalesOrFlips) {
   const std::string data = "data: [ 1., 0., 0., 0., 0., 1.";
   EXPECT_NE(refusal(replaced(good, data, "data: [ 2., 0., 0., 0., 0., 1.")), "accepted");
   EXPECT_NE(refusal(replaced(good, data, "data: [ -1., 0., 0., 0., 0., 1.")), "accepted");
+}
+
+TEST_F(RigFile, RefusesAMatrixOfAnotherSizeWithoutMakingRoomForIt) {
+  const std::string good = rigText(mirroredRig());
+  for (const char* rows : {"rows: 3", "rows: -4", "rows: 2000000000", "rows: four"})
+    EXPECT_THAT(refusal(replaced(good, "rows: 4", rows)), testing::HasSubstr("4x4")) << rows;
 }
 
 TEST_F(RigFile, RefusesAnEyeOnTheScreen) {
