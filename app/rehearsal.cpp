@@ -56,7 +56,7 @@ struct HandAtWork {
 HandAtWork handOf(const RehearsalPlan& plan) {
   HandAtWork hand;
   if (plan.hand == Hand::scripted) {
-    auto trough = planBuccalTrough(plan.patient, plan.command.bur_radius_mm);
+    auto trough = planBuccalTrough(plan.patient, plan.command.tool.head.radius_mm);
     if (!trough)
       throw UsageError("--device scripted: this patient has no third molar with bone beside it, use --device mouse");
     trough->shaft_D = {glm::conjugate(plan.rig.X_WP.rotation) * shaftDirection_W()};
@@ -95,7 +95,7 @@ class Rehearsal {
     renderer_ = rendererWith(1, plan_.patient.ct.solid);
     frame_.rig = plan_.rig;
     frame_.display = plan_.display;
-    frame_.bur_radius_mm = plan_.command.bur_radius_mm;
+    frame_.bur_radius_mm = plan_.command.tool.head.radius_mm;
     frame_.face_window_mm = plan_.face_window_mm;
     frame_.site_P = {plan_.patient.site.third_molar_P_mm};
     frame_.tool_visible = false;
@@ -134,7 +134,7 @@ class Rehearsal {
                                                             render::RenderOptions{.samples = samples});
     renderer->setFace(plan_.patient.face);
     renderer->setGum(plan_.patient.gum);
-    renderer->setInstrument(assets::surgicalHandpiece({.bur_radius_mm = plan_.command.bur_radius_mm}));
+    renderer->setInstrument(assets::surgicalHandpiece({.bur_radius_mm = plan_.command.tool.head.radius_mm}));
     return renderer;
   }
 
@@ -243,7 +243,7 @@ class Rehearsal {
     frame_.tool_visible = frame_.tool_visible && (hand_.mouse || newest_.depth_mm > 0.0);
     if (closing_pictures_) takePictures(*closing_pictures_, workstation_->bone().solid());
     figures.patient_title = plan_.patient.title;
-    figures.bur_radius_mm = plan_.command.bur_radius_mm;
+    figures.bur_radius_mm = plan_.command.tool.head.radius_mm;
     figures.duration_s = newest_.t_s + newest_.dt_s;
     figures.removed_mm3 = workstation_->bone().removedByTissue_mm3();
     figures.frames = frames_;

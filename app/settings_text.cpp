@@ -59,9 +59,9 @@ void refuseUnlessObeyed(const haptics::Command& command) {
       throw UsageError(std::string(what) + " " + shortText(asked) + " " + unit + ": the servo goes no further than " +
                        shortText(taken) + " " + unit + ", ask for that");
   };
-  check("bur radius", command.bur_radius_mm, obeyed.bur_radius_mm, "mm");
-  check("stiffness", command.agus.stiffness_N_per_mm, obeyed.agus.stiffness_N_per_mm, "N/mm");
-  check("damping", command.agus.damping_Ns_per_mm, obeyed.agus.damping_Ns_per_mm, "Ns/mm");
+  check("bur radius", command.tool.head.radius_mm, obeyed.tool.head.radius_mm, "mm");
+  check("stiffness", command.law.agus.stiffness_N_per_mm, obeyed.law.agus.stiffness_N_per_mm, "N/mm");
+  check("damping", command.law.agus.damping_Ns_per_mm, obeyed.law.agus.damping_Ns_per_mm, "Ns/mm");
 }
 
 void refuseSameFile(const std::string& output, std::initializer_list<std::string> inputs) {

@@ -25,25 +25,27 @@ enum class Tissue : std::uint8_t {
 inline constexpr int kTissueCount = 10;
 
 struct TissueProperties {
-  std::string_view key;   ///< in files and on the command line
-  std::string_view name;  ///< for people
-  double hounsfield;      ///< mean grey value of the synthetic patient
-  double
-      removal_factor;  ///< fraction removed per second relative to cortical bone (enamel:dentine:cortical:cancellous:
-                       ///< pulp = 1:3:3:10:50, reference/physics, from hardness)
+  std::string_view key;     ///< in files and on the command line
+  std::string_view name;    ///< for people
+  double hounsfield;        ///< mean grey value of the synthetic patient
+  double removal_factor;    ///< fraction removed per second relative to cortical bone (enamel:dentine:cortical:
+                            ///< cancellous:pulp = 1:3:3:10:50, reference/physics 6, from hardness)
+  double stiffness_factor;  ///< felt stiffness relative to cortical bone; ordered as the moduli of reference/physics 4
+                            ///< (enamel 70-105, dentine 15-25, cortical 10-20, cancellous 0.1-2 GPa), compressed to
+                            ///< what a device can render: a gain, not a modulus
 };
 
 inline constexpr std::array<TissueProperties, kTissueCount> kTissues = {{
-    {"unlabelled", "unlabelled", -1000.0, 1.0},
-    {"cortical", "cortical bone", 1350.0, 1.0},
-    {"trabecular", "trabecular bone", 420.0, 10.0 / 3.0},
-    {"other_teeth", "other teeth", 1700.0, 1.0},
-    {"enamel", "enamel", 2500.0, 1.0 / 3.0},
-    {"dentine", "dentine", 1650.0, 1.0},
-    {"pulp", "pulp", 150.0, 50.0 / 3.0},
-    {"canal", "canal", 40.0, 50.0 / 3.0},
-    {"ligament", "ligament", 60.0, 50.0 / 3.0},
-    {"gingiva", "gingiva", 60.0, 50.0 / 3.0},
+    {"unlabelled", "unlabelled", -1000.0, 1.0, 1.0},
+    {"cortical", "cortical bone", 1350.0, 1.0, 1.0},
+    {"trabecular", "trabecular bone", 420.0, 10.0 / 3.0, 0.4},
+    {"other_teeth", "other teeth", 1700.0, 1.0, 1.2},
+    {"enamel", "enamel", 2500.0, 1.0 / 3.0, 1.5},
+    {"dentine", "dentine", 1650.0, 1.0, 1.1},
+    {"pulp", "pulp", 150.0, 50.0 / 3.0, 0.1},
+    {"canal", "canal", 40.0, 50.0 / 3.0, 0.1},
+    {"ligament", "ligament", 60.0, 50.0 / 3.0, 0.1},
+    {"gingiva", "gingiva", 60.0, 50.0 / 3.0, 0.1},
 }};
 
 constexpr const TissueProperties& properties(std::uint8_t label) { return kTissues[label < kTissueCount ? label : 0]; }

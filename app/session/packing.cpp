@@ -43,11 +43,18 @@ void forEachField(auto& tick, Visit&& visit) requires std::same_as<std::remove_c
 template <class Visit>
 void forEachField(auto& command,
                   Visit&& visit) requires std::same_as<std::remove_cvref_t<decltype(command)>, haptics::Command> {
-  auto& [serial, bur_radius_mm, drill_enabled, agus, erosion, safety] = command;
+  auto& [serial, tool, drill_enabled, law, erosion, safety] = command;
+  auto& [head, shaft] = tool;
+  auto& [shape_kind, radius_mm, length_mm] = head;
+  auto& [shaft_radius_mm, shaft_length_mm] = shaft;
+  auto& [law_kind, tissue, agus] = law;
   auto& [stiffness_N_per_mm, damping_Ns_per_mm] = agus;
   auto& [removal_rate_per_s, tissue_factor] = erosion;
   auto& [peak_force_N, slew_N_per_s] = safety;
-  visit(serial), visit(bur_radius_mm), visit(drill_enabled);
+  visit(serial), visit(drill_enabled);
+  visit(shape_kind), visit(radius_mm), visit(length_mm), visit(shaft_radius_mm), visit(shaft_length_mm);
+  visit(law_kind);
+  for (auto& factor : tissue.factor) visit(factor);
   visit(stiffness_N_per_mm), visit(damping_Ns_per_mm), visit(removal_rate_per_s);
   for (auto& factor : tissue_factor) visit(factor);
   visit(peak_force_N), visit(slew_N_per_s);

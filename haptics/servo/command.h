@@ -5,16 +5,17 @@
 #include <cstdint>
 
 #include "haptics/bone/erosion.h"
-#include "haptics/contact/agus.h"
+#include "haptics/contact/law.h"
 #include "haptics/servo/safety_limits.h"
+#include "haptics/tool/tool.h"
 
 namespace haptics {
 
 struct Command {
-  std::uint64_t serial = 0;    ///< rises by one with every change
-  double bur_radius_mm = 2.0;  ///< felt, cut and drawn
-  bool drill_enabled = true;   ///< false: the pedal does nothing
-  AgusParameters agus;
+  std::uint64_t serial = 0;   ///< rises by one with every change
+  Tool tool;                  ///< felt, cut and drawn
+  bool drill_enabled = true;  ///< false: the pedal does nothing
+  LawSettings law;
   ErosionParameters erosion;
   SafetyLimits safety;
 };

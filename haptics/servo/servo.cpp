@@ -17,9 +17,9 @@ double within(double value, double least, double most, double otherwise) {
 Command sanitised(const Command& command) {
   const Command defaults;
   Command safe = command;
-  safe.bur_radius_mm = within(command.bur_radius_mm, 0.1, 6.0, defaults.bur_radius_mm);
-  safe.agus.stiffness_N_per_mm = within(command.agus.stiffness_N_per_mm, 0.0, 5.0, 0.0);
-  safe.agus.damping_Ns_per_mm = within(command.agus.damping_Ns_per_mm, 0.0, 0.1, 0.0);
+  safe.tool.head.radius_mm = within(command.tool.head.radius_mm, 0.1, 6.0, defaults.tool.head.radius_mm);
+  safe.law.agus.stiffness_N_per_mm = within(command.law.agus.stiffness_N_per_mm, 0.0, 5.0, 0.0);
+  safe.law.agus.damping_Ns_per_mm = within(command.law.agus.damping_Ns_per_mm, 0.0, 0.1, 0.0);
   safe.safety = sanitised(command.safety);
   return safe;
 }
@@ -44,15 +44,16 @@ Tick Servo::step(const HandSample& hand, const Command& wanted, double dt_s) noe
 
   // Contact at the place where the surface holds the bur.
   const calibration::Point<calibration::Patient> hand_P{believed.X_PT.translation_mm};
-  const Proxy::Held held = proxy_.follow(bone_.field(), hand_P, command.bur_radius_mm);
+  const Proxy::Held held = proxy_.follow(bone_.field(), hand_P, command.tool.head.radius_mm);
   tick.proxy_P = held.proxy_P;
   tick.overlap_mm3 = held.contact.volume_mm3;
   tick.depth_mm = held.contact.depth_mm;
-  tick.contact_tissue =
-      held.contact.depth_mm > 0.0 ? dominantLabel(bone_.field(), held.proxy_P, command.bur_radius_mm) : std::uint8_t{0};
+  tick.contact_tissue = held.contact.depth_mm > 0.0
+                            ? dominantLabel(bone_.field(), held.proxy_P, command.tool.head.radius_mm)
+                            : std::uint8_t{0};
 
   // The law, then the limits.
-  tick.law_force_P_N = heldForce_N(held, command.agus, believed.velocity_P_mm_per_s);
+  tick.law_force_P_N = heldForce_N(held, command.law.agus, believed.velocity_P_mm_per_s);
   const SafetyFilter::Served served = safety_.serve(tick.law_force_P_N, command.safety, trouble, tick.dt_s);
   tick.served_force_P_N = served.force_P_N;
   tick.faults = tick.faults | served.faults;
@@ -61,7 +62,8 @@ Tick Servo::step(const HandSample& hand, const Command& wanted, double dt_s) noe
   tick.drilling = believed.drill_pedal && command.drill_enabled && !trouble;
   if (tick.drilling && held.contact.volume_mm3 > 0.0)
     tick.removed_mm3 =
-        carveSphere(bone_, held.proxy_P, command.bur_radius_mm, command.erosion, tick.dt_s, tick.index).removed_mm3;
+        carveSphere(bone_, held.proxy_P, command.tool.head.radius_mm, command.erosion, tick.dt_s, tick.index)
+            .removed_mm3;
   tick.bone_digest = bone_.digest();
   return tick;
 }

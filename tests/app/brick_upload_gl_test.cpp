@@ -38,7 +38,7 @@ TEST(BrickUpload, ShowsWhatOneTickCutToBothEyesInTheNextFrame) {
   // One tick of a fierce bur.
   haptics::Servo servo(bone);
   haptics::Command command;
-  command.bur_radius_mm = 1.5;
+  command.tool.head.radius_mm = 1.5;
   command.erosion.removal_rate_per_s = 1000.0;
   const haptics::Tick tick = servo.step({{{1, 0, 0, 0}, {0.0, 0.0, 0.4}}, {}, true}, command, 0.001);
   ASSERT_GT(tick.removed_mm3, 0.5);

@@ -31,7 +31,7 @@ struct BoneBlock {
   SessionStart start() const {
     SessionStart start{"block of bone", "0.1.0", 0.001, grid, solid, label, {}};
     start.command.serial = 1;
-    start.command.bur_radius_mm = 1.0;
+    start.command.tool.head.radius_mm = 1.0;
     return start;
   }
 };
@@ -48,8 +48,8 @@ inline haptics::HandSample sweepingHand(double t_s) {
 inline haptics::Command largerBur(const haptics::Command& first) {
   haptics::Command second = first;
   second.serial = 2;
-  second.bur_radius_mm = 1.3;
-  second.agus.damping_Ns_per_mm = 0.001;
+  second.tool.head.radius_mm = 1.3;
+  second.law.agus.damping_Ns_per_mm = 0.001;
   return second;
 }
 

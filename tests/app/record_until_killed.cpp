@@ -34,7 +34,7 @@ int main(int, char** argv) {
     // A new command every 150 ms, so that kills fall around them too.
     if (index % 150 == 149) {
       ++command.serial;
-      command.bur_radius_mm = 0.8 + 0.1 * static_cast<double>(command.serial % 5);
+      command.tool.head.radius_mm = 0.8 + 0.1 * static_cast<double>(command.serial % 5);
       recorder.command(command);
     }
     log.push(servo.step(app::test::sweepingHand(static_cast<double>(index) * 0.001), command, 0.001));

@@ -66,7 +66,7 @@ TEST(Recorder, NotesTheTickFromWhichACommandIsInForce) {
   // Serial 2 is overtaken by 3 before the servo reads it.
   for (std::uint64_t serial : {2, 3, 4}) {
     command.serial = serial;
-    command.bur_radius_mm = static_cast<double>(serial);
+    command.tool.head.radius_mm = static_cast<double>(serial);
     recorder.command(command);
   }
   for (std::uint64_t i = 100; i < 200; ++i) log.push(imaginedTick(i, i < 160 ? 3 : 4));
@@ -75,7 +75,7 @@ TEST(Recorder, NotesTheTickFromWhichACommandIsInForce) {
   const auto commands = SessionReader(folder.file("s.molar")).commands();
   ASSERT_EQ(commands.size(), 3u);
   EXPECT_EQ(commands[0].first_tick, 0u);
-  EXPECT_EQ(commands[1].command.bur_radius_mm, 3.0);
+  EXPECT_EQ(commands[1].command.tool.head.radius_mm, 3.0);
   EXPECT_EQ(commands[1].first_tick, 100u);
   EXPECT_EQ(commands[2].command.serial, 4u);
   EXPECT_EQ(commands[2].first_tick, 160u);

@@ -30,7 +30,7 @@ TEST(ServoRealTime, NeitherAllocatesNorBlocksInTenThousandTicksOfCarving) {
     if (n % 500 == 0) {
       haptics::Command command = block.start().command;
       command.serial = 1 + static_cast<std::uint64_t>(n / 500);
-      command.bur_radius_mm = 0.5 + 0.2 * (n / 500 % 8);
+      command.tool.head.radius_mm = 0.5 + 0.2 * (n / 500 % 8);
       commands.publish(command);
     }
     const haptics::Tick tick = servo.step(hand, commands.read(), 0.001);

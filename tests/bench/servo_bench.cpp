@@ -68,7 +68,7 @@ int main() {
       CarvedBone bone = halfSpace(R + 6.0, s).bone(1);
       Servo servo(bone);
       Command command;
-      command.bur_radius_mm = R;
+      command.tool.head.radius_mm = R;
       print("tick, drilling a trough", s, R,
             measure(2000,
                     [&](int i) {

@@ -35,7 +35,7 @@ std::vector<Tick> session(double seconds) {
   plan.depth_mm = 2.0;
   ScriptedHand device(plan);
   Command command;
-  command.bur_radius_mm = 1.5;
+  command.tool.head.radius_mm = 1.5;
   TickLog log(100'000);
   Vector<Patient> force;
   for (int i = 0; i < static_cast<int>(seconds * 1000.0); ++i) {
@@ -59,7 +59,7 @@ TEST(Servo, ReplaysBitForBit) {
   CarvedBone bone = halfSpace(12.0, 0.25).bone(1);
   Servo servo(bone);
   Command command;
-  command.bur_radius_mm = 1.5;
+  command.tool.head.radius_mm = 1.5;
   for (const Tick& tick : recorded) {
     const Tick again = servo.step(tick.hand, command, tick.dt_s);
     ASSERT_EQ(again.index, tick.index);
@@ -98,8 +98,8 @@ TEST(Servo, NeverServesMoreThanItsLimitsOrFasterInARandomWalk) {
                     }).bone(1);
   Servo servo(bone);
   Command command;
-  command.bur_radius_mm = 1.0;
-  command.agus.damping_Ns_per_mm = 0.001;
+  command.tool.head.radius_mm = 1.0;
+  command.law.agus.damping_Ns_per_mm = 0.001;
   std::mt19937 random(2);
   std::normal_distribution<double> step(0.0, 0.05);
   glm::dvec3 hand(0.0), last(0.0);
@@ -177,14 +177,14 @@ TEST(Servo, CutsOnlyWithPedalAndPermission) {
 TEST(Servo, ObeysOnlyWhatIsSaneInACommand) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Command command;
-  command.bur_radius_mm = nan;
-  command.agus.stiffness_N_per_mm = nan;
-  command.agus.damping_Ns_per_mm = -3.0;
+  command.tool.head.radius_mm = nan;
+  command.law.agus.stiffness_N_per_mm = nan;
+  command.law.agus.damping_Ns_per_mm = -3.0;
   command.erosion.removal_rate_per_s = nan;
   command.safety = {nan, nan};
   const Command safe = sanitised(command);
-  EXPECT_EQ(safe.bur_radius_mm, Command{}.bur_radius_mm);
-  EXPECT_EQ(safe.agus.damping_Ns_per_mm, 0.0);
+  EXPECT_EQ(safe.tool.head.radius_mm, Command{}.tool.head.radius_mm);
+  EXPECT_EQ(safe.law.agus.damping_Ns_per_mm, 0.0);
   CarvedBone bone = halfSpace(4.0, 0.2).bone();
   Servo servo(bone);
   for (int i = 0; i < 10; ++i) {
@@ -200,7 +200,7 @@ TEST(Servo, AllocatesNothingInTenThousandTicks) {
   Servo servo(bone);
   TickLog log(10'000);
   Command command;
-  command.bur_radius_mm = 1.0;
+  command.tool.head.radius_mm = 1.0;
   const std::size_t before = allocation_count::now();
   for (int i = 0; i < 10'000; ++i)
     log.push(servo.step(handAt({2.0 * std::sin(0.001 * i), 0.3, 0.6 - 0.0001 * i}, i > 100), command, 1e-3));

@@ -1,0 +1,50 @@
+// What a force law is told and what it answers. One Contact is one look at the bone with the tool standing still at
+// X_PT; proxy, damping, limits come after (servo). Frame P; mm, N, N mm; forces act on the hand. Servo thread.
+#pragma once
+
+#include <array>
+
+#include "assets/tissue.h"
+#include "calibration/geometry/frames.h"
+#include "calibration/geometry/pose.h"
+#include "haptics/bone/solid_field.h"
+#include "haptics/tool/bur_shape.h"
+
+namespace haptics {
+
+/// How hard each tissue is to the hand, relative to cortical bone. Multiplies a law's stiffness, voxel by voxel.
+struct TissueStiffness {
+  std::array<double, assets::kTissueCount> factor = [] {
+    std::array<double, assets::kTissueCount> known{};
+    for (std::size_t i = 0; i < known.size(); ++i) known[i] = assets::kTissues[i].stiffness_factor;
+    return known;
+  }();
+};
+
+struct ToolMotion {
+  calibration::Vector<calibration::Patient> velocity_P_mm_per_s;  ///< of T's origin
+  double spindle_rad_per_s = 0.0;                                 ///< about +z of T; 0: not turning
+  double dt_s = 1e-3;
+};
+
+/// The tool as it stands in the bone.
+struct ToolInBone {
+  const SolidField& field;
+  BurShape head;
+  calibration::Pose<calibration::Patient, calibration::Tool> X_PT;
+  const TissueStiffness& tissue;
+  ToolMotion motion;
+};
+
+struct Contact {
+  calibration::Vector<calibration::Patient> force_P_N;      ///< the law at rest; zero out of contact
+  calibration::Vector<calibration::Patient> torque_P_Nmm;   ///< about T's origin
+  calibration::Vector<calibration::Patient> vibration_P_N;  ///< that averages to zero over a turn of the spindle
+  calibration::Vector<calibration::Patient> normal_P;  ///< out of the bone; shorter than 1 where bone is all around
+  double depth_mm = 0.0;                               ///< of flat bone with the same overlap; 0: no contact
+  double stiffness_N_per_mm = 0.0;  ///< dF/ddepth there, tissue included: what the proxy's spring goes on with
+  double volume_mm3 = 0.0;          ///< head and solid
+  double one_sided = 1.0;  ///< first moment, relative to flat bone of this depth: 1 flat, 2/3 in a socket, 0 in a slot
+};
+
+}  // namespace haptics
