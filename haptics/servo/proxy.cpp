@@ -11,21 +11,25 @@ namespace {
 using calibration::Patient;
 using calibration::Vector;
 
-constexpr double kThinnestPlate_mm = 0.6;
+constexpr double kThinnestPlate_mm = 0.6, kShareOfPlate = 0.85;
 
-/// Agus's contact, faded where bone on opposite sides cancels out: in a slot narrower than the bur the bare law turns
-/// its full force round within a hundredth of a millimetre. Flat bone has |M1| of its cap, a conforming socket 2/3 of
-/// it; below 0.6 the direction is worth only its share.
-AgusContact steadyContact(const SolidField& field, const calibration::Point<Patient>& centre_P, double radius_mm) {
-  AgusContact contact = agusContact(field, centre_P, radius_mm);
-  const double needed_mm4 = 0.6 * capMoment_mm4(radius_mm, contact.depth_mm);
-  if (contact.moment_mm4 < needed_mm4) contact.normal_P.xyz *= contact.moment_mm4 / needed_mm4;
+/// The law's contact, faded where bone on opposite sides cancels out: in a slot narrower than the head a volume law
+/// turns its full force round within a hundredth of a millimetre. Flat bone is one-sided by 1, a conforming socket by
+/// 2/3; below 0.6 the contact is worth only its share.
+Contact steadyContact(const LawSettings& law, const ToolInBone& at) {
+  Contact contact = contactOf(law, at);
+  const double share = std::clamp(contact.one_sided / 0.6, 0.0, 1.0);
+  if (share >= 1.0) return contact;
+  contact.force_P_N.xyz *= share;
+  contact.torque_P_Nmm.xyz *= share;
+  contact.vibration_P_N.xyz *= share;
+  contact.normal_P.xyz *= share;
   return contact;
 }
 
 /// The part of the way to the hand that the bone at the proxy allows: all of it along the surface, inwards only down to
 /// the depth where the proxy waits, outwards at least until it is no deeper.
-glm::dvec3 allowed(const glm::dvec3& to_hand, const AgusContact& contact, double deepest_mm) {
+glm::dvec3 allowed(const glm::dvec3& to_hand, const Contact& contact, double deepest_mm) {
   const double length = glm::length(contact.normal_P.xyz);
   if (contact.depth_mm <= 0.0 || length < 1e-6) return to_hand;
   const glm::dvec3 normal = contact.normal_P.xyz / length;
@@ -33,48 +37,70 @@ glm::dvec3 allowed(const glm::dvec3& to_hand, const AgusContact& contact, double
   return to_hand + normal * (std::max(outwards, (contact.depth_mm - deepest_mm) * length) - outwards);
 }
 
-}  // namespace
-
-double deepestPureContact_mm(double radius_mm) {
-  const double plate =
-      calibration::kPi * kThinnestPlate_mm * (radius_mm * radius_mm - kThinnestPlate_mm * kThinnestPlate_mm / 12.0);
-  return std::min(0.5 * radius_mm, capHeight_mm(radius_mm, 0.85 * std::max(0.0, plate)));
+/// The radius of the largest ball that fits into the head.
+double thinnestRadius_mm(const BurShape& head) {
+  if (head.kind == ShapeKind::cone) {
+    const double slant_mm = std::hypot(head.radius_mm, head.length_mm);
+    return head.radius_mm * head.length_mm / (head.radius_mm + slant_mm);
+  }
+  return head.kind == ShapeKind::cylinder ? std::min(head.radius_mm, 0.5 * head.length_mm) : head.radius_mm;
 }
 
-Proxy::Held Proxy::follow(const SolidField& field, const calibration::Point<Patient>& hand_P,
-                          double radius_mm) noexcept {
-  // A step is short enough that no plate fits between two looks; a miss of a micrometre is not worth another look.
-  const double longest_mm = 0.5 * radius_mm, enough_mm = 1e-3;
-  // Where one look is dear there are fewer: the proxy goes on in the next tick.
-  const int most_sums = radius_mm > 25.0 * field.grid.spacing_mm ? kMostSums / 2 : kMostSums;
-  const double deepest_mm = deepestPureContact_mm(radius_mm);
+}  // namespace
 
+double deepestPureContact_mm(const BurShape& head) {
+  const double r = thinnestRadius_mm(head);
+  const double plate_mm3 =
+      calibration::kPi * kThinnestPlate_mm * (r * r - kThinnestPlate_mm * kThinnestPlate_mm / 12.0);
+  double deepest_mm = std::min(0.5 * r, capHeight_mm(r, kShareOfPlate * std::max(0.0, plate_mm3)));
+  // Lying on its side a long head shares segments of the height h: (4/3) sqrt(2 r) h^1.5 is never less than they are.
+  if (head.kind != ShapeKind::sphere)
+    deepest_mm =
+        std::min(deepest_mm, std::pow(1.5 * kShareOfPlate * kThinnestPlate_mm * std::sqrt(0.5 * r), 2.0 / 3.0));
+  // A flat end shares what it is deep.
+  if (head.kind == ShapeKind::cylinder || head.kind == ShapeKind::cone)
+    deepest_mm = std::min(deepest_mm, kShareOfPlate * kThinnestPlate_mm);
+  return deepest_mm;
+}
+
+Vector<Patient> Proxy::Held::force_P_N() const {
+  if (!touches()) return {};
+  return head.force_P_N + spring_N_per_mm * pull_P_mm;
+}
+
+Vector<Patient> Proxy::Held::torque_P_Nmm() const { return touches() ? head.torque_P_Nmm : Vector<Patient>{}; }
+
+Proxy::Held Proxy::follow(const SolidField& field, const LawSettings& law, const Tool& tool,
+                          const calibration::Pose<Patient, calibration::Tool>& X_PT,
+                          const ToolMotion& motion) noexcept {
+  // A step is short enough that no plate fits between two looks; a miss of a micrometre is not worth another look.
+  const double thinnest_mm = thinnestRadius_mm(tool.head), longest_mm = 0.5 * thinnest_mm, enough_mm = 1e-3;
+  // Where one look is dear there are fewer: the proxy goes on in the next tick.
+  const int most_looks = tool.head.radius_mm > 25.0 * field.grid.spacing_mm ? kMostLooks / 2 : kMostLooks;
+  const double deepest_mm = deepestPureContact_mm(tool.head);
+
+  const glm::dvec3& hand_mm = X_PT.translation_mm;
   if (!placed_) {
-    proxy_P_ = hand_P;
-    contact_ = {};
+    proxy_P_.mm = hand_mm;
+    head_ = {};
     placed_ = true;
   }
   // The first step trusts what the last tick saw; every later one, and the force, what is there now.
   Held held;
-  while (held.sums < most_sums) {
-    glm::dvec3 move = allowed(hand_P.mm - proxy_P_.mm, contact_, deepest_mm);
+  while (held.looks < most_looks) {
+    glm::dvec3 move = allowed(hand_mm - proxy_P_.mm, head_, deepest_mm);
     const double length = glm::length(move);
-    if (held.sums > 0 && length <= enough_mm) break;
+    if (held.looks > 0 && length <= enough_mm) break;
     if (length > longest_mm) move *= longest_mm / length;
     proxy_P_.mm += move;
-    contact_ = steadyContact(field, proxy_P_, radius_mm);
-    ++held.sums;
+    head_ = steadyContact(law, {field, tool.head, {X_PT.rotation, proxy_P_.mm}, law.tissue, motion});
+    ++held.looks;
   }
-  held.contact = contact_;
+  held.head = head_;
   held.proxy_P = proxy_P_;
-  held.pull_P_mm = proxy_P_ - hand_P;
+  held.pull_P_mm.xyz = proxy_P_.mm - hand_mm;
+  held.spring_N_per_mm = head_.stiffness_N_per_mm;
   return held;
-}
-
-Vector<Patient> heldForce_N(const Proxy::Held& held, const AgusParameters& parameters,
-                            const Vector<Patient>& velocity_P_mm_per_s) noexcept {
-  if (held.contact.depth_mm <= 0.0) return {};
-  return agusForce_N(held.contact, parameters, velocity_P_mm_per_s) + parameters.stiffness_N_per_mm * held.pull_P_mm;
 }
 
 }  // namespace haptics

@@ -1,48 +1,53 @@
-// The proxy: where the surface holds the bur while the hand pushes on. Surface-constrained with tangential freedom, so
-// deep immersion never takes its direction from a vanishing vector and the bur never sticks to a point.
-//   depth at the hand <= h_max:  the proxy is the hand and the law is Agus's alone.
+// The proxy: where the surface holds the tool while the hand pushes on. Surface-constrained with tangential freedom, so
+// deep immersion never takes its direction from a vanishing vector and the tool never sticks to a point. For any law
+// and any head; the head and the shaft are two constraints, projected together. It turns as the hand turns.
+//   depth at the hand <= h_max:  the proxy is the hand and the force is the law's alone.
 //   deeper:  the proxy q waits at depth h_max, sliding to the place nearest the hand p, and
-//            F = k h(q) n(q) + k (q - p),  which over flat bone is k H for every depth H of the hand.
+//            F = law(q) + k (q - p),  k the law's own slope at q: over flat bone force goes on with it at every depth.
 // The two meet without a step, whichever way the hand goes and while the bone is carved away. Between walls that face
-// each other the direction fades instead of flipping. Frame P. Servo thread. At most kMostSums overlap sums an update.
-// Not damping, not limits (servo/safety).
+// each other the force fades instead of flipping. Frame P. Servo thread. At most kMostLooks looks an update, one in
+// steady sliding; a look is one contact sum for the head and one for a shaft. Not damping, not passivity, not limits.
 #pragma once
 
-#include "haptics/contact/agus.h"
+#include "haptics/contact/law.h"
+#include "haptics/tool/tool.h"
 
 namespace haptics {
 
-/// The proxy waits at half a radius, or less where a large bur would otherwise swallow a plate of bone of 0.6 mm, the
-/// thinnest that has to hold: at 85 % of the volume of such a plate through the bur's centre.
-double deepestPureContact_mm(double radius_mm);
+/// The proxy waits at half the head's thinnest radius, or less where a large head would otherwise swallow a plate of
+/// bone of 0.6 mm, the thinnest that has to hold: at 85 % of the volume of such a plate through the head's middle.
+double deepestPureContact_mm(const BurShape& head);
 
 class Proxy {
  public:
-  static constexpr int kMostSums = 6;
+  static constexpr int kMostLooks = 6;
 
   struct Held {
-    calibration::Point<calibration::Patient> proxy_P;
-    AgusContact contact;                                  ///< at the proxy
+    calibration::Point<calibration::Patient> proxy_P;     ///< of T's origin
+    Contact head;                                         ///< at the proxy, faded between facing walls
     calibration::Vector<calibration::Patient> pull_P_mm;  ///< q - p: the spring between hand and proxy
-    int sums = 0;                                         ///< overlap sums spent
+    double spring_N_per_mm = 0.0;                         ///< k of that spring
+    int looks = 0;                                        ///< how often the bone was asked
+
+    bool touches() const { return head.depth_mm > 0.0; }
+    /// law(q) + k (q - p); zero out of contact.
+    calibration::Vector<calibration::Patient> force_P_N() const;
+    /// About T's origin; the spring pulls through it.
+    calibration::Vector<calibration::Patient> torque_P_Nmm() const;
   };
 
   /// Moves the proxy towards the hand as far as the bone lets it.
-  Held follow(const SolidField& field, const calibration::Point<calibration::Patient>& hand_P,
-              double radius_mm) noexcept;
+  Held follow(const SolidField& field, const LawSettings& law, const Tool& tool,
+              const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT,
+              const ToolMotion& motion) noexcept;
 
   /// Forgets where it was: the next follow() starts at the hand, wherever that is.
   void release() { placed_ = false; }
 
  private:
   calibration::Point<calibration::Patient> proxy_P_;
-  AgusContact contact_;  ///< at proxy_P_, as it was last looked at
+  Contact head_;  ///< at proxy_P_, as it was last looked at
   bool placed_ = false;
 };
-
-/// k h n + k (q - p) - b v; zero out of contact.
-calibration::Vector<calibration::Patient> heldForce_N(
-    const Proxy::Held& held, const AgusParameters& parameters,
-    const calibration::Vector<calibration::Patient>& velocity_P_mm_per_s) noexcept;
 
 }  // namespace haptics

@@ -42,25 +42,27 @@ Tick Servo::step(const HandSample& hand, const Command& wanted, double dt_s) noe
   if (!believed.device_healthy) tick.faults = tick.faults | Fault::device;
   const bool trouble = tick.faults != Fault::none;
 
-  // Contact at the place where the surface holds the bur.
-  const calibration::Point<calibration::Patient> hand_P{believed.X_PT.translation_mm};
-  const Proxy::Held held = proxy_.follow(bone_.field(), hand_P, command.tool.head.radius_mm);
+  // Contact at the place where the surface holds the tool.
+  const ToolMotion motion{believed.velocity_P_mm_per_s, 0.0, tick.dt_s};
+  const Proxy::Held held = proxy_.follow(bone_.field(), command.law, command.tool, believed.X_PT, motion);
   tick.proxy_P = held.proxy_P;
-  tick.overlap_mm3 = held.contact.volume_mm3;
-  tick.depth_mm = held.contact.depth_mm;
-  tick.contact_tissue = held.contact.depth_mm > 0.0
+  tick.overlap_mm3 = held.head.volume_mm3;
+  tick.depth_mm = held.head.depth_mm;
+  tick.contact_tissue = held.head.depth_mm > 0.0
                             ? dominantLabel(bone_.field(), held.proxy_P, command.tool.head.radius_mm)
                             : std::uint8_t{0};
 
   // The law, then the limits.
-  tick.law_force_P_N = heldForce_N(held, command.law.agus, believed.velocity_P_mm_per_s);
+  tick.law_force_P_N = held.force_P_N();
+  if (held.touches())
+    tick.law_force_P_N = tick.law_force_P_N - command.law.agus.damping_Ns_per_mm * believed.velocity_P_mm_per_s;
   const SafetyFilter::Served served = safety_.serve(tick.law_force_P_N, command.safety, trouble, tick.dt_s);
   tick.served_force_P_N = served.force_P_N;
   tick.faults = tick.faults | served.faults;
 
   // The bur cuts where it is felt.
   tick.drilling = believed.drill_pedal && command.drill_enabled && !trouble;
-  if (tick.drilling && held.contact.volume_mm3 > 0.0)
+  if (tick.drilling && held.head.volume_mm3 > 0.0)
     tick.removed_mm3 =
         carveSphere(bone_, held.proxy_P, command.tool.head.radius_mm, command.erosion, tick.dt_s, tick.index)
             .removed_mm3;

@@ -1,6 +1,6 @@
 // The servo step: bone, hand and command in, force out, bone carved. A pure function of its state: no clock, I/O,
 // allocation, lock, throw or log, so a session replays bit for bit. Frame P. Servo thread only.
-// Per step: contact and proxy (at most 6 overlap sums), law, safety, carving; cost grows with (R/s)^3, see README.
+// Per step: proxy and law (at most 6 looks at the bone), safety, carving; cost grows with (R/s)^3, see README.
 #pragma once
 
 #include "haptics/bone/carved_bone.h"

@@ -12,33 +12,39 @@ namespace {
 using namespace phantom;
 
 constexpr double kRadius_mm = 2.0;
-const AgusParameters kLaw{0.8, 0.0};
+const LawSettings kLaw;
 
-glm::dvec3 forceAt(Proxy& proxy, const SolidField& field, const glm::dvec3& hand, double R = kRadius_mm) {
-  const Proxy::Held held = proxy.follow(field, {hand}, R);
-  EXPECT_LE(held.sums, Proxy::kMostSums);
-  return heldForce_N(held, kLaw, {}).xyz;
+Proxy::Held held(Proxy& proxy, const SolidField& field, const glm::dvec3& hand, double R = kRadius_mm) {
+  Tool tool;
+  tool.head.radius_mm = R;
+  const Proxy::Held now = proxy.follow(field, kLaw, tool, {glm::dquat(1, 0, 0, 0), hand}, {});
+  EXPECT_LE(now.looks, Proxy::kMostLooks);
+  return now;
 }
 
-TEST(Proxy, IsAgusAloneWhileShallow) {
+glm::dvec3 forceAt(Proxy& proxy, const SolidField& field, const glm::dvec3& hand, double R = kRadius_mm) {
+  return held(proxy, field, hand, R).force_P_N().xyz;
+}
+
+TEST(Proxy, IsTheLawAloneWhileShallow) {
   const Phantom phantom = halfSpace(4.0, 0.2);
+  const SolidField field = phantom.field();
   Proxy proxy;
   for (double h : {-0.5, 0.1, 0.5, 0.9}) {
-    const Point<Patient> hand{{0.3, -0.2, kRadius_mm - h}};
-    const Proxy::Held held = proxy.follow(phantom.field(), hand, kRadius_mm);
-    EXPECT_EQ(held.proxy_P.mm, hand.mm);
-    const AgusContact contact = agusContact(phantom.field(), hand, kRadius_mm);
-    EXPECT_EQ(heldForce_N(held, kLaw, {}).xyz, agusForce_N(contact, kLaw, {}).xyz);
+    const glm::dvec3 hand(0.3, -0.2, kRadius_mm - h);
+    const Proxy::Held now = held(proxy, field, hand);
+    EXPECT_EQ(now.proxy_P.mm, hand);
+    const Contact bare = contactOf(kLaw, {field, {}, {glm::dquat(1, 0, 0, 0), hand}, kLaw.tissue, {}});
+    EXPECT_EQ(now.force_P_N().xyz, bare.force_P_N.xyz);
   }
 }
 
 TEST(Proxy, SpendsOneLookAtTheHandInSlowMotion) {
   const Phantom phantom = halfSpace(4.0, 0.2);
   Proxy proxy;
-  int sums = 0;
-  for (int tick = 0; tick < 100; ++tick)
-    sums += proxy.follow(phantom.field(), {{0.01 * tick, 0.0, 1.6}}, kRadius_mm).sums;
-  EXPECT_EQ(sums, 100);
+  int looks = 0;
+  for (int tick = 0; tick < 100; ++tick) looks += held(proxy, phantom.field(), {0.01 * tick, 0.0, 1.6}).looks;
+  EXPECT_EQ(looks, 100);
 }
 
 TEST(Proxy, IsStiffnessTimesDepthOverFlatBoneForAnyDepth) {
@@ -54,7 +60,7 @@ TEST(Proxy, IsStiffnessTimesDepthOverFlatBoneForAnyDepth) {
   }
 }
 
-TEST(Proxy, MeetsAgusWithoutAStep) {
+TEST(Proxy, MeetsTheLawWithoutAStep) {
   const Phantom phantom = halfSpace(7.0, 0.2, glm::normalize(glm::dvec3(0.1, 0.2, 0.9)));
   const glm::dvec3 normal = glm::normalize(glm::dvec3(0.1, 0.2, 0.9));
   Proxy proxy;
@@ -74,12 +80,12 @@ TEST(Proxy, SlidesAlongTheSurfaceAndNeverSticks) {
   forceAt(proxy, phantom.field(), {-4.0, 0.0, -1.0});
   for (int tick = 0; tick < 400; ++tick) {
     const glm::dvec3 hand(-4.0 + 0.02 * tick, 0.0, -1.0);
-    const Proxy::Held held = proxy.follow(phantom.field(), {hand}, kRadius_mm);
+    const Proxy::Held now = held(proxy, phantom.field(), hand, kRadius_mm);
     if (tick < 5) continue;
     // Straight above the hand, so the force has no drag to it.
-    EXPECT_NEAR(held.proxy_P.mm.x, hand.x, 0.02);
-    EXPECT_NEAR(held.proxy_P.mm.z, 1.0, 0.02);
-    EXPECT_LT(std::abs(heldForce_N(held, kLaw, {}).xyz.x), 0.02);
+    EXPECT_NEAR(now.proxy_P.mm.x, hand.x, 0.02);
+    EXPECT_NEAR(now.proxy_P.mm.z, 1.0, 0.02);
+    EXPECT_LT(std::abs(now.force_P_N().xyz.x), 0.02);
   }
 }
 
@@ -94,8 +100,8 @@ TEST(Proxy, HoldsAtAThinPlate) {
       const int ticks = static_cast<int>((start + 1.0) / speed_mm_per_s * 1000.0);
       for (int tick = 0; tick <= ticks + 50; ++tick) {
         const double z = std::max(start - speed_mm_per_s * 1e-3 * tick, -1.0);
-        const Proxy::Held held = proxy.follow(phantom.field(), {{0.0, 0.0, z}}, R);
-        ASSERT_GT(held.proxy_P.mm.z, 0.2 * R) << "R " << R << " at " << speed_mm_per_s << " mm/s, hand at " << z;
+        const Proxy::Held now = held(proxy, phantom.field(), {0.0, 0.0, z}, R);
+        ASSERT_GT(now.proxy_P.mm.z, 0.2 * R) << "R " << R << " at " << speed_mm_per_s << " mm/s, hand at " << z;
       }
     }
 }
@@ -104,8 +110,8 @@ TEST(Proxy, HoldsAFastHandBackAtTheSurface) {
   const Phantom phantom = halfSpace(6.0, 0.2);
   Proxy proxy;
   for (double z = 6.0; z > -3.0; z -= 0.5) {
-    const Proxy::Held held = proxy.follow(phantom.field(), {{0.0, 0.1 * z, z}}, 1.0);
-    EXPECT_GT(held.proxy_P.mm.z, 0.3);
+    const Proxy::Held now = held(proxy, phantom.field(), {0.0, 0.1 * z, z}, 1.0);
+    EXPECT_GT(now.proxy_P.mm.z, 0.3);
   }
 }
 
@@ -151,10 +157,9 @@ TEST(Proxy, StaysFiniteAndContinuousInARandomWalkThroughRandomBone) {
   glm::dvec3 hand(0.0, 0.0, 4.0);
   for (int tick = 0; tick < 5000; ++tick) {
     hand = glm::clamp(hand + glm::dvec3(step(random), step(random), step(random)), -5.0, 5.0);
-    const Proxy::Held held = proxy.follow(phantom.field(), {hand}, 0.8);
-    EXPECT_LE(held.sums, Proxy::kMostSums);
-    EXPECT_TRUE(std::isfinite(glm::length(heldForce_N(held, kLaw, {}).xyz)));
-    EXPECT_LE(glm::length(held.contact.normal_P.xyz), 1.0 + 1e-12);
+    const Proxy::Held now = held(proxy, phantom.field(), hand, 0.8);
+    EXPECT_TRUE(std::isfinite(glm::length(now.force_P_N().xyz)));
+    EXPECT_LE(glm::length(now.head.normal_P.xyz), 1.0 + 1e-12);
   }
 }
 
