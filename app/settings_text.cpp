@@ -61,7 +61,7 @@ void refuseUnlessObeyed(const haptics::Command& command) {
   };
   check("bur radius", command.tool.head.radius_mm, obeyed.tool.head.radius_mm, "mm");
   check("stiffness", command.law.agus.stiffness_N_per_mm, obeyed.law.agus.stiffness_N_per_mm, "N/mm");
-  check("damping", command.law.agus.damping_Ns_per_mm, obeyed.law.agus.damping_Ns_per_mm, "Ns/mm");
+  check("damping", command.law.damping_Ns_per_mm, obeyed.law.damping_Ns_per_mm, "Ns/mm");
 }
 
 void refuseSameFile(const std::string& output, std::initializer_list<std::string> inputs) {

@@ -49,9 +49,11 @@ std::vector<FeltRow> feelRaw(const SolidVolume& volume, const haptics::Command& 
   const haptics::SolidField field{volume.grid, volume.solid, volume.label};
   std::vector<FeltRow> rows;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    const auto contact = haptics::agusContact(field, {poses[i].X_PT.translation_mm}, command.tool.head.radius_mm);
-    rows.push_back(
-        {haptics::agusForce_N(contact, command.law.agus, velocityAt(poses, i)), contact.volume_mm3, contact.depth_mm});
+    const Vector<Patient> velocity = velocityAt(poses, i);
+    const haptics::ToolInBone at{field, command.tool.head, poses[i].X_PT, command.law.tissue, {velocity}};
+    const haptics::Contact contact = haptics::contactOf(command.law, at);
+    rows.push_back({contact.force_P_N + haptics::dampingForce_N(command.law, contact, velocity), contact.volume_mm3,
+                    contact.depth_mm});
   }
   return rows;
 }
@@ -83,7 +85,7 @@ int feel(const FeelOptions& options) {
   haptics::Command command;
   command.tool.head.radius_mm = sphereRadius_mm(options.tool);
   applySettings(options.settings, {{"stiffness_N_per_mm", {&command.law.agus.stiffness_N_per_mm, 0.0, 100.0, "N/mm"}},
-                                   {"damping_Ns_per_mm", {&command.law.agus.damping_Ns_per_mm, 0.0, 1.0, "Ns/mm"}},
+                                   {"damping_Ns_per_mm", {&command.law.damping_Ns_per_mm, 0.0, 1.0, "Ns/mm"}},
                                    {"peak_force_N", {&command.safety.peak_force_N, 0.1, 40.0, "N"}},
                                    {"slew_N_per_s", {&command.safety.slew_N_per_s, 1.0, 1e5, "N/s"}}});
   refuseSameFile(options.out, {options.poses, options.volume.path()});

@@ -66,8 +66,8 @@ int run(const RehearseOptions& options) {
   RehearsalPlan plan;
   plan.command.tool.head.radius_mm = sphereRadius_mm(options.tool);
   applySettings(options.settings,
-                {{"stiffness_N_per_mm", {&plan.command.law.agus.stiffness_N_per_mm, 0.0, 5.0, "N/mm"}},
-                 {"damping_Ns_per_mm", {&plan.command.law.agus.damping_Ns_per_mm, 0.0, 0.1, "Ns/mm"}},
+                {{"stiffness_N_per_mm", {&plan.command.law.agus.stiffness_N_per_mm, 0.0, 20.0, "N/mm"}},
+                 {"damping_Ns_per_mm", {&plan.command.law.damping_Ns_per_mm, 0.0, 0.1, "Ns/mm"}},
                  {"removal_rate_per_s", {&plan.command.erosion.removal_rate_per_s, 0.0, 1000.0, "1/s"}},
                  {"peak_force_N", {&plan.command.safety.peak_force_N, 0.1, 40.0, "N"}},
                  {"slew_N_per_s", {&plan.command.safety.slew_N_per_s, 1.0, 1e5, "N/s"}}});

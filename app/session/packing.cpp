@@ -47,15 +47,29 @@ void forEachField(auto& command,
   auto& [head, shaft] = tool;
   auto& [shape_kind, radius_mm, length_mm] = head;
   auto& [shaft_radius_mm, shaft_length_mm] = shaft;
-  auto& [law_kind, tissue, agus] = law;
-  auto& [stiffness_N_per_mm, damping_Ns_per_mm] = agus;
+  auto& [law_kind, damping_Ns_per_mm, tissue, agus, forssim, hertz, shell, points, machining, harmonic] = law;
+  auto& [force_constant_N, hold_N_per_mm, hold_from, hold_until] = forssim;
+  auto& [agus_N_per_mm] = agus;
+  auto& [hertz_N_per_mm2] = hertz;
+  auto& [shell_N_per_mm3] = shell;
+  auto& [points_N_per_mm] = points;
+  auto& [harmonic_N_per_mm] = harmonic;
+  auto& [chip_tangential_N_per_mm2, chip_radial_N_per_mm2, chip_axial_N_per_mm2, edge_tangential_N_per_mm,
+         edge_radial_N_per_mm, edge_axial_N_per_mm, flutes, thickest_chip_mm, slowest_cut_rpm, vibration_share] =
+      machining;
   auto& [removal_rate_per_s, tissue_factor] = erosion;
   auto& [peak_force_N, slew_N_per_s] = safety;
   visit(serial), visit(drill_enabled);
   visit(shape_kind), visit(radius_mm), visit(length_mm), visit(shaft_radius_mm), visit(shaft_length_mm);
   visit(law_kind);
   for (auto& factor : tissue.factor) visit(factor);
-  visit(stiffness_N_per_mm), visit(damping_Ns_per_mm), visit(removal_rate_per_s);
+  visit(damping_Ns_per_mm), visit(agus_N_per_mm);
+  visit(force_constant_N), visit(hold_N_per_mm), visit(hold_from), visit(hold_until);
+  visit(hertz_N_per_mm2), visit(shell_N_per_mm3), visit(points_N_per_mm), visit(harmonic_N_per_mm);
+  visit(chip_tangential_N_per_mm2), visit(chip_radial_N_per_mm2), visit(chip_axial_N_per_mm2);
+  visit(edge_tangential_N_per_mm), visit(edge_radial_N_per_mm), visit(edge_axial_N_per_mm);
+  visit(flutes), visit(thickest_chip_mm), visit(slowest_cut_rpm), visit(vibration_share);
+  visit(removal_rate_per_s);
   for (auto& factor : tissue_factor) visit(factor);
   visit(peak_force_N), visit(slew_N_per_s);
 }

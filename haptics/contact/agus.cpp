@@ -24,12 +24,4 @@ AgusContact agusContact(const SolidField& field, const calibration::Point<calibr
   return contact;
 }
 
-calibration::Vector<calibration::Patient> agusForce_N(
-    const AgusContact& contact, const AgusParameters& parameters,
-    const calibration::Vector<calibration::Patient>& velocity_P_mm_per_s) noexcept {
-  if (contact.depth_mm <= 0.0) return {};
-  return parameters.stiffness_N_per_mm * contact.depth_mm * contact.normal_P -
-         std::max(0.0, parameters.damping_Ns_per_mm) * velocity_P_mm_per_s;
-}
-
 }  // namespace haptics

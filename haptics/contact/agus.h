@@ -1,6 +1,6 @@
 // Agus's contact: the force of bone on a spherical bur from the volume they share and where it lies (Agus et al., IEEE
 // VR 2002; Presence 12(1), 2003; reference/physics 1.1). Frame P; mm, N, s; the force acts on the hand.
-//   n = -M1 / |M1|,  h from V = pi h^2 (R - h/3) less the voxel bias,  F = k h n - b v while in contact.
+//   n = -M1 / |M1|,  h from V = pi h^2 (R - h/3) less the voxel bias,  F = k h n.
 // The raw law: no proxy (servo/proxy), no limits (servo/safety). One overlap sum a call. Any thread.
 #pragma once
 
@@ -10,7 +10,6 @@ namespace haptics {
 
 struct AgusParameters {
   double stiffness_N_per_mm = 0.8;  ///< F = k h; 0.8 N/mm feels hard at 1 kHz and stays passive (reference/physics 6)
-  double damping_Ns_per_mm = 0.0;   ///< F -= b v while in contact; b >= 0
 };
 
 struct AgusContact {
@@ -22,10 +21,5 @@ struct AgusContact {
 
 AgusContact agusContact(const SolidField& field, const calibration::Point<calibration::Patient>& centre_P,
                         double radius_mm) noexcept;
-
-/// F = k h n - b v; zero without contact. Damping only ever takes energy from the hand.
-calibration::Vector<calibration::Patient> agusForce_N(
-    const AgusContact& contact, const AgusParameters& parameters,
-    const calibration::Vector<calibration::Patient>& velocity_P_mm_per_s) noexcept;
 
 }  // namespace haptics

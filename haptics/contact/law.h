@@ -3,22 +3,15 @@
 // throw; a law answers a zero Contact where it does not admit the shape.
 #pragma once
 
-#include <cstdint>
-
-#include "haptics/contact/agus.h"
-#include "haptics/contact/contact.h"
+#include "haptics/contact/law_settings.h"
 
 namespace haptics {
 
-enum class LawKind : std::uint8_t { agus };
-
-/// All laws' parameters live side by side, so that switching back finds them as they were.
-struct LawSettings {
-  LawKind kind = LawKind::agus;
-  TissueStiffness tissue;
-  AgusParameters agus;
-};
-
 Contact contactOf(const LawSettings& law, const ToolInBone& at) noexcept;
+
+/// The part of the force that takes energy from the moving hand: -b v while in contact, every law's.
+calibration::Vector<calibration::Patient> dampingForce_N(
+    const LawSettings& law, const Contact& contact,
+    const calibration::Vector<calibration::Patient>& velocity_P_mm_per_s) noexcept;
 
 }  // namespace haptics

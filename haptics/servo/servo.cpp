@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "haptics/bone/carve.h"
+#include "haptics/contact/law_parameters.h"
 
 namespace haptics {
 namespace {
@@ -18,8 +19,7 @@ Command sanitised(const Command& command) {
   const Command defaults;
   Command safe = command;
   safe.tool.head.radius_mm = within(command.tool.head.radius_mm, 0.1, 6.0, defaults.tool.head.radius_mm);
-  safe.law.agus.stiffness_N_per_mm = within(command.law.agus.stiffness_N_per_mm, 0.0, 5.0, 0.0);
-  safe.law.agus.damping_Ns_per_mm = within(command.law.agus.damping_Ns_per_mm, 0.0, 0.1, 0.0);
+  safe.law = sanitised(command.law);
   safe.safety = sanitised(command.safety);
   return safe;
 }
@@ -55,7 +55,7 @@ Tick Servo::step(const HandSample& hand, const Command& wanted, double dt_s) noe
   // The law, then the limits.
   tick.law_force_P_N = held.force_P_N();
   if (held.touches())
-    tick.law_force_P_N = tick.law_force_P_N - command.law.agus.damping_Ns_per_mm * believed.velocity_P_mm_per_s;
+    tick.law_force_P_N = tick.law_force_P_N - command.law.damping_Ns_per_mm * believed.velocity_P_mm_per_s;
   const SafetyFilter::Served served = safety_.serve(tick.law_force_P_N, command.safety, trouble, tick.dt_s);
   tick.served_force_P_N = served.force_P_N;
   tick.faults = tick.faults | served.faults;

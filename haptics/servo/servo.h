@@ -12,8 +12,8 @@
 
 namespace haptics {
 
-/// The command as the servo obeys it: radius 0.1..6 mm, stiffness 0..5 N/mm, damping 0..0.1 N s/mm, and the defaults
-/// where a number is not finite.
+/// The command as the servo obeys it: radius 0.1..6 mm, the law as its table has it, and the defaults where a number
+/// is not finite.
 Command sanitised(const Command& command);
 
 class Servo {

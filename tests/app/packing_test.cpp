@@ -61,7 +61,8 @@ TEST(Packing, BringsACommandBack) {
   command.serial = 9;
   command.tool.head.radius_mm = 1.1;
   command.drill_enabled = false;
-  command.law.agus = {0.7, 0.002};
+  command.law.agus.stiffness_N_per_mm = 0.7;
+  command.law.damping_Ns_per_mm = 0.002;
   command.erosion.removal_rate_per_s = 3.5;
   command.erosion.tissue_factor[4] = 0.123;
   command.safety = {2.9, 250.0};
@@ -70,7 +71,7 @@ TEST(Packing, BringsACommandBack) {
   EXPECT_EQ(back.serial, 9u);
   EXPECT_EQ(back.tool.head.radius_mm, 1.1);
   EXPECT_FALSE(back.drill_enabled);
-  EXPECT_EQ(back.law.agus.damping_Ns_per_mm, 0.002);
+  EXPECT_EQ(back.law.damping_Ns_per_mm, 0.002);
   EXPECT_EQ(back.erosion.tissue_factor[4], 0.123);
   EXPECT_EQ(back.safety.slew_N_per_s, 250.0);
 }

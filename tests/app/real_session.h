@@ -49,7 +49,7 @@ inline haptics::Command largerBur(const haptics::Command& first) {
   haptics::Command second = first;
   second.serial = 2;
   second.tool.head.radius_mm = 1.3;
-  second.law.agus.damping_Ns_per_mm = 0.001;
+  second.law.damping_Ns_per_mm = 0.001;
   return second;
 }
 

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "calibration/geometry/units.h"
+#include "haptics/contact/law.h"
 #include "tests/haptics/phantom.h"
 
 namespace haptics {
@@ -98,15 +99,17 @@ TEST(Agus, TouchesWhereTheSurfaceIs) {
 
 TEST(Agus, PushesOutWithStiffnessTimesDepthAndDampsOnlyInContact) {
   const Phantom phantom = halfSpace(3.0, 0.1);
-  const AgusParameters law{0.5, 0.002};
+  LawSettings law;
+  law.agus.stiffness_N_per_mm = 0.5;
+  law.damping_Ns_per_mm = 0.002;
   const Vector<Patient> velocity{{10.0, 0.0, -20.0}};
-  const AgusContact contact = agusContact(phantom.field(), {{0.0, 0.0, 1.0}}, 2.0);
-  const Vector<Patient> force = agusForce_N(contact, law, velocity);
-  EXPECT_NEAR(force.xyz.z, 0.5 * 1.0 + 0.04, 0.005);
-  EXPECT_NEAR(force.xyz.x, -0.02, 0.002);
-  EXPECT_LT(glm::dot((force - agusForce_N(contact, {0.5, 0.0}, velocity)).xyz, velocity.xyz), 0.0);
-  const AgusContact air = agusContact(phantom.field(), {{0.0, 0.0, 3.0}}, 2.0);
-  EXPECT_EQ(glm::length(agusForce_N(air, law, velocity).xyz), 0.0);
+  const auto contactAt = [&](double z_mm) {
+    return contactOf(law, {phantom.field(), {}, {glm::dquat(1.0, 0.0, 0.0, 0.0), {0.0, 0.0, z_mm}}, law.tissue, {}});
+  };
+  EXPECT_NEAR(contactAt(1.0).force_P_N.xyz.z, 0.5, 0.005);
+  EXPECT_EQ(dampingForce_N(law, contactAt(1.0), velocity).xyz, -0.002 * velocity.xyz);
+  EXPECT_EQ(contactAt(3.0).force_P_N.xyz, glm::dvec3(0.0));
+  EXPECT_EQ(dampingForce_N(law, contactAt(3.0), velocity).xyz, glm::dvec3(0.0));
 }
 
 TEST(Agus, HasNoDirectionInTheMiddleOfBone) {

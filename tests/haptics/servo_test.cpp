@@ -99,7 +99,7 @@ TEST(Servo, NeverServesMoreThanItsLimitsOrFasterInARandomWalk) {
   Servo servo(bone);
   Command command;
   command.tool.head.radius_mm = 1.0;
-  command.law.agus.damping_Ns_per_mm = 0.001;
+  command.law.damping_Ns_per_mm = 0.001;
   std::mt19937 random(2);
   std::normal_distribution<double> step(0.0, 0.05);
   glm::dvec3 hand(0.0), last(0.0);
@@ -179,12 +179,12 @@ TEST(Servo, ObeysOnlyWhatIsSaneInACommand) {
   Command command;
   command.tool.head.radius_mm = nan;
   command.law.agus.stiffness_N_per_mm = nan;
-  command.law.agus.damping_Ns_per_mm = -3.0;
+  command.law.damping_Ns_per_mm = -3.0;
   command.erosion.removal_rate_per_s = nan;
   command.safety = {nan, nan};
   const Command safe = sanitised(command);
   EXPECT_EQ(safe.tool.head.radius_mm, Command{}.tool.head.radius_mm);
-  EXPECT_EQ(safe.law.agus.damping_Ns_per_mm, 0.0);
+  EXPECT_EQ(safe.law.damping_Ns_per_mm, 0.0);
   CarvedBone bone = halfSpace(4.0, 0.2).bone();
   Servo servo(bone);
   for (int i = 0; i < 10; ++i) {

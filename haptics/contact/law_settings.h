@@ -1,0 +1,56 @@
+// Which force law, and the parameters of all of them side by side, so that switching back finds them as they were.
+// Trivially copyable, part of a Command; may change from tick to tick. Ranges, units and sources: law_parameters.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "haptics/contact/agus.h"
+#include "haptics/contact/contact.h"
+#include "haptics/contact/forssim.h"
+#include "haptics/contact/harmonic.h"
+#include "haptics/contact/hertz.h"
+#include "haptics/contact/machining.h"
+#include "haptics/contact/points.h"
+#include "haptics/contact/shell.h"
+
+namespace haptics {
+
+enum class LawKind : std::uint8_t { agus, forssim, hertz, shell, points, machining, harmonic };
+
+struct LawSettings {
+  LawKind kind = LawKind::agus;
+  double damping_Ns_per_mm = 0.0;  ///< every law: F -= b v while in contact; b >= 0
+  TissueStiffness tissue;
+  AgusParameters agus;
+  ForssimParameters forssim;
+  HertzParameters hertz;
+  ShellParameters shell;
+  PointsParameters points;
+  MachiningParameters machining;
+  HarmonicParameters harmonic;
+};
+
+struct LawName {
+  LawKind kind;
+  std::string_view key;      ///< in files and on the command line
+  std::string_view formula;  ///< on flat bone, or the law itself
+  std::string_view good_for;
+};
+
+inline constexpr std::array<LawName, 7> kLaws = {{
+    {LawKind::agus, "agus", "F = k h", "the default: one stiffness for every bur and depth"},
+    {LawKind::forssim, "forssim", "F = P V / R^3",
+     "comparison with the published oral-surgery simulator; soft first touch"},
+    {LawKind::hertz, "hertz", "F = C1 R^1/2 h^3/2", "an elastic ball: soft first touch that stiffens"},
+    {LawKind::shell, "shell", "F = -k_s grad V", "crisp first touch; conservative"},
+    {LawKind::points, "points", "F = k rho d0 u^(1/m)", "any head as a cloud of points; density in the stiffness"},
+    {LawKind::machining, "machining", "dF = (K_tc t + K_te) db", "cutting forces of a turning bur, mean and vibration"},
+    {LawKind::harmonic, "harmonic", "F = k h, U = sum rho k / (2 pi r)", "linear, unbiased and exactly conservative"},
+}};
+
+/// Whether the law has an answer for heads of this shape; where not, contactOf is zero.
+constexpr bool admits(LawKind law, ShapeKind shape) { return law != LawKind::harmonic || shape == ShapeKind::sphere; }
+
+}  // namespace haptics

@@ -1,0 +1,14 @@
+// Volumetric sample points (Gajananan; Morris et al. 2006; reference/physics 1.4): the share u of points inside the bur
+// that lie in bone gives the depth, d = d0 u^(1/m) with m by shape and the way it meets the bone, so that flat bone
+// feels linear; the points' places give the direction, by a rule for each shape; the mean density of what they met,
+// over the last 100 ticks, gives the stiffness:  F = k rho d n.  The window is on the density alone: on the force it
+// would be a delay of 50 ms and unstable (reference/physics 0.4). Frame P; mm, N. Servo thread; fixed number of points.
+#pragma once
+
+namespace haptics {
+
+struct PointsParameters {
+  double stiffness_N_per_mm = 0.8;  ///< k of cortical bone
+};
+
+}  // namespace haptics

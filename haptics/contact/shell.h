@@ -1,0 +1,14 @@
+// Surface points (Petersik et al. 2002, in the limit of many: reference/physics 1.3): bone presses on every patch of
+// the bur's surface, F = k_s sum rho n_in dA = -k_s grad V, so it is conservative. Points spread evenly over the shape,
+// each weighted by the solid fraction where it lies (a ramp one voxel wide, no in-or-out test), times its tissue. Frame
+// P; mm, N. Flat bone: F = k_s pi h (2R - h), stiffest at first touch (2 pi k_s R), none at h = R. A flat end or a long
+// side meets flat bone with all its area at once. Servo thread; cost independent of bur and voxel size.
+#pragma once
+
+namespace haptics {
+
+struct ShellParameters {
+  double shell_N_per_mm3 = 0.064;  ///< k_s = K / (2 pi R): first touch of a 2 mm ball feels 0.8 N/mm
+};
+
+}  // namespace haptics
