@@ -55,7 +55,7 @@ void forEachField(auto& command,
   auto& [points_N_per_mm] = points;
   auto& [harmonic_N_per_mm] = harmonic;
   auto& [chip_tangential_N_per_mm2, chip_radial_N_per_mm2, chip_axial_N_per_mm2, edge_tangential_N_per_mm,
-         edge_radial_N_per_mm, edge_axial_N_per_mm, flutes, thickest_chip_mm, slowest_cut_rpm, vibration_share] =
+         edge_radial_N_per_mm, edge_axial_N_per_mm, flutes, thickest_chip_mm, slowest_cut_rpm, worn, vibration_share] =
       machining;
   auto& [removal_rate_per_s, tissue_factor] = erosion;
   auto& [peak_force_N, slew_N_per_s] = safety;
@@ -68,7 +68,7 @@ void forEachField(auto& command,
   visit(hertz_N_per_mm2), visit(shell_N_per_mm3), visit(points_N_per_mm), visit(harmonic_N_per_mm);
   visit(chip_tangential_N_per_mm2), visit(chip_radial_N_per_mm2), visit(chip_axial_N_per_mm2);
   visit(edge_tangential_N_per_mm), visit(edge_radial_N_per_mm), visit(edge_axial_N_per_mm);
-  visit(flutes), visit(thickest_chip_mm), visit(slowest_cut_rpm), visit(vibration_share);
+  visit(flutes), visit(thickest_chip_mm), visit(slowest_cut_rpm), visit(worn), visit(vibration_share);
   visit(removal_rate_per_s);
   for (auto& factor : tissue_factor) visit(factor);
   visit(peak_force_N), visit(slew_N_per_s);

@@ -1,5 +1,13 @@
-// What a bur takes in one step, as the erosion law of the moment has worked it out from force, speed and spindle.
-// Trivially copyable; servo thread. The step itself knows nothing of the law (bone/carve carries it out).
+// From an erosion law to what a bur takes in one step, and the bookkeeping that keeps the two equal. mm, N, s. Servo
+// thread; under 0.1 us. Plain numbers in and out: it knows neither contact nor voxels (bone/carve carries the step
+// out).
+//   time:       part of the first content lost = k f (1 - worn) |w| / w_rated dt: open loop, linear in time.
+//   dose:       mm3/s = alpha f (1 - worn) mu F_n v_c, v_c = |w| sliding_arm; the loss goes with |r x axis|.
+//   machining:  mm3/s = (1 - worn) min(swept, f P / u).
+// f is the tissue's factor. A law in mm3/s is met by what really goes: a voxel half used up yields more than it shows,
+// one used up nothing. CutMemory learns that yield and carries the difference on, so that over tissues t
+//   sum removed_t / rate_t = time spent cutting   (Agus: the work of friction is the work of removal).
+// Nothing is owed out of contact, and no more than 5 % of the bur's overlap at any time.
 #pragma once
 
 #include <array>
@@ -7,6 +15,7 @@
 #include "assets/tissue.h"
 #include "calibration/geometry/frames.h"
 #include "calibration/geometry/pose.h"
+#include "haptics/bone/erosion.h"
 
 namespace haptics {
 
@@ -18,6 +27,38 @@ struct ErosionStep {
   double speed_share = 0.0;
   calibration::Vector<calibration::Patient> axis_P{{0.0, 0.0, 1.0}};  ///< of the spindle, unit
   double mean_arm_mm = 1.0;  ///< mean |r x axis| over the cut, so that the speed share changes where, not how much
+
+  bool takesNothing() const { return loss == std::array<double, assets::kTissueCount>{}; }
 };
+
+/// The moment a step is worked out for.
+struct CutMoment {
+  double dt_s = 0.0;
+  double spindle_rad_per_s = 0.0;  ///< either way round
+  calibration::Vector<calibration::Patient> axis_P{{0.0, 0.0, 1.0}};
+  double overlap_mm3 = 0.0;  ///< head and solid, before the cut
+  // dose
+  double normal_force_N = 0.0;
+  double sliding_arm_mm = 0.0;  ///< mean |r x axis| where bur and bone rub (contact/sliding)
+  // machining
+  double swept_mm3_per_s = 0.0;  ///< solid the head's surface moves into (contact/machining)
+  double power_mW = 0.0;         ///< the spindle can give to the chips (tool/spindle)
+};
+
+/// From step to step, part of the servo's state. Forget it when the bur leaves the bone.
+struct CutMemory {
+  double yield = 1.0;     ///< what a step took, relative to its loss of the overlap
+  double owed_mm3 = 0.0;  ///< of reference tissue, granted and not yet gone
+};
+
+/// Nothing for a spindle that stands, or a moment that is not a number.
+ErosionStep erosionStep(const ErosionSettings& settings, const CutMoment& moment, const CutMemory& memory) noexcept;
+
+/// The memory after the step of this moment took `removed_mm3` of each tissue.
+CutMemory remembered(const ErosionSettings& settings, const CutMoment& moment, const CutMemory& memory,
+                     const std::array<double, assets::kTissueCount>& removed_mm3) noexcept;
+
+/// mm3/s the law grants if all that is cut were this tissue; for `time` with the overlap as it is.
+double grantedRate_mm3_per_s(const ErosionSettings& settings, const CutMoment& moment, assets::Tissue tissue) noexcept;
 
 }  // namespace haptics

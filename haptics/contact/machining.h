@@ -25,6 +25,7 @@ struct MachiningParameters {
   double flutes = 8.0;                       ///< N
   double thickest_chip_mm = 0.005;           ///< t goes no further: the flute is full and only rubs
   double slowest_cut_rpm = 1000.0;           ///< below, cutting fades into the wall
+  double worn = 0.0;                         ///< 0 a new bur .. 1 one whose edges drag and press three times as hard
   double vibration_share = 0.05;             ///< of the force, at most 0.1 and 0.3 N (reference/devices 6)
 };
 

@@ -1,0 +1,93 @@
+// Quadrature over the surface of a cutting head: patches with a place, a normal out of the head and an area, in frame
+// T, mm. A sphere's patches crowd where the bone is: 16 rings over the cap that reaches `reach_mm` deep around
+// `towards` and 8 over the rest, 24 patches round each; the rings are equal in area, so a cap's area, area vector and
+// moments come out to 0.2 %. Other heads: rings along the profile, even in arc length. The patches sum to the head's
+// whole surface. Any thread; a few ns a patch. Calls `visit(const Patch&)`. Not the field (contact/field_sample).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/glm.hpp>
+
+#include "calibration/geometry/units.h"
+#include "haptics/tool/bur_shape.h"
+
+namespace haptics {
+
+struct Patch {
+  glm::dvec3 place_T{0.0}, normal_T{0.0};
+  double area_mm2 = 0.0;
+};
+
+inline constexpr int kPatchesRound = 24;
+
+/// Patches of a full ring; its first patch lies half or no step round, by turns.
+template <class Visit>
+void visitRing(const glm::dvec3& centre, const glm::dvec3& axis, double radius, const glm::dvec3& along_normal,
+               double normal_out, double area, int ring, Visit&& visit) {
+  const glm::dvec3 helper = std::abs(axis.z) < 0.9 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(1.0, 0.0, 0.0);
+  const glm::dvec3 e1 = glm::normalize(glm::cross(helper, axis)), e2 = glm::cross(axis, e1);
+  for (int n = 0; n < kPatchesRound; ++n) {
+    const double angle = (n + 0.5 * (ring & 1)) * 2.0 * calibration::kPi / kPatchesRound;
+    const glm::dvec3 out = std::cos(angle) * e1 + std::sin(angle) * e2;
+    visit(Patch{centre + radius * out, along_normal + normal_out * out, area / kPatchesRound});
+  }
+}
+
+/// Rings of a ball between two heights along `axis`, equal in area.
+template <class Visit>
+void visitZone(const glm::dvec3& centre, const glm::dvec3& axis, double ball_mm, double from_mm, double to_mm,
+               int rings, Visit&& visit) {
+  const double area = 2.0 * calibration::kPi * ball_mm * (to_mm - from_mm) / rings;
+  for (int ring = 0; ring < rings; ++ring) {
+    const double height = from_mm + (ring + 0.5) * (to_mm - from_mm) / rings;
+    const double radius = std::sqrt(std::max(0.0, ball_mm * ball_mm - height * height));
+    visitRing(centre + height * axis, axis, radius, height / ball_mm * axis, radius / ball_mm, area, ring, visit);
+  }
+}
+
+/// Rings of a frustum from (radius, z) `from` to `to`; a disc where the heights are one. `out` is its normal (radial,
+/// z).
+template <class Visit>
+void visitFrustum(const glm::dvec2& from, const glm::dvec2& to, const glm::dvec2& out, int rings, Visit&& visit) {
+  const double length = glm::length(to - from) / rings;
+  for (int ring = 0; ring < rings; ++ring) {
+    const glm::dvec2 at = glm::mix(from, to, (ring + 0.5) / rings);
+    visitRing({0.0, 0.0, at.y}, {0.0, 0.0, 1.0}, at.x, {0.0, 0.0, out.y}, out.x, 2.0 * calibration::kPi * at.x * length,
+              ring, visit);
+  }
+}
+
+/// `towards_T`, a unit vector, and `reach_mm` say where the bone is; only a sphere asks.
+template <class Visit>
+void visitHeadSurface(const BurShape& head, const glm::dvec3& towards_T, double reach_mm, Visit&& visit) {
+  const double R = head.radius_mm, half = 0.5 * head.length_mm;
+  const glm::dvec3 z(0.0, 0.0, 1.0);
+  switch (head.kind) {
+    case ShapeKind::sphere: {
+      const double rim = R - std::clamp(reach_mm, 0.1 * R, 1.9 * R);
+      visitZone(glm::dvec3(0.0), towards_T, R, rim, R, 16, visit);
+      visitZone(glm::dvec3(0.0), towards_T, R, -R, rim, 8, visit);
+      break;
+    }
+    case ShapeKind::capsule:
+      visitZone(-half * z, -z, R, 0.0, R, 12, visit);
+      visitFrustum({R, -half}, {R, half}, {1.0, 0.0}, 16, visit);
+      visitZone(half * z, z, R, 0.0, R, 6, visit);
+      break;
+    case ShapeKind::cylinder:
+      visitFrustum({0.0, -half}, {R, -half}, {0.0, -1.0}, 8, visit);
+      visitFrustum({R, -half}, {R, half}, {1.0, 0.0}, 16, visit);
+      visitFrustum({R, half}, {0.0, half}, {0.0, 1.0}, 6, visit);
+      break;
+    case ShapeKind::cone: {
+      const double slant = std::hypot(R, head.length_mm);
+      visitFrustum({0.0, -half}, {R, half}, glm::dvec2(head.length_mm, -R) / slant, 24, visit);
+      visitFrustum({R, half}, {0.0, half}, {0.0, 1.0}, 6, visit);
+      break;
+    }
+  }
+}
+
+}  // namespace haptics
