@@ -241,7 +241,7 @@ class Rehearsal {
     followServo();
     // A scripted hand that has withdrawn only hides its work.
     frame_.tool_visible = frame_.tool_visible && (hand_.mouse || newest_.depth_mm > 0.0);
-    if (closing_pictures_) takePictures(*closing_pictures_, workstation_->bone().solid());
+    if (closing_pictures_) takePictures(*closing_pictures_, workstation_->bone().solidInGridOrder());
     figures.patient_title = plan_.patient.title;
     figures.bur_radius_mm = plan_.command.tool.head.radius_mm;
     figures.duration_s = newest_.t_s + newest_.dt_s;

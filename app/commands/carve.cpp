@@ -69,7 +69,7 @@ int carve(const CarveOptions& options) {
   const SolidVolume volume = options.volume.load();
   haptics::CarvedBone bone(volume.grid, volume.solid, volume.label);
   const haptics::CarveResult removed = carveAlong(bone, poses, radius_mm, erosion);
-  assets::writeSolid(volume.grid, {bone.solid().begin(), bone.solid().end()}, out);
+  assets::writeSolid(volume.grid, bone.solidInGridOrder(), out);
 
   nlohmann::json by_label = nlohmann::json::object();
   for (std::size_t l = 0; l < removed.removed_mm3_by_label.size(); ++l)

@@ -13,6 +13,7 @@
 #include "app/usage_error.h"
 #include "app/volume_option.h"
 #include "assets/output_file.h"
+#include "haptics/bone/cubelets.h"
 #include "haptics/contact/agus.h"
 #include "haptics/servo/servo.h"
 
@@ -46,7 +47,8 @@ Vector<Patient> velocityAt(const std::vector<TimedPose>& poses, std::size_t i) {
 /// The law alone.
 std::vector<FeltRow> feelRaw(const SolidVolume& volume, const haptics::Command& command,
                              const std::vector<TimedPose>& poses) {
-  const haptics::SolidField field{volume.grid, volume.solid, volume.label};
+  const haptics::Cubelets cubelets(volume.grid, volume.solid, volume.label);
+  const haptics::SolidField field = cubelets.field();
   std::vector<FeltRow> rows;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const Vector<Patient> velocity = velocityAt(poses, i);

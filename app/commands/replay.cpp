@@ -32,7 +32,7 @@ int verifySession(const std::string& path) {
 int bringBack(const ReplayOptions& options) {
   assets::OutputFile out = assets::nrrdOutput(options.out, options.force);
   const ReplayedMoment moment = replayTo(options.session, options.to_s.value_or(1e9));
-  assets::writeSolid(moment.start.grid, {moment.bone.solid().begin(), moment.bone.solid().end()}, out);
+  assets::writeSolid(moment.start.grid, moment.bone.solidInGridOrder(), out);
   std::printf("bone after %.3f s written\n", moment.tick.t_s + moment.tick.dt_s);
   return 0;
 }

@@ -2,54 +2,93 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
-#include "haptics/bone/ball_rows.h"
+#include "haptics/bone/block_kernels.h"
+#include "haptics/bone/lens_curve.h"
 #include "haptics/bone/voxel_sphere.h"
 
 namespace haptics {
 namespace {
 
-/// What a fully covered voxel of each tissue loses in this step.
-std::array<double, assets::kTissueCount> fullLoss(const ErosionParameters& erosion, double dt_s) {
-  std::array<double, assets::kTissueCount> loss{};
-  for (std::size_t label = 0; label < loss.size(); ++label) {
-    const double wanted = erosion.removal_rate_per_s * erosion.tissue_factor[label] * dt_s;
-    loss[label] = std::isfinite(wanted) ? std::clamp(wanted, 0.0, 1.0) : 0.0;
-  }
-  return loss;
-}
+using calibration::Patient;
+using calibration::Point;
 
-/// Carves rows and remembers which bricks changed, so that each brick is marked once, after its voxels are stored.
+/// From the centre of a block to that of its farthest voxel.
+const double kBlockReach = std::sqrt(3.0) * 1.5;
+
+/// How much of each voxel of a block a round bur covers, and how hard it cuts there. Voxel units.
+class RoundCoverage {
+ public:
+  RoundCoverage(const glm::dvec3& centre, double radius, double spacing_mm, const ErosionStep& step)
+      : centre_(centre), radius_(radius), kernels_(blockKernels()) {
+    const LensCurve curve(std::max(radius, LensCurve::kLeastRadius));
+    at_.coefficients = curve.coefficients;
+    at_.scale = curve.scale;
+    at_.offset = curve.offset;
+    std::copy(curve.volume.begin(), curve.volume.end(), at_.volume);
+    for (int axis = 0; axis < 3; ++axis) at_.axis[axis] = static_cast<float>(step.axis_P.xyz[axis]);
+    const double share = step.speed_share > 0.0 ? std::min(step.speed_share, 1.0) : 0.0;
+    at_.even = static_cast<float>(1.0 - share);
+    at_.per_arm = step.mean_arm_mm > 0.0 ? static_cast<float>(share * spacing_mm / step.mean_arm_mm) : 0.0f;
+  }
+
+  double outer() const { return radius_ + kVoxelSphereRadius; }
+
+  /// False: none of any.
+  bool of(glm::ivec3 block, BlockCut& cut) {
+    const glm::dvec3 first = glm::dvec3(block * kBlockEdge) - centre_;
+    if (glm::length(first + 1.5) - kBlockReach >= outer()) return false;
+    for (int axis = 0; axis < 3; ++axis) at_.first[axis] = first[axis];
+    kernels_.cover(at_, cut.coverage.data(), cut.exposure.data());
+    if (radius_ < LensCurve::kLeastRadius) coverByClosedForm(first, cut);
+    return true;
+  }
+
+ private:
+  /// The curve does not hold for a bur of a few voxels.
+  void coverByClosedForm(const glm::dvec3& first, BlockCut& cut) const {
+    for (int n = 0; n < kBlockVoxels; ++n) {
+      const auto at = static_cast<std::size_t>(n);
+      const double d = glm::length(first + glm::dvec3(n & 3, n >> 2 & 3, n >> 4));
+      const double lens = lensOfSpheres(radius_, kVoxelSphereRadius, d).volume;
+      const double uneven = cut.coverage[at] > 0 ? static_cast<double>(cut.exposure[at]) / cut.coverage[at] : 1.0;
+      cut.coverage[at] = static_cast<std::uint16_t>(std::clamp(lens, 0.0, 1.0) * 65535.0 + 0.5);
+      cut.exposure[at] = static_cast<std::uint32_t>(cut.coverage[at] * uneven);
+    }
+  }
+
+  glm::dvec3 centre_;
+  double radius_;
+  const BlockKernels& kernels_;
+  BlockUnderBur at_{};
+};
+
+/// Carries a step out, block by block, for whatever shape says how much of a voxel it covers.
 class Cutter {
  public:
-  Cutter(CarvedBone& bone, const BallRows& ball, const std::array<double, assets::kTissueCount>& loss,
-         std::uint64_t tick)
-      : bone_(bone), solid_(bone.solid()), ball_(ball), loss_(loss), tick_(tick) {}
-
-  void cutRow(const BallRow& row, int j, int k) {
-    const std::size_t start = bone_.grid().index({0, j, k});
-    const double across2 = row.dy * row.dy + row.dz * row.dz;
-    cutShell(start, row.outer_first, row.inner_first - 1, across2);
-    for (int i = row.inner_first; i <= row.inner_last;) {
-      // Most of a bur is in air or in the hole it has cut: eight voxels at a look.
-      if (i + 7 <= row.inner_last && allAir(start + static_cast<std::size_t>(i))) {
-        i += 8;
-        continue;
-      }
-      const int end = std::min(i + 7, row.inner_last);
-      for (; i <= end; ++i)
-        if (solid_[start + static_cast<std::size_t>(i)] != 0) cutVoxel(start, i, 1.0);
+  Cutter(CarvedBone& bone, const ErosionStep& step, std::uint64_t tick, int turns)
+      : bone_(bone), turns_(turns), turn_(static_cast<int>(tick % static_cast<std::uint64_t>(turns))) {
+    cut_.tick = tick;
+    for (std::size_t label = 0; label < step.loss.size(); ++label) {
+      const double wanted = step.loss[label] * turns;
+      // Also when it is not a number.
+      const double loss = wanted > 0.0 ? std::min(wanted, 1.0) : 0.0;
+      cut_.loss_q32[label] = static_cast<std::uint32_t>(loss * 4294967295.0);
     }
-    cutShell(start, row.inner_last + 1, row.outer_last, across2);
   }
 
-  /// Publishes the changed bricks of one row of bricks.
-  void markBricks(int brick_j, int brick_k) {
-    for (int b = 0; changed_first_ + b <= changed_last_; ++b)
-      bone_.dirtyBricks().mark({changed_first_ + b, brick_j, brick_k});
-    changed_first_ = 1 << 30;
-    changed_last_ = -1;
+  template <class Coverage>
+  void cut(Coverage& shape, glm::ivec3 first, glm::ivec3 last) {
+    const SolidField field = bone_.field();
+    for (int z = first.z; z <= last.z; ++z)
+      for (int y = first.y; y <= last.y; ++y) {
+        const int ahead = (turn_ + turns_ - (first.x + y + z) % turns_) % turns_;
+        const std::size_t row = field.blockAt({0, y, z});
+        for (int x = first.x + ahead; x <= last.x; x += turns_) {
+          if (field.weight[row + static_cast<std::size_t>(x)] == 0 || !shape.of({x, y, z}, cut_)) continue;
+          bone_.cutBlock({x, y, z}, cut_, steps_);
+        }
+      }
   }
 
   CarveResult result() const {
@@ -65,39 +104,24 @@ class Cutter {
   }
 
  private:
-  bool allAir(std::size_t eight) const {
-    std::uint64_t bytes;
-    std::memcpy(&bytes, solid_.data() + eight, sizeof bytes);
-    return bytes == 0;
-  }
-
-  void cutShell(std::size_t start, int first, int last, double across2) {
-    for (int i = first; i <= last; ++i) {
-      if (solid_[start + static_cast<std::size_t>(i)] == 0) continue;
-      const double dx = i - ball_.centre.x;
-      cutVoxel(start, i, lensOfSpheres(ball_.radius, kVoxelSphereRadius, std::sqrt(dx * dx + across2)).volume);
-    }
-  }
-
-  void cutVoxel(std::size_t start, int i, double coverage) {
-    const std::size_t voxel = start + static_cast<std::size_t>(i);
-    const std::uint8_t label = bone_.label(voxel);
-    const std::size_t tissue = label < assets::kTissueCount ? label : 0;
-    const int removed = bone_.remove(voxel, coverage, coverage * loss_[tissue], tick_);
-    if (removed == 0) return;
-    steps_[tissue] += removed;
-    changed_first_ = std::min(changed_first_, i / assets::kBrickVoxels);
-    changed_last_ = std::max(changed_last_, i / assets::kBrickVoxels);
-  }
-
   CarvedBone& bone_;
-  std::span<const std::uint8_t> solid_;
-  const BallRows& ball_;
-  const std::array<double, assets::kTissueCount>& loss_;
-  std::uint64_t tick_;
+  int turns_, turn_;
+  BlockCut cut_;
   std::array<std::int64_t, assets::kTissueCount> steps_{};
-  int changed_first_ = 1 << 30, changed_last_ = -1;
 };
+
+/// The blocks a box of voxels reaches into, clipped as doubles: a wild pose must not overflow an index.
+bool blocksOf(const SolidField& field, const glm::dvec3& low, const glm::dvec3& high, glm::ivec3& first,
+              glm::ivec3& last) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double from = std::max(0.0, low[axis]),
+                 to = std::min(static_cast<double>(field.grid.size[axis] - 1), high[axis]);
+    if (!(from <= to)) return false;
+    first[axis] = static_cast<int>(from) / kBlockEdge;
+    last[axis] = static_cast<int>(to) / kBlockEdge;
+  }
+  return true;
+}
 
 }  // namespace
 
@@ -108,43 +132,47 @@ CarveResult& CarveResult::operator+=(const CarveResult& part) noexcept {
   return *this;
 }
 
-CarveResult carveSphere(CarvedBone& bone, const calibration::Point<calibration::Patient>& centre_P, double radius_mm,
-                        const ErosionParameters& erosion, double dt_s, std::uint64_t tick) noexcept {
-  const BallRows ball(bone.grid(), centre_P, radius_mm);
-  if (ball.empty()) return {};
-  const auto loss = fullLoss(erosion, dt_s);
-  Cutter cutter(bone, ball, loss, tick);
+ErosionStep timeErosion(const ErosionParameters& erosion, double dt_s) noexcept {
+  ErosionStep step;
+  for (std::size_t label = 0; label < step.loss.size(); ++label) {
+    const double wanted = erosion.removal_rate_per_s * erosion.tissue_factor[label] * dt_s;
+    step.loss[label] = std::isfinite(wanted) ? std::clamp(wanted, 0.0, 1.0) : 0.0;
+  }
+  return step;
+}
 
-  // Brick row by brick row, so that a brick is handed over once and not once a voxel.
-  constexpr int kEdge = assets::kBrickVoxels;
-  static_assert(kEdge <= kRowsAtOnce);
-  std::array<BallRow, kRowsAtOnce> row;
-  for (int brick_k = ball.first.z / kEdge; brick_k <= ball.last.z / kEdge; ++brick_k)
-    for (int brick_j = ball.first.y / kEdge; brick_j <= ball.last.y / kEdge; ++brick_j) {
-      const glm::ivec2 from = glm::max(glm::ivec2(ball.first.y, ball.first.z), kEdge * glm::ivec2(brick_j, brick_k));
-      const glm::ivec2 to =
-          glm::min(glm::ivec2(ball.last.y, ball.last.z), kEdge * glm::ivec2(brick_j, brick_k) + (kEdge - 1));
-      for (int k = from.y; k <= to.y; ++k) {
-        ball.rows(from.x, k, row);
-        for (int j = from.x; j <= to.x; ++j) cutter.cutRow(row[static_cast<std::size_t>(j - from.x)], j, k);
-      }
-      cutter.markBricks(brick_j, brick_k);
-    }
+int carvingTurns(const CarvedBone& bone, double radius_mm, const ErosionStep& step) noexcept {
+  const double radius = radius_mm / bone.grid().spacing_mm;
+  const double most_loss = *std::max_element(step.loss.begin(), step.loss.end());
+  int turns = radius > 32.0 ? 8 : radius > 16.0 ? 4 : radius > 8.0 ? 2 : 1;
+  while (turns > 1 && !(most_loss * turns <= 0.125)) turns /= 2;
+  return turns;
+}
+
+CarveResult carveSphere(CarvedBone& bone, const Point<Patient>& centre_P, double radius_mm, const ErosionStep& step,
+                        std::uint64_t tick, int turns) noexcept {
+  const double radius = radius_mm / bone.grid().spacing_mm;
+  const glm::dvec3 centre = bone.grid().indexFromPoint(centre_P.mm);
+  if (!(radius > 0.0) || !std::isfinite(radius) || !std::isfinite(glm::length(centre))) return {};
+  RoundCoverage shape(centre, radius, bone.grid().spacing_mm, step);
+  glm::ivec3 first, last;
+  if (!blocksOf(bone.field(), centre - shape.outer(), centre + shape.outer(), first, last)) return {};
+  Cutter cutter(bone, step, tick, std::max(turns, 1));
+  cutter.cut(shape, first, last);
   return cutter.result();
 }
 
-CarveResult carveSweep(CarvedBone& bone, const calibration::Point<calibration::Patient>& from_P,
-                       const calibration::Point<calibration::Patient>& to_P, double radius_mm,
+CarveResult carveSweep(CarvedBone& bone, const Point<Patient>& from_P, const Point<Patient>& to_P, double radius_mm,
                        const ErosionParameters& erosion, double dt_s, std::uint64_t tick) noexcept {
   const double length_mm = glm::length(to_P.mm - from_P.mm);
   if (!std::isfinite(length_mm)) return {};
   const double wanted = 1.0 + std::ceil(length_mm / (0.5 * bone.grid().spacing_mm));
   const int steps = static_cast<int>(std::clamp(wanted, 1.0, static_cast<double>(kMostSweepSteps)));
+  const ErosionStep part = timeErosion(erosion, dt_s / steps);
   CarveResult total;
   for (int step = 0; step < steps; ++step) {
     const double along = steps == 1 ? 1.0 : static_cast<double>(step) / (steps - 1);  // both ends are reached
-    const calibration::Point<calibration::Patient> centre_P{glm::mix(from_P.mm, to_P.mm, along)};
-    total += carveSphere(bone, centre_P, radius_mm, erosion, dt_s / steps,
+    total += carveSphere(bone, {glm::mix(from_P.mm, to_P.mm, along)}, radius_mm, part,
                          tick * kMostSweepSteps + static_cast<std::uint64_t>(step));
   }
   return total;

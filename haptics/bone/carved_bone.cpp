@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cassert>
+
+#include "haptics/bone/block_kernels.h"
 
 namespace haptics {
 namespace {
 
-constexpr std::uint32_t kFullDose = 65535;
-constexpr std::uint32_t kDosePerReach = kFullDose / 255;  // 257 exactly
+constexpr double kHistoryShare = 0.42;           // of the blocks: 4 bytes a voxel in all
+constexpr std::size_t kFewestHistories = 16384;  // 4 MB: a small bone is remembered whole
 
 /// Finaliser of SplitMix64 (Steele, Lea, Flood 2014): a bijection that spreads every bit.
 constexpr std::uint64_t mixed(std::uint64_t x) {
@@ -17,72 +18,118 @@ constexpr std::uint64_t mixed(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-constexpr double kPerWord = 1.0 / 4294967296.0;
-constexpr std::uint64_t kGoldenRatio = 0x9E3779B97F4A7C15u;
-
-/// One voxel's part of the bone's digest.
-std::uint64_t stateDigest(std::size_t voxel, std::uint32_t solid, std::uint32_t reach, std::uint32_t dose) {
-  return mixed((static_cast<std::uint64_t>(voxel) << 32) ^ ((solid << 24) | (reach << 16) | dose));
+std::size_t tissueOf(const SolidField& field, std::size_t place) {
+  const std::size_t label = field.label == nullptr ? 0 : field.label[place];
+  return label < assets::kTissueCount ? label : 0;
 }
 
 }  // namespace
 
 CarvedBone::CarvedBone(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid,
                        std::span<const std::uint8_t> label)
-    : grid_(grid),
-      solid_(solid.begin(), solid.end()),
-      first_solid_(solid_),
-      label_(label.begin(), label.end()),
-      reach_(solid_.size(), 0),
-      dose_(solid_.size(), 0),
-      dirty_(grid.bricks()) {
-  assert(solid.size() == grid.voxelCount());
-  assert(label.empty() || label.size() == grid.voxelCount());
-  for (std::size_t voxel = 0; voxel < solid_.size(); ++voxel) digest_ += stateDigest(voxel, solid_[voxel], 0, 0);
+    : grid_(grid), cubelets_(grid, solid, label), dirty_(grid.bricks()) {
+  const SolidField at = field();
+  const std::size_t blocks = at.blockAt({0, 0, at.blocks.z});
+  const History uncut{};
+  std::size_t with_bone = 0;
+  for (std::size_t block = 0; block < blocks; ++block) {
+    if (at.weight[block] == 0) continue;
+    ++with_bone;
+    addToDigest(mixed(block + 1),
+                blockKernels().digest(at.solid + block * kBlockVoxels, uncut.reach.data(), uncut.dose.data()));
+  }
+  history_of_.assign(blocks, 0);
+  const auto share = static_cast<std::size_t>(kHistoryShare * static_cast<double>(blocks));
+  histories_most_ = std::min(with_bone, std::max(share, kFewestHistories));
+  histories_.resize(histories_most_);
 }
 
-int CarvedBone::remove(std::size_t voxel, double coverage, double loss, std::uint64_t tick) {
-  const std::uint8_t before = solid_[voxel];
-  if (before == 0) return 0;
+void CarvedBone::addToDigest(std::uint64_t block_key, const BlockDigest& change) {
+  const auto low = static_cast<std::uint32_t>(digest_) + (static_cast<std::uint32_t>(block_key) | 1u) * change.low;
+  const auto high =
+      static_cast<std::uint32_t>(digest_ >> 32) + (static_cast<std::uint32_t>(block_key >> 32) | 1u) * change.high;
+  digest_ = static_cast<std::uint64_t>(high) << 32 | low;
+}
 
-  // A bur reaches no further into a voxel than it has ever covered of it.
-  const auto covered = static_cast<std::uint8_t>(std::clamp(coverage, 0.0, 1.0) * 255.0 + 0.5);
-  const std::uint8_t old_reach = reach_[voxel], reach = std::max(old_reach, covered);
-  const std::uint32_t dose = dose_[voxel], cap = std::max(dose, reach * kDosePerReach);
-  if (cap == dose) return 0;
+CarvedBone::History* CarvedBone::historyOf(std::size_t block) {
+  if (history_of_[block] == 0) {
+    if (histories_used_ == histories_most_) return nullptr;
+    History& fresh = histories_[histories_used_++];
+    history_of_[block] = static_cast<std::uint32_t>(histories_used_);
+    const std::uint8_t* solid = field().solid + block * kBlockVoxels;
+    std::copy(solid, solid + kBlockVoxels, fresh.first.begin());
+    fresh.reach.fill(0);
+    fresh.dose.fill(0);
+  }
+  return &histories_[history_of_[block] - 1];
+}
 
-  // Golden-ratio steps from a start of the voxel's own: the rounded sum stays within a few steps of the true one.
-  const std::uint64_t hash = mixed(voxel + 1);
-  const double dither = static_cast<double>((hash + tick * kGoldenRatio) >> 32) * kPerWord;
-  const auto step = static_cast<std::uint32_t>(std::clamp(loss, 0.0, 1.0) * kFullDose + dither);
-  const std::uint32_t new_dose = std::min(dose + step, cap);
-  if (new_dose == dose && reach == old_reach) return 0;
+bool CarvedBone::cutBlock(glm::ivec3 block_ijk, const BlockCut& cut,
+                          std::array<std::int64_t, assets::kTissueCount>& steps) {
+  const SolidField at = field();
+  const std::size_t block = at.blockAt(block_ijk), start = block * kBlockVoxels;
+  const std::uint8_t* const before = at.solid + start;
+  const std::uint64_t key = mixed(block + 1);
+  const bool mixed_labels = at.only_label[block] == kMixedLabels;
+  const std::size_t only_tissue = tissueOf(at, start);
+  const BlockKernels& kernels = blockKernels();
+  if (!kernels.meets(before, cut.coverage.data())) return false;
 
-  // What is left, rounded at the voxel's own threshold: never rises again, and right on average over voxels.
-  const std::uint32_t threshold = static_cast<std::uint32_t>(hash & 0xFFFF) % kFullDose;
-  const std::uint32_t left = first_solid_[voxel] * (kFullDose - new_dose) + threshold;
-  const auto after = static_cast<std::uint8_t>(left / kFullDose);
+  alignas(64) std::array<std::uint32_t, kBlockVoxels> loss_q32;
+  alignas(64) std::array<std::uint8_t, kBlockVoxels> after;
+  for (std::size_t n = 0; n < kBlockVoxels; ++n)
+    loss_q32[n] = cut.loss_q32[mixed_labels ? tissueOf(at, start + n) : only_tissue];
 
-  dose_[voxel] = static_cast<std::uint16_t>(new_dose);
-  reach_[voxel] = reach;
-  if (after != before) std::atomic_ref<std::uint8_t>(solid_[voxel]).store(after, std::memory_order_relaxed);
-  digest_ += stateDigest(voxel, after, reach, new_dose) - stateDigest(voxel, before, old_reach, dose);
-  return before - after;
+  History* const history = historyOf(block);
+  BlockStep step{before,
+                 cut.coverage.data(),
+                 cut.exposure.data(),
+                 loss_q32.data(),
+                 history == nullptr ? nullptr : history->first.data(),
+                 history == nullptr ? nullptr : history->reach.data(),
+                 history == nullptr ? nullptr : history->dose.data(),
+                 static_cast<std::uint32_t>(key >> 32),
+                 static_cast<std::uint32_t>(cut.tick) * 0x9E3779B9u,  // 2^32 over the golden ratio
+                 after.data(),
+                 {0, 0},
+                 0};
+  kernels.step(step);
+  addToDigest(key, step.digest_change);
+  if (step.removed == 0) return false;
+  if (mixed_labels) {
+    for (std::size_t n = 0; n < kBlockVoxels; ++n) {
+      const std::size_t tissue = tissueOf(at, start + n);
+      steps[tissue] += before[n] - after[n];
+      removed_steps_[tissue] += before[n] - after[n];
+    }
+  } else {
+    steps[only_tissue] += step.removed;
+    removed_steps_[only_tissue] += step.removed;
+  }
+  cubelets_.setBlock(block, after);
+  dirty_.mark(block_ijk * kBlockEdge / assets::kBrickVoxels);
+  return true;
 }
 
 std::array<double, assets::kTissueCount> CarvedBone::removedByTissue_mm3() const {
-  std::array<std::int64_t, assets::kTissueCount> steps{};
-  for (std::size_t voxel = 0; voxel < solid_.size(); ++voxel) {
-    const std::size_t tissue = label(voxel) < assets::kTissueCount ? label(voxel) : 0;
-    steps[tissue] += first_solid_[voxel] - solid_[voxel];
-  }
   std::array<double, assets::kTissueCount> removed_mm3{};
-  for (std::size_t tissue = 0; tissue < steps.size(); ++tissue)
-    removed_mm3[tissue] = static_cast<double>(steps[tissue]) * grid_.voxelVolume_mm3() / 255.0;
+  for (std::size_t tissue = 0; tissue < removed_mm3.size(); ++tissue)
+    removed_mm3[tissue] = static_cast<double>(removed_steps_[tissue]) * grid_.voxelVolume_mm3() / 255.0;
   return removed_mm3;
 }
 
+std::vector<std::uint8_t> CarvedBone::solidInGridOrder() const {
+  const SolidField at = field();
+  std::vector<std::uint8_t> solid(grid_.voxelCount());
+  std::size_t out = 0;
+  for (int k = 0; k < grid_.size.z; ++k)
+    for (int j = 0; j < grid_.size.y; ++j)
+      for (int i = 0; i < grid_.size.x; ++i) solid[out++] = at.solidAt({i, j, k});
+  return solid;
+}
+
 void CarvedBone::copyBrick(glm::ivec3 brick, std::span<std::uint8_t, 512> solid_out) const {
+  const SolidField at = field();
   const glm::ivec3 corner = brick * assets::kBrickVoxels;
   std::size_t out = 0;
   for (int k = 0; k < assets::kBrickVoxels; ++k)
@@ -91,10 +138,17 @@ void CarvedBone::copyBrick(glm::ivec3 brick, std::span<std::uint8_t, 512> solid_
         const glm::ivec3 ijk = corner + glm::ivec3(i, j, k);
         // The atomic view needs a mutable reference; nothing is written through it.
         solid_out[out] = grid_.contains(ijk)
-                             ? std::atomic_ref<std::uint8_t>(const_cast<std::uint8_t&>(solid_[grid_.index(ijk)]))
+                             ? std::atomic_ref<std::uint8_t>(const_cast<std::uint8_t&>(at.solid[at.placeOf(ijk)]))
                                    .load(std::memory_order_relaxed)
                              : std::uint8_t{0};
       }
+}
+
+std::size_t CarvedBone::bytes() const {
+  const SolidField at = field();
+  const std::size_t blocks = history_of_.size(), fields = at.label == nullptr ? 1 : 2;
+  constexpr std::size_t kSums = 4 * sizeof(std::uint16_t) + sizeof(std::uint32_t) + sizeof(std::uint8_t);
+  return blocks * (fields * kBlockVoxels + kSums + sizeof(std::uint32_t)) + histories_most_ * sizeof(History);
 }
 
 }  // namespace haptics

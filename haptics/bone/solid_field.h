@@ -1,22 +1,41 @@
-// A look at a solid-fraction field without owning it: the live bone, or any volume on disk that `feel` is asked about.
-// Frame P, mm. Borrowed spans must outlive it. Outside the grid is air. Trivially copyable; a few words.
+// A look at a solid-fraction field without owning it: the live bone, or any volume that `feel` is asked about.
+// Frame P, mm. What it points to (bone/cubelets) must outlive it. Outside the grid is air. Trivially copyable.
+// Voxels lie in blocks of 4x4x4; within a block i runs fastest. Per block: sum of w, of w times each local index 0..3,
+// of w (255 - w), for w = 0..255 the solid byte; and the label all its voxels share.
 #pragma once
 
 #include <cstdint>
-#include <span>
 
 #include "assets/volume_grid.h"
 
 namespace haptics {
 
+inline constexpr int kBlockEdge = 4, kBlockVoxels = 64;
+/// In SolidField::only_label: the voxels of this block do not all have one label.
+inline constexpr std::uint8_t kMixedLabels = 255;
+
 struct SolidField {
   assets::VolumeGrid grid;
-  std::span<const std::uint8_t> solid;  ///< 0..255 = fraction of the voxel that is solid, i fastest
-  std::span<const std::uint8_t> label;  ///< assets::Tissue, same order, or empty: unlabelled
+  glm::ivec3 blocks{0};                 ///< along i, j, k
+  const std::uint8_t* solid = nullptr;  ///< 0..255 = fraction of the voxel that is solid
+  const std::uint8_t* label = nullptr;  ///< assets::Tissue, same order; null: unlabelled
+  const std::uint16_t *weight = nullptr, *weight_x = nullptr, *weight_y = nullptr, *weight_z = nullptr;
+  const std::uint32_t* grey = nullptr;
+  const std::uint8_t* only_label = nullptr;
 
-  /// Of a voxel of the grid. Everything outside contact/overlap and bone/carve reads voxels by these.
-  std::uint8_t solidAt(glm::ivec3 ijk) const { return solid[grid.index(ijk)]; }
-  std::uint8_t labelAt(glm::ivec3 ijk) const { return label.empty() ? std::uint8_t{0} : label[grid.index(ijk)]; }
+  std::size_t blockAt(glm::ivec3 block) const {
+    return (static_cast<std::size_t>(block.z) * static_cast<std::size_t>(blocks.y) +
+            static_cast<std::size_t>(block.y)) *
+               static_cast<std::size_t>(blocks.x) +
+           static_cast<std::size_t>(block.x);
+  }
+  /// Of a voxel of the grid, in the order of memory.
+  std::size_t placeOf(glm::ivec3 ijk) const {
+    const int within = (ijk.z & 3) * 16 + (ijk.y & 3) * 4 + (ijk.x & 3);
+    return blockAt({ijk.x >> 2, ijk.y >> 2, ijk.z >> 2}) * kBlockVoxels + static_cast<std::size_t>(within);
+  }
+  std::uint8_t solidAt(glm::ivec3 ijk) const { return solid[placeOf(ijk)]; }
+  std::uint8_t labelAt(glm::ivec3 ijk) const { return label == nullptr ? std::uint8_t{0} : label[placeOf(ijk)]; }
 };
 
 }  // namespace haptics

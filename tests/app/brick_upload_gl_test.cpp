@@ -52,7 +52,7 @@ TEST(BrickUpload, ShowsWhatOneTickCutToBothEyesInTheNextFrame) {
   }
   EXPECT_GT(BrickUpload().bring(bone, shown), 0u);
   EXPECT_EQ(BrickUpload().bring(bone, shown), 0u) << "nothing is brought twice";
-  render::FrameRenderer fresh(kGrid, bone.solid(), {});
+  render::FrameRenderer fresh(kGrid, bone.solidInGridOrder(), {});
   for (int e = 0; e < 2; ++e) {
     shown.renderEye(frame, kEyes[e]);
     fresh.renderEye(frame, kEyes[e]);

@@ -6,9 +6,12 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "haptics/bone/carved_bone.h"
+#include "haptics/bone/cubelets.h"
 
 namespace haptics::phantom {
 
@@ -19,11 +22,16 @@ using calibration::Vector;
 struct Phantom {
   assets::VolumeGrid grid;
   std::vector<std::uint8_t> solid;
-  SolidField field() const { return {grid, solid, {}}; }
+  /// Of `solid` as it is at the first call.
+  SolidField field() const {
+    if (!cubelets) cubelets.emplace(grid, solid, std::span<const std::uint8_t>{});
+    return cubelets->field();
+  }
   CarvedBone bone(std::uint8_t label = 0) const {
     const std::vector<std::uint8_t> labels(solid.size(), label);
     return CarvedBone(grid, solid, labels);
   }
+  mutable std::optional<Cubelets> cubelets{};
 };
 
 /// A cube about the origin, `half_mm` to each side, filled where `height_mm(p)` is below 0; one voxel soft at the face.

@@ -1,0 +1,55 @@
+// The work of one tick of cutting on one block of 4x4x4 voxels, as the kernels see it: plain numbers, one set of
+// functions per instruction set, the same bits from all of them (integers, and floats without fused multiply-add).
+// Servo thread; no allocation; some 100 ns a block with AVX2. Private to bone/.
+#pragma once
+
+#include <cstdint>
+
+namespace haptics {
+
+/// A round bur over a block, in voxels from its centre to the block's first voxel, and how unevenly it cuts.
+struct BlockUnderBur {
+  double first[3];
+  double scale, offset;  ///< of the lens curve
+  int coefficients;
+  float volume[8];
+  /// exposure = coverage (even + per_arm |r x axis|), r in voxels.
+  float axis[3], even, per_arm;
+};
+
+/// Two sums modulo 2^32.
+struct BlockDigest {
+  std::uint32_t low, high;
+};
+
+/// One block's past and what a step does to it. Dose 0..65535, reach and solid 0..255.
+struct BlockStep {
+  const std::uint8_t* solid;  ///< 64 each
+  const std::uint16_t* coverage;
+  const std::uint32_t *exposure, *loss_q32;
+  const std::uint8_t* first;  ///< null: no past is kept
+  std::uint8_t* reach;
+  std::uint16_t* dose;
+  std::uint32_t block_key, turn;  ///< of the dither
+  std::uint8_t* after;            ///< out
+  BlockDigest digest_change;      ///< out, before the block's own factor
+  std::uint32_t removed;          ///< out, in solid steps
+};
+
+struct BlockKernels {
+  void (*cover)(const BlockUnderBur& at, std::uint16_t* coverage, std::uint32_t* exposure) noexcept;
+  /// Whether the bur covers anything solid of it.
+  bool (*meets)(const std::uint8_t* solid, const std::uint16_t* coverage) noexcept;
+  void (*step)(BlockStep& block) noexcept;
+  BlockDigest (*digest)(const std::uint8_t* solid, const std::uint8_t* reach, const std::uint16_t* dose) noexcept;
+};
+
+extern const BlockKernels kBlockKernelsPortable;
+#if defined(__x86_64__)
+extern const BlockKernels kBlockKernelsAvx2;
+#endif
+
+/// Of the chosen instruction set.
+const BlockKernels& blockKernels() noexcept;
+
+}  // namespace haptics

@@ -1,0 +1,160 @@
+// The body of BlockKernels: included once by each instruction set's source. Internal linkage throughout and no header
+// but the one below, so that nothing of it is shared between instruction sets. Written for the compiler's vectoriser:
+// every voxel is treated alike, those that nothing happens to come out as they were.
+#pragma once
+
+#include "haptics/bone/block_kernels.h"
+
+namespace haptics {
+namespace {
+
+constexpr int kVoxels = 64;
+constexpr std::uint32_t kFullDose = 65535;
+constexpr std::uint32_t kDosePerReach = kFullDose / 255;  // 257 exactly
+constexpr std::uint32_t kGoldenStep = 0x9E3779B9u;        // 2^32 over the golden ratio
+
+/// A number of each voxel's own, from that of its block. Wellons' triple-less integer hash (2018).
+constexpr std::uint32_t voxelKey(std::uint32_t block_key, std::uint32_t within) {
+  std::uint32_t x = block_key + within * kGoldenStep;
+  x = (x ^ (x >> 16)) * 0x21F0AAADu;
+  x = (x ^ (x >> 15)) * 0x735A2D97u;
+  return x ^ (x >> 15);
+}
+
+void cover(const BlockUnderBur& at, std::uint16_t* coverage, std::uint32_t* exposure) noexcept {
+  float x[4], y[4], z[4];
+  for (int n = 0; n < 4; ++n) {
+    x[n] = static_cast<float>(at.scale * (at.first[0] + n) * (at.first[0] + n));
+    y[n] = static_cast<float>(at.scale * (at.first[1] + n) * (at.first[1] + n));
+    z[n] = static_cast<float>(at.offset - at.scale * (at.first[2] + n) * (at.first[2] + n));
+  }
+  // The lens curve: t is 0 just outside and 2 just inside.
+  alignas(64) float t[kVoxels], q[kVoxels];
+  for (int row = 0; row < 16; ++row) {
+    const float across = z[row >> 2] - y[row & 3];
+    for (int n = 0; n < 4; ++n) t[4 * row + n] = across - x[n];
+  }
+  for (int n = 0; n < kVoxels; ++n) {
+    const float positive = t[n] > 0.0f ? t[n] : 0.0f;
+    t[n] = positive < 2.0f ? positive : 2.0f;
+    q[n] = at.volume[at.coefficients - 1];
+  }
+  for (int c = at.coefficients - 2; c >= 0; --c)
+    for (int n = 0; n < kVoxels; ++n) q[n] = q[n] * t[n] + at.volume[c];
+  for (int n = 0; n < kVoxels; ++n) {
+    const float steps = t[n] * t[n] * q[n] * 65535.0f + 0.5f, most = steps < 65535.0f ? steps : 65535.0f;
+    const int whole = static_cast<int>(most > 0.0f ? most : 0.0f);
+    coverage[n] = static_cast<std::uint16_t>(whole);
+    exposure[n] = static_cast<std::uint32_t>(whole);
+  }
+  if (at.per_arm == 0.0f) return;
+  for (int n = 0; n < kVoxels; ++n) {
+    const float rx = static_cast<float>(at.first[0]) + static_cast<float>(n & 3);
+    const float ry = static_cast<float>(at.first[1]) + static_cast<float>(n >> 2 & 3);
+    const float rz = static_cast<float>(at.first[2]) + static_cast<float>(n >> 4);
+    const float along = rx * at.axis[0] + ry * at.axis[1] + rz * at.axis[2];
+    const float across2 = rx * rx + ry * ry + rz * rz - along * along;
+    const float hard = at.even + at.per_arm * __builtin_sqrtf(across2 > 0.0f ? across2 : 0.0f);
+    const float bounded = hard < 16.0f ? hard : 16.0f;
+    exposure[n] = static_cast<std::uint32_t>(static_cast<int>(static_cast<float>(coverage[n]) * bounded));
+  }
+}
+
+struct DigestWeights {
+  std::uint32_t low[kVoxels], high[kVoxels];
+};
+/// What a voxel's state weighs in the two halves of the digest: odd, different for each.
+constexpr DigestWeights digestWeights() {
+  DigestWeights weights{};
+  for (std::uint32_t n = 0; n < kVoxels; ++n) {
+    weights.low[n] = voxelKey(0x5EEDu, n) | 1u;
+    weights.high[n] = voxelKey(0xB17E5u, n) | 1u;
+  }
+  return weights;
+}
+constexpr DigestWeights kDigest = digestWeights();
+
+constexpr std::uint32_t stateOf(std::uint32_t solid, std::uint32_t reach, std::uint32_t dose) {
+  return solid << 24 | reach << 16 | dose;
+}
+
+/// Linear in the voxels' states, modulo 2^32 in either half, so that it can be brought up to date by differences.
+BlockDigest digestOf(const std::uint8_t* solid, const std::uint8_t* reach, const std::uint16_t* dose) noexcept {
+  BlockDigest digest{0, 0};
+  for (int n = 0; n < kVoxels; ++n) {
+    const std::uint32_t state = stateOf(solid[n], reach[n], dose[n]);
+    digest.low += kDigest.low[n] * state;
+    digest.high += kDigest.high[n] * state;
+  }
+  return digest;
+}
+
+/// Dose units lost: golden-ratio steps from a start of the voxel's own keep the rounded sum within a few steps of the
+/// true one.
+inline std::uint32_t lost(std::uint32_t key, std::uint32_t turn, std::uint32_t whole, std::uint32_t loss_q32) {
+  return static_cast<std::uint32_t>((static_cast<std::uint64_t>(whole) * loss_q32 + (key + turn)) >> 32);
+}
+
+void stepWithPast(BlockStep& block) {
+  alignas(64) std::uint32_t key[kVoxels], loss[kVoxels], change[kVoxels], after[kVoxels];
+  alignas(64) std::uint32_t new_reach[kVoxels], new_dose[kVoxels];
+  for (std::uint32_t n = 0; n < kVoxels; ++n) key[n] = voxelKey(block.block_key, n);
+  for (int n = 0; n < kVoxels; ++n) loss[n] = lost(key[n], block.turn, block.exposure[n], block.loss_q32[n]);
+  for (int n = 0; n < kVoxels; ++n) {
+    // A bur reaches no further into a voxel than it has ever covered of it: (coverage + 128) / 257.
+    const std::uint32_t covered = (block.coverage[n] + 128u) * 65281u >> 24, old_reach = block.reach[n];
+    const std::uint32_t reach = old_reach > covered ? old_reach : covered, old_dose = block.dose[n];
+    const std::uint32_t most = reach * kDosePerReach, cap = old_dose > most ? old_dose : most;
+    const std::uint32_t wanted = old_dose + loss[n], dose = wanted < cap ? wanted : cap;
+    // What is left of its first content, over 65535, rounded at the voxel's own threshold: never rises again, and right
+    // on average over voxels.
+    const std::uint32_t high = key[n] >> 16, threshold = high < kFullDose ? high : kFullDose - 1;
+    const std::uint32_t left = block.first[n] * (kFullDose - dose) + threshold;
+    after[n] = (left + 1u + (left >> 16)) >> 16;
+    new_reach[n] = reach;
+    new_dose[n] = dose;
+    change[n] = stateOf(after[n], reach, dose) - stateOf(block.solid[n], old_reach, old_dose);
+  }
+  BlockDigest digest{0, 0};
+  for (int n = 0; n < kVoxels; ++n) {
+    digest.low += kDigest.low[n] * change[n];
+    digest.high += kDigest.high[n] * change[n];
+  }
+  block.digest_change = digest;
+  for (int n = 0; n < kVoxels; ++n) block.reach[n] = static_cast<std::uint8_t>(new_reach[n]);
+  for (int n = 0; n < kVoxels; ++n) block.dose[n] = static_cast<std::uint16_t>(new_dose[n]);
+  for (int n = 0; n < kVoxels; ++n) block.after[n] = static_cast<std::uint8_t>(after[n]);
+}
+
+/// No room to remember: of what the bur covers by half, its content goes by steps of 1/255.
+void stepWithoutPast(BlockStep& block) {
+  BlockDigest digest{0, 0};
+  for (std::uint32_t n = 0; n < kVoxels; ++n) {
+    const std::uint32_t before = block.solid[n], whole = block.coverage[n] * 2u >= kFullDose ? 255u : 0u;
+    const std::uint32_t less = lost(voxelKey(block.block_key, n), block.turn, whole, block.loss_q32[n]);
+    const std::uint32_t after = before > less ? before - less : 0u;
+    digest.low += kDigest.low[n] * (stateOf(after, 0, 0) - stateOf(before, 0, 0));
+    digest.high += kDigest.high[n] * (stateOf(after, 0, 0) - stateOf(before, 0, 0));
+    block.after[n] = static_cast<std::uint8_t>(after);
+  }
+  block.digest_change = digest;
+}
+
+bool meets(const std::uint8_t* solid, const std::uint16_t* coverage) noexcept {
+  std::uint32_t met = 0;
+  for (int n = 0; n < kVoxels; ++n) met |= coverage[n] < 129 ? 0u : static_cast<std::uint32_t>(solid[n]);
+  return met != 0;
+}
+
+void step(BlockStep& block) noexcept {
+  if (block.first != nullptr)
+    stepWithPast(block);
+  else
+    stepWithoutPast(block);
+  std::uint32_t removed = 0;
+  for (int n = 0; n < kVoxels; ++n) removed += static_cast<std::uint32_t>(block.solid[n] - block.after[n]);
+  block.removed = removed;
+}
+
+}  // namespace
+}  // namespace haptics

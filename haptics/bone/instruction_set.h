@@ -1,0 +1,17 @@
+// Which vector instructions the machine has, asked once before main. The kernels of bone/ and contact/ are compiled
+// once for each and choose by this. Any thread; a load.
+#pragma once
+
+#include <cstdint>
+
+namespace haptics {
+
+enum class InstructionSet : std::uint8_t { portable, avx2, avx512 };
+
+/// AVX2 with FMA; AVX-512 F, BW, DQ, VL.
+bool available(InstructionSet set) noexcept;
+
+/// The best available, or what the environment variable MOLAR_INSTRUCTIONS (portable, avx2) asks for, if available.
+InstructionSet chosenInstructionSet() noexcept;
+
+}  // namespace haptics

@@ -1,0 +1,46 @@
+// The sum over the voxels under a round bur, as the kernels see it: plain numbers in, plain numbers out, one function
+// per instruction set and a choice made once. Voxel units; weights are solid bytes 0..255.
+// Servo thread. No allocation. Cost ~ (R/s)^2, see haptics/README. Private to contact/overlap.
+#pragma once
+
+#include <cstdint>
+
+namespace haptics {
+
+/// Blocks a bur may span along an axis.
+inline constexpr int kMostBlocksAcross = 72;
+inline constexpr double kMostSumRadius = 130.0;
+
+/// Stiffness factors are counted in steps of 1/4096, so that whole blocks add up exactly.
+inline constexpr double kFactorSteps = 4096.0;
+
+struct SphereSumsInput {
+  const std::uint8_t* solid;
+  const std::uint8_t* label;  ///< null: every factor is 1
+  const std::uint16_t *weight, *weight_x, *weight_y, *weight_z;
+  const std::uint32_t* grey;
+  const std::uint8_t* only_label;
+  int blocks[3];
+  double centre[3];
+  double radius;     ///< LensCurve::kLeastRadius .. kMostSumRadius
+  int coefficients;  ///< 4, 5 or 8: of the lens curve
+  float volume[8], cap[8];
+  double scale, offset;
+  std::uint16_t factor_steps[256];  ///< by label
+};
+
+struct SphereSums {
+  // Of blocks wholly inside, exact.
+  std::int64_t weight = 0, x = 0, y = 0, z = 0;  ///< first moments about voxel (0,0,0)
+  std::int64_t grey = 0, stiff_steps = 0;
+  // Of the rest, first moments about the centre.
+  double shell_weight = 0.0, shell_x = 0.0, shell_y = 0.0, shell_z = 0.0, shell_grey = 0.0, shell_stiff = 0.0;
+};
+
+void sphereSumsPortable(const SphereSumsInput& in, SphereSums& out) noexcept;
+#if defined(__x86_64__)
+void sphereSumsAvx2(const SphereSumsInput& in, SphereSums& out) noexcept;
+void sphereSumsAvx512(const SphereSumsInput& in, SphereSums& out) noexcept;
+#endif
+
+}  // namespace haptics
