@@ -1,0 +1,241 @@
+#include "haptics/bone/bur_coverage.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "haptics/bone/voxel_sphere.h"
+
+namespace haptics {
+namespace {
+
+using calibration::kPi;
+
+/// A ball against one face: how much of it is behind, and how far its middle shifts inwards times that.
+struct FaceShare {
+  double fraction, shift;
+};
+inline FaceShare behindFace(double distance, double bend, double eta, double per_eta) {
+  const double raw = -distance * per_eta, low = raw < -1.0 ? -1.0 : raw, t = low > 1.0 ? 1.0 : low;
+  const double rim = 1.0 - t * t;
+  return {0.25 * (2.0 + 3.0 * t - t * t * t) - bend * rim * rim, 0.1875 * eta * rim * rim};
+}
+
+/// 3/32 of the curvature times eta; a face rounder than the ball is taken for one as round.
+inline double bendOf(double curvature, double eta) {
+  const double round = curvature * eta;
+  return 0.09375 * (round < 1.0 ? round : 1.0);
+}
+
+inline double atLeast(double value, double least) { return value > least ? value : least; }
+
+/// What a voxel at (x, y, z) in T shares with the bur. Its first moment is (radial x, radial y, axial).
+struct AxialShare {
+  double fraction, radial, axial;
+};
+
+template <ShapeKind kKind>
+inline AxialShare shareOf(const BurCoverage& bur, double x, double y, double z) {
+  const double eta = bur.eta, per_eta = 1.0 / eta, R = bur.radius, half = bur.half;
+  if constexpr (kKind == ShapeKind::sphere) {
+    // The lens of voxel_sphere.h for a bur larger than the voxel; clamped, it is the whole ball or nothing.
+    const double outer = R + eta, inner = R - eta, away = std::sqrt(x * x + y * y + z * z);
+    const double least = away < inner ? inner : away, d = least > outer ? outer : least;
+    const double gap = outer - d, per_2d = 0.5 / d, height = eta - (d * d - R * R + eta * eta) * per_2d;
+    const double per_ball = 3.0 / (4.0 * kPi * eta * eta * eta);
+    const double lens = per_ball * kPi / 6.0 * per_2d * gap * gap * (d * (d + 2.0 * outer) - 3.0 * inner * inner);
+    const double cap = per_ball * kPi / 3.0 * height * height * (3.0 * eta - height);
+    return {lens, cap, cap * z};
+  }
+  const double high = z < 0.0 ? -z : z, up = z < 0.0 ? -1.0 : 1.0;
+  if constexpr (kKind == ShapeKind::capsule) {
+    const double over = high - half, dz = over > 0.0 ? over * up : 0.0;
+    const double away = std::sqrt(x * x + y * y + dz * dz);
+    // Round one way on the rod, both ways on its ends; a ball on the seam sees some of each.
+    const double raw = 0.5 + 0.5 * over * per_eta, low = raw < 0.0 ? 0.0 : raw, end = low > 1.0 ? 1.0 : low;
+    const FaceShare face = behindFace(away - R, bendOf((1.0 + end) / R, eta), eta, per_eta);
+    const double shift = face.shift / atLeast(away, 1e-12);
+    return {face.fraction, face.fraction - shift, face.fraction * z - shift * dz};
+  }
+  const double rho = std::sqrt(x * x + y * y), per_rho = 1.0 / atLeast(rho, 1e-12);
+  const FaceShare end = behindFace(high - half, 0.0, eta, per_eta);
+  if constexpr (kKind == ShapeKind::cylinder) {
+    const FaceShare side = behindFace(rho - R, bendOf(1.0 / R, eta), eta, per_eta);
+    const double fraction = side.fraction * end.fraction;
+    return {fraction, fraction - side.shift * end.fraction * per_rho, fraction * z - side.fraction * end.shift * up};
+  }
+  // Cone: the slanted side, and two ends, of which the lower one rounds off the tip.
+  const double distance = rho * bur.side_cos - (z + half) * bur.side_sin;
+  const double foot = atLeast(rho - distance * bur.side_cos, 1e-12);
+  const FaceShare side = behindFace(distance, bendOf(bur.side_cos / foot, eta), eta, per_eta);
+  const double fraction = side.fraction * end.fraction, shift = side.shift * end.fraction;
+  return {fraction, fraction - shift * bur.side_cos * per_rho,
+          fraction * z - side.fraction * end.shift * up + shift * bur.side_sin};
+}
+
+/// A sphere no larger than a voxel or two: the lens with all its branches.
+AxialShare smallSphere(double R, double eta, const glm::dvec3& p) {
+  const double d = glm::length(p), per_ball = 3.0 / (4.0 * kPi * eta * eta * eta);
+  const Lens lens = lensOfSpheres(R, eta, d);
+  const double radial = d > 0.0 ? per_ball * lens.moment / d : 0.0;
+  return {per_ball * lens.volume, radial, radial * p.z};
+}
+
+bool isSmallSphere(const BurCoverage& bur) { return bur.kind == ShapeKind::sphere && bur.radius < 2.0; }
+
+VoxelShare shareOfPart(const BurCoverage& bur, const glm::dvec3& p) {
+  const AxialShare share = [&] {
+    switch (bur.kind) {
+      case ShapeKind::sphere:
+        return isSmallSphere(bur) ? smallSphere(bur.radius, bur.eta, p)
+                                  : shareOf<ShapeKind::sphere>(bur, p.x, p.y, p.z);
+      case ShapeKind::capsule:
+        return shareOf<ShapeKind::capsule>(bur, p.x, p.y, p.z);
+      case ShapeKind::cylinder:
+        return shareOf<ShapeKind::cylinder>(bur, p.x, p.y, p.z);
+      case ShapeKind::cone:
+        return shareOf<ShapeKind::cone>(bur, p.x, p.y, p.z);
+    }
+    return AxialShare{};
+  }();
+  return {share.fraction, {share.radial * p.x, share.radial * p.y, share.axial}};
+}
+
+/// A block of voxels, four at a time by the compiler.
+template <ShapeKind kKind, bool kFractionOnly>
+void fillShares(const BurCoverage& bur, const glm::dvec3& corner, BurCoverage::Shares& out) {
+  alignas(64) BurCoverage::Lanes x, y, z;
+  for (std::size_t n = 0; n < BurCoverage::kVoxels; ++n) {
+    const auto i = static_cast<double>(n % 4), j = static_cast<double>(n / 4 % 4), k = static_cast<double>(n / 16);
+    x[n] = corner.x + i * bur.to_T[0].x + j * bur.to_T[1].x + k * bur.to_T[2].x;
+    y[n] = corner.y + i * bur.to_T[0].y + j * bur.to_T[1].y + k * bur.to_T[2].y;
+    z[n] = corner.z + i * bur.to_T[0].z + j * bur.to_T[1].z + k * bur.to_T[2].z;
+  }
+  for (std::size_t n = 0; n < BurCoverage::kVoxels; ++n) {
+    const AxialShare share = shareOf<kKind>(bur, x[n], y[n], z[n]);
+    out.fraction[n] = share.fraction;
+    if constexpr (kFractionOnly) continue;
+    out.moment[0][n] = share.radial * x[n];
+    out.moment[1][n] = share.radial * y[n];
+    out.moment[2][n] = share.axial;
+  }
+}
+
+template <bool kFractionOnly>
+void fill(const BurCoverage& bur, glm::ivec3 corner, BurCoverage::Shares& out) {
+  if (bur.parts > 1 || isSmallSphere(bur)) {
+    for (std::size_t n = 0; n < BurCoverage::kVoxels; ++n) {
+      const auto voxel = static_cast<int>(n);
+      const VoxelShare share = bur.shareAt(corner + glm::ivec3(voxel % 4, voxel / 4 % 4, voxel / 16));
+      out.fraction[n] = share.fraction;
+      for (std::size_t axis = 0; axis < 3; ++axis) out.moment[axis][n] = share.moment[static_cast<int>(axis)];
+    }
+    return;
+  }
+  const glm::dvec3 from = bur.placeOf(corner);
+  switch (bur.kind) {
+    case ShapeKind::sphere:
+      return fillShares<ShapeKind::sphere, kFractionOnly>(bur, from, out);
+    case ShapeKind::capsule:
+      return fillShares<ShapeKind::capsule, kFractionOnly>(bur, from, out);
+    case ShapeKind::cylinder:
+      return fillShares<ShapeKind::cylinder, kFractionOnly>(bur, from, out);
+    case ShapeKind::cone:
+      return fillShares<ShapeKind::cone, kFractionOnly>(bur, from, out);
+  }
+}
+
+/// How far along a direction a voxel may lie that is within reach of every face.
+double touchedReach(const BurCoverage& bur, double cos_axis) {
+  const double more = bur.voxel_reach, high = bur.half + more, c = std::clamp(cos_axis, -1.0, 1.0),
+               s = std::sqrt(1.0 - c * c);
+  switch (bur.kind) {
+    case ShapeKind::sphere:
+    case ShapeKind::capsule:
+      return bur.radius + more + std::abs(c) * bur.half;
+    case ShapeKind::cylinder:
+      return s * (bur.radius + more) + std::abs(c) * high;
+    case ShapeKind::cone: {
+      const double base = (more + (high + bur.half) * bur.side_sin) / bur.side_cos;
+      const double tip = more * (1.0 - bur.side_sin) / bur.side_cos;
+      return std::max(s * base + c * high, s * tip - c * high);
+    }
+  }
+  return 0.0;
+}
+
+bool isFinite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+}  // namespace
+
+BurCoverage::BurCoverage(const assets::VolumeGrid& grid, const BurShape& shape,
+                         const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT, int margin) noexcept
+    : centre(grid.indexFromPoint(X_PT.translation_mm)),
+      kind(shape.kind),
+      radius(shape.radius_mm / grid.spacing_mm),
+      half(shape.kind == ShapeKind::sphere ? 0.0 : 0.5 * shape.length_mm / grid.spacing_mm) {
+  const glm::dmat3 to_P = glm::mat3_cast(X_PT.rotation);
+  to_T = glm::transpose(to_P);
+  const bool flat = kind == ShapeKind::cylinder || kind == ShapeKind::cone;
+  if (!(radius > 0.0) || !std::isfinite(radius) || !(half >= 0.0) || !std::isfinite(half) || (flat && half == 0.0) ||
+      !isFinite(centre) || !isFinite(to_P[0]) || !isFinite(to_P[1]) || !isFinite(to_P[2]))
+    return;
+  const double slant = std::hypot(radius, 2.0 * half);
+  side_sin = radius / slant;
+  side_cos = 2.0 * half / slant;
+
+  // A ball that is not small against the head sees more of it than one face: smaller balls, then.
+  const double thinnest = flat ? std::min(radius, half) : radius;
+  if (kind != ShapeKind::sphere)
+    parts = static_cast<int>(std::clamp(std::ceil(3.0 * kVoxelSphereRadius / thinnest), 1.0, 4.0));
+  eta = kVoxelSphereRadius / parts;
+  voxel_reach = eta + 0.5 * std::sqrt(3.0) * (1.0 - 1.0 / parts);
+
+  // Clipped as doubles: a wild pose must not overflow an index.
+  for (int axis = 0; axis < 3; ++axis) {
+    const double cos = to_P[2][axis];
+    const double low = std::max(static_cast<double>(-margin), centre[axis] - touchedReach(*this, -cos));
+    const double high =
+        std::min(static_cast<double>(grid.size[axis] - 1 + margin), centre[axis] + touchedReach(*this, cos));
+    if (!(low <= high)) {
+      last = first - 1;
+      return;
+    }
+    first[axis] = static_cast<int>(std::ceil(low));
+    last[axis] = static_cast<int>(std::floor(high));
+  }
+}
+
+double BurCoverage::beyondFaces(const glm::dvec3& p_T) const {
+  const double high = std::abs(p_T.z) - half;
+  switch (kind) {
+    case ShapeKind::sphere:
+      return glm::length(p_T) - radius;
+    case ShapeKind::capsule:
+      return glm::length(glm::dvec3(p_T.x, p_T.y, std::max(0.0, high))) - radius;
+    case ShapeKind::cylinder:
+      return std::max(std::sqrt(p_T.x * p_T.x + p_T.y * p_T.y) - radius, high);
+    case ShapeKind::cone:
+      return std::max(std::sqrt(p_T.x * p_T.x + p_T.y * p_T.y) * side_cos - (p_T.z + half) * side_sin, high);
+  }
+  return 0.0;
+}
+
+VoxelShare BurCoverage::shareAt(glm::ivec3 ijk) const {
+  if (parts == 1) return shareOfPart(*this, placeOf(ijk));
+  VoxelShare sum;
+  for (int part = 0; part < parts * parts * parts; ++part) {
+    const glm::dvec3 at{part % parts, part / parts % parts, part / (parts * parts)};
+    const glm::dvec3 offset = (at + 0.5) / static_cast<double>(parts) - 0.5;
+    const VoxelShare share = shareOfPart(*this, placeOf(ijk) + to_T * offset);
+    sum.fraction += share.fraction;
+    sum.moment += share.moment;
+  }
+  const double per_part = 1.0 / (parts * parts * parts);
+  return {sum.fraction * per_part, sum.moment * per_part};
+}
+
+void BurCoverage::sharesOf(glm::ivec3 corner, Shares& out) const { fill<false>(*this, corner, out); }
+
+void BurCoverage::fractionsOf(glm::ivec3 corner, Shares& out) const { fill<true>(*this, corner, out); }
+
+}  // namespace haptics

@@ -1,0 +1,35 @@
+// What a bur's head of any shape, at any pose, shares with the bone: sums over voxels, each weighted by its solid
+// fraction and by how much of it the head covers (bone/bur_coverage). Frame P, mm. Any thread that may read the field.
+// Blocks of 4^3 voxels wholly outside the head are passed by, those wholly inside only added up; the rest is worked out
+// 64 voxels at a time. No allocation; the same bits on every machine. Cost grows with the head's surface; see README.
+// The sphere is the sum of contact/overlap, which is faster and knows neither area nor tissue. Not a force.
+#pragma once
+
+#include "haptics/bone/solid_field.h"
+#include "haptics/contact/contact.h"
+#include "haptics/tool/bur_shape.h"
+
+namespace haptics {
+
+struct ShapeOverlap {
+  double volume_mm3 = 0.0;
+  calibration::Vector<calibration::Patient> first_moment_P_mm4;  ///< about T's origin
+  /// The bone's surface inside the head, each piece with its normal out of the bone: -grad V with the tool's place,
+  /// by differences of one voxel each way, [V(c - s e) - V(c + s e)] / 2s. Against a flat face it is the face's area
+  /// along the face's normal, whatever the (convex) shape.
+  calibration::Vector<calibration::Patient> area_P_mm2;
+  double stiff_mm3 = 0.0;  ///< the volume, each voxel times its tissue's stiffness factor
+  double grey_mm3 = 0.0;   ///< the volume, each voxel times 1 - w: how soft the face is, see equivalentDepth_mm
+};
+
+/// Zero for a shape or pose that is none.
+ShapeOverlap shapeOverlap(const SolidField& field, const BurShape& shape,
+                          const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT,
+                          const TissueStiffness& tissue) noexcept;
+
+/// The same sum, voxel by voxel: slow and obvious, the twin for tests and benchmarks.
+ShapeOverlap shapeOverlapVoxelByVoxel(const SolidField& field, const BurShape& shape,
+                                      const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT,
+                                      const TissueStiffness& tissue);
+
+}  // namespace haptics
