@@ -67,7 +67,7 @@ TEST(ShapeOverlap, IsTheSumOfSpheresForASphere) {
     const BurShape shape{ShapeKind::sphere, poses.number(0.1, 1.5), 0.0};
     const Pose<Patient, Tool> X_PT{poses.turn(), poses.place(1.5)};
     const ShapeOverlap any = shapeOverlap(phantom.field(), shape, X_PT, {});
-    const SphereOverlap sphere = sphereOverlap(phantom.field(), {X_PT.translation_mm}, shape.radius_mm);
+    const SphereOverlap sphere = sphereOverlapVoxelByVoxel(phantom.field(), {X_PT.translation_mm}, shape.radius_mm);
     EXPECT_NEAR(any.volume_mm3, sphere.volume_mm3, 1e-10);
     EXPECT_NEAR(any.grey_mm3, sphere.grey_mm3, 1e-10);
     EXPECT_LT(glm::length(any.first_moment_P_mm4.xyz - sphere.first_moment_P_mm4.xyz), 1e-10);
