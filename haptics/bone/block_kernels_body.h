@@ -141,8 +141,10 @@ void stepWithoutPast(BlockStep& block) {
 }
 
 bool meets(const std::uint8_t* solid, const std::uint16_t* coverage) noexcept {
-  std::uint32_t met = 0;
-  for (int n = 0; n < kVoxels; ++n) met |= coverage[n] < 129 ? 0u : static_cast<std::uint32_t>(solid[n]);
+  // Less than 1/256 of a voxel is not worth a step.
+  std::uint16_t met = 0;
+  for (int n = 0; n < kVoxels; ++n)
+    met = static_cast<std::uint16_t>(met | static_cast<std::uint16_t>((coverage[n] >> 8) * solid[n]));
   return met != 0;
 }
 

@@ -145,7 +145,7 @@ int carvingTurns(const CarvedBone& bone, double radius_mm, const ErosionStep& st
   const double radius = radius_mm / bone.grid().spacing_mm;
   const double most_loss = *std::max_element(step.loss.begin(), step.loss.end());
   int turns = radius > 32.0 ? 8 : radius > 16.0 ? 4 : radius > 8.0 ? 2 : 1;
-  while (turns > 1 && !(most_loss * turns <= 0.125)) turns /= 2;
+  while (turns > 1 && !(most_loss * turns <= 0.75)) turns /= 2;
   return turns;
 }
 

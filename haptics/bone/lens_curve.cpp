@@ -30,7 +30,7 @@ Values interpolated(const Values& node, Values value, int count) {
 }  // namespace
 
 LensCurve::LensCurve(double radius) noexcept {
-  coefficients = radius >= 32.0 ? 4 : radius >= 12.0 ? 5 : 8;
+  coefficients = radius >= 32.0 ? 4 : radius >= 12.0 ? 5 : radius >= 8.0 ? 6 : 8;
   scale = 1.0 / (2.0 * radius * kVoxelSphereRadius);
   const double outer = radius + kVoxelSphereRadius;
   offset = outer * outer * scale;

@@ -20,7 +20,7 @@ struct LensCurve {
   /// Of a bur of `radius` voxels, at least kLeastRadius.
   explicit LensCurve(double radius) noexcept;
 
-  int coefficients = kMostCoefficients;  ///< 4, 5 or 8: q = c[0] + c[1] t + …
+  int coefficients = kMostCoefficients;  ///< 4, 5, 6 or 8: q = c[0] + c[1] t + …
   std::array<float, kMostCoefficients> volume{}, cap{};
   double scale = 0.0;  ///< t = offset - scale d^2
   double offset = 0.0;

@@ -90,7 +90,7 @@ SphereOverlap sphereOverlapBy(InstructionSet set, const SolidField& field, const
   if (in.label != nullptr) {
     const auto steps = [&](std::size_t label) {
       const double factor = tissue->factor[label];
-      return static_cast<std::uint16_t>(factor > 0.0 ? std::min(factor * kFactorSteps + 0.5, 65535.0) : 0.0);
+      return static_cast<std::uint32_t>(factor > 0.0 ? std::min(factor, 1000.0) * kFactorSteps + 0.5 : 0.0);
     };
     std::fill(std::begin(in.factor_steps), std::end(in.factor_steps), steps(0));
     for (std::size_t label = 0; label < tissue->factor.size(); ++label) in.factor_steps[label] = steps(label);

@@ -11,8 +11,8 @@ namespace haptics {
 inline constexpr int kMostBlocksAcross = 72;
 inline constexpr double kMostSumRadius = 130.0;
 
-/// Stiffness factors are counted in steps of 1/4096, so that whole blocks add up exactly.
-inline constexpr double kFactorSteps = 4096.0;
+/// Stiffness factors are counted in steps of 2^-16, so that whole blocks add up exactly.
+inline constexpr double kFactorSteps = 65536.0;
 
 struct SphereSumsInput {
   const std::uint8_t* solid;
@@ -23,10 +23,10 @@ struct SphereSumsInput {
   int blocks[3];
   double centre[3];
   double radius;     ///< LensCurve::kLeastRadius .. kMostSumRadius
-  int coefficients;  ///< 4, 5 or 8: of the lens curve
+  int coefficients;  ///< 4, 5, 6 or 8: of the lens curve
   float volume[8], cap[8];
   double scale, offset;
-  std::uint16_t factor_steps[256];  ///< by label
+  std::uint32_t factor_steps[256];  ///< by label
 };
 
 struct SphereSums {

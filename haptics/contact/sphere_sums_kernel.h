@@ -199,6 +199,8 @@ inline void sumSphere(const SphereSumsInput& in, SphereSums& out) {
     sumSphereWith<4>(in, out);
   else if (in.coefficients <= 5)
     sumSphereWith<5>(in, out);
+  else if (in.coefficients <= 6)
+    sumSphereWith<6>(in, out);
   else
     sumSphereWith<8>(in, out);
 }

@@ -119,6 +119,30 @@ TEST(Carve, CutsAtOneRateWhateverTheVoxelAndTheTick) {
           << s << " " << rate_Hz;
 }
 
+TEST(Carve, TakesTheSameInTurnsAsAllAtOnce) {
+  // A stroke of 8 mm at 40 mm/s, twice: every block each tick, or each block in one tick of eight.
+  const auto stroke = [](int turns) {
+    CarvedBone bone = halfSpace(6.0, 0.1).bone();
+    double removed = 0.0;
+    for (std::uint64_t tick = 0; tick < 400; ++tick) {
+      const double along = static_cast<double>(tick < 200 ? tick : 400 - tick) * 0.04;
+      removed += carveSphere(bone, {{along - 4.0, 0.0, 1.2}}, kRadius_mm, timeErosion(rate(4.0), 1e-3), tick, turns)
+                     .removed_mm3;
+    }
+    return removed;
+  };
+  const double at_once = stroke(1);
+  EXPECT_NEAR(stroke(2), at_once, 0.002 * at_once);
+  EXPECT_NEAR(stroke(8), at_once, 0.005 * at_once);
+}
+
+TEST(Carve, TakesTurnsOnlyWhereItIsDearAndNoStepGrowsLarge) {
+  const CarvedBone fine = block(1.0, 0.1).bone(), coarse = block(1.0, 0.25).bone();
+  EXPECT_EQ(carvingTurns(coarse, 1.5, timeErosion(rate(4.0), 1e-3)), 1);
+  EXPECT_EQ(carvingTurns(fine, 4.0, timeErosion(rate(4.0), 1e-3)), 8);
+  EXPECT_EQ(carvingTurns(fine, 4.0, timeErosion(rate(4.0), 0.2)), 1);
+}
+
 TEST(Carve, CutsAlikeWhenAVoxelIsPartlyUsedUp) {
   // Half-way to saturation the cap must not depend on the voxel.
   const double fine = sweep(0.1, 1000.0, 6.0, 1.4), coarse = sweep(0.2, 1000.0, 6.0, 1.4);

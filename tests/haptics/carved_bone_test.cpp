@@ -7,6 +7,7 @@
 #include <random>
 #include <thread>
 
+#include "calibration/geometry/units.h"
 #include "haptics/bone/carve.h"
 #include "tests/haptics/phantom.h"
 
@@ -56,6 +57,34 @@ TEST(CarvedBone, LosesNoMoreThanWasCovered) {
   }
   for (const std::uint8_t solid : bone.solidInGridOrder()) left += solid / 255.0 / 512.0;
   EXPECT_NEAR(left, 0.7, 0.002);
+}
+
+TEST(CarvedBone, CutsOnByTheNearestVoxelWhenItCanRememberNoMore) {
+  // 2.1 million voxels of bone, three quarters of them cut: more than there is room to remember.
+  CarvedBone bone = block(6.4, 0.1).bone();
+  const std::size_t room = bone.blocksLeft();
+  EXPECT_LT(room, 32768u);
+  ErosionStep step;
+  step.loss.fill(1.0);
+  double removed = 0.0;
+  for (double z : {-3.2, 3.2})
+    for (double y : {-3.2, 3.2})
+      for (double x : {-3.2, 3.2}) removed += carveSphere(bone, {{x, y, z}}, 3.0, step, 0).removed_mm3;
+  EXPECT_EQ(bone.blocksLeft(), 0u);
+  const double balls = 8.0 * 4.0 / 3.0 * calibration::kPi * 27.0;
+  EXPECT_NEAR(removed, balls, 0.002 * balls);
+  EXPECT_NEAR(bone.removedByTissue_mm3()[0], removed, 1e-9 * removed);
+  // A bur that stays takes no more.
+  double more = 0.0;
+  for (std::uint64_t tick = 1; tick < 50; ++tick)
+    more += carveSphere(bone, {{3.2, 3.2, 3.2}}, 3.0, step, tick).removed_mm3;
+  EXPECT_LT(more, 1e-3 * balls);
+}
+
+TEST(CarvedBone, HoldsFourBytesAVoxelAtMost) {
+  const Phantom phantom = block(12.8, 0.1);
+  const CarvedBone bone = phantom.bone(1);
+  EXPECT_LE(static_cast<double>(bone.bytes()) / static_cast<double>(phantom.grid.voxelCount()), 4.0);
 }
 
 TEST(CarvedBone, DigestTellsWhatWasCutAndNotInWhichOrder) {

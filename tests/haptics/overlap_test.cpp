@@ -42,6 +42,53 @@ TEST(Overlap, EqualsTheSumVoxelByVoxelInLongSolidRows) {
   }
 }
 
+/// A block of bone whose labels change inside it, on and off the borders of the blocks of memory.
+Cubelets labelledBone() {
+  std::mt19937 random(11);
+  const Phantom phantom = block(4.0, 0.2);
+  std::vector<std::uint8_t> solid(phantom.solid), label(phantom.solid.size());
+  for (int k = 0; k < phantom.grid.size.z; ++k)
+    for (int j = 0; j < phantom.grid.size.y; ++j)
+      for (int i = 0; i < phantom.grid.size.x; ++i) {
+        const std::size_t voxel = phantom.grid.index({i, j, k});
+        label[voxel] = static_cast<std::uint8_t>(i < 17 ? 4 : k < 20 ? 2 : 250);
+        if (j > 30) solid[voxel] = static_cast<std::uint8_t>(random() % 256);
+      }
+  return Cubelets(phantom.grid, solid, label);
+}
+
+TEST(Overlap, IsTheSameByEveryInstructionSet) {
+  const Cubelets bone = labelledBone();
+  const TissueStiffness tissue;
+  std::mt19937 random(13);
+  std::uniform_real_distribution<double> place(-5.0, 5.0), radius(0.3, 3.8);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Point<Patient> centre{{place(random), place(random), place(random)}};
+    const double R = radius(random), scale = R * R * R * (1.0 + R);
+    const SphereOverlap slow = sphereOverlapVoxelByVoxel(bone.field(), centre, R, &tissue);
+    SphereOverlap by[3];
+    for (InstructionSet set : {InstructionSet::portable, InstructionSet::avx2, InstructionSet::avx512}) {
+      if (!available(set)) continue;
+      const SphereOverlap fast = sphereOverlapBy(set, bone.field(), centre, R, &tissue);
+      expectSame(fast, slow, scale);
+      EXPECT_NEAR(fast.grey_mm3, slow.grey_mm3, 2e-6 * scale);
+      EXPECT_NEAR(fast.stiff_mm3, slow.stiff_mm3, 2e-5 * slow.stiff_mm3 + 2e-6 * scale);
+      by[static_cast<int>(set)] = fast;
+    }
+    if (available(InstructionSet::avx512)) {
+      EXPECT_EQ(by[1].volume_mm3, by[2].volume_mm3);
+      EXPECT_EQ(by[1].first_moment_P_mm4.xyz, by[2].first_moment_P_mm4.xyz);
+      EXPECT_EQ(by[1].stiff_mm3, by[2].stiff_mm3);
+    }
+  }
+}
+
+TEST(Overlap, IsNothingAHairOutsideTheBone) {
+  const Phantom phantom = halfSpace(3.0, 0.1);  // the last voxel that holds anything is centred 0.05 mm over the face
+  for (double R : {0.4, 1.0, 2.0})
+    EXPECT_EQ(sphereOverlap(phantom.field(), {{0.0, 0.0, R + 0.113}}, R).volume_mm3, 0.0);
+}
+
 TEST(Overlap, IsTheBallInsideSolidBone) {
   const Phantom phantom = block(4.0, 0.1);
   const SphereOverlap overlap = sphereOverlap(phantom.field(), {{0.013, 0.05, -0.02}}, 2.0);

@@ -10,6 +10,8 @@
 #include <span>
 #include <vector>
 
+#include "calibration/geometry/frames.h"
+#include "calibration/geometry/pose.h"
 #include "haptics/bone/carved_bone.h"
 #include "haptics/bone/cubelets.h"
 
