@@ -36,20 +36,27 @@ struct BlockStep {
   std::uint32_t removed;          ///< out, in solid steps
 };
 
-struct BlockKernels {
-  void (*cover)(const BlockUnderBur& at, std::uint16_t* coverage, std::uint32_t* exposure) noexcept;
-  /// Whether the bur covers anything solid of it.
-  bool (*meets)(const std::uint8_t* solid, const std::uint16_t* coverage) noexcept;
-  void (*step)(BlockStep& block) noexcept;
-  BlockDigest (*digest)(const std::uint8_t* solid, const std::uint8_t* reach, const std::uint16_t* dose) noexcept;
-};
+/// By the chosen instruction set.
+void coverBlock(const BlockUnderBur& at, std::uint16_t* coverage, std::uint32_t* exposure) noexcept;
+/// Whether the bur covers anything solid of it.
+bool meetsBlock(const std::uint8_t* solid, const std::uint16_t* coverage) noexcept;
+void stepBlock(BlockStep& block) noexcept;
+BlockDigest blockDigest(const std::uint8_t* solid, const std::uint8_t* reach, const std::uint16_t* dose) noexcept;
 
-extern const BlockKernels kBlockKernelsPortable;
+namespace portable {
+void coverBlock(const BlockUnderBur& at, std::uint16_t* coverage, std::uint32_t* exposure) noexcept;
+bool meetsBlock(const std::uint8_t* solid, const std::uint16_t* coverage) noexcept;
+void stepBlock(BlockStep& block) noexcept;
+BlockDigest blockDigest(const std::uint8_t* solid, const std::uint8_t* reach, const std::uint16_t* dose) noexcept;
+}  // namespace portable
+
 #if defined(__x86_64__)
-extern const BlockKernels kBlockKernelsAvx2;
+namespace avx2 {
+void coverBlock(const BlockUnderBur& at, std::uint16_t* coverage, std::uint32_t* exposure) noexcept;
+bool meetsBlock(const std::uint8_t* solid, const std::uint16_t* coverage) noexcept;
+void stepBlock(BlockStep& block) noexcept;
+BlockDigest blockDigest(const std::uint8_t* solid, const std::uint8_t* reach, const std::uint16_t* dose) noexcept;
+}  // namespace avx2
 #endif
-
-/// Of the chosen instruction set.
-const BlockKernels& blockKernels() noexcept;
 
 }  // namespace haptics

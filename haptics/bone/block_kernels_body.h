@@ -1,6 +1,6 @@
-// The body of BlockKernels: included once by each instruction set's source. Internal linkage throughout and no header
-// but the one below, so that nothing of it is shared between instruction sets. Written for the compiler's vectoriser:
-// every voxel is treated alike, those that nothing happens to come out as they were.
+// The body of the block kernels: included once by each instruction set's source. Internal linkage throughout and no
+// header but the one below, so that nothing of it is shared between instruction sets. Written for the compiler's
+// vectoriser: every voxel is treated alike, those that nothing happens to come out as they were.
 #pragma once
 
 #include "haptics/bone/block_kernels.h"

@@ -20,7 +20,7 @@ const double kBlockReach = std::sqrt(3.0) * 1.5;
 class RoundCoverage {
  public:
   RoundCoverage(const glm::dvec3& centre, double radius, double spacing_mm, const ErosionStep& step)
-      : centre_(centre), radius_(radius), kernels_(blockKernels()) {
+      : centre_(centre), radius_(radius) {
     const LensCurve curve(std::max(radius, LensCurve::kLeastRadius));
     at_.coefficients = curve.coefficients;
     at_.scale = curve.scale;
@@ -39,7 +39,7 @@ class RoundCoverage {
     const glm::dvec3 first = glm::dvec3(block * kBlockEdge) - centre_;
     if (glm::length(first + 1.5) - kBlockReach >= outer()) return false;
     for (int axis = 0; axis < 3; ++axis) at_.first[axis] = first[axis];
-    kernels_.cover(at_, cut.coverage.data(), cut.exposure.data());
+    coverBlock(at_, cut.coverage.data(), cut.exposure.data());
     if (radius_ < LensCurve::kLeastRadius) coverByClosedForm(first, cut);
     return true;
   }
@@ -59,7 +59,6 @@ class RoundCoverage {
 
   glm::dvec3 centre_;
   double radius_;
-  const BlockKernels& kernels_;
   BlockUnderBur at_{};
 };
 

@@ -31,7 +31,8 @@ struct CarveResult {
 CarveResult carveSphere(CarvedBone& bone, const calibration::Point<calibration::Patient>& centre_P, double radius_mm,
                         const ErosionStep& step, std::uint64_t tick, int turns = 1) noexcept;
 
-/// As many turns as keep a tick with this bur short, while no tissue loses more than three quarters of a voxel in a turn.
+/// As many turns as keep a tick with this bur short, while no tissue loses more than three quarters of a voxel in a
+/// turn.
 int carvingTurns(const CarvedBone& bone, double radius_mm, const ErosionStep& step) noexcept;
 
 /// The step of `dt_s` of the law that is linear in time.

@@ -35,8 +35,7 @@ CarvedBone::CarvedBone(const assets::VolumeGrid& grid, std::span<const std::uint
   for (std::size_t block = 0; block < blocks; ++block) {
     if (at.weight[block] == 0) continue;
     ++with_bone;
-    addToDigest(mixed(block + 1),
-                blockKernels().digest(at.solid + block * kBlockVoxels, uncut.reach.data(), uncut.dose.data()));
+    addToDigest(mixed(block + 1), blockDigest(at.solid + block * kBlockVoxels, uncut.reach.data(), uncut.dose.data()));
   }
   history_of_.assign(blocks, 0);
   const auto share = static_cast<std::size_t>(kHistoryShare * static_cast<double>(blocks));
@@ -72,8 +71,7 @@ bool CarvedBone::cutBlock(glm::ivec3 block_ijk, const BlockCut& cut,
   const std::uint64_t key = mixed(block + 1);
   const bool mixed_labels = at.only_label[block] == kMixedLabels;
   const std::size_t only_tissue = tissueOf(at, start);
-  const BlockKernels& kernels = blockKernels();
-  if (!kernels.meets(before, cut.coverage.data())) return false;
+  if (!meetsBlock(before, cut.coverage.data())) return false;
 
   alignas(64) std::array<std::uint32_t, kBlockVoxels> loss_q32;
   alignas(64) std::array<std::uint8_t, kBlockVoxels> after;
@@ -93,7 +91,7 @@ bool CarvedBone::cutBlock(glm::ivec3 block_ijk, const BlockCut& cut,
                  after.data(),
                  {0, 0},
                  0};
-  kernels.step(step);
+  stepBlock(step);
   addToDigest(key, step.digest_change);
   if (step.removed == 0) return false;
   if (mixed_labels) {

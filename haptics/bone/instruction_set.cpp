@@ -6,28 +6,36 @@
 namespace haptics {
 namespace {
 
-InstructionSet choose() {
+struct Machine {
+  bool avx2 = false, avx512 = false;
+  InstructionSet chosen = InstructionSet::portable;
+};
+
+Machine ask() {
+  Machine machine;
+#if defined(__x86_64__)
+  machine.avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  machine.avx512 = machine.avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+                   __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+#endif
   const char* name = std::getenv("MOLAR_INSTRUCTIONS");
   const std::string_view wish = name == nullptr ? "" : name;
-  if (wish == "portable") return InstructionSet::portable;
-  if (available(InstructionSet::avx512) && wish != "avx2") return InstructionSet::avx512;
-  return available(InstructionSet::avx2) ? InstructionSet::avx2 : InstructionSet::portable;
+  if (wish == "portable") return machine;
+  if (machine.avx2) machine.chosen = InstructionSet::avx2;
+  if (machine.avx512 && wish != "avx2") machine.chosen = InstructionSet::avx512;
+  return machine;
 }
 
-const InstructionSet kChosen = choose();
+/// Asked before main, so that the servo finds the answer.
+const Machine kMachine = ask();
 
 }  // namespace
 
 bool available(InstructionSet set) noexcept {
-#if defined(__x86_64__)
-  if (set == InstructionSet::avx2) return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  if (set == InstructionSet::avx512)
-    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-           __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") && available(InstructionSet::avx2);
-#endif
-  return set == InstructionSet::portable;
+  if (set == InstructionSet::avx2) return kMachine.avx2;
+  return set == InstructionSet::portable || kMachine.avx512;
 }
 
-InstructionSet chosenInstructionSet() noexcept { return kChosen; }
+InstructionSet chosenInstructionSet() noexcept { return kMachine.chosen; }
 
 }  // namespace haptics

@@ -1,14 +1,11 @@
 // Sixteen floats at once, in one, two or four registers, whichever the compiler was told the machine has. For kernels
 // that are compiled once per instruction set: everything here has internal linkage, so that no copy for a newer machine
 // can be linked where an older one runs. With AVX2 and AVX-512 every operation rounds alike, so the bits are the same;
-// the portable kind has no fused multiply-add and differs in the last place. Include in kernels alone.
+// the portable kind has no fused multiply-add and differs in the last place. Include in kernels alone, after
+// <immintrin.h> where there is AVX2.
 #pragma once
 
 #include <cstdint>
-
-#if defined(__AVX2__)
-#include <immintrin.h>
-#endif
 
 namespace haptics {
 namespace {

@@ -1,4 +1,6 @@
 // Compiled for AVX-512 F, BW, DQ, VL with FMA; see CMakeLists.txt.
+#include <immintrin.h>
+
 #include "haptics/contact/sphere_sums_kernel.h"
 
 namespace haptics {

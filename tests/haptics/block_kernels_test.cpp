@@ -79,17 +79,17 @@ TEST(BlockKernels, AreTheSameToTheBitForEveryInstructionSet) {
                      trial % 2 == 0 ? 0.0f : 0.02f};
     std::copy(curve.volume.begin(), curve.volume.end(), at.volume);
     Block one = randomBlock(random), other = one;
-    kBlockKernelsPortable.cover(at, one.coverage.data(), one.exposure.data());
-    kBlockKernelsAvx2.cover(at, other.coverage.data(), other.exposure.data());
+    portable::coverBlock(at, one.coverage.data(), one.exposure.data());
+    avx2::coverBlock(at, other.coverage.data(), other.exposure.data());
     ASSERT_EQ(one.coverage, other.coverage);
     ASSERT_EQ(one.exposure, other.exposure);
 
     Block filled = randomBlock(random), twin = filled;
     for (std::uint32_t turn = 0; turn < 4; ++turn) {
       BlockStep a = filled.step(trial % 3 != 0, turn), b = twin.step(trial % 3 != 0, turn);
-      ASSERT_EQ(kBlockKernelsPortable.meets(a.solid, a.coverage), kBlockKernelsAvx2.meets(b.solid, b.coverage));
-      kBlockKernelsPortable.step(a);
-      kBlockKernelsAvx2.step(b);
+      ASSERT_EQ(portable::meetsBlock(a.solid, a.coverage), avx2::meetsBlock(b.solid, b.coverage));
+      portable::stepBlock(a);
+      avx2::stepBlock(b);
       ASSERT_EQ(filled.after, twin.after);
       ASSERT_EQ(filled.dose, twin.dose);
       ASSERT_EQ(filled.reach, twin.reach);
@@ -104,13 +104,12 @@ TEST(BlockKernels, AreTheSameToTheBitForEveryInstructionSet) {
 
 TEST(BlockKernels, ChangeTheDigestByWhatTheyChange) {
   std::mt19937 random(8);
-  const BlockKernels& kernels = blockKernels();
   for (int trial = 0; trial < 100; ++trial) {
     Block block = randomBlock(random);
-    const BlockDigest before = kernels.digest(block.solid.data(), block.reach.data(), block.dose.data());
+    const BlockDigest before = blockDigest(block.solid.data(), block.reach.data(), block.dose.data());
     BlockStep step = block.step(true, 3);
-    kernels.step(step);
-    const BlockDigest after = kernels.digest(block.after.data(), block.reach.data(), block.dose.data());
+    stepBlock(step);
+    const BlockDigest after = blockDigest(block.after.data(), block.reach.data(), block.dose.data());
     EXPECT_EQ(after.low, before.low + step.digest_change.low);
     EXPECT_EQ(after.high, before.high + step.digest_change.high);
   }
