@@ -98,6 +98,18 @@ constexpr std::array kTable = {
 };
 static_assert(assets::kTissueCount == 10, "a factor for every tissue");
 
+/// Row by row at compile time: on the servo thread nothing is called through a pointer.
+template <std::size_t Row>
+void clampRow(LawSettings& safe, LawSettings& standard) {
+  constexpr auto kIn = kTable[Row].in;
+  double& value = kIn(safe);
+  value = std::isfinite(value) ? std::clamp(value, kTable[Row].lowest, kTable[Row].highest) : kIn(standard);
+}
+template <std::size_t... Row>
+void clampRows(LawSettings& safe, LawSettings& standard, std::index_sequence<Row...>) {
+  (clampRow<Row>(safe, standard), ...);
+}
+
 }  // namespace
 
 std::span<const LawParameter> lawParameters() { return kTable; }
@@ -116,13 +128,9 @@ std::optional<LawKind> lawOfKey(std::string_view key) {
 }
 
 LawSettings sanitised(const LawSettings& settings) {
-  const LawSettings standard;
-  LawSettings safe = settings;
+  LawSettings safe = settings, standard;
   if (static_cast<std::size_t>(safe.kind) >= kLaws.size()) safe.kind = standard.kind;
-  for (const LawParameter& parameter : kTable) {
-    double& value = parameter.of(safe);
-    value = std::isfinite(value) ? std::clamp(value, parameter.lowest, parameter.highest) : parameter.of(standard);
-  }
+  clampRows(safe, standard, std::make_index_sequence<kTable.size()>{});
   return safe;
 }
 
