@@ -33,7 +33,7 @@ struct FeelOptions {
 };
 
 struct FeltRow {
-  Vector<Patient> F_P_N;
+  Vector<Patient> force_P_N, torque_P_Nmm;  ///< on the hand; torque about T's origin
   double volume_mm3 = 0.0, depth_mm = 0.0;
 };
 
@@ -54,8 +54,8 @@ std::vector<FeltRow> feelRaw(const SolidVolume& volume, const haptics::Command& 
     const Vector<Patient> velocity = velocityAt(poses, i);
     const haptics::ToolInBone at{field, command.tool.head, poses[i].X_PT, command.law.tissue, {velocity}};
     const haptics::Contact contact = haptics::contactOf(command.law, at);
-    rows.push_back({contact.force_P_N + haptics::dampingForce_N(command.law, contact, velocity), contact.volume_mm3,
-                    contact.depth_mm});
+    rows.push_back({contact.force_P_N + haptics::dampingForce_N(command.law, contact, velocity), contact.torque_P_Nmm,
+                    contact.volume_mm3, contact.depth_mm});
   }
   return rows;
 }
@@ -72,13 +72,16 @@ std::vector<FeltRow> feelServed(const SolidVolume& volume, const haptics::Comman
     const int ticks = static_cast<int>(std::max(1.0, std::ceil(span_s / kTick_s - 1e-6)));
     haptics::Tick tick;
     for (int n = 1; n <= ticks; ++n) {
-      haptics::HandSample hand{poses[i].X_PT, velocityAt(poses, i), false};
+      haptics::HandSample hand;
+      hand.X_PT = poses[i].X_PT;
+      hand.velocity_P_mm_per_s = velocityAt(poses, i);
       const double part = static_cast<double>(n) / ticks;
       if (i > 0)
-        hand.X_PT.translation_mm = glm::mix(poses[i - 1].X_PT.translation_mm, poses[i].X_PT.translation_mm, part);
+        hand.X_PT = {glm::slerp(poses[i - 1].X_PT.rotation, poses[i].X_PT.rotation, part),
+                     glm::mix(poses[i - 1].X_PT.translation_mm, poses[i].X_PT.translation_mm, part)};
       tick = servo.step(hand, command, span_s / ticks);
     }
-    rows.push_back({tick.served_force_P_N, tick.overlap_mm3, tick.depth_mm});
+    rows.push_back({tick.served_force_P_N, tick.served_torque_P_Nmm, tick.overlap_mm3, tick.depth_mm});
   }
   return rows;
 }
@@ -103,10 +106,11 @@ int feel(const FeelOptions& options) {
   std::FILE* file = std::fopen(out.temporaryPath().c_str(), "w");
   if (!file) throw UsageError("--out " + options.out + ": it can not be written, check the folder");
   std::fputs("t_s,fx_N,fy_N,fz_N,tx_Nmm,ty_Nmm,tz_Nmm,volume_mm3,depth_mm\n", file);
-  // A sphere's force passes through the origin of T: no torque about it.
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    std::fprintf(file, "%.9g,%.9g,%.9g,%.9g,0,0,0,%.9g,%.9g\n", poses[i].t_s, rows[i].F_P_N.xyz.x, rows[i].F_P_N.xyz.y,
-                 rows[i].F_P_N.xyz.z, rows[i].volume_mm3, rows[i].depth_mm);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const glm::dvec3 &F = rows[i].force_P_N.xyz, &M = rows[i].torque_P_Nmm.xyz;
+    std::fprintf(file, "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", poses[i].t_s, F.x, F.y, F.z, M.x, M.y, M.z,
+                 rows[i].volume_mm3, rows[i].depth_mm);
+  }
   const bool written = !std::ferror(file);
   if (std::fclose(file) != 0 || !written)
     throw UsageError("--out " + options.out + ": it can not be written, check the free space");

@@ -19,23 +19,25 @@ void visitDvec3(auto& v, Visit&& visit) {
 
 template <class Visit>
 void visitHand(auto& hand, Visit&& visit) {
-  auto& [X_PT, velocity_P_mm_per_s, drill_pedal, device_healthy] = hand;
+  auto& [X_PT, velocity_P_mm_per_s, arm_P_mm, drill_pedal, device_healthy] = hand;
   auto& [rotation, translation_mm] = X_PT;
   visit(rotation.w), visit(rotation.x), visit(rotation.y), visit(rotation.z);
   visitDvec3(translation_mm, visit);
-  visitDvec3(velocity_P_mm_per_s.xyz, visit);
+  visitDvec3(velocity_P_mm_per_s.xyz, visit), visitDvec3(arm_P_mm.xyz, visit);
   visit(drill_pedal), visit(device_healthy);
 }
 
 template <class Visit>
 void forEachField(auto& tick, Visit&& visit) requires std::same_as<std::remove_cvref_t<decltype(tick)>, haptics::Tick> {
-  auto& [index, t_s, dt_s, command_serial, hand, proxy_P, law_force_P_N, served_force_P_N, overlap_mm3, depth_mm,
-         removed_mm3, bone_digest, contact_tissue, drilling, faults, work_us] = tick;
+  auto& [index, t_s, dt_s, command_serial, hand, proxy_P, law_force_P_N, law_torque_P_Nmm, served_force_P_N,
+         served_torque_P_Nmm, energy_Nmm, spindle_rad_per_s, overlap_mm3, depth_mm, removed_mm3, bone_digest,
+         contact_tissue, drilling, faults, work_us] = tick;
   visit(index), visit(t_s), visit(dt_s), visit(command_serial);
   visitHand(hand, visit);
   visitDvec3(proxy_P.mm, visit);
-  visitDvec3(law_force_P_N.xyz, visit);
-  visitDvec3(served_force_P_N.xyz, visit);
+  visitDvec3(law_force_P_N.xyz, visit), visitDvec3(law_torque_P_Nmm.xyz, visit);
+  visitDvec3(served_force_P_N.xyz, visit), visitDvec3(served_torque_P_Nmm.xyz, visit);
+  visit(energy_Nmm), visit(spindle_rad_per_s);
   visit(overlap_mm3), visit(depth_mm), visit(removed_mm3), visit(bone_digest);
   visit(contact_tissue), visit(drilling), visit(faults), visit(work_us);
 }
@@ -58,7 +60,7 @@ void forEachField(auto& command,
          edge_radial_N_per_mm, edge_axial_N_per_mm, flutes, thickest_chip_mm, slowest_cut_rpm, worn, vibration_share] =
       machining;
   auto& [removal_rate_per_s, tissue_factor] = erosion;
-  auto& [peak_force_N, slew_N_per_s] = safety;
+  auto& [peak_force_N, slew_N_per_s, peak_torque_Nmm, slew_Nmm_per_s] = safety;
   visit(serial), visit(drill_enabled);
   visit(shape_kind), visit(radius_mm), visit(length_mm), visit(shaft_radius_mm), visit(shaft_length_mm);
   visit(law_kind);
@@ -71,7 +73,7 @@ void forEachField(auto& command,
   visit(flutes), visit(thickest_chip_mm), visit(slowest_cut_rpm), visit(worn), visit(vibration_share);
   visit(removal_rate_per_s);
   for (auto& factor : tissue_factor) visit(factor);
-  visit(peak_force_N), visit(slew_N_per_s);
+  visit(peak_force_N), visit(slew_N_per_s), visit(peak_torque_Nmm), visit(slew_Nmm_per_s);
 }
 
 /// The unsigned integer that holds the bits of a field.

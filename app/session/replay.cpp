@@ -22,6 +22,10 @@ std::optional<std::string> differenceOf(const haptics::Tick& recorded, const hap
   if (!same(recorded.proxy_P.mm, again.proxy_P.mm)) return "the proxy differs";
   if (!same(recorded.law_force_P_N.xyz, again.law_force_P_N.xyz)) return "the force of the law differs";
   if (!same(recorded.served_force_P_N.xyz, again.served_force_P_N.xyz)) return "the force served differs";
+  if (!same(recorded.law_torque_P_Nmm.xyz, again.law_torque_P_Nmm.xyz)) return "the torque of the law differs";
+  if (!same(recorded.served_torque_P_Nmm.xyz, again.served_torque_P_Nmm.xyz)) return "the torque served differs";
+  if (!same(recorded.energy_Nmm, again.energy_Nmm)) return "the energy differs";
+  if (!same(recorded.spindle_rad_per_s, again.spindle_rad_per_s)) return "the speed of the spindle differs";
   if (!same(recorded.overlap_mm3, again.overlap_mm3)) return "the overlap differs";
   if (!same(recorded.depth_mm, again.depth_mm)) return "the depth differs";
   if (!same(recorded.removed_mm3, again.removed_mm3)) return "the removed volume differs";

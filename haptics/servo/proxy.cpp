@@ -70,6 +70,13 @@ Vector<Patient> Proxy::Held::force_P_N() const {
 
 Vector<Patient> Proxy::Held::torque_P_Nmm() const { return touches() ? head.torque_P_Nmm : Vector<Patient>{}; }
 
+double Proxy::Held::mostStored_Nmm() const {
+  if (!touches()) return 0.0;
+  const double force_N = glm::length(head.force_P_N.xyz), pull_mm = glm::length(pull_P_mm.xyz);
+  return (head.stiffness_N_per_mm * head.depth_mm + force_N) * head.depth_mm +
+         (spring_N_per_mm * pull_mm + force_N) * pull_mm;
+}
+
 Proxy::Held Proxy::follow(const SolidField& field, const LawSettings& law, const Tool& tool,
                           const calibration::Pose<Patient, calibration::Tool>& X_PT,
                           const ToolMotion& motion) noexcept {

@@ -34,6 +34,9 @@ class Proxy {
     calibration::Vector<calibration::Patient> force_P_N() const;
     /// About T's origin; the spring pulls through it.
     calibration::Vector<calibration::Patient> torque_P_Nmm() const;
+    /// Never less than what contact and spring together could give back: k h^2 + F h is more than the energy of every
+    /// law's curve up to h = R/2 (a straight one holds k h^2 / 2), also where opposing walls cancel its force.
+    double mostStored_Nmm() const;
   };
 
   /// Moves the proxy towards the hand as far as the bone lets it.

@@ -35,7 +35,7 @@ Tick Servo::step(const HandSample& hand, const Command& wanted, double dt_s) noe
   tick.hand = hand;
 
   // The hand, or where it last was when it cannot be believed.
-  const HandGuard::Checked checked = guard_.check(hand);
+  const HandGuard::Checked checked = guard_.check(hand, tick.dt_s);
   const HandSample& believed = checked.hand;
   if (checked.relocated) proxy_.release();
   if (checked.refused) tick.faults = tick.faults | Fault::bad_pose;
@@ -43,7 +43,7 @@ Tick Servo::step(const HandSample& hand, const Command& wanted, double dt_s) noe
   const bool trouble = tick.faults != Fault::none;
 
   // Contact at the place where the surface holds the tool.
-  const ToolMotion motion{believed.velocity_P_mm_per_s, 0.0, tick.dt_s};
+  const ToolMotion motion{believed.velocity_P_mm_per_s, tick.spindle_rad_per_s, tick.dt_s};
   const Proxy::Held held = proxy_.follow(bone_.field(), command.law, command.tool, believed.X_PT, motion);
   tick.proxy_P = held.proxy_P;
   tick.overlap_mm3 = held.head.volume_mm3;
@@ -52,12 +52,18 @@ Tick Servo::step(const HandSample& hand, const Command& wanted, double dt_s) noe
                             ? dominantLabel(bone_.field(), held.proxy_P, command.tool.head.radius_mm)
                             : std::uint8_t{0};
 
-  // The law, then the limits.
-  tick.law_force_P_N = held.force_P_N();
-  if (held.touches())
-    tick.law_force_P_N = tick.law_force_P_N - command.law.damping_Ns_per_mm * believed.velocity_P_mm_per_s;
-  const SafetyFilter::Served served = safety_.serve(tick.law_force_P_N, command.safety, trouble, tick.dt_s);
-  tick.served_force_P_N = served.force_P_N;
+  // What the law wants, then what may be given of it.
+  tick.law_force_P_N = held.force_P_N() + dampingForce_N(command.law, held.head, believed.velocity_P_mm_per_s);
+  tick.law_torque_P_Nmm = held.torque_P_Nmm();
+  Delivery::Wanted wish{{tick.law_force_P_N, tick.law_torque_P_Nmm}, held.head.vibration_P_N, held.mostStored_Nmm()};
+  wish.switched = command.serial != last_serial_;
+  wish.relocated = checked.relocated;
+  wish.ramp_down = trouble;
+  last_serial_ = command.serial;
+  const SafetyFilter::Served served = delivery_.give(wish, believed, command.safety, tick.dt_s);
+  tick.served_force_P_N = served.wrench_P.force_N;
+  tick.served_torque_P_Nmm = served.wrench_P.torque_Nmm;
+  tick.energy_Nmm = delivery_.energy_Nmm();
   tick.faults = tick.faults | served.faults;
 
   // The bur cuts where it is felt.

@@ -1,13 +1,13 @@
 // The servo step: bone, hand and command in, force out, bone carved. A pure function of its state: no clock, I/O,
 // allocation, lock, throw or log, so a session replays bit for bit. Frame P. Servo thread only.
-// Per step: proxy and law (at most 6 looks at the bone), safety, carving; cost grows with (R/s)^3, see README.
+// Per step: proxy and law (at most 6 looks at the bone), delivery, carving; cost grows with (R/s)^3, see README.
 #pragma once
 
 #include "haptics/bone/carved_bone.h"
 #include "haptics/servo/command.h"
+#include "haptics/servo/delivery.h"
 #include "haptics/servo/hand_guard.h"
 #include "haptics/servo/proxy.h"
-#include "haptics/servo/safety.h"
 #include "haptics/servo/tick.h"
 
 namespace haptics {
@@ -28,7 +28,8 @@ class Servo {
   CarvedBone& bone_;
   HandGuard guard_;
   Proxy proxy_;
-  SafetyFilter safety_;
+  Delivery delivery_;
+  std::uint64_t last_serial_ = 0;
   std::uint64_t next_index_ = 0;
   double t_s_ = 0.0;
 };

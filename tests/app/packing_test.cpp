@@ -33,6 +33,11 @@ TEST(Packing, BringsEveryFieldOfATickBackBitForBit) {
   EXPECT_EQ(b.proxy_P.mm, tick.proxy_P.mm);
   EXPECT_EQ(b.law_force_P_N.xyz, tick.law_force_P_N.xyz);
   EXPECT_EQ(b.served_force_P_N.xyz, tick.served_force_P_N.xyz);
+  EXPECT_EQ(b.hand.arm_P_mm.xyz, tick.hand.arm_P_mm.xyz);
+  EXPECT_EQ(b.law_torque_P_Nmm.xyz, tick.law_torque_P_Nmm.xyz);
+  EXPECT_EQ(b.served_torque_P_Nmm.xyz, tick.served_torque_P_Nmm.xyz);
+  EXPECT_EQ(b.energy_Nmm, tick.energy_Nmm);
+  EXPECT_EQ(b.spindle_rad_per_s, tick.spindle_rad_per_s);
   EXPECT_EQ(b.overlap_mm3, tick.overlap_mm3);
   EXPECT_EQ(b.depth_mm, tick.depth_mm);
   EXPECT_EQ(b.removed_mm3, tick.removed_mm3);
@@ -65,7 +70,7 @@ TEST(Packing, BringsACommandBack) {
   command.law.damping_Ns_per_mm = 0.002;
   command.erosion.removal_rate_per_s = 3.5;
   command.erosion.tissue_factor[4] = 0.123;
-  command.safety = {2.9, 250.0};
+  command.safety = {2.9, 250.0, 60.0, 4000.0};
   EXPECT_EQ(packCommand(unpackCommand(packCommand(command))), packCommand(command));
   const haptics::Command back = unpackCommand(packCommand(command));
   EXPECT_EQ(back.serial, 9u);
@@ -74,6 +79,8 @@ TEST(Packing, BringsACommandBack) {
   EXPECT_EQ(back.law.damping_Ns_per_mm, 0.002);
   EXPECT_EQ(back.erosion.tissue_factor[4], 0.123);
   EXPECT_EQ(back.safety.slew_N_per_s, 250.0);
+  EXPECT_EQ(back.safety.peak_torque_Nmm, 60.0);
+  EXPECT_EQ(back.safety.slew_Nmm_per_s, 4000.0);
 }
 
 TEST(Packing, RefusesBytesOfAnotherLength) {

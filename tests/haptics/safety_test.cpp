@@ -11,46 +11,62 @@ namespace {
 
 const double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
 
+Wrench<calibration::Patient> force(double x, double y, double z) { return {{{x, y, z}}, {}}; }
+
 TEST(Safety, NeverExceedsItsLimitsWhateverIsWanted) {
   std::mt19937 random(1);
   std::normal_distribution<double> wild(0.0, 5.0);
   SafetyFilter filter;
-  const SafetyLimits limits{3.0, 200.0};
-  glm::dvec3 last(0.0);
+  const SafetyLimits limits{3.0, 200.0, 40.0, 4000.0};
+  glm::dvec3 last(0.0), last_torque(0.0);
   for (int tick = 0; tick < 20'000; ++tick) {
     glm::dvec3 wanted(wild(random), wild(random), wild(random));
     if (tick % 17 == 0) wanted.x = kNan;
     if (tick % 23 == 0) wanted.y = -kInf;
     if (tick % 29 == 0) wanted.z = 1e300;
-    const auto served = filter.serve({wanted}, limits, tick % 101 < 5, 1e-3);
-    ASSERT_LE(glm::length(served.force_P_N.xyz), 3.0 * (1.0 + 1e-12));
-    ASSERT_LE(glm::length(served.force_P_N.xyz - last), 0.2 * (1.0 + 1e-12));
-    last = served.force_P_N.xyz;
+    const auto served = filter.serve({{wanted}, {-20.0 * wanted}}, limits, tick % 101 < 5, 1e-3);
+    ASSERT_LE(glm::length(served.wrench_P.force_N.xyz), 3.0 * (1.0 + 1e-12));
+    ASSERT_LE(glm::length(served.wrench_P.force_N.xyz - last), 0.2 * (1.0 + 1e-12));
+    last = served.wrench_P.force_N.xyz;
+    ASSERT_LE(glm::length(served.wrench_P.torque_Nmm.xyz), 40.0 * (1.0 + 1e-12));
+    ASSERT_LE(glm::length(served.wrench_P.torque_Nmm.xyz - last_torque), 4.0 * (1.0 + 1e-12));
+    last_torque = served.wrench_P.torque_Nmm.xyz;
   }
 }
 
 TEST(Safety, LetsAllowedForceThroughUntouched) {
   SafetyFilter filter;
-  const auto served = filter.serve({{0.1, -0.05, 0.02}}, {}, false, 1e-3);
-  EXPECT_EQ(served.force_P_N.xyz, glm::dvec3(0.1, -0.05, 0.02));
+  const auto served = filter.serve(force(0.1, -0.05, 0.02), {}, false, 1e-3);
+  EXPECT_EQ(served.wrench_P.force_N.xyz, glm::dvec3(0.1, -0.05, 0.02));
   EXPECT_EQ(served.faults, Fault::none);
+}
+
+TEST(Safety, GivesNoTorqueToADeviceThatHasNone) {
+  SafetyFilter filter;
+  SafetyLimits limits;
+  limits.peak_torque_Nmm = 0.0;
+  for (int tick = 0; tick < 20; ++tick) {
+    const auto served = filter.serve({{{0.1, 0.0, 0.0}}, {{0.0, 9.0, 0.0}}}, limits, false, 1e-3);
+    EXPECT_EQ(served.wrench_P.torque_Nmm.xyz, glm::dvec3(0.0));
+    EXPECT_EQ(served.wrench_P.force_N.xyz, glm::dvec3(0.1, 0.0, 0.0));
+  }
 }
 
 TEST(Safety, SaysWhatItDid) {
   SafetyFilter filter;
-  const auto served = filter.serve({{10.0, 0.0, 0.0}}, {3.0, 300.0}, false, 1e-3);
+  const auto served = filter.serve(force(10.0, 0.0, 0.0), {3.0, 300.0}, false, 1e-3);
   EXPECT_TRUE(has(served.faults, Fault::clamped));
   EXPECT_TRUE(has(served.faults, Fault::slewed));
-  EXPECT_NEAR(served.force_P_N.xyz.x, 0.3, 1e-12);
-  EXPECT_TRUE(has(filter.serve({{kNan, 0.0, 0.0}}, {}, false, 1e-3).faults, Fault::bad_force));
+  EXPECT_NEAR(served.wrench_P.force_N.xyz.x, 0.3, 1e-12);
+  EXPECT_TRUE(has(filter.serve(force(kNan, 0.0, 0.0), {}, false, 1e-3).faults, Fault::bad_force));
 }
 
 TEST(Safety, RampsToNothingInTrouble) {
   SafetyFilter filter;
-  for (int tick = 0; tick < 20; ++tick) filter.serve({{2.0, 0.0, 0.0}}, {}, false, 1e-3);
+  for (int tick = 0; tick < 20; ++tick) filter.serve(force(2.0, 0.0, 0.0), {}, false, 1e-3);
   double last = 2.0;
   for (int tick = 0; tick < 7; ++tick) {
-    const double now = filter.serve({{2.0, 0.0, 0.0}}, {}, true, 1e-3).force_P_N.xyz.x;
+    const double now = filter.serve(force(2.0, 0.0, 0.0), {}, true, 1e-3).wrench_P.force_N.xyz.x;
     EXPECT_GE(now, last - 0.3 - 1e-12);
     EXPECT_LT(now, last);
     last = now;
@@ -60,8 +76,8 @@ TEST(Safety, RampsToNothingInTrouble) {
 
 TEST(Safety, ObeysAFallingLimitAtOnce) {
   SafetyFilter filter;
-  for (int tick = 0; tick < 20; ++tick) filter.serve({{2.0, 0.0, 0.0}}, {}, false, 1e-3);
-  EXPECT_NEAR(filter.serve({{2.0, 0.0, 0.0}}, {0.5, 300.0}, false, 1e-3).force_P_N.xyz.x, 0.5, 1e-12);
+  for (int tick = 0; tick < 20; ++tick) filter.serve(force(2.0, 0.0, 0.0), {}, false, 1e-3);
+  EXPECT_NEAR(filter.serve(force(2.0, 0.0, 0.0), {0.5, 300.0}, false, 1e-3).wrench_P.force_N.xyz.x, 0.5, 1e-12);
 }
 
 TEST(Safety, TakesAbsurdLimitsForNoForceAndTheDefaultSlew) {

@@ -1,0 +1,46 @@
+// Keeps books on the energy between tool and hand, and withholds force that would give more of it than the hand has put
+// in (time-domain passivity: Hannaford & Ryu, IEEE T-RA 18(1), 2002; reference/devices 6). What is withheld is part of
+// the force along the motion, never more than all of it: it never pushes against the hand.
+//   E <- E - (w_last + w)/2 . dx    work by the midpoint rule, so a conservative law is left exactly alone
+//   E <= what a spring of this contact could hold; 0 in air: what was dissipated is no credit for later activity
+//   along the motion  f <= f_max,  f_max |dx| + f_max^2 |dx| / (2 slew dt) = E + grace
+// That is what flows in this tick and while the force comes down at the slew limit, so it comes down in time and
+// without a step; up to slew/k of speed (375 mm/s at 0.8 N/mm) a linear spring pays for it. In all the hand gets no
+// more than the grace, which is the midpoint rule's own error at first touch, and what a hand that jerks back takes
+// while the force comes down: under 0.1 N mm (tests). Not the energy that sampling and holding the force leaks (K T/2:
+// the device's own damping takes it, physics 2.5), and not the tool's vibration. Frame P, about the handle; rotation
+// weighs as kLever_mm of travel. Servo thread; flops.
+#pragma once
+
+#include "calibration/geometry/frames.h"
+#include "haptics/wrench.h"
+
+namespace haptics {
+
+class Passivity {
+ public:
+  static constexpr double kGrace_Nmm = 0.005;   ///< k v^2 T^2 / 8 at 0.8 N/mm, 0.2 m/s, 1 kHz; 0.6 N mm press 1 N
+  static constexpr double kMostDebt_Nmm = 1.0;  ///< more than that is forgiven
+  static constexpr double kLever_mm = 50.0;
+
+  /// Where the handle went in this tick: travel, and a small rotation (rad).
+  struct Motion {
+    calibration::Vector<calibration::Patient> travel_P_mm, turn_P_rad;
+  };
+
+  /// What may be given of `wanted` after this motion. The very same wrench while the books are in order.
+  Wrench<calibration::Patient> allow(const Wrench<calibration::Patient>& wanted, const Motion& motion,
+                                     double slew_N_per_s, double dt_s) const noexcept;
+
+  /// Enters what was given in the end. `most_stored_Nmm`: what the contact could hold now, 0 in air.
+  void enter(const Wrench<calibration::Patient>& given, const Motion& motion, double most_stored_Nmm) noexcept;
+
+  /// What the hand has put in and may have back; below 0 it has had too much.
+  double energy_Nmm() const { return energy_Nmm_; }
+
+ private:
+  Wrench<calibration::Patient> last_;
+  double energy_Nmm_ = 0.0;
+};
+
+}  // namespace haptics
