@@ -4,6 +4,7 @@
 // The raw law: no proxy (servo/proxy), no limits (servo/safety). One overlap sum a call. Any thread.
 #pragma once
 
+#include "haptics/contact/contact.h"
 #include "haptics/contact/overlap.h"
 
 namespace haptics {
@@ -14,6 +15,7 @@ struct AgusParameters {
 
 struct AgusContact {
   double volume_mm3 = 0.0;
+  double stiff_mm3 = 0.0;                              ///< volume times stiffness factor of its tissue
   double moment_mm4 = 0.0;                             ///< |M1|
   double depth_mm = 0.0;                               ///< equivalent depth in flat bone, 0..2R; 0: no contact
   calibration::Vector<calibration::Patient> normal_P;  ///< out of the bone; shorter than 1 where bone is on all sides
@@ -21,5 +23,10 @@ struct AgusContact {
 
 AgusContact agusContact(const SolidField& field, const calibration::Point<calibration::Patient>& centre_P,
                         double radius_mm) noexcept;
+AgusContact agusContact(const SolidField& field, const calibration::Point<calibration::Patient>& centre_P,
+                        double radius_mm, const TissueStiffness& tissue) noexcept;
+
+/// The law: k h n, weighted by tissue. Any shape.
+Contact agusLaw(const AgusParameters& parameters, const ToolInBone& at) noexcept;
 
 }  // namespace haptics

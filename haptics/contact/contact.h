@@ -45,6 +45,7 @@ struct Contact {
   double depth_mm = 0.0;                               ///< of flat bone with the same overlap; 0: no contact
   double stiffness_N_per_mm = 0.0;  ///< dF/ddepth there, tissue included: what the proxy's spring goes on with
   double volume_mm3 = 0.0;          ///< head and solid
+  double tissue_factor = 1.0;       ///< mean stiffness factor of the tissue met
   double one_sided = 1.0;  ///< first moment, relative to flat bone of this depth: 1 flat, 2/3 in a socket, 0 in a slot
 };
 

@@ -1,31 +1,81 @@
 #include "haptics/contact/field_sample.h"
 
-#include <cmath>
-
 namespace haptics {
+namespace {
 
-FieldSample sampleField(const SolidField& field, const glm::dvec3& at_P_mm) noexcept {
-  const glm::dvec3 index = field.grid.indexFromPoint(at_P_mm);
+/// Eight voxels by their places in memory, `dx` … beyond the lowest, interpolated in the order x, y, z.
+double interpolated(const std::uint8_t* lowest, std::size_t dx, std::size_t dy, std::size_t dz,
+                    const glm::dvec3& part) {
+  const auto along_x = [&](std::size_t place) {
+    const double a = lowest[place], b = lowest[place + dx];
+    return a + part.x * (b - a);
+  };
+  const auto along_y = [&](std::size_t place) {
+    const double a = along_x(place), b = along_x(place + dy);
+    return a + part.y * (b - a);
+  };
+  const double a = along_y(0), b = along_y(dz);
+  return a + part.z * (b - a);
+}
+
+/// The same where some of the eight lie outside the grid.
+double interpolatedAtBorder(const SolidField& field, const glm::ivec3& low, const glm::dvec3& part) {
+  double sum = 0.0;
+  for (int n = 0; n < 8; ++n) {
+    const glm::ivec3 step(n & 1, (n >> 1) & 1, n >> 2);
+    if (!field.grid.contains(low + step)) continue;
+    const glm::dvec3 share = glm::dvec3(step) * part + glm::dvec3(1 - step) * (1.0 - part);
+    sum += share.x * share.y * share.z * field.solidAt(low + step);
+  }
+  return sum;
+}
+
+/// From a voxel to its neighbour along an axis, in memory: within a block, or to the next one.
+std::size_t stepFrom(int index, std::size_t within, std::size_t block) {
+  return (index & 3) != 3 ? within : block - 3 * within;
+}
+
+FieldSample sampleAt(const SolidField& field, const glm::dvec3& index) {
   const glm::ivec3 size = field.grid.size;
   // Also false for what is no number.
   const bool near =
       index.x > -1.0 && index.y > -1.0 && index.z > -1.0 && index.x < size.x && index.y < size.y && index.z < size.z;
   if (!near) return {};
-  const glm::dvec3 floor = glm::floor(index), part = index - floor;
-  const glm::ivec3 low(floor);
-
+  // Rounds down: nothing is below -1.
+  const glm::ivec3 low(static_cast<int>(index.x + 1.0) - 1, static_cast<int>(index.y + 1.0) - 1,
+                       static_cast<int>(index.z + 1.0) - 1);
+  const glm::dvec3 part(index.x - low.x, index.y - low.y, index.z - low.z);
+  const bool inside =
+      low.x >= 0 && low.y >= 0 && low.z >= 0 && low.x + 1 < size.x && low.y + 1 < size.y && low.z + 1 < size.z;
   double sum = 0.0;
-  for (int k = 0; k < 2; ++k)
-    for (int j = 0; j < 2; ++j)
-      for (int i = 0; i < 2; ++i) {
-        const glm::ivec3 ijk = low + glm::ivec3(i, j, k);
-        if (!field.grid.contains(ijk)) continue;
-        const double weight = (i ? part.x : 1.0 - part.x) * (j ? part.y : 1.0 - part.y) * (k ? part.z : 1.0 - part.z);
-        sum += weight * field.solidAt(ijk);
-      }
+  if (inside) {
+    const auto blocks_x = static_cast<std::size_t>(field.blocks.x), blocks_y = static_cast<std::size_t>(field.blocks.y);
+    sum = interpolated(field.solid + field.placeOf(low), stepFrom(low.x, 1, kBlockVoxels),
+                       stepFrom(low.y, 4, kBlockVoxels * blocks_x),
+                       stepFrom(low.z, 16, kBlockVoxels * blocks_x * blocks_y), part);
+  } else {
+    sum = interpolatedAtBorder(field, low, part);
+  }
   if (sum <= 0.0) return {};
-  const glm::ivec3 nearest = glm::clamp(glm::ivec3(glm::floor(index + 0.5)), glm::ivec3(0), size - 1);
-  return {sum / 255.0, field.labelAt(nearest)};
+  if (field.label == nullptr) return {sum / 255.0, 0};
+  const glm::ivec3 up(part.x >= 0.5, part.y >= 0.5, part.z >= 0.5);
+  return {sum / 255.0, field.labelAt(glm::clamp(low + up, glm::ivec3(0), size - 1))};
+}
+
+}  // namespace
+
+FieldSample sampleField(const SolidField& field, const glm::dvec3& at_P_mm) noexcept {
+  return sampleAt(field, field.grid.indexFromPoint(at_P_mm));
+}
+
+ToolSampler::ToolSampler(const SolidField& field,
+                         const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT) noexcept
+    : field_(field),
+      turn_(glm::mat3_cast(X_PT.rotation) / field.grid.spacing_mm),
+      origin_(field.grid.indexFromPoint(X_PT.translation_mm)) {}
+
+FieldSample ToolSampler::at(const glm::dvec3& place_T_mm) const noexcept {
+  return sampleAt(field_, turn_ * place_T_mm + origin_);
 }
 
 }  // namespace haptics

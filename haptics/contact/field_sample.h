@@ -6,6 +6,8 @@
 #include <array>
 #include <cstdint>
 
+#include "calibration/geometry/frames.h"
+#include "calibration/geometry/pose.h"
 #include "haptics/bone/solid_field.h"
 
 namespace haptics {
@@ -16,5 +18,18 @@ struct FieldSample {
 };
 
 FieldSample sampleField(const SolidField& field, const glm::dvec3& at_P_mm) noexcept;
+
+/// The field as a tool at X_PT meets it: for many points of one head, three products a point instead of a turn and a
+/// division.
+class ToolSampler {
+ public:
+  ToolSampler(const SolidField& field, const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT) noexcept;
+  FieldSample at(const glm::dvec3& place_T_mm) const noexcept;
+
+ private:
+  const SolidField& field_;
+  glm::dmat3 turn_;    ///< mm in T to voxels
+  glm::dvec3 origin_;  ///< continuous index of T's origin
+};
 
 }  // namespace haptics

@@ -6,6 +6,9 @@
 // to a point; the servo's proxy does that work without, and never lets the bur so deep. Servo thread; one overlap sum.
 #pragma once
 
+#include "haptics/contact/contact.h"
+#include "haptics/contact/law_state.h"
+
 namespace haptics {
 
 struct ForssimParameters {
@@ -14,5 +17,11 @@ struct ForssimParameters {
   double hold_from = 0.45;        ///< immersed fraction that starts the hold
   double hold_until = 0.40;       ///< immersed fraction below which it may end
 };
+
+Contact forssimContact(const ForssimParameters& parameters, const ToolInBone& at, const LawState& state) noexcept;
+
+/// Starts or ends the hold, by the last look of a tick.
+void rememberForssim(const ForssimParameters& parameters, const ToolInBone& at, const Contact& contact,
+                     LawState& state) noexcept;
 
 }  // namespace haptics

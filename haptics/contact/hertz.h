@@ -3,10 +3,14 @@
 // device can render: it is a gain. Soft at first touch, stiffens as h^1/2. Servo thread; one overlap sum.
 #pragma once
 
+#include "haptics/contact/contact.h"
+
 namespace haptics {
 
 struct HertzParameters {
   double hertz_N_per_mm2 = 2.0;  ///< C1; 1 N at 0.5 mm under a ball of 2 mm (reference/physics 6)
 };
+
+Contact hertzContact(const HertzParameters& parameters, const ToolInBone& at) noexcept;
 
 }  // namespace haptics

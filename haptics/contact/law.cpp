@@ -2,22 +2,36 @@
 
 #include <algorithm>
 
-#include "haptics/contact/cap.h"
+#include "haptics/contact/immersion.h"
 
 namespace haptics {
 
-Contact contactOf(const LawSettings& law, const ToolInBone& at) noexcept {
+Contact contactOf(const LawSettings& law, const ToolInBone& at, const LawState& state) noexcept {
   if (!admits(law.kind, at.head.kind)) return {};
-  const AgusContact agus = agusContact(at.field, {at.X_PT.translation_mm}, at.head.radius_mm);
-  Contact contact;
-  contact.force_P_N = law.agus.stiffness_N_per_mm * agus.depth_mm * agus.normal_P;
-  contact.normal_P = agus.normal_P;
-  contact.depth_mm = agus.depth_mm;
-  contact.stiffness_N_per_mm = law.agus.stiffness_N_per_mm;
-  contact.volume_mm3 = agus.volume_mm3;
-  const double flat_mm4 = capMoment_mm4(at.head.radius_mm, agus.depth_mm);
-  contact.one_sided = flat_mm4 > 0.0 ? agus.moment_mm4 / flat_mm4 : 1.0;
-  return contact;
+  switch (law.kind) {
+    case LawKind::agus:
+      return agusLaw(law.agus, at);
+    case LawKind::forssim:
+      return forssimContact(law.forssim, at, state);
+    case LawKind::hertz:
+      return hertzContact(law.hertz, at);
+    case LawKind::shell:
+      return shellContact(law.shell, at);
+    case LawKind::points:
+      return pointsContact(law.points, at, state);
+    case LawKind::machining:
+      return machiningContact(law.machining, at);
+    case LawKind::harmonic:
+      return {};
+  }
+  return {};
+}
+
+Contact contactOf(const LawSettings& law, const ToolInBone& at) noexcept { return contactOf(law, at, LawState{}); }
+
+void remember(const LawSettings& law, const ToolInBone& at, const Contact& contact, LawState& state) noexcept {
+  if (law.kind == LawKind::forssim) rememberForssim(law.forssim, at, contact, state);
+  if (law.kind == LawKind::points) rememberPoints(contact, state);
 }
 
 calibration::Vector<calibration::Patient> dampingForce_N(

@@ -5,10 +5,20 @@
 // would be a delay of 50 ms and unstable (reference/physics 0.4). Frame P; mm, N. Servo thread; fixed number of points.
 #pragma once
 
+#include "haptics/contact/contact.h"
+#include "haptics/contact/law_state.h"
+
 namespace haptics {
 
 struct PointsParameters {
   double stiffness_N_per_mm = 0.8;  ///< k of cortical bone
 };
+
+inline constexpr int kSamplePoints = 2048;
+
+Contact pointsContact(const PointsParameters& parameters, const ToolInBone& at, const LawState& state) noexcept;
+
+/// Takes the density of the last look of a tick into the window.
+void rememberPoints(const Contact& contact, LawState& state) noexcept;
 
 }  // namespace haptics

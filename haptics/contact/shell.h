@@ -5,10 +5,16 @@
 // side meets flat bone with all its area at once. Servo thread; cost independent of bur and voxel size.
 #pragma once
 
+#include "haptics/contact/contact.h"
+
 namespace haptics {
 
 struct ShellParameters {
   double shell_N_per_mm3 = 0.064;  ///< k_s = K / (2 pi R): first touch of a 2 mm ball feels 0.8 N/mm
 };
+
+inline constexpr int kShellPoints = 1200;
+
+Contact shellContact(const ShellParameters& parameters, const ToolInBone& at) noexcept;
 
 }  // namespace haptics

@@ -1,0 +1,188 @@
+#include "haptics/contact/points.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibration/geometry/units.h"
+#include "haptics/contact/cap.h"
+#include "haptics/contact/field_sample.h"
+
+namespace haptics {
+namespace {
+
+using calibration::kPi;
+
+/// What the points in bone add up to, each weighted by how solid it is there. Frame T, mm.
+struct Cloud {
+  double all = 0.0;             ///< points of the head
+  double count = 0.0;           ///< of them in bone
+  double dense = 0.0;           ///< count, weighted by tissue
+  double beside = 0.0;          ///< count, beside a capsule's axis and not beyond its ends
+  glm::dvec3 place{0.0};        ///< sum of places
+  glm::dvec3 from_axis{0.0};    ///< sum of what leads to each from the nearest place of the axis, or of its segment
+  glm::dvec3 out_of_axis{0.0};  ///< sum of that, each of length 1
+};
+
+/// Points of Kronecker's lattice in the head's box (steps of powers of 1 / 1.2207, the root of x^4 = x + 1), those
+/// inside.
+template <class Visit>
+void visitSamplePoints(const BurShape& head, Visit&& visit) {
+  constexpr glm::dvec3 kStep(0.81917251339616442, 0.67104360670378920, 0.54970047790197026);
+  const double R = head.radius_mm, half = halfHeight_mm(head);
+  const double box_mm3 = 8.0 * R * R * half;
+  const int tried = std::min(8 * kSamplePoints, static_cast<int>(0.5 * kSamplePoints * box_mm3 / volume_mm3(head)));
+  glm::dvec3 unit(0.5);
+  for (int n = 0; n < tried; ++n) {
+    unit = glm::fract(unit + kStep);
+    const glm::dvec3 place_T = (2.0 * unit - 1.0) * glm::dvec3(R, R, half);
+    const double radius2 = place_T.x * place_T.x + place_T.y * place_T.y;
+    const double beyond = std::max(0.0, std::abs(place_T.z) - 0.5 * head.length_mm);
+    bool inside = radius2 <= R * R;
+    if (head.kind == ShapeKind::sphere) inside = radius2 + place_T.z * place_T.z <= R * R;
+    if (head.kind == ShapeKind::capsule) inside = radius2 + beyond * beyond <= R * R;
+    if (head.kind == ShapeKind::cone) inside = std::sqrt(radius2) * head.length_mm <= R * (place_T.z + half);
+    if (!inside) continue;
+    visit(place_T);
+    visit(glm::dvec3(-place_T.x, -place_T.y, head.kind == ShapeKind::cone ? place_T.z : -place_T.z));
+  }
+}
+
+Cloud cloudIn(const ToolInBone& at) {
+  Cloud cloud;
+  const double half = 0.5 * at.head.length_mm;
+  const ToolSampler sampler(at.field, at.X_PT);
+  visitSamplePoints(at.head, [&](const glm::dvec3& place_T) {
+    cloud.all += 1.0;
+    const FieldSample sample = sampler.at(place_T);
+    if (sample.solid <= 0.0) return;
+    cloud.count += sample.solid;
+    cloud.dense += sample.solid * at.tissue.factor[std::min<std::size_t>(sample.label, assets::kTissueCount - 1)];
+    cloud.place += sample.solid * place_T;
+    glm::dvec3 from_axis(place_T.x, place_T.y, 0.0);
+    if (at.head.kind == ShapeKind::capsule) {
+      from_axis.z = place_T.z - std::clamp(place_T.z, -half, half);
+      if (from_axis.z == 0.0) cloud.beside += sample.solid;
+    }
+    cloud.from_axis += sample.solid * from_axis;
+    const double length = glm::length(from_axis);
+    if (length > 0.0) cloud.out_of_axis += sample.solid / length * from_axis;
+  });
+  return cloud;
+}
+
+/// How a cloud lies in flat bone, by the rule of its shape.
+struct Reading {
+  double depth_mm = 0.0;
+  double slope = 1.0;     ///< of that depth with the true one
+  glm::dvec3 out_T{0.0};  ///< of length 1, or shorter where there is no way out
+  double one_sided = 1.0;
+};
+
+/// A vector over its length, or over a twentieth of `scale` where it is shorter than that.
+glm::dvec3 directed(const glm::dvec3& v, double scale) { return v / std::max({glm::length(v), 0.05 * scale, 1e-12}); }
+
+/// Depth at which a round side of this length and radius shares a volume, shallow: V = (4/3) sqrt(2 R) h^3/2 L.
+double sideDepth_mm(double volume_mm3, double R, double length_mm) {
+  return std::pow(volume_mm3 / std::max(1e-9, 4.0 / 3.0 * std::sqrt(2.0 * R) * length_mm), 2.0 / 3.0);
+}
+/// The middle of a segment of a circle, h deep: 3/5 of the way in from the face of a parabola's.
+double segmentCentre_mm(double R, double h) { return std::max(0.1 * R, R - 0.6 * h); }
+double capCentre_mm(double R, double h) {
+  const double deep = std::min(h, 1.5 * R);
+  return 0.75 * (2.0 * R - deep) * (2.0 * R - deep) / (3.0 * R - deep);
+}
+/// The share of a rule by which it is left by the shorter way.
+double shorterShare(double this_mm, double other_mm) {
+  const double a = this_mm * this_mm, b = other_mm * other_mm;
+  return b * b / std::max(1e-30, a * a + b * b);
+}
+
+Reading readBall(const BurShape& head, const Cloud& cloud, double volume, double spacing_mm) {
+  // A linear field between voxels of a face one voxel soft smears depth by half a voxel; a sum over voxel spheres,
+  // which the depth's correction is made for, by 0.4.
+  const double R = head.radius_mm, h = equivalentDepth_mm(R, volume, 0.5 / 0.4 * spacing_mm);
+  if (h <= 0.0) return {};
+  const double flat = capMoment_mm4(R, h) / volume, found = glm::length(cloud.place) / cloud.count;
+  return {h * std::sqrt(1.0 - h / (3.0 * R)), (1.0 - 0.5 * h / R) / std::sqrt(1.0 - h / (3.0 * R)),
+          -directed(cloud.place, 0.2 * R * cloud.count), flat > 0.0 ? found / flat : 0.0};
+}
+
+Reading readCapsule(const BurShape& head, const Cloud& cloud, double volume) {
+  const double R = head.radius_mm, beside = cloud.beside / cloud.count;
+  const double side = sideDepth_mm(beside * volume, R, head.length_mm);
+  const double end = std::sqrt((1.0 - beside) * volume / (kPi * R));
+  const double flat = beside * segmentCentre_mm(R, side) + (1.0 - beside) * capCentre_mm(R, end);
+  return {beside * side + (1.0 - beside) * end, 1.0, -directed(cloud.from_axis, 0.2 * R * cloud.count),
+          glm::length(cloud.from_axis) / cloud.count / flat};
+}
+
+Reading readCylinder(const BurShape& head, const Cloud& cloud, double volume) {
+  const double R = head.radius_mm, L = head.length_mm;
+  const double side = sideDepth_mm(volume, R, L), end = volume / (kPi * R * R);
+  // How far it has to go to be free, judged by where the middle of the cloud lies.
+  const double across = glm::length(cloud.from_axis) / cloud.count, along = cloud.place.z / cloud.count;
+  const double share = shorterShare(L - 2.0 * std::abs(along), (R - across) / 0.6);
+  const glm::dvec3 out =
+      -(1.0 - share) * directed(cloud.from_axis, 0.2 * R * cloud.count) - share * directed({0.0, 0.0, along}, 0.2 * L);
+  const double one_sided = (1.0 - share) * across / segmentCentre_mm(R, side) +
+                           share * std::abs(along) / std::max(0.05 * L, 0.5 * (L - end));
+  return {(1.0 - share) * side + share * end, 1.0, out / std::max(1.0, glm::length(out)), one_sided};
+}
+
+Reading readCone(const BurShape& head, const Cloud& cloud, double volume) {
+  const double R = head.radius_mm, L = head.length_mm, slant = std::hypot(R, L);
+  const double cosine = L / slant, sine = R / slant, tangent = R / L;
+  // By its tip, by its side, or by its base: the tip's points lie round the axis, the side's to one side.
+  const double tip = std::cbrt(3.0 * volume / (kPi * tangent * tangent));
+  const double side = cosine / L * std::pow(9.0 * volume / (8.0 * std::sqrt(2.0 * tangent)), 2.0 / 3.0);
+  const double aside = glm::length(cloud.out_of_axis) / cloud.count, along = cloud.place.z / cloud.count;
+  const double by_side = std::min(1.0, 4.0 * aside * aside);
+  const double cone = by_side * side + (1.0 - by_side) * tip, base = volume / (kPi * R * R);
+  const double share = shorterShare(std::max(0.0, L - 2.0 * along), cone);
+  const glm::dvec3 out =
+      -(1.0 - share) * glm::normalize(cosine * cloud.out_of_axis / cloud.count - glm::dvec3(0.0, 0.0, sine)) -
+      share * glm::dvec3(0.0, 0.0, 1.0);
+  return {(1.0 - share) * cone + share * base, 1.0, out / std::max(1.0, glm::length(out)), 1.0};
+}
+
+Reading readCloud(const BurShape& head, const Cloud& cloud, double volume, double spacing_mm) {
+  switch (head.kind) {
+    case ShapeKind::sphere:
+      return readBall(head, cloud, volume, spacing_mm);
+    case ShapeKind::capsule:
+      return readCapsule(head, cloud, volume);
+    case ShapeKind::cylinder:
+      return readCylinder(head, cloud, volume);
+    case ShapeKind::cone:
+      return readCone(head, cloud, volume);
+  }
+  return {};
+}
+
+}  // namespace
+
+Contact pointsContact(const PointsParameters& parameters, const ToolInBone& at, const LawState& state) noexcept {
+  const Cloud cloud = cloudIn(at);
+  Contact contact;
+  if (cloud.count <= 0.0) return contact;
+  const double share = cloud.count / cloud.all;
+  contact.volume_mm3 = share * volume_mm3(at.head);
+  const Reading reading = readCloud(at.head, cloud, contact.volume_mm3, at.field.grid.spacing_mm);
+  contact.depth_mm = reading.depth_mm;
+  contact.normal_P.xyz = at.X_PT.rotation * reading.out_T;
+  // Wholly in bone there is no way out.
+  contact.one_sided = std::min(1.0, reading.one_sided) * std::clamp((1.0 - share) / 0.15, 0.0, 1.0);
+  contact.tissue_factor = cloud.dense / cloud.count;
+  const double stiffness_N_per_mm = parameters.stiffness_N_per_mm * state.density.with(contact.tissue_factor);
+  contact.force_P_N = stiffness_N_per_mm * contact.depth_mm * contact.normal_P;
+  contact.torque_P_Nmm.xyz = glm::cross(at.X_PT.rotation * (cloud.place / cloud.count), contact.force_P_N.xyz);
+  if (at.head.kind == ShapeKind::sphere) contact.torque_P_Nmm = {};
+  contact.stiffness_N_per_mm = stiffness_N_per_mm * reading.slope;
+  return contact;
+}
+
+void rememberPoints(const Contact& contact, LawState& state) noexcept {
+  if (contact.depth_mm > 0.0) state.density.push(contact.tissue_factor);
+}
+
+}  // namespace haptics

@@ -1,0 +1,54 @@
+#include "haptics/contact/shell.h"
+
+#include <algorithm>
+
+#include "calibration/geometry/units.h"
+#include "haptics/contact/field_sample.h"
+#include "haptics/contact/immersion.h"
+#include "haptics/contact/surface_points.h"
+
+namespace haptics {
+namespace {
+
+/// Slope over flat bone. Only a ball has one at every depth; other heads go on as steeply as they came in.
+double slope_N_per_mm(const ShellParameters& parameters, const ToolInBone& at, const Immersion& immersion,
+                      double force_N) {
+  if (at.head.kind == ShapeKind::sphere)
+    return std::max(0.0,
+                    2.0 * calibration::kPi * parameters.shell_N_per_mm3 * (at.head.radius_mm - immersion.depth_mm));
+  return force_N / std::max(immersion.depth_mm, at.field.grid.spacing_mm);
+}
+
+}  // namespace
+
+Contact shellContact(const ShellParameters& parameters, const ToolInBone& at) noexcept {
+  const Immersion immersion = immersionOf(at);
+  Contact contact = contactAlongNormal(immersion, 0.0, 0.0);
+  if (immersion.volume_mm3 <= 0.0) return contact;
+
+  // The pressure on each point's patch, in T: the shape turns, the lattice of points with it.
+  const Outline outline(at.head);
+  const ToolSampler sampler(at.field, at.X_PT);
+  glm::dvec3 force(0.0), torque(0.0);
+  double pressed = 0.0, bare = 0.0;
+  visitSurfacePoints(outline, kShellPoints, [&](const glm::dvec3& place_T, const glm::dvec3& normal_T) {
+    const FieldSample sample = sampler.at(place_T);
+    if (sample.solid <= 0.0) return;
+    const double pressure =
+        sample.solid * at.tissue.factor[std::min<std::size_t>(sample.label, assets::kTissueCount - 1)];
+    bare += sample.solid;
+    pressed += pressure;
+    force -= pressure * normal_T;
+    torque -= pressure * glm::cross(place_T, normal_T);
+  });
+  if (bare <= 0.0) return contact;
+  const double per_point_N = parameters.shell_N_per_mm3 * outline.area_mm2() / kShellPoints;
+  contact.force_P_N.xyz = per_point_N * (at.X_PT.rotation * force);
+  contact.torque_P_Nmm.xyz = per_point_N * (at.X_PT.rotation * torque);
+  contact.tissue_factor = pressed / bare;
+  const double flat_N = glm::length(contact.force_P_N.xyz) / std::max(1e-12, contact.tissue_factor);
+  contact.stiffness_N_per_mm = contact.tissue_factor * slope_N_per_mm(parameters, at, immersion, flat_N);
+  return contact;
+}
+
+}  // namespace haptics
