@@ -27,7 +27,8 @@ endforeach()
 # Third parties: a regular expression of what is included, and the folders that may.
 set(third_parties
   "opencv2/" "calibration"
-  "openvdb/|nanovdb/|itk|gdcm|tiny_gltf|nifti1|toml\\+\\+/|zlib" "assets"
+  "openvdb/|nanovdb/|itk|gdcm|tiny_gltf|nifti1|zlib" "assets"
+  "toml\\+\\+/" "assets|app"
   "nlohmann/" "assets|app"
   "tbb/|oneapi/" "assets|haptics"
   "libusb" "haptics"

@@ -1,0 +1,40 @@
+// A participant made of numbers: judges which of two intervals felt harder from what the hand felt in each, with
+// Weber's law as noise and a lapse now and then. The noise of one interval is a share nu of what was felt; two of them
+// are compared, so the share nu = w / (0.6745 sqrt 2) gives a just noticeable difference (75 %) of w times the
+// standard. For tests and for planning an experiment. Not a model of a person: no bias, no memory, no learning. One
+// thread.
+#pragma once
+
+#include <cstdint>
+
+#include "app/psychophysics/chance.h"
+#include "app/psychophysics/felt.h"
+
+namespace app {
+
+/// What hardness is judged by.
+enum class Cue : std::uint8_t { stiffness, peak_force };
+
+struct ObserverSettings {
+  Cue cue = Cue::stiffness;
+  double weber_fraction = 0.15;  ///< JND over standard; stiffness of people: 0.08..0.22 (reference/physics 4)
+  double lapse_rate = 0.02;      ///< trials answered by coin
+};
+
+double noiseShare(const ObserverSettings& settings);
+
+class SimulatedObserver {
+ public:
+  SimulatedObserver(const ObserverSettings& settings, std::uint64_t seed) : settings_(settings), chance_(seed, 3) {}
+
+  /// Was the second interval harder than the first?
+  bool secondHarder(const Felt& first, const Felt& second);
+
+ private:
+  double perceived(const Felt& felt);
+
+  ObserverSettings settings_;
+  Chance chance_;
+};
+
+}  // namespace app

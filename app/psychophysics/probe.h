@@ -1,0 +1,42 @@
+// A simulated hand that probes the bone as people do when they judge its hardness: it taps, presses, strokes or
+// explores, on minimum-jerk ways (Flash & Hogan, J Neurosci 5:1688, 1985) that pull a hand of flesh
+// (haptics/device/virtual_hand), so the bone really pushes it back. Every interval runs the whole servo: contact,
+// proxy, limits. The drill is off: the bone stays as it is. Reach and place vary from one probing to the next as hands
+// do
+// (`spread`, `wander_mm`), seeded. Frame P, mm, s. One thread; 5..50 µs a tick, a thousand ticks a second felt.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "app/psychophysics/chance.h"
+#include "app/psychophysics/felt.h"
+#include "haptics/bone/carved_bone.h"
+#include "haptics/servo/command.h"
+
+namespace app {
+
+enum class Motion : std::uint8_t { tap, press, stroke, free };
+
+struct ProbePlan {
+  Motion motion = Motion::press;
+  double reach_mm = 1.5;       ///< how far below the surface the hand means to go
+  double duration_s = 0.8;     ///< of one interval
+  double stroke_mm = 4.0;      ///< way along the surface: `stroke`
+  double grip_N_per_mm = 0.5;  ///< spring of the hand on its way
+  double spread = 0.1;         ///< standard deviation of the reach from one probing to the next, a share of it
+  double wander_mm = 0.2;      ///< standard deviation of the place along the surface
+  double rate_Hz = 1000.0;
+};
+
+/// Where bone is probed: the surface point and the direction the bur comes from.
+struct ProbeSite {
+  calibration::Point<calibration::Patient> surface_P;
+  calibration::Vector<calibration::Patient> outward_P{{0.0, 0.0, 1.0}};  ///< unit
+};
+
+/// One interval. `bone` is borrowed and not changed.
+std::vector<FeltSample> probe(haptics::CarvedBone& bone, const ProbeSite& site, const haptics::Command& command,
+                              const ProbePlan& plan, Chance& hand);
+
+}  // namespace app

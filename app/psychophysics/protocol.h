@@ -1,0 +1,58 @@
+// An experiment as its TOML file says it: who (an anonymous id), which bone, which two laws, what varies, by which
+// method, how the hand probes. Strict: every refusal names file, line and key, and what is not known is refused. Keys,
+// units and ranges: app/README.md; an example: app/psychophysics/example.toml. Start-up only.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/psychophysics/observer.h"
+#include "app/psychophysics/probe.h"
+#include "app/psychophysics/staircase.h"
+#include "haptics/contact/law.h"
+#include "haptics/tool/tool.h"
+
+namespace app {
+
+enum class Method : std::uint8_t {
+  constant,   ///< "2afc-constant": the method of constant stimuli
+  staircase,  ///< "staircase": transformed up-down tracks, mixed
+  pair        ///< "2afc": one comparison again and again
+};
+
+struct BoneChoice {
+  enum class Kind : std::uint8_t { flat, trabecular, volume, patient } kind = Kind::flat;
+  double voxel_mm = 0.2;          ///< of the built-in phantoms
+  std::uint64_t seed = 1;         ///< of the trabecular one
+  std::string path;               ///< volume file, or patient folder; empty: the built-in patient
+  bool is_hounsfield = true;      ///< volume: Hounsfield, else solid fraction
+  std::optional<ProbeSite> site;  ///< needed for a volume
+};
+
+struct Protocol {
+  std::string title, participant;
+  Method method = Method::constant;
+  BoneChoice bone;
+  haptics::Tool tool;
+  ProbePlan probe;
+  haptics::LawSettings standard, comparison;
+  double peak_force_N = 3.3;
+  std::string parameter;  ///< of the comparison, that varies; empty for `pair`
+  std::string unit;
+  std::vector<double> levels;  ///< constant: rising; staircase: where each track starts
+  int trials = 40;             ///< of a level (constant), of all (pair)
+  StaircaseRule staircase;
+  double between_intervals_s = 0.5, between_trials_s = 1.0;
+  ObserverSettings observer;
+
+  /// The comparison at a level.
+  haptics::LawSettings comparisonAt(double level) const;
+  /// What the varied parameter is in the standard; none where the standard is another law or nothing varies.
+  std::optional<double> standardValue() const;
+};
+
+/// `where` names the file. Relative paths in it are kept as they are. Throws UsageError.
+Protocol protocolFromToml(const std::string& text, const std::string& where);
+
+}  // namespace app

@@ -1,0 +1,33 @@
+// What an experiment came to: answers level by level, the psychometric function with intervals, each track's threshold;
+// as JSON and as words for people. Weber fraction: JND over the standard's value of the parameter, or over the PSE
+// where the standard is another law. Pure but for the bootstrap's time (a second). Any thread.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/psychophysics/experiment.h"
+#include "app/psychophysics/psychometric_fit.h"
+
+namespace app {
+
+struct Outcome {
+  std::vector<TrialRecord> trials;
+  std::vector<LevelCount> counts;      ///< rising levels; one of level 0 where nothing varies
+  std::optional<PsychometricFit> fit;  ///< none where the answers know no slope
+  std::vector<Staircase> tracks;
+  std::optional<double> threshold;  ///< mean of the tracks', at the staircase's target
+  bool complete = false;            ///< every planned trial was answered
+};
+
+Outcome outcomeOf(const Protocol& protocol, const Experiment& experiment, std::vector<TrialRecord> trials,
+                  bool complete, std::uint64_t seed);
+
+std::optional<double> weberFraction(const Protocol& protocol, const Outcome& outcome);
+
+std::string summaryJson(const Protocol& protocol, const Outcome& outcome, std::uint64_t seed,
+                        const std::string& observer);
+std::string summaryWords(const Protocol& protocol, const Outcome& outcome);
+
+}  // namespace app

@@ -1,0 +1,45 @@
+// Which trial comes next: the comparison's level and whether it is felt first. Blind and balanced by chance from one
+// seed: constant stimuli in shuffled blocks that hold every level in both orders once; staircase tracks mixed at
+// random, the two orders in shuffled blocks of eight. Told each answer, so that tracks adapt. Pure state; any one
+// thread.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "app/psychophysics/chance.h"
+#include "app/psychophysics/protocol.h"
+
+namespace app {
+
+struct PlannedTrial {
+  double level = 0.0;  ///< of the comparison; 0 where nothing varies
+  std::size_t track = 0;
+  bool comparison_first = false;
+};
+
+class TrialOrder {
+ public:
+  TrialOrder(const Protocol& protocol, std::uint64_t seed);
+
+  /// None at the end.
+  std::optional<PlannedTrial> next();
+  /// Of the trial next() gave last. True when its track turned round.
+  bool answer(bool comparison_harder);
+
+  /// The most trials there can be.
+  int most() const { return most_; }
+  const std::vector<Staircase>& tracks() const { return tracks_; }
+
+ private:
+  bool nextOrder();
+
+  Chance chance_;
+  std::vector<PlannedTrial> planned_;  ///< constant and pair, all of them
+  std::vector<Staircase> tracks_;
+  std::vector<bool> orders_;
+  std::size_t given_ = 0, track_ = 0;
+  int most_ = 0;
+};
+
+}  // namespace app

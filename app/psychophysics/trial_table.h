@@ -1,0 +1,32 @@
+// The rows of an experiment on disk as they come: CSV, one row a trial, each on the disk before the next trial begins,
+// so that whatever happens loses no answered trial. Numbers as short as they read back. One thread; a row waits for the
+// disk (milliseconds).
+#pragma once
+
+#include <string>
+
+#include "app/psychophysics/experiment.h"
+
+namespace app {
+
+class TrialTable {
+ public:
+  /// Refuses (UsageError) a file that is there already, unless `overwrite`; then the old rows go at once.
+  TrialTable(const std::string& path, bool overwrite, const Protocol& protocol);
+  ~TrialTable();
+  TrialTable(const TrialTable&) = delete;
+  TrialTable& operator=(const TrialTable&) = delete;
+
+  void add(const TrialRecord& record);
+
+ private:
+  void write(const std::string& line);
+
+  std::string path_, participant_, method_, parameter_, unit_, standard_law_, comparison_law_;
+  int file_ = -1;
+};
+
+/// As in the protocol.
+std::string methodName(Method method);
+
+}  // namespace app

@@ -1,0 +1,70 @@
+// A small TOML file as typed answers: table by table, key by key, with the range each number must keep. Every refusal
+// is one line (UsageError) that names file, line and key; what nobody asked for is refused too (refuseRest), so that a
+// misspelt key is never silently a default. Start-up and, for files read anew while running, the frame loop; never the
+// servo. Files up to 64 kB. The one home of toml++ in app.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace app {
+
+/// Nearer than this to a bound is the bound: what people type is decimal.
+struct NumberRange {
+  double low = 0.0, high = 0.0;
+  std::string_view unit = "";
+};
+
+class TomlKeys {
+ public:
+  /// `where` names the file in refusals.
+  TomlKeys(std::string_view text, std::string where);
+  ~TomlKeys();
+  TomlKeys(TomlKeys&&) noexcept;
+  TomlKeys& operator=(TomlKeys&&) noexcept;
+
+  static TomlKeys fromFile(const std::string& path);
+
+  /// The empty name is the file's own level, above every [table].
+  bool has(const std::string& table) const;
+  bool has(const std::string& table, const std::string& key) const;
+  std::vector<std::string> keysOf(const std::string& table) const;
+  /// Where a value stands, for logs.
+  int lineOf(const std::string& table, const std::string& key) const;
+
+  // Without `otherwise` the key must be there.
+  double number(const std::string& table, const std::string& key, const NumberRange& range,
+                std::optional<double> otherwise = {});
+  std::int64_t whole(const std::string& table, const std::string& key, std::int64_t low, std::int64_t high,
+                     std::optional<std::int64_t> otherwise = {});
+  bool yesOrNo(const std::string& table, const std::string& key, bool otherwise);
+  std::string text(const std::string& table, const std::string& key, std::optional<std::string> otherwise = {});
+  /// One of `choices`; the index into them.
+  std::size_t choice(const std::string& table, const std::string& key, std::initializer_list<std::string_view> choices,
+                     std::optional<std::size_t> otherwise = {});
+  /// One number counts as a list of one.
+  std::vector<double> numbers(const std::string& table, const std::string& key, const NumberRange& range,
+                              std::size_t least, std::size_t most);
+  glm::dvec3 vector(const std::string& table, const std::string& key, double largest);
+
+  /// Refuses the first key or table that was not asked for.
+  void refuseRest() const;
+  [[noreturn]] void refuse(const std::string& table, const std::string& key, const std::string& reason) const;
+
+ private:
+  struct Document;
+  std::unique_ptr<Document> document_;
+};
+
+/// Whole file, at most 64 kB; throws UsageError.
+std::string readSmallFile(const std::string& path);
+
+/// 0.8, not 0.800000: a number as a person writes it.
+std::string numberText(double value);
+
+}  // namespace app
