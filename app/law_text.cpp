@@ -1,25 +1,34 @@
 #include "app/law_text.h"
 
 #include "app/usage_error.h"
+#include "haptics/contact/law_parameters.h"
 
 namespace app {
 
-std::vector<std::string> lawNames() { return {"agus"}; }
+std::string lawNames() {
+  std::string names;
+  for (const haptics::LawName& one : haptics::kLaws) names += (names.empty() ? "" : ", ") + std::string(one.key);
+  return names;
+}
 
-std::string lawName(haptics::LawKind) { return "agus"; }
+std::string lawName(haptics::LawKind law) {
+  for (const haptics::LawName& one : haptics::kLaws)
+    if (one.kind == law) return std::string(one.key);
+  return "unknown";
+}
 
 haptics::LawKind lawNamed(const std::string& name, const std::string& where) {
-  std::string known;
-  for (const std::string& one : lawNames()) {
-    if (one == name) return haptics::LawKind::agus;
-    known += (known.empty() ? "" : ", ") + one;
-  }
-  throw UsageError(where + " " + name + ": no such law, give one of " + known);
+  for (const haptics::LawName& one : haptics::kLaws)
+    if (one.key == name) return one.kind;
+  throw UsageError(where + name + ": no such law, give one of " + lawNames());
 }
 
 std::map<std::string, Setting> parametersOf(haptics::LawSettings& law) {
-  return {{"stiffness_N_per_mm", {&law.agus.stiffness_N_per_mm, 0.0, 5.0, "N/mm"}},
-          {"damping_Ns_per_mm", {&law.agus.damping_Ns_per_mm, 0.0, 0.1, "Ns/mm"}}};
+  std::map<std::string, Setting> settings;
+  for (const haptics::LawParameter& one : haptics::lawParameters())
+    if (!one.law || *one.law == law.kind)
+      settings[std::string(one.key)] = {&one.of(law), one.lowest, one.highest, one.unit};
+  return settings;
 }
 
 }  // namespace app

@@ -47,7 +47,7 @@ void applySettings(const std::vector<std::string>& texts, const std::map<std::st
     if (!value) throw UsageError("--set " + text + ": the value is not a number, correct it");
     if (*value < setting.low || *value > setting.high)
       throw UsageError("--set " + text + ": the value is out of range, give " + shortText(setting.low) + " to " +
-                       shortText(setting.high) + (*setting.unit ? " " : "") + setting.unit);
+                       shortText(setting.high) + (setting.unit.empty() ? "" : " ") + std::string(setting.unit));
     *setting.value = *value;
   }
 }

@@ -6,6 +6,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace haptics {
@@ -18,7 +19,7 @@ namespace app {
 struct Setting {
   double* value = nullptr;
   double low = 0.0, high = 0.0;
-  const char* unit = "";
+  std::string_view unit = "";
 };
 
 /// Applies every `key=value` of `texts` to the settings; unknown keys, doubles and values out of range are refused.

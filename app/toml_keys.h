@@ -14,7 +14,6 @@
 
 namespace app {
 
-/// Nearer than this to a bound is the bound: what people type is decimal.
 struct NumberRange {
   double low = 0.0, high = 0.0;
   std::string_view unit = "";

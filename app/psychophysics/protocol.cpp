@@ -91,9 +91,7 @@ haptics::LawSettings lawOf(TomlKeys& keys, const std::string& table) {
   try {
     law.kind = lawNamed(name);
   } catch (const UsageError&) {
-    std::string known;
-    for (const std::string& one : lawNames()) known += (known.empty() ? "" : ", ") + one;
-    keys.refuse(table, "law", "no such law, give one of " + known);
+    keys.refuse(table, "law", "no such law, give one of " + lawNames());
   }
   for (const auto& [key, setting] : parametersOf(law))
     *setting.value = keys.number(table, key, {setting.low, setting.high, setting.unit}, *setting.value);
