@@ -60,6 +60,7 @@ void refuseUnlessObeyed(const haptics::Command& command) {
                        shortText(taken) + " " + unit + ", ask for that");
   };
   check("bur radius", command.tool.head.radius_mm, obeyed.tool.head.radius_mm, "mm");
+  check("bur length", command.tool.head.length_mm, obeyed.tool.head.length_mm, "mm");
   check("stiffness", command.law.agus.stiffness_N_per_mm, obeyed.law.agus.stiffness_N_per_mm, "N/mm");
   check("damping", command.law.damping_Ns_per_mm, obeyed.law.damping_Ns_per_mm, "Ns/mm");
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "haptics/bone/block_kernels.h"
+#include "haptics/bone/bur_coverage.h"
 #include "haptics/bone/lens_curve.h"
 #include "haptics/bone/voxel_sphere.h"
 
@@ -60,6 +61,51 @@ class RoundCoverage {
   glm::dvec3 centre_;
   double radius_;
   BlockUnderBur at_{};
+};
+
+/// The same for a head of any shape, as it is felt (bone/bur_coverage).
+class HeadCoverage {
+ public:
+  HeadCoverage(const BurCoverage& bur, double spacing_mm, const ErosionStep& step)
+      : bur_(bur), reach_(kBlockReach + bur.voxel_reach), axis_(step.axis_P.xyz) {
+    even_ = 1.0 - (step.speed_share > 0.0 ? std::min(step.speed_share, 1.0) : 0.0);
+    per_arm_ = step.mean_arm_mm > 0.0 ? (1.0 - even_) * spacing_mm / step.mean_arm_mm : 0.0;
+  }
+
+  bool of(glm::ivec3 block, BlockCut& cut) {
+    const glm::ivec3 corner = block * kBlockEdge;
+    const glm::dvec3 first = glm::dvec3(corner) - bur_.centre;
+    const double beyond = bur_.beyondFaces(bur_.to_T * (first + 1.5));
+    if (beyond >= reach_) return false;
+    if (beyond <= -reach_)
+      shares_.fraction.fill(1.0);
+    else
+      bur_.fractionsOf(corner, shares_);
+    for (std::size_t n = 0; n < shares_.fraction.size(); ++n) {
+      const double covered = std::clamp(shares_.fraction[n], 0.0, 1.0) * 65535.0;
+      cut.coverage[n] = static_cast<std::uint16_t>(covered + 0.5);
+      cut.exposure[n] = cut.coverage[n];
+    }
+    if (per_arm_ > 0.0) exposeByArm(first, cut);
+    return true;
+  }
+
+ private:
+  /// Where the bur's surface slides faster it takes more.
+  void exposeByArm(const glm::dvec3& first, BlockCut& cut) const {
+    for (int n = 0; n < kBlockVoxels; ++n) {
+      const glm::dvec3 place = first + glm::dvec3(n & 3, n >> 2 & 3, n >> 4);
+      const double uneven = even_ + per_arm_ * glm::length(glm::cross(place, axis_));
+      const auto at = static_cast<std::size_t>(n);
+      cut.exposure[at] = static_cast<std::uint32_t>(cut.coverage[at] * std::clamp(uneven, 0.0, 1000.0));
+    }
+  }
+
+  const BurCoverage& bur_;
+  double reach_;
+  glm::dvec3 axis_;
+  double even_ = 1.0, per_arm_ = 0.0;
+  BurCoverage::Shares shares_{};
 };
 
 /// Carries a step out, block by block, for whatever shape says how much of a voxel it covers.
@@ -148,6 +194,15 @@ int carvingTurns(const CarvedBone& bone, double radius_mm, const ErosionStep& st
   return turns;
 }
 
+int carvingTurns(const CarvedBone& bone, const BurShape& head, const ErosionStep& step) noexcept {
+  const double R = head.radius_mm, L = head.length_mm;
+  const double surface_per_pi = head.kind == ShapeKind::sphere     ? 4.0 * R * R
+                                : head.kind == ShapeKind::capsule  ? 4.0 * R * R + 2.0 * R * L
+                                : head.kind == ShapeKind::cylinder ? 2.0 * R * R + 2.0 * R * L
+                                                                   : R * R + R * std::hypot(R, L);
+  return carvingTurns(bone, 0.5 * std::sqrt(surface_per_pi), step);
+}
+
 CarveResult carveSphere(CarvedBone& bone, const Point<Patient>& centre_P, double radius_mm, const ErosionStep& step,
                         std::uint64_t tick, int turns) noexcept {
   const double radius = radius_mm / bone.grid().spacing_mm;
@@ -159,6 +214,42 @@ CarveResult carveSphere(CarvedBone& bone, const Point<Patient>& centre_P, double
   Cutter cutter(bone, step, tick, std::max(turns, 1));
   cutter.cut(shape, first, last);
   return cutter.result();
+}
+
+CarveResult carveTool(CarvedBone& bone, const BurShape& head, const calibration::Pose<Patient, calibration::Tool>& X_PT,
+                      const ErosionStep& step, std::uint64_t tick, int turns) noexcept {
+  if (head.kind == ShapeKind::sphere)
+    return carveSphere(bone, {X_PT.translation_mm}, head.radius_mm, step, tick, turns);
+  const BurCoverage bur(bone.grid(), head, X_PT);
+  if (bur.empty()) return {};
+  HeadCoverage shape(bur, bone.grid().spacing_mm, step);
+  Cutter cutter(bone, step, tick, std::max(turns, 1));
+  cutter.cut(shape, bur.first / kBlockEdge, bur.last / kBlockEdge);
+  return cutter.result();
+}
+
+CarveResult carveSweep(CarvedBone& bone, const BurShape& head,
+                       const calibration::Pose<Patient, calibration::Tool>& from_X_PT,
+                       const calibration::Pose<Patient, calibration::Tool>& to_X_PT, const ErosionStep& step,
+                       std::uint64_t tick) noexcept {
+  const double length_mm = glm::length(to_X_PT.translation_mm - from_X_PT.translation_mm);
+  const double turn = 2.0 * std::acos(std::min(1.0, std::abs(glm::dot(from_X_PT.rotation, to_X_PT.rotation))));
+  // The tip goes with the turn.
+  const double way_mm = length_mm + turn * (halfHeight_mm(head) + head.radius_mm);
+  if (!std::isfinite(way_mm)) return {};
+  const double wanted = 1.0 + std::ceil(way_mm / (0.5 * bone.grid().spacing_mm));
+  const int steps = static_cast<int>(std::clamp(wanted, 1.0, static_cast<double>(kMostSweepSteps)));
+  ErosionStep part = step;
+  for (double& loss : part.loss) loss /= steps;
+  CarveResult total;
+  for (int n = 0; n < steps; ++n) {
+    const double along = steps == 1 ? 1.0 : static_cast<double>(n) / (steps - 1);  // both ends are reached
+    const calibration::Pose<Patient, calibration::Tool> X_PT{
+        glm::slerp(from_X_PT.rotation, to_X_PT.rotation, along),
+        glm::mix(from_X_PT.translation_mm, to_X_PT.translation_mm, along)};
+    total += carveTool(bone, head, X_PT, part, tick * kMostSweepSteps + static_cast<std::uint64_t>(n));
+  }
+  return total;
 }
 
 CarveResult carveSweep(CarvedBone& bone, const Point<Patient>& from_P, const Point<Patient>& to_P, double radius_mm,

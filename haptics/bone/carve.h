@@ -14,6 +14,7 @@
 #include "haptics/bone/carved_bone.h"
 #include "haptics/bone/erosion.h"
 #include "haptics/bone/erosion_step.h"
+#include "haptics/tool/bur_shape.h"
 
 namespace haptics {
 
@@ -31,9 +32,16 @@ struct CarveResult {
 CarveResult carveSphere(CarvedBone& bone, const calibration::Point<calibration::Patient>& centre_P, double radius_mm,
                         const ErosionStep& step, std::uint64_t tick, int turns = 1) noexcept;
 
+/// The same with a head of any shape, as it stands.
+CarveResult carveTool(CarvedBone& bone, const BurShape& head,
+                      const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT, const ErosionStep& step,
+                      std::uint64_t tick, int turns = 1) noexcept;
+
 /// As many turns as keep a tick with this bur short, while no tissue loses more than three quarters of a voxel in a
 /// turn.
 int carvingTurns(const CarvedBone& bone, double radius_mm, const ErosionStep& step) noexcept;
+/// The same for a head of any shape: of a ball with its surface.
+int carvingTurns(const CarvedBone& bone, const BurShape& head, const ErosionStep& step) noexcept;
 
 /// The step of `dt_s` of the law that is linear in time.
 ErosionStep timeErosion(const ErosionParameters& erosion, double dt_s) noexcept;
@@ -43,6 +51,11 @@ ErosionStep timeErosion(const ErosionParameters& erosion, double dt_s) noexcept;
 CarveResult carveSweep(CarvedBone& bone, const calibration::Point<calibration::Patient>& from_P,
                        const calibration::Point<calibration::Patient>& to_P, double radius_mm,
                        const ErosionParameters& erosion, double dt_s, std::uint64_t tick) noexcept;
+/// The same with a head of any shape that turns evenly on its way; no point of it moves more than half a voxel a part.
+CarveResult carveSweep(CarvedBone& bone, const BurShape& head,
+                       const calibration::Pose<calibration::Patient, calibration::Tool>& from_X_PT,
+                       const calibration::Pose<calibration::Patient, calibration::Tool>& to_X_PT,
+                       const ErosionStep& step, std::uint64_t tick) noexcept;
 inline constexpr int kMostSweepSteps = 1024;
 
 }  // namespace haptics

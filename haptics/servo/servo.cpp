@@ -18,7 +18,7 @@ double within(double value, double least, double most, double otherwise) {
 Command sanitised(const Command& command) {
   const Command defaults;
   Command safe = command;
-  safe.tool.head.radius_mm = within(command.tool.head.radius_mm, 0.1, 6.0, defaults.tool.head.radius_mm);
+  safe.tool = sanitised(command.tool);
   safe.law = sanitised(command.law);
   safe.safety = sanitised(command.safety);
   return safe;

@@ -1,5 +1,5 @@
 // What the hand holds: a head that cuts and is felt, and a shaft that is felt and never cuts. Frame T, mm.
-// Trivially copyable, part of a Command; any thread.
+// Trivially copyable, part of a Command; any thread. Not the handpiece behind it.
 #pragma once
 
 #include "haptics/tool/bur_shape.h"
@@ -16,5 +16,12 @@ struct Tool {
   BurShape head;
   Shaft shaft;
 };
+
+/// What the servo takes: head and shaft drawn back into their ranges, no shaft if it is none.
+Tool sanitised(const Tool& tool) noexcept;
+
+/// The shaft of a bur as it is made: a shank of 2.35 mm (ISO 1797, type 2), or a neck as much narrower than the head
+/// as lets chips out; felt over the 25 mm that stand out of a handpiece.
+Shaft usualShaft(const BurShape& head) noexcept;
 
 }  // namespace haptics

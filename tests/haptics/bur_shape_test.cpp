@@ -7,13 +7,13 @@
 #include <random>
 
 #include "calibration/geometry/units.h"
+#include "haptics/tool/tool.h"
 
 namespace haptics {
 namespace {
 
 using calibration::kPi;
 using calibration::Point;
-using calibration::Tool;
 
 const std::vector<BurShape> kShapes = {{ShapeKind::sphere, 1.3, 0.0},   {ShapeKind::capsule, 0.8, 3.0},
                                        {ShapeKind::capsule, 0.8, 0.0},  {ShapeKind::cylinder, 0.6, 4.0},
@@ -132,10 +132,24 @@ TEST(BurShape, ReachesAsFarAsItsFarthestPoint) {
 TEST(BurShape, IsDrawnBackIntoItsRange) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const BurShape& shape : kShapes) EXPECT_EQ(sanitised(shape), shape);
-  EXPECT_EQ(sanitised({ShapeKind::sphere, 0.01, 3.0}), (BurShape{ShapeKind::sphere, 0.1, 0.0}));
-  EXPECT_EQ(sanitised({ShapeKind::cone, 99.0, 99.0}), (BurShape{ShapeKind::cone, 6.0, 20.0}));
-  EXPECT_EQ(sanitised({ShapeKind::cylinder, nan, nan}), (BurShape{ShapeKind::cylinder, 2.0, 0.1}));
-  EXPECT_EQ(sanitised({static_cast<ShapeKind>(9), 1.0, 1.0}), (BurShape{ShapeKind::sphere, 1.0, 0.0}));
+  EXPECT_EQ(sanitised(BurShape{ShapeKind::sphere, 0.01, 3.0}), (BurShape{ShapeKind::sphere, 0.1, 0.0}));
+  EXPECT_EQ(sanitised(BurShape{ShapeKind::cone, 99.0, 99.0}), (BurShape{ShapeKind::cone, 6.0, 20.0}));
+  EXPECT_EQ(sanitised(BurShape{ShapeKind::cylinder, nan, nan}), (BurShape{ShapeKind::cylinder, 2.0, 0.1}));
+  EXPECT_EQ(sanitised(BurShape{static_cast<ShapeKind>(9), 1.0, 1.0}), (BurShape{ShapeKind::sphere, 1.0, 0.0}));
+}
+
+TEST(Tool, HasAShaftThatIsNoThickerThanItsShankAndHead) {
+  EXPECT_NEAR(usualShaft({ShapeKind::sphere, 3.0, 0.0}).radius_mm, 1.175, 1e-12);
+  EXPECT_LT(usualShaft({ShapeKind::cylinder, 0.6, 4.0}).radius_mm, 0.6);
+}
+
+TEST(Tool, IsDrawnBackIntoItsRange) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(sanitised(haptics::Tool{{}, {1.0, nan}}).shaft.length_mm, 0.0);
+  EXPECT_EQ(sanitised(haptics::Tool{{}, {-1.0, 10.0}}).shaft.length_mm, 0.0);
+  EXPECT_EQ(sanitised(haptics::Tool{{}, {99.0, 999.0}}).shaft.radius_mm, 5.0);
+  EXPECT_EQ(sanitised(haptics::Tool{{}, {99.0, 999.0}}).shaft.length_mm, 100.0);
+  EXPECT_EQ(sanitised(haptics::Tool{{ShapeKind::cone, 1.0, 99.0}, {1.0, 20.0}}).head.length_mm, 20.0);
 }
 
 }  // namespace

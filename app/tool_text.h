@@ -1,0 +1,23 @@
+// Tools as people type them: heads `sphere:R`, `capsule:R,L` (L the cylindrical part), `cylinder:R,L`, `cone:R,L`
+// (R at the base, L high) and shafts `R,L`, all in mm. Start-up only. UsageError says what is wrong and what may be.
+#pragma once
+
+#include <string>
+
+#include "haptics/tool/tool.h"
+
+namespace app {
+
+inline constexpr const char* kHeadHelp = "Cutting head: sphere:R, capsule:R,L, cylinder:R,L or cone:R,L (mm)";
+inline constexpr const char* kShaftHelp = "Shaft above the head, felt and never cutting: R,L (mm) or none";
+
+/// Radius 0.1..20, length 0.1..40 mm (a capsule's from 0).
+haptics::BurShape headFrom(const std::string& text);
+
+/// `none` or radius 0.1..5 and length 0.1..100 mm, counted from the head's centre.
+haptics::Shaft shaftFrom(const std::string& text);
+
+/// As `headFrom` reads it, for people and records.
+std::string textOf(const haptics::BurShape& head);
+
+}  // namespace app

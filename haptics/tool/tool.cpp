@@ -1,0 +1,27 @@
+#include "haptics/tool/tool.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace haptics {
+namespace {
+
+constexpr double kShankRadius_mm = 2.35 / 2.0, kNeckPart = 0.6, kOutOfHandpiece_mm = 25.0;
+constexpr double kThickestShaft_mm = 5.0, kLongestShaft_mm = 100.0;
+
+}  // namespace
+
+Tool sanitised(const Tool& tool) noexcept {
+  Tool safe{sanitised(tool.head), {}};
+  const Shaft& shaft = tool.shaft;
+  if (shaft.radius_mm > 0.0 && shaft.length_mm > 0.0 && std::isfinite(shaft.radius_mm) &&
+      std::isfinite(shaft.length_mm))
+    safe.shaft = {std::min(shaft.radius_mm, kThickestShaft_mm), std::min(shaft.length_mm, kLongestShaft_mm)};
+  return safe;
+}
+
+Shaft usualShaft(const BurShape& head) noexcept {
+  return {std::min(kShankRadius_mm, kNeckPart * head.radius_mm), kOutOfHandpiece_mm};
+}
+
+}  // namespace haptics
