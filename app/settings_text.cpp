@@ -12,8 +12,6 @@
 namespace app {
 namespace {
 
-constexpr double kSmallestRadius_mm = 0.1, kLargestRadius_mm = 20.0;
-
 std::optional<double> numberIn(std::string_view text) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -70,18 +68,6 @@ void refuseSameFile(const std::string& output, std::initializer_list<std::string
   for (const std::string& input : inputs)
     if (!input.empty() && std::filesystem::equivalent(output, input, ignored))
       throw UsageError("--out " + output + ": it is also an input, give another name");
-}
-
-double sphereRadius_mm(const std::string& tool) {
-  const std::string_view text = tool;
-  if (!text.starts_with("sphere:"))
-    throw UsageError("--tool " + tool + ": not a tool of this version, give sphere:R with R in mm");
-  const auto radius = numberIn(text.substr(7));
-  if (!radius) throw UsageError("--tool " + tool + ": the radius is not a number, give sphere:R with R in mm");
-  if (*radius < kSmallestRadius_mm || *radius > kLargestRadius_mm)
-    throw UsageError("--tool " + tool + ": the radius is out of range, give " + shortText(kSmallestRadius_mm) + " to " +
-                     shortText(kLargestRadius_mm) + " mm");
-  return *radius;
 }
 
 }  // namespace app

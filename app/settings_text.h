@@ -1,4 +1,4 @@
-// `key=value` settings and `sphere:R` tools as people type them. Start-up only.
+// `key=value` settings as people type them. Start-up only.
 // Throws UsageError that lists the keys there are.
 #pragma once
 
@@ -30,8 +30,5 @@ void refuseUnlessObeyed(const haptics::Command& command);
 
 /// Refuses an output that is one of the inputs: --force must not eat what is being read.
 void refuseSameFile(const std::string& output, std::initializer_list<std::string> inputs);
-
-/// The radius of `sphere:R`, mm, 0.1..20.
-double sphereRadius_mm(const std::string& tool);
 
 }  // namespace app

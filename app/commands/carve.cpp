@@ -11,6 +11,7 @@
 #include "app/commands/command.h"
 #include "app/pose_csv.h"
 #include "app/settings_text.h"
+#include "app/tool_text.h"
 #include "app/volume_option.h"
 #include "assets/image_file.h"
 #include "haptics/bone/carve.h"
@@ -19,7 +20,6 @@ namespace app {
 namespace {
 
 using calibration::Patient;
-using calibration::Point;
 
 struct CarveOptions {
   VolumeOption volume;
@@ -32,30 +32,34 @@ struct CarveOptions {
 constexpr double kLongestStep_s = 0.001;
 
 /// Carves from each row to the next, straight, in equal steps of at most a millisecond.
-haptics::CarveResult carveAlong(haptics::CarvedBone& bone, const std::vector<TimedPose>& poses, double radius_mm,
-                                const haptics::ErosionParameters& erosion) {
+haptics::CarveResult carveAlong(haptics::CarvedBone& bone, const std::vector<TimedPose>& poses,
+                                const haptics::BurShape& head, const haptics::ErosionParameters& erosion) {
   haptics::CarveResult removed;
   std::uint64_t tick = 0;
   for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
     const double span_s = poses[i + 1].t_s - poses[i].t_s;
     const auto steps = static_cast<std::uint64_t>(std::max(1.0, std::ceil(span_s / kLongestStep_s - 1e-6)));
-    const glm::dvec3 from = poses[i].X_PT.translation_mm, to = poses[i + 1].X_PT.translation_mm;
+    const auto &from = poses[i].X_PT, &to = poses[i + 1].X_PT;
     if (!poses[i].drill) {
       tick += steps;
       continue;
     }
     const double dt_s = span_s / static_cast<double>(steps);
     for (std::uint64_t k = 0; k < steps; ++k, ++tick) {
-      const auto at = [&](double n) { return Point<Patient>{glm::mix(from, to, n / static_cast<double>(steps))}; };
-      removed += haptics::carveSweep(bone, at(static_cast<double>(k)), at(static_cast<double>(k) + 1.0), radius_mm,
-                                     erosion, dt_s, tick);
+      const auto at = [&](double n) {
+        const double part = n / static_cast<double>(steps);
+        return calibration::Pose<Patient, calibration::Tool>{glm::slerp(from.rotation, to.rotation, part),
+                                                             glm::mix(from.translation_mm, to.translation_mm, part)};
+      };
+      removed += haptics::carveSweep(bone, head, at(static_cast<double>(k)), at(static_cast<double>(k) + 1.0),
+                                     haptics::timeErosion(erosion, dt_s), tick);
     }
   }
   return removed;
 }
 
 int carve(const CarveOptions& options) {
-  const double radius_mm = sphereRadius_mm(options.tool);
+  const haptics::BurShape head = headFrom(options.tool);
   haptics::ErosionParameters erosion;
   std::map<std::string, Setting> settings{{"removal_rate_per_s", {&erosion.removal_rate_per_s, 0.0, 1000.0, "1/s"}}};
   for (std::size_t l = 0; l < assets::kTissues.size(); ++l)
@@ -68,7 +72,7 @@ int carve(const CarveOptions& options) {
   refuseLongRun(poses, options.poses);
   const SolidVolume volume = options.volume.load();
   haptics::CarvedBone bone(volume.grid, volume.solid, volume.label);
-  const haptics::CarveResult removed = carveAlong(bone, poses, radius_mm, erosion);
+  const haptics::CarveResult removed = carveAlong(bone, poses, head, erosion);
   assets::writeSolid(volume.grid, bone.solidInGridOrder(), out);
 
   nlohmann::json by_label = nlohmann::json::object();
@@ -85,7 +89,7 @@ void addCarve(CLI::App& molar, Chosen& chosen) {
   auto options = std::make_shared<CarveOptions>();
   CLI::App* command = molar.add_subcommand("carve", "Carving along timed poses: carved NRRD, removed mm³ as JSON");
   options->volume.addTo(*command);
-  command->add_option("--tool", options->tool, "Cutting head: sphere:R (mm)")->required();
+  command->add_option("--tool", options->tool, kHeadHelp)->required();
   command->add_option("--erosion", options->erosion, "Erosion law")
       ->check(CLI::IsMember({"time"}))
       ->capture_default_str();

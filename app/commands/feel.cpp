@@ -10,6 +10,7 @@
 #include "app/commands/command.h"
 #include "app/pose_csv.h"
 #include "app/settings_text.h"
+#include "app/tool_text.h"
 #include "app/usage_error.h"
 #include "app/volume_option.h"
 #include "assets/output_file.h"
@@ -27,7 +28,7 @@ constexpr double kTick_s = 0.001;
 
 struct FeelOptions {
   VolumeOption volume;
-  std::string tool, law = "agus", poses, out;
+  std::string tool, shaft = "none", law = "agus", poses, out;
   std::vector<std::string> settings;
   bool raw = false, served = false, force = false;
 };
@@ -88,7 +89,7 @@ std::vector<FeltRow> feelServed(const SolidVolume& volume, const haptics::Comman
 
 int feel(const FeelOptions& options) {
   haptics::Command command;
-  command.tool.head.radius_mm = sphereRadius_mm(options.tool);
+  command.tool = {headFrom(options.tool), shaftFrom(options.shaft)};
   applySettings(options.settings, {{"stiffness_N_per_mm", {&command.law.agus.stiffness_N_per_mm, 0.0, 100.0, "N/mm"}},
                                    {"damping_Ns_per_mm", {&command.law.damping_Ns_per_mm, 0.0, 1.0, "Ns/mm"}},
                                    {"peak_force_N", {&command.safety.peak_force_N, 0.1, 40.0, "N"}},
@@ -124,7 +125,8 @@ void addFeel(CLI::App& molar, Chosen& chosen) {
   auto options = std::make_shared<FeelOptions>();
   CLI::App* command = molar.add_subcommand("feel", "A force law on given poses, no device: CSV of forces, frame P");
   options->volume.addTo(*command);
-  command->add_option("--tool", options->tool, "Cutting head: sphere:R (mm)")->required();
+  command->add_option("--tool", options->tool, kHeadHelp)->required();
+  command->add_option("--shaft", options->shaft, kShaftHelp)->capture_default_str();
   command->add_option("--law", options->law, "Force law")->check(CLI::IsMember({"agus"}))->capture_default_str();
   command->add_option("--set", options->settings, "key=value: stiffness_N_per_mm, damping_Ns_per_mm, …");
   command->add_option("--poses", options->poses, "t_s,px_mm,py_mm,pz_mm,qw,qx,qy,qz (X_PT)")->required();

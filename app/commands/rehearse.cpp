@@ -14,6 +14,7 @@
 #include "app/rehearsal.h"
 #include "app/room.h"
 #include "app/settings_text.h"
+#include "app/tool_text.h"
 #include "app/usage_error.h"
 #include "app/view_option.h"
 #include "assets/patient_folder.h"
@@ -28,7 +29,7 @@ constexpr double kForeignFaceWindow_mm = 24.0;
 
 struct RehearseOptions {
   std::string patient, device = "mouse", rig, display = "mono", record, snapshot, first_snapshot, face;
-  std::string tool = "sphere:1.5", law = "agus", size, snapshot_size = "1280x800";
+  std::string tool = "sphere:1.5", shaft, law = "agus", size, snapshot_size = "1280x800";
   std::string side = "right";
   std::vector<std::string> settings;
   assets::JawParameters jaw;
@@ -64,7 +65,9 @@ void leaveACoreToTheServo() {
 
 int run(const RehearseOptions& options) {
   RehearsalPlan plan;
-  plan.command.tool.head.radius_mm = sphereRadius_mm(options.tool);
+  plan.command.tool.head = headFrom(options.tool);
+  plan.command.tool.shaft =
+      options.shaft.empty() ? haptics::usualShaft(plan.command.tool.head) : shaftFrom(options.shaft);
   applySettings(options.settings,
                 {{"stiffness_N_per_mm", {&plan.command.law.agus.stiffness_N_per_mm, 0.0, 20.0, "N/mm"}},
                  {"damping_Ns_per_mm", {&plan.command.law.damping_Ns_per_mm, 0.0, 0.1, "Ns/mm"}},
@@ -129,7 +132,8 @@ void addRehearse(CLI::App& molar, Chosen& chosen) {
   command->add_option("--face", o->face, "Face model, glTF; teeth.json beside it places the jaw")->type_name("FILE");
   command->add_option("--face-window", o->face_window_mm, "Face cut away around the line of sight, mm")
       ->check(numberRange(0.0, 100.0));
-  command->add_option("--tool", o->tool, "Cutting head: sphere:R (mm)")->capture_default_str();
+  command->add_option("--tool", o->tool, kHeadHelp)->capture_default_str();
+  command->add_option("--shaft", o->shaft, std::string(kShaftHelp) + " [a neck that fits, up to 2.35 mm thick]");
   command->add_option("--law", o->law, "Force law")->check(CLI::IsMember({"agus"}))->capture_default_str();
   command->add_option("--set", o->settings, "key=value: stiffness_N_per_mm, removal_rate_per_s, peak_force_N, …");
   command->add_option("--rate", o->rate_Hz, "Servo rate, Hz")->check(numberRange(500.0, 4000.0))->capture_default_str();

@@ -6,6 +6,7 @@
 #include "app/law_text.h"
 #include "app/settings_text.h"
 #include "app/toml_keys.h"
+#include "app/tool_text.h"
 #include "app/usage_error.h"
 
 namespace app {
@@ -63,9 +64,9 @@ haptics::Tool toolOf(TomlKeys& keys) {
   haptics::Tool tool;
   const std::string head = keys.text("tool", "head", "sphere:2");
   try {
-    tool.head.radius_mm = sphereRadius_mm(head);
+    tool.head = headFrom(head);
   } catch (const UsageError&) {
-    keys.refuse("tool", "head", "no such head, give sphere:R with R in mm");
+    keys.refuse("tool", "head", "no such head, give sphere:R, capsule:R,L, cylinder:R,L or cone:R,L in mm");
   }
   return tool;
 }

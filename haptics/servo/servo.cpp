@@ -69,11 +69,11 @@ Tick Servo::step(const HandSample& hand, const Command& wanted, double dt_s) noe
   // The bur cuts where it is felt.
   tick.drilling = believed.drill_pedal && command.drill_enabled && !trouble;
   if (tick.drilling && held.head.volume_mm3 > 0.0) {
-    const double radius_mm = command.tool.head.radius_mm;
+    const BurShape& head = command.tool.head;
     const ErosionStep erosion = timeErosion(command.erosion, tick.dt_s);
-    tick.removed_mm3 =
-        carveSphere(bone_, held.proxy_P, radius_mm, erosion, tick.index, carvingTurns(bone_, radius_mm, erosion))
-            .removed_mm3;
+    tick.removed_mm3 = carveTool(bone_, head, {believed.X_PT.rotation, held.proxy_P.mm}, erosion, tick.index,
+                                 carvingTurns(bone_, head, erosion))
+                           .removed_mm3;
   }
   tick.bone_digest = bone_.digest();
   return tick;

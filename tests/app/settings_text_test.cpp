@@ -33,13 +33,5 @@ TEST(SettingsText, SaysTheRangeWithItsUnit) {
   }
 }
 
-TEST(SettingsText, ReadsASphere) {
-  EXPECT_EQ(sphereRadius_mm("sphere:2"), 2.0);
-  EXPECT_EQ(sphereRadius_mm("sphere:0.5"), 0.5);
-  for (const char* bad :
-       {"", "sphere", "sphere:", "sphere:0", "sphere:-1", "sphere:nan", "sphere:99", "cone:1,2", "sphere:2,3"})
-    EXPECT_THROW(sphereRadius_mm(bad), UsageError) << bad;
-}
-
 }  // namespace
 }  // namespace app
