@@ -100,50 +100,6 @@ VoxelShare shareOfPart(const BurCoverage& bur, const glm::dvec3& p) {
   return {share.fraction, {share.radial * p.x, share.radial * p.y, share.axial}};
 }
 
-/// A block of voxels, four at a time by the compiler.
-template <ShapeKind kKind, bool kFractionOnly>
-void fillShares(const BurCoverage& bur, const glm::dvec3& corner, BurCoverage::Shares& out) {
-  alignas(64) BurCoverage::Lanes x, y, z;
-  for (std::size_t n = 0; n < BurCoverage::kVoxels; ++n) {
-    const auto i = static_cast<double>(n % 4), j = static_cast<double>(n / 4 % 4), k = static_cast<double>(n / 16);
-    x[n] = corner.x + i * bur.to_T[0].x + j * bur.to_T[1].x + k * bur.to_T[2].x;
-    y[n] = corner.y + i * bur.to_T[0].y + j * bur.to_T[1].y + k * bur.to_T[2].y;
-    z[n] = corner.z + i * bur.to_T[0].z + j * bur.to_T[1].z + k * bur.to_T[2].z;
-  }
-  for (std::size_t n = 0; n < BurCoverage::kVoxels; ++n) {
-    const AxialShare share = shareOf<kKind>(bur, x[n], y[n], z[n]);
-    out.fraction[n] = share.fraction;
-    if constexpr (kFractionOnly) continue;
-    out.moment[0][n] = share.radial * x[n];
-    out.moment[1][n] = share.radial * y[n];
-    out.moment[2][n] = share.axial;
-  }
-}
-
-template <bool kFractionOnly>
-void fill(const BurCoverage& bur, glm::ivec3 corner, BurCoverage::Shares& out) {
-  if (bur.parts > 1 || isSmallSphere(bur)) {
-    for (std::size_t n = 0; n < BurCoverage::kVoxels; ++n) {
-      const auto voxel = static_cast<int>(n);
-      const VoxelShare share = bur.shareAt(corner + glm::ivec3(voxel % 4, voxel / 4 % 4, voxel / 16));
-      out.fraction[n] = share.fraction;
-      for (std::size_t axis = 0; axis < 3; ++axis) out.moment[axis][n] = share.moment[static_cast<int>(axis)];
-    }
-    return;
-  }
-  const glm::dvec3 from = bur.placeOf(corner);
-  switch (bur.kind) {
-    case ShapeKind::sphere:
-      return fillShares<ShapeKind::sphere, kFractionOnly>(bur, from, out);
-    case ShapeKind::capsule:
-      return fillShares<ShapeKind::capsule, kFractionOnly>(bur, from, out);
-    case ShapeKind::cylinder:
-      return fillShares<ShapeKind::cylinder, kFractionOnly>(bur, from, out);
-    case ShapeKind::cone:
-      return fillShares<ShapeKind::cone, kFractionOnly>(bur, from, out);
-  }
-}
-
 /// How far along a direction a voxel may lie that is within reach of every face.
 double touchedReach(const BurCoverage& bur, double cos_axis) {
   const double more = bur.voxel_reach, high = bur.half + more, c = std::clamp(cos_axis, -1.0, 1.0),
@@ -234,8 +190,21 @@ VoxelShare BurCoverage::shareAt(glm::ivec3 ijk) const {
   return {sum.fraction * per_part, sum.moment * per_part};
 }
 
-void BurCoverage::sharesOf(glm::ivec3 corner, Shares& out) const { fill<false>(*this, corner, out); }
-
-void BurCoverage::fractionsOf(glm::ivec3 corner, Shares& out) const { fill<true>(*this, corner, out); }
+HeadShape BurCoverage::kernelShape() const {
+  HeadShape head{};
+  head.kind = static_cast<int>(kind);
+  head.radius = static_cast<float>(radius);
+  head.half = static_cast<float>(half);
+  head.side_sin = static_cast<float>(side_sin);
+  head.side_cos = static_cast<float>(side_cos);
+  head.eta = static_cast<float>(eta);
+  for (int n = 0; n < 64; ++n) {
+    const glm::dvec3 place = to_T * glm::dvec3(n & 3, n >> 2 & 3, n >> 4);
+    head.x[n] = static_cast<float>(place.x);
+    head.y[n] = static_cast<float>(place.y);
+    head.z[n] = static_cast<float>(place.z);
+  }
+  return head;
+}
 
 }  // namespace haptics

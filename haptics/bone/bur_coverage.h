@@ -1,18 +1,17 @@
 // How much of a voxel a bur of any shape covers, and where: the one function by which a bur is felt
 // (contact/shape_overlap) and cuts (bone/carve). Voxel units; a voxel is a sphere of its volume (voxel_sphere), eta =
-// 0.62. Any thread; some 10 ns a voxel in batches; no allocation, no throw. Sphere: the exact lens. Other shapes: the
-// plane limit, t = -distance / eta,
+// 0.62. Any thread; some 30 ns a voxel, 2 in blocks (bone/head_kernels); no allocation, no throw. Sphere: the exact
+// lens. Other shapes: the plane limit, t = -distance / eta,
 //   c = (2 + 3t - t^3)/4 - 3/32 k eta (1 - t^2)^2,     k the sum of the principal curvatures where the face is round,
 // (the ball's cap less what the face bends away from its tangent plane, exact to second order in eta/R), and where two
 // faces meet the product of both, so that edges neither grow nor shrink. First moment: the cap's, 3/16 eta (1 - t^2)^2
 // from the voxel's centre inwards (physics 2.1, 2.3, 5). Heads thinner than 3 eta are taken in parts of a voxel.
 #pragma once
 
-#include <array>
-
 #include "assets/volume_grid.h"
 #include "calibration/geometry/frames.h"
 #include "calibration/geometry/pose.h"
+#include "haptics/bone/head_kernels.h"
 #include "haptics/tool/bur_shape.h"
 
 namespace haptics {
@@ -40,17 +39,9 @@ class BurCoverage {
 
   VoxelShare shareAt(glm::ivec3 ijk) const;
 
-  /// The same for the 64 voxels of a block, i fastest.
-  static constexpr int kEdge = 4;
-  static constexpr std::size_t kVoxels = 64;
-  using Lanes = std::array<double, kVoxels>;
-  struct Shares {
-    alignas(64) Lanes fraction;
-    alignas(64) std::array<Lanes, 3> moment;
-  };
-  void sharesOf(glm::ivec3 corner, Shares& out) const;
-  /// The fractions alone, for cutting; the rest of `out` may be left as it was.
-  void fractionsOf(glm::ivec3 corner, Shares& out) const;
+  /// Whether the kernels for whole blocks (bone/head_kernels) hold: not for heads of a voxel or two.
+  bool hasKernel() const { return parts == 1 && !(kind == ShapeKind::sphere && radius < 2.0); }
+  HeadShape kernelShape() const;
 
   glm::ivec3 first{0}, last{-1};  ///< inclusive box of what may be touched, clipped
   glm::dvec3 centre{0.0};         ///< T's origin, continuous index

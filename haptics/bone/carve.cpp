@@ -67,7 +67,7 @@ class RoundCoverage {
 class HeadCoverage {
  public:
   HeadCoverage(const BurCoverage& bur, double spacing_mm, const ErosionStep& step)
-      : bur_(bur), reach_(kBlockReach + bur.voxel_reach), axis_(step.axis_P.xyz) {
+      : bur_(bur), reach_(kBlockReach + bur.voxel_reach), axis_(step.axis_P.xyz), head_(bur.kernelShape()) {
     even_ = 1.0 - (step.speed_share > 0.0 ? std::min(step.speed_share, 1.0) : 0.0);
     per_arm_ = step.mean_arm_mm > 0.0 ? (1.0 - even_) * spacing_mm / step.mean_arm_mm : 0.0;
   }
@@ -77,13 +77,20 @@ class HeadCoverage {
     const glm::dvec3 first = glm::dvec3(corner) - bur_.centre;
     const double beyond = bur_.beyondFaces(bur_.to_T * (first + 1.5));
     if (beyond >= reach_) return false;
-    if (beyond <= -reach_)
-      shares_.fraction.fill(1.0);
-    else
-      bur_.fractionsOf(corner, shares_);
-    for (std::size_t n = 0; n < shares_.fraction.size(); ++n) {
-      const double covered = std::clamp(shares_.fraction[n], 0.0, 1.0) * 65535.0;
-      cut.coverage[n] = static_cast<std::uint16_t>(covered + 0.5);
+    alignas(64) std::array<float, kBlockVoxels> fraction;
+    if (beyond <= -reach_) {
+      fraction.fill(1.0f);
+    } else if (bur_.hasKernel()) {
+      const glm::vec3 place = bur_.placeOf(corner);
+      coverUnderHead(head_, &place.x, fraction.data());
+    } else {
+      for (int n = 0; n < kBlockVoxels; ++n)
+        fraction[static_cast<std::size_t>(n)] =
+            static_cast<float>(bur_.shareAt(corner + glm::ivec3(n & 3, n >> 2 & 3, n >> 4)).fraction);
+    }
+    for (std::size_t n = 0; n < fraction.size(); ++n) {
+      const float covered = std::clamp(fraction[n], 0.0f, 1.0f) * 65535.0f;
+      cut.coverage[n] = static_cast<std::uint16_t>(covered + 0.5f);
       cut.exposure[n] = cut.coverage[n];
     }
     if (per_arm_ > 0.0) exposeByArm(first, cut);
@@ -105,7 +112,7 @@ class HeadCoverage {
   double reach_;
   glm::dvec3 axis_;
   double even_ = 1.0, per_arm_ = 0.0;
-  BurCoverage::Shares shares_{};
+  HeadShape head_;
 };
 
 /// Carries a step out, block by block, for whatever shape says how much of a voxel it covers.

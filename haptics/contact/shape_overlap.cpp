@@ -3,131 +3,211 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "haptics/bone/bur_coverage.h"
 
 namespace haptics {
 namespace {
 
-constexpr int kEdge = BurCoverage::kEdge;
-constexpr std::size_t kVoxels = BurCoverage::kVoxels;
-
 /// From a block's middle to the middle of its farthest voxel.
-const double kBlockReach = 0.5 * (kEdge - 1) * std::sqrt(3.0);
+const double kBlockReach = 0.5 * (kBlockEdge - 1) * std::sqrt(3.0);
+constexpr int kFullBlock = 255 * kBlockVoxels;
 
 /// Sums in voxels and in steps of 1/255 (1/255² for the greyness).
 struct Sums {
   double volume = 0.0, stiff = 0.0, grey = 0.0;
   glm::dvec3 moment_T{0.0};      ///< of voxels cut, along T
   glm::dvec3 moment_index{0.0};  ///< of whole voxels, along i, j, k
-  glm::dvec3 area_index{0.0};
-};
-
-/// The voxels of a block with one more on every side, in steps of 1/255; air outside the volume.
-class Block {
- public:
-  static constexpr int kPadded = kEdge + 2;
-
-  void read(const SolidField& field, glm::ivec3 corner) {
-    const glm::ivec3 from = corner - 1, to = from + (kPadded - 1);
-    const bool inside = field.grid.contains(from) && field.grid.contains(to);
-    std::size_t at = 0;
-    for (int k = from.z; k <= to.z; ++k)
-      for (int j = from.y; j <= to.y; ++j)
-        for (int i = from.x; i <= to.x; ++i, ++at)
-          solid_[at] = inside || field.grid.contains({i, j, k}) ? field.solidAt({i, j, k}) : std::uint8_t{0};
-  }
-
-  /// Neither in it nor beside it.
-  bool isAir() const {
-    unsigned any = 0;
-    for (const std::uint8_t w : solid_) any |= w;
-    return any == 0;
-  }
-  int solid(std::size_t n) const { return solid_[place(n)]; }
-  /// Difference of a voxel's neighbours along an axis.
-  int rise(std::size_t n, std::size_t axis) const {
-    constexpr std::array<std::size_t, 3> kStep = {1, kPadded, kPadded * kPadded};
-    return solid_[place(n) + kStep[axis]] - solid_[place(n) - kStep[axis]];
-  }
-
- private:
-  static constexpr std::size_t place(std::size_t n) {
-    return (n % 4 + 1) + kPadded * ((n / 4 % 4 + 1) + kPadded * (n / 16 + 1));
-  }
-  std::array<std::uint8_t, kPadded * kPadded * kPadded> solid_;
+  glm::dvec3 rise_index{0.0};    ///< of each voxel's neighbours along i, j, k, by the part that is covered
 };
 
 double factorOf(const TissueStiffness& tissue, std::uint8_t label) {
   return tissue.factor[label < assets::kTissueCount ? label : 0];
 }
 
-glm::ivec3 voxelOf(glm::ivec3 corner, std::size_t n) {
-  const auto voxel = static_cast<int>(n);
-  return corner + glm::ivec3(voxel % kEdge, voxel / kEdge % kEdge, voxel / (kEdge * kEdge));
-}
-
-/// A block's tissue-weighted steps.
-using Stiff = std::array<double, kVoxels>;
-void weigh(const SolidField& field, const TissueStiffness& tissue, glm::ivec3 corner, const Block& block,
-           Stiff& stiff) {
-  for (std::size_t n = 0; n < kVoxels; ++n)
-    stiff[n] = block.solid(n) == 0 ? 0.0 : block.solid(n) * factorOf(tissue, field.labelAt(voxelOf(corner, n)));
-}
-
-/// A block wholly inside: every voxel counts whole. Integers, but for the stiffness.
-void addWhole(const Block& block, const Stiff& stiff, const glm::dvec3& from_centre, Sums& sums) {
-  int weight = 0, grey = 0;
-  glm::ivec3 place{0}, rise{0};
-  for (std::size_t n = 0; n < kVoxels; ++n) {
-    const int w = block.solid(n);
-    weight += w;
-    grey += w * (255 - w);
-    place += w * voxelOf({0, 0, 0}, n);
-    rise += glm::ivec3(block.rise(n, 0), block.rise(n, 1), block.rise(n, 2));
-    sums.stiff += stiff[n];
-  }
-  sums.volume += weight;
-  sums.grey += grey;
-  sums.moment_index += glm::dvec3(place) + static_cast<double>(weight) * from_centre;
-  sums.area_index -= 0.5 * glm::dvec3(rise);
-}
-
-/// A block cut by the head's surface, in four lanes so that the compiler may take four voxels at a time.
-void addCut(const Block& block, const Stiff& stiff, const BurCoverage::Shares& shares, Sums& sums) {
-  alignas(64) std::array<double, kVoxels> solid;
-  alignas(64) std::array<std::array<double, kVoxels>, 3> rise;
-  for (std::size_t n = 0; n < kVoxels; ++n) solid[n] = block.solid(n);
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    for (std::size_t n = 0; n < kVoxels; ++n) rise[axis][n] = block.rise(n, axis);
-  std::array<double, 4> volume{}, stiffness{}, grey{};
-  std::array<std::array<double, 4>, 3> moment{}, area{};
-  for (std::size_t row = 0; row < kVoxels; row += 4)
-    for (std::size_t lane = 0; lane < 4; ++lane) {
-      const std::size_t n = row + lane;
-      const double covered = solid[n] * shares.fraction[n];
-      volume[lane] += covered;
-      stiffness[lane] += stiff[n] * shares.fraction[n];
-      grey[lane] += covered * (255.0 - solid[n]);
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        moment[axis][lane] += solid[n] * shares.moment[axis][n];
-        area[axis][lane] -= rise[axis][n] * shares.fraction[n];
-      }
+/// A block and the six beside it; air beyond the volume.
+class Neighbourhood {
+ public:
+  Neighbourhood(const SolidField& field, glm::ivec3 block) : field_(field), block_(block) {
+    constexpr std::array<glm::ivec3, kBlocks> kOffset = {
+        {{0, 0, 0}, {-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};
+    int total = 0;
+    for (std::size_t n = 0; n < kBlocks; ++n) {
+      const glm::ivec3 at = block + kOffset[n];
+      const bool there = at.x >= 0 && at.y >= 0 && at.z >= 0 && at.x < field.blocks.x && at.y < field.blocks.y &&
+                         at.z < field.blocks.z;
+      const std::size_t index = there ? field.blockAt(at) : 0;
+      const int weight = there ? field.weight[index] : 0;
+      solid_[n] = weight != 0 ? field.solid + index * kBlockVoxels : kAir.data();
+      total += weight;
+      if (n == 0) index_ = index, weight_ = weight;
     }
-  const auto all = [](const std::array<double, 4>& lane) { return (lane[0] + lane[1]) + (lane[2] + lane[3]); };
-  sums.volume += all(volume);
-  sums.stiff += all(stiffness);
-  sums.grey += all(grey);
-  sums.moment_T += glm::dvec3(all(moment[0]), all(moment[1]), all(moment[2]));
-  sums.area_index += 0.5 * glm::dvec3(all(area[0]), all(area[1]), all(area[2]));
-}
+    empty_ = total == 0;
+    even_ = empty_ || total == kBlocks * kFullBlock;
+  }
+
+  bool empty() const { return empty_; }
+  /// No voxel of the block has different neighbours.
+  bool even() const { return even_; }
+  bool airInside() const { return weight_ == 0; }
+  int weight() const { return weight_; }
+  std::size_t index() const { return index_; }
+  const std::uint8_t* solid() const { return solid_[0]; }
+
+  /// Difference of every voxel's neighbours along i, j, k.
+  using Rise = std::array<std::array<std::int16_t, kBlockVoxels>, 3>;
+  void riseInto(Rise& rise) const {
+    const std::uint8_t *own = solid_[0], *left = solid_[1], *right = solid_[2], *front = solid_[3], *back = solid_[4],
+                       *below = solid_[5], *above = solid_[6];
+    for (int n = 0; n < kBlockVoxels; ++n) {
+      const int before_k = n < 16 ? below[n + 48] : own[n - 16], after_k = n < 48 ? own[n + 16] : above[n - 48];
+      rise[2][static_cast<std::size_t>(n)] = static_cast<std::int16_t>(after_k - before_k);
+    }
+    for (int plane = 0; plane < kBlockVoxels; plane += 16)
+      for (int n = 0; n < 16; ++n) {
+        const int before_j = n < 4 ? front[plane + n + 12] : own[plane + n - 4];
+        const int after_j = n < 12 ? own[plane + n + 4] : back[plane + n - 12];
+        rise[1][static_cast<std::size_t>(plane + n)] = static_cast<std::int16_t>(after_j - before_j);
+      }
+    for (int row = 0; row < kBlockVoxels; row += 4) {
+      const int w[6] = {left[row + 3], own[row], own[row + 1], own[row + 2], own[row + 3], right[row]};
+      for (int n = 0; n < 4; ++n)
+        rise[0][static_cast<std::size_t>(row + n)] = static_cast<std::int16_t>(w[n + 2] - w[n]);
+    }
+  }
+
+ private:
+  static constexpr std::size_t kBlocks = 7;
+  static constexpr std::array<std::uint8_t, kBlockVoxels> kAir{};
+  const SolidField& field_;
+  glm::ivec3 block_;
+  std::array<const std::uint8_t*, kBlocks> solid_;
+  std::size_t index_ = 0;
+  int weight_ = 0;
+  bool empty_ = true, even_ = true;
+};
+
+/// The sum over a field, block by block.
+class BlockSums {
+ public:
+  BlockSums(const SolidField& field, const BurCoverage& bur, const TissueStiffness& tissue)
+      : field_(field), bur_(bur), tissue_(tissue), head_(bur.kernelShape()), reach_(kBlockReach + bur.voxel_reach) {}
+
+  void add(glm::ivec3 block) {
+    const Neighbourhood around(field_, block);
+    if (around.empty()) return;
+    const glm::dvec3 corner(block * kBlockEdge), place = bur_.to_T * (corner - bur_.centre);
+    const double beyond = bur_.beyondFaces(place + to_middle_);
+    if (beyond >= reach_) return;
+    if (beyond <= -reach_)
+      addWhole(around, corner);
+    else
+      addCut(around, block * kBlockEdge, place);
+  }
+
+  const Sums& sums() const { return sums_; }
+
+ private:
+  /// Every voxel counts whole: the block's own sums will do (reference/physics 5).
+  void addWhole(const Neighbourhood& around, const glm::dvec3& corner) {
+    const std::size_t at = around.index();
+    if (!around.airInside()) {
+      const double weight = around.weight();
+      sums_.volume += weight;
+      sums_.grey += field_.grey[at];
+      sums_.moment_index +=
+          glm::dvec3(field_.weight_x[at], field_.weight_y[at], field_.weight_z[at]) + weight * (corner - bur_.centre);
+      sums_.stiff += stiffOf(around);
+    }
+    if (around.even()) return;
+    around.riseInto(rise_);
+    for (int axis = 0; axis < 3; ++axis) {
+      int sum = 0;
+      for (const std::int16_t rise : rise_[static_cast<std::size_t>(axis)]) sum += rise;
+      sums_.rise_index[axis] += sum;
+    }
+  }
+
+  void addCut(const Neighbourhood& around, glm::ivec3 corner, const glm::dvec3& place) {
+    HeadBlock block{{static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(place.z)},
+                    around.solid(),
+                    {},
+                    nullptr,
+                    0.0f};
+    if (!around.even()) {
+      around.riseInto(rise_);
+      for (std::size_t axis = 0; axis < 3; ++axis) block.rise[axis] = rise_[axis].data();
+    }
+    if (const auto only = onlyFactor(around)) {
+      block.only_factor = static_cast<float>(*only);
+    } else {
+      for (std::size_t n = 0; n < kBlockVoxels; ++n)
+        factor_[n] = static_cast<float>(factorOf(tissue_, field_.label[around.index() * kBlockVoxels + n]));
+      block.factor = factor_.data();
+    }
+    const HeadSums cut = bur_.hasKernel() ? sumUnderHead(head_, block) : sumInParts(block, corner);
+    sums_.volume += cut.volume;
+    sums_.stiff += cut.stiff;
+    sums_.grey += cut.grey;
+    for (int axis = 0; axis < 3; ++axis) {
+      sums_.moment_T[axis] += cut.moment[axis];
+      sums_.rise_index[axis] += cut.rise[axis];
+    }
+  }
+
+  /// A head of a voxel or two: each voxel with care.
+  HeadSums sumInParts(const HeadBlock& block, glm::ivec3 corner) const {
+    Sums sums;
+    for (int n = 0; n < kBlockVoxels; ++n) {
+      const VoxelShare share = bur_.shareAt(corner + glm::ivec3(n & 3, n >> 2 & 3, n >> 4));
+      const double w = block.solid[n], covered = w * share.fraction;
+      sums.volume += covered;
+      sums.grey += covered * (255.0 - w);
+      sums.stiff += covered * (block.factor != nullptr ? block.factor[n] : block.only_factor);
+      sums.moment_T += w * share.moment;
+      if (block.rise[0] == nullptr) continue;
+      for (int axis = 0; axis < 3; ++axis) sums.rise_index[axis] += share.fraction * block.rise[axis][n];
+    }
+    const glm::vec3 moment(sums.moment_T), rise(sums.rise_index);
+    return {static_cast<float>(sums.volume),
+            static_cast<float>(sums.stiff),
+            static_cast<float>(sums.grey),
+            {moment.x, moment.y, moment.z},
+            {rise.x, rise.y, rise.z}};
+  }
+
+  /// Of a block whose voxels are one tissue.
+  std::optional<double> onlyFactor(const Neighbourhood& around) const {
+    if (field_.label == nullptr || around.airInside()) return tissue_.factor[0];
+    const std::uint8_t only = field_.only_label[around.index()];
+    return only == kMixedLabels ? std::nullopt : std::optional(factorOf(tissue_, only));
+  }
+  double stiffOf(const Neighbourhood& around) const {
+    if (const auto only = onlyFactor(around)) return around.weight() * *only;
+    double sum = 0.0;
+    for (std::size_t n = 0; n < kBlockVoxels; ++n)
+      sum += around.solid()[n] * factorOf(tissue_, field_.label[around.index() * kBlockVoxels + n]);
+    return sum;
+  }
+
+  const SolidField& field_;
+  const BurCoverage& bur_;
+  const TissueStiffness& tissue_;
+  HeadShape head_;
+  double reach_;
+  glm::dvec3 to_middle_ = bur_.to_T * glm::dvec3(0.5 * (kBlockEdge - 1));
+  Sums sums_;
+  Neighbourhood::Rise rise_;
+  std::array<float, kBlockVoxels> factor_;
+};
 
 ShapeOverlap scaled(const Sums& sums, const BurCoverage& bur, double s) {
   const glm::dmat3 to_P = glm::transpose(bur.to_T);
   const double voxel = s * s * s / 255.0;
   return {sums.volume * voxel,
           {(to_P * sums.moment_T + sums.moment_index) * (voxel * s)},
-          {sums.area_index * (s * s / 255.0)},
+          {sums.rise_index * (-0.5 * s * s / 255.0)},
           sums.stiff * voxel,
           sums.grey * voxel / 255.0};
 }
@@ -142,30 +222,12 @@ ShapeOverlap shapeOverlap(const SolidField& field, const BurShape& shape,
                           const TissueStiffness& tissue) noexcept {
   const BurCoverage bur(field.grid, shape, X_PT, kBeyond);
   if (bur.empty()) return {};
-  Sums sums;
-  Block block;
-  Stiff stiff;
-  BurCoverage::Shares shares;
-  const double reach = kBlockReach + bur.voxel_reach;
-  const glm::ivec3 first = (bur.first + kEdge) / kEdge - 1, last = (bur.last + kEdge) / kEdge - 1;
+  BlockSums blocks(field, bur, tissue);
+  const glm::ivec3 first = (bur.first + kBlockEdge) / kBlockEdge - 1, last = (bur.last + kBlockEdge) / kBlockEdge - 1;
   for (int k = first.z; k <= last.z; ++k)
     for (int j = first.y; j <= last.y; ++j)
-      for (int i = first.x; i <= last.x; ++i) {
-        const glm::ivec3 corner = kEdge * glm::ivec3(i, j, k);
-        const glm::dvec3 from_centre = glm::dvec3(corner) - bur.centre;
-        const double beyond = bur.beyondFaces(bur.to_T * (from_centre + 0.5 * (kEdge - 1)));
-        if (beyond >= reach) continue;
-        block.read(field, corner);
-        if (block.isAir()) continue;
-        weigh(field, tissue, corner, block, stiff);
-        if (beyond <= -reach) {
-          addWhole(block, stiff, from_centre, sums);
-        } else {
-          bur.sharesOf(corner, shares);
-          addCut(block, stiff, shares, sums);
-        }
-      }
-  return scaled(sums, bur, field.grid.spacing_mm);
+      for (int i = first.x; i <= last.x; ++i) blocks.add({i, j, k});
+  return scaled(blocks.sums(), bur, field.grid.spacing_mm);
 }
 
 ShapeOverlap shapeOverlapVoxelByVoxel(const SolidField& field, const BurShape& shape,
@@ -184,7 +246,7 @@ ShapeOverlap shapeOverlapVoxelByVoxel(const SolidField& field, const BurShape& s
         for (int axis = 0; axis < 3; ++axis) {
           glm::ivec3 step{0};
           step[axis] = 1;
-          sums.area_index[axis] -= 0.5 * share.fraction * (solidAt(ijk + step) - solidAt(ijk - step));
+          sums.rise_index[axis] += share.fraction * (solidAt(ijk + step) - solidAt(ijk - step));
         }
         const double w = solidAt(ijk);
         if (w == 0.0) continue;

@@ -1,0 +1,49 @@
+// A head of any shape over one block of 4x4x4 voxels, as the kernels see it: plain numbers, one set of functions per
+// instruction set and the same bits from all of them (floats without fused multiply-add, sums in sixteen lanes of fixed
+// order). Equal to bone/bur_coverage, whose formulas these are, to 1e-6. Voxel units, places in T.
+// Servo thread; no allocation; some 0.1 µs a block with AVX2. Private to bone/ and contact/.
+#pragma once
+
+#include <cstdint>
+
+namespace haptics {
+
+struct HeadShape {
+  int kind;  ///< ShapeKind
+  float radius, half, side_sin, side_cos, eta;
+  float x[64], y[64], z[64];  ///< of a block's voxels from its first
+};
+
+struct HeadBlock {
+  float first[3];               ///< place of its first voxel
+  const std::uint8_t* solid;    ///< 64
+  const std::int16_t* rise[3];  ///< 64 each: difference of a voxel's neighbours along i, j, k; all null: none rises
+  const float* factor;          ///< 64, of stiffness; null: `only_factor` of all
+  float only_factor;
+};
+
+/// In steps of 1/255 (of 1/255² for the greyness). Moments along T, about its origin; rises along i, j, k.
+struct HeadSums {
+  float volume, stiff, grey, moment[3], rise[3];
+};
+
+/// `fraction`: 64, the part of each voxel that is covered, -1e-6..1+1e-6.
+void coverUnderHead(const HeadShape& head, const float first[3], float* fraction) noexcept;
+HeadSums sumUnderHead(const HeadShape& head, const HeadBlock& block) noexcept;
+
+namespace portable {
+void coverUnderHead(const HeadShape& head, const float first[3], float* fraction) noexcept;
+HeadSums sumUnderHead(const HeadShape& head, const HeadBlock& block) noexcept;
+}  // namespace portable
+#if defined(__x86_64__)
+namespace avx2 {
+void coverUnderHead(const HeadShape& head, const float first[3], float* fraction) noexcept;
+HeadSums sumUnderHead(const HeadShape& head, const HeadBlock& block) noexcept;
+}  // namespace avx2
+namespace avx512 {
+void coverUnderHead(const HeadShape& head, const float first[3], float* fraction) noexcept;
+HeadSums sumUnderHead(const HeadShape& head, const HeadBlock& block) noexcept;
+}  // namespace avx512
+#endif
+
+}  // namespace haptics
