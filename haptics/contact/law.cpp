@@ -22,7 +22,7 @@ Contact contactOf(const LawSettings& law, const ToolInBone& at, const LawState& 
     case LawKind::machining:
       return machiningContact(law.machining, at);
     case LawKind::harmonic:
-      return {};
+      return harmonicContact(law.harmonic, at);
   }
   return {};
 }

@@ -208,9 +208,9 @@ class WanderingHand {
   glm::dvec3 home_, place_, velocity_{0.0};
 };
 
-/// The grace, and what such a hand takes by jerking back while up to 3 N come down at the slew limit. Without the books
-/// these hands get up to 0.95 N mm.
-constexpr double kOneRamp_Nmm = 0.1;
+/// The grace, and what such a hand takes by jerking back while up to 3 N come down at the slew limit: most off a wall
+/// of 4 N/mm, the cutting force's at rest. Without the books these hands get up to 0.95 N mm.
+constexpr double kOneRamp_Nmm = 0.2;
 
 Phantom randomBone(unsigned seed, double half_mm, double spacing_mm) {
   std::mt19937 random(seed);

@@ -1,0 +1,186 @@
+#include "haptics/contact/harmonic.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "calibration/geometry/units.h"
+#include "haptics/contact/immersion.h"
+
+namespace haptics {
+namespace {
+
+using calibration::kPi;
+
+/// Blocks whose middle is farther than this act from their centre of mass: error under 1e-3 of their part.
+constexpr double kFar_voxels = 10.0;
+
+double factorOf(const ToolInBone& at, std::uint8_t label) {
+  return at.tissue.factor[label < assets::kTissueCount ? label : 0];
+}
+
+/// The bur in voxels, and the blocks it may touch.
+struct Reach {
+  glm::dvec3 centre{0.0};
+  double radius = 0.0;
+  glm::ivec3 first{0}, last{-1};  ///< blocks, inclusive
+};
+
+Reach reachOf(const ToolInBone& at) {
+  Reach reach;
+  reach.centre = at.field.grid.indexFromPoint(at.X_PT.translation_mm);
+  reach.radius = at.head.radius_mm / at.field.grid.spacing_mm;
+  const double outer = reach.radius + kVoxelChargeRadius;
+  if (!std::isfinite(glm::length(reach.centre)) || !std::isfinite(outer)) return reach;
+  glm::ivec3 first{0}, last{-1};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = std::max(0.0, reach.centre[axis] - outer);
+    const double high = std::min(at.field.grid.size[axis] - 1.0, reach.centre[axis] + outer);
+    if (!(low <= high)) return reach;
+    first[axis] = static_cast<int>(low) / kBlockEdge;
+    last[axis] = static_cast<int>(high) / kBlockEdge;
+  }
+  reach.first = first;
+  reach.last = last;
+  return reach;
+}
+
+/// The force law of one voxel's ball over its distance: what the vector from bur to voxel is multiplied with.
+class VoxelCharge {
+ public:
+  explicit VoxelCharge(double radius)
+      : inner_(static_cast<float>(radius - kVoxelChargeRadius)),
+        outer_(static_cast<float>(radius + kVoxelChargeRadius)) {
+    constexpr double kB = kVoxelChargeRadius;
+    const double density = 3.0 / (4.0 * kPi * kB * kB * kB);
+    constant_ = static_cast<float>(0.5 * radius * density);
+    linear_ = static_cast<float>(density / 3.0);
+    inverse_ =
+        static_cast<float>(density * (-radius * radius * radius / 6.0 + 0.5 * radius * kB * kB + kB * kB * kB / 3.0));
+  }
+
+  float over(float d2) const {
+    const float d = std::sqrt(d2), nearest = static_cast<float>(kVoxelChargeRadius);
+    const float from = d > nearest ? d : nearest, inverse = 1.0f / from;
+    const float whole = static_cast<float>(0.5 / kPi) * inverse * inverse * inverse;
+    const float across = (constant_ - linear_ * from + inverse_ * inverse * inverse) * inverse;
+    const float force = d < inner_ ? whole : across;
+    return d < outer_ ? force : 0.0f;
+  }
+
+ private:
+  float inner_, outer_, constant_, linear_, inverse_;
+};
+
+class HarmonicSum {
+ public:
+  HarmonicSum(const ToolInBone& at, const Reach& reach)
+      : at_(at), field_(at.field), reach_(reach), charge_(reach.radius) {}
+
+  glm::dvec3 sum() {
+    const double outer = reach_.radius + kVoxelChargeRadius, inner = reach_.radius - kVoxelChargeRadius;
+    for (int k = reach_.first.z; k <= reach_.last.z; ++k)
+      for (int j = reach_.first.y; j <= reach_.last.y; ++j)
+        for (int i = reach_.first.x; i <= reach_.last.x; ++i) {
+          const glm::ivec3 block(i, j, k);
+          const std::size_t at = field_.blockAt(block);
+          if (field_.weight[at] == 0) continue;
+          // Nearest and farthest voxel of the block.
+          const glm::dvec3 low = glm::dvec3(4 * block) - reach_.centre, high = low + 3.0;
+          const glm::dvec3 near = glm::max(glm::dvec3(0.0), glm::max(low, -high));
+          if (glm::dot(near, near) >= outer * outer) continue;
+          const glm::dvec3 far = glm::max(glm::abs(low), glm::abs(high)), middle = low + 1.5;
+          const bool whole = inner > 0.0 && glm::dot(far, far) <= inner * inner;
+          if (whole && field_.only_label[at] != kMixedLabels && glm::dot(middle, middle) > kFar_voxels * kFar_voxels)
+            addFar(low, at);
+          else
+            addVoxels(low, at);
+        }
+    return -force_ / 255.0;
+  }
+
+ private:
+  void addFar(const glm::dvec3& low, std::size_t block) {
+    const double weight = field_.weight[block];
+    const glm::dvec3 from =
+        low + glm::dvec3(field_.weight_x[block], field_.weight_y[block], field_.weight_z[block]) / weight;
+    const double d2 = glm::dot(from, from);
+    force_ += weight * factorOf(at_, field_.only_label[block]) * (0.5 / kPi) / (d2 * std::sqrt(d2)) * from;
+  }
+
+  void addVoxels(const glm::dvec3& low, std::size_t block) {
+    const std::uint8_t* solid = field_.solid + kBlockVoxels * block;
+    std::array<float, kBlockVoxels> weight;
+    if (field_.only_label[block] != kMixedLabels) {
+      const auto factor = static_cast<float>(factorOf(at_, field_.only_label[block]));
+      for (std::size_t n = 0; n < kBlockVoxels; ++n) weight[n] = factor * static_cast<float>(solid[n]);
+    } else {
+      const std::uint8_t* label = field_.label + kBlockVoxels * block;
+      for (std::size_t n = 0; n < kBlockVoxels; ++n)
+        weight[n] = static_cast<float>(factorOf(at_, label[n])) * static_cast<float>(solid[n]);
+    }
+    const auto x0 = static_cast<float>(low.x), y0 = static_cast<float>(low.y), z0 = static_cast<float>(low.z);
+    // Sixteen partial sums in one order, whatever the compiler makes of them.
+    std::array<float, 16> x{}, y{}, z{};
+    for (int plane = 0; plane < 4; ++plane)
+      for (std::size_t lane = 0; lane < 16; ++lane) {
+        const float dx = x0 + static_cast<float>(lane & 3), dy = y0 + static_cast<float>(lane >> 2);
+        const float dz = z0 + static_cast<float>(plane);
+        const float pull =
+            weight[16 * static_cast<std::size_t>(plane) + lane] * charge_.over(dx * dx + dy * dy + dz * dz);
+        x[lane] += pull * dx, y[lane] += pull * dy, z[lane] += pull * dz;
+      }
+    for (std::size_t lane = 0; lane < 16; ++lane)
+      force_ += glm::dvec3(static_cast<double>(x[lane]), static_cast<double>(y[lane]), static_cast<double>(z[lane]));
+  }
+
+  const ToolInBone& at_;
+  const SolidField& field_;
+  const Reach& reach_;
+  VoxelCharge charge_;
+  glm::dvec3 force_{0.0};
+};
+
+}  // namespace
+
+double harmonicForceOfBall(double R, double B, double d) noexcept {
+  if (d >= R + B || d <= 0.0) return 0.0;
+  if (d + B <= R) return d >= B ? 2.0 / 3.0 * B * B * B / (d * d) : 2.0 / 3.0 * d;
+  // The bur inside the ball: bone is all around as far as the bur reaches.
+  if (d + R <= B) return 0.0;
+  if (d < B - R || d < R - B) return 0.0;
+  return 0.5 * R - d / 3.0 + (-R * R * R / 6.0 + 0.5 * R * B * B + B * B * B / 3.0) / (d * d);
+}
+
+calibration::Vector<calibration::Patient> harmonicForce_mm(const ToolInBone& at) noexcept {
+  const Reach reach = reachOf(at);
+  if (reach.radius <= 2.0 * kVoxelChargeRadius) return harmonicForceVoxelByVoxel_mm(at);
+  return {at.field.grid.spacing_mm * HarmonicSum(at, reach).sum()};
+}
+
+calibration::Vector<calibration::Patient> harmonicForceVoxelByVoxel_mm(const ToolInBone& at) noexcept {
+  constexpr double kB = kVoxelChargeRadius;
+  const Reach reach = reachOf(at);
+  const glm::ivec3 first = kBlockEdge * reach.first;
+  const glm::ivec3 last = glm::min(kBlockEdge * reach.last + 3, at.field.grid.size - 1);
+  glm::dvec3 force(0.0);
+  for (int k = first.z; k <= last.z; ++k)
+    for (int j = first.y; j <= last.y; ++j)
+      for (int i = first.x; i <= last.x; ++i) {
+        const glm::dvec3 from = glm::dvec3(i, j, k) - reach.centre;
+        const double d = glm::length(from);
+        if (d <= 0.0) continue;
+        const double weight = at.field.solidAt({i, j, k}) / 255.0 * factorOf(at, at.field.labelAt({i, j, k}));
+        force -= weight * 3.0 / (4.0 * kPi * kB * kB * kB) * harmonicForceOfBall(reach.radius, kB, d) / d * from;
+      }
+  return {at.field.grid.spacing_mm * force};
+}
+
+Contact harmonicContact(const HarmonicParameters& parameters, const ToolInBone& at) noexcept {
+  Contact contact = contactAlongNormal(immersionOf(at), 0.0, parameters.stiffness_N_per_mm);
+  if (contact.depth_mm <= 0.0) return contact;
+  contact.force_P_N = parameters.stiffness_N_per_mm * harmonicForce_mm(at);
+  return contact;
+}
+
+}  // namespace haptics
