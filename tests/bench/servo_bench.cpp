@@ -1,5 +1,5 @@
 // Work per tick, against the sum voxel by voxel, in one run: nothing else to install, nothing to compare by hand.
-//   haptics_servo_bench            sums, ticks, growth with the radius, instruction sets
+//   haptics_servo_bench            sums, laws, ticks, growth with the radius, instruction sets
 //   haptics_servo_bench memory     60 x 60 x 50 mm of bone at 0.1 mm: bytes a voxel, as counted and as resident
 // Times are CPU time of this thread, so that other work on the machine disturbs them less; p10 is what the code costs.
 #include <time.h>
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "haptics/bone/carve.h"
+#include "haptics/contact/law.h"
 #include "haptics/contact/overlap.h"
 #include "haptics/servo/servo.h"
 #include "tests/haptics/phantom.h"
@@ -96,6 +97,33 @@ void sums() {
             measure(12, [&](int i) { sink = sphereOverlapVoxelByVoxel(field, {place(i, R, scene)}, R).volume_mm3; });
         print(scene.name, s, R, fast, twin.p10);
       }
+}
+
+/// One look of every law, half a radius deep in flat bone and in solid bone.
+void laws() {
+  std::printf("\nlaws, one look\n%-24s %4s %4s %9s %9s\n", "law", "s", "R", "half-deep", "solid");
+  volatile double sink = 0.0;
+  for (const auto& [R, s] : {std::pair(2.0, 0.2), std::pair(4.0, 0.1)}) {
+    const Phantom half = kScenes[1].bone(R + 1.0, s), whole = kScenes[0].bone(R + 1.0, s);
+    for (const LawName& name : kLaws) {
+      LawSettings law;
+      law.kind = name.kind;
+      const auto p10 = [&](const Phantom& phantom, const Scene& scene) {
+        const SolidField field = phantom.field();
+        const BurShape head{ShapeKind::sphere, R, 0.0};
+        const ToolMotion turning{{{1.0, 0.0, -1.0}}, 4000.0, 1e-3, 0.0};
+        return measure(
+                   300,
+                   [&](int i) {
+                     const calibration::Pose<Patient, calibration::Tool> X_PT{{1.0, 0.0, 0.0, 0.0}, place(i, R, scene)};
+                     sink = contactOf(law, {field, head, X_PT, law.tissue, turning}).depth_mm;
+                   })
+            .p10;
+      };
+      std::printf("%-24s %4.1f %4.1f %9.1f %9.1f\n", std::string(name.key).c_str(), s, R, p10(half, kScenes[1]),
+                  p10(whole, kScenes[0]));
+    }
+  }
 }
 
 /// Least squares of log time over log radius.
@@ -187,5 +215,6 @@ int main(int argc, char** argv) {
   sums();
   growth();
   instructionSets();
+  laws();
   ticks();
 }
