@@ -88,11 +88,75 @@ class Neighbourhood {
   bool empty_ = true, even_ = true;
 };
 
+/// A stretch of the head's axis, voxels from its middle; of blocks along a row.
+struct Span {
+  double from, to;
+};
+struct Range {
+  int first, last;
+};
+
+/// Which blocks may be near which part of the axis, so that a long thin head is not looked for in all of its box.
+class AxisSpans {
+ public:
+  explicit AxisSpans(const BurCoverage& bur) : centre_(bur.centre), axis_(bur.to_T[0].z, bur.to_T[1].z, bur.to_T[2].z) {
+    const bool flat = bur.kind == ShapeKind::cylinder || bur.kind == ShapeKind::cone;
+    // Discs reach across the axis, balls all ways; a voxel within reach of two faces of an edge lies farther out.
+    for (int axis = 0; axis < 3; ++axis)
+      reach_[axis] = (flat ? std::sqrt(std::max(0.0, 1.0 - axis_[axis] * axis_[axis])) : 1.0) * bur.radius;
+    const double at_an_edge = flat ? 1.0 / std::min(bur.side_cos, 0.7) : 1.0;
+    reach_ += bur.voxel_reach * at_an_edge * (bur.kind == ShapeKind::cone ? 2.0 : 1.0);
+  }
+
+  /// Of `span` what comes near the blocks with this number along an axis; empty: from > to.
+  Span within(const Span& span, int axis, int block) const {
+    const double middle = kBlockEdge * block + 0.5 * (kBlockEdge - 1), off = middle - centre_[axis];
+    const double room = reach_[axis] + 0.5 * (kBlockEdge - 1), slope = axis_[axis];
+    if (std::abs(slope) < 1e-9) return std::abs(off) <= room ? span : Span{1.0, -1.0};
+    const double one = (off - room) / slope, other = (off + room) / slope;
+    return {std::max(span.from, std::min(one, other)), std::min(span.to, std::max(one, other))};
+  }
+
+  /// The blocks near a stretch, along an axis.
+  Range blocksOn(const Span& span, int axis, const Range& most) const {
+    if (span.from > span.to) return {0, -1};
+    const double one = centre_[axis] + span.from * axis_[axis], other = centre_[axis] + span.to * axis_[axis];
+    const double low = (std::min(one, other) - reach_[axis] - (kBlockEdge - 1)) / kBlockEdge;
+    const double high = (std::max(one, other) + reach_[axis]) / kBlockEdge;
+    return {static_cast<int>(std::max(std::ceil(low), static_cast<double>(most.first))),
+            static_cast<int>(std::min(std::floor(high), static_cast<double>(most.last)))};
+  }
+
+ private:
+  glm::dvec3 centre_, axis_, reach_{0.0};
+};
+
 /// The sum over a field, block by block.
 class BlockSums {
  public:
   BlockSums(const SolidField& field, const BurCoverage& bur, const TissueStiffness& tissue)
       : field_(field), bur_(bur), tissue_(tissue), head_(bur.kernelShape()), reach_(kBlockReach + bur.voxel_reach) {}
+
+  /// Most of a tool is in air: a row at a look.
+  void addRow(const Range& row, int j, int k) {
+    if (isAir(row, j, k) && isAir(row, j - 1, k) && isAir(row, j + 1, k) && isAir(row, j, k - 1) &&
+        isAir(row, j, k + 1))
+      return;
+    for (int i = row.first; i <= row.last; ++i) add({i, j, k});
+  }
+
+  const Sums& sums() const { return sums_; }
+
+ private:
+  /// Of a stretch of blocks, and the one before and after it.
+  bool isAir(const Range& row, int j, int k) const {
+    if (j < 0 || k < 0 || j >= field_.blocks.y || k >= field_.blocks.z) return true;
+    const int first = std::max(row.first - 1, 0), last = std::min(row.last + 1, field_.blocks.x - 1);
+    const std::uint16_t* weight = field_.weight + field_.blockAt({0, j, k});
+    unsigned any = 0;
+    for (int i = first; i <= last; ++i) any |= weight[i];
+    return any == 0;
+  }
 
   void add(glm::ivec3 block) {
     const Neighbourhood around(field_, block);
@@ -106,9 +170,6 @@ class BlockSums {
       addCut(around, block * kBlockEdge, place);
   }
 
-  const Sums& sums() const { return sums_; }
-
- private:
   /// Every voxel counts whole: the block's own sums will do (reference/physics 5).
   void addWhole(const Neighbourhood& around, const glm::dvec3& corner) {
     const std::size_t at = around.index();
@@ -224,9 +285,15 @@ ShapeOverlap shapeOverlap(const SolidField& field, const BurShape& shape,
   if (bur.empty()) return {};
   BlockSums blocks(field, bur, tissue);
   const glm::ivec3 first = (bur.first + kBlockEdge) / kBlockEdge - 1, last = (bur.last + kBlockEdge) / kBlockEdge - 1;
-  for (int k = first.z; k <= last.z; ++k)
-    for (int j = first.y; j <= last.y; ++j)
-      for (int i = first.x; i <= last.x; ++i) blocks.add({i, j, k});
+  const AxisSpans spans(bur);
+  for (int k = first.z; k <= last.z; ++k) {
+    const Span in_plane = spans.within({-bur.half, bur.half}, 2, k);
+    const Range rows = spans.blocksOn(in_plane, 1, {first.y, last.y});
+    for (int j = rows.first; j <= rows.last; ++j) {
+      const Range row = spans.blocksOn(spans.within(in_plane, 1, j), 0, {first.x, last.x});
+      blocks.addRow(row, j, k);
+    }
+  }
   return scaled(blocks.sums(), bur, field.grid.spacing_mm);
 }
 
