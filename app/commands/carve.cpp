@@ -3,18 +3,22 @@
 
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <memory>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "app/commands/command.h"
+#include "app/erosion_text.h"
 #include "app/pose_csv.h"
 #include "app/settings_text.h"
 #include "app/tool_text.h"
 #include "app/volume_option.h"
 #include "assets/image_file.h"
 #include "haptics/bone/carve.h"
+#include "haptics/contact/cut_moment.h"
+#include "haptics/contact/law.h"
 
 namespace app {
 namespace {
@@ -31,39 +35,103 @@ struct CarveOptions {
 /// Poses further apart in time are carved through in steps of this.
 constexpr double kLongestStep_s = 0.001;
 
-/// Carves from each row to the next, straight, in equal steps of at most a millisecond.
-haptics::CarveResult carveAlong(haptics::CarvedBone& bone, const std::vector<TimedPose>& poses,
-                                const haptics::BurShape& head, const haptics::ErosionParameters& erosion) {
-  haptics::CarveResult removed;
-  std::uint64_t tick = 0;
-  for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
-    const double span_s = poses[i + 1].t_s - poses[i].t_s;
-    const auto steps = static_cast<std::uint64_t>(std::max(1.0, std::ceil(span_s / kLongestStep_s - 1e-6)));
-    const auto &from = poses[i].X_PT, &to = poses[i + 1].X_PT;
-    if (!poses[i].drill) {
-      tick += steps;
-      continue;
-    }
-    const double dt_s = span_s / static_cast<double>(steps);
-    for (std::uint64_t k = 0; k < steps; ++k, ++tick) {
-      const auto at = [&](double n) {
-        const double part = n / static_cast<double>(steps);
-        return calibration::Pose<Patient, calibration::Tool>{glm::slerp(from.rotation, to.rotation, part),
-                                                             glm::mix(from.translation_mm, to.translation_mm, part)};
-      };
-      removed += haptics::carveSweep(bone, head, at(static_cast<double>(k)), at(static_cast<double>(k) + 1.0),
-                                     haptics::timeErosion(erosion, dt_s), tick);
-    }
-  }
-  return removed;
+/// How the bur cuts: the erosion law, the motor, and what presses.
+struct Cut {
+  haptics::BurShape head;
+  haptics::ErosionSettings erosion;
+  haptics::SpindleSettings spindle;
+  haptics::LawSettings law;
+  double normal_force_N = std::numeric_limits<double>::quiet_NaN();  ///< not given: as the force law presses
+};
+
+/// The spindle at its commanded speed, less what it gives up under this load.
+double speedUnder(const haptics::SpindleSettings& spindle, double load_Nmm) {
+  const double idle = haptics::steadySpeed_rad_per_s(spindle, 0.0);
+  if (idle == 0.0) return 0.0;
+  return haptics::radPerSecond(spindle.commanded_rpm) * haptics::steadySpeed_rad_per_s(spindle, load_Nmm) / idle;
 }
 
+/// Carves along the poses; what is kept from step to step.
+class Carving {
+ public:
+  Carving(haptics::CarvedBone& bone, const Cut& cut) : bone_(bone), cut_(cut) {}
+
+  /// From each row to the next, straight, in equal steps of at most a millisecond.
+  void along(const std::vector<TimedPose>& poses) {
+    for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
+      const double span_s = poses[i + 1].t_s - poses[i].t_s;
+      const auto steps = static_cast<std::uint64_t>(std::max(1.0, std::ceil(span_s / kLongestStep_s - 1e-6)));
+      if (!poses[i].drill) {
+        tick_ += steps;
+        memory_ = {};
+        continue;
+      }
+      drilled_s_ += span_s;
+      for (std::uint64_t k = 0; k < steps; ++k, ++tick_) {
+        const auto at = [&](double n) {
+          return between(poses[i].X_PT, poses[i + 1].X_PT, n / static_cast<double>(steps));
+        };
+        step(at(static_cast<double>(k)), at(static_cast<double>(k) + 0.5), at(static_cast<double>(k) + 1.0),
+             span_s / static_cast<double>(steps));
+      }
+    }
+  }
+
+  const haptics::CarveResult& removed() const { return removed_; }
+  double drilled_s() const { return drilled_s_; }
+
+ private:
+  using PoseOfTool = calibration::Pose<Patient, calibration::Tool>;
+
+  static PoseOfTool between(const PoseOfTool& from, const PoseOfTool& to, double part) {
+    return {glm::slerp(from.rotation, to.rotation, part), glm::mix(from.translation_mm, to.translation_mm, part)};
+  }
+
+  void step(const PoseOfTool& from, const PoseOfTool& middle, const PoseOfTool& to, double dt_s) {
+    const haptics::CutMoment moment = momentAt(middle, to.translation_mm - from.translation_mm, dt_s);
+    const haptics::ErosionStep share = haptics::erosionStep(cut_.erosion, moment, memory_);
+    haptics::CarveResult removed;
+    if (!share.takesNothing()) removed = haptics::carveSweep(bone_, cut_.head, from, to, share, tick_);
+    memory_ = haptics::remembered(cut_.erosion, moment, memory_, removed.removed_mm3_by_label);
+    removed_ += removed;
+  }
+
+  haptics::CutMoment momentAt(const PoseOfTool& X_PT, const glm::dvec3& way_mm, double dt_s) const {
+    const haptics::SolidField field = bone_.field();
+    haptics::ToolInBone at{field, cut_.head, X_PT, cut_.law.tissue, {}};
+    at.motion.velocity_P_mm_per_s.xyz = way_mm / dt_s;
+    at.motion.dt_s = dt_s;
+    at.motion.spindle_rad_per_s = speedUnder(cut_.spindle, 0.0);
+    // The law that is linear in time asks for no contact.
+    haptics::Contact contact;
+    if (cut_.erosion.kind != haptics::ErosionKind::time) contact = haptics::contactOf(cut_.law, at);
+    const double pressing_N =
+        std::isnan(cut_.normal_force_N) ? glm::dot(contact.force_P_N.xyz, contact.normal_P.xyz) : cut_.normal_force_N;
+    haptics::CutMoment moment = haptics::cutMoment(cut_.erosion, cut_.spindle, at, contact, pressing_N);
+    if (cut_.erosion.kind == haptics::ErosionKind::time) return moment;
+    moment.spindle_rad_per_s = speedUnder(cut_.spindle, haptics::spindleLoad_Nmm(cut_.erosion, moment, 0.0));
+    moment.power_mW = haptics::availablePower_mW(cut_.spindle, moment.spindle_rad_per_s);
+    return moment;
+  }
+
+  haptics::CarvedBone& bone_;
+  const Cut& cut_;
+  haptics::CutMemory memory_;
+  haptics::CarveResult removed_;
+  double drilled_s_ = 0.0;
+  std::uint64_t tick_ = 0;
+};
+
 int carve(const CarveOptions& options) {
-  const haptics::BurShape head = headFrom(options.tool);
-  haptics::ErosionParameters erosion;
-  std::map<std::string, Setting> settings{{"removal_rate_per_s", {&erosion.removal_rate_per_s, 0.0, 1000.0, "1/s"}}};
-  for (std::size_t l = 0; l < assets::kTissues.size(); ++l)
-    settings["factor_" + std::string(assets::kTissues[l].key)] = {&erosion.tissue_factor[l], 0.0, 1000.0, ""};
+  Cut cut;
+  cut.head = headFrom(options.tool);
+  cut.erosion.kind = *haptics::erosionOfKey(options.erosion);
+  std::map<std::string, Setting> settings = parametersOf(cut.erosion);
+  settings.merge(parametersOf(cut.spindle));
+  if (cut.erosion.kind == haptics::ErosionKind::dose) {
+    settings["normal_force_N"] = {&cut.normal_force_N, 0.0, 100.0, "N"};
+    settings["stiffness_N_per_mm"] = {&cut.law.agus.stiffness_N_per_mm, 0.0, 100.0, "N/mm"};
+  }
   applySettings(options.settings, settings);
 
   refuseSameFile(options.out, {options.poses, options.volume.path()});
@@ -72,14 +140,21 @@ int carve(const CarveOptions& options) {
   refuseLongRun(poses, options.poses);
   const SolidVolume volume = options.volume.load();
   haptics::CarvedBone bone(volume.grid, volume.solid, volume.label);
-  const haptics::CarveResult removed = carveAlong(bone, poses, head, erosion);
+  Carving carving(bone, cut);
+  carving.along(poses);
+  const haptics::CarveResult& removed = carving.removed();
   assets::writeSolid(volume.grid, bone.solidInGridOrder(), out);
 
   nlohmann::json by_label = nlohmann::json::object();
   for (std::size_t l = 0; l < removed.removed_mm3_by_label.size(); ++l)
     if (removed.removed_mm3_by_label[l] > 0.0) by_label[std::to_string(l)] = removed.removed_mm3_by_label[l];
-  std::printf("%s\n",
-              nlohmann::json{{"removed_mm3", removed.removed_mm3}, {"removed_mm3_by_label", by_label}}.dump(2).c_str());
+  const double mean_mm3_per_s = carving.drilled_s() > 0.0 ? removed.removed_mm3 / carving.drilled_s() : 0.0;
+  std::printf("%s\n", nlohmann::json{{"erosion", options.erosion},
+                                     {"removed_mm3", removed.removed_mm3},
+                                     {"removed_mm3_by_label", by_label},
+                                     {"mm3_per_s", mean_mm3_per_s}}
+                          .dump(2)
+                          .c_str());
   return 0;
 }
 
@@ -90,13 +165,20 @@ void addCarve(CLI::App& molar, Chosen& chosen) {
   CLI::App* command = molar.add_subcommand("carve", "Carving along timed poses: carved NRRD, removed mm³ as JSON");
   options->volume.addTo(*command);
   command->add_option("--tool", options->tool, kHeadHelp)->required();
-  command->add_option("--erosion", options->erosion, "Erosion law")
-      ->check(CLI::IsMember({"time"}))
+  command->add_option("--erosion", options->erosion, "Erosion law: time, dose or machining")
+      ->check(CLI::IsMember(erosionNames()))
       ->capture_default_str();
-  command->add_option("--set", options->settings, "key=value: removal_rate_per_s, factor_enamel, factor_cortical, …");
+  command->add_option("--set", options->settings, "key=value, see below");
   command->add_option("--poses", options->poses, "t_s,px_mm,py_mm,pz_mm,qw,qx,qy,qz[,drill] (X_PT)")->required();
   command->add_option("--out", options->out, "Solid fraction that is left, .nrrd")->required();
   command->add_flag("--force", options->force, "Replace the output if it exists");
+  command->footer(
+      erosionHelp() +
+      "  dose, besides: the force that presses the bur on,\n"
+      "    normal_force_N (N): given; or, where it is not,\n"
+      "    stiffness_N_per_mm (N/mm): k h of the law agus at each pose\n"
+      "The spindle turns at spindle_rpm while the pedal is down, slower under load; machining takes its feed from the "
+      "poses.");
   command->callback([options, &chosen] { chosen.action = [options] { return carve(*options); }; });
 }
 

@@ -10,6 +10,7 @@
 
 #include "app/commands/command.h"
 #include "app/commands/number_range.h"
+#include "app/erosion_text.h"
 #include "app/patient_source.h"
 #include "app/rehearsal.h"
 #include "app/room.h"
@@ -29,7 +30,7 @@ constexpr double kForeignFaceWindow_mm = 24.0;
 
 struct RehearseOptions {
   std::string patient, device = "mouse", rig, display = "mono", record, snapshot, first_snapshot, face;
-  std::string tool = "sphere:1.5", shaft, law = "agus", size, snapshot_size = "1280x800";
+  std::string tool = "sphere:1.5", shaft, law = "agus", erosion = "time", size, snapshot_size = "1280x800";
   std::string side = "right";
   std::vector<std::string> settings;
   assets::JawParameters jaw;
@@ -68,12 +69,17 @@ int run(const RehearseOptions& options) {
   plan.command.tool.head = headFrom(options.tool);
   plan.command.tool.shaft =
       options.shaft.empty() ? haptics::usualShaft(plan.command.tool.head) : shaftFrom(options.shaft);
-  applySettings(options.settings,
-                {{"stiffness_N_per_mm", {&plan.command.law.agus.stiffness_N_per_mm, 0.0, 20.0, "N/mm"}},
-                 {"damping_Ns_per_mm", {&plan.command.law.damping_Ns_per_mm, 0.0, 0.1, "Ns/mm"}},
-                 {"removal_rate_per_s", {&plan.command.erosion.removal_rate_per_s, 0.0, 1000.0, "1/s"}},
-                 {"peak_force_N", {&plan.command.safety.peak_force_N, 0.1, 40.0, "N"}},
-                 {"slew_N_per_s", {&plan.command.safety.slew_N_per_s, 1.0, 1e5, "N/s"}}});
+  haptics::ErosionSettings& erosion = plan.command.erosion;
+  erosion.kind = *haptics::erosionOfKey(options.erosion);
+  std::map<std::string, Setting> settings{
+      {"stiffness_N_per_mm", {&plan.command.law.agus.stiffness_N_per_mm, 0.0, 20.0, "N/mm"}},
+      {"damping_Ns_per_mm", {&plan.command.law.damping_Ns_per_mm, 0.0, 0.1, "Ns/mm"}},
+      {"peak_force_N", {&plan.command.safety.peak_force_N, 0.1, 40.0, "N"}},
+      {"slew_N_per_s", {&plan.command.safety.slew_N_per_s, 1.0, 1e5, "N/s"}}};
+  settings.merge(parametersOf(erosion));
+  settings.merge(parametersOf(plan.command.spindle));
+  applySettings(options.settings, settings);
+  plan.command.law.machining.worn = erosion.worn;  // one bur: as dull to the hand as to the bone
   refuseUnlessObeyed(plan.command);
   if (options.headless && options.device == "mouse")
     throw UsageError("--headless: there is no mouse without a window, add --device scripted");
@@ -135,7 +141,11 @@ void addRehearse(CLI::App& molar, Chosen& chosen) {
   command->add_option("--tool", o->tool, kHeadHelp)->capture_default_str();
   command->add_option("--shaft", o->shaft, std::string(kShaftHelp) + " [a neck that fits, up to 2.35 mm thick]");
   command->add_option("--law", o->law, "Force law")->check(CLI::IsMember({"agus"}))->capture_default_str();
-  command->add_option("--set", o->settings, "key=value: stiffness_N_per_mm, removal_rate_per_s, peak_force_N, …");
+  command->add_option("--erosion", o->erosion, "Erosion law: time, dose or machining")
+      ->check(CLI::IsMember(erosionNames()))
+      ->capture_default_str();
+  command->add_option("--set", o->settings,
+                      "key=value: stiffness_N_per_mm, peak_force_N, spindle_rpm, worn, removal_rate_per_s, …");
   command->add_option("--rate", o->rate_Hz, "Servo rate, Hz")->check(numberRange(500.0, 4000.0))->capture_default_str();
   command->add_option("--seconds", o->seconds, "End after this time")->check(numberRange(0.1, 86400.0));
   command->add_option("--record", o->record, "Session file to write")->type_name("FILE");

@@ -45,7 +45,7 @@ void forEachField(auto& tick, Visit&& visit) requires std::same_as<std::remove_c
 template <class Visit>
 void forEachField(auto& command,
                   Visit&& visit) requires std::same_as<std::remove_cvref_t<decltype(command)>, haptics::Command> {
-  auto& [serial, tool, drill_enabled, law, erosion, safety] = command;
+  auto& [serial, tool, drill_enabled, law, erosion, spindle, safety] = command;
   auto& [head, shaft] = tool;
   auto& [shape_kind, radius_mm, length_mm] = head;
   auto& [shaft_radius_mm, shaft_length_mm] = shaft;
@@ -59,7 +59,11 @@ void forEachField(auto& command,
   auto& [chip_tangential_N_per_mm2, chip_radial_N_per_mm2, chip_axial_N_per_mm2, edge_tangential_N_per_mm,
          edge_radial_N_per_mm, edge_axial_N_per_mm, flutes, thickest_chip_mm, slowest_cut_rpm, worn, vibration_share] =
       machining;
-  auto& [removal_rate_per_s, tissue_factor] = erosion;
+  auto& [erosion_kind, time, dose, machining_erosion, erosion_worn, tissue_factor] = erosion;
+  auto& [removal_rate_per_s, rated_rpm] = time;
+  auto& [removal_mm3_per_J, friction] = dose;
+  auto& [cutting_energy_J_per_mm3] = machining_erosion;
+  auto& [commanded_rpm, stall_torque_Nmm, free_rpm, droop, inertia_g_cm2, bearing_torque_Nmm] = spindle;
   auto& [peak_force_N, slew_N_per_s, peak_torque_Nmm, slew_Nmm_per_s] = safety;
   visit(serial), visit(drill_enabled);
   visit(shape_kind), visit(radius_mm), visit(length_mm), visit(shaft_radius_mm), visit(shaft_length_mm);
@@ -71,7 +75,10 @@ void forEachField(auto& command,
   visit(chip_tangential_N_per_mm2), visit(chip_radial_N_per_mm2), visit(chip_axial_N_per_mm2);
   visit(edge_tangential_N_per_mm), visit(edge_radial_N_per_mm), visit(edge_axial_N_per_mm);
   visit(flutes), visit(thickest_chip_mm), visit(slowest_cut_rpm), visit(worn), visit(vibration_share);
-  visit(removal_rate_per_s);
+  visit(erosion_kind), visit(removal_rate_per_s), visit(rated_rpm), visit(removal_mm3_per_J), visit(friction);
+  visit(cutting_energy_J_per_mm3), visit(erosion_worn);
+  visit(commanded_rpm), visit(stall_torque_Nmm), visit(free_rpm), visit(droop), visit(inertia_g_cm2);
+  visit(bearing_torque_Nmm);
   for (auto& factor : tissue_factor) visit(factor);
   visit(peak_force_N), visit(slew_N_per_s), visit(peak_torque_Nmm), visit(slew_Nmm_per_s);
 }

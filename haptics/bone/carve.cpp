@@ -184,15 +184,6 @@ CarveResult& CarveResult::operator+=(const CarveResult& part) noexcept {
   return *this;
 }
 
-ErosionStep timeErosion(const ErosionParameters& erosion, double dt_s) noexcept {
-  ErosionStep step;
-  for (std::size_t label = 0; label < step.loss.size(); ++label) {
-    const double wanted = erosion.removal_rate_per_s * erosion.tissue_factor[label] * dt_s;
-    step.loss[label] = std::isfinite(wanted) ? std::clamp(wanted, 0.0, 1.0) : 0.0;
-  }
-  return step;
-}
-
 int carvingTurns(const CarvedBone& bone, double radius_mm, const ErosionStep& step) noexcept {
   const double radius = radius_mm / bone.grid().spacing_mm;
   const double most_loss = *std::max_element(step.loss.begin(), step.loss.end());
@@ -255,22 +246,6 @@ CarveResult carveSweep(CarvedBone& bone, const BurShape& head,
         glm::slerp(from_X_PT.rotation, to_X_PT.rotation, along),
         glm::mix(from_X_PT.translation_mm, to_X_PT.translation_mm, along)};
     total += carveTool(bone, head, X_PT, part, tick * kMostSweepSteps + static_cast<std::uint64_t>(n));
-  }
-  return total;
-}
-
-CarveResult carveSweep(CarvedBone& bone, const Point<Patient>& from_P, const Point<Patient>& to_P, double radius_mm,
-                       const ErosionParameters& erosion, double dt_s, std::uint64_t tick) noexcept {
-  const double length_mm = glm::length(to_P.mm - from_P.mm);
-  if (!std::isfinite(length_mm)) return {};
-  const double wanted = 1.0 + std::ceil(length_mm / (0.5 * bone.grid().spacing_mm));
-  const int steps = static_cast<int>(std::clamp(wanted, 1.0, static_cast<double>(kMostSweepSteps)));
-  const ErosionStep part = timeErosion(erosion, dt_s / steps);
-  CarveResult total;
-  for (int step = 0; step < steps; ++step) {
-    const double along = steps == 1 ? 1.0 : static_cast<double>(step) / (steps - 1);  // both ends are reached
-    total += carveSphere(bone, {glm::mix(from_P.mm, to_P.mm, along)}, radius_mm, part,
-                         tick * kMostSweepSteps + static_cast<std::uint64_t>(step));
   }
   return total;
 }

@@ -12,7 +12,6 @@
 #include "calibration/geometry/frames.h"
 #include "calibration/geometry/pose.h"
 #include "haptics/bone/carved_bone.h"
-#include "haptics/bone/erosion.h"
 #include "haptics/bone/erosion_step.h"
 #include "haptics/tool/bur_shape.h"
 
@@ -43,15 +42,9 @@ int carvingTurns(const CarvedBone& bone, double radius_mm, const ErosionStep& st
 /// The same for a head of any shape: of a ball with its surface.
 int carvingTurns(const CarvedBone& bone, const BurShape& head, const ErosionStep& step) noexcept;
 
-/// The step of `dt_s` of the law that is linear in time.
-ErosionStep timeErosion(const ErosionParameters& erosion, double dt_s) noexcept;
-
-/// One step for a bur that moves straight from `from` to `to` during it: in equal parts of at most half a voxel, and at
-/// most `kMostSweepSteps` of them. For poses too far apart to be taken as steps of their own.
-CarveResult carveSweep(CarvedBone& bone, const calibration::Point<calibration::Patient>& from_P,
-                       const calibration::Point<calibration::Patient>& to_P, double radius_mm,
-                       const ErosionParameters& erosion, double dt_s, std::uint64_t tick) noexcept;
-/// The same with a head of any shape that turns evenly on its way; no point of it moves more than half a voxel a part.
+/// One step for a head that moves straight from `from` to `to` during it and turns evenly on its way: in equal parts in
+/// which no point of it moves more than half a voxel, at most `kMostSweepSteps` of them. For poses too far apart to be
+/// taken as steps of their own.
 CarveResult carveSweep(CarvedBone& bone, const BurShape& head,
                        const calibration::Pose<calibration::Patient, calibration::Tool>& from_X_PT,
                        const calibration::Pose<calibration::Patient, calibration::Tool>& to_X_PT,

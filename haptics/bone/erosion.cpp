@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace haptics {
 namespace {
@@ -51,6 +52,18 @@ constexpr std::array kTable = {
 };
 static_assert(assets::kTissueCount == 10, "a factor for every tissue");
 
+/// Row by row at compile time: on the servo thread nothing is called through a pointer.
+template <std::size_t Row>
+void clampRow(ErosionSettings& safe, ErosionSettings& standard) {
+  constexpr auto kIn = kTable[Row].in;
+  double& value = kIn(safe);
+  value = std::isfinite(value) ? std::clamp(value, kTable[Row].lowest, kTable[Row].highest) : kIn(standard);
+}
+template <std::size_t... Row>
+void clampRows(ErosionSettings& safe, ErosionSettings& standard, std::index_sequence<Row...>) {
+  (clampRow<Row>(safe, standard), ...);
+}
+
 }  // namespace
 
 std::optional<ErosionKind> erosionOfKey(std::string_view key) {
@@ -62,12 +75,9 @@ std::optional<ErosionKind> erosionOfKey(std::string_view key) {
 std::span<const ErosionParameter> erosionParameters() { return kTable; }
 
 ErosionSettings sanitised(const ErosionSettings& settings) {
-  ErosionSettings standard, safe = settings;
+  ErosionSettings safe = settings, standard;
   if (static_cast<std::size_t>(safe.kind) >= kErosions.size()) safe.kind = standard.kind;
-  for (const ErosionParameter& parameter : kTable) {
-    double& value = parameter.in(safe);
-    value = std::isfinite(value) ? std::clamp(value, parameter.lowest, parameter.highest) : parameter.in(standard);
-  }
+  clampRows(safe, standard, std::make_index_sequence<kTable.size()>{});
   return safe;
 }
 

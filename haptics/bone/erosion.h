@@ -46,11 +46,6 @@ struct ErosionSettings {
   }();
 };
 
-struct ErosionParameters {
-  double removal_rate_per_s = 4.0;  ///< fraction of a fully covered voxel of reference tissue per second
-  std::array<double, assets::kTissueCount> tissue_factor = ErosionSettings{}.tissue_factor;
-};
-
 struct ErosionName {
   ErosionKind kind;
   std::string_view key;  ///< in files and on the command line

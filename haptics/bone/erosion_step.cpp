@@ -64,14 +64,14 @@ ErosionStep erosionStep(const ErosionSettings& settings, const CutMoment& moment
   const auto& factor = settings.tissue_factor;
   if (settings.kind == ErosionKind::time) {
     for (std::size_t tissue = 0; tissue < factor.size(); ++tissue)
-      step.loss[tissue] = std::min(1.0, finite(timeLoss_per_s(settings, moment, factor[tissue]) * finite(moment.dt_s)));
+      step.loss[tissue] = finite(timeLoss_per_s(settings, moment, factor[tissue]) * finite(moment.dt_s));
     return step;
   }
   if (!(finite(moment.overlap_mm3) > 0.0)) return step;
 
   const double loss_per_rate = lossPerRate(moment, memory);
   for (std::size_t tissue = 0; tissue < factor.size(); ++tissue)
-    step.loss[tissue] = std::min(1.0, finite(rate_mm3_per_s(settings, moment, factor[tissue]) * loss_per_rate));
+    step.loss[tissue] = finite(rate_mm3_per_s(settings, moment, factor[tissue]) * loss_per_rate);
   if (settings.kind == ErosionKind::dose && finite(moment.sliding_arm_mm) > 0.0) {
     step.speed_share = 1.0;
     step.mean_arm_mm = moment.sliding_arm_mm;

@@ -20,7 +20,8 @@
 namespace haptics {
 
 struct ErosionStep {
-  /// Fraction of its first content that a fully covered voxel of each tissue loses in this step, 0..1.
+  /// Fraction of its first content that a fully covered voxel of each tissue loses in this step; a bur that moves on
+  /// within a long step may pass by with more than 1.
   std::array<double, assets::kTissueCount> loss{};
   /// Share of the loss that goes with the sliding speed of the bur's surface, |r x axis|: 0 everywhere alike, 1 none at
   /// the tip of a turning bur.

@@ -8,6 +8,7 @@
 #include "haptics/contact/cap.h"
 #include "haptics/contact/field_sample.h"
 #include "haptics/contact/head_surface.h"
+#include "haptics/contact/shape_contact.h"
 
 namespace haptics {
 namespace {
@@ -115,13 +116,21 @@ double rimStiffness_N_per_mm(const MachiningParameters& parameters, const ToolIn
 }
 
 Contact overlapContact(const ToolInBone& at) {
-  const AgusContact agus = agusContact(at.field, {at.X_PT.translation_mm}, at.head.radius_mm);
   Contact contact;
-  contact.normal_P = agus.normal_P;
-  contact.depth_mm = agus.depth_mm;
-  contact.volume_mm3 = agus.volume_mm3;
-  const double flat_mm4 = capMoment_mm4(at.head.radius_mm, agus.depth_mm);
-  contact.one_sided = flat_mm4 > 0.0 ? agus.moment_mm4 / flat_mm4 : 1.0;
+  if (at.head.kind == ShapeKind::sphere) {
+    const AgusContact agus = agusContact(at.field, {at.X_PT.translation_mm}, at.head.radius_mm);
+    contact.normal_P = agus.normal_P;
+    contact.depth_mm = agus.depth_mm;
+    contact.volume_mm3 = agus.volume_mm3;
+    const double flat_mm4 = capMoment_mm4(at.head.radius_mm, agus.depth_mm);
+    contact.one_sided = flat_mm4 > 0.0 ? agus.moment_mm4 / flat_mm4 : 1.0;
+    return contact;
+  }
+  const ShapeContact shape = shapeContact(at);
+  contact.normal_P = shape.normal_P;
+  contact.depth_mm = shape.depth_mm;
+  contact.volume_mm3 = shape.volume_mm3;
+  contact.one_sided = shape.one_sided;
   return contact;
 }
 
@@ -149,7 +158,9 @@ Contact machiningContact(const MachiningParameters& parameters, const ToolInBone
   mean += wall.scaled(1.0 - cutting);
   contact.force_P_N.xyz = at.X_PT.rotation * mean.force;
   contact.torque_P_Nmm.xyz = at.X_PT.rotation * mean.torque;
-  if (area > 0.0)
+  if (at.head.kind != ShapeKind::sphere)
+    contact.stiffness_N_per_mm = glm::length(mean.force) / contact.depth_mm;  // the secant: no steeper than at touch
+  else if (area > 0.0)
     contact.stiffness_N_per_mm =
         hardness / area * rimStiffness_N_per_mm(parameters, at, where.towards_T, contact.depth_mm, cutting);
 

@@ -7,6 +7,7 @@
 #include "haptics/bone/erosion.h"
 #include "haptics/contact/law.h"
 #include "haptics/servo/safety_limits.h"
+#include "haptics/tool/spindle.h"
 #include "haptics/tool/tool.h"
 
 namespace haptics {
@@ -16,7 +17,8 @@ struct Command {
   Tool tool;                  ///< felt, cut and drawn
   bool drill_enabled = true;  ///< false: the pedal does nothing
   LawSettings law;
-  ErosionParameters erosion;
+  ErosionSettings erosion;
+  SpindleSettings spindle;
   SafetyLimits safety;
 };
 

@@ -20,6 +20,8 @@ Command sanitised(const Command& command) {
   Command safe = command;
   safe.tool = sanitised(command.tool);
   safe.law = sanitised(command.law);
+  safe.erosion = sanitised(command.erosion);
+  safe.spindle = sanitised(command.spindle);
   safe.safety = sanitised(command.safety);
   return safe;
 }
@@ -42,8 +44,13 @@ Tick Servo::step(const HandSample& hand, const Command& wanted, double dt_s) noe
   if (!believed.device_healthy) tick.faults = tick.faults | Fault::device;
   const bool trouble = tick.faults != Fault::none;
 
+  // The pedal turns the bur.
+  tick.drilling = believed.drill_pedal && command.drill_enabled && !trouble;
+  cutting_.turn(command.spindle, tick.drilling, tick.dt_s);
+  tick.spindle_rad_per_s = cutting_.spindle().rad_per_s;
+
   // Contact at the place where the surface holds the tool.
-  const ToolMotion motion{believed.velocity_P_mm_per_s, tick.spindle_rad_per_s, tick.dt_s};
+  const ToolMotion motion = cutting_.motion(believed.velocity_P_mm_per_s, tick.dt_s);
   const Proxy::Held held = proxy_.follow(bone_.field(), command.law, command.tool, believed.X_PT, motion);
   tick.proxy_P = held.proxy_P;
   tick.overlap_mm3 = held.head.volume_mm3;
@@ -67,14 +74,10 @@ Tick Servo::step(const HandSample& hand, const Command& wanted, double dt_s) noe
   tick.faults = tick.faults | served.faults;
 
   // The bur cuts where it is felt.
-  tick.drilling = believed.drill_pedal && command.drill_enabled && !trouble;
-  if (tick.drilling && held.head.volume_mm3 > 0.0) {
-    const BurShape& head = command.tool.head;
-    const ErosionStep erosion = timeErosion(command.erosion, tick.dt_s);
-    tick.removed_mm3 = carveTool(bone_, head, {believed.X_PT.rotation, held.proxy_P.mm}, erosion, tick.index,
-                                 carvingTurns(bone_, head, erosion))
-                           .removed_mm3;
-  }
+  const Cutting::Held at{{believed.X_PT.rotation, held.proxy_P.mm}, command.tool.head, held.head, held.force_P_N()};
+  tick.removed_mm3 =
+      cutting_.cut(bone_, command.erosion, command.spindle, command.law, at, tick.drilling, tick.dt_s, tick.index)
+          .removed_mm3;
   tick.bone_digest = bone_.digest();
   return tick;
 }

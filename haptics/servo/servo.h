@@ -5,6 +5,7 @@
 
 #include "haptics/bone/carved_bone.h"
 #include "haptics/servo/command.h"
+#include "haptics/servo/cutting.h"
 #include "haptics/servo/delivery.h"
 #include "haptics/servo/hand_guard.h"
 #include "haptics/servo/proxy.h"
@@ -28,6 +29,7 @@ class Servo {
   CarvedBone& bone_;
   HandGuard guard_;
   Proxy proxy_;
+  Cutting cutting_;
   Delivery delivery_;
   std::uint64_t last_serial_ = 0;
   std::uint64_t next_index_ = 0;

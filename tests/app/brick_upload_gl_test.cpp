@@ -39,7 +39,7 @@ TEST(BrickUpload, ShowsWhatOneTickCutToBothEyesInTheNextFrame) {
   haptics::Servo servo(bone);
   haptics::Command command;
   command.tool.head.radius_mm = 1.5;
-  command.erosion.removal_rate_per_s = 1000.0;
+  command.erosion.time.removal_rate_per_s = 1000.0;
   const haptics::Tick tick = servo.step({{{1, 0, 0, 0}, {0.0, 0.0, 0.4}}, {}, true}, command, 0.001);
   ASSERT_GT(tick.removed_mm3, 0.5);
 

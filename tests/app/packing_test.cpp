@@ -68,7 +68,7 @@ TEST(Packing, BringsACommandBack) {
   command.drill_enabled = false;
   command.law.agus.stiffness_N_per_mm = 0.7;
   command.law.damping_Ns_per_mm = 0.002;
-  command.erosion.removal_rate_per_s = 3.5;
+  command.erosion.time.removal_rate_per_s = 3.5;
   command.erosion.tissue_factor[4] = 0.123;
   command.safety = {2.9, 250.0, 60.0, 4000.0};
   EXPECT_EQ(packCommand(unpackCommand(packCommand(command))), packCommand(command));

@@ -17,6 +17,7 @@
 #include "haptics/contact/overlap.h"
 #include "haptics/servo/servo.h"
 #include "tests/haptics/phantom.h"
+#include "tests/haptics/time_erosion.h"
 
 namespace {
 
@@ -201,7 +202,8 @@ int memory() {
   CarvedBone bone(grid, solid, label);
   const double made_MB = resident_MB() - before_MB;
   for (std::uint64_t tick = 0; tick < 400; ++tick)
-    carveSphere(bone, {{5.0 + 0.12 * static_cast<double>(tick), 30.0, 25.0}}, 4.0, timeErosion({}, 0.05), tick);
+    carveSphere(bone, {{5.0 + 0.12 * static_cast<double>(tick), 30.0, 25.0}}, 4.0, phantom::timeErosion({}, 0.05),
+                tick);
   std::printf("%.0f voxels: %.2f bytes a voxel counted, %.2f resident, %.2f after carving a trough of %.0f mm3\n",
               voxels, static_cast<double>(bone.bytes()) / voxels, made_MB * 1e6 / voxels,
               (resident_MB() - before_MB) * 1e6 / voxels, bone.removedByTissue_mm3()[1]);

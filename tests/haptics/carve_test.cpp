@@ -11,6 +11,7 @@
 #include "haptics/contact/cap.h"
 #include "haptics/contact/overlap.h"
 #include "tests/haptics/phantom.h"
+#include "tests/haptics/time_erosion.h"
 
 namespace haptics {
 namespace {
@@ -20,9 +21,9 @@ using namespace phantom;
 constexpr double kRadius_mm = 2.0;
 const double kBall_mm3 = capVolume_mm3(kRadius_mm, 2.0 * kRadius_mm);
 
-ErosionParameters rate(double per_s) {
-  ErosionParameters erosion;
-  erosion.removal_rate_per_s = per_s;
+ErosionSettings rate(double per_s) {
+  ErosionSettings erosion;
+  erosion.time.removal_rate_per_s = per_s;
   return erosion;
 }
 
@@ -32,8 +33,14 @@ double left_mm3(const CarvedBone& bone) {
   return static_cast<double>(sum) / 255.0 * bone.grid().voxelVolume_mm3();
 }
 
+double sweep(CarvedBone& bone, const glm::dvec3& from, const glm::dvec3& to, const ErosionStep& step) {
+  return carveSweep(bone, {ShapeKind::sphere, kRadius_mm, 0.0}, {glm::dquat(1, 0, 0, 0), from},
+                    {glm::dquat(1, 0, 0, 0), to}, step, 0)
+      .removed_mm3;
+}
+
 /// Dwells at `centre` for `seconds` at `rate_Hz`.
-double dwell(CarvedBone& bone, const glm::dvec3& centre, const ErosionParameters& erosion, double seconds,
+double dwell(CarvedBone& bone, const glm::dvec3& centre, const ErosionSettings& erosion, double seconds,
              double rate_Hz) {
   double removed = 0.0;
   const auto ticks = static_cast<std::uint64_t>(std::lround(seconds * rate_Hz));
@@ -158,7 +165,7 @@ TEST(Carve, LosesNothingToRoundingWhenSlow) {
 }
 
 TEST(Carve, FollowsTheTissue) {
-  ErosionParameters erosion = rate(4.0);
+  ErosionSettings erosion = rate(4.0);
   const auto removedOf = [&](std::uint8_t label) {
     CarvedBone bone = block(2.5, 0.2).bone(label);
     const CarveResult result = carveSphere(bone, {{0.0, 0.0, 0.0}}, kRadius_mm, timeErosion(erosion, 0.01), 0);
@@ -191,15 +198,14 @@ TEST(Carve, IgnoresWhatIsNoCut) {
   }
   EXPECT_EQ(carveSphere(bone, {{nan, 0.0, 0.0}}, 1.0, timeErosion(rate(4.0), 1e-3), 0).removed_mm3, 0.0);
   EXPECT_EQ(carveSphere(bone, {{0.0, 0.0, 90.0}}, 1.0, timeErosion(rate(4.0), 1e-3), 0).removed_mm3, 0.0);
-  EXPECT_EQ(carveSweep(bone, {{0.0, nan, 0.0}}, {{0.0, 0.0, 0.0}}, 1.0, rate(4.0), 1e-3, 0).removed_mm3, 0.0);
+  EXPECT_EQ(sweep(bone, {0.0, nan, 0.0}, {0.0, 0.0, 0.0}, timeErosion(rate(4.0), 1e-3)), 0.0);
   for (std::uint8_t solid : bone.solidInGridOrder()) ASSERT_EQ(solid, 255);
 }
 
 TEST(CarveSweep, BridgesPosesThatAreFarApart) {
   const double capsule = kBall_mm3 + calibration::kPi * kRadius_mm * kRadius_mm * 4.0;
   CarvedBone bone = block(5.0, 0.2).bone();
-  const double removed =
-      carveSweep(bone, {{-2.0, 0.03, 0.07}}, {{2.0, 0.03, 0.07}}, kRadius_mm, rate(200.0), 1.0, 0).removed_mm3;
+  const double removed = sweep(bone, {-2.0, 0.03, 0.07}, {2.0, 0.03, 0.07}, timeErosion(rate(200.0), 1.0));
   EXPECT_NEAR(removed, capsule, 0.02 * capsule);
 }
 

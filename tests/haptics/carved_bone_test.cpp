@@ -10,6 +10,7 @@
 #include "calibration/geometry/units.h"
 #include "haptics/bone/carve.h"
 #include "tests/haptics/phantom.h"
+#include "tests/haptics/time_erosion.h"
 
 namespace haptics {
 namespace {

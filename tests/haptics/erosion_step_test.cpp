@@ -238,7 +238,7 @@ TEST(Erosion, RemovesNothingByWhatIsNoNumber) {
       at = moment(1e-3);
       at.normal_force_N = at.sliding_arm_mm = at.overlap_mm3 = at.swept_mm3_per_s = at.power_mW = bad;
       const ErosionStep step = erosionStep(settingsOf(law.kind), at, {});
-      for (double loss : step.loss) EXPECT_TRUE(loss >= 0.0 && loss <= 1.0) << law.key << bad;
+      for (double loss : step.loss) EXPECT_TRUE(loss >= 0.0 && std::isfinite(loss)) << law.key << bad;
       EXPECT_TRUE(std::isfinite(remembered(settingsOf(law.kind), at, {}, {}).owed_mm3));
       EXPECT_TRUE(std::isfinite(remembered(settingsOf(law.kind), at, {}, {}).yield));
     }

@@ -218,6 +218,52 @@ TEST(Machining, VibratesNoHarderThanTheHandAndTheDeviceCanTake) {
   }
 }
 
+TEST(Machining, KnowsOtherHeads) {
+  // Lying on flat bone, 0.4 mm deep: the side's strip, of half angle acos(1 - h/R), swept down and along.
+  const double R = 1.0, h = 0.4, L = 3.0, half_width = std::sqrt(h * (2.0 * R - h));
+  const Phantom bone = halfSpace(3.2, 0.1);
+  const SolidField field = bone.field();
+  const TissueStiffness tissue;
+  for (ShapeKind kind : {ShapeKind::cylinder, ShapeKind::capsule}) {
+    ToolMotion motion;
+    motion.velocity_P_mm_per_s = {{0.0, 0.0, -2.0}};
+    motion.spindle_rad_per_s = k40krpm;
+    const calibration::Pose<Patient, Tool> X_PT{spindleAlong({1, 0, 0}), {0.013, -0.021, R - h}};
+    const ToolInBone at{field, {kind, R, L}, X_PT, tissue, motion};
+    const double ends = kind == ShapeKind::capsule ? plunge_mm3(R, h) : 0.0;
+    const double swept = 2.0 * (2.0 * half_width * L + ends);
+    EXPECT_NEAR(sweptRate_mm3_per_s(at) / swept, 1.0, 0.03);
+    const MachiningParameters parameters = chipsOnly();
+    const double power_mW = spindleTorque_Nmm(machiningContact(parameters, at), at) * k40krpm;
+    EXPECT_NEAR(power_mW / (parameters.chip_tangential_N_per_mm2 * swept), 1.0, 0.03);
+  }
+}
+
+/// A stationary bur is pressed in and drawn out again while it turns; what it overlaps goes at the swept rate.
+TEST(Machining, ClosesItsEnergy) {
+  // Spindle and hand together put in what chips and edges take: T w + F.v = K_tc MRR + edge drag, at every moment of a
+  // press and its release; the hand's share is small beside the spindle's and never negative on the way in.
+  const Phantom bone = halfSpace(2.2, 0.1);
+  MachiningParameters edges;
+  edges.chip_tangential_N_per_mm2 = edges.chip_radial_N_per_mm2 = 0.0;
+  const MachiningParameters all;
+  double spindle_mJ = 0.0, hand_mJ = 0.0, chips_mJ = 0.0, edge_mJ = 0.0;
+  constexpr double kStep_s = 0.01;
+  for (int tick = 0; tick < 100; ++tick) {
+    const double way = tick < 50 ? -1.0 : 1.0, depth = 0.5 * (tick < 50 ? tick + 0.5 : 99.5 - tick) / 50.0;
+    const Case test(bone, 1.0, depth, {1, 0, 0}, {0, 0, way});
+    const ToolInBone at = test.at();
+    const Contact contact = machiningContact(all, at);
+    spindle_mJ += spindleTorque_Nmm(contact, at) * k40krpm * kStep_s;
+    hand_mJ -= glm::dot(contact.force_P_N.xyz, test.velocity_P) * kStep_s;
+    chips_mJ += all.chip_tangential_N_per_mm2 * sweptRate_mm3_per_s(at) * kStep_s;
+    edge_mJ += spindleTorque_Nmm(machiningContact(edges, at), at) * k40krpm * kStep_s;
+  }
+  EXPECT_NEAR(spindle_mJ / (chips_mJ + edge_mJ), 1.0, 0.02);
+  EXPECT_GT(hand_mJ, 0.0);
+  EXPECT_LT(hand_mJ, 1e-3 * spindle_mJ);
+}
+
 TEST(Machining, KnowsNothingOfThinAir) {
   const Phantom bone = halfSpace(1.8, 0.1);
   const Contact contact = machiningContact({}, Case(bone, 1.0, -0.3).at());

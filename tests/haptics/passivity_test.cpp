@@ -228,6 +228,7 @@ TEST(ServoPassivity, NeverFeedsAnyHandAnywhereUnderAnyLaw) {
       WanderingHand hand(seed + 40, 1000.0, {0.3, -0.2, 0.1});
       Command command;
       command.law.kind = law.kind;
+      command.law.machining.edge_radial_N_per_mm = 0.1;  // a wall as stiff as the others
       command.tool.head.radius_mm = 0.8 + 0.2 * (seed % 4);
       const Account account = held(bone, command, 1000.0, 1.0, [&](double) { return hand.next(); });
       EXPECT_LT(account.most_given_Nmm, kOneRamp_Nmm) << law.key << " seed " << seed;
