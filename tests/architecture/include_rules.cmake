@@ -29,6 +29,7 @@ set(third_parties
   "opencv2/" "calibration"
   "openvdb/|nanovdb/|itk|gdcm|tiny_gltf|nifti1|zlib" "assets"
   "toml\\+\\+/" "assets|app"
+  "cairo|pango/" "app"
   "nlohmann/" "assets|app"
   "tbb/|oneapi/" "assets|haptics"
   "libusb" "haptics"

@@ -1,0 +1,48 @@
+// A figure for a report: panels side by side with curves, points with bars, reference lines, one legend below. Drawn by
+// Cairo and Pango, which stay in the .cpp, to a PNG for print at 20 px a mm (300 dpi at 170 mm width). Colours of
+// curves are Okabe and Ito's, told apart by colour-blind eyes and in grey; dashes help where lines cross. Not the
+// rehearsal's picture (render). Any one thread; a tenth of a second.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "assets/output_file.h"
+
+namespace app {
+
+struct Curve {
+  std::string label;  ///< in the legend; empty: not there. The same label in two panels is one entry
+  int colour = 0;     ///< 0..6, see chart.cpp
+  std::vector<glm::dvec2> points;
+  bool joined = true, dotted = false, dashed = false;
+  std::vector<glm::dvec2> bars;  ///< low and high of each point, or none
+  std::vector<double> sizes;     ///< of each dot, 1 the usual, or none
+};
+
+/// A grey line across the panel with its name on it.
+struct ReferenceLine {
+  std::string label;
+  double at = 0.0;
+  bool across = true;  ///< horizontal; else upright
+};
+
+struct Panel {
+  std::string title, x_label, y_label;
+  std::vector<Curve> curves;
+  std::vector<ReferenceLine> lines;
+  std::optional<glm::dvec2> x_range, y_range;  ///< else what the curves and lines need
+};
+
+struct Chart {
+  std::string title, caption;
+  std::vector<Panel> panels;
+  glm::ivec2 size_px{2040, 1080};
+};
+
+/// Throws LoadError when the file can not be written. The file is committed.
+void drawChart(const Chart& chart, assets::OutputFile& file);
+
+}  // namespace app

@@ -1,0 +1,177 @@
+// `molar laws`: every force law with its parameters, units, ranges, defaults and sources, for people or as JSON; and
+// what each feels like in flat bone, F(h) and K(h), as a picture.
+
+#include <cstdio>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "app/chart/chart.h"
+#include "app/commands/command.h"
+#include "app/commands/number_range.h"
+#include "app/law_curves.h"
+#include "app/law_text.h"
+#include "app/settings_text.h"
+#include "app/toml_keys.h"
+#include "app/usage_error.h"
+#include "haptics/contact/law_parameters.h"
+#include "haptics/servo/safety_limits.h"
+
+namespace app {
+namespace {
+
+using haptics::LawParameter;
+
+/// Of a Touch-class device in a light grip (reference/physics 2.5).
+constexpr double kDeviceDamping_Ns_per_mm = 0.002;
+
+struct LawsOptions {
+  bool json = false, force = false;
+  std::string plot, tool = "sphere:2";
+  std::vector<std::string> laws{"all"}, settings;
+  double rate_Hz = 1000.0, device_damping_Ns_per_mm = kDeviceDamping_Ns_per_mm;
+};
+
+std::vector<const haptics::LawName*> chosenLaws(const LawsOptions& options) {
+  std::vector<const haptics::LawName*> chosen;
+  const bool all = std::find(options.laws.begin(), options.laws.end(), "all") != options.laws.end();
+  for (const std::string& name : options.laws)
+    if (name != "all") lawNamed(name);
+  for (const haptics::LawName& law : haptics::kLaws)
+    if (all || std::find(options.laws.begin(), options.laws.end(), law.key) != options.laws.end())
+      chosen.push_back(&law);
+  return chosen;
+}
+
+nlohmann::json jsonOf(const LawParameter& one) {
+  return {{"key", one.key},         {"unit", one.unit},          {"lowest", one.lowest},
+          {"highest", one.highest}, {"default", one.standard()}, {"meaning", one.meaning},
+          {"source", one.source}};
+}
+
+void printJson(const std::vector<const haptics::LawName*>& laws) {
+  using nlohmann::json;
+  json list = json::array(), common = json::array();
+  for (const haptics::LawName* law : laws) {
+    json parameters = json::array();
+    for (const LawParameter& one : haptics::lawParameters())
+      if (one.law == law->kind) parameters.push_back(jsonOf(one));
+    json shapes = json::array();
+    for (const auto& [kind, name] :
+         {std::pair{haptics::ShapeKind::sphere, "sphere"}, std::pair{haptics::ShapeKind::capsule, "capsule"},
+          std::pair{haptics::ShapeKind::cylinder, "cylinder"}, std::pair{haptics::ShapeKind::cone, "cone"}})
+      if (haptics::admits(law->kind, kind)) shapes.push_back(name);
+    list.push_back({{"law", law->key},
+                    {"formula", law->formula},
+                    {"good_for", law->good_for},
+                    {"heads", shapes},
+                    {"parameters", parameters}});
+  }
+  for (const LawParameter& one : haptics::lawParameters())
+    if (!one.law) common.push_back(jsonOf(one));
+  std::printf("%s\n", json{{"laws", list}, {"every_law", common}}.dump(2).c_str());
+}
+
+void printRow(const LawParameter& one) {
+  const std::string range = numberText(one.lowest) + " .. " + numberText(one.highest);
+  std::printf("    %-26s %9s  %-14s %-7s %s\n", std::string(one.key).c_str(), numberText(one.standard()).c_str(),
+              range.c_str(), std::string(one.unit).c_str(), std::string(one.meaning).c_str());
+  std::printf("    %-26s %9s  %-14s %-7s   %s\n", "", "", "", "", std::string(one.source).c_str());
+}
+
+void printTable(const std::vector<const haptics::LawName*>& laws) {
+  for (const haptics::LawName* law : laws) {
+    std::printf("%s   %s\n  %s%s\n", std::string(law->key).c_str(), std::string(law->formula).c_str(),
+                std::string(law->good_for).c_str(),
+                haptics::admits(law->kind, haptics::ShapeKind::cylinder) ? "" : "; round heads only");
+    std::printf("    %-26s %9s  %-14s %-7s %s\n", "parameter", "default", "range", "unit", "meaning, source");
+    for (const LawParameter& one : haptics::lawParameters())
+      if (one.law == law->kind) printRow(one);
+    std::printf("\n");
+  }
+  std::printf("every law\n");
+  for (const LawParameter& one : haptics::lawParameters())
+    if (!one.law) printRow(one);
+}
+
+std::string numberOf(double value) { return numberText(std::round(1e4 * value) / 1e4); }
+
+void plot(const LawsOptions& options, const std::vector<const haptics::LawName*>& laws) {
+  Press press;
+  press.head.radius_mm = sphereRadius_mm(options.tool);
+  press.deepest_mm = press.head.radius_mm;
+  assets::OutputFile file(options.plot, options.force);
+
+  Chart chart;
+  chart.title = "Force laws on flat cortical bone";
+  chart.caption = "Bur " + options.tool + " mm, pressed in along its shaft; machining: " + numberOf(press.spindle_rpm) +
+                  " rpm, " + numberOf(press.feed_mm_per_s) + " mm/s. Limits of a device with " +
+                  numberOf(1000.0 * options.device_damping_Ns_per_mm) + " Ns/m of its own damping at " +
+                  numberOf(options.rate_Hz) + " Hz.";
+  Panel force{"Force", "depth h / mm", "force F / N", {}, {}, {}, {}};
+  Panel stiffness{"Stiffness", "depth h / mm", "stiffness K = dF/dh / (N/mm)", {}, {}, {}, {}};
+  double strongest = 0.0, stiffest = 0.0, softest = 0.0;
+  for (const haptics::LawName* law : laws) {
+    if (!haptics::admits(law->kind, press.head.kind)) continue;
+    haptics::LawSettings settings;
+    settings.kind = law->kind;
+    if (!options.settings.empty()) applySettings(options.settings, parametersOf(settings));
+    const LawCurve found = lawCurve(settings, press);
+    Curve curve;
+    curve.label = std::string(law->key);
+    curve.colour = static_cast<int>(law->kind);
+    // Agus, points and harmonic lie on one another by design: dashes let the lower one show.
+    curve.dashed = law->kind == haptics::LawKind::points || law->kind == haptics::LawKind::harmonic;
+    curve.points = found.force_N;
+    for (const glm::dvec2& p : found.force_N) strongest = std::max(strongest, p.y);
+    force.curves.push_back(curve);
+    curve.points = found.stiffness_N_per_mm;
+    for (const glm::dvec2& p : found.stiffness_N_per_mm)
+      stiffest = std::max(stiffest, p.y), softest = std::min(softest, p.y);
+    stiffness.curves.push_back(curve);
+  }
+  // Limits are drawn where they are near enough to matter.
+  const double peak_N = haptics::SafetyLimits{}.peak_force_N;
+  const double most_N_per_mm = 2.0 * options.device_damping_Ns_per_mm * options.rate_Hz;
+  if (peak_N < 4.0 * strongest) force.lines.push_back({"device, " + numberOf(peak_N) + " N", peak_N, true});
+  stiffness.lines.push_back({"K_max = 2b/T = " + numberOf(most_N_per_mm) + " N/mm", most_N_per_mm, true});
+  force.x_range = stiffness.x_range = glm::dvec2(0.0, press.deepest_mm);
+  chart.panels = {force, stiffness};
+  drawChart(chart, file);
+}
+
+int laws(const LawsOptions& options) {
+  const auto chosen = chosenLaws(options);
+  if (!options.plot.empty()) {
+    plot(options, chosen);
+    return 0;
+  }
+  if (options.json)
+    printJson(chosen);
+  else
+    printTable(chosen);
+  return 0;
+}
+
+}  // namespace
+
+void addLaws(CLI::App& molar, Chosen& chosen) {
+  auto o = std::make_shared<LawsOptions>();
+  CLI::App* command = molar.add_subcommand("laws", "Force laws: parameters, units, ranges, sources; F(h) and K(h)");
+  command->add_option("--law", o->laws, "Which, or all")->delimiter(',')->capture_default_str();
+  auto* plot = command->add_option("--plot", o->plot, "Draw force and stiffness over depth, .png")->type_name("FILE");
+  command->add_flag("--json", o->json, "For programs")->excludes(plot);
+  command->add_option("--tool", o->tool, "--plot: cutting head, sphere:R (mm)")->capture_default_str();
+  command->add_option("--set", o->settings, "--plot: key=value of the law chosen")->needs(plot);
+  command->add_option("--rate", o->rate_Hz, "--plot: servo rate, Hz")
+      ->check(numberRange(500.0, 10000.0))
+      ->capture_default_str();
+  command->add_option("--device-damping", o->device_damping_Ns_per_mm, "--plot: damping of device and hand, Ns/mm")
+      ->check(numberRange(0.0, 0.1))
+      ->capture_default_str();
+  command->add_flag("--force", o->force, "Replace the picture if it exists");
+  command->callback([o, &chosen] { chosen.action = [o] { return laws(*o); }; });
+}
+
+}  // namespace app

@@ -1,0 +1,27 @@
+// What a bur feels on its way into flat cortical bone, law by law: force and stiffness over depth, as the very laws of
+// the servo compute them on a fine grey phantom, not as formulas say. mm, N. Start-up only: a second for all laws.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "haptics/contact/law_settings.h"
+#include "haptics/tool/bur_shape.h"
+
+namespace app {
+
+struct LawCurve {
+  haptics::LawKind law = haptics::LawKind::agus;
+  std::vector<glm::dvec2> force_N;             ///< depth, force outward
+  std::vector<glm::dvec2> stiffness_N_per_mm;  ///< depth, dF/dh
+};
+
+struct Press {
+  haptics::BurShape head;
+  double deepest_mm = 1.0;
+  double spindle_rpm = 40000.0, feed_mm_per_s = 1.0;  ///< what the machining law goes by
+};
+
+LawCurve lawCurve(const haptics::LawSettings& law, const Press& press);
+
+}  // namespace app
