@@ -192,17 +192,35 @@ class PanelDrawing {
     page_.dashes(false);
   }
 
-  /// On white, over the curves, where the line leaves the panel.
+  /// Points of curves under a box: what a label put there would hide.
+  int hiddenBy(const Box& box) const {
+    int hidden = 0;
+    for (const Curve& curve : panel_.curves)
+      for (const glm::dvec2& p : curve.points) {
+        const glm::dvec2 at = place(p);
+        hidden += at.x > box.low.x && at.x < box.high.x && at.y > box.low.y && at.y < box.high.y;
+      }
+    return hidden;
+  }
+
+  /// On white, over the curves, at the line, where it hides the least.
   void drawLineLabels() const {
     page_.colour(kGrey);
     for (const ReferenceLine& line : panel_.lines) {
       const glm::dvec2 at = place(line.across ? glm::dvec2(x_.high, line.at) : glm::dvec2(line.at, y_.high));
-      const double height = page_.sizeOf(line.label, kSmall_px).y;
+      const glm::dvec2 size = page_.sizeOf(line.label, kSmall_px);
+      std::vector<glm::dvec2> places;
       if (line.across)
-        page_.text(line.label, {plot_.high.x - 8.0, at.y - height - 3.0}, kSmall_px, Anchor::right, false, 0.0, true,
-                   true);
+        for (const double y : {at.y - size.y - 3.0, at.y + 3.0})
+          for (const double x : {plot_.high.x - 8.0 - size.x, plot_.low.x + 12.0}) places.emplace_back(x, y);
       else
-        page_.text(line.label, {at.x + 10.0, plot_.low.y + 2.0}, kSmall_px, Anchor::left, false, 0.0, true, true);
+        for (const double x : {at.x + 10.0, at.x - 10.0 - size.x})
+          for (const double y : {plot_.low.y + 2.0, plot_.high.y - size.y - 4.0}) places.emplace_back(x, y);
+      const glm::dvec2 best =
+          *std::min_element(places.begin(), places.end(), [&](const glm::dvec2& a, const glm::dvec2& b) {
+            return hiddenBy({a, a + size}) < hiddenBy({b, b + size});
+          });
+      page_.text(line.label, best, kSmall_px, Anchor::left, false, 0.0, true, true);
     }
   }
 

@@ -14,6 +14,7 @@
 #include "app/law_text.h"
 #include "app/settings_text.h"
 #include "app/toml_keys.h"
+#include "app/tool_text.h"
 #include "app/usage_error.h"
 #include "haptics/contact/law_parameters.h"
 #include "haptics/servo/safety_limits.h"
@@ -99,14 +100,15 @@ std::string numberOf(double value) { return numberText(std::round(1e4 * value) /
 
 void plot(const LawsOptions& options, const std::vector<const haptics::LawName*>& laws) {
   Press press;
-  press.head.radius_mm = sphereRadius_mm(options.tool);
+  press.head = headFrom(options.tool);
   press.deepest_mm = press.head.radius_mm;
   assets::OutputFile file(options.plot, options.force);
 
   Chart chart;
   chart.title = "Force laws on flat cortical bone";
-  chart.caption = "Bur " + options.tool + " mm, pressed in along its shaft; machining: " + numberOf(press.spindle_rpm) +
-                  " rpm, " + numberOf(press.feed_mm_per_s) + " mm/s. Limits of a device with " +
+  chart.caption = "Bur " + options.tool +
+                  " (mm), pressed in along its shaft; machining: " + numberOf(press.spindle_rpm) + " rpm, " +
+                  numberOf(press.feed_mm_per_s) + " mm/s. Limits of a device with " +
                   numberOf(1000.0 * options.device_damping_Ns_per_mm) + " Ns/m of its own damping at " +
                   numberOf(options.rate_Hz) + " Hz.";
   Panel force{"Force", "depth h / mm", "force F / N", {}, {}, {}, {}};
@@ -135,8 +137,12 @@ void plot(const LawsOptions& options, const std::vector<const haptics::LawName*>
   const double peak_N = haptics::SafetyLimits{}.peak_force_N;
   const double most_N_per_mm = 2.0 * options.device_damping_Ns_per_mm * options.rate_Hz;
   if (peak_N < 4.0 * strongest) force.lines.push_back({"device, " + numberOf(peak_N) + " N", peak_N, true});
-  stiffness.lines.push_back({"K_max = 2b/T = " + numberOf(most_N_per_mm) + " N/mm", most_N_per_mm, true});
+  stiffness.lines.push_back({"Kmax = 2b/T = " + numberOf(most_N_per_mm) + " N/mm", most_N_per_mm, true});
+  // What lies far beyond every device leaves the picture at its top.
   force.x_range = stiffness.x_range = glm::dvec2(0.0, press.deepest_mm);
+  if (strongest > 3.0 * peak_N) force.y_range = glm::dvec2(0.0, 3.0 * peak_N);
+  const double top = std::min(1.05 * std::max(stiffest, 1.2 * most_N_per_mm), 2.5 * most_N_per_mm);
+  stiffness.y_range = glm::dvec2(softest < -0.05 * top ? std::max(softest, -0.5 * top) : 0.0, top);
   chart.panels = {force, stiffness};
   drawChart(chart, file);
 }
@@ -162,7 +168,7 @@ void addLaws(CLI::App& molar, Chosen& chosen) {
   command->add_option("--law", o->laws, "Which, or all")->delimiter(',')->capture_default_str();
   auto* plot = command->add_option("--plot", o->plot, "Draw force and stiffness over depth, .png")->type_name("FILE");
   command->add_flag("--json", o->json, "For programs")->excludes(plot);
-  command->add_option("--tool", o->tool, "--plot: cutting head, sphere:R (mm)")->capture_default_str();
+  command->add_option("--tool", o->tool, std::string("--plot: ") + kHeadHelp)->capture_default_str();
   command->add_option("--set", o->settings, "--plot: key=value of the law chosen")->needs(plot);
   command->add_option("--rate", o->rate_Hz, "--plot: servo rate, Hz")
       ->check(numberRange(500.0, 10000.0))
