@@ -16,8 +16,10 @@
 #include "app/usage_error.h"
 #include "assets/instrument.h"
 #include "calibration/geometry/units.h"
+#include "haptics/contact/law_parameters.h"
 #include "haptics/device/mouse_device.h"
 #include "haptics/device/scripted_hand.h"
+#include "haptics/device/simulated_device.h"
 #include "render/display/window.h"
 #include "render/frame_renderer.h"
 #include "render/gpu/offscreen_context.h"
@@ -55,11 +57,16 @@ struct HandAtWork {
 
 HandAtWork handOf(const RehearsalPlan& plan) {
   HandAtWork hand;
-  if (plan.hand == Hand::scripted) {
+  if (plan.hand != Hand::mouse) {
     auto trough = planBuccalTrough(plan.patient, plan.command.tool.head.radius_mm);
-    if (!trough)
-      throw UsageError("--device scripted: this patient has no third molar with bone beside it, use --device mouse");
+    if (!trough) throw UsageError("--device: this patient has no third molar with bone beside it, use --device mouse");
     trough->shaft_D = {glm::conjugate(plan.rig.X_WP.rotation) * shaftDirection_W()};
+    if (plan.hand == Hand::simulated) {
+      auto simulated = std::make_unique<haptics::SimulatedDevice>(*trough, haptics::SimulatedMechanics{});
+      hand.duration_s = simulated->duration_s();
+      hand.device = std::move(simulated);
+      return hand;
+    }
     auto scripted = std::make_unique<haptics::ScriptedHand>(*trough);
     hand.duration_s = scripted->duration_s();
     hand.device = std::move(scripted);
@@ -74,6 +81,19 @@ HandAtWork handOf(const RehearsalPlan& plan) {
   const Pose<World, Patient> X_WP = plan.rig.X_WP;
   hand.X_PD = {X_WP.inverse().rotation, X_WP.inverse().translation_mm};
   return hand;
+}
+
+/// A wall that this device would buzz against is not built.
+void refuseUnlessHeld(const haptics::DeviceCapabilities& device, double rate_Hz, const haptics::LawSettings& law) {
+  const haptics::LawParameter* stiffness = haptics::findLawParameter(law.kind, "stiffness_N_per_mm");
+  const double most = haptics::stiffestWall_N_per_mm(device, law.damping_Ns_per_mm, rate_Hz);
+  if (!stiffness || stiffness->of(law) < most) return;
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "stiffness %g N/mm: at %g Hz this device buzzes from %g N/mm on (2 b / T), give at most %g or a higher "
+                "--rate",
+                stiffness->of(law), rate_Hz, most, 0.9 * most);
+  throw UsageError(text);
 }
 
 double width_mm(const calibration::ScreenCorners& screen) {
@@ -99,6 +119,7 @@ class Rehearsal {
     frame_.face_window_mm = plan_.face_window_mm;
     frame_.site_P = {plan_.patient.site.third_molar_P_mm};
     frame_.tool_visible = false;
+    refuseUnlessHeld(hand_.device->capabilities(), plan_.rate_Hz, plan_.command.law);
     workstation_.emplace(plan_.patient, std::move(hand_.device),
                          haptics::ServoSettings{plan_.rate_Hz, hand_.X_PD, {}, true}, plan_.command, plan_.recording);
   }
@@ -108,7 +129,9 @@ class Rehearsal {
     first_picture_s_ = secondsSince(plan_.begun);
     if (first_pictures_) takePictures(*first_pictures_, plan_.patient.ct.solid);
     workstation_->start();
-    workstation_->note("start", plan_.hand == Hand::mouse ? "mouse" : "scripted hand");
+    workstation_->note("start", plan_.hand == Hand::mouse      ? "mouse"
+                                : plan_.hand == Hand::scripted ? "scripted hand"
+                                                               : "simulated device");
     looping_since_ = Clock::now();
     while (!isOver()) {
       takeInput();

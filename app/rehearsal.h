@@ -15,7 +15,7 @@
 
 namespace app {
 
-enum class Hand { mouse, scripted };
+enum class Hand { mouse, scripted, simulated };
 
 struct RehearsalPlan {
   assets::Patient patient;

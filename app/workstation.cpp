@@ -1,7 +1,11 @@
 #include "app/workstation.h"
 
+#include <cmath>
+
 namespace app {
 namespace {
+
+constexpr double kLogged_s = 10.0;  // of ticks, while the recorder is held up
 
 std::unique_ptr<Recorder> recorderOf(const std::optional<Recording>& recording, const assets::Patient& patient,
                                      double rate_Hz, const haptics::Command& command, haptics::TickLog& log) {
@@ -25,8 +29,10 @@ Workstation::Workstation(const assets::Patient& patient, std::unique_ptr<haptics
     : device_(std::move(device)),
       bone_(patient.ct.grid, patient.ct.solid, patient.ct.label),
       servo_(bone_),
-      command_(haptics::limitedTo(device_->capabilities(), command)),
+      rate_Hz_(settings.rate_Hz),
+      command_(haptics::limitedTo(device_->capabilities(), rate_Hz_, command)),
       commands_(command_),
+      log_(static_cast<std::size_t>(std::ceil(kLogged_s * rate_Hz_))),
       recorder_(recorderOf(recording, patient, settings.rate_Hz, command_, log_)),
       servo_thread_(servo_, *device_, commands_, log_, newest_, settings) {}
 
@@ -37,7 +43,7 @@ RecordingSummary Workstation::stop() {
 
 void Workstation::change(haptics::Command command) {
   command.serial = command_.serial + 1;
-  command_ = haptics::limitedTo(device_->capabilities(), command);
+  command_ = haptics::limitedTo(device_->capabilities(), rate_Hz_, command);
   if (recorder_) recorder_->command(command_);
   commands_.publish(command_);
 }

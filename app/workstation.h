@@ -47,6 +47,7 @@ class Workstation {
   std::unique_ptr<haptics::HapticDevice> device_;
   haptics::CarvedBone bone_;
   haptics::Servo servo_;
+  double rate_Hz_;
   haptics::Command command_;
   haptics::Latest<haptics::Command> commands_;
   haptics::Latest<haptics::Tick> newest_;

@@ -83,7 +83,9 @@ int run(const RehearseOptions& options) {
   refuseUnlessObeyed(plan.command);
   if (options.headless && options.device == "mouse")
     throw UsageError("--headless: there is no mouse without a window, add --device scripted");
-  plan.hand = options.device == "mouse" ? Hand::mouse : Hand::scripted;
+  plan.hand =
+      std::map<std::string, Hand>{{"mouse", Hand::mouse}, {"scripted", Hand::scripted}, {"simulated", Hand::simulated}}
+          .at(options.device);
   plan.display = std::map<std::string, render::DisplayMode>{{"mono", render::DisplayMode::mono},
                                                             {"side-by-side", render::DisplayMode::side_by_side},
                                                             {"top-bottom", render::DisplayMode::top_bottom},
@@ -122,8 +124,10 @@ void addRehearse(CLI::App& molar, Chosen& chosen) {
   auto o = std::make_shared<RehearseOptions>();
   CLI::App* command = molar.add_subcommand("rehearse", "Rehearse a third-molar extraction, seen and felt");
   auto* patient = command->add_option("PATIENT", o->patient, "Patient folder (default: the built-in patient)");
-  command->add_option("--device", o->device, "Hand: mouse or scripted")
-      ->check(CLI::IsMember({"mouse", "scripted"}))
+  command
+      ->add_option("--device", o->device,
+                   "Hand: mouse, scripted, or simulated: the script holding a device with mass and friction")
+      ->check(CLI::IsMember({"mouse", "scripted", "simulated"}))
       ->capture_default_str();
   auto* rig =
       command->add_option("--rig", o->rig, "Rig file: screen, mirror, eyes, patient pose; 1:1")->type_name("FILE");
@@ -146,7 +150,9 @@ void addRehearse(CLI::App& molar, Chosen& chosen) {
       ->capture_default_str();
   command->add_option("--set", o->settings,
                       "key=value: stiffness_N_per_mm, peak_force_N, spindle_rpm, worn, removal_rate_per_s, …");
-  command->add_option("--rate", o->rate_Hz, "Servo rate, Hz")->check(numberRange(500.0, 4000.0))->capture_default_str();
+  command->add_option("--rate", o->rate_Hz, "Servo rate, Hz")
+      ->check(numberRange(500.0, 10'000.0))
+      ->capture_default_str();
   command->add_option("--seconds", o->seconds, "End after this time")->check(numberRange(0.1, 86400.0));
   command->add_option("--record", o->record, "Session file to write")->type_name("FILE");
   command->add_option("--snapshot", o->snapshot, "Pictures at the end: NAME_left.png, NAME_right.png");

@@ -73,7 +73,11 @@ std::vector<FeltSample> probe(haptics::CarvedBone& bone, const ProbeSite& site, 
   still.drill_enabled = false;
 
   haptics::Servo servo(bone);
-  haptics::VirtualHand flesh{kHandMass_kg, plan.grip_N_per_mm, way[0].to_mm, glm::dvec3(0.0)};
+  haptics::VirtualHand flesh;
+  flesh.mass_kg = kHandMass_kg;
+  flesh.stiffness_N_per_mm = plan.grip_N_per_mm;
+  flesh.damping_Ns_per_mm = haptics::criticalDamping_Ns_per_mm(kHandMass_kg, plan.grip_N_per_mm);
+  flesh.place_mm = way[0].to_mm;
   const double dt_s = 1.0 / plan.rate_Hz;
   glm::dvec3 force_N{0.0};
   std::vector<FeltSample> samples;

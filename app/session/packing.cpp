@@ -64,7 +64,7 @@ void forEachField(auto& command,
   auto& [removal_mm3_per_J, friction] = dose;
   auto& [cutting_energy_J_per_mm3] = machining_erosion;
   auto& [commanded_rpm, stall_torque_Nmm, free_rpm, droop, inertia_g_cm2, bearing_torque_Nmm] = spindle;
-  auto& [peak_force_N, slew_N_per_s, peak_torque_Nmm, slew_Nmm_per_s] = safety;
+  auto& [peak_force_N, slew_N_per_s, peak_torque_Nmm, slew_Nmm_per_s, most_stiffness_N_per_mm] = safety;
   visit(serial), visit(drill_enabled);
   visit(shape_kind), visit(radius_mm), visit(length_mm), visit(shaft_radius_mm), visit(shaft_length_mm);
   visit(law_kind);
@@ -80,7 +80,8 @@ void forEachField(auto& command,
   visit(commanded_rpm), visit(stall_torque_Nmm), visit(free_rpm), visit(droop), visit(inertia_g_cm2);
   visit(bearing_torque_Nmm);
   for (auto& factor : tissue_factor) visit(factor);
-  visit(peak_force_N), visit(slew_N_per_s), visit(peak_torque_Nmm), visit(slew_Nmm_per_s);
+  visit(peak_force_N), visit(slew_N_per_s), visit(peak_torque_Nmm), visit(slew_Nmm_per_s),
+      visit(most_stiffness_N_per_mm);
 }
 
 /// The unsigned integer that holds the bits of a field.

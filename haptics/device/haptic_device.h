@@ -7,6 +7,7 @@
 
 #include "calibration/geometry/frames.h"
 #include "calibration/geometry/pose.h"
+#include "haptics/wrench.h"
 
 namespace haptics {
 
@@ -21,16 +22,29 @@ struct HandleState {
   bool healthy = true;
 };
 
+/// Defaults: a Touch-class device in a light grip (reference/devices 4.3, physics 2.5).
 struct DeviceCapabilities {
-  double peak_force_N = 3.3;
+  double peak_force_N = 3.3, continuous_force_N = 0.88;
+  double peak_torque_Nmm = 0.0;      ///< about the handle; 0: the device has none
+  double damping_Ns_per_mm = 0.002;  ///< physical, of device and hand: what takes the energy that sampling leaks
+
+  bool hasTorque() const { return peak_torque_Nmm > 0.0; }
 };
+
+/// The stiffest wall this device renders without buzzing, K < 2 (b - B) / T: b its own damping, B that of the law
+/// (Colgate; reference/physics 2.5). 0 where nothing is stable.
+constexpr double stiffestWall_N_per_mm(const DeviceCapabilities& device, double law_damping_Ns_per_mm, double rate_Hz) {
+  const double left_Ns_per_mm = device.damping_Ns_per_mm - law_damping_Ns_per_mm;
+  return left_Ns_per_mm > 0.0 ? 2.0 * left_Ns_per_mm * rate_Hz : 0.0;
+}
 
 class HapticDevice {
  public:
   virtual ~HapticDevice() = default;
   virtual DeviceCapabilities capabilities() const = 0;
-  /// Serves last tick's force on the hand and returns where the hand is now. Servo thread; bounded.
-  virtual HandleState exchange(const calibration::Vector<calibration::Device>& force_D_N, double dt_s) noexcept = 0;
+  /// Serves last tick's wrench on the hand, torque about the origin of H, and returns where the hand is now. A device
+  /// without torque is given none. Servo thread; bounded.
+  virtual HandleState exchange(const Wrench<calibration::Device>& wrench_D, double dt_s) noexcept = 0;
 };
 
 }  // namespace haptics

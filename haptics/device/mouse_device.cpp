@@ -15,9 +15,15 @@ void MouseDevice::setTarget(const MouseTarget& target) {
   target_.publish(target);
 }
 
-HandleState MouseDevice::exchange(const calibration::Vector<calibration::Device>& force_D_N, double dt_s) noexcept {
+DeviceCapabilities MouseDevice::capabilities() const {
+  DeviceCapabilities simulated;
+  simulated.damping_Ns_per_mm = hand_.dampingInAll_Ns_per_mm();
+  return simulated;
+}
+
+HandleState MouseDevice::exchange(const Wrench<calibration::Device>& wrench_D, double dt_s) noexcept {
   const MouseTarget& target = target_.read();
-  hand_.advance(target.X_DH.translation_mm, glm::dvec3(0.0), force_D_N.xyz, dt_s);
+  hand_.advance(target.X_DH.translation_mm, glm::dvec3(0.0), wrench_D.force_N.xyz, dt_s);
   // Turns with the time constant of the hand.
   rotation_ = glm::slerp(rotation_, glm::normalize(target.X_DH.rotation), 1.0 - std::exp(-30.0 * dt_s));
   HandleState state;

@@ -21,8 +21,8 @@ class MouseDevice final : public HapticDevice {
   /// UI thread. A target that is not finite is ignored.
   void setTarget(const MouseTarget& target);
 
-  DeviceCapabilities capabilities() const override { return {}; }
-  HandleState exchange(const calibration::Vector<calibration::Device>& force_D_N, double dt_s) noexcept override;
+  DeviceCapabilities capabilities() const override;
+  HandleState exchange(const Wrench<calibration::Device>& wrench_D, double dt_s) noexcept override;
 
  private:
   Latest<MouseTarget> target_;

@@ -1,81 +1,22 @@
 #include "haptics/device/scripted_hand.h"
 
-#include <algorithm>
-#include <cmath>
-
-#include "calibration/geometry/units.h"
-
 namespace haptics {
-namespace {
 
-constexpr double kApproach_mm_per_s = 20.0;
-constexpr int kFinishingPasses = 4;  // at full depth, while the bone gives way
-constexpr double kTilt_rad = 0.35;   // of the shaft towards the cheek, so that the handpiece clears the teeth
+ScriptedHand::ScriptedHand(const TroughPlan& plan) : path_(plan) { hand_.place_mm = path_.at(0.0).place_mm; }
 
-double smooth(double u) {
-  const double v = std::clamp(u, 0.0, 1.0);
-  return v * v * (3.0 - 2.0 * v);
+DeviceCapabilities ScriptedHand::capabilities() const {
+  DeviceCapabilities simulated;
+  simulated.damping_Ns_per_mm = hand_.dampingInAll_Ns_per_mm();
+  return simulated;
 }
 
-bool positive(double x) { return std::isfinite(x) && x > 0.0; }
-
-}  // namespace
-
-ScriptedHand::ScriptedHand(const TroughPlan& plan) : plan_(plan) {
-  const glm::dvec3 across = glm::cross(plan.outward_D.xyz, plan.buccal_D.xyz);
-  const double area = glm::length(across);
-  if (!(std::isfinite(glm::length(plan.site_D.mm)) && std::isfinite(area) && area > 1e-6))
-    throw DeviceError("scripted hand, its site or directions are not usable, give finite ones that are not parallel");
-  if (!std::isfinite(glm::length(plan.shaft_D.xyz)))
-    throw DeviceError("scripted hand, its shaft direction is not finite, give one that is, or zero");
-  if (!positive(plan.bur_radius_mm) || !positive(plan.stroke_mm) || !positive(plan.speed_mm_per_s) ||
-      !positive(plan.depth_mm) || !positive(plan.clearance_mm))
-    throw DeviceError("scripted hand, a size or speed of its plan is not positive, give positive ones");
-
-  outward_ = glm::normalize(plan.outward_D.xyz);
-  along_ = across / area;
-  const glm::dvec3 buccal = glm::cross(along_, outward_);
-  const double shaft_length = glm::length(plan.shaft_D.xyz);
-  const glm::dvec3 shaft = shaft_length > 0.0 ? plan.shaft_D.xyz / shaft_length
-                                              : std::cos(kTilt_rad) * outward_ + std::sin(kTilt_rad) * buccal;
-  rotation_ = glm::normalize(glm::dquat(glm::dvec3(0.0, 0.0, 1.0), shaft));
-
-  deepening_passes_ = std::max(1, static_cast<int>(std::ceil(plan.depth_mm / (plan.bur_radius_mm / 8.0))));
-  passes_ = deepening_passes_ + kFinishingPasses;
-  pass_s_ = plan.stroke_mm / plan.speed_mm_per_s;
-  approach_s_ = retreat_s_ = plan.clearance_mm / kApproach_mm_per_s * 1.5;
-  hand_.place_mm = at(0.0).place_mm;
-}
-
-ScriptedHand::Target ScriptedHand::at(double t_s) const {
-  // Height of the bur's centre over the surface, place along the stroke.
-  const double rest_mm = plan_.bur_radius_mm, high_mm = rest_mm + plan_.clearance_mm;
-  const double cut_s = t_s - approach_s_, end_s = passes_ * pass_s_;
-  const double step_mm = plan_.depth_mm / deepening_passes_;
-  double height_mm = high_mm, along_mm = -0.5 * plan_.stroke_mm;
-  if (cut_s <= 0.0) {
-    height_mm = glm::mix(high_mm, rest_mm, smooth(t_s / approach_s_));
-  } else if (cut_s < end_s) {
-    const double pass = std::floor(cut_s / pass_s_), u = cut_s / pass_s_ - pass;
-    // Eases in and out of each turn; sinks to the pass's depth in its first fifth.
-    const double way = 0.5 - 0.5 * std::cos(u * calibration::kPi);
-    along_mm = plan_.stroke_mm * ((static_cast<int>(pass) % 2 == 0 ? way : 1.0 - way) - 0.5);
-    height_mm = rest_mm - std::min(plan_.depth_mm, step_mm * (pass + smooth(5.0 * u)));
-  } else {
-    along_mm = plan_.stroke_mm * ((passes_ % 2 == 0 ? 0.0 : 1.0) - 0.5);
-    height_mm = glm::mix(rest_mm - plan_.depth_mm, high_mm, smooth((cut_s - end_s) / retreat_s_));
-  }
-  const bool pedal = cut_s > -0.1 * approach_s_ && cut_s < end_s;
-  return {plan_.site_D.mm + height_mm * outward_ + along_mm * along_, pedal};
-}
-
-HandleState ScriptedHand::exchange(const calibration::Vector<calibration::Device>& force_D_N, double dt_s) noexcept {
-  const Target from = at(t_s_), to = at(t_s_ + dt_s);
-  hand_.advance(from.place_mm, dt_s > 0.0 ? (to.place_mm - from.place_mm) / dt_s : glm::dvec3(0.0), force_D_N.xyz,
-                dt_s);
+HandleState ScriptedHand::exchange(const Wrench<calibration::Device>& wrench_D, double dt_s) noexcept {
+  const HandTarget from = path_.at(t_s_), to = path_.at(t_s_ + dt_s);
+  hand_.advance(from.place_mm, dt_s > 0.0 ? (to.place_mm - from.place_mm) / dt_s : glm::dvec3(0.0),
+                wrench_D.force_N.xyz, dt_s);
   t_s_ += dt_s;
   HandleState state;
-  state.X_DH = {rotation_, hand_.place_mm};
+  state.X_DH = {to.rotation, hand_.place_mm};
   state.velocity_D_mm_per_s.xyz = hand_.velocity_mm_per_s;
   state.pedal = to.pedal;
   return state;

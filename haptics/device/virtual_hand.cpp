@@ -2,23 +2,55 @@
 
 #include <cmath>
 
-#include "calibration/geometry/units.h"
-
 namespace haptics {
+namespace {
+
+/// How place and velocity answer, after a time, to a unit of each: x'' = -2 a x' - w2 x.
+struct Response {
+  double place_of_place = 1.0, place_of_velocity = 0.0, velocity_of_place = 0.0, velocity_of_velocity = 1.0;
+};
+
+Response responseAfter(double a, double w2, double dt_s) {
+  // e^(-a t) (C, S) with C = cosh, cos or 1 and S = sinh/r, sin/r or t.
+  const double r2 = a * a - w2, r = std::sqrt(std::abs(r2)), x = r * dt_s, decay = std::exp(-a * dt_s);
+  double C = 1.0, S = dt_s;
+  if (x < 1e-5) {
+    C += 0.5 * r2 * dt_s * dt_s;
+  } else {
+    const double e = std::exp(r2 > 0.0 ? x : 0.0);
+    C = r2 > 0.0 ? 0.5 * (e + 1.0 / e) : std::cos(x);
+    S = (r2 > 0.0 ? 0.5 * (e - 1.0 / e) : std::sin(x)) / r;
+  }
+  return {decay * (C + a * S), decay * S, -decay * w2 * S, decay * (C - a * S)};
+}
+
+}  // namespace
 
 void VirtualHand::advance(const glm::dvec3& target_mm, const glm::dvec3& target_velocity_mm_per_s,
                           const glm::dvec3& force_N, double dt_s) {
   if (!std::isfinite(glm::length(force_N)) || !std::isfinite(glm::length(target_mm)) ||
       !std::isfinite(glm::length(target_velocity_mm_per_s)))
     return;
-  // Stiffness in N/m over mass in kg: critically damped about where target and force balance.
-  const double rate = std::sqrt(stiffness_N_per_mm * 1000.0 / mass_kg);
-  const glm::dvec3 rest_mm = target_mm + force_N / stiffness_N_per_mm;
-  const double decay = std::exp(-rate * dt_s);
-  const glm::dvec3 away = place_mm - rest_mm, drift = velocity_mm_per_s - target_velocity_mm_per_s;
-  const glm::dvec3 slope = drift + rate * away;
-  place_mm = rest_mm + target_velocity_mm_per_s * dt_s + (away + slope * dt_s) * decay;
-  velocity_mm_per_s = target_velocity_mm_per_s + (drift - rate * dt_s * slope) * decay;
+  // N/mm and N s/mm over kg, in 1/s^2 and 1/s.
+  const double per_kg = 1000.0 / mass_kg;
+  const double a = 0.5 * per_kg * dampingInAll_Ns_per_mm(), w2 = per_kg * stiffness_N_per_mm;
+  const glm::dvec3 push_N = force_N - friction_Ns_per_mm * target_velocity_mm_per_s;
+  const glm::dvec3 drift = velocity_mm_per_s - target_velocity_mm_per_s;
+
+  if (stiffness_N_per_mm > 0.0) {
+    // About where target and force balance.
+    const Response to = responseAfter(a, w2, dt_s);
+    const glm::dvec3 rest_mm = target_mm + push_N / stiffness_N_per_mm, away = place_mm - rest_mm;
+    place_mm = rest_mm + target_velocity_mm_per_s * dt_s + to.place_of_place * away + to.place_of_velocity * drift;
+    velocity_mm_per_s = target_velocity_mm_per_s + to.velocity_of_place * away + to.velocity_of_velocity * drift;
+    return;
+  }
+  // Let go of: only friction and force, towards the speed at which they balance.
+  const glm::dvec3 thrust = per_kg * push_N;
+  const double d = 2.0 * a, fallen = d > 0.0 ? -std::expm1(-d * dt_s) / d : dt_s;
+  const double left = d > 0.0 ? (dt_s - fallen) / d : 0.5 * dt_s * dt_s;
+  place_mm += target_velocity_mm_per_s * dt_s + fallen * drift + left * thrust;
+  velocity_mm_per_s = target_velocity_mm_per_s + (1.0 - d * fallen) * drift + fallen * thrust;
 }
 
 }  // namespace haptics

@@ -12,18 +12,25 @@ using calibration::Patient;
 using calibration::Vector;
 
 constexpr double kThinnestPlate_mm = 0.6, kShareOfPlate = 0.85;
+constexpr double kMemoryStep_s = 1e-3;
+
+bool same(const BurShape& a, const BurShape& b) {
+  return a.kind == b.kind && a.radius_mm == b.radius_mm && a.length_mm == b.length_mm;
+}
 
 /// The law's contact, faded where bone on opposite sides cancels out: in a slot narrower than the head a volume law
 /// turns its full force round within a hundredth of a millimetre. Flat bone is one-sided by 1, a conforming socket by
 /// 2/3; below 0.6 the contact is worth only its share.
-Contact steadyContact(const LawSettings& law, const ToolInBone& at) {
-  Contact contact = contactOf(law, at);
+Contact steadied(Contact contact, double most_stiffness_N_per_mm) {
   const double share = std::clamp(contact.one_sided / 0.6, 0.0, 1.0);
-  if (share >= 1.0) return contact;
-  contact.force_P_N.xyz *= share;
-  contact.torque_P_Nmm.xyz *= share;
-  contact.vibration_P_N.xyz *= share;
   contact.normal_P.xyz *= share;
+  // Steeper than the device can hold: the whole law is scaled down to what it can.
+  const double slope = contact.stiffness_N_per_mm;
+  const double scale = slope > most_stiffness_N_per_mm ? most_stiffness_N_per_mm / slope : 1.0;
+  contact.stiffness_N_per_mm *= scale;
+  contact.force_P_N.xyz *= share * scale;
+  contact.torque_P_Nmm.xyz *= share * scale;
+  contact.vibration_P_N.xyz *= share;
   return contact;
 }
 
@@ -78,8 +85,8 @@ double Proxy::Held::mostStored_Nmm() const {
 }
 
 Proxy::Held Proxy::follow(const SolidField& field, const LawSettings& law, const Tool& tool,
-                          const calibration::Pose<Patient, calibration::Tool>& X_PT,
-                          const ToolMotion& motion) noexcept {
+                          const calibration::Pose<Patient, calibration::Tool>& X_PT, const ToolMotion& motion,
+                          double most_stiffness_N_per_mm) noexcept {
   // A step is short enough that no plate fits between two looks; a miss of a micrometre is not worth another look.
   const double thinnest_mm = thinnestRadius_mm(tool.head), longest_mm = 0.5 * thinnest_mm, enough_mm = 1e-3;
   // Where one look is dear there are fewer: the proxy goes on in the next tick.
@@ -92,16 +99,29 @@ Proxy::Held Proxy::follow(const SolidField& field, const LawSettings& law, const
     head_ = {};
     placed_ = true;
   }
+  if (law.kind != last_law_ || !same(tool.head, last_head_)) law_state_ = {};
+  last_law_ = law.kind;
+  last_head_ = tool.head;
+
   // The first step trusts what the last tick saw; every later one, and the force, what is there now.
   Held held;
+  Contact bare;
+  const auto at = [&] { return ToolInBone{field, tool.head, {X_PT.rotation, proxy_P_.mm}, law.tissue, motion}; };
   while (held.looks < most_looks) {
     glm::dvec3 move = allowed(hand_mm - proxy_P_.mm, head_, deepest_mm);
     const double length = glm::length(move);
     if (held.looks > 0 && length <= enough_mm) break;
     if (length > longest_mm) move *= longest_mm / length;
     proxy_P_.mm += move;
-    head_ = steadyContact(law, {field, tool.head, {X_PT.rotation, proxy_P_.mm}, law.tissue, motion});
+    bare = contactOf(law, at(), law_state_);
+    head_ = steadied(bare, most_stiffness_N_per_mm);
     ++held.looks;
+  }
+  // A law's memory goes by the millisecond, whatever the rate.
+  unremembered_s_ += motion.dt_s;
+  if (unremembered_s_ > kMemoryStep_s * (1.0 - 1e-6)) {
+    remember(law, at(), bare, law_state_);
+    unremembered_s_ = std::min(unremembered_s_ - kMemoryStep_s, kMemoryStep_s);
   }
   held.head = head_;
   held.proxy_P = proxy_P_;

@@ -39,10 +39,10 @@ class Proxy {
     double mostStored_Nmm() const;
   };
 
-  /// Moves the proxy towards the hand as far as the bone lets it.
+  /// Moves the proxy towards the hand as far as the bone lets it. A law steeper than the limit is scaled down to it.
   Held follow(const SolidField& field, const LawSettings& law, const Tool& tool,
-              const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT,
-              const ToolMotion& motion) noexcept;
+              const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT, const ToolMotion& motion,
+              double most_stiffness_N_per_mm) noexcept;
 
   /// Forgets where it was: the next follow() starts at the hand, wherever that is.
   void release() { placed_ = false; }
@@ -50,6 +50,10 @@ class Proxy {
  private:
   calibration::Point<calibration::Patient> proxy_P_;
   Contact head_;  ///< at proxy_P_, as it was last looked at
+  LawState law_state_;
+  LawKind last_law_ = LawKind::agus;
+  BurShape last_head_;
+  double unremembered_s_ = 0.0;
   bool placed_ = false;
 };
 

@@ -35,7 +35,7 @@ SafetyLimits sanitised(const SafetyLimits& limits) {
     return std::isfinite(value) && value > 0.0 ? value : otherwise;
   };
   return {peak(limits.peak_force_N), slew(limits.slew_N_per_s, defaults.slew_N_per_s), peak(limits.peak_torque_Nmm),
-          slew(limits.slew_Nmm_per_s, defaults.slew_Nmm_per_s)};
+          slew(limits.slew_Nmm_per_s, defaults.slew_Nmm_per_s), peak(limits.most_stiffness_N_per_mm)};
 }
 
 SafetyFilter::Served SafetyFilter::serve(const Wrench<calibration::Patient>& wanted_P, const SafetyLimits& limits,

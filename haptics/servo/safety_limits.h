@@ -11,6 +11,7 @@ struct SafetyLimits {
   double slew_N_per_s = 300.0;  ///< largest change of the served force
   double peak_torque_Nmm = 188.0;
   double slew_Nmm_per_s = 15'000.0;
+  double most_stiffness_N_per_mm = 20.0;  ///< no contact is steeper: a law beyond it is scaled down to it
 };
 
 }  // namespace haptics

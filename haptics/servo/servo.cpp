@@ -51,7 +51,8 @@ Tick Servo::step(const HandSample& hand, const Command& wanted, double dt_s) noe
 
   // Contact at the place where the surface holds the tool.
   const ToolMotion motion = cutting_.motion(believed.velocity_P_mm_per_s, tick.dt_s);
-  const Proxy::Held held = proxy_.follow(bone_.field(), command.law, command.tool, believed.X_PT, motion);
+  const Proxy::Held held = proxy_.follow(bone_.field(), command.law, command.tool, believed.X_PT, motion,
+                                         command.safety.most_stiffness_N_per_mm);
   tick.proxy_P = held.proxy_P;
   tick.overlap_mm3 = held.head.volume_mm3;
   tick.depth_mm = held.head.depth_mm;

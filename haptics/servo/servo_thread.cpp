@@ -16,7 +16,6 @@ namespace {
 
 using calibration::Device;
 using calibration::Patient;
-using calibration::Vector;
 
 constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 
@@ -46,18 +45,25 @@ bool askForRealtime() {
 
 }  // namespace
 
-Command limitedTo(const DeviceCapabilities& device, const Command& command) {
+Command limitedTo(const DeviceCapabilities& device, double rate_Hz, const Command& command) {
+  const auto atMost = [](double value, double most) {
+    return std::min(value, std::isfinite(most) ? std::max(0.0, most) : 0.0);
+  };
   Command limited = command;
-  const double most = std::isfinite(device.peak_force_N) ? std::max(0.0, device.peak_force_N) : 0.0;
-  limited.safety.peak_force_N = std::min(sanitised(command.safety).peak_force_N, most);
+  SafetyLimits& safety = limited.safety;
+  safety = sanitised(command.safety);
+  safety.peak_force_N = atMost(safety.peak_force_N, device.peak_force_N);
+  safety.peak_torque_Nmm = atMost(safety.peak_torque_Nmm, device.peak_torque_Nmm);
+  safety.most_stiffness_N_per_mm = atMost(safety.most_stiffness_N_per_mm,
+                                          0.9 * stiffestWall_N_per_mm(device, command.law.damping_Ns_per_mm, rate_Hz));
   return limited;
 }
 
 ServoThread::ServoThread(Servo& servo, HapticDevice& device, Latest<Command>& commands, TickLog& log,
                          Latest<Tick>& newest, const ServoSettings& settings)
     : servo_(servo), device_(device), commands_(commands), log_(log), newest_(newest), settings_(settings) {
-  if (!(settings.rate_Hz >= 500.0 && settings.rate_Hz <= 4000.0))
-    throw DeviceError("servo rate, " + std::to_string(settings.rate_Hz) + " Hz, choose one from 500 to 4000 Hz");
+  if (!(settings.rate_Hz >= 500.0 && settings.rate_Hz <= 10'000.0))
+    throw DeviceError("servo rate, " + std::to_string(settings.rate_Hz) + " Hz, choose one from 500 to 10000 Hz");
   if (!rigid(settings.X_PD)) throw DeviceError("pose of the device, not finite and rigid, calibrate the rig again");
   if (!rigid(settings.X_HT))
     throw DeviceError("pose of the tool in the handle, not finite and rigid, measure it again");
@@ -92,6 +98,7 @@ HandSample ServoThread::handFrom(const HandleState& state) noexcept {
   if (!std::isfinite(glm::length(arm_velocity_P_mm_per_s_))) arm_velocity_P_mm_per_s_ = glm::dvec3(0.0);
   last_arm_P_mm_ = arm_P_mm;
   has_arm_ = std::isfinite(glm::length(arm_P_mm));
+  hand.arm_P_mm.xyz = -arm_P_mm;
   hand.velocity_P_mm_per_s = settings_.X_PD * state.velocity_D_mm_per_s;
   hand.velocity_P_mm_per_s.xyz += arm_velocity_P_mm_per_s_;
   return hand;
@@ -101,6 +108,7 @@ void ServoThread::run() noexcept {
   statistics_.setGrants(settings_.realtime && askForRealtime(),
                         settings_.realtime && mlockall(MCL_CURRENT | MCL_FUTURE) == 0);
   const auto X_DP = settings_.X_PD.inverse();
+  const auto inDevice = [&] { return Wrench<Device>{X_DP * wrench_P_.force_N, X_DP * wrench_P_.torque_Nmm}; };
   const DeviceCapabilities capabilities = device_.capabilities();
   const double dt_s = 1.0 / settings_.rate_Hz;
   const auto period_ns = static_cast<std::int64_t>(std::llround(dt_s * static_cast<double>(kNsPerSecond)));
@@ -112,9 +120,9 @@ void ServoThread::run() noexcept {
 
     // Last tick's force out, this tick's hand in; then the step.
     const std::int64_t began_ns = now_ns(CLOCK_THREAD_CPUTIME_ID);
-    const HandSample hand = handFrom(device_.exchange(X_DP * force_P_N_, dt_s));
-    Tick tick = servo_.step(hand, limitedTo(capabilities, commands_.read()), dt_s);
-    force_P_N_ = tick.served_force_P_N;
+    const HandSample hand = handFrom(device_.exchange(inDevice(), dt_s));
+    Tick tick = servo_.step(hand, limitedTo(capabilities, settings_.rate_Hz, commands_.read()), dt_s);
+    wrench_P_ = {tick.served_force_P_N, tick.served_torque_P_Nmm};
     tick.work_us = static_cast<float>(static_cast<double>(now_ns(CLOCK_THREAD_CPUTIME_ID) - began_ns) * 1e-3);
     log_.push(tick);
     newest_.publish(tick);
@@ -131,12 +139,13 @@ void ServoThread::run() noexcept {
   }
 
   // Let go gently.
-  const double slew_N = sanitised(commands_.read().safety).slew_N_per_s * dt_s;
-  for (double left_N = glm::length(force_P_N_.xyz); left_N > 0.0;) {
-    const double next_N = std::max(0.0, left_N - slew_N);
-    force_P_N_.xyz *= next_N / left_N;
-    left_N = next_N;
-    device_.exchange(X_DP * force_P_N_, dt_s);
+  const SafetyLimits limits = sanitised(commands_.read().safety);
+  const double ticks = std::ceil(std::max(glm::length(wrench_P_.force_N.xyz) / (limits.slew_N_per_s * dt_s),
+                                          glm::length(wrench_P_.torque_Nmm.xyz) / (limits.slew_Nmm_per_s * dt_s)));
+  const Wrench<Patient> last_P = wrench_P_;
+  for (double left = ticks; left > 0.0; left -= 1.0) {
+    wrench_P_ = ((left - 1.0) / ticks) * last_P;
+    device_.exchange(inDevice(), dt_s);
     deadline_ns += period_ns;
     sleepUntil(deadline_ns);
   }

@@ -18,18 +18,19 @@
 namespace haptics {
 
 struct ServoSettings {
-  double rate_Hz = 1000.0;                                            ///< 500..4000
+  double rate_Hz = 1000.0;                                            ///< 500..10000
   calibration::Pose<calibration::Patient, calibration::Device> X_PD;  ///< where the device stands
   calibration::Pose<calibration::Handle, calibration::Tool> X_HT;     ///< how the handle holds the tool
   bool realtime = true;                                               ///< ask for SCHED_FIFO and mlockall
 };
 
-/// The command with its limits cut down to what the device can give. Record this one: a replay has no device.
-Command limitedTo(const DeviceCapabilities& device, const Command& command);
+/// The command with its limits cut down to what the device can give and hold at this rate: peak force and torque, and
+/// slopes no steeper than nine tenths of the stiffest wall. Record this one: a replay has no device.
+Command limitedTo(const DeviceCapabilities& device, double rate_Hz, const Command& command);
 
 class ServoThread {
  public:
-  /// Throws DeviceError when the rate is outside 500..4000 Hz or a pose is not finite and rigid.
+  /// Throws DeviceError when the rate is outside 500..10000 Hz or a pose is not finite and rigid.
   ServoThread(Servo& servo, HapticDevice& device, Latest<Command>& commands, TickLog& log, Latest<Tick>& newest,
               const ServoSettings& settings);
   ~ServoThread();
@@ -58,7 +59,7 @@ class ServoThread {
   std::thread thread_;
 
   // Of the running thread: the force on its way to the hand, and what turning adds to the tool's velocity.
-  calibration::Vector<calibration::Patient> force_P_N_;
+  Wrench<calibration::Patient> wrench_P_;  ///< torque about the handle
   glm::dvec3 last_arm_P_mm_{0.0}, arm_velocity_P_mm_per_s_{0.0};
   bool has_arm_ = false;
 };

@@ -18,7 +18,7 @@ class Transition {
   Wrench<calibration::Patient> follow(const Wrench<calibration::Patient>& wanted, bool switched, double dt_s) noexcept {
     if (switched) {
       difference_ = last_ - wanted;
-      left_s_ = kDuration_s;
+      left_s_ = kDuration_s - dt_s;
     } else {
       left_s_ = left_s_ > dt_s ? left_s_ - dt_s : 0.0;
     }

@@ -70,7 +70,7 @@ TEST(Packing, BringsACommandBack) {
   command.law.damping_Ns_per_mm = 0.002;
   command.erosion.time.removal_rate_per_s = 3.5;
   command.erosion.tissue_factor[4] = 0.123;
-  command.safety = {2.9, 250.0, 60.0, 4000.0};
+  command.safety = {2.9, 250.0, 60.0, 4000.0, 7.0};
   EXPECT_EQ(packCommand(unpackCommand(packCommand(command))), packCommand(command));
   const haptics::Command back = unpackCommand(packCommand(command));
   EXPECT_EQ(back.serial, 9u);
@@ -81,6 +81,7 @@ TEST(Packing, BringsACommandBack) {
   EXPECT_EQ(back.safety.slew_N_per_s, 250.0);
   EXPECT_EQ(back.safety.peak_torque_Nmm, 60.0);
   EXPECT_EQ(back.safety.slew_Nmm_per_s, 4000.0);
+  EXPECT_EQ(back.safety.most_stiffness_N_per_mm, 7.0);
 }
 
 TEST(Packing, RefusesBytesOfAnotherLength) {

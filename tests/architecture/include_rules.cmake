@@ -12,7 +12,7 @@ set(tests ${app} tests/)
 # Inside haptics and render a sub-folder names what it may see; the folder itself sees all of its own. Latest, by which
 # values cross threads, and the plain words of render lie beside their sub-folders for all.
 set(haptics ${assets} haptics/)
-set(haptics/device ${assets} haptics/latest.h haptics/device/)
+set(haptics/device ${assets} haptics/latest.h haptics/wrench.h haptics/device/)
 set(haptics/bone ${assets} haptics/bone/ haptics/tool/)
 set(haptics/tool ${assets} haptics/bone/ haptics/tool/)
 set(haptics/contact ${assets} haptics/bone/ haptics/tool/ haptics/contact/)

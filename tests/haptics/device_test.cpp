@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "haptics/device/mouse_device.h"
 #include "haptics/device/scripted_hand.h"
+#include "haptics/device/simulated_device.h"
 
 namespace haptics {
 namespace {
@@ -44,7 +46,7 @@ TEST(MouseDevice, GoesSmoothlyWhereItIsPutAndGivesWay) {
   double last = 0.0, fastest = 0.0;
   HandleState state;
   for (int i = 0; i < 500; ++i) {
-    state = device.exchange({{0.0, 0.0, 1.0}}, 1e-3);
+    state = device.exchange({{{0.0, 0.0, 1.0}}, {}}, 1e-3);
     EXPECT_GE(state.X_DH.translation_mm.x, last);
     fastest = std::max(fastest, state.X_DH.translation_mm.x - last);
     last = state.X_DH.translation_mm.x;
@@ -104,7 +106,7 @@ TEST(ScriptedHand, GivesWayToForce) {
   ScriptedHand pushed(plan()), free(plan());
   HandleState a, b;
   for (int i = 0; i < 1500; ++i) {
-    a = pushed.exchange({{0.0, 0.0, 0.5}}, 1e-3);
+    a = pushed.exchange({{{0.0, 0.0, 0.5}}, {}}, 1e-3);
     b = free.exchange({}, 1e-3);
   }
   EXPECT_NEAR(a.X_DH.translation_mm.z - b.X_DH.translation_mm.z, 1.0, 0.01);
@@ -117,6 +119,64 @@ TEST(ScriptedHand, RefusesAPlanWithoutDirection) {
   bad = plan();
   bad.depth_mm = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(ScriptedHand{bad}, DeviceError);
+}
+
+TEST(VirtualHand, MovesExactlyWhateverTheStep) {
+  // Against a thousand small steps of the explicit rule, for every kind of damping and for none.
+  for (double damping : {0.0, 0.001, 2.0 * std::sqrt(0.3 * 1e-4), 0.05})
+    for (double stiffness : {0.0, 0.3}) {
+      VirtualHand hand;
+      hand.stiffness_N_per_mm = stiffness;
+      hand.damping_Ns_per_mm = damping;
+      hand.friction_Ns_per_mm = 0.002;
+      hand.velocity_mm_per_s = {30.0, -10.0, 0.0};
+      VirtualHand slow = hand;
+      const glm::dvec3 target(1.0, 0.0, 2.0), drift(5.0, 5.0, -5.0), push(0.3, -0.4, 0.5);
+      hand.advance(target, drift, push, 0.01);
+      constexpr int kSteps = 100'000;
+      for (int i = 0; i < kSteps; ++i) {
+        const double dt = 0.01 / kSteps;
+        const glm::dvec3 pull = stiffness * (target + drift * (dt * i) - slow.place_mm) +
+                                damping * (drift - slow.velocity_mm_per_s) - 0.002 * slow.velocity_mm_per_s;
+        slow.velocity_mm_per_s += dt * 1e4 * (pull + push);
+        slow.place_mm += dt * slow.velocity_mm_per_s;
+      }
+      EXPECT_LT(glm::length(hand.place_mm - slow.place_mm), 2e-4) << damping << " " << stiffness;
+      EXPECT_LT(glm::length(hand.velocity_mm_per_s - slow.velocity_mm_per_s), 0.03) << damping << " " << stiffness;
+    }
+}
+
+TEST(SimulatedMachine, GivesNoMoreThanItsMotorsAndShowsNoFinerThanItsEncoders) {
+  SimulatedMechanics mechanics;
+  mechanics.resolution_mm = 0.055;
+  mechanics.peak_force_N = 2.0;
+  const HandTarget still{{1.0, 2.0, 3.0}, {1.0, 0.0, 0.0, 0.0}, false};
+  SimulatedMachine device(mechanics, still);
+  EXPECT_NEAR(device.capabilities().damping_Ns_per_mm, 0.005, 1e-12);
+  HandleState state;
+  for (int tick = 0; tick < 3000; ++tick) state = device.move(still, still, {{{0.0, 0.0, 50.0}}, {}}, 1e-3);
+  EXPECT_NEAR(state.X_DH.translation_mm.z, 3.0 + 2.0 / mechanics.grip_N_per_mm, 0.055);
+  const double counts = state.X_DH.translation_mm.z / 0.055;
+  EXPECT_NEAR(counts, std::round(counts), 1e-9);
+}
+
+TEST(SimulatedDevice, FollowsTheScriptAndGivesWay) {
+  SimulatedDevice pushed(plan(), {}), free(plan(), {});
+  HandleState a, b;
+  for (int tick = 0; tick < 2000; ++tick) {
+    a = pushed.exchange({{{0.0, 0.0, 0.5}}, {}}, 1e-3);
+    b = free.exchange({}, 1e-3);
+  }
+  EXPECT_NEAR(a.X_DH.translation_mm.z - b.X_DH.translation_mm.z, 0.5 / SimulatedMechanics{}.grip_N_per_mm, 0.05);
+}
+
+TEST(SimulatedDevice, RefusesMechanicsThatCannotBe) {
+  SimulatedMechanics bad;
+  bad.mass_kg = 0.0;
+  EXPECT_THROW(SimulatedDevice(plan(), bad), DeviceError);
+  bad = {};
+  bad.grip_N_per_mm = -1.0;
+  EXPECT_THROW(SimulatedDevice(plan(), bad), DeviceError);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ const LawSettings kLaw;
 Proxy::Held held(Proxy& proxy, const SolidField& field, const glm::dvec3& hand, double R = kRadius_mm) {
   Tool tool;
   tool.head.radius_mm = R;
-  const Proxy::Held now = proxy.follow(field, kLaw, tool, {glm::dquat(1, 0, 0, 0), hand}, {});
+  const Proxy::Held now = proxy.follow(field, kLaw, tool, {glm::dquat(1, 0, 0, 0), hand}, {}, 20.0);
   EXPECT_LE(now.looks, Proxy::kMostLooks);
   return now;
 }

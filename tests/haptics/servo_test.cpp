@@ -39,7 +39,7 @@ std::vector<Tick> session(double seconds) {
   TickLog log(100'000);
   Vector<Patient> force;
   for (int i = 0; i < static_cast<int>(seconds * 1000.0); ++i) {
-    const HandleState state = device.exchange({force.xyz}, 1e-3);
+    const HandleState state = device.exchange({{force.xyz}, {}}, 1e-3);
     HandSample hand;
     hand.X_PT = {state.X_DH.rotation, state.X_DH.translation_mm};
     hand.velocity_P_mm_per_s.xyz = state.velocity_D_mm_per_s.xyz;

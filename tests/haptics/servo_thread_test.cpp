@@ -18,16 +18,24 @@ using namespace std::chrono_literals;
 class PressedDevice final : public HapticDevice {
  public:
   explicit PressedDevice(int slow_at = -1) : slow_at_(slow_at) {}
-  DeviceCapabilities capabilities() const override { return {0.5}; }
-  HandleState exchange(const Vector<calibration::Device>& force_D_N, double) noexcept override {
+  DeviceCapabilities capabilities() const override {
+    DeviceCapabilities weak;
+    weak.peak_force_N = 0.5;
+    weak.peak_torque_Nmm = peak_torque_Nmm;
+    return weak;
+  }
+  HandleState exchange(const Wrench<calibration::Device>& wrench_D, double) noexcept override {
     if (calls_++ == slow_at_) std::this_thread::sleep_for(30ms);
-    last_N = glm::length(force_D_N.xyz);
+    last_N = glm::length(wrench_D.force_N.xyz);
+    last_Nmm = glm::length(wrench_D.torque_Nmm.xyz);
+    most_Nmm = std::max(most_Nmm, last_Nmm);
     most_N = std::max(most_N, last_N);
     HandleState state;
     state.X_DH.translation_mm = {0.0, 0.0, 1.0};
     return state;
   }
-  double last_N = 0.0, most_N = 0.0;  // read after stop()
+  double peak_torque_Nmm = 0.0;
+  double last_N = 0.0, most_N = 0.0, last_Nmm = 0.0, most_Nmm = 0.0;  // read after stop()
 
  private:
   int calls_ = 0, slow_at_;
@@ -112,11 +120,60 @@ TEST(ServoThread, RefusesRatesAndPosesItCannotServe) {
   EXPECT_THROW(make(bad), DeviceError);
 }
 
-TEST(LimitedTo, TakesTheSmallerPeak) {
+TEST(ServoThread, ServesTorqueAboutTheHandleToADeviceThatHasIt) {
+  // The tool sticks out 60 mm to the side of the handle and is pressed with 0.5 N: 30 N mm, of which 20 are allowed.
+  for (double peak_Nmm : {0.0, 20.0}) {
+    Bench bench;
+    PressedDevice device;
+    device.peak_torque_Nmm = peak_Nmm;
+    bench.settings.X_HT.translation_mm = {60.0, 0.0, 0.0};
+    bench.settings.X_PD.translation_mm = {-60.0, 0.0, 0.0};
+    ServoThread thread(bench.servo, device, bench.commands, bench.log, bench.newest, bench.settings);
+    thread.start();
+    waitForTick(bench.newest, 80);
+    thread.stop();
+    EXPECT_NEAR(device.most_Nmm, peak_Nmm, 1e-9);
+    EXPECT_EQ(device.last_Nmm, 0.0);
+  }
+}
+
+TEST(ServoThread, RunsAtTenKilohertz) {
+  Bench bench;
+  bench.settings.rate_Hz = 10'000.0;
+  PressedDevice device;
+  ServoThread thread(bench.servo, device, bench.commands, bench.log, bench.newest, bench.settings);
+  thread.start();
+  waitForTick(bench.newest, 1000);
+  thread.stop();
+  EXPECT_GE(thread.figures().ticks, 1000u);
+  EXPECT_EQ(bench.newest.read().dt_s, 1e-4);
+  EXPECT_NEAR(device.most_N, 0.5, 1e-9);
+}
+
+TEST(LimitedTo, TakesTheSmallerPeaks) {
   Command command;
-  EXPECT_EQ(limitedTo({1.0}, command).safety.peak_force_N, 1.0);
-  EXPECT_EQ(limitedTo({9.0}, command).safety.peak_force_N, 3.3);
-  EXPECT_EQ(limitedTo({std::numeric_limits<double>::quiet_NaN()}, command).safety.peak_force_N, 0.0);
+  DeviceCapabilities device;
+  device.peak_force_N = 1.0;
+  EXPECT_EQ(limitedTo(device, 1000.0, command).safety.peak_force_N, 1.0);
+  EXPECT_EQ(limitedTo(device, 1000.0, command).safety.peak_torque_Nmm, 0.0);
+  device.peak_force_N = 9.0;
+  device.peak_torque_Nmm = 120.0;
+  EXPECT_EQ(limitedTo(device, 1000.0, command).safety.peak_force_N, 3.3);
+  EXPECT_EQ(limitedTo(device, 1000.0, command).safety.peak_torque_Nmm, 120.0);
+  device.peak_force_N = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(limitedTo(device, 1000.0, command).safety.peak_force_N, 0.0);
+}
+
+TEST(LimitedTo, AllowsNoSlopeThatTheDeviceCannotHold) {
+  Command command;
+  DeviceCapabilities device;  // b = 2 N s/m
+  EXPECT_NEAR(limitedTo(device, 1000.0, command).safety.most_stiffness_N_per_mm, 3.6, 1e-12);
+  EXPECT_NEAR(limitedTo(device, 4000.0, command).safety.most_stiffness_N_per_mm, 14.4, 1e-12);
+  EXPECT_NEAR(limitedTo(device, 10'000.0, command).safety.most_stiffness_N_per_mm, 20.0, 1e-12);
+  command.law.damping_Ns_per_mm = 0.001;
+  EXPECT_NEAR(limitedTo(device, 1000.0, command).safety.most_stiffness_N_per_mm, 1.8, 1e-12);
+  command.law.damping_Ns_per_mm = 0.003;
+  EXPECT_EQ(limitedTo(device, 1000.0, command).safety.most_stiffness_N_per_mm, 0.0);
 }
 
 }  // namespace
