@@ -40,7 +40,10 @@ TEST(BrickUpload, ShowsWhatOneTickCutToBothEyesInTheNextFrame) {
   haptics::Command command;
   command.tool.head.radius_mm = 1.5;
   command.erosion.time.removal_rate_per_s = 1000.0;
-  const haptics::Tick tick = servo.step({{{1, 0, 0, 0}, {0.0, 0.0, 0.4}}, {}, true}, command, 0.001);
+  haptics::HandSample hand;
+  hand.X_PT.translation_mm = {0.0, 0.0, 0.4};
+  hand.drill_pedal = true;
+  const haptics::Tick tick = servo.step(hand, command, 0.001);
   ASSERT_GT(tick.removed_mm3, 0.5);
 
   // Before: without the hole. After: as a renderer that was given the carved bone from the start.
