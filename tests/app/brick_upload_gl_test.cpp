@@ -41,8 +41,10 @@ TEST(BrickUpload, ShowsWhatOneTickCutToBothEyesInTheNextFrame) {
   command.tool.head.radius_mm = 1.5;
   command.erosion.time.removal_rate_per_s = 1000.0;
   haptics::HandSample hand;
-  hand.X_PT.translation_mm = {0.0, 0.0, 0.4};
   hand.drill_pedal = true;
+  hand.X_PT.translation_mm = {0.0, 0.0, 4.0};
+  for (int spin_up = 0; spin_up < 2000; ++spin_up) servo.step(hand, command, 0.001);
+  hand.X_PT.translation_mm = {0.0, 0.0, 0.4};
   const haptics::Tick tick = servo.step(hand, command, 0.001);
   ASSERT_GT(tick.removed_mm3, 0.5);
 
