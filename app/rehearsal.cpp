@@ -16,7 +16,7 @@
 #include "app/usage_error.h"
 #include "assets/instrument.h"
 #include "calibration/geometry/units.h"
-#include "haptics/contact/law_parameters.h"
+#include "haptics/contact/law_limits.h"
 #include "haptics/device/mouse_device.h"
 #include "haptics/device/scripted_hand.h"
 #include "haptics/device/simulated_device.h"
@@ -84,15 +84,17 @@ HandAtWork handOf(const RehearsalPlan& plan) {
 }
 
 /// A wall that this device would buzz against is not built.
-void refuseUnlessHeld(const haptics::DeviceCapabilities& device, double rate_Hz, const haptics::LawSettings& law) {
-  const haptics::LawParameter* stiffness = haptics::findLawParameter(law.kind, "stiffness_N_per_mm");
-  const double most = haptics::stiffestWall_N_per_mm(device, law.damping_Ns_per_mm, rate_Hz);
-  if (!stiffness || stiffness->of(law) < most) return;
-  char text[200];
+void refuseUnlessHeld(const haptics::DeviceCapabilities& device, const RehearsalPlan& plan) {
+  const haptics::LawSettings& law = plan.command.law;
+  const double most =
+      haptics::passiveStiffness_N_per_mm(device.damping_Ns_per_mm, law.damping_Ns_per_mm, 1.0 / plan.rate_Hz);
+  const haptics::Admission answer = haptics::admissible(law, plan.command.tool.head, most);
+  if (answer.answer != haptics::Admission::Answer::too_stiff) return;
+  char text[240];
   std::snprintf(text, sizeof text,
-                "stiffness %g N/mm: at %g Hz this device buzzes from %g N/mm on (2 b / T), give at most %g or a higher "
-                "--rate",
-                stiffness->of(law), rate_Hz, most, 0.9 * most);
+                "the law asks for %.3g N/mm: at %g Hz this device buzzes from %.3g N/mm on (2 b / T), give %s at most "
+                "%.3g or a higher --rate",
+                answer.slope_N_per_mm, plan.rate_Hz, most, std::string(answer.lower->key).c_str(), answer.nearest);
   throw UsageError(text);
 }
 
@@ -119,7 +121,7 @@ class Rehearsal {
     frame_.face_window_mm = plan_.face_window_mm;
     frame_.site_P = {plan_.patient.site.third_molar_P_mm};
     frame_.tool_visible = false;
-    refuseUnlessHeld(hand_.device->capabilities(), plan_.rate_Hz, plan_.command.law);
+    refuseUnlessHeld(hand_.device->capabilities(), plan_);
     workstation_.emplace(plan_.patient, std::move(hand_.device),
                          haptics::ServoSettings{plan_.rate_Hz, hand_.X_PD, {}, true}, plan_.command, plan_.recording);
   }

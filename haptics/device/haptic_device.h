@@ -31,13 +31,6 @@ struct DeviceCapabilities {
   bool hasTorque() const { return peak_torque_Nmm > 0.0; }
 };
 
-/// The stiffest wall this device renders without buzzing, K < 2 (b - B) / T: b its own damping, B that of the law
-/// (Colgate; reference/physics 2.5). 0 where nothing is stable.
-constexpr double stiffestWall_N_per_mm(const DeviceCapabilities& device, double law_damping_Ns_per_mm, double rate_Hz) {
-  const double left_Ns_per_mm = device.damping_Ns_per_mm - law_damping_Ns_per_mm;
-  return left_Ns_per_mm > 0.0 ? 2.0 * left_Ns_per_mm * rate_Hz : 0.0;
-}
-
 class HapticDevice {
  public:
   virtual ~HapticDevice() = default;

@@ -7,7 +7,7 @@
 // That is what flows in this tick and while the force comes down at the slew limit, so it comes down in time and
 // without a step; up to slew/k of speed (375 mm/s at 0.8 N/mm) a linear spring pays for it. In all the hand gets no
 // more than the grace, which is the midpoint rule's own error at first touch, and what a hand that jerks back takes
-// while the force comes down, F^2 v / (2 slew): under 0.02 N mm in steady contact (tests). Not the energy that sampling
+// while the force comes down, F^2 v / (2 slew): under 0.05 N mm in steady contact (tests). Not the energy that sampling
 // and holding the force leaks (K T/2: the device's own damping takes it, physics 2.5), and not the tool's vibration.
 // Frame P, about the handle; rotation weighs as kLever_mm of travel. Servo thread; flops.
 #pragma once

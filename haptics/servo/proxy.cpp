@@ -4,6 +4,7 @@
 
 #include "calibration/geometry/units.h"
 #include "haptics/contact/cap.h"
+#include "haptics/contact/shaft_contact.h"
 
 namespace haptics {
 namespace {
@@ -12,36 +13,63 @@ using calibration::Patient;
 using calibration::Vector;
 
 constexpr double kThinnestPlate_mm = 0.6, kShareOfPlate = 0.85;
+constexpr double kShaftDepth = 0.25;  // of its radius: as deep as its contact knows its depth well
 constexpr double kMemoryStep_s = 1e-3;
 
 bool same(const BurShape& a, const BurShape& b) {
   return a.kind == b.kind && a.radius_mm == b.radius_mm && a.length_mm == b.length_mm;
 }
 
-/// The law's contact, faded where bone on opposite sides cancels out: in a slot narrower than the head a volume law
+/// A law's contact, faded where bone on opposite sides cancels out: in a slot narrower than the head a volume law
 /// turns its full force round within a hundredth of a millimetre. Flat bone is one-sided by 1, a conforming socket by
-/// 2/3; below 0.6 the contact is worth only its share.
-Contact steadied(Contact contact, double most_stiffness_N_per_mm) {
+/// 2/3; below 0.6 the contact is worth only its share. (A shaft's comes faded already.)
+Contact faded(Contact contact) {
   const double share = std::clamp(contact.one_sided / 0.6, 0.0, 1.0);
-  contact.normal_P.xyz *= share;
-  // Steeper than the device can hold: the whole law is scaled down to what it can.
-  const double slope = contact.stiffness_N_per_mm;
-  const double scale = slope > most_stiffness_N_per_mm ? most_stiffness_N_per_mm / slope : 1.0;
-  contact.stiffness_N_per_mm *= scale;
-  contact.force_P_N.xyz *= share * scale;
-  contact.torque_P_Nmm.xyz *= share * scale;
+  contact.force_P_N.xyz *= share;
+  contact.torque_P_Nmm.xyz *= share;
   contact.vibration_P_N.xyz *= share;
+  contact.normal_P.xyz *= share;
   return contact;
 }
 
-/// The part of the way to the hand that the bone at the proxy allows: all of it along the surface, inwards only down to
-/// the depth where the proxy waits, outwards at least until it is no deeper.
-glm::dvec3 allowed(const glm::dvec3& to_hand, const Contact& contact, double deepest_mm) {
+/// Steeper than the device can hold: the whole contact is scaled down to what it can.
+Contact held(Contact contact, double most_stiffness_N_per_mm) {
+  if (!(contact.stiffness_N_per_mm > most_stiffness_N_per_mm)) return contact;
+  const double scale = most_stiffness_N_per_mm / contact.stiffness_N_per_mm;
+  contact.stiffness_N_per_mm = most_stiffness_N_per_mm;
+  contact.force_P_N.xyz *= scale;
+  contact.torque_P_Nmm.xyz *= scale;
+  return contact;
+}
+
+/// What a contact asks of a move: at least `least_mm` along the unit normal, so that it ends no deeper than where the
+/// proxy waits. Asks nothing out of contact or without a direction.
+struct Constraint {
+  glm::dvec3 normal{0.0};
+  double least_mm = -1e300;
+
+  double missing_mm(const glm::dvec3& move) const { return least_mm - glm::dot(move, normal); }
+};
+
+Constraint constraintOf(const Contact& contact, double deepest_mm) {
   const double length = glm::length(contact.normal_P.xyz);
-  if (contact.depth_mm <= 0.0 || length < 1e-6) return to_hand;
-  const glm::dvec3 normal = contact.normal_P.xyz / length;
-  const double outwards = glm::dot(to_hand, normal);
-  return to_hand + normal * (std::max(outwards, (contact.depth_mm - deepest_mm) * length) - outwards);
+  if (contact.depth_mm <= 0.0 || length < 1e-6) return {};
+  return {contact.normal_P.xyz / length, (contact.depth_mm - deepest_mm) * length};
+}
+
+/// The part of the way to the hand that both contacts allow: all of it along the surfaces, inwards only down to the
+/// depth where the proxy waits, outwards at least until it is no deeper. The nearest such place, by trying which of the
+/// two constraints hold it.
+glm::dvec3 allowed(const glm::dvec3& to_hand, const Constraint& a, const Constraint& b) {
+  const double of_a = a.missing_mm(to_hand), of_b = b.missing_mm(to_hand);
+  if (of_a <= 0.0 && of_b <= 0.0) return to_hand;
+  const glm::dvec3 by_a = to_hand + std::max(0.0, of_a) * a.normal, by_b = to_hand + std::max(0.0, of_b) * b.normal;
+  if (of_a > 0.0 && b.missing_mm(by_a) <= 0.0) return by_a;
+  if (of_b > 0.0 && a.missing_mm(by_b) <= 0.0) return by_b;
+  // Into the corner between them; facing walls leave none, and are both met half-way.
+  const double g = glm::dot(a.normal, b.normal), det = std::max(1.0 - g * g, 0.01);
+  const double along_a = std::max(0.0, (of_a - g * of_b) / det), along_b = std::max(0.0, (of_b - g * of_a) / det);
+  return to_hand + along_a * a.normal + along_b * b.normal;
 }
 
 /// The radius of the largest ball that fits into the head.
@@ -72,50 +100,78 @@ double deepestPureContact_mm(const BurShape& head) {
 
 Vector<Patient> Proxy::Held::force_P_N() const {
   if (!touches()) return {};
-  return head.force_P_N + spring_N_per_mm * pull_P_mm;
+  return head.force_P_N + shaft.force_P_N + spring_N_per_mm * pull_P_mm;
 }
 
-Vector<Patient> Proxy::Held::torque_P_Nmm() const { return touches() ? head.torque_P_Nmm : Vector<Patient>{}; }
+Vector<Patient> Proxy::Held::torque_P_Nmm() const { return head.torque_P_Nmm + shaft.torque_P_Nmm; }
 
 double Proxy::Held::mostStored_Nmm() const {
   if (!touches()) return 0.0;
-  const double force_N = glm::length(head.force_P_N.xyz), pull_mm = glm::length(pull_P_mm.xyz);
-  return (head.stiffness_N_per_mm * head.depth_mm + force_N) * head.depth_mm +
-         (spring_N_per_mm * pull_mm + force_N) * pull_mm;
+  double stored_Nmm = 0.0, all_N = 0.0;
+  for (const Contact* contact : {&head, &shaft}) {
+    const double force_N = glm::length(contact->force_P_N.xyz);
+    stored_Nmm += (contact->stiffness_N_per_mm * contact->depth_mm + force_N) * contact->depth_mm;
+    all_N += force_N;
+  }
+  const double pull_mm = glm::length(pull_P_mm.xyz);
+  return stored_Nmm + (spring_N_per_mm * pull_mm + all_N) * pull_mm;
 }
 
 Proxy::Held Proxy::follow(const SolidField& field, const LawSettings& law, const Tool& tool,
                           const calibration::Pose<Patient, calibration::Tool>& X_PT, const ToolMotion& motion,
                           double most_stiffness_N_per_mm) noexcept {
   // A step is short enough that no plate fits between two looks; a miss of a micrometre is not worth another look.
-  const double thinnest_mm = thinnestRadius_mm(tool.head), longest_mm = 0.5 * thinnest_mm, enough_mm = 1e-3;
+  const bool with_shaft = tool.shaft.length_mm > 0.0 && tool.shaft.radius_mm > 0.0;
+  double longest_mm = 0.5 * thinnestRadius_mm(tool.head);
+  if (with_shaft) longest_mm = std::min(longest_mm, 0.5 * tool.shaft.radius_mm);
+  const double enough_mm = 1e-3;
   // Where one look is dear there are fewer: the proxy goes on in the next tick.
   const int most_looks = tool.head.radius_mm > 25.0 * field.grid.spacing_mm ? kMostLooks / 2 : kMostLooks;
   const double deepest_mm = deepestPureContact_mm(tool.head);
+  const double shaft_deepest_mm = with_shaft ? kShaftDepth * tool.shaft.radius_mm : 1.0;
 
   const glm::dvec3& hand_mm = X_PT.translation_mm;
   if (!placed_) {
     proxy_P_.mm = hand_mm;
     head_ = {};
+    shaft_ = {};
+    trust_ = 1.0;
     placed_ = true;
   }
   if (law.kind != last_law_ || !same(tool.head, last_head_)) law_state_ = {};
   last_law_ = law.kind;
   last_head_ = tool.head;
+  if (!with_shaft) shaft_ = {};
 
   // The first step trusts what the last tick saw; every later one, and the force, what is there now.
-  Held held;
+  Held now;
   Contact bare;
+  glm::dvec3 last_move(0.0);
   const auto at = [&] { return ToolInBone{field, tool.head, {X_PT.rotation, proxy_P_.mm}, law.tissue, motion}; };
-  while (held.looks < most_looks) {
-    glm::dvec3 move = allowed(hand_mm - proxy_P_.mm, head_, deepest_mm);
+  while (now.looks < most_looks) {
+    const glm::dvec3 to_hand = hand_mm - proxy_P_.mm;
+    glm::dvec3 move = allowed(to_hand, constraintOf(head_, deepest_mm), constraintOf(shaft_, shaft_deepest_mm));
+    // In a corner every wall seen alone turns the way to the other: who swings to and fro goes in shorter steps.
+    const bool free = move == to_hand, swings = now.looks > 0 && glm::dot(move, last_move) < 0.0;
+    if (free)
+      trust_ = 1.0;
+    else if (swings && glm::length(move) > 10.0 * enough_mm)
+      trust_ = std::max(0.5 * trust_, 1.0 / 32.0);
+    else
+      trust_ = std::min(1.1 * trust_, 1.0);
+    last_move = move;
+    if (!free) move *= trust_;
     const double length = glm::length(move);
-    if (held.looks > 0 && length <= enough_mm) break;
+    if (now.looks > 0 && length <= enough_mm) break;
     if (length > longest_mm) move *= longest_mm / length;
     proxy_P_.mm += move;
     bare = contactOf(law, at(), law_state_);
-    head_ = steadied(bare, most_stiffness_N_per_mm);
-    ++held.looks;
+    head_ = held(faded(bare), most_stiffness_N_per_mm);
+    // The shaft is a plain wall under every law, as stiff as Agus's.
+    if (with_shaft)
+      shaft_ = held(shaftContact(field, tool, {X_PT.rotation, proxy_P_.mm}, law.tissue, law.agus.stiffness_N_per_mm),
+                    most_stiffness_N_per_mm);
+    ++now.looks;
   }
   // A law's memory goes by the millisecond, whatever the rate.
   unremembered_s_ += motion.dt_s;
@@ -123,11 +179,16 @@ Proxy::Held Proxy::follow(const SolidField& field, const LawSettings& law, const
     remember(law, at(), bare, law_state_);
     unremembered_s_ = std::min(unremembered_s_ - kMemoryStep_s, kMemoryStep_s);
   }
-  held.head = head_;
-  held.proxy_P = proxy_P_;
-  held.pull_P_mm.xyz = proxy_P_.mm - hand_mm;
-  held.spring_N_per_mm = head_.stiffness_N_per_mm;
-  return held;
+  now.head = head_;
+  now.shaft = shaft_;
+  now.proxy_P = proxy_P_;
+  now.pull_P_mm.xyz = proxy_P_.mm - hand_mm;
+  // The slope of whichever holds it; of both by how near they are to holding, so that neither comes in with a step.
+  const double by_head = head_.depth_mm / deepest_mm, by_shaft = shaft_.depth_mm / shaft_deepest_mm;
+  if (by_head + by_shaft > 0.0)
+    now.spring_N_per_mm =
+        (by_head * head_.stiffness_N_per_mm + by_shaft * shaft_.stiffness_N_per_mm) / (by_head + by_shaft);
+  return now;
 }
 
 }  // namespace haptics

@@ -24,13 +24,15 @@ class Proxy {
 
   struct Held {
     calibration::Point<calibration::Patient> proxy_P;     ///< of T's origin
-    Contact head;                                         ///< at the proxy, faded between facing walls
+    Contact head, shaft;                                  ///< at the proxy, faded between facing walls
     calibration::Vector<calibration::Patient> pull_P_mm;  ///< q - p: the spring between hand and proxy
     double spring_N_per_mm = 0.0;                         ///< k of that spring
     int looks = 0;                                        ///< how often the bone was asked
 
-    bool touches() const { return head.depth_mm > 0.0; }
-    /// law(q) + k (q - p); zero out of contact.
+    bool touches() const { return head.depth_mm > 0.0 || shaft.depth_mm > 0.0; }
+    /// The head where it touches, or else the shaft.
+    const Contact& touching() const { return head.depth_mm > 0.0 ? head : shaft; }
+    /// law(q) + k (q - p), head and shaft together; zero out of contact.
     calibration::Vector<calibration::Patient> force_P_N() const;
     /// About T's origin; the spring pulls through it.
     calibration::Vector<calibration::Patient> torque_P_Nmm() const;
@@ -49,11 +51,12 @@ class Proxy {
 
  private:
   calibration::Point<calibration::Patient> proxy_P_;
-  Contact head_;  ///< at proxy_P_, as it was last looked at
+  Contact head_, shaft_;  ///< at proxy_P_, as they were last looked at
   LawState law_state_;
   LawKind last_law_ = LawKind::agus;
   BurShape last_head_;
   double unremembered_s_ = 0.0;
+  double trust_ = 1.0;  ///< part of a bound step that is taken at once
   bool placed_ = false;
 };
 

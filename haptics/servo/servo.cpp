@@ -61,7 +61,7 @@ Tick Servo::step(const HandSample& hand, const Command& wanted, double dt_s) noe
                             : std::uint8_t{0};
 
   // What the law wants, then what may be given of it.
-  tick.law_force_P_N = held.force_P_N() + dampingForce_N(command.law, held.head, believed.velocity_P_mm_per_s);
+  tick.law_force_P_N = held.force_P_N() + dampingForce_N(command.law, held.touching(), believed.velocity_P_mm_per_s);
   tick.law_torque_P_Nmm = held.torque_P_Nmm();
   Delivery::Wanted wish{{tick.law_force_P_N, tick.law_torque_P_Nmm}, held.head.vibration_P_N, held.mostStored_Nmm()};
   wish.switched = command.serial != last_serial_;

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "calibration/geometry/units.h"
+#include "haptics/contact/law_limits.h"
 
 namespace haptics {
 namespace {
@@ -54,8 +55,9 @@ Command limitedTo(const DeviceCapabilities& device, double rate_Hz, const Comman
   safety = sanitised(command.safety);
   safety.peak_force_N = atMost(safety.peak_force_N, device.peak_force_N);
   safety.peak_torque_Nmm = atMost(safety.peak_torque_Nmm, device.peak_torque_Nmm);
-  safety.most_stiffness_N_per_mm = atMost(safety.most_stiffness_N_per_mm,
-                                          0.9 * stiffestWall_N_per_mm(device, command.law.damping_Ns_per_mm, rate_Hz));
+  safety.most_stiffness_N_per_mm =
+      atMost(safety.most_stiffness_N_per_mm,
+             0.9 * passiveStiffness_N_per_mm(device.damping_Ns_per_mm, command.law.damping_Ns_per_mm, 1.0 / rate_Hz));
   return limited;
 }
 

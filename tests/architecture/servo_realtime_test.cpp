@@ -30,7 +30,10 @@ TEST(ServoRealTime, NeitherAllocatesNorBlocksInTenThousandTicksOfCarving) {
     if (n % 500 == 0) {
       haptics::Command command = block.start().command;
       command.serial = 1 + static_cast<std::uint64_t>(n / 500);
-      command.tool.head.radius_mm = 0.5 + 0.2 * (n / 500 % 8);
+      // Every law with every head, with and without a shaft.
+      command.law.kind = haptics::kLaws[static_cast<std::size_t>(n / 500) % haptics::kLaws.size()].kind;
+      command.tool.head = {static_cast<haptics::ShapeKind>(n / 500 % 4), 0.5 + 0.2 * (n / 500 % 8), 1.5};
+      if (n / 500 % 3 != 0) command.tool.shaft = {0.5, 9.0};
       commands.publish(command);
     }
     const haptics::Tick tick = servo.step(hand, commands.read(), 0.001);

@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "calibration/geometry/units.h"
 #include "tests/haptics/phantom.h"
 
 namespace haptics {
@@ -161,6 +162,59 @@ TEST(Proxy, StaysFiniteAndContinuousInARandomWalkThroughRandomBone) {
     EXPECT_TRUE(std::isfinite(glm::length(now.force_P_N().xyz)));
     EXPECT_LE(glm::length(now.head.normal_P.xyz), 1.0 + 1e-12);
   }
+}
+
+/// A slender bur with its shaft along x, lying with it.
+Proxy::Held lying(Proxy& proxy, const SolidField& field, const glm::dvec3& hand, const Tool& tool) {
+  const glm::dquat along_x = glm::angleAxis(0.5 * calibration::kPi, glm::dvec3(0, 1, 0));
+  return proxy.follow(field, kLaw, tool, {along_x, hand}, {}, 20.0);
+}
+
+TEST(Proxy, IsHeldByTheShaftWhereOnlyTheShaftTouches) {
+  const Phantom phantom = halfSpace(11.0, 0.2);
+  const Tool tool{{ShapeKind::sphere, 0.5, 0.0}, {1.2, 17.0}};
+  Proxy proxy;
+  for (int step = 0; step <= 300; ++step) {
+    const double depth = 0.01 * step;
+    const Proxy::Held now = lying(proxy, phantom.field(), {-8.0, 0.0, 1.2 - depth}, tool);
+    if (depth < 0.25) continue;
+    // As stiff as Agus's wall at every depth; the head may begin to touch when the shaft gives way.
+    EXPECT_NEAR(now.force_P_N().xyz.z, 0.8 * depth, 0.03 + 0.05 * depth) << depth;
+    EXPECT_EQ(now.head.depth_mm, 0.0);
+    // Pressed behind the head, the bone turns its tip down, about -y.
+    EXPECT_LT(now.torque_P_Nmm().xyz.y, -2.0 * now.shaft.force_P_N.xyz.z);
+  }
+}
+
+TEST(Proxy, GoesIntoTheCornerBetweenHeadAndShaftWithoutAStep) {
+  // A floor at z = 0 under the head, and a step of bone beside the shaft that begins 2 mm behind the head.
+  const Phantom phantom =
+      filled(11.0, 0.25, [](const glm::dvec3& p) { return std::min(p.z, std::max(1.4 - p.y, -2.0 - p.x)); });
+  const Tool tool{{ShapeKind::sphere, 1.0, 0.0}, {0.6, 9.0}};
+  Proxy proxy;
+  glm::dvec3 last = lying(proxy, phantom.field(), {-4.0, -0.6, 0.7}, tool).force_P_N().xyz;
+  double sideways_N = 0.0;
+  for (int tick = 1; tick <= 2000; ++tick) {
+    // Down onto the floor, then sideways until the shaft is deep in the step, and back.
+    const double s = 0.5 - 0.5 * std::cos(0.002 * calibration::kPi * tick);
+    const glm::dvec3 hand(-4.0, -0.6 + 3.0 * s, 0.7 - 0.8 * s);
+    const Proxy::Held now = lying(proxy, phantom.field(), hand, tool);
+    const glm::dvec3 force = now.force_P_N().xyz;
+    EXPECT_LT(glm::length(force - last), 0.02) << tick;
+    EXPECT_LE(now.shaft.depth_mm, 0.45) << tick;
+    EXPECT_LE(now.head.depth_mm, 0.6) << tick;
+    sideways_N = std::min(sideways_N, force.y);
+    last = force;
+  }
+  EXPECT_LT(sideways_N, -0.5);
+}
+
+TEST(Proxy, ScalesALawDownToWhatTheDeviceHolds) {
+  const Phantom phantom = halfSpace(4.0, 0.2);
+  Proxy proxy;
+  const Proxy::Held now =
+      proxy.follow(phantom.field(), kLaw, {}, {glm::dquat(1, 0, 0, 0), {0.0, 0.0, kRadius_mm - 1.5}}, {}, 0.4);
+  EXPECT_NEAR(now.force_P_N().xyz.z, 0.4 * 1.5, 0.01);
 }
 
 }  // namespace
