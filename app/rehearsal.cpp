@@ -12,6 +12,7 @@
 #include "app/hand_input.h"
 #include "app/rehearsal_summary.h"
 #include "app/snapshot.h"
+#include "app/tool_text.h"
 #include "app/trough_plan.h"
 #include "app/usage_error.h"
 #include "assets/instrument.h"
@@ -98,6 +99,17 @@ void refuseUnlessHeld(const haptics::DeviceCapabilities& device, const Rehearsal
   throw UsageError(text);
 }
 
+/// What is felt and cuts is what is drawn.
+assets::InstrumentParameters drawnAs(const haptics::Tool& tool) {
+  assets::InstrumentParameters drawn;
+  drawn.form = static_cast<assets::BurForm>(tool.head.kind);
+  drawn.bur_radius_mm = tool.head.radius_mm;
+  drawn.bur_length_mm = tool.head.length_mm;
+  drawn.neck_radius_mm = tool.shaft.radius_mm;
+  return drawn;
+}
+static_assert(static_cast<int>(assets::BurForm::cone) == static_cast<int>(haptics::ShapeKind::cone));
+
 double width_mm(const calibration::ScreenCorners& screen) {
   return glm::distance(screen.lower_left.mm, screen.lower_right.mm);
 }
@@ -159,7 +171,7 @@ class Rehearsal {
                                                             render::RenderOptions{.samples = samples});
     renderer->setFace(plan_.patient.face);
     renderer->setGum(plan_.patient.gum);
-    renderer->setInstrument(assets::surgicalHandpiece({.bur_radius_mm = plan_.command.tool.head.radius_mm}));
+    renderer->setInstrument(assets::surgicalHandpiece(drawnAs(plan_.command.tool)));
     return renderer;
   }
 
@@ -268,7 +280,7 @@ class Rehearsal {
     frame_.tool_visible = frame_.tool_visible && (hand_.mouse || newest_.depth_mm > 0.0);
     if (closing_pictures_) takePictures(*closing_pictures_, workstation_->bone().solidInGridOrder());
     figures.patient_title = plan_.patient.title;
-    figures.bur_radius_mm = plan_.command.tool.head.radius_mm;
+    figures.bur = textOf(plan_.command.tool.head);
     figures.duration_s = newest_.t_s + newest_.dt_s;
     figures.removed_mm3 = workstation_->bone().removedByTissue_mm3();
     figures.frames = frames_;

@@ -22,7 +22,7 @@ namespace {
 std::string summaryText(const RehearsalFigures& f) {
   std::string text = "Rehearsal\n";
   text += line("  patient          %s\n", f.patient_title.c_str());
-  text += line("  bur              round, radius %.2f mm\n", f.bur_radius_mm);
+  text += line("  bur              %s mm\n", f.bur.c_str());
   text += line("  duration         %.1f s\n", f.duration_s);
   text += line("  removed          %.1f mm³\n", std::accumulate(f.removed_mm3.begin(), f.removed_mm3.end(), 0.0));
   for (std::size_t l = 0; l < f.removed_mm3.size(); ++l)

@@ -13,7 +13,7 @@ namespace app {
 
 struct RehearsalFigures {
   std::string patient_title;
-  double bur_radius_mm = 0.0;
+  std::string bur;  ///< as people type it
   double duration_s = 0.0;
   std::array<double, assets::kTissueCount> removed_mm3{};
   std::uint64_t frames = 0;

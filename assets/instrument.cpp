@@ -97,12 +97,76 @@ MeshPart burHead(const InstrumentParameters& parameters) {
   return head;
 }
 
-MeshPart bur(const InstrumentParameters& parameters) {
-  MeshPart part = burHead(parameters);
+// The outline of a long head in smooth stretches, from the tip to the neck: each a list of (radius, z).
+using Stretch = std::vector<glm::dvec2>;
+std::vector<Stretch> outlineOf(const InstrumentParameters& parameters, double neck) {
+  const double radius = parameters.bur_radius_mm, half = 0.5 * parameters.bur_length_mm;
+  constexpr int kSteps = 24;
+  const auto straight = [](const glm::dvec2& from, const glm::dvec2& to) {
+    Stretch stretch;
+    for (int n = 0; n <= kSteps; ++n) stretch.push_back(glm::mix(from, to, static_cast<double>(n) / kSteps));
+    return stretch;
+  };
+  if (parameters.form == BurForm::cylinder)
+    return {straight({0.0, -half}, {radius, -half}), straight({radius, -half}, {radius, half}),
+            straight({radius, half}, {neck, half})};
+  if (parameters.form == BurForm::cone)
+    return {straight({0.0, -half}, {radius, half}), straight({radius, half}, {neck, half})};
+  // Round ends, the upper one as far as the neck.
+  Stretch stretch;
+  for (int n = 0; n <= kSteps; ++n) {
+    const double turn = 0.5 * kPi * n / kSteps;
+    stretch.emplace_back(radius * std::sin(turn), -half - radius * std::cos(turn));
+  }
+  for (int n = 1; n < kSteps; ++n) stretch.emplace_back(radius, half * (2.0 * n / kSteps - 1.0));
+  const double last = std::acos(std::min(1.0, neck / radius));
+  for (int n = 0; n <= kSteps; ++n) {
+    const double turn = last * n / kSteps;
+    stretch.emplace_back(radius * std::cos(turn), half + radius * std::sin(turn));
+  }
+  return {stretch};
+}
+
+// A long head: blades that wind round it, their edges on the outline, and gullets cut towards the axis.
+MeshPart longHead(const InstrumentParameters& parameters, double neck) {
   const double radius = parameters.bur_radius_mm;
-  const double neck = std::min(0.55 * radius, 0.75 * kShankRadius_mm);
-  const double start = std::sqrt(std::max(0.0, 0.98 * radius * radius - neck * neck));
-  append(part, turned({{start - 0.15 * radius, neck},
+  const std::size_t around = static_cast<std::size_t>(parameters.flutes) * 24;
+  const auto gullet = [&](double z, double turn) {
+    const double phase = std::fmod(turn + 0.35 * z / radius + 16.0 * kPi, 2.0 * kPi) * parameters.flutes / (2.0 * kPi);
+    const double across = phase - std::floor(phase);
+    const double groove = across < 0.12 ? 0.0 : std::sin(kPi * std::pow((across - 0.12) / 0.88, 1.6));
+    // Cross-cuts, staggered from blade to blade.
+    const double nick = std::fmod(z / radius * 1.6 + std::floor(phase) * 0.5 + 64.0, 1.0) < 0.14 ? 0.3 : 0.0;
+    return std::min(1.0, std::max(groove, nick));
+  };
+  MeshPart head;
+  for (const Stretch& stretch : outlineOf(parameters, neck)) {
+    MeshPart part = sweep(stretch.size(), around, [&](std::size_t ring, double turn) {
+      const double rho = stretch[ring].x * (1.0 - 0.2 * gullet(stretch[ring].y, turn));
+      return glm::dvec3(rho * std::cos(turn), rho * std::sin(turn), stretch[ring].y);
+    });
+    // Gullets are darker: the light does not reach in.
+    for (std::size_t ring = 0; ring < stretch.size(); ++ring)
+      for (std::size_t a = 0; a < around; ++a) {
+        const double depth = gullet(stretch[ring].y, 2.0 * kPi * static_cast<double>(a) / static_cast<double>(around));
+        const float shade = 1.0f - 0.6f * static_cast<float>(depth);
+        part.colour.emplace_back(shade, shade, shade, 1.0f);
+      }
+    append(head, part);
+  }
+  return head;
+}
+
+MeshPart bur(const InstrumentParameters& parameters) {
+  const double radius = parameters.bur_radius_mm, half = 0.5 * parameters.bur_length_mm;
+  const double fitting = std::min(0.55 * radius, 0.75 * kShankRadius_mm);
+  const double neck = parameters.neck_radius_mm > 0.0 ? std::min(parameters.neck_radius_mm, radius) : fitting;
+  // Where the head is no wider than the neck.
+  const double shoulder = std::sqrt(std::max(0.0, 0.98 * radius * radius - neck * neck));
+  const bool round = parameters.form == BurForm::round, capsule = parameters.form == BurForm::capsule;
+  const double start = round ? shoulder : capsule ? half + shoulder : half;
+  MeshPart part = round ? burHead(parameters) : longHead(parameters, neck);
+  append(part, turned({{start - (round || capsule ? 0.15 * radius : 0.0), neck},
                        {start + 0.6, neck * 0.92},
                        {start + 4.0, neck * 0.95},
                        {start + 9.0, kShankRadius_mm, false},
@@ -159,10 +223,18 @@ MeshPart handpiece() {
 
 MeshModel surgicalHandpiece(const InstrumentParameters& parameters) {
   if (!(parameters.bur_radius_mm >= 0.25 && parameters.bur_radius_mm <= 5.0)) {
-    throw LoadError("instrument: bur radius is outside 0.25..5 mm, choose a round bur of that size");
+    throw LoadError("instrument: bur radius is outside 0.25..5 mm, choose a bur of that size");
+  }
+  const bool round = parameters.form == BurForm::round;
+  if (!(parameters.bur_length_mm >= (round || parameters.form == BurForm::capsule ? 0.0 : 0.1) &&
+        parameters.bur_length_mm <= 20.0)) {
+    throw LoadError("instrument: bur length is outside 0.1..20 mm, choose a bur of that size");
+  }
+  if (!(parameters.neck_radius_mm >= 0.0)) {
+    throw LoadError("instrument: neck radius is not a size, give 0 for one that fits");
   }
   if (parameters.flutes < 8 || parameters.flutes > 40) {
-    throw LoadError("instrument: a round bur has 8..40 flutes, choose a number in between");
+    throw LoadError("instrument: a bur has 8..40 flutes, choose a number in between");
   }
   return {{bur(parameters), handpiece()}};
 }

@@ -75,7 +75,10 @@ TEST(Instrument, LiesAlongTheShaft) {
 
 TEST(Instrument, FacesOutward) {
   // The signed volume of a surface wound outward is positive, and normals point away from the axis.
-  for (const MeshPart& part : surgicalHandpiece({}).parts) {
+  std::vector<MeshPart> parts = surgicalHandpiece({}).parts;
+  for (const BurForm form : {BurForm::capsule, BurForm::cylinder, BurForm::cone})
+    parts.push_back(surgicalHandpiece({.form = form, .bur_length_mm = 4.0}).parts.front());
+  for (const MeshPart& part : parts) {
     double volume_mm3 = 0.0;
     for (std::size_t t = 0; t < part.triangles.size(); t += 3) {
       const auto corner = [&](std::size_t i) { return glm::dvec3(part.position_mm[part.triangles[t + i]]); };
@@ -87,7 +90,34 @@ TEST(Instrument, FacesOutward) {
   }
 }
 
+TEST(Instrument, BladesFollowTheOutlineOfEveryForm) {
+  const double radius_mm = 0.8, length_mm = 4.0, half_mm = 0.5 * length_mm;
+  for (const BurForm form : {BurForm::capsule, BurForm::cylinder, BurForm::cone}) {
+    const MeshModel model = surgicalHandpiece(
+        {.bur_radius_mm = radius_mm, .form = form, .bur_length_mm = length_mm, .neck_radius_mm = 0.4});
+    double widest_mm = 0.0, lowest_mm = 0.0, farthest_out_mm = -1.0, nearest_mm = -1.0;
+    for (const glm::dvec3 p : partNamed(model, "Bur").position_mm) {
+      if (p.z > half_mm) continue;
+      const double rho = std::hypot(p.x, p.y);
+      const double outline = form == BurForm::cone ? radius_mm * (p.z + half_mm) / length_mm
+                             : form == BurForm::capsule && p.z < -half_mm
+                                 ? std::sqrt(std::max(0.0, radius_mm * radius_mm - std::pow(p.z + half_mm, 2)))
+                                 : radius_mm;
+      widest_mm = std::max(widest_mm, rho);
+      lowest_mm = std::min(lowest_mm, p.z);
+      farthest_out_mm = std::max(farthest_out_mm, rho - outline);
+      if (std::abs(p.z) < 1.0) nearest_mm = std::max(nearest_mm, rho / outline);
+    }
+    EXPECT_NEAR(widest_mm, radius_mm, 1e-5);
+    EXPECT_NEAR(lowest_mm, form == BurForm::capsule ? -half_mm - radius_mm : -half_mm, 1e-5);
+    EXPECT_LT(farthest_out_mm, 1e-5);
+    EXPECT_NEAR(nearest_mm, 1.0, 1e-5);
+  }
+}
+
 TEST(Instrument, RefusesABurThatIsNotMade) {
+  EXPECT_THROW(surgicalHandpiece({.form = BurForm::cone, .bur_length_mm = 0.0}), LoadError);
+  EXPECT_THROW(surgicalHandpiece({.form = BurForm::cylinder, .bur_length_mm = 30.0}), LoadError);
   EXPECT_THROW(surgicalHandpiece({.bur_radius_mm = 0.0}), LoadError);
   EXPECT_THROW(surgicalHandpiece({.bur_radius_mm = std::nan("")}), LoadError);
   EXPECT_THROW(surgicalHandpiece({.bur_radius_mm = 2.0, .flutes = 4}), LoadError);
