@@ -38,6 +38,8 @@ void HandInput::press(const render::KeyPressed& key) {
   if (key.key == render::keyOf('Q')) turn({0, 0, 1}, kTurn_rad);
   if (key.key == render::keyOf('E')) turn({0, 0, 1}, -kTurn_rad);
   if (key.key == Key::escape) end_asked_ = true;
+  for (int n = 0; n < 9; ++n)
+    if (key.key == render::keyOf(static_cast<char>('1' + n)) && !key.repeated) number_asked_ = n;
   if (key.key == render::keyOf('D') && !key.repeated) drill_switch_asked_ = true;
   if (key.key == render::keyOf('P') && !key.repeated) snapshot_asked_ = true;
 }
@@ -45,6 +47,8 @@ void HandInput::press(const render::KeyPressed& key) {
 void HandInput::turn(const glm::dvec3& axis_W, double angle_rad) {
   X_WT_.rotation = glm::normalize(glm::angleAxis(angle_rad, axis_W) * X_WT_.rotation);
 }
+
+std::optional<int> HandInput::takeNumberAsked() { return std::exchange(number_asked_, std::nullopt); }
 
 bool HandInput::takeDrillSwitchAsked() { return std::exchange(drill_switch_asked_, false); }
 

@@ -1,8 +1,9 @@
 // Mouse and keys as a hand: window events move and turn the place where the tool is wanted, 1:1 on the screen.
 // Drag: in the plane of the screen; wheel: 0.5 mm a notch towards or away; arrows, Q, E: 3 degrees a press; space: the
-// pedal. Frame W, mm. Main thread. The device (haptics::MouseDevice) makes smooth motion of it.
+// pedal; 1..9 ask for a law. Frame W, mm. Main thread. The device (haptics::MouseDevice) makes smooth motion of it.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "calibration/geometry/frames.h"
@@ -24,6 +25,8 @@ class HandInput {
   bool endAsked() const { return end_asked_; }
   /// True once for every press of P.
   bool takeSnapshotAsked();
+  /// Once for every press of 1 to 9: 0 to 8.
+  std::optional<int> takeNumberAsked();
   /// True once for every press of D.
   bool takeDrillSwitchAsked();
 
@@ -32,6 +35,7 @@ class HandInput {
   void turn(const glm::dvec3& axis_W, double angle_rad);
 
   calibration::Pose<calibration::World, calibration::Tool> X_WT_;
+  std::optional<int> number_asked_;
   bool pedal_ = false, end_asked_ = false, snapshot_asked_ = false, drill_switch_asked_ = false;
 };
 

@@ -9,7 +9,10 @@
 #include <span>
 
 #include "app/brick_upload.h"
+#include "app/command_settings.h"
 #include "app/hand_input.h"
+#include "app/law_text.h"
+#include "app/live_parameters.h"
 #include "app/rehearsal_summary.h"
 #include "app/snapshot.h"
 #include "app/tool_text.h"
@@ -122,6 +125,10 @@ class Rehearsal {
         hand_(handOf(plan_)),
         duration_s_(plan_.seconds ? plan_.seconds : hand_.duration_s),
         input_(restingTool()) {
+    if (!plan_.parameters.empty()) {
+      parameters_.emplace(plan_.parameters, plan_.command, [this](const haptics::Command& c) { check(c); });
+      plan_.command = parameters_->first();
+    }
     // Every output is claimed before any work.
     if (!plan_.snapshot.empty()) closing_pictures_.emplace(plan_.snapshot, plan_.overwrite);
     if (!plan_.first_snapshot.empty()) first_pictures_.emplace(plan_.first_snapshot, plan_.overwrite);
@@ -149,6 +156,7 @@ class Rehearsal {
     looping_since_ = Clock::now();
     while (!isOver()) {
       takeInput();
+      takeParameters();
       followServo();
       drawFrame();
       showStatus();
@@ -190,6 +198,57 @@ class Rehearsal {
       plan_.command.drill_enabled = !plan_.command.drill_enabled;
       workstation_->change(plan_.command);
     }
+    if (const auto number = input_.takeNumberAsked(); number && *number < static_cast<int>(haptics::kLaws.size()))
+      switchLaw(haptics::kLaws[static_cast<std::size_t>(*number)].kind);
+  }
+
+  /// Refuses what the servo or the device would obey only in part.
+  void check(const haptics::Command& command) const {
+    refuseUnlessObeyed(command);
+    refuseUnlessHeld(command, kUsualDeviceDamping_Ns_per_mm, plan_.rate_Hz);
+  }
+
+  void switchLaw(haptics::LawKind law) {
+    haptics::Command wanted = plan_.command;
+    wanted.law.kind = law;
+    try {
+      change(loweredUntilHeld(wanted, kUsualDeviceDamping_Ns_per_mm, plan_.rate_Hz));
+    } catch (const UsageError& error) {
+      std::fprintf(stderr, "molar: %s; the old law stays\n", error.what());
+    }
+  }
+
+  void takeParameters() {
+    if (!parameters_) return;
+    const auto reading = parameters_->look(Clock::now());
+    if (!reading) return;
+    if (reading->command) {
+      haptics::Command wanted = *reading->command;
+      wanted.drill_enabled = plan_.command.drill_enabled;
+      change(wanted);
+    } else {
+      std::fprintf(stderr, "molar: %s\n", reading->trouble.c_str());
+      workstation_->note("parameters", reading->trouble);
+    }
+  }
+
+  /// In force, recorded, and every difference logged.
+  void change(const haptics::Command& wanted) {
+    const std::vector<std::string> changes = changesBetween(plan_.command, wanted);
+    if (changes.empty()) return;
+    const bool other_bur = !(plan_.command.tool.head == wanted.tool.head);
+    plan_.command = wanted;
+    workstation_->change(plan_.command);
+    for (const std::string& line : changes) {
+      std::fprintf(stderr, "molar: at %.3f s %s\n", newest_.t_s, line.c_str());
+      workstation_->note("parameters", line);
+    }
+    if (other_bur) showBur();
+  }
+
+  void showBur() {
+    frame_.bur_radius_mm = plan_.command.tool.head.radius_mm;
+    renderer_->setInstrument(assets::surgicalHandpiece({.bur_radius_mm = plan_.command.tool.head.radius_mm}));
   }
 
   /// The tick first, then the bricks: what that tick cut is in this very frame.
@@ -223,8 +282,9 @@ class Rehearsal {
     if (!window_) return;
     const haptics::ServoFigures servo = workstation_->figures();
     char text[160];
-    std::snprintf(text, sizeof text, "Molar   %.1f s   force %.2f N   depth %.2f mm   %s   servo p99 %.0f µs",
-                  newest_.t_s, glm::length(newest_.served_force_P_N.xyz), newest_.depth_mm,
+    std::snprintf(text, sizeof text, "Molar   %.1f s   %s   force %.2f N   depth %.2f mm   %s   servo p99 %.0f µs",
+                  newest_.t_s, lawName(plan_.command.law.kind).c_str(), glm::length(newest_.served_force_P_N.xyz),
+                  newest_.depth_mm,
                   newest_.drilling              ? "drilling"
                   : plan_.command.drill_enabled ? "drill off"
                                                 : "drill locked",
@@ -302,6 +362,7 @@ class Rehearsal {
   std::optional<render::Window> window_;
   std::unique_ptr<render::FrameRenderer> renderer_;
   std::optional<Workstation> workstation_;
+  std::optional<LiveParameters> parameters_;
   BrickUpload upload_;
   render::Frame frame_;
   haptics::Tick newest_;

@@ -23,6 +23,7 @@ struct RehearsalPlan {
   render::DisplayMode display = render::DisplayMode::mono;
   Hand hand = Hand::mouse;
   haptics::Command command;
+  std::string parameters;  ///< settings file that is obeyed while it changes; `command` holds what it leaves out
   double rate_Hz = 1000.0;
   std::optional<double> seconds;  ///< simulated time; a scripted hand ends by itself
   std::optional<Recording> recording;

@@ -7,7 +7,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/command_settings.h"
 #include "app/commands/command.h"
+#include "app/law_text.h"
 #include "app/pose_csv.h"
 #include "app/settings_text.h"
 #include "app/tool_text.h"
@@ -90,15 +92,15 @@ std::vector<FeltRow> feelServed(const SolidVolume& volume, const haptics::Comman
 int feel(const FeelOptions& options) {
   haptics::Command command;
   command.tool = {headFrom(options.tool), shaftFrom(options.shaft)};
-  applySettings(options.settings, {{"stiffness_N_per_mm", {&command.law.agus.stiffness_N_per_mm, 0.0, 100.0, "N/mm"}},
-                                   {"damping_Ns_per_mm", {&command.law.damping_Ns_per_mm, 0.0, 1.0, "Ns/mm"}},
-                                   {"peak_force_N", {&command.safety.peak_force_N, 0.1, 40.0, "N"}},
-                                   {"slew_N_per_s", {&command.safety.slew_N_per_s, 1.0, 1e5, "N/s"}}});
+  command.law.kind = lawNamed(options.law);
+  applyTo(command, options.settings);
+  refuseUnlessAdmitted(command);
   refuseSameFile(options.out, {options.poses, options.volume.path()});
   assets::OutputFile out(options.out, options.force);
   const std::vector<TimedPose> poses = readPoses(options.poses);
   if (options.served) {
     refuseUnlessObeyed(command);
+    refuseUnlessHeld(command, kUsualDeviceDamping_Ns_per_mm, 1.0 / kTick_s);
     refuseLongRun(poses, options.poses);
   }
   const SolidVolume volume = options.volume.load();
@@ -127,7 +129,7 @@ void addFeel(CLI::App& molar, Chosen& chosen) {
   options->volume.addTo(*command);
   command->add_option("--tool", options->tool, kHeadHelp)->required();
   command->add_option("--shaft", options->shaft, kShaftHelp)->capture_default_str();
-  command->add_option("--law", options->law, "Force law")->check(CLI::IsMember({"agus"}))->capture_default_str();
+  command->add_option("--law", options->law, "Force law: " + lawNames())->capture_default_str();
   command->add_option("--set", options->settings, "key=value: stiffness_N_per_mm, damping_Ns_per_mm, …");
   command->add_option("--poses", options->poses, "t_s,px_mm,py_mm,pz_mm,qw,qx,qy,qz (X_PT)")->required();
   command->add_option("--out", options->out, "Forces on the hand, CSV")->required();

@@ -8,9 +8,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/command_settings.h"
 #include "app/commands/command.h"
 #include "app/commands/number_range.h"
 #include "app/erosion_text.h"
+#include "app/law_text.h"
 #include "app/patient_source.h"
 #include "app/rehearsal.h"
 #include "app/room.h"
@@ -29,7 +31,7 @@ constexpr double kMonitorWidth_mm = 531.0;  ///< of a 24-inch monitor
 constexpr double kForeignFaceWindow_mm = 24.0;
 
 struct RehearseOptions {
-  std::string patient, device = "mouse", rig, display = "mono", record, snapshot, first_snapshot, face;
+  std::string patient, parameters, device = "mouse", rig, display = "mono", record, snapshot, first_snapshot, face;
   std::string tool = "sphere:1.5", shaft, law = "agus", erosion = "time", size, snapshot_size = "1280x800";
   std::string side = "right";
   std::vector<std::string> settings;
@@ -69,18 +71,12 @@ int run(const RehearseOptions& options) {
   plan.command.tool.head = headFrom(options.tool);
   plan.command.tool.shaft =
       options.shaft.empty() ? haptics::usualShaft(plan.command.tool.head) : shaftFrom(options.shaft);
-  haptics::ErosionSettings& erosion = plan.command.erosion;
-  erosion.kind = *haptics::erosionOfKey(options.erosion);
-  std::map<std::string, Setting> settings{
-      {"stiffness_N_per_mm", {&plan.command.law.agus.stiffness_N_per_mm, 0.0, 20.0, "N/mm"}},
-      {"damping_Ns_per_mm", {&plan.command.law.damping_Ns_per_mm, 0.0, 0.1, "Ns/mm"}},
-      {"peak_force_N", {&plan.command.safety.peak_force_N, 0.1, 40.0, "N"}},
-      {"slew_N_per_s", {&plan.command.safety.slew_N_per_s, 1.0, 1e5, "N/s"}}};
-  settings.merge(parametersOf(erosion));
-  settings.merge(parametersOf(plan.command.spindle));
-  applySettings(options.settings, settings);
-  plan.command.law.machining.worn = erosion.worn;  // one bur: as dull to the hand as to the bone
+  plan.command.erosion.kind = *haptics::erosionOfKey(options.erosion);
+  plan.command.law.kind = lawNamed(options.law);
+  applyTo(plan.command, options.settings);
   refuseUnlessObeyed(plan.command);
+  refuseUnlessHeld(plan.command, kUsualDeviceDamping_Ns_per_mm, options.rate_Hz);
+  plan.parameters = options.parameters;
   if (options.headless && options.device == "mouse")
     throw UsageError("--headless: there is no mouse without a window, add --device scripted");
   plan.hand =
@@ -144,7 +140,11 @@ void addRehearse(CLI::App& molar, Chosen& chosen) {
       ->check(numberRange(0.0, 100.0));
   command->add_option("--tool", o->tool, kHeadHelp)->capture_default_str();
   command->add_option("--shaft", o->shaft, std::string(kShaftHelp) + " [a neck that fits, up to 2.35 mm thick]");
-  command->add_option("--law", o->law, "Force law")->check(CLI::IsMember({"agus"}))->capture_default_str();
+  command->add_option("--law", o->law, "Force law: " + lawNames())->capture_default_str();
+  command
+      ->add_option("--parameters", o->parameters,
+                   "Settings file, TOML, obeyed while it changes (app/feel.toml); it rules over --law and --set")
+      ->type_name("FILE");
   command->add_option("--erosion", o->erosion, "Erosion law: time, dose or machining")
       ->check(CLI::IsMember(erosionNames()))
       ->capture_default_str();

@@ -37,6 +37,15 @@ TEST(HandInput, KeysTurnAboutTheBur) {
   EXPECT_EQ(hand.X_WT().translation_mm, glm::dvec3(1, 2, 3));
 }
 
+TEST(HandInput, NumbersAreAskedOnce) {
+  HandInput hand({});
+  EXPECT_FALSE(hand.takeNumberAsked());
+  hand.take(KeyPressed{render::keyOf('3'), true, false, false}, 0.25);
+  hand.take(KeyPressed{render::keyOf('3'), true, true, false}, 0.25);
+  EXPECT_EQ(hand.takeNumberAsked(), 2);
+  EXPECT_FALSE(hand.takeNumberAsked());
+}
+
 TEST(HandInput, AsksForEndAndSnapshots) {
   HandInput hand({});
   hand.take(KeyPressed{render::keyOf('P'), true, false, false}, 0.25);

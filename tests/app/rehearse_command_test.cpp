@@ -44,6 +44,29 @@ TEST_F(RehearseCommand, LeavesPicturesOfBothEyes) {
   EXPECT_NE(read("end_left.png"), read("end_right.png"));
 }
 
+/// Law and gains change while it runs, every change is said and recorded, and the recording still replays bit for bit.
+TEST_F(RehearseCommand, ObeysASettingsFileWhileItChanges) {
+  const std::string file = write("feel.toml", "[law]\nstiffness_N_per_mm = 0.6\n");
+  const std::string later = "(sleep 2; echo '[law]' > " + file + ".new; echo 'name = \"forssim\"' >> " + file +
+                            ".new; mv " + file + ".new " + file + "; sleep 1; echo '[law' > " + file + ") & ";
+  std::system((later + "true").c_str());
+  const Said said = molar(kCoarse + std::string("--seconds 5 --parameters ") + file + " --record " + at("s.molar"));
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_NE(said.err.find("[law] name agus -> forssim"), std::string::npos) << said.err;
+  EXPECT_NE(said.err.find("line 1: no TOML"), std::string::npos) << said.err;
+  EXPECT_NE(said.err.find("the old values stay"), std::string::npos) << said.err;
+  const Said replay = molar("replay " + at("s.molar") + " --verify");
+  EXPECT_EQ(replay.status, 0) << replay.out << replay.err;
+}
+
+TEST_F(RehearseCommand, RefusesABadSettingsFileAtTheStart) {
+  write("feel.toml", "[law]\nstiffness_N_per_mm = 99\n");
+  expectRefusal(kCoarse + std::string("--parameters ") + at("feel.toml"), "line 2: [law] stiffness_N_per_mm");
+  expectRefusal(kCoarse + std::string("--set stiffness_N_per_mm=10"), "2b/T");
+  expectRefusal(kCoarse + std::string("--law harmonic --tool cone:1,2"), "does not admit");
+  expectRefusal(kCoarse + std::string("--law spring"), "forssim");
+}
+
 TEST_F(RehearseCommand, KeepsAnOldRecording) {
   write("s.molar", "precious");
   expectRefusal(kCoarse + std::string("--seconds 0.2 --record ") + at("s.molar"), "s.molar");
