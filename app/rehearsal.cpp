@@ -20,7 +20,6 @@
 #include "app/usage_error.h"
 #include "assets/instrument.h"
 #include "calibration/geometry/units.h"
-#include "haptics/contact/law_limits.h"
 #include "haptics/device/mouse_device.h"
 #include "haptics/device/scripted_hand.h"
 #include "haptics/device/simulated_device.h"
@@ -87,21 +86,6 @@ HandAtWork handOf(const RehearsalPlan& plan) {
   return hand;
 }
 
-/// A wall that this device would buzz against is not built.
-void refuseUnlessHeld(const haptics::DeviceCapabilities& device, const RehearsalPlan& plan) {
-  const haptics::LawSettings& law = plan.command.law;
-  const double most =
-      haptics::passiveStiffness_N_per_mm(device.damping_Ns_per_mm, law.damping_Ns_per_mm, 1.0 / plan.rate_Hz);
-  const haptics::Admission answer = haptics::admissible(law, plan.command.tool.head, most);
-  if (answer.answer != haptics::Admission::Answer::too_stiff) return;
-  char text[240];
-  std::snprintf(text, sizeof text,
-                "the law asks for %.3g N/mm: at %g Hz this device buzzes from %.3g N/mm on (2 b / T), give %s at most "
-                "%.3g or a higher --rate",
-                answer.slope_N_per_mm, plan.rate_Hz, most, std::string(answer.lower->key).c_str(), answer.nearest);
-  throw UsageError(text);
-}
-
 /// What is felt and cuts is what is drawn.
 assets::InstrumentParameters drawnAs(const haptics::Tool& tool) {
   assets::InstrumentParameters drawn;
@@ -124,11 +108,13 @@ class Rehearsal {
       : plan_(std::move(plan)),
         hand_(handOf(plan_)),
         duration_s_(plan_.seconds ? plan_.seconds : hand_.duration_s),
-        input_(restingTool()) {
+        input_(restingTool()),
+        device_damping_Ns_per_mm_(hand_.device->capabilities().damping_Ns_per_mm) {
     if (!plan_.parameters.empty()) {
       parameters_.emplace(plan_.parameters, plan_.command, [this](const haptics::Command& c) { check(c); });
       plan_.command = parameters_->first();
     }
+    check(plan_.command);
     // Every output is claimed before any work.
     if (!plan_.snapshot.empty()) closing_pictures_.emplace(plan_.snapshot, plan_.overwrite);
     if (!plan_.first_snapshot.empty()) first_pictures_.emplace(plan_.first_snapshot, plan_.overwrite);
@@ -140,7 +126,6 @@ class Rehearsal {
     frame_.face_window_mm = plan_.face_window_mm;
     frame_.site_P = {plan_.patient.site.third_molar_P_mm};
     frame_.tool_visible = false;
-    refuseUnlessHeld(hand_.device->capabilities(), plan_);
     workstation_.emplace(plan_.patient, std::move(hand_.device),
                          haptics::ServoSettings{plan_.rate_Hz, hand_.X_PD, {}, true}, plan_.command, plan_.recording);
   }
@@ -205,14 +190,14 @@ class Rehearsal {
   /// Refuses what the servo or the device would obey only in part.
   void check(const haptics::Command& command) const {
     refuseUnlessObeyed(command);
-    refuseUnlessHeld(command, kUsualDeviceDamping_Ns_per_mm, plan_.rate_Hz);
+    refuseUnlessHeld(command, device_damping_Ns_per_mm_, plan_.rate_Hz);
   }
 
   void switchLaw(haptics::LawKind law) {
     haptics::Command wanted = plan_.command;
     wanted.law.kind = law;
     try {
-      change(loweredUntilHeld(wanted, kUsualDeviceDamping_Ns_per_mm, plan_.rate_Hz));
+      change(loweredUntilHeld(wanted, device_damping_Ns_per_mm_, plan_.rate_Hz));
     } catch (const UsageError& error) {
       std::fprintf(stderr, "molar: %s; the old law stays\n", error.what());
     }
@@ -248,7 +233,7 @@ class Rehearsal {
 
   void showBur() {
     frame_.bur_radius_mm = plan_.command.tool.head.radius_mm;
-    renderer_->setInstrument(assets::surgicalHandpiece({.bur_radius_mm = plan_.command.tool.head.radius_mm}));
+    renderer_->setInstrument(assets::surgicalHandpiece(drawnAs(plan_.command.tool)));
   }
 
   /// The tick first, then the bricks: what that tick cut is in this very frame.
@@ -357,6 +342,7 @@ class Rehearsal {
   HandAtWork hand_;
   std::optional<double> duration_s_;
   HandInput input_;
+  double device_damping_Ns_per_mm_;
   std::optional<EyePictures> first_pictures_, closing_pictures_;
   std::optional<render::OffscreenContext> offscreen_;
   std::optional<render::Window> window_;

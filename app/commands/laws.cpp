@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/chart/chart.h"
+#include "app/command_settings.h"
 #include "app/commands/command.h"
 #include "app/commands/number_range.h"
 #include "app/law_curves.h"
@@ -24,14 +25,11 @@ namespace {
 
 using haptics::LawParameter;
 
-/// Of a Touch-class device in a light grip (reference/physics 2.5).
-constexpr double kDeviceDamping_Ns_per_mm = 0.002;
-
 struct LawsOptions {
   bool json = false, force = false;
   std::string plot, tool = "sphere:2";
   std::vector<std::string> laws{"all"}, settings;
-  double rate_Hz = 1000.0, device_damping_Ns_per_mm = kDeviceDamping_Ns_per_mm;
+  double rate_Hz = 1000.0, device_damping_Ns_per_mm = kUsualDeviceDamping_Ns_per_mm;
 };
 
 std::vector<const haptics::LawName*> chosenLaws(const LawsOptions& options) {

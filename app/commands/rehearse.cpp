@@ -75,7 +75,7 @@ int run(const RehearseOptions& options) {
   plan.command.law.kind = lawNamed(options.law);
   applyTo(plan.command, options.settings);
   refuseUnlessObeyed(plan.command);
-  refuseUnlessHeld(plan.command, kUsualDeviceDamping_Ns_per_mm, options.rate_Hz);
+  refuseUnlessAdmitted(plan.command);
   plan.parameters = options.parameters;
   if (options.headless && options.device == "mouse")
     throw UsageError("--headless: there is no mouse without a window, add --device scripted");

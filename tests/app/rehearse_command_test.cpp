@@ -62,7 +62,7 @@ TEST_F(RehearseCommand, ObeysASettingsFileWhileItChanges) {
 TEST_F(RehearseCommand, RefusesABadSettingsFileAtTheStart) {
   write("feel.toml", "[law]\nstiffness_N_per_mm = 99\n");
   expectRefusal(kCoarse + std::string("--parameters ") + at("feel.toml"), "line 2: [law] stiffness_N_per_mm");
-  expectRefusal(kCoarse + std::string("--set stiffness_N_per_mm=10"), "2b/T");
+  expectRefusal("rehearse --headless --device simulated --voxel 0.6 --set stiffness_N_per_mm=10", "2b/T");
   expectRefusal(kCoarse + std::string("--law harmonic --tool cone:1,2"), "does not admit");
   expectRefusal(kCoarse + std::string("--law spring"), "forssim");
 }
