@@ -128,10 +128,11 @@ int carve(const CarveOptions& options) {
   cut.erosion.kind = *haptics::erosionOfKey(options.erosion);
   std::map<std::string, Setting> settings = parametersOf(cut.erosion);
   settings.merge(parametersOf(cut.spindle));
-  if (cut.erosion.kind == haptics::ErosionKind::dose) {
+  if (cut.erosion.kind != haptics::ErosionKind::time)
     settings["normal_force_N"] = {&cut.normal_force_N, 0.0, 100.0, "N"};
+  if (cut.erosion.kind == haptics::ErosionKind::machining) cut.normal_force_N = 0.0;
+  if (cut.erosion.kind == haptics::ErosionKind::dose)
     settings["stiffness_N_per_mm"] = {&cut.law.agus.stiffness_N_per_mm, 0.0, 100.0, "N/mm"};
-  }
   applySettings(options.settings, settings);
 
   refuseSameFile(options.out, {options.poses, options.volume.path()});
@@ -174,9 +175,9 @@ void addCarve(CLI::App& molar, Chosen& chosen) {
   command->add_flag("--force", options->force, "Replace the output if it exists");
   command->footer(
       erosionHelp() +
-      "  dose, besides: the force that presses the bur on,\n"
-      "    normal_force_N (N): given; or, where it is not,\n"
-      "    stiffness_N_per_mm (N/mm): k h of the law agus at each pose\n"
+      "  dose and machining, besides: what presses the bur on,\n"
+      "    normal_force_N (N): pays for dose; loads the spindle\n"
+      "    stiffness_N_per_mm (N/mm): dose without normal_force_N takes k h of the law agus at each pose\n"
       "The spindle turns at spindle_rpm while the pedal is down, slower under load; machining takes its feed from the "
       "poses.");
   command->callback([options, &chosen] { chosen.action = [options] { return carve(*options); }; });

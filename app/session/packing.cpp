@@ -59,9 +59,9 @@ void forEachField(auto& command,
   auto& [chip_tangential_N_per_mm2, chip_radial_N_per_mm2, chip_axial_N_per_mm2, edge_tangential_N_per_mm,
          edge_radial_N_per_mm, edge_axial_N_per_mm, flutes, thickest_chip_mm, slowest_cut_rpm, worn, vibration_share] =
       machining;
-  auto& [erosion_kind, time, dose, machining_erosion, erosion_worn, tissue_factor] = erosion;
+  auto& [erosion_kind, time, dose, machining_erosion, friction, erosion_worn, tissue_factor] = erosion;
   auto& [removal_rate_per_s, rated_rpm] = time;
-  auto& [removal_mm3_per_J, friction] = dose;
+  auto& [removal_mm3_per_J] = dose;
   auto& [cutting_energy_J_per_mm3] = machining_erosion;
   auto& [commanded_rpm, stall_torque_Nmm, free_rpm, droop, inertia_g_cm2, bearing_torque_Nmm] = spindle;
   auto& [peak_force_N, slew_N_per_s, peak_torque_Nmm, slew_Nmm_per_s, most_stiffness_N_per_mm] = safety;

@@ -25,7 +25,6 @@ struct TimeErosion {
 /// MRR = alpha mu F_n v_c. alpha = 1/u, u 0.3-4 J/mm3 for burring by hand (reference/physics 4).
 struct DoseErosion {
   double removal_mm3_per_J = 0.5;
-  double friction = 0.3;  ///< mu of bur on bone, 0.2-0.5 (reference/physics 1.1); also loads the spindle
 };
 
 /// Chip volume (Arbabtafti; reference/physics 1.5): what the feed sweeps, as far as the spindle's power goes.
@@ -38,7 +37,8 @@ struct ErosionSettings {
   TimeErosion time;
   DoseErosion dose;
   MachiningErosion machining;
-  double worn = 0.0;  ///< 0 a new bur .. 1 one that takes nothing
+  double friction = 0.3;  ///< mu of bur on bone, 0.2-0.5 (reference/physics 1.1): pays for `dose`, loads the spindle
+  double worn = 0.0;      ///< 0 a new bur .. 1 one that takes nothing
   std::array<double, assets::kTissueCount> tissue_factor = [] {
     std::array<double, assets::kTissueCount> factor{};
     for (std::size_t i = 0; i < factor.size(); ++i) factor[i] = assets::kTissues[i].removal_factor;

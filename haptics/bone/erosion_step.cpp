@@ -34,7 +34,7 @@ double rate_mm3_per_s(const ErosionSettings& settings, const CutMoment& moment, 
       return finite(timeLoss_per_s(settings, moment, factor) * moment.overlap_mm3);
     case ErosionKind::dose: {
       const double sliding_mm_per_s = std::abs(moment.spindle_rad_per_s) * moment.sliding_arm_mm;
-      const double friction_mW = settings.dose.friction * finite(moment.normal_force_N) * sliding_mm_per_s;
+      const double friction_mW = settings.friction * finite(moment.normal_force_N) * sliding_mm_per_s;
       return finite(settings.dose.removal_mm3_per_J / kmJPerJ * factor * sharp * friction_mW);
     }
     case ErosionKind::machining: {

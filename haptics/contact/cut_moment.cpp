@@ -26,7 +26,7 @@ CutMoment cutMoment(const ErosionSettings& erosion, const SpindleSettings& spind
 }
 
 double spindleLoad_Nmm(const ErosionSettings& erosion, const CutMoment& moment, double law_torque_Nmm) noexcept {
-  const double friction_Nmm = erosion.dose.friction * moment.normal_force_N * moment.sliding_arm_mm;
+  const double friction_Nmm = erosion.friction * moment.normal_force_N * moment.sliding_arm_mm;
   const double load = std::max(friction_Nmm, law_torque_Nmm);
   return std::isfinite(load) ? std::max(0.0, load) : 0.0;
 }
