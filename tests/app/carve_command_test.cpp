@@ -94,13 +94,14 @@ class CarveByLaw : public CarveCommand {
 
 TEST_F(CarveByLaw, DosesByTheForceThatPresses) {
   // alpha mu F w R t; the arm is a little shorter than R at 0.4 mm.
-  const double paid_mm3 = 0.5e-3 * 0.3 * 1.0 * k40krpm * 2.0 * 0.4;
-  const double one = taken_mm3("--erosion dose --set normal_force_N=1");
+  const double paid_mm3 = 0.2e-3 * 0.3 * 1.0 * k40krpm * 2.0 * 0.4;
+  const double one = taken_mm3("--erosion dose --set removal_mm3_per_J=0.2 normal_force_N=1");
   EXPECT_NEAR(one / paid_mm3, 0.97, 0.03);
-  EXPECT_NEAR(taken_mm3("--erosion dose --set normal_force_N=2") / one, 2.0, 0.03);
-  EXPECT_NEAR(taken_mm3("--erosion dose --set normal_force_N=1 spindle_rpm=20000") / one, 0.5, 0.02);
-  EXPECT_NEAR(taken_mm3("--erosion dose --set normal_force_N=1 worn=0.5") / one, 0.5, 0.02);
-  EXPECT_NEAR(taken_mm3("--erosion dose --set normal_force_N=1 friction=0.15") / one, 0.5, 0.02);
+  EXPECT_NEAR(taken_mm3("--erosion dose --set removal_mm3_per_J=0.2 normal_force_N=2") / one, 2.0, 0.03);
+  EXPECT_NEAR(taken_mm3("--erosion dose --set removal_mm3_per_J=0.2 normal_force_N=1 spindle_rpm=20000") / one, 0.5,
+              0.02);
+  EXPECT_NEAR(taken_mm3("--erosion dose --set removal_mm3_per_J=0.2 normal_force_N=1 worn=0.5") / one, 0.5, 0.02);
+  EXPECT_NEAR(taken_mm3("--erosion dose --set removal_mm3_per_J=0.2 normal_force_N=1 friction=0.15") / one, 0.5, 0.02);
 }
 
 TEST_F(CarveByLaw, DosesByTheForceLawWhereNoForceIsGiven) {
