@@ -47,7 +47,7 @@ Vector<Patient> velocityAt(const std::vector<TimedPose>& poses, std::size_t i) {
   return {(poses[i].X_PT.translation_mm - poses[i - 1].X_PT.translation_mm) / dt_s};
 }
 
-/// The law alone.
+/// The law alone, the spindle at its commanded speed while the pedal is down.
 std::vector<FeltRow> feelRaw(const SolidVolume& volume, const haptics::Command& command,
                              const std::vector<TimedPose>& poses) {
   const haptics::Cubelets cubelets(volume.grid, volume.solid, volume.label);
@@ -55,7 +55,9 @@ std::vector<FeltRow> feelRaw(const SolidVolume& volume, const haptics::Command& 
   std::vector<FeltRow> rows;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const Vector<Patient> velocity = velocityAt(poses, i);
-    const haptics::ToolInBone at{field, command.tool.head, poses[i].X_PT, command.law.tissue, {velocity}};
+    haptics::ToolInBone at{field, command.tool.head, poses[i].X_PT, command.law.tissue, {}};
+    at.motion.velocity_P_mm_per_s = velocity;
+    if (poses[i].drill) at.motion.spindle_rad_per_s = haptics::radPerSecond(command.spindle.commanded_rpm);
     const haptics::Contact contact = haptics::contactOf(command.law, at);
     rows.push_back({contact.force_P_N + haptics::dampingForce_N(command.law, contact, velocity), contact.torque_P_Nmm,
                     contact.volume_mm3, contact.depth_mm});

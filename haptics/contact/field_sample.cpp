@@ -64,48 +64,18 @@ FieldSample sampleAt(const SolidField& field, const glm::dvec3& index) {
 
 }  // namespace
 
-namespace {
-
-/// Of the eight voxels around a point: their solid bytes, i fastest.
-void bytesAround(const SolidField& field, glm::ivec3 low, double (&byte)[8]) {
-  const glm::ivec3 size = field.grid.size;
-  const bool inside =
-      low.x >= 0 && low.y >= 0 && low.z >= 0 && low.x + 1 < size.x && low.y + 1 < size.y && low.z + 1 < size.z;
-  const bool one_block = (low.x & 3) != 3 && (low.y & 3) != 3 && (low.z & 3) != 3;
-  if (inside && one_block) {
-    const std::uint8_t* first = field.solid + field.placeOf(low);
-    constexpr int kOffset[8] = {0, 1, 4, 5, 16, 17, 20, 21};
-    for (int n = 0; n < 8; ++n) byte[n] = first[kOffset[n]];
-    return;
-  }
-  for (int n = 0; n < 8; ++n) {
-    const glm::ivec3 ijk = low + glm::ivec3(n & 1, n >> 1 & 1, n >> 2);
-    byte[n] = inside || field.grid.contains(ijk) ? field.solidAt(ijk) : 0.0;
-  }
+FieldSample sampleField(const SolidField& field, const glm::dvec3& at_P_mm) noexcept {
+  return sampleAt(field, field.grid.indexFromPoint(at_P_mm));
 }
 
-}  // namespace
+ToolSampler::ToolSampler(const SolidField& field,
+                         const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT) noexcept
+    : field_(field),
+      turn_(glm::mat3_cast(X_PT.rotation) / field.grid.spacing_mm),
+      origin_(field.grid.indexFromPoint(X_PT.translation_mm)) {}
 
-FieldSample sampleField(const SolidField& field, const glm::dvec3& at_P_mm) noexcept {
-  const glm::dvec3 index = field.grid.indexFromPoint(at_P_mm);
-  const glm::ivec3 size = field.grid.size;
-  // Also false for what is no number.
-  const bool near =
-      index.x > -1.0 && index.y > -1.0 && index.z > -1.0 && index.x < size.x && index.y < size.y && index.z < size.z;
-  if (!near) return {};
-  const glm::ivec3 low = glm::ivec3(index + 1.0) - 1;  // rounds down: nothing here is below 0
-  const glm::dvec3 part = index - glm::dvec3(low);
-
-  double byte[8];
-  bytesAround(field, low, byte);
-  double along_x[4];
-  for (int n = 0; n < 4; ++n) along_x[n] = byte[2 * n] + part.x * (byte[2 * n + 1] - byte[2 * n]);
-  const double at_z0 = along_x[0] + part.y * (along_x[1] - along_x[0]);
-  const double at_z1 = along_x[2] + part.y * (along_x[3] - along_x[2]);
-  const double sum = at_z0 + part.z * (at_z1 - at_z0);
-  if (sum <= 0.0) return {};
-  const glm::ivec3 nearest = glm::clamp(glm::ivec3(index + 1.5) - 1, glm::ivec3(0), size - 1);
-  return {sum / 255.0, field.labelAt(nearest)};
+FieldSample ToolSampler::at(const glm::dvec3& place_T_mm) const noexcept {
+  return sampleAt(field_, turn_ * place_T_mm + origin_);
 }
 
 }  // namespace haptics

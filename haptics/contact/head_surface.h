@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <glm/glm.hpp>
@@ -22,6 +23,16 @@ struct Patch {
 
 inline constexpr int kPatchesRound = 24;
 
+/// Cosine and sine of half steps round a ring.
+inline const std::array<glm::dvec2, 2 * kPatchesRound> kRound = [] {
+  std::array<glm::dvec2, 2 * kPatchesRound> round{};
+  for (int n = 0; n < 2 * kPatchesRound; ++n) {
+    const double angle = n * calibration::kPi / kPatchesRound;
+    round[static_cast<std::size_t>(n)] = {std::cos(angle), std::sin(angle)};
+  }
+  return round;
+}();
+
 /// Patches of a full ring; its first patch lies half or no step round, by turns.
 template <class Visit>
 void visitRing(const glm::dvec3& centre, const glm::dvec3& axis, double radius, const glm::dvec3& along_normal,
@@ -29,8 +40,8 @@ void visitRing(const glm::dvec3& centre, const glm::dvec3& axis, double radius, 
   const glm::dvec3 helper = std::abs(axis.z) < 0.9 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(1.0, 0.0, 0.0);
   const glm::dvec3 e1 = glm::normalize(glm::cross(helper, axis)), e2 = glm::cross(axis, e1);
   for (int n = 0; n < kPatchesRound; ++n) {
-    const double angle = (n + 0.5 * (ring & 1)) * 2.0 * calibration::kPi / kPatchesRound;
-    const glm::dvec3 out = std::cos(angle) * e1 + std::sin(angle) * e2;
+    const glm::dvec2& at = kRound[static_cast<std::size_t>(2 * n + (ring & 1))];
+    const glm::dvec3 out = at.x * e1 + at.y * e2;
     visit(Patch{centre + radius * out, along_normal + normal_out * out, area / kPatchesRound});
   }
 }

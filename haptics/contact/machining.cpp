@@ -34,8 +34,9 @@ Engagement engagement(const ToolInBone& at, const glm::dvec3& normal_P, double d
 /// Calls visit(patch, solid, label) for every patch of the head that is in bone.
 template <class Visit>
 void visitEngaged(const ToolInBone& at, const Engagement& where, Visit&& visit) {
+  const ToolSampler sampler(at.field, at.X_PT);
   visitHeadSurface(at.head, where.towards_T, where.reach_mm, [&](const Patch& patch) {
-    const FieldSample sample = sampleField(at.field, at.X_PT.rotation * patch.place_T + at.X_PT.translation_mm);
+    const FieldSample sample = sampler.at(patch.place_T);
     if (sample.solid > 0.0) visit(patch, sample.solid, sample.label < assets::kTissueCount ? sample.label : 0);
   });
 }
@@ -84,7 +85,7 @@ class Flutes {
     const double chip =
         std::min(parameters_.thickest_chip_mm, std::max(0.0, glm::dot(feed_per_tooth_, patch.normal_T)));
     // Within half a patch of the axis the flutes meet; there the patch's own size is the arm.
-    const double arm = std::hypot(patch.place_T.x, patch.place_T.y);
+    const double arm = std::sqrt(patch.place_T.x * patch.place_T.x + patch.place_T.y * patch.place_T.y);
     const double length = per_turn_ * patch.area_mm2 / std::max(arm, 0.3 * std::sqrt(patch.area_mm2));
     const glm::dvec3 motion =
         arm > 0.0 ? way_ * glm::dvec3(-patch.place_T.y, patch.place_T.x, 0.0) / arm : glm::dvec3(0.0);
