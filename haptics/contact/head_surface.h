@@ -6,7 +6,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <glm/glm.hpp>
@@ -23,15 +22,10 @@ struct Patch {
 
 inline constexpr int kPatchesRound = 24;
 
-/// Cosine and sine of half steps round a ring.
-inline const std::array<glm::dvec2, 2 * kPatchesRound> kRound = [] {
-  std::array<glm::dvec2, 2 * kPatchesRound> round{};
-  for (int n = 0; n < 2 * kPatchesRound; ++n) {
-    const double angle = n * calibration::kPi / kPatchesRound;
-    round[static_cast<std::size_t>(n)] = {std::cos(angle), std::sin(angle)};
-  }
-  return round;
-}();
+/// Cosine and sine of a step round a ring and of half of one.
+inline constexpr glm::dvec2 kStepRound{0.96592582628906829, 0.25881904510252076};
+inline constexpr glm::dvec2 kHalfStepRound{0.99144486137381041, 0.13052619222005159};
+static_assert(kPatchesRound == 24);
 
 /// Patches of a full ring; its first patch lies half or no step round, by turns.
 template <class Visit>
@@ -39,10 +33,11 @@ void visitRing(const glm::dvec3& centre, const glm::dvec3& axis, double radius, 
                double normal_out, double area, int ring, Visit&& visit) {
   const glm::dvec3 helper = std::abs(axis.z) < 0.9 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(1.0, 0.0, 0.0);
   const glm::dvec3 e1 = glm::normalize(glm::cross(helper, axis)), e2 = glm::cross(axis, e1);
+  glm::dvec2 at = (ring & 1) ? kHalfStepRound : glm::dvec2(1.0, 0.0);
   for (int n = 0; n < kPatchesRound; ++n) {
-    const glm::dvec2& at = kRound[static_cast<std::size_t>(2 * n + (ring & 1))];
     const glm::dvec3 out = at.x * e1 + at.y * e2;
     visit(Patch{centre + radius * out, along_normal + normal_out * out, area / kPatchesRound});
+    at = {at.x * kStepRound.x - at.y * kStepRound.y, at.y * kStepRound.x + at.x * kStepRound.y};
   }
 }
 
