@@ -46,6 +46,44 @@ TEST(Replay, FindsARehearsalIdentical) {
   EXPECT_EQ(report.bone_digest, session.bone.digest());
 }
 
+TEST(Replay, FindsARehearsalOfEveryLawHeadAndShaftIdentical) {
+  // Law, head, shaft and stiffness change every 80 ticks while the tool is in the bone.
+  constexpr std::size_t kEach = 80;
+  const test::BoneBlock block;
+  haptics::CarvedBone bone(block.grid, block.solid, block.label);
+  haptics::Servo servo(bone);
+  const test::ScratchFolder folder;
+  const std::string path = folder.file("s.molar");
+  SessionWriter writer(path, true, block.start());
+  std::size_t with_torque = 0;
+  for (std::size_t part = 0; part < 14; ++part) {
+    haptics::Command command = block.start().command;
+    command.serial = part + 1;
+    command.law.kind = haptics::kLaws[part % haptics::kLaws.size()].kind;
+    command.law.agus.stiffness_N_per_mm = 0.5 + 0.1 * static_cast<double>(part);
+    if (part > 0) command.tool.head = {static_cast<haptics::ShapeKind>(part % 4), 0.8, 1.2};
+    if (part % 2 == 1) command.tool.shaft = {0.4, 6.0};
+    std::vector<haptics::Tick> ticks;
+    for (std::size_t n = part * kEach; n < (part + 1) * kEach; ++n) {
+      haptics::HandSample hand = test::sweepingHand(static_cast<double>(n) * 0.001);
+      hand.X_PT.rotation = glm::normalize(glm::dquat(1.0, 0.3, 0.2 * std::sin(0.01 * static_cast<double>(n)), 0.0));
+      hand.arm_P_mm.xyz = hand.X_PT.rotation * glm::dvec3(0.0, 0.0, 40.0);
+      const haptics::Command& obeyed = part == 0 ? block.start().command : command;
+      ticks.push_back(servo.step(hand, obeyed, 0.001));
+      with_torque += glm::length(ticks.back().served_torque_P_Nmm.xyz) > 1.0 ? 1 : 0;
+    }
+    if (part == 0)
+      writer.write({{}, ticks, {}, {}});
+    else
+      writer.write({{{command, part * kEach}}, ticks, {}, {}});
+  }
+  writer.seal(0);
+  EXPECT_GT(with_torque, kEach);
+  const ReplayReport report = verify(path);
+  EXPECT_TRUE(report.verified()) << report.line();
+  EXPECT_EQ(report.replayed, 14 * kEach);
+}
+
 TEST(Replay, NamesTheFirstTickWhoseForceDiffersByOneBit) {
   Recorded session;
   double& force_N = session.ticks[321].served_force_P_N.xyz.z;
@@ -73,6 +111,10 @@ TEST(Replay, NoticesEveryQuantityOfATick) {
   EXPECT_EQ(changed([](Tick&) {}), kTicks);
   EXPECT_EQ(changed([](Tick& t) { t.work_us += 1.0f; }), kTicks) << "CPU time is not replayed";
   EXPECT_EQ(changed([](Tick& t) { t.t_s += 1e-15; }), 10u);
+  EXPECT_EQ(changed([](Tick& t) { t.law_torque_P_Nmm.xyz.x += 1e-12; }), 10u);
+  EXPECT_EQ(changed([](Tick& t) { t.served_torque_P_Nmm.xyz.z += 1e-12; }), 10u);
+  EXPECT_EQ(changed([](Tick& t) { t.energy_Nmm += 1e-12; }), 10u);
+  EXPECT_EQ(changed([](Tick& t) { t.spindle_rad_per_s += 1e-9; }), 10u);
   EXPECT_EQ(changed([](Tick& t) { t.hand.X_PT.translation_mm.z -= 1e-9; }), 10u);
   EXPECT_EQ(changed([](Tick& t) { t.proxy_P.mm.x += 1e-12; }), 10u);
   EXPECT_EQ(changed([](Tick& t) { t.law_force_P_N.xyz.y += 1e-12; }), 10u);

@@ -223,7 +223,7 @@ Phantom randomBone(unsigned seed, double half_mm, double spacing_mm) {
 }
 
 TEST(ServoPassivity, NeverFeedsAnyHandAnywhereUnderAnyLaw) {
-  for (unsigned seed = 0; seed < 3; ++seed)
+  for (unsigned seed = 0; seed < 2; ++seed)
     for (const LawName& law : kLaws) {
       CarvedBone bone = randomBone(seed, 5.0, 0.25).bone(1);
       WanderingHand hand(seed + 40, 1000.0, {0.3, -0.2, 0.1});
@@ -231,7 +231,7 @@ TEST(ServoPassivity, NeverFeedsAnyHandAnywhereUnderAnyLaw) {
       command.law.kind = law.kind;
       command.law.machining.edge_radial_N_per_mm = 0.1;  // a wall as stiff as the others
       command.tool.head.radius_mm = 0.8 + 0.2 * (seed % 4);
-      const Account account = held(bone, command, 1000.0, 1.0, [&](double) { return hand.next(); });
+      const Account account = held(bone, command, 1000.0, 0.6, [&](double) { return hand.next(); });
       const double most_Nmm = law.kind == LawKind::machining ? kOneRamp_Nmm : kSteady_Nmm;
       EXPECT_LT(account.most_given_Nmm, most_Nmm) << law.key << " seed " << seed;
       EXPECT_LE(account.roughest_N, 0.3 * (1.0 + 1e-9)) << law.key << " seed " << seed;
@@ -244,7 +244,7 @@ TEST(ServoPassivity, NeverFeedsTheHandWhenLawAndToolAreSwitchedUnderLoad) {
     WanderingHand hand(seed + 70, 1000.0, {0.3, -0.2, 0.1});
     std::mt19937 random(seed);
     const Account account = held(
-        bone, {}, 1000.0, 2.0, [&](double) { return hand.next(); },
+        bone, {}, 1000.0, 1.0, [&](double) { return hand.next(); },
         [&](int tick, Command& command) {
           if (tick % 170 != 100) return;
           ++command.serial;
@@ -258,7 +258,7 @@ TEST(ServoPassivity, NeverFeedsTheHandWhenLawAndToolAreSwitchedUnderLoad) {
 }
 
 TEST(ServoPassivity, CountsTheWorkOfTurningALongToolWithItsShaft) {
-  for (unsigned seed = 0; seed < 4; ++seed) {
+  for (unsigned seed = 0; seed < 2; ++seed) {
     CarvedBone bone = randomBone(seed, 6.0, 0.25).bone(1);
     Servo servo(bone);
     Command command;
