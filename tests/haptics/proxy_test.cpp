@@ -61,6 +61,29 @@ TEST(Proxy, IsStiffnessTimesDepthOverFlatBoneForAnyDepth) {
   }
 }
 
+TEST(Proxy, GoesOnWithTheSlopeOfEveryLaw) {
+  const Phantom phantom = halfSpace(7.0, 0.2);
+  for (const LawName& law : kLaws) {
+    LawSettings settings;
+    settings.kind = law.kind;
+    Proxy proxy;
+    double before_N = 0.0, at_N = 0.0, slope_N_per_mm = 0.0;
+    for (int step = 0; step <= 400; ++step) {
+      const double depth = 0.01 * step;
+      const calibration::Pose<Patient, calibration::Tool> X_PT{glm::dquat(1, 0, 0, 0), {0.0, 0.0, kRadius_mm - depth}};
+      const Proxy::Held now = proxy.follow(phantom.field(), settings, {}, X_PT, {}, 20.0);
+      const double force_N = now.force_P_N().xyz.z;
+      if (step == 90) before_N = force_N;
+      if (step == 100) at_N = force_N, slope_N_per_mm = now.spring_N_per_mm;
+      if (step > 105) {
+        EXPECT_NEAR(force_N - at_N, slope_N_per_mm * (depth - 1.0), 0.02 + 0.02 * force_N) << law.key << " " << depth;
+      }
+    }
+    EXPECT_GT(slope_N_per_mm, 0.0) << law.key;
+    EXPECT_NEAR((at_N - before_N) / 0.1, slope_N_per_mm, 0.12 * slope_N_per_mm) << law.key;
+  }
+}
+
 TEST(Proxy, MeetsTheLawWithoutAStep) {
   const Phantom phantom = halfSpace(7.0, 0.2, glm::normalize(glm::dvec3(0.1, 0.2, 0.9)));
   const glm::dvec3 normal = glm::normalize(glm::dvec3(0.1, 0.2, 0.9));
