@@ -110,7 +110,7 @@ class Carving {
     haptics::CutMoment moment = haptics::cutMoment(cut_.erosion, cut_.spindle, at, contact, pressing_N);
     if (cut_.erosion.kind == haptics::ErosionKind::time) return moment;
     moment.spindle_rad_per_s = speedUnder(cut_.spindle, haptics::spindleLoad_Nmm(cut_.erosion, moment, 0.0));
-    moment.power_mW = haptics::availablePower_mW(cut_.spindle, moment.spindle_rad_per_s);
+    moment.power_Nmm_per_s = haptics::availablePower_Nmm_per_s(cut_.spindle, moment.spindle_rad_per_s);
     return moment;
   }
 

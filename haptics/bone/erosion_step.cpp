@@ -15,7 +15,7 @@ constexpr double kLearningDose = 0.02;
 /// Where nearly all is used up the rest is not chased.
 constexpr double kLeastYield = 0.05;
 constexpr double kReference = 1.0;  ///< the factor of reference tissue
-constexpr double kmJPerJ = 1000.0;
+constexpr double kMillijoulesPerJoule = 1000.0;
 
 double finite(double value) { return std::isfinite(value) ? std::max(0.0, value) : 0.0; }
 
@@ -34,11 +34,12 @@ double rate_mm3_per_s(const ErosionSettings& settings, const CutMoment& moment, 
       return finite(timeLoss_per_s(settings, moment, factor) * moment.overlap_mm3);
     case ErosionKind::dose: {
       const double sliding_mm_per_s = std::abs(moment.spindle_rad_per_s) * moment.sliding_arm_mm;
-      const double friction_mW = settings.friction * finite(moment.normal_force_N) * sliding_mm_per_s;
-      return finite(settings.dose.removal_mm3_per_J / kmJPerJ * factor * sharp * friction_mW);
+      const double friction_Nmm_per_s = settings.friction * finite(moment.normal_force_N) * sliding_mm_per_s;
+      return finite(settings.dose.removal_mm3_per_J / kMillijoulesPerJoule * factor * sharp * friction_Nmm_per_s);
     }
     case ErosionKind::machining: {
-      const double by_power = factor * moment.power_mW / (settings.machining.cutting_energy_J_per_mm3 * kmJPerJ);
+      const double by_power =
+          factor * moment.power_Nmm_per_s / (settings.machining.cutting_energy_J_per_mm3 * kMillijoulesPerJoule);
       return finite(sharp * std::min(moment.swept_mm3_per_s, by_power));
     }
   }

@@ -43,7 +43,7 @@ struct CutMoment {
   double sliding_arm_mm = 0.0;  ///< mean |r x axis| where bur and bone rub (contact/sliding)
   // machining
   double swept_mm3_per_s = 0.0;  ///< solid the head's surface moves into (contact/machining)
-  double power_mW = 0.0;         ///< the spindle can give to the chips (tool/spindle)
+  double power_Nmm_per_s = 0.0;  ///< the spindle can give to the chips (tool/spindle)
 };
 
 /// From step to step, part of the servo's state. Forget it when the bur leaves the bone.

@@ -16,7 +16,7 @@ CutMoment cutMoment(const ErosionSettings& erosion, const SpindleSettings& spind
   moment.axis_P.xyz = at.X_PT.rotation * glm::dvec3(0.0, 0.0, 1.0);
   moment.overlap_mm3 = contact.volume_mm3;
   moment.normal_force_N = std::max(0.0, normal_force_N);
-  moment.power_mW = availablePower_mW(spindle, at.motion.spindle_rad_per_s);
+  moment.power_Nmm_per_s = availablePower_Nmm_per_s(spindle, at.motion.spindle_rad_per_s);
   const double length = glm::length(contact.normal_P.xyz);
   const double sine =
       length > 0.0 ? std::min(1.0, glm::length(glm::cross(contact.normal_P.xyz, moment.axis_P.xyz)) / length) : 1.0;

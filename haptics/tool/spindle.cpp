@@ -156,7 +156,7 @@ double steadySpeed_rad_per_s(const SpindleSettings& settings, double load_Nmm) n
   return std::copysign(std::max(0.0, std::min(by_line, by_governor)), settings.commanded_rpm);
 }
 
-double availablePower_mW(const SpindleSettings& settings, double rad_per_s) noexcept {
+double availablePower_Nmm_per_s(const SpindleSettings& settings, double rad_per_s) noexcept {
   const double speed = std::abs(rad_per_s), left = 1.0 - speed / radPerSecond(settings.free_rpm);
   return settings.stall_torque_Nmm * std::max(0.0, left) * speed;
 }

@@ -36,8 +36,8 @@ SpindleState turned(const SpindleSettings& settings, const SpindleState& state, 
 /// The speed that lasts under a load, signed; 0: stalled.
 double steadySpeed_rad_per_s(const SpindleSettings& settings, double load_Nmm) noexcept;
 
-/// The most the motor can give at this speed, mW = N mm/s: its torque-speed line times the speed.
-double availablePower_mW(const SpindleSettings& settings, double rad_per_s) noexcept;
+/// The most the motor can give at this speed, N mm/s = mW: its torque-speed line times the speed.
+double availablePower_Nmm_per_s(const SpindleSettings& settings, double rad_per_s) noexcept;
 
 /// What a turning bur feels like in the hand, Hz: the spindle's own turns up to 100 Hz; above, where hand and servo can
 /// not follow, 120 to 250 Hz rising with the speed (reference/devices 6).

@@ -30,7 +30,7 @@ CutMoment moment(double dt_s) {
   at.normal_force_N = 1.5;
   at.sliding_arm_mm = 1.2;
   at.swept_mm3_per_s = 4.0;
-  at.power_mW = 20e3;
+  at.power_Nmm_per_s = 20e3;
   return at;
 }
 
@@ -163,7 +163,7 @@ TEST(ErosionByMachining, TakesWhatTheFeedSweepsWithinThePowerThereIs) {
   ErosionSettings settings = settingsOf(ErosionKind::machining);
   CutMoment at = moment(1e-3);
   EXPECT_NEAR(grantedRate_mm3_per_s(settings, at, Tissue::cortical), 4.0, 1e-12);
-  at.power_mW = 250.0;  // 0.1 J/mm3: 2.5 mm3/s
+  at.power_Nmm_per_s = 250.0;  // 0.1 J/mm3: 2.5 mm3/s
   EXPECT_NEAR(grantedRate_mm3_per_s(settings, at, Tissue::cortical), 2.5, 1e-12);
   EXPECT_NEAR(grantedRate_mm3_per_s(settings, at, Tissue::enamel), 2.5 / 3.0, 1e-12);
   EXPECT_NEAR(grantedRate_mm3_per_s(settings, at, Tissue::trabecular), 4.0, 1e-12);
@@ -236,7 +236,7 @@ TEST(Erosion, RemovesNothingByWhatIsNoNumber) {
       CutMoment at = moment(bad);
       EXPECT_TRUE(erosionStep(settingsOf(law.kind), at, {}).takesNothing()) << law.key << bad;
       at = moment(1e-3);
-      at.normal_force_N = at.sliding_arm_mm = at.overlap_mm3 = at.swept_mm3_per_s = at.power_mW = bad;
+      at.normal_force_N = at.sliding_arm_mm = at.overlap_mm3 = at.swept_mm3_per_s = at.power_Nmm_per_s = bad;
       const ErosionStep step = erosionStep(settingsOf(law.kind), at, {});
       for (double loss : step.loss) EXPECT_TRUE(loss >= 0.0 && std::isfinite(loss)) << law.key << bad;
       EXPECT_TRUE(std::isfinite(remembered(settingsOf(law.kind), at, {}, {}).owed_mm3));

@@ -83,9 +83,9 @@ TEST(Machining, SpendsTheCuttingEnergyOnEveryCubicMillimetre) {
       for (const glm::dvec3 feed : {glm::dvec3(0, 0, -1), glm::dvec3(1, 0, 0)}) {
         const Case test(bone, 1.0, h, axis, feed);
         const ToolInBone at = test.at();
-        const double power_mW = spindleTorque_Nmm(machiningContact(parameters, at), at) * k40krpm;
+        const double power_Nmm_per_s = spindleTorque_Nmm(machiningContact(parameters, at), at) * k40krpm;
         const double swept = feed.z < 0.0 ? plunge_mm3(1.0, h) : lateral_mm3(1.0, h);
-        EXPECT_NEAR(power_mW / (parameters.chip_tangential_N_per_mm2 * swept), 1.0, 0.02)
+        EXPECT_NEAR(power_Nmm_per_s / (parameters.chip_tangential_N_per_mm2 * swept), 1.0, 0.02)
             << h << " axis " << axis.x << axis.y << axis.z << " feed " << feed.x << feed.z;
       }
 }
@@ -234,8 +234,8 @@ TEST(Machining, KnowsOtherHeads) {
     const double swept = 2.0 * (2.0 * half_width * L + ends);
     EXPECT_NEAR(sweptRate_mm3_per_s(at) / swept, 1.0, 0.03);
     const MachiningParameters parameters = chipsOnly();
-    const double power_mW = spindleTorque_Nmm(machiningContact(parameters, at), at) * k40krpm;
-    EXPECT_NEAR(power_mW / (parameters.chip_tangential_N_per_mm2 * swept), 1.0, 0.03);
+    const double power_Nmm_per_s = spindleTorque_Nmm(machiningContact(parameters, at), at) * k40krpm;
+    EXPECT_NEAR(power_Nmm_per_s / (parameters.chip_tangential_N_per_mm2 * swept), 1.0, 0.03);
   }
 }
 

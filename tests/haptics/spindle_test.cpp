@@ -159,9 +159,9 @@ TEST(Spindle, StopsBeforeItTurnsTheOtherWay) {
 TEST(Spindle, GivesThePowerOfItsLine) {
   const SpindleSettings settings;
   const double half = 0.5 * radPerSecond(settings.free_rpm);
-  EXPECT_NEAR(availablePower_mW(settings, half), 0.5 * 30.0 * half, 1e-6);
-  EXPECT_EQ(availablePower_mW(settings, 0.0), 0.0);
-  EXPECT_EQ(availablePower_mW(settings, 4.0 * half), 0.0);
+  EXPECT_NEAR(availablePower_Nmm_per_s(settings, half), 0.5 * 30.0 * half, 1e-6);
+  EXPECT_EQ(availablePower_Nmm_per_s(settings, 0.0), 0.0);
+  EXPECT_EQ(availablePower_Nmm_per_s(settings, 4.0 * half), 0.0);
 }
 
 TEST(Spindle, IsFeltAsItTurnsUpToAHundredHertzAndBelowTwoHundredAndFiftyBeyond) {
