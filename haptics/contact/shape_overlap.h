@@ -3,7 +3,7 @@
 // Blocks of 4^3 voxels wholly outside the head are passed by, those wholly inside only added up; the rest is worked out
 // 64 voxels at a time (bone/head_kernels). No allocation; the same bits on every machine; about 1e-6 of the slow twin.
 // Cost grows with the surface: 50 us for a fissure bur of 1.6 x 4 mm at 0.1 mm, 10 us at 0.2 mm, on a busy EPYC.
-// The sphere is the sum of contact/overlap, which is faster and knows neither area nor tissue. Not a force.
+// A sphere alone is faster in contact/overlap, without the area. Not a force.
 #pragma once
 
 #include "haptics/bone/solid_field.h"
