@@ -198,7 +198,7 @@ glm::dvec3 TomlKeys::vector(const std::string& table, const std::string& key, do
 }
 
 void TomlKeys::refuseRest() const {
-  const auto checkLevel = [&](const std::string& table, const toml::table& level) {
+  const auto check_level = [&](const std::string& table, const toml::table& level) {
     for (const auto& [key, node] : level) {
       const std::string name(key.str());
       if (document_->asked.contains({table, name})) continue;
@@ -206,7 +206,7 @@ void TomlKeys::refuseRest() const {
       refuse(table, name, "no such key here, remove it or correct its spelling");
     }
   };
-  checkLevel("", document_->root);
+  check_level("", document_->root);
   for (const auto& [key, node] : document_->root) {
     if (!node.is_table()) continue;
     const std::string table(key.str());
@@ -216,7 +216,7 @@ void TomlKeys::refuseRest() const {
       return false;
     }();
     if (!known) refuse(table, "", "no such table here, remove it or correct its spelling");
-    checkLevel(table, *node.as_table());
+    check_level(table, *node.as_table());
   }
 }
 

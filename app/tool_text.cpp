@@ -30,12 +30,12 @@ struct Form {
 const Measure kRadius{"radius", 0.1, 20.0};
 
 const std::vector<Form>& forms() {
-  static const std::vector<Form> known = {
+  static const std::vector<Form> kKnown = {
       {"sphere", ShapeKind::sphere, "sphere:R", {kRadius}},
       {"capsule", ShapeKind::capsule, "capsule:R,L", {kRadius, {"length", 0.0, 40.0}}},
       {"cylinder", ShapeKind::cylinder, "cylinder:R,L", {kRadius, {"length", 0.1, 40.0}}},
       {"cone", ShapeKind::cone, "cone:R,L", {kRadius, {"length", 0.1, 40.0}}}};
-  return known;
+  return kKnown;
 }
 
 std::string shortText(double value) {

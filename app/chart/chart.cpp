@@ -271,14 +271,14 @@ double legend(const Page& page, const Chart& chart, double top_px, bool draws) {
       if (!curve.label.empty() && !is_known) entries.push_back(&curve);
     }
   constexpr double kSample_px = 64.0, kGap_px = 44.0, kRow_px = 44.0;
-  const auto widthOf = [&](const Curve* e) { return kSample_px + 14.0 + page.sizeOf(e->label, kSmall_px).x; };
+  const auto width_of = [&](const Curve* e) { return kSample_px + 14.0 + page.sizeOf(e->label, kSmall_px).x; };
   double y = top_px;
   for (std::size_t first = 0; first < entries.size(); y += kRow_px) {
     // As many as fit into this row.
-    double width = widthOf(entries[first]);
+    double width = width_of(entries[first]);
     std::size_t end = first + 1;
-    for (; end < entries.size() && width + kGap_px + widthOf(entries[end]) < chart.size_px.x - 120.0; ++end)
-      width += kGap_px + widthOf(entries[end]);
+    for (; end < entries.size() && width + kGap_px + width_of(entries[end]) < chart.size_px.x - 120.0; ++end)
+      width += kGap_px + width_of(entries[end]);
     double x = 0.5 * (chart.size_px.x - width);
     for (; first < end; ++first) {
       const Curve& curve = *entries[first];
@@ -294,7 +294,7 @@ double legend(const Page& page, const Chart& chart, double top_px, bool draws) {
         page.colour(kInk);
         page.text(curve.label, {x + kSample_px + 14.0, y}, kSmall_px, Anchor::left);
       }
-      x += widthOf(&curve) + kGap_px;
+      x += width_of(&curve) + kGap_px;
     }
   }
   return y - top_px;

@@ -77,7 +77,7 @@ assets::Patient volumeOf(const BoneChoice& bone) {
 
 /// The surface on the line through the site, coming from outside; trilinear, half solid.
 ProbeSite onSurface(const assets::CtVolume& ct, const ProbeSite& site) {
-  const auto solidAt = [&](const glm::dvec3& p_P_mm) {
+  const auto solid_at = [&](const glm::dvec3& p_P_mm) {
     const glm::dvec3 at = ct.grid.indexFromPoint(p_P_mm), low = glm::floor(at), f = at - low;
     double sum = 0.0;
     for (int corner = 0; corner < 8; ++corner) {
@@ -91,7 +91,7 @@ ProbeSite onSurface(const assets::CtVolume& ct, const ProbeSite& site) {
   };
   for (double above = kSearch_mm; above >= -kSearch_mm; above -= kSearchStep_mm) {
     const glm::dvec3 p = site.surface_P.mm + above * site.outward_P.xyz;
-    if (solidAt(p) >= 0.5) return {{p}, site.outward_P};
+    if (solid_at(p) >= 0.5) return {{p}, site.outward_P};
   }
   throw UsageError("bone.site_P_mm: there is no bone within 10 mm of it along outward_P, move the site to the bone");
 }

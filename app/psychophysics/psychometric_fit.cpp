@@ -139,18 +139,18 @@ std::optional<Psychometric> fitPsychometric(const std::vector<LevelCount>& count
   if (fixed_lapse) return scoring.fit(*fixed_lapse);
 
   // The likelihood over the lapse alone has one top in practice: golden section, and both ends.
-  const auto likelihoodAt = [&](double lapse) { return logLikelihood(counts, scoring.fit(lapse)); };
+  const auto likelihood_at = [&](double lapse) { return logLikelihood(counts, scoring.fit(lapse)); };
   constexpr double kGolden = 0.6180339887498949;
   double low = 0.0, high = kLargestLapse;
   double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
-  double at_left = likelihoodAt(left), at_right = likelihoodAt(right);
+  double at_left = likelihood_at(left), at_right = likelihood_at(right);
   while (high - low > 1e-3) {
     if (at_left >= at_right) {
       high = right, right = left, at_right = at_left;
-      left = high - kGolden * (high - low), at_left = likelihoodAt(left);
+      left = high - kGolden * (high - low), at_left = likelihood_at(left);
     } else {
       low = left, left = right, at_left = at_right;
-      right = low + kGolden * (high - low), at_right = likelihoodAt(right);
+      right = low + kGolden * (high - low), at_right = likelihood_at(right);
     }
   }
   Psychometric best = scoring.fit(0.5 * (low + high));

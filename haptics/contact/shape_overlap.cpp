@@ -301,7 +301,7 @@ ShapeOverlap shapeOverlapVoxelByVoxel(const SolidField& field, const BurShape& s
                                       const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT,
                                       const TissueStiffness& tissue) {
   const BurCoverage bur(field.grid, shape, X_PT, kBeyond);
-  const auto solidAt = [&](glm::ivec3 ijk) {
+  const auto solid_at = [&](glm::ivec3 ijk) {
     return field.grid.contains(ijk) ? static_cast<double>(field.solidAt(ijk)) : 0.0;
   };
   Sums sums;
@@ -313,9 +313,9 @@ ShapeOverlap shapeOverlapVoxelByVoxel(const SolidField& field, const BurShape& s
         for (int axis = 0; axis < 3; ++axis) {
           glm::ivec3 step{0};
           step[axis] = 1;
-          sums.rise_index[axis] += share.fraction * (solidAt(ijk + step) - solidAt(ijk - step));
+          sums.rise_index[axis] += share.fraction * (solid_at(ijk + step) - solid_at(ijk - step));
         }
-        const double w = solidAt(ijk);
+        const double w = solid_at(ijk);
         if (w == 0.0) continue;
         sums.volume += w * share.fraction;
         sums.stiff += w * share.fraction * factorOf(tissue, field.labelAt(ijk));

@@ -47,16 +47,16 @@ bool askForRealtime() {
 }  // namespace
 
 Command limitedTo(const DeviceCapabilities& device, double rate_Hz, const Command& command) {
-  const auto atMost = [](double value, double most) {
+  const auto at_most = [](double value, double most) {
     return std::min(value, std::isfinite(most) ? std::max(0.0, most) : 0.0);
   };
   Command limited = command;
   SafetyLimits& safety = limited.safety;
   safety = sanitised(command.safety);
-  safety.peak_force_N = atMost(safety.peak_force_N, device.peak_force_N);
-  safety.peak_torque_Nmm = atMost(safety.peak_torque_Nmm, device.peak_torque_Nmm);
+  safety.peak_force_N = at_most(safety.peak_force_N, device.peak_force_N);
+  safety.peak_torque_Nmm = at_most(safety.peak_torque_Nmm, device.peak_torque_Nmm);
   safety.most_stiffness_N_per_mm =
-      atMost(safety.most_stiffness_N_per_mm,
+      at_most(safety.most_stiffness_N_per_mm,
              0.9 * passiveStiffness_N_per_mm(device.damping_Ns_per_mm, command.law.damping_Ns_per_mm, 1.0 / rate_Hz));
   return limited;
 }
@@ -110,7 +110,7 @@ void ServoThread::run() noexcept {
   statistics_.setGrants(settings_.realtime && askForRealtime(),
                         settings_.realtime && mlockall(MCL_CURRENT | MCL_FUTURE) == 0);
   const auto X_DP = settings_.X_PD.inverse();
-  const auto inDevice = [&] { return Wrench<Device>{X_DP * wrench_P_.force_N, X_DP * wrench_P_.torque_Nmm}; };
+  const auto in_device = [&] { return Wrench<Device>{X_DP * wrench_P_.force_N, X_DP * wrench_P_.torque_Nmm}; };
   const DeviceCapabilities capabilities = device_.capabilities();
   const double dt_s = 1.0 / settings_.rate_Hz;
   const auto period_ns = static_cast<std::int64_t>(std::llround(dt_s * static_cast<double>(kNsPerSecond)));
@@ -122,7 +122,7 @@ void ServoThread::run() noexcept {
 
     // Last tick's force out, this tick's hand in; then the step.
     const std::int64_t began_ns = now_ns(CLOCK_THREAD_CPUTIME_ID);
-    const HandSample hand = handFrom(device_.exchange(inDevice(), dt_s));
+    const HandSample hand = handFrom(device_.exchange(in_device(), dt_s));
     Tick tick = servo_.step(hand, limitedTo(capabilities, settings_.rate_Hz, commands_.read()), dt_s);
     wrench_P_ = {tick.served_force_P_N, tick.served_torque_P_Nmm};
     tick.work_us = static_cast<float>(static_cast<double>(now_ns(CLOCK_THREAD_CPUTIME_ID) - began_ns) * 1e-3);
@@ -147,7 +147,7 @@ void ServoThread::run() noexcept {
   const Wrench<Patient> last_P = wrench_P_;
   for (double left = ticks; left > 0.0; left -= 1.0) {
     wrench_P_ = ((left - 1.0) / ticks) * last_P;
-    device_.exchange(inDevice(), dt_s);
+    device_.exchange(in_device(), dt_s);
     deadline_ns += period_ns;
     sleepUntil(deadline_ns);
   }

@@ -48,19 +48,19 @@ struct Pieces {
 };
 
 Pieces piecesOf(const BurShape& shape) {
-  const double R = shape.radius_mm, R2 = R * R, half = 0.5 * shape.length_mm;
+  const double R = shape.radius_mm, r2 = R * R, half = 0.5 * shape.length_mm;
   switch (shape.kind) {
     case ShapeKind::sphere:
-      return {{{{-R, R, R2, 0.0, -1.0}, {}, {}}}, 1};
+      return {{{{-R, R, r2, 0.0, -1.0}, {}, {}}}, 1};
     case ShapeKind::capsule:
-      return {{{{-half - R, -half, R2 - half * half, -2.0 * half, -1.0},
-                {-half, half, R2, 0.0, 0.0},
-                {half, half + R, R2 - half * half, 2.0 * half, -1.0}}},
+      return {{{{-half - R, -half, r2 - half * half, -2.0 * half, -1.0},
+                {-half, half, r2, 0.0, 0.0},
+                {half, half + R, r2 - half * half, 2.0 * half, -1.0}}},
               3};
     case ShapeKind::cylinder:
-      return {{{{-half, half, R2, 0.0, 0.0}, {}, {}}}, 1};
+      return {{{{-half, half, r2, 0.0, 0.0}, {}, {}}}, 1};
     case ShapeKind::cone: {
-      const double slope2 = R2 / (shape.length_mm * shape.length_mm);
+      const double slope2 = r2 / (shape.length_mm * shape.length_mm);
       return {{{{-half, half, slope2 * half * half, 2.0 * slope2 * half, slope2}, {}, {}}}, 1};
     }
   }
