@@ -143,6 +143,7 @@ class Rehearsal {
       takeInput();
       takeParameters();
       followServo();
+      followGuide();
       drawFrame();
       showStatus();
     }
@@ -170,21 +171,39 @@ class Rehearsal {
 
   bool isOver() {
     const double t_s = newest_.t_s + newest_.dt_s;
-    return interrupted || input_.endAsked() || (duration_s_ && t_s >= *duration_s_);
+    return interrupted || input_.endAsked() || (plan_.guide && plan_.guide->isOver()) ||
+           (duration_s_ && t_s >= *duration_s_);
   }
 
   void takeInput() {
     if (!window_) return;
     const double mm_per_px = width_mm(plan_.rig.screen) / std::max(1, window_->framebufferSize_px().x);
-    for (const render::WindowEvent& event : window_->takeEvents()) input_.take(event, mm_per_px);
+    for (const render::WindowEvent& event : window_->takeEvents())
+      if (!isForGuide(event)) input_.take(event, mm_per_px);
     if (hand_.mouse) hand_.mouse->setTarget({{input_.X_WT().rotation, input_.X_WT().translation_mm}, input_.pedal()});
     if (input_.takeSnapshotAsked()) takeWindowSnapshot();
+    if (plan_.guide) return;
     if (input_.takeDrillSwitchAsked()) {
       plan_.command.drill_enabled = !plan_.command.drill_enabled;
       workstation_->change(plan_.command);
     }
     if (const auto number = input_.takeNumberAsked(); number && *number < static_cast<int>(haptics::kLaws.size()))
       switchLaw(haptics::kLaws[static_cast<std::size_t>(*number)].kind);
+  }
+
+  bool isForGuide(const render::WindowEvent& event) const {
+    const auto* key = std::get_if<render::KeyPressed>(&event);
+    if (!plan_.guide || !key || !key->down || key->repeated) return false;
+    const int code = static_cast<int>(key->key);
+    return code > ' ' && code <= 'Z' && plan_.guide->press(static_cast<char>(code));
+  }
+
+  void followGuide() {
+    if (!plan_.guide) return;
+    if (const auto wanted = plan_.guide->follow(newest_)) {
+      plan_.command = *wanted;
+      workstation_->change(plan_.command);
+    }
   }
 
   /// Refuses what the servo or the device would obey only in part.
@@ -265,6 +284,10 @@ class Rehearsal {
     status_shown_ = Clock::now();
     noteTrouble();
     if (!window_) return;
+    if (plan_.guide) {
+      window_->setTitle(plan_.guide->words());
+      return;
+    }
     const haptics::ServoFigures servo = workstation_->figures();
     char text[160];
     std::snprintf(text, sizeof text, "Molar   %.1f s   %s   force %.2f N   depth %.2f mm   %s   servo p99 %.0f µs",
@@ -334,7 +357,7 @@ class Rehearsal {
     figures.servo = workstation_->figures();
     figures.rate_Hz = plan_.rate_Hz;
     if (plan_.recording) figures.recording = recorded;
-    std::fputs(summaryText(figures).c_str(), stdout);
+    std::fputs(summaryText(figures).c_str(), plan_.guide ? stderr : stdout);
   }
 
   Clock::time_point looping_since_, status_shown_;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "app/session_guide.h"
 #include "app/workstation.h"
 #include "assets/patient.h"
 #include "calibration/rig.h"
@@ -23,7 +24,8 @@ struct RehearsalPlan {
   render::DisplayMode display = render::DisplayMode::mono;
   Hand hand = Hand::mouse;
   haptics::Command command;
-  std::string parameters;  ///< settings file that is obeyed while it changes; `command` holds what it leaves out
+  std::string parameters;         ///< settings file that is obeyed while it changes; `command` holds what it leaves out
+  SessionGuide* guide = nullptr;  ///< leads the session where there is one: no drill, no law keys, its own title
   double rate_Hz = 1000.0;
   std::optional<double> seconds;  ///< simulated time; a scripted hand ends by itself
   std::optional<Recording> recording;

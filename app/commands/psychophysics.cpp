@@ -12,18 +12,23 @@
 
 #include "app/commands/command.h"
 #include "app/psychophysics/probed_bone.h"
+#include "app/psychophysics/result_chart.h"
 #include "app/psychophysics/summary.h"
+#include "app/psychophysics/trial_desk.h"
 #include "app/psychophysics/trial_table.h"
+#include "app/rehearsal.h"
+#include "app/room.h"
 #include "app/settings_text.h"
 #include "app/toml_keys.h"
 #include "app/usage_error.h"
 #include "assets/output_file.h"
+#include "calibration/rig_file.h"
 
 namespace app {
 namespace {
 
 struct PsychophysicsOptions {
-  std::string protocol, out, observer = "simulated";
+  std::string protocol, out, observer = "simulated", rig, record;
   std::uint64_t seed = 1;
   bool force = false;
 };
@@ -41,6 +46,39 @@ void writeText(const std::string& text, assets::OutputFile& file) {
   file.commit();
 }
 
+constexpr double kMonitorWidth_mm = 531.0, kLoupes = 4.0;  ///< of a 24-inch monitor, as in `rehearse`
+constexpr glm::ivec2 kWindow_px{1280, 800};
+
+/// The site in the middle of the screen, seen from where the bur comes, a little from the side so that depth shows.
+calibration::Rig rigFor(const PsychophysicsOptions& options, const ProbeSite& site) {
+  if (!options.rig.empty()) return calibration::readRig(options.rig);
+  calibration::Rig rig = calibration::desktopRig(kWindow_px, kMonitorWidth_mm / kLoupes);
+  const glm::dvec3 z = site.outward_P.xyz;
+  const glm::dvec3 side =
+      glm::normalize(glm::cross(glm::abs(z.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0), z));
+  const glm::dvec3 up = glm::cross(z, side);
+  rig.X_WP = standPatient(site.surface_P, {glm::normalize(z - 0.5 * up)}, {up});
+  return rig;
+}
+
+/// At the window, blind, until the last trial or Esc. True when every trial was answered.
+bool runAtTheWindow(const PsychophysicsOptions& options, const Protocol& protocol, const ProbedBone& bone,
+                    Experiment& experiment, const TrialDesk::OnTrial& on_trial) {
+  TrialDesk desk(experiment, bone.site, protocol.between_trials_s, on_trial);
+  RehearsalPlan plan;
+  plan.patient = bone.patient;
+  plan.patient.site.third_molar_P_mm = bone.site.surface_P.mm;
+  plan.rig = rigFor(options, bone.site);
+  plan.full_screen = !options.rig.empty();
+  plan.command = experiment.commandOf(0);
+  plan.rate_Hz = protocol.probe.rate_Hz;
+  plan.overwrite = options.force;
+  if (!options.record.empty()) plan.recording = Recording{options.record, options.force};
+  plan.guide = &desk;
+  rehearse(std::move(plan));
+  return desk.isOver();
+}
+
 int run(const PsychophysicsOptions& options) {
   if (std::filesystem::path(options.out).extension() != ".csv")
     throw UsageError("--out " + options.out + ": rows are CSV, give a name that ends in .csv");
@@ -48,21 +86,34 @@ int run(const PsychophysicsOptions& options) {
   const Protocol protocol = protocolFromToml(readSmallFile(options.protocol), options.protocol);
   if (protocol.bone.kind == BoneChoice::Kind::volume) refuseSameFile(options.out, {protocol.bone.path});
   assets::OutputFile summary(beside(options.out, ".json"), options.force);
+  assets::OutputFile picture(beside(options.out, ".png"), options.force);
   const ProbedBone bone = probedBone(protocol);
   TrialTable table(options.out, options.force, protocol);
 
   std::vector<TrialRecord> trials;
-  const bool shows_progress = isatty(2) != 0;
-  haptics::CarvedBone live(bone.patient.ct.grid, bone.patient.ct.solid, bone.patient.ct.label);
-  const Experiment experiment =
-      runSimulated(protocol, live, bone.site, options.seed, [&](const TrialRecord& record, const Experiment& running) {
-        table.add(record);
-        trials.push_back(record);
-        if (shows_progress) std::fprintf(stderr, "\rtrial %d of at most %d ", record.trial, running.most());
-      });
-  if (shows_progress) std::fputc('\n', stderr);
-  const Outcome outcome = outcomeOf(protocol, experiment, std::move(trials), true, options.seed);
+  bool complete = true;
+  std::optional<Experiment> experiment;
+  if (options.observer == "keyboard") {
+    experiment.emplace(protocol, options.seed);
+    complete = runAtTheWindow(options, protocol, bone, *experiment, [&](const TrialRecord& record) {
+      table.add(record);
+      trials.push_back(record);
+    });
+  } else {
+    const bool shows_progress = isatty(2) != 0;
+    haptics::CarvedBone live(bone.patient.ct.grid, bone.patient.ct.solid, bone.patient.ct.label);
+    experiment = runSimulated(protocol, live, bone.site, options.seed,
+                              [&](const TrialRecord& record, const Experiment& running) {
+                                table.add(record);
+                                trials.push_back(record);
+                                if (shows_progress)
+                                  std::fprintf(stderr, "\rtrial %d of at most %d ", record.trial, running.most());
+                              });
+    if (shows_progress) std::fputc('\n', stderr);
+  }
+  const Outcome outcome = outcomeOf(protocol, *experiment, std::move(trials), complete, options.seed);
   writeText(summaryJson(protocol, outcome, options.seed, options.observer), summary);
+  if (!outcome.trials.empty()) drawChart(chartOf(protocol, outcome), picture);
   std::fputs(summaryWords(protocol, outcome).c_str(), stderr);
   return 0;
 }
@@ -74,11 +125,14 @@ void addPsychophysics(CLI::App& molar, Chosen& chosen) {
   CLI::App* command =
       molar.add_subcommand("psychophysics", "Which of two feels harder? Blind comparisons by protocol: CSV, JSON");
   command->add_option("PROTOCOL", options->protocol, "Experiment, TOML (app/psychophysics/example.toml)")->required();
-  command->add_option("--out", options->out, "A row a trial, .csv; the summary goes beside it as .json")->required();
-  command->add_option("--observer", options->observer, "Who answers: simulated")
-      ->check(CLI::IsMember({"simulated"}))
+  command->add_option("--out", options->out, "A row a trial, .csv; summary and picture go beside it as .json, .png")
+      ->required();
+  command->add_option("--observer", options->observer, "Who answers: simulated, or a person at the window by keyboard")
+      ->check(CLI::IsMember({"simulated", "keyboard"}))
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Of order, hand and observer")->capture_default_str();
+  command->add_option("--rig", options->rig, "keyboard: rig file, 1:1")->type_name("FILE");
+  command->add_option("--record", options->record, "keyboard: session file to write")->type_name("FILE");
   command->add_flag("--force", options->force, "Replace outputs that exist");
   command->callback([options, &chosen] { chosen.action = [options] { return run(*options); }; });
 }

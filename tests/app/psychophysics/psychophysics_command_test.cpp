@@ -34,6 +34,7 @@ TEST_F(PsychophysicsCommand, WritesARowATrialAndASummary) {
   EXPECT_TRUE(csv.starts_with("trial,participant,method,track,first,parameter,unit,")) << csv;
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 24);
   EXPECT_NE(csv.find("\n24,P07,2afc-constant,"), std::string::npos);
+  EXPECT_TRUE(read("r.png").starts_with("\x89PNG"));
   const auto summary = nlohmann::json::parse(read("r.json"));
   EXPECT_EQ(summary["trials"], 24);
   EXPECT_EQ(summary["comparison_first"], 12);

@@ -1,0 +1,42 @@
+// The participant's side of an experiment at the window: keys 1 and 2 put the first or the second stimulus into the
+// hand, as often as wanted; A and B answer which was harder, once both were felt; then a pause, then the next trial.
+// Says nothing of law, force or value: blind. What is felt is kept from the ticks the frame loop sees (60 a second),
+// enough for the record, not for the answer. Main thread; no clock of its own: time is that of the ticks.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "app/psychophysics/experiment.h"
+#include "app/session_guide.h"
+
+namespace app {
+
+class TrialDesk final : public SessionGuide {
+ public:
+  using OnTrial = std::function<void(const TrialRecord&)>;
+
+  /// `experiment` is borrowed and led to its end.
+  TrialDesk(Experiment& experiment, const ProbeSite& site, double between_trials_s, OnTrial on_trial);
+
+  bool press(char key) override;
+  std::optional<haptics::Command> follow(const haptics::Tick& tick) override;
+  std::string words() const override;
+  bool isOver() const override { return is_over_; }
+
+ private:
+  void begin(int interval);
+  void answer(bool second_harder);
+
+  Experiment& experiment_;
+  ProbeSite site_;
+  double between_trials_s_;
+  OnTrial on_trial_;
+  std::vector<FeltSample> felt_[2];  ///< of the newest visit to each
+  int interval_ = 0;
+  bool changed_ = true, is_over_ = false, pausing_ = false;
+  double t_s_ = 0.0, since_s_ = 0.0, pause_ends_s_ = 0.0;
+  std::string hint_;
+};
+
+}  // namespace app
