@@ -57,7 +57,7 @@ Command limitedTo(const DeviceCapabilities& device, double rate_Hz, const Comman
   safety.peak_torque_Nmm = at_most(safety.peak_torque_Nmm, device.peak_torque_Nmm);
   safety.most_stiffness_N_per_mm =
       at_most(safety.most_stiffness_N_per_mm,
-             0.9 * passiveStiffness_N_per_mm(device.damping_Ns_per_mm, command.law.damping_Ns_per_mm, 1.0 / rate_Hz));
+              0.9 * passiveStiffness_N_per_mm(device.damping_Ns_per_mm, command.law.damping_Ns_per_mm, 1.0 / rate_Hz));
   return limited;
 }
 
