@@ -178,7 +178,6 @@ Protocol protocolFromToml(const std::string& text, const std::string& where) {
   if (protocol.method == Method::constant) readConstant(keys, protocol);
   if (protocol.method == Method::staircase) readStaircase(keys, protocol);
   if (protocol.method == Method::pair) protocol.trials = static_cast<int>(keys.whole("", "trials", 1, kMostTrials, 40));
-  protocol.between_intervals_s = keys.number("timing", "between_intervals_s", {0.0, 60.0, "s"}, 0.5);
   protocol.between_trials_s = keys.number("timing", "between_trials_s", {0.0, 600.0, "s"}, 1.0);
   protocol.observer.cue = static_cast<Cue>(keys.choice("observer", "cue", {"stiffness", "peak_force"}, 0));
   protocol.observer.weber_fraction = keys.number("observer", "weber_fraction", {0.0, 1.0, ""}, 0.15);

@@ -43,7 +43,7 @@ struct Protocol {
   std::vector<double> levels;  ///< constant: rising; staircase: where each track starts
   int trials = 40;             ///< of a level (constant), of all (pair)
   StaircaseRule staircase;
-  double between_intervals_s = 0.5, between_trials_s = 1.0;
+  double between_trials_s = 1.0;
   ObserverSettings observer;
 
   /// The comparison at a level.
