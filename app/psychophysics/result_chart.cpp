@@ -11,7 +11,7 @@ namespace app {
 namespace {
 
 constexpr int kAnswers = 0, kFit = 1;
-constexpr int kCurveSteps = 200;
+constexpr int kCurveSteps = 200, kFewest = 3;
 
 std::string shortNumber(double value) {
   char text[32];
@@ -35,7 +35,9 @@ Panel psychometricPanel(const Protocol& protocol, const Outcome& outcome) {
   for (const LevelCount& c : outcome.counts) most = std::max(most, c.trials);
   for (const LevelCount& c : outcome.counts) {
     answers.points.emplace_back(c.level, static_cast<double>(c.harder) / c.trials);
-    const Interval share = wilson95(c.harder, c.trials);
+    // Of one or two answers an interval says nothing but that.
+    const double hit = answers.points.back().y;
+    const Interval share = c.trials < kFewest ? Interval{hit, hit} : wilson95(c.harder, c.trials);
     answers.bars.emplace_back(share.low, share.high);
     answers.sizes.push_back(0.6 + 0.8 * std::sqrt(static_cast<double>(c.trials) / most));
   }
@@ -112,12 +114,13 @@ Chart chartOf(const Protocol& protocol, const Outcome& outcome) {
   chart.caption = "Participant " + protocol.participant + ", " + std::to_string(outcome.trials.size()) +
                   " trials, standard: " + lawName(protocol.standard.kind) +
                   ", comparison: " + lawName(protocol.comparison.kind) + ".";
-  if (outcome.fit) {
+  if (outcome.fit && protocol.method == Method::constant)
     chart.caption += " JND (75 %) " + shortNumber(outcome.fit->function.jnd()) + " " + protocol.unit + " [" +
-                     shortNumber(outcome.fit->jnd_95.low) + ", " + shortNumber(outcome.fit->jnd_95.high) + "]";
-    if (const auto weber = weberFraction(protocol, outcome)) chart.caption += ", Weber fraction " + shortNumber(*weber);
-    chart.caption += ".";
-  }
+                     shortNumber(outcome.fit->jnd_95.low) + ", " + shortNumber(outcome.fit->jnd_95.high) + "].";
+  if (const auto jnd = trackJnd(protocol, outcome); jnd && protocol.method == Method::staircase)
+    chart.caption += " JND (75 %) " + shortNumber(*jnd) + " " + protocol.unit + ", from threshold and standard.";
+  if (const auto weber = weberFraction(protocol, outcome))
+    chart.caption += " Weber fraction " + shortNumber(*weber) + ".";
   if (protocol.method == Method::staircase) chart.panels.push_back(trackPanel(protocol, outcome));
   if (protocol.method == Method::pair)
     chart.panels.push_back(sharePanel(outcome));

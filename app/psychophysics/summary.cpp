@@ -66,7 +66,9 @@ Outcome outcomeOf(const Protocol& protocol, const Experiment& experiment, std::v
     if (trial.comparison_harder) ++count.harder;
   }
   for (const auto& [level, count] : counts) outcome.counts.push_back(count);
-  if (protocol.method != Method::pair) outcome.fit = fitWithIntervals(outcome.counts, kDraws, seed);
+  // Tracks ask little where lapses would show, and their slope is biased as it is (Kaernbach 2001): no lapse to fit.
+  const std::optional<double> lapse = protocol.method == Method::staircase ? std::optional<double>(0.0) : std::nullopt;
+  if (protocol.method != Method::pair) outcome.fit = fitWithIntervals(outcome.counts, kDraws, seed, lapse);
   outcome.tracks = experiment.tracks();
   double sum = 0.0;
   int known = 0;
@@ -78,7 +80,19 @@ Outcome outcomeOf(const Protocol& protocol, const Experiment& experiment, std::v
   return outcome;
 }
 
+std::optional<double> trackJnd(const Protocol& protocol, const Outcome& outcome) {
+  const std::optional<double> standard = protocol.standardValue();
+  if (!outcome.threshold || !standard) return std::nullopt;
+  const double z = normalQuantile(targetProbability(protocol.staircase));
+  if (std::abs(z) < 0.1) return std::nullopt;
+  return normalQuantile(0.75) * (*outcome.threshold - *standard) / z;
+}
+
 std::optional<double> weberFraction(const Protocol& protocol, const Outcome& outcome) {
+  if (protocol.method == Method::staircase) {
+    const std::optional<double> jnd = trackJnd(protocol, outcome), standard = protocol.standardValue();
+    return jnd && *standard > 0.0 ? std::optional<double>(*jnd / *standard) : std::nullopt;
+  }
   if (!outcome.fit) return std::nullopt;
   const double reference = protocol.standardValue().value_or(outcome.fit->function.pse);
   if (!(reference > 0.0)) return std::nullopt;
@@ -127,8 +141,10 @@ std::string summaryJson(const Protocol& protocol, const Outcome& outcome, std::u
                         {"reversals", outcome.tracks[i].reversals()},
                         {"threshold", finite(outcome.tracks[i].threshold())},
                         {"standard_error", finite(outcome.tracks[i].standardError())}});
+    const auto jnd = trackJnd(protocol, outcome);
     out["staircase"] = {{"target_probability", targetProbability(protocol.staircase)},
                         {"threshold", outcome.threshold ? json(*outcome.threshold) : json(nullptr)},
+                        {"jnd", jnd ? json(*jnd) : json(nullptr)},
                         {"tracks", tracks}};
   }
   if (protocol.method == Method::pair && !outcome.trials.empty()) {
@@ -150,7 +166,7 @@ std::string summaryWords(const Protocol& protocol, const Outcome& outcome) {
   const std::string unit = protocol.unit.empty() ? "" : " " + protocol.unit;
   std::string text = "Psychophysics, participant " + protocol.participant + "\n  trials           " +
                      std::to_string(outcome.trials.size()) + (outcome.complete ? "" : ", ended early") + "\n";
-  if (outcome.fit) {
+  if (outcome.fit && protocol.method == Method::constant) {
     const PsychometricFit& f = *outcome.fit;
     text += "  PSE              " + number(f.function.pse) + unit + "  (95 %: " + number(f.pse_95.low) + " to " +
             number(f.pse_95.high) + ")\n";
@@ -159,12 +175,15 @@ std::string summaryWords(const Protocol& protocol, const Outcome& outcome) {
     if (const auto weber = weberFraction(protocol, outcome)) text += "  Weber fraction   " + number(*weber) + "\n";
     if (f.deviance_share < 0.05)
       text += "  the curve fits the answers badly: look at the picture before believing it\n";
-  } else if (!protocol.parameter.empty()) {
+  } else if (protocol.method == Method::constant) {
     text += "  no psychometric function: the answers do not rise with " + protocol.parameter + "\n";
   }
   if (outcome.threshold)
     text += "  threshold        " + number(*outcome.threshold) + unit + "  where " +
             number(100.0 * targetProbability(protocol.staircase)) + " % feel the comparison harder\n";
+  if (const auto jnd = trackJnd(protocol, outcome); jnd && protocol.method == Method::staircase)
+    text += "  JND (75 %)       " + number(*jnd) + unit + "  from threshold and standard, Weber fraction " +
+            number(*weberFraction(protocol, outcome)) + "\n";
   if (protocol.method == Method::pair) {
     int harder = 0;
     for (const TrialRecord& t : outcome.trials) harder += t.comparison_harder ? 1 : 0;

@@ -24,6 +24,10 @@ struct Outcome {
 Outcome outcomeOf(const Protocol& protocol, const Experiment& experiment, std::vector<TrialRecord> trials,
                   bool complete, std::uint64_t seed);
 
+/// From where the tracks settle and the standard, taken as the PSE: 0.6745 (threshold - standard) / Phi^-1(p).
+std::optional<double> trackJnd(const Protocol& protocol, const Outcome& outcome);
+
+/// Of a staircase by its tracks, else by the fit.
 std::optional<double> weberFraction(const Protocol& protocol, const Outcome& outcome);
 
 std::string summaryJson(const Protocol& protocol, const Outcome& outcome, std::uint64_t seed,

@@ -175,5 +175,25 @@ TEST(Experiment, FindsTheWeberFractionOfItsObserver) {
     EXPECT_EQ(t.correct.has_value(), t.comparison != t.standard) << "equal stimuli have no right answer";
 }
 
+/// Tracks of 1 up 2 down settle at 70.7 %; with the standard in the middle that is a JND too.
+TEST(Experiment, FindsTheWeberFractionByStaircases) {
+  Protocol protocol = stiffnessProtocol();
+  protocol.method = Method::staircase;
+  protocol.levels = {1.1, 1.0, 1.1, 1.0};
+  protocol.staircase.low = 0.0, protocol.staircase.high = 5.0;
+  protocol.staircase.steps = {0.08, 0.04};
+  protocol.staircase.reversals = 24;
+  protocol.observer.lapse_rate = 0.0;
+  protocol.probe.wander_mm = 0.0;
+  const ProbedBone bone = probedBone(protocol);
+  haptics::CarvedBone live(bone.patient.ct.grid, bone.patient.ct.solid, bone.patient.ct.label);
+  std::vector<TrialRecord> trials;
+  const Experiment experiment =
+      runSimulated(protocol, live, bone.site, 4, [&](const TrialRecord& t, const Experiment&) { trials.push_back(t); });
+  const Outcome outcome = outcomeOf(protocol, experiment, trials, true, 1);
+  ASSERT_TRUE(outcome.threshold);
+  EXPECT_NEAR(*weberFraction(protocol, outcome), 0.15, 0.06);
+}
+
 }  // namespace
 }  // namespace app
