@@ -47,8 +47,10 @@ TEST_F(RehearseCommand, LeavesPicturesOfBothEyes) {
 /// Law and gains change while it runs, every change is said and recorded, and the recording still replays bit for bit.
 TEST_F(RehearseCommand, ObeysASettingsFileWhileItChanges) {
   const std::string file = write("feel.toml", "[law]\nstiffness_N_per_mm = 0.6\n");
-  const std::string later = "(sleep 2; echo '[law]' > " + file + ".new; echo 'name = \"forssim\"' >> " + file +
-                            ".new; mv " + file + ".new " + file + "; sleep 1; echo '[law' > " + file + ") & ";
+  // Changed once it is being recorded, however long the patient took to make.
+  const std::string later = "(while [ ! -e " + at("s.molar") + " ]; do sleep 0.1; done; sleep 1.5; echo '[law]' > " +
+                            file + ".new; echo 'name = \"forssim\"' >> " + file + ".new; mv " + file + ".new " + file +
+                            "; sleep 1; echo '[law' > " + file + ") & ";
   std::system((later + "true").c_str());
   const Said said = molar(kCoarse + std::string("--seconds 5 --parameters ") + file + " --record " + at("s.molar"));
   ASSERT_EQ(said.status, 0) << said.err;
