@@ -10,10 +10,38 @@ namespace render {
 
 enum class DisplayMode { mono, side_by_side, top_bottom, anaglyph };
 
+/// How tooth and bone are drawn: the surface solid = 0.5, the translucent volume, or the surface as triangles.
+enum class ViewMode { iso, dvr, mesh };
+
+/// What may be shown besides, and how much of the face.
+struct Layers {
+  float face_opacity = 1.0f;  ///< 0: no face
+  bool gum = true;
+  bool canal = false;        ///< the mandibular canal …
+  bool clearance = false;    ///< … and bands of distance to it on the bone
+  bool planned_cut = false;  ///< bone that is planned to go
+  bool ghost_tool = false;   ///< the tool where the hand is, while the drawn one is held by the surface
+  bool slices = false;       ///< CT slices through the bur
+};
+
+enum class Antialias { none, edges };
+
+/// What a slower machine can leave out. The surface stays where it is but for `step_voxels` beyond one half.
+struct Quality {
+  Antialias antialias = Antialias::none;
+  bool ambient_occlusion = true, lamp_shadow = true;
+  double step_voxels = 0.5;  ///< between samples along a ray
+  int pixel_edge = 1;        ///< pixels of the display along the edge of one that is computed
+};
+
 struct Frame {
   calibration::Rig rig;  ///< screen, mirror, eyes, X_WP
   DisplayMode display = DisplayMode::mono;
-  calibration::Pose<calibration::Patient, calibration::Tool> X_PT;  ///< the tool as drawn
+  ViewMode mode = ViewMode::iso;
+  Layers layers;
+  Quality quality;
+  calibration::Pose<calibration::Patient, calibration::Tool> X_PT;          ///< the tool as drawn
+  calibration::Pose<calibration::Patient, calibration::Tool> X_PT_at_hand;  ///< where the hand is, for the ghost
   double bur_radius_mm = 2.0;
   double bur_angle_rad = 0.0;  ///< the bur turns while it drills
   bool tool_visible = true;

@@ -1,11 +1,10 @@
 // Draws frames: jaw, face, gum and instrument for each eye, then the picture for the display. The one door to this
-// folder. Needs a current OpenGL 4.5 context (OffscreenContext or Window) that outlives it. Render thread only. Order
-// per eye: background, opaque meshes, volume, transparent meshes; linear light throughout, sRGB in the output pass.
+// folder. But for Backend::cpu it needs a current OpenGL 4.5 context (OffscreenContext or Window) that outlives it.
+// Render thread only. Linear light throughout, sRGB once, when the display's picture is composed.
 // Bricks given before render() are in both eyes of that very frame. Reading back waits for the GPU.
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <span>
 
 #include "assets/mesh.h"
@@ -13,14 +12,12 @@
 #include "render/display/eye_projection.h"
 #include "render/frame.h"
 #include "render/picture.h"
+#include "render/render_options.h"
 #include "render/volume/occupancy.h"
 
 namespace render {
 
-struct RenderOptions {
-  int samples = 1;               ///< along each edge of a pixel; 2 for snapshots
-  bool skip_empty_space = true;  ///< false marches through everything, for tests
-};
+class SceneRenderer;
 
 class FrameRenderer {
  public:
@@ -42,8 +39,8 @@ class FrameRenderer {
   void renderEye(const Frame& frame, Eye eye);
 
   /// Scales the composed picture onto the current window's framebuffer.
-  void showOnWindow(glm::ivec2 window_px) const;
-  Picture readPicture() const;
+  void showOnWindow(glm::ivec2 window_px);
+  Picture readPicture();
   /// The eye as last drawn; it must have been drawn.
   Picture readEye(Eye eye);
   DistancePicture readDistance(Eye eye);
@@ -52,8 +49,7 @@ class FrameRenderer {
   void throwIfError();
 
  private:
-  struct Passes;
-  std::unique_ptr<Passes> passes_;
+  std::unique_ptr<SceneRenderer> scene_;
 };
 
 /// OpenGL clip space from frame P, for those who want to know where a point of the patient lands in the picture.

@@ -1,0 +1,44 @@
+// What stands behind FrameRenderer: one way of drawing the scene, in OpenGL (GlSceneRenderer) or on the CPU
+// (CpuSceneRenderer). Both draw the same picture from the same values; the GLSL in render/shaders is the specification.
+// Render thread. Errors: GpuError.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "assets/mesh.h"
+#include "render/display/eye_projection.h"
+#include "render/frame.h"
+#include "render/picture.h"
+#include "render/volume/occupancy.h"
+
+namespace render {
+
+class SceneRenderer {
+ public:
+  SceneRenderer() = default;
+  SceneRenderer(const SceneRenderer&) = delete;
+  SceneRenderer& operator=(const SceneRenderer&) = delete;
+  virtual ~SceneRenderer() = default;
+
+  virtual void setFace(const assets::MeshModel& face_P) = 0;
+  virtual void setGum(const assets::MeshModel& gum_P) = 0;
+  virtual void setInstrument(const assets::MeshModel& instrument_T) = 0;
+  virtual void updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, Occupancy::kBrickValues> solid) = 0;
+
+  /// Once per frame, before its eyes: what was carved since becomes drawable.
+  virtual void prepare(const Frame& frame) = 0;
+  /// One eye, in linear light, `px` large; kept until it is drawn again.
+  virtual void drawEye(const Frame& frame, Eye eye, glm::ivec2 px) = 0;
+  /// The drawn eyes become the display's picture of frame.rig.screen.px, sRGB.
+  virtual void compose(const Frame& frame) = 0;
+
+  /// Scales the composed picture onto the current window's framebuffer.
+  virtual void showOnWindow(glm::ivec2 window_px) = 0;
+  virtual Picture readPicture() = 0;
+  virtual Picture readEye(Eye eye) = 0;
+  virtual DistancePicture readDistance(Eye eye) = 0;
+  virtual void throwIfError() = 0;
+};
+
+}  // namespace render
