@@ -7,18 +7,6 @@
 namespace render {
 namespace {
 
-float finishNumber(Finish finish) {
-  switch (finish) {
-    case Finish::skin:
-      return FINISH_SKIN;
-    case Finish::gum:
-      return FINISH_GUM;
-    case Finish::instrument:
-      return FINISH_INSTRUMENT;
-  }
-  return FINISH_INSTRUMENT;
-}
-
 Triangles onGpu(const assets::MeshPart& part) {
   std::vector<MeshVertex> vertices(part.position_mm.size());
   for (std::size_t v = 0; v < vertices.size(); ++v)
@@ -54,7 +42,7 @@ void MeshPass::draw(const SceneMesh& mesh, Parts parts, const Placement& placeme
     block_.set(PART_BLOCK,
                {.P_from_mesh = glm::mat4(part.turns ? turned : placement.P_from_mesh),
                 .base_colour = part.material.base_colour,
-                .finish = {part.material.roughness, part.material.metallic, finishNumber(mesh.finish_), is_cut}});
+                .finish = {part.material.roughness, part.material.metallic, static_cast<float>(mesh.finish_), is_cut}});
     part.triangles.draw();
   }
 }

@@ -11,10 +11,9 @@
 #include "assets/mesh.h"
 #include "render/gpu/drawing.h"
 #include "render/gpu/program.h"
+#include "render/scene/finish.h"
 
 namespace render {
-
-enum class Finish { skin, gum, instrument };
 
 /// std140 twin of part_block.glsl.
 struct PartBlock {

@@ -23,6 +23,9 @@ set(render/gpu ${render_words} render/gpu/)
 foreach(part volume scene display)
   set(render/${part} ${render_words} render/gpu/ render/${part}/)
 endforeach()
+# The CPU back-end stands beside gpu: of that folder it knows the exception alone.
+set(render/cpu ${render_words} render/gpu/gpu_error.h render/cpu/ render/volume/ render/display/ render/scene/finish.h
+    render/eye_block.h render/scene_renderer.h render/render_options.h render/shaders/)
 
 # Third parties: a regular expression of what is included, and the folders that may.
 set(third_parties
@@ -34,6 +37,7 @@ set(third_parties
   "tbb/|oneapi/" "assets|haptics"
   "libusb" "haptics"
   "GLFW/" "render|app"
+  "embree3/" "render"
   "epoxy/" "render"
   "CLI/|spdlog/|fmt/|imgui|SQLiteCpp/|sqlite3|zstd|openssl/|portaudio|sndfile" "app")
 set(operating_system

@@ -1,0 +1,374 @@
+#include "render/cpu/mesh_scene.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cstddef>
+#include <glm/gtc/matrix_transform.hpp>
+#include <string>
+#include <tuple>
+
+#include "render/gpu/gpu_error.h"
+#include "render/scene/finish.h"
+
+namespace render {
+namespace {
+
+constexpr int kPacket = 8;
+
+/// What a corner of a triangle carries besides its place.
+struct Corner {
+  glm::vec4 normal;
+  glm::vec4 colour;
+};
+
+struct Part {
+  std::vector<Corner> corners;
+  std::vector<glm::uvec3> triangles;
+  assets::Material material;
+  bool is_cut = false;
+};
+
+/// Parts that move alike and are seen alike: one Embree scene and its instance.
+struct Body {
+  MeshScene::Model model = MeshScene::Model::face;
+  bool turns = false, transparent = false;
+  std::vector<Part> parts;
+  RTCScene scene = nullptr;
+  RTCGeometry instance = nullptr;
+  RTCScene shown_in = nullptr;  ///< the upper scene that holds the instance now
+  glm::mat3 P_from_mesh{1.0f};
+  glm::mat4x3 pose{1.0f};
+};
+
+struct Layer {
+  int ray;
+  float distance_mm, u, v;
+  unsigned body, part, triangle;
+  bool faces_eye;
+};
+
+/// What the filter of a query is told.
+struct Query {
+  RTCIntersectContext context;  // first: Embree hands back its address
+  const std::vector<Body>* bodies;
+  const MeshPlacement* placement;
+  std::vector<Layer>* layers;  ///< null: looking for the first hit
+};
+
+// mm from the rim of the window, negative inside: rimDistance of mesh.frag.
+float rimDistance(const MeshPlacement& m, const glm::vec3& p) {
+  const glm::vec3 line = m.window_site_P - m.window_eye_P;
+  const float reach = glm::length(line);
+  const glm::vec3 axis = line / reach;
+  const glm::vec3 offset = p - m.window_eye_P;
+  const float along = glm::dot(offset, axis);
+  return std::max(glm::length(offset - along * axis) - m.window_mm, along - (reach - 2.0f));
+}
+
+// Embree asks before it takes a hit: the window lets rays through, and layers are noted and passed.
+void filter(const RTCFilterFunctionNArguments* args) {
+  const Query& query = *reinterpret_cast<const Query*>(args->context);
+  const bool may_cut = args->geometryUserPtr != nullptr && query.placement->window_mm > 0.0f;
+  if (!may_cut && query.layers == nullptr) return;
+  const unsigned n = args->N;
+  for (unsigned i = 0; i < n; ++i) {
+    if (args->valid[i] == 0) continue;
+    const float t = RTCRayN_tfar(args->ray, n, i);
+    const glm::vec3 direction(RTCRayN_dir_x(args->ray, n, i), RTCRayN_dir_y(args->ray, n, i),
+                              RTCRayN_dir_z(args->ray, n, i));
+    if (may_cut) {
+      const glm::vec3 origin(RTCRayN_org_x(args->ray, n, i), RTCRayN_org_y(args->ray, n, i),
+                             RTCRayN_org_z(args->ray, n, i));
+      if (rimDistance(*query.placement, origin + t * direction) < 0.0f) {
+        args->valid[i] = 0;
+        continue;
+      }
+    }
+    if (query.layers == nullptr) continue;
+    const glm::vec3 outward(RTCHitN_Ng_x(args->hit, n, i), RTCHitN_Ng_y(args->hit, n, i),
+                            RTCHitN_Ng_z(args->hit, n, i));
+    query.layers->push_back({.ray = static_cast<int>(RTCRayN_id(args->ray, n, i)),
+                             .distance_mm = t,
+                             .u = RTCHitN_u(args->hit, n, i),
+                             .v = RTCHitN_v(args->hit, n, i),
+                             .body = RTCHitN_instID(args->hit, n, i, 0),
+                             .part = RTCHitN_geomID(args->hit, n, i),
+                             .triangle = RTCHitN_primID(args->hit, n, i),
+                             .faces_eye = glm::dot(outward, direction) < 0.0f});
+    args->valid[i] = 0;
+  }
+}
+
+Finish finishOf(MeshScene::Model model) {
+  switch (model) {
+    case MeshScene::Model::face:
+      return Finish::skin;
+    case MeshScene::Model::gum:
+      return Finish::gum;
+    case MeshScene::Model::instrument:
+      break;
+  }
+  return Finish::instrument;
+}
+
+// Linear in barycentric coordinates on the triangle in space, which is what OpenGL's perspective-correct varyings are.
+void add(MeshPoints& to, const Body& body, const Part& part, unsigned triangle, float u, float v, int ray, float t,
+         bool faces_eye, float opacity) {
+  const glm::uvec3 abc = part.triangles[triangle];
+  const Corner &a = part.corners[abc.x], &b = part.corners[abc.y], &c = part.corners[abc.z];
+  const float w = 1.0f - u - v;
+  const glm::vec3 normal = body.P_from_mesh * glm::vec3(w * a.normal + u * b.normal + v * c.normal);
+  const glm::vec4 colour = part.material.base_colour * (w * a.colour + u * b.colour + v * c.colour);
+  const auto n = static_cast<std::size_t>(to.count++);
+  to.ray[n] = ray;
+  to.distance_mm[n] = t;
+  to.nx[n] = normal.x, to.ny[n] = normal.y, to.nz[n] = normal.z;
+  to.r[n] = colour.r, to.g[n] = colour.g, to.b[n] = colour.b, to.a[n] = opacity * colour.a;
+  to.roughness[n] = part.material.roughness;
+  to.metallic[n] = part.material.metallic;
+  to.finish[n] = static_cast<std::int32_t>(finishOf(body.model));
+  to.is_cut[n] = part.is_cut ? 1 : 0;
+  to.faces_eye[n] = faces_eye ? 1 : 0;
+}
+
+// A packet of the batch from ray `first` on; `valid` becomes -1 where there is one.
+void fill(RTCRayHit8& packet, int* valid, const RayBatch& rays, int first, const float* limit_mm) {
+  for (int i = 0; i < kPacket; ++i) {
+    const auto r = static_cast<std::size_t>(std::min(first + i, rays.count - 1));
+    packet.ray.org_x[i] = rays.origin_P.x, packet.ray.org_y[i] = rays.origin_P.y, packet.ray.org_z[i] = rays.origin_P.z;
+    packet.ray.dir_x[i] = rays.x[r], packet.ray.dir_y[i] = rays.y[r], packet.ray.dir_z[i] = rays.z[r];
+    packet.ray.tnear[i] = rays.near_mm[r];
+    packet.ray.tfar[i] = limit_mm != nullptr ? std::min(limit_mm[r], rays.far_mm[r]) : rays.far_mm[r];
+    packet.ray.time[i] = 0.0f;
+    packet.ray.mask[i] = ~0u;
+    packet.ray.id[i] = static_cast<unsigned>(r);
+    packet.ray.flags[i] = 0;
+    packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    valid[i] = first + i < rays.count ? -1 : 0;
+  }
+}
+
+}  // namespace
+
+struct MeshScene::Impl {
+  Impl();
+  ~Impl();
+
+  void remove(Model model);
+  RTCScene sceneOf(const std::vector<const assets::MeshPart*>& from, Body& body);
+  void show(Body& body, unsigned index, RTCScene in);
+  Query queryFor(std::vector<Layer>* layers) const;
+  float opacityOf(const Body& body) const { return body.model == Model::face ? placement.face_opacity : 1.0f; }
+  void complain() const;
+
+  RTCDevice device = nullptr;
+  RTCScene opaque = nullptr, transparent = nullptr;
+  std::vector<Body> bodies;
+  MeshPlacement placement;
+  bool has_opaque = false, has_transparent = false;
+};
+
+MeshScene::Impl::Impl() : device(rtcNewDevice("threads=1")) {
+  if (device == nullptr)
+    throw GpuError("no ray tracing of meshes, Embree: this processor or its memory will not do; use --renderer gl");
+  for (RTCScene* scene : {&opaque, &transparent}) {
+    *scene = rtcNewScene(device);
+    rtcSetSceneFlags(*scene, RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+    rtcSetSceneBuildQuality(*scene, RTC_BUILD_QUALITY_LOW);
+    rtcCommitScene(*scene);
+  }
+  complain();
+}
+
+MeshScene::Impl::~Impl() {
+  for (const Model model : {Model::face, Model::gum, Model::instrument}) remove(model);
+  rtcReleaseScene(opaque);
+  rtcReleaseScene(transparent);
+  rtcReleaseDevice(device);
+}
+
+void MeshScene::Impl::complain() const {
+  if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE)
+    throw GpuError("meshes for the CPU, Embree: error " + std::to_string(error) +
+                   (error == RTC_ERROR_OUT_OF_MEMORY ? ", out of memory; use a smaller model" : "; use --renderer gl"));
+}
+
+void MeshScene::Impl::show(Body& body, unsigned index, RTCScene in) {
+  if (body.shown_in == in) return;
+  if (body.shown_in != nullptr) rtcDetachGeometry(body.shown_in, index);
+  if (in != nullptr) rtcAttachGeometryByID(in, body.instance, index);
+  body.shown_in = in;
+}
+
+// Bodies keep their places in the list, which are their numbers in the upper scenes; an emptied one is used again.
+void MeshScene::Impl::remove(Model model) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    Body& body = bodies[i];
+    if (body.model != model || body.scene == nullptr) continue;
+    show(body, static_cast<unsigned>(i), nullptr);
+    rtcReleaseGeometry(body.instance);
+    rtcReleaseScene(body.scene);
+    body = Body{};
+  }
+}
+
+RTCScene MeshScene::Impl::sceneOf(const std::vector<const assets::MeshPart*>& from, Body& body) {
+  RTCScene scene = rtcNewScene(device);
+  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+  for (const assets::MeshPart* part : from) {
+    RTCGeometry triangles = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* const place = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
+        triangles, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), part->position_mm.size()));
+    auto* const index = static_cast<glm::uvec3*>(rtcSetNewGeometryBuffer(
+        triangles, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), part->triangles.size() / 3));
+    complain();
+    std::ranges::copy(part->position_mm, place);
+
+    Part& kept = body.parts.emplace_back();
+    kept.material = part->material;
+    kept.is_cut = finishOf(body.model) == Finish::skin && part->material.metallic < 0.5f;
+    kept.corners.resize(part->position_mm.size());
+    for (std::size_t c = 0; c < kept.corners.size(); ++c)
+      kept.corners[c] = {
+          .normal = glm::vec4(c < part->normal.size() ? part->normal[c] : glm::vec3(0.0f, 0.0f, 1.0f), 0.0f),
+          .colour = c < part->colour.size() ? part->colour[c] : glm::vec4(1.0f)};
+    for (std::size_t i = 0; i + 2 < part->triangles.size(); i += 3)
+      kept.triangles.emplace_back(part->triangles[i], part->triangles[i + 1], part->triangles[i + 2]);
+    std::ranges::copy(kept.triangles, index);
+
+    // Only its address counts: not null where the window cuts.
+    static char cut_mark;
+    rtcSetGeometryUserData(triangles, kept.is_cut ? &cut_mark : nullptr);
+    rtcSetGeometryIntersectFilterFunction(triangles, filter);
+    rtcCommitGeometry(triangles);
+    rtcAttachGeometry(scene, triangles);
+    rtcReleaseGeometry(triangles);
+  }
+  rtcCommitScene(scene);
+  complain();
+  return scene;
+}
+
+Query MeshScene::Impl::queryFor(std::vector<Layer>* layers) const {
+  Query query{.context = {}, .bodies = &bodies, .placement = &placement, .layers = layers};
+  rtcInitIntersectContext(&query.context);
+  query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  return query;
+}
+
+MeshScene::MeshScene() : impl_(std::make_unique<Impl>()) {}
+MeshScene::~MeshScene() = default;
+
+void MeshScene::setModel(Model model, const assets::MeshModel& mesh) {
+  Impl& m = *impl_;
+  m.remove(model);
+
+  // Parts that move and are seen alike share a body.
+  for (const bool turns : {false, true})
+    for (const bool transparent : {false, true}) {
+      std::vector<const assets::MeshPart*> alike;
+      for (const assets::MeshPart& part : mesh.parts)
+        if (!part.triangles.empty() && (part.name == "Bur") == turns &&
+            (part.material.base_colour.a < 1.0f) == transparent)
+          alike.push_back(&part);
+      if (alike.empty()) continue;
+      auto at = std::ranges::find_if(m.bodies, [](const Body& body) { return body.scene == nullptr; });
+      if (at == m.bodies.end()) at = m.bodies.insert(at, Body{});
+      at->model = model;
+      at->turns = turns;
+      at->transparent = transparent;
+      at->scene = m.sceneOf(alike, *at);
+      at->instance = rtcNewGeometry(m.device, RTC_GEOMETRY_TYPE_INSTANCE);
+      rtcSetGeometryInstancedScene(at->instance, at->scene);
+      rtcSetGeometryTimeStepCount(at->instance, 1);
+      rtcSetGeometryTransform(at->instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &at->pose);
+      rtcCommitGeometry(at->instance);
+    }
+  place(m.placement);
+}
+
+void MeshScene::place(const MeshPlacement& placement) {
+  Impl& m = *impl_;
+  m.placement = placement;
+  const glm::dmat4 turned =
+      placement.P_from_tool * glm::rotate(glm::dmat4(1.0), placement.bur_angle_rad, glm::dvec3(0.0, 0.0, 1.0));
+  m.has_opaque = m.has_transparent = false;
+  for (std::size_t i = 0; i < m.bodies.size(); ++i) {
+    Body& body = m.bodies[i];
+    if (body.scene == nullptr) continue;
+    const bool is_tool = body.model == Model::instrument;
+    const bool visible = is_tool                    ? placement.tool_visible
+                         : body.model == Model::gum ? placement.gum_visible
+                                                    : placement.face_opacity > 0.0f;
+    const bool is_clear = body.transparent || m.opacityOf(body) < 1.0f;
+    m.show(body, static_cast<unsigned>(i), !visible ? nullptr : is_clear ? m.transparent : m.opaque);
+    m.has_opaque = m.has_opaque || (visible && !is_clear);
+    m.has_transparent = m.has_transparent || (visible && is_clear);
+    if (!is_tool) continue;
+    const glm::mat4 pose(body.turns ? turned : placement.P_from_tool);
+    body.P_from_mesh = glm::mat3(pose);
+    body.pose = glm::mat4x3(pose);
+    rtcSetGeometryTransform(body.instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &body.pose);
+    rtcCommitGeometry(body.instance);
+  }
+  rtcCommitScene(m.opaque);
+  rtcCommitScene(m.transparent);
+  m.complain();
+}
+
+bool MeshScene::hasOpaque() const { return impl_->has_opaque; }
+bool MeshScene::hasTransparent() const { return impl_->has_transparent; }
+
+void MeshScene::firstHits(const RayBatch& rays, MeshPoints& to, float* distance_mm) const {
+  const Impl& m = *impl_;
+  if (!m.has_opaque) return;
+  to.makeRoom(rays.count);
+  Query query = m.queryFor(nullptr);
+  alignas(32) RTCRayHit8 packet;
+  alignas(32) int valid[kPacket];
+  for (int first = 0; first < rays.count; first += kPacket) {
+    fill(packet, valid, rays, first, nullptr);
+    rtcIntersect8(valid, m.opaque, &query.context, &packet);
+    for (int i = 0; i < kPacket && first + i < rays.count; ++i) {
+      if (packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+      const Body& body = m.bodies[packet.hit.instID[0][i]];
+      const glm::vec3 outward =
+          body.P_from_mesh * glm::vec3(packet.hit.Ng_x[i], packet.hit.Ng_y[i], packet.hit.Ng_z[i]);
+      const glm::vec3 direction(packet.ray.dir_x[i], packet.ray.dir_y[i], packet.ray.dir_z[i]);
+      add(to, body, body.parts[packet.hit.geomID[i]], packet.hit.primID[i], packet.hit.u[i], packet.hit.v[i], first + i,
+          packet.ray.tfar[i], glm::dot(outward, direction) < 0.0f, 1.0f);
+      distance_mm[first + i] = packet.ray.tfar[i];
+    }
+  }
+}
+
+void MeshScene::layers(const RayBatch& rays, const float* limit_mm, MeshPoints& to) const {
+  const Impl& m = *impl_;
+  if (!m.has_transparent) return;
+  static thread_local std::vector<Layer> met;
+  met.clear();
+  Query query = m.queryFor(&met);
+  alignas(32) RTCRayHit8 packet;
+  alignas(32) int valid[kPacket];
+  for (int first = 0; first < rays.count; first += kPacket) {
+    fill(packet, valid, rays, first, limit_mm);
+    rtcIntersect8(valid, m.transparent, &query.context, &packet);
+  }
+
+  // Ray by ray from back to front; of two at one place the later in the models' order lies in front.
+  std::ranges::sort(met, [](const Layer& a, const Layer& b) {
+    return std::tuple(a.ray, -a.distance_mm, a.body, a.part, a.triangle) <
+           std::tuple(b.ray, -b.distance_mm, b.body, b.part, b.triangle);
+  });
+  to.makeRoom(static_cast<int>(met.size()));
+  for (const Layer& layer : met) {
+    const Body& body = m.bodies[layer.body];
+    add(to, body, body.parts[layer.part], layer.triangle, layer.u, layer.v, layer.ray, layer.distance_mm,
+        layer.faces_eye, m.opacityOf(body));
+  }
+}
+
+}  // namespace render
