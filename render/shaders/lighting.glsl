@@ -2,6 +2,7 @@
 // Specular: GGX (Walter et al. 2007) with the height-correlated Smith term (Heitz 2014) and Schlick's Fresnel (1994).
 // Ambient specular: the fit of Lazarov, "Getting more physical in Call of Duty: Black Ops II" (SIGGRAPH 2013).
 #include "eye_block.glsl"
+#include "light_numbers.glsl"
 
 struct Surface {
   vec3 albedo;
@@ -16,40 +17,41 @@ struct Shade {
   float lamp;           // 1: nothing between it and the lamp
 };
 
-const vec3 kLampLight = vec3(2.75, 2.62, 2.40);
-const vec3 kSkyLight = vec3(0.300, 0.315, 0.33);
-const vec3 kFloorLight = vec3(0.105, 0.092, 0.085);
-const float kConeInner = 0.985, kConeOuter = 0.86;
+const vec3 kLampLight = vec3(LAMP_LIGHT);
+const vec3 kSkyLight = vec3(SKY_LIGHT);
+const vec3 kFloorLight = vec3(FLOOR_LIGHT);
 
 // What shines from a direction besides the lamp: walls, floor, a bright panel overhead and a window strip on each side.
 vec3 surroundings(vec3 direction, float roughness) {
   float height = dot(direction, eye.up_P.xyz);
   float aside = abs(dot(direction, normalize(eye.right_edge_P.xyz)));
-  vec3 light = mix(0.6 * kFloorLight, kSkyLight, smoothstep(-0.5, 0.7, height));
-  float soft = 0.04 + 0.7 * roughness;
-  float panel = smoothstep(0.72 - soft, 0.72 + soft, height);
-  float strip = smoothstep(0.66 - soft, 0.66 + soft, aside) * (1.0 - smoothstep(0.86 - soft, 0.86 + soft, aside));
-  return light + (panel * vec3(2.2, 2.25, 2.3) + strip * vec3(1.0, 1.05, 1.1)) * (1.0 - 0.55 * roughness);
+  vec3 light = mix(WALL_FLOOR_SHARE * kFloorLight, kSkyLight, smoothstep(WALL_LOW, WALL_HIGH, height));
+  float soft = MIRROR_SOFT + MIRROR_SOFT_ROUGH * roughness;
+  float panel = smoothstep(PANEL_EDGE - soft, PANEL_EDGE + soft, height);
+  float strip = smoothstep(STRIP_FROM - soft, STRIP_FROM + soft, aside) *
+                (1.0 - smoothstep(STRIP_TO - soft, STRIP_TO + soft, aside));
+  return light + (panel * vec3(PANEL_LIGHT) + strip * vec3(STRIP_LIGHT)) * (1.0 - MIRROR_ROUGH_LOSS * roughness);
 }
 
 vec3 lampRadiance(vec3 p_P, vec3 to_lamp, float distance) {
   float cosine = dot(-to_lamp, eye.lamp_axis_P.xyz);
-  float cone = mix(0.25, 1.0, smoothstep(kConeOuter, kConeInner, cosine));
+  float cone = mix(LAMP_CONE_DARK, 1.0, smoothstep(LAMP_CONE_OUTER, LAMP_CONE_INNER, cosine));
   float fall = eye.lamp_P.w / distance;
   return kLampLight * cone * fall * fall;
 }
 
 vec3 ambientSpecular(vec3 f0, float roughness, float n_v) {
-  vec4 r = roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
-  float a = min(r.x * r.x, exp2(-9.28 * n_v)) * r.x + r.y;
-  vec2 scale_bias = vec2(-1.04, 1.04) * a + r.zw;
+  vec4 r = roughness * vec4(SPECULAR_FIT_SLOPE) + vec4(SPECULAR_FIT_START);
+  float a = min(r.x * r.x, exp2(SPECULAR_FIT_FALL * n_v)) * r.x + r.y;
+  vec2 scale_bias = SPECULAR_FIT_SCALE * vec2(-a, a) + r.zw;
   return f0 * scale_bias.x + scale_bias.y;
 }
 
 // Light that bounces within a cavity takes its colour: Jimenez et al., "Practical real-time strategies for accurate
 // indirect occlusion" (SIGGRAPH 2016), equation 8.
 vec3 bouncedAmbient(float open, vec3 albedo) {
-  vec3 a = 2.0404 * albedo - 0.3324, b = -4.7951 * albedo + 0.6417, c = 2.7552 * albedo + 0.6903;
+  const vec2 kA = vec2(BOUNCE_A), kB = vec2(BOUNCE_B), kC = vec2(BOUNCE_C);
+  vec3 a = kA.x * albedo + kA.y, b = kB.x * albedo + kB.y, c = kC.x * albedo + kC.y;
   return max(vec3(open), ((open * a + b) * open + c) * open);
 }
 

@@ -16,7 +16,7 @@ float rimDistance(vec3 p) {
   vec3 axis = line / reach;
   vec3 offset = p - eye.window_eye_P.xyz;
   float along = dot(offset, axis);
-  float beyond = along - (reach - 2.0);
+  float beyond = along - (reach - RIM_BEHIND);
   float across = length(offset - along * axis) - eye.window_site_P.w;
   return max(across, beyond);
 }
@@ -33,35 +33,35 @@ void main() {
   if (part.finish.w > 0.5 && eye.window_site_P.w > 0.0) {
     float away = rimDistance(p_P);
     if (away < 0.0) discard;
-    rim = smoothstep(0.0, 2.5, away);
+    rim = smoothstep(0.0, RIM_WIDTH, away);
   }
 
   float metallic = part.finish.y;
   Surface s;
-  s.roughness = clamp(part.finish.x, 0.06, 1.0);
+  s.roughness = clamp(part.finish.x, ROUGHNESS_LEAST, 1.0);
   s.albedo = base.rgb * (1.0 - metallic);
-  s.f0 = mix(vec3(0.04), base.rgb, metallic);
+  s.f0 = mix(vec3(MESH_F0), base.rgb, metallic);
   s.wrap = 0.0;
   s.scatter = s.albedo;
   if (finish == FINISH_SKIN) {
-    s.wrap = 0.35;
-    s.f0 = mix(vec3(0.028), base.rgb, metallic);
+    s.wrap = SKIN_WRAP;
+    s.f0 = mix(vec3(SKIN_F0), base.rgb, metallic);
     vec3 hue = s.albedo / max(max(s.albedo.r, s.albedo.g), max(s.albedo.b, 1e-3));
     s.scatter = hue * hue;
-    s.albedo = mix(s.albedo * vec3(0.45, 0.14, 0.11), s.albedo, rim);
+    s.albedo = mix(s.albedo * vec3(RIM_TINT), s.albedo, rim);
   } else if (finish == FINISH_GUM) {
-    s.wrap = 0.30;
-    s.f0 = vec3(0.030);
-    s.scatter = vec3(1.0, 0.35, 0.30);
+    s.wrap = GUM_WRAP;
+    s.f0 = vec3(GUM_F0);
+    s.scatter = vec3(GUM_SCATTER);
   }
-  Shade shade = shadeFromVolume(p_P + 0.5 * normal, normal);
+  Shade shade = shadeFromVolume(p_P + MESH_LIFT * normal, normal);
   if (finish == FINISH_INSTRUMENT) {
     // Steel in a cavity still mirrors its bright mouth.
-    shade.ambient = mix(0.45, 1.0, shade.ambient);
-    shade.lamp = mix(0.35, 1.0, shade.lamp);
+    shade.ambient = mix(STEEL_AMBIENT_LEAST, 1.0, shade.ambient);
+    shade.lamp = mix(STEEL_LAMP_LEAST, 1.0, shade.lamp);
   }
-  shade.ambient *= gl_FrontFacing ? 1.0 : 0.45;
-  shade.lamp *= gl_FrontFacing ? 1.0 : 0.35;
+  shade.ambient *= gl_FrontFacing ? 1.0 : INSIDE_AMBIENT;
+  shade.lamp *= gl_FrontFacing ? 1.0 : INSIDE_LAMP;
   colour = vec4(lit(s, p_P, normal, to_eye, shade), base.a);
   distance_mm = distance(p_P, eye.eye_P.xyz);
 }

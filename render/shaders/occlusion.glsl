@@ -6,9 +6,9 @@
 // Share of a cone of about 45 degrees that is open, by the crowding of three places along it.
 float coneOpenness(vec3 index, vec3 direction, float first) {
   float near = crowdingAt(index + first * direction);
-  float middle = crowdingAt(index + 2.2 * first * direction);
-  float far = crowdingAt(index + 4.5 * first * direction);
-  return (1.0 - near) * (1.0 - 0.85 * middle) * (1.0 - 0.6 * far);
+  float middle = crowdingAt(index + CONE_SECOND * first * direction);
+  float far = crowdingAt(index + CONE_THIRD * first * direction);
+  return (1.0 - near) * (1.0 - CONE_SECOND_SHADE * middle) * (1.0 - CONE_THIRD_SHADE * far);
 }
 
 Shade shadeFromVolume(vec3 p_P, vec3 normal) {
@@ -18,8 +18,8 @@ Shade shadeFromVolume(vec3 p_P, vec3 normal) {
   vec3 other = cross(normal, side);
 
   // Four cones at 45 degrees and one upright. The first place lies beyond the blur of the surface's own cells.
-  float first = max(1.5 * float(AMBIENT_CELL_VOXELS), 1.2 / volume.origin_P.w);
-  const float tilt = 0.70710678;
+  float first = max(CONE_FIRST_CELLS * float(AMBIENT_CELL_VOXELS), CONE_FIRST_MM / volume.origin_P.w);
+  const float tilt = CONE_TILT;
   float open = coneOpenness(index, normal, first);
   open += tilt * (coneOpenness(index, tilt * (normal + side), first) + coneOpenness(index, tilt * (normal - side), first) +
                   coneOpenness(index, tilt * (normal + other), first) + coneOpenness(index, tilt * (normal - other), first));
@@ -29,9 +29,9 @@ Shade shadeFromVolume(vec3 p_P, vec3 normal) {
   vec3 to_lamp = normalize(eye.lamp_P.xyz - p_P);
   float through = 1.0;
   float t = first;
-  for (int i = 0; i < 9; ++i) {
-    through *= 1.0 - smoothstep(0.15, 0.85, crowdingAt(index + 0.8 * first * normal + t * to_lamp));
-    t *= 1.4;
+  for (int i = 0; i < LAMP_PLACES; ++i) {
+    through *= 1.0 - smoothstep(LAMP_CLEAR, LAMP_BLOCKED, crowdingAt(index + LAMP_LIFT * first * normal + t * to_lamp));
+    t *= LAMP_STEP_GROWTH;
   }
-  return Shade(open * sqrt(open), mix(0.06, 1.0, through));
+  return Shade(open * sqrt(open), mix(LAMP_LEFT, 1.0, through));
 }

@@ -1,6 +1,7 @@
 #version 450
 // The last pass: averages the samples of each pixel in linear light, combines the eyes, and encodes sRGB, once.
 #include "shared_numbers.glsl"
+#include "light_numbers.glsl"
 
 layout(std140, binding = OUTPUT_BLOCK) uniform OutputBlock {
   ivec4 mode;            // x: OUTPUT_…, y: samples along each edge of a pixel
@@ -14,7 +15,7 @@ layout(location = 0) out vec4 colour;
 
 // Bright values roll off towards white instead of clipping: identity to 0.7, then an even approach to 1.
 vec3 shoulder(vec3 x) {
-  const float knee = 0.70;
+  const float knee = SHOULDER_KNEE;
   vec3 over = max(x - knee, 0.0) / (1.0 - knee);
   return min(x, knee) + (1.0 - knee) * (over / (1.0 + over));
 }
