@@ -1,6 +1,6 @@
 #include "haptics/bone/block_kernels.h"
 
-#include "haptics/bone/instruction_set.h"
+#include "assets/instruction_set.h"
 
 namespace haptics {
 
@@ -12,7 +12,7 @@ namespace chosen = portable;
 
 // Not by pointers: what the servo can reach must be plain to see.
 namespace {
-bool fast() { return chosenInstructionSet() != InstructionSet::portable; }
+bool fast() { return assets::chosenInstructionSet() != assets::InstructionSet::portable; }
 }  // namespace
 
 void coverBlock(const BlockUnderBur& at, std::uint16_t* coverage, std::uint32_t* exposure) noexcept {

@@ -177,9 +177,9 @@ class HarmonicSum {
     std::array<float, 3> pull;
     // By name, so that what the servo reaches is plain to see.
 #if defined(__x86_64__)
-    if (set_ == InstructionSet::avx512)
+    if (set_ == assets::InstructionSet::avx512)
       pullOfBlockAvx512(charge_, glm::vec3(low), weight, pull);
-    else if (set_ == InstructionSet::avx2)
+    else if (set_ == assets::InstructionSet::avx2)
       pullOfBlockAvx2(charge_, glm::vec3(low), weight, pull);
     else
 #endif
@@ -191,7 +191,7 @@ class HarmonicSum {
   const SolidField& field_;
   const Reach& reach_;
   VoxelCharge charge_;
-  InstructionSet set_ = chosenInstructionSet();
+  assets::InstructionSet set_ = assets::chosenInstructionSet();
   glm::dvec3 force_{0.0};
 };
 

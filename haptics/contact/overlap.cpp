@@ -58,9 +58,9 @@ SphereOverlap scaled(double weight, const glm::dvec3& moment, double grey, doubl
 
 }  // namespace
 
-SphereOverlap sphereOverlapBy(InstructionSet set, const SolidField& field, const Point<Patient>& centre_P,
+SphereOverlap sphereOverlapBy(assets::InstructionSet set, const SolidField& field, const Point<Patient>& centre_P,
                               double radius_mm, const TissueStiffness* tissue) noexcept {
-  assert(available(set));
+  assert(assets::available(set));
   const double radius = radius_mm / field.grid.spacing_mm;
   if (!(radius >= LensCurve::kLeastRadius && radius <= kMostSumRadius))
     return sphereOverlapVoxelByVoxel(field, centre_P, radius_mm, tissue);
@@ -98,9 +98,9 @@ SphereOverlap sphereOverlapBy(InstructionSet set, const SolidField& field, const
 
   SphereSums sums;
 #if defined(__x86_64__)
-  if (set == InstructionSet::avx512)
+  if (set == assets::InstructionSet::avx512)
     sphereSumsAvx512(in, sums);
-  else if (set == InstructionSet::avx2)
+  else if (set == assets::InstructionSet::avx2)
     sphereSumsAvx2(in, sums);
   else
 #endif
@@ -118,12 +118,12 @@ SphereOverlap sphereOverlapBy(InstructionSet set, const SolidField& field, const
 }
 
 SphereOverlap sphereOverlap(const SolidField& field, const Point<Patient>& centre_P, double radius_mm) noexcept {
-  return sphereOverlapBy(chosenInstructionSet(), field, centre_P, radius_mm, nullptr);
+  return sphereOverlapBy(assets::chosenInstructionSet(), field, centre_P, radius_mm, nullptr);
 }
 
 SphereOverlap sphereOverlap(const SolidField& field, const Point<Patient>& centre_P, double radius_mm,
                             const TissueStiffness& tissue) noexcept {
-  return sphereOverlapBy(chosenInstructionSet(), field, centre_P, radius_mm, &tissue);
+  return sphereOverlapBy(assets::chosenInstructionSet(), field, centre_P, radius_mm, &tissue);
 }
 
 SphereOverlap sphereOverlapVoxelByVoxel(const SolidField& field, const Point<Patient>& centre_P, double radius_mm,

@@ -8,9 +8,9 @@
 
 #include <cstdint>
 
+#include "assets/instruction_set.h"
 #include "calibration/geometry/frames.h"
 #include "calibration/geometry/pose.h"
-#include "haptics/bone/instruction_set.h"
 #include "haptics/bone/solid_field.h"
 #include "haptics/contact/contact.h"
 
@@ -29,7 +29,7 @@ SphereOverlap sphereOverlap(const SolidField& field, const calibration::Point<ca
 SphereOverlap sphereOverlap(const SolidField& field, const calibration::Point<calibration::Patient>& centre_P,
                             double radius_mm, const TissueStiffness& tissue) noexcept;
 /// By one instruction set, which must be available (assert); null: no tissue table.
-SphereOverlap sphereOverlapBy(InstructionSet set, const SolidField& field,
+SphereOverlap sphereOverlapBy(assets::InstructionSet set, const SolidField& field,
                               const calibration::Point<calibration::Patient>& centre_P, double radius_mm,
                               const TissueStiffness* tissue) noexcept;
 

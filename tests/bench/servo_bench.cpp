@@ -53,8 +53,8 @@ void print(const char* scene, double s, double R, const Figures& figures, double
   std::printf("\n");
 }
 
-const char* nameOf(InstructionSet set) {
-  return set == InstructionSet::avx512 ? "AVX-512" : set == InstructionSet::avx2 ? "AVX2" : "portable";
+const char* nameOf(assets::InstructionSet set) {
+  return set == assets::InstructionSet::avx512 ? "AVX-512" : set == assets::InstructionSet::avx2 ? "AVX2" : "portable";
 }
 
 /// Bone of which 55 % of the voxels hold anything, at random: nothing is empty and nothing full.
@@ -84,8 +84,8 @@ glm::dvec3 place(int i, double R, const Scene& scene) {
 }
 
 void sums() {
-  std::printf("one sum, %s\n%-24s %4s %4s %9s %9s %9s %9s %9s\n", nameOf(chosenInstructionSet()), "scene", "s", "R",
-              "p10 us", "p50 us", "p99 us", "max us", "twin/p10");
+  std::printf("one sum, %s\n%-24s %4s %4s %9s %9s %9s %9s %9s\n", nameOf(assets::chosenInstructionSet()), "scene", "s",
+              "R", "p10 us", "p50 us", "p99 us", "max us", "twin/p10");
   volatile double sink = 0.0;
   for (const Scene& scene : kScenes)
     for (double s : {0.2, 0.1})
@@ -152,8 +152,9 @@ void instructionSets() {
   const Point<Patient> centre{{0.013, 0.021, 0.0}};
   const double exact = sphereOverlapVoxelByVoxel(field, centre, 4.0).volume_mm3;
   volatile double sink = 0.0;
-  for (InstructionSet set : {InstructionSet::portable, InstructionSet::avx2, InstructionSet::avx512}) {
-    if (!available(set)) {
+  for (assets::InstructionSet set :
+       {assets::InstructionSet::portable, assets::InstructionSet::avx2, assets::InstructionSet::avx512}) {
+    if (!assets::available(set)) {
       std::printf("%-24s not on this machine\n", nameOf(set));
       continue;
     }

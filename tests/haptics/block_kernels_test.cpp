@@ -5,7 +5,7 @@
 #include <array>
 #include <random>
 
-#include "haptics/bone/instruction_set.h"
+#include "assets/instruction_set.h"
 #include "haptics/bone/lens_curve.h"
 #include "haptics/bone/voxel_sphere.h"
 
@@ -64,7 +64,7 @@ Block randomBlock(std::mt19937& random) {
 
 TEST(BlockKernels, AreTheSameToTheBitForEveryInstructionSet) {
 #if defined(__x86_64__)
-  if (!available(InstructionSet::avx2)) GTEST_SKIP() << "this machine has no AVX2";
+  if (!assets::available(assets::InstructionSet::avx2)) GTEST_SKIP() << "this machine has no AVX2";
   std::mt19937 random(5);
   std::uniform_real_distribution<double> place(-45.0, 45.0);
   for (int trial = 0; trial < 500; ++trial) {

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "haptics/bone/bur_coverage.h"
-#include "haptics/bone/instruction_set.h"
+#include "assets/instruction_set.h"
 
 namespace haptics {
 namespace {
@@ -71,12 +71,12 @@ TEST(HeadKernels, GiveTheSameBitsFromEveryInstructionSet) {
     const HeadSums portable_sums = portable::sumUnderHead(scene.head, scene.block);
     std::array<float, 64> portable_part, part;
     portable::coverUnderHead(scene.head, scene.block.first, portable_part.data());
-    if (available(InstructionSet::avx2)) {
+    if (assets::available(assets::InstructionSet::avx2)) {
       EXPECT_TRUE(same(avx2::sumUnderHead(scene.head, scene.block), portable_sums)) << seed;
       avx2::coverUnderHead(scene.head, scene.block.first, part.data());
       EXPECT_TRUE(same(part, portable_part)) << seed;
     }
-    if (available(InstructionSet::avx512)) {
+    if (assets::available(assets::InstructionSet::avx512)) {
       EXPECT_TRUE(same(avx512::sumUnderHead(scene.head, scene.block), portable_sums)) << seed;
       avx512::coverUnderHead(scene.head, scene.block.first, part.data());
       EXPECT_TRUE(same(part, portable_part)) << seed;

@@ -67,15 +67,16 @@ TEST(Overlap, IsTheSameByEveryInstructionSet) {
     const double R = radius(random), scale = R * R * R * (1.0 + R);
     const SphereOverlap slow = sphereOverlapVoxelByVoxel(bone.field(), centre, R, &tissue);
     SphereOverlap by[3];
-    for (InstructionSet set : {InstructionSet::portable, InstructionSet::avx2, InstructionSet::avx512}) {
-      if (!available(set)) continue;
+    for (assets::InstructionSet set :
+         {assets::InstructionSet::portable, assets::InstructionSet::avx2, assets::InstructionSet::avx512}) {
+      if (!assets::available(set)) continue;
       const SphereOverlap fast = sphereOverlapBy(set, bone.field(), centre, R, &tissue);
       expectSame(fast, slow, scale);
       EXPECT_NEAR(fast.grey_mm3, slow.grey_mm3, 2e-6 * scale);
       EXPECT_NEAR(fast.stiff_mm3, slow.stiff_mm3, 2e-5 * slow.stiff_mm3 + 2e-6 * scale);
       by[static_cast<int>(set)] = fast;
     }
-    if (available(InstructionSet::avx512)) {
+    if (assets::available(assets::InstructionSet::avx512)) {
       EXPECT_EQ(by[1].volume_mm3, by[2].volume_mm3);
       EXPECT_EQ(by[1].first_moment_P_mm4.xyz, by[2].first_moment_P_mm4.xyz);
       EXPECT_EQ(by[1].stiff_mm3, by[2].stiff_mm3);

@@ -1,10 +1,10 @@
-// Which vector instructions the machine has, asked once before main. The kernels of bone/ and contact/ are compiled
-// once for each and choose by this. Any thread; a load.
+// Which vector instructions the machine has, asked once before main. The kernels of haptics and of render/cpu are
+// compiled once for each and choose by this: no asset, but what both may include. Any thread; a load.
 #pragma once
 
 #include <cstdint>
 
-namespace haptics {
+namespace assets {
 
 enum class InstructionSet : std::uint8_t { portable, avx2, avx512 };
 
@@ -14,4 +14,4 @@ bool available(InstructionSet set) noexcept;
 /// The best available, or what the environment variable MOLAR_INSTRUCTIONS (portable, avx2) asks for, if available.
 InstructionSet chosenInstructionSet() noexcept;
 
-}  // namespace haptics
+}  // namespace assets

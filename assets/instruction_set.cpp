@@ -1,9 +1,9 @@
-#include "haptics/bone/instruction_set.h"
+#include "assets/instruction_set.h"
 
 #include <cstdlib>
 #include <string_view>
 
-namespace haptics {
+namespace assets {
 namespace {
 
 struct Machine {
@@ -38,4 +38,4 @@ bool available(InstructionSet set) noexcept {
 
 InstructionSet chosenInstructionSet() noexcept { return kMachine.chosen; }
 
-}  // namespace haptics
+}  // namespace assets
