@@ -1,0 +1,68 @@
+// What GCC's vectors lack, in plain C++: whatever the compiler makes of it on the machine at hand (SSE2, NEON).
+// Included by lanes.h alone.
+#pragma once
+
+namespace render::cpu {
+namespace {
+
+inline Float minimum(Float a, Float b) { return a < b ? a : b; }
+inline Float maximum(Float a, Float b) { return a > b ? a : b; }
+inline Int minimum(Int a, Int b) { return a < b ? a : b; }
+inline Int maximum(Int a, Int b) { return a > b ? a : b; }
+inline Float select(Mask mask, Float yes, Float no) { return mask ? yes : no; }
+inline Int select(Mask mask, Int yes, Int no) { return mask ? yes : no; }
+/// Of values that fit an integer.
+inline Float floor(Float value) {
+  const Float whole = toFloat(toInt(value));
+  return whole - select(whole > value, splat(1.0f), splat(0.0f));
+}
+inline Float ceiling(Float value) { return -floor(-value); }
+inline Float squareRoot(Float value) {
+  Float root{};
+  for (int n = 0; n < kLanes; ++n) root[n] = __builtin_sqrtf(value[n]);
+  return root;
+}
+/// a · b + c
+inline Float multiplyAdd(Float a, Float b, Float c) { return a * b + c; }
+/// One bit per lane, the first lowest.
+inline unsigned bits(Mask mask) {
+  unsigned sum = 0;
+  for (int n = 0; n < kLanes; ++n) sum |= (mask[n] != 0 ? 1u : 0u) << n;
+  return sum;
+}
+/// Lanes as pairs of signed 16 bits: low · low + high · high.
+inline Int pairSums(Int a, Int b) { return ((a << 16) >> 16) * ((b << 16) >> 16) + (a >> 16) * (b >> 16); }
+
+template <class T, int kScale>
+inline T element(const void* base, std::int32_t index) {
+  T value;
+  std::memcpy(&value, static_cast<const char*>(base) + static_cast<std::ptrdiff_t>(index) * kScale, sizeof value);
+  return value;
+}
+inline Int gatherBytes(const std::uint8_t* base, Int index) {
+  return Int{base[index[0]], base[index[1]], base[index[2]], base[index[3]]};
+}
+inline Int gatherHalves(const std::uint16_t* base, Int index) {
+  return Int{base[index[0]], base[index[1]], base[index[2]], base[index[3]]};
+}
+/// 32 bits at `index` times kScale bytes from the base, however aligned.
+template <int kScale>
+inline Int gather32(const void* base, Int index) {
+  Int value{};
+  for (int n = 0; n < kLanes; ++n) value[n] = element<std::int32_t, kScale>(base, index[n]);
+  return value;
+}
+/// 64 bits there.
+template <int kScale>
+inline IntPair gather64(const void* base, Int index) {
+  IntPair pair{};
+  for (int n = 0; n < kLanes; ++n) {
+    const auto both = element<std::uint64_t, kScale>(base, index[n]);
+    pair.low[n] = static_cast<std::int32_t>(static_cast<std::uint32_t>(both));
+    pair.high[n] = static_cast<std::int32_t>(static_cast<std::uint32_t>(both >> 32));
+  }
+  return pair;
+}
+
+}  // namespace
+}  // namespace render::cpu
