@@ -54,7 +54,8 @@ class GlSceneRenderer final : public SceneRenderer {
   GlSceneRenderer(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid,
                   std::span<const std::uint8_t> label, const RenderOptions& options)
       : samples_(options.samples),
-        volume_(grid, solid, label),
+        fields_(grid, solid, label),
+        volume_(fields_),
         caster_(options.skip_empty_space ? RayCaster::EmptySpace::skip : RayCaster::EmptySpace::march) {}
 
   void setFace(const assets::MeshModel& face_P) override { face_ = onGpu(face_P, Finish::skin); }
@@ -63,10 +64,10 @@ class GlSceneRenderer final : public SceneRenderer {
     instrument_ = onGpu(instrument_T, Finish::instrument);
   }
   void updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, Occupancy::kBrickValues> solid) override {
-    volume_.updateBrick(brick, solid);
+    fields_.updateBrick(brick, solid);
   }
 
-  void prepare(const Frame&) override { volume_.prepare(); }
+  void prepare(const Frame&) override { volume_.update(fields_, fields_.prepare()); }
   void drawEye(const Frame& frame, Eye eye, glm::ivec2 px) override;
   void compose(const Frame& frame) override;
 
@@ -82,6 +83,7 @@ class GlSceneRenderer final : public SceneRenderer {
 
   int samples_;
   GlDebugLog log_{false};
+  VolumeFields fields_;
   VolumeTexture volume_;
   RayCaster caster_;
   MeshPass meshes_;
@@ -106,7 +108,7 @@ void GlSceneRenderer::drawEye(const Frame& frame, Eye eye, glm::ivec2 px) {
 void GlSceneRenderer::drawScene(const Frame& frame, Eye eye, Framebuffer& target) {
   const EyeView view = eyeView(frame.rig, eye);
   eye_block_.set(EYE_BLOCK, eyeBlock(frame, view));
-  caster_.bind(volume_);
+  caster_.bind(fields_, volume_);
   target.bind();
   target.clear();
 
@@ -124,7 +126,7 @@ void GlSceneRenderer::drawScene(const Frame& frame, Eye eye, Framebuffer& target
     if (gum_) meshes_.draw(*gum_, parts, in_P);
   };
   draw_meshes(MeshPass::Parts::opaque);
-  caster_.draw(volume_, target.colour(DISTANCE_TARGET));
+  caster_.draw(target.colour(DISTANCE_TARGET));
   draw_meshes(MeshPass::Parts::transparent);
 }
 

@@ -75,12 +75,20 @@ Texture Texture::volume(glm::ivec3 size, TexelFormat format) {
 }
 
 void Texture::upload(glm::ivec3 offset, glm::ivec3 extent, std::span<const std::byte> texels) {
+  assert(texels.size() == factsOf(format_).bytes * static_cast<std::size_t>(extent.x) *
+                              static_cast<std::size_t>(extent.y) * static_cast<std::size_t>(extent.z));
+  upload(offset, extent, texels.data(), extent.x, extent.y);
+}
+
+void Texture::upload(glm::ivec3 offset, glm::ivec3 extent, const std::byte* first, int row_texels, int slice_rows) {
   const FormatFacts facts = factsOf(format_);
-  assert(texels.size() == facts.bytes * static_cast<std::size_t>(extent.x) * static_cast<std::size_t>(extent.y) *
-                              static_cast<std::size_t>(extent.z));
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, row_texels);
+  glPixelStorei(GL_UNPACK_IMAGE_HEIGHT, slice_rows);
   glTextureSubImage3D(name(), 0, offset.x, offset.y, offset.z, extent.x, extent.y, extent.z, facts.external, facts.type,
-                      texels.data());
+                      first);
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+  glPixelStorei(GL_UNPACK_IMAGE_HEIGHT, 0);
 }
 
 void Texture::bind(int unit) const { glBindTextureUnit(static_cast<GLuint>(unit), name()); }

@@ -20,6 +20,8 @@ class Texture {
 
   /// Copies texels into a box; `texels` tightly packed, x fastest, of the format's own type (r8ui: u8, r16: u16).
   void upload(glm::ivec3 offset, glm::ivec3 extent, std::span<const std::byte> texels);
+  /// The same out of a larger array: `row_texels` from one row to the next, `slice_rows` from one slice to the next.
+  void upload(glm::ivec3 offset, glm::ivec3 extent, const std::byte* first, int row_texels, int slice_rows);
   void bind(int unit) const;
 
   glm::ivec3 size() const { return size_; }

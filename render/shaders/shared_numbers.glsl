@@ -1,7 +1,6 @@
 // Numbers that the shaders and C++ must agree on. Only #defines: both languages include this file.
 
 #define BRICK_VOXELS 8           // edge of a brick in voxels, assets::kBrickVoxels
-#define TISSUE_COUNT 10          // assets::kTissueCount
 #define AMBIENT_CELL_VOXELS 2    // edge of a cell of the ambient map in voxels
 
 #define EYE_BLOCK 0              // uniform blocks
@@ -17,6 +16,7 @@
 #define LEFT_EYE_UNIT 5
 #define RIGHT_EYE_UNIT 6
 #define SMOOTH_UNIT 7
+#define LOOK_UNIT 8
 
 #define POSITION_ATTRIBUTE 0     // vertex attributes
 #define NORMAL_ATTRIBUTE 1

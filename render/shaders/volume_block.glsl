@@ -11,6 +11,7 @@ layout(std140, binding = VOLUME_BLOCK) uniform VolumeBlock {
 layout(binding = SOLID_UNIT) uniform sampler3D solid_field;
 layout(binding = SMOOTH_UNIT) uniform sampler3D smooth_field;
 layout(binding = LABEL_UNIT) uniform usampler3D label_field;
+layout(binding = LOOK_UNIT) uniform sampler3D look_field;
 layout(binding = EMPTINESS_UNIT) uniform usampler3D emptiness;
 layout(binding = AMBIENT_UNIT) uniform sampler3D ambient_map;
 
@@ -21,6 +22,13 @@ float solidAt(vec3 index) { return textureLod(solid_field, (index + 0.5) / vec3(
 
 // The same smoothed, for normals.
 float smoothAt(vec3 index) { return textureLod(smooth_field, (index + 0.5) / vec3(volume.size.xyz), 0.0).r; }
+
+// Colour (linear) and finish of the matter at a place, trilinear in the stored roots, the edge repeated.
+vec4 lookAt(vec3 index) {
+  vec3 inside = clamp(index, vec3(0.0), vec3(volume.size.xyz - 1));
+  vec4 look = textureLod(look_field, (inside + 0.5) / vec3(volume.size.xyz), 0.0);
+  return vec4(look.rgb * look.rgb, look.a);
+}
 
 // Mean solid fraction of the cells around a place, 0..1, trilinear, air outside.
 float crowdingAt(vec3 index) {

@@ -1,7 +1,6 @@
 #include "render/volume/occupancy.h"
 
 #include <algorithm>
-#include <cassert>
 
 #include "render/shaders/shared_numbers.glsl"
 
@@ -9,16 +8,15 @@ namespace render {
 
 static_assert(BRICK_VOXELS == assets::kBrickVoxels);
 
-Occupancy::Occupancy(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid)
-    : grid_(grid), bricks_(grid.bricks()), solid_(solid.begin(), solid.end()) {
-  assert(solid.size() == grid.voxelCount());
+Occupancy::Occupancy(const BorderedField<std::uint8_t>& solid, std::uint8_t visible_from)
+    : bricks_((solid.layout().size + (assets::kBrickVoxels - 1)) / assets::kBrickVoxels), visible_from_(visible_from) {
   const std::size_t count = brickIndex(bricks_ - 1) + 1;
   largest_.resize(count);
   emptiness_.resize(count);
   is_pending_.resize(count);
   for (int k = 0; k < bricks_.z; ++k)
     for (int j = 0; j < bricks_.y; ++j)
-      for (int i = 0; i < bricks_.x; ++i) largest_[brickIndex({i, j, k})] = largestAround({i, j, k});
+      for (int i = 0; i < bricks_.x; ++i) largest_[brickIndex({i, j, k})] = largestAround(solid, {i, j, k});
   rebuild();
 }
 
@@ -28,31 +26,23 @@ std::size_t Occupancy::brickIndex(glm::ivec3 brick) const {
          static_cast<std::size_t>(brick.x);
 }
 
-std::uint8_t Occupancy::largestAround(glm::ivec3 brick) const {
-  const glm::ivec3 first = glm::max(brick * assets::kBrickVoxels - 1, glm::ivec3(0));
-  const glm::ivec3 last = glm::min((brick + 1) * assets::kBrickVoxels, grid_.size - 1);
+std::uint8_t Occupancy::largestAround(const BorderedField<std::uint8_t>& solid, glm::ivec3 brick) const {
+  const VoxelBox box = grown({brick * assets::kBrickVoxels, glm::ivec3(assets::kBrickVoxels)}, 1, solid.layout().size);
   std::uint8_t largest = 0;
-  for (int k = first.z; k <= last.z; ++k)
-    for (int j = first.y; j <= last.y; ++j) {
-      const auto row = solid_.begin() + static_cast<std::ptrdiff_t>(grid_.index({first.x, j, k}));
-      largest = std::max(largest, *std::max_element(row, row + (last.x - first.x + 1)));
+  for (int k = 0; k < box.extent.z; ++k)
+    for (int j = 0; j < box.extent.y; ++j) {
+      const std::uint8_t* const row = solid.at(box.first + glm::ivec3(0, j, k));
+      for (int i = 0; i < box.extent.x; ++i) largest = std::max(largest, row[i]);
+      if (largest == 255) return largest;
     }
   return largest;
 }
 
-void Occupancy::updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, kBrickValues> values) {
-  // The voxels themselves.
-  const glm::ivec3 first = brick * assets::kBrickVoxels;
-  const glm::ivec3 extent = glm::min(glm::ivec3(assets::kBrickVoxels), grid_.size - first);
-  for (int k = 0; k < extent.z; ++k)
-    for (int j = 0; j < extent.y; ++j) {
-      const auto row = values.begin() + (k * assets::kBrickVoxels + j) * assets::kBrickVoxels;
-      std::copy(row, row + extent.x,
-                solid_.begin() + static_cast<std::ptrdiff_t>(grid_.index(first + glm::ivec3(0, j, k))));
-    }
-
+void Occupancy::touch(const VoxelBox& box) {
   // Every brick whose border of one voxel reaches in.
-  const glm::ivec3 low = glm::max(brick - 1, glm::ivec3(0)), high = glm::min(brick + 1, bricks_ - 1);
+  if (box.empty()) return;
+  const glm::ivec3 low = glm::max((box.first - 1) / assets::kBrickVoxels, glm::ivec3(0));
+  const glm::ivec3 high = glm::min((box.first + box.extent) / assets::kBrickVoxels, bricks_ - 1);
   for (int k = low.z; k <= high.z; ++k)
     for (int j = low.y; j <= high.y; ++j)
       for (int i = low.x; i <= high.x; ++i)
@@ -62,13 +52,18 @@ void Occupancy::updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, kBri
         }
 }
 
-bool Occupancy::refresh() {
-  bool filled = false;
+void Occupancy::setVisibleFrom(std::uint8_t value) {
+  rebuild_now_ = rebuild_now_ || value != visible_from_;
+  visible_from_ = value;
+}
+
+bool Occupancy::refresh(const BorderedField<std::uint8_t>& solid) {
+  bool filled = rebuild_now_;
   for (const glm::ivec3& brick : pending_) {
     const std::size_t index = brickIndex(brick);
-    const bool was_solid = largest_[index] >= kSolidFrom;
-    largest_[index] = largestAround(brick);
-    const bool is_solid = largest_[index] >= kSolidFrom;
+    const bool was_solid = largest_[index] >= visible_from_;
+    largest_[index] = largestAround(solid, brick);
+    const bool is_solid = largest_[index] >= visible_from_;
     filled = filled || (is_solid && !was_solid);
     stale_ = stale_ || is_solid != was_solid;
     is_pending_[index] = 0;
@@ -78,8 +73,8 @@ bool Occupancy::refresh() {
   return filled;
 }
 
-bool Occupancy::rebuildIfStale() {
-  const bool changed = refresh();
+bool Occupancy::rebuildIfStale(const BorderedField<std::uint8_t>& solid) {
+  const bool changed = refresh(solid);
   if (!stale_) return changed;
   rebuild();
   return true;
@@ -87,8 +82,8 @@ bool Occupancy::rebuildIfStale() {
 
 // Two raster scans over the 26 neighbours give the chessboard distance exactly (Rosenfeld & Pfaltz 1968).
 void Occupancy::rebuild() {
-  stale_ = false;
-  for (std::size_t b = 0; b < largest_.size(); ++b) emptiness_[b] = largest_[b] >= kSolidFrom ? 0 : kFarthest;
+  stale_ = rebuild_now_ = false;
+  for (std::size_t b = 0; b < largest_.size(); ++b) emptiness_[b] = largest_[b] >= visible_from_ ? 0 : kFarthest;
   const auto nearer = [this](glm::ivec3 at, int direction) {
     std::uint8_t best = emptiness_[brickIndex(at)];
     for (int n = 0; n < 13; ++n) {

@@ -24,9 +24,9 @@ class RayCaster {
   explicit RayCaster(EmptySpace empty_space = EmptySpace::skip);
 
   /// Binds volume and block; passes that ask the volume for shade need this before drawing.
-  void bind(const VolumeTexture& volume);
-  /// `scene_distance`: the distance attachment being drawn into.
-  void draw(const VolumeTexture& volume, const Texture& scene_distance);
+  void bind(const VolumeFields& fields, const VolumeTexture& volume);
+  /// `scene_distance`: the distance attachment being drawn into. After bind().
+  void draw(const Texture& scene_distance);
 
  private:
   EmptySpace empty_space_;

@@ -1,59 +1,60 @@
 #include "render/volume/smooth_field.h"
 
 #include <algorithm>
-#include <array>
+#include <cassert>
 
 namespace render {
 namespace {
-
-constexpr std::array<std::uint32_t, 5> kBinomial{1, 4, 6, 4, 1};  // sum 16
 
 std::size_t product(int a, int b, int c) {
   return static_cast<std::size_t>(a) * static_cast<std::size_t>(b) * static_cast<std::size_t>(c);
 }
 
-// One axis: `rows` rows of `length` inner steps, each step `stride` apart and `stride` values wide; input is four
-// longer.
-std::vector<std::uint32_t> alongAxis(const std::vector<std::uint32_t>& in, std::size_t rows, std::size_t length,
-                                     std::size_t stride) {
-  std::vector<std::uint32_t> out(rows * length * stride, 0);
-  for (std::size_t row = 0; row < rows; ++row)
-    for (std::size_t step = 0; step < length; ++step) {
-      std::uint32_t* const to = &out[(row * length + step) * stride];
-      for (std::size_t tap = 0; tap < kBinomial.size(); ++tap) {
-        const std::uint32_t* const from = &in[(row * (length + 4) + step + tap) * stride];
-        for (std::size_t n = 0; n < stride; ++n) to[n] += kBinomial[tap] * from[n];
-      }
-    }
-  return out;
+// Five rows weighted 1 4 6 4 1; `step` values lie between them.
+template <class Out, class In>
+void weigh(const In* from, std::size_t step, std::size_t n, Out* to) {
+  const In *const a = from, *const b = a + step, *const c = b + step, *const d = c + step, *const e = d + step;
+  for (std::size_t i = 0; i < n; ++i)
+    to[i] = static_cast<Out>(Out(a[i]) + Out(e[i]) + Out(4) * (Out(b[i]) + Out(d[i])) + Out(6) * Out(c[i]));
 }
 
 }  // namespace
 
-std::vector<std::uint16_t> smoothed(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid,
-                                    glm::ivec3 first, glm::ivec3 extent) {
-  // The box with its border, air outside the volume.
-  const glm::ivec3 wide = extent + 2 * kSmoothReach;
-  std::vector<std::uint32_t> box(product(wide.x, wide.y, wide.z), 0);
-  const glm::ivec3 low = glm::max(first - kSmoothReach, glm::ivec3(0));
-  const glm::ivec3 high = glm::min(first + extent + kSmoothReach, grid.size);
-  for (int k = low.z; k < high.z; ++k)
-    for (int j = low.y; j < high.y; ++j) {
-      const auto row = solid.begin() + static_cast<std::ptrdiff_t>(grid.index({low.x, j, k}));
-      const glm::ivec3 at = glm::ivec3(low.x, j, k) - first + kSmoothReach;
-      std::copy(
-          row, row + (high.x - low.x),
-          box.begin() + static_cast<std::ptrdiff_t>(product(wide.x, wide.y, at.z) + product(wide.x, at.y, 1)) + at.x);
-    }
+void Smoother::smooth(const BorderedField<std::uint8_t>& solid, const VoxelBox& box,
+                      BorderedField<std::uint16_t>& smooth) {
+  const glm::ivec3 size = solid.layout().size, extent = box.extent, wide = extent + 2 * kSmoothReach;
+  assert(!box.empty() && grown(box, 0, size) == box);
 
-  // z, y, x; then 255 * 16^3 becomes 65535.
-  box = alongAxis(box, 1, static_cast<std::size_t>(extent.z), product(wide.x, wide.y, 1));
-  box = alongAxis(box, static_cast<std::size_t>(extent.z), static_cast<std::size_t>(extent.y), product(wide.x, 1, 1));
-  box = alongAxis(box, product(extent.y, extent.z, 1), static_cast<std::size_t>(extent.x), 1);
-  std::vector<std::uint16_t> values(box.size());
-  std::ranges::transform(box, values.begin(),
-                         [](std::uint32_t sum) { return static_cast<std::uint16_t>((sum * 257u) >> 12); });
-  return values;
+  // The box with its border.
+  taken_.assign(product(wide.x, wide.y, wide.z), 0);
+  const VoxelBox reach = grown(box, kSmoothReach, size);
+  const glm::ivec3 shift = reach.first - box.first + kSmoothReach;
+  for (int k = 0; k < reach.extent.z; ++k)
+    for (int j = 0; j < reach.extent.y; ++j)
+      std::copy_n(solid.at(reach.first + glm::ivec3(0, j, k)), reach.extent.x,
+                  &taken_[product(wide.x, wide.y, k + shift.z) + product(wide.x, j + shift.y, 1)] + shift.x);
+
+  // z, then y: at most 255 * 16^2, which 16 bits hold.
+  const std::size_t row = static_cast<std::size_t>(wide.x), slice = row * static_cast<std::size_t>(wide.y);
+  along_z_.resize(slice * static_cast<std::size_t>(extent.z));
+  for (std::size_t k = 0; k < static_cast<std::size_t>(extent.z); ++k)
+    weigh(&taken_[k * slice], slice, slice, &along_z_[k * slice]);
+  along_y_.resize(product(wide.x, extent.y, extent.z));
+  for (std::size_t k = 0; k < static_cast<std::size_t>(extent.z); ++k)
+    for (std::size_t j = 0; j < static_cast<std::size_t>(extent.y); ++j)
+      weigh(&along_z_[k * slice + j * row], row, row, &along_y_[(k * static_cast<std::size_t>(extent.y) + j) * row]);
+
+  // x; then 255 * 16^3 becomes 65535.
+  for (int k = 0; k < extent.z; ++k)
+    for (int j = 0; j < extent.y; ++j) {
+      const std::uint16_t* const a = &along_y_[product(wide.x, extent.y, k) + product(wide.x, j, 1)];
+      std::uint16_t* const to = smooth.at(box.first + glm::ivec3(0, j, k));
+      for (int i = 0; i < extent.x; ++i) {
+        const std::uint32_t sum =
+            std::uint32_t{a[i]} + a[i + 4] + 4u * (std::uint32_t{a[i + 1]} + a[i + 3]) + 6u * a[i + 2];
+        to[i] = static_cast<std::uint16_t>((sum * 257u) >> 12);
+      }
+    }
 }
 
 }  // namespace render

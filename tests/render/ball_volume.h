@@ -9,6 +9,7 @@
 
 #include "assets/ct_volume.h"
 #include "calibration/rig.h"
+#include "render/volume/bordered_field.h"
 
 namespace render::testing {
 
@@ -47,6 +48,15 @@ inline std::vector<std::uint8_t> brickOf(const assets::CtVolume& ct, glm::ivec3 
         if (const glm::ivec3 voxel = 8 * brick + glm::ivec3(i, j, k); ct.grid.contains(voxel))
           values[static_cast<std::size_t>((k * 8 + j) * 8 + i)] = ct.solid[ct.grid.index(voxel)];
   return values;
+}
+
+/// The solid of `ct` as the fields keep it.
+inline BorderedField<std::uint8_t> borderedSolid(const assets::CtVolume& ct) {
+  BorderedField<std::uint8_t> field(ct.grid.size);
+  for (int k = 0; k < ct.grid.size.z; ++k)
+    for (int j = 0; j < ct.grid.size.y; ++j)
+      std::copy_n(&ct.solid[ct.grid.index({0, j, k})], ct.grid.size.x, field.at({0, j, k}));
+  return field;
 }
 
 class Random {

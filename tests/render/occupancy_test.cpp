@@ -29,11 +29,21 @@ std::size_t indexOf(glm::ivec3 brick, glm::ivec3 bricks) {
   return static_cast<std::size_t>((brick.z * bricks.y + brick.y) * bricks.x + brick.x);
 }
 
+/// Puts the values of a brick into a field; answers the box it covers.
+VoxelBox put(const std::vector<std::uint8_t>& values, glm::ivec3 brick, BorderedField<std::uint8_t>& field) {
+  const VoxelBox box = grown({8 * brick, glm::ivec3(8)}, 0, field.layout().size);
+  for (int k = 0; k < box.extent.z; ++k)
+    for (int j = 0; j < box.extent.y; ++j)
+      std::copy_n(&values[static_cast<std::size_t>((k * 8 + j) * 8)], box.extent.x,
+                  field.at(box.first + glm::ivec3(0, j, k)));
+  return box;
+}
+
 TEST(Occupancy, NeverSkipsAPlaceWhoseTrilinearFootprintIsSolid) {
   Random random(11);
   for (int n = 0; n < 20; ++n) {
     const assets::CtVolume ct = randomMatter(random, {37, 43, 50});
-    const Occupancy occupancy(ct.grid, ct.solid);
+    const Occupancy occupancy(testing::borderedSolid(ct));
     for (int k = 0; k < ct.grid.size.z; ++k)
       for (int j = 0; j < ct.grid.size.y; ++j)
         for (int i = 0; i < ct.grid.size.x; ++i) {
@@ -52,7 +62,7 @@ TEST(Occupancy, DistanceIsTheChessboardDistanceToTheNextOccupiedBrick) {
   Random random(12);
   for (int n = 0; n < 20; ++n) {
     const assets::CtVolume ct = randomMatter(random, {70, 40, 90});
-    const Occupancy occupancy(ct.grid, ct.solid);
+    const Occupancy occupancy(testing::borderedSolid(ct));
     const glm::ivec3 bricks = occupancy.bricks();
     std::vector<glm::ivec3> occupied;
     const auto everyBrick = [&](auto&& visit) {
@@ -78,17 +88,17 @@ TEST(Occupancy, BrickUpdatesEqualARebuild) {
   Random random(13);
   for (int n = 0; n < 30; ++n) {
     const assets::CtVolume before = randomMatter(random, {37, 43, 50}), after = randomMatter(random, {37, 43, 50});
-    Occupancy updated(before.grid, before.solid);
+    BorderedField<std::uint8_t> solid = testing::borderedSolid(before);
+    Occupancy updated(solid);
     for (int k = 0; k < updated.bricks().z; ++k)
       for (int j = 0; j < updated.bricks().y; ++j)
         for (int i = 0; i < updated.bricks().x; ++i) {
           const std::vector<std::uint8_t> values = brickOf(after, {i, j, k});
           if (values == brickOf(before, {i, j, k})) continue;
-          updated.updateBrick({i, j, k}, std::span<const std::uint8_t, 512>(values));
+          updated.touch(put(values, {i, j, k}, solid));
         }
-    updated.rebuildIfStale();
-    const Occupancy rebuilt(after.grid, after.solid);
-    EXPECT_TRUE(std::ranges::equal(updated.solid(), rebuilt.solid()));
+    updated.rebuildIfStale(solid);
+    const Occupancy rebuilt(testing::borderedSolid(after));
     EXPECT_TRUE(std::ranges::equal(updated.largest(), rebuilt.largest()));
     EXPECT_TRUE(std::ranges::equal(updated.emptiness(), rebuilt.emptiness()));
   }
@@ -98,20 +108,17 @@ TEST(Occupancy, StaysConservativeWhileStale) {
   Random random(14);
   for (int n = 0; n < 30; ++n) {
     const assets::CtVolume before = randomMatter(random, {37, 43, 50}), after = randomMatter(random, {37, 43, 50});
-    Occupancy stale(before.grid, before.solid);
+    BorderedField<std::uint8_t> mixed = testing::borderedSolid(before);
+    Occupancy stale(mixed);
     const glm::ivec3 bricks = stale.bricks();
-    assets::CtVolume mixed = before;
     for (int step = 0; step < 10; ++step) {
       const glm::ivec3 brick{static_cast<int>(random.between(0, bricks.x - 0.01)),
                              static_cast<int>(random.between(0, bricks.y - 0.01)),
                              static_cast<int>(random.between(0, bricks.z - 0.01))};
       const std::vector<std::uint8_t> values = brickOf(after, brick);
-      stale.updateBrick(brick, std::span<const std::uint8_t, 512>(values));
-      for (std::size_t v = 0; v < 512; ++v)
-        if (const glm::ivec3 voxel = 8 * brick + glm::ivec3(v % 8, v / 8 % 8, v / 64); mixed.grid.contains(voxel))
-          mixed.solid[mixed.grid.index(voxel)] = values[v];
-      stale.refresh();
-      const Occupancy exact(mixed.grid, mixed.solid);
+      stale.touch(put(values, brick, mixed));
+      stale.refresh(mixed);
+      const Occupancy exact(mixed);
       for (std::size_t b = 0; b < exact.emptiness().size(); ++b) ASSERT_LE(stale.emptiness()[b], exact.emptiness()[b]);
     }
   }
@@ -119,15 +126,30 @@ TEST(Occupancy, StaysConservativeWhileStale) {
 
 TEST(Occupancy, KeepsTheDistancesWhileBricksOnlyEmptyAndMendsThemOnRequest) {
   const assets::CtVolume ct = testing::ballVolume(testing::smallGrid(), {{{0, 0, 0}, 6.0}});
-  Occupancy occupancy(ct.grid, ct.solid);
+  Occupancy occupancy(testing::borderedSolid(ct));
   const std::vector<std::uint8_t> before(occupancy.emptiness().begin(), occupancy.emptiness().end());
-  const std::array<std::uint8_t, 512> air{};
-  for (int n = 0; n < 512; ++n) occupancy.updateBrick({n % 8, n / 8 % 8, n / 64}, air);
-  EXPECT_FALSE(occupancy.refresh());
+  const BorderedField<std::uint8_t> air(ct.grid.size);
+  occupancy.touch({glm::ivec3(0), ct.grid.size});
+  EXPECT_FALSE(occupancy.refresh(air));
   EXPECT_TRUE(std::ranges::equal(occupancy.emptiness(), before));
-  EXPECT_TRUE(occupancy.rebuildIfStale());
+  EXPECT_TRUE(occupancy.rebuildIfStale(air));
   EXPECT_TRUE(std::ranges::all_of(occupancy.emptiness(), [](int e) { return e == Occupancy::kFarthest; }));
-  EXPECT_FALSE(occupancy.rebuildIfStale());
+  EXPECT_FALSE(occupancy.rebuildIfStale(air));
+}
+
+TEST(Occupancy, SeesFainterMatterOnRequest) {
+  assets::CtVolume ct = testing::ballVolume(testing::smallGrid(), {});
+  ct.solid[ct.grid.index({20, 20, 20})] = 60;
+  const BorderedField<std::uint8_t> solid = testing::borderedSolid(ct);
+  Occupancy occupancy(solid);
+  EXPECT_EQ(occupancy.emptiness()[indexOf({2, 2, 2}, occupancy.bricks())], Occupancy::kFarthest);
+  occupancy.setVisibleFrom(60);
+  EXPECT_TRUE(occupancy.refresh(solid));
+  EXPECT_EQ(occupancy.emptiness()[indexOf({2, 2, 2}, occupancy.bricks())], 0);
+  EXPECT_FALSE(occupancy.rebuildIfStale(solid));
+  occupancy.setVisibleFrom(61);
+  EXPECT_TRUE(occupancy.refresh(solid));
+  EXPECT_EQ(occupancy.emptiness()[indexOf({2, 2, 2}, occupancy.bricks())], Occupancy::kFarthest);
 }
 
 }  // namespace

@@ -1,0 +1,72 @@
+// One value per voxel with a border of one voxel of air around the volume, so that a sample anywhere from -1 to the
+// size needs no case of its own. Fields of one grid share their strides: an offset found once serves all of them. i
+// fastest; voxel (0,0,0) lies one row and one slice in. Behind the last value there is room for a wide load. Plain
+// data; memory: one T a voxel.
+#pragma once
+
+#include <cstddef>
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace render {
+
+/// Where voxels lie in memory, counted in values.
+struct FieldLayout {
+  glm::ivec3 size{0};         ///< voxels without the border
+  std::ptrdiff_t row = 0;     ///< from one j to the next
+  std::ptrdiff_t slice = 0;   ///< from one k to the next
+  std::ptrdiff_t origin = 0;  ///< of voxel (0,0,0)
+
+  FieldLayout() = default;
+  explicit FieldLayout(glm::ivec3 voxels)
+      : size(voxels), row(voxels.x + 2), slice(row * (voxels.y + 2)), origin(slice + row + 1) {}
+
+  /// ijk from -1 to size.
+  std::ptrdiff_t offset(glm::ivec3 ijk) const { return origin + ijk.z * slice + ijk.y * row + ijk.x; }
+  /// Values to allocate: a sample at the far border reads one slice, row and word beyond, with weight 0.
+  std::size_t count() const { return static_cast<std::size_t>(slice * (size.z + 3) + row + 16); }
+};
+
+template <class T>
+class BorderedField {
+ public:
+  BorderedField() = default;
+  explicit BorderedField(glm::ivec3 size, T value = {}) : layout_(size), values_(layout_.count(), value) {}
+
+  const FieldLayout& layout() const { return layout_; }
+  const T* data() const { return values_.data(); }
+  T* at(glm::ivec3 ijk) { return values_.data() + layout_.offset(ijk); }
+  const T* at(glm::ivec3 ijk) const { return values_.data() + layout_.offset(ijk); }
+
+ private:
+  FieldLayout layout_;
+  std::vector<T> values_;
+};
+
+/// A box of voxels.
+struct VoxelBox {
+  glm::ivec3 first{0}, extent{0};
+
+  bool empty() const { return extent.x <= 0 || extent.y <= 0 || extent.z <= 0; }
+  std::size_t count() const {
+    return empty() ? 0
+                   : static_cast<std::size_t>(extent.x) * static_cast<std::size_t>(extent.y) *
+                         static_cast<std::size_t>(extent.z);
+  }
+  bool operator==(const VoxelBox&) const = default;
+};
+
+inline VoxelBox boxAround(const VoxelBox& a, const VoxelBox& b) {
+  if (a.empty()) return b;
+  if (b.empty()) return a;
+  const glm::ivec3 low = glm::min(a.first, b.first);
+  return {low, glm::max(a.first + a.extent, b.first + b.extent) - low};
+}
+
+/// Grown by `by` voxels on every side, within a volume of `size`.
+inline VoxelBox grown(const VoxelBox& box, int by, glm::ivec3 size) {
+  const glm::ivec3 low = glm::max(box.first - by, glm::ivec3(0));
+  return {low, glm::min(box.first + box.extent + by, size) - low};
+}
+
+}  // namespace render

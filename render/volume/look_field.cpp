@@ -1,0 +1,94 @@
+#include "render/volume/look_field.h"
+
+#include <tbb/parallel_for.h>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "assets/volume_grid.h"
+#include "render/volume/tissue_look.h"
+
+namespace render {
+namespace {
+
+constexpr int kB = assets::kBrickVoxels, kWide = kB + 2;
+
+// Colour and finish times weight, and the weight.
+using Share = std::array<float, 5>;
+using Block = std::array<Share, static_cast<std::size_t>(kWide) * kWide * kWide>;
+
+constexpr std::size_t at(int i, int j, int k) { return static_cast<std::size_t>((k * kWide + j) * kWide + i); }
+
+std::uint32_t packed(const glm::vec3& colour, float finish) {
+  const auto byte = [](float x) { return static_cast<std::uint32_t>(std::lround(255.0f * glm::clamp(x, 0.0f, 1.0f))); };
+  const glm::vec3 root = glm::sqrt(colour);
+  return byte(root.r) | byte(root.g) << 8 | byte(root.b) << 16 | byte(finish) << 24;
+}
+
+// Weights 1/8, 3/4, 1/8 of the quadratic B-spline at a voxel's centre, in place: only the inner voxels stay whole.
+void melt(Block& block, std::size_t step) {
+  const Block before = block;
+  for (int k = 0; k < kWide; ++k)
+    for (int j = 0; j < kWide; ++j)
+      for (int i = 0; i < kWide; ++i) {
+        const std::size_t here = at(i, j, k);
+        if (here < step || here + step >= block.size()) continue;
+        for (std::size_t c = 0; c < 5; ++c)
+          block[here][c] = 0.75f * before[here][c] + 0.125f * (before[here - step][c] + before[here + step][c]);
+      }
+}
+
+}  // namespace
+
+BorderedField<std::uint32_t> lookField(const BorderedField<std::uint8_t>& solid, std::span<const std::uint8_t> label) {
+  const glm::ivec3 size = solid.layout().size, bricks = (size + (kB - 1)) / kB;
+  const TissueLook& plain = kTissueLook[0];
+  BorderedField<std::uint32_t> field(size, packed(plain.albedo, plain.finish));
+  const auto tissueAt = [&](glm::ivec3 v) -> const TissueLook& {
+    if (label.empty()) return plain;
+    const std::size_t index =
+        (static_cast<std::size_t>(v.z) * static_cast<std::size_t>(size.y) + static_cast<std::size_t>(v.y)) *
+            static_cast<std::size_t>(size.x) +
+        static_cast<std::size_t>(v.x);
+    return kTissueLook[label[index] < kTissueLook.size() ? label[index] : 0];
+  };
+  const auto meltBrick = [&](glm::ivec3 brick) {
+    // What the brick and its border hold; air without a label needs no colour.
+    const glm::ivec3 first = kB * brick;
+    bool any = false;
+    Block block{};
+    for (int k = 0; k < kWide; ++k)
+      for (int j = 0; j < kWide; ++j)
+        for (int i = 0; i < kWide; ++i) {
+          const glm::ivec3 v = first + glm::ivec3(i, j, k) - 1;
+          if (glm::any(glm::lessThan(v, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(v, size))) continue;
+          const float filled = static_cast<float>(*solid.at(v)) / 255.0f;
+          const TissueLook& look = tissueAt(v);
+          any = any || filled > 0.0f || &look != &plain;
+          const float weight = (filled * filled + 1e-4f) * look.presence;
+          block[at(i, j, k)] = {weight * look.albedo.r, weight * look.albedo.g, weight * look.albedo.b,
+                                weight * look.finish, weight};
+        }
+    if (!any) return;
+
+    melt(block, at(1, 0, 0));
+    melt(block, at(0, 1, 0));
+    melt(block, at(0, 0, 1));
+    const glm::ivec3 extent = glm::min(glm::ivec3(kB), size - first);
+    for (int k = 0; k < extent.z; ++k)
+      for (int j = 0; j < extent.y; ++j)
+        for (int i = 0; i < extent.x; ++i) {
+          const Share& share = block[at(i + 1, j + 1, k + 1)];
+          *field.at(first + glm::ivec3(i, j, k)) =
+              packed(glm::vec3(share[0], share[1], share[2]) / share[4], share[3] / share[4]);
+        }
+  };
+  tbb::parallel_for(0, bricks.z, [&](int k) {
+    for (int j = 0; j < bricks.y; ++j)
+      for (int i = 0; i < bricks.x; ++i) meltBrick({i, j, k});
+  });
+  return field;
+}
+
+}  // namespace render
