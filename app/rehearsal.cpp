@@ -122,6 +122,7 @@ class Rehearsal {
     renderer_ = rendererWith(1, plan_.patient.ct.solid);
     frame_.rig = plan_.rig;
     frame_.display = plan_.display;
+    frame_.eyes_swapped = plan_.eyes_swapped;
     frame_.bur_radius_mm = plan_.command.tool.head.radius_mm;
     frame_.face_window_mm = plan_.face_window_mm;
     frame_.site_P = {plan_.patient.site.third_molar_P_mm};

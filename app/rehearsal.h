@@ -22,6 +22,7 @@ struct RehearsalPlan {
   assets::Patient patient;
   calibration::Rig rig;
   render::DisplayMode display = render::DisplayMode::mono;
+  bool eyes_swapped = false;
   Hand hand = Hand::mouse;
   haptics::Command command;
   std::string parameters;         ///< settings file that is obeyed while it changes; `command` holds what it leaves out

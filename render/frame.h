@@ -5,10 +5,9 @@
 #include "calibration/geometry/frames.h"
 #include "calibration/geometry/pose.h"
 #include "calibration/rig.h"
+#include "render/display/display_mode.h"
 
 namespace render {
-
-enum class DisplayMode { mono, side_by_side, top_bottom, anaglyph };
 
 /// How tooth and bone are drawn: the surface solid = 0.5, the translucent volume, or the surface as triangles.
 enum class ViewMode { iso, dvr, mesh };
@@ -37,6 +36,8 @@ struct Quality {
 struct Frame {
   calibration::Rig rig;  ///< screen, mirror, eyes, X_WP
   DisplayMode display = DisplayMode::mono;
+  glm::ivec2 output_at_px{0};  ///< top left of the output on the panel, for interleaved displays
+  bool eyes_swapped = false;   ///< the display shows the left eye what is meant for the right one
   ViewMode mode = ViewMode::iso;
   Layers layers;
   Quality quality;

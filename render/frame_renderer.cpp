@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "render/display/stereo_compositor.h"
+#include "render/display/stereo_layout.h"
 #include "render/gl_scene_renderer.h"
 #include "render/gpu/gpu_error.h"
 #include "render/scene_renderer.h"
@@ -27,7 +27,8 @@ void FrameRenderer::updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, 
 }
 
 void FrameRenderer::render(const Frame& frame) {
-  const glm::ivec2 eye_px = eyePictureSize(frame.display, frame.rig.screen.px);
+  const glm::ivec2 place_px = eyePictureSize(frame.display, frame.rig.screen.px);
+  const glm::ivec2 eye_px = glm::max((place_px + frame.quality.pixel_edge - 1) / frame.quality.pixel_edge, 1);
   scene_->prepare(frame);
   if (frame.display == DisplayMode::mono) {
     scene_->drawEye(frame, Eye::cyclopean, eye_px);
@@ -43,8 +44,10 @@ void FrameRenderer::renderEye(const Frame& frame, Eye eye) {
   scene_->drawEye(frame, eye, frame.rig.screen.px);
 }
 
-void FrameRenderer::showOnWindow(glm::ivec2 window_px) { scene_->showOnWindow(window_px); }
-Picture FrameRenderer::readPicture() { return scene_->readPicture(); }
+void FrameRenderer::showOnWindow(glm::ivec2 window_px, int output, WindowBuffer buffer) {
+  scene_->showOnWindow(window_px, output, buffer);
+}
+Picture FrameRenderer::readPicture(int output) { return scene_->readPicture(output); }
 Picture FrameRenderer::readEye(Eye eye) { return scene_->readEye(eye); }
 DistancePicture FrameRenderer::readDistance(Eye eye) { return scene_->readDistance(eye); }
 void FrameRenderer::throwIfError() { scene_->throwIfError(); }

@@ -11,6 +11,7 @@
 #include "assets/volume_grid.h"
 #include "render/display/eye_projection.h"
 #include "render/frame.h"
+#include "render/gpu/window_buffer.h"
 #include "render/picture.h"
 #include "render/render_options.h"
 #include "render/volume/occupancy.h"
@@ -33,14 +34,15 @@ class FrameRenderer {
   /// New content of an 8x8x8 brick, i fastest.
   void updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, Occupancy::kBrickValues> solid);
 
-  /// Draws the eyes that frame.display needs (mono: the cyclopean eye) and composes them, in frame.rig.screen.px.
+  /// Draws the eyes that frame.display needs (mono: the cyclopean eye) and composes them, each output
+  /// outputSize(frame.display, frame.rig.screen.px) large.
   void render(const Frame& frame);
   /// Draws one eye alone at the full screen size, for readEye and readDistance.
   void renderEye(const Frame& frame, Eye eye);
 
-  /// Scales the composed picture onto the current window's framebuffer.
-  void showOnWindow(glm::ivec2 window_px);
-  Picture readPicture();
+  /// Scales an output onto the current window's framebuffer: of the renderer's context or of one that shares with it.
+  void showOnWindow(glm::ivec2 window_px, int output = 0, WindowBuffer buffer = WindowBuffer::back);
+  Picture readPicture(int output = 0);
   /// The eye as last drawn; it must have been drawn.
   Picture readEye(Eye eye);
   DistancePicture readDistance(Eye eye);

@@ -10,6 +10,7 @@
 #include "render/gpu/framebuffer.h"
 #include "render/gpu/gl_debug_log.h"
 #include "render/gpu/gpu_error.h"
+#include "render/gpu/window_picture.h"
 #include "render/scene/mesh_pass.h"
 #include "render/shaders/shared_numbers.glsl"
 #include "render/volume/ray_caster.h"
@@ -71,8 +72,10 @@ class GlSceneRenderer final : public SceneRenderer {
   void drawEye(const Frame& frame, Eye eye, glm::ivec2 px) override;
   void compose(const Frame& frame) override;
 
-  void showOnWindow(glm::ivec2 window_px) override { output_.showOnWindow(window_px); }
-  Picture readPicture() override { return pictureOf(output_); }
+  void showOnWindow(glm::ivec2 window_px, int output, WindowBuffer buffer) override {
+    showPictureOnWindow(outputs_[static_cast<std::size_t>(output)].colour(0), window_px, buffer);
+  }
+  Picture readPicture(int output) override { return pictureOf(outputs_[static_cast<std::size_t>(output)]); }
   Picture readEye(Eye eye) override;
   DistancePicture readDistance(Eye eye) override;
   void throwIfError() override { log_.throwIfError("drawing a frame"); }
@@ -92,7 +95,7 @@ class GlSceneRenderer final : public SceneRenderer {
   StereoCompositor compositor_;
   std::optional<SceneMesh> face_, gum_, instrument_;
   std::array<EyePicture, 3> pictures_;
-  Framebuffer output_;
+  std::array<Framebuffer, 2> outputs_;
 };
 
 void GlSceneRenderer::drawEye(const Frame& frame, Eye eye, glm::ivec2 px) {
@@ -131,18 +134,26 @@ void GlSceneRenderer::drawScene(const Frame& frame, Eye eye, Framebuffer& target
 }
 
 void GlSceneRenderer::compose(const Frame& frame) {
-  const glm::ivec2 output_px = frame.rig.screen.px;
-  if (output_.size() != output_px) output_ = Framebuffer(output_px, kOutputTargets, false);
+  StereoLayout layout{.mode = frame.display,
+                      .screen_px = frame.rig.screen.px,
+                      .at_px = frame.output_at_px,
+                      .swapped = frame.eyes_swapped};
+  const glm::ivec2 size = outputSize(frame.display, frame.rig.screen.px);
   const bool mono = frame.display == DisplayMode::mono;
-  compositor_.compose(frame.display, picture(mono ? Eye::cyclopean : Eye::left).target.colour(COLOUR_TARGET),
-                      picture(mono ? Eye::cyclopean : Eye::right).target.colour(COLOUR_TARGET), samples_, output_);
+  const Texture& left = picture(mono ? Eye::cyclopean : Eye::left).target.colour(COLOUR_TARGET);
+  const Texture& right = picture(mono ? Eye::cyclopean : Eye::right).target.colour(COLOUR_TARGET);
+  for (layout.output = 0; layout.output < outputCount(frame.display); ++layout.output) {
+    Framebuffer& output = outputs_[static_cast<std::size_t>(layout.output)];
+    if (output.size() != size) output = Framebuffer(size, kOutputTargets, false);
+    compositor_.compose(layout, left, right, samples_, output);
+  }
 }
 
 Picture GlSceneRenderer::readEye(Eye eye) {
   assert(picture(eye).drawn);
   const Framebuffer resolved(picture(eye).px, kOutputTargets, false);
   const Texture& light = picture(eye).target.colour(COLOUR_TARGET);
-  compositor_.compose(DisplayMode::mono, light, light, samples_, resolved);
+  compositor_.compose({.screen_px = picture(eye).px}, light, light, samples_, resolved);
   return pictureOf(resolved);
 }
 

@@ -9,6 +9,7 @@
 #include "assets/mesh.h"
 #include "render/display/eye_projection.h"
 #include "render/frame.h"
+#include "render/gpu/window_buffer.h"
 #include "render/picture.h"
 #include "render/volume/occupancy.h"
 
@@ -30,12 +31,13 @@ class SceneRenderer {
   virtual void prepare(const Frame& frame) = 0;
   /// One eye, in linear light, `px` large; kept until it is drawn again.
   virtual void drawEye(const Frame& frame, Eye eye, glm::ivec2 px) = 0;
-  /// The drawn eyes become the display's picture of frame.rig.screen.px, sRGB.
+  /// The drawn eyes become outputCount(frame.display) outputs of outputSize(), sRGB (display/stereo_layout.h). Eyes
+  /// drawn smaller than eyePictureSize() are stretched bilinearly.
   virtual void compose(const Frame& frame) = 0;
 
-  /// Scales the composed picture onto the current window's framebuffer.
-  virtual void showOnWindow(glm::ivec2 window_px) = 0;
-  virtual Picture readPicture() = 0;
+  /// Scales an output onto the current window's framebuffer; the context may be one that shares with the renderer's.
+  virtual void showOnWindow(glm::ivec2 window_px, int output, WindowBuffer buffer) = 0;
+  virtual Picture readPicture(int output) = 0;
   virtual Picture readEye(Eye eye) = 0;
   virtual DistancePicture readDistance(Eye eye) = 0;
   virtual void throwIfError() = 0;

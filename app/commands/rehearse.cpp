@@ -11,6 +11,7 @@
 #include "app/command_settings.h"
 #include "app/commands/command.h"
 #include "app/commands/number_range.h"
+#include "app/display_option.h"
 #include "app/erosion_text.h"
 #include "app/law_text.h"
 #include "app/patient_source.h"
@@ -31,10 +32,11 @@ constexpr double kMonitorWidth_mm = 531.0;  ///< of a 24-inch monitor
 constexpr double kForeignFaceWindow_mm = 24.0;
 
 struct RehearseOptions {
-  std::string patient, parameters, device = "mouse", rig, display = "mono", record, snapshot, first_snapshot, face;
+  std::string patient, parameters, device = "mouse", rig, record, snapshot, first_snapshot, face;
   std::string tool = "sphere:1.5", shaft, law = "agus", erosion = "time", size, snapshot_size = "1280x800";
   std::string side = "right";
   std::vector<std::string> settings;
+  DisplayOption display;
   assets::JawParameters jaw;
   std::optional<double> seconds, face_window_mm;
   double rate_Hz = 1000.0, loupes = 4.0;
@@ -82,11 +84,8 @@ int run(const RehearseOptions& options) {
   plan.hand =
       std::map<std::string, Hand>{{"mouse", Hand::mouse}, {"scripted", Hand::scripted}, {"simulated", Hand::simulated}}
           .at(options.device);
-  plan.display = std::map<std::string, render::DisplayMode>{{"mono", render::DisplayMode::mono},
-                                                            {"side-by-side", render::DisplayMode::side_by_side},
-                                                            {"top-bottom", render::DisplayMode::top_bottom},
-                                                            {"anaglyph", render::DisplayMode::anaglyph}}
-                     .at(options.display);
+  plan.display = options.display.mode();
+  plan.eyes_swapped = options.display.swapped();
   plan.rate_Hz = options.rate_Hz;
   plan.seconds = options.seconds;
   plan.snapshot = options.snapshot;
@@ -109,6 +108,7 @@ int run(const RehearseOptions& options) {
   if (!options.face.empty()) X_PF = dressWithFace(plan.patient, options.face);
   plan.face_window_mm = options.face_window_mm.value_or(options.face.empty() ? 0.0 : kForeignFaceWindow_mm);
   plan.rig = rigFor(options, plan.patient, X_PF);
+  options.display.refuseUnlessFits(plan.rig);
   leaveACoreToTheServo();
   rehearse(std::move(plan));
   return 0;
@@ -127,9 +127,7 @@ void addRehearse(CLI::App& molar, Chosen& chosen) {
       ->capture_default_str();
   auto* rig =
       command->add_option("--rig", o->rig, "Rig file: screen, mirror, eyes, patient pose; 1:1")->type_name("FILE");
-  command->add_option("--display", o->display, "mono, side-by-side, top-bottom or anaglyph")
-      ->check(CLI::IsMember({"mono", "side-by-side", "top-bottom", "anaglyph"}))
-      ->capture_default_str();
+  o->display.addTo(*command);
   command->add_option("--size", o->size, "Picture size")->type_name("WxH");
   command->add_option("--loupes", o->loupes, "Magnification on a desk (without --rig)")
       ->check(numberRange(1.0, 8.0))

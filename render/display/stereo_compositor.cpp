@@ -4,52 +4,37 @@
 #include "render/shaders/shared_numbers.glsl"
 
 namespace render {
+namespace {
 
-glm::ivec2 eyePictureSize(DisplayMode mode, glm::ivec2 output) {
-  switch (mode) {
-    case DisplayMode::side_by_side:
-      return {glm::max(output.x / 2, 1), output.y};
-    case DisplayMode::top_bottom:
-      return {output.x, glm::max(output.y / 2, 1)};
-    case DisplayMode::mono:
-    case DisplayMode::anaglyph:
-      break;
-  }
-  return output;
-}
+static_assert(static_cast<int>(DisplayMode::mono) == DISPLAY_MONO &&
+              static_cast<int>(DisplayMode::quad_buffer) == DISPLAY_QUAD_BUFFER &&
+              static_cast<int>(DisplayMode::two_windows) == DISPLAY_TWO_WINDOWS &&
+              static_cast<int>(DisplayMode::side_by_side) == DISPLAY_SIDE_BY_SIDE &&
+              static_cast<int>(DisplayMode::side_by_side_full) == DISPLAY_SIDE_BY_SIDE_FULL &&
+              static_cast<int>(DisplayMode::top_bottom) == DISPLAY_TOP_BOTTOM &&
+              static_cast<int>(DisplayMode::top_bottom_full) == DISPLAY_TOP_BOTTOM_FULL &&
+              static_cast<int>(DisplayMode::frame_packing) == DISPLAY_FRAME_PACKING &&
+              static_cast<int>(DisplayMode::row_interleaved) == DISPLAY_ROW_INTERLEAVED &&
+              static_cast<int>(DisplayMode::column_interleaved) == DISPLAY_COLUMN_INTERLEAVED &&
+              static_cast<int>(DisplayMode::checkerboard) == DISPLAY_CHECKERBOARD &&
+              static_cast<int>(DisplayMode::anaglyph) == DISPLAY_ANAGLYPH &&
+              static_cast<int>(DisplayMode::anaglyph_red_cyan) == DISPLAY_ANAGLYPH_RED_CYAN);
+
+}  // namespace
 
 StereoCompositor::StereoCompositor() : program_("screen.vert", "output.frag") {}
 
-void StereoCompositor::compose(DisplayMode mode, const Texture& left, const Texture& right, int samples,
+void StereoCompositor::compose(const StereoLayout& layout, const Texture& left, const Texture& right, int samples,
                                const Framebuffer& output) {
   output.bind();
   apply({.depth_test = false, .depth_write = false});
   program_.use();
-  const glm::ivec2 size = eyePictureSize(mode, output.size());
-  switch (mode) {
-    case DisplayMode::mono:
-      show(OUTPUT_LEFT, left, left, samples, {0, 0}, size);
-      break;
-    case DisplayMode::anaglyph:
-      show(OUTPUT_ANAGLYPH, left, right, samples, {0, 0}, size);
-      break;
-    case DisplayMode::side_by_side:
-      show(OUTPUT_LEFT, left, left, samples, {0, 0}, size);
-      show(OUTPUT_LEFT, right, right, samples, {size.x, 0}, size);
-      break;
-    case DisplayMode::top_bottom:
-      show(OUTPUT_LEFT, right, right, samples, {0, 0}, size);
-      show(OUTPUT_LEFT, left, left, samples, {0, size.y}, size);
-      break;
-  }
-}
-
-void StereoCompositor::show(int mode, const Texture& left, const Texture& right, int samples, glm::ivec2 corner,
-                            glm::ivec2 size) {
   left.bind(LEFT_EYE_UNIT);
   right.bind(RIGHT_EYE_UNIT);
-  block_.set(OUTPUT_BLOCK, {.mode = {mode, samples, 0, 0}, .corner = {corner, 0, 0}});
-  setViewport(corner, size);
+  block_.set(OUTPUT_BLOCK,
+             {.mode = {static_cast<int>(layout.mode), samples, layout.output, layout.swapped ? 1 : 0},
+              .place = {layout.at_px, output.size()},
+              .eye = {eyePictureSize(layout.mode, layout.screen_px), packingGap_px(layout.screen_px.y), 0}});
   drawScreen();
 }
 

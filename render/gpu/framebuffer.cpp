@@ -72,10 +72,4 @@ std::vector<float> Framebuffer::readFloat(int attachment) const {
   return values;
 }
 
-void Framebuffer::showOnWindow(glm::ivec2 window_size) const {
-  const GLenum filter = window_size == size_ ? GL_NEAREST : GL_LINEAR;
-  glBlitNamedFramebuffer(name_.get(), 0, 0, 0, size_.x, size_.y, 0, 0, window_size.x, window_size.y,
-                         GL_COLOR_BUFFER_BIT, filter);
-}
-
 }  // namespace render

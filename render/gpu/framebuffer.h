@@ -25,8 +25,6 @@ class Framebuffer {
   /// Rows bottom first, as OpenGL keeps them.
   std::vector<std::uint8_t> readRgba8(int attachment) const;
   std::vector<float> readFloat(int attachment) const;
-  /// Copies attachment 0 onto the window, scaled to `window_size`.
-  void showOnWindow(glm::ivec2 window_size) const;
 
  private:
   GlName name_;

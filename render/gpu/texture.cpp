@@ -91,6 +91,13 @@ void Texture::upload(glm::ivec3 offset, glm::ivec3 extent, const std::byte* firs
   glPixelStorei(GL_UNPACK_IMAGE_HEIGHT, 0);
 }
 
+void Texture::uploadPicture(std::span<const std::byte> texels) {
+  const FormatFacts facts = factsOf(format_);
+  assert(texels.size() == facts.bytes * static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y));
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTextureSubImage2D(name(), 0, 0, 0, size_.x, size_.y, facts.external, facts.type, texels.data());
+}
+
 void Texture::bind(int unit) const { glBindTextureUnit(static_cast<GLuint>(unit), name()); }
 
 }  // namespace render

@@ -22,6 +22,8 @@ class Texture {
   void upload(glm::ivec3 offset, glm::ivec3 extent, std::span<const std::byte> texels);
   /// The same out of a larger array: `row_texels` from one row to the next, `slice_rows` from one slice to the next.
   void upload(glm::ivec3 offset, glm::ivec3 extent, const std::byte* first, int row_texels, int slice_rows);
+  /// A whole picture, rows bottom first, tightly packed.
+  void uploadPicture(std::span<const std::byte> texels);
   void bind(int unit) const;
 
   glm::ivec3 size() const { return size_; }

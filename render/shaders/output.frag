@@ -1,11 +1,14 @@
 #version 450
-// The last pass: averages the samples of each pixel in linear light, combines the eyes, and encodes sRGB, once.
+// The last pass: averages the samples of each pixel in linear light, gives every pixel of the display the eye it is
+// for, and encodes sRGB, once. An eye's picture with fewer pixels than its place is stretched bilinearly.
 #include "shared_numbers.glsl"
 #include "light_numbers.glsl"
+#include "stereo_layout.glsl"
 
 layout(std140, binding = OUTPUT_BLOCK) uniform OutputBlock {
-  ivec4 mode;            // x: OUTPUT_…, y: samples along each edge of a pixel
-  ivec4 corner;          // x, y: lower left of the picture in the target, px
+  ivec4 mode;     // x: DISPLAY_…, y: samples along each edge of a pixel, z: second output, w: eyes swapped
+  ivec4 place;    // xy: the output's place on the panel, zw: size of the output, px
+  ivec4 eye;      // xy: size of an eye's picture, z: blank lines of a packed frame
 } job;
 
 layout(binding = LEFT_EYE_UNIT) uniform sampler2D left_eye;
@@ -20,7 +23,9 @@ vec3 shoulder(vec3 x) {
   return min(x, knee) + (1.0 - knee) * (over / (1.0 + over));
 }
 
-vec3 resolved(sampler2D picture, ivec2 pixel) {
+// A drawn pixel, from the lower left; beyond the edge the edge.
+vec3 resolved(sampler2D picture, ivec2 size, ivec2 pixel) {
+  pixel = clamp(pixel, ivec2(0), size - 1);
   vec3 sum = vec3(0.0);
   for (int j = 0; j < job.mode.y; ++j)
     for (int i = 0; i < job.mode.y; ++i)
@@ -28,14 +33,32 @@ vec3 resolved(sampler2D picture, ivec2 pixel) {
   return sum / float(job.mode.y * job.mode.y);
 }
 
+// The eye's picture at a pixel of its place, from the top left.
+vec3 seen(sampler2D picture, ivec2 px) {
+  ivec2 size = textureSize(picture, 0) / job.mode.y;
+  px.y = job.eye.y - 1 - px.y;
+  if (size == job.eye.xy) return resolved(picture, size, px);
+  vec2 at = (vec2(px) + 0.5) * vec2(size) / vec2(job.eye.xy) - 0.5;
+  ivec2 low = ivec2(floor(at));
+  vec2 part = at - vec2(low);
+  return mix(mix(resolved(picture, size, low), resolved(picture, size, low + ivec2(1, 0)), part.x),
+             mix(resolved(picture, size, low + ivec2(0, 1)), resolved(picture, size, low + ivec2(1, 1)), part.x),
+             part.y);
+}
+
 // IEC 61966-2-1.
 vec3 srgb(vec3 x) {
   return mix(12.92 * x, 1.055 * pow(max(x, 1e-6), vec3(1.0 / 2.4)) - 0.055, greaterThan(x, vec3(0.0031308)));
 }
 
-void main() {
-  ivec2 pixel = ivec2(gl_FragCoord.xy) - job.corner.xy;
-  vec3 light = resolved(left_eye, pixel);
-  if (job.mode.x == OUTPUT_ANAGLYPH) light.gb = resolved(right_eye, pixel).gb;
-  colour = vec4(srgb(clamp(light, 0.0, 1.0)), 1.0);
+vec3 light() {
+  ivec2 px = ivec2(int(gl_FragCoord.x), job.place.w - 1 - int(gl_FragCoord.y));
+  ShownPixel shown = shownAt(job.mode.x, px, job.place.xy, job.eye.xy, job.eye.z, job.mode.z != 0, job.mode.w != 0);
+  if (shown.eye == SHOWN_BLACK) return vec3(0.0);
+  if (shown.eye == SHOWN_RIGHT) return seen(right_eye, shown.px);
+  if (shown.eye != SHOWN_BOTH) return seen(left_eye, shown.px);
+  vec3 left = seen(left_eye, shown.px), right = seen(right_eye, shown.px);
+  return job.mode.w != 0 ? anaglyph(job.mode.x, right, left) : anaglyph(job.mode.x, left, right);
 }
+
+void main() { colour = vec4(srgb(clamp(light(), 0.0, 1.0)), 1.0); }

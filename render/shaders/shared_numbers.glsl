@@ -29,5 +29,22 @@
 #define FINISH_GUM 1
 #define FINISH_INSTRUMENT 2
 
-#define OUTPUT_LEFT 0            // what the output pass shows
-#define OUTPUT_ANAGLYPH 1
+#define DISPLAY_MONO 0           // display modes, render::DisplayMode
+#define DISPLAY_QUAD_BUFFER 1
+#define DISPLAY_TWO_WINDOWS 2
+#define DISPLAY_SIDE_BY_SIDE 3
+#define DISPLAY_SIDE_BY_SIDE_FULL 4
+#define DISPLAY_TOP_BOTTOM 5
+#define DISPLAY_TOP_BOTTOM_FULL 6
+#define DISPLAY_FRAME_PACKING 7
+#define DISPLAY_ROW_INTERLEAVED 8
+#define DISPLAY_COLUMN_INTERLEAVED 9
+#define DISPLAY_CHECKERBOARD 10
+#define DISPLAY_ANAGLYPH 11
+#define DISPLAY_ANAGLYPH_RED_CYAN 12
+
+#define SHOWN_BLACK 0            // what a pixel of the output shows, render::Shown
+#define SHOWN_LEFT 1
+#define SHOWN_RIGHT 2
+#define SHOWN_CYCLOPEAN 3
+#define SHOWN_BOTH 4

@@ -52,4 +52,16 @@ inline Frame frameFor(const calibration::Rig& rig) {
   return frame;
 }
 
+/// The same virtual screen and eyes, made by a panel behind a mirror: pictures on the panel are flipped left to right.
+inline calibration::Rig throughMirror(calibration::Rig rig) {
+  const calibration::ScreenCorners seen = rig.screen;
+  rig.mirror = calibration::Plane<calibration::World>{glm::normalize(glm::dvec3(0.2, 0.8, 0.5)), 30.0};
+  const calibration::Point<calibration::World> upper_right{seen.lower_right.mm + seen.upper_left.mm -
+                                                           seen.lower_left.mm};
+  rig.screen.lower_left = rig.mirror->reflect(seen.lower_right);
+  rig.screen.lower_right = rig.mirror->reflect(seen.lower_left);
+  rig.screen.upper_left = rig.mirror->reflect(upper_right);
+  return rig;
+}
+
 }  // namespace render::testing

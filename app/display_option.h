@@ -1,0 +1,31 @@
+// What kind of stereo display the picture is for, as people name it: `--display MODE`, `--swap-eyes`. Start-up only.
+#pragma once
+
+#include <string>
+
+#include "calibration/rig.h"
+#include "render/display/display_mode.h"
+
+namespace CLI {
+class App;
+}
+
+namespace app {
+
+/// "mono, quad-buffer, …"
+std::string displayNames();
+
+class DisplayOption {
+ public:
+  void addTo(CLI::App& command);
+  render::DisplayMode mode() const { return mode_; }
+  bool swapped() const { return swapped_; }
+  /// Throws UsageError where the mode can not be sent from a screen like this.
+  void refuseUnlessFits(const calibration::Rig& rig) const;
+
+ private:
+  render::DisplayMode mode_ = render::DisplayMode::mono;
+  bool swapped_ = false;
+};
+
+}  // namespace app
