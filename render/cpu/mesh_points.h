@@ -2,7 +2,6 @@
 // a time. Frame P, mm. Plain data; one thread at a time. Nothing here allocates once it has grown to its working size.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -18,32 +17,34 @@ struct RayBatch {
   static constexpr int kMost = 256;
   glm::vec3 origin_P{0.0f};
   int count = 0;
-  alignas(64) std::array<float, kMost> x{}, y{}, z{};        ///< unit directions
-  alignas(64) std::array<float, kMost> near_mm{}, far_mm{};  ///< between which a mesh can be met
+  alignas(64) float x[kMost] = {}, y[kMost] = {}, z[kMost] = {};  ///< unit directions
+  alignas(64) float near_mm[kMost] = {}, far_mm[kMost] = {};      ///< between which a mesh can be met
 };
 
-/// Places on meshes with what is needed to shade them.
+/// Places on meshes with what is needed to shade them. Plain pointers, for the kernels.
 struct MeshPoints {
   int count = 0;
-  std::vector<std::int32_t> ray;   ///< which of the batch
-  std::vector<float> distance_mm;  ///< from the eye
-  std::vector<float> nx, ny, nz;   ///< interpolated normal as the mesh has it, not of unit length
-  std::vector<float> r, g, b, a;   ///< material times vertex colour, linear; opacity
-  std::vector<float> roughness, metallic;
-  std::vector<std::int32_t> finish;     ///< FINISH_…
-  std::vector<std::int32_t> is_cut;     ///< 1 where the window in the face cuts
-  std::vector<std::int32_t> faces_eye;  ///< 1 where the outside is seen
+  std::int32_t* ray = nullptr;                        ///< which of the batch
+  float* distance_mm = nullptr;                       ///< from the eye
+  float *nx = nullptr, *ny = nullptr, *nz = nullptr;  ///< interpolated normal as the mesh has it, not of unit length
+  float *r = nullptr, *g = nullptr, *b = nullptr, *a = nullptr;  ///< material times vertex colour, linear; opacity
+  float *roughness = nullptr, *metallic = nullptr;
+  std::int32_t* finish = nullptr;     ///< FINISH_…
+  std::int32_t* is_cut = nullptr;     ///< 1 where the window in the face cuts
+  std::int32_t* faces_eye = nullptr;  ///< 1 where the outside is seen
+
+  MeshPoints() = default;
+  MeshPoints(MeshPoints&&) = default;
+  MeshPoints& operator=(MeshPoints&&) = default;
 
   void clear() { count = 0; }
   /// Makes every array long enough for `more` further points and the kernels' padding.
-  void makeRoom(int more) {
-    const auto wanted = static_cast<std::size_t>(count + more + kLanePadding);
-    if (ray.size() >= wanted) return;
-    const std::size_t size = wanted + wanted / 2;
-    for (std::vector<float>* values : {&distance_mm, &nx, &ny, &nz, &r, &g, &b, &a, &roughness, &metallic})
-      values->resize(size, 0.0f);
-    for (std::vector<std::int32_t>* values : {&ray, &finish, &is_cut, &faces_eye}) values->resize(size, 0);
-  }
+  void makeRoom(int more);
+
+ private:
+  std::vector<float> values_;
+  std::vector<std::int32_t> numbers_;
+  std::size_t room_ = 0;
 };
 
 }  // namespace render

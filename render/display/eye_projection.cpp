@@ -40,7 +40,7 @@ EyeView eyeView(const Rig& rig, Eye eye) {
   // From a tenth of the way to the screen to twenty times as far; reverse-Z floats make the range free.
   const Point<World> eye_W = placeOf(rig, eye);
   const double distance_mm = std::max(distanceToScreen_mm(rig, eye_W), 1.0);
-  return eyeView(rig, eye_W, 0.1 * distance_mm, 20.0 * distance_mm);
+  return eyeView(rig, eye_W, kNearOfScreen * distance_mm, kFarOfScreen * distance_mm);
 }
 
 EyeView eyeView(const Rig& rig, const Point<World>& eye_W, double near_mm, double far_mm) {

@@ -21,6 +21,9 @@ struct EyeView {
   bool mirrored = false;                                 ///< left-handed: front faces turn clockwise in the picture
 };
 
+/// Near and far plane, in distances from the eye to the screen.
+inline constexpr double kNearOfScreen = 0.1, kFarOfScreen = 20.0;
+
 EyeView eyeView(const calibration::Rig& rig, Eye eye);
 
 /// `near_mm` and `far_mm` along the screen's normal.

@@ -41,7 +41,7 @@ RayBatch rays(glm::vec3 from, const std::vector<glm::vec3>& directions) {
   RayBatch batch;
   batch.origin_P = from;
   for (const glm::vec3& d : directions) {
-    const auto i = static_cast<std::size_t>(batch.count++);
+    const int i = batch.count++;
     batch.x[i] = d.x, batch.y[i] = d.y, batch.z[i] = d.z;
     batch.near_mm[i] = 0.0f, batch.far_mm[i] = 1e6f;
   }

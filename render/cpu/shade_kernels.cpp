@@ -1,0 +1,44 @@
+#include "render/cpu/shade_kernels.h"
+
+#include <cmath>
+
+#include "render/cpu/shade_kernel_tables.h"
+#include "render/cpu/srgb_pieces.h"
+
+namespace render {
+namespace {
+
+double exact(double x) { return 255.0 * (1.055 * std::pow(x, 1.0 / 2.4) - 0.055); }
+
+SrgbPieces pieces() {
+  SrgbPieces table{};
+  for (int p = 0; p < kSrgbPieces; ++p) {
+    const double octave = std::ldexp(1.0, p / 8 - 9), from = octave * (1.0 + (p % 8) / 8.0), to = from + octave / 8.0;
+    // A line through both ends runs below the curve, the most about the middle: lift it by half of that.
+    const double lift = 0.5 * (exact(0.5 * (from + to)) - 0.5 * (exact(from) + exact(to)));
+    table.low[p] = static_cast<float>(exact(from) + lift);
+    table.rise[p] = static_cast<float>(exact(to) - exact(from));
+  }
+  return table;
+}
+
+}  // namespace
+
+const SrgbPieces kSrgbTable = pieces();
+
+const ShadeKernels& shadeKernels(assets::InstructionSet set) {
+  switch (set) {
+#if defined(__x86_64__)
+    case assets::InstructionSet::avx512:
+      return kShadeKernelsAvx512;
+    case assets::InstructionSet::avx2:
+      return kShadeKernelsAvx2;
+#endif
+    default:
+      return kShadeKernelsPortable;
+  }
+}
+
+const ShadeKernels& shadeKernels() { return shadeKernels(assets::chosenInstructionSet()); }
+
+}  // namespace render
