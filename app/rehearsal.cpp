@@ -271,7 +271,7 @@ class Rehearsal {
   void drawFrame() {
     renderer_->render(frame_);
     if (window_) {
-      renderer_->showOnWindow(window_->framebufferSize_px());
+      renderer_->showOnWindow({.size_px = window_->framebufferSize_px()});
       window_->present();
     } else {
       renderer_->readPicture();

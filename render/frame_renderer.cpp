@@ -44,9 +44,9 @@ void FrameRenderer::renderEye(const Frame& frame, Eye eye) {
   scene_->drawEye(frame, eye, frame.rig.screen.px);
 }
 
-void FrameRenderer::showOnWindow(glm::ivec2 window_px, int output, WindowBuffer buffer) {
-  scene_->showOnWindow(window_px, output, buffer);
-}
+void FrameRenderer::composeForBystander() { scene_->composeForBystander(); }
+void FrameRenderer::showOnWindow(const WindowPlace& place, int output) { scene_->showOnWindow(place, output); }
+void FrameRenderer::showBystander(const WindowPlace& place) { scene_->showOnWindow(place, kBystanderOutput); }
 Picture FrameRenderer::readPicture(int output) { return scene_->readPicture(output); }
 Picture FrameRenderer::readEye(Eye eye) { return scene_->readEye(eye); }
 DistancePicture FrameRenderer::readDistance(Eye eye) { return scene_->readDistance(eye); }

@@ -11,7 +11,7 @@
 #include "assets/volume_grid.h"
 #include "render/display/eye_projection.h"
 #include "render/frame.h"
-#include "render/gpu/window_buffer.h"
+#include "render/gpu/window_place.h"
 #include "render/picture.h"
 #include "render/render_options.h"
 #include "render/volume/occupancy.h"
@@ -40,8 +40,12 @@ class FrameRenderer {
   /// Draws one eye alone at the full screen size, for readEye and readDistance.
   void renderEye(const Frame& frame, Eye eye);
 
-  /// Scales an output onto the current window's framebuffer: of the renderer's context or of one that shares with it.
-  void showOnWindow(glm::ivec2 window_px, int output = 0, WindowBuffer buffer = WindowBuffer::back);
+  /// What was rendered last, from one eye, for showBystander: no second drawing, one pass over its pixels.
+  void composeForBystander();
+
+  /// Scales an output into the current window: that of the renderer's context or of one that shares with it.
+  void showOnWindow(const WindowPlace& place, int output = 0);
+  void showBystander(const WindowPlace& place);
   Picture readPicture(int output = 0);
   /// The eye as last drawn; it must have been drawn.
   Picture readEye(Eye eye);

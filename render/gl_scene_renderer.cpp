@@ -72,8 +72,9 @@ class GlSceneRenderer final : public SceneRenderer {
   void drawEye(const Frame& frame, Eye eye, glm::ivec2 px) override;
   void compose(const Frame& frame) override;
 
-  void showOnWindow(glm::ivec2 window_px, int output, WindowBuffer buffer) override {
-    showPictureOnWindow(outputs_[static_cast<std::size_t>(output)].colour(0), window_px, buffer);
+  void composeForBystander() override;
+  void showOnWindow(const WindowPlace& place, int output) override {
+    showPictureOnWindow(outputs_[static_cast<std::size_t>(output)].colour(0), place);
   }
   Picture readPicture(int output) override { return pictureOf(outputs_[static_cast<std::size_t>(output)]); }
   Picture readEye(Eye eye) override;
@@ -95,7 +96,8 @@ class GlSceneRenderer final : public SceneRenderer {
   StereoCompositor compositor_;
   std::optional<SceneMesh> face_, gum_, instrument_;
   std::array<EyePicture, 3> pictures_;
-  std::array<Framebuffer, 2> outputs_;
+  Eye composed_from_ = Eye::cyclopean;
+  std::array<Framebuffer, 3> outputs_;
 };
 
 void GlSceneRenderer::drawEye(const Frame& frame, Eye eye, glm::ivec2 px) {
@@ -140,6 +142,7 @@ void GlSceneRenderer::compose(const Frame& frame) {
                       .swapped = frame.eyes_swapped};
   const glm::ivec2 size = outputSize(frame.display, frame.rig.screen.px);
   const bool mono = frame.display == DisplayMode::mono;
+  composed_from_ = mono ? Eye::cyclopean : Eye::left;
   const Texture& left = picture(mono ? Eye::cyclopean : Eye::left).target.colour(COLOUR_TARGET);
   const Texture& right = picture(mono ? Eye::cyclopean : Eye::right).target.colour(COLOUR_TARGET);
   for (layout.output = 0; layout.output < outputCount(frame.display); ++layout.output) {
@@ -147,6 +150,15 @@ void GlSceneRenderer::compose(const Frame& frame) {
     if (output.size() != size) output = Framebuffer(size, kOutputTargets, false);
     compositor_.compose(layout, left, right, samples_, output);
   }
+}
+
+void GlSceneRenderer::composeForBystander() {
+  const EyePicture& seen = picture(composed_from_);
+  const glm::ivec2 size = seen.frame.rig.screen.px;
+  Framebuffer& output = outputs_[kBystanderOutput];
+  if (output.size() != size) output = Framebuffer(size, kOutputTargets, false);
+  const Texture& light = seen.target.colour(COLOUR_TARGET);
+  compositor_.compose({.screen_px = size}, light, light, samples_, output);
 }
 
 Picture GlSceneRenderer::readEye(Eye eye) {

@@ -9,11 +9,14 @@
 #include "assets/mesh.h"
 #include "render/display/eye_projection.h"
 #include "render/frame.h"
-#include "render/gpu/window_buffer.h"
+#include "render/gpu/window_place.h"
 #include "render/picture.h"
 #include "render/volume/occupancy.h"
 
 namespace render {
+
+/// Besides the one or two of the display: what those see who stand by.
+inline constexpr int kBystanderOutput = 2;
 
 class SceneRenderer {
  public:
@@ -35,8 +38,11 @@ class SceneRenderer {
   /// drawn smaller than eyePictureSize() are stretched bilinearly.
   virtual void compose(const Frame& frame) = 0;
 
-  /// Scales an output onto the current window's framebuffer; the context may be one that shares with the renderer's.
-  virtual void showOnWindow(glm::ivec2 window_px, int output, WindowBuffer buffer) = 0;
+  /// The left or cyclopean eye of the frame composed last, alone and of frame.rig.screen.px: output kBystanderOutput.
+  virtual void composeForBystander() = 0;
+
+  /// Scales an output into the current window; the context may be one that shares with the renderer's.
+  virtual void showOnWindow(const WindowPlace& place, int output) = 0;
   virtual Picture readPicture(int output) = 0;
   virtual Picture readEye(Eye eye) = 0;
   virtual DistancePicture readDistance(Eye eye) = 0;

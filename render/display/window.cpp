@@ -3,6 +3,8 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -31,6 +33,25 @@ std::string complaint() {
   return text != nullptr ? text : "no reason given";
 }
 
+void startLibrary() {
+  if (glfwInit() != GLFW_TRUE)
+    throw GpuError("no window, display: " + complaint() + "; start a desktop session or use --headless");
+}
+
+// The monitor asked for, or the primary one for a full screen; none: the window system chooses.
+GLFWmonitor* monitorFor(const Window::Options& options) {
+  int count = 0;
+  GLFWmonitor** const all = glfwGetMonitors(&count);
+  if (options.monitor) return *options.monitor >= 0 && *options.monitor < count ? all[*options.monitor] : nullptr;
+  return options.full_screen ? glfwGetPrimaryMonitor() : nullptr;
+}
+
+MouseButton buttonOf(int glfw_button) {
+  if (glfw_button == GLFW_MOUSE_BUTTON_LEFT) return MouseButton::left;
+  if (glfw_button == GLFW_MOUSE_BUTTON_RIGHT) return MouseButton::right;
+  return glfw_button == GLFW_MOUSE_BUTTON_MIDDLE ? MouseButton::middle : MouseButton::none;
+}
+
 }  // namespace
 
 struct Window::Impl {
@@ -40,29 +61,53 @@ struct Window::Impl {
 
   static Impl& of(GLFWwindow* window) { return *static_cast<Impl*>(glfwGetWindowUserPointer(window)); }
   glm::dvec2 framebufferScale() const;
+  GLFWmonitor* panel() const;
 
   GLFWwindow* window = nullptr;
+  bool owns_library = true;  ///< the first window, which the others are beside
   std::vector<WindowEvent> events;
   glm::dvec2 pointer_px{0.0};
 };
 
-Window::Impl::Impl(const Options& options) {
-  if (glfwInit() != GLFW_TRUE)
-    throw GpuError("no window, display: " + complaint() + "; start a desktop session or use --headless");
+Window::Impl::Impl(const Options& options) : owns_library(options.beside == nullptr) {
+  startLibrary();
+  const auto refuse = [&](const std::string& what, const std::string& to_do) {
+    const std::string reason = complaint();
+    if (owns_library) glfwTerminate();
+    throw GpuError(what + ", display: " + reason + "; " + to_do);
+  };
+  GLFWmonitor* const monitor = monitorFor(options);
+  if (options.monitor && monitor == nullptr)
+    refuse("monitor " + std::to_string(*options.monitor + 1) + " is not there", "connect it or choose another");
+  const GLFWvidmode* const desktop = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
+  glm::ivec2 size = options.size_px;
+  if (options.full_screen && desktop != nullptr) size = {desktop->width, desktop->height};
+
+  glfwDefaultWindowHints();
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, options.debugging ? GLFW_TRUE : GLFW_FALSE);
+  glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
   glfwWindowHint(GLFW_VISIBLE, options.visible ? GLFW_TRUE : GLFW_FALSE);
-  GLFWmonitor* const monitor = options.full_screen ? glfwGetPrimaryMonitor() : nullptr;
-  glm::ivec2 size = options.size_px;
-  if (monitor != nullptr)
-    if (const GLFWvidmode* mode = glfwGetVideoMode(monitor)) size = {mode->width, mode->height};
-  window = glfwCreateWindow(size.x, size.y, options.title.c_str(), monitor, nullptr);
+  glfwWindowHint(GLFW_FOCUSED, options.focused ? GLFW_TRUE : GLFW_FALSE);
+  glfwWindowHint(GLFW_FOCUS_ON_SHOW, options.focused ? GLFW_TRUE : GLFW_FALSE);
+  glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);  // two full screens: the one without the keyboard stays
+  glfwWindowHint(GLFW_STEREO, options.quad_buffer ? GLFW_TRUE : GLFW_FALSE);
+  GLFWwindow* const shared = options.beside != nullptr ? options.beside->impl_->window : nullptr;
+  window = glfwCreateWindow(size.x, size.y, options.title.c_str(), options.full_screen ? monitor : nullptr, shared);
+  if (window == nullptr && options.quad_buffer)
+    refuse("no quad-buffered stereo", "it needs GLX and a professional graphics card with stereo enabled");
   if (window == nullptr) {
-    const std::string reason = complaint();
-    glfwTerminate();
-    throw GpuError("no window with OpenGL 4.5, display: " + reason + "; update the graphics driver or use --headless");
+    // Not every driver can tell when it was reset.
+    glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_NO_ROBUSTNESS);
+    window = glfwCreateWindow(size.x, size.y, options.title.c_str(), options.full_screen ? monitor : nullptr, shared);
+  }
+  if (window == nullptr) refuse("no window with OpenGL 4.5", "update the graphics driver or use --headless");
+  if (!options.full_screen && options.monitor) {
+    glm::ivec2 corner{0};
+    glfwGetMonitorPos(monitor, &corner.x, &corner.y);
+    glfwSetWindowPos(window, corner.x, corner.y);
   }
   glfwMakeContextCurrent(window);
   glfwSwapInterval(options.wait_for_refresh ? 1 : 0);
@@ -71,7 +116,30 @@ Window::Impl::Impl(const Options& options) {
 
 Window::Impl::~Impl() {
   glfwDestroyWindow(window);
-  glfwTerminate();
+  if (owns_library) glfwTerminate();
+}
+
+// The monitor that shows most of the window.
+GLFWmonitor* Window::Impl::panel() const {
+  if (GLFWmonitor* full = glfwGetWindowMonitor(window)) return full;
+  glm::ivec2 at{0}, size{0};
+  glfwGetWindowPos(window, &at.x, &at.y);
+  glfwGetWindowSize(window, &size.x, &size.y);
+  GLFWmonitor* best = nullptr;
+  int most = std::numeric_limits<int>::min();
+  int count = 0;
+  GLFWmonitor** const all = glfwGetMonitors(&count);
+  for (int m = 0; m < count; ++m) {
+    const GLFWvidmode* mode = glfwGetVideoMode(all[m]);
+    if (mode == nullptr) continue;
+    glm::ivec2 corner{0};
+    glfwGetMonitorPos(all[m], &corner.x, &corner.y);
+    const glm::ivec2 shared =
+        glm::min(at + size, corner + glm::ivec2(mode->width, mode->height)) - glm::max(at, corner);
+    const int area = shared.x > 0 && shared.y > 0 ? shared.x * shared.y : 0;
+    if (area > most) most = area, best = all[m];
+  }
+  return best;
 }
 
 glm::dvec2 Window::Impl::framebufferScale() const {
@@ -92,6 +160,9 @@ void Window::Impl::listen() {
     self.events.push_back(PointerMoved{to_px, to_px - self.pointer_px, heldButton(w)});
     self.pointer_px = to_px;
   });
+  glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
+    of(w).events.push_back(ButtonPressed{buttonOf(button), action == GLFW_PRESS});
+  });
   glfwSetScrollCallback(window,
                         [](GLFWwindow* w, double, double notches) { of(w).events.push_back(WheelTurned{notches}); });
   glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int modifiers) {
@@ -104,6 +175,8 @@ void Window::Impl::listen() {
 Window::Window(const Options& options) : impl_(std::make_unique<Impl>(options)) {}
 
 Window::~Window() = default;
+
+void Window::makeCurrent() { glfwMakeContextCurrent(impl_->window); }
 
 std::vector<WindowEvent> Window::takeEvents() {
   glfwPollEvents();
@@ -118,6 +191,37 @@ glm::ivec2 Window::framebufferSize_px() const {
   glm::ivec2 px{0};
   glfwGetFramebufferSize(impl_->window, &px.x, &px.y);
   return px;
+}
+
+glm::ivec2 Window::placeOnPanel_px() const {
+  glm::ivec2 at{0}, corner{0};
+  glfwGetWindowPos(impl_->window, &at.x, &at.y);
+  if (GLFWmonitor* panel = impl_->panel()) glfwGetMonitorPos(panel, &corner.x, &corner.y);
+  return glm::ivec2(glm::round(glm::dvec2(at - corner) * impl_->framebufferScale()));
+}
+
+double Window::refresh_Hz() const {
+  GLFWmonitor* panel = impl_->panel();
+  const GLFWvidmode* mode = panel != nullptr ? glfwGetVideoMode(panel) : nullptr;
+  return mode != nullptr && mode->refreshRate > 0 ? mode->refreshRate : 60.0;
+}
+
+std::vector<Monitor> monitors() {
+  startLibrary();
+  std::vector<Monitor> found;
+  int count = 0;
+  GLFWmonitor** const all = glfwGetMonitors(&count);
+  for (int m = 0; m < count; ++m) {
+    Monitor monitor;
+    monitor.name = glfwGetMonitorName(all[m]);
+    glfwGetMonitorPos(all[m], &monitor.at_px.x, &monitor.at_px.y);
+    if (const GLFWvidmode* mode = glfwGetVideoMode(all[m])) {
+      monitor.px = {mode->width, mode->height};
+      if (mode->refreshRate > 0) monitor.refresh_Hz = mode->refreshRate;
+    }
+    found.push_back(monitor);
+  }
+  return found;
 }
 
 }  // namespace render

@@ -1,10 +1,13 @@
 // A window with an OpenGL 4.5 core context, and what the user does in it as plain values. GLFW inside.
-// The context is current on the constructing thread from construction to destruction. Main thread only; one at a time.
-// Positions in px of the framebuffer from its top left. Not for quad-buffered stereo.
+// Its context is current on the constructing thread from construction on, or after makeCurrent(). A second window may
+// share textures with a first one, which must outlive it; framebuffers are never shared. Main thread only.
+// Positions in px of the framebuffer from its top left.
+// Quad-buffered stereo is asked of GLX; drivers without it refuse the window (GLFW error 0x10009), which is thrown.
 #pragma once
 
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -42,6 +45,10 @@ struct PointerMoved {
   glm::dvec2 to_px{0.0}, by_px{0.0};
   MouseButton button = MouseButton::none;
 };
+struct ButtonPressed {
+  MouseButton button = MouseButton::none;
+  bool down = false;
+};
 /// Notches away from the user.
 struct WheelTurned {
   double notches = 0.0;
@@ -54,7 +61,16 @@ struct KeyPressed {
 };
 struct CloseAsked {};
 
-using WindowEvent = std::variant<PointerMoved, WheelTurned, KeyPressed, CloseAsked>;
+using WindowEvent = std::variant<PointerMoved, ButtonPressed, WheelTurned, KeyPressed, CloseAsked>;
+
+struct Monitor {
+  std::string name;
+  glm::ivec2 at_px{0}, px{0};  ///< on the desktop, from its top left
+  double refresh_Hz = 60.0;
+};
+
+/// In the system's order, the primary one first. Throws GpuError without display.
+std::vector<Monitor> monitors();
 
 class Window {
  public:
@@ -62,23 +78,34 @@ class Window {
     std::string title = "Molar";
     glm::ivec2 size_px{1280, 800};
     bool full_screen = false;
+    std::optional<int> monitor =
+        std::nullopt;              ///< to be on, index of monitors(); full screen without it: the primary one
     bool wait_for_refresh = true;  ///< vsync
     bool visible = true;
-    bool debugging = false;  ///< KHR_debug context
+    bool focused = true;             ///< takes the keyboard when it opens
+    bool debugging = false;          ///< KHR_debug context
+    bool quad_buffer = false;        ///< left and right back buffers
+    const Window* beside = nullptr;  ///< shares textures with it
   };
 
-  /// Throws GpuError without display or without OpenGL 4.5.
+  /// Throws GpuError without display, without OpenGL 4.5, without the stereo asked for or the monitor.
   explicit Window(const Options& options);
   ~Window();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
+  /// Drawing goes to this window from now on.
+  void makeCurrent();
   /// What happened since the last call, in order.
   std::vector<WindowEvent> takeEvents();
-  /// Shows what was drawn into the window's framebuffer.
+  /// Shows what was drawn into the window's framebuffer. Its context must be current.
   void present();
   void setTitle(const std::string& title);
   glm::ivec2 framebufferSize_px() const;
+  /// Top left of the framebuffer on the panel that shows most of it, px of the panel.
+  glm::ivec2 placeOnPanel_px() const;
+  /// Of that panel.
+  double refresh_Hz() const;
 
  private:
   struct Impl;

@@ -33,6 +33,9 @@ GlDebugLog::~GlDebugLog() {
 }
 
 void GlDebugLog::throwIfError(std::string_view where) {
+  // Core since OpenGL 4.5; contexts that can not be lost say so by never reporting it.
+  if (glGetGraphicsResetStatus() != GL_NO_ERROR)
+    throw ContextLost("the graphics card was reset, " + std::string(where) + ": its driver gave up; draw anew");
   const GLenum code = glGetError();
   if (code == GL_NO_ERROR && first_error_.empty()) return;
   std::string text = "OpenGL error " + std::to_string(code) + ", " + std::string(where) + ": " +

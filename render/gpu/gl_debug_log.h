@@ -15,7 +15,7 @@ class GlDebugLog {
   GlDebugLog(const GlDebugLog&) = delete;
   GlDebugLog& operator=(const GlDebugLog&) = delete;
 
-  /// Throws GpuError naming `where` if an OpenGL error happened since the last call.
+  /// Throws GpuError naming `where` if an OpenGL error happened since the last call, ContextLost after a reset.
   void throwIfError(std::string_view where);
 
  private:

@@ -10,4 +10,9 @@ struct GpuError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The graphics card was reset: context and all in it are gone; windows and renderers must be made anew.
+struct ContextLost : GpuError {
+  using GpuError::GpuError;
+};
+
 }  // namespace render

@@ -2,22 +2,38 @@
 
 #include <epoxy/gl.h>
 
+#include <array>
+
 namespace render {
+namespace {
+
+GLenum nameOf(WindowBuffer buffer) {
+  if (buffer == WindowBuffer::back_left) return GL_BACK_LEFT;
+  return buffer == WindowBuffer::back_right ? GL_BACK_RIGHT : GL_BACK;
+}
+
+}  // namespace
 
 // Framebuffer objects are not shared between contexts: this one lives for one copy.
-void showPictureOnWindow(const Texture& picture, glm::ivec2 window_size, WindowBuffer buffer) {
+void showPictureOnWindow(const Texture& picture, const WindowPlace& place) {
   GLuint from = 0;
   glCreateFramebuffers(1, &from);
   glNamedFramebufferTexture(from, GL_COLOR_ATTACHMENT0, picture.name(), 0);
-  const glm::ivec2 size = picture.size();
-  const GLenum to = buffer == WindowBuffer::back_left    ? GL_BACK_LEFT
-                    : buffer == WindowBuffer::back_right ? GL_BACK_RIGHT
-                                                         : GL_BACK;
-  glNamedFramebufferDrawBuffer(0, to);
-  glBlitNamedFramebuffer(from, 0, 0, 0, size.x, size.y, 0, 0, window_size.x, window_size.y, GL_COLOR_BUFFER_BIT,
-                         window_size == size ? GL_NEAREST : GL_LINEAR);
+  const glm::ivec2 size = picture.size(), low = place.corner_px, high = low + place.size_px;
+  glNamedFramebufferDrawBuffer(0, nameOf(place.buffer));
+  glBlitNamedFramebuffer(from, 0, 0, 0, size.x, size.y, low.x, low.y, high.x, high.y, GL_COLOR_BUFFER_BIT,
+                         place.size_px == size ? GL_NEAREST : GL_LINEAR);
   glNamedFramebufferDrawBuffer(0, GL_BACK);
   glDeleteFramebuffers(1, &from);
+}
+
+void blackenWindow(WindowBuffer buffer) {
+  const std::array<float, 4> black{0.0f, 0.0f, 0.0f, 1.0f};
+  glNamedFramebufferDrawBuffer(0, nameOf(buffer));
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glDisable(GL_SCISSOR_TEST);
+  glClearNamedFramebufferfv(0, GL_COLOR, 0, black.data());
+  glNamedFramebufferDrawBuffer(0, GL_BACK);
 }
 
 }  // namespace render

@@ -5,8 +5,10 @@
 
 #include <cstdlib>
 
+#include "render/gpu/frame_fence.h"
 #include "render/gpu/gpu_error.h"
 #include "tests/render/drawn_scene.h"
+#include "tests/render/window_pixels.h"
 
 namespace render {
 namespace {
@@ -37,11 +39,59 @@ TEST(Window, ShowsAFrameOfTheRenderer) {
   FrameRenderer renderer(ct.grid, ct.solid, ct.label);
   const Frame frame = testing::frameFor(cameraRig({.eye_P_mm = {0, -200, 0}, .fov_y_rad = 0.17}, {320, 240}));
   renderer.render(frame);
-  renderer.showOnWindow(window.framebufferSize_px());
+  renderer.showOnWindow({.size_px = window.framebufferSize_px()});
   window.present();
   EXPECT_GT(renderer.readPicture().rgba[4 * (120 * 320 + 160)], 60);
   EXPECT_NO_THROW(renderer.throwIfError());
   EXPECT_NO_THROW(window.takeEvents());
+}
+
+TEST(Window, ASecondWindowShowsWhatTheFirstDrew) {
+  if (!hasDisplay()) GTEST_SKIP() << "no DISPLAY: run under xvfb-run";
+  Window first({.size_px = {160, 120}});
+  const assets::CtVolume ct = testing::ballVolume(testing::smallGrid(), {{{0, 0, 0}, 9.0}});
+  FrameRenderer renderer(ct.grid, ct.solid, ct.label);
+  Frame frame = testing::frameFor(cameraRig({.eye_P_mm = {0, -200, 0}, .fov_y_rad = 0.17}, {160, 120}));
+  frame.display = DisplayMode::two_windows;
+  renderer.render(frame);
+  renderer.composeForBystander();
+  FrameFence drawn;
+  drawn.mark();
+  Window second({.size_px = {160, 120}, .wait_for_refresh = false, .focused = false, .beside = &first});
+  drawn.follow();
+  renderer.showOnWindow({.size_px = {160, 120}}, 1);
+  // What the window got is what the renderer has for the right eye, not for the left.
+  EXPECT_EQ(testing::windowPixels({160, 120}), renderer.readPicture(1).rgba);
+  EXPECT_NE(renderer.readPicture(0).rgba, renderer.readPicture(1).rgba);
+  renderer.showBystander({.size_px = {160, 120}});
+  EXPECT_EQ(testing::windowPixels({160, 120}), renderer.readEye(Eye::left).rgba);
+  second.present();
+  first.makeCurrent();
+  EXPECT_NO_THROW(renderer.throwIfError());
+}
+
+TEST(Window, QuadBufferedStereoIsRefusedInOneLineWhereTheDriverHasNone) {
+  if (!hasDisplay()) GTEST_SKIP() << "no DISPLAY: run under xvfb-run";
+  try {
+    const Window window({.size_px = {160, 120}, .quad_buffer = true});
+    GTEST_SKIP() << "this driver has it";
+  } catch (const GpuError& error) {
+    EXPECT_NE(std::string(error.what()).find("quad-buffered"), std::string::npos);
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+  }
+  // The next best still opens.
+  EXPECT_NO_THROW(Window({.size_px = {160, 120}}));
+}
+
+TEST(Window, KnowsItsPlaceOnThePanelAndRefusesAMonitorThatIsNotThere) {
+  if (!hasDisplay()) GTEST_SKIP() << "no DISPLAY: run under xvfb-run";
+  ASSERT_GE(monitors().size(), 1u);
+  EXPECT_GT(monitors()[0].px.x, 0);
+  EXPECT_GT(monitors()[0].refresh_Hz, 0.0);
+  const Window window({.size_px = {160, 120}, .monitor = 0});
+  EXPECT_GE(window.placeOnPanel_px().x, 0);
+  EXPECT_GT(window.refresh_Hz(), 0.0);
+  EXPECT_THROW(Window({.size_px = {160, 120}, .monitor = 9, .beside = &window}), GpuError);
 }
 
 }  // namespace
