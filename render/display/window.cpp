@@ -71,10 +71,9 @@ struct Window::Impl {
 
 Window::Impl::Impl(const Options& options) : owns_library(options.beside == nullptr) {
   startLibrary();
+  // The library stays started: the next best window is opened with it.
   const auto refuse = [&](const std::string& what, const std::string& to_do) {
-    const std::string reason = complaint();
-    if (owns_library) glfwTerminate();
-    throw GpuError(what + ", display: " + reason + "; " + to_do);
+    throw GpuError(what + ", display: " + complaint() + "; " + to_do);
   };
   GLFWmonitor* const monitor = monitorFor(options);
   if (options.monitor && monitor == nullptr)
