@@ -26,6 +26,34 @@ inline unsigned bits(Mask mask) { return static_cast<unsigned>(_mm256_movemask_p
 /// Lanes as pairs of signed 16 bits: low · low + high · high.
 inline Int pairSums(Int a, Int b) { return Int(_mm256_madd_epi16(__m256i(a), __m256i(b))); }
 
+/// For every mask the lanes it names, first to last, a nibble each.
+struct LaneOrders {
+  std::uint32_t order[256];
+  constexpr LaneOrders() : order() {
+    for (unsigned mask = 0; mask < 256; ++mask) {
+      unsigned place = 0;
+      for (unsigned lane = 0; lane < 8; ++lane)
+        if ((mask >> lane & 1u) != 0) order[mask] |= lane << (4 * place++);
+    }
+  }
+};
+constexpr LaneOrders kLaneOrders;
+/// Writes the values of the mask's lanes one after the other, and anything behind them up to kLanes; how many.
+inline int compress(std::int32_t* to, Int value, Mask mask) {
+  const unsigned chosen = bits(mask);
+  const __m256i nibbles = _mm256_set1_epi32(static_cast<int>(kLaneOrders.order[chosen]));
+  const __m256i order = _mm256_srlv_epi32(nibbles, _mm256_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28));
+  store(to, Int(_mm256_permutevar8x32_epi32(__m256i(value), order)));
+  return __builtin_popcount(chosen);
+}
+inline int compress(float* to, Float value, Mask mask) {
+  const unsigned chosen = bits(mask);
+  const __m256i nibbles = _mm256_set1_epi32(static_cast<int>(kLaneOrders.order[chosen]));
+  const __m256i order = _mm256_srlv_epi32(nibbles, _mm256_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28));
+  store(to, Float(_mm256_permutevar8x32_ps(value, order)));
+  return __builtin_popcount(chosen);
+}
+
 template <class T, int kScale>
 inline int element(const void* base, std::int32_t index) {
   T value;

@@ -25,6 +25,18 @@ inline Int select(Mask mask, Int yes, Int no) {
 /// Lanes as pairs of signed 16 bits: low · low + high · high.
 inline Int pairSums(Int a, Int b) { return Int(_mm512_madd_epi16(__m512i(a), __m512i(b))); }
 
+/// Writes the values of the mask's lanes one after the other, and anything behind them up to kLanes; how many.
+inline int compress(float* to, Float value, Mask mask) {
+  const unsigned chosen = bits(mask);
+  _mm512_storeu_ps(to, _mm512_maskz_compress_ps(static_cast<__mmask16>(chosen), value));
+  return __builtin_popcount(chosen);
+}
+inline int compress(std::int32_t* to, Int value, Mask mask) {
+  const unsigned chosen = bits(mask);
+  _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(chosen), __m512i(value)));
+  return __builtin_popcount(chosen);
+}
+
 /// 32 bits at `index` times kScale bytes from the base, however aligned.
 template <int kScale>
 inline Int gather32(const void* base, Int index) {

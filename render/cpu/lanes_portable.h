@@ -33,6 +33,20 @@ inline unsigned bits(Mask mask) {
 /// Lanes as pairs of signed 16 bits: low · low + high · high.
 inline Int pairSums(Int a, Int b) { return ((a << 16) >> 16) * ((b << 16) >> 16) + (a >> 16) * (b >> 16); }
 
+/// Writes the values of the mask's lanes one after the other, and anything behind them up to kLanes; how many.
+inline int compress(float* to, Float value, Mask mask) {
+  int count = 0;
+  for (int n = 0; n < kLanes; ++n)
+    if (mask[n] != 0) to[count++] = value[n];
+  return count;
+}
+inline int compress(std::int32_t* to, Int value, Mask mask) {
+  int count = 0;
+  for (int n = 0; n < kLanes; ++n)
+    if (mask[n] != 0) to[count++] = value[n];
+  return count;
+}
+
 template <class T, int kScale>
 inline T element(const void* base, std::int32_t index) {
   T value;

@@ -1,0 +1,203 @@
+#include "render/cpu/solid_cells.h"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace render {
+namespace {
+
+constexpr int kEdge = SolidCells::kEdge, kSide = kEdge + 1;
+
+/// The voxels that a brick's cells touch, air outside the volume.
+struct Block {
+  std::uint8_t value[kSide][kSide][kSide];
+};
+
+Block voxelsOf(const BorderedField<std::uint8_t>& solid, glm::ivec3 brick) {
+  Block block{};
+  const glm::ivec3 first = (brick - 1) * kEdge;
+  const glm::ivec3 low = glm::max(first, glm::ivec3(0)), high = glm::min(first + kSide, solid.layout().size);
+  if (low.x >= high.x) return block;
+  for (int k = low.z; k < high.z; ++k)
+    for (int j = low.y; j < high.y; ++j)
+      std::memcpy(&block.value[k - first.z][j - first.y][low.x - first.x], solid.at({low.x, j, k}),
+                  static_cast<std::size_t>(high.x - low.x));
+  return block;
+}
+
+bool isSolid(const Block& block) {
+  const std::uint8_t* const values = &block.value[0][0][0];
+  std::uint8_t high_bits = 0;
+  static_assert(SolidCells::kSolidFrom == 128);
+  for (int n = 0; n < kSide * kSide * kSide; ++n) high_bits |= values[n];
+  return (high_bits & 128) != 0;
+}
+
+void fill(const Block& block, std::uint32_t* words) {
+  for (int k = 0; k < kEdge; ++k)
+    for (int j = 0; j < kEdge; ++j)
+      for (int i = 0; i < SolidCells::kRowWords; ++i)
+        *words++ = static_cast<std::uint32_t>(block.value[k][j][i] | (block.value[k][j + 1][i] << 8) |
+                                              (block.value[k + 1][j][i] << 16)) |
+                   (static_cast<std::uint32_t>(block.value[k + 1][j + 1][i]) << 24);
+}
+
+/// One bit per brick, rows of whole words.
+class BrickBits {
+ public:
+  explicit BrickBits(glm::ivec3 size)
+      : size_(size),
+        row_(static_cast<std::size_t>(size.x + 63) / 64),
+        bits_(row_ * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z)) {}
+
+  void set(int i, int j, int k) { bits_[at(j, k) + static_cast<std::size_t>(i) / 64] |= std::uint64_t{1} << (i % 64); }
+
+  /// Grows by one brick in every direction, corners included; calls found(i, j, k) for each new one. False: none.
+  template <class Found>
+  bool grow(Found found) {
+    const std::vector<std::uint64_t> before = bits_;
+    for (std::size_t first = 0; first < bits_.size(); first += row_)
+      for (std::size_t w = 0; w < row_; ++w) {
+        const std::uint64_t word = before[first + w];
+        const std::uint64_t left = w > 0 ? before[first + w - 1] >> 63 : 0;
+        const std::uint64_t right = w + 1 < row_ ? before[first + w + 1] << 63 : 0;
+        bits_[first + w] = word | (word << 1) | (word >> 1) | left | right;
+      }
+    growAcross(row_, static_cast<std::size_t>(size_.y), static_cast<std::size_t>(size_.z));
+    growAcross(row_ * static_cast<std::size_t>(size_.y), static_cast<std::size_t>(size_.z), 1);
+
+    bool is_new = false;
+    for (int k = 0; k < size_.z; ++k)
+      for (int j = 0; j < size_.y; ++j)
+        for (std::size_t w = 0; w < row_; ++w) {
+          std::uint64_t fresh = bits_[at(j, k) + w] & ~before[at(j, k) + w];
+          for (; fresh != 0; fresh &= fresh - 1)
+            if (const int i = static_cast<int>(w) * 64 + __builtin_ctzll(fresh); i < size_.x) {
+              found(i, j, k);
+              is_new = true;
+            }
+        }
+    return is_new;
+  }
+
+ private:
+  std::size_t at(int j, int k) const {
+    return (static_cast<std::size_t>(k) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(j)) * row_;
+  }
+  /// Ors each of `steps` runs of `width` words with the runs before and behind it, in each of `sheets` sheets.
+  void growAcross(std::size_t width, std::size_t steps, std::size_t sheets) {
+    const std::vector<std::uint64_t> before = bits_;
+    for (std::size_t sheet = 0; sheet < sheets; ++sheet)
+      for (std::size_t step = 0; step < steps; ++step) {
+        const std::size_t here = (sheet * steps + step) * width;
+        for (std::size_t w = 0; w < width; ++w) {
+          if (step > 0) bits_[here + w] |= before[here + w - width];
+          if (step + 1 < steps) bits_[here + w] |= before[here + w + width];
+        }
+      }
+  }
+
+  glm::ivec3 size_;
+  std::size_t row_;
+  std::vector<std::uint64_t> bits_;
+};
+
+}  // namespace
+
+SolidCells::SolidCells(const BorderedField<std::uint8_t>& solid)
+    : solid_(&solid), bricks_((solid.layout().size + kEdge - 1) / kEdge + 2) {
+  const std::size_t count = index(bricks_ - 1) + 1;
+  is_solid_.resize(count);
+  slot_.assign(count, -1);
+  is_touched_.resize(count);
+
+  // Which bricks need cells, then their cells.
+  const auto over_layers = [this](auto work) {
+    oneapi::tbb::parallel_for(0, bricks_.z, [&](int k) {
+      for (int j = 0; j < bricks_.y; ++j)
+        for (int i = 0; i < bricks_.x; ++i) work(glm::ivec3(i, j, k));
+    });
+  };
+  over_layers([this](glm::ivec3 brick) { is_solid_[index(brick)] = isSolid(voxelsOf(*solid_, brick)) ? 1 : 0; });
+  std::int32_t words = 0;
+  for (std::size_t b = 0; b < count; ++b)
+    if (is_solid_[b] != 0) {
+      slot_[b] = words;
+      words += kBrickWords;
+    }
+  words_.resize(static_cast<std::size_t>(words));
+  over_layers([this](glm::ivec3 brick) {
+    if (const std::int32_t slot = slot_[index(brick)]; slot >= 0)
+      fill(voxelsOf(*solid_, brick), &words_[static_cast<std::size_t>(slot)]);
+  });
+  rebuild();
+}
+
+std::size_t SolidCells::index(glm::ivec3 brick) const {
+  return (static_cast<std::size_t>(brick.z) * static_cast<std::size_t>(bricks_.y) + static_cast<std::size_t>(brick.y)) *
+             static_cast<std::size_t>(bricks_.x) +
+         static_cast<std::size_t>(brick.x);
+}
+
+std::size_t SolidCells::bytes() const {
+  return words_.size() * sizeof(std::uint32_t) + slot_.size() * 2 * (1 + sizeof(std::int32_t));
+}
+
+void SolidCells::touch(const VoxelBox& voxels) {
+  if (voxels.empty()) return;
+  // The bricks of every cell that has one of the voxels for a corner: from the one below the first.
+  const glm::ivec3 low = (voxels.first - 1 + kEdge) / kEdge, high = (voxels.first + voxels.extent - 1 + kEdge) / kEdge;
+  for (int k = low.z; k <= high.z; ++k)
+    for (int j = low.y; j <= high.y; ++j)
+      for (int i = low.x; i <= high.x; ++i)
+        if (std::uint8_t& touched = is_touched_[index({i, j, k})]; touched == 0) {
+          touched = 1;
+          touched_.push_back({i, j, k});
+        }
+}
+
+void SolidCells::refresh() {
+  bool is_fuller = false;
+  for (const glm::ivec3& brick : touched_) {
+    const std::size_t b = index(brick);
+    is_touched_[b] = 0;
+    const Block block = voxelsOf(*solid_, brick);
+    const bool was = is_solid_[b] != 0, is = isSolid(block);
+    if (is && slot_[b] < 0) {
+      slot_[b] = static_cast<std::int32_t>(words_.size());
+      words_.resize(words_.size() + kBrickWords);
+    }
+    if (slot_[b] >= 0) fill(block, &words_[static_cast<std::size_t>(slot_[b])]);
+    is_solid_[b] = is ? 1 : 0;
+    is_fuller = is_fuller || (is && !was);
+    is_stale_ = is_stale_ || is != was;
+    // An emptied brick may be passed at once; how far beyond is seen when the distances are rebuilt.
+    if (was && !is) table_[b] = -1;
+  }
+  touched_.clear();
+  if (is_fuller) rebuild();
+}
+
+void SolidCells::rebuildIfStale() {
+  refresh();
+  if (is_stale_) rebuild();
+}
+
+void SolidCells::rebuild() {
+  is_stale_ = false;
+  table_.assign(slot_.size(), -kFarthest);
+  BrickBits near(bricks_);
+  for (int k = 0; k < bricks_.z; ++k)
+    for (int j = 0; j < bricks_.y; ++j)
+      for (int i = 0; i < bricks_.x; ++i)
+        if (const std::size_t b = index({i, j, k}); is_solid_[b] != 0) {
+          table_[b] = slot_[b];
+          near.set(i, j, k);
+        }
+  for (int away = 1; away < kFarthest; ++away)
+    if (!near.grow([&](int i, int j, int k) { table_[index({i, j, k})] = -away; })) break;
+}
+
+}  // namespace render

@@ -1,0 +1,105 @@
+#include "render/cpu/volume_cast.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "render/cpu/volume_cast_kernels.h"
+
+namespace render {
+namespace {
+
+void makeRoom(CastJob& job) {
+  VolumePoints& to = *static_cast<VolumePoints*>(job.owner);
+  to.count = job.points;
+  to.makeRoom(kLanePadding);
+  job.capacity = static_cast<std::int32_t>(to.ray.size());
+  job.ray = to.ray.data();
+  job.length = to.length.data();
+  job.weight = to.weight.data();
+}
+
+CastJob jobOf(const SolidCells& cells, const CastSettings& settings, const RayBatch& rays, const float* limit_mm,
+              VolumePoints& to) {
+  CastJob job{};
+  const FieldLayout& layout = cells.solid().layout();
+  job.words = cells.words();
+  job.table = cells.table();
+  job.solid = cells.solid().at(glm::ivec3(-1));
+  job.row = static_cast<std::int32_t>(layout.row);
+  job.slice = static_cast<std::int32_t>(layout.slice);
+  for (int a = 0; a < 3; ++a) {
+    job.bricks[a] = cells.bricks()[a];
+    job.size[a] = static_cast<float>(layout.size[a]);
+    job.eye[a] = settings.eye_index[a] + static_cast<float>(SolidCells::kEdge);
+  }
+  job.x = &rays.x[0];
+  job.y = &rays.y[0];
+  job.z = &rays.z[0];
+  job.limit_mm = limit_mm;
+  job.count = rays.count;
+  job.voxels_per_mm = 1.0f / settings.spacing_mm;
+  job.step = settings.step;
+  job.skip = settings.skip_empty_space;
+  job.room = makeRoom;
+  job.owner = &to;
+  job.points = to.count;
+  makeRoom(job);
+  return job;
+}
+
+template <class Kernel>
+void choose([[maybe_unused]] assets::InstructionSet set, Kernel portable, [[maybe_unused]] Kernel avx2,
+            [[maybe_unused]] Kernel avx512, CastJob& job) {
+  assert(assets::available(set));
+  if (set == assets::InstructionSet::avx512)
+    avx512(job);
+  else if (set == assets::InstructionSet::avx2)
+    avx2(job);
+  else
+    portable(job);
+}
+
+}  // namespace
+
+#if !defined(__x86_64__)
+namespace avx2 = portable;
+namespace avx512 = portable;
+#endif
+
+OpacityTable opacityTable(float ramp_start, float ramp_full, std::span<const float> per_mm, float step_mm) {
+  OpacityTable table;
+  table.ramp_start = std::clamp(ramp_start, 0.5f, 0.99f);
+  table.ramp_per_solid = 1.0f / std::max(ramp_full - table.ramp_start, 0.01f);
+  table.labels = static_cast<int>(per_mm.size());
+  for (const float full : per_mm)
+    for (int n = 0; n <= OpacityTable::kIntervals; ++n) {
+      const double a = static_cast<double>(std::clamp(full, 0.0f, 0.999f)) * n / OpacityTable::kIntervals;
+      table.of_step.push_back(static_cast<float>(1.0 - std::pow(1.0 - a, static_cast<double>(step_mm))));
+    }
+  return table;
+}
+
+void castSurface(const SolidCells& cells, const CastSettings& settings, const RayBatch& rays, const float* limit_mm,
+                 VolumePoints& to, assets::InstructionSet set) {
+  CastJob job = jobOf(cells, settings, rays, limit_mm, to);
+  choose(set, portable::castSurface, avx2::castSurface, avx512::castSurface, job);
+  to.count = job.points;
+}
+
+void castThrough(const SolidCells& cells, const CastSettings& settings, const BorderedField<std::uint8_t>& label,
+                 const OpacityTable& opacity, const RayBatch& rays, const float* limit_mm, VolumePoints& to,
+                 RaySums& sums, assets::InstructionSet set) {
+  CastJob job = jobOf(cells, settings, rays, limit_mm, to);
+  job.label = label.at(glm::ivec3(-1));
+  job.opacity = opacity.of_step.data();
+  job.last_label = opacity.labels - 1;
+  job.ramp_start = opacity.ramp_start;
+  job.ramp_per_solid = opacity.ramp_per_solid;
+  job.sum = sums.opacity.data();
+  job.reach = sums.reach.data();
+  choose(set, portable::castThrough, avx2::castThrough, avx512::castThrough, job);
+  to.count = job.points;
+}
+
+}  // namespace render

@@ -1,0 +1,352 @@
+// The body of the casting kernels: included once by each instruction set's source. Internal linkage throughout, and no
+// header but these, so that nothing of it is shared between instruction sets. Formula by formula
+// shaders/ray_march.glsl, ray_cast.glsl and ray_through.glsl; only how empty space is passed is its own. Places count
+// from the corner of the border of SolidCells, so they are never negative where a ray is in the volume; lengths in
+// voxels.
+#pragma once
+
+#include "render/cpu/lanes.h"
+#include "render/cpu/volume_cast_kernels.h"
+
+namespace render::cpu {
+namespace {
+
+constexpr int kMostRays = 256, kBeamRays = 64;
+constexpr int kEdge = 8, kRowWords = 9, kLayerWords = 72;  // SolidCells
+constexpr float kGuard = 1e-3f;  // a skip ends this much early, so that rounding never carries it past something solid
+constexpr float kFar = 1e9f;
+constexpr float kFull = 255.0f * 32767.0f;  // what a sample in solid matter amounts to
+constexpr float kIso = 0.5f * kFull;
+constexpr int kBisections = 6;
+constexpr float kOpaque = 0.98f;
+
+struct Place {
+  Float x, y, z;
+};
+
+/// kLanes rays: unit direction, its inverse, entry, and the first and last sample's number (first > last: none).
+struct Rays {
+  Place direction, inverse, entry;
+  Float near, last;
+};
+
+inline Float inverseOf(Float direction) { return 1.0f / select(absolute(direction) < 1e-9f, splat(1e-9f), direction); }
+
+inline Place placeAt(const Rays& rays, Float t) {
+  return {multiplyAdd(t, rays.direction.x, rays.entry.x), multiplyAdd(t, rays.direction.y, rays.entry.y),
+          multiplyAdd(t, rays.direction.z, rays.entry.z)};
+}
+
+/// Rays by their directions and limits in mm.
+inline Rays aimed(const CastJob& job, Float x, Float y, Float z, Float limit_mm) {
+  Rays rays;
+  rays.direction = {x, y, z};
+  rays.inverse = {inverseOf(x), inverseOf(y), inverseOf(z)};
+  const Float* const inverse[3] = {&rays.inverse.x, &rays.inverse.y, &rays.inverse.z};
+  Float near = splat(0.0f), far = limit_mm * job.voxels_per_mm;
+  for (int a = 0; a < 3; ++a) {
+    const Float p = (kEdge - 1.0f - job.eye[a]) * *inverse[a], q = (job.size[a] + kEdge - job.eye[a]) * *inverse[a];
+    near = maximum(near, minimum(p, q));
+    far = minimum(far, maximum(p, q));
+  }
+  rays.near = near;
+  rays.last = select(near < far, floor((far - near) / job.step), splat(-1.0f));
+  rays.entry = {multiplyAdd(near, x, splat(job.eye[0])), multiplyAdd(near, y, splat(job.eye[1])),
+                multiplyAdd(near, z, splat(job.eye[2]))};
+  return rays;
+}
+
+/// A cone that holds rays from the eye: after t each of them is within t · spread of t · axis, along each axis.
+struct Cone {
+  float axis[3], spread[3];
+};
+
+inline Cone coneOf(const CastJob& job, int first, int count) {
+  Cone cone{};
+  const float* const directions[3] = {job.x, job.y, job.z};
+  for (int a = 0; a < 3; ++a) {
+    Float low = splat(2.0f), high = splat(-2.0f);
+    for (int n = first; n < first + count; n += kLanes) {
+      const Float d = load(directions[a] + n);
+      const Mask real = firstLanes(first + count - n);
+      low = minimum(low, select(real, d, low));
+      high = maximum(high, select(real, d, high));
+    }
+    float least = 2.0f, most = -2.0f;
+    for (int n = 0; n < kLanes; ++n) {
+      least = low[n] < least ? low[n] : least;
+      most = high[n] > most ? high[n] : most;
+    }
+    cone.axis[a] = 0.5f * (least + most);
+    cone.spread[a] = 0.5f * (most - least) + 1e-6f;
+  }
+  return cone;
+}
+
+/// How far all rays of the cone run through nothing solid; kFar where they meet nothing at all.
+float emptyLength(const CastJob& job, const Cone& cone) {
+  // Where they can be in the volume at all.
+  float from = 0.0f, to = kFar, low_slope[3], high_slope[3];
+  for (int a = 0; a < 3; ++a) {
+    low_slope[a] = cone.axis[a] - cone.spread[a];
+    high_slope[a] = cone.axis[a] + cone.spread[a];
+    const float to_low = kEdge - 1.0f - job.eye[a], to_high = job.size[a] + kEdge - job.eye[a];
+    if (to_low > 0.0f) {
+      if (high_slope[a] <= 0.0f) return kFar;
+      from = from > to_low / high_slope[a] ? from : to_low / high_slope[a];
+    } else if (high_slope[a] < 0.0f) {
+      to = to < to_low / high_slope[a] ? to : to_low / high_slope[a];
+    }
+    if (to_high < 0.0f) {
+      if (low_slope[a] >= 0.0f) return kFar;
+      from = from > to_high / low_slope[a] ? from : to_high / low_slope[a];
+    } else if (low_slope[a] > 0.0f) {
+      to = to < to_high / low_slope[a] ? to : to_high / low_slope[a];
+    }
+  }
+
+  // From empty box to empty box; outside the table everything is empty.
+  float t = from - kGuard > 0.0f ? from - kGuard : 0.0f;
+  while (t < to) {
+    int brick[3], index = 0;
+    for (int a = 2; a >= 0; --a) {
+      const float p = job.eye[a] + t * cone.axis[a];
+      const int cell = p > 0.0f ? static_cast<int>(p < 1e6f ? p : 1e6f) : 0, at = cell / kEdge;
+      brick[a] = at < job.bricks[a] ? at : job.bricks[a] - 1;
+      index = index * job.bricks[a] + brick[a];
+    }
+    const int away = -job.table[index];
+    if (away <= 0) return t;
+    float leave = kFar;
+    for (int a = 0; a < 3; ++a) {
+      const int low = brick[a] - away + 1, high = brick[a] + away;
+      if (low > 0 && low_slope[a] < 0.0f) {
+        const float reached = (static_cast<float>(low * kEdge) - job.eye[a]) / low_slope[a];
+        leave = leave < reached ? leave : reached;
+      }
+      if (high < job.bricks[a] && high_slope[a] > 0.0f) {
+        const float reached = (static_cast<float>(high * kEdge) - job.eye[a]) / high_slope[a];
+        leave = leave < reached ? leave : reached;
+      }
+    }
+    leave -= kGuard;
+    if (leave < t + 0.25f) return t;
+    t = leave;
+  }
+  return kFar;
+}
+
+/// Where a place's cell lies: its brick's entry in the table, and itself.
+struct Cell {
+  Int i, j, k;
+};
+inline Cell cellAt(const Place& place) { return {toInt(place.x), toInt(place.y), toInt(place.z)}; }
+inline Int brickIndex(const CastJob& job, const Cell& cell) {
+  return (cell.i >> 3) + ((cell.j >> 3) + (cell.k >> 3) * job.bricks[1]) * job.bricks[0];
+}
+
+/// The eight corners, by their words.
+inline Float interpolated(IntPair corners, const Place& place, const Cell& cell) {
+  const Float x = place.x - toFloat(cell.i), y = place.y - toFloat(cell.j), z = place.z - toFloat(cell.k);
+  const Int high = toInt(multiplyAdd(z, splat(32767.0f), splat(0.5f))), parts = (high << 16) | (32767 - high);
+  constexpr std::int32_t kEven = 0x00ff00ff;
+  const Float low_j = toFloat(pairSums(corners.low & kEven, parts));
+  const Float high_j = toFloat(pairSums(shiftRightLogical(corners.low, 8) & kEven, parts));
+  const Float low_j_next = toFloat(pairSums(corners.high & kEven, parts));
+  const Float high_j_next = toFloat(pairSums(shiftRightLogical(corners.high, 8) & kEven, parts));
+  return mix(mix(low_j, high_j, y), mix(low_j_next, high_j_next, y), x);
+}
+
+/// `where`: first word of the brick's cells.
+inline Float sampleCells(const CastJob& job, Int where, const Place& place, const Cell& cell) {
+  const Int word = where + (cell.i & 7) + (cell.j & 7) * kRowWords + (cell.k & 7) * kLayerWords;
+  return interpolated(gather64<4>(job.words, word), place, cell);
+}
+
+/// The same from the field, corner by corner, in lanes of the mask.
+inline Float sampleField(const CastJob& job, Mask wanted, const Place& place, const Cell& cell) {
+  const Int at = (cell.i - (kEdge - 1)) + (cell.j - (kEdge - 1)) * job.row + (cell.k - (kEdge - 1)) * job.slice;
+  const auto corners = [&](Int first) {
+    return gather(job.solid, first, wanted) | (gather(job.solid, first + job.row, wanted) << 8) |
+           (gather(job.solid, first + job.slice, wanted) << 16) |
+           (gather(job.solid, first + job.row + job.slice, wanted) << 24);
+  };
+  return interpolated({corners(at), corners(at + 1)}, place, cell);
+}
+
+/// Samples in lanes of the mask; where there are no cells, less than solid.
+template <bool kSkip>
+inline Float sample(const CastJob& job, Mask wanted, const Place& place) {
+  const Cell cell = cellAt(place);
+  if constexpr (!kSkip) return sampleField(job, wanted, place, cell);
+  const Int where = gather(job.table, brickIndex(job, cell), wanted);
+  return select(where >= 0, sampleCells(job, maximum(where, splat(0)), place, cell), 0.0f);
+}
+
+/// Number of the sample where a skip out of the empty bricks around a cell ends. `away`: bricks to the next solid one.
+inline Float skipped(const CastJob& job, const Rays& rays, const Cell& cell, Int away, Float k) {
+  const Float reach = toFloat(away << 3);
+  const auto leave = [&](Int at, Float direction, Float inverse, Float entry) {
+    const Float base = toFloat(at & ~7);
+    return (select(direction > 0.0f, base + reach, base - reach + 8.0f) - entry) * inverse;
+  };
+  const Float length = minimum(leave(cell.i, rays.direction.x, rays.inverse.x, rays.entry.x),
+                               minimum(leave(cell.j, rays.direction.y, rays.inverse.y, rays.entry.y),
+                                       leave(cell.k, rays.direction.z, rays.inverse.z, rays.entry.z))) -
+                       kGuard;
+  return maximum(k + 1.0f, ceiling(length / job.step));
+}
+
+/// Number of the first sample that may count.
+inline Float firstSample(const CastJob& job, const Rays& rays, float from) {
+  return maximum(ceiling((from - kGuard - rays.near) / job.step), 0.0f);
+}
+
+/// Walks along kLanes rays; visit(samples wanted, their values, place, k) answers which rays end there.
+template <bool kSkip, class Visit>
+inline void march(const CastJob& job, const Rays& rays, Mask active, Float k, Visit visit) {
+  active &= k <= rays.last;
+  while (any(active)) {
+    const Place place = placeAt(rays, k * job.step);
+    const Cell cell = cellAt(place);
+    Mask wanted = active;
+    Float value;
+    if constexpr (kSkip) {
+      const Int where = gather32<4>(job.table, brickIndex(job, cell) & active);
+      const Mask empty = where < 0;
+      wanted &= ~empty;
+      Float next = k + 1.0f;
+      if (any(empty & active)) next = select(empty, skipped(job, rays, cell, -where, k), next);
+      if (any(wanted)) {
+        value = sampleCells(job, where & ~empty, place, cell);
+        active &= ~visit(wanted, value, place, k);
+      }
+      k = next;
+    } else {
+      value = sampleField(job, wanted, place, cell);
+      active &= ~visit(wanted, value, place, k);
+      k = k + 1.0f;
+    }
+    active &= k <= rays.last;
+  }
+}
+
+/// Rays of the batch by number.
+inline Rays chosen(const CastJob& job, Int number, Mask wanted) {
+  return aimed(job, gather(job.x, number, wanted), gather(job.y, number, wanted), gather(job.z, number, wanted),
+               gather(job.limit_mm, number, wanted));
+}
+
+/// Calls cast(first, from) for every kLanes rays that may meet something, where they are known to be empty up to
+/// `from`.
+template <class Cast>
+inline void forPackets(const CastJob& job, Cast cast) {
+  for (int beam = 0; beam < job.count; beam += kBeamRays) {
+    const int end = beam + kBeamRays < job.count ? beam + kBeamRays : job.count;
+    const float from = job.skip ? emptyLength(job, coneOf(job, beam, end - beam)) : 0.0f;
+    if (from < kFar)
+      for (int first = beam; first < end; first += kLanes) cast(first, from);
+  }
+}
+
+template <bool kSkip>
+inline void surfaceBy(CastJob& job) {
+  // Along every ray to its first solid sample; those that have one, one after the other.
+  alignas(64) std::int32_t ray[kMostRays + kLanes];
+  alignas(64) float number[kMostRays + kLanes];
+  int hits = 0;
+  forPackets(job, [&](int first, float from) {
+    const Rays rays =
+        aimed(job, load(job.x + first), load(job.y + first), load(job.z + first), load(job.limit_mm + first));
+    Mask found = splat(0);
+    Float at = splat(0.0f);
+    march<kSkip>(job, rays, firstLanes(job.count - first), firstSample(job, rays, from),
+                 [&](Mask wanted, Float value, const Place&, Float k) {
+                   const Mask solid = wanted & (value >= kIso);
+                   found |= solid;
+                   at = select(solid, k, at);
+                   return solid;
+                 });
+    compress(ray + hits, laneNumbers() + first, found);
+    hits += compress(number + hits, at, found);
+  });
+
+  // Close in on the surface between the last two samples.
+  for (int n = 0; n < hits; n += kLanes) {
+    const Mask real = firstLanes(hits - n);
+    const Int which = load(ray + n) & real;
+    const Rays rays = chosen(job, which, real);
+    const Float k = select(real, load(number + n), 1.0f);
+    Float low = (k - 1.0f) * job.step, high = k * job.step;
+    for (int i = 0; i < kBisections; ++i) {
+      const Float middle = 0.5f * (low + high);
+      const Mask solid = sample<kSkip>(job, real & (k > 0.0f), placeAt(rays, middle)) >= kIso;
+      high = select(solid, middle, high);
+      low = select(solid, low, middle);
+    }
+    if (job.points + kLanes > job.capacity) job.room(job);
+    store(job.ray + job.points, which);
+    store(job.length + job.points, rays.near + select(k > 0.0f, high, 0.0f));
+    store(job.weight + job.points, splat(1.0f));
+    job.points += hits - n < kLanes ? hits - n : kLanes;
+  }
+}
+
+template <bool kSkip>
+inline void throughBy(CastJob& job) {
+  for (int n = 0; n < job.count; n += kLanes) {
+    store(job.sum + n, splat(0.0f));
+    store(job.reach + n, splat(-1.0f));
+  }
+  const float start = job.ramp_start * kFull, per_value = job.ramp_per_solid * 256.0f / kFull;
+  forPackets(job, [&](int first, float from) {
+    const Rays rays =
+        aimed(job, load(job.x + first), load(job.y + first), load(job.z + first), load(job.limit_mm + first));
+    Float sum = splat(0.0f), reach = splat(-1.0f);
+    march<kSkip>(job, rays, firstLanes(job.count - first), firstSample(job, rays, from),
+                 [&](Mask wanted, Float value, const Place& place, Float k) {
+                   Mask shows = wanted & (value > start);
+                   if (none(shows)) return shows;
+
+                   // Opacity of the step, by the tissue of the nearest voxel.
+                   const Float share = minimum((value - start) * per_value, 256.0f);
+                   const Cell near = cellAt({place.x + 0.5f, place.y + 0.5f, place.z + 0.5f});
+                   const Int at =
+                       (near.i - (kEdge - 1)) + (near.j - (kEdge - 1)) * job.row + (near.k - (kEdge - 1)) * job.slice;
+                   const Int label = minimum(gather(job.label, at, shows), splat(job.last_label));
+                   const Int interval = minimum(toInt(share), splat(255));
+                   const IntPair ends = gather64<4>(job.opacity, (label * 257 + interval) & shows);
+                   const Float alpha = mix(floatOfBits(ends.low), floatOfBits(ends.high), share - toFloat(interval));
+                   shows &= alpha > 0.0f;
+
+                   // Its part in the ray, if anything is left of it.
+                   const Float weight = select(shows, (1.0f - sum) * alpha, 0.0f),
+                               length = multiplyAdd(k, splat(job.step), rays.near);
+                   sum = sum + weight;
+                   reach = select((reach < 0.0f) & (sum >= 0.5f), length, reach);
+                   if (job.points + kLanes > job.capacity) job.room(job);
+                   compress(job.ray + job.points, laneNumbers() + first, shows);
+                   compress(job.length + job.points, length, shows);
+                   job.points += compress(job.weight + job.points, weight, shows);
+                   return shows & (sum >= kOpaque);
+                 });
+    store(job.sum + first, sum);
+    store(job.reach + first, reach);
+  });
+}
+
+void surface(CastJob& job) {
+  if (job.skip)
+    surfaceBy<true>(job);
+  else
+    surfaceBy<false>(job);
+}
+void through(CastJob& job) {
+  if (job.skip)
+    throughBy<true>(job);
+  else
+    throughBy<false>(job);
+}
+
+}  // namespace
+}  // namespace render::cpu
