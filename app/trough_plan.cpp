@@ -4,10 +4,13 @@
 #include <cmath>
 #include <vector>
 
+#include "assets/solid_sample.h"
+
 namespace app {
 namespace {
 
 using assets::CtVolume;
+using assets::solidAt;
 using assets::Tissue;
 
 constexpr double kHalfLength_mm = 4.0, kStation_mm = 0.5, kSteepest = 0.8, kRoughest_mm = 0.8;
@@ -16,20 +19,6 @@ constexpr double kRayStart_mm = 12.0, kRayLength_mm = 20.0, kRayStep_mm = 0.05;
 constexpr double kTroughDepth_mm = 4.0, kToothMargin_mm = 0.7;
 constexpr double kCrownFromCentroid_mm = 3.5;
 constexpr double kNearestBuccal_mm = 5.0, kFarthestBuccal_mm = 9.0, kFarthestMesial_mm = -5.0;
-
-/// Trilinear solid fraction, air outside.
-double solidAt(const CtVolume& ct, const glm::dvec3& p_P_mm) {
-  const glm::dvec3 at = ct.grid.indexFromPoint(p_P_mm), low = glm::floor(at), f = at - low;
-  double sum = 0.0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::ivec3 step{corner & 1, (corner >> 1) & 1, corner >> 2};
-    const glm::ivec3 ijk = glm::ivec3(low) + step;
-    if (!ct.grid.contains(ijk)) continue;
-    const glm::dvec3 w = glm::mix(1.0 - f, f, glm::dvec3(step));
-    sum += w.x * w.y * w.z * ct.solid[ct.grid.index(ijk)] / 255.0;
-  }
-  return sum;
-}
 
 struct Hit {
   glm::dvec3 p_P_mm;

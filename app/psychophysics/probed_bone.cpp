@@ -9,6 +9,7 @@
 #include "assets/image_file.h"
 #include "assets/patient_folder.h"
 #include "assets/solid_fraction.h"
+#include "assets/solid_sample.h"
 #include "assets/synthetic/trabecular_texture.h"
 
 namespace app {
@@ -77,21 +78,9 @@ assets::Patient volumeOf(const BoneChoice& bone) {
 
 /// The surface on the line through the site, coming from outside; trilinear, half solid.
 ProbeSite onSurface(const assets::CtVolume& ct, const ProbeSite& site) {
-  const auto solid_at = [&](const glm::dvec3& p_P_mm) {
-    const glm::dvec3 at = ct.grid.indexFromPoint(p_P_mm), low = glm::floor(at), f = at - low;
-    double sum = 0.0;
-    for (int corner = 0; corner < 8; ++corner) {
-      const glm::ivec3 step{corner & 1, (corner >> 1) & 1, corner >> 2};
-      const glm::ivec3 ijk = glm::ivec3(low) + step;
-      if (!ct.grid.contains(ijk)) continue;
-      const glm::dvec3 w = glm::mix(1.0 - f, f, glm::dvec3(step));
-      sum += w.x * w.y * w.z * ct.solid[ct.grid.index(ijk)] / 255.0;
-    }
-    return sum;
-  };
   for (double above = kSearch_mm; above >= -kSearch_mm; above -= kSearchStep_mm) {
     const glm::dvec3 p = site.surface_P.mm + above * site.outward_P.xyz;
-    if (solid_at(p) >= 0.5) return {{p}, site.outward_P};
+    if (assets::solidAt(ct, p) >= 0.5) return {{p}, site.outward_P};
   }
   throw UsageError("bone.site_P_mm: there is no bone within 10 mm of it along outward_P, move the site to the bone");
 }

@@ -1,16 +1,9 @@
 #include "haptics/bone/erosion.h"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
+#include "haptics/bone/parameter_table.h"
 
 namespace haptics {
 namespace {
-
-template <auto Law, auto Parameter>
-double& in(ErosionSettings& settings) {
-  return settings.*Law.*Parameter;
-}
 
 template <std::size_t Tissue>
 constexpr ErosionParameter tissueFactor(std::string_view key) {
@@ -26,15 +19,15 @@ constexpr ErosionParameter tissueFactor(std::string_view key) {
 constexpr std::array kTable = {
     ErosionParameter{ErosionKind::time, "removal_rate_per_s", "1/s", 0.0, 1000.0,
                      "k: part of a covered voxel that goes in a second at the rated speed",
-                     in<&ErosionSettings::time, &TimeErosion::removal_rate_per_s>},
+                     valueIn<&ErosionSettings::time, &TimeErosion::removal_rate_per_s>},
     ErosionParameter{ErosionKind::time, "rated_rpm", "rpm", 100.0, 400000.0, "w_rated: the speed k is stated for",
-                     in<&ErosionSettings::time, &TimeErosion::rated_rpm>},
+                     valueIn<&ErosionSettings::time, &TimeErosion::rated_rpm>},
     ErosionParameter{ErosionKind::dose, "removal_mm3_per_J", "mm3/J", 0.0, 100.0,
                      "alpha: reference tissue removed per work of friction",
-                     in<&ErosionSettings::dose, &DoseErosion::removal_mm3_per_J>},
+                     valueIn<&ErosionSettings::dose, &DoseErosion::removal_mm3_per_J>},
     ErosionParameter{ErosionKind::machining, "cutting_energy_J_per_mm3", "J/mm3", 0.001, 10.0,
                      "u: work of cutting reference tissue",
-                     in<&ErosionSettings::machining, &MachiningErosion::cutting_energy_J_per_mm3>},
+                     valueIn<&ErosionSettings::machining, &MachiningErosion::cutting_energy_J_per_mm3>},
     ErosionParameter{std::nullopt, "friction", "", 0.0, 2.0, "mu of bur on bone: pays for dose, loads the spindle",
                      [](ErosionSettings& settings) -> double& { return settings.friction; }},
     ErosionParameter{std::nullopt, "worn", "", 0.0, 1.0, "0 a new bur, 1 one that takes nothing",
@@ -52,18 +45,6 @@ constexpr std::array kTable = {
 };
 static_assert(assets::kTissueCount == 10, "a factor for every tissue");
 
-/// Row by row at compile time: on the servo thread nothing is called through a pointer.
-template <std::size_t Row>
-void clampRow(ErosionSettings& safe, ErosionSettings& standard) {
-  constexpr auto kIn = kTable[Row].in;
-  double& value = kIn(safe);
-  value = std::isfinite(value) ? std::clamp(value, kTable[Row].lowest, kTable[Row].highest) : kIn(standard);
-}
-template <std::size_t... Row>
-void clampRows(ErosionSettings& safe, ErosionSettings& standard, std::index_sequence<Row...>) {
-  (clampRow<Row>(safe, standard), ...);
-}
-
 }  // namespace
 
 std::optional<ErosionKind> erosionOfKey(std::string_view key) {
@@ -75,9 +56,9 @@ std::optional<ErosionKind> erosionOfKey(std::string_view key) {
 std::span<const ErosionParameter> erosionParameters() { return kTable; }
 
 ErosionSettings sanitised(const ErosionSettings& settings) {
-  ErosionSettings safe = settings, standard;
-  if (static_cast<std::size_t>(safe.kind) >= kErosions.size()) safe.kind = standard.kind;
-  clampRows(safe, standard, std::make_index_sequence<kTable.size()>{});
+  ErosionSettings safe = settings;
+  if (static_cast<std::size_t>(safe.kind) >= kErosions.size()) safe.kind = ErosionSettings{}.kind;
+  clampToTable<kTable>(safe);
   return safe;
 }
 
