@@ -72,3 +72,5 @@
 #define BACKGROUND_GLOW_TINT 0.9f, 1.0f, 1.08f
 
 #define SHOULDER_KNEE 0.70f         // up to here light is shown as it is; above it rolls off towards white
+
+#define EDGE_BEND 0.002f            // bend of the inverse distance over three pixels that is an edge: 1 mm at half a metre
