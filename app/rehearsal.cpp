@@ -120,6 +120,7 @@ class Rehearsal {
     if (!plan_.first_snapshot.empty()) first_pictures_.emplace(plan_.first_snapshot, plan_.overwrite);
     openDisplay();
     renderer_ = rendererWith(1, plan_.patient.ct.solid);
+    frame_ = plan_.first_frame;
     frame_.rig = plan_.rig;
     frame_.display = plan_.display;
     frame_.eyes_swapped = plan_.eyes_swapped;
@@ -162,8 +163,9 @@ class Rehearsal {
   }
 
   std::unique_ptr<render::FrameRenderer> rendererWith(int samples, std::span<const std::uint8_t> solid) const {
-    auto renderer = std::make_unique<render::FrameRenderer>(plan_.patient.ct.grid, solid, plan_.patient.ct.label,
-                                                            render::RenderOptions{.samples = samples});
+    auto renderer =
+        std::make_unique<render::FrameRenderer>(plan_.patient.ct.grid, solid, plan_.patient.ct.label,
+                                                render::RenderOptions{.backend = plan_.backend, .samples = samples});
     renderer->setFace(plan_.patient.face);
     renderer->setGum(plan_.patient.gum);
     renderer->setInstrument(assets::surgicalHandpiece(drawnAs(plan_.command.tool)));
@@ -263,6 +265,7 @@ class Rehearsal {
     // The servo holds the bur where it last believed the hand; so does the picture.
     if (!haptics::has(newest_.faults, haptics::Fault::bad_pose)) frame_.X_PT.rotation = newest_.hand.X_PT.rotation;
     frame_.X_PT.translation_mm = newest_.proxy_P.mm;
+    frame_.X_PT_at_hand = {frame_.X_PT.rotation, newest_.hand.X_PT.translation_mm};
     if (newest_.drilling)
       frame_.bur_angle_rad = std::fmod(newest_.t_s * kBurTurnsPerSecond, 1.0) * 2.0 * calibration::kPi;
     upload_.bring(workstation_->bone(), *renderer_);

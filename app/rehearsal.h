@@ -13,6 +13,7 @@
 #include "calibration/rig.h"
 #include "haptics/servo/command.h"
 #include "render/frame.h"
+#include "render/render_options.h"
 
 namespace app {
 
@@ -23,6 +24,8 @@ struct RehearsalPlan {
   calibration::Rig rig;
   render::DisplayMode display = render::DisplayMode::mono;
   bool eyes_swapped = false;
+  render::Backend backend = render::Backend::gl_fragment;
+  render::Frame first_frame;  ///< view mode, layers and quality to begin with; the rest is the rehearsal's
   Hand hand = Hand::mouse;
   haptics::Command command;
   std::string parameters;         ///< settings file that is obeyed while it changes; `command` holds what it leaves out

@@ -45,6 +45,7 @@ std::optional<SceneMesh> onGpu(const assets::MeshModel& model, Finish finish) {
 // An eye as last drawn.
 struct EyePicture {
   Framebuffer target;
+  VolumeLayer layer;
   glm::ivec2 px{0};
   Frame frame;
   bool drawn = false;
@@ -57,7 +58,8 @@ class GlSceneRenderer final : public SceneRenderer {
       : samples_(options.samples),
         fields_(grid, solid, label),
         volume_(fields_),
-        caster_(options.skip_empty_space ? RayCaster::EmptySpace::skip : RayCaster::EmptySpace::march) {}
+        caster_(options.backend == Backend::gl_compute ? RayCaster::Stage::compute : RayCaster::Stage::fragment,
+                options.skip_empty_space) {}
 
   void setFace(const assets::MeshModel& face_P) override { face_ = onGpu(face_P, Finish::skin); }
   void setGum(const assets::MeshModel& gum_P) override { gum_ = onGpu(gum_P, Finish::gum); }
@@ -68,7 +70,10 @@ class GlSceneRenderer final : public SceneRenderer {
     fields_.updateBrick(brick, solid);
   }
 
-  void prepare(const Frame&) override { volume_.update(fields_, fields_.prepare()); }
+  void prepare(const Frame& frame) override {
+    const bool translucent = frame.mode == ViewMode::dvr;
+    volume_.update(fields_, fields_.prepare(translucent ? visibleFrom(transfer_) : Occupancy::kSolidFrom));
+  }
   void drawEye(const Frame& frame, Eye eye, glm::ivec2 px) override;
   void compose(const Frame& frame) override;
 
@@ -83,12 +88,13 @@ class GlSceneRenderer final : public SceneRenderer {
 
  private:
   EyePicture& picture(Eye eye) { return pictures_[static_cast<std::size_t>(eye)]; }
-  void drawScene(const Frame& frame, Eye eye, Framebuffer& target);
+  void drawScene(const Frame& frame, Eye eye, Framebuffer& target, VolumeLayer& layer);
 
   int samples_;
   GlDebugLog log_{false};
   VolumeFields fields_;
   VolumeTexture volume_;
+  TransferFunction transfer_;
   RayCaster caster_;
   MeshPass meshes_;
   Program background_{"screen.vert", "background.frag"};
@@ -107,13 +113,13 @@ void GlSceneRenderer::drawEye(const Frame& frame, Eye eye, glm::ivec2 px) {
   to.px = px;
   to.frame = frame;
   to.drawn = true;
-  drawScene(frame, eye, to.target);
+  drawScene(frame, eye, to.target, to.layer);
 }
 
-void GlSceneRenderer::drawScene(const Frame& frame, Eye eye, Framebuffer& target) {
+void GlSceneRenderer::drawScene(const Frame& frame, Eye eye, Framebuffer& target, VolumeLayer& layer) {
   const EyeView view = eyeView(frame.rig, eye);
   eye_block_.set(EYE_BLOCK, eyeBlock(frame, view));
-  caster_.bind(fields_, volume_);
+  caster_.bind(fields_, volume_, frame, transfer_);
   target.bind();
   target.clear();
 
@@ -131,7 +137,7 @@ void GlSceneRenderer::drawScene(const Frame& frame, Eye eye, Framebuffer& target
     if (gum_) meshes_.draw(*gum_, parts, in_P);
   };
   draw_meshes(MeshPass::Parts::opaque);
-  caster_.draw(target.colour(DISTANCE_TARGET));
+  caster_.draw(layer, target);
   draw_meshes(MeshPass::Parts::transparent);
 }
 
@@ -179,7 +185,8 @@ DistancePicture GlSceneRenderer::readDistance(Eye eye) {
 
   // Samples lie beside the pixel's centre, where the distance is asked for: draw it there.
   Framebuffer centred(shown.px, kSceneTargets, true);
-  drawScene(shown.frame, eye, centred);
+  VolumeLayer layer;
+  drawScene(shown.frame, eye, centred, layer);
   return read(centred);
 }
 

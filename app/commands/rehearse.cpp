@@ -15,6 +15,7 @@
 #include "app/erosion_text.h"
 #include "app/law_text.h"
 #include "app/patient_source.h"
+#include "app/picture_option.h"
 #include "app/rehearsal.h"
 #include "app/room.h"
 #include "app/settings_text.h"
@@ -35,6 +36,7 @@ struct RehearseOptions {
   std::string patient, parameters, device = "mouse", rig, record, snapshot, first_snapshot, face;
   std::string tool = "sphere:1.5", shaft, law = "agus", erosion = "time", size, snapshot_size = "1280x800";
   std::string side = "right";
+  PictureOption picture;
   std::vector<std::string> settings;
   DisplayOption display;
   assets::JawParameters jaw;
@@ -86,6 +88,8 @@ int run(const RehearseOptions& options) {
           .at(options.device);
   plan.display = options.display.mode();
   plan.eyes_swapped = options.display.swapped();
+  plan.backend = options.picture.backend();
+  options.picture.apply(plan.first_frame);
   plan.rate_Hz = options.rate_Hz;
   plan.seconds = options.seconds;
   plan.snapshot = options.snapshot;
@@ -128,6 +132,7 @@ void addRehearse(CLI::App& molar, Chosen& chosen) {
   auto* rig =
       command->add_option("--rig", o->rig, "Rig file: screen, mirror, eyes, patient pose; 1:1")->type_name("FILE");
   o->display.addTo(*command);
+  o->picture.addTo(*command);
   command->add_option("--size", o->size, "Picture size")->type_name("WxH");
   command->add_option("--loupes", o->loupes, "Magnification on a desk (without --rig)")
       ->check(numberRange(1.0, 8.0))
