@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "app/hand_at_work.h"
 #include "app/session_guide.h"
 #include "app/workstation.h"
 #include "assets/patient.h"
@@ -16,8 +17,6 @@
 #include "render/render_options.h"
 
 namespace app {
-
-enum class Hand { mouse, scripted, simulated };
 
 struct RehearsalPlan {
   assets::Patient patient;
@@ -37,6 +36,8 @@ struct RehearsalPlan {
   glm::ivec2 snapshot_px{1280, 800};
   double face_window_mm = 0.0;
   bool headless = false, full_screen = false, overwrite = false;
+  std::optional<int> monitor, operator_monitor;  ///< indices of render::monitors()
+  std::optional<int> quality_step;               ///< held; none: by measured frame times
   std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();  ///< when the user asked for it
 };
 

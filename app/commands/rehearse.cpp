@@ -25,6 +25,7 @@
 #include "assets/patient_folder.h"
 #include "assets/synthetic/face.h"
 #include "calibration/rig_file.h"
+#include "render/quality_ladder.h"
 
 namespace app {
 namespace {
@@ -41,6 +42,7 @@ struct RehearseOptions {
   DisplayOption display;
   assets::JawParameters jaw;
   std::optional<double> seconds, face_window_mm;
+  std::optional<int> monitor, quality;
   double rate_Hz = 1000.0, loupes = 4.0;
   bool headless = false, force = false;
 };
@@ -90,6 +92,8 @@ int run(const RehearseOptions& options) {
   plan.eyes_swapped = options.display.swapped();
   plan.backend = options.picture.backend();
   options.picture.apply(plan.first_frame);
+  if (options.monitor) plan.monitor = *options.monitor - 1;
+  plan.quality_step = options.quality;
   plan.rate_Hz = options.rate_Hz;
   plan.seconds = options.seconds;
   plan.snapshot = options.snapshot;
@@ -133,6 +137,10 @@ void addRehearse(CLI::App& molar, Chosen& chosen) {
       command->add_option("--rig", o->rig, "Rig file: screen, mirror, eyes, patient pose; 1:1")->type_name("FILE");
   o->display.addTo(*command);
   o->picture.addTo(*command);
+  command->add_option("--monitor", o->monitor, "Monitor of the picture, from 1; two windows take the next one as well")
+      ->check(CLI::Range(1, 16));
+  command->add_option("--quality", o->quality, "Hold this quality, 0 best to 6 fastest [by measured frame times]")
+      ->check(CLI::Range(0, static_cast<int>(render::kQualitySteps.size()) - 1));
   command->add_option("--size", o->size, "Picture size")->type_name("WxH");
   command->add_option("--loupes", o->loupes, "Magnification on a desk (without --rig)")
       ->check(numberRange(1.0, 8.0))
