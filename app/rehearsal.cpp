@@ -26,6 +26,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kBurTurnsPerSecond = 7.0;  ///< as drawn: a real bur turns too fast for any display to show
 constexpr int kSnapshotSamples = 2;
+constexpr int kSettled = 4;  ///< pictures without a change of quality
+constexpr double kLongestSettling_s = 3.0;
 constexpr double kStatusEvery_s = 0.5, kLatencyNotedEvery_s = 5.0;
 
 volatile std::sig_atomic_t interrupted = 0;
@@ -70,7 +72,7 @@ class Rehearsal {
     display_.emplace(
         displayOf(plan_), [this] { return newRenderer(); }, [this](const std::string& line) { tell(line); });
     ladder_.emplace(1.0 / display_->refresh_Hz(), plan_.quality_step.value_or(0));
-    if (display_->window() != nullptr || plan_.quality_step) frame_.quality = ladder_->quality();
+    frame_.quality = ladder_->quality();
     latency_.emplace(display_->refresh_Hz(), plan_.rate_Hz);
     workstation_.emplace(plan_.patient, std::move(hand_.device),
                          haptics::ServoSettings{plan_.rate_Hz, hand_.X_PD, {}, true}, desk_.inForce(), plan_.recording);
@@ -80,6 +82,7 @@ class Rehearsal {
   void run() {
     drawFrame();
     first_picture_s_ = secondsSince(plan_.begun);
+    settleQuality();
     if (first_pictures_) takePictures(*first_pictures_, plan_.patient.ct.solid);
     workstation_->start();
     workstation_->note("start", nameOf(plan_.hand));
@@ -182,11 +185,22 @@ class Rehearsal {
     ++frames_;
   }
 
+  bool choosesQuality() { return display_->window() != nullptr && !plan_.quality_step; }
+
+  /// Before the hand is there: so many pictures as tell what this machine can.
+  void settleQuality() {
+    const Clock::time_point begun = Clock::now();
+    for (int unchanged = 0; choosesQuality() && unchanged < kSettled && secondsSince(begun) < kLongestSettling_s;) {
+      drawFrame();
+      unchanged = ladder_->add(display_->drawing_s(), true) ? 0 : unchanged + 1;
+      frame_.quality = ladder_->quality();
+    }
+  }
+
   /// Never in the middle of a stroke.
   void chooseQuality() {
-    if (display_->window() == nullptr || plan_.quality_step) return;
     const bool stroke = newest_.drilling || newest_.depth_mm > 0.0;
-    if (!ladder_->add(display_->drawing_s(), !stroke)) return;
+    if (!choosesQuality() || !ladder_->add(display_->drawing_s(), !stroke)) return;
     frame_.quality = ladder_->quality();
     noteQuality();
   }

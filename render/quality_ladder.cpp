@@ -6,9 +6,11 @@
 namespace render {
 namespace {
 
-constexpr std::size_t kWindow = 9;  ///< frames whose median is believed: one hiccup changes nothing
-constexpr double kLate = 1.05;      ///< of the budget: down
-constexpr double kEasy = 0.85;      ///< of the budget, expected of the better step: up
+constexpr std::size_t kWindow = 9;            ///< frames whose median is believed: one hiccup changes nothing
+constexpr std::size_t kFarTooLateWindow = 3;  ///< are enough, if frames come that late
+constexpr double kFarTooLate = 2.5;           ///< of the budget: down at once, several steps
+constexpr double kLate = 1.05;                ///< of the budget: down
+constexpr double kEasy = 0.85;                ///< of the budget, expected of the better step: up
 constexpr double kFirstClimbAfter_s = 2.0;
 constexpr double kLongestClimbAfter_s = 64.0;
 constexpr double kClimbProved_s = 10.0;  ///< a climb that lasted so long was right
@@ -38,9 +40,9 @@ std::optional<int> QualityLadder::add(double frame_s, bool may_change) {
   if (recent_s_.size() > kWindow) recent_s_.pop_front();
   since_climb_s_ += frame_s;
   if (since_climb_s_ > kClimbProved_s && since_climb_s_ < 2.0 * kClimbProved_s) climb_after_s_ = kFirstClimbAfter_s;
-  if (recent_s_.size() < kWindow) return std::nullopt;
-
   const double typical = typical_s();
+  const bool far_too_late = typical > kFarTooLate * budget_s_;
+  if (recent_s_.size() < (far_too_late ? kFarTooLateWindow : kWindow)) return std::nullopt;
   const double climb_cost = kQualitySteps[static_cast<std::size_t>(step_)].climb_cost;
   const bool easy = step_ > 0 && typical * climb_cost < kEasy * budget_s_;
   calm_s_ = easy ? calm_s_ + std::max(frame_s, budget_s_) : 0.0;
@@ -50,7 +52,11 @@ std::optional<int> QualityLadder::add(double frame_s, bool may_change) {
     // Down again soon after a climb: that climb was a mistake.
     if (since_climb_s_ < kClimbProved_s) climb_after_s_ = std::min(2.0 * climb_after_s_, kLongestClimbAfter_s);
     since_climb_s_ = 1e9;
-    return goTo(step_ + 1);
+    int to = step_ + 1;
+    double expected_s = typical / kQualitySteps[static_cast<std::size_t>(to)].climb_cost;
+    while (far_too_late && to < kWorst && expected_s > budget_s_)
+      expected_s /= kQualitySteps[static_cast<std::size_t>(++to)].climb_cost;
+    return goTo(to);
   }
   if (calm_s_ > climb_after_s_) {
     since_climb_s_ = 0.0;

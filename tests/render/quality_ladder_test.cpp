@@ -64,6 +64,15 @@ TEST(QualityLadder, GoesDownWithinAFewFramesAndClimbsAfterSeconds) {
   EXPECT_LT(waited_s, 4.0);
 }
 
+// Without a graphics card the first frames take a tenth of a second and more: nobody shall wait for nine of them.
+TEST(QualityLadder, FarTooSlowItGoesSeveralStepsAfterThreeFrames) {
+  QualityLadder ladder(kBudget_s);
+  int frames = 1;
+  while (!ladder.add(1.0, true)) ++frames;
+  EXPECT_EQ(frames, 3);
+  EXPECT_EQ(ladder.step(), static_cast<int>(kQualitySteps.size()) - 1);
+}
+
 TEST(QualityLadder, OneHiccupChangesNothing) {
   QualityLadder ladder(kBudget_s);
   int n = 0;
