@@ -44,6 +44,7 @@ double width_mm(const calibration::ScreenCorners& screen) {
 SurgeonDisplay::Options displayOf(const RehearsalPlan& plan) {
   return {.mode = plan.display,
           .eyes_swapped = plan.eyes_swapped,
+          .backend = plan.backend,
           .screen_px = plan.rig.screen.px,
           .full_screen = plan.full_screen,
           .monitor = plan.monitor,
@@ -70,9 +71,10 @@ class Rehearsal {
     frame_.site_P = {plan_.patient.site.third_molar_P_mm};
     frame_.tool_visible = false;
     display_.emplace(
-        displayOf(plan_), [this] { return newRenderer(); }, [this](const std::string& line) { tell(line); });
+        displayOf(plan_), [this](render::Backend backend) { return newRenderer(backend); },
+        [this](const std::string& line) { tell(line); });
     ladder_.emplace(1.0 / display_->refresh_Hz(), plan_.quality_step.value_or(0));
-    frame_.quality = ladder_->quality();
+    if (choosesQuality() || plan_.quality_step) frame_.quality = ladder_->quality();
     latency_.emplace(display_->refresh_Hz(), plan_.rate_Hz);
     workstation_.emplace(plan_.patient, std::move(hand_.device),
                          haptics::ServoSettings{plan_.rate_Hz, hand_.X_PD, {}, true}, desk_.inForce(), plan_.recording);
@@ -107,9 +109,8 @@ class Rehearsal {
 
  private:
   /// In the current context, from the bone as it is.
-  std::unique_ptr<render::FrameRenderer> newRenderer() {
-    auto renderer = dressedRenderer(plan_.patient, desk_.inForce().tool, plan_.patient.ct.solid,
-                                    {.backend = plan_.backend});
+  std::unique_ptr<render::FrameRenderer> newRenderer(render::Backend backend) {
+    auto renderer = dressedRenderer(plan_.patient, desk_.inForce().tool, plan_.patient.ct.solid, {.backend = backend});
     if (workstation_) upload_.bringAgain(workstation_->bone(), *renderer);
     return renderer;
   }
@@ -205,7 +206,10 @@ class Rehearsal {
     noteQuality();
   }
 
-  void noteQuality() { workstation_->note("quality", std::string(ladder_->words())); }
+  std::string qualityText() {
+    return choosesQuality() || plan_.quality_step ? std::string(ladder_->words()) : "as asked";
+  }
+  void noteQuality() { workstation_->note("quality", qualityText()); }
 
   RehearsalStatus status() {
     RehearsalStatus s;
@@ -220,7 +224,7 @@ class Rehearsal {
     s.pictures_per_s = pictures_per_s_;
     s.refresh_Hz = display_->refresh_Hz();
     s.latency = latency_->now();
-    s.quality = std::string(ladder_->words());
+    s.quality = qualityText();
     s.quality_step = ladder_->step();
     s.quality_is_held = plan_.quality_step.has_value();
     s.layers = frame_.layers;
@@ -261,7 +265,7 @@ class Rehearsal {
   /// Both eyes at full quality: `name_left.png`, `name_right.png`.
   void takePictures(EyePictures& pictures, std::span<const std::uint8_t> solid) {
     const auto renderer = dressedRenderer(plan_.patient, desk_.inForce().tool, solid,
-                                          {.backend = plan_.backend, .samples = kSnapshotSamples});
+                                          {.backend = display_->backend(), .samples = kSnapshotSamples});
     render::Frame frame = frame_;
     frame.quality = {};
     frame.rig.screen.px = plan_.snapshot_px;
@@ -297,7 +301,7 @@ class Rehearsal {
     figures.frame_ms = 1000.0 * loop_s_ / static_cast<double>(std::max<std::uint64_t>(1, frames_ - 1));
     figures.first_picture_s = first_picture_s_;
     figures.display = std::string(render::nameOf(display_->mode()));
-    figures.quality = std::string(ladder_->words());
+    figures.quality = qualityText();
     if (latency_->pictures() > 0) {
       figures.latency = latency_->median();
       figures.slow_latency = latency_->slow();

@@ -8,6 +8,7 @@
 namespace app {
 namespace {
 
+using render::Backend;
 using render::DisplayMode;
 
 constexpr int kMostResets = 3;  ///< a driver that gives up again and again is not worth another window
@@ -40,9 +41,33 @@ void SurgeonDisplay::open() {
       windows_ = {};
     }
   }
-  if (options_.headless) offscreen_.emplace();
+  if (options_.headless) openOffscreen();
   fence_.emplace();
-  renderer_ = make_renderer_();
+  openRenderer();
+}
+
+void SurgeonDisplay::openOffscreen() {
+  if (options_.backend == Backend::cpu) return;
+  try {
+    offscreen_.emplace();
+  } catch (const render::GpuError& error) {
+    tell_(std::string(error.what()) + "; drawing on the processor");
+    options_.backend = Backend::cpu;
+  }
+}
+
+/// A driver that does not take the shaders: the next best renderer.
+void SurgeonDisplay::openRenderer() {
+  while (!renderer_) {
+    try {
+      renderer_ = make_renderer_(options_.backend);
+    } catch (const render::GpuError& error) {
+      if (options_.backend == Backend::cpu) throw;
+      const bool compute = options_.backend == Backend::gl_compute;
+      tell_(std::string(error.what()) + (compute ? "; drawing with fragment shaders" : "; drawing on the processor"));
+      options_.backend = compute ? Backend::gl_fragment : Backend::cpu;
+    }
+  }
 }
 
 void SurgeonDisplay::insteadShow(DisplayMode mode, const std::string& because) {

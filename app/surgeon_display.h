@@ -21,12 +21,13 @@ namespace app {
 class SurgeonDisplay {
  public:
   using Clock = std::chrono::steady_clock;
-  using MakeRenderer = std::function<std::unique_ptr<render::FrameRenderer>()>;
+  using MakeRenderer = std::function<std::unique_ptr<render::FrameRenderer>(render::Backend)>;
   using Tell = std::function<void(const std::string& line)>;
 
   struct Options {
     render::DisplayMode mode = render::DisplayMode::mono;
     bool eyes_swapped = false;
+    render::Backend backend = render::Backend::gl_fragment;
     glm::ivec2 screen_px{1280, 800};  ///< the rig's
     bool full_screen = false;
     std::optional<int> monitor = std::nullopt;  ///< index; two windows take this one and the next
@@ -50,6 +51,7 @@ class SurgeonDisplay {
   Clock::time_point handedOver() const { return handed_over_; }
 
   render::DisplayMode mode() const { return options_.mode; }
+  render::Backend backend() const { return options_.backend; }
   /// None: headless.
   render::Window* window() { return windows_.front().get(); }
   render::FrameRenderer& renderer() { return *renderer_; }
@@ -65,6 +67,8 @@ class SurgeonDisplay {
   void open();
   void openWindows();
   void openSecondWindow();
+  void openOffscreen();
+  void openRenderer();
   void insteadShow(render::DisplayMode mode, const std::string& because);
   void drawAndPresent(render::Frame& frame);
   void close();
