@@ -11,6 +11,7 @@
 #include "render/gpu/gl_debug_log.h"
 #include "render/gpu/gpu_error.h"
 #include "render/gpu/window_picture.h"
+#include "render/scene/edge_pass.h"
 #include "render/scene/mesh_pass.h"
 #include "render/shaders/shared_numbers.glsl"
 #include "render/volume/ray_caster.h"
@@ -42,10 +43,19 @@ std::optional<SceneMesh> onGpu(const assets::MeshModel& model, Finish finish) {
   return SceneMesh(model, finish);
 }
 
-// An eye as last drawn.
-struct EyePicture {
+// What a scene is drawn into.
+struct Canvas {
+  void fit(glm::ivec2 size) {
+    if (target.size() != size) target = Framebuffer(size, kSceneTargets, true);
+  }
+
   Framebuffer target;
   VolumeLayer layer;
+};
+
+// An eye as last drawn.
+struct EyePicture {
+  Canvas canvas;
   glm::ivec2 px{0};
   Frame frame;
   bool drawn = false;
@@ -88,7 +98,8 @@ class GlSceneRenderer final : public SceneRenderer {
 
  private:
   EyePicture& picture(Eye eye) { return pictures_[static_cast<std::size_t>(eye)]; }
-  void drawScene(const Frame& frame, Eye eye, Framebuffer& target, VolumeLayer& layer);
+  enum class Where { everywhere, edges };
+  void drawScene(const Frame& frame, Eye eye, Canvas& canvas, Where where = Where::everywhere);
 
   int samples_;
   GlDebugLog log_{false};
@@ -101,7 +112,9 @@ class GlSceneRenderer final : public SceneRenderer {
   UniformBlock<EyeBlock> eye_block_;
   StereoCompositor compositor_;
   std::optional<SceneMesh> face_, gum_, instrument_;
+  EdgePass edges_;
   std::array<EyePicture, 3> pictures_;
+  Canvas edge_samples_;
   Eye composed_from_ = Eye::cyclopean;
   std::array<Framebuffer, 3> outputs_;
 };
@@ -109,21 +122,30 @@ class GlSceneRenderer final : public SceneRenderer {
 void GlSceneRenderer::drawEye(const Frame& frame, Eye eye, glm::ivec2 px) {
   EyePicture& to = picture(eye);
   const glm::ivec2 size = samples_ * px;
-  if (to.target.size() != size) to.target = Framebuffer(size, kSceneTargets, true);
+  to.canvas.fit(size);
   to.px = px;
   to.frame = frame;
   to.drawn = true;
-  drawScene(frame, eye, to.target, to.layer);
+  drawScene(frame, eye, to.canvas);
+  if (samples_ > 1 || frame.quality.antialias == Antialias::none) return;
+
+  // Silhouettes once more, finer.
+  edges_.find(to.canvas.target);
+  edge_samples_.fit(EDGE_SAMPLES * size);
+  drawScene(frame, eye, edge_samples_, Where::edges);
+  edges_.average(edge_samples_.target, to.canvas.target);
 }
 
-void GlSceneRenderer::drawScene(const Frame& frame, Eye eye, Framebuffer& target, VolumeLayer& layer) {
+void GlSceneRenderer::drawScene(const Frame& frame, Eye eye, Canvas& canvas, Where where) {
+  Framebuffer& target = canvas.target;
   const EyeView view = eyeView(frame.rig, eye);
   eye_block_.set(EYE_BLOCK, eyeBlock(frame, view));
   caster_.bind(fields_, volume_, frame, transfer_);
   target.bind();
   target.clear();
+  if (where == Where::edges) edges_.bar(target);
 
-  apply({.depth_test = false, .depth_write = false});
+  apply({.depth_write = false, .at_same_depth = true, .write_distance = false});
   background_.use();
   drawScreen();
 
@@ -137,7 +159,7 @@ void GlSceneRenderer::drawScene(const Frame& frame, Eye eye, Framebuffer& target
     if (gum_) meshes_.draw(*gum_, parts, in_P);
   };
   draw_meshes(MeshPass::Parts::opaque);
-  caster_.draw(layer, target);
+  caster_.draw(canvas.layer, target);
   draw_meshes(MeshPass::Parts::transparent);
 }
 
@@ -149,8 +171,8 @@ void GlSceneRenderer::compose(const Frame& frame) {
   const glm::ivec2 size = outputSize(frame.display, frame.rig.screen.px);
   const bool mono = frame.display == DisplayMode::mono;
   composed_from_ = mono ? Eye::cyclopean : Eye::left;
-  const Texture& left = picture(mono ? Eye::cyclopean : Eye::left).target.colour(COLOUR_TARGET);
-  const Texture& right = picture(mono ? Eye::cyclopean : Eye::right).target.colour(COLOUR_TARGET);
+  const Texture& left = picture(mono ? Eye::cyclopean : Eye::left).canvas.target.colour(COLOUR_TARGET);
+  const Texture& right = picture(mono ? Eye::cyclopean : Eye::right).canvas.target.colour(COLOUR_TARGET);
   for (layout.output = 0; layout.output < outputCount(frame.display); ++layout.output) {
     Framebuffer& output = outputs_[static_cast<std::size_t>(layout.output)];
     if (output.size() != size) output = Framebuffer(size, kOutputTargets, false);
@@ -163,14 +185,14 @@ void GlSceneRenderer::composeForBystander() {
   const glm::ivec2 size = seen.frame.rig.screen.px;
   Framebuffer& output = outputs_[kBystanderOutput];
   if (output.size() != size) output = Framebuffer(size, kOutputTargets, false);
-  const Texture& light = seen.target.colour(COLOUR_TARGET);
+  const Texture& light = seen.canvas.target.colour(COLOUR_TARGET);
   compositor_.compose({.screen_px = size}, light, light, samples_, output);
 }
 
 Picture GlSceneRenderer::readEye(Eye eye) {
   assert(picture(eye).drawn);
   const Framebuffer resolved(picture(eye).px, kOutputTargets, false);
-  const Texture& light = picture(eye).target.colour(COLOUR_TARGET);
+  const Texture& light = picture(eye).canvas.target.colour(COLOUR_TARGET);
   compositor_.compose({.screen_px = picture(eye).px}, light, light, samples_, resolved);
   return pictureOf(resolved);
 }
@@ -181,13 +203,13 @@ DistancePicture GlSceneRenderer::readDistance(Eye eye) {
   const auto read = [&](const Framebuffer& target) -> DistancePicture {
     return {shown.px.x, shown.px.y, flipped(target.readFloat(DISTANCE_TARGET), static_cast<std::size_t>(shown.px.x))};
   };
-  if (samples_ == 1) return read(shown.target);
+  if (samples_ == 1) return read(shown.canvas.target);
 
   // Samples lie beside the pixel's centre, where the distance is asked for: draw it there.
-  Framebuffer centred(shown.px, kSceneTargets, true);
-  VolumeLayer layer;
-  drawScene(shown.frame, eye, centred, layer);
-  return read(centred);
+  Canvas centred;
+  centred.fit(shown.px);
+  drawScene(shown.frame, eye, centred);
+  return read(centred.target);
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ GlName newVertexArray() {
 void apply(const DrawState& state) {
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   enable(GL_DEPTH_TEST, state.depth_test);
-  glDepthFunc(GL_GREATER);
+  glDepthFunc(state.at_same_depth ? GL_GEQUAL : GL_GREATER);
   glDepthMask(state.depth_write ? GL_TRUE : GL_FALSE);
   enable(GL_BLEND, false);
   if (state.blend != Blend::none) {

@@ -15,6 +15,7 @@ enum class Blend { none, over, premultiplied_over };
 struct DrawState {
   bool depth_test = true;
   bool depth_write = true;
+  bool at_same_depth = false;  ///< what lies at the very depth that is there already is drawn too
   Blend blend = Blend::none;   ///< of the first colour attachment
   bool mirrored = false;       ///< the view is left-handed: front faces turn clockwise
   bool write_colour = true;    ///< first colour attachment

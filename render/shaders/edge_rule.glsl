@@ -3,11 +3,7 @@
 #include "light_numbers.glsl"
 
 // Of a pixel and two neighbours on opposite sides, mm along their rays, 0 where nothing is met.
-float bendAcross(float before, float here, float after) {
+bool bends(float before, float here, float after) {
   float a = before > 0.0 ? 1.0 / before : 0.0, c = here > 0.0 ? 1.0 / here : 0.0, b = after > 0.0 ? 1.0 / after : 0.0;
-  return abs(a - 2.0 * c + b) / max(max(a, b), max(c, 1e-9));
-}
-
-bool isEdge(float left, float right, float below, float above, float here) {
-  return max(bendAcross(left, here, right), bendAcross(below, here, above)) > EDGE_BEND;
+  return abs(a - 2.0 * c + b) > EDGE_BEND * max(max(a, b), max(c, 1e-9));
 }

@@ -20,6 +20,7 @@
 #define LOOK_UNIT 8
 #define LAYER_LIGHT_UNIT 9
 #define LAYER_DISTANCE_UNIT 10
+#define EDGE_MASK_UNIT 11
 
 #define POSITION_ATTRIBUTE 0     // vertex attributes
 #define NORMAL_ATTRIBUTE 1
@@ -56,3 +57,5 @@
 #define VIEW_DVR 1
 #define TISSUE_COUNT 10          // assets::kTissueCount
 #define CAST_GROUP 8             // edge of a work group of the compute caster, px
+
+#define EDGE_SAMPLES 2           // of a pixel that antialiasing draws again, along each edge
