@@ -62,7 +62,9 @@ Backend PictureOption::backend() const {
 }
 
 void PictureOption::apply(render::Frame& frame) const {
-  if (kModes.at(mode_) == ViewMode::mesh) throw UsageError("--mode mesh: not in this version, use iso or dvr");
+  if (kModes.at(mode_) == ViewMode::mesh && kBackends.at(renderer_) == Backend::cpu)
+    throw UsageError(
+        "--mode mesh: triangles are drawn by OpenGL, use --mode iso (the same surface) or --renderer gl-fragment");
   frame.mode = kModes.at(mode_);
   for (const std::string& layer : layers_) frame.layers.*kLayers.at(layer) = true;
   frame.layers.face_opacity = static_cast<float>(face_opacity_);

@@ -14,6 +14,7 @@
 #include "render/scene/edge_pass.h"
 #include "render/scene/mesh_pass.h"
 #include "render/shaders/shared_numbers.glsl"
+#include "render/volume/bone_mesh.h"
 #include "render/volume/ray_caster.h"
 
 namespace render {
@@ -82,7 +83,11 @@ class GlSceneRenderer final : public SceneRenderer {
 
   void prepare(const Frame& frame) override {
     const bool translucent = frame.mode == ViewMode::dvr;
-    volume_.update(fields_, fields_.prepare(translucent ? visibleFrom(transfer_) : Occupancy::kSolidFrom));
+    const FieldChanges& changes = fields_.prepare(translucent ? visibleFrom(transfer_) : Occupancy::kSolidFrom);
+    volume_.update(fields_, changes);
+    if (frame.mode == ViewMode::mesh && !bone_mesh_) bone_mesh_.emplace();
+    if (bone_mesh_) bone_mesh_->note(changes);
+    if (frame.mode == ViewMode::mesh) bone_mesh_->prepare(fields_);
   }
   void drawEye(const Frame& frame, Eye eye, glm::ivec2 px) override;
   void compose(const Frame& frame) override;
@@ -107,6 +112,7 @@ class GlSceneRenderer final : public SceneRenderer {
   VolumeTexture volume_;
   TransferFunction transfer_;
   RayCaster caster_;
+  std::optional<BoneMesh> bone_mesh_;  ///< from the first frame that shows it
   MeshPass meshes_;
   Program background_{"screen.vert", "background.frag"};
   UniformBlock<EyeBlock> eye_block_;
@@ -159,7 +165,10 @@ void GlSceneRenderer::drawScene(const Frame& frame, Eye eye, Canvas& canvas, Whe
     if (gum_) meshes_.draw(*gum_, parts, in_P);
   };
   draw_meshes(MeshPass::Parts::opaque);
-  caster_.draw(canvas.layer, target);
+  if (frame.mode == ViewMode::mesh)
+    bone_mesh_->draw(view.mirrored);
+  else
+    caster_.draw(canvas.layer, target);
   draw_meshes(MeshPass::Parts::transparent);
 }
 

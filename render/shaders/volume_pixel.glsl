@@ -1,9 +1,7 @@
 // What one pixel shows of tooth and bone, as far as the meshes before them allow: the whole of both the fragment and the
 // compute caster.
-#include "ray_cast.glsl"
+#include "bone_light.glsl"
 #include "ray_through.glsl"
-#include "tissue_look.glsl"
-#include "occlusion.glsl"
 
 layout(binding = SCENE_DISTANCE_UNIT) uniform sampler2D scene_distance;  // of the meshes, 0 where there are none
 
@@ -17,10 +15,7 @@ VolumePixel surfacePixel(vec3 eye_index, vec3 direction, float limit) {
   if (t < 0.0) return VolumePixel(vec4(0.0), 0.0);
   vec3 index = eye_index + t * direction;
   vec3 p_P = eye.eye_P.xyz + (t * volume.origin_P.w) * direction;
-  vec3 normal = surfaceNormal(index);
-  Surface surface = tissueSurface(index, normal, p_P);
-  vec3 light = lit(surface, p_P, normal, -direction, shadeFromVolume(p_P, normal));
-  return VolumePixel(vec4(light, 1.0), t * volume.origin_P.w);
+  return VolumePixel(vec4(boneLight(index, p_P, direction), 1.0), t * volume.origin_P.w);
 }
 
 VolumePixel translucentPixel(vec3 eye_index, vec3 direction, float limit) {
