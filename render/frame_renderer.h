@@ -19,7 +19,6 @@
 namespace render {
 
 class SceneRenderer;
-class WindowUpload;
 
 class FrameRenderer {
  public:
@@ -56,7 +55,6 @@ class FrameRenderer {
   void throwIfError();
 
  private:
-  std::unique_ptr<WindowUpload> upload_;  ///< of a back-end without OpenGL
   std::unique_ptr<SceneRenderer> scene_;
 };
 

@@ -25,7 +25,6 @@ void addCarve(CLI::App& molar, Chosen& chosen);
 void addSee(CLI::App& molar, Chosen& chosen);
 void addReplay(CLI::App& molar, Chosen& chosen);
 void addMetrics(CLI::App& molar, Chosen& chosen);
-void addExport(CLI::App& molar, Chosen& chosen);
 void addLaws(CLI::App& molar, Chosen& chosen);
 void addPsychophysics(CLI::App& molar, Chosen& chosen);
 
