@@ -7,15 +7,28 @@
 
 namespace app {
 
+namespace {
+
+void bringBrick(const haptics::CarvedBone& from, glm::ivec3 brick, render::FrameRenderer& to) {
+  std::array<std::uint8_t, 512> solid{};
+  from.copyBrick(brick, solid);
+  to.updateBrick(brick, solid);
+}
+
+}  // namespace
+
 std::size_t BrickUpload::bring(haptics::CarvedBone& from, render::FrameRenderer& to) {
   bricks_.clear();
   from.dirtyBricks().takeInto(bricks_);
-  std::array<std::uint8_t, 512> solid{};
   for (const glm::ivec3 brick : bricks_) {
-    from.copyBrick(brick, solid);
-    to.updateBrick(brick, solid);
+    bringBrick(from, brick, to);
+    ever_.insert(brick);
   }
   return bricks_.size();
+}
+
+void BrickUpload::bringAgain(const haptics::CarvedBone& from, render::FrameRenderer& to) const {
+  for (const glm::ivec3 brick : ever_) bringBrick(from, brick, to);
 }
 
 }  // namespace app

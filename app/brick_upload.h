@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <set>
+#include <tuple>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -20,9 +22,18 @@ class BrickUpload {
  public:
   /// Returns how many bricks were brought over.
   std::size_t bring(haptics::CarvedBone& from, render::FrameRenderer& to);
+  /// All that was ever brought, to a renderer that was made from the bone of the start.
+  void bringAgain(const haptics::CarvedBone& from, render::FrameRenderer& to) const;
 
  private:
+  struct InOrder {
+    bool operator()(const glm::ivec3& a, const glm::ivec3& b) const {
+      return std::tie(a.z, a.y, a.x) < std::tie(b.z, b.y, b.x);
+    }
+  };
+
   std::vector<glm::ivec3> bricks_;
+  std::set<glm::ivec3, InOrder> ever_;
 };
 
 }  // namespace app

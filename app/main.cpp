@@ -53,6 +53,7 @@ int run(int argc, char** argv) {
   app::addSee(molar, chosen);
   app::addReplay(molar, chosen);
   app::addMetrics(molar, chosen);
+  app::addExport(molar, chosen);
   app::addLaws(molar, chosen);
   app::addPsychophysics(molar, chosen);
   try {

@@ -1,104 +1,55 @@
 #include "app/rehearsal.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
-#include <filesystem>
 #include <span>
 
 #include "app/brick_upload.h"
-#include "app/command_settings.h"
+#include "app/command_desk.h"
+#include "app/dressed_renderer.h"
 #include "app/hand_input.h"
-#include "app/law_text.h"
-#include "app/live_parameters.h"
+#include "app/motion_to_photon.h"
+#include "app/rehearsal_status.h"
 #include "app/rehearsal_summary.h"
 #include "app/snapshot.h"
+#include "app/surgeon_display.h"
 #include "app/tool_text.h"
-#include "app/trough_plan.h"
-#include "app/usage_error.h"
-#include "assets/instrument.h"
 #include "calibration/geometry/units.h"
-#include "haptics/device/mouse_device.h"
-#include "haptics/device/scripted_hand.h"
-#include "haptics/device/simulated_device.h"
-#include "render/display/window.h"
-#include "render/frame_renderer.h"
-#include "render/gpu/offscreen_context.h"
+#include "render/quality_ladder.h"
 
 namespace app {
 namespace {
 
-using calibration::Patient;
-using calibration::Point;
-using calibration::Pose;
-using calibration::Tool;
-using calibration::World;
 using Clock = std::chrono::steady_clock;
 
 constexpr double kBurTurnsPerSecond = 7.0;  ///< as drawn: a real bur turns too fast for any display to show
 constexpr int kSnapshotSamples = 2;
+constexpr int kSettled = 4;  ///< pictures without a change of quality
+constexpr double kLongestSettling_s = 3.0;
+constexpr double kStatusEvery_s = 0.5, kLatencyNotedEvery_s = 5.0;
 
 volatile std::sig_atomic_t interrupted = 0;
 
-double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-/// From the bur to the handle, W: towards the viewer and down over the lower lip, so that it does not hide the site.
-glm::dvec3 shaftDirection_W() { return glm::normalize(glm::dvec3(0.12, -0.38, 0.92)); }
-
-/// Where the mouse's tool begins: in front of the site.
-Pose<World, Tool> restingTool() { return {glm::dquat(glm::dvec3(0, 0, 1), shaftDirection_W()), {0.0, 6.0, 12.0}}; }
-
-/// The hand of this rehearsal, and how its frame stands to the patient.
-struct HandAtWork {
-  std::unique_ptr<haptics::HapticDevice> device;
-  haptics::MouseDevice* mouse = nullptr;  ///< set where the window moves the hand
-  Pose<Patient, calibration::Device> X_PD;
-  std::optional<double> duration_s;
-};
-
-HandAtWork handOf(const RehearsalPlan& plan) {
-  HandAtWork hand;
-  if (plan.hand != Hand::mouse) {
-    auto trough = planBuccalTrough(plan.patient, plan.command.tool.head.radius_mm);
-    if (!trough) throw UsageError("--device: this patient has no third molar with bone beside it, use --device mouse");
-    trough->shaft_D = {glm::conjugate(plan.rig.X_WP.rotation) * shaftDirection_W()};
-    if (plan.hand == Hand::simulated) {
-      auto simulated = std::make_unique<haptics::SimulatedDevice>(*trough, haptics::SimulatedMechanics{});
-      hand.duration_s = simulated->duration_s();
-      hand.device = std::move(simulated);
-      return hand;
-    }
-    auto scripted = std::make_unique<haptics::ScriptedHand>(*trough);
-    hand.duration_s = scripted->duration_s();
-    hand.device = std::move(scripted);
-    return hand;
-  }
-  // The mouse moves in W.
-  const Pose<World, Tool> X_WT = restingTool();
-  auto mouse =
-      std::make_unique<haptics::MouseDevice>(haptics::MouseTarget{{X_WT.rotation, X_WT.translation_mm}, false});
-  hand.mouse = mouse.get();
-  hand.device = std::move(mouse);
-  const Pose<World, Patient> X_WP = plan.rig.X_WP;
-  hand.X_PD = {X_WP.inverse().rotation, X_WP.inverse().translation_mm};
-  return hand;
+double secondsBetween(Clock::time_point from, Clock::time_point to) {
+  return std::chrono::duration<double>(to - from).count();
 }
-
-/// What is felt and cuts is what is drawn.
-assets::InstrumentParameters drawnAs(const haptics::Tool& tool) {
-  assets::InstrumentParameters drawn;
-  drawn.form = static_cast<assets::BurForm>(tool.head.kind);
-  drawn.bur_radius_mm = tool.head.radius_mm;
-  drawn.bur_length_mm = tool.head.length_mm;
-  drawn.neck_radius_mm = tool.shaft.radius_mm;
-  return drawn;
-}
-static_assert(static_cast<int>(assets::BurForm::cone) == static_cast<int>(haptics::ShapeKind::cone));
+double secondsSince(Clock::time_point start) { return secondsBetween(start, Clock::now()); }
 
 double width_mm(const calibration::ScreenCorners& screen) {
   return glm::distance(screen.lower_left.mm, screen.lower_right.mm);
+}
+
+SurgeonDisplay::Options displayOf(const RehearsalPlan& plan) {
+  return {.mode = plan.display,
+          .eyes_swapped = plan.eyes_swapped,
+          .backend = plan.backend,
+          .screen_px = plan.rig.screen.px,
+          .full_screen = plan.full_screen,
+          .monitor = plan.monitor,
+          .headless = plan.headless,
+          .needs_window = plan.hand == Hand::mouse};
 }
 
 /// One rehearsal from the first frame on.
@@ -106,46 +57,50 @@ class Rehearsal {
  public:
   explicit Rehearsal(RehearsalPlan plan)
       : plan_(std::move(plan)),
-        hand_(handOf(plan_)),
+        hand_(handAtWork(plan_.hand, plan_.patient, plan_.rig, plan_.command.tool.head.radius_mm)),
         duration_s_(plan_.seconds ? plan_.seconds : hand_.duration_s),
         input_(restingTool()),
-        device_damping_Ns_per_mm_(hand_.device->capabilities().damping_Ns_per_mm) {
-    if (!plan_.parameters.empty()) {
-      parameters_.emplace(plan_.parameters, plan_.command, [this](const haptics::Command& c) { check(c); });
-      plan_.command = parameters_->first();
-    }
-    check(plan_.command);
+        desk_(plan_.command, plan_.parameters, hand_.device->capabilities().damping_Ns_per_mm, plan_.rate_Hz) {
     // Every output is claimed before any work.
     if (!plan_.snapshot.empty()) closing_pictures_.emplace(plan_.snapshot, plan_.overwrite);
     if (!plan_.first_snapshot.empty()) first_pictures_.emplace(plan_.first_snapshot, plan_.overwrite);
-    openDisplay();
-    renderer_ = rendererWith(1, plan_.patient.ct.solid);
+    frame_ = plan_.first_frame;
     frame_.rig = plan_.rig;
-    frame_.display = plan_.display;
-    frame_.eyes_swapped = plan_.eyes_swapped;
-    frame_.bur_radius_mm = plan_.command.tool.head.radius_mm;
+    frame_.bur_radius_mm = desk_.inForce().tool.head.radius_mm;
     frame_.face_window_mm = plan_.face_window_mm;
     frame_.site_P = {plan_.patient.site.third_molar_P_mm};
     frame_.tool_visible = false;
+    display_.emplace(
+        displayOf(plan_), [this](render::Backend backend) { return newRenderer(backend); },
+        [this](const std::string& line) { tell(line); });
+    ladder_.emplace(1.0 / display_->refresh_Hz(), plan_.quality_step.value_or(0));
+    if (choosesQuality() || plan_.quality_step) frame_.quality = ladder_->quality();
+    latency_.emplace(display_->refresh_Hz(), plan_.rate_Hz);
     workstation_.emplace(plan_.patient, std::move(hand_.device),
-                         haptics::ServoSettings{plan_.rate_Hz, hand_.X_PD, {}, true}, plan_.command, plan_.recording);
+                         haptics::ServoSettings{plan_.rate_Hz, hand_.X_PD, {}, true}, desk_.inForce(), plan_.recording);
+    desk_.serve(*workstation_);
   }
 
   void run() {
     drawFrame();
     first_picture_s_ = secondsSince(plan_.begun);
+    settleQuality();
     if (first_pictures_) takePictures(*first_pictures_, plan_.patient.ct.solid);
     workstation_->start();
-    workstation_->note("start", plan_.hand == Hand::mouse      ? "mouse"
-                                : plan_.hand == Hand::scripted ? "scripted hand"
-                                                               : "simulated device");
+    workstation_->note("start", nameOf(plan_.hand));
+    for (const std::string& line : told_early_) workstation_->note("display", line);
+    noteQuality();
     looping_since_ = Clock::now();
     while (!isOver()) {
       takeInput();
-      takeParameters();
-      followServo();
+      desk_.lookAtFile();
       followGuide();
+      if (desk_.takeOtherBur()) showBur();
+      // Nothing is on its way any more: the pose read now is the newest that can be seen.
+      waitForDisplay();
+      followServo();
       drawFrame();
+      chooseQuality();
       showStatus();
     }
     loop_s_ = secondsSince(looping_since_);
@@ -153,21 +108,20 @@ class Rehearsal {
   }
 
  private:
-  void openDisplay() {
-    if (plan_.headless)
-      offscreen_.emplace();
-    else
-      window_.emplace(
-          render::Window::Options{.title = "Molar", .size_px = plan_.rig.screen.px, .full_screen = plan_.full_screen});
+  /// In the current context, from the bone as it is.
+  std::unique_ptr<render::FrameRenderer> newRenderer(render::Backend backend) {
+    auto renderer = dressedRenderer(plan_.patient, desk_.inForce().tool, plan_.patient.ct.solid, {.backend = backend});
+    if (workstation_) upload_.bringAgain(workstation_->bone(), *renderer);
+    return renderer;
   }
 
-  std::unique_ptr<render::FrameRenderer> rendererWith(int samples, std::span<const std::uint8_t> solid) const {
-    auto renderer = std::make_unique<render::FrameRenderer>(plan_.patient.ct.grid, solid, plan_.patient.ct.label,
-                                                            render::RenderOptions{.samples = samples});
-    renderer->setFace(plan_.patient.face);
-    renderer->setGum(plan_.patient.gum);
-    renderer->setInstrument(assets::surgicalHandpiece(drawnAs(plan_.command.tool)));
-    return renderer;
+  /// For the person and, as soon as there is one, for the recording.
+  void tell(const std::string& line) {
+    std::fprintf(stderr, "molar: %s\n", line.c_str());
+    if (workstation_)
+      workstation_->note("display", line);
+    else
+      told_early_.push_back(line);
   }
 
   bool isOver() {
@@ -177,19 +131,17 @@ class Rehearsal {
   }
 
   void takeInput() {
-    if (!window_) return;
-    const double mm_per_px = width_mm(plan_.rig.screen) / std::max(1, window_->framebufferSize_px().x);
-    for (const render::WindowEvent& event : window_->takeEvents())
+    render::Window* const window = display_->window();
+    if (window == nullptr) return;
+    const double mm_per_px = width_mm(plan_.rig.screen) / std::max(1, window->framebufferSize_px().x);
+    for (const render::WindowEvent& event : window->takeEvents())
       if (!isForGuide(event)) input_.take(event, mm_per_px);
     if (hand_.mouse) hand_.mouse->setTarget({{input_.X_WT().rotation, input_.X_WT().translation_mm}, input_.pedal()});
     if (input_.takeSnapshotAsked()) takeWindowSnapshot();
     if (plan_.guide) return;
-    if (input_.takeDrillSwitchAsked()) {
-      plan_.command.drill_enabled = !plan_.command.drill_enabled;
-      workstation_->change(plan_.command);
-    }
+    if (input_.takeDrillSwitchAsked()) desk_.switchDrill();
     if (const auto number = input_.takeNumberAsked(); number && *number < static_cast<int>(haptics::kLaws.size()))
-      switchLaw(haptics::kLaws[static_cast<std::size_t>(*number)].kind);
+      desk_.switchLaw(haptics::kLaws[static_cast<std::size_t>(*number)].kind);
   }
 
   bool isForGuide(const render::WindowEvent& event) const {
@@ -201,104 +153,101 @@ class Rehearsal {
 
   void followGuide() {
     if (!plan_.guide) return;
-    if (const auto wanted = plan_.guide->follow(newest_)) {
-      plan_.command = *wanted;
-      workstation_->change(plan_.command);
-    }
-  }
-
-  /// Refuses what the servo or the device would obey only in part.
-  void check(const haptics::Command& command) const {
-    refuseUnlessObeyed(command);
-    refuseUnlessHeld(command, device_damping_Ns_per_mm_, plan_.rate_Hz);
-  }
-
-  void switchLaw(haptics::LawKind law) {
-    haptics::Command wanted = plan_.command;
-    wanted.law.kind = law;
-    try {
-      change(loweredUntilHeld(wanted, device_damping_Ns_per_mm_, plan_.rate_Hz));
-    } catch (const UsageError& error) {
-      std::fprintf(stderr, "molar: %s; the old law stays\n", error.what());
-    }
-  }
-
-  void takeParameters() {
-    if (!parameters_) return;
-    const auto reading = parameters_->look(Clock::now());
-    if (!reading) return;
-    if (reading->command) {
-      haptics::Command wanted = *reading->command;
-      wanted.drill_enabled = plan_.command.drill_enabled;
-      change(wanted);
-    } else {
-      std::fprintf(stderr, "molar: %s\n", reading->trouble.c_str());
-      workstation_->note("parameters", reading->trouble);
-    }
-  }
-
-  /// In force, recorded, and every difference logged.
-  void change(const haptics::Command& wanted) {
-    const std::vector<std::string> changes = changesBetween(plan_.command, wanted);
-    if (changes.empty()) return;
-    const bool other_bur = !(plan_.command.tool.head == wanted.tool.head);
-    plan_.command = wanted;
-    workstation_->change(plan_.command);
-    for (const std::string& line : changes) {
-      std::fprintf(stderr, "molar: at %.3f s %s\n", newest_.t_s, line.c_str());
-      workstation_->note("parameters", line);
-    }
-    if (other_bur) showBur();
+    if (const auto wanted = plan_.guide->follow(newest_)) desk_.obey(*wanted);
   }
 
   void showBur() {
-    frame_.bur_radius_mm = plan_.command.tool.head.radius_mm;
-    renderer_->setInstrument(assets::surgicalHandpiece(drawnAs(plan_.command.tool)));
+    frame_.bur_radius_mm = desk_.inForce().tool.head.radius_mm;
+    showInstrument(display_->renderer(), desk_.inForce().tool);
+  }
+
+  void waitForDisplay() {
+    display_->waitUntilShown();
+    if (display_->window() != nullptr && pose_read_ != Clock::time_point{})
+      latency_->add(secondsBetween(pose_read_, display_->handedOver()));
   }
 
   /// The tick first, then the bricks: what that tick cut is in this very frame.
   void followServo() {
+    pose_read_ = Clock::now();
     newest_ = workstation_->newestTick();
     frame_.tool_visible = newest_.dt_s > 0.0;
     // The servo holds the bur where it last believed the hand; so does the picture.
     if (!haptics::has(newest_.faults, haptics::Fault::bad_pose)) frame_.X_PT.rotation = newest_.hand.X_PT.rotation;
     frame_.X_PT.translation_mm = newest_.proxy_P.mm;
+    frame_.X_PT_at_hand = {frame_.X_PT.rotation, newest_.hand.X_PT.translation_mm};
     if (newest_.drilling)
       frame_.bur_angle_rad = std::fmod(newest_.t_s * kBurTurnsPerSecond, 1.0) * 2.0 * calibration::kPi;
-    upload_.bring(workstation_->bone(), *renderer_);
+    upload_.bring(workstation_->bone(), display_->renderer());
   }
 
   void drawFrame() {
-    renderer_->render(frame_);
-    if (window_) {
-      renderer_->showOnWindow({.size_px = window_->framebufferSize_px()});
-      window_->present();
-    } else {
-      renderer_->readPicture();
-    }
-    renderer_->throwIfError();
+    display_->show(frame_);
     ++frames_;
   }
 
+  bool choosesQuality() { return display_->window() != nullptr && !plan_.quality_step; }
+
+  /// Before the hand is there: so many pictures as tell what this machine can.
+  void settleQuality() {
+    const Clock::time_point begun = Clock::now();
+    for (int unchanged = 0; choosesQuality() && unchanged < kSettled && secondsSince(begun) < kLongestSettling_s;) {
+      drawFrame();
+      unchanged = ladder_->add(display_->drawing_s(), true) ? 0 : unchanged + 1;
+      frame_.quality = ladder_->quality();
+    }
+  }
+
+  /// Never in the middle of a stroke.
+  void chooseQuality() {
+    const bool stroke = newest_.drilling || newest_.depth_mm > 0.0;
+    if (!choosesQuality() || !ladder_->add(display_->drawing_s(), !stroke)) return;
+    frame_.quality = ladder_->quality();
+    noteQuality();
+  }
+
+  std::string qualityText() {
+    return choosesQuality() || plan_.quality_step ? std::string(ladder_->words()) : "as asked";
+  }
+  void noteQuality() { workstation_->note("quality", qualityText()); }
+
+  RehearsalStatus status() {
+    RehearsalStatus s;
+    s.patient_title = plan_.patient.title;
+    s.bur = textOf(desk_.inForce().tool.head);
+    s.display = std::string(render::nameOf(display_->mode()));
+    s.tick = newest_;
+    s.command = desk_.inForce();
+    s.servo = workstation_->figures();
+    s.servo_rate_Hz = plan_.rate_Hz;
+    s.drawing_ms = 1000.0 * display_->drawing_s();
+    s.pictures_per_s = pictures_per_s_;
+    s.refresh_Hz = display_->refresh_Hz();
+    s.latency = latency_->now();
+    s.quality = qualityText();
+    s.quality_step = ladder_->step();
+    s.quality_is_held = plan_.quality_step.has_value();
+    s.layers = frame_.layers;
+    if (plan_.recording) {
+      s.recording = recording_ended_ ? RecordingState::ended_early : RecordingState::running;
+      s.recording_path = plan_.recording->path;
+    }
+    return s;
+  }
+
   void showStatus() {
-    if (secondsSince(status_shown_) < 0.5) return;
+    const double since_s = secondsSince(status_shown_);
+    if (since_s < kStatusEvery_s) return;
+    pictures_per_s_ = static_cast<double>(frames_ - frames_counted_) / since_s;
+    frames_counted_ = frames_;
     status_shown_ = Clock::now();
     noteTrouble();
-    if (!window_) return;
-    if (plan_.guide) {
-      window_->setTitle(plan_.guide->words());
-      return;
+    if (display_->window() == nullptr) return;
+    if (secondsSince(latency_noted_) > kLatencyNotedEvery_s && latency_->pictures() > 0) {
+      latency_noted_ = Clock::now();
+      workstation_->note("latency", photonText(latency_->now()));
     }
-    const haptics::ServoFigures servo = workstation_->figures();
-    char text[160];
-    std::snprintf(text, sizeof text, "Molar   %.1f s   %s   force %.2f N   depth %.2f mm   %s   servo p99 %.0f µs",
-                  newest_.t_s, lawName(plan_.command.law.kind).c_str(), glm::length(newest_.served_force_P_N.xyz),
-                  newest_.depth_mm,
-                  newest_.drilling              ? "drilling"
-                  : plan_.command.drill_enabled ? "drill off"
-                                                : "drill locked",
-                  servo.work_p99_us);
-    window_->setTitle(recording_ended_ ? std::string(text) + "   NOT RECORDING" : std::string(text));
+    display_->window()->setTitle(plan_.guide ? plan_.guide->words() : statusLine(status()));
   }
 
   /// Says and records, once, that the recording ended early or the device can not be believed.
@@ -314,33 +263,28 @@ class Rehearsal {
   }
 
   /// Both eyes at full quality: `name_left.png`, `name_right.png`.
-  void takePictures(EyePictures& pictures, std::span<const std::uint8_t> solid) const {
-    auto renderer = rendererWith(kSnapshotSamples, solid);
+  void takePictures(EyePictures& pictures, std::span<const std::uint8_t> solid) {
+    const auto renderer = dressedRenderer(plan_.patient, desk_.inForce().tool, solid,
+                                          {.backend = display_->backend(), .samples = kSnapshotSamples});
     render::Frame frame = frame_;
+    frame.quality = {};
     frame.rig.screen.px = plan_.snapshot_px;
-    renderer->renderEye(frame, render::Eye::left);
-    renderer->renderEye(frame, render::Eye::right);
-    renderer->throwIfError();
-    pictures.save(renderer->readEye(render::Eye::left), renderer->readEye(render::Eye::right));
+    pictures.take(*renderer, frame);
   }
 
-  /// The window's own picture, under the first free number.
+  /// The window's own picture.
   void takeWindowSnapshot() {
-    std::string path;
-    for (int n = 1; path.empty() || std::filesystem::exists(path); ++n)
-      path = "molar-snapshot-" + std::to_string(n) + ".png";
     try {
-      assets::OutputFile file(path, false);
-      savePng(renderer_->readPicture(), file);
+      const std::string path = saveNextSnapshot(display_->renderer().readPicture());
       workstation_->note("snapshot", path);
       std::fprintf(stderr, "molar: snapshot %s\n", path.c_str());
-    } catch (const std::runtime_error& error) {
-      std::fprintf(stderr, "molar: no snapshot: %s\n", error.what());
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "molar: %s\n", error.what());
     }
   }
 
   void finish() {
-    RehearsalFigures figures;
+    if (latency_->pictures() > 0) workstation_->note("latency", "median " + photonText(latency_->median()));
     workstation_->note("end", interrupted ? "interrupted" : input_.endAsked() ? "by the user" : "time over");
     const RecordingSummary recorded = workstation_->stop();
     // One more picture of what the bone has become.
@@ -348,36 +292,43 @@ class Rehearsal {
     // A scripted hand that has withdrawn only hides its work.
     frame_.tool_visible = frame_.tool_visible && (hand_.mouse || newest_.depth_mm > 0.0);
     if (closing_pictures_) takePictures(*closing_pictures_, workstation_->bone().solidInGridOrder());
+    RehearsalFigures figures;
     figures.patient_title = plan_.patient.title;
-    figures.bur = textOf(plan_.command.tool.head);
+    figures.bur = textOf(desk_.inForce().tool.head);
     figures.duration_s = newest_.t_s + newest_.dt_s;
     figures.removed_mm3 = workstation_->bone().removedByTissue_mm3();
     figures.frames = frames_;
     figures.frame_ms = 1000.0 * loop_s_ / static_cast<double>(std::max<std::uint64_t>(1, frames_ - 1));
     figures.first_picture_s = first_picture_s_;
+    figures.display = std::string(render::nameOf(display_->mode()));
+    figures.quality = qualityText();
+    if (latency_->pictures() > 0) {
+      figures.latency = latency_->median();
+      figures.slow_latency = latency_->slow();
+    }
     figures.servo = workstation_->figures();
     figures.rate_Hz = plan_.rate_Hz;
     if (plan_.recording) figures.recording = recorded;
     std::fputs(summaryText(figures).c_str(), plan_.guide ? stderr : stdout);
   }
 
-  Clock::time_point looping_since_, status_shown_;
+  Clock::time_point looping_since_, status_shown_ = Clock::now(), latency_noted_ = Clock::now(), pose_read_;
   RehearsalPlan plan_;
   HandAtWork hand_;
   std::optional<double> duration_s_;
   HandInput input_;
-  double device_damping_Ns_per_mm_;
+  CommandDesk desk_;
   std::optional<EyePictures> first_pictures_, closing_pictures_;
-  std::optional<render::OffscreenContext> offscreen_;
-  std::optional<render::Window> window_;
-  std::unique_ptr<render::FrameRenderer> renderer_;
+  std::vector<std::string> told_early_;
+  std::optional<SurgeonDisplay> display_;
+  std::optional<render::QualityLadder> ladder_;
+  std::optional<MotionToPhoton> latency_;
   std::optional<Workstation> workstation_;
-  std::optional<LiveParameters> parameters_;
   BrickUpload upload_;
   render::Frame frame_;
   haptics::Tick newest_;
-  std::uint64_t frames_ = 0;
-  double first_picture_s_ = 0.0, loop_s_ = 0.0;
+  std::uint64_t frames_ = 0, frames_counted_ = 0;
+  double first_picture_s_ = 0.0, loop_s_ = 0.0, pictures_per_s_ = 0.0;
   bool recording_ended_ = false, faulty_ = false;
 };
 

@@ -7,22 +7,24 @@
 #include <optional>
 #include <string>
 
+#include "app/hand_at_work.h"
 #include "app/session_guide.h"
 #include "app/workstation.h"
 #include "assets/patient.h"
 #include "calibration/rig.h"
 #include "haptics/servo/command.h"
 #include "render/frame.h"
+#include "render/render_options.h"
 
 namespace app {
-
-enum class Hand { mouse, scripted, simulated };
 
 struct RehearsalPlan {
   assets::Patient patient;
   calibration::Rig rig;
   render::DisplayMode display = render::DisplayMode::mono;
   bool eyes_swapped = false;
+  render::Backend backend = render::Backend::gl_fragment;
+  render::Frame first_frame;  ///< view mode, layers and quality to begin with; the rest is the rehearsal's
   Hand hand = Hand::mouse;
   haptics::Command command;
   std::string parameters;         ///< settings file that is obeyed while it changes; `command` holds what it leaves out
@@ -34,6 +36,8 @@ struct RehearsalPlan {
   glm::ivec2 snapshot_px{1280, 800};
   double face_window_mm = 0.0;
   bool headless = false, full_screen = false, overwrite = false;
+  std::optional<int> monitor, operator_monitor;  ///< indices of render::monitors()
+  std::optional<int> quality_step;               ///< held; none: by measured frame times
   std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();  ///< when the user asked for it
 };
 

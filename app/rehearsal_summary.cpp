@@ -35,6 +35,10 @@ std::string summaryText(const RehearsalFigures& f) {
                f.servo.work_max_us, f.servo.realtime ? "" : " (no real-time priority granted)");
   text += line("  pictures         %llu, one every %.0f ms, the first after %.1f s\n",
                static_cast<unsigned long long>(f.frames), f.frame_ms, f.first_picture_s);
+  text += line("  display          %s, quality: %s\n", f.display.c_str(), f.quality.c_str());
+  if (f.latency && f.slow_latency)
+    text += line("  latency          %s, 95 %% below %.0f ms\n", photonText(*f.latency).c_str(),
+                 f.slow_latency->total_ms());
   if (f.recording)
     text += line("  recorded         %llu ticks, %llu lost%s%s\n", static_cast<unsigned long long>(f.recording->ticks),
                  static_cast<unsigned long long>(f.recording->lost), f.recording->trouble ? "; " : "",

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "app/motion_to_photon.h"
 #include "app/session/recorder.h"
 #include "assets/tissue.h"
 #include "haptics/servo/servo_statistics.h"
@@ -17,7 +18,9 @@ struct RehearsalFigures {
   double duration_s = 0.0;
   std::array<double, assets::kTissueCount> removed_mm3{};
   std::uint64_t frames = 0;
-  double frame_ms = 0.0;         ///< mean time between pictures
+  double frame_ms = 0.0;                                ///< mean time between pictures
+  std::string display, quality;                         ///< in words, at the end
+  std::optional<PhotonEstimate> latency, slow_latency;  ///< median and 95th percentile; none without a window
   double first_picture_s = 0.0;  ///< from the user's asking to the first picture, loading included
   haptics::ServoFigures servo;
   double rate_Hz = 1000.0;

@@ -23,12 +23,28 @@ void savePng(const render::Picture& picture, assets::OutputFile& file) {
   file.commit();
 }
 
+std::string saveNextSnapshot(const render::Picture& picture) {
+  std::string path;
+  for (int n = 1; path.empty() || std::filesystem::exists(path); ++n)
+    path = "molar-snapshot-" + std::to_string(n) + ".png";
+  assets::OutputFile file(path, false);
+  savePng(picture, file);
+  return path;
+}
+
 EyePictures::EyePictures(const std::string& path, bool overwrite)
     : left_(withWord(path, "left"), overwrite), right_(withWord(path, "right"), overwrite) {}
 
 void EyePictures::save(const render::Picture& left, const render::Picture& right) {
   savePng(left, left_);
   savePng(right, right_);
+}
+
+void EyePictures::take(render::FrameRenderer& renderer, const render::Frame& frame) {
+  renderer.renderEye(frame, render::Eye::left);
+  renderer.renderEye(frame, render::Eye::right);
+  renderer.throwIfError();
+  save(renderer.readEye(render::Eye::left), renderer.readEye(render::Eye::right));
 }
 
 }  // namespace app

@@ -5,9 +5,13 @@
 #include <string>
 
 #include "assets/output_file.h"
+#include "render/frame_renderer.h"
 #include "render/picture.h"
 
 namespace app {
+
+/// Under the first free of `molar-snapshot-1.png`, …; its name.
+std::string saveNextSnapshot(const render::Picture& picture);
 
 void savePng(const render::Picture& picture, assets::OutputFile& file);
 
@@ -16,6 +20,8 @@ class EyePictures {
   /// Refuses (LoadError) what is there already, unless `overwrite`.
   EyePictures(const std::string& path, bool overwrite);
   void save(const render::Picture& left, const render::Picture& right);
+  /// Draws both eyes of the frame and saves them.
+  void take(render::FrameRenderer& renderer, const render::Frame& frame);
 
  private:
   assets::OutputFile left_, right_;

@@ -23,6 +23,8 @@ class BoneSurface {
   std::vector<glm::ivec3> update(const SolidVoxels& solid, std::span<const glm::ivec3> changed);
 
   const VolumeGrid& grid() const { return grid_; }
+  /// Bricks are numbered i fastest.
+  std::size_t brickIndex(glm::ivec3 brick) const;
   const SurfacePatch& patch(glm::ivec3 brick) const { return patches_[brickIndex(brick)]; }
   std::size_t triangleCount() const;
 
@@ -30,7 +32,6 @@ class BoneSurface {
   MeshPart welded(std::string name) const;
 
  private:
-  std::size_t brickIndex(glm::ivec3 brick) const;
   glm::ivec3 brickOf(std::size_t index) const;
 
   VolumeGrid grid_;

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "assets/mesh.h"
+#include "assets/output_file.h"
 
 namespace assets {
 
@@ -20,5 +21,7 @@ MeshModel readGltf(const std::string& path);
 /// Writes a binary .glb in metres: POSITION, NORMAL, COLOR_0, indices, one material and one named node per part.
 /// Replaces nothing unless `overwrite`. Throws LoadError.
 void writeGltf(const MeshModel& model_F, const std::string& path, bool overwrite = false);
+/// The same into a file claimed before; commits it.
+void writeGltf(const MeshModel& model_F, OutputFile& file);
 
 }  // namespace assets

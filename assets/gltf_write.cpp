@@ -99,6 +99,10 @@ void appendPart(tinygltf::Model& model, const MeshPart& part) {
 
 void writeGltf(const MeshModel& model_F, const std::string& path, bool overwrite) {
   OutputFile file(path, overwrite);
+  writeGltf(model_F, file);
+}
+
+void writeGltf(const MeshModel& model_F, OutputFile& file) {
   tinygltf::Model model;
   model.asset.version = "2.0";
   model.asset.generator = "molar";
@@ -109,16 +113,16 @@ void writeGltf(const MeshModel& model_F, const std::string& path, bool overwrite
     const bool whole = !part.position_mm.empty() && !part.triangles.empty() &&
                        part.normal.size() == part.position_mm.size() &&
                        (part.colour.empty() || part.colour.size() == part.position_mm.size());
-    if (!whole) throw LoadError(path + ": part '" + part.name + "' has no whole mesh, nothing was written");
+    if (!whole) throw LoadError(file.path() + ": part '" + part.name + "' has no whole mesh, nothing was written");
     appendPart(model, part);
   }
-  if (model.nodes.empty()) throw LoadError(path + ": an empty model is not written as glTF, give it a mesh");
+  if (model.nodes.empty()) throw LoadError(file.path() + ": an empty model is not written as glTF, give it a mesh");
 
   std::ofstream out(file.temporaryPath(), std::ios::binary);
   tinygltf::TinyGLTF writer;
   const bool written = writer.WriteGltfSceneToStream(&model, out, false, true);
   out.close();
-  if (!written || !out) throw LoadError(path + ": can not be written, check the space on the disk");
+  if (!written || !out) throw LoadError(file.path() + ": can not be written, check the space on the disk");
   file.commit();
 }
 

@@ -18,6 +18,7 @@ class OutputFile {
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
+  const std::string& path() const { return path_; }
   /// An empty file in the target's folder, whose name ends as the target's does.
   const std::string& temporaryPath() const { return temporary_path_; }
 

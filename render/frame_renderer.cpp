@@ -2,9 +2,11 @@
 
 #include <string>
 
+#include "render/cpu/cpu_scene_renderer.h"
 #include "render/display/stereo_layout.h"
 #include "render/gl_scene_renderer.h"
 #include "render/gpu/gpu_error.h"
+#include "render/gpu/window_upload.h"
 #include "render/scene_renderer.h"
 
 namespace render {
@@ -13,7 +15,14 @@ FrameRenderer::FrameRenderer(const assets::VolumeGrid& grid, std::span<const std
                              std::span<const std::uint8_t> label, RenderOptions options) {
   if (options.samples < 1 || options.samples > 8)
     throw GpuError("samples " + std::to_string(options.samples) + ", renderer options: choose 1 to 8");
-  scene_ = glSceneRenderer(grid, solid, label, options);
+  if (options.backend != Backend::cpu) {
+    scene_ = glSceneRenderer(grid, solid, label, options);
+    return;
+  }
+  upload_ = std::make_unique<WindowUpload>();
+  scene_ = cpuSceneRenderer(grid, solid, label, options, [this](const Picture& picture, const WindowPlace& place) {
+    upload_->show(picture, place);
+  });
 }
 
 FrameRenderer::~FrameRenderer() = default;

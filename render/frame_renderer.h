@@ -19,6 +19,7 @@
 namespace render {
 
 class SceneRenderer;
+class WindowUpload;
 
 class FrameRenderer {
  public:
@@ -55,6 +56,7 @@ class FrameRenderer {
   void throwIfError();
 
  private:
+  std::unique_ptr<WindowUpload> upload_;  ///< of a back-end without OpenGL
   std::unique_ptr<SceneRenderer> scene_;
 };
 

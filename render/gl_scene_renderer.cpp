@@ -11,8 +11,10 @@
 #include "render/gpu/gl_debug_log.h"
 #include "render/gpu/gpu_error.h"
 #include "render/gpu/window_picture.h"
+#include "render/scene/edge_pass.h"
 #include "render/scene/mesh_pass.h"
 #include "render/shaders/shared_numbers.glsl"
+#include "render/volume/bone_mesh.h"
 #include "render/volume/ray_caster.h"
 
 namespace render {
@@ -42,9 +44,19 @@ std::optional<SceneMesh> onGpu(const assets::MeshModel& model, Finish finish) {
   return SceneMesh(model, finish);
 }
 
+// What a scene is drawn into.
+struct Canvas {
+  void fit(glm::ivec2 size) {
+    if (target.size() != size) target = Framebuffer(size, kSceneTargets, true);
+  }
+
+  Framebuffer target;
+  VolumeLayer layer;
+};
+
 // An eye as last drawn.
 struct EyePicture {
-  Framebuffer target;
+  Canvas canvas;
   glm::ivec2 px{0};
   Frame frame;
   bool drawn = false;
@@ -57,7 +69,8 @@ class GlSceneRenderer final : public SceneRenderer {
       : samples_(options.samples),
         fields_(grid, solid, label),
         volume_(fields_),
-        caster_(options.skip_empty_space ? RayCaster::EmptySpace::skip : RayCaster::EmptySpace::march) {}
+        caster_(options.backend == Backend::gl_compute ? RayCaster::Stage::compute : RayCaster::Stage::fragment,
+                options.skip_empty_space) {}
 
   void setFace(const assets::MeshModel& face_P) override { face_ = onGpu(face_P, Finish::skin); }
   void setGum(const assets::MeshModel& gum_P) override { gum_ = onGpu(gum_P, Finish::gum); }
@@ -68,7 +81,14 @@ class GlSceneRenderer final : public SceneRenderer {
     fields_.updateBrick(brick, solid);
   }
 
-  void prepare(const Frame&) override { volume_.update(fields_, fields_.prepare()); }
+  void prepare(const Frame& frame) override {
+    const bool translucent = frame.mode == ViewMode::dvr;
+    const FieldChanges& changes = fields_.prepare(translucent ? visibleFrom(transfer_) : Occupancy::kSolidFrom);
+    volume_.update(fields_, changes);
+    if (frame.mode == ViewMode::mesh && !bone_mesh_) bone_mesh_.emplace();
+    if (bone_mesh_) bone_mesh_->note(changes);
+    if (frame.mode == ViewMode::mesh) bone_mesh_->prepare(fields_);
+  }
   void drawEye(const Frame& frame, Eye eye, glm::ivec2 px) override;
   void compose(const Frame& frame) override;
 
@@ -83,19 +103,24 @@ class GlSceneRenderer final : public SceneRenderer {
 
  private:
   EyePicture& picture(Eye eye) { return pictures_[static_cast<std::size_t>(eye)]; }
-  void drawScene(const Frame& frame, Eye eye, Framebuffer& target);
+  enum class Where { everywhere, edges };
+  void drawScene(const Frame& frame, Eye eye, Canvas& canvas, Where where = Where::everywhere);
 
   int samples_;
   GlDebugLog log_{false};
   VolumeFields fields_;
   VolumeTexture volume_;
+  TransferFunction transfer_;
   RayCaster caster_;
+  std::optional<BoneMesh> bone_mesh_;  ///< from the first frame that shows it
   MeshPass meshes_;
   Program background_{"screen.vert", "background.frag"};
   UniformBlock<EyeBlock> eye_block_;
   StereoCompositor compositor_;
   std::optional<SceneMesh> face_, gum_, instrument_;
+  EdgePass edges_;
   std::array<EyePicture, 3> pictures_;
+  Canvas edge_samples_;
   Eye composed_from_ = Eye::cyclopean;
   std::array<Framebuffer, 3> outputs_;
 };
@@ -103,21 +128,30 @@ class GlSceneRenderer final : public SceneRenderer {
 void GlSceneRenderer::drawEye(const Frame& frame, Eye eye, glm::ivec2 px) {
   EyePicture& to = picture(eye);
   const glm::ivec2 size = samples_ * px;
-  if (to.target.size() != size) to.target = Framebuffer(size, kSceneTargets, true);
+  to.canvas.fit(size);
   to.px = px;
   to.frame = frame;
   to.drawn = true;
-  drawScene(frame, eye, to.target);
+  drawScene(frame, eye, to.canvas);
+  if (samples_ > 1 || frame.quality.antialias == Antialias::none) return;
+
+  // Silhouettes once more, finer.
+  edges_.find(to.canvas.target);
+  edge_samples_.fit(EDGE_SAMPLES * size);
+  drawScene(frame, eye, edge_samples_, Where::edges);
+  edges_.average(edge_samples_.target, to.canvas.target);
 }
 
-void GlSceneRenderer::drawScene(const Frame& frame, Eye eye, Framebuffer& target) {
+void GlSceneRenderer::drawScene(const Frame& frame, Eye eye, Canvas& canvas, Where where) {
+  Framebuffer& target = canvas.target;
   const EyeView view = eyeView(frame.rig, eye);
   eye_block_.set(EYE_BLOCK, eyeBlock(frame, view));
-  caster_.bind(fields_, volume_);
+  caster_.bind(fields_, volume_, frame, transfer_);
   target.bind();
   target.clear();
+  if (where == Where::edges) edges_.bar(target);
 
-  apply({.depth_test = false, .depth_write = false});
+  apply({.depth_write = false, .at_same_depth = true, .write_distance = false});
   background_.use();
   drawScreen();
 
@@ -131,7 +165,10 @@ void GlSceneRenderer::drawScene(const Frame& frame, Eye eye, Framebuffer& target
     if (gum_) meshes_.draw(*gum_, parts, in_P);
   };
   draw_meshes(MeshPass::Parts::opaque);
-  caster_.draw(target.colour(DISTANCE_TARGET));
+  if (frame.mode == ViewMode::mesh)
+    bone_mesh_->draw(view.mirrored);
+  else
+    caster_.draw(canvas.layer, target);
   draw_meshes(MeshPass::Parts::transparent);
 }
 
@@ -143,8 +180,8 @@ void GlSceneRenderer::compose(const Frame& frame) {
   const glm::ivec2 size = outputSize(frame.display, frame.rig.screen.px);
   const bool mono = frame.display == DisplayMode::mono;
   composed_from_ = mono ? Eye::cyclopean : Eye::left;
-  const Texture& left = picture(mono ? Eye::cyclopean : Eye::left).target.colour(COLOUR_TARGET);
-  const Texture& right = picture(mono ? Eye::cyclopean : Eye::right).target.colour(COLOUR_TARGET);
+  const Texture& left = picture(mono ? Eye::cyclopean : Eye::left).canvas.target.colour(COLOUR_TARGET);
+  const Texture& right = picture(mono ? Eye::cyclopean : Eye::right).canvas.target.colour(COLOUR_TARGET);
   for (layout.output = 0; layout.output < outputCount(frame.display); ++layout.output) {
     Framebuffer& output = outputs_[static_cast<std::size_t>(layout.output)];
     if (output.size() != size) output = Framebuffer(size, kOutputTargets, false);
@@ -157,14 +194,14 @@ void GlSceneRenderer::composeForBystander() {
   const glm::ivec2 size = seen.frame.rig.screen.px;
   Framebuffer& output = outputs_[kBystanderOutput];
   if (output.size() != size) output = Framebuffer(size, kOutputTargets, false);
-  const Texture& light = seen.target.colour(COLOUR_TARGET);
+  const Texture& light = seen.canvas.target.colour(COLOUR_TARGET);
   compositor_.compose({.screen_px = size}, light, light, samples_, output);
 }
 
 Picture GlSceneRenderer::readEye(Eye eye) {
   assert(picture(eye).drawn);
   const Framebuffer resolved(picture(eye).px, kOutputTargets, false);
-  const Texture& light = picture(eye).target.colour(COLOUR_TARGET);
+  const Texture& light = picture(eye).canvas.target.colour(COLOUR_TARGET);
   compositor_.compose({.screen_px = picture(eye).px}, light, light, samples_, resolved);
   return pictureOf(resolved);
 }
@@ -175,12 +212,13 @@ DistancePicture GlSceneRenderer::readDistance(Eye eye) {
   const auto read = [&](const Framebuffer& target) -> DistancePicture {
     return {shown.px.x, shown.px.y, flipped(target.readFloat(DISTANCE_TARGET), static_cast<std::size_t>(shown.px.x))};
   };
-  if (samples_ == 1) return read(shown.target);
+  if (samples_ == 1) return read(shown.canvas.target);
 
   // Samples lie beside the pixel's centre, where the distance is asked for: draw it there.
-  Framebuffer centred(shown.px, kSceneTargets, true);
+  Canvas centred;
+  centred.fit(shown.px);
   drawScene(shown.frame, eye, centred);
-  return read(centred);
+  return read(centred.target);
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ void addCarve(CLI::App& molar, Chosen& chosen);
 void addSee(CLI::App& molar, Chosen& chosen);
 void addReplay(CLI::App& molar, Chosen& chosen);
 void addMetrics(CLI::App& molar, Chosen& chosen);
+void addExport(CLI::App& molar, Chosen& chosen);
 void addLaws(CLI::App& molar, Chosen& chosen);
 void addPsychophysics(CLI::App& molar, Chosen& chosen);
 

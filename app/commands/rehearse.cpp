@@ -15,6 +15,7 @@
 #include "app/erosion_text.h"
 #include "app/law_text.h"
 #include "app/patient_source.h"
+#include "app/picture_option.h"
 #include "app/rehearsal.h"
 #include "app/room.h"
 #include "app/settings_text.h"
@@ -24,6 +25,7 @@
 #include "assets/patient_folder.h"
 #include "assets/synthetic/face.h"
 #include "calibration/rig_file.h"
+#include "render/quality_ladder.h"
 
 namespace app {
 namespace {
@@ -35,10 +37,12 @@ struct RehearseOptions {
   std::string patient, parameters, device = "mouse", rig, record, snapshot, first_snapshot, face;
   std::string tool = "sphere:1.5", shaft, law = "agus", erosion = "time", size, snapshot_size = "1280x800";
   std::string side = "right";
+  PictureOption picture;
   std::vector<std::string> settings;
   DisplayOption display;
   assets::JawParameters jaw;
   std::optional<double> seconds, face_window_mm;
+  std::optional<int> monitor, quality;
   double rate_Hz = 1000.0, loupes = 4.0;
   bool headless = false, force = false;
 };
@@ -86,6 +90,10 @@ int run(const RehearseOptions& options) {
           .at(options.device);
   plan.display = options.display.mode();
   plan.eyes_swapped = options.display.swapped();
+  plan.backend = options.picture.backend();
+  options.picture.apply(plan.first_frame);
+  if (options.monitor) plan.monitor = *options.monitor - 1;
+  plan.quality_step = options.quality;
   plan.rate_Hz = options.rate_Hz;
   plan.seconds = options.seconds;
   plan.snapshot = options.snapshot;
@@ -128,6 +136,11 @@ void addRehearse(CLI::App& molar, Chosen& chosen) {
   auto* rig =
       command->add_option("--rig", o->rig, "Rig file: screen, mirror, eyes, patient pose; 1:1")->type_name("FILE");
   o->display.addTo(*command);
+  o->picture.addTo(*command);
+  command->add_option("--monitor", o->monitor, "Monitor of the picture, from 1; two windows take the next one as well")
+      ->check(CLI::Range(1, 16));
+  command->add_option("--quality", o->quality, "Hold this quality, 0 best to 6 fastest [by measured frame times]")
+      ->check(CLI::Range(0, static_cast<int>(render::kQualitySteps.size()) - 1));
   command->add_option("--size", o->size, "Picture size")->type_name("WxH");
   command->add_option("--loupes", o->loupes, "Magnification on a desk (without --rig)")
       ->check(numberRange(1.0, 8.0))

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/command.h"
+#include "app/picture_option.h"
 #include "app/usage_error.h"
 #include "app/view_option.h"
 #include "app/volume_option.h"
@@ -25,7 +26,8 @@ namespace {
 struct SeeOptions {
   VolumeOption volume;
   ViewOption view;
-  std::string patient, renderer = "gl-fragment", mode = "iso", out, depth, matrices;
+  PictureOption picture;
+  std::string patient, out, depth, matrices;
   int samples = 2;
   bool bone_only = false, force = false;
 };
@@ -47,9 +49,9 @@ std::string matricesText(const glm::dmat4& clip_from_P, glm::ivec2 px) {
 int see(const SeeOptions& options) {
   if (options.volume.given() == !options.patient.empty())
     throw UsageError("see: it needs one of --volume FILE and --patient DIR, give exactly one");
-  if (options.renderer != "gl-fragment")
-    throw UsageError("--renderer " + options.renderer + ": not in this version, use gl-fragment");
-  if (options.mode != "iso") throw UsageError("--mode " + options.mode + ": not in this version, use iso");
+  render::Frame frame;
+  options.picture.apply(frame);
+  const render::RenderOptions how{.backend = options.picture.backend(), .samples = options.samples};
 
   // Every output is claimed before any work.
   assets::OutputFile out(options.out, options.force);
@@ -66,12 +68,11 @@ int see(const SeeOptions& options) {
     patient = assets::loadPatient(options.patient);
     volume = {patient.ct.grid, std::move(patient.ct.solid), std::move(patient.ct.label)};
   }
-  render::Frame frame;
   const render::Eye eye = options.view.apply(frame.rig, volume.grid);
   frame.tool_visible = false;
 
   render::OffscreenContext context;
-  render::FrameRenderer renderer(volume.grid, volume.solid, volume.label, {.samples = options.samples});
+  render::FrameRenderer renderer(volume.grid, volume.solid, volume.label, how);
   if (!options.bone_only) {
     renderer.setFace(patient.face);
     renderer.setGum(patient.gum);
@@ -101,8 +102,7 @@ void addSee(CLI::App& molar, Chosen& chosen) {
   options->volume.addTo(*command);
   command->add_option("--patient", options->patient, "Patient folder, instead of --volume")->type_name("DIR");
   options->view.addTo(*command);
-  command->add_option("--renderer", options->renderer, "gl-fragment")->capture_default_str();
-  command->add_option("--mode", options->mode, "iso")->capture_default_str();
+  options->picture.addTo(*command);
   command->add_option("--samples", options->samples, "Rays along each edge of a pixel, 1 to 4")
       ->check(CLI::Range(1, 4))
       ->capture_default_str();

@@ -21,6 +21,14 @@ struct RayBatch {
   alignas(64) float near_mm[kMost] = {}, far_mm[kMost] = {};      ///< between which a mesh can be met
 };
 
+/// The first mesh along every ray of a batch, as it is found: attributes are looked up only where it is seen.
+struct MeshHits {
+  alignas(64) float distance_mm[RayBatch::kMost + kLanePadding] = {};  ///< 0: none
+  float u[RayBatch::kMost] = {}, v[RayBatch::kMost] = {};              ///< barycentric
+  unsigned body[RayBatch::kMost] = {}, part[RayBatch::kMost] = {}, triangle[RayBatch::kMost] = {};
+  bool faces_eye[RayBatch::kMost] = {};
+};
+
 /// Places on meshes with what is needed to shade them. Plain pointers, for the kernels.
 struct MeshPoints {
   int count = 0;

@@ -322,10 +322,10 @@ void MeshScene::place(const MeshPlacement& placement) {
 bool MeshScene::hasOpaque() const { return impl_->has_opaque; }
 bool MeshScene::hasTransparent() const { return impl_->has_transparent; }
 
-void MeshScene::firstHits(const RayBatch& rays, MeshPoints& to, float* distance_mm) const {
+void MeshScene::firstHits(const RayBatch& rays, MeshHits& hits) const {
   const Impl& m = *impl_;
+  std::fill_n(hits.distance_mm, rays.count, 0.0f);
   if (!m.has_opaque) return;
-  to.makeRoom(rays.count);
   Query query = m.queryFor(nullptr);
   alignas(32) RTCRayHit8 packet;
   alignas(32) int valid[kPacket];
@@ -334,14 +334,27 @@ void MeshScene::firstHits(const RayBatch& rays, MeshPoints& to, float* distance_
     rtcIntersect8(valid, m.opaque, &query.context, &packet);
     for (int i = 0; i < kPacket && first + i < rays.count; ++i) {
       if (packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
-      const Body& body = m.bodies[packet.hit.instID[0][i]];
+      const int r = first + i;
+      hits.distance_mm[r] = packet.ray.tfar[i];
+      hits.u[r] = packet.hit.u[i], hits.v[r] = packet.hit.v[i];
+      hits.body[r] = packet.hit.instID[0][i];
+      hits.part[r] = packet.hit.geomID[i];
+      hits.triangle[r] = packet.hit.primID[i];
       const glm::vec3 outward =
-          body.P_from_mesh * glm::vec3(packet.hit.Ng_x[i], packet.hit.Ng_y[i], packet.hit.Ng_z[i]);
-      const glm::vec3 direction(packet.ray.dir_x[i], packet.ray.dir_y[i], packet.ray.dir_z[i]);
-      add(to, body, body.parts[packet.hit.geomID[i]], packet.hit.primID[i], packet.hit.u[i], packet.hit.v[i], first + i,
-          packet.ray.tfar[i], glm::dot(outward, direction) < 0.0f, 1.0f);
-      distance_mm[first + i] = packet.ray.tfar[i];
+          m.bodies[hits.body[r]].P_from_mesh * glm::vec3(packet.hit.Ng_x[i], packet.hit.Ng_y[i], packet.hit.Ng_z[i]);
+      hits.faces_eye[r] = glm::dot(outward, glm::vec3(rays.x[r], rays.y[r], rays.z[r])) < 0.0f;
     }
+  }
+}
+
+void MeshScene::addSeen(const RayBatch& rays, const MeshHits& hits, const float* seen_mm, MeshPoints& to) const {
+  const Impl& m = *impl_;
+  to.makeRoom(rays.count);
+  for (int r = 0; r < rays.count; ++r) {
+    if (hits.distance_mm[r] == 0.0f || seen_mm[r] < hits.distance_mm[r]) continue;
+    const Body& body = m.bodies[hits.body[r]];
+    add(to, body, body.parts[hits.part[r]], hits.triangle[r], hits.u[r], hits.v[r], r, hits.distance_mm[r],
+        hits.faces_eye[r], 1.0f);
   }
 }
 

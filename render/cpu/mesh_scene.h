@@ -40,8 +40,10 @@ class MeshScene {
   bool hasOpaque() const;
   bool hasTransparent() const;
 
-  /// The first opaque place along every ray; `distance_mm[i]` becomes its distance, or stays where there is none.
-  void firstHits(const RayBatch& rays, MeshPoints& to, float* distance_mm) const;
+  /// The first opaque place along every ray, 0 mm where there is none.
+  void firstHits(const RayBatch& rays, MeshHits& hits) const;
+  /// Adds those hits that are what the ray sees: nothing at `seen_mm[i]` before them.
+  void addSeen(const RayBatch& rays, const MeshHits& hits, const float* seen_mm, MeshPoints& to) const;
   /// Every transparent place before `limit_mm[i]`, ray by ray, each ray's from back to front.
   void layers(const RayBatch& rays, const float* limit_mm, MeshPoints& to) const;
 

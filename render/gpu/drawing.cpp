@@ -11,6 +11,11 @@ namespace {
 
 void enable(GLenum capability, bool on) { on ? glEnable(capability) : glDisable(capability); }
 
+void setMask(GLuint target, bool on) {
+  const GLboolean write = on ? GL_TRUE : GL_FALSE;
+  glColorMaski(target, write, write, write, write);
+}
+
 void deleteVertexArray(unsigned name) { glDeleteVertexArrays(1, &name); }
 
 GlName newVertexArray() {
@@ -24,18 +29,18 @@ GlName newVertexArray() {
 void apply(const DrawState& state) {
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   enable(GL_DEPTH_TEST, state.depth_test);
-  glDepthFunc(GL_GREATER);
+  glDepthFunc(state.at_same_depth ? GL_GEQUAL : GL_GREATER);
   glDepthMask(state.depth_write ? GL_TRUE : GL_FALSE);
   enable(GL_BLEND, false);
-  if (state.blend) {
+  if (state.blend != Blend::none) {
     glEnablei(GL_BLEND, 0);
-    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    glBlendFunc(state.blend == Blend::over ? GL_SRC_ALPHA : GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   }
   glDisable(GL_CULL_FACE);
   glDisable(GL_FRAMEBUFFER_SRGB);
   glFrontFace(state.mirrored ? GL_CW : GL_CCW);
-  const GLboolean distance = state.write_distance ? GL_TRUE : GL_FALSE;
-  glColorMaski(DISTANCE_TARGET, distance, distance, distance, distance);
+  setMask(COLOUR_TARGET, state.write_colour);
+  setMask(DISTANCE_TARGET, state.write_distance);
 }
 
 void setViewport(glm::ivec2 corner, glm::ivec2 size) { glViewport(corner.x, corner.y, size.x, size.y); }
@@ -46,6 +51,12 @@ void drawScreen() {
   const GlName nothing = newVertexArray();
   glBindVertexArray(nothing.get());
   glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void dispatch(glm::ivec2 size, int group) {
+  const glm::uvec2 groups((size + group - 1) / group);
+  glDispatchCompute(groups.x, groups.y, 1);
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
 Triangles::Triangles(std::span<const MeshVertex> vertices, std::span<const std::uint32_t> indices)

@@ -10,11 +10,15 @@
 
 namespace render {
 
+enum class Blend { none, over, premultiplied_over };
+
 struct DrawState {
   bool depth_test = true;
   bool depth_write = true;
-  bool blend = false;          ///< source over, alpha not premultiplied
+  bool at_same_depth = false;  ///< what lies at the very depth that is there already is drawn too
+  Blend blend = Blend::none;   ///< of the first colour attachment
   bool mirrored = false;       ///< the view is left-handed: front faces turn clockwise
+  bool write_colour = true;    ///< first colour attachment
   bool write_distance = true;  ///< second colour attachment
 };
 
@@ -28,6 +32,10 @@ void finishWritesBeforeReads();
 
 /// The triangle of screen.vert.
 void drawScreen();
+
+/// Runs the compute program in use over `size` invocations in square groups, and makes the images it wrote readable as
+/// textures.
+void dispatch(glm::ivec2 size, int group);
 
 /// One vertex as the mesh shaders read it.
 struct MeshVertex {

@@ -2,6 +2,7 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <string>
 
 #include "render/gpu/gpu_error.h"
@@ -14,8 +15,8 @@ void deleteShader(unsigned name) { glDeleteShader(name); }
 void deleteProgram(unsigned name) { glDeleteProgram(name); }
 
 [[noreturn]] void throwBuildError(const std::string& what, std::string log) {
-  for (char& c : log)
-    if (c == '\n') c = ' ';
+  constexpr std::size_t kWords = 240;  // the driver's first complaint; the rest follows from it
+  log.resize(std::min(log.find('\n'), std::min(log.size(), kWords)));
   throw GpuError(what + ", graphics driver: " + log);
 }
 
@@ -43,9 +44,20 @@ Program::Program(std::string_view vertex, std::string_view fragment) : name_(glC
   const GlName fragment_shader = compiled(GL_FRAGMENT_SHADER, fragment);
   glAttachShader(name_.get(), vertex_shader.get());
   glAttachShader(name_.get(), fragment_shader.get());
-  glLinkProgram(name_.get());
+  link("shaders " + std::string(vertex) + " and " + std::string(fragment) + " do not link");
   glDetachShader(name_.get(), vertex_shader.get());
   glDetachShader(name_.get(), fragment_shader.get());
+}
+
+Program::Program(std::string_view compute) : name_(glCreateProgram(), &deleteProgram) {
+  const GlName shader = compiled(GL_COMPUTE_SHADER, compute);
+  glAttachShader(name_.get(), shader.get());
+  link("shader " + std::string(compute) + " does not link");
+  glDetachShader(name_.get(), shader.get());
+}
+
+void Program::link(const std::string& what) {
+  glLinkProgram(name_.get());
   GLint good = GL_FALSE;
   glGetProgramiv(name_.get(), GL_LINK_STATUS, &good);
   if (good == GL_TRUE) return;
@@ -53,7 +65,7 @@ Program::Program(std::string_view vertex, std::string_view fragment) : name_(glC
   GLsizei used = 0;
   glGetProgramInfoLog(name_.get(), static_cast<GLsizei>(log.size()), &used, log.data());
   log.resize(static_cast<std::size_t>(used));
-  throwBuildError("shaders " + std::string(vertex) + " and " + std::string(fragment) + " do not link", log);
+  throwBuildError(what, log);
 }
 
 void Program::use() const { glUseProgram(name_.get()); }

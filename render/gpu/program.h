@@ -1,8 +1,9 @@
-// A linked pair of shaders from the shader library. Everything it reads comes by uniform blocks and texture units with
-// fixed bindings (shared_numbers.glsl), so it has no settable state. Move-only. Thread: the context's.
-// Cost: compiling, 0.1 to 0.5 s on a software rasteriser.
+// Linked shaders from the shader library: a vertex and a fragment shader, or a compute shader. Everything it reads
+// comes by uniform blocks and texture units with fixed bindings (shared_numbers.glsl), so it has no settable state.
+// Move-only. Thread: the context's. Cost: compiling, 0.1 to 0.5 s on a software rasteriser.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "render/gpu/gl_name.h"
@@ -13,10 +14,13 @@ class Program {
  public:
   /// Names of shaders, as "screen.vert". Throws GpuError with the driver's words if they do not build.
   Program(std::string_view vertex, std::string_view fragment);
+  explicit Program(std::string_view compute);
 
   void use() const;
 
  private:
+  void link(const std::string& what);
+
   GlName name_;
 };
 

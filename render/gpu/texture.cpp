@@ -49,6 +49,12 @@ Texture::Texture(unsigned target, glm::ivec3 size, TexelFormat format)
 }
 
 Texture Texture::picture(glm::ivec2 size, TexelFormat format) {
+  GLint largest = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+  if (size.x > largest || size.y > largest)
+    throw GpuError("picture of " + std::to_string(size.x) + "x" + std::to_string(size.y) +
+                   " px, graphics driver: it takes " + std::to_string(largest) +
+                   " along an edge; choose a smaller size or fewer samples");
   Texture texture(GL_TEXTURE_2D, glm::ivec3(size, 1), format);
   glTextureStorage2D(texture.name(), 1, factsOf(format).internal, size.x, size.y);
   glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
@@ -99,5 +105,9 @@ void Texture::uploadPicture(std::span<const std::byte> texels) {
 }
 
 void Texture::bind(int unit) const { glBindTextureUnit(static_cast<GLuint>(unit), name()); }
+
+void Texture::bindForWriting(int image_unit) const {
+  glBindImageTexture(static_cast<GLuint>(image_unit), name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, factsOf(format_).internal);
+}
 
 }  // namespace render

@@ -25,6 +25,8 @@ class Texture {
   /// A whole picture, rows bottom first, tightly packed.
   void uploadPicture(std::span<const std::byte> texels);
   void bind(int unit) const;
+  /// As an image that a compute program writes.
+  void bindForWriting(int image_unit) const;
 
   glm::ivec3 size() const { return size_; }
   TexelFormat format() const { return format_; }

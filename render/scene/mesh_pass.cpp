@@ -30,7 +30,7 @@ void MeshPass::draw(const SceneMesh& mesh, Parts parts, const Placement& placeme
   const bool transparent = parts == Parts::transparent;
   apply({.depth_test = true,
          .depth_write = !transparent,
-         .blend = transparent,
+         .blend = transparent ? Blend::over : Blend::none,
          .mirrored = placement.view_is_mirrored,
          .write_distance = !transparent});
   program_.use();

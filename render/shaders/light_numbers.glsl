@@ -71,4 +71,12 @@
 #define BACKGROUND_GLOW_REACH 0.45f
 #define BACKGROUND_GLOW_TINT 0.9f, 1.0f, 1.08f
 
+// Translucent tooth and bone.
+#define DVR_OPAQUE 0.98f            // what lies behind is not looked for
+#define DVR_SOLID 0.5f              // where so much light is stopped lies the distance of the picture
+#define DVR_FULL_FALL 0.25f         // fall of the smoothed field over two voxels that counts as a surface
+#define DVR_INNER_LAMBERT 0.45f     // how matter without a surface takes the lamp's light
+
 #define SHOULDER_KNEE 0.70f         // up to here light is shown as it is; above it rolls off towards white
+
+#define EDGE_BEND 0.002f            // bend of the inverse distance over three pixels that is an edge: 1 mm at half a metre

@@ -11,27 +11,36 @@ float coneOpenness(vec3 index, vec3 direction, float first) {
   return (1.0 - near) * (1.0 - CONE_SECOND_SHADE * middle) * (1.0 - CONE_THIRD_SHADE * far);
 }
 
-Shade shadeFromVolume(vec3 p_P, vec3 normal) {
-  if (volume.ambient_size.x == 0) return Shade(1.0, 1.0);
-  vec3 index = indexFromPoint(p_P);
+// Share of the room that is open: four cones at 45 degrees and one upright. `first`: voxels to the first place, beyond the
+// blur of the surface's own cells.
+float openness(vec3 index, vec3 normal, float first) {
   vec3 side = normalize(abs(normal.x) < 0.7 ? cross(normal, vec3(1, 0, 0)) : cross(normal, vec3(0, 1, 0)));
   vec3 other = cross(normal, side);
-
-  // Four cones at 45 degrees and one upright. The first place lies beyond the blur of the surface's own cells.
-  float first = max(CONE_FIRST_CELLS * float(AMBIENT_CELL_VOXELS), CONE_FIRST_MM / volume.origin_P.w);
   const float tilt = CONE_TILT;
   float open = coneOpenness(index, normal, first);
   open += tilt * (coneOpenness(index, tilt * (normal + side), first) + coneOpenness(index, tilt * (normal - side), first) +
                   coneOpenness(index, tilt * (normal + other), first) + coneOpenness(index, tilt * (normal - other), first));
   open /= 1.0 + 4.0 * tilt;
+  return open * sqrt(open);
+}
 
-  // Towards the lamp, with growing steps.
-  vec3 to_lamp = normalize(eye.lamp_P.xyz - p_P);
+// Share of the lamp's light that arrives, with growing steps towards it.
+float lampThrough(vec3 index, vec3 normal, vec3 to_lamp, float first) {
   float through = 1.0;
   float t = first;
   for (int i = 0; i < LAMP_PLACES; ++i) {
     through *= 1.0 - smoothstep(LAMP_CLEAR, LAMP_BLOCKED, crowdingAt(index + LAMP_LIFT * first * normal + t * to_lamp));
     t *= LAMP_STEP_GROWTH;
   }
-  return Shade(open * sqrt(open), mix(LAMP_LEFT, 1.0, through));
+  return mix(LAMP_LEFT, 1.0, through);
+}
+
+Shade shadeFromVolume(vec3 p_P, vec3 normal) {
+  Shade shade = Shade(1.0, 1.0);
+  if (volume.ambient_size.x == 0) return shade;
+  vec3 index = indexFromPoint(p_P);
+  float first = max(CONE_FIRST_CELLS * float(AMBIENT_CELL_VOXELS), CONE_FIRST_MM / volume.origin_P.w);
+  if (volume.march.y > 0.0) shade.ambient = openness(index, normal, first);
+  if (volume.march.z > 0.0) shade.lamp = lampThrough(index, normal, normalize(eye.lamp_P.xyz - p_P), first);
+  return shade;
 }

@@ -2,7 +2,7 @@
 // The last pass: averages the samples of each pixel in linear light, gives every pixel of the display the eye it is
 // for, and encodes sRGB, once. An eye's picture with fewer pixels than its place is stretched bilinearly.
 #include "shared_numbers.glsl"
-#include "light_numbers.glsl"
+#include "shoulder.glsl"
 #include "stereo_layout.glsl"
 
 layout(std140, binding = OUTPUT_BLOCK) uniform OutputBlock {
@@ -15,13 +15,6 @@ layout(binding = LEFT_EYE_UNIT) uniform sampler2D left_eye;
 layout(binding = RIGHT_EYE_UNIT) uniform sampler2D right_eye;
 layout(location = 0) in vec2 place;
 layout(location = 0) out vec4 colour;
-
-// Bright values roll off towards white instead of clipping: identity to 0.7, then an even approach to 1.
-vec3 shoulder(vec3 x) {
-  const float knee = SHOULDER_KNEE;
-  vec3 over = max(x - knee, 0.0) / (1.0 - knee);
-  return min(x, knee) + (1.0 - knee) * (over / (1.0 + over));
-}
 
 // A drawn pixel, from the lower left; beyond the edge the edge.
 vec3 resolved(sampler2D picture, ivec2 size, ivec2 pixel) {

@@ -7,6 +7,7 @@
 #define VOLUME_BLOCK 1
 #define PART_BLOCK 2
 #define OUTPUT_BLOCK 3
+#define TRANSFER_BLOCK 4
 
 #define SOLID_UNIT 0             // texture units
 #define LABEL_UNIT 1
@@ -17,6 +18,9 @@
 #define RIGHT_EYE_UNIT 6
 #define SMOOTH_UNIT 7
 #define LOOK_UNIT 8
+#define LAYER_LIGHT_UNIT 9
+#define LAYER_DISTANCE_UNIT 10
+#define EDGE_MASK_UNIT 11
 
 #define POSITION_ATTRIBUTE 0     // vertex attributes
 #define NORMAL_ATTRIBUTE 1
@@ -48,3 +52,10 @@
 #define SHOWN_RIGHT 2
 #define SHOWN_CYCLOPEAN 3
 #define SHOWN_BOTH 4
+
+#define VIEW_ISO 0               // how tooth and bone are drawn
+#define VIEW_DVR 1
+#define TISSUE_COUNT 10          // assets::kTissueCount
+#define CAST_GROUP 8             // edge of a work group of the compute caster, px
+
+#define EDGE_SAMPLES 2           // of a pixel that antialiasing draws again, along each edge

@@ -4,8 +4,9 @@
 layout(std140, binding = VOLUME_BLOCK) uniform VolumeBlock {
   vec4 origin_P;         // centre of voxel (0,0,0); w: spacing, mm
   ivec4 size;            // voxels; w: 1 to skip empty space
-  ivec4 bricks;
+  ivec4 bricks;          // w: VIEW_…
   ivec4 ambient_size;    // cells of the ambient map; x is 0 when there is no volume
+  vec4 march;            // x: voxels between samples along a ray; y, z: 1 for ambient shade, for the lamp's shadow
 } volume;
 
 layout(binding = SOLID_UNIT) uniform sampler3D solid_field;
@@ -33,4 +34,10 @@ vec4 lookAt(vec3 index) {
 // Mean solid fraction of the cells around a place, 0..1, trilinear, air outside.
 float crowdingAt(vec3 index) {
   return textureLod(ambient_map, (index + 0.5) / (float(AMBIENT_CELL_VOXELS) * vec3(volume.ambient_size.xyz)), 0.0).r;
+}
+
+// Tissue of the voxel nearest to a place.
+uint labelAt(vec3 index) {
+  ivec3 voxel = clamp(ivec3(floor(index + 0.5)), ivec3(0), volume.size.xyz - 1);
+  return min(texelFetch(label_field, voxel, 0).r, uint(TISSUE_COUNT - 1));
 }

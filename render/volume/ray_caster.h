@@ -1,11 +1,17 @@
-// Draws the surface solid = 0.5 of a volume by one ray per pixel, with depth and distance, into the bound eye target.
-// Rays end at what the target's distance already holds, so meshes drawn before are respected. Frame P. Render thread.
+// Casts one ray per pixel into a volume and lays what it meets over an eye's picture, with depth and distance, as a
+// fragment or as a compute program built from one body (volume_pixel.glsl). Surface solid = 0.5 or translucent.
+// Rays end at what the picture's distance already holds, so meshes drawn before are respected. Frame P. Render thread.
 // Sampling places do not depend on empty-space skipping: with and without it the picture is the same, bit for bit.
-// Cost: on a GPU see reference figures in render/README.md; on a software rasteriser about 0.5 s CPU at 640x480.
+// Cost: figures in render/README.md; on a software rasteriser about 0.2 s CPU at 640x480.
 #pragma once
 
+#include <optional>
+
+#include "render/frame.h"
 #include "render/gpu/buffer.h"
+#include "render/gpu/framebuffer.h"
 #include "render/gpu/program.h"
+#include "render/volume/transfer_function.h"
 #include "render/volume/volume_texture.h"
 
 namespace render {
@@ -14,24 +20,42 @@ namespace render {
 struct VolumeBlock {
   glm::vec4 origin_P;
   glm::ivec4 size{0}, bricks{0}, ambient_size{0};
+  glm::vec4 march{0.0f};
 };
-static_assert(sizeof(VolumeBlock) == 64);
+static_assert(sizeof(VolumeBlock) == 80);
+
+/// What the rays of one eye saw, before it is laid over the eye's picture.
+class VolumeLayer {
+ public:
+  /// Makes it as large as the picture.
+  void fit(glm::ivec2 size);
+  const Framebuffer& target() const { return target_; }
+
+ private:
+  Framebuffer target_;
+};
 
 class RayCaster {
  public:
-  enum class EmptySpace { skip, march };
+  enum class Stage { fragment, compute };
 
-  explicit RayCaster(EmptySpace empty_space = EmptySpace::skip);
+  RayCaster(Stage stage, bool skip_empty_space);
 
-  /// Binds volume and block; passes that ask the volume for shade need this before drawing.
-  void bind(const VolumeFields& fields, const VolumeTexture& volume);
-  /// `scene_distance`: the distance attachment being drawn into. After bind().
-  void draw(const Texture& scene_distance);
+  /// Binds volume, block and transfer function; passes that ask the volume for shade need this before drawing.
+  void bind(const VolumeFields& fields, const VolumeTexture& volume, const Frame& frame,
+            const TransferFunction& transfer);
+  /// After bind(): casts into `layer` and lays it over `picture` (colour, distance, depth).
+  void draw(VolumeLayer& layer, const Framebuffer& picture);
 
  private:
-  EmptySpace empty_space_;
-  Program program_;
+  void cast(const Framebuffer& layer, const Texture& scene_distance) const;
+
+  Stage stage_;
+  bool skips_;
+  Program caster_;
+  Program light_{"screen.vert", "layer_light.frag"}, depth_{"screen.vert", "layer_depth.frag"};
   UniformBlock<VolumeBlock> block_;
+  UniformBlock<TransferBlock> transfer_;
 };
 
 }  // namespace render

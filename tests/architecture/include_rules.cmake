@@ -18,13 +18,14 @@ set(haptics/tool ${assets} haptics/bone/ haptics/tool/)
 set(haptics/contact ${assets} haptics/bone/ haptics/tool/ haptics/contact/)
 set(haptics/servo ${haptics})
 set(render ${assets} render/)
-set(render_words ${assets} render/frame.h render/picture.h render/shaders/shared_numbers.glsl)
+set(render_words ${assets} render/frame.h render/picture.h render/shaders/shared_numbers.glsl
+    render/shaders/anaglyph_numbers.glsl)
 set(render/gpu ${render_words} render/gpu/)
 foreach(part volume scene display)
   set(render/${part} ${render_words} render/gpu/ render/${part}/)
 endforeach()
 # The CPU back-end stands beside gpu: of that folder it knows the exception alone.
-set(render/cpu ${render_words} render/gpu/gpu_error.h render/cpu/ render/volume/ render/display/ render/scene/finish.h
+set(render/cpu ${render_words} render/gpu/gpu_error.h render/gpu/window_place.h render/cpu/ render/volume/ render/display/ render/scene/finish.h
     render/eye_block.h render/scene_renderer.h render/render_options.h render/shaders/)
 
 # Third parties: a regular expression of what is included, and the folders that may.

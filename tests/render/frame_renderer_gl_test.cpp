@@ -314,6 +314,53 @@ TEST(FrameRenderer, TransparentPartsBehindTheBoneStayHidden) {
   EXPECT_LT(pixelsThatDiffer(just_behind, behind, 16), 10u);
 }
 
+// Silhouettes are smoothed, and nothing else is touched: where the distance runs straight on, not a bit changes.
+TEST(FrameRenderer, AntialiasingDrawsSilhouettesAgainAndNothingElse) {
+  const OffscreenContext context(OffscreenContext::Debugging::on);
+  const assets::CtVolume ct = ballVolume(smallGrid(), {{{-4, 0, 0}, 7.0}});
+  for (const Backend backend : {Backend::gl_fragment, Backend::gl_compute}) {
+    FrameRenderer renderer(ct.grid, ct.solid, ct.label, {.backend = backend}),
+        everywhere(ct.grid, ct.solid, ct.label, {.backend = backend, .samples = 2});
+    for (FrameRenderer* r : {&renderer, &everywhere}) r->setGum(sphereMesh({{7, 3, 3}, 5.0}, {0.2f, 0.4f, 0.8f, 1.0f}));
+    Frame frame = frameFor(cameraRig({.eye_P_mm = {0, -250, 0}, .fov_y_rad = 0.17}, {160, 120}));
+    renderer.renderEye(frame, Eye::left);
+    const Picture plain = renderer.readEye(Eye::left);
+    const DistancePicture distance = renderer.readDistance(Eye::left);
+    everywhere.renderEye(frame, Eye::left);
+    const Picture supersampled = everywhere.readEye(Eye::left);
+    frame.quality.antialias = Antialias::edges;
+    renderer.renderEye(frame, Eye::left);
+    const Picture smooth = renderer.readEye(Eye::left);
+    EXPECT_EQ(renderer.readDistance(Eye::left).mm, distance.mm);
+    EXPECT_NO_THROW(renderer.throwIfError());
+
+    const auto mm = [&](int x, int y) { return distance.mm[static_cast<std::size_t>(y * 160 + x)]; };
+    int edges = 0, far_from_supersampled = 0, changed_elsewhere = 0;
+    for (int y = 1; y < 119; ++y)
+      for (int x = 1; x < 159; ++x) {
+        const std::uint8_t *before = pixelAt(plain, x, y), *after = pixelAt(smooth, x, y),
+                           *wanted = pixelAt(supersampled, x, y);
+        const bool hits = mm(x, y) > 0.0f;
+        const bool silhouette = (mm(x - 1, y) > 0.0f) != hits || (mm(x + 1, y) > 0.0f) != hits ||
+                                (mm(x, y - 1) > 0.0f) != hits || (mm(x, y + 1) > 0.0f) != hits;
+        edges += silhouette ? 1 : 0;
+        bool near_silhouette = false;
+        for (int n = 0; n < 25; ++n) {
+          const int i = std::clamp(x + n % 5 - 2, 0, 159), j = std::clamp(y + n / 5 - 2, 0, 119);
+          near_silhouette |= std::abs(mm(i, j) - mm(x, y)) > 1.0f;
+        }
+        for (int c = 0; c < 3; ++c) {
+          if (silhouette) far_from_supersampled += std::abs(after[c] - wanted[c]) > 1 ? 1 : 0;
+          if (!near_silhouette) changed_elsewhere += after[c] != before[c] ? 1 : 0;
+        }
+      }
+    EXPECT_GT(edges, 300);
+    EXPECT_EQ(far_from_supersampled, 0);
+    EXPECT_EQ(changed_elsewhere, 0);
+    EXPECT_GT(pixelsThatDiffer(smooth, plain, 8), 100u);
+  }
+}
+
 TEST(FrameRenderer, SupersamplingSmoothsEdgesButMovesNoDistance) {
   const OffscreenContext context;
   const assets::CtVolume ct = ballVolume(smallGrid(), {{{0, 0, 0}, 8.0}});

@@ -3,6 +3,7 @@
 
 #include "render/gpu/gpu_error.h"
 #include "render/gpu/offscreen_context.h"
+#include "render/volume/transfer_function.h"
 #include "tests/render/drawn_scene.h"
 
 namespace render {
@@ -40,8 +41,10 @@ struct Drawn {
   DistancePicture distance;
 };
 
-Drawn drawn(FrameRenderer& renderer, const Rig& rig) {
-  renderer.renderEye(frameFor(rig), Eye::left);
+Drawn drawn(FrameRenderer& renderer, const Rig& rig, ViewMode mode = ViewMode::iso) {
+  Frame frame = frameFor(rig);
+  frame.mode = mode;
+  renderer.renderEye(frame, Eye::left);
   return {renderer.readEye(Eye::left), renderer.readDistance(Eye::left)};
 }
 
@@ -78,13 +81,87 @@ TEST(RayCaster, SkippingEmptySpaceChangesNoBit) {
     if (carved) carveGroove(ct);
     FrameRenderer skipping(ct.grid, ct.solid, ct.label),
         marching(ct.grid, ct.solid, ct.label, {.skip_empty_space = false});
-    for (const glm::dvec3& from : {glm::dvec3(60, -200, 80), glm::dvec3(0, -200, 0.001), glm::dvec3(-20, 30, 210)}) {
-      const Drawn fast = drawn(skipping, closeUp(from)), slow = drawn(marching, closeUp(from));
-      EXPECT_EQ(fast.picture.rgba, slow.picture.rgba);
-      EXPECT_EQ(fast.distance.mm, slow.distance.mm);
-      EXPECT_GT(std::ranges::count_if(slow.distance.mm, [](float mm) { return mm > 0.0f; }), 500);
-    }
+    for (const glm::dvec3& from : {glm::dvec3(60, -200, 80), glm::dvec3(0, -200, 0.001), glm::dvec3(-20, 30, 210)})
+      for (const ViewMode mode : {ViewMode::iso, ViewMode::dvr}) {
+        const Drawn fast = drawn(skipping, closeUp(from), mode), slow = drawn(marching, closeUp(from), mode);
+        EXPECT_EQ(fast.picture.rgba, slow.picture.rgba);
+        EXPECT_EQ(fast.distance.mm, slow.distance.mm);
+        EXPECT_GT(std::ranges::count_if(slow.distance.mm, [](float mm) { return mm > 0.0f; }), 500);
+      }
   }
+}
+
+// One body builds both. Drivers may contract or reorder its arithmetic differently in the two stages, so a rounding
+// step is allowed; more would be another picture.
+TEST(RayCaster, FragmentAndComputeDrawOnePicture) {
+  const OffscreenContext context(OffscreenContext::Debugging::on);
+  const assets::CtVolume ct = ballVolume(smallGrid(), {{{-6, 0, 5}, 6.0}, {{7, 4, -6}, 4.0}});
+  FrameRenderer fragment(ct.grid, ct.solid, ct.label),
+      compute(ct.grid, ct.solid, ct.label, {.backend = Backend::gl_compute});
+  for (const ViewMode mode : {ViewMode::iso, ViewMode::dvr}) {
+    const Drawn one = drawn(fragment, closeUp(), mode), other = drawn(compute, closeUp(), mode);
+    EXPECT_EQ(testing::pixelsThatDiffer(one.picture, other.picture, 1), 0u);
+    double worst_mm = 0.0;
+    for (std::size_t n = 0; n < one.distance.mm.size(); ++n)
+      worst_mm = std::max(worst_mm, std::abs(double{one.distance.mm[n]} - double{other.distance.mm[n]}));
+    EXPECT_LT(worst_mm, 0.01);
+    EXPECT_GT(std::ranges::count_if(one.distance.mm, [](float mm) { return mm > 0.0f; }), 500);
+  }
+  EXPECT_NO_THROW(compute.throwIfError());
+}
+
+// IEC 61966-2-1, back to light.
+double lightOf(std::uint8_t srgb) {
+  const double v = srgb / 255.0;
+  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+}
+
+assets::MeshModel plate(double y_mm, float grey) {
+  assets::MeshPart part;
+  part.position_mm = {{-30, y_mm, -30}, {30, y_mm, -30}, {30, y_mm, 30}, {-30, y_mm, 30}};
+  part.normal.assign(4, {0.0f, -1.0f, 0.0f});
+  part.triangles = {0, 1, 2, 0, 2, 3};
+  part.material = {.base_colour = {grey, grey, grey, 1.0f}, .roughness = 1.0f};
+  return {{part}};
+}
+
+// A slab has a closed form: of the light behind it, (1 - a)^thickness comes through, whatever the step.
+TEST(RayCaster, TranslucentMatterStopsLightByItsThickness) {
+  const OffscreenContext context;
+  const assets::VolumeGrid grid = smallGrid(glm::ivec3(40), 0.5);
+  std::vector<std::uint8_t> solid(grid.voxelCount(), 0);
+  for (std::size_t n = 0; n < solid.size(); ++n)
+    if (const int j = static_cast<int>(n) / 40 % 40; j >= 18 && j < 22) solid[n] = 255;
+  const std::vector<std::uint8_t> nothing(grid.voxelCount(), 0), cortical(grid.voxelCount(), 1);
+  Frame frame = frameFor(cameraRig({.eye_P_mm = {0, -400, 0}, .look_at_P_mm = {0, 0, 0}, .fov_y_rad = 0.05}, {32, 24}));
+  frame.mode = ViewMode::dvr;
+  frame.quality.ambient_occlusion = frame.quality.lamp_shadow = false;
+
+  // What a plate behind the slab adds to the picture, by being grey rather than black.
+  const auto plateLight = [&](std::span<const std::uint8_t> matter, double step) {
+    FrameRenderer renderer(grid, matter, cortical);
+    frame.quality.step_voxels = step;
+    double light[2];
+    for (const int grey : {0, 1}) {
+      renderer.setGum(plate(15.0, grey == 0 ? 0.0f : 0.5f));
+      renderer.renderEye(frame, Eye::cyclopean);
+      light[grey] = lightOf(renderer.readEye(Eye::cyclopean).rgba[4 * (12 * 32 + 16)]);
+    }
+    return light[1] - light[0];
+  };
+
+  // The optical thickness: 1.5 mm of full bone and half a millimetre of ramp on each side.
+  const TransferFunction transfer;
+  const double a = transfer.opacity_per_mm[1];
+  double log_through = 1.5 * std::log(1.0 - a);
+  for (double x = 0.0005; x < 1.0; x += 0.001) {
+    const double share = std::clamp((x - transfer.ramp_start) / (transfer.ramp_full - transfer.ramp_start), 0.0, 1.0);
+    log_through += 2.0 * 0.5 * 0.001 * std::log(1.0 - a * share);
+  }
+  const double bare = plateLight(nothing, 0.5);
+  EXPECT_GT(bare, 0.1);
+  for (const double step : {0.5, 0.25, 0.125})
+    EXPECT_NEAR(plateLight(solid, step) / bare, std::exp(log_through), 0.03) << "step " << step;
 }
 
 TEST(RayCaster, CarvedBricksLookLikeAFreshUpload) {

@@ -55,8 +55,10 @@ struct Met {
 
 Met first(const MeshScene& scene, const RayBatch& batch) {
   Met met;
-  met.distance_mm.assign(RayBatch::kMost, -1.0f);
-  scene.firstHits(batch, met.points, met.distance_mm.data());
+  MeshHits hits;
+  scene.firstHits(batch, hits);
+  scene.addSeen(batch, hits, hits.distance_mm, met.points);
+  met.distance_mm.assign(hits.distance_mm, hits.distance_mm + batch.count);
   return met;
 }
 
@@ -83,7 +85,7 @@ TEST(MeshScene, MeetsNothingWhenItIsEmpty) {
   EXPECT_FALSE(scene.hasOpaque());
   const Met met = first(scene, rays({0, 0, 50}, {{0, 0, -1}}));
   EXPECT_EQ(met.points.count, 0);
-  EXPECT_EQ(met.distance_mm[0], -1.0f);
+  EXPECT_EQ(met.distance_mm[0], 0.0f);
 }
 
 TEST(MeshScene, GivesDistanceColourAndWhichSideIsSeen) {
@@ -139,7 +141,7 @@ TEST(MeshScene, FindsTheFirstOfManyTrianglesAsAnExhaustiveSearchDoes) {
     for (const assets::MeshPart& part : model.parts)
       if (const auto t = distanceTo(from, directions[r], part.position_mm[0], part.position_mm[1], part.position_mm[2]))
         best = std::min(best, *t);
-    EXPECT_EQ(std::isfinite(best), met.distance_mm[r] >= 0.0f) << r;
+    EXPECT_EQ(std::isfinite(best), met.distance_mm[r] > 0.0f) << r;
     if (!std::isfinite(best)) continue;
     EXPECT_NEAR(met.distance_mm[r], best, 1e-3) << r;
     ++hits;
@@ -248,6 +250,19 @@ TEST(MeshScene, MakesAFadedFaceALayerAndAHiddenOneNothing) {
   EXPECT_EQ(layersOf(scene, batch).count, 0);
   scene.place({});
   EXPECT_EQ(first(scene, batch).points.count, 1);
+}
+
+TEST(MeshScene, LooksUpOnlyWhatNothingHides) {
+  MeshScene scene;
+  scene.setModel(Model::face, {{sheet(0.0f)}});
+  const RayBatch batch = rays({0, 1, 100}, {{0, 0, -1}, {0, 0, -1}, {0, 1, 0}});
+  MeshHits hits;
+  scene.firstHits(batch, hits);
+  const float seen[] = {60.0f, 100.0f, 0.0f};
+  MeshPoints points;
+  scene.addSeen(batch, hits, seen, points);
+  ASSERT_EQ(points.count, 1);
+  EXPECT_EQ(points.ray[0], 1);
 }
 
 TEST(MeshScene, ReplacesAndRemovesModels) {

@@ -1,0 +1,77 @@
+#include "app/command_desk.h"
+
+#include <chrono>
+#include <cstdio>
+#include <utility>
+
+#include "app/command_settings.h"
+#include "app/usage_error.h"
+
+namespace app {
+
+CommandDesk::CommandDesk(const haptics::Command& first, const std::string& settings_file,
+                         double device_damping_Ns_per_mm, double rate_Hz)
+    : command_(first), device_damping_Ns_per_mm_(device_damping_Ns_per_mm), rate_Hz_(rate_Hz) {
+  if (!settings_file.empty()) {
+    file_.emplace(settings_file, first, [this](const haptics::Command& c) { check(c); });
+    command_ = file_->first();
+  }
+  check(command_);
+}
+
+/// Refuses what the servo or the device would obey only in part.
+void CommandDesk::check(const haptics::Command& command) const {
+  refuseUnlessObeyed(command);
+  refuseUnlessHeld(command, device_damping_Ns_per_mm_, rate_Hz_);
+}
+
+void CommandDesk::switchDrill() {
+  command_.drill_enabled = !command_.drill_enabled;
+  workstation_->change(command_);
+}
+
+void CommandDesk::switchLaw(haptics::LawKind law) {
+  haptics::Command wanted = command_;
+  wanted.law.kind = law;
+  try {
+    change(loweredUntilHeld(wanted, device_damping_Ns_per_mm_, rate_Hz_));
+  } catch (const UsageError& error) {
+    std::fprintf(stderr, "molar: %s; the old law stays\n", error.what());
+  }
+}
+
+void CommandDesk::lookAtFile() {
+  if (!file_) return;
+  const auto reading = file_->look(std::chrono::steady_clock::now());
+  if (!reading) return;
+  if (reading->command) {
+    haptics::Command wanted = *reading->command;
+    wanted.drill_enabled = command_.drill_enabled;
+    change(wanted);
+  } else {
+    std::fprintf(stderr, "molar: %s\n", reading->trouble.c_str());
+    workstation_->note("parameters", reading->trouble);
+  }
+}
+
+void CommandDesk::obey(const haptics::Command& command) {
+  command_ = command;
+  workstation_->change(command_);
+}
+
+/// In force, recorded, and every difference logged.
+void CommandDesk::change(const haptics::Command& wanted) {
+  const std::vector<std::string> changes = changesBetween(command_, wanted);
+  if (changes.empty()) return;
+  other_bur_ = other_bur_ || !(command_.tool.head == wanted.tool.head);
+  command_ = wanted;
+  workstation_->change(command_);
+  for (const std::string& line : changes) {
+    std::fprintf(stderr, "molar: at %.3f s %s\n", workstation_->newestTick().t_s, line.c_str());
+    workstation_->note("parameters", line);
+  }
+}
+
+bool CommandDesk::takeOtherBur() { return std::exchange(other_bur_, false); }
+
+}  // namespace app

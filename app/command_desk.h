@@ -1,0 +1,45 @@
+// The command in force during a rehearsal and all who may change it: keys, the operator, a settings file that is obeyed
+// while it changes, a guide. What servo and device would obey only in part is refused or, at a key, lowered and said.
+// Every change is recorded before it is in force, and said. Main thread; a file is looked at four times a second.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/live_parameters.h"
+#include "app/workstation.h"
+#include "haptics/servo/command.h"
+
+namespace app {
+
+class CommandDesk {
+ public:
+  /// `settings_file` rules over `first`; empty: none. Throws UsageError for what can not be obeyed.
+  CommandDesk(const haptics::Command& first, const std::string& settings_file, double device_damping_Ns_per_mm,
+              double rate_Hz);
+
+  const haptics::Command& inForce() const { return command_; }
+  /// From now on changes go there. Borrowed.
+  void serve(Workstation& workstation) { workstation_ = &workstation; }
+
+  void switchDrill();
+  void switchLaw(haptics::LawKind law);
+  void lookAtFile();
+  /// As it is, unsaid: the guide knows why.
+  void obey(const haptics::Command& command);
+
+  /// True once after the bur became another.
+  bool takeOtherBur();
+
+ private:
+  void check(const haptics::Command& command) const;
+  void change(const haptics::Command& wanted);
+
+  haptics::Command command_;
+  double device_damping_Ns_per_mm_, rate_Hz_;
+  std::optional<LiveParameters> file_;
+  Workstation* workstation_ = nullptr;
+  bool other_bur_ = false;
+};
+
+}  // namespace app

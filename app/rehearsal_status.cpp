@@ -1,0 +1,24 @@
+#include "app/rehearsal_status.h"
+
+#include <cstdio>
+
+#include "app/law_text.h"
+
+namespace app {
+
+const char* drillText(const RehearsalStatus& status) {
+  return status.tick.drilling ? "drilling" : status.command.drill_enabled ? "drill off" : "drill locked";
+}
+
+std::string statusLine(const RehearsalStatus& s) {
+  char text[320];
+  std::snprintf(text, sizeof text,
+                "Molar   %.1f s   %s   force %.2f N   depth %.2f mm   %s   servo p99 %.0f µs   %.0f pictures/s, %s   "
+                "motion to photon %.0f ms",
+                s.tick.t_s, lawName(s.command.law.kind).c_str(), glm::length(s.tick.served_force_P_N.xyz),
+                s.tick.depth_mm, drillText(s), s.servo.work_p99_us, s.pictures_per_s, s.quality.c_str(),
+                s.latency.total_ms());
+  return s.recording == RecordingState::ended_early ? std::string(text) + "   NOT RECORDING" : std::string(text);
+}
+
+}  // namespace app

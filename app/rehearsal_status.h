@@ -1,0 +1,44 @@
+// How a rehearsal stands, as plain values: for the status line, the operator's window and nobody else. Made twice a
+// second or, with an operator, ten times. Pure; any thread.
+#pragma once
+
+#include <string>
+
+#include "app/motion_to_photon.h"
+#include "haptics/servo/command.h"
+#include "haptics/servo/servo_statistics.h"
+#include "haptics/servo/tick.h"
+#include "render/frame.h"
+
+namespace app {
+
+enum class RecordingState { none, running, ended_early };
+
+struct RehearsalStatus {
+  std::string patient_title;
+  std::string bur;      ///< as people type it
+  std::string display;  ///< the same
+  haptics::Tick tick;   ///< the newest
+  haptics::Command command;
+  haptics::ServoFigures servo;
+  double servo_rate_Hz = 1000.0;
+  double removed_mm3 = 0.0;
+  double drawing_ms = 0.0;  ///< of the newest frame
+  double pictures_per_s = 0.0;
+  double refresh_Hz = 60.0;
+  PhotonEstimate latency;
+  std::string quality;  ///< the step, in words
+  int quality_step = 0;
+  bool quality_is_held = false;  ///< chosen by hand
+  render::Layers layers;
+  RecordingState recording = RecordingState::none;
+  std::string recording_path;
+};
+
+/// "drilling", "drill off", "drill locked".
+const char* drillText(const RehearsalStatus& status);
+
+/// One line for the window's title.
+std::string statusLine(const RehearsalStatus& status);
+
+}  // namespace app

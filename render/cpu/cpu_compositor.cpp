@@ -1,0 +1,99 @@
+#include "render/cpu/cpu_compositor.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "render/display/anaglyph.h"
+
+namespace render {
+namespace {
+
+// At a pixel of the eye's place, whose size is `place_px`.
+glm::vec3 seen(const EyeCanvas& canvas, glm::ivec2 place_px, glm::ivec2 px) {
+  if (canvas.px == place_px) {
+    const std::size_t n = canvas.at(px.x, px.y);
+    return {canvas.r[n], canvas.g[n], canvas.b[n]};
+  }
+  const glm::vec2 at = (glm::vec2(px) + 0.5f) * glm::vec2(canvas.px) / glm::vec2(place_px) - 0.5f;
+  const glm::ivec2 low(glm::floor(at));
+  const glm::vec2 part = at - glm::vec2(low);
+  const auto corner = [&](int dx, int dy) {
+    const glm::ivec2 c = glm::clamp(low + glm::ivec2(dx, dy), glm::ivec2(0), canvas.px - 1);
+    const std::size_t n = canvas.at(c.x, c.y);
+    return glm::vec3(canvas.r[n], canvas.g[n], canvas.b[n]);
+  };
+  return glm::mix(glm::mix(corner(0, 0), corner(1, 0), part.x), glm::mix(corner(0, 1), corner(1, 1), part.x), part.y);
+}
+
+void resize(Picture& picture, glm::ivec2 size) {
+  picture.w = size.x;
+  picture.h = size.y;
+  picture.rgba.resize(4 * static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
+}
+
+// Bytes red first, whichever way the machine keeps its words.
+void putRow(Picture& picture, int y, const std::uint32_t* rgba) {
+  static_assert(std::endian::native == std::endian::little);
+  const std::size_t bytes = 4 * static_cast<std::size_t>(picture.w);
+  std::memcpy(picture.rgba.data() + static_cast<std::size_t>(y) * bytes, rgba, bytes);
+}
+
+}  // namespace
+
+void compose(const StereoLayout& layout, const EyeCanvas& left, const EyeCanvas& right, const ShadeKernels& kernels,
+             Picture& output) {
+  const glm::ivec2 size = outputSize(layout.mode, layout.screen_px);
+  const glm::ivec2 place_px = eyePictureSize(layout.mode, layout.screen_px);
+  resize(output, size);
+  const auto width = static_cast<std::size_t>(size.x);
+  tbb::parallel_for(0, size.y, [&](int y) {
+    thread_local std::vector<float> light;
+    thread_local std::vector<std::uint32_t> rgba;
+    light.resize(3 * (width + kLanePadding));
+    rgba.resize(width + kLanePadding);
+    float *const r = light.data(), *const g = r + width + kLanePadding, *const b = g + width + kLanePadding;
+    for (int x = 0; x < size.x; ++x) {
+      const ShownPixel shown = shownAt(layout, {x, y});
+      glm::vec3 value(0.0f);
+      switch (shown.eye) {
+        case Shown::black:
+          break;
+        case Shown::left:
+        case Shown::cyclopean:
+          value = seen(left, place_px, shown.px);
+          break;
+        case Shown::right:
+          value = seen(right, place_px, shown.px);
+          break;
+        case Shown::both: {
+          const EyeCanvas &red = layout.swapped ? right : left, &cyan = layout.swapped ? left : right;
+          value = glm::vec3(anaglyph(layout.mode, glm::dvec3(seen(red, place_px, shown.px)),
+                                     glm::dvec3(seen(cyan, place_px, shown.px))));
+          break;
+        }
+      }
+      r[x] = value.r, g[x] = value.g, b[x] = value.b;
+    }
+    kernels.encode(r, g, b, size.x, rgba.data());
+    putRow(output, y, rgba.data());
+  });
+}
+
+Picture pictureOf(const EyeCanvas& canvas, const ShadeKernels& kernels) {
+  Picture picture;
+  resize(picture, canvas.px);
+  tbb::parallel_for(0, canvas.px.y, [&](int y) {
+    thread_local std::vector<std::uint32_t> rgba;
+    rgba.resize(static_cast<std::size_t>(canvas.px.x) + kLanePadding);
+    const std::size_t n = canvas.at(0, y);
+    kernels.encode(&canvas.r[n], &canvas.g[n], &canvas.b[n], canvas.px.x, rgba.data());
+    putRow(picture, y, rgba.data());
+  });
+  return picture;
+}
+
+}  // namespace render

@@ -1,0 +1,301 @@
+#include "render/cpu/cpu_scene_renderer.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <thread>
+
+#include "render/cpu/cpu_compositor.h"
+#include "render/cpu/crowded_bricks.h"
+#include "render/cpu/edges.h"
+#include "render/cpu/eye_canvas.h"
+#include "render/cpu/ray_painter.h"
+#include "render/eye_block.h"
+#include "render/gpu/gpu_error.h"
+#include "render/volume/volume_fields.h"
+
+namespace render {
+namespace {
+
+constexpr int kTile = 16;        // pixels along the edge of a tile
+constexpr int kBlock = 4;        // rays of a 4x4 block follow one another, so that packets are compact
+constexpr int kEdgeSamples = 2;  // along the edge of a pixel that is drawn again
+
+// The servo keeps a core where there is more than a pair; on two it takes what it needs by its priority.
+int threadsFor(const RenderOptions& options) {
+  if (options.threads > 0) return options.threads;
+  const int cores = static_cast<int>(std::thread::hardware_concurrency());
+  return cores > 2 ? cores - 1 : std::max(cores, 1);
+}
+
+template <class T>
+FieldView<T> viewOf(const BorderedField<T>& field) {
+  const FieldLayout& layout = field.layout();
+  return {.border = field.at(glm::ivec3(-1)),
+          .row = static_cast<std::int32_t>(layout.row),
+          .slice = static_cast<std::int32_t>(layout.slice),
+          .size = layout.size};
+}
+
+// An eye as last drawn.
+struct DrawnEye {
+  EyeCanvas canvas;
+  Frame frame;
+  bool drawn = false;
+};
+
+class CpuSceneRenderer final : public SceneRenderer {
+ public:
+  CpuSceneRenderer(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid,
+                   std::span<const std::uint8_t> label, const RenderOptions& options, ShowPicture show)
+      : options_(options),
+        show_(std::move(show)),
+        kernels_(shadeKernels()),
+        arena_(threadsFor(options)),
+        fields_(grid, solid, label),
+        cells_(fields_.solid()),
+        crowded_(fields_) {}
+
+  void setFace(const assets::MeshModel& face_P) override { meshes_.setModel(MeshScene::Model::face, face_P); }
+  void setGum(const assets::MeshModel& gum_P) override { meshes_.setModel(MeshScene::Model::gum, gum_P); }
+  void setInstrument(const assets::MeshModel& instrument_T) override {
+    meshes_.setModel(MeshScene::Model::instrument, instrument_T);
+  }
+  void updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, Occupancy::kBrickValues> solid) override {
+    fields_.updateBrick(brick, solid);
+  }
+
+  void prepare(const Frame& frame) override;
+  void drawEye(const Frame& frame, Eye eye, glm::ivec2 px) override;
+  void compose(const Frame& frame) override;
+  void composeForBystander() override;
+
+  void showOnWindow(const WindowPlace& place, int output) override {
+    if (!show_) throw GpuError("no OpenGL for the window, renderer cpu: use --headless, or install a graphics driver");
+    show_(outputs_[static_cast<std::size_t>(output)], place);
+  }
+  Picture readPicture(int output) override { return outputs_[static_cast<std::size_t>(output)]; }
+  Picture readEye(Eye eye) override {
+    assert(drawn(eye).drawn);
+    return arena_.execute([&] { return pictureOf(drawn(eye).canvas, kernels_); });
+  }
+  DistancePicture readDistance(Eye eye) override;
+  void throwIfError() override {}
+
+ private:
+  DrawnEye& drawn(Eye eye) { return eyes_[static_cast<std::size_t>(eye)]; }
+  PaintScene sceneFor(const Frame& frame, Eye eye);
+  void draw(const PaintScene& scene, int samples, EyeCanvas& canvas);
+  void drawTile(const PaintScene& scene, int samples, glm::ivec2 first, glm::ivec2 end, RayPainter& painter,
+                EyeCanvas& canvas);
+  void drawEdgesAgain(const PaintScene& scene, EyeCanvas& canvas);
+
+  RenderOptions options_;
+  ShowPicture show_;
+  const ShadeKernels& kernels_;
+  tbb::task_arena arena_;
+  VolumeFields fields_;
+  SolidCells cells_;
+  CrowdedBricks crowded_;
+  MeshScene meshes_;
+  tbb::enumerable_thread_specific<std::unique_ptr<RayPainter>> painters_{[] { return std::make_unique<RayPainter>(); }};
+  std::array<DrawnEye, 3> eyes_;
+  std::array<Picture, kBystanderOutput + 1> outputs_;
+  Eye composed_from_ = Eye::cyclopean;
+};
+
+void CpuSceneRenderer::prepare(const Frame& frame) {
+  const EyeBlock any_eye = eyeBlock(frame, eyeView(frame.rig, Eye::cyclopean));
+  arena_.execute([&] {
+    const FieldChanges& changes = fields_.prepare();
+    crowded_.update(fields_, changes);
+    for (const VoxelBox& box : changes.solid) cells_.touch(box);
+    cells_.refresh();
+    if (changes.solid.empty()) cells_.rebuildIfStale();
+    meshes_.place({.P_from_tool = frame.X_PT.matrix(),
+                   .bur_angle_rad = frame.bur_angle_rad,
+                   .tool_visible = frame.tool_visible,
+                   .gum_visible = frame.layers.gum,
+                   .face_opacity = frame.layers.face_opacity,
+                   .window_eye_P = glm::vec3(any_eye.window_eye_P),
+                   .window_site_P = glm::vec3(any_eye.window_site_P),
+                   .window_mm = any_eye.window_site_P.w});
+  });
+}
+
+PaintScene CpuSceneRenderer::sceneFor(const Frame& frame, Eye eye) {
+  const assets::VolumeGrid& grid = fields_.grid();
+  PaintScene scene;
+  scene.meshes = &meshes_;
+  scene.cells = &cells_;
+  scene.kernels = &kernels_;
+  ShadeScene& shade = scene.shade;
+  shade.eye = eyeBlock(frame, eyeView(frame.rig, eye));
+  shade.right_axis_P = glm::normalize(glm::vec3(shade.eye.right_edge_P));
+  const glm::vec3 window = glm::vec3(shade.eye.window_site_P) - glm::vec3(shade.eye.window_eye_P);
+  shade.window_reach_mm = glm::length(window);
+  shade.window_axis_P = window / std::max(shade.window_reach_mm, 1e-6f);
+  shade.origin_P = glm::vec3(grid.origin_P_mm);
+  shade.spacing_mm = static_cast<float>(grid.spacing_mm);
+  shade.smooth = viewOf(fields_.smooth());
+  shade.ambient = viewOf(fields_.ambient());
+  shade.look = viewOf(fields_.look());
+  shade.crowded = {.border = crowded_.distances(),
+                   .row = crowded_.bricks().x,
+                   .slice = crowded_.bricks().x * crowded_.bricks().y,
+                   .size = crowded_.bricks()};
+  shade.ambient_shade = frame.quality.ambient_occlusion;
+  shade.lamp_shadow = frame.quality.lamp_shadow;
+  scene.cast = {.eye_index = (glm::vec3(shade.eye.eye_P) - shade.origin_P) / shade.spacing_mm,
+                .spacing_mm = shade.spacing_mm,
+                .step = static_cast<float>(frame.quality.step_voxels),
+                .skip_empty_space = options_.skip_empty_space};
+  return scene;
+}
+
+void CpuSceneRenderer::drawEye(const Frame& frame, Eye eye, glm::ivec2 px) {
+  DrawnEye& to = drawn(eye);
+  to.canvas.resize(px);
+  to.frame = frame;
+  to.drawn = true;
+  const PaintScene scene = sceneFor(frame, eye);
+  arena_.execute([&] {
+    draw(scene, options_.samples, to.canvas);
+    if (options_.samples == 1 && frame.quality.antialias == Antialias::edges) drawEdgesAgain(scene, to.canvas);
+  });
+}
+
+void CpuSceneRenderer::draw(const PaintScene& scene, int samples, EyeCanvas& canvas) {
+  const int edge = kTile / samples;
+  const glm::ivec2 tiles = (canvas.px + edge - 1) / edge;
+  tbb::parallel_for(0, tiles.x * tiles.y, [&](int tile) {
+    const glm::ivec2 first = edge * glm::ivec2(tile % tiles.x, tile / tiles.x);
+    drawTile(scene, samples, first, glm::min(first + edge, canvas.px), *painters_.local(), canvas);
+  });
+}
+
+// Pixels `first` to before `end`; each the mean of samples x samples rays on an even grid.
+void CpuSceneRenderer::drawTile(const PaintScene& scene, int samples, glm::ivec2 first, glm::ivec2 end,
+                                RayPainter& painter, EyeCanvas& canvas) {
+  const glm::ivec2 rays = samples * (end - first), from = samples * first, all = samples * canvas.px;
+  int n = 0;
+  std::array<std::uint16_t, RayPainter::kMost> pixel;
+  for (int by = 0; by < rays.y; by += kBlock)
+    for (int bx = 0; bx < rays.x; bx += kBlock)
+      for (int y = by; y < std::min(by + kBlock, rays.y); ++y)
+        for (int x = bx; x < std::min(bx + kBlock, rays.x); ++x, ++n) {
+          painter.place_x[n] = (static_cast<float>(from.x + x) + 0.5f) / static_cast<float>(all.x);
+          painter.place_y[n] = (static_cast<float>(all.y - 1 - (from.y + y)) + 0.5f) / static_cast<float>(all.y);
+          pixel[static_cast<std::size_t>(n)] = static_cast<std::uint16_t>((y / samples) * kTile + x / samples);
+        }
+  painter.paint(scene, n);
+
+  if (samples > 1)
+    for (int y = first.y; y < end.y; ++y)
+      for (int x = first.x; x < end.x; ++x) {
+        const std::size_t at = canvas.at(x, y);
+        canvas.r[at] = canvas.g[at] = canvas.b[at] = 0.0f;
+      }
+  const float share = 1.0f / static_cast<float>(samples * samples);
+  for (int i = 0; i < n; ++i) {
+    const int p = pixel[static_cast<std::size_t>(i)];
+    const std::size_t at = canvas.at(first.x + p % kTile, first.y + p / kTile);
+    if (samples == 1) {
+      canvas.r[at] = painter.r[i], canvas.g[at] = painter.g[i], canvas.b[at] = painter.b[i];
+      canvas.distance_mm[at] = painter.distance_mm[i];
+    } else {
+      canvas.r[at] += share * painter.r[i];
+      canvas.g[at] += share * painter.g[i];
+      canvas.b[at] += share * painter.b[i];
+    }
+  }
+}
+
+// Bands of rows find their edges and draw them again in batches.
+void CpuSceneRenderer::drawEdgesAgain(const PaintScene& scene, EyeCanvas& canvas) {
+  constexpr int kSamples = kEdgeSamples * kEdgeSamples;
+  constexpr std::size_t kPixels = RayPainter::kMost / kSamples;
+  const int bands = (canvas.px.y + kTile - 1) / kTile;
+  tbb::parallel_for(0, bands, [&](int band) {
+    std::vector<std::uint32_t> edges;
+    findEdges(canvas, band * kTile, std::min((band + 1) * kTile, canvas.px.y), edges);
+    RayPainter& painter = *painters_.local();
+    for (std::size_t first = 0; first < edges.size(); first += kPixels) {
+      const std::size_t count = std::min(kPixels, edges.size() - first);
+      int n = 0;
+      for (std::size_t e = first; e < first + count; ++e)
+        for (int s = 0; s < kSamples; ++s, ++n) {
+          const glm::ivec2 px = edgePixel(edges[e]);
+          const float x = static_cast<float>(px.x) + 0.25f + 0.5f * static_cast<float>(s % kEdgeSamples);
+          const float y =
+              static_cast<float>(canvas.px.y - 1 - px.y) + 0.25f + 0.5f * static_cast<float>(s / kEdgeSamples);
+          painter.place_x[n] = x / static_cast<float>(canvas.px.x);
+          painter.place_y[n] = y / static_cast<float>(canvas.px.y);
+        }
+      painter.paint(scene, n);
+      for (std::size_t e = 0; e < count; ++e) {
+        const glm::ivec2 px = edgePixel(edges[first + e]);
+        const std::size_t at = canvas.at(px.x, px.y);
+        const auto mean = [&](const float* of) {
+          const float* const from = of + kSamples * e;
+          return 0.25f * (from[0] + from[1] + from[2] + from[3]);
+        };
+        canvas.r[at] = mean(painter.r), canvas.g[at] = mean(painter.g), canvas.b[at] = mean(painter.b);
+      }
+    }
+  });
+}
+
+void CpuSceneRenderer::compose(const Frame& frame) {
+  StereoLayout layout{.mode = frame.display,
+                      .screen_px = frame.rig.screen.px,
+                      .at_px = frame.output_at_px,
+                      .swapped = frame.eyes_swapped};
+  const bool mono = frame.display == DisplayMode::mono;
+  composed_from_ = mono ? Eye::cyclopean : Eye::left;
+  const EyeCanvas& left = drawn(composed_from_).canvas;
+  const EyeCanvas& right = drawn(mono ? Eye::cyclopean : Eye::right).canvas;
+  arena_.execute([&] {
+    for (layout.output = 0; layout.output < outputCount(frame.display); ++layout.output)
+      render::compose(layout, left, right, kernels_, outputs_[static_cast<std::size_t>(layout.output)]);
+  });
+}
+
+void CpuSceneRenderer::composeForBystander() {
+  const DrawnEye& seen = drawn(composed_from_);
+  arena_.execute([&] {
+    render::compose({.screen_px = seen.frame.rig.screen.px}, seen.canvas, seen.canvas, kernels_,
+                    outputs_[kBystanderOutput]);
+  });
+}
+
+DistancePicture CpuSceneRenderer::readDistance(Eye eye) {
+  const DrawnEye& shown = drawn(eye);
+  assert(shown.drawn);
+  const auto picture = [](const EyeCanvas& canvas) -> DistancePicture {
+    const auto count = static_cast<std::ptrdiff_t>(canvas.px.x) * canvas.px.y;
+    return {canvas.px.x, canvas.px.y, {canvas.distance_mm.begin(), canvas.distance_mm.begin() + count}};
+  };
+  if (options_.samples == 1) return picture(shown.canvas);
+
+  // Samples lie beside the pixel's centre, where the distance is asked for: draw it there.
+  EyeCanvas centred;
+  centred.resize(shown.canvas.px);
+  const PaintScene scene = sceneFor(shown.frame, eye);
+  arena_.execute([&] { draw(scene, 1, centred); });
+  return picture(centred);
+}
+
+}  // namespace
+
+std::unique_ptr<SceneRenderer> cpuSceneRenderer(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid,
+                                                std::span<const std::uint8_t> label, const RenderOptions& options,
+                                                ShowPicture show) {
+  return std::make_unique<CpuSceneRenderer>(grid, solid, label, options, std::move(show));
+}
+
+}  // namespace render

@@ -1,0 +1,85 @@
+#include "render/cpu/ray_painter.h"
+
+#include <algorithm>
+
+namespace render {
+namespace {
+
+constexpr float kEndless_mm = 1e9f;
+
+}  // namespace
+
+RayPainter::RayPainter() { light_.resize(3 * static_cast<std::size_t>(kMost + 2 * kLanePadding)); }
+
+Light RayPainter::roomFor(int count) {
+  const std::size_t stride = (static_cast<std::size_t>(count) + 2 * kLanePadding) & ~std::size_t{kLanePadding - 1};
+  if (light_.size() < 3 * stride) light_.resize(3 * stride);
+  return {light_.data(), light_.data() + stride, light_.data() + 2 * stride};
+}
+
+void RayPainter::paint(const PaintScene& scene, int count) {
+  rays_.count = count;
+  scene.kernels->aim(scene.shade.eye, place_x, place_y, rays_);
+  scene.meshes->firstHits(rays_, hits_);
+  std::copy_n(hits_.distance_mm, count, distance_mm);
+  cast(scene);
+  if (std::find(distance_mm, distance_mm + count, 0.0f) != distance_mm + count)
+    scene.kernels->background(scene.shade.eye, rays_, place_x, place_y, {r, g, b});
+  volume(scene);
+  meshes(scene);
+  layers(scene);
+  scene.kernels->shoulder({r, g, b}, count);
+}
+
+// Where tooth and bone lie before the meshes.
+void RayPainter::cast(const PaintScene& scene) {
+  for (int i = 0; i < rays_.count; ++i) limit_mm_[i] = distance_mm[i] > 0.0f ? distance_mm[i] : kEndless_mm;
+  volume_.clear();
+  castSurface(*scene.cells, scene.cast, rays_, limit_mm_, volume_);
+  for (int n = 0; n < volume_.count; ++n) {
+    const auto at = static_cast<std::size_t>(n);
+    distance_mm[volume_.ray[at]] = volume_.length[at] * scene.cast.spacing_mm;
+  }
+}
+
+void RayPainter::volume(const PaintScene& scene) {
+  if (volume_.count == 0) return;
+  const Light light = roomFor(volume_.count);
+  scene.kernels->surface(scene.shade, rays_, volume_.ray.data(), volume_.length.data(), volume_.count, light);
+  for (int n = 0; n < volume_.count; ++n) {
+    const int ray = volume_.ray[static_cast<std::size_t>(n)];
+    r[ray] = light.r[n], g[ray] = light.g[n], b[ray] = light.b[n];
+  }
+}
+
+void RayPainter::meshes(const PaintScene& scene) {
+  seen_.clear();
+  scene.meshes->addSeen(rays_, hits_, distance_mm, seen_);
+  if (seen_.count == 0) return;
+  const Light light = roomFor(seen_.count);
+  scene.kernels->meshes(scene.shade, rays_, seen_, light);
+  for (int n = 0; n < seen_.count; ++n) {
+    const int ray = seen_.ray[n];
+    r[ray] = light.r[n], g[ray] = light.g[n], b[ray] = light.b[n];
+  }
+}
+
+// Each ray's layers come from back to front.
+void RayPainter::layers(const PaintScene& scene) {
+  if (!scene.meshes->hasTransparent()) return;
+  for (int i = 0; i < rays_.count; ++i) limit_mm_[i] = distance_mm[i] > 0.0f ? distance_mm[i] : kEndless_mm;
+  clear_.clear();
+  scene.meshes->layers(rays_, limit_mm_, clear_);
+  if (clear_.count == 0) return;
+  const Light light = roomFor(clear_.count);
+  scene.kernels->meshes(scene.shade, rays_, clear_, light);
+  for (int n = 0; n < clear_.count; ++n) {
+    const int ray = clear_.ray[n];
+    const float a = clear_.a[n];
+    r[ray] += a * (light.r[n] - r[ray]);
+    g[ray] += a * (light.g[n] - g[ray]);
+    b[ray] += a * (light.b[n] - b[ray]);
+  }
+}
+
+}  // namespace render

@@ -1,0 +1,54 @@
+// What the rays of a batch see, in light that the display can show: meshes, tooth and bone, what is translucent before
+// them, the dark room behind. Opaque meshes first, so that the caster ends at them; only what is seen is shaded; layers
+// are laid over it from back to front. The scene is shared by all threads, a painter belongs to one. Frame P, mm.
+#pragma once
+
+#include <vector>
+
+#include "render/cpu/mesh_points.h"
+#include "render/cpu/mesh_scene.h"
+#include "render/cpu/shade_kernels.h"
+#include "render/cpu/solid_cells.h"
+#include "render/cpu/volume_cast.h"
+
+namespace render {
+
+/// An eye's scene; everything is borrowed.
+struct PaintScene {
+  const MeshScene* meshes = nullptr;
+  const SolidCells* cells = nullptr;
+  CastSettings cast;
+  ShadeScene shade;
+  const ShadeKernels* kernels = nullptr;
+};
+
+class RayPainter {
+ public:
+  static constexpr int kMost = RayBatch::kMost;
+
+  RayPainter();
+
+  /// Rays through `count` places of the picture, 0..1 from its lower left.
+  void paint(const PaintScene& scene, int count);
+
+  alignas(64) float place_x[kMost + kLanePadding] = {}, place_y[kMost + kLanePadding] = {};  ///< to be filled in
+  // Answers.
+  alignas(64) float r[kMost + kLanePadding] = {}, g[kMost + kLanePadding] = {}, b[kMost + kLanePadding] = {};
+  alignas(64) float distance_mm[kMost + kLanePadding] = {};  ///< to what is seen, 0: nothing
+
+ private:
+  Light roomFor(int count);
+  void cast(const PaintScene& scene);
+  void volume(const PaintScene& scene);
+  void meshes(const PaintScene& scene);
+  void layers(const PaintScene& scene);
+
+  RayBatch rays_;
+  MeshHits hits_;
+  MeshPoints seen_, clear_;
+  VolumePoints volume_;
+  std::vector<float> light_;
+  alignas(64) float limit_mm_[kMost + kLanePadding] = {};
+};
+
+}  // namespace render

@@ -1,0 +1,11 @@
+// The light that a place on the surface of tooth and bone sends back against a direction: the same for rays and
+// triangles.
+#include "ray_cast.glsl"
+#include "tissue_look.glsl"
+#include "occlusion.glsl"
+
+vec3 boneLight(vec3 index, vec3 p_P, vec3 direction) {
+  vec3 normal = surfaceNormal(index);
+  Surface surface = tissueSurface(index, normal, p_P);
+  return lit(surface, p_P, normal, -direction, shadeFromVolume(p_P, normal));
+}

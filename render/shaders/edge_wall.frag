@@ -1,0 +1,13 @@
+#version 450
+// In a picture of 2x2 samples per pixel: a wall before the eye wherever the pixel is no edge, so that nothing is drawn
+// there again and no ray sets out.
+#include "shared_numbers.glsl"
+
+layout(binding = EDGE_MASK_UNIT) uniform usampler2D edge_mask;
+layout(location = DISTANCE_TARGET) out float distance_mm;
+
+void main() {
+  if (texelFetch(edge_mask, ivec2(gl_FragCoord.xy) / EDGE_SAMPLES, 0).r != 0u) discard;
+  distance_mm = 1e-6;
+  gl_FragDepth = 1.0;
+}

@@ -1,0 +1,11 @@
+#version 450
+// The volume's layer over what lies behind it.
+#include "shared_numbers.glsl"
+
+layout(binding = LAYER_LIGHT_UNIT) uniform sampler2D layer_light;
+layout(location = COLOUR_TARGET) out vec4 colour;
+
+void main() {
+  colour = texelFetch(layer_light, ivec2(gl_FragCoord.xy), 0);
+  if (colour.a == 0.0) discard;
+}

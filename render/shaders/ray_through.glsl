@@ -1,0 +1,62 @@
+// What a ray gathers of translucent matter, front to back, at the same places as the surface view.
+// Opacity is per mm and corrected for the step: alpha = 1 - (1 - a)^(step in mm). Length unit: voxels.
+#include "ray_march.glsl"
+#include "transfer_block.glsl"
+#include "lighting.glsl"
+
+struct Gathered {
+  vec4 light;       // premultiplied
+  float reach;      // where half of the light is stopped; negative where that never happens
+};
+
+float opacityPerMm(vec3 place) {
+  float share = clamp((solidAt(place) - transfer.ramp.x) * transfer.ramp.y, 0.0, 1.0);
+  return share > 0.0 ? share * transfer.opacity_per_mm[labelAt(place)].x : 0.0;
+}
+
+// Light of the lamp, taken once per ray, and of the room on matter; where there is no surface all sides count alike.
+vec3 scattered(vec3 place, vec3 to_lamp, vec3 lamp_light) {
+  vec3 fall = fallAt(place);
+  float steep = length(fall);
+  vec3 normal = fall / max(steep, 1e-6);
+  float surface = min(steep / DVR_FULL_FALL, 1.0);
+  float lambert = mix(DVR_INNER_LAMBERT, max(dot(normal, to_lamp), 0.0), surface);
+  float sky = 0.5 + 0.5 * surface * dot(normal, eye.up_P.xyz);
+  return lookAt(place).rgb * (lambert / 3.14159265 * lamp_light + mix(kFloorLight, kSkyLight, sky));
+}
+
+Gathered gatherAlong(vec3 origin, vec3 direction, float limit) {
+  Gathered gathered = Gathered(vec4(0.0), -1.0);
+  vec2 span = spanInVolume(origin, direction);
+  vec3 middle_P = volume.origin_P.xyz + (origin + 0.5 * (span.x + span.y) * direction) * volume.origin_P.w;
+  span.y = min(span.y, limit);
+  if (span.x >= span.y) return gathered;
+  float step = volume.march.x;
+  float step_mm = step * volume.origin_P.w;
+  vec3 entry = origin + span.x * direction;
+  int last = int((span.y - span.x) / step);
+  vec3 lamp_offset = eye.lamp_P.xyz - middle_P;
+  float lamp_distance = length(lamp_offset);
+  vec3 to_lamp = lamp_offset / lamp_distance;
+  vec3 lamp_light = lampRadiance(middle_P, to_lamp, lamp_distance);
+
+  int k = 0;
+  while (k <= last && gathered.light.a < DVR_OPAQUE) {
+    vec3 place = entry + (float(k) * step) * direction;
+    if (volume.size.w != 0) {
+      float leave = emptyLength(place, entry, direction);
+      if (leave != 0.0) {
+        k = max(k + 1, int(ceil(leave / step)));
+        continue;
+      }
+    }
+    float per_mm = opacityPerMm(place);
+    if (per_mm > 0.0) {
+      float share = (1.0 - gathered.light.a) * (1.0 - pow(1.0 - per_mm, step_mm));
+      gathered.light += share * vec4(scattered(place, to_lamp, lamp_light), 1.0);
+      if (gathered.reach < 0.0 && gathered.light.a >= DVR_SOLID) gathered.reach = span.x + float(k) * step;
+    }
+    ++k;
+  }
+  return gathered;
+}

@@ -1,0 +1,13 @@
+// Bright values roll off towards white instead of clipping: identity to the knee, then an even approach to 1.
+#include "light_numbers.glsl"
+
+vec3 shoulder(vec3 x) {
+  vec3 over = max(x - SHOULDER_KNEE, 0.0) / (1.0 - SHOULDER_KNEE);
+  return min(x, SHOULDER_KNEE) + (1.0 - SHOULDER_KNEE) * (over / (1.0 + over));
+}
+
+// The light that the shoulder brings to y < 1.
+vec3 beforeShoulder(vec3 y) {
+  vec3 risen = clamp((y - SHOULDER_KNEE) / (1.0 - SHOULDER_KNEE), 0.0, 0.999);
+  return min(y, SHOULDER_KNEE) + (1.0 - SHOULDER_KNEE) * (risen / (1.0 - risen));
+}

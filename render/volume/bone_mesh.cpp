@@ -1,0 +1,66 @@
+#include "render/volume/bone_mesh.h"
+
+#include "render/gpu/drawing.h"
+
+namespace render {
+namespace {
+
+assets::SolidVoxels voxelsOf(const VolumeFields& fields) {
+  const FieldLayout& layout = fields.solid().layout();
+  return {fields.grid(),
+          {fields.solid().data(), layout.count()},
+          static_cast<std::size_t>(layout.origin),
+          static_cast<std::size_t>(layout.row),
+          static_cast<std::size_t>(layout.slice)};
+}
+
+template <class Visit>
+void forEachBrick(glm::ivec3 first, glm::ivec3 last, const Visit& visit) {
+  for (int k = first.z; k <= last.z; ++k)
+    for (int j = first.y; j <= last.y; ++j)
+      for (int i = first.x; i <= last.x; ++i) visit(glm::ivec3(i, j, k));
+}
+
+}  // namespace
+
+void BoneMesh::note(const FieldChanges& changes) {
+  if (!surface_) return;
+  for (const VoxelBox& box : changes.solid)
+    forEachBrick(box.first / assets::kBrickVoxels, (box.first + box.extent - 1) / assets::kBrickVoxels,
+                 [this](glm::ivec3 brick) { changed_.push_back(brick); });
+}
+
+void BoneMesh::prepare(const VolumeFields& fields) {
+  if (surface_) {
+    if (changed_.empty()) return;
+    for (const glm::ivec3& brick : surface_->update(voxelsOf(fields), changed_)) upload(brick);
+    changed_.clear();
+    return;
+  }
+  surface_.emplace(voxelsOf(fields));
+  const glm::ivec3 bricks = fields.grid().bricks();
+  std::size_t vertices = 0, indices = 0;
+  forEachBrick({0, 0, 0}, bricks - 1, [&](glm::ivec3 brick) {
+    vertices += surface_->patch(brick).position_P_mm.size();
+    indices += surface_->patch(brick).triangles.size();
+  });
+  pool_.emplace(
+      static_cast<std::size_t>(bricks.x) * static_cast<std::size_t>(bricks.y) * static_cast<std::size_t>(bricks.z),
+      3 * vertices / 2, 3 * indices / 2);
+  forEachBrick({0, 0, 0}, bricks - 1, [&](glm::ivec3 brick) {
+    if (!surface_->patch(brick).empty()) upload(brick);
+  });
+}
+
+void BoneMesh::upload(glm::ivec3 brick) {
+  const assets::SurfacePatch& patch = surface_->patch(brick);
+  pool_->set(surface_->brickIndex(brick), patch.position_P_mm, patch.triangles);
+}
+
+void BoneMesh::draw(bool view_is_mirrored) {
+  apply({.depth_test = true, .depth_write = true, .mirrored = view_is_mirrored});
+  program_.use();
+  pool_->draw();
+}
+
+}  // namespace render

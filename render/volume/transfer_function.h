@@ -1,0 +1,47 @@
+// How much of each tissue the translucent view (ViewMode::dvr) shows: opacity per mm = ramp(solid fraction) x the
+// tissue's own. Read by every back-end. Plain values; starting values judged by eye on the built-in patient and a CT
+// jaw: cortex like frosted glass, roots and crown standing within. The ramp begins at the drawn surface, so both views
+// pass the same empty bricks.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "assets/tissue.h"
+#include "render/shaders/shared_numbers.glsl"
+
+namespace render {
+
+struct TransferFunction {
+  float ramp_start =
+      0.5f;  ///< solid fraction where matter begins to show; never below 0.5, where bricks count as empty
+  float ramp_full = 0.9f;
+  /// 0 … <1, in the order of assets::Tissue.
+  std::array<float, assets::kTissueCount> opacity_per_mm{0.30f, 0.24f, 0.05f, 0.80f, 0.92f,
+                                                         0.75f, 0.50f, 0.50f, 0.05f, 0.05f};
+};
+
+/// The least solid value of 0..255 that shows: bricks without one are passed unseen.
+inline std::uint8_t visibleFrom(const TransferFunction& transfer) {
+  return static_cast<std::uint8_t>(static_cast<int>(std::clamp(transfer.ramp_start, 0.0f, 0.99f) * 255.0f) + 1);
+}
+
+/// std140 twin of transfer_block.glsl.
+struct TransferBlock {
+  glm::vec4 ramp{0.0f};
+  std::array<glm::vec4, assets::kTissueCount> opacity_per_mm{};
+};
+static_assert(sizeof(TransferBlock) == 16 * (1 + TISSUE_COUNT));
+
+inline TransferBlock transferBlock(const TransferFunction& transfer) {
+  TransferBlock block;
+  const float start = std::clamp(transfer.ramp_start, 0.0f, 0.99f);
+  block.ramp = {start, 1.0f / std::max(transfer.ramp_full - start, 0.01f), 0.0f, 0.0f};
+  for (std::size_t n = 0; n < block.opacity_per_mm.size(); ++n)
+    block.opacity_per_mm[n].x = std::clamp(transfer.opacity_per_mm[n], 0.0f, 0.999f);
+  return block;
+}
+
+}  // namespace render

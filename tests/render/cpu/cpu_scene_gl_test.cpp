@@ -1,0 +1,199 @@
+// The CPU back-end against the shaders that specify it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "assets/instrument.h"
+#include "render/display/stereo_layout.h"
+#include "render/gpu/offscreen_context.h"
+#include "tests/render/drawn_scene.h"
+
+namespace render {
+namespace {
+
+using namespace render::testing;
+
+constexpr glm::ivec2 kPx{160, 120};
+
+// A ball of triangles with soft normals.
+assets::MeshPart ballMesh(glm::vec3 centre, float radius, glm::vec4 colour, int rings = 24) {
+  assets::MeshPart part;
+  part.name = "Ball";
+  part.material.base_colour = colour;
+  part.material.roughness = 0.5f;
+  for (int j = 0; j <= rings; ++j)
+    for (int i = 0; i <= 2 * rings; ++i) {
+      const float theta = 3.14159265f * static_cast<float>(j) / static_cast<float>(rings);
+      const float phi = 3.14159265f * static_cast<float>(i) / static_cast<float>(rings);
+      const glm::vec3 n(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
+      part.position_mm.push_back(centre + radius * n);
+      part.normal.push_back(n);
+    }
+  const auto row = static_cast<unsigned>(2 * rings + 1);
+  for (unsigned j = 0; j < static_cast<unsigned>(rings); ++j)
+    for (unsigned i = 0; i < row - 1; ++i) {
+      const unsigned a = j * row + i;
+      part.triangles.insert(part.triangles.end(), {a, a + row, a + row + 1, a, a + row + 1, a + 1});
+    }
+  return part;
+}
+
+struct Difference {
+  int worst = 0, beyond = 0;  ///< of 255; pixels more than two apart
+  double worst_mm = 0.0;
+  int other_mm = 0;  ///< pixels whose discrete hit differs
+};
+
+// Pixels at which the two found another thing, by distance, are counted apart.
+Difference between(FrameRenderer& a, FrameRenderer& b, const Frame& frame, Eye eye) {
+  a.renderEye(frame, eye);
+  b.renderEye(frame, eye);
+  const Picture p = a.readEye(eye), q = b.readEye(eye);
+  const DistancePicture s = a.readDistance(eye), t = b.readDistance(eye);
+  EXPECT_EQ(p.w, q.w);
+  EXPECT_EQ(p.h, q.h);
+  Difference d;
+  for (std::size_t i = 0; i < s.mm.size(); ++i) {
+    int worst = 0;
+    for (std::size_t c = 4 * i; c < 4 * i + 3; ++c) worst = std::max(worst, std::abs(p.rgba[c] - q.rgba[c]));
+    const double apart_mm = std::abs(static_cast<double>(s.mm[i]) - static_cast<double>(t.mm[i]));
+    if (apart_mm > 0.1) {
+      ++d.other_mm;
+      continue;
+    }
+    d.worst_mm = std::max(d.worst_mm, apart_mm);
+    d.worst = std::max(d.worst, worst);
+    d.beyond += worst > 2 ? 1 : 0;
+  }
+  std::printf("worst %d/255, %d pixels beyond 2; depth %.4f mm, %d pixels hit another thing\n", d.worst, d.beyond,
+              d.worst_mm, d.other_mm);
+  return d;
+}
+
+class CpuScene : public ::testing::Test {
+ protected:
+  OffscreenContext context_;
+  assets::CtVolume ct_ = ballVolume(smallGrid(), {{{-4, 0, 0}, 8.0}, {{8, 3, 2}, 4.0}});
+  std::unique_ptr<FrameRenderer> gl_, cpu_;
+
+  void open(RenderOptions options = {}) {
+    gl_ = std::make_unique<FrameRenderer>(ct_.grid, ct_.solid, ct_.label, options);
+    options.backend = Backend::cpu;
+    cpu_ = std::make_unique<FrameRenderer>(ct_.grid, ct_.solid, ct_.label, options);
+  }
+  template <class Change>
+  void both(Change change) {
+    change(*gl_);
+    change(*cpu_);
+  }
+  Frame frame() const { return frameFor(cameraRig({.eye_P_mm = {20, -110, 45}}, kPx)); }
+};
+
+TEST_F(CpuScene, DrawsToothAndBoneAsTheShaderDoes) {
+  for (std::size_t v = 0; v < ct_.label.size(); ++v) ct_.label[v] = static_cast<std::uint8_t>((v / 37) % 6);
+  open();
+  const Difference d = between(*gl_, *cpu_, frame(), Eye::cyclopean);
+  EXPECT_LE(d.worst, 2);
+  EXPECT_LE(d.worst_mm, 0.01);
+  EXPECT_LE(d.other_mm, 4);
+}
+
+TEST_F(CpuScene, DrawsMeshesAndTheirMeetingWithTheVolumeAsTheShadersDo) {
+  open();
+  both([](FrameRenderer& r) {
+    r.setFace({{ballMesh({-8, -6, 6}, 8.0f, {0.8f, 0.6f, 0.5f, 1.0f})}});
+    r.setGum({{ballMesh({6, -6, -4}, 5.0f, {0.7f, 0.3f, 0.3f, 1.0f})}});
+    r.setInstrument(assets::surgicalHandpiece({}));
+  });
+  Frame f = frame();
+  f.tool_visible = true;
+  f.X_PT = {glm::angleAxis(1.0, glm::dvec3(1, 0, 0)), {4, -10, 6}};
+  f.bur_angle_rad = 0.3;
+  const Difference d = between(*gl_, *cpu_, f, Eye::cyclopean);
+  EXPECT_LE(d.worst, 2);
+  EXPECT_LE(d.worst_mm, 0.01);
+  EXPECT_LE(d.other_mm, 60);
+}
+
+TEST_F(CpuScene, CutsTheWindowAndShowsInsidesAsTheShadersDo) {
+  open();
+  both([](FrameRenderer& r) { r.setFace({{ballMesh({0, 0, 0}, 26.0f, {0.8f, 0.6f, 0.5f, 1.0f})}}); });
+  Frame f = frame();
+  f.face_window_mm = 9.0;
+  const Difference d = between(*gl_, *cpu_, f, Eye::left);
+  EXPECT_LE(d.worst, 2);
+  EXPECT_LE(d.other_mm, 40);
+}
+
+TEST_F(CpuScene, LaysTranslucentGumOverBoneAsTheShadersDo) {
+  // The half of a ball that faces the eye: one layer a ray, so that the order of triangles does not matter.
+  open();
+  assets::MeshPart cap = ballMesh({-4, 0, 0}, 9.0f, {0.7f, 0.3f, 0.3f, 0.5f});
+  std::vector<std::uint32_t> front;
+  for (std::size_t t = 0; t + 2 < cap.triangles.size(); t += 3)
+    if (glm::dot(cap.normal[cap.triangles[t]], glm::normalize(glm::vec3(20, -110, 45))) > 0.2f)
+      front.insert(front.end(), {cap.triangles[t], cap.triangles[t + 1], cap.triangles[t + 2]});
+  cap.triangles = front;
+  both([&](FrameRenderer& r) { r.setGum({{cap}}); });
+  const Difference d = between(*gl_, *cpu_, frame(), Eye::right);
+  EXPECT_LE(d.beyond, 3) << "at the rim of the cap, whose distance is not written";
+}
+
+TEST_F(CpuScene, SeesAMirroredRigAsTheShadersDo) {
+  open();
+  both([](FrameRenderer& r) { r.setFace({{ballMesh({-8, -6, 6}, 8.0f, {0.8f, 0.6f, 0.5f, 1.0f})}}); });
+  Random random(11);
+  for (int n = 0; n < 3; ++n) {
+    calibration::Rig rig = randomRig(random, true, kPx);
+    const Difference d = between(*gl_, *cpu_, frameFor(rig), Eye::left);
+    EXPECT_LE(d.worst, 2);
+    EXPECT_LE(d.worst_mm, 0.01);
+    EXPECT_LE(d.other_mm, 40);
+  }
+}
+
+TEST_F(CpuScene, AveragesSamplesAsTheOutputPassDoes) {
+  open({.samples = 3});
+  between(*gl_, *cpu_, frame(), Eye::cyclopean);
+  gl_->renderEye(frame(), Eye::cyclopean);
+  cpu_->renderEye(frame(), Eye::cyclopean);
+  EXPECT_LE(pixelsThatDiffer(gl_->readEye(Eye::cyclopean), cpu_->readEye(Eye::cyclopean), 2), 12u);
+}
+
+TEST_F(CpuScene, ComposesEveryDisplayAsTheOutputPassDoes) {
+  open();
+  for (const DisplayMode mode : {DisplayMode::mono, DisplayMode::side_by_side, DisplayMode::top_bottom_full,
+                                 DisplayMode::frame_packing, DisplayMode::row_interleaved, DisplayMode::checkerboard,
+                                 DisplayMode::anaglyph, DisplayMode::anaglyph_red_cyan, DisplayMode::two_windows}) {
+    Frame f = frame();
+    f.display = mode;
+    f.eyes_swapped = mode == DisplayMode::checkerboard;
+    both([&](FrameRenderer& r) { r.render(f); });
+    for (int output = 0; output < outputCount(mode); ++output) {
+      const Picture a = gl_->readPicture(output), b = cpu_->readPicture(output);
+      ASSERT_EQ(a.w, b.w);
+      ASSERT_EQ(a.h, b.h);
+      EXPECT_LE(pixelsThatDiffer(a, b, 2), 12u) << static_cast<int>(mode);
+    }
+  }
+}
+
+TEST_F(CpuScene, ShowsACarvedBrickInTheNextFrame) {
+  open();
+  cpu_->renderEye(frame(), Eye::cyclopean);
+  const Picture before = cpu_->readEye(Eye::cyclopean);
+  // A bite out of the middle of the nearer ball.
+  assets::CtVolume carved = ct_;
+  const glm::ivec3 brick(3, 2, 4);
+  for (int k = 0; k < 8; ++k)
+    for (int j = 0; j < 8; ++j)
+      for (int i = 0; i < 8; ++i) carved.solid[ct_.grid.index(8 * brick + glm::ivec3(i, j, k))] = 0;
+  const std::vector<std::uint8_t> values = brickOf(carved, brick);
+  both([&](FrameRenderer& r) { r.updateBrick(brick, std::span<const std::uint8_t, 512>(values.data(), 512)); });
+  EXPECT_LE(between(*gl_, *cpu_, frame(), Eye::cyclopean).worst, 2);
+  EXPECT_GT(pixelsThatDiffer(before, cpu_->readEye(Eye::cyclopean), 8), 20u);
+}
+
+}  // namespace
+}  // namespace render
