@@ -11,6 +11,7 @@
 #include "render/gpu/gl_debug_log.h"
 #include "render/gpu/gpu_error.h"
 #include "render/gpu/window_picture.h"
+#include "render/scene/clear_lists.h"
 #include "render/scene/edge_pass.h"
 #include "render/scene/mesh_pass.h"
 #include "render/shaders/shared_numbers.glsl"
@@ -52,6 +53,7 @@ struct Canvas {
 
   Framebuffer target;
   VolumeLayer layer;
+  ClearLists clear;
 };
 
 // An eye as last drawn.
@@ -104,6 +106,11 @@ class GlSceneRenderer final : public SceneRenderer {
  private:
   EyePicture& picture(Eye eye) { return pictures_[static_cast<std::size_t>(eye)]; }
   enum class Where { everywhere, edges };
+  struct Placed {
+    const SceneMesh* mesh;
+    MeshPass::Placement placement;
+  };
+  std::vector<Placed> meshesOf(const Frame& frame, bool mirrored) const;
   void drawScene(const Frame& frame, Eye eye, Canvas& canvas, Where where = Where::everywhere);
 
   int samples_;
@@ -156,20 +163,30 @@ void GlSceneRenderer::drawScene(const Frame& frame, Eye eye, Canvas& canvas, Whe
   drawScreen();
 
   // Opaque meshes, then the volume between them, then what lets it shine through.
-  const MeshPass::Placement in_P{.view_is_mirrored = view.mirrored};
-  const MeshPass::Placement at_tool{
-      .P_from_mesh = frame.X_PT.matrix(), .bur_angle_rad = frame.bur_angle_rad, .view_is_mirrored = view.mirrored};
-  const auto draw_meshes = [&](MeshPass::Parts parts) {
-    if (face_) meshes_.draw(*face_, parts, in_P);
-    if (instrument_ && frame.tool_visible) meshes_.draw(*instrument_, parts, at_tool);
-    if (gum_) meshes_.draw(*gum_, parts, in_P);
-  };
-  draw_meshes(MeshPass::Parts::opaque);
+  const std::vector<Placed> meshes = meshesOf(frame, view.mirrored);
+  for (const Placed& placed : meshes) meshes_.draw(*placed.mesh, MeshPass::Parts::opaque, placed.placement);
   if (frame.mode == ViewMode::mesh)
     bone_mesh_->draw(view.mirrored);
   else
     caster_.draw(canvas.layer, target);
-  draw_meshes(MeshPass::Parts::transparent);
+  const bool any_transparent = std::ranges::any_of(
+      meshes, [](const Placed& p) { return MeshPass::hasTransparent(*p.mesh, p.placement.opacity); });
+  if (!any_transparent) return;
+  canvas.clear.begin(target.size());
+  for (const Placed& placed : meshes) meshes_.draw(*placed.mesh, MeshPass::Parts::transparent, placed.placement);
+  canvas.clear.layOver(target);
+}
+
+std::vector<GlSceneRenderer::Placed> GlSceneRenderer::meshesOf(const Frame& frame, bool mirrored) const {
+  std::vector<Placed> meshes;
+  const Layers& layers = frame.layers;
+  if (face_) meshes.push_back({&*face_, {.view_is_mirrored = mirrored, .opacity = layers.face_opacity}});
+  if (instrument_ && frame.tool_visible)
+    meshes.push_back(
+        {&*instrument_,
+         {.P_from_mesh = frame.X_PT.matrix(), .bur_angle_rad = frame.bur_angle_rad, .view_is_mirrored = mirrored}});
+  if (gum_ && layers.gum) meshes.push_back({&*gum_, {.view_is_mirrored = mirrored}});
+  return meshes;
 }
 
 void GlSceneRenderer::compose(const Frame& frame) {

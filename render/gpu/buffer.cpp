@@ -32,4 +32,8 @@ void Buffer::update(std::span<const std::byte> content) {
 
 void Buffer::bindUniform(int block) const { glBindBufferBase(GL_UNIFORM_BUFFER, static_cast<GLuint>(block), name()); }
 
+void Buffer::bindStorage(int block) const {
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(block), name());
+}
+
 }  // namespace render

@@ -19,6 +19,8 @@ class Buffer {
   void update(std::span<const std::byte> content);
   /// Binds it as the uniform block with that binding.
   void bindUniform(int block) const;
+  /// Binds it as the storage block with that binding.
+  void bindStorage(int block) const;
   unsigned name() const { return name_.get(); }
 
  private:

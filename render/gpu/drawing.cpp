@@ -45,6 +45,8 @@ void apply(const DrawState& state) {
 
 void setViewport(glm::ivec2 corner, glm::ivec2 size) { glViewport(corner.x, corner.y, size.x, size.y); }
 
+void finishStorageWrites() { glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT); }
+
 void finishWritesBeforeReads() { glTextureBarrier(); }
 
 void drawScreen() {

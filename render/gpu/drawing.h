@@ -30,6 +30,9 @@ void setViewport(glm::ivec2 corner, glm::ivec2 size);
 /// Makes what was drawn so far readable as a texture by the next draw into the same picture (ARB_texture_barrier).
 void finishWritesBeforeReads();
 
+/// Makes what shaders stored in buffers and images so far readable by the next draw.
+void finishStorageWrites();
+
 /// The triangle of screen.vert.
 void drawScreen();
 

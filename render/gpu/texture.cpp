@@ -19,6 +19,10 @@ FormatFacts factsOf(TexelFormat format) {
   switch (format) {
     case TexelFormat::r8ui:
       return {GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, 1};
+    case TexelFormat::r32ui:
+      return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4};
+    case TexelFormat::rg16:
+      return {GL_RG16, GL_RG, GL_UNSIGNED_SHORT, 4};
     case TexelFormat::r16:
       return {GL_R16, GL_RED, GL_UNSIGNED_SHORT, 2};
     case TexelFormat::rgba8:
@@ -108,6 +112,15 @@ void Texture::bind(int unit) const { glBindTextureUnit(static_cast<GLuint>(unit)
 
 void Texture::bindForWriting(int image_unit) const {
   glBindImageTexture(static_cast<GLuint>(image_unit), name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, factsOf(format_).internal);
+}
+
+void Texture::bindForReadingAndWriting(int image_unit) const {
+  glBindImageTexture(static_cast<GLuint>(image_unit), name(), 0, GL_FALSE, 0, GL_READ_WRITE, factsOf(format_).internal);
+}
+
+void Texture::fill(std::uint32_t value) {
+  assert(format_ == TexelFormat::r32ui);
+  glClearTexImage(name(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &value);
 }
 
 }  // namespace render

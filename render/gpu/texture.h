@@ -2,6 +2,7 @@
 // Outside a volume texture lies 0 (border colour); 2-D textures repeat their edge.
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
 
@@ -9,7 +10,7 @@
 
 namespace render {
 
-enum class TexelFormat { r8ui, r16, rgba8, rgba16f, r32f, depth32f };
+enum class TexelFormat { r8ui, r32ui, rg16, r16, rgba8, rgba16f, r32f, depth32f };
 
 class Texture {
  public:
@@ -27,6 +28,9 @@ class Texture {
   void bind(int unit) const;
   /// As an image that a compute program writes.
   void bindForWriting(int image_unit) const;
+  void bindForReadingAndWriting(int image_unit) const;
+  /// Every texel of an r32ui texture.
+  void fill(std::uint32_t value);
 
   glm::ivec3 size() const { return size_; }
   TexelFormat format() const { return format_; }

@@ -1,5 +1,6 @@
 #include "render/scene/mesh_pass.h"
 
+#include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "render/shaders/shared_numbers.glsl"
@@ -24,24 +25,32 @@ SceneMesh::SceneMesh(const assets::MeshModel& model, Finish finish) : finish_(fi
       parts_.push_back({.triangles = onGpu(part), .material = part.material, .turns = part.name == "Bur"});
 }
 
-MeshPass::MeshPass() : program_("mesh.vert", "mesh.frag") {}
+bool MeshPass::hasTransparent(const SceneMesh& mesh, float opacity) {
+  if (opacity <= 0.0f) return false;
+  return std::ranges::any_of(
+      mesh.parts_, [opacity](const SceneMesh::Part& part) { return part.material.base_colour.a * opacity < 1.0f; });
+}
 
 void MeshPass::draw(const SceneMesh& mesh, Parts parts, const Placement& placement) {
   const bool transparent = parts == Parts::transparent;
-  apply({.depth_test = true,
+  if (placement.opacity <= 0.0f || (transparent && !hasTransparent(mesh, placement.opacity))) return;
+  apply({.depth_test = !(transparent && placement.shows_through),
          .depth_write = !transparent,
-         .blend = transparent ? Blend::over : Blend::none,
          .mirrored = placement.view_is_mirrored,
+         .write_colour = !transparent,
          .write_distance = !transparent});
-  program_.use();
+  if (transparent && !clear_) clear_.emplace("mesh.vert", "mesh_clear.frag");
+  (transparent ? *clear_ : opaque_).use();
   const glm::dmat4 turned =
       placement.P_from_mesh * glm::rotate(glm::dmat4(1.0), placement.bur_angle_rad, glm::dvec3(0.0, 0.0, 1.0));
   for (const SceneMesh::Part& part : mesh.parts_) {
-    if ((part.material.base_colour.a < 1.0f) != transparent) continue;
+    glm::vec4 colour = part.material.base_colour;
+    colour.a *= placement.opacity;
+    if ((colour.a < 1.0f) != transparent) continue;
     const float is_cut = mesh.finish_ == Finish::skin && part.material.metallic < 0.5f ? 1.0f : 0.0f;
     block_.set(PART_BLOCK,
                {.P_from_mesh = glm::mat4(part.turns ? turned : placement.P_from_mesh),
-                .base_colour = part.material.base_colour,
+                .base_colour = colour,
                 .finish = {part.material.roughness, part.material.metallic, static_cast<float>(mesh.finish_), is_cut}});
     part.triangles.draw();
   }

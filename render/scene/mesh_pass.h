@@ -1,11 +1,11 @@
 // Draws triangle meshes: face, gum, instrument. Frame P by a rigid pose given per draw. Render thread.
-// Opaque parts write depth and distance and come before the volume; transparent parts are blended after it, in the
-// order of the model. Parts of the face, but for metal (a retractor), open around the line
-// from the eyes to the operating site (EyeBlock). Nothing here is
-// felt.
+// Opaque parts write depth and distance and come before the volume; transparent parts come after it, into ClearLists.
+// Parts of the face, but for metal (a retractor), open around the line from the eyes to the operating site (EyeBlock).
+// Nothing here is felt.
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 #include <vector>
 
 #include "assets/mesh.h"
@@ -46,13 +46,17 @@ class MeshPass {
     glm::dmat4 P_from_mesh{1.0};
     double bur_angle_rad = 0.0;
     bool view_is_mirrored = false;
+    float opacity = 1.0f;        ///< of the whole model, besides that of its parts
+    bool shows_through = false;  ///< transparent parts are seen through all that is solid
   };
 
-  MeshPass();
   void draw(const SceneMesh& mesh, Parts parts, const Placement& placement);
+  /// Whether draw() with Parts::transparent has anything to draw.
+  static bool hasTransparent(const SceneMesh& mesh, float opacity);
 
  private:
-  Program program_;
+  Program opaque_{"mesh.vert", "mesh.frag"};
+  std::optional<Program> clear_;
   UniformBlock<PartBlock> block_;
 };
 

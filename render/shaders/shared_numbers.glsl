@@ -9,6 +9,9 @@
 #define OUTPUT_BLOCK 3
 #define TRANSFER_BLOCK 4
 
+#define CLEAR_LIST 0             // storage buffers
+#define CLEAR_HEADS_IMAGE 2      // images, beside the targets
+
 #define SOLID_UNIT 0             // texture units
 #define LABEL_UNIT 1
 #define EMPTINESS_UNIT 2

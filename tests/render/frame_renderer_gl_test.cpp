@@ -298,6 +298,57 @@ TEST(FrameRenderer, TransparentPartsLetTheBoneThroughAndKeepItsDistance) {
   EXPECT_EQ(renderer.readDistance(Eye::left).mm, bare_distance.mm);
 }
 
+// Two clear balls, one in the other's place from either side: what is nearer colours more, whichever was given first.
+TEST(FrameRenderer, TransparentPartsAreOrderedByDistanceInEveryPixel) {
+  const OffscreenContext context(OffscreenContext::Debugging::on);
+  const assets::CtVolume ct = noBone();
+  FrameRenderer renderer(ct.grid, ct.solid, ct.label);
+  const auto seenWith = [&](double red_y_mm, double blue_y_mm, bool red_first) {
+    assets::MeshModel red = sphereMesh({{0, red_y_mm, 0}, 4.0}, {0.8f, 0.05f, 0.05f, 0.6f}),
+                      blue = sphereMesh({{0, blue_y_mm, 0}, 4.0}, {0.05f, 0.05f, 0.8f, 0.6f});
+    if (!red_first) std::swap(red, blue);
+    red.parts.push_back(blue.parts[0]);
+    renderer.setGum(red);
+    renderer.renderEye(frameFor(cameraRig({.eye_P_mm = {0, -250, 0}, .fov_y_rad = 0.17}, {80, 60})), Eye::left);
+    return renderer.readEye(Eye::left);
+  };
+  const Picture red_near = seenWith(-10, 10, true);
+  EXPECT_EQ(pixelsThatDiffer(red_near, seenWith(-10, 10, false)), 0u);
+  const std::uint8_t* c = pixelAt(red_near, 40, 30);
+  EXPECT_GT(c[0], c[2] + 40);
+  const Picture blue_near = seenWith(10, -10, true);
+  c = pixelAt(blue_near, 40, 30);
+  EXPECT_GT(c[2], c[0] + 40);
+  // Cutting through each other, each is in front on its own side.
+  EXPECT_EQ(pixelsThatDiffer(seenWith(-1, 1, true), seenWith(-1, 1, false)), 0u);
+  EXPECT_EQ(pixelsThatDiffer(seenWith(-1, 1, true), seenWith(-1, 1, true)), 0u);
+  EXPECT_NO_THROW(renderer.throwIfError());
+}
+
+TEST(FrameRenderer, TheFaceFadesAndTheGumCanBePutAway) {
+  const OffscreenContext context;
+  const assets::CtVolume ct = ballVolume(smallGrid(), {{{0, 0, 0}, 5.0}});
+  FrameRenderer renderer(ct.grid, ct.solid, ct.label);
+  Frame frame = frameFor(cameraRig({.eye_P_mm = {0, -250, 0}, .fov_y_rad = 0.17}, {80, 60}));
+  const auto seen = [&] {
+    renderer.renderEye(frame, Eye::left);
+    return renderer.readEye(Eye::left);
+  };
+  const Picture bare = seen();
+  renderer.setFace(sphereMesh({{0, 0, 0}, 10.0}, {0.8f, 0.6f, 0.5f, 1.0f}));
+  const Picture whole = seen();
+  frame.layers.face_opacity = 0.3f;
+  const Picture faded = seen();
+  frame.layers.face_opacity = 0.0f;
+  EXPECT_EQ(seen().rgba, bare.rgba);
+  EXPECT_GT(pixelsThatDiffer(faded, bare, 8), 300u);
+  EXPECT_GT(pixelsThatDiffer(faded, whole, 8), 300u);
+  renderer.setGum(sphereMesh({{0, 0, 0}, 7.0}, {0.6f, 0.2f, 0.2f, 1.0f}));
+  EXPECT_GT(pixelsThatDiffer(seen(), bare, 8), 200u);
+  frame.layers.gum = false;
+  EXPECT_EQ(seen().rgba, bare.rgba);
+}
+
 TEST(FrameRenderer, TransparentPartsBehindTheBoneStayHidden) {
   const OffscreenContext context;
   const assets::CtVolume ct = ballVolume(smallGrid(), {{{0, 0, 0}, 9.0}});

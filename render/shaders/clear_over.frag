@@ -1,0 +1,31 @@
+#version 450
+// The transparent places before a pixel, nearest first, as one premultiplied colour to lay over it.
+#include "clear_list.glsl"
+
+layout(location = COLOUR_TARGET) out vec4 colour;
+
+const int kMost = 16;  // the nearest that count
+
+// A strict order of places; two of the same light at the same distance count once.
+bool liesBefore(uvec3 a, uvec3 b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; }
+
+void main() {
+  uint first = imageLoad(clear_heads, ivec2(gl_FragCoord.xy)).r;
+  if (first == kEnd) discard;
+  colour = vec4(0.0);
+
+  // The nearest of the list, then the nearest behind it, and so on: short lists need no memory to be sorted in.
+  uvec3 last = uvec3(0u);
+  for (int n = 0; n < kMost; ++n) {
+    uvec3 nearest = uvec3(kEnd);
+    for (uint at = first; at != kEnd; at = clear_list.place[at].next) {
+      // Floats above zero are ordered as their bits.
+      uvec3 place = uvec3(floatBitsToUint(clear_list.place[at].distance_mm), clear_list.place[at].light);
+      if (liesBefore(last, place) && liesBefore(place, nearest)) nearest = place;
+    }
+    if (nearest.x == kEnd) break;
+    vec2 red_green = unpackHalf2x16(nearest.y), blue_opacity = unpackHalf2x16(nearest.z);
+    colour += (1.0 - colour.a) * blue_opacity.y * vec4(red_green, blue_opacity.x, 1.0);
+    last = nearest;
+  }
+}

@@ -1,0 +1,15 @@
+#version 450
+// Transparent parts of meshes, into the list of their pixel. What no longer fits the lists is left out.
+#include "clear_list.glsl"
+#include "mesh_colour.glsl"
+
+layout(early_fragment_tests) in;
+
+void main() {
+  vec4 colour = meshColour();
+  if (gl_HelperInvocation) return;
+  uint at = atomicAdd(clear_list.count, 1u);
+  if (at >= clear_list.capacity) return;
+  uint next = imageAtomicExchange(clear_heads, ivec2(gl_FragCoord.xy), at);
+  clear_list.place[at] = ClearPlace(uvec2(packHalf2x16(colour.rg), packHalf2x16(colour.ba)), distance(p_P, eye.eye_P.xyz), next);
+}

@@ -1,0 +1,65 @@
+// Skin, gum and steel under the light. Both sides are drawn; the face opens around the line from the eye to the operating
+// site.
+#include "part_block.glsl"
+#include "occlusion.glsl"
+
+layout(location = 0) in vec3 p_P;
+layout(location = 1) in vec3 normal_P;
+layout(location = 2) in vec4 vertex_tint;
+
+// mm from the rim of the window in the face: negative inside, where nothing is drawn. Behind the site nothing is cut.
+float rimDistance(vec3 p) {
+  vec3 line = eye.window_site_P.xyz - eye.window_eye_P.xyz;
+  float reach = length(line);
+  vec3 axis = line / reach;
+  vec3 offset = p - eye.window_eye_P.xyz;
+  float along = dot(offset, axis);
+  float beyond = along - (reach - RIM_BEHIND);
+  float across = length(offset - along * axis) - eye.window_site_P.w;
+  return max(across, beyond);
+}
+
+// Colour not premultiplied, with opacity; discards what the window cuts away.
+vec4 meshColour() {
+  vec3 to_eye = normalize(eye.eye_P.xyz - p_P);
+  vec3 normal = normalize(normal_P);
+  if (!gl_FrontFacing) normal = -normal;
+  vec4 base = part.base_colour * vertex_tint;
+  int finish = int(part.finish.z);
+
+  // The rim of the window is a cut edge: darker and redder within a millimetre or two.
+  float rim = 1.0;
+  if (part.finish.w > 0.5 && eye.window_site_P.w > 0.0) {
+    float away = rimDistance(p_P);
+    if (away < 0.0) discard;
+    rim = smoothstep(0.0, RIM_WIDTH, away);
+  }
+
+  float metallic = part.finish.y;
+  Surface s;
+  s.roughness = clamp(part.finish.x, ROUGHNESS_LEAST, 1.0);
+  s.albedo = base.rgb * (1.0 - metallic);
+  s.f0 = mix(vec3(MESH_F0), base.rgb, metallic);
+  s.wrap = 0.0;
+  s.scatter = s.albedo;
+  if (finish == FINISH_SKIN) {
+    s.wrap = SKIN_WRAP;
+    s.f0 = mix(vec3(SKIN_F0), base.rgb, metallic);
+    vec3 hue = s.albedo / max(max(s.albedo.r, s.albedo.g), max(s.albedo.b, 1e-3));
+    s.scatter = hue * hue;
+    s.albedo = mix(s.albedo * vec3(RIM_TINT), s.albedo, rim);
+  } else if (finish == FINISH_GUM) {
+    s.wrap = GUM_WRAP;
+    s.f0 = vec3(GUM_F0);
+    s.scatter = vec3(GUM_SCATTER);
+  }
+  Shade shade = shadeFromVolume(p_P + MESH_LIFT * normal, normal);
+  if (finish == FINISH_INSTRUMENT) {
+    // Steel in a cavity still mirrors its bright mouth.
+    shade.ambient = mix(STEEL_AMBIENT_LEAST, 1.0, shade.ambient);
+    shade.lamp = mix(STEEL_LAMP_LEAST, 1.0, shade.lamp);
+  }
+  shade.ambient *= gl_FrontFacing ? 1.0 : INSIDE_AMBIENT;
+  shade.lamp *= gl_FrontFacing ? 1.0 : INSIDE_LAMP;
+  return vec4(lit(s, p_P, normal, to_eye, shade), base.a);
+}
