@@ -16,6 +16,7 @@
 #include "render/cpu/ray_painter.h"
 #include "render/eye_block.h"
 #include "render/gpu/gpu_error.h"
+#include "render/volume/transfer_function.h"
 #include "render/volume/volume_fields.h"
 
 namespace render {
@@ -101,6 +102,8 @@ class CpuSceneRenderer final : public SceneRenderer {
   VolumeFields fields_;
   SolidCells cells_;
   CrowdedBricks crowded_;
+  TransferFunction transfer_;
+  OpacityTable opacity_;
   MeshScene meshes_;
   tbb::enumerable_thread_specific<std::unique_ptr<RayPainter>> painters_{[] { return std::make_unique<RayPainter>(); }};
   std::array<DrawnEye, 3> eyes_;
@@ -111,6 +114,7 @@ class CpuSceneRenderer final : public SceneRenderer {
 void CpuSceneRenderer::prepare(const Frame& frame) {
   const EyeBlock any_eye = eyeBlock(frame, eyeView(frame.rig, Eye::cyclopean));
   arena_.execute([&] {
+    // Both views pass the same empty bricks, for the ramp begins at the surface or above.
     const FieldChanges& changes = fields_.prepare();
     crowded_.update(fields_, changes);
     for (const VoxelBox& box : changes.solid) cells_.touch(box);
@@ -141,6 +145,7 @@ PaintScene CpuSceneRenderer::sceneFor(const Frame& frame, Eye eye) {
   shade.window_axis_P = window / std::max(shade.window_reach_mm, 1e-6f);
   shade.origin_P = glm::vec3(grid.origin_P_mm);
   shade.spacing_mm = static_cast<float>(grid.spacing_mm);
+  shade.voxels = grid.size;
   shade.smooth = viewOf(fields_.smooth());
   shade.ambient = viewOf(fields_.ambient());
   shade.look = viewOf(fields_.look());
@@ -154,6 +159,12 @@ PaintScene CpuSceneRenderer::sceneFor(const Frame& frame, Eye eye) {
                 .spacing_mm = shade.spacing_mm,
                 .step = static_cast<float>(frame.quality.step_voxels),
                 .skip_empty_space = options_.skip_empty_space};
+  if (frame.mode == ViewMode::dvr) {
+    opacity_ = opacityTable(transfer_.ramp_start, transfer_.ramp_full, transfer_.opacity_per_mm,
+                            scene.cast.step * shade.spacing_mm);
+    scene.opacity = &opacity_;
+    scene.label = &fields_.label();
+  }
   return scene;
 }
 

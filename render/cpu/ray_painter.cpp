@@ -21,28 +21,28 @@ void RayPainter::paint(const PaintScene& scene, int count) {
   rays_.count = count;
   scene.kernels->aim(scene.shade.eye, place_x, place_y, rays_);
   scene.meshes->firstHits(rays_, hits_);
-  std::copy_n(hits_.distance_mm, count, distance_mm);
-  cast(scene);
-  if (std::find(distance_mm, distance_mm + count, 0.0f) != distance_mm + count)
-    scene.kernels->background(scene.shade.eye, rays_, place_x, place_y, {r, g, b});
-  volume(scene);
-  meshes(scene);
+  for (int i = 0; i < count; ++i) {
+    distance_mm[i] = hits_.distance_mm[i];
+    limit_mm_[i] = distance_mm[i] > 0.0f ? distance_mm[i] : kEndless_mm;
+  }
+  volume_.clear();
+  if (scene.opacity == nullptr)
+    paintSurface(scene);
+  else
+    paintThrough(scene);
   layers(scene);
   scene.kernels->shoulder({r, g, b}, count);
 }
 
-// Where tooth and bone lie before the meshes.
-void RayPainter::cast(const PaintScene& scene) {
-  for (int i = 0; i < rays_.count; ++i) limit_mm_[i] = distance_mm[i] > 0.0f ? distance_mm[i] : kEndless_mm;
-  volume_.clear();
+// The surface hides what lies behind it, so only what is seen is shaded.
+void RayPainter::paintSurface(const PaintScene& scene) {
   castSurface(*scene.cells, scene.cast, rays_, limit_mm_, volume_);
   for (int n = 0; n < volume_.count; ++n) {
     const auto at = static_cast<std::size_t>(n);
     distance_mm[volume_.ray[at]] = volume_.length[at] * scene.cast.spacing_mm;
   }
-}
-
-void RayPainter::volume(const PaintScene& scene) {
+  background(scene);
+  meshes(scene, distance_mm);
   if (volume_.count == 0) return;
   const Light light = roomFor(volume_.count);
   scene.kernels->surface(scene.shade, rays_, volume_.ray.data(), volume_.length.data(), volume_.count, light);
@@ -52,9 +52,35 @@ void RayPainter::volume(const PaintScene& scene) {
   }
 }
 
-void RayPainter::meshes(const PaintScene& scene) {
+// Translucent matter lies over everything behind it; it counts as met where it stops half of the light.
+void RayPainter::paintThrough(const PaintScene& scene) {
+  background(scene);
+  meshes(scene, hits_.distance_mm);
+  castThrough(*scene.cells, scene.cast, *scene.label, *scene.opacity, rays_, limit_mm_, volume_, sums_);
+  for (int i = 0; i < rays_.count; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const float left = 1.0f - sums_.opacity[at];
+    r[i] *= left, g[i] *= left, b[i] *= left;
+    if (sums_.reach[at] >= 0.0f) distance_mm[i] = sums_.reach[at] * scene.cast.spacing_mm;
+  }
+  if (volume_.count == 0) return;
+  const Light light = roomFor(volume_.count);
+  scene.kernels->matter(scene.shade, rays_, volume_.ray.data(), volume_.length.data(), volume_.count, light);
+  for (int n = 0; n < volume_.count; ++n) {
+    const int ray = volume_.ray[static_cast<std::size_t>(n)];
+    const float weight = volume_.weight[static_cast<std::size_t>(n)];
+    r[ray] += weight * light.r[n], g[ray] += weight * light.g[n], b[ray] += weight * light.b[n];
+  }
+}
+
+void RayPainter::background(const PaintScene& scene) {
+  if (std::find(distance_mm, distance_mm + rays_.count, 0.0f) != distance_mm + rays_.count)
+    scene.kernels->background(scene.shade.eye, rays_, place_x, place_y, {r, g, b});
+}
+
+void RayPainter::meshes(const PaintScene& scene, const float* seen_mm) {
   seen_.clear();
-  scene.meshes->addSeen(rays_, hits_, distance_mm, seen_);
+  scene.meshes->addSeen(rays_, hits_, seen_mm, seen_);
   if (seen_.count == 0) return;
   const Light light = roomFor(seen_.count);
   scene.kernels->meshes(scene.shade, rays_, seen_, light);

@@ -18,6 +18,8 @@ struct PaintScene {
   const MeshScene* meshes = nullptr;
   const SolidCells* cells = nullptr;
   CastSettings cast;
+  const OpacityTable* opacity = nullptr;               ///< set where tooth and bone are translucent …
+  const BorderedField<std::uint8_t>* label = nullptr;  ///< … by tissue
   ShadeScene shade;
   const ShadeKernels* kernels = nullptr;
 };
@@ -38,15 +40,17 @@ class RayPainter {
 
  private:
   Light roomFor(int count);
-  void cast(const PaintScene& scene);
-  void volume(const PaintScene& scene);
-  void meshes(const PaintScene& scene);
+  void paintSurface(const PaintScene& scene);
+  void paintThrough(const PaintScene& scene);
+  void background(const PaintScene& scene);
+  void meshes(const PaintScene& scene, const float* seen_mm);
   void layers(const PaintScene& scene);
 
   RayBatch rays_;
   MeshHits hits_;
   MeshPoints seen_, clear_;
   VolumePoints volume_;
+  RaySums sums_;
   std::vector<float> light_;
   alignas(64) float limit_mm_[kMost + kLanePadding] = {};
 };

@@ -256,19 +256,54 @@ inline Surface tissueSurface(const ShadeScene& scene, const Float3& index, const
   return {albedo, vec3(shine.y), shine.x, shine.z, albedo};
 }
 
-// Central differences of the smoothed field over two voxels; the rows they share are read once.
-inline Float3 surfaceNormal(const ShadeScene& scene, const Float3& index, Mask mask) {
+// Central differences of the smoothed field over two voxels, towards air.
+inline Float3 fallAt(const ShadeScene& scene, const Float3& index, Mask mask) {
   const FieldView<std::uint16_t>& field = scene.smooth;
   const Float3 at = index + 1.0f;
-  const auto outer = [&](float dx, float dy, float dz) {
+  const auto beside = [&](float dx, float dy, float dz) {
     const Float3 moved{clamp(at.x + dx, 0.0f, static_cast<float>(field.size.x + 1)),
                        clamp(at.y + dy, 0.0f, static_cast<float>(field.size.y + 1)),
                        clamp(at.z + dz, 0.0f, static_cast<float>(field.size.z + 1))};
     return trilinear(field, moved, mask);
   };
-  const Float3 fall{outer(-1, 0, 0) - outer(1, 0, 0), outer(0, -1, 0) - outer(0, 1, 0),
-                    outer(0, 0, -1) - outer(0, 0, 1)};
-  return inverseSquareRoot(maximum(dot(fall, fall), 1e-12f * 65535.0f * 65535.0f)) * fall;
+  return (1.0f / 65535.0f) * Float3{beside(-1, 0, 0) - beside(1, 0, 0), beside(0, -1, 0) - beside(0, 1, 0),
+                                    beside(0, 0, -1) - beside(0, 0, 1)};
+}
+
+inline Float3 surfaceNormal(const ShadeScene& scene, const Float3& index, Mask mask) {
+  const Float3 fall = fallAt(scene, index, mask);
+  return inverseSquareRoot(maximum(dot(fall, fall), 1e-12f)) * fall;
+}
+
+// ---- ray_through.glsl
+
+// Middle of a ray's way through the volume and its border of air, P.
+inline Float3 middleOfWay(const ShadeScene& scene, const RayBatch& rays, const Float3& direction) {
+  const Float3 origin = indexOf(scene, splat(rays.origin_P));
+  Float near = splat(0.0f), far = splat(1e9f);
+  const auto narrow = [&](Float from, Float along, int size) {
+    const Float inverse = 1.0f / select(absolute(along) < 1e-9f, splat(1e-9f), along);
+    const Float a = (-1.0f - from) * inverse, b = (static_cast<float>(size) - from) * inverse;
+    near = maximum(near, minimum(a, b));
+    far = minimum(far, maximum(a, b));
+  };
+  narrow(origin.x, direction.x, scene.voxels.x);
+  narrow(origin.y, direction.y, scene.voxels.y);
+  narrow(origin.z, direction.z, scene.voxels.z);
+  return splat(rays.origin_P) + (0.5f * scene.spacing_mm * (near + far)) * direction;
+}
+
+inline Float3 scattered(const ShadeScene& scene, const Float3& index, const Float3& to_lamp, const Float3& lamp_light,
+                        Mask mask) {
+  const Float3 fall = fallAt(scene, index, mask);
+  const Float steep = length(fall);
+  const Float3 normal = (1.0f / maximum(steep, 1e-6f)) * fall;
+  const Float surface = minimum(steep * (1.0f / DVR_FULL_FALL), 1.0f);
+  const Float lambert = mix(splat(DVR_INNER_LAMBERT), maximum(dot(normal, to_lamp), 0.0f), surface);
+  const Float sky = 0.5f + 0.5f * surface * dot(normal, splat(scene.eye.up_P));
+  Float finish;
+  return lookAt(scene, index, mask, finish) *
+         ((lambert / kPi) * lamp_light + mix(vec3(FLOOR_LIGHT), vec3(SKY_LIGHT), sky));
 }
 
 // ---- the kernels
@@ -372,6 +407,21 @@ void surface(const ShadeScene& scene, const RayBatch& rays, const std::int32_t* 
   }
 }
 
+void matter(const ShadeScene& scene, const RayBatch& rays, const std::int32_t* ray, const float* length_voxels,
+            int count, Light light) {
+  const Float3 eye_index = indexOf(scene, splat(rays.origin_P));
+  for (int i = 0; i < count; i += kLanes) {
+    const Mask mask = firstLanes(count - i);
+    const Float3 direction = directionsOf(rays, load(ray + i) & mask, mask);
+    const Float t = select(mask, load(length_voxels + i), 0.0f);
+    const Float3 lamp_offset = splat(scene.eye.lamp_P) - middleOfWay(scene, rays, direction);
+    const Float lamp_distance = length(lamp_offset);
+    const Float3 to_lamp = (1.0f / lamp_distance) * lamp_offset;
+    put(light, i,
+        scattered(scene, eye_index + t * direction, to_lamp, lampRadiance(scene.eye, to_lamp, lamp_distance), mask));
+  }
+}
+
 // ---- output.frag
 
 inline Float shouldered(Float x) {
@@ -408,7 +458,7 @@ void encode(const float* r, const float* g, const float* b, int count, std::uint
   }
 }
 
-constexpr ShadeKernels kShadeKernels{aim, background, meshes, surface, shoulder, encode};
+constexpr ShadeKernels kShadeKernels{aim, background, meshes, surface, matter, shoulder, encode};
 
 }  // namespace
 }  // namespace render::cpu

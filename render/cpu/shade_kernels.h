@@ -1,7 +1,7 @@
 // Light on what rays meet, many places at once: the twin, formula by formula, of the shaders lighting.glsl,
-// occlusion.glsl, tissue_look.glsl, mesh.frag, background.frag and output.frag, whose numbers it shares
-// (light_numbers.glsl, finish.glsl). Compiled once for each instruction set. Frame P, mm; linear light. Any thread; no
-// allocation. Cost: about 0.1 us a place with soft shade, 5 ns without.
+// occlusion.glsl, tissue_look.glsl, ray_through.glsl, mesh.frag, background.frag and output.frag, whose numbers it
+// shares (light_numbers.glsl, finish.glsl). Compiled once for each instruction set. Frame P, mm; linear light. Any
+// thread; no allocation. Cost: about 0.1 us a place with soft shade, 5 ns without.
 #pragma once
 
 #include <cstdint>
@@ -28,6 +28,7 @@ struct ShadeScene {
   float window_reach_mm = 0.0f;               ///< … from the eyes to the site
   glm::vec3 origin_P{0.0f};                   ///< of voxel (0,0,0)
   float spacing_mm = 1.0f;
+  glm::ivec3 voxels{0};
   FieldView<std::uint16_t> smooth, ambient;
   FieldView<std::uint32_t> look;
   FieldView<std::uint8_t> crowded;  ///< per brick, without border: bricks to the next with anything in it
@@ -49,6 +50,9 @@ struct ShadeKernels {
   /// Tooth and bone: `count` rays of the batch by number, and how far along each the surface is, in voxels.
   void (*surface)(const ShadeScene& scene, const RayBatch& rays, const std::int32_t* ray, const float* length_voxels,
                   int count, Light light);
+  /// Places within translucent matter, the same way: what each scatters towards the eye, before its opacity.
+  void (*matter)(const ShadeScene& scene, const RayBatch& rays, const std::int32_t* ray, const float* length_voxels,
+                 int count, Light light);
   /// In place: bright values roll off towards white.
   void (*shoulder)(Light light, int count);
   /// Linear light, within 0..1 after clamping, to sRGB bytes with alpha 255, red lowest; at most 0.56/255 from the

@@ -126,6 +126,27 @@ TEST_F(CpuScene, CutsTheWindowAndShowsInsidesAsTheShadersDo) {
   EXPECT_LE(d.other_mm, 40);
 }
 
+TEST_F(CpuScene, DrawsTranslucentBoneAsTheShaderDoes) {
+  for (std::size_t v = 0; v < ct_.label.size(); ++v) ct_.label[v] = static_cast<std::uint8_t>((v / 37) % 6);
+  open();
+  both([](FrameRenderer& r) { r.setFace({{ballMesh({-4, 8, 6}, 8.0f, {0.8f, 0.6f, 0.5f, 1.0f})}}); });
+  Frame f = frame();
+  f.mode = ViewMode::dvr;
+  const Difference d = between(*gl_, *cpu_, f, Eye::cyclopean);
+  EXPECT_LE(d.worst, 2);
+}
+
+TEST_F(CpuScene, LeavesOutShadeAndShadowAsTheShadersDo) {
+  open();
+  both([](FrameRenderer& r) { r.setGum({{ballMesh({6, -6, -4}, 5.0f, {0.7f, 0.3f, 0.3f, 1.0f})}}); });
+  Frame f = frame();
+  f.quality.ambient_occlusion = false;
+  EXPECT_LE(between(*gl_, *cpu_, f, Eye::cyclopean).worst, 2);
+  f.quality.lamp_shadow = false;
+  f.quality.step_voxels = 1.0;
+  EXPECT_LE(between(*gl_, *cpu_, f, Eye::cyclopean).worst, 2);
+}
+
 TEST_F(CpuScene, LaysTranslucentGumOverBoneAsTheShadersDo) {
   // The half of a ball that faces the eye: one layer a ray, so that the order of triangles does not matter.
   open();
