@@ -14,8 +14,11 @@ using render::Backend;
 using render::Layers;
 using render::ViewMode;
 
-const std::map<std::string, Backend> kBackends{
-    {"gl-fragment", Backend::gl_fragment}, {"gl-compute", Backend::gl_compute}, {"cpu", Backend::cpu}};
+const std::map<std::string, std::optional<Backend>> kBackends{{"auto", std::nullopt},
+                                                              {"gl", Backend::gl_fragment},
+                                                              {"gl-fragment", Backend::gl_fragment},
+                                                              {"gl-compute", Backend::gl_compute},
+                                                              {"cpu", Backend::cpu}};
 const std::map<std::string, ViewMode> kModes{{"iso", ViewMode::iso}, {"dvr", ViewMode::dvr}, {"mesh", ViewMode::mesh}};
 const std::map<std::string, Antialias> kAntialias{{"none", Antialias::none}, {"edges", Antialias::edges}};
 const std::map<std::string, bool Layers::*> kLayers{{"canal", &Layers::canal},
@@ -36,7 +39,9 @@ std::vector<std::string> namesOf(const std::map<std::string, T>& named) {
 PictureOption::PictureOption(Antialias antialias) : antialias_(antialias == Antialias::edges ? "edges" : "none") {}
 
 void PictureOption::addTo(CLI::App& command) {
-  command.add_option("--renderer", renderer_, "gl-fragment, gl-compute, or cpu (without OpenGL)")
+  command
+      .add_option("--renderer", renderer_,
+                  "gl-fragment, gl-compute, cpu (without OpenGL); auto: cpu where there is no graphics card")
       ->check(CLI::IsMember(namesOf(kBackends)))
       ->capture_default_str();
   command.add_option("--mode", mode_, "Tooth and bone as iso (surface), dvr (translucent) or mesh (triangles)")
@@ -55,11 +60,7 @@ void PictureOption::addTo(CLI::App& command) {
       ->capture_default_str();
 }
 
-Backend PictureOption::backend() const {
-  if (kBackends.at(renderer_) == Backend::cpu)
-    throw UsageError("--renderer cpu: not in this version, use gl-fragment or gl-compute");
-  return kBackends.at(renderer_);
-}
+std::optional<Backend> PictureOption::backend() const { return kBackends.at(renderer_); }
 
 void PictureOption::apply(render::Frame& frame) const {
   if (kModes.at(mode_) == ViewMode::mesh && kBackends.at(renderer_) == Backend::cpu)

@@ -23,7 +23,7 @@ struct RehearsalPlan {
   calibration::Rig rig;
   render::DisplayMode display = render::DisplayMode::mono;
   bool eyes_swapped = false;
-  render::Backend backend = render::Backend::gl_fragment;
+  std::optional<render::Backend> backend;  ///< empty: what suits the machine
   render::Frame first_frame;  ///< view mode, layers and quality to begin with; the rest is the rehearsal's
   Hand hand = Hand::mouse;
   haptics::Command command;

@@ -10,6 +10,7 @@
 
 #include "app/commands/command.h"
 #include "app/picture_option.h"
+#include "app/renderer_choice.h"
 #include "app/usage_error.h"
 #include "app/view_option.h"
 #include "app/volume_option.h"
@@ -51,7 +52,6 @@ int see(const SeeOptions& options) {
     throw UsageError("see: it needs one of --volume FILE and --patient DIR, give exactly one");
   render::Frame frame;
   options.picture.apply(frame);
-  const render::RenderOptions how{.backend = options.picture.backend(), .samples = options.samples};
 
   // Every output is claimed before any work.
   assets::OutputFile out(options.out, options.force);
@@ -71,7 +71,10 @@ int see(const SeeOptions& options) {
   const render::Eye eye = options.view.apply(frame.rig, volume.grid);
   frame.tool_visible = false;
 
-  render::OffscreenContext context;
+  std::optional<render::OffscreenContext> context;
+  render::RenderOptions how;
+  how.backend = rendererWithoutWindow(options.picture.backend(), context);
+  how.samples = options.samples;
   render::FrameRenderer renderer(volume.grid, volume.solid, volume.label, how);
   if (!options.bone_only) {
     renderer.setFace(patient.face);

@@ -65,7 +65,7 @@ TEST_F(BadInput, OptionsHaveRanges) {
   expectRefusal(see + " --size 99999x10", "--size");
   expectRefusal(see + " --camera '{}'", "eye_mm");
   expectRefusal(see + " --camera '{\"eye_mm\":[0,0,1],\"look_at_mm\":[0,0,1]}'");
-  expectRefusal(see + " --renderer cpu", "gl-fragment");
+  expectRefusal(see + " --renderer vulkan", "gl-fragment");
   expectRefusal(see + " --mode dvr", "iso");
 }
 

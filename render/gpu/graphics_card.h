@@ -1,0 +1,16 @@
+// What draws in the current OpenGL context: its own name, and whether it is a program on the CPU (Mesa's llvmpipe and
+// softpipe, SwiftShader). Thread: the context's; a driver call.
+#pragma once
+
+#include <string>
+
+namespace render {
+
+struct GraphicsCard {
+  std::string name;
+  bool is_software = false;
+};
+
+GraphicsCard currentGraphicsCard();
+
+}  // namespace render
