@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "app/renderer_choice.h"
 #include "render/display/stereo_layout.h"
 #include "render/gpu/gpu_error.h"
 
@@ -41,15 +42,17 @@ void SurgeonDisplay::open() {
       windows_ = {};
     }
   }
-  if (options_.headless) openOffscreen();
+  if (options_.headless)
+    openOffscreen();
+  else
+    options_.backend = rendererForWindow(options_.backend, tell_);
   fence_.emplace();
   openRenderer();
 }
 
 void SurgeonDisplay::openOffscreen() {
-  if (options_.backend == Backend::cpu) return;
   try {
-    offscreen_.emplace();
+    options_.backend = rendererWithoutWindow(options_.backend, offscreen_, tell_);
   } catch (const render::GpuError& error) {
     tell_(std::string(error.what()) + "; drawing on the processor");
     options_.backend = Backend::cpu;
@@ -60,7 +63,7 @@ void SurgeonDisplay::openOffscreen() {
 void SurgeonDisplay::openRenderer() {
   while (!renderer_) {
     try {
-      renderer_ = make_renderer_(options_.backend);
+      renderer_ = make_renderer_(*options_.backend);
     } catch (const render::GpuError& error) {
       if (options_.backend == Backend::cpu) throw;
       const bool compute = options_.backend == Backend::gl_compute;

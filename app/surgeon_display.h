@@ -27,8 +27,8 @@ class SurgeonDisplay {
   struct Options {
     render::DisplayMode mode = render::DisplayMode::mono;
     bool eyes_swapped = false;
-    render::Backend backend = render::Backend::gl_fragment;
-    glm::ivec2 screen_px{1280, 800};  ///< the rig's
+    std::optional<render::Backend> backend = std::nullopt;  ///< empty: what suits the machine
+    glm::ivec2 screen_px{1280, 800};                        ///< the rig's
     bool full_screen = false;
     std::optional<int> monitor = std::nullopt;  ///< index; two windows take this one and the next
     bool headless = false;
@@ -51,7 +51,7 @@ class SurgeonDisplay {
   Clock::time_point handedOver() const { return handed_over_; }
 
   render::DisplayMode mode() const { return options_.mode; }
-  render::Backend backend() const { return options_.backend; }
+  render::Backend backend() const { return *options_.backend; }
   /// None: headless.
   render::Window* window() { return windows_.front().get(); }
   render::FrameRenderer& renderer() { return *renderer_; }

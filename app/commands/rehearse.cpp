@@ -107,6 +107,8 @@ int run(const RehearseOptions& options) {
     throw UsageError("--record " + options.record + ": it is not a plain file, choose another name");
   if (!options.snapshot.empty() && options.snapshot == options.first_snapshot)
     throw UsageError("--first-snapshot " + options.snapshot + ": the same as --snapshot, give another name");
+  if (!options.record.empty() && !options.force && std::filesystem::exists(options.record))
+    throw UsageError(options.record + ": exists already: choose another name for the recording or use --force");
   if (!options.record.empty()) plan.recording = Recording{options.record, options.force};
 
   assets::JawParameters jaw = options.jaw;

@@ -73,7 +73,9 @@ int see(const SeeOptions& options) {
 
   std::optional<render::OffscreenContext> context;
   render::RenderOptions how;
-  how.backend = rendererWithoutWindow(options.picture.backend(), context);
+  how.backend = rendererWithoutWindow(options.picture.backend(), context, [](const std::string& line) {
+    std::fprintf(stderr, "molar: %s\n", line.c_str());
+  });
   how.samples = options.samples;
   render::FrameRenderer renderer(volume.grid, volume.solid, volume.label, how);
   if (!options.bone_only) {

@@ -16,15 +16,15 @@
 #include "render/cpu/ray_painter.h"
 #include "render/eye_block.h"
 #include "render/gpu/gpu_error.h"
+#include "render/shaders/shared_numbers.glsl"
 #include "render/volume/transfer_function.h"
 #include "render/volume/volume_fields.h"
 
 namespace render {
 namespace {
 
-constexpr int kTile = 16;        // pixels along the edge of a tile
-constexpr int kBlock = 4;        // rays of a 4x4 block follow one another, so that packets are compact
-constexpr int kEdgeSamples = 2;  // along the edge of a pixel that is drawn again
+constexpr int kTile = 16;  // pixels along the edge of a tile
+constexpr int kBlock = 4;  // rays of a 4x4 block follow one another, so that packets are compact
 
 // The servo keeps a core where there is more than a pair; on two it takes what it needs by its priority.
 int threadsFor(const RenderOptions& options) {
@@ -228,7 +228,7 @@ void CpuSceneRenderer::drawTile(const PaintScene& scene, int samples, glm::ivec2
 
 // Bands of rows find their edges and draw them again in batches.
 void CpuSceneRenderer::drawEdgesAgain(const PaintScene& scene, EyeCanvas& canvas) {
-  constexpr int kSamples = kEdgeSamples * kEdgeSamples;
+  constexpr int kSamples = EDGE_SAMPLES * EDGE_SAMPLES;
   constexpr std::size_t kPixels = RayPainter::kMost / kSamples;
   const int bands = (canvas.px.y + kTile - 1) / kTile;
   tbb::parallel_for(0, bands, [&](int band) {
@@ -241,9 +241,9 @@ void CpuSceneRenderer::drawEdgesAgain(const PaintScene& scene, EyeCanvas& canvas
       for (std::size_t e = first; e < first + count; ++e)
         for (int s = 0; s < kSamples; ++s, ++n) {
           const glm::ivec2 px = edgePixel(edges[e]);
-          const float x = static_cast<float>(px.x) + 0.25f + 0.5f * static_cast<float>(s % kEdgeSamples);
+          const float x = static_cast<float>(px.x) + 0.25f + 0.5f * static_cast<float>(s % EDGE_SAMPLES);
           const float y =
-              static_cast<float>(canvas.px.y - 1 - px.y) + 0.25f + 0.5f * static_cast<float>(s / kEdgeSamples);
+              static_cast<float>(canvas.px.y - 1 - px.y) + 0.25f + 0.5f * static_cast<float>(s / EDGE_SAMPLES);
           painter.place_x[n] = x / static_cast<float>(canvas.px.x);
           painter.place_y[n] = y / static_cast<float>(canvas.px.y);
         }

@@ -171,7 +171,7 @@ struct MeshScene::Impl {
   bool has_opaque = false, has_transparent = false;
 };
 
-MeshScene::Impl::Impl() : device(rtcNewDevice("threads=1")) {
+MeshScene::Impl::Impl() : device(rtcNewDevice(nullptr)) {
   if (device == nullptr)
     throw GpuError("no ray tracing of meshes, Embree: this processor or its memory will not do; use --renderer gl");
   for (RTCScene* scene : {&opaque, &transparent}) {

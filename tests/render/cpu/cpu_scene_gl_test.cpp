@@ -147,6 +147,69 @@ TEST_F(CpuScene, LeavesOutShadeAndShadowAsTheShadersDo) {
   EXPECT_LE(between(*gl_, *cpu_, f, Eye::cyclopean).worst, 2);
 }
 
+TEST_F(CpuScene, DrawsTheSamePixelsAgainAtEdges) {
+  open();
+  both([](FrameRenderer& r) { r.setFace({{ballMesh({-8, -6, 6}, 8.0f, {0.8f, 0.6f, 0.5f, 1.0f})}}); });
+  Frame f = frame();
+  both([&](FrameRenderer& r) { r.renderEye(f, Eye::cyclopean); });
+  const Picture plain = cpu_->readEye(Eye::cyclopean);
+  f.quality.antialias = Antialias::edges;
+  const Difference d = between(*gl_, *cpu_, f, Eye::cyclopean);
+  EXPECT_LE(d.beyond, 4) << "a sample on a silhouette may hit here and miss there";
+  const std::size_t smoothed = pixelsThatDiffer(plain, cpu_->readEye(Eye::cyclopean));
+  EXPECT_GT(smoothed, 200u);
+  EXPECT_LT(smoothed, plain.rgba.size() / 4 / 10);
+}
+
+TEST_F(CpuScene, DrawsTheSameBitsWithAnyNumberOfThreads) {
+  Picture one;
+  for (const int threads : {1, 2}) {
+    FrameRenderer renderer(ct_.grid, ct_.solid, ct_.label, {.backend = Backend::cpu, .threads = threads});
+    renderer.setFace({{ballMesh({-8, -6, 6}, 8.0f, {0.8f, 0.6f, 0.5f, 0.5f})}});
+    Frame f = frame();
+    f.quality.antialias = Antialias::edges;
+    renderer.renderEye(f, Eye::left);
+    const Picture picture = renderer.readEye(Eye::left);
+    if (threads == 1) one = picture;
+    EXPECT_EQ(pixelsThatDiffer(one, picture), 0u) << threads;
+  }
+}
+
+// Two spheres, one of triangles and one in the volume, meet in a circle that is known.
+TEST_F(CpuScene, MeshAndVolumeMeetAlongTheAnalyticCircle) {
+  const Ball bone{{-4, 0, 0}, 8.0}, mesh{{2, -4, 3}, 7.0};
+  ct_ = ballVolume(smallGrid(glm::ivec3(96), 0.35), {bone});
+  open();
+  cpu_->setGum({{ballMesh(glm::vec3(mesh.centre_P_mm), 7.0f, {0.1f, 0.9f, 0.1f, 1.0f}, 200)}});
+  const Frame f = frame();
+  cpu_->renderEye(f, Eye::cyclopean);
+  const Picture picture = cpu_->readEye(Eye::cyclopean);
+  const EyeView view = eyeView(f.rig, Eye::cyclopean);
+  const glm::dvec3 eye = eye_P_mm(f.rig, view);
+  // Which is nearer, 1 mesh, 2 bone, 0 neither; wherever a pixel and its eight neighbours agree, the picture must too.
+  const auto expected = [&](int x, int y) {
+    const glm::dvec3 d = rayDirection_P(f.rig, view, x, y);
+    const auto m = distanceToBall_mm(eye, d, mesh), b = distanceToBall_mm(eye, d, bone);
+    return !m && !b ? 0 : m && (!b || *m < *b) ? 1 : 2;
+  };
+  int checked = 0, kinds[3] = {};
+  for (int y = 1; y + 1 < kPx.y; ++y)
+    for (int x = 1; x + 1 < kPx.x; ++x) {
+      const int kind = expected(x, y);
+      bool inner = true;
+      for (int n = 0; n < 9; ++n) inner = inner && expected(x + n % 3 - 1, y + n / 3 - 1) == kind;
+      if (!inner) continue;
+      const std::size_t p = 4 * static_cast<std::size_t>(y * kPx.x + x);
+      const bool green = picture.rgba[p + 1] > picture.rgba[p] + 30;
+      EXPECT_EQ(green, kind == 1) << x << ", " << y;
+      ++checked;
+      ++kinds[kind];
+    }
+  EXPECT_GT(checked, 15000);
+  EXPECT_GT(kinds[1], 300);
+  EXPECT_GT(kinds[2], 150);
+}
+
 TEST_F(CpuScene, LaysTranslucentGumOverBoneAsTheShadersDo) {
   // The half of a ball that faces the eye: one layer a ray, so that the order of triangles does not matter.
   open();

@@ -1,0 +1,102 @@
+// What a stereo frame costs on the CPU: milliseconds of CPU over all threads (getrusage) and of the wall, medians, for
+// the surgeon's view of a patient, and where they go, by leaving one thing out at a time.
+// cpu_frame_bench [--patient FOLDER] [--face FILE.glb] [--size WxH] [--frames N]
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "app/dressed_renderer.h"
+#include "app/patient_source.h"
+#include "app/room.h"
+#include "assets/patient_folder.h"
+#include "assets/synthetic/face.h"
+#include "render/frame_renderer.h"
+
+namespace {
+
+double cpu_ms() {
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
+  const auto ms = [](const timeval& t) {
+    return 1e3 * static_cast<double>(t.tv_sec) + 1e-3 * static_cast<double>(t.tv_usec);
+  };
+  return ms(used.ru_utime) + ms(used.ru_stime);
+}
+
+double wall_ms() {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+double median(std::vector<double> values) {
+  std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
+  return values[values.size() / 2];
+}
+
+void measure(const char* what, render::FrameRenderer& renderer, render::Frame frame, int frames) {
+  std::vector<double> cpu, wall;
+  for (int n = 0; n < frames; ++n) {
+    frame.bur_angle_rad = 0.1 * n;
+    const double c = cpu_ms(), w = wall_ms();
+    renderer.render(frame);
+    cpu.push_back(cpu_ms() - c);
+    wall.push_back(wall_ms() - w);
+  }
+  std::printf("%-34s %6.1f ms CPU  %6.1f ms wall\n", what, median(cpu), median(wall));
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  std::map<std::string, std::string> options{{"--size", "640x480"}, {"--frames", "21"}};
+  for (int i = 1; i + 1 < count; i += 2) options[words[i]] = words[i + 1];
+  glm::ivec2 px(640, 480);
+  std::sscanf(options["--size"].c_str(), "%dx%d", &px.x, &px.y);
+  const int frames = std::max(std::stoi(options["--frames"]), 1);
+
+  // The surgeon's view, as `molar rehearse` has it.
+  assets::Patient patient =
+      options.contains("--patient") ? assets::loadPatient(options["--patient"]) : app::builtInPatient({});
+  assets::FacePose X_PF = assets::kFaceAxes_PF;
+  if (options.contains("--face")) X_PF = app::dressWithFace(patient, options["--face"]);
+  calibration::Rig rig = calibration::desktopRig(px, 531.0 / 4.0);
+  const calibration::Vector<calibration::Patient> eye_P{assets::surgeonEyeDirection(patient.site.tooth_fdi)};
+  const calibration::Vector<calibration::Face> eye_F = assets::kFaceAxes_PF.inverse() * eye_P, up_F{{0.0, 1.0, 0.0}};
+  rig.X_WP = app::standPatient({patient.site.third_molar_P_mm}, X_PF * eye_F, X_PF * up_F);
+
+  const auto renderer = app::dressedRenderer(patient, {}, patient.ct.solid, {.backend = render::Backend::cpu});
+  render::Frame frame;
+  frame.rig = rig;
+  frame.display = render::DisplayMode::side_by_side_full;
+  frame.site_P = {patient.site.third_molar_P_mm};
+  frame.X_PT = {glm::dquat(1, 0, 0, 0), patient.site.third_molar_P_mm + 8.0 * eye_P.xyz};
+  frame.face_window_mm = options.contains("--face") ? 24.0 : 0.0;
+  std::printf("both eyes %dx%d, %s, face %s\n", px.x, px.y,
+              options.contains("--patient") ? options["--patient"].c_str() : "built-in patient",
+              options.contains("--face") ? options["--face"].c_str() : "its own");
+
+  measure("(first)", *renderer, frame, 1);
+  measure("all of it", *renderer, frame, frames);
+  const auto without = [&](const char* what, const std::function<void(render::Frame&)>& change) {
+    render::Frame changed = frame;
+    change(changed);
+    measure(what, *renderer, changed, frames);
+  };
+  without("edges antialiased", [](render::Frame& f) { f.quality.antialias = render::Antialias::edges; });
+  without("without ambient shade", [](render::Frame& f) { f.quality.ambient_occlusion = false; });
+  without("without the lamp's shadow", [](render::Frame& f) { f.quality.lamp_shadow = false; });
+  without("without either", [](render::Frame& f) { f.quality.ambient_occlusion = f.quality.lamp_shadow = false; });
+  without("without face", [](render::Frame& f) { f.layers.face_opacity = 0.0f; });
+  without("without face and gum", [](render::Frame& f) {
+    f.layers.face_opacity = 0.0f;
+    f.layers.gum = false;
+  });
+  without("face faded by half", [](render::Frame& f) { f.layers.face_opacity = 0.5f; });
+  without("translucent bone", [](render::Frame& f) { f.mode = render::ViewMode::dvr; });
+  without("steps of a voxel", [](render::Frame& f) { f.quality.step_voxels = 1.0; });
+}
