@@ -3,6 +3,7 @@
 // pedal; 1..9 ask for a law. Frame W, mm. Main thread. The device (haptics::MouseDevice) makes smooth motion of it.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 
@@ -11,6 +12,23 @@
 #include "render/display/window.h"
 
 namespace app {
+
+/// The keys, for those who want to read them.
+struct KeyMeaning {
+  const char* key;
+  const char* does;
+};
+inline constexpr std::array<KeyMeaning, 9> kKeys = {{
+    {"Space", "pedal: drill while held"},
+    {"Drag", "move in the screen's plane"},
+    {"Wheel", "move nearer or farther"},
+    {"Arrows", "tilt the handpiece"},
+    {"Q, E", "turn the handpiece"},
+    {"1 - 7", "choose the force law"},
+    {"D", "lock or unlock the drill"},
+    {"P", "snapshot"},
+    {"Esc", "end"},
+}};
 
 class HandInput {
  public:

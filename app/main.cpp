@@ -51,6 +51,7 @@ int run(int argc, char** argv) {
   app::addFeel(molar, chosen);
   app::addCarve(molar, chosen);
   app::addSee(molar, chosen);
+  app::addDisplay(molar, chosen);
   app::addReplay(molar, chosen);
   app::addMetrics(molar, chosen);
   app::addExport(molar, chosen);

@@ -5,18 +5,21 @@
 #include <csignal>
 #include <cstdio>
 #include <span>
+#include <utility>
 
 #include "app/brick_upload.h"
 #include "app/command_desk.h"
 #include "app/dressed_renderer.h"
 #include "app/hand_input.h"
 #include "app/motion_to_photon.h"
+#include "app/operator_window.h"
 #include "app/rehearsal_status.h"
 #include "app/rehearsal_summary.h"
 #include "app/snapshot.h"
 #include "app/surgeon_display.h"
 #include "app/tool_text.h"
 #include "calibration/geometry/units.h"
+#include "render/gpu/gpu_error.h"
 #include "render/quality_ladder.h"
 
 namespace app {
@@ -42,12 +45,12 @@ double width_mm(const calibration::ScreenCorners& screen) {
 }
 
 SurgeonDisplay::Options displayOf(const RehearsalPlan& plan) {
-  return {.mode = plan.display,
+  return {.windows = {.mode = plan.display,
+                      .screen_px = plan.rig.screen.px,
+                      .full_screen = plan.full_screen,
+                      .monitor = plan.monitor},
           .eyes_swapped = plan.eyes_swapped,
           .backend = plan.backend,
-          .screen_px = plan.rig.screen.px,
-          .full_screen = plan.full_screen,
-          .monitor = plan.monitor,
           .headless = plan.headless,
           .needs_window = plan.hand == Hand::mouse};
 }
@@ -79,6 +82,8 @@ class Rehearsal {
     workstation_.emplace(plan_.patient, std::move(hand_.device),
                          haptics::ServoSettings{plan_.rate_Hz, hand_.X_PD, {}, true}, desk_.inForce(), plan_.recording);
     desk_.serve(*workstation_);
+    openOperatorsWindow();
+    display_->beforeMakingAnew([this] { operator_.reset(); });
   }
 
   void run() {
@@ -102,6 +107,7 @@ class Rehearsal {
       drawFrame();
       chooseQuality();
       showStatus();
+      serveOperator();
     }
     loop_s_ = secondsSince(looping_since_);
     finish();
@@ -115,6 +121,51 @@ class Rehearsal {
     return renderer;
   }
 
+  void openOperatorsWindow() {
+    if (!plan_.operators_window || display_->window() == nullptr) return;
+    const int second = plan_.monitor.value_or(0) + (display_->mode() == render::DisplayMode::two_windows ? 2 : 1);
+    try {
+      const bool is_there = second < static_cast<int>(render::monitors().size());
+      operator_.emplace(*display_->window(), is_there ? std::optional(second) : std::nullopt);
+    } catch (const render::GpuError& error) {
+      tell(error.what());
+    }
+    display_->makeCurrent();
+  }
+
+  /// While the surgeon's picture is on its way.
+  void serveOperator() {
+    if (std::exchange(times_lost_, display_->timesLost()) != display_->timesLost()) openOperatorsWindow();
+    if (!operator_ || !operator_->isDue()) return;
+    const render::EyeView view = render::eyeView(plan_.rig, render::Eye::cyclopean);
+    const glm::dvec3 to_the_right = plan_.rig.right_eye.mm - plan_.rig.left_eye.mm;
+    const OperatorWindow::Seen seen{plan_.rig.screen.px, glm::dot(view.right_edge_W.xyz, to_the_right) < 0.0,
+                                    view.up_edge_W.xyz.y < 0.0};
+    display_->renderer().composeForBystander();
+    render::FrameFence composed;
+    composed.mark();
+    const OperatorWishes wishes = operator_->draw(status(), display_->renderer(), composed, seen);
+    display_->makeCurrent();
+    for (const render::WindowEvent& event : operator_->takeKeys()) {
+      if (std::holds_alternative<render::CloseAsked>(event)) {
+        operator_.reset();
+        display_->makeCurrent();
+        return obey(wishes);
+      }
+      if (!isForGuide(event)) input_.take(event, 0.0);
+    }
+    obey(wishes);
+  }
+
+  void obey(const OperatorWishes& wishes) {
+    if (wishes.layers) frame_.layers = *wishes.layers;
+    if (wishes.snapshot) takeWindowSnapshot();
+    if (wishes.end) ended_by_operator_ = true;
+    if (plan_.guide) return;
+    if (wishes.drill_switch) desk_.switchDrill();
+    if (wishes.law) desk_.switchLaw(*wishes.law);
+  }
+
   /// For the person and, as soon as there is one, for the recording.
   void tell(const std::string& line) {
     std::fprintf(stderr, "molar: %s\n", line.c_str());
@@ -126,7 +177,7 @@ class Rehearsal {
 
   bool isOver() {
     const double t_s = newest_.t_s + newest_.dt_s;
-    return interrupted || input_.endAsked() || (plan_.guide && plan_.guide->isOver()) ||
+    return interrupted || input_.endAsked() || ended_by_operator_ || (plan_.guide && plan_.guide->isOver()) ||
            (duration_s_ && t_s >= *duration_s_);
   }
 
@@ -134,7 +185,7 @@ class Rehearsal {
     render::Window* const window = display_->window();
     if (window == nullptr) return;
     const double mm_per_px = width_mm(plan_.rig.screen) / std::max(1, window->framebufferSize_px().x);
-    for (const render::WindowEvent& event : window->takeEvents())
+    for (const render::WindowEvent& event : display_->takeEvents())
       if (!isForGuide(event)) input_.take(event, mm_per_px);
     if (hand_.mouse) hand_.mouse->setTarget({{input_.X_WT().rotation, input_.X_WT().translation_mm}, input_.pedal()});
     if (input_.takeSnapshotAsked()) takeWindowSnapshot();
@@ -285,7 +336,9 @@ class Rehearsal {
 
   void finish() {
     if (latency_->pictures() > 0) workstation_->note("latency", "median " + photonText(latency_->median()));
-    workstation_->note("end", interrupted ? "interrupted" : input_.endAsked() ? "by the user" : "time over");
+    workstation_->note("end", interrupted                               ? "interrupted"
+                              : input_.endAsked() || ended_by_operator_ ? "by the user"
+                                                                        : "time over");
     const RecordingSummary recorded = workstation_->stop();
     // One more picture of what the bone has become.
     followServo();
@@ -323,13 +376,15 @@ class Rehearsal {
   std::optional<SurgeonDisplay> display_;
   std::optional<render::QualityLadder> ladder_;
   std::optional<MotionToPhoton> latency_;
+  std::optional<OperatorWindow> operator_;  // before the surgeon's window, which it shares with
   std::optional<Workstation> workstation_;
   BrickUpload upload_;
   render::Frame frame_;
   haptics::Tick newest_;
   std::uint64_t frames_ = 0, frames_counted_ = 0;
   double first_picture_s_ = 0.0, loop_s_ = 0.0, pictures_per_s_ = 0.0;
-  bool recording_ended_ = false, faulty_ = false;
+  int times_lost_ = 0;
+  bool recording_ended_ = false, faulty_ = false, ended_by_operator_ = false;
 };
 
 }  // namespace

@@ -36,8 +36,9 @@ struct RehearsalPlan {
   glm::ivec2 snapshot_px{1280, 800};
   double face_window_mm = 0.0;
   bool headless = false, full_screen = false, overwrite = false;
-  std::optional<int> monitor, operator_monitor;  ///< indices of render::monitors()
-  std::optional<int> quality_step;               ///< held; none: by measured frame times
+  std::optional<int> monitor;       ///< index of render::monitors()
+  bool operators_window = false;    ///< on the next monitor, or beside the picture on the same
+  std::optional<int> quality_step;  ///< held; none: by measured frame times
   std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();  ///< when the user asked for it
 };
 

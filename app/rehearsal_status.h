@@ -22,7 +22,6 @@ struct RehearsalStatus {
   haptics::Command command;
   haptics::ServoFigures servo;
   double servo_rate_Hz = 1000.0;
-  double removed_mm3 = 0.0;
   double drawing_ms = 0.0;  ///< of the newest frame
   double pictures_per_s = 0.0;
   double refresh_Hz = 60.0;

@@ -4,14 +4,14 @@
 // handed over, and waitUntilShown() comes before the hand is asked for its next pose. Main thread.
 #pragma once
 
-#include <array>
 #include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
-#include "render/display/window.h"
+#include "app/display_windows.h"
 #include "render/frame_renderer.h"
 #include "render/gpu/frame_fence.h"
 #include "render/gpu/offscreen_context.h"
@@ -22,15 +22,12 @@ class SurgeonDisplay {
  public:
   using Clock = std::chrono::steady_clock;
   using MakeRenderer = std::function<std::unique_ptr<render::FrameRenderer>(render::Backend)>;
-  using Tell = std::function<void(const std::string& line)>;
+  using Tell = DisplayWindows::Tell;
 
   struct Options {
-    render::DisplayMode mode = render::DisplayMode::mono;
+    DisplayWindows::Options windows;
     bool eyes_swapped = false;
     std::optional<render::Backend> backend = std::nullopt;  ///< empty: what suits the machine
-    glm::ivec2 screen_px{1280, 800};                        ///< the rig's
-    bool full_screen = false;
-    std::optional<int> monitor = std::nullopt;  ///< index; two windows take this one and the next
     bool headless = false;
     bool needs_window = true;  ///< the hand is the mouse: without a display there is nothing to do
   };
@@ -50,14 +47,20 @@ class SurgeonDisplay {
   /// When the newest picture was handed over, as far as is known.
   Clock::time_point handedOver() const { return handed_over_; }
 
-  render::DisplayMode mode() const { return options_.mode; }
+  render::DisplayMode mode() const { return windows_ ? windows_->mode() : options_.windows.mode; }
   render::Backend backend() const { return *options_.backend; }
   /// None: headless.
-  render::Window* window() { return windows_.front().get(); }
+  render::Window* window() { return windows_ ? &windows_->first() : nullptr; }
+  /// Of all its windows.
+  std::vector<render::WindowEvent> takeEvents() {
+    return windows_ ? windows_->takeEvents() : std::vector<render::WindowEvent>{};
+  }
   render::FrameRenderer& renderer() { return *renderer_; }
-  double refresh_Hz() const { return windows_.front() ? windows_.front()->refresh_Hz() : 60.0; }
+  double refresh_Hz() { return windows_ ? windows_->first().refresh_Hz() : 60.0; }
   /// How often everything was made anew.
   int timesLost() const { return times_lost_; }
+  /// Called before windows are closed to be made anew: what shares with them must go first.
+  void beforeMakingAnew(std::function<void()> call) { before_making_anew_ = std::move(call); }
   /// As after a reset of the graphics card.
   void makeAnew();
   /// The next drawing belongs to the surgeon's context again.
@@ -65,19 +68,17 @@ class SurgeonDisplay {
 
  private:
   void open();
-  void openWindows();
-  void openSecondWindow();
   void openOffscreen();
   void openRenderer();
-  void insteadShow(render::DisplayMode mode, const std::string& because);
   void drawAndPresent(render::Frame& frame);
   void close();
 
   Options options_;
   MakeRenderer make_renderer_;
   Tell tell_;
+  std::function<void()> before_making_anew_;
   std::optional<render::OffscreenContext> offscreen_;
-  std::array<std::unique_ptr<render::Window>, 2> windows_;
+  std::optional<DisplayWindows> windows_;
   std::unique_ptr<render::FrameRenderer> renderer_;
   std::optional<render::FrameFence> fence_;
   Clock::time_point handed_over_{};

@@ -44,7 +44,7 @@ struct RehearseOptions {
   std::optional<double> seconds, face_window_mm;
   std::optional<int> monitor, quality;
   double rate_Hz = 1000.0, loupes = 4.0;
-  bool headless = false, force = false;
+  bool headless = false, force = false, operators_window = false;
 };
 
 /// On a desk the surgeon wears loupes: the same screen, its picture magnified. With a rig file everything is 1:1.
@@ -93,6 +93,7 @@ int run(const RehearseOptions& options) {
   plan.backend = options.picture.backend();
   options.picture.apply(plan.first_frame);
   if (options.monitor) plan.monitor = *options.monitor - 1;
+  plan.operators_window = options.operators_window;
   plan.quality_step = options.quality;
   plan.rate_Hz = options.rate_Hz;
   plan.seconds = options.seconds;
@@ -141,6 +142,8 @@ void addRehearse(CLI::App& molar, Chosen& chosen) {
   o->picture.addTo(*command);
   command->add_option("--monitor", o->monitor, "Monitor of the picture, from 1; two windows take the next one as well")
       ->check(CLI::Range(1, 16));
+  command->add_flag("--operator", o->operators_window,
+                    "A window for the operator, on the next monitor where there is one");
   command->add_option("--quality", o->quality, "Hold this quality, 0 best to 6 fastest [by measured frame times]")
       ->check(CLI::Range(0, static_cast<int>(render::kQualitySteps.size()) - 1));
   command->add_option("--size", o->size, "Picture size")->type_name("WxH");

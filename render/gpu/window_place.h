@@ -11,6 +11,7 @@ struct WindowPlace {
   glm::ivec2 size_px{0};    ///< what is shown is scaled to it
   glm::ivec2 corner_px{0};  ///< from the window's lower left
   WindowBuffer buffer = WindowBuffer::back;
+  bool flipped_x = false, flipped_y = false;  ///< as someone sees it who looks at the panel by a mirror
 };
 
 }  // namespace render

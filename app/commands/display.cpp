@@ -1,0 +1,174 @@
+// `molar display`: test patterns for the technician, on the display itself or as a picture; monitors that are there.
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+
+#include "app/commands/command.h"
+#include "app/commands/number_range.h"
+#include "app/display_option.h"
+#include "app/display_windows.h"
+#include "app/pattern/test_pattern.h"
+#include "app/snapshot.h"
+#include "app/usage_error.h"
+#include "app/view_option.h"
+#include "assets/output_file.h"
+#include "calibration/rig_file.h"
+#include "render/gpu/window_upload.h"
+
+namespace app {
+namespace {
+
+constexpr double kDeskMonitor_mm = 531.0;  ///< width of a 24-inch monitor
+constexpr auto kBetweenLooks = std::chrono::milliseconds(30);
+
+volatile std::sig_atomic_t interrupted = 0;
+
+struct DisplayOptions {
+  DisplayOption display;
+  std::string pattern = "eyes", rig, size, out;
+  std::optional<int> monitor;
+  std::optional<double> seconds;
+  bool monitors = false, windowed = false, force = false;
+};
+
+int listMonitors() {
+  int n = 0;
+  for (const render::Monitor& monitor : render::monitors())
+    std::printf("%d  %s  %dx%d at %d,%d  %.0f Hz\n", ++n, monitor.name.c_str(), monitor.px.x, monitor.px.y,
+                monitor.at_px.x, monitor.at_px.y, monitor.refresh_Hz);
+  return 0;
+}
+
+calibration::Rig rigOf(const DisplayOptions& options) {
+  calibration::Rig rig;
+  if (!options.rig.empty()) {
+    rig = calibration::readRig(options.rig);
+    if (!options.size.empty()) rig.screen.px = pictureSize(options.size);
+  } else {
+    rig = calibration::desktopRig(options.size.empty() ? glm::ivec2(1920, 1080) : pictureSize(options.size),
+                                  kDeskMonitor_mm);
+  }
+  options.display.refuseUnlessFits(rig);
+  return rig;
+}
+
+/// The pattern in the windows of a display, drawn again whenever it, the window's size or its place changes.
+class PatternShow {
+ public:
+  PatternShow(const DisplayOptions& options, const calibration::Rig& rig)
+      : rig_(rig),
+        swapped_(options.display.swapped()),
+        pattern_(*testPatternNamed(options.pattern)),
+        windows_({.mode = options.display.mode(),
+                  .screen_px = rig.screen.px,
+                  .full_screen = !options.windowed,
+                  .monitor = options.monitor ? std::optional(*options.monitor - 1) : std::nullopt},
+                 [](const std::string& line) { std::fprintf(stderr, "molar: %s\n", line.c_str()); }) {}
+
+  void run(std::optional<double> seconds) {
+    const auto begun = std::chrono::steady_clock::now();
+    while (!over_ && !interrupted &&
+           !(seconds && std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count() > *seconds)) {
+      for (const render::WindowEvent& event : windows_.takeEvents()) take(event);
+      drawIfChanged();
+      windows_.fill([this](const render::WindowPlace& place, int output) {
+        upload_[output].show(outputs_[static_cast<std::size_t>(output)], place);
+      });
+      windows_.first().present();
+      std::this_thread::sleep_for(kBetweenLooks);
+    }
+  }
+
+ private:
+  void take(const render::WindowEvent& event) {
+    if (std::holds_alternative<render::CloseAsked>(event)) over_ = true;
+    const auto* key = std::get_if<render::KeyPressed>(&event);
+    if (key == nullptr || !key->down || key->repeated) return;
+    if (key->key == render::Key::escape) over_ = true;
+    const int count = static_cast<int>(kTestPatterns.size());
+    int now = static_cast<int>(pattern_);
+    if (key->key == render::Key::right || key->key == render::Key::space) ++now;
+    if (key->key == render::Key::left) now += count - 1;
+    pattern_ = kTestPatterns[static_cast<std::size_t>(now % count)].pattern;
+  }
+
+  /// In the window's own pixels: lines of one pixel stay lines.
+  void drawIfChanged() {
+    const glm::ivec2 window_px = windows_.first().framebufferSize_px();
+    if (window_px.x <= 0 || window_px.y <= 0) return;
+    render::StereoLayout layout{
+        .mode = windows_.mode(), .screen_px = rig_.screen.px, .at_px = {0, 0}, .swapped = swapped_};
+    if (render::outputSize(layout.mode, window_px) == window_px) layout.screen_px = window_px;
+    if (render::isInterleaved(layout.mode)) layout.at_px = windows_.first().placeOnPanel_px();
+    if (!outputs_.empty() && pattern_ == drawn_ && layout.screen_px == drawn_layout_.screen_px &&
+        layout.at_px == drawn_layout_.at_px)
+      return;
+    drawn_ = pattern_;
+    drawn_layout_ = layout;
+    outputs_.clear();
+    for (layout.output = 0; layout.output < render::outputCount(layout.mode); ++layout.output)
+      outputs_.push_back(patternOutput(pattern_, rig_, layout));
+  }
+
+  calibration::Rig rig_;
+  bool swapped_;
+  TestPattern pattern_, drawn_ = TestPattern::eyes;
+  render::StereoLayout drawn_layout_;
+  std::vector<render::Picture> outputs_;
+  DisplayWindows windows_;
+  render::WindowUpload upload_[2];  // textures: before the windows go
+  bool over_ = false;
+};
+
+int display(const DisplayOptions& options) {
+  if (options.monitors) return listMonitors();
+  if (!testPatternNamed(options.pattern)) {
+    std::string names;
+    for (const TestPatternName& one : kTestPatterns) names += (names.empty() ? "" : ", ") + std::string(one.name);
+    throw UsageError("--pattern " + options.pattern + ": not a pattern, choose one of " + names);
+  }
+  const calibration::Rig rig = rigOf(options);
+  if (options.out.empty()) {
+    std::signal(SIGINT, [](int) { interrupted = 1; });
+    PatternShow(options, rig).run(options.seconds);
+    return 0;
+  }
+  if (render::outputCount(options.display.mode()) > 1)
+    throw UsageError("--out: " + std::string(render::nameOf(options.display.mode())) +
+                     " is two pictures, choose a display that is one");
+  assets::OutputFile file(options.out, options.force);
+  savePng(
+      patternOutput(*testPatternNamed(options.pattern), rig,
+                    {.mode = options.display.mode(), .screen_px = rig.screen.px, .swapped = options.display.swapped()}),
+      file);
+  return 0;
+}
+
+}  // namespace
+
+void addDisplay(CLI::App& molar, Chosen& chosen) {
+  auto o = std::make_shared<DisplayOptions>();
+  CLI::App* command =
+      molar.add_subcommand("display", "Test patterns on the display, until Esc; monitors that are there");
+  command->add_option("--pattern", o->pattern, "eyes, crosstalk, grid, cross or text; right and left arrow change it")
+      ->capture_default_str();
+  command->add_option("--rig", o->rig, "Rig file: screen, mirror and eyes [a 24-inch monitor]")->type_name("FILE");
+  o->display.addTo(*command);
+  command->add_option("--monitor", o->monitor, "Monitor, from 1; two windows take the next one as well")
+      ->check(CLI::Range(1, 16));
+  command->add_option("--size", o->size, "Pixels of the screen")->type_name("WxH");
+  command->add_flag("--windowed", o->windowed, "In a window instead of the full screen");
+  command->add_option("--seconds", o->seconds, "End after this time")->check(numberRange(0.1, 86400.0));
+  command->add_option("--out", o->out, "The picture as a file instead, .png")->type_name("FILE");
+  command->add_flag("--force", o->force, "Replace an output that exists");
+  command->add_flag("--monitors", o->monitors, "List the monitors and do nothing else");
+  command->callback([o, &chosen] { chosen.action = [o] { return display(*o); }; });
+}
+
+}  // namespace app

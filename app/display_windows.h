@@ -1,0 +1,51 @@
+// The window or windows of a display mode, or the next best where that mode can not be had, said in one line. Knows how
+// outputs go into them: one window, the two buffers of a stereo window, two windows on two monitors. Main thread.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "render/display/display_mode.h"
+#include "render/display/window.h"
+#include "render/gpu/frame_fence.h"
+#include "render/gpu/window_place.h"
+
+namespace app {
+
+class DisplayWindows {
+ public:
+  using Tell = std::function<void(const std::string& line)>;
+  /// Puts an output into the current window.
+  using ShowOutput = std::function<void(const render::WindowPlace& place, int output)>;
+
+  struct Options {
+    render::DisplayMode mode = render::DisplayMode::mono;
+    glm::ivec2 screen_px{1280, 800};  ///< the rig's
+    bool full_screen = false;
+    std::optional<int> monitor = std::nullopt;  ///< index; two windows take this one and the next
+  };
+
+  /// Throws GpuError where no window can be had at all.
+  DisplayWindows(const Options& options, const Tell& tell);
+  ~DisplayWindows();
+
+  render::DisplayMode mode() const { return mode_; }
+  render::Window& first() { return *first_; }
+  /// Of all windows.
+  std::vector<render::WindowEvent> takeEvents();
+
+  /// All outputs into the windows; the right eye's own window is handed over. The first one's context is current then.
+  void fill(const ShowOutput& show);
+
+ private:
+  void insteadShow(render::DisplayMode mode, const std::string& because, const Tell& tell);
+  void openSecond(const Options& options, const Tell& tell);
+
+  render::DisplayMode mode_;
+  std::unique_ptr<render::Window> first_, second_;  // the second shares with the first
+  render::FrameFence drawn_;
+};
+
+}  // namespace app
