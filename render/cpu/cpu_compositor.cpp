@@ -50,11 +50,29 @@ void compose(const StereoLayout& layout, const EyeCanvas& left, const EyeCanvas&
   const glm::ivec2 place_px = eyePictureSize(layout.mode, layout.screen_px);
   resize(output, size);
   const auto width = static_cast<std::size_t>(size.x);
+  const bool in_runs = layout.mode != DisplayMode::column_interleaved && layout.mode != DisplayMode::checkerboard &&
+                       !isAnaglyph(layout.mode) && left.px == place_px && right.px == place_px;
   tbb::parallel_for(0, size.y, [&](int y) {
-    thread_local std::vector<float> light;
     thread_local std::vector<std::uint32_t> rgba;
-    light.resize(3 * (width + kLanePadding));
     rgba.resize(width + kLanePadding);
+    if (in_runs) {
+      // A row shows one eye's row after the other: each is encoded where it lies.
+      for (int x = 0; x < size.x; x += place_px.x) {
+        const int run = std::min(place_px.x, size.x - x);
+        const ShownPixel shown = shownAt(layout, {x, y});
+        if (shown.eye == Shown::black) {
+          std::fill_n(rgba.begin() + x, run, 0xff000000u);
+          continue;
+        }
+        const EyeCanvas& canvas = shown.eye == Shown::right ? right : left;
+        const std::size_t n = canvas.at(shown.px.x, shown.px.y);
+        kernels.encode(&canvas.r[n], &canvas.g[n], &canvas.b[n], run, rgba.data() + x);
+      }
+      putRow(output, y, rgba.data());
+      return;
+    }
+    thread_local std::vector<float> light;
+    light.resize(3 * (width + kLanePadding));
     float *const r = light.data(), *const g = r + width + kLanePadding, *const b = g + width + kLanePadding;
     for (int x = 0; x < size.x; ++x) {
       const ShownPixel shown = shownAt(layout, {x, y});

@@ -242,7 +242,6 @@ RTCScene MeshScene::Impl::sceneOf(const std::vector<const assets::MeshPart*>& fr
     // Only its address counts: not null where the window cuts.
     static char cut_mark;
     rtcSetGeometryUserData(triangles, kept.is_cut ? &cut_mark : nullptr);
-    rtcSetGeometryIntersectFilterFunction(triangles, filter);
     rtcCommitGeometry(triangles);
     rtcAttachGeometry(scene, triangles);
     rtcReleaseGeometry(triangles);
@@ -256,6 +255,7 @@ Query MeshScene::Impl::queryFor(std::vector<Layer>* layers) const {
   Query query{.context = {}, .bodies = &bodies, .placement = &placement, .layers = layers};
   rtcInitIntersectContext(&query.context);
   query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  if (layers != nullptr || placement.window_mm > 0.0f) query.context.filter = filter;
   return query;
 }
 

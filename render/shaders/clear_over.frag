@@ -5,6 +5,9 @@
 layout(location = COLOUR_TARGET) out vec4 colour;
 
 const int kMost = 16;  // the nearest that count
+// Of a list. Where a triangle covers part of a block of pixels, llvmpipe runs the others too, reads zeros for them and
+// would follow them in a circle until it gives up, for all pixels of the block.
+const int kLongest = 128;
 
 // A strict order of places; two of the same light at the same distance count once.
 bool liesBefore(uvec3 a, uvec3 b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; }
@@ -18,7 +21,8 @@ void main() {
   uvec3 last = uvec3(0u);
   for (int n = 0; n < kMost; ++n) {
     uvec3 nearest = uvec3(kEnd);
-    for (uint at = first; at != kEnd; at = clear_list.place[at].next) {
+    uint at = first;
+    for (int i = 0; i < kLongest && at != kEnd; ++i, at = clear_list.place[at].next) {
       // Floats above zero are ordered as their bits.
       uvec3 place = uvec3(floatBitsToUint(clear_list.place[at].distance_mm), clear_list.place[at].light);
       if (liesBefore(last, place) && liesBefore(place, nearest)) nearest = place;
