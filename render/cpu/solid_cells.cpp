@@ -27,12 +27,20 @@ Block voxelsOf(const BorderedField<std::uint8_t>& solid, glm::ivec3 brick) {
   return block;
 }
 
-bool isSolid(const Block& block) {
-  const std::uint8_t* const values = &block.value[0][0][0];
-  std::uint8_t high_bits = 0;
+/// A bit for each eighth of the cells with a corner that is solid.
+std::uint8_t solidEighths(const Block& block) {
   static_assert(SolidCells::kSolidFrom == 128);
-  for (int n = 0; n < kSide * kSide * kSide; ++n) high_bits |= values[n];
-  return (high_bits & 128) != 0;
+  constexpr int kHalf = kEdge / 2;
+  std::uint8_t eighths = 0;
+  for (int n = 0; n < 8; ++n) {
+    const int i = (n & 1) * kHalf, j = ((n >> 1) & 1) * kHalf, k = (n >> 2) * kHalf;
+    std::uint8_t high_bits = 0;
+    for (int c = k; c <= k + kHalf; ++c)
+      for (int b = j; b <= j + kHalf; ++b)
+        for (int a = i; a <= i + kHalf; ++a) high_bits |= block.value[c][b][a];
+    eighths = static_cast<std::uint8_t>(eighths | (high_bits >> 7 << n));
+  }
+  return eighths;
 }
 
 void fill(const Block& block, std::uint32_t* words) {
@@ -109,7 +117,7 @@ class BrickBits {
 SolidCells::SolidCells(const BorderedField<std::uint8_t>& solid)
     : solid_(&solid), bricks_((solid.layout().size + kEdge - 1) / kEdge + 2) {
   const std::size_t count = index(bricks_ - 1) + 1;
-  is_solid_.resize(count);
+  solid_eighths_.resize(count);
   slot_.assign(count, -1);
   is_touched_.resize(count);
 
@@ -120,17 +128,13 @@ SolidCells::SolidCells(const BorderedField<std::uint8_t>& solid)
         for (int i = 0; i < bricks_.x; ++i) work(glm::ivec3(i, j, k));
     });
   };
-  over_layers([this](glm::ivec3 brick) { is_solid_[index(brick)] = isSolid(voxelsOf(*solid_, brick)) ? 1 : 0; });
-  std::int32_t words = 0;
+  over_layers([this](glm::ivec3 brick) { solid_eighths_[index(brick)] = solidEighths(voxelsOf(*solid_, brick)); });
+  std::int32_t kept = 0;
   for (std::size_t b = 0; b < count; ++b)
-    if (is_solid_[b] != 0) {
-      slot_[b] = words;
-      words += kBrickWords;
-    }
-  words_.resize(static_cast<std::size_t>(words));
+    if (solid_eighths_[b] != 0) slot_[b] = kept++;
+  words_.resize(static_cast<std::size_t>(kept) * kBrickWords);
   over_layers([this](glm::ivec3 brick) {
-    if (const std::int32_t slot = slot_[index(brick)]; slot >= 0)
-      fill(voxelsOf(*solid_, brick), &words_[static_cast<std::size_t>(slot)]);
+    if (const std::int32_t slot = slot_[index(brick)]; slot >= 0) fill(voxelsOf(*solid_, brick), wordsOf(slot));
   });
   rebuild();
 }
@@ -164,17 +168,18 @@ void SolidCells::refresh() {
     const std::size_t b = index(brick);
     is_touched_[b] = 0;
     const Block block = voxelsOf(*solid_, brick);
-    const bool was = is_solid_[b] != 0, is = isSolid(block);
+    const std::uint8_t eighths = solidEighths(block);
+    const bool was = solid_eighths_[b] != 0, is = eighths != 0;
     if (is && slot_[b] < 0) {
-      slot_[b] = static_cast<std::int32_t>(words_.size());
+      slot_[b] = static_cast<std::int32_t>(words_.size() / kBrickWords);
       words_.resize(words_.size() + kBrickWords);
     }
-    if (slot_[b] >= 0) fill(block, &words_[static_cast<std::size_t>(slot_[b])]);
-    is_solid_[b] = is ? 1 : 0;
+    if (slot_[b] >= 0) fill(block, wordsOf(slot_[b]));
+    solid_eighths_[b] = eighths;
     is_fuller = is_fuller || (is && !was);
     is_stale_ = is_stale_ || is != was;
     // An emptied brick may be passed at once; how far beyond is seen when the distances are rebuilt.
-    if (was && !is) table_[b] = -1;
+    if (was) table_[b] = is ? slot_[b] * 256 + eighths : -1;
   }
   touched_.clear();
   if (is_fuller) rebuild();
@@ -192,8 +197,8 @@ void SolidCells::rebuild() {
   for (int k = 0; k < bricks_.z; ++k)
     for (int j = 0; j < bricks_.y; ++j)
       for (int i = 0; i < bricks_.x; ++i)
-        if (const std::size_t b = index({i, j, k}); is_solid_[b] != 0) {
-          table_[b] = slot_[b];
+        if (const std::size_t b = index({i, j, k}); solid_eighths_[b] != 0) {
+          table_[b] = slot_[b] * 256 + solid_eighths_[b];
           near.set(i, j, k);
         }
   for (int away = 1; away < kFarthest; ++away)

@@ -12,7 +12,7 @@ namespace render::cpu {
 namespace {
 
 constexpr int kMostRays = 256, kBeamRays = 64;
-constexpr int kEdge = 8, kRowWords = 9, kLayerWords = 72;  // SolidCells
+constexpr int kEdge = 8, kRowWords = 9, kLayerWords = 72, kBrickWords = 576;  // SolidCells
 constexpr float kGuard = 1e-3f;  // a skip ends this much early, so that rounding never carries it past something solid
 constexpr float kFar = 1e9f;
 constexpr float kFull = 255.0f * 32767.0f;  // what a sample in solid matter amounts to
@@ -157,9 +157,9 @@ inline Float interpolated(IntPair corners, const Place& place, const Cell& cell)
   return mix(mix(low_j, high_j, y), mix(low_j_next, high_j_next, y), x);
 }
 
-/// `where`: first word of the brick's cells.
+/// `where`: the brick's entry in the table.
 inline Float sampleCells(const CastJob& job, Int where, const Place& place, const Cell& cell) {
-  const Int word = where + (cell.i & 7) + (cell.j & 7) * kRowWords + (cell.k & 7) * kLayerWords;
+  const Int word = (where >> 8) * kBrickWords + (cell.i & 7) + (cell.j & 7) * kRowWords + (cell.k & 7) * kLayerWords;
   return interpolated(gather64<4>(job.words, word), place, cell);
 }
 
@@ -183,12 +183,21 @@ inline Float sample(const CastJob& job, Mask wanted, const Place& place) {
   return select(where >= 0, sampleCells(job, maximum(where, splat(0)), place, cell), 0.0f);
 }
 
-/// Number of the sample where a skip out of the empty bricks around a cell ends. `away`: bricks to the next solid one.
-inline Float skipped(const CastJob& job, const Rays& rays, const Cell& cell, Int away, Float k) {
-  const Float reach = toFloat(away << 3);
+/// Which lanes' cells lie in an eighth of a brick that holds something solid; `where` is not negative.
+inline Mask isSolidEighth(Int where, const Cell& cell) {
+  const Int bit = ((cell.i >> 2) & 1) | ((cell.j >> 1) & 2) | (cell.k & 4);
+  return ((where >> bit) & 1) != 0;
+}
+
+/// Number of the sample where a skip ends, out of the empty bricks around a cell or, where the brick has cells, out of
+/// its eighth.
+inline Float skipped(const CastJob& job, const Rays& rays, const Cell& cell, Int where, Float k) {
+  const Mask is_brick = where < 0;
+  const Int edge = select(is_brick, splat(8), splat(4)), above = select(is_brick, where * -8, splat(4));
   const auto leave = [&](Int at, Float direction, Float inverse, Float entry) {
-    const Float base = toFloat(at & ~7);
-    return (select(direction > 0.0f, base + reach, base - reach + 8.0f) - entry) * inverse;
+    const Int base = at & -edge;
+    const Int bound = select(direction > 0.0f, base + above, base - above + edge);
+    return (toFloat(bound) - entry) * inverse;
   };
   const Float length = minimum(leave(cell.i, rays.direction.x, rays.inverse.x, rays.entry.x),
                                minimum(leave(cell.j, rays.direction.y, rays.inverse.y, rays.entry.y),
@@ -213,10 +222,10 @@ inline void march(const CastJob& job, const Rays& rays, Mask active, Float k, Vi
     Float value;
     if constexpr (kSkip) {
       const Int where = gather32<4>(job.table, brickIndex(job, cell) & active);
-      const Mask empty = where < 0;
+      const Mask empty = (where < 0) | ~isSolidEighth(where, cell);
       wanted &= ~empty;
       Float next = k + 1.0f;
-      if (any(empty & active)) next = select(empty, skipped(job, rays, cell, -where, k), next);
+      if (any(empty & active)) next = select(empty, skipped(job, rays, cell, where, k), next);
       if (any(wanted)) {
         value = sampleCells(job, where & ~empty, place, cell);
         active &= ~visit(wanted, value, place, k);
