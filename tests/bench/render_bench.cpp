@@ -153,7 +153,7 @@ void table() {
     CpuView::Image image;
     drawOurs(head, c, 0, image);
 #ifdef MOLAR_BENCH_VTK
-    VtkPeer vtk(c.is_iso ? VtkPeer::Kind::triangles : VtkPeer::Kind::fixed_point, head.grid, head.hounsfield, {}, c.px);
+    VtkPeer vtk(c.is_iso ? VtkPeer::Kind::triangles : VtkPeer::Kind::fixed_point, head.grid, head.hounsfield, c.px);
     vtk.draw(cameraAt(0), 0.0);
     const int theirs = c.is_carving && c.voxels > 256 ? 1 : 4;
 #endif
@@ -303,8 +303,7 @@ void pictures(const std::string& folder) {
     drawOurs(head, {256, {640, 480}, is_iso, false, false, 0.0}, 9, image);
     write(folder + (is_iso ? "/ours_iso.ppm" : "/ours_dvr.ppm"), image);
 #ifdef MOLAR_BENCH_VTK
-    VtkPeer vtk(is_iso ? VtkPeer::Kind::triangles : VtkPeer::Kind::fixed_point, head.grid, head.hounsfield, {},
-                {640, 480});
+    VtkPeer vtk(is_iso ? VtkPeer::Kind::triangles : VtkPeer::Kind::fixed_point, head.grid, head.hounsfield, {640, 480});
     vtk.draw(cameraAt(9), 0.0);
     const std::vector<std::uint8_t> rgb = vtk.picture();
     std::ofstream file(folder + (is_iso ? "/vtk_iso.ppm" : "/vtk_dvr.ppm"), std::ios::binary);

@@ -11,6 +11,7 @@
 #include "render/cpu/shade_kernels.h"
 #include "render/eye_block.h"
 #include "tests/bench/render/headlight.h"
+#include "tests/bench/render/synthetic_head.h"
 
 namespace bench {
 namespace {
@@ -58,10 +59,11 @@ void CpuView::draw(const render::Camera& camera, render::Eye eye, render::ViewMo
   settings.skip_empty_space = skip_empty_space;
   const std::array<float, 10> per_mm = [] {
     std::array<float, 10> all{};
-    all.fill(0.999f);
+    all.fill(static_cast<float>(kOpacity_per_mm));
     return all;
   }();
-  const render::OpacityTable opacity = render::opacityTable(0.5f, 0.85f, per_mm, settings.step * settings.spacing_mm);
+  const render::OpacityTable opacity = render::opacityTable(0.5f, solidOf(static_cast<int>(kOpaqueFrom_HU)) / 255.0f,
+                                                            per_mm, settings.step * settings.spacing_mm);
   const render::ShadeKernels& kernels = render::shadeKernels(set);
   const auto& smooth = fields_.smooth();
 

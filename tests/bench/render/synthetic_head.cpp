@@ -103,7 +103,8 @@ std::vector<std::int16_t> syntheticHead(const assets::VolumeGrid& grid) {
 }
 
 std::uint8_t solidOf(int hounsfield) {
-  return static_cast<std::uint8_t>(std::lround(std::clamp((hounsfield + 300.0) / 2000.0, 0.0, 1.0) * 255.0));
+  return static_cast<std::uint8_t>(
+      std::lround(std::clamp((hounsfield - kSurface_HU) / 2000.0 + 0.5, 0.0, 1.0) * 255.0));
 }
 
 glm::dvec3 burCentre_mm(int frame) {

@@ -19,6 +19,8 @@
 #include <vtkVolumeProperty.h>
 
 #include <vtkAutoInit.h>
+
+#include "tests/bench/render/synthetic_head.h"
 VTK_MODULE_INIT(vtkRenderingOpenGL2);
 VTK_MODULE_INIT(vtkRenderingVolumeOpenGL2);
 
@@ -32,8 +34,7 @@ struct VtkPeer::Impl {
   glm::ivec2 px{0};
 };
 
-VtkPeer::VtkPeer(Kind kind, const assets::VolumeGrid& grid, std::span<std::int16_t> hounsfield, const Matter& matter,
-                 glm::ivec2 px)
+VtkPeer::VtkPeer(Kind kind, const assets::VolumeGrid& grid, std::span<std::int16_t> hounsfield, glm::ivec2 px)
     : impl_(std::make_unique<Impl>()) {
   Impl& vtk = *impl_;
   vtk.px = px;
@@ -51,7 +52,7 @@ VtkPeer::VtkPeer(Kind kind, const assets::VolumeGrid& grid, std::span<std::int16
 
   if (kind == Kind::triangles) {
     vtk.edges->SetInputData(vtk.image);
-    vtk.edges->SetValue(0, 700.0);
+    vtk.edges->SetValue(0, kSurface_HU);
     vtk.edges->ComputeNormalsOn();
     vtkNew<vtkPolyDataMapper> mapper;
     mapper->SetInputConnection(vtk.edges->GetOutputPort());
@@ -71,8 +72,8 @@ VtkPeer::VtkPeer(Kind kind, const assets::VolumeGrid& grid, std::span<std::int16
   colour->AddRGBPoint(900.0, 0.95, 0.9, 0.75);
   colour->AddRGBPoint(2600.0, 1.0, 1.0, 0.98);
   vtkNew<vtkPiecewiseFunction> opacity;
-  opacity->AddPoint(700.0, 0.0);
-  opacity->AddPoint(matter.full_hounsfield, matter.full_per_mm);
+  opacity->AddPoint(kSurface_HU, 0.0);
+  opacity->AddPoint(kOpaqueFrom_HU, kOpacity_per_mm);
   property->SetColor(colour);
   property->SetScalarOpacity(opacity);
   property->SetScalarOpacityUnitDistance(1.0);
@@ -97,7 +98,7 @@ VtkPeer::VtkPeer(Kind kind, const assets::VolumeGrid& grid, std::span<std::int16
     mapper->SetSampleDistance(static_cast<float>(0.5 * grid.spacing_mm));
     if (kind == Kind::gpu_iso) {
       mapper->SetBlendModeToIsoSurface();
-      property->GetIsoSurfaceValues()->SetValue(0, 700.0);
+      property->GetIsoSurfaceValues()->SetValue(0, kSurface_HU);
     }
     volume->SetMapper(mapper);
   }

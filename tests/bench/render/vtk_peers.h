@@ -13,18 +13,12 @@
 
 namespace bench {
 
-/// Opacity per mm: 0 up to 700 HU, then a ramp.
-struct Matter {
-  double full_hounsfield = 1400.0, full_per_mm = 0.999;
-};
-
 class VtkPeer {
  public:
   enum class Kind { fixed_point, triangles, gpu_dvr, gpu_iso };
 
   /// The values are borrowed and may change: then call edited().
-  VtkPeer(Kind kind, const assets::VolumeGrid& grid, std::span<std::int16_t> hounsfield, const Matter& matter,
-          glm::ivec2 px);
+  VtkPeer(Kind kind, const assets::VolumeGrid& grid, std::span<std::int16_t> hounsfield, glm::ivec2 px);
   ~VtkPeer();
 
   void edited();
