@@ -215,13 +215,15 @@ inline Float firstSample(const CastJob& job, const Rays& rays, float from) {
 template <bool kSkip, class Visit>
 inline void march(const CastJob& job, const Rays& rays, Mask active, Float k, Visit visit) {
   active &= k <= rays.last;
+  [[maybe_unused]] const int last_brick = job.bricks[0] * job.bricks[1] * job.bricks[2] - 1;
   while (any(active)) {
     const Place place = placeAt(rays, k * job.step);
     const Cell cell = cellAt(place);
     Mask wanted = active;
     Float value;
     if constexpr (kSkip) {
-      const Int where = gather32<4>(job.table, brickIndex(job, cell) & active);
+      // Not only for active lanes: the next step then need not wait for what this one finds.
+      const Int where = gather32<4>(job.table, clamp(brickIndex(job, cell), 0, last_brick));
       const Mask empty = (where < 0) | ~isSolidEighth(where, cell);
       wanted &= ~empty;
       Float next = k + 1.0f;
