@@ -1,5 +1,6 @@
 #include "app/dressed_renderer.h"
 
+#include "app/patient_guides.h"
 #include "assets/instrument.h"
 
 namespace app {
@@ -23,6 +24,7 @@ std::unique_ptr<render::FrameRenderer> dressedRenderer(const assets::Patient& pa
   auto renderer = std::make_unique<render::FrameRenderer>(patient.ct.grid, solid, patient.ct.label, options);
   renderer->setFace(patient.face);
   renderer->setGum(patient.gum);
+  renderer->setGuides(guidesFor(patient, tool.head.radius_mm));
   showInstrument(*renderer, tool);
   return renderer;
 }

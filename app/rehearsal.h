@@ -24,7 +24,7 @@ struct RehearsalPlan {
   render::DisplayMode display = render::DisplayMode::mono;
   bool eyes_swapped = false;
   std::optional<render::Backend> backend;  ///< empty: what suits the machine
-  render::Frame first_frame;  ///< view mode, layers and quality to begin with; the rest is the rehearsal's
+  render::Frame first_frame;               ///< view mode, layers and quality to begin with; the rest is the rehearsal's
   Hand hand = Hand::mouse;
   haptics::Command command;
   std::string parameters;         ///< settings file that is obeyed while it changes; `command` holds what it leaves out

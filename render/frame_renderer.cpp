@@ -31,6 +31,8 @@ void FrameRenderer::setFace(const assets::MeshModel& face_P) { scene_->setFace(f
 void FrameRenderer::setGum(const assets::MeshModel& gum_P) { scene_->setGum(gum_P); }
 void FrameRenderer::setInstrument(const assets::MeshModel& instrument_T) { scene_->setInstrument(instrument_T); }
 
+void FrameRenderer::setGuides(const Guides& guides) { scene_->setGuides(guides); }
+
 void FrameRenderer::updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, Occupancy::kBrickValues> solid) {
   scene_->updateBrick(brick, solid);
 }

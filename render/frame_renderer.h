@@ -14,6 +14,7 @@
 #include "render/gpu/window_place.h"
 #include "render/picture.h"
 #include "render/render_options.h"
+#include "render/volume/guide_field.h"
 #include "render/volume/occupancy.h"
 
 namespace render {
@@ -32,6 +33,8 @@ class FrameRenderer {
   void setFace(const assets::MeshModel& face_P);
   void setGum(const assets::MeshModel& gum_P);
   void setInstrument(const assets::MeshModel& instrument_T);
+  /// Canal and planned cut, shown as Frame::layers says.
+  void setGuides(const Guides& guides);
   /// New content of an 8x8x8 brick, i fastest.
   void updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, Occupancy::kBrickValues> solid);
 

@@ -11,6 +11,7 @@
 #include "render/gpu/gl_debug_log.h"
 #include "render/gpu/gpu_error.h"
 #include "render/gpu/window_picture.h"
+#include "render/scene/canal_tube.h"
 #include "render/scene/clear_lists.h"
 #include "render/scene/edge_pass.h"
 #include "render/scene/mesh_pass.h"
@@ -22,6 +23,8 @@ namespace render {
 namespace {
 
 constexpr std::array kSceneTargets{TexelFormat::rgba16f, TexelFormat::r32f};
+constexpr float kCanalThrough = 0.45f;
+constexpr double kGhostOpacity = 0.4, kGhostFrom_mm = 0.1, kGhostFull_mm = 0.5;  // by how far the hand is from the tool
 constexpr std::array kOutputTargets{TexelFormat::rgba8};
 
 // Rows from bottom first to top first.
@@ -79,6 +82,12 @@ class GlSceneRenderer final : public SceneRenderer {
   void setInstrument(const assets::MeshModel& instrument_T) override {
     instrument_ = onGpu(instrument_T, Finish::instrument);
   }
+  void setGuides(const Guides& guides) override {
+    canal_ = onGpu(canalTube(guides.canal_P_mm, guides.canal_radius_mm), Finish::guide);
+    const GuideField field(fields_.grid(), guides);
+    guides_ = Texture::volume(field.size(), TexelFormat::rg16);
+    guides_.upload({0, 0, 0}, field.size(), std::as_bytes(field.values()));
+  }
   void updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, Occupancy::kBrickValues> solid) override {
     fields_.updateBrick(brick, solid);
   }
@@ -124,7 +133,8 @@ class GlSceneRenderer final : public SceneRenderer {
   Program background_{"screen.vert", "background.frag"};
   UniformBlock<EyeBlock> eye_block_;
   StereoCompositor compositor_;
-  std::optional<SceneMesh> face_, gum_, instrument_;
+  std::optional<SceneMesh> face_, gum_, instrument_, canal_;
+  Texture guides_;
   EdgePass edges_;
   std::array<EyePicture, 3> pictures_;
   Canvas edge_samples_;
@@ -153,7 +163,8 @@ void GlSceneRenderer::drawScene(const Frame& frame, Eye eye, Canvas& canvas, Whe
   Framebuffer& target = canvas.target;
   const EyeView view = eyeView(frame.rig, eye);
   eye_block_.set(EYE_BLOCK, eyeBlock(frame, view));
-  caster_.bind(fields_, volume_, frame, transfer_);
+  caster_.bind(fields_, volume_, frame, transfer_, guides_.name() != 0);
+  if (guides_.name() != 0) guides_.bind(GUIDE_UNIT);
   target.bind();
   target.clear();
   if (where == Where::edges) edges_.bar(target);
@@ -186,6 +197,23 @@ std::vector<GlSceneRenderer::Placed> GlSceneRenderer::meshesOf(const Frame& fram
         {&*instrument_,
          {.P_from_mesh = frame.X_PT.matrix(), .bur_angle_rad = frame.bur_angle_rad, .view_is_mirrored = mirrored}});
   if (gum_ && layers.gum) meshes.push_back({&*gum_, {.view_is_mirrored = mirrored}});
+
+  // Guides: the canal where it is open, and faintly through all that covers it; the hand where the bone holds the tool.
+  if (canal_ && layers.canal)
+    for (const bool through : {false, true})
+      meshes.push_back(
+          {&*canal_,
+           {.view_is_mirrored = mirrored, .opacity = through ? kCanalThrough : 1.0f, .shows_through = through}});
+  const double held_mm = glm::distance(frame.X_PT_at_hand.translation_mm, frame.X_PT.translation_mm);
+  const double ghost =
+      kGhostOpacity * glm::clamp((held_mm - kGhostFrom_mm) / (kGhostFull_mm - kGhostFrom_mm), 0.0, 1.0);
+  if (instrument_ && frame.tool_visible && layers.ghost_tool && ghost > 0.0)
+    meshes.push_back({&*instrument_,
+                      {.P_from_mesh = frame.X_PT_at_hand.matrix(),
+                       .bur_angle_rad = frame.bur_angle_rad,
+                       .view_is_mirrored = mirrored,
+                       .opacity = static_cast<float>(ghost),
+                       .shows_through = true}});
   return meshes;
 }
 

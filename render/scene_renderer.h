@@ -11,6 +11,7 @@
 #include "render/frame.h"
 #include "render/gpu/window_place.h"
 #include "render/picture.h"
+#include "render/volume/guide_field.h"
 #include "render/volume/occupancy.h"
 
 namespace render {
@@ -28,6 +29,8 @@ class SceneRenderer {
   virtual void setFace(const assets::MeshModel& face_P) = 0;
   virtual void setGum(const assets::MeshModel& gum_P) = 0;
   virtual void setInstrument(const assets::MeshModel& instrument_T) = 0;
+  /// A back-end that draws no guides leaves them out.
+  virtual void setGuides(const Guides&) {}
   virtual void updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, Occupancy::kBrickValues> solid) = 0;
 
   /// Once per frame, before its eyes: what was carved since becomes drawable.

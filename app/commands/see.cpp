@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/command.h"
+#include "app/patient_guides.h"
 #include "app/picture_option.h"
 #include "app/renderer_choice.h"
 #include "app/usage_error.h"
@@ -23,6 +24,8 @@
 
 namespace app {
 namespace {
+
+constexpr double kUsualBur_mm = 1.5;  ///< radius of the bur a trough is planned for
 
 struct SeeOptions {
   VolumeOption volume;
@@ -62,10 +65,12 @@ int see(const SeeOptions& options) {
 
   SolidVolume volume;
   assets::Patient patient;
+  render::Guides guides;
   if (options.patient.empty()) {
     volume = options.volume.load();
   } else {
     patient = assets::loadPatient(options.patient);
+    guides = guidesFor(patient, kUsualBur_mm);
     volume = {patient.ct.grid, std::move(patient.ct.solid), std::move(patient.ct.label)};
   }
   const render::Eye eye = options.view.apply(frame.rig, volume.grid);
@@ -78,6 +83,7 @@ int see(const SeeOptions& options) {
   });
   how.samples = options.samples;
   render::FrameRenderer renderer(volume.grid, volume.solid, volume.label, how);
+  renderer.setGuides(guides);
   if (!options.bone_only) {
     renderer.setFace(patient.face);
     renderer.setGum(patient.gum);

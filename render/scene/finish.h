@@ -5,6 +5,6 @@
 
 namespace render {
 
-enum class Finish { skin = FINISH_SKIN, gum = FINISH_GUM, instrument = FINISH_INSTRUMENT };
+enum class Finish { skin = FINISH_SKIN, gum = FINISH_GUM, instrument = FINISH_INSTRUMENT, guide = FINISH_GUIDE };
 
 }  // namespace render

@@ -26,6 +26,7 @@ vec4 meshColour() {
   if (!gl_FrontFacing) normal = -normal;
   vec4 base = part.base_colour * vertex_tint;
   int finish = int(part.finish.z);
+  if (finish == FINISH_GUIDE && !gl_FrontFacing) discard;
 
   // The rim of the window is a cut edge: darker and redder within a millimetre or two.
   float rim = 1.0;
@@ -52,6 +53,11 @@ vec4 meshColour() {
     s.wrap = GUM_WRAP;
     s.f0 = vec3(GUM_F0);
     s.scatter = vec3(GUM_SCATTER);
+  }
+  if (finish == FINISH_GUIDE) {
+    // Lit from everywhere: it is no part of the patient and shows inside the bone.
+    float facing = abs(dot(normal, to_eye));
+    return vec4(base.rgb * (0.25 + 0.75 * facing), base.a);
   }
   Shade shade = shadeFromVolume(p_P + MESH_LIFT * normal, normal);
   if (finish == FINISH_INSTRUMENT) {

@@ -24,6 +24,7 @@
 #define LAYER_LIGHT_UNIT 9
 #define LAYER_DISTANCE_UNIT 10
 #define EDGE_MASK_UNIT 11
+#define GUIDE_UNIT 12
 
 #define POSITION_ATTRIBUTE 0     // vertex attributes
 #define NORMAL_ATTRIBUTE 1
@@ -35,6 +36,7 @@
 #define FINISH_SKIN 0            // how a mesh is shaded
 #define FINISH_GUM 1
 #define FINISH_INSTRUMENT 2
+#define FINISH_GUIDE 3
 
 #define DISPLAY_MONO 0           // display modes, render::DisplayMode
 #define DISPLAY_QUAD_BUFFER 1
@@ -62,3 +64,8 @@
 #define CAST_GROUP 8             // edge of a work group of the compute caster, px
 
 #define EDGE_SAMPLES 2           // of a pixel that antialiasing draws again, along each edge
+
+#define GUIDE_CLEARANCE 1        // guides on the bone, as bits
+#define GUIDE_PLAN 2
+#define GUIDE_LOW_MM -4.0        // what the field of guides holds
+#define GUIDE_HIGH_MM 12.0

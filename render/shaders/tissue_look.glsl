@@ -3,6 +3,7 @@
 #include "volume_block.glsl"
 #include "lighting.glsl"
 #include "finish.glsl"
+#include "guides.glsl"
 
 float hashed(ivec3 cell) {
   uvec3 q = uvec3(cell) * uvec3(1597334673u, 3812015801u, 2798796415u);
@@ -36,5 +37,6 @@ Surface tissueSurface(vec3 index, vec3 normal, vec3 p_P) {
   albedo *= 1.0 + 0.14 * mottle * shine.x;
   float pore = smoothstep(0.42, 0.68, noise(p_P * 2.3) * 0.7 + noise(p_P * 5.7) * 0.3);
   albedo = mix(albedo, vec3(0.36, 0.09, 0.07), 0.75 * pore * marrow);
+  albedo = guided(albedo, index, p_P);
   return Surface(albedo, vec3(shine.y), shine.x, shine.z, albedo);
 }

@@ -6,13 +6,14 @@ layout(std140, binding = VOLUME_BLOCK) uniform VolumeBlock {
   ivec4 size;            // voxels; w: 1 to skip empty space
   ivec4 bricks;          // w: VIEW_…
   ivec4 ambient_size;    // cells of the ambient map; x is 0 when there is no volume
-  vec4 march;            // x: voxels between samples along a ray; y, z: 1 for ambient shade, for the lamp's shadow
+  vec4 march;            // x: voxels between samples along a ray; y, z: 1 for ambient shade, for the lamp's shadow; w: GUIDE_…
 } volume;
 
 layout(binding = SOLID_UNIT) uniform sampler3D solid_field;
 layout(binding = SMOOTH_UNIT) uniform sampler3D smooth_field;
 layout(binding = LABEL_UNIT) uniform usampler3D label_field;
 layout(binding = LOOK_UNIT) uniform sampler3D look_field;
+layout(binding = GUIDE_UNIT) uniform sampler3D guide_field;
 layout(binding = EMPTINESS_UNIT) uniform usampler3D emptiness;
 layout(binding = AMBIENT_UNIT) uniform sampler3D ambient_map;
 

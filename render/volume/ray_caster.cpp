@@ -22,7 +22,9 @@ RayCaster::RayCaster(Stage stage, bool skip_empty_space)
       caster_(stage == Stage::compute ? Program("volume.comp") : Program("screen.vert", "volume.frag")) {}
 
 void RayCaster::bind(const VolumeFields& fields, const VolumeTexture& volume, const Frame& frame,
-                     const TransferFunction& transfer) {
+                     const TransferFunction& transfer, bool guided) {
+  const int guides =
+      !guided ? 0 : (frame.layers.clearance ? GUIDE_CLEARANCE : 0) | (frame.layers.planned_cut ? GUIDE_PLAN : 0);
   const assets::VolumeGrid& grid = fields.grid();
   block_.set(VOLUME_BLOCK,
              {.origin_P = glm::vec4(glm::vec3(grid.origin_P_mm), static_cast<float>(grid.spacing_mm)),
@@ -30,7 +32,7 @@ void RayCaster::bind(const VolumeFields& fields, const VolumeTexture& volume, co
               .bricks = glm::ivec4(grid.bricks(), frame.mode == ViewMode::dvr ? VIEW_DVR : VIEW_ISO),
               .ambient_size = glm::ivec4(fields.ambient().layout().size, 0),
               .march = {static_cast<float>(frame.quality.step_voxels), frame.quality.ambient_occlusion ? 1.0f : 0.0f,
-                        frame.quality.lamp_shadow ? 1.0f : 0.0f, 0.0f}});
+                        frame.quality.lamp_shadow ? 1.0f : 0.0f, static_cast<float>(guides)}});
   transfer_.set(TRANSFER_BLOCK, transferBlock(transfer));
   volume.bind();
 }

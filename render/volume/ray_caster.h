@@ -41,9 +41,10 @@ class RayCaster {
 
   RayCaster(Stage stage, bool skip_empty_space);
 
-  /// Binds volume, block and transfer function; passes that ask the volume for shade need this before drawing.
+  /// Binds volume, block and transfer function; `guided`: a field of guides is bound. passes that ask the volume for
+  /// shade need this before drawing.
   void bind(const VolumeFields& fields, const VolumeTexture& volume, const Frame& frame,
-            const TransferFunction& transfer);
+            const TransferFunction& transfer, bool guided);
   /// After bind(): casts into `layer` and lays it over `picture` (colour, distance, depth).
   void draw(VolumeLayer& layer, const Framebuffer& picture);
 

@@ -365,6 +365,74 @@ TEST(FrameRenderer, TransparentPartsBehindTheBoneStayHidden) {
   EXPECT_LT(pixelsThatDiffer(just_behind, behind, 16), 10u);
 }
 
+// Guides colour the bone near them and nothing else, and leave no trace when they are switched off.
+TEST(FrameRenderer, GuidesShowWhereTheyLieAndOnlyWhenAskedFor) {
+  const OffscreenContext context(OffscreenContext::Debugging::on);
+  const assets::CtVolume ct = ballVolume(smallGrid(), {{{0, 0, 0}, 9.0}});
+  for (const Backend backend : {Backend::gl_fragment, Backend::gl_compute}) {
+    FrameRenderer renderer(ct.grid, ct.solid, ct.label, {.backend = backend});
+    Frame frame = frameFor(cameraRig({.eye_P_mm = {0, -250, 0}, .fov_y_rad = 0.17}, {160, 120}));
+    const auto seen = [&] {
+      renderer.renderEye(frame, Eye::cyclopean);
+      return renderer.readEye(Eye::cyclopean);
+    };
+    const Picture bare = seen();
+    renderer.setGuides(
+        {{{-15, -6, 0}, {15, -6, 0}}, 1.0, PlannedCut{{0, -9, 5}, {1, 0, 0}, {0, -1, 0}, 1.0, 1.0, 1.0}});
+    EXPECT_EQ(seen().rgba, bare.rgba);
+    for (bool Layers::*layer : {&Layers::canal, &Layers::clearance, &Layers::planned_cut}) {
+      frame.layers.*layer = true;
+      EXPECT_GT(pixelsThatDiffer(seen(), bare, 16), 30u);
+      frame.layers.*layer = false;
+    }
+
+    // Bone farther than 3 mm from the canal's wall keeps its colour.
+    frame.layers.clearance = true;
+    const Picture banded = seen();
+    const DistancePicture distance = renderer.readDistance(Eye::cyclopean);
+    const EyeView view = eyeView(frame.rig, Eye::cyclopean);
+    int kept = 0, coloured = 0;
+    for (int y = 0; y < 120; ++y)
+      for (int x = 0; x < 160; ++x) {
+        const double mm = distance.mm[static_cast<std::size_t>(y * 160 + x)];
+        if (mm == 0.0) continue;
+        const glm::dvec3 p = eye_P_mm(frame.rig, view) + mm * rayDirection_P(frame.rig, view, x, y);
+        const double wall_mm = glm::length(glm::dvec2(p.y + 6.0, p.z)) - 1.0;
+        const bool same = std::equal(pixelAt(bare, x, y), pixelAt(bare, x, y) + 3, pixelAt(banded, x, y));
+        if (wall_mm > 3.3) {
+          EXPECT_TRUE(same) << x << " " << y;
+          ++kept;
+        } else if (wall_mm < 2.9) {
+          coloured += same ? 0 : 1;
+        }
+      }
+    EXPECT_GT(kept, 500);
+    EXPECT_GT(coloured, 500);
+    EXPECT_NO_THROW(renderer.throwIfError());
+  }
+}
+
+// The hand inside the bone, while the drawn tool is held on its surface.
+TEST(FrameRenderer, TheGhostShowsTheHandThroughTheBone) {
+  const OffscreenContext context;
+  const assets::CtVolume ct = ballVolume(smallGrid(), {{{0, 0, 0}, 9.0}});
+  FrameRenderer renderer(ct.grid, ct.solid, ct.label);
+  renderer.setInstrument(sphereMesh({{0, 0, 0}, 2.0}, {0.7f, 0.7f, 0.7f, 1.0f}, "Bur"));
+  Frame frame = frameFor(cameraRig({.eye_P_mm = {0, -250, 0}, .fov_y_rad = 0.17}, {160, 120}));
+  frame.tool_visible = true;
+  frame.X_PT.translation_mm = {0, -11, 8};
+  frame.X_PT_at_hand.translation_mm = {0, -5, -3};
+  const auto seen = [&] {
+    renderer.renderEye(frame, Eye::cyclopean);
+    return renderer.readEye(Eye::cyclopean);
+  };
+  const Picture without = seen();
+  frame.layers.ghost_tool = true;
+  EXPECT_GT(pixelsThatDiffer(seen(), without, 8), 30u);
+  frame.X_PT_at_hand = frame.X_PT;
+  EXPECT_EQ(seen().rgba, without.rgba) << "a free hand has no ghost";
+}
+
 // Silhouettes are smoothed, and nothing else is touched: where the distance runs straight on, not a bit changes.
 TEST(FrameRenderer, AntialiasingDrawsSilhouettesAgainAndNothingElse) {
   const OffscreenContext context(OffscreenContext::Debugging::on);

@@ -1,0 +1,69 @@
+#include "render/volume/guide_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/shaders/shared_numbers.glsl"
+
+namespace render {
+namespace {
+
+constexpr double kReach_mm = 4.5;  // distances beyond it show nothing
+
+std::uint16_t packed(double mm) {
+  const double share = (mm - GUIDE_LOW_MM) / (GUIDE_HIGH_MM - GUIDE_LOW_MM);
+  return static_cast<std::uint16_t>(std::lround(65535.0 * std::clamp(share, 0.0, 1.0)));
+}
+
+double distanceToSegment_mm(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
+  const glm::dvec3 along = b - a;
+  const double length2 = glm::dot(along, along);
+  const double t = length2 > 0.0 ? std::clamp(glm::dot(p - a, along) / length2, 0.0, 1.0) : 0.0;
+  return glm::distance(p, a + t * along);
+}
+
+}  // namespace
+
+double distanceToCut_mm(const PlannedCut& cut, const glm::dvec3& p_P_mm) {
+  const glm::dvec3 offset = p_P_mm - cut.middle_P_mm;
+  const double along = glm::dot(offset, cut.along_P), outward = glm::dot(offset, cut.outward_P);
+  const glm::dvec3 nearest = std::clamp(along, -cut.half_length_mm, cut.half_length_mm) * cut.along_P +
+                             std::clamp(outward, -cut.half_height_mm, cut.half_height_mm) * cut.outward_P;
+  return glm::length(offset - nearest) - cut.radius_mm;
+}
+
+GuideField::GuideField(const assets::VolumeGrid& grid, const Guides& guides)
+    : size_((grid.bricks() * assets::kBrickVoxels) / AMBIENT_CELL_VOXELS) {
+  const std::size_t cells =
+      static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) * static_cast<std::size_t>(size_.z);
+  values_.assign(2 * cells, 65535);
+  const double cell_mm = AMBIENT_CELL_VOXELS * grid.spacing_mm;
+  const glm::dvec3 first_P_mm = grid.origin_P_mm + 0.5 * (AMBIENT_CELL_VOXELS - 1) * grid.spacing_mm;
+
+  // Each shape writes the cells around it, the least distance wins.
+  const auto write = [&](const glm::dvec3& low_P_mm, const glm::dvec3& high_P_mm, std::size_t channel,
+                         const auto& distance_mm) {
+    const glm::ivec3 low = glm::max(glm::ivec3(glm::floor((low_P_mm - first_P_mm) / cell_mm)), glm::ivec3(0));
+    const glm::ivec3 high = glm::min(glm::ivec3(glm::ceil((high_P_mm - first_P_mm) / cell_mm)), size_ - 1);
+    for (int k = low.z; k <= high.z; ++k)
+      for (int j = low.y; j <= high.y; ++j)
+        for (int i = low.x; i <= high.x; ++i) {
+          std::uint16_t& value = values_[2 * static_cast<std::size_t>((k * size_.y + j) * size_.x + i) + channel];
+          value = std::min(value, packed(distance_mm(first_P_mm + cell_mm * glm::dvec3(i, j, k))));
+        }
+  };
+  for (std::size_t n = 0; n + 1 < guides.canal_P_mm.size(); ++n) {
+    const glm::dvec3 &a = guides.canal_P_mm[n], &b = guides.canal_P_mm[n + 1];
+    const double reach_mm = guides.canal_radius_mm + kReach_mm;
+    write(glm::min(a, b) - reach_mm, glm::max(a, b) + reach_mm, 0,
+          [&](const glm::dvec3& p) { return distanceToSegment_mm(p, a, b) - guides.canal_radius_mm; });
+  }
+  if (guides.cut) {
+    const PlannedCut& cut = *guides.cut;
+    const double reach_mm = cut.half_length_mm + cut.half_height_mm + cut.radius_mm + kReach_mm;
+    write(cut.middle_P_mm - reach_mm, cut.middle_P_mm + reach_mm, 1,
+          [&](const glm::dvec3& p) { return distanceToCut_mm(cut, p); });
+  }
+}
+
+}  // namespace render

@@ -1,0 +1,46 @@
+// What guides the surgeon, as distances in the volume: to the mandibular canal and to the bone that is planned to go.
+// One coarse field on the cells of the ambient map (AMBIENT_CELL_VOXELS), trilinear, for every back-end to read.
+// Frame P, mm. Made once, start-up; some ten milliseconds. Plain values; any thread.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "assets/volume_grid.h"
+
+namespace render {
+
+/// A cut planned as the sweep of a ball over a rectangle: all that lies nearer to it than the radius.
+struct PlannedCut {
+  glm::dvec3 middle_P_mm{0.0};                      ///< of the rectangle
+  glm::dvec3 along_P{1, 0, 0}, outward_P{0, 0, 1};  ///< its edges, unit, square to each other
+  double half_length_mm = 0.0, half_height_mm = 0.0, radius_mm = 0.0;
+};
+
+struct Guides {
+  std::vector<glm::dvec3> canal_P_mm;  ///< centre line; empty: not known
+  double canal_radius_mm = 1.4;
+  std::optional<PlannedCut> cut;
+};
+
+/// Outside the cut: above zero.
+double distanceToCut_mm(const PlannedCut& cut, const glm::dvec3& p_P_mm);
+
+class GuideField {
+ public:
+  /// Distances are held from GUIDE_LOW_MM to GUIDE_HIGH_MM and clamped beyond.
+  GuideField(const assets::VolumeGrid& grid, const Guides& guides);
+
+  glm::ivec3 size() const { return size_; }
+  /// Per cell, i fastest: to the canal's wall, to the planned cut; 0 is GUIDE_LOW_MM, 65535 GUIDE_HIGH_MM.
+  std::span<const std::uint16_t> values() const { return values_; }
+
+ private:
+  glm::ivec3 size_;
+  std::vector<std::uint16_t> values_;
+};
+
+}  // namespace render
