@@ -42,8 +42,17 @@ FieldView<T> viewOf(const BorderedField<T>& field) {
           .size = layout.size};
 }
 
+// What the rays of a still eye meet of the still meshes, tile by tile: the same from picture to picture.
+struct StillHits {
+  EyeBlock eye{};
+  glm::ivec2 px{0};
+  std::uint64_t revision = ~std::uint64_t{0};
+  std::vector<MeshHits> tiles;
+};
+
 // An eye as last drawn.
 struct DrawnEye {
+  StillHits still;
   EyeCanvas canvas;
   Frame frame;
   bool drawn = false;
@@ -90,9 +99,9 @@ class CpuSceneRenderer final : public SceneRenderer {
  private:
   DrawnEye& drawn(Eye eye) { return eyes_[static_cast<std::size_t>(eye)]; }
   PaintScene sceneFor(const Frame& frame, Eye eye);
-  void draw(const PaintScene& scene, int samples, EyeCanvas& canvas);
+  void draw(const PaintScene& scene, int samples, EyeCanvas& canvas, StillHits* still);
   void drawTile(const PaintScene& scene, int samples, glm::ivec2 first, glm::ivec2 end, RayPainter& painter,
-                EyeCanvas& canvas);
+                EyeCanvas& canvas, MeshHits* still, bool still_is_known);
   void drawEdgesAgain(const PaintScene& scene, EyeCanvas& canvas);
 
   RenderOptions options_;
@@ -175,23 +184,36 @@ void CpuSceneRenderer::drawEye(const Frame& frame, Eye eye, glm::ivec2 px) {
   to.drawn = true;
   const PaintScene scene = sceneFor(frame, eye);
   arena_.execute([&] {
-    draw(scene, options_.samples, to.canvas);
+    draw(scene, options_.samples, to.canvas, options_.samples == 1 ? &to.still : nullptr);
     if (options_.samples == 1 && frame.quality.antialias == Antialias::edges) drawEdgesAgain(scene, to.canvas);
   });
 }
 
-void CpuSceneRenderer::draw(const PaintScene& scene, int samples, EyeCanvas& canvas) {
+void CpuSceneRenderer::draw(const PaintScene& scene, int samples, EyeCanvas& canvas, StillHits* still) {
   const int edge = kTile / samples;
   const glm::ivec2 tiles = (canvas.px + edge - 1) / edge;
+  bool still_is_known = false;
+  if (still != nullptr) {
+    const EyeBlock& eye = scene.shade.eye;
+    still_is_known = still->revision == meshes_.stillRevision() && still->px == canvas.px &&
+                     still->eye.eye_P == eye.eye_P && still->eye.lower_left_P == eye.lower_left_P &&
+                     still->eye.right_edge_P == eye.right_edge_P && still->eye.up_edge_P == eye.up_edge_P;
+    still->eye = eye;
+    still->px = canvas.px;
+    still->revision = meshes_.stillRevision();
+    still->tiles.resize(static_cast<std::size_t>(tiles.x) * static_cast<std::size_t>(tiles.y));
+  }
   tbb::parallel_for(0, tiles.x * tiles.y, [&](int tile) {
     const glm::ivec2 first = edge * glm::ivec2(tile % tiles.x, tile / tiles.x);
-    drawTile(scene, samples, first, glm::min(first + edge, canvas.px), *painters_.local(), canvas);
+    MeshHits* const hits = still != nullptr ? &still->tiles[static_cast<std::size_t>(tile)] : nullptr;
+    drawTile(scene, samples, first, glm::min(first + edge, canvas.px), *painters_.local(), canvas, hits,
+             still_is_known);
   });
 }
 
 // Pixels `first` to before `end`; each the mean of samples x samples rays on an even grid.
 void CpuSceneRenderer::drawTile(const PaintScene& scene, int samples, glm::ivec2 first, glm::ivec2 end,
-                                RayPainter& painter, EyeCanvas& canvas) {
+                                RayPainter& painter, EyeCanvas& canvas, MeshHits* still, bool still_is_known) {
   const glm::ivec2 rays = samples * (end - first), from = samples * first, all = samples * canvas.px;
   int n = 0;
   std::array<std::uint16_t, RayPainter::kMost> pixel;
@@ -203,7 +225,7 @@ void CpuSceneRenderer::drawTile(const PaintScene& scene, int samples, glm::ivec2
           painter.place_y[n] = (static_cast<float>(all.y - 1 - (from.y + y)) + 0.5f) / static_cast<float>(all.y);
           pixel[static_cast<std::size_t>(n)] = static_cast<std::uint16_t>((y / samples) * kTile + x / samples);
         }
-  painter.paint(scene, n);
+  painter.paint(scene, n, still, still_is_known);
 
   if (samples > 1)
     for (int y = first.y; y < end.y; ++y)
@@ -297,7 +319,7 @@ DistancePicture CpuSceneRenderer::readDistance(Eye eye) {
   EyeCanvas centred;
   centred.resize(shown.canvas.px);
   const PaintScene scene = sceneFor(shown.frame, eye);
-  arena_.execute([&] { draw(scene, 1, centred); });
+  arena_.execute([&] { draw(scene, 1, centred, nullptr); });
   return picture(centred);
 }
 

@@ -161,20 +161,22 @@ struct MeshScene::Impl {
   RTCScene sceneOf(const std::vector<const assets::MeshPart*>& from, Body& body);
   void show(Body& body, unsigned index, RTCScene in);
   Query queryFor(std::vector<Layer>* layers) const;
+  void trace(RTCScene in, const RayBatch& rays, const float* limit_mm, MeshHits& hits) const;
   float opacityOf(const Body& body) const { return body.model == Model::face ? placement.face_opacity : 1.0f; }
   void complain() const;
 
   RTCDevice device = nullptr;
-  RTCScene opaque = nullptr, transparent = nullptr;
+  RTCScene still = nullptr, moving = nullptr, transparent = nullptr;  ///< the upper scenes
   std::vector<Body> bodies;
   MeshPlacement placement;
-  bool has_opaque = false, has_transparent = false;
+  bool has_still = false, has_moving = false, has_transparent = false;
+  std::uint64_t still_revision = 0;
 };
 
 MeshScene::Impl::Impl() : device(rtcNewDevice(nullptr)) {
   if (device == nullptr)
     throw GpuError("no ray tracing of meshes, Embree: this processor or its memory will not do; use --renderer gl");
-  for (RTCScene* scene : {&opaque, &transparent}) {
+  for (RTCScene* scene : {&still, &moving, &transparent}) {
     *scene = rtcNewScene(device);
     rtcSetSceneFlags(*scene, RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
     rtcSetSceneBuildQuality(*scene, RTC_BUILD_QUALITY_LOW);
@@ -185,7 +187,8 @@ MeshScene::Impl::Impl() : device(rtcNewDevice(nullptr)) {
 
 MeshScene::Impl::~Impl() {
   for (const Model model : {Model::face, Model::gum, Model::instrument}) remove(model);
-  rtcReleaseScene(opaque);
+  rtcReleaseScene(still);
+  rtcReleaseScene(moving);
   rtcReleaseScene(transparent);
   rtcReleaseDevice(device);
 }
@@ -198,6 +201,7 @@ void MeshScene::Impl::complain() const {
 
 void MeshScene::Impl::show(Body& body, unsigned index, RTCScene in) {
   if (body.shown_in == in) return;
+  if (body.shown_in == still || in == still) ++still_revision;
   if (body.shown_in != nullptr) rtcDetachGeometry(body.shown_in, index);
   if (in != nullptr) rtcAttachGeometryByID(in, body.instance, index);
   body.shown_in = in;
@@ -292,10 +296,14 @@ void MeshScene::setModel(Model model, const assets::MeshModel& mesh) {
 
 void MeshScene::place(const MeshPlacement& placement) {
   Impl& m = *impl_;
+  const MeshPlacement& before = m.placement;
+  if (placement.window_mm != before.window_mm || placement.window_eye_P != before.window_eye_P ||
+      placement.window_site_P != before.window_site_P)
+    ++m.still_revision;
   m.placement = placement;
   const glm::dmat4 turned =
       placement.P_from_tool * glm::rotate(glm::dmat4(1.0), placement.bur_angle_rad, glm::dvec3(0.0, 0.0, 1.0));
-  m.has_opaque = m.has_transparent = false;
+  m.has_still = m.has_moving = m.has_transparent = false;
   for (std::size_t i = 0; i < m.bodies.size(); ++i) {
     Body& body = m.bodies[i];
     if (body.scene == nullptr) continue;
@@ -304,8 +312,13 @@ void MeshScene::place(const MeshPlacement& placement) {
                          : body.model == Model::gum ? placement.gum_visible
                                                     : placement.face_opacity > 0.0f;
     const bool is_clear = body.transparent || m.opacityOf(body) < 1.0f;
-    m.show(body, static_cast<unsigned>(i), !visible ? nullptr : is_clear ? m.transparent : m.opaque);
-    m.has_opaque = m.has_opaque || (visible && !is_clear);
+    m.show(body, static_cast<unsigned>(i),
+           !visible   ? nullptr
+           : is_clear ? m.transparent
+           : is_tool  ? m.moving
+                      : m.still);
+    m.has_still = m.has_still || (visible && !is_clear && !is_tool);
+    m.has_moving = m.has_moving || (visible && !is_clear && is_tool);
     m.has_transparent = m.has_transparent || (visible && is_clear);
     if (!is_tool) continue;
     const glm::mat4 pose(body.turns ? turned : placement.P_from_tool);
@@ -314,24 +327,41 @@ void MeshScene::place(const MeshPlacement& placement) {
     rtcSetGeometryTransform(body.instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &body.pose);
     rtcCommitGeometry(body.instance);
   }
-  rtcCommitScene(m.opaque);
+  rtcCommitScene(m.still);
+  rtcCommitScene(m.moving);
   rtcCommitScene(m.transparent);
   m.complain();
 }
 
-bool MeshScene::hasOpaque() const { return impl_->has_opaque; }
+bool MeshScene::hasOpaque() const { return impl_->has_still || impl_->has_moving; }
+std::uint64_t MeshScene::stillRevision() const { return impl_->still_revision; }
 bool MeshScene::hasTransparent() const { return impl_->has_transparent; }
 
 void MeshScene::firstHits(const RayBatch& rays, MeshHits& hits) const {
-  const Impl& m = *impl_;
+  stillHits(rays, hits);
+  addMovingHits(rays, hits);
+}
+
+void MeshScene::stillHits(const RayBatch& rays, MeshHits& hits) const {
   std::fill_n(hits.distance_mm, rays.count, 0.0f);
-  if (!m.has_opaque) return;
-  Query query = m.queryFor(nullptr);
+  if (impl_->has_still) impl_->trace(impl_->still, rays, rays.far_mm, hits);
+}
+
+void MeshScene::addMovingHits(const RayBatch& rays, MeshHits& hits) const {
+  if (!impl_->has_moving) return;
+  alignas(64) float limit_mm[RayBatch::kMost];
+  for (int r = 0; r < rays.count; ++r) limit_mm[r] = hits.distance_mm[r] > 0.0f ? hits.distance_mm[r] : rays.far_mm[r];
+  impl_->trace(impl_->moving, rays, limit_mm, hits);
+}
+
+// Writes what is met before the limits and leaves the rest as it is.
+void MeshScene::Impl::trace(RTCScene in, const RayBatch& rays, const float* limit_mm, MeshHits& hits) const {
+  Query query = queryFor(nullptr);
   alignas(32) RTCRayHit8 packet;
   alignas(32) int valid[kPacket];
   for (int first = 0; first < rays.count; first += kPacket) {
-    fill(packet, valid, rays, first, nullptr);
-    rtcIntersect8(valid, m.opaque, &query.context, &packet);
+    fill(packet, valid, rays, first, limit_mm);
+    rtcIntersect8(valid, in, &query.context, &packet);
     for (int i = 0; i < kPacket && first + i < rays.count; ++i) {
       if (packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
       const int r = first + i;
@@ -341,7 +371,7 @@ void MeshScene::firstHits(const RayBatch& rays, MeshHits& hits) const {
       hits.part[r] = packet.hit.geomID[i];
       hits.triangle[r] = packet.hit.primID[i];
       const glm::vec3 outward =
-          m.bodies[hits.body[r]].P_from_mesh * glm::vec3(packet.hit.Ng_x[i], packet.hit.Ng_y[i], packet.hit.Ng_z[i]);
+          bodies[hits.body[r]].P_from_mesh * glm::vec3(packet.hit.Ng_x[i], packet.hit.Ng_y[i], packet.hit.Ng_z[i]);
       hits.faces_eye[r] = glm::dot(outward, glm::vec3(rays.x[r], rays.y[r], rays.z[r])) < 0.0f;
     }
   }

@@ -6,6 +6,7 @@
 // one thread, then any number of threads may trace. A ray costs about 30 ns.
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
 #include <vector>
@@ -42,6 +43,11 @@ class MeshScene {
 
   /// The first opaque place along every ray, 0 mm where there is none.
   void firstHits(const RayBatch& rays, MeshHits& hits) const;
+  /// The two halves of it: face and gum, which stay what they are for the same rays until stillRevision() changes; then
+  /// the instrument, where it lies before them.
+  void stillHits(const RayBatch& rays, MeshHits& hits) const;
+  void addMovingHits(const RayBatch& rays, MeshHits& hits) const;
+  std::uint64_t stillRevision() const;
   /// Adds those hits that are what the ray sees: nothing at `seen_mm[i]` before them.
   void addSeen(const RayBatch& rays, const MeshHits& hits, const float* seen_mm, MeshPoints& to) const;
   /// Every transparent place before `limit_mm[i]`, ray by ray, each ray's from back to front.

@@ -17,10 +17,12 @@ Light RayPainter::roomFor(int count) {
   return {light_.data(), light_.data() + stride, light_.data() + 2 * stride};
 }
 
-void RayPainter::paint(const PaintScene& scene, int count) {
+void RayPainter::paint(const PaintScene& scene, int count, MeshHits* still, bool still_is_known) {
   rays_.count = count;
   scene.kernels->aim(scene.shade.eye, place_x, place_y, rays_);
-  scene.meshes->firstHits(rays_, hits_);
+  if (!still_is_known) scene.meshes->stillHits(rays_, still != nullptr ? *still : hits_);
+  if (still != nullptr) hits_ = *still;
+  scene.meshes->addMovingHits(rays_, hits_);
   for (int i = 0; i < count; ++i) {
     distance_mm[i] = hits_.distance_mm[i];
     limit_mm_[i] = distance_mm[i] > 0.0f ? distance_mm[i] : kEndless_mm;

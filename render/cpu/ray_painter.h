@@ -30,8 +30,9 @@ class RayPainter {
 
   RayPainter();
 
-  /// Rays through `count` places of the picture, 0..1 from its lower left.
-  void paint(const PaintScene& scene, int count);
+  /// Rays through `count` places of the picture, 0..1 from its lower left. `still`: what they meet of face and gum,
+  /// filled in unless `still_is_known` from an earlier picture through the same places; null: not kept.
+  void paint(const PaintScene& scene, int count, MeshHits* still = nullptr, bool still_is_known = false);
 
   alignas(64) float place_x[kMost + kLanePadding] = {}, place_y[kMost + kLanePadding] = {};  ///< to be filled in
   // Answers.

@@ -82,6 +82,19 @@ int main(int count, char** words) {
 
   measure("(first)", *renderer, frame, 1);
   measure("all of it", *renderer, frame, frames);
+  double aside_mm = 0.0;
+  const auto moving = [&](render::FrameRenderer& r, render::Frame f) {
+    f.rig.left_eye.mm.x += aside_mm += 0.01;
+    f.rig.right_eye.mm.x += aside_mm;
+    r.render(f);
+  };
+  std::vector<double> cpu;
+  for (int n = 0; n < frames; ++n) {
+    const double c = cpu_ms();
+    moving(*renderer, frame);
+    cpu.push_back(cpu_ms() - c);
+  }
+  std::printf("%-34s %6.1f ms CPU\n", "the eyes moving", median(cpu));
   const auto without = [&](const char* what, const std::function<void(render::Frame&)>& change) {
     render::Frame changed = frame;
     change(changed);

@@ -161,6 +161,44 @@ TEST_F(CpuScene, DrawsTheSamePixelsAgainAtEdges) {
   EXPECT_LT(smoothed, plain.rgba.size() / 4 / 10);
 }
 
+TEST_F(CpuScene, KeepsWhatAStillEyeMeetsAndForgetsItWhenAnythingStillChanges) {
+  open();
+  const auto dress = [](FrameRenderer& r) {
+    r.setFace({{ballMesh({-8, -6, 6}, 8.0f, {0.8f, 0.6f, 0.5f, 1.0f})}});
+    r.setGum({{ballMesh({6, -6, -4}, 5.0f, {0.7f, 0.3f, 0.3f, 1.0f})}});
+    r.setInstrument(assets::surgicalHandpiece({}));
+  };
+  dress(*cpu_);
+  Frame f = frame();
+  f.tool_visible = true;
+  // Each change against a renderer that has seen nothing before.
+  const auto expectFresh = [&](const char* what) {
+    cpu_->renderEye(f, Eye::left);
+    FrameRenderer fresh(ct_.grid, ct_.solid, ct_.label, {.backend = Backend::cpu});
+    dress(fresh);
+    fresh.renderEye(f, Eye::left);
+    EXPECT_EQ(pixelsThatDiffer(cpu_->readEye(Eye::left), fresh.readEye(Eye::left)), 0u) << what;
+  };
+  expectFresh("first");
+  expectFresh("again");
+  f.X_PT = {glm::angleAxis(1.0, glm::dvec3(1, 0, 0)), {4, -10, 6}};
+  expectFresh("tool moved");
+  f.face_window_mm = 9.0;
+  expectFresh("window opened");
+  f.site_P = {{-6, 0, 2}};
+  expectFresh("window moved");
+  f.layers.gum = false;
+  expectFresh("gum away");
+  f.layers.face_opacity = 0.5f;
+  expectFresh("face faded");
+  f.layers.face_opacity = 1.0f;
+  expectFresh("face back");
+  f.rig.left_eye.mm.x += 3.0;
+  expectFresh("eye moved");
+  f.rig.screen.px = {120, 90};
+  expectFresh("smaller");
+}
+
 TEST_F(CpuScene, DrawsTheSameBitsWithAnyNumberOfThreads) {
   Picture one;
   for (const int threads : {1, 2}) {
