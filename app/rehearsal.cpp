@@ -29,6 +29,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kBurTurnsPerSecond = 7.0;  ///< as drawn: a real bur turns too fast for any display to show
 constexpr int kSnapshotSamples = 2;
+constexpr double kSlowestSmooth_s = 1.0 / 30.0;
 constexpr int kSettled = 4;  ///< pictures without a change of quality
 constexpr double kLongestSettling_s = 3.0;
 constexpr double kStatusEvery_s = 0.5, kLatencyNotedEvery_s = 5.0;
@@ -76,7 +77,7 @@ class Rehearsal {
     display_.emplace(
         displayOf(plan_), [this](render::Backend backend) { return newRenderer(backend); },
         [this](const std::string& line) { tell(line); });
-    ladder_.emplace(1.0 / display_->refresh_Hz(), plan_.quality_step.value_or(0));
+    ladder_.emplace(frameBudget_s(), plan_.quality_step.value_or(0));
     if (choosesQuality() || plan_.quality_step) frame_.quality = ladder_->quality();
     latency_.emplace(display_->refresh_Hz(), plan_.rate_Hz);
     workstation_.emplace(plan_.patient, std::move(hand_.device),
@@ -237,6 +238,12 @@ class Rehearsal {
     ++frames_;
   }
 
+  /// With a graphics card every refresh of the display; without one, what still looks like motion.
+  double frameBudget_s() {
+    const double refresh_s = 1.0 / display_->refresh_Hz();
+    return display_->backend() == render::Backend::cpu ? std::max(refresh_s, kSlowestSmooth_s) : refresh_s;
+  }
+
   bool choosesQuality() { return display_->window() != nullptr && !plan_.quality_step; }
 
   /// Before the hand is there: so many pictures as tell what this machine can.
@@ -274,6 +281,7 @@ class Rehearsal {
     s.drawing_ms = 1000.0 * display_->drawing_s();
     s.pictures_per_s = pictures_per_s_;
     s.refresh_Hz = display_->refresh_Hz();
+    s.budget_ms = 1000.0 * frameBudget_s();
     s.latency = latency_->now();
     s.quality = qualityText();
     s.quality_step = ladder_->step();

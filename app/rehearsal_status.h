@@ -25,6 +25,7 @@ struct RehearsalStatus {
   double drawing_ms = 0.0;  ///< of the newest frame
   double pictures_per_s = 0.0;
   double refresh_Hz = 60.0;
+  double budget_ms = 16.7;  ///< for drawing a frame
   PhotonEstimate latency;
   std::string quality;  ///< the step, in words
   int quality_step = 0;

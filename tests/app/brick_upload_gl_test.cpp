@@ -55,7 +55,8 @@ TEST(BrickUpload, ShowsWhatOneTickCutToBothEyesInTheNextFrame) {
     shown.renderEye(frame, kEyes[e]);
     uncut[e] = shown.readEye(kEyes[e]).rgba;
   }
-  EXPECT_GT(BrickUpload().bring(bone, shown), 0u);
+  BrickUpload upload;
+  EXPECT_GT(upload.bring(bone, shown), 0u);
   EXPECT_EQ(BrickUpload().bring(bone, shown), 0u) << "nothing is brought twice";
   render::FrameRenderer fresh(kGrid, bone.solidInGridOrder(), {});
   for (int e = 0; e < 2; ++e) {
@@ -65,6 +66,13 @@ TEST(BrickUpload, ShowsWhatOneTickCutToBothEyesInTheNextFrame) {
     EXPECT_EQ(cut, fresh.readEye(kEyes[e]).rgba);
     EXPECT_NE(cut, uncut[e]) << "the control: the hole is in sight";
   }
+
+  // After a reset of the graphics card: made from the bone of the start, then all that was ever brought.
+  render::FrameRenderer anew(kGrid, solid, {});
+  upload.bringAgain(bone, anew);
+  anew.renderEye(frame, render::Eye::left);
+  shown.renderEye(frame, render::Eye::left);
+  EXPECT_EQ(anew.readEye(render::Eye::left).rgba, shown.readEye(render::Eye::left).rgba);
 }
 
 }  // namespace
