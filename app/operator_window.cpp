@@ -3,6 +3,8 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
+#include <algorithm>
+#include <deque>
 #include <utility>
 
 #include "render/gpu/gpu_error.h"
@@ -44,8 +46,10 @@ struct OperatorWindow::Impl {
   }
 
   void feed(const render::WindowEvent& event);
+  void feedPending();
 
   render::Window window;
+  std::deque<render::WindowEvent> pending;
   std::vector<render::WindowEvent> keys;
   Clock::time_point drawn{};
 };
@@ -62,6 +66,19 @@ void OperatorWindow::Impl::feed(const render::WindowEvent& event) {
     keys.push_back(event);
 }
 
+/// A click shorter than the time between drawings is still a click: its release waits for the next one.
+void OperatorWindow::Impl::feedPending() {
+  for (const render::WindowEvent& event : window.takeEvents()) pending.push_back(event);
+  bool pressed = false;
+  while (!pending.empty()) {
+    const auto* button = std::get_if<render::ButtonPressed>(&pending.front());
+    if (button != nullptr && !button->down && pressed) return;
+    pressed = pressed || (button != nullptr && button->down);
+    feed(pending.front());
+    pending.pop_front();
+  }
+}
+
 OperatorWindow::OperatorWindow(const render::Window& surgeons, std::optional<int> monitor)
     : impl_(std::make_unique<Impl>(surgeons, monitor)) {}
 
@@ -72,7 +89,7 @@ bool OperatorWindow::isDue() const { return Clock::now() - impl_->drawn >= kBetw
 OperatorWishes OperatorWindow::draw(const RehearsalStatus& status, render::FrameRenderer& renderer,
                                     const render::FrameFence& composed, const Seen& seen) {
   Impl& self = *impl_;
-  for (const render::WindowEvent& event : self.window.takeEvents()) self.feed(event);
+  self.feedPending();
   const Clock::time_point now = Clock::now();
   ImGuiIO& io = ImGui::GetIO();
   io.DeltaTime = std::max(1e-3f, std::chrono::duration<float>(now - self.drawn).count());
