@@ -70,7 +70,7 @@ class Rehearsal {
     if (!plan_.first_snapshot.empty()) first_pictures_.emplace(plan_.first_snapshot, plan_.overwrite);
     frame_ = plan_.first_frame;
     frame_.rig = plan_.rig;
-    frame_.bur_radius_mm = desk_.inForce().tool.head.radius_mm;
+    outlineBur();
     frame_.face_window_mm = plan_.face_window_mm;
     frame_.site_P = {plan_.patient.site.third_molar_P_mm};
     frame_.tool_visible = false;
@@ -208,8 +208,15 @@ class Rehearsal {
     if (const auto wanted = plan_.guide->follow(newest_)) desk_.obey(*wanted);
   }
 
+  void outlineBur() {
+    const haptics::BurShape& head = desk_.inForce().tool.head;
+    frame_.bur_radius_mm = head.radius_mm;
+    frame_.bur_length_mm = head.length_mm;
+    frame_.bur_form = static_cast<assets::BurForm>(head.kind);
+  }
+
   void showBur() {
-    frame_.bur_radius_mm = desk_.inForce().tool.head.radius_mm;
+    outlineBur();
     showInstrument(display_->renderer(), desk_.inForce().tool);
   }
 

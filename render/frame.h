@@ -2,6 +2,7 @@
 // so both eyes see the same instant. Frame W unless named. Render thread.
 #pragma once
 
+#include "assets/instrument.h"
 #include "calibration/geometry/frames.h"
 #include "calibration/geometry/pose.h"
 #include "calibration/rig.h"
@@ -44,6 +45,8 @@ struct Frame {
   calibration::Pose<calibration::Patient, calibration::Tool> X_PT;          ///< the tool as drawn
   calibration::Pose<calibration::Patient, calibration::Tool> X_PT_at_hand;  ///< where the hand is, for the ghost
   double bur_radius_mm = 2.0;
+  assets::BurForm bur_form = assets::BurForm::round;  ///< for the outlines in the slices
+  double bur_length_mm = 0.0;
   double bur_angle_rad = 0.0;  ///< the bur turns while it drills
   bool tool_visible = true;
   double face_window_mm = 0.0;  ///< the face is cut away within this distance of the line eye-to-site; 0: never

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "assets/mesh.h"
@@ -14,6 +15,7 @@
 #include "render/gpu/window_place.h"
 #include "render/picture.h"
 #include "render/render_options.h"
+#include "render/volume/ct_slices.h"
 #include "render/volume/guide_field.h"
 #include "render/volume/occupancy.h"
 
@@ -35,6 +37,8 @@ class FrameRenderer {
   void setInstrument(const assets::MeshModel& instrument_T);
   /// Canal and planned cut, shown as Frame::layers says.
   void setGuides(const Guides& guides);
+  /// Grey values and canal for the CT slices, as scanned. Throws GpuError if they do not fit the volume.
+  void setScan(CtScan scan);
   /// New content of an 8x8x8 brick, i fastest.
   void updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, Occupancy::kBrickValues> solid);
 
@@ -43,6 +47,9 @@ class FrameRenderer {
   void render(const Frame& frame);
   /// Draws one eye alone at the full screen size, for readEye and readDistance.
   void renderEye(const Frame& frame, Eye eye);
+
+  /// A CT slice through the bur of `frame` and the bone as it is now; after setScan().
+  Picture slice(SlicePlane plane, const Frame& frame, int edge_px) const;
 
   /// What was rendered last, from one eye, for showBystander: no second drawing, one pass over its pixels.
   void composeForBystander();
@@ -59,8 +66,11 @@ class FrameRenderer {
   void throwIfError();
 
  private:
+  void layInsets(const Frame& frame, glm::ivec2 eye_px);
+
   std::unique_ptr<WindowUpload> upload_;  ///< of a back-end without OpenGL
   std::unique_ptr<SceneRenderer> scene_;
+  std::optional<CtSlices> slices_;
 };
 
 /// OpenGL clip space from frame P, for those who want to know where a point of the patient lands in the picture.

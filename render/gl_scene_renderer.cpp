@@ -14,6 +14,7 @@
 #include "render/scene/canal_tube.h"
 #include "render/scene/clear_lists.h"
 #include "render/scene/edge_pass.h"
+#include "render/scene/inset_pass.h"
 #include "render/scene/mesh_pass.h"
 #include "render/shaders/shared_numbers.glsl"
 #include "render/volume/bone_mesh.h"
@@ -92,6 +93,13 @@ class GlSceneRenderer final : public SceneRenderer {
     fields_.updateBrick(brick, solid);
   }
 
+  void setInsets(std::vector<Inset> insets) override {
+    insets_.clear();
+    for (const Inset& inset : insets)
+      insets_.push_back({InsetPass::onGpu(inset.picture), inset.first_px, inset.size_px});
+  }
+  const VolumeFields& fields() const override { return fields_; }
+
   void prepare(const Frame& frame) override {
     const bool translucent = frame.mode == ViewMode::dvr;
     const FieldChanges& changes = fields_.prepare(translucent ? visibleFrom(transfer_) : Occupancy::kSolidFrom);
@@ -136,6 +144,8 @@ class GlSceneRenderer final : public SceneRenderer {
   std::optional<SceneMesh> face_, gum_, instrument_, canal_;
   Texture guides_;
   EdgePass edges_;
+  InsetPass inset_pass_;
+  std::vector<InsetPass::Placed> insets_;
   std::array<EyePicture, 3> pictures_;
   Canvas edge_samples_;
   Eye composed_from_ = Eye::cyclopean;
@@ -150,13 +160,14 @@ void GlSceneRenderer::drawEye(const Frame& frame, Eye eye, glm::ivec2 px) {
   to.frame = frame;
   to.drawn = true;
   drawScene(frame, eye, to.canvas);
-  if (samples_ > 1 || frame.quality.antialias == Antialias::none) return;
-
-  // Silhouettes once more, finer.
-  edges_.find(to.canvas.target);
-  edge_samples_.fit(EDGE_SAMPLES * size);
-  drawScene(frame, eye, edge_samples_, Where::edges);
-  edges_.average(edge_samples_.target, to.canvas.target);
+  if (samples_ == 1 && frame.quality.antialias == Antialias::edges) {
+    // Silhouettes once more, finer.
+    edges_.find(to.canvas.target);
+    edge_samples_.fit(EDGE_SAMPLES * size);
+    drawScene(frame, eye, edge_samples_, Where::edges);
+    edges_.average(edge_samples_.target, to.canvas.target);
+  }
+  inset_pass_.draw(insets_, to.canvas.target, samples_);
 }
 
 void GlSceneRenderer::drawScene(const Frame& frame, Eye eye, Canvas& canvas, Where where) {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "assets/mesh.h"
 #include "render/display/eye_projection.h"
@@ -13,11 +14,18 @@
 #include "render/picture.h"
 #include "render/volume/guide_field.h"
 #include "render/volume/occupancy.h"
+#include "render/volume/volume_fields.h"
 
 namespace render {
 
 /// Besides the one or two of the display: what those see who stand by.
 inline constexpr int kBystanderOutput = 2;
+
+/// A small picture laid over every eye at one place, so that it lies on the screen itself.
+struct Inset {
+  Picture picture;
+  glm::ivec2 first_px{0}, size_px{0};  ///< of the eye's picture, from its top left
+};
 
 class SceneRenderer {
  public:
@@ -32,6 +40,10 @@ class SceneRenderer {
   /// A back-end that draws no guides leaves them out.
   virtual void setGuides(const Guides&) {}
   virtual void updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, Occupancy::kBrickValues> solid) = 0;
+
+  /// Laid over the eyes that are drawn from now on.
+  virtual void setInsets(std::vector<Inset> insets) = 0;
+  virtual const VolumeFields& fields() const = 0;
 
   /// Once per frame, before its eyes: what was carved since becomes drawable.
   virtual void prepare(const Frame& frame) = 0;

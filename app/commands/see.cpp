@@ -10,6 +10,8 @@
 
 #include "app/commands/command.h"
 #include "app/patient_guides.h"
+
+#include "app/commands/number_range.h"
 #include "app/picture_option.h"
 #include "app/renderer_choice.h"
 #include "app/usage_error.h"
@@ -31,6 +33,7 @@ struct SeeOptions {
   VolumeOption volume;
   ViewOption view;
   PictureOption picture;
+  std::vector<double> tool_at_mm;
   std::string patient, out, depth, matrices;
   int samples = 2;
   bool bone_only = false, force = false;
@@ -55,6 +58,8 @@ int see(const SeeOptions& options) {
     throw UsageError("see: it needs one of --volume FILE and --patient DIR, give exactly one");
   render::Frame frame;
   options.picture.apply(frame);
+  if (frame.layers.slices && options.patient.empty())
+    throw UsageError("--layers slices: they show a patient's grey values, use --patient");
 
   // Every output is claimed before any work.
   assets::OutputFile out(options.out, options.force);
@@ -75,6 +80,10 @@ int see(const SeeOptions& options) {
   }
   const render::Eye eye = options.view.apply(frame.rig, volume.grid);
   frame.tool_visible = false;
+  if (!options.tool_at_mm.empty())
+    frame.X_PT.translation_mm = {options.tool_at_mm[0], options.tool_at_mm[1], options.tool_at_mm[2]};
+  else if (patient.site.known)
+    frame.X_PT.translation_mm = patient.site.third_molar_P_mm;
 
   std::optional<render::OffscreenContext> context;
   render::RenderOptions how;
@@ -88,6 +97,9 @@ int see(const SeeOptions& options) {
     renderer.setFace(patient.face);
     renderer.setGum(patient.gum);
   }
+  if (frame.layers.slices)
+    renderer.setScan(
+        {std::move(patient.ct.hounsfield), volume.solid, std::move(patient.canal_P_mm), patient.canal_radius_mm});
   renderer.renderEye(frame, eye);
   const render::Picture picture = renderer.readEye(eye);
   const glm::dmat4 clip_from_P = render::clipFromPatient(frame.rig, render::eyeView(frame.rig, eye));
@@ -117,6 +129,10 @@ void addSee(CLI::App& molar, Chosen& chosen) {
   command->add_option("--samples", options->samples, "Rays along each edge of a pixel, 1 to 4")
       ->check(CLI::Range(1, 4))
       ->capture_default_str();
+  command->add_option("--tool-at", options->tool_at_mm, "x,y,z: where slices are taken, mm in P (default: third molar)")
+      ->delimiter(',')
+      ->expected(3)
+      ->check(numberRange(-1e4, 1e4));
   command->add_flag("--bone-only", options->bone_only, "Without face and gum");
   command->add_option("--out", options->out, "Picture, .png")->required();
   command->add_option("--depth", options->depth, "Distances along the rays in mm, .nrrd");

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <thread>
 
 #include "render/cpu/cpu_compositor.h"
@@ -50,6 +51,31 @@ struct StillHits {
   std::vector<MeshHits> tiles;
 };
 
+// IEC 61966-2-1.
+std::array<float, 256> lightOfSrgb() {
+  std::array<float, 256> light;
+  for (std::size_t n = 0; n < light.size(); ++n) {
+    const double srgb = static_cast<double>(n) / 255.0;
+    light[n] = static_cast<float>(srgb > 0.04045 ? std::pow((srgb + 0.055) / 1.055, 2.4) : srgb / 12.92);
+  }
+  return light;
+}
+
+// The canvas holds light as the display will show it.
+void layOver(const Inset& inset, EyeCanvas& canvas) {
+  static const std::array<float, 256> kLight = lightOfSrgb();
+  const glm::ivec2 end = glm::min(inset.first_px + inset.size_px, canvas.px);
+  for (int y = inset.first_px.y; y < end.y; ++y)
+    for (int x = inset.first_px.x; x < end.x; ++x) {
+      const int column = (2 * (x - inset.first_px.x) + 1) * inset.picture.w / (2 * inset.size_px.x);
+      const int row = (2 * (y - inset.first_px.y) + 1) * inset.picture.h / (2 * inset.size_px.y);
+      const std::uint8_t* const from =
+          &inset.picture.rgba[4 * static_cast<std::size_t>(row * inset.picture.w + column)];
+      const std::size_t at = canvas.at(x, y);
+      canvas.r[at] = kLight[from[0]], canvas.g[at] = kLight[from[1]], canvas.b[at] = kLight[from[2]];
+    }
+}
+
 // An eye as last drawn.
 struct DrawnEye {
   StillHits still;
@@ -78,6 +104,9 @@ class CpuSceneRenderer final : public SceneRenderer {
   void updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, Occupancy::kBrickValues> solid) override {
     fields_.updateBrick(brick, solid);
   }
+
+  void setInsets(std::vector<Inset> insets) override { insets_ = std::move(insets); }
+  const VolumeFields& fields() const override { return fields_; }
 
   void prepare(const Frame& frame) override;
   void drawEye(const Frame& frame, Eye eye, glm::ivec2 px) override;
@@ -114,6 +143,7 @@ class CpuSceneRenderer final : public SceneRenderer {
   TransferFunction transfer_;
   OpacityTable opacity_;
   MeshScene meshes_;
+  std::vector<Inset> insets_;
   tbb::enumerable_thread_specific<std::unique_ptr<RayPainter>> painters_{[] { return std::make_unique<RayPainter>(); }};
   std::array<DrawnEye, 3> eyes_;
   std::array<Picture, kBystanderOutput + 1> outputs_;
@@ -187,6 +217,7 @@ void CpuSceneRenderer::drawEye(const Frame& frame, Eye eye, glm::ivec2 px) {
     draw(scene, options_.samples, to.canvas, options_.samples == 1 ? &to.still : nullptr);
     if (options_.samples == 1 && frame.quality.antialias == Antialias::edges) drawEdgesAgain(scene, to.canvas);
   });
+  for (const Inset& inset : insets_) layOver(inset, to.canvas);
 }
 
 void CpuSceneRenderer::draw(const PaintScene& scene, int samples, EyeCanvas& canvas, StillHits* still) {

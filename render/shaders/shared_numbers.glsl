@@ -25,6 +25,7 @@
 #define LAYER_DISTANCE_UNIT 10
 #define EDGE_MASK_UNIT 11
 #define GUIDE_UNIT 12
+#define INSET_UNIT 13
 
 #define POSITION_ATTRIBUTE 0     // vertex attributes
 #define NORMAL_ATTRIBUTE 1

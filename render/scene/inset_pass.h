@@ -1,0 +1,28 @@
+// Lays small pictures over an eye's light, so that the display shows them as they are: their sRGB goes back to light,
+// and through the shoulder. Render thread; a textured rectangle each. Distances stay those of the scene.
+#pragma once
+
+#include <span>
+
+#include "render/gpu/framebuffer.h"
+#include "render/gpu/program.h"
+#include "render/picture.h"
+
+namespace render {
+
+class InsetPass {
+ public:
+  struct Placed {
+    Texture picture;
+    glm::ivec2 first_px{0}, size_px{0};  ///< of the eye's picture, from its top left
+  };
+
+  static Texture onGpu(const Picture& picture);
+  /// `samples`: of the target along each edge of the eye's pixels.
+  void draw(std::span<const Placed> insets, const Framebuffer& target, int samples);
+
+ private:
+  Program program_{"screen.vert", "inset.frag"};
+};
+
+}  // namespace render

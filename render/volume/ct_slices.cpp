@@ -1,0 +1,305 @@
+#include "render/volume/ct_slices.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <string_view>
+
+#include "render/gpu/gpu_error.h"
+#include "render/volume/slice_lettering.h"
+
+namespace render {
+namespace {
+
+constexpr double kLevel_HU = 500.0, kWindow_HU = 2500.0;
+constexpr float kAir_HU = -1000.0f;
+constexpr double kScale_mm = 5.0;
+
+// sRGB 0..255.
+const glm::vec3 kGone{70.0f, 12.0f, 16.0f}, kCanal{250.0f, 205.0f, 60.0f}, kBur{90.0f, 225.0f, 255.0f},
+    kCross{110.0f, 150.0f, 165.0f}, kWords{225.0f, 232.0f, 235.0f};
+
+/// How a plane lies in the volume: its two axes as voxel axes, the sign of each along the picture, and the words.
+struct Layout {
+  int right_axis, down_axis, normal_axis;
+  int down_sign;  // right is always towards larger voxel indices: left, or posterior
+  std::string_view name, left_side, right_side;
+};
+
+Layout layoutOf(SlicePlane plane) {
+  switch (plane) {
+    case SlicePlane::axial:
+      return {0, 1, 2, 1, "AXIAL", "R", "L"};
+    case SlicePlane::coronal:
+      return {0, 2, 1, -1, "CORONAL", "R", "L"};
+    case SlicePlane::sagittal:
+      return {1, 2, 0, -1, "SAGITTAL", "A", "P"};
+  }
+  return {};
+}
+
+/// A picture being painted: rows of RGBA, and where its pixels are in P.
+class Sheet {
+ public:
+  Sheet(const Layout& layout, const glm::dvec3& middle_P_mm, int edge_px)
+      : edge_px_(edge_px), mm_per_px_(CtSlices::kWidth_mm / edge_px), middle_(middle_P_mm), layout_(layout) {
+    picture_.w = picture_.h = edge_px;
+    picture_.rgba.assign(static_cast<std::size_t>(edge_px) * static_cast<std::size_t>(edge_px) * 4, 255);
+  }
+
+  int edge_px() const { return edge_px_; }
+  double mm_per_px() const { return mm_per_px_; }
+  /// Offset of a column or row from the middle, mm: to the right, and downwards.
+  double offset_mm(int pixel) const { return (pixel + 0.5 - 0.5 * edge_px_) * mm_per_px_; }
+  double columnOf(double p_P_mm) const { return (p_P_mm - middle_[layout_.right_axis]) / mm_per_px_ + 0.5 * edge_px_; }
+  double rowOf(double p_P_mm) const {
+    return layout_.down_sign * (p_P_mm - middle_[layout_.down_axis]) / mm_per_px_ + 0.5 * edge_px_;
+  }
+  glm::dvec3 place_P_mm(int x, int y) const {
+    glm::dvec3 p = middle_;
+    p[layout_.right_axis] += offset_mm(x);
+    p[layout_.down_axis] += layout_.down_sign * offset_mm(y);
+    return p;
+  }
+
+  void blend(int x, int y, const glm::vec3& colour, float alpha) {
+    if (alpha <= 0.0f || x < 0 || y < 0 || x >= edge_px_ || y >= edge_px_) return;
+    std::uint8_t* const to = at(x, y);
+    for (int c = 0; c < 3; ++c)
+      to[c] = static_cast<std::uint8_t>(glm::mix(static_cast<float>(to[c]), colour[c], std::min(alpha, 1.0f)) + 0.5f);
+  }
+  void set(int x, int y, const glm::vec3& colour) { blend(x, y, colour, 1.0f); }
+  Picture take() { return std::move(picture_); }
+
+ private:
+  std::uint8_t* at(int x, int y) {
+    return &picture_.rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(edge_px_) +
+                               static_cast<std::size_t>(x))];
+  }
+
+  int edge_px_;
+  double mm_per_px_;
+  glm::dvec3 middle_;
+  Layout layout_;
+  Picture picture_;
+};
+
+/// Two neighbours along an axis and how much of the second; none outside the volume.
+struct Between {
+  int low;
+  float part;
+};
+Between between(double index) {
+  const double low = std::floor(index);
+  return {static_cast<int>(low), static_cast<float>(index - low)};
+}
+
+/// A field of voxels in memory, and what lies outside.
+template <class T>
+struct Voxels {
+  const T* first;
+  glm::i64vec3 stride;
+  float outside;
+};
+
+template <class T>
+Voxels<T> inGridOrder(const assets::VolumeGrid& grid, const std::vector<T>& values, float outside) {
+  return {values.data(), {1, grid.size.x, std::int64_t{grid.size.x} * grid.size.y}, outside};
+}
+
+/// One row of a slice: a volume's values along an axis, mixed from the four rows of voxels around it.
+template <class T>
+void mixRow(const assets::VolumeGrid& grid, const Voxels<T>& voxels, const Layout& layout, Between down, Between normal,
+            std::vector<float>& row) {
+  row.assign(static_cast<std::size_t>(grid.size[layout.right_axis]), 0.0f);
+  const std::int64_t stride = voxels.stride[layout.right_axis];
+  for (int corner = 0; corner < 4; ++corner) {
+    const int j = down.low + (corner & 1), k = normal.low + (corner >> 1);
+    const float weight = (corner & 1 ? down.part : 1.0f - down.part) * (corner >> 1 ? normal.part : 1.0f - normal.part);
+    glm::ivec3 start(0);
+    start[layout.down_axis] = j;
+    start[layout.normal_axis] = k;
+    if (!grid.contains(start)) {
+      for (float& value : row) value += weight * voxels.outside;
+      continue;
+    }
+    const T* from = voxels.first + j * voxels.stride[layout.down_axis] + k * voxels.stride[layout.normal_axis];
+    for (float& value : row) {
+      value += weight * static_cast<float>(*from);
+      from += stride;
+    }
+  }
+}
+
+float along(const std::vector<float>& row, Between at, float outside) {
+  const auto value = [&](int n) {
+    return n < 0 || n >= static_cast<int>(row.size()) ? outside : row[static_cast<std::size_t>(n)];
+  };
+  return glm::mix(value(at.low), value(at.low + 1), at.part);
+}
+
+/// How much of a pixel a line of 1.6 px covers whose middle is that far away.
+float lineCover(double distance_px) { return static_cast<float>(std::clamp(1.3 - std::abs(distance_px), 0.0, 1.0)); }
+
+/// Where a field of distances (mm, one a pixel) crosses zero, as a line.
+void drawOutline(Sheet& sheet, const std::vector<float>& distance_mm, const glm::vec3& colour) {
+  const int edge = sheet.edge_px();
+  const auto at = [&](int x, int y) {
+    return double{
+        distance_mm[static_cast<std::size_t>(y) * static_cast<std::size_t>(edge) + static_cast<std::size_t>(x)]};
+  };
+  for (int y = 0; y < edge; ++y)
+    for (int x = 0; x < edge; ++x) {
+      if (std::abs(at(x, y)) > 6.0 * sheet.mm_per_px()) continue;
+      // A plane that meets the shape at a slant sees its distance rise slowly.
+      const int x0 = std::max(x - 1, 0), x1 = std::min(x + 1, edge - 1), y0 = std::max(y - 1, 0),
+                y1 = std::min(y + 1, edge - 1);
+      const double rise = std::hypot((at(x1, y) - at(x0, y)) / (x1 - x0), (at(x, y1) - at(x, y0)) / (y1 - y0));
+      if (rise > 1e-6) sheet.blend(x, y, colour, lineCover(at(x, y) / rise));
+    }
+}
+
+void drawCanal(Sheet& sheet, const Layout& layout, const glm::dvec3& middle, const CtScan& scan) {
+  const int edge = sheet.edge_px();
+  const double reach_mm = scan.canal_radius_mm + 3.0 * sheet.mm_per_px();
+  std::vector<float> distance_mm(static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge), 1e3f);
+  for (std::size_t n = 0; n + 1 < scan.canal_P_mm.size(); ++n) {
+    const glm::dvec3 a = scan.canal_P_mm[n], b = scan.canal_P_mm[n + 1];
+    const glm::dvec3 low = glm::min(a, b) - reach_mm, high = glm::max(a, b) + reach_mm;
+    if (middle[layout.normal_axis] < low[layout.normal_axis] || middle[layout.normal_axis] > high[layout.normal_axis])
+      continue;
+    const double ya = sheet.rowOf(low[layout.down_axis]), yb = sheet.rowOf(high[layout.down_axis]);
+    const int x0 = std::max(0, static_cast<int>(sheet.columnOf(low[layout.right_axis])));
+    const int x1 = std::min(edge - 1, static_cast<int>(sheet.columnOf(high[layout.right_axis])));
+    const int y0 = std::max(0, static_cast<int>(std::min(ya, yb)));
+    const int y1 = std::min(edge - 1, static_cast<int>(std::max(ya, yb)));
+    const glm::dvec3 way = b - a;
+    const double square = std::max(glm::dot(way, way), 1e-12);
+    for (int y = y0; y <= y1; ++y)
+      for (int x = x0; x <= x1; ++x) {
+        const glm::dvec3 from_a = sheet.place_P_mm(x, y) - a;
+        const double t = std::clamp(glm::dot(from_a, way) / square, 0.0, 1.0);
+        float& nearest = distance_mm[static_cast<std::size_t>(y * edge + x)];
+        nearest = std::min(nearest, static_cast<float>(glm::length(from_a - t * way) - scan.canal_radius_mm));
+      }
+  }
+  drawOutline(sheet, distance_mm, kCanal);
+}
+
+void drawBur(Sheet& sheet, const Frame& frame) {
+  const int edge = sheet.edge_px();
+  const auto X_TP = frame.X_PT.inverse();
+  std::vector<float> distance_mm(static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge));
+  for (int y = 0; y < edge; ++y)
+    for (int x = 0; x < edge; ++x)
+      distance_mm[static_cast<std::size_t>(y * edge + x)] = static_cast<float>(
+          burDistance_mm(frame, (X_TP * calibration::Point<calibration::Patient>{sheet.place_P_mm(x, y)}).mm));
+  drawOutline(sheet, distance_mm, kBur);
+}
+
+/// Thin lines through the middle that leave the bur free.
+void drawCross(Sheet& sheet, double free_mm) {
+  const int middle = sheet.edge_px() / 2;
+  for (int n = 0; n < sheet.edge_px(); ++n) {
+    if (std::abs(sheet.offset_mm(n)) < free_mm) continue;
+    sheet.blend(n, middle, kCross, 0.4f);
+    sheet.blend(middle, n, kCross, 0.4f);
+  }
+}
+
+void drawWord(Sheet& sheet, std::string_view word, int left, int top, int dot_px) {
+  for (const char letter : word) {
+    const LetterDots dots = dotsOf(letter);
+    for (int y = 0; y < kLetterHeight * dot_px; ++y)
+      for (int x = 0; x < kLetterWidth * dot_px; ++x)
+        if (dots[static_cast<std::size_t>(y / dot_px)] >> (kLetterWidth - 1 - x / dot_px) & 1)
+          sheet.set(left + x, top + y, kWords);
+    left += (kLetterWidth + 1) * dot_px;
+  }
+}
+
+void drawWords(Sheet& sheet, const Layout& layout) {
+  const int edge = sheet.edge_px(), dot = std::max(1, edge / 200), gap = 3 * dot + 1;
+  const int high = kLetterHeight * dot, wide = (kLetterWidth + 1) * dot;
+  drawWord(sheet, layout.name, gap, gap, dot);
+  drawWord(sheet, layout.left_side, gap, edge / 2 - high / 2, dot);
+  drawWord(sheet, layout.right_side, edge - gap - wide + dot, edge / 2 - high / 2, dot);
+
+  // The scale, with ends.
+  const int length = static_cast<int>(std::lround(kScale_mm / sheet.mm_per_px()));
+  const int left = edge - gap - length, base = edge - gap - 1;
+  for (int x = left; x <= left + length; ++x)
+    for (int thick = 0; thick < dot; ++thick) sheet.set(x, base - thick, kWords);
+  for (const int x : {left, left + length})
+    for (int y = 0; y < 3 * dot; ++y) sheet.set(x, base - y, kWords);
+  drawWord(sheet, "5 MM", left - 4 * wide - gap + dot, edge - gap - high, dot);
+}
+
+}  // namespace
+
+CtSlices::CtSlices(const assets::VolumeGrid& grid, CtScan scan) : grid_(grid), scan_(std::move(scan)) {
+  if (scan_.solid.size() != grid.voxelCount() || scan_.hounsfield.size() != grid.voxelCount())
+    throw GpuError("scan of " + std::to_string(scan_.hounsfield.size()) + " grey values, CT slices: the volume has " +
+                   std::to_string(grid.voxelCount()) + " voxels, give one value for each");
+}
+
+Picture CtSlices::picture(SlicePlane plane, const Frame& frame, const BorderedField<std::uint8_t>& live,
+                          int edge_px) const {
+  const Layout layout = layoutOf(plane);
+  const glm::dvec3 middle = frame.X_PT.translation_mm;
+  Sheet sheet(layout, middle, edge_px);
+  const Between normal = between(grid_.indexFromPoint(middle)[layout.normal_axis]);
+
+  // Grey values, and what is gone of them.
+  const Voxels<std::int16_t> grey = inGridOrder(grid_, scan_.hounsfield, kAir_HU);
+  const Voxels<std::uint8_t> before = inGridOrder(grid_, scan_.solid, 0.0f);
+  const Voxels<std::uint8_t> now{live.at({0, 0, 0}), {1, live.layout().row, live.layout().slice}, 0.0f};
+  std::vector<float> grey_row, before_row, now_row;
+  for (int y = 0; y < edge_px; ++y) {
+    const Between down = between(grid_.indexFromPoint(sheet.place_P_mm(0, y))[layout.down_axis]);
+    mixRow(grid_, grey, layout, down, normal, grey_row);
+    mixRow(grid_, before, layout, down, normal, before_row);
+    mixRow(grid_, now, layout, down, normal, now_row);
+    for (int x = 0; x < edge_px; ++x) {
+      const Between right = between(grid_.indexFromPoint(sheet.place_P_mm(x, y))[layout.right_axis]);
+      const double shown = (along(grey_row, right, kAir_HU) - kLevel_HU) / kWindow_HU + 0.5;
+      sheet.set(x, y, glm::vec3(static_cast<float>(255.0 * std::clamp(shown, 0.0, 1.0))));
+      const float solid = along(before_row, right, 0.0f);
+      sheet.blend(x, y, kGone, (solid - along(now_row, right, 0.0f)) / std::max(solid, 64.0f));
+    }
+  }
+
+  drawCanal(sheet, layout, middle, scan_);
+  drawCross(sheet, frame.bur_radius_mm + 1.0);
+  drawBur(sheet, frame);
+  drawWords(sheet, layout);
+  return sheet.take();
+}
+
+double burDistance_mm(const Frame& frame, const glm::dvec3& p_T_mm) {
+  const double radius = frame.bur_radius_mm, half = 0.5 * frame.bur_length_mm;
+  const glm::dvec2 p{std::hypot(p_T_mm.x, p_T_mm.y), p_T_mm.z};  // from the axis, along it
+  const auto to_segment = [&p](glm::dvec2 a, glm::dvec2 b) {
+    const glm::dvec2 way = b - a;
+    return glm::length(p - a - std::clamp(glm::dot(p - a, way) / glm::dot(way, way), 0.0, 1.0) * way);
+  };
+  switch (frame.bur_form) {
+    case assets::BurForm::round:
+      return glm::length(p) - radius;
+    case assets::BurForm::capsule:
+      return std::hypot(p.x, p.y - std::clamp(p.y, -half, half)) - radius;
+    case assets::BurForm::cylinder: {
+      const glm::dvec2 out{p.x - radius, std::abs(p.y) - half};
+      return std::min(std::max(out.x, out.y), 0.0) + glm::length(glm::max(out, 0.0));
+    }
+    case assets::BurForm::cone: {
+      const double nearest =
+          std::min(to_segment({0.0, -half}, {radius, half}), to_segment({0.0, half}, {radius, half}));
+      const bool inside = p.y < half && p.x * 2.0 * half < radius * (p.y + half);
+      return inside ? -nearest : nearest;
+    }
+  }
+  return 0.0;
+}
+
+}  // namespace render
