@@ -17,7 +17,7 @@ constexpr double kScale_mm = 5.0;
 
 // sRGB 0..255.
 const glm::vec3 kGone{70.0f, 12.0f, 16.0f}, kCanal{250.0f, 205.0f, 60.0f}, kBur{90.0f, 225.0f, 255.0f},
-    kCross{110.0f, 150.0f, 165.0f}, kWords{225.0f, 232.0f, 235.0f};
+    kCross{110.0f, 150.0f, 165.0f}, kWords{225.0f, 232.0f, 235.0f}, kRim{14.0f, 16.0f, 18.0f};
 
 /// How a plane lies in the volume: its two axes as voxel axes, the sign of each along the picture, and the words.
 struct Layout {
@@ -69,6 +69,10 @@ class Sheet {
       to[c] = static_cast<std::uint8_t>(glm::mix(static_cast<float>(to[c]), colour[c], std::min(alpha, 1.0f)) + 0.5f);
   }
   void set(int x, int y, const glm::vec3& colour) { blend(x, y, colour, 1.0f); }
+  void fill(int left, int top, int width, int height, const glm::vec3& colour) {
+    for (int y = top; y < top + height; ++y)
+      for (int x = left; x < left + width; ++x) set(x, y, colour);
+  }
   Picture take() { return std::move(picture_); }
 
  private:
@@ -207,15 +211,21 @@ void drawCross(Sheet& sheet, double free_mm) {
   }
 }
 
+// On a dark rim, so that it reads on bone too.
 void drawWord(Sheet& sheet, std::string_view word, int left, int top, int dot_px) {
-  for (const char letter : word) {
-    const LetterDots dots = dotsOf(letter);
-    for (int y = 0; y < kLetterHeight * dot_px; ++y)
-      for (int x = 0; x < kLetterWidth * dot_px; ++x)
-        if (dots[static_cast<std::size_t>(y / dot_px)] >> (kLetterWidth - 1 - x / dot_px) & 1)
-          sheet.set(left + x, top + y, kWords);
-    left += (kLetterWidth + 1) * dot_px;
-  }
+  for (const bool rim : {true, false})
+    for (std::size_t n = 0; n < word.size(); ++n) {
+      const LetterDots dots = dotsOf(word[n]);
+      const int from = left + static_cast<int>(n) * (kLetterWidth + 1) * dot_px;
+      for (int y = 0; y < kLetterHeight * dot_px; ++y)
+        for (int x = 0; x < kLetterWidth * dot_px; ++x) {
+          if ((dots[static_cast<std::size_t>(y / dot_px)] >> (kLetterWidth - 1 - x / dot_px) & 1) == 0) continue;
+          if (rim)
+            sheet.fill(from + x - 1, top + y - 1, 3, 3, kRim);
+          else
+            sheet.set(from + x, top + y, kWords);
+        }
+    }
 }
 
 void drawWords(Sheet& sheet, const Layout& layout) {
@@ -228,10 +238,12 @@ void drawWords(Sheet& sheet, const Layout& layout) {
   // The scale, with ends.
   const int length = static_cast<int>(std::lround(kScale_mm / sheet.mm_per_px()));
   const int left = edge - gap - length, base = edge - gap - 1;
-  for (int x = left; x <= left + length; ++x)
-    for (int thick = 0; thick < dot; ++thick) sheet.set(x, base - thick, kWords);
-  for (const int x : {left, left + length})
-    for (int y = 0; y < 3 * dot; ++y) sheet.set(x, base - y, kWords);
+  for (const int rim : {1, 0}) {
+    const glm::vec3& colour = rim ? kRim : kWords;
+    sheet.fill(left - rim, base - dot + 1 - rim, length + 1 + 2 * rim, dot + 2 * rim, colour);
+    for (const int x : {left, left + length})
+      sheet.fill(x - rim, base - 3 * dot + 1 - rim, 1 + 2 * rim, 3 * dot + 2 * rim, colour);
+  }
   drawWord(sheet, "5 MM", left - 4 * wide - gap + dot, edge - gap - high, dot);
 }
 
