@@ -25,7 +25,6 @@ std::unique_ptr<render::FrameRenderer> dressedRenderer(const assets::Patient& pa
   renderer->setFace(patient.face);
   renderer->setGum(patient.gum);
   renderer->setGuides(guidesFor(patient, tool.head.radius_mm));
-
   renderer->setScan({patient.ct.hounsfield, patient.ct.solid, patient.canal_P_mm, patient.canal_radius_mm});
   showInstrument(*renderer, tool);
   return renderer;

@@ -9,9 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/command.h"
-#include "app/patient_guides.h"
-
 #include "app/commands/number_range.h"
+#include "app/patient_guides.h"
 #include "app/picture_option.h"
 #include "app/renderer_choice.h"
 #include "app/usage_error.h"
