@@ -14,6 +14,7 @@
 #include "render/scene/canal_tube.h"
 #include "render/scene/clear_lists.h"
 #include "render/scene/edge_pass.h"
+#include "render/scene/guide_opacity.h"
 #include "render/scene/inset_pass.h"
 #include "render/scene/mesh_pass.h"
 #include "render/shaders/shared_numbers.glsl"
@@ -24,8 +25,6 @@ namespace render {
 namespace {
 
 constexpr std::array kSceneTargets{TexelFormat::rgba16f, TexelFormat::r32f};
-constexpr float kCanalThrough = 0.45f;
-constexpr double kGhostOpacity = 0.4, kGhostFrom_mm = 0.1, kGhostFull_mm = 0.5;  // by how far the hand is from the tool
 constexpr std::array kOutputTargets{TexelFormat::rgba8};
 
 // Rows from bottom first to top first.
@@ -215,15 +214,13 @@ std::vector<GlSceneRenderer::Placed> GlSceneRenderer::meshesOf(const Frame& fram
       meshes.push_back(
           {&*canal_,
            {.view_is_mirrored = mirrored, .opacity = through ? kCanalThrough : 1.0f, .shows_through = through}});
-  const double held_mm = glm::distance(frame.X_PT_at_hand.translation_mm, frame.X_PT.translation_mm);
-  const double ghost =
-      kGhostOpacity * glm::clamp((held_mm - kGhostFrom_mm) / (kGhostFull_mm - kGhostFrom_mm), 0.0, 1.0);
-  if (instrument_ && frame.tool_visible && layers.ghost_tool && ghost > 0.0)
+  const float ghost = ghostOpacity(frame);
+  if (instrument_ && ghost > 0.0f)
     meshes.push_back({&*instrument_,
                       {.P_from_mesh = frame.X_PT_at_hand.matrix(),
                        .bur_angle_rad = frame.bur_angle_rad,
                        .view_is_mirrored = mirrored,
-                       .opacity = static_cast<float>(ghost),
+                       .opacity = ghost,
                        .shows_through = true}});
   return meshes;
 }

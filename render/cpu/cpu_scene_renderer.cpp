@@ -8,6 +8,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <optional>
 #include <thread>
 
 #include "render/cpu/cpu_compositor.h"
@@ -17,6 +18,8 @@
 #include "render/cpu/ray_painter.h"
 #include "render/eye_block.h"
 #include "render/gpu/gpu_error.h"
+#include "render/scene/canal_tube.h"
+#include "render/scene/guide_opacity.h"
 #include "render/shaders/shared_numbers.glsl"
 #include "render/volume/transfer_function.h"
 #include "render/volume/volume_fields.h"
@@ -100,7 +103,9 @@ class CpuSceneRenderer final : public SceneRenderer {
   void setGum(const assets::MeshModel& gum_P) override { meshes_.setModel(MeshScene::Model::gum, gum_P); }
   void setInstrument(const assets::MeshModel& instrument_T) override {
     meshes_.setModel(MeshScene::Model::instrument, instrument_T);
+    meshes_.setModel(MeshScene::Model::ghost, instrument_T);
   }
+  void setGuides(const Guides& guides) override;
   void updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, Occupancy::kBrickValues> solid) override {
     fields_.updateBrick(brick, solid);
   }
@@ -142,6 +147,7 @@ class CpuSceneRenderer final : public SceneRenderer {
   CrowdedBricks crowded_;
   TransferFunction transfer_;
   OpacityTable opacity_;
+  std::optional<BorderedField<std::uint32_t>> guides_;
   MeshScene meshes_;
   std::vector<Inset> insets_;
   tbb::enumerable_thread_specific<std::unique_ptr<RayPainter>> painters_{[] { return std::make_unique<RayPainter>(); }};
@@ -149,6 +155,19 @@ class CpuSceneRenderer final : public SceneRenderer {
   std::array<Picture, kBystanderOutput + 1> outputs_;
   Eye composed_from_ = Eye::cyclopean;
 };
+
+void CpuSceneRenderer::setGuides(const Guides& guides) {
+  const assets::MeshModel tube = canalTube(guides.canal_P_mm, guides.canal_radius_mm);
+  meshes_.setModel(MeshScene::Model::canal, tube);
+  meshes_.setModel(MeshScene::Model::canal_through, tube);
+  const GuideField field(fields_.grid(), guides);
+  guides_.emplace(field.size());
+  std::size_t n = 0;
+  for (int k = 0; k < field.size().z; ++k)
+    for (int j = 0; j < field.size().y; ++j)
+      for (int i = 0; i < field.size().x; ++i, n += 2)
+        *guides_->at({i, j, k}) = field.values()[n] | static_cast<std::uint32_t>(field.values()[n + 1]) << 16;
+}
 
 void CpuSceneRenderer::prepare(const Frame& frame) {
   const EyeBlock any_eye = eyeBlock(frame, eyeView(frame.rig, Eye::cyclopean));
@@ -164,6 +183,10 @@ void CpuSceneRenderer::prepare(const Frame& frame) {
                    .tool_visible = frame.tool_visible,
                    .gum_visible = frame.layers.gum,
                    .face_opacity = frame.layers.face_opacity,
+                   .canal_visible = frame.layers.canal,
+                   .P_from_hand = frame.X_PT_at_hand.matrix(),
+                   .ghost_opacity = ghostOpacity(frame),
+                   .canal_through_opacity = kCanalThrough,
                    .window_eye_P = glm::vec3(any_eye.window_eye_P),
                    .window_site_P = glm::vec3(any_eye.window_site_P),
                    .window_mm = any_eye.window_site_P.w});
@@ -192,6 +215,10 @@ PaintScene CpuSceneRenderer::sceneFor(const Frame& frame, Eye eye) {
                    .row = crowded_.bricks().x,
                    .slice = crowded_.bricks().x * crowded_.bricks().y,
                    .size = crowded_.bricks()};
+  if (guides_) {
+    shade.guides = viewOf(*guides_);
+    shade.shown_guides = (frame.layers.clearance ? GUIDE_CLEARANCE : 0) | (frame.layers.planned_cut ? GUIDE_PLAN : 0);
+  }
   shade.ambient_shade = frame.quality.ambient_occlusion;
   shade.lamp_shadow = frame.quality.lamp_shadow;
   scene.cast = {.eye_index = (glm::vec3(shade.eye.eye_P) - shade.origin_P) / shade.spacing_mm,

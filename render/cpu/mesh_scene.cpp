@@ -67,11 +67,15 @@ float rimDistance(const MeshPlacement& m, const glm::vec3& p) {
   return std::max(glm::length(offset - along * axis) - m.window_mm, along - (reach - 2.0f));
 }
 
-// Embree asks before it takes a hit: the window lets rays through, and layers are noted and passed.
+// What a geometry tells the filter by its user data.
+enum Trait : std::uintptr_t { kPlain = 0, kCut = 1, kOneSided = 2 };
+
+// Embree asks before it takes a hit: the window lets rays through, a guide's inside too, layers are noted and passed.
 void filter(const RTCFilterFunctionNArguments* args) {
   const Query& query = *reinterpret_cast<const Query*>(args->context);
-  const bool may_cut = args->geometryUserPtr != nullptr && query.placement->window_mm > 0.0f;
-  if (!may_cut && query.layers == nullptr) return;
+  const auto trait = reinterpret_cast<std::uintptr_t>(args->geometryUserPtr);
+  const bool may_cut = trait == kCut && query.placement->window_mm > 0.0f, one_sided = trait == kOneSided;
+  if (!may_cut && !one_sided && query.layers == nullptr) return;
   const unsigned n = args->N;
   for (unsigned i = 0; i < n; ++i) {
     if (args->valid[i] == 0) continue;
@@ -86,9 +90,14 @@ void filter(const RTCFilterFunctionNArguments* args) {
         continue;
       }
     }
-    if (query.layers == nullptr) continue;
     const glm::vec3 outward(RTCHitN_Ng_x(args->hit, n, i), RTCHitN_Ng_y(args->hit, n, i),
                             RTCHitN_Ng_z(args->hit, n, i));
+    const bool faces_eye = glm::dot(outward, direction) < 0.0f;
+    if (one_sided && !faces_eye) {
+      args->valid[i] = 0;
+      continue;
+    }
+    if (query.layers == nullptr) continue;
     query.layers->push_back({.ray = static_cast<int>(RTCRayN_id(args->ray, n, i)),
                              .distance_mm = t,
                              .u = RTCHitN_u(args->hit, n, i),
@@ -96,7 +105,7 @@ void filter(const RTCFilterFunctionNArguments* args) {
                              .body = RTCHitN_instID(args->hit, n, i, 0),
                              .part = RTCHitN_geomID(args->hit, n, i),
                              .triangle = RTCHitN_primID(args->hit, n, i),
-                             .faces_eye = glm::dot(outward, direction) < 0.0f});
+                             .faces_eye = faces_eye});
     args->valid[i] = 0;
   }
 }
@@ -107,7 +116,11 @@ Finish finishOf(MeshScene::Model model) {
       return Finish::skin;
     case MeshScene::Model::gum:
       return Finish::gum;
+    case MeshScene::Model::canal:
+    case MeshScene::Model::canal_through:
+      return Finish::guide;
     case MeshScene::Model::instrument:
+    case MeshScene::Model::ghost:
       break;
   }
   return Finish::instrument;
@@ -162,21 +175,22 @@ struct MeshScene::Impl {
   void show(Body& body, unsigned index, RTCScene in);
   Query queryFor(std::vector<Layer>* layers) const;
   void trace(RTCScene in, const RayBatch& rays, const float* limit_mm, MeshHits& hits) const;
-  float opacityOf(const Body& body) const { return body.model == Model::face ? placement.face_opacity : 1.0f; }
+  /// Of the whole model; 0: it is not shown.
+  float opacityOf(const Body& body) const;
   void complain() const;
 
   RTCDevice device = nullptr;
-  RTCScene still = nullptr, moving = nullptr, transparent = nullptr;  ///< the upper scenes
+  RTCScene still = nullptr, moving = nullptr, transparent = nullptr, through = nullptr;  ///< the upper scenes
   std::vector<Body> bodies;
   MeshPlacement placement;
-  bool has_still = false, has_moving = false, has_transparent = false;
+  bool has_still = false, has_moving = false, has_transparent = false, has_through = false;
   std::uint64_t still_revision = 0;
 };
 
 MeshScene::Impl::Impl() : device(rtcNewDevice(nullptr)) {
   if (device == nullptr)
     throw GpuError("no ray tracing of meshes, Embree: this processor or its memory will not do; use --renderer gl");
-  for (RTCScene* scene : {&still, &moving, &transparent}) {
+  for (RTCScene* scene : {&still, &moving, &transparent, &through}) {
     *scene = rtcNewScene(device);
     rtcSetSceneFlags(*scene, RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
     rtcSetSceneBuildQuality(*scene, RTC_BUILD_QUALITY_LOW);
@@ -186,10 +200,13 @@ MeshScene::Impl::Impl() : device(rtcNewDevice(nullptr)) {
 }
 
 MeshScene::Impl::~Impl() {
-  for (const Model model : {Model::face, Model::gum, Model::instrument}) remove(model);
+  for (const Model model :
+       {Model::face, Model::gum, Model::instrument, Model::canal, Model::canal_through, Model::ghost})
+    remove(model);
   rtcReleaseScene(still);
   rtcReleaseScene(moving);
   rtcReleaseScene(transparent);
+  rtcReleaseScene(through);
   rtcReleaseDevice(device);
 }
 
@@ -219,6 +236,24 @@ void MeshScene::Impl::remove(Model model) {
   }
 }
 
+float MeshScene::Impl::opacityOf(const Body& body) const {
+  switch (body.model) {
+    case Model::face:
+      return placement.face_opacity;
+    case Model::gum:
+      return placement.gum_visible ? 1.0f : 0.0f;
+    case Model::instrument:
+      return placement.tool_visible ? 1.0f : 0.0f;
+    case Model::canal:
+      return placement.canal_visible ? 1.0f : 0.0f;
+    case Model::canal_through:
+      return placement.canal_visible ? placement.canal_through_opacity : 0.0f;
+    case Model::ghost:
+      return placement.ghost_opacity;
+  }
+  return 0.0f;
+}
+
 RTCScene MeshScene::Impl::sceneOf(const std::vector<const assets::MeshPart*>& from, Body& body) {
   RTCScene scene = rtcNewScene(device);
   rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
@@ -243,9 +278,8 @@ RTCScene MeshScene::Impl::sceneOf(const std::vector<const assets::MeshPart*>& fr
       kept.triangles.emplace_back(part->triangles[i], part->triangles[i + 1], part->triangles[i + 2]);
     std::ranges::copy(kept.triangles, index);
 
-    // Only its address counts: not null where the window cuts.
-    static char cut_mark;
-    rtcSetGeometryUserData(triangles, kept.is_cut ? &cut_mark : nullptr);
+    const Trait trait = kept.is_cut ? kCut : finishOf(body.model) == Finish::guide ? kOneSided : kPlain;
+    rtcSetGeometryUserData(triangles, reinterpret_cast<void*>(trait));
     rtcCommitGeometry(triangles);
     rtcAttachGeometry(scene, triangles);
     rtcReleaseGeometry(triangles);
@@ -259,7 +293,7 @@ Query MeshScene::Impl::queryFor(std::vector<Layer>* layers) const {
   Query query{.context = {}, .bodies = &bodies, .placement = &placement, .layers = layers};
   rtcInitIntersectContext(&query.context);
   query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  if (layers != nullptr || placement.window_mm > 0.0f) query.context.filter = filter;
+  if (layers != nullptr || placement.window_mm > 0.0f || placement.canal_visible) query.context.filter = filter;
   return query;
 }
 
@@ -301,27 +335,22 @@ void MeshScene::place(const MeshPlacement& placement) {
       placement.window_site_P != before.window_site_P)
     ++m.still_revision;
   m.placement = placement;
-  const glm::dmat4 turned =
-      placement.P_from_tool * glm::rotate(glm::dmat4(1.0), placement.bur_angle_rad, glm::dvec3(0.0, 0.0, 1.0));
-  m.has_still = m.has_moving = m.has_transparent = false;
+  const glm::dmat4 turned = glm::rotate(glm::dmat4(1.0), placement.bur_angle_rad, glm::dvec3(0.0, 0.0, 1.0));
+  m.has_still = m.has_moving = m.has_transparent = m.has_through = false;
   for (std::size_t i = 0; i < m.bodies.size(); ++i) {
     Body& body = m.bodies[i];
     if (body.scene == nullptr) continue;
+    const bool is_through = body.model == Model::canal_through || body.model == Model::ghost;
     const bool is_tool = body.model == Model::instrument;
-    const bool visible = is_tool                    ? placement.tool_visible
-                         : body.model == Model::gum ? placement.gum_visible
-                                                    : placement.face_opacity > 0.0f;
-    const bool is_clear = body.transparent || m.opacityOf(body) < 1.0f;
-    m.show(body, static_cast<unsigned>(i),
-           !visible   ? nullptr
-           : is_clear ? m.transparent
-           : is_tool  ? m.moving
-                      : m.still);
-    m.has_still = m.has_still || (visible && !is_clear && !is_tool);
-    m.has_moving = m.has_moving || (visible && !is_clear && is_tool);
-    m.has_transparent = m.has_transparent || (visible && is_clear);
-    if (!is_tool) continue;
-    const glm::mat4 pose(body.turns ? turned : placement.P_from_tool);
+    const float opacity = m.opacityOf(body);
+    const bool visible = opacity > 0.0f, is_clear = body.transparent || opacity < 1.0f;
+    RTCScene in = is_through ? m.through : is_clear ? m.transparent : is_tool ? m.moving : m.still;
+    m.show(body, static_cast<unsigned>(i), visible ? in : nullptr);
+    if (visible)
+      (is_through ? m.has_through : is_clear ? m.has_transparent : is_tool ? m.has_moving : m.has_still) = true;
+    if (!is_tool && body.model != Model::ghost) continue;
+    const glm::dmat4& held = is_tool ? placement.P_from_tool : placement.P_from_hand;
+    const glm::mat4 pose(body.turns ? held * turned : held);
     body.P_from_mesh = glm::mat3(pose);
     body.pose = glm::mat4x3(pose);
     rtcSetGeometryTransform(body.instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &body.pose);
@@ -330,12 +359,13 @@ void MeshScene::place(const MeshPlacement& placement) {
   rtcCommitScene(m.still);
   rtcCommitScene(m.moving);
   rtcCommitScene(m.transparent);
+  rtcCommitScene(m.through);
   m.complain();
 }
 
 bool MeshScene::hasOpaque() const { return impl_->has_still || impl_->has_moving; }
 std::uint64_t MeshScene::stillRevision() const { return impl_->still_revision; }
-bool MeshScene::hasTransparent() const { return impl_->has_transparent; }
+bool MeshScene::hasTransparent() const { return impl_->has_transparent || impl_->has_through; }
 
 void MeshScene::firstHits(const RayBatch& rays, MeshHits& hits) const {
   stillHits(rays, hits);
@@ -390,16 +420,20 @@ void MeshScene::addSeen(const RayBatch& rays, const MeshHits& hits, const float*
 
 void MeshScene::layers(const RayBatch& rays, const float* limit_mm, MeshPoints& to) const {
   const Impl& m = *impl_;
-  if (!m.has_transparent) return;
   static thread_local std::vector<Layer> met;
   met.clear();
   Query query = m.queryFor(&met);
   alignas(32) RTCRayHit8 packet;
   alignas(32) int valid[kPacket];
-  for (int first = 0; first < rays.count; first += kPacket) {
-    fill(packet, valid, rays, first, limit_mm);
-    rtcIntersect8(valid, m.transparent, &query.context, &packet);
-  }
+  const auto collect = [&](RTCScene in, const float* before_mm) {
+    for (int first = 0; first < rays.count; first += kPacket) {
+      fill(packet, valid, rays, first, before_mm);
+      rtcIntersect8(valid, in, &query.context, &packet);
+    }
+  };
+  if (m.has_transparent) collect(m.transparent, limit_mm);
+  if (m.has_through) collect(m.through, rays.far_mm);
+  if (met.empty()) return;
 
   // Ray by ray from back to front; of two at one place the later in the models' order lies in front.
   std::ranges::sort(met, [](const Layer& a, const Layer& b) {

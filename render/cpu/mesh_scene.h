@@ -22,13 +22,18 @@ struct MeshPlacement {
   double bur_angle_rad = 0.0;
   bool tool_visible = true, gum_visible = true;
   float face_opacity = 1.0f;  ///< 0: no face
+  bool canal_visible = false;
+  glm::dmat4 P_from_hand{1.0};  ///< of the ghost
+  float ghost_opacity = 0.0f;
+  float canal_through_opacity = 0.0f;
   glm::vec3 window_eye_P{0.0f}, window_site_P{0.0f};
   float window_mm = 0.0f;  ///< 0: the face is whole
 };
 
 class MeshScene {
  public:
-  enum class Model { face, gum, instrument };
+  /// `canal` where it lies open and, `_through`, through all that covers it; `ghost`: the instrument at the hand.
+  enum class Model { face, gum, instrument, canal, canal_through, ghost };
 
   /// Throws GpuError if Embree can not be had.
   MeshScene();
@@ -50,7 +55,8 @@ class MeshScene {
   std::uint64_t stillRevision() const;
   /// Adds those hits that are what the ray sees: nothing at `seen_mm[i]` before them.
   void addSeen(const RayBatch& rays, const MeshHits& hits, const float* seen_mm, MeshPoints& to) const;
-  /// Every transparent place before `limit_mm[i]`, ray by ray, each ray's from back to front.
+  /// Every transparent place before `limit_mm[i]`, and what is seen through everything wherever it is; ray by ray, each
+  /// ray's from back to front.
   void layers(const RayBatch& rays, const float* limit_mm, MeshPoints& to) const;
 
  private:

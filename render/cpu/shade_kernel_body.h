@@ -9,6 +9,7 @@
 #include "render/cpu/srgb_pieces.h"
 #include "render/display/eye_projection.h"
 #include "render/shaders/finish.glsl"
+#include "render/shaders/guide_numbers.glsl"
 #include "render/shaders/light_numbers.glsl"
 #include "render/shaders/shared_numbers.glsl"
 
@@ -239,6 +240,73 @@ inline Float3 lookAt(const ShadeScene& scene, const Float3& index, Mask mask, Fl
   return root * root;
 }
 
+// ---- guides.glsl
+
+inline Float fract(Float x) { return x - floor(x); }
+
+// mm to the canal's wall and to the planned cut.
+struct GuideDistances {
+  Float canal, cut;
+};
+
+inline GuideDistances guideDistances(const ShadeScene& scene, const Float3& index, Mask mask) {
+  const FieldView<std::uint32_t>& field = scene.guides;
+  constexpr float kCell = 1.0f / AMBIENT_CELL_VOXELS;
+  const Float3 at = kCell * (index + 0.5f) + 0.5f;
+  const Mask inside = mask & insideBorder(at, field.size);
+  const Int i = toInt(at.x), j = toInt(at.y), k = toInt(at.z);
+  const Float fx = at.x - toFloat(i), fy = at.y - toFloat(j), fz = at.z - toFloat(k);
+  const Int offset = (k * field.slice + j * field.row + i) & inside;
+  const auto row = [&](std::int32_t further) {
+    const IntPair both = gather64<4>(field.border + further, offset);
+    return GuideDistances{mix(toFloat(both.low & 0xffff), toFloat(both.high & 0xffff), fx),
+                          mix(toFloat(shiftRightLogical(both.low, 16)), toFloat(shiftRightLogical(both.high, 16)), fx)};
+  };
+  const GuideDistances a = row(0), b = row(field.row), c = row(field.slice), d = row(field.slice + field.row);
+  const auto distance = [&](Float p, Float q, Float r, Float s) {
+    constexpr float kPerUnit = (GUIDE_HIGH_MM - GUIDE_LOW_MM) / 65535.0f;
+    return GUIDE_LOW_MM +
+           kPerUnit * select(inside, mix(mix(p, q, fy), mix(r, s, fy), fz), splat(0.0f));
+  };
+  return {distance(a.canal, b.canal, c.canal, d.canal), distance(a.cut, b.cut, c.cut, d.cut)};
+}
+
+inline Float lineAt(Float distance_mm, float half_width_mm) {
+  return 1.0f - smoothStep(0.6f * half_width_mm, 1.4f * half_width_mm, absolute(distance_mm));
+}
+
+inline Float3 withClearance(const Float3& albedo, Float mm, const Float3& p_P) {
+  const Float stripes =
+      smoothStep(0.35f, 0.5f, absolute(fract(GUIDE_STRIPES_PER_MM * (p_P.x + p_P.y + p_P.z)) - 0.5f) * 2.0f);
+  const Float3 cell{fract(GUIDE_DOTS_PER_MM * p_P.x) - 0.5f, fract(GUIDE_DOTS_PER_MM * p_P.y) - 0.5f,
+                    fract(GUIDE_DOTS_PER_MM * p_P.z) - 0.5f};
+  const Float dots = 1.0f - smoothStep(0.30f, 0.42f, length(cell));
+  const Float3 band =
+      select(mm < 1.0f, vec3(GUIDE_NEAR_COLOUR), select(mm < 2.0f, vec3(GUIDE_MIDDLE_COLOUR), vec3(GUIDE_FAR_COLOUR)));
+  const Float striped = GUIDE_STRIPE_GAP_COVER + (GUIDE_FULL_COVER - GUIDE_STRIPE_GAP_COVER) * stripes;
+  const Float dotted = GUIDE_DOT_GAP_COVER + (GUIDE_DOT_COVER - GUIDE_DOT_GAP_COVER) * dots;
+  const Float cover =
+      select(mm < 1.0f, splat(GUIDE_FULL_COVER), select(mm < 2.0f, striped, select(mm < 3.0f, dotted, splat(0.0f))));
+  const Float ends = maximum(lineAt(mm - 1.0f, GUIDE_BAND_END),
+                             maximum(lineAt(mm - 2.0f, GUIDE_BAND_END), lineAt(mm - 3.0f, GUIDE_BAND_END)));
+  return select(mm > GUIDE_SHOWN_TO, albedo, mix(mix(albedo, band, cover), 0.25f * band, ends));
+}
+
+inline Float3 withPlan(const Float3& albedo, Float mm) {
+  const Float3 inside =
+      mix(albedo, vec3(GUIDE_PLANNED_COLOUR), GUIDE_PLAN_COVER * (1.0f - smoothStep(-0.05f, 0.05f, mm)));
+  return mix(inside, vec3(GUIDE_RIM_COLOUR), GUIDE_PLAN_RIM_COVER * lineAt(mm, GUIDE_PLAN_RIM));
+}
+
+inline Float3 guided(const ShadeScene& scene, const Float3& albedo, const Float3& index, const Float3& p_P, Mask mask) {
+  if (scene.shown_guides == 0) return albedo;
+  const GuideDistances mm = guideDistances(scene, index, mask);
+  Float3 colour = albedo;
+  if ((scene.shown_guides & GUIDE_CLEARANCE) != 0) colour = withClearance(colour, mm.canal, p_P);
+  if ((scene.shown_guides & GUIDE_PLAN) != 0) colour = withPlan(colour, mm.cut);
+  return colour;
+}
+
 inline Surface tissueSurface(const ShadeScene& scene, const Float3& index, const Float3& normal, const Float3& p_P,
                              Mask mask) {
   Float finish;
@@ -253,6 +321,7 @@ inline Surface tissueSurface(const ShadeScene& scene, const Float3& index, const
     const Float pore = smoothStep(0.42f, 0.68f, noise(2.3f * p_P) * 0.7f + noise(5.7f * p_P) * 0.3f);
     albedo = mix(albedo, vec3(0.36f, 0.09f, 0.07f), 0.75f * pore * marrow);
   }
+  albedo = guided(scene, albedo, index, p_P, mask);
   return {albedo, vec3(shine.y), shine.x, shine.z, albedo};
 }
 
@@ -388,7 +457,10 @@ void meshes(const ShadeScene& scene, const RayBatch& rays, const MeshPoints& poi
     const auto atLeast = [&](float least, Float value) { return select(steel, least + (1.0f - least) * value, value); };
     shade.ambient = atLeast(STEEL_AMBIENT_LEAST, shade.ambient) * select(outside, splat(1.0f), splat(INSIDE_AMBIENT));
     shade.lamp = atLeast(STEEL_LAMP_LEAST, shade.lamp) * select(outside, splat(1.0f), splat(INSIDE_LAMP));
-    put(light, i, lit(scene, s, p_P, normal, -direction, shade));
+    const Float3 shown = lit(scene, s, p_P, normal, -direction, shade);
+    // A guide is lit from everywhere: it is no part of the patient and shows inside the bone.
+    const Float facing = absolute(dot(normal, direction));
+    put(light, i, select(finish == FINISH_GUIDE, (GUIDE_DARKEST + (1.0f - GUIDE_DARKEST) * facing) * base, shown));
   }
 }
 

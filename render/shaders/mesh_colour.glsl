@@ -1,6 +1,7 @@
 // Skin, gum and steel under the light. Both sides are drawn; the face opens around the line from the eye to the operating
 // site.
 #include "part_block.glsl"
+#include "guide_numbers.glsl"
 #include "occlusion.glsl"
 
 layout(location = 0) in vec3 p_P;
@@ -57,7 +58,7 @@ vec4 meshColour() {
   if (finish == FINISH_GUIDE) {
     // Lit from everywhere: it is no part of the patient and shows inside the bone.
     float facing = abs(dot(normal, to_eye));
-    return vec4(base.rgb * (0.25 + 0.75 * facing), base.a);
+    return vec4(base.rgb * mix(GUIDE_DARKEST, 1.0, facing), base.a);
   }
   Shade shade = shadeFromVolume(p_P + MESH_LIFT * normal, normal);
   if (finish == FINISH_INSTRUMENT) {

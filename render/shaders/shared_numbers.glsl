@@ -68,5 +68,5 @@
 
 #define GUIDE_CLEARANCE 1        // guides on the bone, as bits
 #define GUIDE_PLAN 2
-#define GUIDE_LOW_MM -4.0        // what the field of guides holds
-#define GUIDE_HIGH_MM 12.0
+#define GUIDE_LOW_MM -4.0f       // what the field of guides holds
+#define GUIDE_HIGH_MM 12.0f

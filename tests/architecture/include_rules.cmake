@@ -25,8 +25,9 @@ foreach(part volume scene display)
   set(render/${part} ${render_words} render/gpu/ render/${part}/)
 endforeach()
 # The CPU back-end stands beside gpu: of that folder it knows the exception alone.
-set(render/cpu ${render_words} render/gpu/gpu_error.h render/gpu/window_place.h render/cpu/ render/volume/ render/display/ render/scene/finish.h
-    render/eye_block.h render/scene_renderer.h render/render_options.h render/shaders/)
+set(render/cpu ${render_words} render/gpu/gpu_error.h render/gpu/window_place.h render/cpu/ render/volume/ render/display/
+    render/scene/finish.h render/scene/canal_tube.h render/scene/guide_opacity.h render/eye_block.h
+    render/scene_renderer.h render/render_options.h render/shaders/)
 
 # Third parties: a regular expression of what is included, and the folders that may.
 set(third_parties

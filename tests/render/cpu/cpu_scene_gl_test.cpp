@@ -161,6 +161,25 @@ TEST_F(CpuScene, DrawsTheSamePixelsAgainAtEdges) {
   EXPECT_LT(smoothed, plain.rgba.size() / 4 / 10);
 }
 
+TEST_F(CpuScene, ShowsGuidesAsTheShadersDo) {
+  open();
+  Guides guides;
+  guides.canal_P_mm = {{-16, -6, -3}, {-4, -7, -1}, {4, -5, 0}, {16, -6, 2}};
+  guides.cut = PlannedCut{.middle_P_mm = {-4, -7, 4}, .half_length_mm = 3.0, .half_height_mm = 2.0, .radius_mm = 2.0};
+  both([&](FrameRenderer& r) {
+    r.setGuides(guides);
+    r.setInstrument(assets::surgicalHandpiece({}));
+  });
+  Frame f = frame();
+  f.layers.clearance = f.layers.planned_cut = true;
+  EXPECT_LE(between(*gl_, *cpu_, f, Eye::cyclopean).beyond, 2);
+  f.layers.canal = true;
+  f.layers.ghost_tool = f.tool_visible = true;
+  f.X_PT = {glm::angleAxis(1.0, glm::dvec3(1, 0, 0)), {4, -10, 6}};
+  f.X_PT_at_hand = {glm::angleAxis(1.1, glm::dvec3(1, 0, 0)), {2, -4, 5}};
+  EXPECT_LE(between(*gl_, *cpu_, f, Eye::cyclopean).beyond, 6) << "at the rims of the tube and the ghost";
+}
+
 TEST_F(CpuScene, KeepsWhatAStillEyeMeetsAndForgetsItWhenAnythingStillChanges) {
   open();
   const auto dress = [](FrameRenderer& r) {
