@@ -273,14 +273,20 @@ void CpuSceneRenderer::draw(const PaintScene& scene, int samples, EyeCanvas& can
 void CpuSceneRenderer::drawTile(const PaintScene& scene, int samples, glm::ivec2 first, glm::ivec2 end,
                                 RayPainter& painter, EyeCanvas& canvas, MeshHits* still, bool still_is_known) {
   const glm::ivec2 rays = samples * (end - first), from = samples * first, all = samples * canvas.px;
+  std::array<float, kTile> place_x, place_y;
+  for (int x = 0; x < rays.x; ++x)
+    place_x[static_cast<std::size_t>(x)] = (static_cast<float>(from.x + x) + 0.5f) / static_cast<float>(all.x);
+  for (int y = 0; y < rays.y; ++y)
+    place_y[static_cast<std::size_t>(y)] =
+        (static_cast<float>(all.y - 1 - (from.y + y)) + 0.5f) / static_cast<float>(all.y);
   int n = 0;
   std::array<std::uint16_t, RayPainter::kMost> pixel;
   for (int by = 0; by < rays.y; by += kBlock)
     for (int bx = 0; bx < rays.x; bx += kBlock)
       for (int y = by; y < std::min(by + kBlock, rays.y); ++y)
         for (int x = bx; x < std::min(bx + kBlock, rays.x); ++x, ++n) {
-          painter.place_x[n] = (static_cast<float>(from.x + x) + 0.5f) / static_cast<float>(all.x);
-          painter.place_y[n] = (static_cast<float>(all.y - 1 - (from.y + y)) + 0.5f) / static_cast<float>(all.y);
+          painter.place_x[n] = place_x[static_cast<std::size_t>(x)];
+          painter.place_y[n] = place_y[static_cast<std::size_t>(y)];
           pixel[static_cast<std::size_t>(n)] = static_cast<std::uint16_t>((y / samples) * kTile + x / samples);
         }
   painter.paint(scene, n, still, still_is_known);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstddef>
 #include <glm/gtc/matrix_transform.hpp>
 #include <string>
@@ -17,14 +18,8 @@ namespace {
 
 constexpr int kPacket = 8;
 
-/// What a corner of a triangle carries besides its place.
-struct Corner {
-  glm::vec4 normal;
-  glm::vec4 colour;
-};
-
 struct Part {
-  std::vector<Corner> corners;
+  std::vector<glm::vec4> normals, colours;  ///< of the corners; no colours: white
   std::vector<glm::uvec3> triangles;
   assets::Material material;
   bool is_cut = false;
@@ -34,6 +29,8 @@ struct Part {
 struct Body {
   MeshScene::Model model = MeshScene::Model::face;
   bool turns = false, transparent = false;
+  bool is_held = false;  ///< its pose is not the identity
+  RTCBounds bounds{};    ///< in its own frame
   std::vector<Part> parts;
   RTCScene scene = nullptr;
   RTCGeometry instance = nullptr;
@@ -130,10 +127,12 @@ Finish finishOf(MeshScene::Model model) {
 void add(MeshPoints& to, const Body& body, const Part& part, unsigned triangle, float u, float v, int ray, float t,
          bool faces_eye, float opacity) {
   const glm::uvec3 abc = part.triangles[triangle];
-  const Corner &a = part.corners[abc.x], &b = part.corners[abc.y], &c = part.corners[abc.z];
   const float w = 1.0f - u - v;
-  const glm::vec3 normal = body.P_from_mesh * glm::vec3(w * a.normal + u * b.normal + v * c.normal);
-  const glm::vec4 colour = part.material.base_colour * (w * a.colour + u * b.colour + v * c.colour);
+  const auto mixed = [&](const std::vector<glm::vec4>& of) { return w * of[abc.x] + u * of[abc.y] + v * of[abc.z]; };
+  glm::vec3 normal(mixed(part.normals));
+  if (body.is_held) normal = body.P_from_mesh * normal;
+  glm::vec4 colour = part.material.base_colour;
+  if (!part.colours.empty()) colour *= mixed(part.colours);
   const auto n = static_cast<std::size_t>(to.count++);
   to.ray[n] = ray;
   to.distance_mm[n] = t;
@@ -174,6 +173,9 @@ struct MeshScene::Impl {
   RTCScene sceneOf(const std::vector<const assets::MeshPart*>& from, Body& body);
   void show(Body& body, unsigned index, RTCScene in);
   Query queryFor(std::vector<Layer>* layers) const;
+  /// False where no ray comes near the instrument; else the limits become those of the still hits, or zero for such
+  /// rays.
+  bool mayMeetMoving(const RayBatch& rays, float* limit_mm, const MeshHits& hits) const;
   void trace(RTCScene in, const RayBatch& rays, const float* limit_mm, MeshHits& hits) const;
   /// Of the whole model; 0: it is not shown.
   float opacityOf(const Body& body) const;
@@ -269,11 +271,11 @@ RTCScene MeshScene::Impl::sceneOf(const std::vector<const assets::MeshPart*>& fr
     Part& kept = body.parts.emplace_back();
     kept.material = part->material;
     kept.is_cut = finishOf(body.model) == Finish::skin && part->material.metallic < 0.5f;
-    kept.corners.resize(part->position_mm.size());
-    for (std::size_t c = 0; c < kept.corners.size(); ++c)
-      kept.corners[c] = {
-          .normal = glm::vec4(c < part->normal.size() ? part->normal[c] : glm::vec3(0.0f, 0.0f, 1.0f), 0.0f),
-          .colour = c < part->colour.size() ? part->colour[c] : glm::vec4(1.0f)};
+    kept.normals.assign(part->position_mm.size(), glm::vec4(0.0f, 0.0f, 1.0f, 0.0f));
+    for (std::size_t c = 0; c < std::min(kept.normals.size(), part->normal.size()); ++c)
+      kept.normals[c] = glm::vec4(part->normal[c], 0.0f);
+    kept.colours = part->colour;
+    if (!kept.colours.empty()) kept.colours.resize(part->position_mm.size(), glm::vec4(1.0f));
     for (std::size_t i = 0; i + 2 < part->triangles.size(); i += 3)
       kept.triangles.emplace_back(part->triangles[i], part->triangles[i + 1], part->triangles[i + 2]);
     std::ranges::copy(kept.triangles, index);
@@ -285,6 +287,7 @@ RTCScene MeshScene::Impl::sceneOf(const std::vector<const assets::MeshPart*>& fr
     rtcReleaseGeometry(triangles);
   }
   rtcCommitScene(scene);
+  rtcGetSceneBounds(scene, &body.bounds);
   complain();
   return scene;
 }
@@ -351,6 +354,7 @@ void MeshScene::place(const MeshPlacement& placement) {
     if (!is_tool && body.model != Model::ghost) continue;
     const glm::dmat4& held = is_tool ? placement.P_from_tool : placement.P_from_hand;
     const glm::mat4 pose(body.turns ? held * turned : held);
+    body.is_held = true;
     body.P_from_mesh = glm::mat3(pose);
     body.pose = glm::mat4x3(pose);
     rtcSetGeometryTransform(body.instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &body.pose);
@@ -380,8 +384,35 @@ void MeshScene::stillHits(const RayBatch& rays, MeshHits& hits) const {
 void MeshScene::addMovingHits(const RayBatch& rays, MeshHits& hits) const {
   if (!impl_->has_moving) return;
   alignas(64) float limit_mm[RayBatch::kMost];
-  for (int r = 0; r < rays.count; ++r) limit_mm[r] = hits.distance_mm[r] > 0.0f ? hits.distance_mm[r] : rays.far_mm[r];
+  if (!impl_->mayMeetMoving(rays, limit_mm, hits)) return;
   impl_->trace(impl_->moving, rays, limit_mm, hits);
+}
+
+// Rays against the boxes of what moves, in its own frame, where they lie close around a long thin instrument.
+bool MeshScene::Impl::mayMeetMoving(const RayBatch& rays, float* limit_mm, const MeshHits& hits) const {
+  std::fill_n(limit_mm, rays.count, 0.0f);
+  bool any = false;
+  for (const Body& body : bodies) {
+    if (body.scene == nullptr || body.shown_in != moving) continue;
+    const glm::mat3 mesh_from_P = glm::transpose(body.P_from_mesh);
+    const glm::vec3 from = mesh_from_P * (rays.origin_P - glm::vec3(body.pose[3]));
+    const glm::vec3 low = glm::vec3(body.bounds.lower_x, body.bounds.lower_y, body.bounds.lower_z) - 0.01f - from;
+    const glm::vec3 high = glm::vec3(body.bounds.upper_x, body.bounds.upper_y, body.bounds.upper_z) + 0.01f - from;
+    for (int r = 0; r < rays.count; ++r) {
+      const glm::vec3 d = mesh_from_P * glm::vec3(rays.x[r], rays.y[r], rays.z[r]);
+      float near = 0.0f, far = 1e9f;
+      for (int axis = 0; axis < 3; ++axis) {
+        const float inverse = 1.0f / (std::abs(d[axis]) < 1e-9f ? 1e-9f : d[axis]);
+        const float a = low[axis] * inverse, b = high[axis] * inverse;
+        near = std::max(near, std::min(a, b));
+        far = std::min(far, std::max(a, b));
+      }
+      if (near > far) continue;
+      limit_mm[r] = hits.distance_mm[r] > 0.0f ? hits.distance_mm[r] : rays.far_mm[r];
+      any = true;
+    }
+  }
+  return any;
 }
 
 // Writes what is met before the limits and leaves the rest as it is.
@@ -390,6 +421,8 @@ void MeshScene::Impl::trace(RTCScene in, const RayBatch& rays, const float* limi
   alignas(32) RTCRayHit8 packet;
   alignas(32) int valid[kPacket];
   for (int first = 0; first < rays.count; first += kPacket) {
+    const int last = std::min(first + kPacket, rays.count);
+    if (std::all_of(limit_mm + first, limit_mm + last, [](float limit) { return limit <= 0.0f; })) continue;
     fill(packet, valid, rays, first, limit_mm);
     rtcIntersect8(valid, in, &query.context, &packet);
     for (int i = 0; i < kPacket && first + i < rays.count; ++i) {
