@@ -60,7 +60,13 @@ void PictureOption::addTo(CLI::App& command) {
       ->capture_default_str();
 }
 
-std::optional<Backend> PictureOption::backend() const { return kBackends.at(renderer_); }
+std::optional<Backend> PictureOption::backend() const {
+  const std::optional<Backend> asked = kBackends.at(renderer_);
+  if (kModes.at(mode_) != ViewMode::mesh) return asked;
+  if (asked == Backend::cpu)
+    throw UsageError("--mode mesh: the CPU casts rays and draws no triangles of bone, use --renderer gl or --mode iso");
+  return asked.value_or(Backend::gl_fragment);
+}
 
 void PictureOption::apply(render::Frame& frame) const {
   if (kModes.at(mode_) == ViewMode::mesh && kBackends.at(renderer_) == Backend::cpu)

@@ -66,6 +66,7 @@ TEST_F(BadInput, OptionsHaveRanges) {
   expectRefusal(see + " --camera '{}'", "eye_mm");
   expectRefusal(see + " --camera '{\"eye_mm\":[0,0,1],\"look_at_mm\":[0,0,1]}'");
   expectRefusal(see + " --renderer vulkan", "gl-fragment");
+  expectRefusal(see + " --renderer cpu --mode mesh", "--mode iso");
   expectRefusal(see + " --mode solid", "iso");
 }
 
