@@ -62,10 +62,8 @@ void PictureOption::addTo(CLI::App& command) {
 
 std::optional<Backend> PictureOption::backend() const {
   const std::optional<Backend> asked = kBackends.at(renderer_);
-  if (kModes.at(mode_) != ViewMode::mesh) return asked;
-  if (asked == Backend::cpu)
-    throw UsageError("--mode mesh: the CPU casts rays and draws no triangles of bone, use --renderer gl or --mode iso");
-  return asked.value_or(Backend::gl_fragment);
+  // Triangles of bone are OpenGL's.
+  return !asked && kModes.at(mode_) == ViewMode::mesh ? Backend::gl_fragment : asked;
 }
 
 void PictureOption::apply(render::Frame& frame) const {

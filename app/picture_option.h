@@ -21,7 +21,7 @@ class PictureOption {
   explicit PictureOption(render::Antialias antialias = render::Antialias::none);
 
   void addTo(CLI::App& command);
-  /// Empty: what suits the machine. Throws UsageError if the view is not for the renderer.
+  /// Empty: what suits the machine.
   std::optional<render::Backend> backend() const;
   /// View mode, layers and quality. Throws UsageError.
   void apply(render::Frame& frame) const;
