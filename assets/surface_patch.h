@@ -3,7 +3,7 @@
 // belong to its first bricks. So the patches of all bricks part solid from air completely, air being all around. A
 // vertex lies where the trilinear field crosses 0.5 on an edge of the lattice; 127.5 of 255 is no voxel's value, so it
 // never falls on a voxel. Patches that meet have bit-equal vertices there. Frame P, mm; triangles counter-clockwise
-// seen from the air. Any thread; about 6 us for a brick with surface, 1 us without. Not the whole surface
+// seen from the air. Any thread; about 10 us for a brick with surface, 1 us without. Not the whole surface
 // (bone_surface), and without normals: those come from the field, or from all patches together.
 #pragma once
 

@@ -4,6 +4,7 @@
 
 layout(location = POSITION_ATTRIBUTE) in vec3 position_P;
 layout(location = 0) out vec3 p_P;
+invariant gl_Position;
 
 void main() {
   p_P = position_P;

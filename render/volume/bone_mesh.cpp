@@ -58,8 +58,12 @@ void BoneMesh::upload(glm::ivec3 brick) {
 }
 
 void BoneMesh::draw(bool view_is_mirrored) {
-  apply({.depth_test = true, .depth_write = true, .mirrored = view_is_mirrored});
-  program_.use();
+  // Depth first: spongy bone lies in many layers, and light is dear.
+  apply({.mirrored = view_is_mirrored, .write_colour = false, .write_distance = false});
+  depth_.use();
+  pool_->draw();
+  apply({.depth_write = false, .at_same_depth = true, .mirrored = view_is_mirrored});
+  light_.use();
   pool_->draw();
 }
 

@@ -18,7 +18,7 @@ namespace render {
 
 class BoneMesh {
  public:
-  BoneMesh() : program_("bone_mesh.vert", "bone_mesh.frag") {}
+  BoneMesh() : depth_("bone_mesh.vert", "bone_depth.frag"), light_("bone_mesh.vert", "bone_mesh.frag") {}
 
   /// What became of the volume since the last call, whether or not triangles are drawn.
   void note(const FieldChanges& changes);
@@ -29,7 +29,7 @@ class BoneMesh {
  private:
   void upload(glm::ivec3 brick);
 
-  Program program_;
+  Program depth_, light_;
   std::optional<assets::BoneSurface> surface_;
   std::optional<TrianglePool> pool_;
   std::vector<glm::ivec3> changed_;  ///< bricks, some of them twice

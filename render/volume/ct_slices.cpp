@@ -11,9 +11,10 @@
 namespace render {
 namespace {
 
-constexpr double kLevel_HU = 500.0, kWindow_HU = 2500.0;
+constexpr float kLevel_HU = 500.0f, kWindow_HU = 2500.0f;
 constexpr float kAir_HU = -1000.0f;
 constexpr double kScale_mm = 5.0;
+constexpr float kFar_mm = 1e3f;
 
 // sRGB 0..255.
 const glm::vec3 kGone{70.0f, 12.0f, 16.0f}, kCanal{250.0f, 205.0f, 60.0f}, kBur{90.0f, 225.0f, 255.0f},
@@ -68,6 +69,10 @@ class Sheet {
     for (int c = 0; c < 3; ++c)
       to[c] = static_cast<std::uint8_t>(glm::mix(static_cast<float>(to[c]), colour[c], std::min(alpha, 1.0f)) + 0.5f);
   }
+  void setGrey(int x, int y, std::uint8_t grey) {
+    std::uint8_t* const to = at(x, y);
+    to[0] = to[1] = to[2] = grey;
+  }
   void set(int x, int y, const glm::vec3& colour) { blend(x, y, colour, 1.0f); }
   void fill(int left, int top, int width, int height, const glm::vec3& colour) {
     for (int y = top; y < top + height; ++y)
@@ -111,35 +116,33 @@ Voxels<T> inGridOrder(const assets::VolumeGrid& grid, const std::vector<T>& valu
   return {values.data(), {1, grid.size.x, std::int64_t{grid.size.x} * grid.size.y}, outside};
 }
 
-/// One row of a slice: a volume's values along an axis, mixed from the four rows of voxels around it.
+/// One row of a slice: a volume's values along an axis from `first` on, mixed from the four rows of voxels around it.
 template <class T>
 void mixRow(const assets::VolumeGrid& grid, const Voxels<T>& voxels, const Layout& layout, Between down, Between normal,
-            std::vector<float>& row) {
-  row.assign(static_cast<std::size_t>(grid.size[layout.right_axis]), 0.0f);
+            int first, std::vector<float>& row) {
+  std::ranges::fill(row, 0.0f);
+  const int inside_from = std::clamp(-first, 0, static_cast<int>(row.size()));
+  const int inside_to = std::clamp(grid.size[layout.right_axis] - first, inside_from, static_cast<int>(row.size()));
   const std::int64_t stride = voxels.stride[layout.right_axis];
   for (int corner = 0; corner < 4; ++corner) {
     const int j = down.low + (corner & 1), k = normal.low + (corner >> 1);
     const float weight = (corner & 1 ? down.part : 1.0f - down.part) * (corner >> 1 ? normal.part : 1.0f - normal.part);
-    glm::ivec3 start(0);
-    start[layout.down_axis] = j;
-    start[layout.normal_axis] = k;
-    if (!grid.contains(start)) {
-      for (float& value : row) value += weight * voxels.outside;
-      continue;
-    }
-    const T* from = voxels.first + j * voxels.stride[layout.down_axis] + k * voxels.stride[layout.normal_axis];
-    for (float& value : row) {
-      value += weight * static_cast<float>(*from);
-      from += stride;
-    }
+    const bool is_inside = j >= 0 && j < grid.size[layout.down_axis] && k >= 0 && k < grid.size[layout.normal_axis];
+    const int from_n = is_inside ? inside_from : 0, to_n = is_inside ? inside_to : 0;
+    for (int n = 0; n < from_n; ++n) row[static_cast<std::size_t>(n)] += weight * voxels.outside;
+    for (int n = to_n; n < static_cast<int>(row.size()); ++n)
+      row[static_cast<std::size_t>(n)] += weight * voxels.outside;
+    if (!is_inside) continue;
+    const T* from = voxels.first + j * voxels.stride[layout.down_axis] + k * voxels.stride[layout.normal_axis] +
+                    std::int64_t{first + from_n} * stride;
+    for (int n = from_n; n < to_n; ++n, from += stride)
+      row[static_cast<std::size_t>(n)] += weight * static_cast<float>(*from);
   }
 }
 
-float along(const std::vector<float>& row, Between at, float outside) {
-  const auto value = [&](int n) {
-    return n < 0 || n >= static_cast<int>(row.size()) ? outside : row[static_cast<std::size_t>(n)];
-  };
-  return glm::mix(value(at.low), value(at.low + 1), at.part);
+float along(const std::vector<float>& row, Between at) {
+  const auto low = static_cast<std::size_t>(at.low);
+  return glm::mix(row[low], row[low + 1], at.part);
 }
 
 /// How much of a pixel a line of 1.6 px covers whose middle is that far away.
@@ -148,13 +151,14 @@ float lineCover(double distance_px) { return static_cast<float>(std::clamp(1.3 -
 /// Where a field of distances (mm, one a pixel) crosses zero, as a line.
 void drawOutline(Sheet& sheet, const std::vector<float>& distance_mm, const glm::vec3& colour) {
   const int edge = sheet.edge_px();
+  const auto near_mm = static_cast<float>(6.0 * sheet.mm_per_px());
   const auto at = [&](int x, int y) {
     return double{
         distance_mm[static_cast<std::size_t>(y) * static_cast<std::size_t>(edge) + static_cast<std::size_t>(x)]};
   };
   for (int y = 0; y < edge; ++y)
     for (int x = 0; x < edge; ++x) {
-      if (std::abs(at(x, y)) > 6.0 * sheet.mm_per_px()) continue;
+      if (std::abs(distance_mm[static_cast<std::size_t>(y * edge + x)]) > near_mm) continue;
       // A plane that meets the shape at a slant sees its distance rise slowly.
       const int x0 = std::max(x - 1, 0), x1 = std::min(x + 1, edge - 1), y0 = std::max(y - 1, 0),
                 y1 = std::min(y + 1, edge - 1);
@@ -166,7 +170,7 @@ void drawOutline(Sheet& sheet, const std::vector<float>& distance_mm, const glm:
 void drawCanal(Sheet& sheet, const Layout& layout, const glm::dvec3& middle, const CtScan& scan) {
   const int edge = sheet.edge_px();
   const double reach_mm = scan.canal_radius_mm + 3.0 * sheet.mm_per_px();
-  std::vector<float> distance_mm(static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge), 1e3f);
+  std::vector<float> distance_mm(static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge), kFar_mm);
   for (std::size_t n = 0; n + 1 < scan.canal_P_mm.size(); ++n) {
     const glm::dvec3 a = scan.canal_P_mm[n], b = scan.canal_P_mm[n + 1];
     const glm::dvec3 low = glm::min(a, b) - reach_mm, high = glm::max(a, b) + reach_mm;
@@ -191,13 +195,20 @@ void drawCanal(Sheet& sheet, const Layout& layout, const glm::dvec3& middle, con
 }
 
 void drawBur(Sheet& sheet, const Frame& frame) {
-  const int edge = sheet.edge_px();
+  // In T, pixels lie on an even grid around its origin.
   const auto X_TP = frame.X_PT.inverse();
-  std::vector<float> distance_mm(static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge));
-  for (int y = 0; y < edge; ++y)
-    for (int x = 0; x < edge; ++x)
-      distance_mm[static_cast<std::size_t>(y * edge + x)] = static_cast<float>(
-          burDistance_mm(frame, (X_TP * calibration::Point<calibration::Patient>{sheet.place_P_mm(x, y)}).mm));
+  const auto place_T = [&](int x, int y) {
+    return (X_TP * calibration::Point<calibration::Patient>{sheet.place_P_mm(x, y)}).mm;
+  };
+  const glm::dvec3 corner = place_T(0, 0), right = place_T(1, 0) - corner, down = place_T(0, 1) - corner;
+  const int edge = sheet.edge_px();
+  const double reach_mm = std::hypot(frame.bur_radius_mm, 0.5 * frame.bur_length_mm) + 8.0 * sheet.mm_per_px();
+  const int reach = static_cast<int>(std::min(0.5 * edge, reach_mm / sheet.mm_per_px()));
+  std::vector<float> distance_mm(static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge), kFar_mm);
+  for (int y = edge / 2 - reach; y < edge / 2 + reach; ++y)
+    for (int x = edge / 2 - reach; x < edge / 2 + reach; ++x)
+      distance_mm[static_cast<std::size_t>(y * edge + x)] =
+          static_cast<float>(burDistance_mm(frame, corner + double(x) * right + double(y) * down));
   drawOutline(sheet, distance_mm, kBur);
 }
 
@@ -266,18 +277,25 @@ Picture CtSlices::picture(SlicePlane plane, const Frame& frame, const BorderedFi
   const Voxels<std::int16_t> grey = inGridOrder(grid_, scan_.hounsfield, kAir_HU);
   const Voxels<std::uint8_t> before = inGridOrder(grid_, scan_.solid, 0.0f);
   const Voxels<std::uint8_t> now{live.at({0, 0, 0}), {1, live.layout().row, live.layout().slice}, 0.0f};
-  std::vector<float> grey_row, before_row, now_row;
+  const int first = between(grid_.indexFromPoint(sheet.place_P_mm(0, 0))[layout.right_axis]).low;
+  std::vector<Between> columns;
+  for (int x = 0; x < edge_px; ++x) {
+    columns.push_back(between(grid_.indexFromPoint(sheet.place_P_mm(x, 0))[layout.right_axis]));
+    columns.back().low -= first;
+  }
+  const auto length = static_cast<std::size_t>(columns.back().low) + 2;
+  std::vector<float> grey_row(length), before_row(length), now_row(length);
   for (int y = 0; y < edge_px; ++y) {
     const Between down = between(grid_.indexFromPoint(sheet.place_P_mm(0, y))[layout.down_axis]);
-    mixRow(grid_, grey, layout, down, normal, grey_row);
-    mixRow(grid_, before, layout, down, normal, before_row);
-    mixRow(grid_, now, layout, down, normal, now_row);
+    mixRow(grid_, grey, layout, down, normal, first, grey_row);
+    mixRow(grid_, before, layout, down, normal, first, before_row);
+    mixRow(grid_, now, layout, down, normal, first, now_row);
     for (int x = 0; x < edge_px; ++x) {
-      const Between right = between(grid_.indexFromPoint(sheet.place_P_mm(x, y))[layout.right_axis]);
-      const double shown = (along(grey_row, right, kAir_HU) - kLevel_HU) / kWindow_HU + 0.5;
-      sheet.set(x, y, glm::vec3(static_cast<float>(255.0 * std::clamp(shown, 0.0, 1.0))));
-      const float solid = along(before_row, right, 0.0f);
-      sheet.blend(x, y, kGone, (solid - along(now_row, right, 0.0f)) / std::max(solid, 64.0f));
+      const Between right = columns[static_cast<std::size_t>(x)];
+      const float shown = (along(grey_row, right) - kLevel_HU) / kWindow_HU + 0.5f;
+      sheet.setGrey(x, y, static_cast<std::uint8_t>(255.0f * std::clamp(shown, 0.0f, 1.0f) + 0.5f));
+      const float solid = along(before_row, right), gone = solid - along(now_row, right);
+      if (gone > 0.0f) sheet.blend(x, y, kGone, gone / std::max(solid, 64.0f));
     }
   }
 
