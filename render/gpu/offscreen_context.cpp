@@ -17,21 +17,29 @@ bool hasClientExtension(const std::string& name) {
   return all != nullptr && std::string(all).find(name) != std::string::npos;
 }
 
-// Displays worth trying, best first.
+bool isSoftware(EGLDeviceEXT device) {
+  const char* all = eglQueryDeviceStringEXT(device, EGL_EXTENSIONS);
+  return all != nullptr && std::string(all).find("EGL_MESA_device_software") != std::string::npos;
+}
+
+// Displays worth trying, best first: graphics cards, then Mesa without one, then whatever is there.
 std::vector<EGLDisplay> candidateDisplays() {
-  std::vector<EGLDisplay> displays;
+  std::vector<EGLDisplay> cards, others;
   if (hasClientExtension("EGL_MESA_platform_surfaceless"))
-    displays.push_back(eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
+    others.push_back(eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
   if (hasClientExtension("EGL_EXT_platform_device") && hasClientExtension("EGL_EXT_device_enumeration")) {
     std::array<EGLDeviceEXT, 8> devices{};
     EGLint count = 0;
     if (eglQueryDevicesEXT(static_cast<EGLint>(devices.size()), devices.data(), &count))
-      for (EGLint i = 0; i < count; ++i)
-        displays.push_back(
-            eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[static_cast<std::size_t>(i)], nullptr));
+      for (EGLint i = 0; i < count; ++i) {
+        const EGLDeviceEXT device = devices[static_cast<std::size_t>(i)];
+        (isSoftware(device) ? others : cards)
+            .push_back(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr));
+      }
   }
-  displays.push_back(eglGetDisplay(EGL_DEFAULT_DISPLAY));
-  return displays;
+  others.push_back(eglGetDisplay(EGL_DEFAULT_DISPLAY));
+  cards.insert(cards.end(), others.begin(), others.end());
+  return cards;
 }
 
 // An OpenGL 4.5 core context current without a surface, or EGL_NO_CONTEXT.

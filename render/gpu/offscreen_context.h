@@ -1,5 +1,6 @@
-// An OpenGL 4.5 core context without window or X: EGL on Mesa's surfaceless platform, else on the first EGL device,
-// else on the default display. Current on the constructing thread from construction to destruction. Cost: some ten ms.
+// An OpenGL 4.5 core context without window or X: EGL on the first graphics card it can be had on, else on Mesa's
+// surfaceless platform, else on the default display. Current on the constructing thread from construction to
+// destruction. Cost: some ten ms.
 // Not for quad-buffered stereo.
 #pragma once
 
