@@ -74,6 +74,7 @@ class Rehearsal {
     frame_.face_window_mm = plan_.face_window_mm;
     frame_.site_P = {plan_.patient.site.third_molar_P_mm};
     frame_.tool_visible = false;
+    frame_.X_PT.translation_mm = frame_.site_P.mm;
     display_.emplace(
         displayOf(plan_), [this](render::Backend backend) { return newRenderer(backend); },
         [this](const std::string& line) { tell(line); });

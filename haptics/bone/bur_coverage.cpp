@@ -177,12 +177,16 @@ double BurCoverage::beyondFaces(const glm::dvec3& p_T) const {
 }
 
 VoxelShare BurCoverage::shareAt(glm::ivec3 ijk) const {
-  if (parts == 1) return shareOfPart(*this, placeOf(ijk));
+  const glm::dvec3 place = placeOf(ijk);
+  if (parts == 1) return shareOfPart(*this, place);
+  const double beyond = beyondFaces(place);
+  if (beyond >= voxel_reach) return {};
+  if (beyond <= -voxel_reach) return {1.0, place};
   VoxelShare sum;
   for (int part = 0; part < parts * parts * parts; ++part) {
     const glm::dvec3 at{part % parts, part / parts % parts, part / (parts * parts)};
     const glm::dvec3 offset = (at + 0.5) / static_cast<double>(parts) - 0.5;
-    const VoxelShare share = shareOfPart(*this, placeOf(ijk) + to_T * offset);
+    const VoxelShare share = shareOfPart(*this, place + to_T * offset);
     sum.fraction += share.fraction;
     sum.moment += share.moment;
   }

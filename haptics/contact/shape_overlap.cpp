@@ -221,13 +221,16 @@ class BlockSums {
   HeadSums sumInParts(const HeadBlock& block, glm::ivec3 corner) const {
     Sums sums;
     for (int n = 0; n < kBlockVoxels; ++n) {
+      const double w = block.solid[n];
+      const bool rises = block.rise[0] != nullptr && (block.rise[0][n] | block.rise[1][n] | block.rise[2][n]) != 0;
+      if (w == 0.0 && !rises) continue;
       const VoxelShare share = bur_.shareAt(corner + glm::ivec3(n & 3, n >> 2 & 3, n >> 4));
-      const double w = block.solid[n], covered = w * share.fraction;
+      const double covered = w * share.fraction;
       sums.volume += covered;
       sums.grey += covered * (255.0 - w);
       sums.stiff += covered * (block.factor != nullptr ? block.factor[n] : block.only_factor);
       sums.moment_T += w * share.moment;
-      if (block.rise[0] == nullptr) continue;
+      if (!rises) continue;
       for (int axis = 0; axis < 3; ++axis) sums.rise_index[axis] += share.fraction * block.rise[axis][n];
     }
     const glm::vec3 moment(sums.moment_T), rise(sums.rise_index);

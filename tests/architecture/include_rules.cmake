@@ -41,7 +41,7 @@ set(third_parties
   "GLFW/" "render|app"
   "embree3/" "render"
   "epoxy/" "render"
-  "CLI/|spdlog/|fmt/|imgui|SQLiteCpp/|sqlite3|zstd|openssl/|portaudio|sndfile" "app")
+  "CLI/|spdlog/|fmt/|imgui|backends/imgui|SQLiteCpp/|sqlite3|zstd|openssl/|portaudio|sndfile" "app")
 set(operating_system
   "^(sys/[a-z]+|unistd|fcntl|pthread|sched|signal|spawn|time|poll|dlfcn|termios|immintrin|x86intrin)\\.h$")
 
