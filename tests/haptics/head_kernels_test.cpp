@@ -7,8 +7,8 @@
 #include <optional>
 #include <random>
 
-#include "haptics/bone/bur_coverage.h"
 #include "assets/instruction_set.h"
+#include "haptics/bone/bur_coverage.h"
 
 namespace haptics {
 namespace {
