@@ -126,7 +126,13 @@ class GlSceneRenderer final : public SceneRenderer {
     const SceneMesh* mesh;
     MeshPass::Placement placement;
   };
-  std::vector<Placed> meshesOf(const Frame& frame, bool mirrored) const;
+  struct PlacedMeshes {
+    std::vector<Placed> outside;  ///< face and instrument
+    std::vector<Placed> inside;   ///< gum and the open canal
+    std::vector<Placed> through;  ///< guides that are seen through bone and gum, behind nothing outside
+    bool anyTransparent() const;
+  };
+  PlacedMeshes meshesOf(const Frame& frame, bool mirrored) const;
   void drawScene(const Frame& frame, Eye eye, Canvas& canvas, Where where = Where::everywhere);
 
   int samples_;
@@ -183,45 +189,57 @@ void GlSceneRenderer::drawScene(const Frame& frame, Eye eye, Canvas& canvas, Whe
   background_.use();
   drawScreen();
 
-  // Opaque meshes, then the volume between them, then what lets it shine through.
-  const std::vector<Placed> meshes = meshesOf(frame, view.mirrored);
-  for (const Placed& placed : meshes) meshes_.draw(*placed.mesh, MeshPass::Parts::opaque, placed.placement);
+  const PlacedMeshes meshes = meshesOf(frame, view.mirrored);
+  const auto draw = [this](const std::vector<Placed>& placed, MeshPass::Parts parts) {
+    for (const Placed& p : placed) meshes_.draw(*p.mesh, parts, p.placement);
+  };
+  const bool any_transparent = meshes.anyTransparent();
+  if (any_transparent) canvas.clear.begin(target.size());
+
+  // Opaque meshes, and before the depth of bone and gum is known, what is seen through these; the volume between the
+  // meshes; then what lets it shine through.
+  draw(meshes.outside, MeshPass::Parts::opaque);
+  draw(meshes.through, MeshPass::Parts::transparent);
+  draw(meshes.inside, MeshPass::Parts::opaque);
   if (frame.mode == ViewMode::mesh)
     bone_mesh_->draw(view.mirrored);
   else
     caster_.draw(canvas.layer, target);
-  const bool any_transparent = std::ranges::any_of(
-      meshes, [](const Placed& p) { return MeshPass::hasTransparent(*p.mesh, p.placement.opacity); });
   if (!any_transparent) return;
-  canvas.clear.begin(target.size());
-  for (const Placed& placed : meshes) meshes_.draw(*placed.mesh, MeshPass::Parts::transparent, placed.placement);
+  draw(meshes.outside, MeshPass::Parts::transparent);
+  draw(meshes.inside, MeshPass::Parts::transparent);
   canvas.clear.layOver(target);
 }
 
-std::vector<GlSceneRenderer::Placed> GlSceneRenderer::meshesOf(const Frame& frame, bool mirrored) const {
-  std::vector<Placed> meshes;
+bool GlSceneRenderer::PlacedMeshes::anyTransparent() const {
+  return std::ranges::any_of(std::array{&outside, &inside, &through}, [](const std::vector<Placed>* placed) {
+    return std::ranges::any_of(*placed,
+                               [](const Placed& p) { return MeshPass::hasTransparent(*p.mesh, p.placement.opacity); });
+  });
+}
+
+GlSceneRenderer::PlacedMeshes GlSceneRenderer::meshesOf(const Frame& frame, bool mirrored) const {
+  PlacedMeshes meshes;
   const Layers& layers = frame.layers;
-  if (face_) meshes.push_back({&*face_, {.view_is_mirrored = mirrored, .opacity = layers.face_opacity}});
+  if (face_) meshes.outside.push_back({&*face_, {.view_is_mirrored = mirrored, .opacity = layers.face_opacity}});
   if (instrument_ && frame.tool_visible)
-    meshes.push_back(
+    meshes.outside.push_back(
         {&*instrument_,
          {.P_from_mesh = frame.X_PT.matrix(), .bur_angle_rad = frame.bur_angle_rad, .view_is_mirrored = mirrored}});
-  if (gum_ && layers.gum) meshes.push_back({&*gum_, {.view_is_mirrored = mirrored}});
+  if (gum_ && layers.gum) meshes.inside.push_back({&*gum_, {.view_is_mirrored = mirrored}});
 
-  // Guides: the canal where it is open, and faintly through all that covers it; the hand where the bone holds the tool.
-  if (canal_ && layers.canal)
-    for (const bool through : {false, true})
-      meshes.push_back(
-          {&*canal_,
-           {.view_is_mirrored = mirrored, .opacity = through ? kCanalThrough : 1.0f, .shows_through = through}});
+  // Guides: the canal where it is open, and faintly where it is not; the hand where the bone holds the tool.
+  if (canal_ && layers.canal) {
+    meshes.inside.push_back({&*canal_, {.view_is_mirrored = mirrored}});
+    meshes.through.push_back({&*canal_, {.view_is_mirrored = mirrored, .opacity = kCanalThrough}});
+  }
   const float ghost = ghostOpacity(frame);
   if (instrument_ && ghost > 0.0f)
-    meshes.push_back({&*instrument_,
-                      {.P_from_mesh = frame.X_PT_at_hand.matrix(),
-                       .bur_angle_rad = frame.bur_angle_rad,
-                       .view_is_mirrored = mirrored,
-                       .opacity = ghost,
-                       .shows_through = true}});
+    meshes.through.push_back({&*instrument_,
+                              {.P_from_mesh = frame.X_PT_at_hand.matrix(),
+                               .bur_angle_rad = frame.bur_angle_rad,
+                               .view_is_mirrored = mirrored,
+                               .opacity = ghost}});
   return meshes;
 }
 

@@ -37,8 +37,7 @@ class SceneRenderer {
   virtual void setFace(const assets::MeshModel& face_P) = 0;
   virtual void setGum(const assets::MeshModel& gum_P) = 0;
   virtual void setInstrument(const assets::MeshModel& instrument_T) = 0;
-  /// A back-end that draws no guides leaves them out.
-  virtual void setGuides(const Guides&) {}
+  virtual void setGuides(const Guides& guides) = 0;
   virtual void updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, Occupancy::kBrickValues> solid) = 0;
 
   /// Laid over the eyes that are drawn from now on.

@@ -35,6 +35,7 @@ struct Body {
   RTCScene scene = nullptr;
   RTCGeometry instance = nullptr;
   RTCScene shown_in = nullptr;  ///< the upper scene that holds the instance now
+  bool covers = false;          ///< … and `covers` too
   glm::mat3 P_from_mesh{1.0f};
   glm::mat4x3 pose{1.0f};
 };
@@ -172,6 +173,9 @@ struct MeshScene::Impl {
   void remove(Model model);
   RTCScene sceneOf(const std::vector<const assets::MeshPart*>& from, Body& body);
   void show(Body& body, unsigned index, RTCScene in);
+  void cover(Body& body, unsigned index, bool covers_guides);
+  /// Takes away the layers from `first` on that the face or the instrument hides.
+  void dropCovered(const RayBatch& rays, std::vector<Layer>& layers, std::size_t first) const;
   Query queryFor(std::vector<Layer>* layers) const;
   /// False where no ray comes near the instrument; else the limits become those of the still hits, or zero for such
   /// rays.
@@ -183,6 +187,7 @@ struct MeshScene::Impl {
 
   RTCDevice device = nullptr;
   RTCScene still = nullptr, moving = nullptr, transparent = nullptr, through = nullptr;  ///< the upper scenes
+  RTCScene covers = nullptr;  ///< once more what hides the guides that are seen through bone, while there are any
   std::vector<Body> bodies;
   MeshPlacement placement;
   bool has_still = false, has_moving = false, has_transparent = false, has_through = false;
@@ -192,7 +197,7 @@ struct MeshScene::Impl {
 MeshScene::Impl::Impl() : device(rtcNewDevice(nullptr)) {
   if (device == nullptr)
     throw GpuError("no ray tracing of meshes, Embree: this processor or its memory will not do; use --renderer gl");
-  for (RTCScene* scene : {&still, &moving, &transparent, &through}) {
+  for (RTCScene* scene : {&still, &moving, &transparent, &through, &covers}) {
     *scene = rtcNewScene(device);
     rtcSetSceneFlags(*scene, RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
     rtcSetSceneBuildQuality(*scene, RTC_BUILD_QUALITY_LOW);
@@ -209,6 +214,7 @@ MeshScene::Impl::~Impl() {
   rtcReleaseScene(moving);
   rtcReleaseScene(transparent);
   rtcReleaseScene(through);
+  rtcReleaseScene(covers);
   rtcReleaseDevice(device);
 }
 
@@ -226,12 +232,22 @@ void MeshScene::Impl::show(Body& body, unsigned index, RTCScene in) {
   body.shown_in = in;
 }
 
+void MeshScene::Impl::cover(Body& body, unsigned index, bool covers_guides) {
+  if (body.covers == covers_guides) return;
+  if (covers_guides)
+    rtcAttachGeometryByID(covers, body.instance, index);
+  else
+    rtcDetachGeometry(covers, index);
+  body.covers = covers_guides;
+}
+
 // Bodies keep their places in the list, which are their numbers in the upper scenes; an emptied one is used again.
 void MeshScene::Impl::remove(Model model) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     Body& body = bodies[i];
     if (body.model != model || body.scene == nullptr) continue;
     show(body, static_cast<unsigned>(i), nullptr);
+    cover(body, static_cast<unsigned>(i), false);
     rtcReleaseGeometry(body.instance);
     rtcReleaseScene(body.scene);
     body = Body{};
@@ -339,6 +355,7 @@ void MeshScene::place(const MeshPlacement& placement) {
     ++m.still_revision;
   m.placement = placement;
   const glm::dmat4 turned = glm::rotate(glm::dmat4(1.0), placement.bur_angle_rad, glm::dvec3(0.0, 0.0, 1.0));
+  const bool guided = placement.canal_visible || placement.ghost_opacity > 0.0f;
   m.has_still = m.has_moving = m.has_transparent = m.has_through = false;
   for (std::size_t i = 0; i < m.bodies.size(); ++i) {
     Body& body = m.bodies[i];
@@ -349,6 +366,7 @@ void MeshScene::place(const MeshPlacement& placement) {
     const bool visible = opacity > 0.0f, is_clear = body.transparent || opacity < 1.0f;
     RTCScene in = is_through ? m.through : is_clear ? m.transparent : is_tool ? m.moving : m.still;
     m.show(body, static_cast<unsigned>(i), visible ? in : nullptr);
+    m.cover(body, static_cast<unsigned>(i), guided && visible && !is_clear && (is_tool || body.model == Model::face));
     if (visible)
       (is_through ? m.has_through : is_clear ? m.has_transparent : is_tool ? m.has_moving : m.has_still) = true;
     if (!is_tool && body.model != Model::ghost) continue;
@@ -364,6 +382,7 @@ void MeshScene::place(const MeshPlacement& placement) {
   rtcCommitScene(m.moving);
   rtcCommitScene(m.transparent);
   rtcCommitScene(m.through);
+  rtcCommitScene(m.covers);
   m.complain();
 }
 
@@ -413,6 +432,22 @@ bool MeshScene::Impl::mayMeetMoving(const RayBatch& rays, float* limit_mm, const
     }
   }
   return any;
+}
+
+void MeshScene::Impl::dropCovered(const RayBatch& rays, std::vector<Layer>& layers, std::size_t first) const {
+  if (layers.size() == first) return;
+  static thread_local MeshHits cover_hits;
+  alignas(64) float limit_mm[RayBatch::kMost];
+  std::fill_n(limit_mm, rays.count, 0.0f);
+  std::fill_n(cover_hits.distance_mm, rays.count, 0.0f);
+  for (std::size_t n = first; n < layers.size(); ++n)
+    limit_mm[layers[n].ray] = std::max(limit_mm[layers[n].ray], layers[n].distance_mm);
+  trace(covers, rays, limit_mm, cover_hits);
+  std::erase_if(layers, [&](const Layer& layer) {
+    const bool is_guide = bodies[layer.body].shown_in == through;
+    const float cover_mm = cover_hits.distance_mm[layer.ray];
+    return is_guide && cover_mm > 0.0f && cover_mm < layer.distance_mm;
+  });
 }
 
 // Writes what is met before the limits and leaves the rest as it is.
@@ -465,7 +500,9 @@ void MeshScene::layers(const RayBatch& rays, const float* limit_mm, MeshPoints& 
     }
   };
   if (m.has_transparent) collect(m.transparent, limit_mm);
+  const std::size_t covered_from = met.size();
   if (m.has_through) collect(m.through, rays.far_mm);
+  m.dropCovered(rays, met, covered_from);
   if (met.empty()) return;
 
   // Ray by ray from back to front; of two at one place the later in the models' order lies in front.

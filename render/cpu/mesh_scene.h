@@ -32,7 +32,7 @@ struct MeshPlacement {
 
 class MeshScene {
  public:
-  /// `canal` where it lies open and, `_through`, through all that covers it; `ghost`: the instrument at the hand.
+  /// `canal` where it lies open and, `_through`, through bone and gum; `ghost`: the instrument at the hand, likewise.
   enum class Model { face, gum, instrument, canal, canal_through, ghost };
 
   /// Throws GpuError if Embree can not be had.
@@ -55,8 +55,8 @@ class MeshScene {
   std::uint64_t stillRevision() const;
   /// Adds those hits that are what the ray sees: nothing at `seen_mm[i]` before them.
   void addSeen(const RayBatch& rays, const MeshHits& hits, const float* seen_mm, MeshPoints& to) const;
-  /// Every transparent place before `limit_mm[i]`, and what is seen through everything wherever it is; ray by ray, each
-  /// ray's from back to front.
+  /// Every transparent place before `limit_mm[i]`, and of what is seen through bone and gum all that lies before the
+  /// opaque face and instrument; ray by ray, each ray's from back to front.
   void layers(const RayBatch& rays, const float* limit_mm, MeshPoints& to) const;
 
  private:

@@ -265,8 +265,7 @@ inline GuideDistances guideDistances(const ShadeScene& scene, const Float3& inde
   const GuideDistances a = row(0), b = row(field.row), c = row(field.slice), d = row(field.slice + field.row);
   const auto distance = [&](Float p, Float q, Float r, Float s) {
     constexpr float kPerUnit = (GUIDE_HIGH_MM - GUIDE_LOW_MM) / 65535.0f;
-    return GUIDE_LOW_MM +
-           kPerUnit * select(inside, mix(mix(p, q, fy), mix(r, s, fy), fz), splat(0.0f));
+    return GUIDE_LOW_MM + kPerUnit * select(inside, mix(mix(p, q, fy), mix(r, s, fy), fz), splat(0.0f));
   };
   return {distance(a.canal, b.canal, c.canal, d.canal), distance(a.cut, b.cut, c.cut, d.cut)};
 }
@@ -296,6 +295,10 @@ inline Float3 withPlan(const Float3& albedo, Float mm) {
   const Float3 inside =
       mix(albedo, vec3(GUIDE_PLANNED_COLOUR), GUIDE_PLAN_COVER * (1.0f - smoothStep(-0.05f, 0.05f, mm)));
   return mix(inside, vec3(GUIDE_RIM_COLOUR), GUIDE_PLAN_RIM_COVER * lineAt(mm, GUIDE_PLAN_RIM));
+}
+
+inline Float3 planned(const ShadeScene& scene, const Float3& albedo, const Float3& index, Mask mask) {
+  return (scene.shown_guides & GUIDE_PLAN) == 0 ? albedo : withPlan(albedo, guideDistances(scene, index, mask).cut);
 }
 
 inline Float3 guided(const ShadeScene& scene, const Float3& albedo, const Float3& index, const Float3& p_P, Mask mask) {
@@ -371,7 +374,7 @@ inline Float3 scattered(const ShadeScene& scene, const Float3& index, const Floa
   const Float lambert = mix(splat(DVR_INNER_LAMBERT), maximum(dot(normal, to_lamp), 0.0f), surface);
   const Float sky = 0.5f + 0.5f * surface * dot(normal, splat(scene.eye.up_P));
   Float finish;
-  return lookAt(scene, index, mask, finish) *
+  return planned(scene, lookAt(scene, index, mask, finish), index, mask) *
          ((lambert / kPi) * lamp_light + mix(vec3(FLOOR_LIGHT), vec3(SKY_LIGHT), sky));
 }
 

@@ -34,8 +34,7 @@ bool MeshPass::hasTransparent(const SceneMesh& mesh, float opacity) {
 void MeshPass::draw(const SceneMesh& mesh, Parts parts, const Placement& placement) {
   const bool transparent = parts == Parts::transparent;
   if (placement.opacity <= 0.0f || (transparent && !hasTransparent(mesh, placement.opacity))) return;
-  apply({.depth_test = !(transparent && placement.shows_through),
-         .depth_write = !transparent,
+  apply({.depth_write = !transparent,
          .mirrored = placement.view_is_mirrored,
          .write_colour = !transparent,
          .write_distance = !transparent});

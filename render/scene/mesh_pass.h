@@ -46,8 +46,7 @@ class MeshPass {
     glm::dmat4 P_from_mesh{1.0};
     double bur_angle_rad = 0.0;
     bool view_is_mirrored = false;
-    float opacity = 1.0f;        ///< of the whole model, besides that of its parts
-    bool shows_through = false;  ///< transparent parts are seen through all that is solid
+    float opacity = 1.0f;  ///< of the whole model, besides that of its parts
   };
 
   void draw(const SceneMesh& mesh, Parts parts, const Placement& placement);

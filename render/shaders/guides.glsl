@@ -36,7 +36,12 @@ vec3 withPlan(vec3 albedo, float mm) {
   return mix(albedo, vec3(GUIDE_RIM_COLOUR), GUIDE_PLAN_RIM_COVER * lineAt(mm, GUIDE_PLAN_RIM));
 }
 
-// What the guides that are switched on make of a colour at a place.
+// Inside translucent matter the plan alone colours: bands of clearance are for surfaces.
+vec3 planned(vec3 albedo, vec3 index) {
+  return (int(volume.march.w) & GUIDE_PLAN) == 0 ? albedo : withPlan(albedo, guideDistances(index).y);
+}
+
+// What the guides that are switched on make of a colour at a place on the surface.
 vec3 guided(vec3 albedo, vec3 index, vec3 p_P) {
   if (volume.march.w == 0.0) return albedo;
   int shown = int(volume.march.w);

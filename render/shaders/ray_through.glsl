@@ -3,6 +3,7 @@
 #include "ray_march.glsl"
 #include "transfer_block.glsl"
 #include "lighting.glsl"
+#include "guides.glsl"
 
 struct Gathered {
   vec4 light;       // premultiplied
@@ -22,7 +23,7 @@ vec3 scattered(vec3 place, vec3 to_lamp, vec3 lamp_light) {
   float surface = min(steep / DVR_FULL_FALL, 1.0);
   float lambert = mix(DVR_INNER_LAMBERT, max(dot(normal, to_lamp), 0.0), surface);
   float sky = 0.5 + 0.5 * surface * dot(normal, eye.up_P.xyz);
-  return lookAt(place).rgb * (lambert / 3.14159265 * lamp_light + mix(kFloorLight, kSkyLight, sky));
+  return planned(lookAt(place).rgb, place) * (lambert / 3.14159265 * lamp_light + mix(kFloorLight, kSkyLight, sky));
 }
 
 Gathered gatherAlong(vec3 origin, vec3 direction, float limit) {

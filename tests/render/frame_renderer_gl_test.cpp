@@ -369,7 +369,7 @@ TEST(FrameRenderer, TransparentPartsBehindTheBoneStayHidden) {
 TEST(FrameRenderer, GuidesShowWhereTheyLieAndOnlyWhenAskedFor) {
   const OffscreenContext context(OffscreenContext::Debugging::on);
   const assets::CtVolume ct = ballVolume(smallGrid(), {{{0, 0, 0}, 9.0}});
-  for (const Backend backend : {Backend::gl_fragment, Backend::gl_compute}) {
+  for (const Backend backend : {Backend::gl_fragment, Backend::gl_compute, Backend::cpu}) {
     FrameRenderer renderer(ct.grid, ct.solid, ct.label, {.backend = backend});
     Frame frame = frameFor(cameraRig({.eye_P_mm = {0, -250, 0}, .fov_y_rad = 0.17}, {160, 120}));
     const auto seen = [&] {
@@ -378,7 +378,7 @@ TEST(FrameRenderer, GuidesShowWhereTheyLieAndOnlyWhenAskedFor) {
     };
     const Picture bare = seen();
     renderer.setGuides(
-        {{{-15, -6, 0}, {15, -6, 0}}, 1.0, PlannedCut{{0, -9, 5}, {1, 0, 0}, {0, -1, 0}, 1.0, 1.0, 1.0}});
+        {{{-15, -6, 0}, {15, -6, 0}}, 1.0, PlannedCut{{0, -9, 5}, {1, 0, 0}, {0, -1, 0}, 1.0, 1.0, 2.0}});
     EXPECT_EQ(seen().rgba, bare.rgba);
     for (bool Layers::*layer : {&Layers::canal, &Layers::clearance, &Layers::planned_cut}) {
       frame.layers.*layer = true;
@@ -409,6 +409,56 @@ TEST(FrameRenderer, GuidesShowWhereTheyLieAndOnlyWhenAskedFor) {
     EXPECT_GT(kept, 500);
     EXPECT_GT(coloured, 500);
     EXPECT_NO_THROW(renderer.throwIfError());
+
+    // Translucent matter takes the plan's colour, and no bands.
+    frame.mode = ViewMode::dvr;
+    const Picture through_bands = seen();
+    frame.layers.clearance = false;
+    const Picture through = seen();
+    EXPECT_EQ(through_bands.rgba, through.rgba);
+    frame.layers.planned_cut = true;
+    EXPECT_GT(pixelsThatDiffer(seen(), through, 2), 30u);
+  }
+}
+
+// The canal shines through bone and gum, but not through the face and the instrument, which lie outside.
+TEST(FrameRenderer, TheCanalHidesBehindFaceAndInstrumentAlone) {
+  const OffscreenContext context(OffscreenContext::Debugging::on);
+  const assets::CtVolume ct = ballVolume(smallGrid(), {{{0, 0, 0}, 9.0}});
+  const glm::vec4 grey(0.5f, 0.5f, 0.5f, 1.0f);
+  const assets::MeshModel gum = sphereMesh({{0, -20, 0}, 4.0}, grey), cover = sphereMesh({{0, -19, 0}, 4.0}, grey),
+                          none;
+  for (const Backend backend : {Backend::gl_fragment, Backend::gl_compute, Backend::cpu}) {
+    FrameRenderer renderer(ct.grid, ct.solid, ct.label, {.backend = backend});
+    renderer.setGuides({{{-15, 0, 0}, {15, 0, 0}}, 1.0, {}});
+    Frame frame = frameFor(cameraRig({.eye_P_mm = {0, -250, 0}, .fov_y_rad = 0.17}, {160, 120}));
+    frame.X_PT = frame.X_PT_at_hand = {};
+    frame.tool_visible = true;
+    // Pixels of the middle, all covered, that the canal changes.
+    const auto shining = [&] {
+      std::array<Picture, 2> pictures;
+      for (const bool canal : {false, true}) {
+        frame.layers.canal = canal;
+        renderer.renderEye(frame, Eye::cyclopean);
+        pictures[canal] = renderer.readEye(Eye::cyclopean);
+      }
+      int changed = 0;
+      for (int y = 50; y < 70; ++y)
+        for (int x = 70; x < 90; ++x)
+          changed += std::abs(pixelAt(pictures[0], x, y)[2] - pixelAt(pictures[1], x, y)[2]) > 8 ? 1 : 0;
+      return changed;
+    };
+    EXPECT_GT(shining(), 50) << "bone";
+    renderer.setGum(gum);
+    EXPECT_GT(shining(), 50) << "gum";
+    renderer.setFace(cover);
+    EXPECT_EQ(shining(), 0) << "face";
+    renderer.setFace(none);
+    EXPECT_GT(shining(), 50) << "gum again";
+    renderer.setInstrument(cover);
+    EXPECT_EQ(shining(), 0) << "instrument";
+    frame.tool_visible = false;
+    EXPECT_GT(shining(), 50) << "instrument away";
   }
 }
 

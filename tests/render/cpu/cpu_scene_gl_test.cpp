@@ -168,11 +168,16 @@ TEST_F(CpuScene, ShowsGuidesAsTheShadersDo) {
   guides.cut = PlannedCut{.middle_P_mm = {-4, -7, 4}, .half_length_mm = 3.0, .half_height_mm = 2.0, .radius_mm = 2.0};
   both([&](FrameRenderer& r) {
     r.setGuides(guides);
+    r.setFace({{ballMesh({-12, -9, 0}, 4.0f, {0.8f, 0.6f, 0.5f, 1.0f})}});
+    r.setGum({{ballMesh({6, -6, -4}, 5.0f, {0.7f, 0.3f, 0.3f, 1.0f})}});
     r.setInstrument(assets::surgicalHandpiece({}));
   });
   Frame f = frame();
   f.layers.clearance = f.layers.planned_cut = true;
   EXPECT_LE(between(*gl_, *cpu_, f, Eye::cyclopean).beyond, 2);
+  f.mode = ViewMode::dvr;
+  EXPECT_LE(between(*gl_, *cpu_, f, Eye::cyclopean).worst, 2);
+  f.mode = ViewMode::iso;
   f.layers.canal = true;
   f.layers.ghost_tool = f.tool_visible = true;
   f.X_PT = {glm::angleAxis(1.0, glm::dvec3(1, 0, 0)), {4, -10, 6}};
