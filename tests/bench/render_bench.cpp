@@ -1,6 +1,7 @@
 // CPU time per frame of the CPU ray caster, beside VTK's in the same run, and how it grows. Off screen; where VTK is to
 // be compared it needs an X server for its windows:
-//   xvfb-run -a build/release/tests/render/render_bench [table] [growth] [exactness], or one of iso, dvr, pictures DIR
+//   xvfb-run -a build/release/tests/render/render_bench [table] [growth] [exactness] [table256] [table512], or one of
+//   iso, dvr, pictures DIR
 // All threads of the process count (getrusage), so that other work on the machine disturbs least. Of each case the
 // median over frames of an orbit, ours and VTK's in turn three times.
 #include <sys/resource.h>
@@ -145,9 +146,11 @@ void drawOurs(const Head& head, const Case& c, int frame, CpuView::Image& image)
     head.view.draw(cameraAt(frame), Eye::cyclopean, mode, image);
 }
 
-void table() {
+/// `only_voxels`: 0 for all.
+void table(int only_voxels) {
   std::printf("CPU ms per frame\n%-44s %9s %9s %8s %8s\n", "case", "ours", "VTK", "ratio", "target");
   for (const Case& c : kCases) {
+    if (only_voxels != 0 && c.voxels != only_voxels) continue;
     Head& head = headOf(c.voxels);
     std::vector<double> ours_ms, theirs_ms;
     CpuView::Image image;
@@ -325,7 +328,9 @@ int main(int argc, char** argv) {
   std::printf("built without VTK (libvtk9-dev): ours alone\n");
 #endif
   if (wants("exactness")) exactness();
-  if (wants("table")) table();
+  if (wants("table")) table(0);
+  for (const int voxels : {256, 512})
+    if (!words.empty() && wants("table" + std::to_string(voxels))) table(voxels);
   if (wants("growth")) growth();
   if (words.size() == 1 && (words[0] == "iso" || words[0] == "dvr"))
     std::printf("%.1f ms\n", orbit_ms(headOf(256), {256, {640, 480}, words[0] == "iso", false, false, 0.0}, 100));

@@ -29,6 +29,19 @@ constexpr std::array<glm::u8vec2, kTile* kTile> kOrder = [] {
   return order;
 }();
 
+/// One tissue: the ramp runs from the surface to full opacity.
+render::OpacityTable opacityOf(float step) {
+  render::OpacityTable table;
+  table.labels = 1;
+  table.ramp_start = 0.5f;
+  table.ramp_per_solid = 2000.0f / static_cast<float>(kOpaqueFrom_HU - kSurface_HU);
+  for (int n = 0; n <= render::OpacityTable::kIntervals; ++n) {
+    const double hu = std::lerp(kSurface_HU, kOpaqueFrom_HU, static_cast<double>(n) / render::OpacityTable::kIntervals);
+    table.of_step.push_back(static_cast<float>(1.0 - std::pow(1.0 - opacityPerVoxel(hu), static_cast<double>(step))));
+  }
+  return table;
+}
+
 tbb::task_arena& arena() {
   static tbb::task_arena threads(std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1), 1);
   return threads;
@@ -57,13 +70,7 @@ void CpuView::draw(const render::Camera& camera, render::Eye eye, render::ViewMo
   settings.eye_index = glm::vec3(grid.indexFromPoint(glm::dvec3(glm::vec3(block.eye_P))));
   settings.spacing_mm = static_cast<float>(grid.spacing_mm);
   settings.skip_empty_space = skip_empty_space;
-  const std::array<float, 10> per_mm = [] {
-    std::array<float, 10> all{};
-    all.fill(static_cast<float>(kOpacity_per_mm));
-    return all;
-  }();
-  const render::OpacityTable opacity = render::opacityTable(0.5f, solidOf(static_cast<int>(kOpaqueFrom_HU)) / 255.0f,
-                                                            per_mm, settings.step * settings.spacing_mm);
+  const render::OpacityTable opacity = opacityOf(settings.step);
   const render::ShadeKernels& kernels = render::shadeKernels(set);
   const auto& smooth = fields_.smooth();
 

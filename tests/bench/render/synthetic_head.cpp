@@ -107,6 +107,12 @@ std::uint8_t solidOf(int hounsfield) {
       std::lround(std::clamp((hounsfield - kSurface_HU) / 2000.0 + 0.5, 0.0, 1.0) * 255.0));
 }
 
+double opacityPerVoxel(double hounsfield) {
+  if (hounsfield < kHalfway_HU)
+    return kHalfway * std::max((hounsfield - kSurface_HU) / (kHalfway_HU - kSurface_HU), 0.0);
+  return std::min(std::lerp(kHalfway, kOpaque, (hounsfield - kHalfway_HU) / (kOpaqueFrom_HU - kHalfway_HU)), kOpaque);
+}
+
 glm::dvec3 burCentre_mm(int frame) {
   const double x = 20.0 - 0.6 * frame, slope = 2.0 * kArchBend * x, length = std::hypot(1.0, slope);
   return glm::dvec3(51.2, 35.0, 51.2) + glm::dvec3(x, kArchBend * x * x, -16.0) +

@@ -20,9 +20,9 @@ inline constexpr double kSurface_HU = 500.0;
 /// Linear, one half at the surface and all of it 1000 HU above.
 std::uint8_t solidOf(int hounsfield);
 
-/// How translucent it is in the DVR: nothing at the surface's value, nearly opaque over a millimetre from 500 HU above.
-/// About the curve of reference/rendering 2 (0.6 per voxel of 0.4 mm at 900 HU).
-inline constexpr double kOpaqueFrom_HU = 1000.0, kOpacity_per_mm = 0.99;
+/// The DVR's opacity of one voxel's length, as reference/rendering 2 has it: 0.6 at 900 HU, all of it from 1400 HU on.
+inline constexpr double kHalfway_HU = 900.0, kHalfway = 0.6, kOpaqueFrom_HU = 1400.0, kOpaque = 0.9999;
+double opacityPerVoxel(double hounsfield);
 
 /// Where the bur of radius 2 mm is in a frame: along a groove on the outside of the lower jaw.
 glm::dvec3 burCentre_mm(int frame);

@@ -73,10 +73,11 @@ VtkPeer::VtkPeer(Kind kind, const assets::VolumeGrid& grid, std::span<std::int16
   colour->AddRGBPoint(2600.0, 1.0, 1.0, 0.98);
   vtkNew<vtkPiecewiseFunction> opacity;
   opacity->AddPoint(kSurface_HU, 0.0);
-  opacity->AddPoint(kOpaqueFrom_HU, kOpacity_per_mm);
+  opacity->AddPoint(kHalfway_HU, kHalfway);
+  opacity->AddPoint(kOpaqueFrom_HU, kOpaque);
   property->SetColor(colour);
   property->SetScalarOpacity(opacity);
-  property->SetScalarOpacityUnitDistance(1.0);
+  property->SetScalarOpacityUnitDistance(grid.spacing_mm);
   property->SetInterpolationTypeToLinear();
   property->ShadeOn();
   property->SetSpecular(0.3);
