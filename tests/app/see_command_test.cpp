@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "assets/patient_folder.h"
+#include "assets/synthetic/jaw.h"
 #include "tests/app/half_space.h"
 #include "tests/app/program.h"
 
@@ -90,6 +92,20 @@ TEST_F(SeeCommand, ShowsWhatWasCarved) {
   // The middle ray meets the bottom of a hole of 1.5 mm; the corners of the picture do not change.
   EXPECT_NEAR(after[32 * 96 + 48] - before[32 * 96 + 48], 1.75, 0.35);
   EXPECT_EQ(after[0], before[0]);
+}
+
+TEST_F(SeeCommand, ShowsEveryGuideWithoutAGraphicsCard) {
+  assets::savePatient(assets::syntheticJaw({.spacing_mm = 0.6}), at("p"), false);
+  const auto pictureWith = [&](const std::string& layers) {
+    const Said said = molar("see --patient " + at("p") + " --size 160x120 --samples 1 --renderer cpu" + layers +
+                            " --force --out " + at("a.png"));
+    EXPECT_EQ(said.status, 0) << said.err;
+    return read("a.png");
+  };
+  const std::string bare = pictureWith("");
+  for (const char* guide : {"canal", "clearance", "plan"})
+    EXPECT_NE(pictureWith(std::string(" --layers ") + guide), bare) << guide;
+  EXPECT_EQ(pictureWith(" --layers ghost"), bare) << "no tool, no ghost";
 }
 
 }  // namespace

@@ -110,6 +110,14 @@ int main(int count, char** words) {
     f.layers.gum = false;
   });
   without("face faded by half", [](render::Frame& f) { f.layers.face_opacity = 0.5f; });
+  without("with clearance and plan", [](render::Frame& f) { f.layers.clearance = f.layers.planned_cut = true; });
+  without("with all guides and a held tool", [](render::Frame& f) {
+    f.layers.clearance = f.layers.planned_cut = f.layers.canal = f.layers.ghost_tool = true;
+    f.X_PT_at_hand = f.X_PT;
+    f.X_PT_at_hand.translation_mm.z -= 2.0;
+  });
+  renderer->setGuides({});
+  measure("the first again, guides not known", *renderer, frame, frames);
   without("translucent bone", [](render::Frame& f) { f.mode = render::ViewMode::dvr; });
   without("steps of a voxel", [](render::Frame& f) { f.quality.step_voxels = 1.0; });
 }
