@@ -1,0 +1,164 @@
+// The twin of tissue_look.glsl, guides.glsl and of surfaceNormal in ray_cast.glsl, in lanes. Part of the kernels of
+// shade_kernel_body.h: included by them alone, internal linkage throughout.
+#pragma once
+
+#include "render/cpu/occlusion_body.h"
+#include "render/shaders/finish.glsl"
+#include "render/shaders/guide_numbers.glsl"
+
+namespace render::cpu {
+namespace {
+
+inline Word asWord(Int value) { return reinterpret_cast<Word>(value); }
+
+inline Float hashed(Int i, Int j, Int k) {
+  const Word h = (asWord(i) * 1597334673u ^ asWord(j) * 3812015801u ^ asWord(k) * 2798796415u) * 1597334673u;
+  return toFloat(reinterpret_cast<Int>(h >> 8)) * (1.0f / 16777216.0f);
+}
+
+inline Float noise(const Float3& x) {
+  const Float3 low{floor(x.x), floor(x.y), floor(x.z)};
+  const Int i = toInt(low.x), j = toInt(low.y), k = toInt(low.z);
+  const auto eased = [](Float f) { return f * f * (3.0f - 2.0f * f); };
+  const Float fx = eased(x.x - low.x), fy = eased(x.y - low.y), fz = eased(x.z - low.z);
+  const auto row = [&](Int jj, Int kk) { return mix(hashed(i, jj, kk), hashed(i + 1, jj, kk), fx); };
+  return mix(mix(row(j, k), row(j + 1, k), fy), mix(row(j, k + 1), row(j + 1, k + 1), fy), fz);
+}
+
+// Colour and finish just below a surface place: eight corners, mixed in the stored roots.
+inline Float3 lookAt(const ShadeScene& scene, const Float3& index, Mask mask, Float& finish) {
+  const FieldView<std::uint32_t>& field = scene.look;
+  const Float3 at{clamp(index.x, 0.0f, static_cast<float>(field.size.x - 1)) + 1.0f,
+                  clamp(index.y, 0.0f, static_cast<float>(field.size.y - 1)) + 1.0f,
+                  clamp(index.z, 0.0f, static_cast<float>(field.size.z - 1)) + 1.0f};
+  const Int i = toInt(at.x), j = toInt(at.y), k = toInt(at.z);
+  const Float fx = at.x - toFloat(i), fy = at.y - toFloat(j), fz = at.z - toFloat(k);
+  const Int offset = (k * field.slice + j * field.row + i) & mask;
+  struct Look {
+    Float r, g, b, a;
+  };
+  const auto mixed = [](const Look& from, const Look& to, Float part) {
+    return Look{mix(from.r, to.r, part), mix(from.g, to.g, part), mix(from.b, to.b, part), mix(from.a, to.a, part)};
+  };
+  const auto unpacked = [](Int rgba) {
+    return Look{toFloat(rgba & 0xff), toFloat((rgba >> 8) & 0xff), toFloat((rgba >> 16) & 0xff),
+                toFloat(shiftRightLogical(rgba, 24))};
+  };
+  const auto row = [&](std::int32_t further) {
+    const IntPair both = gather64<4>(field.border + further, offset);
+    return mixed(unpacked(both.low), unpacked(both.high), fx);
+  };
+  const Look look =
+      mixed(mixed(row(0), row(field.row), fy), mixed(row(field.slice), row(field.slice + field.row), fy), fz);
+  finish = look.a * (1.0f / 255.0f);
+  const Float3 root = (1.0f / 255.0f) * Float3{look.r, look.g, look.b};
+  return root * root;
+}
+
+inline Float fract(Float x) { return x - floor(x); }
+
+// mm to the canal's wall and to the planned cut.
+struct GuideDistances {
+  Float canal, cut;
+};
+
+inline GuideDistances guideDistances(const ShadeScene& scene, const Float3& index, Mask mask) {
+  const FieldView<std::uint32_t>& field = scene.guides;
+  constexpr float kCell = 1.0f / AMBIENT_CELL_VOXELS;
+  const Float3 at = kCell * (index + 0.5f) + 0.5f;
+  const Mask inside = mask & insideBorder(at, field.size);
+  const Int i = toInt(at.x), j = toInt(at.y), k = toInt(at.z);
+  const Float fx = at.x - toFloat(i), fy = at.y - toFloat(j), fz = at.z - toFloat(k);
+  const Int offset = (k * field.slice + j * field.row + i) & inside;
+  const auto row = [&](std::int32_t further) {
+    const IntPair both = gather64<4>(field.border + further, offset);
+    return GuideDistances{mix(toFloat(both.low & 0xffff), toFloat(both.high & 0xffff), fx),
+                          mix(toFloat(shiftRightLogical(both.low, 16)), toFloat(shiftRightLogical(both.high, 16)), fx)};
+  };
+  const GuideDistances a = row(0), b = row(field.row), c = row(field.slice), d = row(field.slice + field.row);
+  const auto distance = [&](Float p, Float q, Float r, Float s) {
+    constexpr float kPerUnit = (GUIDE_HIGH_MM - GUIDE_LOW_MM) / 65535.0f;
+    return GUIDE_LOW_MM + kPerUnit * select(inside, mix(mix(p, q, fy), mix(r, s, fy), fz), splat(0.0f));
+  };
+  return {distance(a.canal, b.canal, c.canal, d.canal), distance(a.cut, b.cut, c.cut, d.cut)};
+}
+
+inline Float lineAt(Float distance_mm, float half_width_mm) {
+  return 1.0f - smoothStep(0.6f * half_width_mm, 1.4f * half_width_mm, absolute(distance_mm));
+}
+
+inline Float3 withClearance(const Float3& albedo, Float mm, const Float3& p_P) {
+  const Float stripes =
+      smoothStep(0.35f, 0.5f, absolute(fract(GUIDE_STRIPES_PER_MM * (p_P.x + p_P.y + p_P.z)) - 0.5f) * 2.0f);
+  const Float3 cell{fract(GUIDE_DOTS_PER_MM * p_P.x) - 0.5f, fract(GUIDE_DOTS_PER_MM * p_P.y) - 0.5f,
+                    fract(GUIDE_DOTS_PER_MM * p_P.z) - 0.5f};
+  const Float dots = 1.0f - smoothStep(0.30f, 0.42f, length(cell));
+  const Float3 band =
+      select(mm < 1.0f, vec3(GUIDE_NEAR_COLOUR), select(mm < 2.0f, vec3(GUIDE_MIDDLE_COLOUR), vec3(GUIDE_FAR_COLOUR)));
+  const Float striped = GUIDE_STRIPE_GAP_COVER + (GUIDE_FULL_COVER - GUIDE_STRIPE_GAP_COVER) * stripes;
+  const Float dotted = GUIDE_DOT_GAP_COVER + (GUIDE_DOT_COVER - GUIDE_DOT_GAP_COVER) * dots;
+  const Float cover =
+      select(mm < 1.0f, splat(GUIDE_FULL_COVER), select(mm < 2.0f, striped, select(mm < 3.0f, dotted, splat(0.0f))));
+  const Float ends = maximum(lineAt(mm - 1.0f, GUIDE_BAND_END),
+                             maximum(lineAt(mm - 2.0f, GUIDE_BAND_END), lineAt(mm - 3.0f, GUIDE_BAND_END)));
+  return select(mm > GUIDE_SHOWN_TO, albedo, mix(mix(albedo, band, cover), 0.25f * band, ends));
+}
+
+inline Float3 withPlan(const Float3& albedo, Float mm) {
+  const Float3 inside =
+      mix(albedo, vec3(GUIDE_PLANNED_COLOUR), GUIDE_PLAN_COVER * (1.0f - smoothStep(-0.05f, 0.05f, mm)));
+  return mix(inside, vec3(GUIDE_RIM_COLOUR), GUIDE_PLAN_RIM_COVER * lineAt(mm, GUIDE_PLAN_RIM));
+}
+
+inline Float3 planned(const ShadeScene& scene, const Float3& albedo, const Float3& index, Mask mask) {
+  return (scene.shown_guides & GUIDE_PLAN) == 0 ? albedo : withPlan(albedo, guideDistances(scene, index, mask).cut);
+}
+
+inline Float3 guided(const ShadeScene& scene, const Float3& albedo, const Float3& index, const Float3& p_P, Mask mask) {
+  if (scene.shown_guides == 0) return albedo;
+  const GuideDistances mm = guideDistances(scene, index, mask);
+  Float3 colour = albedo;
+  if ((scene.shown_guides & GUIDE_CLEARANCE) != 0) colour = withClearance(colour, mm.canal, p_P);
+  if ((scene.shown_guides & GUIDE_PLAN) != 0) colour = withPlan(colour, mm.cut);
+  return colour;
+}
+
+inline Surface tissueSurface(const ShadeScene& scene, const Float3& index, const Float3& normal, const Float3& p_P,
+                             Mask mask) {
+  Float finish;
+  Float3 albedo = lookAt(scene, index - static_cast<float>(LOOK_DEPTH_VOXELS) * normal, mask, finish);
+  const Float enamel = clamp(2.0f * finish - 1.0f, 0.0f, 1.0f), marrow = clamp(1.0f - 2.0f * finish, 0.0f, 1.0f);
+  const Float3 shine = mix(mix(FINISH_DULL, FINISH_MARROW, marrow), FINISH_ENAMEL, enamel);
+
+  // Faint mottling, and pores full of blood where the marrow lies open.
+  const Float mottle = noise(0.9f * p_P) * 0.6f + noise(3.1f * p_P) * 0.4f - 0.5f;
+  albedo = (1.0f + 0.14f * mottle * shine.x) * albedo;
+  if (any(mask & (marrow > 0.0f))) {
+    const Float pore = smoothStep(0.42f, 0.68f, noise(2.3f * p_P) * 0.7f + noise(5.7f * p_P) * 0.3f);
+    albedo = mix(albedo, vec3(0.36f, 0.09f, 0.07f), 0.75f * pore * marrow);
+  }
+  albedo = guided(scene, albedo, index, p_P, mask);
+  return {albedo, vec3(shine.y), shine.x, shine.z, albedo};
+}
+
+// Central differences of the smoothed field over two voxels, towards air.
+inline Float3 fallAt(const ShadeScene& scene, const Float3& index, Mask mask) {
+  const FieldView<std::uint16_t>& field = scene.smooth;
+  const Float3 at = index + 1.0f;
+  const auto beside = [&](float dx, float dy, float dz) {
+    const Float3 moved{clamp(at.x + dx, 0.0f, static_cast<float>(field.size.x + 1)),
+                       clamp(at.y + dy, 0.0f, static_cast<float>(field.size.y + 1)),
+                       clamp(at.z + dz, 0.0f, static_cast<float>(field.size.z + 1))};
+    return trilinear(field, moved, mask);
+  };
+  return (1.0f / 65535.0f) * Float3{beside(-1, 0, 0) - beside(1, 0, 0), beside(0, -1, 0) - beside(0, 1, 0),
+                                    beside(0, 0, -1) - beside(0, 0, 1)};
+}
+
+inline Float3 surfaceNormal(const ShadeScene& scene, const Float3& index, Mask mask) {
+  const Float3 fall = fallAt(scene, index, mask);
+  return inverseSquareRoot(maximum(dot(fall, fall), 1e-12f)) * fall;
+}
+
+}  // namespace
+}  // namespace render::cpu
