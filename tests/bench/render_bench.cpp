@@ -1,7 +1,7 @@
 // CPU time per frame of the CPU ray caster, beside VTK's in the same run, and how it grows. Off screen; where VTK is to
 // be compared it needs an X server for its windows:
-//   xvfb-run -a build/release/tests/render/render_bench [table] [growth] [exactness] [table256] [table512], or one of
-//   iso, dvr, pictures DIR
+//   xvfb-run -a build/release/tests/render/render_bench [exactness] [table] [glsl] [pixels] [growth] [table256]
+//   [table512], or one of iso, dvr, pictures DIR
 // All threads of the process count (getrusage), so that other work on the machine disturbs least. Of each case the
 // median over frames of an orbit, ours and VTK's in turn three times.
 #include <sys/resource.h>
@@ -18,6 +18,8 @@
 #include <string_view>
 #include <vector>
 
+#include "render/frame_renderer.h"
+#include "render/gpu/offscreen_context.h"
 #include "tests/bench/render/cpu_view.h"
 #include "tests/bench/render/synthetic_head.h"
 #ifdef MOLAR_BENCH_VTK
@@ -238,6 +240,10 @@ void growth() {
                 static_cast<double>(head.view.cells().bytes()) * 1e-6);
     std::fflush(stdout);
   }
+}
+
+/// And by instruction set.
+void pixels() {
   std::printf("\ncost against pixels, 256^3\n%12s %10s %10s\n", "pixels", "iso ms", "DVR ms");
   Head& head = headOf(256);
   for (const glm::ivec2 px :
@@ -255,6 +261,44 @@ void growth() {
   }
   head.view.set = assets::chosenInstructionSet();
 }
+
+#ifdef MOLAR_BENCH_VTK
+/// Our whole look by GLSL (normals, soft shade, shadow of the lamp) beside VTK's GPU mapper with its own, on one
+/// driver.
+void glsl() {
+  std::printf("\nGLSL, 256^3 640x480, CPU ms per frame of a software rasteriser\n%-12s %9s %9s %8s %8s\n", "case",
+              "ours", "VTK", "ratio", "target");
+  Head& head = headOf(256);
+  for (const bool is_iso : {true, false}) {
+    std::vector<double> ours_ms, theirs_ms;
+    {
+      // Gone before VTK makes its own: one thread, one context.
+      render::OffscreenContext context;
+      render::FrameRenderer renderer(head.grid, head.solid, {});
+      for (int frame = 0; frame < 9; ++frame) {
+        render::Frame view;
+        view.rig = render::cameraRig(cameraAt(frame), {640, 480});
+        view.mode = is_iso ? ViewMode::iso : ViewMode::dvr;
+        view.tool_visible = false;
+        const double ours = costOf_ms([&] {
+          renderer.renderEye(view, Eye::cyclopean);
+          renderer.readDistance(Eye::cyclopean);
+        });
+        if (frame > 0) ours_ms.push_back(ours);
+      }
+    }
+    VtkPeer vtk(is_iso ? VtkPeer::Kind::gpu_iso : VtkPeer::Kind::gpu_dvr, head.grid, head.hounsfield, {640, 480});
+    for (const int frame : {0, 3, 6}) {
+      const double theirs = costOf_ms([&] { vtk.draw(cameraAt(frame), 0.0); });
+      if (frame > 0) theirs_ms.push_back(theirs);
+    }
+    const double ratio = median(ours_ms) / median(theirs_ms);
+    std::printf("%-12s %9.0f %9.0f %8.3f %8.3f%s\n", is_iso ? "iso" : "DVR", median(ours_ms), median(theirs_ms), ratio,
+                0.1, ratio <= 0.1 ? "" : "  MISSED");
+    std::fflush(stdout);
+  }
+}
+#endif
 
 double difference(const CpuView::Image& a, const CpuView::Image& b) {
   double most = 0.0;
@@ -331,6 +375,10 @@ int main(int argc, char** argv) {
   if (wants("table")) table(0);
   for (const int voxels : {256, 512})
     if (!words.empty() && wants("table" + std::to_string(voxels))) table(voxels);
+#ifdef MOLAR_BENCH_VTK
+  if (wants("glsl")) glsl();
+#endif
+  if (wants("pixels")) pixels();
   if (wants("growth")) growth();
   if (words.size() == 1 && (words[0] == "iso" || words[0] == "dvr"))
     std::printf("%.1f ms\n", orbit_ms(headOf(256), {256, {640, 480}, words[0] == "iso", false, false, 0.0}, 100));
