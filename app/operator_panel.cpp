@@ -25,7 +25,7 @@ const ImVec4 kInk{0.91f, 0.92f, 0.94f, 1.0f}, kQuiet{0.60f, 0.64f, 0.70f, 1.0f},
     kWarn{0.98f, 0.73f, 0.28f, 1.0f}, kBad{0.95f, 0.38f, 0.35f, 1.0f}, kAccent{0.36f, 0.66f, 0.95f, 1.0f};
 
 // In the order they are loaded.
-enum FontAt { kTextFont, kSmallFont, kLargeFont, kHeadingFont };
+enum FontAt { text_font, small_font, large_font, heading_font };
 
 /// The built-in font stands in for all where the file is missing.
 ImFont* font(FontAt at) {
@@ -52,17 +52,17 @@ void textIn(FontAt at, const ImVec4& colour, const std::string& text) {
 
 void heading(const char* text) {
   ImGui::Dummy({0.0f, 5.0f});
-  textIn(kHeadingFont, kAccent, text);
+  textIn(heading_font, kAccent, text);
   ImGui::Separator();
 }
 
 /// A name on the left, its value on the right.
 void row(const char* name, const std::string& value, const ImVec4& colour = kInk) {
-  textIn(kTextFont, kQuiet, name);
+  textIn(text_font, kQuiet, name);
   ImGui::SameLine();
   const float width = ImGui::CalcTextSize(value.c_str()).x;
   ImGui::SetCursorPosX(std::max(ImGui::GetCursorPosX(), ImGui::GetWindowContentRegionMax().x - width));
-  textIn(kTextFont, colour, value);
+  textIn(text_font, colour, value);
 }
 
 void bar(double share, const ImVec4& colour) {
@@ -73,7 +73,7 @@ void bar(double share, const ImVec4& colour) {
 
 void drawState(const RehearsalStatus& s) {
   const bool locked = !s.command.drill_enabled;
-  textIn(kLargeFont,
+  textIn(large_font,
          s.tick.drilling ? kWarn
          : locked        ? kQuiet
                          : kInk,
@@ -84,19 +84,19 @@ void drawState(const RehearsalStatus& s) {
   const int t_s = static_cast<int>(s.tick.t_s);
   ImGui::SameLine();
   const std::string time = line("%d:%02d", t_s / 60, t_s % 60);
-  ImGui::PushFont(font(kLargeFont));
+  ImGui::PushFont(font(large_font));
   const float width = ImGui::CalcTextSize(time.c_str()).x;
   ImGui::PopFont();
   ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - width);
-  textIn(kLargeFont, kInk, time);
+  textIn(large_font, kInk, time);
   if (s.recording == RecordingState::running)
-    textIn(kTextFont, kBad, "● recording " + std::filesystem::path(s.recording_path).filename().string());
+    textIn(text_font, kBad, "● recording " + std::filesystem::path(s.recording_path).filename().string());
   else if (s.recording == RecordingState::ended_early)
-    textIn(kTextFont, kWarn, "recording ended early");
+    textIn(text_font, kWarn, "recording ended early");
   else
-    textIn(kTextFont, kQuiet, "not recorded");
+    textIn(text_font, kQuiet, "not recorded");
   if (haptics::has(s.tick.faults, haptics::Fault::bad_pose | haptics::Fault::device | haptics::Fault::bad_force))
-    textIn(kTextFont, kBad, "hand not believed: force is let down");
+    textIn(text_font, kBad, "hand not believed: force is let down");
 }
 
 void drawTool(const RehearsalStatus& s) {
@@ -211,9 +211,9 @@ void drawHeader(const RehearsalStatus& s, float width_px) {
   ImGui::SetNextWindowPos({0.0f, 0.0f});
   ImGui::SetNextWindowSize({width_px, static_cast<float>(kHeader_px)});
   ImGui::Begin("##header", nullptr, kFixed | ImGuiWindowFlags_NoBackground);
-  textIn(kHeadingFont, kInk, s.patient_title);
+  textIn(heading_font, kInk, s.patient_title);
   ImGui::SameLine();
-  textIn(kTextFont, kQuiet, "   what the surgeon sees");
+  textIn(text_font, kQuiet, "   what the surgeon sees");
   ImGui::End();
 }
 
@@ -221,7 +221,7 @@ void drawKeys(float top_px, float width_px) {
   ImGui::SetNextWindowPos({0.0f, top_px});
   ImGui::SetNextWindowSize({width_px, static_cast<float>(kKeys_px)});
   ImGui::Begin("##keys", nullptr, kFixed | ImGuiWindowFlags_NoBackground);
-  ImGui::PushFont(font(kSmallFont));
+  ImGui::PushFont(font(small_font));
   if (ImGui::BeginTable("keys", 3)) {
     for (const KeyMeaning& key : kKeys) {
       ImGui::TableNextColumn();

@@ -58,12 +58,12 @@ ScreenPage::ScreenPage(const calibration::Rig& rig, glm::ivec2 px) : sheet_(std:
   size_mm_ = {glm::length(upright ? across : up), glm::length(upright ? up : across)};
 
   // From the page to pixels, rows from the top: affine, whatever hangs how.
-  const auto pixelOf = [&](const glm::dvec2& page) {
+  const auto pixel_of = [&](const glm::dvec2& page) {
     const glm::dvec3 p = middle_W_ + page.x * right_W_ + page.y * down_W_ - corner;
     return glm::dvec2(glm::dot(p, across) / glm::dot(across, across) * px.x,
                       (1.0 - glm::dot(p, up) / glm::dot(up, up)) * px.y);
   };
-  const glm::dvec2 origin = pixelOf({0.0, 0.0}), x = pixelOf({1.0, 0.0}) - origin, y = pixelOf({0.0, 1.0}) - origin;
+  const glm::dvec2 origin = pixel_of({0.0, 0.0}), x = pixel_of({1.0, 0.0}) - origin, y = pixel_of({0.0, 1.0}) - origin;
   cairo_matrix_t to_pixels;
   cairo_matrix_init(&to_pixels, x.x, x.y, y.x, y.y, origin.x, origin.y);
   cairo_set_matrix(sheet_->pen, &to_pixels);

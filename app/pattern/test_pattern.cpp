@@ -90,7 +90,7 @@ void drawCross(const ScreenPage& page, const calibration::Rig& rig, Eye eye) {
   page.fill(kBlack);
   page.line({-0.35 * unit, 0.0}, {0.35 * unit, 0.0}, 0.012 * unit, kWhite);
   page.line({0.0, -0.35 * unit}, {0.0, 0.35 * unit}, 0.012 * unit, kWhite);
-  const auto ringAt = [&](double height_mm, double x, const Ink& ink, const char* words) {
+  const auto ring_at = [&](double height_mm, double x, const Ink& ink, const char* words) {
     const glm::dvec2 seen = page.seenAt(rig, eye, {x, 0.0}, height_mm);
     page.circle(seen, 0.24 * unit, 0.016 * unit, ink);
     page.text(words, seen + glm::dvec2(0.0, 0.40 * unit), 0.065 * unit, ink);
@@ -98,8 +98,8 @@ void drawCross(const ScreenPage& page, const calibration::Rig& rig, Eye eye) {
   char before[48], behind[48];
   std::snprintf(before, sizeof before, "%.0f mm before", kRingDepth_mm);
   std::snprintf(behind, sizeof behind, "%.0f mm behind", kRingDepth_mm);
-  ringAt(kRingDepth_mm, -0.68 * unit, {0.95, 0.75, 0.25}, before);
-  ringAt(-kRingDepth_mm, 0.68 * unit, {0.35, 0.75, 0.95}, behind);
+  ring_at(kRingDepth_mm, -0.68 * unit, {0.95, 0.75, 0.25}, before);
+  ring_at(-kRingDepth_mm, 0.68 * unit, {0.35, 0.75, 0.95}, behind);
   page.text("The cross lies on the screen: one cross, not two", {0.0, -0.62 * unit}, 0.065 * unit, kWhite);
   page.text("the left ring is nearer than it, the right ring farther; the other way round: swap the eyes",
             {0.0, -0.50 * unit}, 0.05 * unit, kGrey);

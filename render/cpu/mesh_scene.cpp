@@ -66,13 +66,13 @@ float rimDistance(const MeshPlacement& m, const glm::vec3& p) {
 }
 
 // What a geometry tells the filter by its user data.
-enum Trait : std::uintptr_t { kPlain = 0, kCut = 1, kOneSided = 2 };
+enum Trait : std::uintptr_t { plain = 0, cuttable = 1, outside_only = 2 };
 
 // Embree asks before it takes a hit: the window lets rays through, a guide's inside too, layers are noted and passed.
 void filter(const RTCFilterFunctionNArguments* args) {
   const Query& query = *reinterpret_cast<const Query*>(args->context);
   const auto trait = reinterpret_cast<std::uintptr_t>(args->geometryUserPtr);
-  const bool may_cut = trait == kCut && query.placement->window_mm > 0.0f, one_sided = trait == kOneSided;
+  const bool may_cut = trait == cuttable && query.placement->window_mm > 0.0f, one_sided = trait == outside_only;
   if (!may_cut && !one_sided && query.layers == nullptr) return;
   const unsigned n = args->N;
   for (unsigned i = 0; i < n; ++i) {
@@ -296,7 +296,7 @@ RTCScene MeshScene::Impl::sceneOf(const std::vector<const assets::MeshPart*>& fr
       kept.triangles.emplace_back(part->triangles[i], part->triangles[i + 1], part->triangles[i + 2]);
     std::ranges::copy(kept.triangles, index);
 
-    const Trait trait = kept.is_cut ? kCut : finishOf(body.model) == Finish::guide ? kOneSided : kPlain;
+    const Trait trait = kept.is_cut ? cuttable : finishOf(body.model) == Finish::guide ? outside_only : plain;
     rtcSetGeometryUserData(triangles, reinterpret_cast<void*>(trait));
     rtcCommitGeometry(triangles);
     rtcAttachGeometry(scene, triangles);

@@ -122,9 +122,11 @@ void meshes(const ShadeScene& scene, const RayBatch& rays, const MeshPoints& poi
     s.scatter = select(gum, vec3(GUM_SCATTER), s.scatter);
 
     Shade shade = shadeFromVolume(scene, p_P + MESH_LIFT * normal, normal, mask);
-    const auto atLeast = [&](float least, Float value) { return select(steel, least + (1.0f - least) * value, value); };
-    shade.ambient = atLeast(STEEL_AMBIENT_LEAST, shade.ambient) * select(outside, splat(1.0f), splat(INSIDE_AMBIENT));
-    shade.lamp = atLeast(STEEL_LAMP_LEAST, shade.lamp) * select(outside, splat(1.0f), splat(INSIDE_LAMP));
+    const auto at_least = [&](float least, Float value) {
+      return select(steel, least + (1.0f - least) * value, value);
+    };
+    shade.ambient = at_least(STEEL_AMBIENT_LEAST, shade.ambient) * select(outside, splat(1.0f), splat(INSIDE_AMBIENT));
+    shade.lamp = at_least(STEEL_LAMP_LEAST, shade.lamp) * select(outside, splat(1.0f), splat(INSIDE_LAMP));
     const Float3 shown = lit(scene, s, p_P, normal, -direction, shade);
     // A guide is lit from everywhere: it is no part of the patient and shows inside the bone.
     const Float facing = absolute(dot(normal, direction));

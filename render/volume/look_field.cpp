@@ -45,7 +45,7 @@ BorderedField<std::uint32_t> lookField(const BorderedField<std::uint8_t>& solid,
   const glm::ivec3 size = solid.layout().size, bricks = (size + (kB - 1)) / kB;
   const TissueLook& plain = kTissueLook[0];
   BorderedField<std::uint32_t> field(size, packed(plain.albedo, plain.finish));
-  const auto tissueAt = [&](glm::ivec3 v) -> const TissueLook& {
+  const auto tissue_at = [&](glm::ivec3 v) -> const TissueLook& {
     if (label.empty()) return plain;
     const std::size_t index =
         (static_cast<std::size_t>(v.z) * static_cast<std::size_t>(size.y) + static_cast<std::size_t>(v.y)) *
@@ -53,7 +53,7 @@ BorderedField<std::uint32_t> lookField(const BorderedField<std::uint8_t>& solid,
         static_cast<std::size_t>(v.x);
     return kTissueLook[label[index] < kTissueLook.size() ? label[index] : 0];
   };
-  const auto meltBrick = [&](glm::ivec3 brick) {
+  const auto melt_brick = [&](glm::ivec3 brick) {
     // What the brick and its border hold; air without a label needs no colour.
     const glm::ivec3 first = kB * brick;
     bool any = false;
@@ -64,7 +64,7 @@ BorderedField<std::uint32_t> lookField(const BorderedField<std::uint8_t>& solid,
           const glm::ivec3 v = first + glm::ivec3(i, j, k) - 1;
           if (glm::any(glm::lessThan(v, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(v, size))) continue;
           const float filled = static_cast<float>(*solid.at(v)) / 255.0f;
-          const TissueLook& look = tissueAt(v);
+          const TissueLook& look = tissue_at(v);
           any = any || filled > 0.0f || &look != &plain;
           const float weight = (filled * filled + 1e-4f) * look.presence;
           block[at(i, j, k)] = {weight * look.albedo.r, weight * look.albedo.g, weight * look.albedo.b,
@@ -86,7 +86,7 @@ BorderedField<std::uint32_t> lookField(const BorderedField<std::uint8_t>& solid,
   };
   tbb::parallel_for(0, bricks.z, [&](int k) {
     for (int j = 0; j < bricks.y; ++j)
-      for (int i = 0; i < bricks.x; ++i) meltBrick({i, j, k});
+      for (int i = 0; i < bricks.x; ++i) melt_brick({i, j, k});
   });
   return field;
 }
