@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
 # Names in every .cpp of the product and in the headers it reads, as .clang-tidy says.
-# naming.sh ROOT BUILD: BUILD has the compile_commands.json. A file that passed is not read again until it, a header or
-# the rules change. Exit 77 (skipped) without clang-tidy.
+# naming.sh ROOT BUILD [all]: BUILD has the compile_commands.json. A file that passed is not read again until it, a header
+# or the rules change. Where git knows the commit in names_checked, at which all names were good, only what differs from
+# it is read: reading everything takes minutes. `all` reads everything and, where all is good, writes names_checked.
+# Exit 77 (skipped) without clang-tidy.
 set -euo pipefail
-root=$1 build=$2
+root=$1 build=$2 extent=${3:-changed}
 
 if ! command -v clang-tidy >/dev/null; then
   echo "SKIPPED: clang-tidy is not installed, names were not checked (apt-get install clang-tidy)"
@@ -16,13 +18,28 @@ cd "$root"
 rules=$({ cat .clang-tidy; find calibration assets haptics render app -name '*.h' -print0 | sort -z | xargs -0 cat; } |
   sha256sum | cut -c1-64)
 
+# Every source; or those that changed, and for a header that changed one that reads it.
+folders='calibration|assets|haptics|render|app'
+sources=$(sed -nE 's|^ *"file": "(.*\.cpp)",?$|\1|p' "$build/compile_commands.json" | grep -E "^$root/($folders)/" | sort -u)
+checked=$root/tests/architecture/names_checked
+if [ "$extent" != all ] && [ -e "$checked" ] && since=$(git rev-parse -q --verify "$(cat "$checked")^{commit}" 2>/dev/null) &&
+  git diff --quiet "$since" -- .clang-tidy; then
+  changed=$({ git diff --name-only --diff-filter=d "$since" && git ls-files --others --exclude-standard; } |
+    grep -E "^($folders)/.*\.(cpp|h)$" | sort -u || true)
+  sources=$(while read -r file; do
+    case $file in
+      *.cpp) grep -Fx "$root/$file" <<<"$sources" || true ;;
+      *.h) xargs grep -lF "#include \"$file\"" <<<"$sources" | head -n 1 || true ;;
+    esac
+  done <<<"$changed" | sort -u)
+fi
+
 # The product's own sources, as the build compiles them, that have not passed as they are.
 waiting=()
 while read -r source; do
   key=$(printf '%s %s %s' "$rules" "$source" "$(sha256sum <"$source")" | sha256sum | cut -c1-64)
   [ -e "$passed/$key" ] || waiting+=("$source $key")
-done < <(sed -nE 's|^ *"file": "(.*\.cpp)",?$|\1|p' "$build/compile_commands.json" |
-  grep -E "^$root/(calibration|assets|haptics|render|app)/" | sort -u)
+done < <(grep . <<<"$sources" || true)
 
 # clang may stumble over a third party's header that only g++ reads; only names are judged here.
 check() {
@@ -33,8 +50,9 @@ check() {
 }
 export -f check
 export build passed
-if ! printf '%s\n' "${waiting[@]}" | grep . | xargs -r -P "$(nproc)" -d '\n' -I '{}' bash -c 'check "{}"'; then
+if ((${#waiting[@]} > 0)) && ! printf '%s\n' "${waiting[@]}" | xargs -P "$(nproc)" -d '\n' -I '{}' bash -c 'check "{}"'; then
   echo "the names above do not follow .clang-tidy"
   exit 1
 fi
-echo "${#waiting[@]} sources read, the rest had passed as they are"
+if [ "$extent" = all ]; then git rev-parse HEAD >"$checked"; fi
+echo "${#waiting[@]} sources read, the rest had passed before"
