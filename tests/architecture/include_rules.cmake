@@ -111,6 +111,12 @@ endforeach()
 foreach(file IN LISTS files)
   find_rule()
   file(STRINGS "${ROOT}/${file}" lines REGEX "^[ \t]*#[ \t]*include")
+
+  # A source proves that its own header stands alone.
+  string(REGEX REPLACE "\\.cpp$" ".h" own_header "${file}")
+  if(NOT own_header STREQUAL file AND EXISTS "${ROOT}/${own_header}" AND NOT "${lines}" MATCHES "^#include \"${own_header}\"")
+    violation("does not include \"${own_header}\" first: its header must be seen to stand alone")
+  endif()
   foreach(line IN LISTS lines)
     if(line MATCHES "include[ \t]*\"([^\"]+)\"")
       set(name "${CMAKE_MATCH_1}")
