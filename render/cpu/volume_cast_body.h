@@ -164,7 +164,10 @@ inline Float sampleCells(const CastJob& job, Int where, const Place& place, cons
 }
 
 /// The same from the field, corner by corner, in lanes of the mask.
-inline Float sampleField(const CastJob& job, Mask wanted, const Place& place, const Cell& cell) {
+inline Float sampleField(const CastJob& job, Mask wanted, const Place& place, const Cell& outer) {
+  // Rounding may put a ray's entry a hair before the border, where there is nothing to read.
+  const Int border = splat(kEdge - 1);
+  const Cell cell{maximum(outer.i, border), maximum(outer.j, border), maximum(outer.k, border)};
   const Int at = (cell.i - (kEdge - 1)) + (cell.j - (kEdge - 1)) * job.row + (cell.k - (kEdge - 1)) * job.slice;
   const auto corners = [&](Int first) {
     return gather(job.solid, first, wanted) | (gather(job.solid, first + job.row, wanted) << 8) |
