@@ -83,7 +83,7 @@ TEST(FrameRenderer, ThreeBallsLandWherePredictedInBothEyesOfAnyRig) {
         if (count[b] < expected[b] - expected[b] / 50 || expected[b] < 50) continue;
         ++compared;
         const glm::dvec2 at = sum[b] / static_cast<double>(count[b]);
-        EXPECT_LT(glm::length(at - pixelOf(rig, view, balls[b].centre_P_mm)), 0.5) << "rig " << n << " ball " << b;
+        EXPECT_LT(glm::length(at - pixelOf(rig, view, balls[b].centre_P_mm)), 0.3) << "rig " << n << " ball " << b;
       }
     }
   }
