@@ -100,8 +100,7 @@ class GlSceneRenderer final : public SceneRenderer {
   const VolumeFields& fields() const override { return fields_; }
 
   void prepare(const Frame& frame) override {
-    const bool translucent = frame.mode == ViewMode::dvr;
-    const FieldChanges& changes = fields_.prepare(translucent ? visibleFrom(transfer_) : Occupancy::kSolidFrom);
+    const FieldChanges& changes = fields_.prepare();
     volume_.update(fields_, changes);
     if (frame.mode == ViewMode::mesh && !bone_mesh_) bone_mesh_.emplace();
     if (bone_mesh_) bone_mesh_->note(changes);

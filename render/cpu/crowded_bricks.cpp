@@ -3,36 +3,17 @@
 #include <algorithm>
 
 #include "render/shaders/shared_numbers.glsl"
+#include "render/volume/brick_distance.h"
 
 namespace render {
 namespace {
 
 constexpr int kCells = BRICK_VOXELS / AMBIENT_CELL_VOXELS;  // along a brick
 
-// One axis, in place: after all three every brick has the least of the largest of three distances.
-void sweep(std::vector<std::uint8_t>& distance, glm::ivec3 size, int axis) {
-  const std::ptrdiff_t stride[] = {1, size.x, static_cast<std::ptrdiff_t>(size.x) * size.y};
-  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-  std::vector<std::uint8_t> line(static_cast<std::size_t>(size[axis]));
-  for (int b = 0; b < size[v]; ++b)
-    for (int a = 0; a < size[u]; ++a) {
-      std::uint8_t* const first = distance.data() + a * stride[u] + b * stride[v];
-      for (int i = 0; i < size[axis]; ++i) line[static_cast<std::size_t>(i)] = first[i * stride[axis]];
-      // The nearest along the line, where a step counts as much as what the other axes need.
-      for (int i = 0; i < size[axis]; ++i) {
-        int best = line[static_cast<std::size_t>(i)];
-        for (int d = 1; d < best; ++d)
-          for (const int n : {i - d, i + d})
-            if (n >= 0 && n < size[axis]) best = std::min(best, std::max(d, int{line[static_cast<std::size_t>(n)]}));
-        first[i * stride[axis]] = static_cast<std::uint8_t>(best);
-      }
-    }
-}
-
 }  // namespace
 
 CrowdedBricks::CrowdedBricks(const VolumeFields& fields)
-    : bricks_(fields.bricks()),
+    : bricks_(fields.grid().bricks()),
       is_crowded_(static_cast<std::size_t>(bricks_.x) * static_cast<std::size_t>(bricks_.y) *
                   static_cast<std::size_t>(bricks_.z)) {
   for (int k = 0; k < bricks_.z; ++k)
@@ -78,8 +59,7 @@ bool CrowdedBricks::isCrowded(const VolumeFields& fields, glm::ivec3 brick) cons
 
 void CrowdedBricks::measure() {
   distances_.resize(is_crowded_.size() + 4);
-  for (std::size_t b = 0; b < is_crowded_.size(); ++b) distances_[b] = is_crowded_[b] != 0 ? 0 : kFarthest;
-  for (int axis = 0; axis < 3; ++axis) sweep(distances_, bricks_, axis);
+  distancesInBricks(bricks_, is_crowded_, kFarthest, distances_);
 }
 
 }  // namespace render

@@ -3,20 +3,21 @@
 #include <algorithm>
 
 #include "render/shaders/shared_numbers.glsl"
+#include "render/volume/brick_distance.h"
 
 namespace render {
 
 static_assert(BRICK_VOXELS == assets::kBrickVoxels);
 
-Occupancy::Occupancy(const BorderedField<std::uint8_t>& solid, std::uint8_t visible_from)
-    : bricks_((solid.layout().size + (assets::kBrickVoxels - 1)) / assets::kBrickVoxels), visible_from_(visible_from) {
+Occupancy::Occupancy(const BorderedField<std::uint8_t>& solid)
+    : bricks_((solid.layout().size + (assets::kBrickVoxels - 1)) / assets::kBrickVoxels) {
   const std::size_t count = brickIndex(bricks_ - 1) + 1;
-  largest_.resize(count);
+  is_occupied_.resize(count);
   emptiness_.resize(count);
   is_pending_.resize(count);
   for (int k = 0; k < bricks_.z; ++k)
     for (int j = 0; j < bricks_.y; ++j)
-      for (int i = 0; i < bricks_.x; ++i) largest_[brickIndex({i, j, k})] = largestAround(solid, {i, j, k});
+      for (int i = 0; i < bricks_.x; ++i) is_occupied_[brickIndex({i, j, k})] = isOccupied(solid, {i, j, k}) ? 1 : 0;
   rebuild();
 }
 
@@ -26,16 +27,14 @@ std::size_t Occupancy::brickIndex(glm::ivec3 brick) const {
          static_cast<std::size_t>(brick.x);
 }
 
-std::uint8_t Occupancy::largestAround(const BorderedField<std::uint8_t>& solid, glm::ivec3 brick) const {
+bool Occupancy::isOccupied(const BorderedField<std::uint8_t>& solid, glm::ivec3 brick) {
   const VoxelBox box = grown({brick * assets::kBrickVoxels, glm::ivec3(assets::kBrickVoxels)}, 1, solid.layout().size);
-  std::uint8_t largest = 0;
   for (int k = 0; k < box.extent.z; ++k)
     for (int j = 0; j < box.extent.y; ++j) {
       const std::uint8_t* const row = solid.at(box.first + glm::ivec3(0, j, k));
-      for (int i = 0; i < box.extent.x; ++i) largest = std::max(largest, row[i]);
-      if (largest == 255) return largest;
+      if (std::any_of(row, row + box.extent.x, [](std::uint8_t value) { return value >= kSolidFrom; })) return true;
     }
-  return largest;
+  return false;
 }
 
 void Occupancy::touch(const VoxelBox& box) {
@@ -52,18 +51,12 @@ void Occupancy::touch(const VoxelBox& box) {
         }
 }
 
-void Occupancy::setVisibleFrom(std::uint8_t value) {
-  rebuild_now_ = rebuild_now_ || value != visible_from_;
-  visible_from_ = value;
-}
-
 bool Occupancy::refresh(const BorderedField<std::uint8_t>& solid) {
-  bool filled = rebuild_now_;
+  bool filled = false;
   for (const glm::ivec3& brick : pending_) {
     const std::size_t index = brickIndex(brick);
-    const bool was_solid = largest_[index] >= visible_from_;
-    largest_[index] = largestAround(solid, brick);
-    const bool is_solid = largest_[index] >= visible_from_;
+    const bool was_solid = is_occupied_[index] != 0, is_solid = isOccupied(solid, brick);
+    is_occupied_[index] = is_solid ? 1 : 0;
     filled = filled || (is_solid && !was_solid);
     stale_ = stale_ || is_solid != was_solid;
     is_pending_[index] = 0;
@@ -80,26 +73,9 @@ bool Occupancy::rebuildIfStale(const BorderedField<std::uint8_t>& solid) {
   return true;
 }
 
-// Two raster scans over the 26 neighbours give the chessboard distance exactly (Rosenfeld & Pfaltz 1968).
 void Occupancy::rebuild() {
-  stale_ = rebuild_now_ = false;
-  for (std::size_t b = 0; b < largest_.size(); ++b) emptiness_[b] = largest_[b] >= visible_from_ ? 0 : kFarthest;
-  const auto nearer = [this](glm::ivec3 at, int direction) {
-    std::uint8_t best = emptiness_[brickIndex(at)];
-    for (int n = 0; n < 13; ++n) {
-      const glm::ivec3 neighbour = at + direction * (glm::ivec3(n % 3, (n / 3) % 3, n / 9) - 1);
-      if (glm::any(glm::lessThan(neighbour, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(neighbour, bricks_)))
-        continue;
-      best = std::min<std::uint8_t>(best, static_cast<std::uint8_t>(emptiness_[brickIndex(neighbour)] + 1));
-    }
-    emptiness_[brickIndex(at)] = best;
-  };
-  for (int k = 0; k < bricks_.z; ++k)
-    for (int j = 0; j < bricks_.y; ++j)
-      for (int i = 0; i < bricks_.x; ++i) nearer({i, j, k}, 1);
-  for (int k = bricks_.z - 1; k >= 0; --k)
-    for (int j = bricks_.y - 1; j >= 0; --j)
-      for (int i = bricks_.x - 1; i >= 0; --i) nearer({i, j, k}, -1);
+  stale_ = false;
+  distancesInBricks(bricks_, is_occupied_, kFarthest, emptiness_);
 }
 
 }  // namespace render

@@ -23,11 +23,6 @@ struct TransferFunction {
                                                          0.75f, 0.50f, 0.50f, 0.05f, 0.05f};
 };
 
-/// The least solid value of 0..255 that shows: bricks without one are passed unseen.
-inline std::uint8_t visibleFrom(const TransferFunction& transfer) {
-  return static_cast<std::uint8_t>(static_cast<int>(std::clamp(transfer.ramp_start, 0.0f, 0.99f) * 255.0f) + 1);
-}
-
 /// std140 twin of transfer_block.glsl.
 struct TransferBlock {
   glm::vec4 ramp{0.0f};

@@ -15,7 +15,6 @@ namespace {
 
 constexpr int kB = assets::kBrickVoxels;
 constexpr int kEdge = AMBIENT_CELL_VOXELS;
-constexpr int kFramesBetweenRebuilds = 60;
 
 const assets::VolumeGrid& checked(const assets::VolumeGrid& grid, std::size_t solid, std::size_t label) {
   if (grid.voxelCount() == 0 || !(grid.spacing_mm > 0.0) || solid != grid.voxelCount() ||
@@ -55,8 +54,7 @@ VolumeFields::VolumeFields(const assets::VolumeGrid& grid, std::span<const std::
       smooth_(grid.size),
       ambient_(grid.bricks() * (kB / kEdge)),
       look_(lookField(solid_, label)),
-      label_(bordered(grid, label)),
-      occupancy_(solid_) {
+      label_(bordered(grid, label)) {
   // In slabs of a brick's height to keep the working memory small.
   tbb::parallel_for(0, grid.bricks().z, [&](int slab) {
     Smoother smoother;
@@ -67,7 +65,7 @@ VolumeFields::VolumeFields(const assets::VolumeGrid& grid, std::span<const std::
 }
 
 void VolumeFields::updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, Occupancy::kBrickValues> values) {
-  assert(glm::all(glm::greaterThanEqual(brick, glm::ivec3(0))) && glm::all(glm::lessThan(brick, bricks())));
+  assert(glm::all(glm::greaterThanEqual(brick, glm::ivec3(0))) && glm::all(glm::lessThan(brick, grid_.bricks())));
   const glm::ivec3 first = kB * brick, extent = glm::min(glm::ivec3(kB), grid_.size - first);
   glm::ivec3 low(kB), high(-1);
   for (int k = 0; k < extent.z; ++k)
@@ -83,7 +81,6 @@ void VolumeFields::updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, O
     }
   if (high.x < 0) return;
   touched_.push_back({first + low, high - low + 1});
-  occupancy_.touch(touched_.back());
 }
 
 void VolumeFields::meanCells(const VoxelBox& cells) {
@@ -100,12 +97,9 @@ void VolumeFields::meanCells(const VoxelBox& cells) {
       }
 }
 
-// Carving only empties bricks, so the old emptiness stays safe; the exact one is made in a quiet frame, or now and
-// then.
-const FieldChanges& VolumeFields::prepare(std::uint8_t visible_from) {
+const FieldChanges& VolumeFields::prepare() {
   changes_.solid.clear(), changes_.smooth.clear(), changes_.ambient.clear();
-  const bool quiet = touched_.empty();
-  if (!quiet) changes_.solid = gathered(touched_);
+  if (!touched_.empty()) changes_.solid = gathered(touched_);
   touched_.clear();
   for (const VoxelBox& box : changes_.solid) {
     changes_.smooth.push_back(grown(box, kSmoothReach, grid_.size));
@@ -113,13 +107,6 @@ const FieldChanges& VolumeFields::prepare(std::uint8_t visible_from) {
     const glm::ivec3 first = box.first / kEdge;
     changes_.ambient.push_back({first, (box.first + box.extent - 1) / kEdge + 1 - first});
     meanCells(changes_.ambient.back());
-  }
-
-  occupancy_.setVisibleFrom(visible_from);
-  changes_.emptiness = occupancy_.refresh(solid_);
-  if (quiet || ++frames_since_rebuild_ >= kFramesBetweenRebuilds) {
-    changes_.emptiness = occupancy_.rebuildIfStale(solid_) || changes_.emptiness;
-    frames_since_rebuild_ = 0;
   }
   return changes_;
 }

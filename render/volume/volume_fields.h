@@ -1,5 +1,5 @@
 // Everything the picture needs to know of the live bone, on the CPU: the solid fraction, a smoothed copy for normals, a
-// coarse mean for soft shade, which bricks are empty, and the look and label of every voxel. The CPU back-end reads it,
+// coarse mean for soft shade, and the look and label of every voxel. The CPU back-end reads it,
 // VolumeTexture uploads what changed. Not the bone that is carved (its owner sends bricks here) and not the scan.
 // Frame P by the grid. Render thread. Memory: 8 bytes a voxel. Cost of a carved frame: about 2 ns per voxel of the
 // changed box and its reach (40 us for a bur of 2 mm at 0.2 mm).
@@ -20,7 +20,6 @@ namespace render {
 struct FieldChanges {
   std::vector<VoxelBox> solid, smooth;  ///< voxels
   std::vector<VoxelBox> ambient;        ///< cells
-  bool emptiness = false;
 };
 
 class VolumeFields {
@@ -32,9 +31,8 @@ class VolumeFields {
 
   /// New content of one brick, i fastest; values outside the volume are ignored.
   void updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, Occupancy::kBrickValues> values);
-  /// Before drawing: brings everything up to date with the bricks. `visible_from`: as Occupancy's. The answer is valid
-  /// until the next call.
-  const FieldChanges& prepare(std::uint8_t visible_from = Occupancy::kSolidFrom);
+  /// Before drawing: brings everything up to date with the bricks. The answer is valid until the next call.
+  const FieldChanges& prepare();
 
   const assets::VolumeGrid& grid() const { return grid_; }
   /// 255 for solid, 0 in the border.
@@ -47,9 +45,6 @@ class VolumeFields {
   const BorderedField<std::uint32_t>& look() const { return look_; }
   /// assets::Tissue of every voxel.
   const BorderedField<std::uint8_t>& label() const { return label_; }
-  /// As Occupancy::emptiness.
-  std::span<const std::uint8_t> emptiness() const { return occupancy_.emptiness(); }
-  glm::ivec3 bricks() const { return occupancy_.bricks(); }
 
  private:
   void meanCells(const VoxelBox& cells);
@@ -59,11 +54,9 @@ class VolumeFields {
   BorderedField<std::uint16_t> smooth_, ambient_;
   BorderedField<std::uint32_t> look_;
   BorderedField<std::uint8_t> label_;
-  Occupancy occupancy_;
   Smoother smoother_;
   std::vector<VoxelBox> touched_;  ///< voxels changed since prepare()
   FieldChanges changes_;
-  int frames_since_rebuild_ = 0;
 };
 
 }  // namespace render

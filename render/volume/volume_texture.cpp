@@ -5,6 +5,8 @@
 namespace render {
 namespace {
 
+constexpr int kFramesBetweenRebuilds = 60;
+
 template <class T>
 void upload(Texture& texture, const BorderedField<T>& field, const VoxelBox& box) {
   texture.upload(box.first, box.extent, reinterpret_cast<const std::byte*>(field.at(box.first)),
@@ -23,8 +25,9 @@ VolumeTexture::VolumeTexture(const VolumeFields& fields)
       smooth_(Texture::volume(fields.grid().size, TexelFormat::r16)),
       look_(Texture::volume(fields.grid().size, TexelFormat::rgba8)),
       label_(Texture::volume(fields.grid().size, TexelFormat::r8ui)),
-      emptiness_(Texture::volume(fields.bricks(), TexelFormat::r8ui)),
-      ambient_(Texture::volume(fields.ambient().layout().size, TexelFormat::r16)) {
+      emptiness_(Texture::volume(fields.grid().bricks(), TexelFormat::r8ui)),
+      ambient_(Texture::volume(fields.ambient().layout().size, TexelFormat::r16)),
+      occupancy_(fields.solid()) {
   // Slice by slice, to keep the working memory small.
   for (int k = 0; k < fields.grid().size.z; ++k)
     uploadSolid(fields, {{0, 0, k}, {fields.grid().size.x, fields.grid().size.y, 1}});
@@ -32,7 +35,7 @@ VolumeTexture::VolumeTexture(const VolumeFields& fields)
   upload(look_, fields.look(), whole(fields.look()));
   upload(label_, fields.label(), whole(fields.label()));
   upload(ambient_, fields.ambient(), whole(fields.ambient()));
-  emptiness_.upload({0, 0, 0}, fields.bricks(), std::as_bytes(fields.emptiness()));
+  emptiness_.upload({0, 0, 0}, occupancy_.bricks(), std::as_bytes(occupancy_.emptiness()));
 }
 
 void VolumeTexture::uploadSolid(const VolumeFields& fields, const VoxelBox& box) {
@@ -46,11 +49,20 @@ void VolumeTexture::uploadSolid(const VolumeFields& fields, const VoxelBox& box)
   solid_.upload(box.first, box.extent, std::as_bytes(std::span(wide_)));
 }
 
+// Carving only empties bricks, so the old emptiness stays safe; the exact one is made in a quiet frame, or now and
+// then.
 void VolumeTexture::update(const VolumeFields& fields, const FieldChanges& changes) {
   for (const VoxelBox& box : changes.solid) uploadSolid(fields, box);
   for (const VoxelBox& box : changes.smooth) upload(smooth_, fields.smooth(), box);
   for (const VoxelBox& box : changes.ambient) upload(ambient_, fields.ambient(), box);
-  if (changes.emptiness) emptiness_.upload({0, 0, 0}, fields.bricks(), std::as_bytes(fields.emptiness()));
+
+  for (const VoxelBox& box : changes.solid) occupancy_.touch(box);
+  bool moved = occupancy_.refresh(fields.solid());
+  if (changes.solid.empty() || ++frames_since_rebuild_ >= kFramesBetweenRebuilds) {
+    moved = occupancy_.rebuildIfStale(fields.solid()) || moved;
+    frames_since_rebuild_ = 0;
+  }
+  if (moved) emptiness_.upload({0, 0, 0}, occupancy_.bricks(), std::as_bytes(occupancy_.emptiness()));
 }
 
 void VolumeTexture::bind() const {

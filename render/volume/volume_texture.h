@@ -1,12 +1,13 @@
 // The fields of the live bone as textures: solid fraction, smoothed copy and ambient map in 16 bits, so that filtering
-// is not quantised; look, label and emptiness in bytes. Uploads only the boxes that changed. Render thread.
-// Cost: a microsecond or two a brick on a software rasteriser (reference/rendering 1).
+// is not quantised; look, label and emptiness (which bricks a ray may pass) in bytes. Uploads only the boxes that
+// changed. Render thread. Cost: a microsecond or two a brick on a software rasteriser (reference/rendering 1).
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "render/gpu/texture.h"
+#include "render/volume/occupancy.h"
 #include "render/volume/volume_fields.h"
 
 namespace render {
@@ -23,7 +24,9 @@ class VolumeTexture {
   void uploadSolid(const VolumeFields& fields, const VoxelBox& box);
 
   Texture solid_, smooth_, look_, label_, emptiness_, ambient_;
+  Occupancy occupancy_;
   std::vector<std::uint16_t> wide_;
+  int frames_since_rebuild_ = 0;
 };
 
 }  // namespace render

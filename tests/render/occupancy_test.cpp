@@ -39,6 +39,15 @@ VoxelBox put(const std::vector<std::uint8_t>& values, glm::ivec3 brick, Bordered
   return box;
 }
 
+/// Whether a sample inside the brick touches a voxel that is solid, asked voxel by voxel.
+bool touchesSolid(const assets::CtVolume& ct, glm::ivec3 brick) {
+  for (int n = 0; n < 1000; ++n)
+    if (const glm::ivec3 voxel = 8 * brick + glm::ivec3(n % 10, n / 10 % 10, n / 100) - 1;
+        ct.grid.contains(voxel) && ct.solid[ct.grid.index(voxel)] >= Occupancy::kSolidFrom)
+      return true;
+  return false;
+}
+
 TEST(Occupancy, NeverSkipsAPlaceWhoseTrilinearFootprintIsSolid) {
   Random random(11);
   for (int n = 0; n < 20; ++n) {
@@ -71,7 +80,7 @@ TEST(Occupancy, DistanceIsTheChessboardDistanceToTheNextOccupiedBrick) {
           for (int i = 0; i < bricks.x; ++i) visit(glm::ivec3(i, j, k));
     };
     everyBrick([&](glm::ivec3 b) {
-      if (occupancy.largest()[indexOf(b, bricks)] >= Occupancy::kSolidFrom) occupied.push_back(b);
+      if (touchesSolid(ct, b)) occupied.push_back(b);
     });
     everyBrick([&](glm::ivec3 b) {
       int nearest = Occupancy::kFarthest;
@@ -99,7 +108,6 @@ TEST(Occupancy, BrickUpdatesEqualARebuild) {
         }
     updated.rebuildIfStale(solid);
     const Occupancy rebuilt(testing::borderedSolid(after));
-    EXPECT_TRUE(std::ranges::equal(updated.largest(), rebuilt.largest()));
     EXPECT_TRUE(std::ranges::equal(updated.emptiness(), rebuilt.emptiness()));
   }
 }
@@ -135,21 +143,6 @@ TEST(Occupancy, KeepsTheDistancesWhileBricksOnlyEmptyAndMendsThemOnRequest) {
   EXPECT_TRUE(occupancy.rebuildIfStale(air));
   EXPECT_TRUE(std::ranges::all_of(occupancy.emptiness(), [](int e) { return e == Occupancy::kFarthest; }));
   EXPECT_FALSE(occupancy.rebuildIfStale(air));
-}
-
-TEST(Occupancy, SeesFainterMatterOnRequest) {
-  assets::CtVolume ct = testing::ballVolume(testing::smallGrid(), {});
-  ct.solid[ct.grid.index({20, 20, 20})] = 60;
-  const BorderedField<std::uint8_t> solid = testing::borderedSolid(ct);
-  Occupancy occupancy(solid);
-  EXPECT_EQ(occupancy.emptiness()[indexOf({2, 2, 2}, occupancy.bricks())], Occupancy::kFarthest);
-  occupancy.setVisibleFrom(60);
-  EXPECT_TRUE(occupancy.refresh(solid));
-  EXPECT_EQ(occupancy.emptiness()[indexOf({2, 2, 2}, occupancy.bricks())], 0);
-  EXPECT_FALSE(occupancy.rebuildIfStale(solid));
-  occupancy.setVisibleFrom(61);
-  EXPECT_TRUE(occupancy.refresh(solid));
-  EXPECT_EQ(occupancy.emptiness()[indexOf({2, 2, 2}, occupancy.bricks())], Occupancy::kFarthest);
 }
 
 }  // namespace

@@ -54,7 +54,6 @@ TEST(VolumeFields, CarvedBrickByBrickEqualTheFieldsOfWhatIsLeft) {
     EXPECT_TRUE(equal(fields.solid(), fresh.solid()));
     EXPECT_TRUE(equal(fields.smooth(), fresh.smooth()));
     EXPECT_TRUE(equal(fields.ambient(), fresh.ambient()));
-    EXPECT_TRUE(std::ranges::equal(fields.emptiness(), fresh.emptiness()));
     EXPECT_FALSE(std::ranges::equal(after.solid, before.solid));
   }
 }
@@ -94,7 +93,6 @@ TEST(VolumeFields, SayNothingChangedWhenNothingDid) {
   fields.updateBrick({3, 3, 3}, bricksOwn(ct, {3, 3, 3}));
   const FieldChanges& changes = fields.prepare();
   EXPECT_TRUE(changes.solid.empty() && changes.smooth.empty() && changes.ambient.empty());
-  EXPECT_FALSE(changes.emptiness);
 }
 
 TEST(VolumeFields, RefuseValuesThatAreNotOnePerVoxel) {
