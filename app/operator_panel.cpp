@@ -3,12 +3,11 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <cstdarg>
-#include <cstdio>
 #include <filesystem>
 #include <string>
 
 #include "app/hand_input.h"
+#include "app/printed.h"
 #include "assets/tissue.h"
 #include "haptics/contact/law_parameters.h"
 #include "render/quality_ladder.h"
@@ -31,15 +30,6 @@ enum FontAt { text_font, small_font, large_font, heading_font };
 ImFont* font(FontAt at) {
   const ImVector<ImFont*>& fonts = ImGui::GetIO().Fonts->Fonts;
   return fonts[std::min(static_cast<int>(at), fonts.Size - 1)];
-}
-
-[[gnu::format(printf, 1, 2)]] std::string line(const char* format, ...) {
-  char text[256];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  return text;
 }
 
 void textIn(FontAt at, const ImVec4& colour, const std::string& text) {
@@ -83,7 +73,7 @@ void drawState(const RehearsalStatus& s) {
                                  : "Free");
   const int t_s = static_cast<int>(s.tick.t_s);
   ImGui::SameLine();
-  const std::string time = line("%d:%02d", t_s / 60, t_s % 60);
+  const std::string time = printed("%d:%02d", t_s / 60, t_s % 60);
   ImGui::PushFont(font(large_font));
   const float width = ImGui::CalcTextSize(time.c_str()).x;
   ImGui::PopFont();
@@ -103,9 +93,9 @@ void drawTool(const RehearsalStatus& s) {
   heading("Tool");
   const double force_N = glm::length(s.tick.served_force_P_N.xyz), peak_N = s.command.safety.peak_force_N;
   row("Bur", s.bur + " mm");
-  row("Force on the hand", line("%.2f of %.1f N", force_N, peak_N), force_N > 0.95 * peak_N ? kWarn : kInk);
+  row("Force on the hand", printed("%.2f of %.1f N", force_N, peak_N), force_N > 0.95 * peak_N ? kWarn : kInk);
   bar(force_N / peak_N, force_N > 0.95 * peak_N ? kWarn : kAccent);
-  row("Depth in the surface", line("%.2f mm", s.tick.depth_mm));
+  row("Depth in the surface", printed("%.2f mm", s.tick.depth_mm));
   row("Touches", s.tick.depth_mm > 0.0 ? std::string(assets::kTissues[s.tick.contact_tissue].name) : "–");
 }
 
@@ -113,10 +103,10 @@ void drawLaw(const RehearsalStatus& s, OperatorWishes& wishes) {
   heading("Force law");
   const haptics::LawName& now = haptics::kLaws[static_cast<std::size_t>(s.command.law.kind)];
   ImGui::SetNextItemWidth(-1.0f);
-  if (ImGui::BeginCombo("##law", line("%s     %s", now.key.data(), now.formula.data()).c_str())) {
+  if (ImGui::BeginCombo("##law", printed("%s     %s", now.key.data(), now.formula.data()).c_str())) {
     for (const haptics::LawName& one : haptics::kLaws) {
       const bool admitted = haptics::admits(one.kind, s.command.tool.head.kind);
-      const std::string label = line("%s     %s", one.key.data(), one.formula.data());
+      const std::string label = printed("%s     %s", one.key.data(), one.formula.data());
       if (ImGui::Selectable(label.c_str(), one.kind == now.kind, admitted ? 0 : ImGuiSelectableFlags_Disabled))
         wishes.law = one.kind;
     }
@@ -127,7 +117,7 @@ void drawLaw(const RehearsalStatus& s, OperatorWishes& wishes) {
     for (const haptics::LawParameter& p : haptics::lawParameters()) {
       if (p.law && *p.law != s.command.law.kind) continue;
       if ((p.unit.empty() && p.key.starts_with("stiffness_")) != of_tissues) continue;
-      row(std::string(p.key).c_str(), line("%.4g %s", p.of(s.command.law), std::string(p.unit).c_str()));
+      row(std::string(p.key).c_str(), printed("%.4g %s", p.of(s.command.law), std::string(p.unit).c_str()));
       if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(p.meaning).c_str());
     }
   };
@@ -141,11 +131,11 @@ void drawLaw(const RehearsalStatus& s, OperatorWishes& wishes) {
 void drawPictureFigures(const RehearsalStatus& s) {
   heading("Picture");
   const bool late = s.drawing_ms > s.budget_ms;
-  row("Display", s.display + line(", %.0f Hz", s.refresh_Hz));
-  row("Drawn in", line("%.1f of %.1f ms", s.drawing_ms, s.budget_ms), late ? kWarn : kGood);
+  row("Display", s.display + printed(", %.0f Hz", s.refresh_Hz));
+  row("Drawn in", printed("%.1f of %.1f ms", s.drawing_ms, s.budget_ms), late ? kWarn : kGood);
   bar(s.drawing_ms / s.budget_ms, late ? kWarn : kGood);
-  row("Pictures", line("%.0f a second", s.pictures_per_s));
-  row("Motion to photon", line("%.0f ms", s.latency.total_ms()));
+  row("Pictures", printed("%.0f a second", s.pictures_per_s));
+  row("Motion to photon", printed("%.0f ms", s.latency.total_ms()));
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip(
         "pose to swap %.1f ms, measured\nservo %.1f + blank %.1f + scan-out %.1f ms, added\n"
@@ -160,13 +150,13 @@ void drawServo(const RehearsalStatus& s) {
   const ImVec4 health = s.servo.work_p99_us > 0.8 * budget_us   ? kBad
                         : s.servo.work_p99_us > 0.5 * budget_us ? kWarn
                                                                 : kGood;
-  row("Work, 99 % below", line("%.0f of %.0f µs", s.servo.work_p99_us, budget_us), health);
+  row("Work, 99 % below", printed("%.0f of %.0f µs", s.servo.work_p99_us, budget_us), health);
   bar(s.servo.work_p99_us / budget_us, health);
   const double missed_share =
       static_cast<double>(s.servo.missed) / static_cast<double>(std::max<std::uint64_t>(1, s.servo.ticks));
   row("Deadlines missed",
-      line("%llu of %llu", static_cast<unsigned long long>(s.servo.missed),
-           static_cast<unsigned long long>(s.servo.ticks)),
+      printed("%llu of %llu", static_cast<unsigned long long>(s.servo.missed),
+              static_cast<unsigned long long>(s.servo.ticks)),
       missed_share > 0.01 ? kWarn : kInk);
   row("Real-time priority", s.servo.realtime ? "granted" : "not granted", s.servo.realtime ? kGood : kWarn);
 }

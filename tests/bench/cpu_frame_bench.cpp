@@ -1,7 +1,6 @@
 // What a stereo frame costs on the CPU: milliseconds of CPU over all threads (getrusage) and of the wall, medians, for
 // the surgeon's view of a patient, and where they go, by leaving one thing out at a time.
 // cpu_frame_bench [--patient FOLDER] [--face FILE.glb] [--size WxH] [--frames N]
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
@@ -17,17 +16,11 @@
 #include "assets/patient_folder.h"
 #include "assets/synthetic/face.h"
 #include "render/frame_renderer.h"
+#include "tests/bench/cpu_time.h"
 
 namespace {
 
-double cpu_ms() {
-  rusage used{};
-  getrusage(RUSAGE_SELF, &used);
-  const auto ms = [](const timeval& t) {
-    return 1e3 * static_cast<double>(t.tv_sec) + 1e-3 * static_cast<double>(t.tv_usec);
-  };
-  return ms(used.ru_utime) + ms(used.ru_stime);
-}
+using bench::cpu_ms;
 
 double wall_ms() {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();

@@ -4,7 +4,6 @@
 //   [table512], or one of iso, dvr, pictures DIR
 // All threads of the process count (getrusage), so that other work on the machine disturbs least. Of each case the
 // median over frames of an orbit, ours and VTK's in turn three times.
-#include <sys/resource.h>
 #include <sys/sysinfo.h>
 
 #include <algorithm>
@@ -20,6 +19,7 @@
 
 #include "render/frame_renderer.h"
 #include "render/gpu/offscreen_context.h"
+#include "tests/bench/cpu_time.h"
 #include "tests/bench/render/cpu_view.h"
 #include "tests/bench/render/synthetic_head.h"
 #ifdef MOLAR_BENCH_VTK
@@ -31,15 +31,6 @@ namespace {
 using namespace bench;
 using render::Eye;
 using render::ViewMode;
-
-double cpu_ms() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto ms = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_usec) * 1e-3;
-  };
-  return ms(usage.ru_utime) + ms(usage.ru_stime);
-}
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0.0;

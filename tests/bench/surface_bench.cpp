@@ -2,7 +2,6 @@
 // drawing beside the ray caster on the same OpenGL, a slice a plane.
 //   render_surface_bench [voxel mm, default 0.25]
 // Process CPU time (all threads), so that other work on the machine disturbs less; the least of several.
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -13,17 +12,11 @@
 #include "render/display/camera.h"
 #include "render/frame_renderer.h"
 #include "render/gpu/offscreen_context.h"
+#include "tests/bench/cpu_time.h"
 
 namespace {
 
-double cpu_ms() {
-  rusage used{};
-  getrusage(RUSAGE_SELF, &used);
-  const auto ms = [](const timeval& t) {
-    return 1e3 * static_cast<double>(t.tv_sec) + 1e-3 * static_cast<double>(t.tv_usec);
-  };
-  return ms(used.ru_utime) + ms(used.ru_stime);
-}
+using bench::cpu_ms;
 
 template <class Work>
 double least_ms(int rounds, const Work& work) {

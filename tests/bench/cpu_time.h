@@ -1,0 +1,17 @@
+// CPU time of all threads of the process, so that other work on the machine disturbs a measurement least.
+#pragma once
+
+#include <sys/resource.h>
+
+namespace bench {
+
+inline double cpu_ms() {
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
+  const auto ms = [](const timeval& t) {
+    return 1e3 * static_cast<double>(t.tv_sec) + 1e-3 * static_cast<double>(t.tv_usec);
+  };
+  return ms(used.ru_utime) + ms(used.ru_stime);
+}
+
+}  // namespace bench
