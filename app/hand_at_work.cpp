@@ -2,8 +2,8 @@
 
 #include "app/trough_plan.h"
 #include "app/usage_error.h"
-#include "haptics/device/scripted_hand.h"
-#include "haptics/device/simulated_device.h"
+#include "haptics/device/simulated/scripted_hand.h"
+#include "haptics/device/simulated/simulated_device.h"
 
 namespace app {
 namespace {

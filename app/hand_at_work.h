@@ -8,7 +8,7 @@
 #include "assets/patient.h"
 #include "calibration/rig.h"
 #include "haptics/device/haptic_device.h"
-#include "haptics/device/mouse_device.h"
+#include "haptics/device/simulated/mouse_device.h"
 
 namespace app {
 

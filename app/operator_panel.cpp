@@ -158,7 +158,8 @@ void drawServo(const RehearsalStatus& s) {
       printed("%llu of %llu", static_cast<unsigned long long>(s.servo.missed),
               static_cast<unsigned long long>(s.servo.ticks)),
       missed_share > 0.01 ? kWarn : kInk);
-  row("Real-time priority", s.servo.realtime ? "granted" : "not granted", s.servo.realtime ? kGood : kWarn);
+  row("Real-time priority", s.servo.grants.priority ? "granted" : "not granted",
+      s.servo.grants.priority ? kGood : kWarn);
 }
 
 void drawLayers(const RehearsalStatus& s, OperatorWishes& wishes) {

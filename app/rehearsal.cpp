@@ -82,7 +82,7 @@ class Rehearsal {
     if (choosesQuality() || plan_.quality_step) frame_.quality = ladder_->quality();
     latency_.emplace(display_->refresh_Hz(), plan_.rate_Hz);
     workstation_.emplace(plan_.patient, std::move(hand_.device),
-                         haptics::ServoSettings{plan_.rate_Hz, hand_.X_PD, {}, true}, desk_.inForce(), plan_.recording);
+                         haptics::LoopSettings{plan_.rate_Hz, hand_.X_PD, {}, true}, desk_.inForce(), plan_.recording);
     desk_.serve(*workstation_);
     openOperatorsWindow();
     display_->beforeMakingAnew([this] { operator_.reset(); });

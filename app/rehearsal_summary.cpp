@@ -17,8 +17,9 @@ std::string summaryText(const RehearsalFigures& f) {
   text += printed("  servo            %llu ticks at %.0f Hz, %llu deadlines missed, latest wake-up %.0f µs\n",
                   static_cast<unsigned long long>(f.servo.ticks), f.rate_Hz,
                   static_cast<unsigned long long>(f.servo.missed), f.servo.latest_us);
-  text += printed("  work per tick    p50 %.0f µs, p99 %.0f µs, max %.0f µs%s\n", f.servo.work_p50_us,
-                  f.servo.work_p99_us, f.servo.work_max_us, f.servo.realtime ? "" : " (no real-time priority granted)");
+  text +=
+      printed("  work per tick    p50 %.0f µs, p99 %.0f µs, max %.0f µs%s\n", f.servo.work_p50_us, f.servo.work_p99_us,
+              f.servo.work_max_us, f.servo.grants.priority ? "" : " (no real-time priority granted)");
   text += printed("  pictures         %llu, one every %.0f ms, the first after %.1f s\n",
                   static_cast<unsigned long long>(f.frames), f.frame_ms, f.first_picture_s);
   text += printed("  display          %s, quality: %s\n", f.display.c_str(), f.quality.c_str());

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "assets/patient.h"
-#include "haptics/device/scripted_hand.h"
+#include "haptics/device/simulated/scripted_hand.h"
 
 namespace app {
 

@@ -24,7 +24,7 @@ std::unique_ptr<Recorder> recorderOf(const std::optional<Recording>& recording, 
 }  // namespace
 
 Workstation::Workstation(const assets::Patient& patient, std::unique_ptr<haptics::HapticDevice> device,
-                         const haptics::ServoSettings& settings, const haptics::Command& command,
+                         const haptics::LoopSettings& settings, const haptics::Command& command,
                          const std::optional<Recording>& recording)
     : device_(std::move(device)),
       bone_(patient.ct.grid, patient.ct.solid, patient.ct.label),
@@ -34,10 +34,10 @@ Workstation::Workstation(const assets::Patient& patient, std::unique_ptr<haptics
       commands_(command_),
       log_(static_cast<std::size_t>(std::ceil(kLogged_s * rate_Hz_))),
       recorder_(recorderOf(recording, patient, settings.rate_Hz, command_, log_)),
-      servo_thread_(servo_, *device_, commands_, log_, newest_, settings) {}
+      loop_(servo_, *device_, commands_, log_, newest_, settings) {}
 
 RecordingSummary Workstation::stop() {
-  servo_thread_.stop();
+  loop_.stop();
   return recorder_ ? recorder_->stop() : RecordingSummary{};
 }
 

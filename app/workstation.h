@@ -11,8 +11,8 @@
 #include "assets/patient.h"
 #include "haptics/bone/carved_bone.h"
 #include "haptics/device/haptic_device.h"
+#include "haptics/servo/haptic_loop.h"
 #include "haptics/servo/servo.h"
-#include "haptics/servo/servo_thread.h"
 
 namespace app {
 
@@ -25,10 +25,10 @@ class Workstation {
  public:
   /// Throws SessionError or haptics::DeviceError.
   Workstation(const assets::Patient& patient, std::unique_ptr<haptics::HapticDevice> device,
-              const haptics::ServoSettings& settings, const haptics::Command& command,
+              const haptics::LoopSettings& settings, const haptics::Command& command,
               const std::optional<Recording>& recording);
 
-  void start() { servo_thread_.start(); }
+  void start() { loop_.start(); }
   /// Force to zero, servo ended, recording closed.
   RecordingSummary stop();
 
@@ -41,7 +41,7 @@ class Workstation {
 
   haptics::Tick newestTick() { return newest_.read(); }
   haptics::CarvedBone& bone() { return bone_; }
-  haptics::ServoFigures figures() const { return servo_thread_.figures(); }
+  haptics::ServoFigures figures() const { return loop_.figures(); }
 
  private:
   std::unique_ptr<haptics::HapticDevice> device_;
@@ -53,7 +53,7 @@ class Workstation {
   haptics::Latest<haptics::Tick> newest_;
   haptics::TickLog log_;
   std::unique_ptr<Recorder> recorder_;
-  haptics::ServoThread servo_thread_;
+  haptics::HapticLoop loop_;
 };
 
 }  // namespace app

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "haptics/device/virtual_hand.h"
+#include "haptics/device/simulated/virtual_hand.h"
 #include "haptics/servo/servo.h"
 
 namespace app {

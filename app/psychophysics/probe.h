@@ -1,8 +1,8 @@
 // A simulated hand that probes the bone as people do when they judge its hardness: it taps, presses, strokes or
 // explores, on minimum-jerk ways (Flash & Hogan, J Neurosci 5:1688, 1985) that pull a hand of flesh
-// (haptics/device/virtual_hand), so the bone really pushes it back. Every interval runs the whole servo: contact,
-// proxy, limits. The drill is off: the bone stays as it is. Reach and place vary from one probing to the next as hands
-// do
+// (haptics/device/simulated/virtual_hand), so the bone really pushes it back. Every interval runs the whole servo:
+// contact, proxy, limits. The drill is off: the bone stays as it is. Reach and place vary from one probing to the next
+// as hands do
 // (`spread`, `wander_mm`), seeded. Frame P, mm, s. One thread; 5..50 µs a tick, a thousand ticks a second felt.
 #pragma once
 

@@ -1,10 +1,12 @@
-// How well the servo keeps time: work per tick as a histogram, missed deadlines, the worst lateness. Written by the
-// servo thread, read by any other while it runs; preallocated, lock-free. µs.
+// How well the servo keeps time: work per tick and lateness of its wake-up as histograms, missed deadlines. Written by
+// the device's thread, read by any other while it runs; preallocated, lock-free. µs.
 #pragma once
 
 #include <array>
 #include <atomic>
 #include <cstdint>
+
+#include "haptics/servo/realtime.h"
 
 namespace haptics {
 
@@ -12,10 +14,25 @@ namespace haptics {
 struct ServoFigures {
   std::uint64_t ticks = 0;
   std::uint64_t missed = 0;  ///< deadlines passed over because a tick began or ended too late
-  double work_p50_us = 0.0, work_p99_us = 0.0, work_max_us = 0.0;  ///< percentiles to 1 µs below 4 ms
-  double latest_us = 0.0;                                          ///< longest time a tick woke after its deadline
-  bool realtime = false;                                           ///< the scheduler granted SCHED_FIFO
-  bool memory_locked = false;                                      ///< mlockall succeeded
+  double work_p50_us = 0.0, work_p99_us = 0.0, work_p999_us = 0.0,
+         work_max_us = 0.0;                                      ///< percentiles to 1 µs below 4 ms
+  double late_p50_us = 0.0, late_p99_us = 0.0, latest_us = 0.0;  ///< how long after its deadline a tick woke
+  std::uint64_t silences = 0;                                    ///< times the supervisor found no ticks for 50 ms
+  RealtimeGrants grants;
+};
+
+/// Of microseconds, 1 µs fine below 4 ms.
+class MicrosecondHistogram {
+ public:
+  void add(double us);
+  double most_us() const { return most_us_.load(std::memory_order_relaxed); }
+  /// The middle of the bin that `share` of all lie below or in; 0 while empty.
+  double percentile_us(double share) const;
+
+ private:
+  static constexpr std::size_t kBins = 4096;  ///< the last holds everything longer
+  std::array<std::atomic<std::uint32_t>, kBins> bins_{};
+  std::atomic<double> most_us_{0.0};
 };
 
 class ServoStatistics {
@@ -23,17 +40,16 @@ class ServoStatistics {
   /// Servo thread only.
   void add(double work_us, double late_us);
   void addMissed(std::uint64_t deadlines);
-  void setGrants(bool realtime, bool memory_locked);
+  void setGrants(const RealtimeGrants& grants);
 
   /// Any thread.
   ServoFigures figures() const;
 
  private:
-  static constexpr std::size_t kBins = 4096;  ///< of 1 µs; the last holds everything longer
-  std::array<std::atomic<std::uint32_t>, kBins> work_{};
+  MicrosecondHistogram work_, late_;
   std::atomic<std::uint64_t> ticks_{0}, missed_{0};
-  std::atomic<double> work_max_us_{0.0}, latest_us_{0.0};
   std::atomic<bool> realtime_{false}, memory_locked_{false};
+  std::atomic<int> core_{-1};
 };
 
 }  // namespace haptics

@@ -1,6 +1,6 @@
 # Who may include whom, over every #include of the product. Run: cmake -DROOT=<project> -P include_rules.cmake
 #   calibration < assets < { haptics | render } < app; tests see all. Left never includes right.
-#   haptics: { device | bone, tool } < contact < servo.   render: gpu < { volume | scene | display } < the frame renderer.
+#   haptics: { device < safety | bone, tool < contact } < servo.   render: gpu < { volume | scene | display } < the frame renderer.
 # A third party belongs to the folders named here and to their .cpp files alone; GLM is the shared vocabulary.
 cmake_minimum_required(VERSION 3.25)
 
@@ -12,7 +12,8 @@ set(tests ${app} tests/)
 # Inside haptics and render a sub-folder names what it may see; the folder itself sees all of its own. Latest, by which
 # values cross threads, and the plain words of render lie beside their sub-folders for all.
 set(haptics ${assets} haptics/)
-set(haptics/device ${assets} haptics/latest.h haptics/wrench.h haptics/device/)
+set(haptics/device ${assets} haptics/latest.h haptics/wrench.h haptics/motor_command.h haptics/device/)
+set(haptics/safety ${assets} haptics/latest.h haptics/wrench.h haptics/motor_command.h haptics/device/ haptics/safety/)
 set(haptics/bone ${assets} haptics/bone/ haptics/tool/)
 set(haptics/tool ${assets} haptics/bone/ haptics/tool/)
 set(haptics/contact ${assets} haptics/bone/ haptics/tool/ haptics/contact/)

@@ -1,5 +1,6 @@
-# What one servo tick can reach, read from the machine code: starting at haptics::Servo::step and every device's
-# exchange(), all calls and references are followed through the archives, and whatever leaves them must be on the short
+# What one servo tick can reach, read from the machine code: starting at haptics::Servo::step, the motor gate and every
+# exchange(), sense() and drive() of a device, all calls and references are followed through the archives, and whatever
+# leaves them must be on the short
 # list below. So an allocation in a constructor is fine and one behind a rare branch of the step is not, whether a test
 # runs it or not. Calls through pointers can not be followed, so the step may make none.
 # Run: cmake -DOBJDUMP=… -DARCHIVES=a.a,b.a [-DROOTS=regex] -P servo_symbols.cmake   (x86-64 objects, mangled names)
@@ -13,7 +14,7 @@ set(allowed
   "^(_GLOBAL_OFFSET_TABLE_|_ZTV.*|_ZTI.*|_ZTS.*)$")
 list(JOIN allowed "|" allowed)
 if(NOT DEFINED ROOTS)
-  set(ROOTS "^_ZN7haptics5Servo4stepE|^_ZN7haptics[A-Za-z0-9]+8exchangeE")
+  set(ROOTS "^_ZN7haptics5Servo4stepE|^_ZN7haptics[A-Za-z0-9]+(8exchange|5sense|5drive)E|^_ZNK7haptics9MotorGate5admitE")
 endif()
 
 # One line per function, and one per reference out of it.

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <limits>
 
-#include "haptics/device/mouse_device.h"
-#include "haptics/device/scripted_hand.h"
-#include "haptics/device/simulated_device.h"
+#include "haptics/device/simulated/mouse_device.h"
+#include "haptics/device/simulated/scripted_hand.h"
+#include "haptics/device/simulated/simulated_device.h"
 
 namespace haptics {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "haptics/device/simulated_device.h"
+#include "haptics/device/simulated/simulated_device.h"
 #include "haptics/servo/servo.h"
 #include "tests/haptics/phantom.h"
 

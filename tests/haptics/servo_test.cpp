@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "haptics/device/scripted_hand.h"
+#include "haptics/device/simulated/scripted_hand.h"
 #include "haptics/servo/tick_log.h"
 #include "tests/haptics/allocation_count.h"
 #include "tests/haptics/phantom.h"

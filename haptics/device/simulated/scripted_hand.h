@@ -2,26 +2,28 @@
 // of the steps it is given: no clock, no randomness. Frame D, mm, s. Not a machine (device/simulated_device).
 #pragma once
 
-#include "haptics/device/haptic_device.h"
-#include "haptics/device/trough_path.h"
-#include "haptics/device/virtual_hand.h"
+#include "haptics/device/simulated/device_in_numbers.h"
+#include "haptics/device/simulated/trough_path.h"
+#include "haptics/device/simulated/virtual_hand.h"
 
 namespace haptics {
 
-class ScriptedHand final : public HapticDevice {
+class ScriptedHand final : public DeviceInNumbers {
  public:
   /// Throws DeviceError when the plan is not usable.
   explicit ScriptedHand(const TroughPlan& plan);
+  ~ScriptedHand() override { stop(); }
 
   double duration_s() const { return path_.duration_s(); }
 
-  DeviceCapabilities capabilities() const override;
+  const DeviceCapabilities& capabilities() const override { return capabilities_; }
   HandleState exchange(const Wrench<calibration::Device>& wrench_D, double dt_s) noexcept override;
 
  private:
   TroughPath path_;
   VirtualHand hand_;
   double t_s_ = 0.0;
+  DeviceCapabilities capabilities_;
 };
 
 }  // namespace haptics

@@ -5,9 +5,9 @@
 // construction. Not the arm's kinematics, not its structural modes.
 #pragma once
 
-#include "haptics/device/haptic_device.h"
-#include "haptics/device/trough_path.h"
-#include "haptics/device/virtual_hand.h"
+#include "haptics/device/simulated/device_in_numbers.h"
+#include "haptics/device/simulated/trough_path.h"
+#include "haptics/device/simulated/virtual_hand.h"
 
 namespace haptics {
 
@@ -38,20 +38,22 @@ class SimulatedMachine {
 };
 
 /// The machine in the hand of a surgeon who cuts a trough.
-class SimulatedDevice final : public HapticDevice {
+class SimulatedDevice final : public DeviceInNumbers {
  public:
   /// Throws DeviceError when plan or mechanics are not usable.
   SimulatedDevice(const TroughPlan& plan, const SimulatedMechanics& mechanics)
-      : path_(plan), machine_(mechanics, path_.at(0.0)) {}
+      : path_(plan), machine_(mechanics, path_.at(0.0)), capabilities_(machine_.capabilities()) {}
+  ~SimulatedDevice() override { stop(); }
 
   double duration_s() const { return path_.duration_s(); }
 
-  DeviceCapabilities capabilities() const override { return machine_.capabilities(); }
+  const DeviceCapabilities& capabilities() const override { return capabilities_; }
   HandleState exchange(const Wrench<calibration::Device>& wrench_D, double dt_s) noexcept override;
 
  private:
   TroughPath path_;
   SimulatedMachine machine_;
+  DeviceCapabilities capabilities_;
   double t_s_ = 0.0;
 };
 

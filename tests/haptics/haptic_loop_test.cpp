@@ -1,11 +1,13 @@
-#include "haptics/servo/servo_thread.h"
+#include "haptics/servo/haptic_loop.h"
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <limits>
 
-#include "haptics/device/mouse_device.h"
+#include "haptics/device/paced_device.h"
+#include "haptics/device/simulated/mouse_device.h"
 #include "tests/haptics/phantom.h"
 
 namespace haptics {
@@ -15,30 +17,41 @@ using namespace phantom;
 using namespace std::chrono_literals;
 
 /// Stands still under the surface, remembers the force it is given, and can be slow once.
-class PressedDevice final : public HapticDevice {
+class PressedDevice final : public PacedDevice {
  public:
-  explicit PressedDevice(int slow_at = -1) : slow_at_(slow_at) {}
-  DeviceCapabilities capabilities() const override {
-    DeviceCapabilities weak;
-    weak.peak_force_N = 0.5;
-    weak.peak_torque_Nmm = peak_torque_Nmm;
-    return weak;
+  explicit PressedDevice(int slow_at = -1, std::chrono::milliseconds slowness = 30ms)
+      : slow_at_(slow_at), slowness_(slowness) {
+    capabilities_.peak_force_N = 0.5;
   }
-  HandleState exchange(const Wrench<calibration::Device>& wrench_D, double) noexcept override {
-    if (calls_++ == slow_at_) std::this_thread::sleep_for(30ms);
-    last_N = glm::length(wrench_D.force_N.xyz);
-    last_Nmm = glm::length(wrench_D.torque_Nmm.xyz);
-    most_Nmm = std::max(most_Nmm, last_Nmm);
-    most_N = std::max(most_N, last_N);
+  ~PressedDevice() override { stop(); }
+  const DeviceCapabilities& capabilities() const override { return capabilities_; }
+  void setPeakTorque(double peak_Nmm) { capabilities_.peak_torque_Nmm = peak_Nmm; }
+
+  HandleState sense(double) noexcept override {
     HandleState state;
     state.X_DH.translation_mm = {0.0, 0.0, 1.0};
     return state;
   }
-  double peak_torque_Nmm = 0.0;
+  void drive(const MotorCommand& command) noexcept override {
+    last_N = glm::length(command.wrench_D().force_N.xyz);
+    last_Nmm = glm::length(command.wrench_D().torque_Nmm.xyz);
+    most_Nmm = std::max(most_Nmm, last_Nmm);
+    most_N = std::max(most_N, last_N);
+    motors_on = command.motorsOn();
+    if (calls_++ == slow_at_) std::this_thread::sleep_for(slowness_);
+  }
+  void motorsOff() noexcept override {
+    PacedDevice::motorsOff();
+    times_off.fetch_add(1);
+  }
   double last_N = 0.0, most_N = 0.0, last_Nmm = 0.0, most_Nmm = 0.0;  // read after stop()
+  bool motors_on = false;
+  std::atomic<int> times_off{0};
 
  private:
   int calls_ = 0, slow_at_;
+  std::chrono::milliseconds slowness_;
+  DeviceCapabilities capabilities_;
 };
 
 /// Until the servo has run that many ticks, however busy the machine is.
@@ -52,26 +65,26 @@ struct Bench {
   Latest<Command> commands;
   TickLog log;
   Latest<Tick> newest;
-  ServoSettings settings = [] {
-    ServoSettings s;
+  LoopSettings settings = [] {
+    LoopSettings s;
     s.realtime = false;
     return s;
   }();
 };
 
-TEST(ServoThread, TicksLogsAndLetsGoWhenStopped) {
+TEST(HapticLoop, TicksLogsAndLetsGoWhenStopped) {
   Bench bench;
   PressedDevice device;
-  ServoThread thread(bench.servo, device, bench.commands, bench.log, bench.newest, bench.settings);
-  thread.start();
+  HapticLoop loop(bench.servo, device, bench.commands, bench.log, bench.newest, bench.settings);
+  loop.start();
   waitForTick(bench.newest, 30);
-  thread.stop();
+  loop.stop();
   std::vector<Tick> ticks;
   bench.log.drainInto(ticks);
   ASSERT_GT(ticks.size(), 10u);
   for (std::size_t i = 0; i < ticks.size(); ++i) EXPECT_EQ(ticks[i].index, i);
   EXPECT_EQ(bench.newest.read().index, ticks.back().index);
-  const ServoFigures figures = thread.figures();
+  const ServoFigures figures = loop.figures();
   EXPECT_EQ(figures.ticks, ticks.size());
   EXPECT_GT(figures.work_p50_us, 0.0);
   EXPECT_LE(figures.work_p50_us, figures.work_p99_us);
@@ -80,11 +93,11 @@ TEST(ServoThread, TicksLogsAndLetsGoWhenStopped) {
   EXPECT_EQ(device.last_N, 0.0);
 }
 
-TEST(ServoThread, ObeysNewCommands) {
+TEST(HapticLoop, ObeysNewCommands) {
   Bench bench;
   PressedDevice device;
-  ServoThread thread(bench.servo, device, bench.commands, bench.log, bench.newest, bench.settings);
-  thread.start();
+  HapticLoop loop(bench.servo, device, bench.commands, bench.log, bench.newest, bench.settings);
+  loop.start();
   Command command;
   command.serial = 7;
   bench.commands.publish(command);
@@ -92,24 +105,24 @@ TEST(ServoThread, ObeysNewCommands) {
   EXPECT_EQ(bench.newest.read().command_serial, 7u);
 }
 
-TEST(ServoThread, CountsMissedDeadlinesAndGoesOn) {
+TEST(HapticLoop, CountsMissedDeadlinesAndGoesOn) {
   Bench bench;
   PressedDevice device(20);
-  ServoThread thread(bench.servo, device, bench.commands, bench.log, bench.newest, bench.settings);
-  thread.start();
+  HapticLoop loop(bench.servo, device, bench.commands, bench.log, bench.newest, bench.settings);
+  loop.start();
   waitForTick(bench.newest, 60);
-  thread.stop();
-  EXPECT_GE(thread.figures().missed, 28u);
+  loop.stop();
+  EXPECT_GE(loop.figures().missed, 28u);
   EXPECT_GE(bench.newest.read().index, 60u);
 }
 
-TEST(ServoThread, RefusesRatesAndPosesItCannotServe) {
+TEST(HapticLoop, RefusesRatesAndPosesItCannotServe) {
   Bench bench;
   MouseDevice device;
-  const auto make = [&](const ServoSettings& settings) {
-    ServoThread(bench.servo, device, bench.commands, bench.log, bench.newest, settings);
+  const auto make = [&](const LoopSettings& settings) {
+    HapticLoop(bench.servo, device, bench.commands, bench.log, bench.newest, settings);
   };
-  ServoSettings bad;
+  LoopSettings bad;
   bad.rate_Hz = 100.0;
   EXPECT_THROW(make(bad), DeviceError);
   bad = {};
@@ -120,34 +133,59 @@ TEST(ServoThread, RefusesRatesAndPosesItCannotServe) {
   EXPECT_THROW(make(bad), DeviceError);
 }
 
-TEST(ServoThread, ServesTorqueAboutTheHandleToADeviceThatHasIt) {
+TEST(HapticLoop, ServesTorqueAboutTheHandleToADeviceThatHasIt) {
   // The tool sticks out 60 mm to the side of the handle and is pressed with 0.5 N: 30 N mm, of which 20 are allowed.
   for (double peak_Nmm : {0.0, 20.0}) {
     Bench bench;
     PressedDevice device;
-    device.peak_torque_Nmm = peak_Nmm;
+    device.setPeakTorque(peak_Nmm);
     bench.settings.X_HT.translation_mm = {60.0, 0.0, 0.0};
     bench.settings.X_PD.translation_mm = {-60.0, 0.0, 0.0};
-    ServoThread thread(bench.servo, device, bench.commands, bench.log, bench.newest, bench.settings);
-    thread.start();
+    HapticLoop loop(bench.servo, device, bench.commands, bench.log, bench.newest, bench.settings);
+    loop.start();
     waitForTick(bench.newest, 80);
-    thread.stop();
+    loop.stop();
     EXPECT_NEAR(device.most_Nmm, peak_Nmm, 1e-9);
     EXPECT_EQ(device.last_Nmm, 0.0);
   }
 }
 
-TEST(ServoThread, RunsAtTenKilohertz) {
+TEST(HapticLoop, RunsAtTenKilohertz) {
   Bench bench;
   bench.settings.rate_Hz = 10'000.0;
   PressedDevice device;
-  ServoThread thread(bench.servo, device, bench.commands, bench.log, bench.newest, bench.settings);
-  thread.start();
+  HapticLoop loop(bench.servo, device, bench.commands, bench.log, bench.newest, bench.settings);
+  loop.start();
   waitForTick(bench.newest, 1000);
-  thread.stop();
-  EXPECT_GE(thread.figures().ticks, 1000u);
+  loop.stop();
+  EXPECT_GE(loop.figures().ticks, 1000u);
   EXPECT_EQ(bench.newest.read().dt_s, 1e-4);
   EXPECT_NEAR(device.most_N, 0.5, 1e-9);
+}
+
+TEST(HapticLoop, SupervisorSwitchesTheMotorsOffWhenTicksStop) {
+  Bench bench;
+  PressedDevice device(20, 150ms);
+  HapticLoop loop(bench.servo, device, bench.commands, bench.log, bench.newest, bench.settings);
+  loop.start();
+  waitForTick(bench.newest, 60);
+  EXPECT_GE(device.times_off.load(), 1);
+  EXPECT_GE(loop.figures().silences, 1u);
+  loop.stop();
+}
+
+TEST(HapticLoop, GivesNoForceAfterAnEmergencyStopAndGoesOnTicking) {
+  Bench bench;
+  PressedDevice device;
+  HapticLoop loop(bench.servo, device, bench.commands, bench.log, bench.newest, bench.settings);
+  loop.start();
+  waitForTick(bench.newest, 30);
+  loop.emergencyStop();
+  const std::uint64_t then = bench.newest.read().index;
+  waitForTick(bench.newest, then + 20);
+  loop.stop();
+  EXPECT_EQ(device.last_N, 0.0);
+  EXPECT_FALSE(device.motors_on);
 }
 
 TEST(LimitedTo, TakesTheSmallerPeaks) {

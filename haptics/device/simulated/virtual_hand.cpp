@@ -1,4 +1,4 @@
-#include "haptics/device/virtual_hand.h"
+#include "haptics/device/simulated/virtual_hand.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "haptics/device/mouse_device.h"
+#include "haptics/device/simulated/mouse_device.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,18 +7,14 @@ namespace haptics {
 
 MouseDevice::MouseDevice(const MouseTarget& start) : target_(start), rotation_(start.X_DH.rotation) {
   hand_.place_mm = start.X_DH.translation_mm;
+  capabilities_.model = "mouse";
+  capabilities_.damping_Ns_per_mm = hand_.dampingInAll_Ns_per_mm();
 }
 
 void MouseDevice::setTarget(const MouseTarget& target) {
   const double norm = glm::dot(target.X_DH.rotation, target.X_DH.rotation);
   if (!std::isfinite(glm::length(target.X_DH.translation_mm)) || !(norm > 0.25 && norm < 4.0)) return;
   target_.publish(target);
-}
-
-DeviceCapabilities MouseDevice::capabilities() const {
-  DeviceCapabilities simulated;
-  simulated.damping_Ns_per_mm = hand_.dampingInAll_Ns_per_mm();
-  return simulated;
 }
 
 HandleState MouseDevice::exchange(const Wrench<calibration::Device>& wrench_D, double dt_s) noexcept {

@@ -1,4 +1,4 @@
-#include "haptics/device/simulated_device.h"
+#include "haptics/device/simulated/simulated_device.h"
 
 #include <cmath>
 

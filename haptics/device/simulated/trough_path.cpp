@@ -1,4 +1,4 @@
-#include "haptics/device/trough_path.h"
+#include "haptics/device/simulated/trough_path.h"
 
 #include <algorithm>
 #include <cmath>

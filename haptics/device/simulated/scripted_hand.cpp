@@ -1,13 +1,11 @@
-#include "haptics/device/scripted_hand.h"
+#include "haptics/device/simulated/scripted_hand.h"
 
 namespace haptics {
 
-ScriptedHand::ScriptedHand(const TroughPlan& plan) : path_(plan) { hand_.place_mm = path_.at(0.0).place_mm; }
-
-DeviceCapabilities ScriptedHand::capabilities() const {
-  DeviceCapabilities simulated;
-  simulated.damping_Ns_per_mm = hand_.dampingInAll_Ns_per_mm();
-  return simulated;
+ScriptedHand::ScriptedHand(const TroughPlan& plan) : path_(plan) {
+  hand_.place_mm = path_.at(0.0).place_mm;
+  capabilities_.model = "scripted hand";
+  capabilities_.damping_Ns_per_mm = hand_.dampingInAll_Ns_per_mm();
 }
 
 HandleState ScriptedHand::exchange(const Wrench<calibration::Device>& wrench_D, double dt_s) noexcept {

@@ -3,8 +3,8 @@
 // Latest. No allocation after construction. Not a force display: nobody feels it but the picture shows it.
 #pragma once
 
-#include "haptics/device/haptic_device.h"
-#include "haptics/device/virtual_hand.h"
+#include "haptics/device/simulated/device_in_numbers.h"
+#include "haptics/device/simulated/virtual_hand.h"
 #include "haptics/latest.h"
 
 namespace haptics {
@@ -14,20 +14,22 @@ struct MouseTarget {
   bool pedal = false;
 };
 
-class MouseDevice final : public HapticDevice {
+class MouseDevice final : public DeviceInNumbers {
  public:
   explicit MouseDevice(const MouseTarget& start = {});
+  ~MouseDevice() override { stop(); }
 
   /// UI thread. A target that is not finite is ignored.
   void setTarget(const MouseTarget& target);
 
-  DeviceCapabilities capabilities() const override;
+  const DeviceCapabilities& capabilities() const override { return capabilities_; }
   HandleState exchange(const Wrench<calibration::Device>& wrench_D, double dt_s) noexcept override;
 
  private:
   Latest<MouseTarget> target_;
   VirtualHand hand_;
   glm::dquat rotation_;
+  DeviceCapabilities capabilities_;
 };
 
 }  // namespace haptics
