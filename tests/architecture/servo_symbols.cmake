@@ -1,8 +1,7 @@
 # What one servo tick can reach, read from the machine code: starting at haptics::Servo::step, the motor gate and every
 # exchange(), sense() and drive() of a device, all calls and references are followed through the archives, and whatever
-# leaves them must be on the short
-# list below. So an allocation in a constructor is fine and one behind a rare branch of the step is not, whether a test
-# runs it or not. Calls through pointers can not be followed, so the step may make none.
+# leaves them must be on the short list below. So an allocation in a constructor is fine and one behind a rare branch of
+# the step is not, whether a test runs it or not. Calls through pointers can not be followed, so the step may make none.
 # Run: cmake -DOBJDUMP=… -DARCHIVES=a.a,b.a [-DROOTS=regex] -P servo_symbols.cmake   (x86-64 objects, mangled names)
 cmake_minimum_required(VERSION 3.25)
 
