@@ -5,8 +5,8 @@
 #include <string>
 
 #include "app/motion_to_photon.h"
+#include "haptics/loop/loop_statistics.h"
 #include "haptics/servo/command.h"
-#include "haptics/servo/servo_statistics.h"
 #include "haptics/servo/tick.h"
 #include "render/frame.h"
 
@@ -20,7 +20,7 @@ struct RehearsalStatus {
   std::string display;  ///< the same
   haptics::Tick tick;   ///< the newest
   haptics::Command command;
-  haptics::ServoFigures servo;
+  haptics::LoopFigures servo;
   double servo_rate_Hz = 1000.0;
   double drawing_ms = 0.0;  ///< of the newest frame
   double pictures_per_s = 0.0;

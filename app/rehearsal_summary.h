@@ -8,7 +8,7 @@
 #include "app/motion_to_photon.h"
 #include "app/session/recorder.h"
 #include "assets/tissue.h"
-#include "haptics/servo/servo_statistics.h"
+#include "haptics/loop/loop_statistics.h"
 
 namespace app {
 
@@ -22,7 +22,7 @@ struct RehearsalFigures {
   std::string display, quality;                         ///< in words, at the end
   std::optional<PhotonEstimate> latency, slow_latency;  ///< median and 95th percentile; none without a window
   double first_picture_s = 0.0;  ///< from the user's asking to the first picture, loading included
-  haptics::ServoFigures servo;
+  haptics::LoopFigures servo;
   double rate_Hz = 1000.0;
   std::optional<RecordingSummary> recording;
 };

@@ -41,7 +41,7 @@ class Workstation {
 
   haptics::Tick newestTick() { return newest_.read(); }
   haptics::CarvedBone& bone() { return bone_; }
-  haptics::ServoFigures figures() const { return loop_.figures(); }
+  haptics::LoopFigures figures() const { return loop_.figures(); }
 
  private:
   std::unique_ptr<haptics::HapticDevice> device_;

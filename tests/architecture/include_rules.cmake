@@ -1,6 +1,6 @@
 # Who may include whom, over every #include of the product. Run: cmake -DROOT=<project> -P include_rules.cmake
 #   calibration < assets < { haptics | render } < app; tests see all. Left never includes right.
-#   haptics: { device < safety | bone, tool < contact } < servo.   render: gpu < { volume | scene | display } < the frame renderer.
+#   haptics: { device < safety < loop | bone, tool < contact } < servo.   render: gpu < { volume | scene | display } < the frame renderer.
 # A third party belongs to the folders named here and to their .cpp files alone; GLM is the shared vocabulary.
 cmake_minimum_required(VERSION 3.25)
 
@@ -14,6 +14,7 @@ set(tests ${app} tests/)
 set(haptics ${assets} haptics/)
 set(haptics/device ${assets} haptics/latest.h haptics/wrench.h haptics/motor_command.h haptics/device/)
 set(haptics/safety ${assets} haptics/latest.h haptics/wrench.h haptics/motor_command.h haptics/device/ haptics/safety/)
+set(haptics/loop ${assets} haptics/latest.h haptics/wrench.h haptics/motor_command.h haptics/device/ haptics/safety/ haptics/loop/)
 set(haptics/bone ${assets} haptics/bone/ haptics/tool/)
 set(haptics/tool ${assets} haptics/bone/ haptics/tool/)
 set(haptics/contact ${assets} haptics/bone/ haptics/tool/ haptics/contact/)

@@ -1,6 +1,6 @@
-# What one servo tick can reach, read from the machine code: starting at haptics::Servo::step, the motor gate and every
-# exchange(), sense() and drive() of a device, all calls and references are followed through the archives, and whatever
-# leaves them must be on the short list below. So an allocation in a constructor is fine and one behind a rare branch of
+# What one servo tick can reach, read from the machine code: starting at haptics::Servo::step, HapticLoop::answer and every
+# simulated device's exchange(), all calls and references are followed through the archives, and whatever leaves them
+# must be on the short list below. So an allocation in a constructor is fine and one behind a rare branch of
 # the step is not, whether a test runs it or not. Calls through pointers can not be followed, so the step may make none.
 # Run: cmake -DOBJDUMP=… -DARCHIVES=a.a,b.a [-DROOTS=regex] -P servo_symbols.cmake   (x86-64 objects, mangled names)
 cmake_minimum_required(VERSION 3.25)
@@ -8,12 +8,12 @@ cmake_minimum_required(VERSION 3.25)
 # Bounded, lock-free and without memory of their own: libm, memory moves, and the ways a bug of ours ends the program.
 set(allowed
   "^(sqrt|cbrt|hypot|floor|ceil|round|trunc|rint|nearbyint|lround|llround|lrint|fma|fmod|fmin|fmax|exp|exp2|expm1|log|log2|log1p|pow|sin|cos|sincos|tan|asin|acos|atan|atan2|erf|erfc|copysign|ldexp|frexp|modf)f?$"
-  "^(memcpy|memmove|memset|memcmp)$"
+  "^(memcpy|memmove|memset|memcmp|clock_gettime)$"
   "^(__assert_fail|abort|_ZSt9terminatev|__gxx_personality_v0|_Unwind_Resume|__cxa_begin_catch|__stack_chk_fail)$"
   "^(_GLOBAL_OFFSET_TABLE_|_ZTV.*|_ZTI.*|_ZTS.*)$")
 list(JOIN allowed "|" allowed)
 if(NOT DEFINED ROOTS)
-  set(ROOTS "^_ZN7haptics5Servo4stepE|^_ZN7haptics[A-Za-z0-9]+(8exchange|5sense|5drive)E|^_ZNK7haptics9MotorGate5admitE")
+  set(ROOTS "^_ZN7haptics5Servo4stepE|^_ZN7haptics10HapticLoop(6answer|8answered)E|^_ZN7haptics[A-Za-z0-9]+8exchangeE")
 endif()
 
 # One line per function, and one per reference out of it.

@@ -84,7 +84,7 @@ TEST(HapticLoop, TicksLogsAndLetsGoWhenStopped) {
   ASSERT_GT(ticks.size(), 10u);
   for (std::size_t i = 0; i < ticks.size(); ++i) EXPECT_EQ(ticks[i].index, i);
   EXPECT_EQ(bench.newest.read().index, ticks.back().index);
-  const ServoFigures figures = loop.figures();
+  const LoopFigures figures = loop.figures();
   EXPECT_EQ(figures.ticks, ticks.size());
   EXPECT_GT(figures.work_p50_us, 0.0);
   EXPECT_LE(figures.work_p50_us, figures.work_p99_us);

@@ -6,12 +6,12 @@
 #include <atomic>
 #include <cstdint>
 
-#include "haptics/servo/realtime.h"
+#include "haptics/loop/realtime.h"
 
 namespace haptics {
 
 /// A copy of the figures at one moment.
-struct ServoFigures {
+struct LoopFigures {
   std::uint64_t ticks = 0;
   std::uint64_t missed = 0;  ///< deadlines passed over because a tick began or ended too late
   double work_p50_us = 0.0, work_p99_us = 0.0, work_p999_us = 0.0,
@@ -35,7 +35,7 @@ class MicrosecondHistogram {
   std::atomic<double> most_us_{0.0};
 };
 
-class ServoStatistics {
+class LoopStatistics {
  public:
   /// Servo thread only.
   void add(double work_us, double late_us);
@@ -43,7 +43,7 @@ class ServoStatistics {
   void setGrants(const RealtimeGrants& grants);
 
   /// Any thread.
-  ServoFigures figures() const;
+  LoopFigures figures() const;
 
  private:
   MicrosecondHistogram work_, late_;

@@ -1,4 +1,4 @@
-#include "haptics/servo/supervisor.h"
+#include "haptics/loop/supervisor.h"
 
 #include <chrono>
 

@@ -1,4 +1,4 @@
-#include "haptics/servo/servo_statistics.h"
+#include "haptics/loop/loop_statistics.h"
 
 #include <algorithm>
 
@@ -27,24 +27,22 @@ double MicrosecondHistogram::percentile_us(double share) const {
   return most_us();
 }
 
-void ServoStatistics::add(double work_us, double late_us) {
+void LoopStatistics::add(double work_us, double late_us) {
   work_.add(work_us);
   late_.add(late_us);
   ticks_.store(ticks_.load(kRelaxed) + 1, kRelaxed);
 }
 
-void ServoStatistics::addMissed(std::uint64_t deadlines) {
-  missed_.store(missed_.load(kRelaxed) + deadlines, kRelaxed);
-}
+void LoopStatistics::addMissed(std::uint64_t deadlines) { missed_.store(missed_.load(kRelaxed) + deadlines, kRelaxed); }
 
-void ServoStatistics::setGrants(const RealtimeGrants& grants) {
+void LoopStatistics::setGrants(const RealtimeGrants& grants) {
   realtime_.store(grants.priority, kRelaxed);
   memory_locked_.store(grants.memory_locked, kRelaxed);
   core_.store(grants.core.value_or(-1), kRelaxed);
 }
 
-ServoFigures ServoStatistics::figures() const {
-  ServoFigures figures;
+LoopFigures LoopStatistics::figures() const {
+  LoopFigures figures;
   figures.ticks = ticks_.load(kRelaxed);
   figures.missed = missed_.load(kRelaxed);
   figures.work_p50_us = work_.percentile_us(0.50);

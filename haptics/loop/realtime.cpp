@@ -1,4 +1,4 @@
-#include "haptics/servo/realtime.h"
+#include "haptics/loop/realtime.h"
 
 #include <pthread.h>
 #include <sched.h>

@@ -1,0 +1,95 @@
+#include "haptics/loop/device_loop.h"
+
+#include <time.h>
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+
+namespace haptics {
+namespace {
+
+/// As fast as force and torque ever change (safety/safety_limits).
+constexpr double kLetDown_N_per_s = 300.0, kLetDown_Nmm_per_s = 15'000.0;
+/// Longest wait for a device that lets go; one that does not tick is stopped without.
+constexpr auto kLongestGoodbye = std::chrono::milliseconds(200);
+
+double threadTime_us() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return 1e6 * static_cast<double>(t.tv_sec) + 1e-3 * static_cast<double>(t.tv_nsec);
+}
+
+}  // namespace
+
+DeviceLoop::DeviceLoop(HapticDevice& device, double rate_Hz, bool realtime)
+    : device_(device),
+      capabilities_(device.capabilities()),
+      rate_Hz_(rate_Hz),
+      realtime_(realtime),
+      gate_(capabilities_) {
+  if (!(rate_Hz >= 500.0 && rate_Hz <= 10'000.0))
+    throw DeviceError("servo rate, " + std::to_string(rate_Hz) + " Hz, choose one from 500 to 10000 Hz");
+}
+
+DeviceLoop::~DeviceLoop() { assert(!started_ || phase_.load() != Phase::serving); }
+
+void DeviceLoop::start() {
+  assert(!started_);
+  started_ = true;
+  device_.start(*this, rate_Hz_);
+  supervisor_.emplace(device_, ticks_);
+}
+
+void DeviceLoop::stop() noexcept {
+  Phase serving = Phase::serving;
+  if (started_ && phase_.compare_exchange_strong(serving, Phase::letting_go)) {
+    const auto until = std::chrono::steady_clock::now() + kLongestGoodbye;
+    while (phase_.load() != Phase::over && std::chrono::steady_clock::now() < until)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  supervisor_.reset();
+  device_.stop();
+}
+
+void DeviceLoop::emergencyStop() noexcept {
+  forbidForce();
+  device_.motorsOff();
+}
+
+LoopFigures DeviceLoop::figures() const {
+  LoopFigures figures = statistics_.figures();
+  figures.silences = supervisor_ ? supervisor_->trips() : 0;
+  return figures;
+}
+
+void DeviceLoop::begin() noexcept {
+  if (realtime_) statistics_.setGrants(askForRealtime());
+}
+
+MotorCommand DeviceLoop::tick(const HandleState& state, const Beat& beat) noexcept {
+  ticks_.fetch_add(1, std::memory_order_relaxed);
+  if (phase_.load(std::memory_order_relaxed) != Phase::serving) return letGo();
+
+  const double began_us = threadTime_us();
+  const Answer wanted = answer(state, beat);
+  last_ = gate_.admit(wanted.wrench_D, state.jacobian_D_mm, wanted.motors_on);
+  const double work_us = threadTime_us() - began_us;
+  answered(work_us);
+  statistics_.add(work_us, beat.late_us);
+  statistics_.addMissed(beat.missed);
+  return last_;
+}
+
+MotorCommand DeviceLoop::letGo() noexcept {
+  // Force and torque go down together, the one that needs longer at its limit.
+  const Wrench<calibration::Device>& wrench = last_.wrench_D();
+  const double seconds = std::max(glm::length(wrench.force_N.xyz) / kLetDown_N_per_s,
+                                  glm::length(wrench.torque_Nmm.xyz) / kLetDown_Nmm_per_s);
+  share_left_ = seconds > 0.0 ? std::max(0.0, share_left_ - 1.0 / (rate_Hz_ * seconds)) : 0.0;
+  if (share_left_ > 0.0 && !gate_.isShut()) return last_.faded(share_left_);
+  phase_.store(Phase::over, std::memory_order_relaxed);
+  return {};
+}
+
+}  // namespace haptics

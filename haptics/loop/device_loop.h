@@ -1,0 +1,77 @@
+// A device at work: it ticks on its own thread, every tick asks for a wrench, and what the motor gate admits of it goes
+// back. Watches that ticks come, measures how punctual they are, lets the force down gently at the end. Who derives
+// says what is wanted. start() and stop() from one thread, emergencyStop() from any. Real-time priority, a core and
+// locked memory are asked for and reported; they are not required. Runs once: start, stop, and no second start. What
+// derives must stop() in its own destructor. Not the safety layer: that is the business of who answers.
+#pragma once
+
+#include <atomic>
+#include <optional>
+
+#include "haptics/device/haptic_device.h"
+#include "haptics/loop/loop_statistics.h"
+#include "haptics/loop/supervisor.h"
+#include "haptics/safety/motor_gate.h"
+
+namespace haptics {
+
+class DeviceLoop : private DeviceServo {
+ public:
+  /// Borrows the device. Throws DeviceError when the rate is outside 500..10000 Hz.
+  DeviceLoop(HapticDevice& device, double rate_Hz, bool realtime);
+  ~DeviceLoop() override;
+  DeviceLoop(const DeviceLoop&) = delete;
+  DeviceLoop& operator=(const DeviceLoop&) = delete;
+
+  /// Once in its life (assert). Throws DeviceError when the device has gone or can not be served at the rate.
+  void start();
+  /// Lets the force down to zero within 0.02 s, then stops the device: a frame of no force, then motors off.
+  void stop() noexcept;
+
+  /// No force from this moment on, for good; the ticks go on. Only atomics: a signal handler may call it.
+  void forbidForce() noexcept { gate_.shut(); }
+  /// That, and motors off at once. Any thread.
+  void emergencyStop() noexcept;
+  bool isForbidden() const noexcept { return gate_.isShut(); }
+
+  /// So far. Any thread, signal handlers too.
+  std::uint64_t ticks() const noexcept { return ticks_.load(std::memory_order_relaxed); }
+  LoopFigures figures() const;
+
+ protected:
+  struct Answer {
+    Wrench<calibration::Device> wrench_D;
+    bool motors_on = true;
+  };
+  /// The device's thread, once a tick; bounded.
+  virtual Answer answer(const HandleState& state, const Beat& beat) noexcept = 0;
+  /// After each answer, with the CPU time it took.
+  virtual void answered(double /*work_us*/) noexcept {}
+
+  const DeviceCapabilities& device() const { return capabilities_; }
+  double rate_Hz() const { return rate_Hz_; }
+
+ private:
+  enum class Phase { serving, letting_go, over };
+
+  void begin() noexcept override;
+  MotorCommand tick(const HandleState& state, const Beat& beat) noexcept override;
+  MotorCommand letGo() noexcept;
+
+  HapticDevice& device_;
+  const DeviceCapabilities& capabilities_;
+  const double rate_Hz_;
+  const bool realtime_;
+  MotorGate gate_;
+  LoopStatistics statistics_;
+  std::atomic<std::uint64_t> ticks_{0};
+  std::optional<Supervisor> supervisor_;
+  bool started_ = false;  ///< of the thread that starts and stops
+  std::atomic<Phase> phase_{Phase::serving};
+
+  // Of the device's thread.
+  MotorCommand last_;
+  double share_left_ = 1.0;
+};
+
+}  // namespace haptics
