@@ -36,8 +36,14 @@ Workstation::Workstation(const assets::Patient& patient, std::unique_ptr<haptics
       recorder_(recorderOf(recording, patient, settings.rate_Hz, command_, log_)),
       loop_(servo_, *device_, commands_, log_, newest_, settings) {}
 
+void Workstation::start() {
+  loop_.start();
+  emergency_exit_.emplace(loop_);
+}
+
 RecordingSummary Workstation::stop() {
   loop_.stop();
+  emergency_exit_.reset();
   return recorder_ ? recorder_->stop() : RecordingSummary{};
 }
 

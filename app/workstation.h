@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "app/emergency_exit.h"
 #include "app/session/recorder.h"
 #include "assets/patient.h"
 #include "haptics/bone/carved_bone.h"
@@ -28,7 +29,8 @@ class Workstation {
               const haptics::LoopSettings& settings, const haptics::Command& command,
               const std::optional<Recording>& recording);
 
-  void start() { loop_.start(); }
+  /// From now on a crash switches the motors off before it ends the program. Throws haptics::DeviceError.
+  void start();
   /// Force to zero, servo ended, recording closed.
   RecordingSummary stop();
 
@@ -54,6 +56,7 @@ class Workstation {
   haptics::TickLog log_;
   std::unique_ptr<Recorder> recorder_;
   haptics::HapticLoop loop_;
+  std::optional<EmergencyExit> emergency_exit_;
 };
 
 }  // namespace app
