@@ -9,9 +9,13 @@
 
 namespace app {
 
-CommandDesk::CommandDesk(const haptics::Command& first, const std::string& settings_file,
-                         double device_damping_Ns_per_mm, double rate_Hz)
-    : command_(first), device_damping_Ns_per_mm_(device_damping_Ns_per_mm), rate_Hz_(rate_Hz) {
+CommandDesk::CommandDesk(const haptics::Command& first, std::vector<haptics::Tool> other_tools,
+                         const std::string& settings_file, double device_damping_Ns_per_mm, double rate_Hz)
+    : command_(first),
+      rack_(std::move(other_tools)),
+      device_damping_Ns_per_mm_(device_damping_Ns_per_mm),
+      rate_Hz_(rate_Hz) {
+  rack_.insert(rack_.begin(), first.tool);
   if (!settings_file.empty()) {
     file_.emplace(settings_file, first, [this](const haptics::Command& c) { check(c); });
     command_ = file_->first();
@@ -37,6 +41,23 @@ void CommandDesk::switchLaw(haptics::LawKind law) {
     change(loweredUntilHeld(wanted, device_damping_Ns_per_mm_, rate_Hz_));
   } catch (const UsageError& error) {
     std::fprintf(stderr, "molar: %s; the old law stays\n", error.what());
+  }
+}
+
+void CommandDesk::changeTool() {
+  if (rack_.size() < 2) {
+    std::fprintf(stderr, "molar: there is one tool only, name more with --tool to change between them\n");
+    return;
+  }
+  const std::size_t next = (in_hand_ + 1) % rack_.size();
+  haptics::Command wanted = command_;
+  wanted.tool = rack_[next];
+  try {
+    refuseUnlessAdmitted(wanted);
+    change(loweredUntilHeld(wanted, device_damping_Ns_per_mm_, rate_Hz_));
+    in_hand_ = next;
+  } catch (const UsageError& error) {
+    std::fprintf(stderr, "molar: %s; the old tool stays in the hand\n", error.what());
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/live_parameters.h"
 #include "app/workstation.h"
@@ -14,9 +15,10 @@ namespace app {
 
 class CommandDesk {
  public:
-  /// `settings_file` rules over `first`; empty: none. Throws UsageError for what can not be obeyed.
-  CommandDesk(const haptics::Command& first, const std::string& settings_file, double device_damping_Ns_per_mm,
-              double rate_Hz);
+  /// `settings_file` rules over `first`; empty: none. `other_tools`: what a change of tool goes through after the
+  /// first. Throws UsageError for what can not be obeyed.
+  CommandDesk(const haptics::Command& first, std::vector<haptics::Tool> other_tools, const std::string& settings_file,
+              double device_damping_Ns_per_mm, double rate_Hz);
 
   const haptics::Command& inForce() const { return command_; }
   /// From now on changes go there. Borrowed.
@@ -24,6 +26,8 @@ class CommandDesk {
 
   void switchDrill();
   void switchLaw(haptics::LawKind law);
+  /// The next tool of the rack into the hand; after the last the first.
+  void changeTool();
   void lookAtFile();
   /// As it is, unsaid: the guide knows why.
   void obey(const haptics::Command& command);
@@ -36,6 +40,8 @@ class CommandDesk {
   void change(const haptics::Command& wanted);
 
   haptics::Command command_;
+  std::vector<haptics::Tool> rack_;
+  std::size_t in_hand_ = 0;  ///< of the rack
   double device_damping_Ns_per_mm_, rate_Hz_;
   std::optional<LiveParameters> file_;
   Workstation* workstation_ = nullptr;

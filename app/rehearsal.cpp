@@ -64,7 +64,8 @@ class Rehearsal {
         hand_(handAtWork(plan_.hand, plan_.patient, plan_.rig, plan_.command.tool.head.radius_mm)),
         duration_s_(plan_.seconds ? plan_.seconds : hand_.duration_s),
         input_(restingTool()),
-        desk_(plan_.command, plan_.parameters, hand_.device->capabilities().damping_Ns_per_mm, plan_.rate_Hz) {
+        desk_(plan_.command, plan_.other_tools, plan_.parameters, hand_.device->capabilities().damping_Ns_per_mm,
+              plan_.rate_Hz) {
     // Every output is claimed before any work.
     if (!plan_.snapshot.empty()) closing_pictures_.emplace(plan_.snapshot, plan_.overwrite);
     if (!plan_.first_snapshot.empty()) first_pictures_.emplace(plan_.first_snapshot, plan_.overwrite);

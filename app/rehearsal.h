@@ -6,6 +6,7 @@
 #include <chrono>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/hand_at_work.h"
 #include "app/session_guide.h"
@@ -27,6 +28,7 @@ struct RehearsalPlan {
   render::Frame first_frame;               ///< view mode, layers and quality to begin with; the rest is the rehearsal's
   Hand hand = Hand::mouse;
   haptics::Command command;
+  std::vector<haptics::Tool> other_tools;  ///< for changes of tool, after the command's
   std::string parameters;         ///< settings file that is obeyed while it changes; `command` holds what it leaves out
   SessionGuide* guide = nullptr;  ///< leads the session where there is one: no drill, no law keys, its own title
   double rate_Hz = 1000.0;

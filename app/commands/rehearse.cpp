@@ -35,7 +35,8 @@ constexpr double kForeignFaceWindow_mm = 24.0;
 
 struct RehearseOptions {
   std::string patient, parameters, device = "mouse", rig, record, snapshot, first_snapshot, face;
-  std::string tool = "sphere:1.5", shaft, law = "agus", erosion = "time", size, snapshot_size = "1280x800";
+  std::vector<std::string> tools{"sphere:1.5"};
+  std::string shaft, law = "agus", erosion = "time", size, snapshot_size = "1280x800";
   std::string side = "right";
   PictureOption picture;
   std::vector<std::string> settings;
@@ -74,9 +75,13 @@ void leaveACoreToTheServo() {
 
 int run(const RehearseOptions& options) {
   RehearsalPlan plan;
-  plan.command.tool.head = headFrom(options.tool);
-  plan.command.tool.shaft =
-      options.shaft.empty() ? haptics::usualShaft(plan.command.tool.head) : shaftFrom(options.shaft);
+  const auto tool_of = [&](const std::string& text) {
+    const haptics::BurShape head = headFrom(text);
+    return haptics::Tool{head, options.shaft.empty() ? haptics::usualShaft(head) : shaftFrom(options.shaft)};
+  };
+  plan.command.tool = tool_of(options.tools.front());
+  for (auto other = options.tools.begin() + 1; other != options.tools.end(); ++other)
+    plan.other_tools.push_back(tool_of(*other));
   plan.command.erosion.kind = *haptics::erosionOfKey(options.erosion);
   plan.command.law.kind = lawNamed(options.law);
   applyTo(plan.command, options.settings);
@@ -154,7 +159,12 @@ void addRehearse(CLI::App& molar, Chosen& chosen) {
   command->add_option("--face", o->face, "Face model, glTF; teeth.json beside it places the jaw")->type_name("FILE");
   command->add_option("--face-window", o->face_window_mm, "Face cut away around the line of sight, mm")
       ->check(numberRange(0.0, 100.0));
-  command->add_option("--tool", o->tool, kHeadHelp)->capture_default_str();
+  command->add_option("--tool", o->tools, std::string(kHeadHelp) + "; several are changed between, by key T or pedal")
+      ->type_size(1)
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->capture_default_str();
   command->add_option("--shaft", o->shaft, std::string(kShaftHelp) + " [a neck that fits, up to 2.35 mm thick]");
   command->add_option("--law", o->law, "Force law: " + lawNames())->capture_default_str();
   command
