@@ -1,0 +1,37 @@
+// The Phantoms whose geometry is public: link lengths, where D stands, limits. Sources, reference/devices 4.1:
+//   Omni/Touch   l1 = l2 = 133.35 mm (5.25 in) from the literature; shoulder (0, 23.35, -168.35) unverified, but it
+//   puts
+//                all angles 0 at (0, -110, -35) and the logged inkwell within the limits. Limits: JHU's URDF, from CAD.
+//   Desktop/X    taken as the Omni's: nothing is published.
+//   Premium 1.5  l1 = 209.55 (8.25 in), l2 = 169.545 mm (6.675 in); all angles 0 at D's origin. Limits: Cavusoglu,
+//                Feygin, Tendick, Presence 2002. Its gimbal's limits are not published: the Omni's.
+// None was measured on a unit here. Constants; any thread.
+#pragma once
+
+#include "calibration/geometry/units.h"
+#include "calibration/phantom_kinematics.h"
+
+namespace calibration {
+
+/// Of the URDF (yaw 3.92..8.83, pitch -0.5..1.75, roll +-2.58) by the published ROS drivers' convention, taken round to
+/// the gimbal's neutral at zero: g1 and g3 by half a turn, g2 mirrored.
+inline constexpr std::array<AngleRange, 3> kOmniWrist = {{{-2.55, 2.36}, {-1.29, 0.96}, {-2.58, 2.58}}};
+
+inline constexpr PhantomGeometry kOmniGeometry = {
+    133.35, 133.35, {{0.0, 23.35, -168.35}}, {{{-0.98, 0.98}, {0.0, 1.75}, {}}}, {-0.81, 1.25}, kOmniWrist};
+
+inline constexpr PhantomGeometry kDesktopGeometry = kOmniGeometry;
+
+inline constexpr PhantomGeometry kPremium15Geometry = {209.55,
+                                                       169.545,
+                                                       {{0.0, 169.545, -209.55}},
+                                                       {{{radFromDegrees(-90.0), radFromDegrees(90.0)},
+                                                         {radFromDegrees(-124.0), radFromDegrees(119.0)},
+                                                         {radFromDegrees(-29.0), radFromDegrees(214.0)}}},
+                                                       {radFromDegrees(-65.0), radFromDegrees(55.0)},
+                                                       kOmniWrist};
+
+/// Where an Omni in its inkwell says it is, logged by others with the vendor's library.
+inline constexpr Point<Device> kOmniInkwell_D = {{0.0, -65.51071, -88.11420}};
+
+}  // namespace calibration
