@@ -10,6 +10,14 @@ namespace {
 constexpr double kWheelNotch_mm = 0.5;
 constexpr double kTurn_rad = calibration::radFromDegrees(3.0);
 
+constexpr std::array<std::pair<char, Wish>, 7> kWishes = {{{'D', Wish::drill_switch},
+                                                           {'T', Wish::tool_change},
+                                                           {'I', Wish::irrigation_switch},
+                                                           {'U', Wish::undo},
+                                                           {'P', Wish::snapshot},
+                                                           {'X', Wish::emergency_stop},
+                                                           {'R', Wish::arm_again}}};
+
 }  // namespace
 
 void HandInput::take(const render::WindowEvent& event, double mm_per_px) {
@@ -22,7 +30,7 @@ void HandInput::take(const render::WindowEvent& event, double mm_per_px) {
   } else if (const auto* key = std::get_if<render::KeyPressed>(&event)) {
     press(*key);
   } else if (std::holds_alternative<render::CloseAsked>(event)) {
-    end_asked_ = true;
+    wishes_.push_back(Wish::end);
   }
 }
 
@@ -37,21 +45,18 @@ void HandInput::press(const render::KeyPressed& key) {
   if (key.key == Key::down) turn({1, 0, 0}, kTurn_rad);
   if (key.key == render::keyOf('Q')) turn({0, 0, 1}, kTurn_rad);
   if (key.key == render::keyOf('E')) turn({0, 0, 1}, -kTurn_rad);
-  if (key.key == Key::escape) end_asked_ = true;
+  if (key.repeated) return;
+  if (key.key == Key::escape) wishes_.push_back(Wish::end);
+  for (const auto& [letter, wish] : kWishes)
+    if (key.key == render::keyOf(letter)) wishes_.push_back(wish);
   for (int n = 0; n < 9; ++n)
-    if (key.key == render::keyOf(static_cast<char>('1' + n)) && !key.repeated) number_asked_ = n;
-  if (key.key == render::keyOf('D') && !key.repeated) drill_switch_asked_ = true;
-  if (key.key == render::keyOf('P') && !key.repeated) snapshot_asked_ = true;
+    if (key.key == render::keyOf(static_cast<char>('1' + n))) wishes_.push_back(LawWish{n});
 }
 
 void HandInput::turn(const glm::dvec3& axis_W, double angle_rad) {
   X_WT_.rotation = glm::normalize(glm::angleAxis(angle_rad, axis_W) * X_WT_.rotation);
 }
 
-std::optional<int> HandInput::takeNumberAsked() { return std::exchange(number_asked_, std::nullopt); }
-
-bool HandInput::takeDrillSwitchAsked() { return std::exchange(drill_switch_asked_, false); }
-
-bool HandInput::takeSnapshotAsked() { return std::exchange(snapshot_asked_, false); }
+std::vector<KeyWish> HandInput::takeWishes() { return std::exchange(wishes_, {}); }
 
 }  // namespace app

@@ -1,11 +1,12 @@
 // Mouse and keys as a hand: window events move and turn the place where the tool is wanted, 1:1 on the screen.
 // Drag: in the plane of the screen; wheel: 0.5 mm a notch towards or away; arrows, Q, E: 3 degrees a press; space: the
-// pedal; 1..9 ask for a law. Frame W, mm. Main thread. The device (haptics::MouseDevice) makes smooth motion of it.
+// pedal. All other keys are wishes, in the order they were pressed. Frame W, mm. Main thread. The device
+// (haptics::MouseDevice) makes smooth motion of it.
 #pragma once
 
 #include <array>
-#include <optional>
-#include <span>
+#include <variant>
+#include <vector>
 
 #include "calibration/geometry/frames.h"
 #include "calibration/geometry/pose.h"
@@ -18,7 +19,7 @@ struct KeyMeaning {
   const char* key;
   const char* does;
 };
-inline constexpr std::array<KeyMeaning, 9> kKeys = {{
+inline constexpr std::array<KeyMeaning, 14> kKeys = {{
     {"Space", "pedal: drill while held"},
     {"Drag", "move in the screen's plane"},
     {"Wheel", "move nearer or farther"},
@@ -26,9 +27,21 @@ inline constexpr std::array<KeyMeaning, 9> kKeys = {{
     {"Q, E", "turn the handpiece"},
     {"1 - 7", "choose the force law"},
     {"D", "lock or unlock the drill"},
+    {"T", "change the tool"},
+    {"I", "irrigation on or off"},
+    {"U", "undo the last stroke"},
     {"P", "snapshot"},
+    {"X", "emergency stop: motors off"},
+    {"R", "arm again after a fault"},
     {"Esc", "end"},
 }};
+
+/// What a key asks for, once a press.
+enum class Wish { drill_switch, tool_change, irrigation_switch, undo, snapshot, emergency_stop, arm_again, end };
+struct LawWish {
+  int number = 0;  ///< from 0
+};
+using KeyWish = std::variant<Wish, LawWish>;
 
 class HandInput {
  public:
@@ -40,21 +53,16 @@ class HandInput {
 
   const calibration::Pose<calibration::World, calibration::Tool>& X_WT() const { return X_WT_; }
   bool pedal() const { return pedal_; }
-  bool endAsked() const { return end_asked_; }
-  /// True once for every press of P.
-  bool takeSnapshotAsked();
-  /// Once for every press of 1 to 9: 0 to 8.
-  std::optional<int> takeNumberAsked();
-  /// True once for every press of D.
-  bool takeDrillSwitchAsked();
+  /// Everything asked for since the last call.
+  std::vector<KeyWish> takeWishes();
 
  private:
   void press(const render::KeyPressed& key);
   void turn(const glm::dvec3& axis_W, double angle_rad);
 
   calibration::Pose<calibration::World, calibration::Tool> X_WT_;
-  std::optional<int> number_asked_;
-  bool pedal_ = false, end_asked_ = false, snapshot_asked_ = false, drill_switch_asked_ = false;
+  std::vector<KeyWish> wishes_;
+  bool pedal_ = false;
 };
 
 }  // namespace app

@@ -12,15 +12,14 @@
 #include "app/dressed_renderer.h"
 #include "app/hand_input.h"
 #include "app/motion_to_photon.h"
-#include "app/operator_window.h"
+#include "app/operator_seat.h"
+#include "app/quality_choice.h"
 #include "app/rehearsal_status.h"
 #include "app/rehearsal_summary.h"
 #include "app/snapshot.h"
 #include "app/surgeon_display.h"
 #include "app/tool_text.h"
 #include "calibration/geometry/units.h"
-#include "render/gpu/gpu_error.h"
-#include "render/quality_ladder.h"
 
 namespace app {
 namespace {
@@ -29,9 +28,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kBurTurnsPerSecond = 7.0;  ///< as drawn: a real bur turns too fast for any display to show
 constexpr int kSnapshotSamples = 2;
-constexpr double kSlowestSmooth_s = 1.0 / 30.0;
-constexpr int kSettled = 4;  ///< pictures without a change of quality
-constexpr double kLongestSettling_s = 3.0;
 constexpr double kStatusEvery_s = 0.5, kLatencyNotedEvery_s = 5.0;
 
 volatile std::sig_atomic_t interrupted = 0;
@@ -79,20 +75,26 @@ class Rehearsal {
     display_.emplace(
         displayOf(plan_), [this](render::Backend backend) { return newRenderer(backend); },
         [this](const std::string& line) { tell(line); });
-    ladder_.emplace(frameBudget_s(), plan_.quality_step.value_or(0));
-    if (choosesQuality() || plan_.quality_step) frame_.quality = ladder_->quality();
+    quality_.emplace(*display_, plan_.quality_step);
+    if (quality_->rules()) frame_.quality = quality_->quality();
     latency_.emplace(display_->refresh_Hz(), plan_.rate_Hz);
     workstation_.emplace(plan_.patient, std::move(hand_.device),
                          haptics::LoopSettings{plan_.rate_Hz, hand_.X_PD, {}, true}, desk_.inForce(), plan_.recording);
     desk_.serve(*workstation_);
-    openOperatorsWindow();
-    display_->beforeMakingAnew([this] { operator_.reset(); });
+    if (plan_.operators_window)
+      operator_.emplace(*display_, plan_.rig, plan_.monitor.value_or(0),
+                        [this](const std::string& line) { tell(line); });
   }
 
   void run() {
     drawFrame();
     first_picture_s_ = secondsSince(plan_.begun);
-    settleQuality();
+    // Before the hand is there: so many pictures as tell what this machine can.
+    quality_->settle([this](const render::Quality& quality) {
+      frame_.quality = quality;
+      drawFrame();
+    });
+    if (quality_->rules()) frame_.quality = quality_->quality();
     if (first_pictures_) takePictures(*first_pictures_, plan_.patient.ct.solid);
     workstation_->start();
     workstation_->note("start", nameOf(plan_.hand));
@@ -124,46 +126,21 @@ class Rehearsal {
     return renderer;
   }
 
-  void openOperatorsWindow() {
-    if (!plan_.operators_window || display_->window() == nullptr) return;
-    const int second = plan_.monitor.value_or(0) + (display_->mode() == render::DisplayMode::two_windows ? 2 : 1);
-    try {
-      const bool is_there = second < static_cast<int>(render::monitors().size());
-      operator_.emplace(*display_->window(), is_there ? std::optional(second) : std::nullopt);
-    } catch (const render::GpuError& error) {
-      tell(error.what());
-    }
-    display_->makeCurrent();
-  }
-
   /// While the surgeon's picture is on its way.
   void serveOperator() {
-    if (std::exchange(times_lost_, display_->timesLost()) != display_->timesLost()) openOperatorsWindow();
-    if (!operator_ || !operator_->isDue()) return;
-    const render::EyeView view = render::eyeView(plan_.rig, render::Eye::cyclopean);
-    const glm::dvec3 to_the_right = plan_.rig.right_eye.mm - plan_.rig.left_eye.mm;
-    const OperatorWindow::Seen seen{plan_.rig.screen.px, glm::dot(view.right_edge_W.xyz, to_the_right) < 0.0,
-                                    view.up_edge_W.xyz.y < 0.0};
-    display_->renderer().composeForBystander();
-    render::FrameFence composed;
-    composed.mark();
-    const OperatorWishes wishes = operator_->draw(status(), display_->renderer(), composed, seen);
-    display_->makeCurrent();
-    for (const render::WindowEvent& event : operator_->takeKeys()) {
-      if (std::holds_alternative<render::CloseAsked>(event)) {
-        operator_.reset();
-        display_->makeCurrent();
-        return obey(wishes);
-      }
+    if (!operator_) return;
+    operator_->keepOpen();
+    if (!operator_->isDue()) return;
+    const OperatorSeat::Heard heard = operator_->serve(status());
+    for (const render::WindowEvent& event : heard.keys)
       if (!isForGuide(event)) input_.take(event, 0.0);
-    }
-    obey(wishes);
+    obey(heard.wishes);
   }
 
   void obey(const OperatorWishes& wishes) {
     if (wishes.layers) frame_.layers = *wishes.layers;
     if (wishes.snapshot) takeWindowSnapshot();
-    if (wishes.end) ended_by_operator_ = true;
+    if (wishes.end) ended_by_user_ = true;
     if (plan_.guide) return;
     if (wishes.drill_switch) desk_.switchDrill();
     if (wishes.law) desk_.switchLaw(*wishes.law);
@@ -180,7 +157,7 @@ class Rehearsal {
 
   bool isOver() {
     const double t_s = newest_.t_s + newest_.dt_s;
-    return interrupted || input_.endAsked() || ended_by_operator_ || (plan_.guide && plan_.guide->isOver()) ||
+    return interrupted || ended_by_user_ || (plan_.guide && plan_.guide->isOver()) ||
            (duration_s_ && t_s >= *duration_s_);
   }
 
@@ -191,11 +168,30 @@ class Rehearsal {
     for (const render::WindowEvent& event : display_->takeEvents())
       if (!isForGuide(event)) input_.take(event, mm_per_px);
     if (hand_.mouse) hand_.mouse->setTarget({{input_.X_WT().rotation, input_.X_WT().translation_mm}, input_.pedal()});
-    if (input_.takeSnapshotAsked()) takeWindowSnapshot();
+    for (const KeyWish& wish : input_.takeWishes()) {
+      if (const auto* law = std::get_if<LawWish>(&wish)) {
+        if (!plan_.guide && law->number < static_cast<int>(haptics::kLaws.size()))
+          desk_.switchLaw(haptics::kLaws[static_cast<std::size_t>(law->number)].kind);
+      } else {
+        obey(std::get<Wish>(wish));
+      }
+    }
+  }
+
+  /// Under a guide, what is felt is the guide's.
+  void obey(Wish wish) {
+    if (wish == Wish::end) ended_by_user_ = true;
+    if (wish == Wish::snapshot) takeWindowSnapshot();
+    if (wish == Wish::emergency_stop) stopMotors();
     if (plan_.guide) return;
-    if (input_.takeDrillSwitchAsked()) desk_.switchDrill();
-    if (const auto number = input_.takeNumberAsked(); number && *number < static_cast<int>(haptics::kLaws.size()))
-      desk_.switchLaw(haptics::kLaws[static_cast<std::size_t>(*number)].kind);
+    if (wish == Wish::drill_switch) desk_.switchDrill();
+    if (wish == Wish::tool_change) desk_.changeTool();
+  }
+
+  void stopMotors() {
+    workstation_->emergencyStop();
+    workstation_->note("emergency stop", "motors off for good");
+    std::fprintf(stderr, "molar: emergency stop: the motors are off; end and start again to feel\n");
   }
 
   bool isForGuide(const render::WindowEvent& event) const {
@@ -247,36 +243,12 @@ class Rehearsal {
     ++frames_;
   }
 
-  /// With a graphics card every refresh of the display; without one, what still looks like motion.
-  double frameBudget_s() {
-    const double refresh_s = 1.0 / display_->refresh_Hz();
-    return display_->backend() == render::Backend::cpu ? std::max(refresh_s, kSlowestSmooth_s) : refresh_s;
-  }
-
-  bool choosesQuality() { return display_->window() != nullptr && !plan_.quality_step; }
-
-  /// Before the hand is there: so many pictures as tell what this machine can.
-  void settleQuality() {
-    const Clock::time_point begun = Clock::now();
-    for (int unchanged = 0; choosesQuality() && unchanged < kSettled && secondsSince(begun) < kLongestSettling_s;) {
-      drawFrame();
-      unchanged = ladder_->add(display_->drawing_s(), true) ? 0 : unchanged + 1;
-      frame_.quality = ladder_->quality();
-    }
-  }
-
-  /// Never in the middle of a stroke.
   void chooseQuality() {
-    const bool stroke = newest_.drilling || newest_.depth_mm > 0.0;
-    if (!choosesQuality() || !ladder_->add(display_->drawing_s(), !stroke)) return;
-    frame_.quality = ladder_->quality();
+    if (!quality_->follow(newest_.drilling || newest_.depth_mm > 0.0)) return;
+    frame_.quality = quality_->quality();
     noteQuality();
   }
-
-  std::string qualityText() {
-    return choosesQuality() || plan_.quality_step ? std::string(ladder_->words()) : "as asked";
-  }
-  void noteQuality() { workstation_->note("quality", qualityText()); }
+  void noteQuality() { workstation_->note("quality", quality_->text()); }
 
   RehearsalStatus status() {
     RehearsalStatus s;
@@ -290,11 +262,11 @@ class Rehearsal {
     s.drawing_ms = 1000.0 * display_->drawing_s();
     s.pictures_per_s = pictures_per_s_;
     s.refresh_Hz = display_->refresh_Hz();
-    s.budget_ms = 1000.0 * frameBudget_s();
+    s.budget_ms = 1000.0 * quality_->budget_s();
     s.latency = latency_->now();
-    s.quality = qualityText();
-    s.quality_step = ladder_->step();
-    s.quality_is_held = plan_.quality_step.has_value();
+    s.quality = quality_->text();
+    s.quality_step = quality_->step();
+    s.quality_is_held = quality_->isHeld();
     s.layers = frame_.layers;
     if (plan_.recording) {
       s.recording = recording_ended_ ? RecordingState::ended_early : RecordingState::running;
@@ -353,9 +325,7 @@ class Rehearsal {
 
   void finish() {
     if (latency_->pictures() > 0) workstation_->note("latency", "median " + photonText(latency_->median()));
-    workstation_->note("end", interrupted                               ? "interrupted"
-                              : input_.endAsked() || ended_by_operator_ ? "by the user"
-                                                                        : "time over");
+    workstation_->note("end", interrupted ? "interrupted" : ended_by_user_ ? "by the user" : "time over");
     const RecordingSummary recorded = workstation_->stop();
     // One more picture of what the bone has become.
     followServo();
@@ -371,7 +341,7 @@ class Rehearsal {
     figures.frame_ms = 1000.0 * loop_s_ / static_cast<double>(std::max<std::uint64_t>(1, frames_ - 1));
     figures.first_picture_s = first_picture_s_;
     figures.display = std::string(render::nameOf(display_->mode()));
-    figures.quality = qualityText();
+    figures.quality = quality_->text();
     if (latency_->pictures() > 0) {
       figures.latency = latency_->median();
       figures.slow_latency = latency_->slow();
@@ -391,24 +361,22 @@ class Rehearsal {
   std::optional<EyePictures> first_pictures_, closing_pictures_;
   std::vector<std::string> told_early_;
   std::optional<SurgeonDisplay> display_;
-  std::optional<render::QualityLadder> ladder_;
+  std::optional<QualityChoice> quality_;
   std::optional<MotionToPhoton> latency_;
-  std::optional<OperatorWindow> operator_;  // before the surgeon's window, which it shares with
+  std::optional<OperatorSeat> operator_;  // goes before the surgeon's window, which it shares with
   std::optional<Workstation> workstation_;
   BrickUpload upload_;
   render::Frame frame_;
   haptics::Tick newest_;
   std::uint64_t frames_ = 0, frames_counted_ = 0;
   double first_picture_s_ = 0.0, loop_s_ = 0.0, pictures_per_s_ = 0.0;
-  int times_lost_ = 0;
-  bool recording_ended_ = false, faulty_ = false, ended_by_operator_ = false;
+  bool recording_ended_ = false, faulty_ = false, ended_by_user_ = false;
 };
 
 }  // namespace
 
 void rehearse(RehearsalPlan plan) {
-  std::signal(SIGINT, [](int) { interrupted = 1; });
-  std::signal(SIGTERM, [](int) { interrupted = 1; });
+  for (int asked : {SIGINT, SIGTERM, SIGHUP}) std::signal(asked, [](int) { interrupted = 1; });
   Rehearsal(std::move(plan)).run();
 }
 

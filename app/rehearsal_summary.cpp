@@ -5,6 +5,13 @@
 #include "app/printed.h"
 
 namespace app {
+
+std::string grantsText(const haptics::RealtimeGrants& grants) {
+  const std::string core = grants.core ? printed(", core %d", *grants.core) : ", no core of its own";
+  return std::string(grants.priority ? "real-time priority" : "no real-time priority") + core +
+         (grants.memory_locked ? ", memory locked" : ", memory not locked");
+}
+
 std::string summaryText(const RehearsalFigures& f) {
   std::string text = "Rehearsal\n";
   text += printed("  patient          %s\n", f.patient_title.c_str());
@@ -14,12 +21,17 @@ std::string summaryText(const RehearsalFigures& f) {
   for (std::size_t l = 0; l < f.removed_mm3.size(); ++l)
     if (f.removed_mm3[l] >= 0.05)
       text += printed("    %-14s %.1f mm³\n", std::string(assets::kTissues[l].name).c_str(), f.removed_mm3[l]);
-  text += printed("  servo            %llu ticks at %.0f Hz, %llu deadlines missed, latest wake-up %.0f µs\n",
+  text += printed("  servo            %llu ticks at %.0f Hz, %llu deadlines missed\n",
                   static_cast<unsigned long long>(f.servo.ticks), f.rate_Hz,
-                  static_cast<unsigned long long>(f.servo.missed), f.servo.latest_us);
-  text +=
-      printed("  work per tick    p50 %.0f µs, p99 %.0f µs, max %.0f µs%s\n", f.servo.work_p50_us, f.servo.work_p99_us,
-              f.servo.work_max_us, f.servo.grants.priority ? "" : " (no real-time priority granted)");
+                  static_cast<unsigned long long>(f.servo.missed));
+  text += printed("  wake-up          late by p50 %.0f µs, p99 %.0f µs, at most %.0f µs\n", f.servo.late_p50_us,
+                  f.servo.late_p99_us, f.servo.latest_us);
+  text += printed("  work per tick    p50 %.0f µs, p99 %.0f µs, p99.9 %.0f µs, max %.0f µs\n", f.servo.work_p50_us,
+                  f.servo.work_p99_us, f.servo.work_p999_us, f.servo.work_max_us);
+  text += printed("  granted          %s\n", grantsText(f.servo.grants).c_str());
+  if (f.servo.silences > 0)
+    text += printed("  supervisor       switched the motors off %llu times: no tick for 50 ms\n",
+                    static_cast<unsigned long long>(f.servo.silences));
   text += printed("  pictures         %llu, one every %.0f ms, the first after %.1f s\n",
                   static_cast<unsigned long long>(f.frames), f.frame_ms, f.first_picture_s);
   text += printed("  display          %s, quality: %s\n", f.display.c_str(), f.quality.c_str());

@@ -27,6 +27,9 @@ struct RehearsalFigures {
   std::optional<RecordingSummary> recording;
 };
 
+/// "real-time priority, core 3, memory locked".
+std::string grantsText(const haptics::RealtimeGrants& grants);
+
 std::string summaryText(const RehearsalFigures& figures);
 
 }  // namespace app

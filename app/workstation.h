@@ -31,6 +31,8 @@ class Workstation {
 
   /// From now on a crash switches the motors off before it ends the program. Throws haptics::DeviceError.
   void start();
+  /// No force from now on, motors off for good; the rehearsal goes on without.
+  void emergencyStop() { loop_.emergencyStop(); }
   /// Force to zero, servo ended, recording closed.
   RecordingSummary stop();
 

@@ -37,26 +37,21 @@ TEST(HandInput, KeysTurnAboutTheBur) {
   EXPECT_EQ(hand.X_WT().translation_mm, glm::dvec3(1, 2, 3));
 }
 
-TEST(HandInput, NumbersAreAskedOnce) {
+TEST(HandInput, WishesComeOnceInTheOrderOfTheKeys) {
   HandInput hand({});
-  EXPECT_FALSE(hand.takeNumberAsked());
-  hand.take(KeyPressed{render::keyOf('3'), true, false, false}, 0.25);
-  hand.take(KeyPressed{render::keyOf('3'), true, true, false}, 0.25);
-  EXPECT_EQ(hand.takeNumberAsked(), 2);
-  EXPECT_FALSE(hand.takeNumberAsked());
-}
-
-TEST(HandInput, AsksForEndAndSnapshots) {
-  HandInput hand({});
-  hand.take(KeyPressed{render::keyOf('P'), true, false, false}, 0.25);
-  EXPECT_TRUE(hand.takeSnapshotAsked());
-  EXPECT_FALSE(hand.takeSnapshotAsked());
-  hand.take(KeyPressed{render::keyOf('D'), true, false, false}, 0.25);
-  EXPECT_TRUE(hand.takeDrillSwitchAsked());
-  EXPECT_FALSE(hand.takeDrillSwitchAsked());
-  EXPECT_FALSE(hand.endAsked());
+  EXPECT_TRUE(hand.takeWishes().empty());
+  for (char letter : {'P', '3', 'D', 'X', 'R', 'T', 'U', 'I'})
+    for (bool repeated : {false, true}) hand.take(KeyPressed{render::keyOf(letter), true, repeated, false}, 0.25);
+  hand.take(KeyPressed{Key::escape, true, false, false}, 0.25);
   hand.take(render::CloseAsked{}, 0.25);
-  EXPECT_TRUE(hand.endAsked());
+  const std::vector<KeyWish> wishes = hand.takeWishes();
+  ASSERT_EQ(wishes.size(), 10u);
+  EXPECT_EQ(std::get<Wish>(wishes[0]), Wish::snapshot);
+  EXPECT_EQ(std::get<LawWish>(wishes[1]).number, 2);
+  const Wish others[] = {Wish::drill_switch, Wish::emergency_stop,    Wish::arm_again, Wish::tool_change,
+                         Wish::undo,         Wish::irrigation_switch, Wish::end,       Wish::end};
+  for (std::size_t i = 0; i < std::size(others); ++i) EXPECT_EQ(std::get<Wish>(wishes[i + 2]), others[i]);
+  EXPECT_TRUE(hand.takeWishes().empty());
 }
 
 }  // namespace
