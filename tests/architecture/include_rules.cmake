@@ -39,13 +39,14 @@ set(third_parties
   "cairo|pango/" "app"
   "nlohmann/" "assets|app"
   "tbb/|oneapi/" "assets|haptics|render"
+  "libevdev/" "haptics"
   "libusb" "haptics"
   "GLFW/" "render|app"
   "embree3/" "render"
   "epoxy/" "render"
   "CLI/|spdlog/|fmt/|imgui|backends/imgui|SQLiteCpp/|sqlite3|zstd|openssl/|portaudio|sndfile" "app")
 set(operating_system
-  "^(sys/[a-z]+|unistd|fcntl|pthread|sched|signal|spawn|time|poll|dlfcn|termios|immintrin|x86intrin)\\.h$")
+  "^(sys/[a-z]+|linux/[a-z-]+|unistd|fcntl|pthread|sched|signal|spawn|time|poll|dlfcn|termios|immintrin|x86intrin)\\.h$")
 
 set(violations 0)
 macro(violation text)
