@@ -1,0 +1,308 @@
+#include "haptics/device/usb/usb_pump.h"
+
+#include <pthread.h>
+#include <sched.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "haptics/device/monotonic_clock.h"
+
+namespace haptics {
+namespace {
+
+constexpr std::int64_t kMillisecond_ns = 1'000'000;
+/// Failures in a row, each waited for longer than the last up to 64 ms: about a second, then the handle is dead.
+constexpr int kMostFailures = 20;
+constexpr int kLongestPause_ms = 64;
+/// The longest sleep when nothing is due.
+constexpr std::int64_t kLook_ns = 100 * kMillisecond_ns;
+/// Between the looks of somebody who waits for the last report.
+constexpr std::int64_t kWait_ns = kMillisecond_ns / 2;
+
+std::int64_t ns(std::chrono::milliseconds time) { return std::chrono::nanoseconds(time).count(); }
+
+/// Above the servo, which waits for what this thread brings. Best effort.
+void hurry() noexcept {
+  sched_param param{};
+  param.sched_priority = std::max(sched_get_priority_min(SCHED_FIFO), sched_get_priority_max(SCHED_FIFO) - 9);
+  pthread_setschedparam(pthread_self(), SCHED_FIFO, &param);
+  pthread_setname_np(pthread_self(), "molar-usb");
+}
+
+void count(std::atomic<std::uint64_t>& counter, std::uint64_t more = 1) noexcept {
+  counter.fetch_add(more, std::memory_order_relaxed);
+}
+
+}  // namespace
+
+UsbPump::UsbPump(UsbLink& link, const UsbStream& stream)
+    : link_(link), stream_(stream), out_(link, link.out(), UsbReport::kMostBytes) {
+  for (int i = 0; i < std::max(1, stream_.in_flight); ++i) ins_.emplace_back(link, link.in(), link.in().packet_bytes);
+  thread_ = std::thread([this] { run(); });
+}
+
+UsbPump::~UsbPump() { stop(); }
+
+void UsbPump::stop() noexcept {
+  quit_.store(true);
+  wake_.raise();
+  if (thread_.joinable()) thread_.join();
+}
+
+// ---- the servo thread
+
+const UsbReport& UsbPump::newestReport() noexcept {
+  const UsbReport& report = heard_.read();
+  serial_seen_ = report.serial;
+  return report;
+}
+
+bool UsbPump::awaitReport(std::int64_t deadline_ns) noexcept {
+  while (heard_.read().serial == serial_seen_)
+    if (!heard_signal_.awaitUntil(deadline_ns)) return heard_.read().serial != serial_seen_;
+  return true;
+}
+
+void UsbPump::send(const UsbReport& report, std::uint32_t rests) noexcept {
+  wanted_.publish({report, rests, ++sent_number_});
+  wake_.raise();
+}
+
+// ---- any thread
+
+void UsbPump::rest() noexcept {
+  rests_.fetch_add(1);
+  wake_.raise();
+}
+
+bool UsbPump::sendLast(const UsbReport& report, std::chrono::milliseconds within) noexcept {
+  const std::int64_t deadline_ns = monotonic_ns() + ns(within);
+  LastReport none = LastReport::none;
+  if (last_state_.compare_exchange_strong(none, LastReport::writing)) {
+    last_ = report;
+    last_deadline_ns_.store(deadline_ns);
+    last_state_.store(LastReport::wanted);
+    wake_.raise();
+  }
+  const timespec pause{0, kWait_ns};
+  while (last_state_.load() != LastReport::over && monotonic_ns() < deadline_ns)
+    clock_nanosleep(CLOCK_MONOTONIC, 0, &pause, nullptr);
+  return last_state_.load() == LastReport::over && last_taken_.load();
+}
+
+UsbCounters UsbPump::counters() const noexcept {
+  const auto read = [](const std::atomic<std::uint64_t>& counter) { return counter.load(std::memory_order_relaxed); };
+  UsbCounters c;
+  c.reports_in = read(counted_.reports_in);
+  c.reports_out = read(counted_.reports_out);
+  c.replaced_out = read(counted_.replaced_out);
+  c.in_timeouts = read(counted_.in_timeouts);
+  c.out_timeouts = read(counted_.out_timeouts);
+  c.stalls = read(counted_.stalls);
+  c.short_reports = read(counted_.short_reports);
+  c.overlong_reports = read(counted_.overlong_reports);
+  c.errors = read(counted_.errors);
+  return c;
+}
+
+// ---- the event thread
+
+void UsbPump::run() noexcept {
+  hurry();
+  while (!quit_.load()) {
+    std::int64_t now_ns = monotonic_ns();
+    if (gone_) {
+      if (last_state_.load() == LastReport::wanted) endLast(false);
+      wake_.awaitUntil(now_ns + kLook_ns);
+      continue;
+    }
+    clearHalt(link_.in(), in_health_);
+    clearHalt(link_.out(), out_health_);
+    submitIn(now_ns);
+    submitOut(now_ns);
+    if (!link_.pump(nextLook_ns(now_ns), wake_.descriptor())) gone_ = true;
+    wake_.lower();
+    now_ns = monotonic_ns();
+    settleIn(now_ns);
+    settleOut(now_ns);
+    judge(now_ns);
+  }
+  windDown();
+}
+
+void UsbPump::submitIn(std::int64_t now_ns) noexcept {
+  if (in_health_.halted || now_ns < in_health_.again_at_ns) return;
+  for (UsbTransfer& in : ins_)
+    if (!in.inFlight() && !in.finished()) in.submit(in.buffer().size(), now_ns + ns(stream_.in_deadline));
+}
+
+void UsbPump::submitOut(std::int64_t now_ns) noexcept {
+  if (out_.inFlight() || out_.finished() || out_health_.halted || now_ns < out_health_.again_at_ns) return;
+  const std::optional<UsbReport> report = chooseOut(now_ns);
+  if (!report) return;
+  std::copy_n(report->bytes.begin(), report->size, out_.buffer().begin());
+  out_.submit(report->size, now_ns + ns(stream_.out_deadline));
+}
+
+std::optional<UsbReport> UsbPump::chooseOut(std::int64_t now_ns) noexcept {
+  // The last report comes before all, and nothing after it. One attempt is made however late it is.
+  const LastReport last = last_state_.load();
+  if (last == LastReport::over || last == LastReport::writing) return {};
+  if (last == LastReport::wanted) {
+    if (last_tries_++ > 0 && now_ns >= last_deadline_ns_.load()) {
+      endLast(false);
+      return {};
+    }
+    last_in_flight_ = true;
+    return last_;
+  }
+  // Then a rest, again and again until it is taken.
+  rests_under_way_ = rests_.load();
+  if (rests_under_way_ != rests_sent_) return stream_.rest;
+
+  // Then the newest, unless a rest made it void.
+  const Outgoing& newest = wanted_.read();
+  if (newest.number == number_taken_) return {};
+  const bool is_void = newest.rests != rests_under_way_;
+  count(counted_.replaced_out, newest.number - number_taken_ - (is_void ? 0 : 1));
+  number_taken_ = newest.number;
+  if (is_void) return {};
+  return newest.report;
+}
+
+void UsbPump::endLast(bool taken) noexcept {
+  last_taken_.store(taken);
+  last_state_.store(LastReport::over);
+}
+
+void UsbPump::settleIn(std::int64_t now_ns) noexcept {
+  for (;;) {
+    UsbTransfer* first = nullptr;
+    for (UsbTransfer& in : ins_) {
+      in.expire(now_ns);
+      gone_ |= in.isDead(now_ns, ns(stream_.dead_after));
+      if (in.finished() && (!first || in.order() < first->order())) first = &in;
+    }
+    if (!first) return;
+    first->takeFinished();
+    if (first->overflowed()) {
+      count(counted_.overlong_reports);
+    } else if (first->outcome() == UsbOutcome::done) {
+      in_health_ = {};
+      hear(first->moved(), now_ns);
+    } else if (first->outcome() == UsbOutcome::late) {
+      if (!in_health_.halted) count(counted_.in_timeouts);
+    } else {
+      settleTrouble(first->outcome(), in_health_, now_ns);
+      // A halted pipe is cleared when nothing is on its way through it.
+      for (UsbTransfer& in : ins_) in.cancel();
+    }
+  }
+}
+
+void UsbPump::hear(std::span<const std::uint8_t> bytes, std::int64_t now_ns) noexcept {
+  std::optional<UsbReport> report;
+  if (stream_.reader) {
+    report = stream_.reader(bytes);
+  } else if (bytes.size() < stream_.report_bytes) {
+    count(counted_.short_reports);
+  } else if (bytes.size() > stream_.report_bytes) {
+    count(counted_.overlong_reports);
+  } else {
+    report.emplace(bytes);
+  }
+  if (!report) return;
+  count(counted_.reports_in);
+  heard_at_ns_ = now_ns;
+  report->serial = ++serial_;
+  report->received_ns = now_ns;
+  heard_.publish(*report);
+  heard_signal_.raise();
+}
+
+void UsbPump::settleOut(std::int64_t now_ns) noexcept {
+  out_.expire(now_ns);
+  gone_ |= out_.isDead(now_ns, ns(stream_.dead_after));
+  if (!out_.takeFinished()) return;
+  const bool was_last = std::exchange(last_in_flight_, false);
+  if (out_.outcome() == UsbOutcome::done) {
+    out_health_ = {};
+    out_late_ = false;
+    count(counted_.reports_out);
+    if (was_last)
+      endLast(true);
+    else
+      rests_sent_ = rests_under_way_;
+  } else if (out_.outcome() == UsbOutcome::late) {
+    out_late_ = true;
+    count(counted_.out_timeouts);
+  } else {
+    settleTrouble(out_.outcome(), out_health_, now_ns);
+  }
+}
+
+void UsbPump::settleTrouble(UsbOutcome outcome, Health& health, std::int64_t now_ns) noexcept {
+  if (outcome == UsbOutcome::gone) {
+    gone_ = true;
+  } else if (outcome == UsbOutcome::stalled) {
+    if (!health.halted) count(counted_.stalls);
+    health.halted = true;
+  } else {
+    count(counted_.errors);
+    const int pause_ms = std::min(kLongestPause_ms, 1 << std::min(health.failures, 6));
+    health.again_at_ns = now_ns + pause_ms * kMillisecond_ns;
+    gone_ |= ++health.failures > kMostFailures;
+  }
+}
+
+void UsbPump::clearHalt(const UsbPipe& pipe, Health& health) noexcept {
+  if (!health.halted || health.clearings >= stream_.most_clearings) return;
+  const bool busy = &health == &out_health_
+                        ? out_.inFlight()
+                        : std::any_of(ins_.begin(), ins_.end(), [](const UsbTransfer& in) { return in.inFlight(); });
+  if (busy) return;
+  ++health.clearings;
+  health.halted = !link_.clearHalt(pipe);
+}
+
+void UsbPump::judge(std::int64_t now_ns) noexcept {
+  const bool silent = serial_ == 0 || now_ns - heard_at_ns_ > ns(stream_.late_after);
+  state_.store(gone_                                     ? UsbState::gone
+               : in_health_.halted || out_health_.halted ? UsbState::stalled
+               : silent || out_late_                     ? UsbState::late
+                                                         : UsbState::ok);
+}
+
+std::int64_t UsbPump::nextLook_ns(std::int64_t now_ns) const noexcept {
+  std::int64_t look_ns = now_ns + kLook_ns;
+  const auto by = [&](std::int64_t at_ns) {
+    if (at_ns > now_ns) look_ns = std::min(look_ns, at_ns);
+  };
+  for (const UsbTransfer& in : ins_)
+    if (in.inFlight()) by(in.deadline_ns());
+  if (out_.inFlight()) by(out_.deadline_ns());
+  by(heard_at_ns_ + ns(stream_.late_after) + 1);
+  by(in_health_.again_at_ns);
+  by(out_health_.again_at_ns);
+  // What finished while it was submitted, and a pipe that can be cleared now, do not wait.
+  if (out_.finished() || std::any_of(ins_.begin(), ins_.end(), [](const UsbTransfer& in) { return in.finished(); }))
+    return now_ns;
+  return look_ns;
+}
+
+bool UsbPump::anyInFlight() const noexcept {
+  return out_.inFlight() || std::any_of(ins_.begin(), ins_.end(), [](const UsbTransfer& in) { return in.inFlight(); });
+}
+
+void UsbPump::windDown() noexcept {
+  if (last_state_.load() != LastReport::over) endLast(false);
+  for (UsbTransfer& in : ins_) in.cancel();
+  out_.cancel();
+  const std::int64_t until_ns = monotonic_ns() + ns(stream_.dead_after);
+  while (anyInFlight() && monotonic_ns() < until_ns)
+    if (!link_.pump(monotonic_ns() + kMillisecond_ns, -1)) break;
+  if (anyInFlight()) gone_ = true;
+}
+
+}  // namespace haptics

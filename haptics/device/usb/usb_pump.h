@@ -1,0 +1,103 @@
+// The event thread of a transport: keeps IN transfers in flight, publishes what they bring, sends the newest report
+// out, takes back what is past its deadline, clears halted endpoints, and knows when the device is gone. Internal to
+// the transport, whose words on threads hold; run() is the event thread itself.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <thread>
+
+#include "haptics/device/usb/usb_link.h"
+#include "haptics/device/usb/usb_transfer.h"
+#include "haptics/device/usb/usb_transport.h"
+#include "haptics/device/usb/wake_signal.h"
+#include "haptics/latest.h"
+
+namespace haptics {
+
+class UsbPump {
+ public:
+  UsbPump(UsbLink& link, const UsbStream& stream);
+  ~UsbPump();
+  UsbPump(const UsbPump&) = delete;
+  UsbPump& operator=(const UsbPump&) = delete;
+
+  // The servo thread.
+  const UsbReport& newestReport() noexcept;
+  bool awaitReport(std::int64_t deadline_ns) noexcept;
+  void send(const UsbReport& report, std::uint32_t rests) noexcept;
+
+  // Any thread.
+  std::uint32_t rests() const noexcept { return rests_.load(); }
+  void rest() noexcept;
+  bool sendLast(const UsbReport& report, std::chrono::milliseconds within) noexcept;
+  UsbState state() const noexcept { return state_.load(); }
+  UsbCounters counters() const noexcept;
+
+  void stop() noexcept;
+
+ private:
+  struct Outgoing {
+    UsbReport report;
+    std::uint32_t rests = 0;
+    std::uint64_t number = 0;
+  };
+  struct Counted {
+    std::atomic<std::uint64_t> reports_in{0}, reports_out{0}, replaced_out{0}, in_timeouts{0}, out_timeouts{0},
+        stalls{0}, short_reports{0}, overlong_reports{0}, errors{0};
+  };
+  /// One direction: how often in a row it was found halted or failed, and when to try again.
+  struct Health {
+    bool halted = false;
+    int clearings = 0, failures = 0;
+    std::int64_t again_at_ns = 0;
+  };
+  enum class LastReport : std::uint8_t { none, writing, wanted, over };
+
+  void run() noexcept;
+  void submitIn(std::int64_t now_ns) noexcept;
+  void submitOut(std::int64_t now_ns) noexcept;
+  std::optional<UsbReport> chooseOut(std::int64_t now_ns) noexcept;
+  void settleIn(std::int64_t now_ns) noexcept;
+  void settleOut(std::int64_t now_ns) noexcept;
+  void settleTrouble(UsbOutcome outcome, Health& health, std::int64_t now_ns) noexcept;
+  void hear(std::span<const std::uint8_t> bytes, std::int64_t now_ns) noexcept;
+  void clearHalt(const UsbPipe& pipe, Health& health) noexcept;
+  void endLast(bool taken) noexcept;
+  void judge(std::int64_t now_ns) noexcept;
+  std::int64_t nextLook_ns(std::int64_t now_ns) const noexcept;
+  void windDown() noexcept;
+  bool anyInFlight() const noexcept;
+
+  UsbLink& link_;
+  UsbStream stream_;
+  WakeSignal wake_, heard_signal_;
+  Latest<UsbReport> heard_;
+  Latest<Outgoing> wanted_;
+  std::atomic<std::uint32_t> rests_{0};
+  std::atomic<UsbState> state_{UsbState::late};
+  std::atomic<bool> quit_{false};
+  std::atomic<LastReport> last_state_{LastReport::none};
+  std::atomic<bool> last_taken_{false};
+  std::atomic<std::int64_t> last_deadline_ns_{0};
+  UsbReport last_;
+  Counted counted_;
+
+  // Of the servo thread.
+  std::uint64_t sent_number_ = 0, serial_seen_ = 0;
+
+  // Of the event thread.
+  std::deque<UsbTransfer> ins_;
+  UsbTransfer out_;
+  Health in_health_, out_health_;
+  bool gone_ = false, out_late_ = false, last_in_flight_ = false;
+  int last_tries_ = 0;
+  std::uint32_t rests_sent_ = 0, rests_under_way_ = 0;
+  std::uint64_t number_taken_ = 0, serial_ = 0;
+  std::int64_t heard_at_ns_ = 0;
+  std::thread thread_;
+};
+
+}  // namespace haptics
