@@ -1,0 +1,70 @@
+#include "haptics/device/usb/falcon_force_scale.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "haptics/device/haptic_device.h"
+#include "haptics/device/usb/falcon_protocol.h"
+
+namespace haptics {
+namespace {
+
+constexpr double kUnweighedPeak_N = 1.0, kMakersPeak_N = 8.0;
+constexpr double kUnweighedShare = 0.1;  ///< of the motors' range
+constexpr double kBeyondWeighed = 3.0;   ///< a motor is linear; a mistake on the scale is not
+constexpr double kMostMisfit = 0.15;
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw DeviceError("Falcon's force scale, " + what + ", weigh it again");
+}
+
+}  // namespace
+
+FalconForceScale weighed(const FalconForceScale& used, std::span<const FalconWeighing> readings) {
+  if (readings.size() < 3) refuse("fewer than three readings");
+  double asked_asked = 0.0, asked_shown = 0.0, heaviest_N = 0.0;
+  for (const FalconWeighing& reading : readings) {
+    if (!std::isfinite(reading.asked_N) || !std::isfinite(reading.shown_N)) refuse("a reading is not a number");
+    asked_asked += reading.asked_N * reading.asked_N;
+    asked_shown += reading.asked_N * reading.shown_N;
+    heaviest_N = std::max(heaviest_N, std::abs(reading.shown_N));
+  }
+
+  // shown = gain * asked, least squares through no force.
+  const double gain = asked_asked > 0.0 ? asked_shown / asked_asked : 0.0;
+  if (gain < 0.0) refuse("it pulls where it should push");
+  if (!(gain > 0.0)) refuse("the scale showed no force");
+  for (const FalconWeighing& reading : readings)
+    if (std::abs(reading.shown_N - gain * reading.asked_N) > kMostMisfit * heaviest_N)
+      refuse("the readings do not lie on one line");
+
+  FalconForceScale scale = used;
+  scale.words_per_Nmm = used.words_per_Nmm / gain;
+  scale.heaviest_N = heaviest_N;
+  check(scale);
+  return scale;
+}
+
+void check(const FalconForceScale& scale) {
+  if (!(scale.words_per_Nmm >= 2.0 && scale.words_per_Nmm <= 50.0))
+    refuse("its words per N mm are not between 2 and 50");
+  if (!(scale.heaviest_N == 0.0 || (scale.heaviest_N >= 0.2 && scale.heaviest_N <= 10.0)))
+    refuse("its heaviest reading is not between 0.2 and 10 N");
+}
+
+double falconPeakForce_N(const FalconForceScale& scale) {
+  return scale.isWeighed() ? std::min(kBeyondWeighed * scale.heaviest_N, kMakersPeak_N) : kUnweighedPeak_N;
+}
+
+int falconMostWord(const FalconForceScale& scale) {
+  return static_cast<int>(kMostFalconMotorWord * (scale.isWeighed() ? 1.0 : kUnweighedShare));
+}
+
+double falconPeakTorque_Nmm(const FalconForceScale& scale) { return falconMostWord(scale) / scale.words_per_Nmm; }
+
+std::string falconForceAdvice(const FalconForceScale& scale) {
+  if (scale.isWeighed()) return {};
+  return "its newtons are a guess and held to a tenth of its motors' range, weigh it with molar devices check";
+}
+
+}  // namespace haptics
