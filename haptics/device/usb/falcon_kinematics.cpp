@@ -83,7 +83,6 @@ std::optional<FalconLegs> falconLegsAt_rad(const Point<Device>& grip_D) {
   FalconLegs legs_rad;
   for (std::size_t leg = 0; leg < 3; ++leg) {
     const Shin shin(leg, grip_D.mm);
-    if (!shin.reaches()) return std::nullopt;
     // The law of cosines at the base; of its two knees the outer one.
     const double far = std::hypot(shin.X, shin.Z), reach = shin.reach();
     const double cosine = (far * far + kA * kA - reach * reach) / (2.0 * kA * far);
