@@ -18,7 +18,7 @@
 #include "app/tool_text.h"
 #include "app/usage_error.h"
 #include "haptics/contact/law_parameters.h"
-#include "haptics/servo/safety_limits.h"
+#include "haptics/safety/safety_limits.h"
 
 namespace app {
 namespace {

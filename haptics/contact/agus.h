@@ -1,7 +1,7 @@
 // Agus's contact: the force of bone on a spherical bur from the volume they share and where it lies (Agus et al., IEEE
 // VR 2002; Presence 12(1), 2003; reference/physics 1.1). Frame P; mm, N, s; the force acts on the hand.
 //   n = -M1 / |M1|,  h from V = pi h^2 (R - h/3) less the voxel bias,  F = k h n.
-// The raw law: no proxy (servo/proxy), no limits (servo/safety). One overlap sum a call. Any thread.
+// The raw law: no proxy (servo/proxy), no limits (safety/safety_filter). One overlap sum a call. Any thread.
 #pragma once
 
 #include "haptics/contact/contact.h"

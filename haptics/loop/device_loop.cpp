@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
+#include <utility>
 
 namespace haptics {
 namespace {
@@ -72,13 +72,20 @@ MotorCommand DeviceLoop::tick(const HandleState& state, const Beat& beat) noexce
   if (phase_.load(std::memory_order_relaxed) != Phase::serving) return letGo();
 
   const double began_us = threadTime_us();
-  const Answer wanted = answer(state, beat);
+  Beat timed = beat;
+  timed.gap_s = gap_s();
+  const Answer wanted = answer(state, timed);
   last_ = gate_.admit(wanted.wrench_D, state.jacobian_D_mm, wanted.motors_on);
   const double work_us = threadTime_us() - began_us;
   answered(work_us);
   statistics_.add(work_us, beat.late_us);
   statistics_.addMissed(beat.missed);
   return last_;
+}
+
+double DeviceLoop::gap_s() noexcept {
+  const Clock::time_point now = Clock::now(), last = std::exchange(last_tick_at_, now);
+  return last == Clock::time_point{} ? 0.0 : std::chrono::duration<double>(now - last).count();
 }
 
 MotorCommand DeviceLoop::letGo() noexcept {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <optional>
 
 #include "haptics/device/haptic_device.h"
@@ -52,11 +53,13 @@ class DeviceLoop : private DeviceServo {
   double rate_Hz() const { return rate_Hz_; }
 
  private:
+  using Clock = std::chrono::steady_clock;
   enum class Phase { serving, letting_go, over };
 
   void begin() noexcept override;
   MotorCommand tick(const HandleState& state, const Beat& beat) noexcept override;
   MotorCommand letGo() noexcept;
+  double gap_s() noexcept;
 
   HapticDevice& device_;
   const DeviceCapabilities& capabilities_;
@@ -72,6 +75,7 @@ class DeviceLoop : private DeviceServo {
   // Of the device's thread.
   MotorCommand last_;
   double share_left_ = 1.0;
+  Clock::time_point last_tick_at_{};
 };
 
 }  // namespace haptics

@@ -6,7 +6,7 @@
 
 #include "haptics/bone/erosion.h"
 #include "haptics/contact/law.h"
-#include "haptics/servo/safety_limits.h"
+#include "haptics/safety/safety_limits.h"
 #include "haptics/tool/spindle.h"
 #include "haptics/tool/tool.h"
 

@@ -3,9 +3,9 @@
 // (safety), in this order. Frame P. Servo thread; a few hundred flops, no look at the bone.
 #pragma once
 
-#include "haptics/servo/hand_sample.h"
-#include "haptics/servo/passivity.h"
-#include "haptics/servo/safety.h"
+#include "haptics/safety/hand_sample.h"
+#include "haptics/safety/passivity.h"
+#include "haptics/safety/safety_filter.h"
 #include "haptics/servo/transition.h"
 
 namespace haptics {

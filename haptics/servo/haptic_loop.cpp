@@ -46,11 +46,19 @@ HapticLoop::HapticLoop(Servo& servo, HapticDevice& device, Latest<Command>& comm
     throw DeviceError("pose of the tool in the handle, not finite and rigid, measure it again");
 }
 
-HandSample HapticLoop::handFrom(const HandleState& state) noexcept {
+HandSample HapticLoop::handFrom(const HandleState& state, const Beat& beat) noexcept {
   HandSample hand;
   const auto X_PH = settings_.X_PD * state.X_DH;
   hand.X_PT = X_PH * settings_.X_HT;
+  hand.jacobian_P_mm = glm::mat3_cast(settings_.X_PD.rotation) * state.jacobian_D_mm;
+  hand.motor_heat = state.motor_heat;
+  hand.gap_s = beat.gap_s * rate_Hz() > 1.5 ? beat.gap_s : 0.0;
   hand.drill_pedal = state.pedal;
+  hand.fresh = state.fresh;
+  hand.docked = state.docked;
+  hand.held = state.held;
+  hand.calibrated = state.calibrated;
+  hand.stop_asked = isForbidden();
   hand.device_healthy = state.healthy;
 
   // The device measures the handle's velocity; turning moves the tool's tip too, differenced and smoothed at 100 Hz.
@@ -67,8 +75,8 @@ HandSample HapticLoop::handFrom(const HandleState& state) noexcept {
   return hand;
 }
 
-DeviceLoop::Answer HapticLoop::answer(const HandleState& state, const Beat&) noexcept {
-  tick_ = servo_.step(handFrom(state), limitedTo(device(), rate_Hz(), commands_.read()), 1.0 / rate_Hz());
+DeviceLoop::Answer HapticLoop::answer(const HandleState& state, const Beat& beat) noexcept {
+  tick_ = servo_.step(handFrom(state, beat), limitedTo(device(), rate_Hz(), commands_.read()), 1.0 / rate_Hz());
   return {{X_DP_ * tick_.served_force_P_N, X_DP_ * tick_.served_torque_P_Nmm}};
 }
 

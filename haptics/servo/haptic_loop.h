@@ -32,7 +32,7 @@ class HapticLoop final : public DeviceLoop {
  private:
   Answer answer(const HandleState& state, const Beat& beat) noexcept override;
   void answered(double work_us) noexcept override;
-  HandSample handFrom(const HandleState& state) noexcept;
+  HandSample handFrom(const HandleState& state, const Beat& beat) noexcept;
 
   Servo& servo_;
   Latest<Command>& commands_;

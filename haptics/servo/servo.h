@@ -4,10 +4,10 @@
 #pragma once
 
 #include "haptics/bone/carved_bone.h"
+#include "haptics/safety/hand_guard.h"
 #include "haptics/servo/command.h"
 #include "haptics/servo/cutting.h"
 #include "haptics/servo/delivery.h"
-#include "haptics/servo/hand_guard.h"
 #include "haptics/servo/proxy.h"
 #include "haptics/servo/tick.h"
 

@@ -4,25 +4,10 @@
 
 #include <cstdint>
 
-#include "haptics/servo/hand_sample.h"
+#include "haptics/safety/fault.h"
+#include "haptics/safety/hand_sample.h"
 
 namespace haptics {
-
-/// Trouble met in a tick, as bits; the force ramps to zero while any but `clamped` and `slewed` is set.
-enum class Fault : std::uint32_t {
-  none = 0,
-  bad_pose = 1,   ///< the device gave a non-finite or absurd pose
-  bad_force = 2,  ///< the law gave a non-finite force
-  clamped = 4,    ///< magnitude limit reached
-  slewed = 8,     ///< rate limit reached
-  device = 16,    ///< the device reported trouble
-};
-constexpr Fault operator|(Fault a, Fault b) {
-  return static_cast<Fault>(static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b));
-}
-constexpr bool has(Fault set, Fault one) {
-  return (static_cast<std::uint32_t>(set) & static_cast<std::uint32_t>(one)) != 0;
-}
 
 struct Tick {
   std::uint64_t index = 0;  ///< from 0, without gaps

@@ -1,7 +1,7 @@
 // Carries the force over from what it was to what it is to be when the law, the tool or the place changes at once: the
 // difference fades out in 40 ms, without a corner at either end, so that no switch is felt as a knock and a tool that
 // finds itself in bone is taken hold of gently. Frame P, about the handle. Servo thread; a few flops. The course in
-// time does not depend on the tick. Not a limit (servo/safety): 3.3 N fade at no more than 124 N/s.
+// time does not depend on the tick. Not a limit (safety/safety_filter): 3.3 N fade at no more than 124 N/s.
 #pragma once
 
 #include "calibration/geometry/frames.h"

@@ -16,6 +16,11 @@ TEST(Packing, BringsEveryFieldOfATickBackBitForBit) {
   haptics::Tick tick = test::imaginedTick(123456789012ULL, 77);
   tick.faults = haptics::Fault::device | haptics::Fault::bad_force;
   tick.hand.device_healthy = false;
+  tick.hand.jacobian_P_mm = glm::dmat3(1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0);
+  tick.hand.motor_heat = 0.7;
+  tick.hand.gap_s = 0.021;
+  tick.hand.docked = tick.hand.stop_asked = true;
+  tick.hand.fresh = tick.hand.held = tick.hand.calibrated = false;
   tick.hand.X_PT.translation_mm = {-0.0, std::numeric_limits<double>::denorm_min(), INFINITY};
   const auto back = unpackTicks(packTicks(std::vector{tick, test::imaginedTick(7)}));
   ASSERT_EQ(back.size(), 2u);
@@ -30,6 +35,11 @@ TEST(Packing, BringsEveryFieldOfATickBackBitForBit) {
   EXPECT_EQ(b.hand.velocity_P_mm_per_s.xyz, tick.hand.velocity_P_mm_per_s.xyz);
   EXPECT_EQ(b.hand.drill_pedal, tick.hand.drill_pedal);
   EXPECT_EQ(b.hand.device_healthy, tick.hand.device_healthy);
+  EXPECT_EQ(b.hand.jacobian_P_mm, tick.hand.jacobian_P_mm);
+  EXPECT_EQ(b.hand.motor_heat, 0.7);
+  EXPECT_EQ(b.hand.gap_s, 0.021);
+  EXPECT_TRUE(b.hand.docked && b.hand.stop_asked);
+  EXPECT_FALSE(b.hand.fresh || b.hand.held || b.hand.calibrated);
   EXPECT_EQ(b.proxy_P.mm, tick.proxy_P.mm);
   EXPECT_EQ(b.law_force_P_N.xyz, tick.law_force_P_N.xyz);
   EXPECT_EQ(b.served_force_P_N.xyz, tick.served_force_P_N.xyz);

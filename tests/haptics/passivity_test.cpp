@@ -1,4 +1,4 @@
-#include "haptics/servo/passivity.h"
+#include "haptics/safety/passivity.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "haptics/servo/safety.h"
+#include "haptics/safety/safety_filter.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "haptics/servo/hand_guard.h"
+#include "haptics/safety/hand_guard.h"
 
 #include <cmath>
 

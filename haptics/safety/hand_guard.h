@@ -3,7 +3,7 @@
 // believed after all. Frame P. Servo thread; a few flops. Not smoothing.
 #pragma once
 
-#include "haptics/servo/hand_sample.h"
+#include "haptics/safety/hand_sample.h"
 
 namespace haptics {
 

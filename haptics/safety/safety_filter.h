@@ -4,8 +4,9 @@
 // when the magnitude limit itself falls, the magnitude obeys at once. Not a stability controller.
 #pragma once
 
-#include "haptics/servo/safety_limits.h"
-#include "haptics/servo/tick.h"
+#include "calibration/geometry/frames.h"
+#include "haptics/safety/fault.h"
+#include "haptics/safety/safety_limits.h"
 #include "haptics/wrench.h"
 
 namespace haptics {
