@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <utility>
 
 #include "haptics/device/haptic_device.h"
@@ -35,9 +34,8 @@ std::string inWords(int error) {
 }  // namespace
 
 UsbLink::UsbLink(const UsbAddress& address) : interface_(address.interface) {
-  std::array<char, 16> id{};
-  std::snprintf(id.data(), id.size(), "%04x:%04x", address.vendor, address.product);
-  name_ = std::string("USB ") + (address.path.empty() ? "" : address.path + ", ") + id.data();
+  name_ =
+      std::string("USB ") + (address.path.empty() ? "" : address.path + ", ") + usbId(address.vendor, address.product);
   try {
     if (const int error = libusb_init(&context_); error != 0) throw DeviceError(name_ + ": libusb, " + inWords(error));
     open(address);

@@ -3,6 +3,7 @@
 #include <libusb-1.0/libusb.h>
 
 #include <array>
+#include <cstdio>
 #include <fstream>
 
 namespace haptics {
@@ -15,6 +16,12 @@ std::string usbPath(libusb_device* device) {
   std::string path = bus;
   for (int i = 0; i < depth; ++i) path += (i == 0 ? "-" : ".") + std::to_string(ports[static_cast<std::size_t>(i)]);
   return path;
+}
+
+std::string usbId(std::uint16_t vendor, std::uint16_t product) {
+  std::array<char, 12> id{};
+  std::snprintf(id.data(), id.size(), "%04x:%04x", vendor, product);
+  return id.data();
 }
 
 std::string usbAttribute(const std::string& path, const std::string& attribute) {

@@ -2,6 +2,7 @@
 // and searches only. Internal to haptics/device/usb.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 struct libusb_device;
@@ -10,6 +11,9 @@ namespace haptics {
 
 /// "bus-port.port…"; of a root hub "usb1".
 std::string usbPath(libusb_device* device);
+
+/// "1234:0006".
+std::string usbId(std::uint16_t vendor, std::uint16_t product);
 
 /// One attribute's first line, "serial" or "product"; empty where there is none.
 std::string usbAttribute(const std::string& path, const std::string& attribute);

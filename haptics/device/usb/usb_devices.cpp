@@ -1,0 +1,74 @@
+#include "haptics/device/usb/usb_devices.h"
+
+#include <libusb-1.0/libusb.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include "haptics/device/haptic_device.h"
+#include "haptics/device/usb/usb_paths.h"
+
+namespace haptics {
+namespace {
+
+bool mayOpen(libusb_device* device) {
+  std::array<char, 64> node{};
+  std::snprintf(node.data(), node.size(), "/dev/bus/usb/%03u/%03u", libusb_get_bus_number(device),
+                libusb_get_device_address(device));
+  return access(node.data(), R_OK | W_OK) == 0;
+}
+
+std::vector<std::uint8_t> interfaceClasses(libusb_device* device) {
+  std::vector<std::uint8_t> classes;
+  libusb_config_descriptor* config = nullptr;
+  if (libusb_get_active_config_descriptor(device, &config) != 0) return classes;
+  for (int i = 0; i < config->bNumInterfaces; ++i)
+    if (config->interface[i].num_altsetting > 0) classes.push_back(config->interface[i].altsetting[0].bInterfaceClass);
+  libusb_free_config_descriptor(config);
+  return classes;
+}
+
+}  // namespace
+
+std::string UsbDevice::id() const { return usbId(vendor, product); }
+std::string UsbDevice::place() const { return "USB " + path + ", " + id(); }
+
+struct UsbBus::Session {
+  libusb_context* context = nullptr;
+};
+
+UsbBus::UsbBus() : session_(std::make_unique<Session>()) {
+  if (const int error = libusb_init(&session_->context); error != 0)
+    throw DeviceError(std::string("USB: libusb does not start, ") + libusb_strerror(error) +
+                      ", look whether this user may read /dev/bus/usb");
+}
+
+UsbBus::~UsbBus() { libusb_exit(session_->context); }
+
+std::vector<UsbDevice> UsbBus::devices() const {
+  std::vector<UsbDevice> devices;
+  libusb_device** list = nullptr;
+  const ssize_t count = libusb_get_device_list(session_->context, &list);
+  for (ssize_t i = 0; i < count; ++i) {
+    libusb_device_descriptor d{};
+    if (libusb_get_device_descriptor(list[i], &d) != 0) continue;
+    UsbDevice device;
+    device.vendor = d.idVendor;
+    device.product = d.idProduct;
+    device.path = usbPath(list[i]);
+    device.maker = usbAttribute(device.path, "manufacturer");
+    device.name = usbAttribute(device.path, "product");
+    device.serial = usbAttribute(device.path, "serial");
+    device.device_class = d.bDeviceClass;
+    device.interface_classes = interfaceClasses(list[i]);
+    device.may_open = mayOpen(list[i]);
+    devices.push_back(std::move(device));
+  }
+  if (count >= 0) libusb_free_device_list(list, 1);
+  std::sort(devices.begin(), devices.end(), [](const UsbDevice& a, const UsbDevice& b) { return a.path < b.path; });
+  return devices;
+}
+
+}  // namespace haptics
