@@ -21,9 +21,9 @@ std::string summaryText(const RehearsalFigures& f) {
   for (std::size_t l = 0; l < f.removed_mm3.size(); ++l)
     if (f.removed_mm3[l] >= 0.05)
       text += printed("    %-14s %.1f mm³\n", std::string(assets::kTissues[l].name).c_str(), f.removed_mm3[l]);
-  text += printed("  servo            %llu ticks at %.0f Hz, %llu deadlines missed\n",
+  text += printed("  servo            %llu ticks at %.0f Hz, %llu deadlines missed, %llu by its own work\n",
                   static_cast<unsigned long long>(f.servo.ticks), f.rate_Hz,
-                  static_cast<unsigned long long>(f.servo.missed));
+                  static_cast<unsigned long long>(f.servo.missed), static_cast<unsigned long long>(f.servo.overruns));
   text += printed("  wake-up          late by p50 %.0f µs, p99 %.0f µs, at most %.0f µs\n", f.servo.late_p50_us,
                   f.servo.late_p99_us, f.servo.latest_us);
   text += printed("  work per tick    p50 %.0f µs, p99 %.0f µs, p99.9 %.0f µs, max %.0f µs\n", f.servo.work_p50_us,

@@ -78,7 +78,7 @@ MotorCommand DeviceLoop::tick(const HandleState& state, const Beat& beat) noexce
   last_ = gate_.admit(wanted.wrench_D, state.jacobian_D_mm, wanted.motors_on);
   const double work_us = threadTime_us() - began_us;
   answered(work_us);
-  statistics_.add(work_us, beat.late_us);
+  statistics_.add(work_us, 1e6 / rate_Hz_, beat.late_us);
   statistics_.addMissed(beat.missed);
   return last_;
 }

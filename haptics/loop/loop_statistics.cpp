@@ -27,7 +27,8 @@ double MicrosecondHistogram::percentile_us(double share) const {
   return most_us();
 }
 
-void LoopStatistics::add(double work_us, double late_us) {
+void LoopStatistics::add(double work_us, double period_us, double late_us) {
+  if (work_us > period_us) overruns_.store(overruns_.load(kRelaxed) + 1, kRelaxed);
   work_.add(work_us);
   late_.add(late_us);
   ticks_.store(ticks_.load(kRelaxed) + 1, kRelaxed);
@@ -45,6 +46,7 @@ LoopFigures LoopStatistics::figures() const {
   LoopFigures figures;
   figures.ticks = ticks_.load(kRelaxed);
   figures.missed = missed_.load(kRelaxed);
+  figures.overruns = overruns_.load(kRelaxed);
   figures.work_p50_us = work_.percentile_us(0.50);
   figures.work_p99_us = work_.percentile_us(0.99);
   figures.work_p999_us = work_.percentile_us(0.999);

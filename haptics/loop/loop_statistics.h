@@ -13,7 +13,8 @@ namespace haptics {
 /// A copy of the figures at one moment.
 struct LoopFigures {
   std::uint64_t ticks = 0;
-  std::uint64_t missed = 0;  ///< deadlines passed over because a tick began or ended too late
+  std::uint64_t missed = 0;    ///< deadlines passed over because a tick began or ended too late
+  std::uint64_t overruns = 0;  ///< ticks whose own work took longer than a period: the part of it that is our doing
   double work_p50_us = 0.0, work_p99_us = 0.0, work_p999_us = 0.0,
          work_max_us = 0.0;                                      ///< percentiles to 1 µs below 4 ms
   double late_p50_us = 0.0, late_p99_us = 0.0, latest_us = 0.0;  ///< how long after its deadline a tick woke
@@ -38,7 +39,7 @@ class MicrosecondHistogram {
 class LoopStatistics {
  public:
   /// Servo thread only.
-  void add(double work_us, double late_us);
+  void add(double work_us, double period_us, double late_us);
   void addMissed(std::uint64_t deadlines);
   void setGrants(const RealtimeGrants& grants);
 
@@ -47,7 +48,7 @@ class LoopStatistics {
 
  private:
   MicrosecondHistogram work_, late_;
-  std::atomic<std::uint64_t> ticks_{0}, missed_{0};
+  std::atomic<std::uint64_t> ticks_{0}, missed_{0}, overruns_{0};
   std::atomic<bool> realtime_{false}, memory_locked_{false};
   std::atomic<int> core_{-1};
 };
