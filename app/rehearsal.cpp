@@ -52,6 +52,11 @@ SurgeonDisplay::Options displayOf(const RehearsalPlan& plan) {
           .needs_window = plan.hand == Hand::mouse};
 }
 
+Wish wishOf(haptics::HandAction action) {
+  if (action == haptics::HandAction::irrigation) return Wish::irrigation_switch;
+  return action == haptics::HandAction::undo ? Wish::undo : Wish::tool_change;
+}
+
 /// One rehearsal from the first frame on.
 class Rehearsal {
  public:
@@ -78,8 +83,14 @@ class Rehearsal {
     quality_.emplace(*display_, plan_.quality_step);
     if (quality_->rules()) frame_.quality = quality_->quality();
     latency_.emplace(display_->refresh_Hz(), plan_.rate_Hz);
+    if (plan_.pedal) pedal_.emplace(*plan_.pedal);
     workstation_.emplace(plan_.patient, std::move(hand_.device),
-                         haptics::LoopSettings{plan_.rate_Hz, hand_.X_PD, {}, true}, desk_.inForce(), plan_.recording);
+                         haptics::LoopSettings{.rate_Hz = plan_.rate_Hz,
+                                               .X_PD = hand_.X_PD,
+                                               .X_HT = {},
+                                               .buttons = {},
+                                               .pedal = pedal_ ? &*pedal_ : nullptr},
+                         desk_.inForce(), plan_.recording);
     desk_.serve(*workstation_);
     if (plan_.operators_window)
       operator_.emplace(*display_, plan_.rig, plan_.monitor.value_or(0),
@@ -162,12 +173,13 @@ class Rehearsal {
   }
 
   void takeInput() {
-    render::Window* const window = display_->window();
-    if (window == nullptr) return;
-    const double mm_per_px = width_mm(plan_.rig.screen) / std::max(1, window->framebufferSize_px().x);
-    for (const render::WindowEvent& event : display_->takeEvents())
-      if (!isForGuide(event)) input_.take(event, mm_per_px);
+    if (const render::Window* const window = display_->window()) {
+      const double mm_per_px = width_mm(plan_.rig.screen) / std::max(1, window->framebufferSize_px().x);
+      for (const render::WindowEvent& event : display_->takeEvents())
+        if (!isForGuide(event)) input_.take(event, mm_per_px);
+    }
     if (hand_.mouse) hand_.mouse->setTarget({{input_.X_WT().rotation, input_.X_WT().translation_mm}, input_.pedal()});
+    for (const haptics::HandAction action : workstation_->takeActions()) obey(wishOf(action));
     for (const KeyWish& wish : input_.takeWishes()) {
       if (const auto* law = std::get_if<LawWish>(&wish)) {
         if (!plan_.guide && law->number < static_cast<int>(haptics::kLaws.size()))
@@ -364,6 +376,7 @@ class Rehearsal {
   std::optional<QualityChoice> quality_;
   std::optional<MotionToPhoton> latency_;
   std::optional<OperatorSeat> operator_;  // goes before the surgeon's window, which it shares with
+  std::optional<haptics::FootPedal> pedal_;
   std::optional<Workstation> workstation_;
   BrickUpload upload_;
   render::Frame frame_;

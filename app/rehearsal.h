@@ -13,6 +13,7 @@
 #include "app/workstation.h"
 #include "assets/patient.h"
 #include "calibration/rig.h"
+#include "haptics/device/pedal/foot_pedal.h"
 #include "haptics/servo/command.h"
 #include "render/frame.h"
 #include "render/render_options.h"
@@ -31,6 +32,7 @@ struct RehearsalPlan {
   std::vector<haptics::Tool> other_tools;  ///< for changes of tool, after the command's
   std::string parameters;         ///< settings file that is obeyed while it changes; `command` holds what it leaves out
   SessionGuide* guide = nullptr;  ///< leads the session where there is one: no drill, no law keys, its own title
+  std::optional<haptics::PedalChoice> pedal;  ///< none: it is not looked for
   double rate_Hz = 1000.0;
   std::optional<double> seconds;  ///< simulated time; a scripted hand ends by itself
   std::optional<Recording> recording;

@@ -34,6 +34,7 @@ Workstation::Workstation(const assets::Patient& patient, std::unique_ptr<haptics
       commands_(command_),
       log_(static_cast<std::size_t>(std::ceil(kLogged_s * rate_Hz_))),
       recorder_(recorderOf(recording, patient, settings.rate_Hz, command_, log_)),
+      pedal_(settings.pedal),
       loop_(servo_, *device_, commands_, log_, newest_, settings) {}
 
 void Workstation::start() {
@@ -45,6 +46,17 @@ RecordingSummary Workstation::stop() {
   loop_.stop();
   emergency_exit_.reset();
   return recorder_ ? recorder_->stop() : RecordingSummary{};
+}
+
+std::vector<haptics::HandAction> Workstation::takeActions() {
+  std::vector<haptics::HandAction> asked;
+  for (std::size_t i = 0; i < haptics::kHandActions; ++i) {
+    const auto action = static_cast<haptics::HandAction>(i);
+    const std::uint32_t presses = loop_.presses(action) + (pedal_ != nullptr ? pedal_->presses(action) : 0);
+    if (action != haptics::HandAction::drill) asked.insert(asked.end(), presses - actions_taken_[i], action);
+    actions_taken_[i] = presses;
+  }
+  return asked;
 }
 
 void Workstation::change(haptics::Command command) {

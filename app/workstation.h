@@ -3,9 +3,11 @@
 // Main thread. Construction copies the bone and opens the recording (0.1 s); nothing runs before start().
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/emergency_exit.h"
 #include "app/session/recorder.h"
@@ -43,6 +45,9 @@ class Workstation {
   /// One line, once recording has ended early.
   std::optional<std::string> recordingTrouble() const;
 
+  /// What buttons of the handle and the pedal have asked for since the last call, drilling aside; in no order.
+  std::vector<haptics::HandAction> takeActions();
+
   haptics::Tick newestTick() { return newest_.read(); }
   haptics::CarvedBone& bone() { return bone_; }
   haptics::LoopFigures figures() const { return loop_.figures(); }
@@ -57,7 +62,9 @@ class Workstation {
   haptics::Latest<haptics::Tick> newest_;
   haptics::TickLog log_;
   std::unique_ptr<Recorder> recorder_;
+  const haptics::FootPedal* pedal_;
   haptics::HapticLoop loop_;
+  std::array<std::uint32_t, haptics::kHandActions> actions_taken_{};
   std::optional<EmergencyExit> emergency_exit_;
 };
 

@@ -53,7 +53,7 @@ HandSample HapticLoop::handFrom(const HandleState& state, const Beat& beat) noex
   hand.jacobian_P_mm = glm::mat3_cast(settings_.X_PD.rotation) * state.jacobian_D_mm;
   hand.motor_heat = state.motor_heat;
   hand.gap_s = beat.gap_s * rate_Hz() > 1.5 ? beat.gap_s : 0.0;
-  hand.drill_pedal = state.pedal;
+  hand.drill_pedal = drills(state);
   hand.fresh = state.fresh;
   hand.docked = state.docked;
   hand.held = state.held;
@@ -73,6 +73,15 @@ HandSample HapticLoop::handFrom(const HandleState& state, const Beat& beat) noex
   hand.velocity_P_mm_per_s = settings_.X_PD * state.velocity_D_mm_per_s;
   hand.velocity_P_mm_per_s.xyz += arm_velocity_P_mm_per_s_;
   return hand;
+}
+
+bool HapticLoop::drills(const HandleState& state) noexcept {
+  const HandActions pressed = settings_.buttons.actionsOf(state.buttons);
+  const HandActions begun = press_count_.look(pressed);
+  for (std::size_t i = 0; i < kHandActions; ++i)
+    if (begun.has(static_cast<HandAction>(i))) presses_[i].fetch_add(1, std::memory_order_relaxed);
+  return state.pedal || pressed.has(HandAction::drill) ||
+         (settings_.pedal != nullptr && settings_.pedal->held().has(HandAction::drill));
 }
 
 DeviceLoop::Answer HapticLoop::answer(const HandleState& state, const Beat& beat) noexcept {

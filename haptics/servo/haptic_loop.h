@@ -4,6 +4,10 @@
 // needs no clock. Threads: as DeviceLoop.
 #pragma once
 
+#include <array>
+#include <atomic>
+
+#include "haptics/device/pedal/foot_pedal.h"
 #include "haptics/latest.h"
 #include "haptics/loop/device_loop.h"
 #include "haptics/servo/servo.h"
@@ -16,6 +20,8 @@ struct LoopSettings {
   calibration::Pose<calibration::Patient, calibration::Device> X_PD;  ///< where the device stands
   calibration::Pose<calibration::Handle, calibration::Tool> X_HT;     ///< how the handle holds the tool
   bool realtime = true;                                               ///< ask for priority, a core, locked memory
+  ButtonMeanings buttons;                                             ///< of those on the handle
+  const FootPedal* pedal = nullptr;                                   ///< drills beside them; borrowed
 };
 
 /// The command with its limits cut down to what the device can give and hold at this rate: peak force and torque, and
@@ -29,10 +35,16 @@ class HapticLoop final : public DeviceLoop {
              const LoopSettings& settings);
   ~HapticLoop() override { stop(); }
 
+  /// How often a button of the handle asked for it. Any thread.
+  std::uint32_t presses(HandAction action) const noexcept {
+    return presses_[static_cast<std::size_t>(action)].load(std::memory_order_relaxed);
+  }
+
  private:
   Answer answer(const HandleState& state, const Beat& beat) noexcept override;
   void answered(double work_us) noexcept override;
   HandSample handFrom(const HandleState& state, const Beat& beat) noexcept;
+  bool drills(const HandleState& state) noexcept;
 
   Servo& servo_;
   Latest<Command>& commands_;
@@ -45,6 +57,9 @@ class HapticLoop final : public DeviceLoop {
   Tick tick_;
   glm::dvec3 last_arm_P_mm_{0.0}, arm_velocity_P_mm_per_s_{0.0};
   bool has_arm_ = false;
+  PressCount press_count_;
+
+  std::array<std::atomic<std::uint32_t>, kHandActions> presses_{};
 };
 
 }  // namespace haptics
