@@ -118,8 +118,11 @@ class HeadCoverage {
 /// Carries a step out, block by block, for whatever shape says how much of a voxel it covers.
 class Cutter {
  public:
-  Cutter(CarvedBone& bone, const ErosionStep& step, std::uint64_t tick, int turns)
-      : bone_(bone), turns_(turns), turn_(static_cast<int>(tick % static_cast<std::uint64_t>(turns))) {
+  Cutter(CarvedBone& bone, const ErosionStep& step, std::uint64_t tick, int turns, StrokeHistory* strokes)
+      : bone_(bone),
+        strokes_(strokes),
+        turns_(turns),
+        turn_(static_cast<int>(tick % static_cast<std::uint64_t>(turns))) {
     cut_.tick = tick;
     for (std::size_t label = 0; label < step.loss.size(); ++label) {
       const double wanted = step.loss[label] * turns;
@@ -138,7 +141,7 @@ class Cutter {
         const std::size_t row = field.blockAt({0, y, z});
         for (int x = first.x + ahead; x <= last.x; x += turns_) {
           if (field.weight[row + static_cast<std::size_t>(x)] == 0 || !shape.of({x, y, z}, cut_)) continue;
-          bone_.cutBlock({x, y, z}, cut_, steps_);
+          bone_.cutBlock({x, y, z}, cut_, steps_, strokes_);
         }
       }
   }
@@ -157,6 +160,7 @@ class Cutter {
 
  private:
   CarvedBone& bone_;
+  StrokeHistory* strokes_;
   int turns_, turn_;
   BlockCut cut_;
   std::array<std::int64_t, assets::kTissueCount> steps_{};
@@ -202,26 +206,26 @@ int carvingTurns(const CarvedBone& bone, const BurShape& head, const ErosionStep
 }
 
 CarveResult carveSphere(CarvedBone& bone, const Point<Patient>& centre_P, double radius_mm, const ErosionStep& step,
-                        std::uint64_t tick, int turns) noexcept {
+                        std::uint64_t tick, int turns, StrokeHistory* strokes) noexcept {
   const double radius = radius_mm / bone.grid().spacing_mm;
   const glm::dvec3 centre = bone.grid().indexFromPoint(centre_P.mm);
   if (!(radius > 0.0) || !std::isfinite(radius) || !std::isfinite(glm::length(centre))) return {};
   RoundCoverage shape(centre, radius, bone.grid().spacing_mm, step);
   glm::ivec3 first, last;
   if (!blocksOf(bone.field(), centre - shape.outer(), centre + shape.outer(), first, last)) return {};
-  Cutter cutter(bone, step, tick, std::max(turns, 1));
+  Cutter cutter(bone, step, tick, std::max(turns, 1), strokes);
   cutter.cut(shape, first, last);
   return cutter.result();
 }
 
 CarveResult carveTool(CarvedBone& bone, const BurShape& head, const calibration::Pose<Patient, calibration::Tool>& X_PT,
-                      const ErosionStep& step, std::uint64_t tick, int turns) noexcept {
+                      const ErosionStep& step, std::uint64_t tick, int turns, StrokeHistory* strokes) noexcept {
   if (head.kind == ShapeKind::sphere)
-    return carveSphere(bone, {X_PT.translation_mm}, head.radius_mm, step, tick, turns);
+    return carveSphere(bone, {X_PT.translation_mm}, head.radius_mm, step, tick, turns, strokes);
   const BurCoverage bur(bone.grid(), head, X_PT);
   if (bur.empty()) return {};
   HeadCoverage shape(bur, bone.grid().spacing_mm, step);
-  Cutter cutter(bone, step, tick, std::max(turns, 1));
+  Cutter cutter(bone, step, tick, std::max(turns, 1), strokes);
   cutter.cut(shape, bur.first / kBlockEdge, bur.last / kBlockEdge);
   return cutter.result();
 }

@@ -26,15 +26,16 @@ struct CarveResult {
 
 /// One step with the bur at rest at `centre`. `tick` numbers the steps: it steers rounding and, if `turns` is not 1,
 /// which blocks have their turn: every block in one of `turns` steps, and then with `turns` times the loss, which is
-/// the same mm³ per second for 1/turns of the work. Non-finite or negative input removes nothing. Never throws or
-/// allocates.
+/// the same mm³ per second for 1/turns of the work. `strokes` may be null: what is cut cannot be taken back then.
+/// Non-finite or negative input removes nothing. Never throws or allocates.
 CarveResult carveSphere(CarvedBone& bone, const calibration::Point<calibration::Patient>& centre_P, double radius_mm,
-                        const ErosionStep& step, std::uint64_t tick, int turns = 1) noexcept;
+                        const ErosionStep& step, std::uint64_t tick, int turns = 1,
+                        StrokeHistory* strokes = nullptr) noexcept;
 
 /// The same with a head of any shape, as it stands.
 CarveResult carveTool(CarvedBone& bone, const BurShape& head,
                       const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT, const ErosionStep& step,
-                      std::uint64_t tick, int turns = 1) noexcept;
+                      std::uint64_t tick, int turns = 1, StrokeHistory* strokes = nullptr) noexcept;
 
 /// As many turns as keep a tick with this bur short, while no tissue loses more than three quarters of a voxel in a
 /// turn.

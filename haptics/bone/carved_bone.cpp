@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "haptics/bone/block_kernels.h"
+#include "haptics/bone/stroke_history.h"
 
 namespace haptics {
 namespace {
@@ -64,7 +65,7 @@ CarvedBone::History* CarvedBone::historyOf(std::size_t block) {
 }
 
 bool CarvedBone::cutBlock(glm::ivec3 block_ijk, const BlockCut& cut,
-                          std::array<std::int64_t, assets::kTissueCount>& steps) {
+                          std::array<std::int64_t, assets::kTissueCount>& steps, StrokeHistory* strokes) {
   const SolidField at = field();
   const std::size_t block = at.blockAt(block_ijk), start = block * kBlockVoxels;
   const std::uint8_t* const before = at.solid + start;
@@ -72,6 +73,7 @@ bool CarvedBone::cutBlock(glm::ivec3 block_ijk, const BlockCut& cut,
   const bool mixed_labels = at.only_label[block] == kMixedLabels;
   const std::size_t only_tissue = tissueOf(at, start);
   if (!meetsBlock(before, cut.coverage.data())) return false;
+  if (strokes != nullptr && strokes->lacks(block)) strokes->save(block, stateOf(block));
 
   alignas(64) std::array<std::uint32_t, kBlockVoxels> loss_q32;
   alignas(64) std::array<std::uint8_t, kBlockVoxels> after;
@@ -107,6 +109,45 @@ bool CarvedBone::cutBlock(glm::ivec3 block_ijk, const BlockCut& cut,
   cubelets_.setBlock(block, after);
   dirty_.mark(block_ijk * kBlockEdge / assets::kBrickVoxels);
   return true;
+}
+
+BlockState CarvedBone::stateOf(std::size_t block) const {
+  BlockState state;
+  const std::uint8_t* const solid = field().solid + block * kBlockVoxels;
+  std::copy(solid, solid + kBlockVoxels, state.solid.begin());
+  if (history_of_[block] != 0) {
+    const History& history = histories_[history_of_[block] - 1];
+    state.reach = history.reach;
+    state.dose = history.dose;
+  }
+  return state;
+}
+
+std::int64_t CarvedBone::restoreBlock(std::size_t block, const BlockState& state) {
+  const BlockState now = stateOf(block);
+  const BlockDigest from = blockDigest(now.solid.data(), now.reach.data(), now.dose.data());
+  const BlockDigest to = blockDigest(state.solid.data(), state.reach.data(), state.dose.data());
+  addToDigest(mixed(block + 1), {to.low - from.low, to.high - from.high});
+  // A past that has begun since began with what comes back: `first` stays true.
+  if (history_of_[block] != 0) {
+    History& history = histories_[history_of_[block] - 1];
+    history.reach = state.reach;
+    history.dose = state.dose;
+  }
+  if (state.solid == now.solid) return 0;
+
+  const SolidField at = field();
+  std::int64_t steps = 0;
+  for (std::size_t n = 0; n < kBlockVoxels; ++n) {
+    const int more = state.solid[n] - now.solid[n];
+    removed_steps_[tissueOf(at, block * kBlockVoxels + n)] -= more;
+    steps += more;
+  }
+  cubelets_.setBlock(block, state.solid);
+  const int at_x = static_cast<int>(block % static_cast<std::size_t>(at.blocks.x));
+  const auto rows = static_cast<int>(block / static_cast<std::size_t>(at.blocks.x));
+  dirty_.mark(glm::ivec3(at_x, rows % at.blocks.y, rows / at.blocks.y) * kBlockEdge / assets::kBrickVoxels);
+  return steps;
 }
 
 std::array<double, assets::kTissueCount> CarvedBone::removedByTissue_mm3() const {

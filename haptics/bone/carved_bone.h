@@ -21,6 +21,7 @@
 namespace haptics {
 
 struct BlockDigest;
+class StrokeHistory;
 
 /// What one step takes from the 64 voxels of a block. Units of 1/65535 of a voxel.
 struct BlockCut {
@@ -28,6 +29,14 @@ struct BlockCut {
   std::array<std::uint32_t, kBlockVoxels> exposure{};          ///< coverage, times how hard the bur cuts just there
   std::array<std::uint32_t, assets::kTissueCount> loss_q32{};  ///< part of the exposure that goes, in 2^-32
   std::uint64_t tick = 0;                                      ///< steers rounding
+};
+
+/// All that cutting changes of a block: what is left, how far it was reached, how much of it has gone.
+struct BlockState {
+  std::array<std::uint8_t, kBlockVoxels> solid{}, reach{};
+  std::array<std::uint16_t, kBlockVoxels> dose{};
+
+  bool operator==(const BlockState&) const = default;
 };
 
 class CarvedBone {
@@ -43,11 +52,18 @@ class CarvedBone {
   /// D <- min(D + exposure loss, max g so far), of what it held at first: a bur that stays for ever takes its own
   /// volume and no more. The dose rounds by a low-discrepancy sequence over `tick`, the solid fraction by a fixed
   /// threshold per voxel: slow cutting loses nothing to rounding, and a replay repeats it bit for bit. Adds the solid
-  /// steps of 1/255 removed to `steps`, by tissue; true if there were any. Marks the brick. Writer only.
-  bool cutBlock(glm::ivec3 block, const BlockCut& cut, std::array<std::int64_t, assets::kTissueCount>& steps);
+  /// steps of 1/255 removed to `steps`, by tissue; true if there were any. Marks the brick. Saves the block to
+  /// `strokes` first, if there is one and it has to. Writer only.
+  bool cutBlock(glm::ivec3 block, const BlockCut& cut, std::array<std::int64_t, assets::kTissueCount>& steps,
+                StrokeHistory* strokes = nullptr);
 
-  /// Order-independent digest of every voxel's (solid, reach, dose), kept up to date by cutBlock(): equal bones, equal
-  /// digests.
+  /// Of the block at that place of SolidField::blockAt.
+  BlockState stateOf(std::size_t block) const;
+  /// Makes the block what it was, sums, digest and removed volume too; the solid steps of 1/255 that came back. Marks
+  /// the brick. A state that is not one of this block's past is a bug of the caller. Writer only.
+  std::int64_t restoreBlock(std::size_t block, const BlockState& state);
+
+  /// Order-independent digest of every voxel's (solid, reach, dose), kept up to date: equal bones, equal digests.
   std::uint64_t digest() const { return digest_; }
 
   DirtyBricks& dirtyBricks() { return dirty_; }
