@@ -17,7 +17,7 @@ namespace haptics {
 namespace {
 
 /// A transfer that can not be taken back before the stream began; then the handle is dead.
-constexpr std::int64_t kDead_ns = 2'000'000'000;
+constexpr std::int64_t kDead_ns = 1'000'000'000;
 
 }  // namespace
 

@@ -1,5 +1,6 @@
 #include "haptics/device/usb/usb_transport.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -113,6 +114,349 @@ TEST_F(UsbTransportOnTheBus, CarriesReportsBothWays) {
   }
   EXPECT_EQ(usb.state(), UsbState::ok);
   EXPECT_EQ(usb.counters().reports_out, 100u);
+}
+
+TEST_F(UsbTransportOnTheBus, SaysInOneLineWhyItCanNotOpen) {
+  const auto reason = [](const UsbAddress& address) -> std::string {
+    try {
+      UsbTransport usb(address);
+    } catch (const DeviceError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(reason({0x1234, 7}), "USB 1234:0007: not on the bus, plug it in and switch it on");
+  EXPECT_EQ(reason({0x1234, 6, "1-3"}), "USB 1-3, 1234:0006: not on the bus, plug it in and switch it on");
+  EXPECT_THAT(reason({0x1234, 6, "", 1}), testing::HasSubstr("interface 1 has no IN and OUT pipe"));
+  bus->set({.claim_refused = true});
+  EXPECT_THAT(reason({0x1234, 6}), testing::HasSubstr("in use by another program or driver"));
+}
+
+TEST_F(UsbTransportOnTheBus, ClaimsWhereDetachingIsNotServed) {
+  bus->set({.detach_unserved = true});
+  UsbTransport usb({0x1234, 6});
+  usb.run(echoStream());
+  EXPECT_TRUE(soon([&] { return usb.state() == UsbState::ok; }));
+}
+
+TEST_F(UsbTransportOnTheBus, ChoosesAmongTwinsByPathAndServesBulkPipes) {
+  Echo other;
+  simulated_usb::Description twin = interruptDevice();
+  twin.port = "2";
+  twin.number = 3;
+  twin.serial = "FS0002";
+  twin.interface_class = 0xff;
+  twin.endpoints = {{0x02, 2, 32}, {0x83, 2, 32}};
+  bus->plug(twin, other);
+  UsbTransport usb({0x1234, 6, "1-2"});
+  EXPECT_EQ(usb.serialNumber(), "FS0002");
+  EXPECT_EQ(usb.inPacketBytes(), 32u);
+  usb.run(echoStream());
+  usb.send(report(77), usb.rests());
+  EXPECT_TRUE(soon([&] { return usb.newestReport().bytes[1] == 77; }));
+  EXPECT_TRUE(now(echo.told).empty());
+}
+
+TEST_F(UsbTransportOnTheBus, AsksAndAnswersWithADeadlineBeforeItRuns) {
+  UsbTransport usb({0x1234, 6});
+  Bytes three{1, 2, 3}, room(8);
+  EXPECT_TRUE(usb.control({0x40, 5, 0x1234, 0}, three, 1s).done());
+  EXPECT_EQ(now(echo.controlled), three);
+  const UsbExchange answer = usb.control({0xc0, 9, 0x0142, 0}, room, 1s);
+  EXPECT_TRUE(answer.done());
+  ASSERT_EQ(answer.bytes, 2u);
+  EXPECT_EQ(room[0], 9);
+  EXPECT_EQ(room[1], 0x42);
+  EXPECT_EQ(usb.control({0xc0, 99, 0, 0}, room, 1s).outcome, UsbOutcome::stalled);
+
+  EXPECT_TRUE(usb.write(three, 1s).done());
+  EXPECT_EQ(now(echo.told), std::vector<Bytes>{three});
+  Bytes packet(64);
+  const UsbExchange heard = usb.read(packet, 1s);
+  EXPECT_TRUE(heard.done());
+  EXPECT_EQ(heard.bytes, 4u);
+  EXPECT_EQ(packet[1], 1);
+
+  bus->set({.in_silent = true, .out_refused = true});
+  EXPECT_EQ(usb.read(packet, 20ms).outcome, UsbOutcome::late);
+  EXPECT_EQ(usb.write(three, 20ms).outcome, UsbOutcome::late);
+  bus->set({.handle_dead = true});
+  EXPECT_FALSE(usb.read(packet, 20ms).done());
+  EXPECT_FALSE(usb.control({0x40, 5, 0, 0}, three, 20ms).done());
+}
+
+TEST_F(UsbTransportOnTheBus, GivesUpAHandleThatNeverGivesBack) {
+  UsbTransport usb({0x1234, 6});
+  bus->set({.stuck = true});
+  Bytes packet(64);
+  EXPECT_EQ(usb.read(packet, 5ms).outcome, UsbOutcome::gone);
+  EXPECT_EQ(usb.write(packet, 5ms).outcome, UsbOutcome::gone);
+}
+
+TEST_F(UsbTransportOnTheBus, WaitsForAReportUntilTheDeadlineOnly) {
+  UsbTransport usb({0x1234, 6});
+  usb.run(echoStream());
+  ASSERT_TRUE(soon([&] { return usb.newestReport().serial > 0; }));
+  for (int i = 0; i < 20; ++i) {
+    const std::uint64_t before = usb.newestReport().serial;
+    ASSERT_TRUE(usb.awaitReport(monotonic_ns() + 10'000'000'000));
+    const UsbReport& after = usb.newestReport();
+    EXPECT_GT(after.serial, before);
+    EXPECT_LE(after.received_ns, monotonic_ns());
+  }
+  bus->set({.in_silent = true});
+  EXPECT_TRUE(soon([&] {
+    usb.newestReport();
+    return !usb.awaitReport(monotonic_ns() + 20'000'000);
+  }));
+}
+
+TEST_F(UsbTransportOnTheBus, IsLateWhileNothingComesAndWellAgainAfter) {
+  UsbTransport usb({0x1234, 6});
+  UsbStream stream = echoStream();
+  stream.in_deadline = 30ms;
+  usb.run(stream);
+  ASSERT_TRUE(soon([&] { return usb.state() == UsbState::ok; }));
+  bus->set({.in_silent = true});
+  ASSERT_TRUE(soon([&] { return usb.counters().in_timeouts >= 6; }));
+  EXPECT_EQ(usb.state(), UsbState::late);
+  bus->set({});
+  EXPECT_TRUE(soon([&] { return usb.state() == UsbState::ok; }));
+}
+
+TEST_F(UsbTransportOnTheBus, TakesBackAReportNobodyTookAndSendsTheNewest) {
+  UsbTransport usb({0x1234, 6});
+  usb.run(echoStream());
+  ASSERT_TRUE(soon([&] { return usb.state() == UsbState::ok; }));
+  bus->set({.out_refused = true});
+  usb.send(report(1), usb.rests());
+  ASSERT_TRUE(soon([&] { return usb.counters().out_timeouts >= 1 && usb.state() == UsbState::late; }));
+  // One is on its way again and again; of those that come meanwhile only the newest counts.
+  for (std::uint8_t i = 2; i <= 9; ++i) usb.send(report(i), usb.rests());
+  ASSERT_TRUE(soon([&] { return usb.counters().out_timeouts >= 2; }));
+  usb.send(report(10), usb.rests());
+  bus->set({});
+  ASSERT_TRUE(soon([&] { return usb.newestReport().bytes[1] == 10 && usb.state() == UsbState::ok; }));
+  EXPECT_LE(now(echo.told).size(), 2u);
+  EXPECT_GE(usb.counters().replaced_out, 5u);
+}
+
+TEST_F(UsbTransportOnTheBus, ClearsAHaltedPipeAndGoesOn) {
+  UsbTransport usb({0x1234, 6});
+  usb.run(echoStream());
+  ASSERT_TRUE(soon([&] { return usb.state() == UsbState::ok; }));
+  bus->set({.in_halted = true});
+  ASSERT_TRUE(soon([&] { return bus->halts_cleared() == 1; }));
+  EXPECT_TRUE(soon([&] { return usb.state() == UsbState::ok; }));
+  bus->set({.out_halted = true});
+  usb.send(report(1), usb.rests());
+  ASSERT_TRUE(soon([&] { return bus->halts_cleared() == 2; }));
+  usb.send(report(2), usb.rests());
+  EXPECT_TRUE(soon([&] { return usb.newestReport().bytes[1] == 2; }));
+  EXPECT_EQ(usb.counters().stalls, 2u);
+}
+
+TEST_F(UsbTransportOnTheBus, ClearsAHaltThatStaysNoMoreThanAFewTimes) {
+  UsbTransport usb({0x1234, 6});
+  usb.run(echoStream());
+  ASSERT_TRUE(soon([&] { return usb.state() == UsbState::ok; }));
+  bus->set({.in_halted = true, .halts_stay = true});
+  ASSERT_TRUE(soon([&] { return bus->halts_cleared() == 3 && usb.state() == UsbState::stalled; }));
+  std::this_thread::sleep_for(100ms);
+  EXPECT_EQ(bus->halts_cleared(), 3);
+  EXPECT_EQ(usb.state(), UsbState::stalled);
+  // What goes out still does: the motors can be let go.
+  EXPECT_TRUE(usb.sendLast(report(0), 5s));
+}
+
+TEST_F(UsbTransportOnTheBus, NeverShowsAReportOfTheWrongLength) {
+  UsbTransport usb({0x1234, 6});
+  bus->locked([&] { echo.report_bytes = 3; });
+  usb.run(echoStream());
+  ASSERT_TRUE(soon([&] { return usb.counters().short_reports >= 3; }));
+  EXPECT_EQ(usb.newestReport().serial, 0u);
+  bus->locked([&] { echo.report_bytes = 64; });
+  ASSERT_TRUE(soon([&] { return usb.counters().overlong_reports >= 3; }));
+  bus->locked([&] { echo.report_bytes = 0; });
+  const std::uint64_t shorts = usb.counters().short_reports;
+  ASSERT_TRUE(soon([&] { return usb.counters().short_reports >= shorts + 3; }));
+  EXPECT_EQ(usb.newestReport().serial, 0u);
+  // Beyond the packet: the kernel refuses it.
+  bus->locked([&] { echo.report_bytes = 65; });
+  const std::uint64_t longs = usb.counters().overlong_reports;
+  ASSERT_TRUE(soon([&] { return usb.counters().overlong_reports >= longs + 10; }));
+  EXPECT_EQ(usb.newestReport().serial, 0u);
+  EXPECT_NE(usb.state(), UsbState::ok);
+  bus->locked([&] { echo.report_bytes = 4; });
+  EXPECT_TRUE(soon([&] { return usb.newestReport().serial > 0 && usb.state() == UsbState::ok; }));
+}
+
+TEST_F(UsbTransportOnTheBus, LetsAReaderPutReportsTogether) {
+  UsbTransport usb({0x1234, 6});
+  UsbStream stream = echoStream();
+  int pieces = 0;
+  stream.reader = [&](std::span<const std::uint8_t> bytes) -> std::optional<UsbReport> {
+    if (++pieces % 3 != 0) return {};
+    return UsbReport(bytes.first(2));
+  };
+  usb.run(stream);
+  ASSERT_TRUE(soon([&] { return usb.newestReport().serial >= 3; }));
+  EXPECT_EQ(usb.newestReport().size, 2);
+  usb.stop();
+  EXPECT_EQ(usb.counters().reports_in, static_cast<std::uint64_t>(pieces / 3));
+}
+
+TEST_F(UsbTransportOnTheBus, ARestMakesVoidWhatWasMadeBefore) {
+  UsbTransport usb({0x1234, 6});
+  usb.run(echoStream());
+  const std::uint32_t before = usb.rests();
+  usb.send(report(5), before);
+  ASSERT_TRUE(soon([&] { return now(echo.told).size() == 1; }));
+  usb.rest();
+  ASSERT_TRUE(soon([&] { return now(echo.told).size() == 2; }));
+  for (int i = 0; i < 20; ++i) {
+    usb.send(report(6), before);
+    std::this_thread::sleep_for(1ms);
+  }
+  usb.send(report(7), usb.rests());
+  ASSERT_TRUE(soon([&] { return now(echo.told).size() == 3; }));
+  const std::vector<Bytes> told = now(echo.told);
+  EXPECT_EQ(told[1], Bytes(4, 0));
+  EXPECT_EQ(told[2][0], 7);
+}
+
+TEST_F(UsbTransportOnTheBus, ARestIsSentUntilItIsTaken) {
+  UsbTransport usb({0x1234, 6});
+  usb.run(echoStream());
+  bus->set({.out_refused = true});
+  usb.rest();
+  ASSERT_TRUE(soon([&] { return usb.counters().out_timeouts >= 3; }));
+  EXPECT_TRUE(now(echo.told).empty());
+  bus->set({});
+  EXPECT_TRUE(soon([&] { return now(echo.told).size() == 1; }));
+}
+
+TEST_F(UsbTransportOnTheBus, SendsTheLastReportAndThenNothingEver) {
+  UsbTransport usb({0x1234, 6});
+  usb.run(echoStream());
+  std::atomic<bool> over{false};
+  std::thread servo([&] {
+    while (!over.load()) {
+      usb.send(report(9), usb.rests());
+      usb.awaitReport(monotonic_ns() + 1'000'000);
+      usb.newestReport();
+    }
+  });
+  ASSERT_TRUE(soon([&] { return now(echo.told).size() > 20; }));
+  // From two threads at once, as a supervisor and a signal handler might.
+  bool taken[2] = {false, false};
+  std::thread other([&] { taken[0] = usb.sendLast(report(200), 10s); });
+  taken[1] = usb.sendLast(report(200), 10s);
+  other.join();
+  EXPECT_TRUE(taken[0] && taken[1]);
+  const std::size_t told = now(echo.told).size();
+  usb.rest();
+  EXPECT_TRUE(usb.sendLast(report(100), 10s)) << "the first is what is sent";
+  std::this_thread::sleep_for(50ms);
+  over.store(true);
+  servo.join();
+  usb.stop();
+  EXPECT_EQ(now(echo.told).size(), told);
+  EXPECT_EQ(now(echo.told).back()[0], 200);
+}
+
+TEST_F(UsbTransportOnTheBus, TheLastReportOvertakesOneThatHangs) {
+  UsbTransport usb({0x1234, 6});
+  usb.run(echoStream());
+  bus->set({.out_refused = true});
+  usb.send(report(9), usb.rests());
+  ASSERT_TRUE(soon([&] { return usb.counters().out_timeouts >= 1; }));
+  usb.send(report(9), usb.rests());
+  std::thread helper([&] {
+    std::this_thread::sleep_for(100ms);
+    bus->set({});
+  });
+  EXPECT_TRUE(usb.sendLast(report(200), 20s));
+  helper.join();
+  usb.stop();
+  EXPECT_EQ(now(echo.told).back()[0], 200);
+}
+
+TEST_F(UsbTransportOnTheBus, AfterALastReportNobodyTookNothingFollows) {
+  UsbTransport usb({0x1234, 6});
+  usb.run(echoStream());
+  bus->set({.out_refused = true});
+  EXPECT_FALSE(usb.sendLast(report(200), 60ms));
+  ASSERT_TRUE(soon([&] { return usb.counters().out_timeouts >= 1; }));
+  std::this_thread::sleep_for(100ms);
+  bus->set({});
+  usb.send(report(9), usb.rests());
+  usb.rest();
+  std::this_thread::sleep_for(50ms);
+  EXPECT_TRUE(now(echo.told).empty());
+}
+
+TEST_F(UsbTransportOnTheBus, IsGoneForGoodWhenUnplugged) {
+  UsbTransport usb({0x1234, 6});
+  usb.run(echoStream());
+  ASSERT_TRUE(soon([&] { return usb.state() == UsbState::ok; }));
+  bus->unplug();
+  ASSERT_TRUE(soon([&] { return usb.state() == UsbState::gone; }));
+  Echo again;
+  simulated_usb::Description replugged = interruptDevice();
+  replugged.number = 3;  // as the kernel does: never the same one at once
+  bus->plug(replugged, again);
+  usb.send(report(1), usb.rests());
+  EXPECT_FALSE(usb.sendLast(report(0), 200ms));
+  EXPECT_EQ(usb.state(), UsbState::gone);
+  usb.stop();
+  EXPECT_TRUE(again.told.empty());
+  // Whoever wants it back opens it again.
+  UsbTransport fresh({0x1234, 6});
+  fresh.run(echoStream());
+  EXPECT_TRUE(soon([&] { return fresh.state() == UsbState::ok; }));
+}
+
+TEST_F(UsbTransportOnTheBus, IsGoneWhenTheHandleIsDead) {
+  UsbTransport usb({0x1234, 6});
+  usb.run(echoStream());
+  ASSERT_TRUE(soon([&] { return usb.state() == UsbState::ok; }));
+  bus->set({.handle_dead = true});
+  EXPECT_TRUE(soon([&] { return usb.state() == UsbState::gone; }));
+}
+
+TEST_F(UsbTransportOnTheBus, IsGoneWhenTransfersNeverComeBack) {
+  UsbTransport usb({0x1234, 6});
+  UsbStream stream = echoStream();
+  stream.in_deadline = 30ms;
+  stream.dead_after = 100ms;
+  usb.run(stream);
+  bus->set({.stuck = true});
+  EXPECT_TRUE(soon([&] { return usb.state() == UsbState::gone; }));
+}
+
+TEST_F(UsbTransportOnTheBus, IsGoneWhenEverythingFails) {
+  UsbTransport usb({0x1234, 6});
+  usb.run(echoStream());
+  bus->set({.errors = true});
+  EXPECT_TRUE(soon([&] { return usb.state() == UsbState::gone; }));
+  EXPECT_GT(usb.counters().errors, 10u);
+  EXPECT_LT(usb.counters().errors, 200u) << "it pauses between";
+}
+
+TEST_F(UsbTransportOnTheBus, MayBeAskedBeforeItRunsAndAfterItStopped) {
+  UsbTransport usb({0x1234, 6});
+  usb.rest();
+  EXPECT_FALSE(usb.sendLast(report(0), 10ms));
+  EXPECT_EQ(usb.rests(), 0u);
+  EXPECT_EQ(usb.state(), UsbState::late);
+  usb.run(echoStream());
+  usb.stop();
+  usb.stop();
+  const std::size_t told = now(echo.told).size();
+  usb.send(report(1), usb.rests());
+  EXPECT_FALSE(usb.sendLast(report(0), 10s));
+  EXPECT_EQ(now(echo.told).size(), told);
 }
 
 }  // namespace
