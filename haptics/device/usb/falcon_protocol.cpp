@@ -58,8 +58,8 @@ std::size_t ftdiPayload(std::span<const std::uint8_t> transfer, std::span<std::u
   return length;
 }
 
-std::optional<FalconReport> FalconStream::take(std::span<const std::uint8_t> payload) noexcept {
-  std::optional<FalconReport> newest;
+std::optional<FalconPacket> FalconStream::take(std::span<const std::uint8_t> payload) noexcept {
+  std::optional<FalconPacket> newest;
   for (std::uint8_t byte : payload) {
     if (filled_ == 0 && byte != kBegin) {
       ++rejected_;
@@ -67,8 +67,8 @@ std::optional<FalconReport> FalconStream::take(std::span<const std::uint8_t> pay
     }
     packet_[filled_++] = byte;
     if (filled_ < packet_.size()) continue;
-    if (const auto report = decodeFalconReport(packet_)) {
-      newest = report;
+    if (decodeFalconReport(packet_)) {
+      newest = packet_;
       filled_ = 0;
     } else {
       startAgain();

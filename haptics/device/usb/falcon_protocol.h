@@ -46,8 +46,8 @@ std::size_t ftdiPayload(std::span<const std::uint8_t> transfer, std::span<std::u
 /// Puts packets together from a stream that splits and spoils them where it likes; finds back after garbage.
 class FalconStream {
  public:
-  /// Of the bridge's payload. The newest report that ends in it, if one does.
-  std::optional<FalconReport> take(std::span<const std::uint8_t> payload) noexcept;
+  /// Of the bridge's payload. The newest packet that ends in it and can be decoded, if one does.
+  std::optional<FalconPacket> take(std::span<const std::uint8_t> payload) noexcept;
   std::uint64_t rejected() const { return rejected_; }  ///< bytes that belonged to no packet
 
  private:

@@ -99,8 +99,8 @@ TEST(FalconStream, PutsPacketsTogetherHoweverTheyAreSplit) {
   std::int16_t next = 0;
   for (std::size_t at = 0; at < line.size();) {
     const std::size_t size = std::min<std::size_t>(random() % 16, line.size() - at);
-    if (const auto report = stream.take(std::span(line).subspan(at, size))) {
-      ASSERT_EQ(report->encoders[0], next);
+    if (const auto packet = stream.take(std::span(line).subspan(at, size))) {
+      ASSERT_EQ(decodeFalconReport(*packet)->encoders[0], next);
       ++next;
     }
     at += size;
@@ -115,9 +115,9 @@ TEST(FalconStream, FindsTheVeryNextPacketAfterGarbageOrATruncatedOne) {
                                     std::string("<AAAAAAAAAAAAAA"), std::string(40, 'A'), std::string("<BBBB<CC")}) {
     FalconStream stream;
     stream.take(bytesOf(before));
-    const auto report = stream.take(good);
-    ASSERT_TRUE(report) << before;
-    EXPECT_EQ(report->encoders[0], 11) << before;
+    const auto packet = stream.take(good);
+    ASSERT_TRUE(packet) << before;
+    EXPECT_EQ(decodeFalconReport(*packet)->encoders[0], 11) << before;
     EXPECT_EQ(stream.rejected(), before.size());
   }
 }
