@@ -1,9 +1,9 @@
 #include "app/hand_at_work.h"
 
+#include "app/phantom_at_work.h"
 #include "app/trough_plan.h"
 #include "app/usage_error.h"
 #include "haptics/device/simulated/scripted_hand.h"
-#include "haptics/device/simulated/simulated_device.h"
 
 namespace app {
 namespace {
@@ -16,6 +16,13 @@ using calibration::World;
 /// From the bur to the handle, W: towards the viewer and down over the lower lip, so that it does not hide the site.
 glm::dvec3 shaftDirection_W() { return glm::normalize(glm::dvec3(0.12, -0.38, 0.92)); }
 
+const haptics::PhantomMechanics& simulated(Hand kind) {
+  return *haptics::findSimulatedPhantom(kind == Hand::touch     ? "touch"
+                                        : kind == Hand::desktop ? "desktop"
+                                        : kind == Hand::premium ? "premium"
+                                                                : "omni");
+}
+
 }  // namespace
 
 Pose<World, Tool> restingTool() { return {glm::dquat(glm::dvec3(0, 0, 1), shaftDirection_W()), {0.0, 6.0, 12.0}}; }
@@ -26,10 +33,13 @@ HandAtWork handAtWork(Hand kind, const assets::Patient& patient, const calibrati
     auto trough = planBuccalTrough(patient, bur_radius_mm);
     if (!trough) throw UsageError("--device: this patient has no third molar with bone beside it, use --device mouse");
     trough->shaft_D = {glm::conjugate(rig.X_WP.rotation) * shaftDirection_W()};
-    if (kind == Hand::simulated) {
-      auto simulated = std::make_unique<haptics::SimulatedDevice>(*trough, haptics::SimulatedMechanics{});
-      hand.duration_s = simulated->duration_s();
-      hand.device = std::move(simulated);
+    if (kind != Hand::scripted) {
+      const haptics::PhantomMechanics& mechanics = simulated(kind);
+      const haptics::WorkRound round = roundAtWork(mechanics, *trough, rig);
+      hand.duration_s = round.duration_s();
+      hand.X_PD = rig.X_WP.inverse() * rig.X_WD;
+      hand.device =
+          std::make_unique<haptics::SimulatedPhantom>(mechanics, [round](double t_s) { return round.at(t_s); });
       return hand;
     }
     auto scripted = std::make_unique<haptics::ScriptedHand>(*trough);

@@ -1,8 +1,8 @@
 // `molar rehearse [PATIENT]`: the main job.
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <thread>
 
@@ -63,7 +63,15 @@ calibration::Rig rigFor(const RehearseOptions& options, const assets::Patient& p
   const calibration::Vector<calibration::Patient> eye_P{assets::surgeonEyeDirection(patient.site.tooth_fdi)};
   const calibration::Vector<calibration::Face> eye_F = assets::kFaceAxes_PF.inverse() * eye_P, up_F{{0.0, 1.0, 0.0}};
   rig.X_WP = standPatient({patient.site.third_molar_P_mm}, X_PF * eye_F, X_PF * up_F);
+  // The third molar stands at the origin of W. X_WD stays identity, so it is at the origin of D too: the middle of
+  // every Phantom's workspace, its axes as the surgeon's.
   return rig;
+}
+
+std::vector<std::string> handKeys() {
+  std::vector<std::string> keys;
+  for (const HandName& hand : kHands) keys.emplace_back(hand.key);
+  return keys;
 }
 
 /// A software renderer would take every core; one is the servo's.
@@ -90,9 +98,7 @@ int run(const RehearseOptions& options) {
   plan.parameters = options.parameters;
   if (options.headless && options.device == "mouse")
     throw UsageError("--headless: there is no mouse without a window, add --device scripted");
-  plan.hand =
-      std::map<std::string, Hand>{{"mouse", Hand::mouse}, {"scripted", Hand::scripted}, {"simulated", Hand::simulated}}
-          .at(options.device);
+  plan.hand = std::ranges::find(kHands, options.device, &HandName::key)->hand;
   plan.display = options.display.mode();
   plan.eyes_swapped = options.display.swapped();
   plan.backend = options.picture.backend();
@@ -138,8 +144,9 @@ void addRehearse(CLI::App& molar, Chosen& chosen) {
   auto* patient = command->add_option("PATIENT", o->patient, "Patient folder (default: the built-in patient)");
   command
       ->add_option("--device", o->device,
-                   "Hand: mouse, scripted, or simulated: the script holding a device with mass and friction")
-      ->check(CLI::IsMember({"mouse", "scripted", "simulated"}))
+                   "Hand: mouse, scripted, or simulated[:omni|touch|desktop|premium]: the script holding a Phantom in "
+                   "numbers, with its kinematics, weight, friction, encoders and motors (omni where not said)")
+      ->check(CLI::IsMember(handKeys()))
       ->capture_default_str();
   auto* rig =
       command->add_option("--rig", o->rig, "Rig file: screen, mirror, eyes, patient pose; 1:1")->type_name("FILE");

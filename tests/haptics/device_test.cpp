@@ -5,7 +5,6 @@
 
 #include "haptics/device/simulated/mouse_device.h"
 #include "haptics/device/simulated/scripted_hand.h"
-#include "haptics/device/simulated/simulated_device.h"
 
 namespace haptics {
 namespace {
@@ -144,39 +143,6 @@ TEST(VirtualHand, MovesExactlyWhateverTheStep) {
       EXPECT_LT(glm::length(hand.place_mm - slow.place_mm), 2e-4) << damping << " " << stiffness;
       EXPECT_LT(glm::length(hand.velocity_mm_per_s - slow.velocity_mm_per_s), 0.03) << damping << " " << stiffness;
     }
-}
-
-TEST(SimulatedMachine, GivesNoMoreThanItsMotorsAndShowsNoFinerThanItsEncoders) {
-  SimulatedMechanics mechanics;
-  mechanics.resolution_mm = 0.055;
-  mechanics.peak_force_N = 2.0;
-  const HandTarget still{{1.0, 2.0, 3.0}, {1.0, 0.0, 0.0, 0.0}, false};
-  SimulatedMachine device(mechanics, still);
-  EXPECT_NEAR(device.capabilities().damping_Ns_per_mm, 0.005, 1e-12);
-  HandleState state;
-  for (int tick = 0; tick < 3000; ++tick) state = device.move(still, still, {{{0.0, 0.0, 50.0}}, {}}, 1e-3);
-  EXPECT_NEAR(state.X_DH.translation_mm.z, 3.0 + 2.0 / mechanics.grip_N_per_mm, 0.055);
-  const double counts = state.X_DH.translation_mm.z / 0.055;
-  EXPECT_NEAR(counts, std::round(counts), 1e-9);
-}
-
-TEST(SimulatedDevice, FollowsTheScriptAndGivesWay) {
-  SimulatedDevice pushed(plan(), {}), free(plan(), {});
-  HandleState a, b;
-  for (int tick = 0; tick < 2000; ++tick) {
-    a = pushed.exchange({{{0.0, 0.0, 0.5}}, {}}, 1e-3);
-    b = free.exchange({}, 1e-3);
-  }
-  EXPECT_NEAR(a.X_DH.translation_mm.z - b.X_DH.translation_mm.z, 0.5 / SimulatedMechanics{}.grip_N_per_mm, 0.05);
-}
-
-TEST(SimulatedDevice, RefusesMechanicsThatCannotBe) {
-  SimulatedMechanics bad;
-  bad.mass_kg = 0.0;
-  EXPECT_THROW(SimulatedDevice(plan(), bad), DeviceError);
-  bad = {};
-  bad.grip_N_per_mm = -1.0;
-  EXPECT_THROW(SimulatedDevice(plan(), bad), DeviceError);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "haptics/device/simulated/simulated_device.h"
+#include "haptics/device/simulated/simulated_phantom.h"
 #include "haptics/servo/servo.h"
 #include "tests/haptics/phantom.h"
 
@@ -88,7 +88,23 @@ TEST(ServoRate, SwitchesAndCutsWithoutAKnockAtAnyRate) {
 /// Leans on the bone below with a grip of 2 N/m, then a little more.
 HandTarget leaning(double t_s) {
   const double lean = std::min(t_s, 1.0);
-  return {{0.0, 0.0, 2.0 - 500.0 * lean * lean * (3.0 - 2.0 * lean) - (t_s > 1.5 ? 25.0 : 0.0)}, {1, 0, 0, 0}, false};
+  HandTarget target;
+  target.place_mm.z = 2.0 - 500.0 * lean * lean * (3.0 - 2.0 * lean) - (t_s > 1.5 ? 25.0 : 0.0);
+  return target;
+}
+
+/// m = 0.1 kg, b = 2 N s/m, perfect sensors, no dry friction, no delay.
+PhantomMechanics smooth() {
+  PhantomMechanics mechanics = *findSimulatedPhantom("premium");
+  mechanics.sensing = {};
+  mechanics.mass_kg = 0.1;
+  mechanics.viscous_Ns_per_mm = 0.002;
+  mechanics.dry_N = 0.0;
+  mechanics.latency_ticks = 0;
+  mechanics.peak_force_N = 1e3;
+  mechanics.peak_joint_Nmm = 1e6;
+  mechanics.continuous_force_N = 1e3;
+  return mechanics;
 }
 
 /// How much faster than before the device shakes three seconds later.
@@ -98,16 +114,12 @@ double growth(double stiffness_N_per_mm, double rate_Hz) {
   Command command;
   command.law.agus.stiffness_N_per_mm = stiffness_N_per_mm;
   command.safety = {1e3, 1e9, 0.0, 1.0, 100.0};
-  SimulatedMechanics mechanics;  // m = 0.1 kg, b = 2 N s/m
-  mechanics.grip_N_per_mm = 0.002;
-  mechanics.grip_Ns_per_mm = 0.0;
-  mechanics.peak_force_N = 1e3;
-  SimulatedMachine device(mechanics, leaning(0.0));
+  SimulatedPhantom device(smooth(), leaning, {0.0, 0.002, 0.0, 0.0});
   Vector<Patient> force;
   const double dt_s = 1.0 / rate_Hz;
   double early = 0.0, late = 0.0, withheld_N = 0.0;
   for (int tick = 0; tick < static_cast<int>(4.8 * rate_Hz); ++tick) {
-    const HandleState state = device.move(leaning(tick * dt_s), leaning((tick + 1) * dt_s), {{force.xyz}, {}}, dt_s);
+    const HandleState state = device.exchange({{force.xyz}, {}}, dt_s);
     HandSample hand;
     hand.X_PT = {state.X_DH.rotation, state.X_DH.translation_mm};
     hand.velocity_P_mm_per_s.xyz = state.velocity_D_mm_per_s.xyz;

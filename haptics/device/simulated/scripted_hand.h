@@ -1,5 +1,5 @@
 // A surgeon's hand by script: its path pulls a virtual hand, so the bone's force really pushes it back. A pure function
-// of the steps it is given: no clock, no randomness. Frame D, mm, s. Not a machine (device/simulated_device).
+// of the steps it is given: no clock, no randomness. Frame D, mm, s. Not a machine (simulated_phantom).
 #pragma once
 
 #include "haptics/device/simulated/device_in_numbers.h"

@@ -66,7 +66,7 @@ HandTarget TroughPath::at(double t_s) const {
     height_mm = glm::mix(rest_mm - plan_.depth_mm, high_mm, smooth((cut_s - end_s) / retreat_s_));
   }
   const bool pedal = cut_s > -0.1 * approach_s_ && cut_s < end_s;
-  return {plan_.site_D.mm + height_mm * outward_ + along_mm * along_, rotation_, pedal};
+  return {plan_.site_D.mm + height_mm * outward_ + along_mm * along_, rotation_, pedal, 0, true};
 }
 
 }  // namespace haptics

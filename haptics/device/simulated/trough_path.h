@@ -1,19 +1,14 @@
 // The way of a surgeon's hand: cuts a buccal trough beside an impacted third molar. Comes down from above, sweeps back
 // and forth along the buccal side of the crown, R/8 deeper every pass, pedal down, and withdraws. Frame D, mm, s;
 // handle and tool are one (X_HT = identity). Stroke 6-10 mm at 10-15 mm/s: starting values from the surgery itself
-// (buccal gutter along the crown), not measured. Not the hand itself (device/scripted_hand, device/simulated_device).
+// (buccal gutter along the crown), not measured. Not the hand itself (device/simulated).
 #pragma once
 
 #include "calibration/geometry/frames.h"
 #include "calibration/geometry/pose.h"
+#include "haptics/device/simulated/hand_script.h"
 
 namespace haptics {
-
-struct HandTarget {
-  glm::dvec3 place_mm{0.0};
-  glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
-  bool pedal = false;
-};
 
 struct TroughPlan {
   calibration::Point<calibration::Device> site_D;      ///< middle of the trough, on the bone's surface

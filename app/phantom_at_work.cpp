@@ -1,0 +1,50 @@
+#include "app/phantom_at_work.h"
+
+#include <cmath>
+#include <string>
+
+#include "app/usage_error.h"
+
+namespace app {
+namespace {
+
+using calibration::Device;
+using calibration::Patient;
+using calibration::Pose;
+
+constexpr double kLooksEvery_s = 0.01;
+/// In front of everything the hand has to go round.
+constexpr double kClear_mm = 27.0;
+
+haptics::TroughPlan inDevice(haptics::TroughPlan plan, const Pose<Device, Patient>& X_DP) {
+  plan.site_D.mm = X_DP.rotation * plan.site_D.mm + X_DP.translation_mm;
+  for (auto* direction : {&plan.outward_D, &plan.buccal_D, &plan.shaft_D})
+    direction->xyz = X_DP.rotation * direction->xyz;
+  return plan;
+}
+
+}  // namespace
+
+haptics::WorkRound roundAtWork(const haptics::PhantomMechanics& mechanics, const haptics::TroughPlan& trough_P,
+                               const calibration::Rig& rig) {
+  const haptics::TroughPath trough(inDevice(trough_P, rig.X_WD.inverse() * rig.X_WP));
+  const auto rest_DH = mechanics.rest_DH();
+  const haptics::HandTarget rest{rest_DH.translation_mm, rest_DH.rotation, false, 0, true};
+
+  // The surgeon's eye is clear of everything that lies on the way: towards it, across, and back.
+  const glm::dvec3 to_viewer_D = glm::conjugate(rig.X_WD.rotation) * glm::dvec3(0.0, 0.0, 1.0);
+  const glm::dvec3 above_mm = trough.at(0.0).place_mm + kClear_mm * to_viewer_D;
+  const double lower_mm = glm::dot(above_mm - rest.place_mm, to_viewer_D);
+  const haptics::WorkRound round(trough, rest, {rest.place_mm + lower_mm * to_viewer_D, above_mm});
+
+  for (double t_s = 0.0; t_s < round.duration_s(); t_s += kLooksEvery_s) {
+    const haptics::HandTarget target = round.at(t_s);
+    if (jointsReaching(mechanics.geometry, {target.rotation, target.place_mm})) continue;
+    const auto mm = [&](int axis) { return std::to_string(std::lround(target.place_mm[axis])); };
+    throw UsageError("--device simulated:" + std::string(mechanics.key) + ": its arm does not reach (" + mm(0) + ", " +
+                     mm(1) + ", " + mm(2) + ") mm of its own frame, where the work leads: change X_WD of the rig");
+  }
+  return round;
+}
+
+}  // namespace app

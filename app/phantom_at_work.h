@@ -1,0 +1,18 @@
+// A simulated Phantom in the hand of a surgeon who cuts the trough: taken from where it rests, brought to the site,
+// armed, put back. X_WD as the rig has it. Start-up only.
+#pragma once
+
+#include <memory>
+
+#include "calibration/rig.h"
+#include "haptics/device/simulated/phantom_mechanics.h"
+#include "haptics/device/simulated/simulated_phantom.h"
+#include "haptics/device/simulated/work_round.h"
+
+namespace app {
+
+/// `trough_P`: in frames P. Throws UsageError where the arm does not reach all of it.
+haptics::WorkRound roundAtWork(const haptics::PhantomMechanics& mechanics, const haptics::TroughPlan& trough_P,
+                               const calibration::Rig& rig);
+
+}  // namespace app

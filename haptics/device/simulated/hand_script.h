@@ -1,0 +1,22 @@
+// What a simulated hand wants at a time: a pose of the handle in D, pedal and buttons, and whether it holds on at all.
+// mm, s. A script is a pure function of time that the device's thread calls twice a tick: no allocation, no lock.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+namespace haptics {
+
+struct HandTarget {
+  glm::dvec3 place_mm{0.0};
+  glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
+  bool pedal = false;
+  std::uint32_t buttons = 0;  ///< of the handle; bit 0: the first
+  bool grips = true;          ///< false: the handle is left where it is
+};
+
+using HandScript = std::function<HandTarget(double t_s)>;
+
+}  // namespace haptics

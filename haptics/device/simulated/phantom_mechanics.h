@@ -1,0 +1,44 @@
+// The numbers of a Phantom as a machine: geometry, sensors, weight, friction, motors, inkwell. Reference/devices 4.3
+// unless said otherwise there; (assumed) where nothing is published. mm, N, N mm, s, kg. Plain data; any thread.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "calibration/phantom_kinematics.h"
+#include "haptics/device/haptic_device.h"
+#include "haptics/device/simulated/phantom_sensors.h"
+
+namespace haptics {
+
+struct PhantomMechanics {
+  std::string_view key;   ///< on the command line, after "simulated:"
+  std::string_view name;  ///< for people
+  calibration::PhantomGeometry geometry;
+  PhantomSensing sensing;
+
+  double mass_kg = 0.0;             ///< apparent, at the handle, in every direction
+  double viscous_Ns_per_mm = 0.0;   ///< (assumed) 0.5 N s/m: buys what CHAI3D recommends, K < 2 b / T
+  double dry_N = 0.0;               ///< to move it backwards
+  int latency_ticks = 0;            ///< from command to force; (assumed) 1 where a bus lies between
+  double peak_force_N = 0.0;        ///< of the motors, in every direction …
+  double peak_joint_Nmm = 0.0;      ///< … and of each of them
+  double continuous_force_N = 0.0;  ///< of the motors, for ever; their torques by the same share
+  double heat_time_s = 30.0;        ///< (assumed)
+
+  calibration::Point<calibration::Device> rest_D;  ///< where its handle lies before anybody takes it …
+  bool has_inkwell = false;                        ///< … and this is there
+  bool has_deadman = false;                        ///< feels whether a hand is on the handle
+  double most_stiffness_N_per_mm = 0.0, most_damping_Ns_per_mm = 0.0;
+  WorkspaceBox workspace;
+
+  /// Its handle at rest, straight in its gimbal.
+  calibration::Pose<calibration::Device, calibration::Handle> rest_DH() const;
+};
+
+/// omni, touch, desktop, premium.
+const std::array<PhantomMechanics, 4>& simulatedPhantoms();
+/// Null: none of this key.
+const PhantomMechanics* findSimulatedPhantom(std::string_view key);
+
+}  // namespace haptics

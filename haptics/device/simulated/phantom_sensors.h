@@ -1,0 +1,43 @@
+// What the electronics of a Phantom know of its handle: encoders at the arm's joints, potentiometers in the gimbal, and
+// the velocity a driver makes of them, differenced and smoothed. Frame D, mm, rad, s. The device's thread; no
+// allocation. The same seed gives the same noise.
+#pragma once
+
+#include <cstdint>
+#include <random>
+
+#include "calibration/phantom_kinematics.h"
+
+namespace haptics {
+
+/// Each 0: perfect.
+struct PhantomSensing {
+  double counts_per_turn = 0.0;     ///< of each arm encoder, at the joint
+  double levels_per_turn = 0.0;     ///< of each potentiometer, whose noise is one level wide
+  double velocity_cutoff_Hz = 0.0;  ///< of the first-order smoothing; perfect: the true velocity
+};
+
+class PhantomSensors {
+ public:
+  struct Reading {
+    calibration::Pose<calibration::Device, calibration::Handle> X_DH;
+    calibration::Vector<calibration::Device> velocity_D_mm_per_s;
+    glm::dmat3 jacobian_D_mm{0.0};
+  };
+
+  PhantomSensors(const calibration::PhantomGeometry& geometry, const PhantomSensing& sensing, std::uint32_t seed)
+      : geometry_(geometry), sensing_(sensing), noise_(seed) {}
+
+  Reading read(const calibration::PhantomJoints& truth, const glm::dvec3& true_velocity_mm_per_s, double dt_s) noexcept;
+
+ private:
+  double turnedKnob(double angle_rad) noexcept;
+
+  calibration::PhantomGeometry geometry_;
+  PhantomSensing sensing_;
+  std::mt19937 noise_;
+  glm::dvec3 last_mm_{0.0}, velocity_mm_per_s_{0.0};
+  bool has_last_ = false;
+};
+
+}  // namespace haptics

@@ -1,0 +1,155 @@
+#include "haptics/device/simulated/simulated_phantom.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "haptics/device/simulated/dry_friction.h"
+
+namespace haptics {
+namespace {
+
+using calibration::Device;
+using calibration::Vector;
+
+constexpr double kDocks_mm = 2.0, kUndocks_mm = 4.0;
+
+void refuseUnlessPossible(const PhantomMechanics& m, const Grip& grip) {
+  const std::string name = "simulated " + std::string(m.name);
+  for (double number :
+       {m.sensing.counts_per_turn, m.sensing.levels_per_turn, m.sensing.velocity_cutoff_Hz, m.viscous_Ns_per_mm,
+        m.dry_N, grip.mass_kg, grip.stiffness_N_per_mm, grip.damping_Ns_per_mm, grip.tremor_rms_mm})
+    if (!(std::isfinite(number) && number >= 0.0))
+      throw DeviceError(name + ", one of its numbers is negative or not finite, give usable ones");
+  for (double number : {m.geometry.thigh_mm, m.geometry.shin_mm, m.mass_kg, m.peak_force_N, m.peak_joint_Nmm,
+                        m.continuous_force_N, m.heat_time_s})
+    if (!(std::isfinite(number) && number > 0.0))
+      throw DeviceError(name + ", one of its numbers is not positive, give it length, mass, force and time");
+  if (m.latency_ticks < 0 || m.latency_ticks > SimulatedPhantom::kMostLatency_ticks)
+    throw DeviceError(name + ", its latency is " + std::to_string(m.latency_ticks) + " ticks, give 0 to " +
+                      std::to_string(SimulatedPhantom::kMostLatency_ticks));
+}
+
+DeviceCapabilities capabilitiesOf(const PhantomMechanics& m, const Grip& grip) {
+  DeviceCapabilities can;
+  can.model = "simulated " + std::string(m.name);
+  can.has_motors = true;
+  can.has_inkwell = m.has_inkwell;
+  can.has_deadman = m.has_deadman;
+  can.peak_force_N = m.peak_force_N;
+  can.continuous_force_N = m.continuous_force_N;
+  can.peak_joint_torque_Nmm = glm::dvec3(m.peak_joint_Nmm);
+  can.most_stiffness_N_per_mm = m.most_stiffness_N_per_mm;
+  can.most_damping_Ns_per_mm = m.most_damping_Ns_per_mm;
+  // With delay K < b / (T/2 + t) instead of 2 b / T (Gil, Hulin; reference/physics 2.5): as if it had less of it.
+  can.damping_Ns_per_mm = (m.viscous_Ns_per_mm + grip.damping_Ns_per_mm) / (1.0 + 2.0 * m.latency_ticks);
+  can.workspace = m.workspace;
+  return can;
+}
+
+}  // namespace
+
+SimulatedPhantom::SimulatedPhantom(const PhantomMechanics& mechanics, HandScript script, const Grip& grip,
+                                   std::uint32_t seed)
+    : mechanics_((refuseUnlessPossible(mechanics, grip), mechanics)),
+      hand_(std::move(script), grip, seed),
+      sensors_(mechanics.geometry, mechanics.sensing, seed + 1),
+      heat_(glm::dvec3(mechanics.peak_joint_Nmm * mechanics.continuous_force_N / mechanics.peak_force_N),
+            mechanics.heat_time_s),
+      capabilities_(capabilitiesOf(mechanics, grip)) {
+  const HandTarget start = hand_.at(0.0);
+  const auto arm_rad = armReaching(mechanics_.geometry, {start.place_mm});
+  if (!arm_rad)
+    throw DeviceError(capabilities_.model + ", its arm does not reach where the hand starts, move it nearer");
+  joints_.arm_rad = *arm_rad;
+  joints_.wrist_rad = calibration::wristTurnedTo(*arm_rad, start.rotation);
+  turn(start);
+  handle_.place_mm = start.place_mm;
+  handle_.friction_Ns_per_mm = mechanics_.viscous_Ns_per_mm;
+  calibrated_ = !mechanics_.has_inkwell;
+  dock(start);
+}
+
+HandleState SimulatedPhantom::exchange(const Wrench<Device>& wrench_D, double dt_s) noexcept {
+  const HandTarget from = hand_.at(t_s_);
+  t_s_ += dt_s;
+  const HandTarget to = hand_.at(t_s_);
+  pushed_N_ = forceOfMotors_N(wrench_D.force_N.xyz, dt_s);
+  move(from, to, dt_s);
+  turn(to);
+  dock(to);
+
+  const PhantomSensors::Reading read = sensors_.read(joints_, handle_.velocity_mm_per_s, dt_s);
+  HandleState state;
+  state.X_DH = read.X_DH;
+  state.velocity_D_mm_per_s = read.velocity_D_mm_per_s;
+  state.jacobian_D_mm = read.jacobian_D_mm;
+  state.buttons = to.buttons;
+  state.pedal = to.pedal;
+  state.docked = docked_;
+  state.held = to.grips || !mechanics_.has_deadman;
+  state.calibrated = calibrated_;
+  state.motor_heat = heat_.warmest();
+  return state;
+}
+
+glm::dvec3 SimulatedPhantom::forceOfMotors_N(const glm::dvec3& asked_N, double dt_s) noexcept {
+  // What was asked some ticks ago; nothing when that is no force.
+  on_its_way_N_[tick_ % on_its_way_N_.size()] = std::isfinite(glm::length(asked_N)) ? asked_N : glm::dvec3(0.0);
+  const std::size_t arrived = tick_ + on_its_way_N_.size() - static_cast<std::size_t>(mechanics_.latency_ticks);
+  glm::dvec3 force_N = on_its_way_N_[arrived % on_its_way_N_.size()];
+  ++tick_;
+
+  // Too warm, they give no more than they can for ever.
+  const double share = heat_.warmest() < 1.0 ? 1.0 : mechanics_.continuous_force_N / mechanics_.peak_force_N;
+  const double strong_N = glm::length(force_N);
+  if (strong_N > share * mechanics_.peak_force_N) force_N *= share * mechanics_.peak_force_N / strong_N;
+  const glm::dvec3 torque_Nmm = glm::abs(armTorque_Nmm(mechanics_.geometry, joints_.arm_rad, {force_N}));
+  const double most_Nmm = std::max({torque_Nmm.x, torque_Nmm.y, torque_Nmm.z});
+  const double fits = std::min(1.0, share * mechanics_.peak_joint_Nmm / std::max(most_Nmm, 1e-9));
+  heat_.add(fits * torque_Nmm, dt_s);
+  return fits * force_N;
+}
+
+void SimulatedPhantom::move(const HandTarget& from, const HandTarget& to, double dt_s) noexcept {
+  if (!(dt_s > 0.0)) return;
+  if (docked_ && !to.grips) {
+    handle_.velocity_mm_per_s = glm::dvec3(0.0);
+    return;
+  }
+  const Grip let_go{0.0, 0.0, 0.0, 0.0}, &grip = to.grips ? hand_.grip() : let_go;
+  handle_.mass_kg = mechanics_.mass_kg + grip.mass_kg;
+  handle_.stiffness_N_per_mm = grip.stiffness_N_per_mm;
+  handle_.damping_Ns_per_mm = grip.damping_Ns_per_mm;
+  const glm::dvec3 before_mm = handle_.place_mm;
+  const glm::dvec3 goes_mm_per_s = to.grips && from.grips ? (to.place_mm - from.place_mm) / dt_s : glm::dvec3(0.0);
+  advanceWithDryFriction(handle_, mechanics_.dry_N, from.place_mm, goes_mm_per_s, pushed_N_, dt_s);
+
+  // At its stops the arm stands where it last was.
+  if (const auto arm_rad = armReaching(mechanics_.geometry, {handle_.place_mm})) {
+    joints_.arm_rad = *arm_rad;
+  } else {
+    handle_.place_mm = before_mm;
+    handle_.velocity_mm_per_s = glm::dvec3(0.0);
+  }
+}
+
+void SimulatedPhantom::turn(const HandTarget& to) noexcept {
+  if (!to.grips) return;
+  const glm::dvec3 wanted_rad = calibration::wristTurnedTo(joints_.arm_rad, to.rotation);
+  for (int axis = 0; axis < 3; ++axis) {
+    const calibration::AngleRange& range = mechanics_.geometry.wrist[static_cast<std::size_t>(axis)];
+    joints_.wrist_rad[axis] = std::clamp(wanted_rad[axis], range.least_rad, range.most_rad);
+  }
+}
+
+void SimulatedPhantom::dock(const HandTarget& to) noexcept {
+  if (!mechanics_.has_inkwell) return;
+  const double away_mm = glm::distance(handle_.place_mm, mechanics_.rest_D.mm);
+  docked_ = away_mm < (docked_ ? kUndocks_mm : kDocks_mm);
+  calibrated_ = calibrated_ || docked_;
+  // The well takes what is left in it.
+  if (docked_ && !to.grips) handle_.place_mm = mechanics_.rest_D.mm;
+}
+
+}  // namespace haptics

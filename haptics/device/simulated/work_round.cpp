@@ -1,0 +1,60 @@
+#include "haptics/device/simulated/work_round.h"
+
+#include <algorithm>
+
+namespace haptics {
+namespace {
+
+constexpr double kLies_s = 0.3, kTakes_s = 0.2, kWaits_s = 1.0;
+constexpr double kMean_mm_per_s = 80.0;
+
+double smooth(double u) { return u * u * (3.0 - 2.0 * u); }
+
+}  // namespace
+
+WorkRound::WorkRound(const TroughPath& work, const HandTarget& rest, const std::vector<glm::dvec3>& way)
+    : work_(work), rest_(rest), start_(work.at(0.0)) {
+  glm::dvec3 from_mm = rest.place_mm;
+  std::vector<glm::dvec3> places = way;
+  places.push_back(start_.place_mm);
+  for (const glm::dvec3& to_mm : places) {
+    const double takes_s = std::max(glm::distance(from_mm, to_mm) / kMean_mm_per_s, 1e-3);
+    legs_.push_back({from_mm, to_mm, way_s_, takes_s});
+    way_s_ += takes_s;
+    from_mm = to_mm;
+  }
+  works_s_ = kLies_s + kTakes_s + way_s_ + kWaits_s;
+  leaves_s_ = works_s_ + work_.duration_s() + kTakes_s;
+  duration_s_ = leaves_s_ + 1.0 + way_s_ + kTakes_s + kLies_s;
+}
+
+HandTarget WorkRound::onTheWay(double t_s) const {
+  const double t = std::clamp(t_s, 0.0, way_s_);
+  const Leg& leg =
+      *std::find_if(legs_.begin(), legs_.end() - 1, [&](const Leg& one) { return t < one.begins_s + one.takes_s; });
+  HandTarget target;
+  target.place_mm = glm::mix(leg.from_mm, leg.to_mm, smooth(std::clamp((t - leg.begins_s) / leg.takes_s, 0.0, 1.0)));
+  target.rotation = glm::slerp(rest_.rotation, start_.rotation, smooth(t / way_s_));
+  return target;
+}
+
+HandTarget WorkRound::at(double t_s) const {
+  if (t_s >= works_s_ && t_s < leaves_s_) return work_.at(t_s - works_s_);
+  HandTarget target;
+  if (t_s < works_s_) {
+    target = onTheWay(t_s - kLies_s - kTakes_s);
+  } else {
+    // The work ends at the other end of the stroke.
+    const double back_s = t_s - leaves_s_;
+    target = onTheWay(way_s_ + 1.0 - std::max(back_s, 1.0));
+    if (back_s < 1.0) {
+      target = work_.at(work_.duration_s());
+      target.place_mm = glm::mix(target.place_mm, start_.place_mm, smooth(std::max(back_s, 0.0)));
+    }
+  }
+  target.pedal = false;
+  target.grips = t_s >= kLies_s && t_s < duration_s_ - kLies_s;
+  return target;
+}
+
+}  // namespace haptics
