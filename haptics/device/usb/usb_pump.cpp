@@ -65,7 +65,7 @@ bool UsbPump::awaitReport(std::int64_t deadline_ns) noexcept {
 }
 
 void UsbPump::send(const UsbReport& report, std::uint32_t rests) noexcept {
-  wanted_.publish({report, rests, ++sent_number_});
+  wanted_.publish({report, rests, ++sent_number_, monotonic_ns()});
   wake_.raise();
 }
 
@@ -97,6 +97,7 @@ UsbCounters UsbPump::counters() const noexcept {
   c.reports_in = read(counted_.reports_in);
   c.reports_out = read(counted_.reports_out);
   c.replaced_out = read(counted_.replaced_out);
+  c.silences = read(counted_.silences);
   c.in_timeouts = read(counted_.in_timeouts);
   c.out_timeouts = read(counted_.out_timeouts);
   c.stalls = read(counted_.stalls);
@@ -159,16 +160,26 @@ std::optional<UsbReport> UsbPump::chooseOut(std::int64_t now_ns) noexcept {
   }
   // Then a rest, again and again until it is taken.
   rests_under_way_ = rests_.load();
+  resting_ |= rests_under_way_ != rests_sent_;
   if (rests_under_way_ != rests_sent_) return stream_.rest;
 
-  // Then the newest, unless a rest made it void.
+  // Then the newest, unless a rest made it void or it waited too long; and a rest when there is none for long.
   const Outgoing& newest = wanted_.read();
-  if (newest.number == number_taken_) return {};
-  const bool is_void = newest.rests != rests_under_way_;
-  count(counted_.replaced_out, newest.number - number_taken_ - (is_void ? 0 : 1));
+  const std::int64_t patience_ns = ns(stream_.rest_after);
+  const bool is_new = newest.number != number_taken_;
+  const bool is_old = patience_ns > 0 && now_ns - newest.made_ns >= patience_ns;
+  const bool goes_out = is_new && !is_old && newest.rests == rests_under_way_;
+  if (is_new) count(counted_.replaced_out, newest.number - number_taken_ - (goes_out ? 1 : 0));
   number_taken_ = newest.number;
-  if (is_void) return {};
-  return newest.report;
+  made_at_ns_ = newest.made_ns;
+  if (goes_out) {
+    resting_ = false;
+    return newest.report;
+  }
+  if (resting_ || !is_old) return {};
+  count(counted_.silences);
+  resting_ = true;
+  return stream_.rest;
 }
 
 void UsbPump::endLast(bool taken) noexcept {
@@ -235,9 +246,11 @@ void UsbPump::settleOut(std::int64_t now_ns) noexcept {
     else
       rests_sent_ = rests_under_way_;
   } else if (out_.outcome() == UsbOutcome::late) {
+    resting_ = false;
     out_late_ = true;
     count(counted_.out_timeouts);
   } else {
+    resting_ = false;
     settleTrouble(out_.outcome(), out_health_, now_ns);
   }
 }
@@ -283,6 +296,7 @@ std::int64_t UsbPump::nextLook_ns(std::int64_t now_ns) const noexcept {
     if (in.inFlight()) by(in.deadline_ns());
   if (out_.inFlight()) by(out_.deadline_ns());
   by(heard_at_ns_ + ns(stream_.late_after) + 1);
+  if (!resting_ && stream_.rest_after.count() > 0) by(made_at_ns_ + ns(stream_.rest_after));
   by(in_health_.again_at_ns);
   by(out_health_.again_at_ns);
   // What finished while it was submitted, and a pipe that can be cleared now, do not wait.

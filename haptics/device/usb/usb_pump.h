@@ -43,10 +43,11 @@ class UsbPump {
     UsbReport report;
     std::uint32_t rests = 0;
     std::uint64_t number = 0;
+    std::int64_t made_ns = 0;
   };
   struct Counted {
-    std::atomic<std::uint64_t> reports_in{0}, reports_out{0}, replaced_out{0}, in_timeouts{0}, out_timeouts{0},
-        stalls{0}, short_reports{0}, overlong_reports{0}, errors{0};
+    std::atomic<std::uint64_t> reports_in{0}, reports_out{0}, replaced_out{0}, silences{0}, in_timeouts{0},
+        out_timeouts{0}, stalls{0}, short_reports{0}, overlong_reports{0}, errors{0};
   };
   /// One direction: how often in a row it was found halted or failed, and when to try again.
   struct Health {
@@ -96,7 +97,8 @@ class UsbPump {
   int last_tries_ = 0;
   std::uint32_t rests_sent_ = 0, rests_under_way_ = 0;
   std::uint64_t number_taken_ = 0, serial_ = 0;
-  std::int64_t heard_at_ns_ = 0;
+  std::int64_t heard_at_ns_ = 0, made_at_ns_ = 0;
+  bool resting_ = true;  ///< the device is known to have let the motors go, or never held them
   std::thread thread_;
 };
 

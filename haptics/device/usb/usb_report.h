@@ -33,6 +33,7 @@ enum class UsbState : std::uint8_t { ok, late, stalled, gone };
 struct UsbCounters {
   std::uint64_t reports_in = 0, reports_out = 0;
   std::uint64_t replaced_out = 0;  ///< reports a newer one came before
+  std::uint64_t silences = 0;      ///< rests that went out because nobody sent anything
   std::uint64_t in_timeouts = 0, out_timeouts = 0;
   std::uint64_t stalls = 0;  ///< endpoints found halted
   std::uint64_t short_reports = 0, overlong_reports = 0;

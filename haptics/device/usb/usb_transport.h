@@ -35,10 +35,12 @@ struct UsbSetup {
 using UsbReader = std::function<std::optional<UsbReport>(std::span<const std::uint8_t> bytes)>;
 
 struct UsbStream {
-  std::size_t report_bytes = 0;                 ///< of one report in; anything shorter or longer is counted and dropped
-  UsbReader reader;                             ///< instead of `report_bytes`, where a report is not one transfer
-  UsbReport rest;                               ///< the report that lets the motors go
-  int in_flight = 3;                            ///< IN transfers at a time
+  std::size_t report_bytes = 0;  ///< of one report in; anything shorter or longer is counted and dropped
+  UsbReader reader;              ///< instead of `report_bytes`, where a report is not one transfer
+  UsbReport rest;                ///< the report that lets the motors go
+  std::chrono::milliseconds rest_after{
+      0};             ///< of silence, then it goes out by itself; 0: never. Older reports are void
+  int in_flight = 3;  ///< IN transfers at a time
   std::chrono::milliseconds late_after{20};     ///< without a report in, the state is `late`
   std::chrono::milliseconds in_deadline{100};   ///< an IN transfer that heard nothing is taken back and sent again
   std::chrono::milliseconds out_deadline{20};   ///< an OUT transfer nobody took is taken back and dropped

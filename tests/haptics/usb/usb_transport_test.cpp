@@ -336,6 +336,23 @@ TEST_F(UsbTransportOnTheBus, ARestIsSentUntilItIsTaken) {
   EXPECT_TRUE(soon([&] { return now(echo.told).size() == 1; }));
 }
 
+TEST_F(UsbTransportOnTheBus, RestsByItselfWhenNobodySendsAnything) {
+  UsbTransport usb({0x1234, 6});
+  UsbStream stream = echoStream();
+  stream.rest_after = 10ms;
+  usb.run(stream);
+  usb.send(report(5), usb.rests());
+  ASSERT_TRUE(soon([&] { return now(echo.told).size() == 2; }));
+  EXPECT_EQ(now(echo.told)[1], Bytes(4, 0));
+  std::this_thread::sleep_for(50ms);
+  EXPECT_EQ(now(echo.told).size(), 2u) << "once is enough";
+  EXPECT_EQ(usb.counters().silences, 1u);
+  // Who speaks again is heard.
+  usb.send(report(6), usb.rests());
+  ASSERT_TRUE(soon([&] { return now(echo.told).size() == 4; }));
+  EXPECT_EQ(now(echo.told)[2][0], 6);
+}
+
 TEST_F(UsbTransportOnTheBus, SendsTheLastReportAndThenNothingEver) {
   UsbTransport usb({0x1234, 6});
   usb.run(echoStream());
