@@ -1,0 +1,65 @@
+// The vendor's errors in plain words with what to do, and the drain that empties the library's error stack once a frame
+// (reference/devices 2, Errors). drain(): the thread that owns the device, at most kMostADrain calls of the library, no
+// allocation, no lock; everything else: any thread. Not a log: it counts, and keeps the first error that ended the
+// work.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "haptics/device/openhaptics/hd_library.h"
+
+namespace haptics {
+
+enum class HdErrorKind : std::uint8_t {
+  passing,  ///< the library goes on by itself; the force of this frame may be gone
+  fatal     ///< no force from now on
+};
+
+struct HdErrorMeaning {
+  std::uint32_t code;
+  HdErrorKind kind;
+  const char* what;
+  const char* what_to_do;
+};
+
+/// All codes that are known.
+std::span<const HdErrorMeaning> hdErrorMeanings();
+/// An unknown code counts as fatal.
+const HdErrorMeaning& meaningOf(std::uint32_t code);
+/// "HD 0x0302 (internal 17): the connection to the device broke; …"
+std::string inWords(const hd::ErrorInfo& error);
+
+/// What one look at the stack found.
+struct HdDrained {
+  int count = 0;
+  bool fatal = false, warm_motors = false;
+  hd::ErrorInfo first{};  ///< the newest of them, a fatal one if there is any
+};
+
+class HdErrors {
+ public:
+  static constexpr int kMostADrain = 16;
+
+  HdDrained drain(const HdFunctions& hd) noexcept;
+
+  /// What has happened since the beginning; any thread.
+  std::uint32_t count(std::uint32_t code) const;
+  std::uint32_t countAll() const { return all_.load(std::memory_order_relaxed); }
+  /// The first fatal one; code 0: none.
+  hd::ErrorInfo firstFatal() const;
+
+ private:
+  static constexpr std::size_t kMostCodes = 32;
+  std::array<std::atomic<std::uint32_t>, kMostCodes> counts_{};  ///< by place in hdErrorMeanings(), unknown ones last
+  std::atomic<std::uint32_t> all_{0};
+  std::atomic<std::uint64_t> first_fatal_{0};  ///< code and internal code, in one word
+};
+
+/// Throws DeviceError for the newest error on the stack, if there is one. Not for the scheduler's thread.
+void throwOnHdError(const HdFunctions& hd, const std::string& what);
+
+}  // namespace haptics

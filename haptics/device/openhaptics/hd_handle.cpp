@@ -1,0 +1,108 @@
+#include "haptics/device/openhaptics/hd_handle.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibration/phantom_models.h"
+
+namespace haptics {
+namespace {
+
+constexpr double kHeatLooks_Hz = 10.0;
+
+/// Large enough for any property, zero where the library wrote nothing.
+using Room = std::array<double, kHdRoom>;
+
+glm::dvec3 three(const Room& room) { return {room[0], room[1], room[2]}; }
+
+bool contains(std::string_view name, std::string_view word) { return name.find(word) != std::string_view::npos; }
+
+}  // namespace
+
+HdModel modelNamed(std::string_view name) {
+  HdModel model;
+  const bool is_touch_x = contains(name, "Touch X");
+  model.is_omni = contains(name, "Omni") || (contains(name, "Touch") && !is_touch_x);
+  model.has_inkwell = model.is_omni || is_touch_x;
+  model.has_deadman = contains(name, "Desktop");
+  if (model.is_omni) model.geometry = &calibration::kOmniGeometry;
+  if (contains(name, "Premium 1.5")) model.geometry = &calibration::kPremium15Geometry;
+  return model;
+}
+
+HdHandle::HdHandle(const HdFunctions& hd, HdErrors& errors, const HdModel& model, std::optional<bool> docked_value,
+                   std::uint32_t pedal_buttons)
+    : hd_(hd), errors_(errors), model_(model), inkwell_(docked_value), pedal_buttons_(pedal_buttons) {
+  has_.fill(true);
+}
+
+/// In the first frame it is found out whether the device has this part: the library complains of what it has not.
+template <class Read>
+bool HdHandle::readPart(Part part, Read&& read) noexcept {
+  if (!has_[part]) return false;
+  if (first_) errors_.drain(hd_);
+  read();
+  if (first_ && errors_.drain(hd_).count > 0) has_[part] = false;
+  return has_[part];
+}
+
+void HdHandle::readPlace(HandleState& state) noexcept {
+  Room place{}, turn{};
+  hd_.get_doublev(hd::kCurrentPosition, place.data());
+  hd_.get_doublev(hd::kCurrentTransform, turn.data());
+  const glm::dmat3 R(turn[0], turn[1], turn[2], turn[4], turn[5], turn[6], turn[8], turn[9], turn[10]);
+  const double volume = glm::determinant(R);
+  const bool is_rotation = std::isfinite(volume) && std::abs(volume - 1.0) < 0.05;
+  state.fresh = is_rotation && std::isfinite(glm::length(three(place)));
+  if (state.fresh) X_DH_ = {glm::normalize(glm::quat_cast(R)), three(place)};
+  state.X_DH = X_DH_;
+
+  Room speed{};
+  const bool moves = readPart(velocity, [&] { hd_.get_doublev(hd::kCurrentVelocity, speed.data()); });
+  if (moves && std::isfinite(glm::length(three(speed)))) state.velocity_D_mm_per_s.xyz = three(speed);
+}
+
+void HdHandle::readSwitches(HandleState& state, bool sure) noexcept {
+  std::array<int, kHdRoom> pressed{};
+  if (readPart(buttons, [&] { hd_.get_integerv(hd::kCurrentButtons, pressed.data()); }))
+    state.buttons = static_cast<std::uint32_t>(pressed[0]) & 0xFu;
+  state.pedal = (state.buttons & pedal_buttons_) != 0;
+
+  std::array<hd::Boolean, kHdRoom> on{};
+  if (model_.has_deadman && readPart(safety_switch, [&] { hd_.get_booleanv(hd::kCurrentSafetySwitch, on.data()); }))
+    state.held = on[0] != 0;
+  on = {};
+  if (readPart(inkwell_switch, [&] { hd_.get_booleanv(hd::kCurrentInkwellSwitch, on.data()); }))
+    state.docked = inkwell_.isDocked(on[0] != 0, state.X_DH.translation_mm, sure);
+}
+
+void HdHandle::readHeat(double rate_Hz) noexcept {
+  if (--ticks_to_heat_ > 0) return;
+  ticks_to_heat_ = static_cast<int>(rate_Hz / kHeatLooks_Hz);
+  Room motors{};
+  if (!readPart(heat, [&] { hd_.get_doublev(hd::kMotorTemperature, motors.data()); })) return;
+  heat_ = 0.0;
+  for (std::size_t motor = 0; motor < 6; ++motor)
+    if (std::isfinite(motors[motor])) heat_ = std::max(heat_, std::min(motors[motor], 1.0));
+}
+
+HandleState HdHandle::read(bool calibrated, double rate_Hz) noexcept {
+  HandleState state;
+  state.calibrated = calibrated;
+  readPlace(state);
+
+  Room arm_rad{}, wrist_rad{};
+  const bool has_arm = readPart(arm, [&] { hd_.get_doublev(hd::kCurrentJointAngles, arm_rad.data()); });
+  const bool has_wrist = readPart(wrist, [&] { hd_.get_doublev(hd::kCurrentGimbalAngles, wrist_rad.data()); });
+  joints_ = {has_arm ? three(arm_rad) : glm::dvec3(0.0), has_wrist ? three(wrist_rad) : glm::dvec3(0.0)};
+  if (has_arm && model_.geometry && std::isfinite(glm::length(joints_.arm_rad)))
+    state.jacobian_D_mm = calibration::armJacobian_mm(*model_.geometry, joints_.arm_rad);
+
+  readSwitches(state, calibrated && state.fresh);
+  readHeat(rate_Hz);
+  state.motor_heat = heat_;
+  first_ = false;
+  return state;
+}
+
+}  // namespace haptics

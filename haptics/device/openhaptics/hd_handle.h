@@ -1,0 +1,63 @@
+// Reads a handle through the vendor's library: place, turn, velocity, angles, buttons, switches, heat. Frame D is
+// HDAPI's: x right, y up, z to the user; mm, rad. What a device does not have is found out in the first frame and not
+// asked for again. Inside a frame, on the scheduler's thread: seven to nine calls of the library, no allocation. A
+// reading that is not finite or no rotation is not passed on: the last one stands, not fresh.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "calibration/phantom_kinematics.h"
+#include "haptics/device/haptic_device.h"
+#include "haptics/device/openhaptics/hd_error.h"
+#include "haptics/device/openhaptics/inkwell.h"
+
+namespace haptics {
+
+/// What is given to the library to write into: no property of HDAPI is longer.
+inline constexpr std::size_t kHdRoom = 32;
+
+/// What a model's name tells that the library does not.
+struct HdModel {
+  bool is_omni = false;  ///< Omni, or Touch, its successor
+  bool has_inkwell = false, has_deadman = false;
+  const calibration::PhantomGeometry* geometry = nullptr;  ///< null: not public
+};
+
+HdModel modelNamed(std::string_view name);
+
+class HdHandle {
+ public:
+  HdHandle(const HdFunctions& hd, HdErrors& errors, const HdModel& model, std::optional<bool> docked_value,
+           std::uint32_t pedal_buttons);
+
+  HandleState read(bool calibrated, double rate_Hz) noexcept;
+  /// Of the frame read last; unknown ones are zero.
+  const calibration::PhantomJoints& joints() const { return joints_; }
+  const Inkwell& inkwell() const { return inkwell_; }
+
+ private:
+  enum Part : unsigned { velocity, arm, wrist, buttons, safety_switch, inkwell_switch, heat, part_count };
+
+  template <class Read>
+  bool readPart(Part part, Read&& read) noexcept;
+  void readPlace(HandleState& state) noexcept;
+  void readSwitches(HandleState& state, bool sure) noexcept;
+  void readHeat(double rate_Hz) noexcept;
+
+  const HdFunctions& hd_;
+  HdErrors& errors_;
+  HdModel model_;
+  Inkwell inkwell_;
+  std::uint32_t pedal_buttons_;
+
+  bool first_ = true;
+  std::array<bool, part_count> has_{};
+  calibration::Pose<calibration::Device, calibration::Handle> X_DH_;
+  calibration::PhantomJoints joints_;
+  double heat_ = 0.0;
+  int ticks_to_heat_ = 0;
+};
+
+}  // namespace haptics

@@ -1,0 +1,108 @@
+#include "haptics/device/openhaptics/hd_session.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "haptics/device/openhaptics/hd_error.h"
+#include "haptics/device/openhaptics/hd_handle.h"
+
+namespace haptics {
+namespace {
+
+constexpr double kMostBelievableForce_N = 50.0;  ///< more is no reading
+constexpr double kMostStiffness_N_per_mm = 1.0;  ///< chai3d, Desktop; Omni 0.7, Touch 0.4
+constexpr double kMostDamping_Ns_per_mm = 0.005;
+constexpr double kJointTorqueInUse_Nmm = 350.0;  ///< of an Omni, in practice (reference/devices 4.3)
+
+std::string text(const HdFunctions& hd, hd::Enum property) {
+  const char* told = hd.get_string(property);
+  return told ? told : "";
+}
+
+/// What the library says, or `otherwise` where it does not know.
+double number(const HdFunctions& hd, hd::Enum property, double otherwise) {
+  std::array<double, kHdRoom> values{};
+  hd.get_doublev(property, values.data());
+  HdErrors errors;
+  const bool known = errors.drain(hd).count == 0 && std::isfinite(values[0]) && values[0] > 0.0;
+  return known ? values[0] : otherwise;
+}
+
+int integer(const HdFunctions& hd, hd::Enum property, int otherwise) {
+  std::array<int, kHdRoom> values{};
+  hd.get_integerv(property, values.data());
+  HdErrors errors;
+  return errors.drain(hd).count == 0 ? values[0] : otherwise;
+}
+
+bool readWorkspace(const HdFunctions& hd, hd::Enum property, WorkspaceBox& box) {
+  std::array<double, kHdRoom> v{};
+  hd.get_doublev(property, v.data());
+  HdErrors errors;
+  const glm::dvec3 least(v[0], v[1], v[2]), most(v[3], v[4], v[5]);
+  const double diagonal = glm::length(most - least);
+  if (errors.drain(hd).count > 0 || !std::isfinite(diagonal)) return false;
+  if (!glm::all(glm::lessThan(least, most))) return false;
+  box = {least, most};
+  return true;
+}
+
+}  // namespace
+
+HdSession::HdSession(const HdFunctions& hd, const std::string& configuration)
+    : hd_(hd),
+      name_("OpenHaptics, " + (configuration.empty() ? "default device" : "device \"" + configuration + "\"")),
+      id_(hd.init_device(configuration.empty() ? nullptr : configuration.c_str())) {
+  HdErrors errors;
+  const HdDrained drained = errors.drain(hd);
+  if (id_ != hd::kNoDevice && !drained.fatal) return;
+  if (id_ != hd::kNoDevice) close();
+  throw DeviceError(name_ + ", " +
+                    (drained.count > 0 ? inWords(drained.first)
+                                       : std::string("it does not start and the library gives no reason; check cable, "
+                                                     "power and the configuration's name")));
+}
+
+void HdSession::close() noexcept {
+  if (!open_) return;
+  open_ = false;
+  hd_.make_current_device(id_);
+  hd_.disable_device(id_);
+}
+
+HdDescription describe(const HdFunctions& hd) {
+  HdDescription description;
+  description.library_version = text(hd, hd::kVersion);
+  description.driver_version = text(hd, hd::kDriverVersion);
+  description.firmware_version = text(hd, hd::kFirmwareVersion);
+  DeviceCapabilities& can = description.capabilities;
+  can.model = text(hd, hd::kModel);
+  can.serial = text(hd, hd::kSerialNumber);
+  HdErrors().drain(hd);  // a string it does not know is no trouble
+  if (can.model.empty()) can.model = "unnamed Phantom";
+  can.provenance = Provenance::vendor_library;
+  can.has_motors = true;
+
+  description.calibration_styles = static_cast<hd::Enum>(integer(hd, hd::kCalibrationStyle, 0));
+  const HdModel model = modelNamed(can.model);
+  can.has_orientation = integer(hd, hd::kInputDof, 6) >= 6;
+  can.has_inkwell = (description.calibration_styles & hd::kInkwellCalibration) || model.has_inkwell;
+  can.has_deadman = model.has_deadman;
+
+  can.peak_force_N = number(hd, hd::kNominalMaxForce, 0.0);
+  if (!(can.peak_force_N > 0.0 && can.peak_force_N < kMostBelievableForce_N))
+    throw DeviceError("OpenHaptics, " + can.model +
+                      ": it does not tell how strong its motors are; update its driver from 3D Systems");
+  can.continuous_force_N =
+      std::min(number(hd, hd::kNominalMaxContinuousForce, 0.25 * can.peak_force_N), can.peak_force_N);
+  if (model.geometry) can.peak_joint_torque_Nmm = glm::dvec3(model.is_omni ? kJointTorqueInUse_Nmm : 0.0);
+  can.most_stiffness_N_per_mm = std::min(number(hd, hd::kNominalMaxStiffness, 0.4), kMostStiffness_N_per_mm);
+  can.most_damping_Ns_per_mm = std::min(number(hd, hd::kNominalMaxDamping, 0.004), kMostDamping_Ns_per_mm);
+  can.least_rate_Hz = 500.0;
+  can.most_rate_Hz = std::max(1000.0, static_cast<double>(integer(hd, hd::kUpdateRate, 1000)));
+  if (!readWorkspace(hd, hd::kUsableWorkspace, can.workspace)) readWorkspace(hd, hd::kMaxWorkspace, can.workspace);
+  return description;
+}
+
+}  // namespace haptics

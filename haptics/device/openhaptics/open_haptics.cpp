@@ -1,0 +1,171 @@
+#include "haptics/device/openhaptics/open_haptics.h"
+
+#include <time.h>
+
+#include <cassert>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+namespace haptics {
+namespace {
+
+/// Longest wait for the last frame; a scheduler that does not call is stopped without.
+constexpr auto kLongestGoodbye = std::chrono::milliseconds(500);
+constexpr double kWarmFor_s = 1.0;  ///< how long one complaint of warm motors counts
+
+std::int64_t now_ns() {
+  timespec t{};
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec;
+}
+
+}  // namespace
+
+OpenHaptics::OpenHaptics(HdLibrary& library, const OpenHapticsSettings& settings)
+    : library_(library),
+      hd_(library.functions()),
+      session_(hd_, settings.configuration),
+      description_(describe(hd_)),
+      calibration_(description_.calibration_styles),
+      handle_(hd_, errors_, modelNamed(description_.capabilities.model), settings.docked_value,
+              settings.pedal_buttons) {}
+
+OpenHaptics::~OpenHaptics() { stop(); }
+
+/// A guard that this device or driver does not know is no trouble.
+void OpenHaptics::switchGuardsOn() {
+  for (hd::Enum guard : {hd::kMaxForceClamping, hd::kForceRamping, hd::kSoftwareForceLimit, hd::kSoftwareVelocityLimit,
+                         hd::kSoftwareForceImpulseLimit})
+    hd_.enable(guard);
+  HdErrors().drain(hd_);
+}
+
+void OpenHaptics::start(DeviceServo& servo, double rate_Hz) {
+  assert(!started_);
+  const DeviceCapabilities& can = capabilities();
+  const std::string rate = std::to_string(std::lround(rate_Hz)) + " Hz";
+  if (!(rate_Hz >= can.least_rate_Hz && rate_Hz <= can.most_rate_Hz))
+    throw DeviceError(session_.name() + ", " + can.model + ": it is not served at " + rate + ", choose from " +
+                      std::to_string(std::lround(can.least_rate_Hz)) + " to " +
+                      std::to_string(std::lround(can.most_rate_Hz)) + " Hz");
+  if (!library_.claimScheduler())
+    throw DeviceError(session_.name() + ": another device of OpenHaptics runs already, stop that one first");
+  has_scheduler_ = started_ = true;
+  servo_ = &servo;
+  rate_Hz_ = rate_Hz;
+  beat_ = CallbackBeat(rate_Hz);
+
+  hd_.make_current_device(session_.id());
+  switchGuardsOn();
+  hd_.set_scheduler_rate(static_cast<unsigned long>(std::lround(rate_Hz)));
+  throwOnHdError(hd_, session_.name() + ", " + can.model + ": it is not served at " + rate + ", ask for 1000 Hz");
+
+  phase_.store(Phase::serving);
+  const auto call = [](void* self) { return static_cast<OpenHaptics*>(self)->serve(); };
+  schedule_ = hd_.schedule_asynchronous(call, this, hd::kFirstOfATick);
+  throwOnHdError(hd_, session_.name() + ", the servo can not be scheduled");
+  hd_.start_scheduler();
+  scheduler_runs_ = true;
+}
+
+void OpenHaptics::awaitLastFrame() noexcept {
+  phase_.store(Phase::leaving);
+  const auto until = std::chrono::steady_clock::now() + kLongestGoodbye;
+  while (phase_.load() != Phase::over && std::chrono::steady_clock::now() < until)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+void OpenHaptics::stop() noexcept {
+  if (scheduler_runs_) {
+    awaitLastFrame();
+    hd_.stop_scheduler();
+    // Now that its thread rests this one may speak for it.
+    if (phase_.exchange(Phase::over) != Phase::over) letGo();
+  }
+  if (schedule_) hd_.unschedule(*schedule_);
+  schedule_.reset();
+  session_.close();
+  if (has_scheduler_) library_.releaseScheduler();
+  scheduler_runs_ = has_scheduler_ = false;
+}
+
+HandleState OpenHaptics::sense() noexcept {
+  const bool calibrated = calibration_.keepUp(hd_, rate_Hz_);
+  HandleState state = handle_.read(calibrated, rate_Hz_);
+  newest_joints_.publish(handle_.joints());
+  if (warm_ticks_left_ > 0) {
+    --warm_ticks_left_;
+    state.motor_heat = 1.0;
+  }
+  state.healthy = !isDead();
+  return state;
+}
+
+void OpenHaptics::drive(const MotorCommand& command) noexcept {
+  const glm::dvec3 force_N = command.wrench_D().force_N.xyz;
+  const bool on = command.motorsOn() && std::isfinite(glm::length(force_N));
+  const std::array<double, 3> served_N{on ? force_N.x : 0.0, on ? force_N.y : 0.0, on ? force_N.z : 0.0};
+  if (on && !motors_on_) hd_.enable(hd::kForceOutput);
+  hd_.set_doublev(hd::kCurrentForce, served_N.data());
+  hd_.end_frame(session_.id());
+  // First the frame of no force goes out, then the motors go off.
+  if (!on && motors_on_) hd_.disable(hd::kForceOutput);
+  motors_on_ = on;
+}
+
+void OpenHaptics::absorbErrors() noexcept {
+  const HdDrained drained = errors_.drain(hd_);
+  if (drained.warm_motors) warm_ticks_left_ = static_cast<int>(kWarmFor_s * rate_Hz_);
+  if (!drained.fatal || !motors_on_) return;
+  hd_.disable(hd::kForceOutput);
+  motors_on_ = false;
+}
+
+/// The last frame: no force, then motors off.
+void OpenHaptics::letGo() noexcept {
+  hd_.make_current_device(session_.id());
+  hd_.begin_frame(session_.id());
+  const std::array<double, 3> none{};
+  hd_.set_doublev(hd::kCurrentForce, none.data());
+  hd_.end_frame(session_.id());
+  hd_.disable(hd::kForceOutput);
+  motors_on_ = false;
+  errors_.drain(hd_);
+}
+
+unsigned OpenHaptics::serve() noexcept {
+  const Phase phase = phase_.load();
+  if (phase == Phase::over) return hd::kCallbackContinues;
+  if (phase == Phase::leaving) {
+    letGo();
+    phase_.store(Phase::over);
+    return hd::kCallbackContinues;
+  }
+  hd_.make_current_device(session_.id());
+  if (!begun_) servo_->begin();
+  begun_ = true;
+
+  const Beat beat = beat_.next(now_ns());
+  const std::uint32_t times_off = times_off_.load();
+  hd_.begin_frame(session_.id());
+  const HandleState state = sense();
+  const MotorCommand command = servo_->tick(state, beat);
+  // Switched off since the last tick or while it was made, a command is void; so is one for a place not believed.
+  const bool is_void =
+      times_off != times_off_obeyed_ || times_off_.load() != times_off || !state.calibrated || isDead();
+  times_off_obeyed_ = times_off;
+  drive(is_void ? MotorCommand{} : command);
+  absorbErrors();
+  return hd::kCallbackContinues;
+}
+
+std::string OpenHaptics::trouble() const {
+  if (const hd::ErrorInfo fatal = errors_.firstFatal(); fatal.code != hd::kSuccess)
+    return session_.name() + ", " + inWords(fatal);
+  if (phase_.load() != Phase::serving) return {};
+  const std::string need = calibration_.whatItNeeds();
+  return need.empty() ? need : session_.name() + ", " + capabilities().model + ": " + need;
+}
+
+}  // namespace haptics
