@@ -64,6 +64,7 @@ SimulatedPhantom::SimulatedPhantom(const PhantomMechanics& mechanics, HandScript
   joints_.arm_rad = *arm_rad;
   joints_.wrist_rad = calibration::wristTurnedTo(*arm_rad, start.rotation);
   turn(start);
+  rest_rad_ = armReaching(mechanics_.geometry, mechanics_.rest_D).value_or(*arm_rad);
   handle_.place_mm = start.place_mm;
   handle_.friction_Ns_per_mm = mechanics_.viscous_Ns_per_mm;
   calibrated_ = !mechanics_.has_inkwell;
@@ -113,10 +114,7 @@ glm::dvec3 SimulatedPhantom::forceOfMotors_N(const glm::dvec3& asked_N, double d
 
 void SimulatedPhantom::move(const HandTarget& from, const HandTarget& to, double dt_s) noexcept {
   if (!(dt_s > 0.0)) return;
-  if (docked_ && !to.grips) {
-    handle_.velocity_mm_per_s = glm::dvec3(0.0);
-    return;
-  }
+  if (docked_ && !to.grips) return;
   const Grip let_go{0.0, 0.0, 0.0, 0.0}, &grip = to.grips ? hand_.grip() : let_go;
   handle_.mass_kg = mechanics_.mass_kg + grip.mass_kg;
   handle_.stiffness_N_per_mm = grip.stiffness_N_per_mm;
@@ -149,7 +147,10 @@ void SimulatedPhantom::dock(const HandTarget& to) noexcept {
   docked_ = away_mm < (docked_ ? kUndocks_mm : kDocks_mm);
   calibrated_ = calibrated_ || docked_;
   // The well takes what is left in it.
-  if (docked_ && !to.grips) handle_.place_mm = mechanics_.rest_D.mm;
+  if (!docked_ || to.grips) return;
+  handle_.place_mm = mechanics_.rest_D.mm;
+  handle_.velocity_mm_per_s = glm::dvec3(0.0);
+  joints_.arm_rad = rest_rad_;
 }
 
 }  // namespace haptics

@@ -44,6 +44,7 @@ class SimulatedPhantom final : public DeviceInNumbers {
   MotorHeat heat_;
   DeviceCapabilities capabilities_;
   calibration::PhantomJoints joints_;
+  glm::dvec3 rest_rad_{0.0};
   std::array<glm::dvec3, kMostLatency_ticks + 1> on_its_way_N_{};
   std::size_t tick_ = 0;
   glm::dvec3 pushed_N_{0.0};
