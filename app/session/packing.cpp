@@ -35,7 +35,7 @@ template <class Visit>
 void forEachField(auto& tick, Visit&& visit) requires std::same_as<std::remove_cvref_t<decltype(tick)>, haptics::Tick> {
   auto& [index, t_s, dt_s, command_serial, hand, proxy_P, law_force_P_N, law_torque_P_Nmm, served_force_P_N,
          served_torque_P_Nmm, energy_Nmm, spindle_rad_per_s, overlap_mm3, depth_mm, removed_mm3, bone_digest,
-         contact_tissue, drilling, faults, work_us] = tick;
+         contact_tissue, drilling, rest, strokes, faults, work_us] = tick;
   visit(index), visit(t_s), visit(dt_s), visit(command_serial);
   visitHand(hand, visit);
   visitDvec3(proxy_P.mm, visit);
@@ -43,13 +43,13 @@ void forEachField(auto& tick, Visit&& visit) requires std::same_as<std::remove_c
   visitDvec3(served_force_P_N.xyz, visit), visitDvec3(served_torque_P_Nmm.xyz, visit);
   visit(energy_Nmm), visit(spindle_rad_per_s);
   visit(overlap_mm3), visit(depth_mm), visit(removed_mm3), visit(bone_digest);
-  visit(contact_tissue), visit(drilling), visit(faults), visit(work_us);
+  visit(contact_tissue), visit(drilling), visit(rest), visit(strokes), visit(faults), visit(work_us);
 }
 
 template <class Visit>
 void forEachField(auto& command,
                   Visit&& visit) requires std::same_as<std::remove_cvref_t<decltype(command)>, haptics::Command> {
-  auto& [serial, tool, drill_enabled, law, erosion, spindle, safety] = command;
+  auto& [serial, tool, drill_enabled, irrigating, undo_serial, law, erosion, spindle, safety] = command;
   auto& [head, shaft] = tool;
   auto& [shape_kind, radius_mm, length_mm] = head;
   auto& [shaft_radius_mm, shaft_length_mm] = shaft;
@@ -69,7 +69,7 @@ void forEachField(auto& command,
   auto& [cutting_energy_J_per_mm3] = machining_erosion;
   auto& [commanded_rpm, stall_torque_Nmm, free_rpm, droop, inertia_g_cm2, bearing_torque_Nmm] = spindle;
   auto& [peak_force_N, slew_N_per_s, peak_torque_Nmm, slew_Nmm_per_s, most_stiffness_N_per_mm] = safety;
-  visit(serial), visit(drill_enabled);
+  visit(serial), visit(drill_enabled), visit(irrigating), visit(undo_serial);
   visit(shape_kind), visit(radius_mm), visit(length_mm), visit(shaft_radius_mm), visit(shaft_length_mm);
   visit(law_kind);
   for (auto& factor : tissue.factor) visit(factor);

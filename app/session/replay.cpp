@@ -31,7 +31,8 @@ std::optional<std::string> differenceOf(const haptics::Tick& recorded, const hap
   if (!same(recorded.removed_mm3, again.removed_mm3)) return "the removed volume differs";
   if (recorded.bone_digest != again.bone_digest) return "the bone differs";
   if (recorded.contact_tissue != again.contact_tissue) return "the tissue in contact differs";
-  if (recorded.drilling != again.drilling) return "the drill differs";
+  if (recorded.drilling != again.drilling || recorded.rest != again.rest) return "the drill differs";
+  if (recorded.strokes != again.strokes) return "the strokes to take back differ";
   if (recorded.faults != again.faults) return "the faults differ";
   return std::nullopt;
 }

@@ -10,7 +10,8 @@
 
 namespace app::session_format {
 
-/// 2: torque, energy, spindle, all tools and laws. 3: what the safety layer goes by, so that a replay trips alike.
+/// 2: torque, energy, spindle, all tools and laws. 3: what the safety layer goes by, so that a replay trips alike; undo
+/// and irrigation.
 inline constexpr std::int64_t kSchema = 3;
 inline constexpr std::int64_t kApplicationId = 0x4d4f4c52;    ///< in the database header, big-endian …
 inline constexpr std::string_view kApplicationMark = "MOLR";  ///< … so that it reads like this

@@ -16,6 +16,8 @@ struct Command {
   std::uint64_t serial = 0;   ///< rises by one with every change
   Tool tool;                  ///< felt, cut and drawn
   bool drill_enabled = true;  ///< false: the pedal does nothing
+  bool irrigating = true;     ///< water on the bur while it turns, as a handpiece does by itself; recorded, not felt
+  std::uint64_t undo_serial = 0;  ///< rises by one for every stroke to be taken back
   LawSettings law;
   ErosionSettings erosion;
   SpindleSettings spindle;

@@ -15,9 +15,9 @@ ToolMotion Cutting::motion(const calibration::Vector<calibration::Patient>& velo
   return {velocity_P_mm_per_s, spindle_.rad_per_s, dt_s, spindle_.buzz_rad};
 }
 
-CarveResult Cutting::cut(CarvedBone& bone, const ErosionSettings& erosion, const SpindleSettings& spindle,
-                         const LawSettings& law, const Held& held, bool allowed, double dt_s,
-                         std::uint64_t tick) noexcept {
+CarveResult Cutting::cut(CarvedBone& bone, StrokeHistory& strokes, const ErosionSettings& erosion,
+                         const SpindleSettings& spindle, const LawSettings& law, const Held& held, bool allowed,
+                         double dt_s, std::uint64_t tick) noexcept {
   const calibration::Point<calibration::Patient> here_P{held.X_PQ.translation_mm};
   if (!(held.contact.volume_mm3 > 0.0)) {
     memory_ = {};
@@ -44,7 +44,7 @@ CarveResult Cutting::cut(CarvedBone& bone, const ErosionSettings& erosion, const
   const ErosionStep step = erosionStep(erosion, moment, memory_);
   CarveResult removed;
   if (!step.takesNothing())
-    removed = carveTool(bone, held.head, held.X_PQ, step, tick, carvingTurns(bone, held.head, step));
+    removed = carveTool(bone, held.head, held.X_PQ, step, tick, carvingTurns(bone, held.head, step), &strokes);
   memory_ = remembered(erosion, moment, memory_, removed.removed_mm3_by_label);
   return removed;
 }

@@ -26,9 +26,11 @@ class Cutting {
   /// The hand's motion with the spindle's, for the force laws.
   ToolMotion motion(const calibration::Vector<calibration::Patient>& velocity_P_mm_per_s, double dt_s) const noexcept;
 
-  /// Takes from the bone what the law grants with the spindle as it turns; nothing with `allowed` false.
-  CarveResult cut(CarvedBone& bone, const ErosionSettings& erosion, const SpindleSettings& spindle,
-                  const LawSettings& law, const Held& held, bool allowed, double dt_s, std::uint64_t tick) noexcept;
+  /// Takes from the bone what the law grants with the spindle as it turns; nothing with `allowed` false. What it
+  /// changes is saved to `strokes`.
+  CarveResult cut(CarvedBone& bone, StrokeHistory& strokes, const ErosionSettings& erosion,
+                  const SpindleSettings& spindle, const LawSettings& law, const Held& held, bool allowed, double dt_s,
+                  std::uint64_t tick) noexcept;
 
   const SpindleState& spindle() const { return spindle_; }
   double load_Nmm() const { return load_Nmm_; }

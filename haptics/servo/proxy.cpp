@@ -191,4 +191,21 @@ Proxy::Held Proxy::follow(const SolidField& field, const LawSettings& law, const
   return now;
 }
 
+Proxy::Held Proxy::letThrough(const SolidField& field, const LawSettings& law, const Tool& tool,
+                              const calibration::Pose<Patient, calibration::Tool>& X_PT,
+                              const ToolMotion& motion) noexcept {
+  release();
+  law_state_ = {};
+  const Contact head = contactOf(law, {field, tool.head, X_PT, law.tissue, motion}, law_state_);
+  const Contact shaft = shaftContact(field, tool, X_PT, law.tissue, 0.0);
+  Held now;
+  now.looks = 1;
+  now.proxy_P.mm = X_PT.translation_mm;
+  now.head.depth_mm = head.depth_mm;
+  now.head.volume_mm3 = head.volume_mm3;
+  now.shaft.depth_mm = shaft.depth_mm;
+  now.shaft.volume_mm3 = shaft.volume_mm3;
+  return now;
+}
+
 }  // namespace haptics

@@ -46,6 +46,12 @@ class Proxy {
               const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT, const ToolMotion& motion,
               double most_stiffness_N_per_mm) noexcept;
 
+  /// Lets the hand go through bone as if there were none: one look at it where the hand is, which tells depth and
+  /// volume and holds nothing. Afterwards as after release().
+  Held letThrough(const SolidField& field, const LawSettings& law, const Tool& tool,
+                  const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT,
+                  const ToolMotion& motion) noexcept;
+
   /// Forgets where it was: the next follow() starts at the hand, wherever that is.
   void release() { placed_ = false; }
 

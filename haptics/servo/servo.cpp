@@ -44,15 +44,24 @@ Tick Servo::step(const HandSample& hand, const Command& wanted, double dt_s) noe
   if (!believed.device_healthy) tick.faults = tick.faults | Fault::device;
   const bool trouble = tick.faults != Fault::none;
 
-  // The pedal turns the bur.
-  tick.drilling = believed.drill_pedal && command.drill_enabled && !trouble;
+  // Bone comes back before anyone looks at it.
+  const double returned_mm3 = undoing_.giveBack(bone_, command.undo_serial, command.tool, X_PQ_);
+  const bool caught = undoing_.hasCaught();
+
+  // The pedal turns the bur. A foot that cannot be believed is still where it was.
+  const bool foot = believed.drill_pedal && command.drill_enabled;
+  tick.rest = undoing_.restUnder(foot || trouble);
+  tick.drilling = foot && !trouble && tick.rest == Rest::none;
   cutting_.turn(command.spindle, tick.drilling, tick.dt_s);
   tick.spindle_rad_per_s = cutting_.spindle().rad_per_s;
 
   // Contact at the place where the surface holds the tool.
   const ToolMotion motion = cutting_.motion(believed.velocity_P_mm_per_s, tick.dt_s);
-  const Proxy::Held held = proxy_.follow(bone_.field(), command.law, command.tool, believed.X_PT, motion,
-                                         command.safety.most_stiffness_N_per_mm);
+  const Proxy::Held held = caught ? proxy_.letThrough(bone_.field(), command.law, command.tool, believed.X_PT, motion)
+                                  : proxy_.follow(bone_.field(), command.law, command.tool, believed.X_PT, motion,
+                                                  command.safety.most_stiffness_N_per_mm);
+  if (caught && !held.touches()) undoing_.release();
+  X_PQ_ = {believed.X_PT.rotation, held.proxy_P.mm};
   tick.proxy_P = held.proxy_P;
   tick.overlap_mm3 = held.head.volume_mm3;
   tick.depth_mm = held.head.depth_mm;
@@ -64,10 +73,11 @@ Tick Servo::step(const HandSample& hand, const Command& wanted, double dt_s) noe
   tick.law_force_P_N = held.force_P_N() + dampingForce_N(command.law, held.touching(), believed.velocity_P_mm_per_s);
   tick.law_torque_P_Nmm = held.torque_P_Nmm();
   Delivery::Wanted wish{{tick.law_force_P_N, tick.law_torque_P_Nmm}, held.head.vibration_P_N, held.mostStored_Nmm()};
-  wish.switched = command.serial != last_serial_;
+  wish.switched = command.serial != last_serial_ || caught != was_caught_;
   wish.relocated = checked.relocated;
   wish.ramp_down = trouble;
   last_serial_ = command.serial;
+  was_caught_ = caught;
   const SafetyFilter::Served served = delivery_.give(wish, believed, command.safety, tick.dt_s);
   tick.served_force_P_N = served.wrench_P.force_N;
   tick.served_torque_P_Nmm = served.wrench_P.torque_Nmm;
@@ -75,10 +85,12 @@ Tick Servo::step(const HandSample& hand, const Command& wanted, double dt_s) noe
   tick.faults = tick.faults | served.faults;
 
   // The bur cuts where it is felt.
-  const Cutting::Held at{{believed.X_PT.rotation, held.proxy_P.mm}, command.tool.head, held.head, held.force_P_N()};
-  tick.removed_mm3 =
-      cutting_.cut(bone_, command.erosion, command.spindle, command.law, at, tick.drilling, tick.dt_s, tick.index)
-          .removed_mm3;
+  const Cutting::Held at{X_PQ_, command.tool.head, caught ? Contact{} : held.head, held.force_P_N()};
+  const CarveResult removed = cutting_.cut(bone_, undoing_.strokes(), command.erosion, command.spindle, command.law, at,
+                                           tick.drilling, tick.dt_s, tick.index);
+  undoing_.follow(tick.drilling && held.head.volume_mm3 > 0.0, tick.dt_s);
+  tick.removed_mm3 = removed.removed_mm3 - returned_mm3;
+  tick.strokes = static_cast<std::uint8_t>(undoing_.strokes().strokes());
   tick.bone_digest = bone_.digest();
   return tick;
 }

@@ -1,6 +1,6 @@
 // The servo step: bone, hand and command in, force out, bone carved. A pure function of its state: no clock, I/O,
 // allocation, lock, throw or log, so a session replays bit for bit. Frame P. Servo thread only.
-// Per step: proxy and law (at most 6 looks at the bone), delivery, carving; cost grows with (R/s)^3, see README.
+// Per step: what an undo gives back, proxy and law (at most 6 looks at the bone), delivery, carving; costs in README.
 #pragma once
 
 #include "haptics/bone/carved_bone.h"
@@ -10,6 +10,7 @@
 #include "haptics/servo/delivery.h"
 #include "haptics/servo/proxy.h"
 #include "haptics/servo/tick.h"
+#include "haptics/servo/undoing.h"
 
 namespace haptics {
 
@@ -19,8 +20,8 @@ Command sanitised(const Command& command);
 
 class Servo {
  public:
-  /// Borrows the bone, which must outlive this; becomes its one writer.
-  explicit Servo(CarvedBone& bone) : bone_(bone) {}
+  /// Borrows the bone, which must outlive this; becomes its one writer. Allocates room for what undo gives back.
+  explicit Servo(CarvedBone& bone) : bone_(bone), undoing_(bone) {}
 
   /// One tick of length `dt_s`. Never throws whatever the input; trouble is a Fault in the Tick.
   Tick step(const HandSample& hand, const Command& command, double dt_s) noexcept;
@@ -31,6 +32,9 @@ class Servo {
   Proxy proxy_;
   Cutting cutting_;
   Delivery delivery_;
+  Undoing undoing_;
+  calibration::Pose<calibration::Patient, calibration::Tool> X_PQ_;  ///< the tool as the last tick held it
+  bool was_caught_ = false;
   std::uint64_t last_serial_ = 0;
   std::uint64_t next_index_ = 0;
   double t_s_ = 0.0;

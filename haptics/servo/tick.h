@@ -6,6 +6,7 @@
 
 #include "haptics/safety/fault.h"
 #include "haptics/safety/hand_sample.h"
+#include "haptics/servo/rest.h"
 
 namespace haptics {
 
@@ -24,10 +25,12 @@ struct Tick {
   double spindle_rad_per_s = 0.0;                                 ///< about +z of T
   double overlap_mm3 = 0.0;                                       ///< of the bur at the proxy
   double depth_mm = 0.0;                                          ///< equivalent depth of the law at the proxy
-  double removed_mm3 = 0.0;                                       ///< this tick
+  double removed_mm3 = 0.0;                                       ///< this tick; below 0 while bone comes back
   std::uint64_t bone_digest = 0;                                  ///< after this tick
   std::uint8_t contact_tissue = 0;                                ///< label with the largest overlap
   bool drilling = false;
+  Rest rest = Rest::none;    ///< why not
+  std::uint8_t strokes = 0;  ///< that can be taken back
   Fault faults = Fault::none;
   float work_us = 0.0f;  ///< CPU time of the step, for statistics; not replayed
 };

@@ -9,6 +9,7 @@
 #include <glm/gtx/quaternion.hpp>
 
 #include "calibration/geometry/units.h"
+#include "haptics/bone/stroke_history.h"
 #include "haptics/contact/law.h"
 #include "tests/haptics/phantom.h"
 
@@ -25,6 +26,7 @@ constexpr std::uint8_t kCortical = 1, kTrabecular = 2, kEnamel = 4;
 /// A hand that holds a bur somewhere and presses with a force of its choosing.
 struct Bench {
   CarvedBone bone;
+  StrokeHistory strokes;
   ErosionSettings erosion;
   SpindleSettings spindle;
   LawSettings law;
@@ -33,7 +35,7 @@ struct Bench {
   double pressing_N = 1.5, removed_mm3 = 0.0, granted_mm3 = 0.0;
   std::uint64_t tick = 0;
 
-  Bench(const Phantom& phantom, std::uint8_t label, ErosionKind kind) : bone(phantom.bone(label)) {
+  Bench(const Phantom& phantom, std::uint8_t label, ErosionKind kind) : bone(phantom.bone(label)), strokes(bone) {
     erosion.kind = kind;
     spindle.bearing_torque_Nmm = 0.0;
     for (int n = 0; n < 1000; ++n) cutting.turn(spindle, true, 1e-3);
@@ -51,8 +53,8 @@ struct Bench {
     if (pedal)
       granted_mm3 += dt_s * grantedRate_mm3_per_s(erosion, cutMoment(erosion, spindle, at, contact, pressing_N),
                                                   assets::Tissue::cortical);
-    removed_mm3 +=
-        cutting.cut(bone, erosion, spindle, law, {X_PT, head, contact, force}, pedal, dt_s, tick++).removed_mm3;
+    removed_mm3 += cutting.cut(bone, strokes, erosion, spindle, law, {X_PT, head, contact, force}, pedal, dt_s, tick++)
+                       .removed_mm3;
   }
 
   void dwell(double seconds, double rate_Hz, const glm::dvec3& place = {0.03, 0.02, 1.0}) {
