@@ -13,6 +13,7 @@
 
 #include "haptics/device/openhaptics/open_haptics.h"
 #include "haptics/safety/motor_gate.h"
+#include "tests/haptics/allocation_count.h"
 #include "tests/haptics/stand_in_hd/stand_in_hd.h"
 
 namespace haptics::open_haptics_bench {
@@ -29,6 +30,11 @@ class Pusher final : public DeviceServo {
       state_ = state;
     }
     if (ticks == slow_at_tick) std::this_thread::sleep_for(std::chrono::milliseconds(slow_ms));
+    for (held_up = ticks == hold_at_tick; held_up && ticks == hold_at_tick;)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    fastest_mm_per_s = std::max(fastest_mm_per_s.load(), state.velocity_D_mm_per_s.xyz.x);
+    if (ticks == 100) allocations_at_100 = allocation_count::now();
+    if (ticks == 500) allocations_at_500 = allocation_count::now();
     missed += beat.missed;
     latest_us = std::max(latest_us.load(), beat.late_us);
     unhealthy += state.healthy ? 0 : 1;
@@ -41,10 +47,11 @@ class Pusher final : public DeviceServo {
     return state_;
   }
 
-  std::atomic<long> ticks{0}, missed{0}, unhealthy{0}, uncalibrated{0}, slow_at_tick{-1};
+  std::atomic<long> ticks{0}, missed{0}, unhealthy{0}, uncalibrated{0}, slow_at_tick{-1}, hold_at_tick{-1};
   std::atomic<int> begun{0}, slow_ms{0};
-  std::atomic<double> latest_us{0.0};
-  std::atomic<bool> pushes{true};
+  std::atomic<double> latest_us{0.0}, fastest_mm_per_s{0.0};
+  std::atomic<bool> pushes{true}, held_up{false};
+  std::atomic<std::size_t> allocations_at_100{0}, allocations_at_500{0};  ///< of the whole process
 
  private:
   static DeviceCapabilities strong() {

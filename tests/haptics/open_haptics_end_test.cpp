@@ -39,7 +39,6 @@ TEST_F(OpenHapticsTrouble, GoesOnAfterErrorsThatPassAndStopsPushingAfterOthers) 
     device.start(servo, 1000.0);
     until([&] { return forceNow_N() == 1.0; });
     door.script.error_code = meaning.code;
-    door.script.error_at_tick = door.seen.ticks + 30;
     until([&] { return device.errors().count(meaning.code) == 1; });
     runFor(servo, 5);
     const bool is_fatal = meaning.kind == HdErrorKind::fatal;
@@ -59,9 +58,8 @@ TEST_F(OpenHapticsTrouble, DrainsAFloodOfErrorsInBoundedPortions) {
   OpenHaptics device(library);
   device.start(servo, 1000.0);
   runFor(servo, 5);
-  door.script.error_code = 0x0202;
   door.script.error_times = 90;
-  door.script.error_at_tick = door.seen.ticks + 30;
+  door.script.error_code = 0x0202;
   until([&] { return device.errors().count(0x0202) == 90; });
   EXPECT_TRUE(servo.state().healthy);
   device.stop();
@@ -81,7 +79,7 @@ TEST_F(OpenHapticsTrouble, SurvivesThePlugBeingPulledInMidStroke) {
   OpenHaptics device(library);
   device.start(servo, 1000.0);
   until([&] { return forceNow_N() == 1.0; });
-  door.script.unplugged_at_tick = door.seen.ticks + 10;
+  door.script.unplugged = true;
   until([&] { return servo.unhealthy > 20; });
   EXPECT_FALSE(door.seen.motors_on);
   EXPECT_EQ(forceNow_N(), 0.0);
@@ -114,14 +112,14 @@ TEST_F(OpenHapticsTrouble, SwitchesItsMotorsOffForAnyThread) {
 
 TEST_F(OpenHapticsTrouble, VoidsACommandThatWasMadeBeforeTheMotorsWentOff) {
   Pusher servo({0.0, 1.0, 0.0});
-  servo.slow_at_tick = 20;
-  servo.slow_ms = 200;
+  servo.hold_at_tick = 20;
   OpenHaptics device(library);
   device.start(servo, 1000.0);
-  until([&] { return servo.ticks == 20; });
-  // In the middle of a tick that takes long; no wait for it.
+  until([&] { return servo.held_up.load(); });
+  // In the middle of a tick that hangs; no wait for it.
   device.motorsOff();
   EXPECT_EQ(servo.ticks, 20);
+  servo.hold_at_tick = -1;
   until([&] { return servo.ticks > 25; });
   device.stop();
   const std::vector<std::string> once{"force begins", "force ends", "disable 0x4000", "enable 0x4000", "force begins"};
@@ -148,7 +146,7 @@ TEST_F(OpenHapticsTrouble, EndsTidilyBesideASchedulerThatHangs) {
   device.start(servo, 1000.0);
   until([&] { return forceNow_N() == 1.0; });
   door.script.hangs = true;
-  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  until([&] { return door.seen.hanging.load(); });
   // Nobody else may speak to the device: the wish waits, the caller does not.
   device.motorsOff();
   EXPECT_TRUE(door.seen.motors_on);
@@ -213,13 +211,13 @@ TEST_F(OpenHapticsTrouble, RunsTwiceInOneProcess) {
 }
 
 TEST_F(OpenHapticsTrouble, KeepsTheOneSchedulerForOneDevice) {
-  ASSERT_TRUE(library.claimScheduler());
+  ASSERT_TRUE(HdLibrary::claimScheduler());
   Pusher servo;
   OpenHaptics device(library);
   EXPECT_THAT(refusal([&] { device.start(servo, 1000.0); }), HasSubstr("another device of OpenHaptics runs already"));
   device.stop();
-  EXPECT_FALSE(library.claimScheduler());
-  library.releaseScheduler();
+  EXPECT_FALSE(HdLibrary::claimScheduler());
+  HdLibrary::releaseScheduler();
 }
 
 }  // namespace

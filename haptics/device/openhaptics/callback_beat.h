@@ -1,5 +1,5 @@
 // How punctual a scheduler is that calls back instead of being waited for: the interval since the last call against the
-// period. µs, ns of CLOCK_MONOTONIC; the scheduler's thread; a few flops. It can not know when a tick was due by the
+// period. µs, ns of monotonic_ns(); the scheduler's thread; a few flops. It can not know when a tick was due by the
 // scheduler's own grid, so a single late call counts once and is not paid back by an early one.
 #pragma once
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
@@ -16,6 +17,9 @@ namespace haptics {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// As the library, so its scheduler: one a process, whatever objects stand for it.
+std::atomic<bool> scheduler_is_taken{false};
 
 constexpr std::array<const char*, 4> kNames{"libHD.so.3.5", "libHD.so.3.4", "libHD.so.3.0", "libHD.so"};
 
@@ -168,6 +172,10 @@ HdLibrary::HdLibrary(const std::string& path) {
   if (const auto missing = resolve(opened.library, functions_))
     throw DeviceError("OpenHaptics, " + path_ + " lacks " + *missing + ": install OpenHaptics 3.0 or newer");
 }
+
+bool HdLibrary::claimScheduler() { return !scheduler_is_taken.exchange(true); }
+
+void HdLibrary::releaseScheduler() { scheduler_is_taken.store(false); }
 
 std::string HdLibrary::whyUnavailable(const std::string& path) {
   try {

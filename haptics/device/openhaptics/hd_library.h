@@ -5,7 +5,6 @@
 // servo's. Knows no device.
 #pragma once
 
-#include <atomic>
 #include <string>
 
 #include "haptics/device/openhaptics/hd_abi.h"
@@ -41,8 +40,6 @@ class HdLibrary {
  public:
   /// Throws DeviceError: not there, another copy is loaded, a part of it is missing, functions are missing (all named).
   explicit HdLibrary(const std::string& path = {});
-  HdLibrary(const HdLibrary&) = delete;
-  HdLibrary& operator=(const HdLibrary&) = delete;
 
   /// Why it can not be used, with the next step, in one line; empty when it can. Loads it.
   static std::string whyUnavailable(const std::string& path = {});
@@ -51,14 +48,13 @@ class HdLibrary {
   /// The file that was loaded.
   const std::string& path() const { return path_; }
 
-  /// The vendor's scheduler is one for all devices: false when somebody has it already.
-  bool claimScheduler() { return !scheduler_taken_.exchange(true); }
-  void releaseScheduler() { scheduler_taken_.store(false); }
+  /// The vendor's scheduler is one for the whole process: false when somebody has it already.
+  static bool claimScheduler();
+  static void releaseScheduler();
 
  private:
   std::string path_;
   HdFunctions functions_{};
-  std::atomic<bool> scheduler_taken_{false};
 };
 
 /// What the system's linker said of a file that it could not load, in plain words with the next step.

@@ -1,11 +1,11 @@
 #include "haptics/device/openhaptics/open_haptics.h"
 
-#include <time.h>
-
 #include <cassert>
 #include <chrono>
 #include <cmath>
 #include <thread>
+
+#include "haptics/device/monotonic_clock.h"
 
 namespace haptics {
 namespace {
@@ -14,17 +14,10 @@ namespace {
 constexpr auto kLongestGoodbye = std::chrono::milliseconds(500);
 constexpr double kWarmFor_s = 1.0;  ///< how long one complaint of warm motors counts
 
-std::int64_t now_ns() {
-  timespec t{};
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec;
-}
-
 }  // namespace
 
-OpenHaptics::OpenHaptics(HdLibrary& library, const OpenHapticsSettings& settings)
-    : library_(library),
-      hd_(library.functions()),
+OpenHaptics::OpenHaptics(const HdLibrary& library, const OpenHapticsSettings& settings)
+    : hd_(library.functions()),
       session_(hd_, settings.configuration),
       description_(describe(hd_)),
       calibration_(description_.calibration_styles),
@@ -49,7 +42,7 @@ void OpenHaptics::start(DeviceServo& servo, double rate_Hz) {
     throw DeviceError(session_.name() + ", " + can.model + ": it is not served at " + rate + ", choose from " +
                       std::to_string(std::lround(can.least_rate_Hz)) + " to " +
                       std::to_string(std::lround(can.most_rate_Hz)) + " Hz");
-  if (!library_.claimScheduler())
+  if (!HdLibrary::claimScheduler())
     throw DeviceError(session_.name() + ": another device of OpenHaptics runs already, stop that one first");
   has_scheduler_ = started_ = true;
   servo_ = &servo;
@@ -86,7 +79,7 @@ void OpenHaptics::stop() noexcept {
   if (schedule_) hd_.unschedule(*schedule_);
   schedule_.reset();
   session_.close();
-  if (has_scheduler_) library_.releaseScheduler();
+  if (has_scheduler_) HdLibrary::releaseScheduler();
   scheduler_runs_ = has_scheduler_ = false;
 }
 
@@ -146,7 +139,7 @@ unsigned OpenHaptics::serve() noexcept {
   if (!begun_) servo_->begin();
   begun_ = true;
 
-  const Beat beat = beat_.next(now_ns());
+  const Beat beat = beat_.next(monotonic_ns());
   const std::uint32_t times_off = times_off_.load();
   hd_.begin_frame(session_.id());
   const HandleState state = sense();

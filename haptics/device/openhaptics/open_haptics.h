@@ -28,14 +28,14 @@ struct OpenHapticsSettings {
 
 class OpenHaptics final : public HapticDevice {
  public:
-  /// Borrows the library. Throws DeviceError when the device does not start.
-  explicit OpenHaptics(HdLibrary& library, const OpenHapticsSettings& settings = {});
+  /// Throws DeviceError when the device does not start.
+  explicit OpenHaptics(const HdLibrary& library, const OpenHapticsSettings& settings = {});
   ~OpenHaptics() override;
   OpenHaptics(const OpenHaptics&) = delete;
   OpenHaptics& operator=(const OpenHaptics&) = delete;
 
   const DeviceCapabilities& capabilities() const override { return description_.capabilities; }
-  /// Throws DeviceError too when another device of this library runs: the vendor's scheduler is one.
+  /// Throws DeviceError too when another device of OpenHaptics runs: the vendor's scheduler is one.
   void start(DeviceServo& servo, double rate_Hz) override;
   void stop() noexcept override;
   void motorsOff() noexcept override { times_off_.fetch_add(1); }
@@ -65,8 +65,7 @@ class OpenHaptics final : public HapticDevice {
   bool isDead() const { return errors_.firstFatal().code != hd::kSuccess; }
   void switchGuardsOn();
 
-  HdLibrary& library_;
-  const HdFunctions& hd_;
+  const HdFunctions hd_;
   HdSession session_;
   HdDescription description_;
   HdErrors errors_;

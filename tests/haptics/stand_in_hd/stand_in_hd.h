@@ -25,10 +25,9 @@ struct Script {
   std::array<std::atomic<unsigned>, 4> unknown_properties{};  ///< are answered by an error
   std::atomic<bool> garbage{false};                           ///< places are not a number
 
-  std::atomic<long> error_at_tick{-1};  ///< `error_code` is raised so often in that tick
-  std::atomic<unsigned> error_code{0};
+  std::atomic<unsigned> error_code{0};  ///< is raised in the next frame, `error_times`, and then forgotten
   std::atomic<int> error_times{1};
-  std::atomic<long> unplugged_at_tick{-1};  ///< from then on every frame ends in 0x0302
+  std::atomic<bool> unplugged{false};  ///< every frame ends in 0x0302
   std::atomic<unsigned> refused_rate_Hz{0};
   std::atomic<unsigned> schedule_error{0};
   std::atomic<long> slow_at_tick{-1};
@@ -39,7 +38,7 @@ struct Script {
 /// What it saw.
 struct Seen {
   std::atomic<long> ticks{0}, frames{0}, calibration_updates{0};
-  std::atomic<bool> motors_on{false};
+  std::atomic<bool> motors_on{false}, hanging{false};
   std::array<std::atomic<double>, 3> force_N{};      ///< of the last frame
   std::array<std::atomic<double>, 3> strongest_N{};  ///< of all frames, by length
   std::array<std::atomic<double>, 3> place_mm{};

@@ -46,11 +46,12 @@ void Machine::reset() {
   }
   for (std::size_t i = 0; i < 16; ++i) s.turn[i] = i % 5 == 0 ? 1.0 : 0.0;
   for (auto& property : s.unknown_properties) property = 0;
-  s.error_at_tick = s.unplugged_at_tick = s.slow_at_tick = -1;
+  s.slow_at_tick = -1;
+  s.unplugged = false;
   s.error_times = 1;
   Seen& seen = door_.seen;
   seen.ticks = seen.frames = seen.calibration_updates = 0;
-  seen.motors_on = false;
+  seen.motors_on = seen.hanging = false;
   seen.events.clear();
   seen.violations.clear();
   open_ = in_frame_ = pushing_ = false;
@@ -119,8 +120,7 @@ void Machine::beginFrame(hd::DeviceId id) {
   if (running_ && frames_this_tick_++ > 0) breach("a second frame in one tick");
   in_frame_ = true;
   force_N_ = {};
-  const Script& s = door_.script;
-  if (s.unplugged_at_tick >= 0 && door_.seen.ticks >= s.unplugged_at_tick) raise(hd::kCommunicationError);
+  if (door_.script.unplugged) raise(hd::kCommunicationError);
 }
 
 void Machine::endFrame(hd::DeviceId id) {
@@ -145,9 +145,9 @@ void Machine::endFrame(hd::DeviceId id) {
     seen.force_N[i] = force_N_[i];
     if (length_N > strongest_N) seen.strongest_N[i] = force_N_[i];
   }
-  if (s.unplugged_at_tick >= 0 && seen.ticks >= s.unplugged_at_tick) raise(hd::kCommunicationError);
-  if (seen.ticks == s.error_at_tick)
-    for (int i = 0; i < s.error_times; ++i) raise(s.error_code);
+  if (s.unplugged) raise(hd::kCommunicationError);
+  if (const unsigned code = s.error_code.exchange(0))
+    for (int i = 0; i < s.error_times; ++i) raise(code);
   ++seen.frames;
 }
 
@@ -237,6 +237,7 @@ void Machine::run() {
   auto due = std::chrono::steady_clock::now();
   while (running_) {
     const Script& s = door_.script;
+    door_.seen.hanging = s.hangs.load();
     if (!s.hangs) {
       if (door_.seen.ticks == s.slow_at_tick) std::this_thread::sleep_for(std::chrono::milliseconds(s.slow_ms));
       frames_this_tick_ = 0;
