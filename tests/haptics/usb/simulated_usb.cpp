@@ -224,6 +224,7 @@ int Plug::reap(UMockdevIoctlData* argument) {
     for (const Urb& urb : waiting) finish(urb, -ESHUTDOWN, 0);
     waiting.clear();
   } else {
+    device->onTime(parts->now_s());
     serveWaiting(parts->now_s());
   }
   if (done.empty()) return gone ? -ENODEV : -EAGAIN;

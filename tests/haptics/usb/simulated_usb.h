@@ -28,6 +28,8 @@ class Device {
   virtual void onOut(std::uint8_t endpoint, std::span<const std::uint8_t> bytes, double t_s) = 0;
   /// What it says now to a host that listens; nothing: NAK, asked again soon.
   virtual std::optional<Bytes> onIn(std::uint8_t endpoint, double t_s) = 0;
+  /// Now and then, as long as a host waits for anything.
+  virtual void onTime(double) {}
   /// Data of an IN request (empty for OUT); nothing: STALL.
   virtual std::optional<Bytes> onControl(const Setup&, std::span<const std::uint8_t>, double) { return {}; }
 };

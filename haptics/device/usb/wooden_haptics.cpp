@@ -1,0 +1,207 @@
+#include "haptics/device/usb/wooden_haptics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibration/geometry/units.h"
+#include "haptics/device/monotonic_clock.h"
+#include "haptics/device/usb/usb_devices.h"
+#include "haptics/device/usb/usb_transport.h"
+#include "haptics/device/usb/wooden_protocol.h"
+
+namespace haptics {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Asked again as often while it is silent (public driver), and for so long before it is given up.
+constexpr std::chrono::milliseconds kWakeUp = 100ms, kAnswer = 1500ms, kRestAfter = 20ms, kLastReportTime = 50ms;
+/// One count is up to 0.08 mm: 80 mm/s from one tick to the next at 1 kHz, 20 mm/s behind this filter.
+constexpr double kVelocityCutoff_Hz = 50.0;
+/// Continuous to peak force as of a Touch (reference/devices 4.3); of these motors it is not published.
+constexpr double kContinuousShare = 0.27;
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
+std::int64_t after(std::chrono::milliseconds time) { return monotonic_ns() + std::chrono::nanoseconds(time).count(); }
+
+DeviceCapabilities capabilitiesOf(const WoodenModel& model, const std::string& serial) {
+  DeviceCapabilities can;
+  can.model = model.name;
+  can.serial = serial;
+  can.provenance = Provenance::public_protocol;
+  can.has_motors = true;
+  can.has_orientation = model.hasGimbal();
+  can.peak_force_N = model.peak_force_N;
+  can.continuous_force_N = kContinuousShare * model.peak_force_N;
+  can.peak_joint_torque_Nmm = WoodenKinematics(model).peakTorque_Nmm();
+  can.most_stiffness_N_per_mm = model.most_stiffness_N_per_mm;
+  can.most_damping_Ns_per_mm = model.most_damping_Ns_per_mm;
+  can.least_rate_Hz = 500.0;
+  can.most_rate_Hz = 1000.0;  // USB full speed: a report each way a millisecond
+  can.workspace = {glm::dvec3(-model.workspace_radius_mm), glm::dvec3(model.workspace_radius_mm)};
+  return can;
+}
+
+UsbStream woodenStream() {
+  UsbStream stream;
+  stream.report_bytes = kWoodenReportBytes;
+  stream.rest = woodenRest();
+  stream.rest_after = kRestAfter;
+  return stream;
+}
+
+}  // namespace
+
+std::optional<WoodenSettings> woodenAddressed(std::string_view address) {
+  const std::size_t colon = address.find(':');
+  std::string_view kind = address.substr(0, colon);
+  if (!kind.starts_with("wooden")) return {};
+  kind.remove_prefix(6);
+  WoodenSettings settings;
+  if (colon != std::string_view::npos) settings.path = address.substr(colon + 1);
+  if (kind.empty()) return settings;
+  if (!kind.starts_with('-')) return {};
+  const auto model = woodenModelNamed(kind.substr(1));
+  if (!model) return {};
+  settings.model = *model;
+  return settings;
+}
+
+WoodenHaptics::WoodenHaptics(const WoodenSettings& settings)
+    : model_(settings.model),
+      kinematics_(model_),
+      homing_(model_.home_counts),
+      usb_(std::make_unique<UsbTransport>(UsbAddress{kWoodenVendor, kWoodenProduct, settings.path, 0})),
+      capabilities_(capabilitiesOf(model_, usb_->serialNumber())) {
+  if (usb_->outPacketBytes() < kWoodenReportBytes)
+    throw DeviceError(where() + "its packets hold no report, it is another device with the same id");
+  state_.calibrated = false;
+  usb_->run(woodenStream());
+  wake();
+  if (settings.homing_patience > 0s) awaitHoming(settings);
+}
+
+WoodenHaptics::~WoodenHaptics() { stop(); }
+
+std::string WoodenHaptics::where() const { return model_.name + " on USB " + usb_->path() + ", "; }
+
+void WoodenHaptics::wake() {
+  const std::int64_t deadline_ns = after(kAnswer);
+  while (monotonic_ns() < deadline_ns) {
+    usb_->send(woodenRest(), usb_->rests());
+    if (usb_->awaitReport(after(kWakeUp))) return;
+  }
+  throw DeviceError(where() + "it does not answer, switch it off and on and start again");
+}
+
+void WoodenHaptics::awaitHoming(const WoodenSettings& settings) {
+  const std::int64_t deadline_ns = after(settings.homing_patience);
+  while (monotonic_ns() < deadline_ns) {
+    rests_ = usb_->rests();
+    usb_->awaitReport(after(kWakeUp));
+    if (listen() && homing_.isHome()) return;
+    drive({});
+    if (usb_->state() == UsbState::gone) throw DeviceError(where() + "unplugged while it was homed, plug it in again");
+    if (homing_.wantsPreset() || !settings.tell) continue;
+    const HomingAnswer answer = settings.tell(kWoodenHomingWords);
+    if (answer == HomingAnswer::stands_at_home) setHome();
+    if (answer == HomingAnswer::give_up) throw DeviceError(where() + "not homed, given up, start again");
+  }
+  throw DeviceError(where() + "not homed, start again and " + kWoodenHomingWords);
+}
+
+void WoodenHaptics::start(DeviceServo& servo, double rate_Hz) {
+  if (usb_->state() == UsbState::gone) throw DeviceError(where() + "unplugged, plug it in and start again");
+  period_ns_ = std::llround(static_cast<double>(kSecond_ns) / rate_Hz);
+  PacedDevice::start(servo, rate_Hz);
+}
+
+void WoodenHaptics::stop() noexcept {
+  // Before the servo is waited for, which may hang.
+  usb_->sendLast(woodenRest(), kLastReportTime);
+  PacedDevice::stop();
+  usb_->stop();
+}
+
+void WoodenHaptics::motorsOff() noexcept {
+  PacedDevice::motorsOff();
+  usb_->rest();
+}
+
+UsbCounters WoodenHaptics::counters() const noexcept { return usb_->counters(); }
+
+void WoodenHaptics::await(std::int64_t deadline_ns) noexcept {
+  // A report may come up to a quarter of a tick late without being missed, and no tick follows the last one at once.
+  usb_->awaitReport(deadline_ns + period_ns_ / 4);
+  const std::int64_t earliest_ns = deadline_ns - period_ns_ / 2;
+  if (monotonic_ns() < earliest_ns) PacedDevice::await(earliest_ns);
+}
+
+HandleState WoodenHaptics::sense(double) noexcept {
+  // A command made from now on is void after a rest from now on.
+  rests_ = usb_->rests();
+  state_.fresh = listen();
+  state_.healthy = usb_->state() == UsbState::ok;
+  state_.calibrated = homing_.isHome() && has_place_;
+  return state_;
+}
+
+bool WoodenHaptics::listen() noexcept {
+  const UsbReport& newest = usb_->newestReport();
+  if (newest.serial == serial_) return false;
+  serial_ = newest.serial;
+  const auto reading = decodeWoodenReading(newest.content());
+  if (!reading) return false;
+  const bool was_home = homing_.isHome();
+  homing_.take(*reading, motors_on_);
+  has_place_ = has_place_ && was_home == homing_.isHome();
+  move(*reading, newest.received_ns);
+  return true;
+}
+
+void WoodenHaptics::move(const WoodenReading& reading, std::int64_t received_ns) noexcept {
+  joints_ = kinematics_.joints(reading.encoders);
+  const auto X_DH = kinematics_.handle(joints_);
+  const double since_s = static_cast<double>(received_ns - received_ns_) / static_cast<double>(kSecond_ns);
+  glm::dvec3& velocity = state_.velocity_D_mm_per_s.xyz;
+  if (!has_place_ || !(since_s > 0.0)) {
+    velocity = glm::dvec3(0.0);
+  } else {
+    const double blend = 1.0 - std::exp(-2.0 * calibration::kPi * kVelocityCutoff_Hz * since_s);
+    velocity += blend * ((X_DH.translation_mm - state_.X_DH.translation_mm) / since_s - velocity);
+  }
+  state_.X_DH = X_DH;
+  state_.jacobian_D_mm = kinematics_.jacobian_mm(joints_.arm_rad);
+  state_.buttons = reading.button ? 1 : 0;
+  received_ns_ = received_ns;
+  has_place_ = true;
+}
+
+void WoodenHaptics::drive(const MotorCommand& command) noexcept {
+  motors_on_ = command.motorsOn() && state_.calibrated && state_.healthy;
+  // Something goes out every tick: it answers reports, and says nothing by itself.
+  if (homing_.wantsPreset())
+    usb_->send(encodeWoodenPreset(homing_.homeCounts()), rests_);
+  else if (motors_on_)
+    usb_->send(encodeWoodenCurrents(kinematics_.currents_mA(joints_.arm_rad, command.wrench_D().force_N)), rests_);
+  else
+    usb_->send(woodenRest(), rests_);
+}
+
+std::vector<FoundDevice> findWoodenHaptics() {
+  std::vector<FoundDevice> found;
+  for (const UsbDevice& device : UsbBus().devices()) {
+    if (device.vendor != kWoodenVendor || device.product != kWoodenProduct) continue;
+    FoundDevice wooden;
+    wooden.name = "WoodenHaptics";
+    wooden.address = "wooden:" + device.path;
+    wooden.place = device.place();
+    wooden.provenance = Provenance::public_protocol;
+    wooden.driver = "libusb";
+    if (!device.may_open) wooden.advice = "install the udev rule that `molar doctor` prints and replug it";
+    found.push_back(wooden);
+  }
+  return found;
+}
+
+}  // namespace haptics

@@ -1,0 +1,40 @@
+// When a WoodenHaptics' encoders may be believed. They count from wherever the arm was when the power came; at the home
+// position the owner presses the calibration switch (or says so to the program), the host presets the encoders, and
+// once they read so the arm is home. Only a press that is seen to begin counts, and only with the motors off. One
+// thread but for ask(); no allocation.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+
+#include "haptics/device/usb/wooden_protocol.h"
+
+namespace haptics {
+
+class WoodenHoming {
+ public:
+  explicit WoodenHoming(const std::array<std::int16_t, 6>& home_counts) : home_counts_(home_counts) {}
+
+  /// The arm stands at home now. Any thread.
+  void ask() noexcept { asked_.store(true); }
+
+  /// A new reading came.
+  void take(const WoodenReading& reading, bool motors_on) noexcept;
+
+  bool isHome() const { return phase_ == Phase::home; }
+  /// The next report out is to be the preset.
+  bool wantsPreset() const { return phase_ == Phase::setting || phase_ == Phase::clearing; }
+  const std::array<std::int16_t, 6>& homeCounts() const { return home_counts_; }
+
+ private:
+  enum class Phase { away, clearing, setting, home };
+  bool readsHome(const WoodenReading& reading) const noexcept;
+
+  std::array<std::int16_t, 6> home_counts_;
+  std::atomic<bool> asked_{false};
+  Phase phase_ = Phase::away;
+  bool seen_released_ = false;
+};
+
+}  // namespace haptics

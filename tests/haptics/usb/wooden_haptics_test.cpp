@@ -1,0 +1,386 @@
+#include "haptics/device/usb/wooden_haptics.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <random>
+#include <thread>
+
+#include "haptics/device/usb/usb_report.h"
+#include "haptics/latest.h"
+#include "haptics/safety/motor_gate.h"
+#include "tests/haptics/usb/simulated_usb.h"
+#include "tests/haptics/usb/simulated_wooden.h"
+
+namespace haptics {
+namespace {
+
+using namespace std::chrono_literals;
+using simulated_usb::Bus;
+using simulated_usb::Bytes;
+using simulated_usb::SimulatedWooden;
+
+/// However busy the machine is.
+template <class Condition>
+bool soon(const Condition& holds) {
+  for (int i = 0; i < 10'000; ++i) {
+    if (holds()) return true;
+    std::this_thread::sleep_for(1ms);
+  }
+  return false;
+}
+
+/// A servo with a law of its own, which can hang. The device stops before it goes.
+class Pusher final : public DeviceServo {
+ public:
+  using Law = std::function<glm::dvec3(const HandleState&)>;
+  Pusher(HapticDevice& device, Law law) : device_(device), gate_(device.capabilities()), law_(std::move(law)) {}
+  ~Pusher() override { device_.stop(); }
+
+  MotorCommand tick(const HandleState& state, const Beat&) noexcept override {
+    while (hang.load()) std::this_thread::sleep_for(1ms);
+    seen.publish(state);
+    ticks.fetch_add(1);
+    return gate_.admit({{law_(state)}, {}}, state.jacobian_D_mm, true);
+  }
+  std::atomic<bool> hang{false};
+  std::atomic<int> ticks{0};
+  Latest<HandleState> seen;
+
+ private:
+  HapticDevice& device_;
+  MotorGate gate_;
+  Law law_;
+};
+
+Pusher::Law always(const glm::dvec3& force_N) {
+  return [force_N](const HandleState&) { return force_N; };
+}
+
+class WoodenOnTheBus : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!Bus::available()) GTEST_SKIP() << "umockdev is not there: run under umockdev-wrapper";
+    bus.emplace();
+    bus->plug(SimulatedWooden::description(), unit);
+  }
+  template <class Look>
+  auto now(const Look& look) {
+    decltype(look()) value{};
+    bus->locked([&] { value = look(); });
+    return value;
+  }
+  /// Its owner does as told.
+  WoodenSettings obedient() {
+    WoodenSettings settings;
+    settings.tell = [this](const std::string& words) {
+      EXPECT_EQ(words, kWoodenHomingWords);
+      bus->locked([&] {
+        unit.holdAtHome();
+        unit.pressSwitch();
+      });
+      return HomingAnswer::wait;
+    };
+    return settings;
+  }
+  WoodenSettings unattended() {
+    WoodenSettings settings;
+    settings.homing_patience = 0s;
+    return settings;
+  }
+  bool pushes() {
+    return now([&] { return unit.mA != std::array<std::int16_t, 3>{}; });
+  }
+  /// In the middle of its workspace.
+  void holdInTheMiddle() {
+    bus->locked([&] { unit.hold({0.1, 0.35, 0.65}); });
+  }
+
+  SimulatedWooden unit;
+  std::optional<Bus> bus;
+};
+
+std::string reasonOf(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const DeviceError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST_F(WoodenOnTheBus, IsFoundWithItsPlace) {
+  const auto found = findWoodenHaptics();
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].address, "wooden:1-1");
+  EXPECT_EQ(found[0].place, "USB 1-1, 1234:0006");
+  EXPECT_EQ(found[0].advice, "");
+  bus->unplug();
+  EXPECT_TRUE(soon([] { return findWoodenHaptics().empty(); }));
+}
+
+TEST(WoodenAddress, NamesAPlaceAndABuild) {
+  EXPECT_EQ(woodenAddressed("wooden")->path, "");
+  EXPECT_EQ(woodenAddressed("wooden:1-2.3")->path, "1-2.3");
+  EXPECT_EQ(woodenAddressed("wooden:1-2")->model.name, "WoodenHaptics v2019");
+  EXPECT_EQ(woodenAddressed("wooden-v2015:1-2")->model.name, "WoodenHaptics v2015");
+  EXPECT_EQ(woodenAddressed("wooden-v2015:1-2")->path, "1-2");
+  EXPECT_FALSE(woodenAddressed("wooden-v3:1-2"));
+  EXPECT_FALSE(woodenAddressed("falcon:1-2"));
+  EXPECT_FALSE(woodenAddressed("woodenv2015"));
+}
+
+TEST_F(WoodenOnTheBus, IsWokenHomedAndThenKnowsWhereItIs) {
+  WoodenHaptics wooden(obedient());
+  EXPECT_GE(now([&] { return unit.presets; }), 1);
+  EXPECT_EQ(wooden.capabilities().serial, "0123456789");
+  Pusher idle(wooden, always(glm::dvec3(0.0)));
+  wooden.start(idle, 1000.0);
+  for (const glm::dvec3& joints :
+       {glm::dvec3(0.0, 0.35, 0.65), glm::dvec3(0.4, 0.2, 0.9), glm::dvec3(-0.3, 0.6, 0.5)}) {
+    bus->locked([&] { unit.hold(joints); });
+    const glm::dvec3 there_mm = now([&] { return unit.place_mm(); });
+    EXPECT_TRUE(soon([&] {
+      const HandleState& state = idle.seen.read();
+      // A count of each encoder is at most 0.08 mm.
+      return state.calibrated && state.healthy && glm::distance(state.X_DH.translation_mm, there_mm) < 0.1 &&
+             glm::length(state.velocity_D_mm_per_s.xyz) < 1.0;
+    }));
+  }
+  bus->locked([&] { unit.button = true; });
+  EXPECT_TRUE(soon([&] { return idle.seen.read().buttons == 1; }));
+}
+
+TEST_F(WoodenOnTheBus, PushesTheWayItIsTold) {
+  WoodenHaptics wooden(obedient());
+  Latest<glm::dvec3> wish(glm::dvec3(0.0));
+  Pusher pusher(wooden, [&](const HandleState&) { return wish.read(); });
+  wooden.start(pusher, 1000.0);
+  for (int axis = 0; axis < 3; ++axis)
+    for (double sign : {-1.0, 1.0}) {
+      glm::dvec3 force_N(0.0);
+      force_N[axis] = sign;
+      wish.publish(glm::dvec3(0.0));
+      ASSERT_TRUE(soon([&] { return !pushes(); }));
+      holdInTheMiddle();
+      const glm::dvec3 from_mm = now([&] { return unit.place_mm(); });
+      ASSERT_TRUE(soon([&] { return glm::distance(pusher.seen.read().X_DH.translation_mm, from_mm) < 0.1; }));
+      wish.publish(force_N);
+      bus->locked([&] { unit.letGo(); });
+      EXPECT_TRUE(soon([&] { return glm::dot(now([&] { return unit.place_mm(); }) - from_mm, force_N) > 5.0; }));
+    }
+}
+
+TEST_F(WoodenOnTheBus, ASpringBringsTheHandleToItsEnd) {
+  WoodenHaptics wooden(obedient());
+  holdInTheMiddle();
+  const glm::dvec3 target_mm = now([&] { return unit.place_mm(); }) + glm::dvec3(15.0, -20.0, 25.0);
+  Pusher spring(wooden, [&](const HandleState& state) { return 0.05 * (target_mm - state.X_DH.translation_mm); });
+  wooden.start(spring, 1000.0);
+  bus->locked([&] { unit.letGo(); });
+  EXPECT_TRUE(soon([&] { return glm::distance(now([&] { return unit.place_mm(); }), target_mm) < 0.5; }));
+}
+
+TEST_F(WoodenOnTheBus, NoMotorIsToldMoreThanTheClamp) {
+  WoodenSettings settings = obedient();
+  settings.model = woodenHaptics2015();
+  WoodenHaptics wooden(settings);
+  holdInTheMiddle();
+  Pusher pusher(wooden, always({1e6, -1e6, 1e6}));
+  wooden.start(pusher, 1000.0);
+  ASSERT_TRUE(soon([&] { return now([&] { return unit.largest_mA; }) > 500; }));
+  std::this_thread::sleep_for(50ms);
+  EXPECT_LE(now([&] { return unit.largest_mA; }), 2000);
+}
+
+TEST_F(WoodenOnTheBus, IsNotPushedBeforeItIsHomed) {
+  WoodenHaptics wooden(unattended());
+  holdInTheMiddle();
+  Pusher pusher(wooden, always({0.5, 0.5, 0.5}));
+  wooden.start(pusher, 1000.0);
+  ASSERT_TRUE(soon([&] { return pusher.ticks.load() > 50; }));
+  EXPECT_FALSE(pusher.seen.read().calibrated);
+  EXPECT_EQ(now([&] { return unit.largest_mA; }), 0);
+  bus->locked([&] { unit.holdAtHome(); });
+  wooden.setHome();
+  EXPECT_TRUE(soon([&] { return pusher.seen.read().calibrated && pushes(); }));
+  EXPECT_NEAR(pusher.seen.read().X_DH.translation_mm.z, 205.0, 0.1);
+}
+
+TEST_F(WoodenOnTheBus, ASwitchPressedLongAgoIsNotBelieved) {
+  bus->locked([&] { unit.pressSwitch(); });
+  WoodenHaptics wooden(unattended());
+  Pusher pusher(wooden, always({0.5, 0.5, 0.5}));
+  wooden.start(pusher, 1000.0);
+  ASSERT_TRUE(soon([&] { return now([&] { return unit.presets; }) > 0; }));
+  const int then = pusher.ticks.load();
+  ASSERT_TRUE(soon([&] { return pusher.ticks.load() > then + 50; }));
+  EXPECT_FALSE(pusher.seen.read().calibrated);
+  EXPECT_EQ(now([&] { return unit.largest_mA; }), 0);
+}
+
+TEST_F(WoodenOnTheBus, SaysWhyItCanNotBegin) {
+  WoodenSettings impatient;
+  impatient.tell = [](const std::string&) { return HomingAnswer::give_up; };
+  EXPECT_THAT(reasonOf([&] { WoodenHaptics wooden(impatient); }), testing::HasSubstr("not homed, given up"));
+  impatient.tell = {};
+  impatient.homing_patience = 1s;
+  EXPECT_THAT(reasonOf([&] { WoodenHaptics wooden(impatient); }), testing::HasSubstr(kWoodenHomingWords));
+  EXPECT_EQ(now([&] { return unit.largest_mA; }), 0);
+}
+
+TEST_F(WoodenOnTheBus, SaysThatItDoesNotAnswer) {
+  bus->set({.in_silent = true});
+  EXPECT_THAT(reasonOf([&] { WoodenHaptics wooden(unattended()); }), testing::HasSubstr("it does not answer"));
+}
+
+TEST_F(WoodenOnTheBus, MotorsOffBesideAHangingServoLetsGo) {
+  WoodenHaptics wooden(obedient());
+  holdInTheMiddle();
+  Pusher pusher(wooden, always({0.0, 0.0, 0.5}));
+  wooden.start(pusher, 1000.0);
+  for (int i = 0; i < 5; ++i) {
+    ASSERT_TRUE(soon([&] { return pushes(); }));
+    pusher.hang.store(true);
+    wooden.motorsOff();
+    ASSERT_TRUE(soon([&] { return !pushes(); }));
+    std::this_thread::sleep_for(30ms);
+    EXPECT_FALSE(pushes());
+    pusher.hang.store(false);
+  }
+  EXPECT_TRUE(soon([&] { return pushes(); })) << "a later tick is obeyed";
+}
+
+TEST_F(WoodenOnTheBus, AHangingServoIsRestedWithoutAnybodyAsking) {
+  WoodenHaptics wooden(obedient());
+  holdInTheMiddle();
+  Pusher pusher(wooden, always({0.0, 0.0, 0.5}));
+  wooden.start(pusher, 1000.0);
+  ASSERT_TRUE(soon([&] { return pushes(); }));
+  pusher.hang.store(true);
+  EXPECT_TRUE(soon([&] { return !pushes(); }));
+  EXPECT_EQ(now([&] { return unit.watchdog_trips; }), 0) << "before the device's own 0.5 s";
+  EXPECT_GE(wooden.counters().silences, 1u);
+  pusher.hang.store(false);
+  EXPECT_TRUE(soon([&] { return pushes(); }));
+}
+
+TEST_F(WoodenOnTheBus, EndsWithNoForceAndThenNothingEver) {
+  {
+    WoodenHaptics wooden(obedient());
+    holdInTheMiddle();
+    Pusher pusher(wooden, always({0.0, 0.0, 0.5}));
+    wooden.start(pusher, 1000.0);
+    ASSERT_TRUE(soon([&] { return pushes(); }));
+    // Also while the servo hangs: stop() waits for it, the motors do not.
+    pusher.hang.store(true);
+    std::thread stopping([&] { wooden.stop(); });
+    EXPECT_TRUE(soon([&] { return !pushes(); }));
+    const std::size_t told = now([&] { return unit.told.size(); });
+    pusher.hang.store(false);
+    stopping.join();
+    wooden.motorsOff();
+    wooden.stop();
+    std::this_thread::sleep_for(20ms);
+    EXPECT_LE(now([&] { return unit.told.size(); }), told + 1);
+  }
+  EXPECT_EQ(now([&] { return unit.told.back(); }), (std::array<std::int16_t, 7>{}));
+  // The device's own watchdog switches its amplifiers off.
+  bus->locked([&] { unit.onTime(1e6); });
+  EXPECT_FALSE(now([&] { return unit.enabled; }));
+}
+
+TEST_F(WoodenOnTheBus, OutlivesALineThatIsSilentAndTheDevicesOwnWatchdog) {
+  WoodenHaptics wooden(obedient());
+  holdInTheMiddle();
+  Pusher pusher(wooden, always({0.0, 0.0, 0.5}));
+  wooden.start(pusher, 1000.0);
+  ASSERT_TRUE(soon([&] { return pushes(); }));
+  bus->set({.in_silent = true, .out_refused = true});
+  ASSERT_TRUE(soon([&] { return !pusher.seen.read().healthy; }));
+  EXPECT_FALSE(pusher.seen.read().fresh);
+  ASSERT_TRUE(soon([&] { return now([&] { return unit.watchdog_trips; }) == 1; }));
+  EXPECT_FALSE(pushes());
+  const int then = pusher.ticks.load();
+  EXPECT_TRUE(soon([&] { return pusher.ticks.load() > then + 20; })) << "the ticks go on";
+  bus->set({});
+  EXPECT_TRUE(soon([&] { return pusher.seen.read().healthy && pushes(); }));
+}
+
+TEST_F(WoodenOnTheBus, OutlivesHaltsShortReportsAndGarbage) {
+  WoodenHaptics wooden(obedient());
+  holdInTheMiddle();
+  Pusher pusher(wooden, always({0.2, -0.3, 0.4}));
+  wooden.start(pusher, 1000.0);
+  ASSERT_TRUE(soon([&] { return pushes(); }));
+  bus->set({.in_halted = true, .out_halted = true});
+  ASSERT_TRUE(soon([&] { return wooden.counters().stalls >= 1 && pusher.seen.read().healthy; }));
+  std::mt19937 generator(5);
+  bus->locked([&] {
+    unit.spoil = [&](Bytes& bytes) {
+      const auto dice = static_cast<unsigned>(generator());
+      if (dice % 4 == 0) bytes.resize(dice >> 8 & 31);
+      if (dice % 4 == 1)
+        for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(generator());
+      if (dice % 4 == 2) bytes[dice >> 8 & 15 ? dice % 14 : 0] ^= static_cast<std::uint8_t>(dice >> 16);
+    };
+  });
+  const int then = pusher.ticks.load();
+  ASSERT_TRUE(soon([&] { return pusher.ticks.load() > then + 300 && wooden.counters().short_reports > 10; }));
+  EXPECT_LE(now([&] { return unit.largest_mA; }), 2000);
+  bus->locked([&] { unit.spoil = {}; });
+  const glm::dvec3 there_mm = now([&] { return unit.place_mm(); });
+  EXPECT_TRUE(soon([&] {
+    const HandleState& state = pusher.seen.read();
+    return state.healthy && glm::distance(state.X_DH.translation_mm, there_mm) < 0.1;
+  }));
+}
+
+TEST_F(WoodenOnTheBus, OutlivesBeingUnpluggedInMidStroke) {
+  WoodenHaptics wooden(obedient());
+  holdInTheMiddle();
+  Pusher pusher(wooden, always({0.0, 0.0, 0.5}));
+  wooden.start(pusher, 1000.0);
+  ASSERT_TRUE(soon([&] { return pushes(); }));
+  bus->unplug();
+  ASSERT_TRUE(soon([&] { return !pusher.seen.read().healthy; }));
+  const int then = pusher.ticks.load();
+  EXPECT_TRUE(soon([&] { return pusher.ticks.load() > then + 20; }));
+  wooden.motorsOff();
+  wooden.stop();
+  // Plugged in again it is another one, and begins from the start.
+  SimulatedWooden again;
+  simulated_usb::Description replugged = SimulatedWooden::description();
+  replugged.number = 3;
+  bus->plug(replugged, again);
+  WoodenHaptics fresh(unattended());
+  Pusher idle(fresh, always(glm::dvec3(0.0)));
+  fresh.start(idle, 500.0);
+  EXPECT_TRUE(soon([&] { return idle.ticks.load() > 5 && idle.seen.read().healthy; }));
+  EXPECT_FALSE(idle.seen.read().calibrated);
+  fresh.stop();
+}
+
+TEST_F(WoodenOnTheBus, IsServedAgainAfterItWasClosed) {
+  for (int i = 0; i < 3; ++i) {
+    WoodenHaptics wooden(obedient());
+    holdInTheMiddle();
+    Pusher pusher(wooden, always({0.0, 0.0, 0.5}));
+    wooden.start(pusher, 1000.0);
+    ASSERT_TRUE(soon([&] { return pushes(); }));
+  }
+  EXPECT_FALSE(pushes());
+}
+
+TEST_F(WoodenOnTheBus, RefusesARateItCanNotBeServedAt) {
+  WoodenHaptics wooden(unattended());
+  Pusher idle(wooden, always(glm::dvec3(0.0)));
+  EXPECT_THROW(wooden.start(idle, 4000.0), DeviceError);
+  wooden.stop();
+}
+
+}  // namespace
+}  // namespace haptics
