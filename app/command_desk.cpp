@@ -8,6 +8,15 @@
 #include "app/usage_error.h"
 
 namespace app {
+namespace {
+
+/// What hand and foot decide, neither file nor guide.
+void keepSwitches(const haptics::Command& from, haptics::Command& to) {
+  to.irrigating = from.irrigating;
+  to.undo_serial = from.undo_serial;
+}
+
+}  // namespace
 
 CommandDesk::CommandDesk(const haptics::Command& first, std::vector<haptics::Tool> other_tools,
                          const std::string& settings_file, double device_damping_Ns_per_mm, double rate_Hz)
@@ -32,6 +41,23 @@ void CommandDesk::check(const haptics::Command& command) const {
 void CommandDesk::switchDrill() {
   command_.drill_enabled = !command_.drill_enabled;
   workstation_->change(command_);
+}
+
+void CommandDesk::switchIrrigation() {
+  command_.irrigating = !command_.irrigating;
+  workstation_->change(command_);
+  tell("irrigation", command_.irrigating ? "irrigation on" : "irrigation off: the bur turns dry");
+}
+
+void CommandDesk::undoStroke() {
+  const unsigned strokes = workstation_->newestTick().strokes;
+  if (strokes == 0) {
+    std::fprintf(stderr, "molar: there is no stroke to take back\n");
+    return;
+  }
+  ++command_.undo_serial;
+  workstation_->change(command_);
+  tell("undo", "the newest of " + std::to_string(strokes) + (strokes == 1 ? " stroke" : " strokes") + " is taken back");
 }
 
 void CommandDesk::switchLaw(haptics::LawKind law) {
@@ -68,6 +94,7 @@ void CommandDesk::lookAtFile() {
   if (reading->command) {
     haptics::Command wanted = *reading->command;
     wanted.drill_enabled = command_.drill_enabled;
+    keepSwitches(command_, wanted);
     change(wanted);
   } else {
     std::fprintf(stderr, "molar: %s\n", reading->trouble.c_str());
@@ -76,7 +103,9 @@ void CommandDesk::lookAtFile() {
 }
 
 void CommandDesk::obey(const haptics::Command& command) {
-  command_ = command;
+  haptics::Command wanted = command;
+  keepSwitches(command_, wanted);
+  command_ = wanted;
   workstation_->change(command_);
 }
 
@@ -87,10 +116,12 @@ void CommandDesk::change(const haptics::Command& wanted) {
   other_bur_ = other_bur_ || !(command_.tool.head == wanted.tool.head);
   command_ = wanted;
   workstation_->change(command_);
-  for (const std::string& line : changes) {
-    std::fprintf(stderr, "molar: at %.3f s %s\n", workstation_->newestTick().t_s, line.c_str());
-    workstation_->note("parameters", line);
-  }
+  for (const std::string& line : changes) tell("parameters", line);
+}
+
+void CommandDesk::tell(const std::string& kind, const std::string& line) {
+  std::fprintf(stderr, "molar: at %.3f s %s\n", workstation_->newestTick().t_s, line.c_str());
+  workstation_->note(kind, line);
 }
 
 bool CommandDesk::takeOtherBur() { return std::exchange(other_bur_, false); }

@@ -25,6 +25,9 @@ class CommandDesk {
   void serve(Workstation& workstation) { workstation_ = &workstation; }
 
   void switchDrill();
+  void switchIrrigation();
+  /// Asks the servo for the newest stroke of the drill back; pressed again, for the one before.
+  void undoStroke();
   void switchLaw(haptics::LawKind law);
   /// The next tool of the rack into the hand; after the last the first.
   void changeTool();
@@ -37,6 +40,7 @@ class CommandDesk {
 
  private:
   void check(const haptics::Command& command) const;
+  void tell(const std::string& kind, const std::string& line);
   void change(const haptics::Command& wanted);
 
   haptics::Command command_;

@@ -7,7 +7,12 @@
 namespace app {
 
 const char* drillText(const RehearsalStatus& status) {
-  return status.tick.drilling ? "drilling" : status.command.drill_enabled ? "drill off" : "drill locked";
+  const haptics::Tick& tick = status.tick;
+  if (tick.drilling) return status.command.irrigating ? "drilling" : "drilling dry";
+  if (tick.rest == haptics::Rest::undoing) return "the bone comes back";
+  if (tick.rest == haptics::Rest::caught) return "no force, draw the bur out of the bone";
+  if (tick.rest == haptics::Rest::pedal) return "drill rests until the pedal is let go";
+  return status.command.drill_enabled ? "drill off" : "drill locked";
 }
 
 std::string statusLine(const RehearsalStatus& s) {

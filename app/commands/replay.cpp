@@ -57,13 +57,15 @@ void addReplay(CLI::App& molar, Chosen& chosen) {
 
 void addMetrics(CLI::App& molar, Chosen& chosen) {
   auto session = std::make_shared<std::string>();
+  auto json_only = std::make_shared<bool>(false);
   CLI::App* command = molar.add_subcommand("metrics", "Numbers of a recorded session, JSON");
   command->add_option("SESSION", *session, "Session file")->required();
-  command->add_flag(
-      "--json", [](std::int64_t) {}, "JSON (always)");
-  command->callback([session, &chosen] {
-    chosen.action = [session] {
-      std::printf("%s\n", metricsJson(metricsOf(*session)).c_str());
+  command->add_flag("--json", *json_only, "JSON alone, without the words for people on stderr");
+  command->callback([session, json_only, &chosen] {
+    chosen.action = [session, json_only] {
+      const SessionMetrics metrics = metricsOf(*session);
+      std::printf("%s\n", metricsJson(metrics).c_str());
+      if (!*json_only) std::fprintf(stderr, "%s", metricsWords(metrics).c_str());
       return 0;
     };
   });

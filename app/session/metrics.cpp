@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/printed.h"
 #include "app/session/replay.h"
 
 namespace app {
@@ -23,7 +24,8 @@ double quantile(std::vector<float>& values, double fraction) {
 }
 
 /// Adds what one tick says; `before` is the tick before it.
-void addTick(SessionMetrics& sum, const haptics::Tick& tick, const std::optional<haptics::Tick>& before) {
+void addTick(SessionMetrics& sum, const haptics::Tick& tick, const std::optional<haptics::Tick>& before,
+             bool irrigating) {
   const double force_N = glm::length(tick.served_force_P_N.xyz);
   const bool touches = tick.overlap_mm3 > 0.0;
   ++sum.ticks;
@@ -31,9 +33,11 @@ void addTick(SessionMetrics& sum, const haptics::Tick& tick, const std::optional
   if (touches) sum.contact_s += tick.dt_s, sum.mean_contact_force_N += force_N * tick.dt_s;
   if (tick.drilling) sum.drill_on_s += tick.dt_s;
   if (tick.drilling && touches) sum.drill_in_contact_s += tick.dt_s;
+  if (tick.drilling && touches && !irrigating) sum.dry_drilling_s += tick.dt_s;
   sum.max_force_N = std::max(sum.max_force_N, force_N);
   sum.max_depth_mm = std::max(sum.max_depth_mm, tick.depth_mm);
   sum.removed_mm3 += tick.removed_mm3;
+  if (tick.removed_mm3 < 0.0) sum.returned_mm3 -= tick.removed_mm3;
   if (has(tick.faults, Fault::clamped | Fault::slewed)) sum.limited_s += tick.dt_s;
   if (has(tick.faults, Fault::bad_pose | Fault::bad_force | Fault::device)) sum.faulty_s += tick.dt_s;
   if (before && !has(tick.faults, Fault::bad_pose) && !has(before->faults, Fault::bad_pose)) {
@@ -54,14 +58,18 @@ SessionMetrics metricsOf(const std::string& path) {
   metrics.program_version = end.start.program_version;
   metrics.closed = session.closed();
   metrics.lost = session.lost();
-  metrics.commands = session.commands().size();
+  const std::vector<SessionCommand> commands = session.commands();
+  metrics.commands = commands.size();
   metrics.events = session.events().size();
 
   std::vector<float> work_us;
+  haptics::Command in_force;
+  auto next = commands.begin();
   std::optional<haptics::Tick> before;
   for (auto block = session.nextTicks(); !block.empty(); block = session.nextTicks()) {
     for (const haptics::Tick& tick : block) {
-      addTick(metrics, tick, before);
+      for (; next != commands.end() && next->first_tick <= tick.index; ++next) in_force = next->command;
+      addTick(metrics, tick, before, in_force.irrigating);
       work_us.push_back(tick.work_us);
       before = tick;
     }
@@ -72,6 +80,17 @@ SessionMetrics metricsOf(const std::string& path) {
   metrics.work_p99_us = quantile(work_us, 0.99);
   metrics.work_max_us = quantile(work_us, 1.00);
   return metrics;
+}
+
+std::string metricsWords(const SessionMetrics& metrics) {
+  std::string words = printed("%.1f s, of them %.1f s in contact and %.1f s drilling in bone; %.1f mm³ removed",
+                              metrics.duration_s, metrics.contact_s, metrics.drill_in_contact_s, metrics.removed_mm3);
+  if (metrics.returned_mm3 > 0.0) words += printed(", %.1f mm³ more taken back", metrics.returned_mm3);
+  words += metrics.drill_in_contact_s == 0.0 ? "\n"
+           : metrics.dry_drilling_s > 0.0
+               ? printed("\ndry: %.1f s of drilling in bone without irrigation\n", metrics.dry_drilling_s)
+               : std::string("\nirrigated whenever it drilled in bone\n");
+  return words;
 }
 
 std::string metricsJson(const SessionMetrics& metrics) {
@@ -93,6 +112,7 @@ std::string metricsJson(const SessionMetrics& metrics) {
       {"contact_s", metrics.contact_s},
       {"drill_on_s", metrics.drill_on_s},
       {"drill_in_contact_s", metrics.drill_in_contact_s},
+      {"dry_drilling_s", metrics.dry_drilling_s},
       {"path_mm", metrics.path_mm},
       {"drilling_path_mm", metrics.drilling_path_mm},
       {"max_force_N", metrics.max_force_N},
@@ -101,6 +121,7 @@ std::string metricsJson(const SessionMetrics& metrics) {
       {"limited_s", metrics.limited_s},
       {"faulty_s", metrics.faulty_s},
       {"removed_mm3", metrics.removed_mm3},
+      {"returned_mm3", metrics.returned_mm3},
       {"removed_mm3_by_label", by_label.is_null() ? nlohmann::ordered_json::object() : by_label},
       {"work_us", {{"p50", metrics.work_p50_us}, {"p99", metrics.work_p99_us}, {"max", metrics.work_max_us}}},
   };

@@ -19,20 +19,25 @@ struct SessionMetrics {
   double contact_s = 0.0;  ///< the bur shares volume with bone
   double drill_on_s = 0.0;
   double drill_in_contact_s = 0.0;
-  double path_mm = 0.0;  ///< way of the bur's centre
+  double dry_drilling_s = 0.0;  ///< of that, without irrigation
+  double path_mm = 0.0;         ///< way of the bur's centre
   double drilling_path_mm = 0.0;
   double max_force_N = 0.0;  ///< served
   double mean_contact_force_N = 0.0;
   double max_depth_mm = 0.0;  ///< equivalent depth of the law
   double limited_s = 0.0;     ///< the force was clamped or slewed
   double faulty_s = 0.0;      ///< the device or its poses could not be believed
-  double removed_mm3 = 0.0;
+  double removed_mm3 = 0.0;   ///< without what was taken back
+  double returned_mm3 = 0.0;  ///< taken back by undoing strokes
   std::array<double, assets::kTissueCount> removed_mm3_by_label{};
   double work_p50_us = 0.0, work_p99_us = 0.0, work_max_us = 0.0;  ///< CPU time of the servo step as recorded
 };
 
 /// Throws SessionError if the file is missing, no session, damaged, or misses ticks.
 SessionMetrics metricsOf(const std::string& path);
+
+/// What a person wants to know first, a few short lines.
+std::string metricsWords(const SessionMetrics& metrics);
 
 /// One JSON object, keys as the fields; labels by the key of their tissue.
 std::string metricsJson(const SessionMetrics& metrics);

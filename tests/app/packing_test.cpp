@@ -16,6 +16,8 @@ TEST(Packing, BringsEveryFieldOfATickBackBitForBit) {
   haptics::Tick tick = test::imaginedTick(123456789012ULL, 77);
   tick.faults = haptics::Fault::device | haptics::Fault::bad_force;
   tick.hand.device_healthy = false;
+  tick.rest = haptics::Rest::caught;
+  tick.strokes = 31;
   tick.hand.jacobian_P_mm = glm::dmat3(1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0);
   tick.hand.motor_heat = 0.7;
   tick.hand.gap_s = 0.021;
@@ -54,6 +56,8 @@ TEST(Packing, BringsEveryFieldOfATickBackBitForBit) {
   EXPECT_EQ(b.bone_digest, tick.bone_digest);
   EXPECT_EQ(b.contact_tissue, tick.contact_tissue);
   EXPECT_EQ(b.drilling, tick.drilling);
+  EXPECT_EQ(b.rest, tick.rest);
+  EXPECT_EQ(b.strokes, tick.strokes);
   EXPECT_EQ(b.faults, tick.faults);
   EXPECT_EQ(b.work_us, tick.work_us);
   EXPECT_EQ(back[1].index, 7u);
@@ -76,6 +80,8 @@ TEST(Packing, BringsACommandBack) {
   command.serial = 9;
   command.tool.head.radius_mm = 1.1;
   command.drill_enabled = false;
+  command.irrigating = false;
+  command.undo_serial = 0x0123456789abcdef;
   command.law.agus.stiffness_N_per_mm = 0.7;
   command.law.damping_Ns_per_mm = 0.002;
   command.erosion.time.removal_rate_per_s = 3.5;
@@ -86,6 +92,8 @@ TEST(Packing, BringsACommandBack) {
   EXPECT_EQ(back.serial, 9u);
   EXPECT_EQ(back.tool.head.radius_mm, 1.1);
   EXPECT_FALSE(back.drill_enabled);
+  EXPECT_FALSE(back.irrigating);
+  EXPECT_EQ(back.undo_serial, 0x0123456789abcdefu);
   EXPECT_EQ(back.law.damping_Ns_per_mm, 0.002);
   EXPECT_EQ(back.erosion.tissue_factor[4], 0.123);
   EXPECT_EQ(back.safety.slew_N_per_s, 250.0);

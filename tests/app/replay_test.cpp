@@ -84,6 +84,67 @@ TEST(Replay, FindsARehearsalOfEveryLawHeadAndShaftIdentical) {
   EXPECT_EQ(report.replayed, 14 * kEach);
 }
 
+/// Drills three strokes, half a second apart, the second of them dry, then takes back the last two: 2.4 s.
+struct RecordedUndo {
+  test::ScratchFolder folder;
+  std::string path = folder.file("s.molar");
+  test::BoneBlock block;
+  haptics::CarvedBone bone{block.grid, block.solid, block.label};
+  double dry_s = 0.0, cut_mm3 = 0.0, returned_mm3 = 0.0;
+  std::uint64_t digest_after_first = 0;
+
+  RecordedUndo() {
+    haptics::Servo servo(bone);
+    haptics::Command command = block.start().command;
+    SessionWriter writer(path, true, block.start());
+    for (std::size_t n = 0; n < 2400; ++n) {
+      const double t_s = static_cast<double>(n) * 0.001;
+      SessionBatch batch;
+      const bool undoes = n == 1700 || n == 1900;
+      if (n == 600 || n == 1200) command.irrigating = !command.irrigating;
+      if (undoes) ++command.undo_serial;
+      if (undoes || n == 600 || n == 1200) {
+        ++command.serial;
+        batch.commands.push_back({command, n});
+      }
+      haptics::HandSample hand = test::sweepingHand(t_s);
+      hand.drill_pedal = n < 1800 && std::fmod(t_s, 0.6) < 0.15;
+      batch.ticks.push_back(servo.step(hand, command, 0.001));
+      const haptics::Tick& tick = batch.ticks.back();
+      if (n == 400) digest_after_first = tick.bone_digest;
+      if (tick.drilling && tick.overlap_mm3 > 0.0 && n >= 600 && n < 1200) dry_s += 0.001;
+      (tick.removed_mm3 < 0.0 ? returned_mm3 : cut_mm3) += std::abs(tick.removed_mm3);
+      writer.write(batch);
+    }
+    writer.seal(0);
+  }
+};
+
+TEST(Replay, FindsARehearsalWithUndoneStrokesIdentical) {
+  RecordedUndo session;
+  EXPECT_EQ(session.bone.digest(), session.digest_after_first);
+  const ReplayReport report = verify(session.path);
+  EXPECT_TRUE(report.verified()) << report.line();
+  EXPECT_EQ(report.replayed, 2400u);
+  EXPECT_EQ(report.bone_digest, session.bone.digest());
+}
+
+TEST(Metrics, TellWhatWasDrilledDryAndWhatWasTakenBack) {
+  RecordedUndo session;
+  const SessionMetrics metrics = metricsOf(session.path);
+  EXPECT_GT(session.dry_s, 0.05);
+  EXPECT_NEAR(metrics.dry_drilling_s, session.dry_s, 1e-9);
+  EXPECT_GT(metrics.drill_in_contact_s, metrics.dry_drilling_s + 0.05);
+  EXPECT_GT(session.returned_mm3, 0.05);
+  EXPECT_NEAR(metrics.returned_mm3, session.returned_mm3, 1e-9);
+  EXPECT_NEAR(metrics.removed_mm3, session.cut_mm3 - session.returned_mm3, 1e-9);
+  EXPECT_NEAR(metrics.removed_mm3_by_label[1], metrics.removed_mm3, 1e-6);
+  const std::string json = metricsJson(metrics), words = metricsWords(metrics);
+  EXPECT_NE(json.find("\"dry_drilling_s\": 0."), std::string::npos) << json;
+  EXPECT_NE(words.find("without irrigation"), std::string::npos) << words;
+  EXPECT_NE(words.find("more taken back"), std::string::npos) << words;
+}
+
 TEST(Replay, NamesTheFirstTickWhoseForceDiffersByOneBit) {
   Recorded session;
   double& force_N = session.ticks[321].served_force_P_N.xyz.z;
@@ -124,6 +185,8 @@ TEST(Replay, NoticesEveryQuantityOfATick) {
   EXPECT_EQ(changed([](Tick& t) { t.bone_digest ^= 1; }), 10u);
   EXPECT_EQ(changed([](Tick& t) { t.contact_tissue ^= 1; }), 10u);
   EXPECT_EQ(changed([](Tick& t) { t.drilling = !t.drilling; }), 10u);
+  EXPECT_EQ(changed([](Tick& t) { t.rest = haptics::Rest::caught; }), 10u);
+  EXPECT_EQ(changed([](Tick& t) { ++t.strokes; }), 10u);
   EXPECT_EQ(changed([](Tick& t) { t.faults = t.faults | haptics::Fault::device; }), 10u);
   EXPECT_EQ(changed([](Tick& t) { t.command_serial = 9; }), 10u);
 }

@@ -1,0 +1,113 @@
+#include "app/command_desk.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <functional>
+#include <thread>
+
+#include "app/session/metrics.h"
+#include "app/session/replay.h"
+#include "app/session/session_reader.h"
+#include "haptics/device/simulated/mouse_device.h"
+#include "tests/app/real_session.h"
+
+namespace app {
+namespace {
+
+/// A rehearsal under a mouse, recorded, without a picture.
+struct Desk {
+  test::ScratchFolder folder;
+  std::string path = folder.file("s.molar");
+  test::BoneBlock block;
+  assets::Patient patient;
+  haptics::MouseDevice* mouse = nullptr;
+  std::optional<Workstation> workstation;
+  std::optional<CommandDesk> desk;
+
+  Desk() {
+    patient.title = "block of bone";
+    patient.ct.grid = block.grid;
+    patient.ct.solid = block.solid;
+    patient.ct.label = block.label;
+    auto device = std::make_unique<haptics::MouseDevice>(at({0.0, 0.0, 2.0}, false));
+    mouse = device.get();
+    desk.emplace(block.start().command, std::vector<haptics::Tool>{}, "", 0.002, 1000.0);
+    haptics::LoopSettings settings;
+    settings.realtime = false;
+    workstation.emplace(patient, std::move(device), settings, desk->inForce(), Recording{path, true});
+    desk->serve(*workstation);
+    workstation->start();
+  }
+
+  static haptics::MouseTarget at(const glm::dvec3& place_mm, bool pedal) {
+    haptics::MouseTarget target;
+    target.X_DH.translation_mm = place_mm;
+    target.pedal = pedal;
+    return target;
+  }
+
+  /// However long a busy machine takes.
+  bool waitFor(const std::function<bool(const haptics::Tick&)>& seen) {
+    for (int n = 0; n < 6000; ++n) {
+      if (seen(workstation->newestTick())) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return false;
+  }
+};
+
+bool hasEvent(const std::string& path, const std::string& kind, const std::string& words) {
+  for (const SessionEvent& event : SessionReader(path).events())
+    if (event.kind == kind && event.text.find(words) != std::string::npos) return true;
+  return false;
+}
+
+TEST(CommandDesk, TakesAStrokeBackAndRecordsSoThatItReplays) {
+  Desk at;
+  std::uint64_t whole = 0, cut = 0;
+  ASSERT_TRUE(at.waitFor([&](const haptics::Tick& tick) { return (whole = tick.bone_digest) != 0; }));
+  at.desk->undoStroke();
+  EXPECT_EQ(at.desk->inForce().undo_serial, 0u) << "there is none yet";
+  at.mouse->setTarget(Desk::at({0.0, 0.0, 0.4}, true));
+  ASSERT_TRUE(at.waitFor([&](const haptics::Tick& tick) { return tick.strokes == 1; }));
+  at.mouse->setTarget(Desk::at({0.0, 0.0, 2.5}, false));
+  ASSERT_TRUE(at.waitFor([&](const haptics::Tick& tick) {
+    cut = tick.bone_digest;
+    return !tick.drilling && tick.overlap_mm3 == 0.0;
+  }));
+  EXPECT_NE(cut, whole);
+  at.desk->undoStroke();
+  ASSERT_TRUE(at.waitFor([&](const haptics::Tick& tick) { return tick.strokes == 0; }));
+  ASSERT_TRUE(at.waitFor([&](const haptics::Tick& tick) { return tick.bone_digest == whole; }));
+  at.workstation->stop();
+  EXPECT_TRUE(verify(at.path).verified()) << verify(at.path).line();
+  EXPECT_TRUE(hasEvent(at.path, "undo", "newest of 1 stroke"));
+  EXPECT_GT(metricsOf(at.path).returned_mm3, 0.0);
+}
+
+TEST(CommandDesk, SwitchesTheWaterOffAndOn) {
+  Desk at;
+  EXPECT_TRUE(at.desk->inForce().irrigating);
+  at.desk->switchIrrigation();
+  EXPECT_FALSE(at.desk->inForce().irrigating);
+  at.mouse->setTarget(Desk::at({0.0, 0.0, 0.4}, true));
+  ASSERT_TRUE(at.waitFor([](const haptics::Tick& tick) { return tick.strokes == 1 && tick.t_s > 0.1; }));
+  // A guide decides about the drill, not about the water.
+  haptics::Command guided = at.desk->inForce();
+  guided.irrigating = true;
+  guided.undo_serial = 7;
+  at.desk->obey(guided);
+  EXPECT_FALSE(at.desk->inForce().irrigating);
+  EXPECT_EQ(at.desk->inForce().undo_serial, 0u);
+  at.desk->switchIrrigation();
+  EXPECT_TRUE(at.desk->inForce().irrigating);
+  ASSERT_TRUE(at.waitFor([](const haptics::Tick& tick) { return tick.command_serial == 4; }));
+  at.workstation->stop();
+  EXPECT_GT(metricsOf(at.path).dry_drilling_s, 0.0);
+  EXPECT_TRUE(hasEvent(at.path, "irrigation", "off"));
+  EXPECT_TRUE(hasEvent(at.path, "irrigation", "on"));
+}
+
+}  // namespace
+}  // namespace app
