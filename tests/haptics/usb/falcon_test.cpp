@@ -261,7 +261,10 @@ TEST_F(FalconOnTheBus, AnUnweighedUnitGetsATenthOfItsMotorsAtMost) {
   Falcon falcon({});
   EXPECT_FALSE(falcon.capabilities().force_is_calibrated);
   EXPECT_EQ(falcon.capabilities().peak_force_N, 1.0);
-  SteadyHand hand(falcon.capabilities());
+  // A gate that lets everything through, so that the device stands alone.
+  DeviceCapabilities no_limits;
+  no_limits.peak_force_N = 100.0;
+  SteadyHand hand(no_limits);
   hand.push({50.0, -30.0, 20.0});
   falcon.start(hand, 1000.0);
   ASSERT_TRUE(soon([&] { return now([&] { return unit.largest_word; }) > 300; }));
@@ -336,8 +339,14 @@ TEST_F(FalconOnTheBus, LosingItsHomeStopsTheForce) {
   falcon.start(hand, 1000.0);
   ASSERT_TRUE(soon([&] { return now([&] { return unit.words[0] != 0; }); }));
   bus->locked([&] { unit.homed = 5; });
-  EXPECT_TRUE(soon([&] { return !hand.last().calibrated; }));
-  EXPECT_TRUE(soon([&] { return now([&] { return unit.words == std::array<int, 3>{} && (unit.flags & 8) != 0; }); }));
+  const std::size_t before = now([&] { return unit.packets.size(); });
+  ASSERT_TRUE(soon([&] { return now([&] { return unit.packets.size(); }) > before + 30; }));
+  EXPECT_FALSE(hand.last().calibrated);
+  // Whoever shows red does not push.
+  const auto packets = now([&] { return unit.packets; });
+  EXPECT_NE((packets.back()[13] - 'A') & 8, 0);
+  for (const std::string& packet : packets)
+    EXPECT_TRUE(((packet[13] - 'A') & 8) == 0 || packet.starts_with(kNoForce)) << packet;
   falcon.stop();
 }
 
