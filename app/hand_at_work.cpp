@@ -1,6 +1,9 @@
 #include "app/hand_at_work.h"
 
+#include <algorithm>
+
 #include "app/phantom_at_work.h"
+#include "app/recorded_hand.h"
 #include "app/trough_plan.h"
 #include "app/usage_error.h"
 #include "haptics/device/simulated/scripted_hand.h"
@@ -16,45 +19,83 @@ using calibration::World;
 /// From the bur to the handle, W: towards the viewer and down over the lower lip, so that it does not hide the site.
 glm::dvec3 shaftDirection_W() { return glm::normalize(glm::dvec3(0.12, -0.38, 0.92)); }
 
-const haptics::PhantomMechanics& simulated(Hand kind) {
-  return *haptics::findSimulatedPhantom(kind == Hand::touch     ? "touch"
-                                        : kind == Hand::desktop ? "desktop"
-                                        : kind == Hand::premium ? "premium"
-                                                                : "omni");
+/// A Phantom's nominal tip in its handle: on the stylus's axis, 40 mm in front of where the gimbal's axes meet.
+const Pose<calibration::Handle, Tool> kStylus_HT{{1.0, 0.0, 0.0, 0.0}, {0.0, 0.0, -40.0}};
+
+HandAtWork mouseAtWork(const calibration::Rig& rig) {
+  HandAtWork hand;
+  const Pose<World, Tool> X_WT = restingTool();
+  auto mouse =
+      std::make_unique<haptics::MouseDevice>(haptics::MouseTarget{{X_WT.rotation, X_WT.translation_mm}, false});
+  hand.mouse = mouse.get();
+  hand.device = std::move(mouse);
+  // The mouse moves in W.
+  const Pose<Patient, World> X_PW = rig.X_WP.inverse();
+  hand.X_PD = {X_PW.rotation, X_PW.translation_mm};
+  return hand;
+}
+
+HandAtWork scriptAtWork(const std::string& phantom, const assets::Patient& patient, const calibration::Rig& rig,
+                        double bur_radius_mm) {
+  HandAtWork hand;
+  auto trough = planBuccalTrough(patient, bur_radius_mm);
+  if (!trough) throw UsageError("--device: this patient has no third molar with bone beside it, use --device mouse");
+  trough->shaft_D = {glm::conjugate(rig.X_WP.rotation) * shaftDirection_W()};
+  if (phantom.empty()) {
+    auto scripted = std::make_unique<haptics::ScriptedHand>(*trough);
+    hand.duration_s = scripted->duration_s();
+    hand.device = std::move(scripted);
+    return hand;
+  }
+  const haptics::PhantomMechanics& mechanics = *haptics::findSimulatedPhantom(phantom);
+  const haptics::WorkRound round = roundAtWork(mechanics, *trough, rig);
+  hand.duration_s = round.duration_s();
+  hand.X_PD = rig.X_WP.inverse() * rig.X_WD;
+  hand.device = std::make_unique<haptics::SimulatedPhantom>(mechanics, [round](double t_s) { return round.at(t_s); });
+  return hand;
+}
+
+HandAtWork replayAtWork(const std::string& session) {
+  HandAtWork hand;
+  auto recorded = recordedHand(session);
+  hand.duration_s = recorded->duration_s();
+  hand.rate_Hz = recorded->rate_Hz();
+  hand.device = std::move(recorded);
+  return hand;
+}
+
+HandAtWork deviceAtWork(const std::string& address, const DeviceOptions& options, const calibration::Rig& rig) {
+  HandAtWork hand;
+  OpenedDevice opened = openDevice(address, options);
+  hand.library = std::move(opened.library);
+  hand.device = std::move(opened.device);
+  hand.X_PD = rig.X_WP.inverse() * rig.X_WD;
+  if (hand.library) hand.X_HT = kStylus_HT;
+  return hand;
 }
 
 }  // namespace
 
 Pose<World, Tool> restingTool() { return {glm::dquat(glm::dvec3(0, 0, 1), shaftDirection_W()), {0.0, 6.0, 12.0}}; }
 
-HandAtWork handAtWork(Hand kind, const assets::Patient& patient, const calibration::Rig& rig, double bur_radius_mm) {
+HandAtWork handAtWork(const std::string& address, const DeviceOptions& options, const assets::Patient& patient,
+                      const calibration::Rig& rig, double bur_radius_mm) {
+  constexpr std::string_view kSimulated = "simulated:", kReplay = "replay:";
+  const auto known = std::ranges::find(kHands, address, &HandName::key);
   HandAtWork hand;
-  if (kind != Hand::mouse) {
-    auto trough = planBuccalTrough(patient, bur_radius_mm);
-    if (!trough) throw UsageError("--device: this patient has no third molar with bone beside it, use --device mouse");
-    trough->shaft_D = {glm::conjugate(rig.X_WP.rotation) * shaftDirection_W()};
-    if (kind != Hand::scripted) {
-      const haptics::PhantomMechanics& mechanics = simulated(kind);
-      const haptics::WorkRound round = roundAtWork(mechanics, *trough, rig);
-      hand.duration_s = round.duration_s();
-      hand.X_PD = rig.X_WP.inverse() * rig.X_WD;
-      hand.device =
-          std::make_unique<haptics::SimulatedPhantom>(mechanics, [round](double t_s) { return round.at(t_s); });
-      return hand;
-    }
-    auto scripted = std::make_unique<haptics::ScriptedHand>(*trough);
-    hand.duration_s = scripted->duration_s();
-    hand.device = std::move(scripted);
-    return hand;
+  if (address == "mouse") {
+    hand = mouseAtWork(rig);
+  } else if (known != kHands.end()) {
+    const std::string phantom = address == "scripted"             ? ""
+                                : address.starts_with(kSimulated) ? address.substr(kSimulated.size())
+                                                                  : "omni";
+    hand = scriptAtWork(phantom, patient, rig, bur_radius_mm);
+  } else if (address.starts_with(kReplay)) {
+    hand = replayAtWork(address.substr(kReplay.size()));
+  } else {
+    hand = deviceAtWork(address, options, rig);
   }
-  // The mouse moves in W.
-  const Pose<World, Tool> X_WT = restingTool();
-  auto mouse =
-      std::make_unique<haptics::MouseDevice>(haptics::MouseTarget{{X_WT.rotation, X_WT.translation_mm}, false});
-  hand.mouse = mouse.get();
-  hand.device = std::move(mouse);
-  const Pose<World, Patient> X_WP = rig.X_WP;
-  hand.X_PD = {X_WP.inverse().rotation, X_WP.inverse().translation_mm};
+  hand.name = known != kHands.end() ? std::string(known->name) : hand.device->capabilities().model;
   return hand;
 }
 

@@ -1,12 +1,14 @@
-// The hand of a rehearsal: which device, where its frame stands to the patient, how long it works by itself.
-// Start-up only; the device then belongs to the workstation.
+// The hand of a rehearsal: which device, where its frame stands to the patient, how its handle holds the tool, how long
+// it works by itself. Start-up only; the device then belongs to the workstation.
 #pragma once
 
 #include <array>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 
+#include "app/device_choice.h"
 #include "assets/patient.h"
 #include "calibration/rig.h"
 #include "haptics/device/haptic_device.h"
@@ -14,40 +16,40 @@
 
 namespace app {
 
-enum class Hand { mouse, scripted, omni, touch, desktop, premium };  // from omni on: simulated
-
-/// Those that `--device` takes, and their names as people read them in a recording.
+/// Hands without hardware that `--device` takes, and their names as people read them in a recording.
 struct HandName {
-  Hand hand;
   std::string_view key;
-  const char* name;
+  std::string_view name;
 };
 inline constexpr std::array<HandName, 7> kHands = {{
-    {Hand::mouse, "mouse", "mouse"},
-    {Hand::scripted, "scripted", "scripted hand"},
-    {Hand::omni, "simulated", "simulated Phantom Omni"},
-    {Hand::omni, "simulated:omni", "simulated Phantom Omni"},
-    {Hand::touch, "simulated:touch", "simulated Touch"},
-    {Hand::desktop, "simulated:desktop", "simulated Phantom Desktop"},
-    {Hand::premium, "simulated:premium", "simulated Phantom Premium 1.5"},
+    {"mouse", "mouse"},
+    {"scripted", "scripted hand"},
+    {"simulated", "simulated Phantom Omni"},
+    {"simulated:omni", "simulated Phantom Omni"},
+    {"simulated:touch", "simulated Touch"},
+    {"simulated:desktop", "simulated Phantom Desktop"},
+    {"simulated:premium", "simulated Phantom Premium 1.5"},
 }};
-constexpr const char* nameOf(Hand hand) {
-  for (const HandName& one : kHands)
-    if (one.hand == hand) return one.name;
-  return "";
-}
+inline constexpr const char* kDeviceHelp =
+    "Hand: mouse; scripted; simulated[:omni|touch|desktop|premium], the script holding a Phantom in numbers; "
+    "replay:SESSION, a recorded hand; openhaptics[:NAME], wooden[:BUS-PORT], falcon[:BUS-PORT], usb: see molar devices";
 
 struct HandAtWork {
+  std::unique_ptr<haptics::HdLibrary> library;  ///< that the device rests on, if any
   std::unique_ptr<haptics::HapticDevice> device;
+  std::string name;                       ///< as people read it in a recording
   haptics::MouseDevice* mouse = nullptr;  ///< set where the window moves the hand
   calibration::Pose<calibration::Patient, calibration::Device> X_PD;
-  std::optional<double> duration_s;
+  calibration::Pose<calibration::Handle, calibration::Tool> X_HT;
+  std::optional<double> duration_s, rate_Hz;  ///< where the hand has its own
 };
 
 /// Where the mouse's tool begins: in front of the site.
 calibration::Pose<calibration::World, calibration::Tool> restingTool();
 
-/// Throws UsageError where the patient has nothing for a scripted hand to do, or a simulated arm does not reach it.
-HandAtWork handAtWork(Hand hand, const assets::Patient& patient, const calibration::Rig& rig, double bur_radius_mm);
+/// Throws UsageError for no device at all, where the patient has nothing for a scripted hand to do, or a simulated arm
+/// does not reach it; haptics::DeviceError when a real one can not be had; SessionError for no recording.
+HandAtWork handAtWork(const std::string& address, const DeviceOptions& options, const assets::Patient& patient,
+                      const calibration::Rig& rig, double bur_radius_mm);
 
 }  // namespace app

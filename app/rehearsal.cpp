@@ -49,7 +49,7 @@ SurgeonDisplay::Options displayOf(const RehearsalPlan& plan) {
           .eyes_swapped = plan.eyes_swapped,
           .backend = plan.backend,
           .headless = plan.headless,
-          .needs_window = plan.hand == Hand::mouse};
+          .needs_window = plan.device == "mouse"};
 }
 
 Wish wishOf(haptics::HandAction action) {
@@ -62,11 +62,13 @@ class Rehearsal {
  public:
   explicit Rehearsal(RehearsalPlan plan)
       : plan_(std::move(plan)),
-        hand_(handAtWork(plan_.hand, plan_.patient, plan_.rig, plan_.command.tool.head.radius_mm)),
+        hand_(handAtWork(plan_.device, plan_.device_options, plan_.patient, plan_.rig,
+                         plan_.command.tool.head.radius_mm)),
+        rate_Hz_(plan_.rate_Hz.value_or(hand_.rate_Hz.value_or(1000.0))),
         duration_s_(plan_.seconds ? plan_.seconds : hand_.duration_s),
         input_(restingTool()),
         desk_(plan_.command, plan_.other_tools, plan_.parameters, hand_.device->capabilities().damping_Ns_per_mm,
-              plan_.rate_Hz) {
+              rate_Hz_) {
     // Every output is claimed before any work.
     if (!plan_.snapshot.empty()) closing_pictures_.emplace(plan_.snapshot, plan_.overwrite);
     if (!plan_.first_snapshot.empty()) first_pictures_.emplace(plan_.first_snapshot, plan_.overwrite);
@@ -82,12 +84,12 @@ class Rehearsal {
         [this](const std::string& line) { tell(line); });
     quality_.emplace(*display_, plan_.quality_step);
     if (quality_->rules()) frame_.quality = quality_->quality();
-    latency_.emplace(display_->refresh_Hz(), plan_.rate_Hz);
+    latency_.emplace(display_->refresh_Hz(), rate_Hz_);
     if (plan_.pedal) pedal_.emplace(*plan_.pedal);
     workstation_.emplace(plan_.patient, std::move(hand_.device),
-                         haptics::LoopSettings{.rate_Hz = plan_.rate_Hz,
+                         haptics::LoopSettings{.rate_Hz = rate_Hz_,
                                                .X_PD = hand_.X_PD,
-                                               .X_HT = {},
+                                               .X_HT = hand_.X_HT,
                                                .buttons = {},
                                                .pedal = pedal_ ? &*pedal_ : nullptr},
                          desk_.inForce(), plan_.recording);
@@ -108,7 +110,7 @@ class Rehearsal {
     if (quality_->rules()) frame_.quality = quality_->quality();
     if (first_pictures_) takePictures(*first_pictures_, plan_.patient.ct.solid);
     workstation_->start();
-    workstation_->note("start", nameOf(plan_.hand));
+    workstation_->note("start", hand_.name);
     for (const std::string& line : told_early_) workstation_->note("display", line);
     noteQuality();
     looping_since_ = Clock::now();
@@ -270,7 +272,7 @@ class Rehearsal {
     s.tick = newest_;
     s.command = desk_.inForce();
     s.servo = workstation_->figures();
-    s.servo_rate_Hz = plan_.rate_Hz;
+    s.servo_rate_Hz = rate_Hz_;
     s.drawing_ms = 1000.0 * display_->drawing_s();
     s.pictures_per_s = pictures_per_s_;
     s.refresh_Hz = display_->refresh_Hz();
@@ -359,7 +361,7 @@ class Rehearsal {
       figures.slow_latency = latency_->slow();
     }
     figures.servo = workstation_->figures();
-    figures.rate_Hz = plan_.rate_Hz;
+    figures.rate_Hz = rate_Hz_;
     if (plan_.recording) figures.recording = recorded;
     std::fputs(summaryText(figures).c_str(), plan_.guide ? stderr : stdout);
   }
@@ -367,6 +369,7 @@ class Rehearsal {
   Clock::time_point looping_since_, status_shown_ = Clock::now(), latency_noted_ = Clock::now(), pose_read_;
   RehearsalPlan plan_;
   HandAtWork hand_;
+  double rate_Hz_;
   std::optional<double> duration_s_;
   HandInput input_;
   CommandDesk desk_;

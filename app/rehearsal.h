@@ -27,14 +27,15 @@ struct RehearsalPlan {
   bool eyes_swapped = false;
   std::optional<render::Backend> backend;  ///< empty: what suits the machine
   render::Frame first_frame;               ///< view mode, layers and quality to begin with; the rest is the rehearsal's
-  Hand hand = Hand::mouse;
+  std::string device = "mouse";            ///< its address
+  DeviceOptions device_options;
   haptics::Command command;
   std::vector<haptics::Tool> other_tools;  ///< for changes of tool, after the command's
   std::string parameters;         ///< settings file that is obeyed while it changes; `command` holds what it leaves out
   SessionGuide* guide = nullptr;  ///< leads the session where there is one: no drill, no law keys, its own title
   std::optional<haptics::PedalChoice> pedal;  ///< none: it is not looked for
-  double rate_Hz = 1000.0;
-  std::optional<double> seconds;  ///< simulated time; a scripted hand ends by itself
+  std::optional<double> rate_Hz;              ///< none: what the hand was recorded at, else 1 kHz
+  std::optional<double> seconds;              ///< simulated time; a scripted hand ends by itself
   std::optional<Recording> recording;
   std::string snapshot, first_snapshot;  ///< PNG paths; `_left` and `_right` are put before the ending
   glm::ivec2 snapshot_px{1280, 800};

@@ -44,7 +44,8 @@ struct RehearseOptions {
   assets::JawParameters jaw;
   std::optional<double> seconds, face_window_mm;
   std::optional<int> monitor, quality;
-  double rate_Hz = 1000.0, loupes = 4.0;
+  std::optional<double> rate_Hz;
+  double loupes = 4.0;
   bool headless = false, force = false, operators_window = false;
 };
 
@@ -68,10 +69,10 @@ calibration::Rig rigFor(const RehearseOptions& options, const assets::Patient& p
   return rig;
 }
 
-std::vector<std::string> handKeys() {
-  std::vector<std::string> keys;
-  for (const HandName& hand : kHands) keys.emplace_back(hand.key);
-  return keys;
+void refuseUnlessDevice(const std::string& address) {
+  if (std::ranges::find(kHands, address, &HandName::key) == kHands.end() && !address.starts_with("replay:") &&
+      !namesRealDevice(address))
+    throw UsageError("--device " + address + ": there is no such hand, see molar rehearse --help and molar devices");
 }
 
 /// A software renderer would take every core; one is the servo's.
@@ -98,7 +99,9 @@ int run(const RehearseOptions& options) {
   plan.parameters = options.parameters;
   if (options.headless && options.device == "mouse")
     throw UsageError("--headless: there is no mouse without a window, add --device scripted");
-  plan.hand = std::ranges::find(kHands, options.device, &HandName::key)->hand;
+  refuseUnlessDevice(options.device);
+  plan.device = options.device;
+  plan.device_options.tell = [](const std::string& line) { std::fprintf(stderr, "molar: %s\n", line.c_str()); };
   plan.display = options.display.mode();
   plan.eyes_swapped = options.display.swapped();
   plan.backend = options.picture.backend();
@@ -142,12 +145,7 @@ void addRehearse(CLI::App& molar, Chosen& chosen) {
   auto o = std::make_shared<RehearseOptions>();
   CLI::App* command = molar.add_subcommand("rehearse", "Rehearse a third-molar extraction, seen and felt");
   auto* patient = command->add_option("PATIENT", o->patient, "Patient folder (default: the built-in patient)");
-  command
-      ->add_option("--device", o->device,
-                   "Hand: mouse, scripted, or simulated[:omni|touch|desktop|premium]: the script holding a Phantom in "
-                   "numbers, with its kinematics, weight, friction, encoders and motors (omni where not said)")
-      ->check(CLI::IsMember(handKeys()))
-      ->capture_default_str();
+  command->add_option("--device", o->device, kDeviceHelp)->capture_default_str();
   auto* rig =
       command->add_option("--rig", o->rig, "Rig file: screen, mirror, eyes, patient pose; 1:1")->type_name("FILE");
   o->display.addTo(*command);
@@ -183,9 +181,8 @@ void addRehearse(CLI::App& molar, Chosen& chosen) {
       ->capture_default_str();
   command->add_option("--set", o->settings,
                       "key=value: stiffness_N_per_mm, peak_force_N, spindle_rpm, worn, removal_rate_per_s, …");
-  command->add_option("--rate", o->rate_Hz, "Servo rate, Hz")
-      ->check(numberRange(500.0, 10'000.0))
-      ->capture_default_str();
+  command->add_option("--rate", o->rate_Hz, "Servo rate, Hz [1000, or as recorded]")
+      ->check(numberRange(500.0, 10'000.0));
   command->add_option("--seconds", o->seconds, "End after this time")->check(numberRange(0.1, 86400.0));
   command->add_option("--record", o->record, "Session file to write")->type_name("FILE");
   command->add_option("--snapshot", o->snapshot, "Pictures at the end: NAME_left.png, NAME_right.png");

@@ -15,6 +15,7 @@ class ReplayedHand final : public DeviceInNumbers {
   ReplayedHand(std::vector<HandleState> states, double dt_s);
   ~ReplayedHand() override { stop(); }
 
+  double rate_Hz() const { return 1.0 / dt_s_; }
   double duration_s() const { return static_cast<double>(states_.size()) * dt_s_; }
 
   const DeviceCapabilities& capabilities() const override { return capabilities_; }

@@ -1,0 +1,62 @@
+#include "app/device_choice.h"
+
+#include <algorithm>
+#include <array>
+
+#include "app/usage_error.h"
+#include "haptics/device/openhaptics/open_haptics.h"
+#include "haptics/device/usb/falcon.h"
+
+namespace app {
+namespace {
+
+constexpr std::array<std::string_view, 4> kKinds = {"openhaptics", "wooden", "falcon", "usb"};
+
+/// "falcon:1-2" as "falcon" and "1-2".
+struct Address {
+  std::string kind, rest;
+};
+Address split(const std::string& address) {
+  const std::size_t colon = address.find(':');
+  if (colon == std::string::npos) return {address, {}};
+  return {address.substr(0, colon), address.substr(colon + 1)};
+}
+
+std::string firstOnTheUsb() {
+  for (const haptics::FoundDevice& found : haptics::findFalcon())
+    if (!found.address.empty()) return found.address;
+  throw haptics::DeviceError("--device usb: no device that Molar drives is on the USB, see molar devices");
+}
+
+}  // namespace
+
+bool namesRealDevice(const std::string& address) { return std::ranges::count(kKinds, split(address).kind) != 0; }
+
+OpenedDevice openDevice(const std::string& address, const DeviceOptions& options) {
+  const Address asked = split(address == "usb" ? firstOnTheUsb() : address);
+  OpenedDevice opened;
+  opened.address = address;
+  if (asked.kind == "openhaptics") {
+    opened.library = std::make_unique<haptics::HdLibrary>();
+    opened.device = std::make_unique<haptics::OpenHaptics>(
+        *opened.library,
+        haptics::OpenHapticsSettings{.configuration = asked.rest, .docked_value = options.docked_value});
+  } else if (asked.kind == "falcon") {
+    haptics::FalconSettings settings;
+    settings.path = asked.rest;
+    settings.program = options.falcon_program;
+    settings.scale = options.falcon_scale;
+    settings.tell = [tell = options.tell, said = std::string()](const std::string& words, double) mutable {
+      if (words != said) tell(words);
+      said = words;
+      return true;
+    };
+    opened.device = std::make_unique<haptics::Falcon>(settings);
+  } else {
+    throw UsageError("--device " + address +
+                     ": it is not the address of a device, see molar devices for those that are there");
+  }
+  return opened;
+}
+
+}  // namespace app
