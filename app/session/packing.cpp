@@ -35,7 +35,7 @@ template <class Visit>
 void forEachField(auto& tick, Visit&& visit) requires std::same_as<std::remove_cvref_t<decltype(tick)>, haptics::Tick> {
   auto& [index, t_s, dt_s, command_serial, hand, proxy_P, law_force_P_N, law_torque_P_Nmm, served_force_P_N,
          served_torque_P_Nmm, energy_Nmm, spindle_rad_per_s, overlap_mm3, depth_mm, removed_mm3, bone_digest,
-         contact_tissue, drilling, rest, strokes, faults, work_us] = tick;
+         contact_tissue, drilling, rest, strokes, state, faults, work_us] = tick;
   visit(index), visit(t_s), visit(dt_s), visit(command_serial);
   visitHand(hand, visit);
   visitDvec3(proxy_P.mm, visit);
@@ -43,13 +43,29 @@ void forEachField(auto& tick, Visit&& visit) requires std::same_as<std::remove_c
   visitDvec3(served_force_P_N.xyz, visit), visitDvec3(served_torque_P_Nmm.xyz, visit);
   visit(energy_Nmm), visit(spindle_rad_per_s);
   visit(overlap_mm3), visit(depth_mm), visit(removed_mm3), visit(bone_digest);
-  visit(contact_tissue), visit(drilling), visit(rest), visit(strokes), visit(faults), visit(work_us);
+  visit(contact_tissue), visit(drilling), visit(rest), visit(strokes), visit(state), visit(faults), visit(work_us);
+}
+
+template <class Visit>
+void visitLimits(auto& limits, Visit&& visit) {
+  auto& [peak_force_N, slew_N_per_s, peak_torque_Nmm, slew_Nmm_per_s, most_stiffness_N_per_mm, most_damping_Ns_per_mm,
+         continuous_force_N, peak_joint_torque_Nmm, fastest_mm_per_s, fastest_turn_rad_per_s, must_be_armed,
+         thresholds] = limits;
+  auto& [longest_pause_s, arming_mm_per_s, let_go_s, soft_start_s, soft_start_N_per_s, braked_mm_per_s, cut_mm_per_s,
+         cut_s, buzz_mm_per_s, stale_s, stale_fades_s, longest_stale_s, warm_motor, share_of_hottest] = thresholds;
+  visit(peak_force_N), visit(slew_N_per_s), visit(peak_torque_Nmm), visit(slew_Nmm_per_s);
+  visit(most_stiffness_N_per_mm), visit(most_damping_Ns_per_mm), visit(continuous_force_N);
+  visitDvec3(peak_joint_torque_Nmm, visit);
+  visit(fastest_mm_per_s), visit(fastest_turn_rad_per_s), visit(must_be_armed);
+  visit(longest_pause_s), visit(arming_mm_per_s), visit(let_go_s), visit(soft_start_s), visit(soft_start_N_per_s);
+  visit(braked_mm_per_s), visit(cut_mm_per_s), visit(cut_s), visit(buzz_mm_per_s);
+  visit(stale_s), visit(stale_fades_s), visit(longest_stale_s), visit(warm_motor), visit(share_of_hottest);
 }
 
 template <class Visit>
 void forEachField(auto& command,
                   Visit&& visit) requires std::same_as<std::remove_cvref_t<decltype(command)>, haptics::Command> {
-  auto& [serial, tool, drill_enabled, irrigating, undo_serial, law, erosion, spindle, safety] = command;
+  auto& [serial, tool, drill_enabled, irrigating, undo_serial, law, erosion, spindle, safety, rearm] = command;
   auto& [head, shaft] = tool;
   auto& [shape_kind, radius_mm, length_mm] = head;
   auto& [shaft_radius_mm, shaft_length_mm] = shaft;
@@ -68,7 +84,6 @@ void forEachField(auto& command,
   auto& [removal_mm3_per_J] = dose;
   auto& [cutting_energy_J_per_mm3] = machining_erosion;
   auto& [commanded_rpm, stall_torque_Nmm, free_rpm, droop, inertia_g_cm2, bearing_torque_Nmm] = spindle;
-  auto& [peak_force_N, slew_N_per_s, peak_torque_Nmm, slew_Nmm_per_s, most_stiffness_N_per_mm] = safety;
   visit(serial), visit(drill_enabled), visit(irrigating), visit(undo_serial);
   visit(shape_kind), visit(radius_mm), visit(length_mm), visit(shaft_radius_mm), visit(shaft_length_mm);
   visit(law_kind);
@@ -84,8 +99,8 @@ void forEachField(auto& command,
   visit(commanded_rpm), visit(stall_torque_Nmm), visit(free_rpm), visit(droop), visit(inertia_g_cm2);
   visit(bearing_torque_Nmm);
   for (auto& factor : tissue_factor) visit(factor);
-  visit(peak_force_N), visit(slew_N_per_s), visit(peak_torque_Nmm), visit(slew_Nmm_per_s),
-      visit(most_stiffness_N_per_mm);
+  visitLimits(safety, visit);
+  visit(rearm);
 }
 
 /// The unsigned integer that holds the bits of a field.

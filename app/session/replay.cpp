@@ -33,6 +33,7 @@ std::optional<std::string> differenceOf(const haptics::Tick& recorded, const hap
   if (recorded.contact_tissue != again.contact_tissue) return "the tissue in contact differs";
   if (recorded.drilling != again.drilling || recorded.rest != again.rest) return "the drill differs";
   if (recorded.strokes != again.strokes) return "the strokes to take back differ";
+  if (recorded.state != again.state) return "the state of the safety layer differs";
   if (recorded.faults != again.faults) return "the faults differ";
   return std::nullopt;
 }

@@ -1,6 +1,6 @@
-// What can go wrong in a tick, as bits: each a trip that is counted, recorded and said in words (safety/trips). All but
-// `clamped`, `slewed`, `joints` and `hot` take the force away or lower it; `clamped` to `hot` only hold it within
-// limits.
+// What the safety layer can do in a tick, as bits: each a trip that is counted, recorded with its tick and said in
+// words (safety/trips). From `clamped` to `hot` the force is held within limits; everything else lowers it or takes it
+// away.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,22 @@ namespace haptics {
 
 enum class Fault : std::uint32_t {
   none = 0,
-  bad_pose = 1,   ///< the device gave a non-finite or absurd pose
-  bad_force = 2,  ///< the law gave a non-finite force
-  clamped = 4,    ///< magnitude limit reached
-  slewed = 8,     ///< rate limit reached
-  device = 16,    ///< the device reported trouble
+  bad_pose = 1,      ///< the device gave a non-finite or absurd pose
+  bad_force = 2,     ///< the law gave a non-finite force
+  clamped = 4,       ///< magnitude limit reached
+  slewed = 8,        ///< rate limit reached
+  device = 16,       ///< the device reported trouble
+  joints = 32,       ///< a joint's torque limit reached
+  hot = 64,          ///< the motors' heat allows no more
+  stale = 128,       ///< nothing measured for 3 ms or longer
+  resumed = 256,     ///< the ticks had paused
+  braked = 512,      ///< the hand was fast
+  too_fast = 1024,   ///< the hand was so fast that there is no force for a while
+  buzz = 2048,       ///< it shook
+  overdrawn = 4096,  ///< the hand got more energy than can be let down gently
+  let_go = 8192,     ///< the deadman felt no hand
+  latched = 16384,   ///< no force until an operator says so
+  stopped = 32768,   ///< emergency stop
 };
 constexpr Fault operator|(Fault a, Fault b) {
   return static_cast<Fault>(static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b));

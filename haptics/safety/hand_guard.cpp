@@ -1,50 +1,88 @@
 #include "haptics/safety/hand_guard.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace haptics {
 namespace {
 
-constexpr double kFarthest_mm = 10'000.0, kLongestJump_mm = 1'000.0, kSamePlace_mm = 20.0;
-constexpr double kTimeToBelieve_s = 0.1;
+/// Beyond the one a number is absurd; beyond the other the hand was put there.
+constexpr double kFarthest_mm = 10'000.0, kLongestMove_mm = 1'000.0;
 
 bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+glm::dvec3 handle_mm(const HandSample& hand) { return hand.X_PT.translation_mm + hand.arm_P_mm.xyz; }
 
 /// Finite, near, and with a rotation that can be made unit.
 bool usable(const HandSample& hand) {
   const double norm = glm::dot(hand.X_PT.rotation, hand.X_PT.rotation);
   const glm::dvec3& p = hand.X_PT.translation_mm;
+  const glm::dmat3& J = hand.jacobian_P_mm;
   return finite(p) && finite(hand.velocity_P_mm_per_s.xyz) && glm::length(hand.arm_P_mm.xyz) <= kFarthest_mm &&
-         glm::length(p) <= kFarthest_mm && std::isfinite(norm) && norm > 0.25 && norm < 4.0;
+         glm::length(p) <= kFarthest_mm && std::isfinite(norm) && norm > 0.25 && norm < 4.0 && finite(J[0]) &&
+         finite(J[1]) && finite(J[2]);
+}
+
+HandSample withUnitRotation(const HandSample& hand) {
+  HandSample unit = hand;
+  unit.X_PT.rotation = glm::normalize(hand.X_PT.rotation);
+  return unit;
+}
+
+/// What is held of the past and what is new: all that can only take force away.
+HandSample held(const HandSample& good, const HandSample& now) {
+  HandSample hand = good;
+  hand.motor_heat = now.motor_heat;
+  hand.gap_s = now.gap_s;
+  hand.drill_pedal = now.drill_pedal;
+  hand.fresh = now.fresh;
+  hand.docked = now.docked;
+  hand.held = now.held;
+  hand.calibrated = now.calibrated;
+  hand.stop_asked = now.stop_asked;
+  hand.device_healthy = now.device_healthy;
+  return hand;
 }
 
 }  // namespace
 
-HandGuard::Checked HandGuard::check(const HandSample& hand, double dt_s) noexcept {
+/// No further since the last good sample than a hand can.
+bool HandGuard::moved(const HandSample& hand, const SafetyLimits& limits) const noexcept {
+  if (glm::length(handle_mm(hand) - handle_mm(good_)) > limits.fastest_mm_per_s * since_good_s_) return false;
+  const double half_turn_rad = 0.5 * limits.fastest_turn_rad_per_s * since_good_s_;
+  if (half_turn_rad >= 1.57) return true;
+  return std::abs(glm::dot(glm::normalize(hand.X_PT.rotation), good_.X_PT.rotation)) >= std::cos(half_turn_rad);
+}
+
+HandGuard::Checked HandGuard::check(const HandSample& hand, const SafetyLimits& limits, double dt_s) noexcept {
+  const double elapsed_s = std::isfinite(hand.gap_s) ? std::max(dt_s, hand.gap_s) : dt_s;
+  since_good_s_ += elapsed_s;
   Checked checked;
-  bool accept = usable(hand);
-  checked.relocated = !started_;
-  if (accept && started_) {
-    const glm::dvec3& p = hand.X_PT.translation_mm;
-    if (glm::length(p - good_.X_PT.translation_mm) > kLongestJump_mm) {
-      far_s_ = far_s_ > 0.0 && glm::length(p - far_mm_) < kSamePlace_mm ? far_s_ + dt_s : dt_s;
-      far_mm_ = p;
-      accept = checked.relocated = far_s_ > kTimeToBelieve_s - 0.5 * dt_s;
-    }
-  }
-  if (accept) {
+  checked.resumed = elapsed_s > limits.thresholds.longest_pause_s;
+  const bool anew = limits.must_be_armed && (checked.resumed || bad_ >= kBadInARow);
+
+  if (!hand.fresh) {
+    checked.refused = !started_;
+    checked.hand = held(good_, hand);
+  } else if (usable(hand) && (!started_ || (limits.must_be_armed && checked.resumed) || moved(hand, limits))) {
+    checked.relocated = !started_ || anew || glm::length(handle_mm(hand) - handle_mm(good_)) > kLongestMove_mm;
+    good_ = withUnitRotation(hand);
     started_ = true;
-    far_s_ = 0.0;
-    good_ = hand;
-    good_.X_PT.rotation = glm::normalize(hand.X_PT.rotation);
+    since_good_s_ = 0.0;
+    bad_ = 0;
     checked.hand = good_;
     return checked;
+  } else {
+    bad_ = std::min(bad_ + 1, kBadInARow);
+    checked.refused = true;
+    checked.hand = held(good_, hand);
   }
-  checked.refused = true;
-  checked.hand = good_;
-  checked.hand.velocity_P_mm_per_s = {};
-  checked.hand.drill_pedal = false;
-  checked.hand.device_healthy = hand.device_healthy;
+  if (bad_ > 0 || !started_) {
+    checked.hand.velocity_P_mm_per_s = {};
+    checked.hand.drill_pedal = false;
+  }
+  checked.lost = bad_ >= kBadInARow;
+  checked.share = checked.lost || !started_ ? 0.0 : std::ldexp(1.0, -bad_);
   return checked;
 }
 

@@ -8,8 +8,15 @@ namespace {
 
 using calibration::Patient;
 
+constexpr double kForget_s = 1.0;
+
 double work_Nmm(const Wrench<Patient>& wrench, const Passivity::Motion& motion) {
   return glm::dot(wrench.force_N.xyz, motion.travel_P_mm.xyz) + glm::dot(wrench.torque_Nmm.xyz, motion.turn_P_rad.xyz);
+}
+
+double way_mm(const Passivity::Motion& motion) {
+  const glm::dvec3 travel = motion.travel_P_mm.xyz, turn = Passivity::kLever_mm * motion.turn_P_rad.xyz;
+  return std::sqrt(glm::dot(travel, travel) + glm::dot(turn, turn));
 }
 
 /// The largest f >= 0 with  way f + hold f^2 <= budget.
@@ -24,20 +31,30 @@ double largestForce_N(double way_mm, double hold_mm_per_N, double budget_Nmm) {
 Wrench<Patient> Passivity::allow(const Wrench<Patient>& wanted, const Motion& motion, double slew_N_per_s,
                                  double dt_s) const noexcept {
   const glm::dvec3 travel = motion.travel_P_mm.xyz, turn = kLever_mm * motion.turn_P_rad.xyz;
-  const double way_mm = std::sqrt(glm::dot(travel, travel) + glm::dot(turn, turn));
-  if (!(way_mm > 1e-12)) return wanted;
+  const double way = way_mm(motion);
+  if (!(way > 1e-12)) return wanted;
 
-  const double budget_Nmm = energy_Nmm_ + kGrace_Nmm - 0.5 * work_Nmm(last_, motion);
-  const double most_N = largestForce_N(way_mm, way_mm / (2.0 * slew_N_per_s * dt_s), budget_Nmm);
-  const double along_N = work_Nmm(wanted, motion) / way_mm;
+  const double budget_Nmm = balance_Nmm(motion) + kGrace_Nmm;
+  const double most_N = largestForce_N(way, way / (2.0 * slew_N_per_s * dt_s), budget_Nmm);
+  const double along_N = work_Nmm(wanted, motion) / way;
   if (!(along_N > most_N)) return wanted;
 
-  const double withheld = (along_N - most_N) / way_mm;
+  const double withheld = (along_N - most_N) / way;
   return {{wanted.force_N.xyz - withheld * travel}, {wanted.torque_Nmm.xyz - withheld * kLever_mm * turn}};
 }
 
-void Passivity::enter(const Wrench<Patient>& given, const Motion& motion, double most_stored_Nmm) noexcept {
+double Passivity::balance_Nmm(const Motion& motion) const noexcept {
+  return energy_Nmm_ - 0.5 * work_Nmm(last_, motion);
+}
+
+double Passivity::mostForce_N(const Motion& motion, double dt_s) const noexcept {
+  return std::max(0.0, 2.0 * (balance_Nmm(motion) + kMostDebt_Nmm) / (way_mm(motion) + kFastest_mm_per_s * dt_s));
+}
+
+void Passivity::enter(const Wrench<Patient>& given, const Motion& motion, double most_stored_Nmm,
+                      double dt_s) noexcept {
   energy_Nmm_ -= 0.5 * (work_Nmm(last_, motion) + work_Nmm(given, motion));
+  if (energy_Nmm_ < -kForgiven_Nmm) energy_Nmm_ -= (energy_Nmm_ + kForgiven_Nmm) * std::min(1.0, dt_s / kForget_s);
   energy_Nmm_ = std::clamp(energy_Nmm_, -kMostDebt_Nmm, std::max(0.0, most_stored_Nmm));
   last_ = given;
 }

@@ -7,8 +7,13 @@
 // That is what flows in this tick and while the force comes down at the slew limit, so it comes down in time and
 // without a step; up to slew/k of speed (375 mm/s at 0.8 N/mm) a linear spring pays for it. In all the hand gets no
 // more than the grace, which is the midpoint rule's own error at first touch, and what a hand that jerks back takes
-// while the force comes down, F^2 v / (2 slew): under 0.05 N mm in steady contact (tests). Not the energy that sampling
-// and holding the force leaks (K T/2: the device's own damping takes it, physics 2.5), and not the tool's vibration.
+// while the force comes down, F^2 v / (2 slew): under 0.05 N mm in steady contact (tests). A hand that has had kLetDown
+// is let go of at once, and whatever hand and law do the debt is never above kMostDebt: with m the longest move of a
+// tick, 2 m/s dt,
+//   |F| <= 2 (E + kMostDebt) / (|dx| + m)      10 N at 1 kHz and 5 N at 500 Hz while the books are in order
+// What it owes beyond kForgiven is forgiven with a time constant of 1 s, so that it is never left without force.
+// Not the energy that sampling and holding the force leaks (K T/2: the device's own damping takes it, physics 2.5), and
+// not the tool's vibration.
 // Frame P, about the handle; rotation weighs as kLever_mm of travel. Servo thread; flops.
 #pragma once
 
@@ -19,8 +24,9 @@ namespace haptics {
 
 class Passivity {
  public:
-  static constexpr double kGrace_Nmm = 0.005;   ///< k v^2 T^2 / 8 at 0.8 N/mm, 0.2 m/s, 1 kHz; 0.6 N mm press 1 N
-  static constexpr double kMostDebt_Nmm = 1.0;  ///< more than that is forgiven
+  static constexpr double kGrace_Nmm = 0.005;  ///< k v^2 T^2 / 8 at 0.8 N/mm, 0.2 m/s, 1 kHz; 0.6 N mm press 1 N
+  static constexpr double kLetDown_Nmm = 0.5, kForgiven_Nmm = 1.0, kMostDebt_Nmm = 10.0;
+  static constexpr double kFastest_mm_per_s = 2'000.0;  ///< of a hand (safety/hand_guard)
   static constexpr double kLever_mm = 50.0;
 
   /// Where the handle went in this tick: travel, and a small rotation (rad).
@@ -32,13 +38,22 @@ class Passivity {
   Wrench<calibration::Patient> allow(const Wrench<calibration::Patient>& wanted, const Motion& motion,
                                      double slew_N_per_s, double dt_s) const noexcept;
 
+  /// After this motion the debt is too large to let the force down gently.
+  bool isOverdrawn(const Motion& motion) const noexcept { return balance_Nmm(motion) < -kLetDown_Nmm; }
+  /// The largest force that no next motion can turn into more than kMostDebt; torque weighs as force at kLever.
+  double mostForce_N(const Motion& motion, double dt_s) const noexcept;
+
   /// Enters what was given in the end. `most_stored_Nmm`: what the contact could hold now, 0 in air.
-  void enter(const Wrench<calibration::Patient>& given, const Motion& motion, double most_stored_Nmm) noexcept;
+  void enter(const Wrench<calibration::Patient>& given, const Motion& motion, double most_stored_Nmm,
+             double dt_s) noexcept;
 
   /// What the hand has put in and may have back; below 0 it has had too much.
   double energy_Nmm() const { return energy_Nmm_; }
 
  private:
+  /// With what the last wrench did in this motion.
+  double balance_Nmm(const Motion& motion) const noexcept;
+
   Wrench<calibration::Patient> last_;
   double energy_Nmm_ = 0.0;
 };

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "haptics/safety/joint_torques.h"
+
 namespace haptics {
 namespace {
 
@@ -16,8 +18,9 @@ bool shorten(glm::dvec3& v, double most) {
 }
 
 /// One of the two vectors on its way from `last`: within its peak, then no further from the last than the slew lets it.
-glm::dvec3 limited(glm::dvec3 target, const glm::dvec3& last, double peak, double longest_step, Fault& faults) {
+glm::dvec3 limited(glm::dvec3 target, glm::dvec3 last, double peak, double longest_step, bool at_once, Fault& faults) {
   if (shorten(target, peak)) faults = faults | Fault::clamped;
+  if (at_once) shorten(last, glm::length(target));
   glm::dvec3 change = target - last;
   if (!shorten(change, longest_step)) return target;
   faults = faults | Fault::slewed;
@@ -28,29 +31,30 @@ glm::dvec3 limited(glm::dvec3 target, const glm::dvec3& last, double peak, doubl
 
 }  // namespace
 
-SafetyLimits sanitised(const SafetyLimits& limits) {
-  const SafetyLimits defaults;
-  const auto peak = [](double value) { return std::isfinite(value) && value >= 0.0 ? value : 0.0; };
-  const auto slew = [](double value, double otherwise) {
-    return std::isfinite(value) && value > 0.0 ? value : otherwise;
-  };
-  return {peak(limits.peak_force_N), slew(limits.slew_N_per_s, defaults.slew_N_per_s), peak(limits.peak_torque_Nmm),
-          slew(limits.slew_Nmm_per_s, defaults.slew_Nmm_per_s), peak(limits.most_stiffness_N_per_mm)};
-}
-
 SafetyFilter::Served SafetyFilter::serve(const Wrench<calibration::Patient>& wanted_P, const SafetyLimits& limits,
-                                         bool ramp_down, double dt_s) noexcept {
-  const SafetyLimits safe = sanitised(limits);
+                                         Fall fall, double dt_s, const glm::dmat3& jacobian_P_mm) noexcept {
   Served served;
   Wrench<calibration::Patient> target = wanted_P;
-  const bool usable = finite(target.force_N.xyz) && finite(target.torque_Nmm.xyz);
-  if (!usable) served.faults = Fault::bad_force;
-  if (ramp_down || !usable) target = {};
+  if (!finite(target.force_N.xyz) || !finite(target.torque_Nmm.xyz)) {
+    served.faults = Fault::bad_force;
+    target = {};
+  }
 
-  last_P_.force_N.xyz =
-      limited(target.force_N.xyz, last_P_.force_N.xyz, safe.peak_force_N, safe.slew_N_per_s * dt_s, served.faults);
-  last_P_.torque_Nmm.xyz = limited(target.torque_Nmm.xyz, last_P_.torque_Nmm.xyz, safe.peak_torque_Nmm,
-                                   safe.slew_Nmm_per_s * dt_s, served.faults);
+  const auto bear = [&](glm::dvec3& force_N) {
+    const double share = shareForJoints(jacobian_P_mm, force_N, limits.peak_joint_torque_Nmm);
+    if (!(share < 1.0)) return;
+    served.faults = served.faults | Fault::joints;
+    force_N *= share;
+  };
+  bear(target.force_N.xyz);
+
+  const bool at_once = fall == Fall::at_once;
+  last_P_.force_N.xyz = limited(target.force_N.xyz, last_P_.force_N.xyz, limits.peak_force_N,
+                                limits.slew_N_per_s * dt_s, at_once, served.faults);
+  last_P_.torque_Nmm.xyz = limited(target.torque_Nmm.xyz, last_P_.torque_Nmm.xyz, limits.peak_torque_Nmm,
+                                   limits.slew_Nmm_per_s * dt_s, at_once, served.faults);
+  // The joints stand otherwise now than when the last force was within their limits.
+  bear(last_P_.force_N.xyz);
   served.wrench_P = last_P_;
   return served;
 }

@@ -1,7 +1,8 @@
-// The last word before the device: no force or torque that is not finite, none above the limit, none that rises too
-// fast. Wraps every backend, the simulated ones too. Any frame, torque about the handle; N, N mm, s. Servo thread; a
-// few flops. Pure: state is the last wrench. A change of force is never faster than the slew limit, with one exception:
-// when the magnitude limit itself falls, the magnitude obeys at once. Not a stability controller.
+// The last stage before the device: no force or torque that is not finite, none above the limit, none that the joints
+// can not bear (safety/joint_torques), none that rises too fast. Any frame, torque about the handle; N, N mm, s. Servo
+// thread; a few flops. Pure: state is the last wrench. The wrench never grows nor turns faster than the slew limit; it
+// falls no faster either, but where something has tripped, or the magnitude limit itself falls: then it falls at once.
+// Not a stability controller.
 #pragma once
 
 #include "calibration/geometry/frames.h"
@@ -11,20 +12,18 @@
 
 namespace haptics {
 
-/// The limits as they are obeyed: a peak that is not a number >= 0 means nothing at all, an unusable slew the default.
-SafetyLimits sanitised(const SafetyLimits& limits);
-
 class SafetyFilter {
  public:
   struct Served {
     Wrench<calibration::Patient> wrench_P;
-    Fault faults = Fault::none;  ///< clamped, slewed, bad_force
+    Fault faults = Fault::none;  ///< clamped, joints, slewed, bad_force
   };
 
-  /// What the hand may feel of `wanted`. While `ramp_down`, or when `wanted` is not finite, it goes to zero at the slew
-  /// limits.
-  Served serve(const Wrench<calibration::Patient>& wanted_P, const SafetyLimits& limits, bool ramp_down,
-               double dt_s) noexcept;
+  enum class Fall { at_slew, at_once };
+
+  /// What the hand may feel of `wanted`, which goes to zero when it is not finite. `jacobian_P_mm` as in HandSample.
+  Served serve(const Wrench<calibration::Patient>& wanted_P, const SafetyLimits& limits, Fall fall, double dt_s,
+               const glm::dmat3& jacobian_P_mm = glm::dmat3(0.0)) noexcept;
 
  private:
   Wrench<calibration::Patient> last_P_;

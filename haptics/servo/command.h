@@ -22,6 +22,7 @@ struct Command {
   ErosionSettings erosion;
   SpindleSettings spindle;
   SafetyLimits safety;
+  std::uint64_t rearm = 0;  ///< another number than before: the operator lifts a latched fault
 };
 
 }  // namespace haptics

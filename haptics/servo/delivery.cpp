@@ -28,11 +28,11 @@ Passivity::Motion Delivery::motionTo(const HandSample& hand, bool with_turn, dou
   return motion;
 }
 
-SafetyFilter::Served Delivery::give(const Wanted& wanted, const HandSample& hand, const SafetyLimits& limits,
-                                    double dt_s) noexcept {
-  const SafetyLimits safe = sanitised(limits);
-  const bool with_torque = safe.peak_torque_Nmm > 0.0;
-  const Passivity::Motion motion = wanted.relocated ? Passivity::Motion{} : motionTo(hand, with_torque, dt_s);
+SafetyFilter::Served Delivery::give(const Wanted& wanted, const HandSample& hand, SafetyLayer& safety,
+                                    const SafetyLimits& limits, double dt_s) noexcept {
+  const bool with_torque = limits.peak_torque_Nmm > 0.0;
+  SafetyLayer::Wanted wish;
+  if (!wanted.relocated) wish.motion = motionTo(hand, with_torque, dt_s);
   last_hand_ = hand;
 
   // About the handle, where the device pushes.
@@ -40,12 +40,11 @@ SafetyFilter::Served Delivery::give(const Wanted& wanted, const HandSample& hand
   wrench.torque_Nmm.xyz -= glm::cross(hand.arm_P_mm.xyz, wrench.force_N.xyz);
   if (!with_torque) wrench.torque_Nmm = {};
 
-  wrench = transition_.follow(wrench, wanted.switched || wanted.relocated, dt_s);
-  wrench = passivity_.allow(wrench, motion, safe.slew_N_per_s, dt_s);
-  const Wrench<Patient> tremble{wanted.tremble_P_N, {}};
-  const SafetyFilter::Served served = safety_.serve(wrench + tremble, safe, wanted.ramp_down, dt_s);
-  passivity_.enter(served.wrench_P - tremble, motion, wanted.most_stored_Nmm);
-  return served;
+  wish.wrench_P = transition_.follow(wrench, wanted.switched || wanted.relocated, dt_s);
+  wish.tremble_P_N = wanted.tremble_P_N;
+  wish.most_stored_Nmm = wanted.most_stored_Nmm;
+  wish.touches = wanted.touches;
+  return safety.serve(wish, limits, dt_s);
 }
 
 }  // namespace haptics

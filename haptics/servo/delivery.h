@@ -1,11 +1,9 @@
 // From what the law wants to what the hand gets: the wrench about the handle, carried over where something was switched
-// (transition), with no more energy than the hand has put in (passivity), within what device and person can take
-// (safety), in this order. Frame P. Servo thread; a few hundred flops, no look at the bone.
+// (transition), then what the safety layer leaves of it. Frame P. Servo thread; a few hundred flops, no look at the
+// bone.
 #pragma once
 
-#include "haptics/safety/hand_sample.h"
-#include "haptics/safety/passivity.h"
-#include "haptics/safety/safety_filter.h"
+#include "haptics/safety/safety_layer.h"
 #include "haptics/servo/transition.h"
 
 namespace haptics {
@@ -19,20 +17,17 @@ class Delivery {
     double most_stored_Nmm = 0.0;  ///< what the contact could hold; 0 in air
     bool switched = false;         ///< law, tool or limits are not those of the last tick
     bool relocated = false;        ///< the hand did not move here
-    bool ramp_down = false;        ///< something is wrong: the force goes to zero
+    bool touches = false;          ///< the tool is in tissue
   };
 
-  SafetyFilter::Served give(const Wanted& wanted, const HandSample& hand, const SafetyLimits& limits,
-                            double dt_s) noexcept;
-
-  double energy_Nmm() const { return passivity_.energy_Nmm(); }
+  /// `hand` as the layer admitted it this tick, `limits` sanitised.
+  SafetyFilter::Served give(const Wanted& wanted, const HandSample& hand, SafetyLayer& safety,
+                            const SafetyLimits& limits, double dt_s) noexcept;
 
  private:
   Passivity::Motion motionTo(const HandSample& hand, bool with_turn, double dt_s) const noexcept;
 
   Transition transition_;
-  Passivity passivity_;
-  SafetyFilter safety_;
   HandSample last_hand_;
 };
 

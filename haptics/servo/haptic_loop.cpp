@@ -26,9 +26,23 @@ Command limitedTo(const DeviceCapabilities& device, double rate_Hz, const Comman
   safety = sanitised(command.safety);
   safety.peak_force_N = at_most(safety.peak_force_N, device.peak_force_N);
   safety.peak_torque_Nmm = at_most(safety.peak_torque_Nmm, device.peak_torque_Nmm);
+  limited.law.damping_Ns_per_mm = std::min(command.law.damping_Ns_per_mm, device.most_damping_Ns_per_mm);
+  safety.most_damping_Ns_per_mm = at_most(safety.most_damping_Ns_per_mm, device.most_damping_Ns_per_mm);
+  safety.most_stiffness_N_per_mm = at_most(safety.most_stiffness_N_per_mm, device.most_stiffness_N_per_mm);
   safety.most_stiffness_N_per_mm =
       at_most(safety.most_stiffness_N_per_mm,
-              0.9 * passiveStiffness_N_per_mm(device.damping_Ns_per_mm, command.law.damping_Ns_per_mm, 1.0 / rate_Hz));
+              0.9 * passiveStiffness_N_per_mm(device.damping_Ns_per_mm, limited.law.damping_Ns_per_mm, 1.0 / rate_Hz));
+  for (int joint = 0; joint < 3; ++joint)
+    if (const double most = device.peak_joint_torque_Nmm[joint]; most > 0.0) {
+      double& peak = safety.peak_joint_torque_Nmm[joint];
+      peak = peak > 0.0 ? std::min(peak, most) : most;
+    }
+  if (!device.has_motors) return limited;
+
+  // A tenth is left to the maker's own limit, which would switch the motors off.
+  safety = strict(safety);
+  safety.peak_force_N = at_most(safety.peak_force_N, 0.9 * device.peak_force_N);
+  safety.continuous_force_N = at_most(safety.continuous_force_N, device.continuous_force_N);
   return limited;
 }
 
@@ -86,7 +100,8 @@ bool HapticLoop::drills(const HandleState& state) noexcept {
 
 DeviceLoop::Answer HapticLoop::answer(const HandleState& state, const Beat& beat) noexcept {
   tick_ = servo_.step(handFrom(state, beat), limitedTo(device(), rate_Hz(), commands_.read()), 1.0 / rate_Hz());
-  return {{X_DP_ * tick_.served_force_P_N, X_DP_ * tick_.served_torque_P_Nmm}};
+  const bool motors_on = tick_.state != SafetyState::off && tick_.state != SafetyState::fault;
+  return {{X_DP_ * tick_.served_force_P_N, X_DP_ * tick_.served_torque_P_Nmm}, motors_on};
 }
 
 void HapticLoop::answered(double work_us) noexcept {

@@ -24,8 +24,10 @@ struct LoopSettings {
   const FootPedal* pedal = nullptr;                                   ///< drills beside them; borrowed
 };
 
-/// The command with its limits cut down to what the device can give and hold at this rate: peak force and torque, and
-/// slopes no steeper than nine tenths of the stiffest wall. Record this one: a replay has no device.
+/// The command with its limits cut down to what the device can give and hold at this rate: peak force, torque and joint
+/// torques, the stiffness and damping that its maker or users recommend, and slopes no steeper than nine tenths of the
+/// stiffest wall. For a device with motors also `strict`, its continuous force, and nine tenths of its peak. Record
+/// this one: a replay has no device.
 Command limitedTo(const DeviceCapabilities& device, double rate_Hz, const Command& command);
 
 class HapticLoop final : public DeviceLoop {

@@ -37,12 +37,11 @@ Tick Servo::step(const HandSample& hand, const Command& wanted, double dt_s) noe
   tick.hand = hand;
 
   // The hand, or where it last was when it cannot be believed.
-  const HandGuard::Checked checked = guard_.check(hand, tick.dt_s);
-  const HandSample& believed = checked.hand;
-  if (checked.relocated) proxy_.release();
-  if (checked.refused) tick.faults = tick.faults | Fault::bad_pose;
-  if (!believed.device_healthy) tick.faults = tick.faults | Fault::device;
-  const bool trouble = tick.faults != Fault::none;
+  const SafetyLayer::Admitted admitted = safety_.admit(hand, command.safety, command.rearm, tick.dt_s);
+  const HandSample& believed = admitted.hand;
+  if (admitted.relocated) proxy_.release();
+  tick.faults = admitted.faults;
+  tick.state = admitted.state;
 
   // Bone comes back before anyone looks at it.
   const double returned_mm3 = undoing_.giveBack(bone_, command.undo_serial, command.tool, X_PQ_);
@@ -50,8 +49,8 @@ Tick Servo::step(const HandSample& hand, const Command& wanted, double dt_s) noe
 
   // The pedal turns the bur. A foot that cannot be believed is still where it was.
   const bool foot = believed.drill_pedal && command.drill_enabled;
-  tick.rest = undoing_.restUnder(foot || trouble);
-  tick.drilling = foot && !trouble && tick.rest == Rest::none;
+  tick.rest = undoing_.restUnder(foot || !admitted.mayDrill());
+  tick.drilling = foot && admitted.mayDrill() && tick.rest == Rest::none;
   cutting_.turn(command.spindle, tick.drilling, tick.dt_s);
   tick.spindle_rad_per_s = cutting_.spindle().rad_per_s;
 
@@ -74,14 +73,14 @@ Tick Servo::step(const HandSample& hand, const Command& wanted, double dt_s) noe
   tick.law_torque_P_Nmm = held.torque_P_Nmm();
   Delivery::Wanted wish{{tick.law_force_P_N, tick.law_torque_P_Nmm}, held.head.vibration_P_N, held.mostStored_Nmm()};
   wish.switched = command.serial != last_serial_ || caught != was_caught_;
-  wish.relocated = checked.relocated;
-  wish.ramp_down = trouble;
+  wish.relocated = admitted.relocated;
+  wish.touches = held.touches();
   last_serial_ = command.serial;
   was_caught_ = caught;
-  const SafetyFilter::Served served = delivery_.give(wish, believed, command.safety, tick.dt_s);
+  const SafetyFilter::Served served = delivery_.give(wish, believed, safety_, command.safety, tick.dt_s);
   tick.served_force_P_N = served.wrench_P.force_N;
   tick.served_torque_P_Nmm = served.wrench_P.torque_Nmm;
-  tick.energy_Nmm = delivery_.energy_Nmm();
+  tick.energy_Nmm = safety_.energy_Nmm();
   tick.faults = tick.faults | served.faults;
 
   // The bur cuts where it is felt.

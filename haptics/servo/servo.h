@@ -4,7 +4,7 @@
 #pragma once
 
 #include "haptics/bone/carved_bone.h"
-#include "haptics/safety/hand_guard.h"
+#include "haptics/safety/safety_layer.h"
 #include "haptics/servo/command.h"
 #include "haptics/servo/cutting.h"
 #include "haptics/servo/delivery.h"
@@ -28,7 +28,7 @@ class Servo {
 
  private:
   CarvedBone& bone_;
-  HandGuard guard_;
+  SafetyLayer safety_;
   Proxy proxy_;
   Cutting cutting_;
   Delivery delivery_;

@@ -6,6 +6,7 @@
 
 #include "haptics/safety/fault.h"
 #include "haptics/safety/hand_sample.h"
+#include "haptics/safety/readiness.h"
 #include "haptics/servo/rest.h"
 
 namespace haptics {
@@ -29,8 +30,9 @@ struct Tick {
   std::uint64_t bone_digest = 0;                                  ///< after this tick
   std::uint8_t contact_tissue = 0;                                ///< label with the largest overlap
   bool drilling = false;
-  Rest rest = Rest::none;    ///< why not
-  std::uint8_t strokes = 0;  ///< that can be taken back
+  Rest rest = Rest::none;                ///< why not
+  std::uint8_t strokes = 0;              ///< that can be taken back
+  SafetyState state = SafetyState::off;  ///< there is force in `active` alone
   Fault faults = Fault::none;
   float work_us = 0.0f;  ///< CPU time of the step, for statistics; not replayed
 };

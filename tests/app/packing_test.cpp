@@ -15,6 +15,7 @@ namespace {
 TEST(Packing, BringsEveryFieldOfATickBackBitForBit) {
   haptics::Tick tick = test::imaginedTick(123456789012ULL, 77);
   tick.faults = haptics::Fault::device | haptics::Fault::bad_force;
+  tick.state = haptics::SafetyState::armed;
   tick.hand.device_healthy = false;
   tick.rest = haptics::Rest::caught;
   tick.strokes = 31;
@@ -58,6 +59,7 @@ TEST(Packing, BringsEveryFieldOfATickBackBitForBit) {
   EXPECT_EQ(b.drilling, tick.drilling);
   EXPECT_EQ(b.rest, tick.rest);
   EXPECT_EQ(b.strokes, tick.strokes);
+  EXPECT_EQ(b.state, haptics::SafetyState::armed);
   EXPECT_EQ(b.faults, tick.faults);
   EXPECT_EQ(b.work_us, tick.work_us);
   EXPECT_EQ(back[1].index, 7u);
@@ -86,7 +88,10 @@ TEST(Packing, BringsACommandBack) {
   command.law.damping_Ns_per_mm = 0.002;
   command.erosion.time.removal_rate_per_s = 3.5;
   command.erosion.tissue_factor[4] = 0.123;
-  command.safety = {2.9, 250.0, 60.0, 4000.0, 7.0};
+  command.safety = {2.9, 250.0, 60.0, 4000.0, 7.0, 0.004, 0.9, {1.0, 2.0, 3.0}, 2000.0, 90.0, true, {}};
+  command.safety.thresholds.let_go_s = 0.06;
+  command.safety.thresholds.share_of_hottest = 0.2;
+  command.rearm = 5;
   EXPECT_EQ(packCommand(unpackCommand(packCommand(command))), packCommand(command));
   const haptics::Command back = unpackCommand(packCommand(command));
   EXPECT_EQ(back.serial, 9u);
@@ -100,6 +105,12 @@ TEST(Packing, BringsACommandBack) {
   EXPECT_EQ(back.safety.peak_torque_Nmm, 60.0);
   EXPECT_EQ(back.safety.slew_Nmm_per_s, 4000.0);
   EXPECT_EQ(back.safety.most_stiffness_N_per_mm, 7.0);
+  EXPECT_EQ(back.safety.continuous_force_N, 0.9);
+  EXPECT_EQ(back.safety.peak_joint_torque_Nmm, glm::dvec3(1.0, 2.0, 3.0));
+  EXPECT_TRUE(back.safety.must_be_armed);
+  EXPECT_EQ(back.safety.thresholds.let_go_s, 0.06);
+  EXPECT_EQ(back.safety.thresholds.share_of_hottest, 0.2);
+  EXPECT_EQ(back.rearm, 5u);
 }
 
 TEST(Packing, RefusesBytesOfAnotherLength) {

@@ -188,6 +188,7 @@ TEST(Replay, NoticesEveryQuantityOfATick) {
   EXPECT_EQ(changed([](Tick& t) { t.rest = haptics::Rest::caught; }), 10u);
   EXPECT_EQ(changed([](Tick& t) { ++t.strokes; }), 10u);
   EXPECT_EQ(changed([](Tick& t) { t.faults = t.faults | haptics::Fault::device; }), 10u);
+  EXPECT_EQ(changed([](Tick& t) { t.state = haptics::SafetyState::ready; }), 10u);
   EXPECT_EQ(changed([](Tick& t) { t.command_serial = 9; }), 10u);
 }
 

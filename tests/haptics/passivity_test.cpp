@@ -31,7 +31,7 @@ TEST(Passivity, LeavesASpringExactlyAloneHoweverTheHandGoes) {
     const Wrench<Patient> wanted = force(-0.8 * place);
     const auto given = passivity.allow(wanted, by(travel), 300.0, 1e-3);
     ASSERT_EQ(given.force_N.xyz, wanted.force_N.xyz) << tick;
-    passivity.enter(given, by(travel), kPlenty);
+    passivity.enter(given, by(travel), kPlenty, 1e-3);
     ASSERT_NEAR(passivity.energy_Nmm(), 0.4 * glm::dot(place, place), 1e-9);
   }
 }
@@ -51,7 +51,7 @@ TEST(Passivity, WithholdsOnlyAlongTheMotionAndNeverPushesBack) {
     if (glm::length(withheld) > 0.0) {
       ASSERT_GE(glm::dot(given.force_N.xyz, along), -1e-12);
     }
-    passivity.enter(given, by(travel), 0.3);
+    passivity.enter(given, by(travel), 0.3, 1e-3);
   }
 }
 
@@ -63,7 +63,7 @@ TEST(Passivity, StopsAForceThatOnlyEverGives) {
     for (int tick = 0; tick < 4000; ++tick) {
       const Passivity::Motion motion = by({speed_mm_per_s * 1e-3, 0.0, 0.0});
       const auto given = passivity.allow(force({1.0, 0.0, 0.0}), motion, 300.0, 1e-3);
-      passivity.enter(given, motion, kPlenty);
+      passivity.enter(given, motion, kPlenty, 1e-3);
       out_Nmm += 0.5 * (last_N + given.force_N.xyz.x) * motion.travel_P_mm.xyz.x;
       last_N = given.force_N.xyz.x;
     }
@@ -83,7 +83,7 @@ TEST(Passivity, ComesDownAtTheSlewLimitAndInTime) {
       if (last_N > given.force_N.xyz.x) {
         EXPECT_LE(last_N - given.force_N.xyz.x, 300.0 * dt_s * 1.01 + 0.8 * step_mm);
       }
-      passivity.enter(given, by({travel, 0.0, 0.0}), kPlenty);
+      passivity.enter(given, by({travel, 0.0, 0.0}), kPlenty, dt_s);
       last_N = given.force_N.xyz.x;
     };
     for (; h < 1.0; h += step_mm) move(-step_mm, 0.5 * h);
@@ -94,9 +94,9 @@ TEST(Passivity, ComesDownAtTheSlewLimitAndInTime) {
 
 TEST(Passivity, GivesNoCreditForWhatWasDissipated) {
   Passivity passivity;
-  for (int tick = 0; tick < 1000; ++tick) passivity.enter(force({-1.0, 0.0, 0.0}), by({0.05, 0.0, 0.0}), 0.2);
+  for (int tick = 0; tick < 1000; ++tick) passivity.enter(force({-1.0, 0.0, 0.0}), by({0.05, 0.0, 0.0}), 0.2, 1e-3);
   EXPECT_NEAR(passivity.energy_Nmm(), 0.2, 1e-12);
-  passivity.enter(force({0.0, 0.0, 0.0}), by({0.0, 0.0, 0.0}), 0.0);
+  passivity.enter(force({0.0, 0.0, 0.0}), by({0.0, 0.0, 0.0}), 0.0, 1e-3);
   EXPECT_EQ(passivity.energy_Nmm(), 0.0);
 }
 
@@ -107,7 +107,7 @@ TEST(Passivity, CountsTurningToo) {
   double last_Nmm = 0.0;
   for (int tick = 0; tick < 2000; ++tick) {
     const auto given = engine.allow({{}, {{0.0, 30.0, 0.0}}}, turn, 300.0, 1e-3);
-    engine.enter(given, turn, kPlenty);
+    engine.enter(given, turn, kPlenty, 1e-3);
     last_Nmm = given.torque_Nmm.xyz.y;
   }
   EXPECT_LT(last_Nmm, 0.5);
@@ -117,7 +117,7 @@ TEST(Passivity, CountsTurningToo) {
     const Wrench<Patient> wanted{{}, {{0.0, -50.0 * angle, 0.0}}};
     const auto given = spring.allow(wanted, motion, 300.0, 1e-3);
     ASSERT_EQ(given.torque_Nmm.xyz, wanted.torque_Nmm.xyz);
-    spring.enter(given, motion, kPlenty);
+    spring.enter(given, motion, kPlenty, 1e-3);
   }
 }
 

@@ -1,0 +1,107 @@
+#include "haptics/safety/safety_layer.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace haptics {
+namespace {
+
+using calibration::Patient;
+
+Fault when(bool so, Fault one) { return so ? one : Fault::none; }
+
+/// Shortened to `most`.
+glm::dvec3 within(const glm::dvec3& v, double most) {
+  const double length = glm::length(v);
+  return length > most ? v * (most / length) : v;
+}
+
+}  // namespace
+
+bool SafetyLayer::Admitted::mayDrill() const {
+  return state == SafetyState::active &&
+         !has(faults, Fault::bad_pose | Fault::device | Fault::stale | Fault::let_go | Fault::too_fast);
+}
+
+SafetyLayer::Admitted SafetyLayer::admit(const HandSample& sample, const SafetyLimits& limits, std::uint64_t rearm,
+                                         double dt_s) noexcept {
+  const HandGuard::Checked checked = guard_.check(sample, limits, dt_s);
+  const HandSample& hand = checked.hand;
+  const double elapsed_s = std::isfinite(hand.gap_s) ? std::max(dt_s, hand.gap_s) : dt_s;
+  doubt_ = checked.share;
+  staleness_now_ = staleness_.follow(hand.fresh, limits.thresholds, elapsed_s);
+
+  Readiness::Seen seen;
+  seen.stop_asked = hand.stop_asked;
+  seen.trouble = checked.lost || staleness_now_.overdue || buzzed_off_ || !hand.device_healthy;
+  seen.calibrated = hand.calibrated;
+  seen.docked = hand.docked;
+  seen.held = hand.held;
+  seen.resumed = checked.resumed;
+  seen.touches = touches_;
+  seen.speed_mm_per_s = glm::length(hand.velocity_P_mm_per_s.xyz);
+  seen.rearm = rearm;
+
+  admitted_.hand = hand;
+  admitted_.relocated = checked.relocated;
+  admitted_.state = readiness_.follow(seen, limits, dt_s);
+  const bool latched = admitted_.state == SafetyState::fault && limits.must_be_armed;
+  admitted_.faults = when(checked.refused, Fault::bad_pose) | when(!hand.device_healthy, Fault::device) |
+                     when(staleness_now_.holds, Fault::stale) |
+                     when(checked.resumed && limits.must_be_armed, Fault::resumed) |
+                     when(readiness_.isLettingGo(), Fault::let_go) | when(latched, Fault::latched) |
+                     when(admitted_.state == SafetyState::off, Fault::stopped);
+  return admitted_;
+}
+
+SafetyFilter::Served SafetyLayer::serve(const Wanted& wanted, const SafetyLimits& limits, double dt_s) noexcept {
+  touches_ = wanted.touches;
+  const HandSample& hand = admitted_.hand;
+  const bool active = admitted_.state == SafetyState::active;
+
+  // Soft start, of what the peak would let through; then the brake, then the books.
+  const double soft = soft_start_.follow(active, readiness_.isLettingGo(), limits, dt_s);
+  const VelocityGuard::Verdict speed = velocity_guard_.follow(hand.velocity_P_mm_per_s.xyz, limits, dt_s);
+  Wrench<Patient> wrench{{soft * within(wanted.wrench_P.force_N.xyz, limits.peak_force_N)},
+                         {soft * within(wanted.wrench_P.torque_Nmm.xyz, limits.peak_torque_Nmm)}};
+  wrench.force_N.xyz += soft * speed.brake_N;
+  wrench = passivity_.allow(wrench, wanted.motion, limits.slew_N_per_s, dt_s);
+
+  // From here on the force only gets less.
+  const BuzzDetector::Verdict buzz = buzz_.follow(hand.velocity_P_mm_per_s.xyz, limits.thresholds, dt_s);
+  buzzed_off_ = buzz.off;
+  const double cool = shareAtHeat(hand.motor_heat, limits.thresholds);
+  const double share = active && !speed.cuts && !buzz.off ? doubt_ * buzz.share * cool : 0.0;
+  const Wrench<Patient> tremble{soft * wanted.tremble_P_N, {}};
+  wrench = share * (wrench + tremble);
+  if (staleness_now_.holds) wrench = (active ? staleness_now_.share * share : 0.0) * held_P_;
+
+  SafetyLimits now = limits;
+  const double in_books_N = passivity_.mostForce_N(wanted.motion, dt_s);
+  const double lasting_N = budget_.mostForce_N(limits.continuous_force_N);
+  const double asked_N = glm::length(wrench.force_N.xyz);
+  now.peak_force_N = std::min({limits.peak_force_N, in_books_N, lasting_N});
+  now.peak_torque_Nmm = std::min(limits.peak_torque_Nmm, Passivity::kLever_mm * in_books_N);
+  const bool overdrawn = passivity_.isOverdrawn(wanted.motion);
+  const bool tripped = soft < 1.0 || share < 1.0 || staleness_now_.holds || overdrawn;
+  const auto fall = tripped ? SafetyFilter::Fall::at_once : SafetyFilter::Fall::at_slew;
+  SafetyFilter::Served served = filter_.serve(wrench, now, fall, dt_s, hand.jacobian_P_mm);
+
+  const bool beyond = !(glm::length(wanted.wrench_P.force_N.xyz) <= limits.peak_force_N);
+  served.faults = served.faults | when(active && beyond, Fault::clamped) | when(active && cool < 1.0, Fault::hot) |
+                  when(asked_N > lasting_N && lasting_N < limits.peak_force_N, Fault::hot) |
+                  when(overdrawn, Fault::overdrawn) | when(speed.cuts, Fault::too_fast) |
+                  when(glm::length(speed.brake_N) > 0.0, Fault::braked) | when(buzz.share < 1.0, Fault::buzz);
+
+  // The books get what was given, but for as much of the tremble as came through.
+  const double served_N = glm::length(served.wrench_P.force_N.xyz);
+  Wrench<Patient> entered = served.wrench_P;
+  if (asked_N > 0.0 && std::isfinite(asked_N) && !staleness_now_.holds)
+    entered = entered - share * std::min(1.0, served_N / asked_N) * tremble;
+  passivity_.enter(entered, wanted.motion, wanted.most_stored_Nmm, dt_s);
+  budget_.spend(served_N, limits.continuous_force_N, dt_s);
+  if (!staleness_now_.holds) held_P_ = served.wrench_P;
+  return served;
+}
+
+}  // namespace haptics
