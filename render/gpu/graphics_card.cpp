@@ -10,7 +10,9 @@ namespace render {
 
 GraphicsCard currentGraphicsCard() {
   const GLubyte* const name = glGetString(GL_RENDERER);
-  GraphicsCard card{name != nullptr ? reinterpret_cast<const char*>(name) : "unknown"};
+  const GLubyte* const version = glGetString(GL_VERSION);
+  GraphicsCard card{name != nullptr ? reinterpret_cast<const char*>(name) : "unknown",
+                    version != nullptr ? reinterpret_cast<const char*>(version) : "unknown"};
   constexpr std::array<std::string_view, 5> kPrograms{"llvmpipe", "softpipe", "swrast", "Software Rasterizer",
                                                       "SwiftShader"};
   card.is_software = std::ranges::any_of(

@@ -1,0 +1,28 @@
+#include "app/doctor/checks.h"
+#include "haptics/device/openhaptics/hd_library.h"
+
+namespace app {
+
+std::vector<Finding> examine(const Machine& machine) {
+  // Punctuality first, while nothing of ours works in the background.
+  const Finding wake_up = checkWakeUps(measureWakeUps());
+  const ScreenFacts screens = lookAtScreens();
+  return {
+      checkGraphics(lookAtGraphics()),
+      checkScreens(screens),
+      checkStereo(screens),
+      checkSound(machine),
+      checkPedal(machine),
+      checkPermissions(machine),
+      checkModemManager(machine),
+      checkVendorLibrary(machine, haptics::HdLibrary::whyUnavailable()),
+      checkClock(machine, clockResolution_ns()),
+      wake_up,
+      checkPriorityLimit(machine),
+      checkMemoryLimit(machine),
+      checkProcessors(machine),
+      checkDisk(machine.sessions, lookAtDisk(machine.sessions)),
+  };
+}
+
+}  // namespace app

@@ -1,0 +1,19 @@
+// The doctor's findings as people read them, aligned and wrapped, and as programs do.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/doctor/finding.h"
+#include "app/page_look.h"
+
+namespace app {
+
+/// How many of them say that something needed is missing.
+int missingAmong(const std::vector<Finding>& findings);
+
+std::string asText(const std::vector<Finding>& findings, const PageLook& look);
+/// {"checks": [{"id", "state", "sentence", "next_step"}], "missing": n}
+std::string asJson(const std::vector<Finding>& findings);
+
+}  // namespace app
