@@ -44,6 +44,7 @@ TEST(Inkwell, BelievesWhatWasSetUntilTheHandShowsOtherwise) {
 TEST(Inkwell, LearnsNothingFromJumpsAndPlacesThatAreNotSure) {
   Inkwell inkwell;
   EXPECT_TRUE(travel(inkwell, false, 0.0, 300.0, false));
+  EXPECT_TRUE(inkwell.isDocked(false, {0.0, 300.0, 0.0}, true));
   for (int i = 0; i < 100; ++i) EXPECT_TRUE(inkwell.isDocked(true, {i % 2 ? 90.0 : 0.0, 0.0, 0.0}, true));
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (int i = 0; i < 100; ++i) EXPECT_TRUE(inkwell.isDocked(true, {nan, i * 1.0, 0.0}, true));

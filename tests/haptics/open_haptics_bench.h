@@ -32,6 +32,7 @@ class Pusher final : public DeviceServo {
     if (ticks == slow_at_tick) std::this_thread::sleep_for(std::chrono::milliseconds(slow_ms));
     for (held_up = ticks == hold_at_tick; held_up && ticks == hold_at_tick;)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    held_up = false;
     fastest_mm_per_s = std::max(fastest_mm_per_s.load(), state.velocity_D_mm_per_s.xyz.x);
     if (ticks == 100) allocations_at_100 = allocation_count::now();
     if (ticks == 500) allocations_at_500 = allocation_count::now();
