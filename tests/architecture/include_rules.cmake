@@ -46,7 +46,7 @@ set(third_parties
   "epoxy/" "render"
   "CLI/|spdlog/|fmt/|imgui|backends/imgui|SQLiteCpp/|sqlite3|zstd|openssl/|portaudio|sndfile" "app")
 set(operating_system
-  "^(sys/[a-z]+|linux/[a-z-]+|unistd|fcntl|pthread|sched|signal|spawn|time|poll|dlfcn|link|termios|immintrin|x86intrin)\\.h$")
+  "^(sys/[a-z]+|linux/[a-z-]+|unistd|fcntl|pthread|pwd|sched|signal|spawn|time|poll|dlfcn|link|termios|immintrin|x86intrin)\\.h$")
 
 set(violations 0)
 macro(violation text)
