@@ -49,6 +49,8 @@ struct Frame {
   double bur_length_mm = 0.0;
   double bur_angle_rad = 0.0;  ///< the bur turns while it drills
   bool tool_visible = true;
+  calibration::Pose<calibration::Patient, calibration::OtherTool> X_PO;  ///< what the other hand holds
+  bool second_visible = false;
   double face_window_mm = 0.0;  ///< the face is cut away within this distance of the line eye-to-site; 0: never
   calibration::Point<calibration::Patient> site_P;
 };

@@ -47,6 +47,9 @@ FrameRenderer::~FrameRenderer() = default;
 void FrameRenderer::setFace(const assets::MeshModel& face_P) { scene_->setFace(face_P); }
 void FrameRenderer::setGum(const assets::MeshModel& gum_P) { scene_->setGum(gum_P); }
 void FrameRenderer::setInstrument(const assets::MeshModel& instrument_T) { scene_->setInstrument(instrument_T); }
+void FrameRenderer::setSecondInstrument(const assets::MeshModel& instrument_O) {
+  scene_->setSecondInstrument(instrument_O);
+}
 
 void FrameRenderer::setGuides(const Guides& guides) { scene_->setGuides(guides); }
 

@@ -1,4 +1,4 @@
-// Draws frames: jaw, face, gum and instrument for each eye, then the picture for the display. The one door to this
+// Draws frames: jaw, face, gum and instruments for each eye, then the picture for the display. The one door to this
 // folder. But for Backend::cpu it needs a current OpenGL 4.5 context (OffscreenContext or Window) that outlives it.
 // Render thread only. Linear light throughout, sRGB once, when the display's picture is composed.
 // Bricks given before render() are in both eyes of that very frame. Reading back waits for the GPU.
@@ -31,10 +31,11 @@ class FrameRenderer {
                 std::span<const std::uint8_t> label, RenderOptions options = {});
   ~FrameRenderer();
 
-  /// Empty models remove what was drawn. Face and gum in P; the instrument in T.
+  /// Empty models remove what was drawn. Face and gum in P; the instrument in T, what the other hand holds in O.
   void setFace(const assets::MeshModel& face_P);
   void setGum(const assets::MeshModel& gum_P);
   void setInstrument(const assets::MeshModel& instrument_T);
+  void setSecondInstrument(const assets::MeshModel& instrument_O);
   /// Canal and planned cut, shown as Frame::layers says.
   void setGuides(const Guides& guides);
   /// Grey values and canal for the CT slices, as scanned. Throws GpuError if they do not fit the volume.

@@ -82,6 +82,9 @@ class GlSceneRenderer final : public SceneRenderer {
   void setInstrument(const assets::MeshModel& instrument_T) override {
     instrument_ = onGpu(instrument_T, Finish::instrument);
   }
+  void setSecondInstrument(const assets::MeshModel& instrument_O) override {
+    second_instrument_ = onGpu(instrument_O, Finish::instrument);
+  }
   void setGuides(const Guides& guides) override {
     canal_ = onGpu(canalTube(guides.canal_P_mm, guides.canal_radius_mm), Finish::guide);
     const GuideField field(fields_.grid(), guides);
@@ -126,7 +129,7 @@ class GlSceneRenderer final : public SceneRenderer {
     MeshPass::Placement placement;
   };
   struct PlacedMeshes {
-    std::vector<Placed> outside;  ///< face and instrument
+    std::vector<Placed> outside;  ///< face and instruments
     std::vector<Placed> inside;   ///< gum and the open canal
     std::vector<Placed> through;  ///< guides that are seen through bone and gum, behind nothing outside
     bool anyTransparent() const;
@@ -145,7 +148,7 @@ class GlSceneRenderer final : public SceneRenderer {
   Program background_{"screen.vert", "background.frag"};
   UniformBlock<EyeBlock> eye_block_;
   StereoCompositor compositor_;
-  std::optional<SceneMesh> face_, gum_, instrument_, canal_;
+  std::optional<SceneMesh> face_, gum_, instrument_, second_instrument_, canal_;
   Texture guides_;
   EdgePass edges_;
   InsetPass inset_pass_;
@@ -225,6 +228,9 @@ GlSceneRenderer::PlacedMeshes GlSceneRenderer::meshesOf(const Frame& frame, bool
     meshes.outside.push_back(
         {&*instrument_,
          {.P_from_mesh = frame.X_PT.matrix(), .bur_angle_rad = frame.bur_angle_rad, .view_is_mirrored = mirrored}});
+  if (second_instrument_ && frame.second_visible)
+    meshes.outside.push_back(
+        {&*second_instrument_, {.P_from_mesh = frame.X_PO.matrix(), .view_is_mirrored = mirrored}});
   if (gum_ && layers.gum) meshes.inside.push_back({&*gum_, {.view_is_mirrored = mirrored}});
 
   // Guides: the canal where it is open, and faintly where it is not; the hand where the bone holds the tool.

@@ -37,6 +37,7 @@ class SceneRenderer {
   virtual void setFace(const assets::MeshModel& face_P) = 0;
   virtual void setGum(const assets::MeshModel& gum_P) = 0;
   virtual void setInstrument(const assets::MeshModel& instrument_T) = 0;
+  virtual void setSecondInstrument(const assets::MeshModel& instrument_O) = 0;
   virtual void setGuides(const Guides& guides) = 0;
   virtual void updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, Occupancy::kBrickValues> solid) = 0;
 

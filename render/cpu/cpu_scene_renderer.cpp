@@ -105,6 +105,9 @@ class CpuSceneRenderer final : public SceneRenderer {
     meshes_.setModel(MeshScene::Model::instrument, instrument_T);
     meshes_.setModel(MeshScene::Model::ghost, instrument_T);
   }
+  void setSecondInstrument(const assets::MeshModel& instrument_O) override {
+    meshes_.setModel(MeshScene::Model::second_instrument, instrument_O);
+  }
   void setGuides(const Guides& guides) override;
   void updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, Occupancy::kBrickValues> solid) override {
     fields_.updateBrick(brick, solid);
@@ -182,6 +185,8 @@ void CpuSceneRenderer::prepare(const Frame& frame) {
                    .bur_angle_rad = frame.bur_angle_rad,
                    .tool_visible = frame.tool_visible,
                    .gum_visible = frame.layers.gum,
+                   .P_from_second = frame.X_PO.matrix(),
+                   .second_visible = frame.second_visible,
                    .face_opacity = frame.layers.face_opacity,
                    .canal_visible = frame.layers.canal,
                    .P_from_hand = frame.X_PT_at_hand.matrix(),

@@ -210,6 +210,33 @@ TEST(MeshScene, MovesTheInstrumentAndTurnsItsBur) {
   EXPECT_EQ(first(scene, rays({100, 2, 10}, {{0, 0, -1}})).points.count, 0);
 }
 
+TEST(MeshScene, MovesTheSecondInstrumentWithoutForgettingWhatIsStill) {
+  MeshScene scene;
+  scene.setModel(Model::gum, {{sheet(0.0f)}});
+  scene.setModel(Model::instrument, {{sheet(10.0f)}});
+  scene.setModel(Model::second_instrument, {{sheet(20.0f)}});
+  MeshPlacement placement;
+  const std::uint64_t revision = scene.stillRevision();
+  const auto distance = [&] {
+    scene.place(placement);
+    return first(scene, rays({0, 1, 50}, {{0, 0, -1}})).distance_mm[0];
+  };
+  EXPECT_FLOAT_EQ(distance(), 40.0f) << "not seen unless asked for";
+  placement.second_visible = true;
+  EXPECT_FLOAT_EQ(distance(), 30.0f);
+  placement.P_from_second = glm::translate(glm::dmat4(1.0), glm::dvec3(0, 0, -15));
+  EXPECT_FLOAT_EQ(distance(), 40.0f) << "behind the first";
+  placement.P_from_tool = glm::translate(glm::dmat4(1.0), glm::dvec3(0, 0, -8));
+  EXPECT_FLOAT_EQ(distance(), 45.0f) << "before it";
+  placement.tool_visible = false;
+  EXPECT_FLOAT_EQ(distance(), 45.0f);
+  placement.P_from_second = glm::translate(glm::dmat4(1.0), glm::dvec3(40, 0, 0));
+  EXPECT_FLOAT_EQ(distance(), 50.0f) << "aside";
+  EXPECT_EQ(scene.stillRevision(), revision);
+  scene.setModel(Model::second_instrument, {});
+  EXPECT_EQ(first(scene, rays({40, 1, 50}, {{0, 0, -1}})).points.count, 0);
+}
+
 TEST(MeshScene, CollectsLayersFromBackToFrontAsASlowSortDoes) {
   std::mt19937 engine(3);
   std::uniform_real_distribution<float> in(-30.0f, 30.0f);

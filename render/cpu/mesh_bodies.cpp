@@ -1,0 +1,223 @@
+#include "render/cpu/mesh_bodies.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
+#include <string>
+
+#include "render/gpu/gpu_error.h"
+
+namespace render {
+namespace {
+
+using Model = MeshScene::Model;
+
+bool isThrough(Model model) { return model == Model::canal_through || model == Model::ghost; }
+bool isInHand(Model model) { return model == Model::instrument || model == Model::second_instrument; }
+
+MeshBodyPart keptPart(const assets::MeshPart& part, Model model) {
+  MeshBodyPart kept;
+  kept.material = part.material;
+  kept.is_cut = finishOf(model) == Finish::skin && part.material.metallic < 0.5f;
+  kept.normals.assign(part.position_mm.size(), glm::vec4(0.0f, 0.0f, 1.0f, 0.0f));
+  for (std::size_t c = 0; c < std::min(kept.normals.size(), part.normal.size()); ++c)
+    kept.normals[c] = glm::vec4(part.normal[c], 0.0f);
+  kept.colours = part.colour;
+  if (!kept.colours.empty()) kept.colours.resize(part.position_mm.size(), glm::vec4(1.0f));
+  for (std::size_t i = 0; i + 2 < part.triangles.size(); i += 3)
+    kept.triangles.emplace_back(part.triangles[i], part.triangles[i + 1], part.triangles[i + 2]);
+  return kept;
+}
+
+}  // namespace
+
+Finish finishOf(Model model) {
+  switch (model) {
+    case Model::face:
+      return Finish::skin;
+    case Model::gum:
+      return Finish::gum;
+    case Model::canal:
+    case Model::canal_through:
+      return Finish::guide;
+    case Model::instrument:
+    case Model::second_instrument:
+    case Model::ghost:
+      break;
+  }
+  return Finish::instrument;
+}
+
+MeshBodies::MeshBodies() : device_(rtcNewDevice(nullptr)) {
+  if (device_ == nullptr)
+    throw GpuError("no ray tracing of meshes, Embree: this processor or its memory will not do; use --renderer gl");
+  for (RTCScene* scene : {&still_, &moving_, &transparent_, &through_, &covers_}) {
+    *scene = rtcNewScene(device_);
+    rtcSetSceneFlags(*scene, RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+    rtcSetSceneBuildQuality(*scene, RTC_BUILD_QUALITY_LOW);
+    rtcCommitScene(*scene);
+  }
+  complain();
+}
+
+MeshBodies::~MeshBodies() {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) remove(i);
+  for (RTCScene scene : {still_, moving_, transparent_, through_, covers_}) rtcReleaseScene(scene);
+  rtcReleaseDevice(device_);
+}
+
+void MeshBodies::complain() const {
+  if (const RTCError error = rtcGetDeviceError(device_); error != RTC_ERROR_NONE)
+    throw GpuError("meshes for the CPU, Embree: error " + std::to_string(error) +
+                   (error == RTC_ERROR_OUT_OF_MEMORY ? ", out of memory; use a smaller model" : "; use --renderer gl"));
+}
+
+void MeshBodies::show(std::size_t index, RTCScene in) {
+  MeshBody& body = bodies_[index];
+  if (body.shown_in == in) return;
+  if (body.shown_in == still_ || in == still_) ++still_revision_;
+  if (body.shown_in != nullptr) rtcDetachGeometry(body.shown_in, static_cast<unsigned>(index));
+  if (in != nullptr) rtcAttachGeometryByID(in, body.instance, static_cast<unsigned>(index));
+  body.shown_in = in;
+}
+
+void MeshBodies::cover(std::size_t index, bool covers_guides) {
+  MeshBody& body = bodies_[index];
+  if (body.covers == covers_guides) return;
+  if (covers_guides)
+    rtcAttachGeometryByID(covers_, body.instance, static_cast<unsigned>(index));
+  else
+    rtcDetachGeometry(covers_, static_cast<unsigned>(index));
+  body.covers = covers_guides;
+}
+
+void MeshBodies::move(MeshBody& body, const glm::dmat4& P_from_mesh) {
+  const glm::mat4 pose(P_from_mesh);
+  body.is_held = true;
+  body.P_from_mesh = glm::mat3(pose);
+  body.pose = glm::mat4x3(pose);
+  rtcSetGeometryTransform(body.instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &body.pose);
+  rtcCommitGeometry(body.instance);
+}
+
+// Bodies keep their places in the list, which are their numbers in the upper scenes; an emptied one is used again.
+void MeshBodies::remove(std::size_t index) {
+  MeshBody& body = bodies_[index];
+  if (body.scene == nullptr) return;
+  show(index, nullptr);
+  cover(index, false);
+  rtcReleaseGeometry(body.instance);
+  rtcReleaseScene(body.scene);
+  body = MeshBody{};
+}
+
+float MeshBodies::opacityOf(const MeshBody& body) const {
+  switch (body.model) {
+    case Model::face:
+      return placement_.face_opacity;
+    case Model::gum:
+      return placement_.gum_visible ? 1.0f : 0.0f;
+    case Model::instrument:
+      return placement_.tool_visible ? 1.0f : 0.0f;
+    case Model::second_instrument:
+      return placement_.second_visible ? 1.0f : 0.0f;
+    case Model::canal:
+      return placement_.canal_visible ? 1.0f : 0.0f;
+    case Model::canal_through:
+      return placement_.canal_visible ? placement_.canal_through_opacity : 0.0f;
+    case Model::ghost:
+      return placement_.ghost_opacity;
+  }
+  return 0.0f;
+}
+
+RTCScene MeshBodies::sceneOf(const std::vector<const assets::MeshPart*>& from, MeshBody& body) {
+  RTCScene scene = rtcNewScene(device_);
+  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+  for (const assets::MeshPart* part : from) {
+    RTCGeometry triangles = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* const place = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
+        triangles, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), part->position_mm.size()));
+    auto* const index = static_cast<glm::uvec3*>(rtcSetNewGeometryBuffer(
+        triangles, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), part->triangles.size() / 3));
+    complain();
+    std::ranges::copy(part->position_mm, place);
+    const MeshBodyPart& kept = body.parts.emplace_back(keptPart(*part, body.model));
+    std::ranges::copy(kept.triangles, index);
+
+    const MeshTrait trait = kept.is_cut                             ? MeshTrait::cuttable
+                            : finishOf(body.model) == Finish::guide ? MeshTrait::outside_only
+                                                                    : MeshTrait::plain;
+    rtcSetGeometryUserData(triangles, reinterpret_cast<void*>(trait));
+    rtcCommitGeometry(triangles);
+    rtcAttachGeometry(scene, triangles);
+    rtcReleaseGeometry(triangles);
+  }
+  rtcCommitScene(scene);
+  RTCBounds bounds;
+  rtcGetSceneBounds(scene, &bounds);
+  body.low = {bounds.lower_x, bounds.lower_y, bounds.lower_z};
+  body.high = {bounds.upper_x, bounds.upper_y, bounds.upper_z};
+  complain();
+  return scene;
+}
+
+void MeshBodies::setModel(Model model, const assets::MeshModel& mesh) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    if (bodies_[i].model == model) remove(i);
+
+  // Parts that move and are seen alike share a body.
+  for (const bool turns : {false, true})
+    for (const bool transparent : {false, true}) {
+      std::vector<const assets::MeshPart*> alike;
+      for (const assets::MeshPart& part : mesh.parts)
+        if (!part.triangles.empty() && (part.name == "Bur") == turns &&
+            (part.material.base_colour.a < 1.0f) == transparent)
+          alike.push_back(&part);
+      if (alike.empty()) continue;
+      auto at = std::ranges::find_if(bodies_, [](const MeshBody& body) { return body.scene == nullptr; });
+      if (at == bodies_.end()) at = bodies_.insert(at, MeshBody{});
+      at->model = model;
+      at->turns = turns;
+      at->transparent = transparent;
+      at->scene = sceneOf(alike, *at);
+      at->instance = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
+      rtcSetGeometryInstancedScene(at->instance, at->scene);
+      rtcSetGeometryTimeStepCount(at->instance, 1);
+      rtcSetGeometryTransform(at->instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &at->pose);
+      rtcCommitGeometry(at->instance);
+    }
+  place(placement_);
+}
+
+void MeshBodies::place(const MeshPlacement& placement) {
+  if (placement.window_mm != placement_.window_mm || placement.window_eye_P != placement_.window_eye_P ||
+      placement.window_site_P != placement_.window_site_P)
+    ++still_revision_;
+  placement_ = placement;
+  has_still_ = has_moving_ = has_transparent_ = has_through_ = false;
+  const bool guided = placement.canal_visible || placement.ghost_opacity > 0.0f;
+  const glm::dmat4 turned = glm::rotate(glm::dmat4(1.0), placement.bur_angle_rad, glm::dvec3(0.0, 0.0, 1.0));
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    MeshBody& body = bodies_[i];
+    if (body.scene == nullptr) continue;
+    const bool is_through = isThrough(body.model), is_in_hand = isInHand(body.model);
+    const float opacity = opacityOf(body);
+    const bool visible = opacity > 0.0f, is_clear = body.transparent || opacity < 1.0f;
+    RTCScene in = is_through ? through_ : is_clear ? transparent_ : is_in_hand ? moving_ : still_;
+    show(i, visible ? in : nullptr);
+    cover(i, guided && visible && !is_clear && (is_in_hand || body.model == Model::face));
+    if (visible)
+      (is_through ? has_through_ : is_clear ? has_transparent_ : is_in_hand ? has_moving_ : has_still_) = true;
+
+    if (body.model == Model::second_instrument) move(body, placement.P_from_second);
+    if (body.model != Model::instrument && body.model != Model::ghost) continue;
+    const glm::dmat4& held = body.model == Model::instrument ? placement.P_from_tool : placement.P_from_hand;
+    move(body, body.turns ? held * turned : held);
+  }
+  for (RTCScene scene : {still_, moving_, transparent_, through_, covers_}) rtcCommitScene(scene);
+  complain();
+}
+
+}  // namespace render

@@ -1,0 +1,95 @@
+// The models of a MeshScene in Embree: what shares pose and visibility is a body, a scene of its own with an instance
+// in one of five upper scenes, by how it is seen. Frame P, mm. As MeshScene: set and place on one thread, then any may
+// read.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "assets/mesh.h"
+#include "render/cpu/mesh_scene.h"
+#include "render/scene/finish.h"
+
+// Embree's, whose own header stays in .cpp files.
+struct RTCDeviceTy;
+struct RTCSceneTy;
+struct RTCGeometryTy;
+
+namespace render {
+
+struct MeshBodyPart {
+  std::vector<glm::vec4> normals, colours;  ///< of the corners; no colours: white
+  std::vector<glm::uvec3> triangles;
+  assets::Material material;
+  bool is_cut = false;
+};
+
+/// Parts that move alike and are seen alike.
+struct MeshBody {
+  MeshScene::Model model = MeshScene::Model::face;
+  bool turns = false, transparent = false;
+  bool is_held = false;             ///< its pose is not the identity
+  glm::vec3 low{0.0f}, high{0.0f};  ///< its box, in its own frame
+  std::vector<MeshBodyPart> parts;
+  RTCSceneTy* scene = nullptr;  ///< null: the place is free
+  RTCGeometryTy* instance = nullptr;
+  RTCSceneTy* shown_in = nullptr;  ///< the upper scene that holds the instance now
+  bool covers = false;             ///< … and `covers` too
+  glm::mat3 P_from_mesh{1.0f};
+  glm::mat4x3 pose{1.0f};
+};
+
+/// What a geometry tells those who are asked whether a ray meets it, by its user data.
+enum class MeshTrait : std::uintptr_t { plain = 0, cuttable = 1, outside_only = 2 };
+
+class MeshBodies {
+ public:
+  using Model = MeshScene::Model;
+
+  /// Throws GpuError if Embree can not be had.
+  MeshBodies();
+  ~MeshBodies();
+  MeshBodies(const MeshBodies&) = delete;
+  MeshBodies& operator=(const MeshBodies&) = delete;
+
+  void setModel(Model model, const assets::MeshModel& mesh);
+  void place(const MeshPlacement& placement);
+
+  /// By their numbers in the upper scenes; some places may be free.
+  const std::vector<MeshBody>& all() const { return bodies_; }
+  const MeshPlacement& placement() const { return placement_; }
+  /// Of the whole model; 0: it is not shown.
+  float opacityOf(const MeshBody& body) const;
+  std::uint64_t stillRevision() const { return still_revision_; }
+
+  RTCSceneTy* still() const { return still_; }
+  RTCSceneTy* moving() const { return moving_; }
+  RTCSceneTy* transparent() const { return transparent_; }
+  RTCSceneTy* through() const { return through_; }
+  /// Once more what hides the guides that are seen through bone, while there are any.
+  RTCSceneTy* covers() const { return covers_; }
+  bool hasStill() const { return has_still_; }
+  bool hasMoving() const { return has_moving_; }
+  bool hasTransparent() const { return has_transparent_; }
+  bool hasThrough() const { return has_through_; }
+
+ private:
+  void remove(std::size_t index);
+  RTCSceneTy* sceneOf(const std::vector<const assets::MeshPart*>& from, MeshBody& body);
+  void show(std::size_t index, RTCSceneTy* in);
+  void cover(std::size_t index, bool covers_guides);
+  void move(MeshBody& body, const glm::dmat4& P_from_mesh);
+  void complain() const;
+
+  RTCDeviceTy* device_;
+  RTCSceneTy *still_ = nullptr, *moving_ = nullptr, *transparent_ = nullptr, *through_ = nullptr, *covers_ = nullptr;
+  std::vector<MeshBody> bodies_;
+  MeshPlacement placement_;
+  bool has_still_ = false, has_moving_ = false, has_transparent_ = false, has_through_ = false;
+  std::uint64_t still_revision_ = 0;
+};
+
+Finish finishOf(MeshScene::Model model);
+
+}  // namespace render
