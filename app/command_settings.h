@@ -35,7 +35,8 @@ void refuseUnlessHeld(const haptics::Command& command, double device_damping_Ns_
 /// Throws UsageError where lowering does not help.
 haptics::Command loweredUntilHeld(haptics::Command command, double device_damping_Ns_per_mm, double rate_Hz);
 
-/// "[law] stiffness_N_per_mm 0.8 -> 1 N/mm", a line for everything that differs, serial, drill lock, irrigation and undo aside.
+/// "[law] stiffness_N_per_mm 0.8 -> 1 N/mm", a line for everything that differs; serial, drill lock, irrigation and
+/// undo aside.
 std::vector<std::string> changesBetween(const haptics::Command& before, const haptics::Command& after);
 
 /// Damping of a Touch-class device in a light grip (reference/physics 2.5): where no device is known.

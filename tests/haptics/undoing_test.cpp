@@ -217,16 +217,41 @@ TEST(Undoing, PressingThePedalInsideReturnedBoneCutsNothing) {
   EXPECT_EQ(room.tick.rest, Rest::pedal);
 }
 
+TEST(Undoing, StopsTheDrillInTheAirTooWhenAllComesBackAtOnce) {
+  Room room;
+  const std::uint64_t whole = room.bone.digest();
+  room.hand.drill_pedal = true;
+  room.go({0.0, 0.0, 0.9}, 0.1);
+  room.go({0.0, 0.0, 2.5}, 0.1);
+  ASSERT_TRUE(room.tick.drilling);
+  room.undo();
+  room.step();
+  EXPECT_EQ(room.bone.digest(), whole);
+  EXPECT_EQ(room.tick.rest, Rest::pedal);
+  EXPECT_FALSE(room.tick.drilling);
+}
+
 TEST(Undoing, NeverThrowsAHandInsideTheReturningBone) {
   for (const double rate_Hz : {1000.0, 4000.0})
-    for (const bool pressing : {false, true}) {
+    for (const auto& [pressing, late] : {std::pair(false, false), std::pair(true, false), std::pair(true, true)}) {
       Room room;
       room.dt_s = 1.0 / rate_Hz;
       room.command.tool.shaft = {0.6, 12.0};
       room.hand.drill_pedal = true;
       room.go({0.0, 0.0, -1.5}, 1.5);
-      // On the floor of its own pit, with the foot off, resting or pressing on.
+      // On the floor of its own pit, with the foot off, resting or pressing on; the pit may be what comes back last.
+      const double floor_mm = room.tick.proxy_P.mm.z;
+      if (late) {
+        room.go({2.5, 0.0, 0.0}, 0.3);
+        room.go({2.5, 3.0, -1.0}, 0.3);
+        room.go({-2.5, 3.0, -1.0}, 0.5);
+        room.go({-2.5, 3.0, 2.0}, 0.2);
+      }
       room.hand.drill_pedal = false;
+      if (late) {
+        room.go({0.0, 0.0, 2.0}, 0.05);
+        room.go({0.0, 0.0, floor_mm}, 0.1);
+      }
       room.go({0.0, 0.0, room.tick.proxy_P.mm.z - (pressing ? 1.0 : 0.0)}, 0.2);
       room.stay(0.1);
       const double before_N = newton(room.tick);
@@ -236,7 +261,10 @@ TEST(Undoing, NeverThrowsAHandInsideTheReturningBone) {
       ASSERT_LT(room.tick.proxy_P.mm.z, -0.5);
       room.undo();
       const std::size_t from = room.ticks.size();
+      room.step();
+      EXPECT_EQ(room.tick.rest, late ? Rest::undoing : Rest::caught);
       room.stay(0.1);
+      EXPECT_EQ(room.tick.rest, Rest::caught);
       EXPECT_EQ(newton(room.tick), 0.0);
       room.go({0.3, 0.0, -0.5}, 0.1);
       room.go({0.0, 0.0, 3.0}, 0.3);
