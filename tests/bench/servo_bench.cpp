@@ -186,6 +186,12 @@ void ticks() {
                       sink = servo.step(hand, command, 1e-3).removed_mm3;
                     }),
             0.0);
+      // All of it back, with the bur in the midst.
+      HandSample hand;
+      hand.X_PT.translation_mm = {0.0, 0.02, 0.0};
+      servo.step(hand, command, 1e-3);
+      ++command.undo_serial;
+      print("its undo", s, R, measure(12, [&](int) { sink = servo.step(hand, command, 1e-3).removed_mm3; }), 0.0);
     }
 }
 
