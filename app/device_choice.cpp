@@ -6,11 +6,12 @@
 #include "app/usage_error.h"
 #include "haptics/device/openhaptics/open_haptics.h"
 #include "haptics/device/usb/falcon.h"
+#include "haptics/device/usb/wooden_haptics.h"
 
 namespace app {
 namespace {
 
-constexpr std::array<std::string_view, 4> kKinds = {"openhaptics", "wooden", "falcon", "usb"};
+constexpr std::array<std::string_view, 3> kKinds = {"openhaptics", "falcon", "usb"};
 
 /// "falcon:1-2" as "falcon" and "1-2".
 struct Address {
@@ -22,21 +23,38 @@ Address split(const std::string& address) {
   return {address.substr(0, colon), address.substr(colon + 1)};
 }
 
+/// Says the same thing once.
+std::function<void(const std::string&)> once(std::function<void(const std::string&)> tell) {
+  return [tell = std::move(tell), said = std::string()](const std::string& words) mutable {
+    if (words != said) tell(words);
+    said = words;
+  };
+}
+
 std::string firstOnTheUsb() {
-  for (const haptics::FoundDevice& found : haptics::findFalcon())
-    if (!found.address.empty()) return found.address;
+  for (const auto& search : {haptics::findWoodenHaptics, haptics::findFalcon})
+    for (const haptics::FoundDevice& found : search())
+      if (!found.address.empty()) return found.address;
   throw haptics::DeviceError("--device usb: no device that Molar drives is on the USB, see molar devices");
 }
 
 }  // namespace
 
-bool namesRealDevice(const std::string& address) { return std::ranges::count(kKinds, split(address).kind) != 0; }
+bool namesRealDevice(const std::string& address) {
+  return std::ranges::count(kKinds, split(address).kind) != 0 || haptics::woodenAddressed(address);
+}
 
 OpenedDevice openDevice(const std::string& address, const DeviceOptions& options) {
-  const Address asked = split(address == "usb" ? firstOnTheUsb() : address);
   OpenedDevice opened;
-  opened.address = address;
-  if (asked.kind == "openhaptics") {
+  opened.address = address == "usb" ? firstOnTheUsb() : address;
+  const Address asked = split(opened.address);
+  if (auto wooden = haptics::woodenAddressed(opened.address)) {
+    wooden->tell = [say = once(options.tell)](const std::string& words) mutable {
+      say(words);
+      return haptics::HomingAnswer::wait;
+    };
+    opened.device = std::make_unique<haptics::WoodenHaptics>(*wooden);
+  } else if (asked.kind == "openhaptics") {
     opened.library = std::make_unique<haptics::HdLibrary>();
     opened.device = std::make_unique<haptics::OpenHaptics>(
         *opened.library,
@@ -46,9 +64,8 @@ OpenedDevice openDevice(const std::string& address, const DeviceOptions& options
     settings.path = asked.rest;
     settings.program = options.falcon_program;
     settings.scale = options.falcon_scale;
-    settings.tell = [tell = options.tell, said = std::string()](const std::string& words, double) mutable {
-      if (words != said) tell(words);
-      said = words;
+    settings.tell = [say = once(options.tell)](const std::string& words, double) mutable {
+      say(words);
       return true;
     };
     opened.device = std::make_unique<haptics::Falcon>(settings);

@@ -1,6 +1,7 @@
 // Opens the real device of an address, as `molar devices` lists them: `openhaptics[:NAME]` a Phantom or Touch by its
-// maker's library, NAME as the vendor's set-up calls it; `wooden[:BUS-PORT]` and `falcon[:BUS-PORT]` on the USB; `usb`
-// the first of these two that is there. Start-up only: a Falcon loads its program and waits to be homed, half a minute.
+// maker's library, NAME as the vendor's set-up calls it; `wooden[:BUS-PORT]`, `wooden-v2015[:BUS-PORT]` and
+// `falcon[:BUS-PORT]` on the USB; `usb` the first of these that is there. Start-up only: a Falcon loads its program and
+// waits to be homed, half a minute.
 #pragma once
 
 #include <filesystem>

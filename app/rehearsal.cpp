@@ -19,6 +19,7 @@
 #include "app/snapshot.h"
 #include "app/surgeon_display.h"
 #include "app/tool_text.h"
+#include "app/unplug_watch.h"
 #include "calibration/geometry/units.h"
 
 namespace app {
@@ -110,6 +111,7 @@ class Rehearsal {
     if (quality_->rules()) frame_.quality = quality_->quality();
     if (first_pictures_) takePictures(*first_pictures_, plan_.patient.ct.solid);
     workstation_->start();
+    if (hand_.library) unplug_watch_.emplace(*workstation_);
     workstation_->note("start", hand_.name);
     for (const std::string& line : told_early_) workstation_->note("display", line);
     noteQuality();
@@ -200,6 +202,8 @@ class Rehearsal {
     if (plan_.guide) return;
     if (wish == Wish::drill_switch) desk_.switchDrill();
     if (wish == Wish::tool_change) desk_.changeTool();
+    if (wish == Wish::irrigation_switch) desk_.switchIrrigation();
+    if (wish == Wish::undo) desk_.undoStroke();
   }
 
   void stopMotors() {
@@ -306,6 +310,8 @@ class Rehearsal {
 
   /// Says and records, once, that the recording ended early or the device can not be believed.
   void noteTrouble() {
+    if (unplug_watch_)
+      if (const auto news = unplug_watch_->takeNews()) tell(*news);
     if (const auto trouble = workstation_->recordingTrouble(); trouble && !recording_ended_) {
       recording_ended_ = true;
       std::fprintf(stderr, "molar: recording ended: %s\n", trouble->c_str());
@@ -381,6 +387,7 @@ class Rehearsal {
   std::optional<OperatorSeat> operator_;  // goes before the surgeon's window, which it shares with
   std::optional<haptics::FootPedal> pedal_;
   std::optional<Workstation> workstation_;
+  std::optional<UnplugWatch> unplug_watch_;
   BrickUpload upload_;
   render::Frame frame_;
   haptics::Tick newest_;
