@@ -23,6 +23,8 @@ constexpr double kSilent_s = 0.02, kAskAgain_s = 0.005;
 /// One count is up to 0.04 mm: 40 mm/s from one tick to the next at 1 kHz, 10 mm/s behind this filter.
 constexpr double kVelocityCutoff_Hz = 50.0;
 constexpr auto kLastPacketTime = 50ms;
+/// The unit is not known to let go by itself: without a packet for so long the USB's own thread does.
+constexpr auto kRestAfter = 20ms;
 /// Continuous to peak force as of a Touch (reference/devices 4.3); the Falcon's is not published.
 constexpr double kContinuousShare = 0.27;
 constexpr const char* kHomingWords =
@@ -57,6 +59,7 @@ UsbStream falconStream() {
     return packet ? std::optional(UsbReport(*packet)) : std::nullopt;
   };
   stream.rest = reportOf({{}, true, FalconLights::green});
+  stream.rest_after = kRestAfter;
   stream.late_after = std::chrono::milliseconds(std::lround(1e3 * kSilent_s));
   return stream;
 }

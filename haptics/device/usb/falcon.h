@@ -3,7 +3,8 @@
 // tick, and never a second question before the first is answered, but for one that lets go. The force is a guess until
 // a FalconForceScale says otherwise, and is then held down. Frame D as falcon_kinematics; the handle never turns in it.
 // Threads as HapticDevice. Lights: red not homed, green homed, blue motors on. What the unit does when packets stop is
-// not published: the host's watchdogs are all there is. Never run on a real unit. Protocol: falcon_protocol.
+// not published: after 20 ms of silence the USB's own thread lets go. Never run on a real unit. Protocol:
+// falcon_protocol.
 #pragma once
 
 #include <array>

@@ -270,7 +270,7 @@ TEST_F(FalconOnTheBus, AnUnweighedUnitGetsATenthOfItsMotorsAtMost) {
   ASSERT_TRUE(soon([&] { return now([&] { return unit.largest_word; }) > 300; }));
   std::this_thread::sleep_for(50ms);
   falcon.stop();
-  EXPECT_LE(unit.largest_word, 409);
+  EXPECT_LE(now([&] { return unit.largest_word; }), 409);
 }
 
 TEST_F(FalconOnTheBus, AWeighedScaleChangesTheWordsAndTheWordCalibrated) {
@@ -283,7 +283,7 @@ TEST_F(FalconOnTheBus, AWeighedScaleChangesTheWordsAndTheWordCalibrated) {
   const calibration::Point<calibration::Device> middle = falconMiddle();
   const glm::dvec3 expected =
       -20.0 * glm::transpose(falconJacobian_mm(*falconLegsAt_rad(middle), middle)) * glm::dvec3(0.0, 0.0, 0.5);
-  unit.true_words_per_Nmm = 1e9;  // does not move away
+  bus->locked([&] { unit.true_words_per_Nmm = 1e9; });  // does not move away
   SteadyHand hand(falcon.capabilities());
   hand.push({0.0, 0.0, 0.5});
   falcon.start(hand, 1000.0);
@@ -398,7 +398,7 @@ TEST_F(FalconOnTheBus, TheLastPacketLetsGoAndNothingFollowsIt) {
     EXPECT_EQ(now([&] { return unit.packets.size(); }), packets.size());
   }
   EXPECT_EQ(now([&] { return unit.packets.back(); }), kNoForce + "BA>");
-  EXPECT_EQ(unit.refused, 0);
+  EXPECT_EQ(now([&] { return unit.refused; }), 0);
 }
 
 TEST_F(FalconOnTheBus, MotorsOffLetsGoAtOnceAndALaterCommandIsObeyed) {
@@ -421,28 +421,44 @@ TEST_F(FalconOnTheBus, MotorsOffLetsGoAtOnceAndALaterCommandIsObeyed) {
   falcon.stop();
 }
 
-TEST_F(FalconOnTheBus, MotorsOffWhileTheServoHangsLetsGo) {
-  class Hanging final : public DeviceServo {
-   public:
-    explicit Hanging(const DeviceCapabilities& can) : gate_(can) {}
-    MotorCommand tick(const HandleState& state, const Beat&) noexcept override {
-      while (hang.load()) std::this_thread::sleep_for(1ms);
-      return gate_.admit({{{0.0, 0.0, 0.3}}, {}}, state.jacobian_D_mm, true);
-    }
-    std::atomic<bool> hang{false};
+/// Pushes, and hangs in the middle of a tick while told.
+class HangingServo final : public DeviceServo {
+ public:
+  explicit HangingServo(const DeviceCapabilities& can) : gate_(can) {}
+  MotorCommand tick(const HandleState& state, const Beat&) noexcept override {
+    while (hangs.load()) std::this_thread::sleep_for(1ms);
+    return gate_.admit({{{0.0, 0.0, 0.3}}, {}}, state.jacobian_D_mm, true);
+  }
+  std::atomic<bool> hangs{false};
 
-   private:
-    MotorGate gate_;
-  };
+ private:
+  MotorGate gate_;
+};
+
+TEST_F(FalconOnTheBus, MotorsOffWhileTheServoHangsIsTheLastWordUntilItTicksAgain) {
   unit.runs = true;
   Falcon falcon({});
-  Hanging servo(falcon.capabilities());
+  HangingServo servo(falcon.capabilities());
   falcon.start(servo, 1000.0);
   ASSERT_TRUE(soon([&] { return now([&] { return unit.words[0] != 0; }); }));
-  servo.hang.store(true);
+  servo.hangs.store(true);
   falcon.motorsOff();
   EXPECT_TRUE(soon([&] { return now([&] { return unit.words == std::array<int, 3>{}; }); }));
-  servo.hang.store(false);
+  servo.hangs.store(false);
+  EXPECT_TRUE(soon([&] { return now([&] { return unit.words[0] != 0; }); }));
+  falcon.stop();
+}
+
+TEST_F(FalconOnTheBus, AServoThatHangsIsLetGoByTheUsbItself) {
+  unit.runs = true;
+  Falcon falcon({});
+  HangingServo servo(falcon.capabilities());
+  falcon.start(servo, 1000.0);
+  ASSERT_TRUE(soon([&] { return now([&] { return unit.words[0] != 0; }); }));
+  servo.hangs.store(true);
+  EXPECT_TRUE(soon([&] { return now([&] { return unit.words == std::array<int, 3>{}; }); }));
+  servo.hangs.store(false);
+  EXPECT_TRUE(soon([&] { return now([&] { return unit.words[0] != 0; }); }));
   falcon.stop();
 }
 
