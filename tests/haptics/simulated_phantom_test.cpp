@@ -190,8 +190,11 @@ TEST(SimulatedPhantom, StandsAtItsStopsWhateverTheHandWants) {
       target.rotation = glm::angleAxis(5.0 * t_s, glm::normalize(glm::dvec3(1.0, 0.4, -0.3)));
       return target;
     });
+    glm::dvec3 last_mm = kMiddle_mm;
     for (int tick = 0; tick < 4000; ++tick) {
       const HandleState state = device.exchange({}, 1e-3);
+      ASSERT_LT(glm::distance(state.X_DH.translation_mm, last_mm), 12.0) << mechanics.key << " leaps at " << tick;
+      last_mm = state.X_DH.translation_mm;
       ASSERT_TRUE(withinLimits(mechanics.geometry, device.joints().arm_rad)) << mechanics.key << " " << tick;
       for (std::size_t axis = 0; axis < 3; ++axis)
         ASSERT_TRUE(mechanics.geometry.wrist[axis].contains(device.joints().wrist_rad[static_cast<int>(axis)]));
@@ -227,6 +230,13 @@ TEST(SimulatedPhantom, IsTheSameTwice) {
   };
   EXPECT_EQ(course(4), course(4));
   EXPECT_NE(course(4), course(5));
+  // The gimbal's noise is of the seed too.
+  SimulatedPhantom one(phantom("omni"), holdingAt(kMiddle_mm), kSteady, 4),
+      other(phantom("omni"), holdingAt(kMiddle_mm), kSteady, 5);
+  bool differs = false;
+  for (int tick = 0; tick < 50; ++tick)
+    differs = differs || one.exchange({}, 1e-3).X_DH.rotation != other.exchange({}, 1e-3).X_DH.rotation;
+  EXPECT_TRUE(differs);
 }
 
 TEST(SimulatedPhantom, MovesTheSameAtEveryRate) {
@@ -265,6 +275,7 @@ TroughPath trough() {
   TroughPlan plan;
   plan.outward_D = {{0.0, 0.4, 0.9}};
   plan.buccal_D = {{1.0, 0.0, 0.0}};
+  plan.depth_mm = 3.75;  // an odd number of passes: it ends where it did not begin
   return TroughPath(plan);
 }
 

@@ -114,7 +114,6 @@ glm::dvec3 SimulatedPhantom::forceOfMotors_N(const glm::dvec3& asked_N, double d
 
 void SimulatedPhantom::move(const HandTarget& from, const HandTarget& to, double dt_s) noexcept {
   if (!(dt_s > 0.0)) return;
-  if (docked_ && !to.grips) return;
   const Grip let_go{0.0, 0.0, 0.0, 0.0}, &grip = to.grips ? hand_.grip() : let_go;
   handle_.mass_kg = mechanics_.mass_kg + grip.mass_kg;
   handle_.stiffness_N_per_mm = grip.stiffness_N_per_mm;
