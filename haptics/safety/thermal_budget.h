@@ -1,9 +1,10 @@
-// What the motors' heat allows (reference/devices 6.7). A bucket of F^2 t: it takes in r = 0.7 C^2 all the time and
-// holds B = 3 C^2 times 1 s, so that over any 10 s
-//   integral F^2 dt <= B + 10 s r = 10 s C^2       root mean square <= C, the continuous force, exactly
-//   F^2 <= r + left / 0.2 s                        goes down without a step, never below 0.84 C
-// From cold a Touch (C = 0.88 N) gives its 3.3 N for 0.2 s. What the device says of its warmest motor counts besides:
-// from 0.8 on the force is lowered in a line to 0.3 of it at 1. Servo thread, flops. Torque is not counted.
+// What the motors' heat allows (reference/devices 6.7). A bucket of F^2 t, of which r = 0.7 C^2 flows off all the time
+// and which holds 3 s C^2, so that over any 10 s
+//   integral F^2 dt <= 3 s C^2 + 10 s r = 10 s C^2     root mean square <= C, the continuous force, exactly
+//   F^2 <= r + left / 0.2 s                            goes down without a step, never below 0.84 C
+// From cold a Touch (C = 0.88 N) gives its 3.3 N for 20 ms, 2 N for a quarter of a second, 0.74 N for ever. What the
+// device says of its warmest motor counts besides: from 0.8 on the force is lowered in a line to 0.3 of it at 1.
+// Servo thread, flops. Torque is not counted.
 #pragma once
 
 #include <algorithm>

@@ -145,6 +145,54 @@ TEST(Metrics, TellWhatWasDrilledDryAndWhatWasTakenBack) {
   EXPECT_NE(words.find("more taken back"), std::string::npos) << words;
 }
 
+TEST(Replay, TripsAsTheRehearsalDid) {
+  const test::BoneBlock block;
+  haptics::CarvedBone bone(block.grid, block.solid, block.label);
+  haptics::Servo servo(bone);
+  const test::ScratchFolder folder;
+  const std::string path = folder.file("s.molar");
+  SessionStart start = block.start();
+  start.command.safety = haptics::strict(start.command.safety);
+  start.command.safety.continuous_force_N = 0.3;
+  start.command.safety.peak_joint_torque_Nmm = glm::dvec3(40.0);
+  SessionWriter writer(path, true, start);
+  haptics::Fault seen = haptics::Fault::none;
+  for (std::size_t part = 0; part < 4; ++part) {
+    haptics::Command command = start.command;
+    command.serial = part + 1;
+    command.rearm = part;
+    std::vector<haptics::Tick> ticks;
+    for (std::size_t n = 0; n < 1200; ++n) {
+      // Above the bone until the force is on, then into it; in each part something else goes wrong.
+      const double t = static_cast<double>(n) * 0.001;
+      haptics::HandSample hand = test::sweepingHand(t);
+      hand.X_PT.translation_mm.z = 0.5 + 2.5 * std::max(0.0, 0.8 - t) / 0.8;
+      hand.velocity_P_mm_per_s.xyz = {18.0 * std::cos(9.0 * t), 0.0, n < 800 ? -3.0 : 0.0};
+      hand.jacobian_P_mm = glm::dmat3(120.0);
+      hand.motor_heat = part == 1 && n > 900 ? 0.9 : 0.1;
+      hand.fresh = n < 1000 || n > 1000 + 8 * (part + 1);
+      hand.held = part != 1 || n < 950;
+      if (part == 2 && n == 900) hand.X_PT.translation_mm.x = std::nan("");
+      if (part == 2 && n == 1100) hand.gap_s = 0.5;
+      if (part == 3 && n > 1100) hand.stop_asked = true;
+      ticks.push_back(servo.step(hand, command, 0.001));
+      seen = seen | ticks.back().faults;
+    }
+    if (part == 0)
+      writer.write({{}, ticks, {}, {}});
+    else
+      writer.write({{{command, part * 1200}}, ticks, {}, {}});
+  }
+  writer.seal(0);
+  using haptics::Fault;
+  for (Fault one : {Fault::bad_pose, Fault::joints, Fault::hot, Fault::stale, Fault::resumed, Fault::let_go,
+                    Fault::latched, Fault::stopped})
+    EXPECT_TRUE(has(seen, one)) << static_cast<std::uint32_t>(one);
+  const ReplayReport report = verify(path);
+  EXPECT_TRUE(report.verified()) << report.line();
+  EXPECT_EQ(report.replayed, 4u * 1200u);
+}
+
 TEST(Replay, NamesTheFirstTickWhoseForceDiffersByOneBit) {
   Recorded session;
   double& force_N = session.ticks[321].served_force_P_N.xyz.z;

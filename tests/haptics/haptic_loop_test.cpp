@@ -25,6 +25,7 @@ class PressedDevice final : public PacedDevice {
   }
   ~PressedDevice() override { stop(); }
   const DeviceCapabilities& capabilities() const override { return capabilities_; }
+  void setMotors() { capabilities_.has_motors = true; }
   void setPeakTorque(double peak_Nmm) { capabilities_.peak_torque_Nmm = peak_Nmm; }
 
   HandleState sense(double) noexcept override {
@@ -186,6 +187,61 @@ TEST(HapticLoop, GivesNoForceAfterAnEmergencyStopAndGoesOnTicking) {
   loop.stop();
   EXPECT_EQ(device.last_N, 0.0);
   EXPECT_FALSE(device.motors_on);
+}
+
+TEST(HapticLoop, PushesNobodyWhoWasNotArmedAndDrillsNothing) {
+  // In the bone from the first tick on, and with motors: somebody would be thrown.
+  Bench bench;
+  PressedDevice device;
+  device.setMotors();
+  HapticLoop loop(bench.servo, device, bench.commands, bench.log, bench.newest, bench.settings);
+  loop.start();
+  waitForTick(bench.newest, 200);
+  EXPECT_EQ(bench.newest.read().state, SafetyState::ready);
+  loop.stop();
+  EXPECT_EQ(device.most_N, 0.0);
+}
+
+TEST(HapticLoop, RecordsAnEmergencyStopSoThatAReplayStopsToo) {
+  Bench bench;
+  PressedDevice device;
+  HapticLoop loop(bench.servo, device, bench.commands, bench.log, bench.newest, bench.settings);
+  loop.start();
+  waitForTick(bench.newest, 30);
+  loop.emergencyStop();
+  waitForTick(bench.newest, bench.newest.read().index + 20);
+  loop.stop();
+  EXPECT_TRUE(bench.newest.read().hand.stop_asked);
+  EXPECT_EQ(bench.newest.read().state, SafetyState::off);
+  EXPECT_EQ(glm::length(bench.newest.read().served_force_P_N.xyz), 0.0);
+}
+
+TEST(LimitedTo, IsStrictWithADeviceThatHasMotorsWhateverWasAskedFor) {
+  Command command;
+  command.safety.slew_N_per_s = 1e5;
+  command.safety.must_be_armed = false;
+  command.safety.fastest_mm_per_s = 1e9;
+  command.safety.thresholds.cut_mm_per_s = 1e9;
+  command.law.damping_Ns_per_mm = 0.05;
+  DeviceCapabilities device;
+  device.most_stiffness_N_per_mm = 0.7;
+  device.peak_joint_torque_Nmm = {350.0, 0.0, 300.0};
+  EXPECT_FALSE(limitedTo(device, 1000.0, command).safety.must_be_armed);
+  EXPECT_EQ(limitedTo(device, 1000.0, command).safety.continuous_force_N, 1e3) << "no motors, no heat";
+  device.has_motors = true;
+  const Command limited = limitedTo(device, 4000.0, command);
+  EXPECT_TRUE(limited.safety.must_be_armed);
+  EXPECT_EQ(limited.safety.slew_N_per_s, 300.0);
+  EXPECT_EQ(limited.safety.fastest_mm_per_s, 2000.0);
+  EXPECT_EQ(limited.safety.thresholds.cut_mm_per_s, 1000.0);
+  EXPECT_EQ(limited.safety.peak_force_N, 0.9 * 3.3);
+  EXPECT_EQ(limited.safety.continuous_force_N, 0.88);
+  EXPECT_EQ(limited.law.damping_Ns_per_mm, 0.005);
+  EXPECT_EQ(limited.safety.peak_joint_torque_Nmm, glm::dvec3(350.0, 0.0, 300.0));
+  // Once is enough.
+  EXPECT_EQ(limitedTo(device, 4000.0, limited).safety.peak_force_N, limited.safety.peak_force_N);
+  command.law.damping_Ns_per_mm = 0.0;
+  EXPECT_EQ(limitedTo(device, 4000.0, command).safety.most_stiffness_N_per_mm, 0.7);
 }
 
 TEST(LimitedTo, TakesTheSmallerPeaks) {

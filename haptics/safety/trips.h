@@ -1,0 +1,49 @@
+// Every trip of the safety layer in words for people, and a ledger of them. The ledger is fed with the faults of tick
+// after tick by one thread that is not the servo's (a drained TickLog, a session read again); its memory is fixed. A
+// trip begins with the tick that has a fault its predecessor has not.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "haptics/safety/fault.h"
+#include "haptics/safety/readiness.h"
+
+namespace haptics {
+
+struct TripWords {
+  Fault fault;
+  std::string_view key;   ///< for files
+  std::string_view what;  ///< one plain sentence
+  std::string_view next;  ///< what to do
+};
+
+/// In the order of their bits.
+inline constexpr std::size_t kTripKinds = 16;
+extern const std::array<TripWords, kTripKinds> kTrips;
+
+struct StateWords {
+  std::string_view key, what, next;
+};
+const StateWords& wordsOf(SafetyState state);
+
+class TripLedger {
+ public:
+  struct Entry {
+    std::uint64_t times = 0;
+    std::uint64_t first_tick = 0, last_tick = 0;  ///< of all ticks that had it; 0 where there was none
+  };
+
+  void add(std::uint64_t tick, Fault faults) noexcept;
+
+  /// Of one fault; where several are given, of the one with the lowest bit.
+  const Entry& of(Fault one) const noexcept;
+
+ private:
+  std::array<Entry, kTripKinds> entries_{};
+  Fault last_ = Fault::none;
+};
+
+}  // namespace haptics
