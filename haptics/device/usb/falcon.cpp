@@ -70,6 +70,9 @@ Falcon::Falcon(const FalconSettings& settings) : scale_(settings.scale) {
   check(scale_);
   const auto program = settings.program.empty() ? std::vector<std::uint8_t>{} : readFalconProgram(settings.program);
   usb_ = std::make_unique<UsbTransport>(UsbAddress{kFalconVendor, kFalconProduct, settings.path, 0});
+  if (!scale_.serial.empty() && scale_.serial != usb_->serialNumber())
+    throw DeviceError("Falcon on USB " + usb_->path() + ", its force scale was weighed on unit " + scale_.serial +
+                      " and this is " + usb_->serialNumber() + ", weigh this one or run it without");
   capabilities_ = capabilitiesOf(scale_, usb_->serialNumber());
   state_.X_DH.translation_mm = falconMiddle().mm;
   state_.calibrated = false;

@@ -298,6 +298,13 @@ TEST_F(FalconOnTheBus, RefusesAScaleNobodyCouldHaveWeighed) {
   has(refusal(settings), "words per N mm");
 }
 
+TEST_F(FalconOnTheBus, RefusesTheScaleOfAnotherUnit) {
+  unit.runs = true;
+  FalconSettings settings;
+  settings.scale = {10.0, 1.0, "FH000002"};
+  has(refusal(settings), "weighed on unit FH000002 and this is FH000001");
+}
+
 TEST_F(FalconOnTheBus, GarbageIsNeitherAPlaceNorAReasonToPush) {
   unit.runs = true;
   Falcon falcon({});
