@@ -198,13 +198,14 @@ TEST_F(OpenHapticsDevice, BelievesTheInkwellThatWasSet) {
   device.stop();
 }
 
-TEST_F(OpenHapticsDevice, TellsTheHeatOfItsWarmestMotor) {
+TEST_F(OpenHapticsDevice, TellsTheHeatOfItsWarmestMotorAndItsRate) {
   door.script.heat = 0.7;
   Pusher servo;
   OpenHaptics device(library);
   device.start(servo, 1000.0);
   runFor(servo, 3);
   EXPECT_EQ(servo.state().motor_heat, 0.7);
+  EXPECT_EQ(device.updateRate_Hz(), 1000);
   // The library's complaint counts as all the heat there may be, whatever its number says.
   door.script.error_code = 0x0200;
   until([&] { return servo.state().motor_heat == 1.0; });

@@ -8,7 +8,7 @@
 namespace haptics {
 namespace {
 
-constexpr double kHeatLooks_Hz = 10.0;
+constexpr double kSlowLooks_Hz = 10.0;
 
 /// Large enough for any property, zero where the library wrote nothing.
 using Room = std::array<double, kHdRoom>;
@@ -76,9 +76,13 @@ void HdHandle::readSwitches(HandleState& state, bool sure) noexcept {
     state.docked = inkwell_.isDocked(on[0] != 0, state.X_DH.translation_mm, sure);
 }
 
-void HdHandle::readHeat(double rate_Hz) noexcept {
-  if (--ticks_to_heat_ > 0) return;
-  ticks_to_heat_ = static_cast<int>(rate_Hz / kHeatLooks_Hz);
+void HdHandle::readSlowParts(double rate_Hz) noexcept {
+  if (--ticks_to_look_ > 0) return;
+  ticks_to_look_ = static_cast<int>(rate_Hz / kSlowLooks_Hz);
+  std::array<int, kHdRoom> measured{};
+  if (readPart(rate, [&] { hd_.get_integerv(hd::kInstantaneousUpdateRate, measured.data()); }))
+    update_rate_Hz_.store(measured[0], std::memory_order_relaxed);
+
   Room motors{};
   if (!readPart(heat, [&] { hd_.get_doublev(hd::kMotorTemperature, motors.data()); })) return;
   heat_ = 0.0;
@@ -99,7 +103,7 @@ HandleState HdHandle::read(bool calibrated, double rate_Hz) noexcept {
     state.jacobian_D_mm = calibration::armJacobian_mm(*model_.geometry, joints_.arm_rad);
 
   readSwitches(state, calibrated && state.fresh);
-  readHeat(rate_Hz);
+  readSlowParts(rate_Hz);
   state.motor_heat = heat_;
   first_ = false;
   return state;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <optional>
 #include <string_view>
 
@@ -36,15 +37,17 @@ class HdHandle {
   /// Of the frame read last; unknown ones are zero.
   const calibration::PhantomJoints& joints() const { return joints_; }
   const Inkwell& inkwell() const { return inkwell_; }
+  /// As the library measures it, ten times a second; 0: not known. Any thread.
+  int updateRate_Hz() const { return update_rate_Hz_.load(std::memory_order_relaxed); }
 
  private:
-  enum Part : unsigned { velocity, arm, wrist, buttons, safety_switch, inkwell_switch, heat, part_count };
+  enum Part : unsigned { velocity, arm, wrist, buttons, safety_switch, inkwell_switch, heat, rate, part_count };
 
   template <class Read>
   bool readPart(Part part, Read&& read) noexcept;
   void readPlace(HandleState& state) noexcept;
   void readSwitches(HandleState& state, bool sure) noexcept;
-  void readHeat(double rate_Hz) noexcept;
+  void readSlowParts(double rate_Hz) noexcept;
 
   const HdFunctions& hd_;
   HdErrors& errors_;
@@ -57,7 +60,8 @@ class HdHandle {
   calibration::Pose<calibration::Device, calibration::Handle> X_DH_;
   calibration::PhantomJoints joints_;
   double heat_ = 0.0;
-  int ticks_to_heat_ = 0;
+  int ticks_to_look_ = 0;
+  std::atomic<int> update_rate_Hz_{0};
 };
 
 }  // namespace haptics

@@ -48,6 +48,8 @@ class OpenHaptics final : public HapticDevice {
   const HdErrors& errors() const { return errors_; }
   /// What the inkwell's switch shows of a docked stylus, once that is known. Any thread.
   std::optional<bool> dockedValue() const { return handle_.inkwell().dockedValue(); }
+  /// What the library measures of its scheduler; 0: not known. Any thread.
+  int updateRate_Hz() const { return handle_.updateRate_Hz(); }
   /// The arm is in its reset position now, for a device that is calibrated that way. Any thread.
   void resetEncodersHere() { calibration_.resetHere(); }
   /// The newest joint angles as the library has them; one reader.

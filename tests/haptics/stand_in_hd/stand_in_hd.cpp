@@ -79,7 +79,7 @@ void hdGetIntegerv(hd::Enum property, int* value) {
     *value = 3;
   else if (property == hd::kCalibrationStyle)
     *value = script.calibration_style;
-  else if (property == hd::kUpdateRate)
+  else if (property == hd::kUpdateRate || property == hd::kInstantaneousUpdateRate)
     *value = script.update_rate_Hz;
   else
     machine().raise(0x0100);
