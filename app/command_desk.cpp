@@ -60,6 +60,12 @@ void CommandDesk::undoStroke() {
   tell("undo", "the newest of " + std::to_string(strokes) + (strokes == 1 ? " stroke" : " strokes") + " is taken back");
 }
 
+void CommandDesk::armAgain() {
+  ++command_.rearm;
+  workstation_->change(command_);
+  tell("armed again", "the fault is lifted, if its cause is over");
+}
+
 void CommandDesk::switchLaw(haptics::LawKind law) {
   haptics::Command wanted = command_;
   wanted.law.kind = law;

@@ -26,6 +26,8 @@ class CommandDesk {
 
   void switchDrill();
   void switchIrrigation();
+  /// Lifts a fault that the safety layer has latched, if its cause is over.
+  void armAgain();
   /// Asks the servo for the newest stroke of the drill back; pressed again, for the one before.
   void undoStroke();
   void switchLaw(haptics::LawKind law);

@@ -8,6 +8,7 @@
 
 #include "app/hand_input.h"
 #include "app/printed.h"
+#include "app/trip_teller.h"
 #include "assets/tissue.h"
 #include "haptics/contact/law_parameters.h"
 #include "render/quality_ladder.h"
@@ -158,8 +159,34 @@ void drawServo(const RehearsalStatus& s) {
       printed("%llu of %llu", static_cast<unsigned long long>(s.servo.missed),
               static_cast<unsigned long long>(s.servo.ticks)),
       missed_share > 0.01 ? kWarn : kInk);
+  row("Wakes late by", printed("%.0f µs, 99 %% below %.0f", s.servo.late_p50_us, s.servo.late_p99_us));
   row("Real-time priority", s.servo.grants.priority ? "granted" : "not granted",
       s.servo.grants.priority ? kGood : kWarn);
+}
+
+void drawHand(const RehearsalStatus& s, OperatorWishes& wishes) {
+  heading("Hand");
+  using haptics::SafetyState;
+  const SafetyState state = s.tick.state;
+  const haptics::StateWords& words = haptics::wordsOf(state);
+  row("Device", s.device);
+  row("State", std::string(words.key),
+      state == SafetyState::active                                    ? kGood
+      : state == SafetyState::fault || state == SafetyState::off ? kBad
+                                                                      : kWarn);
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip("%s\n%s", std::string(words.what).c_str(), std::string(words.next).c_str());
+  if (s.tick.hand.motor_heat > 0.0) {
+    const ImVec4 warmth = s.tick.hand.motor_heat > 0.8 ? kBad : s.tick.hand.motor_heat > 0.5 ? kWarn : kGood;
+    row("Motors", printed("%.0f %% of their heat", 100.0 * s.tick.hand.motor_heat), warmth);
+  }
+  row("Safety", tripsText(s.trips));
+  const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
+  wishes.stop_motors = ImGui::Button("Stop motors", {width, 30.0f});
+  ImGui::SameLine();
+  ImGui::BeginDisabled(state != SafetyState::fault);
+  wishes.arm_again = ImGui::Button("Arm again", {width, 30.0f});
+  ImGui::EndDisabled();
 }
 
 void drawLayers(const RehearsalStatus& s, OperatorWishes& wishes) {
@@ -273,6 +300,7 @@ OperatorWishes drawOperatorPanel(const RehearsalStatus& status, glm::ivec2 windo
   ImGui::SetNextWindowSize({static_cast<float>(kPanel_px), height_px});
   ImGui::Begin("##panel", nullptr, (kFixed & ~ImGuiWindowFlags_NoScrollbar));
   drawState(status);
+  drawHand(status, wishes);
   drawTool(status);
   drawLaw(status, wishes);
   drawPictureFigures(status);

@@ -13,7 +13,7 @@ namespace app {
 
 /// What the operator asked for since the last drawing.
 struct OperatorWishes {
-  bool snapshot = false, drill_switch = false, end = false;
+  bool snapshot = false, drill_switch = false, arm_again = false, stop_motors = false, end = false;
   std::optional<haptics::LawKind> law;
   std::optional<render::Layers> layers;
 };

@@ -19,6 +19,7 @@
 #include "app/snapshot.h"
 #include "app/surgeon_display.h"
 #include "app/tool_text.h"
+#include "app/trip_teller.h"
 #include "app/unplug_watch.h"
 #include "calibration/geometry/units.h"
 
@@ -156,6 +157,8 @@ class Rehearsal {
     if (wishes.layers) frame_.layers = *wishes.layers;
     if (wishes.snapshot) takeWindowSnapshot();
     if (wishes.end) ended_by_user_ = true;
+    if (wishes.stop_motors) stopMotors();
+    if (wishes.arm_again) desk_.armAgain();
     if (plan_.guide) return;
     if (wishes.drill_switch) desk_.switchDrill();
     if (wishes.law) desk_.switchLaw(*wishes.law);
@@ -199,6 +202,7 @@ class Rehearsal {
     if (wish == Wish::end) ended_by_user_ = true;
     if (wish == Wish::snapshot) takeWindowSnapshot();
     if (wish == Wish::emergency_stop) stopMotors();
+    if (wish == Wish::arm_again) desk_.armAgain();
     if (plan_.guide) return;
     if (wish == Wish::drill_switch) desk_.switchDrill();
     if (wish == Wish::tool_change) desk_.changeTool();
@@ -276,6 +280,8 @@ class Rehearsal {
     s.tick = newest_;
     s.command = desk_.inForce();
     s.servo = workstation_->figures();
+    s.device = hand_.name;
+    s.trips = trips_;
     s.servo_rate_Hz = rate_Hz_;
     s.drawing_ms = 1000.0 * display_->drawing_s();
     s.pictures_per_s = pictures_per_s_;
@@ -316,10 +322,11 @@ class Rehearsal {
       recording_ended_ = true;
       std::fprintf(stderr, "molar: recording ended: %s\n", trouble->c_str());
     }
-    const bool faulty =
-        haptics::has(newest_.faults, haptics::Fault::bad_pose | haptics::Fault::device | haptics::Fault::bad_force);
-    if (faulty != faulty_) workstation_->note("fault", faulty ? "hand not believed, force let down" : "over");
-    faulty_ = faulty;
+    trips_ = workstation_->trips();
+    for (const std::string& line : trip_teller_.look(trips_, newest_.state)) {
+      std::fprintf(stderr, "molar: %s\n", line.c_str());
+      workstation_->note("safety", line);
+    }
   }
 
   /// Both eyes at full quality: `name_left.png`, `name_right.png`.
@@ -367,6 +374,7 @@ class Rehearsal {
       figures.slow_latency = latency_->slow();
     }
     figures.servo = workstation_->figures();
+    figures.trips = workstation_->trips();
     figures.rate_Hz = rate_Hz_;
     if (plan_.recording) figures.recording = recorded;
     std::fputs(summaryText(figures).c_str(), plan_.guide ? stderr : stdout);
@@ -388,12 +396,14 @@ class Rehearsal {
   std::optional<haptics::FootPedal> pedal_;
   std::optional<Workstation> workstation_;
   std::optional<UnplugWatch> unplug_watch_;
+  TripTeller trip_teller_;
+  haptics::TripLedger trips_;
   BrickUpload upload_;
   render::Frame frame_;
   haptics::Tick newest_;
   std::uint64_t frames_ = 0, frames_counted_ = 0;
   double first_picture_s_ = 0.0, loop_s_ = 0.0, pictures_per_s_ = 0.0;
-  bool recording_ended_ = false, faulty_ = false, ended_by_user_ = false;
+  bool recording_ended_ = false, ended_by_user_ = false;
 };
 
 }  // namespace

@@ -23,6 +23,10 @@ std::string statusLine(const RehearsalStatus& s) {
                 s.tick.t_s, lawName(s.command.law.kind).c_str(), glm::length(s.tick.served_force_P_N.xyz),
                 s.tick.depth_mm, drillText(s), s.servo.work_p99_us, s.pictures_per_s, s.quality.c_str(),
                 s.latency.total_ms());
+  if (s.tick.state != haptics::SafetyState::active) {
+    const haptics::StateWords& words = haptics::wordsOf(s.tick.state);
+    return "Molar   " + std::string(words.what) + " " + std::string(words.next);
+  }
   return s.recording == RecordingState::ended_early ? std::string(text) + "   NOT RECORDING" : std::string(text);
 }
 

@@ -6,6 +6,7 @@
 
 #include "app/motion_to_photon.h"
 #include "haptics/loop/loop_statistics.h"
+#include "haptics/safety/trips.h"
 #include "haptics/servo/command.h"
 #include "haptics/servo/tick.h"
 #include "render/frame.h"
@@ -20,6 +21,8 @@ struct RehearsalStatus {
   std::string display;  ///< the same
   haptics::Tick tick;   ///< the newest
   haptics::Command command;
+  std::string device;  ///< as people read it
+  haptics::TripLedger trips;
   haptics::LoopFigures servo;
   double servo_rate_Hz = 1000.0;
   double drawing_ms = 0.0;  ///< of the newest frame

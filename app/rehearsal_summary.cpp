@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "app/printed.h"
+#include "app/trip_teller.h"
 
 namespace app {
 
@@ -29,6 +30,7 @@ std::string summaryText(const RehearsalFigures& f) {
   text += printed("  work per tick    p50 %.0f µs, p99 %.0f µs, p99.9 %.0f µs, max %.0f µs\n", f.servo.work_p50_us,
                   f.servo.work_p99_us, f.servo.work_p999_us, f.servo.work_max_us);
   text += printed("  granted          %s\n", grantsText(f.servo.grants).c_str());
+  text += printed("  safety           %s\n", tripsText(f.trips).c_str());
   if (f.servo.silences > 0)
     text += printed("  supervisor       switched the motors off %llu times: no tick for 50 ms\n",
                     static_cast<unsigned long long>(f.servo.silences));

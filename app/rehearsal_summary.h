@@ -9,6 +9,7 @@
 #include "app/session/recorder.h"
 #include "assets/tissue.h"
 #include "haptics/loop/loop_statistics.h"
+#include "haptics/safety/trips.h"
 
 namespace app {
 
@@ -23,6 +24,7 @@ struct RehearsalFigures {
   std::optional<PhotonEstimate> latency, slow_latency;  ///< median and 95th percentile; none without a window
   double first_picture_s = 0.0;  ///< from the user's asking to the first picture, loading included
   haptics::LoopFigures servo;
+  haptics::TripLedger trips;
   double rate_Hz = 1000.0;
   std::optional<RecordingSummary> recording;
 };

@@ -48,6 +48,7 @@ class Workstation {
   /// What buttons of the handle and the pedal have asked for since the last call, drilling aside; in no order.
   std::vector<haptics::HandAction> takeActions();
 
+  haptics::TripLedger trips() { return loop_.trips(); }
   haptics::Tick newestTick() { return newest_.read(); }
   haptics::CarvedBone& bone() { return bone_; }
   haptics::LoopFigures figures() const { return loop_.figures(); }

@@ -108,6 +108,10 @@ void HapticLoop::answered(double work_us) noexcept {
   tick_.work_us = static_cast<float>(work_us);
   log_.push(tick_);
   newest_.publish(tick_);
+
+  ledger_.add(tick_.index, tick_.faults);
+  if (tick_.faults != last_faults_) trips_.publish(ledger_);
+  last_faults_ = tick_.faults;
 }
 
 }  // namespace haptics

@@ -10,6 +10,7 @@
 #include "haptics/device/pedal/foot_pedal.h"
 #include "haptics/latest.h"
 #include "haptics/loop/device_loop.h"
+#include "haptics/safety/trips.h"
 #include "haptics/servo/servo.h"
 #include "haptics/servo/tick_log.h"
 
@@ -37,6 +38,8 @@ class HapticLoop final : public DeviceLoop {
              const LoopSettings& settings);
   ~HapticLoop() override { stop(); }
 
+  /// What the safety layer did so far; one reader.
+  const TripLedger& trips() { return trips_.read(); }
   /// How often a button of the handle asked for it. Any thread.
   std::uint32_t presses(HandAction action) const noexcept {
     return presses_[static_cast<std::size_t>(action)].load(std::memory_order_relaxed);
@@ -60,7 +63,10 @@ class HapticLoop final : public DeviceLoop {
   glm::dvec3 last_arm_P_mm_{0.0}, arm_velocity_P_mm_per_s_{0.0};
   bool has_arm_ = false;
   PressCount press_count_;
+  TripLedger ledger_;
+  Fault last_faults_ = Fault::none;
 
+  Latest<TripLedger> trips_;
   std::array<std::atomic<std::uint32_t>, kHandActions> presses_{};
 };
 
