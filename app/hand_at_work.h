@@ -32,7 +32,8 @@ inline constexpr std::array<HandName, 7> kHands = {{
 }};
 inline constexpr const char* kDeviceHelp =
     "Hand: mouse; scripted; simulated[:omni|touch|desktop|premium], the script holding a Phantom in numbers; "
-    "replay:SESSION, a recorded hand; openhaptics[:NAME], wooden[:BUS-PORT], wooden-v2015[:BUS-PORT], falcon[:BUS-PORT], usb: see molar devices";
+    "replay:SESSION, a recorded hand; openhaptics[:NAME], wooden[:BUS-PORT], wooden-v2015[:BUS-PORT], "
+    "falcon[:BUS-PORT], usb: see molar devices";
 
 struct HandAtWork {
   std::unique_ptr<haptics::HdLibrary> library;  ///< that the device rests on, if any

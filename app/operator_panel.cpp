@@ -171,9 +171,9 @@ void drawHand(const RehearsalStatus& s, OperatorWishes& wishes) {
   const haptics::StateWords& words = haptics::wordsOf(state);
   row("Device", s.device);
   row("State", std::string(words.key),
-      state == SafetyState::active                                    ? kGood
+      state == SafetyState::active                               ? kGood
       : state == SafetyState::fault || state == SafetyState::off ? kBad
-                                                                      : kWarn);
+                                                                 : kWarn);
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip("%s\n%s", std::string(words.what).c_str(), std::string(words.next).c_str());
   if (s.tick.hand.motor_heat > 0.0) {
@@ -300,13 +300,13 @@ OperatorWishes drawOperatorPanel(const RehearsalStatus& status, glm::ivec2 windo
   ImGui::SetNextWindowSize({static_cast<float>(kPanel_px), height_px});
   ImGui::Begin("##panel", nullptr, (kFixed & ~ImGuiWindowFlags_NoScrollbar));
   drawState(status);
+  drawButtons(status, wishes);
   drawHand(status, wishes);
   drawTool(status);
   drawLaw(status, wishes);
   drawPictureFigures(status);
   drawServo(status);
   drawLayers(status, wishes);
-  drawButtons(status, wishes);
   ImGui::End();
   return wishes;
 }

@@ -322,6 +322,7 @@ class Rehearsal {
       recording_ended_ = true;
       std::fprintf(stderr, "molar: recording ended: %s\n", trouble->c_str());
     }
+    if (newest_.dt_s <= 0.0) return;  // not a tick yet
     trips_ = workstation_->trips();
     for (const std::string& line : trip_teller_.look(trips_, newest_.state)) {
       std::fprintf(stderr, "molar: %s\n", line.c_str());
