@@ -53,24 +53,26 @@ UsbStream woodenStream() {
 }  // namespace
 
 std::optional<WoodenSettings> woodenAddressed(std::string_view address) {
-  const std::size_t colon = address.find(':');
-  std::string_view kind = address.substr(0, colon);
-  if (!kind.starts_with("wooden")) return {};
-  kind.remove_prefix(6);
   WoodenSettings settings;
-  if (colon != std::string_view::npos) settings.path = address.substr(colon + 1);
-  if (kind.empty()) return settings;
-  if (!kind.starts_with('-')) return {};
-  const auto model = woodenModelNamed(kind.substr(1));
-  if (!model) return {};
-  settings.model = *model;
+  const std::size_t colon = address.find(':');
+  if (address.substr(0, colon) != "wooden") return {};
+  if (colon == std::string_view::npos) return settings;
+  std::string_view place = address.substr(colon + 1);
+  const std::size_t comma = place.find(',');
+  const std::string_view build = comma == std::string_view::npos ? place : place.substr(comma + 1);
+  if (const auto model = woodenModelNamed(build)) {
+    settings.model = *model;
+    place = comma == std::string_view::npos ? std::string_view{} : place.substr(0, comma);
+  }
+  if (place.find_first_not_of("0123456789-.") != std::string_view::npos) return {};
+  settings.path = place;
   return settings;
 }
 
 WoodenHaptics::WoodenHaptics(const WoodenSettings& settings)
     : model_(settings.model),
       kinematics_(model_),
-      homing_(model_.home_counts),
+      homing_(model_.home_counts, model_.hasGimbal()),
       usb_(std::make_unique<UsbTransport>(UsbAddress{kWoodenVendor, kWoodenProduct, settings.path, 0})),
       capabilities_(capabilitiesOf(model_, usb_->serialNumber())) {
   if (usb_->outPacketBytes() < kWoodenReportBytes)

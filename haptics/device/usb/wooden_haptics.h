@@ -42,7 +42,7 @@ struct WoodenSettings {
   std::chrono::seconds homing_patience{60};  ///< 0: does not wait, ticks uncalibrated until it is homed
 };
 
-/// "wooden", "wooden:1-2", "wooden-v2015:1-2"; none when it is no such address.
+/// "wooden", "wooden:1-2", "wooden:v2015", "wooden:1-2,v2015"; none when it is no such address.
 std::optional<WoodenSettings> woodenAddressed(std::string_view address);
 
 class WoodenHaptics final : public PacedDevice {
@@ -56,7 +56,7 @@ class WoodenHaptics final : public PacedDevice {
   void stop() noexcept override;
   void motorsOff() noexcept override;
 
-  /// It stands at its home position now. Any thread; obeyed while the motors are off.
+  /// It stands at its home position now. Any thread; forgotten when the motors are on.
   void setHome() noexcept { homing_.ask(); }
 
   /// Any thread.

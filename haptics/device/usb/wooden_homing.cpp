@@ -12,7 +12,7 @@ constexpr int kNear_counts = 100;
 
 bool WoodenHoming::readsHome(const WoodenReading& reading) const noexcept {
   if (reading.switch_pressed) return false;
-  for (std::size_t i = 0; i < home_counts_.size(); ++i)
+  for (std::size_t i = 0; i < encoders_; ++i)
     if (std::abs(reading.encoders[i] - home_counts_[i]) > kNear_counts) return false;
   return true;
 }
@@ -20,8 +20,9 @@ bool WoodenHoming::readsHome(const WoodenReading& reading) const noexcept {
 void WoodenHoming::take(const WoodenReading& reading, bool motors_on) noexcept {
   const bool pressed_now = reading.switch_pressed && seen_released_;
   seen_released_ = !reading.switch_pressed;
-  if (!motors_on && (asked_.load() || pressed_now)) {
-    asked_.store(false);
+  // Asked or pressed in mid-stroke it says nothing of where the arm is when the motors go off.
+  const bool asked = asked_.exchange(false);
+  if (!motors_on && (asked || pressed_now)) {
     phase_ = Phase::setting;
     return;
   }

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 
 #include "haptics/device/usb/wooden_protocol.h"
@@ -14,9 +15,11 @@ namespace haptics {
 
 class WoodenHoming {
  public:
-  explicit WoodenHoming(const std::array<std::int16_t, 6>& home_counts) : home_counts_(home_counts) {}
+  /// Without a gimbal d, e, f are not looked at.
+  WoodenHoming(const std::array<std::int16_t, 6>& home_counts, bool has_gimbal)
+      : home_counts_(home_counts), encoders_(has_gimbal ? 6 : 3) {}
 
-  /// The arm stands at home now. Any thread.
+  /// The arm stands at home now. Any thread; forgotten when the motors are on.
   void ask() noexcept { asked_.store(true); }
 
   /// A new reading came.
@@ -32,6 +35,7 @@ class WoodenHoming {
   bool readsHome(const WoodenReading& reading) const noexcept;
 
   std::array<std::int16_t, 6> home_counts_;
+  std::size_t encoders_;
   std::atomic<bool> asked_{false};
   Phase phase_ = Phase::away;
   bool seen_released_ = false;

@@ -26,7 +26,7 @@ class Echo : public simulated_usb::Device {
   }
   std::optional<Bytes> onIn(std::uint8_t, double t_s) override {
     if (t_s < next_s) return {};
-    next_s = t_s + 1e-3;
+    next_s = hurries ? t_s : t_s + 1e-3;
     Bytes said(report_bytes);
     if (!said.empty()) said[0] = static_cast<std::uint8_t>(++count);
     if (!told.empty() && said.size() > 1) said[1] = told.back().at(0);
@@ -43,6 +43,7 @@ class Echo : public simulated_usb::Device {
   Bytes controlled;
   std::size_t report_bytes = 4;
   int count = 0;
+  bool hurries = false;  ///< several reports at a time
   double next_s = 0.0;
 };
 
@@ -291,6 +292,21 @@ TEST_F(UsbTransportOnTheBus, NeverShowsAReportOfTheWrongLength) {
   EXPECT_TRUE(soon([&] { return usb.newestReport().serial > 0 && usb.state() == UsbState::ok; }));
 }
 
+TEST_F(UsbTransportOnTheBus, HearsReportsInTheOrderTheyWereSaid) {
+  UsbTransport usb({0x1234, 6});
+  UsbStream stream = echoStream();
+  std::vector<std::uint8_t> heard;
+  stream.reader = [&](std::span<const std::uint8_t> bytes) -> std::optional<UsbReport> {
+    heard.push_back(bytes[0]);
+    return UsbReport(bytes);
+  };
+  bus->locked([&] { echo.hurries = true; });
+  usb.run(stream);
+  ASSERT_TRUE(soon([&] { return usb.newestReport().serial >= 300; }));
+  usb.stop();
+  for (std::size_t i = 1; i < heard.size(); ++i) ASSERT_EQ(heard[i], static_cast<std::uint8_t>(heard[i - 1] + 1)) << i;
+}
+
 TEST_F(UsbTransportOnTheBus, LetsAReaderPutReportsTogether) {
   UsbTransport usb({0x1234, 6});
   UsbStream stream = echoStream();
@@ -396,6 +412,7 @@ TEST_F(UsbTransportOnTheBus, TheLastReportOvertakesOneThatHangs) {
   EXPECT_TRUE(usb.sendLast(report(200), 20s));
   helper.join();
   usb.stop();
+  ASSERT_FALSE(now(echo.told).empty());
   EXPECT_EQ(now(echo.told).back()[0], 200);
 }
 

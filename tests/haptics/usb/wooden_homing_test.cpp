@@ -10,7 +10,7 @@ constexpr std::array<std::int16_t, 6> kHome{0, 0, 6000, 0, 0, 0};
 WoodenReading reads(std::array<std::int16_t, 6> encoders, bool pressed) { return {encoders, false, pressed}; }
 
 TEST(WoodenHoming, IsHomeOnceThePresetIsReadBack) {
-  WoodenHoming homing(kHome);
+  WoodenHoming homing(kHome, true);
   homing.take(reads({5, 6, 7, 0, 0, 0}, false), false);
   EXPECT_FALSE(homing.isHome() || homing.wantsPreset());
   homing.take(reads({5, 6, 7, 0, 0, 0}, true), false);
@@ -23,7 +23,7 @@ TEST(WoodenHoming, IsHomeOnceThePresetIsReadBack) {
 }
 
 TEST(WoodenHoming, APressBeforeAnybodyLookedIsForgottenNotBelieved) {
-  WoodenHoming homing(kHome);
+  WoodenHoming homing(kHome, true);
   homing.take(reads({5, 6, 7, 0, 0, 0}, true), false);
   EXPECT_TRUE(homing.wantsPreset());
   homing.take(reads({0, 0, 6000, 0, 0, 0}, false), false);
@@ -34,7 +34,7 @@ TEST(WoodenHoming, APressBeforeAnybodyLookedIsForgottenNotBelieved) {
 }
 
 TEST(WoodenHoming, NothingIsPresetWhileTheMotorsAreOn) {
-  WoodenHoming homing(kHome);
+  WoodenHoming homing(kHome, true);
   homing.ask();
   homing.take(reads(kHome, false), false);
   homing.take(reads(kHome, false), false);
@@ -46,14 +46,26 @@ TEST(WoodenHoming, NothingIsPresetWhileTheMotorsAreOn) {
   EXPECT_TRUE(homing.isHome());
   homing.ask();
   homing.take(reads({500, 0, 0, 0, 0, 0}, true), true);
-  EXPECT_FALSE(homing.wantsPreset());
+  homing.take(reads({500, 0, 0, 0, 0, 0}, true), false);
+  EXPECT_TRUE(homing.isHome());
+  homing.ask();
   homing.take(reads({500, 0, 0, 0, 0, 0}, true), false);
   EXPECT_TRUE(homing.wantsPreset());
   EXPECT_FALSE(homing.isHome());
 }
 
+TEST(WoodenHoming, LooksAtAGimbalOnlyWhereThereIsOne) {
+  for (bool has_gimbal : {false, true}) {
+    WoodenHoming homing(kHome, has_gimbal);
+    homing.ask();
+    homing.take(reads({0, 0, 0, 0, 0, 0}, false), false);
+    homing.take(reads({0, 0, 6000, 0, 0, 5000}, false), false);
+    EXPECT_EQ(homing.isHome(), !has_gimbal);
+  }
+}
+
 TEST(WoodenHoming, GoesOnPresettingUntilTheEncodersObey) {
-  WoodenHoming homing(kHome);
+  WoodenHoming homing(kHome, true);
   homing.ask();
   for (int i = 0; i < 1000; ++i) {
     homing.take(reads({0, 0, 0, 0, 0, 0}, false), false);
