@@ -63,7 +63,7 @@ struct DeviceCapabilities {
 struct Beat {
   double late_us = 0.0;      ///< from when it was due to when the device's thread woke
   std::uint64_t missed = 0;  ///< ticks that were due since the last one and did not happen
-  double gap_s = 0.0;  ///< by the clock since the tick before; the loop measures it
+  double gap_s = 0.0;        ///< by the clock since the tick before; the loop measures it
 };
 
 /// Whom a device serves. Called from the device's own thread only; must not allocate, lock, block or throw.
