@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <functional>
@@ -172,7 +173,14 @@ TEST_F(WoodenOnTheBus, PushesTheWayItIsTold) {
       ASSERT_TRUE(soon([&] { return glm::distance(pusher.seen.read().X_DH.translation_mm, from_mm) < 0.1; }));
       wish.publish(force_N);
       bus->locked([&] { unit.letGo(); });
-      EXPECT_TRUE(soon([&] { return glm::dot(now([&] { return unit.place_mm(); }) - from_mm, force_N) > 5.0; }));
+      // By the straight way: an arm pushed wrongly may fold until it arrives after all.
+      double farthest_back_mm = 0.0;
+      EXPECT_TRUE(soon([&] {
+        const double moved_mm = glm::dot(now([&] { return unit.place_mm(); }) - from_mm, force_N);
+        farthest_back_mm = std::min(farthest_back_mm, moved_mm);
+        return moved_mm > 5.0;
+      }));
+      EXPECT_GT(farthest_back_mm, -0.1);
     }
 }
 
