@@ -273,8 +273,9 @@ std::optional<int> Plug::answer(UMockdevIoctlClient* client) {
       if (!faults.halts_stay) faults.in_halted = faults.out_halted = false;
       return 0;
     case USBDEVFS_GETDRIVER:
-    case USBDEVFS_IOCTL:
       return -ENODATA;
+    case USBDEVFS_IOCTL:
+      return faults.detach_unserved ? -ENOTTY : -ENODATA;
     case USBDEVFS_SUBMITURB:
       return submit(argument);
     default:

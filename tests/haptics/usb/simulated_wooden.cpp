@@ -55,6 +55,7 @@ void SimulatedWooden::move(double t_s) {
   for (; last_move_s_ + step_s <= t_s; last_move_s_ += step_s) {
     if (held_) {
       rate_rad_per_s_ = glm::dvec3(0.0);
+      joints_rad_.x += step_s * swing_rad_per_s_;
       continue;
     }
     for (int i = 0; i < 3; ++i) {

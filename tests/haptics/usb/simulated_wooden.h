@@ -25,6 +25,8 @@ class SimulatedWooden : public Device {
   /// Joints held by somebody: they stay there until let go.
   void hold(const glm::dvec3& joints_rad) { joints_rad_ = joints_rad, held_ = true; }
   void holdAtHome();
+  /// The turret led round evenly by whoever holds it.
+  void swing(double rad_per_s) { swing_rad_per_s_ = rad_per_s; }
   void letGo() { held_ = false; }
   void pressSwitch() { switch_pressed_ = true; }
   glm::dvec3 place_mm() const;
@@ -46,6 +48,7 @@ class SimulatedWooden : public Device {
   std::array<int, 3> trueCounts() const;
 
   glm::dvec3 joints_rad_{0.0, 0.35, 0.65}, rate_rad_per_s_{0.0};
+  double swing_rad_per_s_ = 0.0;
   bool held_ = true, switch_pressed_ = false, reports_ = false;
   double last_out_s_ = 0.0, last_move_s_ = 0.0, next_report_s_ = 0.0;
 };

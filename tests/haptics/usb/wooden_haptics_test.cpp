@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <functional>
 #include <random>
 #include <thread>
@@ -155,6 +156,26 @@ TEST_F(WoodenOnTheBus, IsWokenHomedAndThenKnowsWhereItIs) {
   }
   bus->locked([&] { unit.button = true; });
   EXPECT_TRUE(soon([&] { return idle.seen.read().buttons == 1; }));
+}
+
+TEST_F(WoodenOnTheBus, KnowsHowFastItIsLed) {
+  WoodenHaptics wooden(obedient());
+  Pusher idle(wooden, always(glm::dvec3(0.0)));
+  wooden.start(idle, 1000.0);
+  bus->locked([&] {
+    unit.hold({-1.5, 0.35, 0.65});
+    unit.swing(0.3);
+  });
+  // Speed is the reach, some 219 mm, times the rate, square to the way out.
+  const double reach_mm = 205.0 * std::sin(0.35) + 245.0 * std::sin(0.65);
+  int right = 0;
+  EXPECT_TRUE(soon([&] {
+    const HandleState& state = idle.seen.read();
+    const glm::dvec3 out_mm = state.X_DH.translation_mm + glm::dvec3(220.0, 0.0, 0.0);
+    const glm::dvec3 way = glm::normalize(glm::dvec3(-out_mm.y, out_mm.x, 0.0));
+    right += glm::distance(state.velocity_D_mm_per_s.xyz, 0.3 * reach_mm * way) < 0.2 * 0.3 * reach_mm ? 1 : 0;
+    return right > 50;
+  }));
 }
 
 TEST_F(WoodenOnTheBus, PushesTheWayItIsTold) {
