@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "tests/app/program.h"
@@ -35,6 +37,42 @@ TEST_F(RehearseCommand, RecordsWhatReplaysBitForBit) {
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
   write("t.molar", bytes);
   EXPECT_NE(molar("replay " + at("t.molar") + " --verify").status, 0);
+}
+
+/// A simulated Phantom is armed and carves; what it recorded moves again as a hand of its own.
+TEST_F(RehearseCommand, ArmsASimulatedPhantomAndReplaysItsHand) {
+  const std::string quiet = "rehearse --headless --voxel 0.6 --size 96x64 ";
+  const Said said = molar(quiet + "--device simulated:omni --seconds 7 --record " + at("s.molar"));
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_NE(said.err.find("There is no force yet."), std::string::npos) << said.err;
+  EXPECT_NE(said.err.find("The hand feels the tissue."), std::string::npos) << said.err;
+  EXPECT_EQ(molar("replay " + at("s.molar") + " --verify").status, 0);
+  const Said again = molar(quiet + "--device replay:" + at("s.molar") + " --seconds 2 --record " + at("t.molar"));
+  ASSERT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(molar("replay " + at("t.molar") + " --verify").status, 0);
+  EXPECT_EQ(molar(quiet + "--device replay:" + at("none.molar")).status, 2);
+}
+
+/// Through the whole program, with our stand-in for the vendor's library.
+TEST_F(RehearseCommand, ServesAPhantomThroughTheVendorsLibrary) {
+  setenv("MOLAR_OPENHAPTICS", MOLAR_STAND_IN_HD, 1);
+  const std::string line = "rehearse --headless --voxel 0.6 --size 96x64 --device openhaptics --seconds 2 ";
+  const Said said = molar(line + "--record " + at("s.molar"));
+  unsetenv("MOLAR_OPENHAPTICS");
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_NE(said.out.find("safety           none"), std::string::npos) << said.out;
+  EXPECT_EQ(molar("replay " + at("s.molar") + " --verify").status, 0);
+}
+
+TEST_F(RehearseCommand, SaysInOneLineWhyADeviceCanNotBeHad) {
+  setenv("MOLAR_OPENHAPTICS", at("libHD.so").c_str(), 1);
+  for (const char* address :
+       {"openhaptics", "wooden", "falcon", "usb", "wooden:9-9", "spoon", "replay:", "simulated:x"}) {
+    const Said said = molar("rehearse --headless --voxel 0.6 --device " + std::string(address));
+    EXPECT_EQ(said.status, 2) << address;
+    EXPECT_EQ(std::count(said.err.begin(), said.err.end(), '\n'), 1) << said.err;
+  }
+  unsetenv("MOLAR_OPENHAPTICS");
 }
 
 TEST_F(RehearseCommand, LeavesPicturesOfBothEyes) {

@@ -18,6 +18,7 @@ namespace hd = haptics::hd;
 
 class Machine {
  public:
+  Machine() { reset(); }
   static Machine& only();
 
   StandIn& door() { return door_; }
