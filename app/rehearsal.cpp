@@ -354,6 +354,8 @@ class Rehearsal {
   void finish() {
     if (latency_->pictures() > 0) workstation_->note("latency", "median " + photonText(latency_->median()));
     workstation_->note("end", interrupted ? "interrupted" : ended_by_user_ ? "by the user" : "time over");
+    workstation_->note("servo", punctualityText(workstation_->figures()));
+    workstation_->note("safety", "trips: " + tripsText(workstation_->trips()));
     const RecordingSummary recorded = workstation_->stop();
     // One more picture of what the bone has become.
     followServo();

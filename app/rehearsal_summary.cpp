@@ -13,6 +13,15 @@ std::string grantsText(const haptics::RealtimeGrants& grants) {
          (grants.memory_locked ? ", memory locked" : ", memory not locked");
 }
 
+std::string punctualityText(const haptics::LoopFigures& servo) {
+  return printed(
+             "%llu ticks, %llu deadlines missed, %llu by its own work; late by %.0f µs, 99 %% below %.0f, at most "
+             "%.0f; ",
+             static_cast<unsigned long long>(servo.ticks), static_cast<unsigned long long>(servo.missed),
+             static_cast<unsigned long long>(servo.overruns), servo.late_p50_us, servo.late_p99_us, servo.latest_us) +
+         grantsText(servo.grants);
+}
+
 std::string summaryText(const RehearsalFigures& f) {
   std::string text = "Rehearsal\n";
   text += printed("  patient          %s\n", f.patient_title.c_str());

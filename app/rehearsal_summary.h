@@ -32,6 +32,9 @@ struct RehearsalFigures {
 /// "real-time priority, core 3, memory locked".
 std::string grantsText(const haptics::RealtimeGrants& grants);
 
+/// "60031 ticks, 11 deadlines missed, 0 by its own work; late by 32 µs, 99 % below 66, at most 4254; real-time …".
+std::string punctualityText(const haptics::LoopFigures& servo);
+
 std::string summaryText(const RehearsalFigures& figures);
 
 }  // namespace app
