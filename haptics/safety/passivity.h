@@ -7,11 +7,8 @@
 // That is what flows in this tick and while the force comes down at the slew limit, so it comes down in time and
 // without a step; up to slew/k of speed (375 mm/s at 0.8 N/mm) a linear spring pays for it. In all the hand gets no
 // more than the grace, which is the midpoint rule's own error at first touch, and what a hand that jerks back takes
-// while the force comes down, F^2 v / (2 slew): under 0.05 N mm in steady contact (tests). A hand that has had kLetDown
-// is let go of at once, and whatever hand and law do the debt is never above kMostDebt: with m the longest move of a
-// tick, 2 m/s dt,
-//   |F| <= 2 (E + kMostDebt) / (|dx| + m)      10 N at 1 kHz and 5 N at 500 Hz while the books are in order
-// What it owes beyond kForgiven is forgiven with a time constant of 1 s, so that it is never left without force.
+// while the force comes down, F^2 v / (2 slew): under 0.05 N mm in steady contact (tests). Besides, a hand that has had
+// kLetDown is let go of at once, and mostForce_N bounds what the worst of hands and laws can take.
 // Not the energy that sampling and holding the force leaks (K T/2: the device's own damping takes it, physics 2.5), and
 // not the tool's vibration.
 // Frame P, about the handle; rotation weighs as kLever_mm of travel. Servo thread; flops.
@@ -40,7 +37,9 @@ class Passivity {
 
   /// After this motion the debt is too large to let the force down gently.
   bool isOverdrawn(const Motion& motion) const noexcept { return balance_Nmm(motion) < -kLetDown_Nmm; }
-  /// The largest force that no next motion can turn into more than kMostDebt; torque weighs as force at kLever.
+  /// Whatever the next move of the tick, of at most m = kFastest dt, the debt stays within kMostDebt:
+  ///   |F| <= 2 (E + kMostDebt) / (|dx| + m)      10 N at 1 kHz, 5 N at 500 Hz while the books are in order
+  /// Torque weighs as force at kLever. Beyond kForgiven the debt is forgiven over 1 s, so that a force comes back.
   double mostForce_N(const Motion& motion, double dt_s) const noexcept;
 
   /// Enters what was given in the end. `most_stored_Nmm`: what the contact could hold now, 0 in air.

@@ -54,53 +54,60 @@ SafetyLayer::Admitted SafetyLayer::admit(const HandSample& sample, const SafetyL
   return admitted_;
 }
 
+/// All that can raise a force, and the brake, which a wrong velocity would turn into an engine; then the books.
+Wrench<Patient> SafetyLayer::paidFor(const Wanted& wanted, const SafetyLimits& limits, double soft,
+                                     const glm::dvec3& brake_N, double dt_s) const noexcept {
+  Wrench<Patient> wrench{{soft * (within(wanted.wrench_P.force_N.xyz, limits.peak_force_N) + brake_N)},
+                         {soft * within(wanted.wrench_P.torque_Nmm.xyz, limits.peak_torque_Nmm)}};
+  return passivity_.allow(wrench, wanted.motion, limits.slew_N_per_s, dt_s);
+}
+
+/// The books get what was given, but for as much of the tremble as came through; the budget gets all of it.
+void SafetyLayer::account(const Wrench<Patient>& given, const Wrench<Patient>& tremble, double through,
+                          const Wanted& wanted, const SafetyLimits& limits, double dt_s) noexcept {
+  const bool trembles = through > 0.0 && std::isfinite(through) && !staleness_now_.holds;
+  passivity_.enter(trembles ? given - std::min(1.0, through) * tremble : given, wanted.motion, wanted.most_stored_Nmm,
+                   dt_s);
+  budget_.spend(glm::length(given.force_N.xyz), limits.continuous_force_N, dt_s);
+  if (!staleness_now_.holds) held_P_ = given;
+}
+
 SafetyFilter::Served SafetyLayer::serve(const Wanted& wanted, const SafetyLimits& limits, double dt_s) noexcept {
   touches_ = wanted.touches;
   const HandSample& hand = admitted_.hand;
+  const glm::dvec3& velocity = hand.velocity_P_mm_per_s.xyz;
   const bool active = admitted_.state == SafetyState::active;
-
-  // Soft start, of what the peak would let through; then the brake, then the books.
   const double soft = soft_start_.follow(active, readiness_.isLettingGo(), limits, dt_s);
-  const VelocityGuard::Verdict speed = velocity_guard_.follow(hand.velocity_P_mm_per_s.xyz, limits, dt_s);
-  Wrench<Patient> wrench{{soft * within(wanted.wrench_P.force_N.xyz, limits.peak_force_N)},
-                         {soft * within(wanted.wrench_P.torque_Nmm.xyz, limits.peak_torque_Nmm)}};
-  wrench.force_N.xyz += soft * speed.brake_N;
-  wrench = passivity_.allow(wrench, wanted.motion, limits.slew_N_per_s, dt_s);
+  const VelocityGuard::Verdict speed = velocity_guard_.follow(velocity, limits, dt_s);
+  Wrench<Patient> wrench = paidFor(wanted, limits, soft, speed.brake_N, dt_s);
 
   // From here on the force only gets less.
-  const BuzzDetector::Verdict buzz = buzz_.follow(hand.velocity_P_mm_per_s.xyz, limits.thresholds, dt_s);
+  const BuzzDetector::Verdict buzz = buzz_.follow(velocity, limits.thresholds, dt_s);
   buzzed_off_ = buzz.off;
   const double cool = shareAtHeat(hand.motor_heat, limits.thresholds);
   const double share = active && !speed.cuts && !buzz.off ? doubt_ * buzz.share * cool : 0.0;
-  const Wrench<Patient> tremble{soft * wanted.tremble_P_N, {}};
-  wrench = share * (wrench + tremble);
-  if (staleness_now_.holds) wrench = (active ? staleness_now_.share * share : 0.0) * held_P_;
+  const Wrench<Patient> tremble = share * Wrench<Patient>{soft * wanted.tremble_P_N, {}};
+  wrench = share * wrench + tremble;
+  if (staleness_now_.holds) wrench = (share > 0.0 ? staleness_now_.share : 0.0) * held_P_;
+  const double asked_N = glm::length(wrench.force_N.xyz);
 
+  // What books, budget, device and person can take now.
   SafetyLimits now = limits;
   const double in_books_N = passivity_.mostForce_N(wanted.motion, dt_s);
   const double lasting_N = budget_.mostForce_N(limits.continuous_force_N);
-  const double asked_N = glm::length(wrench.force_N.xyz);
   now.peak_force_N = std::min({limits.peak_force_N, in_books_N, lasting_N});
   now.peak_torque_Nmm = std::min(limits.peak_torque_Nmm, Passivity::kLever_mm * in_books_N);
   const bool overdrawn = passivity_.isOverdrawn(wanted.motion);
   const bool tripped = soft < 1.0 || share < 1.0 || staleness_now_.holds || overdrawn;
   const auto fall = tripped ? SafetyFilter::Fall::at_once : SafetyFilter::Fall::at_slew;
   SafetyFilter::Served served = filter_.serve(wrench, now, fall, dt_s, hand.jacobian_P_mm);
+  account(served.wrench_P, tremble, glm::length(served.wrench_P.force_N.xyz) / asked_N, wanted, limits, dt_s);
 
   const bool beyond = !(glm::length(wanted.wrench_P.force_N.xyz) <= limits.peak_force_N);
-  served.faults = served.faults | when(active && beyond, Fault::clamped) | when(active && cool < 1.0, Fault::hot) |
-                  when(asked_N > lasting_N && lasting_N < limits.peak_force_N, Fault::hot) |
+  const bool hot = cool < 1.0 || (asked_N > lasting_N && lasting_N < limits.peak_force_N);
+  served.faults = served.faults | when(active && beyond, Fault::clamped) | when(active && hot, Fault::hot) |
                   when(overdrawn, Fault::overdrawn) | when(speed.cuts, Fault::too_fast) |
                   when(glm::length(speed.brake_N) > 0.0, Fault::braked) | when(buzz.share < 1.0, Fault::buzz);
-
-  // The books get what was given, but for as much of the tremble as came through.
-  const double served_N = glm::length(served.wrench_P.force_N.xyz);
-  Wrench<Patient> entered = served.wrench_P;
-  if (asked_N > 0.0 && std::isfinite(asked_N) && !staleness_now_.holds)
-    entered = entered - share * std::min(1.0, served_N / asked_N) * tremble;
-  passivity_.enter(entered, wanted.motion, wanted.most_stored_Nmm, dt_s);
-  budget_.spend(served_N, limits.continuous_force_N, dt_s);
-  if (!staleness_now_.holds) held_P_ = served.wrench_P;
   return served;
 }
 

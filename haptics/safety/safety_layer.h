@@ -27,7 +27,7 @@ class SafetyLayer {
     SafetyState state = SafetyState::off;
     Fault faults = Fault::none;
 
-    /// There is nothing to cut with.
+    /// Nothing is cut that can not be felt.
     bool mayDrill() const;
   };
   /// `limits` sanitised; `rearm` is Command::rearm.
@@ -46,6 +46,11 @@ class SafetyLayer {
   double energy_Nmm() const { return passivity_.energy_Nmm(); }
 
  private:
+  Wrench<calibration::Patient> paidFor(const Wanted& wanted, const SafetyLimits& limits, double soft,
+                                       const glm::dvec3& brake_N, double dt_s) const noexcept;
+  void account(const Wrench<calibration::Patient>& given, const Wrench<calibration::Patient>& tremble, double through,
+               const Wanted& wanted, const SafetyLimits& limits, double dt_s) noexcept;
+
   HandGuard guard_;
   Staleness staleness_;
   Readiness readiness_;
