@@ -36,7 +36,7 @@ class Pusher final : public DeviceServo {
     fastest_mm_per_s = std::max(fastest_mm_per_s.load(), state.velocity_D_mm_per_s.xyz.x);
     if (ticks == 100) allocations_at_100 = allocation_count::now();
     if (ticks == 500) allocations_at_500 = allocation_count::now();
-    missed += beat.missed;
+    missed += static_cast<long>(beat.missed);
     latest_us = std::max(latest_us.load(), beat.late_us);
     unhealthy += state.healthy ? 0 : 1;
     uncalibrated += state.calibrated ? 0 : 1;

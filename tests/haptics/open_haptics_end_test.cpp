@@ -128,7 +128,8 @@ TEST_F(OpenHapticsTrouble, VoidsACommandThatWasMadeBeforeTheMotorsWentOff) {
   until([&] { return servo.ticks > 25; });
   device.stop();
   const std::vector<std::string> once{"force begins", "force ends", "disable 0x4000", "enable 0x4000", "force begins"};
-  EXPECT_NE(std::ranges::search(door.seen.events, once).begin(), door.seen.events.end());
+  const auto& events = door.seen.events;
+  EXPECT_NE(std::search(events.begin(), events.end(), once.begin(), once.end()), events.end());
 }
 
 TEST_F(OpenHapticsTrouble, CountsTheTicksThatASlowServoOrSchedulerMissed) {

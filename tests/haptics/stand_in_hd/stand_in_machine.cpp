@@ -256,13 +256,13 @@ void Machine::move() {
   Script& s = door_.script;
   Seen& seen = door_.seen;
   const double dt_s = 1.0 / static_cast<double>(rate_Hz_);
-  const double mass_Ns2_per_mm = 1e-3 * kMass_kg;
+  const double mass_t = 1e-3 * kMass_kg;  // tonnes: N s²/mm
   for (std::size_t i = 0; i < 3; ++i) {
     hand_mm_[i] += std::clamp(s.hand_mm[i] - hand_mm_[i], -kHandStep_mm, kHandStep_mm);
     const double force_N = seen.motors_on ? seen.force_N[i].load() : 0.0;
     const double pull_N = kGrip_N_per_mm * (hand_mm_[i] - seen.place_mm[i]);
-    const double momentum = mass_Ns2_per_mm * velocity_mm_per_s_[i] + dt_s * (force_N + pull_N);
-    velocity_mm_per_s_[i] = momentum / (mass_Ns2_per_mm + dt_s * kFriction_Ns_per_mm);
+    const double momentum = mass_t * velocity_mm_per_s_[i] + dt_s * (force_N + pull_N);
+    velocity_mm_per_s_[i] = momentum / (mass_t + dt_s * kFriction_Ns_per_mm);
     seen.place_mm[i] = seen.place_mm[i] + dt_s * velocity_mm_per_s_[i];
   }
 }
