@@ -81,6 +81,8 @@ class Rehearsal {
     frame_.site_P = {plan_.patient.site.third_molar_P_mm};
     frame_.tool_visible = false;
     frame_.X_PT.translation_mm = frame_.site_P.mm;
+    if (!plan_.second_hand.device.empty())
+      second_hand_.emplace(plan_.second_hand, plan_.device_options, plan_.patient, plan_.rig);
     display_.emplace(
         displayOf(plan_), [this](render::Backend backend) { return newRenderer(backend); },
         [this](const std::string& line) { tell(line); });
@@ -114,6 +116,7 @@ class Rehearsal {
     workstation_->start();
     if (hand_.library) unplug_watch_.emplace(*workstation_);
     workstation_->note("start", hand_.name);
+    if (second_hand_) second_hand_->start(), workstation_->note("second hand", second_hand_->name());
     for (const std::string& line : told_early_) workstation_->note("display", line);
     noteQuality();
     looping_since_ = Clock::now();
@@ -138,6 +141,7 @@ class Rehearsal {
   /// In the current context, from the bone as it is.
   std::unique_ptr<render::FrameRenderer> newRenderer(render::Backend backend) {
     auto renderer = dressedRenderer(plan_.patient, desk_.inForce().tool, plan_.patient.ct.solid, {.backend = backend});
+    if (second_hand_) second_hand_->dress(*renderer);
     if (workstation_) upload_.bringAgain(workstation_->bone(), *renderer);
     return renderer;
   }
@@ -257,6 +261,7 @@ class Rehearsal {
     frame_.X_PT_at_hand = {frame_.X_PT.rotation, newest_.hand.X_PT.translation_mm};
     if (newest_.drilling)
       frame_.bur_angle_rad = std::fmod(newest_.t_s * kBurTurnsPerSecond, 1.0) * 2.0 * calibration::kPi;
+    if (second_hand_) second_hand_->place(frame_);
     upload_.bring(workstation_->bone(), display_->renderer());
   }
 
@@ -318,6 +323,8 @@ class Rehearsal {
   void noteTrouble() {
     if (unplug_watch_)
       if (const auto news = unplug_watch_->takeNews()) tell(*news);
+    if (second_hand_)
+      if (const auto news = second_hand_->takeNews()) tell(*news);
     if (const auto trouble = workstation_->recordingTrouble(); trouble && !recording_ended_) {
       recording_ended_ = true;
       std::fprintf(stderr, "molar: recording ended: %s\n", trouble->c_str());
@@ -334,6 +341,7 @@ class Rehearsal {
   void takePictures(EyePictures& pictures, std::span<const std::uint8_t> solid) {
     const auto renderer = dressedRenderer(plan_.patient, desk_.inForce().tool, solid,
                                           {.backend = display_->backend(), .samples = kSnapshotSamples});
+    if (second_hand_) second_hand_->dress(*renderer);
     render::Frame frame = frame_;
     frame.quality = {};
     frame.rig.screen.px = plan_.snapshot_px;
@@ -388,6 +396,7 @@ class Rehearsal {
   HandAtWork hand_;
   double rate_Hz_;
   std::optional<double> duration_s_;
+  std::optional<SecondHand> second_hand_;
   HandInput input_;
   CommandDesk desk_;
   std::optional<EyePictures> first_pictures_, closing_pictures_;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/hand_at_work.h"
+#include "app/second_hand.h"
 #include "app/session_guide.h"
 #include "app/workstation.h"
 #include "assets/patient.h"
@@ -29,6 +30,7 @@ struct RehearsalPlan {
   render::Frame first_frame;               ///< view mode, layers and quality to begin with; the rest is the rehearsal's
   std::string device = "mouse";            ///< its address
   DeviceOptions device_options;
+  SecondHandPlan second_hand;
   haptics::Command command;
   std::vector<haptics::Tool> other_tools;  ///< for changes of tool, after the command's
   std::string parameters;         ///< settings file that is obeyed while it changes; `command` holds what it leaves out

@@ -37,7 +37,7 @@ struct RehearseOptions {
   std::string patient, parameters, device = "mouse", rig, record, snapshot, first_snapshot, face;
   std::vector<std::string> tools{"sphere:1.5"};
   std::string shaft, law = "agus", erosion = "time", size, snapshot_size = "1280x800";
-  std::string side = "right";
+  std::string side = "right", second_hand, second_tool = "mirror";
   PictureOption picture;
   std::vector<std::string> settings;
   DisplayOption display;
@@ -101,6 +101,9 @@ int run(const RehearseOptions& options) {
     throw UsageError("--headless: there is no mouse without a window, add --device scripted");
   refuseUnlessDevice(options.device);
   plan.device = options.device;
+  plan.second_hand = {options.second_hand,
+                      options.second_tool == "mirror" ? SecondTool::mirror : SecondTool::retractor};
+  refuseUnlessSecondHand(plan.second_hand, options.device);
   plan.device_options.tell = [](const std::string& line) { std::fprintf(stderr, "molar: %s\n", line.c_str()); };
   plan.display = options.display.mode();
   plan.eyes_swapped = options.display.swapped();
@@ -133,6 +136,9 @@ int run(const RehearseOptions& options) {
   if (!options.face.empty()) X_PF = dressWithFace(plan.patient, options.face);
   plan.face_window_mm = options.face_window_mm.value_or(options.face.empty() ? 0.0 : kForeignFaceWindow_mm);
   plan.rig = rigFor(options, plan.patient, X_PF);
+  if (!options.rig.empty() && namesRealDevice(options.second_hand) && !plan.rig.X_WD2)
+    throw UsageError("--second-hand " + options.second_hand + ": rig file " + options.rig +
+                     " does not say where its base stands, add X_WD2");
   options.display.refuseUnlessFits(plan.rig);
   leaveACoreToTheServo();
   rehearse(std::move(plan));
@@ -146,6 +152,11 @@ void addRehearse(CLI::App& molar, Chosen& chosen) {
   CLI::App* command = molar.add_subcommand("rehearse", "Rehearse a third-molar extraction, seen and felt");
   auto* patient = command->add_option("PATIENT", o->patient, "Patient folder (default: the built-in patient)");
   command->add_option("--device", o->device, kDeviceHelp)->capture_default_str();
+  auto* second = command->add_option("--second-hand", o->second_hand, kSecondHandHelp);
+  command->add_option("--second-tool", o->second_tool, "What the other hand holds: mirror or retractor")
+      ->check(CLI::IsMember({"mirror", "retractor"}))
+      ->capture_default_str()
+      ->needs(second);
   auto* rig =
       command->add_option("--rig", o->rig, "Rig file: screen, mirror, eyes, patient pose; 1:1")->type_name("FILE");
   o->display.addTo(*command);

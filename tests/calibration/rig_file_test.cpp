@@ -59,6 +59,19 @@ TEST_F(RigFile, ReadsBackWhatItWrites) {
   EXPECT_NEAR(back.mirror->offset_mm, 12.5, 1e-9);
 }
 
+TEST_F(RigFile, HoldsThePoseOfASecondDeviceWhereThereIsOne) {
+  Rig rig = mirroredRig();
+  EXPECT_FALSE(readRig(write(rigText(rig))).X_WD2);
+  rig.X_WD2 = {glm::angleAxis(0.4, glm::normalize(glm::dvec3(3, 1, 2))), {-150, 20, 30}};
+  const Rig back = readRig(write(rigText(rig)));
+  ASSERT_TRUE(back.X_WD2);
+  EXPECT_LT(glm::distance((*back.X_WD2 * Point<Device>{{1, 2, 3}}).mm, (*rig.X_WD2 * Point<Device>{{1, 2, 3}}).mm),
+            1e-9);
+  std::string text = rigText(rig);
+  text.replace(text.find("X_WD2:"), text.size(), "X_WD2: [ 1, 2, 3 ]\n");
+  EXPECT_THROW(readRig(write(text)), CalibrationError);
+}
+
 TEST_F(RigFile, ScalesOffsetWithAnUnnormalisedMirrorNormal) {
   std::string text = rigText(mirroredRig());
   const auto at = text.find("normal:");

@@ -1,0 +1,111 @@
+#include "app/second_hand.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "app/usage_error.h"
+#include "assets/dental_mirror.h"
+#include "assets/retractor.h"
+#include "haptics/device/simulated/still_hand.h"
+
+namespace app {
+namespace {
+
+using calibration::Device;
+using calibration::Handle;
+using calibration::OtherTool;
+using calibration::Patient;
+using calibration::Pose;
+using calibration::World;
+
+/// Fast enough for any display, and the least that devices are served at.
+constexpr double kRate_Hz = 500.0;
+
+const char* nameOf(SecondTool tool) { return tool == SecondTool::mirror ? "mirror" : "retractor"; }
+
+Pose<World, OtherTool> held(const glm::dvec3& x_W, const glm::dvec3& z_W, const glm::dvec3& place_W) {
+  const glm::dvec3 z = glm::normalize(z_W), y = glm::normalize(glm::cross(z, x_W));
+  return {glm::normalize(glm::quat_cast(glm::dmat3(glm::cross(y, z), y, z))), place_W};
+}
+
+/// The glass looks along `out_W`, the handle leads away half a right angle from there, towards `handle_W`.
+Pose<World, OtherTool> mirrorHeld(const glm::dvec3& out_W, const glm::dvec3& handle_W, const glm::dvec3& place_W) {
+  const glm::dvec3 out = glm::normalize(out_W);
+  const glm::dvec3 aside = glm::normalize(handle_W - glm::dot(handle_W, out) * out);
+  const glm::dvec3 z = std::sqrt(0.5) * (out + aside), y = std::sqrt(0.5) * (aside - out);
+  return held(glm::cross(y, z), z, place_W);
+}
+
+/// The script's place for the instrument, beside the tooth wherever the rig has it.
+Pose<World, OtherTool> holdBeside(const assets::Patient& patient, const calibration::Rig& rig, SecondTool tool) {
+  Pose<World, OtherTool> hold = scriptedHold(tool, patient.site.tooth_fdi == 48);
+  hold.translation_mm += (rig.X_WP * calibration::Point<Patient>{patient.site.third_molar_P_mm}).mm;
+  return hold;
+}
+
+HandAtWork deviceOf(const SecondHandPlan& plan, const DeviceOptions& options, const assets::Patient& patient,
+                    const calibration::Rig& rig) {
+  const Pose<World, OtherTool> hold = holdBeside(patient, rig, plan.tool);
+  if (plan.device != "scripted") {
+    calibration::Rig others = rig;
+    others.X_WD = rig.X_WD2.value_or(Pose<World, Device>{{1.0, 0.0, 0.0, 0.0}, hold.translation_mm});
+    return handAtWork(plan.device, options, patient, others, 1.0);
+  }
+  if (!patient.site.known)
+    throw UsageError("--second-hand scripted: this patient has no third molar to hold it at, give a device");
+  const Pose<Patient, OtherTool> X_PO = rig.X_WP.inverse() * hold;
+  HandAtWork hand;
+  hand.device = std::make_unique<haptics::StillHand>(Pose<Device, Handle>{X_PO.rotation, X_PO.translation_mm});
+  hand.name = hand.device->capabilities().model;
+  return hand;
+}
+
+}  // namespace
+
+Pose<World, OtherTool> scriptedHold(SecondTool tool, bool right_side) {
+  // As the surgeon sees a right third molar; a left one is the mirror image of that.
+  const double s = right_side ? 1.0 : -1.0;
+  if (tool == SecondTool::mirror) return mirrorHeld({-0.55 * s, -0.1, 0.8}, {0.6 * s, -0.2, 0.8}, {17.0 * s, 9.0, 2.0});
+  return held({0.8 * s, -0.5, 0.3}, {0.45 * s, 0.1, 0.9}, {13.0 * s, -9.0, 0.0});
+}
+
+void refuseUnlessSecondHand(const SecondHandPlan& plan, const std::string& first_device) {
+  if (plan.device.empty()) return;
+  if (plan.device != "scripted" && !plan.device.starts_with("replay:") && !namesRealDevice(plan.device))
+    throw UsageError("--second-hand " + plan.device + ": it can not hold a " + nameOf(plan.tool) +
+                     ", choose scripted, replay:SESSION or a device of molar devices");
+  if (plan.device == first_device && namesRealDevice(plan.device))
+    throw UsageError("--second-hand " + plan.device + ": the first hand holds this device, name another");
+}
+
+SecondHand::SecondHand(const SecondHandPlan& plan, const DeviceOptions& options, const assets::Patient& patient,
+                       const calibration::Rig& rig)
+    : tool_(plan.tool), device_(deviceOf(plan, options, patient, rig)) {
+  const haptics::DeviceCapabilities& can = device_.device->capabilities();
+  name_ = std::string(nameOf(tool_)) + ", " + device_.name;
+  const double rate_Hz = device_.rate_Hz.value_or(std::clamp(kRate_Hz, can.least_rate_Hz, can.most_rate_Hz));
+  hand_ = std::make_unique<haptics::PassiveHand>(*device_.device, rate_Hz);
+}
+
+void SecondHand::dress(render::FrameRenderer& renderer) const {
+  renderer.setSecondInstrument(tool_ == SecondTool::mirror ? assets::dentalMirror() : assets::retractor());
+}
+
+void SecondHand::place(render::Frame& frame) {
+  const auto state = hand_->newest();
+  frame.second_visible = is_seen_ = state.has_value();
+  if (!state) return;
+  const auto X_PO = device_.X_PD * state->X_DH * device_.X_HT;
+  frame.X_PO = {X_PO.rotation, X_PO.translation_mm};
+}
+
+std::optional<std::string> SecondHand::takeNews() {
+  if (is_seen_ == was_seen_) return std::nullopt;
+  was_seen_ = is_seen_;
+  if (std::exchange(was_lost_, !is_seen_) == is_seen_)
+    return name_ + (is_seen_ ? ": followed again" : ": it can not be followed any more and is not drawn");
+  return std::nullopt;
+}
+
+}  // namespace app
