@@ -24,17 +24,19 @@ constexpr double kRate_Hz = 500.0;
 
 const char* nameOf(SecondTool tool) { return tool == SecondTool::mirror ? "mirror" : "retractor"; }
 
-Pose<World, OtherTool> held(const glm::dvec3& x_W, const glm::dvec3& z_W, const glm::dvec3& place_W) {
-  const glm::dvec3 z = glm::normalize(z_W), y = glm::normalize(glm::cross(z, x_W));
+/// The handle along `z_W`, the plane x = 0 of the instrument, which halves it, through `y_W`.
+Pose<World, OtherTool> held(const glm::dvec3& y_W, const glm::dvec3& z_W, const glm::dvec3& place_W) {
+  const glm::dvec3 z = glm::normalize(z_W), y = glm::normalize(y_W - glm::dot(y_W, z) * z);
   return {glm::normalize(glm::quat_cast(glm::dmat3(glm::cross(y, z), y, z))), place_W};
 }
 
-/// The glass looks along `out_W`, the handle leads away half a right angle from there, towards `handle_W`.
-Pose<World, OtherTool> mirrorHeld(const glm::dvec3& out_W, const glm::dvec3& handle_W, const glm::dvec3& place_W) {
-  const glm::dvec3 out = glm::normalize(out_W);
+/// The glass shows an eye in front of it the origin; the handle leads away half a right angle from there, towards
+/// `handle_W`.
+Pose<World, OtherTool> mirrorHeld(const glm::dvec3& handle_W, const glm::dvec3& place_W) {
+  const glm::dvec3 eye_W(0.0, 0.0, 500.0);
+  const glm::dvec3 out = glm::normalize(glm::normalize(eye_W - place_W) - glm::normalize(place_W));
   const glm::dvec3 aside = glm::normalize(handle_W - glm::dot(handle_W, out) * out);
-  const glm::dvec3 z = std::sqrt(0.5) * (out + aside), y = std::sqrt(0.5) * (aside - out);
-  return held(glm::cross(y, z), z, place_W);
+  return held(aside - out, out + aside, place_W);
 }
 
 /// The script's place for the instrument, beside the tooth wherever the rig has it.
@@ -66,8 +68,8 @@ HandAtWork deviceOf(const SecondHandPlan& plan, const DeviceOptions& options, co
 Pose<World, OtherTool> scriptedHold(SecondTool tool, bool right_side) {
   // As the surgeon sees a right third molar; a left one is the mirror image of that.
   const double s = right_side ? 1.0 : -1.0;
-  if (tool == SecondTool::mirror) return mirrorHeld({-0.55 * s, -0.1, 0.8}, {0.6 * s, -0.2, 0.8}, {17.0 * s, 9.0, 2.0});
-  return held({0.8 * s, -0.5, 0.3}, {0.45 * s, 0.1, 0.9}, {13.0 * s, -9.0, 0.0});
+  if (tool == SecondTool::mirror) return mirrorHeld({0.9 * s, -0.1, 0.6}, {17.0 * s, 10.0, 23.0});
+  return held({-0.46 * s, 0.07, 0.79}, {0.85 * s, -0.05, 0.5}, {15.5 * s, 6.5, 6.0});
 }
 
 void refuseUnlessSecondHand(const SecondHandPlan& plan, const std::string& first_device) {

@@ -107,6 +107,18 @@ TEST_F(RehearseCommand, RefusesABadSettingsFileAtTheStart) {
   expectRefusal(kCoarse + std::string("--law spring"), "forssim");
 }
 
+TEST_F(RehearseCommand, ShowsWhatTheOtherHandHolds) {
+  const auto end = [&](const std::string& options, const std::string& name) {
+    const Said said = molar(kCoarse + std::string("--seconds 0.3 --renderer cpu --snapshot-size 160x100 --force ") +
+                            options + " --snapshot " + at(name + ".png"));
+    EXPECT_EQ(said.status, 0) << said.err;
+    return read(name + "_left.png");
+  };
+  EXPECT_NE(end("--second-hand scripted --second-tool mirror", "mirror"),
+            end("--second-hand scripted --second-tool retractor", "retractor"));
+  expectRefusal(kCoarse + std::string("--second-hand mouse"), "--second-hand mouse");
+}
+
 TEST_F(RehearseCommand, KeepsAnOldRecording) {
   write("s.molar", "precious");
   expectRefusal(kCoarse + std::string("--seconds 0.2 --record ") + at("s.molar"), "s.molar");
