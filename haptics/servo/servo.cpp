@@ -39,7 +39,8 @@ Tick Servo::step(const HandSample& hand, const Command& wanted, double dt_s) noe
   // The hand, or where it last was when it cannot be believed.
   const SafetyLayer::Admitted admitted = safety_.admit(hand, command.safety, command.rearm, tick.dt_s);
   const HandSample& believed = admitted.hand;
-  if (admitted.relocated) proxy_.release();
+  // Where nothing pushes nothing holds: the proxy goes with the hand.
+  if (admitted.relocated || (command.safety.must_be_armed && admitted.state != SafetyState::active)) proxy_.release();
   tick.faults = admitted.faults;
   tick.state = admitted.state;
 

@@ -162,6 +162,28 @@ TEST(Servo, LetsGoWhenTheDeviceIsUnwell) {
   EXPECT_EQ(glm::length(tick.served_force_P_N.xyz), 0.0);
 }
 
+TEST(Servo, ArmsWhereTheHandIsAndNotWhereItOnceCouldNotGo) {
+  // Through a plate while docked: there is no force that could have stopped it.
+  CarvedBone bone = filled(4.0, 0.2, [](const glm::dvec3& p) { return std::abs(p.z) - 0.6; }).bone();
+  Servo servo(bone);
+  Command command;
+  command.tool.head.radius_mm = 0.6;
+  command.safety = strict(command.safety);
+  HandSample hand = handAt({0.0, 0.0, 2.0});
+  hand.docked = true;
+  Tick tick;
+  for (; hand.X_PT.translation_mm.z > -2.0; hand.X_PT.translation_mm.z -= 0.02) tick = servo.step(hand, command, 1e-3);
+  EXPECT_EQ(tick.state, SafetyState::ready);
+  hand.docked = false;
+  for (int i = 0; i < 5; ++i) tick = servo.step(hand, command, 1e-3);
+  EXPECT_EQ(tick.state, SafetyState::active);
+  // And from there the plate holds.
+  for (int i = 0; i < 800; ++i) tick = servo.step(hand, command, 1e-3);
+  for (; hand.X_PT.translation_mm.z < 0.5; hand.X_PT.translation_mm.z += 0.02) tick = servo.step(hand, command, 1e-3);
+  EXPECT_LT(tick.served_force_P_N.xyz.z, -0.5);
+  EXPECT_LT(tick.proxy_P.mm.z, -0.6);
+}
+
 TEST(Servo, CutsOnlyWithPedalAndPermission) {
   CarvedBone bone = halfSpace(4.0, 0.2).bone();
   Servo servo(bone);
