@@ -8,6 +8,7 @@
 
 #include "calibration/geometry/units.h"
 #include "haptics/device/simulated/work_round.h"
+#include "tests/haptics/allocation_count.h"
 
 namespace haptics {
 namespace {
@@ -47,6 +48,14 @@ HandleState stepped(SimulatedPhantom& device, const glm::dvec3& force_N, int tic
   HandleState state;
   for (int tick = 0; tick < ticks; ++tick) state = device.exchange(push(force_N), 1e-3);
   return state;
+}
+
+TroughPath trough() {
+  TroughPlan plan;
+  plan.outward_D = {{0.0, 0.4, 0.9}};
+  plan.buccal_D = {{1.0, 0.0, 0.0}};
+  plan.depth_mm = 3.75;  // an odd number of passes: it ends where it did not begin
+  return TroughPath(plan);
 }
 
 TEST(SimulatedPhantom, HasTheFiguresOfItsModel) {
@@ -218,6 +227,16 @@ TEST(SimulatedPhantom, ShrugsOffWhatIsNoForce) {
   EXPECT_LT(glm::distance(stepped(device, {}, 1000).X_DH.translation_mm, kMiddle_mm), 1.5);
 }
 
+TEST(SimulatedPhantom, AllocatesNothingWhileItTicks) {
+  const PhantomMechanics& omni = phantom("omni");
+  const HandTarget rest{omni.rest_D.mm, {1.0, 0.0, 0.0, 0.0}, false, 0, true};
+  const WorkRound round(trough(), rest, {{0.0, -60.0, 40.0}});
+  SimulatedPhantom device(omni, [round](double t_s) { return round.at(t_s); });
+  const std::size_t before = allocation_count::now();
+  for (int tick = 0; tick < 5000; ++tick) device.exchange(push({0.0, 0.0, 0.5}), 1e-3);
+  EXPECT_EQ(allocation_count::now(), before);
+}
+
 TEST(SimulatedPhantom, IsTheSameTwice) {
   const auto course = [](std::uint32_t seed) {
     SimulatedPhantom device(phantom("omni"), holdingAt(kMiddle_mm), {}, seed);
@@ -269,14 +288,6 @@ TEST(SimulatedPhantom, RefusesWhatCannotBe) {
   refused([](auto& mechanics, auto&, auto&) { mechanics.geometry.shin_mm = 0.0; });
   refused([](auto&, auto& grip, auto&) { grip.stiffness_N_per_mm = -1.0; });
   refused([](auto&, auto&, auto& script) { script = holdingAt({0.0, 0.0, 500.0}); });
-}
-
-TroughPath trough() {
-  TroughPlan plan;
-  plan.outward_D = {{0.0, 0.4, 0.9}};
-  plan.buccal_D = {{1.0, 0.0, 0.0}};
-  plan.depth_mm = 3.75;  // an odd number of passes: it ends where it did not begin
-  return TroughPath(plan);
 }
 
 TEST(WorkRound, TakesWorksAndPutsBack) {

@@ -1,7 +1,7 @@
 // A Phantom that exists in numbers only, in the hand of somebody who follows a script and whom its forces really push:
 // the arm's kinematics, weight and friction, motors with their limits, delay and warmth, stops, inkwell, encoders,
 // gimbal noise. What servo and safety have to be right with. Frame D; mm, N, s. The device's thread; a pure function of
-// the steps and the seed; about 2 us a tick, no allocation after construction. Its weight is the same in every
+// the steps and the seed; about 1.5 us a tick, no allocation after construction. Its weight is the same in every
 // direction; no gravity, no bending of the links, no torque on the handle.
 #pragma once
 
