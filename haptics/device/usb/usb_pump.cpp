@@ -4,7 +4,6 @@
 #include <sched.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "haptics/device/monotonic_clock.h"
 
@@ -30,14 +29,15 @@ void hurry() noexcept {
   pthread_setname_np(pthread_self(), "molar-usb");
 }
 
-void count(std::atomic<std::uint64_t>& counter, std::uint64_t more = 1) noexcept {
-  counter.fetch_add(more, std::memory_order_relaxed);
-}
+void count(std::atomic<std::uint64_t>& counter) noexcept { counter.fetch_add(1, std::memory_order_relaxed); }
 
 }  // namespace
 
 UsbPump::UsbPump(UsbLink& link, const UsbStream& stream)
-    : link_(link), stream_(stream), out_(link, link.out(), UsbReport::kMostBytes) {
+    : link_(link),
+      stream_(stream),
+      outbox_(stream.rest, ns(stream.rest_after)),
+      out_(link, link.out(), UsbReport::kMostBytes) {
   for (int i = 0; i < std::max(1, stream_.in_flight); ++i) ins_.emplace_back(link, link.in(), link.in().packet_bytes);
   thread_ = std::thread([this] { run(); });
 }
@@ -65,30 +65,24 @@ bool UsbPump::awaitReport(std::int64_t deadline_ns) noexcept {
 }
 
 void UsbPump::send(const UsbReport& report, std::uint32_t rests) noexcept {
-  wanted_.publish({report, rests, ++sent_number_, monotonic_ns()});
+  outbox_.send(report, rests, monotonic_ns());
   wake_.raise();
 }
 
 // ---- any thread
 
 void UsbPump::rest() noexcept {
-  rests_.fetch_add(1);
+  outbox_.rest();
   wake_.raise();
 }
 
 bool UsbPump::sendLast(const UsbReport& report, std::chrono::milliseconds within) noexcept {
   const std::int64_t deadline_ns = monotonic_ns() + ns(within);
-  LastReport none = LastReport::none;
-  if (last_state_.compare_exchange_strong(none, LastReport::writing)) {
-    last_ = report;
-    last_deadline_ns_.store(deadline_ns);
-    last_state_.store(LastReport::wanted);
-    wake_.raise();
-  }
+  outbox_.askLast(report, deadline_ns);
+  wake_.raise();
   const timespec pause{0, kWait_ns};
-  while (last_state_.load() != LastReport::over && monotonic_ns() < deadline_ns)
-    clock_nanosleep(CLOCK_MONOTONIC, 0, &pause, nullptr);
-  return last_state_.load() == LastReport::over && last_taken_.load();
+  while (!outbox_.isOver() && monotonic_ns() < deadline_ns) clock_nanosleep(CLOCK_MONOTONIC, 0, &pause, nullptr);
+  return outbox_.isOver() && outbox_.lastWasTaken();
 }
 
 UsbCounters UsbPump::counters() const noexcept {
@@ -96,8 +90,8 @@ UsbCounters UsbPump::counters() const noexcept {
   UsbCounters c;
   c.reports_in = read(counted_.reports_in);
   c.reports_out = read(counted_.reports_out);
-  c.replaced_out = read(counted_.replaced_out);
-  c.silences = read(counted_.silences);
+  c.replaced_out = outbox_.replaced();
+  c.silences = outbox_.silences();
   c.in_timeouts = read(counted_.in_timeouts);
   c.out_timeouts = read(counted_.out_timeouts);
   c.stalls = read(counted_.stalls);
@@ -114,7 +108,7 @@ void UsbPump::run() noexcept {
   while (!quit_.load()) {
     std::int64_t now_ns = monotonic_ns();
     if (gone_) {
-      if (last_state_.load() == LastReport::wanted) endLast(false);
+      outbox_.close();
       wake_.awaitUntil(now_ns + kLook_ns);
       continue;
     }
@@ -140,51 +134,10 @@ void UsbPump::submitIn(std::int64_t now_ns) noexcept {
 
 void UsbPump::submitOut(std::int64_t now_ns) noexcept {
   if (out_.inFlight() || out_.finished() || out_health_.halted || now_ns < out_health_.again_at_ns) return;
-  const std::optional<UsbReport> report = chooseOut(now_ns);
+  const std::optional<UsbReport> report = outbox_.next(now_ns);
   if (!report) return;
   std::copy_n(report->bytes.begin(), report->size, out_.buffer().begin());
   out_.submit(report->size, now_ns + ns(stream_.out_deadline));
-}
-
-std::optional<UsbReport> UsbPump::chooseOut(std::int64_t now_ns) noexcept {
-  // The last report comes before all, and nothing after it. One attempt is made however late it is.
-  const LastReport last = last_state_.load();
-  if (last == LastReport::over || last == LastReport::writing) return {};
-  if (last == LastReport::wanted) {
-    if (last_tries_++ > 0 && now_ns >= last_deadline_ns_.load()) {
-      endLast(false);
-      return {};
-    }
-    last_in_flight_ = true;
-    return last_;
-  }
-  // Then a rest, again and again until it is taken.
-  rests_under_way_ = rests_.load();
-  resting_ |= rests_under_way_ != rests_sent_;
-  if (rests_under_way_ != rests_sent_) return stream_.rest;
-
-  // Then the newest, unless a rest made it void or it waited too long; and a rest when there is none for long.
-  const Outgoing& newest = wanted_.read();
-  const std::int64_t patience_ns = ns(stream_.rest_after);
-  const bool is_new = newest.number != number_taken_;
-  const bool is_old = patience_ns > 0 && now_ns - newest.made_ns >= patience_ns;
-  const bool goes_out = is_new && !is_old && newest.rests == rests_under_way_;
-  if (is_new) count(counted_.replaced_out, newest.number - number_taken_ - (goes_out ? 1 : 0));
-  number_taken_ = newest.number;
-  made_at_ns_ = newest.made_ns;
-  if (goes_out) {
-    resting_ = false;
-    return newest.report;
-  }
-  if (resting_ || !is_old) return {};
-  count(counted_.silences);
-  resting_ = true;
-  return stream_.rest;
-}
-
-void UsbPump::endLast(bool taken) noexcept {
-  last_taken_.store(taken);
-  last_state_.store(LastReport::over);
 }
 
 void UsbPump::settleIn(std::int64_t now_ns) noexcept {
@@ -236,21 +189,18 @@ void UsbPump::settleOut(std::int64_t now_ns) noexcept {
   out_.expire(now_ns);
   gone_ |= out_.isDead(now_ns, ns(stream_.dead_after));
   if (!out_.takeFinished()) return;
-  const bool was_last = std::exchange(last_in_flight_, false);
   if (out_.outcome() == UsbOutcome::done) {
     out_health_ = {};
     out_late_ = false;
     count(counted_.reports_out);
-    if (was_last)
-      endLast(true);
-    else
-      rests_sent_ = rests_under_way_;
-  } else if (out_.outcome() == UsbOutcome::late) {
-    resting_ = false;
+    outbox_.taken();
+    return;
+  }
+  outbox_.notTaken();
+  if (out_.outcome() == UsbOutcome::late) {
     out_late_ = true;
     count(counted_.out_timeouts);
   } else {
-    resting_ = false;
     settleTrouble(out_.outcome(), out_health_, now_ns);
   }
 }
@@ -296,7 +246,7 @@ std::int64_t UsbPump::nextLook_ns(std::int64_t now_ns) const noexcept {
     if (in.inFlight()) by(in.deadline_ns());
   if (out_.inFlight()) by(out_.deadline_ns());
   by(heard_at_ns_ + ns(stream_.late_after) + 1);
-  if (!resting_ && stream_.rest_after.count() > 0) by(made_at_ns_ + ns(stream_.rest_after));
+  by(outbox_.nextLook_ns(look_ns));
   by(in_health_.again_at_ns);
   by(out_health_.again_at_ns);
   // What finished while it was submitted, and a pipe that can be cleared now, do not wait.
@@ -310,7 +260,7 @@ bool UsbPump::anyInFlight() const noexcept {
 }
 
 void UsbPump::windDown() noexcept {
-  if (last_state_.load() != LastReport::over) endLast(false);
+  outbox_.close();
   for (UsbTransfer& in : ins_) in.cancel();
   out_.cancel();
   const std::int64_t until_ns = monotonic_ns() + ns(stream_.dead_after);

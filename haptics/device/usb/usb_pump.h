@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "haptics/device/usb/usb_link.h"
+#include "haptics/device/usb/usb_outbox.h"
 #include "haptics/device/usb/usb_transfer.h"
 #include "haptics/device/usb/usb_transport.h"
 #include "haptics/device/usb/wake_signal.h"
@@ -30,7 +31,7 @@ class UsbPump {
   void send(const UsbReport& report, std::uint32_t rests) noexcept;
 
   // Any thread.
-  std::uint32_t rests() const noexcept { return rests_.load(); }
+  std::uint32_t rests() const noexcept { return outbox_.rests(); }
   void rest() noexcept;
   bool sendLast(const UsbReport& report, std::chrono::milliseconds within) noexcept;
   UsbState state() const noexcept { return state_.load(); }
@@ -39,15 +40,9 @@ class UsbPump {
   void stop() noexcept;
 
  private:
-  struct Outgoing {
-    UsbReport report;
-    std::uint32_t rests = 0;
-    std::uint64_t number = 0;
-    std::int64_t made_ns = 0;
-  };
   struct Counted {
-    std::atomic<std::uint64_t> reports_in{0}, reports_out{0}, replaced_out{0}, silences{0}, in_timeouts{0},
-        out_timeouts{0}, stalls{0}, short_reports{0}, overlong_reports{0}, errors{0};
+    std::atomic<std::uint64_t> reports_in{0}, reports_out{0}, in_timeouts{0}, out_timeouts{0}, stalls{0},
+        short_reports{0}, overlong_reports{0}, errors{0};
   };
   /// One direction: how often in a row it was found halted or failed, and when to try again.
   struct Health {
@@ -55,18 +50,15 @@ class UsbPump {
     int clearings = 0, failures = 0;
     std::int64_t again_at_ns = 0;
   };
-  enum class LastReport : std::uint8_t { none, writing, wanted, over };
 
   void run() noexcept;
   void submitIn(std::int64_t now_ns) noexcept;
   void submitOut(std::int64_t now_ns) noexcept;
-  std::optional<UsbReport> chooseOut(std::int64_t now_ns) noexcept;
   void settleIn(std::int64_t now_ns) noexcept;
   void settleOut(std::int64_t now_ns) noexcept;
   void settleTrouble(UsbOutcome outcome, Health& health, std::int64_t now_ns) noexcept;
   void hear(std::span<const std::uint8_t> bytes, std::int64_t now_ns) noexcept;
   void clearHalt(const UsbPipe& pipe, Health& health) noexcept;
-  void endLast(bool taken) noexcept;
   void judge(std::int64_t now_ns) noexcept;
   std::int64_t nextLook_ns(std::int64_t now_ns) const noexcept;
   void windDown() noexcept;
@@ -76,29 +68,21 @@ class UsbPump {
   UsbStream stream_;
   WakeSignal wake_, heard_signal_;
   Latest<UsbReport> heard_;
-  Latest<Outgoing> wanted_;
-  std::atomic<std::uint32_t> rests_{0};
+  UsbOutbox outbox_;
   std::atomic<UsbState> state_{UsbState::late};
   std::atomic<bool> quit_{false};
-  std::atomic<LastReport> last_state_{LastReport::none};
-  std::atomic<bool> last_taken_{false};
-  std::atomic<std::int64_t> last_deadline_ns_{0};
-  UsbReport last_;
   Counted counted_;
 
   // Of the servo thread.
-  std::uint64_t sent_number_ = 0, serial_seen_ = 0;
+  std::uint64_t serial_seen_ = 0;
 
   // Of the event thread.
   std::deque<UsbTransfer> ins_;
   UsbTransfer out_;
   Health in_health_, out_health_;
-  bool gone_ = false, out_late_ = false, last_in_flight_ = false;
-  int last_tries_ = 0;
-  std::uint32_t rests_sent_ = 0, rests_under_way_ = 0;
-  std::uint64_t number_taken_ = 0, serial_ = 0;
-  std::int64_t heard_at_ns_ = 0, made_at_ns_ = 0;
-  bool resting_ = true;  ///< the device is known to have let the motors go, or never held them
+  bool gone_ = false, out_late_ = false;
+  std::uint64_t serial_ = 0;
+  std::int64_t heard_at_ns_ = 0;
   std::thread thread_;
 };
 

@@ -1,0 +1,74 @@
+// What goes out over the USB next: the newest report of the servo, the rest report that lets the motors go, or the last
+// report of all. In this order: nothing after the last; the last before all; a rest until it is taken; the newest,
+// unless a rest or too long a wait made it void; a rest by itself after a silence. send(): the servo thread. rest(),
+// askLast(): any thread, also a signal handler. The others: the event thread. Lock-free, no allocation, no clock of its
+// own: times are given, ns of CLOCK_MONOTONIC.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+
+#include "haptics/device/usb/usb_report.h"
+#include "haptics/latest.h"
+
+namespace haptics {
+
+class UsbOutbox {
+ public:
+  /// `rest_after_ns` 0: never by itself.
+  UsbOutbox(const UsbReport& rest, std::int64_t rest_after_ns) : rest_(rest), rest_after_ns_(rest_after_ns) {}
+
+  void send(const UsbReport& report, std::uint32_t rests, std::int64_t now_ns) noexcept;
+
+  std::uint32_t rests() const noexcept { return rests_.load(); }
+  void rest() noexcept { rests_.fetch_add(1); }
+  /// The first who asks is heard. After the deadline it is given up, one attempt made.
+  void askLast(const UsbReport& report, std::int64_t deadline_ns) noexcept;
+  bool isOver() const noexcept { return phase_.load() == Phase::over; }
+  bool lastWasTaken() const noexcept { return last_taken_.load(); }
+  std::uint64_t replaced() const noexcept { return replaced_.load(std::memory_order_relaxed); }
+  std::uint64_t silences() const noexcept { return silences_.load(std::memory_order_relaxed); }
+
+  /// What shall be submitted now. Each one is answered by taken() or notTaken() before the next is asked for.
+  std::optional<UsbReport> next(std::int64_t now_ns) noexcept;
+  void taken() noexcept;
+  void notTaken() noexcept;
+  /// When to ask again though nobody sent anything; `never_ns` if not.
+  std::int64_t nextLook_ns(std::int64_t never_ns) const noexcept;
+  /// Nothing more goes out.
+  void close() noexcept { end(false); }
+
+ private:
+  struct Outgoing {
+    UsbReport report;
+    std::uint32_t rests = 0;
+    std::uint64_t number = 0;
+    std::int64_t made_ns = 0;
+  };
+  enum class Phase : std::uint8_t { open, writing, last_wanted, over };
+
+  std::optional<UsbReport> nextLast(std::int64_t now_ns) noexcept;
+  void end(bool taken) noexcept;
+
+  UsbReport rest_;
+  std::int64_t rest_after_ns_;
+  Latest<Outgoing> wanted_;
+  std::atomic<std::uint32_t> rests_{0};
+  std::atomic<Phase> phase_{Phase::open};
+  std::atomic<bool> last_taken_{false};
+  std::atomic<std::uint64_t> replaced_{0}, silences_{0};
+  UsbReport last_;
+  std::int64_t last_deadline_ns_ = 0;
+
+  std::uint64_t sent_number_ = 0;  ///< of the servo thread
+
+  // Of the event thread.
+  bool resting_ = true;  ///< the device is known to have let the motors go, or never held them
+  bool last_under_way_ = false, last_tried_ = false;
+  std::uint32_t rests_sent_ = 0, rests_under_way_ = 0;
+  std::uint64_t number_taken_ = 0;
+  std::int64_t made_at_ns_ = 0;
+};
+
+}  // namespace haptics
