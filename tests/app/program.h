@@ -45,11 +45,11 @@ class ProgramTest : public testing::Test {
     return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder_), {}));
   }
 
-  /// `arguments` as a shell would read them.
-  Said molar(const std::string& arguments) const {
+  /// `arguments` as a shell would read them; `input` names a file.
+  Said molar(const std::string& arguments, const std::string& input = "/dev/null") const {
     const std::string out = folder_.string() + ".out", err = folder_.string() + ".err";
     const std::string line =
-        std::string(MOLAR_PROGRAM) + " " + arguments + " >'" + out + "' 2>'" + err + "' </dev/null";
+        std::string(MOLAR_PROGRAM) + " " + arguments + " >'" + out + "' 2>'" + err + "' <'" + input + "'";
     const int status = std::system(line.c_str());
     Said said;
     said.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);

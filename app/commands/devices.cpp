@@ -1,0 +1,168 @@
+// `molar devices`: what is there and what drives it. `molar devices check`: its owner proves a unit and gets a report.
+
+#include <signal.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/commands/command.h"
+#include "app/commands/number_range.h"
+#include "app/device_check/device_check.h"
+#include "app/device_check/obedient_hand.h"
+#include "app/device_choice.h"
+#include "app/device_table.h"
+#include "app/falcon_scale_file.h"
+#include "app/page_look.h"
+#include "app/usage_error.h"
+#include "assets/output_file.h"
+#include "haptics/device/device_catalogue.h"
+#include "haptics/device/simulated/simulated_phantom.h"
+
+namespace app {
+namespace {
+
+struct CheckOptions {
+  std::string address, report = "molar-device-check.md", falcon_firmware, falcon_scale;
+  double rate_Hz = 1000.0, rate_seconds = 10.0;
+  bool force = false;
+};
+
+/// An interrupt ends the question that is open, and so the check, in order.
+void endQuestionsOnInterrupt() {
+  struct sigaction action {};
+  action.sa_handler = [](int) {};
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+std::string firstRealDevice() {
+  for (const haptics::FoundDevice& found : haptics::findDevices().devices)
+    if (namesRealDevice(found.address)) return found.address;
+  throw UsageError(
+      "devices check: no device that Molar drives is here, plug one in and see molar devices, or try the "
+      "check itself with simulated:omni");
+}
+
+/// A unit with the hand on it.
+struct Unit {
+  std::unique_ptr<Owner> owner;
+  OpenedDevice opened;
+};
+
+/// Beneath XDG_CONFIG_HOME or ~/.config.
+std::string usualFalconScaleFile() {
+  const char* config = std::getenv("XDG_CONFIG_HOME");
+  if (config != nullptr && *config != '\0') return std::string(config) + "/molar/falcon.toml";
+  const char* home = std::getenv("HOME");
+  return std::string(home != nullptr ? home : ".") + "/.config/molar/falcon.toml";
+}
+
+Unit unitAt(const std::string& address, const CheckOptions& options, haptics::FalconForceScale& scale) {
+  constexpr std::string_view kSimulated = "simulated:";
+  Unit unit;
+  if (address.starts_with(kSimulated)) {
+    const haptics::PhantomMechanics* phantom = haptics::findSimulatedPhantom(address.substr(kSimulated.size()));
+    if (phantom == nullptr)
+      throw UsageError("devices check " + address + ": no such device, choose omni, touch, desktop or premium");
+    auto hand = std::make_unique<ObedientHand>(*phantom);
+    unit.opened.device = std::make_unique<haptics::SimulatedPhantom>(*phantom, hand->script());
+    unit.owner = std::move(hand);
+    return unit;
+  }
+  DeviceOptions device;
+  device.falcon_program = options.falcon_firmware;
+  if (std::filesystem::exists(options.falcon_scale)) scale = readFalconScale(options.falcon_scale);
+  device.falcon_scale = scale;
+  device.tell = [](const std::string& words) { std::fprintf(stderr, "molar: %s\n", words.c_str()); };
+  unit.opened = openDevice(address, device);
+  unit.owner = std::make_unique<Owner>();
+  return unit;
+}
+
+std::string today() {
+  const std::time_t now = std::time(nullptr);
+  char text[32] = "";
+  std::tm local{};
+  if (localtime_r(&now, &local) != nullptr) std::strftime(text, sizeof text, "%Y-%m-%d %H:%M", &local);
+  return text;
+}
+
+/// What the balance said of a Falcon is kept for the next time.
+void keepFalconScale(const CheckOptions& options, const haptics::FalconForceScale& used, const DeviceCheck& check) {
+  std::vector<haptics::FalconWeighing> weighings;
+  for (const ForceReading& one : check.readings)
+    weighings.push_back({std::abs(one.asked_N), one.asked_N < 0.0 ? -one.shown_N : one.shown_N});
+  haptics::FalconForceScale scale = haptics::weighed(used, weighings);
+  scale.serial = check.report.device.serial;
+  std::error_code none;
+  std::filesystem::create_directories(std::filesystem::path(options.falcon_scale).parent_path(), none);
+  writeFalconScale(options.falcon_scale, scale, true);
+  std::fprintf(stderr, "molar: the force scale is kept in %s\n", options.falcon_scale.c_str());
+}
+
+int check(const CheckOptions& options) {
+  assets::OutputFile report(options.report, options.force);
+  const std::string address = options.address.empty() ? firstRealDevice() : options.address;
+  haptics::FalconForceScale scale;
+  const Unit unit = unitAt(address, options, scale);
+  endQuestionsOnInterrupt();
+  Dialogue dialogue(std::cin, std::cerr);
+  dialogue.say("Check of " + unit.opened.device->capabilities().model + ". q leaves at any question, motors off.");
+
+  const DeviceCheckPlan plan{address, axesAt(address), options.rate_Hz, options.rate_seconds};
+  DeviceCheck done = checkDevice(*unit.opened.device, plan, *unit.owner, dialogue);
+  done.report.date = today();
+  done.report.program = MOLAR_VERSION;
+  if (address.starts_with("falcon") && done.readings.size() >= 3) keepFalconScale(options, scale, done);
+
+  std::ofstream(report.temporaryPath()) << pageOf(done.report);
+  report.commit();
+  dialogue.say("\n" +
+               std::string(done.report.left_early ? "Left before the end."
+                           : done.report.isGood() ? "All that was tried is as it should be."
+                                                  : "Something is wrong: do not use this unit until it is "
+                                                    "mended.") +
+               " The report: " + options.report);
+  return done.report.isGood() ? 0 : 1;
+}
+
+int list(bool json) {
+  const haptics::DeviceCatalogue catalogue = haptics::findDevices();
+  std::fputs((json ? asJson(catalogue) : asText(catalogue, lookOfOutput())).c_str(), stdout);
+  return 0;
+}
+
+}  // namespace
+
+void addDevices(CLI::App& molar, Chosen& chosen) {
+  auto json = std::make_shared<bool>(false);
+  auto o = std::make_shared<CheckOptions>();
+  o->falcon_scale = usualFalconScaleFile();
+  CLI::App* devices = molar.add_subcommand("devices", "What is plugged in and what drives it; proving a unit");
+  devices->add_flag("--json", *json, "For programs");
+  CLI::App* command = devices->add_subcommand("check", "Prove a unit, ten minutes with a kitchen balance: a report");
+  command->add_option("ADDRESS", o->address, "As molar devices lists it, or simulated:omni [the first real one]");
+  command->add_option("--report", o->report, "The page to write, Markdown")->type_name("FILE")->capture_default_str();
+  command->add_flag("--force", o->force, "Replace a report that exists");
+  command->add_option("--rate", o->rate_Hz, "Servo rate, Hz")
+      ->check(numberRange(500.0, 10'000.0))
+      ->capture_default_str();
+  command->add_option("--rate-seconds", o->rate_seconds, "How long the rate is watched, s")
+      ->check(numberRange(0.5, 600.0))
+      ->capture_default_str();
+  command->add_option("--falcon-firmware", o->falcon_firmware, "Novint's firmware for a Falcon")->type_name("FILE");
+  command->add_option("--falcon-scale", o->falcon_scale, "Where a Falcon's force scale is kept")->type_name("FILE");
+  devices->callback([json, o, command, &chosen] {
+    chosen.action = [json, o, is_check = command->parsed()] { return is_check ? check(*o) : list(*json); };
+  });
+}
+
+}  // namespace app
