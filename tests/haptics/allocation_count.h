@@ -7,4 +7,7 @@ namespace haptics::allocation_count {
 
 std::size_t now();
 
+/// Of the calling thread alone, where others may allocate as they like.
+std::size_t onThisThread();
+
 }  // namespace haptics::allocation_count

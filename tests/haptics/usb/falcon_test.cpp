@@ -11,6 +11,7 @@
 
 #include "haptics/latest.h"
 #include "haptics/safety/motor_gate.h"
+#include "tests/haptics/allocation_count.h"
 #include "tests/haptics/usb/simulated_falcon.h"
 
 namespace haptics {
@@ -40,6 +41,7 @@ class SteadyHand final : public DeviceServo {
 
   MotorCommand tick(const HandleState& state, const Beat&) noexcept override {
     states_.publish(state);
+    allocations.store(allocation_count::onThisThread());
     ticks.fetch_add(1);
     const std::array<std::atomic<double>, 3>& f = force_N;
     return gate_.admit({{{f[0].load(), f[1].load(), f[2].load()}}, {}}, state.jacobian_D_mm, motors_on.load());
@@ -53,6 +55,7 @@ class SteadyHand final : public DeviceServo {
   std::array<std::atomic<double>, 3> force_N{};
   std::atomic<bool> motors_on{true};
   std::atomic<int> ticks{0};
+  std::atomic<std::size_t> allocations{0};  ///< of the device's thread, up to the last tick
 
  private:
   MotorGate gate_;
@@ -253,6 +256,25 @@ TEST_F(FalconOnTheBus, HoldsASpringTowardsAPlaceInAClosedLoop) {
   falcon.start(spring, 1000.0);
   EXPECT_TRUE(soon([&] { return spring.off_mm.load() < 0.3; }));
   EXPECT_LT(glm::length(now([&] { return unit.grip_mm; }) - glm::dvec3(10.0, 5.0, 130.0)), 1.0);
+  falcon.stop();
+}
+
+TEST_F(FalconOnTheBus, ItsThreadAllocatesNothing) {
+  unit.runs = true;
+  Falcon falcon({});
+  SteadyHand hand(falcon.capabilities());
+  hand.push({0.0, 0.2, 0.3});
+  falcon.start(hand, 1000.0);
+  ASSERT_TRUE(soon([&] { return now([&] { return unit.words[0] != 0; }); }));
+  const std::size_t before = hand.allocations.load();
+  bus->locked([&] { unit.garbage = true; });
+  ASSERT_TRUE(soon([&] { return !hand.last().healthy; }));
+  bus->locked([&] { unit.garbage = false; });
+  ASSERT_TRUE(soon([&] { return hand.last().healthy; }));
+  bus->unplug();
+  const int ticks = hand.ticks.load();
+  ASSERT_TRUE(soon([&] { return hand.ticks.load() > ticks + 50; }));
+  EXPECT_EQ(hand.allocations.load(), before);
   falcon.stop();
 }
 
