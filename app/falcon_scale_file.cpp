@@ -1,6 +1,7 @@
 #include "app/falcon_scale_file.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 
 #include "app/toml_keys.h"
@@ -19,6 +20,13 @@ bool isPlain(const std::string& text) {
 }
 
 }  // namespace
+
+std::string usualFalconScaleFile() {
+  const char* config = std::getenv("XDG_CONFIG_HOME");
+  if (config != nullptr && *config != '\0') return std::string(config) + "/molar/falcon.toml";
+  const char* home = std::getenv("HOME");
+  return std::string(home != nullptr ? home : ".") + "/.config/molar/falcon.toml";
+}
 
 haptics::FalconForceScale readFalconScale(const std::string& path) {
   TomlKeys keys = TomlKeys::fromFile(path);

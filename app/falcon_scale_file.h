@@ -9,6 +9,9 @@
 
 namespace app {
 
+/// Where it is looked for: molar/falcon.toml beneath XDG_CONFIG_HOME or ~/.config.
+std::string usualFalconScaleFile();
+
 haptics::FalconForceScale readFalconScale(const std::string& path);
 void writeFalconScale(const std::string& path, const haptics::FalconForceScale& scale, bool overwrite);
 

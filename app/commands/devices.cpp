@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
@@ -56,14 +55,6 @@ struct Unit {
   std::unique_ptr<Owner> owner;
   OpenedDevice opened;
 };
-
-/// Beneath XDG_CONFIG_HOME or ~/.config.
-std::string usualFalconScaleFile() {
-  const char* config = std::getenv("XDG_CONFIG_HOME");
-  if (config != nullptr && *config != '\0') return std::string(config) + "/molar/falcon.toml";
-  const char* home = std::getenv("HOME");
-  return std::string(home != nullptr ? home : ".") + "/.config/molar/falcon.toml";
-}
 
 Unit unitAt(const std::string& address, const CheckOptions& options, haptics::FalconForceScale& scale) {
   constexpr std::string_view kSimulated = "simulated:";

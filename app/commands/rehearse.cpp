@@ -13,6 +13,7 @@
 #include "app/commands/number_range.h"
 #include "app/display_option.h"
 #include "app/erosion_text.h"
+#include "app/falcon_scale_file.h"
 #include "app/law_text.h"
 #include "app/patient_source.h"
 #include "app/picture_option.h"
@@ -34,7 +35,7 @@ constexpr double kMonitorWidth_mm = 531.0;  ///< of a 24-inch monitor
 constexpr double kForeignFaceWindow_mm = 24.0;
 
 struct RehearseOptions {
-  std::string patient, parameters, device = "mouse", rig, record, snapshot, first_snapshot, face;
+  std::string patient, parameters, device = "mouse", falcon_firmware, rig, record, snapshot, first_snapshot, face;
   std::vector<std::string> tools{"sphere:1.5"};
   std::string shaft, law = "agus", erosion = "time", size, snapshot_size = "1280x800";
   std::string side = "right", second_hand, second_tool = "mirror";
@@ -104,6 +105,10 @@ int run(const RehearseOptions& options) {
   plan.second_hand = {options.second_hand,
                       options.second_tool == "mirror" ? SecondTool::mirror : SecondTool::retractor};
   refuseUnlessSecondHand(plan.second_hand, options.device);
+  plan.device_options.falcon_program = options.falcon_firmware;
+  const bool may_be_falcon = options.device.starts_with("falcon") || options.device == "usb";
+  if (may_be_falcon && std::filesystem::exists(usualFalconScaleFile()))
+    plan.device_options.falcon_scale = readFalconScale(usualFalconScaleFile());
   plan.device_options.tell = [](const std::string& line) { std::fprintf(stderr, "molar: %s\n", line.c_str()); };
   plan.display = options.display.mode();
   plan.eyes_swapped = options.display.swapped();
@@ -152,6 +157,7 @@ void addRehearse(CLI::App& molar, Chosen& chosen) {
   CLI::App* command = molar.add_subcommand("rehearse", "Rehearse a third-molar extraction, seen and felt");
   auto* patient = command->add_option("PATIENT", o->patient, "Patient folder (default: the built-in patient)");
   command->add_option("--device", o->device, kDeviceHelp)->capture_default_str();
+  command->add_option("--falcon-firmware", o->falcon_firmware, "Novint's firmware for a Falcon")->type_name("FILE");
   auto* second = command->add_option("--second-hand", o->second_hand, kSecondHandHelp);
   command->add_option("--second-tool", o->second_tool, "What the other hand holds: mirror or retractor")
       ->check(CLI::IsMember({"mirror", "retractor"}))

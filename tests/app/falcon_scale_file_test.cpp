@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -48,6 +49,14 @@ TEST_F(FalconScaleFile, IsNotReplacedWithoutLeave) {
   writeFalconScale(path, {10.0, 1.0, "A"}, false);
   EXPECT_THROW(writeFalconScale(path, {11.0, 1.0, "A"}, false), assets::LoadError);
   EXPECT_EQ(readFalconScale(path).words_per_Nmm, 10.0);
+}
+
+TEST_F(FalconScaleFile, LiesWhereTheUserKeepsSettings) {
+  setenv("XDG_CONFIG_HOME", "/settings", 1);
+  EXPECT_EQ(usualFalconScaleFile(), "/settings/molar/falcon.toml");
+  unsetenv("XDG_CONFIG_HOME");
+  setenv("HOME", "/her", 1);
+  EXPECT_EQ(usualFalconScaleFile(), "/her/.config/molar/falcon.toml");
 }
 
 TEST_F(FalconScaleFile, RefusesWhatNobodyCouldHaveWeighed) {
