@@ -7,6 +7,8 @@ namespace {
 
 /// How far a hand that holds still may have moved an encoder since it was preset.
 constexpr int kNear_counts = 100;
+/// A press stays until the host presets; a report spoilt on its way does not come so often in a row.
+constexpr int kSteady_readings = 5;
 
 }  // namespace
 
@@ -17,19 +19,30 @@ bool WoodenHoming::readsHome(const WoodenReading& reading) const noexcept {
   return true;
 }
 
+bool WoodenHoming::pressBegan(bool pressed, bool motors_on) noexcept {
+  if (!pressed) {
+    released_ = true;
+    pressed_for_ = 0;
+    return false;
+  }
+  // In mid-stroke it says nothing of where the arm is when the motors go off.
+  if (motors_on) released_ = false;
+  if (!released_ || ++pressed_for_ < kSteady_readings) return false;
+  released_ = false;
+  return true;
+}
+
 void WoodenHoming::take(const WoodenReading& reading, bool motors_on) noexcept {
-  const bool pressed_now = reading.switch_pressed && seen_released_;
-  seen_released_ = !reading.switch_pressed;
-  // Asked or pressed in mid-stroke it says nothing of where the arm is when the motors go off.
+  const bool pressed = pressBegan(reading.switch_pressed, motors_on);
   const bool asked = asked_.exchange(false);
-  if (!motors_on && (asked || pressed_now)) {
+  if (!motors_on && (asked || pressed)) {
     phase_ = Phase::setting;
     return;
   }
   switch (phase_) {
     case Phase::away:
       // Pressed before anybody looked: at what place is not known. A preset forgets it.
-      if (reading.switch_pressed) phase_ = Phase::clearing;
+      if (reading.switch_pressed && !released_) phase_ = Phase::clearing;
       break;
     case Phase::clearing:
       if (!reading.switch_pressed) phase_ = Phase::away;

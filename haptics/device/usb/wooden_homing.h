@@ -33,12 +33,15 @@ class WoodenHoming {
  private:
   enum class Phase { away, clearing, setting, home };
   bool readsHome(const WoodenReading& reading) const noexcept;
+  /// Pressed steadily, having been seen released before, with the motors off.
+  bool pressBegan(bool pressed, bool motors_on) noexcept;
 
   std::array<std::int16_t, 6> home_counts_;
   std::size_t encoders_;
   std::atomic<bool> asked_{false};
   Phase phase_ = Phase::away;
-  bool seen_released_ = false;
+  bool released_ = false;  ///< seen so since it last counted for anything
+  int pressed_for_ = 0;    ///< readings in a row
 };
 
 }  // namespace haptics

@@ -34,7 +34,7 @@ std::optional<WoodenReading> decodeWoodenReading(std::span<const std::uint8_t> b
   std::copy_n(words.begin(), 6, reading.encoders.begin());
   reading.button = words[3] > kButtonFrom;
   if (reading.button) reading.encoders[3] = static_cast<std::int16_t>(words[3] - kButton);
-  reading.switch_pressed = words[6] != 0;
+  reading.switch_pressed = words[6] == 1;
   return reading;
 }
 
