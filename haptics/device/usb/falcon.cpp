@@ -79,8 +79,8 @@ Falcon::Falcon(const FalconSettings& settings) : scale_(settings.scale) {
   if (!falconRuns(*usb_)) {
     if (program.empty())
       throw DeviceError("Falcon on USB " + usb_->path() +
-                        ", it loses its program with every power-down and no file is named, name the firmware file of "
-                        "Novint's driver");
+                        ", it loses its program with every power-down and no file is named, give the firmware of "
+                        "Novint's driver with --falcon-firmware");
     loadFalcon(*usb_, program, settings.tell, settings.greetings);
   }
   usb_->run(falconStream());
@@ -206,9 +206,10 @@ std::vector<FoundDevice> findFalcon() {
     falcon.address = "falcon:" + device.path;
     falcon.place = device.place();
     falcon.driver = "libusb";
-    falcon.advice = device.may_open ? "name its firmware file, it forgets its program with every power-down; " +
-                                          falconForceAdvice({})
-                                    : "install the udev rule that `molar doctor` prints and replug it";
+    falcon.advice = device.may_open
+                        ? "give its firmware with --falcon-firmware, it forgets its program with every power-down; " +
+                              falconForceAdvice({})
+                        : "install the udev rule that `molar doctor` prints and replug it";
     found.push_back(falcon);
   }
   return found;
