@@ -221,6 +221,7 @@ int memory() {
 
 int main(int argc, char** argv) {
   if (argc > 1 && std::string_view(argv[1]) == "memory") return memory();
+  if (argc > 1 && std::string_view(argv[1]) == "ticks") return ticks(), 0;
   sums();
   growth();
   instructionSets();

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <random>
+#include <thread>
 
 #include "haptics/bone/carve.h"
 #include "tests/haptics/phantom.h"
@@ -257,6 +259,38 @@ TEST(StrokeHistory, MarksTheBricksThatComeBack) {
   bone.dirtyBricks().takeInto(returned);
   EXPECT_EQ(cut, returned);
   EXPECT_EQ(bone.solidInGridOrder(), before);
+}
+
+TEST(StrokeHistory, HandsBricksToAReaderWhileTheyComeBack) {
+  CarvedBone bone = block(3.0, 0.2).bone(1);
+  StrokeHistory strokes(bone);
+  std::vector<std::uint8_t> seen = bone.solidInGridOrder();
+  const auto take = [&] {
+    std::vector<glm::ivec3> bricks;
+    bone.dirtyBricks().takeInto(bricks);
+    for (glm::ivec3 brick : bricks) {
+      std::array<std::uint8_t, 512> copy{};
+      bone.copyBrick(brick, copy);
+      for (int n = 0; n < 512; ++n) {
+        const glm::ivec3 ijk = brick * 8 + glm::ivec3(n % 8, n / 8 % 8, n / 64);
+        if (bone.grid().contains(ijk)) seen[bone.grid().index(ijk)] = copy[static_cast<std::size_t>(n)];
+      }
+    }
+  };
+  std::atomic<bool> done{false};
+  std::thread reader([&] {
+    while (!done.load()) take();
+  });
+  for (std::uint64_t tick = 0; tick < 300; ++tick) {
+    carveSphere(bone, {{-1.0 + 0.006 * static_cast<double>(tick), 0.0, 0.0}}, 1.0, phantom::timeErosion({}, 2e-3), tick,
+                1, &strokes);
+    if (tick % 3 == 2) strokes.endStroke();
+    if (tick % 5 == 4) strokes.giveBack(bone, 20);
+  }
+  done.store(true);
+  reader.join();
+  take();
+  EXPECT_EQ(seen, bone.solidInGridOrder());
 }
 
 TEST(StrokeHistory, TakesNoMoreRoomThanItSays) {
