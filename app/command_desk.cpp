@@ -14,6 +14,7 @@ namespace {
 void keepSwitches(const haptics::Command& from, haptics::Command& to) {
   to.irrigating = from.irrigating;
   to.undo_serial = from.undo_serial;
+  to.rearm = from.rearm;
 }
 
 }  // namespace

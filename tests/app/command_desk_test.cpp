@@ -93,13 +93,15 @@ TEST(CommandDesk, SwitchesTheWaterOffAndOn) {
   EXPECT_FALSE(at.desk->inForce().irrigating);
   at.mouse->setTarget(Desk::at({0.0, 0.0, 0.4}, true));
   ASSERT_TRUE(at.waitFor([](const haptics::Tick& tick) { return tick.strokes == 1 && tick.t_s > 0.1; }));
-  // A guide decides about the drill, not about the water.
+  // A guide decides about the drill, not about water, undo and faults.
   haptics::Command guided = at.desk->inForce();
   guided.irrigating = true;
   guided.undo_serial = 7;
+  guided.rearm = 7;
   at.desk->obey(guided);
   EXPECT_FALSE(at.desk->inForce().irrigating);
   EXPECT_EQ(at.desk->inForce().undo_serial, 0u);
+  EXPECT_EQ(at.desk->inForce().rearm, 0u) << "only the operator lifts a fault";
   at.desk->switchIrrigation();
   EXPECT_TRUE(at.desk->inForce().irrigating);
   ASSERT_TRUE(at.waitFor([](const haptics::Tick& tick) { return tick.command_serial == 4; }));
