@@ -13,6 +13,7 @@
 #include "app/dressed_renderer.h"
 #include "app/patient_source.h"
 #include "app/room.h"
+#include "assets/dental_mirror.h"
 #include "assets/patient_folder.h"
 #include "assets/synthetic/face.h"
 #include "render/frame_renderer.h"
@@ -109,6 +110,12 @@ int main(int count, char** words) {
     f.X_PT_at_hand = f.X_PT;
     f.X_PT_at_hand.translation_mm.z -= 2.0;
   });
+  renderer->setSecondInstrument(assets::dentalMirror());
+  without("with a mirror in the other hand", [&](render::Frame& f) {
+    f.second_visible = true;
+    f.X_PO = {glm::dquat(1, 0, 0, 0), patient.site.third_molar_P_mm + 20.0 * eye_P.xyz};
+  });
+  renderer->setSecondInstrument({});
   renderer->setGuides({});
   measure("the first again, guides not known", *renderer, frame, frames);
   without("translucent bone", [](render::Frame& f) { f.mode = render::ViewMode::dvr; });
