@@ -60,7 +60,7 @@ TEST_F(RehearseCommand, ServesAPhantomThroughTheVendorsLibrary) {
   const Said said = molar(line + "--record " + at("s.molar"));
   unsetenv("MOLAR_OPENHAPTICS");
   ASSERT_EQ(said.status, 0) << said.err;
-  EXPECT_NE(said.out.find("safety           none"), std::string::npos) << said.out;
+  EXPECT_EQ(said.out.find("latched"), std::string::npos) << said.out;
   EXPECT_EQ(molar("replay " + at("s.molar") + " --verify").status, 0);
 }
 
