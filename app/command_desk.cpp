@@ -10,7 +10,7 @@
 namespace app {
 namespace {
 
-/// What hand and foot decide, neither file nor guide.
+/// What hand, foot and operator decide, neither file nor guide.
 void keepSwitches(const haptics::Command& from, haptics::Command& to) {
   to.irrigating = from.irrigating;
   to.undo_serial = from.undo_serial;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <fstream>
 #include <functional>
 #include <thread>
 
@@ -25,14 +26,14 @@ struct Desk {
   std::optional<Workstation> workstation;
   std::optional<CommandDesk> desk;
 
-  Desk() {
+  explicit Desk(const std::string& settings_file = {}) {
     patient.title = "block of bone";
     patient.ct.grid = block.grid;
     patient.ct.solid = block.solid;
     patient.ct.label = block.label;
     auto device = std::make_unique<haptics::MouseDevice>(at({0.0, 0.0, 2.0}, false));
     mouse = device.get();
-    desk.emplace(block.start().command, std::vector<haptics::Tool>{}, "", 0.002, 1000.0);
+    desk.emplace(block.start().command, std::vector<haptics::Tool>{}, settings_file, 0.002, 1000.0);
     haptics::LoopSettings settings;
     settings.realtime = false;
     workstation.emplace(patient, std::move(device), settings, desk->inForce(), Recording{path, true});
@@ -109,6 +110,28 @@ TEST(CommandDesk, SwitchesTheWaterOffAndOn) {
   EXPECT_GT(metricsOf(at.path).dry_drilling_s, 0.0);
   EXPECT_TRUE(hasEvent(at.path, "irrigation", "off"));
   EXPECT_TRUE(hasEvent(at.path, "irrigation", "on"));
+}
+
+TEST(CommandDesk, NeitherFileNorGuideLiftsAFault) {
+  test::ScratchFolder folder;
+  const std::string settings = folder.file("feel.toml");
+  const auto write = [&](const char* text) { std::ofstream(settings) << text; };
+  write("[law]\nname = \"agus\"\n");
+  Desk at(settings);
+  const haptics::Command before = at.desk->inForce();
+  at.desk->armAgain();
+  const std::uint64_t armed = at.desk->inForce().rearm;
+  ASSERT_NE(armed, before.rearm);
+  at.desk->obey(before);
+  EXPECT_EQ(at.desk->inForce().rearm, armed) << "a guide's command is another number only for who arms";
+  write("# longer, so that it is read again\n[law]\nname = \"forssim\"\n");
+  for (int n = 0; n < 100 && at.desk->inForce().law.kind != haptics::LawKind::forssim; ++n) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    at.desk->lookAtFile();
+  }
+  ASSERT_EQ(at.desk->inForce().law.kind, haptics::LawKind::forssim);
+  EXPECT_EQ(at.desk->inForce().rearm, armed);
+  at.workstation->stop();
 }
 
 }  // namespace
