@@ -11,7 +11,9 @@
 namespace app {
 namespace {
 
-constexpr std::array kCrashes = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGQUIT};
+/// Whatever ends a program unless it is caught; interrupts and SIGPIPE are the program's own affair.
+constexpr std::array kEnds = {SIGSEGV, SIGBUS,  SIGILL,  SIGFPE,  SIGABRT,   SIGQUIT, SIGTRAP, SIGSYS, SIGXCPU,
+                              SIGXFSZ, SIGUSR1, SIGUSR2, SIGALRM, SIGVTALRM, SIGPROF, SIGIO,   SIGPWR, SIGSTKFLT};
 
 /// Two ticks without force are enough; the supervisor needs 60 ms where none come.
 constexpr int kLongestWait_ms = 120;
@@ -29,7 +31,7 @@ void quieten(haptics::DeviceLoop& loop) {
   for (int ms = 0; ms < kLongestWait_ms && loop.ticks() < then + 2; ++ms) nanosleep(&one_ms, nullptr);
 }
 
-extern "C" void onCrash(int signal_number) {
+extern "C" void onEnd(int signal_number) {
   if (haptics::DeviceLoop* loop = guarded.exchange(nullptr)) quieten(*loop);
   signal(signal_number, SIG_DFL);
   raise(signal_number);
@@ -50,17 +52,17 @@ EmergencyExit::EmergencyExit(haptics::DeviceLoop& loop) {
   if (!exit_is_watched.exchange(true)) std::atexit(onExit);
   const stack_t stack{handler_stack.data(), 0, handler_stack.size()};
   sigaltstack(&stack, nullptr);
-  for (int crash : kCrashes) {
+  for (int end : kEnds) {
     struct sigaction action {};
-    action.sa_handler = onCrash;
+    action.sa_handler = onEnd;
     action.sa_flags = SA_ONSTACK;
-    sigaction(crash, &action, nullptr);
+    sigaction(end, &action, nullptr);
   }
 }
 
 EmergencyExit::~EmergencyExit() {
   guarded.store(nullptr);
-  for (int crash : kCrashes) signal(crash, SIG_DFL);
+  for (int end : kEnds) signal(end, SIG_DFL);
   const stack_t none{nullptr, SS_DISABLE, 0};
   sigaltstack(&none, nullptr);
 }

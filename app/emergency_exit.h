@@ -1,9 +1,10 @@
 // Whatever ends the program, the motors hear of it first. While one of these lives, a crash (SIGSEGV, SIGBUS, SIGILL,
-// SIGFPE, SIGABRT and with it an uncaught exception), SIGQUIT, and exit() from anywhere, such as by the X library when
-// the display is lost, forbid all force, wait until the device has ticked twice without any, or for what the supervisor
-// needs to switch off a device that hangs, and only then go on to end the program as they would have. What a handler
-// does is safe in one: atomics and nanosleep. SIGKILL and power cuts are the device's own business.
-// One at a time (assert); made and destroyed by one thread. Interrupts (SIGINT, SIGTERM) end a rehearsal in order.
+// SIGFPE, SIGABRT and with it an uncaught exception), any other signal that would end the program (SIGQUIT, SIGUSR1,
+// a limit of time or file size …), and exit() from anywhere, such as by the X library when the display is lost, forbid
+// all force, wait until the device has ticked twice without any, or for what the supervisor needs to switch off a
+// device that hangs, and only then go on to end the program as they would have. What a handler does is safe in one:
+// atomics and nanosleep. SIGKILL and power cuts are the device's own business. One at a time (assert); made and
+// destroyed by one thread. Interrupts (SIGINT, SIGTERM) end a rehearsal in order.
 #pragma once
 
 #include "haptics/loop/device_loop.h"

@@ -58,7 +58,9 @@ TEST_P(EndsBadly, WithTheMotorsOff) {
 
 INSTANTIATE_TEST_SUITE_P(EmergencyExit, EndsBadly,
                          testing::Values(End{"segv", SIGSEGV}, End{"abort", SIGABRT}, End{"throw", SIGABRT},
-                                         End{"segv-in-tick", SIGSEGV}, End{"hang-in-tick", 0}, End{"exit", 0}),
+                                         End{"segv-in-tick", SIGSEGV}, End{"user-signal", SIGUSR1},
+                                         End{"alarm", SIGALRM}, End{"cpu-limit", SIGXCPU}, End{"hang-in-tick", 0},
+                                         End{"exit", 0}),
                          [](const auto& end) {
                            std::string name = end.param.way;
                            for (char& c : name)

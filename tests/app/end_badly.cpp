@@ -75,6 +75,9 @@ int main(int argc, char** argv) {
   while (loop.ticks() < 50) std::this_thread::sleep_for(1ms);
   if (end == "abort") std::abort();
   if (end == "segv") std::raise(SIGSEGV);
+  if (end == "user-signal") std::raise(SIGUSR1);
+  if (end == "alarm") std::raise(SIGALRM);
+  if (end == "cpu-limit") std::raise(SIGXCPU);
   if (end == "exit") std::exit(3);
   if (end == "throw") throw std::runtime_error("nobody catches this");
   if (end == "kill-without-guard") std::raise(SIGKILL);
