@@ -6,6 +6,8 @@
 #include <cassert>
 #include <utility>
 
+#include "haptics/safety/safety_limits.h"
+
 namespace haptics {
 namespace {
 
@@ -48,7 +50,7 @@ void DeviceLoop::stop() noexcept {
     while (phase_.load() != Phase::over && std::chrono::steady_clock::now() < until)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
-  supervisor_.reset();
+  if (supervisor_) supervisor_->end();
   device_.stop();
 }
 
@@ -69,7 +71,7 @@ void DeviceLoop::begin() noexcept {
 
 MotorCommand DeviceLoop::tick(const HandleState& state, const Beat& beat) noexcept {
   ticks_.fetch_add(1, std::memory_order_relaxed);
-  if (phase_.load(std::memory_order_relaxed) != Phase::serving) return letGo();
+  if (phase_.load(std::memory_order_relaxed) != Phase::serving) return letGo(state);
 
   const double began_us = threadTime_us();
   Beat timed = beat;
@@ -88,7 +90,9 @@ double DeviceLoop::gap_s() noexcept {
   return last == Clock::time_point{} ? 0.0 : std::chrono::duration<double>(now - last).count();
 }
 
-MotorCommand DeviceLoop::letGo() noexcept {
+MotorCommand DeviceLoop::letGo(const HandleState& state) noexcept {
+  // A force that a pause or the supervisor has ended does not come back to be let down.
+  if (gap_s() > SafetyThresholds{}.longest_pause_s || !state.healthy) share_left_ = 0.0;
   // Force and torque go down together, the one that needs longer at its limit.
   const Wrench<calibration::Device>& wrench = last_.wrench_D();
   const double seconds = std::max(glm::length(wrench.force_N.xyz) / kLetDown_N_per_s,

@@ -26,7 +26,8 @@ class DeviceLoop : private DeviceServo {
 
   /// Once in its life (assert). Throws DeviceError when the device has gone or can not be served at the rate.
   void start();
-  /// Lets the force down to zero within 0.02 s, then stops the device: a frame of no force, then motors off.
+  /// Lets the force down to zero within 0.02 s, at once after a pause or under a device in trouble; then stops the
+  /// device: a frame of no force, then motors off.
   void stop() noexcept;
 
   /// No force from this moment on, for good; the ticks go on. Only atomics: a signal handler may call it.
@@ -58,7 +59,7 @@ class DeviceLoop : private DeviceServo {
 
   void begin() noexcept override;
   MotorCommand tick(const HandleState& state, const Beat& beat) noexcept override;
-  MotorCommand letGo() noexcept;
+  MotorCommand letGo(const HandleState& state) noexcept;
   double gap_s() noexcept;
 
   HapticDevice& device_;

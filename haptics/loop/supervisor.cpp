@@ -15,7 +15,10 @@ constexpr auto kLongestSilence = std::chrono::milliseconds(50);
 Supervisor::Supervisor(HapticDevice& device, const std::atomic<std::uint64_t>& ticks)
     : device_(device), ticks_(ticks), thread_([this] { watch(); }) {}
 
-Supervisor::~Supervisor() {
+Supervisor::~Supervisor() { end(); }
+
+void Supervisor::end() noexcept {
+  if (!thread_.joinable()) return;
   {
     const std::lock_guard lock(mutex_);
     is_over_ = true;

@@ -1,5 +1,6 @@
 // Watches from a thread of its own that ticks come, and switches the motors off when none came for 50 ms
-// (reference/devices 6.9). Looks every 10 ms. Says how often it had to. One other thread constructs and destroys it.
+// (reference/devices 6.9). Looks every 10 ms. Says how often it had to. One other thread constructs, ends and destroys
+// it.
 #pragma once
 
 #include <atomic>
@@ -19,6 +20,9 @@ class Supervisor {
   ~Supervisor();
   Supervisor(const Supervisor&) = delete;
   Supervisor& operator=(const Supervisor&) = delete;
+
+  /// Watches no longer; what it counted stays. Also twice.
+  void end() noexcept;
 
   /// Any thread.
   std::uint64_t trips() const { return trips_.load(std::memory_order_relaxed); }

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <limits>
+#include <thread>
 
 #include "haptics/device/paced_device.h"
 #include "haptics/device/simulated/mouse_device.h"
@@ -173,6 +174,56 @@ TEST(HapticLoop, SupervisorSwitchesTheMotorsOffWhenTicksStop) {
   EXPECT_GE(device.times_off.load(), 1);
   EXPECT_GE(loop.figures().silences, 1u);
   loop.stop();
+}
+
+/// Ticks when a test says so.
+class TickedByHand final : public HapticDevice {
+ public:
+  const DeviceCapabilities& capabilities() const override { return capabilities_; }
+  void start(DeviceServo& servo, double) override { servo_ = &servo; }
+  void stop() noexcept override {}
+  void motorsOff() noexcept override {}
+  double force_N(bool healthy = true) {
+    HandleState state;
+    state.X_DH.translation_mm = {0.0, 0.0, 1.0};
+    state.healthy = healthy;
+    return glm::length(servo_->tick(state, {}).wrench_D().force_N.xyz);
+  }
+
+ private:
+  DeviceCapabilities capabilities_;
+  DeviceServo* servo_ = nullptr;
+};
+
+TEST(HapticLoop, BringsNoForceBackToLetItDown) {
+  for (bool after_a_pause : {true, false}) {
+    Bench bench;
+    TickedByHand device;
+    HapticLoop loop(bench.servo, device, bench.commands, bench.log, bench.newest, bench.settings);
+    loop.start();
+    double before_N = 0.0;
+    for (int i = 0; i < 50; ++i) before_N = device.force_N();
+    ASSERT_GT(before_N, 0.5);
+    std::thread stopping([&] { loop.stop(); });
+    // Long enough for stop() to have begun, and for the supervisor to have switched off.
+    std::this_thread::sleep_for(after_a_pause ? 100ms : 10ms);
+    EXPECT_EQ(device.force_N(after_a_pause), 0.0) << (after_a_pause ? "after a pause" : "in trouble");
+    EXPECT_EQ(device.force_N(), 0.0);
+    stopping.join();
+    EXPECT_EQ(device.force_N(), 0.0) << "stopped";
+  }
+}
+
+TEST(HapticLoop, RemembersSilencesWhenItHasStopped) {
+  Bench bench;
+  PressedDevice device(20, 300ms);
+  HapticLoop loop(bench.servo, device, bench.commands, bench.log, bench.newest, bench.settings);
+  loop.start();
+  waitForTick(bench.newest, 40);
+  loop.stop();
+  EXPECT_GE(loop.figures().silences, 1u);
+  loop.stop();
+  EXPECT_GE(loop.figures().silences, 1u);
 }
 
 TEST(HapticLoop, GivesNoForceAfterAnEmergencyStopAndGoesOnTicking) {
