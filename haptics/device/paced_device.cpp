@@ -7,16 +7,12 @@
 #include <cerrno>
 #include <cmath>
 
+#include "haptics/device/monotonic_clock.h"
+
 namespace haptics {
 namespace {
 
 constexpr std::int64_t kNsPerSecond = 1'000'000'000;
-
-std::int64_t now_ns() {
-  timespec t{};
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return std::int64_t{t.tv_sec} * kNsPerSecond + t.tv_nsec;
-}
 
 }  // namespace
 
@@ -49,11 +45,11 @@ void PacedDevice::run(DeviceServo& servo, double rate_Hz) noexcept {
   servo.begin();
   const double dt_s = 1.0 / rate_Hz;
   const auto period_ns = static_cast<std::int64_t>(std::llround(dt_s * static_cast<double>(kNsPerSecond)));
-  std::int64_t deadline_ns = now_ns() + period_ns;
+  std::int64_t deadline_ns = monotonic_ns() + period_ns;
   Beat beat;
   while (running_.load(std::memory_order_relaxed)) {
     await(deadline_ns);
-    const std::int64_t woke_ns = now_ns();
+    const std::int64_t woke_ns = monotonic_ns();
     beat.late_us = std::max(0.0, 1e-3 * static_cast<double>(woke_ns - deadline_ns));
     deadline_ns = std::min(deadline_ns, woke_ns);
 
@@ -64,7 +60,7 @@ void PacedDevice::run(DeviceServo& servo, double rate_Hz) noexcept {
 
     // The next deadline of the grid that still lies ahead.
     deadline_ns += period_ns;
-    const std::int64_t behind_ns = now_ns() - deadline_ns;
+    const std::int64_t behind_ns = monotonic_ns() - deadline_ns;
     beat.missed = behind_ns > 0 ? static_cast<std::uint64_t>(behind_ns / period_ns + 1) : 0;
     deadline_ns += static_cast<std::int64_t>(beat.missed) * period_ns;
   }
