@@ -19,12 +19,13 @@ void visitDvec3(auto& v, Visit&& visit) {
 
 template <class Visit>
 void visitHand(auto& hand, Visit&& visit) {
-  auto& [X_PT, velocity_P_mm_per_s, arm_P_mm, jacobian_P_mm, motor_heat, gap_s, drill_pedal, fresh, docked, held,
-         calibrated, stop_asked, device_healthy] = hand;
+  auto& [X_PT, velocity_P_mm_per_s, arm_P_mm, handle_velocity_P_mm_per_s, jacobian_P_mm, motor_heat, gap_s, drill_pedal,
+         fresh, docked, held, calibrated, stop_asked, device_healthy] = hand;
   auto& [rotation, translation_mm] = X_PT;
   visit(rotation.w), visit(rotation.x), visit(rotation.y), visit(rotation.z);
   visitDvec3(translation_mm, visit);
   visitDvec3(velocity_P_mm_per_s.xyz, visit), visitDvec3(arm_P_mm.xyz, visit);
+  visitDvec3(handle_velocity_P_mm_per_s.xyz, visit);
   for (int joint = 0; joint < 3; ++joint) visitDvec3(jacobian_P_mm[joint], visit);
   visit(motor_heat), visit(gap_s);
   visit(drill_pedal), visit(fresh), visit(docked), visit(held), visit(calibrated), visit(stop_asked);

@@ -18,9 +18,9 @@ bool usable(const HandSample& hand) {
   const double norm = glm::dot(hand.X_PT.rotation, hand.X_PT.rotation);
   const glm::dvec3& p = hand.X_PT.translation_mm;
   const glm::dmat3& J = hand.jacobian_P_mm;
-  return finite(p) && finite(hand.velocity_P_mm_per_s.xyz) && glm::length(hand.arm_P_mm.xyz) <= kFarthest_mm &&
-         glm::length(p) <= kFarthest_mm && std::isfinite(norm) && norm > 0.25 && norm < 4.0 && finite(J[0]) &&
-         finite(J[1]) && finite(J[2]);
+  return finite(p) && finite(hand.velocity_P_mm_per_s.xyz) && finite(hand.handle_velocity_P_mm_per_s.xyz) &&
+         glm::length(hand.arm_P_mm.xyz) <= kFarthest_mm && glm::length(p) <= kFarthest_mm && std::isfinite(norm) &&
+         norm > 0.25 && norm < 4.0 && finite(J[0]) && finite(J[1]) && finite(J[2]);
 }
 
 HandSample withUnitRotation(const HandSample& hand) {
@@ -79,6 +79,7 @@ HandGuard::Checked HandGuard::check(const HandSample& hand, const SafetyLimits& 
   }
   if (bad_ > 0 || !started_) {
     checked.hand.velocity_P_mm_per_s = {};
+    checked.hand.handle_velocity_P_mm_per_s = {};
     checked.hand.drill_pedal = false;
   }
   checked.lost = bad_ >= kBadInARow;

@@ -11,6 +11,8 @@ struct HandSample {
   calibration::Pose<calibration::Patient, calibration::Tool> X_PT;  ///< where the hand holds the tool
   calibration::Vector<calibration::Patient> velocity_P_mm_per_s;    ///< of the tool's origin
   calibration::Vector<calibration::Patient> arm_P_mm;  ///< from there to the point of the handle that the device moves
+  /// Of that point, as the device measures it: what is safe goes by this, for a gimbal's noise shakes the tool's end.
+  calibration::Vector<calibration::Patient> handle_velocity_P_mm_per_s;
   glm::dmat3 jacobian_P_mm{0.0};  ///< of that point by the motor-driven joints, mm/rad; zero where not known
   double motor_heat = 0.0;        ///< of the warmest motor, 0 cold to 1 as warm as allowed
   double gap_s = 0.0;             ///< by the clock since the tick before, where longer than a tick should take; else 0

@@ -39,7 +39,7 @@ SafetyLayer::Admitted SafetyLayer::admit(const HandSample& sample, const SafetyL
   seen.held = hand.held;
   seen.resumed = checked.resumed;
   seen.touches = touches_;
-  seen.speed_mm_per_s = glm::length(hand.velocity_P_mm_per_s.xyz);
+  seen.speed_mm_per_s = glm::length(hand.handle_velocity_P_mm_per_s.xyz);
   seen.rearm = rearm;
 
   admitted_.hand = hand;
@@ -75,7 +75,7 @@ void SafetyLayer::account(const Wrench<Patient>& given, const Wrench<Patient>& t
 SafetyFilter::Served SafetyLayer::serve(const Wanted& wanted, const SafetyLimits& limits, double dt_s) noexcept {
   touches_ = wanted.touches;
   const HandSample& hand = admitted_.hand;
-  const glm::dvec3& velocity = hand.velocity_P_mm_per_s.xyz;
+  const glm::dvec3& velocity = hand.handle_velocity_P_mm_per_s.xyz;
   const bool active = admitted_.state == SafetyState::active;
   const double soft = soft_start_.follow(active, readiness_.isLettingGo(), limits, dt_s);
   const VelocityGuard::Verdict speed = velocity_guard_.follow(velocity, limits, dt_s);

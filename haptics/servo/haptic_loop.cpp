@@ -84,7 +84,8 @@ HandSample HapticLoop::handFrom(const HandleState& state, const Beat& beat) noex
   last_arm_P_mm_ = arm_P_mm;
   has_arm_ = std::isfinite(glm::length(arm_P_mm));
   hand.arm_P_mm.xyz = -arm_P_mm;
-  hand.velocity_P_mm_per_s = settings_.X_PD * state.velocity_D_mm_per_s;
+  hand.handle_velocity_P_mm_per_s = settings_.X_PD * state.velocity_D_mm_per_s;
+  hand.velocity_P_mm_per_s = hand.handle_velocity_P_mm_per_s;
   hand.velocity_P_mm_per_s.xyz += arm_velocity_P_mm_per_s_;
   return hand;
 }

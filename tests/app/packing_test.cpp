@@ -20,6 +20,7 @@ TEST(Packing, BringsEveryFieldOfATickBackBitForBit) {
   tick.rest = haptics::Rest::caught;
   tick.strokes = 31;
   tick.hand.jacobian_P_mm = glm::dmat3(1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0);
+  tick.hand.handle_velocity_P_mm_per_s.xyz = {1.5, -2.5, 3.5};
   tick.hand.motor_heat = 0.7;
   tick.hand.gap_s = 0.021;
   tick.hand.docked = tick.hand.stop_asked = true;
@@ -39,6 +40,7 @@ TEST(Packing, BringsEveryFieldOfATickBackBitForBit) {
   EXPECT_EQ(b.hand.drill_pedal, tick.hand.drill_pedal);
   EXPECT_EQ(b.hand.device_healthy, tick.hand.device_healthy);
   EXPECT_EQ(b.hand.jacobian_P_mm, tick.hand.jacobian_P_mm);
+  EXPECT_EQ(b.hand.handle_velocity_P_mm_per_s.xyz, glm::dvec3(1.5, -2.5, 3.5));
   EXPECT_EQ(b.hand.motor_heat, 0.7);
   EXPECT_EQ(b.hand.gap_s, 0.021);
   EXPECT_TRUE(b.hand.docked && b.hand.stop_asked);

@@ -168,6 +168,7 @@ TEST(Replay, TripsAsTheRehearsalDid) {
       haptics::HandSample hand = test::sweepingHand(t);
       hand.X_PT.translation_mm.z = 0.5 + 2.5 * std::max(0.0, 0.8 - t) / 0.8;
       hand.velocity_P_mm_per_s.xyz = {18.0 * std::cos(9.0 * t), 0.0, n < 800 ? -3.0 : 0.0};
+      hand.handle_velocity_P_mm_per_s = hand.velocity_P_mm_per_s;
       hand.jacobian_P_mm = glm::dmat3(120.0);
       hand.motor_heat = part == 1 && n > 900 ? 0.9 : 0.1;
       hand.fresh = n < 1000 || n > 1000 + 8 * (part + 1);

@@ -13,7 +13,7 @@ HandSample at(double x_mm) {
   HandSample hand;
   hand.X_PT.translation_mm.x = x_mm;
   hand.drill_pedal = true;
-  hand.velocity_P_mm_per_s.xyz.x = 5.0;
+  hand.velocity_P_mm_per_s.xyz.x = hand.handle_velocity_P_mm_per_s.xyz.x = 5.0;
   return hand;
 }
 
@@ -47,6 +47,7 @@ TEST(HandGuard, HoldsTheLastPoseAtRestAndHalvesTheForceOnABadSample) {
     EXPECT_EQ(checked.share, 0.5);
     EXPECT_EQ(checked.hand.X_PT.translation_mm, glm::dvec3(1.0, 0.0, 0.0));
     EXPECT_EQ(checked.hand.velocity_P_mm_per_s.xyz, glm::dvec3(0.0));
+    EXPECT_EQ(checked.hand.handle_velocity_P_mm_per_s.xyz, glm::dvec3(0.0));
     EXPECT_FALSE(checked.hand.drill_pedal);
     checked = guard.check(at(1.0), strict({}), 1e-3);
     EXPECT_FALSE(checked.refused);

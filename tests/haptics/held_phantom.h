@@ -19,7 +19,7 @@ class HeldPhantom {
     const HandleState state = device_.exchange(told_, dt_s);
     HandSample hand;
     hand.X_PT = {state.X_DH.rotation, state.X_DH.translation_mm};
-    hand.velocity_P_mm_per_s.xyz = state.velocity_D_mm_per_s.xyz;
+    hand.velocity_P_mm_per_s.xyz = hand.handle_velocity_P_mm_per_s.xyz = state.velocity_D_mm_per_s.xyz;
     hand.jacobian_P_mm = state.jacobian_D_mm;
     hand.motor_heat = state.motor_heat;
     hand.drill_pedal = state.pedal;

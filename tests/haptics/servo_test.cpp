@@ -113,7 +113,11 @@ TEST(Servo, NeverServesMoreThanItsLimitsOrFasterInARandomWalk) {
     if (i % 307 == 0) sample.X_PT.rotation = glm::dquat(0.0, 0.0, 0.0, 0.0);
     const Tick tick = servo.step(sample, command, 1e-3);
     ASSERT_LE(glm::length(tick.served_force_P_N.xyz), 3.3 * (1.0 + 1e-12));
-    ASSERT_LE(glm::length(tick.served_force_P_N.xyz - last), 0.3 * (1.0 + 1e-12));
+    // Down it may go at once where the pose is in doubt.
+    ASSERT_LE(glm::length(tick.served_force_P_N.xyz) - glm::length(last), 0.3 * (1.0 + 1e-12));
+    if (!has(tick.faults, Fault::bad_pose | Fault::overdrawn)) {
+      ASSERT_LE(glm::length(tick.served_force_P_N.xyz - last), 0.3 * (1.0 + 1e-12)) << i;
+    }
     ASSERT_TRUE(std::isfinite(glm::length(tick.law_force_P_N.xyz)));
     last = tick.served_force_P_N.xyz;
   }
