@@ -108,7 +108,7 @@ bool checkAxes(CheckBench& bench) {
 }
 
 bool checkRate(CheckBench& bench, double rate_Hz, double seconds) {
-  bench.dialogue.say(printed("  Hold it quietly for %.0f s.", seconds));
+  bench.dialogue.say(printed("  Hold it quietly for %g s.", seconds));
   const std::uint64_t ticks_before = bench.hand.ticks();
   const auto begun = std::chrono::steady_clock::now();
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
