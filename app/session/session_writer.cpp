@@ -148,6 +148,10 @@ SessionWriter::SessionWriter(const std::string& path, bool overwrite, const Sess
       for (const session_format::Table& table : session_format::kTables) database.exec(std::string(table.create));
       impl_->appendStart(start);
     });
+  } catch (const SessionError&) {
+    impl_->database.reset();
+    removeFiles(path);
+    throw;
   } catch (const std::exception& trouble) {
     impl_->database.reset();
     removeFiles(path);
