@@ -62,6 +62,11 @@ void CommandDesk::undoStroke() {
 }
 
 void CommandDesk::armAgain() {
+  if (const haptics::Tick tick = workstation_->newestTick();
+      tick.dt_s > 0.0 && tick.state == haptics::SafetyState::off) {
+    std::fprintf(stderr, "molar: the motors are off for good, end the rehearsal and start it again\n");
+    return;
+  }
   ++command_.rearm;
   workstation_->change(command_);
   tell("armed again", "the fault is lifted, if its cause is over");

@@ -134,5 +134,15 @@ TEST(CommandDesk, NeitherFileNorGuideLiftsAFault) {
   at.workstation->stop();
 }
 
+TEST(CommandDesk, LiftsNoEmergencyStop) {
+  Desk at;
+  ASSERT_TRUE(at.waitFor([](const haptics::Tick& tick) { return tick.dt_s > 0.0; }));
+  at.workstation->emergencyStop();
+  ASSERT_TRUE(at.waitFor([](const haptics::Tick& tick) { return tick.state == haptics::SafetyState::off; }));
+  at.desk->armAgain();
+  EXPECT_EQ(at.desk->inForce().rearm, 0u);
+  at.workstation->stop();
+}
+
 }  // namespace
 }  // namespace app
