@@ -1,5 +1,5 @@
-// Says what the safety layer did, once each time it did it: in words, with the last tick that had it, for the person and
-// the record. What only holds a force within its limits is counted, not said. Main thread, a few times a second.
+// Says what the safety layer did, once each time it did it: in words, with the last tick that had it, for the person
+// and the record. What only holds a force within its limits is counted, not said. Main thread, a few times a second.
 #pragma once
 
 #include <string>
