@@ -51,7 +51,7 @@ HandAtWork deviceOf(const SecondHandPlan& plan, const DeviceOptions& options, co
   const Pose<World, OtherTool> hold = holdBeside(patient, rig, plan.tool);
   if (plan.device != "scripted") {
     calibration::Rig others = rig;
-    others.X_WD = rig.X_WD2.value_or(Pose<World, Device>{{1.0, 0.0, 0.0, 0.0}, hold.translation_mm});
+    others.X_WD = rig.second_X_WD.value_or(Pose<World, Device>{{1.0, 0.0, 0.0, 0.0}, hold.translation_mm});
     return handAtWork(plan.device, options, patient, others, 1.0);
   }
   if (!patient.site.known)

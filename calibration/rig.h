@@ -22,7 +22,7 @@ struct Rig {
   Point<World> left_eye, right_eye;
   Pose<World, Patient> X_WP;
   Pose<World, Device> X_WD;
-  std::optional<Pose<World, Device>> X_WD2;  ///< of the other hand's device, where it was measured
+  std::optional<Pose<World, Device>> second_X_WD;  ///< of the other hand's device, where it was measured
 
   Point<World> cyclopeanEye() const { return {0.5 * (left_eye.mm + right_eye.mm)}; }
 };

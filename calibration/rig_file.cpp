@@ -139,7 +139,7 @@ class RigReader {
     rig.right_eye = {vector(eyes, "right_mm")};
     rig.X_WP = pose<World, Patient>("X_WP");
     rig.X_WD = pose<World, Device>("X_WD");
-    if (!root_["X_WD2"].empty()) rig.X_WD2 = pose<World, Device>("X_WD2");
+    if (!root_["X_WD2"].empty()) rig.second_X_WD = pose<World, Device>("X_WD2");
     checkEyes(rig);
     return rig;
   }
@@ -209,7 +209,7 @@ std::string rigText(const Rig& rig) {
   out << "}";
   matrix("X_WP", rig.X_WP.matrix());
   matrix("X_WD", rig.X_WD.matrix());
-  if (rig.X_WD2) matrix("X_WD2", rig.X_WD2->matrix());
+  if (rig.second_X_WD) matrix("X_WD2", rig.second_X_WD->matrix());
   return out.releaseAndGetString();
 }
 

@@ -16,6 +16,7 @@
 #include "app/falcon_scale_file.h"
 #include "app/law_text.h"
 #include "app/patient_source.h"
+#include "app/pedal_option.h"
 #include "app/picture_option.h"
 #include "app/rehearsal.h"
 #include "app/room.h"
@@ -35,7 +36,8 @@ constexpr double kMonitorWidth_mm = 531.0;  ///< of a 24-inch monitor
 constexpr double kForeignFaceWindow_mm = 24.0;
 
 struct RehearseOptions {
-  std::string patient, parameters, device = "mouse", falcon_firmware, rig, record, snapshot, first_snapshot, face;
+  std::string patient, parameters, device = "mouse", pedal = "auto", falcon_firmware, rig, record, snapshot,
+                                   first_snapshot, face;
   std::vector<std::string> tools{"sphere:1.5"};
   std::string shaft, law = "agus", erosion = "time", size, snapshot_size = "1280x800";
   std::string side = "right", second_hand, second_tool = "mirror";
@@ -102,6 +104,7 @@ int run(const RehearseOptions& options) {
     throw UsageError("--headless: there is no mouse without a window, add --device scripted");
   refuseUnlessDevice(options.device);
   plan.device = options.device;
+  plan.pedal = pedalFrom(options.pedal);
   plan.second_hand = {options.second_hand,
                       options.second_tool == "mirror" ? SecondTool::mirror : SecondTool::retractor};
   refuseUnlessSecondHand(plan.second_hand, options.device);
@@ -141,7 +144,7 @@ int run(const RehearseOptions& options) {
   if (!options.face.empty()) X_PF = dressWithFace(plan.patient, options.face);
   plan.face_window_mm = options.face_window_mm.value_or(options.face.empty() ? 0.0 : kForeignFaceWindow_mm);
   plan.rig = rigFor(options, plan.patient, X_PF);
-  if (!options.rig.empty() && namesRealDevice(options.second_hand) && !plan.rig.X_WD2)
+  if (!options.rig.empty() && namesRealDevice(options.second_hand) && !plan.rig.second_X_WD)
     throw UsageError("--second-hand " + options.second_hand + ": rig file " + options.rig +
                      " does not say where its base stands, add X_WD2");
   options.display.refuseUnlessFits(plan.rig);
@@ -156,6 +159,7 @@ void addRehearse(CLI::App& molar, Chosen& chosen) {
   auto o = std::make_shared<RehearseOptions>();
   CLI::App* command = molar.add_subcommand("rehearse", "Rehearse a third-molar extraction, seen and felt");
   auto* patient = command->add_option("PATIENT", o->patient, "Patient folder (default: the built-in patient)");
+  command->add_option("--pedal", o->pedal, kPedalHelp)->capture_default_str();
   command->add_option("--device", o->device, kDeviceHelp)->capture_default_str();
   command->add_option("--falcon-firmware", o->falcon_firmware, "Novint's firmware for a Falcon")->type_name("FILE");
   auto* second = command->add_option("--second-hand", o->second_hand, kSecondHandHelp);

@@ -11,7 +11,7 @@ constexpr double kMean_s = 0.25;
 haptics::HandSample sampleOf(const haptics::HandleState& state) {
   haptics::HandSample hand;
   hand.X_PT = {state.X_DH.rotation, state.X_DH.translation_mm};
-  hand.velocity_P_mm_per_s = {state.velocity_D_mm_per_s.xyz};
+  hand.velocity_P_mm_per_s = hand.handle_velocity_P_mm_per_s = {state.velocity_D_mm_per_s.xyz};
   hand.jacobian_P_mm = state.jacobian_D_mm;
   hand.motor_heat = state.motor_heat;
   hand.fresh = state.fresh;

@@ -31,7 +31,7 @@ SafetyLimits sanitised(const SafetyLimits& limits) {
     *one = peak(*one);
   // A joint limit that can not be read is the tightest there is.
   for (int joint = 0; joint < 3; ++joint)
-    if (const double Nmm = safe.peak_joint_torque_Nmm[joint]; !(std::isfinite(Nmm) && Nmm >= 0.0))
+    if (const double peak_Nmm = safe.peak_joint_torque_Nmm[joint]; !(std::isfinite(peak_Nmm) && peak_Nmm >= 0.0))
       safe.peak_joint_torque_Nmm[joint] = 1e-9;
   safe.slew_N_per_s = positive(safe.slew_N_per_s, defaults.slew_N_per_s);
   safe.slew_Nmm_per_s = positive(safe.slew_Nmm_per_s, defaults.slew_Nmm_per_s);

@@ -61,11 +61,12 @@ TEST_F(RigFile, ReadsBackWhatItWrites) {
 
 TEST_F(RigFile, HoldsThePoseOfASecondDeviceWhereThereIsOne) {
   Rig rig = mirroredRig();
-  EXPECT_FALSE(readRig(write(rigText(rig))).X_WD2);
-  rig.X_WD2 = {glm::angleAxis(0.4, glm::normalize(glm::dvec3(3, 1, 2))), {-150, 20, 30}};
+  EXPECT_FALSE(readRig(write(rigText(rig))).second_X_WD);
+  rig.second_X_WD = {glm::angleAxis(0.4, glm::normalize(glm::dvec3(3, 1, 2))), {-150, 20, 30}};
   const Rig back = readRig(write(rigText(rig)));
-  ASSERT_TRUE(back.X_WD2);
-  EXPECT_LT(glm::distance((*back.X_WD2 * Point<Device>{{1, 2, 3}}).mm, (*rig.X_WD2 * Point<Device>{{1, 2, 3}}).mm),
+  ASSERT_TRUE(back.second_X_WD);
+  EXPECT_LT(glm::distance((*back.second_X_WD * Point<Device>{{1, 2, 3}}).mm,
+                          (*rig.second_X_WD * Point<Device>{{1, 2, 3}}).mm),
             1e-9);
   std::string text = rigText(rig);
   text.replace(text.find("X_WD2:"), text.size(), "X_WD2: [ 1, 2, 3 ]\n");

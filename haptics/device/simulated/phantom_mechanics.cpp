@@ -74,8 +74,8 @@ Pose<Device, Handle> PhantomMechanics::rest_DH() const {
 }
 
 const std::array<PhantomMechanics, 4>& simulatedPhantoms() {
-  static const std::array<PhantomMechanics, 4> all = {omni(), touch(), desktop(), premium()};
-  return all;
+  static const std::array<PhantomMechanics, 4> kAll = {omni(), touch(), desktop(), premium()};
+  return kAll;
 }
 
 const PhantomMechanics* findSimulatedPhantom(std::string_view key) {
