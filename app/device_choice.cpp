@@ -49,9 +49,9 @@ OpenedDevice openDevice(const std::string& address, const DeviceOptions& options
   opened.address = address == "usb" ? firstOnTheUsb() : address;
   const Address asked = split(opened.address);
   if (auto wooden = haptics::woodenAddressed(opened.address)) {
-    wooden->tell = [say = once(options.tell)](const std::string& words) mutable {
+    wooden->tell = [say = once(options.tell), given_up = options.given_up](const std::string& words) mutable {
       say(words);
-      return haptics::HomingAnswer::wait;
+      return given_up() ? haptics::HomingAnswer::give_up : haptics::HomingAnswer::wait;
     };
     opened.device = std::make_unique<haptics::WoodenHaptics>(*wooden);
   } else if (asked.kind == "openhaptics") {
@@ -64,9 +64,9 @@ OpenedDevice openDevice(const std::string& address, const DeviceOptions& options
     settings.path = asked.rest;
     settings.program = options.falcon_program;
     settings.scale = options.falcon_scale;
-    settings.tell = [say = once(options.tell)](const std::string& words, double) mutable {
+    settings.tell = [say = once(options.tell), given_up = options.given_up](const std::string& words, double) mutable {
       say(words);
-      return true;
+      return !given_up();
     };
     opened.device = std::make_unique<haptics::Falcon>(settings);
   } else {

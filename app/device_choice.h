@@ -21,6 +21,7 @@ struct DeviceOptions {
   haptics::FalconForceScale falcon_scale;
   std::optional<bool> docked_value;  ///< OpenHaptics: what the inkwell's switch shows of a docked stylus; none: learned
   std::function<void(const std::string&)> tell = [](const std::string&) {};  ///< progress, and what a person shall do
+  std::function<bool()> given_up = [] { return false; };                     ///< asked while it waits for a person
 };
 
 /// A device with what it rests on.

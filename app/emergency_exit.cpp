@@ -46,6 +46,10 @@ void onExit() {
 
 }  // namespace
 
+void forbidForceNow() noexcept {
+  if (haptics::DeviceLoop* loop = guarded.load()) loop->forbidForce();
+}
+
 EmergencyExit::EmergencyExit(haptics::DeviceLoop& loop) {
   [[maybe_unused]] haptics::DeviceLoop* before = guarded.exchange(&loop);
   assert(before == nullptr);

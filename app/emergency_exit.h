@@ -4,7 +4,8 @@
 // all force, wait until the device has ticked twice without any, or for what the supervisor needs to switch off a
 // device that hangs, and only then go on to end the program as they would have. What a handler does is safe in one:
 // atomics and nanosleep. SIGKILL and power cuts are the device's own business. One at a time (assert); made and
-// destroyed by one thread. Interrupts (SIGINT, SIGTERM) end a rehearsal in order.
+// destroyed by one thread. Interrupts (SIGINT, SIGTERM) end a rehearsal in order. Only the thread that makes it has a
+// stack of its own for the handler.
 #pragma once
 
 #include "haptics/loop/device_loop.h"
@@ -19,5 +20,8 @@ class EmergencyExit {
   EmergencyExit(const EmergencyExit&) = delete;
   EmergencyExit& operator=(const EmergencyExit&) = delete;
 };
+
+/// On the device that such a one guards, if there is one. A signal handler may call it.
+void forbidForceNow() noexcept;
 
 }  // namespace app

@@ -10,6 +10,7 @@
 #include "app/brick_upload.h"
 #include "app/command_desk.h"
 #include "app/dressed_renderer.h"
+#include "app/emergency_exit.h"
 #include "app/hand_input.h"
 #include "app/motion_to_photon.h"
 #include "app/operator_seat.h"
@@ -30,6 +31,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kBurTurnsPerSecond = 7.0;  ///< as drawn: a real bur turns too fast for any display to show
 constexpr int kSnapshotSamples = 2;
+constexpr double kLongestSilence_s = 10.0;
 constexpr double kStatusEvery_s = 0.5, kLatencyNotedEvery_s = 5.0;
 
 volatile std::sig_atomic_t interrupted = 0;
@@ -180,7 +182,16 @@ class Rehearsal {
   bool isOver() {
     const double t_s = newest_.t_s + newest_.dt_s;
     return interrupted || ended_by_user_ || (plan_.guide && plan_.guide->isOver()) ||
-           (duration_s_ && t_s >= *duration_s_);
+           (duration_s_ && t_s >= *duration_s_) || isSilent();
+  }
+
+  /// A device that does not tick any more ends nothing by itself.
+  bool isSilent() {
+    if (newest_.index != index_seen_ || ticked_at_ == Clock::time_point{}) ticked_at_ = Clock::now();
+    index_seen_ = newest_.index;
+    if (secondsSince(ticked_at_) < kLongestSilence_s) return false;
+    tell("the device has not ticked for 10 s, so the rehearsal ends; check its cable and driver");
+    return true;
   }
 
   void takeInput() {
@@ -413,6 +424,8 @@ class Rehearsal {
   BrickUpload upload_;
   render::Frame frame_;
   haptics::Tick newest_;
+  Clock::time_point ticked_at_;
+  std::uint64_t index_seen_ = 0;
   std::uint64_t frames_ = 0, frames_counted_ = 0;
   double first_picture_s_ = 0.0, loop_s_ = 0.0, pictures_per_s_ = 0.0;
   bool recording_ended_ = false, ended_by_user_ = false;
@@ -421,7 +434,13 @@ class Rehearsal {
 }  // namespace
 
 void rehearse(RehearsalPlan plan) {
-  for (int asked : {SIGINT, SIGTERM, SIGHUP}) std::signal(asked, [](int) { interrupted = 1; });
+  // The second time at the latest something hangs: the force goes without it.
+  for (int asked : {SIGINT, SIGTERM, SIGHUP})
+    std::signal(asked, [](int) {
+      if (interrupted) forbidForceNow();
+      interrupted = 1;
+    });
+  plan.device_options.given_up = [] { return interrupted != 0; };
   Rehearsal(std::move(plan)).run();
 }
 

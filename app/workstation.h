@@ -31,6 +31,8 @@ class Workstation {
               const haptics::LoopSettings& settings, const haptics::Command& command,
               const std::optional<Recording>& recording);
 
+  ~Workstation() { loop_.stop(); }
+
   /// From now on a crash switches the motors off before it ends the program. Throws haptics::DeviceError.
   void start();
   /// No force from now on, motors off for good; the rehearsal goes on without.

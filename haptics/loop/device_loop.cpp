@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <string>
 #include <utility>
 
 #include "haptics/safety/safety_limits.h"
@@ -31,7 +33,7 @@ DeviceLoop::DeviceLoop(HapticDevice& device, double rate_Hz, bool realtime)
       realtime_(realtime),
       gate_(capabilities_) {
   if (!(rate_Hz >= 500.0 && rate_Hz <= 10'000.0))
-    throw DeviceError("servo rate, " + std::to_string(rate_Hz) + " Hz, choose one from 500 to 10000 Hz");
+    throw DeviceError("servo rate, " + std::to_string(std::lround(rate_Hz)) + " Hz, choose one from 500 to 10000 Hz");
 }
 
 DeviceLoop::~DeviceLoop() { assert(!started_ || phase_.load() != Phase::serving); }

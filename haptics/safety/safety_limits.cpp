@@ -29,10 +29,8 @@ SafetyLimits sanitised(const SafetyLimits& limits) {
   for (double* one : {&safe.peak_force_N, &safe.peak_torque_Nmm, &safe.most_stiffness_N_per_mm,
                       &safe.most_damping_Ns_per_mm, &safe.continuous_force_N})
     *one = peak(*one);
-  // A joint limit that can not be read is the tightest there is.
   for (int joint = 0; joint < 3; ++joint)
-    if (const double peak_Nmm = safe.peak_joint_torque_Nmm[joint]; !(std::isfinite(peak_Nmm) && peak_Nmm >= 0.0))
-      safe.peak_joint_torque_Nmm[joint] = 1e-9;
+    safe.peak_joint_torque_Nmm[joint] = readJointPeak_Nmm(safe.peak_joint_torque_Nmm[joint]);
   safe.slew_N_per_s = positive(safe.slew_N_per_s, defaults.slew_N_per_s);
   safe.slew_Nmm_per_s = positive(safe.slew_Nmm_per_s, defaults.slew_Nmm_per_s);
   safe.fastest_mm_per_s = positive(safe.fastest_mm_per_s, defaults.fastest_mm_per_s);

@@ -5,6 +5,7 @@
 // As they stand nobody can be pushed: for a device with motors `limitedTo` (servo/haptic_loop) makes them `strict`.
 #pragma once
 
+#include <cmath>
 #include <glm/glm.hpp>
 
 namespace haptics {
@@ -41,6 +42,11 @@ struct SafetyLimits {
   bool must_be_armed = false;             ///< somebody can be pushed: arm first, start softly, latch faults
   SafetyThresholds thresholds{};
 };
+
+/// A joint's peak torque as it is obeyed: 0 is no limit, and one that can not be read is the tightest there is.
+inline double readJointPeak_Nmm(double peak_Nmm) {
+  return std::isfinite(peak_Nmm) && peak_Nmm >= 0.0 ? peak_Nmm : 1e-9;
+}
 
 /// As they must be where somebody can be pushed, whatever was asked for: armed first, the thresholds as they stand, no
 /// hand faster than 2 m/s (reference/devices 6.1) or 100 rad/s, no force that changes faster than by default.

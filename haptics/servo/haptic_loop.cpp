@@ -26,14 +26,14 @@ Command limitedTo(const DeviceCapabilities& device, double rate_Hz, const Comman
   safety = sanitised(command.safety);
   safety.peak_force_N = at_most(safety.peak_force_N, device.peak_force_N);
   safety.peak_torque_Nmm = at_most(safety.peak_torque_Nmm, device.peak_torque_Nmm);
-  limited.law.damping_Ns_per_mm = std::min(command.law.damping_Ns_per_mm, device.most_damping_Ns_per_mm);
+  limited.law.damping_Ns_per_mm = at_most(command.law.damping_Ns_per_mm, device.most_damping_Ns_per_mm);
   safety.most_damping_Ns_per_mm = at_most(safety.most_damping_Ns_per_mm, device.most_damping_Ns_per_mm);
   safety.most_stiffness_N_per_mm = at_most(safety.most_stiffness_N_per_mm, device.most_stiffness_N_per_mm);
   safety.most_stiffness_N_per_mm =
       at_most(safety.most_stiffness_N_per_mm,
               0.9 * passiveStiffness_N_per_mm(device.damping_Ns_per_mm, limited.law.damping_Ns_per_mm, 1.0 / rate_Hz));
   for (int joint = 0; joint < 3; ++joint)
-    if (const double most = device.peak_joint_torque_Nmm[joint]; most > 0.0) {
+    if (const double most = readJointPeak_Nmm(device.peak_joint_torque_Nmm[joint]); most > 0.0) {
       double& peak = safety.peak_joint_torque_Nmm[joint];
       peak = peak > 0.0 ? std::min(peak, most) : most;
     }

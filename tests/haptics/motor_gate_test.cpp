@@ -80,6 +80,16 @@ TEST(MotorGate, TakesAbsurdCapabilitiesForNoForce) {
   }
 }
 
+TEST(MotorGate, TakesAJointLimitThatCanNotBeReadForTheTightest) {
+  for (double bad : {kNan, kInf, -1.0}) {
+    DeviceCapabilities device = touch();
+    device.peak_joint_torque_Nmm.y = bad;
+    glm::dmat3 J(0.0);
+    J[1] = {0.0, 128.5, 0.0};
+    EXPECT_LT(glm::length(MotorGate(device).admit(push({0.0, 1.0, 0.0}), J, true).wrench_D().force_N.xyz), 1e-9);
+  }
+}
+
 TEST(MotorCommand, CanOnlyBeWeakened) {
   const MotorCommand full = MotorGate(touch()).admit(push({2.0, 0.0, 0.0}), kUnknown, true);
   EXPECT_EQ(full.faded(0.25).wrench_D().force_N.xyz.x, 0.5);

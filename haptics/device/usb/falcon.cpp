@@ -209,7 +209,7 @@ std::vector<FoundDevice> findFalcon() {
     falcon.advice = device.may_open
                         ? "give its firmware with --falcon-firmware, it forgets its program with every power-down; " +
                               falconForceAdvice({})
-                        : "install the udev rule that `molar doctor` prints and replug it";
+                        : "install the udev rules that `molar doctor --udev-rules` prints and replug it";
     found.push_back(falcon);
   }
   return found;

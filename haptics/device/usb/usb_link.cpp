@@ -21,7 +21,7 @@ constexpr std::size_t kPacketMask = 0x7ff;
 std::string inWords(int error) {
   switch (error) {
     case LIBUSB_ERROR_ACCESS:
-      return "permission denied, install the udev rule that `molar doctor` prints and replug it";
+      return "permission denied, install the udev rules that `molar doctor --udev-rules` prints and replug it";
     case LIBUSB_ERROR_BUSY:
       return "in use by another program or driver, close it";
     case LIBUSB_ERROR_NO_DEVICE:

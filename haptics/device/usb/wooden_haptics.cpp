@@ -200,7 +200,8 @@ std::vector<FoundDevice> findWoodenHaptics() {
     wooden.place = device.place();
     wooden.provenance = Provenance::public_protocol;
     wooden.driver = "libusb";
-    if (!device.may_open) wooden.advice = "install the udev rule that `molar doctor` prints and replug it";
+    if (!device.may_open)
+      wooden.advice = "install the udev rules that `molar doctor --udev-rules` prints and replug it";
     found.push_back(wooden);
   }
   return found;
