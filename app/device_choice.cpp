@@ -31,6 +31,17 @@ std::function<void(const std::string&)> once(std::function<void(const std::strin
   };
 }
 
+/// What `open` throws, with the name of the device before it.
+template <class Open>
+auto named(const std::string& name, Open open) {
+  try {
+    return open();
+  } catch (const haptics::DeviceError& error) {
+    const std::string what = error.what();
+    throw haptics::DeviceError(what.find(name) == std::string::npos ? name + ", " + what : what);
+  }
+}
+
 std::string firstOnTheUsb() {
   for (const auto& search : {haptics::findWoodenHaptics, haptics::findFalcon})
     for (const haptics::FoundDevice& found : search())
@@ -53,7 +64,7 @@ OpenedDevice openDevice(const std::string& address, const DeviceOptions& options
       say(words);
       return given_up() ? haptics::HomingAnswer::give_up : haptics::HomingAnswer::wait;
     };
-    opened.device = std::make_unique<haptics::WoodenHaptics>(*wooden);
+    opened.device = named("WoodenHaptics", [&] { return std::make_unique<haptics::WoodenHaptics>(*wooden); });
   } else if (asked.kind == "openhaptics") {
     opened.library = std::make_unique<haptics::HdLibrary>();
     opened.device = std::make_unique<haptics::OpenHaptics>(
@@ -68,7 +79,7 @@ OpenedDevice openDevice(const std::string& address, const DeviceOptions& options
       say(words);
       return !given_up();
     };
-    opened.device = std::make_unique<haptics::Falcon>(settings);
+    opened.device = named("Novint Falcon", [&] { return std::make_unique<haptics::Falcon>(settings); });
   } else {
     throw UsageError("--device " + address +
                      ": it is not the address of a device, see molar devices for those that are there");
