@@ -10,13 +10,14 @@ namespace {
 constexpr double kWheelNotch_mm = 0.5;
 constexpr double kTurn_rad = calibration::radFromDegrees(3.0);
 
-constexpr std::array<std::pair<char, Wish>, 7> kWishes = {{{'D', Wish::drill_switch},
+constexpr std::array<std::pair<char, Wish>, 8> kWishes = {{{'D', Wish::drill_switch},
                                                            {'T', Wish::tool_change},
                                                            {'I', Wish::irrigation_switch},
                                                            {'U', Wish::undo},
                                                            {'P', Wish::snapshot},
                                                            {'X', Wish::emergency_stop},
-                                                           {'R', Wish::arm_again}}};
+                                                           {'R', Wish::arm_again},
+                                                           {'H', Wish::set_home}}};
 
 }  // namespace
 

@@ -19,7 +19,7 @@ struct KeyMeaning {
   const char* key;
   const char* does;
 };
-inline constexpr std::array<KeyMeaning, 14> kKeys = {{
+inline constexpr std::array<KeyMeaning, 15> kKeys = {{
     {"Space", "pedal: drill while held"},
     {"Drag", "move in the screen's plane"},
     {"Wheel", "move nearer or farther"},
@@ -33,11 +33,22 @@ inline constexpr std::array<KeyMeaning, 14> kKeys = {{
     {"P", "snapshot"},
     {"X", "emergency stop: motors off"},
     {"R", "arm again after a fault"},
+    {"H", "the handle stands at home"},
     {"Esc", "end"},
 }};
 
 /// What a key asks for, once a press.
-enum class Wish { drill_switch, tool_change, irrigation_switch, undo, snapshot, emergency_stop, arm_again, end };
+enum class Wish {
+  drill_switch,
+  tool_change,
+  irrigation_switch,
+  undo,
+  snapshot,
+  emergency_stop,
+  arm_again,
+  set_home,
+  end
+};
 struct LawWish {
   int number = 0;  ///< from 0
 };

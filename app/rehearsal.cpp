@@ -218,6 +218,7 @@ class Rehearsal {
     if (wish == Wish::snapshot) takeWindowSnapshot();
     if (wish == Wish::emergency_stop) stopMotors();
     if (wish == Wish::arm_again) desk_.armAgain();
+    if (wish == Wish::set_home) workstation_->setHome();
     if (plan_.guide) return;
     if (wish == Wish::drill_switch) desk_.switchDrill();
     if (wish == Wish::tool_change) desk_.changeTool();
@@ -340,6 +341,8 @@ class Rehearsal {
       recording_ended_ = true;
       std::fprintf(stderr, "molar: recording ended: %s\n", trouble->c_str());
     }
+    if (const std::string words = workstation_->deviceTrouble(); std::exchange(device_trouble_, words) != words)
+      if (!words.empty()) tell(words);
     if (newest_.dt_s <= 0.0) return;  // not a tick yet
     trips_ = workstation_->trips();
     for (const std::string& line : trip_teller_.look(trips_, newest_.state)) {
@@ -419,6 +422,7 @@ class Rehearsal {
   std::optional<haptics::FootPedal> pedal_;
   std::optional<Workstation> workstation_;
   std::optional<UnplugWatch> unplug_watch_;
+  std::string device_trouble_;
   TripTeller trip_teller_;
   haptics::TripLedger trips_;
   BrickUpload upload_;

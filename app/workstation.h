@@ -50,6 +50,9 @@ class Workstation {
   /// What buttons of the handle and the pedal have asked for since the last call, drilling aside; in no order.
   std::vector<haptics::HandAction> takeActions();
 
+  /// What the device says is wrong, or that a person shall do; empty: nothing.
+  std::string deviceTrouble() const { return device_->trouble(); }
+  void setHome() { device_->setHome(); }
   haptics::TripLedger trips() { return loop_.trips(); }
   haptics::Tick newestTick() { return newest_.read(); }
   haptics::CarvedBone& bone() { return bone_; }

@@ -32,7 +32,7 @@ PushingHand::Answer PushingHand::answer(const haptics::HandleState& state, const
   const double dt_s = 1.0 / rate_Hz();
   haptics::HandSample sample = sampleOf(state);
   sample.stop_asked = isForbidden();
-  if (beat.missed > 0) sample.gap_s = static_cast<double>(beat.missed + 1) * dt_s;
+  sample.gap_s = beat.gap_s;
   const haptics::SafetyLayer::Admitted admitted =
       safety_.admit(sample, limits_, rearm_.load(std::memory_order_relaxed), dt_s);
 
@@ -51,7 +51,7 @@ PushingHand::Answer PushingHand::answer(const haptics::HandleState& state, const
   seen_.tripped |= static_cast<std::uint32_t>(admitted.faults | served.faults);
   ++seen_.ticks;
   newest_.publish(seen_);
-  return {{{seen_.pushed_D_N}, {}}, true};
+  return {{{seen_.pushed_D_N}, {}}, haptics::mayRunMotors(seen_.safety)};
 }
 
 }  // namespace app

@@ -63,7 +63,7 @@ struct DeviceCapabilities {
 struct Beat {
   double late_us = 0.0;      ///< from when it was due to when the device's thread woke
   std::uint64_t missed = 0;  ///< ticks that were due since the last one and did not happen
-  double gap_s = 0.0;        ///< by the clock since the tick before; the loop measures it
+  double gap_s = 0.0;        ///< by the clock since the tick before, where that is late; the loop measures it
 };
 
 /// Whom a device serves. Called from the device's own thread only; must not allocate, lock, block or throw.
@@ -88,6 +88,12 @@ class HapticDevice {
   /// Motors off at once, the ticks go on. A command made before is not obeyed any more, one of a later tick is. Must
   /// not wait for the servo.
   virtual void motorsOff() noexcept = 0;
+
+  /// What is wrong with the device, or what a person has to do now, in one sentence; empty: all is well. Any thread but
+  /// the device's.
+  virtual std::string trouble() const { return {}; }
+  /// The handle stands at its home or reset position now; for devices that must be told. Any thread.
+  virtual void setHome() noexcept {}
 };
 
 }  // namespace haptics

@@ -18,6 +18,9 @@ constexpr double kLetDown_N_per_s = 300.0, kLetDown_Nmm_per_s = 15'000.0;
 /// Longest wait for a device that lets go; one that does not tick is stopped without.
 constexpr auto kLongestGoodbye = std::chrono::milliseconds(200);
 
+/// Periods between two ticks that are no gap.
+constexpr double kLongestPunctual = 1.5;
+
 double threadTime_us() {
   timespec t{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
@@ -77,7 +80,8 @@ MotorCommand DeviceLoop::tick(const HandleState& state, const Beat& beat) noexce
 
   const double began_us = threadTime_us();
   Beat timed = beat;
-  timed.gap_s = gap_s();
+  const double since_s = gap_s();
+  timed.gap_s = since_s * rate_Hz_ > kLongestPunctual ? since_s : 0.0;
   const Answer wanted = answer(state, timed);
   last_ = gate_.admit(wanted.wrench_D, state.jacobian_D_mm, wanted.motors_on);
   const double work_us = threadTime_us() - began_us;

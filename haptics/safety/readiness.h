@@ -13,6 +13,9 @@ namespace haptics {
 
 enum class SafetyState : std::uint8_t { off, calibrate, ready, armed, active, fault };
 
+/// Whether the motors may be on, with force or without.
+constexpr bool mayRunMotors(SafetyState state) { return state != SafetyState::off && state != SafetyState::fault; }
+
 class Readiness {
  public:
   /// What it goes by, this tick.

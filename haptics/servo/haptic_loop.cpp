@@ -66,7 +66,7 @@ HandSample HapticLoop::handFrom(const HandleState& state, const Beat& beat) noex
   hand.X_PT = X_PH * settings_.X_HT;
   hand.jacobian_P_mm = glm::mat3_cast(settings_.X_PD.rotation) * state.jacobian_D_mm;
   hand.motor_heat = state.motor_heat;
-  hand.gap_s = beat.gap_s * rate_Hz() > 1.5 ? beat.gap_s : 0.0;
+  hand.gap_s = beat.gap_s;
   hand.drill_pedal = drills(state);
   hand.fresh = state.fresh;
   hand.docked = state.docked;
@@ -101,8 +101,7 @@ bool HapticLoop::drills(const HandleState& state) noexcept {
 
 DeviceLoop::Answer HapticLoop::answer(const HandleState& state, const Beat& beat) noexcept {
   tick_ = servo_.step(handFrom(state, beat), limitedTo(device(), rate_Hz(), commands_.read()), 1.0 / rate_Hz());
-  const bool motors_on = tick_.state != SafetyState::off && tick_.state != SafetyState::fault;
-  return {{X_DP_ * tick_.served_force_P_N, X_DP_ * tick_.served_torque_P_Nmm}, motors_on};
+  return {{X_DP_ * tick_.served_force_P_N, X_DP_ * tick_.served_torque_P_Nmm}, mayRunMotors(tick_.state)};
 }
 
 void HapticLoop::answered(double work_us) noexcept {

@@ -235,7 +235,7 @@ TEST_F(OpenHapticsDevice, CalibratesAsItsStyleAsksAndGivesNoForceBefore) {
       EXPECT_THAT(device.trouble(), HasSubstr(style.asks));
     }
     if (style.bits == 4) door.script.docked = true;
-    if (style.bits == 1) device.resetEncodersHere();
+    if (style.bits == 1) device.setHome();
     until([&] { return servo.state().calibrated && forceNow_N() == 1.0; });
     EXPECT_EQ(device.trouble(), "");
     EXPECT_EQ(door.seen.calibration_updates, 1);
@@ -246,7 +246,7 @@ TEST_F(OpenHapticsDevice, CalibratesAsItsStyleAsksAndGivesNoForceBefore) {
     door.script.calibrated = false;
     until([&] { return servo.uncalibrated > uncalibrated; });
     if (style.bits == 4) door.script.docked = true;
-    if (style.bits == 1) device.resetEncodersHere();
+    if (style.bits == 1) device.setHome();
     until([&] { return door.seen.calibration_updates == 2 && servo.state().calibrated; });
     device.stop();
     EXPECT_THAT(door.seen.violations, testing::IsEmpty());

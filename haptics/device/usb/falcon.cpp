@@ -114,8 +114,9 @@ void Falcon::start(DeviceServo& servo, double rate_Hz) {
 }
 
 void Falcon::stop() noexcept {
-  PacedDevice::stop();
+  // Before the servo is waited for, which may hang.
   usb_->sendLast(reportOf({{}, true, FalconLights::none}), kLastPacketTime);
+  PacedDevice::stop();
   usb_->stop();
 }
 

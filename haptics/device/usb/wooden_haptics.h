@@ -57,7 +57,7 @@ class WoodenHaptics final : public PacedDevice {
   void motorsOff() noexcept override;
 
   /// It stands at its home position now. Any thread; forgotten when the motors are on.
-  void setHome() noexcept { homing_.ask(); }
+  void setHome() noexcept override { homing_.ask(); }
 
   /// Any thread.
   UsbCounters counters() const noexcept;
