@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "app/printed.h"
+#include "haptics/device/usb/known_devices.h"
 
 namespace app {
 namespace {
@@ -11,13 +12,15 @@ struct Identity {
   std::uint64_t vendor, product;
 };
 
-/// 2988:any, and early Touch firmware that has vendor and product the wrong way round.
+/// Units that a doctor has something to say of.
 std::optional<UnitMaker> makerOf(const Identity& is) {
-  if (is.vendor == 0x2988 || (is.vendor == 0x0301 && is.product == 0x2988)) return UnitMaker::systems_3d;
-  if (is.vendor == 0x1234 && is.product == 0x0006) return UnitMaker::wooden_haptics;
-  if (is.vendor == 0x16c0 && (is.product & 0xfff0) == 0x0480) return UnitMaker::wooden_haptics;
-  if (is.vendor == 0x0403 && is.product == 0xcb48) return UnitMaker::falcon;
-  return {};
+  haptics::UsbDevice device;
+  device.vendor = static_cast<std::uint16_t>(is.vendor);
+  device.product = static_cast<std::uint16_t>(is.product);
+  const auto kind = haptics::knownAs(device);
+  if (!kind || *kind == haptics::KnownDevice::force_dimension) return {};
+  if (*kind == haptics::KnownDevice::falcon) return UnitMaker::falcon;
+  return *kind == haptics::KnownDevice::wooden_haptics ? UnitMaker::wooden_haptics : UnitMaker::systems_3d;
 }
 
 std::string nameOf(UnitMaker maker, const Identity& is) {
@@ -71,8 +74,7 @@ std::string udevRules() {
   constexpr Rule kRules[] = {
       {"3D Systems Touch and its kin", "2988", "*"},
       {"3D Systems Touch, early firmware: vendor and product the wrong way round", "0301", "2988"},
-      {"WoodenHaptics, mbed", "1234", "0006"},
-      {"WoodenHaptics, Teensy", "16c0", "04[789ABCDabcd]?"},
+      {"WoodenHaptics", "1234", "0006"},
       {"Novint Falcon", "0403", "cb48"},
   };
   std::string text = std::string("# ") + kUdevRulesFile +

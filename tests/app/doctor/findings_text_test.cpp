@@ -70,8 +70,8 @@ TEST(UdevRules, LetTheOwnerInAndModemManagerOut) {
     for_usb += line.starts_with("SUBSYSTEM==\"usb\"") ? 1 : 0;
     for_modems += line.find("ID_MM_DEVICE_IGNORE") != std::string::npos ? 1 : 0;
   }
-  EXPECT_EQ(for_usb, 5);
-  EXPECT_EQ(for_modems, 10);
+  EXPECT_EQ(for_usb, 4);
+  EXPECT_EQ(for_modems, 8);
 }
 
 }  // namespace
