@@ -12,7 +12,7 @@
 
 #include "app/usage_error.h"
 #include "calibration/geometry/units.h"
-#include "calibration/rig_file.h"
+#include "calibration/record/rig_file.h"
 #include "render/display/camera.h"
 
 namespace app {

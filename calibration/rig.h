@@ -1,9 +1,12 @@
-// The measured rig: where the panel, the mirror, the eyes and the patient are, in frame W (mm).
-// Plain data; any thread. rig_file reads and writes it; eye projection (render) uses it.
+// The measured rig: where the panel, the mirror, the eyes, the patient and the device are, in frame W (mm), and how the
+// device's arm differs from its model. Plain data; any thread. rig_file reads and writes it; eye projection (render)
+// and the haptic loop use it.
 #pragma once
 
 #include <optional>
+#include <string>
 
+#include "calibration/arm/arm_correction.h"
 #include "calibration/geometry/frames.h"
 #include "calibration/geometry/plane.h"
 #include "calibration/geometry/pose.h"
@@ -16,6 +19,14 @@ struct ScreenCorners {
   Point<World> lower_left, lower_right, upper_left;
 };
 
+/// Which device a rig was measured with. A rig says nothing of another.
+struct RigDevice {
+  std::string model;  ///< key of phantom_models
+  std::string serial;
+  std::string mount;       ///< "right" or "left": on which side of the surgeon it stands
+  std::string stylus_tip;  ///< which bur or stylus end was in its handle
+};
+
 struct Rig {
   ScreenCorners screen;
   std::optional<Plane<World>> mirror;
@@ -23,6 +34,8 @@ struct Rig {
   Pose<World, Patient> X_WP;
   Pose<World, Device> X_WD;
   std::optional<Pose<World, Device>> second_X_WD;  ///< of the other hand's device, where it was measured
+  std::optional<RigDevice> device;                 ///< none: never measured with a device
+  std::optional<ArmCorrection> arm;                ///< of that device; none: as its model
 
   Point<World> cyclopeanEye() const { return {0.5 * (left_eye.mm + right_eye.mm)}; }
 };
@@ -33,5 +46,8 @@ inline constexpr double kInterpupillary_mm = 63.0;
 /// A monitor on the desk, without mirror: its centre is the origin of W, `width_mm` wide, as high as the pixels ask,
 /// eyes `eye_distance_mm` in front of it. X_WP and X_WD are identity.
 Rig desktopRig(glm::ivec2 px, double width_mm = 531.0, double eye_distance_mm = 500.0);
+
+/// The arm of the rig's device as it stands: null where the rig has none, or a model that is not known.
+std::optional<MeasuredArm> measuredArm(const Rig& rig);
 
 }  // namespace calibration

@@ -18,7 +18,7 @@
 #include "app/usage_error.h"
 #include "app/view_option.h"
 #include "assets/output_file.h"
-#include "calibration/rig_file.h"
+#include "calibration/record/rig_file.h"
 #include "render/gpu/window_upload.h"
 
 namespace app {

@@ -22,7 +22,7 @@
 #include "app/toml_keys.h"
 #include "app/usage_error.h"
 #include "assets/output_file.h"
-#include "calibration/rig_file.h"
+#include "calibration/record/rig_file.h"
 
 namespace app {
 namespace {

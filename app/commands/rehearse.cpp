@@ -26,7 +26,7 @@
 #include "app/view_option.h"
 #include "assets/patient_folder.h"
 #include "assets/synthetic/face.h"
-#include "calibration/rig_file.h"
+#include "calibration/record/rig_file.h"
 #include "render/quality_ladder.h"
 
 namespace app {

@@ -8,9 +8,12 @@
 #include <string_view>
 #include <variant>
 
-#include "app/session/sha256.h"
+#include "calibration/record/sha256.h"
 
 namespace app {
+
+using calibration::Digest;
+using calibration::Sha256;
 
 /// A column's value as SQLite stores it.
 using ColumnValue = std::variant<std::monostate, std::int64_t, double, std::string_view, std::span<const std::uint8_t>>;

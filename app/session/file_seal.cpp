@@ -7,10 +7,13 @@
 
 #include "app/session/session_error.h"
 #include "app/session/session_format.h"
-#include "app/session/sha256.h"
+#include "calibration/record/sha256.h"
 
 namespace app {
 namespace {
+
+using calibration::Digest;
+using calibration::Sha256;
 
 using session_format::kApplicationMark;
 using session_format::kTrailerBytes;

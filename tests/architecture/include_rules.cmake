@@ -1,10 +1,21 @@
 # Who may include whom, over every #include of the product. Run: cmake -DROOT=<project> -P include_rules.cmake
 #   calibration < assets < { haptics | render } < app; tests see all. Left never includes right.
+#   calibration: geometry < arm < the rig < fit < { webcam | verification } < { synthetic | record }.
 #   haptics: { device < safety < loop | bone, tool < contact } < servo.   render: gpu < { volume | scene | display } < the frame renderer.
 # A third party belongs to the folders named here and to their .cpp files alone; GLM is the shared vocabulary.
 cmake_minimum_required(VERSION 3.25)
 
 set(calibration calibration/)
+set(calibration/geometry calibration/geometry/)
+set(calibration/arm calibration/geometry/ calibration/arm/)
+set(calibration_words calibration/geometry/ calibration/arm/ calibration/rig.h calibration/calibration_error.h
+    calibration/checked_yaml.h calibration/picture_file.h)
+set(calibration/fit ${calibration_words} calibration/fit/)
+set(calibration/webcam ${calibration_words} calibration/fit/ calibration/webcam/)
+set(calibration/verification ${calibration_words} calibration/fit/ calibration/verification/)
+set(calibration/synthetic ${calibration_words} calibration/fit/ calibration/webcam/ calibration/verification/
+    calibration/synthetic/)
+set(calibration/record ${calibration_words} calibration/fit/ calibration/verification/ calibration/record/)
 set(assets calibration/ assets/)
 set(app calibration/ assets/ haptics/ render/ app/)
 set(tests ${app} tests/)
@@ -44,7 +55,8 @@ set(third_parties
   "GLFW/" "render|app"
   "embree3/" "render"
   "epoxy/" "render"
-  "CLI/|spdlog/|fmt/|imgui|backends/imgui|SQLiteCpp/|sqlite3|zstd|openssl/|portaudio|sndfile" "app")
+  "openssl/" "calibration"
+  "CLI/|spdlog/|fmt/|imgui|backends/imgui|SQLiteCpp/|sqlite3|zstd|portaudio|sndfile" "app")
 set(operating_system
   "^(sys/[a-z]+|linux/[a-z-]+|unistd|fcntl|pthread|pwd|sched|signal|spawn|time|poll|dlfcn|link|termios|immintrin|x86intrin)\\.h$")
 

@@ -1,10 +1,10 @@
-#include "calibration/phantom_kinematics.h"
+#include "calibration/arm/phantom_kinematics.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "calibration/phantom_models.h"
+#include "calibration/arm/phantom_models.h"
 
 namespace calibration {
 namespace {

@@ -1,4 +1,4 @@
-#include "calibration/rig_file.h"
+#include "calibration/record/rig_file.h"
 
 #include <filesystem>
 #include <fstream>

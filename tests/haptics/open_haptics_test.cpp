@@ -2,7 +2,7 @@
 
 #include <glm/gtc/quaternion.hpp>
 
-#include "calibration/phantom_models.h"
+#include "calibration/arm/phantom_models.h"
 #include "tests/haptics/open_haptics_bench.h"
 
 namespace haptics {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "calibration/geometry/units.h"
-#include "calibration/phantom_models.h"
+#include "calibration/arm/phantom_models.h"
 #include "haptics/device/simulated/dry_friction.h"
 #include "haptics/device/simulated/motor_heat.h"
 #include "haptics/device/simulated/phantom_sensors.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibration/phantom_models.h"
+#include "calibration/arm/phantom_models.h"
 
 namespace haptics {
 namespace {

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string_view>
 
-#include "calibration/phantom_kinematics.h"
+#include "calibration/arm/phantom_kinematics.h"
 #include "haptics/device/haptic_device.h"
 #include "haptics/device/openhaptics/hd_error.h"
 #include "haptics/device/openhaptics/inkwell.h"

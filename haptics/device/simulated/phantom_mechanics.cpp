@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "calibration/phantom_models.h"
+#include "calibration/arm/phantom_models.h"
 
 namespace haptics {
 namespace {

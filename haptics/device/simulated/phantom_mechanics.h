@@ -5,7 +5,7 @@
 #include <array>
 #include <string_view>
 
-#include "calibration/phantom_kinematics.h"
+#include "calibration/arm/phantom_kinematics.h"
 #include "haptics/device/haptic_device.h"
 #include "haptics/device/simulated/phantom_sensors.h"
 

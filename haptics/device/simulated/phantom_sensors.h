@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <random>
 
-#include "calibration/phantom_kinematics.h"
+#include "calibration/arm/phantom_kinematics.h"
 
 namespace haptics {
 

@@ -1,4 +1,4 @@
-#include "calibration/phantom_kinematics.h"
+#include "calibration/arm/phantom_kinematics.h"
 
 #include <algorithm>
 #include <cmath>

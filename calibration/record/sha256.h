@@ -7,13 +7,16 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
+#include <string_view>
 
-namespace app {
+namespace calibration {
 
 using Digest = std::array<std::uint8_t, 32>;
 
 class Sha256 {
  public:
+  /// Throws CalibrationError where OpenSSL does not offer it.
   Sha256();
   ~Sha256();
   Sha256(const Sha256&) = delete;
@@ -28,4 +31,7 @@ class Sha256 {
   std::unique_ptr<Context> context_;
 };
 
-}  // namespace app
+/// 64 lower-case hexadecimal digits.
+std::string sha256Of(std::string_view text);
+
+}  // namespace calibration

@@ -8,8 +8,11 @@
 // None was measured on a unit here. Constants; any thread.
 #pragma once
 
+#include <array>
+#include <string_view>
+
+#include "calibration/arm/phantom_kinematics.h"
 #include "calibration/geometry/units.h"
-#include "calibration/phantom_kinematics.h"
 
 namespace calibration {
 
@@ -30,6 +33,23 @@ inline constexpr PhantomGeometry kPremium15Geometry = {209.55,
                                                          {radFromDegrees(-29.0), radFromDegrees(214.0)}}},
                                                        {radFromDegrees(-65.0), radFromDegrees(55.0)},
                                                        kOmniWrist};
+
+/// As observations and rig files name them: "omni", "touch", "desktop", "premium".
+struct PhantomModel {
+  std::string_view key;
+  PhantomGeometry geometry;
+};
+inline constexpr std::array<PhantomModel, 4> kPhantomModels = {{{"omni", kOmniGeometry},
+                                                                {"touch", kOmniGeometry},
+                                                                {"desktop", kDesktopGeometry},
+                                                                {"premium", kPremium15Geometry}}};
+
+/// Null: no model of this name.
+constexpr const PhantomModel* findPhantomModel(std::string_view key) {
+  for (const PhantomModel& model : kPhantomModels)
+    if (model.key == key) return &model;
+  return nullptr;
+}
 
 /// Where an Omni in its inkwell says it is, logged by others with the vendor's library.
 inline constexpr Point<Device> kOmniInkwell_D = {{0.0, -65.51071, -88.11420}};

@@ -1,0 +1,157 @@
+#include "calibration/checked_yaml.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <utility>
+
+#include <opencv2/core.hpp>
+#include <opencv2/core/utils/logger.hpp>
+
+namespace calibration {
+namespace {
+
+constexpr std::uintmax_t kLargestFile_bytes = 4 << 20;
+constexpr double kRotationTolerance = 1e-3;
+constexpr double kLargestNumber = 1e5;
+constexpr std::size_t kLongestText_bytes = 200;
+
+void keepOpenCvQuiet() {
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  cv::redirectError([](int, const char*, const char*, const char*, int, void*) { return 0; });
+}
+
+bool isNumber(const cv::FileNode& node) { return node.isInt() || node.isReal(); }
+
+}  // namespace
+
+struct CheckedYaml::Storage {
+  std::string bytes;
+  cv::FileStorage file;
+};
+
+CheckedYaml::CheckedYaml(std::string kind, std::string path)
+    : kind_(std::move(kind)), path_(std::move(path)), storage_(std::make_unique<Storage>()) {
+  keepOpenCvQuiet();
+  std::error_code error;
+  const auto size = std::filesystem::file_size(path_, error);
+  if (error || !std::filesystem::is_regular_file(path_))
+    refuse("it can not be read", "check the path and its permissions");
+  if (size == 0 || size > kLargestFile_bytes) refuse("its size is not that of a " + kind_, "check the path");
+  std::ifstream in(path_, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << in.rdbuf();
+  if (!in) refuse("it can not be read", "check its permissions and the disk");
+  storage_->bytes = bytes.str();
+  try {
+    constexpr int kFromMemory = cv::FileStorage::READ | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_YAML;
+    if (!storage_->file.open(storage_->bytes, kFromMemory))
+      refuse("it is not OpenCV FileStorage YAML", "check the path");
+  } catch (const cv::Exception&) {
+    refuse("it is not OpenCV FileStorage YAML", "give the file that calibration wrote");
+  }
+}
+
+CheckedYaml::~CheckedYaml() = default;
+
+void CheckedYaml::refuse(const std::string& what, const std::string& mend) const {
+  throw CalibrationError(kind_ + " " + path_ + ": " + what + ", " + mend);
+}
+
+const std::string& CheckedYaml::bytes() const { return storage_->bytes; }
+
+cv::FileNode CheckedYaml::root() const { return storage_->file.root(); }
+
+cv::FileNode CheckedYaml::map(const cv::FileNode& parent, const std::string& key) const {
+  const cv::FileNode node = parent[key];
+  if (!node.isMap()) refuse("block '" + key + "' is missing", "add it (calibration/README.md)");
+  return node;
+}
+
+bool CheckedYaml::has(const cv::FileNode& parent, const std::string& key) const { return !parent[key].empty(); }
+
+double CheckedYaml::number(const cv::FileNode& parent, const std::string& key) const {
+  const cv::FileNode node = parent[key];
+  if (!isNumber(node)) refuse("'" + key + "' is missing or not a number", "correct it");
+  const double value = node.real();
+  if (!std::isfinite(value) || std::abs(value) > kLargestNumber)
+    refuse("'" + key + "' is not finite or beyond 100 m", "give mm in frame W");
+  return value;
+}
+
+std::vector<double> CheckedYaml::numbers(const cv::FileNode& list, const std::string& key, std::size_t count) const {
+  if (list.empty()) refuse("'" + key + "' is missing", "add it (calibration/README.md)");
+  if (!list.isSeq() || list.size() != count)
+    refuse("'" + key + "' is not a list of " + std::to_string(count) + " numbers", "correct it");
+  std::vector<double> values;
+  for (const cv::FileNode& item : list) {
+    if (!isNumber(item)) refuse("'" + key + "' holds something not a number", "correct it");
+    values.push_back(item.real());
+  }
+  for (const double v : values)
+    if (!std::isfinite(v) || std::abs(v) > kLargestNumber)
+      refuse("'" + key + "' holds a number that is not finite or beyond 100 m", "give mm in frame W");
+  return values;
+}
+
+glm::dvec3 CheckedYaml::vector(const cv::FileNode& parent, const std::string& key) const {
+  const auto v = numbers(parent[key], key, 3);
+  return {v[0], v[1], v[2]};
+}
+
+int CheckedYaml::integer(const cv::FileNode& parent, const std::string& key, int least, int most) const {
+  const cv::FileNode node = parent[key];
+  const int value = node.isInt() ? static_cast<int>(node) : 0;
+  if (!node.isInt() || value < least || value > most)
+    refuse("'" + key + "' is not a whole number from " + std::to_string(least) + " to " + std::to_string(most),
+           "correct it");
+  return value;
+}
+
+std::string CheckedYaml::text(const cv::FileNode& parent, const std::string& key) const {
+  const cv::FileNode node = parent[key];
+  if (!node.isString()) refuse("'" + key + "' is missing or not a text", "correct it");
+  const std::string value = node.string();
+  if (value.size() > kLongestText_bytes || std::ranges::any_of(value, [](unsigned char c) { return c < ' '; }))
+    refuse("'" + key + "' is longer than 200 bytes or not printable", "correct it");
+  return value;
+}
+
+std::vector<double> CheckedYaml::sixteenNumbers(const cv::FileNode& node, const std::string& key) const {
+  const auto declares = [&](const char* side) { return node[side].isInt() && static_cast<int>(node[side]) == 4; };
+  if (node.isMap() && declares("rows") && declares("cols")) return numbers(node["data"], key, 16);
+  if (node.isSeq() && node.size() == 16) return numbers(node, key, 16);
+  std::vector<double> values;
+  if (node.isSeq() && node.size() == 4)
+    for (const cv::FileNode& row : node)
+      for (const double v : numbers(row, key, 4)) values.push_back(v);
+  if (values.size() != 16) refuse("'" + key + "' is not a 4x4 matrix", "write it as !!opencv-matrix, row-major, mm");
+  return values;
+}
+
+CheckedYaml::Rigid CheckedYaml::rigid(const cv::FileNode& parent, const std::string& key) const {
+  // Row-major m[4 r + c].
+  const std::vector<double> m = sixteenNumbers(parent[key], key);
+  glm::dmat3 R{1.0};
+  glm::dvec3 p{0.0};
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) R[c][r] = m[static_cast<std::size_t>(4 * r + c)];
+    p[r] = m[static_cast<std::size_t>(4 * r + 3)];
+  }
+  // A pose is rigid: orthonormal, determinant +1, last row 0 0 0 1.
+  const glm::dmat3 gram = glm::transpose(R) * R;
+  double error = std::abs(m[15] - 1.0);
+  for (int c = 0; c < 3; ++c) {
+    error = std::max(error, std::abs(m[static_cast<std::size_t>(12 + c)]));
+    for (int r = 0; r < 3; ++r) error = std::max(error, std::abs(gram[c][r] - (r == c ? 1.0 : 0.0)));
+  }
+  const bool finite = std::isfinite(error) && std::isfinite(glm::dot(p, p));
+  if (!finite || error > kRotationTolerance || glm::determinant(R) < 0.0)
+    refuse("'" + key + "' is not a rigid pose with determinant +1",
+           "correct the matrix (no scale, no flip: the mirror is in 'mirror')");
+  return {glm::normalize(glm::quat_cast(R)), p};
+}
+
+}  // namespace calibration

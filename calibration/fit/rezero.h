@@ -1,0 +1,22 @@
+// A calibration brought up to date after the arm was homed anew or its base was moved: three joint offsets and six
+// numbers of the pose, as the most probable values given few touches (nine numbers, five touches, 30 s). Everything
+// else stays. Frame W; mm, rad. Any thread but the servo's; milliseconds. Source: reference/calibration 4.3.
+#pragma once
+
+#include "calibration/fit/arm_fit.h"
+
+namespace calibration {
+
+struct Rezero {
+  MeasuredArm arm;
+  double before_rms_mm = 0.0, after_rms_mm = 0.0;  ///< over the touches used
+  std::vector<Residual> residuals;                 ///< after
+  double moved_mm = 0.0, turned_deg = 0.0;         ///< of the base
+  std::array<double, 3> offset_change_deg{};
+  int outliers = 0;
+};
+
+/// Throws CalibrationError for fewer than 3 touches, all on a line, the same touch twice, or numbers not finite.
+Rezero rezeroed(const MeasuredArm& arm, const TouchSet& touches);
+
+}  // namespace calibration

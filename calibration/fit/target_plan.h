@@ -1,0 +1,43 @@
+// Where a procedure wants the tip, and how it wants the stylus held there: tilts that vary, for one orientation hides
+// what the gimbal gets wrong (reference/calibration 0, 2.2 to 2.4, 4.3). Frame W, mm; directions from the tip to the
+// handle. The order is the order of touching: short ways, neighbouring tilts unlike. Plain values; any thread.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "calibration/fit/touches.h"
+
+namespace calibration {
+
+struct Target {
+  int id = 0;
+  Point<World> place_W;
+  Vector<World> stylus_W;  ///< unit
+};
+
+/// What the targets are.
+enum class TargetKind { pit, cross, webcam_place };
+
+struct TargetPlan {
+  std::string method;  ///< "jig27"
+  TargetKind kind = TargetKind::pit;
+  TouchPrecision precision;
+  std::vector<Target> targets;
+};
+
+/// The block with pits: 3 x 3 x 3 of 130 x 90 x 65 mm, frame B in its middle; the verification pits lie between them.
+struct JigPose {
+  Pose<World, Board> X_WB;
+};
+
+/// "jig27", "jig8", "visual15", "visual25", "webcam27" (places for each camera position), "rezero5", "check4",
+/// "verify8" (8 places not in any fit, two new tilts each: 16 touches). None for another name.
+std::optional<TargetPlan> targetPlan(std::string_view method, const JigPose& jig = {});
+
+/// A turn of the handle about H's axes that holds the stylus in this direction; the roll as little as may be.
+Pose<World, Handle> handleHolding(const Target& target, const glm::dvec3& tip_H_mm);
+
+}  // namespace calibration

@@ -1,0 +1,33 @@
+// A camera as numbers: pinhole with two radial and two tangential terms, pixel centres at whole numbers (OpenCV's
+// convention), and pictures as it gives them. px, mm. Frame C: x right, y down, z ahead. Plain data; any thread.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "calibration/geometry/frames.h"
+#include "calibration/geometry/pose.h"
+
+namespace calibration {
+
+struct CameraModel {
+  glm::ivec2 size_px{1920, 1080};
+  glm::dvec2 focal_px{1400.0, 1400.0}, centre_px{959.5, 539.5};
+  double k1 = 0.0, k2 = 0.0, p1 = 0.0, p2 = 0.0;
+
+  /// Where a point ahead of the camera falls.
+  glm::dvec2 pixelOf(const Point<Camera>& p_C) const {
+    const double x = p_C.mm.x / p_C.mm.z, y = p_C.mm.y / p_C.mm.z, r2 = x * x + y * y;
+    const double radial = 1.0 + r2 * (k1 + r2 * k2);
+    return {focal_px.x * (x * radial + 2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x)) + centre_px.x,
+            focal_px.y * (y * radial + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y) + centre_px.y};
+  }
+};
+
+/// 8 bits a pixel, rows from the top.
+struct GreyPicture {
+  glm::ivec2 size_px{0};
+  std::vector<std::uint8_t> grey;
+};
+
+}  // namespace calibration
