@@ -1,0 +1,63 @@
+// A chessboard that our own screen shows and a camera finds. Odd by even squares, and spots in some of them that draw
+// an F: so there is one way only to read it, and a mirrored picture is known as one every time. px have their centres
+// at whole numbers and rows from the top, on the screen as the surgeon sees it and in the camera's picture alike; mm,
+// W. Any thread; finding takes 0.1 to 2 s, drawing milliseconds. Not a marker board: all its corners must be seen.
+// Source: OpenCV's findChessboardCornersSB (Duda, Frese, BMVC 2018); reference/calibration 2.3, 3.3.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "calibration/webcam/camera.h"
+
+namespace calibration {
+
+/// The virtual screen: its picture's middle is the origin of W, x right, y up.
+struct ShownScreen {
+  glm::ivec2 size_px{1920, 1080};
+  glm::dvec2 size_mm{531.0, 298.7};
+
+  Point<World> place_W(const glm::dvec2& px) const {
+    return {{((px.x + 0.5) / size_px.x - 0.5) * size_mm.x, (0.5 - (px.y + 0.5) / size_px.y) * size_mm.y, 0.0}};
+  }
+};
+
+struct Board {
+  glm::ivec2 screen_px{1920, 1080};
+  glm::ivec2 squares{13, 8};
+  int square_px = 0;
+  glm::ivec2 upper_left_px{0};  ///< of its first square
+
+  glm::ivec2 corners() const { return squares - 1; }  ///< inner ones, along x and y
+  /// On the screen; row by row from the upper left.
+  std::vector<glm::dvec2> cornerPlaces_px() const;
+  /// Whether the square holds a spot of the F.
+  bool hasSpot(const glm::ivec2& square) const;
+};
+
+/// As large as it goes on this screen. Throws CalibrationError for a screen under 320 x 200 px.
+Board boardFor(const glm::ivec2& screen_px);
+/// What the screen shows.
+GreyPicture pictureOf(const Board& board);
+
+enum class BoardTrouble { not_found, cropped, mirrored, blurred, too_small, too_oblique };
+
+struct BoardSighting {
+  std::optional<BoardTrouble> trouble;  ///< none: it was found, and its corners may be used
+  std::string line;                     ///< for people: what, and what to do; empty where it was found
+  std::vector<glm::dvec2>
+      corners_px;          ///< in the picture, in the order of cornerPlaces_px; empty where there is trouble
+  double edge_px = 0.0;    ///< over how many px an edge rises from 10 to 90 %
+  double slant_deg = 0.0;  ///< of the line of sight from the board's normal, about
+};
+
+/// Throws CalibrationError only for a picture whose size and bytes disagree.
+BoardSighting findBoard(const GreyPicture& picture, const Board& board);
+
+/// A plain printed chessboard with so many inner corners, in an order that may be turned or mirrored: for lenses alone.
+/// Trouble as above, but never mirrored.
+BoardSighting findChessboard(const GreyPicture& picture, const glm::ivec2& corners);
+
+}  // namespace calibration
