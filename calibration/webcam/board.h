@@ -24,7 +24,7 @@ struct ShownScreen {
   }
 };
 
-struct Board {
+struct ShownBoard {
   glm::ivec2 screen_px{1920, 1080};
   glm::ivec2 squares{13, 8};
   int square_px = 0;
@@ -38,9 +38,9 @@ struct Board {
 };
 
 /// As large as it goes on this screen. Throws CalibrationError for a screen under 320 x 200 px.
-Board boardFor(const glm::ivec2& screen_px);
+ShownBoard boardFor(const glm::ivec2& screen_px);
 /// What the screen shows.
-GreyPicture pictureOf(const Board& board);
+GreyPicture pictureOf(const ShownBoard& board);
 
 enum class BoardTrouble { not_found, cropped, mirrored, blurred, too_small, too_oblique };
 
@@ -54,7 +54,7 @@ struct BoardSighting {
 };
 
 /// Throws CalibrationError only for a picture whose size and bytes disagree.
-BoardSighting findBoard(const GreyPicture& picture, const Board& board);
+BoardSighting findBoard(const GreyPicture& picture, const ShownBoard& board);
 
 /// A plain printed chessboard with so many inner corners, in an order that may be turned or mirrored: for lenses alone.
 /// Trouble as above, but never mirrored.
