@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "calibration/arm/arm_correction.h"
 #include "calibration/geometry/frames.h"
 #include "calibration/geometry/pose.h"
 #include "haptics/motor_command.h"
@@ -24,6 +25,9 @@ struct HandleState {
   calibration::Vector<calibration::Device> velocity_D_mm_per_s;
   /// dx = J dq of the motor-driven joints, mm/rad, columns as joints; their torque is J^T F. Zero where not known.
   glm::dmat3 jacobian_D_mm{0.0};
+  /// What the sensors of a Phantom's arm and gimbal read, before any model: what a calibration corrects.
+  calibration::RawJoints joints_rad{};
+  bool has_joints = false;    ///< false: the device has none, or does not tell them all
   std::uint32_t buttons = 0;  ///< bit 0: the first
   bool pedal = false;         ///< a pedal, or what stands for one on the device
   bool fresh = true;          ///< measured since the last tick

@@ -146,6 +146,8 @@ TEST_F(OpenHapticsDevice, KnowsTheJacobianOfThePhantomsWhoseGeometryIsPublic) {
     EXPECT_EQ(servo.state().jacobian_D_mm, expected) << model;
     EXPECT_EQ(device.joints().arm_rad, arm_rad);
     EXPECT_NEAR(device.joints().wrist_rad.z, 0.3, 1e-12);
+    EXPECT_TRUE(servo.state().has_joints) << model;
+    EXPECT_EQ(servo.state().joints_rad, (calibration::RawJoints{0.2, 0.5, -0.1, 0.1, 0.1 * 2.0, 0.1 * 3.0}));
     device.stop();
     EXPECT_THAT(door.seen.violations, testing::IsEmpty());
   }
@@ -265,6 +267,7 @@ TEST_F(OpenHapticsDevice, DoesNotAskAgainForWhatADeviceHasNot) {
   runFor(servo, 300);
   EXPECT_TRUE(servo.state().healthy);
   EXPECT_FALSE(servo.state().docked);
+  EXPECT_FALSE(servo.state().has_joints) << "half an arm's angles are none";
   EXPECT_EQ(device.errors().count(0x0100), 4u);
   device.stop();
 }

@@ -4,8 +4,8 @@
 #include <complex>
 #include <vector>
 
-#include "calibration/geometry/units.h"
 #include "calibration/arm/phantom_models.h"
+#include "calibration/geometry/units.h"
 #include "haptics/device/simulated/dry_friction.h"
 #include "haptics/device/simulated/motor_heat.h"
 #include "haptics/device/simulated/phantom_sensors.h"
@@ -135,6 +135,8 @@ TEST(PhantomSensors, CountAtTheJoints) {
       ASSERT_NEAR(seen[joint] / count_rad, std::round(seen[joint] / count_rad), 1e-5);
       ASSERT_LE(std::abs(seen[joint] - truth.arm_rad[joint]), 0.5 * count_rad + 1e-9);
     }
+    for (int joint = 0; joint < 3; ++joint)
+      ASSERT_NEAR(reading.joints_rad[static_cast<std::size_t>(joint)], seen[joint], 1e-9);
     const glm::dmat3 J = armJacobian_mm(kOmniGeometry, seen);
     for (int joint = 0; joint < 3; ++joint) ASSERT_LT(glm::distance(reading.jacobian_D_mm[joint], J[joint]), 1e-5);
   }

@@ -34,9 +34,9 @@ inline constexpr Enum kCurrentInkwellSwitch = 0x2002;  ///< boolean; which way r
 inline constexpr Enum kCurrentPosition = 0x2050;       ///< 3 doubles, mm
 inline constexpr Enum kCurrentVelocity = 0x2051;       ///< 3 doubles, mm/s
 inline constexpr Enum kCurrentTransform = 0x2052;      ///< 16 doubles, column-major, translation in mm at 12..14
-inline constexpr Enum kCurrentJointAngles = 0x2100;    ///< 3 doubles, rad; turret left +, thigh up +, shin up +
-inline constexpr Enum kCurrentGimbalAngles = 0x2150;   ///< 3 doubles, rad
-inline constexpr Enum kCurrentForce = 0x2700;          ///< 3 doubles, N; zeroed when a frame begins
+inline constexpr Enum kCurrentJointAngles = 0x2100;   ///< 3 doubles, rad; turret left +, thigh up +, absolute shin up +
+inline constexpr Enum kCurrentGimbalAngles = 0x2150;  ///< 3 doubles, rad; right +, up -, clockwise +
+inline constexpr Enum kCurrentForce = 0x2700;         ///< 3 doubles, N; zeroed when a frame begins
 
 // Properties of the device.
 inline constexpr Enum kVersion = 0x2500;                    ///< string

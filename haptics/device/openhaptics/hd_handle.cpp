@@ -101,6 +101,11 @@ HandleState HdHandle::read(bool calibrated, double rate_Hz) noexcept {
   joints_ = {has_arm ? three(arm_rad) : glm::dvec3(0.0), has_wrist ? three(wrist_rad) : glm::dvec3(0.0)};
   if (has_arm && model_.geometry && std::isfinite(glm::length(joints_.arm_rad)))
     state.jacobian_D_mm = calibration::armJacobian_mm(*model_.geometry, joints_.arm_rad);
+  for (int i = 0; i < 3; ++i) {
+    state.joints_rad[static_cast<std::size_t>(i)] = joints_.arm_rad[i];
+    state.joints_rad[static_cast<std::size_t>(i + 3)] = joints_.wrist_rad[i];
+  }
+  state.has_joints = has_arm && has_wrist && std::isfinite(glm::length(joints_.arm_rad + joints_.wrist_rad));
 
   readSwitches(state, calibrated && state.fresh);
   readSlowParts(rate_Hz);

@@ -1,7 +1,9 @@
 // Reads a handle through the vendor's library: place, turn, velocity, angles, buttons, switches, heat. Frame D is
-// HDAPI's: x right, y up, z to the user; mm, rad. What a device does not have is found out in the first frame and not
-// asked for again. Inside a frame, on the scheduler's thread: seven to nine calls of the library, no allocation. A
-// reading that is not finite or no rotation is not passed on: the last one stands, not fresh.
+// HDAPI's: x right, y up, z to the user; mm, rad. Its joint angles are the raw ones of calibration/arm as they come:
+// turret left +, thigh up +, shin up + against the horizontal, not the thigh (reference/devices 4.1). What a device
+// does not have is found out in the first frame and not asked for again. Inside a frame, on the scheduler's thread:
+// seven to nine calls of the library, no allocation. A reading that is not finite or no rotation is not passed on: the
+// last one stands, not fresh.
 #pragma once
 
 #include <array>

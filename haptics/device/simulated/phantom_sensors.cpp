@@ -30,6 +30,10 @@ PhantomSensors::Reading PhantomSensors::read(const calibration::PhantomJoints& t
   for (int axis = 0; axis < 3; ++axis) seen.wrist_rad[axis] = turnedKnob(truth.wrist_rad[axis]);
 
   Reading reading;
+  for (int axis = 0; axis < 3; ++axis) {
+    reading.joints_rad[static_cast<std::size_t>(axis)] = seen.arm_rad[axis];
+    reading.joints_rad[static_cast<std::size_t>(axis + 3)] = seen.wrist_rad[axis];
+  }
   reading.X_DH = handlePose(geometry_, seen);
   reading.jacobian_D_mm = armJacobian_mm(geometry_, seen.arm_rad);
   if (sensing_.velocity_cutoff_Hz > 0.0) {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <random>
 
-#include "calibration/arm/phantom_kinematics.h"
+#include "calibration/arm/arm_correction.h"
 
 namespace haptics {
 
@@ -23,6 +23,7 @@ class PhantomSensors {
     calibration::Pose<calibration::Device, calibration::Handle> X_DH;
     calibration::Vector<calibration::Device> velocity_D_mm_per_s;
     glm::dmat3 jacobian_D_mm{0.0};
+    calibration::RawJoints joints_rad{};
   };
 
   PhantomSensors(const calibration::PhantomGeometry& geometry, const PhantomSensing& sensing, std::uint32_t seed)

@@ -85,6 +85,8 @@ HandleState SimulatedPhantom::exchange(const Wrench<Device>& wrench_D, double dt
   state.X_DH = read.X_DH;
   state.velocity_D_mm_per_s = read.velocity_D_mm_per_s;
   state.jacobian_D_mm = read.jacobian_D_mm;
+  state.joints_rad = read.joints_rad;
+  state.has_joints = true;
   state.buttons = to.buttons;
   state.pedal = to.pedal;
   state.docked = docked_;
