@@ -1,0 +1,18 @@
+// What the device says of the stylus at one tick: all that the calibration is told of the world, time too. Frame D, mm,
+// rad, s of any steady clock. Plain data; any thread.
+#pragma once
+
+#include "calibration/arm/arm_correction.h"
+
+namespace app {
+
+struct StylusSample {
+  double t_s = 0.0;
+  calibration::RawJoints raw_rad{};
+  calibration::Pose<calibration::Device, calibration::Handle> X_DH;  ///< by the device's own model
+  bool button = false;                                               ///< the first
+  bool believable = false;                                           ///< healthy, calibrated, its pose a pose
+  bool docked = false;                                               ///< in its inkwell
+};
+
+}  // namespace app
