@@ -1,0 +1,161 @@
+#include "app/calibrate/sounds.h"
+
+#include <fcntl.h>
+#include <portaudio.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <span>
+
+#include "calibration/geometry/units.h"
+
+namespace app {
+namespace {
+
+constexpr double kLoudest = 0.25, kEdge_s = 0.008;
+
+/// A note; `buzz`: odd overtones, so that it is told from the others without an ear for pitch.
+struct Note {
+  double pitch_Hz, length_s;
+  bool buzz = false;
+};
+
+std::span<const Note> notesOf(Tone tone) {
+  static constexpr std::array kOk{Note{880.0, 0.09}};
+  static constexpr std::array kReject{Note{150.0, 0.28, true}};
+  static constexpr std::array kNext{Note{587.0, 0.06}, Note{784.0, 0.07}};
+  static constexpr std::array kDone{Note{523.0, 0.12}, Note{659.0, 0.12}, Note{784.0, 0.12}, Note{1047.0, 0.25}};
+  switch (tone) {
+    case Tone::ok:
+      return kOk;
+    case Tone::reject:
+      return kReject;
+    case Tone::next:
+      return kNext;
+    case Tone::done:
+      break;
+  }
+  return kDone;
+}
+
+/// Sound libraries speak on stderr of every card they do not find; nobody who calibrates wants to read that.
+class SilentStderr {
+ public:
+  SilentStderr() {
+    std::fflush(stderr);
+    kept_ = dup(STDERR_FILENO);
+    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (kept_ >= 0 && nowhere >X
+    if (nowhere >= 0) close(nowhere);
+  }
+  ~SilentStderr() {
+    if (kept_ < 0) return;
+    std::fflush(stderr);
+    dup2(kept_, STDERR_FILENO);
+    close(kept_);
+  }
+  SilentStderr(const SilentStderr&) = delete;
+  SilentStderr& operator=(const SilentStderr&) = delete;
+
+ private:
+  int kept_ = -1;
+};
+
+}  // namespace
+
+std::vector<float> toneSamples(Tone tone, double rate_Hz) {
+  std::vector<float> samples;
+  for (const Note& note : notesOf(tone)) {
+    const auto count = static_cast<std::size_t>(note.length_s * rate_Hz);
+    for (std::size_t n = 0; n < count; ++n) {
+      const double t_s = static_cast<double>(n) / rate_Hz, left_s = static_cast<double>(count - 1 - n) / rate_Hz;
+      const double swell = std::min({1.0, t_s / kEdge_s, left_s / kEdge_s});
+      const double phase = 2.0 * calibration::kPi * note.pitch_Hz * t_s;
+      double wave = std::sin(phase);
+      if (note.buzz) wave = (wave + std::sin(3.0 * phase) / 1.5 + std::sin(5.0 * phase) / 2.5) / 1.6;
+      samples.push_back(static_cast<float>(kLoudest * swell * wave));
+    }
+  }
+  return samples;
+}
+
+struct Sounds::Player {
+  static constexpr std::size_t kWaiting = 8;
+
+  explicit Player(const std::function<void(const std::string&)>& tell) {
+    const SilentStderr silent;
+    PaError error = Pa_Initialize();
+    is_initialised = error == paNoError;
+    if (is_initialised && Pa_GetDefaultOutputDevice() == paNoDevice) error = paDeviceUnavailable;
+    if (error == paNoError) {
+      const PaDeviceInfo* card = Pa_GetDeviceInfo(Pa_GetDefaultOutputDevice());
+      const double rate_Hz = card != nullptr && card->defaultSampleRate > 0.0 ? card->defaultSampleRate : 48'000.0;
+      for (std::size_t t = 0; t < tones.size(); ++t) tones[t] = toneSamples(static_cast<Tone>(t), rate_Hz);
+      error = Pa_OpenDefaultStream(&stream, 0, 1, paFloat32, rate_Hz, paFramesPerBufferUnspecified, fillBuffer, this);
+    }
+    if (error == paNoError) error = Pa_StartStream(stream);
+    if (error == paNoError) return;
+    end();
+    tell("sound: " + std::string(error == paDeviceUnavailable ? "no sound card" : Pa_GetErrorText(error)) +
+         "; the wizard is silent, watch the ring");
+  }
+  ~Player() {
+    const SilentStderr silent;
+    end();
+  }
+  Player(const Player&) = delete;
+  Player& operator=(const Player&) = delete;
+
+  void end() {
+    if (stream != nullptr) Pa_CloseStream(stream);
+    stream = nullptr;
+    if (is_initialised) Pa_Terminate();
+    is_initialised = false;
+  }
+
+  static int fillBuffer(const void*, void* output, unsigned long frames, const PaStreamCallbackTimeInfo*,
+                        PaStreamCallbackFlags, void* self) {
+    static_cast<Player*>(self)->fill(std::span(static_cast<float*>(output), frames));
+    return paContinue;
+  }
+
+  void fill(std::span<float> output) {
+    for (float& sample : output) {
+      const std::size_t taken = taken_count.load(std::memory_order_relaxed);
+      if (taken == asked_count.load(std::memory_order_acquire)) {
+        sample = 0.0F;
+        continue;
+      }
+      const std::vector<float>& tone = tones[static_cast<std::size_t>(asked[taken % kWaiting])];
+      sample = tone[at++];
+      if (at < tone.size()) continue;
+      at = 0;
+      taken_count.store(taken + 1, std::memory_order_release);
+    }
+  }
+
+  std::array<std::vector<float>, 4> tones;
+  PaStream* stream = nullptr;
+  bool is_initialised = false;
+  std::array<Tone, kWaiting> asked{};  ///< a ring: asked by the loop, taken by the sound's thread
+  std::atomic<std::size_t> asked_count{0}, taken_count{0};
+  std::size_t at = 0;  ///< of the sound's thread
+};
+
+Sounds::Sounds(const std::function<void(const std::string&)>& tell) : player_(std::make_unique<Player>(tell)) {}
+Sounds::~Sounds() = default;
+
+bool Sounds::areHeard() const { return player_->stream != nullptr; }
+
+void Sounds::play(Tone tone) {
+  if (!areHeard()) return;
+  const std::size_t asked = player_->asked_count.load(std::memory_order_relaxed);
+  if (asked - player_->taken_count.load(std::memory_order_acquire) >= Player::kWaiting) return;
+  player_->asked[asked % Player::kWaiting] = tone;
+  player_->asked_count.store(asked + 1, std::memory_order_release);
+}
+
+}  // namespace app

@@ -1,0 +1,36 @@
+// What the technician hears while looking through the mirror: short tones for a touch that counts, one that does not,
+// the next target, the end. Through PortAudio; where there is no sound card it is silent and says so in one line.
+// Construction and destruction: start-up only, up to a second while sound cards are looked for; what libraries print on
+// stderr meanwhile is thrown away. play(): one thread, never waits, no allocation; the sound's own thread mixes.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace app {
+
+enum class Tone { ok, reject, next, done };
+
+/// Mono, -1..1; begins and ends in silence.
+std::vector<float> toneSamples(Tone tone, double rate_Hz);
+
+class Sounds {
+ public:
+  /// `tell`: once, why nothing will be heard.
+  explicit Sounds(const std::function<void(const std::string& line)>& tell);
+  ~Sounds();
+  Sounds(const Sounds&) = delete;
+  Sounds& operator=(const Sounds&) = delete;
+
+  bool areHeard() const;
+  /// After those that still sound; more than a few are dropped.
+  void play(Tone tone);
+
+ private:
+  struct Player;
+  std::unique_ptr<Player> player_;
+};
+
+}  // namespace app
