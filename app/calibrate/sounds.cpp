@@ -48,7 +48,7 @@ class SilentStderr {
     std::fflush(stderr);
     kept_ = dup(STDERR_FILENO);
     const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
-    if (kept_ >= 0 && nowhere >X
+    if (kept_ >= 0 && nowhere >= 0) dup2(nowhere, STDERR_FILENO);
     if (nowhere >= 0) close(nowhere);
   }
   ~SilentStderr() {
