@@ -47,6 +47,7 @@ struct WorkspaceBox {
 /// Defaults: a Touch-class device in a light grip (reference/devices 4.3, physics 2.5), simulated and without motors.
 struct DeviceCapabilities {
   std::string model = "simulated", serial;
+  std::string arm_model;  ///< key of calibration/arm/phantom_models; empty: no arm whose model is known
   Provenance provenance = Provenance::simulated;
   bool has_motors = false;  ///< somebody can be pushed: the hand must be armed first (safety/readiness)
   bool has_orientation = true, has_inkwell = false, has_deadman = false;

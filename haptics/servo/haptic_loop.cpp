@@ -54,13 +54,15 @@ HapticLoop::HapticLoop(Servo& servo, HapticDevice& device, Latest<Command>& comm
       log_(log),
       newest_(newest),
       settings_(settings),
-      X_DP_(settings.X_PD.inverse()) {
+      X_DP_(settings.X_PD.inverse()),
+      handle_(settings.arm) {
   if (!rigid(settings.X_PD)) throw DeviceError("pose of the device, not finite and rigid, calibrate the rig again");
   if (!rigid(settings.X_HT))
     throw DeviceError("pose of the tool in the handle, not finite and rigid, measure it again");
 }
 
-HandSample HapticLoop::handFrom(const HandleState& state, const Beat& beat) noexcept {
+HandSample HapticLoop::handFrom(const HandleState& measured, const Beat& beat) noexcept {
+  const HandleState state = handle_.corrected(measured);
   HandSample hand;
   const auto X_PH = settings_.X_PD * state.X_DH;
   hand.X_PT = X_PH * settings_.X_HT;

@@ -6,11 +6,13 @@
 
 #include <array>
 #include <atomic>
+#include <optional>
 
 #include "haptics/device/pedal/foot_pedal.h"
 #include "haptics/latest.h"
 #include "haptics/loop/device_loop.h"
 #include "haptics/safety/trips.h"
+#include "haptics/servo/measured_handle.h"
 #include "haptics/servo/servo.h"
 #include "haptics/servo/tick_log.h"
 
@@ -20,6 +22,7 @@ struct LoopSettings {
   double rate_Hz = 1000.0;                                            ///< 500..10000
   calibration::Pose<calibration::Patient, calibration::Device> X_PD;  ///< where the device stands
   calibration::Pose<calibration::Handle, calibration::Tool> X_HT;     ///< how the handle holds the tool
+  std::optional<calibration::MeasuredArm> arm;                        ///< none: as the device's driver has it
   bool realtime = true;                                               ///< ask for priority, a core, locked memory
   ButtonMeanings buttons;                                             ///< of those on the handle
   const FootPedal* pedal = nullptr;                                   ///< drills beside them; borrowed
@@ -33,7 +36,7 @@ Command limitedTo(const DeviceCapabilities& device, double rate_Hz, const Comman
 
 class HapticLoop final : public DeviceLoop {
  public:
-  /// Throws DeviceError when the rate is outside 500..10000 Hz or a pose is not finite and rigid.
+  /// Throws DeviceError when the rate is outside 500..10000 Hz, a pose is not finite and rigid, or the arm not finite.
   HapticLoop(Servo& servo, HapticDevice& device, Latest<Command>& commands, TickLog& log, Latest<Tick>& newest,
              const LoopSettings& settings);
   ~HapticLoop() override { stop(); }
@@ -48,7 +51,7 @@ class HapticLoop final : public DeviceLoop {
  private:
   Answer answer(const HandleState& state, const Beat& beat) noexcept override;
   void answered(double work_us) noexcept override;
-  HandSample handFrom(const HandleState& state, const Beat& beat) noexcept;
+  HandSample handFrom(const HandleState& measured, const Beat& beat) noexcept;
   bool drills(const HandleState& state) noexcept;
 
   Servo& servo_;
@@ -58,7 +61,8 @@ class HapticLoop final : public DeviceLoop {
   LoopSettings settings_;
   calibration::Pose<calibration::Device, calibration::Patient> X_DP_;
 
-  // Of the device's thread: the newest tick, and what turning adds to the tool's velocity.
+  // Of the device's thread: the arm, the newest tick, and what turning adds to the tool's velocity.
+  MeasuredHandle handle_;
   Tick tick_;
   glm::dvec3 last_arm_P_mm_{0.0}, arm_velocity_P_mm_per_s_{0.0};
   bool has_arm_ = false;

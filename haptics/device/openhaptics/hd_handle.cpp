@@ -27,6 +27,10 @@ HdModel modelNamed(std::string_view name) {
   model.has_deadman = contains(name, "Desktop");
   if (model.is_omni) model.geometry = &calibration::kOmniGeometry;
   if (contains(name, "Premium 1.5")) model.geometry = &calibration::kPremium15Geometry;
+  if (contains(name, "Omni")) model.arm_model = "omni";
+  if (contains(name, "Touch")) model.arm_model = is_touch_x ? "desktop" : "touch";
+  if (contains(name, "Desktop")) model.arm_model = "desktop";
+  if (contains(name, "Premium 1.5")) model.arm_model = "premium";
   return model;
 }
 

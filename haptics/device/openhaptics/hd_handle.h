@@ -26,6 +26,7 @@ struct HdModel {
   bool is_omni = false;  ///< Omni, or Touch, its successor
   bool has_inkwell = false, has_deadman = false;
   const calibration::PhantomGeometry* geometry = nullptr;  ///< null: not public
+  std::string_view arm_model;  ///< key of phantom_models, which takes some for others; empty: unlike any
 };
 
 HdModel modelNamed(std::string_view name);

@@ -86,6 +86,7 @@ HdDescription describe(const HdFunctions& hd) {
 
   description.calibration_styles = static_cast<hd::Enum>(integer(hd, hd::kCalibrationStyle, 0));
   const HdModel model = modelNamed(can.model);
+  can.arm_model = model.arm_model;
   can.has_orientation = integer(hd, hd::kInputDof, 6) >= 6;
   can.has_inkwell = (description.calibration_styles & hd::kInkwellCalibration) || model.has_inkwell;
   can.has_deadman = model.has_deadman;

@@ -16,6 +16,18 @@ glm::dvec3 counted(const glm::dvec3& angles_rad, double counts_per_turn) {
 
 }  // namespace
 
+/// Beyond the arm's limits they stand where they were.
+calibration::PhantomJoints PhantomSensors::sensed(const calibration::PhantomJoints& truth) noexcept {
+  if (!untrue_) return truth;
+  const auto raw_rad = untrue_->rawAt(handlePose(geometry_, truth));
+  if (raw_rad)
+    for (int axis = 0; axis < 3; ++axis) {
+      last_sensed_.arm_rad[axis] = (*raw_rad)[static_cast<std::size_t>(axis)];
+      last_sensed_.wrist_rad[axis] = (*raw_rad)[static_cast<std::size_t>(axis + 3)];
+    }
+  return last_sensed_;
+}
+
 double PhantomSensors::turnedKnob(double angle_rad) noexcept {
   if (!(sensing_.levels_per_turn > 0.0)) return angle_rad;
   const double level_rad = kTurn_rad / sensing_.levels_per_turn;
@@ -25,9 +37,10 @@ double PhantomSensors::turnedKnob(double angle_rad) noexcept {
 
 PhantomSensors::Reading PhantomSensors::read(const calibration::PhantomJoints& truth,
                                              const glm::dvec3& true_velocity_mm_per_s, double dt_s) noexcept {
+  const calibration::PhantomJoints there = sensed(truth);
   calibration::PhantomJoints seen;
-  seen.arm_rad = counted(truth.arm_rad, sensing_.counts_per_turn);
-  for (int axis = 0; axis < 3; ++axis) seen.wrist_rad[axis] = turnedKnob(truth.wrist_rad[axis]);
+  seen.arm_rad = counted(there.arm_rad, sensing_.counts_per_turn);
+  for (int axis = 0; axis < 3; ++axis) seen.wrist_rad[axis] = turnedKnob(there.wrist_rad[axis]);
 
   Reading reading;
   for (int axis = 0; axis < 3; ++axis) {

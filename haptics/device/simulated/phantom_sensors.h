@@ -1,12 +1,14 @@
 // What the electronics of a Phantom know of its handle: encoders at the arm's joints, potentiometers in the gimbal, and
-// the velocity a driver makes of them, differenced and smoothed. Frame D, mm, rad, s. The device's thread; no
+// the velocity a driver makes of them, differenced and smoothed. Of an untrue arm they read what they would, and the
+// driver, which believes its model, makes of that what it can. Frame D, mm, rad, s. The device's thread; no
 // allocation. The same seed gives the same noise.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <random>
 
-#include "calibration/arm/arm_correction.h"
+#include "calibration/synthetic/untrue_arm.h"
 
 namespace haptics {
 
@@ -26,16 +28,21 @@ class PhantomSensors {
     calibration::RawJoints joints_rad{};
   };
 
-  PhantomSensors(const calibration::PhantomGeometry& geometry, const PhantomSensing& sensing, std::uint32_t seed)
-      : geometry_(geometry), sensing_(sensing), noise_(seed) {}
+  PhantomSensors(const calibration::PhantomGeometry& geometry, const PhantomSensing& sensing, std::uint32_t seed,
+                 const std::optional<calibration::UntrueArm>& untrue = std::nullopt)
+      : geometry_(geometry), sensing_(sensing), untrue_(untrue), noise_(seed) {}
 
+  /// `truth`: the angles at which an arm as its model would hold the handle where it truly is.
   Reading read(const calibration::PhantomJoints& truth, const glm::dvec3& true_velocity_mm_per_s, double dt_s) noexcept;
 
  private:
+  calibration::PhantomJoints sensed(const calibration::PhantomJoints& truth) noexcept;
   double turnedKnob(double angle_rad) noexcept;
 
   calibration::PhantomGeometry geometry_;
   PhantomSensing sensing_;
+  std::optional<calibration::UntrueArm> untrue_;
+  calibration::PhantomJoints last_sensed_;
   std::mt19937 noise_;
   glm::dvec3 last_mm_{0.0}, velocity_mm_per_s_{0.0};
   bool has_last_ = false;

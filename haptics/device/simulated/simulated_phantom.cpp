@@ -30,9 +30,11 @@ void refuseUnlessPossible(const PhantomMechanics& m, const Grip& grip) {
                       std::to_string(SimulatedPhantom::kMostLatency_ticks));
 }
 
-DeviceCapabilities capabilitiesOf(const PhantomMechanics& m, const Grip& grip) {
+DeviceCapabilities capabilitiesOf(const PhantomMechanics& m, const Grip& grip, const PhantomUnit& unit) {
   DeviceCapabilities can;
   can.model = "simulated " + std::string(m.name);
+  can.serial = unit.serial;
+  can.arm_model = m.key;
   can.has_motors = true;
   can.has_inkwell = m.has_inkwell;
   can.has_deadman = m.has_deadman;
@@ -50,13 +52,13 @@ DeviceCapabilities capabilitiesOf(const PhantomMechanics& m, const Grip& grip) {
 }  // namespace
 
 SimulatedPhantom::SimulatedPhantom(const PhantomMechanics& mechanics, HandScript script, const Grip& grip,
-                                   std::uint32_t seed)
+                                   std::uint32_t seed, const PhantomUnit& unit)
     : mechanics_((refuseUnlessPossible(mechanics, grip), mechanics)),
       hand_(std::move(script), grip, seed),
-      sensors_(mechanics.geometry, mechanics.sensing, seed + 1),
+      sensors_(mechanics.geometry, mechanics.sensing, seed + 1, unit.untrue),
       heat_(glm::dvec3(mechanics.peak_joint_Nmm * mechanics.continuous_force_N / mechanics.peak_force_N),
             mechanics.heat_time_s),
-      capabilities_(capabilitiesOf(mechanics, grip)) {
+      capabilities_(capabilitiesOf(mechanics, grip, unit)) {
   const HandTarget start = hand_.at(0.0);
   const auto arm_rad = armReaching(mechanics_.geometry, {start.place_mm});
   if (!arm_rad)

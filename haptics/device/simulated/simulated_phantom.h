@@ -2,8 +2,12 @@
 // the arm's kinematics, weight and friction, motors with their limits, delay and warmth, stops, inkwell, encoders,
 // gimbal noise. What servo and safety have to be right with. Frame D; mm, N, s. The device's thread; a pure function of
 // the steps and the seed; about 1.5 us a tick, no allocation after construction. Its weight is the same in every
-// direction; no gravity, no bending of the links, no torque on the handle.
+// direction; no gravity, no bending of the links, no torque on the handle. An untrue arm shows in what its sensors
+// read; its motors push as they are asked.
 #pragma once
+
+#include <optional>
+#include <string>
 
 #include "haptics/device/simulated/device_in_numbers.h"
 #include "haptics/device/simulated/motor_heat.h"
@@ -14,12 +18,19 @@
 
 namespace haptics {
 
+/// What one unit has of its own.
+struct PhantomUnit {
+  std::string serial;
+  std::optional<calibration::UntrueArm> untrue;  ///< none: as its model
+};
+
 class SimulatedPhantom final : public DeviceInNumbers {
  public:
   static constexpr int kMostLatency_ticks = 15;
 
   /// Throws DeviceError when a number can not be, or the script starts where the arm does not reach.
-  SimulatedPhantom(const PhantomMechanics& mechanics, HandScript script, const Grip& grip = {}, std::uint32_t seed = 1);
+  SimulatedPhantom(const PhantomMechanics& mechanics, HandScript script, const Grip& grip = {}, std::uint32_t seed = 1,
+                   const PhantomUnit& unit = {});
   ~SimulatedPhantom() override { stop(); }
 
   const DeviceCapabilities& capabilities() const override { return capabilities_; }
