@@ -45,13 +45,16 @@ CheckedYaml::CheckedYaml(std::string kind, std::string path)
   bytes << in.rdbuf();
   if (!in) refuse("it can not be read", "check its permissions and the disk");
   storage_->bytes = bytes.str();
+  // OpenCV throws its own exceptions and, of spoilt text, the standard library's.
+  bool opened = false;
   try {
     constexpr int kFromMemory = cv::FileStorage::READ | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_YAML;
-    if (!storage_->file.open(storage_->bytes, kFromMemory))
-      refuse("it is not OpenCV FileStorage YAML", "check the path");
-  } catch (const cv::Exception&) {
-    refuse("it is not OpenCV FileStorage YAML", "give the file that calibration wrote");
+    opened = storage_->file.open(storage_->bytes, kFromMemory);
+  } catch (const std::exception&) {
   }
+  if (!opened) refuse("it is not OpenCV FileStorage YAML", "give the file that calibration wrote");
+  // OpenCV throws where a key is asked of a list or a number.
+  if (!root().isMap()) refuse("it holds no keys", "give the file that calibration wrote");
 }
 
 CheckedYaml::~CheckedYaml() = default;
