@@ -14,13 +14,36 @@ namespace calibration {
 namespace {
 
 constexpr std::uintmax_t kLargestFile_bytes = 4 << 20;
-constexpr double kRotationTolerance = 1e-3;
 constexpr double kLargestNumber = 1e5;
 constexpr std::size_t kLongestText_bytes = 200;
+constexpr int kDeepest = 64;
 
 void keepOpenCvQuiet() {
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   cv::redirectError([](int, const char*, const char*, const char*, int, void*) { return 0; });
+}
+
+/// Brackets within brackets and dashes after dashes, as deep as they go; what is quoted or a comment aside.
+int depthOf(const std::string& bytes) {
+  int brackets = 0, dashes = 0, deepest = 0;
+  char quote = 0, before = '\n';
+  for (std::size_t i = 0; i < bytes.size(); before = bytes[std::min(i, bytes.size() - 1)], ++i) {
+    const char c = bytes[i];
+    if (c == '\n') quote = 0;
+    if (quote != 0) {
+      if (c == '\\') ++i;
+      if (c == quote) quote = 0;
+      continue;
+    }
+    if (c == '#' && (before == ' ' || before == '\n')) i = std::min(bytes.find('\n', i), bytes.size()) - 1;
+    if (c == '"' || c == '\'') quote = c;
+    if (c == '[' || c == '{') ++brackets;
+    if (c == ']' || c == '}') --brackets;
+    if (c == '-') ++dashes;
+    if (c != '-' && c != ' ') dashes = 0;
+    deepest = std::max({deepest, brackets, dashes});
+  }
+  return deepest;
 }
 
 bool isNumber(const cv::FileNode& node) { return node.isInt() || node.isReal(); }
@@ -45,6 +68,8 @@ CheckedYaml::CheckedYaml(std::string kind, std::string path)
   bytes << in.rdbuf();
   if (!in) refuse("it can not be read", "check its permissions and the disk");
   storage_->bytes = bytes.str();
+  if (depthOf(storage_->bytes) > kDeepest)
+    refuse("its lists lie in one another more than 64 deep", "give the file that calibration wrote");
   // OpenCV throws its own exceptions and, of spoilt text, the standard library's.
   bool opened = false;
   try {
@@ -52,7 +77,7 @@ CheckedYaml::CheckedYaml(std::string kind, std::string path)
     opened = storage_->file.open(storage_->bytes, kFromMemory);
   } catch (const std::exception&) {
   }
-  if (!opened) refuse("it is not OpenCV FileStorage YAML", "give the file that calibration wrote");
+  if (!opened) refuse("it is not OpenCV FileStorage YAML, or truncated", "give the file that calibration wrote");
   // OpenCV throws where a key is asked of a list or a number.
   if (!root().isMap()) refuse("it holds no keys", "give the file that calibration wrote");
 }
@@ -134,7 +159,7 @@ std::vector<double> CheckedYaml::sixteenNumbers(const cv::FileNode& node, const 
   return values;
 }
 
-CheckedYaml::Rigid CheckedYaml::rigid(const cv::FileNode& parent, const std::string& key) const {
+CheckedYaml::Rigid CheckedYaml::rigid(const cv::FileNode& parent, const std::string& key, double tolerance) const {
   // Row-major m[4 r + c].
   const std::vector<double> m = sixteenNumbers(parent[key], key);
   glm::dmat3 R{1.0};
@@ -151,7 +176,7 @@ CheckedYaml::Rigid CheckedYaml::rigid(const cv::FileNode& parent, const std::str
     for (int r = 0; r < 3; ++r) error = std::max(error, std::abs(gram[c][r] - (r == c ? 1.0 : 0.0)));
   }
   const bool finite = std::isfinite(error) && std::isfinite(glm::dot(p, p));
-  if (!finite || error > kRotationTolerance || glm::determinant(R) < 0.0)
+  if (!finite || error > tolerance || glm::determinant(R) < 0.0)
     refuse("'" + key + "' is not a rigid pose with determinant +1",
            "correct the matrix (no scale, no flip: the mirror is in 'mirror')");
   return {glm::normalize(glm::quat_cast(R)), p};

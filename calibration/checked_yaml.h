@@ -22,7 +22,7 @@ namespace calibration {
 class CheckedYaml {
  public:
   /// `kind`: what it should be, for refusals: "rig file". Throws CalibrationError: not there, empty, beyond 4 MiB,
-  /// truncated, not YAML.
+  /// truncated, not YAML, lists in lists more than 64 deep (OpenCV's parser recurses).
   CheckedYaml(std::string kind, std::string path);
   ~CheckedYaml();
   CheckedYaml(const CheckedYaml&) = delete;
@@ -48,9 +48,8 @@ class CheckedYaml {
     glm::dquat rotation;
     glm::dvec3 translation_mm;
   };
-  /// A 4x4 matrix as OpenCV writes it, or by hand: 16 numbers, or four rows of four. Orthonormal within 1e-3,
-  /// determinant +1.
-  Rigid rigid(const cv::FileNode& parent, const std::string& key) const;
+  /// A 4x4 matrix as OpenCV writes it, or by hand: 16 numbers, or four rows of four. Orthonormal, determinant +1.
+  Rigid rigid(const cv::FileNode& parent, const std::string& key, double tolerance = 1e-3) const;
 
  private:
   std::vector<double> sixteenNumbers(const cv::FileNode& node, const std::string& key) const;

@@ -1,0 +1,51 @@
+#include "calibration/record/utc.h"
+
+#include <charconv>
+#include <chrono>
+#include <cstdio>
+
+namespace calibration {
+namespace {
+
+constexpr std::string_view kShape = "0000-00-00T00:00:00Z";
+
+int numberIn(std::string_view text, std::size_t at, std::size_t digits) {
+  int value = 0;
+  std::from_chars(text.data() + at, text.data() + at + digits, value);
+  return value;
+}
+
+bool hasShape(std::string_view text) {
+  if (text.size() != kShape.size()) return false;
+  for (std::size_t i = 0; i < kShape.size(); ++i)
+    if (kShape[i] == '0' ? text[i] < '0' || text[i] > '9' : text[i] != kShape[i]) return false;
+  return true;
+}
+
+}  // namespace
+
+std::optional<std::int64_t> secondsOfUtc(std::string_view text) {
+  if (!hasShape(text)) return std::nullopt;
+  const std::chrono::year_month_day day{std::chrono::year(numberIn(text, 0, 4)),
+                                        std::chrono::month(static_cast<unsigned>(numberIn(text, 5, 2))),
+                                        std::chrono::day(static_cast<unsigned>(numberIn(text, 8, 2)))};
+  const int hour = numberIn(text, 11, 2), minute = numberIn(text, 14, 2), second = numberIn(text, 17, 2);
+  if (!day.ok() || hour > 23 || minute > 59 || second > 59) return std::nullopt;
+  const std::int64_t days = std::chrono::sys_days(day).time_since_epoch().count();
+  return ((days * 24 + hour) * 60 + minute) * 60 + second;
+}
+
+std::string utcOf(std::int64_t seconds) {
+  const std::chrono::sys_seconds time{std::chrono::seconds(seconds)};
+  const auto midnight = std::chrono::floor<std::chrono::days>(time);
+  const std::chrono::year_month_day day{midnight};
+  const std::chrono::hh_mm_ss clock{time - midnight};
+  char text[40];
+  std::snprintf(text, sizeof text, "%04d-%02u-%02uT%02d:%02d:%02dZ", static_cast<int>(day.year()),
+                static_cast<unsigned>(day.month()), static_cast<unsigned>(day.day()),
+                static_cast<int>(clock.hours().count()), static_cast<int>(clock.minutes().count()),
+                static_cast<int>(clock.seconds().count()));
+  return text;
+}
+
+}  // namespace calibration
