@@ -1,8 +1,20 @@
 #include "calibration/rig.h"
 
+#include <cmath>
+
 #include "calibration/arm/phantom_models.h"
 
 namespace calibration {
+namespace {
+
+/// Where the line of sight meets the mirror, from the virtual screen: the case and the hand fit under it.
+constexpr double kMirrorAbove_mm = 200.0;
+
+/// Of a published workstation with an Omni (reference/calibration 1.1).
+constexpr double kDeviceTilt_deg = 41.61;
+constexpr glm::dvec3 kDevicePlace_W_mm{0.0, -55.5, -36.0};
+
+}  // namespace
 
 Rig desktopRig(glm::ivec2 px, double width_mm, double eye_distance_mm) {
   const double x = 0.5 * width_mm, y = x * px.y / px.x;
@@ -10,6 +22,20 @@ Rig desktopRig(glm::ivec2 px, double width_mm, double eye_distance_mm) {
   rig.screen = {px, {{-x, -y, 0.0}}, {{x, -y, 0.0}}, {{-x, y, 0.0}}};
   rig.left_eye = {{-0.5 * kInterpupillary_mm, 0.0, eye_distance_mm}};
   rig.right_eye = {{0.5 * kInterpupillary_mm, 0.0, eye_distance_mm}};
+  return rig;
+}
+
+Rig mirroredWorkstationRig(glm::ivec2 px, double width_mm, double eye_distance_mm) {
+  Rig rig = desktopRig(px, width_mm, eye_distance_mm);
+  const double half_right = std::sqrt(0.5);
+  rig.mirror = Plane<World>{{0.0, half_right, half_right}, half_right * kMirrorAbove_mm};
+
+  // Tipped forward, the panel's upper edge is the nearer one: in the mirror it is the lower one.
+  const double x = rig.screen.lower_right.mm.x, y = rig.screen.upper_left.mm.y;
+  rig.screen.lower_left = rig.mirror->reflect({{-x, y, 0.0}});
+  rig.screen.lower_right = rig.mirror->reflect({{x, y, 0.0}});
+  rig.screen.upper_left = rig.mirror->reflect({{-x, -y, 0.0}});
+  rig.X_WD = {glm::angleAxis(radFromDegrees(kDeviceTilt_deg), glm::dvec3(1.0, 0.0, 0.0)), kDevicePlace_W_mm};
   return rig;
 }
 

@@ -18,6 +18,9 @@ struct Target {
   Vector<World> stylus_W;  ///< unit
 };
 
+/// How a stylus is held without thinking of it: towards the surgeon, 10 degrees upright. Tilts are away from this.
+inline constexpr Vector<World> kRestingStylus_W{{0.0, 0.17364817766693033, 0.984807753012208}};
+
 /// What the targets are.
 enum class TargetKind { pit, cross, webcam_place };
 

@@ -25,8 +25,10 @@ struct TouchHabits {
   TouchPrecision precision;     ///< of the place
   double arm_noise_rad = 8e-5;  ///< left of the encoders' steps after averaging
   double gimbal_noise_rad = 2e-3;
-  double outlier_share = 0.0;  ///< of touches that are off by 5 to 20 mm
-  bool one_tilt = false;       ///< scenario E: whatever the cue asks
+  double tilt_noise_rad = 0.05;  ///< how closely the cue's tilt is held, one sigma an axis
+  double roll_rad = 0.5;         ///< the stylus is turned about itself as it comes, at most so far
+  double outlier_share = 0.0;    ///< of touches that are off by 5 to 20 mm
+  bool one_tilt = false;         ///< scenario E: whatever the cue asks
 };
 
 struct SyntheticRig {
