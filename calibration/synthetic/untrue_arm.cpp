@@ -5,7 +5,7 @@
 namespace calibration {
 namespace {
 
-constexpr int kSteps = 8;  ///< each leaves about a hundredth of the error before it
+constexpr int kSteps = 9;  ///< each leaves a tenth to a hundredth of the error before it
 
 }  // namespace
 
