@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "calibration/geometry/units.h"
-#include "tests/calibration/mirrored_workstation.h"
+#include "tests/calibration/synthetic/mirrored_workstation.h"
 
 namespace calibration {
 namespace {

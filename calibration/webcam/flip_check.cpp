@@ -1,0 +1,212 @@
+#include "calibration/webcam/flip_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace calibration {
+namespace {
+
+constexpr int kTemplate_px = 64;
+constexpr double kLeastLikeness = 0.55, kLeastLead = 0.12;
+constexpr double kLeastShare = 0.002;  ///< of the picture, that the F's square must cover
+
+/// The square with the F in it, `side` px.
+GreyPicture squareWithF(int side) {
+  GreyPicture square{{side, side}, std::vector<std::uint8_t>(static_cast<std::size_t>(side * side), 255)};
+  const auto bar = [&](double left, double top, double right, double bottom) {
+    for (int y = static_cast<int>(top * side); y < static_cast<int>(bottom * side); ++y)
+      for (int x = static_cast<int>(left * side); x < static_cast<int>(right * side); ++x)
+        square.grey[static_cast<std::size_t>(y * side + x)] = 0;
+  };
+  bar(0.27, 0.14, 0.43, 0.86);
+  bar(0.43, 0.14, 0.77, 0.30);
+  bar(0.43, 0.44, 0.66, 0.58);
+  return square;
+}
+
+cv::Mat matOf(const GreyPicture& picture) {
+  return {picture.size_px.y, picture.size_px.x, CV_8U, const_cast<std::uint8_t*>(picture.grey.data())};
+}
+
+/// Corners of a convex quadrangle, clockwise in the picture, the first so that the first edge runs most to the right.
+std::optional<std::array<cv::Point2f, 4>> quadrangle(const std::vector<cv::Point>& outline) {
+  std::vector<cv::Point> hull, corners;
+  cv::convexHull(outline, hull);
+  const double round = cv::arcLength(hull, true);
+  for (double slack = 0.01; slack < 0.08 && corners.size() != 4; slack += 0.01)
+    cv::approxPolyDP(hull, corners, slack * round, true);
+  if (corners.size() != 4 || cv::contourArea(outline) < 0.8 * cv::contourArea(corners)) return std::nullopt;
+  if (cv::contourArea(corners, true) < 0.0) std::ranges::reverse(corners);
+  std::size_t first = 0;
+  double most = -2.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const cv::Point2d edge = corners[(i + 1) % 4] - corners[i];
+    const double rightward = edge.x / std::max(cv::norm(edge), 1e-9);
+    if (rightward > most) most = rightward, first = i;
+  }
+  std::array<cv::Point2f, 4> ordered;
+  for (std::size_t i = 0; i < 4; ++i) ordered[i] = corners[(first + i) % 4];
+  return ordered;
+}
+
+/// Correlation of two pictures of one size, without regard to brightness.
+double likeness(const cv::Mat& a, const cv::Mat& b) {
+  cv::Mat result;
+  cv::matchTemplate(a, b, result, cv::TM_CCOEFF_NORMED);
+  return static_cast<double>(result.at<float>(0, 0));
+}
+
+/// How alike the two best readings of this square are to what is seen.
+struct Likeness {
+  Reading best;
+  double first = -1.0, second = -1.0;
+};
+
+Likeness compared(const cv::Mat& square) {
+  const GreyPicture letter = squareWithF(kTemplate_px);
+  Likeness found;
+  for (const Reading& reading : kReadings) {
+    const GreyPicture expected = reaching(reading, letter);
+    const double alike = likeness(square, matOf(expected));
+    if (alike > found.first) {
+      found = {reading, alike, found.first};
+    } else {
+      found.second = std::max(found.second, alike);
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+Reading opposite(const Reading& reading) {
+  // A mirrored picture that is turned goes back by mirroring and the same turn again.
+  return reading.mirrored ? reading : Reading{false, (4 - reading.quarters) % 4};
+}
+
+std::string_view nameOf(const Reading& reading) {
+  constexpr std::array<std::string_view, 8> kNames{"right",
+                                                   "turned to the right",
+                                                   "upside down",
+                                                   "turned to the left",
+                                                   "mirrored",
+                                                   "mirrored and turned to the right",
+                                                   "mirrored and upside down",
+                                                   "mirrored and turned to the left"};
+  return kNames[static_cast<std::size_t>((reading.mirrored ? 4 : 0) + reading.quarters)];
+}
+
+std::string remedyFor(const Reading& reading) {
+  if (reading.right()) return "the picture reads right, go on";
+  if (reading.quarters % 2 == 1)
+    return "the picture is " + std::string(nameOf(reading)) + ", set the screen's rotation in the system's settings";
+  return "the picture is " + std::string(nameOf(reading)) +
+         ", switch off any flip in the monitor's or system's settings, or correct the screen's corners in the rig file";
+}
+
+GreyPicture reaching(const Reading& reading, const GreyPicture& picture) {
+  const glm::ivec2 in = picture.size_px, out = reading.quarters % 2 == 0 ? in : glm::ivec2(in.y, in.x);
+  GreyPicture seen{out, std::vector<std::uint8_t>(picture.grey.size())};
+  std::size_t at = 0;
+  for (int y = 0; y < out.y; ++y)
+    for (int x = 0; x < out.x; ++x) {
+      // Back by the turn, then by the mirror.
+      glm::ivec2 from(x, y);
+      if (reading.quarters == 1) from = {y, in.y - 1 - x};
+      if (reading.quarters == 2) from = in - 1 - from;
+      if (reading.quarters == 3) from = {in.x - 1 - y, x};
+      if (reading.mirrored) from.x = in.x - 1 - from.x;
+      seen.grey[at++] = picture.grey[static_cast<std::size_t>(from.y * in.x + from.x)];
+    }
+  return seen;
+}
+
+Reading framebufferReading(const Rig& rig) {
+  const auto seen = [&](const Point<World>& p) { return rig.mirror ? rig.mirror->reflect(p).mm : p.mm; };
+  const glm::dvec3 corner = seen(rig.screen.lower_left);
+  const glm::dvec3 across = seen(rig.screen.lower_right) - corner, up = seen(rig.screen.upper_left) - corner;
+  // x and y of W are right and up to the eye. Where the framebuffer's upward edge points, after any mirroring.
+  const bool mirrored = across.x * up.y - across.y * up.x < 0.0;
+  const bool upright = std::abs(up.y) >= std::abs(up.x);
+  if (upright) return {mirrored, up.y > 0.0 ? 0 : 2};
+  return {mirrored, up.x > 0.0 ? 1 : 3};
+}
+
+GreyPicture framebufferFor(const Rig& rig, const GreyPicture& as_seen) {
+  return reaching(opposite(framebufferReading(rig)), as_seen);
+}
+
+glm::ivec2 seenSize_px(const Rig& rig) {
+  const glm::ivec2 px = rig.screen.px;
+  return framebufferReading(rig).quarters % 2 == 0 ? px : glm::ivec2(px.y, px.x);
+}
+
+GreyPicture letterF(const glm::ivec2& size_px) {
+  GreyPicture page{size_px, std::vector<std::uint8_t>(static_cast<std::size_t>(size_px.x * size_px.y), 0)};
+  const int side = 6 * std::min(size_px.x, size_px.y) / 10;
+  const GreyPicture square = squareWithF(side);
+  const glm::ivec2 low = (size_px - side) / 2;
+  for (int y = 0; y < side; ++y)
+    std::copy_n(&square.grey[static_cast<std::size_t>(y * side)], side,
+                &page.grey[static_cast<std::size_t>((low.y + y) * size_px.x + low.x)]);
+  return page;
+}
+
+std::optional<Reading> readF(const GreyPicture& seen) {
+  if (seen.size_px.x < kTemplate_px || seen.size_px.y < kTemplate_px) return std::nullopt;
+  cv::Mat smooth, bright;
+  cv::GaussianBlur(matOf(seen), smooth, {5, 5}, 0.0);
+  cv::threshold(smooth, bright, 0.0, 255.0, cv::THRESH_BINARY | cv::THRESH_OTSU);
+  std::vector<std::vector<cv::Point>> outlines;
+  cv::findContours(bright, outlines, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
+  std::ranges::sort(outlines, std::ranges::greater(), [](const auto& o) { return cv::contourArea(o); });
+
+  // The brightest fields, the largest first: that which is most like an F by far is it.
+  Likeness best;
+  for (std::size_t i = 0; i < std::min<std::size_t>(outlines.size(), 5); ++i) {
+    if (cv::contourArea(outlines[i]) < kLeastShare * static_cast<double>(smooth.total())) break;
+    const auto corners = quadrangle(outlines[i]);
+    if (!corners) continue;
+    constexpr float kEnd = kTemplate_px;
+    const std::array<cv::Point2f, 4> square{{{0, 0}, {kEnd, 0}, {kEnd, kEnd}, {0, kEnd}}};
+    const double finer = std::sqrt(cv::contourArea(outlines[i])) / kTemplate_px;
+    cv::Mat even = smooth, straight;
+    if (finer > 1.5) cv::GaussianBlur(smooth, even, {0, 0}, 0.4 * finer);
+    cv::warpPerspective(even, straight, cv::getPerspectiveTransform(corners->data(), square.data()),
+                        {kTemplate_px, kTemplate_px});
+    const Likeness found = compared(straight);
+    if (found.first > best.first) best = found;
+  }
+  if (best.first < kLeastLikeness || best.first - best.second < kLeastLead) return std::nullopt;
+  return best.best;
+}
+
+std::optional<Reading> readingOf(const std::vector<glm::dvec2>& drawn_px, const std::vector<glm::dvec2>& camera_px) {
+  if (drawn_px.size() < 4 || drawn_px.size() != camera_px.size()) return std::nullopt;
+  // The best affine map from drawn to seen, by its normal equations about the middles.
+  glm::dvec2 drawn_middle(0.0), camera_middle(0.0);
+  for (std::size_t i = 0; i < drawn_px.size(); ++i) drawn_middle += drawn_px[i], camera_middle += camera_px[i];
+  drawn_middle /= static_cast<double>(drawn_px.size()), camera_middle /= static_cast<double>(drawn_px.size());
+  glm::dmat2 spread(0.0), together(0.0);
+  for (std::size_t i = 0; i < drawn_px.size(); ++i) {
+    const glm::dvec2 drawn = drawn_px[i] - drawn_middle;
+    spread += glm::outerProduct(drawn, drawn);
+    together += glm::outerProduct(camera_px[i] - camera_middle, drawn);
+  }
+  const double size = spread[0][0] + spread[1][1];
+  if (!(glm::determinant(spread) > 1e-6 * size * size)) return std::nullopt;
+  const glm::dmat2 map = together * glm::inverse(spread);
+  const double area = glm::determinant(map);
+  if (!(std::abs(area) > 1e-6)) return std::nullopt;
+
+  // Where "down" goes tells the turn, the sign of the area the mirror.
+  const glm::dvec2 down = map[1];
+  const bool upright = std::abs(down.y) >= std::abs(down.x);
+  if (upright) return Reading{area<0.0, down.y> 0.0 ? 0 : 2};
+  return Reading{area < 0.0, down.x < 0.0 ? 1 : 3};
+}
+
+}  // namespace calibration

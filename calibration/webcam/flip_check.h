@@ -1,0 +1,56 @@
+// Whether what the screen shows reads right to the eye before it: a drawn F says it to a technician and to a webcam,
+// and so does any pattern whose places are known. The rig's corners and mirror alone say how a framebuffer should reach
+// the eye; here that is proved, and the remedy named. px, rows from the top. Any thread; milliseconds, reading an F 20
+// ms at 1080p. Not a measurement: the turn is known to the nearest quarter, the camera must be level within 40 degrees.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "calibration/rig.h"
+#include "calibration/webcam/camera.h"
+
+namespace calibration {
+
+/// How a picture reaches the eye: mirrored left to right or not, and then turned, clockwise by so many quarters.
+struct Reading {
+  bool mirrored = false;
+  int quarters = 0;  ///< 0 to 3
+
+  bool right() const { return !mirrored && quarters == 0; }
+  bool operator==(const Reading&) const = default;
+};
+
+inline constexpr std::array<Reading, 8> kReadings{
+    {{false, 0}, {false, 1}, {false, 2}, {false, 3}, {true, 0}, {true, 1}, {true, 2}, {true, 3}}};
+
+/// What undoes it.
+Reading opposite(const Reading& reading);
+/// "right", "mirrored", "upside down", "turned to the right", "mirrored and turned to the left", …
+std::string_view nameOf(const Reading& reading);
+/// One sentence for the technician: what to do about it.
+std::string remedyFor(const Reading& reading);
+
+/// What reaches the eye of this picture; turned by one or three quarters it is as wide as it was high.
+GreyPicture reaching(const Reading& reading, const GreyPicture& picture);
+
+/// How the rig's framebuffer reaches an eye on the near side of its virtual screen, from its corners and mirror alone.
+Reading framebufferReading(const Rig& rig);
+/// What has to be in the framebuffer for this picture to read right.
+GreyPicture framebufferFor(const Rig& rig, const GreyPicture& as_seen);
+/// Size of a picture that fills the rig's screen as it is seen.
+glm::ivec2 seenSize_px(const Rig& rig);
+
+/// A black F in a white square on black, as it should be read.
+GreyPicture letterF(const glm::ivec2& size_px);
+/// How the F reads in a picture of it. None: no F can be made out.
+std::optional<Reading> readF(const GreyPicture& seen);
+
+/// How a pattern reads whose places are known as they should be seen, and where a camera sees them, in the same order.
+/// None: fewer than four places, or no picture of each other.
+std::optional<Reading> readingOf(const std::vector<glm::dvec2>& drawn_px, const std::vector<glm::dvec2>& camera_px);
+
+}  // namespace calibration

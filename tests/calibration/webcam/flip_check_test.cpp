@@ -1,0 +1,153 @@
+#include "calibration/webcam/flip_check.h"
+
+#include <random>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "calibration/calibration_error.h"
+#include "tests/calibration/synthetic/mirrored_workstation.h"
+
+namespace calibration {
+namespace {
+
+constexpr glm::ivec2 kScreen_px{960, 540};
+
+GreyPicture numbered(glm::ivec2 size) {
+  GreyPicture picture{size, {}};
+  for (int i = 0; i < size.x * size.y; ++i) picture.grey.push_back(static_cast<std::uint8_t>(i));
+  return picture;
+}
+
+/// A webcam somewhere before the screen, as level as people clamp one, blurred and noisy as cheap ones are.
+Webcam someWebcam(std::mt19937& chance) {
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  const double roll = 0.5 * any(chance);
+  Webcam webcam = webcamAtEye({640, 360});
+  webcam.X_WC = lookingAt({{200 * any(chance), 150 * any(chance), 470 + 80 * any(chance)}},
+                          {{30 * any(chance), 20 * any(chance), 0}}, {std::sin(roll), std::cos(roll), 0});
+  webcam.defocus_px = 1.5 + 1.5 * any(chance);
+  webcam.noise_grey = 6.0 + 6.0 * any(chance);
+  return webcam;
+}
+
+TEST(FlipCheck, WhatReachesTheEyeIsUndoneByTheOpposite) {
+  const GreyPicture picture = numbered({5, 3});
+  for (const Reading& reading : kReadings) {
+    const GreyPicture back = reaching(opposite(reading), reaching(reading, picture));
+    EXPECT_EQ(back.size_px, picture.size_px) << nameOf(reading);
+    EXPECT_EQ(back.grey, picture.grey) << nameOf(reading);
+  }
+}
+
+TEST(FlipCheck, AQuarterTurnPutsTheUpperLeftToTheUpperRight) {
+  const GreyPicture seen = reaching({false, 1}, numbered({3, 2}));
+  EXPECT_EQ(seen.size_px, glm::ivec2(2, 3));
+  EXPECT_THAT(seen.grey, testing::ElementsAre(3, 0, 4, 1, 5, 2));
+  EXPECT_THAT(reaching({true, 0}, numbered({3, 2})).grey, testing::ElementsAre(2, 1, 0, 5, 4, 3));
+}
+
+TEST(FlipCheck, EveryReadingOfAnFIsToldEveryTime) {
+  std::mt19937 chance(41);
+  int told = 0;
+  for (int pose = 0; pose < 20; ++pose) {
+    const WebcamView view({.panel = uprightScreen(kScreen_px)}, someWebcam(chance));
+    for (const Reading& reading : kReadings) {
+      // A turned picture is drawn so that it fits the screen again.
+      const bool on_its_side = reading.quarters % 2 == 1;
+      const GreyPicture letter = letterF(on_its_side ? glm::ivec2(kScreen_px.y, kScreen_px.x) : kScreen_px);
+      const GreyPicture shown = reaching(reading, letter);
+      const GreyPicture seen = view.picture(&shown, {}, static_cast<std::uint64_t>(pose));
+      const auto read = readF(seen);
+      EXPECT_TRUE(read == reading) << "pose " << pose << ": " << nameOf(reading) << " read as "
+                                   << (read ? nameOf(*read) : "nothing");
+      told += read == reading;
+    }
+  }
+  EXPECT_EQ(told, 160);
+}
+
+TEST(FlipCheck, AMonitorInTheMirrorReadsRightOnceTheRigTurnsIt) {
+  Rig rig = desktopRig(kScreen_px);
+  rig.mirror = slantedMirror();
+  const ScreenCorners seen = rig.screen;
+  const Point<World> upper_right{seen.upper_left.mm + seen.lower_right.mm - seen.lower_left.mm};
+  const std::vector<ScreenCorners> arrangements{
+      inTheMirror(seen), hangingMonitor(kScreen_px),
+      inTheMirror({kScreen_px, upper_right, seen.upper_left, seen.lower_right}),
+      inTheMirror({kScreen_px, seen.upper_left, upper_right, seen.lower_left})};
+  std::mt19937 chance(2);
+  for (const ScreenCorners& corners : arrangements) {
+    rig.screen = corners;
+    const GreyPicture shown = framebufferFor(rig, letterF(seenSize_px(rig)));
+    EXPECT_EQ(shown.size_px, kScreen_px);
+    const WebcamView view({.panel = corners, .mirror = rig.mirror}, someWebcam(chance));
+    const GreyPicture picture = view.picture(&shown, {}, 1);
+    keepPicture("f_in_the_mirror", picture);
+    EXPECT_TRUE(readF(picture) == Reading{}) << "as the rig turns it";
+    const GreyPicture plain = letterF(kScreen_px);
+    EXPECT_TRUE(readF(view.picture(&plain, {}, 1)) == framebufferReading(rig)) << "as the framebuffer has it";
+  }
+}
+
+TEST(FlipCheck, AWrongCornerInTheRigFileIsFound) {
+  // The file has left and right exchanged: what should read right reads mirrored.
+  Rig rig = desktopRig(kScreen_px);
+  rig.mirror = slantedMirror();
+  const ScreenCorners truth = hangingMonitor(kScreen_px);
+  rig.screen = inTheMirror(uprightScreen(kScreen_px));
+  const WebcamView view({.panel = truth, .mirror = rig.mirror}, webcamAtEye({640, 360}));
+  const GreyPicture shown = framebufferFor(rig, letterF(seenSize_px(rig)));
+  const auto read = readF(view.picture(&shown, {}, 1));
+  ASSERT_TRUE(read.has_value());
+  EXPECT_EQ(nameOf(*read), "mirrored");
+  EXPECT_THAT(remedyFor(*read), testing::HasSubstr("flip"));
+}
+
+TEST(FlipCheck, WhereThereIsNoFItSaysNothing) {
+  const WebcamView view({.panel = uprightScreen(kScreen_px)}, webcamAtEye({640, 360}));
+  GreyPicture white = letterF(kScreen_px);
+  for (std::uint8_t& grey : white.grey) grey = grey > 0 || &grey - white.grey.data() > 300000 ? 255 : 0;
+  EXPECT_FALSE(readF(view.picture(nullptr, {}, 1)).has_value()) << "dark";
+  EXPECT_FALSE(readF(view.picture(&white, {}, 1)).has_value()) << "another shape";
+  std::mt19937 chance(1);
+  for (std::uint8_t& grey : white.grey) grey = static_cast<std::uint8_t>(chance());
+  EXPECT_FALSE(readF(view.picture(&white, {}, 1)).has_value()) << "noise";
+  EXPECT_FALSE(readF(GreyPicture{{8, 8}, std::vector<std::uint8_t>(64)}).has_value()) << "hardly a picture";
+
+  Webcam blurred = webcamAtEye({640, 360});
+  blurred.defocus_px = 40.0;
+  const GreyPicture shown = letterF(kScreen_px);
+  EXPECT_FALSE(readF(WebcamView({.panel = uprightScreen(kScreen_px)}, blurred).picture(&shown, {}, 1)).has_value());
+  Webcam aside = webcamAtEye({640, 360});
+  aside.X_WC = lookingAt({{0, 0, 450}}, {{270, 0, 0}}, {0, 1, 0});
+  const GreyPicture cropped = WebcamView({.panel = uprightScreen(kScreen_px)}, aside).picture(&shown, {}, 1);
+  keepPicture("f_cropped", cropped);
+  EXPECT_FALSE(readF(cropped).has_value()) << "half of it is beside the picture";
+}
+
+TEST(FlipCheck, KnownPlacesTellHowTheyRead) {
+  std::mt19937 chance(8);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  for (int i = 0; i < 50; ++i)
+    for (const Reading& reading : kReadings) {
+      std::vector<glm::dvec2> drawn, seen;
+      const double roll = 0.6 * any(chance), squint = 0.0004 * any(chance);
+      for (int p = 0; p < 30; ++p) {
+        const glm::dvec2 place(960 * any(chance), 540 * any(chance));
+        glm::dvec2 to = place;
+        if (reading.mirrored) to.x = -to.x;
+        for (int q = 0; q < reading.quarters; ++q) to = {-to.y, to.x};
+        to = glm::dvec2(std::cos(roll) * to.x - std::sin(roll) * to.y, std::sin(roll) * to.x + std::cos(roll) * to.y) /
+             (1.0 + squint * to.x);
+        drawn.push_back(place);
+        seen.push_back(to);
+      }
+      EXPECT_TRUE(readingOf(drawn, seen) == reading) << nameOf(reading);
+    }
+  EXPECT_FALSE(readingOf({{0, 0}, {1, 1}, {2, 2}, {3, 3}}, {{0, 0}, {1, 1}, {2, 2}, {3, 3}}).has_value()) << "a line";
+  EXPECT_FALSE(readingOf({{0, 0}}, {{0, 0}}).has_value());
+}
+
+}  // namespace
+}  // namespace calibration
