@@ -56,6 +56,7 @@ SessionMetrics metricsOf(const std::string& path) {
   SessionMetrics metrics;
   metrics.patient_title = end.start.patient_title;
   metrics.program_version = end.start.program_version;
+  metrics.calibration = end.start.calibration;
   metrics.closed = session.closed();
   metrics.lost = session.lost();
   const std::vector<SessionCommand> commands = session.commands();
@@ -90,8 +91,29 @@ std::string metricsWords(const SessionMetrics& metrics) {
            : metrics.dry_drilling_s > 0.0
                ? printed("\ndry: %.1f s of drilling in bone without irrigation\n", metrics.dry_drilling_s)
                : std::string("\nirrigated whenever it drilled in bone\n");
+  if (metrics.calibration) words += "calibration: " + calibrationWords(*metrics.calibration) + "\n";
   return words;
 }
+
+namespace {
+
+nlohmann::ordered_json calibrationJson(const SessionCalibration& c) {
+  nlohmann::ordered_json json = {{"rig", c.rig},        {"rig_id", c.rig_id},   {"device_serial", c.device_serial},
+                                 {"verdict", nullptr},  {"touches", c.touches}, {"checked_utc", nullptr},
+                                 {"age_days", nullptr}, {"despite", nullptr}};
+  if (!c.verdict.empty()) {
+    json["verdict"] = c.verdict;
+    json["rms_mm"] = c.rms_mm;
+    json["p95_mm"] = c.p95_mm;
+    json["max_mm"] = c.max_mm;
+    json["checked_utc"] = c.checked_utc;
+  }
+  if (c.age_days) json["age_days"] = *c.age_days;
+  if (!c.despite.empty()) json["despite"] = c.despite;
+  return json;
+}
+
+}  // namespace
 
 std::string metricsJson(const SessionMetrics& metrics) {
   nlohmann::ordered_json by_label;
@@ -103,6 +125,7 @@ std::string metricsJson(const SessionMetrics& metrics) {
   const nlohmann::ordered_json json = {
       {"patient", metrics.patient_title},
       {"program_version", metrics.program_version},
+      {"calibration", metrics.calibration ? calibrationJson(*metrics.calibration) : nlohmann::ordered_json()},
       {"closed", metrics.closed},
       {"ticks", metrics.ticks},
       {"lost", metrics.lost},

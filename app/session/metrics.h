@@ -5,15 +5,18 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 
+#include "app/session/session_calibration.h"
 #include "assets/tissue.h"
 
 namespace app {
 
 struct SessionMetrics {
   std::string patient_title, program_version;
-  bool closed = false;  ///< ended by the program, not by a kill or a full disk
+  std::optional<SessionCalibration> calibration;  ///< none: recorded before sessions told
+  bool closed = false;                            ///< ended by the program, not by a kill or a full disk
   std::uint64_t ticks = 0, lost = 0, commands = 0, events = 0;
   double duration_s = 0.0;
   double contact_s = 0.0;  ///< the bur shares volume with bone

@@ -89,6 +89,7 @@ struct SessionReader::Impl {
   std::string path;
   SQLite::Database database;
   std::optional<SQLite::Statement> blocks;
+  std::int64_t schema = 0;
   bool closed = false;
   std::uint64_t lost = 0, ticks = 0;
 
@@ -103,9 +104,14 @@ struct SessionReader::Impl {
   }
 
   void checkSchema() {
+    // The newest has one table more than those before.
+    const auto tables_there = database.execAndGet("SELECT count(*) FROM sqlite_schema").getInt64();
+    const auto told = session_format::tablesOf(tables_there < static_cast<std::int64_t>(kTables.size())
+                                                   ? session_format::kOldestSchema
+                                                   : session_format::kSchema);
     SQLite::Statement tables(database, "SELECT name, sql FROM sqlite_schema ORDER BY rowid");
     bool same = database.execAndGet("PRAGMA application_id").getInt64() == session_format::kApplicationId;
-    for (const session_format::Table& table : kTables) {
+    for (const session_format::Table& table : told) {
       same = same && tables.executeStep() && tables.getColumn(0).getString() == table.name &&
              tables.getColumn(1).getString() == table.create;
     }
@@ -113,14 +119,16 @@ struct SessionReader::Impl {
       throw SessionError(path + ": is no session of this version of the program: name a file made by `molar rehearse`");
     }
     SQLite::Statement meta(database, "SELECT schema FROM meta");
-    if (!meta.executeStep() || meta.getColumn(0).getInt64() != session_format::kSchema) {
+    if (meta.executeStep()) schema = meta.getColumn(0).getInt64();
+    const bool known = schema >= session_format::kOldestSchema && schema <= session_format::kSchema;
+    if (!known || session_format::tablesOf(schema).size() != told.size()) {
       throw SessionError(path + ": has a schema this program does not know: use the version that recorded it");
     }
   }
 
   std::optional<std::string> chainDamage() {
     std::vector<std::unique_ptr<Cursor>> cursors;
-    for (const session_format::Table& table : kTables)
+    for (const session_format::Table& table : session_format::tablesOf(schema))
       cursors.push_back(std::make_unique<Cursor>(database, table.name));
     Digest last{};
     for (std::int64_t row = 0;; ++row) {
@@ -138,6 +146,26 @@ struct SessionReader::Impl {
         return "rows follow its seal";
       }
     }
+  }
+
+  SessionCalibration calibration() {
+    SQLite::Statement row(database,
+                          "SELECT rig, rig_id, device_serial, verdict, touches, rms_mm, p95_mm, max_mm, checked_utc, "
+                          "age_days, despite FROM calibration");
+    if (!row.executeStep()) throw SessionError("it has no calibration: the session is damaged");
+    SessionCalibration c;
+    c.rig = textOf(row.getColumn(0));
+    c.rig_id = textOf(row.getColumn(1));
+    c.device_serial = textOf(row.getColumn(2));
+    c.verdict = textOf(row.getColumn(3));
+    c.touches = row.getColumn(4).getInt();
+    c.rms_mm = row.getColumn(5).getDouble();
+    c.p95_mm = row.getColumn(6).getDouble();
+    c.max_mm = row.getColumn(7).getDouble();
+    c.checked_utc = textOf(row.getColumn(8));
+    if (!row.getColumn(9).isNull()) c.age_days = row.getColumn(9).getDouble();
+    c.despite = textOf(row.getColumn(10));
+    return c;
   }
 
   /// Does `work`, telling trouble with the database as one line about this file.
@@ -208,6 +236,7 @@ StoredStart SessionReader::start() {
       throw SessionError("its bone has no size: the session is damaged");
     start.solid = decompress(blobOf(bone.getColumn(8)), start.grid.voxelCount());
     start.label = decompress(blobOf(bone.getColumn(9)), start.grid.voxelCount());
+    if (impl_->schema >= 4) start.calibration = impl_->calibration();
     return start;
   });
 }

@@ -20,11 +20,12 @@ struct StoredStart {
   double dt_s = 0.0;
   assets::VolumeGrid grid;
   std::vector<std::uint8_t> solid, label;
+  std::optional<SessionCalibration> calibration;  ///< none: recorded before it was
 };
 
 class SessionReader {
  public:
-  /// Throws SessionError if the file is missing or no session of this schema.
+  /// Throws SessionError if the file is missing or no session of this schema or the one before.
   explicit SessionReader(const std::string& path);
   ~SessionReader();
 

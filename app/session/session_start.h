@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "app/session/session_calibration.h"
 #include "assets/volume_grid.h"
 #include "haptics/servo/command.h"
 
@@ -19,6 +20,7 @@ struct SessionStart {
   std::span<const std::uint8_t> solid;  ///< borrowed while the recording is opened, order of `grid`
   std::span<const std::uint8_t> label;  ///< the same, or empty: unlabelled
   haptics::Command command;             ///< in force from the first tick
+  SessionCalibration calibration = {};
 };
 
 }  // namespace app

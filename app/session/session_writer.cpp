@@ -112,6 +112,10 @@ struct SessionWriter::Impl {
             sqlReal(grid.origin_P_mm.x), sqlReal(grid.origin_P_mm.y), sqlReal(grid.origin_P_mm.z), solid, label});
     const std::vector<std::uint8_t> command = packCommand(start.command);
     append("command", {sqlInteger(start.command.serial), std::int64_t{0}, command});
+    const SessionCalibration& c = start.calibration;
+    append("calibration", {c.rig, c.rig_id, c.device_serial, c.verdict, std::int64_t{c.touches}, sqlReal(c.rms_mm),
+                           sqlReal(c.p95_mm), sqlReal(c.max_mm), c.checked_utc,
+                           c.age_days ? ColumnValue(sqlReal(*c.age_days)) : ColumnValue(), c.despite});
   }
 
   /// Does `work` in one transaction; when it fails, neither the file nor the chain has moved.

@@ -371,6 +371,7 @@ TEST(Metrics, AreOneJsonObject) {
   EXPECT_EQ(json.front(), '{');
   EXPECT_NE(json.find("\"duration_s\": 0.9"), std::string::npos) << json;
   EXPECT_NE(json.find("\"ticks\": 900"), std::string::npos);
+  EXPECT_NE(json.find("\"rig\": \"none\""), std::string::npos) << json;
   EXPECT_NE(json.find("\"removed_mm3_by_label\": {"), std::string::npos);
 }
 

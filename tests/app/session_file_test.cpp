@@ -3,6 +3,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
 
+#include "app/session/chain.h"
 #include "app/session/packing.h"
 #include "app/session/session_error.h"
 #include "app/session/session_format.h"
@@ -63,6 +64,14 @@ TEST(SessionFile, GivesBackWhatWasWritten) {
   EXPECT_EQ(start.grid, bone.grid);
   EXPECT_EQ(start.solid, bone.solid);
   EXPECT_EQ(start.label, bone.label);
+  ASSERT_TRUE(start.calibration);
+  EXPECT_EQ(calibrationWords(*start.calibration),
+            "red, 1.24 mm RMS of 16, 3 days old, used despite that: demonstration without a patient");
+  EXPECT_EQ(start.calibration->rig, "5d41");
+  EXPECT_EQ(start.calibration->rig_id, "rig-02");
+  EXPECT_EQ(start.calibration->device_serial, "60623");
+  EXPECT_EQ(start.calibration->max_mm, 2.5);
+  EXPECT_EQ(start.calibration->checked_utc, "2026-11-19T08:20:00Z");
 
   const auto commands = session.commands();
   ASSERT_EQ(commands.size(), 2u);
@@ -78,6 +87,80 @@ TEST(SessionFile, GivesBackWhatWasWritten) {
     ticks.insert(ticks.end(), block.begin(), block.end());
   }
   EXPECT_EQ(packTicks(ticks), packTicks(imaginedTicks(0, 80)));
+}
+
+TEST(SessionCalibration, IsSaidInOneLine) {
+  SessionCalibration c;
+  EXPECT_EQ(calibrationWords(c), "none");
+  c.rig = "default";
+  EXPECT_EQ(calibrationWords(c), "a default rig, not measured");
+  c = {"5d41", "rig-02", "60623", "green", 16, 0.24, 0.41, 0.55, "2026-11-19T08:20:00Z", 1.9, ""};
+  EXPECT_EQ(calibrationWords(c), "green, 0.24 mm RMS of 16, 1 day old");
+  c.age_days = 0.5;
+  EXPECT_EQ(calibrationWords(c), "green, 0.24 mm RMS of 16, of today");
+  c.age_days = -2.0;
+  EXPECT_EQ(calibrationWords(c), "green, 0.24 mm RMS of 16, dated in the future");
+  c.verdict.clear(), c.age_days.reset();
+  EXPECT_EQ(calibrationWords(c), "never proved");
+}
+
+/// As the program before wrote it: without the calibration, the rows numbered and chained anew.
+void writeAsSchema3(const std::string& newer, const std::string& older) {
+  SQLite::Database from(newer, SQLite::OPEN_READONLY);
+  SQLite::Database to(older, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+  to.exec("PRAGMA application_id=" + std::to_string(session_format::kApplicationId));
+  for (const auto& table : session_format::tablesOf(3)) to.exec(std::string(table.create));
+  Digest last{};
+  std::int64_t number = 0;
+  const auto rows = from.execAndGet(
+                            "SELECT max(row) FROM (SELECT max(row) AS row FROM event UNION SELECT max(row) FROM "
+                            "tick_block UNION SELECT max(row) FROM picture)")
+                        .getInt64();
+  for (std::int64_t row = 0; row <= rows; ++row)
+    for (const auto& table : session_format::tablesOf(3)) {
+      SQLite::Statement one(from, "SELECT * FROM " + std::string(table.name) + " WHERE row = " + std::to_string(row));
+      if (!one.executeStep()) continue;
+      std::vector<ColumnValue> values;
+      std::vector<SQLite::Column> kept;
+      for (int i = 1; i < one.getColumnCount() - 1; ++i) kept.push_back(one.getColumn(i));
+      std::string sql = "INSERT INTO " + std::string(table.name) + " VALUES(?";
+      for (const SQLite::Column& column : kept) {
+        if (column.isInteger())
+          values.emplace_back(table.name == "meta" ? std::int64_t{3} : column.getInt64());
+        else if (column.isFloat())
+          values.emplace_back(column.getDouble());
+        else if (column.isText())
+          values.emplace_back(std::string_view(column.getText(), static_cast<std::size_t>(column.getBytes())));
+        else
+          values.emplace_back(std::span(static_cast<const std::uint8_t*>(column.getBlob()),
+                                        static_cast<std::size_t>(column.getBytes())));
+        sql += ",?";
+      }
+      last = chained(last, number, table.name, values);
+      SQLite::Statement insert(to, sql + ",?)");
+      insert.bind(1, number++);
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        const int place = static_cast<int>(i) + 2;
+        if (const auto* integer = std::get_if<std::int64_t>(&values[i])) insert.bind(place, *integer);
+        if (const auto* real = std::get_if<double>(&values[i])) insert.bind(place, *real);
+        if (const auto* text = std::get_if<std::string_view>(&values[i])) insert.bind(place, std::string(*text));
+        if (const auto* blob = std::get_if<std::span<const std::uint8_t>>(&values[i]))
+          insert.bind(place, blob->data(), static_cast<int>(blob->size()));
+      }
+      insert.bind(static_cast<int>(values.size()) + 2, last.data(), static_cast<int>(last.size()));
+      insert.exec();
+    }
+}
+
+TEST(SessionFile, OfTheProgramBeforeIsStillRead) {
+  const test::ScratchFolder folder;
+  writeSession(folder.file("now.molar"), false);
+  writeAsSchema3(folder.file("now.molar"), folder.file("before.molar"));
+  SessionReader session(folder.file("before.molar"));
+  EXPECT_EQ(session.damage(), std::nullopt);
+  EXPECT_EQ(session.start().calibration, std::nullopt);
+  EXPECT_EQ(session.start().patient_title, "built-in patient, right");
+  EXPECT_EQ(readEverything(session), 80u);
 }
 
 TEST(SessionFile, IsOneSingleFileOnceClosed) {
@@ -218,7 +301,7 @@ TEST(SessionChain, FindsAChangeInEveryColumnOfAKilledFile) {
   const std::string whole = bytesOf(path);
   for (const session_format::Table& table : session_format::kTables) {
     SQLite::Database schema(path, SQLite::OPEN_READONLY);
-    SQLite::Statement columns(schema, "SELECT name FROM pragma_table_info('" + std::string(table.name) + "')");
+    SQLite::Statement columns(schema, "SELECT name, type FROM pragma_table_info('" + std::string(table.name) + "')");
     while (columns.executeStep()) {
       const std::string column = columns.getColumn(0).getString(), name(table.name), changed = path + ".changed";
       writeBytes(changed, whole);
@@ -227,14 +310,9 @@ TEST(SessionChain, FindsAChangeInEveryColumnOfAKilledFile) {
                                 column + ") - 1) WHEN 'text' THEN 'x' || substr(" + column + ", 2) ELSE " + column +
                                 " + 1000 END";
       SQLite::Database database(changed, SQLite::OPEN_READWRITE);
-      const int rows = database.exec(
-          "UPDATE " + name + " SET " + column + " = CAST(" + other + " AS " +
-          (column == "digest" || column == "bytes" || column == "ticks" || column == "solid" || column == "label"
-               ? "BLOB)"
-               : (column == "kind" || column == "text" || column == "name" || column == "program" || column == "patient"
-                      ? "TEXT)"
-                      : "NUMERIC)")) +
-          " WHERE row = (SELECT min(row) FROM " + name + ")");
+      const int rows =
+          database.exec("UPDATE " + name + " SET " + column + " = CAST(" + other + " AS " +
+                        columns.getColumn(1).getString() + ") WHERE row = (SELECT min(row) FROM " + name + ")");
       if (name != "seal") {
         EXPECT_EQ(rows, 1) << name;
       }

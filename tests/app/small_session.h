@@ -57,6 +57,17 @@ struct SmallBone {
   SessionStart start() const {
     SessionStart start{"built-in patient, right", "0.1.0", 0.001, grid, solid, label, {}};
     start.command.serial = 1;
+    start.calibration = {"5d41",
+                         "rig-02",
+                         "60623",
+                         "red",
+                         16,
+                         1.24,
+                         1.8,
+                         2.5,
+                         "2026-11-19T08:20:00Z",
+                         3.4,
+                         "demonstration without a patient"};
     return start;
   }
 };
