@@ -23,19 +23,19 @@ struct Note {
   bool buzz = false;
 };
 
-std::span<const Note> notesOf(Tone tone) {
+std::span<const Note> notesOf(WizardSound sound) {
   static constexpr std::array kOk{Note{880.0, 0.09}};
   static constexpr std::array kReject{Note{150.0, 0.28, true}};
   static constexpr std::array kNext{Note{587.0, 0.06}, Note{784.0, 0.07}};
   static constexpr std::array kDone{Note{523.0, 0.12}, Note{659.0, 0.12}, Note{784.0, 0.12}, Note{1047.0, 0.25}};
-  switch (tone) {
-    case Tone::ok:
+  switch (sound) {
+    case WizardSound::ok:
       return kOk;
-    case Tone::reject:
+    case WizardSound::reject:
       return kReject;
-    case Tone::next:
+    case WizardSound::next:
       return kNext;
-    case Tone::done:
+    case WizardSound::done:
       break;
   }
   return kDone;
@@ -66,9 +66,9 @@ class SilentStderr {
 
 }  // namespace
 
-std::vector<float> toneSamples(Tone tone, double rate_Hz) {
+std::vector<float> soundSamples(WizardSound sound, double rate_Hz) {
   std::vector<float> samples;
-  for (const Note& note : notesOf(tone)) {
+  for (const Note& note : notesOf(sound)) {
     const auto count = static_cast<std::size_t>(note.length_s * rate_Hz);
     for (std::size_t n = 0; n < count; ++n) {
       const double t_s = static_cast<double>(n) / rate_Hz, left_s = static_cast<double>(count - 1 - n) / rate_Hz;
@@ -93,7 +93,8 @@ struct Sounds::Player {
     if (error == paNoError) {
       const PaDeviceInfo* card = Pa_GetDeviceInfo(Pa_GetDefaultOutputDevice());
       const double rate_Hz = card != nullptr && card->defaultSampleRate > 0.0 ? card->defaultSampleRate : 48'000.0;
-      for (std::size_t t = 0; t < tones.size(); ++t) tones[t] = toneSamples(static_cast<Tone>(t), rate_Hz);
+      for (std::size_t t = 0; t < samples_of.size(); ++t)
+        samples_of[t] = soundSamples(static_cast<WizardSound>(t), rate_Hz);
       error = Pa_OpenDefaultStream(&stream, 0, 1, paFloat32, rate_Hz, paFramesPerBufferUnspecified, fillBuffer, this);
     }
     if (error == paNoError) error = Pa_StartStream(stream);
@@ -129,18 +130,18 @@ struct Sounds::Player {
         sample = 0.0F;
         continue;
       }
-      const std::vector<float>& tone = tones[static_cast<std::size_t>(asked[taken % kWaiting])];
-      sample = tone[at++];
-      if (at < tone.size()) continue;
+      const std::vector<float>& wave = samples_of[static_cast<std::size_t>(asked[taken % kWaiting])];
+      sample = wave[at++];
+      if (at < wave.size()) continue;
       at = 0;
       taken_count.store(taken + 1, std::memory_order_release);
     }
   }
 
-  std::array<std::vector<float>, 4> tones;
+  std::array<std::vector<float>, 4> samples_of;
   PaStream* stream = nullptr;
   bool is_initialised = false;
-  std::array<Tone, kWaiting> asked{};  ///< a ring: asked by the loop, taken by the sound's thread
+  std::array<WizardSound, kWaiting> asked{};  ///< a ring: asked by the loop, taken by the sound's thread
   std::atomic<std::size_t> asked_count{0}, taken_count{0};
   std::size_t at = 0;  ///< of the sound's thread
 };
@@ -150,11 +151,11 @@ Sounds::~Sounds() = default;
 
 bool Sounds::areHeard() const { return player_->stream != nullptr; }
 
-void Sounds::play(Tone tone) {
+void Sounds::play(WizardSound sound) {
   if (!areHeard()) return;
   const std::size_t asked = player_->asked_count.load(std::memory_order_relaxed);
   if (asked - player_->taken_count.load(std::memory_order_acquire) >= Player::kWaiting) return;
-  player_->asked[asked % Player::kWaiting] = tone;
+  player_->asked[asked % Player::kWaiting] = sound;
   player_->asked_count.store(asked + 1, std::memory_order_release);
 }
 

@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "app/calibrate/wizard_view.h"
+
 namespace app {
 
-enum class Tone { ok, reject, next, done };
-
 /// Mono, -1..1; begins and ends in silence.
-std::vector<float> toneSamples(Tone tone, double rate_Hz);
+std::vector<float> soundSamples(WizardSound sound, double rate_Hz);
 
 class Sounds {
  public:
@@ -26,7 +26,7 @@ class Sounds {
 
   bool areHeard() const;
   /// After those that still sound; more than a few are dropped.
-  void play(Tone tone);
+  void play(WizardSound sound);
 
  private:
   struct Player;

@@ -3,7 +3,10 @@
 #include <pango/pangocairo.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+
+#include "calibration/geometry/units.h"
 
 namespace app {
 namespace {
@@ -36,6 +39,11 @@ struct ScreenPage::Sheet {
   Sheet& operator=(const Sheet&) = delete;
 
   void choose(const Ink& ink) const { cairo_set_source_rgb(pen, ink.red, ink.green, ink.blue); }
+
+  void trace(const std::vector<glm::dvec2>& points) const {
+    cairo_new_path(pen);
+    for (const glm::dvec2& p : points) cairo_line_to(pen, p.x, p.y);
+  }
 
   cairo_surface_t* surface;
   cairo_t* pen;
@@ -79,13 +87,35 @@ double ScreenPage::pixel_mm() const {
 
 glm::dvec2 ScreenPage::seenAt(const calibration::Rig& rig, render::Eye eye, const glm::dvec2& place_mm,
                               double before_mm) const {
+  return seenAt(rig, eye, {placeOf(place_mm).mm + before_mm * towards_W_});
+}
+
+calibration::Point<calibration::World> ScreenPage::placeOf(const glm::dvec2& place_mm) const {
+  return {middle_W_ + place_mm.x * right_W_ + place_mm.y * down_W_};
+}
+
+glm::dvec2 ScreenPage::seenAt(const calibration::Rig& rig, render::Eye eye,
+                              const calibration::Point<calibration::World>& p_W) const {
   const glm::dvec3 eye_W = eye == render::Eye::left    ? rig.left_eye.mm
                            : eye == render::Eye::right ? rig.right_eye.mm
                                                        : rig.cyclopeanEye().mm;
-  const glm::dvec3 point = middle_W_ + place_mm.x * right_W_ + place_mm.y * down_W_ + before_mm * towards_W_;
+  const double before_mm = glm::dot(p_W.mm - middle_W_, towards_W_);
   const double eye_before = glm::dot(eye_W - middle_W_, towards_W_);
-  const glm::dvec3 on_screen = eye_W + (point - eye_W) * (eye_before / (eye_before - before_mm)) - middle_W_;
+  const glm::dvec3 on_screen = eye_W + (p_W.mm - eye_W) * (eye_before / (eye_before - before_mm)) - middle_W_;
   return {glm::dot(on_screen, right_W_), glm::dot(on_screen, down_W_)};
+}
+
+void ScreenPage::copy(const ScreenPage& other) const {
+  cairo_surface_flush(other.sheet_->surface);
+  cairo_surface_flush(sheet_->surface);
+  const int stride = cairo_image_surface_get_stride(sheet_->surface);
+  const int h = cairo_image_surface_get_height(sheet_->surface);
+  assert(stride == cairo_image_surface_get_stride(other.sheet_->surface));
+  assert(h == cairo_image_surface_get_height(other.sheet_->surface));
+  std::copy_n(cairo_image_surface_get_data(other.sheet_->surface),
+              static_cast<std::size_t>(stride) * static_cast<std::size_t>(h),
+              cairo_image_surface_get_data(sheet_->surface));
+  cairo_surface_mark_dirty(sheet_->surface);
 }
 
 void ScreenPage::fill(const Ink& ink) const {
@@ -131,7 +161,44 @@ void ScreenPage::circle(const glm::dvec2& centre, double radius_mm, double width
   sheet_->choose(ink);
   cairo_set_line_width(sheet_->pen, width_mm);
   cairo_new_path(sheet_->pen);
-  cairo_arc(sheet_->pen, centre.x, centre.y, radius_mm, 0.0, 2.0 * 3.14159265358979);
+  cairo_arc(sheet_->pen, centre.x, centre.y, radius_mm, 0.0, 2.0 * calibration::kPi);
+  cairo_close_path(sheet_->pen);
+  cairo_stroke(sheet_->pen);
+}
+
+void ScreenPage::path(const std::vector<glm::dvec2>& points, double width_mm, const Ink& ink, bool closed) const {
+  if (points.empty()) return;
+  sheet_->choose(ink);
+  cairo_set_line_cap(sheet_->pen, CAIRO_LINE_CAP_ROUND);
+  cairo_set_line_join(sheet_->pen, CAIRO_LINE_JOIN_ROUND);
+  cairo_set_line_width(sheet_->pen, width_mm);
+  sheet_->trace(points);
+  if (closed) cairo_close_path(sheet_->pen);
+  cairo_stroke(sheet_->pen);
+}
+
+void ScreenPage::polygon(const std::vector<glm::dvec2>& corners, const Ink& ink) const {
+  if (corners.empty()) return;
+  sheet_->choose(ink);
+  sheet_->trace(corners);
+  cairo_fill(sheet_->pen);
+}
+
+void ScreenPage::disc(const glm::dvec2& centre, double radius_mm, const Ink& ink) const {
+  sheet_->choose(ink);
+  cairo_new_path(sheet_->pen);
+  cairo_arc(sheet_->pen, centre.x, centre.y, radius_mm, 0.0, 2.0 * calibration::kPi);
+  cairo_fill(sheet_->pen);
+}
+
+void ScreenPage::arc(const glm::dvec2& centre, double radius_mm, double share, double width_mm, const Ink& ink) const {
+  const double begins = -0.5 * calibration::kPi;
+  sheet_->choose(ink);
+  cairo_set_line_cap(sheet_->pen, CAIRO_LINE_CAP_BUTT);
+  cairo_set_line_width(sheet_->pen, width_mm);
+  cairo_new_path(sheet_->pen);
+  cairo_arc(sheet_->pen, centre.x, centre.y, radius_mm, begins,
+            begins + 2.0 * calibration::kPi * std::clamp(share, 0.0, 1.0));
   cairo_stroke(sheet_->pen);
 }
 
@@ -171,6 +238,32 @@ void ScreenPage::text(const std::string& words, const glm::dvec2& centre, double
   g_object_unref(layout);
 }
 
+double ScreenPage::textWidth_mm(const std::string& words, double height_mm) const {
+  glm::dvec2 size{0.0};
+  g_object_unref(layoutOf(sheet_->pen, words, height_mm, size));
+  return size.x;
+}
+
+double ScreenPage::paragraph(const std::string& words, const glm::dvec2& top, double width_mm, double height_mm,
+                             const Ink& ink, Align align) const {
+  glm::dvec2 size{0.0};
+  PangoLayout* layout = layoutOf(sheet_->pen, words, height_mm, size);
+  pango_layout_set_width(layout, static_cast<int>(width_mm * PANGO_SCALE));
+  pango_layout_set_wrap(layout, PANGO_WRAP_WORD_CHAR);
+  pango_layout_set_alignment(layout, align == Align::left    ? PANGO_ALIGN_LEFT
+                                     : align == Align::right ? PANGO_ALIGN_RIGHT
+                                                             : PANGO_ALIGN_CENTER);
+  int w = 0, h = 0;
+  pango_layout_get_size(layout, &w, &h);
+  const double left = align == Align::left ? top.x : align == Align::right ? top.x - width_mm : top.x - 0.5 * width_mm;
+  sheet_->choose(ink);
+  cairo_move_to(sheet_->pen, left, top.y);
+  pango_cairo_layout_path(sheet_->pen, layout);
+  cairo_fill(sheet_->pen);
+  g_object_unref(layout);
+  return static_cast<double>(h) / PANGO_SCALE;
+}
+
 void ScreenPage::label(const std::string& words, const glm::dvec2& centre, double height_mm, const Ink& ink) const {
   glm::dvec2 size{0.0};
   g_object_unref(layoutOf(sheet_->pen, words, height_mm, size));
@@ -185,14 +278,18 @@ render::Picture ScreenPage::picture() const {
   const int row_bytes = cairo_image_surface_get_stride(sheet_->surface);
   const unsigned char* const rows = cairo_image_surface_get_data(sheet_->surface);
   render::Picture picture{w, h, {}};
-  picture.rgba.reserve(4 * static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
-  for (int y = 0; y < h; ++y)
-    for (int x = 0; x < w; ++x) {
-      // Native-endian 0x00RRGGBB.
-      const auto* pixel = reinterpret_cast<const std::uint32_t*>(rows + y * row_bytes) + x;
-      for (const int shift : {16, 8, 0}) picture.rgba.push_back(static_cast<std::uint8_t>(*pixel >> shift));
-      picture.rgba.push_back(255);
+  picture.rgba.resize(4 * static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
+  std::uint8_t* to = picture.rgba.data();
+  for (int y = 0; y < h; ++y) {
+    // Native-endian 0x00RRGGBB.
+    const auto* pixel = reinterpret_cast<const std::uint32_t*>(rows + y * row_bytes);
+    for (int x = 0; x < w; ++x, ++pixel, to += 4) {
+      to[0] = static_cast<std::uint8_t>(*pixel >> 16);
+      to[1] = static_cast<std::uint8_t>(*pixel >> 8);
+      to[2] = static_cast<std::uint8_t>(*pixel);
+      to[3] = 255;
     }
+  }
   return picture;
 }
 

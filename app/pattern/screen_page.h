@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <glm/glm.hpp>
 
@@ -24,6 +25,8 @@ Ink ofLight(double share);
 /// Linear light as a byte of sRGB.
 std::uint8_t encoded(double light);
 
+enum class Align { left, centre, right };
+
 class ScreenPage {
  public:
   /// `px` pixels over the whole of the rig's screen.
@@ -35,7 +38,14 @@ class ScreenPage {
   double pixel_mm() const;
   /// Where an eye of the rig sees, on the screen, a point that many mm before it.
   glm::dvec2 seenAt(const calibration::Rig& rig, render::Eye eye, const glm::dvec2& place_mm, double before_mm) const;
+  /// The same of a point of the world.
+  glm::dvec2 seenAt(const calibration::Rig& rig, render::Eye eye,
+                    const calibration::Point<calibration::World>& p_W) const;
+  /// Where on the virtual screen a place of the page is.
+  calibration::Point<calibration::World> placeOf(const glm::dvec2& place_mm) const;
 
+  /// All that is on another page of the same size.
+  void copy(const ScreenPage& other) const;
   void fill(const Ink& ink) const;
   void box(const glm::dvec2& corner, const glm::dvec2& size, const Ink& ink) const;
   /// Its edges on the edges of device pixels.
@@ -43,6 +53,19 @@ class ScreenPage {
   void frame(double width_mm, const Ink& ink) const;
   void line(const glm::dvec2& from, const glm::dvec2& to, double width_mm, const Ink& ink) const;
   void circle(const glm::dvec2& centre, double radius_mm, double width_mm, const Ink& ink) const;
+  /// Through all points, round at corners and ends.
+  void path(const std::vector<glm::dvec2>& points, double width_mm, const Ink& ink, bool closed = false) const;
+  void polygon(const std::vector<glm::dvec2>& corners, const Ink& ink) const;
+  void disc(const glm::dvec2& centre, double radius_mm, const Ink& ink) const;
+  /// From the top, clockwise; `share` of the whole circle.
+  void arc(const glm::dvec2& centre, double radius_mm, double share, double width_mm, const Ink& ink) const;
+
+  /// Of one line.
+  double textWidth_mm(const std::string& words, double height_mm) const;
+  /// Lines broken where they would be wider than `width_mm`; `top` is the left, middle or right of its upper edge.
+  /// Returns the height of them all.
+  double paragraph(const std::string& words, const glm::dvec2& top, double width_mm, double height_mm, const Ink& ink,
+                   Align align = Align::centre) const;
   /// Centred; `height_mm` is that of the letters' line.
   void text(const std::string& words, const glm::dvec2& centre, double height_mm, const Ink& ink) const;
   /// The same on black.

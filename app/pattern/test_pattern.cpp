@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "app/pattern/screen_page.h"
-#include "render/display/anaglyph.h"
+#include "app/pattern/stereo_picture.h"
 
 namespace app {
 namespace {
@@ -130,11 +130,6 @@ void drawText(const ScreenPage& page) {
   }
 }
 
-double linear(std::uint8_t byte) {
-  const double s = byte / 255.0;
-  return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
-}
-
 }  // namespace
 
 std::optional<TestPattern> testPatternNamed(std::string_view name) {
@@ -154,37 +149,10 @@ render::Picture patternFor(TestPattern pattern, const calibration::Rig& rig, Eye
 }
 
 render::Picture patternOutput(TestPattern pattern, const calibration::Rig& rig, const render::StereoLayout& layout) {
-  using render::Shown;
   const glm::ivec2 eye_px = render::eyePictureSize(layout.mode, layout.screen_px);
-  const bool mono = layout.mode == render::DisplayMode::mono;
-  const render::Picture left = patternFor(pattern, rig, mono ? Eye::cyclopean : Eye::left, eye_px);
-  const render::Picture right = mono ? left : patternFor(pattern, rig, Eye::right, eye_px);
-  const glm::ivec2 size = render::outputSize(layout.mode, layout.screen_px);
-  render::Picture all{size.x, size.y, {}};
-  all.rgba.reserve(4 * static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
-  const auto at = [](const render::Picture& picture, glm::ivec2 px) {
-    return picture.rgba.data() +
-           4 * (static_cast<std::size_t>(px.y) * static_cast<std::size_t>(picture.w) + static_cast<std::size_t>(px.x));
-  };
-  const auto light = [&](const render::Picture& picture, glm::ivec2 px) {
-    const std::uint8_t* c = at(picture, px);
-    return glm::dvec3(linear(c[0]), linear(c[1]), linear(c[2]));
-  };
-  for (int y = 0; y < size.y; ++y)
-    for (int x = 0; x < size.x; ++x) {
-      const render::ShownPixel shown = render::shownAt(layout, {x, y});
-      std::array<std::uint8_t, 4> colour{0, 0, 0, 255};
-      if (shown.eye == Shown::both) {
-        const glm::dvec3 mixed = layout.swapped
-                                     ? render::anaglyph(layout.mode, light(right, shown.px), light(left, shown.px))
-                                     : render::anaglyph(layout.mode, light(left, shown.px), light(right, shown.px));
-        for (int c = 0; c < 3; ++c) colour[static_cast<std::size_t>(c)] = encoded(mixed[c]);
-      } else if (shown.eye != Shown::black) {
-        std::copy_n(at(shown.eye == Shown::right ? right : left, shown.px), 3, colour.begin());
-      }
-      all.rgba.insert(all.rgba.end(), colour.begin(), colour.end());
-    }
-  return all;
+  if (layout.mode == render::DisplayMode::mono) return patternFor(pattern, rig, Eye::cyclopean, eye_px);
+  return stereoPicture(patternFor(pattern, rig, Eye::left, eye_px), patternFor(pattern, rig, Eye::right, eye_px),
+                       layout);
 }
 
 }  // namespace app

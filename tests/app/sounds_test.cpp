@@ -30,9 +30,9 @@ class SoundsTest : public testing::Test {
   std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / ("sounds" + std::to_string(getpid()));
 };
 
-TEST(ToneSamples, BeginAndEndInSilenceAndAreShortAndNotLoud) {
-  for (const Tone tone : {Tone::ok, Tone::reject, Tone::next, Tone::done}) {
-    const std::vector<float> samples = toneSamples(tone, kRate_Hz);
+TEST(SoundSamples, BeginAndEndInSilenceAndAreShortAndNotLoud) {
+  for (const WizardSound sound : {WizardSound::ok, WizardSound::reject, WizardSound::next, WizardSound::done}) {
+    const std::vector<float> samples = soundSamples(sound, kRate_Hz);
     ASSERT_FALSE(samples.empty());
     EXPECT_EQ(samples.front(), 0.0F);
     EXPECT_EQ(samples.back(), 0.0F);
@@ -48,17 +48,18 @@ TEST(ToneSamples, BeginAndEndInSilenceAndAreShortAndNotLoud) {
   }
 }
 
-TEST(ToneSamples, RejectIsTheLowestAndDoneTheLongest) {
-  const auto crossings_per_s = [](Tone tone) {
-    const std::vector<float> samples = toneSamples(tone, kRate_Hz);
+TEST(SoundSamples, RejectIsTheLowestAndDoneTheLongest) {
+  const auto crossings_per_s = [](WizardSound sound) {
+    const std::vector<float> samples = soundSamples(sound, kRate_Hz);
     int n = 0;
     for (std::size_t i = 1; i < samples.size(); ++i) n += (samples[i - 1] < 0.0F) != (samples[i] < 0.0F);
     return n * kRate_Hz / static_cast<double>(samples.size());
   };
-  const auto length = [](Tone tone) { return toneSamples(tone, kRate_Hz).size(); };
-  for (const Tone tone : {Tone::ok, Tone::next, Tone::done})
-    EXPECT_GT(crossings_per_s(tone), crossings_per_s(Tone::reject));
-  for (const Tone tone : {Tone::ok, Tone::next, Tone::reject}) EXPECT_GT(length(Tone::done), length(tone));
+  const auto length = [](WizardSound sound) { return soundSamples(sound, kRate_Hz).size(); };
+  for (const WizardSound sound : {WizardSound::ok, WizardSound::next, WizardSound::done})
+    EXPECT_GT(crossings_per_s(sound), crossings_per_s(WizardSound::reject));
+  for (const WizardSound sound : {WizardSound::ok, WizardSound::next, WizardSound::reject})
+    EXPECT_GT(length(WizardSound::done), length(sound));
 }
 
 TEST_F(SoundsTest, WithoutASoundCardOneLineIsSaidAndNothingElse) {
@@ -68,7 +69,7 @@ TEST_F(SoundsTest, WithoutASoundCardOneLineIsSaidAndNothingElse) {
   {
     Sounds sounds([&](const std::string& line) { told.push_back(line); });
     EXPECT_FALSE(sounds.areHeard());
-    for (int n = 0; n < 100; ++n) sounds.play(Tone::ok);
+    for (int n = 0; n < 100; ++n) sounds.play(WizardSound::ok);
   }
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   ASSERT_EQ(told.size(), 1u);
@@ -83,7 +84,7 @@ TEST_F(SoundsTest, WhatIsPlayedReachesTheCard) {
   {
     Sounds sounds([](const std::string& line) { ADD_FAILURE() << line; });
     ASSERT_TRUE(sounds.areHeard());
-    for (int n = 0; n < 100; ++n) sounds.play(Tone::reject);  // what does not fit is dropped, and nothing waits
+    for (int n = 0; n < 100; ++n) sounds.play(WizardSound::reject);  // what does not fit is dropped, and nothing waits
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
   }
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");

@@ -1,0 +1,49 @@
+// A WizardView as the display is given it: words in the screen's plane, targets in stereo where they are, upright and
+// readable however panel and mirror hang. Frame W, mm. Any one thread. A frame of 1080p, both eyes side by side, takes
+// 10 to 20 ms of one core: words that have not changed are drawn once. Not the window: wizard_show.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/calibrate/page_scene.h"
+#include "app/calibrate/wizard_view.h"
+#include "app/pattern/screen_page.h"
+#include "calibration/webcam/camera.h"
+#include "render/display/stereo_layout.h"
+#include "render/picture.h"
+
+namespace app {
+
+class WizardPages {
+ public:
+  /// Through the mirror of this rig; screen and eyes are the view's.
+  explicit WizardPages(std::optional<calibration::Plane<calibration::World>> mirror) : mirror_(mirror) {}
+
+  /// What an output of the layout shows. `t_s`: time, for what glows.
+  render::Picture output(const WizardView& view, const std::optional<SeenStylus>& stylus,
+                         const render::StereoLayout& layout, double t_s);
+  /// What an eye is shown, `px` pixels over the whole screen.
+  render::Picture page(const WizardView& view, const std::optional<SeenStylus>& stylus, render::Eye eye, glm::ivec2 px,
+                       double t_s);
+
+  /// The rig that a view is drawn through.
+  calibration::Rig rigOf(const WizardView& view) const;
+
+ private:
+  void prepare(const WizardView& view, glm::ivec2 px);
+
+  std::optional<calibration::Plane<calibration::World>> mirror_;
+  // Sheets of one size and screen; the words as they were drawn last.
+  glm::ivec2 px_{0};
+  calibration::Rig rig_;
+  std::unique_ptr<ScreenPage> words_, eye_;
+  std::string drawn_words_;
+};
+
+/// A camera's pattern over the whole screen, the same for both eyes, pixel by pixel, nothing smoothed. It must be as
+/// large as the layout's screen.
+render::Picture patternForCamera(const calibration::GreyPicture& pattern, const render::StereoLayout& layout);
+
+}  // namespace app

@@ -1,0 +1,14 @@
+// Two eyes' pictures as a display is given them: every pixel from the eye the layout says, mixed in linear light for
+// anaglyphs. Any thread; about 3 ms for 1080p, 15 ms where eyes alternate by columns, 60 ms for a colourful anaglyph.
+#pragma once
+
+#include "render/display/stereo_layout.h"
+#include "render/picture.h"
+
+namespace app {
+
+/// `left`, `right`: eyePictureSize() of the layout; mono shows `left`.
+render::Picture stereoPicture(const render::Picture& left, const render::Picture& right,
+                              const render::StereoLayout& layout);
+
+}  // namespace app
