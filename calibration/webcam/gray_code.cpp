@@ -1,0 +1,195 @@
+#include "calibration/webcam/gray_code.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+#include "calibration/calibration_error.h"
+
+namespace calibration {
+namespace {
+
+constexpr std::uint8_t kWhite = 235, kBlack = 16;
+constexpr int kLeastContrast = 24;     ///< of white to black, grey levels: less is not the screen
+constexpr double kLeastOfWhite = 0.2;  ///< of a pattern to its inverse, of white to black: less is an edge
+constexpr int kLeastPixels = 6;        ///< of a cell
+
+unsigned grayOf(unsigned number) { return number ^ (number >> 1); }
+unsigned numberOf(unsigned gray) {
+  unsigned number = 0;
+  for (; gray != 0; gray >>= 1) number ^= gray;
+  return number;
+}
+
+/// The mean place of a cell's pixels, and whether they are as compact as a cell is.
+struct Cell {
+  glm::dvec2 sum{0.0};
+  glm::ivec2 least{1 << 20}, most{-1};
+  int pixels = 0;
+};
+
+void checkPictures(const GrayCode& code, const std::vector<GreyPicture>& pictures) {
+  if (static_cast<int>(pictures.size()) != code.pictures())
+    throw CalibrationError("Gray code: " + std::to_string(pictures.size()) + " pictures instead of " +
+                           std::to_string(code.pictures()) + ", take the sweep again");
+  for (const GreyPicture& picture : pictures)
+    if (picture.size_px != pictures.front().size_px || picture.size_px.x < 1 || picture.size_px.y < 1 ||
+        picture.grey.size() !=
+            static_cast<std::size_t>(picture.size_px.x) * static_cast<std::size_t>(picture.size_px.y))
+      throw CalibrationError("Gray code: the pictures differ in size, take the sweep again");
+}
+
+/// The bits from `first` on, of one pixel; -1 where one of them can not be told.
+int codeAt(const std::vector<GreyPicture>& pictures, std::size_t first, int bits, std::size_t pixel,
+           int white_to_black) {
+  unsigned gray = 0;
+  for (int bit = 0; bit < bits; ++bit) {
+    const std::size_t shown = first + 2 * static_cast<std::size_t>(bit);
+    const int difference = int{pictures[shown].grey[pixel]} - int{pictures[shown + 1].grey[pixel]};
+    if (std::abs(difference) < kLeastOfWhite * white_to_black) return -1;
+    gray = (gray << 1) | static_cast<unsigned>(difference > 0);
+  }
+  return static_cast<int>(numberOf(gray));
+}
+
+/// A cell is seen whole where its eight neighbours are seen too.
+bool isSeen(const Cell& cell) { return cell.pixels >= kLeastPixels; }
+
+/// How the picture's place grows with the screen's, as one affine map by least squares: columns of `linear` for x and
+/// y.
+struct Direction {
+  glm::dmat2 linear{0.0};
+  bool known = false;
+};
+Direction directionOf(const std::vector<ScreenSight>& sights) {
+  glm::dvec2 screen{0.0}, camera{0.0};
+  for (const ScreenSight& sight : sights) screen += sight.screen_px, camera += sight.camera_px;
+  screen /= double(sights.size()), camera /= double(sights.size());
+  glm::dmat2 spread{0.0}, both{0.0};
+  for (const ScreenSight& sight : sights) {
+    const glm::dvec2 s = sight.screen_px - screen, c = sight.camera_px - camera;
+    spread += glm::outerProduct(s, s);
+    both += glm::outerProduct(c, s);
+  }
+  const double size = spread[0][0] * spread[1][1];
+  if (!(glm::determinant(spread) > 1e-6 * size) || size <= 0.0) return {};
+  return {both * glm::inverse(spread), true};
+}
+
+CodeSighting refused(CodeTrouble trouble, const char* line, CodeSighting sighting) {
+  sighting.trouble = trouble;
+  sighting.line = line;
+  sighting.sights.clear();
+  return sighting;
+}
+
+}  // namespace
+
+glm::ivec2 GrayCode::bits() const {
+  const auto enough = [](int count) { return static_cast<int>(std::bit_width(static_cast<unsigned>(count - 1))); };
+  return {enough(cells().x), enough(cells().y)};
+}
+
+std::vector<GreyPicture> picturesOf(const GrayCode& code) {
+  if (code.screen_px.x < 64 || code.screen_px.y < 64 || code.cell_px < 2)
+    throw CalibrationError("Gray code: a screen under 64 px or stripes under 2 px, use a larger window");
+  const std::size_t pixels = static_cast<std::size_t>(code.screen_px.x) * static_cast<std::size_t>(code.screen_px.y);
+  std::vector<GreyPicture> pictures{{code.screen_px, std::vector<std::uint8_t>(pixels, kWhite)},
+                                    {code.screen_px, std::vector<std::uint8_t>(pixels, kBlack)}};
+  for (int axis = 0; axis < 2; ++axis)
+    for (int bit = code.bits()[axis] - 1; bit >= 0; --bit) {
+      GreyPicture pattern{code.screen_px, {}}, inverse{code.screen_px, {}};
+      pattern.grey.reserve(pixels), inverse.grey.reserve(pixels);
+      for (int y = 0; y < code.screen_px.y; ++y)
+        for (int x = 0; x < code.screen_px.x; ++x) {
+          const auto cell = static_cast<unsigned>((axis == 0 ? x : y) / code.cell_px);
+          const bool white = ((grayOf(cell) >> bit) & 1U) != 0;
+          pattern.grey.push_back(white ? kWhite : kBlack);
+          inverse.grey.push_back(white ? kBlack : kWhite);
+        }
+      pictures.push_back(std::move(pattern));
+      pictures.push_back(std::move(inverse));
+    }
+  return pictures;
+}
+
+CodeSighting decoded(const GrayCode& code, const std::vector<GreyPicture>& pictures) {
+  checkPictures(code, pictures);
+  const glm::ivec2 size = pictures.front().size_px, cells = code.cells(), bits = code.bits();
+  CodeSighting sighting;
+  sighting.mask = {size, std::vector<std::uint8_t>(pictures.front().grey.size(), 0)};
+
+  // Every pixel says its cell; every cell gathers its pixels.
+  std::vector<Cell> seen(static_cast<std::size_t>(cells.x) * static_cast<std::size_t>(cells.y));
+  const auto cellAt = [&](int x, int y) -> Cell& {
+    return seen[static_cast<std::size_t>(y) * static_cast<std::size_t>(cells.x) + static_cast<std::size_t>(x)];
+  };
+  int lit = 0, impossible = 0;
+  for (int y = 0; y < size.y; ++y)
+    for (int x = 0; x < size.x; ++x) {
+      const std::size_t pixel =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x) + static_cast<std::size_t>(x);
+      const int white_to_black = int{pictures[0].grey[pixel]} - int{pictures[1].grey[pixel]};
+      if (white_to_black < kLeastContrast) continue;
+      const int column = codeAt(pictures, 2, bits.x, pixel, white_to_black);
+      const int row = codeAt(pictures, 2 + 2 * static_cast<std::size_t>(bits.x), bits.y, pixel, white_to_black);
+      if (column < 0 || row < 0) continue;
+      ++lit;
+      if (column >= cells.x || row >= cells.y) {
+        ++impossible;
+        continue;
+      }
+      sighting.mask.grey[pixel] = 255;
+      Cell& cell = cellAt(column, row);
+      cell.sum += glm::dvec2(x, y);
+      cell.least = glm::min(cell.least, glm::ivec2(x, y));
+      cell.most = glm::max(cell.most, glm::ivec2(x, y));
+      ++cell.pixels;
+    }
+
+  // Whole cells only: the last ones of the screen may be cut, and so may those at the picture's edge and at shadows.
+  int complete = 0, scattered = 0;
+  for (int y = 1; y + 1 < cells.y; ++y)
+    for (int x = 1; x + 1 < cells.x; ++x) {
+      const Cell& cell = cellAt(x, y);
+      bool whole = isSeen(cell);
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx) whole = whole && isSeen(cellAt(x + dx, y + dy));
+      if (!whole) continue;
+      ++complete;
+      const glm::ivec2 box = cell.most - cell.least + 1;
+      if (double(box.x) * box.y > 6.0 * cell.pixels + 20.0) {
+        ++scattered;
+        continue;
+      }
+      sighting.sights.push_back(
+          {(glm::dvec2(x, y) + 0.5) * double(code.cell_px) - 0.5, cell.sum / double(cell.pixels)});
+    }
+  sighting.seen_share = double(complete) / std::max(1, (cells.x - 2) * (cells.y - 2));
+
+  const Direction direction = sighting.sights.size() < 12 ? Direction{} : directionOf(sighting.sights);
+  if (impossible > lit / 10 || scattered > complete / 4)
+    return refused(CodeTrouble::mixed_up,
+                   "the stripes do not fit together: hold camera and light still during the sweep and take it again",
+                   std::move(sighting));
+  if (!direction.known)
+    return refused(CodeTrouble::not_seen,
+                   "the stripes are not seen: point the camera at the screen, go nearer, darken the room",
+                   std::move(sighting));
+  // Columns that decrease to the right or rows that decrease downwards: a flip too many, or a turned camera.
+  if (glm::determinant(direction.linear) < 0.0)
+    return refused(CodeTrouble::mirrored,
+                   direction.linear[0].x < 0.0
+                       ? "the screen is mirrored left to right: correct its corners in the rig file"
+                       : "the screen is mirrored top to bottom: correct its corners in the rig file",
+                   std::move(sighting));
+  if (direction.linear[0].x < 0.0)
+    return refused(CodeTrouble::upside_down,
+                   "the screen stands on its head: turn the camera by half a turn, or correct the rig file's corners",
+                   std::move(sighting));
+  return sighting;
+}
+
+}  // namespace calibration
