@@ -4,7 +4,7 @@
 
 #include "calibration/calibration_error.h"
 #include "calibration/webcam/picture_reader.h"
-#include "tests/calibration/seen_screen.h"
+#include "tests/calibration/webcam/seen_screen.h"
 
 namespace calibration {
 namespace {
@@ -13,7 +13,7 @@ const ShownScreen kScreen{{960, 540}, {531.0, 298.7}};
 const CameraModel kWebcam{{960, 540}, {700.0, 700.0}, {481.0, 268.0}, 0.05, -0.1, 0.0005, -0.0004};
 
 GreyPicture seenFrom(const glm::dvec3& eye_W, double roll_rad = 0.0, const glm::dvec3& at_W = {0, 0, 0}) {
-  return SeenScreen(kScreen, kWebcam, lookingAt(eye_W, at_W, roll_rad)).of(pictureOf(boardFor(kScreen.size_px)));
+  return SeenScreen(kScreen, kWebcam, cameraTowards(eye_W, at_W, roll_rad)).of(pictureOf(boardFor(kScreen.size_px)));
 }
 
 std::optional<BoardTrouble> troubleWith(const GreyPicture& picture) {
@@ -27,7 +27,7 @@ TEST(Board, IsFoundWithEveryCornerWhereTheLensPutsIt) {
   const ShownBoard board = boardFor(kScreen.size_px);
   const glm::dvec3 eyes[] = {{0, 0, 520}, {200, 60, 480}, {-220, -40, 470}, {30, 220, 500}};
   for (const glm::dvec3& eye : eyes) {
-    const Pose<World, Camera> X_WC = lookingAt(eye, {5, -4, 0}, 0.1);
+    const Pose<World, Camera> X_WC = cameraTowards(eye, {5, -4, 0}, 0.1);
     const BoardSighting sighting =
         findBoard(noisy(SeenScreen(kScreen, kWebcam, X_WC).of(pictureOf(board)), 2.0, 7), board);
     ASSERT_FALSE(sighting.trouble) << sighting.line;
@@ -46,7 +46,7 @@ TEST(Board, IsFoundWithEveryCornerWhereTheLensPutsIt) {
 TEST(Board, ReadsRightWhicheverWayTheCameraIsTurned) {
   const ShownBoard board = boardFor(kScreen.size_px);
   for (const double roll : {0.0, 3.14159, 1.5708 * 0.3, -2.9}) {
-    const Pose<World, Camera> X_WC = lookingAt({40, 30, 640}, {0, 0, 0}, roll);
+    const Pose<World, Camera> X_WC = cameraTowards({40, 30, 640}, {0, 0, 0}, roll);
     const BoardSighting sighting = findBoard(SeenScreen(kScreen, kWebcam, X_WC).of(pictureOf(board)), board);
     ASSERT_FALSE(sighting.trouble) << sighting.line;
     const glm::dvec2 first_px = kWebcam.pixelOf(X_WC.inverse() * kScreen.place_W(board.cornerPlaces_px().front()));
@@ -101,7 +101,7 @@ TEST(Board, RefusesAChessboardWithoutTheF) {
       plain.grey[static_cast<std::size_t>(px.y * plain.size_px.x + px.x)] =
           (x / board.square_px + y / board.square_px) % 2 == 0 ? 16 : 235;
     }
-  const auto seen = SeenScreen(kScreen, kWebcam, lookingAt({20, 10, 540}, {0, 0, 0})).of(plain);
+  const auto seen = SeenScreen(kScreen, kWebcam, cameraTowards({20, 10, 540}, {0, 0, 0})).of(plain);
   EXPECT_EQ(troubleWith(seen), BoardTrouble::not_found);
   EXPECT_FALSE(findChessboard(seen, board.corners()).trouble);
 }

@@ -12,7 +12,7 @@
 namespace calibration {
 
 /// From `eye_W`, towards `at_W`, its picture turned by `roll_rad`.
-inline Pose<World, Camera> lookingAt(const glm::dvec3& eye_W, const glm::dvec3& at_W, double roll_rad = 0.0) {
+inline Pose<World, Camera> cameraTowards(const glm::dvec3& eye_W, const glm::dvec3& at_W, double roll_rad = 0.0) {
   const glm::dvec3 ahead = glm::normalize(at_W - eye_W);
   const glm::dvec3 right = glm::normalize(glm::cross(ahead, glm::dvec3(0, 1, 0)));
   const glm::dmat3 axes(right, glm::cross(ahead, right), ahead);

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "calibration/calibration_error.h"
-#include "tests/calibration/seen_screen.h"
+#include "tests/calibration/webcam/seen_screen.h"
 
 namespace calibration {
 namespace {
@@ -26,7 +26,7 @@ std::vector<GreyPicture> flippedAll(std::vector<GreyPicture> pictures, bool left
 }
 
 TEST(GrayCode, FindsWhereTheCameraSeesEveryCell) {
-  const Pose<World, Camera> X_WC = lookingAt({150, 60, 520}, {0, 0, 0}, 0.1);
+  const Pose<World, Camera> X_WC = cameraTowards({150, 60, 520}, {0, 0, 0}, 0.1);
   const CodeSighting sighting = decoded(kCode, sweep(X_WC));
   ASSERT_FALSE(sighting.trouble) << sighting.line;
   EXPECT_GT(sighting.seen_share, 0.95);
@@ -41,7 +41,7 @@ TEST(GrayCode, FindsWhereTheCameraSeesEveryCell) {
 }
 
 TEST(GrayCode, KnowsEveryFlip) {
-  const auto pictures = sweep(lookingAt({-120, 40, 540}, {10, 0, 0}, -0.1));
+  const auto pictures = sweep(cameraTowards({-120, 40, 540}, {10, 0, 0}, -0.1));
   EXPECT_FALSE(decoded(kCode, pictures).trouble);
   const auto sideways = decoded(kCode, flippedAll(pictures, true, false));
   EXPECT_EQ(sideways.trouble, CodeTrouble::mirrored);
@@ -54,7 +54,7 @@ TEST(GrayCode, KnowsEveryFlip) {
 }
 
 TEST(GrayCode, MasksWhatDoesNotFollowTheScreen) {
-  auto pictures = sweep(lookingAt({0, 0, 700}, {0, 0, 0}));
+  auto pictures = sweep(cameraTowards({0, 0, 700}, {0, 0, 0}));
   // A lamp's reflection: always bright.
   for (GreyPicture& picture : pictures)
     for (int y = 150; y < 200; ++y)
@@ -73,7 +73,7 @@ TEST(GrayCode, RefusesASweepThatShowsNothingOrWasMixedUp) {
   const std::vector<GreyPicture> dark(static_cast<std::size_t>(kCode.pictures()),
                                       {{640, 360}, std::vector<std::uint8_t>(640 * 360, 20)});
   EXPECT_EQ(decoded(kCode, dark).trouble, CodeTrouble::not_seen);
-  auto pictures = sweep(lookingAt({0, 0, 560}, {0, 0, 0}));
+  auto pictures = sweep(cameraTowards({0, 0, 560}, {0, 0, 0}));
   std::swap(pictures[4], pictures[5]);
   EXPECT_EQ(decoded(kCode, pictures).trouble, CodeTrouble::mixed_up);
   pictures.pop_back();
