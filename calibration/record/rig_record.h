@@ -20,7 +20,7 @@ struct RigProvenance {
   std::string operator_code;
   std::string mirror_kind;  ///< "half_silvered", "front_surface", "none"
   double plate_mm = 0.0;    ///< thickness of a plate that is seen through
-  std::string parent;       ///< hash of the file this one was made from; empty: none
+  std::string parent;       ///< hash of the file that was in force before; empty: none
 };
 
 /// How it was measured.

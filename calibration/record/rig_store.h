@@ -27,27 +27,31 @@ class RigStore {
 
   /// Every place that has at least one rig.
   std::vector<RigPlace> places() const;
-  /// Names of its files, oldest first.
+  /// Names of its files, oldest first. Whatever else lies there is not seen.
   std::vector<std::string> names(const RigPlace& place) const;
   std::filesystem::path pathOf(const RigPlace& place, const std::string& name) const;
   std::optional<std::string> currentName(const RigPlace& place) const;
   /// Read and checked: it must be of this serial and mount. Throws CalibrationError.
   std::optional<RigRecord> current(const RigPlace& place) const;
 
-  /// Writes it under its time and, if asked, makes it current; `touches`: what it was fitted to, kept beside it.
-  /// Returns its path. Throws CalibrationError and leaves everything as it was.
+  /// Writes it under its time and, if asked, makes it current; `touches`: what it was fitted to, kept beside it. It
+  /// gets the current one as its parent where it has none. Returns its path. Throws CalibrationError and leaves
+  /// everything as it was.
   std::filesystem::path keep(const RigPlace& place, const RigRecord& record, const std::string& touches_text,
                              bool make_current);
-  /// The one before becomes current again; returns its name. Throws CalibrationError when there is none, or it can not
-  /// be read.
+  /// The one before becomes current again: the current one's parent, else the one before it in time. Returns its name.
+  /// Throws CalibrationError when there is none, or it can not be read.
   std::string rollBack(const RigPlace& place);
 
  private:
   std::filesystem::path folderOf(const RigPlace& place) const;
+  /// Of a file that is there; a pointer that is spoilt or leads nowhere is none.
+  std::optional<std::string> nameInForce(const RigPlace& place) const;
   std::filesystem::path root_;
 };
 
-/// Why a rig must not be used with this device: another model, serial, mount; empty: it may.
+/// Why a rig must not be used with this device: another model, serial, mount; empty: it may. What is not known of one
+/// or the other (empty) is not compared; a rig without a device says nothing against any.
 std::string whyNotFor(const RigRecord& record, const std::string& device_model, const std::string& serial,
                       const std::string& mount);
 

@@ -1,0 +1,133 @@
+#include "calibration/record/kept_file.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+namespace calibration {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kHidden = ".part-";
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& what, const std::string& mend) {
+  throw CalibrationError("can not write " + path.string() + ": " + what + ", " + mend);
+}
+
+[[noreturn]] void refuseForSystem(const fs::path& path, int error) {
+  refuse(path, std::strerror(error), "make room there or choose another place");
+}
+
+/// Closed whatever happens.
+class Descriptor {
+ public:
+  Descriptor(const fs::path& path, int flags) : path_(path), number_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {
+    if (number_ < 0) refuseForSystem(path, errno);
+  }
+  ~Descriptor() { ::close(number_); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  int number() const { return number_; }
+  void write(const std::string& text) const {
+    std::size_t done = 0;
+    while (done < text.size()) {
+      const ssize_t written = ::write(number_, text.data() + done, text.size() - done);
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) refuseForSystem(path_, errno);
+      done += static_cast<std::size_t>(written);
+    }
+  }
+  void force() const {
+    if (::fsync(number_) != 0) refuseForSystem(path_, errno);
+  }
+
+ private:
+  fs::path path_;
+  int number_;
+};
+
+void forceFolder(const fs::path& folder) { Descriptor(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY).force(); }
+
+}  // namespace
+
+void makeFolder(const fs::path& folder) {
+  std::error_code error;
+  if (folder.empty() || fs::is_directory(folder, error)) return;
+  makeFolder(folder.parent_path());
+  if (!fs::create_directory(folder, error) && error) refuseForSystem(folder, error.value());
+  forceFolder(folder.parent_path());
+}
+
+FolderLock::FolderLock(const fs::path& folder)
+    : descriptor_(::open((folder / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+  if (descriptor_ < 0) refuseForSystem(folder, errno);
+  if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
+  ::close(descriptor_);
+  refuse(folder, "another program is writing there", "wait until it has finished");
+}
+
+FolderLock::~FolderLock() { ::close(descriptor_); }
+
+void removeLeftovers(const fs::path& folder) {
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    if (entry.path().filename().string().starts_with(kHidden)) fs::remove(entry.path(), ignored);
+}
+
+KeptFile::KeptFile(fs::path path, const std::string& text)
+    : path_(std::move(path)), hidden_path_(path_.parent_path() / (kHidden + path_.filename().string())) {
+  try {
+    const Descriptor file(hidden_path_, O_WRONLY | O_CREAT | O_TRUNC);
+    file.write(text);
+    file.force();
+  } catch (const CalibrationError&) {
+    ::unlink(hidden_path_.c_str());
+    throw;
+  }
+}
+
+KeptFile::~KeptFile() {
+  if (!hidden_path_.empty()) ::unlink(hidden_path_.c_str());
+}
+
+void KeptFile::putInPlace() {
+  // A link fails where the name is taken, on every file system that has links.
+  if (::link(hidden_path_.c_str(), path_.c_str()) != 0) {
+    if (errno == EEXIST) refuse(path_, "it is there already", "nothing that was measured is overwritten");
+    if (errno != EPERM && errno != ENOTSUP) refuseForSystem(path_, errno);
+    std::error_code error;
+    if (fs::exists(path_, error)) refuse(path_, "it is there already", "nothing that was measured is overwritten");
+    return replace();
+  }
+  ::unlink(hidden_path_.c_str());
+  hidden_path_.clear();
+  forceFolder(path_.parent_path());
+}
+
+void KeptFile::replace() {
+  if (::rename(hidden_path_.c_str(), path_.c_str()) != 0) refuseForSystem(path_, errno);
+  hidden_path_.clear();
+  forceFolder(path_.parent_path());
+}
+
+void appendLine(const fs::path& path, const std::string& line) {
+  std::error_code error;
+  const bool is_new = !fs::exists(path, error);
+  const Descriptor file(path, O_RDWR | O_CREAT | O_APPEND);
+  // Back to the end of the last whole line.
+  off_t end = ::lseek(file.number(), 0, SEEK_END);
+  char last = '\n';
+  off_t whole = end;
+  while (whole > 0 && ::pread(file.number(), &last, 1, whole - 1) == 1 && last != '\n') --whole;
+  if (whole != end && ::ftruncate(file.number(), whole) != 0) refuseForSystem(path, errno);
+  file.write(line + "\n");
+  file.force();
+  if (is_new) forceFolder(path.parent_path());
+}
+
+}  // namespace calibration

@@ -1,0 +1,292 @@
+#include "calibration/record/rig_store.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <tuple>
+
+#include "calibration/record/kept_file.h"
+#include "calibration/record/rig_file.h"
+#include "calibration/record/sha256.h"
+#include "calibration/record/utc.h"
+
+namespace calibration {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kEnding = ".yaml";
+constexpr const char* kTouchesEnding = ".touches.yaml";
+constexpr const char* kUnknownSerial = "unknown";
+constexpr std::size_t kLongestName = 64;
+constexpr int kMostInASecond = 99;
+
+bool isPlain(char c) {
+  return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '.' || c == '-' || c == '_';
+}
+
+/// Of a folder: nothing that leads elsewhere, nothing hidden.
+bool isPlainName(const std::string& name) {
+  return !name.empty() && name.size() <= kLongestName && name[0] != '.' && std::ranges::all_of(name, isPlain);
+}
+
+/// For a message of one line.
+std::string shown(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < ' ') c = '?';
+  return "'" + text + "'";
+}
+
+const std::string& checkedName(const std::string& name, const char* what) {
+  if (!isPlainName(name))
+    throw CalibrationError(std::string("rig store: ") + what + " " + shown(name) +
+                           " is no name, give up to 64 letters, digits, dot, - and _");
+  return name;
+}
+
+/// As a folder. Serials come from devices and may hold anything; two that differ stay apart.
+std::string serialFolder(const std::string& serial) {
+  if (serial.empty()) return kUnknownSerial;
+  if (isPlainName(serial)) return serial;
+  std::string plain = serial.substr(0, kLongestName - 10);
+  for (char& c : plain)
+    if (!isPlain(c) || c == '.') c = '_';
+  return plain + "-" + sha256Of(serial).substr(0, 8);
+}
+
+/// "2026-11-21T08-20-00Z.yaml", and "2026-11-21T08-20-00Z-02.yaml" for a second one of the same second.
+struct FileName {
+  std::int64_t seconds = 0;
+  int number = 1;
+
+  std::string stem() const {
+    std::string text = utcOf(seconds);
+    text[13] = text[16] = '-';
+    if (number > 1) text += std::string(number < 10 ? "-0" : "-") + std::to_string(number);
+    return text;
+  }
+  auto order() const { return std::tuple(seconds, number); }
+};
+
+std::optional<FileName> fileNameIn(const std::string& text) {
+  constexpr std::size_t time_length = 20;
+  if (text.size() < time_length || text[13] != '-' || text[16] != '-') return std::nullopt;
+  std::string time = text.substr(0, time_length);
+  time[13] = time[16] = ':';
+  const auto seconds = secondsOfUtc(time);
+  if (!seconds) return std::nullopt;
+  // Whatever else is possible is not one of ours.
+  for (int number = 1; number <= kMostInASecond; ++number)
+    if (const FileName name{*seconds, number}; name.stem() + kEnding == text) return name;
+  return std::nullopt;
+}
+
+const std::string& checkedFileName(const std::string& name) {
+  if (!fileNameIn(name))
+    throw CalibrationError("rig store: " + shown(name) + " is no rig of the store, give a name like " +
+                           FileName{1795249200, 1}.stem() + kEnding);
+  return name;
+}
+
+/// Empty: it is of this place.
+std::string whyNotOf(const RigRecord& record, const RigPlace& place) {
+  if (!record.rig.device) return "it was measured with no device";
+  if (record.rig.device->serial != place.serial)
+    return "it was measured with serial " + shown(record.rig.device->serial) + ", not " + shown(place.serial);
+  if (record.rig.device->mount != place.mount)
+    return "it was measured at mount " + shown(record.rig.device->mount) + ", not " + shown(place.mount);
+  if (!record.provenance.rig_id.empty() && record.provenance.rig_id != place.rig_id)
+    return "it was measured at rig " + shown(record.provenance.rig_id) + ", not " + shown(place.rig_id);
+  return "";
+}
+
+std::optional<RigRecord> readable(const fs::path& path) {
+  try {
+    return readRigRecord(path.string());
+  } catch (const CalibrationError&) {
+    return std::nullopt;
+  }
+}
+
+std::vector<fs::path> foldersIn(const fs::path& folder) {
+  std::vector<fs::path> found;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (entry.is_directory(error) && isPlainName(entry.path().filename().string())) found.push_back(entry.path());
+  std::ranges::sort(found);
+  return found;
+}
+
+const char* environment(const char* name) {
+  const char* const value = std::getenv(name);
+  return value != nullptr && value[0] != '\0' ? value : nullptr;
+}
+
+}  // namespace
+
+fs::path RigStore::usualRoot() {
+  if (const char* const chosen = environment("MOLAR_CALIBRATION")) return chosen;
+  // A relative one is to be ignored (XDG Base Directory Specification).
+  if (const char* const data = environment("XDG_DATA_HOME"); data != nullptr && data[0] == '/')
+    return fs::path(data) / "molar" / "calibration";
+  if (const char* const own = environment("HOME")) return fs::path(own) / ".local" / "share" / "molar" / "calibration";
+  throw CalibrationError("rig store: no place for calibrations is known, set MOLAR_CALIBRATION to a folder");
+}
+
+fs::path RigStore::folderOf(const RigPlace& place) const {
+  return root_ / checkedName(place.rig_id, "rig") / serialFolder(place.serial) / checkedName(place.mount, "mount");
+}
+
+std::vector<RigPlace> RigStore::places() const {
+  std::vector<RigPlace> found;
+  for (const fs::path& rig : foldersIn(root_))
+    for (const fs::path& serial : foldersIn(rig))
+      for (const fs::path& mount : foldersIn(serial)) {
+        RigPlace place{rig.filename().string(), serial.filename().string(), mount.filename().string()};
+        if (place.serial == kUnknownSerial) place.serial.clear();
+        const std::vector<std::string> files = names(place);
+        if (files.empty()) continue;
+        // A folder's name can not hold every serial: the files know it.
+        if (const auto record = readable(mount / files.back()); record && record->rig.device)
+          place.serial = record->rig.device->serial;
+        found.push_back(place);
+      }
+  return found;
+}
+
+std::vector<std::string> RigStore::names(const RigPlace& place) const {
+  std::vector<FileName> found;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folderOf(place), error))
+    if (const auto name = fileNameIn(entry.path().filename().string()); name && entry.is_regular_file(error))
+      found.push_back(*name);
+  std::ranges::sort(found, {}, &FileName::order);
+  std::vector<std::string> texts;
+  for (const FileName& name : found) texts.push_back(name.stem() + kEnding);
+  return texts;
+}
+
+fs::path RigStore::pathOf(const RigPlace& place, const std::string& name) const {
+  return folderOf(place) / checkedFileName(name);
+}
+
+std::optional<std::string> RigStore::currentName(const RigPlace& place) const {
+  const fs::path path = folderOf(place) / "current";
+  std::ifstream in(path);
+  if (!in) return std::nullopt;
+  std::string name;
+  std::getline(in, name);
+  if (!fileNameIn(name))
+    throw CalibrationError("rig store: " + path.string() + " names no rig, roll back or calibrate again");
+  return name;
+}
+
+std::optional<RigRecord> RigStore::current(const RigPlace& place) const {
+  const auto name = currentName(place);
+  if (!name) return std::nullopt;
+  const fs::path path = pathOf(place, *name);
+  RigRecord record = readRigRecord(path.string());
+  if (const std::string why = whyNotOf(record, place); !why.empty())
+    throw CalibrationError("rig file " + path.string() + ": " + why + ", calibrate this device");
+  return record;
+}
+
+fs::path RigStore::keep(const RigPlace& place, const RigRecord& record, const std::string& touches_text,
+                        bool make_current) {
+  const fs::path folder = folderOf(place);
+  const auto seconds = secondsOfUtc(record.provenance.created_utc);
+  if (!seconds) throw CalibrationError("rig store: a rig without its time (created_utc) can not be kept, give it");
+  if (const std::string why = whyNotOf(record, place); !why.empty())
+    throw CalibrationError("rig store: " + why + ", keep it where it belongs");
+  makeFolder(folder);
+  const FolderLock lock(folder);
+  removeLeftovers(folder);
+
+  // What it follows upon, so that rolling back finds the way whatever the clock did.
+  RigRecord kept = record;
+  if (const auto before = nameInForce(place); before && kept.provenance.parent.empty())
+    if (const auto old = readable(folder / *before)) kept.provenance.parent = old->hash;
+
+  FileName name{*seconds, 1};
+  while (fs::exists(folder / (name.stem() + kEnding)) || fs::exists(folder / (name.stem() + kTouchesEnding)))
+    if (++name.number > kMostInASecond)
+      throw CalibrationError("rig store: " + folder.string() + " holds 99 rigs of this second, set the clock");
+
+  // Only what can be read again is kept; touches before what names them, and the pointer last.
+  KeptFile rig(folder / (name.stem() + kEnding), rigRecordText(kept));
+  readRigRecord(rig.hiddenPath().string());
+  std::optional<KeptFile> touches;
+  if (!touches_text.empty()) touches.emplace(folder / (name.stem() + kTouchesEnding), touches_text);
+  std::optional<KeptFile> pointer;
+  if (make_current) pointer.emplace(folder / "current", name.stem() + kEnding + "\n");
+  try {
+    if (touches) touches->putInPlace();
+    rig.putInPlace();
+    if (pointer) pointer->replace();
+  } catch (const CalibrationError&) {
+    std::error_code ignored;
+    fs::remove(folder / (name.stem() + kEnding), ignored);
+    fs::remove(folder / (name.stem() + kTouchesEnding), ignored);
+    throw;
+  }
+  return folder / (name.stem() + kEnding);
+}
+
+std::optional<std::string> RigStore::nameInForce(const RigPlace& place) const {
+  try {
+    const auto name = currentName(place);
+    if (name && fs::exists(pathOf(place, *name))) return name;
+  } catch (const CalibrationError&) {
+    // A spoilt pointer is none.
+  }
+  return std::nullopt;
+}
+
+std::string RigStore::rollBack(const RigPlace& place) {
+  const fs::path folder = folderOf(place);
+  std::vector<std::string> files = names(place);
+  const CalibrationError none("rig store: " + folder.string() + " has no rig before this one, calibrate again");
+  if (files.empty()) throw none;
+  const FolderLock lock(folder);
+  removeLeftovers(folder);
+
+  // The one it was made after, by hash; else by time; and where nothing is in force, the newest.
+  std::string before = files.back();
+  if (const auto now = nameInForce(place)) {
+    const auto at = std::ranges::find(files, *now);
+    const auto record = readable(folder / *now);
+    const auto parent = std::ranges::find_if(files, [&](const std::string& name) {
+      if (!record || record->provenance.parent.empty() || name == *now) return false;
+      const auto other = readable(folder / name);
+      return other && other->hash == record->provenance.parent;
+    });
+    if (parent == files.end() && at == files.begin()) throw none;
+    before = parent != files.end() ? *parent : *(at - 1);
+  }
+  const RigRecord old = readRigRecord((folder / before).string());
+  if (const std::string why = whyNotOf(old, place); !why.empty())
+    throw CalibrationError("rig file " + (folder / before).string() + ": " + why + ", calibrate again");
+  KeptFile(folder / "current", before + "\n").replace();
+  return before;
+}
+
+std::string whyNotFor(const RigRecord& record, const std::string& device_model, const std::string& serial,
+                      const std::string& mount) {
+  if (!record.rig.device) return "";
+  const RigDevice& measured = *record.rig.device;
+  const auto differ = [](const std::string& a, const std::string& b) { return !a.empty() && !b.empty() && a != b; };
+  if (differ(measured.model, device_model))
+    return "it was measured with a " + measured.model + ", this is a " + device_model;
+  if (differ(measured.serial, serial))
+    return "it was measured with serial " + shown(measured.serial) + ", this device is " + shown(serial);
+  if (differ(measured.mount, mount)) return "it was measured at the " + measured.mount + " mount, this is the " + mount;
+  return "";
+}
+
+std::optional<double> age_days(const RigRecord& record, const std::string& now_utc) {
+  const auto then = secondsOfUtc(record.provenance.created_utc), now = secondsOfUtc(now_utc);
+  if (!then || !now) return std::nullopt;
+  return static_cast<double>(*now - *then) / 86400.0;
+}
+
+}  // namespace calibration
