@@ -10,11 +10,10 @@
 #include <vector>
 
 #include "calibration/calibration_error.h"
+#include "calibration/fit/arm_numbers.h"
 #include "calibration/fit/touches.h"
 
 namespace calibration {
-
-enum class ArmModel { rigid, joint_gains, full };
 
 std::string_view nameOf(ArmModel model);  ///< "rigid", "joints", "full"
 std::optional<ArmModel> armModelNamed(std::string_view name);

@@ -1,0 +1,137 @@
+#include "calibration/fit/kinematic_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibration/fit/least_squares.h"
+
+namespace calibration {
+namespace {
+
+constexpr double kCauchy = 5.0;  ///< of a touch, in sigmas: its weight is halved there
+constexpr int kRounds = 12;
+constexpr double kSettled = 0.02;  ///< of the mismatch
+// What mismatch is expected: 0.15 mm, give or take a factor of three; looked for within these.
+constexpr double kUsualMismatch_mm = 0.15, kMismatchFactor = 3.0;
+constexpr double kLeastMismatch_mm = 1e-3, kMostMismatch_mm = 10.0;
+
+/// The touches' least squares of some of the arm's numbers, at a given mismatch.
+class ArmProblem {
+ public:
+  ArmProblem(const ArmStart& start, const std::vector<Touch>& touches, std::span<const std::size_t> which,
+             const std::vector<std::size_t>& numbers)
+      : start_(start), touches_(touches), which_(which), numbers_(numbers) {
+    problem_.residuals = 3 * which.size();
+    problem_.groups.assign(which.size(), {3, kCauchy});
+    for (const std::size_t k : numbers) problem_.priors.push_back({0.0, kArmParameters[k].prior_sigma});
+    problem_.residuals_at = [this](std::span<const double> x, std::span<double> r) { residuals(x, r); };
+    problem_.jacobian_at = [this](std::span<const double> x, std::span<double> J) { jacobian(x, J); };
+  }
+  ArmProblem(const ArmProblem&) = delete;
+  ArmProblem& operator=(const ArmProblem&) = delete;
+
+  LeastSquaresResult solvedFrom(const ArmNumbers& numbers, const glm::dvec3& sigma_mm) {
+    sigma_mm_ = sigma_mm;
+    problem_.start.clear();
+    for (const std::size_t k : numbers_) problem_.start.push_back(numbers[k]);
+    return solved(problem_);
+  }
+
+  ArmNumbers all(std::span<const double> x) const {
+    ArmNumbers numbers{};
+    for (std::size_t i = 0; i < numbers_.size(); ++i) numbers[numbers_[i]] = x[i];
+    return numbers;
+  }
+
+ private:
+  void residuals(std::span<const double> x, std::span<double> r) const {
+    const MeasuredArm arm = armOf(start_, all(x));
+    for (std::size_t i = 0; i < which_.size(); ++i) {
+      const Touch& touch = touches_[which_[i]];
+      const glm::dvec3 error = (arm.tip_W(touch.joints_rad).mm - touch.target_W.mm) / sigma_mm_;
+      for (int c = 0; c < 3; ++c) r[3 * i + static_cast<std::size_t>(c)] = error[c];
+    }
+  }
+
+  void jacobian(std::span<const double> x, std::span<double> J) const {
+    const ArmNumbers numbers = all(x);
+    for (std::size_t i = 0; i < which_.size(); ++i) {
+      const TipSlopes slopes = tipSlopes(start_, numbers, touches_[which_[i]].joints_rad);
+      for (std::size_t k = 0; k < numbers_.size(); ++k)
+        for (int c = 0; c < 3; ++c)
+          J[(3 * i + static_cast<std::size_t>(c)) * numbers_.size() + k] =
+              slopes.by_number[numbers_[k]][c] / sigma_mm_[c];
+    }
+  }
+
+  const ArmStart& start_;
+  const std::vector<Touch>& touches_;
+  std::span<const std::size_t> which_;
+  const std::vector<std::size_t>& numbers_;
+  glm::dvec3 sigma_mm_{1.0};
+  LeastSquares problem_;
+};
+
+/// The most probable mismatch under these errors, of which the fit has taken up a share. On a logarithmic scale, by
+/// golden section: the sum has one valley.
+double probableMismatch_mm(const std::vector<glm::dvec3>& errors_mm, const TouchPrecision& precision,
+                           double effective_numbers) {
+  const double left = std::max(0.1, 1.0 - effective_numbers / static_cast<double>(3 * errors_mm.size()));
+  const auto unlikely = [&](double log_mm) {
+    const glm::dvec3 sigma = touchSigma_mm(precision, std::exp(log_mm));
+    double sum = std::pow((log_mm - std::log(kUsualMismatch_mm)) / std::log(kMismatchFactor), 2);
+    for (const glm::dvec3& error : errors_mm)
+      for (int c = 0; c < 3; ++c) sum += std::pow(error[c] / sigma[c], 2) + 2.0 * left * std::log(sigma[c]);
+    return sum;
+  };
+  const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
+  double low = std::log(kLeastMismatch_mm), high = std::log(kMostMismatch_mm);
+  double a = high - golden * (high - low), b = low + golden * (high - low);
+  double at_a = unlikely(a), at_b = unlikely(b);
+  while (high - low > 0.005) {
+    if (at_a < at_b)
+      high = b, b = a, at_b = at_a, a = high - golden * (high - low), at_a = unlikely(a);
+    else
+      low = a, a = b, at_a = at_b, b = low + golden * (high - low), at_b = unlikely(b);
+  }
+  return std::exp(0.5 * (low + high));
+}
+
+}  // namespace
+
+glm::dvec3 touchSigma_mm(const TouchPrecision& precision, double mismatch_mm) {
+  const double in_plane = std::hypot(precision.in_plane_mm, mismatch_mm);
+  return {in_plane, in_plane, std::hypot(precision.along_sight_mm, mismatch_mm)};
+}
+
+KinematicFit kinematicFit(const ArmStart& start, const std::vector<Touch>& touches, std::span<const std::size_t> which,
+                          const TouchPrecision& precision, std::vector<std::size_t> numbers, const KinematicFit* near) {
+  KinematicFit fit;
+  fit.fitted = std::move(numbers);
+  if (near) fit.numbers = near->numbers;
+  fit.mismatch_mm = near ? near->mismatch_mm : 2.0 * kUsualMismatch_mm;
+  ArmProblem problem(start, touches, which, fit.fitted);
+  LeastSquaresResult result;
+  // The numbers at a mismatch, the mismatch from what they leave.
+  for (int round = 0; round < kRounds; ++round) {
+    result = problem.solvedFrom(fit.numbers, touchSigma_mm(precision, fit.mismatch_mm));
+    fit.numbers = problem.all(result.numbers);
+    fit.iterations += result.iterations;
+    fit.effective_numbers = result.effective_numbers;
+    if (near) break;
+    const MeasuredArm arm = armOf(start, fit.numbers);
+    std::vector<glm::dvec3> errors_mm;
+    for (std::size_t i = 0; i < which.size(); ++i)
+      errors_mm.push_back(std::sqrt(result.weights[i]) *
+                          (arm.tip_W(touches[which[i]].joints_rad).mm - touches[which[i]].target_W.mm));
+    const double was_mm = fit.mismatch_mm;
+    fit.mismatch_mm = probableMismatch_mm(errors_mm, precision, fit.effective_numbers);
+    if (std::abs(fit.mismatch_mm - was_mm) < kSettled * was_mm) break;
+  }
+  fit.covariance = result.covariance;
+  for (std::size_t i = 0; i < fit.fitted.size() && !fit.covariance.empty(); ++i)
+    fit.sigma[fit.fitted[i]] = std::sqrt(fit.covariance[i * fit.fitted.size() + i]);
+  return fit;
+}
+
+}  // namespace calibration
