@@ -1,0 +1,80 @@
+#include "calibration/synthetic/seen_error.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibration/synthetic/chance.h"
+
+namespace calibration {
+namespace {
+
+/// Where the line of sight to a place meets the screen, in I.
+Point<ScreenImage> drawnOnScreen(const Viewing& viewing, const Point<World>& eye_W, const Point<World>& place_W) {
+  const auto X_IW = viewing.X_WI.inverse();
+  const glm::dvec3 eye = (X_IW * eye_W).mm, place = (X_IW * place_W).mm;
+  return {eye + eye.z / (eye.z - place.z) * (place - eye)};
+}
+
+glm::dquat smallTurn(std::mt19937& chance, double sd_rad) {
+  const glm::dvec3 turn_rad = gaussianVector(chance, sd_rad);
+  const double angle_rad = glm::length(turn_rad);
+  return angle_rad > 0.0 ? glm::angleAxis(angle_rad, turn_rad / angle_rad) : glm::dquat(1.0, 0.0, 0.0, 0.0);
+}
+
+}  // namespace
+
+Viewing believedViewing(const Rig& rig) {
+  const auto seen = [&](const Point<World>& corner_W) {
+    return (rig.mirror ? rig.mirror->reflect(corner_W) : corner_W).mm;
+  };
+  const glm::dvec3 origin = seen(rig.screen.lower_left);
+  const glm::dvec3 x = glm::normalize(seen(rig.screen.lower_right) - origin);
+  const glm::dvec3 y = glm::normalize(seen(rig.screen.upper_left) - origin);
+  return {rig.left_eye, rig.right_eye, {glm::normalize(glm::quat_cast(glm::dmat3(x, y, glm::cross(x, y)))), origin}};
+}
+
+Point<World> seenPlace(const Viewing& drawn_for, const Viewing& seen_by, const Point<World>& drawn_W) {
+  const Point<World> left_W = seen_by.X_WI * drawnOnScreen(drawn_for, drawn_for.left_eye, drawn_W);
+  const Point<World> right_W = seen_by.X_WI * drawnOnScreen(drawn_for, drawn_for.right_eye, drawn_W);
+  const glm::dvec3 a = glm::normalize((left_W - seen_by.left_eye).xyz);
+  const glm::dvec3 b = glm::normalize((right_W - seen_by.right_eye).xyz);
+
+  // The nearest points of two lines.
+  const glm::dvec3 apart = (seen_by.left_eye - seen_by.right_eye).xyz;
+  const double ab = glm::dot(a, b), along_a = glm::dot(a, apart), along_b = glm::dot(b, apart), sine2 = 1.0 - ab * ab;
+  const double s = (ab * along_b - along_a) / sine2, t = (along_b - ab * along_a) / sine2;
+  return {0.5 * (seen_by.left_eye.mm + s * a + seen_by.right_eye.mm + t * b)};
+}
+
+Viewing actualViewing(const Viewing& believed, const ViewingCare& care, std::mt19937& chance) {
+  Viewing actual = believed;
+  const glm::dvec3 head_mm = gaussianVector(chance, care.head_sd_mm);
+  const glm::dvec3 across = glm::normalize((believed.right_eye - believed.left_eye).xyz);
+  const glm::dvec3 wider_mm = 0.5 * evenly(chance, -care.pupils_mm, care.pupils_mm) * across;
+  actual.left_eye.mm += head_mm - wider_mm;
+  actual.right_eye.mm += head_mm + wider_mm;
+
+  // The screen turns about the origin of W, where the case is.
+  const glm::dquat turn = smallTurn(chance, radFromDegrees(care.screen_turn_sd_deg));
+  actual.X_WI = {turn * believed.X_WI.rotation,
+                 turn * believed.X_WI.translation_mm + gaussianVector(chance, care.screen_shift_sd_mm)};
+  return actual;
+}
+
+SeenError seenError(const SyntheticRig& rig, const MeasuredArm& calibrated, const glm::dvec3& half_mm,
+                    const ViewingCare& care, int places, std::mt19937& chance) {
+  const Viewing believed = believedViewing(rig.nominal);
+  const Viewing actual = actualViewing(believed, care, chance);
+  SeenError error{.places = places};
+  for (const Touch& touch : heldOut(rig, places, half_mm, chance)) {
+    const Point<World> seen_W = seenPlace(believed, actual, calibrated.tip_W(touch.joints_rad));
+    const double off_mm = glm::length((seen_W - touch.target_W).xyz);
+    error.mean_mm += off_mm / places;
+    error.rms_mm += off_mm * off_mm / places;
+    error.max_mm = std::max(error.max_mm, off_mm);
+  }
+  error.rms_mm = std::sqrt(error.rms_mm);
+  return error;
+}
+
+}  // namespace calibration
