@@ -99,22 +99,6 @@ void blur(std::vector<float>& light, const glm::ivec2& size, double sigma) {
 
 }  // namespace
 
-glm::dvec2 undistorted(const CameraModel& model, const glm::dvec2& pixel) {
-  // Fixed point: the distortion of a webcam changes little over its own size.
-  const glm::dvec2 seen = (pixel - model.centre_px) / model.focal_px;
-  glm::dvec2 at = seen;
-  for (int step = 0; step < 40; ++step) {
-    const double r2 = glm::dot(at, at), radial = 1.0 + r2 * (model.k1 + r2 * model.k2);
-    const glm::dvec2 turned{2.0 * model.p1 * at.x * at.y + model.p2 * (r2 + 2.0 * at.x * at.x),
-                            model.p1 * (r2 + 2.0 * at.y * at.y) + 2.0 * model.p2 * at.x * at.y};
-    const glm::dvec2 next = (seen - turned) / radial;
-    const bool there = glm::dot(next - at, next - at) < 1e-24;
-    at = next;
-    if (there) break;
-  }
-  return at;
-}
-
 Pose<World, Camera> lookingAt(const Point<World>& from_W, const Point<World>& at_W, const glm::dvec3& up_W) {
   const glm::dvec3 ahead = glm::normalize(at_W.mm - from_W.mm), right = glm::normalize(glm::cross(ahead, up_W));
   return {glm::normalize(glm::quat_cast(glm::dmat3(right, glm::cross(ahead, right), ahead))), from_W.mm};
@@ -132,7 +116,7 @@ WebcamView::WebcamView(const WebcamScene& scene, const Webcam& webcam) : scene_(
 }
 
 Sight WebcamView::sightOf(const glm::dvec2& pixel) const {
-  const glm::dvec2 at = undistorted(webcam_.model, pixel);
+  const glm::dvec2 at = webcam_.model.undistorted(pixel);
   return {{webcam_.X_WC.translation_mm}, webcam_.X_WC * Vector<Camera>{glm::normalize(glm::dvec3(at, 1.0))}};
 }
 

@@ -69,9 +69,6 @@ class WebcamView {
   PanelMap seen_, ghost_;
 };
 
-/// The camera's pinhole model backwards: x and y at z = 1 of what falls on this pixel.
-glm::dvec2 undistorted(const CameraModel& model, const glm::dvec2& pixel);
-
 /// A camera that looks at a place from another, the picture's up towards `up_W`.
 Pose<World, Camera> lookingAt(const Point<World>& from_W, const Point<World>& at_W, const glm::dvec3& up_W);
 

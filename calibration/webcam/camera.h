@@ -22,6 +22,22 @@ struct CameraModel {
     return {focal_px.x * (x * radial + 2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x)) + centre_px.x,
             focal_px.y * (y * radial + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y) + centre_px.y};
   }
+
+  /// Backwards, to 1e-12: x and y, at z = 1, of what falls on this pixel. For lenses whose distortion is small to what
+  /// they see.
+  glm::dvec2 undistorted(const glm::dvec2& pixel) const {
+    const glm::dvec2 seen = (pixel - centre_px) / focal_px;
+    glm::dvec2 at = seen;
+    for (int step = 0; step < 40; ++step) {
+      const double r2 = glm::dot(at, at), radial = 1.0 + r2 * (k1 + r2 * k2);
+      const glm::dvec2 shifted{2.0 * p1 * at.x * at.y + p2 * (r2 + 2.0 * at.x * at.x),
+                               p1 * (r2 + 2.0 * at.y * at.y) + 2.0 * p2 * at.x * at.y};
+      const glm::dvec2 next = (seen - shifted) / radial, change = next - at;
+      at = next;
+      if (glm::dot(change, change) < 1e-24) break;
+    }
+    return at;
+  }
 };
 
 /// 8 bits a pixel, rows from the top.

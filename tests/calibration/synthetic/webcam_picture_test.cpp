@@ -61,7 +61,7 @@ TEST(WebcamPicture, UndistortsWhatTheCameraDistorts) {
   std::uniform_real_distribution<double> x(0.0, 1919.0), y(0.0, 1079.0);
   for (int i = 0; i < 1000; ++i) {
     const glm::dvec2 pixel(x(chance), y(chance));
-    EXPECT_LT(glm::distance(model.pixelOf({glm::dvec3(undistorted(model, pixel), 1.0) * 400.0}), pixel), 1e-6);
+    EXPECT_LT(glm::distance(model.pixelOf({glm::dvec3(model.undistorted(pixel), 1.0) * 400.0}), pixel), 1e-6);
   }
 }
 

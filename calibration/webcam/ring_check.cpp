@@ -1,0 +1,216 @@
+#include "calibration/webcam/ring_check.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace calibration {
+namespace {
+
+constexpr double kOverNoise = 6.0, kLeastGrey = 12.0;
+constexpr double kOfBrightest =
+    0.4;  ///< below it lies the glass's ghost: a twentieth of the light is a quarter of the grey
+constexpr int kSectors = 72;
+constexpr double kWholeRing = 0.9;  ///< of the sectors that must hold some of it
+
+/// What is brighter than before.
+cv::Mat1f brighter(const GreyPicture& dark, const GreyPicture& bright) {
+  const auto mat = [](const GreyPicture& p) {
+    return cv::Mat(p.size_px.y, p.size_px.x, CV_8U, const_cast<std::uint8_t*>(p.grey.data()));
+  };
+  cv::Mat1f difference;
+  cv::subtract(mat(bright), mat(dark), difference, cv::noArray(), CV_32F);
+  cv::GaussianBlur(difference, difference, {3, 3}, 0.0);
+  return difference;
+}
+
+struct Blob {
+  int label = 0;
+  cv::Rect box;
+  int pixels = 0;
+  glm::dvec2 middle_px{0.0};  ///< weighed by light
+};
+
+std::vector<Blob> blobsOf(const cv::Mat1f& light, double least, cv::Mat1i& labels) {
+  cv::Mat stats, middles;
+  const int count = cv::connectedComponentsWithStats(light > least, labels, stats, middles, 8, CV_32S);
+  std::vector<Blob> blobs;
+  for (int label = 1; label < count; ++label) {
+    const int* const s = stats.ptr<int>(label);
+    if (s[cv::CC_STAT_AREA] < 5) continue;
+    Blob blob{label,
+              {s[cv::CC_STAT_LEFT], s[cv::CC_STAT_TOP], s[cv::CC_STAT_WIDTH], s[cv::CC_STAT_HEIGHT]},
+              s[cv::CC_STAT_AREA],
+              {}};
+    double weight = 0.0;
+    for (int y = blob.box.y; y < blob.box.br().y; ++y)
+      for (int x = blob.box.x; x < blob.box.br().x; ++x)
+        if (labels(y, x) == label) {
+          const double w = static_cast<double>(light(y, x)) - least;
+          blob.middle_px += w * glm::dvec2(x, y);
+          weight += w;
+        }
+    blob.middle_px /= std::max(weight, 1e-9);
+    blobs.push_back(blob);
+  }
+  return blobs;
+}
+
+/// Middle and radius of a hollow blob: the ellipse through the middles of its line, sector by sector.
+std::optional<std::pair<glm::dvec2, double>> ringIn(const Blob& blob, const cv::Mat1f& light, const cv::Mat1i& labels,
+                                                    double least) {
+  const glm::dvec2 inside =
+      0.5 * glm::dvec2(blob.box.tl().x + blob.box.br().x - 1, blob.box.tl().y + blob.box.br().y - 1);
+  std::array<double, kSectors> weight{}, radius{};
+  double nearest_px = 1e9;
+  for (int y = blob.box.y; y < blob.box.br().y; ++y)
+    for (int x = blob.box.x; x < blob.box.br().x; ++x) {
+      if (labels(y, x) != blob.label) continue;
+      const glm::dvec2 out = glm::dvec2(x, y) - inside;
+      const double turn = (std::atan2(out.y, out.x) / (2.0 * CV_PI) + 0.5) * kSectors;
+      const std::size_t sector = static_cast<std::size_t>(turn) % kSectors;
+      const double w = static_cast<double>(light(y, x)) - least;
+      weight[sector] += w;
+      radius[sector] += w * glm::length(out);
+      nearest_px = std::min(nearest_px, glm::length(out));
+    }
+  std::vector<cv::Point2f> line;
+  double mean_px = 0.0;
+  for (std::size_t s = 0; s < kSectors; ++s) {
+    if (weight[s] <= 0.0) continue;
+    const double r = radius[s] / weight[s], turn = ((static_cast<double>(s) + 0.5) / kSectors - 0.5) * 2.0 * CV_PI;
+    line.emplace_back(static_cast<float>(r * std::cos(turn)), static_cast<float>(r * std::sin(turn)));
+    mean_px += r;
+  }
+  if (static_cast<double>(line.size()) < kWholeRing * kSectors) return std::nullopt;
+  mean_px /= static_cast<double>(line.size());
+  if (nearest_px < 0.5 * mean_px) return std::nullopt;
+  const cv::RotatedRect ellipse = cv::fitEllipseDirect(line);
+  return std::pair{inside + glm::dvec2(ellipse.center.x, ellipse.center.y), mean_px};
+}
+
+}  // namespace
+
+GreyPicture ringPicture(const Rig& rig, const Point<World>& eye_W, const Point<World>& tip_W) {
+  const auto seen = [&](const Point<World>& p) { return rig.mirror ? rig.mirror->reflect(p).mm : p.mm; };
+  const glm::dvec3 corner = seen(rig.screen.upper_left);
+  const glm::dvec3 down = seen(rig.screen.lower_left) - corner;
+  const glm::dvec3 across = seen(rig.screen.lower_right) - seen(rig.screen.lower_left);
+  const glm::ivec2 px = rig.screen.px;
+  const glm::dvec3 sight = glm::normalize(tip_W.mm - eye_W.mm);
+  // One pixel of the screen, as large as it is at the tip's distance.
+  const glm::dvec3 middle = corner + 0.5 * (down + across);
+  const double pixel_mm =
+      glm::length(across) / px.x * glm::distance(tip_W.mm, eye_W.mm) / glm::distance(middle, eye_W.mm);
+
+  GreyPicture picture{px, std::vector<std::uint8_t>(static_cast<std::size_t>(px.x * px.y), 0)};
+  std::size_t at = 0;
+  for (int y = 0; y < px.y; ++y)
+    for (int x = 0; x < px.x; ++x, ++at) {
+      const glm::dvec3 place = corner + (x + 0.5) / px.x * across + (y + 0.5) / px.y * down - eye_W.mm;
+      const double ahead = glm::dot(place, sight);
+      if (ahead <= 0.0) continue;
+      // How far this line of sight passes by the tip, in the plane across it.
+      const double off_mm = glm::length(place * (glm::distance(tip_W.mm, eye_W.mm) / ahead) - (tip_W.mm - eye_W.mm));
+      const double covered = 0.5 + (0.5 * kRingLine_mm - std::abs(off_mm - kRingRadius_mm)) / pixel_mm;
+      // The share of the pixel is a share of light.
+      picture.grey[at] = static_cast<std::uint8_t>(255.0 * std::pow(std::clamp(covered, 0.0, 1.0), 1.0 / 2.2) + 0.5);
+    }
+  return picture;
+}
+
+RingSighting sightRing(const GreyPicture& dark, const GreyPicture& with_both) {
+  const std::size_t pixels = static_cast<std::size_t>(dark.size_px.x) * static_cast<std::size_t>(dark.size_px.y);
+  if (dark.size_px != with_both.size_px || dark.grey.size() != pixels || with_both.grey.size() != pixels || pixels == 0)
+    throw CalibrationError("ring check: the pictures are not of one size, take both with one camera");
+  const cv::Mat1f light = brighter(dark, with_both);
+  double brightest = 0.0;
+  cv::minMaxLoc(light, nullptr, &brightest);
+  const double noise = cv::mean(cv::abs(light))[0] / 0.8;
+  const double least = std::max({kOverNoise * noise, kLeastGrey, kOfBrightest * brightest});
+
+  cv::Mat1i labels;
+  std::vector<Blob> blobs = blobsOf(light, least, labels);
+  std::ranges::sort(blobs, std::ranges::greater(), [](const Blob& b) { return b.box.area(); });
+  RingSighting sighting;
+  if (blobs.empty()) {
+    sighting.line = "neither ring nor tip is seen: look whether the webcam faces the mirror and the tip is lit";
+    return sighting;
+  }
+  const auto ring = ringIn(blobs.front(), light, labels, least);
+  if (!ring) {
+    sighting.line = "no whole ring is seen: hold the tip away from the edge of the picture, nothing before the ring";
+    return sighting;
+  }
+  std::tie(sighting.ring_px, sighting.ring_radius_px) = *ring;
+
+  // The tip is the largest of the rest, and compact.
+  const auto compact = [](const Blob& b) {
+    const double fill = static_cast<double>(b.pixels) / b.box.area();
+    return fill > 0.5 && b.box.width < 4 * b.box.height && b.box.height < 4 * b.box.width;
+  };
+  blobs.erase(blobs.begin());
+  const auto tip = std::ranges::find_if(blobs, compact);
+  if (tip == blobs.end()) {
+    sighting.line = "the ring is seen, the tip is not: light it, and calibrate again where it touches the ring";
+    return sighting;
+  }
+  sighting.tip_px = tip->middle_px;
+  return sighting;
+}
+
+Vector<Camera> ringOffset_mm(const CameraModel& camera, const RingSighting& sighting, double tip_ahead_mm) {
+  const glm::dvec2 off = camera.undistorted(sighting.tip_px) - camera.undistorted(sighting.ring_px);
+  return {{tip_ahead_mm * off.x, tip_ahead_mm * off.y, 0.0}};
+}
+
+RingCheck judgedRing(const std::vector<Vector<Camera>>& offsets_mm) {
+  if (offsets_mm.size() < static_cast<std::size_t>(kRingPlaces))
+    throw CalibrationError("ring check: " + std::to_string(offsets_mm.size()) + " places, take 8");
+  RingCheck check;
+  for (std::size_t i = 0; i < offsets_mm.size(); ++i) {
+    const double off_mm = glm::length(offsets_mm[i].xyz);
+    check.mean_mm += off_mm / static_cast<double>(offsets_mm.size());
+    if (off_mm > check.max_mm) check.max_mm = off_mm, check.worst = static_cast<int>(i);
+  }
+  check.passed = check.mean_mm <= kRingLimit_mm;
+  std::array<char, 160> line{};
+  std::snprintf(line.data(), line.size(),
+                "tip and ring are %.1f mm apart on average, %.1f mm at the worst place (%d): %s", check.mean_mm,
+                check.max_mm, check.worst + 1, check.passed ? "passed" : "calibrate again");
+  check.line = line.data();
+  return check;
+}
+
+SeenDelay seenDelay(const std::vector<SweepPicture>& sweep) {
+  if (sweep.size() < 4) throw CalibrationError("seen delay: fewer than four pictures of a sweep, take more");
+  const double n = static_cast<double>(sweep.size());
+  const auto across = [](const Vector<Camera>& v) { return glm::dvec2(v.xyz); };
+  glm::dvec2 mean_velocity(0.0), mean_offset(0.0);
+  for (const SweepPicture& p : sweep)
+    mean_velocity += across(p.velocity_mm_per_s) / n, mean_offset += across(p.offset_mm) / n;
+  double spread = 0.0, together = 0.0, farthest = 0.0;
+  for (const SweepPicture& p : sweep) {
+    const glm::dvec2 v = across(p.velocity_mm_per_s) - mean_velocity;
+    spread += glm::dot(v, v);
+    together += glm::dot(v, across(p.offset_mm) - mean_offset);
+    for (const SweepPicture& q : sweep)
+      farthest = std::max(farthest, glm::distance(across(p.velocity_mm_per_s), across(q.velocity_mm_per_s)));
+  }
+  if (!(farthest >= 50.0))
+    throw CalibrationError("seen delay: the speeds are too alike, sweep once slowly and once at 100 mm/s");
+  const double delay_s = together / spread;
+  double left = 0.0;
+  for (const SweepPicture& p : sweep) {
+    const glm::dvec2 rest = across(p.offset_mm) - mean_offset - delay_s * (across(p.velocity_mm_per_s) - mean_velocity);
+    left += glm::dot(rest, rest);
+  }
+  return {delay_s, std::sqrt(left / (2.0 * n - 3.0) / spread)};
+}
+
+}  // namespace calibration

@@ -1,0 +1,58 @@
+// The proof that is seen: the screen shows a thin ring at the place where the calibrated arm says its tip is, a webcam
+// at the eye sees ring and lit tip, and how far apart they are, at the tip's depth, is the error of the whole chain:
+// arm, mirror, screen, glass, and, in a sweep, the delay. Frames W and C, mm, px, s. Any thread; drawing and reading 10
+// to 50 ms each at 1080p. It sees no error along its own line of sight. Source: reference/calibration 4.4.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calibration/calibration_error.h"
+#include "calibration/rig.h"
+#include "calibration/webcam/camera.h"
+
+namespace calibration {
+
+inline constexpr int kRingPlaces = 8;
+inline constexpr double kRingLimit_mm = 1.0;  ///< of the mean; reference/calibration 4.4
+inline constexpr double kRingRadius_mm = 8.0, kRingLine_mm = 0.8;
+
+/// The framebuffer with a ring about `tip_W`, as an eye there sees it; flips come from the rig's corners. White on
+/// black.
+GreyPicture ringPicture(const Rig& rig, const Point<World>& eye_W, const Point<World>& tip_W);
+
+struct RingSighting {
+  std::string line;  ///< why nothing can be said, and what to do; empty: both were found
+  glm::dvec2 ring_px{0.0}, tip_px{0.0};
+  double ring_radius_px = 0.0;
+};
+
+/// Ring and tip in one picture, against one with the screen dark and no tip. Throws CalibrationError for pictures of
+/// different sizes.
+RingSighting sightRing(const GreyPicture& dark, const GreyPicture& with_both);
+
+/// From the ring's middle to the tip, across the line of sight, where the tip is so far ahead of the camera.
+Vector<Camera> ringOffset_mm(const CameraModel& camera, const RingSighting& sighting, double tip_ahead_mm);
+
+struct RingCheck {
+  double mean_mm = 0.0, max_mm = 0.0;
+  int worst = 0;  ///< which place, from 0
+  bool passed = false;
+  std::string line;  ///< for people
+};
+
+/// Throws CalibrationError for fewer than 8 places.
+RingCheck judgedRing(const std::vector<Vector<Camera>>& offsets_mm);
+
+/// One picture of a sweep: how fast the tip moved, and how far it was ahead of its ring.
+struct SweepPicture {
+  Vector<Camera> velocity_mm_per_s, offset_mm;
+};
+struct SeenDelay {
+  double delay_s = 0.0, sigma_s = 0.0;
+};
+/// Distance over speed, less what is off at rest: the least-squares line through slow and fast pictures. Throws
+/// CalibrationError for fewer than four pictures or speeds that differ by less than 50 mm/s across the line of sight.
+SeenDelay seenDelay(const std::vector<SweepPicture>& sweep);
+
+}  // namespace calibration
