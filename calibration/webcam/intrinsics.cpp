@@ -1,0 +1,188 @@
+#include "calibration/webcam/intrinsics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <set>
+#include <utility>
+
+#include <opencv2/calib3d.hpp>
+#include <opencv2/core.hpp>
+
+#include "calibration/geometry/units.h"
+
+namespace calibration {
+namespace {
+
+constexpr std::size_t kLeastViews = 8, kLeastPairs = 3, kLeastSlanted = 3;
+constexpr double kLeastSlant_deg = 15.0, kLeastCovered = 0.5, kMostRms_px = 1.5;
+constexpr glm::ivec2 kFields{6, 4};
+constexpr double kWildOfMedian = 2.5, kWild_px = 0.5;  ///< a view beyond both does not fit the others
+
+using Places = std::vector<cv::Point3f>;
+using Pixels = std::vector<cv::Point2f>;
+
+[[noreturn]] void refuse(const std::string& what, const std::string& mend) {
+  throw CalibrationError("lens: " + what + ", " + mend);
+}
+
+Places placesOf(const std::vector<glm::dvec2>& places_mm) {
+  Places places;
+  for (const glm::dvec2& mm : places_mm) places.emplace_back(static_cast<float>(mm.x), static_cast<float>(mm.y), 0.0F);
+  return places;
+}
+
+std::vector<Pixels> pixelsOf(const std::vector<BoardView>& views, std::size_t corners) {
+  std::vector<Pixels> pixels;
+  for (const BoardView& view : views) {
+    if (view.corners_px.size() != corners)
+      refuse("'" + view.name + "' has another number of corners than the board", "use pictures of one board");
+    Pixels& of_view = pixels.emplace_back();
+    for (const glm::dvec2& px : view.corners_px) {
+      if (!std::isfinite(px.x) || !std::isfinite(px.y))
+        refuse("'" + view.name + "' has a corner that is not finite", "take it again");
+      of_view.emplace_back(static_cast<float>(px.x), static_cast<float>(px.y));
+    }
+  }
+  return pixels;
+}
+
+double coveredShare(const glm::ivec2& size_px, const std::vector<Pixels>& views) {
+  std::set<std::pair<int, int>> fields;
+  for (const Pixels& view : views)
+    for (const cv::Point2f& px : view)
+      fields.emplace(std::clamp(static_cast<int>(px.x * float(kFields.x) / float(size_px.x)), 0, kFields.x - 1),
+                     std::clamp(static_cast<int>(px.y * float(kFields.y) / float(size_px.y)), 0, kFields.y - 1));
+  return double(fields.size()) / (kFields.x * kFields.y);
+}
+
+/// One fit to some of the views.
+struct LensFit {
+  cv::Matx33d K = cv::Matx33d::eye();
+  cv::Mat distortion, view_rms_px;
+  std::vector<cv::Mat> turns;
+  double rms_px = 0.0;
+};
+LensFit fitted(const glm::ivec2& size_px, const Places& places, const std::vector<Pixels>& views) {
+  LensFit fit;
+  cv::Mat K;
+  std::vector<cv::Mat> moves;
+  cv::Mat unused_lens, unused_poses;
+  try {
+    fit.rms_px =
+        cv::calibrateCamera(std::vector<Places>(views.size(), places), views, {size_px.x, size_px.y}, K, fit.distortion,
+                            fit.turns, moves, unused_lens, unused_poses, fit.view_rms_px, cv::CALIB_FIX_K3);
+  } catch (const cv::Exception&) {
+    refuse("the views make no lens", "take them again, the board flat, sharp and slanted");
+  }
+  fit.K = K;
+  return fit;
+}
+
+/// Between the board's normal and the line of sight's axis.
+double slant_deg(const cv::Mat& turn) {
+  cv::Matx33d R;
+  cv::Rodrigues(turn, R);
+  return degreesFromRad(std::acos(std::min(1.0, std::abs(R(2, 2)))));
+}
+
+CameraModel modelOf(const glm::ivec2& size_px, const LensFit& fit) {
+  const auto bent = [&](int i) { return fit.distortion.at<double>(i); };
+  CameraModel camera{size_px, {fit.K(0, 0), fit.K(1, 1)}, {fit.K(0, 2), fit.K(1, 2)}, bent(0), bent(1), bent(2),
+                     bent(3)};
+  const glm::dvec2 size(size_px);
+  const bool is_lens =
+      std::isfinite(fit.rms_px) && camera.focal_px.x > 0.15 * size.x && camera.focal_px.x < 8.0 * size.x &&
+      std::abs(camera.focal_px.y / camera.focal_px.x - 1.0) < 0.1 && camera.centre_px.x > 0.1 * size.x &&
+      camera.centre_px.x < 0.9 * size.x && camera.centre_px.y > 0.1 * size.y && camera.centre_px.y < 0.9 * size.y;
+  if (!is_lens) refuse("the result is no webcam's lens", "slant the board more, and fill the picture with it");
+  return camera;
+}
+
+void checkVariety(const LensFit& fit, double covered_share) {
+  std::size_t slanted = 0;
+  for (const cv::Mat& turn : fit.turns) slanted += slant_deg(turn) >= kLeastSlant_deg;
+  if (slanted < kLeastSlanted)
+    refuse("the board was faced squarely in nearly all views", "slant it by 20 to 40 degrees, each way");
+  if (covered_share < kLeastCovered)
+    refuse("the views cover " + std::to_string(std::lround(100.0 * covered_share)) + " % of the picture",
+           "show the board in all its corners");
+}
+
+}  // namespace
+
+Intrinsics fitIntrinsics(const glm::ivec2& size_px, const std::vector<glm::dvec2>& places_mm,
+                         const std::vector<BoardView>& views) {
+  if (size_px.x < 16 || size_px.y < 16 || places_mm.size() < 6) refuse("no board or no picture", "give both");
+  if (views.size() < kLeastViews)
+    refuse(std::to_string(views.size()) + " views are too few", "take 12 to 15, the board slanted each way");
+  const Places places = placesOf(places_mm);
+  const std::vector<Pixels> all = pixelsOf(views, places.size());
+
+  // The worst view goes while it does not fit the others.
+  std::vector<std::size_t> used(views.size());
+  for (std::size_t i = 0; i < used.size(); ++i) used[i] = i;
+  Intrinsics result;
+  result.view_rms_px.assign(views.size(), 0.0);
+  for (;;) {
+    std::vector<Pixels> pixels;
+    for (const std::size_t i : used) pixels.push_back(all[i]);
+    const LensFit fit = fitted(size_px, places, pixels);
+    std::vector<double> rms_px;
+    for (std::size_t k = 0; k < used.size(); ++k)
+      rms_px.push_back(result.view_rms_px[used[k]] = fit.view_rms_px.at<double>(static_cast<int>(k)));
+    const std::size_t worst = static_cast<std::size_t>(std::ranges::max_element(rms_px) - rms_px.begin());
+    const double worst_px = rms_px[worst];
+    std::ranges::nth_element(rms_px, rms_px.begin() + static_cast<std::ptrdiff_t>(rms_px.size() / 2));
+    if (worst_px > kWild_px && worst_px > kWildOfMedian * rms_px[rms_px.size() / 2]) {
+      result.left_out.push_back(views[used[worst]].name);
+      if (3 * result.left_out.size() > views.size())
+        refuse("more than a third of the views do not fit the others", "hold camera and board still, lock the focus");
+      used.erase(used.begin() + static_cast<std::ptrdiff_t>(worst));
+      continue;
+    }
+    if (!(fit.rms_px < kMostRms_px))
+      refuse("the views do not fit together", "hold camera and board still, lock the focus, keep the board flat");
+    result.covered_share = coveredShare(size_px, pixels);
+    for (const cv::Mat& turn : fit.turns) result.most_slant_deg = std::max(result.most_slant_deg, slant_deg(turn));
+    checkVariety(fit, result.covered_share);
+    result.camera = modelOf(size_px, fit);
+    result.rms_px = fit.rms_px;
+    return result;
+  }
+}
+
+StereoPair fitStereo(const CameraModel& left, const CameraModel& right, const std::vector<glm::dvec2>& places_mm,
+                     const std::vector<BoardView>& left_views, const std::vector<BoardView>& right_views) {
+  if (left_views.size() != right_views.size()) refuse("left and right views are not as many", "give them in pairs");
+  if (left_views.size() < kLeastPairs) refuse("fewer than 3 pairs of views", "take 8 or more");
+  const Places places = placesOf(places_mm);
+  const std::vector<Pixels> left_px = pixelsOf(left_views, places.size());
+  const std::vector<Pixels> right_px = pixelsOf(right_views, places.size());
+  const auto matrix = [](const CameraModel& camera) {
+    return cv::Mat(
+        cv::Matx33d(camera.focal_px.x, 0, camera.centre_px.x, 0, camera.focal_px.y, camera.centre_px.y, 0, 0, 1));
+  };
+  const auto bent = [](const CameraModel& camera) {
+    return cv::Mat(cv::Vec4d(camera.k1, camera.k2, camera.p1, camera.p2), true);
+  };
+  cv::Mat K1 = matrix(left), D1 = bent(left), K2 = matrix(right), D2 = bent(right), unused_E, unused_F;
+  cv::Matx33d R;
+  cv::Vec3d t;
+  StereoPair pair;
+  try {
+    pair.rms_px =
+        cv::stereoCalibrate(std::vector<Places>(left_px.size(), places), left_px, right_px, K1, D1, K2, D2,
+                            {left.size_px.x, left.size_px.y}, R, t, unused_E, unused_F, cv::CALIB_FIX_INTRINSIC);
+  } catch (const cv::Exception&) {
+    refuse("the pairs make no stereo camera", "take them again at the same moment left and right");
+  }
+  glm::dmat3 rotation;
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column) rotation[column][row] = R(row, column);
+  pair.rotation = glm::normalize(glm::quat_cast(rotation));
+  pair.translation_mm = {t[0], t[1], t[2]};
+  return pair;
+}
+
+}  // namespace calibration

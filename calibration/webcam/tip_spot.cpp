@@ -1,0 +1,175 @@
+#include "calibration/webcam/tip_spot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "calibration/calibration_error.h"
+#include "calibration/geometry/units.h"
+
+namespace calibration {
+namespace {
+
+constexpr double kLeastOverNoise = 8.0, kLeastHeight = 14.0;  ///< grey levels
+constexpr double kRival = 0.4;     ///< of the brightest spot's height: another such is one too many
+constexpr double kPedestal = 0.2;  ///< of its height: less has no say in the centre
+constexpr int kLeastPixels = 4;
+constexpr double kMostLength = 1.8;   ///< of a spot to its width
+constexpr double kSoftSpread = 3.2;   ///< area at a quarter of the height to that at three quarters
+constexpr double kMostSoft_px = 8.0;  ///< a soft spot narrower than this is a LED, not out of focus
+constexpr double kSaturated = 250.0;
+constexpr double kMostOfWidth = 1.0 / 48.0;  ///< of the picture: a 3 mm ball is a quarter of that
+
+cv::Mat matrixOf(const GreyPicture& picture) {
+  return {picture.size_px.y, picture.size_px.x, CV_8U, const_cast<std::uint8_t*>(picture.grey.data())};
+}
+
+bool isWhole(const GreyPicture& picture) {
+  return picture.size_px.x >= 16 && picture.size_px.y >= 16 &&
+         picture.grey.size() ==
+             static_cast<std::size_t>(picture.size_px.x) * static_cast<std::size_t>(picture.size_px.y);
+}
+
+/// One sigma of what is left between pixels near each other, wild ones aside.
+double noiseOf(const cv::Mat& difference) {
+  std::vector<float> steps;
+  for (int y = 0; y < difference.rows; y += 4)
+    for (int x = 0; x + 2 < difference.cols; x += 4)
+      steps.push_back(std::abs(difference.at<float>(y, x + 2) - difference.at<float>(y, x)));
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  const double most = 4.0 * (1.48 * *middle + 0.5);
+  double sum = 0.0, count = 1.0;
+  for (const float step : steps)
+    if (step < most) sum += double{step} * step, count += 1.0;
+  return std::max(0.3, std::sqrt(0.5 * sum / count));
+}
+
+/// What changed slowly over the picture: the room's light, the inside of a shadow.
+cv::Mat slowChange(const cv::Mat& difference) {
+  const int cell = std::max(8, difference.cols / 80);
+  cv::Mat coarse, median, slow;
+  cv::resize(difference, coarse, {std::max(8, difference.cols / cell), std::max(8, difference.rows / cell)}, 0, 0,
+             cv::INTER_AREA);
+  cv::medianBlur(coarse, median, 5);
+  cv::resize(median, slow, difference.size(), 0, 0, cv::INTER_LINEAR);
+  return slow;
+}
+
+double diameterOf(double area) { return 2.0 * std::sqrt(area / kPi); }
+
+/// A connected part of the picture above a threshold.
+struct Patch {
+  cv::Rect box;
+  int pixels = 0, label = 0;
+};
+std::vector<Patch> patchesAbove(const cv::Mat& values, double threshold, cv::Mat& labels) {
+  cv::Mat stats, unused_middles;
+  const int count = cv::connectedComponentsWithStats(values > threshold, labels, stats, unused_middles, 8, CV_32S);
+  std::vector<Patch> patches;
+  for (int label = 1; label < count; ++label) {
+    const int* row = stats.ptr<int>(label);
+    if (row[cv::CC_STAT_AREA] >= kLeastPixels)
+      patches.push_back({{row[cv::CC_STAT_LEFT], row[cv::CC_STAT_TOP], row[cv::CC_STAT_WIDTH], row[cv::CC_STAT_HEIGHT]},
+                         row[cv::CC_STAT_AREA],
+                         label});
+  }
+  return patches;
+}
+
+/// Weighted moments of what stands above the pedestal.
+struct Shape {
+  glm::dvec2 centre_px{0.0};
+  double length_to_width = 1.0;
+};
+Shape shapeOf(const cv::Mat& height, const cv::Rect& window, double pedestal) {
+  double sum = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+  glm::dvec2 first{0.0};
+  const auto eachPixel = [&](auto&& use) {
+    for (int y = window.y; y < window.y + window.height; ++y)
+      for (int x = window.x; x < window.x + window.width; ++x)
+        if (const double weight = height.at<float>(y, x) - pedestal; weight > 0.0) use(glm::dvec2(x, y), weight);
+  };
+  eachPixel([&](const glm::dvec2& px, double weight) { sum += weight, first += weight * px; });
+  Shape shape;
+  shape.centre_px = first / sum;
+  eachPixel([&](const glm::dvec2& px, double weight) {
+    const glm::dvec2 d = px - shape.centre_px;
+    xx += weight * d.x * d.x, xy += weight * d.x * d.y, yy += weight * d.y * d.y;
+  });
+  // A pixel is itself 1/12 px^2 wide.
+  const double half = 0.5 * (xx + yy) / sum, apart = std::hypot(0.5 * (xx - yy), xy) / sum;
+  shape.length_to_width = std::sqrt((half + apart + 0.08) / (std::max(0.0, half - apart) + 0.08));
+  return shape;
+}
+
+TipSpot refused(SpotTrouble trouble, const char* line, TipSpot spot) {
+  spot.trouble = trouble;
+  spot.line = line;
+  return spot;
+}
+
+}  // namespace
+
+TipSpot findTipSpot(const GreyPicture& before, const GreyPicture& with_tip) {
+  if (before.size_px != with_tip.size_px || !isWhole(before) || !isWhole(with_tip))
+    throw CalibrationError("tip: the pictures with and without it differ in size, take both again");
+  cv::Mat dark, lit;
+  matrixOf(before).convertTo(dark, CV_32F);
+  matrixOf(with_tip).convertTo(lit, CV_32F);
+  const cv::Mat difference = lit - dark;
+  const double noise = noiseOf(difference), most_px = std::max(16.0, kMostOfWidth * difference.cols);
+  TipSpot spot;
+  cv::Mat labels;
+
+  // A glare: saturated, new, and larger than any tip.
+  for (const Patch& patch : patchesAbove(cv::min(difference * 4.0, lit), kSaturated, labels))
+    if (diameterOf(patch.pixels) > most_px)
+      return refused(SpotTrouble::too_large, "the light is too large: dim it, shorten the exposure, avoid reflections",
+                     spot);
+
+  // What is new and small.
+  const cv::Mat height = difference - slowChange(difference);
+  cv::Mat without_specks, smooth;
+  cv::medianBlur(height, without_specks, 3);
+  cv::GaussianBlur(without_specks, smooth, {}, 1.0);
+  double peak = 0.0;
+  cv::minMaxLoc(smooth, nullptr, &peak);
+  spot.above_noise = peak / noise;
+  if (peak < kLeastHeight || spot.above_noise < kLeastOverNoise)
+    return refused(SpotTrouble::nothing, "no lit tip is seen: light it, bring it into the picture, darken the room",
+                   spot);
+  const std::vector<Patch> patches = patchesAbove(smooth, kRival * peak, labels);
+  if (patches.empty())
+    return refused(SpotTrouble::nothing, "only specks are seen: light the tip, darken the room", spot);
+  if (patches.size() > 1)
+    return refused(SpotTrouble::several, "more than one light is seen: cover the others, avoid reflections", spot);
+  const Patch& patch = patches.front();
+  const cv::Rect picture(0, 0, height.cols, height.rows);
+  const int margin = 2 + std::max(patch.box.width, patch.box.height) / 2;
+  const cv::Rect window(patch.box.x - margin, patch.box.y - margin, patch.box.width + 2 * margin,
+                        patch.box.height + 2 * margin);
+
+  const Shape shape = shapeOf(height, window & picture, kPedestal * peak);
+  spot.centre_px = shape.centre_px;
+  const cv::Mat around = smooth(window & picture);
+  const auto areaAbove = [&](double share) { return double(cv::countNonZero(around > share * peak)); };
+  spot.across_px = diameterOf(areaAbove(0.5));
+  const bool touches_edge = patch.box.x < 3 || patch.box.y < 3 || patch.box.br().x > picture.width - 3 ||
+                            patch.box.br().y > picture.height - 3;
+  if (touches_edge)
+    return refused(SpotTrouble::at_the_edge, "the tip is at the picture's edge: bring it further in", spot);
+  if (spot.across_px > most_px)
+    return refused(SpotTrouble::too_large, "the light is too large: dim it, shorten the exposure, avoid reflections",
+                   spot);
+  if (shape.length_to_width > kMostLength)
+    return refused(SpotTrouble::blurred, "the tip was moved: hold it still", spot);
+  if (spot.across_px > kMostSoft_px && areaAbove(0.25) > kSoftSpread * areaAbove(0.75))
+    return refused(SpotTrouble::blurred, "the tip is out of focus: focus the camera on it", spot);
+  return spot;
+}
+
+}  // namespace calibration
