@@ -1,0 +1,91 @@
+#include "calibration/synthetic/webcam_sights.h"
+
+#include <array>
+#include <cmath>
+
+#include "calibration/synthetic/chance.h"
+#include "calibration/synthetic/webcam_picture.h"
+
+namespace calibration {
+namespace {
+
+/// From the middle of the case: at the eyes, and 25 degrees to both sides.
+constexpr std::array<double, 3> kAside_deg = {0.0, 25.0, -25.0};
+constexpr double kPutDown_mm = 10.0;      ///< a clamp is set by eye, one sigma
+constexpr double kBesideTarget_mm = 3.0;  ///< no pit holds the tip, one sigma
+
+/// Corners of a displayed board.
+constexpr glm::ivec2 kCorners{13, 8};
+constexpr double kSquare_mm = 30.0;
+
+CameraModel believed(const WebcamCare& care, std::mt19937& chance) {
+  CameraModel model = care.camera;
+  model.focal_px *= 1.0 + gaussian(chance, care.focal_error);
+  model.centre_px += glm::dvec2(gaussianVector(chance, care.centre_error_px));
+  return model;
+}
+
+glm::dvec2 noise_px(double sigma_px, std::mt19937& chance) { return glm::dvec2(gaussianVector(chance, sigma_px)); }
+
+Pose<World, Camera> putUp(const SyntheticRig& rig, double aside_deg, std::mt19937& chance) {
+  const glm::dquat aside = glm::angleAxis(radFromDegrees(aside_deg), glm::dvec3(0.0, 1.0, 0.0));
+  const Point<World> from_W{aside * rig.nominal.cyclopeanEye().mm + gaussianVector(chance, kPutDown_mm)};
+  return lookingAt(from_W, {gaussianVector(chance, kPutDown_mm)}, {0.0, 1.0, 0.0});
+}
+
+}  // namespace
+
+WebcamCare fineWebcam() {
+  WebcamCare care;
+  care.camera.k1 = -0.08;
+  care.camera.k2 = 0.02;
+  return care;
+}
+
+WebcamCare coarseWebcam() {
+  WebcamCare care = fineWebcam();
+  care.camera.size_px = {1280, 720};
+  care.camera.focal_px *= 2.0 / 3.0;
+  care.camera.centre_px = {639.5, 359.5};
+  care.tip_noise_px = 1.0;
+  return care;
+}
+
+WebcamSights webcamSights(const SyntheticRig& rig, const TargetPlan& plan, const WebcamCare& care,
+                          std::mt19937& chance) {
+  // The camera says where the tip is: how exactly a place is held is of no importance.
+  SyntheticRig held = rig;
+  held.habits.precision = {0.0, 0.0};
+  held.habits.outlier_share = 0.0;
+  TargetPlan about = plan;
+
+  WebcamSights sights{.camera = believed(care, chance),
+                      .device_model = rig.nominal.device->model,
+                      .screen_noise_px = care.screen_noise_px,
+                      .tip_noise_px = care.tip_noise_px,
+                      .positions = {}};
+  for (const double aside_deg : kAside_deg) {
+    const Pose<Camera, World> X_CW = putUp(rig, aside_deg, chance).inverse();
+    CameraPosition& position = sights.positions.emplace_back();
+    for (int row = 0; row < kCorners.y; ++row)
+      for (int column = 0; column < kCorners.x; ++column) {
+        const Point<World> corner_W{kSquare_mm *
+                                    glm::dvec3(column - 0.5 * (kCorners.x - 1), row - 0.5 * (kCorners.y - 1), 0.0)};
+        position.screen.push_back(
+            {corner_W, care.camera.pixelOf(X_CW * corner_W) + noise_px(care.screen_noise_px, chance)});
+      }
+    for (std::size_t i = 0; i < plan.targets.size(); ++i)
+      about.targets[i].place_W.mm = plan.targets[i].place_W.mm + gaussianVector(chance, kBesideTarget_mm);
+    for (const Touch& touch : touchedAll(held, about, chance).touches) {
+      glm::dvec2 tip_px = care.camera.pixelOf(X_CW * touch.target_W) + noise_px(care.tip_noise_px, chance);
+      if (evenly(chance, 0.0, 1.0) < care.outlier_share) {
+        const double way_rad = evenly(chance, 0.0, 2.0 * kPi);
+        tip_px += evenly(chance, 10.0, 40.0) * glm::dvec2(std::cos(way_rad), std::sin(way_rad));
+      }
+      position.tips.push_back({touch.id, touch.joints_rad, tip_px});
+    }
+  }
+  return sights;
+}
+
+}  // namespace calibration

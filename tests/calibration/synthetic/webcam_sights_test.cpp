@@ -1,0 +1,58 @@
+#include "calibration/synthetic/webcam_sights.h"
+
+#include <gtest/gtest.h>
+
+#include "calibration/geometry/units.h"
+
+namespace calibration {
+namespace {
+
+TargetPlan places() { return targetPlan("webcam27").value(); }
+
+TEST(WebcamSights, SeesScreenAndTipsFromThreePositions) {
+  for (const WebcamCare& care : {fineWebcam(), coarseWebcam()})
+    for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+      std::mt19937 chance(seed);
+      const WebcamSights sights = webcamSights(syntheticRig(Scenario::D, seed), places(), care, chance);
+      ASSERT_EQ(sights.positions.size(), 3u);
+      for (const CameraPosition& position : sights.positions) {
+        EXPECT_EQ(position.tips.size(), 27u);
+        EXPECT_GE(position.screen.size(), 50u);
+        const auto within = [&](const glm::dvec2& px) {
+          return px.x > 0.0 && px.y > 0.0 && px.x < care.camera.size_px.x && px.y < care.camera.size_px.y;
+        };
+        for (const PlaceSight& sight : position.screen) EXPECT_TRUE(within(sight.camera_px));
+        for (const TipSight& sight : position.tips) EXPECT_TRUE(within(sight.camera_px)) << sight.id;
+      }
+    }
+}
+
+TEST(WebcamSights, AreOfThatRigAndOfThatSeed) {
+  const SyntheticRig rig = syntheticRig(Scenario::D, 4);
+  std::mt19937 a(1), b(1), c(2);
+  const WebcamSights one = webcamSights(rig, places(), fineWebcam(), a);
+  const WebcamSights same = webcamSights(rig, places(), fineWebcam(), b);
+  const WebcamSights other = webcamSights(rig, places(), fineWebcam(), c);
+  EXPECT_EQ(one.positions[1].tips[5].camera_px, same.positions[1].tips[5].camera_px);
+  EXPECT_NE(one.positions[1].tips[5].camera_px, other.positions[1].tips[5].camera_px);
+  EXPECT_EQ(one.device_model, "omni");
+}
+
+TEST(WebcamSights, PutsThePictureUprightBeforeTheCamera) {
+  // Without noise the corner at the screen's lower left is at the picture's lower left, for all positions.
+  WebcamCare exact = fineWebcam();
+  exact.screen_noise_px = exact.tip_noise_px = exact.focal_error = exact.centre_error_px = exact.outlier_share = 0.0;
+  std::mt19937 chance(3);
+  const WebcamSights sights = webcamSights(syntheticRig(Scenario::D, 3), places(), exact, chance);
+  EXPECT_EQ(sights.camera.focal_px, exact.camera.focal_px);
+  for (const CameraPosition& position : sights.positions) {
+    const PlaceSight &first = position.screen.front(), &last = position.screen.back();
+    EXPECT_LT(first.place_W.mm.x, last.place_W.mm.x);
+    EXPECT_LT(first.camera_px.x, last.camera_px.x);
+    EXPECT_LT(first.place_W.mm.y, last.place_W.mm.y);
+    EXPECT_GT(first.camera_px.y, last.camera_px.y);
+  }
+}
+
+}  // namespace
+}  // namespace calibration
