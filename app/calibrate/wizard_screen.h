@@ -1,0 +1,42 @@
+// The display that a calibration is shown on: windows of its mode, pictures made without OpenGL into them. What is
+// drawn is in the window's own pixels: lines of one pixel stay lines. Main thread. Throws GpuError where there is no
+// display.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "app/display_windows.h"
+#include "render/display/stereo_layout.h"
+#include "render/gpu/window_upload.h"
+#include "render/picture.h"
+
+namespace app {
+
+struct WizardDisplay {
+  render::DisplayMode mode = render::DisplayMode::mono;
+  bool swapped = false;  ///< the eyes
+  bool full_screen = true;
+  std::optional<int> monitor = std::nullopt;  ///< index
+};
+
+class WizardScreen {
+ public:
+  /// `screen_px`: the rig's. `tell`: what could not be had and what is shown instead.
+  WizardScreen(const WizardDisplay& display, glm::ivec2 screen_px, const DisplayWindows::Tell& tell);
+
+  std::vector<render::WindowEvent> takeEvents() { return windows_.takeEvents(); }
+  glm::ivec2 window_px() { return windows_.first().framebufferSize_px(); }
+
+  /// Hands over what `draw` makes of each output; waits for the display. `as_the_panel`: drawn in the panel's pixels,
+  /// whatever the window has: patterns for a camera.
+  void show(const std::function<render::Picture(const render::StereoLayout&)>& draw, bool as_the_panel = false);
+
+ private:
+  WizardDisplay display_;
+  glm::ivec2 screen_px_;
+  DisplayWindows windows_;
+  render::WindowUpload upload_[2];  // textures: before the windows go
+};
+
+}  // namespace app

@@ -1,0 +1,35 @@
+// A device of which every tick is wanted, and that is never told a force: its motors stay off. What a calibration
+// measures with. The device's thread writes, one other thread reads. Frame D, mm. Without real-time priority. start()
+// and stop() as DeviceLoop's. Of the newest state alone: passive_hand.
+#pragma once
+
+#include <chrono>
+#include <vector>
+
+#include "haptics/loop/device_loop.h"
+#include "haptics/loop/handle_log.h"
+
+namespace haptics {
+
+class ListenedHand final : public DeviceLoop {
+ public:
+  /// Borrows the device. Throws DeviceError when the rate is outside 500..10000 Hz.
+  ListenedHand(HapticDevice& device, double rate_Hz) : DeviceLoop(device, rate_Hz, false) { forbidForce(); }
+  ~ListenedHand() override { stop(); }
+
+  /// All since the last call, believed or not, appended. Always the same thread.
+  void takeInto(std::vector<TimedHandle>& out) { log_.drainInto(out); }
+  /// That nobody took in time.
+  std::uint64_t dropped() const { return log_.dropped(); }
+
+ private:
+  Answer answer(const HandleState& state, const Beat&) noexcept override {
+    log_.push({std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count(), state});
+    return {{}, false};
+  }
+
+  const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+  HandleLog log_;
+};
+
+}  // namespace haptics
