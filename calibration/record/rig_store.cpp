@@ -170,6 +170,8 @@ fs::path RigStore::pathOf(const RigPlace& place, const std::string& name) const 
   return folderOf(place) / checkedFileName(name);
 }
 
+fs::path RigStore::historyPath(const RigPlace& place) const { return folderOf(place) / "history.csv"; }
+
 std::optional<std::string> RigStore::currentName(const RigPlace& place) const {
   const fs::path path = folderOf(place) / "current";
   std::ifstream in(path);

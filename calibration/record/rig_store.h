@@ -30,6 +30,8 @@ class RigStore {
   /// Names of its files, oldest first. Whatever else lies there is not seen.
   std::vector<std::string> names(const RigPlace& place) const;
   std::filesystem::path pathOf(const RigPlace& place, const std::string& name) const;
+  /// Of what checks have found there: drift_history.
+  std::filesystem::path historyPath(const RigPlace& place) const;
   std::optional<std::string> currentName(const RigPlace& place) const;
   /// Read and checked: it must be of this serial and mount. Throws CalibrationError.
   std::optional<RigRecord> current(const RigPlace& place) const;

@@ -1,0 +1,98 @@
+#include "calibration/record/drift_review.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace calibration {
+namespace {
+
+std::string millimetres(double value_mm) {
+  char text[48];
+  std::snprintf(text, sizeof text, "%.2f mm", value_mm);
+  return text;
+}
+
+/// Limits for the value that follows these.
+std::optional<ControlLimits> limitsAfter(std::span<const double> before) {
+  return controlLimits(before.first(std::min(before.size(), kMostBaseline)), kLeastBaseline, kLeastSigma_mm);
+}
+
+std::string sentenceOf(const DriftEntry& entry, DriftQuantity quantity, ControlRule rule, const ControlLimits& limits) {
+  const double low_mm = quantity == DriftQuantity::rms ? std::max(limits.at(-3.0), 0.0) : limits.at(-3.0);
+  return entry.utc.substr(0, 10) + ": " + std::string(nameOf(quantity)) + " " +
+         millimetres(valueOf_mm(entry, quantity)) + ", " + std::string(nameOf(rule)) + " (expected " +
+         millimetres(low_mm) + " to " + millimetres(limits.at(3.0)) + ")";
+}
+
+void review(const std::vector<DriftEntry>& history, DriftQuantity quantity, DriftReview& found) {
+  std::vector<double> values_mm, sigmas;
+  std::vector<ControlLimits> limits;
+  for (const std::size_t entry : found.judged) {
+    const double value_mm = valueOf_mm(history[entry], quantity);
+    if (const auto known = limitsAfter(values_mm)) {
+      limits.push_back(*known);
+      sigmas.push_back((value_mm - known->centre) / known->sigma);
+    }
+    values_mm.push_back(value_mm);
+  }
+  found.limits[static_cast<std::size_t>(quantity)] = limitsAfter(values_mm);
+  const std::size_t unjudged = values_mm.size() - sigmas.size();
+  for (const ControlAlarm& alarm : controlAlarms(sigmas)) {
+    if (quantity == DriftQuantity::rms && !alarm.above) continue;
+    const std::size_t entry = found.judged[unjudged + alarm.at];
+    found.alarms.push_back(
+        {entry, quantity, alarm.rule, sentenceOf(history[entry], quantity, alarm.rule, limits[alarm.at])});
+  }
+}
+
+std::string standing(const std::vector<DriftEntry>& history, const DriftReview& found) {
+  if (found.judged.empty())
+    return history.empty() ? "No check was made yet: make one after every homing."
+                           : "No check was made since the last calibration: make one after every homing.";
+  if (!found.limits[0])
+    return std::to_string(found.judged.size()) + " of the " + std::to_string(kLeastBaseline) +
+           " checks that limits are made of.";
+  if (!found.alarmed) return "Steady: the newest check is as those before it.";
+  return "Not steady: " + found.alarms.back().sentence +
+         ". Re-zero; if the next check is the same, look whether base, mirror or stylus is loose, and calibrate.";
+}
+
+}  // namespace
+
+std::string_view nameOf(DriftQuantity quantity) {
+  constexpr std::array<std::string_view, 4> names = {"RMS", "bias to the right", "bias upwards",
+                                                     "bias towards the viewer"};
+  return names[static_cast<std::size_t>(quantity)];
+}
+
+double valueOf_mm(const DriftEntry& entry, DriftQuantity quantity) {
+  switch (quantity) {
+    case DriftQuantity::rms:
+      return entry.rms_mm;
+    case DriftQuantity::right:
+      return entry.bias_mm.xyz.x;
+    case DriftQuantity::up:
+      return entry.bias_mm.xyz.y;
+    case DriftQuantity::nearer:
+      return entry.bias_mm.xyz.z;
+  }
+  return 0.0;
+}
+
+DriftReview reviewOf(const std::vector<DriftEntry>& history) {
+  DriftReview found;
+  // A calibration begins anew.
+  for (std::size_t i = 0; i < history.size(); ++i) {
+    if (history[i].kind == DriftKind::calibration)
+      found.judged.clear();
+    else
+      found.judged.push_back(i);
+  }
+  for (const DriftQuantity quantity : kDriftQuantities) review(history, quantity, found);
+  std::ranges::stable_sort(found.alarms, {}, &DriftAlarm::entry);
+  found.alarmed = !found.alarms.empty() && found.alarms.back().entry == found.judged.back();
+  found.sentence = standing(history, found);
+  return found;
+}
+
+}  // namespace calibration

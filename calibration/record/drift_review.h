@@ -1,0 +1,43 @@
+// What the history of a place says: whether the arm still stands where its calibration found it. Four charts, RMS and
+// the bias along each axis of W, over the checks and re-zeros since the last calibration; each value is judged by those
+// before it, by the first twenty at most. A small RMS is no alarm. mm. Pure; any thread.
+// Source of the rules: control_chart.h; that they be used: reference/calibration 4.3.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/record/control_chart.h"
+#include "calibration/record/drift_history.h"
+
+namespace calibration {
+
+inline constexpr std::size_t kLeastBaseline = 8, kMostBaseline = 20;
+/// An encoder's step at the tip, 0.055 mm, makes 0.016 mm of noise: nothing finer is told apart.
+inline constexpr double kLeastSigma_mm = 0.02;
+
+enum class DriftQuantity { rms, right, up, nearer };
+inline constexpr std::array kDriftQuantities = {DriftQuantity::rms, DriftQuantity::right, DriftQuantity::up,
+                                                DriftQuantity::nearer};
+std::string_view nameOf(DriftQuantity quantity);  ///< "RMS", "bias right", …
+double valueOf_mm(const DriftEntry& entry, DriftQuantity quantity);
+
+struct DriftAlarm {
+  std::size_t entry = 0;  ///< in the history
+  DriftQuantity quantity = DriftQuantity::rms;
+  ControlRule rule = ControlRule::one_beyond_3;
+  std::string sentence;  ///< "2026-11-20: RMS 1.42 mm, beyond 3 sigma (0.31 to 0.92 mm)"
+};
+
+struct DriftReview {
+  std::vector<std::size_t> judged;                     ///< entries on the charts, oldest first
+  std::array<std::optional<ControlLimits>, 4> limits;  ///< by DriftQuantity; as the next check will be judged
+  std::vector<DriftAlarm> alarms;                      ///< oldest first
+  std::string sentence;                                ///< how it stands now, and what to do
+  bool alarmed = false;                                ///< the newest entry has an alarm
+};
+DriftReview reviewOf(const std::vector<DriftEntry>& history);
+
+}  // namespace calibration
