@@ -111,10 +111,13 @@ void drawF(const Sheet& sheet) {
 }
 
 /// In true millimetres: it is laid a ruler on.
-void drawBar(const ScreenPage& page, double length_mm) {
+void drawBar(const ScreenPage& page, double length_mm, bool upright) {
   const double half = 0.5 * length_mm;
-  page.line({-half, 0.0}, {half, 0.0}, 1.0, kWordInk);
-  for (const double x : {-half, half}) page.line({x, -15.0}, {x, 15.0}, 0.5, kWordInk);
+  const auto at = [&](double along, double beside) {
+    return upright ? glm::dvec2(beside, along) : glm::dvec2(along, beside);
+  };
+  page.line(at(-half, 0.0), at(half, 0.0), 1.0, kWordInk);
+  for (const double end : {-half, half}) page.line(at(end, -15.0), at(end, 15.0), 0.5, kWordInk);
 }
 
 void drawFacts(const Sheet& sheet, const std::vector<std::string>& facts, double top, double left, double width) {
@@ -135,8 +138,8 @@ void drawChoices(const Sheet& sheet, const WizardView& view, double top, double 
 }
 
 /// Round and ticked, a triangle with a mark, a square that is crossed out.
-void drawVerdict(const Sheet& sheet, const ShownVerdict& shown) {
-  const glm::dvec2 c{-195.0, 0.0};
+void drawVerdict(const Sheet& sheet, const ShownVerdict& shown, double middle) {
+  const glm::dvec2 c{-195.0, middle};
   const auto at = [&](double x, double y) { return c + glm::dvec2(x, y); };
   switch (shown.verdict) {
     case calibration::Verdict::green:
@@ -154,7 +157,7 @@ void drawVerdict(const Sheet& sheet, const ShownVerdict& shown) {
       sheet.path({at(20.0, -20.0), at(-20.0, 20.0)}, 9.0, kGroundInk);
       break;
   }
-  sheet.words(shown.sentence, {-135.0, -28.0}, sheet.right() + 135.0, 20.0, kWordInk, Align::left);
+  sheet.words(shown.sentence, {-135.0, middle - 28.0}, sheet.right() + 135.0, 20.0, kWordInk, Align::left);
 }
 
 void drawNumbers(const Sheet& sheet, const std::vector<ShownNumber>& numbers) {
@@ -186,9 +189,14 @@ void drawWords(const ScreenPage& page, const WizardView& view) {
   drawMessage(sheet, view.message);
   if (view.progress) drawProgress(sheet, *view.progress);
   if (view.tilt) sheet.line(view.tilt->words, {0.0, kTiltTop}, sheet.width(), kLine, kWantedInk, Align::centre);
-  if (view.verdict) return drawVerdict(sheet, *view.verdict);
+  if (view.verdict) {
+    // What there is to choose stands below it.
+    drawVerdict(sheet, *view.verdict, view.choices.empty() ? 0.0 : -28.0);
+    return drawChoices(sheet, view, 18.0, -0.3 * sheet.width(), 0.6 * sheet.width());
+  }
   if (view.figure == WizardFigure::letter_f) drawF(sheet);
-  if (view.figure == WizardFigure::length_bar) drawBar(page, view.bar_mm);
+  if (view.figure == WizardFigure::length_bar) drawBar(page, view.bar_mm, false);
+  if (view.figure == WizardFigure::upright_length_bar) drawBar(page, view.bar_mm, true);
   if (!view.value.empty()) sheet.line(view.value, {0.0, -28.0}, 0.6 * sheet.width(), 56.0, kWordInk, Align::centre);
 
   // Facts to the left, choices to the right; what stands alone begins in the middle.

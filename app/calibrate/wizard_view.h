@@ -34,8 +34,9 @@ struct TiltCue {
 /// What else is to be drawn in the plane z = 0, in the middle.
 enum class WizardFigure {
   none,
-  letter_f,    ///< upright and reading right if the screen's corners are right
-  length_bar,  ///< horizontal, `bar_mm` long, with end marks
+  letter_f,            ///< upright and reading right if the screen's corners are right
+  length_bar,          ///< horizontal, `bar_mm` long, with end marks
+  upright_length_bar,  ///< the same, from below upwards
 };
 
 enum class Tone { info, good, reject };
@@ -72,6 +73,7 @@ struct WizardView {
   ButtonHelp button;
   ShownMessage message;  ///< the last one; empty text: none
 
+  bool inkwell = false;  ///< the stylus belongs in its inkwell now
   WizardFigure figure = WizardFigure::none;
   double bar_mm = 0.0;
 

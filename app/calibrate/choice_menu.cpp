@@ -1,0 +1,35 @@
+#include "app/calibrate/choice_menu.h"
+
+#include <algorithm>
+
+#include "app/calibrate/number_words.h"
+
+namespace app {
+
+std::optional<std::size_t> ChoiceMenu::feel(Press press, bool again) {
+  if (press == Press::short_press && !choices_.empty()) marked_ = (marked_ + 1) % choices_.size();
+  if (press == Press::long_press || (again && press == Press::repeated)) return marked_;
+  return std::nullopt;
+}
+
+void ChoiceMenu::show(WizardView& view) const {
+  view.choices = choices_;
+  view.marked = marked_;
+  view.button = {choices_.size() > 1 ? "next choice" : "", "choose", ""};
+}
+
+bool NumberDial::feel(Press press) {
+  const auto chosen = menu_.feel(press, true);
+  // A held button turns the dial; it does not take the number.
+  if (chosen == 2) return press == Press::long_press;
+  if (chosen) value_ = std::clamp(value_ + (*chosen == 0 ? step_ : -step_), least_, most_);
+  return false;
+}
+
+void NumberDial::show(WizardView& view, const char* unit) const {
+  menu_.show(view);
+  view.button.long_press = "choose; held on, again and again";
+  view.value = inWords(value_, step_ < 1.0 ? 1 : 0) + " " + unit;
+}
+
+}  // namespace app

@@ -1,0 +1,49 @@
+#include "app/calibrate/steps/identity_step.h"
+
+namespace app {
+namespace {
+
+std::string orUnknown(const std::string& name) { return name.empty() ? "unknown" : name; }
+
+/// Why a short procedure can not build on what is there; empty: it can.
+std::string whyNotBuiltOn(const calibration::Rig& rig, const calibration::RigDevice& device) {
+  if (!rig.device || !rig.arm) return "This rig has never been calibrated with a device: calibrate it in full.";
+  const auto differs = [](const char* what, const std::string& was, const std::string& is) {
+    return std::string("The calibration was made with ") + what + " " + orUnknown(was) + ", here is " + orUnknown(is) +
+           ": change it back, or calibrate in full.";
+  };
+  if (rig.device->model != device.model) return differs("the device", rig.device->model, device.model);
+  if (rig.device->serial != device.serial) return differs("the serial number", rig.device->serial, device.serial);
+  if (rig.device->mount != device.mount) return differs("the device at the side", rig.device->mount, device.mount);
+  if (rig.device->stylus_tip != device.stylus_tip)
+    return differs("the stylus tip", rig.device->stylus_tip, device.stylus_tip);
+  return {};
+}
+
+}  // namespace
+
+void IdentityStep::begin() { menu_ = ChoiceMenu({"all of it is right", "something is wrong"}); }
+
+StepAnswer IdentityStep::feel(const StylusSample&, Press press, double) {
+  if (book_.plan.procedure != Procedure::full)
+    if (std::string why = whyNotBuiltOn(book_.plan.record.rig, book_.plan.device); !why.empty())
+      return StepAnswer::refused(std::move(why));
+  const auto chosen = menu_.feel(press);
+  if (!chosen) return {};
+  if (*chosen == 0) return StepAnswer::next();
+  return StepAnswer::refused("Start again with the rig, device and stylus tip that are there.");
+}
+
+void IdentityStep::show(WizardView& view) const {
+  view.title = "Is this what stands before you?";
+  view.sentence = "Read the lines and compare them with rig, device and stylus. The forces are off.";
+  const calibration::RigProvenance& known = book_.plan.record.provenance;
+  const calibration::RigDevice& device = book_.plan.device;
+  view.facts = {
+      "rig " + orUnknown(known.rig_id), "device " + device.model + ", serial number " + orUnknown(device.serial),
+      "stands at the " + orUnknown(device.mount) + " of the surgeon", "stylus tip " + orUnknown(device.stylus_tip),
+      known.created_utc.empty() ? "never calibrated" : "calibrated " + known.created_utc};
+  menu_.show(view);
+}
+
+}  // namespace app

@@ -1,0 +1,77 @@
+#include "app/calibrate/steps/rest_step.h"
+
+#include "app/calibrate/number_words.h"
+#include "app/calibrate/steps/collect_step.h"
+
+namespace app {
+namespace {
+
+constexpr std::size_t kMarks = 3;
+constexpr double kFar_mm = 60.0;  // a rest that was never registered stands where it was put
+
+/// Marks of a rest in this pose; the stylus as it comes.
+calibration::TargetPlan marksPlan(const char* method, const calibration::RestRegistration& rest,
+                                  const std::vector<glm::dvec3>& marks_mm, std::size_t first) {
+  calibration::TargetPlan plan{method, calibration::TargetKind::pit, calibration::kPitPrecision, {}};
+  for (std::size_t i = first; i < first + kMarks; ++i)
+    plan.targets.push_back({static_cast<int>(i) + 1, rest.place_W(marks_mm[i]), calibration::kRestingStylus_W});
+  return plan;
+}
+
+}  // namespace
+
+void RestStep::begin() {
+  made_of_.clear();
+  book_.outcome.rest.reset();
+  calibration::RestRegistration believed;
+  if (const auto& known = book_.plan.record.rest) {
+    believed.rotation = known->rotation;
+    believed.translation_mm = known->translation_mm;
+  }
+  round_.emplace(marksPlan("rest3", believed, book_.plan.rest_marks_mm, 0), book_.arm, kFar_mm, book_.voice);
+  round_->letTiltBe();
+}
+
+void RestStep::beginProof() {
+  round_.emplace(marksPlan("rest3proof", *book_.outcome.rest, book_.plan.rest_marks_mm, kMarks), book_.arm, kFar_mm,
+                 book_.voice);
+  round_->letTiltBe();
+}
+
+StepAnswer RestStep::feel(const StylusSample& sample, Press press, double pressed_s) {
+  if (book_.plan.rest_marks_mm.size() != 2 * kMarks)
+    return StepAnswer::refused("The hand rest has no six known marks: name them in the rig's settings.");
+  if (round_->feel(sample, press, pressed_s) == TouchRound::Happened::left) return StepAnswer::declined();
+  if (!round_->isComplete()) return {};
+
+  try {
+    if (made_of_.empty()) {
+      book_.outcome.rest = calibration::restRegistered(touched(), {});
+      made_of_ = touched();
+      beginProof();
+      return {};
+    }
+    book_.outcome.rest = calibration::restRegistered(made_of_, touched());
+    return StepAnswer::next();
+  } catch (const calibration::CalibrationError& error) {
+    begin();
+    book_.voice.refuse(error.what());
+    return {};
+  }
+}
+
+std::vector<calibration::MarkTouch> RestStep::touched() const {
+  std::vector<calibration::MarkTouch> marks;
+  for (const calibration::Touch& touch : round_->touches())
+    marks.push_back(
+        {book_.plan.rest_marks_mm[static_cast<std::size_t>(touch.id - 1)], book_.arm.tip_W(touch.joints_rad)});
+  return marks;
+}
+
+void RestStep::show(WizardView& view) const {
+  view.title = made_of_.empty() ? "Where the hand rests" : "Prove the hand rest";
+  view.sentence = "Touch the glowing mark on the rest; hold the stylus as it comes.";
+  round_->show(view);
+}
+
+}  // namespace app

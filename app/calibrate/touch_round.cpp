@@ -1,0 +1,324 @@
+#include "app/calibrate/touch_round.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/calibrate/number_words.h"
+#include "app/calibrate/tilt_words.h"
+
+namespace app {
+namespace {
+
+constexpr double kMostTiltOff_deg = 10.0;
+constexpr double kMostOffUnmeasured_mm = 60.0;  // a stand put down by eye, arm as its model
+constexpr double kSamePlace_mm = 3.0, kSameTilt_deg = 5.0;
+constexpr double kUsualInterval_s = 6.0;
+constexpr double kSilence_s = 0.5;  // of the clock while nothing came: it was not worked then
+
+/// How far apart two touches of the same target may be while the device counts the same.
+double sameCount_mm(const calibration::TouchPrecision& precision) { return 0.6 + 4.0 * precision.in_plane_mm; }
+
+ChoiceMenu pauseMenu() {
+  return ChoiceMenu({"go on", "start these touches again", "leave; the old calibration stays"});
+}
+
+}  // namespace
+
+const char* nounOf(const calibration::TargetPlan& plan) {
+  if (plan.method.starts_with("rest")) return "mark";
+  switch (plan.kind) {
+    case calibration::TargetKind::pit:
+      return "pit";
+    case calibration::TargetKind::cross:
+      return "cross";
+    case calibration::TargetKind::webcam_place:
+      break;
+  }
+  return "place";
+}
+
+TouchRound::TouchRound(calibration::TargetPlan plan, const calibration::MeasuredArm& believed, double far_mm,
+                       Announcements& voice)
+    : plan_(std::move(plan)),
+      believed_(believed),
+      far_mm_(far_mm),
+      voice_(voice),
+      still_(plan_.kind == calibration::TargetKind::cross ? kCrossStillness : kPitStillness),
+      taken_(plan_.targets.size()) {}
+
+TouchRound::Happened TouchRound::feel(const StylusSample& sample, Press press, double pressed_s) {
+  keepTime(sample.t_s);
+  now_ = sample;
+  still_.feel(sample);
+
+  // Put away is paused, taken up goes on.
+  if (sample.docked && !docked_) pause_ = pauseMenu();
+  if (!sample.docked && docked_) pause_.reset();
+  docked_ = sample.docked;
+  if (pause_) return pause(press);
+
+  if (press == Press::long_press) return undo();
+  if (isComplete()) return Happened::nothing;
+  if (press == Press::short_press) {
+    std::string why;
+    const auto taken = still_.before(pressed_s, why);
+    if (taken) return take(*taken, true);
+    voice_.refuse("Not taken: " + why + ".");
+    return Happened::nothing;
+  }
+  if (const auto taken = still_.dwelt()) return take(*taken, false);
+  return Happened::nothing;
+}
+
+TouchRound::Happened TouchRound::take(const StillTake& take, bool pressed) {
+  if (!pressed) still_.waitUntilItLeaves();
+  if (proving_) return prove(take);
+
+  const std::size_t index = *next();
+  bool tilt_is_wrong = false;
+  if (const std::string why = objection(index, take.raw_rad, tilt_is_wrong); !why.empty()) {
+    const bool insisted = pressed && objected_ == index;
+    const bool never = why.starts_with("This is where");
+    if (never || !insisted) {
+      objected_ = never ? std::nullopt : std::optional(index);
+      voice_.refuse(why + (never ? "." : ". Press again to take it as it is."));
+      return Happened::nothing;
+    }
+  }
+
+  still_.waitUntilItLeaves();
+  objected_.reset();
+  last_rad_ = take.raw_rad;
+  taken_[index] = Taken{take.raw_rad, tilt_is_wrong, false};
+  order_.push_back(index);
+  intervals_s_.push_back(busy_s_ - taken_at_s_);
+  taken_at_s_ = busy_s_;
+  voice_.praise("Taken: " + std::string(nounOf(plan_)) + " " + std::to_string(index + 1) +
+                    (tilt_is_wrong ? ", though not held as asked." : "."),
+                isComplete() ? WizardSound::next : WizardSound::ok);
+  return Happened::taken;
+}
+
+std::string TouchRound::objection(std::size_t index, const calibration::RawJoints& raw_rad, bool& tilt_is_wrong) const {
+  const calibration::Target& target = plan_.targets[index];
+  const auto along_W = heldAlong_W(raw_rad);
+  const glm::dvec3 tip_mm = believed_.tip_W(raw_rad).mm;
+  const double off_deg = angleBetween_deg(along_W.xyz, target.stylus_W.xyz);
+  tilt_is_wrong = !any_tilt_ && off_deg > kMostTiltOff_deg;
+  const std::string noun = nounOf(plan_);
+
+  if (last_rad_ && glm::length(tip_mm - believed_.tip_W(*last_rad_).mm) < kSamePlace_mm &&
+      angleBetween_deg(along_W.xyz, heldAlong_W(*last_rad_).xyz) < kSameTilt_deg)
+    return "This is where the last touch was: go to the glowing " + noun;
+
+  // Further off than what is known of the arm explains.
+  const double off_mm = glm::length(tip_mm - target.place_W.mm);
+  if (off_mm > (far_mm_ > 0.0 ? far_mm_ : kMostOffUnmeasured_mm)) {
+    std::size_t nearest = index;
+    for (std::size_t i = 0; i < plan_.targets.size(); ++i)
+      if (glm::length(tip_mm - plan_.targets[i].place_W.mm) < glm::length(tip_mm - plan_.targets[nearest].place_W.mm))
+        nearest = i;
+    std::string why = "This seems " + inMm(off_mm) + " from the glowing " + noun;
+    if (glm::length(plan_.targets[nearest].place_W.mm - target.place_W.mm) > 1.0)
+      why += ", nearer to " + noun + " " + std::to_string(nearest + 1);
+    return why;
+  }
+  if (!tilt_is_wrong) return {};
+  const std::string words = tiltWords(along_W, target.stylus_W);
+  return "Held " + inWords(off_deg, 0) + "° off the cue" + (words.empty() ? "" : ": " + words);
+}
+
+TouchRound::Happened TouchRound::prove(const StillTake& take) {
+  still_.waitUntilItLeaves();
+  const calibration::RawJoints& before = taken_[*proving_]->raw_rad;
+  const auto along_W = heldAlong_W(take.raw_rad), along_before_W = heldAlong_W(before);
+  if (!any_tilt_ && angleBetween_deg(along_W.xyz, along_before_W.xyz) > kMostTiltOff_deg) {
+    const std::string words = tiltWords(along_W, along_before_W);
+    voice_.refuse("Hold it as before" + (words.empty() ? "." : ": " + words + "."));
+    return Happened::nothing;
+  }
+  // Along the line of sight nobody aims at a cross exactly.
+  glm::dvec3 apart_mm = believed_.tip_W(take.raw_rad).mm - believed_.tip_W(before).mm;
+  if (plan_.kind == calibration::TargetKind::cross) apart_mm.z = 0.0;
+  proving_.reset();
+  if (glm::length(apart_mm) <= sameCount_mm(plan_.precision)) {
+    last_rad_ = take.raw_rad;
+    voice_.praise("The device still counts the same: go on.");
+    return Happened::nothing;
+  }
+  againAll();
+  voice_.refuse("The device counts otherwise since it was silent (" + inMm(glm::length(apart_mm)) +
+                " apart): these touches start again.");
+  return Happened::started_again;
+}
+
+TouchRound::Happened TouchRound::pause(Press press) {
+  const auto chosen = pause_->feel(press);
+  if (!chosen) return Happened::nothing;
+  // In the inkwell the menu stays: going on is taking the stylus up.
+  if (*chosen == 0) {
+    if (docked_)
+      voice_.say("Take the stylus out of its inkwell to go on.");
+    else
+      pause_.reset();
+    return Happened::nothing;
+  }
+  if (!docked_) pause_.reset();
+  if (*chosen == 2) return Happened::left;
+  againAll();
+  voice_.say("All touches of this page start again.");
+  return Happened::started_again;
+}
+
+TouchRound::Happened TouchRound::undo() {
+  objected_.reset();
+  if (order_.empty()) {
+    pause_ = pauseMenu();
+    return Happened::nothing;
+  }
+  const std::size_t index = order_.back();
+  order_.pop_back();
+  taken_[index].reset();
+  proving_.reset();
+  last_rad_.reset();
+  voice_.say("Undone: " + std::string(nounOf(plan_)) + " " + std::to_string(index + 1) + ".");
+  return Happened::undone;
+}
+
+void TouchRound::lost() {
+  still_.forget();
+  objected_.reset();
+  if (!order_.empty()) proving_ = order_.back();
+}
+
+void TouchRound::keepTime(double t_s) {
+  const double passed_s = t_s - seen_s_;
+  if (now_ && !pause_ && passed_s < kSilence_s) busy_s_ += passed_s;
+  seen_s_ = t_s;
+}
+
+void TouchRound::show(WizardView& view) const {
+  const std::string noun = nounOf(plan_);
+  view.target_kind = plan_.kind;
+  view.zero_parallax = plan_.kind == calibration::TargetKind::cross;
+  const auto glowing = proving_ ? proving_ : next();
+  for (std::size_t i = 0; i < plan_.targets.size(); ++i) {
+    TargetState state = TargetState::pending;
+    if (taken_[i]) state = taken_[i]->doubtful ? TargetState::doubtful : TargetState::done;
+    if (glowing == i) state = TargetState::next;
+    view.targets.push_back({plan_.targets[i].place_W, plan_.targets[i].stylus_W, state, std::to_string(i + 1)});
+  }
+
+  // Where it is, and how it is held.
+  if (now_ && !docked_) view.tip_W = believed_.tip_W(now_->raw_rad);
+  if (now_ && glowing && !any_tilt_) {
+    TiltCue cue{plan_.targets[*glowing].stylus_W, heldAlong_W(now_->raw_rad), 0.0, false, {}};
+    cue.off_deg = angleBetween_deg(cue.present_W.xyz, cue.wanted_W.xyz);
+    cue.met = cue.off_deg <= kMostTiltOff_deg;
+    if (!cue.met) cue.words = tiltWords(cue.present_W, cue.wanted_W);
+    view.tilt = cue;
+  }
+
+  view.count = std::to_string(order_.size()) + " of " + std::to_string(taken_.size());
+  view.progress = static_cast<double>(order_.size()) / static_cast<double>(std::max<std::size_t>(1, taken_.size()));
+  double interval_s = kUsualInterval_s;
+  if (!intervals_s_.empty()) {
+    std::vector<double> sorted = intervals_s_;
+    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
+    interval_s = sorted[sorted.size() / 2];
+  }
+  view.time_left_s = interval_s * static_cast<double>(taken_.size() - order_.size());
+
+  if (pause_) {
+    view.sentence = docked_ ? "Paused. Take the stylus out to go on." : "Nothing to undo. Go on?";
+    pause_->show(view);
+    return;
+  }
+  view.capture = still_.progress();
+  view.button = {"take this " + noun, order_.empty() ? "pause" : "undo the last", "takes it by itself"};
+  if (proving_)
+    view.sentence = "The device was silent. Touch " + noun + " " + std::to_string(*proving_ + 1) +
+                    " once more, to see whether it counts as before.";
+}
+
+std::optional<std::size_t> TouchRound::next() const {
+  for (std::size_t i = 0; i < taken_.size(); ++i)
+    if (!taken_[i]) return i;
+  return std::nullopt;
+}
+
+bool TouchRound::isComplete() const { return !next() && !proving_; }
+
+std::vector<calibration::Touch> TouchRound::touches() const {
+  std::vector<calibration::Touch> touches;
+  for (std::size_t i = 0; i < taken_.size(); ++i)
+    if (taken_[i]) touches.push_back({plan_.targets[i].id, taken_[i]->raw_rad, plan_.targets[i].place_W, true});
+  return touches;
+}
+
+double TouchRound::tiltSpread_deg() const {
+  std::vector<calibration::Vector<calibration::World>> directions;
+  for (const auto& taken : taken_)
+    if (taken) directions.push_back(heldAlong_W(taken->raw_rad));
+  return spreadOf_deg(directions);
+}
+
+std::vector<std::size_t> TouchRound::wronglyHeld() const {
+  std::vector<std::size_t> wrong;
+  std::size_t touch = 0;
+  for (const auto& taken : taken_)
+    if (taken) {
+      if (taken->wrongly_held) wrong.push_back(touch);
+      ++touch;
+    }
+  return wrong;
+}
+
+void TouchRound::believe(const calibration::MeasuredArm& arm, double far_mm) {
+  believed_ = arm;
+  far_mm_ = far_mm;
+}
+
+void TouchRound::doubt(const std::vector<bool>& doubtful) {
+  std::size_t touch = 0;
+  for (auto& taken : taken_)
+    if (taken && touch < doubtful.size()) taken->doubtful = doubtful[touch++];
+}
+
+void TouchRound::again(std::size_t touch) {
+  const std::size_t index = planIndex(touch);
+  taken_[index].reset();
+  std::erase(order_, index);
+  last_rad_.reset();
+  objected_.reset();
+}
+
+void TouchRound::againAll() {
+  std::fill(taken_.begin(), taken_.end(), std::nullopt);
+  order_.clear();
+  intervals_s_.clear();
+  last_rad_.reset();
+  objected_.reset();
+  proving_.reset();
+}
+
+std::string TouchRound::nameOf(std::size_t touch) const {
+  return std::string(nounOf(plan_)) + " " + std::to_string(planIndex(touch) + 1);
+}
+
+bool TouchRound::isDoubtful(std::size_t touch) const {
+  const auto& taken = taken_[planIndex(touch)];
+  return taken && taken->doubtful;
+}
+
+std::size_t TouchRound::planIndex(std::size_t touch) const {
+  for (std::size_t i = 0; i < taken_.size(); ++i)
+    if (taken_[i] && touch-- == 0) return i;
+  return taken_.size() - 1;
+}
+
+calibration::Vector<calibration::World> TouchRound::heldAlong_W(const calibration::RawJoints& raw_rad) const {
+  return {believed_.X_WH(raw_rad).rotation * -glm::normalize(believed_.correction.tip_H_mm)};
+}
+
+}  // namespace app

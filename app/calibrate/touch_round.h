@@ -1,0 +1,94 @@
+// One round of touches: targets in their order, taken by a press or by holding still, the stylus held as the cue wants
+// it. What seems wrong is not taken but explained; a second press takes it anyway. Long press: the last one undone.
+// In the inkwell, or with nothing to undo, it pauses. After a silence of the device one touch is made again, to see
+// that the device still counts the same: else all start again. Frame W, mm, s. Plain logic; one thread; a few
+// microseconds a tick, allocates where something is taken. Knows nothing of what the touches are for.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/calibrate/announcements.h"
+#include "app/calibrate/button_press.h"
+#include "app/calibrate/choice_menu.h"
+#include "app/calibrate/still_capture.h"
+#include "calibration/fit/target_plan.h"
+
+namespace app {
+
+/// What its targets are called: "pit", "cross", "mark".
+const char* nounOf(const calibration::TargetPlan& plan);
+
+class TouchRound {
+ public:
+  enum class Happened { nothing, taken, undone, started_again, left };
+
+  /// `far_mm`: a tip believed further from its target is objected to; 0: the arm is not known so well.
+  TouchRound(calibration::TargetPlan plan, const calibration::MeasuredArm& believed, double far_mm,
+             Announcements& voice);
+
+  /// `pressed_s`: when the button went down.
+  Happened feel(const StylusSample& sample, Press press, double pressed_s);
+  /// However the stylus is held.
+  void letTiltBe() { any_tilt_ = true; }
+  /// The device was silent.
+  void lost();
+  void show(WizardView& view) const;
+
+  bool isComplete() const;
+  /// Those taken, in the plan's order, with the targets' ids; `joints_rad` as the sensors read.
+  std::vector<calibration::Touch> touches() const;
+  /// Of all taken ones.
+  double tiltSpread_deg() const;
+  /// Indices of those that were taken although their tilt was wrong.
+  std::vector<std::size_t> wronglyHeld() const;
+  double duration_s() const { return busy_s_; }
+
+  /// The arm as it is known by now.
+  void believe(const calibration::MeasuredArm& arm, double far_mm);
+  /// In the order of touches().
+  void doubt(const std::vector<bool>& doubtful);
+  /// Of those taken, by their place in touches(): it is the next again.
+  void again(std::size_t touch);
+  void againAll();
+  std::string nameOf(std::size_t touch) const;
+  bool isDoubtful(std::size_t touch) const;
+
+ private:
+  struct Taken {
+    calibration::RawJoints raw_rad{};
+    bool wrongly_held = false, doubtful = false;
+  };
+
+  std::optional<std::size_t> next() const;
+  std::size_t planIndex(std::size_t touch) const;
+  calibration::Vector<calibration::World> heldAlong_W(const calibration::RawJoints& raw_rad) const;
+  /// Why it should not be taken; empty: nothing speaks against it.
+  std::string objection(std::size_t index, const calibration::RawJoints& raw_rad, bool& tilt_is_wrong) const;
+  Happened take(const StillTake& take, bool pressed);
+  Happened prove(const StillTake& take);
+  Happened pause(Press press);
+  Happened undo();
+  void keepTime(double t_s);
+
+  calibration::TargetPlan plan_;
+  calibration::MeasuredArm believed_;
+  double far_mm_;
+  bool any_tilt_ = false;
+  Announcements& voice_;
+  StillCapture still_;
+  std::vector<std::optional<Taken>> taken_;  ///< one a target
+  std::vector<std::size_t> order_;           ///< in which they were taken
+  std::optional<std::size_t> proving_;       ///< was taken before the silence
+  std::optional<std::size_t> objected_;      ///< a second press here takes it
+  std::optional<calibration::RawJoints> last_rad_;
+  std::optional<StylusSample> now_;
+  std::optional<ChoiceMenu> pause_;
+  bool docked_ = false;
+
+  double seen_s_ = 0.0, busy_s_ = 0.0, taken_at_s_ = 0.0;  ///< of the time it was not paused
+  std::vector<double> intervals_s_;
+};
+
+}  // namespace app

@@ -1,0 +1,169 @@
+#include "app/calibrate/wizard.h"
+
+#include "app/calibrate/steps/collect_step.h"
+#include "app/calibrate/steps/eye_check_step.h"
+#include "app/calibrate/steps/eyes_step.h"
+#include "app/calibrate/steps/fit_step.h"
+#include "app/calibrate/steps/flip_step.h"
+#include "app/calibrate/steps/home_step.h"
+#include "app/calibrate/steps/identity_step.h"
+#include "app/calibrate/steps/length_step.h"
+#include "app/calibrate/steps/proof_step.h"
+#include "app/calibrate/steps/rest_step.h"
+#include "app/calibrate/steps/rezero_step.h"
+#include "app/calibrate/steps/sign_off_step.h"
+#include "calibration/arm/phantom_models.h"
+
+namespace app {
+namespace {
+
+constexpr double kSilence_s = 0.3;
+
+std::vector<StepName> pagesOf(Procedure procedure) {
+  using enum StepName;
+  switch (procedure) {
+    case Procedure::full:
+      return {identity, home, flip, length, eyes, collect, fit, eye_check, verify, sign_off};
+    case Procedure::check:
+      return {identity, home, check, rezero, sign_off};
+    case Procedure::rezero:
+      return {identity, home, rezero, check, sign_off};
+    case Procedure::rest:
+      return {identity, home, rest, sign_off};
+  }
+  return {};
+}
+
+/// The device as it is believed to stand before anything is measured.
+calibration::MeasuredArm armOf(const WizardPlan& plan) {
+  if (plan.procedure != Procedure::full)
+    if (const auto measured = calibration::measuredArm(plan.record.rig)) return *measured;
+  const calibration::PhantomModel* const model = calibration::findPhantomModel(plan.device.model);
+  if (model == nullptr)
+    throw calibration::CalibrationError("calibration: no arm is known for a device \"" + plan.device.model +
+                                        "\": use one of omni, touch, desktop, premium");
+  return {model->geometry, {}, plan.record.rig.X_WD};
+}
+
+}  // namespace
+
+std::unique_ptr<WizardStep> makeStep(StepName name, WizardBook& book) {
+  switch (name) {
+    case StepName::identity:
+      return std::make_unique<IdentityStep>(book);
+    case StepName::home:
+      return std::make_unique<HomeStep>(book);
+    case StepName::flip:
+      return std::make_unique<FlipStep>(book);
+    case StepName::length:
+      return std::make_unique<LengthStep>(book);
+    case StepName::eyes:
+      return std::make_unique<EyesStep>(book);
+    case StepName::collect:
+      return std::make_unique<CollectStep>(book);
+    case StepName::fit:
+      return std::make_unique<FitStep>(book);
+    case StepName::eye_check:
+      return std::make_unique<EyeCheckStep>(book);
+    case StepName::verify:
+      return std::make_unique<ProofStep>(book, "verify8");
+    case StepName::check:
+      return std::make_unique<ProofStep>(book, "check4");
+    case StepName::rezero:
+      return std::make_unique<RezeroStep>(book);
+    case StepName::rest:
+      return std::make_unique<RestStep>(book);
+    case StepName::sign_off:
+      return std::make_unique<SignOffStep>(book);
+  }
+  return nullptr;
+}
+
+Wizard::Wizard(WizardPlan plan) {
+  if (plan.procedure == Procedure::full && !calibration::targetPlan(plan.method, plan.jig))
+    throw calibration::CalibrationError("calibration: no method \"" + plan.method +
+                                        "\": use one of jig27, jig8, visual15, visual25");
+  book_.plan = std::move(plan);
+  book_.arm = armOf(book_.plan);
+  book_.arm_is_measured = book_.plan.procedure != Procedure::full && book_.plan.record.rig.arm.has_value();
+  for (const StepName name : pagesOf(book_.plan.procedure)) steps_.emplace_back(name, makeStep(name, book_));
+  turnTo(0);
+}
+
+Wizard::~Wizard() = default;
+
+void Wizard::feel(const StylusSample& sample) {
+  if (isOver()) return;
+  // A device that was silent is told of once it is there again.
+  if (sample.believable) {
+    if (lost_) step().lost();
+    lost_ = false;
+    believed_s_ = sample.t_s;
+  } else if (step().needsDevice()) {
+    if (!believed_s_) believed_s_ = sample.t_s;
+    if (!lost_ && sample.t_s - *believed_s_ > kSilence_s) {
+      lost_ = true;
+      ++book_.outcome.silences;
+      button_.forget();
+      book_.voice.refuse("The device has fallen silent.");
+    }
+    return;
+  }
+  const Press press = button_.feel(sample.t_s, sample.button);
+  obey(step().feel(sample, press, button_.downAt_s()));
+}
+
+void Wizard::turnTo(std::size_t page) {
+  at_ = page;
+  step().begin();
+}
+
+void Wizard::obey(const StepAnswer& answer) {
+  switch (answer.kind) {
+    case StepAnswer::Kind::stay:
+      return;
+    case StepAnswer::Kind::next:
+      return turnTo(at_ + 1);
+    case StepAnswer::Kind::go_to:
+      for (std::size_t page = 0; page < steps_.size(); ++page)
+        if (steps_[page].first == answer.to) return turnTo(page);
+      return;
+    case StepAnswer::Kind::end:
+      book_.outcome.end = answer.end;
+      book_.outcome.reason = answer.reason;
+      book_.voice.message = {};
+      book_.voice.sounds.push_back(answer.end == WizardOutcome::End::accepted ? WizardSound::done
+                                                                              : WizardSound::reject);
+      return;
+  }
+}
+
+WizardView Wizard::look() {
+  WizardView view;
+  const calibration::Rig rig = rigSoFar(book_.plan.record.rig, book_.outcome);
+  view.screen = rig.screen;
+  view.left_eye = rig.left_eye;
+  view.right_eye = rig.right_eye;
+  view.message = book_.voice.message;
+  view.sounds = std::exchange(book_.voice.sounds, {});
+
+  if (isOver()) {
+    view.title = book_.outcome.end == WizardOutcome::End::accepted ? "Taken" : "Nothing is changed";
+    view.sentence = book_.outcome.reason;
+    return view;
+  }
+  step().show(view);
+  if (!lost_) return view;
+  // Nothing on the page can be done now.
+  view.title = "The device is silent";
+  view.sentence = "See to its cable and its lights. What was touched is kept.";
+  view.button = {};
+  view.choices.clear();
+  view.marked.reset();
+  view.tip_W.reset();
+  view.tilt.reset();
+  view.capture = 0.0;
+  return view;
+}
+
+}  // namespace app

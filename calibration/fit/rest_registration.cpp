@@ -1,0 +1,53 @@
+#include "calibration/fit/rest_registration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "calibration/fit/rigid_fit.h"
+
+namespace calibration {
+namespace {
+
+constexpr double kOtherMarks_mm = 3.0;
+
+bool isFinite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+}  // namespace
+
+RestRegistration restRegistered(const std::vector<MarkTouch>& made_of, const std::vector<MarkTouch>& proved_by) {
+  for (const auto* touches : {&made_of, &proved_by})
+    for (const MarkTouch& touch : *touches)
+      if (!isFinite(touch.mark_mm) || !isFinite(touch.touched_W.mm))
+        throw CalibrationError("hand rest: a touch is not a number: touch its marks again");
+  if (made_of.size() < 3) throw CalibrationError("hand rest: fewer than three marks: touch three");
+
+  std::vector<glm::dvec3> marks_mm, touched_mm;
+  std::vector<std::size_t> all(made_of.size());
+  std::iota(all.begin(), all.end(), 0);
+  for (const MarkTouch& touch : made_of) {
+    marks_mm.push_back(touch.mark_mm);
+    touched_mm.push_back(touch.touched_W.mm);
+  }
+  const auto laid = rigidFit(marks_mm, touched_mm, all);
+  if (!laid) throw CalibrationError("hand rest: its marks lie on a line: choose three that make a triangle");
+
+  RestRegistration found;
+  found.rotation = glm::normalize(glm::quat_cast(laid->turn));
+  found.translation_mm = laid->shift_mm;
+  const double n = static_cast<double>(made_of.size());
+  double sum_mm2 = 0.0, largest_mm = 0.0;
+  for (const MarkTouch& touch : made_of) {
+    const double off_mm = glm::length(found.place_W(touch.mark_mm).mm - touch.touched_W.mm);
+    sum_mm2 += off_mm * off_mm / n;
+    largest_mm = std::max(largest_mm, off_mm);
+  }
+  found.fre_rms_mm = std::sqrt(sum_mm2);
+  if (largest_mm > kOtherMarks_mm)
+    throw CalibrationError("hand rest: the touches lie unlike its marks: touch the marks in their order");
+  for (const MarkTouch& touch : proved_by)
+    found.worst_mm = std::max(found.worst_mm, glm::length(found.place_W(touch.mark_mm).mm - touch.touched_W.mm));
+  return found;
+}
+
+}  // namespace calibration

@@ -1,0 +1,33 @@
+// Where the hand rest stands: three touches of marks whose places on it are known give its pose, three more prove it.
+// A rest that is drawn more than 2 mm off its place misleads the hand (reference/calibration 5). Frame W and the
+// rest's own; mm. Any thread; microseconds.
+#pragma once
+
+#include <vector>
+
+#include "calibration/calibration_error.h"
+#include "calibration/geometry/frames.h"
+#include "calibration/geometry/pose.h"
+
+namespace calibration {
+
+struct MarkTouch {
+  glm::dvec3 mark_mm{0.0};  ///< on the rest
+  Point<World> touched_W;
+};
+
+struct RestRegistration {
+  glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  ///< X_W,rest
+  glm::dvec3 translation_mm{0.0};
+  double fre_rms_mm = 0.0;  ///< over the marks it was made of
+  double worst_mm = 0.0;    ///< over those that prove it
+
+  Point<World> place_W(const glm::dvec3& mark_mm) const { return {rotation * mark_mm + translation_mm}; }
+};
+inline constexpr double kMostRestError_mm = 2.0;
+
+/// Throws CalibrationError for fewer than three marks, marks on a line, numbers not finite, or touches that lie unlike
+/// their marks by more than 3 mm: another order, another rest.
+RestRegistration restRegistered(const std::vector<MarkTouch>& made_of, const std::vector<MarkTouch>& proved_by);
+
+}  // namespace calibration
