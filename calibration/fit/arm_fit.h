@@ -1,8 +1,8 @@
 // From touches to a measured arm: where the device stands (X_WD) and how its arm differs from its model, as the most
 // probable values under priors of what such units are like. Outliers are found and named first. Models from few numbers
 // to many: rigid 6, joint gains and offsets with the tip 15, full 28; affine 12 for comparison alone, for the
-// workstation is 1:1. Frame W, mm, rad. Any thread but the servo's; at most 1 s.
-// Sources: reference/calibration 2.1, 3.1, 4.1; Umeyama 1991; Fitzpatrick, West, Maurer, IEEE TMI 1998.
+// workstation is 1:1. Frame W, mm, rad. Any thread but the servo's; about 10 ms for 27 touches, cross-validation of all
+// models included. Sources: reference/calibration 2.1, 3.1, 4.1.
 #pragma once
 
 #include <optional>
@@ -11,6 +11,8 @@
 
 #include "calibration/calibration_error.h"
 #include "calibration/fit/arm_numbers.h"
+#include "calibration/fit/expected_error_map.h"
+#include "calibration/fit/fit_warnings.h"
 #include "calibration/fit/touches.h"
 
 namespace calibration {
@@ -34,13 +36,6 @@ struct Residual {
   bool used = true;  ///< false: an outlier, or set aside
 };
 
-/// Something that makes the result less than it seems.
-struct FitWarning {
-  enum class Kind { few_touches, small_volume, little_tilt, optimistic_check, many_outliers, mirrored, over_fitted };
-  Kind kind;
-  std::string line;  ///< for people: what, and what to do
-};
-
 struct ArmFit {
   ArmModel model = ArmModel::full;
   MeasuredArm arm;
@@ -51,11 +46,11 @@ struct ArmFit {
   double fre_rms_mm = 0.0, cv_rms_mm = 0.0;
   double expected_fre_mm = 0.0;  ///< from the touches' precision and the numbers fitted
   Vector<World> bias_mm;         ///< mean of the residuals of the touches used
-  double tilt_spread_deg = 0.0;  ///< between the stylus's directions, 95 of 100 pairs are within it
+  double tilt_spread_deg = 0.0;  ///< how differently the stylus was held (touch_checks)
+  double mismatch_mm = 0.0;      ///< one sigma, an axis: what the model can not explain beyond the touches' precision
   double hull_mm3 = 0.0;         ///< of the convex hull of the targets used
   int iterations = 0;
-  /// Row-major, in the order of kArmParameters: 1 sigma of each number that was fitted, 0 of the others.
-  std::vector<double> sigma;
+  std::vector<double> sigma;  ///< in the order of kArmParameters: 1 sigma of each number fitted, 0 of the others
 };
 
 struct FitOptions {
@@ -64,25 +59,11 @@ struct FitOptions {
 };
 
 /// Throws CalibrationError for fewer than 4 touches, all on a line or in one place, the same touch twice, numbers that
-/// are not finite, an unknown model, or touches that no pose of the arm explains (wrong order, wrong device).
+/// are not finite, an unknown model, touches that are mirrored (a flip of the display is wrong), or that no pose of the
+/// arm explains (wrong order, wrong device). A full model is chosen by itself from 8 touches whose tilts vary.
 ArmFit fitArm(const TouchSet& touches, const FitOptions& options = {});
 
 /// Of a touch set against an arm that is already there.
 std::vector<Residual> residualsOf(const MeasuredArm& arm, const std::vector<Touch>& touches);
-
-/// Where the tip's error is expected, at a place, after a rigid fit of these touches (Fitzpatrick 1998, eq. 46):
-/// TRE^2 = FLE^2 / N (1 + 1/3 sum_k d_k^2 / f_k^2). `fle_mm`: of one touch.
-class ExpectedErrorMap {
- public:
-  ExpectedErrorMap(const std::vector<Point<World>>& targets_W, double fle_mm);
-  double at_mm(const Point<World>& place_W) const;
-
- private:
-  glm::dvec3 middle_mm_{0.0};
-  glm::dmat3 axes_{1.0};
-  glm::dvec3 spread_mm2_{1.0};
-  double fle_mm_ = 0.0;
-  double count_ = 1.0;
-};
 
 }  // namespace calibration

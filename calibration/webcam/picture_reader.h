@@ -1,4 +1,5 @@
-// A camera's picture from a file (JPEG, PNG, …) as grey. Start-up and command line; milliseconds.
+// A camera's picture from a file (JPEG or PNG) as grey. What the file says of its size is compared with limits before
+// anything is decoded; a file that ends too early is refused. Start-up and command line; milliseconds.
 #pragma once
 
 #include <string>
@@ -8,7 +9,8 @@
 
 namespace calibration {
 
-/// Throws CalibrationError: not there, not a picture, beyond 64 megapixels.
+/// Throws CalibrationError: not there, beyond 32 MiB, neither PNG nor JPEG, damaged, cut off, a side under 16 or beyond
+/// 16384 px, beyond 64 megapixels.
 GreyPicture readGreyPicture(const std::string& path);
 
 }  // namespace calibration

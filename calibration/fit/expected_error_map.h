@@ -1,0 +1,28 @@
+// Where the tip's error is expected, at a place, after a rigid fit of touches: small in their middle, growing outside;
+// it shows where to touch more. TRE^2 = FLE^2 / N (1 + 1/3 sum_k d_k^2 / f_k^2), d_k the place's and f_k the targets'
+// distance from their k-th main axis. Frame W, mm. Any thread; a few flops a place. Not a measured error: only touches
+// that were not fitted tell that. Source: Fitzpatrick, West, Maurer, IEEE TMI 17, 1998, eq. 46.
+#pragma once
+
+#include <vector>
+
+#include "calibration/geometry/frames.h"
+#include "calibration/geometry/pose.h"
+
+namespace calibration {
+
+class ExpectedErrorMap {
+ public:
+  /// `fle_mm`: root mean square distance of one touch from where it should be.
+  ExpectedErrorMap(const std::vector<Point<World>>& targets_W, double fle_mm);
+  double at_mm(const Point<World>& place_W) const;
+
+ private:
+  glm::dvec3 middle_mm_{0.0};
+  glm::dmat3 axes_{1.0};
+  glm::dvec3 spread_mm2_{1.0};  ///< f_k^2
+  double fle_mm_ = 0.0;
+  double count_ = 1.0;
+};
+
+}  // namespace calibration

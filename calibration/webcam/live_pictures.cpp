@@ -1,0 +1,74 @@
+#include "calibration/webcam/live_pictures.h"
+
+namespace calibration {
+namespace {
+
+// The frame that is being exposed at the call began before it.
+constexpr int kFramesAhead = 2;
+
+}  // namespace
+
+LivePictures::LivePictures(std::string name, const std::function<std::unique_ptr<FrameGiver>()>& open,
+                           const Patience& patience)
+    : name_(std::move(name)), patience_(patience), thread_([this, open] { run(open); }) {
+  std::unique_lock lock(mutex_);
+  const bool answered = changed_.wait_for(lock, patience_.open, [&] { return opened_ || ended_; });
+  if (answered && !ended_) return;
+  // A constructor that throws has no destructor.
+  const std::string why = answered ? trouble_ : name_ + ": it does not answer, unplug it and plug it in again";
+  stop_ = true;
+  lock.unlock();
+  thread_.join();
+  throw CalibrationError(why);
+}
+
+LivePictures::~LivePictures() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  thread_.join();
+}
+
+GreyPicture LivePictures::take() {
+  std::unique_lock lock(mutex_);
+  taken_.reset();
+  wanted_in_ = kFramesAhead;
+  const bool answered = changed_.wait_for(lock, patience_.frame, [&] { return taken_.has_value() || ended_; });
+  wanted_in_ = 0;
+  if (taken_) return *std::move(taken_);
+  throw CalibrationError(name_ + (answered ? ": it gives no more pictures" : ": no picture in time") +
+                         ", check its cable, unplug it and plug it in again");
+}
+
+void LivePictures::run(const std::function<std::unique_ptr<FrameGiver>()>& open) {
+  std::unique_ptr<FrameGiver> giver;
+  std::string trouble;
+  try {
+    giver = open();
+  } catch (const CalibrationError& error) {
+    trouble = error.what();
+  }
+  std::unique_lock lock(mutex_);
+  opened_ = true;
+  trouble_ = trouble;
+  if (giver) remarks_ = giver->remarks();
+  ended_ = !giver;
+  changed_.notify_all();
+  while (!stop_ && !ended_) {
+    lock.unlock();
+    const bool came = giver->next();
+    lock.lock();
+    ended_ = !came;
+    if (came && wanted_in_ > 0 && --wanted_in_ == 0) {
+      lock.unlock();
+      GreyPicture picture = giver->decoded();
+      lock.lock();
+      ended_ = picture.grey.empty();
+      taken_ = std::move(picture);
+    }
+    if (ended_ || taken_) changed_.notify_all();
+  }
+}
+
+}  // namespace calibration

@@ -1,0 +1,66 @@
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <tuple>
+#include <vector>
+
+#include "calibration/webcam/picture_reader.h"
+#include "calibration/webcam/picture_source.h"
+
+namespace calibration {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostFiles = 10'000;
+
+bool isPicture(const fs::path& path) {
+  std::string ending = path.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending == ".png" || ending == ".jpg" || ending == ".jpeg";
+}
+
+/// The last digits of the name, without leading zeros: longer is larger, then as text.
+std::tuple<std::size_t, std::string, std::string> orderOf(const fs::path& path) {
+  const std::string name = path.stem().string();
+  const auto isDigit = [](unsigned char c) { return std::isdigit(c) != 0; };
+  const auto last = std::find_if(name.rbegin(), name.rend(), isDigit);
+  const auto first = std::find_if_not(last, name.rend(), isDigit);
+  std::string number(first.base(), last.base());
+  number.erase(0, std::min(number.find_first_not_of('0'), number.size()));
+  return {number.size(), number, name};
+}
+
+class PictureFolder final : public PictureSource {
+ public:
+  explicit PictureFolder(std::string path) : path_(std::move(path)) {
+    std::error_code error;
+    for (fs::directory_iterator entry(path_, error), end; !error && entry != end; entry.increment(error)) {
+      if (isPicture(entry->path()) && entry->is_regular_file(error)) files_.push_back(entry->path());
+      if (files_.size() > kMostFiles)
+        throw CalibrationError(name() + ": more than 10,000 pictures, give another folder");
+    }
+    if (error) throw CalibrationError(name() + ": it can not be read, check the path");
+    if (files_.empty()) throw CalibrationError(name() + ": no PNG or JPEG in it, check the path");
+    std::ranges::sort(files_, {}, orderOf);
+  }
+
+  GreyPicture take() override {
+    if (next_ == files_.size())
+      throw CalibrationError(name() + ": its " + std::to_string(next_) +
+                             " pictures are used up, add those that follow");
+    return readGreyPicture(files_[next_++].string());
+  }
+  std::string name() const override { return "folder " + path_; }
+
+ private:
+  std::string path_;
+  std::vector<fs::path> files_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<PictureSource> pictureFolder(const std::string& path) { return std::make_unique<PictureFolder>(path); }
+
+}  // namespace calibration

@@ -1,0 +1,135 @@
+#include "calibration/webcam/webcam_source.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+
+#include <fcntl.h>
+#include <linux/videodev2.h>
+#include <sys/ioctl.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
+#include <unistd.h>
+#include <opencv2/core.hpp>
+#include <opencv2/core/utils/logger.hpp>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/videoio.hpp>
+
+#include "calibration/webcam/live_pictures.h"
+
+namespace calibration {
+namespace {
+
+constexpr unsigned kVideoDevices = 81;  // major number, Linux devices.txt
+// V4L2: UVC cameras count exposure in 0.1 ms, and 1 is manual.
+constexpr double kStepsPerMs = 10.0, kManualExposure = 1.0;
+
+bool isIndex(const std::string& text) {
+  return !text.empty() && text.size() <= 3 &&
+         std::ranges::all_of(text, [](unsigned char c) { return std::isdigit(c); });
+}
+bool isWebcam(const std::string& text) { return isIndex(text) || text.starts_with("/dev/"); }
+
+/// Asks the kernel, without waiting, whether this is a camera at all.
+void checkDevice(const std::string& path) {
+  const auto refuse = [&](const std::string& what) { throw CalibrationError("webcam " + path + ": " + what); };
+  struct stat file {};
+  if (stat(path.c_str(), &file) != 0) refuse("it is not there, plug it in (ls /dev/video*)");
+  if (!S_ISCHR(file.st_mode) || major(file.st_rdev) != kVideoDevices)
+    refuse("it is no camera, give one of /dev/video*");
+  const int handle = open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
+  if (handle < 0)
+    refuse(errno == EACCES ? "no permission, add yourself to the group video and log in again"
+                           : std::string("it can not be opened (") + std::strerror(errno) + "), close other programs");
+  v4l2_capability can{};
+  const bool answered = ioctl(handle, VIDIOC_QUERYCAP, &can) == 0;
+  close(handle);
+  const unsigned what = (can.capabilities & V4L2_CAP_DEVICE_CAPS) != 0U ? can.device_caps : can.capabilities;
+  if (!answered || (what & V4L2_CAP_VIDEO_CAPTURE) == 0U) refuse("it gives no pictures, try the next of /dev/video*");
+}
+
+class V4lFrames final : public FrameGiver {
+ public:
+  V4lFrames(const std::string& path, const WebcamWanted& wanted) {
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+    const auto refuse = [&](const std::string& what) { throw CalibrationError("webcam " + path + ": " + what); };
+    try {
+      if (!camera_.open(path, cv::CAP_V4L2)) refuse("it is busy, close the program that uses it");
+      camera_.set(cv::CAP_PROP_FOURCC, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'));
+      camera_.set(cv::CAP_PROP_FRAME_WIDTH, wanted.size_px.x);
+      camera_.set(cv::CAP_PROP_FRAME_HEIGHT, wanted.size_px.y);
+      camera_.set(cv::CAP_PROP_BUFFERSIZE, 1);
+      // By itself first: what it finds for this room is then held.
+      cv::Mat frame;
+      if (!camera_.read(frame) || frame.empty()) refuse("it gives no picture, unplug it and plug it in again");
+      if (frame.cols != wanted.size_px.x || frame.rows != wanted.size_px.y)
+        refuse("it gives " + std::to_string(frame.cols) + " x " + std::to_string(frame.rows) + ", ask for that size");
+      hold(wanted);
+    } catch (const cv::Exception&) {
+      refuse("it can not be used by OpenCV, try another camera");
+    }
+  }
+
+  bool next() override {
+    try {
+      return camera_.grab();
+    } catch (const cv::Exception&) {
+      return false;
+    }
+  }
+  GreyPicture decoded() override {
+    cv::Mat frame, grey;
+    try {
+      if (!camera_.retrieve(frame) || frame.empty()) return {};
+      if (frame.channels() == 1) {
+        grey = frame;
+      } else {
+        cv::cvtColor(frame, grey, cv::COLOR_BGR2GRAY);
+      }
+    } catch (const cv::Exception&) {
+      return {};
+    }
+    GreyPicture picture{{grey.cols, grey.rows}, {}};
+    picture.grey.reserve(grey.total());
+    for (int y = 0; y < grey.rows; ++y) picture.grey.insert(picture.grey.end(), grey.ptr(y), grey.ptr(y) + grey.cols);
+    return picture;
+  }
+  std::string remarks() override { return remarks_; }
+
+ private:
+  void hold(const WebcamWanted& wanted) {
+    const auto ask = [&](int what, double value, const char* remark) {
+      if (!camera_.set(what, value)) remarks_ += (remarks_.empty() ? "" : "; ") + std::string(remark);
+    };
+    // The settings it has found for this room by itself.
+    const double found_exposure = camera_.get(cv::CAP_PROP_EXPOSURE), found_focus = camera_.get(cv::CAP_PROP_FOCUS);
+    ask(cv::CAP_PROP_AUTOFOCUS, 0.0, "focus can not be fixed: see that it has none to turn, or tape it");
+    if (wanted.focus || found_focus > 0.0)
+      ask(cv::CAP_PROP_FOCUS, wanted.focus.value_or(found_focus), "focus can not be set");
+    ask(cv::CAP_PROP_AUTO_EXPOSURE, kManualExposure, "exposure can not be fixed: keep the room's light even");
+    const double exposure = wanted.exposure_ms ? *wanted.exposure_ms * kStepsPerMs : found_exposure;
+    if (exposure > 0.0) ask(cv::CAP_PROP_EXPOSURE, exposure, "exposure can not be set");
+  }
+
+  cv::VideoCapture camera_;
+  std::string remarks_;
+};
+
+}  // namespace
+
+OpenWebcam openWebcam(const WebcamWanted& wanted) {
+  const std::string path = isIndex(wanted.device) ? "/dev/video" + wanted.device : wanted.device;
+  checkDevice(path);
+  auto live = std::make_unique<LivePictures>(
+      "webcam " + path, [path, wanted] { return std::make_unique<V4lFrames>(path, wanted); }, LivePictures::Patience{});
+  std::string remarks = live->remarks();
+  return {std::move(live), std::move(remarks)};
+}
+
+OpenWebcam openPictures(const WebcamWanted& wanted) {
+  if (isWebcam(wanted.device)) return openWebcam(wanted);
+  return {pictureFolder(wanted.device), ""};
+}
+
+}  // namespace calibration
