@@ -1,0 +1,141 @@
+#include "calibration/verification/verdict.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace calibration {
+namespace {
+
+constexpr ProofLimits kFull{{0.5, 1.0}, {0.8, 1.8}, {1.2, 2.5}, {0.3, 0.6}};
+// By eye only the root mean square has a limit of its own: the others stand to it as they do above.
+constexpr ProofLimits kByEyes{{0.8, 1.5}, {1.3, 2.7}, {1.9, 3.75}, {0.5, 0.9}};
+// Of four touches, all of which a shift may explain: bias has the limits of the root mean square.
+constexpr ProofLimits kSessionCheck{{0.6, 1.2}, {1.0, 2.0}, {1.0, 2.0}, {0.6, 1.2}};
+
+constexpr int kFewestForGreen = 4;
+constexpr double kOneSided95 = 1.65;
+
+double length(const Vector<World>& v) { return glm::length(v.xyz); }
+
+/// Between the two nearest, as spreadsheets and numpy have it.
+double percentile(std::vector<double> sorted, double share) {
+  std::ranges::sort(sorted);
+  const double at = share * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(at);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+}
+
+/// Not a number is never within.
+Verdict against(double value_mm, const ProofLimit& limit) {
+  return value_mm <= limit.green_mm ? Verdict::green : value_mm <= limit.amber_mm ? Verdict::amber : Verdict::red;
+}
+
+/// Not a number if one of them is none.
+double largestOf(const glm::dvec3& v) {
+  const glm::dvec3 size = glm::abs(v);
+  return std::isfinite(size.x + size.y + size.z) ? std::max({size.x, size.y, size.z}) : size.x + size.y + size.z;
+}
+
+std::string clause(const char* format, double a, double b) {
+  std::array<char, 160> text{};
+  std::snprintf(text.data(), text.size(), format, a, b);
+  return text.data();
+}
+
+}  // namespace
+
+std::string_view nameOf(Verdict verdict) {
+  return verdict == Verdict::green ? "green" : verdict == Verdict::amber ? "amber" : "red";
+}
+
+TargetErrors targetErrors(const std::vector<Residual>& residuals) {
+  TargetErrors errors;
+  std::vector<double> lengths;
+  glm::dvec3 sum{0.0}, squares{0.0};
+  for (const Residual& residual : residuals) {
+    if (!residual.used) continue;
+    lengths.push_back(length(residual.error_mm));
+    sum += residual.error_mm.xyz;
+    squares += residual.error_mm.xyz * residual.error_mm.xyz;
+    errors.mean_mm += lengths.back();
+  }
+  if (lengths.empty()) return errors;
+  const double n = static_cast<double>(lengths.size());
+  errors.n = static_cast<int>(lengths.size());
+  errors.mean_mm /= n;
+  errors.rms_mm = std::sqrt((squares.x + squares.y + squares.z) / n);
+  errors.p95_mm = percentile(lengths, 0.95);
+  errors.max_mm = *std::ranges::max_element(lengths);
+  errors.bias_mm = {sum / n};
+  errors.in_plane_rms_mm = std::sqrt((squares.x + squares.y) / n);
+  errors.along_sight_rms_mm = std::sqrt(squares.z / n);
+  return errors;
+}
+
+const ProofLimits& limitsOf(ProofKind kind) {
+  return kind == ProofKind::full ? kFull : kind == ProofKind::by_eyes ? kByEyes : kSessionCheck;
+}
+
+Judgement judge(const TargetErrors& errors, ProofKind kind) {
+  Judgement judgement;
+  if (errors.n == 0) {
+    judgement.reason = "no touch to judge by";
+    return judgement;
+  }
+  const ProofLimits& limits = limitsOf(kind);
+  judgement.sure_rms_mm = errors.rms_mm * (1.0 + kOneSided95 / std::sqrt(6.0 * errors.n));
+  struct Quantity {
+    const char* what;
+    double value_mm;
+    ProofLimit limit;
+  };
+  const std::array quantities = {
+      Quantity{"root mean square at most %.2f mm (95 %% sure)", judgement.sure_rms_mm, limits.rms},
+      Quantity{"95 of 100 touches within %.2f mm", errors.p95_mm, limits.p95},
+      Quantity{"the worst touch %.2f mm off", errors.max_mm, limits.max},
+      Quantity{"all touches off one way by %.2f mm", largestOf(errors.bias_mm.xyz), limits.bias}};
+
+  // The worst colour decides; of one colour what is furthest beyond its limit.
+  const auto beyond = [](const Quantity& q) { return q.value_mm / q.limit.green_mm; };
+  const auto worse = [&](const Quantity& a, const Quantity& b) {
+    const Verdict va = against(a.value_mm, a.limit), vb = against(b.value_mm, b.limit);
+    return va != vb ? va < vb : beyond(a) < beyond(b);
+  };
+  const Quantity& deciding = *std::ranges::max_element(quantities, worse);
+  judgement.verdict = against(deciding.value_mm, deciding.limit);
+  const double limit_mm = judgement.verdict == Verdict::red ? deciding.limit.amber_mm : deciding.limit.green_mm;
+  judgement.reason =
+      clause(deciding.what, deciding.value_mm, 0.0) +
+      clause(judgement.verdict == Verdict::green ? ", %.2f mm are allowed" : ", more than %.2f mm", limit_mm, 0.0);
+  if (errors.n < kFewestForGreen && judgement.verdict == Verdict::green) {
+    judgement.verdict = Verdict::amber;
+    judgement.reason = std::to_string(errors.n) + " touches are too few to be sure, 4 are needed";
+  }
+  return judgement;
+}
+
+std::string worstPlaceSentence(const std::vector<Residual>& residuals, const Point<World>& middle_W) {
+  const Residual* worst = nullptr;
+  glm::dvec3 reach_mm{0.0};
+  for (const Residual& residual : residuals) {
+    if (!residual.used) continue;
+    reach_mm = glm::max(reach_mm, glm::abs(residual.target_W.mm - middle_W.mm));
+    if (!worst || length(residual.error_mm) > length(worst->error_mm)) worst = &residual;
+  }
+  if (!worst) return "no touches";
+  const glm::dvec3 from_middle = worst->target_W.mm - middle_W.mm;
+  std::string place;
+  const auto say = [&](int axis, const char* negative, const char* positive) {
+    if (std::abs(from_middle[axis]) <= reach_mm[axis] / 3.0 || reach_mm[axis] < 1.0) return;
+    place += (place.empty() ? "" : " ") + std::string(from_middle[axis] < 0.0 ? negative : positive);
+  };
+  say(2, "back", "front");
+  say(0, "left", "right");
+  say(1, "low", "high");
+  return "worst: " + (place.empty() ? "in the middle" : place) + clause(", %.1f mm", length(worst->error_mm), 0.0);
+}
+
+}  // namespace calibration
