@@ -9,7 +9,16 @@ namespace calibration {
 
 /// Something that makes the result less than it seems.
 struct FitWarning {
-  enum class Kind { few_touches, small_volume, little_tilt, optimistic_check, many_outliers, mirrored, over_fitted };
+  enum class Kind {
+    few_touches,
+    small_volume,
+    little_tilt,
+    optimistic_check,
+    many_outliers,
+    mirrored,
+    over_fitted,
+    narrow_view  ///< of a camera: its positions are too near each other
+  };
   Kind kind;
   std::string line;  ///< for people: what, and what to do
 };

@@ -5,58 +5,40 @@
 // Source: reference/calibration 2.3; start by solvePnP (IPPE for the screen, SQPNP for the tip).
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "calibration/calibration_error.h"
 #include "calibration/fit/arm_fit.h"
-#include "calibration/webcam/camera.h"
+#include "calibration/webcam/sights.h"
 
 namespace calibration {
-
-/// A place on the virtual screen (z = 0) and where it is seen.
-struct PlaceSight {
-  Point<World> place_W;
-  glm::dvec2 camera_px{0.0};
-};
-
-/// A touch as the camera sees it: what the sensors read and where the tip is in the picture.
-struct TipSight {
-  int id = 0;  ///< of the target
-  RawJoints joints_rad{};
-  glm::dvec2 camera_px{0.0};
-};
-
-struct CameraPosition {
-  std::vector<PlaceSight> screen;
-  std::vector<TipSight> tips;
-};
-
-struct WebcamSights {
-  CameraModel camera;
-  std::string device_model = "omni";  ///< key of phantom_models
-  double screen_noise_px = 0.25, tip_noise_px = 0.5;
-  std::vector<CameraPosition> positions;
-};
 
 struct WebcamFit {
   ArmModel model = ArmModel::full;
   MeasuredArm arm;
+  CameraModel camera;                            ///< as adjusted: the lens is measured again by the way
   std::vector<Pose<World, Camera>> X_WC;         ///< of each position
   double screen_rms_px = 0.0, tip_rms_px = 0.0;  ///< over what was used
-  std::vector<std::vector<bool>> tip_used;       ///< of each position's tips; false: an outlier
-  int used = 0, outliers = 0;
+  /// Of every tip, position after position: where the arm says it was, less the nearest place on the line of sight.
+  /// Nothing is known along that line: two of three axes.
+  std::vector<Residual> residuals;
   std::vector<FitWarning> warnings;
+  int used = 0, outliers = 0;
+  double fre_rms_mm = 0.0,
+         cv_rms_mm = 0.0;  ///< of the residuals, and of tips left out (5-fold); taken up to three axes
   double tilt_spread_deg = 0.0;
+  double base_deg = 0.0;  ///< the widest angle between two camera positions, from the middle of the tips
   int iterations = 0;
+  std::vector<double> sigma;  ///< as ArmFit has it
 };
 
-/// Throws CalibrationError for fewer than 2 camera positions, fewer than 16 tips in all, fewer than 4 places of the
-/// screen at a position, positions in one place, numbers not finite, an unknown model, or sights that no pose explains.
+/// Throws CalibrationError for fewer than 2 camera positions, all of them within 5°, fewer than 16 tips in all or 4 at
+/// a position, fewer than 6 places of the screen at a position, the screen seen mirrored, numbers not finite, an
+/// unknown model, or sights that no pose of the arm explains.
 WebcamFit fitWebcam(const WebcamSights& sights, ArmModel model = ArmModel::full);
 
 /// What a single camera position makes of it, with the arm as its model says: where fitWebcam starts, and how far off
-/// one position alone would be. Same errors, for one position.
+/// one position alone would be. Same errors, for that position.
 MeasuredArm armFromOnePosition(const WebcamSights& sights, std::size_t position);
 
 }  // namespace calibration

@@ -1,0 +1,205 @@
+#include "calibration/webcam/webcam_bundle.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "calibration/fit/least_squares.h"
+
+namespace calibration {
+namespace {
+
+constexpr double kScreenCauchy = 4.0, kTipCauchy = 4.0;       ///< in sigmas: its weight is halved there
+constexpr double kFocalSigma = 0.002, kCentreSigma_px = 2.0;  ///< how well a lens is known; relative, px
+constexpr std::size_t kPoseNumbers = 6, kLensNumbers = 3;
+constexpr int kMostIterations = 40;
+
+glm::dmat3 crossOf(const glm::dvec3& v) { return {0.0, v.z, -v.y, -v.z, 0.0, v.x, v.y, -v.x, 0.0}; }
+
+glm::dquat turned(const glm::dvec3& turn_rad) {
+  const double angle_rad = glm::length(turn_rad);
+  return angle_rad > 0.0 ? glm::angleAxis(angle_rad, turn_rad / angle_rad) : glm::dquat(1.0, 0.0, 0.0, 0.0);
+}
+
+/// A pixel with its slopes by the point in C, and by the lens's three numbers.
+struct PixelSlopes {
+  glm::dvec2 px{0.0};
+  glm::dmat3x2 by_point{0.0};  ///< columns x, y, z of p_C
+  glm::dvec2 by_focal{0.0};    ///< of a relative change; by the centre it is one
+};
+PixelSlopes pixelSlopes(const CameraModel& camera, const glm::dvec3& p_C) {
+  const double x = p_C.x / p_C.z, y = p_C.y / p_C.z, r2 = x * x + y * y;
+  const double radial = 1.0 + r2 * (camera.k1 + r2 * camera.k2), slope = camera.k1 + 2.0 * r2 * camera.k2;
+  const double across = 2.0 * x * y * slope + 2.0 * camera.p1 * x + 2.0 * camera.p2 * y;
+  const double xx = radial + 2.0 * x * x * slope + 2.0 * camera.p1 * y + 6.0 * camera.p2 * x;
+  const double yy = radial + 2.0 * y * y * slope + 6.0 * camera.p1 * y + 2.0 * camera.p2 * x;
+  PixelSlopes of;
+  of.px = camera.pixelOf({p_C});
+  of.by_focal = of.px - camera.centre_px;
+  const glm::dvec2 by_x = camera.focal_px * glm::dvec2(xx, across), by_y = camera.focal_px * glm::dvec2(across, yy);
+  of.by_point[0] = by_x / p_C.z;
+  of.by_point[1] = by_y / p_C.z;
+  of.by_point[2] = -(x * by_x + y * by_y) / p_C.z;
+  return of;
+}
+
+/// A camera that turns about, and moves with, the place in it where W's origin is.
+Pose<Camera, World> movedPose(const Pose<Camera, World>& X_CW, const double* numbers) {
+  return {glm::normalize(turned({numbers[0], numbers[1], numbers[2]}) * X_CW.rotation),
+          X_CW.translation_mm + glm::dvec3(numbers[3], numbers[4], numbers[5])};
+}
+
+CameraModel movedLens(CameraModel camera, const double* numbers) {
+  camera.focal_px *= 1.0 + numbers[0];
+  camera.centre_px += glm::dvec2(numbers[1], numbers[2]);
+  return camera;
+}
+
+/// The numbers in order: the arm's, six of each camera position, three of the lens.
+class BundleProblem {
+ public:
+  BundleProblem(const WebcamSights& sights, const WebcamBundle& from) : sights_(sights), from_(from) {
+    first_pose_ = from.fitted.size();
+    first_lens_ = first_pose_ + kPoseNumbers * sights.positions.size();
+    count_ = first_lens_ + kLensNumbers;
+
+    LeastSquares& p = problem_;
+    for (const std::size_t k : from.fitted) {
+      p.start.push_back(from.numbers[k]);
+      p.priors.push_back({0.0, kArmParameters[k].prior_sigma});
+    }
+    p.start.resize(count_, 0.0);
+    p.priors.resize(first_lens_);
+    const glm::dvec2 off_px = sights.camera.centre_px - from.camera.centre_px;
+    p.priors.push_back({sights.camera.focal_px.x / from.camera.focal_px.x - 1.0, kFocalSigma});
+    p.priors.push_back({off_px.x, kCentreSigma_px});
+    p.priors.push_back({off_px.y, kCentreSigma_px});
+
+    const MeasuredArm arm = from.arm();
+    for (std::size_t c = 0; c < sights.positions.size(); ++c) {
+      for (std::size_t i = 0; i < sights.positions[c].screen.size(); ++i) p.groups.push_back({2, kScreenCauchy});
+      for (std::size_t i = 0; i < sights.positions[c].tips.size(); ++i) {
+        if (!from.tip_used[c][i]) continue;
+        p.groups.push_back({2, kTipCauchy});
+        tips_.push_back({c, i, tipSigma_px(sights, from, c, arm.tip_W(sights.positions[c].tips[i].joints_rad))});
+      }
+    }
+    p.residuals = 2 * p.groups.size();
+    p.most_iterations = kMostIterations;
+    p.good_enough = 1e-7;
+    p.residuals_at = [this](std::span<const double> x, std::span<double> r) { evaluate(x, r, {}); };
+    p.jacobian_at = [this](std::span<const double> x, std::span<double> J) { evaluate(x, {}, J); };
+  }
+  BundleProblem(const BundleProblem&) = delete;
+  BundleProblem& operator=(const BundleProblem&) = delete;
+
+  WebcamBundle solution() const {
+    const LeastSquaresResult result = solved(problem_);
+    WebcamBundle bundle = from_;
+    bundle.numbers = armNumbers(result.numbers);
+    for (std::size_t c = 0; c < bundle.X_CW.size(); ++c)
+      bundle.X_CW[c] = movedPose(from_.X_CW[c], &result.numbers[first_pose_ + kPoseNumbers * c]);
+    bundle.camera = movedLens(from_.camera, &result.numbers[first_lens_]);
+    bundle.iterations += result.iterations;
+    bundle.sigma = {};
+    bundle.arm_said = 0.0;
+    for (std::size_t i = 0; i < from_.fitted.size() && !result.covariance.empty(); ++i) {
+      const double variance = result.covariance[i * count_ + i];
+      const double prior = kArmParameters[from_.fitted[i]].prior_sigma;
+      bundle.sigma[from_.fitted[i]] = std::sqrt(variance);
+      bundle.arm_said += prior > 0.0 ? 1.0 - variance / (prior * prior) : 1.0;
+    }
+    return bundle;
+  }
+
+ private:
+  struct Tip {
+    std::size_t position, index;
+    double sigma_px;
+  };
+
+  ArmNumbers armNumbers(std::span<const double> x) const {
+    ArmNumbers numbers{};
+    for (std::size_t i = 0; i < from_.fitted.size(); ++i) numbers[from_.fitted[i]] = x[i];
+    return numbers;
+  }
+
+  /// Residuals, or their slopes: position after position its screen, then its tips.
+  void evaluate(std::span<const double> x, std::span<double> r, std::span<double> J) const {
+    const CameraModel camera = movedLens(from_.camera, &x[first_lens_]);
+    const ArmNumbers numbers = armNumbers(x);
+    const MeasuredArm arm = armOf(from_.start, numbers);
+    std::size_t row = 0;
+    auto tip = tips_.begin();
+    for (std::size_t c = 0; c < sights_.positions.size(); ++c) {
+      const double* pose = &x[first_pose_ + kPoseNumbers * c];
+      const Pose<Camera, World> X_CW = movedPose(from_.X_CW[c], pose);
+      for (const PlaceSight& sight : sights_.positions[c].screen)
+        setRows(row++, r, J, c, pose, camera, X_CW, sight.place_W.mm, sight.camera_px, sights_.screen_noise_px);
+      for (; tip != tips_.end() && tip->position == c; ++tip) {
+        const TipSight& sight = sights_.positions[c].tips[tip->index];
+        if (J.empty()) {
+          setRows(row++, r, J, c, pose, camera, X_CW, arm.tip_W(sight.joints_rad).mm, sight.camera_px, tip->sigma_px);
+          continue;
+        }
+        const TipSlopes slopes = tipSlopes(from_.start, numbers, sight.joints_rad);
+        const glm::dmat3x2 by_W =
+            setRows(row, r, J, c, pose, camera, X_CW, slopes.tip_W_mm, sight.camera_px, tip->sigma_px);
+        for (std::size_t k = 0; k < from_.fitted.size(); ++k)
+          setSlope(J, row, k, by_W * slopes.by_number[from_.fitted[k]] / tip->sigma_px);
+        ++row;
+      }
+    }
+  }
+
+  void setSlope(std::span<double> J, std::size_t row, std::size_t number, const glm::dvec2& slope) const {
+    J[2 * row * count_ + number] = slope.x;
+    J[(2 * row + 1) * count_ + number] = slope.y;
+  }
+
+  /// Of one point, but for the arm's numbers; returns the pixel's slopes by its place in W.
+  glm::dmat3x2 setRows(std::size_t row, std::span<double> r, std::span<double> J, std::size_t c, const double* pose,
+                       const CameraModel& camera, const Pose<Camera, World>& X_CW, const glm::dvec3& p_W,
+                       const glm::dvec2& seen_px, double sigma_px) const {
+    const glm::dvec3 from_origin = X_CW.rotation * p_W, p_C = from_origin + X_CW.translation_mm;
+    if (J.empty()) {
+      const glm::dvec2 off = p_C.z > 1.0 ? (camera.pixelOf({p_C}) - seen_px) / sigma_px
+                                         : glm::dvec2(std::numeric_limits<double>::quiet_NaN());
+      r[2 * row] = off.x;
+      r[2 * row + 1] = off.y;
+      return {};
+    }
+    const PixelSlopes slopes = pixelSlopes(camera, p_C);
+    // The turn's left Jacobian to first order: turns are small.
+    const glm::dmat3 by_turn = -crossOf(from_origin) * (glm::dmat3(1.0) + 0.5 * crossOf({pose[0], pose[1], pose[2]}));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int axis = static_cast<int>(k);
+      setSlope(J, row, first_pose_ + kPoseNumbers * c + k, slopes.by_point * by_turn[axis] / sigma_px);
+      setSlope(J, row, first_pose_ + kPoseNumbers * c + 3 + k, slopes.by_point[axis] / sigma_px);
+    }
+    setSlope(J, row, first_lens_, slopes.by_focal / sigma_px);
+    setSlope(J, row, first_lens_ + 1, glm::dvec2(1.0, 0.0) / sigma_px);
+    setSlope(J, row, first_lens_ + 2, glm::dvec2(0.0, 1.0) / sigma_px);
+    return slopes.by_point * glm::mat3_cast(X_CW.rotation);
+  }
+
+  const WebcamSights& sights_;
+  const WebcamBundle& from_;
+  std::size_t first_pose_ = 0, first_lens_ = 0, count_ = 0;
+  std::vector<Tip> tips_;
+  LeastSquares problem_;
+};
+
+}  // namespace
+
+double tipSigma_px(const WebcamSights& sights, const WebcamBundle& bundle, std::size_t position,
+                   const Point<World>& tip_W) {
+  const double away_mm = std::max(50.0, (bundle.X_CW[position] * tip_W).mm.z);
+  return std::hypot(sights.tip_noise_px, bundle.mismatch_mm * bundle.camera.focal_px.x / away_mm);
+}
+
+WebcamBundle adjusted(const WebcamSights& sights, const WebcamBundle& from) {
+  return BundleProblem(sights, from).solution();
+}
+
+}  // namespace calibration

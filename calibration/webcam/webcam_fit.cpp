@@ -1,0 +1,265 @@
+#include "calibration/webcam/webcam_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+#include "calibration/arm/phantom_models.h"
+#include "calibration/fit/fit_warnings.h"
+#include "calibration/fit/touch_checks.h"
+#include "calibration/webcam/webcam_bundle.h"
+#include "calibration/webcam/webcam_start.h"
+
+namespace calibration {
+namespace {
+
+constexpr std::size_t kLeastPositions = 2, kLeastTips = 16, kLeastTipsAtOne = 4, kLeastPlaces = 6;
+constexpr double kLeastBase_deg = 5.0, kNarrowBase_deg = 20.0;
+constexpr std::size_t kFewTips = 40;
+constexpr double kRigidMismatch_mm = 0.9, kLeastMismatch_mm = 0.02, kMostMismatch_mm = 3.0;
+constexpr double kWild = 4.5;  ///< sigmas of both axes together: an outlier
+constexpr int kRounds = 4;
+constexpr std::size_t kFolds = 5;
+
+[[noreturn]] void refuse(const std::string& what, const std::string& mend) {
+  throw CalibrationError("webcam: " + what + ", " + mend);
+}
+
+bool isFinite(const glm::dvec2& v) { return std::isfinite(v.x) && std::isfinite(v.y); }
+
+void checkPosition(const WebcamSights& sights, std::size_t c) {
+  const std::string where = "camera position " + std::to_string(c + 1);
+  const CameraPosition& position = sights.positions[c];
+  if (position.screen.size() < kLeastPlaces) refuse(where + " sees too little of the screen", "show the board again");
+  if (position.tips.size() < kLeastTipsAtOne)
+    refuse(where + " has only " + std::to_string(position.tips.size()) + " tips", "touch at least 4 places from there");
+  for (const PlaceSight& sight : position.screen)
+    if (!isFinite(sight.camera_px) || !isFinite(glm::dvec2(sight.place_W.mm)) || sight.place_W.mm.z != 0.0)
+      refuse(where + " has a place of the screen that is not finite or not on it", "take its pictures again");
+  for (const TipSight& sight : position.tips)
+    if (!isFinite(sight.camera_px) ||
+        !std::ranges::all_of(sight.joints_rad, [](double a) { return std::abs(a) < 13.0; }))
+      refuse(where + ", touch " + std::to_string(sight.id) + ": a number that is not finite", "leave it out");
+}
+
+void checkSights(const WebcamSights& sights) {
+  if (findPhantomModel(sights.device_model) == nullptr)
+    refuse("the device model '" + sights.device_model + "' is not known", "give omni, touch, desktop or premium");
+  for (std::size_t c = 0; c < sights.positions.size(); ++c) checkPosition(sights, c);
+}
+
+std::size_t tipsOf(const WebcamSights& sights) {
+  std::size_t count = 0;
+  for (const CameraPosition& position : sights.positions) count += position.tips.size();
+  return count;
+}
+
+template <class Use>
+void eachTip(const WebcamSights& sights, Use&& use) {
+  for (std::size_t c = 0; c < sights.positions.size(); ++c)
+    for (std::size_t i = 0; i < sights.positions[c].tips.size(); ++i) use(c, i, sights.positions[c].tips[i]);
+}
+
+/// How far the arm's tip looks from where it was seen.
+struct TipError {
+  Point<World> tip_W;
+  glm::dvec2 off_px{0.0};
+  double mm_per_px = 0.0;  ///< at its distance
+};
+TipError tipError(const WebcamBundle& bundle, const MeasuredArm& arm, std::size_t c, const TipSight& sight) {
+  TipError error{arm.tip_W(sight.joints_rad)};
+  const Point<Camera> p_C = bundle.X_CW[c] * error.tip_W;
+  error.off_px = bundle.camera.pixelOf(p_C) - sight.camera_px;
+  error.mm_per_px = p_C.mm.z / bundle.camera.focal_px.x;
+  return error;
+}
+
+/// The best of what the single positions make of it, judged by all of them.
+WebcamBundle firstGuess(const WebcamSights& sights) {
+  WebcamBundle guess;
+  guess.camera = sights.camera;
+  guess.start.geometry = findPhantomModel(sights.device_model)->geometry;
+  for (std::size_t c = 0; c < sights.positions.size(); ++c) {
+    guess.X_CW.push_back(cameraSeeing(sights, c));
+    guess.tip_used.emplace_back(sights.positions[c].tips.size(), true);
+  }
+  double least = 1e300;
+  for (std::size_t c = 0; c < sights.positions.size(); ++c) {
+    const MeasuredArm arm{guess.start.geometry, {}, deviceSeen(sights, c, guess.X_CW[c])};
+    double sum = 0.0;
+    eachTip(sights, [&](std::size_t at, std::size_t, const TipSight& sight) {
+      const TipError error = tipError(guess, arm, at, sight);
+      sum += std::min(100.0, error.mm_per_px * error.mm_per_px * glm::dot(error.off_px, error.off_px));
+    });
+    if (sum < least) least = sum, guess.start.X_WD = arm.X_WD;
+  }
+
+  // The pose's numbers turn about the middle of the tips.
+  const MeasuredArm arm{guess.start.geometry, {}, guess.start.X_WD};
+  glm::dvec3 sum{0.0};
+  eachTip(sights, [&](std::size_t, std::size_t, const TipSight& sight) { sum += arm.tip_W(sight.joints_rad).mm; });
+  guess.start.middle_W = {sum / double(tipsOf(sights))};
+  return guess;
+}
+
+/// The widest angle between two camera positions.
+double baseOf_deg(const WebcamBundle& bundle) {
+  double widest = 0.0;
+  for (const auto& one : bundle.X_CW)
+    for (const auto& other : bundle.X_CW) {
+      const glm::dvec3 a = glm::normalize(one.inverse().translation_mm - bundle.start.middle_W.mm);
+      const glm::dvec3 b = glm::normalize(other.inverse().translation_mm - bundle.start.middle_W.mm);
+      widest = std::max(widest, degreesFromRad(std::acos(std::clamp(glm::dot(a, b), -1.0, 1.0))));
+    }
+  return widest;
+}
+
+/// Which tips are wild, and how much the others are off beyond their noise in the picture.
+void judgeTips(const WebcamSights& sights, WebcamBundle& bundle) {
+  const MeasuredArm arm = bundle.arm();
+  double squares_mm2 = 0.0, noise_mm2 = 0.0, count = 0.0;
+  eachTip(sights, [&](std::size_t c, std::size_t i, const TipSight& sight) {
+    const TipError error = tipError(bundle, arm, c, sight);
+    bundle.tip_used[c][i] = glm::length(error.off_px) < kWild * tipSigma_px(sights, bundle, c, error.tip_W);
+    if (!bundle.tip_used[c][i]) return;
+    squares_mm2 += error.mm_per_px * error.mm_per_px * glm::dot(error.off_px, error.off_px);
+    noise_mm2 += std::pow(sights.tip_noise_px * error.mm_per_px, 2);
+    count += 1.0;
+  });
+  const double free = std::max(0.5 * count, 2.0 * count - bundle.arm_said);
+  const double left_mm2 = squares_mm2 / std::max(1.0, free) - noise_mm2 / std::max(1.0, count);
+  bundle.mismatch_mm = std::clamp(std::sqrt(std::max(0.0, left_mm2)), kLeastMismatch_mm, kMostMismatch_mm);
+}
+
+WebcamBundle fitted(const WebcamSights& sights, WebcamBundle bundle, ArmModel model) {
+  // The pose first, then all the numbers, and what they leave judged in turn with them.
+  bundle.fitted = numbersOf(ArmModel::rigid);
+  bundle.mismatch_mm = kRigidMismatch_mm;
+  bundle = adjusted(sights, bundle);
+  bundle.fitted = numbersOf(model);
+  for (int round = 0; round < kRounds; ++round) {
+    bundle = adjusted(sights, bundle);
+    const auto was_used = bundle.tip_used;
+    const double was_mm = bundle.mismatch_mm;
+    judgeTips(sights, bundle);
+    if (bundle.tip_used == was_used && std::abs(bundle.mismatch_mm - was_mm) < 0.03 * was_mm) break;
+  }
+  return bundle;
+}
+
+/// Two of three axes are seen: an error in space is larger.
+double upToThreeAxes(double squares_mm2, double count) { return std::sqrt(1.5 * squares_mm2 / std::max(1.0, count)); }
+
+/// Of tips that were left out, a fifth at a time.
+double crossValidated_mm(const WebcamSights& sights, const WebcamBundle& bundle) {
+  double squares_mm2 = 0.0, count = 0.0;
+  for (std::size_t fold = 0; fold < kFolds; ++fold) {
+    WebcamBundle without = bundle;
+    const auto isOut = [&](std::size_t c, std::size_t i) {
+      return bundle.tip_used[c][i] && (i + 2 * c) % kFolds == fold;
+    };
+    eachTip(sights, [&](std::size_t c, std::size_t i, const TipSight&) {
+      if (isOut(c, i)) without.tip_used[c][i] = false;
+    });
+    without = adjusted(sights, without);
+    const MeasuredArm arm = without.arm();
+    eachTip(sights, [&](std::size_t c, std::size_t i, const TipSight& sight) {
+      if (!isOut(c, i)) return;
+      const TipError error = tipError(without, arm, c, sight);
+      squares_mm2 += error.mm_per_px * error.mm_per_px * glm::dot(error.off_px, error.off_px);
+      count += 1.0;
+    });
+  }
+  return upToThreeAxes(squares_mm2, count);
+}
+
+/// From the nearest place on the line of sight to the arm's tip: square to that line, as long as it looks.
+Residual residualOf(const WebcamBundle& bundle, std::size_t c, const TipSight& sight, const TipError& error,
+                    bool used) {
+  const Pose<World, Camera> X_WC = bundle.X_CW[c].inverse();
+  const glm::dvec3 ahead = glm::normalize(error.tip_W.mm - X_WC.translation_mm);
+  const glm::dvec3 across = X_WC.rotation * glm::dvec3(error.off_px * error.mm_per_px, 0.0);
+  const glm::dvec3 off = across - ahead * glm::dot(ahead, across);
+  return {sight.id, {error.tip_W.mm - off}, {off}, used};
+}
+
+void measure(const WebcamSights& sights, const WebcamBundle& bundle, WebcamFit& fit) {
+  double screen_px2 = 0.0, places = 0.0, tip_px2 = 0.0, tip_mm2 = 0.0;
+  for (std::size_t c = 0; c < sights.positions.size(); ++c)
+    for (const PlaceSight& sight : sights.positions[c].screen) {
+      const glm::dvec2 off = bundle.camera.pixelOf(bundle.X_CW[c] * sight.place_W) - sight.camera_px;
+      screen_px2 += glm::dot(off, off);
+      places += 1.0;
+    }
+  std::vector<Touch> touches;
+  eachTip(sights, [&](std::size_t c, std::size_t i, const TipSight& sight) {
+    const bool used = bundle.tip_used[c][i];
+    const TipError error = tipError(bundle, fit.arm, c, sight);
+    fit.residuals.push_back(residualOf(bundle, c, sight, error, used));
+    touches.push_back({sight.id, sight.joints_rad, fit.residuals.back().target_W, used});
+    (used ? fit.used : fit.outliers) += 1;
+    if (!used) return;
+    tip_px2 += glm::dot(error.off_px, error.off_px);
+    tip_mm2 += glm::dot(fit.residuals.back().error_mm.xyz, fit.residuals.back().error_mm.xyz);
+  });
+  fit.screen_rms_px = std::sqrt(screen_px2 / places);
+  fit.tip_rms_px = std::sqrt(tip_px2 / std::max(1, fit.used));
+  fit.fre_rms_mm = upToThreeAxes(tip_mm2, fit.used);
+  std::vector<std::size_t> all(touches.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  fit.tilt_spread_deg = tiltSpread_deg(bundle.start.geometry, touches, all);
+}
+
+void warn(const WebcamSights& sights, WebcamFit& fit) {
+  const auto add = [&](FitWarning::Kind kind, std::string line) { fit.warnings.push_back({kind, std::move(line)}); };
+  if (tipsOf(sights) < kFewTips)
+    add(FitWarning::Kind::few_touches,
+        std::to_string(tipsOf(sights)) + " tips are few: touch 27 places from each of three camera positions");
+  if (fit.base_deg < kNarrowBase_deg)
+    add(FitWarning::Kind::narrow_view, "the camera positions are only " + std::to_string(std::lround(fit.base_deg)) +
+                                           "° apart: move the camera by 25° to each side");
+  if (fit.tilt_spread_deg < kLeastTilt_deg)
+    add(FitWarning::Kind::little_tilt, "the stylus was held one way: what its gimbal gets wrong is not seen, tilt it");
+  if (10 * fit.outliers > fit.used + fit.outliers)
+    add(FitWarning::Kind::many_outliers, std::to_string(fit.outliers) + " of " +
+                                             std::to_string(fit.used + fit.outliers) +
+                                             " tips do not fit: look for reflections, hold still while it is seen");
+}
+
+}  // namespace
+
+WebcamFit fitWebcam(const WebcamSights& sights, ArmModel model) {
+  if (sights.positions.size() < kLeastPositions)
+    refuse("one camera position can be wrong by a centimetre and look good", "move the camera and take a second one");
+  if (tipsOf(sights) < kLeastTips)
+    refuse(std::to_string(tipsOf(sights)) + " tips are too few",
+           "touch at least 16 places in all, better 27 each time");
+  checkSights(sights);
+  const WebcamBundle guess = firstGuess(sights);
+  if (baseOf_deg(guess) < kLeastBase_deg) refuse("the camera stood in one place", "move it by 25° to each side");
+
+  const WebcamBundle bundle = fitted(sights, guess, model);
+  WebcamFit fit;
+  fit.model = model;
+  fit.arm = bundle.arm();
+  fit.camera = bundle.camera;
+  for (const auto& X_CW : bundle.X_CW) fit.X_WC.push_back(X_CW.inverse());
+  fit.base_deg = baseOf_deg(bundle);
+  fit.iterations = bundle.iterations;
+  fit.sigma.assign(bundle.sigma.begin(), bundle.sigma.end());
+  measure(sights, bundle, fit);
+  if (3 * fit.outliers > fit.used || !(bundle.mismatch_mm < kMostMismatch_mm))
+    refuse("no arm explains where the tip is seen", "check that touches and pictures belong together");
+  fit.cv_rms_mm = crossValidated_mm(sights, bundle);
+  warn(sights, fit);
+  return fit;
+}
+
+MeasuredArm armFromOnePosition(const WebcamSights& sights, std::size_t position) {
+  checkSights(sights);
+  const Pose<Camera, World> X_CW = cameraSeeing(sights, position);
+  return {findPhantomModel(sights.device_model)->geometry, {}, deviceSeen(sights, position, X_CW)};
+}
+
+}  // namespace calibration

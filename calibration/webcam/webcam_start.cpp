@@ -1,0 +1,114 @@
+#include "calibration/webcam/webcam_start.h"
+
+#include <cmath>
+#include <string>
+
+#include <opencv2/calib3d.hpp>
+#include <opencv2/core.hpp>
+
+#include "calibration/arm/phantom_models.h"
+
+namespace calibration {
+namespace {
+
+constexpr double kMostScreenRms_px = 3.0;
+/// What an arm as its model says is off by, three sigma; looked for within up to four times that.
+constexpr double kNominalArm_mm = 2.5;
+constexpr int kTries = 600;
+
+struct Lens {
+  cv::Matx33d K;
+  cv::Vec4d bent;
+
+  explicit Lens(const CameraModel& camera)
+      : K(camera.focal_px.x, 0.0, camera.centre_px.x, 0.0, camera.focal_px.y, camera.centre_px.y, 0.0, 0.0, 1.0),
+        bent(camera.k1, camera.k2, camera.p1, camera.p2) {}
+};
+
+[[noreturn]] void refuse(std::size_t position, const std::string& what, const std::string& mend) {
+  throw CalibrationError("webcam, camera position " + std::to_string(position + 1) + ": " + what + ", " + mend);
+}
+
+cv::Point3d pointOf(const glm::dvec3& mm) { return {mm.x, mm.y, mm.z}; }
+cv::Point2d pixelOf(const glm::dvec2& px) { return {px.x, px.y}; }
+
+/// X_C?: OpenCV's turn and shift.
+template <class To>
+Pose<Camera, To> poseOf(const cv::Vec3d& turn, const cv::Vec3d& shift) {
+  const glm::dvec3 turn_rad(turn[0], turn[1], turn[2]);
+  const double angle_rad = glm::length(turn_rad);
+  return {angle_rad > 0.0 ? glm::angleAxis(angle_rad, turn_rad / angle_rad) : glm::dquat(1.0, 0.0, 0.0, 0.0),
+          {shift[0], shift[1], shift[2]}};
+}
+
+}  // namespace
+
+Pose<Camera, World> cameraSeeing(const WebcamSights& sights, std::size_t position) {
+  const Lens lens(sights.camera);
+  std::vector<cv::Point3d> places;
+  std::vector<cv::Point2d> pixels;
+  for (const PlaceSight& sight : sights.positions[position].screen) {
+    places.push_back(pointOf(sight.place_W.mm));
+    pixels.push_back(pixelOf(sight.camera_px));
+  }
+  cv::Vec3d turn, shift;
+  try {
+    if (!cv::solvePnP(places, pixels, lens.K, lens.bent, turn, shift, false, cv::SOLVEPNP_IPPE))
+      refuse(position, "no place of the camera explains the screen", "take the pictures again");
+    cv::solvePnPRefineLM(places, pixels, lens.K, lens.bent, turn, shift);
+  } catch (const cv::Exception&) {
+    refuse(position, "the places of the screen are not flat or lie on a line", "show the whole board");
+  }
+  const auto X_CW = poseOf<World>(turn, shift);
+  if (X_CW.inverse().translation_mm.z <= 0.0)
+    refuse(position, "the screen is seen mirrored", "correct the screen's corners in the rig file");
+
+  double sum = 0.0;
+  for (const PlaceSight& sight : sights.positions[position].screen) {
+    const glm::dvec2 off = sights.camera.pixelOf(X_CW * sight.place_W) - sight.camera_px;
+    sum += glm::dot(off, off);
+  }
+  if (!(std::sqrt(sum / double(places.size())) < kMostScreenRms_px))
+    refuse(position, "no place of the camera explains the screen", "measure the lens again, keep the zoom locked");
+  return X_CW;
+}
+
+Pose<World, Device> deviceSeen(const WebcamSights& sights, std::size_t position, const Pose<Camera, World>& X_CW) {
+  const Lens lens(sights.camera);
+  MeasuredArm nominal;
+  nominal.geometry = findPhantomModel(sights.device_model)->geometry;
+  std::vector<cv::Point3d> tips;
+  std::vector<cv::Point2d> pixels;
+  for (const TipSight& sight : sights.positions[position].tips) {
+    tips.push_back(pointOf(nominal.tip_W(sight.joints_rad).mm));  // X_WD is none yet: in D
+    pixels.push_back(pixelOf(sight.camera_px));
+  }
+
+  // Within the errors of such arms if they agree on a pose, else within more.
+  const double px_per_mm = sights.camera.focal_px.x / glm::length(X_CW.translation_mm);
+  for (const double wider : {1.0, 2.0, 4.0}) {
+    cv::Vec3d turn, shift;
+    std::vector<int> agreeing;
+    try {
+      const double limit_px = 3.0 * sights.tip_noise_px + wider * kNominalArm_mm * px_per_mm;
+      if (!cv::solvePnPRansac(tips, pixels, lens.K, lens.bent, turn, shift, false, kTries, static_cast<float>(limit_px),
+                              0.999, agreeing, cv::SOLVEPNP_SQPNP))
+        continue;
+      if (3 * agreeing.size() < 2 * tips.size()) continue;
+      std::vector<cv::Point3d> their_tips;
+      std::vector<cv::Point2d> their_pixels;
+      for (const int i : agreeing) {
+        their_tips.push_back(tips[static_cast<std::size_t>(i)]);
+        their_pixels.push_back(pixels[static_cast<std::size_t>(i)]);
+      }
+      cv::solvePnPRefineLM(their_tips, their_pixels, lens.K, lens.bent, turn, shift);
+    } catch (const cv::Exception&) {
+      continue;
+    }
+    return X_CW.inverse() * poseOf<Device>(turn, shift);
+  }
+  refuse(position, "no place of the device explains where the tip is seen",
+         "check that touches and pictures belong together and that the device is the right one");
+}
+
+}  // namespace calibration

@@ -1,0 +1,19 @@
+// Where a camera stood and where the device stands, from one camera position alone and the arm as its model says:
+// rough, the start of a bundle adjustment. Frames W, C, D; mm, rad, px. Any thread but the servo's; about 10 ms.
+// Source: OpenCV's solvePnP, IPPE (Collins, Bartoli 2014) for the screen, SQPNP (Terzakis, Lourakis 2020) for the tips;
+// reference/calibration 3.3.
+#pragma once
+
+#include "calibration/calibration_error.h"
+#include "calibration/fit/arm_numbers.h"
+#include "calibration/webcam/sights.h"
+
+namespace calibration {
+
+/// From the screen it sees. Throws CalibrationError: seen from behind (mirrored), or no pose explains it.
+Pose<Camera, World> cameraSeeing(const WebcamSights& sights, std::size_t position);
+
+/// From the tips it sees, those that no pose explains aside. Throws CalibrationError: fewer than half agree on one.
+Pose<World, Device> deviceSeen(const WebcamSights& sights, std::size_t position, const Pose<Camera, World>& X_CW);
+
+}  // namespace calibration

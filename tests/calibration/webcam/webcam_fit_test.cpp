@@ -1,0 +1,223 @@
+#include "calibration/webcam/webcam_fit.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iostream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "calibration/fit/target_plan.h"
+#include "calibration/synthetic/webcam_sights.h"
+
+namespace calibration {
+namespace {
+
+using testing::HasSubstr;
+
+struct Judged {
+  SyntheticRig rig;
+  WebcamSights sights;
+  std::vector<Touch> held_out;
+
+  Judged(std::uint32_t seed, const WebcamCare& care, Scenario scenario = Scenario::D)
+      : rig(syntheticRig(scenario, seed)) {
+    std::mt19937 chance(seed);
+    sights = webcamSights(rig, targetPlan("webcam27").value(), care, chance);
+    held_out = heldOut(rig, 200, {60, 40, 30}, chance);
+  }
+  double error_mm(const MeasuredArm& arm) const {
+    double sum = 0.0;
+    for (const Touch& touch : held_out) {
+      const glm::dvec3 off = arm.tip_W(touch.joints_rad).mm - touch.target_W.mm;
+      sum += glm::dot(off, off);
+    }
+    return std::sqrt(sum / double(held_out.size()));
+  }
+};
+
+struct Figures {
+  double median_mm, worst_mm;
+};
+Figures figures(std::vector<double> errors_mm) {
+  std::ranges::sort(errors_mm);
+  return {errors_mm[errors_mm.size() / 2], errors_mm.back()};
+}
+
+Figures heldOutOf(const WebcamCare& care, ArmModel model) {
+  std::vector<double> errors_mm;
+  for (std::uint32_t seed = 1; seed <= 12; ++seed) {
+    const Judged judged(seed, care);
+    errors_mm.push_back(judged.error_mm(fitWebcam(judged.sights, model).arm));
+  }
+  return figures(errors_mm);
+}
+
+TEST(WebcamFit, MeasuresAnArmAsWellAsAJigNearly) {
+  const Figures fine = heldOutOf(fineWebcam(), ArmModel::full), coarse = heldOutOf(coarseWebcam(), ArmModel::full);
+  std::cout << "held out, 12 rigs: 1080p " << fine.median_mm << " (worst " << fine.worst_mm << "), 720p "
+            << coarse.median_mm << " (" << coarse.worst_mm << ") mm RMS\n";
+  EXPECT_LE(fine.median_mm, 0.35);
+  EXPECT_LE(coarse.median_mm, 0.5);
+  EXPECT_LE(fine.worst_mm, 0.6);
+}
+
+TEST(WebcamFit, GainsFromTheArmsNumbers) {
+  EXPECT_GT(heldOutOf(fineWebcam(), ArmModel::rigid).median_mm,
+            1.6 * heldOutOf(fineWebcam(), ArmModel::full).median_mm);
+}
+
+TEST(WebcamFit, FindsTheTruthWhereNothingIsUncertain) {
+  WebcamCare exact = fineWebcam();
+  exact.screen_noise_px = exact.tip_noise_px = 1e-3;
+  exact.focal_error = exact.centre_error_px = exact.outlier_share = 0.0;
+  SyntheticRig rig = syntheticRig(Scenario::B, 5);
+  rig.habits.arm_noise_rad = rig.habits.gimbal_noise_rad = 0.0;
+  rig.arm.ripple = {};
+  std::mt19937 chance(5);
+  const WebcamFit fit = fitWebcam(webcamSights(rig, targetPlan("webcam27").value(), exact, chance));
+  for (const Touch& touch : heldOut(rig, 50, {60, 40, 30}, chance))
+    EXPECT_LT(glm::distance(fit.arm.tip_W(touch.joints_rad).mm, touch.target_W.mm), 0.03);
+  EXPECT_LT(fit.tip_rms_px, 0.1);
+  EXPECT_LT(fit.fre_rms_mm, 0.03);
+  EXPECT_EQ(fit.outliers, 0);
+}
+
+TEST(WebcamFit, IsNotMovedByTipsThatAreTakenForSomethingElse) {
+  WebcamCare care = fineWebcam();
+  care.outlier_share = 0.0;
+  Judged judged(4, care);
+  const WebcamFit clean = fitWebcam(judged.sights);
+  judged.sights.positions[0].tips[3].camera_px += glm::dvec2(40, -25);
+  judged.sights.positions[1].tips[20].camera_px += glm::dvec2(-300, 100);
+  judged.sights.positions[2].tips[11].camera_px += glm::dvec2(9, 12);
+  const WebcamFit wild = fitWebcam(judged.sights);
+  EXPECT_EQ(wild.outliers, clean.outliers + 3);
+  EXPECT_FALSE(wild.residuals[3].used);
+  EXPECT_FALSE(wild.residuals[27 + 20].used);
+  EXPECT_FALSE(wild.residuals[54 + 11].used);
+  for (const Touch& touch : judged.held_out)
+    EXPECT_LT(glm::distance(wild.arm.tip_W(touch.joints_rad).mm, clean.arm.tip_W(touch.joints_rad).mm), 0.3);
+  EXPECT_LT(std::abs(judged.error_mm(wild.arm) - judged.error_mm(clean.arm)), 0.05);
+}
+
+TEST(WebcamFit, SaysHowWellItForetellsTipsItHasNotSeen) {
+  std::vector<double> ratios;
+  for (std::uint32_t seed = 1; seed <= 9; ++seed) {
+    const Judged judged(seed, fineWebcam());
+    const WebcamFit fit = fitWebcam(judged.sights);
+    EXPECT_GT(fit.cv_rms_mm, fit.fre_rms_mm);
+    ratios.push_back(fit.cv_rms_mm / judged.error_mm(fit.arm));
+  }
+  // The tips' noise in the picture is in what is foretold, not in the arm.
+  EXPECT_GT(figures(ratios).median_mm, 0.9);
+  EXPECT_LT(figures(ratios).worst_mm, 2.5);
+}
+
+TEST(WebcamFit, FindsWhereTheCameraStood) {
+  const Judged judged(2, fineWebcam());
+  const WebcamFit fit = fitWebcam(judged.sights);
+  ASSERT_EQ(fit.X_WC.size(), 3U);
+  EXPECT_NEAR(fit.base_deg, 50.0, 8.0);
+  EXPECT_LT(fit.screen_rms_px, 0.5);
+  EXPECT_LT(fit.tip_rms_px, 2.0);
+  EXPECT_EQ(fit.used + fit.outliers, 81);
+  EXPECT_EQ(fit.residuals.size(), 81U);
+  EXPECT_GT(fit.tilt_spread_deg, 25.0);
+  EXPECT_TRUE(fit.warnings.empty()) << fit.warnings.front().line;
+  for (std::size_t i = 0; i < 27; ++i)
+    EXPECT_LT(std::abs(glm::dot(glm::normalize(fit.residuals[i].error_mm.xyz),
+                                glm::normalize(fit.residuals[i].target_W.mm - fit.X_WC[0].translation_mm))),
+              0.05)
+        << "nothing is said along the line of sight";
+}
+
+TEST(WebcamFit, IsFarBetterThanOnePositionAlone) {
+  std::vector<double> alone, together;
+  for (std::uint32_t seed = 1; seed <= 9; ++seed) {
+    const Judged judged(seed, fineWebcam());
+    alone.push_back(judged.error_mm(armFromOnePosition(judged.sights, 0)));
+    together.push_back(judged.error_mm(fitWebcam(judged.sights).arm));
+  }
+  std::cout << "one position alone, arm as its model: " << figures(alone).median_mm << " mm RMS\n";
+  EXPECT_GT(figures(alone).median_mm, 1.0);
+  EXPECT_LT(figures(together).median_mm, 0.25 * figures(alone).median_mm);
+}
+
+std::string refusal(const WebcamSights& sights) {
+  try {
+    fitWebcam(sights);
+  } catch (const CalibrationError& error) {
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(WebcamFit, RefusesWhatWouldLookGoodAndBeWrong) {
+  const WebcamSights good = Judged(3, fineWebcam()).sights;
+  EXPECT_EQ(refusal(good), "accepted");
+
+  WebcamSights sights = good;
+  sights.positions.resize(1);
+  EXPECT_THAT(refusal(sights), HasSubstr("one camera position"));
+
+  sights = good;
+  for (CameraPosition& position : sights.positions) position.tips.resize(5);
+  EXPECT_THAT(refusal(sights), HasSubstr("15 tips are too few"));
+
+  sights = good;
+  sights.positions = {good.positions[0], good.positions[0]};
+  EXPECT_THAT(refusal(sights), HasSubstr("one place"));
+
+  sights = good;
+  sights.positions[1].tips[4].camera_px.x = std::nan("");
+  EXPECT_THAT(refusal(sights), HasSubstr("not finite"));
+
+  sights = good;
+  sights.positions[0].screen.resize(3);
+  EXPECT_THAT(refusal(sights), HasSubstr("screen"));
+
+  sights = good;
+  sights.device_model = "novint";
+  EXPECT_THAT(refusal(sights), HasSubstr("novint"));
+}
+
+TEST(WebcamFit, RefusesAMirroredScreen) {
+  for (std::uint32_t seed = 1; seed <= 6; ++seed) {
+    WebcamSights sights = Judged(seed, fineWebcam()).sights;
+    for (CameraPosition& position : sights.positions)
+      for (PlaceSight& sight : position.screen) sight.place_W.mm.x = -sight.place_W.mm.x;
+    EXPECT_THAT(refusal(sights), HasSubstr("mirrored"));
+  }
+}
+
+TEST(WebcamFit, RefusesTouchesThatBelongToOtherPictures) {
+  WebcamSights sights = Judged(6, fineWebcam()).sights;
+  for (CameraPosition& position : sights.positions) {
+    std::vector<TipSight>& tips = position.tips;
+    for (std::size_t i = 0; i + 1 < tips.size(); ++i)
+      std::swap(tips[i].camera_px, tips[(i * 7 + 3) % tips.size()].camera_px);
+  }
+  EXPECT_THAT(refusal(sights), HasSubstr("belong together"));
+}
+
+TEST(WebcamFit, WarnsOfFewTipsOneTiltAndNarrowViews) {
+  const auto kinds = [](const WebcamSights& sights) {
+    std::vector<FitWarning::Kind> found;
+    for (const FitWarning& warning : fitWebcam(sights).warnings) found.push_back(warning.kind);
+    return found;
+  };
+  WebcamSights sights = Judged(3, fineWebcam()).sights;
+  for (CameraPosition& position : sights.positions) {
+    std::vector<TipSight> some;
+    for (std::size_t i = 0; i < position.tips.size(); i += 3) some.push_back(position.tips[i]);
+    position.tips = some;
+  }
+  EXPECT_THAT(kinds(sights), testing::Contains(FitWarning::Kind::few_touches));
+  EXPECT_THAT(kinds(Judged(3, fineWebcam(), Scenario::E).sights), testing::Contains(FitWarning::Kind::little_tilt));
+}
+
+}  // namespace
+}  // namespace calibration
