@@ -144,6 +144,25 @@ glm::ivec2 seenSize_px(const Rig& rig) {
   return framebufferReading(rig).quarters % 2 == 0 ? px : glm::ivec2(px.y, px.x);
 }
 
+ScreenCorners seenScreen(const Rig& rig) {
+  const auto seen = [&](const Point<World>& p) { return rig.mirror ? rig.mirror->reflect(p).mm : p.mm; };
+  const glm::dvec3 corner = seen(rig.screen.lower_left);
+  glm::dvec3 across = seen(rig.screen.lower_right) - corner, up = seen(rig.screen.upper_left) - corner;
+  const glm::dvec3 middle = corner + 0.5 * (across + up);
+  if (framebufferReading(rig).quarters % 2 == 1) std::swap(across, up);
+  if (across.x < 0.0) across = -across;
+  if (up.y < 0.0) up = -up;
+  return {
+      seenSize_px(rig), {middle - 0.5 * (across + up)}, {middle + 0.5 * (across - up)}, {middle - 0.5 * (across - up)}};
+}
+
+Point<World> placeOn(const ScreenCorners& seen_screen, const glm::dvec2& px) {
+  const glm::dvec3 across = seen_screen.lower_right.mm - seen_screen.lower_left.mm;
+  const glm::dvec3 down = seen_screen.lower_left.mm - seen_screen.upper_left.mm;
+  return {seen_screen.upper_left.mm + (px.x + 0.5) / seen_screen.px.x * across +
+          (px.y + 0.5) / seen_screen.px.y * down};
+}
+
 GreyPicture letterF(const glm::ivec2& size_px) {
   GreyPicture page{size_px, std::vector<std::uint8_t>(static_cast<std::size_t>(size_px.x * size_px.y), 0)};
   const int side = 6 * std::min(size_px.x, size_px.y) / 10;

@@ -44,6 +44,12 @@ GreyPicture framebufferFor(const Rig& rig, const GreyPicture& as_seen);
 /// Size of a picture that fills the rig's screen as it is seen.
 glm::ivec2 seenSize_px(const Rig& rig);
 
+/// Corners, on the virtual screen, of a picture as it is seen: its left is the eye's left, its upper edge up. How many
+/// pixels it has, each way, is its `px`.
+ScreenCorners seenScreen(const Rig& rig);
+/// Where on the virtual screen a pixel of it lies, centres at whole numbers.
+Point<World> placeOn(const ScreenCorners& seen_screen, const glm::dvec2& px);
+
 /// A black F in a white square on black, as it should be read.
 GreyPicture letterF(const glm::ivec2& size_px);
 /// How the F reads in a picture of it. None: no F can be made out.

@@ -49,7 +49,7 @@ inline Webcam perfect(Webcam webcam) {
 
 inline void keepPicture(const std::string& name, const GreyPicture& picture) {
   const char* const folder = std::getenv("MOLAR_PICTURES");
-  if (folder == nullptr) return;
+  if (folder == nullptr || *folder == '\0') return;
   std::vector<std::uint8_t> rgba;
   for (const std::uint8_t grey : picture.grey) rgba.insert(rgba.end(), {grey, grey, grey, 255});
   writePng(std::string(folder) + "/" + name + ".png", picture.size_px, rgba);

@@ -81,6 +81,8 @@ TEST(FlipCheck, AMonitorInTheMirrorReadsRightOnceTheRigTurnsIt) {
     rig.screen = corners;
     const GreyPicture shown = framebufferFor(rig, letterF(seenSize_px(rig)));
     EXPECT_EQ(shown.size_px, kScreen_px);
+    EXPECT_LT(glm::distance(seenScreen(rig).lower_left.mm, seen.lower_left.mm), 1e-9);
+    EXPECT_LT(glm::distance(seenScreen(rig).upper_left.mm, seen.upper_left.mm), 1e-9);
     const WebcamView view({.panel = corners, .mirror = rig.mirror}, someWebcam(chance));
     const GreyPicture picture = view.picture(&shown, {}, 1);
     keepPicture("f_in_the_mirror", picture);
@@ -88,6 +90,13 @@ TEST(FlipCheck, AMonitorInTheMirrorReadsRightOnceTheRigTurnsIt) {
     const GreyPicture plain = letterF(kScreen_px);
     EXPECT_TRUE(readF(view.picture(&plain, {}, 1)) == framebufferReading(rig)) << "as the framebuffer has it";
   }
+}
+
+TEST(FlipCheck, APixelAsSeenHasItsPlaceOnTheVirtualScreen) {
+  const ScreenCorners seen = seenScreen(desktopRig({1000, 500}, 500.0));
+  EXPECT_LT(glm::distance(placeOn(seen, {499.5, 249.5}).mm, glm::dvec3(0.0)), 1e-9);
+  EXPECT_LT(glm::distance(placeOn(seen, {-0.5, -0.5}).mm, glm::dvec3(-250, 125, 0)), 1e-9);
+  EXPECT_LT(glm::distance(placeOn(seen, {999.5, 249.5}).mm, glm::dvec3(250, 0, 0)), 1e-9);
 }
 
 TEST(FlipCheck, AWrongCornerInTheRigFileIsFound) {

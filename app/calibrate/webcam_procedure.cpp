@@ -1,0 +1,258 @@
+#include "app/calibrate/webcam_procedure.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "calibration/webcam/flip_check.h"
+#include "calibration/webcam/ring_check.h"
+#include "calibration/webcam/tip_spot.h"
+
+namespace app {
+
+namespace {
+
+using calibration::BoardSighting;
+using calibration::BoardView;
+using calibration::CodeSighting;
+using calibration::GreyPicture;
+
+/// Views of the lens must differ by this share of the picture's width at some corner.
+constexpr double kNewView = 0.06;
+/// Tips are found to about this, one sigma an axis: hand, exposure and shading of the ball together.
+constexpr double kTipNoise_px = 0.5, kBoardNoise_px = 0.25;
+
+GreyPicture plain(const glm::ivec2& size_px) {
+  return {size_px,
+          std::vector<std::uint8_t>(static_cast<std::size_t>(size_px.x) * static_cast<std::size_t>(size_px.y), 0)};
+}
+
+bool isNew(const BoardSighting& sighting, const std::vector<BoardView>& views, double width_px) {
+  return std::ranges::all_of(views, [&](const BoardView& view) {
+    double farthest = 0.0;
+    for (std::size_t i = 0; i < view.corners_px.size(); ++i)
+      farthest = std::max(farthest, glm::distance(view.corners_px[i], sighting.corners_px[i]));
+    return farthest > kNewView * width_px;
+  });
+}
+
+std::string whereToStand(int position) {
+  constexpr std::array<const char*, 3> kPlaces = {"at the surgeon's eyes", "25° further to the left",
+                                                  "25° to the right of the eyes"};
+  const auto which = static_cast<std::size_t>(std::clamp(position - 1, 0, 2));
+  return kPlaces[which];
+}
+
+}  // namespace
+
+WebcamProcedure::WebcamProcedure(const WebcamPlan& plan)
+    : plan_(plan), screen_(calibration::seenScreen(plan.rig)), board_(calibration::boardFor(screen_.px)) {
+  if (plan_.positions < 2)
+    throw calibration::CalibrationError("webcam procedure: one position can not tell depth, take three");
+  if (plan_.places.targets.empty())
+    throw calibration::CalibrationError("webcam procedure: no places for the tip, take webcam27");
+  code_.screen_px = screen_.px;
+  if (plan_.gray_code) {
+    patterns_ = calibration::picturesOf(code_);
+  } else {
+    patterns_ = {calibration::pictureOf(board_)};
+  }
+  dark_ = plain(screen_.px);
+  calibration::WebcamSights& sights = observations_.sights;
+  sights.device_model = plan_.device_model;
+  sights.screen_noise_px = kBoardNoise_px;
+  sights.tip_noise_px = kTipNoise_px;
+  observations_.serial = plan_.serial;
+  observations_.mount = plan_.mount;
+  turnTo(WebcamStep::letter);
+}
+
+WebcamWants WebcamProcedure::wants() const {
+  if (step_ == WebcamStep::done) return WebcamWants::nothing;
+  return pressed_ ? WebcamWants::picture : WebcamWants::press;
+}
+
+std::optional<calibration::Target> WebcamProcedure::target() const {
+  if (step_ != WebcamStep::tips) return std::nullopt;
+  return plan_.places.targets[observations_.sights.positions.back().tips.size()];
+}
+
+double WebcamProcedure::progress() const {
+  // A view of the lens, a pattern and a tip are each one picture to whoever waits.
+  const double a_position = 1.0 + static_cast<double>(plan_.places.targets.size());
+  const double lens = plan_.lens ? 0.0 : plan_.lens_views;
+  double done = lens_ ? lens : static_cast<double>(views_.size());
+  for (const calibration::CameraPosition& position : observations_.sights.positions)
+    done += (position.screen.empty() ? 0.0 : 1.0) + static_cast<double>(position.tips.size());
+  return std::min(1.0, done / (lens + plan_.positions * a_position));
+}
+
+void WebcamProcedure::show(const GreyPicture& as_seen) { shown_ = calibration::framebufferFor(plan_.rig, as_seen); }
+
+/// The place where the tip is wanted, flat: for those who do not draw it in stereo.
+void WebcamProcedure::showWanted() {
+  shown_ = calibration::ringPicture(plan_.rig, plan_.rig.cyclopeanEye(), target()->place_W);
+}
+
+void WebcamProcedure::turnTo(WebcamStep step) {
+  step_ = step;
+  pressed_ = false;
+  switch (step) {
+    case WebcamStep::letter:
+      show(calibration::letterF(screen_.px));
+      sentence_ =
+          "Clamp the webcam " + whereToStand(1) + " so that it sees the whole screen in the mirror, then press.";
+      return;
+    case WebcamStep::lens:
+      show(calibration::pictureOf(board_));
+      sentence_ = "Hold the webcam still, another view each time, tilted 20 to 40°, then press: view " +
+                  std::to_string(views_.size() + 1) + " of " + std::to_string(plan_.lens_views) + ".";
+      return;
+    case WebcamStep::pattern:
+      seen_patterns_.clear();
+      show(patterns_.front());
+      sentence_ = "Clamp the webcam " + whereToStand(position()) + ", take the stylus out of its sight, then press.";
+      return;
+    case WebcamStep::without_tip:
+      show(dark_);
+      sentence_ = "Keep the stylus out of sight.";
+      pressed_ = true;
+      return;
+    case WebcamStep::tips:
+      showWanted();
+      sentence_ = "Light the tip, hold it at the ring, then press: " +
+                  std::to_string(observations_.sights.positions.back().tips.size() + 1) + " of " +
+                  std::to_string(plan_.places.targets.size()) + ".";
+      return;
+    case WebcamStep::done:
+      show(dark_);
+      sentence_ = "All is gathered.";
+      return;
+  }
+}
+
+void WebcamProcedure::press() {
+  if (step_ == WebcamStep::done) return;
+  answer_.clear();
+  pressed_ = true;
+  if (step_ == WebcamStep::tips) show(dark_);
+}
+
+void WebcamProcedure::see(const GreyPicture& picture, const calibration::RawJoints& joints_rad) {
+  if (wants() != WebcamWants::picture) return;
+  answer_.clear();
+  if (!picture_px_) picture_px_ = plan_.lens ? plan_.lens->size_px : picture.size_px;
+  if (picture.size_px != *picture_px_) {
+    answer_ = "The picture is " + std::to_string(picture.size_px.x) + " x " + std::to_string(picture.size_px.y) +
+              ": set the webcam to " + std::to_string(picture_px_->x) + " x " + std::to_string(picture_px_->y) + ".";
+    return turnTo(step_);
+  }
+  switch (step_) {
+    case WebcamStep::letter:
+      return seeLetter(picture);
+    case WebcamStep::lens:
+      return seeLens(picture);
+    case WebcamStep::pattern:
+      return seePattern(picture);
+    case WebcamStep::without_tip:
+      without_tip_ = picture;
+      return turnTo(WebcamStep::tips);
+    case WebcamStep::tips:
+      return seeTip(picture, joints_rad);
+    case WebcamStep::done:
+      return;
+  }
+}
+
+void WebcamProcedure::seeLetter(const GreyPicture& picture) {
+  const auto reading = calibration::readF(picture);
+  if (!reading || !reading->right()) {
+    answer_ = reading ? calibration::remedyFor(*reading)
+                      : "No F can be read: show all of the screen to the webcam, sharp, level within 40°.";
+    return turnTo(WebcamStep::letter);
+  }
+  if (!plan_.lens) return turnTo(WebcamStep::lens);
+  observations_.sights.camera = *plan_.lens;
+  observations_.sights.positions.emplace_back();
+  turnTo(WebcamStep::pattern);
+}
+
+void WebcamProcedure::seeLens(const GreyPicture& picture) {
+  const BoardSighting sighting = calibration::findBoard(picture, board_);
+  if (sighting.trouble) {
+    answer_ = sighting.line;
+  } else if (!isNew(sighting, views_, picture.size_px.x)) {
+    answer_ = "This view is like one before: move or tilt the webcam.";
+  } else {
+    views_.push_back({"view " + std::to_string(views_.size() + 1), sighting.corners_px});
+  }
+  if (views_.size() < static_cast<std::size_t>(plan_.lens_views)) return turnTo(WebcamStep::lens);
+
+  std::vector<glm::dvec2> places_mm;
+  for (const glm::dvec2& px : board_.cornerPlaces_px()) places_mm.emplace_back(calibration::placeOn(screen_, px).mm);
+  try {
+    lens_ = calibration::fitIntrinsics(picture.size_px, places_mm, views_);
+  } catch (const calibration::CalibrationError& error) {
+    answer_ = error.what();
+    views_.clear();
+    return turnTo(WebcamStep::lens);
+  }
+  plan_.lens = lens_->camera;
+  observations_.sights.camera = lens_->camera;
+  observations_.sights.positions.emplace_back();
+  turnTo(WebcamStep::pattern);
+}
+
+void WebcamProcedure::seePattern(const GreyPicture& picture) {
+  seen_patterns_.push_back(picture);
+  // The whole code is one press.
+  if (seen_patterns_.size() < patterns_.size()) return show(patterns_[seen_patterns_.size()]);
+
+  std::vector<glm::dvec2> screen_px, camera_px;
+  if (plan_.gray_code) {
+    const CodeSighting sighting = calibration::decoded(code_, seen_patterns_);
+    answer_ = sighting.line;
+    for (const calibration::ScreenSight& sight : sighting.sights) {
+      screen_px.push_back(sight.screen_px);
+      camera_px.push_back(sight.camera_px);
+    }
+  } else {
+    const BoardSighting sighting = calibration::findBoard(picture, board_);
+    answer_ = sighting.line;
+    camera_px = sighting.corners_px;
+    if (!camera_px.empty()) screen_px = board_.cornerPlaces_px();
+  }
+  if (camera_px.empty()) return turnTo(WebcamStep::pattern);
+  believePattern(screen_px, camera_px);
+}
+
+void WebcamProcedure::believePattern(const std::vector<glm::dvec2>& screen_px,
+                                     const std::vector<glm::dvec2>& camera_px) {
+  calibration::CameraPosition& position = observations_.sights.positions.back();
+  for (std::size_t i = 0; i < screen_px.size(); ++i)
+    position.screen.push_back({calibration::placeOn(screen_, screen_px[i]), camera_px[i]});
+  turnTo(WebcamStep::without_tip);
+}
+
+void WebcamProcedure::seeTip(const GreyPicture& picture, const calibration::RawJoints& joints_rad) {
+  const calibration::TipSpot spot = calibration::findTipSpot(without_tip_, picture);
+  calibration::CameraPosition& position = observations_.sights.positions.back();
+  if (spot.trouble) {
+    answer_ = spot.line;
+    return turnTo(WebcamStep::tips);
+  }
+  position.tips.push_back({target()->id, joints_rad, spot.centre_px});
+  if (position.tips.size() < plan_.places.targets.size()) return turnTo(WebcamStep::tips);
+  if (observations_.sights.positions.size() == static_cast<std::size_t>(plan_.positions))
+    return turnTo(WebcamStep::done);
+  observations_.sights.positions.emplace_back();
+  turnTo(WebcamStep::pattern);
+}
+
+void WebcamProcedure::undo() {
+  if (step_ != WebcamStep::tips || observations_.sights.positions.back().tips.empty()) return;
+  observations_.sights.positions.back().tips.pop_back();
+  turnTo(WebcamStep::tips);
+}
+
+}  // namespace app

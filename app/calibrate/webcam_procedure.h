@@ -1,0 +1,89 @@
+// The calibration through a webcam, step by step, as whoever has the screen, the camera and the stylus drives it: the
+// screen's F must read right, the camera's lens is measured on the shown board, then from three places the board or a
+// Gray code and, with the screen dark, the lit tip at 27 places each. It says what the screen must show, what the
+// technician is asked, and whether it waits for a press or for a picture; what was gathered comes out as observations.
+// No window, no camera, no clock. Frames W and C, mm, px, rad. One thread; a picture takes 10 ms to 2 s to read.
+// Procedure: reference/calibration 2.3.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/fit/target_plan.h"
+#include "calibration/rig.h"
+#include "calibration/webcam/board.h"
+#include "calibration/webcam/gray_code.h"
+#include "calibration/webcam/intrinsics.h"
+#include "calibration/webcam/webcam_file.h"
+
+namespace app {
+
+struct WebcamPlan {
+  calibration::Rig rig;            ///< screen, mirror and eyes as believed
+  calibration::TargetPlan places;  ///< "webcam27"
+  int positions = 3, lens_views = 12;
+  std::optional<calibration::CameraModel> lens;  ///< known: it is not measured again
+  bool gray_code = false;                        ///< false: the board
+  std::string device_model = "omni", serial, mount;
+};
+
+enum class WebcamStep { letter, lens, pattern, without_tip, tips, done };
+enum class WebcamWants { press, picture, nothing };
+
+class WebcamProcedure {
+ public:
+  /// Throws CalibrationError: a screen too small for the board, no places, fewer than two positions.
+  explicit WebcamProcedure(const WebcamPlan& plan);
+
+  WebcamStep step() const { return step_; }
+  WebcamWants wants() const;
+  const std::string& sentence() const { return sentence_; }  ///< the one thing to do
+  const std::string& answer() const { return answer_; }      ///< to the last picture: why it was not taken; or empty
+  /// For the framebuffer as it is; right way round by the rig's corners.
+  const calibration::GreyPicture& shown() const { return shown_; }
+  /// Where the tip is wanted now.
+  std::optional<calibration::Target> target() const;
+  int position() const { return static_cast<int>(observations_.sights.positions.size()); }  ///< from 1
+  double progress() const;                                                                  ///< 0 to 1
+
+  /// The technician is ready: the camera stands, the tip is in its place.
+  void press();
+  /// Taken while shown() had been on the screen for two frames; `joints_rad` as the sensors read meanwhile.
+  void see(const calibration::GreyPicture& picture, const calibration::RawJoints& joints_rad);
+  /// The last tip is taken again; nothing where there is none at this position.
+  void undo();
+
+  /// Of the lens, once measured here.
+  const std::optional<calibration::Intrinsics>& lens() const { return lens_; }
+  /// All that was gathered; complete once wants() nothing.
+  const calibration::WebcamObservations& observations() const { return observations_; }
+
+ private:
+  void turnTo(WebcamStep step);
+  void show(const calibration::GreyPicture& as_seen);
+  void showWanted();
+  void seeLetter(const calibration::GreyPicture& picture);
+  void seeLens(const calibration::GreyPicture& picture);
+  void seePattern(const calibration::GreyPicture& picture);
+  void seeTip(const calibration::GreyPicture& picture, const calibration::RawJoints& joints_rad);
+  void believePattern(const std::vector<glm::dvec2>& screen_px, const std::vector<glm::dvec2>& camera_px);
+
+  WebcamPlan plan_;
+  calibration::ScreenCorners screen_;
+  calibration::ShownBoard board_;
+  calibration::GrayCode code_;
+  std::vector<calibration::GreyPicture> patterns_, seen_patterns_;
+  calibration::GreyPicture dark_, without_tip_;
+  std::vector<calibration::BoardView> views_;
+  std::optional<calibration::Intrinsics> lens_;
+  calibration::WebcamObservations observations_;
+
+  WebcamStep step_ = WebcamStep::letter;
+  bool pressed_ = false;
+  std::optional<glm::ivec2> picture_px_;  ///< of the first picture: all have it
+  std::string sentence_, answer_;
+  calibration::GreyPicture shown_;
+};
+
+}  // namespace app
