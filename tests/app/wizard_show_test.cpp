@@ -17,6 +17,7 @@ using calibration::Scenario;
 WizardRun practice(Procedure procedure, const std::string& method, std::uint32_t seed) {
   WizardRun run;
   run.practice = calibration::syntheticRig(Scenario::D, seed);
+  run.practice->habits.outlier_share = 0.0;  // no touch slips
   run.plan.procedure = procedure;
   run.plan.method = method;
   run.plan.record.rig = run.practice->nominal;
@@ -45,7 +46,7 @@ TEST(WizardShow, ARobotWithoutAWindowComesToAGoodCalibration) {
   EXPECT_GE(outcome.touches.touches.size(), 27u);
 }
 
-TEST(WizardShow, EveryPageOfIsAPictureOnceInOrder) {
+TEST(WizardShow, EveryPageIsAPictureOnce) {
   const Folder folder;
   WizardRun run = practice(Procedure::full, "jig8", 3);
   run.pages = folder.path;
