@@ -52,6 +52,7 @@ int run(int argc, char** argv) {
   app::addCarve(molar, chosen);
   app::addSee(molar, chosen);
   app::addDisplay(molar, chosen);
+  app::addCalibrate(molar, chosen);
   app::addDevices(molar, chosen);
   app::addDoctor(molar, chosen);
   app::addReplay(molar, chosen);

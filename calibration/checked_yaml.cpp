@@ -182,4 +182,6 @@ CheckedYaml::Rigid CheckedYaml::rigid(const cv::FileNode& parent, const std::str
   return {glm::normalize(glm::quat_cast(R)), p};
 }
 
+std::string openCvVersion() { return CV_VERSION; }
+
 }  // namespace calibration

@@ -59,4 +59,7 @@ class CheckedYaml {
   std::unique_ptr<Storage> storage_;
 };
 
+/// "4.6.0": of the library whose solvers and files these are.
+std::string openCvVersion();
+
 }  // namespace calibration

@@ -24,6 +24,7 @@ void addFeel(CLI::App& molar, Chosen& chosen);
 void addCarve(CLI::App& molar, Chosen& chosen);
 void addSee(CLI::App& molar, Chosen& chosen);
 void addDisplay(CLI::App& molar, Chosen& chosen);
+void addCalibrate(CLI::App& molar, Chosen& chosen);
 void addDevices(CLI::App& molar, Chosen& chosen);
 void addDoctor(CLI::App& molar, Chosen& chosen);
 void addReplay(CLI::App& molar, Chosen& chosen);

@@ -1,0 +1,111 @@
+#include "app/calibrate/calibration_text.h"
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "app/printed.h"
+
+namespace app {
+namespace {
+
+using namespace calibration;
+using nlohmann::ordered_json;
+
+std::string listOf(const glm::dvec3& v) { return printed("(%+.2f, %+.2f, %+.2f)", v.x, v.y, v.z); }
+std::array<double, 3> numbersOf(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
+glm::dvec3 middleOf(const std::vector<Residual>& residuals) {
+  glm::dvec3 sum{0.0};
+  for (const Residual& one : residuals) sum += one.target_W.mm;
+  return residuals.empty() ? sum : sum / static_cast<double>(residuals.size());
+}
+
+}  // namespace
+
+std::string fitText(const ArmFit& fit) {
+  std::string text = printed("%d touches used, %d set aside, stylus tilted over %.0f degrees\n", fit.used,
+                             static_cast<int>(fit.residuals.size()) - fit.used, fit.tilt_spread_deg);
+  text += "model         numbers   foretells (5-fold)   fits (no accuracy)\n";
+  for (const ModelScore& score : fit.scores)
+    text += printed("%-12s %8d %16.2f mm %17.2f mm%s\n", score.name.c_str(), score.numbers, score.cv_rms_mm,
+                    score.fre_rms_mm, score.name == nameOf(fit.model) ? "   chosen" : "");
+  for (const Residual& one : fit.residuals)
+    if (!one.used)
+      text += printed("touch %d set aside: off by %.1f mm %s\n", one.id, glm::length(one.error_mm.xyz),
+                      listOf(one.error_mm.xyz).c_str());
+  for (const FitWarning& warning : fit.warnings) text += "note: " + warning.line + "\n";
+  text += "mean error " + listOf(fit.bias_mm.xyz) + " mm; " +
+          worstPlaceSentence(fit.residuals, {middleOf(fit.residuals)}) + "\n";
+  return text;
+}
+
+std::string fitJson(const ArmFit& fit) {
+  ordered_json json;
+  json["model"] = nameOf(fit.model);
+  json["n_used"] = fit.used;
+  json["n_rejected"] = static_cast<int>(fit.residuals.size()) - fit.used;
+  json["fre_rms_mm"] = fit.fre_rms_mm;
+  json["expected_fre_mm"] = fit.expected_fre_mm;
+  json["cv_rms_mm"] = fit.cv_rms_mm;
+  json["bias_mm"] = numbersOf(fit.bias_mm.xyz);
+  json["tilt_spread_deg"] = fit.tilt_spread_deg;
+  json["hull_mm3"] = fit.hull_mm3;
+  for (const ModelScore& score : fit.scores)
+    json["models"].push_back({{"name", score.name},
+                              {"numbers", score.numbers},
+                              {"fre_rms_mm", score.fre_rms_mm},
+                              {"cv_rms_mm", score.cv_rms_mm}});
+  json["outliers"] = ordered_json::array();
+  for (const Residual& one : fit.residuals)
+    if (!one.used) json["outliers"].push_back({{"id", one.id}, {"error_mm", numbersOf(one.error_mm.xyz)}});
+  json["warnings"] = ordered_json::array();
+  for (const FitWarning& warning : fit.warnings) json["warnings"].push_back(warning.line);
+  return json.dump(1) + "\n";
+}
+
+std::string proofText(const TargetErrors& errors, const Judgement& judgement) {
+  return printed("%s: %.2f mm RMS of %d touches, mean %.2f, 95 of 100 within %.2f, largest %.2f mm, bias %s mm; ",
+                 std::string(nameOf(judgement.verdict)).c_str(), errors.rms_mm, errors.n, errors.mean_mm, errors.p95_mm,
+                 errors.max_mm, listOf(errors.bias_mm.xyz).c_str()) +
+         judgement.reason + "\n";
+}
+
+std::string proofJson(const TargetErrors& errors, const Judgement& judgement) {
+  ordered_json json;
+  json["n"] = errors.n;
+  json["tre_mean_mm"] = errors.mean_mm;
+  json["tre_rms_mm"] = errors.rms_mm;
+  json["tre_p95_mm"] = errors.p95_mm;
+  json["tre_max_mm"] = errors.max_mm;
+  json["bias_mm"] = numbersOf(errors.bias_mm.xyz);
+  json["in_plane_rms_mm"] = errors.in_plane_rms_mm;
+  json["along_sight_rms_mm"] = errors.along_sight_rms_mm;
+  json["verdict"] = nameOf(judgement.verdict);
+  json["reason"] = judgement.reason;
+  return json.dump(1) + "\n";
+}
+
+std::string rezeroText(const Rezero& rezero) {
+  return printed("before %.2f mm RMS, after %.2f mm; base moved %.2f mm and turned %.2f degrees; ",
+                 rezero.before_rms_mm, rezero.after_rms_mm, rezero.moved_mm, rezero.turned_deg) +
+         printed("joints by %+.2f, %+.2f, %+.2f degrees", rezero.offset_change_deg[0], rezero.offset_change_deg[1],
+                 rezero.offset_change_deg[2]) +
+         (rezero.outliers > 0 ? printed("; %d touches set aside", rezero.outliers) : std::string()) + "\n";
+}
+
+std::string recordLine(const RigRecord& record) {
+  std::string line = record.provenance.created_utc.empty() ? "undated" : record.provenance.created_utc;
+  if (record.procedure)
+    line += "  " + record.procedure->method + ", " + std::string(nameOf(record.procedure->model)) +
+            printed(", foretells %.2f mm", record.procedure->cv_rms_mm);
+  if (record.proof)
+    line += "  " + std::string(nameOf(record.proof->verdict)) +
+            printed(", %.2f mm RMS of %d, largest %.2f mm", record.proof->errors.rms_mm, record.proof->errors.n,
+                    record.proof->errors.max_mm);
+  else
+    line += "  not proved";
+  return line;
+}
+
+}  // namespace app

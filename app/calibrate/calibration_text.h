@@ -1,0 +1,28 @@
+// What calibration found, in words for the technician and as JSON for programs. mm; places as the surgeon sees them.
+// Pure; any thread.
+#pragma once
+
+#include <string>
+
+#include "calibration/fit/arm_fit.h"
+#include "calibration/fit/rezero.h"
+#include "calibration/record/rig_record.h"
+#include "calibration/verification/verdict.h"
+
+namespace app {
+
+/// Models compared, outliers by their ids, warnings, the one sentence.
+std::string fitText(const calibration::ArmFit& fit);
+std::string fitJson(const calibration::ArmFit& fit);
+
+/// One line: verdict, numbers, which limit decided.
+std::string proofText(const calibration::TargetErrors& errors, const calibration::Judgement& judgement);
+/// {"n","tre_mean_mm","tre_rms_mm","tre_p95_mm","tre_max_mm","bias_mm","verdict"}
+std::string proofJson(const calibration::TargetErrors& errors, const calibration::Judgement& judgement);
+
+std::string rezeroText(const calibration::Rezero& rezero);
+
+/// A line of a store's list: when, how, how good.
+std::string recordLine(const calibration::RigRecord& record);
+
+}  // namespace app

@@ -1,0 +1,80 @@
+// `molar calibrate`: align hand and eye. Its parts are the other files of this folder.
+
+#include "app/commands/calibrate/calibrate.h"
+
+#include <cstdio>
+#include <fstream>
+
+#include <CLI/CLI.hpp>
+
+#include "app/usage_error.h"
+#include "assets/output_file.h"
+#include "calibration/record/rig_file.h"
+
+namespace app {
+
+using namespace calibration;
+
+void KeepOption::addTo(CLI::App& command) {
+  command.add_option("--out", out, "Rig file to write")->type_name("FILE");
+  command.add_flag("--keep", into_store, "Keep it in the store; in force from then on unless it is red or unproved");
+  command.add_option("--store", store, "Folder of the store [$MOLAR_CALIBRATION or the user's data folder]")
+      ->type_name("DIR");
+  command.add_flag("--force", force, "Replace a file that exists");
+}
+
+RigPlace KeepOption::placeOf(const RigRecord& record) const {
+  RigPlace place;
+  if (!record.provenance.rig_id.empty()) place.rig_id = record.provenance.rig_id;
+  if (record.rig.device) {
+    place.serial = record.rig.device->serial;
+    if (!record.rig.device->mount.empty()) place.mount = record.rig.device->mount;
+  }
+  return place;
+}
+
+void KeepOption::refuseUnlessWritable() const {
+  if (!out.empty()) assets::OutputFile claim(out, force);
+}
+
+void KeepOption::keep(const RigRecord& record, const std::string& touches_text) const {
+  if (!out.empty()) {
+    assets::OutputFile file(out, force);
+    std::ofstream(file.temporaryPath()) << rigRecordText(record);
+    file.commit();
+  }
+  if (!into_store) return;
+  const bool passes = record.proof && record.proof->verdict != Verdict::red;
+  RigStore rigs(store.empty() ? RigStore::usualRoot() : std::filesystem::path(store));
+  const auto path = rigs.keep(placeOf(record), record, touches_text, passes);
+  std::fprintf(stderr, "molar: kept as %s; %s\n", path.c_str(),
+               passes         ? "in force from now on"
+               : record.proof ? "red, so the one before stays in force"
+                              : "not proved yet, so the one before stays in force: prove it with molar calibrate "
+                                "verify --keep");
+}
+
+void addMeasuring(CLI::App& command, Measuring& measuring) {
+  command.add_option("--rig-id", measuring.rig_id, "Name of the workstation")->capture_default_str();
+  command.add_option("--mount", measuring.mount, "Side of the surgeon on which the device stands")
+      ->check(CLI::IsMember({"right", "left"}))
+      ->capture_default_str();
+  command.add_option("--serial", measuring.serial, "Serial of the device [as the observations have it]");
+  command.add_option("--tip", measuring.stylus_tip, "Which bur or stylus end is in the handle");
+  command.add_option("--operator", measuring.operator_code, "A code for who measures, never a name");
+}
+
+int statusOf(Verdict verdict) { return verdict == Verdict::green ? 0 : 1; }
+
+void addCalibrate(CLI::App& molar, Chosen& chosen) {
+  CLI::App* calibrate = molar.add_subcommand("calibrate", "Align hand and eye: measure, fit, prove, keep");
+  calibrate->require_subcommand(1);
+  addCalibrateSimulate(*calibrate, chosen);
+  addCalibrateFit(*calibrate, chosen);
+  addCalibrateProofs(*calibrate, chosen);
+  addCalibrateRezero(*calibrate, chosen);
+  addCalibrateReport(*calibrate, chosen);
+  addCalibrateStore(*calibrate, chosen);
+}
+
+}  // namespace app

@@ -1,0 +1,42 @@
+// `molar calibrate …`: the parts of the technician's command, each adding itself. Exit 0 green, 1 amber or red, 2 bad
+// input (design, commands).
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/calibrate/calibrated_rig.h"
+#include "app/commands/command.h"
+#include "calibration/record/rig_store.h"
+
+namespace app {
+
+void addCalibrateSimulate(CLI::App& calibrate, Chosen& chosen);
+void addCalibrateFit(CLI::App& calibrate, Chosen& chosen);
+void addCalibrateProofs(CLI::App& calibrate, Chosen& chosen);  ///< verify, check
+void addCalibrateRezero(CLI::App& calibrate, Chosen& chosen);
+void addCalibrateReport(CLI::App& calibrate, Chosen& chosen);
+void addCalibrateStore(CLI::App& calibrate, Chosen& chosen);  ///< list, diff, rollback
+
+/// Where a result goes: a file, the store, or nowhere.
+class KeepOption {
+ public:
+  void addTo(CLI::App& command);
+
+  calibration::RigPlace placeOf(const calibration::RigRecord& record) const;
+  /// Claims the output before any work. Throws LoadError.
+  void refuseUnlessWritable() const;
+  /// Into the file and, if asked, the store, where it comes into force unless its proof is missing or red. Says so.
+  void keep(const calibration::RigRecord& record, const std::string& touches_text) const;
+
+  std::string out, store;
+  bool into_store = false, force = false;
+};
+
+/// Who measures, as options.
+void addMeasuring(CLI::App& command, Measuring& measuring);
+
+/// Exit status of a verdict.
+int statusOf(calibration::Verdict verdict);
+
+}  // namespace app

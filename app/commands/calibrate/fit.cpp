@@ -1,0 +1,88 @@
+// `molar calibrate fit`: from touches to a rig file.
+
+#include <cstdio>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/calibrate/base_rig.h"
+#include "app/calibrate/calibration_text.h"
+#include "app/commands/calibrate/calibrate.h"
+#include "app/commands/number_range.h"
+#include "app/usage_error.h"
+#include "calibration/fit/touches_file.h"
+
+namespace app {
+namespace {
+
+using namespace calibration;
+
+struct CalibrateFitOptions {
+  std::string observations, model = "auto", rig = "mirrored", held_out;
+  double region_mm3 = 0.0;
+  Measuring measuring;
+  KeepOption keep;
+  bool json = false;
+};
+
+FitOptions fitOptions(const CalibrateFitOptions& options) {
+  FitOptions fit;
+  fit.region_mm3 = options.region_mm3;
+  if (options.model != "auto") fit.model = armModelNamed(options.model == "harders" ? "joints" : options.model);
+  return fit;
+}
+
+/// Until it is proved: how well it foretells touches left out of it, as if these were all held out.
+Verdict foretold(const ArmFit& fit, ProofKind kind) {
+  TargetErrors errors;
+  errors.n = fit.used;
+  errors.mean_mm = errors.rms_mm = fit.cv_rms_mm;
+  errors.bias_mm = fit.bias_mm;
+  return judge(errors, kind).verdict;
+}
+
+int fit(const CalibrateFitOptions& options) {
+  options.keep.refuseUnlessWritable();
+  const TouchSet touches = readTouches(options.observations);
+  const RigRecord base = baseRig(options.rig);
+  Measuring measuring = options.measuring;
+  if (measuring.serial.empty()) measuring.serial = touches.serial;
+  if (!touches.mount.empty()) measuring.mount = touches.mount;
+
+  const ArmFit fitted = fitArm(touches, fitOptions(options));
+  RigRecord record = fittedRig(base, touches, fitted, measuring);
+  const ProofKind kind = proofKindOf(record.procedure->method);
+  std::string proof_text;
+  if (!options.held_out.empty()) {
+    const auto residuals = residualsOf(fitted.arm, readTouches(options.held_out).touches);
+    prove(record, residuals, kind);
+    proof_text = proofText(record.proof->errors, judge(record.proof->errors, kind));
+  }
+  std::fputs(fitText(fitted).c_str(), stderr);
+  std::fputs(proof_text.c_str(), stderr);
+  options.keep.keep(record, touchesText(touches));
+  if (options.json) std::fputs(fitJson(fitted).c_str(), stdout);
+  return statusOf(record.proof ? record.proof->verdict : foretold(fitted, kind));
+}
+
+}  // namespace
+
+void addCalibrateFit(CLI::App& calibrate, Chosen& chosen) {
+  auto o = std::make_shared<CalibrateFitOptions>();
+  CLI::App* command = calibrate.add_subcommand("fit", "From touches to a rig file; exit 0 green, 1 amber or red");
+  command->add_option("OBSERVATIONS", o->observations, "Touches, YAML")->required();
+  command
+      ->add_option("--model", o->model,
+                   "rigid, joints (gains, offsets, tip; after Harders), full, or auto: by cross-validation")
+      ->check(CLI::IsMember({"auto", "rigid", "joints", "harders", "full"}))
+      ->capture_default_str();
+  command->add_option("--rig", o->rig, kBaseRigHelp)->capture_default_str();
+  command->add_option("--held-out", o->held_out, "Touches it has not seen, to prove it by")->type_name("FILE");
+  command->add_option("--region", o->region_mm3, "Volume that the case needs, mm3")->check(numberRange(0.0, 1e8));
+  addMeasuring(*command, o->measuring);
+  o->keep.addTo(*command);
+  command->add_flag("--json", o->json, "The fit as JSON on standard output");
+  command->callback([o, &chosen] { chosen.action = [o] { return fit(*o); }; });
+}
+
+}  // namespace app

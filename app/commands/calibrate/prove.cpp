@@ -1,0 +1,68 @@
+// `molar calibrate verify` and `check`: a rig against touches it has not seen; the check at the start of a session.
+
+#include <cstdio>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/calibrate/base_rig.h"
+#include "app/calibrate/calibration_text.h"
+#include "app/commands/calibrate/calibrate.h"
+#include "calibration/fit/touches_file.h"
+
+namespace app {
+namespace {
+
+using namespace calibration;
+
+struct ProveOptions {
+  std::string rig, observations;
+  KeepOption keep;
+  bool session_check = false, json = false;
+};
+
+int prove(const ProveOptions& options) {
+  options.keep.refuseUnlessWritable();
+  RigRecord record = baseRig(options.rig);
+  const TouchSet touches = readTouches(options.observations);
+  const MeasuredArm arm = armOf(record, touches, options.rig);
+  const ProofKind kind = options.session_check ? ProofKind::session_check
+                         : record.procedure    ? proofKindOf(record.procedure->method)
+                                               : ProofKind::full;
+  const auto residuals = residualsOf(arm, touches.touches);
+  const TargetErrors errors = targetErrors(residuals);
+  const Judgement judgement = judge(errors, kind);
+
+  std::fputs(proofText(errors, judgement).c_str(), stderr);
+  if (options.session_check && judgement.verdict != Verdict::green)
+    std::fputs("molar: re-zero with five touches (molar calibrate rezero); if it stays so, calibrate anew\n", stderr);
+  if (options.json) std::fputs(proofJson(errors, judgement).c_str(), stdout);
+  if (!options.session_check) {
+    app::prove(record, residuals, kind);
+    record.provenance.parent = record.hash;
+    options.keep.keep(record, touchesText(touches));
+  }
+  return statusOf(judgement.verdict);
+}
+
+void addOne(CLI::App& calibrate, Chosen& chosen, bool session_check) {
+  auto o = std::make_shared<ProveOptions>();
+  o->session_check = session_check;
+  CLI::App* command =
+      session_check ? calibrate.add_subcommand("check", "Four touches at the start of a session: is it still right?")
+                    : calibrate.add_subcommand("verify", "A rig against touches it has not seen");
+  command->add_option("RIG", o->rig, kBaseRigHelp)->required();
+  command->add_option("OBSERVATIONS", o->observations, "Touches, YAML")->required();
+  command->add_flag("--json", o->json, "Numbers as JSON on standard output");
+  if (!session_check) o->keep.addTo(*command);
+  command->callback([o, &chosen] { chosen.action = [o] { return prove(*o); }; });
+}
+
+}  // namespace
+
+void addCalibrateProofs(CLI::App& calibrate, Chosen& chosen) {
+  addOne(calibrate, chosen, false);
+  addOne(calibrate, chosen, true);
+}
+
+}  // namespace app

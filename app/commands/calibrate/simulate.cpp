@@ -1,0 +1,99 @@
+// `molar calibrate simulate`: touches on a workstation whose truth is known, to try everything without one.
+
+#include <fstream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/commands/calibrate/calibrate.h"
+#include "app/commands/number_range.h"
+#include "app/usage_error.h"
+#include "assets/output_file.h"
+#include "calibration/fit/touches_file.h"
+#include "calibration/record/rig_file.h"
+#include "calibration/synthetic/synthetic_rig.h"
+
+namespace app {
+namespace {
+
+using namespace calibration;
+
+constexpr glm::dvec3 kHeldOutHalf_mm{65.0, 45.0, 30.0};
+
+struct SimulateOptions {
+  std::string scenario = "D", method = "jig27", out, held_out, rig;
+  std::uint32_t seed = 1;
+  int held_out_n = 16;
+  double outliers = 0.0, drift_deg = 0.0, drift_mm = 0.0;
+  bool force = false;
+};
+
+void write(assets::OutputFile& file, const std::string& text) {
+  std::ofstream(file.temporaryPath()) << text;
+  file.commit();
+}
+
+int simulate(const SimulateOptions& options) {
+  const auto plan = targetPlan(options.method);
+  if (!plan)
+    throw UsageError("--method " + options.method +
+                     ": not a procedure, choose jig27, jig8, visual15, visual25, rezero5, check4 or verify8");
+  assets::OutputFile out(options.out, options.force);
+  std::unique_ptr<assets::OutputFile> held_out, rig_out;
+  if (!options.held_out.empty()) held_out = std::make_unique<assets::OutputFile>(options.held_out, options.force);
+  if (!options.rig.empty()) rig_out = std::make_unique<assets::OutputFile>(options.rig, options.force);
+
+  SyntheticRig rig = syntheticRig(*scenarioNamed(options.scenario), options.seed);
+  rig.habits.outlier_share = options.outliers;
+  std::mt19937 chance(options.seed);
+  if (options.drift_deg > 0.0 || options.drift_mm > 0.0)
+    rig = drifted(rig, options.drift_deg, options.drift_mm, chance);
+  TouchSet touches = touchedAll(rig, *plan, chance);
+  touches.serial = "practice-" + options.scenario + "-" + std::to_string(options.seed);
+  touches.mount = "right";
+  touches.method = plan->method;
+  if (held_out) {
+    TouchSet judges = touches;
+    judges.method = "held-out";
+    judges.touches = heldOut(rig, options.held_out_n, kHeldOutHalf_mm, chance);
+    write(*held_out, touchesText(judges));
+  }
+  if (rig_out) write(*rig_out, rigText(rig.nominal));
+  write(out, touchesText(touches));
+  return 0;
+}
+
+}  // namespace
+
+void addCalibrateSimulate(CLI::App& calibrate, Chosen& chosen) {
+  auto o = std::make_shared<SimulateOptions>();
+  CLI::App* command =
+      calibrate.add_subcommand("simulate", "Touches on a workstation whose truth is known, by scenario and seed");
+  command
+      ->add_option("--scenario", o->scenario,
+                   "A good unit, B typical, C bad, D typical with what no correction can express, E held one way, F "
+                   "touched by eye, G badly modelled")
+      ->check(CLI::IsMember({"A", "B", "C", "D", "E", "F", "G"}))
+      ->capture_default_str();
+  command->add_option("--seed", o->seed, "Which unit")->capture_default_str();
+  command->add_option("--method", o->method, "Procedure: jig27, jig8, visual15, visual25, rezero5, check4, verify8")
+      ->capture_default_str();
+  command->add_option("--outliers", o->outliers, "Share of touches that are off by 5 to 20 mm")
+      ->check(numberRange(0.0, 0.5))
+      ->capture_default_str();
+  command->add_option("--drift-deg", o->drift_deg, "Joint offsets since the unit was calibrated, one sigma, degrees")
+      ->check(numberRange(0.0, 5.0));
+  command->add_option("--drift-mm", o->drift_mm, "How far its base was pushed since, one sigma an axis, mm")
+      ->check(numberRange(0.0, 50.0));
+  command->add_option("--out", o->out, "Observations to write, YAML")->type_name("FILE")->required();
+  command->add_option("--held-out", o->held_out, "Touches to judge by, with tilts of their own, YAML")
+      ->type_name("FILE");
+  command->add_option("--held-out-n", o->held_out_n, "How many of these")
+      ->check(CLI::Range(4, 1000))
+      ->capture_default_str();
+  command->add_option("--rig", o->rig, "The rig as it is believed before, YAML")->type_name("FILE");
+  command->add_flag("--force", o->force, "Replace files that exist");
+  command->callback([o, &chosen] { chosen.action = [o] { return simulate(*o); }; });
+}
+
+}  // namespace app

@@ -1,0 +1,105 @@
+// `molar calibrate list`, `diff`, `rollback`: what is kept, what differs, and back to the one before.
+
+#include <cstdio>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/calibrate/base_rig.h"
+#include "app/calibrate/calibration_text.h"
+#include "app/commands/calibrate/calibrate.h"
+#include "app/usage_error.h"
+#include "calibration/record/rig_file.h"
+
+namespace app {
+namespace {
+
+using namespace calibration;
+
+struct StoreOptions {
+  std::string store, before, after;
+  std::optional<std::string> rig_id, serial, mount;
+
+  RigStore rigs() const { return RigStore(store.empty() ? RigStore::usualRoot() : std::filesystem::path(store)); }
+};
+
+std::string textOf(const RigPlace& place) { return place.rig_id + " / " + place.serial + " / " + place.mount; }
+
+/// The one place that is meant.
+RigPlace placeMeant(const StoreOptions& options) {
+  std::vector<RigPlace> fits;
+  for (const RigPlace& place : options.rigs().places())
+    if (options.rig_id.value_or(place.rig_id) == place.rig_id &&
+        options.serial.value_or(place.serial) == place.serial && options.mount.value_or(place.mount) == place.mount)
+      fits.push_back(place);
+  if (fits.empty()) throw UsageError("calibrate: the store has no such rig, see molar calibrate list");
+  if (fits.size() > 1)
+    throw UsageError("calibrate: several rigs are meant (" + textOf(fits[0]) + ", " + textOf(fits[1]) +
+                     "), say which with --rig-id, --serial, --mount");
+  return fits.front();
+}
+
+int list(const StoreOptions& options) {
+  const RigStore rigs = options.rigs();
+  for (const RigPlace& place : rigs.places()) {
+    std::printf("%s\n", textOf(place).c_str());
+    const auto current = rigs.currentName(place);
+    for (const std::string& name : rigs.names(place)) {
+      std::string line;
+      try {
+        line = recordLine(readRigRecord(rigs.pathOf(place, name).string()));
+      } catch (const CalibrationError& error) {
+        line = std::string("can not be read: ") + error.what();
+      }
+      std::printf("  %s %s  %s\n", current == name ? "*" : " ", name.c_str(), line.c_str());
+    }
+  }
+  if (rigs.places().empty()) std::fputs("molar: nothing is kept yet\n", stderr);
+  return 0;
+}
+
+int diff(const StoreOptions& options) {
+  const auto lines = differences(baseRig(options.before), baseRig(options.after));
+  for (const std::string& line : lines) std::printf("%s\n", line.c_str());
+  if (lines.empty()) std::fputs("molar: the two rigs are the same\n", stderr);
+  return 0;
+}
+
+int rollBack(const StoreOptions& options) {
+  const RigPlace place = placeMeant(options);
+  const std::string name = options.rigs().rollBack(place);
+  std::fprintf(stderr, "molar: %s is in force again for %s\n", name.c_str(), textOf(place).c_str());
+  return 0;
+}
+
+void addPlace(CLI::App& command, StoreOptions& options) {
+  command.add_option("--rig-id", options.rig_id, "Name of the workstation");
+  command.add_option("--serial", options.serial, "Serial of the device");
+  command.add_option("--mount", options.mount, "right or left");
+}
+
+void addStoreFolder(CLI::App& command, StoreOptions& options) {
+  command.add_option("--store", options.store, "Folder of the store [$MOLAR_CALIBRATION or the user's data folder]")
+      ->type_name("DIR");
+}
+
+}  // namespace
+
+void addCalibrateStore(CLI::App& calibrate, Chosen& chosen) {
+  auto o = std::make_shared<StoreOptions>();
+  CLI::App* listing = calibrate.add_subcommand("list", "Rigs that are kept; * is in force");
+  addStoreFolder(*listing, *o);
+  listing->callback([o, &chosen] { chosen.action = [o] { return list(*o); }; });
+
+  CLI::App* compare = calibrate.add_subcommand("diff", "What differs between two rigs, with units");
+  compare->add_option("BEFORE", o->before, kBaseRigHelp)->required();
+  compare->add_option("AFTER", o->after, "The other")->required();
+  compare->callback([o, &chosen] { chosen.action = [o] { return diff(*o); }; });
+
+  CLI::App* back = calibrate.add_subcommand("rollback", "The rig before comes into force again");
+  addStoreFolder(*back, *o);
+  addPlace(*back, *o);
+  back->callback([o, &chosen] { chosen.action = [o] { return rollBack(*o); }; });
+}
+
+}  // namespace app
