@@ -22,7 +22,7 @@ struct LoopSettings {
   double rate_Hz = 1000.0;                                            ///< 500..10000
   calibration::Pose<calibration::Patient, calibration::Device> X_PD;  ///< where the device stands
   calibration::Pose<calibration::Handle, calibration::Tool> X_HT;     ///< how the handle holds the tool
-  std::optional<calibration::MeasuredArm> arm;                        ///< none: as the device's driver has it
+  std::optional<calibration::MeasuredArm> arm = std::nullopt;         ///< none: as the device's driver has it
   bool realtime = true;                                               ///< ask for priority, a core, locked memory
   ButtonMeanings buttons;                                             ///< of those on the handle
   const FootPedal* pedal = nullptr;                                   ///< drills beside them; borrowed
