@@ -11,7 +11,7 @@ namespace {
 
 /// Of the block with pits, and of what the screen shows of crosses.
 constexpr glm::dvec3 kJigHalf_mm{65.0, 45.0, 32.5};
-constexpr glm::dvec2 kCrossesHalf_mm{55.0, 38.0};
+constexpr glm::dvec2 kCrossesHalf_mm{65.0, 45.0};
 constexpr glm::dvec3 kPlacesHalf_mm{60.0, 42.0, 30.0};
 
 constexpr double kMostTilt_deg = 25.0;  ///< an axis
