@@ -24,7 +24,8 @@ struct Candidate {
   ArmModel model = ArmModel::rigid;
   KinematicFit fit;
   MeasuredArm arm;
-  double fre_rms_mm = 0.0, cv_rms_mm = 0.0;
+  double fre_rms_mm = 0.0;
+  CrossValidation unseen;
 };
 
 double rms_mm(const MeasuredArm& arm, const std::vector<Touch>& touches, const Indices& which) {
@@ -35,11 +36,12 @@ double rms_mm(const MeasuredArm& arm, const std::vector<Touch>& touches, const I
 }
 
 Candidate candidate(ArmModel model, const TouchAgreement& agreement, const TouchSet& set) {
-  Candidate c{.model = model, .fit = {}, .arm = {}};
+  Candidate c;
+  c.model = model;
   c.fit = kinematicFit(agreement.start, set.touches, agreement.which, set.precision, numbersOf(model));
   c.arm = armOf(agreement.start, c.fit.numbers);
   c.fre_rms_mm = rms_mm(c.arm, set.touches, agreement.which);
-  c.cv_rms_mm = crossValidated_mm(agreement.start, set.touches, agreement.which, set.precision, c.fit);
+  c.unseen = crossValidated(agreement.start, set.touches, agreement.which, set.precision, c.fit);
   return c;
 }
 
@@ -48,7 +50,7 @@ const Candidate& chosen(const std::vector<Candidate>& candidates, int used, doub
   std::size_t best = 0;
   for (std::size_t k = 1; k < candidates.size(); ++k) {
     if (candidates[k].model == ArmModel::full && (used < kFewestForFull || tilt_spread_deg < kLeastTilt_deg)) continue;
-    if (candidates[best].cv_rms_mm > kSimplerIsPreferred * candidates[k].cv_rms_mm) best = k;
+    if (candidates[best].unseen.relative > kSimplerIsPreferred * candidates[k].unseen.relative) best = k;
   }
   return candidates[best];
 }
@@ -117,7 +119,7 @@ ArmFit fitArm(const TouchSet& set, const FitOptions& options) {
     candidates.push_back(candidate(model, agreement, set));
     const Candidate& c = candidates.back();
     fit.scores.push_back(
-        {std::string(nameOf(model)), static_cast<int>(c.fit.fitted.size()), c.fre_rms_mm, c.cv_rms_mm});
+        {std::string(nameOf(model)), static_cast<int>(c.fit.fitted.size()), c.fre_rms_mm, c.unseen.rms_mm});
   }
   if (const auto affine = affineScore(agreement.start, set.touches, which))
     fit.scores.push_back({"affine", kAffineNumbers, affine->fre_rms_mm, affine->cv_rms_mm});
@@ -130,7 +132,7 @@ ArmFit fitArm(const TouchSet& set, const FitOptions& options) {
   fit.model = best.model;
   fit.arm = best.arm;
   fit.fre_rms_mm = best.fre_rms_mm;
-  fit.cv_rms_mm = best.cv_rms_mm;
+  fit.cv_rms_mm = best.unseen.rms_mm;
   fit.mismatch_mm = best.fit.mismatch_mm;
   fit.iterations = best.fit.iterations;
   fit.sigma.assign(best.fit.sigma.begin(), best.fit.sigma.end());

@@ -11,35 +11,43 @@ namespace {
 
 using Indices = std::vector<std::size_t>;
 
-constexpr std::size_t kFolds = 5;
+constexpr std::size_t kFolds = 5, kFewPlaces = 20;
+constexpr double kUsualMismatch_mm = 0.15;
 constexpr double kSamePlace_mm = 1.0;
 
 /// The fold of each touch: places are dealt in the order they were touched in.
-Indices foldsOf(const std::vector<Touch>& touches, std::span<const std::size_t> which) {
-  std::vector<glm::dvec3> places;
-  Indices folds;
-  for (const std::size_t i : which) {
-    const glm::dvec3& here = touches[i].target_W.mm;
-    const auto known =
-        std::ranges::find_if(places, [&](const glm::dvec3& p) { return glm::distance(p, here) < kSamePlace_mm; });
-    folds.push_back(static_cast<std::size_t>(known - places.begin()) % kFolds);
-    if (known == places.end()) places.push_back(here);
-  }
-  return folds;
-}
+struct Folds {
+  Indices of_touch;
+  std::size_t count = kFolds;
 
-/// `errors_mm2(seen, asked)`: the sum of squares over those asked, by what was seen.
+  Folds(const std::vector<Touch>& touches, std::span<const std::size_t> which) {
+    std::vector<glm::dvec3> places;
+    for (const std::size_t i : which) {
+      const glm::dvec3& here = touches[i].target_W.mm;
+      const auto known =
+          std::ranges::find_if(places, [&](const glm::dvec3& p) { return glm::distance(p, here) < kSamePlace_mm; });
+      of_touch.push_back(static_cast<std::size_t>(known - places.begin()));
+      if (known == places.end()) places.push_back(here);
+    }
+    if (places.size() < kFewPlaces) count = places.size();
+    for (std::size_t& fold : of_touch) fold %= count;
+  }
+};
+
+/// The mean over all touches of `errors_mm2(seen, asked)`: sums of squares, an axis, over those asked by what was seen.
 template <class Errors>
-double overFolds_mm(const std::vector<Touch>& touches, std::span<const std::size_t> which, Errors errors_mm2) {
-  const Indices folds = foldsOf(touches, which);
-  double sum = 0.0;
-  for (std::size_t fold = 0; fold < kFolds; ++fold) {
+glm::dvec3 overFolds_mm2(const std::vector<Touch>& touches, std::span<const std::size_t> which, Errors errors_mm2) {
+  const Folds folds(touches, which);
+  glm::dvec3 sum{0.0};
+  for (std::size_t fold = 0; fold < folds.count; ++fold) {
     Indices seen, asked;
-    for (std::size_t k = 0; k < which.size(); ++k) (folds[k] == fold ? asked : seen).push_back(which[k]);
+    for (std::size_t k = 0; k < which.size(); ++k) (folds.of_touch[k] == fold ? asked : seen).push_back(which[k]);
     if (!asked.empty()) sum += errors_mm2(seen, asked);
   }
-  return std::sqrt(sum / static_cast<double>(which.size()));
+  return sum / static_cast<double>(which.size());
 }
+
+double rootOfSum(const glm::dvec3& squares) { return std::sqrt(squares.x + squares.y + squares.z); }
 
 struct Affine {
   std::array<glm::dvec4, 3> rows{};  ///< of x, y, z: three factors and a constant
@@ -82,17 +90,20 @@ std::optional<Affine> affineFit(const ArmStart& start, const std::vector<Touch>&
 
 }  // namespace
 
-double crossValidated_mm(const ArmStart& start, const std::vector<Touch>& touches, std::span<const std::size_t> which,
-                         const TouchPrecision& precision, const KinematicFit& whole) {
-  return overFolds_mm(touches, which, [&](const Indices& seen, const Indices& asked) {
+CrossValidation crossValidated(const ArmStart& start, const std::vector<Touch>& touches,
+                               std::span<const std::size_t> which, const TouchPrecision& precision,
+                               const KinematicFit& whole) {
+  const glm::dvec3 squares = overFolds_mm2(touches, which, [&](const Indices& seen, const Indices& asked) {
     const MeasuredArm arm = armOf(start, kinematicFit(start, touches, seen, precision, whole.fitted, &whole).numbers);
-    double sum = 0.0;
+    glm::dvec3 sum{0.0};
     for (const std::size_t i : asked) {
       const glm::dvec3 error = arm.tip_W(touches[i].joints_rad).mm - touches[i].target_W.mm;
-      sum += glm::dot(error, error);
+      sum += error * error;
     }
     return sum;
   });
+  const glm::dvec3 sigma_mm = touchSigma_mm(precision, kUsualMismatch_mm);
+  return {rootOfSum(squares), rootOfSum(squares / (sigma_mm * sigma_mm))};
 }
 
 std::optional<AffineScore> affineScore(const ArmStart& start, const std::vector<Touch>& touches,
@@ -101,17 +112,17 @@ std::optional<AffineScore> affineScore(const ArmStart& start, const std::vector<
   const auto errors_mm2 = [&](std::span<const std::size_t> seen, std::span<const std::size_t> asked) {
     const auto affine = affineFit(start, touches, seen);
     possible = possible && affine;
-    double sum = 0.0;
+    glm::dvec3 sum{0.0};
     for (const std::size_t i : asked) {
       if (!affine) break;
       const glm::dvec3 error = (*affine)(nominalTip_mm(start, touches[i])) - touches[i].target_W.mm;
-      sum += glm::dot(error, error);
+      sum += error * error;
     }
     return sum;
   };
   AffineScore score;
-  score.fre_rms_mm = std::sqrt(errors_mm2(which, which) / static_cast<double>(which.size()));
-  score.cv_rms_mm = overFolds_mm(touches, which, errors_mm2);
+  score.fre_rms_mm = rootOfSum(errors_mm2(which, which) / static_cast<double>(which.size()));
+  score.cv_rms_mm = rootOfSum(overFolds_mm2(touches, which, errors_mm2));
   return possible ? std::optional(score) : std::nullopt;
 }
 

@@ -1,5 +1,6 @@
 #include "calibration/fit/fit_warnings.h"
 
+#include <algorithm>
 #include <cstdarg>
 #include <cstdio>
 
@@ -9,6 +10,7 @@ namespace {
 constexpr double kEnoughOfRegion = 0.6;
 constexpr double kManyOutliers = 0.1;
 constexpr double kOptimistic = 2.0;  ///< foretold error at unseen tilts over the cross-validated
+constexpr double kMatters_mm = 0.3;  ///< an error below this is nothing to warn of
 constexpr double kOverFitted = 3.0;  ///< cross-validated error over that of the touches fitted
 
 #if defined(__GNUC__)
@@ -44,7 +46,7 @@ std::vector<FitWarning> fitWarnings(const FitEvidence& e) {
     warnings.push_back({Kind::little_tilt, line("the stylus was held much the same way (%.0f deg apart, at least %.0f "
                                                 "are needed): tilt it differently at each touch",
                                                 e.tilt_spread_deg, kLeastTilt_deg)});
-  if (e.unseen_tilts_rms_mm > kOptimistic * e.cv_rms_mm)
+  if (e.unseen_tilts_rms_mm > std::max(kMatters_mm, kOptimistic * e.cv_rms_mm))
     warnings.push_back({Kind::optimistic_check,
                         line("the cross-validated %.2f mm hold for these ways of holding the stylus alone, %.1f mm are "
                              "possible for others: touch with other tilts, or verify with them",
@@ -54,7 +56,7 @@ std::vector<FitWarning> fitWarnings(const FitEvidence& e) {
         {Kind::many_outliers, line("%d of %d touches fit no common arm: check that the jig is fast and the order of "
                                    "the targets kept",
                                    e.outliers, e.used + e.outliers)});
-  if (e.cv_rms_mm > kOverFitted * e.fre_rms_mm)
+  if (e.cv_rms_mm > std::max(kMatters_mm, kOverFitted * e.fre_rms_mm))
     warnings.push_back({Kind::over_fitted, line("%.2f mm at the touches fitted say nothing: touches left out were off "
                                                 "by %.2f mm; take more touches",
                                                 e.fre_rms_mm, e.cv_rms_mm)});

@@ -18,7 +18,7 @@ constexpr double kLeastLimit_mm = 2.5;
 constexpr double kMostLimit_mm = 13.0;  ///< an arm that is further from its model is another arm, or was never homed
 /// An outlier is this far off and so many sigmas of a touch.
 constexpr double kOutlier_mm = 1.5, kOutlierSigmas = 6.0;
-constexpr std::size_t kEnoughForFull = 12;
+constexpr std::size_t kEnoughForFull = 12, kHandful = 7;
 constexpr int kRounds = 4;
 constexpr double kFlat_mm = 3.0;  ///< targets no thicker than this, root mean square, lie in a plane
 constexpr double kFacing = 0.2;   ///< cosine of the plane's normal to the viewer, below which it faces nobody
@@ -63,7 +63,10 @@ RigidAgreement rightHanded(const Places& places) {
   };
   const auto kept = agreement(Handedness::kept, kMostLimit_mm);
   const auto mirrored = agreement(Handedness::mirrored, kept ? kept->limit_mm : kMostLimit_mm);
-  const std::size_t n = places.index.size(), clearly = std::max<std::size_t>(2, n / 20);
+  // Two thirds of a handful agree on much: there one touch more in the mirror tells, if they do not lie in a plane.
+  const std::size_t n = places.index.size();
+  const bool handful = n <= kHandful && extentOf(places.targets_W).spread_mm[2] > kFlat_mm;
+  const std::size_t clearly = handful ? 1 : std::max<std::size_t>(2, n / 20);
   if (mirrored) {
     if (!kept || mirrored->agreeing.size() >= kept->agreeing.size() + clearly) refuseMirrored();
     if (mirrored->agreeing.size() >= kept->agreeing.size() && kept->rms_mm > 0.5 * kLeastLimit_mm &&

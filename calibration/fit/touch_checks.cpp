@@ -36,18 +36,6 @@ void checkTwice(const std::vector<const Touch*>& touches) {
              " again, with the same joint angles, remove one or touch anew");
 }
 
-/// 95 of 100 pairs are within it.
-double pairSpread_deg(const std::vector<glm::dvec3>& directions) {
-  std::vector<double> angles;
-  for (std::size_t a = 0; a < directions.size(); ++a)
-    for (std::size_t b = a + 1; b < directions.size(); ++b)
-      angles.push_back(std::acos(std::clamp(glm::dot(directions[a], directions[b]), -1.0, 1.0)));
-  if (angles.empty()) return 0.0;
-  const auto at = static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(angles.size() - 1));
-  std::nth_element(angles.begin(), angles.begin() + at, angles.end());
-  return degreesFromRad(angles[static_cast<std::size_t>(at)]);
-}
-
 /// A triangle of the hull, seen from outside counter-clockwise.
 struct Facet {
   std::array<std::size_t, 3> corner;
@@ -151,6 +139,17 @@ void checkTouches(const TouchSet& set) {
   const Extent extent = extentOf(places);
   if (extent.spread_mm[0] < kNarrow_mm) refuse("all targets are in one place, touch targets that are spread out");
   if (extent.spread_mm[1] < kNarrow_mm) refuse("all targets lie on a line, touch some to the sides of it");
+}
+
+double pairSpread_deg(const std::vector<glm::dvec3>& directions) {
+  std::vector<double> angles;
+  for (std::size_t a = 0; a < directions.size(); ++a)
+    for (std::size_t b = a + 1; b < directions.size(); ++b)
+      angles.push_back(std::acos(std::clamp(glm::dot(directions[a], directions[b]), -1.0, 1.0)));
+  if (angles.empty()) return 0.0;
+  const auto at = static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(angles.size() - 1));
+  std::nth_element(angles.begin(), angles.begin() + at, angles.end());
+  return degreesFromRad(angles[static_cast<std::size_t>(at)]);
 }
 
 double tiltSpread_deg(const PhantomGeometry& geometry, const std::vector<Touch>& touches,

@@ -20,6 +20,9 @@ void checkTouches(const TouchSet& set);
 double tiltSpread_deg(const PhantomGeometry& geometry, const std::vector<Touch>& touches,
                       std::span<const std::size_t> which);
 
+/// Of unit vectors: the angle that 95 of 100 pairs are within.
+double pairSpread_deg(const std::vector<glm::dvec3>& directions);
+
 /// Of the convex hull; 0 of what lies in a plane.
 double hullVolume_mm3(const std::vector<glm::dvec3>& places_mm);
 

@@ -1,0 +1,113 @@
+#include "calibration/fit/touch_checks.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+#include "calibration/arm/phantom_models.h"
+#include "calibration/geometry/units.h"
+
+namespace calibration {
+namespace {
+
+using testing::HasSubstr;
+
+TouchSet fiveTouches() {
+  TouchSet set;
+  const std::vector<glm::dvec3> places = {{0, 0, 0}, {50, 0, 0}, {0, 40, 0}, {0, 0, 30}, {50, 40, 30}};
+  for (std::size_t i = 0; i < places.size(); ++i)
+    set.touches.push_back({static_cast<int>(i) + 1, {0.1 * static_cast<double>(i), 0, 0, 0, 0, 0}, {places[i]}, true});
+  return set;
+}
+
+std::string refusal(const TouchSet& set) {
+  try {
+    checkTouches(set);
+  } catch (const CalibrationError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(TouchChecks, LetGoodTouchesPass) { EXPECT_EQ(refusal(fiveTouches()), "accepted"); }
+
+TEST(TouchChecks, NameTheTouchThatIsNoNumber) {
+  TouchSet set = fiveTouches();
+  set.touches[2].joints_rad[4] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(refusal(set), HasSubstr("touch 3 holds a number that is none"));
+  set = fiveTouches();
+  set.touches[1].target_W.mm.y = std::numeric_limits<double>::infinity();
+  EXPECT_THAT(refusal(set), HasSubstr("touch 2"));
+}
+
+TEST(TouchChecks, NameTheTouchThatWasTakenTwice) {
+  TouchSet set = fiveTouches();
+  set.touches.push_back(set.touches[1]);
+  set.touches.back().id = 9;
+  EXPECT_THAT(refusal(set), testing::AllOf(HasSubstr("touch 9 is touch 2 again")));
+  set.touches.back().used = false;
+  EXPECT_EQ(refusal(set), "accepted") << "what was set aside does not count";
+}
+
+TEST(TouchChecks, RefuseTooFewALineAndOnePlace) {
+  TouchSet set = fiveTouches();
+  set.touches.resize(3);
+  EXPECT_THAT(refusal(set), HasSubstr("at least 4 are needed"));
+  set = fiveTouches();
+  for (Touch& touch : set.touches) touch.target_W.mm = {10.0 * touch.id, 5.0 * touch.id, 0.3 * (touch.id % 2)};
+  EXPECT_THAT(refusal(set), HasSubstr("lie on a line"));
+  for (Touch& touch : set.touches) touch.target_W.mm = {1.0, 0.1 * touch.id, 0.0};
+  EXPECT_THAT(refusal(set), HasSubstr("in one place"));
+}
+
+TEST(TouchChecks, RefuseAModelOrPrecisionThatIsNone) {
+  TouchSet set = fiveTouches();
+  set.device_model = "novint";
+  EXPECT_THAT(refusal(set), HasSubstr("novint"));
+  set = fiveTouches();
+  set.precision.in_plane_mm = -1.0;
+  EXPECT_THAT(refusal(set), HasSubstr("precision"));
+}
+
+TEST(TiltSpread, IsTheSmallerOfThatInTheRoomAndThatOfTheGimbal) {
+  std::mt19937 chance(2);
+  std::uniform_real_distribution<double> wide(-0.5, 0.5), narrow(-0.02, 0.02);
+  std::vector<Touch> varied, stiff_gimbal, one_direction;
+  std::vector<std::size_t> all;
+  for (std::size_t i = 0; i < 30; ++i) {
+    const glm::dvec3 arm(wide(chance), 0.7 + wide(chance), wide(chance));
+    varied.push_back({1, {arm.x, arm.y, arm.z, wide(chance), wide(chance), 0}, {}, true});
+    stiff_gimbal.push_back({1, {arm.x, arm.y, arm.z, narrow(chance), narrow(chance), 0}, {}, true});
+    const glm::dvec3 g = wristTurnedTo(arm, glm::dquat(1.0, 0.0, 0.0, 0.0));
+    one_direction.push_back({1, {arm.x, arm.y, arm.z, g.x, g.y, g.z}, {}, true});
+    all.push_back(i);
+  }
+  EXPECT_GT(tiltSpread_deg(kOmniGeometry, varied, all), 35.0);
+  EXPECT_LT(tiltSpread_deg(kOmniGeometry, stiff_gimbal, all), 5.0);
+  EXPECT_LT(tiltSpread_deg(kOmniGeometry, one_direction, all), 1.0);
+}
+
+TEST(HullVolume, IsThatOfABlockWhateverLiesInside) {
+  std::vector<glm::dvec3> grid;
+  for (const double x : {-65.0, 0.0, 65.0})
+    for (const double y : {-45.0, 0.0, 45.0})
+      for (const double z : {-32.5, 0.0, 32.5}) grid.push_back({x, y, z});
+  EXPECT_NEAR(hullVolume_mm3(grid), 130.0 * 90.0 * 65.0, 1.0);
+  EXPECT_NEAR(hullVolume_mm3({{0, 0, 0}, {6, 0, 0}, {0, 5, 0}, {0, 0, 4}}), 20.0, 1e-3);
+  EXPECT_EQ(hullVolume_mm3({{0, 0, 0}, {6, 0, 0}, {0, 5, 0}, {6, 5, 0}, {3, 3, 0}}), 0.0);
+  EXPECT_EQ(hullVolume_mm3({{0, 0, 0}, {6, 0, 0}, {0, 5, 0}}), 0.0);
+}
+
+TEST(HullVolume, IsThatOfABallNearly) {
+  std::mt19937 chance(3);
+  std::normal_distribution<double> normal;
+  std::vector<glm::dvec3> places;
+  for (int i = 0; i < 2000; ++i)
+    places.push_back(10.0 * glm::normalize(glm::dvec3(normal(chance), normal(chance), normal(chance))));
+  EXPECT_NEAR(hullVolume_mm3(places) / (4.0 / 3.0 * kPi * 1000.0), 1.0, 0.01);
+}
+
+}  // namespace
+}  // namespace calibration
