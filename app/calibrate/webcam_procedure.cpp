@@ -21,6 +21,7 @@ using calibration::GreyPicture;
 constexpr double kNewView = 0.06;
 /// Tips are found to about this, one sigma an axis: hand, exposure and shading of the ball together.
 constexpr double kTipNoise_px = 0.5, kBoardNoise_px = 0.25;
+constexpr double kFlat_mm = 0.01;  ///< of the virtual screen: W lies in it
 
 GreyPicture plain(const glm::ivec2& size_px) {
   return {size_px,
@@ -51,6 +52,12 @@ WebcamProcedure::WebcamProcedure(const WebcamPlan& plan)
     throw calibration::CalibrationError("webcam procedure: one position can not tell depth, take three");
   if (plan_.places.targets.empty())
     throw calibration::CalibrationError("webcam procedure: no places for the tip, take webcam27");
+  for (const calibration::Point<calibration::World>& corner :
+       {screen_.lower_left, screen_.lower_right, screen_.upper_left})
+    if (std::abs(corner.mm.z) > kFlat_mm)
+      throw calibration::CalibrationError(
+          "webcam procedure: the virtual screen is not the plane z = 0 of W, correct screen and mirror in the rig "
+          "file");
   code_.screen_px = screen_.px;
   if (plan_.gray_code) {
     patterns_ = calibration::picturesOf(code_);
@@ -230,7 +237,7 @@ void WebcamProcedure::believePattern(const std::vector<glm::dvec2>& screen_px,
                                      const std::vector<glm::dvec2>& camera_px) {
   calibration::CameraPosition& position = observations_.sights.positions.back();
   for (std::size_t i = 0; i < screen_px.size(); ++i)
-    position.screen.push_back({calibration::placeOn(screen_, screen_px[i]), camera_px[i]});
+    position.screen.push_back({{{glm::dvec2(calibration::placeOn(screen_, screen_px[i]).mm), 0.0}}, camera_px[i]});
   turnTo(WebcamStep::without_tip);
 }
 

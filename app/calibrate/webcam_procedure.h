@@ -33,7 +33,8 @@ enum class WebcamWants { press, picture, nothing };
 
 class WebcamProcedure {
  public:
-  /// Throws CalibrationError: a screen too small for the board, no places, fewer than two positions.
+  /// Throws CalibrationError: a screen too small for the board, no places, fewer than two positions, a
+  /// virtual screen that is not the plane z = 0 of W.
   explicit WebcamProcedure(const WebcamPlan& plan);
 
   WebcamStep step() const { return step_; }

@@ -143,6 +143,8 @@ TEST(WebcamProcedure, RefusesAPlanThatCanNotSucceed) {
   plan.positions = 1;
   EXPECT_THROW(WebcamProcedure{plan}, calibration::CalibrationError);
   plan.positions = 3;
+  plan.rig.screen.upper_left.mm.z = 5.0;
+  EXPECT_THROW(WebcamProcedure{plan}, calibration::CalibrationError) << "not W's own plane";
   plan.rig = calibration::desktopRig({64, 48});
   EXPECT_THROW(WebcamProcedure{plan}, calibration::CalibrationError);
 }

@@ -2,6 +2,7 @@
 // pictures that its camera would take.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -31,6 +32,13 @@ class WebcamTechnician {
   /// Where the webcam was put at a position, from 0.
   const Pose<World, Camera>& stood(std::size_t position) const { return stood_[position]; }
 
+  /// From where the webcam stands now; no framebuffer: the screen is dark.
+  GreyPicture taken(const GreyPicture* shown, const std::optional<LitTip>& tip) {
+    const GreyPicture seen = view_->picture(shown, tip, ++pictures_);
+    keepPicture("taken_" + std::to_string(pictures_), seen);
+    return seen;
+  }
+
   void act(WebcamProcedure& procedure) {
     if (procedure.wants() == WebcamWants::press) {
       getReady(procedure);
@@ -42,9 +50,7 @@ class WebcamTechnician {
         lit ? std::optional(LitTip{.middle_W = rig_.tip_W(touch_->joints_rad), .lamp_share = 0.2}) : std::nullopt;
     const GreyPicture& shown = procedure.shown();
     const bool dark = std::ranges::all_of(shown.grey, [](std::uint8_t grey) { return grey == 0; });
-    const GreyPicture seen = view_->picture(dark ? nullptr : &shown, tip, ++pictures_);
-    keepPicture("procedure_" + std::to_string(pictures_), seen);
-    procedure.see(seen, touch_ ? touch_->joints_rad : RawJoints{});
+    procedure.see(taken(dark ? nullptr : &shown, tip), touch_ ? touch_->joints_rad : RawJoints{});
   }
 
  private:
