@@ -127,6 +127,20 @@ void writeProcedure(RigYaml& yaml, const RigProcedure& procedure) {
   yaml.close();
 }
 
+void writeResiduals(RigYaml& yaml, const std::vector<Residual>& residuals) {
+  yaml.raw() << "residuals"
+             << "[";
+  for (const Residual& one : residuals) {
+    yaml.raw() << "{:";
+    yaml.put("id", one.id);
+    yaml.vector("p_W", one.target_W.mm);
+    yaml.vector("e", one.error_mm.xyz);
+    yaml.put("used", one.used ? 1 : 0);
+    yaml.raw() << "}";
+  }
+  yaml.raw() << "]";
+}
+
 void writeProof(RigYaml& yaml, const RigProof& proof) {
   yaml.open("verify");
   yaml.put("n", proof.errors.n);
@@ -140,21 +154,9 @@ void writeProof(RigYaml& yaml, const RigProof& proof) {
   yaml.word("kind", wordOf(kProofKindWords, proof.kind));
   yaml.word("verdict", wordOf(kVerdictWords, proof.verdict));
   if (!proof.checked_utc.empty()) yaml.put("checked_utc", proof.checked_utc);
+  if (!proof.worst.empty()) yaml.put("worst", proof.worst);
+  if (!proof.residuals.empty()) writeResiduals(yaml, proof.residuals);
   yaml.close();
-}
-
-void writeResiduals(RigYaml& yaml, const std::vector<Residual>& residuals) {
-  yaml.raw() << "residuals"
-             << "[";
-  for (const Residual& one : residuals) {
-    yaml.raw() << "{:";
-    yaml.put("id", one.id);
-    yaml.vector("p_W", one.target_W.mm);
-    yaml.vector("e", one.error_mm.xyz);
-    yaml.put("used", one.used ? 1 : 0);
-    yaml.raw() << "}";
-  }
-  yaml.raw() << "]";
 }
 
 void writeKind(RigYaml& yaml) {

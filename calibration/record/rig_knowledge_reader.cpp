@@ -115,6 +115,21 @@ RigProcedure procedureIn(const CheckedYaml& yaml) {
   return procedure;
 }
 
+std::vector<Residual> residualsIn(const CheckedYaml& yaml, const cv::FileNode& parent) {
+  const cv::FileNode list = parent["residuals"];
+  if (!list.isSeq() || list.size() > kMostTouches)
+    yaml.refuse("'residuals' is not a list of touches", "remove it or calibrate again");
+  std::vector<Residual> residuals;
+  for (const cv::FileNode& node : list) {
+    if (!node.isMap()) yaml.refuse("'residuals' holds something that is no touch", "remove it or calibrate again");
+    residuals.push_back({yaml.integer(node, "id", -1000000, 1000000),
+                         {yaml.vector(node, "p_W")},
+                         {yaml.vector(node, "e")},
+                         yaml.integer(node, "used", 0, 1) == 1});
+  }
+  return residuals;
+}
+
 RigProof proofIn(const CheckedYaml& yaml) {
   const cv::FileNode node = yaml.map(yaml.root(), "verify");
   RigProof proof;
@@ -129,22 +144,9 @@ RigProof proofIn(const CheckedYaml& yaml) {
   if (yaml.has(node, "kind")) proof.kind = word(yaml, node, "kind", kProofKindWords);
   proof.verdict = word(yaml, node, "verdict", kVerdictWords);
   proof.checked_utc = utcIf(yaml, node, "checked_utc");
+  proof.worst = textIf(yaml, node, "worst");
+  if (yaml.has(node, "residuals")) proof.residuals = residualsIn(yaml, node);
   return proof;
-}
-
-std::vector<Residual> residualsIn(const CheckedYaml& yaml) {
-  const cv::FileNode list = yaml.root()["residuals"];
-  if (!list.isSeq() || list.size() > kMostTouches)
-    yaml.refuse("'residuals' is not a list of touches", "remove it or calibrate again");
-  std::vector<Residual> residuals;
-  for (const cv::FileNode& node : list) {
-    if (!node.isMap()) yaml.refuse("'residuals' holds something that is no touch", "remove it or calibrate again");
-    residuals.push_back({yaml.integer(node, "id", -1000000, 1000000),
-                         {yaml.vector(node, "p_W")},
-                         {yaml.vector(node, "e")},
-                         yaml.integer(node, "used", 0, 1) == 1});
-  }
-  return residuals;
 }
 
 HandRest restIn(const CheckedYaml& yaml, double rotation_tolerance) {
@@ -172,7 +174,7 @@ void readKnowledge(const CheckedYaml& yaml, double rotation_tolerance, RigRecord
   if (yaml.has(eyes, "sd_mm")) record.eye_sd_mm = within(yaml, eyes, "sd_mm", 0.0, 200.0);
   if (yaml.has(root, "procedure")) record.procedure = procedureIn(yaml);
   if (yaml.has(root, "verify")) record.proof = proofIn(yaml);
-  if (yaml.has(root, "residuals")) record.residuals = residualsIn(yaml);
+  if (yaml.has(root, "residuals")) record.residuals = residualsIn(yaml, root);
   if (yaml.has(root, "rest")) record.rest = restIn(yaml, rotation_tolerance);
   if (yaml.has(root, "kinematics") && yaml.has(root["kinematics"], "sigma"))
     record.sigma = sigmaIn(yaml, root["kinematics"]);

@@ -38,7 +38,9 @@ struct RigProof {
   TargetErrors errors;
   ProofKind kind = ProofKind::full;
   Verdict verdict = Verdict::red;
-  std::string checked_utc;
+  std::string checked_utc{};
+  std::string worst{};                ///< where it is worst, as worstPlaceSentence says it
+  std::vector<Residual> residuals{};  ///< of the touches that were held out
 };
 
 /// Where the hand rests: X_W,rest by three touches of its marks, proved by three more.

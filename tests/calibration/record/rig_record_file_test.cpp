@@ -109,6 +109,8 @@ TEST_F(RigRecordFile, SaysHowARigIsKnown) {
   EXPECT_EQ(back.proof->errors.max_mm, 0.55);
   EXPECT_EQ(back.proof->errors.bias_mm.xyz.y, -0.05);
   EXPECT_EQ(back.proof->checked_utc, "2026-11-21T08:23:00Z");
+  EXPECT_EQ(back.proof->worst, "worst: back left low, 0.6 mm");
+  EXPECT_EQ(back.proof->residuals.size(), 16u);
 }
 
 TEST_F(RigRecordFile, RefusesAFileThatWasEdited) {
@@ -226,7 +228,7 @@ TEST_F(RigRecordFile, IsRefusedOrEqualHoweverItIsDamaged) {
   const std::string good = rigRecordText(record);
   std::mt19937 chance(7);
   int refused = 0;
-  for (int i = 0; i < 600; ++i) {
+  for (int i = 0; i < 300; ++i) {
     std::string bad = good;
     for (int k = 0; k < i % 5; ++k) bad[chance() % bad.size()] = static_cast<char>(chance() % 256);
     if (i % 3 == 0) bad.resize(chance() % bad.size());
@@ -237,14 +239,14 @@ TEST_F(RigRecordFile, IsRefusedOrEqualHoweverItIsDamaged) {
       ++refused;
     }
   }
-  EXPECT_GT(refused, 400);
+  EXPECT_GT(refused, 200);
 }
 
 TEST_F(RigRecordFile, SurvivesDamageUnderAFittingHash) {
   // The hash finds nearly all; the blocks behind it must hold on their own.
   const std::string good = rigRecordText(fullRecord());
   std::mt19937 chance(8);
-  for (int i = 0; i < 600; ++i) {
+  for (int i = 0; i < 300; ++i) {
     std::string bad = good;
     const std::size_t body = bad.rfind("sha256:");
     for (int k = 0; k < 1 + i % 3; ++k) bad[chance() % body] = static_cast<char>(chance() % 256);

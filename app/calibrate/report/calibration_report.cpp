@@ -1,0 +1,189 @@
+#include "app/calibrate/report/calibration_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "app/calibrate/report/error_map_view.h"
+#include "app/calibrate/report/history_view.h"
+#include "app/calibrate/report/report_tables.h"
+#include "app/calibrate/report/residual_views.h"
+#include "app/calibrate/report/svg.h"
+#include "calibration/record/drift_review.h"
+
+namespace app {
+namespace {
+
+using calibration::ArmModel;
+using calibration::DriftEntry;
+using calibration::Residual;
+using calibration::RigRecord;
+using calibration::Verdict;
+
+constexpr std::size_t kMostAlarms = 10;
+
+constexpr const char* kStyle = R"(
+body { font: 15px/1.45 "DejaVu Sans", Helvetica, Arial, sans-serif; color: #222; background: #fff;
+       max-width: 800px; margin: 24px auto; padding: 0 16px; }
+h1 { font-size: 24px; margin: 0 0 4px; }
+h2 { font-size: 17px; margin: 28px 0 6px; border-bottom: 1px solid #ccc; padding-bottom: 3px; }
+.verdict { display: flex; align-items: center; gap: 16px; border: 2px solid #222; border-radius: 6px;
+           padding: 12px 16px; margin: 14px 0; }
+.verdict svg { flex: none; }
+.verdict b { font-size: 20px; }
+.quiet { color: #666; }
+table { border-collapse: collapse; width: 100%; font-size: 14px; }
+th { text-align: left; font-weight: normal; color: #666; }
+th, td { padding: 3px 10px 3px 0; border-bottom: 1px solid #e4e4e4; vertical-align: top; }
+td:nth-child(2) { white-space: normal; }
+code { font-size: 11px; overflow-wrap: anywhere; }
+.green { color: #00704f; } .amber { color: #9a5b00; } .red { color: #b03a00; font-weight: bold; }
+figure { margin: 8px 0; break-inside: avoid; }
+figure svg { max-width: 100%; height: auto; display: block; }
+figcaption { font-size: 13px; color: #444; }
+ul { margin: 6px 0; padding-left: 20px; }
+h2, tr { break-after: avoid; break-inside: avoid; }
+@media print { body { margin: 0; max-width: none; font-size: 12px; } @page { margin: 16mm; } }
+)";
+
+/// A shape of its own for each verdict.
+std::string symbolOf(const std::optional<Verdict>& verdict) {
+  Svg svg({44.0, 44.0}, "");
+  if (!verdict)
+    svg.box({4.0, 4.0}, {36.0, 36.0}, paper::kWhite, {paper::kQuiet, 3.0, "6 4"});
+  else if (*verdict == Verdict::green)
+    svg.disc({22.0, 22.0}, 19.0, paper::kGreen);
+  else if (*verdict == Verdict::amber)
+    svg.area({{22.0, 3.0}, {42.0, 40.0}, {2.0, 40.0}}, "#e69f00");
+  else
+    svg.box({4.0, 4.0}, {36.0, 36.0}, paper::kOrange);
+  return svg.markup();
+}
+
+std::string wordsOf(const std::optional<Verdict>& verdict) {
+  if (!verdict) return "Not proven: verify it with touches that were not fitted";
+  if (*verdict == Verdict::green) return "Green: use it";
+  if (*verdict == Verdict::amber) return "Amber: usable, with a larger error than it should have";
+  return "Red: locked on a real device, calibrate again";
+}
+
+/// "worst: back left low, 0.9 mm" as a sentence of its own.
+std::string worstOf(const RigRecord& record) {
+  std::string worst = record.proof ? record.proof->worst : "";
+  const bool held_out = record.proof && !record.proof->residuals.empty();
+  const std::vector<Residual>& touches = held_out ? record.proof->residuals : record.residuals;
+  if (worst.empty() && !touches.empty()) worst = calibration::worstPlaceSentence(touches, {});
+  if (worst.empty()) return worst;
+  if (worst[0] >= 'a' && worst[0] <= 'z') worst[0] = static_cast<char>(worst[0] - 'a' + 'A');
+  return worst + ".";
+}
+
+std::string figure(const std::string& drawing, const std::string& caption) {
+  return "<figure>\n" + drawing + "<figcaption>" + caption + "</figcaption>\n</figure>\n";
+}
+
+std::string section(const char* title, const std::string& content) {
+  return std::string("<section>\n<h2>") + title + "</h2>\n" + content + "</section>\n";
+}
+
+/// How exact one touch is, from what is left of the fit (reference/calibration 4.1).
+double touchError_mm(const calibration::RigProcedure& procedure, double used) {
+  const double numbers = procedure.model == ArmModel::rigid ? 6.0 : procedure.model == ArmModel::full ? 28.0 : 15.0;
+  const double freedom = 1.0 - numbers / (3.0 * used);
+  // Where the numbers could explain nearly all, the fit says nothing of it.
+  return freedom > 0.3 ? procedure.fre_rms_mm / std::sqrt(freedom) : procedure.cv_rms_mm;
+}
+
+std::string mapSection(const RigRecord& record) {
+  std::vector<calibration::Point<calibration::World>> touches_W;
+  for (const Residual& one : record.residuals)
+    if (one.used) touches_W.push_back(one.target_W);
+  if (touches_W.size() < 4 || !record.procedure) return "";
+  const double fle_mm = touchError_mm(*record.procedure, static_cast<double>(touches_W.size()));
+  if (!(fle_mm > 0.0)) return "";
+  const calibration::ExpectedErrorMap expected(touches_W, fle_mm);
+  return section("Where more touches would help",
+                 figure(errorMapView([&](const auto& place_W) { return expected.at_mm(place_W); }, touches_W),
+                        "Error to be expected over the plane through the site (z = 0) from where the touches lie and "
+                        "an error of " +
+                            fixedText(fle_mm, 2) +
+                            " mm of one touch (Fitzpatrick 1998). It knows of chance alone: what the arm's model can "
+                            "not express is in the figures above."));
+}
+
+std::string historySection(const std::vector<DriftEntry>& history) {
+  const calibration::DriftReview review = calibration::reviewOf(history);
+  std::string content = "<p>" + escaped(review.sentence) + "</p>\n";
+  if (history.empty()) return section("How it went", content);
+  std::string drawings;
+  for (const calibration::DriftQuantity quantity : calibration::kDriftQuantities)
+    drawings += historyView(history, review, quantity);
+  content +=
+      figure(drawings,
+             "Error as it was found, before anything was put right: dots are checks, squares re-zeros, black dots "
+             "calibrations with their held-out error. Green: mean; dashed: 3 \u03c3; dotted: 2 \u03c3, of the "
+             "first twenty checks since the calibration at most. Ringed: Western Electric's rules.");
+  if (!review.alarms.empty()) {
+    content += "<p>Alarms since the last calibration" +
+               std::string(review.alarms.size() > kMostAlarms ? ", the newest ten" : "") + ":</p>\n<ul>\n";
+    for (std::size_t i = review.alarms.size() - std::min(review.alarms.size(), kMostAlarms); i < review.alarms.size();
+         ++i)
+      content += "<li>" + escaped(review.alarms[i].sentence) + "</li>\n";
+    content += "</ul>\n";
+  }
+  return section("How it went", content);
+}
+
+std::string subtitle(const RigRecord& record) {
+  std::string line;
+  const auto add = [&](const std::string& part) {
+    if (!part.empty()) line += (line.empty() ? "" : " \u00b7 ") + escaped(part);
+  };
+  if (record.rig.device) {
+    add(record.rig.device->model + " " + record.rig.device->serial);
+    if (!record.rig.device->mount.empty()) add("mount: " + record.rig.device->mount);
+  }
+  add(record.provenance.created_utc);
+  if (record.procedure) add(record.procedure->method);
+  return line;
+}
+
+std::string verdictBox(const RigRecord& record) {
+  std::optional<Verdict> verdict;
+  if (record.proof) verdict = record.proof->verdict;
+  std::string box = "<div class=\"verdict\">\n" + symbolOf(verdict) + "<div><b>" + escaped(wordsOf(verdict)) +
+                    ".</b><br>" + escaped(worstOf(record));
+  if (record.proof)
+    box += "<br><span class=\"quiet\">" + escaped(calibration::judge(record.proof->errors, record.proof->kind).reason) +
+           "</span>";
+  return box + "</div>\n</div>\n";
+}
+
+}  // namespace
+
+std::string reportHtml(const RigRecord& record, const std::vector<DriftEntry>& history, const std::string& now_utc) {
+  const std::string name = record.provenance.rig_id.empty() ? "a rig" : record.provenance.rig_id;
+  const std::string title = "Calibration of " + escaped(name);
+  std::string page = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>" + title +
+                     "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>\n";
+  page += "<h1>" + title + "</h1>\n<p class=\"quiet\">" + subtitle(record) + "</p>\n" + verdictBox(record);
+  page += section("How good it is", figuresTable(record));
+  const std::vector<Residual> none;
+  const std::vector<Residual>& held_out = record.proof ? record.proof->residuals : none;
+  if (!record.residuals.empty() || !held_out.empty())
+    page +=
+        section("Where the error is",
+                figure(residualViews(record.residuals, held_out),
+                       "Each arrow goes from where the tip was towards where the arm says it was. Arrows that point "
+                       "one way mean a shift; arrows that turn mean a rotation; without order they are chance."));
+  page += mapSection(record);
+  page += historySection(history);
+  page += section("Touches set aside", outliersTable(record));
+  page += section("Where this comes from", originTable(record, now_utc));
+  page +=
+      "<p class=\"quiet\">W is the surgeon's picture: origin in its middle, x to the right, y up, z towards the "
+      "viewer. A training device, not a clinical one.</p>\n";
+  return page + "</body>\n</html>\n";
+}
+
+}  // namespace app
