@@ -18,10 +18,9 @@ std::optional<ControlLimits> limitsAfter(std::span<const double> before) {
 }
 
 std::string sentenceOf(const DriftEntry& entry, DriftQuantity quantity, ControlRule rule, const ControlLimits& limits) {
-  const double low_mm = quantity == DriftQuantity::rms ? std::max(limits.at(-3.0), 0.0) : limits.at(-3.0);
   return entry.utc.substr(0, 10) + ": " + std::string(nameOf(quantity)) + " " +
-         millimetres(valueOf_mm(entry, quantity)) + ", " + std::string(nameOf(rule)) + " (expected " +
-         millimetres(low_mm) + " to " + millimetres(limits.at(3.0)) + ")";
+         millimetres(valueOf_mm(entry, quantity)) + ", " + std::string(nameOf(rule)) + " (mean " +
+         millimetres(limits.centre) + ", sigma " + millimetres(limits.sigma) + ")";
 }
 
 void review(const std::vector<DriftEntry>& history, DriftQuantity quantity, DriftReview& found) {

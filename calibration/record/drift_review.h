@@ -15,8 +15,8 @@
 namespace calibration {
 
 inline constexpr std::size_t kLeastBaseline = 8, kMostBaseline = 20;
-/// An encoder's step at the tip, 0.055 mm, makes 0.016 mm of noise: nothing finer is told apart.
-inline constexpr double kLeastSigma_mm = 0.02;
+/// An encoder's step at the tip (reference/calibration 1.2): no check repeats more finely.
+inline constexpr double kLeastSigma_mm = 0.055;
 
 enum class DriftQuantity { rms, right, up, nearer };
 inline constexpr std::array kDriftQuantities = {DriftQuantity::rms, DriftQuantity::right, DriftQuantity::up,
@@ -28,7 +28,7 @@ struct DriftAlarm {
   std::size_t entry = 0;  ///< in the history
   DriftQuantity quantity = DriftQuantity::rms;
   ControlRule rule = ControlRule::one_beyond_3;
-  std::string sentence;  ///< "2026-11-20: RMS 1.42 mm, beyond 3 sigma (0.31 to 0.92 mm)"
+  std::string sentence;  ///< "2026-11-20: RMS 1.42 mm, beyond 3 sigma (mean 0.31 mm, sigma 0.06 mm)"
 };
 
 struct DriftReview {

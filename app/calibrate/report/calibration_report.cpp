@@ -9,6 +9,7 @@
 #include "app/calibrate/report/report_tables.h"
 #include "app/calibrate/report/residual_views.h"
 #include "app/calibrate/report/svg.h"
+#include "calibration/fit/expected_error_map.h"
 #include "calibration/record/drift_review.h"
 
 namespace app {
@@ -67,15 +68,19 @@ std::string wordsOf(const std::optional<Verdict>& verdict) {
   return "Red: locked on a real device, calibrate again";
 }
 
+std::string sentence(std::string clause) {
+  if (clause.empty()) return clause;
+  if (clause[0] >= 'a' && clause[0] <= 'z') clause[0] = static_cast<char>(clause[0] - 'a' + 'A');
+  return clause + ".";
+}
+
 /// "worst: back left low, 0.9 mm" as a sentence of its own.
 std::string worstOf(const RigRecord& record) {
   std::string worst = record.proof ? record.proof->worst : "";
   const bool held_out = record.proof && !record.proof->residuals.empty();
   const std::vector<Residual>& touches = held_out ? record.proof->residuals : record.residuals;
   if (worst.empty() && !touches.empty()) worst = calibration::worstPlaceSentence(touches, {});
-  if (worst.empty()) return worst;
-  if (worst[0] >= 'a' && worst[0] <= 'z') worst[0] = static_cast<char>(worst[0] - 'a' + 'A');
-  return worst + ".";
+  return sentence(worst);
 }
 
 std::string figure(const std::string& drawing, const std::string& caption) {
@@ -143,7 +148,7 @@ std::string subtitle(const RigRecord& record) {
     add(record.rig.device->model + " " + record.rig.device->serial);
     if (!record.rig.device->mount.empty()) add("mount: " + record.rig.device->mount);
   }
-  add(record.provenance.created_utc);
+  add(timeText(record.provenance.created_utc));
   if (record.procedure) add(record.procedure->method);
   return line;
 }
@@ -154,8 +159,8 @@ std::string verdictBox(const RigRecord& record) {
   std::string box = "<div class=\"verdict\">\n" + symbolOf(verdict) + "<div><b>" + escaped(wordsOf(verdict)) +
                     ".</b><br>" + escaped(worstOf(record));
   if (record.proof)
-    box += "<br><span class=\"quiet\">" + escaped(calibration::judge(record.proof->errors, record.proof->kind).reason) +
-           "</span>";
+    box += "<br><span class=\"quiet\">" +
+           escaped(sentence(calibration::judge(record.proof->errors, record.proof->kind).reason)) + "</span>";
   return box + "</div>\n</div>\n";
 }
 

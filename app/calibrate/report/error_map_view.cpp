@@ -14,7 +14,7 @@ using calibration::Point;
 using calibration::World;
 
 constexpr glm::dvec2 kHalf_mm{80.0, 60.0};
-constexpr double kCell_mm = 2.0, kPxPerMm = 3.2, kLeft = 50.0, kTop = 16.0, kBelow = 46.0, kScale = 150.0;
+constexpr double kCell_mm = 2.0, kPxPerMm = 3.2, kLeft = 50.0, kTop = 26.0, kBelow = 46.0, kScale = 150.0;
 
 /// Light is small; steps that stay apart in grey. After ColorBrewer's Blues (Brewer 2003).
 constexpr std::array<std::string_view, 7> kBands = {"#eff3ff", "#c6dbef", "#9ecae1", "#6baed6",
@@ -69,7 +69,7 @@ void drawAxes(Svg& svg) {
   for (const double y_mm : {-60.0, -30.0, 0.0, 30.0, 60.0})
     svg.words({kLeft - 6.0, placed(0.0, y_mm).y + 4.0}, fixedText(y_mm, 0), TextAnchor::end, paper::kQuiet, 11.0);
   svg.words({0.5 * (corner.x + foot.x), foot.y + 34.0}, "x, to the right / mm", TextAnchor::middle, paper::kInk, 11.5);
-  svg.words({kLeft - 44.0, kTop + 4.0}, "y", TextAnchor::start, paper::kInk, 11.5);
+  svg.words({kLeft, kTop - 9.0}, "y, upwards / mm", TextAnchor::start, paper::kInk, 11.5);
 }
 
 void drawScale(Svg& svg, const Bands& bands, std::size_t used) {

@@ -100,6 +100,8 @@ std::string outliersTable(const RigRecord& record) {
 
 std::string originTable(const RigRecord& record, const std::string& now_utc) {
   const calibration::RigProvenance& from = record.provenance;
+  std::string mirror = from.mirror_kind;
+  std::ranges::replace(mirror, '_', ' ');
   std::string table = "<table>\n";
   table += row({"Rig", described(from.rig_id)});
   if (record.rig.device) {
@@ -108,13 +110,13 @@ std::string originTable(const RigRecord& record, const std::string& now_utc) {
         {"Mount, stylus tip", described(record.rig.device->mount) + ", " + described(record.rig.device->stylus_tip)});
   }
   const auto age = calibration::age_days(record, now_utc);
-  table += row({"Measured", described(from.created_utc) +
+  table += row({"Measured", described(timeText(from.created_utc)) +
                                 (age ? ", " + fixedText(std::max(*age, 0.0), 0) + " days ago" : std::string()) +
                                 (age && *age > calibration::kOldRig_days ? " <b>(old: calibrate again)</b>" : "")});
-  if (record.proof) table += row({"Verified", described(record.proof->checked_utc)});
+  if (record.proof) table += row({"Verified", described(timeText(record.proof->checked_utc))});
   table += row({"Operator", described(from.operator_code)});
   if (record.procedure) table += row({"Procedure", described(record.procedure->method)});
-  table += row({"Mirror", described(from.mirror_kind) + (from.plate_mm > 0.0 ? ", plate " + mm(from.plate_mm) : "")});
+  table += row({"Mirror", described(mirror) + (from.plate_mm > 0.0 ? ", plate " + mm(from.plate_mm) : "")});
   table +=
       row({"Distance of the pupils", fixedText(glm::distance(record.rig.left_eye.mm, record.rig.right_eye.mm), 1) +
                                          " mm; head wanders " + fixedText(record.eye_sd_mm, 0) + " mm (1 \u03c3)"});

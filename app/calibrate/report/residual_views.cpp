@@ -11,7 +11,7 @@ namespace {
 
 using calibration::Residual;
 
-constexpr double kHeight = 400.0, kLeft = 46.0, kTop = 30.0, kGap = 60.0, kBelow = 78.0, kPage = 760.0;
+constexpr double kHeight = 400.0, kLeft = 46.0, kTop = 44.0, kGap = 60.0, kBelow = 78.0, kPage = 760.0;
 constexpr double kUsual = 50.0, kForLarge = 10.0, kLarge_mm = 1.2, kLeastHalf_mm = 30.0;
 
 /// Which two coordinates, and which way they run on paper.
@@ -65,7 +65,8 @@ Frame frameOf(const std::vector<Residual>& fitted, const std::vector<Residual>& 
 void drawAxes(Svg& svg, const Frame& frame, const View& view, double left) {
   const double width = frame.width(view), height = frame.px_per_mm * (frame.high_mm.y - frame.low_mm.y);
   svg.box({left, kTop}, {width, height}, paper::kNone, {paper::kQuiet, 1.0});
-  svg.words({left, kTop - 10.0}, view.title, TextAnchor::start, paper::kInk, 13.0, true);
+  svg.words({left, kTop - 9.0}, "y, upwards / mm", TextAnchor::start, paper::kInk, 11.5);
+  svg.words({left, kTop - 28.0}, view.title, TextAnchor::start, paper::kInk, 13.0, true);
   const AxisTicks across = axisTicks(frame.low_mm[view.across], frame.high_mm[view.across], 5, false);
   for (const double tick : across.at) {
     glm::dvec3 p = frame.low_mm;

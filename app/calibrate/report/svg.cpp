@@ -64,6 +64,10 @@ std::string fixedText(double value, int digits) {
   return (written.find_first_not_of("0.") == std::string_view::npos ? "" : "\u2212") + std::string(written);
 }
 
+std::string timeText(const std::string& utc) {
+  return utc.size() == 20 && utc[10] == 'T' ? utc.substr(0, 10) + " " + utc.substr(11, 5) + " UTC" : utc;
+}
+
 Svg::Svg(glm::dvec2 size, std::string_view description)
     : body_("<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\"" +
             attribute("viewBox", "0 0 " + number(size.x) + " " + number(size.y)) + attribute("width", size.x) +

@@ -15,6 +15,9 @@ std::string escaped(std::string_view text);
 /// With so many digits after the point, whatever the locale. A true minus, as in print, and none before a zero.
 std::string fixedText(double value, int digits);
 
+/// "2026-11-21T08:20:00Z" as people read it: "2026-11-21 08:20 UTC"; what is no time as it is.
+std::string timeText(const std::string& utc);
+
 /// Okabe and Ito 2008: told apart by any colour vision, and in grey by shape or dash beside them.
 namespace paper {
 inline constexpr const char *kInk = "#222222", *kQuiet = "#666666", *kFaint = "#d8d8d8", *kBlue = "#0072b2",

@@ -235,10 +235,12 @@ TEST_F(Store, HasAWholeRigInForceWheneverItIsKilled) {
       }
     }
     ::close(pipe_ends[1]);
+    // Every other round only once it has kept one, however busy the machine.
+    std::int64_t told = 0, confirmed = 0;
+    if (round % 2 == 1 && ::read(pipe_ends[0], &told, sizeof told) == sizeof told) confirmed = told, ++confirmed_in_all;
     std::this_thread::sleep_for(std::chrono::microseconds(500 + chance() % 30000));
     ::kill(child, SIGKILL);
     ::waitpid(child, nullptr, 0);
-    std::int64_t told = 0, confirmed = 0;
     while (::read(pipe_ends[0], &told, sizeof told) == sizeof told) confirmed = told, ++confirmed_in_all;
     ::close(pipe_ends[0]);
 

@@ -1,0 +1,99 @@
+#include <regex>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/calibrate/report/error_map_view.h"
+#include "app/calibrate/report/history_view.h"
+#include "app/calibrate/report/residual_views.h"
+#include "tests/app/calibrate/report/example_record.h"
+#include "tests/app/calibrate/report/markup.h"
+
+namespace app {
+namespace {
+
+using calibration::DriftQuantity;
+using calibration::Residual;
+using testing::HasSubstr;
+using testing::Not;
+
+/// Ends of every line of a colour, y downwards.
+std::vector<std::pair<glm::dvec2, glm::dvec2>> linesOf(const std::string& svg, const std::string& colour) {
+  std::vector<std::pair<glm::dvec2, glm::dvec2>> lines;
+  const std::regex line("<line x1=\"([^\"]+)\" y1=\"([^\"]+)\" x2=\"([^\"]+)\" y2=\"([^\"]+)\" stroke=\"" + colour +
+                        "\"");
+  for (std::sregex_iterator it(svg.begin(), svg.end(), line), end; it != end; ++it)
+    lines.push_back({{std::stod((*it)[1]), std::stod((*it)[2])}, {std::stod((*it)[3]), std::stod((*it)[4])}});
+  return lines;
+}
+
+TEST(ResidualViews, DrawArrowsFiftyTimesAsLongAndSaySo) {
+  // 0.5 mm to the right and up: in the front view as long as the scale's arrow times the root of two.
+  const std::string svg = residualViews({}, {{1, {{-20, 0, 0}}, {{0.5, 0.5, 0.0}}, true}});
+  EXPECT_THAT(svg, HasSubstr("0.5 mm (arrows 50 times as long)"));
+  const auto arrows = linesOf(svg, "#0072b2"), scale = linesOf(svg, "#222222");
+  ASSERT_EQ(arrows.size(), 2u);
+  ASSERT_EQ(scale.size(), 1u);
+  const double head = 0.7 * 5.4, unit = glm::distance(scale[0].first, scale[0].second) + head;
+  EXPECT_NEAR(glm::distance(arrows[0].first, arrows[0].second) + head, std::sqrt(2.0) * unit, 0.05);
+  EXPECT_GT(arrows[0].second.x, arrows[0].first.x);
+  EXPECT_LT(arrows[0].second.y, arrows[0].first.y);
+  EXPECT_EQ(whatIsWrongWith(svg), "");
+}
+
+TEST(ResidualViews, ShowTheViewerAtTheLeftFromTheRight) {
+  const auto arrows = linesOf(residualViews({}, {{1, {{0, 0, 0}}, {{0.0, 0.0, 0.5}}, true}}), "#0072b2");
+  ASSERT_EQ(arrows.size(), 2u);
+  EXPECT_LT(arrows[1].second.x, arrows[1].first.x - 20.0);
+}
+
+TEST(ResidualViews, ShortenTheArrowsOfLargeErrors) {
+  EXPECT_THAT(residualViews({{1, {{0, 0, 0}}, {{3.0, 0.0, 0.0}}, true}}, {}), HasSubstr("arrows 10 times"));
+}
+
+TEST(ResidualViews, NameAnOutlierAndDoNotLetItScale) {
+  const std::string svg =
+      residualViews({{1, {{0, 0, 0}}, {{0.2, 0, 0}}, true}, {4711, {{9, 9, 0}}, {{15, 0, 0}}, false}}, {});
+  EXPECT_EQ(countOf(svg, ">4711<"), 2u);
+  EXPECT_THAT(svg, HasSubstr("arrows 50 times"));
+}
+
+TEST(ErrorMapView, IsOneBandWhereTheErrorIsTheSame) {
+  const std::string svg = errorMapView([](const auto&) { return 0.22; }, {});
+  EXPECT_THAT(svg, HasSubstr(">0.22 to 0.23<"));
+  EXPECT_THAT(svg, Not(HasSubstr("#c6dbef")));
+  EXPECT_EQ(whatIsWrongWith(svg), "");
+}
+
+TEST(ErrorMapView, IsDarkerWhereTheErrorIsLarger) {
+  const std::string svg = errorMapView([](const auto& p) { return p.mm.x < 0.0 ? 0.11 : 0.41; }, {{{0, 0, 30}}});
+  // Bands of 0.05 mm from 0.10: left the first, right the seventh.
+  EXPECT_THAT(svg, HasSubstr("<rect x=\"50.00\" y=\"26.00\" width=\"256.40\" height=\"6.80\" fill=\"#eff3ff\"/>"));
+  EXPECT_THAT(svg, HasSubstr("<rect x=\"306.00\" y=\"26.00\" width=\"256.40\" height=\"6.80\" fill=\"#084594\"/>"));
+  EXPECT_EQ(countOf(svg, "<circle"), 2u) << "a touch and the legend's";
+}
+
+TEST(HistoryView, RingsEveryAlarmOfItsQuantity) {
+  const auto history = exampleHistory();
+  const auto review = calibration::reviewOf(history);
+  std::size_t rings_in_all = 0;
+  for (const DriftQuantity quantity : calibration::kDriftQuantities) {
+    const std::string svg = historyView(history, review, quantity);
+    const auto alarms = std::ranges::count(review.alarms, quantity, &calibration::DriftAlarm::quantity);
+    EXPECT_EQ(countOf(svg, "r=\"7.50\""), static_cast<std::size_t>(alarms));
+    EXPECT_EQ(whatIsWrongWith(svg), "");
+    rings_in_all += static_cast<std::size_t>(alarms);
+  }
+  EXPECT_GT(rings_in_all, 3u);
+}
+
+TEST(HistoryView, HasNoLimitsBeforeThereAreEnoughChecks) {
+  auto history = exampleHistory();
+  history.resize(5);
+  EXPECT_THAT(historyView(history, calibration::reviewOf(history), DriftQuantity::rms), Not(HasSubstr("mean ")));
+  history = exampleHistory();
+  EXPECT_THAT(historyView(history, calibration::reviewOf(history), DriftQuantity::rms), HasSubstr("mean "));
+}
+
+}  // namespace
+}  // namespace app
