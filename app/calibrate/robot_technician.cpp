@@ -88,8 +88,8 @@ void RobotTechnician::decide(const WizardView& view, double t_s) {
   const bool arrived = t_s - left_s_ > habits_.way_s + kSettles_s;
   if (!arrived || (!habits_.presses && presses_here_ == 0 && t_s - left_s_ < habits_.way_s + 2.0)) return;
   if (press_to_s_ && presses_here_ > 0 && t_s - *press_to_s_ < kAgain_s) return;
-  // Objected to once is insisted on; twice, and another hold is tried.
-  if (presses_here_ >= (habits_.insists ? 2 : 1)) {
+  // What was objected to is touched anew.
+  if (presses_here_ > 0) {
     presses_here_ = 0;
     goToTarget(view, target, t_s);
     return;

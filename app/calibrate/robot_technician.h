@@ -21,7 +21,6 @@ struct TechnicianHabits {
   std::string flip = "yes";                                   ///< how the F reads to them: the beginning of a choice
   double bar_mm = 100.0, ipd_mm = 63.0, distance_mm = 450.0;  ///< what ruler and tape say
   bool reversed = false;                                      ///< touches the targets in the opposite order
-  bool insists = true;                                        ///< presses again where a touch was objected to
   bool redoes = true;                                         ///< touches a doubtful one again, as the page offers
   std::string at_the_end = "take it";  ///< the beginning of what is chosen at the end; else what is marked
 };

@@ -13,6 +13,7 @@ constexpr double kMostTiltOff_deg = 10.0;
 constexpr double kMostOffUnmeasured_mm = 60.0;  // a stand put down by eye, arm as its model
 constexpr double kSamePlace_mm = 3.0, kSameTilt_deg = 5.0;
 constexpr double kUsualInterval_s = 6.0;
+constexpr double kHeard_s = 0.7, kSameBreath_s = 0.7;
 constexpr double kSilence_s = 0.5;  // of the clock while nothing came: it was not worked then
 
 /// How far apart two touches of the same target may be while the device counts the same.
@@ -59,6 +60,7 @@ TouchRound::Happened TouchRound::feel(const StylusSample& sample, Press press, d
 
   if (press == Press::long_press) return undo();
   if (isComplete()) return Happened::nothing;
+  if (press == Press::short_press && dwelt_at_s_ && pressed_s - *dwelt_at_s_ < kSameBreath_s) return Happened::nothing;
   if (press == Press::short_press) {
     std::string why;
     const auto taken = still_.before(pressed_s, why);
@@ -66,8 +68,10 @@ TouchRound::Happened TouchRound::feel(const StylusSample& sample, Press press, d
     voice_.refuse("Not taken: " + why + ".");
     return Happened::nothing;
   }
-  if (const auto taken = still_.dwelt()) return take(*taken, false);
-  return Happened::nothing;
+  const auto dwelt = still_.dwelt();
+  if (!dwelt) return Happened::nothing;
+  dwelt_at_s_ = sample.t_s;
+  return take(*dwelt, false);
 }
 
 TouchRound::Happened TouchRound::take(const StillTake& take, bool pressed) {
@@ -77,10 +81,11 @@ TouchRound::Happened TouchRound::take(const StillTake& take, bool pressed) {
   const std::size_t index = *next();
   bool tilt_is_wrong = false;
   if (const std::string why = objection(index, take.raw_rad, tilt_is_wrong); !why.empty()) {
-    const bool insisted = pressed && objected_ == index;
+    const bool insisted = pressed && objected_ == index && now_->t_s - objected_at_s_ > kHeard_s;
     const bool never = why.starts_with("This is where");
     if (never || !insisted) {
       objected_ = never ? std::nullopt : std::optional(index);
+      objected_at_s_ = now_->t_s;
       voice_.refuse(why + (never ? "." : ". Press again to take it as it is."));
       return Happened::nothing;
     }

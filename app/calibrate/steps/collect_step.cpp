@@ -8,6 +8,7 @@ namespace {
 
 constexpr std::size_t kLeastJudged = 8;
 constexpr double kLeastSpread_deg = 25.0;
+constexpr int kMostOneWay = 1;          ///< times that somebody is asked to follow the cue
 constexpr double kMostMuddle_mm = 3.0;  ///< left at the touches: beyond, they belong to other targets
 
 }  // namespace
@@ -28,6 +29,7 @@ void CollectStep::begin() {
   round_.emplace(plan, book_.arm, 0.0, book_.voice);
   book_.outcome.touches = emptySet(book_, plan);
   end_.reset();
+  held_one_way_ = 0;
 }
 
 StepAnswer CollectStep::feel(const StylusSample& sample, Press press, double pressed_s) {
@@ -68,7 +70,7 @@ void CollectStep::judgeSoFar() {
     round_->believe(book_.arm, 0.0);
     book_.voice.refuse("The touches do not fit together: touch them in the order they glow.");
   } else {
-    round_->believe(quick.arm, book_.byEyes() ? 8.0 : 5.0);
+    round_->believe(quick.arm, book_.byEyes() ? 6.0 : 5.0);
   }
   round_->doubt(doubtful);
   worst_mm_ = 0.0;
@@ -81,6 +83,7 @@ void CollectStep::judgeSoFar() {
 
 void CollectStep::askAtTheEnd() {
   little_tilt_ = round_->tiltSpread_deg() < kLeastSpread_deg;
+  held_one_way_ += little_tilt_ ? 1 : 0;
   if (little_tilt_) {
     end_ = ChoiceMenu({"touch those again that were held wrongly", "leave; the old calibration stays"});
     return;
@@ -94,7 +97,7 @@ void CollectStep::askAtTheEnd() {
 StepAnswer CollectStep::answered(std::size_t choice) {
   end_.reset();
   if (little_tilt_) {
-    if (choice == 1)
+    if (choice == 1 || held_one_way_ > kMostOneWay)
       return StepAnswer::refused(
           "The stylus was held one way all the time: what its gimbal gets wrong would stay hidden. "
           "Calibrate again and follow the cue.");

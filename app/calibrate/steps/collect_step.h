@@ -28,6 +28,7 @@ class CollectStep final : public WizardStep {
   std::optional<std::size_t> worst_;
   double worst_mm_ = 0.0;
   bool little_tilt_ = false;
+  int held_one_way_ = 0;  ///< times
 };
 
 /// A touch set of the plan's device, ready for its touches.

@@ -22,7 +22,7 @@ struct WizardBook {
 
   bool byEyes() const { return plan.method.starts_with("visual"); }
   /// Beyond which a touch can not be of its target.
-  double far_mm() const { return !arm_is_measured ? 0.0 : byEyes() ? 8.0 : 4.0; }
+  double far_mm() const { return !arm_is_measured ? 0.0 : byEyes() ? 5.0 : 4.0; }
 };
 
 enum class StepName {
