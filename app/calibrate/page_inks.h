@@ -7,7 +7,7 @@
 namespace app {
 
 inline constexpr Ink kGroundInk{0.02, 0.02, 0.03}, kWordInk{0.92, 0.92, 0.92}, kQuietInk{0.58, 0.60, 0.63},
-    kFaintInk{0.25, 0.27, 0.30};
+    kPendingInk{0.40, 0.43, 0.47}, kFaintInk{0.25, 0.27, 0.30};
 inline constexpr Ink kWantedInk{0.34, 0.71, 0.91};   ///< sky blue: what to do, where to go
 inline constexpr Ink kPresentInk{0.94, 0.89, 0.26};  ///< yellow: where the stylus is
 inline constexpr Ink kGoodInk{0.05, 0.72, 0.54};     ///< bluish green

@@ -70,7 +70,7 @@ void drawTarget(const Sight& sight, const WizardView& view, const ShownTarget& t
   const Ink done = dimmed(kGoodInk, 0.6);
   switch (target.state) {
     case TargetState::pending:
-      return drawMarker(sight, view, target, p, s, kFaintInk, false);
+      return drawMarker(sight, view, target, p, s, kPendingInk, false);
     case TargetState::done:
       sight.page.disc(p, 1.2 * s, done);
       sight.page.path({p + s * glm::dvec2(-4.0, -6.5), p + s * glm::dvec2(-1.5, -4.0), p + s * glm::dvec2(3.5, -10.0)},
@@ -134,8 +134,8 @@ void drawStylus(const Sight& sight, const SeenStylus& stylus) {
   }
   std::vector<glm::dvec2> outline = left;
   outline.insert(outline.end(), right.rbegin(), right.rend());
-  sight.page.polygon(outline, {0.36, 0.36, 0.38});
-  sight.page.path(outline, 0.5, {0.6, 0.6, 0.62}, true);
+  // Its outline alone: words and targets behind it stay readable.
+  sight.page.path(outline, 0.7, kQuietInk, true);
   const double s = sight.scaleAt(tip);
   sight.page.disc(sight.at(tip), 1.3 * s, {0.85, 0.85, 0.85});
   sight.page.circle(sight.at(tip), 1.3 * s, 0.25, kGroundInk);

@@ -31,6 +31,9 @@ struct Sheet {
                Align align) const {
     return page.paragraph(text, u * top, u * width, u * height, ink, align) / u;
   }
+  double height(const std::string& text, double width, double line) const {
+    return page.paragraphHeight_mm(text, u * width, u * line) / u;
+  }
   /// One line, smaller where it would not fit.
   void line(const std::string& text, glm::dvec2 top, double width, double height, const Ink& ink, Align align) const {
     const double is = page.textWidth_mm(text, u * height) / u, fits = is > width ? width / is : 1.0;
@@ -121,19 +124,33 @@ void drawBar(const ScreenPage& page, double length_mm, bool upright) {
 }
 
 void drawFacts(const Sheet& sheet, const std::vector<std::string>& facts, double top, double left, double width) {
-  for (const std::string& fact : facts) {
-    sheet.line(fact, {left, top}, width, kLine, kWordInk, Align::left);
-    top += kLine + 2.5;
-  }
+  for (const std::string& fact : facts)
+    top += sheet.words(fact, {left, top}, width, kLine, kWordInk, Align::left) + 2.5;
+}
+
+constexpr double kChoiceEdge = 2.5, kChoiceMark = 16.0, kBetweenChoices = 2.0;
+
+double choiceHeight(const Sheet& sheet, const std::string& choice, double width) {
+  return sheet.height(choice, width - kChoiceMark - kChoiceEdge, kLine) + 2.0 * kChoiceEdge;
+}
+
+double choicesHeight(const Sheet& sheet, const std::vector<std::string>& choices, double width) {
+  double all = 0.0;
+  for (const std::string& choice : choices) all += choiceHeight(sheet, choice, width) + kBetweenChoices;
+  return all;
 }
 
 void drawChoices(const Sheet& sheet, const WizardView& view, double top, double left, double width) {
   for (std::size_t n = 0; n < view.choices.size(); ++n) {
     const bool marked = view.marked == n;
-    if (marked) sheet.box({left, top}, {width, kLine + 5.0}, kWantedInk);
-    const std::string words = (marked ? "▶ " : "   ") + view.choices[n];
-    sheet.line(words, {left + 5.0, top + 2.5}, width - 10.0, kLine, marked ? kGroundInk : kWordInk, Align::left);
-    top += kLine + 8.0;
+    const double high = choiceHeight(sheet, view.choices[n], width);
+    if (marked) {
+      sheet.box({left, top}, {width, high}, kWantedInk);
+      sheet.line("▶", {left + kChoiceEdge, top + kChoiceEdge}, kChoiceMark, kLine, kGroundInk, Align::left);
+    }
+    sheet.words(view.choices[n], {left + kChoiceMark, top + kChoiceEdge}, width - kChoiceMark - kChoiceEdge, kLine,
+                marked ? kGroundInk : kWordInk, Align::left);
+    top += high + kBetweenChoices;
   }
 }
 
@@ -197,16 +214,21 @@ void drawWords(const ScreenPage& page, const WizardView& view) {
   if (view.figure == WizardFigure::letter_f) drawF(sheet);
   if (view.figure == WizardFigure::length_bar) drawBar(page, view.bar_mm, false);
   if (view.figure == WizardFigure::upright_length_bar) drawBar(page, view.bar_mm, true);
-  if (!view.value.empty()) sheet.line(view.value, {0.0, -28.0}, 0.6 * sheet.width(), 56.0, kWordInk, Align::centre);
 
-  // Facts to the left, choices to the right; what stands alone begins in the middle.
-  const bool both = !view.facts.empty() && !view.choices.empty();
-  const bool middle_is_free = view.figure == WizardFigure::none && view.value.empty() && view.targets.empty();
-  const double width = both || !middle_is_free ? 0.36 * sheet.width() : 0.80 * sheet.width();
-  drawFacts(sheet, view.facts, kFieldTop, both || !middle_is_free ? sheet.left() : -0.5 * width, width);
-  const double wide = static_cast<double>(view.choices.size()) * (kLine + 8.0);
-  drawChoices(sheet, view, both ? kFieldTop : std::max(kFieldTop, 0.5 * (kFieldTop + kFieldBottom - wide)),
-              both || !middle_is_free ? sheet.right() - width : -0.5 * width, width);
+  // What is read to the left, what is chosen to the right; what stands alone, in the middle.
+  const bool stands_alone = view.figure == WizardFigure::none && view.targets.empty() &&
+                            (view.facts.empty() + view.value.empty() + view.choices.empty() == 2);
+  const double choices_left = stands_alone ? -0.3 * sheet.width() : 0.16 * sheet.width();
+  const double choices_width = stands_alone ? -2.0 * choices_left : sheet.right() - choices_left;
+  const double facts_left = stands_alone ? -0.4 * sheet.width() : sheet.left();
+  const double facts_right = stands_alone                        ? -facts_left
+                             : view.figure == WizardFigure::none ? choices_left - 8.0
+                                                                 : -56.0;
+  drawFacts(sheet, view.facts, kFieldTop, facts_left, facts_right - facts_left);
+  sheet.line(view.value, {0.5 * (facts_left + facts_right), view.facts.empty() ? -21.0 : 20.0},
+             facts_right - facts_left, 42.0, kWordInk, Align::centre);
+  const double centred = -0.5 * choicesHeight(sheet, view.choices, choices_width);
+  drawChoices(sheet, view, view.facts.empty() ? std::max(kFieldTop, centred) : kFieldTop, choices_left, choices_width);
 }
 
 std::string wordsOf(const WizardView& view) {

@@ -204,69 +204,96 @@ void ScreenPage::arc(const glm::dvec2& centre, double radius_mm, double share, d
 
 namespace {
 
-// A line of words; its box in `size`, mm.
-PangoLayout* layoutOf(cairo_t* pen, const std::string& words, double height_mm, glm::dvec2& size) {
-  PangoLayout* layout = pango_cairo_create_layout(pen);
-  // Letters stand where they belong, not on whole millimetres.
-  pango_context_set_round_glyph_positions(pango_layout_get_context(layout), FALSE);
+/// Letters are laid out in units so small that no rounding shows, whatever shape the page's pixels have.
+constexpr double kUnitsPerMm = 64.0;
+
+/// A line of words; its box in `size`, mm.
+PangoLayout* layoutOf(const std::string& words, double height_mm, glm::dvec2& size) {
+  PangoContext* context = pango_font_map_create_context(pango_cairo_font_map_get_default());
+  pango_context_set_round_glyph_positions(context, FALSE);
   cairo_font_options_t* options = cairo_font_options_create();
   cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
   cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
-  pango_cairo_context_set_font_options(pango_layout_get_context(layout), options);
+  pango_cairo_context_set_font_options(context, options);
   cairo_font_options_destroy(options);
+  PangoLayout* layout = pango_layout_new(context);
+  g_object_unref(context);
   PangoFontDescription* font = pango_font_description_from_string("DejaVu Sans Bold");
-  // A unit of the page is a millimetre; letters' lines are 1.17 times the size of the font.
-  pango_font_description_set_absolute_size(font, height_mm / 1.17 * PANGO_SCALE);
+  // Letters' lines are 1.17 times the size of the font.
+  pango_font_description_set_absolute_size(font, height_mm / 1.17 * kUnitsPerMm * PANGO_SCALE);
   pango_layout_set_font_description(layout, font);
   pango_font_description_free(font);
   pango_layout_set_text(layout, words.c_str(), -1);
   int w = 0, h = 0;
   pango_layout_get_size(layout, &w, &h);
-  size = glm::dvec2(w, h) / static_cast<double>(PANGO_SCALE);
+  size = glm::dvec2(w, h) / (PANGO_SCALE * kUnitsPerMm);
   return layout;
+}
+
+/// Its top left there; the layout is used up.
+void fillLayout(cairo_t* pen, PangoLayout* layout, const glm::dvec2& corner) {
+  cairo_save(pen);
+  cairo_translate(pen, corner.x, corner.y);
+  cairo_scale(pen, 1.0 / kUnitsPerMm, 1.0 / kUnitsPerMm);
+  cairo_move_to(pen, 0.0, 0.0);
+  pango_cairo_layout_path(pen, layout);
+  cairo_fill(pen);
+  cairo_restore(pen);
+  g_object_unref(layout);
 }
 
 }  // namespace
 
 void ScreenPage::text(const std::string& words, const glm::dvec2& centre, double height_mm, const Ink& ink) const {
   glm::dvec2 size{0.0};
-  PangoLayout* layout = layoutOf(sheet_->pen, words, height_mm, size);
+  PangoLayout* layout = layoutOf(words, height_mm, size);
   sheet_->choose(ink);
-  cairo_move_to(sheet_->pen, centre.x - 0.5 * size.x, centre.y - 0.5 * size.y);
-  pango_cairo_layout_path(sheet_->pen, layout);
-  cairo_fill(sheet_->pen);
-  g_object_unref(layout);
+  fillLayout(sheet_->pen, layout, centre - 0.5 * size);
 }
 
 double ScreenPage::textWidth_mm(const std::string& words, double height_mm) const {
   glm::dvec2 size{0.0};
-  g_object_unref(layoutOf(sheet_->pen, words, height_mm, size));
+  g_object_unref(layoutOf(words, height_mm, size));
   return size.x;
+}
+
+namespace {
+
+PangoLayout* paragraphOf(const std::string& words, double width_mm, double height_mm, double& high_mm) {
+  glm::dvec2 size{0.0};
+  PangoLayout* layout = layoutOf(words, height_mm, size);
+  pango_layout_set_width(layout, static_cast<int>(width_mm * kUnitsPerMm * PANGO_SCALE));
+  pango_layout_set_wrap(layout, PANGO_WRAP_WORD_CHAR);
+  int w = 0, h = 0;
+  pango_layout_get_size(layout, &w, &h);
+  high_mm = h / (PANGO_SCALE * kUnitsPerMm);
+  return layout;
+}
+
+}  // namespace
+
+double ScreenPage::paragraphHeight_mm(const std::string& words, double width_mm, double height_mm) const {
+  double high_mm = 0.0;
+  g_object_unref(paragraphOf(words, width_mm, height_mm, high_mm));
+  return high_mm;
 }
 
 double ScreenPage::paragraph(const std::string& words, const glm::dvec2& top, double width_mm, double height_mm,
                              const Ink& ink, Align align) const {
-  glm::dvec2 size{0.0};
-  PangoLayout* layout = layoutOf(sheet_->pen, words, height_mm, size);
-  pango_layout_set_width(layout, static_cast<int>(width_mm * PANGO_SCALE));
-  pango_layout_set_wrap(layout, PANGO_WRAP_WORD_CHAR);
+  double high_mm = 0.0;
+  PangoLayout* layout = paragraphOf(words, width_mm, height_mm, high_mm);
   pango_layout_set_alignment(layout, align == Align::left    ? PANGO_ALIGN_LEFT
                                      : align == Align::right ? PANGO_ALIGN_RIGHT
                                                              : PANGO_ALIGN_CENTER);
-  int w = 0, h = 0;
-  pango_layout_get_size(layout, &w, &h);
   const double left = align == Align::left ? top.x : align == Align::right ? top.x - width_mm : top.x - 0.5 * width_mm;
   sheet_->choose(ink);
-  cairo_move_to(sheet_->pen, left, top.y);
-  pango_cairo_layout_path(sheet_->pen, layout);
-  cairo_fill(sheet_->pen);
-  g_object_unref(layout);
-  return static_cast<double>(h) / PANGO_SCALE;
+  fillLayout(sheet_->pen, layout, {left, top.y});
+  return high_mm;
 }
 
 void ScreenPage::label(const std::string& words, const glm::dvec2& centre, double height_mm, const Ink& ink) const {
   glm::dvec2 size{0.0};
-  g_object_unref(layoutOf(sheet_->pen, words, height_mm, size));
+  g_object_unref(layoutOf(words, height_mm, size));
   size += 0.5 * height_mm;
   box(centre - 0.5 * size, size, {0.0, 0.0, 0.0});
   text(words, centre, height_mm, ink);

@@ -62,6 +62,8 @@ class ScreenPage {
 
   /// Of one line.
   double textWidth_mm(const std::string& words, double height_mm) const;
+  /// Of all lines that paragraph() would draw.
+  double paragraphHeight_mm(const std::string& words, double width_mm, double height_mm) const;
   /// Lines broken where they would be wider than `width_mm`; `top` is the left, middle or right of its upper edge.
   /// Returns the height of them all.
   double paragraph(const std::string& words, const glm::dvec2& top, double width_mm, double height_mm, const Ink& ink,
