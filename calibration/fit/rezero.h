@@ -16,6 +16,7 @@ struct Rezero {
   int outliers = 0;
 };
 
+/// Of five touches one may slip; where more than one did, after_rms_mm says so: above 0.6 mm touch them again.
 /// Throws CalibrationError for fewer than 3 touches, all on a line, the same touch twice, or numbers not finite.
 Rezero rezeroed(const MeasuredArm& arm, const TouchSet& touches);
 

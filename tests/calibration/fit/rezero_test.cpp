@@ -116,6 +116,19 @@ TEST(Rezero, NamesATouchThatSlipped) {
   }
 }
 
+TEST(Rezero, SaysByWhatIsLeftThatTwoSlipped) {
+  for (std::uint32_t seed = 1; seed <= 40; ++seed) {
+    SyntheticRig rig = syntheticRig(Scenario::D, seed);
+    rig.habits.outlier_share = 0.0;
+    const SyntheticRig now = nightLater(rig, seed);
+    TouchSet set = fiveTouches(now, seed);
+    EXPECT_LT(rezeroed(perfectly(rig), set).after_rms_mm, 0.6) << seed;
+    set.touches[seed % 5].target_W.mm += glm::dvec3(4.0, 6.0, -3.0);
+    set.touches[(seed + 2) % 5].target_W.mm += glm::dvec3(5.0, -7.0, 2.0);
+    EXPECT_GT(rezeroed(perfectly(rig), set).after_rms_mm, 0.6) << seed;
+  }
+}
+
 TEST(Rezero, ListensToNoTouchThatWasSetAside) {
   const SyntheticRig rig = exact(4), now = nightLater(rig, 4);
   TouchSet set = fiveTouches(now, 4);
