@@ -19,13 +19,14 @@ constexpr std::uint8_t kWhite = 235, kBlack = 16;
 constexpr double kSpotRadius = 0.22;  ///< of a square's side
 constexpr double kLeastSide_px = 9.0, kMostSlant_deg = 60.0;
 constexpr double kMostEdge_px = 6.0, kMostEdgeOfSide = 0.3;
+constexpr int kLargePicture_px = 1280;
 constexpr double kWindowOfSide = 0.3;
 constexpr int kMostWindow_px = 11;
 constexpr std::array<int, 2> kCoarser = {3, 6};  ///< where a blurred board is looked for
 
 using Corners = std::vector<cv::Point2f>;
 
-std::optional<Corners> chessboardIn(const cv::Mat& grey, const cv::Size& size) {
+std::optional<Corners> chessboardAsItIs(const cv::Mat& grey, const cv::Size& size) {
   Corners corners;
   try {
     // Corners are refined afterwards: the finder's own, slower, accuracy is the second choice, for poor light.
@@ -35,6 +36,22 @@ std::optional<Corners> chessboardIn(const cv::Mat& grey, const cv::Size& size) {
     return std::nullopt;
   }
   return std::nullopt;
+}
+
+cv::Mat coarser(const cv::Mat& grey, int factor) {
+  cv::Mat coarse;
+  cv::resize(grey, coarse, {grey.cols / factor, grey.rows / factor}, 0.0, 0.0, cv::INTER_AREA);
+  return coarse;
+}
+
+/// A large picture is looked through at half its size first: four times as fast, and corners are refined anyway.
+std::optional<Corners> chessboardIn(const cv::Mat& grey, const cv::Size& size) {
+  if (grey.cols > kLargePicture_px)
+    if (auto corners = chessboardAsItIs(coarser(grey, 2), size)) {
+      for (cv::Point2f& corner : *corners) corner = 2.0F * corner + cv::Point2f(0.5F, 0.5F);
+      return corners;
+    }
+  return chessboardAsItIs(grey, size);
 }
 
 /// Whether a part of a board is there that is too small to be all of it.
@@ -63,9 +80,8 @@ BoardSighting refused(BoardTrouble trouble, std::string line, BoardSighting sigh
 
 BoardSighting notFound(const cv::Mat& grey, const cv::Size& size) {
   for (const int factor : kCoarser) {
-    cv::Mat coarse;
-    cv::resize(grey, coarse, {}, 1.0 / factor, 1.0 / factor, cv::INTER_AREA);
-    if (std::min(coarse.cols, coarse.rows) > 60 && chessboardIn(coarse, size))
+    const cv::Mat coarse = coarser(grey, factor);
+    if (std::min(coarse.cols, coarse.rows) > 60 && chessboardAsItIs(coarse, size))
       return refused(BoardTrouble::blurred, "the picture is blurred: hold the camera still and focus on the screen");
   }
   if (holdsAPart(grey))
@@ -113,15 +129,49 @@ double slantOf_deg(const Corners& corners, const cv::Size& size) {
   return degreesFromRad(std::acos(std::clamp(stretch[1] / std::max(stretch[0], 1e-12), 0.0, 1.0)));
 }
 
-/// Rise of the edges from 10 to 90 %, across the worse direction: a moved camera blurs one alone.
-double edgeOf_px(const cv::Mat& grey, const Corners& corners, const cv::Size& size) {
-  try {
-    const cv::Scalar across = cv::estimateChessboardSharpness(grey, size, corners, 0.8F, false);
-    const cv::Scalar down = cv::estimateChessboardSharpness(grey, size, corners, 0.8F, true);
-    return std::max(across[0], down[0]);
-  } catch (const cv::Exception&) {
-    return 0.0;
+double greyAt(const cv::Mat& grey, const cv::Point2f& px) {
+  const int x = std::clamp(static_cast<int>(std::floor(px.x)), 0, grey.cols - 2);
+  const int y = std::clamp(static_cast<int>(std::floor(px.y)), 0, grey.rows - 2);
+  const double right = std::clamp(double(px.x) - x, 0.0, 1.0), below = std::clamp(double(px.y) - y, 0.0, 1.0);
+  const auto at = [&](int column, int row) { return double(grey.at<std::uint8_t>(row, column)); };
+  return (1.0 - below) * ((1.0 - right) * at(x, y) + right * at(x + 1, y)) +
+         below * ((1.0 - right) * at(x, y + 1) + right * at(x + 1, y + 1));
+}
+
+/// How far it is, along `across`, from a quarter to three quarters of the step between two squares; px.
+double riseOf_px(const cv::Mat& grey, const cv::Point2f& middle, const cv::Point2f& across) {
+  constexpr int kHalf = 24;
+  std::array<double, 2 * kHalf + 1> profile{};
+  for (int i = -kHalf; i <= kHalf; ++i)
+    profile[static_cast<std::size_t>(i + kHalf)] = greyAt(grey, middle + across * (float(i) / kHalf));
+  const double from = (profile[0] + profile[1] + profile[2]) / 3.0;
+  const double to = (profile[2 * kHalf] + profile[2 * kHalf - 1] + profile[2 * kHalf - 2]) / 3.0;
+  int between = 0;
+  for (const double value : profile) {
+    const double share = (value - from) / (to - from + (to > from ? 1e-9 : -1e-9));
+    between += share > 0.25 && share < 0.75;
   }
+  return between * cv::norm(across) / kHalf;
+}
+
+/// Rise of the edges from 10 to 90 %, in the worse direction: a moved camera blurs one alone. Measured from a quarter
+/// to three quarters, where the faint ghost of a glass has no say, and taken for a Gaussian's.
+double edgeOf_px(const cv::Mat& grey, const Corners& corners, const cv::Size& size) {
+  constexpr double kWholeToHalf = 1.9;
+  constexpr float kReach = 0.25F;  ///< of a square: no spot is met
+  const auto at = [&](int x, int y) { return corners[static_cast<std::size_t>(y * size.width + x)]; };
+  std::vector<double> down, sideways;
+  for (int y = 0; y + 1 < size.height; ++y)
+    for (int x = 0; x + 1 < size.width; ++x) {
+      down.push_back(riseOf_px(grey, 0.5F * (at(x, y) + at(x + 1, y)), kReach * (at(x, y + 1) - at(x, y))));
+      sideways.push_back(riseOf_px(grey, 0.5F * (at(x, y) + at(x, y + 1)), kReach * (at(x + 1, y) - at(x, y))));
+    }
+  const auto middle = [](std::vector<double>& values) {
+    const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), half, values.end());
+    return *half;
+  };
+  return kWholeToHalf * std::max(middle(down), middle(sideways));
 }
 
 /// Found, and good enough to be used: corners still in the finder's order.

@@ -21,6 +21,7 @@ constexpr double kRigidMismatch_mm = 0.9, kLeastMismatch_mm = 0.02, kMostMismatc
 constexpr double kWild = 4.5;  ///< sigmas of both axes together: an outlier
 constexpr int kRounds = 4;
 constexpr std::size_t kFolds = 5;
+constexpr double kLeastOfForetold = 0.1;  ///< of the squares: noise was said too large, or hides the arm
 
 [[noreturn]] void refuse(const std::string& what, const std::string& mend) {
   throw CalibrationError("webcam: " + what + ", " + mend);
@@ -151,9 +152,9 @@ WebcamBundle fitted(const WebcamSights& sights, WebcamBundle bundle, ArmModel mo
 /// Two of three axes are seen: an error in space is larger.
 double upToThreeAxes(double squares_mm2, double count) { return std::sqrt(1.5 * squares_mm2 / std::max(1.0, count)); }
 
-/// Of tips that were left out, a fifth at a time.
+/// Of tips that were left out, a fifth at a time; less the noise with which they are seen, for that is not the arm's.
 double crossValidated_mm(const WebcamSights& sights, const WebcamBundle& bundle) {
-  double squares_mm2 = 0.0, count = 0.0;
+  double squares_mm2 = 0.0, noise_mm2 = 0.0, count = 0.0;
   for (std::size_t fold = 0; fold < kFolds; ++fold) {
     WebcamBundle without = bundle;
     const auto isOut = [&](std::size_t c, std::size_t i) {
@@ -168,10 +169,11 @@ double crossValidated_mm(const WebcamSights& sights, const WebcamBundle& bundle)
       if (!isOut(c, i)) return;
       const TipError error = tipError(without, arm, c, sight);
       squares_mm2 += error.mm_per_px * error.mm_per_px * glm::dot(error.off_px, error.off_px);
+      noise_mm2 += 2.0 * std::pow(sights.tip_noise_px * error.mm_per_px, 2);
       count += 1.0;
     });
   }
-  return upToThreeAxes(squares_mm2, count);
+  return upToThreeAxes(std::max(squares_mm2 - noise_mm2, kLeastOfForetold * squares_mm2), count);
 }
 
 /// From the nearest place on the line of sight to the arm's tip: square to that line, as long as it looks.

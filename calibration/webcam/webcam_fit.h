@@ -24,8 +24,8 @@ struct WebcamFit {
   std::vector<Residual> residuals;
   std::vector<FitWarning> warnings;
   int used = 0, outliers = 0;
-  double fre_rms_mm = 0.0,
-         cv_rms_mm = 0.0;  ///< of the residuals, and of tips left out (5-fold); taken up to three axes
+  double fre_rms_mm = 0.0;  ///< of the residuals, taken up to three axes
+  double cv_rms_mm = 0.0;   ///< foretold for places not touched (5-fold): as above, less the tips' noise in the picture
   double tilt_spread_deg = 0.0;
   double base_deg = 0.0;  ///< the widest angle between two camera positions, from the middle of the tips
   int iterations = 0;
