@@ -16,7 +16,7 @@ using Indices = std::vector<std::size_t>;
 
 constexpr std::array kModels = {ArmModel::rigid, ArmModel::joint_gains, ArmModel::full};
 constexpr std::size_t kAffineNumbers = 12;
-constexpr double kSimplerIsPreferred = 1.1;
+constexpr double kSimplerIsPreferred = 1.1;  ///< within this ratio of mean squares
 constexpr double kFlat_mm = 3.0;
 constexpr double kOtherTilt_rad = radFromDegrees(25.0);
 
@@ -50,7 +50,7 @@ const Candidate& chosen(const std::vector<Candidate>& candidates, int used, doub
   std::size_t best = 0;
   for (std::size_t k = 1; k < candidates.size(); ++k) {
     if (candidates[k].model == ArmModel::full && (used < kFewestForFull || tilt_spread_deg < kLeastTilt_deg)) continue;
-    if (candidates[best].unseen.relative > kSimplerIsPreferred * candidates[k].unseen.relative) best = k;
+    if (std::pow(candidates[best].unseen.relative / candidates[k].unseen.relative, 2) > kSimplerIsPreferred) best = k;
   }
   return candidates[best];
 }

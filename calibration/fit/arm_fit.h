@@ -54,7 +54,7 @@ struct ArmFit {
 };
 
 struct FitOptions {
-  std::optional<ArmModel> model;  ///< none: chosen by cross-validation, a simpler one preferred within 10 %
+  std::optional<ArmModel> model;  ///< none: by cross-validation; simpler preferred within 10 % of mean square
   double region_mm3 = 0.0;        ///< volume of the case's region; 0: not known. Less than 60 % of it is warned of
 };
 

@@ -15,15 +15,16 @@ constexpr std::size_t kFolds = 5, kFewPlaces = 20;
 constexpr double kUsualMismatch_mm = 0.15;
 constexpr double kSamePlace_mm = 1.0;
 
-/// The fold of each touch: places are dealt in the order they were touched in.
+/// The fold of each touch: places are dealt in the order they were touched in, those of touches that do not count too,
+/// so that one wild touch does not deal the others anew.
 struct Folds {
   Indices of_touch;
   std::size_t count = kFolds;
 
-  Folds(const std::vector<Touch>& touches, std::span<const std::size_t> which) {
+  explicit Folds(const std::vector<Touch>& touches) {
     std::vector<glm::dvec3> places;
-    for (const std::size_t i : which) {
-      const glm::dvec3& here = touches[i].target_W.mm;
+    for (const Touch& touch : touches) {
+      const glm::dvec3& here = touch.target_W.mm;
       const auto known =
           std::ranges::find_if(places, [&](const glm::dvec3& p) { return glm::distance(p, here) < kSamePlace_mm; });
       of_touch.push_back(static_cast<std::size_t>(known - places.begin()));
@@ -37,11 +38,11 @@ struct Folds {
 /// The mean over all touches of `errors_mm2(seen, asked)`: sums of squares, an axis, over those asked by what was seen.
 template <class Errors>
 glm::dvec3 overFolds_mm2(const std::vector<Touch>& touches, std::span<const std::size_t> which, Errors errors_mm2) {
-  const Folds folds(touches, which);
+  const Folds folds(touches);
   glm::dvec3 sum{0.0};
   for (std::size_t fold = 0; fold < folds.count; ++fold) {
     Indices seen, asked;
-    for (std::size_t k = 0; k < which.size(); ++k) (folds.of_touch[k] == fold ? asked : seen).push_back(which[k]);
+    for (const std::size_t i : which) (folds.of_touch[i] == fold ? asked : seen).push_back(i);
     if (!asked.empty()) sum += errors_mm2(seen, asked);
   }
   return sum / static_cast<double>(which.size());
