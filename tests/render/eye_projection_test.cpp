@@ -78,6 +78,21 @@ TEST(EyeProjection, IsLeftHandedExactlyWithAMirror) {
   for (int n = 0; n < 1000; ++n) EXPECT_EQ(eyeView(randomRig(random, n % 2 == 1), Eye::left).mirrored, n % 2 == 1);
 }
 
+TEST(EyeProjection, MakesALetterReadRightInTheMirroredWorkstation) {
+  // What is drawn for a place goes to a pixel of the panel, and is seen in the mirror at that very place.
+  const Rig rig = calibration::mirroredWorkstationRig();
+  const EyeView view = eyeView(rig, Eye::cyclopean);
+  EXPECT_TRUE(view.mirrored);
+  for (const glm::dvec3 stroke : {glm::dvec3(-40, 60, 0), glm::dvec3(40, 60, 0), glm::dvec3(-40, -60, 0)}) {
+    const glm::dvec2 share = 0.5 * (glm::dvec2(ndc(view, {stroke})) + 1.0);
+    const glm::dvec3 lit = rig.screen.lower_left.mm + share.x * (rig.screen.lower_right - rig.screen.lower_left).xyz +
+                           share.y * (rig.screen.upper_left - rig.screen.lower_left).xyz;
+    EXPECT_LT(glm::distance(rig.mirror->reflect({lit}).mm, stroke), 1e-9);
+  }
+  EXPECT_LT(ndc(view, {{0.0, 10.0, 0.0}}).y, 0.0) << "on the panel itself it is upside down";
+  EXPECT_GT(ndc(view, {{10.0, 0.0, 0.0}}).x, 0.0);
+}
+
 TEST(EyeProjection, GrowsInDepthAwayFromTheEye) {
   Random random(4);
   for (int n = 0; n < 500; ++n) {
