@@ -9,6 +9,8 @@ namespace calibration {
 namespace {
 
 constexpr double kCauchy = 5.0;  ///< of a touch, in sigmas: its weight is halved there
+/// What those weights leave of the mean square of three normal errors.
+constexpr double kWeightsLeave = 0.842;
 constexpr int kRounds = 12;
 constexpr double kSettled = 0.02;  ///< of the mismatch
 // What mismatch is expected: 0.15 mm, give or take a factor of three; looked for within these.
@@ -76,7 +78,8 @@ class ArmProblem {
 /// golden section: the sum has one valley.
 double probableMismatch_mm(const std::vector<glm::dvec3>& errors_mm, const TouchPrecision& precision,
                            double effective_numbers) {
-  const double left = std::max(0.1, 1.0 - effective_numbers / static_cast<double>(3 * errors_mm.size()));
+  const double left =
+      kWeightsLeave * std::max(0.1, 1.0 - effective_numbers / static_cast<double>(3 * errors_mm.size()));
   const auto unlikely = [&](double log_mm) {
     const glm::dvec3 sigma = touchSigma_mm(precision, std::exp(log_mm));
     double sum = std::pow((log_mm - std::log(kUsualMismatch_mm)) / std::log(kMismatchFactor), 2);
