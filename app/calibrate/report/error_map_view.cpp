@@ -48,12 +48,12 @@ void drawField(Svg& svg, const ExpectedError& expected_mm, const Bands& bands) {
             rows = static_cast<int>(2.0 * kHalf_mm.y / kCell_mm);
   for (int row = 0; row < rows; ++row) {
     const double y_mm = kHalf_mm.y - (row + 0.5) * kCell_mm;
-    const auto bandAt = [&](int column) {
+    const auto band_at = [&](int column) {
       return bands.of(expected_mm({{-kHalf_mm.x + (column + 0.5) * kCell_mm, y_mm, 0.0}}));
     };
     for (int from = 0, to = 0; from < columns; from = to) {
-      const std::size_t band = bandAt(from);
-      for (to = from + 1; to < columns && bandAt(to) == band; ++to) continue;
+      const std::size_t band = band_at(from);
+      for (to = from + 1; to < columns && band_at(to) == band; ++to) continue;
       // A hair over, so that no white shows between.
       svg.box(placed(-kHalf_mm.x + from * kCell_mm, y_mm + 0.5 * kCell_mm),
               {kPxPerMm * kCell_mm * (to - from) + 0.4, kPxPerMm * kCell_mm + 0.4}, kBands[band]);
