@@ -95,9 +95,9 @@ void forRigs(Scenario scenario, int rigs, Rigs work) {
   for (int n = 1; n <= rigs; ++n) work(syntheticRig(scenario, static_cast<std::uint32_t>(n)));
 }
 
-/// A display that shows it mirrored, left to right.
-TouchSet flipped(TouchSet set) {
-  for (Touch& touch : set.touches) touch.target_W.mm.x = -touch.target_W.mm.x;
+/// A display that shows it mirrored, left to right or upside down.
+TouchSet flipped(TouchSet set, int axis) {
+  for (Touch& touch : set.touches) touch.target_W.mm[axis] = -touch.target_W.mm[axis];
   return set;
 }
 
@@ -211,21 +211,21 @@ Figures guardFigures(int rigs) {
   int flipped_jig = 0, flipped_crosses = 0, upright_jig = 0, upright_crosses = 0, one_tilt = 0, many_tilts = 0;
   forRigs(Scenario::D, rigs, [&](const SyntheticRig& rig) {
     const TouchSet set = touches(rig, "jig27", 1);
-    flipped_jig += foundFlipped(flipped(set)) ? 1 : 0;
+    flipped_jig += foundFlipped(flipped(set, 0)) && foundFlipped(flipped(set, 1)) ? 1 : 0;
     upright_jig += foundFlipped(set) ? 1 : 0;
     many_tilts += warned(fitArm(set), FitWarning::Kind::little_tilt) ? 1 : 0;
   });
   forRigs(Scenario::F, rigs, [&](const SyntheticRig& rig) {
     const TouchSet set = touches(rig, "visual25", 1);
-    flipped_crosses += foundFlipped(flipped(set)) ? 1 : 0;
+    flipped_crosses += foundFlipped(flipped(set, 0)) && foundFlipped(flipped(set, 1)) ? 1 : 0;
     upright_crosses += foundFlipped(set) ? 1 : 0;
   });
   forRigs(Scenario::E, rigs, [&](const SyntheticRig& rig) {
     const ArmFit fit = fitArm(touches(rig, "jig27", 1));
     one_tilt += warned(fit, FitWarning::Kind::little_tilt) ? 1 : 0;
   });
-  return {all("display flipped, jig: found", flipped_jig, rigs),
-          all("display flipped, crosses: found", flipped_crosses, rigs),
+  return {all("display flipped left to right, upside down, jig: both found", flipped_jig, rigs),
+          all("display flipped left to right, upside down, crosses: both found", flipped_crosses, rigs),
           none("   display not flipped, jig: found all the same", upright_jig, rigs),
           none("   display not flipped, crosses: found all the same", upright_crosses, rigs),
           all("stylus held one way: found", one_tilt, rigs),
