@@ -1,16 +1,12 @@
 // A chessboard that our own screen shows and a camera finds. Odd by even squares, and spots in some of them that draw
 // an F: so there is one way only to read it, and a mirrored picture is known as one every time. px have their centres
 // at whole numbers and rows from the top, on the screen as the surgeon sees it and in the camera's picture alike; mm,
-// W. Any thread; finding takes 0.1 to 2 s, drawing milliseconds. Not a marker board: all its corners must be seen.
-// Source: OpenCV's findChessboardCornersSB (Duda, Frese, BMVC 2018); reference/calibration 2.3, 3.3.
+// W. Any thread; finding takes 0.1 to 0.5 s, drawing milliseconds. Not a marker board: all its corners must be seen.
 #pragma once
 
-#include <optional>
-#include <string>
-#include <string_view>
 #include <vector>
 
-#include "calibration/webcam/camera.h"
+#include "calibration/webcam/chessboard.h"
 
 namespace calibration {
 
@@ -42,22 +38,7 @@ ShownBoard boardFor(const glm::ivec2& screen_px);
 /// What the screen shows.
 GreyPicture pictureOf(const ShownBoard& board);
 
-enum class BoardTrouble { not_found, cropped, mirrored, blurred, too_small, too_oblique };
-
-struct BoardSighting {
-  std::optional<BoardTrouble> trouble;  ///< none: it was found, and its corners may be used
-  std::string line;                     ///< for people: what, and what to do; empty where it was found
-  std::vector<glm::dvec2>
-      corners_px;          ///< in the picture, in the order of cornerPlaces_px; empty where there is trouble
-  double edge_px = 0.0;    ///< over how many px an edge rises from 10 to 90 %
-  double slant_deg = 0.0;  ///< of the line of sight from the board's normal, about
-};
-
 /// Throws CalibrationError only for a picture whose size and bytes disagree.
 BoardSighting findBoard(const GreyPicture& picture, const ShownBoard& board);
-
-/// A plain printed chessboard with so many inner corners, in an order that may be turned or mirrored: for lenses alone.
-/// Trouble as above, but never mirrored.
-BoardSighting findChessboard(const GreyPicture& picture, const glm::ivec2& corners);
 
 }  // namespace calibration

@@ -54,8 +54,58 @@ int codeAt(const std::vector<GreyPicture>& pictures, std::size_t first, int bits
   return static_cast<int>(numberOf(gray));
 }
 
-/// A cell is seen whole where its eight neighbours are seen too.
 bool isSeen(const Cell& cell) { return cell.pixels >= kLeastPixels; }
+
+/// A cell's pixels lie together.
+bool isCompact(const Cell& cell) {
+  const glm::ivec2 box = cell.most - cell.least + 1;
+  return double(box.x) * box.y <= 6.0 * cell.pixels + 20.0;
+}
+
+/// What the pixels say: every cell with its pixels.
+struct SeenCells {
+  glm::ivec2 count{0};
+  std::vector<Cell> cells;
+  int decoded = 0, impossible = 0;  ///< pixels; impossible: a cell that the screen does not have
+
+  Cell& at(int x, int y) {
+    return cells[static_cast<std::size_t>(y) * static_cast<std::size_t>(count.x) + static_cast<std::size_t>(x)];
+  }
+  /// Seen with its eight neighbours: not cut by the picture's edge, by a shadow, by the screen's end.
+  bool isWhole(int x, int y) {
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx)
+        if (!isSeen(at(x + dx, y + dy))) return false;
+    return true;
+  }
+};
+SeenCells cellsSeen(const GrayCode& code, const std::vector<GreyPicture>& pictures, GreyPicture& mask) {
+  const glm::ivec2 size = pictures.front().size_px, bits = code.bits();
+  SeenCells seen{code.cells(), {}};
+  seen.cells.resize(static_cast<std::size_t>(seen.count.x) * static_cast<std::size_t>(seen.count.y));
+  for (int y = 0; y < size.y; ++y)
+    for (int x = 0; x < size.x; ++x) {
+      const std::size_t pixel =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x) + static_cast<std::size_t>(x);
+      const int white_to_black = int{pictures[0].grey[pixel]} - int{pictures[1].grey[pixel]};
+      if (white_to_black < kLeastContrast) continue;
+      const int column = codeAt(pictures, 2, bits.x, pixel, white_to_black);
+      const int row = codeAt(pictures, 2 + 2 * static_cast<std::size_t>(bits.x), bits.y, pixel, white_to_black);
+      if (column < 0 || row < 0) continue;
+      ++seen.decoded;
+      if (column >= seen.count.x || row >= seen.count.y) {
+        ++seen.impossible;
+        continue;
+      }
+      mask.grey[pixel] = 255;
+      Cell& cell = seen.at(column, row);
+      cell.sum += glm::dvec2(x, y);
+      cell.least = glm::min(cell.least, glm::ivec2(x, y));
+      cell.most = glm::max(cell.most, glm::ivec2(x, y));
+      ++cell.pixels;
+    }
+  return seen;
+}
 
 /// How the picture's place grows with the screen's, as one affine map by least squares: columns of `linear` for x and
 /// y.
@@ -117,60 +167,27 @@ std::vector<GreyPicture> picturesOf(const GrayCode& code) {
 
 CodeSighting decoded(const GrayCode& code, const std::vector<GreyPicture>& pictures) {
   checkPictures(code, pictures);
-  const glm::ivec2 size = pictures.front().size_px, cells = code.cells(), bits = code.bits();
   CodeSighting sighting;
-  sighting.mask = {size, std::vector<std::uint8_t>(pictures.front().grey.size(), 0)};
+  sighting.mask = {pictures.front().size_px, std::vector<std::uint8_t>(pictures.front().grey.size(), 0)};
+  SeenCells seen = cellsSeen(code, pictures, sighting.mask);
 
-  // Every pixel says its cell; every cell gathers its pixels.
-  std::vector<Cell> seen(static_cast<std::size_t>(cells.x) * static_cast<std::size_t>(cells.y));
-  const auto cellAt = [&](int x, int y) -> Cell& {
-    return seen[static_cast<std::size_t>(y) * static_cast<std::size_t>(cells.x) + static_cast<std::size_t>(x)];
-  };
-  int lit = 0, impossible = 0;
-  for (int y = 0; y < size.y; ++y)
-    for (int x = 0; x < size.x; ++x) {
-      const std::size_t pixel =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x) + static_cast<std::size_t>(x);
-      const int white_to_black = int{pictures[0].grey[pixel]} - int{pictures[1].grey[pixel]};
-      if (white_to_black < kLeastContrast) continue;
-      const int column = codeAt(pictures, 2, bits.x, pixel, white_to_black);
-      const int row = codeAt(pictures, 2 + 2 * static_cast<std::size_t>(bits.x), bits.y, pixel, white_to_black);
-      if (column < 0 || row < 0) continue;
-      ++lit;
-      if (column >= cells.x || row >= cells.y) {
-        ++impossible;
-        continue;
-      }
-      sighting.mask.grey[pixel] = 255;
-      Cell& cell = cellAt(column, row);
-      cell.sum += glm::dvec2(x, y);
-      cell.least = glm::min(cell.least, glm::ivec2(x, y));
-      cell.most = glm::max(cell.most, glm::ivec2(x, y));
-      ++cell.pixels;
-    }
-
-  // Whole cells only: the last ones of the screen may be cut, and so may those at the picture's edge and at shadows.
+  // Whole cells only, by the mean place of their pixels.
   int complete = 0, scattered = 0;
-  for (int y = 1; y + 1 < cells.y; ++y)
-    for (int x = 1; x + 1 < cells.x; ++x) {
-      const Cell& cell = cellAt(x, y);
-      bool whole = isSeen(cell);
-      for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx) whole = whole && isSeen(cellAt(x + dx, y + dy));
-      if (!whole) continue;
+  for (int y = 1; y + 1 < seen.count.y; ++y)
+    for (int x = 1; x + 1 < seen.count.x; ++x) {
+      if (!seen.isWhole(x, y)) continue;
+      const Cell& cell = seen.at(x, y);
       ++complete;
-      const glm::ivec2 box = cell.most - cell.least + 1;
-      if (double(box.x) * box.y > 6.0 * cell.pixels + 20.0) {
+      if (!isCompact(cell))
         ++scattered;
-        continue;
-      }
-      sighting.sights.push_back(
-          {(glm::dvec2(x, y) + 0.5) * double(code.cell_px) - 0.5, cell.sum / double(cell.pixels)});
+      else
+        sighting.sights.push_back(
+            {(glm::dvec2(x, y) + 0.5) * double(code.cell_px) - 0.5, cell.sum / double(cell.pixels)});
     }
-  sighting.seen_share = double(complete) / std::max(1, (cells.x - 2) * (cells.y - 2));
+  sighting.seen_share = double(complete) / std::max(1, (seen.count.x - 2) * (seen.count.y - 2));
 
   const Direction direction = sighting.sights.size() < 12 ? Direction{} : directionOf(sighting.sights);
-  if (impossible > lit / 10 || scattered > complete / 4)
+  if (seen.impossible > seen.decoded / 10 || scattered > complete / 4)
     return refused(CodeTrouble::mixed_up,
                    "the stripes do not fit together: hold camera and light still during the sweep and take it again",
                    std::move(sighting));
