@@ -33,8 +33,8 @@ std::vector<FitWarning> fitWarnings(const FitEvidence& e) {
   std::vector<FitWarning> warnings;
   if (e.may_be_mirrored)
     warnings.push_back({Kind::mirrored,
-                        "the stylus would come from behind the screen: a flip of the display is wrong, or the device "
-                        "stands behind it; check that the drawn F reads right"});
+                        "the touches fit a mirrored picture better, by which way the stylus points or by themselves: "
+                        "check that the drawn F reads right, or that the device does stand behind the screen"});
   if (e.used < kGoodCount)
     warnings.push_back(
         {Kind::few_touches, line("%d touches are few: take %d or more, 27 for the best", e.used, kGoodCount)});

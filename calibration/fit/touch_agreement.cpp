@@ -56,8 +56,9 @@ Places usedPlaces(const PhantomGeometry& geometry, const std::vector<Touch>& tou
   throw CalibrationError(line);
 }
 
-/// The lay in the room's handedness; throws where the mirror's is the better one.
-RigidAgreement rightHanded(const Places& places) {
+/// The lay in the room's handedness; throws where the mirror's is clearly the better one. `doubtful`: of a handful of
+/// touches the mirror's is a little better.
+RigidAgreement rightHanded(const Places& places, bool& doubtful) {
   const auto agreement = [&](Handedness handedness, double most_limit_mm) {
     return rigidAgreement(places.tips_D, places.targets_W, handedness, kLeastLimit_mm, most_limit_mm);
   };
@@ -74,6 +75,8 @@ RigidAgreement rightHanded(const Places& places) {
       refuseMirrored();
   }
   if (!kept) refuseUnexplained(n);
+  doubtful = n <= kHandful && mirrored && mirrored->agreeing.size() >= kept->agreeing.size() &&
+             mirrored->rms_mm < kept->rms_mm;
   return *kept;
 }
 
@@ -108,7 +111,8 @@ bool looksMirrored(const TouchAgreement& agreement, const TouchSet& set) {
 TouchAgreement touchAgreement(const TouchSet& set) {
   const PhantomModel& model = *findPhantomModel(set.device_model);
   const Places places = usedPlaces(model.geometry, set.touches);
-  const RigidAgreement rigid = rightHanded(places);
+  bool doubtful = false;
+  const RigidAgreement rigid = rightHanded(places, doubtful);
 
   TouchAgreement agreement;
   agreement.asked = static_cast<int>(places.index.size());
@@ -130,7 +134,7 @@ TouchAgreement touchAgreement(const TouchSet& set) {
       if (stays) break;
     }
   }
-  agreement.may_be_mirrored = looksMirrored(agreement, set);
+  agreement.may_be_mirrored = doubtful || looksMirrored(agreement, set);
   return agreement;
 }
 

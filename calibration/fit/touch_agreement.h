@@ -17,8 +17,8 @@ struct TouchAgreement {
   ArmStart start;                  ///< from the rigid lay
   std::vector<std::size_t> which;  ///< indices of the touches that agree, rising
   int asked = 0;                   ///< touches marked used: the rest of them are outliers
-  /// The targets lie in a plane and the stylus would come from behind the screen: a picture mirrored on it would look
-  /// just so.
+  /// The targets lie in a plane and the stylus would come from behind the screen, or so few touches fit their mirror
+  /// image a little better: a mirrored picture would look just so.
   bool may_be_mirrored = false;
 };
 
