@@ -1,6 +1,6 @@
 // How large the screen's picture truly is, from a bar that is drawn so many mm long and a ruler laid on it, across and
 // up. A webcam can not say it: a screen twice as large twice as far looks the same, only the arm's own millimetres
-// (screen_scale) tell them apart, to about 0.5 %. Frame W, mm. Any thread. A ruler reads to 0.3 mm.
+// tell them apart, to about 0.5 %. Frame W, mm. Any thread. A ruler reads to 0.3 mm.
 #pragma once
 
 #include <string>
