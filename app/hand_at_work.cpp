@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/phantom_at_work.h"
+#include "app/practice_device.h"
 #include "app/recorded_hand.h"
 #include "app/trough_plan.h"
 #include "app/usage_error.h"
@@ -19,8 +20,12 @@ using calibration::World;
 /// From the bur to the handle, W: towards the viewer and down over the lower lip, so that it does not hide the site.
 glm::dvec3 shaftDirection_W() { return glm::normalize(glm::dvec3(0.12, -0.38, 0.92)); }
 
-/// A Phantom's nominal tip in its handle: on the stylus's axis, 40 mm in front of where the gimbal's axes meet.
-const Pose<calibration::Handle, Tool> kStylus_HT{{1.0, 0.0, 0.0, 0.0}, {0.0, 0.0, -40.0}};
+/// Where a Phantom stands and how it holds the tool: as measured, or as its model has it.
+void standAsMeasured(HandAtWork& hand, const calibration::Rig& rig) {
+  hand.X_PD = rig.X_WP.inverse() * rig.X_WD;
+  hand.arm = calibration::measuredArm(rig);
+  hand.X_HT.translation_mm = hand.arm ? hand.arm->correction.tip_H_mm : calibration::kNominalTip_H_mm;
+}
 
 HandAtWork mouseAtWork(const calibration::Rig& rig) {
   HandAtWork hand;
@@ -35,23 +40,46 @@ HandAtWork mouseAtWork(const calibration::Rig& rig) {
   return hand;
 }
 
-HandAtWork scriptAtWork(const std::string& phantom, const assets::Patient& patient, const calibration::Rig& rig,
-                        double bur_radius_mm) {
-  HandAtWork hand;
+haptics::TroughPlan troughFor(const assets::Patient& patient, const calibration::Rig& rig, double bur_radius_mm) {
   auto trough = planBuccalTrough(patient, bur_radius_mm);
   if (!trough) throw UsageError("--device: this patient has no third molar with bone beside it, use --device mouse");
   trough->shaft_D = {glm::conjugate(rig.X_WP.rotation) * shaftDirection_W()};
+  return *trough;
+}
+
+HandAtWork scriptAtWork(const std::string& phantom, const assets::Patient& patient, const calibration::Rig& rig,
+                        double bur_radius_mm) {
+  HandAtWork hand;
+  const haptics::TroughPlan trough = troughFor(patient, rig, bur_radius_mm);
   if (phantom.empty()) {
-    auto scripted = std::make_unique<haptics::ScriptedHand>(*trough);
+    auto scripted = std::make_unique<haptics::ScriptedHand>(trough);
     hand.duration_s = scripted->duration_s();
     hand.device = std::move(scripted);
     return hand;
   }
   const haptics::PhantomMechanics& mechanics = *haptics::findSimulatedPhantom(phantom);
-  const haptics::WorkRound round = roundAtWork(mechanics, *trough, rig);
+  const haptics::WorkRound round = roundAtWork(mechanics, trough, rig);
   hand.duration_s = round.duration_s();
   hand.X_PD = rig.X_WP.inverse() * rig.X_WD;
   hand.device = std::make_unique<haptics::SimulatedPhantom>(mechanics, [round](double t_s) { return round.at(t_s); });
+  return hand;
+}
+
+/// The hand works where the site truly is; what Molar makes of it is the rig's to say.
+HandAtWork practiceAtWork(const calibration::SyntheticRig& truth, const assets::Patient& patient,
+                          const calibration::Rig& rig, double bur_radius_mm) {
+  HandAtWork hand;
+  const haptics::PhantomMechanics& mechanics = *haptics::findSimulatedPhantom(truth.nominal.device->model);
+  calibration::Rig true_rig = rig;
+  true_rig.X_WD = truth.X_WD;
+  const glm::dvec3 tip_H_mm = truth.arm.truth.tip_H_mm;
+  const haptics::WorkRound round = roundAtWork(mechanics, troughFor(patient, rig, bur_radius_mm), true_rig, tip_H_mm);
+  hand.duration_s = round.duration_s();
+  hand.device =
+      std::make_unique<haptics::SimulatedPhantom>(mechanics, handleOf(round, tip_H_mm), haptics::Grip{}, 1,
+                                                  haptics::PhantomUnit{truth.nominal.device->serial, truth.arm});
+  hand.name = "practice " + std::string(mechanics.name) + ", " + truth.nominal.device->serial;
+  standAsMeasured(hand, rig);
   return hand;
 }
 
@@ -64,13 +92,14 @@ HandAtWork replayAtWork(const std::string& session) {
   return hand;
 }
 
-HandAtWork deviceAtWork(const std::string& address, const DeviceOptions& options, const calibration::Rig& rig) {
+HandAtWork deviceAtWork(OpenedDevice opened, const calibration::Rig& rig) {
   HandAtWork hand;
-  OpenedDevice opened = openDevice(address, options);
   hand.library = std::move(opened.library);
   hand.device = std::move(opened.device);
-  hand.X_PD = rig.X_WP.inverse() * rig.X_WD;
-  if (hand.library) hand.X_HT = kStylus_HT;
+  if (hand.library)
+    standAsMeasured(hand, rig);
+  else
+    hand.X_PD = rig.X_WP.inverse() * rig.X_WD;
   return hand;
 }
 
@@ -79,7 +108,7 @@ HandAtWork deviceAtWork(const std::string& address, const DeviceOptions& options
 Pose<World, Tool> restingTool() { return {glm::dquat(glm::dvec3(0, 0, 1), shaftDirection_W()), {0.0, 6.0, 12.0}}; }
 
 HandAtWork handAtWork(const std::string& address, const DeviceOptions& options, const assets::Patient& patient,
-                      const calibration::Rig& rig, double bur_radius_mm) {
+                      const calibration::Rig& rig, double bur_radius_mm, std::optional<OpenedDevice> opened) {
   constexpr std::string_view kSimulated = "simulated:", kReplay = "replay:";
   const auto known = std::ranges::find(kHands, address, &HandName::key);
   HandAtWork hand;
@@ -92,10 +121,13 @@ HandAtWork handAtWork(const std::string& address, const DeviceOptions& options, 
     hand = scriptAtWork(phantom, patient, rig, bur_radius_mm);
   } else if (address.starts_with(kReplay)) {
     hand = replayAtWork(address.substr(kReplay.size()));
+  } else if (const auto practice = practiceRig(address)) {
+    hand = practiceAtWork(*practice, patient, rig, bur_radius_mm);
   } else {
-    hand = deviceAtWork(address, options, rig);
+    hand = deviceAtWork(opened ? std::move(*opened) : openDevice(address, options), rig);
   }
-  hand.name = known != kHands.end() ? std::string(known->name) : hand.device->capabilities().model;
+  if (hand.name.empty())
+    hand.name = known != kHands.end() ? std::string(known->name) : hand.device->capabilities().model;
   return hand;
 }
 

@@ -32,6 +32,7 @@ inline constexpr std::array<HandName, 7> kHands = {{
 }};
 inline constexpr const char* kDeviceHelp =
     "Hand: mouse; scripted; simulated[:omni|touch|desktop|premium], the script holding a Phantom in numbers; "
+    "practice:SCENARIO[:SEED], the same with an Omni as untrue as real ones, A to G; "
     "replay:SESSION, a recorded hand; openhaptics[:NAME], wooden[:BUS-PORT], wooden-v2015[:BUS-PORT], "
     "falcon[:BUS-PORT], usb: see molar devices";
 
@@ -42,15 +43,19 @@ struct HandAtWork {
   haptics::MouseDevice* mouse = nullptr;  ///< set where the window moves the hand
   calibration::Pose<calibration::Patient, calibration::Device> X_PD;
   calibration::Pose<calibration::Handle, calibration::Tool> X_HT;
-  std::optional<double> duration_s, rate_Hz;  ///< where the hand has its own
+  std::optional<calibration::MeasuredArm> arm;  ///< by which its sensors are read; none: as its driver has it
+  std::optional<double> duration_s, rate_Hz;    ///< where the hand has its own
 };
 
 /// Where the mouse's tool begins: in front of the site.
 calibration::Pose<calibration::World, calibration::Tool> restingTool();
 
-/// Throws UsageError for no device at all, where the patient has nothing for a scripted hand to do, or a simulated arm
+/// A rig with a measured arm is this device's (rig_choice has looked): of a Phantom its correction is the arm's and its
+/// tip the tool's. `opened`: the real device of the address, where it is open already. Throws UsageError for no device
+/// at all, where the patient has nothing for a scripted hand to do, or a simulated arm
 /// does not reach it; haptics::DeviceError when a real one can not be had; SessionError for no recording.
 HandAtWork handAtWork(const std::string& address, const DeviceOptions& options, const assets::Patient& patient,
-                      const calibration::Rig& rig, double bur_radius_mm);
+                      const calibration::Rig& rig, double bur_radius_mm,
+                      std::optional<OpenedDevice> opened = std::nullopt);
 
 }  // namespace app

@@ -164,12 +164,31 @@ void drawServo(const RehearsalStatus& s) {
       s.servo.grants.priority ? kGood : kWarn);
 }
 
+void drawCalibration(const RehearsalStatus& s) {
+  const std::string& verdict = s.calibration.verdict;
+  row("Calibration",
+      verdict.empty() ? calibrationWords(s.calibration) : printed("%s, %.2f mm", verdict.c_str(), s.calibration.rms_mm),
+      verdict == "green"            ? kGood
+      : verdict == "red"            ? kBad
+      : s.calibration.rig == "none" ? kQuiet
+                                    : kWarn);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", calibrationWords(s.calibration).c_str());
+  // The first says which rig it is; what follows wants somebody to do something.
+  ImGui::PushFont(font(small_font));
+  ImGui::PushStyleColor(ImGuiCol_Text, kWarn);
+  for (const std::string& remark : s.remarks)
+    if (!remark.ends_with(calibrationWords(s.calibration))) ImGui::TextWrapped("%s", remark.c_str());
+  ImGui::PopStyleColor();
+  ImGui::PopFont();
+}
+
 void drawHand(const RehearsalStatus& s, OperatorWishes& wishes) {
   heading("Hand");
   using haptics::SafetyState;
   const SafetyState state = s.tick.state;
   const haptics::StateWords& words = haptics::wordsOf(state);
   row("Device", s.device);
+  drawCalibration(s);
   row("State", std::string(words.key),
       state == SafetyState::active                               ? kGood
       : state == SafetyState::fault || state == SafetyState::off ? kBad

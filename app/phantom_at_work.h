@@ -11,8 +11,12 @@
 
 namespace app {
 
-/// `trough_P`: in frames P. Throws UsageError where the arm does not reach all of it.
+/// Of the tool, which stands at `tip_H_mm` of the handle, turned as it is. `trough_P`: in frames P. Throws UsageError
+/// where the arm does not reach all of it.
 haptics::WorkRound roundAtWork(const haptics::PhantomMechanics& mechanics, const haptics::TroughPlan& trough_P,
-                               const calibration::Rig& rig);
+                               const calibration::Rig& rig, const glm::dvec3& tip_H_mm = glm::dvec3(0.0));
+
+/// The handle's way for the tool's.
+haptics::HandScript handleOf(const haptics::WorkRound& round, const glm::dvec3& tip_H_mm);
 
 }  // namespace app

@@ -67,12 +67,13 @@ class Rehearsal {
   explicit Rehearsal(RehearsalPlan plan)
       : plan_(std::move(plan)),
         hand_(handAtWork(plan_.device, plan_.device_options, plan_.patient, plan_.rig,
-                         plan_.command.tool.head.radius_mm)),
+                         plan_.command.tool.head.radius_mm, std::move(plan_.opened))),
         rate_Hz_(plan_.rate_Hz.value_or(hand_.rate_Hz.value_or(1000.0))),
         duration_s_(plan_.seconds ? plan_.seconds : hand_.duration_s),
         input_(restingTool()),
         desk_(plan_.command, plan_.other_tools, plan_.parameters, hand_.device->capabilities().damping_Ns_per_mm,
               rate_Hz_) {
+    if (plan_.recording) plan_.recording->calibration = plan_.calibration;
     // Every output is claimed before any work.
     if (!plan_.snapshot.empty()) closing_pictures_.emplace(plan_.snapshot, plan_.overwrite);
     if (!plan_.first_snapshot.empty()) first_pictures_.emplace(plan_.first_snapshot, plan_.overwrite);
@@ -96,6 +97,7 @@ class Rehearsal {
                          haptics::LoopSettings{.rate_Hz = rate_Hz_,
                                                .X_PD = hand_.X_PD,
                                                .X_HT = hand_.X_HT,
+                                               .arm = hand_.arm,
                                                .buttons = {},
                                                .pedal = pedal_ ? &*pedal_ : nullptr},
                          desk_.inForce(), plan_.recording);
@@ -106,6 +108,7 @@ class Rehearsal {
   }
 
   void run() {
+    for (const std::string& remark : plan_.remarks) std::fprintf(stderr, "molar: %s\n", remark.c_str());
     drawFrame();
     first_picture_s_ = secondsSince(plan_.begun);
     // Before the hand is there: so many pictures as tell what this machine can.
@@ -118,6 +121,7 @@ class Rehearsal {
     workstation_->start();
     if (hand_.library) unplug_watch_.emplace(*workstation_);
     workstation_->note("start", hand_.name);
+    for (const std::string& remark : plan_.remarks) workstation_->note("calibration", remark);
     if (second_hand_) second_hand_->start(), workstation_->note("second hand", second_hand_->name());
     for (const std::string& line : told_early_) workstation_->note("display", line);
     noteQuality();
@@ -298,6 +302,8 @@ class Rehearsal {
     s.command = desk_.inForce();
     s.servo = workstation_->figures();
     s.device = hand_.name;
+    s.calibration = plan_.calibration;
+    s.remarks = plan_.remarks;
     s.trips = trips_;
     s.servo_rate_Hz = rate_Hz_;
     s.drawing_ms = 1000.0 * display_->drawing_s();
@@ -386,6 +392,7 @@ class Rehearsal {
     if (closing_pictures_) takePictures(*closing_pictures_, workstation_->bone().solidInGridOrder());
     RehearsalFigures figures;
     figures.patient_title = plan_.patient.title;
+    figures.calibration = plan_.calibration;
     figures.bur = textOf(desk_.inForce().tool.head);
     figures.duration_s = newest_.t_s + newest_.dt_s;
     figures.removed_mm3 = workstation_->bone().removedByTissue_mm3();

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "app/motion_to_photon.h"
+#include "app/session/session_calibration.h"
 #include "haptics/loop/loop_statistics.h"
 #include "haptics/safety/trips.h"
 #include "haptics/servo/command.h"
@@ -22,6 +24,8 @@ struct RehearsalStatus {
   haptics::Tick tick;   ///< the newest
   haptics::Command command;
   std::string device;  ///< as people read it
+  SessionCalibration calibration;
+  std::vector<std::string> remarks;  ///< on calibration and case
   haptics::TripLedger trips;
   haptics::LoopFigures servo;
   double servo_rate_Hz = 1000.0;

@@ -26,6 +26,7 @@ std::string summaryText(const RehearsalFigures& f) {
   std::string text = "Rehearsal\n";
   text += printed("  patient          %s\n", f.patient_title.c_str());
   text += printed("  bur              %s mm\n", f.bur.c_str());
+  text += "  calibration      " + calibrationWords(f.calibration) + "\n";
   text += printed("  duration         %.1f s\n", f.duration_s);
   text += printed("  removed          %.1f mm³\n", std::accumulate(f.removed_mm3.begin(), f.removed_mm3.end(), 0.0));
   for (std::size_t l = 0; l < f.removed_mm3.size(); ++l)

@@ -16,6 +16,7 @@ namespace app {
 struct RehearsalFigures {
   std::string patient_title;
   std::string bur;  ///< as people type it
+  SessionCalibration calibration;
   double duration_s = 0.0;
   std::array<double, assets::kTissueCount> removed_mm3{};
   std::uint64_t frames = 0;

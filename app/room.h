@@ -3,8 +3,11 @@
 // Pure; start-up only.
 #pragma once
 
+#include "assets/face_frame.h"
+#include "assets/patient.h"
 #include "calibration/geometry/frames.h"
 #include "calibration/geometry/pose.h"
+#include "calibration/rig.h"
 
 namespace app {
 
@@ -14,5 +17,13 @@ calibration::Pose<calibration::World, calibration::Patient> standPatient(
     const calibration::Point<calibration::Patient>& site_P,
     const calibration::Vector<calibration::Patient>& eye_direction_P,
     const calibration::Vector<calibration::Patient>& up_P);
+
+/// The third molar at the origin of W, every head looked into along the surgeon's line. `X_PF`: how the head stands
+/// around the jaw; a placed face opens its mouth, which turns it against the scan.
+calibration::Pose<calibration::World, calibration::Patient> standAtSite(const assets::Patient& patient,
+                                                                        const assets::FacePose& X_PF);
+
+/// Whether a rig leaves it to the program how the patient stands: X_WP is the identity.
+bool leavesPatientOpen(const calibration::Rig& rig);
 
 }  // namespace app

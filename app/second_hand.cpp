@@ -51,6 +51,7 @@ HandAtWork deviceOf(const SecondHandPlan& plan, const DeviceOptions& options, co
   const Pose<World, OtherTool> hold = holdBeside(patient, rig, plan.tool);
   if (plan.device != "scripted") {
     calibration::Rig others = rig;
+    others.device.reset(), others.arm.reset();  // they are of the first
     others.X_WD = rig.second_X_WD.value_or(Pose<World, Device>{{1.0, 0.0, 0.0, 0.0}, hold.translation_mm});
     return handAtWork(plan.device, options, patient, others, 1.0);
   }

@@ -12,7 +12,6 @@
 
 #include "app/usage_error.h"
 #include "calibration/geometry/units.h"
-#include "calibration/record/rig_file.h"
 #include "render/display/camera.h"
 
 namespace app {
@@ -98,7 +97,7 @@ glm::ivec2 pictureSize(const std::string& text) {
 }
 
 void ViewOption::addTo(CLI::App& command) {
-  auto* rig = command.add_option("--rig", rig_, "Rig file: screen, mirror, eyes, X_WP")->type_name("FILE");
+  auto* rig = rig_.addTo(command, false);
   command.add_option("--eye", eye_, "Which eye of the rig: left, right or cyclopean")
       ->check(CLI::IsMember({"left", "right", "cyclopean"}));
   command
@@ -110,8 +109,8 @@ void ViewOption::addTo(CLI::App& command) {
 }
 
 render::Eye ViewOption::apply(calibration::Rig& rig, const assets::VolumeGrid& grid) const {
-  if (!rig_.empty()) {
-    rig = calibration::readRig(rig_);
+  if (rig_.isGiven()) {
+    rig = rig_.choose({}, nowUtc())->record.rig;
     if (!size_.empty()) rig.screen.px = pictureSize(size_);
   } else {
     const glm::ivec2 px = size_.empty() ? glm::ivec2(640, 480) : pictureSize(size_);

@@ -18,6 +18,7 @@ std::unique_ptr<Recorder> recorderOf(const std::optional<Recording>& recording, 
   start.solid = patient.ct.solid;
   start.label = patient.ct.label;
   start.command = command;
+  start.calibration = recording->calibration;
   return std::make_unique<Recorder>(recording->path, recording->overwrite, start, log);
 }
 

@@ -22,6 +22,7 @@ namespace app {
 struct Recording {
   std::string path;
   bool overwrite = false;
+  SessionCalibration calibration = {};
 };
 
 class Workstation {

@@ -14,11 +14,11 @@
 #include "app/display_option.h"
 #include "app/display_windows.h"
 #include "app/pattern/test_pattern.h"
+#include "app/rig_choice.h"
 #include "app/snapshot.h"
 #include "app/usage_error.h"
 #include "app/view_option.h"
 #include "assets/output_file.h"
-#include "calibration/record/rig_file.h"
 #include "render/gpu/window_upload.h"
 
 namespace app {
@@ -31,7 +31,8 @@ volatile std::sig_atomic_t interrupted = 0;
 
 struct DisplayOptions {
   DisplayOption display;
-  std::string pattern = "eyes", rig, size, out;
+  RigOption rig;
+  std::string pattern = "eyes", size, out;
   std::optional<int> monitor;
   std::optional<double> seconds;
   bool monitors = false, windowed = false, force = false;
@@ -47,8 +48,8 @@ int listMonitors() {
 
 calibration::Rig rigOf(const DisplayOptions& options) {
   calibration::Rig rig;
-  if (!options.rig.empty()) {
-    rig = calibration::readRig(options.rig);
+  if (options.rig.isGiven()) {
+    rig = options.rig.choose({}, nowUtc())->record.rig;
     if (!options.size.empty()) rig.screen.px = pictureSize(options.size);
   } else {
     rig = calibration::desktopRig(options.size.empty() ? glm::ivec2(1920, 1080) : pictureSize(options.size),
@@ -158,7 +159,7 @@ void addDisplay(CLI::App& molar, Chosen& chosen) {
       molar.add_subcommand("display", "Test patterns on the display, until Esc; monitors that are there");
   command->add_option("--pattern", o->pattern, "eyes, crosstalk, grid, cross or text; right and left arrow change it")
       ->capture_default_str();
-  command->add_option("--rig", o->rig, "Rig file: screen, mirror and eyes [a 24-inch monitor]")->type_name("FILE");
+  o->rig.addTo(*command, false);
   o->display.addTo(*command);
   command->add_option("--monitor", o->monitor, "Monitor, from 1; two windows take the next one as well")
       ->check(CLI::Range(1, 16));

@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/case_reach.h"
 #include "app/command_settings.h"
 #include "app/commands/command.h"
 #include "app/commands/number_range.h"
@@ -18,7 +19,9 @@
 #include "app/patient_source.h"
 #include "app/pedal_option.h"
 #include "app/picture_option.h"
+#include "app/practice_device.h"
 #include "app/rehearsal.h"
+#include "app/rig_choice.h"
 #include "app/room.h"
 #include "app/settings_text.h"
 #include "app/tool_text.h"
@@ -26,7 +29,6 @@
 #include "app/view_option.h"
 #include "assets/patient_folder.h"
 #include "assets/synthetic/face.h"
-#include "calibration/record/rig_file.h"
 #include "render/quality_ladder.h"
 
 namespace app {
@@ -36,8 +38,9 @@ constexpr double kMonitorWidth_mm = 531.0;  ///< of a 24-inch monitor
 constexpr double kForeignFaceWindow_mm = 24.0;
 
 struct RehearseOptions {
-  std::string patient, parameters, device = "mouse", pedal = "auto", falcon_firmware, rig, record, snapshot,
-                                   first_snapshot, face;
+  std::string patient, parameters, device = "mouse", pedal = "auto", falcon_firmware, record, snapshot, first_snapshot,
+                                   face;
+  RigOption rig;
   std::vector<std::string> tools{"sphere:1.5"};
   std::string shaft, law = "agus", erosion = "time", size, snapshot_size = "1280x800";
   std::string side = "right", second_hand, second_tool = "mirror";
@@ -52,30 +55,55 @@ struct RehearseOptions {
   bool headless = false, force = false, operators_window = false;
 };
 
-/// On a desk the surgeon wears loupes: the same screen, its picture magnified. With a rig file everything is 1:1.
-/// `X_PF` is how the head stands around the jaw: a placed face opens its mouth, which turns it against the scan.
-calibration::Rig rigFor(const RehearseOptions& options, const assets::Patient& patient, const assets::FacePose& X_PF) {
-  if (!options.rig.empty()) {
-    calibration::Rig rig = calibration::readRig(options.rig);
+/// On a desk the surgeon wears loupes: the same screen, its picture magnified. With a rig everything is 1:1, and the
+/// patient stands as it says, or else with the third molar at the origin of W.
+calibration::Rig rigFor(const RehearseOptions& options, const std::optional<ChosenRig>& chosen,
+                        const assets::Patient& patient, const assets::FacePose& X_PF) {
+  if (chosen) {
+    calibration::Rig rig = chosen->record.rig;
     if (!options.size.empty()) rig.screen.px = pictureSize(options.size);
+    if (leavesPatientOpen(rig)) rig.X_WP = standAtSite(patient, X_PF);
     return rig;
   }
   const glm::ivec2 px = options.size.empty() ? (options.headless ? glm::ivec2(640, 400) : glm::ivec2(1280, 800))
                                              : pictureSize(options.size);
   calibration::Rig rig = calibration::desktopRig(px, kMonitorWidth_mm / options.loupes);
-  // The surgeon looks along the same line into every head: LPS axes of the head to F, then with the head to P.
-  const calibration::Vector<calibration::Patient> eye_P{assets::surgeonEyeDirection(patient.site.tooth_fdi)};
-  const calibration::Vector<calibration::Face> eye_F = assets::kFaceAxes_PF.inverse() * eye_P, up_F{{0.0, 1.0, 0.0}};
-  rig.X_WP = standPatient({patient.site.third_molar_P_mm}, X_PF * eye_F, X_PF * up_F);
-  // The third molar stands at the origin of W. X_WD stays identity, so it is at the origin of D too: the middle of
-  // every Phantom's workspace, its axes as the surgeon's.
+  // X_WD stays identity, so the third molar is at the origin of D too: the middle of every Phantom's workspace, its
+  // axes as the surgeon's.
+  rig.X_WP = standAtSite(patient, X_PF);
   return rig;
 }
 
 void refuseUnlessDevice(const std::string& address) {
   if (std::ranges::find(kHands, address, &HandName::key) == kHands.end() && !address.starts_with("replay:") &&
-      !namesRealDevice(address))
+      !namesRealDevice(address) && !practiceRig(address))
     throw UsageError("--device " + address + ": there is no such hand, see molar rehearse --help and molar devices");
+}
+
+/// The device is opened first: a rig is one device's, and only the device knows its serial.
+void chooseRig(RehearsalPlan& plan, const RehearseOptions& options, const assets::FacePose& X_PF) {
+  if (namesRealDevice(options.device)) plan.opened = openDevice(options.device, plan.device_options);
+  const DeviceAtHand device =
+      deviceAtHand(options.device, plan.opened ? &plan.opened->device->capabilities() : nullptr);
+  const std::optional<ChosenRig> chosen = options.rig.choose(device, nowUtc());
+  plan.rig = rigFor(options, chosen, plan.patient, X_PF);
+  plan.full_screen = chosen.has_value();
+  if (!chosen) {
+    if (device.kind == DeviceAtHand::Kind::real)
+      plan.remarks.push_back("no calibration of " + device.model + " " + device.serial +
+                             " is in force: hand and eye may be a centimetre apart, see molar calibrate");
+    return;
+  }
+  plan.calibration = chosen->calibration;
+  if (device.isCalibrated() && chosen->calibration.rig != "default")
+    plan.remarks.push_back(chosen->source + ": " + calibrationWords(chosen->calibration));
+  plan.remarks.insert(plan.remarks.end(), chosen->remarks.begin(), chosen->remarks.end());
+  const std::vector<std::string> fit = caseRemarks(plan.rig, plan.patient, chosen->record.eye_sd_mm,
+                                                   device.isCalibrated() ? device.model : std::string());
+  plan.remarks.insert(plan.remarks.end(), fit.begin(), fit.end());
+  if (namesRealDevice(options.second_hand) && !plan.rig.second_X_WD)
+    throw UsageError("--second-hand " + options.second_hand + ": " + chosen->source +
+                     " does not say where its base stands, add X_WD2");
 }
 
 /// A software renderer would take every core; one is the servo's.
@@ -103,6 +131,7 @@ int run(const RehearseOptions& options) {
   if (options.headless && options.device == "mouse")
     throw UsageError("--headless: there is no mouse without a window, add --device scripted");
   refuseUnlessDevice(options.device);
+  options.rig.refuseUnlessReadable();
   plan.device = options.device;
   plan.pedal = pedalFrom(options.pedal);
   plan.second_hand = {options.second_hand,
@@ -126,7 +155,6 @@ int run(const RehearseOptions& options) {
   plan.first_snapshot = options.first_snapshot;
   plan.snapshot_px = pictureSize(options.snapshot_size);
   plan.headless = options.headless;
-  plan.full_screen = !options.rig.empty();
   plan.overwrite = options.force;
   if (!options.record.empty() && std::filesystem::exists(options.record) &&
       !std::filesystem::is_regular_file(options.record))
@@ -143,10 +171,7 @@ int run(const RehearseOptions& options) {
   assets::FacePose X_PF = assets::kFaceAxes_PF;
   if (!options.face.empty()) X_PF = dressWithFace(plan.patient, options.face);
   plan.face_window_mm = options.face_window_mm.value_or(options.face.empty() ? 0.0 : kForeignFaceWindow_mm);
-  plan.rig = rigFor(options, plan.patient, X_PF);
-  if (!options.rig.empty() && namesRealDevice(options.second_hand) && !plan.rig.second_X_WD)
-    throw UsageError("--second-hand " + options.second_hand + ": rig file " + options.rig +
-                     " does not say where its base stands, add X_WD2");
+  chooseRig(plan, options, X_PF);
   options.display.refuseUnlessFits(plan.rig);
   leaveACoreToTheServo();
   rehearse(std::move(plan));
@@ -167,8 +192,7 @@ void addRehearse(CLI::App& molar, Chosen& chosen) {
       ->check(CLI::IsMember({"mirror", "retractor"}))
       ->capture_default_str()
       ->needs(second);
-  auto* rig =
-      command->add_option("--rig", o->rig, "Rig file: screen, mirror, eyes, patient pose; 1:1")->type_name("FILE");
+  auto* rig = o->rig.addTo(*command, true);
   o->display.addTo(*command);
   o->picture.addTo(*command);
   command->add_option("--monitor", o->monitor, "Monitor of the picture, from 1; two windows take the next one as well")

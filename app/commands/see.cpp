@@ -13,6 +13,7 @@
 #include "app/patient_guides.h"
 #include "app/picture_option.h"
 #include "app/renderer_choice.h"
+#include "app/room.h"
 #include "app/usage_error.h"
 #include "app/view_option.h"
 #include "app/volume_option.h"
@@ -78,6 +79,8 @@ int see(const SeeOptions& options) {
     volume = {patient.ct.grid, std::move(patient.ct.solid), std::move(patient.ct.label)};
   }
   const render::Eye eye = options.view.apply(frame.rig, volume.grid);
+  if (options.view.namesRig() && leavesPatientOpen(frame.rig) && patient.site.known)
+    frame.rig.X_WP = standAtSite(patient, assets::kFaceAxes_PF);
   frame.tool_visible = false;
   if (!options.tool_at_mm.empty())
     frame.X_PT.translation_mm = {options.tool_at_mm[0], options.tool_at_mm[1], options.tool_at_mm[2]};

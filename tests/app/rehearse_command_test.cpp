@@ -1,7 +1,11 @@
 #include <algorithm>
+#include <fstream>
 
 #include <nlohmann/json.hpp>
 
+#include "app/practice_device.h"
+#include "calibration/record/rig_file.h"
+#include "calibration/record/rig_store.h"
 #include "tests/app/program.h"
 
 namespace app {
@@ -13,6 +17,7 @@ class RehearseCommand : public ProgramTest {
   void SetUp() override {
     ProgramTest::SetUp();
     setenv("XDG_CACHE_HOME", MOLAR_TEST_CACHE, 1);
+    setenv("MOLAR_CALIBRATION", at("store").c_str(), 1);
   }
 };
 
@@ -51,6 +56,61 @@ TEST_F(RehearseCommand, ArmsASimulatedPhantomAndReplaysItsHand) {
   ASSERT_EQ(again.status, 0) << again.err;
   EXPECT_EQ(molar("replay " + at("t.molar") + " --verify").status, 0);
   EXPECT_EQ(molar(quiet + "--device replay:" + at("none.molar")).status, 2);
+}
+
+/// The rig of one untrue arm, known as it truly is.
+calibration::RigRecord rigOf(const calibration::SyntheticRig& truth, calibration::Verdict verdict) {
+  calibration::RigRecord record;
+  record.rig = truth.nominal;
+  record.rig.X_WD = truth.X_WD;
+  record.rig.arm = truth.arm.truth;
+  record.provenance.rig_id = "rig-02";
+  record.provenance.created_utc = "2026-11-19T08:00:00Z";
+  record.provenance.mirror_kind = "front_surface";
+  record.proof = calibration::RigProof{};
+  record.proof->verdict = verdict;
+  record.proof->errors.n = 16;
+  record.proof->errors.rms_mm = 1.4, record.proof->errors.mean_mm = 1.2;
+  record.proof->errors.p95_mm = 2.0, record.proof->errors.max_mm = 2.5;
+  record.proof->checked_utc = record.provenance.created_utc;
+  return record;
+}
+
+/// Sure arms, so that the work is the same on every machine: an untrue arm under its rig, and under the default one.
+TEST_F(RehearseCommand, WorksOnAPracticeDeviceWhereItsRigHasIt) {
+  const auto truth = *practiceRig("practice:B:3");
+  const calibration::RigRecord green = rigOf(truth, calibration::Verdict::green),
+                               red = rigOf(truth, calibration::Verdict::red);
+  calibration::RigStore(at("store")).keep({"rig-02", truth.nominal.device->serial, "right"}, green, "", true);
+  const std::string line = "rehearse --headless --voxel 0.6 --size 96x64 --device practice:B:3 ";
+  const auto metricsOf = [&](const std::string& session) {
+    return nlohmann::json::parse(molar("metrics " + at(session) + " --json").out);
+  };
+
+  const Said said = molar(line + "--seconds 7 --record " + at("s.molar"));
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_NE(said.err.find("current rig rig-02: green"), std::string::npos) << said.err;
+  EXPECT_NE(said.out.find("calibration      green, 1.40 mm RMS of 16"), std::string::npos) << said.out;
+  EXPECT_EQ(molar("replay " + at("s.molar") + " --verify").status, 0);
+  const auto json = metricsOf("s.molar");
+  EXPECT_EQ(json.at("calibration").at("verdict"), "green");
+  EXPECT_EQ(json.at("calibration").at("device_serial"), truth.nominal.device->serial);
+  EXPECT_FALSE(json.at("removed_mm3_by_label").contains("other_teeth")) << json;
+
+  // Red: locked, one line, until a word is given, which stays.
+  std::ofstream(at("red.yaml")) << calibration::rigRecordText(red);
+  const Said locked = molar(line + "--rig " + at("red.yaml"));
+  EXPECT_EQ(locked.status, 2);
+  EXPECT_EQ(std::ranges::count(locked.err, '\n'), 1) << locked.err;
+  const std::string word = "--despite-calibration 'for show' --seconds 0.3 --record ";
+  EXPECT_EQ(molar(line + "--rig " + at("red.yaml") + " " + word + at("t.molar")).status, 0);
+  EXPECT_EQ(metricsOf("t.molar").at("calibration").at("despite"), "for show");
+
+  // Another unit, and the rig of none.
+  EXPECT_EQ(molar("rehearse --headless --voxel 0.6 --device practice:B:4 --rig " + at("red.yaml")).status, 2);
+  EXPECT_EQ(molar("rehearse --headless --voxel 0.6 --device practice:Z").status, 2);
+  EXPECT_EQ(molar(line + "--rig mirrored --seconds 0.3 --record " + at("u.molar")).status, 0);
+  EXPECT_EQ(metricsOf("u.molar").at("calibration").at("rig"), "default");
 }
 
 /// Through the whole program, with our stand-in for the vendor's library.
