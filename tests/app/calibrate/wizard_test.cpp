@@ -226,6 +226,20 @@ TEST(Wizard, CanNotTakeWhatIsRedAndLeavesTheOldCalibration) {
     for (const std::string& choice : page.choices) EXPECT_NE(choice, "take it");
 }
 
+TEST(Wizard, AsksForTheEyesAgainWhenCrossesInDepthAreSeenElsewhere) {
+  // Whose pupils are wider apart than was said sees depth otherwise; here all of it a little to the right.
+  SyntheticRig seen = rigOf(Scenario::A, 3);
+  seen.X_WD.translation_mm += glm::dvec3(2.0, 0.0, 0.0);
+  const SyntheticRig rig = rigOf(Scenario::A, 3);
+  Wizard wizard(planFor(rig, Procedure::full, "jig8"));
+  RobotTechnician technician(rig, {}, 3);
+  const WizardRun run = runWizard(wizard, technician, 500.0, [&](StylusSample&, const WizardView& view) {
+    technician.moveTo(view.title == "Crosses in depth" ? seen : rig);
+  });
+  EXPECT_TRUE(run.said("measure the eyes again"));
+  EXPECT_EQ(wizard.outcome().end, End::accepted) << wizard.outcome().reason;
+}
+
 TEST(Wizard, ChecksAGoodCalibrationInThirtySeconds) {
   const SyntheticRig rig = rigOf(Scenario::D, 2);
   WizardPlan plan = planFor(rig, Procedure::check);

@@ -1,0 +1,58 @@
+#include "app/calibrate/choice_menu.h"
+
+#include <gtest/gtest.h>
+
+#include "app/calibrate/tilt_words.h"
+
+namespace {
+
+using namespace app;
+
+TEST(ChoiceMenu, MarksTheNextByAShortPressAndChoosesByALongOne) {
+  ChoiceMenu menu({"yes", "no", "back"});
+  EXPECT_FALSE(menu.feel(Press::short_press));
+  EXPECT_EQ(menu.feel(Press::long_press), 1u);
+  EXPECT_FALSE(menu.feel(Press::repeated));
+  menu.feel(Press::short_press);
+  menu.feel(Press::short_press);
+  EXPECT_EQ(menu.feel(Press::long_press), 0u);
+}
+
+TEST(NumberDial, IsTurnedByAHeldButtonAndTakenByALongPressAlone) {
+  NumberDial dial(63.0, 50.0, 66.0, 1.0);
+  EXPECT_FALSE(dial.feel(Press::long_press));
+  EXPECT_FALSE(dial.feel(Press::repeated));
+  EXPECT_EQ(dial.value(), 65.0);
+  dial.feel(Press::repeated);
+  dial.feel(Press::repeated);
+  EXPECT_EQ(dial.value(), 66.0) << "its most";
+  dial.feel(Press::short_press);
+  dial.feel(Press::long_press);
+  EXPECT_EQ(dial.value(), 65.0);
+  dial.feel(Press::short_press);
+  EXPECT_FALSE(dial.feel(Press::repeated));
+  EXPECT_TRUE(dial.feel(Press::long_press));
+  WizardView view;
+  dial.show(view, "mm");
+  EXPECT_EQ(view.value, "65 mm");
+}
+
+TEST(TiltWords, SayWhereTheHandleHasToGo) {
+  const auto towards = [](double x, double y, double z) {
+    return calibration::Vector<calibration::World>{glm::normalize(glm::dvec3(x, y, z))};
+  };
+  EXPECT_EQ(tiltWords(towards(0, 0, 1), towards(1, 0, 1)), "lean the handle 45° to the right");
+  EXPECT_EQ(tiltWords(towards(1, 0, 1), towards(0, 0, 1)), "lean the handle 45° to the left");
+  EXPECT_EQ(tiltWords(towards(0, 1, 1), towards(0, 0, 1)), "lean the handle 45° down");
+  EXPECT_EQ(tiltWords(towards(0, 0, 1), towards(0.01, 0.01, 1)), "");
+}
+
+TEST(TiltWords, KnowHowFarDirectionsAreApart) {
+  std::vector<calibration::Vector<calibration::World>> all(10, {{0.0, 0.0, 1.0}});
+  EXPECT_EQ(spreadOf_deg(all), 0.0);
+  for (std::size_t i = 0; i < 5; ++i) all[i] = {{1.0, 0.0, 0.0}};
+  EXPECT_NEAR(spreadOf_deg(all), 90.0, 1e-9);
+  EXPECT_EQ(spreadOf_deg({}), 0.0);
+}
+
+}  // namespace
