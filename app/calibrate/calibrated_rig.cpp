@@ -6,66 +6,55 @@
 #include "calibration/record/utc.h"
 
 namespace app {
-namespace {
 
 using namespace calibration;
 
-/// A new file that comes of `base`.
-RigRecord successor(const RigRecord& base, const Measuring& measuring) {
-  RigRecord record = base;
+void stamp(RigRecord& record, const RigRecord& base, const Measuring& measuring) {
+  const std::string now = utcOf(std::time(nullptr));
   record.provenance.rig_id = measuring.rig_id;
-  record.provenance.created_utc = utcNow();
+  record.provenance.created_utc = now;
   record.provenance.program = MOLAR_VERSION;
   record.provenance.opencv = openCvVersion();
   record.provenance.operator_code = measuring.operator_code;
   record.provenance.parent = base.hash;
   record.hash.clear();
-  record.proof.reset();
-  return record;
+  if (record.proof && record.proof->checked_utc.empty()) record.proof->checked_utc = now;
 }
 
-}  // namespace
-
-std::string utcNow() { return utcOf(std::time(nullptr)); }
-
-ProofKind proofKindOf(const std::string& method) {
-  return method.starts_with("visual") ? ProofKind::by_eyes : ProofKind::full;
-}
-
-RigRecord fittedRig(const RigRecord& base, const TouchSet& touches, const ArmFit& fit, const Measuring& measuring) {
-  RigRecord record = successor(base, measuring);
-  record.rig.device = RigDevice{touches.device_model, measuring.serial, measuring.mount, measuring.stylus_tip};
+void putFit(RigRecord& record, const TouchSet& touches, const ArmFit& fit, double duration_s) {
   record.rig.arm = fit.arm.correction;
   record.rig.X_WD = fit.arm.X_WD;
   record.residuals = fit.residuals;
   record.sigma = fit.sigma;
-  record.procedure = RigProcedure{measuring.method.empty() ? touches.method : measuring.method,
-                                  fit.model,
-                                  fit.used,
-                                  fit.outliers,
-                                  fit.tilt_spread_deg,
-                                  measuring.duration_s,
-                                  fit.fre_rms_mm,
-                                  fit.cv_rms_mm,
-                                  touches.precision};
-  return record;
+  record.procedure = RigProcedure{touches.method, fit.model,      fit.used,      fit.outliers,     fit.tilt_spread_deg,
+                                  duration_s,     fit.fre_rms_mm, fit.cv_rms_mm, touches.precision};
+  record.proof.reset();
 }
 
-RigRecord rezeroedRig(const RigRecord& base, const Rezero& rezero, const Measuring& measuring) {
-  RigRecord record = successor(base, measuring);
+void putRezero(RigRecord& record, const TouchSet& touches, const Rezero& rezero, double duration_s) {
   record.rig.arm = rezero.arm.correction;
   record.rig.X_WD = rezero.arm.X_WD;
   record.residuals = rezero.residuals;
-  return record;
+  RigProcedure procedure = record.procedure.value_or(RigProcedure{});
+  procedure.method = touches.method;
+  procedure.used = static_cast<int>(touches.touches.size()) - rezero.outliers;
+  procedure.outliers = rezero.outliers;
+  procedure.duration_s = duration_s;
+  procedure.fre_rms_mm = rezero.after_rms_mm;
+  record.procedure = procedure;
+  record.proof.reset();
 }
 
-void prove(RigRecord& record, const std::vector<Residual>& held_out, ProofKind kind) {
+void putProof(RigRecord& record, const std::vector<Residual>& held_out, ProofKind kind) {
   RigProof proof;
   proof.errors = targetErrors(held_out);
   proof.kind = kind;
   proof.verdict = judge(proof.errors, kind).verdict;
-  proof.checked_utc = utcNow();
   record.proof = proof;
+}
+
+ProofKind proofKindOf(const std::string& method) {
+  return method.starts_with("visual") ? ProofKind::by_eyes : ProofKind::full;
 }
 
 }  // namespace app

@@ -11,26 +11,23 @@
 
 namespace app {
 
-/// Who measures, where and when; nothing that names a person.
+/// Who measures, and where; nothing that names a person.
 struct Measuring {
-  std::string rig_id = "rig", serial, mount = "right", stylus_tip, operator_code, method;
-  double duration_s = 0.0;  ///< 0: not known
+  std::string rig_id = "rig", serial, mount = "right", stylus_tip, operator_code;
 };
 
-/// "2026-11-21T08:20:00Z", now.
-std::string utcNow();
+/// `record`, measured now by these people and this program, as what comes after `base`.
+void stamp(calibration::RigRecord& record, const calibration::RigRecord& base, const Measuring& measuring);
 
-/// `base` with the fitted arm. Without a proof: that takes touches it has not seen.
-calibration::RigRecord fittedRig(const calibration::RigRecord& base, const calibration::TouchSet& touches,
-                                 const calibration::ArmFit& fit, const Measuring& measuring);
-
-/// `base` brought up to date; its proof is no longer one.
-calibration::RigRecord rezeroedRig(const calibration::RigRecord& base, const calibration::Rezero& rezero,
-                                   const Measuring& measuring);
-
-/// With what `held_out` touches say of it.
-void prove(calibration::RigRecord& record, const std::vector<calibration::Residual>& held_out,
-           calibration::ProofKind kind);
+/// The fitted arm and how it was found. A proof is no longer one: that takes touches it has not seen.
+void putFit(calibration::RigRecord& record, const calibration::TouchSet& touches, const calibration::ArmFit& fit,
+            double duration_s);
+/// The arm brought up to date. Tilts and cross-validation stay those of the calibration it comes of.
+void putRezero(calibration::RigRecord& record, const calibration::TouchSet& touches, const calibration::Rezero& rezero,
+               double duration_s);
+/// What touches it has not seen say of it.
+void putProof(calibration::RigRecord& record, const std::vector<calibration::Residual>& held_out,
+              calibration::ProofKind kind);
 
 /// By the method a rig was measured with: eyes alone are held to wider limits.
 calibration::ProofKind proofKindOf(const std::string& method);

@@ -1,5 +1,6 @@
 #include "app/calibrate/wizard_outcome.h"
 
+#include "app/calibrate/calibrated_rig.h"
 #include "app/calibrate/steps/eyes_step.h"
 
 namespace app {
@@ -15,24 +16,10 @@ calibration::RigRecord recordOf(const WizardPlan& plan, const WizardOutcome& out
     record.rig.X_WD = outcome.arm->X_WD;
     record.rig.arm = outcome.arm->correction;
   }
-  if (const auto& fit = outcome.fit) {
-    record.procedure =
-        calibration::RigProcedure{outcome.touches.method, fit->model,           fit->used,
-                                  fit->outliers,          fit->tilt_spread_deg, outcome.duration_s,
-                                  fit->fre_rms_mm,        fit->cv_rms_mm,       outcome.touches.precision};
-    record.residuals = fit->residuals;
-    record.sigma = fit->sigma;
-  } else if (const auto& rezero = outcome.rezero) {
-    // Tilts and cross-validation are still those of the calibration that was brought up to date.
-    calibration::RigProcedure procedure = record.procedure.value_or(calibration::RigProcedure{});
-    procedure.method = outcome.zeroing.method;
-    procedure.used = static_cast<int>(outcome.zeroing.touches.size()) - rezero->outliers;
-    procedure.outliers = rezero->outliers;
-    procedure.duration_s = outcome.duration_s;
-    procedure.fre_rms_mm = rezero->after_rms_mm;
-    record.procedure = procedure;
-    record.residuals = rezero->residuals;
-  }
+  if (const auto& fit = outcome.fit)
+    putFit(record, outcome.touches, *fit, outcome.duration_s);
+  else if (const auto& rezero = outcome.rezero)
+    putRezero(record, outcome.zeroing, *rezero, outcome.duration_s);
   if (outcome.errors && outcome.judgement)
     record.proof = calibration::RigProof{*outcome.errors, outcome.proof_kind, outcome.judgement->verdict, {}};
   if (const auto& rest = outcome.rest)

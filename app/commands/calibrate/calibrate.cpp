@@ -3,24 +3,43 @@
 #include "app/commands/calibrate/calibrate.h"
 
 #include <cstdio>
+#include <ctime>
 #include <fstream>
 
 #include <CLI/CLI.hpp>
 
+#include "app/calibrate/calibration_text.h"
 #include "app/usage_error.h"
 #include "assets/output_file.h"
+#include "calibration/fit/touches_file.h"
 #include "calibration/record/rig_file.h"
+#include "calibration/record/utc.h"
 
 namespace app {
 
 using namespace calibration;
 
+namespace {
+
+constexpr const char* kStoreHelp = "Folder of the store [$MOLAR_CALIBRATION or the user's data folder]";
+
+}  // namespace
+
 void KeepOption::addTo(CLI::App& command) {
   command.add_option("--out", out, "Rig file to write")->type_name("FILE");
   command.add_flag("--keep", into_store, "Keep it in the store; in force from then on unless it is red or unproved");
-  command.add_option("--store", store, "Folder of the store [$MOLAR_CALIBRATION or the user's data folder]")
-      ->type_name("DIR");
+  command.add_option("--store", store, kStoreHelp)->type_name("DIR");
   command.add_flag("--force", force, "Replace a file that exists");
+}
+
+void KeepOption::note(const RigRecord& record, DriftKind kind, const TargetErrors& errors) const {
+  if (!into_store) return;
+  appendHistory(rigs().historyPath(placeOf(record)),
+                {utcOf(std::time(nullptr)), kind, errors.n, errors.rms_mm, errors.bias_mm});
+}
+
+RigStore KeepOption::rigs() const {
+  return RigStore(store.empty() ? RigStore::usualRoot() : std::filesystem::path(store));
 }
 
 RigPlace KeepOption::placeOf(const RigRecord& record) const {
@@ -45,8 +64,7 @@ void KeepOption::keep(const RigRecord& record, const std::string& touches_text) 
   }
   if (!into_store) return;
   const bool passes = record.proof && record.proof->verdict != Verdict::red;
-  RigStore rigs(store.empty() ? RigStore::usualRoot() : std::filesystem::path(store));
-  const auto path = rigs.keep(placeOf(record), record, touches_text, passes);
+  const auto path = rigs().keep(placeOf(record), record, touches_text, passes);
   std::fprintf(stderr, "molar: kept as %s; %s\n", path.c_str(),
                passes         ? "in force from now on"
                : record.proof ? "red, so the one before stays in force"
@@ -64,12 +82,39 @@ void addMeasuring(CLI::App& command, Measuring& measuring) {
   command.add_option("--operator", measuring.operator_code, "A code for who measures, never a name");
 }
 
+namespace {
+
+const TouchSet& touchesOf(const WizardOutcome& outcome) {
+  return outcome.touches.touches.empty() ? outcome.zeroing : outcome.touches;
+}
+
+}  // namespace
+
+int concluded(const WizardOption::Led& led, Measuring measuring, const KeepOption& keep) {
+  const WizardOutcome& outcome = led.outcome;
+  if (outcome.fit) std::fputs(fitText(*outcome.fit).c_str(), stderr);
+  if (outcome.rezero) std::fputs(rezeroText(*outcome.rezero).c_str(), stderr);
+  if (outcome.errors && outcome.judgement) std::fputs(proofText(*outcome.errors, *outcome.judgement).c_str(), stderr);
+  if (outcome.end != WizardOutcome::End::accepted) return 1;
+
+  RigRecord record = recordOf(led.plan, outcome);
+  stamp(record, led.plan.record, measuring);
+  if (const auto before = measuredArm(led.plan.record.rig); outcome.rezero && before)
+    keep.note(record, DriftKind::rezero, targetErrors(residualsOf(*before, outcome.zeroing.touches)));
+  else if (outcome.errors)
+    keep.note(record, outcome.fit ? DriftKind::calibration : DriftKind::check, *outcome.errors);
+  // A check that found all well changes nothing.
+  if (outcome.arm || outcome.rest || outcome.screen) keep.keep(record, touchesText(touchesOf(outcome)));
+  return outcome.judgement ? statusOf(outcome.judgement->verdict) : 0;
+}
+
 int statusOf(Verdict verdict) { return verdict == Verdict::green ? 0 : 1; }
 
 void addCalibrate(CLI::App& molar, Chosen& chosen) {
   CLI::App* calibrate = molar.add_subcommand("calibrate", "Align hand and eye: measure, fit, prove, keep");
   calibrate->require_subcommand(1);
   addCalibrateSimulate(*calibrate, chosen);
+  addCalibrateCollect(*calibrate, chosen);
   addCalibrateFit(*calibrate, chosen);
   addCalibrateProofs(*calibrate, chosen);
   addCalibrateRezero(*calibrate, chosen);

@@ -6,12 +6,15 @@
 #include <string>
 
 #include "app/calibrate/calibrated_rig.h"
+#include "app/commands/calibrate/wizard_option.h"
 #include "app/commands/command.h"
+#include "calibration/record/drift_history.h"
 #include "calibration/record/rig_store.h"
 
 namespace app {
 
 void addCalibrateSimulate(CLI::App& calibrate, Chosen& chosen);
+void addCalibrateCollect(CLI::App& calibrate, Chosen& chosen);
 void addCalibrateFit(CLI::App& calibrate, Chosen& chosen);
 void addCalibrateProofs(CLI::App& calibrate, Chosen& chosen);  ///< verify, check
 void addCalibrateRezero(CLI::App& calibrate, Chosen& chosen);
@@ -23,11 +26,16 @@ class KeepOption {
  public:
   void addTo(CLI::App& command);
 
+  calibration::RigStore rigs() const;
   calibration::RigPlace placeOf(const calibration::RigRecord& record) const;
   /// Claims the output before any work. Throws LoadError.
   void refuseUnlessWritable() const;
   /// Into the file and, if asked, the store, where it comes into force unless its proof is missing or red. Says so.
   void keep(const calibration::RigRecord& record, const std::string& touches_text) const;
+
+  /// What was found, into the history of the place; only with --keep.
+  void note(const calibration::RigRecord& record, calibration::DriftKind kind,
+            const calibration::TargetErrors& errors) const;
 
   std::string out, store;
   bool into_store = false, force = false;
@@ -35,6 +43,9 @@ class KeepOption {
 
 /// Who measures, as options.
 void addMeasuring(CLI::App& command, Measuring& measuring);
+
+/// What a technician was led to, told and kept; the exit status.
+int concluded(const WizardOption::Led& led, Measuring measuring, const KeepOption& keep);
 
 /// Exit status of a verdict.
 int statusOf(calibration::Verdict verdict);

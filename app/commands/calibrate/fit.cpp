@@ -50,14 +50,16 @@ int fit(const CalibrateFitOptions& options) {
   if (!touches.mount.empty()) measuring.mount = touches.mount;
 
   const ArmFit fitted = fitArm(touches, fitOptions(options));
-  RigRecord record = fittedRig(base, touches, fitted, measuring);
-  const ProofKind kind = proofKindOf(record.procedure->method);
+  RigRecord record = base;
+  record.rig.device = RigDevice{touches.device_model, measuring.serial, measuring.mount, measuring.stylus_tip};
+  putFit(record, touches, fitted, 0.0);
+  const ProofKind kind = proofKindOf(touches.method);
   std::string proof_text;
   if (!options.held_out.empty()) {
-    const auto residuals = residualsOf(fitted.arm, readTouches(options.held_out).touches);
-    prove(record, residuals, kind);
+    putProof(record, residualsOf(fitted.arm, readTouches(options.held_out).touches), kind);
     proof_text = proofText(record.proof->errors, judge(record.proof->errors, kind));
   }
+  stamp(record, base, measuring);
   std::fputs(fitText(fitted).c_str(), stderr);
   std::fputs(proof_text.c_str(), stderr);
   options.keep.keep(record, touchesText(touches));

@@ -8,6 +8,7 @@
 #include "app/calibrate/base_rig.h"
 #include "app/calibrate/calibration_text.h"
 #include "app/commands/calibrate/calibrate.h"
+#include "app/usage_error.h"
 #include "calibration/fit/touches_file.h"
 
 namespace app {
@@ -17,11 +18,24 @@ using namespace calibration;
 
 struct ProveOptions {
   std::string rig, observations;
+  WizardOption wizard;
+  Measuring measuring;
   KeepOption keep;
   bool session_check = false, json = false;
 };
 
+/// At the workstation, which is brought up to date at once where it has to be.
+int checkWithDevice(const ProveOptions& asked) {
+  ProveOptions options = asked;
+  const auto led = options.wizard.run(Procedure::check, "check4", options.rig, options.keep.rigs(), options.measuring);
+  return concluded(led, options.measuring, options.keep);
+}
+
 int prove(const ProveOptions& options) {
+  if (options.wizard.isGiven()) return checkWithDevice(options);
+  if (options.rig.empty() || options.observations.empty())
+    throw UsageError(std::string("calibrate ") + (options.session_check ? "check" : "verify") +
+                     ": it needs a rig and touches" + (options.session_check ? ", or a device (--device)" : ""));
   options.keep.refuseUnlessWritable();
   RigRecord record = baseRig(options.rig);
   const TouchSet touches = readTouches(options.observations);
@@ -37,9 +51,14 @@ int prove(const ProveOptions& options) {
   if (options.session_check && judgement.verdict != Verdict::green)
     std::fputs("molar: re-zero with five touches (molar calibrate rezero); if it stays so, calibrate anew\n", stderr);
   if (options.json) std::fputs(proofJson(errors, judgement).c_str(), stdout);
+  options.keep.note(record, options.session_check ? DriftKind::check : DriftKind::calibration, errors);
   if (!options.session_check) {
-    app::prove(record, residuals, kind);
-    record.provenance.parent = record.hash;
+    const RigRecord base = record;
+    putProof(record, residuals, kind);
+    Measuring measuring;
+    measuring.operator_code = base.provenance.operator_code;
+    if (!base.provenance.rig_id.empty()) measuring.rig_id = base.provenance.rig_id;
+    stamp(record, base, measuring);
     options.keep.keep(record, touchesText(touches));
   }
   return statusOf(judgement.verdict);
@@ -51,10 +70,14 @@ void addOne(CLI::App& calibrate, Chosen& chosen, bool session_check) {
   CLI::App* command =
       session_check ? calibrate.add_subcommand("check", "Four touches at the start of a session: is it still right?")
                     : calibrate.add_subcommand("verify", "A rig against touches it has not seen");
-  command->add_option("RIG", o->rig, kBaseRigHelp)->required();
-  command->add_option("OBSERVATIONS", o->observations, "Touches, YAML")->required();
+  command->add_option("RIG", o->rig, kBaseRigHelp);
+  command->add_option("OBSERVATIONS", o->observations, "Touches, YAML");
   command->add_flag("--json", o->json, "Numbers as JSON on standard output");
-  if (!session_check) o->keep.addTo(*command);
+  o->keep.addTo(*command);
+  if (session_check) {
+    o->wizard.addTo(*command);
+    addMeasuring(*command, o->measuring);
+  }
   command->callback([o, &chosen] { chosen.action = [o] { return prove(*o); }; });
 }
 

@@ -1,0 +1,88 @@
+// `molar calibrate collect`: lead a technician through a calibration at the workstation, from homing to sign-off.
+
+#include <cstdio>
+#include <fstream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/commands/calibrate/calibrate.h"
+#include "app/commands/number_range.h"
+#include "app/usage_error.h"
+#include "assets/output_file.h"
+#include "calibration/fit/touches_file.h"
+#include "calibration/geometry/units.h"
+
+namespace app {
+namespace {
+
+using namespace calibration;
+
+struct CollectOptions {
+  std::string method = "jig27", rig, observations;
+  std::vector<double> jig{0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  std::vector<std::vector<double>> rest_marks;
+  WizardOption wizard;
+  Measuring measuring;
+  KeepOption keep;
+};
+
+/// Three mm and three degrees, about x, then y, then z.
+JigPose jigPose(const std::vector<double>& numbers) {
+  const glm::dvec3 turned{radFromDegrees(numbers[3]), radFromDegrees(numbers[4]), radFromDegrees(numbers[5])};
+  return {{glm::dquat(turned), {numbers[0], numbers[1], numbers[2]}}};
+}
+
+int collect(const CollectOptions& asked) {
+  CollectOptions options = asked;
+  const bool rest = options.method == "rest";
+  if (!rest && !targetPlan(options.method))
+    throw UsageError("--method " + options.method +
+                     ": not a procedure, choose jig27, jig8, visual15, visual25 or rest; webcam3 with --camera");
+  if (rest && options.rest_marks.size() < 6)
+    throw UsageError("--method rest: it needs six marks, three for the pose and three to prove it: --rest-mark x,y,z");
+  for (const auto& mark : options.rest_marks) options.wizard.rest_marks_mm.emplace_back(mark[0], mark[1], mark[2]);
+  options.wizard.jig = jigPose(options.jig);
+  options.keep.refuseUnlessWritable();
+  std::unique_ptr<assets::OutputFile> observations;
+  if (!options.observations.empty())
+    observations = std::make_unique<assets::OutputFile>(options.observations, options.keep.force);
+
+  const WizardOption::Led led = options.wizard.run(rest ? Procedure::rest : Procedure::full, options.method,
+                                                   options.rig, options.keep.rigs(), options.measuring);
+  if (observations && !led.outcome.touches.touches.empty()) {
+    std::ofstream(observations->temporaryPath()) << touchesText(led.outcome.touches);
+    observations->commit();
+  }
+  return concluded(led, options.measuring, options.keep);
+}
+
+}  // namespace
+
+void addCalibrateCollect(CLI::App& calibrate, Chosen& chosen) {
+  auto o = std::make_shared<CollectOptions>();
+  CLI::App* command = calibrate.add_subcommand(
+      "collect", "Lead a technician through a calibration at the workstation, by the stylus and its button alone");
+  o->wizard.addTo(*command)->required();
+  command
+      ->add_option(
+          "--method", o->method,
+          "jig27 or jig8: a block with pits; visual15 or visual25: nothing but eyes; rest: where the hand rests")
+      ->capture_default_str();
+  command->add_option("--rig", o->rig, std::string(kBaseRigHelp) + " [the one in force of this device, else mirrored]");
+  command->add_option("--jig", o->jig, "Where the block stands in W: x,y,z mm and its turns about x, y, z in degrees")
+      ->delimiter(',')
+      ->expected(6)
+      ->check(numberRange(-1000.0, 1000.0));
+  command->add_option("--rest-mark", o->rest_marks, "A mark of the hand rest in its own frame, x,y,z mm; six of them")
+      ->delimiter(',')
+      ->expected(3)
+      ->check(numberRange(-1000.0, 1000.0));
+  command->add_option("--observations", o->observations, "The touches as a file as well, to fit again")
+      ->type_name("FILE");
+  addMeasuring(*command, o->measuring);
+  o->keep.addTo(*command);
+  command->callback([o, &chosen] { chosen.action = [o] { return collect(*o); }; });
+}
+
+}  // namespace app
