@@ -10,10 +10,12 @@
 #include "calibration/synthetic/synthetic_rig.h"
 #include "calibration/webcam/ring_check.h"
 #include "calibration/webcam/webcam_fit.h"
-#include "tests/app/calibrate/webcam_technician.h"
+#include "app/calibrate/webcam_technician.h"
 
 namespace app {
 namespace {
+
+using namespace calibration;
 
 struct Outcome {
   WebcamFit fit;

@@ -7,10 +7,12 @@
 
 #include "calibration/synthetic/synthetic_rig.h"
 #include "calibration/webcam/flip_check.h"
-#include "tests/app/calibrate/webcam_technician.h"
+#include "app/calibrate/webcam_technician.h"
 
 namespace app {
 namespace {
+
+using namespace calibration;
 
 using calibration::CameraModel;
 using calibration::GreyPicture;

@@ -1,0 +1,178 @@
+#include "app/calibrate/webcam_show.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <deque>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "app/calibrate/button_press.h"
+#include "app/calibrate/sounds.h"
+#include "app/calibrate/stylus_source.h"
+#include "app/calibrate/webcam_technician.h"
+#include "app/calibrate/wizard_pages.h"
+#include "app/usage_error.h"
+#include "render/display/eye_projection.h"
+
+namespace app {
+namespace {
+
+using namespace calibration;
+using Clock = std::chrono::steady_clock;
+
+constexpr auto kFrame = std::chrono::milliseconds(25);
+/// Until a screen shows what it was given, its own delay and two frames.
+constexpr auto kShown = std::chrono::milliseconds(120);
+constexpr double kMedian_s = 0.2;
+
+class WebcamShow {
+ public:
+  explicit WebcamShow(const WebcamRun& run) : run_(run), procedure_(run.plan), pages_(run.plan.rig.mirror) {
+    if ((run.robot || run.device == nullptr) && !run.practice)
+      throw UsageError("calibrate: no device, give one or practise");
+    if (!run.windows && !run.robot)
+      throw UsageError("calibrate: without a window nobody sees what to do, let the robot practise");
+    if (run.device != nullptr && run.pictures == nullptr)
+      throw UsageError("calibrate: the webcam procedure needs a webcam, give --camera");
+    if (run.practice) technician_.emplace(*run.practice, run.practice_px, run.practice->seed);
+    if (run.sounds) sounds_.emplace(run.tell);
+    if (run.windows) screen_.emplace(run.display, run.plan.rig.screen.px, run.tell);
+    if (run.device != nullptr)
+      source_ = std::make_unique<DeviceSource>(*run.device);
+    else if (!run.robot)
+      source_ = std::make_unique<PracticeSource>(*run.practice);
+  }
+
+  std::optional<WebcamObservations> run() {
+    while (procedure_.wants() != WebcamWants::nothing) {
+      if (run_.given_up()) left_ = true;
+      takeEvents();
+      if (left_) return std::nullopt;
+      const auto began = Clock::now();
+      showPage();
+      if (run_.robot) {
+        showForCamera();
+        technician_->act(procedure_);
+      } else {
+        feel();
+        if (procedure_.wants() == WebcamWants::picture) takePicture();
+        std::this_thread::sleep_until(began + kFrame);
+      }
+      tellNews();
+    }
+    return procedure_.observations();
+  }
+
+ private:
+  void takeEvents() {
+    if (!screen_) return;
+    const render::EyeView eye = render::eyeView(run_.plan.rig, render::Eye::cyclopean);
+    const glm::dvec2 px = glm::max(screen_->window_px(), 1);
+    for (const render::WindowEvent& event : screen_->takeEvents()) {
+      const auto* key = std::get_if<render::KeyPressed>(&event);
+      if (std::holds_alternative<render::CloseAsked>(event)) left_ = true;
+      if (key != nullptr && key->down && key->key == render::Key::escape) left_ = true;
+      if (source_) source_->take(event, eye.right_edge_W.xyz / px.x, eye.up_edge_W.xyz / px.y);
+    }
+  }
+
+  /// Presses lead on; the last joints are kept for the picture.
+  void feel() {
+    samples_.clear();
+    source_->takeInto(samples_, view_);
+    for (const StylusSample& sample : samples_) {
+      if (!sample.believable) continue;
+      recent_.push_back(sample);
+      while (recent_.back().t_s - recent_.front().t_s > kMedian_s) recent_.pop_front();
+      const Press press = button_.feel(sample.t_s, sample.button);
+      if (procedure_.wants() != WebcamWants::press) continue;
+      if (press == Press::long_press) procedure_.undo();
+      if (press != Press::short_press) continue;
+      if (technician_ && run_.pictures == nullptr) technician_->putUpFor(procedure_);
+      procedure_.press();
+    }
+  }
+
+  /// The median of each joint.
+  RawJoints joints() const {
+    RawJoints median{};
+    for (std::size_t axis = 0; axis < median.size() && !recent_.empty(); ++axis) {
+      std::vector<double> angles;
+      for (const StylusSample& sample : recent_) angles.push_back(sample.raw_rad[axis]);
+      const auto middle = angles.begin() + static_cast<std::ptrdiff_t>(angles.size() / 2);
+      std::nth_element(angles.begin(), middle, angles.end());
+      median[axis] = *middle;
+    }
+    return median;
+  }
+
+  void takePicture() {
+    showForCamera();
+    std::this_thread::sleep_for(kShown);
+    feel();
+    if (recent_.empty()) return;
+    const auto seen = source_->seen();
+    const bool lit = procedure_.step() == WebcamStep::tips && seen;
+    const GreyPicture picture = run_.pictures != nullptr
+                                    ? run_.pictures->take()
+                                    : technician_->picture(procedure_, lit ? std::optional(seen->tip_W) : std::nullopt);
+    procedure_.see(picture, joints());
+  }
+
+  void showForCamera() {
+    if (!screen_ || procedure_.wants() != WebcamWants::picture) return;
+    const auto draw = [&](const render::StereoLayout& layout) { return patternForCamera(procedure_.shown(), layout); };
+    screen_->show(draw, true);
+  }
+
+  /// What is asked, while it is asked: a pattern stays alone on the screen.
+  void showPage() {
+    view_ = WizardView{};
+    view_.title = "Webcam";
+    view_.sentence = procedure_.sentence();
+    view_.message = {procedure_.answer(), WizardView{}.message.tone};
+    if (!procedure_.answer().empty()) view_.message.tone = Tone::reject;
+    view_.button = {"go on", procedure_.step() == WebcamStep::tips ? "take the last one again" : "", ""};
+    view_.progress = procedure_.progress();
+    view_.screen = run_.plan.rig.screen;
+    view_.left_eye = run_.plan.rig.left_eye;
+    view_.right_eye = run_.plan.rig.right_eye;
+    view_.target_kind = TargetKind::webcam_place;
+    if (const auto target = procedure_.target())
+      view_.targets = {{target->place_W, target->stylus_W, TargetState::next, std::to_string(target->id)}};
+    if (!screen_ || procedure_.wants() != WebcamWants::press) return;
+    const double t_s = std::chrono::duration<double>(Clock::now() - began_).count();
+    screen_->show([&](const render::StereoLayout& layout) {
+      return pages_.output(view_, source_ ? source_->seen() : std::nullopt, layout, t_s);
+    });
+  }
+
+  void tellNews() {
+    if (!sounds_ || procedure_.progress() == progress_) return;
+    sounds_->play(procedure_.wants() == WebcamWants::nothing ? WizardSound::done : WizardSound::ok);
+    progress_ = procedure_.progress();
+  }
+
+  const WebcamRun& run_;
+  WebcamProcedure procedure_;
+  WizardPages pages_;
+  std::optional<WebcamTechnician> technician_;
+  std::optional<Sounds> sounds_;
+  std::optional<WizardScreen> screen_;
+  std::unique_ptr<StylusSource> source_;
+  ButtonPress button_;
+  WizardView view_;
+  std::vector<StylusSample> samples_;
+  std::deque<StylusSample> recent_;
+  double progress_ = 0.0;
+  bool left_ = false;
+  Clock::time_point began_ = Clock::now();
+};
+
+}  // namespace
+
+std::optional<WebcamObservations> runWebcam(const WebcamRun& run) { return WebcamShow(run).run(); }
+
+}  // namespace app
