@@ -45,6 +45,21 @@ void putRezero(RigRecord& record, const TouchSet& touches, const Rezero& rezero,
   record.proof.reset();
 }
 
+void putWebcamFit(RigRecord& record, const WebcamFit& fit, const std::string& method, double duration_s) {
+  record.rig.arm = fit.arm.correction;
+  record.rig.X_WD = fit.arm.X_WD;
+  record.residuals = fit.residuals;
+  record.sigma = fit.sigma;
+  record.procedure = RigProcedure{
+      method, fit.model, fit.used, fit.outliers, fit.tilt_spread_deg, duration_s, fit.fre_rms_mm, fit.cv_rms_mm, {}};
+
+  // As widely as tips left out lie, and distributed as those that were fitted.
+  std::vector<Residual> left_out = fit.residuals;
+  const double fitted_mm = targetErrors(left_out).rms_mm;
+  for (Residual& one : left_out) one.error_mm.xyz *= fitted_mm > 0.0 ? fit.cv_rms_mm / fitted_mm : 1.0;
+  putProof(record, left_out, ProofKind::full);
+}
+
 void putProof(RigRecord& record, const std::vector<Residual>& held_out, ProofKind kind) {
   RigProof proof;
   proof.errors = targetErrors(held_out);

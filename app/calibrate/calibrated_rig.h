@@ -8,6 +8,7 @@
 #include "calibration/fit/arm_fit.h"
 #include "calibration/fit/rezero.h"
 #include "calibration/record/rig_record.h"
+#include "calibration/webcam/webcam_fit.h"
 
 namespace app {
 
@@ -25,6 +26,10 @@ void putFit(calibration::RigRecord& record, const calibration::TouchSet& touches
 /// The arm brought up to date. Tilts and cross-validation stay those of the calibration it comes of.
 void putRezero(calibration::RigRecord& record, const calibration::TouchSet& touches, const calibration::Rezero& rezero,
                double duration_s);
+/// The arm as a webcam measured it, proved by tips that were left out in turn: how far these lie off is known across
+/// the lines of sight, and taken up to three axes.
+void putWebcamFit(calibration::RigRecord& record, const calibration::WebcamFit& fit, const std::string& method,
+                  double duration_s);
 /// What touches it has not seen say of it.
 void putProof(calibration::RigRecord& record, const std::vector<calibration::Residual>& held_out,
               calibration::ProofKind kind);

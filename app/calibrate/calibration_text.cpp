@@ -64,6 +64,31 @@ std::string fitJson(const ArmFit& fit) {
   return json.dump(1) + "\n";
 }
 
+std::string webcamFitText(const WebcamFit& fit) {
+  std::string text = printed("%d tips used, %d set aside, from %d places up to %.0f degrees apart\n", fit.used,
+                             fit.outliers, static_cast<int>(fit.X_WC.size()), fit.base_deg);
+  text += printed("screen seen to %.2f px, tips to %.2f px; tips left out are foretold to %.2f mm\n", fit.screen_rms_px,
+                  fit.tip_rms_px, fit.cv_rms_mm);
+  for (const FitWarning& warning : fit.warnings) text += "note: " + warning.line + "\n";
+  return text;
+}
+
+std::string webcamFitJson(const WebcamFit& fit) {
+  ordered_json json;
+  json["model"] = nameOf(fit.model);
+  json["n_used"] = fit.used;
+  json["n_rejected"] = fit.outliers;
+  json["screen_rms_px"] = fit.screen_rms_px;
+  json["tip_rms_px"] = fit.tip_rms_px;
+  json["fre_rms_mm"] = fit.fre_rms_mm;
+  json["cv_rms_mm"] = fit.cv_rms_mm;
+  json["positions_apart_deg"] = fit.base_deg;
+  json["tilt_spread_deg"] = fit.tilt_spread_deg;
+  json["warnings"] = ordered_json::array();
+  for (const FitWarning& warning : fit.warnings) json["warnings"].push_back(warning.line);
+  return json.dump(1) + "\n";
+}
+
 std::string proofText(const TargetErrors& errors, const Judgement& judgement) {
   return printed("%s: %.2f mm RMS of %d touches, mean %.2f, 95 of 100 within %.2f, largest %.2f mm, bias %s mm; ",
                  std::string(nameOf(judgement.verdict)).c_str(), errors.rms_mm, errors.n, errors.mean_mm, errors.p95_mm,

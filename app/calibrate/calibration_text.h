@@ -8,12 +8,15 @@
 #include "calibration/fit/rezero.h"
 #include "calibration/record/rig_record.h"
 #include "calibration/verification/verdict.h"
+#include "calibration/webcam/webcam_fit.h"
 
 namespace app {
 
 /// Models compared, outliers by their ids, warnings, the one sentence.
 std::string fitText(const calibration::ArmFit& fit);
 std::string fitJson(const calibration::ArmFit& fit);
+std::string webcamFitText(const calibration::WebcamFit& fit);
+std::string webcamFitJson(const calibration::WebcamFit& fit);
 
 /// One line: verdict, numbers, which limit decided.
 std::string proofText(const calibration::TargetErrors& errors, const calibration::Judgement& judgement);

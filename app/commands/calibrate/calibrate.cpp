@@ -118,6 +118,7 @@ void addCalibrate(CLI::App& molar, Chosen& chosen) {
   addCalibrateFit(*calibrate, chosen);
   addCalibrateProofs(*calibrate, chosen);
   addCalibrateRezero(*calibrate, chosen);
+  addCalibrateReport(*calibrate, chosen);
   addCalibrateStore(*calibrate, chosen);
 }
 

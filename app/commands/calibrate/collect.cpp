@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/calibrate/calibration_text.h"
 #include "app/commands/calibrate/calibrate.h"
 #include "app/commands/number_range.h"
 #include "app/usage_error.h"
@@ -33,12 +34,39 @@ JigPose jigPose(const std::vector<double>& numbers) {
   return {{glm::dquat(turned), {numbers[0], numbers[1], numbers[2]}}};
 }
 
+void write(assets::OutputFile& file, const std::string& text) {
+  std::ofstream(file.temporaryPath()) << text;
+  file.commit();
+}
+
+int collectByWebcam(CollectOptions& options, assets::OutputFile* observations) {
+  const auto [before, seen] = options.wizard.look(options.rig, options.keep.rigs(), options.measuring);
+  if (!seen) {
+    std::fputs("molar: left before the end: nothing is changed\n", stderr);
+    return 1;
+  }
+  const std::string text = webcamFileText(*seen);
+  if (observations != nullptr) write(*observations, text);
+  const WebcamFit fit = fitWebcam(seen->sights);
+  RigRecord record = before;
+  record.rig.device = RigDevice{seen->sights.device_model, options.measuring.serial, options.measuring.mount,
+                                options.measuring.stylus_tip};
+  putWebcamFit(record, fit, options.method, 0.0);
+  stamp(record, before, options.measuring);
+  std::fputs(webcamFitText(fit).c_str(), stderr);
+  std::fputs(proofText(record.proof->errors, judge(record.proof->errors, record.proof->kind)).c_str(), stderr);
+  options.keep.note(record, DriftKind::calibration, record.proof->errors);
+  options.keep.keep(record, text);
+  return statusOf(record.proof->verdict);
+}
+
 int collect(const CollectOptions& asked) {
   CollectOptions options = asked;
   const bool rest = options.method == "rest";
-  if (!rest && !targetPlan(options.method))
+  const bool webcam = options.method == "webcam3";
+  if (!rest && !webcam && !targetPlan(options.method))
     throw UsageError("--method " + options.method +
-                     ": not a procedure, choose jig27, jig8, visual15, visual25 or rest; webcam3 with --camera");
+                     ": not a procedure, choose jig27, jig8, visual15, visual25, webcam3 or rest");
   if (rest && options.rest_marks.size() < 6)
     throw UsageError("--method rest: it needs six marks, three for the pose and three to prove it: --rest-mark x,y,z");
   for (const auto& mark : options.rest_marks) options.wizard.rest_marks_mm.emplace_back(mark[0], mark[1], mark[2]);
@@ -48,11 +76,11 @@ int collect(const CollectOptions& asked) {
   if (!options.observations.empty())
     observations = std::make_unique<assets::OutputFile>(options.observations, options.keep.force);
 
-  const WizardOption::Led led = options.wizard.run(rest ? Procedure::rest : Procedure::full, options.method,
-                                                   options.rig, options.keep.rigs(), options.measuring);
+  if (webcam) return collectByWebcam(options, observations.get());
+  const WizardOption::Led led = options.wizard.lead(rest ? Procedure::rest : Procedure::full, options.method,
+                                                    options.rig, options.keep.rigs(), options.measuring);
   if (observations && !led.outcome.touches.touches.empty()) {
-    std::ofstream(observations->temporaryPath()) << touchesText(led.outcome.touches);
-    observations->commit();
+    write(*observations, touchesText(led.outcome.touches));
   }
   return concluded(led, options.measuring, options.keep);
 }
@@ -64,10 +92,11 @@ void addCalibrateCollect(CLI::App& calibrate, Chosen& chosen) {
   CLI::App* command = calibrate.add_subcommand(
       "collect", "Lead a technician through a calibration at the workstation, by the stylus and its button alone");
   o->wizard.addTo(*command)->required();
+  o->wizard.addCameraTo(*command);
   command
-      ->add_option(
-          "--method", o->method,
-          "jig27 or jig8: a block with pits; visual15 or visual25: nothing but eyes; rest: where the hand rests")
+      ->add_option("--method", o->method,
+                   "jig27 or jig8: a block with pits; visual15 or visual25: nothing but eyes; webcam3: a webcam at "
+                   "three places; rest: where the hand rests")
       ->capture_default_str();
   command->add_option("--rig", o->rig, std::string(kBaseRigHelp) + " [the one in force of this device, else mirrored]");
   command->add_option("--jig", o->jig, "Where the block stands in W: x,y,z mm and its turns about x, y, z in degrees")

@@ -11,6 +11,7 @@
 #include "app/commands/number_range.h"
 #include "app/usage_error.h"
 #include "calibration/fit/touches_file.h"
+#include "calibration/webcam/webcam_file.h"
 
 namespace app {
 namespace {
@@ -41,8 +42,31 @@ Verdict foretold(const ArmFit& fit, ProofKind kind) {
   return judge(errors, kind).verdict;
 }
 
+/// What a webcam saw.
+int fitWebcamFile(const CalibrateFitOptions& options) {
+  const WebcamObservations observations = readWebcamFile(options.observations);
+  const RigRecord base = baseRig(options.rig);
+  Measuring measuring = options.measuring;
+  if (measuring.serial.empty()) measuring.serial = observations.serial;
+  if (!observations.mount.empty()) measuring.mount = observations.mount;
+  const WebcamFit fitted = fitWebcam(observations.sights, fitOptions(options).model.value_or(ArmModel::full));
+  RigRecord record = base;
+  record.rig.device =
+      RigDevice{observations.sights.device_model, measuring.serial, measuring.mount, measuring.stylus_tip};
+  putWebcamFit(record, fitted, "webcam" + std::to_string(fitted.X_WC.size()), 0.0);
+  if (!options.held_out.empty())
+    putProof(record, residualsOf(fitted.arm, readTouches(options.held_out).touches), ProofKind::full);
+  stamp(record, base, measuring);
+  std::fputs(webcamFitText(fitted).c_str(), stderr);
+  std::fputs(proofText(record.proof->errors, judge(record.proof->errors, ProofKind::full)).c_str(), stderr);
+  options.keep.keep(record, webcamFileText(observations));
+  if (options.json) std::fputs(webcamFitJson(fitted).c_str(), stdout);
+  return statusOf(record.proof->verdict);
+}
+
 int fit(const CalibrateFitOptions& options) {
   options.keep.refuseUnlessWritable();
+  if (isWebcamFile(options.observations)) return fitWebcamFile(options);
   const TouchSet touches = readTouches(options.observations);
   const RigRecord base = baseRig(options.rig);
   Measuring measuring = options.measuring;
@@ -72,7 +96,7 @@ int fit(const CalibrateFitOptions& options) {
 void addCalibrateFit(CLI::App& calibrate, Chosen& chosen) {
   auto o = std::make_shared<CalibrateFitOptions>();
   CLI::App* command = calibrate.add_subcommand("fit", "From touches to a rig file; exit 0 green, 1 amber or red");
-  command->add_option("OBSERVATIONS", o->observations, "Touches, YAML")->required();
+  command->add_option("OBSERVATIONS", o->observations, "Touches, or what a webcam saw; YAML")->required();
   command
       ->add_option("--model", o->model,
                    "rigid, joints (gains, offsets, tip; after Harders), full, or auto: by cross-validation")

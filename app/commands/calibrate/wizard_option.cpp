@@ -2,15 +2,19 @@
 
 #include <csignal>
 #include <cstdio>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
 #include "app/calibrate/base_rig.h"
+#include "app/calibrate/webcam_show.h"
 #include "app/calibrate/wizard_show.h"
-#include "app/device_choice.h"
 #include "app/practice_device.h"
 #include "app/rig_choice.h"
 #include "app/usage_error.h"
+#include "app/view_option.h"
+#include "calibration/webcam/camera_file.h"
+#include "calibration/webcam/webcam_source.h"
 
 namespace app {
 namespace {
@@ -21,12 +25,7 @@ volatile std::sig_atomic_t interrupted = 0;
 
 void tell(const std::string& line) { std::fprintf(stderr, "molar: %s\n", line.c_str()); }
 
-/// What is believed before: as named, else the one in force of this device, else as the workstation is built.
-RigRecord recordBefore(const std::string& rig, const RigStore& store, const RigPlace& place) {
-  if (!rig.empty()) return baseRig(rig);
-  if (auto current = store.current(place)) return *current;
-  return baseRig("mirrored");
-}
+RigPlace placeOf(const Measuring& measuring) { return {measuring.rig_id, measuring.serial, measuring.mount}; }
 
 }  // namespace
 
@@ -45,55 +44,118 @@ CLI::Option* WizardOption::addTo(CLI::App& command) {
   return device;
 }
 
-WizardOption::Led WizardOption::run(Procedure procedure, const std::string& method, const std::string& rig,
-                                    const RigStore& store, Measuring& measuring) const {
-  const auto practice = practiceRig(device_);
-  if (robot_ && !practice) throw UsageError("--robot: it holds a practice stylus only, use --device practice:D");
-  WizardRun run;
-  OpenedDevice opened;
+void WizardOption::addCameraTo(CLI::App& command) {
+  command.add_option("--camera", camera_, "Webcam for webcam3: its number or path [practice: a rendered one]");
+  command.add_option("--camera-size", camera_size_, "Size of its pictures")->type_name("WxH")->capture_default_str();
+  command.add_option("--lens", lens_, "Camera file of its lens [measured on the way]")->type_name("FILE");
+  command.add_flag("--gray-code", gray_code_, "Stripes instead of a chessboard on the screen");
+}
+
+WizardOption::Stylus WizardOption::stylus(Measuring& measuring) const {
+  for (const int asked : {SIGINT, SIGTERM, SIGHUP}) std::signal(asked, [](int) { interrupted = 1; });
+  Stylus stylus;
+  stylus.practice = practiceRig(device_);
   DeviceAtHand hand;
-  if (practice) {
+  if (stylus.practice) {
     hand = deviceAtHand(device_, nullptr);
-    run.practice = practice;
-    if (robot_) run.robot = TechnicianHabits{};
-    run.plan.settle_s = hurried_ ? 0.0 : run.plan.settle_s;
+  } else if (robot_) {
+    throw UsageError("--robot: it holds a practice stylus only, use --device practice:D");
   } else if (namesRealDevice(device_)) {
     DeviceOptions options;
     options.tell = tell;
     options.given_up = [] { return interrupted != 0; };
-    opened = openDevice(device_, options);
-    hand = deviceAtHand(device_, &opened.device->capabilities());
-    run.device = opened.device.get();
-    run.plan.has_inkwell = opened.device->capabilities().has_inkwell;
-    if (opened.device->capabilities().arm_model.empty())
-      throw UsageError("--device " + device_ + ": the geometry of a " + hand.model +
-                       " is not known, so its arm can not be calibrated; a Phantom or Touch can");
+    stylus.opened = openDevice(device_, options);
+    hand = deviceAtHand(device_, &stylus.opened.device->capabilities());
+    if (stylus.opened.device->capabilities().arm_model.empty())
+      throw UsageError("--device " + device_ + ": the arm of a " + hand.model +
+                       " is not known well enough to be calibrated; that of a Phantom or Touch is");
   } else {
     throw UsageError("--device " + device_ + ": it has no stylus to touch with, use openhaptics[:NAME] or practice:D");
   }
-
+  stylus.model = hand.model;
   if (measuring.serial.empty()) measuring.serial = hand.serial;
+  return stylus;
+}
+
+/// What is believed before: as named, else the one in force of this device, else as the workstation is built.
+RigRecord WizardOption::before(const Stylus& stylus, const std::string& rig, const RigStore& store,
+                               const Measuring& measuring) const {
+  RigRecord record;
+  if (!rig.empty()) {
+    record = baseRig(rig);
+  } else if (auto current = store.current(placeOf(measuring))) {
+    record = *std::move(current);
+  } else if (stylus.practice) {
+    record.rig = stylus.practice->nominal;
+  } else {
+    record = baseRig("mirrored");
+  }
+  display_.refuseUnlessFits(record.rig);
+  return record;
+}
+
+WizardOption::Led WizardOption::lead(Procedure procedure, const std::string& method, const std::string& rig,
+                                     const RigStore& store, Measuring& measuring) const {
+  const Stylus held = stylus(measuring);
+  WizardRun run;
   run.plan.procedure = procedure;
   run.plan.method = method;
   run.plan.jig = jig;
   run.plan.rest_marks_mm = rest_marks_mm;
-  run.plan.device = {hand.model, measuring.serial, measuring.mount, measuring.stylus_tip};
-  run.plan.record = practice && rig.empty() && !store.currentName({measuring.rig_id, measuring.serial, measuring.mount})
-                        ? RigRecord{.rig = practice->nominal}
-                        : recordBefore(rig, store, {measuring.rig_id, measuring.serial, measuring.mount});
+  run.plan.device = {held.model, measuring.serial, measuring.mount, measuring.stylus_tip};
+  run.plan.record = before(held, rig, store, measuring);
+  run.device = held.opened.device.get();
+  if (run.device != nullptr) run.plan.has_inkwell = run.device->capabilities().has_inkwell;
+  run.practice = held.practice;
+  if (robot_) run.robot = TechnicianHabits{};
+  if (hurried_) run.plan.settle_s = 0.0;
   run.hurried = hurried_;
   run.windows = !headless_;
   run.sounds = !quiet_ && !headless_;
   run.display = {display_.mode(), display_.swapped(), !windowed_,
                  monitor_ ? std::optional(*monitor_ - 1) : std::nullopt};
-  display_.refuseUnlessFits(run.plan.record.rig);
   run.pages = pages_;
   run.tell = tell;
-  for (const int asked : {SIGINT, SIGTERM, SIGHUP}) std::signal(asked, [](int) { interrupted = 1; });
   run.given_up = [] { return interrupted != 0; };
   Led led{run.plan, runWizard(run)};
   if (!led.outcome.reason.empty()) tell(led.outcome.reason);
   return led;
+}
+
+WizardOption::Seen WizardOption::look(const std::string& rig, const RigStore& store, Measuring& measuring) const {
+  const Stylus held = stylus(measuring);
+  Seen seen;
+  seen.before = before(held, rig, store, measuring);
+  WebcamRun run;
+  run.plan.rig = seen.before.rig;
+  run.plan.places = *targetPlan("webcam27");
+  if (!lens_.empty()) run.plan.lens = readCamera(lens_).camera;
+  run.plan.gray_code = gray_code_;
+  run.plan.device_model = held.model;
+  run.plan.serial = measuring.serial;
+  run.plan.mount = measuring.mount;
+  const glm::ivec2 size_px = pictureSize(camera_size_);
+  OpenWebcam webcam;
+  if (!camera_.empty()) {
+    WebcamWanted wanted;
+    wanted.device = camera_;
+    wanted.size_px = size_px;
+    webcam = openPictures(wanted);
+    if (!webcam.remarks.empty()) tell(webcam.pictures->name() + ": " + webcam.remarks);
+    run.pictures = webcam.pictures.get();
+  }
+  run.device = held.opened.device.get();
+  run.practice = held.practice;
+  run.practice_px = size_px;
+  run.robot = robot_;
+  run.windows = !headless_;
+  run.sounds = !quiet_ && !headless_;
+  run.display = {display_.mode(), display_.swapped(), !windowed_,
+                 monitor_ ? std::optional(*monitor_ - 1) : std::nullopt};
+  run.tell = tell;
+  run.given_up = [] { return interrupted != 0; };
+  seen.observations = runWebcam(run);
+  return seen;
 }
 
 }  // namespace app

@@ -1,14 +1,18 @@
-// Which stylus, display and base rig a technician is led with, as people name them, and the wizard run with it. For
-// collect, and for check and rezero with a device instead of a file. Start-up and main thread.
+// Which stylus, display, webcam and base rig a technician is led with, as people name them, and the wizard run with it.
+// For collect, and for check and rezero with a device instead of a file. Start-up and main thread.
 #pragma once
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/calibrate/calibrated_rig.h"
 #include "app/calibrate/wizard_outcome.h"
+#include "app/device_choice.h"
 #include "app/display_option.h"
 #include "calibration/record/rig_store.h"
+#include "calibration/synthetic/synthetic_rig.h"
+#include "calibration/webcam/webcam_file.h"
 
 namespace CLI {
 class App;
@@ -21,26 +25,44 @@ class WizardOption {
  public:
   /// Adds --device and everything that goes with it; returns --device.
   CLI::Option* addTo(CLI::App& command);
+  /// Adds --camera and what goes with it.
+  void addCameraTo(CLI::App& command);
 
   bool isGiven() const { return !device_.empty(); }
-  /// Leads through it. `rig`: named by the user, or empty: the current one of this device in the store, else the
-  /// mirrored workstation. Fills `measuring` with what the device says of itself. Throws as runWizard and
-  /// readRigRecord.
+
   struct Led {
     WizardPlan plan;
     WizardOutcome outcome;
   };
-  Led run(Procedure procedure, const std::string& method, const std::string& rig, const calibration::RigStore& store,
-          Measuring& measuring) const;
+  /// Leads through touches. `rig`: named by the user, or empty: the current one of this device in the store, else the
+  /// mirrored workstation. Fills `measuring` with what the device says of itself. Throws as runWizard, readRigRecord.
+  Led lead(Procedure procedure, const std::string& method, const std::string& rig, const calibration::RigStore& store,
+           Measuring& measuring) const;
+
+  struct Seen {
+    calibration::RigRecord before;
+    std::optional<calibration::WebcamObservations> observations;  ///< none: somebody left
+  };
+  /// The same through a webcam.
+  Seen look(const std::string& rig, const calibration::RigStore& store, Measuring& measuring) const;
 
   calibration::JigPose jig;
   std::vector<glm::dvec3> rest_marks_mm;
 
  private:
-  std::string device_, pages_;
+  struct Stylus {
+    OpenedDevice opened;  ///< not started; no device: practice
+    std::optional<calibration::SyntheticRig> practice;
+    std::string model;  ///< key of phantom_models
+  };
+  Stylus stylus(Measuring& measuring) const;
+  calibration::RigRecord before(const Stylus& stylus, const std::string& rig, const calibration::RigStore& store,
+                                const Measuring& measuring) const;
+
+  std::string device_, pages_, camera_, lens_, camera_size_ = "1920x1080";
   DisplayOption display_;
   std::optional<int> monitor_;
-  bool robot_ = false, hurried_ = false, headless_ = false, windowed_ = false, quiet_ = false;
+  bool robot_ = false, hurried_ = false, headless_ = false, windowed_ = false, quiet_ = false, gray_code_ = false;
 };
 
 }  // namespace app

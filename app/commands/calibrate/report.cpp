@@ -1,0 +1,44 @@
+// `molar calibrate report`: one page that stands alone, for whoever signs.
+
+#include <ctime>
+#include <fstream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/calibrate/base_rig.h"
+#include "app/calibrate/report/calibration_report.h"
+#include "app/commands/calibrate/calibrate.h"
+#include "assets/output_file.h"
+#include "calibration/record/utc.h"
+
+namespace app {
+namespace {
+
+struct ReportOptions {
+  std::string rig;
+  KeepOption keep;
+};
+
+int report(const ReportOptions& options) {
+  assets::OutputFile file(options.keep.out, options.keep.force);
+  const calibration::RigRecord record = baseRig(options.rig);
+  const auto history = calibration::readHistory(options.keep.rigs().historyPath(options.keep.placeOf(record)));
+  std::ofstream(file.temporaryPath()) << reportHtml(record, history, calibration::utcOf(std::time(nullptr)));
+  file.commit();
+  return 0;
+}
+
+}  // namespace
+
+void addCalibrateReport(CLI::App& calibrate, Chosen& chosen) {
+  auto o = std::make_shared<ReportOptions>();
+  CLI::App* command = calibrate.add_subcommand("report", "A calibration as one HTML page: how good, where, since when");
+  command->add_option("RIG", o->rig, kBaseRigHelp)->required();
+  command->add_option("--out,--html", o->keep.out, "Page to write, .html")->type_name("FILE")->required();
+  command->add_option("--store", o->keep.store, "Folder of the store, for the history")->type_name("DIR");
+  command->add_flag("--force", o->keep.force, "Replace a file that exists");
+  command->callback([o, &chosen] { chosen.action = [o] { return report(*o); }; });
+}
+
+}  // namespace app
