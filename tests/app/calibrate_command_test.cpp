@@ -129,7 +129,7 @@ TEST_F(CalibrateCommand, RefusesBadInputAndLeavesWhatIsInForce) {
   write("edited.yaml", edited);
   expectRefusal("calibrate verify " + at("edited.yaml") + " " + at("obs_held.yaml"), "edited");
   simulate("--seed 8", "other");
-  expectRefusal("calibrate verify " + at("rig.yaml") + " " + at("other_held.yaml"), "practice-D-8");
+  expectRefusal("calibrate verify " + at("rig.yaml") + " " + at("other_held.yaml"), "SIM-D8");
   expectRefusal("calibrate fit " + at("obs.yaml") + " --out " + at("rig.yaml"), "rig.yaml");
   expectRefusal("calibrate simulate --scenario H --out " + at("x.yaml"));
   expectRefusal("calibrate simulate --method jig9 --out " + at("x.yaml"), "jig9");

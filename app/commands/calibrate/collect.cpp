@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/calibrate/base_rig.h"
 #include "app/calibrate/calibration_text.h"
 #include "app/commands/calibrate/calibrate.h"
 #include "app/commands/number_range.h"

@@ -49,8 +49,8 @@ int simulate(const SimulateOptions& options) {
   if (options.drift_deg > 0.0 || options.drift_mm > 0.0)
     rig = drifted(rig, options.drift_deg, options.drift_mm, chance);
   TouchSet touches = touchedAll(rig, *plan, chance);
-  touches.serial = "practice-" + options.scenario + "-" + std::to_string(options.seed);
-  touches.mount = "right";
+  touches.serial = rig.nominal.device->serial;
+  touches.mount = rig.nominal.device->mount;
   touches.method = plan->method;
   if (held_out) {
     TouchSet judges = touches;
