@@ -102,7 +102,7 @@ TEST(WizardPages, ACrossOfTheScreensPlaneHasNoDisparityAndAPitBeforeItHas) {
   WizardView view = viewThrough(rig);
   view.target_kind = calibration::TargetKind::cross;
   view.zero_parallax = true;
-  view.targets.push_back({{{20.0, 10.0, 0.0}}, {{0.0, 0.0, 1.0}}, TargetState::next, "1"});
+  view.targets.push_back({{{20.0, 10.0, 3.0}}, {{0.0, 0.0, 1.0}}, TargetState::next, "1"});
   EXPECT_EQ(pages.page(view, std::nullopt, Eye::left, kPx, 0.0).rgba,
             pages.page(view, std::nullopt, Eye::right, kPx, 0.0).rgba);
   view.target_kind = calibration::TargetKind::pit;

@@ -4,6 +4,9 @@
 
 #include <unistd.h>
 
+#include <atomic>
+#include <cmath>
+
 #include "app/calibrate/page_album.h"
 #include "app/calibrate/stylus_source.h"
 #include "app/usage_error.h"
@@ -120,6 +123,75 @@ TEST(DeviceSource, RefusesADeviceThatDoesNotTellItsJoints) {
         usleep(1000);
       },
       UsageError);
+}
+
+/// Ticks for a while and then never again, until it may go.
+class HangingDevice final : public haptics::PacedDevice {
+ public:
+  ~HangingDevice() override { stop(); }
+  const haptics::DeviceCapabilities& capabilities() const override { return capabilities_; }
+  std::atomic<bool> hangs{false};
+
+ protected:
+  haptics::HandleState sense(double) noexcept override {
+    while (hangs) usleep(1000);
+    haptics::HandleState state;
+    state.has_joints = true;
+    return state;
+  }
+  void drive(const haptics::MotorCommand&) noexcept override {}
+
+ private:
+  haptics::DeviceCapabilities capabilities_;
+};
+
+/// Calls it until `holds`, for at most 20 s.
+template <class Holds>
+std::vector<StylusSample> taken(StylusSource& source, Holds holds) {
+  std::vector<StylusSample> samples;
+  for (int n = 0; n < 20'000 && (samples.empty() || !holds(samples.back())); ++n) {
+    source.takeInto(samples, {});
+    usleep(1000);
+  }
+  return samples;
+}
+
+TEST(DeviceSource, TellsOfSilenceAndBringsEverythingInTheOrderOfTime) {
+  HangingDevice device;
+  DeviceSource source(device);
+  std::vector<StylusSample> samples = taken(source, [](const StylusSample& s) { return s.believable; });
+  device.hangs = true;
+  const std::vector<StylusSample> silent = taken(source, [](const StylusSample& s) { return !s.believable; });
+  device.hangs = false;
+  const std::vector<StylusSample> back = taken(source, [](const StylusSample& s) { return s.believable; });
+  ASSERT_FALSE(silent.empty() || back.empty());
+  EXPECT_FALSE(silent.back().believable);
+  EXPECT_TRUE(back.back().believable);
+  samples.insert(samples.end(), silent.begin(), silent.end());
+  samples.insert(samples.end(), back.begin(), back.end());
+  for (std::size_t n = 1; n < samples.size(); ++n) EXPECT_GT(samples[n].t_s, samples[n - 1].t_s);
+}
+
+TEST(PracticeSource, IsBelievedOnceItsKeyHasPutItIntoTheInkwell) {
+  PracticeSource source(calibration::syntheticRig(Scenario::D, 7));
+  std::vector<StylusSample> samples;
+  for (int n = 0; n < 20; ++n) {
+    source.takeInto(samples, {});
+    usleep(1000);
+  }
+  for (const StylusSample& sample : samples) EXPECT_FALSE(sample.believable);
+  source.take(render::KeyPressed{.key = render::keyOf('H'), .down = true}, {0.25, 0.0, 0.0}, {0.0, 0.25, 0.0});
+  const StylusSample docked = taken(source, [](const StylusSample& s) { return s.docked; }).back();
+  EXPECT_TRUE(docked.docked && docked.believable);
+  EXPECT_TRUE(source.seen());
+}
+
+TEST(RobotSource, HurriedBringsTwentyMillisecondsACall) {
+  RobotSource source(calibration::syntheticRig(Scenario::D, 7), {}, true);
+  std::vector<StylusSample> samples;
+  for (int n = 0; n < 5; ++n) source.takeInto(samples, {});
+  ASSERT_EQ(samples.size(), 100u);
+  EXPECT_NEAR(samples.back().t_s, 0.1, 1e-9);
 }
 
 }  // namespace
