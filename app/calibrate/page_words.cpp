@@ -179,7 +179,7 @@ void drawVerdict(const Sheet& sheet, const ShownVerdict& shown, double middle) {
 
 void drawNumbers(const Sheet& sheet, const std::vector<ShownNumber>& numbers) {
   // Between the sentence and the help; closer together where there are many.
-  const double top = -104.0, room = 196.0;
+  const double top = -89.0, room = 198.0;
   const double row = std::min(kLine + 3.0, room / static_cast<double>(numbers.size()));
   double y = top;
   for (const ShownNumber& number : numbers) {
