@@ -20,7 +20,7 @@ using calibration::GreyPicture;
 /// Views of the lens must differ by this share of the picture's width at some corner.
 constexpr double kNewView = 0.06;
 /// Tips are found to about this, one sigma an axis: hand, exposure and shading of the ball together.
-constexpr double kTipNoise_px = 0.5, kBoardNoise_px = 0.25;
+constexpr double kTipNoise_px = 0.3, kBoardNoise_px = 0.25;
 constexpr double kFlat_mm = 0.01;  ///< of the virtual screen: W lies in it
 
 GreyPicture plain(const glm::ivec2& size_px) {

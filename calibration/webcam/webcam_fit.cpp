@@ -21,7 +21,7 @@ constexpr double kRigidMismatch_mm = 0.9, kLeastMismatch_mm = 0.02, kMostMismatc
 constexpr double kWild = 4.5;  ///< sigmas of both axes together: an outlier
 constexpr int kRounds = 4;
 constexpr std::size_t kFolds = 5;
-constexpr double kLeastOfForetold = 0.1;  ///< of the squares: noise was said too large, or hides the arm
+constexpr double kLeastOfForetold = 0.3;  ///< of the squares: noise was said too large, or hides the arm
 
 [[noreturn]] void refuse(const std::string& what, const std::string& mend) {
   throw CalibrationError("webcam: " + what + ", " + mend);

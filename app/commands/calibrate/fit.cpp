@@ -1,5 +1,6 @@
 // `molar calibrate fit`: from touches to a rig file.
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -40,6 +41,14 @@ Verdict foretold(const ArmFit& fit, ProofKind kind) {
   errors.mean_mm = errors.rms_mm = fit.cv_rms_mm;
   errors.bias_mm = fit.bias_mm;
   return judge(errors, kind).verdict;
+}
+
+/// What no number of the fit shows: it may be good where it was measured alone.
+bool isDoubtful(const ArmFit& fit) {
+  using Kind = FitWarning::Kind;
+  return std::ranges::any_of(fit.warnings, [](const FitWarning& warning) {
+    return warning.kind == Kind::mirrored || warning.kind == Kind::little_tilt || warning.kind == Kind::many_outliers;
+  });
 }
 
 /// What a webcam saw.
@@ -88,6 +97,7 @@ int fit(const CalibrateFitOptions& options) {
   std::fputs(proof_text.c_str(), stderr);
   options.keep.keep(record, touchesText(touches));
   if (options.json) std::fputs(fitJson(fitted).c_str(), stdout);
+  if (isDoubtful(fitted)) return 1;
   return statusOf(record.proof ? record.proof->verdict : foretold(fitted, kind));
 }
 
