@@ -114,6 +114,9 @@ void Wizard::feel(const StylusSample& sample) {
 }
 
 void Wizard::turnTo(std::size_t page) {
+  // What was said on this page is still to be read on the next one, what was said before it is not.
+  if (book_.voice.message.text == said_before_) book_.voice.message = {};
+  said_before_ = book_.voice.message.text;
   at_ = page;
   step().begin();
 }

@@ -35,6 +35,7 @@ class Wizard {
   WizardBook book_;
   std::vector<std::pair<StepName, std::unique_ptr<WizardStep>>> steps_;
   std::size_t at_ = 0;
+  std::string said_before_;  ///< the message with which this page began
   ButtonPress button_;
   bool lost_ = false;
   std::optional<double> believed_s_;  ///< when the device could last be believed

@@ -19,6 +19,8 @@ using Clock = std::chrono::steady_clock;
 
 /// Between two pictures; the ticks in between are not lost.
 constexpr auto kFrame = std::chrono::milliseconds(25);
+/// The same for a robot in a hurry, which is not held up by the display.
+constexpr auto kHurriedFrame = std::chrono::milliseconds(250);
 /// How long the last page stands.
 constexpr auto kLastPage = std::chrono::milliseconds(2500);
 
@@ -89,7 +91,10 @@ class WizardShow {
     const auto draw = [&](const render::StereoLayout& layout) {
       return pages_.output(view_, source_->seen(), layout, t_s);
     };
-    if (screen_) screen_->show(draw);
+    if (screen_ && (!run_.hurried || Clock::now() - shown_ > kHurriedFrame)) {
+      screen_->show(draw);
+      shown_ = Clock::now();
+    }
     if (album_)
       album_->keep(view_, [&] {
         return draw({.mode = run_.display.mode, .screen_px = view_.screen.px, .swapped = run_.display.swapped});
@@ -106,7 +111,7 @@ class WizardShow {
   WizardView view_;
   std::vector<StylusSample> samples_;
   bool left_ = false;
-  Clock::time_point began_ = Clock::now();
+  Clock::time_point began_ = Clock::now(), shown_;
 };
 
 }  // namespace

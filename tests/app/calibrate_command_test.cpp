@@ -107,6 +107,36 @@ TEST_F(CalibrateCommand, SaysWhatDiffersAndReportsOnOnePage) {
   EXPECT_FALSE(std::regex_search(page, std::regex("(src|href)=\"http"))) << "it must stand alone";
 }
 
+TEST_F(CalibrateCommand, LeadsThroughAllOfItAndTheRehearsalWorksWithIt) {
+  const std::string store = " --store " + at("store");
+  const std::string robot = " --device practice:D:7 --robot --hurried --headless --keep" + store;
+  const Said said = molar("calibrate collect" + robot + " --observations " + at("touches.yaml"));
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_FALSE(current("store").empty());
+  EXPECT_NE(read("touches.yaml").find("jig27"), std::string::npos);
+  const Said check = molar("calibrate check" + robot);
+  EXPECT_EQ(check.status, 0) << check.err;
+
+  const Said rehearsed = molar("rehearse --headless --device practice:D:7 --seconds 0.3 --voxel 0.6 --rig-store " +
+                               at("store") + " --record " + at("s.molar"));
+  EXPECT_EQ(rehearsed.status, 0) << rehearsed.err;
+  EXPECT_NE(rehearsed.out.find("calibration      green"), std::string::npos) << rehearsed.out;
+  const auto metrics = nlohmann::json::parse(molar("metrics " + at("s.molar") + " --json").out);
+  EXPECT_EQ(metrics["calibration"]["device_serial"], "SIM-D7");
+  EXPECT_EQ(metrics["calibration"]["verdict"], "green");
+
+  // Another unit is not this one.
+  expectRefusal("rehearse --headless --device practice:D:8 --rig current --rig-store " + at("store"), "SIM-D8");
+}
+
+TEST_F(CalibrateCommand, LeadsNobodyWithoutAStylusOrWithANonsense) {
+  for (const char* wrong :
+       {"collect --device mouse", "collect --device practice:Z", "collect --device simulated:omni",
+        "collect --device practice:D --headless", "collect --device practice:D --robot --headless --method jig9",
+        "collect --device practice:D --robot --headless --method rest", "check", "rezero"})
+    expectRefusal(std::string("calibrate ") + wrong);
+}
+
 TEST_F(CalibrateCommand, RefusesBadInputAndLeavesWhatIsInForce) {
   simulate();
   const std::string good = read("obs.yaml");

@@ -107,7 +107,10 @@ WizardOption::Led WizardOption::lead(Procedure procedure, const std::string& met
   run.device = held.opened.device.get();
   if (run.device != nullptr) run.plan.has_inkwell = run.device->capabilities().has_inkwell;
   run.practice = held.practice;
-  if (robot_) run.robot = TechnicianHabits{};
+  if (robot_) {
+    run.robot = TechnicianHabits{};
+    run.practice->habits.outlier_share = 0.0;
+  }
   if (hurried_) run.plan.settle_s = 0.0;
   run.hurried = hurried_;
   run.windows = !headless_;
