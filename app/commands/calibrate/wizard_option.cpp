@@ -90,6 +90,7 @@ RigRecord WizardOption::before(const Stylus& stylus, const std::string& rig, con
   } else {
     record = baseRig("mirrored");
   }
+  if (record.provenance.rig_id.empty()) record.provenance.rig_id = measuring.rig_id;
   display_.refuseUnlessFits(record.rig);
   return record;
 }
