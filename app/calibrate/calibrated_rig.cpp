@@ -65,7 +65,8 @@ void putWebcamFit(RigRecord& record, const WebcamFit& fit, const std::string& me
   // As widely as tips left out lie and what leaves no trace in them, distributed as those that were fitted.
   std::vector<Residual> left_out = fit.residuals;
   const double fitted_mm = targetErrors(left_out).rms_mm;
-  for (Residual& one : left_out) one.error_mm.xyz *= fitted_mm > 0.0 ? std::hypot(fit.cv_rms_mm, kUnseen_mm) / fitted_mm : 1.0;
+  for (Residual& one : left_out)
+    one.error_mm.xyz *= fitted_mm > 0.0 ? std::hypot(fit.cv_rms_mm, kUnseen_mm) / fitted_mm : 1.0;
   putProof(record, left_out, ProofKind::full);
 }
 

@@ -7,10 +7,10 @@
 #include <gtest/gtest.h>
 
 #include "app/calibrate/webcam_procedure.h"
+#include "app/calibrate/webcam_technician.h"
 #include "calibration/synthetic/synthetic_rig.h"
 #include "calibration/webcam/ring_check.h"
 #include "calibration/webcam/webcam_fit.h"
-#include "app/calibrate/webcam_technician.h"
 
 namespace app {
 namespace {

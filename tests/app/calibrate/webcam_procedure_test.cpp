@@ -5,9 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "app/calibrate/webcam_technician.h"
 #include "calibration/synthetic/synthetic_rig.h"
 #include "calibration/webcam/flip_check.h"
-#include "app/calibrate/webcam_technician.h"
 
 namespace app {
 namespace {
