@@ -54,6 +54,13 @@ void putRezero(RigRecord& record, const TouchSet& touches, const Rezero& rezero,
   record.proof.reset();
 }
 
+void putPivot(RigRecord& record, const MeasuredArm& arm, const Pivot& pivot, const std::string& name) {
+  record.rig.arm = arm.correction;
+  record.rig.arm->tip_H_mm = pivot.tip_H_mm;
+  if (record.rig.device && !name.empty()) record.rig.device->stylus_tip = name;
+  record.proof.reset();
+}
+
 void putWebcamFit(RigRecord& record, const WebcamFit& fit, const std::string& method, double duration_s) {
   record.rig.arm = fit.arm.correction;
   record.rig.X_WD = fit.arm.X_WD;

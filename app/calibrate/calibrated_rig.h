@@ -6,6 +6,7 @@
 #include <string>
 
 #include "calibration/fit/arm_fit.h"
+#include "calibration/fit/pivot.h"
 #include "calibration/fit/rezero.h"
 #include "calibration/record/rig_record.h"
 #include "calibration/webcam/webcam_fit.h"
@@ -26,6 +27,9 @@ void putFit(calibration::RigRecord& record, const calibration::TouchSet& touches
 /// The arm brought up to date. Tilts and cross-validation stay those of the calibration it comes of.
 void putRezero(calibration::RigRecord& record, const calibration::TouchSet& touches, const calibration::Rezero& rezero,
                double duration_s);
+/// Another bur in its handle, as `arm` measured it; `name`: which, where it was said. Nothing is proved any more.
+void putPivot(calibration::RigRecord& record, const calibration::MeasuredArm& arm, const calibration::Pivot& pivot,
+              const std::string& name);
 /// The arm as a webcam measured it, proved by tips that were left out in turn: how far these lie off is known across
 /// the lines of sight, and taken up to three axes.
 void putWebcamFit(calibration::RigRecord& record, const calibration::WebcamFit& fit, const std::string& method,

@@ -119,6 +119,24 @@ std::string rezeroText(const Rezero& rezero) {
          (rezero.outliers > 0 ? printed("; %d touches set aside", rezero.outliers) : std::string()) + "\n";
 }
 
+std::string pivotText(const Pivot& pivot, const glm::dvec3& before_H_mm) {
+  return "tip in the handle " + listOf(pivot.tip_H_mm) +
+         printed(" mm, %.2f mm from where it was believed\n", glm::distance(pivot.tip_H_mm, before_H_mm)) +
+         printed(
+             "known to %.2f mm, one sigma; the tip wandered in its pit by %.2f mm RMS, the handle was swung over %.0f "
+             "degrees\n",
+             pivot.sigma_mm, pivot.rms_mm, pivot.tilt_spread_deg);
+}
+
+std::string pivotJson(const Pivot& pivot) {
+  ordered_json json;
+  json["tip_H_mm"] = numbersOf(pivot.tip_H_mm);
+  json["rms_mm"] = pivot.rms_mm;
+  json["sigma_mm"] = pivot.sigma_mm;
+  json["tilt_spread_deg"] = pivot.tilt_spread_deg;
+  return json.dump(1) + "\n";
+}
+
 std::string recordLine(const RigRecord& record) {
   std::string line = record.provenance.created_utc.empty() ? "undated" : record.provenance.created_utc;
   if (record.procedure)

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "calibration/fit/arm_fit.h"
+#include "calibration/fit/pivot.h"
 #include "calibration/fit/rezero.h"
 #include "calibration/record/rig_record.h"
 #include "calibration/verification/verdict.h"
@@ -24,6 +25,11 @@ std::string proofText(const calibration::TargetErrors& errors, const calibration
 std::string proofJson(const calibration::TargetErrors& errors, const calibration::Judgement& judgement);
 
 std::string rezeroText(const calibration::Rezero& rezero);
+
+/// `before_H_mm`: the tip as it was believed.
+std::string pivotText(const calibration::Pivot& pivot, const glm::dvec3& before_H_mm);
+/// {"tip_H_mm","rms_mm","sigma_mm","tilt_spread_deg"}
+std::string pivotJson(const calibration::Pivot& pivot);
 
 /// A line of a store's list: when, how, how good.
 std::string recordLine(const calibration::RigRecord& record);

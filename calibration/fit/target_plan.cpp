@@ -16,6 +16,7 @@ constexpr glm::dvec3 kPlacesHalf_mm{60.0, 42.0, 30.0};
 
 constexpr double kMostTilt_deg = 25.0;  ///< an axis
 constexpr int kFirstProofId = 101;
+constexpr int kSwings = 12;
 
 /// The shortest turn that takes z there.
 glm::dquat turnOfZ(const glm::dvec3& there) {
@@ -95,6 +96,24 @@ constexpr std::array<Hold, 16> kBetween = {{{{-0.5, -0.5, -0.5}, -14, 22},
                                             {{-0.5, -0.5, 0.5}, -10, -20},
                                             {{-0.5, -0.5, 0.5}, 22, 6}}};
 
+/// One pit, the handle swung about it: all around at the most tilt, and at half of it between.
+std::vector<Target> swung(const Pose<World, Board>& X_WB) {
+  std::vector<Target> targets;
+  for (int i = 0; i < kSwings; ++i) {
+    const double round = 2.0 * kPi * i / kSwings, most_deg = i % 3 == 2 ? 0.5 * kMostTilt_deg : kMostTilt_deg;
+    targets.push_back({i + 1, X_WB * Point<Board>{}, tilted(most_deg * std::cos(round), most_deg * std::sin(round))});
+  }
+  return targets;
+}
+
+/// Every place between the pits once.
+std::vector<Target> rings() {
+  std::vector<Target> targets;
+  for (const Target& target : held(kBetween, 0, {}))
+    if (target.id % 2 == 0) targets.push_back({target.id / 2 + 1, target.place_W, target.stylus_W});
+  return targets;
+}
+
 /// Four corners that are no neighbours, and the middle.
 constexpr std::array<Hold, 5> kRezero = {
     {{{-1, -1, -1}, -20, 10}, {{1, 1, -1}, 15, -20}, {{0, 0, 0}, 0, 0}, {{-1, 1, 1}, 20, 20}, {{1, -1, 1}, -15, -15}}};
@@ -106,7 +125,11 @@ constexpr std::array<Hold, 4> kCheck = {
 }  // namespace
 
 std::optional<TargetPlan> targetPlan(std::string_view method, const JigPose& jig) {
-  TargetPlan plan{.method = std::string(method), .kind = TargetKind::pit, .precision = kPitPrecision, .targets = {}};
+  TargetPlan plan{.method = std::string(method),
+                  .kind = TargetKind::pit,
+                  .precision = kPitPrecision,
+                  .targets = {},
+                  .one_pit = false};
   const Pose<World, Board> upright;
   if (method == "jig27") {
     plan.targets = grid({3, 3, 3}, kJigHalf_mm, jig.X_WB);
@@ -118,6 +141,12 @@ std::optional<TargetPlan> targetPlan(std::string_view method, const JigPose& jig
     plan.targets = held(kCheck, kFirstProofId, jig.X_WB);
   } else if (method == "verify8") {
     plan.targets = held(kBetween, kFirstProofId, jig.X_WB);
+  } else if (method == "pivot12") {
+    plan.targets = swung(jig.X_WB);
+    plan.one_pit = true;
+  } else if (method == "ring8") {
+    plan.kind = TargetKind::webcam_place;
+    plan.targets = rings();
   } else if (method == "visual15" || method == "visual25") {
     plan.kind = TargetKind::cross;
     plan.precision = kCrossPrecision;

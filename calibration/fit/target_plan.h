@@ -29,6 +29,7 @@ struct TargetPlan {
   TargetKind kind = TargetKind::pit;
   TouchPrecision precision;
   std::vector<Target> targets;
+  bool one_pit = false;  ///< all targets are the same place, held in many ways: it can not be moved
 };
 
 /// The block with pits: 3 x 3 x 3 of 130 x 90 x 65 mm, frame B in its middle; the verification pits lie between them.
@@ -37,7 +38,8 @@ struct JigPose {
 };
 
 /// "jig27", "jig8", "visual15", "visual25", "webcam27" (places for each camera position), "rezero5", "check4",
-/// "verify8" (8 places not in any fit, two new tilts each: 16 touches). None for another name.
+/// "verify8" (8 places not in any fit, two new tilts each: 16 touches), "pivot12" (one pit, twelve tilts), "ring8" (the
+/// places of verify8 before the screen, one tilt each). None for another name.
 std::optional<TargetPlan> targetPlan(std::string_view method, const JigPose& jig = {});
 
 /// A turn of the handle about H's axes that holds the stylus in this direction; the roll as little as may be.

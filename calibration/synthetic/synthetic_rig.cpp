@@ -166,7 +166,7 @@ TouchSet touchedAll(const SyntheticRig& rig, const TargetPlan& plan, std::mt1993
   for (Target target : plan.targets) {
     auto touch = touched(rig, target, chance);
     for (int n = 0; !touch && n < kTries; ++n) {
-      target.place_W.mm += gaussianVector(chance, kOtherHold_mm) - 0.1 * target.place_W.mm;
+      if (!plan.one_pit) target.place_W.mm += gaussianVector(chance, kOtherHold_mm) - 0.1 * target.place_W.mm;
       touch = touched(rig, target, chance);
     }
     if (touch) set.touches.push_back(*touch);

@@ -46,7 +46,8 @@ SyntheticRig syntheticRig(Scenario scenario, std::uint32_t seed);
 
 /// One touch of a target; none where the arm does not reach it so.
 std::optional<Touch> touched(const SyntheticRig& rig, const Target& target, std::mt19937& chance);
-/// A whole procedure; targets out of reach are moved a little, as a technician would find another hold.
+/// A whole procedure; targets out of reach are moved a little, as a technician would find another hold, a pit that
+/// stays where it is excepted.
 TouchSet touchedAll(const SyntheticRig& rig, const TargetPlan& plan, std::mt19937& chance);
 /// `n` touches without noise of place, anywhere in ±`half_mm` about the origin, stylus tilted at random up to 29°
 /// about each axis: what a calibration is judged by.

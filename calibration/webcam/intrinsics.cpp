@@ -14,7 +14,7 @@
 namespace calibration {
 namespace {
 
-constexpr std::size_t kLeastViews = 8, kLeastPairs = 3, kLeastSlanted = 3;
+constexpr std::size_t kLeastPairs = 3, kLeastSlanted = 3;
 constexpr double kLeastSlant_deg = 15.0, kLeastCovered = 0.5, kMostRms_px = 1.5;
 constexpr glm::ivec2 kFields{6, 4};
 constexpr double kWildOfMedian = 2.5, kWild_px = 0.5;  ///< a view beyond both does not fit the others

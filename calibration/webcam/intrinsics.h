@@ -18,6 +18,8 @@ struct BoardView {
   std::vector<glm::dvec2> corners_px;
 };
 
+inline constexpr std::size_t kLeastViews = 8;
+
 struct Intrinsics {
   CameraModel camera;
   double rms_px = 0.0;                ///< over the views used

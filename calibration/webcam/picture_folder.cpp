@@ -33,33 +33,37 @@ std::tuple<std::size_t, std::string, std::string> orderOf(const fs::path& path) 
 
 class PictureFolder final : public PictureSource {
  public:
-  explicit PictureFolder(std::string path) : path_(std::move(path)) {
-    std::error_code error;
-    for (fs::directory_iterator entry(path_, error), end; !error && entry != end; entry.increment(error)) {
-      if (isPicture(entry->path()) && entry->is_regular_file(error)) files_.push_back(entry->path());
-      if (files_.size() > kMostFiles)
-        throw CalibrationError(name() + ": more than 10,000 pictures, give another folder");
-    }
-    if (error) throw CalibrationError(name() + ": it can not be read, check the path");
-    if (files_.empty()) throw CalibrationError(name() + ": no PNG or JPEG in it, check the path");
-    std::ranges::sort(files_, {}, orderOf);
-  }
+  explicit PictureFolder(std::string path) : path_(std::move(path)), files_(picturesIn(path_)) {}
 
   GreyPicture take() override {
     if (next_ == files_.size())
       throw CalibrationError(name() + ": its " + std::to_string(next_) +
                              " pictures are used up, add those that follow");
-    return readGreyPicture(files_[next_++].string());
+    return readGreyPicture(files_[next_++]);
   }
   std::string name() const override { return "folder " + path_; }
 
  private:
   std::string path_;
-  std::vector<fs::path> files_;
+  std::vector<std::string> files_;
   std::size_t next_ = 0;
 };
 
 }  // namespace
+
+std::vector<std::string> picturesIn(const std::string& folder) {
+  const std::string name = "folder " + folder;
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    if (isPicture(entry->path()) && entry->is_regular_file(error)) files.push_back(entry->path());
+    if (files.size() > kMostFiles) throw CalibrationError(name + ": more than 10,000 pictures, give another folder");
+  }
+  if (error) throw CalibrationError(name + ": it can not be read, check the path");
+  if (files.empty()) throw CalibrationError(name + ": no PNG or JPEG in it, check the path");
+  std::ranges::sort(files, {}, orderOf);
+  return {files.begin(), files.end()};
+}
 
 std::unique_ptr<PictureSource> pictureFolder(const std::string& path) { return std::make_unique<PictureFolder>(path); }
 

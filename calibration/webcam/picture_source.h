@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "calibration/calibration_error.h"
 #include "calibration/webcam/camera.h"
@@ -21,8 +22,11 @@ class PictureSource {
   virtual std::string name() const = 0;  ///< for people: "webcam /dev/video0"
 };
 
-/// A folder's PNG and JPEG files, by the last number in their names; one a call, then an error. Throws
-/// CalibrationError: no folder, no pictures in it, more than 10,000.
+/// Paths of a folder's PNG and JPEG files, by the last number in their names. Throws CalibrationError: no folder, no
+/// pictures in it, more than 10,000.
+std::vector<std::string> picturesIn(const std::string& folder);
+
+/// These pictures, one a call, then an error. Throws as picturesIn.
 std::unique_ptr<PictureSource> pictureFolder(const std::string& path);
 
 /// Whatever makes pictures.

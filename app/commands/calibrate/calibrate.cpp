@@ -118,6 +118,8 @@ void addCalibrate(CLI::App& molar, Chosen& chosen) {
   addCalibrateFit(*calibrate, chosen);
   addCalibrateProofs(*calibrate, chosen);
   addCalibrateRezero(*calibrate, chosen);
+  addCalibratePivot(*calibrate, chosen);
+  addCalibrateLens(*calibrate, chosen);
   addCalibrateReport(*calibrate, chosen);
   addCalibrateStore(*calibrate, chosen);
 }

@@ -18,6 +18,8 @@ void addCalibrateCollect(CLI::App& calibrate, Chosen& chosen);
 void addCalibrateFit(CLI::App& calibrate, Chosen& chosen);
 void addCalibrateProofs(CLI::App& calibrate, Chosen& chosen);  ///< verify, check
 void addCalibrateRezero(CLI::App& calibrate, Chosen& chosen);
+void addCalibratePivot(CLI::App& calibrate, Chosen& chosen);
+void addCalibrateLens(CLI::App& calibrate, Chosen& chosen);
 void addCalibrateReport(CLI::App& calibrate, Chosen& chosen);
 void addCalibrateStore(CLI::App& calibrate, Chosen& chosen);  ///< list, diff, rollback
 

@@ -65,7 +65,8 @@ int collect(const CollectOptions& asked) {
   CollectOptions options = asked;
   const bool rest = options.method == "rest";
   const bool webcam = options.method == "webcam3";
-  if (!rest && !webcam && !targetPlan(options.method))
+  const bool touches = options.method.starts_with("jig") || options.method.starts_with("visual");
+  if (!rest && !webcam && !(touches && targetPlan(options.method)))
     throw UsageError("--method " + options.method +
                      ": not a procedure, choose jig27, jig8, visual15, visual25, webcam3 or rest");
   if (rest && options.rest_marks.size() < 6)

@@ -25,6 +25,7 @@ struct SimulateOptions {
   std::uint32_t seed = 1;
   int held_out_n = 16;
   double outliers = 0.0, drift_deg = 0.0, drift_mm = 0.0;
+  std::vector<double> bur_mm{0.0, 0.0, 0.0};
   bool force = false;
 };
 
@@ -37,7 +38,7 @@ int simulate(const SimulateOptions& options) {
   const auto plan = targetPlan(options.method);
   if (!plan)
     throw UsageError("--method " + options.method +
-                     ": not a procedure, choose jig27, jig8, visual15, visual25, rezero5, check4 or verify8");
+                     ": not a procedure, choose jig27, jig8, visual15, visual25, rezero5, check4, verify8 or pivot12");
   assets::OutputFile out(options.out, options.force);
   std::unique_ptr<assets::OutputFile> held_out, rig_out;
   if (!options.held_out.empty()) held_out = std::make_unique<assets::OutputFile>(options.held_out, options.force);
@@ -48,6 +49,7 @@ int simulate(const SimulateOptions& options) {
   std::mt19937 chance(options.seed);
   if (options.drift_deg > 0.0 || options.drift_mm > 0.0)
     rig = drifted(rig, options.drift_deg, options.drift_mm, chance);
+  rig.arm.truth.tip_H_mm += glm::dvec3(options.bur_mm[0], options.bur_mm[1], options.bur_mm[2]);
   TouchSet touches = touchedAll(rig, *plan, chance);
   touches.serial = rig.nominal.device->serial;
   touches.mount = rig.nominal.device->mount;
@@ -76,7 +78,9 @@ void addCalibrateSimulate(CLI::App& calibrate, Chosen& chosen) {
       ->check(CLI::IsMember({"A", "B", "C", "D", "E", "F", "G"}))
       ->capture_default_str();
   command->add_option("--seed", o->seed, "Which unit")->capture_default_str();
-  command->add_option("--method", o->method, "Procedure: jig27, jig8, visual15, visual25, rezero5, check4, verify8")
+  command
+      ->add_option("--method", o->method,
+                   "Procedure: jig27, jig8, visual15, visual25, rezero5, check4, verify8; pivot12: a bur in one pit")
       ->capture_default_str();
   command->add_option("--outliers", o->outliers, "Share of touches that are off by 5 to 20 mm")
       ->check(numberRange(0.0, 0.5))
@@ -85,6 +89,11 @@ void addCalibrateSimulate(CLI::App& calibrate, Chosen& chosen) {
       ->check(numberRange(0.0, 5.0));
   command->add_option("--drift-mm", o->drift_mm, "How far its base was pushed since, one sigma an axis, mm")
       ->check(numberRange(0.0, 50.0));
+  command
+      ->add_option("--bur-mm", o->bur_mm, "How far the tip of the bur now in it is from the former one, x,y,z in H, mm")
+      ->delimiter(',')
+      ->expected(3)
+      ->check(numberRange(-100.0, 100.0));
   command->add_option("--out", o->out, "Observations to write, YAML")->type_name("FILE")->required();
   command->add_option("--held-out", o->held_out, "Touches to judge by, with tilts of their own, YAML")
       ->type_name("FILE");

@@ -9,8 +9,8 @@
 namespace calibration {
 namespace {
 
-constexpr const char* kMethods[] = {"jig27",    "jig8",    "visual15", "visual25",
-                                    "webcam27", "rezero5", "check4",   "verify8"};
+constexpr const char* kMethods[] = {"jig27",   "jig8",   "visual15", "visual25", "webcam27",
+                                    "rezero5", "check4", "verify8",  "pivot12"};
 
 TargetPlan planned(const char* method) { return targetPlan(method).value(); }
 
@@ -27,6 +27,8 @@ TEST(TargetPlan, HasAsManyTargetsAsItsNameSays) {
   EXPECT_EQ(targetPlan("rezero5")->targets.size(), 5u);
   EXPECT_EQ(targetPlan("check4")->targets.size(), 4u);
   EXPECT_EQ(targetPlan("verify8")->targets.size(), 16u);
+  EXPECT_EQ(targetPlan("pivot12")->targets.size(), 12u);
+  EXPECT_EQ(targetPlan("ring8")->targets.size(), 8u);
   EXPECT_FALSE(targetPlan("jig28"));
   EXPECT_FALSE(targetPlan(""));
 }

@@ -128,7 +128,7 @@ TEST(SyntheticRig, IsAsFarOffWithoutCalibrationAsWasSimulatedBefore) {
 
 TEST(SyntheticRig, ReachesItsTargetsAsTheyAre) {
   int moved = 0, all = 0;
-  for (const char* method : {"jig27", "jig8", "visual25", "webcam27", "rezero5", "check4", "verify8"})
+  for (const char* method : {"jig27", "jig8", "visual25", "webcam27", "rezero5", "check4", "verify8", "pivot12"})
     for (std::uint32_t seed = 1; seed <= 60; ++seed) {
       const SyntheticRig rig = syntheticRig(Scenario::D, seed);
       std::mt19937 chance(seed);

@@ -1,0 +1,146 @@
+// `molar calibrate lens`: a camera's lens from pictures of a chessboard.
+
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/calibrate/lens_text.h"
+#include "app/commands/calibrate/calibrate.h"
+#include "app/commands/number_range.h"
+#include "app/usage_error.h"
+#include "app/view_option.h"
+#include "assets/output_file.h"
+#include "calibration/record/utc.h"
+#include "calibration/webcam/board.h"
+#include "calibration/webcam/camera_file.h"
+#include "calibration/webcam/picture_reader.h"
+#include "calibration/webcam/picture_source.h"
+
+namespace app {
+namespace {
+
+using namespace calibration;
+
+struct LensOptions {
+  std::string folder, out, board, screen = "1920x1080", name, serial;
+  double square_mm = 25.0;
+  bool force = false, json = false;
+};
+
+/// "9x6": inner corners across and down.
+glm::ivec2 cornersNamed(const std::string& text) {
+  int across = 0, down = 0, end = 0;
+  const bool read = std::sscanf(text.c_str(), "%3dx%3d%n", &across, &down, &end) == 2;
+  if (!read || static_cast<std::size_t>(end) != text.size() || across < 3 || down < 3 || across > 60 || down > 60)
+    throw UsageError("--board " + text + ": not the inner corners of a chessboard, write 9x6, 3 to 60 each");
+  return {across, down};
+}
+
+/// The board in the pictures: a plain one by its corners, or the one that our own screen shows.
+class WantedBoard {
+ public:
+  explicit WantedBoard(const LensOptions& options) {
+    if (options.board.empty()) {
+      own_ = boardFor(pictureSize(options.screen));
+      places_mm_ = own_->cornerPlaces_px();  // a lens does not know the board's size
+      return;
+    }
+    corners_ = cornersNamed(options.board);
+    for (int y = 0; y < corners_.y; ++y)
+      for (int x = 0; x < corners_.x; ++x) places_mm_.push_back(options.square_mm * glm::dvec2(x, y));
+  }
+  BoardSighting in(const GreyPicture& picture) const {
+    return own_ ? findBoard(picture, *own_) : findChessboard(picture, corners_);
+  }
+  const std::vector<glm::dvec2>& places_mm() const { return places_mm_; }
+
+ private:
+  std::optional<ShownBoard> own_;
+  glm::ivec2 corners_{0};
+  std::vector<glm::dvec2> places_mm_;
+};
+
+std::string pixels(const glm::ivec2& size_px) {
+  return std::to_string(size_px.x) + " x " + std::to_string(size_px.y) + " px";
+}
+
+struct Views {
+  glm::ivec2 size_px{0};
+  std::vector<BoardView> usable;
+  std::vector<std::string> refused;  ///< "left12.jpg: the picture is blurred …"
+};
+
+Views viewsIn(const LensOptions& options, const WantedBoard& board) {
+  Views views;
+  for (const std::string& path : picturesIn(options.folder)) {
+    const std::string name = std::filesystem::path(path).filename().string();
+    const GreyPicture picture = readGreyPicture(path);
+    if (views.size_px == glm::ivec2(0)) views.size_px = picture.size_px;
+    if (picture.size_px != views.size_px)
+      throw CalibrationError(path + ": it is " + pixels(picture.size_px) + ", those before " + pixels(views.size_px) +
+                             ", give the pictures of one camera at one size");
+    BoardSighting sighting = board.in(picture);
+    if (sighting.trouble)
+      views.refused.push_back(name + ": " + sighting.line);
+    else
+      views.usable.push_back({name, std::move(sighting.corners_px)});
+  }
+  return views;
+}
+
+int lens(const LensOptions& options) {
+  std::unique_ptr<assets::OutputFile> out;
+  const WantedBoard board(options);
+  if (!options.out.empty()) out = std::make_unique<assets::OutputFile>(options.out, options.force);
+  const Views views = viewsIn(options, board);
+  // What is wrong with the pictures says more than that they are too few.
+  if (views.usable.size() < kLeastViews && !views.refused.empty())
+    throw CalibrationError("folder " + options.folder + ": " + std::to_string(views.usable.size()) + " of " +
+                           std::to_string(views.usable.size() + views.refused.size()) +
+                           " pictures can be used, at least " + std::to_string(kLeastViews) + " are needed; " +
+                           views.refused.front());
+  const Intrinsics fitted = fitIntrinsics(views.size_px, board.places_mm(), views.usable);
+  std::fputs(lensText(fitted, views.refused).c_str(), stderr);
+  if (out) {
+    CameraRecord record;
+    record.camera = fitted.camera;
+    record.name = options.name;
+    record.serial = options.serial;
+    record.measured_utc = utcOf(std::time(nullptr));
+    record.rms_px = fitted.rms_px;
+    record.views = static_cast<int>(views.usable.size() - fitted.left_out.size());
+    std::ofstream(out->temporaryPath()) << cameraText(record);
+    out->commit();
+  }
+  if (options.json) std::fputs(lensJson(fitted, views.refused).c_str(), stdout);
+  return statusOf(verdictOfLens(fitted));
+}
+
+}  // namespace
+
+void addCalibrateLens(CLI::App& calibrate, Chosen& chosen) {
+  auto o = std::make_shared<LensOptions>();
+  CLI::App* command = calibrate.add_subcommand(
+      "lens", "A camera's lens from 12 to 15 pictures of a chessboard; exit 0 green (0.3 px), 1 amber (0.6 px) or red");
+  command->add_option("PICTURES", o->folder, "Folder of PNG or JPEG")->required();
+  command->add_option("--board", o->board, "Inner corners of a plain chessboard, 9x6 [the board that our screen shows]")
+      ->type_name("CxR");
+  command->add_option("--square-mm", o->square_mm, "Side of its squares; the lens does not depend on it")
+      ->check(numberRange(0.1, 1000.0))
+      ->capture_default_str();
+  command->add_option("--screen", o->screen, "Size of the screen that shows our board")
+      ->type_name("WxH")
+      ->capture_default_str();
+  command->add_option("--out", o->out, "Camera file to write, YAML; what --lens takes")->type_name("FILE");
+  command->add_option("--name", o->name, "Which camera it is, for people");
+  command->add_option("--serial", o->serial, "Its serial number");
+  command->add_flag("--force", o->force, "Replace a file that exists");
+  command->add_flag("--json", o->json, "The lens as JSON on standard output");
+  command->callback([o, &chosen] { chosen.action = [o] { return lens(*o); }; });
+}
+
+}  // namespace app
