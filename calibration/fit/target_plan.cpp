@@ -96,11 +96,11 @@ constexpr std::array<Hold, 16> kBetween = {{{{-0.5, -0.5, -0.5}, -14, 22},
                                             {{-0.5, -0.5, 0.5}, -10, -20},
                                             {{-0.5, -0.5, 0.5}, 22, 6}}};
 
-/// One pit, the handle swung about it: all around at the most tilt, and at half of it between.
+/// One pit, the handle swung about it: all around in steps of 150 degrees, at the most tilt, every third at half of it.
 std::vector<Target> swung(const Pose<World, Board>& X_WB) {
   std::vector<Target> targets;
   for (int i = 0; i < kSwings; ++i) {
-    const double round = 2.0 * kPi * i / kSwings, most_deg = i % 3 == 2 ? 0.5 * kMostTilt_deg : kMostTilt_deg;
+    const double round = 2.0 * kPi * 5 * i / kSwings, most_deg = i % 3 == 2 ? 0.5 * kMostTilt_deg : kMostTilt_deg;
     targets.push_back({i + 1, X_WB * Point<Board>{}, tilted(most_deg * std::cos(round), most_deg * std::sin(round))});
   }
   return targets;
