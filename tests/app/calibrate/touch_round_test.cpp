@@ -184,6 +184,19 @@ TEST(TouchRound, TellsProgressAndTimeLeftFromTheMedianOfTheTouches) {
   EXPECT_EQ(view.targets[4].state, TargetState::pending);
 }
 
+TEST(TouchRound, CountsATouchThatIsMadeAgainOnce) {
+  Bench bench;
+  bench.touch(bench.plan.targets[0]);
+  bench.touch(bench.plan.targets[1]);
+  bench.round.again(0);
+  WizardView view;
+  bench.round.show(view);
+  EXPECT_EQ(view.count, "1 of 27");
+  EXPECT_EQ(view.targets[0].state, TargetState::next);
+  EXPECT_EQ(bench.touch(bench.plan.targets[0]), std::vector{Happened::taken}) << bench.voice.message.text;
+  EXPECT_EQ(bench.count(), 2u);
+}
+
 TEST(TouchRound, AsksForOneTouchAgainAfterASilence) {
   Bench bench;
   bench.touch(bench.plan.targets[0]);

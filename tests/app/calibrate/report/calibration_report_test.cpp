@@ -55,6 +55,20 @@ TEST(CalibrationReport, HoldsTheRecordsFigures) {
     EXPECT_THAT(html, HasSubstr(origin));
 }
 
+TEST(CalibrationReport, SaysOfEachFigureHowItStands) {
+  RigRecord record = exampleRecord();
+  const calibration::ProofLimit limit = calibration::limitsOf(record.proof->kind).max;
+  const auto largestIs = [&](double mm) {
+    record.proof->errors.max_mm = mm;
+    const std::string html = page(record);
+    const std::size_t row = html.find("&emsp;largest");
+    return html.substr(row, html.find("</tr>", row) - row);
+  };
+  EXPECT_THAT(largestIs(limit.green_mm - 0.01), HasSubstr("green</span>"));
+  EXPECT_THAT(largestIs(limit.green_mm + 0.01), HasSubstr("amber</span>"));
+  EXPECT_THAT(largestIs(limit.amber_mm + 0.01), HasSubstr("red</span>"));
+}
+
 TEST(CalibrationReport, IsOneWholePageWithNothingFromElsewhere) {
   const std::string html = page(exampleRecord());
   EXPECT_EQ(whatIsWrongWith(html), "");

@@ -6,6 +6,7 @@
 #include "app/calibrate/report/error_map_view.h"
 #include "app/calibrate/report/history_view.h"
 #include "app/calibrate/report/residual_views.h"
+#include "app/calibrate/report/svg.h"
 #include "tests/app/calibrate/report/example_record.h"
 #include "tests/app/calibrate/report/markup.h"
 
@@ -93,6 +94,14 @@ TEST(HistoryView, HasNoLimitsBeforeThereAreEnoughChecks) {
   EXPECT_THAT(historyView(history, calibration::reviewOf(history), DriftQuantity::rms), Not(HasSubstr("mean ")));
   history = exampleHistory();
   EXPECT_THAT(historyView(history, calibration::reviewOf(history), DriftQuantity::rms), HasSubstr("mean "));
+}
+
+TEST(HistoryView, WritesTheLimitThatItDraws) {
+  const auto history = exampleHistory();
+  const auto review = calibration::reviewOf(history);
+  const auto& limits = review.limits[static_cast<std::size_t>(DriftQuantity::rms)];
+  ASSERT_TRUE(limits);
+  EXPECT_THAT(historyView(history, review, DriftQuantity::rms), HasSubstr("+3\u03c3 " + fixedText(limits->at(3.0), 2)));
 }
 
 }  // namespace
