@@ -141,6 +141,22 @@ void checkTouches(const TouchSet& set) {
   if (extent.spread_mm[1] < kNarrow_mm) refuse("all targets lie on a line, touch some to the sides of it");
 }
 
+void checkUnseen(const TouchSet& fitted, const TouchSet& proof) {
+  const auto mustAgree = [](const std::string& what, const std::string& a, const std::string& b) {
+    if (!a.empty() && !b.empty() && a != b)
+      refuse("they were made with " + what + " '" + a + "', those to prove them by with '" + b +
+             "', give touches of one device");
+  };
+  mustAgree("device model", fitted.device_model, proof.device_model);
+  mustAgree("serial", fitted.serial, proof.serial);
+  mustAgree("mount", fitted.mount, proof.mount);
+  for (const Touch& one : proof.touches)
+    for (const Touch& seen : fitted.touches)
+      if (one.used && seen.used && sameAngles(one.joints_rad, seen.joints_rad))
+        refuse("touch " + std::to_string(one.id) + " of the proof is touch " + std::to_string(seen.id) +
+               " of the fit, which proves nothing, touch other places");
+}
+
 double pairSpread_deg(const std::vector<glm::dvec3>& directions) {
   std::vector<double> angles;
   for (std::size_t a = 0; a < directions.size(); ++a)

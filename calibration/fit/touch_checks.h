@@ -15,6 +15,10 @@ namespace calibration {
 /// are not finite, the same touch twice, fewer than four, targets all on a line or in one place.
 void checkTouches(const TouchSet& set);
 
+/// Touches prove a fit only if they are of the same device and it has not seen them. Throws CalibrationError, one line
+/// that names what differs (what is not known of one is not compared) or the touch.
+void checkUnseen(const TouchSet& fitted, const TouchSet& proof);
+
 /// How differently the stylus was held, as an angle that 95 of 100 pairs of its directions are within: the smaller of
 /// that in the room, which tells of the tip, and that against the forearm, which tells of the gimbal.
 double tiltSpread_deg(const PhantomGeometry& geometry, const std::vector<Touch>& touches,

@@ -161,8 +161,33 @@ TEST_F(CalibrateCommand, RefusesBadInputAndLeavesWhatIsInForce) {
   simulate("--seed 8", "other");
   expectRefusal("calibrate verify " + at("rig.yaml") + " " + at("other_held.yaml"), "SIM-D8");
   expectRefusal("calibrate fit " + at("obs.yaml") + " --out " + at("rig.yaml"), "rig.yaml");
+  expectRefusal(
+      "calibrate fit " + at("obs.yaml") + " --keep --store " + at("store") + " --held-out " + at("other_held.yaml"),
+      "SIM-D8");
+  expectRefusal("calibrate fit " + at("obs.yaml") + store + " --serial SIM-D8", "SIM-D7");
+
+  // Touches that the fit has seen prove nothing.
+  expectRefusal("calibrate fit " + at("obs.yaml") + " --keep --store " + at("store") + " --held-out " + at("obs.yaml"),
+                "proves nothing");
+  expectRefusal("calibrate verify " + at("rig.yaml") + " " + at("obs.yaml"), "proves nothing");
   expectRefusal("calibrate simulate --scenario H --out " + at("x.yaml"));
   expectRefusal("calibrate simulate --method jig9 --out " + at("x.yaml"), "jig9");
+  EXPECT_EQ(current("store"), in_force);
+}
+
+TEST_F(CalibrateCommand, ListsWhatIsKeptThoughItIsNotKnownWhatIsInForce) {
+  simulate();
+  const std::string store = " --store " + at("store");
+  ASSERT_EQ(molar("calibrate fit " + at("obs.yaml") + " --held-out " + at("obs_held.yaml") + " --keep" + store).status,
+            0);
+  const std::string in_force = current("store");
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(at("store")))
+    if (entry.path().filename() == "current") std::ofstream(entry.path()) << "banana\n";
+  const Said said = molar("calibrate list" + store);
+  EXPECT_EQ(said.status, 0) << said.err;
+  EXPECT_NE(said.out.find(in_force), std::string::npos) << said.out;
+  EXPECT_NE(said.err.find("names no rig"), std::string::npos) << said.err;
+  EXPECT_EQ(molar("calibrate rollback" + store).status, 0);
   EXPECT_EQ(current("store"), in_force);
 }
 

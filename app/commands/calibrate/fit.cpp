@@ -11,6 +11,7 @@
 #include "app/commands/calibrate/calibrate.h"
 #include "app/commands/number_range.h"
 #include "app/usage_error.h"
+#include "calibration/fit/touch_checks.h"
 #include "calibration/fit/touches_file.h"
 #include "calibration/webcam/webcam_file.h"
 
@@ -51,20 +52,39 @@ bool isDoubtful(const ArmFit& fit) {
   });
 }
 
+/// The serial that is given must be that of the unit that was measured.
+std::string serialOf(const std::string& given, const std::string& measured) {
+  if (!given.empty() && !measured.empty() && given != measured)
+    throw UsageError("--serial " + given + ": the observations were made with '" + measured + "', leave it out");
+  return given.empty() ? measured : given;
+}
+
+/// Of the same device, and not seen by the fit.
+std::vector<Residual> heldOut(const std::string& path, const MeasuredArm& arm, const TouchSet& fitted) {
+  const TouchSet proof = readTouches(path);
+  checkUnseen(fitted, proof);
+  return residualsOf(arm, proof.touches);
+}
+
 /// What a webcam saw.
 int fitWebcamFile(const CalibrateFitOptions& options) {
   const WebcamObservations observations = readWebcamFile(options.observations);
   const RigRecord base = baseRig(options.rig);
   Measuring measuring = options.measuring;
-  if (measuring.serial.empty()) measuring.serial = observations.serial;
+  measuring.serial = serialOf(measuring.serial, observations.serial);
   if (!observations.mount.empty()) measuring.mount = observations.mount;
   const WebcamFit fitted = fitWebcam(observations.sights, fitOptions(options).model.value_or(ArmModel::full));
   RigRecord record = base;
   record.rig.device =
       RigDevice{observations.sights.device_model, measuring.serial, measuring.mount, measuring.stylus_tip};
   putWebcamFit(record, fitted, "webcam" + std::to_string(fitted.X_WC.size()), 0.0);
-  if (!options.held_out.empty())
-    putProof(record, residualsOf(fitted.arm, readTouches(options.held_out).touches), ProofKind::full);
+  if (!options.held_out.empty()) {
+    TouchSet device;
+    device.device_model = observations.sights.device_model;
+    device.serial = measuring.serial;
+    device.mount = measuring.mount;
+    putProof(record, heldOut(options.held_out, fitted.arm, device), ProofKind::full);
+  }
   stamp(record, base, measuring);
   std::fputs(webcamFitText(fitted).c_str(), stderr);
   std::fputs(proofText(record.proof->errors, judge(record.proof->errors, ProofKind::full)).c_str(), stderr);
@@ -79,7 +99,7 @@ int fit(const CalibrateFitOptions& options) {
   const TouchSet touches = readTouches(options.observations);
   const RigRecord base = baseRig(options.rig);
   Measuring measuring = options.measuring;
-  if (measuring.serial.empty()) measuring.serial = touches.serial;
+  measuring.serial = serialOf(measuring.serial, touches.serial);
   if (!touches.mount.empty()) measuring.mount = touches.mount;
 
   const ArmFit fitted = fitArm(touches, fitOptions(options));
@@ -89,7 +109,7 @@ int fit(const CalibrateFitOptions& options) {
   const ProofKind kind = proofKindOf(touches.method);
   std::string proof_text;
   if (!options.held_out.empty()) {
-    putProof(record, residualsOf(fitted.arm, readTouches(options.held_out).touches), kind);
+    putProof(record, heldOut(options.held_out, fitted.arm, touches), kind);
     proof_text = proofText(record.proof->errors, judge(record.proof->errors, kind));
   }
   stamp(record, base, measuring);

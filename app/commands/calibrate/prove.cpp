@@ -31,6 +31,17 @@ int checkWithDevice(const ProveOptions& asked) {
   return concluded(led, options.measuring, options.keep);
 }
 
+/// A touch it was fitted to leaves the very same error at the very same place.
+void refuseSeen(const RigRecord& record, const std::vector<Residual>& residuals, const std::string& path) {
+  constexpr double kSame_mm = 1e-6;
+  for (const Residual& one : residuals)
+    for (const Residual& seen : record.residuals)
+      if (one.used && seen.used && glm::distance(one.target_W.mm, seen.target_W.mm) < kSame_mm &&
+          glm::distance(one.error_mm.xyz, seen.error_mm.xyz) < kSame_mm)
+        throw UsageError(path + ": touch " + std::to_string(one.id) +
+                         " is one that the rig was fitted to, which proves nothing, touch other places");
+}
+
 int prove(const ProveOptions& options) {
   if (options.wizard.isGiven()) return checkWithDevice(options);
   if (options.rig.empty() || options.observations.empty())
@@ -44,6 +55,7 @@ int prove(const ProveOptions& options) {
                          : record.procedure    ? proofKindOf(record.procedure->method)
                                                : ProofKind::full;
   const auto residuals = residualsOf(arm, touches.touches);
+  refuseSeen(record, residuals, options.observations);
   const TargetErrors errors = targetErrors(residuals);
   const Judgement judgement = judge(errors, kind);
 

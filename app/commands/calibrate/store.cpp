@@ -39,11 +39,21 @@ RigPlace placeMeant(const StoreOptions& options) {
   return fits.front();
 }
 
+/// A spoilt pointer is said, and hides nothing of what is kept.
+std::optional<std::string> inForceOrSaid(const RigStore& rigs, const RigPlace& place) {
+  try {
+    return rigs.currentName(place);
+  } catch (const CalibrationError& error) {
+    std::fprintf(stderr, "molar: %s\n", error.what());
+    return std::nullopt;
+  }
+}
+
 int list(const StoreOptions& options) {
   const RigStore rigs = options.rigs();
   for (const RigPlace& place : rigs.places()) {
     std::printf("%s\n", textOf(place).c_str());
-    const auto current = rigs.currentName(place);
+    const auto current = inForceOrSaid(rigs, place);
     for (const std::string& name : rigs.names(place)) {
       std::string line;
       try {

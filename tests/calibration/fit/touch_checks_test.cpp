@@ -51,6 +51,28 @@ TEST(TouchChecks, NameTheTouchThatWasTakenTwice) {
   EXPECT_EQ(refusal(set), "accepted") << "what was set aside does not count";
 }
 
+TEST(TouchChecks, RefuseAProofByTouchesOfTheFitOrOfAnotherDevice) {
+  const auto refusalOf = [](const TouchSet& proof) -> std::string {
+    TouchSet fitted = fiveTouches();
+    fitted.serial = "7";
+    try {
+      checkUnseen(fitted, proof);
+    } catch (const CalibrationError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  TouchSet proof = fiveTouches();
+  for (Touch& touch : proof.touches) touch.joints_rad[3] += 0.2;
+  EXPECT_EQ(refusalOf(proof), "accepted") << "the same places, touched anew";
+  proof.touches[3].joints_rad = fiveTouches().touches[1].joints_rad;
+  EXPECT_THAT(refusalOf(proof), HasSubstr("touch 4 of the proof is touch 2 of the fit"));
+  proof.touches[3].used = false;
+  EXPECT_EQ(refusalOf(proof), "accepted");
+  proof.serial = "8";
+  EXPECT_THAT(refusalOf(proof), HasSubstr("serial '7', those to prove them by with '8'"));
+}
+
 TEST(TouchChecks, RefuseTooFewALineAndOnePlace) {
   TouchSet set = fiveTouches();
   set.touches.resize(3);
