@@ -8,8 +8,8 @@ cmake_minimum_required(VERSION 3.25)
 set(calibration calibration/)
 set(calibration/geometry calibration/geometry/)
 set(calibration/arm calibration/geometry/ calibration/arm/)
-set(calibration_words calibration/geometry/ calibration/arm/ calibration/rig.h calibration/calibration_error.h
-    calibration/checked_yaml.h calibration/picture_file.h)
+set(calibration_words calibration/geometry/ calibration/arm/ calibration/rig.h calibration/virtual_screen.h calibration/median.h
+    calibration/calibration_error.h calibration/checked_yaml.h calibration/picture_file.h)
 set(calibration/fit ${calibration_words} calibration/fit/)
 set(calibration/webcam ${calibration_words} calibration/fit/ calibration/webcam/)
 set(calibration/verification ${calibration_words} calibration/fit/ calibration/verification/)
@@ -23,9 +23,9 @@ set(tests ${app} tests/)
 # Inside haptics and render a sub-folder names what it may see; the folder itself sees all of its own. Latest, by which
 # values cross threads, and the plain words of render lie beside their sub-folders for all.
 set(haptics ${assets} haptics/)
-set(haptics/device ${assets} haptics/latest.h haptics/wrench.h haptics/motor_command.h haptics/device/)
-set(haptics/safety ${assets} haptics/latest.h haptics/wrench.h haptics/motor_command.h haptics/device/ haptics/safety/)
-set(haptics/loop ${assets} haptics/latest.h haptics/wrench.h haptics/motor_command.h haptics/device/ haptics/safety/ haptics/loop/)
+set(haptics/device ${assets} haptics/latest.h haptics/hand_over_log.h haptics/wrench.h haptics/motor_command.h haptics/device/)
+set(haptics/safety ${assets} haptics/latest.h haptics/hand_over_log.h haptics/wrench.h haptics/motor_command.h haptics/device/ haptics/safety/)
+set(haptics/loop ${assets} haptics/latest.h haptics/hand_over_log.h haptics/wrench.h haptics/motor_command.h haptics/device/ haptics/safety/ haptics/loop/)
 set(haptics/bone ${assets} haptics/bone/ haptics/tool/)
 set(haptics/tool ${assets} haptics/bone/ haptics/tool/)
 set(haptics/contact ${assets} haptics/bone/ haptics/tool/ haptics/contact/)
