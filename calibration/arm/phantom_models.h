@@ -1,7 +1,7 @@
 // The Phantoms whose geometry is public: link lengths, where D stands, limits. Sources, reference/devices 4.1:
-//   Omni/Touch   l1 = l2 = 133.35 mm (5.25 in) from the literature; shoulder (0, 23.35, -168.35) unverified, but it
-//   puts
-//                all angles 0 at (0, -110, -35) and the logged inkwell within the limits. Limits: JHU's URDF, from CAD.
+//   Omni/Touch   l1 = l2 = 133.35 mm (5.25 in) from the literature; shoulder (0, 23.35, -168.35) unverified, but with
+//                it all angles 0 are at (0, -110, -35), and the logged inkwell is within the limits. These: JHU's
+//                URDF, from CAD.
 //   Desktop/X    taken as the Omni's: nothing is published.
 //   Premium 1.5  l1 = 209.55 (8.25 in), l2 = 169.545 mm (6.675 in); all angles 0 at D's origin. Limits: Cavusoglu,
 //                Feygin, Tendick, Presence 2002. Its gimbal's limits are not published: the Omni's.

@@ -58,6 +58,7 @@ const Candidate& chosen(const std::vector<Candidate>& candidates, int used, doub
 /// What the numbers' uncertainty leaves of the tip if at the same places the stylus were held otherwise.
 double unseenTilts_mm(const TouchAgreement& agreement, const TouchSet& set, const KinematicFit& fit) {
   const std::size_t n = fit.fitted.size();
+  if (fit.covariance.empty()) return 0.0;
   double sum = 0.0;
   int count = 0;
   for (const std::size_t i : agreement.which)

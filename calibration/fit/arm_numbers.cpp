@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "calibration/geometry/turn.h"
+
 namespace calibration {
 namespace {
 
@@ -10,11 +12,6 @@ constexpr std::size_t kTurn = 0, kShift = 3, kTip = 6, kOffset = 9, kGain = 12, 
 
 glm::dvec3 three(const ArmNumbers& numbers, std::size_t first) {
   return {numbers[first], numbers[first + 1], numbers[first + 2]};
-}
-
-glm::dquat turned(const glm::dvec3& turn_rad) {
-  const double angle_rad = glm::length(turn_rad);
-  return angle_rad > 0.0 ? glm::angleAxis(angle_rad, turn_rad / angle_rad) : glm::dquat(1.0, 0.0, 0.0, 0.0);
 }
 
 /// d exp(turn) p / d turn = -[exp(turn) p]x this: the left Jacobian of rotations.
@@ -95,7 +92,7 @@ std::vector<std::size_t> numbersOf(ArmModel model) {
 }
 
 MeasuredArm armOf(const ArmStart& start, const ArmNumbers& numbers) {
-  const glm::dquat turn = turned(three(numbers, kTurn));
+  const glm::dquat turn = turnBy(three(numbers, kTurn));
   const glm::dvec3 from_middle_mm = start.X_WD.translation_mm - start.middle_W.mm;
   return {
       start.geometry,

@@ -19,7 +19,6 @@ class Linearised {
   explicit Linearised(const LeastSquares& problem)
       : problem_(problem), n_(problem.start.size()), m_(problem.residuals), r_(m_), row_weight_(m_, 1.0) {
     assert(problem.priors.empty() || problem.priors.size() == n_);
-    assert(problem.steps.empty() || problem.steps.size() == n_);
   }
 
   /// Half the sum of kernels; NaN where the place can not be evaluated.
@@ -82,11 +81,7 @@ class Linearised {
     if (problem_.jacobian_at) return problem_.jacobian_at(x, jacobian_);
     Numbers moved = x, above(m_), below(m_);
     for (std::size_t k = 0; k < n_; ++k) {
-      double step = kDifference;
-      if (!problem_.steps.empty())
-        step = problem_.steps[k];
-      else if (priorInformation(k) > 0.0)
-        step *= problem_.priors[k].sigma;
+      const double step = kDifference * (priorInformation(k) > 0.0 ? problem_.priors[k].sigma : 1.0);
       moved[k] = x[k] + step;
       problem_.residuals_at(moved, above);
       moved[k] = x[k] - step;

@@ -27,9 +27,9 @@ struct LeastSquares {
   std::size_t residuals = 0;
   /// r(x), each over its sigma. A place that can not be evaluated: leave NaN, the step is shortened.
   std::function<void(std::span<const double> x, std::span<double> r)> residuals_at;
-  /// dr/dx, row-major, a row a residual; comes zeroed. Empty: central differences.
+  /// dr/dx, row-major, a row a residual; comes zeroed. Empty: central differences by 1e-6 of each prior's sigma, or by
+  /// 1e-6.
   std::function<void(std::span<const double> x, std::span<double> J)> jacobian_at;
-  std::vector<double> steps;   ///< of the differences, one a number; empty: 1e-6 of each prior's sigma, else 1e-6
   std::vector<Prior> priors;   ///< one a number; empty: none
   std::vector<Group> groups;   ///< in order, together all residuals; empty: each alone, weight 1
   int most_iterations = 60;    ///< evaluations of the Jacobian

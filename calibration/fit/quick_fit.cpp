@@ -5,7 +5,10 @@
 #include <cmath>
 #include <span>
 
+#include "calibration/fit/kinematic_fit.h"
 #include "calibration/fit/least_squares.h"
+#include "calibration/geometry/turn.h"
+#include "calibration/median.h"
 
 namespace calibration {
 namespace {
@@ -21,21 +24,13 @@ constexpr std::size_t kLeastTouches = 4;
 constexpr double kDoubt = 3.0, kLeastDoubt = 4.5;  ///< robust sigmas; and sigmas of a touch, of which it is never less
 
 MeasuredArm changed(MeasuredArm arm, std::span<const double> x) {
-  const glm::dvec3 turn(x[kTurn], x[kTurn + 1], x[kTurn + 2]);
-  const double angle = glm::length(turn);
-  if (angle > 0.0) arm.X_WD.rotation = glm::normalize(glm::angleAxis(angle, turn / angle) * arm.X_WD.rotation);
+  arm.X_WD.rotation = glm::normalize(turnBy({x[kTurn], x[kTurn + 1], x[kTurn + 2]}) * arm.X_WD.rotation);
   for (int i = 0; i < 3; ++i) {
     arm.X_WD.translation_mm[i] += x[kShift + static_cast<std::size_t>(i)];
     arm.correction.tip_H_mm[i] += x[kTip + static_cast<std::size_t>(i)];
   }
   for (std::size_t i = 0; i < 6; ++i) arm.correction.offset_rad[i] += x[kOffset + i];
   return arm;
-}
-
-double medianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// Of one touch, each axis over its sigma.
@@ -69,9 +64,7 @@ glm::dvec3 leftOut(const MeasuredArm& start, const LeastSquaresResult& fit, cons
 QuickFit quickFit(const MeasuredArm& start, const TouchSet& set) {
   QuickFit quick{start, {}, std::vector<bool>(set.touches.size(), false), 0.0};
   const std::vector<Touch>& touches = set.touches;
-  const glm::dvec3 sigma_mm(std::hypot(set.precision.in_plane_mm, kMismatch_mm),
-                            std::hypot(set.precision.in_plane_mm, kMismatch_mm),
-                            std::hypot(set.precision.along_sight_mm, kMismatch_mm));
+  const glm::dvec3 sigma_mm = touchSigma_mm(set.precision, kMismatch_mm);
   quick.left_out_mm.assign(touches.size(), {});
   if (touches.size() < kLeastTouches) return quick;
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/fit/kinematic_fit.h"
 #include "calibration/fit/least_squares.h"
+#include "calibration/geometry/turn.h"
 #include "calibration/geometry/units.h"
 
 namespace calibration {
@@ -68,13 +70,10 @@ glm::dvec3 middleOf_mm(const Touches& touches) {
 
 MeasuredArm moved(const MeasuredArm& arm, std::span<const double> x, const glm::dvec3& middle_mm) {
   MeasuredArm now = arm;
-  const glm::dvec3 turn_rad(x[0], x[1], x[2]), shift_mm(x[3], x[4], x[5]);
-  const double angle_rad = glm::length(turn_rad);
-  if (angle_rad > 0.0) {
-    const glm::dquat turn = glm::angleAxis(angle_rad, turn_rad / angle_rad);
-    now.X_WD = {glm::normalize(turn * arm.X_WD.rotation), middle_mm + turn * (arm.X_WD.translation_mm - middle_mm)};
-  }
-  now.X_WD.translation_mm += shift_mm;
+  const glm::dquat turn = turnBy({x[0], x[1], x[2]});
+  const glm::dvec3 shift_mm(x[3], x[4], x[5]);
+  now.X_WD = {glm::normalize(turn * arm.X_WD.rotation),
+              middle_mm + turn * (arm.X_WD.translation_mm - middle_mm) + shift_mm};
   for (std::size_t i = 0; i < 3; ++i) now.correction.offset_rad[i] += x[6 + i];
   return now;
 }
@@ -83,8 +82,7 @@ MeasuredArm moved(const MeasuredArm& arm, std::span<const double> x, const glm::
 MeasuredArm fitted(const MeasuredArm& arm, const Touches& touches, const std::vector<bool>& out,
                    const TouchPrecision& precision) {
   const glm::dvec3 middle_mm = middleOf_mm(touches);
-  const double across_mm = std::hypot(kLeft_mm, precision.in_plane_mm);
-  const double along_mm = std::hypot(kLeft_mm, precision.along_sight_mm);
+  const glm::dvec3 sigma_mm = touchSigma_mm(precision, kLeft_mm);
   LeastSquares problem;
   problem.start.assign(kNumbers, 0.0);
   problem.priors.assign(kNumbers, {});
@@ -95,10 +93,8 @@ MeasuredArm fitted(const MeasuredArm& arm, const Touches& touches, const std::ve
     std::size_t row = 0;
     for (std::size_t i = 0; i < touches.size(); ++i) {
       if (out[i]) continue;
-      const glm::dvec3 off_mm = (tried.tip_W(touches[i].joints_rad) - touches[i].target_W).xyz;
-      r[row++] = off_mm.x / across_mm;
-      r[row++] = off_mm.y / across_mm;
-      r[row++] = off_mm.z / along_mm;
+      const glm::dvec3 off = (tried.tip_W(touches[i].joints_rad) - touches[i].target_W).xyz / sigma_mm;
+      for (int axis = 0; axis < 3; ++axis) r[row++] = off[axis];
     }
   };
   return moved(arm, solved(problem).numbers, middle_mm);
@@ -166,8 +162,7 @@ Rezero rezeroed(const MeasuredArm& arm, const TouchSet& set) {
     result.residuals.push_back(
         {touch.id, touch.target_W, result.arm.tip_W(touch.joints_rad) - touch.target_W, touch.used && !out[next++]});
 
-  const glm::dquat turn = result.arm.X_WD.rotation * glm::conjugate(arm.X_WD.rotation);
-  result.turned_deg = degreesFromRad(2.0 * std::asin(std::min(1.0, glm::length(glm::dvec3(turn.x, turn.y, turn.z)))));
+  result.turned_deg = degreesFromRad(angleBetween_rad(arm.X_WD.rotation, result.arm.X_WD.rotation));
   result.moved_mm = glm::distance(result.arm.X_WD.translation_mm, arm.X_WD.translation_mm);
   for (std::size_t i = 0; i < 3; ++i)
     result.offset_change_deg[i] = degreesFromRad(result.arm.correction.offset_rad[i] - arm.correction.offset_rad[i]);

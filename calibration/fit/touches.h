@@ -26,7 +26,7 @@ inline constexpr TouchPrecision kPitPrecision{0.05, 0.05}, kCrossPrecision{0.3, 
 struct TouchSet {
   std::string device_model = "omni";  ///< key of phantom_models
   std::string serial, mount;          ///< empty: not known
-  std::string method;                 ///< "jig27", "visual25", "webcam3", …; empty: not known
+  std::string method;                 ///< "jig27", "visual25", "rezero5", …; empty: not known
   TouchPrecision precision;
   std::vector<Touch> touches;
 };

@@ -7,6 +7,7 @@
 #include "calibration/arm/phantom_models.h"
 #include "calibration/geometry/units.h"
 #include "calibration/record/rig_file_words.h"
+#include "calibration/virtual_screen.h"
 
 namespace calibration {
 namespace {
@@ -63,10 +64,10 @@ void readEyes(const CheckedYaml& yaml, Rig& rig) {
       std::abs(yaml.number(eyes, "ipd_mm") - glm::distance(rig.left_eye.mm, rig.right_eye.mm)) > 0.05)
     yaml.refuse("'eyes.ipd_mm' is not the distance from left_mm to right_mm", "correct one of them");
 
-  Point<World> ll = rig.screen.lower_left, lr = rig.screen.lower_right, ul = rig.screen.upper_left;
-  if (rig.mirror) ll = rig.mirror->reflect(ll), lr = rig.mirror->reflect(lr), ul = rig.mirror->reflect(ul);
-  const glm::dvec3 n = glm::normalize(glm::cross(lr.mm - ll.mm, ul.mm - ll.mm));
-  const double left = glm::dot(n, rig.left_eye.mm - ll.mm), right = glm::dot(n, rig.right_eye.mm - ll.mm);
+  const ScreenCorners seen = virtualScreen(rig);
+  const glm::dvec3 corner = seen.lower_left.mm;
+  const glm::dvec3 n = glm::normalize(glm::cross(seen.lower_right.mm - corner, seen.upper_left.mm - corner));
+  const double left = glm::dot(n, rig.left_eye.mm - corner), right = glm::dot(n, rig.right_eye.mm - corner);
   if (std::abs(left) < 10.0 || std::abs(right) < 10.0 || left * right < 0.0)
     yaml.refuse("an eye lies on the (virtual) screen or the eyes are on both sides of it", "measure them again");
 }

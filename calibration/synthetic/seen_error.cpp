@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/geometry/turn.h"
 #include "calibration/synthetic/chance.h"
+#include "calibration/virtual_screen.h"
 
 namespace calibration {
 namespace {
@@ -15,21 +17,12 @@ Point<ScreenImage> drawnOnScreen(const Viewing& viewing, const Point<World>& eye
   return {eye + eye.z / (eye.z - place.z) * (place - eye)};
 }
 
-glm::dquat smallTurn(std::mt19937& chance, double sd_rad) {
-  const glm::dvec3 turn_rad = gaussianVector(chance, sd_rad);
-  const double angle_rad = glm::length(turn_rad);
-  return angle_rad > 0.0 ? glm::angleAxis(angle_rad, turn_rad / angle_rad) : glm::dquat(1.0, 0.0, 0.0, 0.0);
-}
-
 }  // namespace
 
 Viewing believedViewing(const Rig& rig) {
-  const auto seen = [&](const Point<World>& corner_W) {
-    return (rig.mirror ? rig.mirror->reflect(corner_W) : corner_W).mm;
-  };
-  const glm::dvec3 origin = seen(rig.screen.lower_left);
-  const glm::dvec3 x = glm::normalize(seen(rig.screen.lower_right) - origin);
-  const glm::dvec3 y = glm::normalize(seen(rig.screen.upper_left) - origin);
+  const ScreenCorners seen = virtualScreen(rig);
+  const glm::dvec3 origin = seen.lower_left.mm;
+  const glm::dvec3 x = glm::normalize(seen.lower_right.mm - origin), y = glm::normalize(seen.upper_left.mm - origin);
   return {rig.left_eye, rig.right_eye, {glm::normalize(glm::quat_cast(glm::dmat3(x, y, glm::cross(x, y)))), origin}};
 }
 
@@ -55,7 +48,7 @@ Viewing actualViewing(const Viewing& believed, const ViewingCare& care, std::mt1
   actual.right_eye.mm += head_mm + wider_mm;
 
   // The screen turns about the origin of W, where the case is.
-  const glm::dquat turn = smallTurn(chance, radFromDegrees(care.screen_turn_sd_deg));
+  const glm::dquat turn = turnBy(gaussianVector(chance, radFromDegrees(care.screen_turn_sd_deg)));
   actual.X_WI = {turn * believed.X_WI.rotation,
                  turn * believed.X_WI.translation_mm + gaussianVector(chance, care.screen_shift_sd_mm)};
   return actual;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "calibration/arm/phantom_models.h"
+#include "calibration/geometry/turn.h"
 #include "calibration/synthetic/chance.h"
 
 namespace calibration {
@@ -81,8 +82,7 @@ UntrueArm drawnArm(const ErrorSizes& sizes, std::mt19937& chance) {
 Pose<World, Device> putDown(const Pose<World, Device>& nominal, std::mt19937& chance) {
   const glm::dvec3 turn_rad = evenVector(chance, glm::dvec3(radFromDegrees(kStandTurn_deg)));
   const glm::dvec3 shift_mm = evenVector(chance, glm::dvec3(kStandShift_mm));
-  const double angle = glm::length(turn_rad);
-  return {glm::angleAxis(angle, turn_rad / angle) * nominal.rotation, nominal.translation_mm + shift_mm};
+  return {turnBy(turn_rad) * nominal.rotation, nominal.translation_mm + shift_mm};
 }
 
 /// What the sensors read while the handle is there; none beyond the stops of arm or gimbal.

@@ -1,6 +1,5 @@
 #include "calibration/synthetic/webcam_sights.h"
 
-#include <array>
 #include <cmath>
 
 #include "calibration/synthetic/chance.h"
@@ -9,8 +8,6 @@
 namespace calibration {
 namespace {
 
-/// From the middle of the case: at the eyes, and 25 degrees to both sides.
-constexpr std::array<double, 3> kAside_deg = {0.0, 25.0, -25.0};
 constexpr double kPutDown_mm = 10.0;      ///< a clamp is set by eye, one sigma
 constexpr double kBesideTarget_mm = 3.0;  ///< no pit holds the tip, one sigma
 
@@ -26,12 +23,6 @@ CameraModel believed(const WebcamCare& care, std::mt19937& chance) {
 }
 
 glm::dvec2 noise_px(double sigma_px, std::mt19937& chance) { return glm::dvec2(gaussianVector(chance, sigma_px)); }
-
-Pose<World, Camera> putUp(const SyntheticRig& rig, double aside_deg, std::mt19937& chance) {
-  const glm::dquat aside = glm::angleAxis(radFromDegrees(aside_deg), glm::dvec3(0.0, 1.0, 0.0));
-  const Point<World> from_W{aside * rig.nominal.cyclopeanEye().mm + gaussianVector(chance, kPutDown_mm)};
-  return lookingAt(from_W, {gaussianVector(chance, kPutDown_mm)}, {0.0, 1.0, 0.0});
-}
 
 }  // namespace
 
@@ -51,6 +42,12 @@ WebcamCare coarseWebcam() {
   return care;
 }
 
+Pose<World, Camera> cameraPutUp(const Rig& rig, double aside_deg, std::mt19937& chance) {
+  const glm::dquat aside = glm::angleAxis(radFromDegrees(aside_deg), glm::dvec3(0.0, 1.0, 0.0));
+  const Point<World> from_W{aside * rig.cyclopeanEye().mm + gaussianVector(chance, kPutDown_mm)};
+  return lookingAt(from_W, {gaussianVector(chance, kPutDown_mm)}, {0.0, 1.0, 0.0});
+}
+
 WebcamSights webcamSights(const SyntheticRig& rig, const TargetPlan& plan, const WebcamCare& care,
                           std::mt19937& chance) {
   // The camera says where the tip is: how exactly a place is held is of no importance.
@@ -64,8 +61,8 @@ WebcamSights webcamSights(const SyntheticRig& rig, const TargetPlan& plan, const
                       .screen_noise_px = care.screen_noise_px,
                       .tip_noise_px = care.tip_noise_px,
                       .positions = {}};
-  for (const double aside_deg : kAside_deg) {
-    const Pose<Camera, World> X_CW = putUp(rig, aside_deg, chance).inverse();
+  for (const double aside_deg : kCameraAside_deg) {
+    const Pose<Camera, World> X_CW = cameraPutUp(rig.nominal, aside_deg, chance).inverse();
     CameraPosition& position = sights.positions.emplace_back();
     for (int row = 0; row < kCorners.y; ++row)
       for (int column = 0; column < kCorners.x; ++column) {

@@ -10,16 +10,6 @@
 
 namespace calibration {
 
-/// The virtual screen: its picture's middle is the origin of W, x right, y up.
-struct ShownScreen {
-  glm::ivec2 size_px{1920, 1080};
-  glm::dvec2 size_mm{531.0, 298.7};
-
-  Point<World> place_W(const glm::dvec2& px) const {
-    return {{((px.x + 0.5) / size_px.x - 0.5) * size_mm.x, (0.5 - (px.y + 0.5) / size_px.y) * size_mm.y, 0.0}};
-  }
-};
-
 struct ShownBoard {
   glm::ivec2 screen_px{1920, 1080};
   glm::ivec2 squares{13, 8};

@@ -11,6 +11,8 @@
 
 #include "calibration/calibration_error.h"
 #include "calibration/geometry/units.h"
+#include "calibration/median.h"
+#include "calibration/webcam/picture_matrix.h"
 
 namespace calibration {
 namespace {
@@ -164,12 +166,7 @@ double edgeOf_px(const cv::Mat& grey, const Corners& corners, const cv::Size& si
       down.push_back(riseOf_px(grey, 0.5F * (at(x, y) + at(x + 1, y)), kReach * (at(x, y + 1) - at(x, y))));
       sideways.push_back(riseOf_px(grey, 0.5F * (at(x, y) + at(x, y + 1)), kReach * (at(x + 1, y) - at(x, y))));
     }
-  const auto middle = [](std::vector<double>& values) {
-    const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), half, values.end());
-    return *half;
-  };
-  return kWholeToHalf * std::max(middle(down), middle(sideways));
+  return kWholeToHalf * std::max(medianOf(down), medianOf(sideways));
 }
 
 /// Found, and good enough to be used: corners still in the finder's order.
@@ -203,17 +200,10 @@ BoardSighting judged(const cv::Mat& grey, const glm::ivec2& count) {
   return sighting;
 }
 
-cv::Mat matrixOf(const GreyPicture& picture) {
-  const glm::ivec2 size = picture.size_px;
-  if (size.x < 1 || size.y < 1 ||
-      picture.grey.size() != static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y))
-    throw CalibrationError("camera picture: its size and its bytes disagree, take it again");
-  return {size.y, size.x, CV_8U, const_cast<std::uint8_t*>(picture.grey.data())};
-}
-
 }  // namespace
 
 BoardSighting findChessboard(const GreyPicture& picture, const glm::ivec2& corners) {
+  if (!isWhole(picture)) throw CalibrationError("camera picture: its size and its bytes disagree, take it again");
   return judged(matrixOf(picture), corners);
 }
 

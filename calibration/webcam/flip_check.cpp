@@ -6,6 +6,9 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "calibration/virtual_screen.h"
+#include "calibration/webcam/picture_matrix.h"
+
 namespace calibration {
 namespace {
 
@@ -25,10 +28,6 @@ GreyPicture squareWithF(int side) {
   bar(0.43, 0.14, 0.77, 0.30);
   bar(0.43, 0.44, 0.66, 0.58);
   return square;
-}
-
-cv::Mat matOf(const GreyPicture& picture) {
-  return {picture.size_px.y, picture.size_px.x, CV_8U, const_cast<std::uint8_t*>(picture.grey.data())};
 }
 
 /// Corners of a convex quadrangle, clockwise in the picture, the first so that the first edge runs most to the right.
@@ -70,7 +69,7 @@ Likeness compared(const cv::Mat& square) {
   Likeness found;
   for (const Reading& reading : kReadings) {
     const GreyPicture expected = reaching(reading, letter);
-    const double alike = likeness(square, matOf(expected));
+    const double alike = likeness(square, matrixOf(expected));
     if (alike > found.first) {
       found = {reading, alike, found.first};
     } else {
@@ -125,9 +124,8 @@ GreyPicture reaching(const Reading& reading, const GreyPicture& picture) {
 }
 
 Reading framebufferReading(const Rig& rig) {
-  const auto seen = [&](const Point<World>& p) { return rig.mirror ? rig.mirror->reflect(p).mm : p.mm; };
-  const glm::dvec3 corner = seen(rig.screen.lower_left);
-  const glm::dvec3 across = seen(rig.screen.lower_right) - corner, up = seen(rig.screen.upper_left) - corner;
+  const ScreenCorners seen = virtualScreen(rig);
+  const glm::dvec3 across = seen.lower_right.mm - seen.lower_left.mm, up = seen.upper_left.mm - seen.lower_left.mm;
   // x and y of W are right and up to the eye. Where the framebuffer's upward edge points, after any mirroring.
   const bool mirrored = across.x * up.y - across.y * up.x < 0.0;
   const bool upright = std::abs(up.y) >= std::abs(up.x);
@@ -145,10 +143,9 @@ glm::ivec2 seenSize_px(const Rig& rig) {
 }
 
 ScreenCorners seenScreen(const Rig& rig) {
-  const auto seen = [&](const Point<World>& p) { return rig.mirror ? rig.mirror->reflect(p).mm : p.mm; };
-  const glm::dvec3 corner = seen(rig.screen.lower_left);
-  glm::dvec3 across = seen(rig.screen.lower_right) - corner, up = seen(rig.screen.upper_left) - corner;
-  const glm::dvec3 middle = corner + 0.5 * (across + up);
+  const ScreenCorners seen = virtualScreen(rig);
+  glm::dvec3 across = seen.lower_right.mm - seen.lower_left.mm, up = seen.upper_left.mm - seen.lower_left.mm;
+  const glm::dvec3 middle = seen.lower_left.mm + 0.5 * (across + up);
   if (framebufferReading(rig).quarters % 2 == 1) std::swap(across, up);
   if (across.x < 0.0) across = -across;
   if (up.y < 0.0) up = -up;
@@ -177,7 +174,7 @@ GreyPicture letterF(const glm::ivec2& size_px) {
 std::optional<Reading> readF(const GreyPicture& seen) {
   if (seen.size_px.x < kTemplate_px || seen.size_px.y < kTemplate_px) return std::nullopt;
   cv::Mat smooth, bright;
-  cv::GaussianBlur(matOf(seen), smooth, {5, 5}, 0.0);
+  cv::GaussianBlur(matrixOf(seen), smooth, {5, 5}, 0.0);
   cv::threshold(smooth, bright, 0.0, 255.0, cv::THRESH_BINARY | cv::THRESH_OTSU);
   std::vector<std::vector<cv::Point>> outlines;
   cv::findContours(bright, outlines, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);

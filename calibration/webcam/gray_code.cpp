@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "calibration/calibration_error.h"
+#include "calibration/webcam/picture_matrix.h"
 
 namespace calibration {
 namespace {
@@ -35,9 +36,7 @@ void checkPictures(const GrayCode& code, const std::vector<GreyPicture>& picture
     throw CalibrationError("Gray code: " + std::to_string(pictures.size()) + " pictures instead of " +
                            std::to_string(code.pictures()) + ", take the sweep again");
   for (const GreyPicture& picture : pictures)
-    if (picture.size_px != pictures.front().size_px || picture.size_px.x < 1 || picture.size_px.y < 1 ||
-        picture.grey.size() !=
-            static_cast<std::size_t>(picture.size_px.x) * static_cast<std::size_t>(picture.size_px.y))
+    if (picture.size_px != pictures.front().size_px || !isWhole(picture))
       throw CalibrationError("Gray code: the pictures differ in size, take the sweep again");
 }
 

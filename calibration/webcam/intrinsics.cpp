@@ -10,6 +10,8 @@
 #include <opencv2/core.hpp>
 
 #include "calibration/geometry/units.h"
+#include "calibration/median.h"
+#include "calibration/webcam/camera_block.h"
 
 namespace calibration {
 namespace {
@@ -90,12 +92,8 @@ CameraModel modelOf(const glm::ivec2& size_px, const LensFit& fit) {
   const auto bent = [&](int i) { return fit.distortion.at<double>(i); };
   CameraModel camera{size_px, {fit.K(0, 0), fit.K(1, 1)}, {fit.K(0, 2), fit.K(1, 2)}, bent(0), bent(1), bent(2),
                      bent(3)};
-  const glm::dvec2 size(size_px);
-  const bool is_lens =
-      std::isfinite(fit.rms_px) && camera.focal_px.x > 0.15 * size.x && camera.focal_px.x < 8.0 * size.x &&
-      std::abs(camera.focal_px.y / camera.focal_px.x - 1.0) < 0.1 && camera.centre_px.x > 0.1 * size.x &&
-      camera.centre_px.x < 0.9 * size.x && camera.centre_px.y > 0.1 * size.y && camera.centre_px.y < 0.9 * size.y;
-  if (!is_lens) refuse("the result is no webcam's lens", "slant the board more, and fill the picture with it");
+  if (!std::isfinite(fit.rms_px) || !impossibleOf(camera).empty())
+    refuse("the result is no webcam's lens", "slant the board more, and fill the picture with it");
   return camera;
 }
 
@@ -133,8 +131,7 @@ Intrinsics fitIntrinsics(const glm::ivec2& size_px, const std::vector<glm::dvec2
       rms_px.push_back(result.view_rms_px[used[k]] = fit.view_rms_px.at<double>(static_cast<int>(k)));
     const std::size_t worst = static_cast<std::size_t>(std::ranges::max_element(rms_px) - rms_px.begin());
     const double worst_px = rms_px[worst];
-    std::ranges::nth_element(rms_px, rms_px.begin() + static_cast<std::ptrdiff_t>(rms_px.size() / 2));
-    if (worst_px > kWild_px && worst_px > kWildOfMedian * rms_px[rms_px.size() / 2]) {
+    if (worst_px > kWild_px && worst_px > kWildOfMedian * medianOf(rms_px)) {
       result.left_out.push_back(views[used[worst]].name);
       if (3 * result.left_out.size() > views.size())
         refuse("more than a third of the views do not fit the others", "hold camera and board still, lock the focus");

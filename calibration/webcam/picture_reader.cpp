@@ -9,6 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "calibration/webcam/picture_header.h"
+#include "calibration/webcam/picture_matrix.h"
 
 namespace calibration {
 namespace {
@@ -45,10 +46,7 @@ GreyPicture readGreyPicture(const std::string& path) {
     refuse("it is damaged");
   }
   if (grey.cols != size->x || grey.rows != size->y || grey.type() != CV_8U) refuse("it is damaged");
-  GreyPicture picture{*size, {}};
-  picture.grey.reserve(grey.total());
-  for (int y = 0; y < grey.rows; ++y) picture.grey.insert(picture.grey.end(), grey.ptr(y), grey.ptr(y) + grey.cols);
-  return picture;
+  return greyPictureOf(grey);
 }
 
 }  // namespace calibration

@@ -9,6 +9,9 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "calibration/virtual_screen.h"
+#include "calibration/webcam/picture_matrix.h"
+
 namespace calibration {
 namespace {
 
@@ -20,11 +23,8 @@ constexpr double kWholeRing = 0.9;  ///< of the sectors that must hold some of i
 
 /// What is brighter than before.
 cv::Mat1f brighter(const GreyPicture& dark, const GreyPicture& bright) {
-  const auto mat = [](const GreyPicture& p) {
-    return cv::Mat(p.size_px.y, p.size_px.x, CV_8U, const_cast<std::uint8_t*>(p.grey.data()));
-  };
   cv::Mat1f difference;
-  cv::subtract(mat(bright), mat(dark), difference, cv::noArray(), CV_32F);
+  cv::subtract(matrixOf(bright), matrixOf(dark), difference, cv::noArray(), CV_32F);
   cv::GaussianBlur(difference, difference, {3, 3}, 0.0);
   return difference;
 }
@@ -97,10 +97,9 @@ std::optional<std::pair<glm::dvec2, double>> ringIn(const Blob& blob, const cv::
 }  // namespace
 
 GreyPicture ringPicture(const Rig& rig, const Point<World>& eye_W, const Point<World>& tip_W) {
-  const auto seen = [&](const Point<World>& p) { return rig.mirror ? rig.mirror->reflect(p).mm : p.mm; };
-  const glm::dvec3 corner = seen(rig.screen.upper_left);
-  const glm::dvec3 down = seen(rig.screen.lower_left) - corner;
-  const glm::dvec3 across = seen(rig.screen.lower_right) - seen(rig.screen.lower_left);
+  const ScreenCorners seen = virtualScreen(rig);
+  const glm::dvec3 corner = seen.upper_left.mm;
+  const glm::dvec3 down = seen.lower_left.mm - corner, across = seen.lower_right.mm - seen.lower_left.mm;
   const glm::ivec2 px = rig.screen.px;
   const glm::dvec3 sight = glm::normalize(tip_W.mm - eye_W.mm);
   // One pixel of the screen, as large as it is at the tip's distance.
@@ -125,8 +124,7 @@ GreyPicture ringPicture(const Rig& rig, const Point<World>& eye_W, const Point<W
 }
 
 RingSighting sightRing(const GreyPicture& dark, const GreyPicture& with_both) {
-  const std::size_t pixels = static_cast<std::size_t>(dark.size_px.x) * static_cast<std::size_t>(dark.size_px.y);
-  if (dark.size_px != with_both.size_px || dark.grey.size() != pixels || with_both.grey.size() != pixels || pixels == 0)
+  if (dark.size_px != with_both.size_px || !isWhole(dark) || !isWhole(with_both))
     throw CalibrationError("ring check: the pictures are not of one size, take both with one camera");
   const cv::Mat1f light = brighter(dark, with_both);
   double brightest = 0.0;

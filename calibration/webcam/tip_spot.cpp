@@ -9,6 +9,8 @@
 
 #include "calibration/calibration_error.h"
 #include "calibration/geometry/units.h"
+#include "calibration/median.h"
+#include "calibration/webcam/picture_matrix.h"
 
 namespace calibration {
 namespace {
@@ -17,21 +19,12 @@ constexpr double kLeastOverNoise = 8.0, kLeastHeight = 14.0;  ///< grey levels
 constexpr double kRival = 0.4;     ///< of the brightest spot's height: another such is one too many
 constexpr double kPedestal = 0.2;  ///< of its height: less has no say in the centre
 constexpr int kLeastPixels = 4;
+constexpr int kSmallest_px = 16;      ///< of a picture's side
 constexpr double kMostLength = 1.8;   ///< of a spot to its width
 constexpr double kSoftSpread = 3.2;   ///< area at a quarter of the height to that at three quarters
 constexpr double kMostSoft_px = 8.0;  ///< a soft spot narrower than this is a LED, not out of focus
 constexpr double kSaturated = 250.0;
 constexpr double kMostOfWidth = 1.0 / 48.0;  ///< of the picture: a 3 mm ball is a quarter of that
-
-cv::Mat matrixOf(const GreyPicture& picture) {
-  return {picture.size_px.y, picture.size_px.x, CV_8U, const_cast<std::uint8_t*>(picture.grey.data())};
-}
-
-bool isWhole(const GreyPicture& picture) {
-  return picture.size_px.x >= 16 && picture.size_px.y >= 16 &&
-         picture.grey.size() ==
-             static_cast<std::size_t>(picture.size_px.x) * static_cast<std::size_t>(picture.size_px.y);
-}
 
 /// One sigma of what is left between pixels near each other, wild ones aside.
 double noiseOf(const cv::Mat& difference) {
@@ -39,9 +32,7 @@ double noiseOf(const cv::Mat& difference) {
   for (int y = 0; y < difference.rows; y += 4)
     for (int x = 0; x + 2 < difference.cols; x += 4)
       steps.push_back(std::abs(difference.at<float>(y, x + 2) - difference.at<float>(y, x)));
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  const double most = 4.0 * (1.48 * *middle + 0.5);
+  const double most = 4.0 * (1.48 * medianOf(steps) + 0.5);
   double sum = 0.0, count = 1.0;
   for (const float step : steps)
     if (step < most) sum += double{step} * step, count += 1.0;
@@ -115,7 +106,8 @@ TipSpot refused(SpotTrouble trouble, const char* line, TipSpot spot) {
 }  // namespace
 
 TipSpot findTipSpot(const GreyPicture& before, const GreyPicture& with_tip) {
-  if (before.size_px != with_tip.size_px || !isWhole(before) || !isWhole(with_tip))
+  const bool fit = before.size_px == with_tip.size_px && isWhole(before) && isWhole(with_tip);
+  if (!fit || before.size_px.x < kSmallest_px || before.size_px.y < kSmallest_px)
     throw CalibrationError("tip: the pictures with and without it differ in size, take both again");
   cv::Mat dark, lit;
   matrixOf(before).convertTo(dark, CV_32F);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "calibration/fit/least_squares.h"
+#include "calibration/geometry/turn.h"
 
 namespace calibration {
 namespace {
@@ -15,11 +16,6 @@ constexpr std::size_t kPoseNumbers = 6, kLensNumbers = 3;
 constexpr int kMostIterations = 40;
 
 glm::dmat3 crossOf(const glm::dvec3& v) { return {0.0, v.z, -v.y, -v.z, 0.0, v.x, v.y, -v.x, 0.0}; }
-
-glm::dquat turned(const glm::dvec3& turn_rad) {
-  const double angle_rad = glm::length(turn_rad);
-  return angle_rad > 0.0 ? glm::angleAxis(angle_rad, turn_rad / angle_rad) : glm::dquat(1.0, 0.0, 0.0, 0.0);
-}
 
 /// A pixel with its slopes by the point in C, and by the lens's three numbers.
 struct PixelSlopes {
@@ -45,7 +41,7 @@ PixelSlopes pixelSlopes(const CameraModel& camera, const glm::dvec3& p_C) {
 
 /// A camera that turns about, and moves with, the place in it where W's origin is.
 Pose<Camera, World> movedPose(const Pose<Camera, World>& X_CW, const double* numbers) {
-  return {glm::normalize(turned({numbers[0], numbers[1], numbers[2]}) * X_CW.rotation),
+  return {glm::normalize(turnBy({numbers[0], numbers[1], numbers[2]}) * X_CW.rotation),
           X_CW.translation_mm + glm::dvec3(numbers[3], numbers[4], numbers[5])};
 }
 

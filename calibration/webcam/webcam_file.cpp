@@ -8,6 +8,7 @@
 #include "calibration/arm/phantom_models.h"
 #include "calibration/checked_yaml.h"
 #include "calibration/geometry/units.h"
+#include "calibration/webcam/camera_block.h"
 
 namespace calibration {
 namespace {
@@ -35,7 +36,7 @@ class Reader {
       yaml_.refuse("device_model '" + all.sights.device_model + "' is not known", "give a key of molar devices");
     if (yaml_.has(root, "serial")) all.serial = yaml_.text(root, "serial");
     if (yaml_.has(root, "mount")) all.mount = yaml_.text(root, "mount");
-    readCamera(yaml_.map(root, "camera"), all.sights.camera);
+    all.sights.camera = cameraIn(yaml_, yaml_.map(root, "camera"));
     const auto noise_px = yaml_.numbers(root["noise_px"], "noise_px", 2);
     for (const double sigma : noise_px)
       if (sigma < kLeastNoise_px || sigma > kMostNoise_px)
@@ -56,28 +57,6 @@ class Reader {
     if (node.size() > most)
       yaml_.refuse("'" + where + "' has more than " + std::to_string(most) + " entries", "give those of one procedure");
     return node;
-  }
-
-  void readCamera(const cv::FileNode& node, CameraModel& camera) const {
-    const auto size = yaml_.numbers(node["size_px"], "size_px", 2);
-    for (const double side : size)
-      if (side < 16 || side > 16384 || side != std::floor(side))
-        yaml_.refuse("'camera.size_px' is no picture's size", "give whole pixels between 16 and 16384");
-    const auto focal = yaml_.numbers(node["focal_px"], "focal_px", 2);
-    const auto centre = yaml_.numbers(node["centre_px"], "centre_px", 2);
-    const auto bent = yaml_.numbers(node["distortion"], "distortion", 4);
-    for (std::size_t i = 0; i < 2; ++i)
-      if (focal[i] < 0.1 * size[i] || focal[i] > 20.0 * size[i] || centre[i] < 0.0 || centre[i] > size[i])
-        yaml_.refuse("'camera' is no lens that can be", "measure it again (molar calibrate intrinsics)");
-    if (std::ranges::any_of(bent, [](double k) { return std::abs(k) > 20.0; }))
-      yaml_.refuse("'camera.distortion' is no lens's", "measure it again (molar calibrate intrinsics)");
-    camera = {{static_cast<int>(size[0]), static_cast<int>(size[1])},
-              {focal[0], focal[1]},
-              {centre[0], centre[1]},
-              bent[0],
-              bent[1],
-              bent[2],
-              bent[3]};
   }
 
   glm::dvec2 pixel(double u, double v, const std::string& where) const {
@@ -141,17 +120,15 @@ WebcamObservations readWebcamFile(const std::string& path) { return Reader(path)
 
 std::string webcamFileText(const WebcamObservations& observations) {
   const WebcamSights& sights = observations.sights;
-  const CameraModel& camera = sights.camera;
   const std::string open = "[:", close = "]", open_map = "{", close_map = "}";
   cv::FileStorage out("webcam.yaml", cv::FileStorage::WRITE | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_YAML);
   const auto pair = [&](const char* key, const glm::dvec2& v) { out << key << open << v.x << v.y << close; };
   out << "schema" << 1 << "kind" << std::string(kKind) << "device_model" << sights.device_model;
   if (!observations.serial.empty()) out << "serial" << observations.serial;
   if (!observations.mount.empty()) out << "mount" << observations.mount;
-  out << "camera" << open_map << "size_px" << open << camera.size_px.x << camera.size_px.y << close;
-  pair("focal_px", camera.focal_px);
-  pair("centre_px", camera.centre_px);
-  out << "distortion" << open << camera.k1 << camera.k2 << camera.p1 << camera.p2 << close << close_map;
+  out << "camera" << open_map;
+  putCamera(out, sights.camera);
+  out << close_map;
   pair("noise_px", {sights.screen_noise_px, sights.tip_noise_px});
   out << "positions" << std::string("[");
   for (const CameraPosition& position : sights.positions) {

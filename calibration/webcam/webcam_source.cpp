@@ -17,6 +17,7 @@
 #include <opencv2/videoio.hpp>
 
 #include "calibration/webcam/live_pictures.h"
+#include "calibration/webcam/picture_matrix.h"
 
 namespace calibration {
 namespace {
@@ -90,10 +91,7 @@ class V4lFrames final : public FrameGiver {
     } catch (const cv::Exception&) {
       return {};
     }
-    GreyPicture picture{{grey.cols, grey.rows}, {}};
-    picture.grey.reserve(grey.total());
-    for (int y = 0; y < grey.rows; ++y) picture.grey.insert(picture.grey.end(), grey.ptr(y), grey.ptr(y) + grey.cols);
-    return picture;
+    return greyPictureOf(grey);
   }
   std::string remarks() override { return remarks_; }
 

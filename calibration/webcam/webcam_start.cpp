@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 
 #include "calibration/arm/phantom_models.h"
+#include "calibration/geometry/turn.h"
 
 namespace calibration {
 namespace {
@@ -35,10 +36,7 @@ cv::Point2d pixelOf(const glm::dvec2& px) { return {px.x, px.y}; }
 /// X_C?: OpenCV's turn and shift.
 template <class To>
 Pose<Camera, To> poseOf(const cv::Vec3d& turn, const cv::Vec3d& shift) {
-  const glm::dvec3 turn_rad(turn[0], turn[1], turn[2]);
-  const double angle_rad = glm::length(turn_rad);
-  return {angle_rad > 0.0 ? glm::angleAxis(angle_rad, turn_rad / angle_rad) : glm::dquat(1.0, 0.0, 0.0, 0.0),
-          {shift[0], shift[1], shift[2]}};
+  return {turnBy({turn[0], turn[1], turn[2]}), {shift[0], shift[1], shift[2]}};
 }
 
 }  // namespace

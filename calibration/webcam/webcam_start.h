@@ -13,7 +13,8 @@ namespace calibration {
 /// From the screen it sees. Throws CalibrationError: seen from behind (mirrored), or no pose explains it.
 Pose<Camera, World> cameraSeeing(const WebcamSights& sights, std::size_t position);
 
-/// From the tips it sees, those that no pose explains aside. Throws CalibrationError: fewer than half agree on one.
+/// From the tips it sees, those that no pose explains aside. Throws CalibrationError: fewer than two thirds agree on
+/// one.
 Pose<World, Device> deviceSeen(const WebcamSights& sights, std::size_t position, const Pose<Camera, World>& X_CW);
 
 }  // namespace calibration

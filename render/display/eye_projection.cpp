@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "calibration/virtual_screen.h"
+
 namespace render {
 namespace {
 
 using calibration::Point;
 using calibration::Rig;
 using calibration::World;
-
-Point<World> onVirtualScreen(const Rig& rig, const Point<World>& corner_W) {
-  return rig.mirror ? rig.mirror->reflect(corner_W) : corner_W;
-}
 
 Point<World> placeOf(const Rig& rig, Eye eye) {
   switch (eye) {
@@ -27,11 +25,10 @@ Point<World> placeOf(const Rig& rig, Eye eye) {
 }
 
 double distanceToScreen_mm(const Rig& rig, const Point<World>& eye_W) {
-  const Point<World> pll = onVirtualScreen(rig, rig.screen.lower_left);
-  const Point<World> plr = onVirtualScreen(rig, rig.screen.lower_right);
-  const Point<World> pul = onVirtualScreen(rig, rig.screen.upper_left);
-  const glm::dvec3 normal = glm::normalize(glm::cross(plr.mm - pll.mm, pul.mm - pll.mm));
-  return std::abs(glm::dot(normal, eye_W.mm - pll.mm));
+  const calibration::ScreenCorners seen = calibration::virtualScreen(rig);
+  const glm::dvec3 pll = seen.lower_left.mm;
+  const glm::dvec3 normal = glm::normalize(glm::cross(seen.lower_right.mm - pll, seen.upper_left.mm - pll));
+  return std::abs(glm::dot(normal, eye_W.mm - pll));
 }
 
 }  // namespace
@@ -45,9 +42,8 @@ EyeView eyeView(const Rig& rig, Eye eye) {
 
 EyeView eyeView(const Rig& rig, const Point<World>& eye_W, double near_mm, double far_mm) {
   const glm::dvec3 e = eye_W.mm;
-  const glm::dvec3 pll = onVirtualScreen(rig, rig.screen.lower_left).mm;
-  const glm::dvec3 plr = onVirtualScreen(rig, rig.screen.lower_right).mm;
-  const glm::dvec3 pul = onVirtualScreen(rig, rig.screen.upper_left).mm;
+  const calibration::ScreenCorners seen = calibration::virtualScreen(rig);
+  const glm::dvec3 pll = seen.lower_left.mm, plr = seen.lower_right.mm, pul = seen.upper_left.mm;
 
   // Basis of the virtual screen, its normal towards the eye.
   const glm::dvec3 vr = glm::normalize(plr - pll), vu = glm::normalize(pul - pll);

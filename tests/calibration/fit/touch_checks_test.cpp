@@ -131,5 +131,13 @@ TEST(HullVolume, IsThatOfABallNearly) {
   EXPECT_NEAR(hullVolume_mm3(places) / (4.0 / 3.0 * kPi * 1000.0), 1.0, 0.01);
 }
 
+TEST(TouchChecks, SayHowFarDirectionsAreApart) {
+  std::vector<glm::dvec3> all(10, {0.0, 0.0, 1.0});
+  EXPECT_EQ(pairSpread_deg(all), 0.0);
+  for (std::size_t i = 0; i < 5; ++i) all[i] = {1.0, 0.0, 0.0};
+  EXPECT_NEAR(pairSpread_deg(all), 90.0, 1e-9);
+  EXPECT_EQ(pairSpread_deg({}), 0.0);
+}
+
 }  // namespace
 }  // namespace calibration

@@ -11,6 +11,16 @@
 
 namespace calibration {
 
+/// The virtual screen: its picture's middle is the origin of W, x right, y up.
+struct ShownScreen {
+  glm::ivec2 size_px{1920, 1080};
+  glm::dvec2 size_mm{531.0, 298.7};
+
+  Point<World> place_W(const glm::dvec2& px) const {
+    return {{((px.x + 0.5) / size_px.x - 0.5) * size_mm.x, (0.5 - (px.y + 0.5) / size_px.y) * size_mm.y, 0.0}};
+  }
+};
+
 /// From `eye_W`, towards `at_W`, its picture turned by `roll_rad`.
 inline Pose<World, Camera> cameraTowards(const glm::dvec3& eye_W, const glm::dvec3& at_W, double roll_rad = 0.0) {
   const glm::dvec3 ahead = glm::normalize(at_W - eye_W);
