@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <chrono>
 #include <cmath>
 
 #include <CLI/CLI.hpp>
@@ -13,7 +12,6 @@
 #include "calibration/record/default_rigs.h"
 #include "calibration/record/rig_file.h"
 #include "calibration/record/rig_store.h"
-#include "calibration/record/utc.h"
 
 namespace app {
 namespace {
@@ -45,11 +43,6 @@ std::string ofTouches(const calibration::RigProof& proof) {
 }
 
 }  // namespace
-
-std::string nowUtc() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return calibration::utcOf(std::chrono::duration_cast<std::chrono::seconds>(now).count());
-}
 
 DeviceAtHand deviceAtHand(const std::string& address, const haptics::DeviceCapabilities* real) {
   if (const auto practice = practiceRig(address))

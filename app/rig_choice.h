@@ -61,7 +61,4 @@ class RigOption {
   std::string rig_, store_, mount_, despite_;
 };
 
-/// "2026-11-22T10:33:45Z".
-std::string nowUtc();
-
 }  // namespace app

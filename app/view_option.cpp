@@ -12,6 +12,7 @@
 
 #include "app/usage_error.h"
 #include "calibration/geometry/units.h"
+#include "calibration/record/utc.h"
 #include "render/display/camera.h"
 
 namespace app {
@@ -110,7 +111,7 @@ void ViewOption::addTo(CLI::App& command) {
 
 render::Eye ViewOption::apply(calibration::Rig& rig, const assets::VolumeGrid& grid) const {
   if (rig_.isGiven()) {
-    rig = rig_.choose({}, nowUtc())->record.rig;
+    rig = rig_.choose({}, calibration::nowUtc())->record.rig;
     if (!size_.empty()) rig.screen.px = pictureSize(size_);
   } else {
     const glm::ivec2 px = size_.empty() ? glm::ivec2(640, 480) : pictureSize(size_);

@@ -1,7 +1,6 @@
 #include "app/calibrate/calibrated_rig.h"
 
 #include <cmath>
-#include <ctime>
 
 #include "calibration/checked_yaml.h"
 #include "calibration/record/utc.h"
@@ -19,7 +18,7 @@ constexpr double kUnseen_mm = 0.2;
 }  // namespace
 
 void stamp(RigRecord& record, const RigRecord& base, const Measuring& measuring) {
-  const std::string now = utcOf(std::time(nullptr));
+  const std::string now = nowUtc();
   record.provenance.rig_id = measuring.rig_id;
   record.provenance.created_utc = now;
   record.provenance.program = MOLAR_VERSION;

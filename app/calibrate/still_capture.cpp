@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "calibration/median.h"
+
 namespace app {
 namespace {
 
@@ -111,9 +113,7 @@ StillTake StillCapture::median(double end_s) const {
     for (std::size_t i = 0; i < count_ && back(i).t_s > end_s - kMedian_s - 1e-9; ++i)
       if (back(i).t_s <= end_s + 1e-9) angles.push_back(back(i).raw_rad[joint]);
     if (angles.empty()) return take;
-    const auto middle = angles.begin() + static_cast<std::ptrdiff_t>(angles.size() / 2);
-    std::nth_element(angles.begin(), middle, angles.end());
-    take.raw_rad[joint] = *middle;
+    take.raw_rad[joint] = calibration::medianOf(angles);
     take.samples = static_cast<int>(angles.size());
   }
   return take;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "app/calibrate/number_words.h"
 #include "calibration/geometry/units.h"
@@ -33,16 +32,6 @@ std::string tiltWords(const calibration::Vector<calibration::World>& present_W,
   if (std::abs(up) >= kWorthSaying_deg)
     words += (words.empty() ? "" : " and ") + inWords(std::abs(up), 0) + (up > 0.0 ? "° up" : "° down");
   return words.empty() ? words : "lean the handle " + words;
-}
-
-double spreadOf_deg(std::span<const calibration::Vector<calibration::World>> directions) {
-  std::vector<double> angles;
-  for (std::size_t i = 0; i < directions.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) angles.push_back(angleBetween_deg(directions[i].xyz, directions[j].xyz));
-  if (angles.empty()) return 0.0;
-  const auto at = angles.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(angles.size() - 1));
-  std::nth_element(angles.begin(), at, angles.end());
-  return *at;
 }
 
 }  // namespace app

@@ -2,7 +2,6 @@
 // up, z to the viewer), unit. Pure; any thread.
 #pragma once
 
-#include <span>
 #include <string>
 
 #include "calibration/geometry/frames.h"
@@ -15,8 +14,5 @@ double angleBetween_deg(const glm::dvec3& a, const glm::dvec3& b);
 /// "lean the handle 20° to the left and 12° up"; empty below 5° each way.
 std::string tiltWords(const calibration::Vector<calibration::World>& present_W,
                       const calibration::Vector<calibration::World>& wanted_W);
-
-/// 95 of 100 pairs of directions are no further apart. 0 for fewer than two.
-double spreadOf_deg(std::span<const calibration::Vector<calibration::World>> directions);
 
 }  // namespace app

@@ -5,6 +5,8 @@
 
 #include "app/calibrate/number_words.h"
 #include "app/calibrate/tilt_words.h"
+#include "calibration/fit/touch_checks.h"
+#include "calibration/median.h"
 
 namespace app {
 namespace {
@@ -226,12 +228,7 @@ void TouchRound::show(WizardView& view) const {
 
   view.count = std::to_string(order_.size()) + " of " + std::to_string(taken_.size());
   view.progress = static_cast<double>(order_.size()) / static_cast<double>(std::max<std::size_t>(1, taken_.size()));
-  double interval_s = kUsualInterval_s;
-  if (!intervals_s_.empty()) {
-    std::vector<double> sorted = intervals_s_;
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-    interval_s = sorted[sorted.size() / 2];
-  }
+  const double interval_s = intervals_s_.empty() ? kUsualInterval_s : calibration::medianOf(intervals_s_);
   view.time_left_s = interval_s * static_cast<double>(taken_.size() - order_.size());
 
   if (pause_) {
@@ -262,10 +259,10 @@ std::vector<calibration::Touch> TouchRound::touches() const {
 }
 
 double TouchRound::tiltSpread_deg() const {
-  std::vector<calibration::Vector<calibration::World>> directions;
+  std::vector<glm::dvec3> directions;
   for (const auto& taken : taken_)
-    if (taken) directions.push_back(heldAlong_W(taken->raw_rad));
-  return spreadOf_deg(directions);
+    if (taken) directions.push_back(heldAlong_W(taken->raw_rad).xyz);
+  return calibration::pairSpread_deg(directions);
 }
 
 std::vector<std::size_t> TouchRound::wronglyHeld() const {

@@ -38,8 +38,8 @@ bool isNew(const BoardSighting& sighting, const std::vector<BoardView>& views, d
 }
 
 std::string whereToStand(int position) {
-  constexpr std::array<const char*, 3> kPlaces = {"at the surgeon's eyes", "25° further to the left",
-                                                  "25° to the right of the eyes"};
+  constexpr std::array<const char*, 3> kPlaces = {"at the surgeon's eyes", "25° further to the right",
+                                                  "25° to the left of the eyes"};
   const auto which = static_cast<std::size_t>(std::clamp(position - 1, 0, 2));
   return kPlaces[which];
 }

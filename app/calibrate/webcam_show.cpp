@@ -14,6 +14,7 @@
 #include "app/calibrate/webcam_technician.h"
 #include "app/calibrate/wizard_pages.h"
 #include "app/usage_error.h"
+#include "calibration/median.h"
 #include "render/display/eye_projection.h"
 
 namespace app {
@@ -101,9 +102,7 @@ class WebcamShow {
     for (std::size_t axis = 0; axis < median.size() && !recent_.empty(); ++axis) {
       std::vector<double> angles;
       for (const StylusSample& sample : recent_) angles.push_back(sample.raw_rad[axis]);
-      const auto middle = angles.begin() + static_cast<std::ptrdiff_t>(angles.size() / 2);
-      std::nth_element(angles.begin(), middle, angles.end());
-      median[axis] = *middle;
+      median[axis] = medianOf(angles);
     }
     return median;
   }

@@ -1,18 +1,16 @@
 #include "app/calibrate/webcam_technician.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "calibration/geometry/units.h"
 #include "calibration/synthetic/chance.h"
+#include "calibration/synthetic/webcam_sights.h"
 
 namespace app {
 namespace {
 
 using namespace calibration;
 
-constexpr std::array<double, 3> kAside_deg = {0.0, 25.0, -25.0};
 constexpr double kAimed_mm = 3.0;  ///< a tip is held this near to the ring, one sigma an axis
 constexpr double kGhost = 0.05;
 
@@ -59,7 +57,7 @@ void WebcamTechnician::putUpFor(const WebcamProcedure& procedure) {
   if (procedure.step() == WebcamStep::lens) return holdForLens();
   if (procedure.step() != WebcamStep::pattern) return;
   const auto position = static_cast<std::size_t>(procedure.position());
-  putUp(kAside_deg[(position - 1) % kAside_deg.size()]);
+  putUp(kCameraAside_deg[(position - 1) % kCameraAside_deg.size()]);
   stood_.resize(position);
   stood_.back() = webcam_.X_WC;
 }
@@ -84,9 +82,7 @@ void WebcamTechnician::holdForLens() {
 }
 
 void WebcamTechnician::putUp(double aside_deg) {
-  const glm::dquat aside = glm::angleAxis(radFromDegrees(aside_deg), glm::dvec3(0.0, 1.0, 0.0));
-  const Point<World> from_W{aside * rig_.nominal.cyclopeanEye().mm + gaussianVector(chance_, 10.0)};
-  webcam_.X_WC = lookingAt(from_W, {gaussianVector(chance_, 10.0)}, {0.0, 1.0, 0.0});
+  webcam_.X_WC = cameraPutUp(rig_.nominal, aside_deg, chance_);
   look();
 }
 

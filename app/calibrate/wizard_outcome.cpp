@@ -21,8 +21,7 @@ calibration::RigRecord recordOf(const WizardPlan& plan, const WizardOutcome& out
   else if (const auto& rezero = outcome.rezero)
     putRezero(record, outcome.zeroing, *rezero, outcome.duration_s);
   if (outcome.errors && outcome.judgement) putProof(record, outcome.proof_residuals, outcome.proof_kind);
-  if (const auto& rest = outcome.rest)
-    record.rest = calibration::HandRest{rest->rotation, rest->translation_mm, rest->fre_rms_mm, rest->worst_mm};
+  if (outcome.rest) record.rest = outcome.rest;
   return record;
 }
 

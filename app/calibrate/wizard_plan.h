@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "calibration/fit/rest_registration.h"
 #include "calibration/fit/target_plan.h"
 #include "calibration/record/rig_record.h"
 

@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
 
@@ -21,7 +20,7 @@
 #include "app/falcon_scale_file.h"
 #include "app/page_look.h"
 #include "app/usage_error.h"
-#include "assets/output_file.h"
+#include "app/written_text.h"
 #include "haptics/device/device_catalogue.h"
 #include "haptics/device/simulated/simulated_phantom.h"
 
@@ -114,8 +113,7 @@ int check(const CheckOptions& options) {
   done.report.program = MOLAR_VERSION;
   if (address.starts_with("falcon") && done.readings.size() >= 3) keepFalconScale(options, scale, done);
 
-  std::ofstream(report.temporaryPath()) << pageOf(done.report);
-  report.commit();
+  writeText(report, pageOf(done.report));
   dialogue.say("\n" +
                std::string(done.report.left_early ? "Left before the end."
                            : done.report.isGood() ? "All that was tried is as it should be."

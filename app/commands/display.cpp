@@ -19,6 +19,7 @@
 #include "app/usage_error.h"
 #include "app/view_option.h"
 #include "assets/output_file.h"
+#include "calibration/record/utc.h"
 #include "render/gpu/window_upload.h"
 
 namespace app {
@@ -49,7 +50,7 @@ int listMonitors() {
 calibration::Rig rigOf(const DisplayOptions& options) {
   calibration::Rig rig;
   if (options.rig.isGiven()) {
-    rig = options.rig.choose({}, nowUtc())->record.rig;
+    rig = options.rig.choose({}, calibration::nowUtc())->record.rig;
     if (!options.size.empty()) rig.screen.px = pictureSize(options.size);
   } else {
     rig = calibration::desktopRig(options.size.empty() ? glm::ivec2(1920, 1080) : pictureSize(options.size),

@@ -5,7 +5,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -21,7 +20,7 @@
 #include "app/settings_text.h"
 #include "app/toml_keys.h"
 #include "app/usage_error.h"
-#include "assets/output_file.h"
+#include "app/written_text.h"
 #include "calibration/record/rig_file.h"
 
 namespace app {
@@ -36,14 +35,6 @@ struct PsychophysicsOptions {
 /// results.csv and results.json.
 std::string beside(const std::string& csv, const char* ending) {
   return std::filesystem::path(csv).replace_extension(ending).string();
-}
-
-void writeText(const std::string& text, assets::OutputFile& file) {
-  std::ofstream out(file.temporaryPath(), std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw UsageError("summary: it can not be written, check the free space");
-  file.commit();
 }
 
 constexpr double kMonitorWidth_mm = 531.0, kLoupes = 4.0;  ///< of a 24-inch monitor, as in `rehearse`
@@ -112,7 +103,7 @@ int run(const PsychophysicsOptions& options) {
     if (shows_progress) std::fputc('\n', stderr);
   }
   const Outcome outcome = outcomeOf(protocol, *experiment, std::move(trials), complete, options.seed);
-  writeText(summaryJson(protocol, outcome, options.seed, options.observer), summary);
+  writeText(summary, summaryJson(protocol, outcome, options.seed, options.observer));
   if (!outcome.trials.empty()) drawChart(chartOf(protocol, outcome), picture);
   std::fputs(summaryWords(protocol, outcome).c_str(), stderr);
   return 0;

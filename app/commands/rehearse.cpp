@@ -29,6 +29,7 @@
 #include "app/view_option.h"
 #include "assets/patient_folder.h"
 #include "assets/synthetic/face.h"
+#include "calibration/record/utc.h"
 #include "render/quality_ladder.h"
 
 namespace app {
@@ -85,7 +86,7 @@ void chooseRig(RehearsalPlan& plan, const RehearseOptions& options, const assets
   if (namesRealDevice(options.device)) plan.opened = openDevice(options.device, plan.device_options);
   const DeviceAtHand device =
       deviceAtHand(options.device, plan.opened ? &plan.opened->device->capabilities() : nullptr);
-  const std::optional<ChosenRig> chosen = options.rig.choose(device, nowUtc());
+  const std::optional<ChosenRig> chosen = options.rig.choose(device, calibration::nowUtc());
   plan.rig = rigFor(options, chosen, plan.patient, X_PF);
   plan.full_screen = chosen.has_value();
   if (!chosen) {

@@ -21,7 +21,7 @@ inline constexpr double kLeastSigma_mm = 0.055;
 enum class DriftQuantity { rms, right, up, nearer };
 inline constexpr std::array kDriftQuantities = {DriftQuantity::rms, DriftQuantity::right, DriftQuantity::up,
                                                 DriftQuantity::nearer};
-std::string_view nameOf(DriftQuantity quantity);  ///< "RMS", "bias right", …
+std::string_view nameOf(DriftQuantity quantity);  ///< "RMS", "bias to the right", …
 double valueOf_mm(const DriftEntry& entry, DriftQuantity quantity);
 
 struct DriftAlarm {

@@ -39,6 +39,7 @@ class KeptFile {
   const std::filesystem::path& hiddenPath() const { return hidden_path_; }
   void putInPlace();  ///< refused where there is one
   void replace();
+  bool isInPlace() const { return hidden_path_.empty(); }
 
  private:
   std::filesystem::path path_, hidden_path_;

@@ -1,10 +1,11 @@
+#include "calibration/record/rig_differences.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
+#include "calibration/geometry/turn.h"
 #include "calibration/geometry/units.h"
-#include "calibration/record/rig_file_words.h"
-#include "calibration/record/rig_store.h"
 
 namespace calibration {
 namespace {
@@ -41,9 +42,7 @@ class Lines {
                        " mm apart");
   }
   void turn(const std::string& what, const glm::dquat& before, const glm::dquat& after) {
-    const glm::dquat between = glm::conjugate(before) * after;
-    const double angle_deg =
-        degreesFromRad(2.0 * std::atan2(glm::length(glm::dvec3(between.x, between.y, between.z)), std::abs(between.w)));
+    const double angle_deg = degreesFromRad(angleBetween_rad(before, after));
     if (angle_deg >= 0.005) lines_.push_back(what + ": turned by " + written(angle_deg, 2) + "\u00b0");
   }
   std::vector<std::string> take() { return std::move(lines_); }
@@ -125,14 +124,14 @@ void compareKnowledge(Lines& lines, const RigRecord& before, const RigRecord& af
   const auto method = [](const RigRecord& r) { return r.procedure ? r.procedure->method : std::string(); };
   lines.text("procedure", method(before), method(after));
   if (before.procedure && after.procedure) {
-    lines.text("model fitted", std::string(wordOf(kArmModelWords, before.procedure->model)),
-               std::string(wordOf(kArmModelWords, after.procedure->model)));
+    lines.text("model fitted", std::string(nameOf(before.procedure->model)),
+               std::string(nameOf(after.procedure->model)));
     lines.number("touches used", before.procedure->used, after.procedure->used, 0, "touches");
     lines.number("outliers", before.procedure->outliers, after.procedure->outliers, 0, "touches");
     lines.number("cross-validated error, RMS", before.procedure->cv_rms_mm, after.procedure->cv_rms_mm, 2, "mm");
   }
   const auto verdict = [](const RigRecord& r) {
-    return r.proof ? std::string(wordOf(kVerdictWords, r.proof->verdict)) : std::string();
+    return r.proof ? std::string(nameOf(r.proof->verdict)) : std::string();
   };
   lines.text("verdict", verdict(before), verdict(after));
   if (before.proof && after.proof) {

@@ -149,7 +149,7 @@ RigProof proofIn(const CheckedYaml& yaml) {
   return proof;
 }
 
-HandRest restIn(const CheckedYaml& yaml, double rotation_tolerance) {
+RestRegistration restIn(const CheckedYaml& yaml, double rotation_tolerance) {
   const cv::FileNode node = yaml.map(yaml.root(), "rest");
   const CheckedYaml::Rigid X_W_rest = exactPose(yaml, node, "X_W_rest", rotation_tolerance);
   return {X_W_rest.rotation, X_W_rest.translation_mm, error_mm(yaml, node, "fre_rms_mm"),

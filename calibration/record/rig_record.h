@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration/fit/rest_registration.h"
 #include "calibration/fit/touches.h"
 #include "calibration/rig.h"
 #include "calibration/verification/verdict.h"
@@ -43,13 +44,6 @@ struct RigProof {
   std::vector<Residual> residuals{};  ///< of the touches that were held out
 };
 
-/// Where the hand rests: X_W,rest by three touches of its marks, proved by three more.
-struct HandRest {
-  glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
-  glm::dvec3 translation_mm{0.0};
-  double fre_rms_mm = 0.0, worst_mm = 0.0;
-};
-
 struct RigRecord {
   Rig rig;
   RigProvenance provenance;
@@ -57,7 +51,7 @@ struct RigRecord {
   std::optional<RigProcedure> procedure;
   std::optional<RigProof> proof;
   std::vector<Residual> residuals;  ///< of the fit
-  std::optional<HandRest> rest;
+  std::optional<RestRegistration> rest;
   std::vector<double> sigma;  ///< of the fit's numbers, as ArmFit has them; empty: not known
   std::string hash;           ///< of the file it was read from; empty: that has none
 };

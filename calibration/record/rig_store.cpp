@@ -226,9 +226,11 @@ fs::path RigStore::keep(const RigPlace& place, const RigRecord& record, const st
     rig.putInPlace();
     if (pointer) pointer->replace();
   } catch (const CalibrationError&) {
+    // What the pointer names already stays, and what somebody else had put there.
     std::error_code ignored;
-    fs::remove(folder / (name.stem() + kEnding), ignored);
-    fs::remove(folder / (name.stem() + kTouchesEnding), ignored);
+    const bool is_named = pointer && pointer->isInPlace();
+    if (rig.isInPlace() && !is_named) fs::remove(folder / (name.stem() + kEnding), ignored);
+    if (touches && touches->isInPlace() && !is_named) fs::remove(folder / (name.stem() + kTouchesEnding), ignored);
     throw;
   }
   return folder / (name.stem() + kEnding);
@@ -246,11 +248,11 @@ std::optional<std::string> RigStore::nameInForce(const RigPlace& place) const {
 
 std::string RigStore::rollBack(const RigPlace& place) {
   const fs::path folder = folderOf(place);
-  std::vector<std::string> files = names(place);
   const CalibrationError none("rig store: " + folder.string() + " has no rig before this one, calibrate again");
-  if (files.empty()) throw none;
+  if (names(place).empty()) throw none;
   const FolderLock lock(folder);
   removeLeftovers(folder);
+  const std::vector<std::string> files = names(place);
 
   // The one it was made after, by hash; else by time; and where nothing is in force, the newest.
   std::string before = files.back();

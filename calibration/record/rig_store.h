@@ -61,7 +61,4 @@ std::string whyNotFor(const RigRecord& record, const std::string& device_model, 
 std::optional<double> age_days(const RigRecord& record, const std::string& now_utc);
 inline constexpr double kOldRig_days = 90.0;
 
-/// What differs between two records, a line each, with both values and their unit.
-std::vector<std::string> differences(const RigRecord& before, const RigRecord& after);
-
 }  // namespace calibration

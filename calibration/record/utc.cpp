@@ -48,4 +48,9 @@ std::string utcOf(std::int64_t seconds) {
   return text;
 }
 
+std::string nowUtc() {
+  const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+  return utcOf(now.time_since_epoch().count());
+}
+
 }  // namespace calibration

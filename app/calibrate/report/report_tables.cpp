@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "app/calibrate/report/svg.h"
+#include "calibration/fit/fit_warnings.h"
+#include "calibration/fit/rest_registration.h"
 #include "calibration/record/rig_store.h"
 
 namespace app {
@@ -75,14 +77,16 @@ std::string figuresTable(const RigRecord& record) {
     table += plain("Residual of the fit (FRE), RMS", mm(procedure.fre_rms_mm), "plausibility, no accuracy");
     table +=
         plain("Touches used, set aside", std::to_string(procedure.used) + ", " + std::to_string(procedure.outliers));
-    table += plain("Spread of the stylus's tilt", fixedText(procedure.tilt_spread_deg, 0) + "\u00b0",
-                   procedure.tilt_spread_deg < 25.0 ? "too little: it hides errors of the gimbal" : "");
+    table += plain(
+        "Spread of the stylus's tilt", fixedText(procedure.tilt_spread_deg, 0) + "\u00b0",
+        procedure.tilt_spread_deg < calibration::kLeastTilt_deg ? "too little: it hides errors of the gimbal" : "");
     table += plain("Time taken", fixedText(procedure.duration_s / 60.0, 1) + " min");
   }
   if (record.rest)
-    table += plain("Hand rest, residual and largest proof",
-                   fixedText(record.rest->fre_rms_mm, 2) + ", " + mm(record.rest->worst_mm),
-                   record.rest->worst_mm > 2.0 ? "more than 2 mm off: register it again" : "");
+    table +=
+        plain("Hand rest, residual and largest proof",
+              fixedText(record.rest->fre_rms_mm, 2) + ", " + mm(record.rest->worst_mm),
+              record.rest->worst_mm > calibration::kMostRestError_mm ? "more than 2 mm off: register it again" : "");
   return table + "</table>\n";
 }
 

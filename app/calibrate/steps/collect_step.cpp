@@ -1,13 +1,13 @@
 #include "app/calibrate/steps/collect_step.h"
 
 #include "app/calibrate/number_words.h"
+#include "calibration/fit/fit_warnings.h"
 #include "calibration/fit/quick_fit.h"
 
 namespace app {
 namespace {
 
 constexpr std::size_t kLeastJudged = 8;
-constexpr double kLeastSpread_deg = 25.0;
 constexpr int kMostOneWay = 1;          ///< times that somebody is asked to follow the cue
 constexpr double kMostMuddle_mm = 3.0;  ///< left at the touches: beyond, they belong to other targets
 
@@ -25,7 +25,6 @@ calibration::TouchSet emptySet(const WizardBook& book, const calibration::Target
 
 void CollectStep::begin() {
   const calibration::TargetPlan plan = *calibration::targetPlan(book_.plan.method, book_.plan.jig);
-  believed_ = book_.arm;
   round_.emplace(plan, book_.arm, 0.0, book_.voice);
   book_.outcome.touches = emptySet(book_, plan);
   end_.reset();
@@ -82,7 +81,7 @@ void CollectStep::judgeSoFar() {
 }
 
 void CollectStep::askAtTheEnd() {
-  little_tilt_ = round_->tiltSpread_deg() < kLeastSpread_deg;
+  little_tilt_ = round_->tiltSpread_deg() < calibration::kLeastTilt_deg;
   held_one_way_ += little_tilt_ ? 1 : 0;
   if (little_tilt_) {
     end_ = ChoiceMenu({"touch those again that were held wrongly", "leave; the old calibration stays"});

@@ -23,7 +23,6 @@ class CollectStep final : public WizardStep {
 
   WizardBook& book_;
   std::optional<TouchRound> round_;
-  calibration::MeasuredArm believed_;
   std::optional<ChoiceMenu> end_;
   std::optional<std::size_t> worst_;
   double worst_mm_ = 0.0;

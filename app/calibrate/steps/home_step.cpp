@@ -12,7 +12,7 @@ constexpr double kDoubted_s = 0.3;
 
 void HomeStep::begin() {
   phase_ = Phase::to_inkwell;
-  waits_ = seen_ = false;
+  seen_ = false;
   settled_s_ = 0.0;
 }
 
@@ -21,7 +21,6 @@ StepAnswer HomeStep::feel(const StylusSample& sample, Press press, double) {
     return StepAnswer::refused("The device was not brought home: nothing can be measured with it.");
   const double passed_s = seen_ ? std::max(0.0, sample.t_s - since_s_) : 0.0;
   seen_ = true;
-  believable_ = sample.believable;
 
   switch (phase_) {
     case Phase::to_inkwell: {

@@ -18,7 +18,7 @@ class HomeStep final : public WizardStep {
   WizardBook& book_;
   enum class Phase { to_inkwell, settling, take_out } phase_ = Phase::to_inkwell;
   double since_s_ = 0.0, settled_s_ = 0.0;
-  bool waits_ = false, seen_ = false, believable_ = false;
+  bool seen_ = false;
 };
 
 }  // namespace app

@@ -23,11 +23,7 @@ calibration::TargetPlan marksPlan(const char* method, const calibration::RestReg
 void RestStep::begin() {
   made_of_.clear();
   book_.outcome.rest.reset();
-  calibration::RestRegistration believed;
-  if (const auto& known = book_.plan.record.rest) {
-    believed.rotation = known->rotation;
-    believed.translation_mm = known->translation_mm;
-  }
+  const auto believed = book_.plan.record.rest.value_or(calibration::RestRegistration{});
   round_.emplace(marksPlan("rest3", believed, book_.plan.rest_marks_mm, 0), book_.arm, kFar_mm, book_.voice);
   round_->letTiltBe();
 }

@@ -3,14 +3,12 @@
 #include "app/commands/calibrate/calibrate.h"
 
 #include <cstdio>
-#include <ctime>
-#include <fstream>
 
 #include <CLI/CLI.hpp>
 
 #include "app/calibrate/calibration_text.h"
 #include "app/usage_error.h"
-#include "assets/output_file.h"
+#include "app/written_text.h"
 #include "calibration/fit/touches_file.h"
 #include "calibration/record/rig_file.h"
 #include "calibration/record/utc.h"
@@ -21,25 +19,29 @@ using namespace calibration;
 
 namespace {
 
-constexpr const char* kStoreHelp = "Folder of the store [$MOLAR_CALIBRATION or the user's data folder]";
+bool comesIntoForce(const RigRecord& record) { return record.proof && record.proof->verdict != Verdict::red; }
 
 }  // namespace
+
+void addStore(CLI::App& command, std::string& store) {
+  command.add_option("--store", store, "Folder of the store [$MOLAR_CALIBRATION or the user's data folder]")
+      ->type_name("DIR");
+}
+
+RigStore storeAt(const std::string& folder) {
+  return RigStore(folder.empty() ? RigStore::usualRoot() : std::filesystem::path(folder));
+}
 
 void KeepOption::addTo(CLI::App& command) {
   command.add_option("--out", out, "Rig file to write")->type_name("FILE");
   command.add_flag("--keep", into_store, "Keep it in the store; in force from then on unless it is red or unproved");
-  command.add_option("--store", store, kStoreHelp)->type_name("DIR");
+  addStore(command, store);
   command.add_flag("--force", force, "Replace a file that exists");
 }
 
 void KeepOption::note(const RigRecord& record, DriftKind kind, const TargetErrors& errors) const {
-  if (!into_store) return;
-  appendHistory(rigs().historyPath(placeOf(record)),
-                {utcOf(std::time(nullptr)), kind, errors.n, errors.rms_mm, errors.bias_mm});
-}
-
-RigStore KeepOption::rigs() const {
-  return RigStore(store.empty() ? RigStore::usualRoot() : std::filesystem::path(store));
+  if (!into_store || (kind == DriftKind::calibration && !comesIntoForce(record))) return;
+  appendHistory(rigs().historyPath(placeOf(record)), {nowUtc(), kind, errors.n, errors.rms_mm, errors.bias_mm});
 }
 
 RigPlace KeepOption::placeOf(const RigRecord& record) const {
@@ -59,11 +61,10 @@ void KeepOption::refuseUnlessWritable() const {
 void KeepOption::keep(const RigRecord& record, const std::string& touches_text) const {
   if (!out.empty()) {
     assets::OutputFile file(out, force);
-    std::ofstream(file.temporaryPath()) << rigRecordText(record);
-    file.commit();
+    writeText(file, rigRecordText(record));
   }
   if (!into_store) return;
-  const bool passes = record.proof && record.proof->verdict != Verdict::red;
+  const bool passes = comesIntoForce(record);
   const auto path = rigs().keep(placeOf(record), record, touches_text, passes);
   std::fprintf(stderr, "molar: kept as %s; %s\n", path.c_str(),
                passes         ? "in force from now on"

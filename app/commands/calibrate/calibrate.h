@@ -23,19 +23,25 @@ void addCalibrateLens(CLI::App& calibrate, Chosen& chosen);
 void addCalibrateReport(CLI::App& calibrate, Chosen& chosen);
 void addCalibrateStore(CLI::App& calibrate, Chosen& chosen);  ///< list, diff, rollback
 
+/// --store: where calibrations are kept.
+void addStore(CLI::App& command, std::string& store);
+/// Of a folder's name; empty: the usual one.
+calibration::RigStore storeAt(const std::string& folder);
+
 /// Where a result goes: a file, the store, or nowhere.
 class KeepOption {
  public:
   void addTo(CLI::App& command);
 
-  calibration::RigStore rigs() const;
+  calibration::RigStore rigs() const { return storeAt(store); }
   calibration::RigPlace placeOf(const calibration::RigRecord& record) const;
   /// Claims the output before any work. Throws LoadError.
   void refuseUnlessWritable() const;
   /// Into the file and, if asked, the store, where it comes into force unless its proof is missing or red. Says so.
   void keep(const calibration::RigRecord& record, const std::string& touches_text) const;
 
-  /// What was found, into the history of the place; only with --keep.
+  /// What was found, into the history of the place; only with --keep. A calibration begins the history anew, so only
+  /// one that comes into force is noted.
   void note(const calibration::RigRecord& record, calibration::DriftKind kind,
             const calibration::TargetErrors& errors) const;
 

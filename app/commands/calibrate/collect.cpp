@@ -1,7 +1,6 @@
 // `molar calibrate collect`: lead a technician through a calibration at the workstation, from homing to sign-off.
 
 #include <cstdio>
-#include <fstream>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -11,7 +10,7 @@
 #include "app/commands/calibrate/calibrate.h"
 #include "app/commands/number_range.h"
 #include "app/usage_error.h"
-#include "assets/output_file.h"
+#include "app/written_text.h"
 #include "calibration/fit/touches_file.h"
 #include "calibration/geometry/units.h"
 
@@ -35,11 +34,6 @@ JigPose jigPose(const std::vector<double>& numbers) {
   return {{glm::dquat(turned), {numbers[0], numbers[1], numbers[2]}}};
 }
 
-void write(assets::OutputFile& file, const std::string& text) {
-  std::ofstream(file.temporaryPath()) << text;
-  file.commit();
-}
-
 int collectByWebcam(CollectOptions& options, assets::OutputFile* observations) {
   const auto [before, seen] = options.wizard.look(options.rig, options.keep.rigs(), options.measuring);
   if (!seen) {
@@ -47,7 +41,7 @@ int collectByWebcam(CollectOptions& options, assets::OutputFile* observations) {
     return 1;
   }
   const std::string text = webcamFileText(*seen);
-  if (observations != nullptr) write(*observations, text);
+  if (observations != nullptr) writeText(*observations, text);
   const WebcamFit fit = fitWebcam(seen->sights);
   RigRecord record = before;
   record.rig.device = RigDevice{seen->sights.device_model, options.measuring.serial, options.measuring.mount,
@@ -56,8 +50,8 @@ int collectByWebcam(CollectOptions& options, assets::OutputFile* observations) {
   stamp(record, before, options.measuring);
   std::fputs(webcamFitText(fit).c_str(), stderr);
   std::fputs(proofText(record.proof->errors, judge(record.proof->errors, record.proof->kind)).c_str(), stderr);
-  options.keep.note(record, DriftKind::calibration, record.proof->errors);
   options.keep.keep(record, text);
+  options.keep.note(record, DriftKind::calibration, record.proof->errors);
   return statusOf(record.proof->verdict);
 }
 
@@ -82,7 +76,7 @@ int collect(const CollectOptions& asked) {
   const WizardOption::Led led = options.wizard.lead(rest ? Procedure::rest : Procedure::full, options.method,
                                                     options.rig, options.keep.rigs(), options.measuring);
   if (observations && !led.outcome.touches.touches.empty()) {
-    write(*observations, touchesText(led.outcome.touches));
+    writeText(*observations, touchesText(led.outcome.touches));
   }
   return concluded(led, options.measuring, options.keep);
 }

@@ -89,6 +89,7 @@ int fitWebcamFile(const CalibrateFitOptions& options) {
   std::fputs(webcamFitText(fitted).c_str(), stderr);
   std::fputs(proofText(record.proof->errors, judge(record.proof->errors, ProofKind::full)).c_str(), stderr);
   options.keep.keep(record, webcamFileText(observations));
+  options.keep.note(record, DriftKind::calibration, record.proof->errors);
   if (options.json) std::fputs(webcamFitJson(fitted).c_str(), stdout);
   return statusOf(record.proof->verdict);
 }
@@ -116,6 +117,7 @@ int fit(const CalibrateFitOptions& options) {
   std::fputs(fitText(fitted).c_str(), stderr);
   std::fputs(proof_text.c_str(), stderr);
   options.keep.keep(record, touchesText(touches));
+  if (record.proof) options.keep.note(record, DriftKind::calibration, record.proof->errors);
   if (options.json) std::fputs(fitJson(fitted).c_str(), stdout);
   if (isDoubtful(fitted)) return 1;
   return statusOf(record.proof ? record.proof->verdict : foretold(fitted, kind));

@@ -63,8 +63,9 @@ int prove(const ProveOptions& options) {
   if (options.session_check && judgement.verdict != Verdict::green)
     std::fputs("molar: re-zero with five touches (molar calibrate rezero); if it stays so, calibrate anew\n", stderr);
   if (options.json) std::fputs(proofJson(errors, judgement).c_str(), stdout);
-  options.keep.note(record, options.session_check ? DriftKind::check : DriftKind::calibration, errors);
-  if (!options.session_check) {
+  if (options.session_check) {
+    options.keep.note(record, DriftKind::check, errors);
+  } else {
     const RigRecord base = record;
     putProof(record, residuals, kind);
     Measuring measuring;
@@ -72,6 +73,7 @@ int prove(const ProveOptions& options) {
     if (!base.provenance.rig_id.empty()) measuring.rig_id = base.provenance.rig_id;
     stamp(record, base, measuring);
     options.keep.keep(record, touchesText(touches));
+    options.keep.note(record, DriftKind::calibration, errors);
   }
   return statusOf(judgement.verdict);
 }

@@ -1,7 +1,5 @@
 // `molar calibrate report`: one page that stands alone, for whoever signs.
 
-#include <ctime>
-#include <fstream>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -9,7 +7,7 @@
 #include "app/calibrate/base_rig.h"
 #include "app/calibrate/report/calibration_report.h"
 #include "app/commands/calibrate/calibrate.h"
-#include "assets/output_file.h"
+#include "app/written_text.h"
 #include "calibration/record/utc.h"
 
 namespace app {
@@ -24,8 +22,7 @@ int report(const ReportOptions& options) {
   assets::OutputFile file(options.keep.out, options.keep.force);
   const calibration::RigRecord record = baseRig(options.rig);
   const auto history = calibration::readHistory(options.keep.rigs().historyPath(options.keep.placeOf(record)));
-  std::ofstream(file.temporaryPath()) << reportHtml(record, history, calibration::utcOf(std::time(nullptr)));
-  file.commit();
+  writeText(file, reportHtml(record, history, calibration::nowUtc()));
   return 0;
 }
 
@@ -36,7 +33,7 @@ void addCalibrateReport(CLI::App& calibrate, Chosen& chosen) {
   CLI::App* command = calibrate.add_subcommand("report", "A calibration as one HTML page: how good, where, since when");
   command->add_option("RIG", o->rig, kBaseRigHelp)->required();
   command->add_option("--out,--html", o->keep.out, "Page to write, .html")->type_name("FILE")->required();
-  command->add_option("--store", o->keep.store, "Folder of the store, for the history")->type_name("DIR");
+  addStore(*command, o->keep.store);
   command->add_flag("--force", o->keep.force, "Replace a file that exists");
   command->callback([o, &chosen] { chosen.action = [o] { return report(*o); }; });
 }

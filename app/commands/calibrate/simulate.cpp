@@ -1,6 +1,5 @@
 // `molar calibrate simulate`: touches on a workstation whose truth is known, to try everything without one.
 
-#include <fstream>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -8,7 +7,7 @@
 #include "app/commands/calibrate/calibrate.h"
 #include "app/commands/number_range.h"
 #include "app/usage_error.h"
-#include "assets/output_file.h"
+#include "app/written_text.h"
 #include "calibration/fit/touches_file.h"
 #include "calibration/record/rig_file.h"
 #include "calibration/synthetic/synthetic_rig.h"
@@ -28,11 +27,6 @@ struct SimulateOptions {
   std::vector<double> bur_mm{0.0, 0.0, 0.0};
   bool force = false;
 };
-
-void write(assets::OutputFile& file, const std::string& text) {
-  std::ofstream(file.temporaryPath()) << text;
-  file.commit();
-}
 
 int simulate(const SimulateOptions& options) {
   const auto plan = targetPlan(options.method);
@@ -58,10 +52,10 @@ int simulate(const SimulateOptions& options) {
     TouchSet judges = touches;
     judges.method = "held-out";
     judges.touches = heldOut(rig, options.held_out_n, kHeldOutHalf_mm, chance);
-    write(*held_out, touchesText(judges));
+    writeText(*held_out, touchesText(judges));
   }
-  if (rig_out) write(*rig_out, rigText(rig.nominal));
-  write(out, touchesText(touches));
+  if (rig_out) writeText(*rig_out, rigText(rig.nominal));
+  writeText(out, touchesText(touches));
   return 0;
 }
 

@@ -9,6 +9,7 @@
 #include "app/calibrate/calibration_text.h"
 #include "app/commands/calibrate/calibrate.h"
 #include "app/usage_error.h"
+#include "calibration/record/rig_differences.h"
 #include "calibration/record/rig_file.h"
 
 namespace app {
@@ -20,7 +21,7 @@ struct StoreOptions {
   std::string store, before, after;
   std::optional<std::string> rig_id, serial, mount;
 
-  RigStore rigs() const { return RigStore(store.empty() ? RigStore::usualRoot() : std::filesystem::path(store)); }
+  RigStore rigs() const { return storeAt(store); }
 };
 
 std::string textOf(const RigPlace& place) { return place.rig_id + " / " + place.serial + " / " + place.mount; }
@@ -88,17 +89,12 @@ void addPlace(CLI::App& command, StoreOptions& options) {
   command.add_option("--mount", options.mount, "right or left");
 }
 
-void addStoreFolder(CLI::App& command, StoreOptions& options) {
-  command.add_option("--store", options.store, "Folder of the store [$MOLAR_CALIBRATION or the user's data folder]")
-      ->type_name("DIR");
-}
-
 }  // namespace
 
 void addCalibrateStore(CLI::App& calibrate, Chosen& chosen) {
   auto o = std::make_shared<StoreOptions>();
   CLI::App* listing = calibrate.add_subcommand("list", "Rigs that are kept; * is in force");
-  addStoreFolder(*listing, *o);
+  addStore(*listing, o->store);
   listing->callback([o, &chosen] { chosen.action = [o] { return list(*o); }; });
 
   CLI::App* compare = calibrate.add_subcommand("diff", "What differs between two rigs, with units");
@@ -107,7 +103,7 @@ void addCalibrateStore(CLI::App& calibrate, Chosen& chosen) {
   compare->callback([o, &chosen] { chosen.action = [o] { return diff(*o); }; });
 
   CLI::App* back = calibrate.add_subcommand("rollback", "The rig before comes into force again");
-  addStoreFolder(*back, *o);
+  addStore(*back, o->store);
   addPlace(*back, *o);
   back->callback([o, &chosen] { chosen.action = [o] { return rollBack(*o); }; });
 }

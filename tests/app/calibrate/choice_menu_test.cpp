@@ -47,12 +47,4 @@ TEST(TiltWords, SayWhereTheHandleHasToGo) {
   EXPECT_EQ(tiltWords(towards(0, 0, 1), towards(0.01, 0.01, 1)), "");
 }
 
-TEST(TiltWords, KnowHowFarDirectionsAreApart) {
-  std::vector<calibration::Vector<calibration::World>> all(10, {{0.0, 0.0, 1.0}});
-  EXPECT_EQ(spreadOf_deg(all), 0.0);
-  for (std::size_t i = 0; i < 5; ++i) all[i] = {{1.0, 0.0, 0.0}};
-  EXPECT_NEAR(spreadOf_deg(all), 90.0, 1e-9);
-  EXPECT_EQ(spreadOf_deg({}), 0.0);
-}
-
 }  // namespace

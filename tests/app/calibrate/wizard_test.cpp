@@ -305,7 +305,7 @@ TEST(Wizard, FindsWhereTheHandRests) {
   plan.record = calibratedRecord(rig);
   plan.rest_marks_mm = {{0, 0, 0}, {60, 0, 0}, {15, 40, 5}, {10, 35, 0}, {50, 25, 5}, {30, 10, 5}};
   // Where it was registered last: it has not moved.
-  plan.record.rest = calibration::HandRest{{1, 0, 0, 0}, {-30, -20, 5}, 0, 0};
+  plan.record.rest = calibration::RestRegistration{{1, 0, 0, 0}, {-30, -20, 5}, 0, 0};
   const Finished done = calibrated(rig, plan);
   ASSERT_EQ(done.outcome.end, End::accepted) << done.outcome.reason;
   ASSERT_TRUE(done.record.rest);

@@ -45,7 +45,7 @@ inline RigRecord fullRecord(std::uint32_t seed = 1) {
                           "worst: back left low, 0.6 mm"};
   for (int id = 0; id < 16; ++id) record.proof->residuals.push_back({100 + id, {vector(60.0)}, {vector(0.25)}, true});
   for (int id = 0; id < 27; ++id) record.residuals.push_back({id, {vector(60.0)}, {vector(0.3)}, id != 13});
-  record.rest = HandRest{turn(), vector(80.0), 0.2, 0.4};
+  record.rest = RestRegistration{turn(), vector(80.0), 0.2, 0.4};
   for (int i = 0; i < 28; ++i) record.sigma.push_back(std::abs(number(0.1)));
   return record;
 }

@@ -1,8 +1,9 @@
+#include "calibration/record/rig_differences.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "calibration/geometry/units.h"
-#include "calibration/record/rig_store.h"
 #include "tests/calibration/record/full_record.h"
 
 namespace calibration {
