@@ -1,9 +1,7 @@
 // `molar calibrate lens`: a camera's lens from pictures of a chessboard.
 
 #include <cstdio>
-#include <ctime>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -13,7 +11,7 @@
 #include "app/commands/number_range.h"
 #include "app/usage_error.h"
 #include "app/view_option.h"
-#include "assets/output_file.h"
+#include "app/written_text.h"
 #include "calibration/record/utc.h"
 #include "calibration/webcam/board.h"
 #include "calibration/webcam/camera_file.h"
@@ -110,11 +108,10 @@ int lens(const LensOptions& options) {
     record.camera = fitted.camera;
     record.name = options.name;
     record.serial = options.serial;
-    record.measured_utc = utcOf(std::time(nullptr));
+    record.measured_utc = nowUtc();
     record.rms_px = fitted.rms_px;
     record.views = static_cast<int>(views.usable.size() - fitted.left_out.size());
-    std::ofstream(out->temporaryPath()) << cameraText(record);
-    out->commit();
+    writeText(*out, cameraText(record));
   }
   if (options.json) std::fputs(lensJson(fitted, views.refused).c_str(), stdout);
   return statusOf(verdictOfLens(fitted));
