@@ -10,6 +10,7 @@
 #include "app/printed.h"
 #include "app/usage_error.h"
 #include "calibration/record/default_rigs.h"
+#include "calibration/record/later_check.h"
 #include "calibration/record/rig_file.h"
 #include "calibration/record/rig_store.h"
 
@@ -98,7 +99,9 @@ std::optional<RigRecord> RigOption::currentFor(const DeviceAtHand& device, const
     throw UsageError("--rig " + rig_ + ": several calibrations are in force" + whose + " (" + all +
                      "), say which with --rig current:RIG and --mount");
   }
-  return store.current(suiting.front());
+  auto record = store.current(suiting.front());
+  if (!record) return std::nullopt;
+  return withLaterCheck(*std::move(record), calibration::readHistory(store.historyPath(suiting.front())));
 }
 
 std::optional<ChosenRig> RigOption::choose(const DeviceAtHand& device, const std::string& now_utc) const {

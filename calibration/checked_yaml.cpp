@@ -62,7 +62,7 @@ CheckedYaml::CheckedYaml(std::string kind, std::string path)
   const auto size = std::filesystem::file_size(path_, error);
   if (error || !std::filesystem::is_regular_file(path_))
     refuse("it can not be read", "check the path and its permissions");
-  if (size == 0 || size > kLargestFile_bytes) refuse("its size is not that of a " + kind_, "check the path");
+  if (size == 0 || size > kLargestFile_bytes) refuse("its size is not that of such a file", "check the path");
   std::ifstream in(path_, std::ios::binary);
   std::ostringstream bytes;
   bytes << in.rdbuf();

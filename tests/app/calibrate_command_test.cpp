@@ -129,6 +129,31 @@ TEST_F(CalibrateCommand, LeadsThroughAllOfItAndTheRehearsalWorksWithIt) {
   expectRefusal("rehearse --headless --device practice:D:8 --rig current --rig-store " + at("store"), "SIM-D8");
 }
 
+TEST_F(CalibrateCommand, ARedCheckLocksWhatWasGreen) {
+  const std::string robot = " --device practice:D:7 --robot --hurried --headless --keep --store " + at("store");
+  ASSERT_EQ(molar("calibrate collect" + robot).status, 0);
+  const std::string rig = at("store") + "/rig/SIM-D7/right/" + current("store");
+  const std::string pushed = "calibrate simulate --seed 7 --drift-deg 2 --drift-mm 10 ";
+  ASSERT_EQ(molar(pushed + "--method check4 --out " + at("four.yaml")).status, 0);
+  ASSERT_EQ(molar(pushed + "--method rezero5 --out " + at("five.yaml")).status, 0);
+  EXPECT_EQ(molar("calibrate check " + rig + " " + at("four.yaml") + " --keep --store " + at("store")).status, 1);
+  const std::string rehearse =
+      "rehearse --headless --device practice:D:7 --seconds 0.3 --voxel 0.6 --rig-store " + at("store");
+  expectRefusal(rehearse, "red");
+  EXPECT_EQ(molar("calibrate report " + rig + " --store " + at("store") + " --out " + at("page.html")).status, 0);
+  EXPECT_NE(read("page.html").find("Red"), std::string::npos);
+  const Said insisted = molar(rehearse + " --despite-calibration \"to try it\"");
+  EXPECT_EQ(insisted.status, 0) << insisted.err;
+
+  // A re-zero opens it again, once others prove it.
+  const std::string rezero = "calibrate rezero " + rig + " " + at("five.yaml") + " --keep --store " + at("store");
+  EXPECT_NE(molar(rezero).err.find("not proved"), std::string::npos);
+  expectRefusal(rehearse, "red");
+  EXPECT_NE(molar(rezero + " --held-out " + at("four.yaml")).status, 2);
+  const Said opened = molar(rehearse);
+  EXPECT_EQ(opened.status, 0) << opened.err;
+}
+
 TEST_F(CalibrateCommand, LeadsNobodyWithoutAStylusOrWithANonsense) {
   for (const char* wrong :
        {"collect --device mouse", "collect --device practice:Z", "collect --device simulated:omni",

@@ -40,7 +40,7 @@ void KeepOption::addTo(CLI::App& command) {
 }
 
 void KeepOption::note(const RigRecord& record, DriftKind kind, const TargetErrors& errors) const {
-  if (!into_store || (kind == DriftKind::calibration && !comesIntoForce(record))) return;
+  if (!into_store || (kind != DriftKind::check && !comesIntoForce(record))) return;
   appendHistory(rigs().historyPath(placeOf(record)), {nowUtc(), kind, errors.n, errors.rms_mm, errors.bias_mm});
 }
 

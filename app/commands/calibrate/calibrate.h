@@ -40,8 +40,9 @@ class KeepOption {
   /// Into the file and, if asked, the store, where it comes into force unless its proof is missing or red. Says so.
   void keep(const calibration::RigRecord& record, const std::string& touches_text) const;
 
-  /// What was found, into the history of the place; only with --keep. A calibration begins the history anew, so only
-  /// one that comes into force is noted.
+  /// What was found, into the history of the place; only with --keep. Calibrations and re-zeros make up for what checks
+  /// have found, so only
+  /// those that come into force are noted.
   void note(const calibration::RigRecord& record, calibration::DriftKind kind,
             const calibration::TargetErrors& errors) const;
 

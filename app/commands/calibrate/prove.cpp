@@ -73,7 +73,7 @@ int prove(const ProveOptions& options) {
     if (!base.provenance.rig_id.empty()) measuring.rig_id = base.provenance.rig_id;
     stamp(record, base, measuring);
     options.keep.keep(record, touchesText(touches));
-    options.keep.note(record, DriftKind::calibration, errors);
+    options.keep.note(record, judgement.verdict == Verdict::red ? DriftKind::check : DriftKind::calibration, errors);
   }
   return statusOf(judgement.verdict);
 }

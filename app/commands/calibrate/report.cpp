@@ -8,6 +8,7 @@
 #include "app/calibrate/report/calibration_report.h"
 #include "app/commands/calibrate/calibrate.h"
 #include "app/written_text.h"
+#include "calibration/record/later_check.h"
 #include "calibration/record/utc.h"
 
 namespace app {
@@ -22,7 +23,7 @@ int report(const ReportOptions& options) {
   assets::OutputFile file(options.keep.out, options.keep.force);
   const calibration::RigRecord record = baseRig(options.rig);
   const auto history = calibration::readHistory(options.keep.rigs().historyPath(options.keep.placeOf(record)));
-  writeText(file, reportHtml(record, history, calibration::nowUtc()));
+  writeText(file, reportHtml(calibration::withLaterCheck(record, history), history, calibration::nowUtc()));
   return 0;
 }
 

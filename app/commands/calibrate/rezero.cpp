@@ -17,7 +17,7 @@ namespace {
 using namespace calibration;
 
 struct RezeroOptions {
-  std::string rig, observations;
+  std::string rig, observations, held_out;
   WizardOption wizard;
   Measuring measuring;
   KeepOption keep;
@@ -41,17 +41,22 @@ int rezero(const RezeroOptions& options) {
   const Rezero done = rezeroed(before, touches);
   std::fputs(rezeroText(done).c_str(), stderr);
 
-  // What is left at its own touches stands for the check until four others are touched.
   RigRecord record = base;
   putRezero(record, touches, done, 0.0);
-  putProof(record, done.residuals, ProofKind::session_check);
+  if (!options.held_out.empty()) {
+    const TouchSet others = readTouches(options.held_out);
+    armOf(base, others, options.rig);
+    putProof(record, residualsOf(done.arm, others.touches), ProofKind::session_check);
+    std::fputs(proofText(record.proof->errors, judge(record.proof->errors, ProofKind::session_check)).c_str(), stderr);
+  }
   Measuring measuring = options.measuring;
   if (!base.provenance.rig_id.empty()) measuring.rig_id = base.provenance.rig_id;
   stamp(record, base, measuring);
-  std::fputs(proofText(record.proof->errors, judge(record.proof->errors, ProofKind::session_check)).c_str(), stderr);
-  options.keep.note(record, DriftKind::rezero, targetErrors(residualsOf(before, touches.touches)));
   options.keep.keep(record, touchesText(touches));
-  return statusOf(record.proof->verdict);
+  options.keep.note(record, DriftKind::rezero, targetErrors(residualsOf(before, touches.touches)));
+  // Until others are touched, what is left at its own touches is all there is to say.
+  return statusOf(record.proof ? record.proof->verdict
+                               : judge(targetErrors(done.residuals), ProofKind::session_check).verdict);
 }
 
 }  // namespace
@@ -61,6 +66,7 @@ void addCalibrateRezero(CLI::App& calibrate, Chosen& chosen) {
   CLI::App* command = calibrate.add_subcommand("rezero", "Bring a rig up to date with five touches, 30 s");
   command->add_option("RIG", o->rig, kBaseRigHelp);
   command->add_option("OBSERVATIONS", o->observations, "Touches, YAML");
+  command->add_option("--held-out", o->held_out, "Four touches more, to prove it by")->type_name("FILE");
   o->wizard.addTo(*command);
   addMeasuring(*command, o->measuring);
   o->keep.addTo(*command);
