@@ -4,7 +4,7 @@
 //   WizardRun run;
 //   run.plan = {.procedure = …, .method = "jig27", .record = current, .device = {model, serial, mount, tip}};
 //   OpenedDevice opened = openDevice(address, options);    run.device = opened.device.get();
-//   or: run.practice = syntheticRig(Scenario::D, 7);  run.plan.record.rig = run.practice->nominal;  …device as there
+//   or: run.practice = syntheticRig(Scenario::d, 7);  run.plan.record.rig = run.practice->nominal;  …device as there
 //   const WizardOutcome outcome = runWizard(run);
 //   if (outcome.end == WizardOutcome::End::accepted) store.keep(place, recordOf(run.plan, outcome), touches, true);
 #pragma once

@@ -60,22 +60,22 @@ struct DeviceSlopes {
                  st = std::sin(arm.correction.tilt_rad), ct = std::cos(arm.correction.tilt_rad);
     const double l1 = arm.geometry.thigh_mm + arm.correction.thigh_more_mm,
                  l2 = arm.geometry.shin_mm + arm.correction.shin_more_mm, up_mm = l1 * s2 - l2 * c3;
-    const auto outOfTurret = [&](double across, double up, double out) {
+    const auto out_of_turret = [&](double across, double up, double out) {
       return glm::dvec3(c1 * across - s1 * out, up, s1 * across + c1 * out);
     };
-    const auto inArmPlane = [&](double up, double out) { return outOfTurret(-up * st, up * ct, out); };
-    by_thigh = inArmPlane(s2, c2);
-    by_shin = inArmPlane(-c3, s3);
-    by_tilt = outOfTurret(-up_mm * ct, -up_mm * st, 0.0);
-    by_reach = inArmPlane(0.0, 1.0);
+    const auto in_arm_plane = [&](double up, double out) { return out_of_turret(-up * st, up * ct, out); };
+    by_thigh = in_arm_plane(s2, c2);
+    by_shin = in_arm_plane(-c3, s3);
+    by_tilt = out_of_turret(-up_mm * ct, -up_mm * st, 0.0);
+    by_reach = in_arm_plane(0.0, 1.0);
 
     // The turret turns all, the thigh moves the wrist, the shin moves it and turns the handle, the gimbal turns it.
     const double sg = std::sin(joints.wrist_rad.x), cg = std::cos(joints.wrist_rad.x);
     const glm::dvec3 shin_axis(-c1, 0.0, -s1), yaw_axis(s1 * s3, c3, -c1 * s3);
     const glm::dvec3 forward = glm::cross(-shin_axis, yaw_axis);
     by_angle[0] = glm::cross(glm::dvec3(0.0, -1.0, 0.0), tip_D - arm.geometry.shoulder_D.mm);
-    by_angle[1] = inArmPlane(l1 * c2, -l1 * s2);
-    by_angle[2] = inArmPlane(l2 * s3, l2 * c3) + glm::cross(shin_axis, lever);
+    by_angle[1] = in_arm_plane(l1 * c2, -l1 * s2);
+    by_angle[2] = in_arm_plane(l2 * s3, l2 * c3) + glm::cross(shin_axis, lever);
     by_angle[3] = glm::cross(yaw_axis, lever);
     by_angle[4] = glm::cross(cg * shin_axis + sg * forward, lever);
     by_angle[5] = glm::cross(-R_DH[2], lever);

@@ -142,14 +142,14 @@ void checkTouches(const TouchSet& set) {
 }
 
 void checkUnseen(const TouchSet& fitted, const TouchSet& proof) {
-  const auto mustAgree = [](const std::string& what, const std::string& a, const std::string& b) {
+  const auto must_agree = [](const std::string& what, const std::string& a, const std::string& b) {
     if (!a.empty() && !b.empty() && a != b)
       refuse("they were made with " + what + " '" + a + "', those to prove them by with '" + b +
              "', give touches of one device");
   };
-  mustAgree("device model", fitted.device_model, proof.device_model);
-  mustAgree("serial", fitted.serial, proof.serial);
-  mustAgree("mount", fitted.mount, proof.mount);
+  must_agree("device model", fitted.device_model, proof.device_model);
+  must_agree("serial", fitted.serial, proof.serial);
+  must_agree("mount", fitted.mount, proof.mount);
   for (const Touch& one : proof.touches)
     for (const Touch& seen : fitted.touches)
       if (one.used && seen.used && sameAngles(one.joints_rad, seen.joints_rad))

@@ -39,9 +39,9 @@ std::optional<ControlLimits> controlLimits(std::span<const double> values, std::
 }
 
 std::string_view nameOf(ControlRule rule) {
-  constexpr std::array<std::string_view, 4> names = {"beyond 3 sigma", "2 of 3 beyond 2 sigma on one side",
-                                                     "4 of 5 beyond 1 sigma on one side", "8 on one side"};
-  return names[static_cast<std::size_t>(rule)];
+  constexpr std::array<std::string_view, 4> kNames = {"beyond 3 sigma", "2 of 3 beyond 2 sigma on one side",
+                                                      "4 of 5 beyond 1 sigma on one side", "8 on one side"};
+  return kNames[static_cast<std::size_t>(rule)];
 }
 
 std::vector<ControlAlarm> controlAlarms(std::span<const double> sigmas) {

@@ -75,8 +75,8 @@ std::string lineOf(const DriftEntry& entry) {
 }  // namespace
 
 std::string_view nameOf(DriftKind kind) {
-  constexpr std::array<std::string_view, 3> names = {"check", "rezero", "calibration"};
-  return names[static_cast<std::size_t>(kind)];
+  constexpr std::array<std::string_view, 3> kNames = {"check", "rezero", "calibration"};
+  return kNames[static_cast<std::size_t>(kind)];
 }
 
 std::vector<DriftEntry> readHistory(const fs::path& path) {

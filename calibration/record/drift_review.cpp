@@ -59,9 +59,9 @@ std::string standing(const std::vector<DriftEntry>& history, const DriftReview& 
 }  // namespace
 
 std::string_view nameOf(DriftQuantity quantity) {
-  constexpr std::array<std::string_view, 4> names = {"RMS", "bias to the right", "bias upwards",
-                                                     "bias towards the viewer"};
-  return names[static_cast<std::size_t>(quantity)];
+  constexpr std::array<std::string_view, 4> kNames = {"RMS", "bias to the right", "bias upwards",
+                                                      "bias towards the viewer"};
+  return kNames[static_cast<std::size_t>(quantity)];
 }
 
 double valueOf_mm(const DriftEntry& entry, DriftQuantity quantity) {

@@ -69,9 +69,9 @@ struct FileName {
 };
 
 std::optional<FileName> fileNameIn(const std::string& text) {
-  constexpr std::size_t time_length = 20;
-  if (text.size() < time_length || text[13] != '-' || text[16] != '-') return std::nullopt;
-  std::string time = text.substr(0, time_length);
+  constexpr std::size_t kTimeLength = 20;
+  if (text.size() < kTimeLength || text[13] != '-' || text[16] != '-') return std::nullopt;
+  std::string time = text.substr(0, kTimeLength);
   time[13] = time[16] = ':';
   const auto seconds = secondsOfUtc(time);
   if (!seconds) return std::nullopt;

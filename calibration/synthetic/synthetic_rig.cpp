@@ -25,17 +25,17 @@ constexpr ErrorSizes kFarMismatched{0.4, 0.5, 0.004, 0.15, 0.3, 1.0, 0.01, 0.4, 
 
 const ErrorSizes& sizesOf(Scenario scenario) {
   switch (scenario) {
-    case Scenario::A:
+    case Scenario::a:
       return kGood;
-    case Scenario::B:
+    case Scenario::b:
       return kTypical;
-    case Scenario::C:
+    case Scenario::c:
       return kWorn;
-    case Scenario::G:
+    case Scenario::g:
       return kFarMismatched;
-    case Scenario::D:
-    case Scenario::E:
-    case Scenario::F:
+    case Scenario::d:
+    case Scenario::e:
+    case Scenario::f:
       break;
   }
   return kMismatched;
@@ -128,8 +128,8 @@ SyntheticRig syntheticRig(Scenario scenario, std::uint32_t seed) {
                                  .stylus_tip = "ball-3mm"};
   rig.X_WD = putDown(rig.nominal.X_WD, chance);
   rig.habits.outlier_share = kOutlierShare;
-  rig.habits.precision = scenario == Scenario::F ? kCrossPrecision : kPitPrecision;
-  if (scenario == Scenario::E) {
+  rig.habits.precision = scenario == Scenario::f ? kCrossPrecision : kPitPrecision;
+  if (scenario == Scenario::e) {
     rig.habits.one_tilt = true;
     rig.habits.tilt_noise_rad = rig.habits.roll_rad = kOneTiltNoise_rad;
   }

@@ -18,7 +18,7 @@ namespace calibration {
 
 /// A good unit · B typical Omni or Touch · C bad, worn, not homed · D typical with what no correction can express ·
 /// E = D, stylus held one way while it is calibrated · F = D, touched by eye · G = D with large mismatch.
-enum class Scenario : char { A = 'A', B = 'B', C = 'C', D = 'D', E = 'E', F = 'F', G = 'G' };
+enum class Scenario : char { a = 'A', b = 'B', c = 'C', d = 'D', e = 'E', f = 'F', g = 'G' };
 std::optional<Scenario> scenarioNamed(std::string_view letter);
 
 struct TouchHabits {
@@ -32,7 +32,7 @@ struct TouchHabits {
 };
 
 struct SyntheticRig {
-  Scenario scenario = Scenario::D;
+  Scenario scenario = Scenario::d;
   std::uint32_t seed = 1;
   UntrueArm arm;
   Pose<World, Device> X_WD;  ///< the truth

@@ -179,7 +179,7 @@ void WebcamView::addTip(const LitTip& tip, std::vector<float>& light) const {
   const glm::dvec3 to_lamp = glm::normalize(tip.to_lamp_W.xyz);
   const bool behind =
       plate_ && plate_->face.distance_mm(tip.middle_W) * plate_->face.distance_mm({webcam_.X_WC.translation_mm}) < 0.0;
-  const auto lightAlong = [&](const Sight& sight) {
+  const auto light_along = [&](const Sight& sight) {
     double sum = 0.0;
     for (int m = 0; m < moments; ++m) {
       const glm::dvec3 middle = tip.middle_W.mm + ((m + 0.5) / moments - 0.5) * tip.smear_mm.xyz;
@@ -199,7 +199,7 @@ void WebcamView::addTip(const LitTip& tip, std::vector<float>& light) const {
       for (int i = 0; i < kTipRays; ++i)
         for (int j = 0; j < kTipRays; ++j) {
           const Sight sight = sightOf({x + (i + 0.5) / kTipRays - 0.5, y + (j + 0.5) / kTipRays - 0.5});
-          mean += lightAlong(behind ? seenThrough(*plate_, sight) : sight);
+          mean += light_along(behind ? seenThrough(*plate_, sight) : sight);
         }
       light[static_cast<std::size_t>(y * webcam_.model.size_px.x + x)] +=
           static_cast<float>(mean / (kTipRays * kTipRays));

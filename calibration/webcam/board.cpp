@@ -16,16 +16,16 @@ constexpr double kSpotRadius = 0.22;  ///< of a square's side
 /// How much darker or brighter a square is in its middle than towards its corners, 0..255.
 double spotOf(const GreyPicture& picture, const std::array<glm::dvec2, 4>& corners_px) {
   const glm::dvec2 middle = 0.25 * (corners_px[0] + corners_px[1] + corners_px[2] + corners_px[3]);
-  const auto greyAt = [&](const glm::dvec2& px) {
+  const auto grey_at = [&](const glm::dvec2& px) {
     const int x = std::clamp(static_cast<int>(std::lround(px.x)), 0, picture.size_px.x - 1);
     const int y = std::clamp(static_cast<int>(std::lround(px.y)), 0, picture.size_px.y - 1);
     return double(picture.grey[static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.size_px.x) +
                                static_cast<std::size_t>(x)]);
   };
-  double inside = 2.0 * greyAt(middle), outside = 0.0;
+  double inside = 2.0 * grey_at(middle), outside = 0.0;
   for (const glm::dvec2& corner : corners_px) {
-    inside += 0.5 * greyAt(glm::mix(middle, corner, 0.15));
-    outside += 0.25 * greyAt(glm::mix(middle, corner, 0.68));
+    inside += 0.5 * grey_at(glm::mix(middle, corner, 0.15));
+    outside += 0.25 * grey_at(glm::mix(middle, corner, 0.68));
   }
   return std::abs(inside / 4.0 - outside);
 }

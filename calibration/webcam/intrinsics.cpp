@@ -163,14 +163,15 @@ StereoPair fitStereo(const CameraModel& left, const CameraModel& right, const st
   const auto bent = [](const CameraModel& camera) {
     return cv::Mat(cv::Vec4d(camera.k1, camera.k2, camera.p1, camera.p2), true);
   };
-  cv::Mat K1 = matrix(left), D1 = bent(left), K2 = matrix(right), D2 = bent(right), unused_E, unused_F;
+  cv::Mat left_K = matrix(left), left_D = bent(left), right_K = matrix(right), right_D = bent(right), unused_E,
+          unused_F;
   cv::Matx33d R;
   cv::Vec3d t;
   StereoPair pair;
   try {
-    pair.rms_px =
-        cv::stereoCalibrate(std::vector<Places>(left_px.size(), places), left_px, right_px, K1, D1, K2, D2,
-                            {left.size_px.x, left.size_px.y}, R, t, unused_E, unused_F, cv::CALIB_FIX_INTRINSIC);
+    pair.rms_px = cv::stereoCalibrate(std::vector<Places>(left_px.size(), places), left_px, right_px, left_K, left_D,
+                                      right_K, right_D, {left.size_px.x, left.size_px.y}, R, t, unused_E, unused_F,
+                                      cv::CALIB_FIX_INTRINSIC);
   } catch (const cv::Exception&) {
     refuse("the pairs make no stereo camera", "take them again at the same moment left and right");
   }

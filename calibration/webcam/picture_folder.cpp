@@ -23,9 +23,9 @@ bool isPicture(const fs::path& path) {
 /// The last digits of the name, without leading zeros: longer is larger, then as text.
 std::tuple<std::size_t, std::string, std::string> orderOf(const fs::path& path) {
   const std::string name = path.stem().string();
-  const auto isDigit = [](unsigned char c) { return std::isdigit(c) != 0; };
-  const auto last = std::find_if(name.rbegin(), name.rend(), isDigit);
-  const auto first = std::find_if_not(last, name.rend(), isDigit);
+  const auto is_digit = [](unsigned char c) { return std::isdigit(c) != 0; };
+  const auto last = std::find_if(name.rbegin(), name.rend(), is_digit);
+  const auto first = std::find_if_not(last, name.rend(), is_digit);
   std::string number(first.base(), last.base());
   number.erase(0, std::min(number.find_first_not_of('0'), number.size()));
   return {number.size(), number, name};

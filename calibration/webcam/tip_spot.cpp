@@ -79,15 +79,15 @@ struct Shape {
 Shape shapeOf(const cv::Mat& height, const cv::Rect& window, double pedestal) {
   double sum = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
   glm::dvec2 first{0.0};
-  const auto eachPixel = [&](auto&& use) {
+  const auto each_pixel = [&](auto&& use) {
     for (int y = window.y; y < window.y + window.height; ++y)
       for (int x = window.x; x < window.x + window.width; ++x)
         if (const double weight = height.at<float>(y, x) - pedestal; weight > 0.0) use(glm::dvec2(x, y), weight);
   };
-  eachPixel([&](const glm::dvec2& px, double weight) { sum += weight, first += weight * px; });
+  each_pixel([&](const glm::dvec2& px, double weight) { sum += weight, first += weight * px; });
   Shape shape;
   shape.centre_px = first / sum;
-  eachPixel([&](const glm::dvec2& px, double weight) {
+  each_pixel([&](const glm::dvec2& px, double weight) {
     const glm::dvec2 d = px - shape.centre_px;
     xx += weight * d.x * d.x, xy += weight * d.x * d.y, yy += weight * d.y * d.y;
   });
@@ -148,8 +148,8 @@ TipSpot findTipSpot(const GreyPicture& before, const GreyPicture& with_tip) {
   const Shape shape = shapeOf(height, window & picture, kPedestal * peak);
   spot.centre_px = shape.centre_px;
   const cv::Mat around = smooth(window & picture);
-  const auto areaAbove = [&](double share) { return double(cv::countNonZero(around > share * peak)); };
-  spot.across_px = diameterOf(areaAbove(0.5));
+  const auto area_above = [&](double share) { return double(cv::countNonZero(around > share * peak)); };
+  spot.across_px = diameterOf(area_above(0.5));
   const bool touches_edge = patch.box.x < 3 || patch.box.y < 3 || patch.box.br().x > picture.width - 3 ||
                             patch.box.br().y > picture.height - 3;
   if (touches_edge)
@@ -159,7 +159,7 @@ TipSpot findTipSpot(const GreyPicture& before, const GreyPicture& with_tip) {
                    spot);
   if (shape.length_to_width > kMostLength)
     return refused(SpotTrouble::blurred, "the tip was moved: hold it still", spot);
-  if (spot.across_px > kMostSoft_px && areaAbove(0.25) > kSoftSpread * areaAbove(0.75))
+  if (spot.across_px > kMostSoft_px && area_above(0.25) > kSoftSpread * area_above(0.75))
     return refused(SpotTrouble::blurred, "the tip is out of focus: focus the camera on it", spot);
   return spot;
 }

@@ -157,16 +157,16 @@ double crossValidated_mm(const WebcamSights& sights, const WebcamBundle& bundle)
   double squares_mm2 = 0.0, noise_mm2 = 0.0, count = 0.0;
   for (std::size_t fold = 0; fold < kFolds; ++fold) {
     WebcamBundle without = bundle;
-    const auto isOut = [&](std::size_t c, std::size_t i) {
+    const auto is_out = [&](std::size_t c, std::size_t i) {
       return bundle.tip_used[c][i] && (i + 2 * c) % kFolds == fold;
     };
     eachTip(sights, [&](std::size_t c, std::size_t i, const TipSight&) {
-      if (isOut(c, i)) without.tip_used[c][i] = false;
+      if (is_out(c, i)) without.tip_used[c][i] = false;
     });
     without = adjusted(sights, without);
     const MeasuredArm arm = without.arm();
     eachTip(sights, [&](std::size_t c, std::size_t i, const TipSight& sight) {
-      if (!isOut(c, i)) return;
+      if (!is_out(c, i)) return;
       const TipError error = tipError(without, arm, c, sight);
       squares_mm2 += error.mm_per_px * error.mm_per_px * glm::dot(error.off_px, error.off_px);
       noise_mm2 += 2.0 * std::pow(sights.tip_noise_px * error.mm_per_px, 2);

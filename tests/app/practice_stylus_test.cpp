@@ -22,7 +22,7 @@ class PracticeStylusTest : public testing::Test {
     return state;
   }
 
-  calibration::SyntheticRig rig_ = calibration::syntheticRig(Scenario::D, 7);
+  calibration::SyntheticRig rig_ = calibration::syntheticRig(Scenario::d, 7);
   PracticeHold start_{.tip_W = {{0.0, 0.0, 0.0}}};
 };
 

@@ -19,7 +19,7 @@ using calibration::Scenario;
 /// Practice without a window, by a robot in a hurry.
 WizardRun practice(Procedure procedure, const std::string& method, std::uint32_t seed) {
   WizardRun run;
-  run.practice = calibration::syntheticRig(Scenario::D, seed);
+  run.practice = calibration::syntheticRig(Scenario::d, seed);
   run.practice->habits.outlier_share = 0.0;  // no touch slips
   run.plan.procedure = procedure;
   run.plan.method = method;
@@ -173,7 +173,7 @@ TEST(DeviceSource, TellsOfSilenceAndBringsEverythingInTheOrderOfTime) {
 }
 
 TEST(PracticeSource, IsBelievedOnceItsKeyHasPutItIntoTheInkwell) {
-  PracticeSource source(calibration::syntheticRig(Scenario::D, 7));
+  PracticeSource source(calibration::syntheticRig(Scenario::d, 7));
   std::vector<StylusSample> samples;
   for (int n = 0; n < 20; ++n) {
     source.takeInto(samples, {});
@@ -187,7 +187,7 @@ TEST(PracticeSource, IsBelievedOnceItsKeyHasPutItIntoTheInkwell) {
 }
 
 TEST(RobotSource, HurriedBringsTwentyMillisecondsACall) {
-  RobotSource source(calibration::syntheticRig(Scenario::D, 7), {}, true);
+  RobotSource source(calibration::syntheticRig(Scenario::d, 7), {}, true);
   std::vector<StylusSample> samples;
   for (int n = 0; n < 5; ++n) source.takeInto(samples, {});
   ASSERT_EQ(samples.size(), 100u);

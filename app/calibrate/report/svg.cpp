@@ -113,9 +113,9 @@ void Svg::arrow(glm::dvec2 from, glm::dvec2 to, const Stroke& stroke) {
 
 void Svg::words(glm::dvec2 at, std::string_view text, TextAnchor anchor, std::string_view colour, double size,
                 bool bold) {
-  constexpr std::array<std::string_view, 3> anchors = {"start", "middle", "end"};
+  constexpr std::array<std::string_view, 3> kAnchors = {"start", "middle", "end"};
   body_ += "<text" + attribute("x", at.x) + attribute("y", at.y) + attribute("font-size", size) +
-           attribute("fill", colour) + attribute("text-anchor", anchors[static_cast<std::size_t>(anchor)]) +
+           attribute("fill", colour) + attribute("text-anchor", kAnchors[static_cast<std::size_t>(anchor)]) +
            (bold ? attribute("font-weight", "bold") : "") + ">" + escaped(text) + "</text>\n";
 }
 

@@ -49,7 +49,7 @@ RingCheck ringsSeen(const WebcamFit& fit, const SyntheticRig& rig, const std::ve
 }
 
 Outcome calibrated(glm::ivec2 camera_px, std::uint32_t seed, double plate_mm) {
-  const SyntheticRig rig = syntheticRig(Scenario::D, seed);
+  const SyntheticRig rig = syntheticRig(Scenario::d, seed);
   WebcamTechnician technician(rig, camera_px, seed + 100, plate_mm);
   WebcamProcedure procedure({.rig = rig.nominal,
                              .places = *targetPlan("webcam27"),
@@ -103,7 +103,7 @@ TEST(WebcamEndToEnd, PicturesOf720LinesMeasureTheArm) {
 TEST(WebcamEndToEnd, ThroughTheGlassItMeasuresWhereTheTipIsSeen) {
   // 3 mm of glass at 45 degrees lift what is behind it towards the eye: the arm is put where its tip is seen.
   const Outcome outcome = calibrated({1280, 720}, 3, 3.0);
-  const Plane<World> face = *syntheticRig(Scenario::D, 3).nominal.mirror;
+  const Plane<World> face = *syntheticRig(Scenario::d, 3).nominal.mirror;
   const double angle = radFromDegrees(45.0);
   const glm::dvec3 lifted_mm = plateShift_mm({face, 3.0}, angle) / std::sin(angle) * face.normal;
   EXPECT_LT(glm::distance(outcome.mean_mm.xyz, lifted_mm), 0.3);

@@ -42,7 +42,7 @@ class WebcamProcedureAtAWorkstation : public testing::Test {
     EXPECT_EQ(procedure.step(), until) << procedure.sentence() << " " << procedure.answer();
   }
 
-  calibration::SyntheticRig rig_ = calibration::syntheticRig(calibration::Scenario::D, 1);
+  calibration::SyntheticRig rig_ = calibration::syntheticRig(calibration::Scenario::d, 1);
   WebcamTechnician technician_{rig_, {1280, 720}, 5};
 };
 

@@ -16,7 +16,7 @@ using End = WizardOutcome::End;
 
 SyntheticRig rigOf(Scenario scenario, std::uint32_t seed) {
   SyntheticRig rig = calibration::syntheticRig(scenario, seed);
-  rig.habits.precision = scenario == Scenario::F ? calibration::kCrossPrecision : calibration::kPitPrecision;
+  rig.habits.precision = scenario == Scenario::f ? calibration::kCrossPrecision : calibration::kPitPrecision;
   return rig;
 }
 
@@ -41,7 +41,7 @@ calibration::RigRecord calibratedRecord(const SyntheticRig& rig) {
 }
 
 TEST(Wizard, CalibratesTypicalArmsWithTheJigInUnderEightMinutes) {
-  for (const Scenario scenario : {Scenario::A, Scenario::B, Scenario::C, Scenario::D})
+  for (const Scenario scenario : {Scenario::a, Scenario::b, Scenario::c, Scenario::d})
     for (std::uint32_t seed = 1; seed <= 3; ++seed) {
       const SyntheticRig rig = rigOf(scenario, seed);
       const Finished done = calibrated(rig, planFor(rig, Procedure::full));
@@ -57,7 +57,7 @@ TEST(Wizard, CalibratesTypicalArmsWithTheJigInUnderEightMinutes) {
 
 TEST(Wizard, CallsAnArmThatNoModelExplainsUsableAtMost) {
   for (std::uint32_t seed = 1; seed <= 3; ++seed) {
-    const SyntheticRig rig = rigOf(Scenario::G, seed);
+    const SyntheticRig rig = rigOf(Scenario::g, seed);
     const Finished done = calibrated(rig, planFor(rig, Procedure::full));
     ASSERT_TRUE(done.outcome.judgement);
     EXPECT_NE(done.outcome.judgement->verdict, Verdict::green) << seed;
@@ -67,7 +67,7 @@ TEST(Wizard, CallsAnArmThatNoModelExplainsUsableAtMost) {
 
 TEST(Wizard, CalibratesByEyesAloneAndSaysWhatItIsWorth) {
   for (std::uint32_t seed = 1; seed <= 3; ++seed) {
-    const SyntheticRig rig = rigOf(Scenario::F, seed);
+    const SyntheticRig rig = rigOf(Scenario::f, seed);
     const Finished done = calibrated(rig, planFor(rig, Procedure::full, "visual25"));
     ASSERT_EQ(done.outcome.end, End::accepted) << done.outcome.reason;
     // Touches by eye prove no better than the eye aims.
@@ -80,20 +80,20 @@ TEST(Wizard, CalibratesByEyesAloneAndSaysWhatItIsWorth) {
 TEST(Wizard, TakesTouchesByHoldingStillAlone) {
   TechnicianHabits habits;
   habits.presses = false;
-  const SyntheticRig rig = rigOf(Scenario::D, 4);
+  const SyntheticRig rig = rigOf(Scenario::d, 4);
   const Finished done = calibrated(rig, planFor(rig, Procedure::full), habits);
   ASSERT_EQ(done.outcome.end, End::accepted) << done.outcome.reason;
   EXPECT_LT(trueError_mm(rig, *done.outcome.arm), 0.35);
 }
 
 TEST(Wizard, WorksAtTheRatesOfDevices) {
-  const SyntheticRig rig = rigOf(Scenario::B, 5);
+  const SyntheticRig rig = rigOf(Scenario::b, 5);
   for (const double rate_Hz : {1000.0, 4000.0})
     EXPECT_EQ(calibrated(rig, planFor(rig, Procedure::full, "jig8"), {}, {}, rate_Hz).outcome.end, End::accepted);
 }
 
 TEST(Wizard, GivesTheSameOutcomeForTheSameTicks) {
-  const SyntheticRig rig = rigOf(Scenario::D, 6);
+  const SyntheticRig rig = rigOf(Scenario::d, 6);
   const Finished one = calibrated(rig, planFor(rig, Procedure::full)),
                  other = calibrated(rig, planFor(rig, Procedure::full));
   EXPECT_EQ(one.run.titles, other.run.titles);
@@ -101,7 +101,7 @@ TEST(Wizard, GivesTheSameOutcomeForTheSameTicks) {
 }
 
 TEST(Wizard, LetsThroughNoCalibrationWithTheStylusHeldOneWay) {
-  const SyntheticRig rig = rigOf(Scenario::E, 1);
+  const SyntheticRig rig = rigOf(Scenario::e, 1);
   const Finished done = calibrated(rig, planFor(rig, Procedure::full));
   EXPECT_EQ(done.outcome.end, End::refused);
   EXPECT_NE(done.outcome.reason.find("held one way"), std::string::npos) << done.outcome.reason;
@@ -113,7 +113,7 @@ TEST(Wizard, LetsThroughNoTouchesInTheWrongOrder) {
   TechnicianHabits habits;
   habits.reversed = true;
   for (std::uint32_t seed = 1; seed <= 3; ++seed) {
-    const SyntheticRig rig = rigOf(Scenario::D, seed);
+    const SyntheticRig rig = rigOf(Scenario::d, seed);
     Wizard wizard(planFor(rig, Procedure::full));
     RobotTechnician technician(rig, habits, seed);
     const WizardRun run = runWizard(wizard, technician, 500.0, {}, 400.0);
@@ -127,7 +127,7 @@ TEST(Wizard, RefusesEveryWrongFlipWithWhatToDo) {
        {"mirrored left", "mirrored top", "turned by half", "turned to the right", "turned to the left"}) {
     TechnicianHabits habits;
     habits.flip = flip;
-    const SyntheticRig rig = rigOf(Scenario::A, 1);
+    const SyntheticRig rig = rigOf(Scenario::a, 1);
     const Finished done = calibrated(rig, planFor(rig, Procedure::full), habits);
     EXPECT_EQ(done.outcome.end, End::refused) << flip;
     ASSERT_TRUE(done.outcome.flip);
@@ -142,7 +142,7 @@ TEST(Wizard, CorrectsTheScreenByTheRulerAndKeepsTheEyes) {
   habits.bar_mm = 102.0;
   habits.ipd_mm = 66.0;
   habits.distance_mm = 480.0;
-  const SyntheticRig rig = rigOf(Scenario::A, 2);
+  const SyntheticRig rig = rigOf(Scenario::a, 2);
   const WizardPlan plan = planFor(rig, Procedure::full, "jig8");
   const Finished done = calibrated(rig, plan, habits);
   ASSERT_EQ(done.outcome.end, End::accepted) << done.outcome.reason;
@@ -155,7 +155,7 @@ TEST(Wizard, CorrectsTheScreenByTheRulerAndKeepsTheEyes) {
 }
 
 TEST(Wizard, AsksForTheWorstTouchOnceMore) {
-  SyntheticRig rig = rigOf(Scenario::B, 3);
+  SyntheticRig rig = rigOf(Scenario::b, 3);
   rig.habits.outlier_share = 0.15;
   const Finished done = calibrated(rig, planFor(rig, Procedure::full));
   EXPECT_TRUE(done.run.turnedTo("All are touched"));
@@ -173,7 +173,7 @@ TEST(Wizard, GoesOnAfterASilenceOfTheDevice) {
     }
     if (was_silent && sample.t_s < from_s + 3.0) sample.believable = false;
   };
-  const SyntheticRig rig = rigOf(Scenario::D, 7);
+  const SyntheticRig rig = rigOf(Scenario::d, 7);
   const Finished done = calibrated(rig, planFor(rig, Procedure::full), {}, silence);
   EXPECT_EQ(done.outcome.silences, 1);
   EXPECT_TRUE(done.run.turnedTo("The device is silent"));
@@ -184,7 +184,7 @@ TEST(Wizard, GoesOnAfterASilenceOfTheDevice) {
 TEST(Wizard, StartsTheTouchesAgainWhenTheDeviceCountsOtherwiseAfterASilence) {
   bool was_silent = false;
   double from_s = 0.0;
-  const SyntheticRig rig = rigOf(Scenario::D, 7);
+  const SyntheticRig rig = rigOf(Scenario::d, 7);
   const Mishap rehomed = [&](StylusSample& sample, const WizardView& view) {
     if (!was_silent && view.count == "12 of 27") {
       was_silent = true;
@@ -206,9 +206,9 @@ TEST(Wizard, StartsTheTouchesAgainWhenTheDeviceCountsOtherwiseAfterASilence) {
 
 TEST(Wizard, CanNotTakeWhatIsRedAndLeavesTheOldCalibration) {
   // Between the touches and their proof the base is pushed.
-  SyntheticRig pushed = rigOf(Scenario::D, 8);
+  SyntheticRig pushed = rigOf(Scenario::d, 8);
   pushed.X_WD.translation_mm += glm::dvec3(2.0, 0.0, 0.0);
-  const SyntheticRig rig = rigOf(Scenario::D, 8);
+  const SyntheticRig rig = rigOf(Scenario::d, 8);
   const WizardPlan plan = planFor(rig, Procedure::full);
   Wizard wizard(plan);
   RobotTechnician technician(rig, {}, 8);
@@ -228,9 +228,9 @@ TEST(Wizard, CanNotTakeWhatIsRedAndLeavesTheOldCalibration) {
 
 TEST(Wizard, AsksForTheEyesAgainWhenCrossesInDepthAreSeenElsewhere) {
   // Whose pupils are wider apart than was said sees depth otherwise; here all of it a little to the right.
-  SyntheticRig seen = rigOf(Scenario::A, 3);
+  SyntheticRig seen = rigOf(Scenario::a, 3);
   seen.X_WD.translation_mm += glm::dvec3(2.0, 0.0, 0.0);
-  const SyntheticRig rig = rigOf(Scenario::A, 3);
+  const SyntheticRig rig = rigOf(Scenario::a, 3);
   Wizard wizard(planFor(rig, Procedure::full, "jig8"));
   RobotTechnician technician(rig, {}, 3);
   const WizardRun run = runWizard(wizard, technician, 500.0, [&](StylusSample&, const WizardView& view) {
@@ -241,7 +241,7 @@ TEST(Wizard, AsksForTheEyesAgainWhenCrossesInDepthAreSeenElsewhere) {
 }
 
 TEST(Wizard, ChecksAGoodCalibrationInThirtySeconds) {
-  const SyntheticRig rig = rigOf(Scenario::D, 2);
+  const SyntheticRig rig = rigOf(Scenario::d, 2);
   WizardPlan plan = planFor(rig, Procedure::check);
   plan.record = calibratedRecord(rig);
   const Finished done = calibrated(rig, plan);
@@ -255,7 +255,7 @@ TEST(Wizard, ChecksAGoodCalibrationInThirtySeconds) {
 
 TEST(Wizard, BringsADriftedCalibrationUpToDate) {
   for (std::uint32_t seed = 1; seed <= 4; ++seed) {
-    SyntheticRig rig = rigOf(Scenario::D, seed);
+    SyntheticRig rig = rigOf(Scenario::d, seed);
     rig.habits.outlier_share = 0.0;
     WizardPlan plan = planFor(rig, Procedure::check);
     plan.record = calibratedRecord(rig);
@@ -271,7 +271,7 @@ TEST(Wizard, BringsADriftedCalibrationUpToDate) {
 }
 
 TEST(Wizard, LocksAnArmThatFiveTouchesDoNotMend) {
-  SyntheticRig rig = rigOf(Scenario::B, 2);
+  SyntheticRig rig = rigOf(Scenario::b, 2);
   rig.habits.outlier_share = 0.0;
   WizardPlan plan = planFor(rig, Procedure::check);
   plan.record = calibratedRecord(rig);
@@ -287,7 +287,7 @@ TEST(Wizard, LocksAnArmThatFiveTouchesDoNotMend) {
 }
 
 TEST(Wizard, ReZerosWhenItIsAskedFor) {
-  SyntheticRig rig = rigOf(Scenario::D, 3);
+  SyntheticRig rig = rigOf(Scenario::d, 3);
   rig.habits.outlier_share = 0.0;
   WizardPlan plan = planFor(rig, Procedure::rezero);
   plan.record = calibratedRecord(rig);
@@ -299,7 +299,7 @@ TEST(Wizard, ReZerosWhenItIsAskedFor) {
 }
 
 TEST(Wizard, FindsWhereTheHandRests) {
-  SyntheticRig rig = rigOf(Scenario::D, 2);
+  SyntheticRig rig = rigOf(Scenario::d, 2);
   rig.habits.outlier_share = 0.0;
   WizardPlan plan = planFor(rig, Procedure::rest);
   plan.record = calibratedRecord(rig);
@@ -314,7 +314,7 @@ TEST(Wizard, FindsWhereTheHandRests) {
 }
 
 TEST(Wizard, BuildsShortProceduresOnTheSameDeviceAlone) {
-  const SyntheticRig rig = rigOf(Scenario::A, 1);
+  const SyntheticRig rig = rigOf(Scenario::a, 1);
   WizardPlan never = planFor(rig, Procedure::check);
   EXPECT_NE(calibrated(rig, never).outcome.reason.find("never been calibrated"), std::string::npos);
 
@@ -331,7 +331,7 @@ TEST(Wizard, BuildsShortProceduresOnTheSameDeviceAlone) {
 }
 
 TEST(Wizard, KnowsNoMethodOrDeviceThatIsNone) {
-  const SyntheticRig rig = rigOf(Scenario::A, 1);
+  const SyntheticRig rig = rigOf(Scenario::a, 1);
   EXPECT_THROW(Wizard(planFor(rig, Procedure::full, "guess")), calibration::CalibrationError);
   WizardPlan plan = planFor(rig, Procedure::full);
   plan.device.model = "mouse";
@@ -339,7 +339,7 @@ TEST(Wizard, KnowsNoMethodOrDeviceThatIsNone) {
 }
 
 TEST(Wizard, WaitsForADeviceThatIsHome) {
-  const SyntheticRig rig = rigOf(Scenario::A, 1);
+  const SyntheticRig rig = rigOf(Scenario::a, 1);
   Wizard wizard(planFor(rig, Procedure::full));
   RobotTechnician technician(rig, {}, 1);
   const WizardRun run = runWizard(
@@ -349,7 +349,7 @@ TEST(Wizard, WaitsForADeviceThatIsHome) {
 }
 
 TEST(Wizard, SaysOnEveryPageOneThingToDoAndWhatTheButtonDoes) {
-  const SyntheticRig rig = rigOf(Scenario::D, 1);
+  const SyntheticRig rig = rigOf(Scenario::d, 1);
   const Finished done = calibrated(rig, planFor(rig, Procedure::full));
   for (const WizardView& page : done.run.pages) {
     EXPECT_FALSE(page.title.empty());

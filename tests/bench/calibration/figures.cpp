@@ -114,7 +114,7 @@ bool foundFlipped(const TouchSet& set) {
 
 Figures jigFigures(int rigs) {
   OverRigs full, joints, rigid, eight, took_ms, chosen_full;
-  forRigs(Scenario::D, rigs, [&](const SyntheticRig& rig) {
+  forRigs(Scenario::d, rigs, [&](const SyntheticRig& rig) {
     const TouchSet set = touches(rig, "jig27", 1);
     const double began_ms = cpu_ms();
     const ArmFit fit = fitArm(set);
@@ -138,7 +138,7 @@ Figures jigFigures(int rigs) {
 
 Figures crossValidationFigures(int rigs) {
   Figures figures;
-  for (const Scenario scenario : {Scenario::A, Scenario::B, Scenario::C, Scenario::D}) {
+  for (const Scenario scenario : {Scenario::a, Scenario::b, Scenario::c, Scenario::d}) {
     OverRigs ratio;
     forRigs(scenario, rigs, [&](const SyntheticRig& rig) {
       const ArmFit fit = fitArm(touches(rig, "jig27", 1));
@@ -155,7 +155,7 @@ Figures crossValidationFigures(int rigs) {
 Figures outlierFigures(int rigs) {
   OverRigs change, without;
   int named = 0;
-  forRigs(Scenario::D, rigs, [&](SyntheticRig rig) {
+  forRigs(Scenario::d, rigs, [&](SyntheticRig rig) {
     rig.habits.outlier_share = 0.0;
     const TouchSet clean = touches(rig, "jig27", 1);
     TouchSet slipped = clean, left_out = clean;
@@ -177,7 +177,7 @@ Figures outlierFigures(int rigs) {
 
 Figures visualFigures(int rigs) {
   OverRigs full, rigid, fifteen;
-  forRigs(Scenario::F, rigs, [&](const SyntheticRig& rig) {
+  forRigs(Scenario::f, rigs, [&](const SyntheticRig& rig) {
     const TouchSet set = touches(rig, "visual25", 1);
     full.add(tre_mm(fitArm(set).arm, rig, kNearScreen_mm));
     rigid.add(tre_mm(fitArm(set, {.model = ArmModel::rigid}).arm, rig, kNearScreen_mm));
@@ -190,7 +190,7 @@ Figures visualFigures(int rigs) {
 
 Figures rezeroFigures(int rigs) {
   OverRigs drift, back, took_ms;
-  forRigs(Scenario::D, rigs, [&](const SyntheticRig& rig) {
+  forRigs(Scenario::d, rigs, [&](const SyntheticRig& rig) {
     const MeasuredArm arm = fitArm(touches(rig, "jig27", 1)).arm;
     std::mt19937 chance = chanceOf(rig.seed, 4);
     const SyntheticRig now = drifted(rig, 0.3, 1.0, chance);
@@ -209,18 +209,18 @@ Figures rezeroFigures(int rigs) {
 
 Figures guardFigures(int rigs) {
   int flipped_jig = 0, flipped_crosses = 0, upright_jig = 0, upright_crosses = 0, one_tilt = 0, many_tilts = 0;
-  forRigs(Scenario::D, rigs, [&](const SyntheticRig& rig) {
+  forRigs(Scenario::d, rigs, [&](const SyntheticRig& rig) {
     const TouchSet set = touches(rig, "jig27", 1);
     flipped_jig += foundFlipped(flipped(set, 0)) && foundFlipped(flipped(set, 1)) ? 1 : 0;
     upright_jig += foundFlipped(set) ? 1 : 0;
     many_tilts += warned(fitArm(set), FitWarning::Kind::little_tilt) ? 1 : 0;
   });
-  forRigs(Scenario::F, rigs, [&](const SyntheticRig& rig) {
+  forRigs(Scenario::f, rigs, [&](const SyntheticRig& rig) {
     const TouchSet set = touches(rig, "visual25", 1);
     flipped_crosses += foundFlipped(flipped(set, 0)) && foundFlipped(flipped(set, 1)) ? 1 : 0;
     upright_crosses += foundFlipped(set) ? 1 : 0;
   });
-  forRigs(Scenario::E, rigs, [&](const SyntheticRig& rig) {
+  forRigs(Scenario::e, rigs, [&](const SyntheticRig& rig) {
     const ArmFit fit = fitArm(touches(rig, "jig27", 1));
     one_tilt += warned(fit, FitWarning::Kind::little_tilt) ? 1 : 0;
   });
@@ -234,7 +234,7 @@ Figures guardFigures(int rigs) {
 
 Figures seenFigures(int rigs) {
   OverRigs mean, most, loose_most, rms2;
-  forRigs(Scenario::D, rigs, [&](const SyntheticRig& rig) {
+  forRigs(Scenario::d, rigs, [&](const SyntheticRig& rig) {
     const MeasuredArm arm = fitArm(touches(rig, "jig27", 1)).arm;
     std::mt19937 chance = chanceOf(rig.seed, 6), again = chance;
     const SeenError seen = seenError(rig, arm, kSeenBox_mm, {}, kJudges, chance);
@@ -259,7 +259,7 @@ Figures webcamFigures(int rigs) {
   for (const Resolution& resolution :
        {Resolution{"1080p, 0.5 px", fineWebcam(), 0.35}, {"720p, 1 px", coarseWebcam(), 0.5}}) {
     OverRigs tre, single, ratio, took_ms;
-    forRigs(Scenario::D, rigs, [&](const SyntheticRig& rig) {
+    forRigs(Scenario::d, rigs, [&](const SyntheticRig& rig) {
       std::mt19937 chance = chanceOf(rig.seed, 8);
       const WebcamSights sights = webcamSights(rig, targetPlan("webcam27").value(), resolution.care, chance);
       const double began_ms = cpu_ms();

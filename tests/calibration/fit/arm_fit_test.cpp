@@ -131,7 +131,7 @@ TEST(ArmFit, EstimatesWhatTheModelCanNotExplain) {
 TEST(ArmFit, IsTwiceAsGoodAsARigidLay) {
   std::vector<double> full, rigid, honest;
   for (std::uint32_t seed = 1; seed <= 9; ++seed) {
-    const Trial trial(Scenario::D, seed, "jig27", 0.02);
+    const Trial trial(Scenario::d, seed, "jig27", 0.02);
     const ArmFit fit = fitArm(trial.set);
     full.push_back(rms_mm(fit.arm, trial.held_out));
     rigid.push_back(rms_mm(fitArm(trial.set, {.model = ArmModel::rigid}).arm, trial.held_out));
@@ -147,7 +147,7 @@ TEST(ArmFit, IsTwiceAsGoodAsARigidLay) {
 TEST(ArmFit, MakesMuchOfEightTouchesAndOfCrossesAimedAtByEye) {
   std::vector<double> eight, by_eye;
   for (std::uint32_t seed = 1; seed <= 9; ++seed) {
-    const Trial few(Scenario::D, seed, "jig8"), crosses(Scenario::F, seed, "visual25");
+    const Trial few(Scenario::d, seed, "jig8"), crosses(Scenario::f, seed, "visual25");
     eight.push_back(rms_mm(fitArm(few.set).arm, few.held_out));
     by_eye.push_back(rms_mm(fitArm(crosses.set).arm, crosses.held_out));
   }
@@ -157,7 +157,7 @@ TEST(ArmFit, MakesMuchOfEightTouchesAndOfCrossesAimedAtByEye) {
 
 TEST(ArmFit, NamesAWildTouchAndIsNotMovedByIt) {
   for (std::uint32_t seed = 1; seed <= 4; ++seed) {
-    const Trial trial(Scenario::D, seed, "jig27");
+    const Trial trial(Scenario::d, seed, "jig27");
     TouchSet spoilt = trial.set;
     const std::size_t wild = 5 * seed;
     spoilt.touches[wild].target_W.mm += glm::dvec3(-9.0, 10.0, 6.6);
@@ -170,7 +170,7 @@ TEST(ArmFit, NamesAWildTouchAndIsNotMovedByIt) {
 }
 
 TEST(ArmFit, LeavesTouchesSetAsideAlone) {
-  Trial trial(Scenario::B, 2, "jig27");
+  Trial trial(Scenario::b, 2, "jig27");
   trial.set.touches[4].used = false;
   trial.set.touches[4].target_W.mm.x += 30.0;
   const ArmFit fit = fitArm(trial.set);
@@ -181,7 +181,7 @@ TEST(ArmFit, LeavesTouchesSetAsideAlone) {
 }
 
 TEST(ArmFit, ReportsEveryModelItTried) {
-  const ArmFit fit = fitArm(Trial(Scenario::D, 1, "jig27").set);
+  const ArmFit fit = fitArm(Trial(Scenario::d, 1, "jig27").set);
   ASSERT_EQ(fit.scores.size(), 4u);
   EXPECT_EQ(fit.scores[0].name, "rigid");
   EXPECT_EQ(fit.scores[2].name, "full");
@@ -195,16 +195,16 @@ TEST(ArmFit, ReportsEveryModelItTried) {
 
 TEST(ArmFit, ChoosesNoFullModelWhereTiltsDoNotVaryAndSaysSo) {
   for (std::uint32_t seed = 1; seed <= 6; ++seed) {
-    const ArmFit fit = fitArm(Trial(Scenario::E, seed, "jig27").set);
+    const ArmFit fit = fitArm(Trial(Scenario::e, seed, "jig27").set);
     EXPECT_NE(fit.model, ArmModel::full);
     EXPECT_TRUE(warnsOf(fit, Kind::little_tilt));
     EXPECT_LT(fit.tilt_spread_deg, 25.0);
-    EXPECT_FALSE(warnsOf(fitArm(Trial(Scenario::D, seed, "jig27").set), Kind::little_tilt));
+    EXPECT_FALSE(warnsOf(fitArm(Trial(Scenario::d, seed, "jig27").set), Kind::little_tilt));
   }
 }
 
 TEST(ArmFit, SaysThatFewTouchesAreFew) {
-  Trial trial(Scenario::D, 3, "jig27");
+  Trial trial(Scenario::d, 3, "jig27");
   EXPECT_TRUE(fitArm(trial.set).warnings.empty());
   trial.set.touches.resize(15);
   EXPECT_TRUE(warnsOf(fitArm(trial.set), Kind::few_touches));
@@ -214,7 +214,7 @@ TEST(ArmFit, SaysThatFewTouchesAreFew) {
 }
 
 TEST(ArmFit, SaysThatTheTouchesSpanLittleOfTheCase) {
-  const Trial trial(Scenario::D, 3, "jig27");
+  const Trial trial(Scenario::d, 3, "jig27");
   const double hull_mm3 = fitArm(trial.set).hull_mm3;
   EXPECT_NEAR(hull_mm3, 130.0 * 90.0 * 65.0, 0.05 * hull_mm3);
   EXPECT_FALSE(warnsOf(fitArm(trial.set, {.model = {}, .region_mm3 = 1.5 * hull_mm3}), Kind::small_volume));
@@ -222,7 +222,7 @@ TEST(ArmFit, SaysThatTheTouchesSpanLittleOfTheCase) {
 }
 
 TEST(ArmFit, SaysThatManyTouchesWereWild) {
-  Trial trial(Scenario::D, 4, "jig27");
+  Trial trial(Scenario::d, 4, "jig27");
   for (const std::size_t i : {2u, 9u, 20u}) trial.set.touches[i].target_W.mm.y += 12.0;
   const ArmFit fit = fitArm(trial.set);
   EXPECT_EQ(fit.outliers, 3);
@@ -233,13 +233,13 @@ TEST(ArmFit, RefusesAMirroredPictureEveryTime) {
   for (std::uint32_t seed = 1; seed <= 6; ++seed)
     for (const char* method : {"jig27", "jig8"})
       for (const int axis : {0, 1, 2})
-        EXPECT_THAT(refusal(flipped(Trial(Scenario::C, seed, method, 0.05).set, axis)), HasSubstr("mirror"));
+        EXPECT_THAT(refusal(flipped(Trial(Scenario::c, seed, method, 0.05).set, axis)), HasSubstr("mirror"));
 }
 
 TEST(ArmFit, WarnsOfAMirroredPictureWhoseTargetsLieInItsPlane) {
   // Turned half round the touches fit as well: only that the stylus comes from behind the screen gives it away.
   for (std::uint32_t seed = 1; seed <= 4; ++seed) {
-    const Trial trial(Scenario::F, seed, "visual15");
+    const Trial trial(Scenario::f, seed, "visual15");
     EXPECT_FALSE(warnsOf(fitArm(trial.set), Kind::mirrored));
     EXPECT_TRUE(warnsOf(fitArm(flipped(trial.set, 0)), Kind::mirrored));
     EXPECT_TRUE(warnsOf(fitArm(flipped(trial.set, 1)), Kind::mirrored));
@@ -247,7 +247,7 @@ TEST(ArmFit, WarnsOfAMirroredPictureWhoseTargetsLieInItsPlane) {
 }
 
 TEST(ArmFit, RefusesTouchesThatNoPoseExplains) {
-  Trial trial(Scenario::D, 5, "jig27");
+  Trial trial(Scenario::d, 5, "jig27");
   TouchSet other_device = trial.set;
   other_device.device_model = "premium";
   EXPECT_THAT(refusal(other_device), HasSubstr("check device model"));
@@ -258,7 +258,7 @@ TEST(ArmFit, RefusesTouchesThatNoPoseExplains) {
 
 TEST(ArmFit, TakesWhatPeopleHave) {
   for (const std::size_t n : {4u, 5u, 6u, 7u}) {
-    Trial trial(Scenario::A, 7, "jig8");
+    Trial trial(Scenario::a, 7, "jig8");
     trial.set.touches.resize(n);
     const ArmFit fit = fitArm(trial.set);
     EXPECT_LT(rms_mm(fit.arm, trial.held_out), 1.5) << n;

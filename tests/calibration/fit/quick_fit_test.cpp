@@ -24,8 +24,8 @@ TouchSet touchesOf(Scenario scenario, std::uint32_t seed, const char* method = "
 
 TEST(QuickFit, BringsATypicalArmWithinTwoMillimetresWithEightTouches) {
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
-    const SyntheticRig rig = syntheticRig(Scenario::D, seed);
-    const QuickFit quick = quickFit(believed(rig), touchesOf(Scenario::D, seed, "jig8"));
+    const SyntheticRig rig = syntheticRig(Scenario::d, seed);
+    const QuickFit quick = quickFit(believed(rig), touchesOf(Scenario::d, seed, "jig8"));
     std::mt19937 chance(seed + 100);
     double sum_mm2 = 0.0;
     for (const Touch& touch : heldOut(rig, 100, glm::dvec3(30.0), chance)) {
@@ -38,10 +38,10 @@ TEST(QuickFit, BringsATypicalArmWithinTwoMillimetresWithEightTouches) {
 
 TEST(QuickFit, DoubtsATouchOfTheWrongPlaceAndNoOther) {
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
-    TouchSet set = touchesOf(Scenario::D, seed);
+    TouchSet set = touchesOf(Scenario::d, seed);
     const std::size_t wrong = seed % set.touches.size();
     set.touches[wrong].target_W.mm += glm::dvec3(0.0, 15.0, 0.0);
-    const QuickFit quick = quickFit(believed(syntheticRig(Scenario::D, seed)), set);
+    const QuickFit quick = quickFit(believed(syntheticRig(Scenario::d, seed)), set);
     for (std::size_t i = 0; i < set.touches.size(); ++i) EXPECT_EQ(quick.doubtful[i], i == wrong) << seed << " " << i;
     EXPECT_NEAR(glm::length(quick.left_out_mm[wrong].xyz), 15.0, 2.0) << seed;
   }
@@ -49,7 +49,7 @@ TEST(QuickFit, DoubtsATouchOfTheWrongPlaceAndNoOther) {
 
 TEST(QuickFit, SeldomDoubtsTouchesThatAreRight) {
   int doubted = 0, all = 0;
-  for (const Scenario scenario : {Scenario::A, Scenario::B, Scenario::C, Scenario::D, Scenario::G})
+  for (const Scenario scenario : {Scenario::a, Scenario::b, Scenario::c, Scenario::d, Scenario::g})
     for (std::uint32_t seed = 1; seed <= 10; ++seed) {
       const QuickFit quick = quickFit(believed(syntheticRig(scenario, seed)), touchesOf(scenario, seed));
       doubted += static_cast<int>(std::count(quick.doubtful.begin(), quick.doubtful.end(), true));
@@ -61,8 +61,8 @@ TEST(QuickFit, SeldomDoubtsTouchesThatAreRight) {
 
 /// The linear form against fits that were truly made without the touch.
 TEST(QuickFit, ForetellsWhatAFitWithoutTheTouchLeavesThere) {
-  const TouchSet set = touchesOf(Scenario::D, 5, "jig8");  // so few that each has much to say
-  const MeasuredArm start = believed(syntheticRig(Scenario::D, 5));
+  const TouchSet set = touchesOf(Scenario::d, 5, "jig8");  // so few that each has much to say
+  const MeasuredArm start = believed(syntheticRig(Scenario::d, 5));
   const QuickFit quick = quickFit(start, set);
   for (std::size_t i = 0; i < set.touches.size(); ++i) {
     TouchSet others = set;
@@ -74,9 +74,9 @@ TEST(QuickFit, ForetellsWhatAFitWithoutTheTouchLeavesThere) {
 }
 
 TEST(QuickFit, LeavesTheArmAsItIsForFewerThanFourTouches) {
-  TouchSet set = touchesOf(Scenario::D, 1);
+  TouchSet set = touchesOf(Scenario::d, 1);
   set.touches.resize(3);
-  const MeasuredArm start = believed(syntheticRig(Scenario::D, 1));
+  const MeasuredArm start = believed(syntheticRig(Scenario::d, 1));
   const QuickFit quick = quickFit(start, set);
   EXPECT_EQ(quick.arm.X_WD.translation_mm, start.X_WD.translation_mm);
   EXPECT_EQ(std::count(quick.doubtful.begin(), quick.doubtful.end(), true), 0);

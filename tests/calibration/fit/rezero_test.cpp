@@ -25,7 +25,7 @@ double tre_mm(const MeasuredArm& arm, const SyntheticRig& rig, std::uint32_t see
 
 /// No noise, no slips, nothing that a correction can not express.
 SyntheticRig exact(std::uint32_t seed) {
-  SyntheticRig rig = syntheticRig(Scenario::B, seed);
+  SyntheticRig rig = syntheticRig(Scenario::b, seed);
   rig.arm.ripple = {};
   rig.habits.precision = {0.0, 0.0};
   rig.habits.arm_noise_rad = rig.habits.gimbal_noise_rad = rig.habits.outlier_share = 0.0;
@@ -85,7 +85,7 @@ TEST(Rezero, FindsJointsThatWereHomedAnew) {
 TEST(Rezero, BringsATypicalArmBackAfterANight) {
   std::vector<double> before, after;
   for (std::uint32_t seed = 1; seed <= 60; ++seed) {
-    const SyntheticRig rig = syntheticRig(Scenario::D, seed), now = nightLater(rig, seed);
+    const SyntheticRig rig = syntheticRig(Scenario::d, seed), now = nightLater(rig, seed);
     const Rezero result = rezeroed(perfectly(rig), fiveTouches(now, seed));
     before.push_back(tre_mm(perfectly(rig), now, seed));
     after.push_back(tre_mm(result.arm, now, seed));
@@ -98,7 +98,7 @@ TEST(Rezero, BringsATypicalArmBackAfterANight) {
 
 TEST(Rezero, NamesATouchThatSlipped) {
   for (std::uint32_t seed = 1; seed <= 60; ++seed) {
-    SyntheticRig rig = syntheticRig(Scenario::D, seed);
+    SyntheticRig rig = syntheticRig(Scenario::d, seed);
     rig.habits.outlier_share = 0.0;
     const SyntheticRig now = nightLater(rig, seed);
     TouchSet set = fiveTouches(now, seed);
@@ -118,7 +118,7 @@ TEST(Rezero, NamesATouchThatSlipped) {
 
 TEST(Rezero, SaysByWhatIsLeftThatTwoSlipped) {
   for (std::uint32_t seed = 1; seed <= 40; ++seed) {
-    SyntheticRig rig = syntheticRig(Scenario::D, seed);
+    SyntheticRig rig = syntheticRig(Scenario::d, seed);
     rig.habits.outlier_share = 0.0;
     const SyntheticRig now = nightLater(rig, seed);
     TouchSet set = fiveTouches(now, seed);

@@ -89,7 +89,7 @@ TEST(SeenError, AgreesWithTheTableOfHeadAndPupils) {
 }
 
 TEST(SeenError, IsTheArmsOwnWhereNothingElseIsWrong) {
-  const SyntheticRig rig = syntheticRig(Scenario::D, 3);
+  const SyntheticRig rig = syntheticRig(Scenario::d, 3);
   const MeasuredArm model{rig.arm.geometry, {}, rig.X_WD};
   const ViewingCare none{0.0, 0.0, 0.0, 0.0};
   std::mt19937 chance(5), again(5);

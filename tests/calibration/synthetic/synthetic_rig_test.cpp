@@ -7,8 +7,8 @@
 namespace calibration {
 namespace {
 
-constexpr Scenario kScenarios[] = {Scenario::A, Scenario::B, Scenario::C, Scenario::D,
-                                   Scenario::E, Scenario::F, Scenario::G};
+constexpr Scenario kScenarios[] = {Scenario::a, Scenario::b, Scenario::c, Scenario::d,
+                                   Scenario::e, Scenario::f, Scenario::g};
 constexpr glm::dvec3 kRegion_mm{70.0, 50.0, 35.0};
 
 double rms(const std::vector<double>& values) {
@@ -45,8 +45,8 @@ TEST(SyntheticRig, TouchesWhereItsTipIs) {
 }
 
 TEST(SyntheticRig, IsTheSameForTheSameSeed) {
-  const SyntheticRig one = syntheticRig(Scenario::D, 7), again = syntheticRig(Scenario::D, 7);
-  const SyntheticRig other = syntheticRig(Scenario::D, 8);
+  const SyntheticRig one = syntheticRig(Scenario::d, 7), again = syntheticRig(Scenario::d, 7);
+  const SyntheticRig other = syntheticRig(Scenario::d, 8);
   std::mt19937 a(5), b(5), c(5);
   const auto touches = touchedAll(one, *targetPlan("jig27"), a).touches;
   const auto same = touchedAll(again, *targetPlan("jig27"), b).touches;
@@ -59,7 +59,7 @@ TEST(SyntheticRig, IsTheSameForTheSameSeed) {
 }
 
 TEST(SyntheticRig, DrawsTheSameNumbersOnEveryMachine) {
-  const SyntheticRig rig = syntheticRig(Scenario::D, 1);
+  const SyntheticRig rig = syntheticRig(Scenario::d, 1);
   EXPECT_NEAR(rig.arm.truth.thigh_more_mm, -0.735549153783, 1e-9);
   EXPECT_NEAR(rig.X_WD.translation_mm.x, 4.139276222326, 1e-9);
 }
@@ -69,10 +69,10 @@ TEST(SyntheticRig, IsAsWrongAsItsScenarioSays) {
     Scenario scenario;
     double link_mm, offset_deg, gimbal_deg, tip_mm;
   };
-  for (const Sizes& sizes : {Sizes{Scenario::A, 0.15, 0.15, 0.3, 0.1},
-                             {Scenario::B, 0.4, 0.5, 1.0, 0.4},
-                             {Scenario::C, 0.8, 1.5, 2.0, 0.8},
-                             {Scenario::D, 0.4, 0.5, 1.0, 0.4}}) {
+  for (const Sizes& sizes : {Sizes{Scenario::a, 0.15, 0.15, 0.3, 0.1},
+                             {Scenario::b, 0.4, 0.5, 1.0, 0.4},
+                             {Scenario::c, 0.8, 1.5, 2.0, 0.8},
+                             {Scenario::d, 0.4, 0.5, 1.0, 0.4}}) {
     std::vector<double> link, offset, gimbal, tip;
     for (std::uint32_t seed = 1; seed <= 400; ++seed) {
       const ArmCorrection truth = syntheticRig(sizes.scenario, seed).arm.truth;
@@ -104,16 +104,16 @@ TEST(SyntheticRig, BendsAsItsScenarioSays) {
     }
     return rms(bent);
   };
-  EXPECT_EQ(bent_mm(Scenario::B), 0.0);
-  EXPECT_NEAR(bent_mm(Scenario::D), 0.15, 0.015);
-  EXPECT_NEAR(bent_mm(Scenario::G), 0.5, 0.05);
+  EXPECT_EQ(bent_mm(Scenario::b), 0.0);
+  EXPECT_NEAR(bent_mm(Scenario::d), 0.15, 0.015);
+  EXPECT_NEAR(bent_mm(Scenario::g), 0.5, 0.05);
 }
 
 TEST(SyntheticRig, IsAsFarOffWithoutCalibrationAsWasSimulatedBefore) {
   // Device where it truly is, arm as its model: 2.1 mm in the middle of the rigs.
   std::vector<double> of_rigs;
   for (std::uint32_t seed = 1; seed <= 60; ++seed) {
-    const SyntheticRig rig = syntheticRig(Scenario::D, seed);
+    const SyntheticRig rig = syntheticRig(Scenario::d, seed);
     std::mt19937 chance(seed);
     std::vector<double> off;
     for (const Touch& touch : heldOut(rig, 100, kRegion_mm, chance)) {
@@ -130,7 +130,7 @@ TEST(SyntheticRig, ReachesItsTargetsAsTheyAre) {
   int moved = 0, all = 0;
   for (const char* method : {"jig27", "jig8", "visual25", "webcam27", "rezero5", "check4", "verify8", "pivot12"})
     for (std::uint32_t seed = 1; seed <= 60; ++seed) {
-      const SyntheticRig rig = syntheticRig(Scenario::D, seed);
+      const SyntheticRig rig = syntheticRig(Scenario::d, seed);
       std::mt19937 chance(seed);
       const auto plan = targetPlan(method);
       const auto touches = touchedAll(rig, *plan, chance).touches;
@@ -144,7 +144,7 @@ TEST(SyntheticRig, ReachesItsTargetsAsTheyAre) {
 
 TEST(SyntheticRig, TiltsTheStylusAsTheCueAsksUnlessItIsHeldOneWay) {
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
-    const SyntheticRig many = syntheticRig(Scenario::D, seed), one = syntheticRig(Scenario::E, seed);
+    const SyntheticRig many = syntheticRig(Scenario::d, seed), one = syntheticRig(Scenario::e, seed);
     std::mt19937 a(seed), b(seed);
     EXPECT_GE(tiltSpread_deg(many, touchedAll(many, *targetPlan("jig27"), a).touches), 45.0);
     EXPECT_LT(tiltSpread_deg(one, touchedAll(one, *targetPlan("jig27"), b).touches), 20.0);
@@ -155,7 +155,7 @@ TEST(SyntheticRig, TiltsTheStylusAsTheCueAsksUnlessItIsHeldOneWay) {
 
 TEST(SyntheticRig, IsTouchedAsExactlyAsPeopleCan) {
   const SyntheticRig rig = [] {
-    SyntheticRig it = syntheticRig(Scenario::F, 3);
+    SyntheticRig it = syntheticRig(Scenario::f, 3);
     it.habits.outlier_share = it.habits.arm_noise_rad = it.habits.gimbal_noise_rad = 0.0;
     return it;
   }();
@@ -174,7 +174,7 @@ TEST(SyntheticRig, IsTouchedAsExactlyAsPeopleCan) {
 TEST(SyntheticRig, SlipsNowAndThen) {
   int slipped = 0, all = 0;
   for (std::uint32_t seed = 1; seed <= 60; ++seed) {
-    const SyntheticRig rig = syntheticRig(Scenario::D, seed);
+    const SyntheticRig rig = syntheticRig(Scenario::d, seed);
     std::mt19937 chance(seed);
     for (const Touch& touch : touchedAll(rig, *targetPlan("jig27"), chance).touches) {
       const double off_mm = glm::length((rig.tip_W(touch.joints_rad) - touch.target_W).xyz);
@@ -189,7 +189,7 @@ TEST(SyntheticRig, SlipsNowAndThen) {
 TEST(SyntheticRig, DriftsAsMuchAsItIsTold) {
   std::vector<double> turned, shifted;
   std::mt19937 chance(9);
-  const SyntheticRig rig = syntheticRig(Scenario::D, 1);
+  const SyntheticRig rig = syntheticRig(Scenario::d, 1);
   for (int n = 0; n < 300; ++n) {
     const SyntheticRig moved = drifted(rig, 0.3, 1.0, chance);
     for (std::size_t i = 0; i < 3; ++i) {

@@ -13,7 +13,7 @@ TEST(WebcamSights, SeesScreenAndTipsFromThreePositions) {
   for (const WebcamCare& care : {fineWebcam(), coarseWebcam()})
     for (std::uint32_t seed = 1; seed <= 20; ++seed) {
       std::mt19937 chance(seed);
-      const WebcamSights sights = webcamSights(syntheticRig(Scenario::D, seed), places(), care, chance);
+      const WebcamSights sights = webcamSights(syntheticRig(Scenario::d, seed), places(), care, chance);
       ASSERT_EQ(sights.positions.size(), 3u);
       for (const CameraPosition& position : sights.positions) {
         EXPECT_EQ(position.tips.size(), 27u);
@@ -28,7 +28,7 @@ TEST(WebcamSights, SeesScreenAndTipsFromThreePositions) {
 }
 
 TEST(WebcamSights, AreOfThatRigAndOfThatSeed) {
-  const SyntheticRig rig = syntheticRig(Scenario::D, 4);
+  const SyntheticRig rig = syntheticRig(Scenario::d, 4);
   std::mt19937 a(1), b(1), c(2);
   const WebcamSights one = webcamSights(rig, places(), fineWebcam(), a);
   const WebcamSights same = webcamSights(rig, places(), fineWebcam(), b);
@@ -43,7 +43,7 @@ TEST(WebcamSights, PutsThePictureUprightBeforeTheCamera) {
   WebcamCare exact = fineWebcam();
   exact.screen_noise_px = exact.tip_noise_px = exact.focal_error = exact.centre_error_px = exact.outlier_share = 0.0;
   std::mt19937 chance(3);
-  const WebcamSights sights = webcamSights(syntheticRig(Scenario::D, 3), places(), exact, chance);
+  const WebcamSights sights = webcamSights(syntheticRig(Scenario::d, 3), places(), exact, chance);
   EXPECT_EQ(sights.camera.focal_px, exact.camera.focal_px);
   for (const CameraPosition& position : sights.positions) {
     const PlaceSight &first = position.screen.front(), &last = position.screen.back();

@@ -21,7 +21,7 @@ struct Judged {
   WebcamSights sights;
   std::vector<Touch> held_out;
 
-  Judged(std::uint32_t seed, const WebcamCare& care, Scenario scenario = Scenario::D)
+  Judged(std::uint32_t seed, const WebcamCare& care, Scenario scenario = Scenario::d)
       : rig(syntheticRig(scenario, seed)) {
     std::mt19937 chance(seed);
     sights = webcamSights(rig, targetPlan("webcam27").value(), care, chance);
@@ -72,7 +72,7 @@ TEST(WebcamFit, FindsTheTruthWhereNothingIsUncertain) {
   WebcamCare exact = fineWebcam();
   exact.screen_noise_px = exact.tip_noise_px = 1e-3;
   exact.focal_error = exact.centre_error_px = exact.outlier_share = 0.0;
-  SyntheticRig rig = syntheticRig(Scenario::B, 5);
+  SyntheticRig rig = syntheticRig(Scenario::b, 5);
   rig.habits.arm_noise_rad = rig.habits.gimbal_noise_rad = 0.0;
   rig.arm.ripple = {};
   std::mt19937 chance(5);
@@ -217,7 +217,7 @@ TEST(WebcamFit, WarnsOfFewTipsOneTiltAndNarrowViews) {
     position.tips = some;
   }
   EXPECT_THAT(kinds(sights), testing::Contains(FitWarning::Kind::few_touches));
-  EXPECT_THAT(kinds(Judged(3, fineWebcam(), Scenario::E).sights), testing::Contains(FitWarning::Kind::little_tilt));
+  EXPECT_THAT(kinds(Judged(3, fineWebcam(), Scenario::e).sights), testing::Contains(FitWarning::Kind::little_tilt));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace app {
 inline calibration::RigRecord exampleRecord() {
   using namespace calibration;
   std::mt19937 chance(7);
-  const SyntheticRig rig = syntheticRig(Scenario::D, 7);
+  const SyntheticRig rig = syntheticRig(Scenario::d, 7);
   TouchSet touches = touchedAll(rig, *targetPlan("jig27"), chance);
   touches.touches[12].target_W.mm += glm::dvec3(9.0, -6.0, 10.0);  // a wrong pit
   const ArmFit fit = fitArm(touches);
