@@ -14,6 +14,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/commands/command.h"
+#include "assets/output_file.h"
 
 namespace {
 
@@ -29,7 +30,7 @@ std::string oneLine(std::string text) {
 }
 
 int refuse(const std::string& text) {
-  std::fprintf(stderr, "molar: %s\n", oneLine(text).c_str());
+  std::fprintf(stderr, "molar: %s\n", oneLine(assets::withoutTemporaryMarks(text)).c_str());
   return 2;
 }
 

@@ -1,5 +1,6 @@
-// A scanned jaw as loaded: Hounsfield units, tissue labels and the solid fraction, voxel for voxel on one grid.
-// Immutable after loading; any thread may read. 4 bytes a voxel. Not the bone while it is carved (haptics::CarvedBone).
+// A scanned jaw as loaded: Hounsfield units, tissue labels, teeth by number and the solid fraction, voxel for voxel on
+// one grid. Immutable after loading; any thread may read. 5 bytes a voxel. Not the bone while it is carved
+// (haptics::CarvedBone).
 #pragma once
 
 #include <cstdint>
@@ -15,6 +16,7 @@ struct CtVolume {
   std::vector<std::int16_t> hounsfield;  ///< grid.voxelCount() values, i fastest
   std::vector<std::uint8_t> label;       ///< Tissue, same order
   std::vector<std::uint8_t> solid;       ///< 0..255 = fraction of the voxel that is solid: what is felt and seen
+  std::vector<std::uint8_t> tooth;  ///< FDI number of the tooth a voxel belongs to, 0 none; empty: no tooth told apart
 };
 
 }  // namespace assets

@@ -1,15 +1,18 @@
 #include "assets/output_file.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <random>
+#include <string_view>
 
 #include "assets/load_error.h"
 
@@ -50,14 +53,48 @@ void refuseWithoutParent(const std::string& path) {
   if (name.empty() || name == "." || name == "..") refuse(path, "that is no name for something new; give it one");
 }
 
+constexpr std::string_view kMarkBegin = ".part-", kMarkDigits = "0123456789abcdefghijklmnopqrstuvwxyz";
+constexpr std::size_t kMarkLength = kMarkBegin.size() + 8 + 1;  // .part-k3x80qzd-
+
+/// Whether the mark of a temporary name begins there.
+bool isMarkAt(std::string_view text, std::size_t at) {
+  const std::string_view mark = text.substr(at, kMarkLength);
+  return mark.size() == kMarkLength && mark.starts_with(kMarkBegin) && mark.back() == '-' &&
+         mark.substr(kMarkBegin.size(), 8).find_first_not_of(kMarkDigits) == std::string_view::npos;
+}
+
 /// A hidden name in the target's folder; the target's name stays at the end, extension and all.
 std::string temporaryNameFor(const std::string& path) {
-  static constexpr char kDigits[] = "0123456789abcdefghijklmnopqrstuvwxyz";
   std::random_device source;
-  std::uniform_int_distribution<int> digit(0, 35);
-  std::string mark;
-  for (int i = 0; i < 8; ++i) mark += kDigits[digit(source)];
-  return (parentOf(path) / (".part-" + mark + "-" + fs::path(path).filename().string())).string();
+  std::uniform_int_distribution<std::size_t> digit(0, kMarkDigits.size() - 1);
+  std::string mark(kMarkBegin);
+  for (int i = 0; i < 8; ++i) mark += kMarkDigits[digit(source)];
+  return (parentOf(path) / (mark + "-" + fs::path(path).filename().string())).string();
+}
+
+/// Locks a temporary for as long as the descriptor is open, a killed program's included.
+int claimed(const std::string& temporary_path, int flags) {
+  const int descriptor = ::open(temporary_path.c_str(), flags | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0 || ::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
+  ::close(descriptor);
+  return -1;
+}
+
+/// Removes what nobody finishes any more: temporaries of this target that are unlocked and older than a minute, so that
+/// none is taken between its making and its lock.
+void clearAbandoned(const std::string& path) {
+  const std::string name = fs::path(path).filename().string();
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(parentOf(path), ignored)) {
+    const std::string found = entry.path().filename().string();
+    if (!isMarkAt(found, 0) || found.substr(kMarkLength) != name) continue;
+    const auto age = fs::file_time_type::clock::now() - entry.last_write_time(ignored);
+    if (ignored || age < std::chrono::minutes(1)) continue;
+    const int descriptor = claimed(entry.path().string(), O_RDONLY);
+    if (descriptor < 0) continue;
+    fs::remove_all(entry.path(), ignored);
+    ::close(descriptor);
+  }
 }
 
 bool exists(const std::string& path) {
@@ -96,6 +133,16 @@ int exchange(const std::string& ours, const std::string& theirs) {
 
 }  // namespace
 
+std::string withoutTemporaryMarks(std::string text) {
+  for (std::size_t at = text.find(kMarkBegin); at != std::string::npos; at = text.find(kMarkBegin, at)) {
+    if (isMarkAt(text, at))
+      text.erase(at, kMarkLength);
+    else
+      ++at;
+  }
+  return text;
+}
+
 OutputFile::OutputFile(std::string path, bool overwrite) : path_(resolved(std::move(path))), overwrite_(overwrite) {
   refuseWithoutParent(path_);
 
@@ -107,14 +154,16 @@ OutputFile::OutputFile(std::string path, bool overwrite) : path_(resolved(std::m
   }
 
   // Claim the temporary now, so that an unwritable folder is known before the work is done.
+  clearAbandoned(path_);
   temporary_path_ = temporaryNameFor(path_);
-  const int descriptor = ::open(temporary_path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (descriptor < 0) refuseForSystem(path_, errno);
-  ::close(descriptor);
+  claim_ = ::open(temporary_path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (claim_ < 0) refuseForSystem(path_, errno);
+  ::flock(claim_, LOCK_EX | LOCK_NB);
 }
 
 OutputFile::~OutputFile() {
   if (!committed_) ::unlink(temporary_path_.c_str());
+  ::close(claim_);
 }
 
 void OutputFile::commit() {
@@ -131,13 +180,16 @@ OutputFolder::OutputFolder(std::string path, bool overwrite, std::vector<std::st
     : path_(resolved(std::move(path))), contents_(std::move(contents)), overwrite_(overwrite) {
   refuseWithoutParent(path_);
   refuseUnlessReplaceable();
+  clearAbandoned(path_);
   temporary_path_ = temporaryNameFor(path_);
   if (::mkdir(temporary_path_.c_str(), 0777) != 0) refuseForSystem(path_, errno);
+  claim_ = claimed(temporary_path_, O_RDONLY | O_DIRECTORY);
 }
 
 OutputFolder::~OutputFolder() {
   std::error_code ignored;
   if (!committed_) fs::remove_all(temporary_path_, ignored);
+  if (claim_ >= 0) ::close(claim_);
 }
 
 void OutputFolder::refuseUnlessReplaceable() const {

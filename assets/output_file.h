@@ -2,6 +2,7 @@
 // commit. A killed or failing program leaves the target as it was; the destructor removes what was not committed.
 // Refused with one line (LoadError) at construction, before any work: no such parent folder, not writable, target there
 // and no leave to replace it, target not a plain file (a device, a folder).
+// What a killed program left unfinished goes when the same target is next written, a minute later at the earliest.
 // Any thread, one thread per object. A few system calls; commit waits until the bytes are on the disk.
 // Not a writer: whoever holds one writes to `temporaryPath()` by any means.
 #pragma once
@@ -10,6 +11,9 @@
 #include <vector>
 
 namespace assets {
+
+/// The text without the marks of temporary names: for messages of writers, which know no other name.
+std::string withoutTemporaryMarks(std::string text);
 
 class OutputFile {
  public:
@@ -30,6 +34,7 @@ class OutputFile {
   std::string temporary_path_;
   bool overwrite_;
   bool committed_ = false;
+  int claim_ = -1;  ///< locked while this lives: the temporary is not abandoned
 };
 
 /// A folder built beside its target. A folder in place is replaced only with `overwrite`, and only if it holds nothing
@@ -56,6 +61,7 @@ class OutputFolder {
   std::vector<std::string> contents_;
   bool overwrite_;
   bool committed_ = false;
+  int claim_ = -1;  ///< as OutputFile's
 };
 
 }  // namespace assets

@@ -14,12 +14,12 @@ enum class Tissue : std::uint8_t {
   unlabelled = 0,  ///< air, or a scan without segmentation
   cortical = 1,
   trabecular = 2,
-  other_teeth = 3,  ///< a tooth that is not to be touched, enamel and dentine not told apart
-  enamel = 4,       ///< of the third molar
-  dentine = 5,      ///< of the third molar
+  other_teeth = 3,  ///< a tooth whose enamel and dentine are not told apart
+  enamel = 4,       ///< of any tooth: which one says CtVolume::tooth
+  dentine = 5,
   pulp = 6,
-  canal = 7,     ///< mandibular canal with nerve and vessels
-  ligament = 8,  ///< periodontal ligament or follicle
+  mandibular_canal = 7,  ///< mandibular canal with nerve and vessels
+  ligament = 8,          ///< periodontal ligament or follicle
   gingiva = 9,
 };
 inline constexpr int kTissueCount = 10;
@@ -43,7 +43,7 @@ inline constexpr std::array<TissueProperties, kTissueCount> kTissues = {{
     {"enamel", "enamel", 2500.0, 1.0 / 3.0, 1.5},
     {"dentine", "dentine", 1650.0, 1.0, 1.1},
     {"pulp", "pulp", 150.0, 50.0 / 3.0, 0.1},
-    {"canal", "canal", 40.0, 50.0 / 3.0, 0.1},
+    {"mandibular_canal", "mandibular canal", 40.0, 50.0 / 3.0, 0.1},
     {"ligament", "ligament", 60.0, 50.0 / 3.0, 0.1},
     {"gingiva", "gingiva", 60.0, 50.0 / 3.0, 0.1},
 }};

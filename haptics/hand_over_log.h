@@ -34,6 +34,19 @@ class HandOverLog {
     tail_.store(tail, std::memory_order_release);
   }
 
+  /// Reader only: drops everything logged so far and says how much that was; no allocation.
+  std::size_t discard() noexcept {
+    const std::size_t tail = tail_.load(std::memory_order_relaxed), head = head_.load(std::memory_order_acquire);
+    tail_.store(head, std::memory_order_release);
+    return (head + ring_.size() - tail) % ring_.size();
+  }
+
+  /// Writer only: how many more fit before the newest are dropped.
+  std::size_t room() const noexcept {
+    const std::size_t head = head_.load(std::memory_order_relaxed), tail = tail_.load(std::memory_order_acquire);
+    return (tail + ring_.size() - head - 1) % ring_.size();
+  }
+
   std::uint64_t dropped() const { return dropped_.load(std::memory_order_relaxed); }
 
  private:

@@ -2,7 +2,7 @@
 // so both eyes see the same instant. Frame W unless named. Render thread.
 #pragma once
 
-#include "assets/instrument.h"
+#include "assets/instrument/instrument.h"
 #include "calibration/geometry/frames.h"
 #include "calibration/geometry/pose.h"
 #include "calibration/rig.h"
@@ -17,11 +17,11 @@ enum class ViewMode { iso, dvr, mesh };
 struct Layers {
   float face_opacity = 1.0f;  ///< 0: no face
   bool gum = true;
-  bool canal = false;        ///< the mandibular canal …
-  bool clearance = false;    ///< … and bands of distance to it on the bone
-  bool planned_cut = false;  ///< bone that is planned to go
-  bool ghost_tool = false;   ///< the tool where the hand is, while the drawn one is held by the surface
-  bool slices = false;       ///< CT slices through the bur
+  bool mandibular_canal = false;  ///< the mandibular canal …
+  bool clearance = false;         ///< … and bands of distance to it on the bone
+  bool planned_cut = false;       ///< bone that is planned to go
+  bool ghost_tool = false;        ///< the tool where the hand is, while the drawn one is held by the surface
+  bool slices = false;            ///< CT slices through the bur
 };
 
 enum class Antialias { none, edges };

@@ -11,11 +11,11 @@
 #include "render/gpu/gl_debug_log.h"
 #include "render/gpu/gpu_error.h"
 #include "render/gpu/window_picture.h"
-#include "render/scene/canal_tube.h"
 #include "render/scene/clear_lists.h"
 #include "render/scene/edge_pass.h"
 #include "render/scene/guide_opacity.h"
 #include "render/scene/inset_pass.h"
+#include "render/scene/mandibular_canal_tube.h"
 #include "render/scene/mesh_pass.h"
 #include "render/shaders/shared_numbers.glsl"
 #include "render/volume/bone_mesh.h"
@@ -86,7 +86,8 @@ class GlSceneRenderer final : public SceneRenderer {
     second_instrument_ = onGpu(instrument_O, Finish::instrument);
   }
   void setGuides(const Guides& guides) override {
-    canal_ = onGpu(canalTube(guides.canal_P_mm, guides.canal_radius_mm), Finish::guide);
+    mandibular_canal_ =
+        onGpu(mandibularCanalTube(guides.mandibular_canal_P_mm, guides.mandibular_canal_radius_mm), Finish::guide);
     const GuideField field(fields_.grid(), guides);
     guides_ = Texture::volume(field.size(), TexelFormat::rg16);
     guides_.upload({0, 0, 0}, field.size(), std::as_bytes(field.values()));
@@ -148,7 +149,7 @@ class GlSceneRenderer final : public SceneRenderer {
   Program background_{"screen.vert", "background.frag"};
   UniformBlock<EyeBlock> eye_block_;
   StereoCompositor compositor_;
-  std::optional<SceneMesh> face_, gum_, instrument_, second_instrument_, canal_;
+  std::optional<SceneMesh> face_, gum_, instrument_, second_instrument_, mandibular_canal_;
   Texture guides_;
   EdgePass edges_;
   InsetPass inset_pass_;
@@ -234,9 +235,9 @@ GlSceneRenderer::PlacedMeshes GlSceneRenderer::meshesOf(const Frame& frame, bool
   if (gum_ && layers.gum) meshes.inside.push_back({&*gum_, {.view_is_mirrored = mirrored}});
 
   // Guides: the canal where it is open, and faintly where it is not; the hand where the bone holds the tool.
-  if (canal_ && layers.canal) {
-    meshes.inside.push_back({&*canal_, {.view_is_mirrored = mirrored}});
-    meshes.through.push_back({&*canal_, {.view_is_mirrored = mirrored, .opacity = kCanalThrough}});
+  if (mandibular_canal_ && layers.mandibular_canal) {
+    meshes.inside.push_back({&*mandibular_canal_, {.view_is_mirrored = mirrored}});
+    meshes.through.push_back({&*mandibular_canal_, {.view_is_mirrored = mirrored, .opacity = kMandibularCanalThrough}});
   }
   const float ghost = ghostOpacity(frame);
   if (instrument_ && ghost > 0.0f)

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/printed.h"
+#include "app/text/printed.h"
 
 namespace app {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cctype>
 
-#include "app/usage_error.h"
+#include "app/text/usage_error.h"
 #include "assets/output_file.h"
 #include "calibration/picture_file.h"
 

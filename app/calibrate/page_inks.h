@@ -2,7 +2,7 @@
 // Told apart by people with any colour vision (Okabe, Ito 2008), and never alone: shapes and words say the same.
 #pragma once
 
-#include "app/pattern/screen_page.h"
+#include "app/report/screen_page.h"
 
 namespace app {
 

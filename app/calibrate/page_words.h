@@ -6,7 +6,7 @@
 #include <string>
 
 #include "app/calibrate/wizard_view.h"
-#include "app/pattern/screen_page.h"
+#include "app/report/screen_page.h"
 
 namespace app {
 

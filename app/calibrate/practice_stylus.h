@@ -6,7 +6,7 @@
 
 #include "app/calibrate/page_scene.h"
 #include "calibration/synthetic/synthetic_rig.h"
-#include "haptics/device/simulated/device_in_numbers.h"
+#include "haptics/device/device_in_numbers.h"
 #include "haptics/device/simulated/phantom_sensors.h"
 #include "haptics/device/simulated/tremor.h"
 #include "haptics/device/simulated/virtual_hand.h"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "app/usage_error.h"
+#include "app/text/usage_error.h"
 
 namespace app {
 namespace {

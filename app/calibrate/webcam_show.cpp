@@ -13,7 +13,7 @@
 #include "app/calibrate/stylus_source.h"
 #include "app/calibrate/webcam_technician.h"
 #include "app/calibrate/wizard_pages.h"
-#include "app/usage_error.h"
+#include "app/text/usage_error.h"
 #include "calibration/median.h"
 #include "render/display/eye_projection.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "app/calibrate/page_words.h"
-#include "app/pattern/stereo_picture.h"
+#include "app/report/stereo_picture.h"
 #include "calibration/geometry/units.h"
 
 namespace app {

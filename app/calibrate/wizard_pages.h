@@ -9,7 +9,7 @@
 
 #include "app/calibrate/page_scene.h"
 #include "app/calibrate/wizard_view.h"
-#include "app/pattern/screen_page.h"
+#include "app/report/screen_page.h"
 #include "calibration/webcam/camera.h"
 #include "render/display/stereo_layout.h"
 #include "render/picture.h"

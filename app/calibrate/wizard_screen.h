@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "app/display_windows.h"
+#include "app/view/display_windows.h"
 #include "render/display/stereo_layout.h"
 #include "render/gpu/window_upload.h"
 #include "render/picture.h"

@@ -9,7 +9,7 @@
 #include "app/calibrate/stylus_source.h"
 #include "app/calibrate/wizard.h"
 #include "app/calibrate/wizard_pages.h"
-#include "app/usage_error.h"
+#include "app/text/usage_error.h"
 #include "render/display/eye_projection.h"
 
 namespace app {

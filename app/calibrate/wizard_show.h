@@ -3,7 +3,7 @@
 // window or an interrupt leaves: nothing is changed then. Saves nothing: that is the caller's.
 //   WizardRun run;
 //   run.plan = {.procedure = …, .method = "jig27", .record = current, .device = {model, serial, mount, tip}};
-//   OpenedDevice opened = openDevice(address, options);    run.device = opened.device.get();
+//   haptics::OpenedDevice opened = haptics::openDevice(address, options);    run.device = opened.device.get();
 //   or: run.practice = syntheticRig(Scenario::d, 7);  run.plan.record.rig = run.practice->nominal;  …device as there
 //   const WizardOutcome outcome = runWizard(run);
 //   if (outcome.end == WizardOutcome::End::accepted) store.keep(place, recordOf(run.plan, outcome), touches, true);

@@ -10,12 +10,12 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/command.h"
-#include "app/erosion_text.h"
-#include "app/pose_csv.h"
-#include "app/settings_text.h"
-#include "app/tool_text.h"
-#include "app/volume_option.h"
-#include "assets/image_file.h"
+#include "app/device/pose_csv.h"
+#include "app/options/erosion_text.h"
+#include "app/options/settings_text.h"
+#include "app/options/tool_text.h"
+#include "app/options/volume_option.h"
+#include "assets/scan/image_file.h"
 #include "haptics/bone/carve.h"
 #include "haptics/contact/cut_moment.h"
 #include "haptics/contact/law.h"
@@ -138,6 +138,7 @@ int carve(const CarveOptions& options) {
   refuseSameFile(options.out, {options.poses, options.volume.path()});
   assets::OutputFile out = assets::nrrdOutput(options.out, options.force);
   const std::vector<TimedPose> poses = readPoses(options.poses);
+  refuseControls(poses, options.poses);
   refuseLongRun(poses, options.poses);
   const SolidVolume volume = options.volume.load();
   haptics::CarvedBone bone(volume.grid, volume.solid, volume.label);

@@ -12,15 +12,14 @@
 #include <CLI/CLI.hpp>
 
 #include "app/commands/command.h"
-#include "app/commands/number_range.h"
-#include "app/device_check/device_check.h"
-#include "app/device_check/obedient_hand.h"
-#include "app/device_choice.h"
-#include "app/device_table.h"
-#include "app/falcon_scale_file.h"
-#include "app/page_look.h"
-#include "app/usage_error.h"
-#include "app/written_text.h"
+#include "app/device/check/device_check.h"
+#include "app/device/check/obedient_hand.h"
+#include "app/device/device_table.h"
+#include "app/device/falcon_scale_file.h"
+#include "app/text/number_range.h"
+#include "app/text/page_look.h"
+#include "app/text/usage_error.h"
+#include "app/text/written_text.h"
 #include "haptics/device/device_catalogue.h"
 #include "haptics/device/simulated/simulated_phantom.h"
 
@@ -43,7 +42,7 @@ void endQuestionsOnInterrupt() {
 
 std::string firstRealDevice() {
   for (const haptics::FoundDevice& found : haptics::findDevices().devices)
-    if (namesRealDevice(found.address)) return found.address;
+    if (haptics::isDeviceAddress(found.address)) return found.address;
   throw UsageError(
       "devices check: no device that Molar drives is here, plug one in and see molar devices, or try the "
       "check itself with simulated:omni");
@@ -52,7 +51,7 @@ std::string firstRealDevice() {
 /// A unit with the hand on it.
 struct Unit {
   std::unique_ptr<Owner> owner;
-  OpenedDevice opened;
+  haptics::OpenedDevice opened;
 };
 
 Unit unitAt(const std::string& address, const CheckOptions& options, haptics::FalconForceScale& scale) {
@@ -64,15 +63,15 @@ Unit unitAt(const std::string& address, const CheckOptions& options, haptics::Fa
       throw UsageError("devices check " + address + ": no such device, choose omni, touch, desktop or premium");
     auto hand = std::make_unique<ObedientHand>(*phantom);
     unit.opened.device = std::make_unique<haptics::SimulatedPhantom>(*phantom, hand->script());
+    unit.opened.address = address;
     unit.owner = std::move(hand);
     return unit;
   }
-  DeviceOptions device;
+  haptics::DeviceOptions device;
   device.falcon_program = options.falcon_firmware;
-  if (std::filesystem::exists(options.falcon_scale)) scale = readFalconScale(options.falcon_scale);
-  device.falcon_scale = scale;
+  device.falcon_scale = [&] { return scale = keptFalconScale(options.falcon_scale); };
   device.tell = [](const std::string& words) { std::fprintf(stderr, "molar: %s\n", words.c_str()); };
-  unit.opened = openDevice(address, device);
+  unit.opened = haptics::openDevice(address, device);
   unit.owner = std::make_unique<Owner>();
   return unit;
 }
@@ -100,9 +99,10 @@ void keepFalconScale(const CheckOptions& options, const haptics::FalconForceScal
 
 int check(const CheckOptions& options) {
   assets::OutputFile report(options.report, options.force);
-  const std::string address = options.address.empty() ? firstRealDevice() : options.address;
+  const std::string asked = options.address.empty() ? firstRealDevice() : options.address;
   haptics::FalconForceScale scale;
-  const Unit unit = unitAt(address, options, scale);
+  const Unit unit = unitAt(asked, options, scale);
+  const std::string address = unit.opened.address;
   endQuestionsOnInterrupt();
   Dialogue dialogue(std::cin, std::cerr);
   dialogue.say("Check of " + unit.opened.device->capabilities().model + ". q leaves at any question, motors off.");

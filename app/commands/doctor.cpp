@@ -9,7 +9,7 @@
 #include "app/doctor/checks.h"
 #include "app/doctor/findings_text.h"
 #include "app/doctor/haptic_usb.h"
-#include "app/page_look.h"
+#include "app/text/page_look.h"
 
 namespace app {
 namespace {

@@ -9,16 +9,16 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/command.h"
-#include "app/commands/number_range.h"
+#include "app/options/volume_option.h"
 #include "app/session/replay.h"
-#include "app/usage_error.h"
-#include "app/volume_option.h"
-#include "assets/bone_surface.h"
-#include "assets/face_frame.h"
-#include "assets/gltf_file.h"
-#include "assets/hard_tissue.h"
-#include "assets/patient_folder.h"
-#include "assets/stl_file.h"
+#include "app/text/number_range.h"
+#include "app/text/usage_error.h"
+#include "assets/mesh/bone_surface.h"
+#include "assets/mesh/gltf_file.h"
+#include "assets/mesh/stl_file.h"
+#include "assets/patient/patient_folder.h"
+#include "assets/scan/hard_tissue.h"
+#include "assets/scenery/face_frame.h"
 
 namespace app {
 namespace {
@@ -40,8 +40,9 @@ SolidVolume sourceOf(const ExportOptions& options) {
     assets::Patient patient = assets::loadPatient(options.patient);
     return {patient.ct.grid, std::move(patient.ct.solid), std::move(patient.ct.label)};
   }
-  ReplayedMoment moment = replayTo(options.session, options.to_s.value_or(1e9));
-  return {moment.start.grid, moment.bone.solidInGridOrder(), std::move(moment.start.label)};
+  BoneThen bone = boneThen(options.session, options.to_s);
+  for (const std::string& remark : bone.remarks) std::fprintf(stderr, "molar: %s\n", remark.c_str());
+  return {bone.start.grid, std::move(bone.solid), std::move(bone.start.label)};
 }
 
 assets::Material materialOf(HardTissue tissue) {

@@ -7,14 +7,14 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app/command_settings.h"
 #include "app/commands/command.h"
-#include "app/law_text.h"
-#include "app/pose_csv.h"
-#include "app/settings_text.h"
-#include "app/tool_text.h"
-#include "app/usage_error.h"
-#include "app/volume_option.h"
+#include "app/device/pose_csv.h"
+#include "app/options/command_settings.h"
+#include "app/options/law_text.h"
+#include "app/options/settings_text.h"
+#include "app/options/tool_text.h"
+#include "app/options/volume_option.h"
+#include "app/text/usage_error.h"
 #include "assets/output_file.h"
 #include "haptics/bone/cubelets.h"
 #include "haptics/contact/agus.h"
@@ -100,6 +100,7 @@ int feel(const FeelOptions& options) {
   refuseSameFile(options.out, {options.poses, options.volume.path()});
   assets::OutputFile out(options.out, options.force);
   const std::vector<TimedPose> poses = readPoses(options.poses);
+  refuseControls(poses, options.poses);
   if (options.served) {
     refuseUnlessObeyed(command);
     refuseUnlessHeld(command, kUsualDeviceDamping_Ns_per_mm, 1.0 / kTick_s);

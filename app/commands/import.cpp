@@ -8,17 +8,21 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/command.h"
-#include "app/commands/number_range.h"
-#include "assets/gum_surface.h"
+#include "app/text/number_range.h"
+#include "app/text/usage_error.h"
 #include "assets/import/scan_import.h"
-#include "assets/patient_folder.h"
+#include "assets/import/tooth_site.h"
+#include "assets/patient/patient_folder.h"
+#include "assets/scenery/gum_surface.h"
+#include "assets/tooth.h"
 
 namespace app {
 namespace {
 
 struct ImportOptions {
-  std::string source, out;
-  assets::Classification classification;
+  std::string source, out, window;
+  assets::ScanChoices choices;
+  int tooth_fdi = 0;
   bool force = false;
 };
 
@@ -38,10 +42,10 @@ Volumes_mm3 tissueVolumes(const assets::CtVolume& ct) {
   return volumes;
 }
 
-double canalLength_mm(const assets::Patient& patient) {
+double mandibularCanalLength_mm(const assets::Patient& patient) {
   double length = 0.0;
-  for (std::size_t i = 1; i < patient.canal_P_mm.size(); ++i)
-    length += glm::distance(patient.canal_P_mm[i - 1], patient.canal_P_mm[i]);
+  for (std::size_t i = 1; i < patient.mandibular_canal_P_mm.size(); ++i)
+    length += glm::distance(patient.mandibular_canal_P_mm[i - 1], patient.mandibular_canal_P_mm[i]);
   return length;
 }
 
@@ -65,18 +69,27 @@ nlohmann::json jsonOf(const assets::Patient& patient) {
            {"iso_hu", patient.classification.iso_hu},
            {"sigma_hu", patient.classification.sigma_hu},
            {"tissue_mm3", tissues},
-           {"canal",
-            {{"points", patient.canal_P_mm.size()},
-             {"length_mm", canalLength_mm(patient)},
-             {"radius_mm", patient.canal_radius_mm}}},
+           {"mandibular_canal",
+            {{"points", patient.mandibular_canal_P_mm.size()},
+             {"length_mm", mandibularCanalLength_mm(patient)},
+             {"radius_mm", patient.mandibular_canal_radius_mm}}},
            {"gum_triangles", triangles(patient.gum)},
            {"face_triangles", triangles(patient.face)}};
-  if (patient.site.known)
-    out["third_molar"] = {{"fdi", patient.site.tooth_fdi},
-                          {"centroid_P_mm", list(patient.site.third_molar_P_mm)},
-                          {"crown_direction_P", list(patient.site.crown_direction_P)}};
-  else
-    out["third_molar"] = nullptr;
+  json teeth = json::array();
+  for (const auto& [fdi, volume_mm3] : assets::toothVolumes_mm3(patient.ct))
+    teeth.push_back({{"fdi", fdi}, {"name", assets::toothName(fdi)}, {"volume_mm3", volume_mm3}});
+  out["teeth"] = teeth;
+  out["site"] = out["third_molar"] = nullptr;
+  if (!patient.site) return out;
+  const assets::OperativeSite& site = *patient.site;
+  out["site"] = {{"fdi", site.fdi},
+                 {"name", assets::toothName(site.fdi)},
+                 {"centre_P_mm", list(site.centre_P_mm)},
+                 {"axis_P", list(site.axis_P)}};
+  // The name of before any tooth could be the site.
+  if (assets::isThirdMolar(site.fdi))
+    out["third_molar"] = {
+        {"fdi", site.fdi}, {"centroid_P_mm", list(site.centre_P_mm)}, {"crown_direction_P", list(site.axis_P)}};
   return out;
 }
 
@@ -85,21 +98,46 @@ void printForPeople(const assets::Patient& patient, std::FILE* out) {
   std::fprintf(out, "patient      %s\n", patient.title.c_str());
   std::fprintf(out, "volume       %d x %d x %d voxels of %.3f mm\n", grid.size.x, grid.size.y, grid.size.z,
                grid.spacing_mm);
-  if (patient.site.known)
-    std::fprintf(out, "third molar  FDI %d at (%.1f, %.1f, %.1f) mm\n", patient.site.tooth_fdi,
-                 patient.site.third_molar_P_mm.x, patient.site.third_molar_P_mm.y, patient.site.third_molar_P_mm.z);
+  if (patient.site)
+    std::fprintf(out, "site         FDI %d, %s, at (%.1f, %.1f, %.1f) mm\n", patient.site->fdi,
+                 assets::toothName(patient.site->fdi).c_str(), patient.site->centre_P_mm.x, patient.site->centre_P_mm.y,
+                 patient.site->centre_P_mm.z);
   else
-    std::fputs("third molar  not labelled in this scan\n", out);
+    std::fputs("site         no third molar labelled here\n", out);
+  for (const auto& [fdi, volume_mm3] : assets::toothVolumes_mm3(patient.ct))
+    std::fprintf(out, "  tooth %d         %9.1f mm³\n", fdi, volume_mm3);
   const Volumes_mm3 volumes = tissueVolumes(patient.ct);
   for (std::size_t l = 1; l < volumes.size(); ++l)
     if (volumes[l] > 0.0)
       std::fprintf(out, "  %-16s %9.1f mm³\n", std::string(assets::kTissues[l].name).c_str(), volumes[l]);
-  if (!patient.canal_P_mm.empty())
-    std::fprintf(out, "canal        %.1f mm long, radius %.1f mm\n", canalLength_mm(patient), patient.canal_radius_mm);
+  if (!patient.mandibular_canal_P_mm.empty())
+    std::fprintf(out, "canal        %.1f mm long, radius %.1f mm\n", mandibularCanalLength_mm(patient),
+                 patient.mandibular_canal_radius_mm);
 }
 
-int import(const ImportOptions& options) {
-  assets::Patient patient = assets::importScan(options.source, options.classification);
+/// LOW:HIGH in HU.
+assets::GreyWindow windowOf(const std::string& text) {
+  assets::GreyWindow window;
+  int read = 0;
+  const bool fits = std::sscanf(text.c_str(), "%lf:%lf%n", &window.low_hu, &window.high_hu, &read) == 2 &&
+                    static_cast<std::size_t>(read) == text.size() && window.low_hu >= -2000.0 &&
+                    window.high_hu <= 32000.0 && window.low_hu < window.high_hu;
+  if (!fits) throw UsageError("--window " + text + ": give LOW:HIGH in HU, from -2000 to 32000, LOW below HIGH");
+  return window;
+}
+
+int import(ImportOptions options) {
+  if (options.tooth_fdi != 0) {
+    if (!assets::isToothNumber(options.tooth_fdi))
+      throw UsageError("--tooth " + std::to_string(options.tooth_fdi) +
+                       ": it is no FDI number of a tooth, give 11 to 48 or 51 to 85");
+    options.choices.tooth_fdi = options.tooth_fdi;
+  }
+  if (!options.window.empty()) options.choices.window = windowOf(options.window);
+  assets::ImportedScan imported = assets::importScan(options.source, options.choices);
+  for (const std::string& remark : imported.remarks)
+    std::fprintf(stderr, "molar: %s: %s\n", options.source.c_str(), remark.c_str());
+  assets::Patient& patient = imported.patient;
   patient.gum = assets::gumSurface(patient.ct, patient.site);
   assets::savePatient(patient, options.out, options.force);
   printForPeople(patient, stderr);
@@ -120,14 +158,17 @@ int inspect(const InspectOptions& options) {
 void addImport(CLI::App& molar, Chosen& chosen) {
   auto options = std::make_shared<ImportOptions>();
   CLI::App* command = molar.add_subcommand("import", "A scan becomes a patient folder, de-identified");
-  command->add_option("SOURCE", options->source, "Folder with ct.nrrd and labels.nrrd, or one volume file")->required();
+  command->add_option("SOURCE", options->source, "Folder with ct.nrrd, labels.nrrd and teeth.nrrd, or one volume file")
+      ->required();
   command->add_option("--out", options->out, "Patient folder to write")->required();
-  command->add_option("--iso", options->classification.iso_hu, "Grey value of the bone's surface, HU")
+  command->add_option("--iso", options->choices.classification.iso_hu, "Grey value of the bone's surface, HU")
       ->check(numberRange(-1000.0, 4000.0))
       ->capture_default_str();
-  command->add_option("--sigma", options->classification.sigma_hu, "Width of the soft transition, HU")
+  command->add_option("--sigma", options->choices.classification.sigma_hu, "Width of the soft transition, HU")
       ->check(numberRange(1.0, 2000.0))
       ->capture_default_str();
+  command->add_option("--tooth", options->tooth_fdi, "The tooth to operate on, FDI number; else the third molar");
+  command->add_option("--window", options->window, "LOW:HIGH, the HU that 0 and 255 of an 8-bit volume mean");
   command->add_flag("--force", options->force, "Replace the patient folder if it exists");
   command->callback([options, &chosen] { chosen.action = [options] { return import(*options); }; });
 }

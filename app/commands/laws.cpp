@@ -7,16 +7,16 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "app/chart/chart.h"
-#include "app/command_settings.h"
 #include "app/commands/command.h"
-#include "app/commands/number_range.h"
-#include "app/law_curves.h"
-#include "app/law_text.h"
-#include "app/settings_text.h"
-#include "app/toml_keys.h"
-#include "app/tool_text.h"
-#include "app/usage_error.h"
+#include "app/options/command_settings.h"
+#include "app/options/law_text.h"
+#include "app/options/settings_text.h"
+#include "app/options/tool_text.h"
+#include "app/report/chart.h"
+#include "app/report/law_curves.h"
+#include "app/text/number_range.h"
+#include "app/text/toml_keys.h"
+#include "app/text/usage_error.h"
 #include "haptics/contact/law_parameters.h"
 #include "haptics/safety/safety_limits.h"
 

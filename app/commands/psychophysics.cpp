@@ -9,18 +9,18 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/case/room.h"
 #include "app/commands/command.h"
+#include "app/options/settings_text.h"
 #include "app/psychophysics/probed_bone.h"
 #include "app/psychophysics/result_chart.h"
 #include "app/psychophysics/summary.h"
 #include "app/psychophysics/trial_desk.h"
 #include "app/psychophysics/trial_table.h"
-#include "app/rehearsal.h"
-#include "app/room.h"
-#include "app/settings_text.h"
-#include "app/toml_keys.h"
-#include "app/usage_error.h"
-#include "app/written_text.h"
+#include "app/rehearsal/rehearsal.h"
+#include "app/text/toml_keys.h"
+#include "app/text/usage_error.h"
+#include "app/text/written_text.h"
 #include "calibration/record/rig_file.h"
 
 namespace app {
@@ -58,14 +58,16 @@ bool runAtTheWindow(const PsychophysicsOptions& options, const Protocol& protoco
   TrialDesk desk(experiment, bone.site, protocol.between_trials_s, on_trial);
   RehearsalPlan plan;
   plan.patient = bone.patient;
-  plan.patient.site.third_molar_P_mm = bone.site.surface_P.mm;
+  // What is looked at is the bone that is probed.
+  plan.patient.jaw_P_mm = bone.site.surface_P.mm;
+  if (plan.patient.site) plan.patient.site->centre_P_mm = bone.site.surface_P.mm;
   plan.rig = rigFor(options, bone.site);
   plan.full_screen = !options.rig.empty();
   plan.command = experiment.commandOf(0);
   plan.rate_Hz = protocol.probe.rate_Hz;
   plan.overwrite = options.force;
   if (!options.record.empty()) plan.recording = Recording{options.record, options.force};
-  plan.guide = &desk;
+  plan.procedure = &desk;
   rehearse(std::move(plan));
   return desk.isOver();
 }

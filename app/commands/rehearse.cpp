@@ -8,28 +8,31 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app/case_reach.h"
-#include "app/command_settings.h"
+#include "app/case/patient_source.h"
+#include "app/case/room.h"
 #include "app/commands/command.h"
-#include "app/commands/number_range.h"
-#include "app/display_option.h"
-#include "app/erosion_text.h"
-#include "app/falcon_scale_file.h"
-#include "app/law_text.h"
-#include "app/patient_source.h"
-#include "app/pedal_option.h"
-#include "app/picture_option.h"
-#include "app/practice_device.h"
-#include "app/rehearsal.h"
-#include "app/rig_choice.h"
-#include "app/room.h"
-#include "app/settings_text.h"
-#include "app/tool_text.h"
-#include "app/usage_error.h"
-#include "app/view_option.h"
-#include "assets/patient_folder.h"
+#include "app/controls/control.h"
+#include "app/device/falcon_scale_file.h"
+#include "app/device/hand_table.h"
+#include "app/options/command_settings.h"
+#include "app/options/display_option.h"
+#include "app/options/erosion_text.h"
+#include "app/options/law_text.h"
+#include "app/options/pedal_option.h"
+#include "app/options/picture_option.h"
+#include "app/options/settings_text.h"
+#include "app/options/tool_text.h"
+#include "app/options/view_option.h"
+#include "app/rehearsal/rehearsal.h"
+#include "app/session/recording_place.h"
+#include "app/station/case_reach.h"
+#include "app/station/rig_choice.h"
+#include "app/text/number_range.h"
+#include "app/text/usage_error.h"
+#include "assets/patient/patient_folder.h"
 #include "assets/synthetic/face.h"
 #include "calibration/record/utc.h"
+#include "haptics/device/device_catalogue.h"
 #include "render/quality_ladder.h"
 
 namespace app {
@@ -44,6 +47,7 @@ struct RehearseOptions {
   RigOption rig;
   std::vector<std::string> tools{"sphere:1.5"};
   std::string shaft, law = "agus", erosion = "time", size, snapshot_size = "1280x800";
+  std::string pace = "real";
   std::string side = "right", second_hand, second_tool = "mirror";
   PictureOption picture;
   std::vector<std::string> settings;
@@ -75,15 +79,9 @@ calibration::Rig rigFor(const RehearseOptions& options, const std::optional<Chos
   return rig;
 }
 
-void refuseUnlessDevice(const std::string& address) {
-  if (std::ranges::find(kHands, address, &HandName::key) == kHands.end() && !address.starts_with("replay:") &&
-      !namesRealDevice(address) && !practiceRig(address))
-    throw UsageError("--device " + address + ": there is no such hand, see molar rehearse --help and molar devices");
-}
-
 /// The device is opened first: a rig is one device's, and only the device knows its serial.
 void chooseRig(RehearsalPlan& plan, const RehearseOptions& options, const assets::FacePose& X_PF) {
-  if (namesRealDevice(options.device)) plan.opened = openDevice(options.device, plan.device_options);
+  if (haptics::isDeviceAddress(options.device)) plan.opened = haptics::openDevice(options.device, plan.device_options);
   const DeviceAtHand device =
       deviceAtHand(options.device, plan.opened ? &plan.opened->device->capabilities() : nullptr);
   const std::optional<ChosenRig> chosen = options.rig.choose(device, calibration::nowUtc());
@@ -102,9 +100,24 @@ void chooseRig(RehearsalPlan& plan, const RehearseOptions& options, const assets
   const std::vector<std::string> fit = caseRemarks(plan.rig, plan.patient, chosen->record.eye_sd_mm,
                                                    device.isCalibrated() ? device.model : std::string());
   plan.remarks.insert(plan.remarks.end(), fit.begin(), fit.end());
-  if (namesRealDevice(options.second_hand) && !plan.rig.second_X_WD)
+  if (haptics::isDeviceAddress(options.second_hand) && !plan.rig.second_X_WD)
     throw UsageError("--second-hand " + options.second_hand + ": " + chosen->source +
                      " does not say where its base stands, add X_WD2");
+}
+
+/// As fast as the machine can: nothing that has a time of its own.
+void refuseUnlessSteppable(const RehearseOptions& options) {
+  if (!options.headless) throw UsageError("--pace fast: a window has the clock's time, add --headless");
+  const HandKind* const hand = handKindOf(options.device);
+  if (!hand || !hand->in_numbers)
+    throw UsageError("--pace fast: " + options.device +
+                     " is no hand in numbers, choose --device scripted, simulated, practice, replay or poses");
+  if (!options.second_hand.empty() && haptics::isDeviceAddress(options.second_hand))
+    throw UsageError("--pace fast: --second-hand " + options.second_hand +
+                     " is no hand in numbers, choose scripted or replay:SESSION");
+  if (options.operators_window) throw UsageError("--pace fast: a window has the clock's time, leave --operator out");
+  if (options.pedal != "auto" && options.pedal != "none")
+    throw UsageError("--pace fast: a pedal has the clock's time, leave --pedal out");
 }
 
 /// A software renderer would take every core; one is the servo's.
@@ -112,6 +125,24 @@ void leaveACoreToTheServo() {
   const unsigned cores = std::thread::hardware_concurrency();
   const std::string threads = std::to_string(cores > 1 ? cores - 1 : 1);
   setenv("LP_NUM_THREADS", threads.c_str(), 0);
+}
+
+/// Before a patient is made; what comes up meanwhile the recorder refuses.
+void refuseUnlessRecordable(const RehearseOptions& options) {
+  namespace fs = std::filesystem;
+  const std::string& path = options.record;
+  std::error_code failed;
+  if (!fs::exists(path, failed)) return;
+  if (!fs::is_regular_file(path, failed))
+    throw UsageError("--record " + path + ": it is not a plain file, choose another name");
+  if (isBeingRecorded(path))
+    throw UsageError("--record " + path + ": another program is recording to it, choose another name");
+  for (const std::string& hand : {options.device, options.second_hand})
+    if (hand.starts_with("replay:") && fs::equivalent(hand.substr(7), path, failed))
+      throw UsageError("--record " + path + ": it is the session that is replayed, choose another name");
+  if (!options.force) throw UsageError(path + ": exists already: choose another name for the recording or use --force");
+  std::fprintf(stderr, "molar: recording into %s.new until it is closed, then in the place of %s\n", path.c_str(),
+               path.c_str());
 }
 
 int run(const RehearseOptions& options) {
@@ -131,17 +162,20 @@ int run(const RehearseOptions& options) {
   plan.parameters = options.parameters;
   if (options.headless && options.device == "mouse")
     throw UsageError("--headless: there is no mouse without a window, add --device scripted");
-  refuseUnlessDevice(options.device);
+  refuseUnlessHand(options.device);
   options.rig.refuseUnlessReadable();
   plan.device = options.device;
-  plan.pedal = pedalFrom(options.pedal);
+  if (options.pace == "fast") {
+    refuseUnlessSteppable(options);
+    plan.ticking = Ticking::by_hand;
+  } else {
+    plan.pedal = pedalFrom(options.pedal);
+  }
   plan.second_hand = {options.second_hand,
                       options.second_tool == "mirror" ? SecondTool::mirror : SecondTool::retractor};
   refuseUnlessSecondHand(plan.second_hand, options.device);
   plan.device_options.falcon_program = options.falcon_firmware;
-  const bool may_be_falcon = options.device.starts_with("falcon") || options.device == "usb";
-  if (may_be_falcon && std::filesystem::exists(usualFalconScaleFile()))
-    plan.device_options.falcon_scale = readFalconScale(usualFalconScaleFile());
+  plan.device_options.falcon_scale = [] { return keptFalconScale(usualFalconScaleFile()); };
   plan.device_options.tell = [](const std::string& line) { std::fprintf(stderr, "molar: %s\n", line.c_str()); };
   plan.display = options.display.mode();
   plan.eyes_swapped = options.display.swapped();
@@ -157,26 +191,23 @@ int run(const RehearseOptions& options) {
   plan.snapshot_px = pictureSize(options.snapshot_size);
   plan.headless = options.headless;
   plan.overwrite = options.force;
-  if (!options.record.empty() && std::filesystem::exists(options.record) &&
-      !std::filesystem::is_regular_file(options.record))
-    throw UsageError("--record " + options.record + ": it is not a plain file, choose another name");
   if (!options.snapshot.empty() && options.snapshot == options.first_snapshot)
     throw UsageError("--first-snapshot " + options.snapshot + ": the same as --snapshot, give another name");
-  if (!options.record.empty() && !options.force && std::filesystem::exists(options.record))
-    throw UsageError(options.record + ": exists already: choose another name for the recording or use --force");
+  if (!options.record.empty()) refuseUnlessRecordable(options);
   if (!options.record.empty()) plan.recording = Recording{options.record, options.force};
 
   assets::JawParameters jaw = options.jaw;
   jaw.right_side = options.side == "right";
   plan.patient = options.patient.empty() ? builtInPatient(jaw) : assets::loadPatient(options.patient);
+  if (!plan.patient.site)
+    std::fputs("molar: no third molar labelled here, the hand works at the nearest bone\n", stderr);
   assets::FacePose X_PF = assets::kFaceAxes_PF;
   if (!options.face.empty()) X_PF = dressWithFace(plan.patient, options.face);
   plan.face_window_mm = options.face_window_mm.value_or(options.face.empty() ? 0.0 : kForeignFaceWindow_mm);
   chooseRig(plan, options, X_PF);
   options.display.refuseUnlessFits(plan.rig);
   leaveACoreToTheServo();
-  rehearse(std::move(plan));
-  return 0;
+  return rehearse(std::move(plan));
 }
 
 }  // namespace
@@ -186,7 +217,7 @@ void addRehearse(CLI::App& molar, Chosen& chosen) {
   CLI::App* command = molar.add_subcommand("rehearse", "Rehearse a third-molar extraction, seen and felt");
   auto* patient = command->add_option("PATIENT", o->patient, "Patient folder (default: the built-in patient)");
   command->add_option("--pedal", o->pedal, kPedalHelp)->capture_default_str();
-  command->add_option("--device", o->device, kDeviceHelp)->capture_default_str();
+  command->add_option("--device", o->device, handHelp())->capture_default_str();
   command->add_option("--falcon-firmware", o->falcon_firmware, "Novint's firmware for a Falcon")->type_name("FILE");
   auto* second = command->add_option("--second-hand", o->second_hand, kSecondHandHelp);
   command->add_option("--second-tool", o->second_tool, "What the other hand holds: mirror or retractor")
@@ -219,8 +250,9 @@ void addRehearse(CLI::App& molar, Chosen& chosen) {
   command->add_option("--shaft", o->shaft, std::string(kShaftHelp) + " [a neck that fits, up to 2.35 mm thick]");
   command->add_option("--law", o->law, "Force law: " + lawNames())->capture_default_str();
   command
-      ->add_option("--parameters", o->parameters,
-                   "Settings file, TOML, obeyed while it changes (app/feel.toml); it rules over --law and --set")
+      ->add_option(
+          "--parameters", o->parameters,
+          "Settings file, TOML, obeyed while it changes (app/options/feel.toml); it rules over --law and --set")
       ->type_name("FILE");
   command->add_option("--erosion", o->erosion, "Erosion law: time, dose or machining")
       ->check(CLI::IsMember(erosionNames()))
@@ -229,6 +261,11 @@ void addRehearse(CLI::App& molar, Chosen& chosen) {
                       "key=value: stiffness_N_per_mm, peak_force_N, spindle_rpm, worn, removal_rate_per_s, …");
   command->add_option("--rate", o->rate_Hz, "Servo rate, Hz [1000, or as recorded]")
       ->check(numberRange(500.0, 10'000.0));
+  command
+      ->add_option("--pace", o->pace,
+                   "real, by the clock; fast, a hand in numbers without a window as fast as the machine can")
+      ->check(CLI::IsMember({"real", "fast"}))
+      ->capture_default_str();
   command->add_option("--seconds", o->seconds, "End after this time")->check(numberRange(0.1, 86400.0));
   command->add_option("--record", o->record, "Session file to write")->type_name("FILE");
   command->add_option("--snapshot", o->snapshot, "Pictures at the end: NAME_left.png, NAME_right.png");
@@ -248,7 +285,7 @@ void addRehearse(CLI::App& molar, Chosen& chosen) {
       ->capture_default_str()
       ->excludes(patient)
       ->check(numberRange(0.0, 8.0));
-  command->add_option("--canal-distance", o->jaw.canal_distance_mm, "Built-in patient: root to canal, mm")
+  command->add_option("--canal-distance", o->jaw.mandibular_canal_distance_mm, "Built-in patient: root to canal, mm")
       ->capture_default_str()
       ->excludes(patient)
       ->check(numberRange(0.3, 6.0));
@@ -257,6 +294,7 @@ void addRehearse(CLI::App& molar, Chosen& chosen) {
       ->excludes(patient)
       ->check(numberRange(0.15, 1.0));
   command->add_option("--seed", o->jaw.seed, "Built-in patient: seed")->capture_default_str()->excludes(patient);
+  command->footer(keyHelp());
   command->callback([o, &chosen] { chosen.action = [o] { return run(*o); }; });
 }
 

@@ -7,10 +7,10 @@
 #include <CLI/CLI.hpp>
 
 #include "app/commands/command.h"
-#include "app/commands/number_range.h"
 #include "app/session/metrics.h"
 #include "app/session/replay.h"
-#include "assets/image_file.h"
+#include "app/text/number_range.h"
+#include "assets/scan/image_file.h"
 
 namespace app {
 namespace {
@@ -21,7 +21,7 @@ struct ReplayOptions {
   bool verify = false, force = false;
 };
 
-/// 0: every byte and every bit as recorded; 1: not.
+/// 0: every byte as recorded, and every bit of a re-run where this version recorded it; 1: not.
 int verifySession(const std::string& path) {
   const ReplayReport report = verify(path);
   std::printf("%s\n", report.line().c_str());
@@ -31,9 +31,10 @@ int verifySession(const std::string& path) {
 /// The bone as it was at a moment, as a volume.
 int bringBack(const ReplayOptions& options) {
   assets::OutputFile out = assets::nrrdOutput(options.out, options.force);
-  const ReplayedMoment moment = replayTo(options.session, options.to_s.value_or(1e9));
-  assets::writeSolid(moment.start.grid, moment.bone.solidInGridOrder(), out);
-  std::printf("bone after %.3f s written\n", moment.tick.t_s + moment.tick.dt_s);
+  const BoneThen bone = boneThen(options.session, options.to_s);
+  for (const std::string& remark : bone.remarks) std::fprintf(stderr, "molar: %s\n", remark.c_str());
+  assets::writeSolid(bone.start.grid, bone.solid, out);
+  std::printf("bone after %.3f s written\n", bone.t_s);
   return 0;
 }
 

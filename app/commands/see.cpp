@@ -8,18 +8,18 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "app/case/patient_guides.h"
+#include "app/case/room.h"
 #include "app/commands/command.h"
-#include "app/commands/number_range.h"
-#include "app/patient_guides.h"
-#include "app/picture_option.h"
-#include "app/renderer_choice.h"
-#include "app/room.h"
-#include "app/usage_error.h"
-#include "app/view_option.h"
-#include "app/volume_option.h"
-#include "assets/image_file.h"
+#include "app/options/picture_option.h"
+#include "app/options/view_option.h"
+#include "app/options/volume_option.h"
+#include "app/text/number_range.h"
+#include "app/text/usage_error.h"
+#include "app/view/renderer_choice.h"
 #include "assets/output_file.h"
-#include "assets/patient_folder.h"
+#include "assets/patient/patient_folder.h"
+#include "assets/scan/image_file.h"
 #include "calibration/picture_file.h"
 #include "render/frame_renderer.h"
 #include "render/gpu/offscreen_context.h"
@@ -79,13 +79,13 @@ int see(const SeeOptions& options) {
     volume = {patient.ct.grid, std::move(patient.ct.solid), std::move(patient.ct.label)};
   }
   const render::Eye eye = options.view.apply(frame.rig, volume.grid);
-  if (options.view.namesRig() && leavesPatientOpen(frame.rig) && patient.site.known)
+  if (options.view.namesRig() && leavesPatientOpen(frame.rig) && !options.patient.empty())
     frame.rig.X_WP = standAtSite(patient, assets::kFaceAxes_PF);
   frame.tool_visible = false;
   if (!options.tool_at_mm.empty())
     frame.X_PT.translation_mm = {options.tool_at_mm[0], options.tool_at_mm[1], options.tool_at_mm[2]};
-  else if (patient.site.known)
-    frame.X_PT.translation_mm = patient.site.third_molar_P_mm;
+  else if (patient.site)
+    frame.X_PT.translation_mm = patient.site->centre_P_mm;
 
   std::optional<render::OffscreenContext> context;
   render::RenderOptions how;
@@ -100,8 +100,8 @@ int see(const SeeOptions& options) {
     renderer.setGum(patient.gum);
   }
   if (frame.layers.slices)
-    renderer.setScan(
-        {std::move(patient.ct.hounsfield), volume.solid, std::move(patient.canal_P_mm), patient.canal_radius_mm});
+    renderer.setScan({std::move(patient.ct.hounsfield), volume.solid, std::move(patient.mandibular_canal_P_mm),
+                      patient.mandibular_canal_radius_mm});
   renderer.renderEye(frame, eye);
   const render::Picture picture = renderer.readEye(eye);
   const glm::dmat4 clip_from_P = render::clipFromPatient(frame.rig, render::eyeView(frame.rig, eye));

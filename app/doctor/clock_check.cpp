@@ -1,7 +1,7 @@
 #include <time.h>
 
 #include "app/doctor/checks.h"
-#include "app/printed.h"
+#include "app/text/printed.h"
 
 namespace app {
 namespace {

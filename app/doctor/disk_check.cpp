@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "app/doctor/checks.h"
-#include "app/printed.h"
+#include "app/text/printed.h"
 
 namespace app {
 namespace {

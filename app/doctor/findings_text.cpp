@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "app/printed.h"
-#include "app/wrapped_text.h"
+#include "app/text/printed.h"
+#include "app/text/wrapped_text.h"
 
 namespace app {
 namespace {

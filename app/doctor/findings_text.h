@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/doctor/finding.h"
-#include "app/page_look.h"
+#include "app/text/page_look.h"
 
 namespace app {
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "app/printed.h"
+#include "app/text/printed.h"
 #include "haptics/device/usb/known_devices.h"
 
 namespace app {

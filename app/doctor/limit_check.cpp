@@ -1,12 +1,14 @@
+#include <charconv>
+#include <sstream>
+
 #include "app/doctor/checks.h"
-#include "app/printed.h"
+#include "app/text/printed.h"
+#include "haptics/device/thread_priority.h"
 
 namespace app {
 namespace {
 
 constexpr unsigned kSysNice = 23, kIpcLock = 14;  // linux/capability.h
-constexpr double kServoPriority = 89.0;           ///< as servo/realtime asks for
-constexpr double kProgram_MB = 2048.0;
 
 /// The lines themselves, ready to be put there.
 std::string limitsFor(const std::string& user) {
@@ -14,29 +16,71 @@ std::string limitsFor(const std::string& user) {
          " - memlock unlimited\\n' | sudo tee /etc/security/limits.d/70-molar.conf, then sign in again.";
 }
 
+constexpr int kMostNeeded = haptics::usbPriority(haptics::kServoPriority);
+
+/// The real-time priority in the 40th field of proc(5)'s stat; its second is a name in brackets that may hold blanks.
+std::optional<int> realtimePriority(const std::string& stat) {
+  constexpr int kPlaceBehindName = 38;
+  const std::size_t name_end = stat.rfind(')');
+  if (name_end == std::string::npos) return {};
+  std::istringstream fields(stat.substr(name_end + 1));
+  std::string field;
+  for (int place = 0; place < kPlaceBehindName; ++place)
+    if (!(fields >> field)) return {};
+  int value = 0;
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+  return error == std::errc{} && end == field.data() + field.size() ? std::optional(value) : std::nullopt;
+}
+
+/// The lowest of the kernel's interrupt threads; none: interrupts have no threads here.
+struct InterruptThread {
+  std::string process, name;
+  int priority = 0;
+};
+std::optional<InterruptThread> lowestInterruptThread(const Machine& machine) {
+  std::optional<InterruptThread> lowest;
+  for (const auto& entry : entriesOf(machine.proc)) {
+    const std::string process = entry.filename().string();
+    if (process.find_first_not_of("0123456789") != std::string::npos) continue;
+    const std::string name = firstLine(entry / "comm").value_or("");
+    if (!name.starts_with("irq/")) continue;
+    const auto priority = realtimePriority(firstLine(entry / "stat").value_or(""));
+    if (priority && (!lowest || *priority < lowest->priority)) lowest = InterruptThread{process, name, *priority};
+  }
+  return lowest;
+}
+
 }  // namespace
 
 Finding checkPriorityLimit(const Machine& machine) {
-  if (hasCapability(machine, kSysNice).value_or(false))
-    return {"priority-limit", Health::ok, "The servo may have real-time priority: you may do anything."};
+  const bool may_anything = hasCapability(machine, kSysNice).value_or(false);
   const double most = softLimit(machine, "Max realtime priority").value_or(0.0);
-  if (most < 0.0 || most >= kServoPriority)
-    return {"priority-limit", Health::ok, "The servo may have real-time priority."};
-  return {"priority-limit", Health::warn,
-          printed("The servo may not have real-time priority: %.0f of %.0f is allowed.", most, kServoPriority),
-          limitsFor(machine.user)};
+  if (!may_anything && most >= 0.0 && most < kMostNeeded)
+    return {"priority-limit", Health::warn,
+            printed("The servo may not have real-time priority: %.0f of %d is allowed.", most, kMostNeeded),
+            limitsFor(machine.user)};
+  const auto lowest = lowestInterruptThread(machine);
+  if (lowest && lowest->priority <= kMostNeeded)
+    return {"priority-limit", Health::warn,
+            printed("%s has real-time priority %d, the servo that may wait for it %d.", lowest->name.c_str(),
+                    lowest->priority, haptics::kServoPriority),
+            printed("sudo chrt -f -p %d %s puts it back where the kernel starts it.", haptics::kInterruptPriority,
+                    lowest->process.c_str())};
+  return {
+      "priority-limit", Health::ok,
+      printed("The servo may have real-time priority %d, below the interrupts it waits for.", haptics::kServoPriority)};
 }
 
 Finding checkMemoryLimit(const Machine& machine) {
   if (hasCapability(machine, kIpcLock).value_or(false))
     return {"memory-limit", Health::ok, "The servo's memory may be kept from being swapped out."};
   const double most_MB = softLimit(machine, "Max locked memory").value_or(0.0) / (1024.0 * 1024.0);
-  if (most_MB < 0.0 || most_MB >= kProgram_MB)
-    return {"memory-limit", Health::ok, "The servo's memory may be kept from being swapped out."};
-  return {"memory-limit", Health::warn,
-          printed("Only %.0f MB may be kept from being swapped out, a rehearsal needs about %.0f MB.", most_MB,
-                  kProgram_MB),
-          limitsFor(machine.user)};
+  if (most_MB < 0.0) return {"memory-limit", Health::ok, "The servo's memory may be kept from being swapped out."};
+  // Whatever the number: all of a program that grows can be locked only without one.
+  return {
+      "memory-limit", Health::warn,
+      printed("Only %.0f MB may be kept from being swapped out: the servo keeps its stack, the bone may go.", most_MB),
+      limitsFor(machine.user)};
 }
 
 }  // namespace app

@@ -2,7 +2,7 @@
 #include <set>
 
 #include "app/doctor/checks.h"
-#include "app/printed.h"
+#include "app/text/printed.h"
 
 namespace app {
 namespace {

@@ -1,5 +1,5 @@
 #include "app/doctor/checks.h"
-#include "app/printed.h"
+#include "app/text/printed.h"
 #include "render/display/window.h"
 #include "render/gpu/gpu_error.h"
 

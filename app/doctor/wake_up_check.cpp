@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "app/doctor/checks.h"
-#include "app/printed.h"
+#include "app/text/printed.h"
 #include "haptics/loop/realtime.h"
 
 namespace app {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/pattern/screen_page.h"
-#include "app/pattern/stereo_picture.h"
+#include "app/report/screen_page.h"
+#include "app/report/stereo_picture.h"
 
 namespace app {
 namespace {

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/patient_source.h"
-#include "app/trough_plan.h"
-#include "app/usage_error.h"
-#include "assets/image_file.h"
-#include "assets/patient_folder.h"
-#include "assets/solid_fraction.h"
+#include "app/case/patient_source.h"
+#include "app/case/trough_plan.h"
+#include "app/text/usage_error.h"
+#include "assets/patient/patient_folder.h"
+#include "assets/scan/image_file.h"
+#include "assets/scan/solid_fraction.h"
 #include "assets/solid_sample.h"
 #include "assets/synthetic/trabecular_texture.h"
 
@@ -109,7 +109,7 @@ ProbedBone probedBone(const Protocol& protocol) {
     const auto trough = planBuccalTrough(patient, protocol.tool.head.radius_mm);
     if (!trough)
       throw UsageError("bone.patient: no third molar with bone beside it, say bone.site_P_mm and bone.outward_P");
-    site = {{trough->site_D.mm}, {trough->outward_D.xyz}};
+    site = {{trough->middle_P_mm}, {trough->outward_P}};
   }
   site = onSurface(patient.ct, site);
   return {std::move(patient), site};

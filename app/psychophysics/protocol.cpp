@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/law_text.h"
-#include "app/settings_text.h"
-#include "app/toml_keys.h"
-#include "app/tool_text.h"
-#include "app/usage_error.h"
+#include "app/options/law_text.h"
+#include "app/options/settings_text.h"
+#include "app/options/tool_text.h"
+#include "app/text/toml_keys.h"
+#include "app/text/usage_error.h"
 
 namespace app {
 namespace {

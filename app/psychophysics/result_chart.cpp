@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "app/law_text.h"
+#include "app/options/law_text.h"
 #include "app/psychophysics/trial_table.h"
 
 namespace app {

@@ -2,8 +2,8 @@
 // trial, or the share so far of a comparison of two. Pure; drawn by chart/chart.
 #pragma once
 
-#include "app/chart/chart.h"
 #include "app/psychophysics/summary.h"
+#include "app/report/chart.h"
 
 namespace app {
 

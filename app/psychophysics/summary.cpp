@@ -5,9 +5,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "app/law_text.h"
+#include "app/options/law_text.h"
 #include "app/psychophysics/trial_table.h"
-#include "app/toml_keys.h"
+#include "app/text/toml_keys.h"
 
 namespace app {
 namespace {

@@ -27,7 +27,7 @@ void TrialDesk::begin(int interval) {
   hint_.clear();
 }
 
-bool TrialDesk::press(char key) {
+bool TrialDesk::takeKey(char key) {
   const bool is_mine = key == '1' || key == '2' || key == 'A' || key == 'B';
   if (!is_mine || pausing_ || is_over_) return is_mine;
   if (key == '1' || key == '2') {
@@ -48,7 +48,14 @@ void TrialDesk::answer(bool second_harder) {
   pause_ends_s_ = t_s_ + between_trials_s_;
 }
 
-std::optional<haptics::Command> TrialDesk::follow(const haptics::Tick& tick) {
+std::optional<haptics::Command> TrialDesk::follow(std::span<const haptics::Tick> ticks) {
+  std::optional<haptics::Command> wanted;
+  for (const haptics::Tick& tick : ticks)
+    if (const auto command = followTick(tick)) wanted = command;
+  return wanted;
+}
+
+std::optional<haptics::Command> TrialDesk::followTick(const haptics::Tick& tick) {
   t_s_ = tick.t_s;
   if (is_over_) return std::nullopt;
   if (pausing_) {
@@ -69,13 +76,21 @@ std::optional<haptics::Command> TrialDesk::follow(const haptics::Tick& tick) {
   return std::nullopt;
 }
 
-std::string TrialDesk::words() const {
-  if (is_over_) return "Molar   thank you, that was all";
+std::string TrialDesk::toParticipant() const {
+  if (is_over_) return "thank you, that was all";
   const std::string trial =
-      "Molar   trial " + std::to_string(experiment_.trial()) + " of at most " + std::to_string(experiment_.most());
+      "trial " + std::to_string(experiment_.trial()) + " of at most " + std::to_string(experiment_.most());
   if (pausing_) return trial + "   lift the bur, please";
   return trial + (interval_ == 0 ? "   you feel A" : "   you feel B") +
          "   1: feel A   2: feel B   harder was: A or B" + hint_;
+}
+
+/// Whoever watches knows as little of what is felt: blind for both.
+ProcedureWords TrialDesk::words() const {
+  if (is_over_) return {toParticipant(), "all trials answered"};
+  const char* const felt = touched(felt_[0]) ? (touched(felt_[1]) ? "A and B" : "A") : touched(felt_[1]) ? "B" : "none";
+  return {toParticipant(),
+          "trial " + std::to_string(experiment_.trial()) + (pausing_ ? ", pause" : std::string(", felt: ") + felt)};
 }
 
 }  // namespace app

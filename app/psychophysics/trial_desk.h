@@ -7,25 +7,27 @@
 #include <functional>
 #include <string>
 
+#include "app/procedure/procedure.h"
 #include "app/psychophysics/experiment.h"
-#include "app/session_guide.h"
 
 namespace app {
 
-class TrialDesk final : public SessionGuide {
+class TrialDesk final : public Procedure {
  public:
   using OnTrial = std::function<void(const TrialRecord&)>;
 
   /// `experiment` is borrowed and led to its end.
   TrialDesk(Experiment& experiment, const ProbeSite& site, double between_trials_s, OnTrial on_trial);
 
-  bool press(char key) override;
-  std::optional<haptics::Command> follow(const haptics::Tick& tick) override;
-  std::string words() const override;
+  bool takeKey(char key) override;
+  std::optional<haptics::Command> follow(std::span<const haptics::Tick> ticks) override;
+  ProcedureWords words() const override;
   bool isOver() const override { return is_over_; }
 
  private:
   void begin(int interval);
+  std::optional<haptics::Command> followTick(const haptics::Tick& tick);
+  std::string toParticipant() const;
   void answer(bool second_harder);
 
   Experiment& experiment_;

@@ -7,9 +7,9 @@
 #include <cerrno>
 #include <cstring>
 
-#include "app/law_text.h"
-#include "app/toml_keys.h"
-#include "app/usage_error.h"
+#include "app/options/law_text.h"
+#include "app/text/toml_keys.h"
+#include "app/text/usage_error.h"
 
 namespace app {
 namespace {

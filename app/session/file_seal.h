@@ -6,15 +6,23 @@
 
 namespace app {
 
-enum class FileSeal { none, intact, broken };
+/// none: a file without trailer, as a killed program leaves it. incomplete: the beginning of the right one and nothing
+/// or zeros behind, as a power cut leaves it. broken: some byte of the file was changed, or its end was cut off.
+enum class FileSeal { none, incomplete, intact, broken };
 
-/// Appends the trailer. Throws SessionError if the file can not be read or written.
+/// Appends the trailer and waits until the file is on the disk. Throws SessionError if that can not be.
 void sealFile(const std::string& path);
 
-/// none: a file without trailer, as a killed program leaves it. broken: some byte of the file was changed.
 FileSeal fileSeal(const std::string& path);
 
 /// Whether the file was written as a session, whatever became of it: the mark of its header or that of its trailer.
+/// False for what is no plain file.
 bool bearsSessionMark(const std::string& path);
+
+/// Whether the file says that a log belongs to it (SQLite's WAL mode): it was being recorded, and never closed.
+bool awaitsLog(const std::string& path);
+
+/// Waits until a file or folder is on the disk, as far as can be had.
+void waitUntilOnDisk(const std::string& path);
 
 }  // namespace app

@@ -7,8 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/printed.h"
 #include "app/session/replay.h"
+#include "app/session/session_error.h"
+#include "app/text/printed.h"
 
 namespace app {
 namespace {
@@ -47,17 +48,27 @@ void addTick(SessionMetrics& sum, const haptics::Tick& tick, const std::optional
   }
 }
 
+/// None where what is left is another bone than the recorded one.
+std::optional<RemovedByTissue> removedByRunningAgain(const std::string& path) {
+  const ReplayedMoment end = replayTo(path, std::numeric_limits<double>::infinity());
+  if (end.departure) return std::nullopt;
+  return removedByKey(end.bone.removedByTissue_mm3());
+}
+
 }  // namespace
 
 SessionMetrics metricsOf(const std::string& path) {
-  // Running it again also judges the file.
-  const ReplayedMoment end = replayTo(path, std::numeric_limits<double>::infinity());
   SessionReader session(path);
+  if (const auto damage = session.damage())
+    throw SessionError(path + ": is damaged (" + *damage + "): see `molar replay " + path + " --verify`",
+                       SessionTrouble::damaged);
   SessionMetrics metrics;
-  metrics.patient_title = end.start.patient_title;
-  metrics.program_version = end.start.program_version;
-  metrics.calibration = end.start.calibration;
+  const StoredStart start = session.start();
+  metrics.patient_title = start.patient_title;
+  metrics.program_version = start.program_version;
+  metrics.calibration = start.calibration;
   metrics.closed = session.closed();
+  metrics.missing_log = session.missingLog();
   metrics.lost = session.lost();
   const std::vector<SessionCommand> commands = session.commands();
   metrics.commands = commands.size();
@@ -67,16 +78,20 @@ SessionMetrics metricsOf(const std::string& path) {
   haptics::Command in_force;
   auto next = commands.begin();
   std::optional<haptics::Tick> before;
-  for (auto block = session.nextTicks(); !block.empty(); block = session.nextTicks()) {
-    for (const haptics::Tick& tick : block) {
+  for (TickBlock block = session.nextBlock(); !block.ticks.empty(); block = session.nextBlock()) {
+    for (const haptics::Tick& tick : block.ticks) {
       for (; next != commands.end() && next->first_tick <= tick.index; ++next) in_force = next->command;
       addTick(metrics, tick, before, in_force.irrigating);
       work_us.push_back(tick.work_us);
       before = tick;
     }
+    metrics.removed_mm3_by_label = std::move(block.removed_mm3);
   }
+  if (metrics.missing_log && metrics.ticks == 0)
+    throw SessionError(path + ": was being recorded when its program was killed, and its log " + *metrics.missing_log +
+                       " is not beside it: copy both files");
+  if (!metrics.removed_mm3_by_label) metrics.removed_mm3_by_label = removedByRunningAgain(path);
   if (metrics.contact_s > 0.0) metrics.mean_contact_force_N /= metrics.contact_s;
-  metrics.removed_mm3_by_label = end.bone.removedByTissue_mm3();
   metrics.work_p50_us = quantile(work_us, 0.50);
   metrics.work_p99_us = quantile(work_us, 0.99);
   metrics.work_max_us = quantile(work_us, 1.00);
@@ -91,6 +106,8 @@ std::string metricsWords(const SessionMetrics& metrics) {
            : metrics.dry_drilling_s > 0.0
                ? printed("\ndry: %.1f s of drilling in bone without irrigation\n", metrics.dry_drilling_s)
                : std::string("\nirrigated whenever it drilled in bone\n");
+  if (metrics.missing_log)
+    words += "its log " + *metrics.missing_log + " is not beside it: what it holds is missing, copy both files\n";
   if (metrics.calibration) words += "calibration: " + calibrationWords(*metrics.calibration) + "\n";
   return words;
 }
@@ -117,16 +134,16 @@ nlohmann::ordered_json calibrationJson(const SessionCalibration& c) {
 
 std::string metricsJson(const SessionMetrics& metrics) {
   nlohmann::ordered_json by_label;
-  for (std::size_t label = 0; label < assets::kTissues.size(); ++label) {
-    if (metrics.removed_mm3_by_label[label] != 0.0) {
-      by_label[std::string(assets::kTissues[label].key)] = metrics.removed_mm3_by_label[label];
-    }
+  if (metrics.removed_mm3_by_label) {
+    by_label = nlohmann::ordered_json::object();
+    for (const auto& [tissue, removed_mm3] : *metrics.removed_mm3_by_label) by_label[tissue] = removed_mm3;
   }
   const nlohmann::ordered_json json = {
       {"patient", metrics.patient_title},
       {"program_version", metrics.program_version},
       {"calibration", metrics.calibration ? calibrationJson(*metrics.calibration) : nlohmann::ordered_json()},
       {"closed", metrics.closed},
+      {"log_missing", metrics.missing_log.has_value()},
       {"ticks", metrics.ticks},
       {"lost", metrics.lost},
       {"commands", metrics.commands},
@@ -145,7 +162,7 @@ std::string metricsJson(const SessionMetrics& metrics) {
       {"faulty_s", metrics.faulty_s},
       {"removed_mm3", metrics.removed_mm3},
       {"returned_mm3", metrics.returned_mm3},
-      {"removed_mm3_by_label", by_label.is_null() ? nlohmann::ordered_json::object() : by_label},
+      {"removed_mm3_by_label", by_label},
       {"work_us", {{"p50", metrics.work_p50_us}, {"p99", metrics.work_p99_us}, {"max", metrics.work_max_us}}},
   };
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

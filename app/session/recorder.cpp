@@ -4,8 +4,10 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <new>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "app/session/session_error.h"
 #include "app/session/session_writer.h"
@@ -25,11 +27,12 @@ struct Recorder::Impl {
   bool stopping = false;
   std::vector<haptics::Command> asked_commands;
   std::vector<SessionEvent> events;
-  std::vector<SessionPicture> pictures;
-  std::optional<std::string> trouble;
+  std::string trouble;  ///< empty: none
+  bool out_of_memory = false;
 
   // The recording thread's own.
   SessionWriter writer;
+  SessionBatch batch;
   std::vector<haptics::Command> waiting_commands;
   std::uint64_t serial_in_force, ticks_seen = 0, next_index = 0, gaps = 0;
   bool writing = true;
@@ -38,45 +41,55 @@ struct Recorder::Impl {
   std::thread thread;
 
   Impl(const std::string& path, bool overwrite, const SessionStart& start, haptics::TickLog& ticks)
-      : log(ticks), writer(path, overwrite, start), serial_in_force(start.command.serial), thread([this] { run(); }) {}
+      : log(ticks), writer(path, overwrite, start), serial_in_force(start.command.serial) {}
 
   void run() {
     for (bool last = false; !last;) {
-      SessionBatch batch;
       {
         std::unique_lock lock(mutex);
         wake.wait_for(lock, kBetweenWrites, [this] { return stopping; });
         last = stopping;
-        // Ticks first: a command in force in any of them was asked for before it was published.
-        log.drainInto(batch.ticks);
-        waiting_commands.insert(waiting_commands.end(), asked_commands.begin(), asked_commands.end());
-        asked_commands.clear();
-        batch.events.swap(events);
-        batch.pictures.swap(pictures);
       }
-      noteTicks(batch);
-      if (writing) write(batch);
-      if (last && writing) seal();
+      drain();
     }
   }
 
+  void drain() noexcept {
+    if (writing) attempt([this] { take(), noteTicks(), write(); });
+    // Ended early, or something failed on the way: the rest is lost, and counted.
+    if (!writing) ticks_seen += log.discard();
+  }
+
+  /// Ticks first: a command in force in any of them was asked for before it was published.
+  void take() {
+    const std::scoped_lock lock(mutex);
+    if (out_of_memory) throw std::bad_alloc();
+    const std::size_t before = batch.ticks.size();
+    log.drainInto(batch.ticks);
+    ticks_seen += batch.ticks.size() - before;
+    waiting_commands.insert(waiting_commands.end(), asked_commands.begin(), asked_commands.end());
+    asked_commands.clear();
+    for (SessionEvent& event : events) {
+      event.tick = next_index;
+      batch.events.push_back(std::move(event));
+    }
+    events.clear();
+  }
+
   /// Finds where commands came into force and where ticks are missing.
-  void noteTicks(SessionBatch& batch) {
-    for (SessionEvent& event : batch.events) event.tick = next_index;
-    for (SessionPicture& picture : batch.pictures) picture.tick = next_index;
+  void noteTicks() {
     for (const haptics::Tick& tick : batch.ticks) {
       if (tick.index > next_index) {
         gaps += tick.index - next_index;
         batch.events.push_back({next_index, "lost", std::to_string(tick.index - next_index) + " ticks"});
       }
-      if (tick.command_serial != serial_in_force) noteCommand(batch, tick);
+      if (tick.command_serial != serial_in_force) noteCommand(tick);
       next_index = tick.index + 1;
     }
-    ticks_seen += batch.ticks.size();
   }
 
   /// Earlier ones still waiting were overtaken before any tick saw them: newest wins.
-  void noteCommand(SessionBatch& batch, const haptics::Tick& tick) {
+  void noteCommand(const haptics::Tick& tick) {
     serial_in_force = tick.command_serial;
     const auto found = std::ranges::find(waiting_commands, serial_in_force, &haptics::Command::serial);
     if (found == waiting_commands.end()) {
@@ -87,64 +100,93 @@ struct Recorder::Impl {
     waiting_commands.erase(waiting_commands.begin(), found + 1);
   }
 
-  void write(const SessionBatch& batch) {
-    if (batch.ticks.empty() && batch.events.empty() && batch.pictures.empty()) return;
-    attempt([&] { writer.write(batch); });
+  /// Nothing before the first tick: until then the file has no name.
+  void write() {
+    const bool begun = writer.ticks() > 0 || !batch.ticks.empty();
+    if (!begun || (batch.ticks.empty() && batch.events.empty())) return;
+    writer.write(batch);
+    batch.commands.clear(), batch.ticks.clear(), batch.events.clear();
   }
 
-  void seal() {
-    attempt([&] { writer.seal(lost()); });
+  void close(const haptics::CarvedBone* bone_left) noexcept {
+    if (!writing) return;
+    attempt([&] {
+      if (!batch.events.empty()) writer.write(batch);
+      writer.seal(lost(), bone_left);
+    });
   }
 
   /// A gap that no later tick shows is known to the log alone.
   std::uint64_t lost() const { return std::max(gaps, log.dropped()) + ticks_seen - writer.ticks(); }
 
   template <class Work>
-  void attempt(Work&& work) {
+  void attempt(Work&& work) noexcept {
     try {
       work();
+    } catch (const std::bad_alloc&) {
+      endWith("memory is out");
     } catch (const std::exception& failed) {
-      writing = false;
-      const std::scoped_lock lock(mutex);
-      trouble = std::string("the recording ended early: ") + failed.what();
+      endWith(failed.what());
+    }
+  }
+
+  void endWith(const char* why) noexcept {
+    writing = false;
+    const std::scoped_lock lock(mutex);
+    try {
+      trouble = std::string("the recording ended early: ") + why;
+    } catch (const std::bad_alloc&) {
+      trouble = "ended early";  // no longer than a string holds by itself
     }
   }
 };
 
-Recorder::Recorder(const std::string& path, bool overwrite, const SessionStart& start, haptics::TickLog& log)
-    : impl_(std::make_unique<Impl>(path, overwrite, start, log)) {}
+Recorder::Recorder(const std::string& path, bool overwrite, const SessionStart& start, haptics::TickLog& log,
+                   Draining draining)
+    : impl_(std::make_unique<Impl>(path, overwrite, start, log)) {
+  if (draining == Draining::by_thread) impl_->thread = std::thread([impl = impl_.get()] { impl->run(); });
+}
 
 Recorder::~Recorder() { stop(); }
 
-void Recorder::command(const haptics::Command& command) {
+void Recorder::command(const haptics::Command& command) noexcept {
   const std::scoped_lock lock(impl_->mutex);
-  impl_->asked_commands.push_back(command);
+  try {
+    impl_->asked_commands.push_back(command);
+  } catch (const std::bad_alloc&) {
+    impl_->out_of_memory = true;  // a recording without it could not be run again
+  }
 }
 
-void Recorder::event(std::string kind, std::string text) {
+void Recorder::event(const std::string& kind, const std::string& text) noexcept {
   const std::scoped_lock lock(impl_->mutex);
-  impl_->events.push_back({0, std::move(kind), std::move(text)});
+  try {
+    impl_->events.push_back({0, kind, text});
+  } catch (const std::bad_alloc&) {
+    impl_->out_of_memory = true;
+  }
 }
 
-void Recorder::picture(std::string name, std::vector<std::uint8_t> bytes) {
-  const std::scoped_lock lock(impl_->mutex);
-  impl_->pictures.push_back({0, std::move(name), std::move(bytes)});
-}
+void Recorder::drain() noexcept { impl_->drain(); }
 
 std::optional<std::string> Recorder::trouble() const {
   const std::scoped_lock lock(impl_->mutex);
-  return impl_->trouble;
+  return impl_->trouble.empty() ? std::nullopt : std::optional(impl_->trouble);
 }
 
-RecordingSummary Recorder::stop() {
+RecordingSummary Recorder::stop(const haptics::CarvedBone* bone_left) {
   if (impl_->summary) return *impl_->summary;
   {
     const std::scoped_lock lock(impl_->mutex);
     impl_->stopping = true;
   }
   impl_->wake.notify_one();
-  impl_->thread.join();
-  impl_->summary = RecordingSummary{impl_->writer.ticks(), impl_->lost(), impl_->trouble};
+  if (impl_->thread.joinable())
+    impl_->thread.join();
+  else
+    impl_->drain();
+  impl_->close(bone_left);
+  impl_->summary = RecordingSummary{impl_->writer.ticks(), impl_->lost(), trouble()};
   return *impl_->summary;
 }
 

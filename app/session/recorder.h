@@ -1,17 +1,18 @@
-// Records a rehearsal: a thread of its own drains the servo's tick log and a queue of commands, events and pictures
-// into a session file, at least every 20 ms, so that a kill at any moment loses well under 100 ms. Never stops the
-// rehearsal: when the file can not be written any more, recording ends, the file stays valid to its last write, and
-// trouble() says so. The servo knows nothing of this; ticks it could not log are counted as lost. Calls: any thread but
-// the servo, microseconds; the constructor writes the bone (0.1 s), stop() closes the file.
+// Records a rehearsal: drains the servo's tick log and a queue of commands and events into a session file, on a thread
+// of its own every 20 ms, so that a kill at any moment loses well under 100 ms; or when its owner says so, where the
+// ticks themselves are made by hand. Never stops the rehearsal: when the file can not be written any more or memory is
+// out, recording ends, the file stays valid to its last write, and trouble() says so. The servo knows nothing of this;
+// ticks it could not log are counted as lost. Calls: any thread but the servo, microseconds; the constructor writes the
+// bone (0.1 s), stop() closes the file.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "app/session/session_start.h"
+#include "haptics/bone/carved_bone.h"
 #include "haptics/servo/tick_log.h"
 
 namespace app {
@@ -20,26 +21,35 @@ struct RecordingSummary {
   std::uint64_t ticks = 0;             ///< in the file
   std::uint64_t lost = 0;              ///< made by the servo, not in the file
   std::optional<std::string> trouble;  ///< one line, if recording ended early
+
+  /// Everything that happened is in the file.
+  bool isWhole() const { return lost == 0 && !trouble; }
 };
+
+enum class Draining { by_thread, by_hand };
 
 class Recorder {
  public:
   /// Throws SessionError if the file exists and not `overwrite`, or can not be created. Borrows the log, of which this
   /// becomes the one reader; construct it before the servo's first tick.
-  Recorder(const std::string& path, bool overwrite, const SessionStart& start, haptics::TickLog& log);
+  Recorder(const std::string& path, bool overwrite, const SessionStart& start, haptics::TickLog& log,
+           Draining draining = Draining::by_thread);
   /// Stops, if stop() was not called.
   ~Recorder();
 
   /// To be called before the command is published to the servo.
-  void command(const haptics::Command& command);
-  void event(std::string kind, std::string text);
-  void picture(std::string name, std::vector<std::uint8_t> bytes);
+  void command(const haptics::Command& command) noexcept;
+  void event(const std::string& kind, const std::string& text) noexcept;
+
+  /// Writes what has come since the last time; for a recorder that is drained by hand.
+  void drain() noexcept;
 
   /// One line, once recording has ended early.
   std::optional<std::string> trouble() const;
 
-  /// After the servo's last tick: writes what is left, seals and closes the file. Again: the same answer.
-  RecordingSummary stop();
+  /// After the servo's last tick: writes what is left and the bone that is left (null: it is not kept), seals and
+  /// closes the file. Again: the same answer.
+  RecordingSummary stop(const haptics::CarvedBone* bone_left = nullptr);
 
  private:
   struct Impl;

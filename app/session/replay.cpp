@@ -1,10 +1,10 @@
 #include "app/session/replay.h"
 
 #include <bit>
+#include <cmath>
 #include <cstdio>
-#include <span>
+#include <limits>
 
-#include "app/session/file_seal.h"
 #include "app/session/session_error.h"
 #include "haptics/servo/servo.h"
 
@@ -69,36 +69,91 @@ std::optional<std::string> stepDifference(Rerun& rerun, const haptics::Tick& rec
   return differenceOf(recorded, again);
 }
 
+/// Of what was kept beside the ticks: what had gone by tissue after a block, and the bone at the close.
+std::optional<std::string> keptDifference(const TickBlock& block, const haptics::Tick& again) {
+  if (block.removed_mm3 && *block.removed_mm3 != removedByKey(again.removed_so_far_mm3))
+    return "the removed volume by tissue differs";
+  return std::nullopt;
+}
+
+std::optional<std::string> leftDifference(SessionReader& session, const StoredStart& start,
+                                          const haptics::CarvedBone& bone) {
+  const auto left = session.boneLeft(start);
+  if (left && (left->digest != bone.digest() || left->solid != bone.solidInGridOrder()))
+    return "the bone that was left differs";
+  return std::nullopt;
+}
+
+void runAgain(SessionReader& session, ReplayReport& report) {
+  const StoredStart start = session.start();
+  haptics::CarvedBone bone(start.grid, start.solid, start.label);
+  Rerun rerun(bone, session.commands());
+  haptics::Tick again;
+  for (TickBlock block = session.nextBlock(); !block.ticks.empty(); block = session.nextBlock()) {
+    for (const haptics::Tick& recorded : block.ticks) {
+      ++report.ticks;
+      report.duration_s = recorded.t_s + recorded.dt_s;
+      if (report.difference) continue;
+      auto what = stepDifference(rerun, recorded, report.replayed, again);
+      if (!what && &recorded == &block.ticks.back()) what = keptDifference(block, again);
+      if (what)
+        report.difference = ReplayDifference{recorded.index, *what};
+      else
+        ++report.replayed;
+    }
+  }
+  if (!report.difference && report.closed)
+    if (const auto what = leftDifference(session, start, bone))
+      report.difference = ReplayDifference{again.index, *what};
+  report.bone_digest = bone.digest();
+}
+
+void readThrough(SessionReader& session, ReplayReport& report) {
+  for (TickBlock block = session.nextBlock(); !block.ticks.empty(); block = session.nextBlock()) {
+    report.ticks += block.ticks.size();
+    report.duration_s = block.ticks.back().t_s + block.ticks.back().dt_s;
+  }
+}
+
 /// What there is to say of a session that can be opened.
 ReplayReport verifyReadable(const std::string& path) {
   SessionReader session(path);
   ReplayReport report;
   report.closed = session.closed();
   report.lost = session.lost();
+  report.missing_log = session.missingLog();
   report.damage = session.damage();
   if (report.damage) return report;
+  report.unsealed = session.isUnsealed();
 
-  const StoredStart start = session.start();
-  haptics::CarvedBone bone(start.grid, start.solid, start.label);
-  Rerun rerun(bone, session.commands());
-  for (auto block = session.nextTicks(); !block.empty(); block = session.nextTicks()) {
-    for (const haptics::Tick& recorded : block) {
-      ++report.ticks;
-      report.duration_s = recorded.t_s + recorded.dt_s;
-      if (report.difference) continue;
-      haptics::Tick again;
-      if (auto what = stepDifference(rerun, recorded, report.replayed, again)) {
-        report.difference = ReplayDifference{recorded.index, *what};
-      } else {
-        ++report.replayed;
-      }
-    }
+  const std::string version = session.programVersion();
+  if (version == thisVersion()) {
+    runAgain(session, report);
+  } else {
+    report.other_version = version;
+    readThrough(session, report);
   }
-  report.bone_digest = bone.digest();
   return report;
 }
 
+SessionError damagedFile(const std::string& path, const std::string& damage) {
+  return SessionError(path + ": is damaged (" + damage + "): see `molar replay " + path + " --verify`",
+                      SessionTrouble::damaged);
+}
+
+std::string departureWords(const ReplayedMoment& moment) {
+  char text[320];
+  std::snprintf(text, sizeof text,
+                "the re-run departs from the recording at tick %llu (%s): its bone has lost %.3f mm³ %s than the "
+                "recorded one; the version that recorded it brings back the very one",
+                static_cast<unsigned long long>(moment.departure->tick), moment.departure->what.c_str(),
+                std::abs(moment.removed_otherwise_mm3), moment.removed_otherwise_mm3 < 0.0 ? "less" : "more");
+  return text;
+}
+
 }  // namespace
+
+std::string_view thisVersion() { return MOLAR_VERSION; }
 
 std::string ReplayReport::line() const {
   if (damage) return "NOT verified: the file was changed: " + *damage;
@@ -107,10 +162,19 @@ std::string ReplayReport::line() const {
   std::string ended;
   if (lost > 0) ended += "; " + std::to_string(lost) + " ticks were lost";
   if (!closed) ended += "; the recording ended early (killed, or the disk was full) and is whole up to there";
+  if (unsealed) ended += "; its closing seal is missing, as after a power cut: every row was checked instead";
+  if (missing_log)
+    return std::string("NOT verified: ") + figures +
+           "; it was being recorded when its program was killed, and its log " + *missing_log +
+           " is not beside it: copy both files";
   if (difference) {
     return "NOT verified: at tick " + std::to_string(difference->tick) + " " + difference->what + " (of " + figures +
            ")" + ended;
   }
+  if (other_version)
+    return (lost > 0 ? "NOT verified: " : "checksums right: ") + std::string(figures) +
+           "; recorded by another version (" + *other_version + ", this is " + std::string(thisVersion()) +
+           "): numbers are read, the re-run is not comparable" + ended;
   if (!verified()) return std::string("NOT verified: ") + figures + ", all of them bit-identical" + ended;
   char digest[17];
   std::snprintf(digest, sizeof digest, "%016llx", static_cast<unsigned long long>(bone_digest));
@@ -122,8 +186,8 @@ ReplayReport verify(const std::string& path) {
   try {
     return verifyReadable(path);
   } catch (const SessionError& refusal) {
-    // A session too damaged to be read is an answer; a file that never was one is bad input.
-    if (!bearsSessionMark(path)) throw;
+    // A session too damaged to be read is an answer; a file that never was one, or a disk that fails, is none.
+    if (refusal.trouble != SessionTrouble::damaged) throw;
     ReplayReport report;
     report.damage = refusal.what();
     return report;
@@ -132,25 +196,62 @@ ReplayReport verify(const std::string& path) {
 
 ReplayedMoment replayTo(const std::string& path, double t_s) {
   SessionReader session(path);
-  if (const auto damage = session.damage()) {
-    throw SessionError(path + ": is damaged (" + *damage + "): see `molar replay " + path + " --verify`");
-  }
+  if (const auto damage = session.damage()) throw damagedFile(path, *damage);
   StoredStart start = session.start();
   haptics::CarvedBone bone(start.grid, start.solid, start.label);
   Rerun rerun(bone, session.commands());
-  haptics::Tick last;
+  haptics::Tick last, last_recorded;
+  std::optional<ReplayDifference> departure;
+  double recorded_mm3 = 0.0, again_mm3 = 0.0;
   std::uint64_t next_index = 0;
-  for (auto block = session.nextTicks(); !block.empty() && block.front().t_s < t_s; block = session.nextTicks()) {
-    for (const haptics::Tick& recorded : block) {
+  for (TickBlock block = session.nextBlock(); !block.ticks.empty(); block = session.nextBlock()) {
+    for (const haptics::Tick& recorded : block.ticks) {
       if (!(recorded.t_s < t_s)) break;
-      if (auto what = stepDifference(rerun, recorded, next_index++, last)) {
-        throw SessionError(path + ": can not be run again past tick " + std::to_string(recorded.index) + " (" + *what +
-                           "): ask for an earlier moment");
-      }
+      const auto lost = recorded.index - next_index;
+      const bool commanded = rerun.obey(recorded);
+      last = rerun.step(recorded);
+      const auto what = lost > 0     ? std::optional(std::to_string(lost) + " ticks before it were lost")
+                        : !commanded ? std::optional<std::string>("its command was not recorded")
+                                     : differenceOf(recorded, last);
+      if (what && !departure) departure = ReplayDifference{recorded.index, *what};
+      next_index = recorded.index + 1;
+      recorded_mm3 += recorded.removed_mm3, again_mm3 += last.removed_mm3;
+      last_recorded = recorded;
     }
   }
+  // A bone of the same digest is the recorded one, whatever a force was in its last bit.
+  if (departure && last_recorded.bone_digest == bone.digest()) departure.reset();
   const haptics::Command command = rerun.command();
-  return {std::move(start), std::move(bone), last, command};
+  return {std::move(start), std::move(bone), last, command, departure, again_mm3 - recorded_mm3};
+}
+
+BoneThen boneThen(const std::string& path, std::optional<double> t_s) {
+  SessionReader session(path);
+  if (const auto damage = session.damage()) throw damagedFile(path, *damage);
+  BoneThen then;
+  if (const auto log = session.missingLog())
+    then.remarks.push_back("its log " + *log + " is not beside it: what it holds is missing, copy both files");
+  double end_s = 0.0;
+  for (TickBlock block = session.nextBlock(); !block.ticks.empty(); block = session.nextBlock())
+    end_s = block.ticks.back().t_s + block.ticks.back().dt_s;
+  if (!t_s || *t_s >= end_s) {
+    then.start = session.start();
+    then.t_s = end_s;
+    if (auto left = session.boneLeft(then.start)) {
+      then.solid = std::move(left->solid);
+      return then;
+    }
+    then.remarks.push_back(
+        "the bone that was left is not in it, so it is run again, which needs the version that "
+        "recorded it (" +
+        then.start.program_version + ")");
+  }
+  ReplayedMoment moment = replayTo(path, t_s.value_or(std::numeric_limits<double>::infinity()));
+  if (moment.departure) then.remarks.push_back(departureWords(moment));
+  then.solid = moment.bone.solidInGridOrder();
+  then.t_s = moment.tick.t_s + moment.tick.dt_s;
+  then.start = std::move(moment.start);
+  return then;
 }
 
 }  // namespace app

@@ -1,17 +1,23 @@
 // Runs a recorded session again: the bone from its start, the servo over the recorded hands and commands, and every
 // force, proxy, removed volume and bone digest compared bit for bit. No clock, no device, no thread of its own.
 // Frame P. Any thread but the servo; takes what the servo's own work in it took.
-// Bit-identical on any machine that runs the same program; another build of the servo may differ, and is told so.
+// The bits are promised within one version of the program; another's session is checked and read, not compared. What
+// was recorded of the bone needs no re-run.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "app/session/session_reader.h"
 #include "haptics/bone/carved_bone.h"
 
 namespace app {
+
+/// Of the program whose sessions are run again and compared: this one.
+std::string_view thisVersion();
 
 struct ReplayDifference {
   std::uint64_t tick = 0;
@@ -25,11 +31,16 @@ struct ReplayReport {
   double duration_s = 0.0;
   bool closed = false;                         ///< false: the recording ended early, by a kill or a full disk
   std::optional<std::string> damage;           ///< the checksum chain is broken here: nothing was run
+  bool unsealed = false;                       ///< closed, but its seal is missing, as after a power cut
+  std::optional<std::string> missing_log;      ///< killed, and this second file of it is not there
+  std::optional<std::string> other_version;    ///< that recorded it: nothing was run
   std::optional<ReplayDifference> difference;  ///< nothing was run past it
   std::uint64_t bone_digest = 0;               ///< of the bone after the last tick replayed
 
-  /// Every tick made is in the file and was found identical.
-  bool verified() const { return !damage && !difference && lost == 0 && replayed == ticks; }
+  /// Every tick made is in the file, and was found identical where that can be asked.
+  bool verified() const {
+    return !damage && !difference && !missing_log && lost == 0 && (other_version || replayed == ticks);
+  }
   /// For people: what was found.
   std::string line() const;
 };
@@ -43,10 +54,25 @@ struct ReplayedMoment {
   haptics::CarvedBone bone;  ///< what is left
   haptics::Tick tick;        ///< the last one run; default before the first
   haptics::Command command;  ///< in force
+  /// Where the run first departed from the recording, if it did and the bone is not the recorded one for it: by what
+  /// was lost, or by another version of the program.
+  std::optional<ReplayDifference> departure;
+  double removed_otherwise_mm3 = 0.0;  ///< by then, against the recording
 };
 
-/// The state after every tick that began before `t_s`. Throws SessionError if the session is damaged or ticks before
-/// that moment were lost.
+/// The state after every tick that began before `t_s`. Runs on past differences and losses: the departure tells.
+/// Throws SessionError if the session is damaged.
 ReplayedMoment replayTo(const std::string& path, double t_s);
+
+/// The bone at a moment; as it was left where none is named or it lies past the end.
+struct BoneThen {
+  StoredStart start;
+  std::vector<std::uint8_t> solid;  ///< in the order of its grid
+  double t_s = 0.0;
+  std::vector<std::string> remarks;  ///< for people: that it was run again, and how true that is
+};
+
+/// As it was recorded at the close, else run again. Throws SessionError if the session is damaged.
+BoneThen boneThen(const std::string& path, std::optional<double> t_s);
 
 }  // namespace app

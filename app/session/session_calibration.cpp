@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "app/printed.h"
+#include "app/text/printed.h"
 
 namespace app {
 namespace {

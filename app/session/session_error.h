@@ -1,13 +1,27 @@
 // The one exception of sessions: a file that can not be written, or one that is not a readable session.
-// The text is one line: what, where, what to do.
+// The text is one line: what, where, what to do. What is to be concluded of the file stands beside it.
 #pragma once
 
 #include <stdexcept>
+#include <string>
 
 namespace app {
 
-struct SessionError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+enum class SessionTrouble {
+  refused,  ///< the name, or what lies there, is not what is needed
+  damaged,  ///< what is stored is not what was recorded
+  failed,   ///< disk, rights or memory: nothing is known of the file
 };
+
+struct SessionError : std::runtime_error {
+  explicit SessionError(const std::string& line, SessionTrouble which = SessionTrouble::refused)
+      : std::runtime_error(line), trouble(which) {}
+  SessionTrouble trouble;
+};
+
+/// "…: the session is damaged", as it is said of every stored part that can not be what was recorded.
+inline SessionError damagedSession(const std::string& what) {
+  return SessionError(what + ": the session is damaged", SessionTrouble::damaged);
+}
 
 }  // namespace app

@@ -1,7 +1,6 @@
 #include "app/session/session_reader.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include <SQLiteCpp/Database.h>
@@ -9,21 +8,32 @@
 #include <sqlite3.h>
 
 #include "app/session/chain.h"
+#include "app/session/command_keys.h"
 #include "app/session/compressed.h"
 #include "app/session/file_seal.h"
-#include "app/session/packing.h"
+#include "app/session/old_formats/packed_format.h"
+#include "app/session/recording_place.h"
 #include "app/session/session_error.h"
 #include "app/session/session_format.h"
+#include "app/session/tables.h"
+#include "app/session/tick_columns.h"
 
 namespace app {
 namespace {
 
-using session_format::kTables;
+namespace fs = std::filesystem;
 
-/// A file without log beside it is opened as what can not change, so that nothing is written next to it.
+bool hasLog(const std::string& path) {
+  std::error_code failed;
+  const auto bytes = fs::file_size(path + "-wal", failed);
+  return !failed && bytes > 0;
+}
+
+/// A file without log beside it is opened as what can not change. With one it is read without locks, which a read-only
+/// folder would not have: so no third file is made, and nothing is folded in.
 std::string address(const std::string& path) {
   std::string uri = "file:";
-  for (const char c : std::filesystem::absolute(path).string()) {
+  for (const char c : fs::absolute(path).string()) {
     if (c == '?' || c == '#' || c == '%') {
       static constexpr char kHex[] = "0123456789abcdef";
       uri += {'%', kHex[static_cast<unsigned char>(c) >> 4], kHex[c & 15]};
@@ -31,8 +41,7 @@ std::string address(const std::string& path) {
       uri += c;
     }
   }
-  const bool has_log = std::filesystem::exists(path + "-wal");
-  return uri + (has_log ? "" : "?immutable=1");
+  return uri + (hasLog(path) ? "?vfs=unix-none" : "?immutable=1");
 }
 
 std::span<const std::uint8_t> blobOf(const SQLite::Column& column) {
@@ -44,129 +53,35 @@ std::string textOf(const SQLite::Column& column) { return column.getString(); }
 
 std::uint64_t countOf(const SQLite::Column& column) { return static_cast<std::uint64_t>(column.getInt64()); }
 
-ColumnValue valueOf(const SQLite::Column& column) {
-  switch (column.getType()) {
-    case SQLITE_INTEGER:
-      return column.getInt64();
-    case SQLITE_FLOAT:
-      return column.getDouble();
-    case SQLITE_TEXT:
-      return std::string_view(column.getText(), static_cast<std::size_t>(column.getBytes()));
-    case SQLITE_BLOB:
-      return blobOf(column);
-    default:
-      return std::monostate{};
-  }
+/// What SQLite says of a file: that its bytes are not as they were, or that they can not be had.
+SessionTrouble troubleOf(const SQLite::Exception& exception) {
+  const int code = exception.getErrorCode() & 0xff;
+  const bool by_bytes = code == SQLITE_CORRUPT || code == SQLITE_NOTADB || code == SQLITE_ERROR ||
+                        code == SQLITE_TOOBIG || code == SQLITE_SCHEMA || code == SQLITE_CONSTRAINT ||
+                        code == SQLITE_MISMATCH || code == SQLITE_FORMAT;
+  return by_bytes ? SessionTrouble::damaged : SessionTrouble::failed;
 }
 
-/// Walks one table in the order of the chain.
-struct Cursor {
-  std::string_view table;
-  SQLite::Statement rows;
-  bool more;
-
-  Cursor(const SQLite::Database& database, std::string_view name)
-      : table(name), rows(database, "SELECT * FROM " + std::string(name) + " ORDER BY row"), more(rows.executeStep()) {}
-
-  std::int64_t row() const { return rows.getColumn(0).getInt64(); }
-
-  /// Whether the row carries the digest that follows from the row before; moves `last` on.
-  bool follows(Digest& last) const {
-    std::vector<ColumnValue> values;
-    const int digest_column = rows.getColumnCount() - 1;
-    std::vector<SQLite::Column> columns;  // keeps text and blobs alive
-    for (int i = 1; i < digest_column; ++i) columns.push_back(rows.getColumn(i));
-    for (const SQLite::Column& column : columns) values.push_back(valueOf(column));
-    last = chained(last, row(), table, values);
-    const SQLite::Column digest = rows.getColumn(digest_column);
-    return std::ranges::equal(blobOf(digest), last);
-  }
-};
+SessionError notRead(const std::string& path, const SQLite::Exception& exception) {
+  const SessionTrouble trouble = troubleOf(exception);
+  const std::string what = path + ": can not be read (" + exception.what() + "): ";
+  return SessionError(what + (trouble == SessionTrouble::damaged ? "the session is damaged" : "check disk and rights"),
+                      trouble);
+}
 
 }  // namespace
 
 struct SessionReader::Impl {
   std::string path;
   SQLite::Database database;
-  std::optional<SQLite::Statement> blocks;
   std::int64_t schema = 0;
+  std::string program_version;
   bool closed = false;
-  std::uint64_t lost = 0, ticks = 0;
-
-  explicit Impl(const std::string& file)
-      : path(file), database(address(file), SQLite::OPEN_READONLY | SQLite::OPEN_URI) {
-    database.exec("PRAGMA trusted_schema=OFF; PRAGMA cell_size_check=ON;");
-    checkSchema();
-    SQLite::Statement seal(database, "SELECT ticks, lost FROM seal");
-    closed = seal.executeStep();
-    if (closed) ticks = countOf(seal.getColumn(0)), lost = countOf(seal.getColumn(1));
-    blocks.emplace(database, "SELECT count, ticks FROM tick_block ORDER BY row");
-  }
-
-  void checkSchema() {
-    // The newest has one table more than those before.
-    const auto tables_there = database.execAndGet("SELECT count(*) FROM sqlite_schema").getInt64();
-    const auto told = session_format::tablesOf(tables_there < static_cast<std::int64_t>(kTables.size())
-                                                   ? session_format::kOldestSchema
-                                                   : session_format::kSchema);
-    SQLite::Statement tables(database, "SELECT name, sql FROM sqlite_schema ORDER BY rowid");
-    bool same = database.execAndGet("PRAGMA application_id").getInt64() == session_format::kApplicationId;
-    for (const session_format::Table& table : told) {
-      same = same && tables.executeStep() && tables.getColumn(0).getString() == table.name &&
-             tables.getColumn(1).getString() == table.create;
-    }
-    if (!same || tables.executeStep()) {
-      throw SessionError(path + ": is no session of this version of the program: name a file made by `molar rehearse`");
-    }
-    SQLite::Statement meta(database, "SELECT schema FROM meta");
-    if (meta.executeStep()) schema = meta.getColumn(0).getInt64();
-    const bool known = schema >= session_format::kOldestSchema && schema <= session_format::kSchema;
-    if (!known || session_format::tablesOf(schema).size() != told.size()) {
-      throw SessionError(path + ": has a schema this program does not know: use the version that recorded it");
-    }
-  }
-
-  std::optional<std::string> chainDamage() {
-    std::vector<std::unique_ptr<Cursor>> cursors;
-    for (const session_format::Table& table : session_format::tablesOf(schema))
-      cursors.push_back(std::make_unique<Cursor>(database, table.name));
-    Digest last{};
-    for (std::int64_t row = 0;; ++row) {
-      const auto next = std::ranges::find_if(cursors, [&](const auto& c) { return c->more && c->row() == row; });
-      if (next == cursors.end()) {
-        const bool all_read = std::ranges::none_of(cursors, [](const auto& c) { return c->more; });
-        if (!all_read) return "row " + std::to_string(row) + " is missing";
-        return std::nullopt;
-      }
-      Cursor& cursor = **next;
-      if (!cursor.follows(last))
-        return "row " + std::to_string(row) + " (" + std::string(cursor.table) + ") was changed";
-      cursor.more = cursor.rows.executeStep();
-      if (cursor.table == "seal" && std::ranges::any_of(cursors, [](const auto& c) { return c->more; })) {
-        return "rows follow its seal";
-      }
-    }
-  }
-
-  SessionCalibration calibration() {
-    SQLite::Statement row(database,
-                          "SELECT rig, rig_id, device_serial, verdict, touches, rms_mm, p95_mm, max_mm, checked_utc, "
-                          "age_days, despite FROM calibration");
-    if (!row.executeStep()) throw SessionError("it has no calibration: the session is damaged");
-    SessionCalibration c;
-    c.rig = textOf(row.getColumn(0));
-    c.rig_id = textOf(row.getColumn(1));
-    c.device_serial = textOf(row.getColumn(2));
-    c.verdict = textOf(row.getColumn(3));
-    c.touches = row.getColumn(4).getInt();
-    c.rms_mm = row.getColumn(5).getDouble();
-    c.p95_mm = row.getColumn(6).getDouble();
-    c.max_mm = row.getColumn(7).getDouble();
-    c.checked_utc = textOf(row.getColumn(8));
-    if (!row.getColumn(9).isNull()) c.age_days = row.getColumn(9).getDouble();
-    c.despite = textOf(row.getColumn(10));
-    return c;
-  }
+  SessionEnd end;
+  LabelTable label{};
+  std::optional<FileSeal> trailer;
+  std::optional<TickUnpacker> unpacker;
+  std::optional<SQLite::Statement> blocks;
 
   /// Does `work`, telling trouble with the database as one line about this file.
   template <class Work>
@@ -174,79 +89,182 @@ struct SessionReader::Impl {
     try {
       return work();
     } catch (const SQLite::Exception& trouble) {
-      throw SessionError(path + ": can not be read (" + trouble.what() + "): the session is damaged");
+      throw notRead(path, trouble);
     } catch (const SessionError& trouble) {
-      throw SessionError(path + ": " + trouble.what());
+      throw SessionError(path + ": " + trouble.what(), trouble.trouble);
     }
+  }
+
+  explicit Impl(const std::string& file)
+      : path(file), database(address(file), SQLite::OPEN_READONLY | SQLite::OPEN_URI) {
+    sqlite3_db_config(database.getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+    database.exec("PRAGMA locking_mode=EXCLUSIVE; PRAGMA trusted_schema=OFF; PRAGMA cell_size_check=ON;");
+    checkSchema();
+    reading([&] { isPacked() ? readPackedTables() : readTables(); });
+  }
+
+  bool isPacked() const { return schema < session_format::kSchema; }
+
+  void checkSchema() {
+    const auto refuse = [&](const std::string& why) {
+      const bool changed = !awaitsLog(path) && seal() == FileSeal::broken;
+      throw SessionError(path + ": " + why, changed ? SessionTrouble::damaged : SessionTrouble::refused);
+    };
+    if (database.execAndGet("PRAGMA application_id").getInt64() != session_format::kApplicationId)
+      refuse("is no session: name a file made by `molar rehearse`");
+    if (!database.tableExists("meta")) {
+      if (missingLog())
+        refuse("was being recorded when its program was killed, and its log " + *missingLog() +
+               " is not beside it: copy both files");
+      refuse("is no session of this version of the program: name a file made by `molar rehearse`");
+    }
+    SQLite::Statement meta(database, "SELECT schema FROM meta");
+    if (meta.executeStep()) schema = meta.getColumn(0).getInt64();
+    if (schema < session_format::kOldestSchema || schema > session_format::kSchema)
+      refuse("has a schema this program does not know: use the version that recorded it");
+    if (const auto wrong = isPacked() ? packedTablesWrong(database, schema) : tablesWrong(database))
+      throw SessionError(path + ": " + *wrong + ": the session is damaged", SessionTrouble::damaged);
+  }
+
+  void readPackedTables() {
+    SQLite::Statement seal(database, "SELECT ticks, lost FROM seal");
+    closed = seal.executeStep();
+    if (closed) end = {countOf(seal.getColumn(0)), countOf(seal.getColumn(1)), {}};
+    if (SQLite::Statement meta(database, "SELECT program FROM meta"); meta.executeStep())
+      program_version = textOf(meta.getColumn(0));
+    label = old_formats::packedLabels();
+    unpacker.emplace(old_formats::packedTickColumns());
+    blocks.emplace(database, "SELECT count, ticks FROM tick_block ORDER BY row");
+  }
+
+  void readTables() {
+    SQLite::Statement seal(database, "SELECT about FROM seal");
+    closed = seal.executeStep();
+    if (closed) end = sealFromText(textOf(seal.getColumn(0)));
+    const SessionAbout itself = about();
+    program_version = itself.start.program_version;
+    label = itself.label;
+    SQLite::Statement rows(database, "SELECT name, type, unit, frame FROM tick_column ORDER BY row");
+    std::vector<TickColumn> columns;
+    while (rows.executeStep())
+      columns.push_back({textOf(rows.getColumn(0)), textOf(rows.getColumn(1)), textOf(rows.getColumn(2)),
+                         textOf(rows.getColumn(3)), ""});
+    unpacker.emplace(columns);
+    blocks.emplace(database, "SELECT count, ticks, removed_mm3 FROM tick_block ORDER BY row");
+  }
+
+  /// Hashes the file, once.
+  FileSeal seal() {
+    if (!trailer) trailer = fileSeal(path);
+    return *trailer;
+  }
+
+  std::optional<std::string> missingLog() const {
+    return awaitsLog(path) && !hasLog(path) ? std::optional(path + "-wal") : std::nullopt;
+  }
+
+  SessionAbout about() {
+    SQLite::Statement meta(database, "SELECT about FROM meta");
+    if (!meta.executeStep()) throw damagedSession("it has no start");
+    SessionAbout about = aboutFromText(textOf(meta.getColumn(0)));
+    refuseUnlessUsable(about.start.grid);
+    return about;
+  }
+
+  /// The parts of a volume, as many as make all voxels; empty: there is none. Judged before they are allocated.
+  std::vector<std::uint8_t> volume(std::string_view name, std::size_t voxels) {
+    SQLite::Statement parts(database, "SELECT voxels, bytes FROM bone_part WHERE volume = ? ORDER BY row");
+    parts.bind(1, std::string(name));
+    std::size_t there = 0;
+    for (bool more = parts.executeStep(); more; more = parts.executeStep()) {
+      const std::uint64_t in_part = countOf(parts.getColumn(0));
+      if (in_part < 1 || in_part > voxels - there) throw damagedSession("a volume has too many voxels");
+      refuseUnlessHolds(blobOf(parts.getColumn(1)), in_part);
+      there += in_part;
+    }
+    if (there == 0) return {};
+    if (there != voxels) throw damagedSession("a part of a volume is missing");
+    std::vector<std::uint8_t> values(voxels);
+    parts.reset();
+    for (std::size_t first = 0; first < voxels;) {
+      parts.executeStep();
+      const std::uint64_t in_part = countOf(parts.getColumn(0));
+      decompressInto(std::span(values).subspan(first, in_part), blobOf(parts.getColumn(1)));
+      first += in_part;
+    }
+    return values;
+  }
+
+  StoredStart start() {
+    if (isPacked()) {
+      StoredStart packed = old_formats::packedStart(database, schema);
+      for (std::uint8_t& value : packed.label) value = label[value];
+      return packed;
+    }
+    StoredStart start = about().start;
+    const std::size_t voxels = start.grid.voxelCount();
+    start.solid = volume(session_format::kSolid, voxels);
+    if (start.solid.empty()) throw damagedSession("it has no bone");
+    start.label = volume(session_format::kLabel, voxels);
+    if (start.label.empty()) start.label.resize(voxels);
+    for (std::uint8_t& value : start.label) value = label[value];
+    return start;
   }
 };
 
 SessionReader::SessionReader(const std::string& path) {
   std::error_code failed;
-  if (!std::filesystem::is_regular_file(path, failed)) {
-    throw SessionError(path + ": there is no such session file: check the name");
-  }
+  if (!fs::exists(path, failed)) throw SessionError(path + ": there is no such session file: check the name");
+  if (!fs::is_regular_file(path, failed))
+    throw SessionError(path + ": is not a plain file: name a file made by `molar rehearse`");
+  if (isBeingRecorded(path))
+    throw SessionError(path + ": is being recorded just now: read it when its rehearsal is over");
   try {
     impl_ = std::make_unique<Impl>(path);
   } catch (const SQLite::Exception& trouble) {
-    throw SessionError(path + ": is no readable session (" + trouble.what() +
-                       "): name a file made by `molar rehearse`");
+    if (troubleOf(trouble) == SessionTrouble::failed) throw notRead(path, trouble);
+    throw SessionError(path + ": is no readable session (" + trouble.what() + "): name a file made by `molar rehearse`",
+                       bearsSessionMark(path) ? SessionTrouble::damaged : SessionTrouble::refused);
   }
 }
 
 SessionReader::~SessionReader() = default;
 
 bool SessionReader::closed() const { return impl_->closed; }
-std::uint64_t SessionReader::lost() const { return impl_->lost; }
+std::uint64_t SessionReader::lost() const { return impl_->end.lost; }
+std::optional<std::string> SessionReader::missingLog() const {
+  return impl_->isPacked() && impl_->closed ? std::nullopt : impl_->missingLog();
+}
+
+bool SessionReader::isUnsealed() const { return impl_->closed && impl_->seal() != FileSeal::intact; }
 
 std::optional<std::string> SessionReader::damage() {
   try {
-    if (auto damaged = impl_->chainDamage()) return damaged;
+    if (auto damaged = chainDamage(impl_->database)) return damaged;
   } catch (const SQLite::Exception& trouble) {
+    if (troubleOf(trouble) == SessionTrouble::failed) throw notRead(impl_->path, trouble);
     return std::string("its rows can not be read (") + trouble.what() + ")";
   }
-  const FileSeal seal = fileSeal(impl_->path);
-  if (seal == FileSeal::broken) return "a byte outside its rows was changed, or its end was cut off";
-  if (seal == FileSeal::none && impl_->closed) return "it was closed, but its seal was cut off";
+  // While a log belongs to it the file is no whole database, and never has a trailer.
+  if (!awaitsLog(impl_->path) && impl_->seal() == FileSeal::broken)
+    return "a byte outside its rows was changed, or its end was cut off";
   return std::nullopt;
 }
 
-StoredStart SessionReader::start() {
-  return impl_->reading([&] {
-    StoredStart start;
-    SQLite::Statement meta(impl_->database, "SELECT program, patient, dt_s FROM meta");
-    SQLite::Statement bone(impl_->database, "SELECT * FROM bone");
-    if (!meta.executeStep() || !bone.executeStep()) throw SessionError("it has no start: the session is damaged");
-    start.program_version = textOf(meta.getColumn(0));
-    start.patient_title = textOf(meta.getColumn(1));
-    start.dt_s = meta.getColumn(2).getDouble();
+std::string SessionReader::programVersion() const { return impl_->program_version; }
 
-    // The grid decides how much is allocated, so it is judged first.
-    constexpr std::int64_t kMostVoxelsPerAxis = 4096;
-    constexpr std::size_t kMostVoxels = std::size_t{1} << 31;
-    for (int axis = 0; axis < 3; ++axis) {
-      const std::int64_t voxels = bone.getColumn(1 + axis).getInt64();
-      if (voxels < 1 || voxels > kMostVoxelsPerAxis) throw SessionError("its bone has no size: the session is damaged");
-      start.grid.size[axis] = static_cast<int>(voxels);
-      start.grid.origin_P_mm[axis] = bone.getColumn(5 + axis).getDouble();
-    }
-    start.grid.spacing_mm = bone.getColumn(4).getDouble();
-    const bool placed = std::isfinite(start.grid.spacing_mm) && start.grid.spacing_mm > 0.0;
-    if (!placed || start.grid.voxelCount() > kMostVoxels)
-      throw SessionError("its bone has no size: the session is damaged");
-    start.solid = decompress(blobOf(bone.getColumn(8)), start.grid.voxelCount());
-    start.label = decompress(blobOf(bone.getColumn(9)), start.grid.voxelCount());
-    if (impl_->schema >= 4) start.calibration = impl_->calibration();
-    return start;
-  });
+StoredStart SessionReader::start() {
+  return impl_->reading([&] { return impl_->start(); });
 }
 
 std::vector<SessionCommand> SessionReader::commands() {
   return impl_->reading([&] {
+    if (impl_->isPacked()) return old_formats::packedCommands(impl_->database);
     std::vector<SessionCommand> commands;
-    SQLite::Statement rows(impl_->database, "SELECT first_tick, bytes FROM command ORDER BY row");
+    SQLite::Statement rows(impl_->database, "SELECT first_tick, command FROM command ORDER BY row");
     while (rows.executeStep()) {
-      commands.push_back({unpackCommand(blobOf(rows.getColumn(1))), countOf(rows.getColumn(0))});
+      ReadCommand read = commandFromText(textOf(rows.getColumn(1)));
+      commands.push_back({read.command, countOf(rows.getColumn(0)), std::move(read.others)});
     }
     return commands;
   });
@@ -256,34 +274,36 @@ std::vector<SessionEvent> SessionReader::events() {
   return impl_->reading([&] {
     std::vector<SessionEvent> events;
     SQLite::Statement rows(impl_->database, "SELECT tick, kind, text FROM event ORDER BY row");
-    while (rows.executeStep()) {
+    while (rows.executeStep())
       events.push_back({countOf(rows.getColumn(0)), textOf(rows.getColumn(1)), textOf(rows.getColumn(2))});
-    }
     return events;
   });
 }
 
-std::vector<SessionPicture> SessionReader::pictures() {
+TickBlock SessionReader::nextBlock() {
   return impl_->reading([&] {
-    std::vector<SessionPicture> pictures;
-    SQLite::Statement rows(impl_->database, "SELECT tick, name, bytes FROM picture ORDER BY row");
-    while (rows.executeStep()) {
-      const auto bytes = blobOf(rows.getColumn(2));
-      pictures.push_back({countOf(rows.getColumn(0)), textOf(rows.getColumn(1)),
-                          std::vector<std::uint8_t>(bytes.begin(), bytes.end())});
-    }
-    return pictures;
+    TickBlock block;
+    SQLite::Statement& rows = *impl_->blocks;
+    if (rows.isDone() || !rows.executeStep()) return block;
+    const std::uint64_t count = countOf(rows.getColumn(0));
+    if (count < 1 || count > session_format::kTicksPerBlock)
+      throw damagedSession("a block says it holds " + std::to_string(count) + " ticks");
+    block.ticks =
+        impl_->unpacker->unpack(decompress(blobOf(rows.getColumn(1)), count * impl_->unpacker->bytesPerTick()));
+    if (!impl_->isPacked()) block.removed_mm3 = removedFromText(textOf(rows.getColumn(2)));
+    for (haptics::Tick& tick : block.ticks) tick.contact_tissue = impl_->label[tick.contact_tissue];
+    return block;
   });
 }
 
-std::vector<haptics::Tick> SessionReader::nextTicks() {
-  return impl_->reading([&] {
-    if (impl_->blocks->isDone() || !impl_->blocks->executeStep()) return std::vector<haptics::Tick>{};
-    const std::uint64_t count = countOf(impl_->blocks->getColumn(0));
-    if (count < 1 || count > session_format::kTicksPerBlock) {
-      throw SessionError("a block says it holds " + std::to_string(count) + " ticks: the session is damaged");
-    }
-    return unpackTicks(decompress(blobOf(impl_->blocks->getColumn(1)), count * packedTickBytes()));
+std::optional<SessionReader::BoneLeft> SessionReader::boneLeft(const StoredStart& start) {
+  return impl_->reading([&]() -> std::optional<BoneLeft> {
+    if (impl_->isPacked() || !impl_->closed || !impl_->end.bone_digest) return std::nullopt;
+    BoneLeft left{impl_->volume(session_format::kGone, start.grid.voxelCount()), *impl_->end.bone_digest};
+    if (left.solid.size() != start.solid.size()) throw damagedSession("the bone that was left is missing");
+    for (std::size_t v = 0; v < left.solid.size(); ++v)
+      left.solid[v] = static_cast<std::uint8_t>(start.solid[v] - left.solid[v]);
+    return left;
   });
 }
 

@@ -1,6 +1,4 @@
-// Reads a session file, closed or left by a killed program, and changes no byte of it or of its log. A closed one is
-// read without a trace; beside a killed one, FILE and FILE-wal, SQLite leaves its index FILE-shm, for which the folder
-// must be writable: a read-only connection can not take the exclusive lock that would spare it.
+// Reads a session file, closed or left by a killed program, and changes no byte of it, of its log or of its folder.
 // Never trusts the file: whatever its bytes, a call answers or throws SessionError (one line). Frame P. One thread; not
 // the servo. Ticks are streamed block by block, so an hour of rehearsal needs no more memory than its bone.
 #pragma once
@@ -10,22 +8,20 @@
 #include <string>
 #include <vector>
 
+#include "app/session/session_text.h"
 #include "app/session/session_writer.h"
 
 namespace app {
 
-/// SessionStart as stored, owning its voxels.
-struct StoredStart {
-  std::string patient_title, program_version;
-  double dt_s = 0.0;
-  assets::VolumeGrid grid;
-  std::vector<std::uint8_t> solid, label;
-  std::optional<SessionCalibration> calibration;  ///< none: recorded before it was
+/// Up to 50 ticks.
+struct TickBlock {
+  std::vector<haptics::Tick> ticks;            ///< empty: there are no more; their removed_so_far_mm3 is not stored
+  std::optional<RemovedByTissue> removed_mm3;  ///< since the start, after the last of them; none: schema 3 or 4
 };
 
 class SessionReader {
  public:
-  /// Throws SessionError if the file is missing or no session of this schema or the one before.
+  /// Throws SessionError if the file is missing, no plain file, being recorded, or no session that is known here.
   explicit SessionReader(const std::string& path);
   ~SessionReader();
 
@@ -34,15 +30,27 @@ class SessionReader {
 
   /// Whether the recording was ended by the program, not by a kill or a full disk.
   bool closed() const;
+  /// Closed, but its seal is missing or cut short, as a power cut leaves it: checked row by row alone.
+  bool isUnsealed() const;
+  /// A killed recording is two files: the name of the second, where it is not there.
+  std::optional<std::string> missingLog() const;
   /// Ticks the recorder could not take; known only of a closed session.
   std::uint64_t lost() const;
 
+  /// That recorded it.
+  std::string programVersion() const;
   StoredStart start();
   std::vector<SessionCommand> commands();
   std::vector<SessionEvent> events();
-  std::vector<SessionPicture> pictures();
-  /// The next block of ticks in recorded order; empty at the end.
-  std::vector<haptics::Tick> nextTicks();
+  /// The next block of ticks in recorded order.
+  TickBlock nextBlock();
+
+  struct BoneLeft {
+    std::vector<std::uint8_t> solid;  ///< in the order of the grid
+    std::uint64_t digest = 0;         ///< haptics::CarvedBone::digest()
+  };
+  /// The bone at the close; none: killed, or schema 3 or 4. `start` is this session's.
+  std::optional<BoneLeft> boneLeft(const StoredStart& start);
 
  private:
   struct Impl;

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "app/session/session_calibration.h"
 #include "assets/volume_grid.h"
@@ -21,6 +23,16 @@ struct SessionStart {
   std::span<const std::uint8_t> label;  ///< the same, or empty: unlabelled
   haptics::Command command;             ///< in force from the first tick
   SessionCalibration calibration = {};
+};
+
+/// The same as stored, owning its voxels; labels are those of this program.
+struct StoredStart {
+  std::string patient_title, program_version;
+  double dt_s = 0.0;
+  assets::VolumeGrid grid;
+  std::vector<std::uint8_t> solid, label;
+  std::optional<SessionCalibration> calibration;  ///< none: recorded before it was
+  std::string others;                             ///< keys this program does not know, a JSON object; empty: none
 };
 
 }  // namespace app

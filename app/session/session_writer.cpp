@@ -1,13 +1,8 @@
 #include "app/session/session_writer.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cassert>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
+#include <map>
 #include <optional>
 
 #include <SQLiteCpp/Database.h>
@@ -15,48 +10,22 @@
 #include <SQLiteCpp/Transaction.h>
 
 #include "app/session/chain.h"
+#include "app/session/command_keys.h"
 #include "app/session/compressed.h"
 #include "app/session/file_seal.h"
-#include "app/session/packing.h"
+#include "app/session/recording_place.h"
 #include "app/session/session_error.h"
 #include "app/session/session_format.h"
+#include "app/session/session_text.h"
+#include "app/session/tick_columns.h"
 
 namespace app {
 namespace {
 
+using session_format::kBonePartBytes;
 using session_format::kTicksPerBlock;
 
-std::array<std::string, 4> filesOf(const std::string& path) {
-  return {path, path + "-wal", path + "-shm", path + "-journal"};
-}
-
-void removeFiles(const std::string& path) {
-  std::error_code failed;
-  for (const std::string& file : filesOf(path)) std::filesystem::remove(file, failed);
-}
-
-/// The file is made here and now, so that two programs never record into one and nothing is overwritten unasked.
-void claimNewFile(const std::string& path, bool overwrite) {
-  std::error_code failed;
-  if (std::filesystem::is_directory(path, failed))
-    throw SessionError(path + ": is a folder: name a file to record into");
-  if (overwrite) removeFiles(path);
-  for (const std::string& file : filesOf(path)) {
-    if (std::filesystem::exists(file, failed)) {
-      throw SessionError(file + ": exists already: choose another name for the recording or use --force");
-    }
-  }
-  const int created = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-  if (created < 0) {
-    throw SessionError(path + ": can not be created (" + std::strerror(errno) + "): check the folder and its rights");
-  }
-  ::close(created);
-}
-
 std::int64_t sqlInteger(std::uint64_t value) { return static_cast<std::int64_t>(value); }
-
-/// SQLite keeps no negative zero, and the digest is taken of what will be read back.
-double sqlReal(double value) { return value + 0.0; }
 
 void bind(SQLite::Statement& insert, int place, const ColumnValue& value) {
   if (const auto* integer = std::get_if<std::int64_t>(&value)) insert.bind(place, *integer);
@@ -68,26 +37,50 @@ void bind(SQLite::Statement& insert, int place, const ColumnValue& value) {
   }
 }
 
+SessionError notWritten(const std::string& path, const std::exception& trouble) {
+  return SessionError(path + ": can not be written (" + trouble.what() + "): check the free space on the disk",
+                      SessionTrouble::failed);
+}
+
 }  // namespace
 
 struct SessionWriter::Impl {
   std::string path;
+  RecordingPlace place;
+  assets::VolumeGrid grid;
   std::optional<SQLite::Database> database;
+  std::map<std::string, SQLite::Statement, std::less<>> inserts;  // of the open database
+  Compressor compressor;
   std::int64_t next_row = 0;
   Digest last_digest{};
   std::uint64_t ticks = 0;
 
+  Impl(const std::string& name, bool overwrite, const assets::VolumeGrid& bone_grid)
+      : path(name), place(name, overwrite), grid(bone_grid) {}
+
+  void open() { database.emplace(place.file(), SQLite::OPEN_READWRITE); }
+  void close() {
+    inserts.clear();
+    database.reset();
+  }
+
   /// Appends one row to a table and to the chain.
   void append(std::string_view table, std::initializer_list<ColumnValue> columns) {
     const Digest digest = chained(last_digest, next_row, table, {columns.begin(), columns.size()});
-    std::string sql = "INSERT INTO " + std::string(table) + " VALUES(?";
-    for (std::size_t i = 0; i < columns.size() + 1; ++i) sql += ",?";
-    SQLite::Statement insert(*database, sql + ")");
-    int place = 1;
-    insert.bind(place++, next_row);
-    for (const ColumnValue& value : columns) bind(insert, place++, value);
-    insert.bindNoCopy(place, digest.data(), static_cast<int>(digest.size()));
-    insert.exec();
+    auto insert = inserts.find(table);
+    if (insert == inserts.end()) {
+      std::string sql = "INSERT INTO " + std::string(table) + " VALUES(?";
+      for (std::size_t i = 0; i < columns.size() + 1; ++i) sql += ",?";
+      insert = inserts.try_emplace(std::string(table), *database, sql + ")").first;
+    }
+    SQLite::Statement& statement = insert->second;
+    int column = 1;
+    statement.bind(column++, next_row);
+    for (const ColumnValue& value : columns) bind(statement, column++, value);
+    statement.bindNoCopy(column, digest.data(), static_cast<int>(digest.size()));
+    statement.exec();
+    statement.reset();
+    statement.clearBindings();  // they point to what goes now
     last_digest = digest;
     ++next_row;
   }
@@ -95,27 +88,56 @@ struct SessionWriter::Impl {
   void appendTicks(std::span<const haptics::Tick> ticks_now) {
     for (std::size_t first = 0; first < ticks_now.size(); first += kTicksPerBlock) {
       const auto block = ticks_now.subspan(first, std::min(kTicksPerBlock, ticks_now.size() - first));
-      const std::vector<std::uint8_t> bytes = compress(packTicks(block));
-      append("tick_block", {sqlInteger(block.front().index), sqlInteger(block.size()), bytes});
+      const std::string removed_mm3 = removedText(removedByKey(block.back().removed_so_far_mm3));
+      append("tick_block", {sqlInteger(block.front().index), sqlInteger(block.size()), removed_mm3,
+                            compressor.compress(packTicks(block))});
     }
     ticks += ticks_now.size();
   }
 
+  /// `fill` writes the voxels of a part, given its first.
+  template <class Fill>
+  void appendVolume(std::string_view volume, Fill&& fill) {
+    const std::size_t voxels = grid.voxelCount();
+    std::vector<std::uint8_t> part(std::min(kBonePartBytes, voxels));
+    for (std::size_t first = 0; first < voxels; first += part.size()) {
+      part.resize(std::min(kBonePartBytes, voxels - first));
+      fill(first, std::span(part));
+      append("bone_part", {volume, sqlInteger(first), sqlInteger(part.size()), compressor.compress(part)});
+    }
+  }
+
   void appendStart(const SessionStart& start) {
-    append("meta", {session_format::kSchema, start.program_version, start.patient_title, sqlReal(start.dt_s)});
-    const assets::VolumeGrid& grid = start.grid;
-    const std::vector<std::uint8_t> unlabelled(start.label.empty() ? start.solid.size() : 0);
-    const std::vector<std::uint8_t> solid = compress(start.solid);
-    const std::vector<std::uint8_t> label = compress(start.label.empty() ? unlabelled : start.label);
-    append("bone",
-           {std::int64_t{grid.size.x}, std::int64_t{grid.size.y}, std::int64_t{grid.size.z}, sqlReal(grid.spacing_mm),
-            sqlReal(grid.origin_P_mm.x), sqlReal(grid.origin_P_mm.y), sqlReal(grid.origin_P_mm.z), solid, label});
-    const std::vector<std::uint8_t> command = packCommand(start.command);
-    append("command", {sqlInteger(start.command.serial), std::int64_t{0}, command});
-    const SessionCalibration& c = start.calibration;
-    append("calibration", {c.rig, c.rig_id, c.device_serial, c.verdict, std::int64_t{c.touches}, sqlReal(c.rms_mm),
-                           sqlReal(c.p95_mm), sqlReal(c.max_mm), c.checked_utc,
-                           c.age_days ? ColumnValue(sqlReal(*c.age_days)) : ColumnValue(), c.despite});
+    append("meta", {session_format::kSchema, aboutText(start)});
+    for (const TickColumn& c : tickColumns()) append("tick_column", {c.name, c.type, c.unit, c.frame, c.meaning});
+    appendVolume(session_format::kSolid, [&](std::size_t first, std::span<std::uint8_t> part) {
+      std::ranges::copy(start.solid.subspan(first, part.size()), part.begin());
+    });
+    if (!start.label.empty())
+      appendVolume(session_format::kLabel, [&](std::size_t first, std::span<std::uint8_t> part) {
+        std::ranges::copy(start.label.subspan(first, part.size()), part.begin());
+      });
+    append("command", {sqlInteger(start.command.serial), std::int64_t{0}, commandText(start.command)});
+  }
+
+  /// What has gone of the start, whose parts are read back one by one.
+  void appendGone(const haptics::CarvedBone& bone) {
+    SQLite::Statement parts(*database, "SELECT bytes FROM bone_part WHERE volume = 'solid' ORDER BY row");
+    std::vector<std::uint8_t> start;
+    const haptics::SolidField field = bone.field();
+    glm::ivec3 ijk(0);
+    appendVolume(session_format::kGone, [&](std::size_t, std::span<std::uint8_t> part) {
+      if (!parts.executeStep()) throw damagedSession("a part of its bone is missing");
+      const SQLite::Column stored = parts.getColumn(0);
+      start.resize(part.size());
+      decompressInto(start,
+                     {static_cast<const std::uint8_t*>(stored.getBlob()), static_cast<std::size_t>(stored.getBytes())});
+      for (std::size_t n = 0; n < part.size(); ++n) {
+        part[n] = static_cast<std::uint8_t>(start[n] - field.solidAt(ijk));
+        if (++ijk.x == grid.size.x) ijk = {0, ijk.y + 1, ijk.z};
+        if (ijk.y == grid.size.y) ijk = {0, 0, ijk.z + 1};
+      }
+    });
   }
 
   /// Does `work` in one transaction; when it fails, neither the file nor the chain has moved.
@@ -124,75 +146,108 @@ struct SessionWriter::Impl {
     const auto row_before = next_row;
     const auto digest_before = last_digest;
     const auto ticks_before = ticks;
+    const auto restore = [&] {
+      next_row = row_before;
+      last_digest = digest_before;
+      ticks = ticks_before;
+    };
     try {
       SQLite::Transaction transaction(*database);
       work();
       transaction.commit();
     } catch (const SQLite::Exception& trouble) {
-      next_row = row_before;
-      last_digest = digest_before;
-      ticks = ticks_before;
-      throw SessionError(path + ": can not be written (" + trouble.what() + "): check the free space on the disk");
+      restore();
+      throw notWritten(path, trouble);
+    } catch (...) {
+      restore();
+      throw;
+    }
+  }
+
+  /// Nobody else knows the file yet, so it needs no log.
+  void begin(const SessionStart& start) {
+    open();
+    database->exec("PRAGMA journal_mode=OFF; PRAGMA application_id=" + std::to_string(session_format::kApplicationId));
+    inTransaction([&] {
+      for (const session_format::Table& table : session_format::kTables)
+        database->exec("CREATE TABLE " + std::string(table.name) + "(row INTEGER PRIMARY KEY, " +
+                       std::string(table.columns) + ", digest BLOB) STRICT");
+      appendStart(start);
+    });
+    close();
+  }
+
+  /// Exclusive: no second program meets a file that is being written, and no -shm file is needed.
+  void openForTicks() {
+    if (database) return;
+    place.takeName();
+    try {
+      open();
+      database->exec("PRAGMA locking_mode=EXCLUSIVE; PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL;");
+    } catch (const SQLite::Exception& trouble) {
+      close();
+      throw notWritten(path, trouble);
     }
   }
 };
 
 SessionWriter::SessionWriter(const std::string& path, bool overwrite, const SessionStart& start)
-    : impl_(std::make_unique<Impl>()) {
+    : impl_(std::make_unique<Impl>(path, overwrite, start.grid)) {
   assert(start.solid.size() == start.grid.voxelCount());
   assert(start.label.empty() || start.label.size() == start.grid.voxelCount());
-  impl_->path = path;
-  claimNewFile(path, overwrite);
   try {
-    SQLite::Database& database = impl_->database.emplace(path, SQLite::OPEN_READWRITE);
-    // Exclusive: no second program meets a file that is being written, and no -shm file is needed.
-    database.exec("PRAGMA locking_mode=EXCLUSIVE; PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL;");
-    database.exec("PRAGMA application_id=" + std::to_string(session_format::kApplicationId));
-    impl_->inTransaction([&] {
-      for (const session_format::Table& table : session_format::kTables) database.exec(std::string(table.create));
-      impl_->appendStart(start);
-    });
-  } catch (const SessionError&) {
-    impl_->database.reset();
-    removeFiles(path);
-    throw;
-  } catch (const std::exception& trouble) {
-    impl_->database.reset();
-    removeFiles(path);
-    throw SessionError(path + ": can not be written (" + trouble.what() + "): check the folder and the free space");
+    impl_->begin(start);
+  } catch (const SQLite::Exception& trouble) {
+    throw notWritten(path, trouble);
   }
 }
 
-SessionWriter::~SessionWriter() = default;
+SessionWriter::~SessionWriter() {
+  if (!impl_->database) return;
+  try {
+    // Ended early, but not killed: no log stays beside it.
+    impl_->inserts.clear();
+    impl_->database->exec("PRAGMA journal_mode=DELETE");
+  } catch (const std::exception&) {
+    // The log stays: it is read from there.
+  }
+}
 
 std::uint64_t SessionWriter::ticks() const { return impl_->ticks; }
 
 void SessionWriter::write(const SessionBatch& batch) {
+  impl_->openForTicks();
   impl_->inTransaction([&] {
-    for (const SessionCommand& change : batch.commands) {
-      const std::vector<std::uint8_t> bytes = packCommand(change.command);
-      impl_->append("command", {sqlInteger(change.command.serial), sqlInteger(change.first_tick), bytes});
-    }
+    for (const SessionCommand& change : batch.commands)
+      impl_->append("command", {sqlInteger(change.command.serial), sqlInteger(change.first_tick),
+                                commandText(change.command, change.others)});
     impl_->appendTicks(batch.ticks);
-    for (const SessionEvent& event : batch.events) {
+    for (const SessionEvent& event : batch.events)
       impl_->append("event", {sqlInteger(event.tick), event.kind, event.text});
-    }
-    for (const SessionPicture& picture : batch.pictures) {
-      impl_->append("picture", {sqlInteger(picture.tick), picture.name, picture.bytes});
-    }
   });
 }
 
-void SessionWriter::seal(std::uint64_t lost) {
-  impl_->inTransaction([&] { impl_->append("seal", {sqlInteger(impl_->ticks), sqlInteger(lost)}); });
+void SessionWriter::seal(std::uint64_t lost, const haptics::CarvedBone* bone) {
+  impl_->openForTicks();
+  SessionEnd end{impl_->ticks, lost, {}};
+  impl_->inTransaction([&] {
+    if (bone != nullptr) {
+      impl_->appendGone(*bone);
+      end.bone_digest = bone->digest();
+    }
+    impl_->append("seal", {sealText(end)});
+  });
   try {
     // Everything into the one file: the log is folded in and goes, then the digest of the whole is put behind it.
+    impl_->inserts.clear();
     impl_->database->exec("PRAGMA wal_checkpoint(TRUNCATE); PRAGMA journal_mode=DELETE;");
-    impl_->database.reset();
+    impl_->close();
   } catch (const SQLite::Exception& trouble) {
-    throw SessionError(impl_->path + ": can not be closed (" + trouble.what() + "): check the free space on the disk");
+    throw SessionError(impl_->path + ": can not be closed (" + trouble.what() + "): check the free space on the disk",
+                       SessionTrouble::failed);
   }
-  sealFile(impl_->path);
+  sealFile(impl_->place.file());
+  impl_->place.finish();
 }
 
 }  // namespace app

@@ -1,7 +1,7 @@
 // Writes a session file: SQLite in WAL mode, this object its only user. Each write() is one transaction, on disk for
 // every process that opens the file later, whatever becomes of this one; after a power cut the last checkpoint stands.
-// One thread, never the servo; 0.2 ms per write of 50 ticks, now and then 50 ms while the log is folded into the file.
-// Not the queue in front of it (recorder.h).
+// Where the file lies until it has its name: recording_place. One thread, never the servo; 0.2 ms per write of 50
+// ticks, now and then 50 ms while the log is folded into the file. Not the queue in front of it (recorder.h).
 #pragma once
 
 #include <cstdint>
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/session/session_start.h"
+#include "haptics/bone/carved_bone.h"
 #include "haptics/servo/tick.h"
 
 namespace app {
@@ -20,15 +21,10 @@ struct SessionEvent {
   std::string kind, text;
 };
 
-struct SessionPicture {
-  std::uint64_t tick = 0;
-  std::string name;  ///< with the extension of its format
-  std::vector<std::uint8_t> bytes;
-};
-
 struct SessionCommand {
   haptics::Command command;
   std::uint64_t first_tick = 0;  ///< from which it is in force
+  std::string others = {};       ///< keys this program does not know, a JSON object; empty: none
 };
 
 /// What is written together.
@@ -36,21 +32,22 @@ struct SessionBatch {
   std::vector<SessionCommand> commands;
   std::vector<haptics::Tick> ticks;
   std::vector<SessionEvent> events;
-  std::vector<SessionPicture> pictures;
 };
 
 class SessionWriter {
  public:
-  /// Creates the file with its start. Throws SessionError if it exists and not `overwrite`, or can not be written.
+  /// Writes the start. Throws SessionError if the file exists and not `overwrite`, is being recorded, or can not be
+  /// written.
   SessionWriter(const std::string& path, bool overwrite, const SessionStart& start);
-  /// Without seal() the file stays as a killed program leaves it: valid to its last write.
+  /// Without seal() the file stays as a killed program leaves it: valid to its last write; without ticks, none.
   ~SessionWriter();
 
   /// All of the batch or, with SessionError, nothing of it.
   void write(const SessionBatch& batch);
 
-  /// Says how many ticks were written and lost, and leaves one single, closed file. Last call.
-  void seal(std::uint64_t lost);
+  /// Keeps the bone that is left, says how many ticks were written and lost, and leaves one single, closed file that
+  /// is on the disk. Last call. `bone` may be null: it is not kept. Cost: of the bone.
+  void seal(std::uint64_t lost, const haptics::CarvedBone* bone = nullptr);
 
   std::uint64_t ticks() const;
 

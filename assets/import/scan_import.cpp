@@ -2,16 +2,19 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <optional>
 
-#include "assets/image_file.h"
-#include "assets/import/canal_line.h"
-#include "assets/import/third_molar.h"
+#include "assets/import/lower_jaw.h"
+#include "assets/import/mandibular_canal_line.h"
 #include "assets/import/tissue_from_grey.h"
+#include "assets/import/tooth_site.h"
 #include "assets/load_error.h"
-#include "assets/solid_fraction.h"
+#include "assets/scan/image_file.h"
+#include "assets/scan/solid_fraction.h"
+#include "assets/tooth.h"
 
 namespace assets {
 
@@ -21,7 +24,7 @@ namespace fs = std::filesystem;
 
 struct Sources {
   std::string ct;
-  std::optional<std::string> labels;
+  std::optional<std::string> labels, teeth;
 };
 
 /// The file of that name in any format we read; more than one is a question we do not guess at.
@@ -53,11 +56,11 @@ Sources sourcesAt(const std::string& source) {
   const std::string dicom_advice = "DICOM is not read yet; export the scan as NRRD or NIfTI";
   if (!fs::is_directory(status)) {
     if (fs::is_regular_file(status) && isDicom(source)) throw LoadError(source + ": " + dicom_advice);
-    return {source, std::nullopt};
+    return {source, std::nullopt, std::nullopt};
   }
 
   const auto ct = volumeNamed(source, "ct");
-  if (ct) return {*ct, volumeNamed(source, "labels")};
+  if (ct) return {*ct, volumeNamed(source, "labels"), volumeNamed(source, "teeth")};
   for (const auto& entry : fs::directory_iterator(source, error))
     if (entry.is_regular_file(error) && (entry.path().extension() == ".dcm" || isDicom(entry.path())))
       throw LoadError(source + ": " + dicom_advice);
@@ -65,56 +68,161 @@ Sources sourcesAt(const std::string& source) {
                   ": it holds no ct.nrrd (or .nii.gz, .nii, .mha); name the volume so, or give the file itself");
 }
 
-/// Middle of what is solid; refuses a scan without any.
+/// Middle of what is drawn; refuses a scan of which nothing would be seen.
 glm::dvec3 middleOfSolid(const CtVolume& ct, const std::string& path, double iso_hu) {
+  constexpr std::uint8_t kHalf = 128;
+  constexpr double kLeast_mm3 = 10.0;
   glm::dvec3 sum(0.0);
-  double weight = 0.0;
+  double count = 0.0;
   std::size_t v = 0;
   for (int k = 0; k < ct.grid.size.z; ++k)
     for (int j = 0; j < ct.grid.size.y; ++j)
       for (int i = 0; i < ct.grid.size.x; ++i, ++v) {
-        sum += static_cast<double>(ct.solid[v]) * glm::dvec3(i, j, k);
-        weight += ct.solid[v];
+        if (ct.solid[v] < kHalf) continue;
+        sum += glm::dvec3(i, j, k);
+        count += 1.0;
       }
-  constexpr double kSolid = 255.0;
-  if (weight * ct.grid.voxelVolume_mm3() < kSolid * 10.0)
+  if (count * ct.grid.voxelVolume_mm3() < kLeast_mm3)
     throw LoadError(path + ": less than 10 mm3 of it is above " + std::to_string(static_cast<int>(iso_hu)) +
                     " HU; give a CT in Hounsfield, or another --iso");
-  return ct.grid.origin_P_mm + ct.grid.spacing_mm * sum / weight;
+  return ct.grid.origin_P_mm + ct.grid.spacing_mm * sum / count;
+}
+
+/// Labels or teeth on the grid of the CT.
+std::vector<std::uint8_t> valuesOn(const VolumeGrid& grid, const std::string& path, const std::string& ct) {
+  ByteImage image = readLabels(path);
+  if (!isSameGrid(image.grid, grid))
+    throw LoadError(path + ": its voxels do not lie where those of " + ct + " do; export both on the same grid");
+  return std::move(image.values);
+}
+
+std::array<std::size_t, 256> countsOf(const std::vector<std::uint8_t>& values) {
+  std::array<std::size_t, 256> count{};
+  for (const std::uint8_t value : values) ++count[value];
+  return count;
+}
+
+/// Tissues as labelled, or guessed where no label is one of ours; says what is odd about the labels.
+void readTissues(const std::optional<std::string>& labels, const std::string& ct_path, CtVolume& ct,
+                 std::vector<std::string>& remarks) {
+  const auto guess = [&] { ct.label = labelsFromGrey(ct.grid, ct.hounsfield); };
+  if (!labels) return guess();
+  ct.label = valuesOn(ct.grid, *labels, ct_path);
+  const auto count = countsOf(ct.label);
+  std::string foreign;
+  std::size_t known_voxels = 0;
+  for (std::size_t value = 1; value < count.size(); ++value) {
+    if (count[value] == 0) continue;
+    if (value < kTissueCount)
+      known_voxels += count[value];
+    else
+      foreign += (foreign.empty() ? "" : ", ") + std::to_string(value);
+  }
+  const std::string legend =
+      " (1 cortical, 2 trabecular, 3 other teeth, 4 enamel, 5 dentine, 6 pulp, 7 mandibular "
+      "canal, 8 ligament, 9 gingiva)";
+  if (known_voxels == 0) {
+    remarks.push_back("labels: " + (foreign.empty() ? std::string("all are 0") : "none is one of ours" + legend) +
+                      "; tissues are guessed from grey values");
+    return guess();
+  }
+  if (!foreign.empty())
+    remarks.push_back("labels: " + foreign + " are none of ours" + legend + "; they count as unlabelled");
+  labelPartialVoxels(ct.grid, ct.hounsfield, ct.solid, ct.label);
+}
+
+/// Which tooth each voxel belongs to.
+void readTeeth(const Sources& sources, CtVolume& ct, std::vector<std::string>& remarks) {
+  if (!sources.teeth) {
+    constexpr double kMostOfATooth_mm3 = 3000.0;  // a large molar is 1,200 (Wheeler)
+    if (!sources.labels) return;
+    numberThirdMolar(ct);
+    for (const auto& [fdi, volume_mm3] : toothVolumes_mm3(ct))
+      if (volume_mm3 > kMostOfATooth_mm3)
+        remarks.push_back("labels: enamel, dentine and pulp (4 to 6) fill " + std::to_string(std::lround(volume_mm3)) +
+                          " mm3, more than one tooth; tell teeth apart in teeth.nrrd, or check the legend");
+    return;
+  }
+  ct.tooth = valuesOn(ct.grid, *sources.teeth, sources.ct);
+  const auto count = countsOf(ct.tooth);
+  for (std::size_t value = 1; value < count.size(); ++value)
+    if (count[value] > 0 && !isToothNumber(static_cast<int>(value)))
+      throw LoadError(*sources.teeth + ": its value " + std::to_string(value) +
+                      " is no FDI number of a tooth; give 11 to 48, 51 to 85, and 0 where there is none");
+  if (count[0] == ct.tooth.size()) remarks.push_back("teeth: no tooth is told apart, all are 0");
+  if (sources.labels) return;
+  for (std::size_t v = 0; v < ct.tooth.size(); ++v)
+    if (ct.tooth[v] != 0 && Tissue{ct.label[v]} != Tissue::enamel)
+      ct.label[v] = static_cast<std::uint8_t>(toothTissueFromGrey(ct.hounsfield[v]));
+}
+
+std::string namesOf(const std::map<int, double>& teeth) {
+  std::string names;
+  for (const auto& [fdi, volume_mm3] : teeth) names += (names.empty() ? "" : ", ") + std::to_string(fdi);
+  return names;
+}
+
+/// The tooth asked for, or the third molar: lower ones first, as they are operated most.
+std::optional<OperativeSite> siteOf(const CtVolume& ct, const std::optional<int>& asked_fdi, const std::string& source,
+                                    std::vector<std::string>& remarks) {
+  const auto teeth = toothVolumes_mm3(ct);
+  if (asked_fdi) {
+    if (const auto site = siteAtTooth(ct, *asked_fdi)) return site;
+    throw LoadError(source + ": tooth " + std::to_string(*asked_fdi) + " is not labelled in it, " +
+                    (teeth.empty() ? "nor is any other; give its number in teeth.nrrd"
+                                   : "these are: " + namesOf(teeth) + "; name one with --tooth"));
+  }
+  std::optional<OperativeSite> site;
+  for (const int fdi : {48, 38, 28, 18}) {
+    if (!teeth.contains(fdi)) continue;
+    const auto found = siteAtTooth(ct, fdi);
+    if (!site)
+      site = found;
+    else if (found)
+      remarks.push_back("tooth " + std::to_string(fdi) + " is labelled too; --tooth " + std::to_string(fdi) +
+                        " makes it the site");
+  }
+  if (site) return site;
+  remarks.push_back("no third molar labelled here" +
+                    (teeth.empty() ? std::string()
+                                   : "; these teeth are: " + namesOf(teeth) + ", --tooth makes one of them the site"));
+  return std::nullopt;
 }
 
 }  // namespace
 
-Patient importScan(const std::string& source, const Classification& classification) {
+ImportedScan importScan(const std::string& source, const ScanChoices& choices) {
   const Sources sources = sourcesAt(source);
   HounsfieldImage image = readHounsfield(sources.ct);
-  Patient patient;
-  patient.classification = classification;
+  scaleGreys(image.hounsfield, choices.window, sources.ct);
+  ImportedScan imported;
+  Patient& patient = imported.patient;
+  patient.classification = choices.classification;
   patient.ct.grid = image.grid;
   patient.ct.hounsfield = std::move(image.hounsfield);
-  patient.ct.solid = classify(patient.ct.grid, patient.ct.hounsfield, classification);
-  const glm::dvec3 middle_P_mm = middleOfSolid(patient.ct, sources.ct, classification.iso_hu);
+  if (!choices.window) imported.remarks = scaleRemarks(patient.ct.grid, patient.ct.hounsfield);
+  patient.ct.solid = classify(patient.ct.grid, patient.ct.hounsfield, choices.classification);
+  const glm::dvec3 middle_P_mm = middleOfSolid(patient.ct, sources.ct, choices.classification.iso_hu);
 
-  if (sources.labels) {
-    ByteImage labels = readLabels(*sources.labels);
-    if (!isSameGrid(labels.grid, patient.ct.grid))
-      throw LoadError(*sources.labels + ": its voxels do not lie where those of " + sources.ct +
-                      " do; export both on the same grid");
-    patient.ct.label = std::move(labels.values);
-    patient.site = thirdMolarSite(patient.ct.grid, patient.ct.label);
-    const auto beside_P_mm = patient.site.known ? std::optional(patient.site.third_molar_P_mm) : std::nullopt;
-    if (auto canal = canalLine(patient.ct.grid, patient.ct.label, beside_P_mm)) {
-      patient.canal_P_mm = std::move(canal->line_P_mm);
-      patient.canal_radius_mm = canal->radius_mm;
-    }
-  } else {
-    patient.ct.label = labelsFromGrey(patient.ct.hounsfield);
+  readTissues(sources.labels, sources.ct, patient.ct, imported.remarks);
+  readTeeth(sources, patient.ct, imported.remarks);
+  patient.site = siteOf(patient.ct, choices.tooth_fdi, source, imported.remarks);
+  const auto beside_P_mm = patient.site ? std::optional(patient.site->centre_P_mm) : std::nullopt;
+  if (auto canal = mandibularCanalLine(patient.ct.grid, patient.ct.label, beside_P_mm)) {
+    patient.mandibular_canal_P_mm = std::move(canal->line_P_mm);
+    patient.mandibular_canal_radius_mm = canal->radius_mm;
   }
-
-  if (!patient.site.known) patient.site.third_molar_P_mm = middle_P_mm;
-  patient.title = patient.site.known ? "imported scan, third molar " + std::to_string(patient.site.tooth_fdi)
-                                     : std::string("imported scan, site unknown");
-  return patient;
+  if (patient.site) {
+    patient.jaw_P_mm = patient.site->centre_P_mm;
+    patient.title = "imported scan, " + toothName(patient.site->fdi) + " (" + std::to_string(patient.site->fdi) + ")";
+    return imported;
+  }
+  const auto jaw_P_mm = lowerJaw_P_mm(patient.ct, patient.mandibular_canal_P_mm);
+  imported.remarks.push_back(jaw_P_mm ? "the view goes to the lower jaw"
+                                      : "no lower jaw found, the view goes to the middle of what is solid");
+  patient.jaw_P_mm = jaw_P_mm.value_or(middle_P_mm);
+  patient.title = "imported scan, site unknown";
+  return imported;
 }
 
 }  // namespace assets

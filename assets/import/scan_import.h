@@ -1,18 +1,32 @@
-// A patient from a scan: a folder with ct.nrrd (and labels.nrrd with our Tissue values), or a lone volume file in
-// Hounsfield. .nrrd, .nhdr, .nii, .nii.gz, .mha and .mhd; any orientation (image_file.h). With labels: third molar, its
-// side and crown direction, canal line. Without: tissues are guessed from grey values (tissue_from_grey.h) and the site
-// is unknown, the middle of the solid mass. Nothing of the file but voxels and geometry is kept: no name, date or
-// identifier, not even the file's own name. Any thread, at start-up (see image_file.h); about 2 s per 10^7 voxels. Gum
-// and face are made elsewhere. No DICOM yet.
+// A patient from a scan: a folder with ct.nrrd, and beside it labels.nrrd (our Tissue values) and teeth.nrrd (the FDI
+// number of the tooth each voxel belongs to), or a lone volume file in Hounsfield. .nrrd, .nhdr, .nii, .nii.gz, .mha
+// and .mhd; any orientation (image_file.h). The site is the tooth asked for, or the third molar that is labelled; with
+// labels comes the mandibular canal's line. Without labels tissues are guessed from grey values. Nothing of the file
+// but voxels and geometry is kept: no name, date or identifier, not even the file's own name. Any thread, at start-up
+// (see image_file.h); about 2 s per 10^7 voxels. Gum and face are made elsewhere. No DICOM yet.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "assets/import/scan_scale.h"
 #include "assets/patient.h"
 
 namespace assets {
 
+struct ScanChoices {
+  Classification classification{};
+  std::optional<int> tooth_fdi{};      ///< the site; none: the third molar
+  std::optional<GreyWindow> window{};  ///< of an 8-bit volume
+};
+
+struct ImportedScan {
+  Patient patient;
+  std::vector<std::string> remarks;  ///< what people should know of this scan, a line each
+};
+
 /// Throws LoadError of one line.
-Patient importScan(const std::string& source, const Classification& classification);
+ImportedScan importScan(const std::string& source, const ScanChoices& choices);
 
 }  // namespace assets

@@ -9,15 +9,12 @@
 
 #include <glm/glm.hpp>
 
+#include "calibration/geometry/mixed_bits.h"
+
 namespace assets {
 
-/// A well-mixed 64-bit hash (splitmix64 finaliser, Steele et al. 2014).
-constexpr std::uint64_t mixBits(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15ull;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
-  return x ^ (x >> 31);
-}
+/// A well-mixed 64-bit hash.
+constexpr std::uint64_t mixBits(std::uint64_t x) { return calibration::mixedBits(x + calibration::kMixedStep); }
 
 class BandLimitedNoise {
  public:

@@ -13,6 +13,7 @@
 #include "assets/synthetic/head_shape.h"
 #include "assets/synthetic/mouth_interior.h"
 #include "assets/synthetic/surface_mesher.h"
+#include "assets/tooth.h"
 
 namespace assets {
 namespace {
@@ -105,7 +106,7 @@ void requireInRange(const FaceParameters& parameters) {
 }  // namespace
 
 glm::dvec3 surgeonEyeDirection(int tooth_fdi) {
-  return glm::normalize(dvec3(tooth_fdi == 48 ? -0.11 : 0.11, -0.87, 0.46));
+  return glm::normalize(dvec3(isRight(tooth_fdi) ? -0.11 : 0.11, -0.87, isUpper(tooth_fdi) ? -0.46 : 0.46));
 }
 
 MeshModel syntheticFace(const FaceParameters& parameters) {

@@ -20,7 +20,8 @@ struct FaceParameters {
 /// Throws LoadError if a parameter is out of range.
 MeshModel syntheticFace(const FaceParameters& parameters);
 
-/// Unit vector from the third molar to the surgeon's eye, frame P: in front, to the operated side, above.
+/// Unit vector from the tooth to the surgeon's eye, frame P: in front, to the operated side, above a lower tooth and
+/// below an upper one.
 glm::dvec3 surgeonEyeDirection(int tooth_fdi);
 
 }  // namespace assets

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "assets/load_error.h"
-#include "assets/solid_fraction.h"
+#include "assets/scan/solid_fraction.h"
 #include "assets/synthetic/jaw_anatomy.h"
 #include "assets/synthetic/scanner.h"
 
@@ -30,7 +30,8 @@ void validate(const JawParameters& p) {
   const auto within = [](double value, double low, double high) { return value >= low && value <= high; };
   require(within(p.winter_angle_deg, -79.0, 100.0), "Winter angle in degrees", p.winter_angle_deg, "-79 to 100");
   require(within(p.depth_mm, 0.0, 8.0), "depth in mm", p.depth_mm, "0 to 8");
-  require(within(p.canal_distance_mm, 0.3, 6.0), "canal distance in mm", p.canal_distance_mm, "0.3 to 6");
+  require(within(p.mandibular_canal_distance_mm, 0.3, 6.0), "canal distance in mm", p.mandibular_canal_distance_mm,
+          "0.3 to 6");
   require(within(p.spacing_mm, 0.15, 1.0), "voxel size in mm", p.spacing_mm, "0.15 to 1");
 }
 
@@ -48,7 +49,7 @@ std::string titleOf(const JawParameters& p) {
 }
 
 AnatomyParameters anatomyOf(const JawParameters& p) {
-  return {p.winter_angle_deg, p.depth_mm, p.canal_distance_mm, p.seed};
+  return {p.winter_angle_deg, p.depth_mm, p.mandibular_canal_distance_mm, p.seed};
 }
 
 /// J to P and back: the right side is mirrored.
@@ -88,7 +89,10 @@ void scan(const JawAnatomy& anatomy, const JawParameters& p, CtVolume& ct) {
           if (nearby.anything) {
             const glm::dvec3 p_J = kScanBox.low_mm + p.spacing_mm * glm::dvec3(i, j, k);
             const TissueDistances distances = anatomy.at(p_J, nearby);
-            ct.label[voxel] = static_cast<std::uint8_t>(tissueAt(distances));
+            const Tissue tissue = tissueAt(distances);
+            ct.label[voxel] = static_cast<std::uint8_t>(tissue);
+            if (const int position = toothAt(distances, tissue))
+              ct.tooth[voxel] = static_cast<std::uint8_t>((p.right_side ? 40 : 30) + position);
             grey_hu = greyValue_hu(distances, p_J, texture, edge_mm);
           }
           ct.hounsfield[voxel] = static_cast<std::int16_t>(std::lround(grey_hu + scannerNoise_hu(p.seed, place)));
@@ -103,8 +107,8 @@ void scan(const JawAnatomy& anatomy, const JawParameters& p, CtVolume& ct) {
   });
 }
 
-OperatingSite siteOf(const CtVolume& ct, const JawAnatomy& anatomy, bool right_side) {
-  OperatingSite site;
+/// Nothing where the third molar has no voxel.
+std::optional<OperativeSite> siteOf(const CtVolume& ct, const JawAnatomy& anatomy, bool right_side) {
   glm::dvec3 sum(0.0);
   double count = 0.0;
   std::size_t voxel = 0;
@@ -116,11 +120,9 @@ OperatingSite siteOf(const CtVolume& ct, const JawAnatomy& anatomy, bool right_s
         sum += glm::dvec3(i, j, k);
         count += 1.0;
       }
-  site.known = count > 0.0;
-  site.tooth_fdi = right_side ? 48 : 38;
-  if (site.known) site.third_molar_P_mm = ct.grid.origin_P_mm + ct.grid.spacing_mm * sum / count;
-  site.crown_direction_P = mirrored(anatomy.thirdMolar().axes_J[2], right_side);
-  return site;
+  if (count == 0.0) return std::nullopt;
+  return OperativeSite{right_side ? 48 : 38, ct.grid.origin_P_mm + ct.grid.spacing_mm * sum / count,
+                       mirrored(anatomy.thirdMolar().axes_J[2], right_side)};
 }
 
 }  // namespace
@@ -134,15 +136,16 @@ Patient syntheticJaw(const JawParameters& parameters) {
   patient.ct.grid = gridOf(parameters);
   patient.ct.hounsfield.resize(patient.ct.grid.voxelCount());
   patient.ct.label.resize(patient.ct.grid.voxelCount());
+  patient.ct.tooth.resize(patient.ct.grid.voxelCount());
   scan(anatomy, parameters, patient.ct);
   patient.ct.solid = classify(patient.ct.grid, patient.ct.hounsfield, patient.classification);
 
   patient.site = siteOf(patient.ct, anatomy, parameters.right_side);
-  patient.canal_radius_mm = CanalPath::kRadius_mm;
+  patient.mandibular_canal_radius_mm = MandibularCanalPath::kRadius_mm;
   // The line ends with the bone: at the mental foramen in front, at the saw cut behind.
-  for (const glm::dvec3& p_J : anatomy.canal().points_J_mm())
-    if (anatomy.at(p_J, anatomy.nearby(p_J, 0.0)).canal < -0.5)
-      patient.canal_P_mm.push_back(mirrored(p_J, parameters.right_side));
+  for (const glm::dvec3& p_J : anatomy.mandibularCanal().points_J_mm())
+    if (anatomy.at(p_J, anatomy.nearby(p_J, 0.0)).mandibular_canal < -0.5)
+      patient.mandibular_canal_P_mm.push_back(mirrored(p_J, parameters.right_side));
   return patient;
 }
 

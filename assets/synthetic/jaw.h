@@ -14,16 +14,17 @@ namespace assets {
 
 /// Rises when the jaw, its gum or the face is made differently, so that no copy kept from before passes for the new
 /// one.
-inline constexpr int kSyntheticPatientRevision = 2;
+inline constexpr int kSyntheticPatientRevision = 3;
 
 struct JawParameters {
   bool right_side = true;
   double winter_angle_deg =
       45.0;  ///< -79..100: below -10 disto-angular, to 10 vertical, from 11 mesio-angular, from 80 horizontal
-  double depth_mm = 3.0;           ///< 0..8: highest point of the third molar below the second molar's occlusal plane
-  double canal_distance_mm = 2.0;  ///< 0.3..6: third molar to the lumen of the mandibular canal, nearest points
-  double spacing_mm = 0.25;        ///< 0.15..1: edge of a voxel
-  std::uint64_t seed = 1;          ///< noise, marrow and the small irregularities of the bone
+  double depth_mm = 3.0;  ///< 0..8: highest point of the third molar below the second molar's occlusal plane
+  double mandibular_canal_distance_mm =
+      2.0;                   ///< 0.3..6: third molar to the lumen of the mandibular canal, nearest points
+  double spacing_mm = 0.25;  ///< 0.15..1: edge of a voxel
+  std::uint64_t seed = 1;    ///< noise, marrow and the small irregularities of the bone
 };
 
 struct ToothLandmark {

@@ -33,7 +33,7 @@ double gingivalCuff_mm(const glm::dvec3& q, double tooth_mm) {
   return smoothMax(tooth_mm - thickness_mm, q.z - margin_mm, 0.6);
 }
 
-[[noreturn]] void refuseCanal(double distance_mm) {
+[[noreturn]] void refuseMandibularCanal(double distance_mm) {
   std::ostringstream line;
   line << "synthetic jaw: a canal " << distance_mm << " mm from the third molar does not fit into the bone beside it; "
        << "choose another depth, canal distance or Winter angle";
@@ -47,13 +47,13 @@ JawAnatomy::JawAnatomy(const AnatomyParameters& parameters) : mandible_(arch_, p
   for (int position = 4; position <= 7; ++position) teeth_.push_back(eruptedTooth(arch_, position));
   PlacedTooth third = impactedThirdMolar(arch_, teeth_.back(), parameters.winter_angle_deg, parameters.depth_mm);
   teeth_.push_back(std::move(third));
-  placeCanal(parameters.canal_distance_mm);
+  placeMandibularCanal(parameters.mandibular_canal_distance_mm);
 }
 
-void JawAnatomy::placeCanal(double distance_mm) {
+void JawAnatomy::placeMandibularCanal(double distance_mm) {
   // Where the undisturbed course passes the tooth closest.
   std::vector<glm::dvec3> surface_J = thirdMolar().shape.surfacePoints_mm();
-  const CanalPath mean_course(arch_, 0.0, 0.0);
+  const MandibularCanalPath mean_course(arch_, 0.0, 0.0);
   double closest_mm = 1e9, beside_mm = 0.0;
   for (glm::dvec3& p : surface_J) p = thirdMolar().inJaw(p);
   for (std::size_t n = 0; n < surface_J.size(); n += 16) {
@@ -62,7 +62,7 @@ void JawAnatomy::placeCanal(double distance_mm) {
     closest_mm = lumen_mm;
     beside_mm = arch_.coordinatesOf({surface_J[n].x, surface_J[n].y}).along_mm;
   }
-  const auto clearance = [&](const CanalPath& path) {
+  const auto clearance = [&](const MandibularCanalPath& path) {
     double least_mm = 1e9;
     for (std::size_t n = 0; n < surface_J.size(); n += 4) least_mm = std::min(least_mm, path.lumen_mm(surface_J[n]));
     return least_mm;
@@ -72,15 +72,16 @@ void JawAnatomy::placeCanal(double distance_mm) {
   double high_mm = -14.0, low_mm = 12.0;
   for (int halving = 0; halving < 14; ++halving) {
     const double middle_mm = 0.5 * (high_mm + low_mm);
-    (clearance(CanalPath(arch_, beside_mm, middle_mm)) < distance_mm ? high_mm : low_mm) = middle_mm;
+    (clearance(MandibularCanalPath(arch_, beside_mm, middle_mm)) < distance_mm ? high_mm : low_mm) = middle_mm;
   }
-  canal_.emplace(arch_, beside_mm, low_mm);
+  mandibular_canal_.emplace(arch_, beside_mm, low_mm);
 
-  const double reached_mm = clearance(*canal_);
+  const double reached_mm = clearance(*mandibular_canal_);
   double cover_mm = 1e9;
-  for (const glm::dvec3& p : canal_->points_J_mm())
+  for (const glm::dvec3& p : mandibular_canal_->points_J_mm())
     if (p.y > 30.0 && mandible_.cut_mm(p) < 0.0) cover_mm = std::min(cover_mm, -mandible_.outer_mm(p));
-  if (std::abs(reached_mm - distance_mm) > 0.1 || cover_mm < 0.3 * CanalPath::kRadius_mm) refuseCanal(distance_mm);
+  if (std::abs(reached_mm - distance_mm) > 0.1 || cover_mm < 0.3 * MandibularCanalPath::kRadius_mm)
+    refuseMandibularCanal(distance_mm);
 }
 
 Nearby JawAnatomy::nearby(const glm::dvec3& centre_J, double radius_mm) const {
@@ -93,7 +94,7 @@ Nearby JawAnatomy::nearby(const glm::dvec3& centre_J, double radius_mm) const {
     nearby.teeth |= 1u << n;
     nearby.anything = true;
   }
-  nearby.canal = nearby.anything && canal_->lumen_mm(centre_J) < reach_mm + kReach_mm;
+  nearby.mandibular_canal = nearby.anything && mandibular_canal_->lumen_mm(centre_J) < reach_mm + kReach_mm;
   return nearby;
 }
 
@@ -114,6 +115,7 @@ TissueDistances JawAnatomy::at(const glm::dvec3& p_J, const Nearby& nearby) cons
     const double over_cervix_mm = tooth.shape.overCervix_mm(q);
     const bool third = tooth.position == 8;
     if (outer_mm < 1.0) {
+      if (!third && outer_mm < d.other_tooth) d.other_position = tooth.position;
       (third ? d.third_molar : d.other_tooth) = std::min(outer_mm, third ? d.third_molar : d.other_tooth);
       const double core_mm = tooth.shape.core_mm(q, outer_mm);
       (third ? d.third_molar_core : d.other_core) = std::min(core_mm, third ? d.third_molar_core : d.other_core);
@@ -130,7 +132,7 @@ TissueDistances JawAnatomy::at(const glm::dvec3& p_J, const Nearby& nearby) cons
   }
 
   // A canal close to the surface keeps a thin wall, except where it leaves through the mental foramen.
-  const double lumen_mm = nearby.canal ? canal_->lumen_mm(p_J) : TissueDistances::kFar_mm;
+  const double lumen_mm = nearby.mandibular_canal ? mandibular_canal_->lumen_mm(p_J) : TissueDistances::kFar_mm;
   if (p_J.y > 26.0) bone_mm = smoothMin(bone_mm, lumen_mm + 6.0 * smoothStep(32.0, 26.0, p_J.y) - 0.9, 1.5);
   d.bone = std::max(bone_mm, cut_mm);
   d.ligament = std::max(lining_mm, d.bone);
@@ -139,8 +141,8 @@ TissueDistances JawAnatomy::at(const glm::dvec3& p_J, const Nearby& nearby) cons
   const bool in_question = bone_mm > -4.0 && bone_mm < 0.0;
   const double cortex_mm = in_question ? mandible_.cortex_mm(p_J, arch_.coordinatesOf({p_J.x, p_J.y})) : 1.5;
   double spongy_mm = std::max(bone_mm + cortex_mm, -(lining_mm - kLaminaDura_mm));
-  spongy_mm = std::max(spongy_mm, CanalPath::kWall_mm - lumen_mm);
-  d.canal = std::max(lumen_mm, d.bone);
+  spongy_mm = std::max(spongy_mm, MandibularCanalPath::kWall_mm - lumen_mm);
+  d.mandibular_canal = std::max(lumen_mm, d.bone);
   d.trabecular = std::max(spongy_mm, cut_mm);
 
   // Mucosa thins out down the body and up the ramus.

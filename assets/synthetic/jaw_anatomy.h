@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
-#include "assets/synthetic/canal_path.h"
 #include "assets/synthetic/mandible_shape.h"
+#include "assets/synthetic/mandibular_canal_path.h"
 #include "assets/synthetic/tooth_row.h"
 
 namespace assets {
@@ -21,10 +21,11 @@ struct TissueDistances {
   double third_molar_core = kFar_mm;  ///< dentine with pulp
   double third_molar_pulp = kFar_mm;
   double other_tooth = kFar_mm;
+  int other_position = 0;  ///< from the midline, of the nearest other tooth
   double other_core = kFar_mm;
   double other_pulp = kFar_mm;
-  double ligament = kFar_mm;  ///< ligaments and follicle, teeth included
-  double canal = kFar_mm;     ///< lumen
+  double ligament = kFar_mm;          ///< ligaments and follicle, teeth included
+  double mandibular_canal = kFar_mm;  ///< lumen
   double trabecular = kFar_mm;
   double bone = kFar_mm;     ///< outer surface, sockets not subtracted
   double gingiva = kFar_mm;  ///< gum, bone included
@@ -33,14 +34,14 @@ struct TissueDistances {
 /// What can matter within a ball; found once per brick.
 struct Nearby {
   bool anything = false;
-  bool canal = false;
+  bool mandibular_canal = false;
   std::uint32_t teeth = 0;  ///< bit n: tooth n of the row
 };
 
 struct AnatomyParameters {
   double winter_angle_deg = 45.0;
   double depth_mm = 3.0;
-  double canal_distance_mm = 2.0;
+  double mandibular_canal_distance_mm = 2.0;
   std::uint64_t seed = 1;
 };
 
@@ -54,16 +55,16 @@ class JawAnatomy {
 
   const PlacedTooth& thirdMolar() const { return teeth_.back(); }
   const std::vector<PlacedTooth>& teeth() const { return teeth_; }
-  const CanalPath& canal() const { return *canal_; }
+  const MandibularCanalPath& mandibularCanal() const { return *mandibular_canal_; }
   const DentalArch& arch() const { return arch_; }
 
  private:
-  void placeCanal(double distance_mm);
+  void placeMandibularCanal(double distance_mm);
 
   DentalArch arch_;
   MandibleShape mandible_;
   std::vector<PlacedTooth> teeth_;  ///< erupted ones, the third molar last
-  std::optional<CanalPath> canal_;
+  std::optional<MandibularCanalPath> mandibular_canal_;
 };
 
 }  // namespace assets

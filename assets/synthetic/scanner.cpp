@@ -28,11 +28,24 @@ Tissue tissueAt(const TissueDistances& d) {
   if (d.third_molar < 0.0) return Tissue::enamel;
   if (d.other_tooth < 0.0) return Tissue::other_teeth;
   if (d.ligament < 0.0) return Tissue::ligament;
-  if (d.canal < 0.0) return Tissue::canal;
+  if (d.mandibular_canal < 0.0) return Tissue::mandibular_canal;
   if (d.trabecular < 0.0) return Tissue::trabecular;
   if (d.bone < 0.0) return Tissue::cortical;
   if (d.gingiva < 0.0) return Tissue::gingiva;
   return Tissue::unlabelled;
+}
+
+int toothAt(const TissueDistances& d, Tissue tissue) {
+  switch (tissue) {
+    case Tissue::enamel:
+    case Tissue::dentine:
+    case Tissue::pulp:
+      return 8;
+    case Tissue::other_teeth:
+      return d.other_position;
+    default:
+      return 0;
+  }
 }
 
 double greyValue_hu(const TissueDistances& d, const glm::dvec3& p_J, const TrabecularTexture& texture,
@@ -59,7 +72,7 @@ double greyValue_hu(const TissueDistances& d, const glm::dvec3& p_J, const Trabe
     sum_hu += share * hounsfield;
     filled += share;
   };
-  beside(d.canal, meanOf(Tissue::canal));
+  beside(d.mandibular_canal, meanOf(Tissue::mandibular_canal));
   if (d.trabecular < 4.0 * edge_spread_mm) beside(d.trabecular, texture.hounsfield(p_J));
   enclose(d.bone, meanOf(Tissue::cortical));
   enclose(d.gingiva, meanOf(Tissue::gingiva));

@@ -22,6 +22,9 @@ double edgeSpread_mm(double spacing_mm);
 
 Tissue tissueAt(const TissueDistances& distances);
 
+/// Place from the midline of the tooth that holds a voxel of that tissue; 0 for none.
+int toothAt(const TissueDistances& distances, Tissue tissue);
+
 /// Mean grey value of a voxel centred at p_J, before noise.
 double greyValue_hu(const TissueDistances& distances, const glm::dvec3& p_J, const TrabecularTexture& texture,
                     double edge_spread_mm);

@@ -5,13 +5,12 @@
 #include <numeric>
 
 #include "calibration/fit/rigid_fit.h"
+#include "calibration/geometry/finite.h"
 
 namespace calibration {
 namespace {
 
 constexpr double kOtherMarks_mm = 3.0;
-
-bool isFinite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 }  // namespace
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "calibration/geometry/mixed_bits.h"
+
 namespace calibration {
 namespace {
 
@@ -53,10 +55,7 @@ class LightTable {
 
 /// Normal, mean 0, variance 1, from a number that says which pixel of which picture: four halves of a scrambled word.
 double chanceOf(std::uint64_t which) {
-  std::uint64_t z = which + 0x9e3779b97f4a7c15ULL;  // Steele, Lea, Flood: SplitMix64
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-  z ^= z >> 31;
+  const std::uint64_t z = mixedBits(which + kMixedStep);
   const double sum = static_cast<double>((z & 0xffff) + ((z >> 16) & 0xffff) + ((z >> 32) & 0xffff) + (z >> 48));
   return (sum / 65535.0 - 2.0) * std::sqrt(3.0);
 }

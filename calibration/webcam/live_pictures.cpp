@@ -13,7 +13,7 @@ LivePictures::LivePictures(std::string name, const std::function<std::unique_ptr
     : name_(std::move(name)), patience_(patience), thread_([this, open] { run(open); }) {
   std::unique_lock lock(mutex_);
   const bool answered = changed_.wait_for(lock, patience_.open, [&] { return opened_ || ended_; });
-  if (answered && !ended_) return;
+  if (opened_) return;  // gone since then: take() says so
   // A constructor that throws has no destructor.
   const std::string why = answered ? trouble_ : name_ + ": it does not answer, unplug it and plug it in again";
   stop_ = true;
@@ -33,6 +33,7 @@ LivePictures::~LivePictures() {
 GreyPicture LivePictures::take() {
   std::unique_lock lock(mutex_);
   taken_.reset();
+  ++call_;
   wanted_in_ = kFramesAhead;
   const bool answered = changed_.wait_for(lock, patience_.frame, [&] { return taken_.has_value() || ended_; });
   wanted_in_ = 0;
@@ -50,7 +51,7 @@ void LivePictures::run(const std::function<std::unique_ptr<FrameGiver>()>& open)
     trouble = error.what();
   }
   std::unique_lock lock(mutex_);
-  opened_ = true;
+  opened_ = giver != nullptr;
   trouble_ = trouble;
   if (giver) remarks_ = giver->remarks();
   ended_ = !giver;
@@ -61,11 +62,13 @@ void LivePictures::run(const std::function<std::unique_ptr<FrameGiver>()>& open)
     lock.lock();
     ended_ = !came;
     if (came && wanted_in_ > 0 && --wanted_in_ == 0) {
+      const std::uint64_t call = call_;
       lock.unlock();
       GreyPicture picture = giver->decoded();
       lock.lock();
       ended_ = picture.grey.empty();
-      taken_ = std::move(picture);
+      // Who asked for it may have gone; for who asks now it is too old.
+      if (call == call_) taken_ = std::move(picture);
     }
     if (ended_ || taken_) changed_.notify_all();
   }

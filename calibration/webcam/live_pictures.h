@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -47,7 +48,8 @@ class LivePictures final : public PictureSource {
   std::mutex mutex_;
   std::condition_variable changed_;
   bool opened_ = false, stop_ = false, ended_ = false;
-  int wanted_in_ = 0;  ///< frames until the one that is wanted; 0: none is
+  int wanted_in_ = 0;       ///< frames until the one that is wanted; 0: none is
+  std::uint64_t call_ = 0;  ///< which take() it is wanted by
   std::string trouble_;
   std::optional<GreyPicture> taken_;
   std::thread thread_;

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/geometry/finite.h"
 #include "haptics/bone/voxel_sphere.h"
 
 namespace haptics {
 namespace {
+
+using calibration::isFinite;
 
 using calibration::kPi;
 
@@ -118,8 +121,6 @@ double touchedReach(const BurCoverage& bur, double cos_axis) {
   }
   return 0.0;
 }
-
-bool isFinite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 }  // namespace
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "calibration/geometry/mixed_bits.h"
 #include "haptics/bone/block_kernels.h"
 #include "haptics/bone/stroke_history.h"
 
@@ -11,13 +12,6 @@ namespace {
 
 constexpr double kHistoryShare = 0.42;           // of the blocks: 4 bytes a voxel in all
 constexpr std::size_t kFewestHistories = 16384;  // 4 MB: a small bone is remembered whole
-
-/// Finaliser of SplitMix64 (Steele, Lea, Flood 2014): a bijection that spreads every bit.
-constexpr std::uint64_t mixed(std::uint64_t x) {
-  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
-  x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
-  return x ^ (x >> 31);
-}
 
 std::size_t tissueOf(const SolidField& field, std::size_t place) {
   const std::size_t label = field.label == nullptr ? 0 : field.label[place];
@@ -36,7 +30,8 @@ CarvedBone::CarvedBone(const assets::VolumeGrid& grid, std::span<const std::uint
   for (std::size_t block = 0; block < blocks; ++block) {
     if (at.weight[block] == 0) continue;
     ++with_bone;
-    addToDigest(mixed(block + 1), blockDigest(at.solid + block * kBlockVoxels, uncut.reach.data(), uncut.dose.data()));
+    addToDigest(calibration::mixedBits(block + 1),
+                blockDigest(at.solid + block * kBlockVoxels, uncut.reach.data(), uncut.dose.data()));
   }
   history_of_.assign(blocks, 0);
   const auto share = static_cast<std::size_t>(kHistoryShare * static_cast<double>(blocks));
@@ -69,7 +64,7 @@ bool CarvedBone::cutBlock(glm::ivec3 block_ijk, const BlockCut& cut,
   const SolidField at = field();
   const std::size_t block = at.blockAt(block_ijk), start = block * kBlockVoxels;
   const std::uint8_t* const before = at.solid + start;
-  const std::uint64_t key = mixed(block + 1);
+  const std::uint64_t key = calibration::mixedBits(block + 1);
   const bool mixed_labels = at.only_label[block] == kMixedLabels;
   const std::size_t only_tissue = tissueOf(at, start);
   if (!meetsBlock(before, cut.coverage.data())) return false;
@@ -127,7 +122,7 @@ std::int64_t CarvedBone::restoreBlock(std::size_t block, const BlockState& state
   const BlockState now = stateOf(block);
   const BlockDigest from = blockDigest(now.solid.data(), now.reach.data(), now.dose.data());
   const BlockDigest to = blockDigest(state.solid.data(), state.reach.data(), state.dose.data());
-  addToDigest(mixed(block + 1), {to.low - from.low, to.high - from.high});
+  addToDigest(calibration::mixedBits(block + 1), {to.low - from.low, to.high - from.high});
   // A past that has begun since began with what comes back: `first` stays true.
   if (history_of_[block] != 0) {
     History& history = histories_[history_of_[block] - 1];
@@ -150,7 +145,7 @@ std::int64_t CarvedBone::restoreBlock(std::size_t block, const BlockState& state
   return steps;
 }
 
-std::array<double, assets::kTissueCount> CarvedBone::removedByTissue_mm3() const {
+std::array<double, assets::kTissueCount> CarvedBone::removedByTissue_mm3() const noexcept {
   std::array<double, assets::kTissueCount> removed_mm3{};
   for (std::size_t tissue = 0; tissue < removed_mm3.size(); ++tissue)
     removed_mm3[tissue] = static_cast<double>(removed_steps_[tissue]) * grid_.voxelVolume_mm3() / 255.0;

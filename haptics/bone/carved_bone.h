@@ -70,7 +70,7 @@ class CarvedBone {
 
   /// What is gone since construction, by assets::Tissue; a label that is none counts as 0. Writing thread, or while
   /// nobody writes.
-  std::array<double, assets::kTissueCount> removedByTissue_mm3() const;
+  std::array<double, assets::kTissueCount> removedByTissue_mm3() const noexcept;
 
   /// The solid fraction in the order of the grid. O(voxels), allocates; for the writing thread or while nobody writes.
   std::vector<std::uint8_t> solidInGridOrder() const;

@@ -39,7 +39,7 @@ constexpr std::array kTable = {
     tissueFactor<4>("factor_enamel"),
     tissueFactor<5>("factor_dentine"),
     tissueFactor<6>("factor_pulp"),
-    tissueFactor<7>("factor_canal"),
+    tissueFactor<7>("factor_mandibular_canal"),
     tissueFactor<8>("factor_ligament"),
     tissueFactor<9>("factor_gingiva"),
 };

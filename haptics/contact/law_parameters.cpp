@@ -86,7 +86,7 @@ constexpr std::array kTable = {
     tissueFactor<4>("stiffness_enamel"),
     tissueFactor<5>("stiffness_dentine"),
     tissueFactor<6>("stiffness_pulp"),
-    tissueFactor<7>("stiffness_canal"),
+    tissueFactor<7>("stiffness_mandibular_canal"),
     tissueFactor<8>("stiffness_ligament"),
     tissueFactor<9>("stiffness_gingiva"),
 };

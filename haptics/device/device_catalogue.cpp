@@ -1,7 +1,7 @@
 #include "haptics/device/device_catalogue.h"
 
+#include <algorithm>
 #include <array>
-#include <functional>
 
 #include "haptics/device/openhaptics/find_open_haptics.h"
 #include "haptics/device/pedal/found_pedal.h"
@@ -12,18 +12,6 @@
 
 namespace haptics {
 namespace {
-
-constexpr std::array<DeviceKind, 6> kKinds = {{
-    {"openhaptics", "Phantom, Touch, Touch X by SensAble and 3D Systems", "OpenHaptics, the maker's library",
-     "a stand-in for that library", true, false},
-    {"wooden", "WoodenHaptics with its mbed firmware", "libusb", "simulated units behind the real libusb", true, false},
-    {"falcon", "Novint Falcon", "libusb", "simulated units behind the real libusb", true, false},
-    {"pedal", "foot switches, joysticks, gamepads", "libevdev", "simulated devices behind the real libevdev", true,
-     false},
-    {"simulated", "Phantom Omni, Touch, Desktop, Premium 1.5 in numbers", "Molar", "their published numbers", false,
-     false},
-    {"mouse", "the mouse, a place without force", "the window", "itself", false, false},
-}};
 
 std::vector<FoundDevice> findSimulated() {
   std::vector<FoundDevice> found;
@@ -53,26 +41,80 @@ std::vector<FoundDevice> findFeet() {
   return found;
 }
 
+std::vector<FoundDevice> findPhantoms() { return findOpenHaptics(); }
+
+bool isWooden(const std::string& place) { return woodenAddressed("wooden:" + place).has_value(); }
+
+constexpr std::array<DeviceKind, 6> kKinds = {{
+    {"openhaptics", "[:NAME]", "Phantom, Touch, Touch X by SensAble and 3D Systems", "OpenHaptics, the maker's library",
+     "a stand-in for that library", Bus::library, false, findPhantoms, openPhantom},
+    {"wooden", "[:BUS-PORT][,BUILD]", "WoodenHaptics with its mbed firmware", "libusb",
+     "simulated units behind the real libusb", Bus::usb, false, findWoodenHaptics, openWooden, isWooden},
+    {"falcon", "[:BUS-PORT]", "Novint Falcon", "libusb", "simulated units behind the real libusb", Bus::usb, false,
+     findFalcon, openFalcon},
+    {"pedal", ":PATH", "foot switches, joysticks, gamepads", "libevdev", "simulated devices behind the real libevdev",
+     Bus::input, false, findFeet},
+    {"simulated", "[:MODEL]", "Phantom Omni, Touch, Desktop, Premium 1.5 in numbers", "Molar",
+     "their published numbers", Bus::none, false, findSimulated},
+    {"mouse", "", "the mouse, a place without force", "the window", "itself"},
+}};
+
+constexpr std::string_view kFirstOnTheUsb = "usb";
+
+/// Behind the scheme and its colon.
+std::string placeIn(const std::string& address) {
+  const std::size_t colon = address.find(':');
+  return colon == std::string::npos ? std::string() : address.substr(colon + 1);
+}
+
+const DeviceKind* openedKindOf(const std::string& address) {
+  const std::string scheme = address.substr(0, address.find(':'));
+  const auto kind = std::ranges::find(kKinds, scheme, &DeviceKind::key);
+  if (kind == kKinds.end() || !kind->open || (kind->takes && !kind->takes(placeIn(address)))) return nullptr;
+  return &*kind;
+}
+
+std::string firstOnTheUsb() {
+  for (const DeviceKind& kind : kKinds)
+    if (kind.bus == Bus::usb)
+      for (const FoundDevice& found : kind.find())
+        if (!found.address.empty()) return found.address;
+  throw DeviceError("--device usb: no device that Molar drives is on the USB, see molar devices",
+                    DeviceTrouble::not_there);
+}
+
 }  // namespace
 
 std::span<const DeviceKind> deviceKinds() { return kKinds; }
 
 DeviceCatalogue findDevices() {
   DeviceCatalogue catalogue;
-  const auto add = [&](const std::function<std::vector<FoundDevice>()>& find) {
+  const auto add = [&](std::vector<FoundDevice> (*find)()) {
     try {
       for (FoundDevice& device : find()) catalogue.devices.push_back(std::move(device));
     } catch (const DeviceError& error) {
       catalogue.troubles.emplace_back(error.what());
     }
   };
-  add([] { return findOpenHaptics(); });
-  add(findPresent);
-  add(findWoodenHaptics);
-  add(findFalcon);
-  add(findFeet);
-  add(findSimulated);
+  add(findPresent);  // those that another driver than Molar's would drive
+  for (const DeviceKind& kind : kKinds)
+    if (kind.find) add(kind.find);
   return catalogue;
+}
+
+bool isDeviceAddress(const std::string& address) {
+  return address == kFirstOnTheUsb || openedKindOf(address) != nullptr;
+}
+
+OpenedDevice openDevice(const std::string& asked, const DeviceOptions& options) {
+  const std::string address = asked == kFirstOnTheUsb ? firstOnTheUsb() : asked;
+  const DeviceKind* const kind = openedKindOf(address);
+  if (!kind)
+    throw DeviceError("--device " + asked +
+                      ": it is not the address of a device, see molar devices for those that are there");
+  OpenedDevice opened = kind->open(placeIn(address), options);
+  opened.address = address;
+  return opened;
 }
 
 }  // namespace haptics

@@ -5,19 +5,15 @@
 #pragma once
 
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 
 #include "calibration/arm/arm_correction.h"
 #include "calibration/geometry/frames.h"
 #include "calibration/geometry/pose.h"
+#include "haptics/device/device_error.h"
 #include "haptics/motor_command.h"
 
 namespace haptics {
-
-struct DeviceError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 /// What a device measures, once a tick.
 struct HandleState {
@@ -68,7 +64,8 @@ struct DeviceCapabilities {
 struct Beat {
   double late_us = 0.0;      ///< from when it was due to when the device's thread woke
   std::uint64_t missed = 0;  ///< ticks that were due since the last one and did not happen
-  double gap_s = 0.0;        ///< by the clock since the tick before, where that is late; the loop measures it
+  std::int64_t at_ns = 0;    ///< when the state was sensed, by the clock that the ticks go by
+  double gap_s = 0.0;        ///< since the tick before, where that is late; the loop's
 };
 
 /// Whom a device serves. Called from the device's own thread only; must not allocate, lock, block or throw.

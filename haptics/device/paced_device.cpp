@@ -18,7 +18,7 @@ constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 
 PacedDevice::~PacedDevice() { assert(!thread_.joinable()); }
 
-void PacedDevice::start(DeviceServo& servo, double rate_Hz) {
+void PacedDevice::prepare(DeviceServo& servo, double rate_Hz) {
   assert(!started_);
   const DeviceCapabilities& can = capabilities();
   if (!(rate_Hz >= can.least_rate_Hz && rate_Hz <= can.most_rate_Hz))
@@ -26,14 +26,30 @@ void PacedDevice::start(DeviceServo& servo, double rate_Hz) {
                       " Hz, choose from " + std::to_string(std::lround(can.least_rate_Hz)) + " to " +
                       std::to_string(std::lround(can.most_rate_Hz)) + " Hz");
   started_ = true;
+  servo_ = &servo;
+  rate_Hz_ = rate_Hz;
   running_.store(true);
-  thread_ = std::thread([this, &servo, rate_Hz] { run(servo, rate_Hz); });
+}
+
+void PacedDevice::start(DeviceServo& servo, double rate_Hz) {
+  prepare(servo, rate_Hz);
+  thread_ = std::thread([this] { run(); });
+}
+
+void PacedDevice::startByHand(DeviceServo& servo, double rate_Hz) {
+  prepare(servo, rate_Hz);
+  by_hand_ = true;
+  servo.begin();
+  grid_.emplace(rate_Hz, by_hand_ns_);
 }
 
 void PacedDevice::stop() noexcept {
-  running_.store(false);
+  const bool was_running = running_.exchange(false);
   if (thread_.joinable()) thread_.join();
+  if (by_hand_ && was_running) drive(MotorCommand{});
 }
+
+std::int64_t PacedDevice::now_ns() const noexcept { return by_hand_ ? by_hand_ns_ : monotonic_ns(); }
 
 void PacedDevice::await(std::int64_t deadline_ns) noexcept {
   const timespec t{static_cast<time_t>(deadline_ns / kNsPerSecond), static_cast<long>(deadline_ns % kNsPerSecond)};
@@ -41,30 +57,33 @@ void PacedDevice::await(std::int64_t deadline_ns) noexcept {
   }
 }
 
-void PacedDevice::run(DeviceServo& servo, double rate_Hz) noexcept {
-  servo.begin();
-  const double dt_s = 1.0 / rate_Hz;
-  const auto period_ns = static_cast<std::int64_t>(std::llround(dt_s * static_cast<double>(kNsPerSecond)));
-  std::int64_t deadline_ns = monotonic_ns() + period_ns;
-  Beat beat;
+void PacedDevice::run() noexcept {
+  servo_->begin();
+  grid_.emplace(rate_Hz_, monotonic_ns());
   while (running_.load(std::memory_order_relaxed)) {
-    await(deadline_ns);
-    const std::int64_t woke_ns = monotonic_ns();
-    beat.late_us = std::max(0.0, 1e-3 * static_cast<double>(woke_ns - deadline_ns));
-    deadline_ns = std::min(deadline_ns, woke_ns);
-
-    // Switched off while it was made, a command is void.
-    const std::uint32_t times_off = times_off_.load();
-    const MotorCommand command = servo.tick(sense(dt_s), beat);
-    drive(times_off_.load() == times_off ? command : MotorCommand{});
-
-    // The next deadline of the grid that still lies ahead.
-    deadline_ns += period_ns;
-    const std::int64_t behind_ns = monotonic_ns() - deadline_ns;
-    beat.missed = behind_ns > 0 ? static_cast<std::uint64_t>(behind_ns / period_ns + 1) : 0;
-    deadline_ns += static_cast<std::int64_t>(beat.missed) * period_ns;
+    await(grid_->next_ns());
+    turn();
   }
   drive(MotorCommand{});
+}
+
+void PacedDevice::step(std::uint64_t ticks) noexcept {
+  assert(by_hand_);
+  for (; ticks > 0 && running_.load(std::memory_order_relaxed); --ticks) {
+    by_hand_ns_ = std::max(by_hand_ns_, grid_->next_ns());
+    turn();
+  }
+}
+
+void PacedDevice::turn() noexcept {
+  Beat beat = grid_->woke(now_ns());
+  // Switched off while it was made, a command is void.
+  const std::uint32_t times_off = times_off_.load();
+  const HandleState state = sense(1.0 / rate_Hz_);
+  beat.at_ns = now_ns();
+  const MotorCommand command = servo_->tick(state, beat);
+  drive(times_off_.load() == times_off ? command : MotorCommand{});
+  grid_->ticked(now_ns());
 }
 
 }  // namespace haptics

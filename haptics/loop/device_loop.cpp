@@ -6,8 +6,10 @@
 #include <cassert>
 #include <cmath>
 #include <string>
+#include <thread>
 #include <utility>
 
+#include "haptics/device/monotonic_clock.h"
 #include "haptics/safety/safety_limits.h"
 
 namespace haptics {
@@ -29,11 +31,12 @@ double threadTime_us() {
 
 }  // namespace
 
-DeviceLoop::DeviceLoop(HapticDevice& device, double rate_Hz, bool realtime)
-    : device_(device),
-      capabilities_(device.capabilities()),
+DeviceLoop::DeviceLoop(ServedDevice served, double rate_Hz, bool realtime)
+    : device_(served.device),
+      by_hand_(served.by_hand),
+      capabilities_(device_.capabilities()),
       rate_Hz_(rate_Hz),
-      realtime_(realtime),
+      realtime_(realtime && by_hand_ == nullptr),
       gate_(capabilities_) {
   if (!(rate_Hz >= 500.0 && rate_Hz <= 10'000.0))
     throw DeviceError("servo rate, " + std::to_string(std::lround(rate_Hz)) + " Hz, choose one from 500 to 10000 Hz");
@@ -44,19 +47,30 @@ DeviceLoop::~DeviceLoop() { assert(!started_ || phase_.load() != Phase::serving)
 void DeviceLoop::start() {
   assert(!started_);
   started_ = true;
+  if (by_hand_ != nullptr) return by_hand_->startByHand(*this, rate_Hz_);
   device_.start(*this, rate_Hz_);
   supervisor_.emplace(device_, ticks_);
 }
 
 void DeviceLoop::stop() noexcept {
   Phase serving = Phase::serving;
-  if (started_ && phase_.compare_exchange_strong(serving, Phase::letting_go)) {
-    const auto until = std::chrono::steady_clock::now() + kLongestGoodbye;
-    while (phase_.load() != Phase::over && std::chrono::steady_clock::now() < until)
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
+  if (started_ && phase_.compare_exchange_strong(serving, Phase::letting_go)) awaitGoodbye();
   if (supervisor_) supervisor_->end();
   device_.stop();
+}
+
+void DeviceLoop::awaitGoodbye() noexcept {
+  const std::int64_t until_ns = now_ns() + std::chrono::nanoseconds(kLongestGoodbye).count();
+  while (phase_.load() != Phase::over && now_ns() < until_ns) {
+    if (by_hand_ != nullptr)
+      by_hand_->step(1);
+    else
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+std::int64_t DeviceLoop::now_ns() const noexcept {
+  return by_hand_ != nullptr ? by_hand_->timeByHand_ns() : monotonic_ns();
 }
 
 void DeviceLoop::emergencyStop() noexcept {
@@ -76,29 +90,29 @@ void DeviceLoop::begin() noexcept {
 
 MotorCommand DeviceLoop::tick(const HandleState& state, const Beat& beat) noexcept {
   ticks_.fetch_add(1, std::memory_order_relaxed);
-  if (phase_.load(std::memory_order_relaxed) != Phase::serving) return letGo(state);
+  if (phase_.load(std::memory_order_relaxed) != Phase::serving) return letGo(state, beat);
 
-  const double began_us = threadTime_us();
+  const double began_us = by_hand_ != nullptr ? 0.0 : threadTime_us();
   Beat timed = beat;
-  const double since_s = gap_s();
+  const double since_s = gap_s(beat);
   timed.gap_s = since_s * rate_Hz_ > kLongestPunctual ? since_s : 0.0;
   const Answer wanted = answer(state, timed);
   last_ = gate_.admit(wanted.wrench_D, state.jacobian_D_mm, wanted.motors_on);
-  const double work_us = threadTime_us() - began_us;
+  const double work_us = by_hand_ != nullptr ? 0.0 : threadTime_us() - began_us;
   answered(work_us);
   statistics_.add(work_us, 1e6 / rate_Hz_, beat.late_us);
   statistics_.addMissed(beat.missed);
   return last_;
 }
 
-double DeviceLoop::gap_s() noexcept {
-  const Clock::time_point now = Clock::now(), last = std::exchange(last_tick_at_, now);
-  return last == Clock::time_point{} ? 0.0 : std::chrono::duration<double>(now - last).count();
+double DeviceLoop::gap_s(const Beat& beat) noexcept {
+  const std::int64_t last_ns = std::exchange(last_tick_ns_, beat.at_ns).value_or(beat.at_ns);
+  return 1e-9 * static_cast<double>(beat.at_ns - last_ns);
 }
 
-MotorCommand DeviceLoop::letGo(const HandleState& state) noexcept {
+MotorCommand DeviceLoop::letGo(const HandleState& state, const Beat& beat) noexcept {
   // A force that a pause or the supervisor has ended does not come back to be let down.
-  if (gap_s() > SafetyThresholds{}.longest_pause_s || !state.healthy) share_left_ = 0.0;
+  if (gap_s(beat) > SafetyThresholds{}.longest_pause_s || !state.healthy) share_left_ = 0.0;
   // Force and torque go down together, the one that needs longer at its limit.
   const Wrench<calibration::Device>& wrench = last_.wrench_D();
   const double seconds = std::max(glm::length(wrench.force_N.xyz) / kLetDown_N_per_s,

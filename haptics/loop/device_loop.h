@@ -1,8 +1,9 @@
 // A device at work: it ticks on its own thread, every tick asks for a wrench, and what the motor gate admits of it goes
 // back. Watches that ticks come, measures how punctual they are, lets the force down gently at the end. Who derives
 // says what is wanted. start() and stop() from one thread, emergencyStop() from any. Real-time priority, a core and
-// locked memory are asked for and reported; they are not required. Runs once: start, stop, and no second start. What
-// derives must stop() in its own destructor. Not the safety layer: that is the business of who answers.
+// locked memory are asked for and reported; they are not required. Runs once: start, stop, and no second start. By hand
+// (served_device) there is no thread, no supervisor and no clock: step() makes the ticks. What derives must stop() in
+// its own destructor. Not the safety layer: that is the business of who answers.
 #pragma once
 
 #include <atomic>
@@ -11,6 +12,7 @@
 
 #include "haptics/device/haptic_device.h"
 #include "haptics/loop/loop_statistics.h"
+#include "haptics/loop/served_device.h"
 #include "haptics/loop/supervisor.h"
 #include "haptics/safety/motor_gate.h"
 
@@ -19,7 +21,7 @@ namespace haptics {
 class DeviceLoop : private DeviceServo {
  public:
   /// Borrows the device. Throws DeviceError when the rate is outside 500..10000 Hz.
-  DeviceLoop(HapticDevice& device, double rate_Hz, bool realtime);
+  DeviceLoop(ServedDevice served, double rate_Hz, bool realtime);
   ~DeviceLoop() override;
   DeviceLoop(const DeviceLoop&) = delete;
   DeviceLoop& operator=(const DeviceLoop&) = delete;
@@ -29,6 +31,10 @@ class DeviceLoop : private DeviceServo {
   /// Lets the force down to zero within 0.02 s, at once after a pause or under a device in trouble; then stops the
   /// device: a frame of no force, then motors off.
   void stop() noexcept;
+
+  /// By hand alone, between start() and stop(), on their thread: so many ticks; and time in which none comes.
+  void step(std::uint64_t ticks) noexcept { by_hand_->step(ticks); }
+  void pass(std::chrono::nanoseconds time) noexcept { by_hand_->pass(time); }
 
   /// No force from this moment on, for good; the ticks go on. Only atomics: a signal handler may call it.
   void forbidForce() noexcept { gate_.shut(); }
@@ -47,22 +53,25 @@ class DeviceLoop : private DeviceServo {
   };
   /// The device's thread, once a tick; bounded.
   virtual Answer answer(const HandleState& state, const Beat& beat) noexcept = 0;
-  /// After each answer, with the CPU time it took.
+  /// After each answer, with the CPU time it took; by hand none is measured.
   virtual void answered(double /*work_us*/) noexcept {}
 
   const DeviceCapabilities& device() const { return capabilities_; }
   double rate_Hz() const { return rate_Hz_; }
+  /// Of the clock that the ticks go by. By hand: of the thread that steps.
+  std::int64_t now_ns() const noexcept;
 
  private:
-  using Clock = std::chrono::steady_clock;
   enum class Phase { serving, letting_go, over };
 
   void begin() noexcept override;
   MotorCommand tick(const HandleState& state, const Beat& beat) noexcept override;
-  MotorCommand letGo(const HandleState& state) noexcept;
-  double gap_s() noexcept;
+  MotorCommand letGo(const HandleState& state, const Beat& beat) noexcept;
+  void awaitGoodbye() noexcept;
+  double gap_s(const Beat& beat) noexcept;
 
   HapticDevice& device_;
+  DeviceInNumbers* const by_hand_;
   const DeviceCapabilities& capabilities_;
   const double rate_Hz_;
   const bool realtime_;
@@ -76,7 +85,7 @@ class DeviceLoop : private DeviceServo {
   // Of the device's thread.
   MotorCommand last_;
   double share_left_ = 1.0;
-  Clock::time_point last_tick_at_{};
+  std::optional<std::int64_t> last_tick_ns_;
 };
 
 }  // namespace haptics

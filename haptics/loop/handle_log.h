@@ -1,5 +1,6 @@
 // Every state of a handle, from the thread of its device to one reader, each with the time of its tick: hand_over_log.
-// Frame D; s of the steady clock since the log began.
+// Frame D; s since the log began, of the clock that the
+// ticks go by.
 #pragma once
 
 #include "haptics/device/haptic_device.h"

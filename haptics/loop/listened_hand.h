@@ -3,7 +3,6 @@
 // and stop() as DeviceLoop's. Of the newest state alone: passive_hand.
 #pragma once
 
-#include <chrono>
 #include <vector>
 
 #include "haptics/loop/device_loop.h"
@@ -14,7 +13,7 @@ namespace haptics {
 class ListenedHand final : public DeviceLoop {
  public:
   /// Borrows the device. Throws DeviceError when the rate is outside 500..10000 Hz.
-  ListenedHand(HapticDevice& device, double rate_Hz) : DeviceLoop(device, rate_Hz, false) { forbidForce(); }
+  ListenedHand(ServedDevice served, double rate_Hz) : DeviceLoop(served, rate_Hz, false) { forbidForce(); }
   ~ListenedHand() override { stop(); }
 
   /// All since the last call, believed or not, appended. Always the same thread.
@@ -23,12 +22,12 @@ class ListenedHand final : public DeviceLoop {
   std::uint64_t dropped() const { return log_.dropped(); }
 
  private:
-  Answer answer(const HandleState& state, const Beat&) noexcept override {
-    log_.push({std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count(), state});
+  Answer answer(const HandleState& state, const Beat& beat) noexcept override {
+    log_.push({1e-9 * static_cast<double>(beat.at_ns - began_ns_), state});
     return {{}, false};
   }
 
-  const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+  const std::int64_t began_ns_ = now_ns();
   HandleLog log_;
 };
 

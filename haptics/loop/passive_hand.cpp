@@ -16,17 +16,17 @@ bool isBelieved(const HandleState& state) {
 
 }  // namespace
 
-PassiveHand::PassiveHand(HapticDevice& device, double rate_Hz) : DeviceLoop(device, rate_Hz, false) { forbidForce(); }
+PassiveHand::PassiveHand(ServedDevice served, double rate_Hz) : DeviceLoop(served, rate_Hz, false) { forbidForce(); }
 
 std::optional<HandleState> PassiveHand::newest() {
   // A device that hangs brings nothing at all.
-  const auto now = std::chrono::steady_clock::now();
+  const std::int64_t now = now_ns();
   if (const std::uint64_t ticks = this->ticks(); ticks != ticks_read_) {
     ticks_read_ = ticks;
-    last_tick_ = now;
+    last_tick_ns_ = now;
   }
   const Seen& seen = newest_.read();
-  const bool hangs = std::chrono::duration<double>(now - last_tick_).count() > kLongestDoubt_s;
+  const bool hangs = 1e-9 * static_cast<double>(now - last_tick_ns_) > kLongestDoubt_s;
   if (!seen.any || hangs || seen.doubted_s > kLongestDoubt_s) return std::nullopt;
   return seen.state;
 }

@@ -1,11 +1,10 @@
 // A device that is only looked at: it says where a hand holds an instrument - mirror, retractor - and is never told a
 // force, its motors stay off. It touches nothing and cuts nothing. The device's thread brings the newest state, one
 // other thread reads it. Frame D, mm. Without real-time priority: that and its core belong to the hand that feels.
-// start() and stop() as DeviceLoop's.
+// start(), stop() and step() as DeviceLoop's.
 #pragma once
 
 #include <atomic>
-#include <chrono>
 #include <optional>
 
 #include "haptics/latest.h"
@@ -16,7 +15,7 @@ namespace haptics {
 class PassiveHand final : public DeviceLoop {
  public:
   /// Borrows the device. Throws DeviceError when the rate is outside 500..10000 Hz.
-  PassiveHand(HapticDevice& device, double rate_Hz);
+  PassiveHand(ServedDevice served, double rate_Hz);
   ~PassiveHand() override { stop(); }
 
   /// The last state that could be believed: healthy, calibrated, its pose a pose. None before there is one, and none
@@ -41,7 +40,7 @@ class PassiveHand final : public DeviceLoop {
 
   // Of the reader.
   std::uint64_t ticks_read_ = 0;
-  std::chrono::steady_clock::time_point last_tick_;
+  std::int64_t last_tick_ns_ = 0;
 };
 
 }  // namespace haptics

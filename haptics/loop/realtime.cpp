@@ -1,16 +1,23 @@
 #include "haptics/loop/realtime.h"
 
+#include <linux/capability.h>
 #include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cstddef>
+
+#include "haptics/device/thread_priority.h"
 
 namespace haptics {
 namespace {
 
-/// Below the kernel's own watchdogs and interrupt threads.
-constexpr int kBelowTheTop = 10;
+/// More than any tick uses.
+constexpr std::size_t kStack_bytes = 256 * 1024;
 
 std::optional<int> lastAllowedCore() {
   cpu_set_t allowed;
@@ -21,15 +28,40 @@ std::optional<int> lastAllowedCore() {
   return {};
 }
 
+bool mayPassMemoryLimits() {
+  __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
+  __user_cap_data_struct capabilities[_LINUX_CAPABILITY_U32S_3]{};
+  return syscall(SYS_capget, &header, capabilities) == 0 && (capabilities[0].effective & (1u << CAP_IPC_LOCK)) != 0;
+}
+
+bool isMemoryUnlimited() {
+  rlimit limit{};
+  return (getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY) || mayPassMemoryLimits();
+}
+
+/// Brings in what lies below the caller of this thread's stack, and keeps it there.
+void lockOwnStack() {
+  pthread_attr_t attributes;
+  if (pthread_getattr_np(pthread_self(), &attributes) != 0) return;
+  void* lowest = nullptr;
+  std::size_t size = 0, guard = 0;
+  if (pthread_attr_getstack(&attributes, &lowest, &size) == 0 && pthread_attr_getguardsize(&attributes, &guard) == 0) {
+    auto* const here = static_cast<std::byte*>(__builtin_frame_address(0));
+    auto* const begin = std::max(static_cast<std::byte*>(lowest) + guard, here - kStack_bytes);
+    if (begin < here) mlock(begin, static_cast<std::size_t>(here - begin));
+  }
+  pthread_attr_destroy(&attributes);
+}
+
 }  // namespace
 
 RealtimeGrants askForRealtime() noexcept {
   RealtimeGrants grants;
   sched_param param{};
-  param.sched_priority =
-      std::max(sched_get_priority_min(SCHED_FIFO), sched_get_priority_max(SCHED_FIFO) - kBelowTheTop);
+  param.sched_priority = kServoPriority;
   grants.priority = pthread_setschedparam(pthread_self(), SCHED_FIFO, &param) == 0;
-  grants.memory_locked = mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
+  grants.memory_locked = isMemoryUnlimited() && mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
+  if (!grants.memory_locked) lockOwnStack();
   // Without priority a single core is a prison: whoever runs there is waited for.
   if (const auto core = lastAllowedCore(); core && grants.priority) {
     cpu_set_t only;

@@ -2,13 +2,13 @@
 
 #include <chrono>
 
+#include "haptics/device/monotonic_clock.h"
+#include "haptics/loop/silence_watch.h"
+
 namespace haptics {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr auto kLook = std::chrono::milliseconds(10);
-constexpr auto kLongestSilence = std::chrono::milliseconds(50);
 
 }  // namespace
 
@@ -28,22 +28,15 @@ void Supervisor::end() noexcept {
 }
 
 void Supervisor::watch() noexcept {
-  std::uint64_t seen = ticks_.load(std::memory_order_relaxed);
-  Clock::time_point seen_at = Clock::now();
-  bool silent = false;
+  SilenceWatch watch;
+  bool was_silent = false;
   std::unique_lock lock(mutex_);
   while (!over_.wait_for(lock, kLook, [this] { return is_over_; })) {
-    const Clock::time_point now = Clock::now();
-    if (const std::uint64_t ticks = ticks_.load(std::memory_order_relaxed); ticks != seen) {
-      seen = ticks;
-      seen_at = now;
-      silent = false;
-    } else if (now - seen_at > kLongestSilence) {
-      // Again at every look: what a late tick may still have told the motors does not last.
-      device_.motorsOff();
-      if (!silent) trips_.fetch_add(1, std::memory_order_relaxed);
-      silent = true;
-    }
+    const bool silent = watch.isSilent(ticks_.load(std::memory_order_relaxed), monotonic_ns());
+    // Again at every look: what a late tick may still have told the motors does not last.
+    if (silent) device_.motorsOff();
+    if (silent && !was_silent) trips_.fetch_add(1, std::memory_order_relaxed);
+    was_silent = silent;
   }
 }
 

@@ -1,5 +1,5 @@
-// Watches from a thread of its own that ticks come, and switches the motors off when none came for 50 ms
-// (reference/devices 6.9). Looks every 10 ms. Says how often it had to. One other thread constructs, ends and destroys
+// Watches from a thread of its own that ticks come, and switches the motors off while they do not (silence_watch).
+// Looks every 10 ms by the machine's clock. Says how often it had to. One other thread constructs, ends and destroys
 // it.
 #pragma once
 

@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/geometry/finite.h"
+
 namespace haptics {
 namespace {
 
+using calibration::isFinite;
+
 /// Beyond the one a number is absurd; beyond the other the hand was put there.
 constexpr double kFarthest_mm = 10'000.0, kLongestMove_mm = 1'000.0;
-
-bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 glm::dvec3 handle_mm(const HandSample& hand) { return hand.X_PT.translation_mm + hand.arm_P_mm.xyz; }
 
@@ -18,9 +20,9 @@ bool usable(const HandSample& hand) {
   const double norm = glm::dot(hand.X_PT.rotation, hand.X_PT.rotation);
   const glm::dvec3& p = hand.X_PT.translation_mm;
   const glm::dmat3& J = hand.jacobian_P_mm;
-  return finite(p) && finite(hand.velocity_P_mm_per_s.xyz) && finite(hand.handle_velocity_P_mm_per_s.xyz) &&
+  return isFinite(p) && isFinite(hand.velocity_P_mm_per_s.xyz) && isFinite(hand.handle_velocity_P_mm_per_s.xyz) &&
          glm::length(hand.arm_P_mm.xyz) <= kFarthest_mm && glm::length(p) <= kFarthest_mm && std::isfinite(norm) &&
-         norm > 0.25 && norm < 4.0 && finite(J[0]) && finite(J[1]) && finite(J[2]);
+         norm > 0.25 && norm < 4.0 && isFinite(J[0]) && isFinite(J[1]) && isFinite(J[2]);
 }
 
 HandSample withUnitRotation(const HandSample& hand) {

@@ -2,12 +2,13 @@
 
 #include <cmath>
 
+#include "calibration/geometry/finite.h"
 #include "haptics/safety/joint_torques.h"
 
 namespace haptics {
 namespace {
 
-bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+using calibration::isFinite;
 
 /// Shortened to `most`; true when it had to be.
 bool shorten(glm::dvec3& v, double most) {
@@ -35,7 +36,7 @@ SafetyFilter::Served SafetyFilter::serve(const Wrench<calibration::Patient>& wan
                                          Fall fall, double dt_s, const glm::dmat3& jacobian_P_mm) noexcept {
   Served served;
   Wrench<calibration::Patient> target = wanted_P;
-  if (!finite(target.force_N.xyz) || !finite(target.torque_Nmm.xyz)) {
+  if (!isFinite(target.force_N.xyz) || !isFinite(target.torque_Nmm.xyz)) {
     served.faults = Fault::bad_force;
     target = {};
   }

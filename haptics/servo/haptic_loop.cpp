@@ -46,9 +46,9 @@ Command limitedTo(const DeviceCapabilities& device, double rate_Hz, const Comman
   return limited;
 }
 
-HapticLoop::HapticLoop(Servo& servo, HapticDevice& device, Latest<Command>& commands, TickLog& log,
-                       Latest<Tick>& newest, const LoopSettings& settings)
-    : DeviceLoop(device, settings.rate_Hz, settings.realtime),
+HapticLoop::HapticLoop(Servo& servo, ServedDevice served, Latest<Command>& commands, TickLog& log, Latest<Tick>& newest,
+                       const LoopSettings& settings)
+    : DeviceLoop(served, settings.rate_Hz, settings.realtime),
       servo_(servo),
       commands_(commands),
       log_(log),

@@ -37,7 +37,7 @@ Command limitedTo(const DeviceCapabilities& device, double rate_Hz, const Comman
 class HapticLoop final : public DeviceLoop {
  public:
   /// Throws DeviceError when the rate is outside 500..10000 Hz, a pose is not finite and rigid, or the arm not finite.
-  HapticLoop(Servo& servo, HapticDevice& device, Latest<Command>& commands, TickLog& log, Latest<Tick>& newest,
+  HapticLoop(Servo& servo, ServedDevice served, Latest<Command>& commands, TickLog& log, Latest<Tick>& newest,
              const LoopSettings& settings);
   ~HapticLoop() override { stop(); }
 

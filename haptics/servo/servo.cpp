@@ -92,6 +92,7 @@ Tick Servo::step(const HandSample& hand, const Command& wanted, double dt_s) noe
   tick.removed_mm3 = removed.removed_mm3 - returned_mm3;
   tick.strokes = static_cast<std::uint8_t>(undoing_.strokes().strokes());
   tick.bone_digest = bone_.digest();
+  tick.removed_so_far_mm3 = bone_.removedByTissue_mm3();
   return tick;
 }
 

@@ -2,8 +2,10 @@
 // session file, the status line and the renderer all read this. Frame P; forces act on the hand.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
+#include "assets/tissue.h"
 #include "haptics/safety/fault.h"
 #include "haptics/safety/hand_sample.h"
 #include "haptics/safety/readiness.h"
@@ -28,7 +30,9 @@ struct Tick {
   double depth_mm = 0.0;                                          ///< equivalent depth of the law at the proxy
   double removed_mm3 = 0.0;                                       ///< this tick; below 0 while bone comes back
   std::uint64_t bone_digest = 0;                                  ///< after this tick
-  std::uint8_t contact_tissue = 0;                                ///< label with the largest overlap
+  /// Since the start, by assets::Tissue, less what came back: a late reader misses no part of it.
+  std::array<double, assets::kTissueCount> removed_so_far_mm3{};
+  std::uint8_t contact_tissue = 0;  ///< label with the largest overlap
   bool drilling = false;
   Rest rest = Rest::none;                ///< why not
   std::uint8_t strokes = 0;              ///< that can be taken back

@@ -18,8 +18,8 @@
 #include "render/cpu/ray_painter.h"
 #include "render/eye_block.h"
 #include "render/gpu/gpu_error.h"
-#include "render/scene/canal_tube.h"
 #include "render/scene/guide_opacity.h"
+#include "render/scene/mandibular_canal_tube.h"
 #include "render/shaders/shared_numbers.glsl"
 #include "render/volume/transfer_function.h"
 #include "render/volume/volume_fields.h"
@@ -160,9 +160,9 @@ class CpuSceneRenderer final : public SceneRenderer {
 };
 
 void CpuSceneRenderer::setGuides(const Guides& guides) {
-  const assets::MeshModel tube = canalTube(guides.canal_P_mm, guides.canal_radius_mm);
-  meshes_.setModel(MeshScene::Model::canal, tube);
-  meshes_.setModel(MeshScene::Model::canal_through, tube);
+  const assets::MeshModel tube = mandibularCanalTube(guides.mandibular_canal_P_mm, guides.mandibular_canal_radius_mm);
+  meshes_.setModel(MeshScene::Model::mandibular_canal, tube);
+  meshes_.setModel(MeshScene::Model::mandibular_canal_through, tube);
   const GuideField field(fields_.grid(), guides);
   guides_.emplace(field.size());
   std::size_t n = 0;
@@ -188,10 +188,10 @@ void CpuSceneRenderer::prepare(const Frame& frame) {
                    .P_from_second = frame.X_PO.matrix(),
                    .second_visible = frame.second_visible,
                    .face_opacity = frame.layers.face_opacity,
-                   .canal_visible = frame.layers.canal,
+                   .mandibular_canal_visible = frame.layers.mandibular_canal,
                    .P_from_hand = frame.X_PT_at_hand.matrix(),
                    .ghost_opacity = ghostOpacity(frame),
-                   .canal_through_opacity = kCanalThrough,
+                   .mandibular_canal_through_opacity = kMandibularCanalThrough,
                    .window_eye_P = glm::vec3(any_eye.window_eye_P),
                    .window_site_P = glm::vec3(any_eye.window_site_P),
                    .window_mm = any_eye.window_site_P.w});

@@ -13,7 +13,7 @@ namespace {
 
 using Model = MeshScene::Model;
 
-bool isThrough(Model model) { return model == Model::canal_through || model == Model::ghost; }
+bool isThrough(Model model) { return model == Model::mandibular_canal_through || model == Model::ghost; }
 bool isInHand(Model model) { return model == Model::instrument || model == Model::second_instrument; }
 
 MeshBodyPart keptPart(const assets::MeshPart& part, Model model) {
@@ -38,8 +38,8 @@ Finish finishOf(Model model) {
       return Finish::skin;
     case Model::gum:
       return Finish::gum;
-    case Model::canal:
-    case Model::canal_through:
+    case Model::mandibular_canal:
+    case Model::mandibular_canal_through:
       return Finish::guide;
     case Model::instrument:
     case Model::second_instrument:
@@ -122,10 +122,10 @@ float MeshBodies::opacityOf(const MeshBody& body) const {
       return placement_.tool_visible ? 1.0f : 0.0f;
     case Model::second_instrument:
       return placement_.second_visible ? 1.0f : 0.0f;
-    case Model::canal:
-      return placement_.canal_visible ? 1.0f : 0.0f;
-    case Model::canal_through:
-      return placement_.canal_visible ? placement_.canal_through_opacity : 0.0f;
+    case Model::mandibular_canal:
+      return placement_.mandibular_canal_visible ? 1.0f : 0.0f;
+    case Model::mandibular_canal_through:
+      return placement_.mandibular_canal_visible ? placement_.mandibular_canal_through_opacity : 0.0f;
     case Model::ghost:
       return placement_.ghost_opacity;
   }
@@ -197,7 +197,7 @@ void MeshBodies::place(const MeshPlacement& placement) {
     ++still_revision_;
   placement_ = placement;
   has_still_ = has_moving_ = has_transparent_ = has_through_ = false;
-  const bool guided = placement.canal_visible || placement.ghost_opacity > 0.0f;
+  const bool guided = placement.mandibular_canal_visible || placement.ghost_opacity > 0.0f;
   const glm::dmat4 turned = glm::rotate(glm::dmat4(1.0), placement.bur_angle_rad, glm::dvec3(0.0, 0.0, 1.0));
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     MeshBody& body = bodies_[i];

@@ -139,7 +139,8 @@ Query MeshScene::Impl::queryFor(std::vector<Layer>* layers) const {
   Query query{.context = {}, .placement = &placement, .layers = layers};
   rtcInitIntersectContext(&query.context);
   query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  if (layers != nullptr || placement.window_mm > 0.0f || placement.canal_visible) query.context.filter = filter;
+  if (layers != nullptr || placement.window_mm > 0.0f || placement.mandibular_canal_visible)
+    query.context.filter = filter;
   return query;
 }
 

@@ -24,10 +24,10 @@ struct MeshPlacement {
   glm::dmat4 P_from_second{1.0};
   bool second_visible = false;
   float face_opacity = 1.0f;  ///< 0: no face
-  bool canal_visible = false;
+  bool mandibular_canal_visible = false;
   glm::dmat4 P_from_hand{1.0};  ///< of the ghost
   float ghost_opacity = 0.0f;
-  float canal_through_opacity = 0.0f;
+  float mandibular_canal_through_opacity = 0.0f;
   glm::vec3 window_eye_P{0.0f}, window_site_P{0.0f};
   float window_mm = 0.0f;  ///< 0: the face is whole
 };
@@ -35,7 +35,7 @@ struct MeshPlacement {
 class MeshScene {
  public:
   /// `canal` where it lies open and, `_through`, through bone and gum; `ghost`: the instrument at the hand, likewise.
-  enum class Model { face, gum, instrument, second_instrument, canal, canal_through, ghost };
+  enum class Model { face, gum, instrument, second_instrument, mandibular_canal, mandibular_canal_through, ghost };
 
   /// Throws GpuError if Embree can not be had.
   MeshScene();

@@ -59,7 +59,7 @@ inline Float fract(Float x) { return x - floor(x); }
 
 // mm to the canal's wall and to the planned cut.
 struct GuideDistances {
-  Float canal, cut;
+  Float mandibular_canal, cut;
 };
 
 inline GuideDistances guideDistances(const ShadeScene& scene, const Float3& index, Mask mask) {
@@ -80,7 +80,8 @@ inline GuideDistances guideDistances(const ShadeScene& scene, const Float3& inde
     constexpr float kPerUnit = (GUIDE_HIGH_MM - GUIDE_LOW_MM) / 65535.0f;
     return GUIDE_LOW_MM + kPerUnit * select(inside, mix(mix(p, q, fy), mix(r, s, fy), fz), splat(0.0f));
   };
-  return {distance(a.canal, b.canal, c.canal, d.canal), distance(a.cut, b.cut, c.cut, d.cut)};
+  return {distance(a.mandibular_canal, b.mandibular_canal, c.mandibular_canal, d.mandibular_canal),
+          distance(a.cut, b.cut, c.cut, d.cut)};
 }
 
 inline Float lineAt(Float distance_mm, float half_width_mm) {
@@ -118,7 +119,7 @@ inline Float3 guided(const ShadeScene& scene, const Float3& albedo, const Float3
   if (scene.shown_guides == 0) return albedo;
   const GuideDistances mm = guideDistances(scene, index, mask);
   Float3 colour = albedo;
-  if ((scene.shown_guides & GUIDE_CLEARANCE) != 0) colour = withClearance(colour, mm.canal, p_P);
+  if ((scene.shown_guides & GUIDE_CLEARANCE) != 0) colour = withClearance(colour, mm.mandibular_canal, p_P);
   if ((scene.shown_guides & GUIDE_PLAN) != 0) colour = withPlan(colour, mm.cut);
   return colour;
 }

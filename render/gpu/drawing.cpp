@@ -47,8 +47,6 @@ void setViewport(glm::ivec2 corner, glm::ivec2 size) { glViewport(corner.x, corn
 
 void finishStorageWrites() { glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT); }
 
-void finishWritesBeforeReads() { glTextureBarrier(); }
-
 void drawScreen() {
   const GlName nothing = newVertexArray();
   glBindVertexArray(nothing.get());

@@ -27,9 +27,6 @@ void apply(const DrawState& state);
 /// Restricts the following draws to a rectangle of the bound framebuffer, px from its lower left.
 void setViewport(glm::ivec2 corner, glm::ivec2 size);
 
-/// Makes what was drawn so far readable as a texture by the next draw into the same picture (ARB_texture_barrier).
-void finishWritesBeforeReads();
-
 /// Makes what shaders stored in buffers and images so far readable by the next draw.
 void finishStorageWrites();
 

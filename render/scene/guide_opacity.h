@@ -6,7 +6,7 @@
 namespace render {
 
 /// The canal through what covers it.
-inline constexpr float kCanalThrough = 0.45f;
+inline constexpr float kMandibularCanalThrough = 0.45f;
 
 /// The tool at the hand: comes up as the hand leaves the tool that the bone holds, from 0.1 to 0.5 mm.
 inline float ghostOpacity(const Frame& frame) {

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "assets/bone_surface.h"
+#include "assets/mesh/bone_surface.h"
 #include "render/gpu/program.h"
 #include "render/gpu/triangle_pool.h"
 #include "render/volume/volume_fields.h"

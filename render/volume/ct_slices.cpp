@@ -169,10 +169,10 @@ void drawOutline(Sheet& sheet, const std::vector<float>& distance_mm, const glm:
 
 void drawCanal(Sheet& sheet, const Layout& layout, const glm::dvec3& middle, const CtScan& scan) {
   const int edge = sheet.edge_px();
-  const double reach_mm = scan.canal_radius_mm + 3.0 * sheet.mm_per_px();
+  const double reach_mm = scan.mandibular_canal_radius_mm + 3.0 * sheet.mm_per_px();
   std::vector<float> distance_mm(static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge), kFar_mm);
-  for (std::size_t n = 0; n + 1 < scan.canal_P_mm.size(); ++n) {
-    const glm::dvec3 a = scan.canal_P_mm[n], b = scan.canal_P_mm[n + 1];
+  for (std::size_t n = 0; n + 1 < scan.mandibular_canal_P_mm.size(); ++n) {
+    const glm::dvec3 a = scan.mandibular_canal_P_mm[n], b = scan.mandibular_canal_P_mm[n + 1];
     const glm::dvec3 low = glm::min(a, b) - reach_mm, high = glm::max(a, b) + reach_mm;
     if (middle[layout.normal_axis] < low[layout.normal_axis] || middle[layout.normal_axis] > high[layout.normal_axis])
       continue;
@@ -188,7 +188,8 @@ void drawCanal(Sheet& sheet, const Layout& layout, const glm::dvec3& middle, con
         const glm::dvec3 from_a = sheet.place_P_mm(x, y) - a;
         const double t = std::clamp(glm::dot(from_a, way) / square, 0.0, 1.0);
         float& nearest = distance_mm[static_cast<std::size_t>(y * edge + x)];
-        nearest = std::min(nearest, static_cast<float>(glm::length(from_a - t * way) - scan.canal_radius_mm));
+        nearest =
+            std::min(nearest, static_cast<float>(glm::length(from_a - t * way) - scan.mandibular_canal_radius_mm));
       }
   }
   drawOutline(sheet, distance_mm, kCanal);

@@ -23,10 +23,10 @@ inline constexpr std::array kSlicePlanes{SlicePlane::axial, SlicePlane::coronal,
 
 /// What the scan adds to the bone that is drawn anyway.
 struct CtScan {
-  std::vector<std::int16_t> hounsfield;  ///< in the order of the grid
-  std::vector<std::uint8_t> solid;       ///< the same, before anything was carved
-  std::vector<glm::dvec3> canal_P_mm;    ///< centre line of the mandibular canal, or empty
-  double canal_radius_mm = 1.4;
+  std::vector<std::int16_t> hounsfield;           ///< in the order of the grid
+  std::vector<std::uint8_t> solid;                ///< the same, before anything was carved
+  std::vector<glm::dvec3> mandibular_canal_P_mm;  ///< centre line of the mandibular canal, or empty
+  double mandibular_canal_radius_mm = 1.4;
 };
 
 class CtSlices {

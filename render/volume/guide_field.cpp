@@ -52,11 +52,11 @@ GuideField::GuideField(const assets::VolumeGrid& grid, const Guides& guides)
           value = std::min(value, packed(distance_mm(first_P_mm + cell_mm * glm::dvec3(i, j, k))));
         }
   };
-  for (std::size_t n = 0; n + 1 < guides.canal_P_mm.size(); ++n) {
-    const glm::dvec3 &a = guides.canal_P_mm[n], &b = guides.canal_P_mm[n + 1];
-    const double reach_mm = guides.canal_radius_mm + kReach_mm;
+  for (std::size_t n = 0; n + 1 < guides.mandibular_canal_P_mm.size(); ++n) {
+    const glm::dvec3 &a = guides.mandibular_canal_P_mm[n], &b = guides.mandibular_canal_P_mm[n + 1];
+    const double reach_mm = guides.mandibular_canal_radius_mm + kReach_mm;
     write(glm::min(a, b) - reach_mm, glm::max(a, b) + reach_mm, 0,
-          [&](const glm::dvec3& p) { return distanceToSegment_mm(p, a, b) - guides.canal_radius_mm; });
+          [&](const glm::dvec3& p) { return distanceToSegment_mm(p, a, b) - guides.mandibular_canal_radius_mm; });
   }
   if (guides.cut) {
     const PlannedCut& cut = *guides.cut;

@@ -21,8 +21,8 @@ struct PlannedCut {
 };
 
 struct Guides {
-  std::vector<glm::dvec3> canal_P_mm;  ///< centre line; empty: not known
-  double canal_radius_mm = 1.4;
+  std::vector<glm::dvec3> mandibular_canal_P_mm;  ///< centre line; empty: not known
+  double mandibular_canal_radius_mm = 1.4;
   std::optional<PlannedCut> cut;
 };
 

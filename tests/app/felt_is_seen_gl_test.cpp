@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/brick_upload.h"
+#include "app/view/brick_upload.h"
 #include "assets/synthetic/jaw.h"
 #include "haptics/bone/carve.h"
 #include "haptics/contact/law.h"
@@ -30,7 +30,7 @@ const assets::Patient& patient() {
 
 /// From the cheek onto the bone beside the third molar.
 render::Frame fromTheCheek() {
-  const glm::dvec3 look_at = patient().site.third_molar_P_mm - glm::dvec3(0.0, 0.0, 6.0);
+  const glm::dvec3 look_at = patient().workplace_P_mm() - glm::dvec3(0.0, 0.0, 6.0);
   render::Frame frame;
   frame.rig = render::cameraRig(
       {.eye_P_mm = look_at + glm::dvec3(-150.0, -15.0, 40.0), .look_at_P_mm = look_at, .fov_y_rad = 0.08}, kPx);

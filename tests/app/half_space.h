@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "assets/image_file.h"
+#include "assets/scan/image_file.h"
 
 namespace app {
 

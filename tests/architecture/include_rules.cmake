@@ -1,6 +1,9 @@
 # Who may include whom, over every #include of the product. Run: cmake -DROOT=<project> -P include_rules.cmake
 #   calibration < assets < { haptics | render } < app; tests see all. Left never includes right.
 #   calibration: geometry < arm < the rig < fit < { webcam | verification } < { synthetic | record }.
+#   assets: root words < { mesh | scan | scenery } < { patient | instrument | import | synthetic }.
+#   app: text < { case | report | session } < { view | device } < station < options < controls < instructor
+#     < { procedure | evaluation } < rehearsal < commands; beside them { pattern | doctor | calibrate | psychophysics }.
 #   haptics: { device < safety < loop | bone, tool < contact } < servo.   render: gpu < { volume | scene | display } < the frame renderer.
 # A third party belongs to the folders named here and to their .cpp files alone; GLM is the shared vocabulary.
 cmake_minimum_required(VERSION 3.25)
@@ -16,9 +19,44 @@ set(calibration/verification ${calibration_words} calibration/fit/ calibration/v
 set(calibration/synthetic ${calibration_words} calibration/fit/ calibration/webcam/ calibration/verification/
     calibration/synthetic/)
 set(calibration/record ${calibration_words} calibration/fit/ calibration/verification/ calibration/record/)
+# Rooms of assets: plain types at the root, then what reads and writes, then what puts together.
+set(assets_words calibration/ assets/ct_volume.h assets/instruction_set.h assets/load_error.h assets/mesh.h
+    assets/operative_site.h assets/output_file.h assets/patient.h assets/planned_cut.h assets/solid_sample.h
+    assets/solid_voxels.h assets/tissue.h assets/tooth.h assets/vertex_normals.h assets/volume_grid.h)
+set(assets_root ${assets_words})
+foreach(room mesh scan scenery)
+  set(assets/${room} ${assets_words} assets/${room}/)
+endforeach()
+foreach(room patient instrument import synthetic)
+  set(assets/${room} ${assets_words} assets/mesh/ assets/scan/ assets/scenery/ assets/${room}/)
+endforeach()
 set(assets calibration/ assets/)
-set(app calibration/ assets/ haptics/ render/ app/)
-set(tests ${app} tests/)
+
+# Rooms of app: each sees itself and those before it; beside them, what commands alone see.
+set(floors calibration/ assets/ haptics/ render/)
+set(app/text ${floors} app/text/)
+set(case_report_session app/case/ app/report/ app/session/)
+foreach(room case report session)
+  set(app/${room} ${floors} app/text/ app/${room}/)
+endforeach()
+foreach(room view device)
+  set(app/${room} ${floors} app/text/ ${case_report_session} app/${room}/)
+endforeach()
+set(seen ${floors} app/text/ ${case_report_session} app/view/ app/device/)
+foreach(room station options controls instructor)
+  list(APPEND seen app/${room}/)
+  set(app/${room} ${seen})
+endforeach()
+foreach(room procedure evaluation)
+  set(app/${room} ${seen} app/${room}/)
+endforeach()
+set(app/rehearsal ${seen} app/procedure/ app/evaluation/ app/rehearsal/)
+foreach(room pattern doctor calibrate psychophysics)
+  set(app/${room} ${seen} app/procedure/ app/${room}/)
+endforeach()
+set(app/commands ${floors} app/)
+set(app_root ${floors} app/commands/)
+set(tests ${floors} app/ tests/)
 
 # Inside haptics and render a sub-folder names what it may see; the folder itself sees all of its own. Latest, by which
 # values cross threads, and the plain words of render lie beside their sub-folders for all.
@@ -39,7 +77,7 @@ foreach(part volume scene display)
 endforeach()
 # The CPU back-end stands beside gpu: of that folder it knows the exception alone.
 set(render/cpu ${render_words} render/gpu/gpu_error.h render/gpu/window_place.h render/cpu/ render/volume/ render/display/
-    render/scene/finish.h render/scene/canal_tube.h render/scene/guide_opacity.h render/eye_block.h
+    render/scene/finish.h render/scene/mandibular_canal_tube.h render/scene/guide_opacity.h render/eye_block.h
     render/scene_renderer.h render/render_options.h render/shaders/)
 
 # Third parties: a regular expression of what is included, and the folders that may.
@@ -76,12 +114,18 @@ function(starts_with_one_of result name)
   endforeach()
 endfunction()
 
-# What a file may see: the rule of its sub-folder if that has one, else of its top folder.
+# What a file may see: the rule of its sub-folder if that has one, else of its top folder. Where the root of a folder
+# has a rule of its own, every sub-folder needs one.
 macro(find_rule)
   string(REGEX MATCH "^[^/]+" top "${file}")
   string(REGEX MATCH "^[^/]+/[^/]+" rule "${file}")
-  if(NOT DEFINED ${rule})
+  if(NOT file MATCHES "/.*/" AND DEFINED ${top}_root)
+    set(rule ${top}_root)
+  elseif(NOT DEFINED ${rule})
     set(rule ${top})
+    if(DEFINED ${top}_root)
+      violation("lies in a folder that is no room of ${top} (tests/architecture/include_rules.cmake)")
+    endif()
   endif()
 endmacro()
 

@@ -2,7 +2,7 @@
 
 #include "haptics/latest.h"
 #include "haptics/servo/tick_log.h"
-#include "tests/app/real_session.h"
+#include "tests/app/session/real_session.h"
 #include "tests/architecture/forbid_blocking.h"
 
 namespace tests {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -133,6 +134,45 @@ TEST_F(Output, NeverReplacesAFolderThatHoldsSomethingElse) {
   write(at("p/thesis.tex"), "theirs");
   EXPECT_THAT(refusalOf([&] { OutputFolder(at("p"), true, {"x"}); }), testing::HasSubstr("thesis.tex"));
   EXPECT_EQ(read(at("p/thesis.tex")), "theirs");
+}
+
+/// As a killed program leaves it: nobody holds it, and it is older than what another may just have begun.
+void abandon(const fs::path& temporary) {
+  fs::last_write_time(temporary, fs::file_time_type::clock::now() - std::chrono::minutes(2));
+}
+
+TEST_F(Output, ClearsWhatAKilledProgramLeftOfTheSameTarget) {
+  write(at(".part-abcdefgh-a.nrrd"), "half");
+  fs::create_directory(at(".part-01234567-patient"));
+  write(at(".part-01234567-patient/volume.vdb"), "half");
+  abandon(at(".part-abcdefgh-a.nrrd"));
+  abandon(at(".part-01234567-patient"));
+  { OutputFile file(at("a.nrrd"), false); }
+  { OutputFolder folder(at("patient"), false, {}); }
+  EXPECT_EQ(entries(), 0);
+}
+
+TEST_F(Output, LeavesWhatIsBeingWrittenOrIsOfAnotherTarget) {
+  OutputFile at_work(at("a.nrrd"), false);
+  OutputFolder folder_at_work(at("patient"), false, {});
+  abandon(at_work.temporaryPath());
+  abandon(folder_at_work.temporaryPath());
+  for (const char* other :
+       {".part-abcdefgh-b.nrrd", ".part-abc-a.nrrd", ".part-ABCDEFGH-a.nrrd", "part-abcdefgh-a.nrrd"}) {
+    write(at(other), "another's");
+    abandon(at(other));
+  }
+  write(at(".part-zzzzzzzz-a.nrrd"), "just begun");
+  { OutputFile again(at("a.nrrd"), false); }
+  { OutputFolder again(at("patient"), false, {}); }
+  EXPECT_EQ(entries(), 7);
+}
+
+TEST(TemporaryMarks, AreTakenOutOfMessages) {
+  EXPECT_EQ(assets::withoutTemporaryMarks("picture out/.part-q2dm741g-o.png: no room, .part-00000000-x"),
+            "picture out/o.png: no room, x");
+  EXPECT_EQ(assets::withoutTemporaryMarks(".part-q2dm741g"), ".part-q2dm741g");
+  EXPECT_EQ(assets::withoutTemporaryMarks(".part-q2dm741G-o .part-"), ".part-q2dm741G-o .part-");
 }
 
 }  // namespace

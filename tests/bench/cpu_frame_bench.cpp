@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "app/dressed_renderer.h"
-#include "app/patient_source.h"
-#include "app/room.h"
-#include "assets/dental_mirror.h"
-#include "assets/patient_folder.h"
+#include "app/case/patient_source.h"
+#include "app/case/room.h"
+#include "app/view/dressed_renderer.h"
+#include "assets/instrument/dental_mirror.h"
+#include "assets/patient/patient_folder.h"
 #include "assets/synthetic/face.h"
 #include "render/frame_renderer.h"
 #include "tests/bench/cpu_time.h"
@@ -59,16 +59,16 @@ int main(int count, char** words) {
   assets::FacePose X_PF = assets::kFaceAxes_PF;
   if (options.contains("--face")) X_PF = app::dressWithFace(patient, options["--face"]);
   calibration::Rig rig = calibration::desktopRig(px, 531.0 / 4.0);
-  const calibration::Vector<calibration::Patient> eye_P{assets::surgeonEyeDirection(patient.site.tooth_fdi)};
+  const calibration::Vector<calibration::Patient> eye_P{assets::surgeonEyeDirection(patient.toothAtWork())};
   const calibration::Vector<calibration::Face> eye_F = assets::kFaceAxes_PF.inverse() * eye_P, up_F{{0.0, 1.0, 0.0}};
-  rig.X_WP = app::standPatient({patient.site.third_molar_P_mm}, X_PF * eye_F, X_PF * up_F);
+  rig.X_WP = app::standPatient({patient.workplace_P_mm()}, X_PF * eye_F, X_PF * up_F);
 
   const auto renderer = app::dressedRenderer(patient, {}, patient.ct.solid, {.backend = render::Backend::cpu});
   render::Frame frame;
   frame.rig = rig;
   frame.display = render::DisplayMode::side_by_side_full;
-  frame.site_P = {patient.site.third_molar_P_mm};
-  frame.X_PT = {glm::dquat(1, 0, 0, 0), patient.site.third_molar_P_mm + 8.0 * eye_P.xyz};
+  frame.site_P = {patient.workplace_P_mm()};
+  frame.X_PT = {glm::dquat(1, 0, 0, 0), patient.workplace_P_mm() + 8.0 * eye_P.xyz};
   frame.face_window_mm = options.contains("--face") ? 24.0 : 0.0;
   std::printf("both eyes %dx%d, %s, face %s\n", px.x, px.y,
               options.contains("--patient") ? options["--patient"].c_str() : "built-in patient",
@@ -106,14 +106,14 @@ int main(int count, char** words) {
   without("face faded by half", [](render::Frame& f) { f.layers.face_opacity = 0.5f; });
   without("with clearance and plan", [](render::Frame& f) { f.layers.clearance = f.layers.planned_cut = true; });
   without("with all guides and a held tool", [](render::Frame& f) {
-    f.layers.clearance = f.layers.planned_cut = f.layers.canal = f.layers.ghost_tool = true;
+    f.layers.clearance = f.layers.planned_cut = f.layers.mandibular_canal = f.layers.ghost_tool = true;
     f.X_PT_at_hand = f.X_PT;
     f.X_PT_at_hand.translation_mm.z -= 2.0;
   });
   renderer->setSecondInstrument(assets::dentalMirror());
   without("with a mirror in the other hand", [&](render::Frame& f) {
     f.second_visible = true;
-    f.X_PO = {glm::dquat(1, 0, 0, 0), patient.site.third_molar_P_mm + 20.0 * eye_P.xyz};
+    f.X_PO = {glm::dquat(1, 0, 0, 0), patient.workplace_P_mm() + 20.0 * eye_P.xyz};
   });
   renderer->setSecondInstrument({});
   renderer->setGuides({});

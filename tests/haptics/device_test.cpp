@@ -12,12 +12,12 @@ namespace {
 using calibration::Device;
 using calibration::Vector;
 
-TroughPlan plan() {
-  TroughPlan plan;
-  plan.site_D = {{10.0, -5.0, 3.0}};
-  plan.outward_D = {{0.0, 0.0, 1.0}};
-  plan.buccal_D = {{1.0, 0.0, 0.2}};
-  return plan;
+assets::PlannedCut plan() {
+  assets::PlannedCut cut;
+  cut.middle_P_mm = {10.0, -5.0, 3.0};
+  cut.outward_P = {0.0, 0.0, 1.0};
+  cut.aside_P = {1.0, 0.0, 0.2};
+  return cut;
 }
 
 TEST(VirtualHand, RestsWhereSpringAndForceBalance) {
@@ -79,19 +79,19 @@ TEST(ScriptedHand, SweepsTheTroughAndWithdraws) {
     const glm::dvec3 place = state.X_DH.translation_mm;
     EXPECT_LT(glm::length(place - last), 0.1);
     last = place;
-    lowest = std::min(lowest, place.z - R - plan().site_D.mm.z);
+    lowest = std::min(lowest, place.z - R - plan().middle_P_mm.z);
     if (!state.pedal) continue;
     drilled = true;
-    least_along = std::min(least_along, place.y - plan().site_D.mm.y);
-    most_along = std::max(most_along, place.y - plan().site_D.mm.y);
-    EXPECT_NEAR(place.x, plan().site_D.mm.x, 1e-9);
+    least_along = std::min(least_along, place.y - plan().middle_P_mm.y);
+    most_along = std::max(most_along, place.y - plan().middle_P_mm.y);
+    EXPECT_NEAR(place.x, plan().middle_P_mm.x, 1e-9);
   }
   EXPECT_TRUE(drilled);
   EXPECT_NEAR(lowest, -plan().depth_mm, 0.05);
   EXPECT_NEAR(most_along, 4.0, 0.2);
   EXPECT_NEAR(least_along, -4.0, 0.2);
   EXPECT_FALSE(state.pedal);
-  EXPECT_NEAR(last.z - plan().site_D.mm.z - R, plan().clearance_mm, 0.01);
+  EXPECT_NEAR(last.z - plan().middle_P_mm.z - R, CuttingManner{}.clearance_mm, 0.01);
 }
 
 TEST(ScriptedHand, HoldsTheShaftOutOfTheMouth) {
@@ -112,12 +112,23 @@ TEST(ScriptedHand, GivesWayToForce) {
 }
 
 TEST(ScriptedHand, RefusesAPlanWithoutDirection) {
-  TroughPlan bad = plan();
-  bad.buccal_D = bad.outward_D;
+  assets::PlannedCut bad = plan();
+  bad.aside_P = bad.outward_P;
   EXPECT_THROW(ScriptedHand{bad}, DeviceError);
   bad = plan();
   bad.depth_mm = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(ScriptedHand{bad}, DeviceError);
+}
+
+TEST(TroughPath, TakesThePlanOfThePatientIntoTheFrameOfTheDevice) {
+  const calibration::Pose<Device, calibration::Patient> X_DP{
+      glm::angleAxis(0.7, glm::normalize(glm::dvec3(1.0, -2.0, 0.5))), {5.0, 6.0, -7.0}};
+  const TroughPath in_P(plan()), in_D(plan(), {}, X_DP);
+  for (double t_s = 0.0; t_s < in_P.duration_s(); t_s += 0.1) {
+    const HandTarget a = in_P.at(t_s), b = in_D.at(t_s);
+    EXPECT_LT(glm::distance((X_DP * calibration::Point<calibration::Patient>{a.place_mm}).mm, b.place_mm), 1e-9);
+    EXPECT_EQ(a.pedal, b.pedal);
+  }
 }
 
 TEST(VirtualHand, MovesExactlyWhateverTheStep) {

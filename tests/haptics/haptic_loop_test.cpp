@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <limits>
-#include <thread>
+#include <memory>
+#include <mutex>
+#include <vector>
 
-#include "haptics/device/paced_device.h"
+#include "haptics/device/device_in_numbers.h"
 #include "haptics/device/simulated/mouse_device.h"
 #include "tests/haptics/phantom.h"
 
@@ -17,49 +19,65 @@ namespace {
 using namespace phantom;
 using namespace std::chrono_literals;
 
-/// Stands still under the surface, remembers the force it is given, and can be slow once.
-class PressedDevice final : public PacedDevice {
+/// Stands still under the surface and remembers what its motors are told.
+class PressedDevice : public DeviceInNumbers {
  public:
-  explicit PressedDevice(int slow_at = -1, std::chrono::milliseconds slowness = 30ms)
-      : slow_at_(slow_at), slowness_(slowness) {
-    capabilities_.peak_force_N = 0.5;
-  }
+  PressedDevice() { capabilities_.peak_force_N = 0.5; }
   ~PressedDevice() override { stop(); }
   const DeviceCapabilities& capabilities() const override { return capabilities_; }
   void setMotors() { capabilities_.has_motors = true; }
   void setPeakTorque(double peak_Nmm) { capabilities_.peak_torque_Nmm = peak_Nmm; }
 
-  HandleState sense(double) noexcept override {
-    HandleState state;
-    state.X_DH.translation_mm = {0.0, 0.0, 1.0};
-    return state;
-  }
+  HandleState exchange(const Wrench<calibration::Device>&, double) noexcept override { return state; }
   void drive(const MotorCommand& command) noexcept override {
     last_N = glm::length(command.wrench_D().force_N.xyz);
     last_Nmm = glm::length(command.wrench_D().torque_Nmm.xyz);
+    told_N.push_back(last_N);
     most_Nmm = std::max(most_Nmm, last_Nmm);
     most_N = std::max(most_N, last_N);
     motors_on = command.motorsOn();
-    if (calls_++ == slow_at_) std::this_thread::sleep_for(slowness_);
   }
-  void motorsOff() noexcept override {
-    PacedDevice::motorsOff();
-    times_off.fetch_add(1);
-  }
-  double last_N = 0.0, most_N = 0.0, last_Nmm = 0.0, most_Nmm = 0.0;  // read after stop()
+
+  HandleState state = [] {
+    HandleState pressed;
+    pressed.X_DH.translation_mm = {0.0, 0.0, 1.0};
+    return pressed;
+  }();
+  std::vector<double> told_N;
+  double last_N = 0.0, most_N = 0.0, last_Nmm = 0.0, most_Nmm = 0.0;
   bool motors_on = false;
-  std::atomic<int> times_off{0};
 
  private:
-  int calls_ = 0, slow_at_;
-  std::chrono::milliseconds slowness_;
   DeviceCapabilities capabilities_;
 };
 
-/// Until the servo has run that many ticks, however busy the machine is.
-void waitForTick(Latest<Tick>& newest, std::uint64_t index) {
-  for (int i = 0; i < 10'000 && newest.read().index < index; ++i) std::this_thread::sleep_for(2ms);
-}
+/// On its own thread: hangs in a tick until somebody switches its motors off.
+class HangingDevice final : public PressedDevice {
+ public:
+  ~HangingDevice() override { stop(); }
+  void drive(const MotorCommand& command) noexcept override {
+    PressedDevice::drive(command);
+    std::unique_lock lock(mutex_);
+    changed_.notify_all();
+    if (++calls_ == 20) changed_.wait_for(lock, 60s, [this] { return times_off_ > 0; });
+  }
+  void motorsOff() noexcept override {
+    PressedDevice::motorsOff();
+    const std::scoped_lock lock(mutex_);
+    ++times_off_;
+    changed_.notify_all();
+  }
+  /// False when that takes a minute.
+  bool awaitCalls(int calls) {
+    std::unique_lock lock(mutex_);
+    return changed_.wait_for(lock, 60s, [&] { return calls_ >= calls; });
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  int calls_ = 0, times_off_ = 0;
+};
 
 struct Bench {
   CarvedBone bone = halfSpace(4.0, 0.25).bone(1);
@@ -72,50 +90,114 @@ struct Bench {
     s.realtime = false;
     return s;
   }();
+
+  /// Started; ticks when it is stepped.
+  std::unique_ptr<HapticLoop> byHand(DeviceInNumbers& device) {
+    auto loop = std::make_unique<HapticLoop>(servo, ServedDevice::byHand(device), commands, log, newest, settings);
+    loop->start();
+    return loop;
+  }
 };
 
 TEST(HapticLoop, TicksLogsAndLetsGoWhenStopped) {
   Bench bench;
   PressedDevice device;
-  HapticLoop loop(bench.servo, device, bench.commands, bench.log, bench.newest, bench.settings);
-  loop.start();
-  waitForTick(bench.newest, 30);
-  loop.stop();
+  const auto loop = bench.byHand(device);
+  loop->step(30);
+  loop->stop();
   std::vector<Tick> ticks;
   bench.log.drainInto(ticks);
-  ASSERT_GT(ticks.size(), 10u);
+  ASSERT_EQ(ticks.size(), 30u);
   for (std::size_t i = 0; i < ticks.size(); ++i) EXPECT_EQ(ticks[i].index, i);
   EXPECT_EQ(bench.newest.read().index, ticks.back().index);
-  const LoopFigures figures = loop.figures();
-  EXPECT_EQ(figures.ticks, ticks.size());
-  EXPECT_GT(figures.work_p50_us, 0.0);
-  EXPECT_LE(figures.work_p50_us, figures.work_p99_us);
+  EXPECT_EQ(loop->figures().ticks, ticks.size());
   // The device's own limit binds, and the last thing it was told is no force.
   EXPECT_NEAR(device.most_N, 0.5, 1e-9);
   EXPECT_EQ(device.last_N, 0.0);
 }
 
-TEST(HapticLoop, ObeysNewCommands) {
+TEST(HapticLoop, TicksOnTheDevicesOwnThreadToo) {
   Bench bench;
-  PressedDevice device;
+  HangingDevice device;
   HapticLoop loop(bench.servo, device, bench.commands, bench.log, bench.newest, bench.settings);
   loop.start();
+  ASSERT_TRUE(device.awaitCalls(15));
+  loop.stop();
+  std::vector<Tick> ticks;
+  bench.log.drainInto(ticks);
+  for (std::size_t i = 0; i < ticks.size(); ++i) EXPECT_EQ(ticks[i].index, i);
+  const LoopFigures figures = loop.figures();
+  EXPECT_EQ(figures.ticks, ticks.size());
+  EXPECT_GT(figures.work_p50_us, 0.0);
+  EXPECT_LE(figures.work_p50_us, figures.work_p99_us);
+  EXPECT_EQ(device.last_N, 0.0);
+}
+
+TEST(HapticLoop, LetsTheForceDownGraduallyWhenStopped) {
+  Bench bench;
+  PressedDevice device;
+  const auto loop = bench.byHand(device);
+  loop->step(50);
+  const std::size_t before = device.told_N.size();
+  ASSERT_NEAR(device.last_N, 0.5, 1e-9);
+  loop->stop();
+  for (std::size_t i = before; i < device.told_N.size(); ++i) {
+    EXPECT_LE(device.told_N[i], device.told_N[i - 1]);
+    EXPECT_GE(device.told_N[i], device.told_N[i - 1] - 0.3 - 1e-9) << "300 N/s";
+  }
+  EXPECT_GT(device.told_N[before], 0.0);
+}
+
+TEST(HapticLoop, ByHandTakesNoTimeFromTheMachine) {
+  Bench bench;
+  PressedDevice device;
+  const auto loop = bench.byHand(device);
+  loop->step(200);
+  std::vector<Tick> ticks;
+  bench.log.drainInto(ticks);
+  ASSERT_EQ(ticks.size(), 200u);
+  for (const Tick& tick : ticks) {
+    EXPECT_EQ(tick.work_us, 0.0f);
+    EXPECT_EQ(tick.hand.gap_s, 0.0);
+  }
+  const LoopFigures figures = loop->figures();
+  EXPECT_EQ(figures.missed, 0u);
+  EXPECT_EQ(figures.latest_us, 0.0);
+  EXPECT_EQ(figures.work_max_us, 0.0);
+  EXPECT_EQ(figures.silences, 0u);
+  loop->stop();
+}
+
+TEST(HapticLoop, ObeysNewCommandsFromTheVeryNextTick) {
+  Bench bench;
+  PressedDevice device;
+  const auto loop = bench.byHand(device);
+  loop->step(5);
   Command command;
   command.serial = 7;
   bench.commands.publish(command);
-  for (int i = 0; i < 10'000 && bench.newest.read().command_serial != 7; ++i) std::this_thread::sleep_for(2ms);
+  EXPECT_NE(bench.newest.read().command_serial, 7u);
+  loop->step(1);
   EXPECT_EQ(bench.newest.read().command_serial, 7u);
+  loop->stop();
 }
 
 TEST(HapticLoop, CountsMissedDeadlinesAndGoesOn) {
   Bench bench;
-  PressedDevice device(20);
-  HapticLoop loop(bench.servo, device, bench.commands, bench.log, bench.newest, bench.settings);
-  loop.start();
-  waitForTick(bench.newest, 60);
-  loop.stop();
-  EXPECT_GE(loop.figures().missed, 28u);
-  EXPECT_GE(bench.newest.read().index, 60u);
+  PressedDevice device;
+  const auto loop = bench.byHand(device);
+  loop->step(20);
+  loop->pass(30ms);  // 29 deadlines and a late one
+  loop->step(1);
+  EXPECT_NEAR(bench.newest.read().hand.gap_s, 0.030, 1e-12);
+  EXPECT_NEAR(loop->figures().latest_us, 29'000.0, 1e-6);
+  loop->step(1);
+  EXPECT_EQ(loop->figures().missed, 29u);
+  EXPECT_EQ(bench.newest.read().hand.gap_s, 0.0) << "back on the grid";
+  loop->step(20);
+  EXPECT_EQ(loop->figures().missed, 29u);
+  EXPECT_EQ(loop->figures().ticks, 42u);
+  loop->stop();
 }
 
 TEST(HapticLoop, RefusesRatesAndPosesItCannotServe) {
@@ -143,10 +225,9 @@ TEST(HapticLoop, ServesTorqueAboutTheHandleToADeviceThatHasIt) {
     device.setPeakTorque(peak_Nmm);
     bench.settings.X_HT.translation_mm = {60.0, 0.0, 0.0};
     bench.settings.X_PD.translation_mm = {-60.0, 0.0, 0.0};
-    HapticLoop loop(bench.servo, device, bench.commands, bench.log, bench.newest, bench.settings);
-    loop.start();
-    waitForTick(bench.newest, 80);
-    loop.stop();
+    const auto loop = bench.byHand(device);
+    loop->step(80);
+    loop->stop();
     EXPECT_NEAR(device.most_Nmm, peak_Nmm, 1e-9);
     EXPECT_EQ(device.last_Nmm, 0.0);
   }
@@ -156,88 +237,57 @@ TEST(HapticLoop, RunsAtTenKilohertz) {
   Bench bench;
   bench.settings.rate_Hz = 10'000.0;
   PressedDevice device;
-  HapticLoop loop(bench.servo, device, bench.commands, bench.log, bench.newest, bench.settings);
-  loop.start();
-  waitForTick(bench.newest, 1000);
-  loop.stop();
-  EXPECT_GE(loop.figures().ticks, 1000u);
+  const auto loop = bench.byHand(device);
+  loop->step(1000);
+  EXPECT_EQ(loop->figures().ticks, 1000u);
   EXPECT_EQ(bench.newest.read().dt_s, 1e-4);
   EXPECT_NEAR(device.most_N, 0.5, 1e-9);
+  loop->stop();
 }
 
 TEST(HapticLoop, SupervisorSwitchesTheMotorsOffWhenTicksStop) {
   Bench bench;
-  PressedDevice device(20, 150ms);
+  HangingDevice device;
   HapticLoop loop(bench.servo, device, bench.commands, bench.log, bench.newest, bench.settings);
   loop.start();
-  waitForTick(bench.newest, 60);
-  EXPECT_GE(device.times_off.load(), 1);
-  EXPECT_GE(loop.figures().silences, 1u);
+  // Goes on only once its motors were switched off.
+  ASSERT_TRUE(device.awaitCalls(25));
   loop.stop();
+  EXPECT_GE(loop.figures().silences, 1u) << "remembered when it has stopped";
+  loop.stop();
+  EXPECT_GE(loop.figures().silences, 1u);
 }
-
-/// Ticks when a test says so.
-class TickedByHand final : public HapticDevice {
- public:
-  const DeviceCapabilities& capabilities() const override { return capabilities_; }
-  void start(DeviceServo& servo, double) override { servo_ = &servo; }
-  void stop() noexcept override {}
-  void motorsOff() noexcept override {}
-  double force_N(bool healthy = true) {
-    HandleState state;
-    state.X_DH.translation_mm = {0.0, 0.0, 1.0};
-    state.healthy = healthy;
-    return glm::length(servo_->tick(state, {}).wrench_D().force_N.xyz);
-  }
-
- private:
-  DeviceCapabilities capabilities_;
-  DeviceServo* servo_ = nullptr;
-};
 
 TEST(HapticLoop, BringsNoForceBackToLetItDown) {
   for (bool after_a_pause : {true, false}) {
     Bench bench;
-    TickedByHand device;
-    HapticLoop loop(bench.servo, device, bench.commands, bench.log, bench.newest, bench.settings);
-    loop.start();
-    double before_N = 0.0;
-    for (int i = 0; i < 50; ++i) before_N = device.force_N();
-    ASSERT_GT(before_N, 0.5);
-    std::thread stopping([&] { loop.stop(); });
-    // Long enough for stop() to have begun, and for the supervisor to have switched off.
-    std::this_thread::sleep_for(after_a_pause ? 100ms : 10ms);
-    EXPECT_EQ(device.force_N(after_a_pause), 0.0) << (after_a_pause ? "after a pause" : "in trouble");
-    EXPECT_EQ(device.force_N(), 0.0);
-    stopping.join();
-    EXPECT_EQ(device.force_N(), 0.0) << "stopped";
+    PressedDevice device;
+    const auto loop = bench.byHand(device);
+    loop->step(50);
+    const std::size_t before = device.told_N.size();
+    ASSERT_NEAR(device.last_N, 0.5, 1e-9);
+    if (after_a_pause) loop->pass(100ms);
+    device.state.healthy = after_a_pause;
+    loop->stop();
+    for (std::size_t i = before; i < device.told_N.size(); ++i)
+      EXPECT_EQ(device.told_N[i], 0.0) << (after_a_pause ? "after a pause" : "in trouble");
   }
-}
-
-TEST(HapticLoop, RemembersSilencesWhenItHasStopped) {
-  Bench bench;
-  PressedDevice device(20, 300ms);
-  HapticLoop loop(bench.servo, device, bench.commands, bench.log, bench.newest, bench.settings);
-  loop.start();
-  waitForTick(bench.newest, 40);
-  loop.stop();
-  EXPECT_GE(loop.figures().silences, 1u);
-  loop.stop();
-  EXPECT_GE(loop.figures().silences, 1u);
 }
 
 TEST(HapticLoop, GivesNoForceAfterAnEmergencyStopAndGoesOnTicking) {
   Bench bench;
   PressedDevice device;
-  HapticLoop loop(bench.servo, device, bench.commands, bench.log, bench.newest, bench.settings);
-  loop.start();
-  waitForTick(bench.newest, 30);
-  loop.emergencyStop();
-  const std::uint64_t then = bench.newest.read().index;
-  waitForTick(bench.newest, then + 20);
-  loop.stop();
+  const auto loop = bench.byHand(device);
+  loop->step(30);
+  ASSERT_GT(device.last_N, 0.0);
+  loop->emergencyStop();
+  loop->step(1);
+  EXPECT_EQ(device.last_N, 0.0);
+  loop->step(20);
+  EXPECT_EQ(bench.newest.read().index, 50u);
   EXPECT_EQ(device.last_N, 0.0);
   EXPECT_FALSE(device.motors_on);
+  loop->stop();
 }
 
 TEST(HapticLoop, PushesNobodyWhoWasNotArmedAndDrillsNothing) {
@@ -245,26 +295,24 @@ TEST(HapticLoop, PushesNobodyWhoWasNotArmedAndDrillsNothing) {
   Bench bench;
   PressedDevice device;
   device.setMotors();
-  HapticLoop loop(bench.servo, device, bench.commands, bench.log, bench.newest, bench.settings);
-  loop.start();
-  waitForTick(bench.newest, 200);
+  const auto loop = bench.byHand(device);
+  loop->step(200);
   EXPECT_EQ(bench.newest.read().state, SafetyState::ready);
-  loop.stop();
+  loop->stop();
   EXPECT_EQ(device.most_N, 0.0);
 }
 
 TEST(HapticLoop, RecordsAnEmergencyStopSoThatAReplayStopsToo) {
   Bench bench;
   PressedDevice device;
-  HapticLoop loop(bench.servo, device, bench.commands, bench.log, bench.newest, bench.settings);
-  loop.start();
-  waitForTick(bench.newest, 30);
-  loop.emergencyStop();
-  waitForTick(bench.newest, bench.newest.read().index + 20);
-  loop.stop();
+  const auto loop = bench.byHand(device);
+  loop->step(30);
+  loop->emergencyStop();
+  loop->step(20);
   EXPECT_TRUE(bench.newest.read().hand.stop_asked);
   EXPECT_EQ(bench.newest.read().state, SafetyState::off);
   EXPECT_EQ(glm::length(bench.newest.read().served_force_P_N.xyz), 0.0);
+  loop->stop();
 }
 
 TEST(LimitedTo, IsStrictWithADeviceThatHasMotorsWhateverWasAskedFor) {

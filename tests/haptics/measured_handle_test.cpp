@@ -2,13 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <limits>
 #include <mutex>
 #include <random>
-#include <thread>
 
-#include "haptics/device/paced_device.h"
+#include "haptics/device/device_in_numbers.h"
 #include "haptics/device/simulated/simulated_phantom.h"
 #include "haptics/servo/haptic_loop.h"
 #include "tests/haptics/phantom.h"
@@ -102,17 +100,17 @@ TEST(MeasuredHandle, RefusesAnArmThatIsNotFinite) {
 }
 
 /// Holds one state and remembers the largest force it was told.
-class HeldDevice final : public PacedDevice {
+class HeldDevice final : public DeviceInNumbers {
  public:
   explicit HeldDevice(const HandleState& state) : state_(state) {}
   ~HeldDevice() override { stop(); }
   const DeviceCapabilities& capabilities() const override { return capabilities_; }
-  HandleState sense(double) noexcept override { return state_; }
+  HandleState exchange(const Wrench<Device>&, double) noexcept override { return state_; }
   void drive(const MotorCommand& command) noexcept override {
     const glm::dvec3 force_N = command.wrench_D().force_N.xyz;
     if (glm::length(force_N) > glm::length(most_N)) most_N = force_N;
   }
-  glm::dvec3 most_N{0.0};  // read after stop()
+  glm::dvec3 most_N{0.0};
 
  private:
   HandleState state_;
@@ -142,10 +140,9 @@ TEST(HapticLoop, WithAMeasuredArmFeelsTheBoneWhereAndAsItIsSeen) {
     settings.X_HT = X_HT;
     settings.arm = measured;
     HeldDevice device(stateAt(arm, held_DH));
-    HapticLoop loop(servo, device, commands, log, newest, settings);
+    HapticLoop loop(servo, ServedDevice::byHand(device), commands, log, newest, settings);
     loop.start();
-    for (int i = 0; i < 10'000 && newest.read().index < 60; ++i)
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    loop.step(60);
     loop.stop();
     const Tick tick = newest.read();
     EXPECT_LT(glm::distance(tick.hand.X_PT.translation_mm, wanted_W_mm), 1e-6) << seed;

@@ -2,15 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <chrono>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <thread>
 #include <vector>
 
-#include "haptics/device/paced_device.h"
+#include "haptics/device/device_in_numbers.h"
 
 namespace haptics {
 namespace {
@@ -19,31 +16,26 @@ using namespace std::chrono_literals;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// Shows what the test says, and remembers what it is told.
-class ShownDevice final : public PacedDevice {
+/// Shows what the test says, and counts what it is told.
+class ShownDevice final : public DeviceInNumbers {
  public:
   ShownDevice() { capabilities_.has_motors = true; }
   ~ShownDevice() override { stop(); }
   const DeviceCapabilities& capabilities() const override { return capabilities_; }
+  HandleState exchange(const Wrench<calibration::Device>&, double) noexcept override { return shown; }
 
-  void show(const HandleState& state) { shown_.publish(state); }
-  std::atomic<bool> hangs{false};
-  std::atomic<int> drives{0}, pushes{0};
+  HandleState shown;
+  int drives = 0, pushes = 0;
 
  protected:
-  HandleState sense(double) noexcept override {
-    while (hangs.load()) std::this_thread::sleep_for(1ms);
-    return shown_.read();
-  }
   void drive(const MotorCommand& command) noexcept override {
     const auto& wrench = command.wrench_D();
     const bool is_nothing = glm::length(wrench.force_N.xyz) == 0.0 && glm::length(wrench.torque_Nmm.xyz) == 0.0;
-    if (command.motorsOn() || !is_nothing) pushes.fetch_add(1);
-    drives.fetch_add(1);
+    if (command.motorsOn() || !is_nothing) ++pushes;
+    ++drives;
   }
 
  private:
-  Latest<HandleState> shown_;
   DeviceCapabilities capabilities_;
 };
 
@@ -53,22 +45,21 @@ HandleState at(double x_mm) {
   return state;
 }
 
-/// However busy the machine is.
-bool soon(const std::function<bool()>& holds) {
-  for (int i = 0; i < 20'000 && !holds(); ++i) std::this_thread::sleep_for(1ms);
-  return holds();
-}
+/// A hand that is stepped, and its device.
+struct Stepped {
+  ShownDevice device;
+  PassiveHand hand{ServedDevice::byHand(device), 1000.0};
+  Stepped() { hand.start(); }
 
-void expectTicks(const PassiveHand& hand, std::uint64_t more) {
-  const std::uint64_t from = hand.ticks();
-  EXPECT_TRUE(soon([&] { return hand.ticks() >= from + more; }));
-}
+  void show(const HandleState& state, std::uint64_t ticks) {
+    device.shown = state;
+    hand.step(ticks);
+  }
+};
 
 TEST(PassiveHand, IsNeverToldAForceAndKeepsItsMotorsOff) {
-  ShownDevice device;
-  PassiveHand hand(device, 1000.0);
-  EXPECT_TRUE(hand.isForbidden());
-  hand.start();
+  Stepped stepped;
+  EXPECT_TRUE(stepped.hand.isForbidden());
   HandleState pressed = at(3.0);
   pressed.velocity_D_mm_per_s.xyz = {1e4, -1e4, 0.0};
   pressed.jacobian_D_mm = glm::dmat3(100.0);
@@ -77,33 +68,21 @@ TEST(PassiveHand, IsNeverToldAForceAndKeepsItsMotorsOff) {
   HandleState mad = pressed;
   mad.X_DH.translation_mm = glm::dvec3(kNan);
   mad.jacobian_D_mm = glm::dmat3(kNan);
-  for (const HandleState& state : {HandleState{}, pressed, mad, pressed}) {
-    device.show(state);
-    expectTicks(hand, 20);
-  }
-  hand.stop();
-  EXPECT_GT(device.drives.load(), 60);
-  EXPECT_EQ(device.pushes.load(), 0);
+  for (const HandleState& state : {HandleState{}, pressed, mad, pressed}) stepped.show(state, 20);
+  stepped.hand.stop();
+  EXPECT_GE(stepped.device.drives, 80);
+  EXPECT_EQ(stepped.device.pushes, 0);
 }
 
 TEST(PassiveHand, BringsTheNewestPose) {
-  ShownDevice device;
-  PassiveHand hand(device, 1000.0);
-  EXPECT_FALSE(hand.newest()) << "nothing was measured yet";
-  device.show(at(1.0));
-  hand.start();
-  EXPECT_TRUE(soon([&] { return hand.newest().has_value(); }));
-  double last_mm = 1.0;
-  for (double x_mm = 2.0; x_mm < 40.0; x_mm += 1.0) {
-    device.show(at(x_mm));
-    expectTicks(hand, 1);
-    const auto newest = hand.newest();
-    ASSERT_TRUE(newest);
-    EXPECT_GE(newest->X_DH.translation_mm.x, last_mm);
-    last_mm = newest->X_DH.translation_mm.x;
+  Stepped stepped;
+  EXPECT_FALSE(stepped.hand.newest()) << "nothing was measured yet";
+  for (double x_mm = 1.0; x_mm < 40.0; x_mm += 1.0) {
+    stepped.show(at(x_mm), 3);
+    ASSERT_TRUE(stepped.hand.newest());
+    EXPECT_EQ(stepped.hand.newest()->X_DH.translation_mm.x, x_mm);
   }
-  EXPECT_TRUE(soon([&] { return hand.newest()->X_DH.translation_mm.x == 39.0; }));
-  EXPECT_EQ(hand.troubles(), 0u);
+  EXPECT_EQ(stepped.hand.troubles(), 0u);
 }
 
 TEST(PassiveHand, KeepsTheLastPoseOverOneThatIsNone) {
@@ -114,69 +93,60 @@ TEST(PassiveHand, KeepsTheLastPoseOverOneThatIsNone) {
   bad[3].X_DH.rotation = glm::dquat(kNan, 0.0, 0.0, 0.0);
   bad[4].calibrated = false;
   for (const HandleState& state : bad) {
-    ShownDevice device;
-    PassiveHand hand(device, 1000.0);
-    device.show(at(5.0));
-    hand.start();
-    ASSERT_TRUE(soon([&] { return hand.newest().has_value(); }));
-    device.show(state);
-    ASSERT_TRUE(soon([&] { return hand.troubles() == 1; }));
-    // Not long enough for it to be given up; on a busy machine it may be.
-    EXPECT_EQ(hand.newest().value_or(at(5.0)).X_DH.translation_mm.x, 5.0);
-    expectTicks(hand, 5);
-    EXPECT_EQ(hand.troubles(), 1u) << "one trouble, however many ticks it lasts";
-    device.show(at(6.0));
-    EXPECT_TRUE(soon([&] {
-      const auto newest = hand.newest();
-      return newest && newest->X_DH.translation_mm.x == 6.0;
-    }));
+    Stepped stepped;
+    stepped.show(at(5.0), 1);
+    stepped.show(state, 400);
+    ASSERT_TRUE(stepped.hand.newest()) << "0.4 s of doubt";
+    EXPECT_EQ(stepped.hand.newest()->X_DH.translation_mm.x, 5.0);
+    EXPECT_EQ(stepped.hand.troubles(), 1u) << "one trouble, however many ticks it lasts";
+    stepped.show(at(6.0), 1);
+    ASSERT_TRUE(stepped.hand.newest());
+    EXPECT_EQ(stepped.hand.newest()->X_DH.translation_mm.x, 6.0);
   }
 }
 
 TEST(PassiveHand, ForgetsAnUnpluggedDeviceUntilItIsBack) {
-  ShownDevice device;
-  PassiveHand hand(device, 1000.0);
-  device.show(at(5.0));
-  hand.start();
-  ASSERT_TRUE(soon([&] { return hand.newest().has_value(); }));
+  Stepped stepped;
+  stepped.show(at(5.0), 1);
   HandleState gone = at(5.0);
   gone.healthy = false;
-  device.show(gone);
-  EXPECT_TRUE(soon([&] { return !hand.newest(); }));
-  EXPECT_EQ(hand.troubles(), 1u);
-  device.show(at(7.0));
-  EXPECT_TRUE(soon([&] { return hand.newest().has_value(); }));
-  device.show(gone);
-  EXPECT_TRUE(soon([&] { return hand.troubles() == 2; }));
-  hand.stop();
-  EXPECT_EQ(device.pushes.load(), 0);
+  stepped.show(gone, 499);
+  EXPECT_TRUE(stepped.hand.newest());
+  stepped.show(gone, 2);
+  EXPECT_FALSE(stepped.hand.newest()) << "half a second";
+  EXPECT_EQ(stepped.hand.troubles(), 1u);
+  stepped.show(at(7.0), 1);
+  EXPECT_TRUE(stepped.hand.newest());
+  stepped.show(gone, 1);
+  EXPECT_EQ(stepped.hand.troubles(), 2u);
+  stepped.hand.stop();
+  EXPECT_EQ(stepped.device.pushes, 0);
 }
 
 TEST(PassiveHand, ForgetsADeviceThatHangs) {
-  ShownDevice device;
-  PassiveHand hand(device, 1000.0);
-  device.show(at(5.0));
-  hand.start();
-  ASSERT_TRUE(soon([&] { return hand.newest().has_value(); }));
-  device.hangs = true;
-  EXPECT_TRUE(soon([&] { return !hand.newest(); }));
-  EXPECT_TRUE(soon([&] { return hand.figures().silences > 0; }));
-  device.hangs = false;
-  EXPECT_TRUE(soon([&] { return hand.newest().has_value(); }));
+  Stepped stepped;
+  stepped.show(at(5.0), 1);
+  ASSERT_TRUE(stepped.hand.newest());
+  stepped.hand.pass(499ms);
+  EXPECT_TRUE(stepped.hand.newest());
+  stepped.hand.pass(2ms);
+  EXPECT_FALSE(stepped.hand.newest());
+  stepped.hand.step(1);
+  EXPECT_TRUE(stepped.hand.newest());
 }
 
 TEST(PassiveHand, StopsForGoodAndTwice) {
-  ShownDevice device;
   {
-    PassiveHand hand(device, 1000.0);
-    hand.start();
-    expectTicks(hand, 3);
-    hand.stop();
-    const int drives = device.drives.load();
-    std::this_thread::sleep_for(20ms);
-    EXPECT_EQ(device.drives.load(), drives);
-    hand.stop();
+    Stepped stepped;
+    stepped.hand.step(3);
+    stepped.hand.stop();
+    const int drives = stepped.device.drives;
+    stepped.hand.step(20);
+    EXPECT_EQ(stepped.device.drives, drives);
+    stepped.hand.stop();
+    EXPECT_EQ(stepped.device.drives, drives);
   }
+  ShownDevice device;
   PassiveHand never_started(device, 1000.0);
   EXPECT_FALSE(never_started.newest());
   EXPECT_THROW(PassiveHand(device, 100.0), DeviceError);

@@ -27,13 +27,12 @@ HandSample handAt(const glm::dvec3& p, bool pedal = false) {
 std::vector<Tick> session(double seconds) {
   CarvedBone bone = halfSpace(12.0, 0.25).bone(1);
   Servo servo(bone);
-  TroughPlan plan;
-  plan.outward_D = {{0.0, 0.0, 1.0}};
-  plan.buccal_D = {{0.0, 1.0, 0.0}};
-  plan.bur_radius_mm = 1.5;
-  plan.clearance_mm = 2.0;
-  plan.depth_mm = 2.0;
-  ScriptedHand device(plan);
+  assets::PlannedCut cut;
+  cut.outward_P = {0.0, 0.0, 1.0};
+  cut.aside_P = {0.0, 1.0, 0.0};
+  cut.bur_radius_mm = 1.5;
+  cut.depth_mm = 2.0;
+  ScriptedHand device(cut, {.clearance_mm = 2.0});
   Command command;
   command.tool.head.radius_mm = 1.5;
   TickLog log(100'000);

@@ -51,11 +51,11 @@ HandleState stepped(SimulatedPhantom& device, const glm::dvec3& force_N, int tic
 }
 
 TroughPath trough() {
-  TroughPlan plan;
-  plan.outward_D = {{0.0, 0.4, 0.9}};
-  plan.buccal_D = {{1.0, 0.0, 0.0}};
-  plan.depth_mm = 3.75;  // an odd number of passes: it ends where it did not begin
-  return TroughPath(plan);
+  assets::PlannedCut cut;
+  cut.outward_P = {0.0, 0.4, 0.9};
+  cut.aside_P = {1.0, 0.0, 0.0};
+  cut.depth_mm = 3.75;  // an odd number of passes: it ends where it did not begin
+  return TroughPath(cut);
 }
 
 TEST(SimulatedPhantom, HasTheFiguresOfItsModel) {

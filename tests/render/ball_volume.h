@@ -24,7 +24,7 @@ inline assets::VolumeGrid smallGrid(glm::ivec3 size = glm::ivec3(64), double spa
 
 // Rims two voxels wide, linear in distance, so trilinear samples cross 0.5 on the sphere but for its curvature.
 inline assets::CtVolume ballVolume(const assets::VolumeGrid& grid, const std::vector<Ball>& balls) {
-  assets::CtVolume ct{grid, {}, std::vector<std::uint8_t>(grid.voxelCount(), 1), {}};
+  assets::CtVolume ct{grid, {}, std::vector<std::uint8_t>(grid.voxelCount(), 1), {}, {}};
   ct.solid.resize(grid.voxelCount());
   for (int k = 0; k < grid.size.z; ++k)
     for (int j = 0; j < grid.size.y; ++j)

@@ -37,7 +37,7 @@ struct Scene {
   /// Grey values by place; all of it solid where they reach 300 HU.
   explicit Scene(const std::function<double(glm::dvec3)>& hounsfield, glm::ivec3 size = {150, 160, 170}) {
     const assets::VolumeGrid grid = testing::smallGrid(size, 0.25);
-    ct = {grid, {}, {}, {}};
+    ct = {grid, {}, {}, {}, {}};
     for (int k = 0; k < size.z; ++k)
       for (int j = 0; j < size.y; ++j)
         for (int i = 0; i < size.x; ++i) {
@@ -153,8 +153,8 @@ TEST(CtSlices, MeasureTheBurWithTheSignOfItsInside) {
 
 TEST(CtSlices, OutlineTheCanal) {
   Scene scene([](glm::dvec3) { return 300.0; }, {60, 60, 60});
-  scene.scan.canal_P_mm = {{4.0, -20.0, 5.0}, {4.0, 0.0, 5.0}, {4.0, 20.0, 5.0}};
-  scene.scan.canal_radius_mm = 1.5;
+  scene.scan.mandibular_canal_P_mm = {{4.0, -20.0, 5.0}, {4.0, 0.0, 5.0}, {4.0, 20.0, 5.0}};
+  scene.scan.mandibular_canal_radius_mm = 1.5;
   const Picture coronal = scene.picture(SlicePlane::coronal);  // across it: a circle, 4 mm to the right, 5 mm up
   const auto is_canal = [&](double x, double y) { return beside(coronal, x, y).r > beside(coronal, x, y).b + 60; };
   for (const double turn : {0.5, 2.5, 4.5})

@@ -380,7 +380,7 @@ TEST(FrameRenderer, GuidesShowWhereTheyLieAndOnlyWhenAskedFor) {
     renderer.setGuides(
         {{{-15, -6, 0}, {15, -6, 0}}, 1.0, PlannedCut{{0, -9, 5}, {1, 0, 0}, {0, -1, 0}, 1.0, 1.0, 2.0}});
     EXPECT_EQ(seen().rgba, bare.rgba);
-    for (bool Layers::*layer : {&Layers::canal, &Layers::clearance, &Layers::planned_cut}) {
+    for (bool Layers::*layer : {&Layers::mandibular_canal, &Layers::clearance, &Layers::planned_cut}) {
       frame.layers.*layer = true;
       EXPECT_GT(pixelsThatDiffer(seen(), bare, 16), 30u);
       frame.layers.*layer = false;
@@ -438,7 +438,7 @@ TEST(FrameRenderer, TheCanalHidesBehindFaceAndInstrumentAlone) {
     const auto shining = [&] {
       std::array<Picture, 2> pictures;
       for (const bool canal : {false, true}) {
-        frame.layers.canal = canal;
+        frame.layers.mandibular_canal = canal;
         renderer.renderEye(frame, Eye::cyclopean);
         pictures[canal] = renderer.readEye(Eye::cyclopean);
       }

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render/scene/canal_tube.h"
+#include "render/scene/mandibular_canal_tube.h"
 #include "render/shaders/shared_numbers.glsl"
 
 namespace render {
@@ -52,7 +52,7 @@ TEST(GuideField, MeasuresAPlannedCutAsABallSweptOverARectangle) {
 
 TEST(CanalTube, LiesAtTheRadiusWithNormalsOutward) {
   const std::vector<glm::dvec3> line{{0, 0, 0}, {0, 0, 0}, {5, 0, 0}, {10, 0, 0}};
-  const assets::MeshModel tube = canalTube(line, 1.4);
+  const assets::MeshModel tube = mandibularCanalTube(line, 1.4);
   ASSERT_EQ(tube.parts.size(), 1u);
   const assets::MeshPart& part = tube.parts[0];
   int on_wall = 0;
@@ -71,7 +71,7 @@ TEST(CanalTube, LiesAtTheRadiusWithNormalsOutward) {
     const glm::dvec3 out = (at(0) + at(1) + at(2)) / 3.0 - glm::dvec3(5, 0, 0);
     EXPECT_TRUE(glm::length(normal) < 1e-9 || glm::dot(normal, out) > 0.0);
   }
-  EXPECT_TRUE(canalTube({}, 1.4).parts.empty());
+  EXPECT_TRUE(mandibularCanalTube({}, 1.4).parts.empty());
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ using testing::Random;
 // Sparse random matter: a few boxes of random value in a volume whose edges are no multiples of a brick.
 assets::CtVolume randomMatter(Random& random, glm::ivec3 size) {
   const assets::VolumeGrid grid = testing::smallGrid(size);
-  assets::CtVolume ct{grid, {}, {}, std::vector<std::uint8_t>(grid.voxelCount(), 0)};
+  assets::CtVolume ct{grid, {}, {}, std::vector<std::uint8_t>(grid.voxelCount(), 0), {}};
   const auto any = [&](int below) { return std::min(static_cast<int>(random.between(0.0, below)), below - 1); };
   for (int box = 0; box < 6; ++box) {
     const glm::ivec3 at{any(size.x), any(size.y), any(size.z)};

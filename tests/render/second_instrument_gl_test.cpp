@@ -1,9 +1,9 @@
 // What the other hand holds, in OpenGL and on the CPU.
 #include <gtest/gtest.h>
 
-#include "assets/dental_mirror.h"
-#include "assets/instrument.h"
-#include "assets/retractor.h"
+#include "assets/instrument/dental_mirror.h"
+#include "assets/instrument/instrument.h"
+#include "assets/instrument/retractor.h"
 #include "render/gpu/offscreen_context.h"
 #include "tests/render/drawn_scene.h"
 
@@ -80,13 +80,13 @@ TEST_P(SecondInstrument, IsHeldApartFromTheFirst) {
 }
 
 TEST_P(SecondInstrument, HidesTheCanalThatShowsThroughBone) {
-  renderer_.setGuides({.canal_P_mm = {{-8, 0, 0}, {8, 0, 0}}, .canal_radius_mm = 1.5, .cut = {}});
+  renderer_.setGuides({.mandibular_canal_P_mm = {{-8, 0, 0}, {8, 0, 0}}, .mandibular_canal_radius_mm = 1.5, .cut = {}});
   renderer_.setSecondInstrument(assets::dentalMirror());
   frame_.second_visible = true;
   const auto shining = [&] {
     std::array<Picture, 2> pictures;
     for (const bool canal : {false, true}) {
-      frame_.layers.canal = canal;
+      frame_.layers.mandibular_canal = canal;
       renderer_.renderEye(frame_, Eye::cyclopean);
       pictures[canal] = renderer_.readEye(Eye::cyclopean);
     }

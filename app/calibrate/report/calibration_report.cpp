@@ -8,7 +8,7 @@
 #include "app/calibrate/report/history_view.h"
 #include "app/calibrate/report/report_tables.h"
 #include "app/calibrate/report/residual_views.h"
-#include "app/calibrate/report/svg.h"
+#include "app/report/svg.h"
 #include "calibration/fit/expected_error_map.h"
 #include "calibration/record/drift_review.h"
 

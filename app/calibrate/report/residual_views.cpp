@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/calibrate/report/svg.h"
-#include "app/chart/axis_ticks.h"
+#include "app/report/axis_ticks.h"
+#include "app/report/svg.h"
 
 namespace app {
 namespace {

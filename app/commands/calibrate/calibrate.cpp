@@ -7,8 +7,8 @@
 #include <CLI/CLI.hpp>
 
 #include "app/calibrate/calibration_text.h"
-#include "app/usage_error.h"
-#include "app/written_text.h"
+#include "app/text/usage_error.h"
+#include "app/text/written_text.h"
 #include "calibration/fit/touches_file.h"
 #include "calibration/record/rig_file.h"
 #include "calibration/record/utc.h"

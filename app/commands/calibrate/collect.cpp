@@ -8,9 +8,9 @@
 #include "app/calibrate/base_rig.h"
 #include "app/calibrate/calibration_text.h"
 #include "app/commands/calibrate/calibrate.h"
-#include "app/commands/number_range.h"
-#include "app/usage_error.h"
-#include "app/written_text.h"
+#include "app/text/number_range.h"
+#include "app/text/usage_error.h"
+#include "app/text/written_text.h"
 #include "calibration/fit/touches_file.h"
 #include "calibration/geometry/units.h"
 

@@ -8,7 +8,7 @@
 #include "app/calibrate/base_rig.h"
 #include "app/calibrate/calibration_text.h"
 #include "app/commands/calibrate/calibrate.h"
-#include "app/usage_error.h"
+#include "app/text/usage_error.h"
 #include "calibration/fit/touches_file.h"
 
 namespace app {

@@ -7,7 +7,7 @@
 #include "app/calibrate/base_rig.h"
 #include "app/calibrate/report/calibration_report.h"
 #include "app/commands/calibrate/calibrate.h"
-#include "app/written_text.h"
+#include "app/text/written_text.h"
 #include "calibration/record/later_check.h"
 #include "calibration/record/utc.h"
 

@@ -5,9 +5,9 @@
 #include <CLI/CLI.hpp>
 
 #include "app/commands/calibrate/calibrate.h"
-#include "app/commands/number_range.h"
-#include "app/usage_error.h"
-#include "app/written_text.h"
+#include "app/text/number_range.h"
+#include "app/text/usage_error.h"
+#include "app/text/written_text.h"
 #include "calibration/fit/touches_file.h"
 #include "calibration/record/rig_file.h"
 #include "calibration/synthetic/synthetic_rig.h"

@@ -9,12 +9,13 @@
 #include "app/calibrate/base_rig.h"
 #include "app/calibrate/webcam_show.h"
 #include "app/calibrate/wizard_show.h"
-#include "app/practice_device.h"
-#include "app/rig_choice.h"
-#include "app/usage_error.h"
-#include "app/view_option.h"
+#include "app/device/practice_device.h"
+#include "app/options/view_option.h"
+#include "app/station/rig_choice.h"
+#include "app/text/usage_error.h"
 #include "calibration/webcam/camera_file.h"
 #include "calibration/webcam/webcam_source.h"
+#include "haptics/device/device_catalogue.h"
 
 namespace app {
 namespace {
@@ -60,11 +61,11 @@ WizardOption::Stylus WizardOption::stylus(Measuring& measuring) const {
     hand = deviceAtHand(device_, nullptr);
   } else if (robot_) {
     throw UsageError("--robot: it holds a practice stylus only, use --device practice:D");
-  } else if (namesRealDevice(device_)) {
-    DeviceOptions options;
+  } else if (haptics::isDeviceAddress(device_)) {
+    haptics::DeviceOptions options;
     options.tell = tell;
     options.given_up = [] { return interrupted != 0; };
-    stylus.opened = openDevice(device_, options);
+    stylus.opened = haptics::openDevice(device_, options);
     hand = deviceAtHand(device_, &stylus.opened.device->capabilities());
     if (stylus.opened.device->capabilities().arm_model.empty())
       throw UsageError("--device " + device_ + ": the arm of a " + hand.model +

@@ -8,11 +8,11 @@
 
 #include "app/calibrate/calibrated_rig.h"
 #include "app/calibrate/wizard_outcome.h"
-#include "app/device_choice.h"
-#include "app/display_option.h"
+#include "app/options/display_option.h"
 #include "calibration/record/rig_store.h"
 #include "calibration/synthetic/synthetic_rig.h"
 #include "calibration/webcam/webcam_file.h"
+#include "haptics/device/opened_device.h"
 
 namespace CLI {
 class App;
@@ -51,7 +51,7 @@ class WizardOption {
 
  private:
   struct Stylus {
-    OpenedDevice opened;  ///< not started; no device: practice
+    haptics::OpenedDevice opened;  ///< not started; no device: practice
     std::optional<calibration::SyntheticRig> practice;
     std::string model;  ///< key of phantom_models
   };

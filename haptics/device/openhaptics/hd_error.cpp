@@ -60,6 +60,21 @@ const HdErrorMeaning& meaningOf(std::uint32_t code) {
   return place < kMeanings.size() ? kMeanings[place] : kUnknown;
 }
 
+DeviceTrouble troubleOf(std::uint32_t code) {
+  switch (code) {
+    case 0x0104:
+    case 0x0302:
+      return DeviceTrouble::not_there;
+    case 0x0301:
+    case 0x0303:
+      return DeviceTrouble::busy;
+    case 0x0600:
+      return DeviceTrouble::no_driver;
+    default:
+      return DeviceTrouble::faulty;
+  }
+}
+
 std::string inWords(const hd::ErrorInfo& error) {
   char numbers[64];
   std::snprintf(numbers, sizeof numbers, "HD 0x%04X (internal %d)", error.code, error.internal_code);
@@ -101,7 +116,7 @@ hd::ErrorInfo HdErrors::firstFatal() const {
 void throwOnHdError(const HdFunctions& hd, const std::string& what) {
   HdErrors errors;
   const HdDrained drained = errors.drain(hd);
-  if (drained.count > 0) throw DeviceError(what + ", " + inWords(drained.first));
+  if (drained.count > 0) throw DeviceError(what + ", " + inWords(drained.first), troubleOf(drained.first.code));
 }
 
 }  // namespace haptics

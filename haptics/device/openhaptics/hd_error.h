@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 
+#include "haptics/device/device_error.h"
 #include "haptics/device/openhaptics/hd_library.h"
 
 namespace haptics {
@@ -30,6 +31,8 @@ struct HdErrorMeaning {
 std::span<const HdErrorMeaning> hdErrorMeanings();
 /// An unknown code counts as fatal.
 const HdErrorMeaning& meaningOf(std::uint32_t code);
+/// As the other back-ends name it.
+DeviceTrouble troubleOf(std::uint32_t code);
 /// "HD 0x0302 (internal 17): the connection to the device broke; …"
 std::string inWords(const hd::ErrorInfo& error);
 

@@ -167,10 +167,11 @@ std::string loadFailureInWords(const std::string& file, const std::string& linke
 
 HdLibrary::HdLibrary(const std::string& path) {
   const Opened opened = openLibrary(path);
-  if (!opened.library) throw DeviceError(opened.why_not);
+  if (!opened.library) throw DeviceError(opened.why_not, DeviceTrouble::no_driver);
   path_ = opened.path;
   if (const auto missing = resolve(opened.library, functions_))
-    throw DeviceError("OpenHaptics, " + path_ + " lacks " + *missing + ": install OpenHaptics 3.0 or newer");
+    throw DeviceError("OpenHaptics, " + path_ + " lacks " + *missing + ": install OpenHaptics 3.0 or newer",
+                      DeviceTrouble::no_driver);
 }
 
 bool HdLibrary::claimScheduler() { return !scheduler_is_taken.exchange(true); }

@@ -58,10 +58,12 @@ HdSession::HdSession(const HdFunctions& hd, const std::string& configuration)
   const HdDrained drained = errors.drain(hd);
   if (id_ != hd::kNoDevice && !drained.fatal) return;
   if (id_ != hd::kNoDevice) close();
-  throw DeviceError(name_ + ", " +
-                    (drained.count > 0 ? inWords(drained.first)
-                                       : std::string("it does not start and the library gives no reason; check cable, "
-                                                     "power and the configuration's name")));
+  throw DeviceError(
+      name_ + ", " +
+          (drained.count > 0 ? inWords(drained.first)
+                             : std::string("it does not start and the library gives no reason; check cable, "
+                                           "power and the configuration's name")),
+      drained.count > 0 ? troubleOf(drained.first.code) : DeviceTrouble::not_there);
 }
 
 void HdSession::close() noexcept {
@@ -93,8 +95,9 @@ HdDescription describe(const HdFunctions& hd) {
 
   can.peak_force_N = number(hd, hd::kNominalMaxForce, 0.0);
   if (!(can.peak_force_N > 0.0 && can.peak_force_N < kMostBelievableForce_N))
-    throw DeviceError("OpenHaptics, " + can.model +
-                      ": it does not tell how strong its motors are; update its driver from 3D Systems");
+    throw DeviceError(
+        "OpenHaptics, " + can.model + ": it does not tell how strong its motors are; update its driver from 3D Systems",
+        DeviceTrouble::no_driver);
   can.continuous_force_N =
       std::min(number(hd, hd::kNominalMaxContinuousForce, 0.25 * can.peak_force_N), can.peak_force_N);
   if (model.geometry) can.peak_joint_torque_Nmm = glm::dvec3(model.is_omni ? kJointTorqueInUse_Nmm : 0.0);

@@ -43,7 +43,8 @@ void OpenHaptics::start(DeviceServo& servo, double rate_Hz) {
                       std::to_string(std::lround(can.least_rate_Hz)) + " to " +
                       std::to_string(std::lround(can.most_rate_Hz)) + " Hz");
   if (!HdLibrary::claimScheduler())
-    throw DeviceError(session_.name() + ": another device of OpenHaptics runs already, stop that one first");
+    throw DeviceError(session_.name() + ": another device of OpenHaptics runs already, stop that one first",
+                      DeviceTrouble::busy);
   has_scheduler_ = started_ = true;
   servo_ = &servo;
   rate_Hz_ = rate_Hz;
@@ -139,10 +140,11 @@ unsigned OpenHaptics::serve() noexcept {
   if (!begun_) servo_->begin();
   begun_ = true;
 
-  const Beat beat = beat_.next(monotonic_ns());
+  Beat beat = beat_.next(monotonic_ns());
   const std::uint32_t times_off = times_off_.load();
   hd_.begin_frame(session_.id());
   const HandleState state = sense();
+  beat.at_ns = monotonic_ns();
   const MotorCommand command = servo_->tick(state, beat);
   // Switched off since the last tick or while it was made, a command is void; so is one for a place not believed.
   const bool is_void =

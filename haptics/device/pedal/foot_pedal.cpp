@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <memory>
 #include <optional>
+#include <string_view>
 
 #include "haptics/device/haptic_device.h"
 
@@ -17,6 +18,9 @@ namespace haptics {
 namespace {
 
 constexpr int kBetweenLooks_ms = 500;
+/// Said where nothing can be allocated: there is room for it from the beginning.
+constexpr std::string_view kLastWords =
+    "the pedal is read no more, memory or handles ran out: close other programs and start again";
 
 struct Freed {
   void operator()(libevdev* device) const { libevdev_free(device); }
@@ -99,7 +103,9 @@ class FootPedal::Reading {
 FootPedal::FootPedal(const PedalChoice& choice, InputFolders folders) : choice_(choice), folders_(std::move(folders)) {
   for (const PedalBinding& binding : choice_.mapping) chosen_.push_back(switchOf(binding));
   wake_fd_ = eventfd(0, EFD_CLOEXEC);
-  if (wake_fd_ < 0) throw DeviceError("pedal: the system has no file handles left, close other programs");
+  if (wake_fd_ < 0)
+    throw DeviceError("pedal: the system has no file handles left, close other programs", DeviceTrouble::no_means);
+  described_.reserve(kLastWords.size());
   describe("no pedal found yet");
   thread_ = std::thread([this] { run(); });
 }
@@ -119,7 +125,7 @@ std::string FootPedal::described() const {
 
 void FootPedal::describe(std::string text) {
   const std::lock_guard lock(mutex_);
-  described_ = std::move(text);
+  described_.assign(text);
 }
 
 void FootPedal::publish(HandActions held) {
@@ -129,7 +135,8 @@ void FootPedal::publish(HandActions held) {
   held_.store(held.bits, std::memory_order_relaxed);
 }
 
-void FootPedal::run() {
+/// Nothing that is not handled leaves the thread: what can not go on ends with a word.
+void FootPedal::run() try {
   std::unique_ptr<Reading> reading;
   for (;;) {
     if (!reading) {
@@ -154,6 +161,11 @@ void FootPedal::run() {
     reading.reset();
     describe("the pedal was unplugged");
   }
+} catch (...) {
+  publish({});
+  there_.store(false);
+  const std::lock_guard lock(mutex_);
+  described_.assign(kLastWords);
 }
 
 }  // namespace haptics

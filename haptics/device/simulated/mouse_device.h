@@ -3,7 +3,7 @@
 // Latest. No allocation after construction. Not a force display: nobody feels it but the picture shows it.
 #pragma once
 
-#include "haptics/device/simulated/device_in_numbers.h"
+#include "haptics/device/device_in_numbers.h"
 #include "haptics/device/simulated/virtual_hand.h"
 #include "haptics/latest.h"
 

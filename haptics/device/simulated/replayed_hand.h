@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "haptics/device/simulated/device_in_numbers.h"
+#include "haptics/device/device_in_numbers.h"
 
 namespace haptics {
 

@@ -2,7 +2,7 @@
 
 namespace haptics {
 
-ScriptedHand::ScriptedHand(const TroughPlan& plan) : path_(plan) {
+ScriptedHand::ScriptedHand(const assets::PlannedCut& cut, const CuttingManner& manner) : path_(cut, manner) {
   hand_.place_mm = path_.at(0.0).place_mm;
   capabilities_.model = "scripted hand";
   capabilities_.damping_Ns_per_mm = hand_.dampingInAll_Ns_per_mm();

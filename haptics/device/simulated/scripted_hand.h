@@ -2,7 +2,7 @@
 // of the steps it is given: no clock, no randomness. Frame D, mm, s. Not a machine (simulated_phantom).
 #pragma once
 
-#include "haptics/device/simulated/device_in_numbers.h"
+#include "haptics/device/device_in_numbers.h"
 #include "haptics/device/simulated/trough_path.h"
 #include "haptics/device/simulated/virtual_hand.h"
 
@@ -10,8 +10,8 @@ namespace haptics {
 
 class ScriptedHand final : public DeviceInNumbers {
  public:
-  /// Throws DeviceError when the plan is not usable.
-  explicit ScriptedHand(const TroughPlan& plan);
+  /// Its frame D is the patient's P. Throws DeviceError when the cut is not usable.
+  explicit ScriptedHand(const assets::PlannedCut& cut, const CuttingManner& manner = {});
   ~ScriptedHand() override { stop(); }
 
   double duration_s() const { return path_.duration_s(); }

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "haptics/device/simulated/device_in_numbers.h"
+#include "haptics/device/device_in_numbers.h"
 #include "haptics/device/simulated/motor_heat.h"
 #include "haptics/device/simulated/phantom_mechanics.h"
 #include "haptics/device/simulated/phantom_sensors.h"

@@ -2,7 +2,7 @@
 // mm. No allocation after construction.
 #pragma once
 
-#include "haptics/device/simulated/device_in_numbers.h"
+#include "haptics/device/device_in_numbers.h"
 
 namespace haptics {
 

@@ -22,51 +22,54 @@ bool positive(double x) { return std::isfinite(x) && x > 0.0; }
 
 }  // namespace
 
-TroughPath::TroughPath(const TroughPlan& plan) : plan_(plan) {
-  const glm::dvec3 across = glm::cross(plan.outward_D.xyz, plan.buccal_D.xyz);
+TroughPath::TroughPath(const assets::PlannedCut& cut, const CuttingManner& manner,
+                       const calibration::Pose<calibration::Device, calibration::Patient>& X_DP)
+    : cut_(cut), manner_(manner), middle_D_mm_((X_DP * calibration::Point<calibration::Patient>{cut.middle_P_mm}).mm) {
+  const glm::dvec3 outward_D = X_DP.rotation * cut.outward_P;
+  const glm::dvec3 across = glm::cross(outward_D, X_DP.rotation * cut.aside_P);
   const double area = glm::length(across);
-  if (!(std::isfinite(glm::length(plan.site_D.mm)) && std::isfinite(area) && area > 1e-6))
+  if (!(std::isfinite(glm::length(middle_D_mm_)) && std::isfinite(area) && area > 1e-6))
     throw DeviceError("scripted hand, its site or directions are not usable, give finite ones that are not parallel");
-  if (!std::isfinite(glm::length(plan.shaft_D.xyz)))
+  if (!std::isfinite(glm::length(manner.shaft_P)))
     throw DeviceError("scripted hand, its shaft direction is not finite, give one that is, or zero");
-  if (!positive(plan.bur_radius_mm) || !positive(plan.stroke_mm) || !positive(plan.speed_mm_per_s) ||
-      !positive(plan.depth_mm) || !positive(plan.clearance_mm))
+  if (!positive(cut.bur_radius_mm) || !positive(cut.length_mm) || !positive(manner.speed_mm_per_s) ||
+      !positive(cut.depth_mm) || !positive(manner.clearance_mm))
     throw DeviceError("scripted hand, a size or speed of its plan is not positive, give positive ones");
 
-  outward_ = glm::normalize(plan.outward_D.xyz);
+  outward_ = glm::normalize(outward_D);
   along_ = across / area;
-  const glm::dvec3 buccal = glm::cross(along_, outward_);
-  const double shaft_length = glm::length(plan.shaft_D.xyz);
-  const glm::dvec3 shaft = shaft_length > 0.0 ? plan.shaft_D.xyz / shaft_length
-                                              : std::cos(kTilt_rad) * outward_ + std::sin(kTilt_rad) * buccal;
+  const glm::dvec3 buccal = glm::cross(along_, outward_), shaft_D = X_DP.rotation * manner.shaft_P;
+  const double shaft_length = glm::length(shaft_D);
+  const glm::dvec3 shaft =
+      shaft_length > 0.0 ? shaft_D / shaft_length : std::cos(kTilt_rad) * outward_ + std::sin(kTilt_rad) * buccal;
   rotation_ = glm::normalize(glm::dquat(glm::dvec3(0.0, 0.0, 1.0), shaft));
 
-  deepening_passes_ = std::max(1, static_cast<int>(std::ceil(plan.depth_mm / (plan.bur_radius_mm / 8.0))));
+  deepening_passes_ = std::max(1, static_cast<int>(std::ceil(cut.depth_mm / (cut.bur_radius_mm / 8.0))));
   passes_ = deepening_passes_ + kFinishingPasses;
-  pass_s_ = plan.stroke_mm / plan.speed_mm_per_s;
-  approach_s_ = retreat_s_ = plan.clearance_mm / kApproach_mm_per_s * 1.5;
+  pass_s_ = cut.length_mm / manner.speed_mm_per_s;
+  approach_s_ = retreat_s_ = manner.clearance_mm / kApproach_mm_per_s * 1.5;
 }
 
 HandTarget TroughPath::at(double t_s) const {
   // Height of the bur's centre over the surface, place along the stroke.
-  const double rest_mm = plan_.bur_radius_mm, high_mm = rest_mm + plan_.clearance_mm;
+  const double rest_mm = cut_.bur_radius_mm, high_mm = rest_mm + manner_.clearance_mm;
   const double cut_s = t_s - approach_s_, end_s = passes_ * pass_s_;
-  const double step_mm = plan_.depth_mm / deepening_passes_;
-  double height_mm = high_mm, along_mm = -0.5 * plan_.stroke_mm;
+  const double step_mm = cut_.depth_mm / deepening_passes_;
+  double height_mm = high_mm, along_mm = -0.5 * cut_.length_mm;
   if (cut_s <= 0.0) {
     height_mm = glm::mix(high_mm, rest_mm, smooth(t_s / approach_s_));
   } else if (cut_s < end_s) {
     const double pass = std::floor(cut_s / pass_s_), u = cut_s / pass_s_ - pass;
     // Eases in and out of each turn; sinks to the pass's depth in its first fifth.
     const double way = 0.5 - 0.5 * std::cos(u * calibration::kPi);
-    along_mm = plan_.stroke_mm * ((static_cast<int>(pass) % 2 == 0 ? way : 1.0 - way) - 0.5);
-    height_mm = rest_mm - std::min(plan_.depth_mm, step_mm * (pass + smooth(5.0 * u)));
+    along_mm = cut_.length_mm * ((static_cast<int>(pass) % 2 == 0 ? way : 1.0 - way) - 0.5);
+    height_mm = rest_mm - std::min(cut_.depth_mm, step_mm * (pass + smooth(5.0 * u)));
   } else {
-    along_mm = plan_.stroke_mm * ((passes_ % 2 == 0 ? 0.0 : 1.0) - 0.5);
-    height_mm = glm::mix(rest_mm - plan_.depth_mm, high_mm, smooth((cut_s - end_s) / retreat_s_));
+    along_mm = cut_.length_mm * ((passes_ % 2 == 0 ? 0.0 : 1.0) - 0.5);
+    height_mm = glm::mix(rest_mm - cut_.depth_mm, high_mm, smooth((cut_s - end_s) / retreat_s_));
   }
   const bool pedal = cut_s > -0.1 * approach_s_ && cut_s < end_s;
-  return {plan_.site_D.mm + height_mm * outward_ + along_mm * along_, rotation_, pedal, 0, true};
+  return {middle_D_mm_ + height_mm * outward_ + along_mm * along_, rotation_, pedal, 0, true};
 }
 
 }  // namespace haptics

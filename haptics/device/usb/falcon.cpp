@@ -69,7 +69,8 @@ UsbStream falconStream() {
 Falcon::Falcon(const FalconSettings& settings) : scale_(settings.scale) {
   check(scale_);
   const auto program = settings.program.empty() ? std::vector<std::uint8_t>{} : readFalconProgram(settings.program);
-  usb_ = std::make_unique<UsbTransport>(UsbAddress{kFalconVendor, kFalconProduct, settings.path, 0});
+  usb_ = std::make_unique<UsbTransport>(UsbAddress{kFalconVendor, kFalconProduct, settings.path, 0, "Novint Falcon"},
+                                        settings.clock);
   if (!scale_.serial.empty() && scale_.serial != usb_->serialNumber())
     throw DeviceError("Falcon on USB " + usb_->path() + ", its force scale was weighed on unit " + scale_.serial +
                       " and this is " + usb_->serialNumber() + ", weigh this one or run it without");
@@ -79,8 +80,9 @@ Falcon::Falcon(const FalconSettings& settings) : scale_(settings.scale) {
   if (!falconRuns(*usb_)) {
     if (program.empty())
       throw DeviceError("Falcon on USB " + usb_->path() +
-                        ", it loses its program with every power-down and no file is named, give the firmware of "
-                        "Novint's driver with --falcon-firmware");
+                            ", it loses its program with every power-down and no file is named, give the firmware of "
+                            "Novint's driver with --falcon-firmware",
+                        DeviceTrouble::no_driver);
     loadFalcon(*usb_, program, settings.tell, settings.greetings);
   }
   usb_->run(falconStream());
@@ -97,17 +99,19 @@ void Falcon::awaitHoming(const FalconSettings& settings) {
     usb_->awaitReport(monotonic_ns() + std::chrono::nanoseconds(20ms).count());
     const auto report = decodeFalconReport(usb_->newestReport().content());
     if (report && report->isHomed()) return;
-    if (usb_->state() == UsbState::gone) throw DeviceError(where + "unplugged while it was homed, plug it in again");
+    if (usb_->state() == UsbState::gone)
+      throw DeviceError(where + "unplugged while it was homed, plug it in again", DeviceTrouble::not_there);
     const int legs = report ? std::popcount(report->homed) : 0;
     if (settings.tell && !settings.tell(kHomingWords, legs / 3.0))
-      throw DeviceError(where + "not homed, given up, start again");
+      throw DeviceError(where + "not homed, given up, start again", DeviceTrouble::not_ready);
   }
-  throw DeviceError(where + "not homed, start again and " + kHomingWords);
+  throw DeviceError(where + "not homed, start again and " + kHomingWords, DeviceTrouble::not_ready);
 }
 
 void Falcon::start(DeviceServo& servo, double rate_Hz) {
   if (usb_->state() == UsbState::gone)
-    throw DeviceError("Falcon on USB " + usb_->path() + ", unplugged, plug it in and start again");
+    throw DeviceError("Falcon on USB " + usb_->path() + ", unplugged, plug it in and start again",
+                      DeviceTrouble::not_there);
   longest_wait_ns_ = std::llround(0.5e9 / rate_Hz);
   serial_ = usb_->newestReport().serial;  // what it said while it was homed is old
   PacedDevice::start(servo, rate_Hz);

@@ -18,6 +18,7 @@
 #include "haptics/device/paced_device.h"
 #include "haptics/device/usb/falcon_force_scale.h"
 #include "haptics/device/usb/falcon_start.h"
+#include "haptics/device/usb/usb_clock.h"
 
 namespace haptics {
 
@@ -31,6 +32,7 @@ struct FalconSettings {
   FalconTell tell;                           ///< progress and what the owner shall do
   std::chrono::seconds homing_patience{60};  ///< 0: does not wait, ticks uncalibrated until it is homed
   int greetings = 100;                       ///< of the boot loader
+  UsbClock clock = {};
 };
 
 class Falcon final : public PacedDevice {

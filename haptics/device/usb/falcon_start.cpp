@@ -3,7 +3,6 @@
 #include <array>
 
 #include "haptics/device/haptic_device.h"
-#include "haptics/device/monotonic_clock.h"
 #include "haptics/device/usb/falcon_loader.h"
 #include "haptics/device/usb/falcon_protocol.h"
 #include "haptics/device/usb/usb_transport.h"
@@ -24,7 +23,8 @@ constexpr auto kAnswerTime = 50ms;
 std::string called(const UsbTransport& usb) { return "Falcon on USB " + usb.path() + ", "; }
 
 void refuseIfGone(const UsbTransport& usb, UsbOutcome outcome) {
-  if (outcome == UsbOutcome::gone) throw DeviceError(called(usb) + "unplugged, plug it in and start again");
+  if (outcome == UsbOutcome::gone)
+    throw DeviceError(called(usb) + "unplugged, plug it in and start again", DeviceTrouble::not_there);
 }
 
 bool ask(UsbTransport& usb, const FtdiRequest& request) {
@@ -43,14 +43,14 @@ std::span<const std::uint8_t> listen(UsbTransport& usb, std::array<std::uint8_t,
   return std::span(payload).first(ftdiPayload(std::span(transfer).first(heard.bytes), payload));
 }
 
-std::chrono::milliseconds leftUntil(std::int64_t deadline_ns) {
-  return std::chrono::milliseconds(std::max<std::int64_t>(0, (deadline_ns - monotonic_ns()) / 1'000'000));
+std::chrono::milliseconds leftUntil(std::int64_t deadline_ns, const UsbTransport& usb) {
+  return std::chrono::milliseconds(std::max<std::int64_t>(0, (deadline_ns - usb.clock().now_ns()) / 1'000'000));
 }
 
 void listenFor(UsbTransport& usb, FalconLoader& loader) {
-  const std::int64_t deadline_ns = monotonic_ns() + loader.patience_ms() * 1'000'000LL;
+  const std::int64_t deadline_ns = usb.clock().now_ns() + loader.patience_ms() * 1'000'000LL;
   while (loader.ask() == FalconLoader::Ask::listen) {
-    const auto left = leftUntil(deadline_ns);
+    const auto left = leftUntil(deadline_ns, usb);
     if (left == 0ms) return loader.silence();
     std::array<std::uint8_t, 64> payload;
     loader.heard(listen(usb, payload, left));
@@ -71,7 +71,8 @@ std::string converse(UsbTransport& usb, FalconLoader& loader, const FalconTell& 
         if (!sent.done()) return "it takes no bytes";
         loader.done();
         if (tell && !tell("loading the Falcon's program", loader.share()))
-          throw DeviceError(called(usb) + "its program was not loaded, given up, start again");
+          throw DeviceError(called(usb) + "its program was not loaded, given up, start again",
+                            DeviceTrouble::not_ready);
         break;
       }
       case FalconLoader::Ask::listen:
@@ -96,10 +97,10 @@ bool falconRuns(UsbTransport& usb) {
     const UsbExchange sent = usb.write(no_force, kSendTime);
     refuseIfGone(usb, sent.outcome);
     if (!sent.done()) return false;
-    const std::int64_t deadline_ns = monotonic_ns() + std::chrono::nanoseconds(kAnswerTime).count();
-    while (leftUntil(deadline_ns) > 0ms) {
+    const std::int64_t deadline_ns = usb.clock().now_ns() + std::chrono::nanoseconds(kAnswerTime).count();
+    while (leftUntil(deadline_ns, usb) > 0ms) {
       std::array<std::uint8_t, 64> payload;
-      if (stream.take(listen(usb, payload, leftUntil(deadline_ns)))) return true;
+      if (stream.take(listen(usb, payload, leftUntil(deadline_ns, usb)))) return true;
     }
   }
   return false;
@@ -114,7 +115,8 @@ void loadFalcon(UsbTransport& usb, std::span<const std::uint8_t> program, const 
     if (trouble.empty()) trouble = "it took the program but does not run it";
   }
   throw DeviceError(called(usb) + "its program did not load: " + trouble +
-                    "; check its power supply, pull its plugs, put them back and start again");
+                        "; check its power supply, pull its plugs, put them back and start again",
+                    DeviceTrouble::faulty);
 }
 
 }  // namespace haptics

@@ -27,13 +27,14 @@ struct PresenceMonitor::Watch {
 
   static int onHotplug(libusb_context*, libusb_device* device, libusb_hotplug_event event, void* user);
   void run() noexcept;
+  void watch();
   void noticeLeft(const std::string& path);
   void noticeArrived();
 
   PresenceListener listener;
   UsbBus bus;
   libusb_context* context = nullptr;
-  std::atomic<bool> quit{false};
+  std::atomic<bool> quit{false}, starved{false};
 
   // Of the watching thread.
   std::map<std::string, int> expected;  ///< path, and how often it was looked for
@@ -43,25 +44,32 @@ struct PresenceMonitor::Watch {
 
 int PresenceMonitor::Watch::onHotplug(libusb_context*, libusb_device* device, libusb_hotplug_event event, void* user) {
   auto& watch = *static_cast<Watch*>(user);
-  const std::string path = usbPath(device);
-  if (event == LIBUSB_HOTPLUG_EVENT_DEVICE_LEFT)
-    watch.noticeLeft(path);
-  else
-    watch.expected[path] = 0;
+  // libusb knows no exceptions.
+  try {
+    const std::string path = usbPath(device);
+    if (event == LIBUSB_HOTPLUG_EVENT_DEVICE_LEFT)
+      watch.noticeLeft(path);
+    else
+      watch.expected[path] = 0;
+  } catch (...) {
+    watch.starved.store(true);
+  }
   return 0;
 }
 
 PresenceMonitor::Watch::Watch(PresenceListener heard) : listener(std::move(heard)) {
   if (libusb_init(&context) != 0)
-    throw DeviceError("USB: libusb does not start, look whether this user may read /dev/bus/usb");
+    throw DeviceError("USB: libusb does not start, look whether this user may read /dev/bus/usb",
+                      DeviceTrouble::no_means);
   const int events = LIBUSB_HOTPLUG_EVENT_DEVICE_ARRIVED | LIBUSB_HOTPLUG_EVENT_DEVICE_LEFT;
   const int error =
       libusb_hotplug_register_callback(context, events, LIBUSB_HOTPLUG_ENUMERATE, LIBUSB_HOTPLUG_MATCH_ANY,
                                        LIBUSB_HOTPLUG_MATCH_ANY, LIBUSB_HOTPLUG_MATCH_ANY, onHotplug, this, nullptr);
   if (error != 0) {
     libusb_exit(context);
-    throw DeviceError(std::string("USB: nobody tells of devices that come and go, ") + libusb_strerror(error) +
-                      ", start udev");
+    throw DeviceError(
+        std::string("USB: nobody tells of devices that come and go, ") + libusb_strerror(error) + ", start udev",
+        DeviceTrouble::no_means);
   }
   thread = std::thread([this] { run(); });
 }
@@ -74,7 +82,16 @@ PresenceMonitor::Watch::~Watch() {
 }
 
 void PresenceMonitor::Watch::run() noexcept {
-  while (!quit.load()) {
+  try {
+    watch();
+  } catch (...) {
+    starved.store(true);
+  }
+  if (starved.load() && listener.ended) listener.ended();
+}
+
+void PresenceMonitor::Watch::watch() {
+  while (!quit.load() && !starved.load()) {
     noticeArrived();
     timeval sleep = expected.empty() ? kCalm : kExpecting;
     libusb_handle_events_timeout_completed(context, &sleep, nullptr);

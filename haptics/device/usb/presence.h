@@ -17,9 +17,10 @@ struct PresentDevice {
   FoundDevice found;
 };
 
-/// Must not throw, nor end the monitor. Either may be empty.
+/// Must not throw, nor end the monitor. Each may be empty.
 struct PresenceListener {
   std::function<void(const PresentDevice&)> arrived, left;
+  std::function<void()> ended = {};  ///< once, as the last: memory ran out, nothing is noticed any more
 };
 
 class PresenceMonitor {

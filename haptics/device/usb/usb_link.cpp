@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "haptics/device/haptic_device.h"
-#include "haptics/device/monotonic_clock.h"
 #include "haptics/device/usb/usb_paths.h"
 
 namespace haptics {
@@ -31,13 +30,29 @@ std::string inWords(int error) {
   }
 }
 
+DeviceTrouble troubleOf(int error) {
+  switch (error) {
+    case LIBUSB_ERROR_ACCESS:
+      return DeviceTrouble::no_rights;
+    case LIBUSB_ERROR_BUSY:
+      return DeviceTrouble::busy;
+    case LIBUSB_ERROR_NO_DEVICE:
+      return DeviceTrouble::not_there;
+    case LIBUSB_ERROR_NO_MEM:
+      return DeviceTrouble::no_means;
+    default:
+      return DeviceTrouble::faulty;
+  }
+}
+
 }  // namespace
 
-UsbLink::UsbLink(const UsbAddress& address) : interface_(address.interface) {
-  name_ =
-      std::string("USB ") + (address.path.empty() ? "" : address.path + ", ") + usbId(address.vendor, address.product);
+UsbLink::UsbLink(const UsbAddress& address, UsbClock clock) : clock_(clock), interface_(address.interface) {
+  name_ = (address.called.empty() ? "" : address.called + ", ") + "USB " +
+          (address.path.empty() ? "" : address.path + ", ") + usbId(address.vendor, address.product);
   try {
-    if (const int error = libusb_init(&context_); error != 0) throw DeviceError(name_ + ": libusb, " + inWords(error));
+    if (const int error = libusb_init(&context_); error != 0)
+      throw DeviceError(name_ + ": libusb, " + inWords(error), DeviceTrouble::no_means);
     open(address);
     findPipes();
     claim();
@@ -73,14 +88,14 @@ void UsbLink::open(const UsbAddress& address) {
   }
   if (count >= 0) libusb_free_device_list(list, 1);
   if (!handle_ && error == LIBUSB_ERROR_NOT_FOUND)
-    throw DeviceError(name_ + ": not on the bus, plug it in and switch it on");
-  if (!handle_) throw DeviceError(name_ + ": " + inWords(error));
+    throw DeviceError(name_ + ": not on the bus, plug it in and switch it on", DeviceTrouble::not_there);
+  if (!handle_) throw DeviceError(name_ + ": " + inWords(error), troubleOf(error));
 }
 
 void UsbLink::findPipes() {
   libusb_config_descriptor* config = nullptr;
   if (const int error = libusb_get_active_config_descriptor(libusb_get_device(handle_), &config); error != 0)
-    throw DeviceError(name_ + ": its descriptors can not be read, " + inWords(error));
+    throw DeviceError(name_ + ": its descriptors can not be read, " + inWords(error), troubleOf(error));
   for (int i = 0; i < config->bNumInterfaces; ++i) {
     const libusb_interface& candidate = config->interface[i];
     if (candidate.num_altsetting < 1 || candidate.altsetting[0].bInterfaceNumber != interface_) continue;
@@ -96,7 +111,8 @@ void UsbLink::findPipes() {
   libusb_free_config_descriptor(config);
   if (in_.packet_bytes == 0 || out_.packet_bytes == 0)
     throw DeviceError(name_ + ": interface " + std::to_string(interface_) +
-                      " has no IN and OUT pipe of interrupt or bulk type, it is not the device it says it is");
+                          " has no IN and OUT pipe of interrupt or bulk type, it is not the device it says it is",
+                      DeviceTrouble::faulty);
 }
 
 void UsbLink::claim() {
@@ -107,12 +123,13 @@ void UsbLink::claim() {
     libusb_set_auto_detach_kernel_driver(handle_, 0);
     error = libusb_claim_interface(handle_, interface_);
   }
-  if (error != 0) throw DeviceError(name_ + ": it can not be claimed, " + inWords(error));
+  if (error != 0) throw DeviceError(name_ + ": it can not be claimed, " + inWords(error), troubleOf(error));
 }
 
 void UsbLink::watchDescriptors() {
   const libusb_pollfd** list = libusb_get_pollfds(context_);
-  if (!list) throw DeviceError(name_ + ": libusb gives nothing to wait for, replug it and start again");
+  if (!list)
+    throw DeviceError(name_ + ": libusb gives nothing to wait for, replug it and start again", DeviceTrouble::no_means);
   for (const libusb_pollfd** each = list; *each && descriptors_.size() + 1 < kMostDescriptors; ++each) {
     descriptors_.push_back((*each)->fd);
     descriptor_events_.push_back((*each)->events);
@@ -127,7 +144,8 @@ bool UsbLink::pump(std::int64_t deadline_ns, int wake_descriptor) noexcept {
   for (; count < descriptors_.size(); ++count) polled[count] = {descriptors_[count], descriptor_events_[count], 0};
   if (wake_descriptor >= 0) polled[count++] = {wake_descriptor, POLLIN, 0};
 
-  const std::int64_t left_ns = std::clamp<std::int64_t>(deadline_ns - monotonic_ns(), 0, kSecond_ns);
+  const std::int64_t left_ns =
+      std::clamp<std::int64_t>(deadline_ns - clock_.now_ns(), 0, std::min(kSecond_ns, clock_.longestSleep_ns()));
   const timespec left{static_cast<time_t>(left_ns / kSecond_ns), static_cast<long>(left_ns % kSecond_ns)};
   ppoll(polled.data(), count, &left, nullptr);
 

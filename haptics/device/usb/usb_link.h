@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "haptics/device/usb/usb_clock.h"
 #include "haptics/device/usb/usb_transport.h"
 
 struct libusb_context;
@@ -22,12 +23,13 @@ struct UsbPipe {
 
 class UsbLink {
  public:
-  explicit UsbLink(const UsbAddress& address);
+  UsbLink(const UsbAddress& address, UsbClock clock);
   ~UsbLink();
   UsbLink(const UsbLink&) = delete;
   UsbLink& operator=(const UsbLink&) = delete;
 
   libusb_device_handle* handle() const { return handle_; }
+  const UsbClock& clock() const { return clock_; }
   const UsbPipe& in() const { return in_; }
   const UsbPipe& out() const { return out_; }
   const std::string& path() const { return path_; }
@@ -58,6 +60,7 @@ class UsbLink {
   void watchDescriptors();
   void close() noexcept;
 
+  UsbClock clock_;
   libusb_context* context_ = nullptr;
   libusb_device_handle* handle_ = nullptr;
   int interface_;

@@ -1,4 +1,5 @@
 #include "haptics/device/usb/usb_pump.h"
+#include "haptics/device/thread_priority.h"
 
 #include <pthread.h>
 #include <sched.h>
@@ -21,10 +22,10 @@ constexpr std::int64_t kWait_ns = kMillisecond_ns / 2;
 
 std::int64_t ns(std::chrono::milliseconds time) { return std::chrono::nanoseconds(time).count(); }
 
-/// Above the servo, which waits for what this thread brings. Best effort.
+/// Best effort.
 void hurry() noexcept {
   sched_param param{};
-  param.sched_priority = std::max(sched_get_priority_min(SCHED_FIFO), sched_get_priority_max(SCHED_FIFO) - 9);
+  param.sched_priority = usbPriority(kServoPriority);
   pthread_setschedparam(pthread_self(), SCHED_FIFO, &param);
   pthread_setname_np(pthread_self(), "molar-usb");
 }
@@ -65,7 +66,7 @@ bool UsbPump::awaitReport(std::int64_t deadline_ns) noexcept {
 }
 
 void UsbPump::send(const UsbReport& report, std::uint32_t rests) noexcept {
-  outbox_.send(report, rests, monotonic_ns());
+  outbox_.send(report, rests, link_.clock().now_ns());
   wake_.raise();
 }
 
@@ -77,11 +78,12 @@ void UsbPump::rest() noexcept {
 }
 
 bool UsbPump::sendLast(const UsbReport& report, std::chrono::milliseconds within) noexcept {
-  const std::int64_t deadline_ns = monotonic_ns() + ns(within);
+  const std::int64_t deadline_ns = link_.clock().now_ns() + ns(within);
   outbox_.askLast(report, deadline_ns);
   wake_.raise();
   const timespec pause{0, kWait_ns};
-  while (!outbox_.isOver() && monotonic_ns() < deadline_ns) clock_nanosleep(CLOCK_MONOTONIC, 0, &pause, nullptr);
+  while (!outbox_.isOver() && link_.clock().now_ns() < deadline_ns)
+    clock_nanosleep(CLOCK_MONOTONIC, 0, &pause, nullptr);
   return outbox_.isOver() && outbox_.lastWasTaken();
 }
 
@@ -106,10 +108,10 @@ UsbCounters UsbPump::counters() const noexcept {
 void UsbPump::run() noexcept {
   hurry();
   while (!quit_.load()) {
-    std::int64_t now_ns = monotonic_ns();
+    std::int64_t now_ns = link_.clock().now_ns();
     if (gone_) {
       outbox_.close();
-      wake_.awaitUntil(now_ns + kLook_ns);
+      wake_.awaitUntil(monotonic_ns() + kLook_ns);
       continue;
     }
     clearHalt(link_.in(), in_health_);
@@ -118,7 +120,7 @@ void UsbPump::run() noexcept {
     submitOut(now_ns);
     if (!link_.pump(nextLook_ns(now_ns), wake_.descriptor())) gone_ = true;
     wake_.lower();
-    now_ns = monotonic_ns();
+    now_ns = link_.clock().now_ns();
     settleIn(now_ns);
     settleOut(now_ns);
     judge(now_ns);
@@ -263,9 +265,9 @@ void UsbPump::windDown() noexcept {
   outbox_.close();
   for (UsbTransfer& in : ins_) in.cancel();
   out_.cancel();
-  const std::int64_t until_ns = monotonic_ns() + ns(stream_.dead_after);
-  while (anyInFlight() && monotonic_ns() < until_ns)
-    if (!link_.pump(monotonic_ns() + kMillisecond_ns, -1)) break;
+  const std::int64_t until_ns = link_.clock().now_ns() + ns(stream_.dead_after);
+  while (anyInFlight() && link_.clock().now_ns() < until_ns)
+    if (!link_.pump(link_.clock().now_ns() + kMillisecond_ns, -1)) break;
   if (anyInFlight()) gone_ = true;
 }
 

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "haptics/device/haptic_device.h"
-#include "haptics/device/monotonic_clock.h"
 #include "haptics/device/usb/usb_link.h"
 
 namespace haptics {
@@ -35,7 +34,9 @@ UsbOutcome outcomeOf(int status) {
 
 UsbTransfer::UsbTransfer(UsbLink& link, const UsbPipe& pipe, std::size_t capacity)
     : link_(link), transfer_(libusb_alloc_transfer(0)), buffer_(capacity) {
-  if (!transfer_) throw DeviceError("USB " + link.path() + ": no memory for a transfer, close other programs");
+  if (!transfer_)
+    throw DeviceError("USB " + link.path() + ": no memory for a transfer, close other programs",
+                      DeviceTrouble::no_means);
   transfer_->dev_handle = link.handle();
   transfer_->endpoint = pipe.endpoint;
   transfer_->type = pipe.transfer_type;
@@ -72,7 +73,7 @@ bool UsbTransfer::submit(std::size_t size, std::int64_t deadline_ns) noexcept {
 
 void UsbTransfer::cancel() noexcept {
   if (!in_flight_ || cancelled_at_ns_ != kNever) return;
-  cancelled_at_ns_ = monotonic_ns();
+  cancelled_at_ns_ = link_.clock().now_ns();
   libusb_cancel_transfer(transfer_);
 }
 

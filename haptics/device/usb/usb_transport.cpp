@@ -8,7 +8,6 @@
 #include <cassert>
 
 #include "haptics/device/haptic_device.h"
-#include "haptics/device/monotonic_clock.h"
 #include "haptics/device/usb/usb_link.h"
 #include "haptics/device/usb/usb_pump.h"
 #include "haptics/device/usb/usb_transfer.h"
@@ -22,7 +21,7 @@ constexpr std::int64_t kDead_ns = 1'000'000'000;
 }  // namespace
 
 struct UsbTransport::Parts {
-  explicit Parts(const UsbAddress& address) : link(address) {}
+  Parts(const UsbAddress& address, UsbClock clock) : link(address, clock) {}
 
   /// Submits, pumps, takes back at the deadline.
   UsbExchange exchange(UsbTransfer& transfer, std::size_t size, std::chrono::milliseconds within);
@@ -36,24 +35,26 @@ struct UsbTransport::Parts {
 UsbExchange UsbTransport::Parts::exchange(UsbTransfer& transfer, std::size_t size, std::chrono::milliseconds within) {
   assert(!pump);
   if (dead) return {UsbOutcome::gone, 0};
-  const std::int64_t deadline_ns = monotonic_ns() + std::chrono::nanoseconds(within).count();
+  const std::int64_t deadline_ns = link.clock().now_ns() + std::chrono::nanoseconds(within).count();
   transfer.submit(size, deadline_ns);
   while (transfer.inFlight()) {
-    transfer.expire(monotonic_ns());
-    const std::int64_t look_ns = std::min(transfer.deadline_ns(), monotonic_ns() + 10'000'000);
-    dead |= !link.pump(look_ns, -1) || transfer.isDead(monotonic_ns(), kDead_ns);
+    transfer.expire(link.clock().now_ns());
+    const std::int64_t look_ns = std::min(transfer.deadline_ns(), link.clock().now_ns() + 10'000'000);
+    dead |= !link.pump(look_ns, -1) || transfer.isDead(link.clock().now_ns(), kDead_ns);
     if (dead) return {UsbOutcome::gone, 0};
   }
   dead |= transfer.outcome() == UsbOutcome::gone;
   return {transfer.outcome(), transfer.moved().size()};
 }
 
-UsbTransport::UsbTransport(const UsbAddress& address) : parts_(std::make_unique<Parts>(address)) {}
+UsbTransport::UsbTransport(const UsbAddress& address, UsbClock clock)
+    : parts_(std::make_unique<Parts>(address, clock)) {}
 UsbTransport::~UsbTransport() { stop(); }
 
 std::size_t UsbTransport::inPacketBytes() const { return parts_->link.in().packet_bytes; }
 std::size_t UsbTransport::outPacketBytes() const { return parts_->link.out().packet_bytes; }
 const std::string& UsbTransport::path() const { return parts_->link.path(); }
+UsbClock UsbTransport::clock() const { return parts_->link.clock(); }
 const std::string& UsbTransport::serialNumber() const { return parts_->link.serialNumber(); }
 
 UsbExchange UsbTransport::control(const UsbSetup& setup, std::span<std::uint8_t> data,

@@ -15,6 +15,7 @@
 #include <span>
 #include <string>
 
+#include "haptics/device/usb/usb_clock.h"
 #include "haptics/device/usb/usb_report.h"
 
 namespace haptics {
@@ -23,6 +24,7 @@ struct UsbAddress {
   std::uint16_t vendor = 0, product = 0;
   std::string path = {};  ///< bus and ports as the kernel writes them, "1-2.3"; empty: the first that is found
   int interface = 0;
+  std::string called = {};  ///< as people call the device, before what can not be
 };
 
 /// A control request; `type` is bmRequestType, whose bit 7 says that data comes in.
@@ -52,7 +54,7 @@ class UsbTransport {
  public:
   /// Opens and claims; takes the interface from a kernel driver where it can. Throws DeviceError when the device is not
   /// there, not permitted, in use, or has no pair of IN and OUT pipes.
-  explicit UsbTransport(const UsbAddress& address);
+  explicit UsbTransport(const UsbAddress& address, UsbClock clock = {});
   /// As stop().
   ~UsbTransport();
   UsbTransport(const UsbTransport&) = delete;
@@ -61,6 +63,7 @@ class UsbTransport {
   std::size_t inPacketBytes() const;
   std::size_t outPacketBytes() const;
   const std::string& path() const;
+  UsbClock clock() const;
   /// As the device gives it; empty where it has none or can not be read.
   const std::string& serialNumber() const;
 

@@ -10,7 +10,8 @@
 namespace haptics {
 
 WakeSignal::WakeSignal() : descriptor_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
-  if (descriptor_ < 0) throw DeviceError("USB: no file descriptor left for a signal, close other programs");
+  if (descriptor_ < 0)
+    throw DeviceError("USB: no file descriptor left for a signal, close other programs", DeviceTrouble::no_means);
 }
 
 WakeSignal::~WakeSignal() { close(descriptor_); }

@@ -73,10 +73,12 @@ WoodenHaptics::WoodenHaptics(const WoodenSettings& settings)
     : model_(settings.model),
       kinematics_(model_),
       homing_(model_.home_counts, model_.hasGimbal()),
-      usb_(std::make_unique<UsbTransport>(UsbAddress{kWoodenVendor, kWoodenProduct, settings.path, 0})),
+      usb_(std::make_unique<UsbTransport>(UsbAddress{kWoodenVendor, kWoodenProduct, settings.path, 0, "WoodenHaptics"},
+                                          settings.clock)),
       capabilities_(capabilitiesOf(model_, usb_->serialNumber())) {
   if (usb_->outPacketBytes() < kWoodenReportBytes)
-    throw DeviceError(where() + "its packets hold no report, it is another device with the same id");
+    throw DeviceError(where() + "its packets hold no report, it is another device with the same id",
+                      DeviceTrouble::faulty);
   state_.calibrated = false;
   usb_->run(woodenStream());
   wake();
@@ -93,7 +95,7 @@ void WoodenHaptics::wake() {
     usb_->send(woodenRest(), usb_->rests());
     if (usb_->awaitReport(after(kWakeUp))) return;
   }
-  throw DeviceError(where() + "it does not answer, switch it off and on and start again");
+  throw DeviceError(where() + "it does not answer, switch it off and on and start again", DeviceTrouble::faulty);
 }
 
 void WoodenHaptics::awaitHoming(const WoodenSettings& settings) {
@@ -103,17 +105,20 @@ void WoodenHaptics::awaitHoming(const WoodenSettings& settings) {
     usb_->awaitReport(after(kWakeUp));
     if (listen() && homing_.isHome()) return;
     drive({});
-    if (usb_->state() == UsbState::gone) throw DeviceError(where() + "unplugged while it was homed, plug it in again");
+    if (usb_->state() == UsbState::gone)
+      throw DeviceError(where() + "unplugged while it was homed, plug it in again", DeviceTrouble::not_there);
     if (homing_.wantsPreset() || !settings.tell) continue;
     const HomingAnswer answer = settings.tell(kWoodenHomingWords);
     if (answer == HomingAnswer::stands_at_home) setHome();
-    if (answer == HomingAnswer::give_up) throw DeviceError(where() + "not homed, given up, start again");
+    if (answer == HomingAnswer::give_up)
+      throw DeviceError(where() + "not homed, given up, start again", DeviceTrouble::not_ready);
   }
-  throw DeviceError(where() + "not homed, start again and " + kWoodenHomingWords);
+  throw DeviceError(where() + "not homed, start again and " + kWoodenHomingWords, DeviceTrouble::not_ready);
 }
 
 void WoodenHaptics::start(DeviceServo& servo, double rate_Hz) {
-  if (usb_->state() == UsbState::gone) throw DeviceError(where() + "unplugged, plug it in and start again");
+  if (usb_->state() == UsbState::gone)
+    throw DeviceError(where() + "unplugged, plug it in and start again", DeviceTrouble::not_there);
   period_ns_ = std::llround(static_cast<double>(kSecond_ns) / rate_Hz);
   PacedDevice::start(servo, rate_Hz);
 }

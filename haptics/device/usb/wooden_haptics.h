@@ -17,6 +17,7 @@
 
 #include "haptics/device/found_device.h"
 #include "haptics/device/paced_device.h"
+#include "haptics/device/usb/usb_clock.h"
 #include "haptics/device/usb/wooden_homing.h"
 #include "haptics/device/usb/wooden_kinematics.h"
 #include "haptics/device/usb/wooden_model.h"
@@ -40,6 +41,7 @@ struct WoodenSettings {
   WoodenModel model = woodenHaptics2019();
   WoodenTell tell;
   std::chrono::seconds homing_patience{60};  ///< 0: does not wait, ticks uncalibrated until it is homed
+  UsbClock clock = {};
 };
 
 /// "wooden", "wooden:1-2", "wooden:v2015", "wooden:1-2,v2015"; none when it is no such address.

@@ -151,6 +151,45 @@ TEST(DoctorLimits, GiveTheLinesForWhoeverIsHeldBack) {
   EXPECT_EQ(checkMemoryLimit(paper.machine()).health, Health::ok);
 }
 
+TEST(DoctorLimits, CallNoFiniteLockOfMemoryEnoughForAProgramThatGrows) {
+  PaperMachine paper("finite");
+  paper.write("proc/self/limits", "Max locked memory         8589934592           8589934592           bytes\n");
+  const Finding memory = checkMemoryLimit(paper.machine());
+  EXPECT_EQ(memory.health, Health::warn);
+  EXPECT_THAT(memory.sentence, HasSubstr("Only 8192 MB may be kept"));
+}
+
+TEST(DoctorLimits, WantNoMorePriorityThanTheServoAndItsUsbThreadTake) {
+  PaperMachine paper("priorities");
+  paper.write("proc/self/limits", "Max realtime priority     45                   45");
+  EXPECT_EQ(checkPriorityLimit(paper.machine()).health, Health::warn);
+  paper.write("proc/self/limits", "Max realtime priority     46                   46");
+  const Finding enough = checkPriorityLimit(paper.machine());
+  EXPECT_EQ(enough.health, Health::ok);
+  EXPECT_THAT(enough.sentence, HasSubstr("priority 45, below the interrupts"));
+}
+
+TEST(DoctorLimits, WantTheInterruptsAboveTheServoThatWaitsForThem) {
+  PaperMachine paper("interrupts");
+  paper.write("proc/self/limits", "Max realtime priority     95                   95");
+  const auto put = [&](const std::string& process, const std::string& name, int priority) {
+    paper.write("proc/" + process + "/comm", name);
+    paper.write("proc/" + process + "/stat",
+                process + " (" + name +
+                    ") S 2 0 0 0 -1 2129984 0 0 0 0 0 0 0 0 -51 0 1 0 158 0 0 18446744073709551615 "
+                    "0 0 0 0 0 0 0 2147483647 0 0 0 0 17 1 " +
+                    std::to_string(priority) + " 1 0 0 0 0 0 0 0 0 0 0 0");
+  };
+  put("71", "irq/30-xhci (a b)", 50);
+  put("72", "kworker/0:1", 1);
+  EXPECT_EQ(checkPriorityLimit(paper.machine()).health, Health::ok);
+  put("73", "irq/31-ehci", 20);
+  const Finding low = checkPriorityLimit(paper.machine());
+  EXPECT_EQ(low.health, Health::warn);
+  EXPECT_THAT(low.sentence, HasSubstr("irq/31-ehci has real-time priority 20"));
+  EXPECT_THAT(low.next_step, HasSubstr("chrt -f -p 50 73"));
+}
+
 TEST(DoctorLimits, HoldNobodyBackWhoHasTheCapability) {
   PaperMachine paper("capabilities");
   paper.write("proc/self/status", "CapEff:\t0000000000804000");

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/doctor/haptic_usb.h"
-#include "app/wrapped_text.h"
+#include "app/text/wrapped_text.h"
 
 namespace app {
 namespace {

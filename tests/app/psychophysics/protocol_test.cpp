@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "app/psychophysics/chance.h"
-#include "app/toml_keys.h"
-#include "app/usage_error.h"
+#include "app/text/toml_keys.h"
+#include "app/text/usage_error.h"
 
 namespace app {
 namespace {

@@ -6,16 +6,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <limits>
 
 #include <nlohmann/json.hpp>
 
-#include "assets/image_file.h"
 #include "assets/import/tissue_from_grey.h"
 #include "assets/load_error.h"
-#include "assets/patient_toml.h"
-#include "assets/solid_fraction.h"
+#include "assets/patient/patient_toml.h"
+#include "assets/scan/image_file.h"
+#include "assets/scan/solid_fraction.h"
 #include "tests/assets/scan_on_disk.h"
+#include "tests/shared_data.h"
 
 namespace {
 
@@ -24,14 +26,9 @@ using assets::VolumeGrid;
 using testing::HasSubstr;
 using testing::Not;
 
-std::string sharedData() {
-  const char* shared = std::getenv("MOLAR_SHARED");
-  return std::string(shared != nullptr ? shared : MOLAR_SHARED_DEFAULT) + "/data";
-}
-
-std::string refusalOf(const std::string& source) {
+std::string refusalOf(const std::string& source, const assets::ScanChoices& choices = {}) {
   try {
-    importScan(source, {});
+    importScan(source, choices);
   } catch (const assets::LoadError& error) {
     EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
     return error.what();
@@ -49,49 +46,46 @@ double distanceToLine(const std::vector<glm::dvec3>& line, const glm::dvec3& p) 
   return nearest;
 }
 
-class RealJaw : public testing::Test {
+class ScanImportRealData : public testing::Test {
  protected:
-  void SetUp() override {
-    if (!std::filesystem::is_directory(folder_))
-      GTEST_SKIP() << "NO SHARED DATA at " << folder_ << ": set MOLAR_SHARED";
-  }
-  const std::string folder_ = sharedData() + "/patients/right_third_molar";
+  void SetUp() override { MOLAR_NEEDS(folder_); }
+  const std::string folder_ = tests::sharedData("patients/right_third_molar");
 };
 
-TEST_F(RealJaw, HasItsThirdMolarAndCanalWhereTheTruthSays) {
+TEST_F(ScanImportRealData, HasItsThirdMolarAndCanalWhereTheTruthSays) {
   const auto truth = nlohmann::json::parse(on_disk::read(folder_ + "/truth.json"));
-  const auto patient = importScan(folder_, {});
+  const auto patient = importScan(folder_, {}).patient;
   EXPECT_EQ(patient.ct.grid.size, glm::ivec3(132, 169, 188));
   const auto pointOf = [&](const nlohmann::json& ijk) {
     return patient.ct.grid.origin_P_mm +
            0.4 * glm::dvec3(ijk[0].get<double>(), ijk[1].get<double>(), ijk[2].get<double>());
   };
 
-  ASSERT_TRUE(patient.site.known);
-  EXPECT_EQ(patient.site.tooth_fdi, 48);
-  EXPECT_LT(glm::distance(patient.site.third_molar_P_mm, pointOf(truth["M3"]["centroid_ijk"])), 0.5);
+  ASSERT_TRUE(patient.site);
+  EXPECT_EQ(patient.site->fdi, 48);
+  EXPECT_LT(glm::distance(patient.site->centre_P_mm, pointOf(truth["M3"]["centroid_ijk"])), 0.5);
   const auto crown = truth["M3"]["crown_dir_ijk"];
   const glm::dvec3 crown_P =
       glm::normalize(glm::dvec3(crown[0].get<double>(), crown[1].get<double>(), crown[2].get<double>()));
-  EXPECT_GT(glm::dot(patient.site.crown_direction_P, crown_P), std::cos(15.0 * std::acos(-1.0) / 180.0));
+  EXPECT_GT(glm::dot(patient.site->axis_P, crown_P), std::cos(5.0 * std::acos(-1.0) / 180.0));
 
   std::vector<glm::dvec3> canal;
   for (const auto& ijk : truth["canal_polyline_ijk"]) canal.push_back(pointOf(ijk));
-  for (const auto& p : canal) EXPECT_LT(distanceToLine(patient.canal_P_mm, p), 1.0);
-  for (const auto& p : patient.canal_P_mm)
+  for (const auto& p : canal) EXPECT_LT(distanceToLine(patient.mandibular_canal_P_mm, p), 1.0);
+  for (const auto& p : patient.mandibular_canal_P_mm)
     if (p.y > canal.front().y && p.y < canal.back().y) {
       EXPECT_LT(distanceToLine(canal, p), 1.0);
     }
-  EXPECT_NEAR(patient.canal_radius_mm, 1.3, 0.2);
+  EXPECT_NEAR(patient.mandibular_canal_radius_mm, 1.3, 0.2);
 }
 
-TEST_F(RealJaw, IsReadWithoutLabelsToo) {
-  const auto patient = importScan(folder_ + "/ct.nrrd", {});
-  EXPECT_FALSE(patient.site.known);
-  EXPECT_TRUE(patient.canal_P_mm.empty());
-  EXPECT_EQ(patient.ct.label, assets::labelsFromGrey(patient.ct.hounsfield));
+TEST_F(ScanImportRealData, IsReadWithoutLabelsToo) {
+  const auto patient = importScan(folder_ + "/ct.nrrd", {}).patient;
+  EXPECT_FALSE(patient.site);
+  EXPECT_TRUE(patient.mandibular_canal_P_mm.empty());
+  EXPECT_EQ(patient.ct.label, assets::labelsFromGrey(patient.ct.grid, patient.ct.hounsfield));
   EXPECT_EQ(patient.ct.solid, assets::classify(patient.ct.grid, patient.ct.hounsfield, {}));
-  const glm::dvec3 index = patient.ct.grid.indexFromPoint(patient.site.third_molar_P_mm);
+  const glm::dvec3 index = patient.ct.grid.indexFromPoint(patient.workplace_P_mm());
   EXPECT_TRUE(glm::all(glm::greaterThan(index, glm::dvec3(0.0)))) << "in the volume";
   EXPECT_TRUE(glm::all(glm::lessThan(index, glm::dvec3(patient.ct.grid.size))));
 }
@@ -136,22 +130,100 @@ TEST(ScanImport, KeepsNothingThatTellsWho) {
   std::string bytes = on_disk::nrrd(scan, "short", on_disk::bytesOf(std::vector<std::int16_t>(1728, 1000)));
   bytes.insert(9, "# Jane Doe\ncontent: Jane Doe\nPatientName:=Jane Doe\n");
   on_disk::write(folder.at("jane_doe.nrrd"), bytes);
-  const auto patient = importScan(folder.at("jane_doe.nrrd"), {});
+  const auto patient = importScan(folder.at("jane_doe.nrrd"), {}).patient;
   std::string words = assets::patientToml(patient);
   std::transform(words.begin(), words.end(), words.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   EXPECT_THAT(words, Not(HasSubstr("jane")));
 }
 
-TEST(TissueFromGrey, GoesByThresholds) {
-  using assets::Tissue;
-  using assets::tissueFromGrey;
-  EXPECT_EQ(tissueFromGrey(2500), Tissue::enamel);
-  EXPECT_EQ(tissueFromGrey(1650), Tissue::dentine);
-  EXPECT_EQ(tissueFromGrey(1250), Tissue::cortical);
-  EXPECT_EQ(tissueFromGrey(420), Tissue::trabecular);
-  EXPECT_EQ(tissueFromGrey(60), Tissue::unlabelled);
-  EXPECT_EQ(tissueFromGrey(-1000), Tissue::unlabelled);
+void writeGreys(const std::string& path, const VolumeGrid& grid, const std::vector<std::uint8_t>& values) {
+  auto file = assets::nrrdOutput(path, true);
+  assets::writeSolid(grid, values, file);
+}
+
+/// Two teeth, 8 mm high, of which the lower half is dentine.
+struct TwoTeeth {
+  VolumeGrid grid{{40, 40, 40}, 0.5, {0, 0, 0}};
+  std::vector<std::int16_t> hounsfield = std::vector<std::int16_t>(64000, -1000);
+  std::vector<std::uint8_t> label = std::vector<std::uint8_t>(64000), tooth = label;
+
+  TwoTeeth() {
+    for (int k = 10; k < 26; ++k)
+      for (int j = 8; j < 32; ++j)
+        for (int i = 14; i < 26; ++i) {
+          if (j > 18 && j < 22) continue;
+          const std::size_t v = grid.index({i, j, k});
+          hounsfield[v] = k > 18 ? 2500 : 1650;
+          label[v] = k > 18 ? 4 : 5;
+          tooth[v] = j < 20 ? 36 : 38;
+        }
+  }
+  void writeTo(const on_disk::Folder& folder) const {
+    auto file = assets::nrrdOutput(folder.at("ct.nrrd"), true);
+    assets::writeHounsfield(grid, hounsfield, file);
+    writeGreys(folder.at("labels.nrrd"), grid, label);
+    writeGreys(folder.at("teeth.nrrd"), grid, tooth);
+  }
+};
+
+TEST(ScanImport, TakesTheToothAskedForAsTheSite) {
+  const on_disk::Folder folder;
+  TwoTeeth scan;
+  scan.writeTo(folder);
+  const auto by_itself = importScan(folder.at(""), {});
+  ASSERT_TRUE(by_itself.patient.site);
+  EXPECT_EQ(by_itself.patient.site->fdi, 38) << "the third molar";
+  const auto asked = importScan(folder.at(""), {.tooth_fdi = 36});
+  ASSERT_TRUE(asked.patient.site);
+  EXPECT_EQ(asked.patient.site->fdi, 36);
+  EXPECT_NEAR(asked.patient.site->centre_P_mm.y, 6.5, 0.3);
+  EXPECT_GT(asked.patient.site->axis_P.z, 0.99);
+  EXPECT_EQ(asked.patient.ct.tooth, scan.tooth);
+  EXPECT_THAT(asked.patient.title, HasSubstr("lower left first molar (36)"));
+  EXPECT_THAT(refusalOf(folder.at(""), {.tooth_fdi = 47}), HasSubstr("these are: 36, 38"));
+
+  // No third molar, no question: the view goes to the teeth there are.
+  std::ranges::replace(scan.tooth, std::uint8_t{38}, std::uint8_t{37});
+  scan.writeTo(folder);
+  const auto none = importScan(folder.at(""), {});
+  EXPECT_FALSE(none.patient.site);
+  EXPECT_THAT(none.remarks, testing::Contains(HasSubstr("no third molar labelled here; these teeth are: 36, 37")));
+  EXPECT_NEAR(none.patient.workplace_P_mm().y, 9.75, 0.3);
+
+  scan.tooth[0] = 17;
+  scan.tooth[1] = 9;
+  scan.writeTo(folder);
+  EXPECT_THAT(refusalOf(folder.at("")), HasSubstr("its value 9 is no FDI number"));
+}
+
+TEST(ScanImport, SaysWhatIsOddAboutLabels) {
+  const on_disk::Folder folder;
+  TwoTeeth scan;
+  scan.writeTo(folder);
+  std::filesystem::remove(folder.at("teeth.nrrd"));
+  const auto remarksWith = [&](const std::function<std::uint8_t(std::uint8_t)>& legend) {
+    std::vector<std::uint8_t> label = scan.label;
+    std::ranges::transform(label, label.begin(), legend);
+    writeGreys(folder.at("labels.nrrd"), scan.grid, label);
+    return importScan(folder.at(""), {}).remarks;
+  };
+  EXPECT_THAT(remarksWith([](std::uint8_t l) { return l; }), testing::IsEmpty());
+  EXPECT_THAT(remarksWith([](std::uint8_t) { return std::uint8_t{0}; }), testing::Contains(HasSubstr("all are 0")));
+  EXPECT_THAT(remarksWith([](std::uint8_t l) { return static_cast<std::uint8_t>(l == 0 ? 0 : l + 100); }),
+              testing::Contains(HasSubstr("none is one of ours")));
+  EXPECT_THAT(remarksWith([](std::uint8_t l) { return static_cast<std::uint8_t>(l == 4 ? 44 : l); }),
+              testing::Contains(HasSubstr("44 are none of ours")));
+}
+
+TEST(ScanImport, NeverMakesAnEmptyPictureOfEightBits) {
+  const on_disk::Folder folder;
+  std::vector<std::uint8_t> greys(kBlock.voxelCount(), 30);
+  for (std::size_t v = 400; v < 1300; ++v) greys[v] = 180;
+  writeGreys(folder.at("u8.nrrd"), kBlock, greys);
+  EXPECT_THAT(refusalOf(folder.at("u8.nrrd")), HasSubstr("--window"));
+  const auto windowed = importScan(folder.at("u8.nrrd"), {.window = assets::GreyWindow{-1000.0, 3000.0}});
+  EXPECT_EQ(windowed.patient.ct.hounsfield[500], 1824);
 }
 
 }  // namespace

@@ -84,7 +84,7 @@ glm::dvec3 longAxisOfThirdMolar(const CtVolume& ct) {
 /// upright.
 double measuredWinterAngle_deg(const Patient& patient) {
   const glm::dvec3 axis = longAxisOfThirdMolar(patient.ct);
-  const double outward = patient.site.tooth_fdi == 48 ? -1.0 : 1.0;
+  const double outward = patient.site->fdi == 48 ? -1.0 : 1.0;
   const glm::dvec3 mesial = glm::normalize(glm::dvec3(-0.26 * outward, -1.0, 0.0));
   return calibration::degreesFromRad(std::atan2(glm::dot(axis, mesial), axis.z));
 }
@@ -94,8 +94,8 @@ double thirdMolarToCanal_mm(const Patient& patient) {
   const CtVolume& ct = patient.ct;
   forEachVoxel(ct, [&](glm::ivec3 ijk, std::size_t n) {
     if (!isThirdMolar(ct.label[n])) return;
-    for (const glm::dvec3& p : patient.canal_P_mm)
-      least_mm = std::min(least_mm, glm::distance(p, ct.grid.centre_P_mm(ijk)) - patient.canal_radius_mm);
+    for (const glm::dvec3& p : patient.mandibular_canal_P_mm)
+      least_mm = std::min(least_mm, glm::distance(p, ct.grid.centre_P_mm(ijk)) - patient.mandibular_canal_radius_mm);
   });
   return least_mm;
 }
@@ -106,7 +106,7 @@ TEST(SyntheticJaw, HoldsEveryTissueInPlausibleAmounts) {
   EXPECT_NEAR(volumeOf(count, Tissue::enamel), 272.0, 60.0);
   EXPECT_NEAR(volumeOf(count, Tissue::dentine), 446.0, 80.0);
   EXPECT_NEAR(volumeOf(count, Tissue::pulp), 103.0, 35.0);
-  EXPECT_NEAR(volumeOf(count, Tissue::canal), 400.0, 120.0);
+  EXPECT_NEAR(volumeOf(count, Tissue::mandibular_canal), 400.0, 120.0);
   EXPECT_NEAR(volumeOf(count, Tissue::other_teeth), 2700.0, 500.0);
   EXPECT_GT(volumeOf(count, Tissue::ligament), 200.0);
   EXPECT_GT(volumeOf(count, Tissue::cortical), 5000.0);
@@ -129,8 +129,8 @@ TEST(SyntheticJaw, ShowsEachTissueInItsGreyValue) {
     total += ct.hounsfield[n];
     voxels += 1.0;
   });
-  for (const Tissue tissue : {Tissue::unlabelled, Tissue::cortical, Tissue::enamel, Tissue::dentine, Tissue::canal,
-                              Tissue::gingiva, Tissue::trabecular}) {
+  for (const Tissue tissue : {Tissue::unlabelled, Tissue::cortical, Tissue::enamel, Tissue::dentine,
+                              Tissue::mandibular_canal, Tissue::gingiva, Tissue::trabecular}) {
     const auto [total, voxels] = sum[tissue];
     ASSERT_GT(voxels, 20.0);
     const TissueProperties& expected = properties(static_cast<std::uint8_t>(tissue));
@@ -141,14 +141,16 @@ TEST(SyntheticJaw, ShowsEachTissueInItsGreyValue) {
 TEST(SyntheticJaw, TurnsTheThirdMolarByTheWinterAngle) {
   EXPECT_NEAR(measuredWinterAngle_deg(standardJaw()), 45.0, 5.0);
   for (const double angle_deg : {0.0, 25.0, 70.0, 90.0, -30.0}) {
-    const Patient patient = syntheticJaw({.winter_angle_deg = angle_deg, .canal_distance_mm = 1.0, .spacing_mm = 0.7});
+    const Patient patient =
+        syntheticJaw({.winter_angle_deg = angle_deg, .mandibular_canal_distance_mm = 1.0, .spacing_mm = 0.7});
     EXPECT_NEAR(measuredWinterAngle_deg(patient), angle_deg, 5.0);
   }
 }
 
 TEST(SyntheticJaw, PutsTheCrownAtItsDepth) {
   for (const double depth_mm : {1.0, 5.0}) {
-    const Patient patient = syntheticJaw({.depth_mm = depth_mm, .canal_distance_mm = 1.0, .spacing_mm = 0.5});
+    const Patient patient =
+        syntheticJaw({.depth_mm = depth_mm, .mandibular_canal_distance_mm = 1.0, .spacing_mm = 0.5});
     double top_mm = -1e9;
     forEachVoxel(patient.ct, [&](glm::ivec3 ijk, std::size_t n) {
       if (isThirdMolar(patient.ct.label[n])) top_mm = std::max(top_mm, patient.ct.grid.centre_P_mm(ijk).z);
@@ -157,20 +159,21 @@ TEST(SyntheticJaw, PutsTheCrownAtItsDepth) {
   }
 }
 
-TEST(SyntheticJaw, KeepsTheWantedDistanceToTheCanal) {
+TEST(SyntheticJaw, KeepsTheWantedDistanceToTheMandibularCanal) {
   for (const double distance_mm : {0.5, 2.0, 3.5}) {
-    const Patient patient = syntheticJaw({.canal_distance_mm = distance_mm, .spacing_mm = 0.4});
+    const Patient patient = syntheticJaw({.mandibular_canal_distance_mm = distance_mm, .spacing_mm = 0.4});
     EXPECT_NEAR(thirdMolarToCanal_mm(patient), distance_mm, 0.4);
   }
 }
 
-TEST(SyntheticJaw, RunsTheCanalLineInsideTheCanal) {
+TEST(SyntheticJaw, RunsTheCanalLineInsideTheMandibularCanal) {
   const Patient& patient = standardJaw();
-  EXPECT_GT(patient.canal_P_mm.size(), 100u);
-  for (const glm::dvec3& p : patient.canal_P_mm) {
+  EXPECT_GT(patient.mandibular_canal_P_mm.size(), 100u);
+  for (const glm::dvec3& p : patient.mandibular_canal_P_mm) {
     const glm::ivec3 ijk(glm::round(patient.ct.grid.indexFromPoint(p)));
     ASSERT_TRUE(patient.ct.grid.contains(ijk));
-    EXPECT_EQ(static_cast<Tissue>(patient.ct.label[patient.ct.grid.index(ijk)]), Tissue::canal) << p.x << ' ' << p.y;
+    EXPECT_EQ(static_cast<Tissue>(patient.ct.label[patient.ct.grid.index(ijk)]), Tissue::mandibular_canal)
+        << p.x << ' ' << p.y;
   }
 }
 
@@ -198,11 +201,11 @@ TEST(SyntheticJaw, MirrorsTheLeftSideExactly) {
     if (left.ct.label[n] != right.ct.label[mirror] || left.ct.hounsfield[n] != right.ct.hounsfield[mirror]) ++different;
   });
   EXPECT_EQ(different, 0u);
-  EXPECT_EQ(left.site.tooth_fdi, 38);
-  EXPECT_EQ(right.site.tooth_fdi, 48);
-  EXPECT_GT(left.site.third_molar_P_mm.x, 0.0);
-  EXPECT_NEAR(left.site.third_molar_P_mm.x, -right.site.third_molar_P_mm.x, 1e-9);
-  EXPECT_NEAR(left.canal_P_mm[50].x, -right.canal_P_mm[50].x, 1e-12);
+  EXPECT_EQ(left.site->fdi, 38);
+  EXPECT_EQ(right.site->fdi, 48);
+  EXPECT_GT(left.site->centre_P_mm.x, 0.0);
+  EXPECT_NEAR(left.site->centre_P_mm.x, -right.site->centre_P_mm.x, 1e-9);
+  EXPECT_NEAR(left.mandibular_canal_P_mm[50].x, -right.mandibular_canal_P_mm[50].x, 1e-12);
 }
 
 TEST(SyntheticJaw, IsTheSameForTheSameSeedAndAnotherForAnother) {
@@ -219,18 +222,43 @@ TEST(SyntheticJaw, HasTheSameVolumesAtEveryVoxelSize) {
   const TissueCount fine = countTissues(syntheticJaw({.spacing_mm = 0.35}).ct);
   const TissueCount coarse = countTissues(syntheticJaw({.spacing_mm = 0.5}).ct);
   for (const Tissue tissue : {Tissue::cortical, Tissue::trabecular, Tissue::other_teeth, Tissue::enamel,
-                              Tissue::dentine, Tissue::pulp, Tissue::canal, Tissue::gingiva})
+                              Tissue::dentine, Tissue::pulp, Tissue::mandibular_canal, Tissue::gingiva})
     EXPECT_NEAR(volumeOf(coarse, tissue) / volumeOf(fine, tissue), 1.0, 0.03)
         << properties(static_cast<std::uint8_t>(tissue)).name;
 }
 
 TEST(SyntheticJaw, PointsTheSiteAtTheThirdMolar) {
   const Patient& patient = standardJaw();
-  EXPECT_TRUE(patient.site.known);
+  ASSERT_TRUE(patient.site);
   const glm::dvec3 axis = longAxisOfThirdMolar(patient.ct);
-  EXPECT_GT(glm::dot(axis, patient.site.crown_direction_P), std::cos(calibration::radFromDegrees(8.0)));
-  const glm::ivec3 ijk(glm::round(patient.ct.grid.indexFromPoint(patient.site.third_molar_P_mm)));
+  EXPECT_GT(glm::dot(axis, patient.site->axis_P), std::cos(calibration::radFromDegrees(8.0)));
+  const glm::ivec3 ijk(glm::round(patient.ct.grid.indexFromPoint(patient.site->centre_P_mm)));
   EXPECT_TRUE(isThirdMolar(patient.ct.label[patient.ct.grid.index(ijk)]));
+}
+
+TEST(SyntheticJaw, NumbersEveryToothOfItsSide) {
+  const Patient& patient = standardJaw();
+  const CtVolume& ct = patient.ct;
+  const int quadrant = patient.site->fdi - 8;
+  std::array<double, 9> volume_mm3{};
+  std::array<glm::dvec3, 9> sum{};
+  forEachVoxel(ct, [&](glm::ivec3 ijk, std::size_t n) {
+    const bool is_tooth = isThirdMolar(ct.label[n]) || static_cast<Tissue>(ct.label[n]) == Tissue::other_teeth;
+    ASSERT_EQ(ct.tooth[n] != 0, is_tooth) << "a number for every voxel of a tooth, none elsewhere";
+    if (!is_tooth) return;
+    ASSERT_EQ(ct.tooth[n] == patient.site->fdi, isThirdMolar(ct.label[n]));
+    const auto place = static_cast<std::size_t>(ct.tooth[n] - quadrant);
+    ASSERT_LT(place, volume_mm3.size());
+    volume_mm3[place] += ct.grid.voxelVolume_mm3();
+    sum[place] += ct.grid.voxelVolume_mm3() * ct.grid.centre_P_mm(ijk);
+  });
+  for (std::size_t place = 4; place <= 8; ++place) {
+    EXPECT_GT(volume_mm3[place], 250.0) << place;
+    if (place > 4) {
+      EXPECT_GT(sum[place].y / volume_mm3[place], sum[place - 1].y / volume_mm3[place - 1] + 4.0)
+          << "one behind another";
+    }
+  }
 }
 
 TEST(SyntheticJaw, NamesTheParameterThatIsOutOfRange) {
@@ -244,10 +272,11 @@ TEST(SyntheticJaw, NamesTheParameterThatIsOutOfRange) {
   };
   EXPECT_NE(message_of({.winter_angle_deg = 200.0}).find("Winter angle"), std::string::npos);
   EXPECT_NE(message_of({.depth_mm = -4.0}).find("depth"), std::string::npos);
-  EXPECT_NE(message_of({.canal_distance_mm = 0.0}).find("canal distance"), std::string::npos);
+  EXPECT_NE(message_of({.mandibular_canal_distance_mm = 0.0}).find("canal distance"), std::string::npos);
   EXPECT_NE(message_of({.spacing_mm = std::nan("")}).find("voxel size"), std::string::npos);
-  EXPECT_NE(message_of({.winter_angle_deg = 0.0, .depth_mm = 8.0, .canal_distance_mm = 6.0}).find("does not fit"),
-            std::string::npos);
+  EXPECT_NE(
+      message_of({.winter_angle_deg = 0.0, .depth_mm = 8.0, .mandibular_canal_distance_mm = 6.0}).find("does not fit"),
+      std::string::npos);
 }
 
 TEST(SyntheticLandmarks, LieInTheCrowns) {

@@ -64,8 +64,8 @@ TEST(Scanner, LabelsTheInnermostTissue) {
   EXPECT_EQ(tissueAt(d), Tissue::cortical);
   d.trabecular = -1.0;
   EXPECT_EQ(tissueAt(d), Tissue::trabecular);
-  d.canal = -1.0;
-  EXPECT_EQ(tissueAt(d), Tissue::canal);
+  d.mandibular_canal = -1.0;
+  EXPECT_EQ(tissueAt(d), Tissue::mandibular_canal);
   d.third_molar = -1.0;
   EXPECT_EQ(tissueAt(d), Tissue::enamel);
 }

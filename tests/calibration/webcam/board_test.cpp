@@ -122,7 +122,7 @@ TEST(Board, IsDrawnWithOddByEvenSquaresAndAnFThatReadsOneWayOnly) {
   EXPECT_THROW(boardFor({200, 150}), CalibrationError);
 }
 
-TEST(PictureReader, RefusesWhatIsNoPicture) {
+TEST(BoardPicture, RefusesWhatIsNoPicture) {
   EXPECT_THROW(readGreyPicture("/nowhere/left01.jpg"), CalibrationError);
   EXPECT_THROW(readGreyPicture(__FILE__), CalibrationError);
 }

@@ -290,7 +290,8 @@ TEST_F(FalconOnTheBus, AnUnweighedUnitGetsATenthOfItsMotorsAtMost) {
   hand.push({50.0, -30.0, 20.0});
   falcon.start(hand, 1000.0);
   ASSERT_TRUE(soon([&] { return now([&] { return unit.largest_word; }) > 300; }));
-  std::this_thread::sleep_for(50ms);
+  const std::size_t before = now([&] { return unit.packets.size(); });
+  ASSERT_TRUE(soon([&] { return now([&] { return unit.packets.size(); }) > before + 30; }));
   falcon.stop();
   EXPECT_LE(now([&] { return unit.largest_word; }), 409);
 }
@@ -422,8 +423,7 @@ TEST_F(FalconOnTheBus, TheLastPacketLetsGoAndNothingFollowsIt) {
     const auto packets = now([&] { return unit.packets; });
     // No force, homing counts on, lights out.
     EXPECT_EQ(packets.back(), kNoForce + "BA>");
-    falcon.motorsOff();
-    std::this_thread::sleep_for(20ms);
+    falcon.motorsOff();  // whoever would send is joined
     EXPECT_EQ(now([&] { return unit.packets.size(); }), packets.size());
   }
   EXPECT_EQ(now([&] { return unit.packets.back(); }), kNoForce + "BA>");

@@ -153,7 +153,7 @@ struct Bus::Parts {
   Clock::time_point began = Clock::now();
   std::map<std::string, std::unique_ptr<Plug>> plugs;
   std::vector<std::unique_ptr<Plug>> unplugged;  ///< handles may still be open
-  std::atomic<int> halts_cleared{0}, cancelled{0};
+  std::atomic<int> halts_cleared{0}, cancelled{0}, looks{0};
 
   double now_s() const { return std::chrono::duration<double>(Clock::now() - began).count(); }
   static std::string sysPath(const std::string& port) { return "/sys/devices/pci0000:00/0000:00:14.0/usb1/1-" + port; }
@@ -220,6 +220,7 @@ int Plug::discard(std::uint64_t address) {
 }
 
 int Plug::reap(UMockdevIoctlData* argument) {
+  parts->looks.fetch_add(1);
   if (gone) {
     for (const Urb& urb : waiting) finish(urb, -ESHUTDOWN, 0);
     waiting.clear();
@@ -353,5 +354,6 @@ void Bus::locked(const std::function<void()>& look) {
 
 int Bus::halts_cleared() const { return parts_->halts_cleared.load(); }
 int Bus::cancelled() const { return parts_->cancelled.load(); }
+int Bus::looks() const { return parts_->looks.load(); }
 
 }  // namespace simulated_usb

@@ -82,6 +82,8 @@ class Bus {
 
   int halts_cleared() const;
   int cancelled() const;
+  /// How often a host has asked for what came back.
+  int looks() const;
 
   struct Parts;
 

@@ -9,6 +9,7 @@
 
 #include "haptics/device/haptic_device.h"
 #include "haptics/device/monotonic_clock.h"
+#include "tests/haptics/usb/held_clock.h"
 #include "tests/haptics/usb/simulated_usb.h"
 
 namespace haptics {
@@ -17,6 +18,7 @@ namespace {
 using namespace std::chrono_literals;
 using simulated_usb::Bus;
 using simulated_usb::Bytes;
+using simulated_usb::HeldClock;
 
 /// Says the last bytes it was told, a count in front, once per millisecond; remembers everything it was told.
 class Echo : public simulated_usb::Device {
@@ -92,6 +94,7 @@ class UsbTransportOnTheBus : public testing::Test {
     return copy;
   }
   Echo echo;
+  HeldClock time;
   std::optional<Bus> bus;
 };
 
@@ -161,19 +164,19 @@ TEST_F(UsbTransportOnTheBus, ChoosesAmongTwinsByPathAndServesBulkPipes) {
 TEST_F(UsbTransportOnTheBus, AsksAndAnswersWithADeadlineBeforeItRuns) {
   UsbTransport usb({0x1234, 6});
   Bytes three{1, 2, 3}, room(8);
-  EXPECT_TRUE(usb.control({0x40, 5, 0x1234, 0}, three, 1s).done());
+  EXPECT_TRUE(usb.control({0x40, 5, 0x1234, 0}, three, 60s).done());
   EXPECT_EQ(now(echo.controlled), three);
-  const UsbExchange answer = usb.control({0xc0, 9, 0x0142, 0}, room, 1s);
+  const UsbExchange answer = usb.control({0xc0, 9, 0x0142, 0}, room, 60s);
   EXPECT_TRUE(answer.done());
   ASSERT_EQ(answer.bytes, 2u);
   EXPECT_EQ(room[0], 9);
   EXPECT_EQ(room[1], 0x42);
-  EXPECT_EQ(usb.control({0xc0, 99, 0, 0}, room, 1s).outcome, UsbOutcome::stalled);
+  EXPECT_EQ(usb.control({0xc0, 99, 0, 0}, room, 60s).outcome, UsbOutcome::stalled);
 
-  EXPECT_TRUE(usb.write(three, 1s).done());
+  EXPECT_TRUE(usb.write(three, 60s).done());
   EXPECT_EQ(now(echo.told), std::vector<Bytes>{three});
   Bytes packet(64);
-  const UsbExchange heard = usb.read(packet, 1s);
+  const UsbExchange heard = usb.read(packet, 60s);
   EXPECT_TRUE(heard.done());
   EXPECT_EQ(heard.bytes, 4u);
   EXPECT_EQ(packet[1], 1);
@@ -258,12 +261,12 @@ TEST_F(UsbTransportOnTheBus, ClearsAHaltedPipeAndGoesOn) {
 }
 
 TEST_F(UsbTransportOnTheBus, ClearsAHaltThatStaysNoMoreThanAFewTimes) {
-  UsbTransport usb({0x1234, 6});
+  UsbTransport usb({0x1234, 6}, time.clock());
   usb.run(echoStream());
   ASSERT_TRUE(soon([&] { return usb.state() == UsbState::ok; }));
   bus->set({.in_halted = true, .halts_stay = true});
   ASSERT_TRUE(soon([&] { return bus->halts_cleared() == 3 && usb.state() == UsbState::stalled; }));
-  std::this_thread::sleep_for(100ms);
+  for (int i = 0; i < 10; ++i) time.passAndSettle(200ms, *bus);
   EXPECT_EQ(bus->halts_cleared(), 3);
   EXPECT_EQ(usb.state(), UsbState::stalled);
   // What goes out still does: the motors can be let go.
@@ -332,7 +335,7 @@ TEST_F(UsbTransportOnTheBus, ARestMakesVoidWhatWasMadeBefore) {
   ASSERT_TRUE(soon([&] { return now(echo.told).size() == 2; }));
   for (int i = 0; i < 20; ++i) {
     usb.send(report(6), before);
-    std::this_thread::sleep_for(1ms);
+    HeldClock::settle(*bus);
   }
   usb.send(report(7), usb.rests());
   ASSERT_TRUE(soon([&] { return now(echo.told).size() == 3; }));
@@ -353,18 +356,24 @@ TEST_F(UsbTransportOnTheBus, ARestIsSentUntilItIsTaken) {
 }
 
 TEST_F(UsbTransportOnTheBus, RestsByItselfWhenNobodySendsAnything) {
-  UsbTransport usb({0x1234, 6});
+  UsbTransport usb({0x1234, 6}, time.clock());
   UsbStream stream = echoStream();
   stream.rest_after = 10ms;
   usb.run(stream);
   usb.send(report(5), usb.rests());
+  ASSERT_TRUE(soon([&] { return now(echo.told).size() == 1; }));
+  time.passAndSettle(9ms, *bus);
+  EXPECT_EQ(now(echo.told).size(), 1u) << "not before its time";
+  time.pass(1ms);
   ASSERT_TRUE(soon([&] { return now(echo.told).size() == 2; }));
   EXPECT_EQ(now(echo.told)[1], Bytes(4, 0));
-  std::this_thread::sleep_for(50ms);
+  time.passAndSettle(50ms, *bus);
   EXPECT_EQ(now(echo.told).size(), 2u) << "once is enough";
   EXPECT_EQ(usb.counters().silences, 1u);
   // Who speaks again is heard.
   usb.send(report(6), usb.rests());
+  ASSERT_TRUE(soon([&] { return now(echo.told).size() == 3; }));
+  time.pass(10ms);
   ASSERT_TRUE(soon([&] { return now(echo.told).size() == 4; }));
   EXPECT_EQ(now(echo.told)[2][0], 6);
 }
@@ -373,9 +382,11 @@ TEST_F(UsbTransportOnTheBus, SendsTheLastReportAndThenNothingEver) {
   UsbTransport usb({0x1234, 6});
   usb.run(echoStream());
   std::atomic<bool> over{false};
+  std::atomic<int> sent{0};
   std::thread servo([&] {
     while (!over.load()) {
       usb.send(report(9), usb.rests());
+      sent.fetch_add(1);
       usb.awaitReport(monotonic_ns() + 1'000'000);
       usb.newestReport();
     }
@@ -390,7 +401,9 @@ TEST_F(UsbTransportOnTheBus, SendsTheLastReportAndThenNothingEver) {
   const std::size_t told = now(echo.told).size();
   usb.rest();
   EXPECT_TRUE(usb.sendLast(report(100), 10s)) << "the first is what is sent";
-  std::this_thread::sleep_for(50ms);
+  const int sent_then = sent.load();
+  EXPECT_TRUE(soon([&] { return sent.load() > sent_then + 20; }));
+  HeldClock::settle(*bus);
   over.store(true);
   servo.join();
   usb.stop();
@@ -405,8 +418,9 @@ TEST_F(UsbTransportOnTheBus, TheLastReportOvertakesOneThatHangs) {
   usb.send(report(9), usb.rests());
   ASSERT_TRUE(soon([&] { return usb.counters().out_timeouts >= 1; }));
   usb.send(report(9), usb.rests());
+  const std::uint64_t late = usb.counters().out_timeouts;
   std::thread helper([&] {
-    std::this_thread::sleep_for(100ms);
+    EXPECT_TRUE(soon([&] { return usb.counters().out_timeouts >= late + 3; }));
     bus->set({});
   });
   EXPECT_TRUE(usb.sendLast(report(200), 20s));
@@ -417,16 +431,22 @@ TEST_F(UsbTransportOnTheBus, TheLastReportOvertakesOneThatHangs) {
 }
 
 TEST_F(UsbTransportOnTheBus, AfterALastReportNobodyTookNothingFollows) {
-  UsbTransport usb({0x1234, 6});
+  UsbTransport usb({0x1234, 6}, time.clock());
   usb.run(echoStream());
   bus->set({.out_refused = true});
+  std::atomic<bool> given_up{false};
+  std::thread clock([&] {
+    while (!given_up.load()) time.passAndSettle(20ms, *bus);
+  });
   EXPECT_FALSE(usb.sendLast(report(200), 60ms));
-  ASSERT_TRUE(soon([&] { return usb.counters().out_timeouts >= 1; }));
-  std::this_thread::sleep_for(100ms);
+  given_up.store(true);
+  clock.join();
+  EXPECT_GE(usb.counters().out_timeouts, 1u);
+  time.passAndSettle(100ms, *bus);
   bus->set({});
   usb.send(report(9), usb.rests());
   usb.rest();
-  std::this_thread::sleep_for(50ms);
+  time.passAndSettle(50ms, *bus);
   EXPECT_TRUE(now(echo.told).empty());
 }
 

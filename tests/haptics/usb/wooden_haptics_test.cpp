@@ -15,6 +15,7 @@
 #include "haptics/latest.h"
 #include "haptics/safety/motor_gate.h"
 #include "tests/architecture/forbid_blocking.h"
+#include "tests/haptics/usb/held_clock.h"
 #include "tests/haptics/usb/simulated_usb.h"
 #include "tests/haptics/usb/simulated_wooden.h"
 
@@ -24,6 +25,7 @@ namespace {
 using namespace std::chrono_literals;
 using simulated_usb::Bus;
 using simulated_usb::Bytes;
+using simulated_usb::HeldClock;
 using simulated_usb::SimulatedWooden;
 
 /// However busy the machine is.
@@ -41,7 +43,10 @@ class Pusher final : public DeviceServo {
  public:
   using Law = std::function<glm::dvec3(const HandleState&)>;
   Pusher(HapticDevice& device, Law law) : device_(device), gate_(device.capabilities()), law_(std::move(law)) {}
-  ~Pusher() override { device_.stop(); }
+  ~Pusher() override {
+    hang.store(false);
+    device_.stop();
+  }
 
   MotorCommand tick(const HandleState& state, const Beat&) noexcept override {
     for (hangs.store(false); hang.load(); std::this_thread::sleep_for(1ms)) hangs.store(true);
@@ -97,12 +102,17 @@ class WoodenOnTheBus : public testing::Test {
   bool pushes() {
     return now([&] { return unit.mA != std::array<std::int16_t, 3>{}; });
   }
+  /// By this side, not by its own watchdog.
+  bool toldToRest() {
+    return now([&] { return unit.told.back() == std::array<std::int16_t, 7>{}; });
+  }
   /// In the middle of its workspace.
   void holdInTheMiddle() {
     bus->locked([&] { unit.hold({0.1, 0.35, 0.65}); });
   }
 
   SimulatedWooden unit;
+  HeldClock time;
   std::optional<Bus> bus;
 };
 
@@ -244,7 +254,8 @@ TEST_F(WoodenOnTheBus, NoMotorIsToldMoreThanTheClamp) {
   Pusher pusher(wooden, always({1e6, -1e6, 1e6}));
   wooden.start(pusher, 1000.0);
   ASSERT_TRUE(soon([&] { return now([&] { return unit.largest_mA; }) > 500; }));
-  std::this_thread::sleep_for(50ms);
+  const std::size_t before = now([&] { return unit.told.size(); });
+  ASSERT_TRUE(soon([&] { return now([&] { return unit.told.size(); }) > before + 30; }));
   EXPECT_LE(now([&] { return unit.largest_mA; }), 2000);
 }
 
@@ -290,25 +301,24 @@ TEST_F(WoodenOnTheBus, SaysThatItDoesNotAnswer) {
 }
 
 TEST_F(WoodenOnTheBus, MotorsOffBesideAHangingServoLetsGo) {
-  WoodenHaptics wooden(obedient());
+  // Time stands: no rest comes by itself after a silence.
+  WoodenSettings settings = obedient();
+  settings.clock = time.clock();
+  WoodenHaptics wooden(settings);
   holdInTheMiddle();
   Pusher pusher(wooden, always({0.0, 0.0, 0.5}));
   wooden.start(pusher, 1000.0);
-  // Nobody else let go of it: the rest that comes by itself after a silence was not needed in some of the rounds.
-  bool by_itself = true;
-  for (int i = 0; i < 100 && (i < 5 || by_itself); ++i) {
+  for (int i = 0; i < 5; ++i) {
     ASSERT_TRUE(soon([&] { return pushes(); }));
     pusher.hang.store(true);
     ASSERT_TRUE(soon([&] { return pusher.hangs.load(); }));
-    const std::uint64_t silences = wooden.counters().silences;
     wooden.motorsOff();
-    ASSERT_TRUE(soon([&] { return !pushes(); }));
-    by_itself = by_itself && wooden.counters().silences != silences;
-    std::this_thread::sleep_for(30ms);
-    EXPECT_FALSE(pushes());
+    ASSERT_TRUE(soon([&] { return toldToRest(); }));
+    HeldClock::settle(*bus);
+    EXPECT_TRUE(toldToRest());
     pusher.hang.store(false);
   }
-  EXPECT_FALSE(by_itself);
+  EXPECT_EQ(wooden.counters().silences, 0u);
   EXPECT_TRUE(soon([&] { return pushes(); })) << "a later tick is obeyed";
 }
 
@@ -328,28 +338,24 @@ TEST_F(WoodenOnTheBus, AHangingServoIsRestedWithoutAnybodyAsking) {
 
 TEST_F(WoodenOnTheBus, EndsWithNoForceAndThenNothingEver) {
   // Also while the servo hangs: stop() waits for it, the motors do not, nor for the rest that follows a silence.
-  bool by_itself = true;
-  for (int i = 0; i < 20 && by_itself; ++i) {
-    WoodenHaptics wooden(obedient());
-    holdInTheMiddle();
-    Pusher pusher(wooden, always({0.0, 0.0, 0.5}));
-    wooden.start(pusher, 1000.0);
-    ASSERT_TRUE(soon([&] { return pushes(); }));
-    pusher.hang.store(true);
-    ASSERT_TRUE(soon([&] { return pusher.hangs.load(); }));
-    const std::uint64_t silences = wooden.counters().silences;
-    std::thread stopping([&] { wooden.stop(); });
-    EXPECT_TRUE(soon([&] { return !pushes(); }));
-    by_itself = wooden.counters().silences != silences;
-    const std::size_t told = now([&] { return unit.told.size(); });
-    pusher.hang.store(false);
-    stopping.join();
-    wooden.motorsOff();
-    wooden.stop();
-    std::this_thread::sleep_for(20ms);
-    EXPECT_LE(now([&] { return unit.told.size(); }), told + (by_itself ? 1 : 0));
-  }
-  EXPECT_FALSE(by_itself);
+  WoodenSettings settings = obedient();
+  settings.clock = time.clock();
+  WoodenHaptics wooden(settings);
+  holdInTheMiddle();
+  Pusher pusher(wooden, always({0.0, 0.0, 0.5}));
+  wooden.start(pusher, 1000.0);
+  ASSERT_TRUE(soon([&] { return pushes(); }));
+  pusher.hang.store(true);
+  ASSERT_TRUE(soon([&] { return pusher.hangs.load(); }));
+  std::thread stopping([&] { wooden.stop(); });
+  EXPECT_TRUE(soon([&] { return toldToRest(); }));
+  const std::size_t told = now([&] { return unit.told.size(); });
+  pusher.hang.store(false);
+  stopping.join();
+  wooden.motorsOff();
+  wooden.stop();
+  EXPECT_EQ(now([&] { return unit.told.size(); }), told);
+  EXPECT_EQ(wooden.counters().silences, 0u);
   EXPECT_EQ(now([&] { return unit.told.back(); }), (std::array<std::int16_t, 7>{}));
   // The device's own watchdog switches its amplifiers off.
   bus->locked([&] { unit.onTime(1e6); });

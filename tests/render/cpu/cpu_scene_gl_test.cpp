@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "assets/instrument.h"
+#include "assets/instrument/instrument.h"
 #include "render/display/stereo_layout.h"
 #include "render/gpu/offscreen_context.h"
 #include "tests/render/drawn_scene.h"
@@ -164,7 +164,7 @@ TEST_F(CpuScene, DrawsTheSamePixelsAgainAtEdges) {
 TEST_F(CpuScene, ShowsGuidesAsTheShadersDo) {
   open();
   Guides guides;
-  guides.canal_P_mm = {{-16, -6, -3}, {-4, -7, -1}, {4, -5, 0}, {16, -6, 2}};
+  guides.mandibular_canal_P_mm = {{-16, -6, -3}, {-4, -7, -1}, {4, -5, 0}, {16, -6, 2}};
   guides.cut = PlannedCut{.middle_P_mm = {-4, -7, 4}, .half_length_mm = 3.0, .half_height_mm = 2.0, .radius_mm = 2.0};
   both([&](FrameRenderer& r) {
     r.setGuides(guides);
@@ -178,7 +178,7 @@ TEST_F(CpuScene, ShowsGuidesAsTheShadersDo) {
   f.mode = ViewMode::dvr;
   EXPECT_LE(between(*gl_, *cpu_, f, Eye::cyclopean).worst, 2);
   f.mode = ViewMode::iso;
-  f.layers.canal = true;
+  f.layers.mandibular_canal = true;
   f.layers.ghost_tool = f.tool_visible = true;
   f.X_PT = {glm::angleAxis(1.0, glm::dvec3(1, 0, 0)), {4, -10, 6}};
   f.X_PT_at_hand = {glm::angleAxis(1.1, glm::dvec3(1, 0, 0)), {2, -4, 5}};

@@ -6,7 +6,7 @@
 #include "app/calibrate/report/error_map_view.h"
 #include "app/calibrate/report/history_view.h"
 #include "app/calibrate/report/residual_views.h"
-#include "app/calibrate/report/svg.h"
+#include "app/report/svg.h"
 #include "tests/app/calibrate/report/example_record.h"
 #include "tests/app/calibrate/report/markup.h"
 

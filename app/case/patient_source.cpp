@@ -1,0 +1,77 @@
+#include "app/case/patient_source.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+
+#include "assets/load_error.h"
+#include "assets/mesh/gltf_file.h"
+#include "assets/patient/patient_folder.h"
+#include "assets/scenery/face_frame.h"
+#include "assets/scenery/face_placement.h"
+#include "assets/scenery/gum_surface.h"
+#include "assets/synthetic/face.h"
+
+namespace app {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path cacheFolder() {
+  const char* cache = std::getenv("XDG_CACHE_HOME");
+  const char* home = std::getenv("HOME");
+  if (cache && *cache) return fs::path(cache) / "molar";
+  return home && *home ? fs::path(home) / ".cache" / "molar" : fs::temp_directory_path() / "molar-cache";
+}
+
+std::string cacheName(const assets::JawParameters& p) {
+  char name[160];
+  std::snprintf(name, sizeof name, "built-in-%d-%s-%g-%g-%g-%g-%llu", assets::kSyntheticPatientRevision,
+                p.right_side ? "right" : "left", p.winter_angle_deg, p.depth_mm, p.mandibular_canal_distance_mm,
+                p.spacing_mm, static_cast<unsigned long long>(p.seed));
+  return name;
+}
+
+assets::Patient generate(const assets::JawParameters& parameters) {
+  assets::Patient patient = assets::syntheticJaw(parameters);
+  patient.gum = assets::gumSurface(patient.ct, patient.site);
+  patient.face = assets::syntheticFace({.tooth_fdi = patient.toothAtWork()});
+  return patient;
+}
+
+}  // namespace
+
+assets::Patient builtInPatient(const assets::JawParameters& parameters) {
+  const fs::path folder = cacheFolder() / cacheName(parameters);
+  std::error_code ignored;
+  if (fs::exists(folder, ignored)) {
+    try {
+      return assets::loadPatient(folder.string());
+    } catch (const assets::LoadError&) {
+      std::fprintf(stderr, "molar: the cached built-in patient can not be read, making it again\n");
+    }
+  } else {
+    std::fprintf(stderr, "molar: making the built-in patient (once, up to a minute)\n");
+  }
+  const assets::Patient made = generate(parameters);
+  try {
+    fs::create_directories(folder.parent_path(), ignored);
+    assets::savePatient(made, folder.string(), true);
+  } catch (const assets::LoadError& error) {
+    std::fprintf(stderr, "molar: the built-in patient is not kept for next time: %s\n", error.what());
+    return made;
+  }
+  // What is rehearsed is what the cache holds, so the first run and the next are the same.
+  return assets::loadPatient(folder.string());
+}
+
+assets::FacePose dressWithFace(assets::Patient& patient, const std::string& face_path) {
+  const assets::MeshModel face_F = assets::readGltf(face_path);
+  const fs::path teeth = fs::path(face_path).parent_path() / "teeth.json";
+  const assets::FacePlacement placed = assets::fitFace(patient.ct, patient.site, assets::readFaceTeeth(teeth.string()));
+  patient.face = assets::modelInPatientFrame(face_F, placed.X_PF);
+  std::fprintf(stderr, "molar: face placed on %d teeth, %.1f mm rms, 1:1\n", placed.teeth, placed.rms_mm);
+  return placed.X_PF;
+}
+
+}  // namespace app

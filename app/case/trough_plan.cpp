@@ -1,0 +1,211 @@
+#include "app/case/trough_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "assets/solid_sample.h"
+#include "assets/synthetic/face.h"
+#include "assets/tooth.h"
+
+namespace app {
+namespace {
+
+using assets::CtVolume;
+using assets::isRight;
+using assets::solidAt;
+using assets::Tissue;
+
+constexpr double kHalfLength_mm = 4.0, kStation_mm = 0.5, kSteepest = 0.8, kRoughest_mm = 0.8;
+constexpr std::size_t kStations = 17, kFewestStations = 7;
+constexpr double kRayStart_mm = 12.0, kRayLength_mm = 20.0, kRayStep_mm = 0.05;
+constexpr double kTroughDepth_mm = 4.0, kToothMargin_mm = 0.7;
+constexpr double kCrownFromCentroid_mm = 3.5;
+constexpr double kNearestBuccal_mm = 5.0, kFarthestBuccal_mm = 9.0, kFarthestMesial_mm = -5.0;
+constexpr double kNeighbourhood_mm = 22.0, kRowEnd_mm = 5.0;
+constexpr double kSearch_mm = 40.0, kSearchStep_mm = 4.0;
+
+struct Hit {
+  glm::dvec3 p_P_mm;
+  bool bone;
+};
+
+/// First solid point along a ray, and whether it is bone.
+std::optional<Hit> firstSolid(const CtVolume& ct, const glm::dvec3& from_P_mm, const glm::dvec3& direction_P,
+                              double length_mm) {
+  for (double t = 0.0; t < length_mm; t += kRayStep_mm) {
+    const glm::dvec3 p = from_P_mm + t * direction_P;
+    if (solidAt(ct, p) < 0.5) continue;
+    // Labels are crisp and the surface soft: ask half a millimetre below it.
+    const glm::ivec3 below = glm::ivec3(glm::round(ct.grid.indexFromPoint(p + 0.5 * direction_P)));
+    const auto label = ct.grid.contains(below) ? Tissue{ct.label[ct.grid.index(below)]} : Tissue::unlabelled;
+    return Hit{p, label == Tissue::cortical || label == Tissue::trabecular};
+  }
+  return std::nullopt;
+}
+
+/// A tooth that must not be touched: any but the one at the site.
+bool isOtherTooth(const CtVolume& ct, std::size_t v, int site_fdi) {
+  const int fdi = ct.tooth.empty() ? 0 : ct.tooth[v];
+  return fdi != 0 ? fdi != site_fdi : Tissue{ct.label[v]} == Tissue::other_teeth;
+}
+
+/// Whether a tooth that must not be touched stands within `clearance_mm` of the way the bur takes down from a point.
+bool toothBelow(const CtVolume& ct, int site_fdi, const glm::dvec3& surface_P_mm, const glm::dvec3& outward,
+                double clearance_mm) {
+  const int reach = static_cast<int>(std::ceil(clearance_mm / ct.grid.spacing_mm));
+  for (double depth = 0.0; depth <= kTroughDepth_mm; depth += 1.0) {
+    const glm::dvec3 at = surface_P_mm - depth * outward;
+    const glm::ivec3 middle = glm::ivec3(glm::round(ct.grid.indexFromPoint(at)));
+    for (int k = -reach; k <= reach; ++k)
+      for (int j = -reach; j <= reach; ++j)
+        for (int i = -reach; i <= reach; ++i) {
+          const glm::ivec3 ijk = middle + glm::ivec3(i, j, k);
+          if (ct.grid.contains(ijk) && isOtherTooth(ct, ct.grid.index(ijk), site_fdi) &&
+              glm::distance(ct.grid.centre_P_mm(ijk), at) < clearance_mm)
+            return true;
+        }
+  }
+  return false;
+}
+
+/// The bone's surface along a line over `middle`, from mesial to distal: the stations that lie on one straight slope,
+/// none if it climbs like the ramus.
+std::vector<glm::dvec3> straightBone(const CtVolume& ct, int site_fdi, const glm::dvec3& middle,
+                                     const glm::dvec3& distal, const glm::dvec3& outward, double clearance_mm) {
+  std::vector<glm::dvec3> found;
+  std::vector<glm::dvec2> way_and_height;
+  glm::dvec2 mean{0.0};
+  for (std::size_t n = 0; n < kStations; ++n) {
+    const double s = kStation_mm * static_cast<double>(n) - kHalfLength_mm;
+    const glm::dvec3 from = middle + s * distal + kRayStart_mm * outward;
+    if (solidAt(ct, from) >= 0.5) continue;
+    const auto hit = firstSolid(ct, from, -outward, kRayLength_mm);
+    if (!hit || !hit->bone || toothBelow(ct, site_fdi, hit->p_P_mm, outward, clearance_mm)) continue;
+    found.push_back(hit->p_P_mm);
+    way_and_height.emplace_back(s, glm::dot(hit->p_P_mm, outward));
+    mean += way_and_height.back();
+  }
+  if (found.size() < kFewestStations) return {};
+
+  // Least-squares line of height over way.
+  mean /= static_cast<double>(found.size());
+  double covariance = 0.0, variance = 0.0;
+  for (const glm::dvec2& p : way_and_height) {
+    covariance += (p.x - mean.x) * (p.y - mean.y);
+    variance += (p.x - mean.x) * (p.x - mean.x);
+  }
+  const double slope = covariance / variance;
+  if (std::abs(slope) > kSteepest) return {};
+  std::vector<glm::dvec3> straight;
+  for (std::size_t n = 0; n < found.size(); ++n)
+    if (std::abs(way_and_height[n].y - mean.y - slope * (way_and_height[n].x - mean.x)) < kRoughest_mm)
+      straight.push_back(found[n]);
+  return straight;
+}
+
+/// Direction of the dental arch at a tooth, mesial to distal, horizontal: from the middle of its neighbours where it
+/// stands at the end of their row, along the row where it stands in it.
+glm::dvec3 archDirection(const CtVolume& ct, const assets::OperativeSite& site) {
+  glm::dvec3 sum{0.0};
+  glm::dmat2 spread(0.0);
+  double count = 0.0;
+  for (int k = 0; k < ct.grid.size.z; ++k)
+    for (int j = 0; j < ct.grid.size.y; ++j)
+      for (int i = 0; i < ct.grid.size.x; ++i) {
+        const glm::dvec3 p = ct.grid.centre_P_mm({i, j, k});
+        if (!isOtherTooth(ct, ct.grid.index({i, j, k}), site.fdi) ||
+            glm::distance(p, site.centre_P_mm) > kNeighbourhood_mm)
+          continue;
+        sum += p;
+        const glm::dvec2 beside(p - site.centre_P_mm);
+        spread += glm::outerProduct(beside, beside);
+        count += 1.0;
+      }
+  // Distal is away from the midline at the incisors, to the back at the molars: across from the cheek.
+  const glm::dvec3 buccal = assets::buccalDirection_P(site.fdi);
+  const glm::dvec3 usual(isRight(site.fdi) ? glm::dvec2(buccal.y, -buccal.x) : glm::dvec2(-buccal.y, buccal.x), 0.0);
+  if (count == 0.0) return {0.0, 1.0, 0.0};
+  glm::dvec3 along = site.centre_P_mm - sum / count;
+  along.z = 0.0;
+  if (glm::length(along) > kRowEnd_mm || assets::placeOf(site.fdi) == 8)
+    return glm::length(along) > 1.0 ? glm::normalize(along) : glm::dvec3(0.0, 1.0, 0.0);
+  const double turn = 0.5 * std::atan2(2.0 * spread[0][1], spread[0][0] - spread[1][1]);
+  const glm::dvec3 row(std::cos(turn), std::sin(turn), 0.0);
+  return glm::dot(row, usual) < 0.0 ? -row : row;
+}
+
+/// A cut along the stations of a line on bone. The hand sweeps straight: along the line the surface takes, square to it
+/// outwards.
+assets::PlannedCut cutAlong(const std::vector<glm::dvec3>& surface, const glm::dvec3& outward, const glm::dvec3& aside,
+                            double bur_radius_mm) {
+  const glm::dvec3 along = glm::normalize(surface.back() - surface.front());
+  const glm::dvec3 square = glm::normalize(outward - glm::dot(outward, along) * along);
+  assets::PlannedCut cut;
+  cut.middle_P_mm = surface[surface.size() / 2];
+  cut.outward_P = square;
+  cut.aside_P = glm::normalize(aside - glm::dot(aside, square) * square - glm::dot(aside, along) * along);
+  cut.bur_radius_mm = bur_radius_mm;
+  cut.length_mm = 2.0 * kHalfLength_mm;
+  return cut;
+}
+
+}  // namespace
+
+std::optional<assets::PlannedCut> planBuccalTrough(const assets::Patient& patient, double bur_radius_mm) {
+  if (!patient.site) return std::nullopt;
+  const assets::OperativeSite& site = *patient.site;
+  const glm::dvec3 distal = archDirection(patient.ct, site), up = assets::occlusalDirection_P(site.fdi);
+  glm::dvec3 buccal = glm::cross(up, distal);
+  if (glm::dot(buccal, assets::buccalDirection_P(site.fdi)) < 0.0) buccal = -buccal;
+  const glm::dvec3 outward = glm::normalize(0.45 * buccal + up);
+  const glm::dvec3 crown = site.centre_P_mm + kCrownFromCentroid_mm * site.axis_P;
+
+  // Walk mesially along the crown and outwards from it until the line lies on bone all along and does not climb the
+  // ramus.
+  std::vector<glm::dvec3> surface;
+  for (double shift = 0.0; shift >= kFarthestMesial_mm; shift -= 1.0)
+    for (double out = kNearestBuccal_mm; out <= kFarthestBuccal_mm; out += 0.5) {
+      const glm::dvec3 middle = crown + shift * distal + out * buccal;
+      std::vector<glm::dvec3> found =
+          straightBone(patient.ct, site.fdi, middle, distal, outward, bur_radius_mm + kToothMargin_mm);
+      if (found.size() > surface.size()) surface = std::move(found);
+      if (surface.size() == kStations) break;
+    }
+  if (surface.size() < kFewestStations) return std::nullopt;
+  return cutAlong(surface, outward, buccal, bur_radius_mm);
+}
+
+std::optional<assets::PlannedCut> planOnNearestBone(const assets::Patient& patient, double bur_radius_mm) {
+  const int fdi = patient.toothAtWork();
+  const glm::dvec3 outward = assets::surgeonEyeDirection(fdi);
+  const glm::dvec3 side = glm::normalize(glm::cross(outward, assets::occlusalDirection_P(fdi)));
+  const glm::dvec3 across = glm::cross(side, outward);
+
+  // Seen by the surgeon's eye the first solid that lies behind a place is reachable; the nearest place first.
+  const int steps = static_cast<int>(kSearch_mm / kSearchStep_mm);
+  std::vector<glm::ivec2> places;
+  for (int u = -steps; u <= steps; ++u)
+    for (int v = -steps; v <= steps; ++v) places.emplace_back(u, v);
+  std::ranges::stable_sort(places, {}, [](const glm::ivec2& p) { return p.x * p.x + p.y * p.y; });
+  std::vector<glm::dvec3> best;
+  for (const glm::ivec2& place : places) {
+    const glm::dvec3 seen =
+        patient.workplace_P_mm() + kSearchStep_mm * (double(place.x) * side + double(place.y) * across);
+    const auto hit = firstSolid(patient.ct, seen + kSearch_mm * outward, -outward, 2.0 * kSearch_mm);
+    if (!hit || !hit->bone) continue;
+    std::vector<glm::dvec3> found =
+        straightBone(patient.ct, 0, hit->p_P_mm, side, outward, bur_radius_mm + kToothMargin_mm);
+    if (found.size() > best.size()) best = std::move(found);
+    if (best.size() == kStations) break;
+  }
+  if (best.size() < kFewestStations) return std::nullopt;
+  return cutAlong(best, outward, across, bur_radius_mm);
+}
+
+std::optional<assets::PlannedCut> plannedCut(const assets::Patient& patient, double bur_radius_mm) {
+  const auto trough = planBuccalTrough(patient, bur_radius_mm);
+  return trough ? trough : planOnNearestBone(patient, bur_radius_mm);
+}
+
+}  // namespace app

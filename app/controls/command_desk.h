@@ -1,0 +1,63 @@
+// The command in force during a rehearsal and all who may change it: a control (control.h), a settings file that is
+// obeyed while it changes, a procedure. What servo and device would obey only in part is refused or, at a key, lowered
+// and said. Every change is recorded before it is in force, and said. Main thread; a file is looked at four times a
+// second.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/controls/control.h"
+#include "app/options/live_parameters.h"
+#include "app/station/workstation.h"
+#include "haptics/servo/command.h"
+
+namespace app {
+
+class CommandDesk {
+ public:
+  /// `settings_file` rules over `first`; empty: none. `other_tools`: what a change of tool goes through after the
+  /// first. Throws UsageError for what can not be obeyed.
+  CommandDesk(const haptics::Command& first, std::vector<haptics::Tool> other_tools, const std::string& settings_file,
+              double device_damping_Ns_per_mm, double rate_Hz);
+
+  const haptics::Command& inForce() const { return command_; }
+  /// From now on changes go there. Borrowed.
+  void serve(Workstation& workstation) { workstation_ = &workstation; }
+
+  /// What the command has a word for: law, drill, tool (the next of the tray, after the last the first), irrigation,
+  /// undo (of the newest stroke; again, of the one before), arm (lifts a latched fault whose cause is over). False: the
+  /// wish is somebody else's.
+  bool obey(const ControlWish& wish);
+  void lookAtFile(LiveParameters::Clock::time_point now);
+  /// As it is, unsaid: the procedure knows why.
+  void follow(const haptics::Command& command);
+
+  /// What may be in the hand, the first one first.
+  const std::vector<haptics::Tool>& tray() const { return tray_; }
+
+  /// True once after the bur became another.
+  bool takeOtherBur();
+
+ private:
+  void check(const haptics::Command& command) const;
+  void tell(const std::string& kind, const std::string& line);
+  void change(const haptics::Command& wanted);
+  void switchDrill(int on);
+  void switchIrrigation(int on);
+  void undoStroke();
+  void armAgain();
+  void switchLaw(haptics::LawKind law);
+  void changeTool(int to);
+
+  haptics::Command command_;
+  std::vector<haptics::Tool> tray_;
+  std::size_t in_hand_ = 0;  ///< of the tray
+  double device_damping_Ns_per_mm_, rate_Hz_;
+  std::optional<LiveParameters> file_;
+  Workstation* workstation_ = nullptr;
+  bool other_bur_ = false;
+};
+
+}  // namespace app

@@ -1,0 +1,61 @@
+#include "app/controls/hand_input.h"
+
+#include <utility>
+
+#include "calibration/geometry/units.h"
+#include "haptics/contact/law_settings.h"
+
+namespace app {
+namespace {
+
+constexpr double kWheelNotch_mm = 0.5;
+constexpr double kTurn_rad = calibration::radFromDegrees(3.0);
+
+/// By the table of controls; laws have the digits.
+std::optional<ControlWish> wishOf(render::Key key) {
+  if (key == render::Key::escape) return ControlWish{Control::end};
+  for (std::size_t law = 0; law < haptics::kLaws.size(); ++law)
+    if (key == render::keyOf(static_cast<char>('1' + law))) return ControlWish{Control::law, static_cast<int>(law)};
+  for (const ControlMeaning& one : kControls)
+    if (one.key.size() == 1 && key == render::keyOf(one.key.front())) return ControlWish{one.control};
+  return {};
+}
+
+}  // namespace
+
+void HandInput::take(const render::WindowEvent& event, double mm_per_px) {
+  if (const auto* moved = std::get_if<render::PointerMoved>(&event)) {
+    // Pixels run downwards, W upwards.
+    if (moved->button == render::MouseButton::left)
+      X_WT_.translation_mm += mm_per_px * glm::dvec3(moved->by_px.x, -moved->by_px.y, 0.0);
+  } else if (const auto* wheel = std::get_if<render::WheelTurned>(&event)) {
+    X_WT_.translation_mm.z -= kWheelNotch_mm * wheel->notches;
+  } else if (const auto* key = std::get_if<render::KeyPressed>(&event)) {
+    press(*key);
+  } else if (std::holds_alternative<render::CloseAsked>(event)) {
+    wishes_.push_back({Control::end});
+  }
+}
+
+void HandInput::press(const render::KeyPressed& key) {
+  using render::Key;
+  // The pedal is held, everything else is a press.
+  if (key.key == Key::space) pedal_ = key.down;
+  if (!key.down) return;
+  if (key.key == Key::left) turn({0, 1, 0}, -kTurn_rad);
+  if (key.key == Key::right) turn({0, 1, 0}, kTurn_rad);
+  if (key.key == Key::up) turn({1, 0, 0}, -kTurn_rad);
+  if (key.key == Key::down) turn({1, 0, 0}, kTurn_rad);
+  if (key.key == render::keyOf('Q')) turn({0, 0, 1}, kTurn_rad);
+  if (key.key == render::keyOf('E')) turn({0, 0, 1}, -kTurn_rad);
+  if (key.repeated) return;
+  if (const auto wish = wishOf(key.key)) wishes_.push_back(*wish);
+}
+
+void HandInput::turn(const glm::dvec3& axis_W, double angle_rad) {
+  X_WT_.rotation = glm::normalize(glm::angleAxis(angle_rad, axis_W) * X_WT_.rotation);
+}
+
+std::vector<ControlWish> HandInput::takeWishes() { return std::exchange(wishes_, {}); }
+
+}  // namespace app

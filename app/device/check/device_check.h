@@ -1,0 +1,31 @@
+// The whole check of one unit, by whoever owns it: inkwell, deadman, buttons, axes, sign and scale of the force, rate.
+// Ten minutes with a person; every force through safety layer and motor gate; motors off at the end, whatever ends it.
+// Main thread.
+#pragma once
+
+#include "app/device/check/check_report.h"
+#include "app/device/check/check_steps.h"
+#include "app/device/check/dialogue.h"
+#include "app/device/check/owner.h"
+#include "haptics/device/haptic_device.h"
+
+namespace app {
+
+struct DeviceCheckPlan {
+  std::string address;
+  DeviceAxes axes;
+  double rate_Hz = 1000.0, rate_seconds = 10.0;
+};
+
+struct DeviceCheck {
+  CheckReport report;
+  std::vector<ForceReading> readings;  ///< of the balance, down positive
+};
+
+/// Throws DeviceError when the device can not be started.
+DeviceCheck checkDevice(haptics::HapticDevice& device, const DeviceCheckPlan& plan, Owner& owner, Dialogue& dialogue);
+
+/// Of a device of this address.
+DeviceAxes axesAt(const std::string& address);
+
+}  // namespace app

@@ -1,0 +1,50 @@
+#include "app/device/check/dialogue.h"
+
+#include <algorithm>
+#include <charconv>
+#include <istream>
+#include <ostream>
+
+#include "app/text/printed.h"
+
+namespace app {
+
+void Dialogue::say(const std::string& text) { words_ << text << "\n" << std::flush; }
+
+std::optional<std::string> Dialogue::line(const std::string& prompt) {
+  if (over_) return {};
+  words_ << prompt << std::flush;
+  std::string text;
+  over_ = !std::getline(answers_, text);
+  std::erase_if(text, [](unsigned char c) { return c <= ' '; });
+  if (over_ || text == "q" || text == "Q") {
+    over_ = true;
+    words_ << "\n";
+    return {};
+  }
+  return text;
+}
+
+bool Dialogue::asked(const std::string& to_do) { return line("  " + to_do + " [Enter] ").has_value(); }
+
+std::optional<char> Dialogue::choice(const std::string& question, std::string_view letters) {
+  while (const auto text = line("  " + question + " ")) {
+    if (!text->empty() && letters.find(text->front()) != std::string_view::npos) return text->front();
+    say("  Answer with one of these letters: " + std::string(letters) + "; q leaves.");
+  }
+  return {};
+}
+
+std::optional<double> Dialogue::number(const std::string& question, double least, double most) {
+  while (auto text = line("  " + question + " ")) {
+    std::ranges::replace(*text, ',', '.');
+    double value = 0.0;
+    const char* end = text->data() + text->size();
+    const auto [stopped, error] = std::from_chars(text->data(), end, value);
+    if (error == std::errc{} && stopped == end && value >= least && value <= most) return value;
+    say(printed("  Give a number from %g to %g; q leaves.", least, most));
+  }
+  return {};
+}
+
+}  // namespace app

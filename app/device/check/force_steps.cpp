@@ -1,0 +1,130 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/device/check/bench_waits.h"
+#include "app/device/check/check_steps.h"
+#include "app/text/printed.h"
+
+namespace app {
+namespace {
+
+constexpr double kSign_N = 0.5, kLeastForce_N = 0.05;
+constexpr std::array<double, 3> kSteps_N = {0.3, 0.6, 1.0};
+constexpr double kMostGrams = 2000.0;
+constexpr double kScaleTolerance = 0.1;  ///< of the scale; a kitchen balance and a hand are no better than 5 %
+
+/// No more than four fifths of what may be given.
+double within(const CheckBench& bench, double force_N) {
+  return std::min(force_N, 0.8 * bench.hand.limits().peak_force_N);
+}
+
+struct Side {
+  const char* name;
+  char right_answer;
+  glm::dvec3 DeviceAxes::*axis;
+};
+constexpr std::array<Side, 3> kSides = {{{"right", 'r', &DeviceAxes::right_D},
+                                         {"up", 'u', &DeviceAxes::up_D},
+                                         {"towards you", 't', &DeviceAxes::towards_D}}};
+
+std::string nameOfAnswer(char answer) {
+  switch (answer) {
+    case 'r':
+      return "right";
+    case 'l':
+      return "left";
+    case 'u':
+      return "up";
+    case 'd':
+      return "down";
+    case 't':
+      return "towards you";
+    case 'a':
+      return "away from you";
+    default:
+      return "nothing";
+  }
+}
+
+struct Step {
+  double up_N = 0.0;
+  const char* way = "";
+};
+
+/// Down first: a balance is made for that.
+std::vector<Step> stepsOf(const CheckBench& bench) {
+  std::vector<Step> steps;
+  for (const double force_N : kSteps_N) steps.push_back({-within(bench, force_N), "down"});
+  for (const double force_N : kSteps_N) steps.push_back({within(bench, force_N), "up"});
+  return steps;
+}
+
+}  // namespace
+
+bool checkForceSign(CheckBench& bench, bool& sign_is_right) {
+  sign_is_right = true;
+  bench.owner.told(HandTask::hold);
+  if (!bench.dialogue.asked(
+          printed("It will push with %.1f N, as much as 50 g weigh. Hold the handle loosely in the middle.",
+                  within(bench, kSign_N))))
+    return false;
+  for (const Side& side : kSides) {
+    const glm::dvec3 axis_D = bench.axes.*side.axis;
+    const glm::dvec3 before_mm = bench.hand.newest().state.X_DH.translation_mm;
+    const bool steady = pushUntilSteady(bench, within(bench, kSign_N) * axis_D);
+    const PushingHand::Seen pushed = bench.hand.newest();
+    const auto answer =
+        bench.dialogue.choice("Which way does it push? r l u d t(owards you) a(way) n(othing):", "rludtan");
+    letGo(bench);
+    if (!answer) return false;
+    const double moved_mm = glm::dot(pushed.state.X_DH.translation_mm - before_mm, axis_D);
+    const bool is_right = *answer == side.right_answer && steady;
+    sign_is_right = sign_is_right && is_right;
+    bench.report.lines.push_back({std::string("pushes ") + side.name, side.name,
+                                  nameOfAnswer(*answer) + printed(", moved %+.1f mm", moved_mm) +
+                                      (steady ? "" : ", the safety layer let only " + newtons(pushed.lately_D_N)),
+                                  is_right ? Verdict::ok : Verdict::wrong});
+    if (*answer != 'n' && std::ranges::count(bench.report.proved, Proof::moves) == 0)
+      bench.report.proved.push_back(Proof::moves);
+  }
+  if (sign_is_right) bench.report.proved.push_back(Proof::force_sign);
+  return true;
+}
+
+bool checkForceScale(CheckBench& bench, std::vector<ForceReading>& readings) {
+  Dialogue& dialogue = bench.dialogue;
+  dialogue.say("  Stand a cup with 200 g of water on a kitchen balance, and tape the handle to it from above, so that");
+  dialogue.say("  it can press and lift. Minus where the balance shows less than at first.");
+  const auto nothing_g = dialogue.number("No force yet. What does the balance show, in g?", -kMostGrams, kMostGrams);
+  if (!nothing_g) return false;
+  for (const Step& step : stepsOf(bench)) {
+    pushUntilSteady(bench, step.up_N * bench.axes.up_D);
+    const auto shown_g =
+        dialogue.number(printed("It pushes %s with %.1f N. What does it show, in g?", step.way, std::abs(step.up_N)),
+                        -kMostGrams, kMostGrams);
+    const double given_N = -glm::dot(bench.hand.newest().lately_D_N, bench.axes.up_D);
+    letGo(bench);
+    if (!shown_g) return false;
+    if (std::abs(given_N) < kLeastForce_N) {
+      bench.report.lines.push_back({printed("%s with %.1f N", step.way, std::abs(step.up_N)), "a force",
+                                    "the safety layer let none through", Verdict::wrong});
+      continue;
+    }
+    readings.push_back({given_N, (*shown_g - *nothing_g) / kGrams_per_N});
+    bench.report.lines.push_back({printed("%s with %.2f N", step.way, std::abs(given_N)),
+                                  printed("%.0f g", given_N * kGrams_per_N), printed("%.0f g", *shown_g - *nothing_g),
+                                  Verdict::ok});
+  }
+  if (readings.size() < 2) return true;
+  const ForceScaleFit fit = forceScale(readings);
+  const bool is_right = std::abs(fit.scale - 1.0) <= kScaleTolerance;
+  bench.report.lines.push_back({"scale of the force", "1.00 ± 0.10",
+                                printed("%.3f ± %.3f, offset %+.2f N, farthest %.2f N off", fit.scale, fit.scale_error,
+                                        fit.offset_N, fit.worst_N),
+                                is_right ? Verdict::ok : Verdict::wrong});
+  if (is_right) bench.report.proved.push_back(Proof::force_scale);
+  return true;
+}
+
+}  // namespace app

@@ -1,0 +1,57 @@
+#include "app/device/check/pushing_hand.h"
+
+#include "haptics/servo/haptic_loop.h"
+
+namespace app {
+namespace {
+
+constexpr double kMean_s = 0.25;
+
+/// Frame P is D here: nobody lies on the table.
+haptics::HandSample sampleOf(const haptics::HandleState& state) {
+  haptics::HandSample hand;
+  hand.X_PT = {state.X_DH.rotation, state.X_DH.translation_mm};
+  hand.velocity_P_mm_per_s = hand.handle_velocity_P_mm_per_s = {state.velocity_D_mm_per_s.xyz};
+  hand.jacobian_P_mm = state.jacobian_D_mm;
+  hand.motor_heat = state.motor_heat;
+  hand.fresh = state.fresh;
+  hand.docked = state.docked;
+  hand.held = state.held;
+  hand.calibrated = state.calibrated;
+  hand.device_healthy = state.healthy;
+  return hand;
+}
+
+}  // namespace
+
+PushingHand::PushingHand(haptics::HapticDevice& device, double rate_Hz)
+    : DeviceLoop(device, rate_Hz, true),
+      limits_(haptics::limitedTo(device.capabilities(), rate_Hz, haptics::Command{}).safety) {}
+
+PushingHand::Answer PushingHand::answer(const haptics::HandleState& state, const haptics::Beat& beat) noexcept {
+  const double dt_s = 1.0 / rate_Hz();
+  haptics::HandSample sample = sampleOf(state);
+  sample.stop_asked = isForbidden();
+  sample.gap_s = beat.gap_s;
+  const haptics::SafetyLayer::Admitted admitted =
+      safety_.admit(sample, limits_, rearm_.load(std::memory_order_relaxed), dt_s);
+
+  haptics::SafetyLayer::Wanted wanted;
+  wanted.tremble_P_N = {wish_D_N_.read()};
+  const glm::dvec3 place_mm = admitted.hand.X_PT.translation_mm;
+  if (has_last_ && !admitted.relocated) wanted.motion.travel_P_mm = {place_mm - last_mm_};
+  last_mm_ = place_mm;
+  has_last_ = true;
+  const haptics::SafetyFilter::Served served = safety_.serve(wanted, limits_, dt_s);
+
+  seen_.state = state;
+  seen_.safety = admitted.state;
+  seen_.pushed_D_N = served.wrench_P.force_N.xyz;
+  seen_.lately_D_N += dt_s / (kMean_s + dt_s) * (seen_.pushed_D_N - seen_.lately_D_N);
+  seen_.tripped |= static_cast<std::uint32_t>(admitted.faults | served.faults);
+  ++seen_.ticks;
+  newest_.publish(seen_);
+  return {{{seen_.pushed_D_N}, {}}, haptics::mayRunMotors(seen_.safety)};
+}
+
+}  // namespace app

@@ -1,0 +1,17 @@
+// The devices there are as people read them, and as programs do: what is here, what drives it, the next step, and what
+// no real unit has proved yet.
+#pragma once
+
+#include <string>
+
+#include "app/text/page_look.h"
+#include "haptics/device/device_catalogue.h"
+
+namespace app {
+
+std::string asText(const haptics::DeviceCatalogue& catalogue, const PageLook& look);
+/// {"devices": [{"name", "address", "place", "provenance", "driver", "next_step"}], "kinds": [{"key", "name",
+/// "driver", "proved_against", "is_hardware", "ran_on_a_real_unit"}], "troubles": […]}
+std::string asJson(const haptics::DeviceCatalogue& catalogue);
+
+}  // namespace app

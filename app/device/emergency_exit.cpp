@@ -1,0 +1,94 @@
+#include "app/device/emergency_exit.h"
+
+#include <signal.h>
+#include <time.h>
+
+#include <array>
+#include <atomic>
+#include <cassert>
+#include <cstdlib>
+
+namespace app {
+namespace {
+
+/// Whatever ends a program unless it is caught; interrupts and SIGPIPE are the program's own affair.
+constexpr std::array kEnds = {SIGSEGV, SIGBUS,  SIGILL,  SIGFPE,  SIGABRT,   SIGQUIT, SIGTRAP, SIGSYS, SIGXCPU,
+                              SIGXFSZ, SIGUSR1, SIGUSR2, SIGALRM, SIGVTALRM, SIGPROF, SIGIO,   SIGPWR, SIGSTKFLT};
+
+/// Two ticks without force are enough; the supervisor needs 60 ms where none come.
+constexpr int kLongestWait_ms = 120;
+
+std::atomic<haptics::DeviceLoop*> guarded{nullptr};
+/// False from when one is guarded until its motors were let go of.
+std::atomic<bool> is_quiet{true};
+std::atomic<bool> exit_is_watched{false};
+
+/// How each signal was met before.
+std::array<struct sigaction, kEnds.size()> former;
+stack_t former_stack;
+
+/// A stack of its own, for a crash may be one of the stack.
+alignas(16) std::array<char, 64 * 1024> handler_stack;
+
+template <class Condition>
+void awaitUpTo(int most_ms, const Condition& is_so) {
+  const timespec one_ms{0, 1'000'000};
+  for (int ms = 0; ms < most_ms && !is_so(); ++ms) nanosleep(&one_ms, nullptr);
+}
+
+/// The first to come lets the motors go; whoever comes meanwhile waits, for what ends the program must not end it
+/// before.
+void letGo(bool stops_device) {
+  haptics::DeviceLoop* const loop = guarded.exchange(nullptr);
+  if (loop == nullptr) {
+    awaitUpTo(2 * kLongestWait_ms, [] { return is_quiet.load(); });
+    return;
+  }
+  loop->forbidForce();
+  const std::uint64_t then = loop->ticks();
+  awaitUpTo(kLongestWait_ms, [&] { return loop->ticks() >= then + 2; });
+  if (stops_device) loop->emergencyStop();
+  is_quiet.store(true);
+}
+
+/// The program goes on to end as it would have.
+extern "C" void onEnd(int signal_number) {
+  letGo(false);
+  for (std::size_t i = 0; i < kEnds.size(); ++i)
+    if (kEnds[i] == signal_number) sigaction(signal_number, &former[i], nullptr);
+  raise(signal_number);
+}
+
+void onExit() { letGo(true); }
+
+}  // namespace
+
+void forbidForceNow() noexcept {
+  if (haptics::DeviceLoop* loop = guarded.load()) loop->forbidForce();
+}
+
+EmergencyExit::EmergencyExit(haptics::DeviceLoop& loop) {
+  is_quiet.store(false);
+  [[maybe_unused]] haptics::DeviceLoop* before = guarded.exchange(&loop);
+  assert(before == nullptr);
+  if (!exit_is_watched.exchange(true)) std::atexit(onExit);
+  const stack_t stack{handler_stack.data(), 0, handler_stack.size()};
+  sigaltstack(&stack, &former_stack);
+  for (std::size_t i = 0; i < kEnds.size(); ++i) {
+    struct sigaction action {};
+    action.sa_handler = onEnd;
+    action.sa_flags = SA_ONSTACK;
+    sigaction(kEnds[i], &action, &former[i]);
+    // What nobody minds ends nothing.
+    if (former[i].sa_handler == SIG_IGN) sigaction(kEnds[i], &former[i], nullptr);
+  }
+}
+
+EmergencyExit::~EmergencyExit() {
+  guarded.store(nullptr);
+  is_quiet.store(true);
+  for (std::size_t i = 0; i < kEnds.size(); ++i) sigaction(kEnds[i], &former[i], nullptr);
+  sigaltstack(&former_stack, nullptr);
+}
+
+}  // namespace app

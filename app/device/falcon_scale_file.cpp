@@ -1,0 +1,60 @@
+#include "app/device/falcon_scale_file.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "app/text/toml_keys.h"
+#include "assets/output_file.h"
+
+namespace app {
+namespace {
+
+constexpr std::int64_t kVersion = 1;
+
+/// A serial number that needs no quoting; anything else is left out.
+bool isPlain(const std::string& text) {
+  return std::ranges::all_of(text, [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-' || c == '_';
+  });
+}
+
+}  // namespace
+
+std::string usualFalconScaleFile() {
+  const char* config = std::getenv("XDG_CONFIG_HOME");
+  if (config != nullptr && *config != '\0') return std::string(config) + "/molar/falcon.toml";
+  const char* home = std::getenv("HOME");
+  return std::string(home != nullptr ? home : ".") + "/.config/molar/falcon.toml";
+}
+
+haptics::FalconForceScale keptFalconScale(const std::string& path) {
+  return std::filesystem::exists(path) ? readFalconScale(path) : haptics::FalconForceScale();
+}
+
+haptics::FalconForceScale readFalconScale(const std::string& path) {
+  TomlKeys keys = TomlKeys::fromFile(path);
+  keys.whole("", "version", kVersion, kVersion);
+  haptics::FalconForceScale scale;
+  scale.serial = keys.text("", "serial", "");
+  scale.words_per_Nmm = keys.number("", "words_per_Nmm", {2.0, 50.0});
+  scale.heaviest_N = keys.number("", "heaviest_N", {0.2, 10.0, "N"});
+  keys.refuseRest();
+  return scale;
+}
+
+void writeFalconScale(const std::string& path, const haptics::FalconForceScale& scale, bool overwrite) {
+  haptics::check(scale);
+  assets::OutputFile file(path, overwrite);
+  {
+    std::ofstream stream(file.temporaryPath());
+    stream << "# The force of a Novint Falcon as a spring scale showed it.\nversion = " << kVersion << "\n";
+    if (isPlain(scale.serial) && !scale.serial.empty()) stream << "serial = \"" << scale.serial << "\"\n";
+    stream << "words_per_Nmm = " << numberText(scale.words_per_Nmm) << "\nheaviest_N = " << numberText(scale.heaviest_N)
+           << "\n";
+  }
+  file.commit();
+}
+
+}  // namespace app

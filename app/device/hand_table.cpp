@@ -1,0 +1,61 @@
+#include "app/device/hand_table.h"
+
+#include <algorithm>
+#include <array>
+
+#include "app/device/practice_device.h"
+#include "app/text/usage_error.h"
+#include "haptics/device/device_catalogue.h"
+#include "haptics/device/simulated/phantom_mechanics.h"
+
+namespace app {
+namespace {
+
+bool isNothing(const std::string& rest) { return rest.empty(); }
+bool isSomething(const std::string& rest) { return !rest.empty(); }
+bool isModel(const std::string& rest) { return rest.empty() || haptics::findSimulatedPhantom(rest) != nullptr; }
+bool isPractice(const std::string& rest) {
+  return practiceRig(rest.empty() ? "practice" : "practice:" + rest).has_value();
+}
+
+constexpr std::array<HandKind, 6> kHands = {{
+    {"mouse", "", false, false, isNothing, mouseAtWork},
+    {"scripted", "", true, false, isNothing, scriptAtWork},
+    {"simulated", "[:omni|touch|desktop|premium], the script holding a Phantom in numbers", true, false, isModel,
+     simulatedAtWork},
+    {"practice", ":SCENARIO[:SEED], the same with an Omni as untrue as real ones, A to G", true, false, isPractice,
+     practiceAtWork},
+    {"replay", ":SESSION, a recorded hand", true, true, isSomething, replayAtWork},
+    {"poses", ":FILE, a hand exactly where a pose CSV has it, that asks for its tools and actions", true, false,
+     isSomething, posesAtWork},
+}};
+
+}  // namespace
+
+std::span<const HandKind> handKinds() { return kHands; }
+
+std::string restOf(const std::string& address) {
+  const std::size_t colon = address.find(':');
+  return colon == std::string::npos ? std::string() : address.substr(colon + 1);
+}
+
+const HandKind* handKindOf(const std::string& address) {
+  const auto kind = std::ranges::find(kHands, address.substr(0, address.find(':')), &HandKind::scheme);
+  if (kind == kHands.end() || address.ends_with(':')) return nullptr;
+  return kind->takes(restOf(address)) ? &*kind : nullptr;
+}
+
+void refuseUnlessHand(const std::string& address) {
+  if (!handKindOf(address) && !haptics::isDeviceAddress(address))
+    throw UsageError("--device " + address + ": there is no such hand, see molar rehearse --help and molar devices");
+}
+
+std::string handHelp() {
+  std::string help = "Hand: ";
+  for (const HandKind& kind : kHands) help += std::string(kind.scheme) + std::string(kind.help) + "; ";
+  for (const haptics::DeviceKind& kind : haptics::deviceKinds())
+    if (kind.open) help += std::string(kind.key) + std::string(kind.place) + ", ";
+  return help + "usb: see molar devices";
+}
+
+}  // namespace app

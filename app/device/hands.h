@@ -1,0 +1,32 @@
+// How each hand without hardware begins, one function a file. `rest`: the address behind its scheme and colon.
+// Start-up only. Throw UsageError where the patient has nothing for the hand to do, an arm does not reach it, or the
+// address goes on wrongly; SessionError for no recording.
+#pragma once
+
+#include <string>
+
+#include "app/device/hand_at_work.h"
+
+namespace app {
+
+/// At what a hand works.
+struct HandCase {
+  const assets::Patient& patient;
+  const calibration::Rig& rig;
+  double bur_radius_mm = 1.0;
+};
+
+HandAtWork mouseAtWork(const std::string& rest, const HandCase& at);
+HandAtWork scriptAtWork(const std::string& rest, const HandCase& at);
+HandAtWork simulatedAtWork(const std::string& model, const HandCase& at);
+/// The hand works where the site truly is; what Molar makes of it is the rig's to say.
+HandAtWork practiceAtWork(const std::string& unit, const HandCase& at);
+HandAtWork replayAtWork(const std::string& session, const HandCase& at);
+HandAtWork posesAtWork(const std::string& path, const HandCase& at);
+
+/// From the bur to the handle, W: towards the viewer and down over the lower lip, so that it does not hide the site.
+glm::dvec3 shaftDirection_W();
+/// Where a Phantom stands and how it holds the tool: as measured, or as its model has it.
+void standAsMeasured(HandAtWork& hand, const calibration::Rig& rig);
+
+}  // namespace app

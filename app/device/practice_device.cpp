@@ -1,0 +1,32 @@
+#include "app/device/practice_device.h"
+
+#include <charconv>
+#include <string_view>
+
+#include "app/text/usage_error.h"
+
+namespace app {
+
+std::optional<calibration::SyntheticRig> practiceRig(const std::string& address) {
+  constexpr std::string_view kPractice = "practice";
+  if (!address.starts_with(kPractice)) return std::nullopt;
+  std::string_view rest = std::string_view(address).substr(kPractice.size());
+  if (!rest.empty() && rest.front() != ':') return std::nullopt;
+  if (!rest.empty()) rest.remove_prefix(1);
+
+  const std::size_t colon = rest.find(':');
+  const auto scenario = calibration::scenarioNamed(rest.substr(0, colon));
+  std::uint32_t seed = 1;
+  bool has_seed = true;
+  if (colon != std::string_view::npos) {
+    const std::string_view digits = rest.substr(colon + 1);
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), seed);
+    has_seed = error == std::errc{} && end == digits.data() + digits.size();
+  }
+  if (!scenario || !has_seed)
+    throw UsageError("--device " + address + ": a practice device is practice:SCENARIO[:SEED], A to G and a number, " +
+                     "as in practice:D:7");
+  return calibration::syntheticRig(*scenario, seed);
+}
+
+}  // namespace app

@@ -1,0 +1,63 @@
+#include "app/case/trough_plan.h"
+#include "app/device/hands.h"
+#include "app/device/phantom_at_work.h"
+#include "app/device/practice_device.h"
+#include "app/text/usage_error.h"
+#include "haptics/device/simulated/scripted_hand.h"
+
+namespace app {
+namespace {
+
+/// What a hand in numbers cuts on this patient.
+assets::PlannedCut cutFor(const HandCase& at) {
+  auto cut = plannedCut(at.patient, at.bur_radius_mm);
+  if (!cut)
+    throw UsageError("--device: no bone of this patient can be reached by a script, use --device replay:SESSION");
+  return *cut;
+}
+
+/// So that the handpiece does not hide the site.
+haptics::CuttingManner mannerFor(const HandCase& at) {
+  return {.shaft_P = glm::conjugate(at.rig.X_WP.rotation) * shaftDirection_W()};
+}
+
+}  // namespace
+
+HandAtWork scriptAtWork(const std::string&, const HandCase& at) {
+  HandAtWork hand;
+  auto scripted = std::make_unique<haptics::ScriptedHand>(cutFor(at), mannerFor(at));
+  hand.duration_s = scripted->duration_s();
+  hand.device = std::move(scripted);
+  hand.name = "scripted hand";
+  return hand;
+}
+
+HandAtWork simulatedAtWork(const std::string& model, const HandCase& at) {
+  HandAtWork hand;
+  const haptics::PhantomMechanics& mechanics = *haptics::findSimulatedPhantom(model.empty() ? "omni" : model);
+  const haptics::WorkRound round = roundAtWork(mechanics, cutFor(at), mannerFor(at), at.rig);
+  hand.duration_s = round.duration_s();
+  hand.X_PD = at.rig.X_WP.inverse() * at.rig.X_WD;
+  hand.device = std::make_unique<haptics::SimulatedPhantom>(mechanics, [round](double t_s) { return round.at(t_s); });
+  hand.name = "simulated " + std::string(mechanics.name);
+  return hand;
+}
+
+HandAtWork practiceAtWork(const std::string& unit, const HandCase& at) {
+  HandAtWork hand;
+  const calibration::SyntheticRig truth = practiceRig("practice:" + unit).value();
+  const haptics::PhantomMechanics& mechanics = *haptics::findSimulatedPhantom(truth.nominal.device->model);
+  calibration::Rig true_rig = at.rig;
+  true_rig.X_WD = truth.X_WD;
+  const glm::dvec3 tip_H_mm = truth.arm.truth.tip_H_mm;
+  const haptics::WorkRound round = roundAtWork(mechanics, cutFor(at), mannerFor(at), true_rig, tip_H_mm);
+  hand.duration_s = round.duration_s();
+  hand.device =
+      std::make_unique<haptics::SimulatedPhantom>(mechanics, handleOf(round, tip_H_mm), haptics::Grip{}, 1,
+                                                  haptics::PhantomUnit{truth.nominal.device->serial, truth.arm});
+  hand.name = "practice " + std::string(mechanics.name) + ", " + truth.nominal.device->serial;
+  standAsMeasured(hand, at.rig);
+  return hand;
+}
+
+}  // namespace app

@@ -1,0 +1,122 @@
+#include "app/device/second_hand.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "app/device/hand_table.h"
+#include "app/text/usage_error.h"
+#include "assets/instrument/dental_mirror.h"
+#include "assets/instrument/retractor.h"
+#include "assets/tooth.h"
+#include "haptics/device/device_catalogue.h"
+#include "haptics/device/simulated/still_hand.h"
+
+namespace app {
+namespace {
+
+using calibration::Device;
+using calibration::Handle;
+using calibration::OtherTool;
+using calibration::Patient;
+using calibration::Pose;
+using calibration::World;
+
+/// Fast enough for any display, and the least that devices are served at.
+constexpr double kRate_Hz = 500.0;
+
+const char* nameOf(SecondTool tool) { return tool == SecondTool::mirror ? "mirror" : "retractor"; }
+
+/// The handle along `z_W`, the plane x = 0 of the instrument, which halves it, through `y_W`.
+Pose<World, OtherTool> held(const glm::dvec3& y_W, const glm::dvec3& z_W, const glm::dvec3& place_W) {
+  const glm::dvec3 z = glm::normalize(z_W), y = glm::normalize(y_W - glm::dot(y_W, z) * z);
+  return {glm::normalize(glm::quat_cast(glm::dmat3(glm::cross(y, z), y, z))), place_W};
+}
+
+/// The glass shows an eye in front of it the origin; the handle leads away half a right angle from there, towards
+/// `handle_W`.
+Pose<World, OtherTool> mirrorHeld(const glm::dvec3& handle_W, const glm::dvec3& place_W) {
+  const glm::dvec3 eye_W(0.0, 0.0, 500.0);
+  const glm::dvec3 out = glm::normalize(glm::normalize(eye_W - place_W) - glm::normalize(place_W));
+  const glm::dvec3 aside = glm::normalize(handle_W - glm::dot(handle_W, out) * out);
+  return held(aside - out, out + aside, place_W);
+}
+
+/// The script's place for the instrument, beside the tooth wherever the rig has it.
+Pose<World, OtherTool> holdBeside(const assets::Patient& patient, const calibration::Rig& rig, SecondTool tool) {
+  Pose<World, OtherTool> hold = scriptedHold(tool, assets::isRight(patient.toothAtWork()));
+  hold.translation_mm += (rig.X_WP * calibration::Point<Patient>{patient.workplace_P_mm()}).mm;
+  return hold;
+}
+
+HandAtWork deviceOf(const SecondHandPlan& plan, const DeviceOptions& options, const assets::Patient& patient,
+                    const calibration::Rig& rig) {
+  const Pose<World, OtherTool> hold = holdBeside(patient, rig, plan.tool);
+  if (plan.device != "scripted") {
+    calibration::Rig others = rig;
+    others.device.reset(), others.arm.reset();  // they are of the first
+    others.X_WD = rig.second_X_WD.value_or(Pose<World, Device>{{1.0, 0.0, 0.0, 0.0}, hold.translation_mm});
+    return handAtWork(plan.device, options, patient, others, 1.0);
+  }
+  const Pose<Patient, OtherTool> X_PO = rig.X_WP.inverse() * hold;
+  HandAtWork hand;
+  hand.device = std::make_unique<haptics::StillHand>(Pose<Device, Handle>{X_PO.rotation, X_PO.translation_mm});
+  hand.name = hand.device->capabilities().model;
+  return hand;
+}
+
+}  // namespace
+
+Pose<World, OtherTool> scriptedHold(SecondTool tool, bool right_side) {
+  // As the surgeon sees a right third molar; a left one is the mirror image of that.
+  const double s = right_side ? 1.0 : -1.0;
+  if (tool == SecondTool::mirror) return mirrorHeld({0.9 * s, -0.1, 0.6}, {17.0 * s, 10.0, 23.0});
+  return held({-0.46 * s, 0.07, 0.79}, {0.85 * s, -0.05, 0.5}, {15.5 * s, 6.5, 6.0});
+}
+
+void refuseUnlessSecondHand(const SecondHandPlan& plan, const std::string& first_device) {
+  if (plan.device.empty()) return;
+  const bool is_device = haptics::isDeviceAddress(plan.device);
+  const HandKind* const kind = handKindOf(plan.device);
+  if (plan.device != "scripted" && !(kind && kind->holds_any_tool) && !is_device)
+    throw UsageError("--second-hand " + plan.device + ": it can not hold a " + nameOf(plan.tool) +
+                     ", choose scripted, replay:SESSION or a device of molar devices");
+  if (plan.device == first_device && is_device)
+    throw UsageError("--second-hand " + plan.device + ": the first hand holds this device, name another");
+}
+
+SecondHand::SecondHand(const SecondHandPlan& plan, const DeviceOptions& options, const assets::Patient& patient,
+                       const calibration::Rig& rig, Ticking ticking)
+    : tool_(plan.tool), device_(deviceOf(plan, options, patient, rig)) {
+  const haptics::DeviceCapabilities& can = device_.device->capabilities();
+  name_ = std::string(nameOf(tool_)) + ", " + device_.name;
+  rate_Hz_ = device_.rate_Hz.value_or(std::clamp(kRate_Hz, can.least_rate_Hz, can.most_rate_Hz));
+  hand_ = std::make_unique<haptics::PassiveHand>(servedAs(*device_.device, ticking), rate_Hz_);
+}
+
+void SecondHand::stepTo(double t_s) {
+  const auto due = static_cast<std::uint64_t>(std::max(0.0, std::floor(t_s * rate_Hz_ + 1e-6)));
+  if (due > hand_->ticks()) hand_->step(due - hand_->ticks());
+}
+
+void SecondHand::dress(render::FrameRenderer& renderer) const {
+  renderer.setSecondInstrument(tool_ == SecondTool::mirror ? assets::dentalMirror() : assets::retractor());
+}
+
+void SecondHand::place(render::Frame& frame) {
+  const auto state = hand_->newest();
+  frame.second_visible = is_seen_ = state.has_value();
+  if (!state) return;
+  const auto X_PO = device_.X_PD * state->X_DH * device_.X_HT;
+  frame.X_PO = {X_PO.rotation, X_PO.translation_mm};
+}
+
+std::optional<std::string> SecondHand::takeNews() {
+  if (is_seen_ == was_seen_) return std::nullopt;
+  was_seen_ = is_seen_;
+  if (std::exchange(was_lost_, !is_seen_) == is_seen_)
+    return name_ + (is_seen_ ? ": followed again" : ": it can not be followed any more and is not drawn");
+  return std::nullopt;
+}
+
+}  // namespace app

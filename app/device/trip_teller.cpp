@@ -1,0 +1,41 @@
+#include "app/device/trip_teller.h"
+
+#include "app/text/printed.h"
+
+namespace app {
+namespace {
+
+/// Nothing was taken away.
+bool onlyLimits(haptics::Fault fault) { return fault == haptics::Fault::clamped || fault == haptics::Fault::slewed; }
+
+}  // namespace
+
+std::vector<std::string> TripTeller::look(const haptics::TripLedger& trips, haptics::SafetyState state) {
+  std::vector<std::string> lines;
+  for (const haptics::TripWords& trip : haptics::kTrips) {
+    const auto &now = trips.of(trip.fault), &before = seen_.of(trip.fault);
+    if (now.times == before.times || onlyLimits(trip.fault)) continue;
+    std::string line = printed("%s %s (tick %llu", std::string(trip.what).c_str(), std::string(trip.next).c_str(),
+                               static_cast<unsigned long long>(now.last_tick));
+    if (now.times > 1) line += printed(", %llu times", static_cast<unsigned long long>(now.times));
+    lines.push_back(line + ")");
+  }
+  if (state != state_) {
+    const haptics::StateWords& words = haptics::wordsOf(state);
+    lines.push_back(std::string(words.what) + " " + std::string(words.next));
+  }
+  seen_ = trips;
+  state_ = state;
+  return lines;
+}
+
+std::string tripsText(const haptics::TripLedger& trips) {
+  std::string text;
+  for (const haptics::TripWords& trip : haptics::kTrips)
+    if (const auto& entry = trips.of(trip.fault); entry.times > 0)
+      text += printed("%s%s %llu", text.empty() ? "" : ", ", std::string(trip.key).c_str(),
+                      static_cast<unsigned long long>(entry.times));
+  return text.empty() ? "none" : text;
+}
+
+}  // namespace app

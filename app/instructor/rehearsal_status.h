@@ -1,0 +1,52 @@
+// How a rehearsal stands, as plain values: for the status line, the operator's window and nobody else. Made twice a
+// second or, with an operator, ten times. Pure; any thread.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/session/session_calibration.h"
+#include "app/view/motion_to_photon.h"
+#include "haptics/loop/loop_statistics.h"
+#include "haptics/safety/trips.h"
+#include "haptics/servo/command.h"
+#include "haptics/servo/tick.h"
+#include "render/frame.h"
+
+namespace app {
+
+enum class RecordingState { none, running, ended_early };
+
+struct RehearsalStatus {
+  std::string patient_title;
+  std::string bur;      ///< as people type it
+  std::string display;  ///< the same
+  haptics::Tick tick;   ///< the newest
+  haptics::Command command;
+  std::string device;  ///< as people read it
+  SessionCalibration calibration;
+  std::vector<std::string> remarks;  ///< on calibration and case
+  haptics::TripLedger trips;
+  haptics::LoopFigures servo;
+  double servo_rate_Hz = 1000.0;
+  double drawing_ms = 0.0;  ///< of the newest frame
+  double pictures_per_s = 0.0;
+  double refresh_Hz = 60.0;
+  double budget_ms = 16.7;  ///< for drawing a frame
+  PhotonEstimate latency;
+  std::string quality;  ///< the step, in words
+  int quality_step = 0;
+  bool quality_is_held = false;  ///< chosen by hand
+  render::Layers layers;
+  RecordingState recording = RecordingState::none;
+  std::string recording_path;
+  std::string to_surgeon, to_instructor;  ///< of the procedure that leads, if one does
+};
+
+/// "drilling", "drill off", "drill locked".
+const char* drillText(const RehearsalStatus& status);
+
+/// One line for the window's title.
+std::string statusLine(const RehearsalStatus& status);
+
+}  // namespace app

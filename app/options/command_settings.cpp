@@ -1,0 +1,166 @@
+#include "app/options/command_settings.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "app/options/erosion_text.h"
+#include "app/options/law_text.h"
+#include "app/options/tool_text.h"
+#include "app/text/toml_keys.h"
+#include "app/text/usage_error.h"
+#include "haptics/contact/law_limits.h"
+
+namespace app {
+namespace {
+
+std::map<std::string, Setting> limitsOf(haptics::SafetyLimits& safety) {
+  return {{"peak_force_N", {&safety.peak_force_N, 0.1, 40.0, "N"}},
+          {"slew_N_per_s", {&safety.slew_N_per_s, 1.0, 1e5, "N/s"}},
+          {"peak_torque_Nmm", {&safety.peak_torque_Nmm, 0.0, 2000.0, "Nmm"}},
+          {"slew_Nmm_per_s", {&safety.slew_Nmm_per_s, 1.0, 1e6, "Nmm/s"}}};
+}
+
+std::string erosionName(haptics::ErosionKind kind) {
+  for (const haptics::ErosionName& one : haptics::kErosions)
+    if (one.kind == kind) return std::string(one.key);
+  return "unknown";
+}
+
+void readNumbers(TomlKeys& keys, const std::string& table, const std::map<std::string, Setting>& settings) {
+  for (const auto& [name, setting] : settings) {
+    const std::string former(formerKey(name));
+    const std::string& key = !former.empty() && keys.has(table, former) ? former : name;
+    *setting.value = keys.number(table, key, {setting.low, setting.high, setting.unit}, *setting.value);
+  }
+}
+
+/// A law's parameters but for the wear, which the erosion's stands for.
+std::map<std::string, Setting> lawParametersOf(haptics::LawSettings& law) {
+  auto settings = parametersOf(law);
+  settings.erase("worn");
+  return settings;
+}
+
+/// Runs `read`, and says its refusal as one of the file.
+template <class Read>
+void asKey(TomlKeys& keys, const std::string& table, const std::string& key, const char* otherwise, Read read) {
+  try {
+    read();
+  } catch (const UsageError&) {
+    keys.refuse(table, key, otherwise);
+  }
+}
+
+/// Two maps of the same keys over two settings: what differs, in words.
+void compare(const std::string& table, const std::map<std::string, Setting>& before,
+             const std::map<std::string, Setting>& after, std::vector<std::string>& lines) {
+  for (const auto& [key, setting] : after) {
+    const auto was = before.find(key);
+    if (was == before.end() || *was->second.value == *setting.value) continue;
+    lines.push_back("[" + table + "] " + key + " " + numberText(*was->second.value) + " -> " +
+                    numberText(*setting.value) + (setting.unit.empty() ? "" : " ") + std::string(setting.unit));
+  }
+}
+
+std::string shaftText(const haptics::Shaft& shaft) {
+  return shaft.length_mm > 0.0 ? numberText(shaft.radius_mm) + "," + numberText(shaft.length_mm) : "none";
+}
+
+}  // namespace
+
+std::map<std::string, Setting> settingsOf(haptics::Command& command) {
+  std::map<std::string, Setting> settings = lawParametersOf(command.law);
+  settings.merge(parametersOf(command.erosion));
+  settings.merge(parametersOf(command.spindle));
+  settings.merge(limitsOf(command.safety));
+  return settings;
+}
+
+void applyTo(haptics::Command& command, const std::vector<std::string>& texts) {
+  applySettings(texts, settingsOf(command));
+  command.law.machining.worn = command.erosion.worn;
+}
+
+haptics::Command commandFromToml(TomlKeys& keys, const haptics::Command& base) {
+  haptics::Command command = base;
+  const std::string law = keys.text("law", "name", lawName(base.law.kind));
+  asKey(keys, "law", "name", ("no such law, give one of " + lawNames()).c_str(),
+        [&] { command.law.kind = lawNamed(law); });
+  readNumbers(keys, "law", lawParametersOf(command.law));
+  const std::string erosion = keys.text("erosion", "name", erosionName(base.erosion.kind));
+  const auto kind = haptics::erosionOfKey(erosion);
+  if (!kind) keys.refuse("erosion", "name", "no such erosion, give time, dose or machining");
+  command.erosion.kind = *kind;
+  readNumbers(keys, "erosion", parametersOf(command.erosion));
+  command.law.machining.worn = command.erosion.worn;
+  readNumbers(keys, "spindle", parametersOf(command.spindle));
+  readNumbers(keys, "safety", limitsOf(command.safety));
+  if (keys.has("tool", "head"))
+    asKey(keys, "tool", "head", "no such head, give sphere:R, capsule:R,L, cylinder:R,L or cone:R,L in mm",
+          [&] { command.tool.head = headFrom(keys.text("tool", "head")); });
+  if (keys.has("tool", "shaft"))
+    asKey(keys, "tool", "shaft", "no such shaft, give R,L in mm or none",
+          [&] { command.tool.shaft = shaftFrom(keys.text("tool", "shaft")); });
+  keys.refuseRest();
+  return command;
+}
+
+void refuseUnlessAdmitted(const haptics::Command& command) {
+  if (!haptics::admits(command.law.kind, command.tool.head.kind))
+    throw UsageError("law " + lawName(command.law.kind) + ": it does not admit " + textOf(command.tool.head) +
+                     ", give a sphere or another law");
+}
+
+void refuseUnlessHeld(const haptics::Command& command, double device_damping_Ns_per_mm, double rate_Hz) {
+  refuseUnlessAdmitted(command);
+  const double most =
+      haptics::passiveStiffness_N_per_mm(device_damping_Ns_per_mm, command.law.damping_Ns_per_mm, 1.0 / rate_Hz);
+  const haptics::Admission admission = haptics::admissible(command.law, command.tool.head, most);
+  if (admission.answer != haptics::Admission::Answer::too_stiff) return;
+  // Rounded down, so that what is advised is allowed.
+  const double nearest = std::floor(1000.0 * admission.nearest) / 1000.0;
+  char text[320];
+  std::snprintf(
+      text, sizeof text,
+      "law %s: with %s it is up to %.3g N/mm stiff, at %g Hz the device holds %.3g N/mm (2b/T): lower %s to %g %s"
+      " or raise --rate",
+      lawName(command.law.kind).c_str(), textOf(command.tool.head).c_str(), admission.slope_N_per_mm, rate_Hz, most,
+      admission.lower ? std::string(admission.lower->key).c_str() : "its gain", nearest,
+      admission.lower ? std::string(admission.lower->unit).c_str() : "");
+  throw UsageError(text);
+}
+
+haptics::Command loweredUntilHeld(haptics::Command command, double device_damping_Ns_per_mm, double rate_Hz) {
+  const double most =
+      haptics::passiveStiffness_N_per_mm(device_damping_Ns_per_mm, command.law.damping_Ns_per_mm, 1.0 / rate_Hz);
+  // A law has at most a few gains that make it stiff.
+  for (int gain = 0; gain < 4; ++gain) {
+    const haptics::Admission admission = haptics::admissible(command.law, command.tool.head, most);
+    if (admission.answer != haptics::Admission::Answer::too_stiff || !admission.lower) break;
+    admission.lower->of(command.law) = std::floor(1000.0 * admission.nearest) / 1000.0;
+  }
+  refuseUnlessHeld(command, device_damping_Ns_per_mm, rate_Hz);
+  return command;
+}
+
+std::vector<std::string> changesBetween(const haptics::Command& before, const haptics::Command& after) {
+  std::vector<std::string> lines;
+  haptics::Command a = before, b = after;
+  if (a.law.kind != b.law.kind) lines.push_back("[law] name " + lawName(a.law.kind) + " -> " + lawName(b.law.kind));
+  // Both as settings of the law that is now in force.
+  a.law.kind = b.law.kind;
+  compare("law", lawParametersOf(a.law), lawParametersOf(b.law), lines);
+  if (a.erosion.kind != b.erosion.kind)
+    lines.push_back("[erosion] name " + erosionName(a.erosion.kind) + " -> " + erosionName(b.erosion.kind));
+  a.erosion.kind = b.erosion.kind;
+  compare("erosion", parametersOf(a.erosion), parametersOf(b.erosion), lines);
+  compare("spindle", parametersOf(a.spindle), parametersOf(b.spindle), lines);
+  compare("safety", limitsOf(a.safety), limitsOf(b.safety), lines);
+  if (!(a.tool.head == b.tool.head))
+    lines.push_back("[tool] head " + textOf(a.tool.head) + " -> " + textOf(b.tool.head) + " mm");
+  if (shaftText(a.tool.shaft) != shaftText(b.tool.shaft))
+    lines.push_back("[tool] shaft " + shaftText(a.tool.shaft) + " -> " + shaftText(b.tool.shaft) + " mm");
+  return lines;
+}
+
+}  // namespace app

@@ -1,0 +1,38 @@
+#include "app/options/display_option.h"
+
+#include <CLI/CLI.hpp>
+
+#include "app/text/usage_error.h"
+#include "render/display/stereo_layout.h"
+
+namespace app {
+
+std::string displayNames() {
+  std::string names;
+  for (const render::DisplayModeName& one : render::kDisplayModes)
+    names += (names.empty() ? "" : ", ") + std::string(one.name);
+  return names;
+}
+
+void DisplayOption::addTo(CLI::App& command) {
+  command
+      .add_option_function<std::string>(
+          "--display",
+          [this](const std::string& name) {
+            const auto mode = render::displayModeNamed(name);
+            if (!mode) throw UsageError("--display " + name + ": not a display, choose one of " + displayNames());
+            mode_ = *mode;
+          },
+          "Stereo display: " + displayNames() + " [mono]")
+      ->type_name("MODE");
+  command.add_flag("--swap-eyes", swapped_, "The display shows left for right: exchange them");
+}
+
+void DisplayOption::refuseUnlessFits(const calibration::Rig& rig) const {
+  const glm::ivec2 px = rig.screen.px;
+  if (mode_ == render::DisplayMode::frame_packing && !render::isPackable(px))
+    throw UsageError("--display frame-packing: HDMI packs 1920x1080 or 1280x720, the screen has " +
+                     std::to_string(px.x) + "x" + std::to_string(px.y) + "; give --size or correct the rig");
+}
+
+}  // namespace app

@@ -1,0 +1,65 @@
+#include "app/options/pedal_option.h"
+
+#include "app/text/toml_keys.h"
+#include "app/text/usage_error.h"
+#include "haptics/device/haptic_device.h"
+
+namespace app {
+namespace {
+
+constexpr std::size_t kMostBindings = 64;
+
+[[noreturn]] void refuse(const std::string& text, const std::string& reason) {
+  throw UsageError("--pedal " + text.substr(0, 60) + ": " + reason);
+}
+
+haptics::HandAction actionNamed(const std::string& where, const std::string& name) {
+  const auto action = haptics::handActionNamed(name);
+  if (!action) refuse(where, "no such action, choose drill, irrigation, undo or tool-change");
+  return *action;
+}
+
+haptics::PedalChoice fromFile(const std::string& path) {
+  TomlKeys keys = TomlKeys::fromFile(path);
+  haptics::PedalChoice choice;
+  choice.wanted = keys.text("", "device", "auto");
+  for (const std::string& control : keys.keysOf("actions")) {
+    haptics::PedalBinding binding{control, actionNamed(path, keys.text("actions", control))};
+    binding.threshold = keys.number("thresholds", control, {0.15, 0.95, "of the travel"}, binding.threshold);
+    choice.mapping.push_back(binding);
+  }
+  keys.refuseRest();
+  return choice;
+}
+
+haptics::PedalChoice fromWords(const std::string& text) {
+  haptics::PedalChoice choice;
+  std::size_t begin = text.find(',');
+  choice.wanted = text.substr(0, begin);
+  while (begin != std::string::npos) {
+    const std::size_t end = text.find(',', begin + 1);
+    const std::string one = text.substr(begin + 1, end == std::string::npos ? end : end - begin - 1);
+    const std::size_t equals = one.find('=');
+    if (equals == std::string::npos) refuse(text, "write SWITCH=ACTION after the comma, as KEY_B=drill");
+    choice.mapping.push_back({one.substr(0, equals), actionNamed(text, one.substr(equals + 1))});
+    begin = end;
+  }
+  return choice;
+}
+
+}  // namespace
+
+std::optional<haptics::PedalChoice> pedalFrom(const std::string& text) {
+  if (text == "none") return {};
+  haptics::PedalChoice choice = text.ends_with(".toml") ? fromFile(text) : fromWords(text);
+  if (choice.wanted.empty()) refuse(text, "name a pedal, or auto, before the first comma");
+  if (choice.mapping.size() > kMostBindings) refuse(text, "no pedal has so many switches, give at most 64");
+  try {
+    for (const haptics::PedalBinding& binding : choice.mapping) haptics::switchOf(binding);
+  } catch (const haptics::DeviceError& error) {
+    refuse(text, error.what());
+  }
+  return choice;
+}
+
+}  // namespace app

@@ -1,0 +1,84 @@
+#include "app/options/picture_option.h"
+
+#include <map>
+
+#include <CLI/CLI.hpp>
+
+#include "app/options/picture_layers.h"
+#include "app/text/usage_error.h"
+
+namespace app {
+namespace {
+
+using render::Antialias;
+using render::Backend;
+using render::Layers;
+using render::ViewMode;
+
+const std::map<std::string, std::optional<Backend>> kBackends{{"auto", std::nullopt},
+                                                              {"gl", Backend::gl_fragment},
+                                                              {"gl-fragment", Backend::gl_fragment},
+                                                              {"gl-compute", Backend::gl_compute},
+                                                              {"cpu", Backend::cpu}};
+const std::map<std::string, ViewMode> kModes{{"iso", ViewMode::iso}, {"dvr", ViewMode::dvr}, {"mesh", ViewMode::mesh}};
+const std::map<std::string, Antialias> kAntialias{{"none", Antialias::none}, {"edges", Antialias::edges}};
+
+/// What is not shown anyway.
+std::map<std::string, bool Layers::*> layersBesides() {
+  std::map<std::string, bool Layers::*> named;
+  for (const PictureLayer& layer : kPictureLayers)
+    if (!(Layers{}.*layer.on)) named.emplace(layer.name, layer.on);
+  return named;
+}
+const std::map<std::string, bool Layers::*> kLayers = layersBesides();
+
+template <class T>
+std::vector<std::string> namesOf(const std::map<std::string, T>& named) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : named) names.push_back(name);
+  return names;
+}
+
+}  // namespace
+
+PictureOption::PictureOption(Antialias antialias) : antialias_(antialias == Antialias::edges ? "edges" : "none") {}
+
+void PictureOption::addTo(CLI::App& command) {
+  command
+      .add_option("--renderer", renderer_,
+                  "gl-fragment, gl-compute, cpu (without OpenGL); auto: cpu where there is no graphics card")
+      ->check(CLI::IsMember(namesOf(kBackends)))
+      ->capture_default_str();
+  command.add_option("--mode", mode_, "Tooth and bone as iso (surface), dvr (translucent) or mesh (triangles)")
+      ->check(CLI::IsMember(namesOf(kModes)))
+      ->capture_default_str();
+  command
+      .add_option("--layers", layers_,
+                  "Shown besides: canal, clearance (bands around it), plan (bone to go), ghost (the hand), slices (CT)")
+      ->delimiter(',')
+      ->check(CLI::IsMember(namesOf(kLayers)));
+  command.add_option("--face-opacity", face_opacity_, "The face faded: 1 whole, 0 away")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  command.add_option("--antialias", antialias_, "Silhouettes: none or edges")
+      ->check(CLI::IsMember(namesOf(kAntialias)))
+      ->capture_default_str();
+}
+
+std::optional<Backend> PictureOption::backend() const {
+  const std::optional<Backend> asked = kBackends.at(renderer_);
+  // Triangles of bone are OpenGL's.
+  return !asked && kModes.at(mode_) == ViewMode::mesh ? Backend::gl_fragment : asked;
+}
+
+void PictureOption::apply(render::Frame& frame) const {
+  if (kModes.at(mode_) == ViewMode::mesh && kBackends.at(renderer_) == Backend::cpu)
+    throw UsageError(
+        "--mode mesh: triangles are drawn by OpenGL, use --mode iso (the same surface) or --renderer gl-fragment");
+  frame.mode = kModes.at(mode_);
+  for (const std::string& layer : layers_) frame.layers.*kLayers.at(layer) = true;
+  frame.layers.face_opacity = static_cast<float>(face_opacity_);
+  frame.quality.antialias = kAntialias.at(antialias_);
+}
+
+}  // namespace app

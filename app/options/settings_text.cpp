@@ -1,0 +1,88 @@
+#include "app/options/settings_text.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <set>
+
+#include "app/text/usage_error.h"
+#include "haptics/servo/servo.h"
+
+namespace app {
+namespace {
+
+std::optional<double> numberIn(std::string_view text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::string shortText(double value) {
+  std::string text = std::to_string(value);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+/// The setting of a key, or of the key it was called before.
+std::map<std::string, Setting>::const_iterator settingOf(const std::string& key,
+                                                         const std::map<std::string, Setting>& settings) {
+  const auto found = settings.find(key);
+  if (found != settings.end() || key.empty()) return found;
+  return std::find_if(settings.begin(), settings.end(), [&](const auto& one) { return formerKey(one.first) == key; });
+}
+
+}  // namespace
+
+std::string_view formerKey(std::string_view key) {
+  if (key == "stiffness_mandibular_canal") return "stiffness_canal";
+  if (key == "factor_mandibular_canal") return "factor_canal";
+  return {};
+}
+
+void applySettings(const std::vector<std::string>& texts, const std::map<std::string, Setting>& settings) {
+  std::set<std::string> seen;
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.find('=');
+    const auto found = settingOf(text.substr(0, equals), settings);
+    if (equals == std::string::npos || found == settings.end()) {
+      std::string keys;
+      for (const auto& [name, setting] : settings) keys += (keys.empty() ? "" : ", ") + name;
+      throw UsageError("--set " + text + ": no such setting, use key=value with one of " + keys);
+    }
+    const std::string& key = found->first;
+    if (!seen.insert(key).second) throw UsageError("--set " + key + ": it is given twice, give it once");
+    const auto value = numberIn(std::string_view(text).substr(equals + 1));
+    const Setting& setting = found->second;
+    if (!value) throw UsageError("--set " + text + ": the value is not a number, correct it");
+    if (*value < setting.low || *value > setting.high)
+      throw UsageError("--set " + text + ": the value is out of range, give " + shortText(setting.low) + " to " +
+                       shortText(setting.high) + (setting.unit.empty() ? "" : " ") + std::string(setting.unit));
+    *setting.value = *value;
+  }
+}
+
+void refuseUnlessObeyed(const haptics::Command& command) {
+  const haptics::Command obeyed = haptics::sanitised(command);
+  const auto check = [](const char* what, double asked, double taken, const char* unit) {
+    if (asked != taken)
+      throw UsageError(std::string(what) + " " + shortText(asked) + " " + unit + ": the servo goes no further than " +
+                       shortText(taken) + " " + unit + ", ask for that");
+  };
+  check("bur radius", command.tool.head.radius_mm, obeyed.tool.head.radius_mm, "mm");
+  check("bur length", command.tool.head.length_mm, obeyed.tool.head.length_mm, "mm");
+  check("stiffness", command.law.agus.stiffness_N_per_mm, obeyed.law.agus.stiffness_N_per_mm, "N/mm");
+  check("damping", command.law.damping_Ns_per_mm, obeyed.law.damping_Ns_per_mm, "Ns/mm");
+}
+
+void refuseSameFile(const std::string& output, std::initializer_list<std::string> inputs) {
+  std::error_code ignored;
+  for (const std::string& input : inputs)
+    if (!input.empty() && std::filesystem::equivalent(output, input, ignored))
+      throw UsageError("--out " + output + ": it is also an input, give another name");
+}
+
+}  // namespace app

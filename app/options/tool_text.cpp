@@ -1,0 +1,101 @@
+#include "app/options/tool_text.h"
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "app/text/usage_error.h"
+
+namespace app {
+namespace {
+
+using haptics::BurShape;
+using haptics::ShapeKind;
+
+/// A number a tool is made of.
+struct Measure {
+  const char* name;
+  double least_mm, most_mm;
+};
+
+struct Form {
+  std::string_view key;
+  ShapeKind kind;
+  const char* pattern;
+  std::vector<Measure> measures;
+};
+
+const Measure kRadius{"radius", 0.1, 20.0};
+
+const std::vector<Form>& forms() {
+  static const std::vector<Form> kKnown = {
+      {"sphere", ShapeKind::sphere, "sphere:R", {kRadius}},
+      {"capsule", ShapeKind::capsule, "capsule:R,L", {kRadius, {"length", 0.0, 40.0}}},
+      {"cylinder", ShapeKind::cylinder, "cylinder:R,L", {kRadius, {"length", 0.1, 40.0}}},
+      {"cone", ShapeKind::cone, "cone:R,L", {kRadius, {"length", 0.1, 40.0}}}};
+  return kKnown;
+}
+
+std::string shortText(double value) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
+  return {text, end};
+}
+
+/// Reads `1.5,4` as the measures ask; `asked` begins every complaint, `pattern` says what may be.
+std::vector<double> measuresIn(std::string_view text, const std::vector<Measure>& measures, const std::string& asked,
+                               const std::string& pattern) {
+  const std::string give = ", give " + pattern + " in mm";
+  std::vector<double> values;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', begin), text.size());
+    const std::string_view part = text.substr(begin, comma - begin);
+    begin = comma + 1;
+    if (values.size() == measures.size()) throw UsageError(asked + ": there are too many numbers" + give);
+    const Measure& measure = measures[values.size()];
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+    if (error != std::errc{} || end != part.data() + part.size() || !std::isfinite(value))
+      throw UsageError(asked + ": the " + measure.name + " is not a number" + give);
+    if (value < measure.least_mm || value > measure.most_mm)
+      throw UsageError(asked + ": the " + measure.name + " is out of range, give " + shortText(measure.least_mm) +
+                       " to " + shortText(measure.most_mm) + " mm");
+    values.push_back(value);
+  }
+  if (values.size() < measures.size())
+    throw UsageError(asked + ": the " + measures[values.size()].name + " is missing" + give);
+  return values;
+}
+
+}  // namespace
+
+BurShape headFrom(const std::string& text) {
+  const std::string_view whole = text;
+  const std::string_view key = whole.substr(0, whole.find(':'));
+  for (const Form& form : forms()) {
+    if (key != form.key) continue;
+    const std::string_view numbers = key.size() == whole.size() ? std::string_view{} : whole.substr(key.size() + 1);
+    const auto values = measuresIn(numbers, form.measures, "--tool " + text, form.pattern);
+    return {form.kind, values[0], values.size() > 1 ? values[1] : 0.0};
+  }
+  throw UsageError("--tool " + text + ": no such head, give sphere:R, capsule:R,L, cylinder:R,L or cone:R,L in mm");
+}
+
+haptics::Shaft shaftFrom(const std::string& text) {
+  if (text == "none") return {};
+  const auto values =
+      measuresIn(text, {{"radius", 0.1, 5.0}, {"length", 0.1, 100.0}}, "--shaft " + text, "none or R,L");
+  return {values[0], values[1]};
+}
+
+std::string textOf(const BurShape& head) {
+  for (const Form& form : forms())
+    if (form.kind == head.kind)
+      return std::string(form.key) + ":" + shortText(head.radius_mm) +
+             (form.measures.size() > 1 ? "," + shortText(head.length_mm) : "");
+  return "unknown";
+}
+
+}  // namespace app

@@ -1,0 +1,35 @@
+// From where a picture is taken, as people name it: `--rig RIG --eye left/right/cyclopean`, or `--camera JSON`
+// (text or file; design §3), and `--size WxH`. Without either: a camera looking at the middle of the volume.
+// Start-up only.
+#pragma once
+
+#include <string>
+
+#include "app/station/rig_choice.h"
+#include "assets/volume_grid.h"
+#include "calibration/rig.h"
+#include "render/display/eye_projection.h"
+
+namespace CLI {
+class App;
+}
+
+namespace app {
+
+/// "640x480", each 16 to 16384. Throws UsageError.
+glm::ivec2 pictureSize(const std::string& text);
+
+class ViewOption {
+ public:
+  void addTo(CLI::App& command);
+  /// A rig by name, not by file: it says nothing of the patient.
+  bool namesRig() const { return rig_.isName(); }
+  /// Fills `rig`, its screen in pixels of the picture, and says which eye is asked for.
+  render::Eye apply(calibration::Rig& rig, const assets::VolumeGrid& grid) const;
+
+ private:
+  RigOption rig_;
+  std::string eye_, camera_, size_;
+};
+
+}  // namespace app

@@ -1,0 +1,60 @@
+#include "app/rehearsal/equipment.h"
+
+#include <utility>
+
+namespace app {
+
+Equipment::Equipment(RehearsalPlan& plan)
+    : hand_(handAtWork(plan.device, plan.device_options, plan.patient, plan.rig, plan.command.tool.head.radius_mm,
+                       std::move(plan.opened))),
+      rate_Hz_(plan.rate_Hz.value_or(hand_.rate_Hz.value_or(1000.0))),
+      damping_Ns_per_mm_(hand_.device->capabilities().damping_Ns_per_mm) {
+  if (!plan.second_hand.device.empty())
+    second_hand_.emplace(plan.second_hand, plan.device_options, plan.patient, plan.rig, plan.ticking);
+  if (plan.pedal) pedal_.emplace(*plan.pedal);
+}
+
+void Equipment::join(const RehearsalPlan& plan, const haptics::Command& in_force) {
+  workstation_.emplace(plan.patient, std::move(hand_.device),
+                       haptics::LoopSettings{.rate_Hz = rate_Hz_,
+                                             .X_PD = hand_.X_PD,
+                                             .X_HT = hand_.X_HT,
+                                             .arm = hand_.arm,
+                                             .buttons = {},
+                                             .pedal = pedal_ ? &*pedal_ : nullptr},
+                       in_force, plan.recording, plan.ticking);
+}
+
+void Equipment::start() {
+  workstation_->start();
+  if (hand_.library) unplug_watch_.emplace(*workstation_);
+  workstation_->note("start", hand_.name);
+  if (!second_hand_) return;
+  second_hand_->start();
+  workstation_->note("second hand", second_hand_->name());
+}
+
+std::vector<ControlWish> Equipment::takeWishes() {
+  std::vector<ControlWish> wishes;
+  for (const haptics::HandAction action : workstation_->takeActions())
+    if (const auto wish = wishOf(action)) wishes.push_back(*wish);
+  return wishes;
+}
+
+StationHealth Equipment::health() {
+  StationHealth health{workstation_->trips(), workstation_->deviceTrouble(), workstation_->recordingTrouble(), {}};
+  const auto add = [&](const std::optional<std::string>& news) {
+    if (news) health.news.push_back(*news);
+  };
+  if (unplug_watch_) add(unplug_watch_->takeNews());
+  if (second_hand_) add(second_hand_->takeNews());
+  return health;
+}
+
+void Equipment::describe(RehearsalStatus& status) const {
+  status.device = hand_.name;
+  status.servo = workstation_->figures();
+  status.servo_rate_Hz = rate_Hz_;
+}
+
+}  // namespace app

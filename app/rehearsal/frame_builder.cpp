@@ -1,0 +1,55 @@
+#include "app/rehearsal/frame_builder.h"
+
+#include <cmath>
+
+#include "app/options/picture_layers.h"
+#include "calibration/geometry/units.h"
+
+namespace app {
+namespace {
+
+constexpr double kBurTurnsPerSecond = 7.0;  ///< as drawn: a real bur turns too fast for any display to show
+
+}  // namespace
+
+render::Frame openingFrame(const RehearsalPlan& plan) {
+  render::Frame frame = plan.first_frame;
+  frame.rig = plan.rig;
+  frame.face_window_mm = plan.face_window_mm;
+  frame.site_P = {plan.patient.workplace_P_mm()};
+  frame.X_PT.translation_mm = frame.site_P.mm;
+  return nextFrame(frame, {}, plan.command);
+}
+
+render::Frame nextFrame(const render::Frame& before, const haptics::Tick& tick, const haptics::Command& command) {
+  render::Frame frame = before;
+  const haptics::BurShape& head = command.tool.head;
+  frame.bur_radius_mm = head.radius_mm;
+  frame.bur_length_mm = head.length_mm;
+  frame.bur_form = static_cast<assets::BurForm>(head.kind);
+  frame.tool_visible = tick.dt_s > 0.0;
+  if (!frame.tool_visible) return frame;
+  if (!haptics::has(tick.faults, haptics::Fault::bad_pose)) frame.X_PT.rotation = tick.hand.X_PT.rotation;
+  frame.X_PT.translation_mm = tick.proxy_P.mm;
+  frame.X_PT_at_hand = {frame.X_PT.rotation, tick.hand.X_PT.translation_mm};
+  if (tick.drilling) frame.bur_angle_rad = std::fmod(tick.t_s * kBurTurnsPerSecond, 1.0) * 2.0 * calibration::kPi;
+  return frame;
+}
+
+render::Frame closingFrame(const render::Frame& last, const haptics::Tick& tick, bool is_moved_by_a_person) {
+  render::Frame frame = last;
+  frame.tool_visible = frame.tool_visible && (is_moved_by_a_person || tick.depth_mm > 0.0);
+  return frame;
+}
+
+render::Layers layersAfter(const render::Layers& before, const ControlWish& wish) {
+  render::Layers layers = before;
+  if (wish.control == Control::layer) {
+    bool& shown = layers.*kPictureLayers[static_cast<std::size_t>(wish.value)].on;
+    shown = !shown;
+  }
+  if (wish.control == Control::face) layers.face_opacity = static_cast<float>(wish.value) / 100.0f;
+  return layers;
+}
+
+}  // namespace app

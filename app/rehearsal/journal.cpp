@@ -1,0 +1,27 @@
+#include "app/rehearsal/journal.h"
+
+#include <cstdio>
+#include <utility>
+
+namespace app {
+
+void Journal::keepIn(Workstation& workstation) {
+  workstation_ = &workstation;
+  for (const Notice& notice : std::exchange(waiting_, {})) workstation_->note(notice.kind, notice.line);
+}
+
+void Journal::say(const std::string& line) { std::fprintf(stderr, "molar: %s\n", line.c_str()); }
+
+void Journal::note(const std::string& kind, const std::string& line) {
+  if (workstation_ != nullptr)
+    workstation_->note(kind, line);
+  else
+    waiting_.push_back({kind, line});
+}
+
+void Journal::tell(const Notice& notice) {
+  say(notice.line);
+  note(notice.kind, notice.line);
+}
+
+}  // namespace app

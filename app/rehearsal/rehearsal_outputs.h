@@ -1,0 +1,36 @@
+// What a rehearsal leaves behind besides its recording: pictures before the first cut, on the way and at the end, the
+// summary, the program's answer. Pictures with a name are claimed before the work. Main thread.
+#pragma once
+
+#include <cstdio>
+#include <optional>
+#include <span>
+
+#include "app/rehearsal/journal.h"
+#include "app/rehearsal/live_picture.h"
+#include "app/rehearsal/rehearsal_plan.h"
+#include "app/rehearsal/rehearsal_summary.h"
+#include "app/view/snapshot.h"
+
+namespace app {
+
+class RehearsalOutputs {
+ public:
+  /// Refuses (LoadError) what is there already.
+  explicit RehearsalOutputs(const RehearsalPlan& plan);
+
+  /// As far as asked for.
+  void takeFirst(LivePicture& picture, const render::Frame& frame, std::span<const std::uint8_t> solid);
+  void takeLast(LivePicture& picture, const render::Frame& frame, std::span<const std::uint8_t> solid);
+
+ private:
+  std::optional<EyePictures> first_, last_;
+};
+
+/// The window's picture under the first free name; says where, or why not.
+void takeSnapshot(LivePicture& picture, Journal& journal);
+
+/// The program's answer: 1 where a recording was asked for and is not whole.
+int answerOf(const RehearsalFigures& figures);
+
+}  // namespace app

@@ -1,0 +1,55 @@
+// What is rehearsed, as plain values: whose jaw, with which hand and instruments, shown where, kept where. Made by a
+// command before anything runs.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/device/hand_at_work.h"
+#include "app/device/second_hand.h"
+#include "app/procedure/procedure.h"
+#include "app/station/workstation.h"
+#include "assets/patient.h"
+#include "calibration/rig.h"
+#include "haptics/device/pedal/foot_pedal.h"
+#include "haptics/servo/command.h"
+#include "render/frame.h"
+#include "render/render_options.h"
+
+namespace app {
+
+struct RehearsalPlan {
+  assets::Patient patient;
+  calibration::Rig rig;
+  render::DisplayMode display = render::DisplayMode::mono;
+  bool eyes_swapped = false;
+  std::optional<render::Backend> backend;  ///< empty: what suits the machine
+  render::Frame first_frame;               ///< view mode, layers and quality to begin with; the rest is the rehearsal's
+  std::string device = "mouse";            ///< its address
+  DeviceOptions device_options;
+  std::optional<OpenedDevice> opened;  ///< the real one of the address, where it is open already
+  SessionCalibration calibration;      ///< of hand and eye, as the session keeps it
+  std::vector<std::string> remarks;    ///< on calibration and case: said, shown to the operator, recorded
+  SecondHandPlan second_hand;
+  haptics::Command command;
+  std::vector<haptics::Tool> other_tools;  ///< for changes of tool, after the command's
+  std::string parameters;  ///< settings file that is obeyed while it changes; `command` holds what it leaves out
+  Procedure* procedure = nullptr;             ///< leads where there is one
+  std::optional<haptics::PedalChoice> pedal;  ///< none: it is not looked for
+  std::optional<double> rate_Hz;              ///< none: what the hand was recorded at, else 1 kHz
+  std::optional<double> seconds;              ///< simulated time; a scripted hand ends by itself
+  std::optional<Recording> recording;
+  std::string snapshot, first_snapshot;  ///< PNG paths; `_left` and `_right` are put before the ending
+  glm::ivec2 snapshot_px{1280, 800};
+  double face_window_mm = 0.0;
+  Ticking ticking = Ticking::by_itself;  ///< by hand: as fast as the machine can, nobody watches
+  bool headless = false, full_screen = false, overwrite = false;
+  std::optional<int> monitor;       ///< index of render::monitors()
+  bool operators_window = false;    ///< on the next monitor, or beside the picture on the same
+  std::optional<int> quality_step;  ///< held; none: by measured frame times
+  std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();  ///< when the user asked for it
+};
+
+}  // namespace app

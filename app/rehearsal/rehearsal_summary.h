@@ -1,0 +1,39 @@
+// What a rehearsal came to, as one screen of text with units. Carries the case's title, never a person's data. Pure.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "app/instructor/rehearsal_status.h"
+#include "app/rehearsal/rehearsal_plan.h"
+#include "app/session/recorder.h"
+#include "app/view/motion_to_photon.h"
+#include "assets/tissue.h"
+#include "haptics/loop/loop_statistics.h"
+
+namespace app {
+
+struct RehearsalFigures {
+  RehearsalStatus last;  ///< how it stood at the end
+  std::array<double, assets::kTissueCount> removed_mm3{};
+  Ticking ticking = Ticking::by_itself;  ///< by hand there is nothing to say of a clock
+  std::uint64_t frames = 0;
+  double frame_ms = 0.0;                                ///< mean time between pictures
+  std::optional<PhotonEstimate> latency, slow_latency;  ///< median and 95th percentile; none without a window
+  double first_picture_s = 0.0;  ///< from the user's asking to the first picture, loading included
+  std::optional<RecordingSummary> recording;
+};
+
+/// What of a status the plan knows.
+RehearsalStatus statusOf(const RehearsalPlan& plan);
+
+/// "real-time priority, core 3, memory locked".
+std::string grantsText(const haptics::RealtimeGrants& grants);
+
+/// "60031 ticks, 11 deadlines missed, 0 by its own work; late by 32 µs, 99 % below 66, at most 4254; real-time …".
+std::string punctualityText(const haptics::LoopFigures& servo);
+
+std::string summaryText(const RehearsalFigures& figures);
+
+}  // namespace app

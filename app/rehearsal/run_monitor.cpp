@@ -1,0 +1,58 @@
+#include "app/rehearsal/run_monitor.h"
+
+#include <utility>
+
+namespace app {
+namespace {
+
+constexpr std::chrono::seconds kLongestSilence{10};
+constexpr double kRounding_s = 1e-7;  ///< of the sum of the ticks' dt
+
+}  // namespace
+
+const char* textOf(Ending ending) {
+  switch (ending) {
+    case Ending::interrupted:
+      return "interrupted";
+    case Ending::by_user:
+      return "by the user";
+    case Ending::procedure:
+      return "the procedure is over";
+    case Ending::time_over:
+      return "time over";
+    case Ending::silent:
+      break;
+  }
+  return "the device fell silent";
+}
+
+std::optional<Ending> RunMonitor::ending(const haptics::Tick& newest, Time now, bool interrupted,
+                                         bool procedure_is_over) {
+  if (newest.index != index_seen_ || !ticked_at_) ticked_at_ = now;
+  index_seen_ = newest.index;
+  if (interrupted) return Ending::interrupted;
+  if (ended_by_user_) return Ending::by_user;
+  if (procedure_is_over) return Ending::procedure;
+  if (duration_s_ && newest.t_s + newest.dt_s >= *duration_s_ - kRounding_s) return Ending::time_over;
+  return now - *ticked_at_ >= kLongestSilence ? std::optional(Ending::silent) : std::nullopt;
+}
+
+std::vector<Notice> RunMonitor::look(const StationHealth& health, const haptics::Tick& newest) {
+  std::vector<Notice> notices;
+  for (const std::string& line : health.news) notices.push_back({"device", line});
+  if (health.recording_trouble && !std::exchange(recording_ended_, true))
+    notices.push_back({"recording", "recording ended: " + *health.recording_trouble});
+  if (std::exchange(device_trouble_, health.device_trouble) != health.device_trouble && !health.device_trouble.empty())
+    notices.push_back({"device", health.device_trouble});
+  if (newest.dt_s <= 0.0) return notices;  // not a tick yet
+  trips_ = health.trips;
+  for (const std::string& line : trip_teller_.look(trips_, newest.state)) notices.push_back({"safety", line});
+  return notices;
+}
+
+void RunMonitor::describe(RehearsalStatus& status) const {
+  status.trips = trips_;
+  if (status.recording != RecordingState::none && recording_ended_) status.recording = RecordingState::ended_early;
+}
+
+}  // namespace app

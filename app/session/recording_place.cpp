@@ -1,0 +1,184 @@
+#include "app/session/recording_place.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+
+#include "app/session/file_seal.h"
+#include "app/session/session_error.h"
+#include "app/session/session_reader.h"
+
+namespace app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMostBeside = 99;
+
+SessionError inUse(const std::string& path) {
+  return SessionError(path + ": another program is recording to it: choose another name, or wait for its end");
+}
+
+SessionError notMade(const std::string& path, int error) {
+  return SessionError(path + ": can not be created (" + std::strerror(error) + "): check the folder and its rights");
+}
+
+/// Through a link to what it stands for: that is what is replaced.
+std::string resolved(const std::string& path) {
+  std::error_code failed;
+  if (!fs::is_symlink(path, failed)) return path;
+  const fs::path target = fs::weakly_canonical(path, failed);
+  return failed ? path : target.string();
+}
+
+/// The descriptor; -1: somebody else has it, or it is not the file of that name any more.
+int locked(int file, const std::string& path) {
+  struct stat ours {
+  }, named{};
+  const bool held = ::flock(file, LOCK_EX | LOCK_NB) == 0 && ::fstat(file, &ours) == 0 &&
+                    ::stat(path.c_str(), &named) == 0 && ours.st_ino == named.st_ino && ours.st_dev == named.st_dev;
+  if (held) return file;
+  ::close(file);
+  return -1;
+}
+
+/// What a program left that was killed before its first tick: nothing, or a start that nothing follows.
+bool holdsNothing(const std::string& path) {
+  std::error_code failed;
+  if (fs::file_size(path, failed) == 0) return !failed;
+  try {
+    SessionReader session(path);
+    return session.nextBlock().ticks.empty();
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+void removeFiles(const std::vector<std::string>& files) {
+  std::error_code failed;
+  for (const std::string& file : files) fs::remove(file, failed);
+}
+
+void syncFolderOf(const std::string& path) { waitUntilOnDisk(fs::path(path).parent_path().string()); }
+
+/// rename(2) that does not replace; a file system without that flag falls back to look-then-rename.
+int renameOntoNothing(const std::string& from, const std::string& to) {
+  if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
+  if (errno != EINVAL && errno != ENOSYS) return errno;
+  if (::access(to.c_str(), F_OK) == 0) return EEXIST;
+  return ::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
+}
+
+}  // namespace
+
+std::vector<std::string> filesOf(const std::string& path) {
+  return {path, path + "-wal", path + "-shm", path + "-journal"};
+}
+
+bool isBeingRecorded(const std::string& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return false;
+  const bool busy = ::flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(file);
+  return busy;
+}
+
+RecordingPlace::RecordingPlace(std::string path, bool overwrite) : path_(resolved(path)) {
+  try {
+    refuseUnlessFree(overwrite);
+    claimBeside();
+  } catch (...) {
+    letGo();
+    throw;
+  }
+}
+
+RecordingPlace::~RecordingPlace() {
+  if (!kept_) removeFiles(filesOf(file_));
+  letGo();
+}
+
+void RecordingPlace::refuseUnlessFree(bool overwrite) {
+  std::error_code failed;
+  const fs::file_status status = fs::status(path_, failed);
+  if (fs::is_directory(status)) throw SessionError(path_ + ": is a folder: name a file to record into");
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    throw SessionError(path_ + ": is not a plain file: choose another name for the recording");
+  for (const std::string& file : filesOf(path_)) {
+    if (!fs::exists(file, failed)) continue;
+    if (!overwrite) throw SessionError(file + ": exists already: choose another name for the recording or use --force");
+    replaces_ = true;
+  }
+  if (!fs::exists(status)) return;
+  const int old = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
+  if (old < 0) throw notMade(path_, errno);
+  const int lock = locked(old, path_);
+  if (lock < 0) throw inUse(path_);
+  locks_.push_back(lock);
+}
+
+void RecordingPlace::claimBeside() {
+  for (int n = 1; n <= kMostBeside;) {
+    const std::string name = path_ + ".new" + (n == 1 ? "" : std::to_string(n));
+    const int made = ::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+    if (made < 0 && errno != EEXIST) throw notMade(path_, errno);
+    const bool is_new = made >= 0;
+    // Left by a killed program: what holds ticks is kept.
+    if (!is_new && isBeingRecorded(name)) throw inUse(path_);
+    if (!is_new && !holdsNothing(name)) {
+      ++n;
+      continue;
+    }
+    const int file = is_new ? made : ::open(name.c_str(), O_RDONLY | O_CLOEXEC);
+    const int lock = file < 0 ? -1 : locked(file, name);
+    if (lock < 0) throw inUse(path_);
+    if (is_new) {
+      locks_.push_back(lock);
+      file_ = name;
+      return;
+    }
+    removeFiles(filesOf(name));
+    ::close(lock);
+  }
+  throw SessionError(path_ + ": too many recordings that were never ended lie beside it: remove " + path_ + ".new*");
+}
+
+void RecordingPlace::takeName() {
+  if (!replaces_) {
+    if (const int error = renameOntoNothing(file_, path_); error == EEXIST)
+      throw SessionError(path_ + ": has been made by another program meanwhile: choose another name");
+    else if (error != 0)
+      throw notMade(path_, error);
+    file_ = path_;
+    syncFolderOf(path_);
+  }
+  kept_ = true;
+}
+
+void RecordingPlace::letGo() {
+  for (const int lock : locks_) ::close(lock);
+  locks_.clear();
+}
+
+void RecordingPlace::finish() {
+  if (replaces_) {
+    // Nothing of the old one may be taken for the log of the new one.
+    std::vector<std::string> logs = filesOf(path_);
+    logs.erase(logs.begin());
+    removeFiles(logs);
+    if (::rename(file_.c_str(), path_.c_str()) != 0)
+      throw SessionError(path_ + ": can not be replaced (" + std::strerror(errno) + "): the new recording is " + file_,
+                         SessionTrouble::failed);
+    file_ = path_;
+  }
+  syncFolderOf(path_);
+  letGo();
+}
+
+}  // namespace app

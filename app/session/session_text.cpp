@@ -1,0 +1,194 @@
+#include "app/session/session_text.h"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include <nlohmann/json.hpp>
+
+#include "app/session/session_error.h"
+#include "assets/tissue.h"
+
+namespace app {
+namespace {
+
+using nlohmann::json;
+
+std::string dumped(const json& object) { return object.dump(-1, ' ', false, json::error_handler_t::replace); }
+
+json objectFrom(std::string_view text, const char* what) {
+  json object = json::parse(text, nullptr, false);
+  if (!object.is_object()) throw damagedSession(std::string("what it says of ") + what + " can not be read");
+  return object;
+}
+
+/// Takes a key out of the object; `otherwise` where there is none.
+template <class T>
+T taken(json& object, const char* key, T otherwise) {
+  const auto found = object.find(key);
+  if (found == object.end() || found->is_null()) return otherwise;
+  bool fits = found->is_string();
+  if constexpr (std::is_same_v<T, double>) fits = found->is_number();
+  if constexpr (std::is_integral_v<T>) fits = found->is_number_integer();
+  if (!fits) throw damagedSession(std::string("it has no usable value of ") + key);
+  T value = found->template get<T>();
+  object.erase(found);
+  return value;
+}
+
+json calibrationJson(const SessionCalibration& c) {
+  json object = {{"rig", c.rig},         {"rig_id", c.rig_id},   {"device_serial", c.device_serial},
+                 {"verdict", c.verdict}, {"touches", c.touches}, {"rms_mm", c.rms_mm},
+                 {"p95_mm", c.p95_mm},   {"max_mm", c.max_mm},   {"checked_utc", c.checked_utc},
+                 {"despite", c.despite}};
+  if (c.age_days) object["age_days"] = *c.age_days;
+  return object;
+}
+
+SessionCalibration calibrationFrom(json& object) {
+  SessionCalibration c;
+  c.rig = taken(object, "rig", c.rig);
+  c.rig_id = taken(object, "rig_id", c.rig_id);
+  c.device_serial = taken(object, "device_serial", c.device_serial);
+  c.verdict = taken(object, "verdict", c.verdict);
+  c.touches = taken(object, "touches", c.touches);
+  c.rms_mm = taken(object, "rms_mm", c.rms_mm);
+  c.p95_mm = taken(object, "p95_mm", c.p95_mm);
+  c.max_mm = taken(object, "max_mm", c.max_mm);
+  c.checked_utc = taken(object, "checked_utc", c.checked_utc);
+  if (object.contains("age_days")) c.age_days = taken(object, "age_days", 0.0);
+  c.despite = taken(object, "despite", c.despite);
+  return c;
+}
+
+json gridJson(const assets::VolumeGrid& grid) {
+  return {{"size", {grid.size.x, grid.size.y, grid.size.z}},
+          {"spacing_mm", grid.spacing_mm},
+          {"origin_P_mm", {grid.origin_P_mm.x, grid.origin_P_mm.y, grid.origin_P_mm.z}}};
+}
+
+assets::VolumeGrid gridFrom(const json& about) {
+  const auto found = about.find("grid");
+  assets::VolumeGrid grid;
+  const auto three = [&](const char* key) -> const json& {
+    const auto at = found->find(key);
+    if (at == found->end() || !at->is_array() || at->size() != 3) throw damagedSession("its bone has no place");
+    return *at;
+  };
+  if (found == about.end() || !found->is_object()) throw damagedSession("its bone has no grid");
+  const json &size = three("size"), &origin = three("origin_P_mm");
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto place = static_cast<std::size_t>(axis);
+    if (!size[place].is_number_integer() || !origin[place].is_number()) throw damagedSession("its bone has no place");
+    // Judged later, with the spacing; only kept within an int here.
+    const auto voxels = size[place].get<std::int64_t>();
+    grid.size[axis] = voxels < 0 || voxels > 1 << 20 ? 0 : static_cast<int>(voxels);
+    grid.origin_P_mm[axis] = origin[place].get<double>();
+  }
+  const auto spacing = found->find("spacing_mm");
+  grid.spacing_mm = spacing != found->end() && spacing->is_number() ? spacing->get<double>() : 0.0;
+  return grid;
+}
+
+json ownLabels() {
+  json labels = json::array();
+  for (const assets::TissueProperties& tissue : assets::kTissues) labels.push_back(tissue.key);
+  return labels;
+}
+
+LabelTable labelsFrom(const json& stored) {
+  std::vector<std::string_view> keys;
+  if (stored.is_array())
+    for (const json& key : stored)
+      keys.push_back(key.is_string() ? std::string_view(key.get_ref<const std::string&>()) : "");
+  return labelsOfKeys(keys);
+}
+
+}  // namespace
+
+RemovedByTissue removedByKey(std::span<const double> removed_mm3_by_tissue) {
+  RemovedByTissue removed;
+  for (std::size_t t = 0; t < std::min<std::size_t>(removed_mm3_by_tissue.size(), assets::kTissues.size()); ++t)
+    if (removed_mm3_by_tissue[t] != 0.0) removed[std::string(assets::kTissues[t].key)] = removed_mm3_by_tissue[t];
+  return removed;
+}
+
+std::string removedText(const RemovedByTissue& removed_mm3) { return dumped(json(removed_mm3)); }
+
+RemovedByTissue removedFromText(std::string_view text) {
+  RemovedByTissue removed;
+  const json object = text.empty() ? json::object() : objectFrom(text, "the removed volume");
+  for (const auto& [key, value] : object.items()) {
+    if (!value.is_number()) throw damagedSession("it has no usable removed volume");
+    removed[key] = value.get<double>();
+  }
+  return removed;
+}
+
+LabelTable labelsOfKeys(std::span<const std::string_view> keys) {
+  LabelTable own{};
+  for (std::size_t label = 0; label < std::min(keys.size(), own.size()); ++label)
+    for (std::size_t tissue = 0; tissue < assets::kTissues.size(); ++tissue)
+      if (keys[label] == assets::kTissues[tissue].key) own[label] = static_cast<std::uint8_t>(tissue);
+  return own;
+}
+
+void refuseUnlessUsable(const assets::VolumeGrid& grid) {
+  constexpr int kMostVoxelsPerAxis = 4096;
+  constexpr std::size_t kMostVoxels = std::size_t{1} << 31;
+  bool usable = std::isfinite(grid.spacing_mm) && grid.spacing_mm > 0.0;
+  for (int axis = 0; axis < 3; ++axis)
+    usable = usable && grid.size[axis] >= 1 && grid.size[axis] <= kMostVoxelsPerAxis &&
+             std::isfinite(grid.origin_P_mm[axis]);
+  if (!usable || grid.voxelCount() > kMostVoxels) throw damagedSession("its bone has no size");
+}
+
+std::string aboutText(const SessionStart& start) {
+  return dumped({{"program", start.program_version},
+                 {"patient", start.patient_title},
+                 {"dt_s", start.dt_s},
+                 {"grid", gridJson(start.grid)},
+                 {"labels", ownLabels()},
+                 {"calibration", calibrationJson(start.calibration)}});
+}
+
+SessionAbout aboutFromText(std::string_view text) {
+  json object = objectFrom(text, "itself");
+  SessionAbout about;
+  about.start.program_version = taken(object, "program", std::string());
+  about.start.patient_title = taken(object, "patient", std::string());
+  about.start.dt_s = taken(object, "dt_s", 0.001);
+  about.start.grid = gridFrom(object);
+  object.erase("grid");
+  about.label = labelsFrom(object["labels"]);
+  object.erase("labels");
+  if (const auto found = object.find("calibration"); found != object.end()) {
+    if (!found->is_object()) throw damagedSession("it has no usable calibration");
+    about.start.calibration = calibrationFrom(*found);
+    object.erase(found);
+  }
+  if (!object.empty()) about.start.others = dumped(object);
+  return about;
+}
+
+std::string sealText(const SessionEnd& end) {
+  json object = {{"ticks", end.ticks}, {"lost", end.lost}};
+  if (end.bone_digest) {
+    char digest[17];
+    std::snprintf(digest, sizeof digest, "%016llx", static_cast<unsigned long long>(*end.bone_digest));
+    object["bone_digest"] = digest;
+  }
+  return dumped(object);
+}
+
+SessionEnd sealFromText(std::string_view text) {
+  json object = objectFrom(text, "its end");
+  SessionEnd end;
+  end.ticks = taken(object, "ticks", std::uint64_t{0});
+  end.lost = taken(object, "lost", std::uint64_t{0});
+  if (const std::string digest = taken(object, "bone_digest", std::string()); !digest.empty())
+    end.bone_digest = std::strtoull(digest.c_str(), nullptr, 16);
+  return end;
+}
+
+}  // namespace app

@@ -1,0 +1,236 @@
+#include "app/session/tick_columns.h"
+
+#include <bit>
+#include <concepts>
+#include <string_view>
+#include <type_traits>
+
+#include "app/session/session_error.h"
+
+namespace app {
+namespace {
+
+/// What a column is called, in two parts, and what it is measured in.
+struct Text {
+  std::string_view name, part = "", unit = "", frame = "", meaning = "";
+};
+
+constexpr std::string_view kRests = "none 0, undoing 1, caught 2, pedal 3";
+constexpr std::string_view kStates = "off 0, calibrate 1, ready 2, armed 3, active 4, fault 5";
+constexpr std::string_view kFaults =
+    "bad_pose 1, bad_force 2, clamped 4, slewed 8, device 16, joints 32, hot 64, stale 128, resumed 256, braked 512, "
+    "too_fast 1024, buzz 2048, overdrawn 4096, let_go 8192, latched 16384, stopped 32768; their sum";
+
+template <class Visit>
+void visitXyz(Text text, auto& v, Visit&& visit) {
+  text.part = ".x", visit(text, v.x);
+  text.part = ".y", visit(text, v.y);
+  text.part = ".z", visit(text, v.z);
+}
+
+// Taken apart by structured bindings, so a field added to Tick or HandSample does not compile until it is a column.
+
+template <class Visit>
+void visitHand(auto& hand, Visit&& visit) {
+  auto& [X_PT, velocity_P_mm_per_s, arm_P_mm, handle_velocity_P_mm_per_s, jacobian_P_mm, motor_heat, gap_s, drill_pedal,
+         fresh, docked, held, calibrated, stop_asked, device_healthy] = hand;
+  auto& [rotation, translation_mm] = X_PT;
+  visit(Text{"hand.X_PT.rotation", ".w", "", "P"}, rotation.w);
+  visitXyz(Text{"hand.X_PT.rotation", "", "", "P"}, rotation, visit);
+  visitXyz(Text{"hand.X_PT.translation_mm", "", "mm", "P"}, translation_mm, visit);
+  visitXyz(Text{"hand.velocity_P_mm_per_s", "", "mm/s", "P"}, velocity_P_mm_per_s.xyz, visit);
+  visitXyz(Text{"hand.arm_P_mm", "", "mm", "P"}, arm_P_mm.xyz, visit);
+  visitXyz(Text{"hand.handle_velocity_P_mm_per_s", "", "mm/s", "P"}, handle_velocity_P_mm_per_s.xyz, visit);
+  visitXyz(Text{"hand.jacobian_P_mm.joint_1", "", "mm/rad", "P"}, jacobian_P_mm[0], visit);
+  visitXyz(Text{"hand.jacobian_P_mm.joint_2", "", "mm/rad", "P"}, jacobian_P_mm[1], visit);
+  visitXyz(Text{"hand.jacobian_P_mm.joint_3", "", "mm/rad", "P"}, jacobian_P_mm[2], visit);
+  visit(Text{"hand.motor_heat"}, motor_heat);
+  visit(Text{"hand.gap_s", "", "s"}, gap_s);
+  visit(Text{"hand.drill_pedal"}, drill_pedal);
+  visit(Text{"hand.fresh"}, fresh);
+  visit(Text{"hand.docked"}, docked);
+  visit(Text{"hand.held"}, held);
+  visit(Text{"hand.calibrated"}, calibrated);
+  visit(Text{"hand.stop_asked"}, stop_asked);
+  visit(Text{"hand.device_healthy"}, device_healthy);
+}
+
+template <class Visit>
+void forEachColumn(auto& tick, Visit&& visit) {
+  auto& [index, t_s, dt_s, command_serial, hand, proxy_P, law_force_P_N, law_torque_P_Nmm, served_force_P_N,
+         served_torque_P_Nmm, energy_Nmm, spindle_rad_per_s, overlap_mm3, depth_mm, removed_mm3, bone_digest,
+         removed_so_far_mm3, contact_tissue, drilling, rest, strokes, state, faults, work_us] = tick;
+  visit(Text{"index"}, index);
+  visit(Text{"t_s", "", "s"}, t_s);
+  visit(Text{"dt_s", "", "s"}, dt_s);
+  visit(Text{"command_serial"}, command_serial);
+  visitHand(hand, visit);
+  visitXyz(Text{"proxy_P_mm", "", "mm", "P"}, proxy_P.mm, visit);
+  visitXyz(Text{"law_force_P_N", "", "N", "P"}, law_force_P_N.xyz, visit);
+  visitXyz(Text{"law_torque_P_Nmm", "", "N mm", "P"}, law_torque_P_Nmm.xyz, visit);
+  visitXyz(Text{"served_force_P_N", "", "N", "P"}, served_force_P_N.xyz, visit);
+  visitXyz(Text{"served_torque_P_Nmm", "", "N mm", "P"}, served_torque_P_Nmm.xyz, visit);
+  visit(Text{"energy_Nmm", "", "N mm"}, energy_Nmm);
+  visit(Text{"spindle_rad_per_s", "", "rad/s", "T"}, spindle_rad_per_s);
+  visit(Text{"overlap_mm3", "", "mm3"}, overlap_mm3);
+  visit(Text{"depth_mm", "", "mm"}, depth_mm);
+  visit(Text{"removed_mm3", "", "mm3"}, removed_mm3);
+  visit(Text{"bone_digest"}, bone_digest);
+  visit(Text{"contact_tissue", "", "", "", "place in the labels of meta"}, contact_tissue);
+  visit(Text{"drilling"}, drilling);
+  visit(Text{"rest", "", "", "", kRests}, rest);
+  visit(Text{"strokes"}, strokes);
+  visit(Text{"state", "", "", "", kStates}, state);
+  visit(Text{"faults", "", "", "", kFaults}, faults);
+  visit(Text{"work_us", "", "us"}, work_us);
+}
+
+/// The unsigned integer that holds the bits of a field.
+template <class T>
+auto bitsOf(const T& field) {
+  if constexpr (std::is_enum_v<T>) {
+    return static_cast<std::make_unsigned_t<std::underlying_type_t<T>>>(field);
+  } else if constexpr (std::same_as<T, bool>) {
+    return static_cast<std::uint8_t>(field ? 1 : 0);
+  } else if constexpr (std::same_as<T, double>) {
+    return std::bit_cast<std::uint64_t>(field);
+  } else if constexpr (std::same_as<T, float>) {
+    return std::bit_cast<std::uint32_t>(field);
+  } else {
+    static_assert(std::unsigned_integral<T>);
+    return field;
+  }
+}
+
+template <class T, class Bits>
+void setFromBits(T& field, Bits bits) {
+  if constexpr (std::is_enum_v<T>) {
+    field = static_cast<T>(bits);
+  } else if constexpr (std::same_as<T, bool>) {
+    field = bits != 0;
+  } else if constexpr (std::floating_point<T>) {
+    field = std::bit_cast<T>(bits);
+  } else {
+    field = bits;
+  }
+}
+
+std::uint64_t littleEndian(const std::uint8_t* at, std::size_t bytes, std::size_t stride) {
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; i < bytes; ++i) bits |= static_cast<std::uint64_t>(at[i * stride]) << (8 * i);
+  return bits;
+}
+
+void putLittleEndian(std::uint8_t* at, std::uint64_t bits, std::size_t bytes) {
+  for (std::size_t i = 0; i < bytes; ++i) at[i] = static_cast<std::uint8_t>(bits >> (8 * i));
+}
+
+void packInto(std::uint8_t* row, const haptics::Tick& tick) {
+  forEachColumn(tick, [&](const Text&, const auto& field) {
+    const auto bits = bitsOf(field);
+    putLittleEndian(row, bits, sizeof bits);
+    row += sizeof bits;
+  });
+}
+
+haptics::Tick unpackedFrom(const std::uint8_t* row) {
+  haptics::Tick tick;
+  forEachColumn(tick, [&](const Text&, auto& field) {
+    using Bits = decltype(bitsOf(field));
+    setFromBits(field, static_cast<Bits>(littleEndian(row, sizeof(Bits), 1)));
+    row += sizeof(Bits);
+  });
+  return tick;
+}
+
+std::size_t packedTickBytes() {
+  const haptics::Tick tick;
+  std::size_t bytes = 0;
+  forEachColumn(tick, [&](const Text&, const auto& field) { bytes += sizeof(bitsOf(field)); });
+  return bytes;
+}
+
+}  // namespace
+
+const std::vector<TickColumn>& tickColumns() {
+  static const std::vector<TickColumn> kColumns = [] {
+    const haptics::Tick tick;
+    std::vector<TickColumn> columns;
+    forEachColumn(tick, [&](const Text& text, const auto& field) {
+      const char kind = std::floating_point<std::remove_cvref_t<decltype(field)>> ? 'f' : 'u';
+      columns.push_back({std::string(text.name) + std::string(text.part),
+                         kind + std::to_string(8 * sizeof(bitsOf(field))), std::string(text.unit),
+                         std::string(text.frame), std::string(text.meaning)});
+    });
+    return columns;
+  }();
+  return kColumns;
+}
+
+std::vector<std::uint8_t> packTicks(std::span<const haptics::Tick> ticks) {
+  static const std::size_t kRowBytes = packedTickBytes();
+  const std::size_t count = ticks.size();
+  std::vector<std::uint8_t> row(kRowBytes), planes(kRowBytes * count);
+  for (std::size_t t = 0; t < count; ++t) {
+    packInto(row.data(), ticks[t]);
+    for (std::size_t b = 0; b < kRowBytes; ++b) planes[b * count + t] = row[b];
+  }
+  return planes;
+}
+
+TickUnpacker::Type TickUnpacker::typeOf(const std::string& text) {
+  for (const char kind : {'u', 'i', 'f'})
+    for (const std::uint8_t bytes : {std::uint8_t{1}, std::uint8_t{2}, std::uint8_t{4}, std::uint8_t{8}})
+      if ((kind != 'f' || bytes >= 4) && text == kind + std::to_string(8 * bytes)) return {kind, bytes};
+  throw damagedSession("a column of its ticks is of type '" + text.substr(0, 20) + "', which is none");
+}
+
+TickUnpacker::TickUnpacker(std::span<const TickColumn> stored) {
+  constexpr std::size_t kMostColumns = 10'000;
+  if (stored.empty() || stored.size() > kMostColumns) throw damagedSession("its ticks have no columns");
+  default_row_.resize(packedTickBytes());
+  packInto(default_row_.data(), haptics::Tick{});
+  for (const TickColumn& column : stored) {
+    const Type type = typeOf(column.type);
+    std::size_t to = 0;
+    for (const TickColumn& own : tickColumns()) {
+      const Type own_type = typeOf(own.type);
+      if (own.name == column.name) routes_.push_back({bytes_per_tick_, to, type, own_type});
+      to += own_type.bytes;
+    }
+    bytes_per_tick_ += type.bytes;
+  }
+}
+
+std::uint64_t TickUnpacker::converted(std::uint64_t bits, Type from, Type to) {
+  if (from == to) return bits;
+  const int unused = 64 - 8 * from.bytes;
+  const auto with_sign = static_cast<std::int64_t>(bits << unused) >> unused;
+  if (from.kind != 'f' && to.kind != 'f') return from.kind == 'i' ? static_cast<std::uint64_t>(with_sign) : bits;
+  const double value = from.kind == 'i'   ? static_cast<double>(with_sign)
+                       : from.kind == 'u' ? static_cast<double>(bits)
+                       : from.bytes == 4  ? double{std::bit_cast<float>(static_cast<std::uint32_t>(bits))}
+                                          : std::bit_cast<double>(bits);
+  if (to.kind == 'f')
+    return to.bytes == 4 ? std::bit_cast<std::uint32_t>(static_cast<float>(value))
+                         : std::bit_cast<std::uint64_t>(value);
+  return value >= 0.0 && value < 0x1p63 ? static_cast<std::uint64_t>(value) : 0;
+}
+
+std::vector<haptics::Tick> TickUnpacker::unpack(std::span<const std::uint8_t> bytes) const {
+  const std::size_t count = bytes.size() / bytes_per_tick_;
+  if (bytes.size() % bytes_per_tick_ != 0) throw damagedSession("a block of ticks has a wrong length");
+  std::vector<haptics::Tick> ticks;
+  ticks.reserve(count);
+  std::vector<std::uint8_t> row = default_row_;
+  for (std::size_t t = 0; t < count; ++t) {
+    for (const Route& route : routes_) {
+      const std::uint64_t bits = littleEndian(bytes.data() + route.from * count + t, route.stored.bytes, count);
+      putLittleEndian(row.data() + route.to, converted(bits, route.stored, route.own), route.own.bytes);
+    }
+    ticks.push_back(unpackedFrom(row.data()));
+  }
+  return ticks;
+}
+
+}  // namespace app

@@ -1,0 +1,183 @@
+#include "app/station/rig_choice.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include <CLI/CLI.hpp>
+
+#include "app/device/practice_device.h"
+#include "app/text/printed.h"
+#include "app/text/usage_error.h"
+#include "calibration/record/default_rigs.h"
+#include "calibration/record/later_check.h"
+#include "calibration/record/rig_file.h"
+#include "calibration/record/rig_store.h"
+
+namespace app {
+namespace {
+
+using calibration::RigPlace;
+using calibration::RigRecord;
+using calibration::RigStore;
+using calibration::Verdict;
+using Kind = DeviceAtHand::Kind;
+
+constexpr std::string_view kCurrent = "current";
+constexpr std::size_t kLongestWord = 120;
+
+/// "current" as "", "current:rig-02" as "rig-02"; none for anything else.
+std::optional<std::string> currentAsked(const std::string& rig) {
+  if (rig == kCurrent) return "";
+  if (rig.starts_with(std::string(kCurrent) + ":")) return rig.substr(kCurrent.size() + 1);
+  return std::nullopt;
+}
+
+std::string nameOf(const DeviceAtHand& device) {
+  return device.model + (device.serial.empty() ? "" : " " + device.serial);
+}
+
+std::string nameOf(const RigPlace& place) { return place.rig_id + " " + place.serial + " " + place.mount; }
+
+std::string ofTouches(const calibration::RigProof& proof) {
+  return printed("%.2f mm RMS of %d", proof.errors.rms_mm, proof.errors.n);
+}
+
+}  // namespace
+
+DeviceAtHand deviceAtHand(const std::string& address, const haptics::DeviceCapabilities* real) {
+  if (const auto practice = practiceRig(address))
+    return {Kind::practice, address, practice->nominal.device->model, practice->nominal.device->serial};
+  if (real == nullptr) return {Kind::without_hardware, address, "", ""};
+  return {Kind::real, address, real->arm_model.empty() ? real->model : real->arm_model, real->serial};
+}
+
+CLI::Option* RigOption::addTo(CLI::App& command, bool for_device) {
+  auto* rig = command
+                  .add_option("--rig", rig_,
+                              for_device ? "Rig, 1:1: a file; current[:RIG], the calibration in force of this device; "
+                                           "mirrored or desktop, not measured [the only current one of a real device]"
+                                         : "Rig: a file; current[:RIG], the calibration in force; mirrored or desktop")
+                  ->type_name("RIG");
+  command.add_option("--rig-store", store_, "Where calibrations are kept [$MOLAR_CALIBRATION, else the data folder]")
+      ->type_name("DIR");
+  if (!for_device) return rig;
+  command.add_option("--mount", mount_, "On which side of the surgeon the device stands [as the rig has it]")
+      ->check(CLI::IsMember({"left", "right"}));
+  command
+      .add_option("--despite-calibration", despite_, "Work with a calibration that is red; why, kept in the session")
+      ->type_name("WORD");
+  return rig;
+}
+
+bool RigOption::isName() const { return isGiven() && (currentAsked(rig_) || calibration::defaultRig(rig_)); }
+
+void RigOption::refuseUnlessReadable() const {
+  if (isGiven() && !isName()) calibration::readRigRecord(rig_);
+}
+
+std::optional<RigRecord> RigOption::currentFor(const DeviceAtHand& device, const std::string& rig_id) const {
+  const bool is_asked = isGiven();
+  const std::filesystem::path root = store_.empty() ? RigStore::usualRoot() : std::filesystem::path(store_);
+  const RigStore store(root);
+  std::vector<RigPlace> suiting;
+  for (const RigPlace& place : store.places()) {
+    const bool its_serial = !device.isCalibrated() || place.serial == device.serial;
+    const bool its_rig = rig_id.empty() || place.rig_id == rig_id, its_mount = mount_.empty() || place.mount == mount_;
+    if (its_serial && its_rig && its_mount && store.currentName(place)) suiting.push_back(place);
+  }
+  const std::string whose = device.isCalibrated() ? " of " + nameOf(device) : "";
+  if (suiting.empty()) {
+    if (!is_asked) return std::nullopt;
+    throw UsageError("--rig " + rig_ + ": " + root.string() + " holds no calibration in force" + whose +
+                     ", calibrate first, name a rig file, or give --rig-store");
+  }
+  if (suiting.size() > 1) {
+    std::string all;
+    for (const RigPlace& place : suiting) all += (all.empty() ? "" : ", ") + nameOf(place);
+    if (!is_asked) return std::nullopt;
+    throw UsageError("--rig " + rig_ + ": several calibrations are in force" + whose + " (" + all +
+                     "), say which with --rig current:RIG and --mount");
+  }
+  auto record = store.current(suiting.front());
+  if (!record && is_asked)
+    throw UsageError("--rig " + rig_ + ": " + nameOf(suiting.front()) +
+                     " is no longer in force, somebody changes the calibrations now, start again");
+  if (!record) return std::nullopt;
+  return withLaterCheck(*std::move(record), calibration::readHistory(store.historyPath(suiting.front())));
+}
+
+std::optional<ChosenRig> RigOption::choose(const DeviceAtHand& device, const std::string& now_utc) const {
+  ChosenRig chosen;
+  const auto current = isGiven() ? currentAsked(rig_) : std::string();
+  const bool looks_in_store = isGiven() ? current.has_value() : device.isCalibrated();
+  if (looks_in_store) {
+    auto record = currentFor(device, *current);
+    if (!record) return std::nullopt;
+    chosen.record = std::move(*record);
+    chosen.source = "current rig " + chosen.record.provenance.rig_id;
+  } else if (!isGiven()) {
+    return std::nullopt;
+  } else if (const auto rig = calibration::defaultRig(rig_)) {
+    chosen.record.rig = *rig;
+    chosen.source = "default rig " + rig_;
+  } else {
+    chosen.record = calibration::readRigRecord(rig_);
+    chosen.source = "rig file " + rig_;
+  }
+  judge(chosen, device, now_utc);
+  return chosen;
+}
+
+void RigOption::judge(ChosenRig& chosen, const DeviceAtHand& device, const std::string& now_utc) const {
+  const bool is_default = isGiven() && calibration::defaultRig(rig_).has_value();
+  RigRecord& record = chosen.record;
+  SessionCalibration& kept = chosen.calibration;
+  kept.rig = is_default ? "default" : record.hash.empty() ? "unsealed" : record.hash;
+  kept.rig_id = record.provenance.rig_id;
+  kept.device_serial = device.serial;
+  kept.age_days = calibration::age_days(record, now_utc);
+  if (record.proof) {
+    const calibration::TargetErrors& errors = record.proof->errors;
+    kept.verdict = calibration::nameOf(record.proof->verdict);
+    kept.touches = errors.n;
+    kept.rms_mm = errors.rms_mm, kept.p95_mm = errors.p95_mm, kept.max_mm = errors.max_mm;
+    kept.checked_utc = record.proof->checked_utc;
+  }
+  const auto remark = [&](const std::string& line) { chosen.remarks.push_back(chosen.source + ": " + line); };
+  if (kept.age_days && *kept.age_days > calibration::kOldRig_days)
+    remark(printed("it was measured %.0f days ago, more than %.0f: calibrate again", *kept.age_days,
+                   calibration::kOldRig_days));
+
+  // An arm is of one device; eyes, screen and patient serve every hand.
+  if (!device.isCalibrated()) {
+    if (record.rig.arm) remark("its arm is left aside, this hand has none");
+    record.rig.arm.reset();
+    return;
+  }
+  const std::string why_not = calibration::whyNotFor(record, device.model, device.serial, mount_);
+  if (!why_not.empty())
+    throw UsageError("--rig, " + chosen.source + ": " + why_not +
+                     ": choose the rig of this device or calibrate it (molar calibrate)");
+  if (!record.proof) {
+    remark(is_default || !record.rig.arm
+               ? "it was not measured with this device: hand and eye may be a centimetre apart, see molar calibrate"
+               : "nobody has verified it: molar calibrate verify");
+    return;
+  }
+  const Verdict verdict = record.proof->verdict;
+  if (verdict == Verdict::amber) remark("its calibration is amber, " + ofTouches(*record.proof) + ": usable, not good");
+  if (verdict != Verdict::red) return;
+  const bool is_word = std::ranges::any_of(despite_, [](unsigned char c) { return std::isgraph(c) != 0; }) &&
+                       std::ranges::none_of(despite_, [](unsigned char c) { return std::iscntrl(c) != 0; });
+  if (!is_word)
+    throw UsageError(
+        "--device " + device.address + ": " + chosen.source + " is red, " + ofTouches(*record.proof) +
+        ": calibrate again (molar calibrate) or say with --despite-calibration \"WORD\" why it is used all the same");
+  if (despite_.size() > kLongestWord)
+    throw UsageError("--despite-calibration: the word is too long, 120 bytes at most");
+  kept.despite = despite_;
+  remark("its calibration is red, " + ofTouches(*record.proof) + ", used despite that: " + despite_);
+}
+
+}  // namespace app

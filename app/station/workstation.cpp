@@ -1,0 +1,97 @@
+#include "app/station/workstation.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace app {
+namespace {
+
+constexpr double kLogged_s = 10.0;  // of ticks, while the recorder is held up
+constexpr double kWrittenTogether_s = 0.5;
+
+std::unique_ptr<Recorder> recorderOf(const std::optional<Recording>& recording, const assets::Patient& patient,
+                                     double rate_Hz, const haptics::Command& command, haptics::TickLog& log,
+                                     Ticking ticking) {
+  if (!recording) return nullptr;
+  SessionStart start;
+  start.patient_title = patient.title;
+  start.program_version = std::string(MOLAR_VERSION);
+  start.dt_s = 1.0 / rate_Hz;
+  start.grid = patient.ct.grid;
+  start.solid = patient.ct.solid;
+  start.label = patient.ct.label;
+  start.command = command;
+  start.calibration = recording->calibration;
+  return std::make_unique<Recorder>(recording->path, recording->overwrite, start, log,
+                                    ticking == Ticking::by_hand ? Draining::by_hand : Draining::by_thread);
+}
+
+}  // namespace
+
+Workstation::Workstation(const assets::Patient& patient, std::unique_ptr<haptics::HapticDevice> device,
+                         const haptics::LoopSettings& settings, const haptics::Command& command,
+                         const std::optional<Recording>& recording, Ticking ticking)
+    : device_(std::move(device)),
+      bone_(patient.ct.grid, patient.ct.solid, patient.ct.label),
+      servo_(bone_),
+      rate_Hz_(settings.rate_Hz),
+      command_(haptics::limitedTo(device_->capabilities(), rate_Hz_, command)),
+      commands_(command_),
+      log_(static_cast<std::size_t>(std::ceil(kLogged_s * rate_Hz_))),
+      recorder_(recorderOf(recording, patient, settings.rate_Hz, command_, log_, ticking)),
+      pedal_(settings.pedal),
+      loop_(servo_, servedAs(*device_, ticking), commands_, log_, newest_, settings) {}
+
+void Workstation::start() {
+  loop_.start();
+  emergency_exit_.emplace(loop_);
+}
+
+RecordingSummary Workstation::stop() {
+  loop_.stop();
+  emergency_exit_.reset();
+  return recorder_ ? recorder_->stop(&bone_) : RecordingSummary{};
+}
+
+void Workstation::step(std::uint64_t ticks) {
+  const auto together = static_cast<std::uint64_t>(kWrittenTogether_s * rate_Hz_);
+  while (ticks > 0) {
+    const std::uint64_t now = std::min(ticks, together - unwritten_);
+    assert(!recorder_ || log_.room() >= now);
+    loop_.step(now);
+    ticks -= now;
+    unwritten_ += now;
+    if (unwritten_ < together) continue;
+    if (recorder_) recorder_->drain();
+    unwritten_ = 0;
+  }
+}
+
+std::vector<haptics::HandAction> Workstation::takeActions() {
+  std::vector<haptics::HandAction> asked;
+  for (std::size_t i = 0; i < haptics::kHandActions; ++i) {
+    const auto action = static_cast<haptics::HandAction>(i);
+    const std::uint32_t presses = loop_.presses(action) + (pedal_ != nullptr ? pedal_->presses(action) : 0);
+    if (action != haptics::HandAction::drill) asked.insert(asked.end(), presses - actions_taken_[i], action);
+    actions_taken_[i] = presses;
+  }
+  return asked;
+}
+
+void Workstation::change(haptics::Command command) {
+  command.serial = command_.serial + 1;
+  command_ = haptics::limitedTo(device_->capabilities(), rate_Hz_, command);
+  if (recorder_) recorder_->command(command_);
+  commands_.publish(command_);
+}
+
+std::optional<std::string> Workstation::recordingTrouble() const {
+  return recorder_ ? recorder_->trouble() : std::nullopt;
+}
+
+void Workstation::note(const std::string& kind, const std::string& text) {
+  if (recorder_) recorder_->event(kind, text);
+}
+
+}  // namespace app

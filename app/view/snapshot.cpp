@@ -1,0 +1,50 @@
+#include "app/view/snapshot.h"
+
+#include <filesystem>
+
+#include "assets/load_error.h"
+#include "calibration/picture_file.h"
+
+namespace app {
+namespace {
+
+/// `folder/name.png` with a word before the ending: `folder/name_left.png`.
+std::string withWord(const std::string& path, const std::string& word) {
+  const std::filesystem::path p(path);
+  if (p.has_extension() && p.extension() != ".png")
+    throw assets::LoadError("picture " + path + ": pictures are PNG, let the name end in .png");
+  return (p.parent_path() / (p.stem().string() + "_" + word + ".png")).string();
+}
+
+}  // namespace
+
+void savePng(const render::Picture& picture, assets::OutputFile& file) {
+  calibration::writePng(file.temporaryPath(), {picture.w, picture.h}, picture.rgba);
+  file.commit();
+}
+
+std::string saveNextSnapshot(const render::Picture& picture) {
+  std::string path;
+  for (int n = 1; path.empty() || std::filesystem::exists(path); ++n)
+    path = "molar-snapshot-" + std::to_string(n) + ".png";
+  assets::OutputFile file(path, false);
+  savePng(picture, file);
+  return path;
+}
+
+EyePictures::EyePictures(const std::string& path, bool overwrite)
+    : left_(withWord(path, "left"), overwrite), right_(withWord(path, "right"), overwrite) {}
+
+void EyePictures::save(const render::Picture& left, const render::Picture& right) {
+  savePng(left, left_);
+  savePng(right, right_);
+}
+
+void EyePictures::take(render::FrameRenderer& renderer, const render::Frame& frame) {
+  renderer.renderEye(frame, render::Eye::left);
+  renderer.renderEye(frame, render::Eye::right);
+  renderer.throwIfError();
+  save(renderer.readEye(render::Eye::left), renderer.readEye(render::Eye::right));
+}
+
+}  // namespace app

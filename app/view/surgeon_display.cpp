@@ -1,0 +1,132 @@
+#include "app/view/surgeon_display.h"
+
+#include <utility>
+
+#include "app/view/renderer_choice.h"
+#include "render/display/stereo_layout.h"
+#include "render/gpu/gpu_error.h"
+
+namespace app {
+namespace {
+
+using render::Backend;
+
+double secondsBetween(SurgeonDisplay::Clock::time_point from, SurgeonDisplay::Clock::time_point to) {
+  return std::chrono::duration<double>(to - from).count();
+}
+
+}  // namespace
+
+SurgeonDisplay::SurgeonDisplay(const Options& options, MakeRenderer make_renderer, Tell tell)
+    : options_(options), make_renderer_(std::move(make_renderer)), tell_(std::move(tell)) {
+  open();
+}
+
+SurgeonDisplay::~SurgeonDisplay() { close(); }
+
+void SurgeonDisplay::open() {
+  if (!options_.headless) {
+    try {
+      windows_.emplace(options_.windows, tell_);
+    } catch (const render::GpuError& error) {
+      if (options_.needs_window) throw;
+      tell_(std::string(error.what()) + "; going on without a window");
+      options_.headless = true;
+    }
+  }
+  if (options_.headless)
+    openOffscreen();
+  else
+    options_.backend = rendererForWindow(options_.backend, tell_);
+  fence_.emplace();
+  openRenderer();
+}
+
+void SurgeonDisplay::openOffscreen() {
+  try {
+    options_.backend = rendererWithoutWindow(options_.backend, offscreen_, tell_);
+  } catch (const render::GpuError& error) {
+    tell_(std::string(error.what()) + "; drawing on the processor");
+    options_.backend = Backend::cpu;
+  }
+}
+
+/// A driver that does not take the shaders: the next best renderer.
+void SurgeonDisplay::openRenderer() {
+  while (!renderer_) {
+    try {
+      renderer_ = make_renderer_(*options_.backend);
+    } catch (const render::GpuError& error) {
+      if (options_.backend == Backend::cpu) throw;
+      const bool compute = options_.backend == Backend::gl_compute;
+      tell_(std::string(error.what()) + (compute ? "; drawing with fragment shaders" : "; drawing on the processor"));
+      options_.backend = compute ? Backend::gl_fragment : Backend::cpu;
+    }
+  }
+}
+
+void SurgeonDisplay::close() {
+  makeCurrent();
+  fence_.reset();
+  renderer_.reset();
+  windows_.reset();
+  offscreen_.reset();
+}
+
+void SurgeonDisplay::makeAnew() {
+  if (before_making_anew_) before_making_anew_();
+  close();
+  open();
+}
+
+void SurgeonDisplay::makeCurrent() {
+  if (windows_) windows_->first().makeCurrent();
+}
+
+void SurgeonDisplay::show(render::Frame frame) {
+  frame.display = mode();
+  frame.eyes_swapped = options_.eyes_swapped;
+  if (window() != nullptr) {
+    const glm::ivec2 window_px = window()->framebufferSize_px();
+    if (window_px.x <= 0 || window_px.y <= 0) return;  // minimised
+    // Scaling would mix the eyes' lines.
+    if (render::isInterleaved(mode())) {
+      frame.rig.screen.px = window_px;
+      frame.output_at_px = window()->placeOnPanel_px();
+    }
+  }
+  recovery_.draw([&] { drawAndPresent(frame); },
+                 [&](const render::ContextLost& lost) {
+                   tell_(std::string(lost.what()) + "; everything is drawn anew");
+                   makeAnew();
+                 });
+}
+
+void SurgeonDisplay::drawAndPresent(render::Frame& frame) {
+  const Clock::time_point begun = Clock::now();
+  renderer_->render(frame);
+  if (!windows_) {
+    renderer_->readPicture();
+    handed_over_ = Clock::now();
+    drawing_s_ = secondsBetween(begun, handed_over_);
+    renderer_->throwIfError();
+    return;
+  }
+  windows_->fill([this](const render::WindowPlace& place, int output) { renderer_->showOnWindow(place, output); });
+  // What drawing costs is known before the display is waited for.
+  fence_->mark();
+  fence_->wait();
+  drawing_s_ = secondsBetween(begun, Clock::now());
+  renderer_->throwIfError();
+  windows_->first().present();
+  fence_->mark();
+  handed_over_ = Clock::now();
+}
+
+void SurgeonDisplay::waitUntilShown() {
+  if (!windows_) return;
+  fence_->wait();
+  handed_over_ = Clock::now();
+}
+
+}  // namespace app

@@ -1,0 +1,202 @@
+#include "assets/import/mandibular_canal_voxels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <unordered_map>
+
+#include "assets/tissue.h"
+
+namespace assets {
+
+namespace {
+
+constexpr double kCell_mm = 0.8;
+constexpr std::size_t kMostParts = 64;  ///< of a canal; the rest are speckles
+constexpr double kLargestGap_mm = 8.0;  // segmentations lose the canal where a root lies on it
+
+/// Voxels gathered in coarse cells: a small graph whatever the voxel size.
+struct Cell {
+  glm::ivec3 at{0};
+  glm::dvec3 sum_P_mm{0.0};
+  std::vector<glm::dvec3> points_P_mm;
+  std::vector<std::size_t> neighbours;
+
+  glm::dvec3 mean_P_mm() const { return sum_P_mm / static_cast<double>(points_P_mm.size()); }
+};
+
+std::vector<Cell> cellsOf(const VolumeGrid& grid, const std::vector<std::uint8_t>& label) {
+  std::vector<Cell> cells;
+  const double cell_mm = std::max(kCell_mm, grid.spacing_mm);
+  const auto cell_of = [&](glm::ivec3 ijk) {
+    return glm::ivec3(glm::floor(glm::dvec3(ijk) * grid.spacing_mm / cell_mm + 1.0e-9));
+  };
+  const glm::ivec3 lattice = cell_of(grid.size - 1) + 1;
+  const auto key_of = [&](glm::ivec3 at) {
+    return (static_cast<std::int64_t>(at.z) * lattice.y + at.y) * lattice.x + at.x;
+  };
+  std::unordered_map<std::int64_t, std::size_t> index;
+  for (int k = 0; k < grid.size.z; ++k)
+    for (int j = 0; j < grid.size.y; ++j)
+      for (int i = 0; i < grid.size.x; ++i) {
+        if (label[grid.index({i, j, k})] != static_cast<std::uint8_t>(Tissue::mandibular_canal)) continue;
+        const glm::ivec3 at = cell_of({i, j, k});
+        const auto [found, is_new] = index.try_emplace(key_of(at), cells.size());
+        if (is_new) cells.push_back({at, {}, {}, {}});
+        Cell& cell = cells[found->second];
+        cell.points_P_mm.push_back(grid.centre_P_mm({i, j, k}));
+        cell.sum_P_mm += cell.points_P_mm.back();
+      }
+
+  // Two cells are neighbours if at most one empty cell lies between.
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    for (int offset = 0; offset < 125; ++offset) {
+      const glm::ivec3 at = cells[c].at + glm::ivec3(offset % 5, offset / 5 % 5, offset / 25) - 2;
+      if (glm::any(glm::lessThan(at, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(at, lattice))) continue;
+      const auto found = index.find(key_of(at));
+      if (found != index.end() && found->second != c) cells[c].neighbours.push_back(found->second);
+    }
+  return cells;
+}
+
+/// Length of the shortest way from `start` to every cell; infinite where there is none.
+std::vector<double> wayFrom(std::size_t start, const std::vector<Cell>& cells) {
+  std::vector<double> way_mm(cells.size(), std::numeric_limits<double>::infinity());
+  using Reached = std::pair<double, std::size_t>;
+  std::priority_queue<Reached, std::vector<Reached>, std::greater<>> front;
+  way_mm[start] = 0.0;
+  front.emplace(0.0, start);
+  while (!front.empty()) {
+    const auto [length_mm, cell] = front.top();
+    front.pop();
+    if (length_mm > way_mm[cell]) continue;
+    for (const std::size_t next : cells[cell].neighbours) {
+      const double longer_mm = length_mm + glm::distance(cells[cell].mean_P_mm(), cells[next].mean_P_mm());
+      if (longer_mm >= way_mm[next]) continue;
+      way_mm[next] = longer_mm;
+      front.emplace(longer_mm, next);
+    }
+  }
+  return way_mm;
+}
+
+std::size_t farthest(const std::vector<double>& way_mm) {
+  std::size_t best = 0;
+  double longest_mm = -1.0;
+  for (std::size_t c = 0; c < way_mm.size(); ++c)
+    if (std::isfinite(way_mm[c]) && way_mm[c] > longest_mm) {
+      longest_mm = way_mm[c];
+      best = c;
+    }
+  return best;
+}
+
+/// Splits into connected canals.
+std::vector<std::vector<std::size_t>> canalsOf(const std::vector<Cell>& cells) {
+  std::vector<std::vector<std::size_t>> canals;
+  std::vector<bool> seen(cells.size(), false);
+  for (std::size_t start = 0; start < cells.size(); ++start) {
+    if (seen[start]) continue;
+    std::vector<std::size_t> canal = {start};
+    seen[start] = true;
+    for (std::size_t c = 0; c < canal.size(); ++c)
+      for (const std::size_t next : cells[canal[c]].neighbours)
+        if (!seen[next]) {
+          seen[next] = true;
+          canal.push_back(next);
+        }
+    canals.push_back(std::move(canal));
+  }
+  return canals;
+}
+
+std::size_t voxelsOf(const std::vector<std::size_t>& canal, const std::vector<Cell>& cells) {
+  std::size_t voxels = 0;
+  for (const std::size_t c : canal) voxels += cells[c].points_P_mm.size();
+  return voxels;
+}
+
+struct Join {
+  std::size_t from = 0, to = 0;
+  double gap_mm = kLargestGap_mm;
+};
+
+/// The nearest two cells of two parts, if they are near enough.
+Join nearestOf(const std::vector<std::size_t>& a, const std::vector<std::size_t>& b, const std::vector<Cell>& cells) {
+  glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
+  for (const std::size_t c : b) {
+    low = glm::min(low, cells[c].mean_P_mm());
+    high = glm::max(high, cells[c].mean_P_mm());
+  }
+  Join nearest;
+  for (const std::size_t from : a) {
+    const glm::dvec3 mean = cells[from].mean_P_mm();
+    if (glm::distance(mean, glm::clamp(mean, low, high)) >= nearest.gap_mm) continue;
+    for (const std::size_t to : b)
+      if (const double gap_mm = glm::distance(mean, cells[to].mean_P_mm()); gap_mm < nearest.gap_mm)
+        nearest = {from, to, gap_mm};
+  }
+  return nearest;
+}
+
+/// Joins parts of one canal: their nearest cells become neighbours. The largest parts alone, so that speckled labels
+/// cost no more than a canal's.
+void joinAcrossGaps(std::vector<Cell>& cells) {
+  auto parts = canalsOf(cells);
+  std::ranges::stable_sort(parts, std::greater{}, [&](const auto& part) { return voxelsOf(part, cells); });
+  parts.resize(std::min(parts.size(), kMostParts));
+  for (std::size_t a = 0; a < parts.size(); ++a)
+    for (std::size_t b = a + 1; b < parts.size(); ++b) {
+      const Join join = nearestOf(parts[a], parts[b], cells);
+      if (join.from == join.to) continue;
+      cells[join.from].neighbours.push_back(join.to);
+      cells[join.to].neighbours.push_back(join.from);
+    }
+}
+
+/// The canal meant: nearest to the place given, crumbs of less than a tenth of the largest left aside; or the largest.
+std::vector<std::size_t> canalMeant(const std::vector<Cell>& cells, const std::optional<glm::dvec3>& beside_P_mm) {
+  const auto canals = canalsOf(cells);
+  std::size_t largest = 0;
+  for (const auto& canal : canals) largest = std::max(largest, voxelsOf(canal, cells));
+  std::vector<std::size_t> meant;
+  double best = std::numeric_limits<double>::infinity();
+  for (const auto& canal : canals) {
+    const std::size_t voxels = voxelsOf(canal, cells);
+    if (voxels * 10 < largest) continue;
+    double distance = -static_cast<double>(voxels);
+    if (beside_P_mm) {
+      distance = std::numeric_limits<double>::infinity();
+      for (const std::size_t c : canal)
+        distance = std::min(distance, glm::distance(cells[c].mean_P_mm(), *beside_P_mm));
+    }
+    if (distance >= best) continue;
+    best = distance;
+    meant = canal;
+  }
+  return meant;
+}
+
+}  // namespace
+
+OrderedVoxels orderedMandibularCanal(const VolumeGrid& grid, const std::vector<std::uint8_t>& label,
+                                     const std::optional<glm::dvec3>& beside_P_mm) {
+  std::vector<Cell> cells = cellsOf(grid, label);
+  joinAcrossGaps(cells);
+  const std::vector<std::size_t> canal = canalMeant(cells, beside_P_mm);
+  if (canal.empty()) return {};
+
+  // From any cell the farthest is an end; the way from there orders all others.
+  const std::size_t end = farthest(wayFrom(canal.front(), cells));
+  const std::vector<double> way_mm = wayFrom(end, cells);
+  OrderedVoxels voxels;
+  for (const std::size_t c : canal)
+    for (const glm::dvec3& p_P_mm : cells[c].points_P_mm) {
+      voxels.centre_P_mm.push_back(p_P_mm);
+      voxels.along_mm.push_back(way_mm[c]);
+    }
+  return voxels;
+}
+
+}  // namespace assets

@@ -1,0 +1,95 @@
+#include "assets/import/scan_scale.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "assets/load_error.h"
+
+namespace assets {
+namespace {
+
+constexpr int kBrightestByte = 255;
+constexpr int kBone_hu = 700, kMetal_hu = 3000;     // enamel ends at 2955 (Reshetnikov 2024)
+constexpr int kNoAirBelow_hu = -300, kBin_hu = 16;  // fat lies at -100, air at -1000
+constexpr double kMostBone = 0.3, kLeastMetal_mm3 = 10.0;
+
+class Histogram {
+ public:
+  explicit Histogram(const std::vector<std::int16_t>& hounsfield) : all_(static_cast<double>(hounsfield.size())) {
+    for (const std::int16_t value : hounsfield) ++count_[static_cast<std::size_t>(value + kShift)];
+  }
+
+  double above(int value) const { return between(value, std::numeric_limits<std::int16_t>::max()); }
+  /// Share of the voxels above `low` and up to `high`.
+  double between(int low, int high) const {
+    double sum = 0.0;
+    for (int value = low + 1; value <= high; ++value) sum += static_cast<double>(count_[std::size_t(value + kShift)]);
+    return sum / all_;
+  }
+  /// The value that a share of the voxels does not exceed.
+  int percentile(double share) const {
+    double sum = 0.0;
+    for (std::size_t n = 0; n < count_.size(); ++n)
+      if ((sum += static_cast<double>(count_[n])) >= share * all_) return static_cast<int>(n) - kShift;
+    return kShift - 1;
+  }
+  /// Middle of the fullest bin from `low` to `high`.
+  int mode(int low, int high) const {
+    int best = low;
+    double most = -1.0;
+    for (int start = low; start <= high; start += kBin_hu)
+      if (const double share = between(start - 1, start + kBin_hu - 1); share > most) {
+        most = share;
+        best = start + kBin_hu / 2;
+      }
+    return best;
+  }
+
+ private:
+  static constexpr int kShift = 32768;
+  std::vector<std::size_t> count_ = std::vector<std::size_t>(65536);
+  double all_;
+};
+
+/// Where the darkest of the scan lies if that can not be air in Hounsfield and the rest can not be a head.
+std::optional<int> offsetAir_hu(const Histogram& greys) {
+  const int darkest = greys.percentile(0.001);
+  if (darkest < kNoAirBelow_hu) return std::nullopt;
+  const int air = greys.mode(darkest, std::max(darkest, greys.percentile(0.4)));
+  const double bone = greys.above(kBone_hu), between = greys.between(air + 200, kBone_hu);
+  // Nothing of a head lies between bone and what is dark, but everything does between air and soft tissue.
+  const bool is_offset = bone > kMostBone || (bone > 0.05 && between < 0.35 * bone);
+  return is_offset ? std::optional(air) : std::nullopt;
+}
+
+}  // namespace
+
+void scaleGreys(std::vector<std::int16_t>& hounsfield, const std::optional<GreyWindow>& window,
+                const std::string& path) {
+  const auto [least, most] = std::ranges::minmax(hounsfield);
+  const bool is_8_bit = least >= 0 && most <= kBrightestByte;
+  if (is_8_bit && !window)
+    throw LoadError(path + ": its values are 8-bit greys (" + std::to_string(least) + " to " + std::to_string(most) +
+                    "), no Hounsfield; say which HU 0 and 255 mean, for example --window=-1000:3000");
+  if (!window) return;
+  if (!is_8_bit)
+    throw LoadError(path + ": its values go from " + std::to_string(least) + " to " + std::to_string(most) +
+                    ", a window is for 8-bit greys (0 to 255); leave --window out");
+  for (std::int16_t& value : hounsfield)
+    value = static_cast<std::int16_t>(
+        std::lround(window->low_hu + (window->high_hu - window->low_hu) * value / kBrightestByte));
+}
+
+std::vector<std::string> scaleRemarks(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield) {
+  const Histogram greys(hounsfield);
+  if (const auto air = offsetAir_hu(greys))
+    return {"its air seems to lie at " + std::to_string(*air) +
+            " HU instead of -1000, so everything is taken for bone; export it in Hounsfield (often 1024 lower)"};
+  const double metal_mm3 = greys.above(kMetal_hu - 1) * static_cast<double>(hounsfield.size()) * grid.voxelVolume_mm3();
+  if (metal_mm3 < kLeastMetal_mm3) return {};
+  return {"about " + std::to_string(std::lround(metal_mm3)) +
+          " mm3 are denser than enamel (3000 HU): metal, whose streaks look like spikes of bone"};
+}
+
+}  // namespace assets

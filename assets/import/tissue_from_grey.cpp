@@ -1,0 +1,109 @@
+#include "assets/import/tissue_from_grey.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace assets {
+namespace {
+
+constexpr double kReach_mm = 0.6;      ///< half width of a surface in a scan, at least two voxels
+constexpr double kVoidDepth_mm = 1.0;  ///< of outside; marrow spaces are smaller
+constexpr std::uint8_t kHalfSolid = 128;
+
+/// Grey values at any place, the border's beyond it.
+class Greys {
+ public:
+  Greys(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield) : grid_(grid), hounsfield_(hounsfield) {}
+
+  int at(glm::ivec3 ijk) const { return hounsfield_[grid_.index(glm::clamp(ijk, glm::ivec3(0), grid_.size - 1))]; }
+  int near(const glm::dvec3& index) const { return at(glm::ivec3(glm::round(index))); }
+
+  /// Up, unit; zero where it is even.
+  glm::dvec3 gradient(glm::ivec3 ijk) const {
+    glm::dvec3 up(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+      glm::ivec3 step(0);
+      step[axis] = 1;
+      up[axis] = at(ijk + step) - at(ijk - step);
+    }
+    const double steepness = glm::length(up);
+    return steepness > 0.0 ? up / steepness : up;
+  }
+
+ private:
+  const VolumeGrid& grid_;
+  const std::vector<std::int16_t>& hounsfield_;
+};
+
+bool isNearVoid(const Greys& greys, glm::ivec3 ijk, int reach) {
+  for (int corner = 0; corner < 8; ++corner)
+    if (greys.at(ijk + reach * (2 * glm::ivec3(corner & 1, corner >> 1 & 1, corner >> 2) - 1)) <= kSoftBelow_hu)
+      return true;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const int side : {-reach, reach}) {
+      glm::ivec3 next = ijk;
+      next[axis] += side;
+      if (greys.at(next) <= kSoftBelow_hu) return true;
+    }
+  return false;
+}
+
+/// The tissue behind a voxel at a surface, or its own.
+Tissue tissueAt(const Greys& greys, glm::ivec3 ijk, int hounsfield, int reach, int void_depth) {
+  const Tissue own = tissueFromGrey(hounsfield);
+  if (own == Tissue::unlabelled || own == Tissue::enamel || !isNearVoid(greys, ijk, reach)) return own;
+  const glm::dvec3 up = greys.gradient(ijk), here(ijk);
+  bool is_outside = false;
+  for (int step = 1; step <= reach && !is_outside; ++step)
+    is_outside = greys.near(here - double(step) * up) <= kSoftBelow_hu &&
+                 greys.near(here - double(step + void_depth) * up) <= kSoftBelow_hu;
+  if (!is_outside) return own;
+  int densest = hounsfield;
+  for (int step = 1; step <= reach; ++step) densest = std::max(densest, greys.near(here + double(step) * up));
+  const Tissue behind = tissueFromGrey(densest);
+  return behind == Tissue::trabecular ? Tissue::cortical : behind;
+}
+
+bool isHard(Tissue tissue) {
+  return tissue == Tissue::cortical || tissue == Tissue::trabecular || tissue == Tissue::other_teeth ||
+         tissue == Tissue::enamel || tissue == Tissue::dentine;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> labelsFromGrey(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield) {
+  const Greys greys(grid, hounsfield);
+  const int reach = std::max(2, static_cast<int>(std::ceil(kReach_mm / grid.spacing_mm)));
+  const int void_depth = std::max(1, static_cast<int>(std::ceil(kVoidDepth_mm / grid.spacing_mm)));
+  std::vector<std::uint8_t> label(hounsfield.size());
+  std::size_t v = 0;
+  for (int k = 0; k < grid.size.z; ++k)
+    for (int j = 0; j < grid.size.y; ++j)
+      for (int i = 0; i < grid.size.x; ++i, ++v)
+        label[v] = static_cast<std::uint8_t>(tissueAt(greys, {i, j, k}, hounsfield[v], reach, void_depth));
+  return label;
+}
+
+void labelPartialVoxels(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield,
+                        const std::vector<std::uint8_t>& solid, std::vector<std::uint8_t>& label) {
+  const std::vector<std::uint8_t> before = label;
+  std::size_t v = 0;
+  for (int k = 0; k < grid.size.z; ++k)
+    for (int j = 0; j < grid.size.y; ++j)
+      for (int i = 0; i < grid.size.x; ++i, ++v) {
+        const Tissue own{before[v]};
+        if (solid[v] < kHalfSolid || (own != Tissue::unlabelled && own != Tissue::gingiva)) continue;
+        int densest = std::numeric_limits<int>::min();
+        for (int n = 0; n < 27; ++n) {
+          const glm::ivec3 next = glm::ivec3(i, j, k) + glm::ivec3(n % 3, n / 3 % 3, n / 9) - 1;
+          if (!grid.contains(next)) continue;
+          const std::size_t beside = grid.index(next);
+          if (!isHard(Tissue{before[beside]}) || hounsfield[beside] <= densest) continue;
+          densest = hounsfield[beside];
+          label[v] = before[beside];
+        }
+      }
+}
+
+}  // namespace assets

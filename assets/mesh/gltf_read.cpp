@@ -1,0 +1,307 @@
+#include <tiny_gltf.h>
+
+#include <algorithm>
+
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
+
+#include "assets/load_error.h"
+#include "assets/mesh/gltf_accessor.h"
+#include "assets/mesh/gltf_document.h"
+#include "assets/mesh/gltf_file.h"
+#include "assets/vertex_normals.h"
+#include "calibration/geometry/units.h"
+
+namespace assets {
+namespace {
+
+constexpr std::size_t kMaxVertices = 20'000'000;
+constexpr std::size_t kMaxCorners = 120'000'000;
+constexpr double kMaxCoordinate_mm = 1e6;
+
+// --- tinygltf in a closed world: it opens no file and decodes no image ---
+
+using Buffers = std::vector<std::vector<unsigned char>>;
+
+bool isBuffer(const std::string&, void*) { return true; }
+std::string asGiven(const std::string& path, void*) { return path; }
+bool writeNothing(std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }
+
+bool serveBuffer(std::vector<unsigned char>* out, std::string*, const std::string& name, void* user) {
+  const Buffers& buffers = *static_cast<const Buffers*>(user);
+  const std::size_t digits = name.find_last_not_of("0123456789");
+  const std::string number = digits == std::string::npos ? name : name.substr(digits + 1);
+  if (number.empty() || number.size() > 9 || std::stoul(number) >= buffers.size()) return false;
+  *out = buffers[std::stoul(number)];
+  return true;
+}
+
+bool skipImage(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
+  return true;
+}
+
+tinygltf::Model parsed(GltfDocument document) {
+  tinygltf::TinyGLTF loader;
+  loader.SetFsCallbacks({isBuffer, asGiven, serveBuffer, writeNothing, &document.buffers});
+  loader.SetImageLoader(skipImage, nullptr);
+  tinygltf::Model model;
+  std::string error;
+  std::string warning;
+  const auto length = static_cast<unsigned int>(document.json.size());
+  if (!loader.LoadASCIIFromString(&model, &error, &warning, document.json.c_str(), length, "")) {
+    std::ranges::replace_if(
+        error, [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
+    throw LoadError("tinygltf: " + error.substr(0, 120));
+  }
+  return model;
+}
+
+// --- one primitive ---
+
+// Strips and fans become plain triangles (glTF 2.0, section 3.7.2.1); a trailing incomplete triangle is dropped.
+std::vector<std::uint32_t> asTriangles(const std::vector<std::uint32_t>& corners, int mode) {
+  std::vector<std::uint32_t> out;
+  const std::size_t n = corners.size();
+  if (mode == TINYGLTF_MODE_TRIANGLES) out.assign(corners.begin(), corners.end() - static_cast<std::ptrdiff_t>(n % 3));
+  for (std::size_t i = 0; mode == TINYGLTF_MODE_TRIANGLE_STRIP && i + 2 < n; ++i) {
+    const std::size_t odd = i % 2;
+    out.insert(out.end(), {corners[i], corners[i + 1 + odd], corners[i + 2 - odd]});
+  }
+  for (std::size_t i = 1; mode == TINYGLTF_MODE_TRIANGLE_FAN && i + 1 < n; ++i) {
+    out.insert(out.end(), {corners[i], corners[i + 1], corners[0]});
+  }
+  return out;
+}
+
+// Base values plus the weighted morph targets.
+std::vector<glm::vec3> morphed(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const char* name,
+                               const std::vector<double>& weights) {
+  const std::vector<glm::vec4> base = readVectors(model, primitive.attributes.at(name));
+  std::vector<glm::vec3> out(base.begin(), base.end());
+  for (std::size_t t = 0; t < primitive.targets.size() && t < weights.size(); ++t) {
+    const auto target = primitive.targets[t].find(name);
+    if (target == primitive.targets[t].end() || weights[t] == 0.0) continue;
+    const std::vector<glm::vec4> offset = readVectors(model, target->second);
+    if (offset.size() != out.size()) throw LoadError("a morph target does not fit its mesh");
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] += static_cast<float>(weights[t]) * glm::vec3(offset[i]);
+  }
+  return out;
+}
+
+Material materialOf(const tinygltf::Model& model, int index) {
+  if (index < 0 || static_cast<std::size_t>(index) >= model.materials.size()) return {};
+  const tinygltf::Material& from = model.materials[static_cast<std::size_t>(index)];
+  const auto& pbr = from.pbrMetallicRoughness;
+  const auto unit = [](double value) {
+    return std::isfinite(value) ? static_cast<float>(std::clamp(value, 0.0, 1.0)) : 1.0f;
+  };
+  Material to;
+  for (int c = 0; c < 4 && pbr.baseColorFactor.size() == 4; ++c) {
+    to.base_colour[c] = unit(pbr.baseColorFactor[static_cast<std::size_t>(c)]);
+  }
+  if (from.alphaMode == "OPAQUE") to.base_colour.a = 1.0f;
+  to.roughness = unit(pbr.roughnessFactor);
+  to.metallic = unit(pbr.metallicFactor);
+  return to;
+}
+
+// A mesh as it stands in the scene.
+struct Placement {
+  std::string name;
+  glm::dmat4 metres_from_mesh{1.0};
+  const std::vector<double>* weights = nullptr;
+};
+
+std::vector<glm::vec3> placedPositions(const std::vector<glm::vec3>& local, const glm::dmat4& X) {
+  std::vector<glm::vec3> out;
+  out.reserve(local.size());
+  for (const glm::vec3& p : local) {
+    const glm::dvec3 p_F_mm = calibration::mmFromMetres(1.0) * glm::dvec3(X * glm::dvec4(glm::dvec3(p), 1.0));
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!(std::abs(p_F_mm[axis]) <= kMaxCoordinate_mm)) throw LoadError("a vertex lies more than a kilometre away");
+    }
+    out.emplace_back(p_F_mm);
+  }
+  return out;
+}
+
+MeshPart placed(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const Placement& placement) {
+  MeshPart part;
+  part.name = placement.name;
+  part.material = materialOf(model, primitive.material);
+  const glm::dmat4& X = placement.metres_from_mesh;
+  part.position_mm = placedPositions(morphed(model, primitive, "POSITION", *placement.weights), X);
+
+  // Triangles; a mirroring transform turns the winding.
+  std::vector<std::uint32_t> corners;
+  if (primitive.indices >= 0) {
+    corners = readIndices(model, primitive.indices, part.position_mm.size());
+  } else {
+    for (std::uint32_t i = 0; i < part.position_mm.size(); ++i) corners.push_back(i);
+  }
+  part.triangles = asTriangles(corners, primitive.mode);
+  const glm::dmat3 linear(X);
+  if (glm::determinant(linear) < 0.0) {
+    for (std::size_t t = 0; t + 2 < part.triangles.size(); t += 3)
+      std::swap(part.triangles[t + 1], part.triangles[t + 2]);
+  }
+
+  // Normals go by the cofactors, which also serve a flattening transform.
+  part.normal = vertexNormals(part.position_mm, part.triangles);
+  if (primitive.attributes.contains("NORMAL")) {
+    const std::vector<glm::vec3> local = morphed(model, primitive, "NORMAL", *placement.weights);
+    if (local.size() != part.position_mm.size()) throw LoadError("normals do not fit their mesh");
+    const glm::dmat3 cofactors(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
+                               glm::cross(linear[0], linear[1]));
+    const double side = glm::determinant(linear) < 0.0 ? -1.0 : 1.0;
+    for (std::size_t i = 0; i < local.size(); ++i) {
+      const glm::dvec3 n = side * (cofactors * glm::dvec3(local[i]));
+      const double length = glm::length(n);
+      if (length > 1e-12) part.normal[i] = glm::vec3(n / length);
+    }
+  }
+
+  if (primitive.attributes.contains("COLOR_0")) {
+    part.colour = readVectors(model, primitive.attributes.at("COLOR_0"));
+    if (part.colour.size() != part.position_mm.size()) throw LoadError("vertex colours do not fit their mesh");
+    for (glm::vec4& colour : part.colour) colour = glm::clamp(colour, 0.0f, 1.0f);
+  }
+  return part;
+}
+
+// --- the scene ---
+
+std::string printable(const std::string& name) {
+  std::string out = name.substr(0, 100);
+  std::ranges::replace_if(
+      out, [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
+  return out;
+}
+
+glm::dmat4 localTransform(const tinygltf::Node& node) {
+  glm::dmat4 X(1.0);
+  if (node.matrix.size() == 16) {
+    for (int i = 0; i < 16; ++i) X[i / 4][i % 4] = node.matrix[static_cast<std::size_t>(i)];
+    return X;
+  }
+  if (node.rotation.size() == 4) {
+    const auto& q = node.rotation;
+    const glm::dquat rotation(q[3], q[0], q[1], q[2]);
+    const double length = glm::length(rotation);
+    if (!(length > 1e-9)) throw LoadError("a node has a rotation of length zero");
+    X = glm::mat4_cast(rotation / length);
+  }
+  for (int axis = 0; axis < 3 && node.scale.size() == 3; ++axis) X[axis] *= node.scale[static_cast<std::size_t>(axis)];
+  if (node.translation.size() == 3) X[3] = {node.translation[0], node.translation[1], node.translation[2], 1.0};
+  return X;
+}
+
+// The parent of each node, -1 for a root. Refuses cycles and nodes with two parents.
+std::vector<int> parentsOf(const tinygltf::Model& model) {
+  std::vector<int> parent(model.nodes.size(), -1);
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    for (const int child : model.nodes[i].children) {
+      if (child < 0 || static_cast<std::size_t>(child) >= parent.size()) throw LoadError("a node has an unknown child");
+      int& slot = parent[static_cast<std::size_t>(child)];
+      if (slot != -1) throw LoadError("a node has two parents");
+      slot = static_cast<int>(i);
+    }
+  }
+  // Climb from each node; meeting one's own trail is a cycle, meeting an older trail is not.
+  std::vector<int> trail(parent.size(), -1);
+  for (int start = 0; start < static_cast<int>(parent.size()); ++start) {
+    for (int i = start; i != -1 && trail[static_cast<std::size_t>(i)] == -1; i = parent[static_cast<std::size_t>(i)]) {
+      trail[static_cast<std::size_t>(i)] = start;
+      const int up = parent[static_cast<std::size_t>(i)];
+      if (up != -1 && trail[static_cast<std::size_t>(up)] == start) throw LoadError("the nodes form a cycle");
+    }
+  }
+  return parent;
+}
+
+class Scene {
+ public:
+  explicit Scene(const tinygltf::Model& model) : model_(model) {}
+
+  MeshModel collect() {
+    const std::vector<int> parent = parentsOf(model_);
+    for (const int root : roots(parent)) visit(root);
+    const bool library = model_.scenes.empty() && out_.parts.empty();
+    for (std::size_t i = 0; library && i < model_.meshes.size(); ++i) {
+      add(static_cast<int>(i), {model_.meshes[i].name, glm::dmat4(1.0), &model_.meshes[i].weights});
+    }
+    return std::move(out_);
+  }
+
+ private:
+  std::vector<int> roots(const std::vector<int>& parent) const {
+    if (!model_.scenes.empty()) {
+      const std::size_t chosen = model_.defaultScene >= 0 ? static_cast<std::size_t>(model_.defaultScene) : 0;
+      return model_.scenes.at(chosen).nodes;
+    }
+    std::vector<int> out;
+    for (std::size_t i = 0; i < parent.size(); ++i) {
+      if (parent[i] == -1) out.push_back(static_cast<int>(i));
+    }
+    return out;
+  }
+
+  // Depth first without recursion, so that no hierarchy is too deep.
+  void visit(int root) {
+    std::vector<std::pair<int, glm::dmat4>> open = {{root, glm::dmat4(1.0)}};
+    while (!open.empty()) {
+      const auto [index, parent_transform] = open.back();
+      open.pop_back();
+      const tinygltf::Node& node = model_.nodes.at(static_cast<std::size_t>(index));
+      const glm::dmat4 X = parent_transform * localTransform(node);
+      if (node.mesh >= 0) {
+        const tinygltf::Mesh& mesh = model_.meshes.at(static_cast<std::size_t>(node.mesh));
+        // A skinned mesh does not move with its node (glTF 2.0, section 3.7.3.3).
+        add(node.mesh, {node.name.empty() ? mesh.name : node.name, node.skin >= 0 ? glm::dmat4(1.0) : X,
+                        node.weights.empty() ? &mesh.weights : &node.weights});
+      }
+      for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) open.emplace_back(*child, X);
+    }
+  }
+
+  void add(int mesh_index, Placement placement) {
+    const tinygltf::Mesh& mesh = model_.meshes.at(static_cast<std::size_t>(mesh_index));
+    placement.name = printable(placement.name);
+    if (placement.name.empty()) placement.name = "Part " + std::to_string(out_.parts.size() + 1);
+    for (const tinygltf::Primitive& primitive : mesh.primitives) {
+      const auto position = primitive.attributes.find("POSITION");
+      if (primitive.mode < TINYGLTF_MODE_TRIANGLES || position == primitive.attributes.end()) continue;
+      // The budget is checked before the memory is spent: one mesh may stand in many places.
+      vertices_ += count(position->second);
+      corners_ += 3 * count(primitive.indices >= 0 ? primitive.indices : position->second);
+      if (vertices_ > kMaxVertices || corners_ > kMaxCorners) throw LoadError("more than 20 million vertices");
+      MeshPart part = placed(model_, primitive, placement);
+      if (!part.triangles.empty()) out_.parts.push_back(std::move(part));
+    }
+  }
+
+  std::size_t count(int accessor) const { return model_.accessors.at(static_cast<std::size_t>(accessor)).count; }
+
+  const tinygltf::Model& model_;
+  MeshModel out_;
+  std::size_t vertices_ = 0;
+  std::size_t corners_ = 0;
+};
+
+}  // namespace
+
+MeshModel readGltf(const std::string& path) {
+  GltfDocument document = openGltfDocument(path);
+  try {
+    const tinygltf::Model model = parsed(std::move(document));
+    MeshModel out = Scene(model).collect();
+    if (out.parts.empty()) throw LoadError("holds no triangles to draw");
+    return out;
+  } catch (const LoadError& error) {
+    throw LoadError(path + ": " + error.what() + ", check the file with a glTF validator");
+  } catch (const std::out_of_range&) {
+    throw LoadError(path + ": a reference leads nowhere, check the file with a glTF validator");
+  }
+}
+
+}  // namespace assets

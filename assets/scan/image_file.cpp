@@ -1,0 +1,183 @@
+#include "assets/scan/image_file.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+#include "assets/load_error.h"
+#include "assets/scan/header_text.h"
+#include "assets/scan/image_header.h"
+#include "assets/scan/nrrd_write.h"
+#include "assets/scan/regrid.h"
+#include "assets/scan/voxel_bytes.h"
+
+namespace assets {
+
+namespace {
+
+/// The voxels of a file as whole numbers of type `Value`; stops at the first that does not fit.
+template <class Value>
+class WholeNumbers {
+ public:
+  WholeNumbers(const ImageHeader& header, const char* advice) : header_(header), advice_(advice) {
+    values_.reserve(header.voxelCount());
+    forVoxelBytes(header, [this](std::span<const char> bytes) { append(bytes); });
+  }
+
+  std::vector<Value> take() { return std::move(values_); }
+
+ private:
+  void append(std::span<const char> bytes) {
+    switch (header_.type) {
+      case VoxelType::int8:
+        return appendStored<std::int8_t>(bytes);
+      case VoxelType::uint8:
+        return appendStored<std::uint8_t>(bytes);
+      case VoxelType::int16:
+        return appendStored<std::int16_t>(bytes);
+      case VoxelType::uint16:
+        return appendStored<std::uint16_t>(bytes);
+      case VoxelType::int32:
+        return appendStored<std::int32_t>(bytes);
+      case VoxelType::uint32:
+        return appendStored<std::uint32_t>(bytes);
+      case VoxelType::int64:
+        return appendStored<std::int64_t>(bytes);
+      case VoxelType::uint64:
+        return appendStored<std::uint64_t>(bytes);
+      case VoxelType::float32:
+        return appendStored<float>(bytes);
+      case VoxelType::float64:
+        return appendStored<double>(bytes);
+    }
+  }
+
+  template <class Stored>
+  void appendStored(std::span<const char> bytes) {
+    const bool is_reversed = header_.is_big_endian != (std::endian::native == std::endian::big);
+    const bool is_rescaled = header_.isRescaled();
+    for (std::size_t at = 0; at < bytes.size(); at += sizeof(Stored)) {
+      std::array<char, sizeof(Stored)> raw;
+      std::memcpy(raw.data(), bytes.data() + at, raw.size());
+      if (is_reversed) std::reverse(raw.begin(), raw.end());
+      const auto stored = std::bit_cast<Stored>(raw);
+      values_.push_back(is_rescaled ? whole(header_.slope * static_cast<double>(stored) + header_.intercept)
+                                    : whole(stored));
+    }
+  }
+
+  template <class Number>
+  Value whole(Number number) const {
+    if constexpr (std::is_floating_point_v<Number>) {
+      if (!std::isfinite(number))
+        refuseScan(header_.path, "it holds values that are no finite numbers; export the volume again");
+      const Number nearest = std::round(number);
+      if (!(nearest >= static_cast<Number>(kLowest) && nearest <= static_cast<Number>(kHighest))) refuse(number);
+      return static_cast<Value>(nearest);
+    } else {
+      if (!std::in_range<Value>(number)) refuse(number);
+      return static_cast<Value>(number);
+    }
+  }
+
+  template <class Number>
+  [[noreturn]] void refuse(Number number) const {
+    refuseScan(header_.path, "the value " + std::to_string(number) + " lies outside " + std::to_string(kLowest) + ".." +
+                                 std::to_string(kHighest) + "; " + advice_);
+  }
+
+  static constexpr Value kLowest = std::numeric_limits<Value>::min();
+  static constexpr Value kHighest = std::numeric_limits<Value>::max();
+  const ImageHeader& header_;
+  const char* advice_;
+  std::vector<Value> values_;
+};
+
+/// A file opened as far as its header; nothing allocated for its voxels yet.
+class Scan {
+ public:
+  explicit Scan(const std::string& path) : header_(readImageHeader(path)), regrid_(header_.geometry, path) {
+    refuseUnlessLongEnough(header_);
+  }
+
+  const Regrid& regrid() const { return regrid_; }
+  bool isPicture() const { return header_.type == VoxelType::uint8 && !header_.isRescaled(); }
+
+  template <class Value>
+  std::vector<Value> values(const char* advice) const {
+    try {
+      return WholeNumbers<Value>(header_, advice).take();
+    } catch (const std::bad_alloc&) {
+      refuseScan(header_.path, "there is not enough memory for it; crop it");
+    }
+  }
+
+ private:
+  ImageHeader header_;
+  Regrid regrid_;
+};
+
+template <class Value>
+NrrdArray arrayOf(const VolumeGrid& grid, VoxelType type, const std::vector<Value>& values) {
+  assert(values.size() == grid.voxelCount());
+  return {type,
+          {grid.size.x, grid.size.y, grid.size.z},
+          grid.spacing_mm,
+          grid.origin_P_mm,
+          std::as_bytes(std::span(values))};
+}
+
+}  // namespace
+
+HounsfieldImage readHounsfield(const std::string& path) {
+  const Scan scan(path);
+  return {scan.regrid().grid(), scan.regrid().linear(scan.values<std::int16_t>("rescale it to Hounsfield"), kAirHu),
+          scan.isPicture()};
+}
+
+ByteImage readSolid(const std::string& path) {
+  const Scan scan(path);
+  return {scan.regrid().grid(),
+          scan.regrid().linear(scan.values<std::uint8_t>("store solid as 0..255, or read it as hu"), 0)};
+}
+
+ByteImage readLabels(const std::string& path) {
+  const Scan scan(path);
+  return {scan.regrid().grid(), scan.regrid().nearest(scan.values<std::uint8_t>("store labels as 0..255"), 0)};
+}
+
+bool isSameGrid(const VolumeGrid& a, const VolumeGrid& b) {
+  if (a.size != b.size) return false;
+  const double tolerance_mm = 0.01 * a.spacing_mm;
+  const glm::dvec3 first_mm = glm::abs(a.origin_P_mm - b.origin_P_mm);
+  const glm::dvec3 last_mm = glm::abs(a.centre_P_mm(a.size - 1) - b.centre_P_mm(b.size - 1));
+  return std::max({first_mm.x, first_mm.y, first_mm.z, last_mm.x, last_mm.y, last_mm.z}) <= tolerance_mm;
+}
+
+OutputFile nrrdOutput(const std::string& path, bool overwrite) {
+  if (!lowerCase(path).ends_with(".nrrd"))
+    refuseScan(path, "volumes are written as NRRD; choose a name that ends in .nrrd");
+  return OutputFile(path, overwrite);
+}
+
+void writeHounsfield(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield, OutputFile& file) {
+  writeNrrd(arrayOf(grid, VoxelType::int16, hounsfield), file);
+}
+
+void writeSolid(const VolumeGrid& grid, const std::vector<std::uint8_t>& solid, OutputFile& file) {
+  writeNrrd(arrayOf(grid, VoxelType::uint8, solid), file);
+}
+
+void writeDepth(int width_px, int height_px, const std::vector<float>& depth_mm, OutputFile& file) {
+  assert(depth_mm.size() == static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px));
+  writeNrrd({VoxelType::float32, {width_px, height_px}, 1.0, glm::dvec3(0.0), std::as_bytes(std::span(depth_mm))},
+            file);
+}
+
+}  // namespace assets

@@ -1,0 +1,41 @@
+#include "assets/scan/image_header.h"
+
+#include "assets/load_error.h"
+#include "assets/scan/header_text.h"
+#include "assets/scan/meta_header.h"
+#include "assets/scan/nifti_header.h"
+#include "assets/scan/nrrd_header.h"
+#include "assets/scan/plain_file.h"
+
+namespace assets {
+
+std::size_t bytesOf(VoxelType type) {
+  switch (type) {
+    case VoxelType::int8:
+    case VoxelType::uint8:
+      return 1;
+    case VoxelType::int16:
+    case VoxelType::uint16:
+      return 2;
+    case VoxelType::int32:
+    case VoxelType::uint32:
+    case VoxelType::float32:
+      return 4;
+    case VoxelType::int64:
+    case VoxelType::uint64:
+    case VoxelType::float64:
+      return 8;
+  }
+  return 1;
+}
+
+ImageHeader readImageHeader(const std::string& path) {
+  const PlainFile file(path);
+  const std::string name = lowerCase(path);
+  if (name.ends_with(".nrrd") || name.ends_with(".nhdr")) return readNrrdHeader(file);
+  if (name.ends_with(".nii") || name.ends_with(".nii.gz")) return readNiftiHeader(file);
+  if (name.ends_with(".mha") || name.ends_with(".mhd")) return readMetaHeader(file);
+  throw LoadError(path + ": its name ends in nothing known; give a .nrrd, .nhdr, .nii, .nii.gz, .mha or .mhd file");
+}
+
+}  // namespace assets

@@ -1,0 +1,239 @@
+#include "assets/scan/meta_header.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "assets/scan/header_text.h"
+#include "assets/scan/voxel_files.h"
+
+namespace assets {
+
+namespace {
+
+constexpr const char* kExport = "; export the volume again";
+
+class MetaHeader {
+ public:
+  explicit MetaHeader(const PlainFile& file) : path_(file.path()) { readFields(file); }
+
+  ImageHeader header() {
+    readSizes();
+    ImageHeader header;
+    header.path = path_;
+    header.geometry = geometry();
+    refuseUnlessSound(header.geometry, path_);
+    header.type = type();
+    header.coding = coding();
+    header.is_big_endian = header.coding != VoxelCoding::text && bytesOf(header.type) > 1 && isBigEndian();
+    header.skipped_bytes = headerSize();
+    header.files = files();
+    return header;
+  }
+
+ private:
+  void readFields(const PlainFile& file) {
+    HeaderText text(file);
+    while (const auto line = text.line()) {
+      if (trimmed(*line).empty()) continue;
+      const std::size_t sign = line->find_first_of("=:");
+      const std::string name = lowerCase(trimmed(line->substr(0, sign)));
+      if (sign == std::string::npos || !isName(name))
+        refuseScan(path_, "line " + std::to_string(text.lineNumber()) + " is no field of a MetaImage header" + kExport);
+      if (!value_.emplace(name, trimmed(line->substr(sign + 1))).second)
+        refuseScan(path_, "its header has " + asShown(name) + " twice" + kExport);
+      if (name != "elementdatafile") continue;
+      end_byte_ = text.nextByte();
+      if (lowerCase(value_[name]).starts_with("list"))
+        while (const auto listed = text.line())
+          if (const std::string each = trimmed(*listed); !each.empty()) listed_files_.push_back(each);
+      return;
+    }
+    refuseScan(path_, std::string("it is no MetaImage file, or its header has no end (ElementDataFile)") + kExport);
+  }
+
+  static bool isName(const std::string& name) {
+    constexpr std::size_t kLongest = 128;
+    return !name.empty() && name.size() <= kLongest &&
+           std::all_of(name.begin(), name.end(), [](char c) { return c > ' ' && c <= '~'; });
+  }
+
+  bool has(const std::string& name) const { return value_.contains(name); }
+  std::string value(const std::string& name) const {
+    const auto found = value_.find(name);
+    return found == value_.end() ? std::string() : found->second;
+  }
+  /// The value under the first of these names that is there.
+  std::string value(std::initializer_list<const char*> names) const {
+    for (const char* name : names)
+      if (has(name)) return value(name);
+    return {};
+  }
+
+  [[noreturn]] void refuseField(const std::string& name) const {
+    refuseScan(path_, "its '" + name + "' " + asShown(value(name)) + " can not be understood" + kExport);
+  }
+
+  bool yes(const std::string& name, bool otherwise) const {
+    if (!has(name)) return otherwise;
+    const std::string word = lowerCase(value(name));
+    if (word == "true" || word == "t" || word == "1") return true;
+    if (word != "false" && word != "f" && word != "0") refuseField(name);
+    return false;
+  }
+
+  void readSizes() {
+    if (has("objecttype") && lowerCase(value("objecttype")) != "image") refuseField("objecttype");
+    const auto axes = wholeNumber(value("ndims"));
+    constexpr std::int64_t kMostAxes = 10;
+    if (!axes || *axes < 1 || *axes > kMostAxes) refuseField("ndims");
+    const std::vector<std::string> words = wordsOf(value("dimsize"));
+    if (words.size() != static_cast<std::size_t>(*axes)) refuseField("dimsize");
+    for (const std::string& word : words) {
+      sizes_.push_back(wholeNumber(word).value_or(0));
+      if (sizes_.back() < 1 || sizes_.back() > std::numeric_limits<int>::max()) refuseField("dimsize");
+    }
+    const bool is_volume = sizes_.size() >= 3 && std::all_of(sizes_.begin() + std::min<long>(3, *axes), sizes_.end(),
+                                                             [](std::int64_t size) { return size == 1; });
+    if (!is_volume) refuseScan(path_, "it has " + std::to_string(*axes) + " axes; give a volume with three");
+    const auto channels = has("elementnumberofchannels") ? wholeNumber(value("elementnumberofchannels")) : 1;
+    if (channels != 1 || lowerCase(value("elementtype")).ends_with("_array"))
+      refuseScan(path_, "its voxels are vectors, colours or complex numbers; give a volume with one value per voxel");
+  }
+
+  ScanGeometry geometry() const {
+    const std::size_t axes = sizes_.size();
+    if (!has("elementspacing") && !has("elementsize"))
+      refuseScan(path_, "it does not say how large its voxels are; export it with spacing");
+    const auto numbers = [&](std::initializer_list<const char*> names, std::size_t count) {
+      const std::string text = value(names);
+      if (text.empty()) return std::optional(std::vector<double>());
+      const auto found = realNumbers(text, count);
+      if (!found)
+        refuseScan(path_, "its " + std::string(*names.begin()) + " " + asShown(text) + " is not " +
+                              std::to_string(count) + " numbers" + kExport);
+      return found;
+    };
+    const std::vector<double> spacing = *numbers({"elementspacing", "elementsize"}, axes);
+    const std::vector<double> axis = *numbers({"transformmatrix", "rotation", "orientation"}, axes * axes);
+    const std::vector<double> origin = *numbers({"offset", "position", "origin"}, axes);
+    if (spacing.empty()) refuseField(has("elementspacing") ? "elementspacing" : "elementsize");
+    const auto mm = millimetresPer(value("distanceunits"));
+    if (!mm) refuseField("distanceunits");
+
+    ScanGeometry result;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const int i = static_cast<int>(a);
+      if (!(spacing[a] > 0.0) || !std::isfinite(spacing[a]))
+        refuseScan(path_, std::string("its ElementSpacing is not all above 0 and finite") + kExport);
+      result.size[i] = static_cast<int>(sizes_[a]);
+      if (!axis.empty()) result.step_P_mm[i] = {axis[a * axes], axis[a * axes + 1], axis[a * axes + 2]};
+      constexpr double kUnit = 1.0e-3;
+      if (!(std::abs(glm::length(result.step_P_mm[i]) - 1.0) <= kUnit))
+        refuseScan(path_, std::string("the axes of its TransformMatrix are not of length 1") + kExport);
+      result.step_P_mm[i] *= *mm * spacing[a];
+      if (!origin.empty()) result.origin_P_mm[i] = *mm * origin[a];
+    }
+    return result;
+  }
+
+  /// MET_LONG has 4 bytes, whatever the machine.
+  VoxelType type() const {
+    static const std::map<std::string, VoxelType> kTypes = {
+        {"met_char", VoxelType::int8},         {"met_uchar", VoxelType::uint8},   {"met_short", VoxelType::int16},
+        {"met_ushort", VoxelType::uint16},     {"met_int", VoxelType::int32},     {"met_uint", VoxelType::uint32},
+        {"met_long", VoxelType::int32},        {"met_ulong", VoxelType::uint32},  {"met_long_long", VoxelType::int64},
+        {"met_ulong_long", VoxelType::uint64}, {"met_float", VoxelType::float32}, {"met_double", VoxelType::float64}};
+    const auto found = kTypes.find(lowerCase(value("elementtype")));
+    if (found == kTypes.end())
+      refuseScan(path_, "its voxels are of type " + asShown(value("elementtype")) +
+                            ", which can not be read; store integers or floats");
+    return found->second;
+  }
+
+  VoxelCoding coding() const {
+    const bool is_packed = yes("compresseddata", false);
+    if (yes("binarydata", true)) return is_packed ? VoxelCoding::gzip : VoxelCoding::raw;
+    if (is_packed) refuseField("compresseddata");
+    return VoxelCoding::text;
+  }
+
+  bool isBigEndian() const {
+    return yes(has("elementbyteordermsb") ? "elementbyteordermsb" : "binarydatabyteordermsb", false);
+  }
+
+  bool isLocal() const { return lowerCase(value("elementdatafile")) == "local"; }
+
+  std::int64_t headerSize() const {
+    if (!has("headersize")) return 0;
+    const auto size = wholeNumber(value("headersize"));
+    if (!size || *size < kVoxelsEndTheFile || (isLocal() && *size > 0)) refuseField("headersize");
+    return *size;
+  }
+
+  /// How many files there must be if each holds the first `file_axes` axes.
+  std::uint64_t filesNeeded(std::int64_t file_axes) const {
+    std::uint64_t files = 1;
+    for (auto a = static_cast<std::size_t>(file_axes); a < sizes_.size(); ++a)
+      files *= static_cast<std::uint64_t>(sizes_[a]);
+    return files;
+  }
+
+  std::vector<VoxelFile> files() const {
+    if (isLocal()) return {{path_, end_byte_}};
+    const std::string name = value("elementdatafile");
+    const std::vector<std::string> words = wordsOf(name);
+    if (words.empty()) refuseField("elementdatafile");
+    if (lowerCase(words[0]) == "list") return listedFiles(words);
+    if (name.find('%') == std::string::npos) return {fileBeside(path_, name)};
+
+    // "NAME%03d.raw first last step", each slice of the last axis in a file.
+    const auto all = static_cast<std::int64_t>(sizes_.size());
+    const std::uint64_t needed = filesNeeded(all - 1);
+    const auto number = [&](std::size_t w, std::int64_t otherwise) {
+      if (words.size() <= w) return otherwise;
+      const auto found = wholeNumber(words[w]);
+      if (!found) refuseField("elementdatafile");
+      return *found;
+    };
+    if (words.size() > 4) refuseField("elementdatafile");
+    const std::int64_t first = number(1, 1);
+    if (std::abs(first) > std::numeric_limits<int>::max()) refuseField("elementdatafile");
+    const std::int64_t last = number(2, first + static_cast<std::int64_t>(needed) - 1);
+    return numberedFilesBeside(path_, {words[0], first, last, number(3, 1)}, needed);
+  }
+
+  std::vector<VoxelFile> listedFiles(const std::vector<std::string>& words) const {
+    const auto all = static_cast<std::int64_t>(sizes_.size());
+    std::int64_t file_axes = all - 1;
+    if (words.size() > 1) {
+      const std::string axes = lowerCase(words[1]);
+      const auto number = wholeNumber(axes.ends_with('d') ? axes.substr(0, axes.size() - 1) : axes);
+      if (words.size() > 2 || !number || *number < 1 || *number > all) refuseField("elementdatafile");
+      file_axes = *number;
+    }
+    const std::uint64_t needed = filesNeeded(file_axes);
+    if (listed_files_.size() != needed)
+      refuseScan(path_, "it lists " + std::to_string(listed_files_.size()) + " data files where it needs " +
+                            std::to_string(needed) + kExport);
+    std::vector<VoxelFile> files;
+    for (const std::string& each : listed_files_) files.push_back(fileBeside(path_, each));
+    return files;
+  }
+
+  std::string path_;
+  std::map<std::string, std::string> value_;  ///< names in lower case
+  std::vector<std::string> listed_files_;
+  std::uint64_t end_byte_ = 0;
+  std::vector<std::int64_t> sizes_;
+};
+
+}  // namespace
+
+ImageHeader readMetaHeader(const PlainFile& file) { return MetaHeader(file).header(); }
+
+}  // namespace assets

@@ -1,0 +1,27 @@
+// Writes an array as NRRD 4, packed with gzip, little endian, i fastest, axes along P (LPS mm). The same array always
+// gives the same bytes. Throws LoadError if there is no room. Any thread; about 100 MB/s.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "assets/output_file.h"
+#include "assets/scan/image_header.h"
+
+namespace assets {
+
+struct NrrdArray {
+  VoxelType type;
+  std::vector<int> size;
+  double spacing_mm = 1.0;
+  glm::dvec3 origin_P_mm{0.0};
+  std::span<const std::byte> voxels;
+};
+
+/// Fills the file and commits it.
+void writeNrrd(const NrrdArray& array, OutputFile& file);
+
+}  // namespace assets

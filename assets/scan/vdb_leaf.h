@@ -1,0 +1,24 @@
+// Which voxels of an OpenVDB leaf (8 x 8 x 8, k fastest) lie in a volume (i fastest), and where. Any thread.
+#pragma once
+
+#include <cstdint>
+
+#include "assets/volume_grid.h"
+
+namespace assets {
+
+inline constexpr int kLeafVoxels = 8;
+
+/// Calls `voxel(offset in leaf, index in volume)` for the voxels of the leaf at `origin` that lie in the volume.
+template <class Voxel>
+void forVoxelsOf(const glm::ivec3& origin, const VolumeGrid& grid, const Voxel& voxel) {
+  const glm::ivec3 first = glm::max(glm::ivec3(0), -origin);
+  const glm::ivec3 end = glm::min(glm::ivec3(kLeafVoxels), grid.size - origin);
+  for (int i = first.x; i < end.x; ++i)
+    for (int j = first.y; j < end.y; ++j)
+      for (int k = first.z; k < end.z; ++k)
+        voxel(static_cast<std::uint32_t>((i * kLeafVoxels + j) * kLeafVoxels + k),
+              grid.index(origin + glm::ivec3(i, j, k)));
+}
+
+}  // namespace assets

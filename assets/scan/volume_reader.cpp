@@ -1,0 +1,206 @@
+#include "assets/scan/volume_reader.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/time.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <span>
+
+#include "assets/load_error.h"
+#include "assets/scan/regrid.h"
+#include "assets/scan/vdb_parse.h"
+
+namespace assets {
+
+namespace {
+
+constexpr int kAnswerDescriptor = 3;
+constexpr int kRefused = 3;
+constexpr int kFailed = 4;
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kMemoryCanBeLimited = false;  // the sanitizers take terabytes for themselves
+#else
+constexpr bool kMemoryCanBeLimited = true;
+#endif
+
+/// The answer's head; behind it Hounsfield, labels, solid and, if there are any, teeth as in a CtVolume.
+struct Head {
+  std::array<std::int32_t, 3> size;
+  double spacing_mm;
+  std::array<double, 3> origin_P_mm;
+};
+
+bool writeAll(int descriptor, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return false;
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+bool readAll(int descriptor, std::span<std::byte> bytes, std::uint64_t from_byte) {
+  while (!bytes.empty()) {
+    const ssize_t got = ::pread(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(from_byte));
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return false;
+    bytes = bytes.subspan(static_cast<std::size_t>(got));
+    from_byte += static_cast<std::uint64_t>(got);
+  }
+  return true;
+}
+
+template <class Value>
+std::span<const std::byte> bytesOf(const std::vector<Value>& values) {
+  return std::as_bytes(std::span(values));
+}
+
+/// No handler of the program's, no file but the answer, nothing said anywhere.
+void leaveTheProgram(int answer_descriptor) {
+  for (int number = 1; number < NSIG; ++number) ::signal(number, SIG_DFL);
+  sigset_t none;
+  sigemptyset(&none);
+  ::sigprocmask(SIG_SETMASK, &none, nullptr);
+  ::dup2(answer_descriptor, kAnswerDescriptor);
+  const int nowhere = ::open("/dev/null", O_RDWR);
+  for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, standard);
+  ::close_range(kAnswerDescriptor + 1, ~0U, 0);
+}
+
+/// The program's own data, which the fork has too.
+std::uint64_t dataBytes() {
+  std::ifstream file("/proc/self/statm");
+  std::uint64_t total = 0, resident = 0, shared = 0, text = 0, library = 0, data = 0;
+  file >> total >> resident >> shared >> text >> library >> data;
+  return data * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+timeval timeOf(std::uint32_t ms) { return {ms / 1000, 1000 * (ms % 1000)}; }
+
+void confine(const ReaderLimits& limits) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  ::prctl(PR_SET_DUMPABLE, 0);
+  const itimerval processor{{0, 0}, timeOf(limits.processor_ms)};
+  ::setitimer(ITIMER_PROF, &processor, nullptr);
+  constexpr std::uint32_t kLongestWait = 20;  // times the processor time: the disk is slow, other programs run
+  const itimerval wait{{0, 0}, timeOf(kLongestWait * limits.processor_ms)};
+  ::setitimer(ITIMER_REAL, &wait, nullptr);
+  if (!kMemoryCanBeLimited) return;
+  const std::uint64_t bytes = dataBytes() + limits.memory_bytes;
+  const rlimit memory{bytes, bytes};
+  ::setrlimit(RLIMIT_DATA, &memory);
+}
+
+class Descriptor {
+ public:
+  explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
+  ~Descriptor() { ::close(descriptor_); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  operator int() const { return descriptor_; }
+
+ private:
+  int descriptor_;
+};
+
+[[noreturn]] void refuseFailure(const std::string& path) {
+  throw LoadError(path + ": it is damaged (its reader failed on it); import the scan again");
+}
+
+}  // namespace
+
+ReaderLimits readerLimits(std::uint64_t file_bytes) {
+  constexpr std::uint64_t kMegabyte = 1'000'000;
+  const std::uint64_t sane_bytes = std::min<std::uint64_t>(file_bytes, 100'000 * kMegabyte);
+  return {600 * kMegabyte + 100 * sane_bytes, static_cast<std::uint32_t>(4000 + 600 * (sane_bytes / kMegabyte))};
+}
+
+void serveVolume(const std::string& path, const ReaderLimits& limits, int answer_descriptor) {
+  leaveTheProgram(answer_descriptor);
+  answer_descriptor = kAnswerDescriptor;
+  confine(limits);
+  try {
+    const CtVolume volume = parseVdb(path);
+    const VolumeGrid& grid = volume.grid;
+    const Head head{{grid.size.x, grid.size.y, grid.size.z},
+                    grid.spacing_mm,
+                    {grid.origin_P_mm.x, grid.origin_P_mm.y, grid.origin_P_mm.z}};
+    const bool is_written =
+        writeAll(answer_descriptor, std::as_bytes(std::span(&head, 1))) &&
+        writeAll(answer_descriptor, bytesOf(volume.hounsfield)) && writeAll(answer_descriptor, bytesOf(volume.label)) &&
+        writeAll(answer_descriptor, bytesOf(volume.solid)) && writeAll(answer_descriptor, bytesOf(volume.tooth));
+    ::_exit(is_written ? 0 : kFailed);
+  } catch (const LoadError& refusal) {
+    const std::string_view text = refusal.what();
+    ::_exit(writeAll(answer_descriptor, std::as_bytes(std::span(text))) ? kRefused : kFailed);
+  } catch (...) {
+    ::_exit(kFailed);
+  }
+}
+
+CtVolume volumeAnswered(int answer_descriptor, int wait_status, const std::string& path) {
+  struct stat facts {};
+  if (!WIFEXITED(wait_status) || ::fstat(answer_descriptor, &facts) != 0) refuseFailure(path);
+  const auto bytes = static_cast<std::uint64_t>(facts.st_size);
+  if (WEXITSTATUS(wait_status) == kRefused) {
+    constexpr std::uint64_t kLongest = 1 << 13;
+    std::string text(std::min(bytes, kLongest), ' ');
+    if (!readAll(answer_descriptor, std::as_writable_bytes(std::span(text)), 0)) refuseFailure(path);
+    std::replace_if(
+        text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, '?');
+    throw LoadError(text);
+  }
+
+  Head head;
+  if (WEXITSTATUS(wait_status) != 0 || bytes < sizeof head) refuseFailure(path);
+  if (!readAll(answer_descriptor, std::as_writable_bytes(std::span(&head, 1)), 0)) refuseFailure(path);
+  CtVolume volume;
+  volume.grid = {{head.size[0], head.size[1], head.size[2]},
+                 head.spacing_mm,
+                 {head.origin_P_mm[0], head.origin_P_mm[1], head.origin_P_mm[2]}};
+  refuseUnlessSound({volume.grid.size, glm::dmat3(volume.grid.spacing_mm), volume.grid.origin_P_mm}, path);
+  const std::size_t voxels = volume.grid.voxelCount();
+  constexpr std::uint64_t kVoxelBytes = 4;
+  const bool has_teeth = bytes == sizeof head + (kVoxelBytes + 1) * voxels;
+  if (!has_teeth && bytes != sizeof head + kVoxelBytes * voxels) refuseFailure(path);
+  volume.hounsfield.resize(voxels);
+  volume.label.resize(voxels);
+  volume.solid.resize(voxels);
+  volume.tooth.resize(has_teeth ? voxels : 0);
+  const bool is_read =
+      readAll(answer_descriptor, std::as_writable_bytes(std::span(volume.hounsfield)), sizeof head) &&
+      readAll(answer_descriptor, std::as_writable_bytes(std::span(volume.label)), sizeof head + 2 * voxels) &&
+      readAll(answer_descriptor, std::as_writable_bytes(std::span(volume.solid)), sizeof head + 3 * voxels) &&
+      readAll(answer_descriptor, std::as_writable_bytes(std::span(volume.tooth)), sizeof head + 4 * voxels);
+  if (!is_read) refuseFailure(path);
+  return volume;
+}
+
+CtVolume readVolumeApart(const std::string& path) {
+  const Descriptor answer(::memfd_create("volume", MFD_CLOEXEC));
+  std::error_code error;
+  const std::uint64_t bytes = std::filesystem::file_size(path, error);
+  const pid_t reader = answer < 0 ? -1 : ::fork();
+  if (reader == 0) serveVolume(path, readerLimits(error ? 0 : bytes), answer);
+  if (reader < 0) throw LoadError(path + ": no process can be started to read it; close other programs");
+  int status = 0;
+  while (::waitpid(reader, &status, 0) < 0)
+    if (errno != EINTR) refuseFailure(path);
+  return volumeAnswered(answer, status, path);
+}
+
+}  // namespace assets

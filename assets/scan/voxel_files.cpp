@@ -1,0 +1,103 @@
+#include "assets/scan/voxel_files.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include "assets/load_error.h"
+#include "assets/scan/header_text.h"
+
+namespace assets {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A name with one number in it, taken apart.
+struct Pattern {
+  std::string before;
+  std::string after;
+  std::size_t width = 0;
+  bool is_zero_filled = false;
+
+  std::string with(std::int64_t number) const {
+    const std::string digits = std::to_string(number);
+    const std::string fill(width > digits.size() ? width - digits.size() : 0, is_zero_filled ? '0' : ' ');
+    return before + fill + digits + after;
+  }
+};
+
+Pattern patternIn(const std::string& header_path, const std::string& text) {
+  const auto refuse = [&] {
+    refuseScan(header_path, "the name " + asShown(text) +
+                                " of its data files needs one number, as in 'slice%03d.raw'; name the files so");
+  };
+  Pattern pattern;
+  bool has_number = false;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    std::string& part = has_number ? pattern.after : pattern.before;
+    if (text[at] != '%') {
+      part += text[at];
+      continue;
+    }
+    if (text.compare(at, 2, "%%") == 0) {
+      part += '%';
+      ++at;
+      continue;
+    }
+    if (has_number) refuse();
+    has_number = true;
+    const std::size_t kind = std::min(text.find_first_not_of("0123456789", at + 1), text.size());
+    const std::string width = text.substr(at + 1, kind - at - 1);
+    if (kind == text.size() || std::string("diu").find(text[kind]) == std::string::npos || width.size() > 2) refuse();
+    pattern.is_zero_filled = width.starts_with('0');
+    pattern.width = width.empty() ? 0 : static_cast<std::size_t>(wholeNumber(width).value_or(0));
+    at = kind;
+  }
+  if (!has_number) refuse();
+  return pattern;
+}
+
+bool isBelow(const fs::path& file, const fs::path& folder) {
+  const fs::path from_folder = file.lexically_relative(folder);
+  return !from_folder.empty() && *from_folder.begin() != ".." && *from_folder.begin() != ".";
+}
+
+}  // namespace
+
+VoxelFile fileBeside(const std::string& header_path, const std::string& name) {
+  const fs::path relative = name;
+  const bool leaves = relative.is_absolute() || std::find(relative.begin(), relative.end(), "..") != relative.end();
+  const auto refuse = [&](const std::string& reason) {
+    refuseScan(header_path, "its data file " + asShown(name) + " " + reason);
+  };
+  if (leaves) refuse("is outside its folder; put both into one folder");
+  if (name.empty() || name.find('\0') != std::string::npos) refuse("has no name; export the volume again");
+
+  std::error_code error;
+  fs::path folder = fs::path(header_path).parent_path();
+  folder = fs::canonical(folder.empty() ? "." : folder, error);
+  const fs::path file = error ? fs::path() : fs::canonical(folder / relative, error);
+  if (error) refuse("is not there; put it beside the header");
+  if (file != folder && !isBelow(file, folder)) refuse("is outside its folder; put both into one folder");
+  if (!fs::is_regular_file(file, error)) refuse("is not a plain file; name the file with the voxels");
+  return {file.string(), 0};
+}
+
+std::vector<VoxelFile> numberedFilesBeside(const std::string& header_path, const NumberedNames& names,
+                                           std::uint64_t expected) {
+  const Pattern pattern = patternIn(header_path, names.pattern);
+  constexpr std::int64_t kFarthest = 1'000'000'000;
+  const bool is_sane = std::abs(names.first) <= kFarthest && std::abs(names.last) <= kFarthest && names.step != 0 &&
+                       std::abs(names.step) <= kFarthest;
+  const std::int64_t count = is_sane ? (names.last - names.first) / names.step + 1 : 0;
+  if (count < 1 || static_cast<std::uint64_t>(count) != expected)
+    refuseScan(header_path, "it names " + std::to_string(std::max<std::int64_t>(count, 0)) +
+                                " data files where it needs " + std::to_string(expected) + "; export it again");
+  std::vector<VoxelFile> files;
+  for (std::int64_t n = 0; n < count; ++n)
+    files.push_back(fileBeside(header_path, pattern.with(names.first + n * names.step)));
+  return files;
+}
+
+}  // namespace assets

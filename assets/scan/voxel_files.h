@@ -1,0 +1,27 @@
+// The names by which a header points at the files with its voxels. A header is a stranger's: what it names is looked up
+// in the header's own folder or below, never by an absolute path, through "..", or through a link that leads out.
+// Throws LoadError of one line. Any thread.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "assets/scan/image_header.h"
+
+namespace assets {
+
+/// The file of that name beside the header.
+VoxelFile fileBeside(const std::string& header_path, const std::string& name);
+
+/// All the files of "NAME%03d.raw", numbered from `first` to `last` by `step`. Exactly one number in the name (%d, %i,
+/// %u with an optional width); no other conversion.
+struct NumberedNames {
+  std::string pattern;
+  std::int64_t first = 1;
+  std::int64_t last = 1;
+  std::int64_t step = 1;
+};
+std::vector<VoxelFile> numberedFilesBeside(const std::string& header_path, const NumberedNames& names,
+                                           std::uint64_t expected);
+
+}  // namespace assets

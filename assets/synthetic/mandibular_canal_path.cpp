@@ -1,0 +1,63 @@
+#include "assets/synthetic/mandibular_canal_path.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "assets/synthetic/implicit_shape.h"
+
+namespace assets {
+namespace {
+
+struct CourseKnot {
+  double posterior_mm, buccal_mm, height_mm;
+};
+
+// From behind to the mental foramen between the premolars; the last two turn outward through the cheek-side cortex.
+constexpr std::array<CourseKnot, 11> kCourse = {{{76.0, 4.6, -3.0},
+                                                 {69.0, 4.3, -10.0},
+                                                 {63.0, 4.5, -16.5},
+                                                 {57.0, 4.3, -21.6},
+                                                 {51.0, 3.8, -24.4},
+                                                 {44.0, 3.2, -25.8},
+                                                 {36.0, 2.9, -26.8},
+                                                 {28.0, 2.7, -26.9},
+                                                 {21.0, 3.2, -26.0},
+                                                 {18.2, 4.3, -24.3},
+                                                 {19.4, 7.2, -22.9}}};
+constexpr int kPointsPerSpan = 16;
+constexpr double kDropWidth_mm = 13.0;
+
+}  // namespace
+
+MandibularCanalPath::MandibularCanalPath(const DentalArch& arch, double beside_along_mm, double drop_mm) {
+  std::vector<glm::dvec3> knots;
+  for (const CourseKnot& knot : kCourse) {
+    const double along_mm = arch.alongAtPosterior(knot.posterior_mm);
+    const ArchStation station = arch.stationAt(along_mm);
+    const double turn = (along_mm - beside_along_mm) / kDropWidth_mm;
+    knots.emplace_back(station.centre_mm + knot.buccal_mm * station.buccal,
+                       knot.height_mm - drop_mm * std::exp(-turn * turn));
+  }
+  for (std::size_t n = 0; n + 1 < knots.size(); ++n)
+    for (int step = 0; step < kPointsPerSpan; ++step) {
+      const double t = static_cast<double>(step) / kPointsPerSpan;
+      const glm::dvec3 a = knots[n == 0 ? 0 : n - 1], b = knots[n], c = knots[n + 1],
+                       d = knots[std::min(n + 2, knots.size() - 1)];
+      points_J_mm_.push_back(0.5 * (2.0 * b + t * (c - a) + t * t * (2.0 * a - 5.0 * b + 4.0 * c - d) +
+                                    t * t * t * (3.0 * b - a - 3.0 * c + d)));
+    }
+  points_J_mm_.push_back(knots.back());
+}
+
+double MandibularCanalPath::lumen_mm(const glm::dvec3& p_J) const {
+  double squared = 1e30;
+  for (std::size_t n = 0; n + 1 < points_J_mm_.size(); ++n) {
+    const glm::dvec3 edge = points_J_mm_[n + 1] - points_J_mm_[n], to = p_J - points_J_mm_[n];
+    const glm::dvec3 offset = to - std::clamp(glm::dot(to, edge) / glm::dot(edge, edge), 0.0, 1.0) * edge;
+    squared = std::min(squared, glm::dot(offset, offset));
+  }
+  return std::sqrt(squared) - kRadius_mm;
+}
+
+}  // namespace assets

@@ -1,0 +1,14 @@
+// Whether all of a vector is a number, neither infinite nor none. Any thread.
+#pragma once
+
+#include <cmath>
+
+#include <glm/glm.hpp>
+
+namespace calibration {
+
+inline bool isFinite(const glm::dvec3& v) noexcept {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+}  // namespace calibration

@@ -1,0 +1,58 @@
+#include "render/scene/mandibular_canal_tube.h"
+
+#include <cmath>
+#include <vector>
+
+namespace render {
+namespace {
+
+constexpr std::uint32_t kSides = 24;
+constexpr glm::vec4 kColour{0.90f, 0.36f, 0.05f, 1.0f};  // of the nerve in planning pictures
+
+glm::dvec3 squareTo(const glm::dvec3& along) {
+  const glm::dvec3 other = std::abs(along.z) < 0.8 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
+  return glm::normalize(glm::cross(along, other));
+}
+
+}  // namespace
+
+assets::MeshModel mandibularCanalTube(std::span<const glm::dvec3> line_P_mm, double radius_mm) {
+  // Places that do not stand on each other.
+  std::vector<glm::dvec3> line;
+  for (const glm::dvec3& p : line_P_mm)
+    if (line.empty() || glm::distance(p, line.back()) > 1e-6) line.push_back(p);
+  if (line.size() < 2 || !(radius_mm > 0.0)) return {};
+
+  assets::MeshPart part;
+  part.name = "Mandibular canal";
+  part.material = {.base_colour = kColour, .roughness = 0.45f};
+  glm::dvec3 side = squareTo(glm::normalize(line[1] - line[0]));
+  const auto ring = [&](const glm::dvec3& centre, const glm::dvec3& along, double radius, double lean) {
+    // The side is carried along without turning about the line.
+    side = glm::normalize(side - glm::dot(side, along) * along);
+    const glm::dvec3 other = glm::cross(along, side);
+    for (std::uint32_t s = 0; s < kSides; ++s) {
+      const double turn = 2.0 * M_PI * s / kSides;
+      const glm::dvec3 out = std::cos(turn) * side + std::sin(turn) * other;
+      part.position_mm.emplace_back(centre + radius * out);
+      part.normal.emplace_back(glm::normalize((1.0 - std::abs(lean)) * out + lean * along));
+    }
+  };
+  const glm::dvec3 first = glm::normalize(line[1] - line[0]),
+                   last = glm::normalize(line.back() - line[line.size() - 2]);
+  ring(line.front(), first, 1e-4 * radius_mm, -1.0);
+  for (std::size_t n = 0; n < line.size(); ++n) {
+    const glm::dvec3 &before = line[n == 0 ? 0 : n - 1], &after = line[std::min(n + 1, line.size() - 1)];
+    ring(line[n], glm::normalize(after - before), radius_mm, 0.0);
+  }
+  ring(line.back(), last, 1e-4 * radius_mm, 1.0);
+  const auto rings = static_cast<std::uint32_t>(part.position_mm.size()) / kSides;
+  for (std::uint32_t r = 0; r + 1 < rings; ++r)
+    for (std::uint32_t s = 0; s < kSides; ++s) {
+      const std::uint32_t a = r * kSides + s, b = r * kSides + (s + 1) % kSides, c = a + kSides, d = b + kSides;
+      for (const std::uint32_t index : {a, b, c, c, b, d}) part.triangles.push_back(index);
+    }
+  return {{part}};
+}
+
+}  // namespace render

@@ -1,0 +1,86 @@
+// The built-in patient as a surgeon sees it, against stored pictures of 240x150 pixels. The program runs as its user
+// runs it; the CPU draws, so that no driver's rounding counts. After a change of the look that was looked at:
+//   MOLAR_WRITE_GOLDEN=1 build/release/tests/app/app_golden_test
+#include <opencv2/imgcodecs.hpp>
+
+#include "tests/app/commands/program.h"
+
+namespace app {
+namespace {
+
+/// How far a picture may be from its golden one.
+struct Tolerance {
+  double mean;       ///< of all channels, of 255
+  double far_share;  ///< of the pixels whose worst channel is more than 8 of 255 away
+};
+
+/// Nothing moves before the first cut: what remains are ten pixels on edges that another processor's rounding may
+/// shift.
+constexpr Tolerance kStill{0.01, 0.0003};
+/// The hand is scripted, but ticks may share the time out differently: a few pixels on the rims of the trough. The
+/// trough itself is 87 pixels.
+constexpr Tolerance kCarved{0.02, 0.0006};
+
+class GoldenPicture : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    setenv("XDG_CACHE_HOME", MOLAR_TEST_CACHE, 1);
+  }
+
+  void expectGolden(const std::string& picture, const std::string& golden, Tolerance tolerance) const {
+    const std::string stored = std::string(MOLAR_GOLDEN_DIR) + "/" + golden;
+    if (std::getenv("MOLAR_WRITE_GOLDEN") != nullptr) {
+      std::filesystem::copy_file(at(picture), stored, std::filesystem::copy_options::overwrite_existing);
+      return;
+    }
+    const cv::Mat is = cv::imread(at(picture)), should = cv::imread(stored);
+    ASSERT_FALSE(should.empty()) << stored << ": missing";
+    ASSERT_EQ(is.size(), should.size());
+    cv::Mat difference;
+    cv::absdiff(is, should, difference);
+    double sum = 0.0;
+    int far = 0;
+    for (int y = 0; y < difference.rows; ++y)
+      for (int x = 0; x < difference.cols; ++x) {
+        const cv::Vec3b d = difference.at<cv::Vec3b>(y, x);
+        sum += d[0] + d[1] + d[2];
+        far += std::max({d[0], d[1], d[2]}) > 8 ? 1 : 0;
+      }
+    const double pixels = static_cast<double>(difference.total());
+    RecordProperty(golden + "_mean", std::to_string(sum / (3.0 * pixels)));
+    RecordProperty(golden + "_far_share", std::to_string(far / pixels));
+    EXPECT_LE(sum / (3.0 * pixels), tolerance.mean) << golden;
+    EXPECT_LE(far / pixels, tolerance.far_share) << golden;
+  }
+};
+
+constexpr char kRun[] =
+    "rehearse --headless --pace fast --device scripted --voxel 0.5 --renderer cpu --snapshot-size 240x150 ";
+
+TEST_F(GoldenPicture, ThePatientBeforeAndAfterTheTrough) {
+  const Said said =
+      molar(kRun + std::string("--first-snapshot ") + at("before.png") + " --snapshot " + at("after.png"));
+  ASSERT_EQ(said.status, 0) << said.err;
+  expectGolden("before_left.png", "before_left.png", kStill);
+  expectGolden("before_right.png", "before_right.png", kStill);
+  expectGolden("after_left.png", "after_left.png", kCarved);
+}
+
+TEST_F(GoldenPicture, TranslucentBoneWithTheCanalUnderAFadedFace) {
+  const Said said =
+      molar(kRun + std::string("--seconds 0.1 --mode dvr --layers canal --face-opacity 0.3 --first-snapshot ") +
+            at("clear.png"));
+  ASSERT_EQ(said.status, 0) << said.err;
+  expectGolden("clear_left.png", "translucent_left.png", kStill);
+}
+
+TEST_F(GoldenPicture, ThePlannedCutAndTheSlices) {
+  const Said said =
+      molar(kRun + std::string("--seconds 0.1 --layers plan,clearance,slices --first-snapshot ") + at("plan.png"));
+  ASSERT_EQ(said.status, 0) << said.err;
+  expectGolden("plan_left.png", "plan_left.png", kStill);
+}
+
+}  // namespace
+}  // namespace app

@@ -1,0 +1,298 @@
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "app/device/practice_device.h"
+#include "app/session/session_reader.h"
+#include "calibration/record/rig_file.h"
+#include "calibration/record/rig_store.h"
+#include "tests/app/commands/program.h"
+
+namespace app {
+namespace {
+
+/// A coarse patient keeps these quick; the cache is this build's own.
+class RehearseCommand : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    setenv("XDG_CACHE_HOME", MOLAR_TEST_CACHE, 1);
+    setenv("MOLAR_CALIBRATION", at("store").c_str(), 1);
+  }
+};
+
+constexpr char kQuick[] = "rehearse --headless --pace fast --voxel 0.6 --size 96x64 ";
+constexpr char kCoarse[] = "rehearse --headless --pace fast --device scripted --voxel 0.6 --size 96x64 ";
+constexpr char kPoseHeader[] = "t_s,px_mm,py_mm,pz_mm,qw,qx,qy,qz,drill,tool,action\n";
+
+std::vector<haptics::Tick> ticksOf(const std::string& session) {
+  SessionReader reader(session);
+  std::vector<haptics::Tick> all;
+  for (TickBlock block = reader.nextBlock(); !block.ticks.empty(); block = reader.nextBlock())
+    all.insert(all.end(), block.ticks.begin(), block.ticks.end());
+  return all;
+}
+
+/// Every column of a tick, bit for bit as far as == sees it.
+auto columns(const haptics::Tick& t) {
+  const haptics::HandSample& h = t.hand;
+  return std::tuple(t.index, t.t_s, t.dt_s, t.command_serial, h.X_PT.translation_mm, h.X_PT.rotation,
+                    h.velocity_P_mm_per_s.xyz, h.handle_velocity_P_mm_per_s.xyz, h.arm_P_mm.xyz, h.jacobian_P_mm,
+                    h.motor_heat, h.gap_s, h.drill_pedal, h.fresh, h.docked, h.held, h.calibrated, t.proxy_P.mm,
+                    t.law_force_P_N.xyz, t.law_torque_P_Nmm.xyz, t.served_force_P_N.xyz, t.served_torque_P_Nmm.xyz,
+                    t.energy_Nmm, t.spindle_rad_per_s, t.overlap_mm3, t.depth_mm, t.removed_mm3, t.bone_digest,
+                    t.contact_tissue, t.drilling, t.rest, t.strokes, t.state, t.faults, t.work_us);
+}
+
+TEST_F(RehearseCommand, RecordsWhatReplaysBitForBit) {
+  const Said said = molar(kCoarse + std::string("--seconds 4 --record ") + at("s.molar"));
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_NE(said.out.find("removed"), std::string::npos);
+  const Said replay = molar("replay " + at("s.molar") + " --verify");
+  EXPECT_EQ(replay.status, 0) << replay.out << replay.err;
+  const Said metrics = molar("metrics " + at("s.molar") + " --json");
+  ASSERT_EQ(metrics.status, 0) << metrics.err;
+  const auto json = nlohmann::json::parse(metrics.out);
+  EXPECT_NEAR(json.at("duration_s").get<double>(), 4.0, 1e-6);
+  EXPECT_EQ(json.at("ticks").get<int>(), 4000);
+  EXPECT_GT(json.at("removed_mm3").get<double>(), 1.0) << "the scripted hand carves";
+  EXPECT_LE(json.at("max_force_N").get<double>(), 3.3 + 1e-9);
+
+  // Any changed byte is found.
+  std::string bytes = read("s.molar");
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+  write("t.molar", bytes);
+  EXPECT_NE(molar("replay " + at("t.molar") + " --verify").status, 0);
+}
+
+TEST_F(RehearseCommand, MakesTheSameTicksTwiceAtFastPace) {
+  write("p.csv", std::string(kPoseHeader) + "0,0,0,6,1,0,0,0,0,,\n0.4,0,0,1,1,0,0,0,1,,\n1.5,2,0,-3,1,0,0,0,1,,\n");
+  for (const char* device : {"scripted", "simulated:touch", "poses"}) {
+    const std::string hand = device == std::string("poses") ? "poses:" + at("p.csv") : device;
+    std::vector<std::vector<haptics::Tick>> runs;
+    for (const char* name : {"one.molar", "two.molar"}) {
+      const Said said = molar(kQuick + ("--force --seconds 3 --device " + hand + " --record " + at(name)));
+      ASSERT_EQ(said.status, 0) << said.err;
+      EXPECT_EQ(said.out.find("supervisor"), std::string::npos) << said.out;
+      EXPECT_NE(said.out.find("3000 ticks, 0 lost"), std::string::npos) << said.out;
+      runs.push_back(ticksOf(at(name)));
+    }
+    ASSERT_EQ(runs[0].size(), 3000u) << device;
+    ASSERT_EQ(runs[1].size(), 3000u) << device;
+    for (std::size_t i = 0; i < runs[0].size(); ++i) {
+      ASSERT_EQ(columns(runs[0][i]), columns(runs[1][i])) << device << " tick " << i;
+      ASSERT_EQ(runs[0][i].work_us, 0.0f) << "no clock in it";
+    }
+  }
+}
+
+TEST_F(RehearseCommand, LosesNoTickOfALongRunAtFastPace) {
+  const Said said = molar(kCoarse + std::string("--seconds 60 --rate 2000 --record ") + at("s.molar"));
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_NE(said.out.find("120000 ticks, 0 lost"), std::string::npos) << said.out;
+}
+
+TEST_F(RehearseCommand, IsWhereThePosesHaveItAndAsksAtTheirTicks) {
+  // Far from the tissue: what it asks for shows in the commands alone.
+  std::string rows = kPoseHeader;
+  rows += "0,100,0,200,1,0,0,0,0,,irrigation:off\n";
+  rows += "0.25,100,10,200,0.8,0.6,0,0,1,2,\n";
+  rows += "0.5,101,10,200,1,0,0,0,0,sphere:1.5,drill:off\n";
+  rows += "0.75,101,10,203,1,0,0,0,0,,irrigation:on\n";
+  write("p.csv", rows);
+  const Said said = molar(
+      kQuick + ("--tool sphere:1.5 --tool sphere:1 --device poses:" + at("p.csv") + " --record " + at("s.molar")));
+  ASSERT_EQ(said.status, 0) << said.err;
+  const std::vector<haptics::Tick> ticks = ticksOf(at("s.molar"));
+  ASSERT_EQ(ticks.size(), 751u) << "the last row's tick is the last";
+  EXPECT_EQ(ticks[250].hand.X_PT.translation_mm, glm::dvec3(100, 10, 200));
+  EXPECT_NEAR(glm::dot(ticks[250].hand.X_PT.rotation, glm::dquat(0.8, 0.6, 0, 0)), 1.0, 1e-12);
+  EXPECT_LT(glm::distance(ticks[125].hand.X_PT.translation_mm, glm::dvec3(100, 5, 200)), 1e-9);
+  EXPECT_FALSE(ticks[249].hand.drill_pedal);
+  EXPECT_TRUE(ticks[250].hand.drill_pedal);
+  EXPECT_FALSE(ticks[500].hand.drill_pedal);
+
+  const std::vector<SessionCommand> commands = SessionReader(at("s.molar")).commands();
+  std::map<std::uint64_t, haptics::Command> at_tick;
+  for (const SessionCommand& one : commands) at_tick[one.first_tick] = one.command;
+  ASSERT_TRUE(at_tick.contains(0) && at_tick.contains(250) && at_tick.contains(500) && at_tick.contains(750));
+  EXPECT_FALSE(at_tick[0].irrigating);
+  EXPECT_EQ(at_tick[250].tool.head.radius_mm, 1.0);
+  EXPECT_EQ(at_tick[500].tool.head.radius_mm, 1.5);
+  EXPECT_FALSE(at_tick[500].drill_enabled);
+  EXPECT_TRUE(at_tick[750].irrigating);
+  EXPECT_EQ(molar("replay " + at("s.molar") + " --verify").status, 0);
+}
+
+TEST_F(RehearseCommand, SaysWhichRowOfThePosesCanNotBeObeyed) {
+  const auto refused = [&](const std::string& row, const std::string& word) {
+    write("p.csv", std::string(kPoseHeader) + "0,0,0,9,1,0,0,0,0,,\n" + row + "\n");
+    expectRefusal(kQuick + ("--device poses:" + at("p.csv")), word);
+  };
+  refused("1,0,0,9,1,0,0,0,0,2,", "line 3: tool 2: the tray holds 1");
+  refused("1,0,0,9,1,0,0,0,0,,jump", "line 3: ");
+  refused("1,0,0,9,2,0,0,0,0,,", "line 3: the quaternion");
+  refused("0,0,0,9,1,0,0,0,0,,", "line 3: t_s does not rise");
+  refused("4000,0,0,9,1,0,0,0,0,,", "line 3: t_s is beyond an hour");
+  expectRefusal(kQuick + ("--device poses:" + folder_.string()), "plain file");
+  expectRefusal(kQuick + ("--device poses:" + at("none.csv")), "none.csv");
+}
+
+TEST_F(RehearseCommand, GoesFastWithHandsInNumbersAlone) {
+  expectRefusal("rehearse --pace fast --device scripted", "--headless");
+  for (const char* device : {"openhaptics", "wooden", "falcon", "usb"})
+    expectRefusal("rehearse --headless --pace fast --device " + std::string(device), "no hand in numbers");
+  expectRefusal(kCoarse + std::string("--operator"), "--operator");
+  expectRefusal(kCoarse + std::string("--second-hand wooden"), "--second-hand");
+  expectRefusal(kCoarse + std::string("--pedal pedal"), "--pedal");
+  expectRefusal("rehearse --headless --pace quick --device scripted", "--pace");
+}
+
+/// A simulated Phantom is armed and carves; what it recorded moves again as a hand of its own.
+TEST_F(RehearseCommand, ArmsASimulatedPhantomAndReplaysItsHand) {
+  const std::string quiet = kQuick;
+  const Said said = molar(quiet + "--device simulated:omni --seconds 7 --record " + at("s.molar"));
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_NE(said.err.find("There is no force yet."), std::string::npos) << said.err;
+  EXPECT_NE(said.err.find("The hand feels the tissue."), std::string::npos) << said.err;
+  EXPECT_EQ(molar("replay " + at("s.molar") + " --verify").status, 0);
+  const Said again = molar(quiet + "--device replay:" + at("s.molar") + " --seconds 2 --record " + at("t.molar"));
+  ASSERT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(molar("replay " + at("t.molar") + " --verify").status, 0);
+  EXPECT_EQ(molar(quiet + "--device replay:" + at("none.molar")).status, 2);
+}
+
+/// The rig of one untrue arm, known as it truly is.
+calibration::RigRecord rigOf(const calibration::SyntheticRig& truth, calibration::Verdict verdict) {
+  calibration::RigRecord record;
+  record.rig = truth.nominal;
+  record.rig.X_WD = truth.X_WD;
+  record.rig.arm = truth.arm.truth;
+  record.provenance.rig_id = "rig-02";
+  record.provenance.created_utc = "2026-11-19T08:00:00Z";
+  record.provenance.mirror_kind = "front_surface";
+  record.proof = calibration::RigProof{};
+  record.proof->verdict = verdict;
+  record.proof->errors.n = 16;
+  record.proof->errors.rms_mm = 1.4, record.proof->errors.mean_mm = 1.2;
+  record.proof->errors.p95_mm = 2.0, record.proof->errors.max_mm = 2.5;
+  record.proof->checked_utc = record.provenance.created_utc;
+  return record;
+}
+
+/// Sure arms, so that the work is the same on every machine: an untrue arm under its rig, and under the default one.
+TEST_F(RehearseCommand, WorksOnAPracticeDeviceWhereItsRigHasIt) {
+  const auto truth = *practiceRig("practice:B:3");
+  const calibration::RigRecord green = rigOf(truth, calibration::Verdict::green),
+                               red = rigOf(truth, calibration::Verdict::red);
+  calibration::RigStore(at("store")).keep({"rig-02", truth.nominal.device->serial, "right"}, green, "", true);
+  const std::string line = kQuick + std::string("--device practice:B:3 ");
+  const auto metricsOf = [&](const std::string& session) {
+    return nlohmann::json::parse(molar("metrics " + at(session) + " --json").out);
+  };
+
+  const Said said = molar(line + "--seconds 7 --record " + at("s.molar"));
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_NE(said.err.find("current rig rig-02: green"), std::string::npos) << said.err;
+  EXPECT_NE(said.out.find("calibration      green, 1.40 mm RMS of 16"), std::string::npos) << said.out;
+  EXPECT_EQ(molar("replay " + at("s.molar") + " --verify").status, 0);
+  const auto json = metricsOf("s.molar");
+  EXPECT_EQ(json.at("calibration").at("verdict"), "green");
+  EXPECT_EQ(json.at("calibration").at("device_serial"), truth.nominal.device->serial);
+  EXPECT_FALSE(json.at("removed_mm3_by_label").contains("other_teeth")) << json;
+
+  // Red: locked, one line, until a word is given, which stays.
+  std::ofstream(at("red.yaml")) << calibration::rigRecordText(red);
+  const Said locked = molar(line + "--rig " + at("red.yaml"));
+  EXPECT_EQ(locked.status, 2);
+  EXPECT_EQ(std::ranges::count(locked.err, '\n'), 1) << locked.err;
+  const std::string word = "--despite-calibration 'for show' --seconds 0.3 --record ";
+  EXPECT_EQ(molar(line + "--rig " + at("red.yaml") + " " + word + at("t.molar")).status, 0);
+  EXPECT_EQ(metricsOf("t.molar").at("calibration").at("despite"), "for show");
+
+  // Another unit, and the rig of none.
+  EXPECT_EQ(molar("rehearse --headless --voxel 0.6 --device practice:B:4 --rig " + at("red.yaml")).status, 2);
+  EXPECT_EQ(molar("rehearse --headless --voxel 0.6 --device practice:Z").status, 2);
+  EXPECT_EQ(molar(line + "--rig mirrored --seconds 0.3 --record " + at("u.molar")).status, 0);
+  EXPECT_EQ(metricsOf("u.molar").at("calibration").at("rig"), "default");
+}
+
+/// Through the whole program, with our stand-in for the vendor's library.
+TEST_F(RehearseCommand, ServesAPhantomThroughTheVendorsLibrary) {
+  setenv("MOLAR_OPENHAPTICS", MOLAR_STAND_IN_HD, 1);
+  const std::string line = "rehearse --headless --voxel 0.6 --size 96x64 --device openhaptics --seconds 2 ";
+  const Said said = molar(line + "--record " + at("s.molar"));
+  unsetenv("MOLAR_OPENHAPTICS");
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_EQ(said.out.find("latched"), std::string::npos) << said.out;
+  EXPECT_EQ(molar("replay " + at("s.molar") + " --verify").status, 0);
+}
+
+TEST_F(RehearseCommand, SaysInOneLineWhyADeviceCanNotBeHad) {
+  setenv("MOLAR_OPENHAPTICS", at("libHD.so").c_str(), 1);
+  for (const char* address :
+       {"openhaptics", "wooden", "falcon", "usb", "wooden:9-9", "spoon", "replay:", "simulated:x"}) {
+    const Said said = molar("rehearse --headless --voxel 0.6 --device " + std::string(address));
+    EXPECT_EQ(said.status, 2) << address;
+    EXPECT_EQ(std::count(said.err.begin(), said.err.end(), '\n'), 1) << said.err;
+  }
+  unsetenv("MOLAR_OPENHAPTICS");
+}
+
+TEST_F(RehearseCommand, LeavesPicturesOfBothEyes) {
+  const Said said = molar(kCoarse + std::string("--seconds 0.2 --snapshot-size 160x100 --snapshot ") + at("end.png"));
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_EQ(read("end_left.png").substr(1, 3), "PNG");
+  EXPECT_NE(read("end_left.png"), read("end_right.png"));
+}
+
+/// Law and gains change while it runs, every change is said and recorded, and the recording still replays bit for bit.
+TEST_F(RehearseCommand, ObeysASettingsFileWhileItChanges) {
+  const std::string file = write("feel.toml", "[law]\nstiffness_N_per_mm = 0.6\n");
+  // Changed once it is being recorded, however long the patient took to make.
+  const std::string later = "(while [ ! -e " + at("s.molar") + " ]; do sleep 0.1; done; sleep 1.5; echo '[law]' > " +
+                            file + ".new; echo 'name = \"forssim\"' >> " + file + ".new; mv " + file + ".new " + file +
+                            "; sleep 1; echo '[law' > " + file + ") & ";
+  std::system((later + "true").c_str());
+  const Said said = molar("rehearse --headless --device scripted --voxel 0.6 --size 96x64 --seconds 5 --parameters " +
+                          file + " --record " + at("s.molar"));
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_NE(said.err.find("[law] name agus -> forssim"), std::string::npos) << said.err;
+  EXPECT_NE(said.err.find("line 1: no TOML"), std::string::npos) << said.err;
+  EXPECT_NE(said.err.find("the old values stay"), std::string::npos) << said.err;
+  const Said replay = molar("replay " + at("s.molar") + " --verify");
+  EXPECT_EQ(replay.status, 0) << replay.out << replay.err;
+}
+
+TEST_F(RehearseCommand, RefusesABadSettingsFileAtTheStart) {
+  write("feel.toml", "[law]\nstiffness_N_per_mm = 99\n");
+  expectRefusal(kCoarse + std::string("--parameters ") + at("feel.toml"), "line 2: [law] stiffness_N_per_mm");
+  expectRefusal("rehearse --headless --device simulated --voxel 0.6 --set stiffness_N_per_mm=10", "2b/T");
+  expectRefusal(kCoarse + std::string("--law harmonic --tool cone:1,2"), "does not admit");
+  expectRefusal(kCoarse + std::string("--law spring"), "forssim");
+}
+
+TEST_F(RehearseCommand, ShowsWhatTheOtherHandHolds) {
+  const auto end = [&](const std::string& options, const std::string& name) {
+    const Said said = molar(kCoarse + std::string("--seconds 0.3 --renderer cpu --snapshot-size 160x100 --force ") +
+                            options + " --snapshot " + at(name + ".png"));
+    EXPECT_EQ(said.status, 0) << said.err;
+    return read(name + "_left.png");
+  };
+  EXPECT_NE(end("--second-hand scripted --second-tool mirror", "mirror"),
+            end("--second-hand scripted --second-tool retractor", "retractor"));
+  expectRefusal(kCoarse + std::string("--second-hand mouse"), "--second-hand mouse");
+}
+
+TEST_F(RehearseCommand, KeepsAnOldRecording) {
+  write("s.molar", "precious");
+  expectRefusal(kCoarse + std::string("--seconds 0.2 --record ") + at("s.molar"), "s.molar");
+  EXPECT_EQ(read("s.molar"), "precious");
+}
+
+}  // namespace
+}  // namespace app

@@ -1,0 +1,181 @@
+#include "app/controls/command_desk.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <fstream>
+#include <functional>
+#include <thread>
+
+#include "app/session/metrics.h"
+#include "app/session/replay.h"
+#include "app/session/session_reader.h"
+#include "haptics/device/simulated/mouse_device.h"
+#include "tests/app/session/real_session.h"
+
+namespace app {
+namespace {
+
+/// A rehearsal under a mouse, recorded, without a picture.
+struct Desk {
+  test::ScratchFolder folder;
+  std::string path = folder.file("s.molar");
+  test::BoneBlock block;
+  assets::Patient patient;
+  haptics::MouseDevice* mouse = nullptr;
+  std::optional<Workstation> workstation;
+  std::optional<CommandDesk> desk;
+
+  explicit Desk(const std::string& settings_file = {}, const std::vector<haptics::Tool>& other_tools = {}) {
+    patient.title = "block of bone";
+    patient.ct.grid = block.grid;
+    patient.ct.solid = block.solid;
+    patient.ct.label = block.label;
+    auto device = std::make_unique<haptics::MouseDevice>(at({0.0, 0.0, 2.0}, false));
+    mouse = device.get();
+    desk.emplace(block.start().command, other_tools, settings_file, 0.002, 1000.0);
+    haptics::LoopSettings settings;
+    settings.realtime = false;
+    workstation.emplace(patient, std::move(device), settings, desk->inForce(), Recording{path, true});
+    desk->serve(*workstation);
+    workstation->start();
+  }
+
+  static haptics::MouseTarget at(const glm::dvec3& place_mm, bool pedal) {
+    haptics::MouseTarget target;
+    target.X_DH.translation_mm = place_mm;
+    target.pedal = pedal;
+    return target;
+  }
+
+  /// However long a busy machine takes.
+  bool waitFor(const std::function<bool(const haptics::Tick&)>& seen) {
+    for (int n = 0; n < 6000; ++n) {
+      if (seen(workstation->newestTick())) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return false;
+  }
+};
+
+bool hasEvent(const std::string& path, const std::string& kind, const std::string& words) {
+  for (const SessionEvent& event : SessionReader(path).events())
+    if (event.kind == kind && event.text.find(words) != std::string::npos) return true;
+  return false;
+}
+
+TEST(CommandDesk, TakesAStrokeBackAndRecordsSoThatItReplays) {
+  Desk at;
+  std::uint64_t whole = 0, cut = 0;
+  ASSERT_TRUE(at.waitFor([&](const haptics::Tick& tick) { return (whole = tick.bone_digest) != 0; }));
+  at.desk->obey({Control::undo});
+  EXPECT_EQ(at.desk->inForce().undo_serial, 0u) << "there is none yet";
+  at.mouse->setTarget(Desk::at({0.0, 0.0, 0.4}, true));
+  ASSERT_TRUE(at.waitFor([&](const haptics::Tick& tick) { return tick.strokes == 1; }));
+  at.mouse->setTarget(Desk::at({0.0, 0.0, 2.5}, false));
+  ASSERT_TRUE(at.waitFor([&](const haptics::Tick& tick) {
+    cut = tick.bone_digest;
+    return !tick.drilling && tick.overlap_mm3 == 0.0;
+  }));
+  EXPECT_NE(cut, whole);
+  at.desk->obey({Control::undo});
+  ASSERT_TRUE(at.waitFor([&](const haptics::Tick& tick) { return tick.strokes == 0; }));
+  ASSERT_TRUE(at.waitFor([&](const haptics::Tick& tick) { return tick.bone_digest == whole; }));
+  at.workstation->stop();
+  EXPECT_TRUE(verify(at.path).verified()) << verify(at.path).line();
+  EXPECT_TRUE(hasEvent(at.path, "undo", "newest of 1 stroke"));
+  EXPECT_GT(metricsOf(at.path).returned_mm3, 0.0);
+}
+
+TEST(CommandDesk, SwitchesTheWaterOffAndOn) {
+  Desk at;
+  EXPECT_TRUE(at.desk->inForce().irrigating);
+  at.desk->obey({Control::irrigation});
+  EXPECT_FALSE(at.desk->inForce().irrigating);
+  at.mouse->setTarget(Desk::at({0.0, 0.0, 0.4}, true));
+  ASSERT_TRUE(at.waitFor([](const haptics::Tick& tick) { return tick.strokes == 1 && tick.t_s > 0.1; }));
+  // A guide decides about the drill, not about water, undo and faults.
+  haptics::Command guided = at.desk->inForce();
+  guided.irrigating = true;
+  guided.undo_serial = 7;
+  guided.rearm = 7;
+  at.desk->follow(guided);
+  EXPECT_FALSE(at.desk->inForce().irrigating);
+  EXPECT_EQ(at.desk->inForce().undo_serial, 0u);
+  EXPECT_EQ(at.desk->inForce().rearm, 0u) << "only the operator lifts a fault";
+  at.desk->obey({Control::irrigation});
+  EXPECT_TRUE(at.desk->inForce().irrigating);
+  ASSERT_TRUE(at.waitFor([](const haptics::Tick& tick) { return tick.command_serial == 4; }));
+  at.workstation->stop();
+  EXPECT_GT(metricsOf(at.path).dry_drilling_s, 0.0);
+  EXPECT_TRUE(hasEvent(at.path, "irrigation", "off"));
+  EXPECT_TRUE(hasEvent(at.path, "irrigation", "on"));
+}
+
+TEST(CommandDesk, NeitherFileNorGuideLiftsAFault) {
+  test::ScratchFolder folder;
+  const std::string settings = folder.file("feel.toml");
+  const auto write = [&](const char* text) { std::ofstream(settings) << text; };
+  write("[law]\nname = \"agus\"\n");
+  Desk at(settings);
+  const haptics::Command before = at.desk->inForce();
+  at.desk->obey({Control::arm});
+  const std::uint64_t armed = at.desk->inForce().rearm;
+  ASSERT_NE(armed, before.rearm);
+  at.desk->follow(before);
+  EXPECT_EQ(at.desk->inForce().rearm, armed) << "a guide's command is another number only for who arms";
+  write("# longer, so that it is read again\n[law]\nname = \"forssim\"\n");
+  for (int n = 0; n < 100 && at.desk->inForce().law.kind != haptics::LawKind::forssim; ++n) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    at.desk->lookAtFile(std::chrono::steady_clock::now());
+  }
+  ASSERT_EQ(at.desk->inForce().law.kind, haptics::LawKind::forssim);
+  EXPECT_EQ(at.desk->inForce().rearm, armed);
+  at.workstation->stop();
+}
+
+TEST(CommandDesk, TakesTheToolThatIsNamedOrTheNext) {
+  std::vector<haptics::Tool> others(2);
+  others[0].head.radius_mm = 0.5;
+  others[1].head.radius_mm = 0.8;
+  Desk at({}, others);
+  const auto radiusAfter = [&](const ControlWish& wish) {
+    EXPECT_TRUE(at.desk->obey(wish));
+    return at.desk->inForce().tool.head.radius_mm;
+  };
+  EXPECT_EQ(radiusAfter({Control::tool, 2}), 0.8);
+  EXPECT_TRUE(at.desk->takeOtherBur());
+  EXPECT_EQ(radiusAfter({Control::tool}), 1.0) << "after the last the first";
+  EXPECT_EQ(radiusAfter({Control::tool}), 0.5);
+  EXPECT_EQ(radiusAfter({Control::tool, 3}), 0.5) << "there is no fourth";
+  EXPECT_EQ(radiusAfter({Control::tool}), 0.8) << "the next of the one in the hand";
+}
+
+TEST(CommandDesk, SwitchesToWhatWasSaidOrTheOtherWay) {
+  Desk at;
+  for (const bool on : {false, false, true, true}) {
+    at.desk->obey({Control::drill, on ? 1 : 0});
+    at.desk->obey({Control::irrigation, on ? 1 : 0});
+    EXPECT_EQ(at.desk->inForce().drill_enabled, on);
+    EXPECT_EQ(at.desk->inForce().irrigating, on);
+  }
+  at.desk->obey({Control::drill});
+  EXPECT_FALSE(at.desk->inForce().drill_enabled);
+  at.desk->obey({Control::law, 1});
+  EXPECT_EQ(at.desk->inForce().law.kind, haptics::LawKind::forssim);
+  for (const Control others : {Control::snapshot, Control::stop, Control::home, Control::end, Control::layer})
+    EXPECT_FALSE(at.desk->obey({others, 0})) << nameOf(others);
+}
+
+TEST(CommandDesk, LiftsNoEmergencyStop) {
+  Desk at;
+  ASSERT_TRUE(at.waitFor([](const haptics::Tick& tick) { return tick.dt_s > 0.0; }));
+  at.workstation->emergencyStop();
+  ASSERT_TRUE(at.waitFor([](const haptics::Tick& tick) { return tick.state == haptics::SafetyState::off; }));
+  at.desk->obey({Control::arm});
+  EXPECT_EQ(at.desk->inForce().rearm, 0u);
+  at.workstation->stop();
+}
+
+}  // namespace
+}  // namespace app

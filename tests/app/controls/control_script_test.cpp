@@ -1,0 +1,72 @@
+#include "app/controls/control_script.h"
+
+#include <gtest/gtest.h>
+
+#include "app/options/tool_text.h"
+#include "app/text/usage_error.h"
+
+namespace app {
+namespace {
+
+std::vector<haptics::Tool> tray() {
+  std::vector<haptics::Tool> tools;
+  for (const char* text : {"sphere:1.5", "cylinder:0.6,5", "sphere:1"}) {
+    const haptics::BurShape head = headFrom(text);
+    tools.push_back({head, haptics::usualShaft(head)});
+  }
+  return tools;
+}
+
+HandAsks row(double t_s, const std::string& tool, const std::string& action) {
+  return {t_s, tool, action, "pose file a.csv line 7"};
+}
+
+std::string refusal(const HandAsks& asked) {
+  try {
+    ControlScript({asked}, tray(), 1000.0);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(ControlScript, AsksAtTheFirstTickThatDoesNotBeginBeforeTheRow) {
+  ControlScript script(
+      {row(0.0, "", "irrigation:off"), row(0.1, "", "undo"), row(0.1004, "", "arm"), row(0.3, "", "end")}, tray(),
+      1000.0);
+  EXPECT_EQ(script.takeDue(0), std::vector<ControlWish>({{Control::irrigation, 0}}));
+  EXPECT_EQ(script.nextTick(), 100u);
+  EXPECT_TRUE(script.takeDue(99).empty());
+  EXPECT_EQ(script.takeDue(100), std::vector<ControlWish>({{Control::undo}}));
+  EXPECT_EQ(script.nextTick(), 101u);
+  // A loop that looks late gets all that was due, once.
+  EXPECT_EQ(script.takeDue(500), std::vector<ControlWish>({{Control::arm}, {Control::end}}));
+  EXPECT_FALSE(script.nextTick());
+  EXPECT_TRUE(script.takeDue(900).empty());
+}
+
+TEST(ControlScript, MeetsEveryMillisecondAtItsOwnTick) {
+  std::vector<HandAsks> rows;
+  for (int ms = 0; ms < 5000; ++ms) rows.push_back(row(std::stod(std::to_string(ms) + "e-3"), "", "snapshot"));
+  ControlScript script(rows, tray(), 1000.0);
+  for (std::uint64_t ms = 0; ms < 5000; ++ms) ASSERT_EQ(script.takeDue(ms).size(), 1u) << ms;
+}
+
+TEST(ControlScript, TakesAToolByItsNumberOrItsTextAndOnceWhileItStays) {
+  ControlScript script({row(0.0, "2", ""), row(0.001, "2", ""), row(0.002, "sphere:1", ""), row(0.003, "1", "undo")},
+                       tray(), 1000.0);
+  EXPECT_EQ(script.takeDue(0), std::vector<ControlWish>({{Control::tool, 1}}));
+  EXPECT_TRUE(script.takeDue(1).empty());
+  EXPECT_EQ(script.takeDue(2), std::vector<ControlWish>({{Control::tool, 2}}));
+  EXPECT_EQ(script.takeDue(3), std::vector<ControlWish>({{Control::tool, 0}, {Control::undo}}));
+}
+
+TEST(ControlScript, SaysWhichRowAsksForWhatIsNotThere) {
+  for (const HandAsks& asked : {row(0, "4", ""), row(0, "0", ""), row(0, "sphere:2", ""), row(0, "spoon", ""),
+                                row(0, "", "jump"), row(0, "", "tool:two"), row(0, "", "face:300")})
+    EXPECT_EQ(refusal(asked).find("pose file a.csv line 7: "), 0u) << refusal(asked);
+  EXPECT_NE(refusal(row(0, "4", "")).find("the tray holds 3"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace app

@@ -1,0 +1,75 @@
+#include "app/controls/control.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "app/text/usage_error.h"
+
+namespace app {
+namespace {
+
+TEST(Control, HasOneNameAndOneKeyEach) {
+  std::set<std::string_view> names, keys;
+  for (const ControlMeaning& one : kControls) {
+    EXPECT_EQ(controlNamed(nameOf(one.control)), one.control);
+    EXPECT_TRUE(names.insert(one.name).second) << one.name;
+    EXPECT_TRUE(one.key.empty() || keys.insert(one.key).second) << one.key;
+    EXPECT_FALSE(one.does.empty()) << one.name;
+  }
+  EXPECT_FALSE(controlNamed("Undo"));
+  EXPECT_FALSE(controlNamed(""));
+}
+
+TEST(Control, IsReadAsItIsWritten) {
+  for (const char* text : {"undo", "irrigation", "irrigation:off", "drill:on", "tool", "tool:2", "law:hertz",
+                           "snapshot", "stop", "arm", "home", "end", "layer:canal", "face:30"})
+    EXPECT_EQ(textOf(wishFrom(text)), text);
+  EXPECT_EQ(wishFrom("tool:1").value, 0) << "people count from 1";
+  EXPECT_EQ(wishFrom("law:3"), wishFrom("law:hertz")) << "by its key as well";
+}
+
+TEST(Control, SaysWhatMayStandThere) {
+  const auto refusal = [](const char* text) -> std::string {
+    try {
+      wishFrom(text);
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "taken";
+  };
+  EXPECT_NE(refusal("dril").find("\"dril\": there is no such control, write law, drill, tool"), std::string::npos);
+  EXPECT_NE(refusal("").find("no such control"), std::string::npos);
+  EXPECT_NE(refusal("law").find("after law stands one of agus, "), std::string::npos);
+  EXPECT_NE(refusal("law:0").find("one of agus"), std::string::npos);
+  EXPECT_NE(refusal("law:8").find("one of agus"), std::string::npos);
+  EXPECT_NE(refusal("tool:0").find("number from 1"), std::string::npos);
+  EXPECT_NE(refusal("tool:2x").find("number from 1"), std::string::npos);
+  EXPECT_NE(refusal("undo:2").find("after undo stands nothing"), std::string::npos);
+  EXPECT_NE(refusal("drill:").find(":on, :off"), std::string::npos);
+  EXPECT_NE(refusal("layer:nerve").find("canal"), std::string::npos);
+  EXPECT_NE(refusal("face:101").find("0 to 100"), std::string::npos);
+}
+
+TEST(Control, OfAPedalIsNoWishWhileItDrills) {
+  EXPECT_FALSE(wishOf(haptics::HandAction::drill)) << "that is held";
+  for (const auto action :
+       {haptics::HandAction::irrigation, haptics::HandAction::undo, haptics::HandAction::tool_change}) {
+    const auto wish = wishOf(action);
+    ASSERT_TRUE(wish);
+    EXPECT_EQ(meaningOf(wish->control).also, AlsoBy::hand);
+  }
+}
+
+TEST(Control, EveryKeyStandsInTheHelp) {
+  const std::string help = keyHelp();
+  for (const ControlMeaning& one : kControls)
+    if (!one.key.empty()) {
+      EXPECT_NE(help.find("  " + std::string(one.key) + " "), std::string::npos) << one.key;
+      EXPECT_NE(help.find(one.does), std::string::npos) << one.does;
+    }
+  EXPECT_NE(help.find("drill while held"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace app

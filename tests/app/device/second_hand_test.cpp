@@ -1,0 +1,93 @@
+#include "app/device/second_hand.h"
+
+#include <gtest/gtest.h>
+
+#include "app/text/usage_error.h"
+
+namespace app {
+namespace {
+
+using calibration::Patient;
+using calibration::Point;
+
+/// A jaw of air: where the tooth is, is all that is asked.
+assets::Patient patient(bool right_side) {
+  assets::Patient patient;
+  patient.ct.grid = {glm::ivec3(8), 1.0, glm::dvec3(0.0)};
+  patient.ct.solid.assign(512, 0);
+  patient.ct.label.assign(512, 0);
+  patient.site = {right_side ? 48 : 38, {-27.0, 38.0, -5.0}, {0.0, 0.0, 1.0}};
+  return patient;
+}
+
+calibration::Rig rigAround(const assets::Patient& patient) {
+  calibration::Rig rig = calibration::desktopRig({640, 400});
+  rig.X_WP = {glm::angleAxis(0.8, glm::normalize(glm::dvec3(1, 2, -1))), {5, 4, 3}};
+  rig.X_WP.translation_mm -= (rig.X_WP * Point<Patient>{patient.workplace_P_mm()}).mm;
+  return rig;
+}
+
+constexpr SecondTool kTools[] = {SecondTool::mirror, SecondTool::retractor};
+
+TEST(ScriptedHold, OfALeftToothIsTheMirrorImageOfARightOne) {
+  for (const SecondTool tool : kTools) {
+    const auto right = scriptedHold(tool, true), left = scriptedHold(tool, false);
+    EXPECT_NEAR(glm::dot(right.rotation, right.rotation), 1.0, 1e-12);
+    const glm::dvec3 flip(-1, 1, 1);
+    EXPECT_LT(glm::distance(left.translation_mm, flip * right.translation_mm), 1e-12);
+    // Both instruments are alike on either side of their own plane x = 0.
+    for (const glm::dvec3 axis : {glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)})
+      EXPECT_LT(glm::distance(left.rotation * axis, flip * (right.rotation * axis)), 1e-9);
+  }
+}
+
+TEST(ScriptedHold, LeadsTheHandleOutOfTheMouthTowardsTheViewer) {
+  for (const SecondTool tool : kTools) EXPECT_GT((scriptedHold(tool, true).rotation * glm::dvec3(0, 0, 1)).z, 0.4);
+}
+
+TEST(ScriptedHold, TurnsTheGlassSoThatTheEyeWouldSeeTheToothInIt) {
+  const auto hold = scriptedHold(SecondTool::mirror, true);
+  const glm::dvec3 out = hold.rotation * glm::normalize(glm::dvec3(0, -1, 1)), glass = hold.translation_mm;
+  // From an eye half a metre away to the middle of the glass and on from there.
+  const glm::dvec3 seen = glm::normalize(glm::reflect(glass - glm::dvec3(0, 0, 500), out));
+  EXPECT_GT(glm::dot(-glass, seen), 0.0);
+  EXPECT_LT(glm::length(-glass - glm::dot(-glass, seen) * seen), 4.0) << "past the middle of the tooth";
+}
+
+TEST(SecondHand, HoldsItsInstrumentBesideTheToothWhereverThePatientLies) {
+  for (const bool right_side : {true, false}) {
+    const assets::Patient jaw = patient(right_side);
+    const calibration::Rig rig = rigAround(jaw);
+    SecondHand hand({"scripted", SecondTool::mirror}, {}, jaw, rig, Ticking::by_hand);
+    EXPECT_EQ(hand.name(), "mirror, scripted still hand");
+    render::Frame frame;
+    hand.place(frame);
+    EXPECT_FALSE(frame.second_visible) << "nothing was measured yet";
+    hand.start();
+    hand.stepTo(0.01);
+    hand.place(frame);
+    ASSERT_TRUE(frame.second_visible);
+    const auto X_WO = rig.X_WP * frame.X_PO, hold = scriptedHold(SecondTool::mirror, right_side);
+    EXPECT_LT(glm::distance(X_WO.translation_mm, hold.translation_mm), 1e-9);
+    EXPECT_NEAR(std::abs(glm::dot(X_WO.rotation, hold.rotation)), 1.0, 1e-9);
+    EXPECT_FALSE(hand.takeNews());
+  }
+}
+
+TEST(SecondHand, RefusesWhatCanNotHoldAnInstrument) {
+  for (const char* device : {"mouse", "simulated", "simulated:omni", "nonsense"})
+    EXPECT_THROW(refuseUnlessSecondHand({device, SecondTool::mirror}, "scripted"), UsageError) << device;
+  EXPECT_THROW(refuseUnlessSecondHand({"wooden:1-2", SecondTool::mirror}, "wooden:1-2"), UsageError);
+  for (const char* device : {"", "scripted", "replay:s.molar", "wooden:1-2", "openhaptics:Left"})
+    EXPECT_NO_THROW(refuseUnlessSecondHand({device, SecondTool::retractor}, "wooden:1-3")) << device;
+}
+
+TEST(SecondHand, IsHeldWhereOneLooksWithoutASite) {
+  assets::Patient nowhere = patient(true);
+  nowhere.jaw_P_mm = nowhere.site->centre_P_mm;
+  nowhere.site.reset();
+  EXPECT_NO_THROW(SecondHand({"scripted", SecondTool::mirror}, {}, nowhere, rigAround(nowhere)));
+}
+
+}  // namespace
+}  // namespace app

@@ -1,0 +1,47 @@
+#include "app/instructor/rehearsal_status.h"
+
+#include <gtest/gtest.h>
+
+namespace app {
+namespace {
+
+RehearsalStatus atWork() {
+  RehearsalStatus status;
+  status.tick.state = haptics::SafetyState::active;
+  status.tick.t_s = 12.34;
+  return status;
+}
+
+TEST(RehearsalStatus, LineSaysHowItStands) {
+  const std::string line = statusLine(atWork());
+  EXPECT_EQ(line.find("Molar   12.3 s   agus   force 0.00 N"), 0u) << line;
+  EXPECT_NE(line.find("drill off"), std::string::npos);
+}
+
+TEST(RehearsalStatus, LineIsTheProceduresWhereOneLeads) {
+  RehearsalStatus status = atWork();
+  status.to_surgeon = "trial 2 of at most 40";
+  status.to_instructor = "trial 2, felt: A";
+  EXPECT_EQ(statusLine(status), "Molar   trial 2 of at most 40");
+}
+
+TEST(RehearsalStatus, LineWarnsOfWhatIsNotRecorded) {
+  RehearsalStatus status = atWork();
+  EXPECT_EQ(statusLine(status).find("NOT RECORDING"), std::string::npos);
+  status.recording = RecordingState::ended_early;
+  EXPECT_NE(statusLine(status).find("NOT RECORDING"), std::string::npos);
+}
+
+TEST(RehearsalStatus, SaysWhatTheDrillDoes) {
+  RehearsalStatus status = atWork();
+  EXPECT_STREQ(drillText(status), "drill off");
+  status.command.drill_enabled = false;
+  EXPECT_STREQ(drillText(status), "drill locked");
+  status.tick.drilling = true;
+  EXPECT_STREQ(drillText(status), "drilling");
+  status.command.irrigating = false;
+  EXPECT_STREQ(drillText(status), "drilling dry");
+}
+
+}  // namespace
+}  // namespace app

@@ -1,0 +1,60 @@
+#include "app/options/tool_text.h"
+
+#include <gtest/gtest.h>
+
+#include "app/text/usage_error.h"
+
+namespace app {
+namespace {
+
+using haptics::BurShape;
+using haptics::ShapeKind;
+
+TEST(ToolText, ReadsEveryHead) {
+  EXPECT_EQ(headFrom("sphere:2"), (BurShape{ShapeKind::sphere, 2.0, 0.0}));
+  EXPECT_EQ(headFrom("capsule:0.8,4"), (BurShape{ShapeKind::capsule, 0.8, 4.0}));
+  EXPECT_EQ(headFrom("capsule:0.8,0"), (BurShape{ShapeKind::capsule, 0.8, 0.0}));
+  EXPECT_EQ(headFrom("cylinder:0.6,4.5"), (BurShape{ShapeKind::cylinder, 0.6, 4.5}));
+  EXPECT_EQ(headFrom("cone:1,3"), (BurShape{ShapeKind::cone, 1.0, 3.0}));
+}
+
+TEST(ToolText, WritesWhatItReads) {
+  for (const char* text : {"sphere:2", "capsule:0.8,4", "cylinder:0.6,4.5", "cone:1,3"})
+    EXPECT_EQ(textOf(headFrom(text)), text);
+}
+
+TEST(ToolText, RefusesWhatIsNoHead) {
+  for (const char* bad : {"",           "sphere",      "sphere:",      "sphere:0",      "sphere:-1",      "sphere:nan",
+                          "sphere:99",  "sphere:2,3",  "sphere:2,",    "cone:1",        "cone:1,",        "cone:1,0",
+                          "cone:1,2,3", "cylinder:,4", "cylinder:1;4", "capsule:1,-2",  "capsule:1,inf",  "disc:1,2",
+                          "Sphere:1",   "sphere: 1",   "capsule:1, 2", "cylinder:1,41", "cylinder:0.05,4"})
+    EXPECT_THROW(headFrom(bad), UsageError) << bad;
+}
+
+std::string complaint(const std::string& text) {
+  try {
+    headFrom(text);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ToolText, SaysWhatIsWrongAndWhatMayBe) {
+  EXPECT_NE(complaint("cone:1").find("the length is missing, give cone:R,L in mm"), std::string::npos);
+  EXPECT_NE(complaint("cylinder:99,2").find("the radius is out of range, give 0.1 to 20 mm"), std::string::npos);
+  EXPECT_NE(complaint("capsule:1,99").find("the length is out of range, give 0 to 40 mm"), std::string::npos);
+  EXPECT_NE(complaint("capsule:1,x").find("the length is not a number"), std::string::npos);
+  EXPECT_NE(complaint("disc:1").find("sphere:R, capsule:R,L, cylinder:R,L or cone:R,L"), std::string::npos);
+}
+
+TEST(ToolText, ReadsAShaft) {
+  EXPECT_EQ(shaftFrom("1.175,25").radius_mm, 1.175);
+  EXPECT_EQ(shaftFrom("1.175,25").length_mm, 25.0);
+  EXPECT_EQ(shaftFrom("none").length_mm, 0.0);
+  for (const char* bad : {"", "1", "1,", "0,10", "1,0", "6,10", "1,2,3", "x,1"})
+    EXPECT_THROW(shaftFrom(bad), UsageError) << bad;
+}
+
+}  // namespace
+}  // namespace app

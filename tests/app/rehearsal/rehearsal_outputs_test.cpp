@@ -1,0 +1,40 @@
+#include "app/rehearsal/rehearsal_outputs.h"
+
+#include <gtest/gtest.h>
+
+namespace app {
+namespace {
+
+TEST(RehearsalOutputs, AnswerNoWhereARecordingIsNotWhole) {
+  RehearsalFigures figures;
+  EXPECT_EQ(answerOf(figures), 0) << "none was asked for";
+  figures.recording = RecordingSummary{1000, 0, std::nullopt};
+  EXPECT_EQ(answerOf(figures), 0);
+  figures.recording->lost = 1;
+  EXPECT_EQ(answerOf(figures), 1);
+  figures.recording = RecordingSummary{1000, 0, "the disk is full"};
+  EXPECT_EQ(answerOf(figures), 1);
+}
+
+TEST(RehearsalOutputs, SummaryIsOfTheLastMoment) {
+  RehearsalPlan plan;
+  plan.patient.title = "block of bone";
+  plan.recording = Recording{"s.molar"};
+  RehearsalFigures figures;
+  figures.last = statusOf(plan);
+  figures.last.bur = "sphere:1.5";
+  figures.last.tick.t_s = 11.999;
+  figures.last.tick.dt_s = 0.001;
+  figures.last.quality = "as asked";
+  figures.removed_mm3[1] = 4.0;
+  figures.recording = RecordingSummary{12000, 3, std::nullopt};
+  const std::string text = summaryText(figures);
+  for (const char* line :
+       {"patient          block of bone\n", "bur              sphere:1.5 mm\n", "duration         12.0 s\n",
+        "removed          4.0 mm³\n", "quality: as asked\n", "recorded         12000 ticks, 3 lost\n"})
+    EXPECT_NE(text.find(line), std::string::npos) << line << text;
+  EXPECT_EQ(figures.last.recording_path, "s.molar");
+}
+
+}  // namespace
+}  // namespace app

@@ -1,0 +1,117 @@
+#include "assets/import/tissue_from_grey.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "assets/scan/solid_fraction.h"
+
+namespace {
+
+using assets::Tissue;
+using assets::VolumeGrid;
+
+TEST(TissueFromGrey, GoesByThresholds) {
+  using assets::tissueFromGrey;
+  EXPECT_EQ(tissueFromGrey(2500), Tissue::enamel);
+  EXPECT_EQ(tissueFromGrey(1650), Tissue::dentine);
+  EXPECT_EQ(tissueFromGrey(1250), Tissue::cortical);
+  EXPECT_EQ(tissueFromGrey(420), Tissue::trabecular);
+  EXPECT_EQ(tissueFromGrey(60), Tissue::unlabelled);
+  EXPECT_EQ(tissueFromGrey(-1000), Tissue::unlabelled);
+}
+
+const VolumeGrid kGrid{{48, 48, 48}, 0.3, {0, 0, 0}};
+const glm::dvec3 kMiddle_mm = 0.5 * 0.3 * glm::dvec3(47.0);
+
+/// Balls within one another, each surface blurred in closed form as a scanner does (sd 0.2 mm): outermost first.
+struct Shell {
+  double radius_mm;
+  double hounsfield;
+};
+
+std::vector<std::int16_t> ballsOf(double outside_hu, const std::vector<Shell>& shells) {
+  std::vector<std::int16_t> hounsfield(kGrid.voxelCount());
+  for (int k = 0; k < kGrid.size.z; ++k)
+    for (int j = 0; j < kGrid.size.y; ++j)
+      for (int i = 0; i < kGrid.size.x; ++i) {
+        const double r_mm = glm::distance(kGrid.centre_P_mm({i, j, k}), kMiddle_mm);
+        double grey = outside_hu, around = outside_hu;
+        for (const Shell& shell : shells) {
+          grey += (shell.hounsfield - around) * 0.5 * std::erfc((r_mm - shell.radius_mm) / (0.2 * std::sqrt(2.0)));
+          around = shell.hounsfield;
+        }
+        hounsfield[kGrid.index({i, j, k})] = static_cast<std::int16_t>(std::lround(grey));
+      }
+  return hounsfield;
+}
+
+/// What share of the voxels that are solid and near the surface carries the tissue.
+double shareAtSurface(const std::vector<std::int16_t>& hounsfield, double radius_mm, Tissue tissue,
+                      double deep_mm = 1.0) {
+  const auto label = assets::labelsFromGrey(kGrid, hounsfield);
+  double all = 0.0, right = 0.0;
+  for (int k = 0; k < kGrid.size.z; ++k)
+    for (int j = 0; j < kGrid.size.y; ++j)
+      for (int i = 0; i < kGrid.size.x; ++i) {
+        const std::size_t v = kGrid.index({i, j, k});
+        const double r_mm = glm::distance(kGrid.centre_P_mm({i, j, k}), kMiddle_mm);
+        if (label[v] == 0 || r_mm < radius_mm - deep_mm) continue;
+        all += 1.0;
+        right += Tissue{label[v]} == tissue ? 1.0 : 0.0;
+      }
+  return right / all;
+}
+
+TEST(TissueFromGrey, GivesASurfaceTheTissueBehindIt) {
+  // Towards air and towards soft tissue; by thresholds alone a tenth to a half of these voxels is wrong.
+  for (const double outside_hu : {-1000.0, 60.0}) {
+    EXPECT_EQ(shareAtSurface(ballsOf(outside_hu, {{5.0, 1350.0}}), 5.0, Tissue::cortical), 1.0) << outside_hu;
+    EXPECT_GT(shareAtSurface(ballsOf(outside_hu, {{5.0, 2500.0}}), 5.0, Tissue::enamel), 0.99) << outside_hu;
+    EXPECT_GT(shareAtSurface(ballsOf(outside_hu, {{5.0, 1700.0}}), 5.0, Tissue::dentine), 0.99) << outside_hu;
+    // Cortex of 1.2 mm round marrow.
+    EXPECT_GT(shareAtSurface(ballsOf(outside_hu, {{5.0, 1350.0}, {3.8, 420.0}}), 5.0, Tissue::cortical), 0.99)
+        << outside_hu;
+  }
+  // Bone too thin to reach its full grey wears a cortex all the same.
+  EXPECT_EQ(shareAtSurface(ballsOf(-1000.0, {{5.0, 600.0}}), 5.0, Tissue::cortical, 0.3), 1.0);
+}
+
+TEST(TissueFromGrey, LeavesTrabeculaeBesideMarrowSpacesAlone) {
+  // Struts a voxel wide every fourth voxel, marrow between them.
+  std::vector<std::int16_t> hounsfield(kGrid.voxelCount(), 1350);
+  const auto inside = [](int n) { return n > 8 && n < 40; };
+  for (int k = 0; k < kGrid.size.z; ++k)
+    for (int j = 0; j < kGrid.size.y; ++j)
+      for (int i = 0; i < kGrid.size.x; ++i)
+        if (inside(i) && inside(j) && inside(k))
+          hounsfield[kGrid.index({i, j, k})] = (i % 4 == 0 || j % 4 == 0) ? 500 : 60;
+  const auto label = assets::labelsFromGrey(kGrid, hounsfield);
+  std::size_t struts = 0, kept = 0;
+  for (std::size_t v = 0; v < label.size(); ++v)
+    if (hounsfield[v] == 500) ++struts, kept += Tissue{label[v]} == Tissue::trabecular ? 1 : 0;
+  EXPECT_GT(static_cast<double>(kept) / static_cast<double>(struts), 0.95);
+}
+
+TEST(PartialVoxels, TakeTheLabelOfTheDensestNeighbour) {
+  const auto hounsfield = ballsOf(-1000.0, {{5.0, 2500.0}});
+  const auto solid = assets::classify(kGrid, hounsfield, {});
+  // Labels that end half a voxel too early, as masks drawn by hand do.
+  std::vector<std::uint8_t> label(kGrid.voxelCount(), 0);
+  for (int k = 0; k < kGrid.size.z; ++k)
+    for (int j = 0; j < kGrid.size.y; ++j)
+      for (int i = 0; i < kGrid.size.x; ++i)
+        if (glm::distance(kGrid.centre_P_mm({i, j, k}), kMiddle_mm) < 4.85)
+          label[kGrid.index({i, j, k})] = static_cast<std::uint8_t>(Tissue::enamel);
+  assets::labelPartialVoxels(kGrid, hounsfield, solid, label);
+  std::size_t bare = 0, beyond = 0;
+  for (std::size_t v = 0; v < label.size(); ++v) {
+    bare += solid[v] >= 128 && label[v] == 0 ? 1 : 0;
+    beyond += solid[v] < 128 && label[v] != 0 ? 1 : 0;
+  }
+  EXPECT_EQ(bare, 0u);
+  EXPECT_EQ(beyond, 0u) << "nothing that is not drawn is labelled";
+}
+
+}  // namespace

@@ -1,0 +1,100 @@
+// The small texts that people write and pass on: read, or refused in one line.
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "app/device/pose_csv.h"
+#include "app/options/command_settings.h"
+#include "app/psychophysics/protocol.h"
+#include "app/text/toml_keys.h"
+#include "app/text/usage_error.h"
+#include "assets/load_error.h"
+#include "assets/patient/patient_toml.h"
+#include "assets/scenery/face_placement.h"
+#include "calibration/calibration_error.h"
+#include "calibration/fit/touches_file.h"
+#include "calibration/record/rig_file.h"
+#include "tests/assets/scan_on_disk.h"
+#include "tests/calibration/record/full_record.h"
+#include "tests/fuzz/refusal.h"
+#include "tests/mutants.h"
+
+namespace {
+
+template <class Refusal>
+void judge(const std::string& good, const std::function<void(const std::string&)>& read) {
+  EXPECT_EQ(fuzz::refusalOf<Refusal>([&] { read(good); }), "accepted");
+  std::uint64_t refused = 0;
+  const auto judge_one = [&](const std::string& mutant, std::size_t, std::uint64_t) {
+    refused += fuzz::refusalOf<Refusal>([&] { read(mutant); }) == "accepted" ? 0 : 1;
+  };
+  constexpr std::uint64_t kSmallTextsCost = 10;
+  mutants::forEachMutant({good}, 500, judge_one, kSmallTextsCost);
+  EXPECT_GT(refused, 0u);
+}
+
+template <class Refusal>
+void judgeFile(const std::string& name, const std::string& good,
+               const std::function<void(const std::string& path)>& read) {
+  const on_disk::Folder folder;
+  judge<Refusal>(good, [&](const std::string& text) {
+    on_disk::write(folder.at(name), text);
+    read(folder.at(name));
+  });
+}
+
+TEST(TextMutants, PatientToml) {
+  assets::Patient patient;
+  patient.title = "somebody";
+  patient.site.emplace();
+  patient.mandibular_canal_P_mm = {{1, 2, 3}, {4, 5, 6}};
+  patient.mandibular_canal_radius_mm = 1.1;
+  judge<assets::LoadError>(assets::patientToml(patient),
+                           [](const std::string& text) { assets::patientFromToml(text, "patient.toml"); });
+}
+
+TEST(TextMutants, PoseCsv) {
+  std::string good = "t_s,px_mm,py_mm,pz_mm,qw,qx,qy,qz,drill\n";
+  for (int i = 0; i < 20; ++i) good += std::to_string(0.1 * i) + ",1.5,-2,3e1,1,0,0,0,1\n";
+  judgeFile<app::UsageError>("p.csv", good, [](const std::string& path) { app::readPoses(path); });
+}
+
+TEST(TextMutants, ForceSettingsToml) {
+  const haptics::Command base;
+  judge<app::UsageError>("[law]\nname = \"agus\"\nstiffness_N_per_mm = 0.8\n", [&](const std::string& text) {
+    app::TomlKeys keys(text, "settings.toml");
+    app::commandFromToml(keys, base);
+    keys.refuseRest();
+  });
+}
+
+TEST(TextMutants, ProtocolToml) {
+  judge<app::UsageError>(
+      "participant = \"P07\"\nmethod = \"2afc-constant\"\n[standard]\nlaw = \"agus\"\nstiffness_N_per_mm = "
+      "0.8\n[comparison]\nlaw = \"agus\"\n[vary]\nparameter = \"stiffness_N_per_mm\"\nlevels = [0.6, 0.8, 1.0]\n",
+      [](const std::string& text) { app::protocolFromToml(text, "protocol.toml"); });
+}
+
+TEST(TextMutants, TouchesYaml) {
+  judgeFile<calibration::CalibrationError>(
+      "t.yaml",
+      "%YAML:1.0\n---\ndevice_model: \"omni\"\nobservations:\n  - { id: 3, joints_rad: [0.1, 0.2, -0.3, 0.4, 0.5, "
+      "0.6], p_W_mm: [1, 2.5, -3e1], used: 0 }\n  - { id: 4, joints_rad: [0, 0, 0, 0, 0, 0], p_W_mm: [10., 20., 30.] "
+      "}\n",
+      [](const std::string& path) { calibration::readTouches(path); });
+}
+
+TEST(TextMutants, RigYaml) {
+  judgeFile<calibration::CalibrationError>("rig.yaml", calibration::rigRecordText(calibration::fullRecord()),
+                                           [](const std::string& path) { calibration::readRigRecord(path); });
+}
+
+TEST(TextMutants, TeethJson) {
+  std::string good = "{";
+  for (int tooth = 1; tooth <= 8; ++tooth)
+    good += "\"LR" + std::to_string(tooth) + "\": {\"open_mean_m\": [0.01, -0.02, 0.0" + std::to_string(tooth) + "]}" +
+            (tooth < 8 ? ", " : "}");
+  judgeFile<assets::LoadError>("teeth.json", good, [](const std::string& path) { assets::readFaceTeeth(path); });
+}
+
+}  // namespace

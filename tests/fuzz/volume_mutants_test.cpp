@@ -1,0 +1,79 @@
+// A volume.vdb that was changed and sealed anew: OpenVDB may crash, hang or fill the memory on it, in its own process.
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "assets/load_error.h"
+#include "assets/scan/file_seal.h"
+#include "assets/scan/vdb_file.h"
+#include "assets/scan/volume_reader.h"
+#include "tests/assets/scan_on_disk.h"
+#include "tests/fuzz/refusal.h"
+#include "tests/mutants.h"
+
+namespace {
+
+assets::CtVolume smallVolume() {
+  assets::CtVolume volume;
+  volume.grid = {{24, 17, 20}, 0.4, {1, 2, 3}};
+  for (std::size_t v = 0; v < volume.grid.voxelCount(); ++v) {
+    volume.hounsfield.push_back(static_cast<std::int16_t>(v % 3 == 0 ? -1000 : 17 * v % 2000));
+    volume.label.push_back(static_cast<std::uint8_t>(v % 7));
+    volume.solid.push_back(static_cast<std::uint8_t>(v % 256));
+  }
+  return volume;
+}
+
+/// Within narrower limits than a file of that size has, as some mutants run into them.
+assets::CtVolume readWithinNarrowLimits(const std::string& path) {
+  const int answer = ::memfd_create("answer", MFD_CLOEXEC);
+  const pid_t reader = ::fork();
+  if (reader == 0) assets::serveVolume(path, {600'000'000, 300}, answer);
+  int status = 0;
+  while (::waitpid(reader, &status, 0) < 0) {
+  }
+  try {
+    auto volume = assets::volumeAnswered(answer, status, path);
+    ::close(answer);
+    return volume;
+  } catch (...) {
+    ::close(answer);
+    throw;
+  }
+}
+
+TEST(VolumeMutants, AForgedVolumeIsReadOrRefusedWhateverItDoesToItsReader) {
+  const on_disk::Folder folder;
+  assets::writeVdb(smallVolume(), folder.at("v.vdb"));
+  constexpr std::size_t kSealBytes = 24;
+  const std::string sealed = on_disk::read(folder.at("v.vdb"));
+  std::uint64_t tried = 0, refused = 0;
+  const auto judge = [&](const std::string& mutant, std::size_t, std::uint64_t) {
+    on_disk::write(folder.at("v.vdb"), mutant);
+    assets::seal(folder.at("v.vdb"));
+    const std::string refusal = fuzz::refusalOf<assets::LoadError>([&] {
+      const auto volume = readWithinNarrowLimits(folder.at("v.vdb"));
+      EXPECT_EQ(volume.hounsfield.size(), volume.grid.voxelCount());
+      EXPECT_EQ(volume.solid.size(), volume.grid.voxelCount());
+    });
+    ++tried;
+    refused += refusal == "accepted" ? 0 : 1;
+  };
+  constexpr std::uint64_t kForkCosts = 50;
+  mutants::forEachMutant({sealed.substr(0, sealed.size() - kSealBytes)}, 60, judge, kForkCosts);
+  EXPECT_GT(refused, tried / 4);
+}
+
+TEST(VolumeMutants, AnUnsealedChangeIsAlwaysNoticed) {
+  const on_disk::Folder folder;
+  assets::writeVdb(smallVolume(), folder.at("v.vdb"));
+  const std::string sealed = on_disk::read(folder.at("v.vdb"));
+  mutants::forEachMutant({sealed}, 300, [&](const std::string& mutant, std::size_t, std::uint64_t) {
+    if (mutant == sealed) return;
+    on_disk::write(folder.at("v.vdb"), mutant);
+    EXPECT_NE(fuzz::refusalOf<assets::LoadError>([&] { assets::refuseUnlessSealed(folder.at("v.vdb")); }), "accepted");
+  });
+}
+
+}  // namespace

@@ -1,0 +1,142 @@
+// A hand in numbers that is stepped: twice the same, and as it ticks by itself.
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <string>
+#include <thread>
+#include <tuple>
+#include <vector>
+
+#include "haptics/device/simulated/posed_hand.h"
+#include "haptics/device/simulated/scripted_hand.h"
+#include "haptics/device/simulated/simulated_phantom.h"
+#include "haptics/device/simulated/work_round.h"
+#include "haptics/servo/haptic_loop.h"
+#include "tests/haptics/phantom.h"
+
+namespace haptics {
+namespace {
+
+using namespace phantom;
+
+assets::PlannedCut shortCut() {
+  assets::PlannedCut cut;
+  cut.outward_P = {0.0, 0.0, 1.0};
+  cut.aside_P = {0.0, 1.0, 0.0};
+  cut.length_mm = 6.0;
+  cut.depth_mm = 1.0;
+  return cut;
+}
+
+const CuttingManner kQuickly{.speed_mm_per_s = 20.0, .clearance_mm = 3.0};
+
+std::unique_ptr<DeviceInNumbers> scripted() { return std::make_unique<ScriptedHand>(shortCut(), kQuickly); }
+
+std::unique_ptr<DeviceInNumbers> simulatedTouch() {
+  const PhantomMechanics& touch = *findSimulatedPhantom("touch");
+  const auto rest_DH = touch.rest_DH();
+  const WorkRound round(TroughPath(shortCut(), kQuickly), {rest_DH.translation_mm, rest_DH.rotation, false, 0, true},
+                        {{0.0, 0.0, 40.0}});
+  return std::make_unique<SimulatedPhantom>(touch, [round](double t_s) { return round.at(t_s); });
+}
+
+std::unique_ptr<DeviceInNumbers> posed() {
+  std::vector<TimedHold> holds;
+  for (int n = 0; n < 60; ++n)
+    holds.push_back(
+        {0.1 * n, {glm::angleAxis(0.02 * n, glm::dvec3(0, 1, 0)), {n % 2 - 0.5, 0.0, 3.0 - 0.05 * n}}, n > 10});
+  return std::make_unique<PosedHand>(holds);
+}
+
+struct Hand {
+  const char* name;
+  std::function<std::unique_ptr<DeviceInNumbers>()> make;
+};
+const std::vector<Hand> kHands = {{"scripted", scripted}, {"simulated:touch", simulatedTouch}, {"poses", posed}};
+
+CarvedBone bone() { return halfSpace(7.0, 0.25).bone(1); }
+
+LoopSettings ordinary() {
+  LoopSettings settings;
+  settings.realtime = false;
+  return settings;
+}
+
+std::vector<Tick> stepped(DeviceInNumbers& device, std::uint64_t ticks, std::uint64_t at_once) {
+  CarvedBone block = bone();
+  Servo servo(block);
+  Latest<Command> commands(limitedTo(device.capabilities(), 1000.0, {}));
+  TickLog log(ticks);
+  Latest<Tick> newest;
+  HapticLoop loop(servo, ServedDevice::byHand(device), commands, log, newest, ordinary());
+  loop.start();
+  for (std::uint64_t n = 0; n < ticks; n += at_once) loop.step(std::min(at_once, ticks - n));
+  loop.stop();
+  std::vector<Tick> out;
+  log.drainInto(out);
+  return out;
+}
+
+std::vector<Tick> ticking(DeviceInNumbers& device, std::uint64_t ticks) {
+  CarvedBone block = bone();
+  Servo servo(block);
+  Latest<Command> commands(limitedTo(device.capabilities(), 1000.0, {}));
+  TickLog log(20 * ticks);
+  Latest<Tick> newest;
+  HapticLoop loop(servo, device, commands, log, newest, ordinary());
+  loop.start();
+  // However long a busy machine takes.
+  while (loop.ticks() < ticks) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  loop.stop();
+  std::vector<Tick> out;
+  log.drainInto(out);
+  return out;
+}
+
+/// Every column but the CPU time.
+auto columns(const Tick& t) {
+  return std::tuple(t.index, t.t_s, t.dt_s, t.command_serial, t.hand.X_PT.translation_mm, t.hand.X_PT.rotation,
+                    t.hand.velocity_P_mm_per_s.xyz, t.hand.drill_pedal, t.hand.gap_s, t.hand.motor_heat, t.proxy_P.mm,
+                    t.law_force_P_N.xyz, t.law_torque_P_Nmm.xyz, t.served_force_P_N.xyz, t.served_torque_P_Nmm.xyz,
+                    t.energy_Nmm, t.spindle_rad_per_s, t.overlap_mm3, t.depth_mm, t.removed_mm3, t.bone_digest,
+                    t.contact_tissue, t.drilling, t.rest, t.strokes, t.state, t.faults);
+}
+
+TEST(SteppedHand, MakesTheSameTicksTwiceHoweverManyAtOnce) {
+  for (const Hand& hand : kHands) {
+    SCOPED_TRACE(hand.name);
+    const auto one = hand.make(), other = hand.make();
+    const std::vector<Tick> first = stepped(*one, 5000, 16), second = stepped(*other, 5000, 1);
+    ASSERT_EQ(first.size(), 5000u);
+    ASSERT_EQ(second.size(), 5000u);
+    double removed_mm3 = 0.0;
+    for (std::size_t i = 0; i < first.size(); ++i) {
+      ASSERT_EQ(columns(first[i]), columns(second[i])) << i;
+      ASSERT_EQ(first[i].work_us, 0.0f);
+      removed_mm3 += first[i].removed_mm3;
+    }
+    EXPECT_GT(removed_mm3, 0.1) << "it does something";
+  }
+}
+
+TEST(SteppedHand, TicksAsItDoesByItselfUntilATickIsLate) {
+  for (const Hand& hand : kHands) {
+    SCOPED_TRACE(hand.name);
+    const auto by_hand = hand.make(), by_itself = hand.make();
+    const std::vector<Tick> real = ticking(*by_itself, 600), fast = stepped(*by_hand, real.size(), 16);
+    for (std::size_t i = 0; i < real.size() && real[i].hand.gap_s == 0.0; ++i)
+      ASSERT_EQ(columns(real[i]), columns(fast[i])) << i;
+    // Late or not: the tick is a function of what went in.
+    CarvedBone block = bone();
+    Servo servo(block);
+    const auto same = hand.make();
+    const Command command = limitedTo(same->capabilities(), 1000.0, {});
+    for (const Tick& tick : real) ASSERT_EQ(columns(servo.step(tick.hand, command, tick.dt_s)), columns(tick));
+  }
+}
+
+}  // namespace
+}  // namespace haptics

@@ -1,0 +1,33 @@
+// A clock for the USB that stands until the test moves it: what happens after a while happens when the test says so,
+// and what takes long on a busy machine takes no time.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include "haptics/device/usb/usb_clock.h"
+#include "tests/haptics/usb/simulated_usb.h"
+
+namespace simulated_usb {
+
+class HeldClock {
+ public:
+  haptics::UsbClock clock() const { return {&now_ns_}; }
+  void pass(std::chrono::milliseconds time) { now_ns_.fetch_add(std::chrono::nanoseconds(time).count()); }
+
+  /// After `time`, when whoever serves the bus has looked at it some more times.
+  void passAndSettle(std::chrono::milliseconds time, const Bus& bus) {
+    pass(time);
+    settle(bus);
+  }
+  static void settle(const Bus& bus) {
+    const int seen = bus.looks();
+    while (bus.looks() < seen + 8) std::this_thread::sleep_for(std::chrono::microseconds(200));
+  }
+
+ private:
+  std::atomic<std::int64_t> now_ns_{1'000'000'000};
+};
+
+}  // namespace simulated_usb
