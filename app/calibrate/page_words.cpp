@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
 #include "app/calibrate/page_inks.h"
+#include "app/text/printed.h"
 
 namespace app {
 namespace {
@@ -56,10 +56,8 @@ struct Sheet {
 };
 
 std::string minutes(double seconds) {
-  char text[32];
   const int whole = static_cast<int>(std::ceil(std::clamp(seconds, 0.0, 5999.0) / 5.0)) * 5;
-  std::snprintf(text, sizeof text, "%d:%02d left", whole / 60, whole % 60);
-  return text;
+  return printed("%d:%02d left", whole / 60, whole % 60);
 }
 
 /// "12 of 27 · 1:20 left"

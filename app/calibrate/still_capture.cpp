@@ -1,10 +1,9 @@
 #include "app/calibrate/still_capture.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
+#include "app/text/printed.h"
 #include "calibration/median.h"
 
 namespace app {
@@ -16,12 +15,6 @@ constexpr double kLook_s = 0.02, kMean_s = 0.1, kMedian_s = 0.2;
 constexpr double kGap_s = 0.03;    // a device that was silent for longer was not seen to be still
 constexpr int kLeastSamples = 20;  // in 0.2 s
 constexpr double kLeft_mm = 5.0;
-
-std::string words(const char* format, double number) {
-  std::array<char, 96> text{};
-  std::snprintf(text.data(), text.size(), format, number);
-  return text.data();
-}
 
 double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
 
@@ -134,9 +127,9 @@ std::optional<StillTake> StillCapture::before(double t_s, std::string& why) cons
   if (found.gap || take.samples < kLeastSamples)
     why = "the device sent too little: wait a moment, then press again";
   else if (found.speed_mm_per_s > limits_.speed_mm_per_s)
-    why = words("moving at %.0f mm/s: hold still, then press", found.speed_mm_per_s);
+    why = printed("moving at %.0f mm/s: hold still, then press", found.speed_mm_per_s);
   else if (found.still_s < kMedian_s)
-    why = words("moving by %.2f mm: rest the hand, hold still, then press", std::max(found.sd_mm, limits_.sd_mm));
+    why = printed("moving by %.2f mm: rest the hand, hold still, then press", std::max(found.sd_mm, limits_.sd_mm));
   else
     return take;
   return std::nullopt;

@@ -19,16 +19,16 @@ namespace {
 
 constexpr double kSilence_s = 0.3;
 
-std::vector<StepName> pagesOf(Procedure procedure) {
+std::vector<StepName> pagesOf(CalibrationProcedure procedure) {
   using enum StepName;
   switch (procedure) {
-    case Procedure::full:
+    case CalibrationProcedure::full:
       return {identity, home, flip, length, eyes, collect, fit, eye_check, verify, sign_off};
-    case Procedure::check:
+    case CalibrationProcedure::check:
       return {identity, home, check, rezero, sign_off};
-    case Procedure::rezero:
+    case CalibrationProcedure::rezero:
       return {identity, home, rezero, check, sign_off};
-    case Procedure::rest:
+    case CalibrationProcedure::rest:
       return {identity, home, rest, sign_off};
   }
   return {};
@@ -36,7 +36,7 @@ std::vector<StepName> pagesOf(Procedure procedure) {
 
 /// The device as it is believed to stand before anything is measured.
 calibration::MeasuredArm armOf(const WizardPlan& plan) {
-  if (plan.procedure != Procedure::full)
+  if (plan.procedure != CalibrationProcedure::full)
     if (const auto measured = calibration::measuredArm(plan.record.rig)) return *measured;
   const calibration::PhantomModel* const model = calibration::findPhantomModel(plan.device.model);
   if (model == nullptr)
@@ -80,12 +80,12 @@ std::unique_ptr<WizardStep> makeStep(StepName name, WizardBook& book) {
 }
 
 Wizard::Wizard(WizardPlan plan) {
-  if (plan.procedure == Procedure::full && !calibration::targetPlan(plan.method, plan.jig))
+  if (plan.procedure == CalibrationProcedure::full && !calibration::targetPlan(plan.method, plan.jig))
     throw calibration::CalibrationError("calibration: no method \"" + plan.method +
                                         "\": use one of jig27, jig8, visual15, visual25");
   book_.plan = std::move(plan);
   book_.arm = armOf(book_.plan);
-  book_.arm_is_measured = book_.plan.procedure != Procedure::full && book_.plan.record.rig.arm.has_value();
+  book_.arm_is_measured = book_.plan.procedure != CalibrationProcedure::full && book_.plan.record.rig.arm.has_value();
   for (const StepName name : pagesOf(book_.plan.procedure)) steps_.emplace_back(name, makeStep(name, book_));
   turnTo(0);
 }

@@ -9,7 +9,7 @@
 
 namespace app {
 
-enum class Procedure {
+enum class CalibrationProcedure {
   full,    ///< everything: 8 minutes
   check,   ///< 4 touches; what is not green is brought up to date with 5 more and checked again
   rezero,  ///< 5 touches, then the check
@@ -17,7 +17,7 @@ enum class Procedure {
 };
 
 struct WizardPlan {
-  Procedure procedure = Procedure::full;
+  CalibrationProcedure procedure = CalibrationProcedure::full;
   std::string method = "jig27";  ///< of the full one: jig27, jig8, visual15, visual25
   calibration::JigPose jig;
   calibration::RigRecord record;          ///< as it is; its rig says where screen, eyes and device are believed to be

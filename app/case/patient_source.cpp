@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "app/text/printed.h"
 #include "assets/load_error.h"
 #include "assets/mesh/gltf_file.h"
 #include "assets/patient/patient_folder.h"
@@ -25,11 +26,9 @@ fs::path cacheFolder() {
 }
 
 std::string cacheName(const assets::JawParameters& p) {
-  char name[160];
-  std::snprintf(name, sizeof name, "built-in-%d-%s-%g-%g-%g-%g-%llu", assets::kSyntheticPatientRevision,
-                p.right_side ? "right" : "left", p.winter_angle_deg, p.depth_mm, p.mandibular_canal_distance_mm,
-                p.spacing_mm, static_cast<unsigned long long>(p.seed));
-  return name;
+  return printed("built-in-%d-%s-%g-%g-%g-%g-%llu", assets::kSyntheticPatientRevision, p.right_side ? "right" : "left",
+                 p.winter_angle_deg, p.depth_mm, p.mandibular_canal_distance_mm, p.spacing_mm,
+                 static_cast<unsigned long long>(p.seed));
 }
 
 assets::Patient generate(const assets::JawParameters& parameters) {

@@ -97,7 +97,7 @@ void printTable(const std::vector<const haptics::LawName*>& laws) {
 std::string numberOf(double value) { return numberText(std::round(1e4 * value) / 1e4); }
 
 void plot(const LawsOptions& options, const std::vector<const haptics::LawName*>& laws) {
-  Press press;
+  PressedBur press;
   press.head = headFrom(options.tool);
   press.deepest_mm = press.head.radius_mm;
   assets::OutputFile file(options.plot, options.force);

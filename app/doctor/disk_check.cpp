@@ -31,7 +31,7 @@ DiskFacts lookAtDisk(const std::filesystem::path& folder) {
   const std::filesystem::space_info space = std::filesystem::space(folder, error);
   if (error) return facts;
   facts.free_MB = static_cast<double>(space.available) / kMB;
-  std::string name = (folder / ".molar-doctor-XXXXXX").string();
+  std::string name = (folder / ".molar-doctor-").string() + std::string(6, 'X');
   const int file = mkostemp(name.data(), O_CLOEXEC);
   if (file < 0) return facts;
   unlink(name.c_str());

@@ -1,8 +1,7 @@
 #include "app/instructor/rehearsal_status.h"
 
-#include <cstdio>
-
 #include "app/options/law_text.h"
+#include "app/text/printed.h"
 
 namespace app {
 
@@ -17,18 +16,16 @@ const char* drillText(const RehearsalStatus& status) {
 
 std::string statusLine(const RehearsalStatus& s) {
   if (!s.to_surgeon.empty()) return "Molar   " + s.to_surgeon;
-  char text[320];
-  std::snprintf(text, sizeof text,
-                "Molar   %.1f s   %s   force %.2f N   depth %.2f mm   %s   servo p99 %.0f µs   %.0f pictures/s, %s   "
-                "motion to photon %.0f ms",
-                s.tick.t_s, lawName(s.command.law.kind).c_str(), glm::length(s.tick.served_force_P_N.xyz),
-                s.tick.depth_mm, drillText(s), s.servo.work_p99_us, s.pictures_per_s, s.quality.c_str(),
-                s.latency.total_ms());
+  const std::string text = printed(
+      "Molar   %.1f s   %s   force %.2f N   depth %.2f mm   %s   servo p99 %.0f µs   %.0f pictures/s, %s   "
+      "motion to photon %.0f ms",
+      s.tick.t_s, lawName(s.command.law.kind).c_str(), glm::length(s.tick.served_force_P_N.xyz), s.tick.depth_mm,
+      drillText(s), s.servo.work_p99_us, s.pictures_per_s, s.quality.c_str(), s.latency.total_ms());
   if (s.tick.state != haptics::SafetyState::active) {
     const haptics::StateWords& words = haptics::wordsOf(s.tick.state);
     return "Molar   " + std::string(words.what) + " " + std::string(words.next);
   }
-  return s.recording == RecordingState::ended_early ? std::string(text) + "   NOT RECORDING" : std::string(text);
+  return s.recording == RecordingState::ended_early ? text + "   NOT RECORDING" : text;
 }
 
 }  // namespace app

@@ -1,11 +1,11 @@
 #include "app/options/command_settings.h"
 
 #include <cmath>
-#include <cstdio>
 
 #include "app/options/erosion_text.h"
 #include "app/options/law_text.h"
 #include "app/options/tool_text.h"
+#include "app/text/printed.h"
 #include "app/text/toml_keys.h"
 #include "app/text/usage_error.h"
 #include "haptics/contact/law_limits.h"
@@ -119,15 +119,12 @@ void refuseUnlessHeld(const haptics::Command& command, double device_damping_Ns_
   if (admission.answer != haptics::Admission::Answer::too_stiff) return;
   // Rounded down, so that what is advised is allowed.
   const double nearest = std::floor(1000.0 * admission.nearest) / 1000.0;
-  char text[320];
-  std::snprintf(
-      text, sizeof text,
+  throw UsageError(printed(
       "law %s: with %s it is up to %.3g N/mm stiff, at %g Hz the device holds %.3g N/mm (2b/T): lower %s to %g %s"
       " or raise --rate",
       lawName(command.law.kind).c_str(), textOf(command.tool.head).c_str(), admission.slope_N_per_mm, rate_Hz, most,
       admission.lower ? std::string(admission.lower->key).c_str() : "its gain", nearest,
-      admission.lower ? std::string(admission.lower->unit).c_str() : "");
-  throw UsageError(text);
+      admission.lower ? std::string(admission.lower->unit).c_str() : ""));
 }
 
 haptics::Command loweredUntilHeld(haptics::Command command, double device_damping_Ns_per_mm, double rate_Hz) {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "app/options/law_text.h"
 #include "app/psychophysics/trial_table.h"
+#include "app/text/printed.h"
 
 namespace app {
 namespace {
@@ -13,11 +13,7 @@ namespace {
 constexpr int kAnswers = 0, kFit = 1;
 constexpr int kCurveSteps = 200, kFewest = 3;
 
-std::string shortNumber(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
+std::string shortNumber(double value) { return printed("%.3g", value); }
 
 std::string valueLabel(const Protocol& protocol) {
   return "comparison " + protocol.parameter.substr(0, protocol.parameter.find('_')) +

@@ -7,6 +7,7 @@
 
 #include "app/options/law_text.h"
 #include "app/psychophysics/trial_table.h"
+#include "app/text/printed.h"
 #include "app/text/toml_keys.h"
 
 namespace app {
@@ -158,11 +159,7 @@ std::string summaryJson(const Protocol& protocol, const Outcome& outcome, std::u
 }
 
 std::string summaryWords(const Protocol& protocol, const Outcome& outcome) {
-  const auto number = [](double v) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", v);
-    return std::string(text);
-  };
+  const auto number = [](double v) { return printed("%.4g", v); };
   const std::string unit = protocol.unit.empty() ? "" : " " + protocol.unit;
   std::string text = "Psychophysics, participant " + protocol.participant + "\n  trials           " +
                      std::to_string(outcome.trials.size()) + (outcome.complete ? "" : ", ended early") + "\n";

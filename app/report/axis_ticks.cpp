@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "app/text/printed.h"
 
 namespace app {
 
@@ -25,10 +26,9 @@ AxisTicks axisTicks(double low, double high, int wanted, bool whole) {
 
 std::string AxisTicks::text(double value) const {
   const int digits = std::clamp(static_cast<int>(-std::floor(std::log10(step) + 1e-9)), 0, 9);
-  char text[48];
-  std::snprintf(text, sizeof text, "%.*f", digits, value);
+  const std::string text = printed("%.*f", digits, value);
   // A true minus, as in print.
-  return text[0] == '-' ? "\u2212" + std::string(text + 1) : std::string(text);
+  return text[0] == '-' ? "\u2212" + text.substr(1) : text;
 }
 
 }  // namespace app

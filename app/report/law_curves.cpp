@@ -17,7 +17,7 @@ constexpr double kVoxelsPerRadius = 16.0, kFinest_mm = 0.03, kCoarsest_mm = 0.2;
 constexpr double kFaceInLayer = 0.2113248654;
 
 /// Solid below z = 0, room for the head to go in.
-haptics::CarvedBone flatBone(const Press& press) {
+haptics::CarvedBone flatBone(const PressedBur& press) {
   const double s = std::clamp(press.head.radius_mm / kVoxelsPerRadius, kFinest_mm, kCoarsest_mm);
   const double half_mm = press.head.radius_mm + 3.0 * s, depth_mm = press.deepest_mm + 4.0 * s;
   const int across = static_cast<int>(std::ceil(2.0 * half_mm / s)), down = static_cast<int>(std::ceil(depth_mm / s));
@@ -36,7 +36,7 @@ haptics::CarvedBone flatBone(const Press& press) {
 
 }  // namespace
 
-LawCurve lawCurve(const haptics::LawSettings& law, const Press& press) {
+LawCurve lawCurve(const haptics::LawSettings& law, const PressedBur& press) {
   const haptics::CarvedBone bone = flatBone(press);
   LawCurve curve;
   curve.law = law.kind;

@@ -16,12 +16,12 @@ struct LawCurve {
   std::vector<glm::dvec2> stiffness_N_per_mm;  ///< depth, dF/dh
 };
 
-struct Press {
+struct PressedBur {
   haptics::BurShape head;
   double deepest_mm = 1.0;
   double spindle_rpm = 40000.0, feed_mm_per_s = 1.0;  ///< what the machining law goes by
 };
 
-LawCurve lawCurve(const haptics::LawSettings& law, const Press& press);
+LawCurve lawCurve(const haptics::LawSettings& law, const PressedBur& press);
 
 }  // namespace app

@@ -2,10 +2,10 @@
 
 #include <bit>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "app/session/session_error.h"
+#include "app/text/printed.h"
 #include "haptics/servo/servo.h"
 
 namespace app {
@@ -142,13 +142,11 @@ SessionError damagedFile(const std::string& path, const std::string& damage) {
 }
 
 std::string departureWords(const ReplayedMoment& moment) {
-  char text[320];
-  std::snprintf(text, sizeof text,
-                "the re-run departs from the recording at tick %llu (%s): its bone has lost %.3f mm³ %s than the "
-                "recorded one; the version that recorded it brings back the very one",
-                static_cast<unsigned long long>(moment.departure->tick), moment.departure->what.c_str(),
-                std::abs(moment.removed_otherwise_mm3), moment.removed_otherwise_mm3 < 0.0 ? "less" : "more");
-  return text;
+  return printed(
+      "the re-run departs from the recording at tick %llu (%s): its bone has lost %.3f mm³ %s than the "
+      "recorded one; the version that recorded it brings back the very one",
+      static_cast<unsigned long long>(moment.departure->tick), moment.departure->what.c_str(),
+      std::abs(moment.removed_otherwise_mm3), moment.removed_otherwise_mm3 < 0.0 ? "less" : "more");
 }
 
 }  // namespace
@@ -157,29 +155,25 @@ std::string_view thisVersion() { return MOLAR_VERSION; }
 
 std::string ReplayReport::line() const {
   if (damage) return "NOT verified: the file was changed: " + *damage;
-  char figures[96];
-  std::snprintf(figures, sizeof figures, "%llu ticks, %.3f s", static_cast<unsigned long long>(ticks), duration_s);
+  const std::string figures = printed("%llu ticks, %.3f s", static_cast<unsigned long long>(ticks), duration_s);
   std::string ended;
   if (lost > 0) ended += "; " + std::to_string(lost) + " ticks were lost";
   if (!closed) ended += "; the recording ended early (killed, or the disk was full) and is whole up to there";
   if (unsealed) ended += "; its closing seal is missing, as after a power cut: every row was checked instead";
   if (missing_log)
-    return std::string("NOT verified: ") + figures +
-           "; it was being recorded when its program was killed, and its log " + *missing_log +
-           " is not beside it: copy both files";
+    return "NOT verified: " + figures + "; it was being recorded when its program was killed, and its log " +
+           *missing_log + " is not beside it: copy both files";
   if (difference) {
     return "NOT verified: at tick " + std::to_string(difference->tick) + " " + difference->what + " (of " + figures +
            ")" + ended;
   }
   if (other_version)
-    return (lost > 0 ? "NOT verified: " : "checksums right: ") + std::string(figures) +
-           "; recorded by another version (" + *other_version + ", this is " + std::string(thisVersion()) +
+    return (lost > 0 ? "NOT verified: " : "checksums right: ") + figures + "; recorded by another version (" +
+           *other_version + ", this is " + std::string(thisVersion()) +
            "): numbers are read, the re-run is not comparable" + ended;
-  if (!verified()) return std::string("NOT verified: ") + figures + ", all of them bit-identical" + ended;
-  char digest[17];
-  std::snprintf(digest, sizeof digest, "%016llx", static_cast<unsigned long long>(bone_digest));
-  return std::string("verified: ") + figures + ", every force and the final bone (" + digest + ") bit-identical" +
-         ended;
+  if (!verified()) return "NOT verified: " + figures + ", all of them bit-identical" + ended;
+  const std::string digest = printed("%016llx", static_cast<unsigned long long>(bone_digest));
+  return "verified: " + figures + ", every force and the final bone (" + digest + ") bit-identical" + ended;
 }
 
 ReplayReport verify(const std::string& path) {

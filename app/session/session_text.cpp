@@ -1,12 +1,12 @@
 #include "app/session/session_text.h"
 
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 
 #include <nlohmann/json.hpp>
 
 #include "app/session/session_error.h"
+#include "app/text/printed.h"
 #include "assets/tissue.h"
 
 namespace app {
@@ -173,11 +173,7 @@ SessionAbout aboutFromText(std::string_view text) {
 
 std::string sealText(const SessionEnd& end) {
   json object = {{"ticks", end.ticks}, {"lost", end.lost}};
-  if (end.bone_digest) {
-    char digest[17];
-    std::snprintf(digest, sizeof digest, "%016llx", static_cast<unsigned long long>(*end.bone_digest));
-    object["bone_digest"] = digest;
-  }
+  if (end.bone_digest) object["bone_digest"] = printed("%016llx", static_cast<unsigned long long>(*end.bone_digest));
   return dumped(object);
 }
 

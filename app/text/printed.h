@@ -1,19 +1,10 @@
-// printf into a string of at most 255 bytes: one line of a summary or a panel. Any thread.
+// printf into a string, as long as it becomes: a line of a summary or a panel. Any thread.
 #pragma once
 
-#include <cstdarg>
-#include <cstdio>
 #include <string>
 
 namespace app {
 
-[[gnu::format(printf, 1, 2)]] inline std::string printed(const char* format, ...) {
-  char text[256];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  return text;
-}
+[[gnu::format(printf, 1, 2)]] std::string printed(const char* format, ...);
 
 }  // namespace app

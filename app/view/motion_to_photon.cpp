@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "app/text/printed.h"
 
 namespace app {
 namespace {
@@ -38,11 +39,8 @@ PhotonEstimate MotionToPhoton::percentile(double share) const {
 }
 
 std::string photonText(const PhotonEstimate& e) {
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "motion to photon %.0f ms (pose to swap %.1f, servo %.1f, blank %.1f, scan-out %.1f)", e.total_ms(),
-                e.pose_to_swap_ms, e.servo_ms, e.blank_ms, e.scan_out_ms);
-  return text;
+  return printed("motion to photon %.0f ms (pose to swap %.1f, servo %.1f, blank %.1f, scan-out %.1f)", e.total_ms(),
+                 e.pose_to_swap_ms, e.servo_ms, e.blank_ms, e.scan_out_ms);
 }
 
 }  // namespace app

@@ -12,10 +12,10 @@ LivePictures::LivePictures(std::string name, const std::function<std::unique_ptr
                            const Patience& patience)
     : name_(std::move(name)), patience_(patience), thread_([this, open] { run(open); }) {
   std::unique_lock lock(mutex_);
-  const bool answered = changed_.wait_for(lock, patience_.open, [&] { return opened_ || ended_; });
+  changed_.wait_for(lock, patience_.open, [&] { return opened_ || ended_; });
   if (opened_) return;  // gone since then: take() says so
   // A constructor that throws has no destructor.
-  const std::string why = answered ? trouble_ : name_ + ": it does not answer, unplug it and plug it in again";
+  const std::string why = !trouble_.empty() ? trouble_ : name_ + ": it does not answer, unplug it and plug it in again";
   stop_ = true;
   lock.unlock();
   thread_.join();
@@ -49,6 +49,8 @@ void LivePictures::run(const std::function<std::unique_ptr<FrameGiver>()>& open)
     giver = open();
   } catch (const CalibrationError& error) {
     trouble = error.what();
+  } catch (const std::exception&) {
+    // Of a driver or of memory, in words for nobody: it does not answer.
   }
   std::unique_lock lock(mutex_);
   opened_ = giver != nullptr;

@@ -26,7 +26,7 @@ const std::string kWhole = kFolder + "/whole/libHD.so.3.5";
 class Surroundings {
  public:
   Surroundings() {
-    std::string pattern = (fs::temp_directory_path() / "molar_hd_XXXXXX").string();
+    std::string pattern = (fs::temp_directory_path() / "molar_hd_").string() + std::string(6, 'X');
     folder_ = mkdtemp(pattern.data());
     set("GTDD_HOME", folder_.string());
     for (const char* name : {"MOLAR_OPENHAPTICS", "OH_SDK_BASE"}) unsetenv(name);

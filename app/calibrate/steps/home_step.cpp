@@ -49,7 +49,7 @@ StepAnswer HomeStep::feel(const StylusSample& sample, Press press, double) {
         settled_s_ += passed_s;
         since_s_ = sample.t_s;
       }
-      if (settled_s_ < book_.plan.settle_s && book_.plan.procedure == Procedure::full) return {};
+      if (settled_s_ < book_.plan.settle_s && book_.plan.procedure == CalibrationProcedure::full) return {};
       phase_ = Phase::take_out;
       if (sample.docked) book_.voice.sounds.push_back(WizardSound::next);
       return {};

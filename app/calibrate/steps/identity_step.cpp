@@ -25,7 +25,7 @@ std::string whyNotBuiltOn(const calibration::Rig& rig, const calibration::RigDev
 void IdentityStep::begin() { menu_ = ChoiceMenu({"all of it is right", "something is wrong"}); }
 
 StepAnswer IdentityStep::feel(const StylusSample&, Press press, double) {
-  if (book_.plan.procedure != Procedure::full)
+  if (book_.plan.procedure != CalibrationProcedure::full)
     if (std::string why = whyNotBuiltOn(book_.plan.record.rig, book_.plan.device); !why.empty())
       return StepAnswer::refused(std::move(why));
   const auto chosen = menu_.feel(press);

@@ -22,7 +22,7 @@ std::string signedMm(double length_mm) { return (length_mm > 0.0 ? "+" : "") + i
 }  // namespace
 
 calibration::Verdict SignOffStep::verdict() const {
-  if (book_.plan.procedure != Procedure::rest)
+  if (book_.plan.procedure != CalibrationProcedure::rest)
     return book_.outcome.judgement ? book_.outcome.judgement->verdict : calibration::Verdict::red;
   const auto& rest = book_.outcome.rest;
   if (!rest) return calibration::Verdict::red;
@@ -42,7 +42,7 @@ void SignOffStep::begin() {
   if (may) add(Choice::take, changes ? "take it" : "done");
   add(Choice::numbers, "the numbers");
   // Nothing is mended by doing a short check once more: what is red after a re-zero wants all of it.
-  if (book_.plan.procedure == Procedure::full || book_.plan.procedure == Procedure::rest)
+  if (book_.plan.procedure == CalibrationProcedure::full || book_.plan.procedure == CalibrationProcedure::rest)
     add(Choice::repeat, "touch all again");
   if (changes || !may) add(Choice::leave, "leave; the old calibration stays");
   menu_ = ChoiceMenu(words);
@@ -64,7 +64,7 @@ StepAnswer SignOffStep::feel(const StylusSample&, Press press, double) {
       second_page_ = true;
       return {};
     case Choice::repeat:
-      return StepAnswer::goTo(book_.plan.procedure == Procedure::rest ? StepName::rest : StepName::collect);
+      return StepAnswer::goTo(book_.plan.procedure == CalibrationProcedure::rest ? StepName::rest : StepName::collect);
     case Choice::leave:
       return verdict() == calibration::Verdict::red ? StepAnswer::refused(sentence()) : StepAnswer::declined();
   }
@@ -73,7 +73,7 @@ StepAnswer SignOffStep::feel(const StylusSample&, Press press, double) {
 
 std::string SignOffStep::sentence() const {
   std::string said = judgedAs(verdict());
-  if (book_.plan.procedure == Procedure::rest && book_.outcome.rest)
+  if (book_.plan.procedure == CalibrationProcedure::rest && book_.outcome.rest)
     return said + ": the rest is known within " + inMm(book_.outcome.rest->worst_mm) +
            (verdict() == calibration::Verdict::green ? "." : "; the hand would feel it: touch its marks again.");
   if (!book_.outcome.judgement) return said + ".";
@@ -81,8 +81,9 @@ std::string SignOffStep::sentence() const {
   said += ": " + calibration::worstPlaceSentence(book_.outcome.proof_residuals, {});
   if (verdict() != calibration::Verdict::green) said += " (" + book_.outcome.judgement->reason + ")";
   if (verdict() == calibration::Verdict::red)
-    said += book_.plan.procedure == Procedure::full ? "; the old calibration stays"
-                                                    : "; calibrate it in full, and have arm and base looked at";
+    said += book_.plan.procedure == CalibrationProcedure::full
+                ? "; the old calibration stays"
+                : "; calibrate it in full, and have arm and base looked at";
   return said + ".";
 }
 

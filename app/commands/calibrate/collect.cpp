@@ -73,8 +73,9 @@ int collect(const CollectOptions& asked) {
     observations = std::make_unique<assets::OutputFile>(options.observations, options.keep.force);
 
   if (webcam) return collectByWebcam(options, observations.get());
-  const WizardOption::Led led = options.wizard.lead(rest ? Procedure::rest : Procedure::full, options.method,
-                                                    options.rig, options.keep.rigs(), options.measuring);
+  const WizardOption::Led led =
+      options.wizard.lead(rest ? CalibrationProcedure::rest : CalibrationProcedure::full, options.method, options.rig,
+                          options.keep.rigs(), options.measuring);
   if (observations && !led.outcome.touches.touches.empty()) {
     writeText(*observations, touchesText(led.outcome.touches));
   }

@@ -27,7 +27,8 @@ struct ProveOptions {
 /// At the workstation, which is brought up to date at once where it has to be.
 int checkWithDevice(const ProveOptions& asked) {
   ProveOptions options = asked;
-  const auto led = options.wizard.lead(Procedure::check, "check4", options.rig, options.keep.rigs(), options.measuring);
+  const auto led =
+      options.wizard.lead(CalibrationProcedure::check, "check4", options.rig, options.keep.rigs(), options.measuring);
   return concluded(led, options.measuring, options.keep);
 }
 

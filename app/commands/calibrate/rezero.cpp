@@ -26,7 +26,7 @@ struct RezeroOptions {
 int rezeroWithDevice(const RezeroOptions& asked) {
   RezeroOptions options = asked;
   const auto led =
-      options.wizard.lead(Procedure::rezero, "rezero5", options.rig, options.keep.rigs(), options.measuring);
+      options.wizard.lead(CalibrationProcedure::rezero, "rezero5", options.rig, options.keep.rigs(), options.measuring);
   return concluded(led, options.measuring, options.keep);
 }
 

@@ -96,7 +96,7 @@ RigRecord WizardOption::before(const Stylus& stylus, const std::string& rig, con
   return record;
 }
 
-WizardOption::Led WizardOption::lead(Procedure procedure, const std::string& method, const std::string& rig,
+WizardOption::Led WizardOption::lead(CalibrationProcedure procedure, const std::string& method, const std::string& rig,
                                      const RigStore& store, Measuring& measuring) const {
   const Stylus held = stylus(measuring);
   WizardRun run;

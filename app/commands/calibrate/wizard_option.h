@@ -36,8 +36,8 @@ class WizardOption {
   };
   /// Leads through touches. `rig`: named by the user, or empty: the current one of this device in the store, else the
   /// mirrored workstation. Fills `measuring` with what the device says of itself. Throws as runWizard, readRigRecord.
-  Led lead(Procedure procedure, const std::string& method, const std::string& rig, const calibration::RigStore& store,
-           Measuring& measuring) const;
+  Led lead(CalibrationProcedure procedure, const std::string& method, const std::string& rig,
+           const calibration::RigStore& store, Measuring& measuring) const;
 
   struct Seen {
     calibration::RigRecord before;

@@ -17,7 +17,7 @@ namespace {
 using calibration::Scenario;
 
 /// Practice without a window, by a robot in a hurry.
-WizardRun practice(Procedure procedure, const std::string& method, std::uint32_t seed) {
+WizardRun practice(CalibrationProcedure procedure, const std::string& method, std::uint32_t seed) {
   WizardRun run;
   run.practice = calibration::syntheticRig(Scenario::d, seed);
   run.practice->habits.outlier_share = 0.0;  // no touch slips
@@ -42,7 +42,7 @@ class Folder {
 };
 
 TEST(WizardShow, ARobotWithoutAWindowComesToAGoodCalibration) {
-  const WizardOutcome outcome = runWizard(practice(Procedure::full, "jig27", 7));
+  const WizardOutcome outcome = runWizard(practice(CalibrationProcedure::full, "jig27", 7));
   ASSERT_EQ(outcome.end, WizardOutcome::End::accepted) << outcome.reason;
   ASSERT_TRUE(outcome.errors);
   EXPECT_LT(outcome.errors->rms_mm, 0.5);
@@ -51,7 +51,7 @@ TEST(WizardShow, ARobotWithoutAWindowComesToAGoodCalibration) {
 
 TEST(WizardShow, EveryPageIsAPictureOnce) {
   const Folder folder;
-  WizardRun run = practice(Procedure::full, "jig8", 3);
+  WizardRun run = practice(CalibrationProcedure::full, "jig8", 3);
   run.pages = folder.path;
   run.plan.record.rig.screen.px = {480, 270};
   runWizard(run);
@@ -63,7 +63,7 @@ TEST(WizardShow, EveryPageIsAPictureOnce) {
 }
 
 TEST(WizardShow, WhoeverGivesUpLeavesEverythingAsItWas) {
-  WizardRun run = practice(Procedure::full, "jig27", 7);
+  WizardRun run = practice(CalibrationProcedure::full, "jig27", 7);
   int turns = 0;
   run.given_up = [&] { return ++turns > 200; };
   const WizardOutcome outcome = runWizard(run);
@@ -72,7 +72,7 @@ TEST(WizardShow, WhoeverGivesUpLeavesEverythingAsItWas) {
 }
 
 TEST(WizardShow, WithoutAWindowOnlyARobotMayBeLedThroughIt) {
-  WizardRun run = practice(Procedure::full, "jig27", 7);
+  WizardRun run = practice(CalibrationProcedure::full, "jig27", 7);
   run.robot.reset();
   EXPECT_THROW(runWizard(run), UsageError);
   run.practice.reset();

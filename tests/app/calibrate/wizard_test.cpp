@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tests/app/calibrate/wizard_run.h"
+#include "tests/app/calibrate/robot_run.h"
 
 namespace {
 
@@ -21,7 +21,7 @@ SyntheticRig rigOf(Scenario scenario, std::uint32_t seed) {
 }
 
 struct Finished {
-  WizardRun run;
+  RobotRun run;
   WizardOutcome outcome;
   calibration::RigRecord record;
 };
@@ -37,14 +37,14 @@ Finished calibrated(const SyntheticRig& rig, const WizardPlan& plan, const Techn
 
 /// A rig that was calibrated with the jig.
 calibration::RigRecord calibratedRecord(const SyntheticRig& rig) {
-  return calibrated(rig, planFor(rig, Procedure::full)).record;
+  return calibrated(rig, planFor(rig, CalibrationProcedure::full)).record;
 }
 
 TEST(Wizard, CalibratesTypicalArmsWithTheJigInUnderEightMinutes) {
   for (const Scenario scenario : {Scenario::a, Scenario::b, Scenario::c, Scenario::d})
     for (std::uint32_t seed = 1; seed <= 3; ++seed) {
       const SyntheticRig rig = rigOf(scenario, seed);
-      const Finished done = calibrated(rig, planFor(rig, Procedure::full));
+      const Finished done = calibrated(rig, planFor(rig, CalibrationProcedure::full));
       ASSERT_EQ(done.outcome.end, End::accepted) << static_cast<char>(scenario) << seed << done.outcome.reason;
       EXPECT_EQ(done.outcome.judgement->verdict, Verdict::green) << done.outcome.judgement->reason;
       EXPECT_LT(trueError_mm(rig, *done.outcome.arm), 0.35);
@@ -58,7 +58,7 @@ TEST(Wizard, CalibratesTypicalArmsWithTheJigInUnderEightMinutes) {
 TEST(Wizard, CallsAnArmThatNoModelExplainsUsableAtMost) {
   for (std::uint32_t seed = 1; seed <= 3; ++seed) {
     const SyntheticRig rig = rigOf(Scenario::g, seed);
-    const Finished done = calibrated(rig, planFor(rig, Procedure::full));
+    const Finished done = calibrated(rig, planFor(rig, CalibrationProcedure::full));
     ASSERT_TRUE(done.outcome.judgement);
     EXPECT_NE(done.outcome.judgement->verdict, Verdict::green) << seed;
     EXPECT_EQ(done.outcome.end, done.outcome.judgement->verdict == Verdict::amber ? End::accepted : End::refused);
@@ -68,7 +68,7 @@ TEST(Wizard, CallsAnArmThatNoModelExplainsUsableAtMost) {
 TEST(Wizard, CalibratesByEyesAloneAndSaysWhatItIsWorth) {
   for (std::uint32_t seed = 1; seed <= 3; ++seed) {
     const SyntheticRig rig = rigOf(Scenario::f, seed);
-    const Finished done = calibrated(rig, planFor(rig, Procedure::full, "visual25"));
+    const Finished done = calibrated(rig, planFor(rig, CalibrationProcedure::full, "visual25"));
     ASSERT_EQ(done.outcome.end, End::accepted) << done.outcome.reason;
     // Touches by eye prove no better than the eye aims.
     EXPECT_EQ(done.outcome.judgement->verdict, Verdict::amber);
@@ -81,7 +81,7 @@ TEST(Wizard, TakesTouchesByHoldingStillAlone) {
   TechnicianHabits habits;
   habits.presses = false;
   const SyntheticRig rig = rigOf(Scenario::d, 4);
-  const Finished done = calibrated(rig, planFor(rig, Procedure::full), habits);
+  const Finished done = calibrated(rig, planFor(rig, CalibrationProcedure::full), habits);
   ASSERT_EQ(done.outcome.end, End::accepted) << done.outcome.reason;
   EXPECT_LT(trueError_mm(rig, *done.outcome.arm), 0.35);
 }
@@ -89,20 +89,21 @@ TEST(Wizard, TakesTouchesByHoldingStillAlone) {
 TEST(Wizard, WorksAtTheRatesOfDevices) {
   const SyntheticRig rig = rigOf(Scenario::b, 5);
   for (const double rate_Hz : {1000.0, 4000.0})
-    EXPECT_EQ(calibrated(rig, planFor(rig, Procedure::full, "jig8"), {}, {}, rate_Hz).outcome.end, End::accepted);
+    EXPECT_EQ(calibrated(rig, planFor(rig, CalibrationProcedure::full, "jig8"), {}, {}, rate_Hz).outcome.end,
+              End::accepted);
 }
 
 TEST(Wizard, GivesTheSameOutcomeForTheSameTicks) {
   const SyntheticRig rig = rigOf(Scenario::d, 6);
-  const Finished one = calibrated(rig, planFor(rig, Procedure::full)),
-                 other = calibrated(rig, planFor(rig, Procedure::full));
+  const Finished one = calibrated(rig, planFor(rig, CalibrationProcedure::full)),
+                 other = calibrated(rig, planFor(rig, CalibrationProcedure::full));
   EXPECT_EQ(one.run.titles, other.run.titles);
   EXPECT_EQ(one.record.rig.X_WD.translation_mm, other.record.rig.X_WD.translation_mm);
 }
 
 TEST(Wizard, LetsThroughNoCalibrationWithTheStylusHeldOneWay) {
   const SyntheticRig rig = rigOf(Scenario::e, 1);
-  const Finished done = calibrated(rig, planFor(rig, Procedure::full));
+  const Finished done = calibrated(rig, planFor(rig, CalibrationProcedure::full));
   EXPECT_EQ(done.outcome.end, End::refused);
   EXPECT_NE(done.outcome.reason.find("held one way"), std::string::npos) << done.outcome.reason;
   EXPECT_TRUE(done.run.said("lean the handle"));
@@ -114,9 +115,9 @@ TEST(Wizard, LetsThroughNoTouchesInTheWrongOrder) {
   habits.reversed = true;
   for (std::uint32_t seed = 1; seed <= 3; ++seed) {
     const SyntheticRig rig = rigOf(Scenario::d, seed);
-    Wizard wizard(planFor(rig, Procedure::full));
+    Wizard wizard(planFor(rig, CalibrationProcedure::full));
     RobotTechnician technician(rig, habits, seed);
-    const WizardRun run = runWizard(wizard, technician, 500.0, {}, 400.0);
+    const RobotRun run = runWizard(wizard, technician, 500.0, {}, 400.0);
     EXPECT_NE(wizard.outcome().end, End::accepted);
     EXPECT_TRUE(run.said("order they glow") || run.said("from the glowing") || run.said("No arm explains")) << seed;
   }
@@ -128,7 +129,7 @@ TEST(Wizard, RefusesEveryWrongFlipWithWhatToDo) {
     TechnicianHabits habits;
     habits.flip = flip;
     const SyntheticRig rig = rigOf(Scenario::a, 1);
-    const Finished done = calibrated(rig, planFor(rig, Procedure::full), habits);
+    const Finished done = calibrated(rig, planFor(rig, CalibrationProcedure::full), habits);
     EXPECT_EQ(done.outcome.end, End::refused) << flip;
     ASSERT_TRUE(done.outcome.flip);
     EXPECT_FALSE(done.outcome.flip->right());
@@ -143,7 +144,7 @@ TEST(Wizard, CorrectsTheScreenByTheRulerAndKeepsTheEyes) {
   habits.ipd_mm = 66.0;
   habits.distance_mm = 480.0;
   const SyntheticRig rig = rigOf(Scenario::a, 2);
-  const WizardPlan plan = planFor(rig, Procedure::full, "jig8");
+  const WizardPlan plan = planFor(rig, CalibrationProcedure::full, "jig8");
   const Finished done = calibrated(rig, plan, habits);
   ASSERT_EQ(done.outcome.end, End::accepted) << done.outcome.reason;
   const auto width = [](const calibration::Rig& r) {
@@ -157,7 +158,7 @@ TEST(Wizard, CorrectsTheScreenByTheRulerAndKeepsTheEyes) {
 TEST(Wizard, AsksForTheWorstTouchOnceMore) {
   SyntheticRig rig = rigOf(Scenario::b, 3);
   rig.habits.outlier_share = 0.15;
-  const Finished done = calibrated(rig, planFor(rig, Procedure::full));
+  const Finished done = calibrated(rig, planFor(rig, CalibrationProcedure::full));
   EXPECT_TRUE(done.run.turnedTo("All are touched"));
   ASSERT_EQ(done.outcome.end, End::accepted) << done.outcome.reason;
   EXPECT_LT(trueError_mm(rig, *done.outcome.arm), 0.4);
@@ -174,7 +175,7 @@ TEST(Wizard, GoesOnAfterASilenceOfTheDevice) {
     if (was_silent && sample.t_s < from_s + 3.0) sample.believable = false;
   };
   const SyntheticRig rig = rigOf(Scenario::d, 7);
-  const Finished done = calibrated(rig, planFor(rig, Procedure::full), {}, silence);
+  const Finished done = calibrated(rig, planFor(rig, CalibrationProcedure::full), {}, silence);
   EXPECT_EQ(done.outcome.silences, 1);
   EXPECT_TRUE(done.run.turnedTo("The device is silent"));
   EXPECT_TRUE(done.run.said("still counts the same"));
@@ -196,9 +197,9 @@ TEST(Wizard, StartsTheTouchesAgainWhenTheDeviceCountsOtherwiseAfterASilence) {
     sample.raw_rad[0] += calibration::radFromDegrees(0.5);
     sample.X_DH = calibration::handlePose(rig.arm.geometry, {}, sample.raw_rad);
   };
-  Wizard wizard(planFor(rig, Procedure::full));
+  Wizard wizard(planFor(rig, CalibrationProcedure::full));
   RobotTechnician technician(rig, {}, 7);
-  const WizardRun run = runWizard(wizard, technician, 500.0, rehomed);
+  const RobotRun run = runWizard(wizard, technician, 500.0, rehomed);
   EXPECT_TRUE(run.said("counts otherwise"));
   ASSERT_EQ(wizard.outcome().end, End::accepted) << wizard.outcome().reason;
   EXPECT_EQ(wizard.outcome().judgement->verdict, Verdict::green);
@@ -209,11 +210,11 @@ TEST(Wizard, CanNotTakeWhatIsRedAndLeavesTheOldCalibration) {
   SyntheticRig pushed = rigOf(Scenario::d, 8);
   pushed.X_WD.translation_mm += glm::dvec3(2.0, 0.0, 0.0);
   const SyntheticRig rig = rigOf(Scenario::d, 8);
-  const WizardPlan plan = planFor(rig, Procedure::full);
+  const WizardPlan plan = planFor(rig, CalibrationProcedure::full);
   Wizard wizard(plan);
   RobotTechnician technician(rig, {}, 8);
   bool moved = false;
-  const WizardRun run = runWizard(wizard, technician, 500.0, [&](StylusSample&, const WizardView& view) {
+  const RobotRun run = runWizard(wizard, technician, 500.0, [&](StylusSample&, const WizardView& view) {
     if (!moved && view.title == "Prove it") technician.moveTo(pushed), moved = true;
   });
   EXPECT_EQ(wizard.outcome().end, End::refused);
@@ -231,9 +232,9 @@ TEST(Wizard, AsksForTheEyesAgainWhenCrossesInDepthAreSeenElsewhere) {
   SyntheticRig seen = rigOf(Scenario::a, 3);
   seen.X_WD.translation_mm += glm::dvec3(2.0, 0.0, 0.0);
   const SyntheticRig rig = rigOf(Scenario::a, 3);
-  Wizard wizard(planFor(rig, Procedure::full, "jig8"));
+  Wizard wizard(planFor(rig, CalibrationProcedure::full, "jig8"));
   RobotTechnician technician(rig, {}, 3);
-  const WizardRun run = runWizard(wizard, technician, 500.0, [&](StylusSample&, const WizardView& view) {
+  const RobotRun run = runWizard(wizard, technician, 500.0, [&](StylusSample&, const WizardView& view) {
     technician.moveTo(view.title == "Crosses in depth" ? seen : rig);
   });
   EXPECT_TRUE(run.said("measure the eyes again"));
@@ -242,7 +243,7 @@ TEST(Wizard, AsksForTheEyesAgainWhenCrossesInDepthAreSeenElsewhere) {
 
 TEST(Wizard, ChecksAGoodCalibrationInThirtySeconds) {
   const SyntheticRig rig = rigOf(Scenario::d, 2);
-  WizardPlan plan = planFor(rig, Procedure::check);
+  WizardPlan plan = planFor(rig, CalibrationProcedure::check);
   plan.record = calibratedRecord(rig);
   const Finished done = calibrated(rig, plan);
   ASSERT_EQ(done.outcome.end, End::accepted) << done.outcome.reason;
@@ -257,7 +258,7 @@ TEST(Wizard, BringsADriftedCalibrationUpToDate) {
   for (std::uint32_t seed = 1; seed <= 4; ++seed) {
     SyntheticRig rig = rigOf(Scenario::d, seed);
     rig.habits.outlier_share = 0.0;
-    WizardPlan plan = planFor(rig, Procedure::check);
+    WizardPlan plan = planFor(rig, CalibrationProcedure::check);
     plan.record = calibratedRecord(rig);
     std::mt19937 chance(seed);
     const SyntheticRig today = calibration::drifted(rig, 0.3, 1.0, chance);
@@ -273,7 +274,7 @@ TEST(Wizard, BringsADriftedCalibrationUpToDate) {
 TEST(Wizard, LocksAnArmThatFiveTouchesDoNotMend) {
   SyntheticRig rig = rigOf(Scenario::b, 2);
   rig.habits.outlier_share = 0.0;
-  WizardPlan plan = planFor(rig, Procedure::check);
+  WizardPlan plan = planFor(rig, CalibrationProcedure::check);
   plan.record = calibratedRecord(rig);
   // A worn belt: gains, and the gimbal.
   SyntheticRig worn = rig;
@@ -289,7 +290,7 @@ TEST(Wizard, LocksAnArmThatFiveTouchesDoNotMend) {
 TEST(Wizard, ReZerosWhenItIsAskedFor) {
   SyntheticRig rig = rigOf(Scenario::d, 3);
   rig.habits.outlier_share = 0.0;
-  WizardPlan plan = planFor(rig, Procedure::rezero);
+  WizardPlan plan = planFor(rig, CalibrationProcedure::rezero);
   plan.record = calibratedRecord(rig);
   std::mt19937 chance(3);
   const Finished done = calibrated(calibration::drifted(rig, 0.3, 1.0, chance), plan);
@@ -301,7 +302,7 @@ TEST(Wizard, ReZerosWhenItIsAskedFor) {
 TEST(Wizard, FindsWhereTheHandRests) {
   SyntheticRig rig = rigOf(Scenario::d, 2);
   rig.habits.outlier_share = 0.0;
-  WizardPlan plan = planFor(rig, Procedure::rest);
+  WizardPlan plan = planFor(rig, CalibrationProcedure::rest);
   plan.record = calibratedRecord(rig);
   plan.rest_marks_mm = {{0, 0, 0}, {60, 0, 0}, {15, 40, 5}, {10, 35, 0}, {50, 25, 5}, {30, 10, 5}};
   // Where it was registered last: it has not moved.
@@ -315,7 +316,7 @@ TEST(Wizard, FindsWhereTheHandRests) {
 
 TEST(Wizard, BuildsShortProceduresOnTheSameDeviceAlone) {
   const SyntheticRig rig = rigOf(Scenario::a, 1);
-  WizardPlan never = planFor(rig, Procedure::check);
+  WizardPlan never = planFor(rig, CalibrationProcedure::check);
   EXPECT_NE(calibrated(rig, never).outcome.reason.find("never been calibrated"), std::string::npos);
 
   WizardPlan other = never;
@@ -332,17 +333,17 @@ TEST(Wizard, BuildsShortProceduresOnTheSameDeviceAlone) {
 
 TEST(Wizard, KnowsNoMethodOrDeviceThatIsNone) {
   const SyntheticRig rig = rigOf(Scenario::a, 1);
-  EXPECT_THROW(Wizard(planFor(rig, Procedure::full, "guess")), calibration::CalibrationError);
-  WizardPlan plan = planFor(rig, Procedure::full);
+  EXPECT_THROW(Wizard(planFor(rig, CalibrationProcedure::full, "guess")), calibration::CalibrationError);
+  WizardPlan plan = planFor(rig, CalibrationProcedure::full);
   plan.device.model = "mouse";
   EXPECT_THROW(Wizard{plan}, calibration::CalibrationError);
 }
 
 TEST(Wizard, WaitsForADeviceThatIsHome) {
   const SyntheticRig rig = rigOf(Scenario::a, 1);
-  Wizard wizard(planFor(rig, Procedure::full));
+  Wizard wizard(planFor(rig, CalibrationProcedure::full));
   RobotTechnician technician(rig, {}, 1);
-  const WizardRun run = runWizard(
+  const RobotRun run = runWizard(
       wizard, technician, 500.0, [](StylusSample& sample, const WizardView&) { sample.docked = false; }, 60.0);
   EXPECT_FALSE(wizard.isOver());
   EXPECT_EQ(run.titles.back(), "Bring the device home");
@@ -350,7 +351,7 @@ TEST(Wizard, WaitsForADeviceThatIsHome) {
 
 TEST(Wizard, SaysOnEveryPageOneThingToDoAndWhatTheButtonDoes) {
   const SyntheticRig rig = rigOf(Scenario::d, 1);
-  const Finished done = calibrated(rig, planFor(rig, Procedure::full));
+  const Finished done = calibrated(rig, planFor(rig, CalibrationProcedure::full));
   for (const WizardView& page : done.run.pages) {
     EXPECT_FALSE(page.title.empty());
     EXPECT_FALSE(page.sentence.empty()) << page.title;

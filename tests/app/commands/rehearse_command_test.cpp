@@ -253,17 +253,29 @@ TEST_F(RehearseCommand, LeavesPicturesOfBothEyes) {
 /// Law and gains change while it runs, every change is said and recorded, and the recording still replays bit for bit.
 TEST_F(RehearseCommand, ObeysASettingsFileWhileItChanges) {
   const std::string file = write("feel.toml", "[law]\nstiffness_N_per_mm = 0.6\n");
-  // Changed once it is being recorded, however long the patient took to make.
-  const std::string later = "(while [ ! -e " + at("s.molar") + " ]; do sleep 0.1; done; sleep 1.5; echo '[law]' > " +
-                            file + ".new; echo 'name = \"forssim\"' >> " + file + ".new; mv " + file + ".new " + file +
-                            "; sleep 1; echo '[law' > " + file + ") & ";
-  std::system((later + "true").c_str());
-  const Said said = molar("rehearse --headless --device scripted --voxel 0.6 --size 96x64 --seconds 5 --parameters " +
-                          file + " --record " + at("s.molar"));
-  ASSERT_EQ(said.status, 0) << said.err;
-  EXPECT_NE(said.err.find("[law] name agus -> forssim"), std::string::npos) << said.err;
-  EXPECT_NE(said.err.find("line 1: no TOML"), std::string::npos) << said.err;
-  EXPECT_NE(said.err.find("the old values stay"), std::string::npos) << said.err;
+  const std::string said = at("said");
+  // The next step once the one before was seen, however long the machine takes: `seen WORDS` in what it says.
+  const std::string script = R"(seen() { while ! grep -qF "$1" )" + said + R"( && kill -0 $p; do sleep 0.02; done; }
+    put() { echo "$1" > )" + file +
+                             ".new; mv " + file + ".new " + file + R"(; }
+    while [ ! -e )" + at("s.molar") +
+                             R"( ] && kill -0 $p; do sleep 0.02; done
+    put '[law]
+name = "forssim"'
+    seen 'agus -> forssim'
+    put '[law'
+    seen 'old values stay'
+    kill -TERM $p; wait $p)";
+  const int status =
+      std::system((std::string(MOLAR_PROGRAM) + " rehearse --headless --device scripted --voxel 0.6 --size 96x64 " +
+                   "--seconds 120 --parameters " + file + " --record " + at("s.molar") + " >/dev/null 2>" + said +
+                   " & p=$!\n" + script)
+                      .c_str());
+  const std::string words = read("said");
+  EXPECT_EQ(status, 0) << words;
+  EXPECT_NE(words.find("[law] name agus -> forssim"), std::string::npos) << words;
+  EXPECT_NE(words.find("line 1: no TOML"), std::string::npos) << words;
+  EXPECT_NE(words.find("the old values stay"), std::string::npos) << words;
   const Said replay = molar("replay " + at("s.molar") + " --verify");
   EXPECT_EQ(replay.status, 0) << replay.out << replay.err;
 }

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <fstream>
 #include <functional>
-#include <thread>
 
 #include "app/session/metrics.h"
 #include "app/session/replay.h"
@@ -16,7 +15,7 @@
 namespace app {
 namespace {
 
-/// A rehearsal under a mouse, recorded, without a picture.
+/// A rehearsal under a mouse, recorded, without a picture, stepped by hand.
 struct Desk {
   test::ScratchFolder folder;
   std::string path = folder.file("s.molar");
@@ -36,7 +35,7 @@ struct Desk {
     desk.emplace(block.start().command, other_tools, settings_file, 0.002, 1000.0);
     haptics::LoopSettings settings;
     settings.realtime = false;
-    workstation.emplace(patient, std::move(device), settings, desk->inForce(), Recording{path, true});
+    workstation.emplace(patient, std::move(device), settings, desk->inForce(), Recording{path, true}, Ticking::by_hand);
     desk->serve(*workstation);
     workstation->start();
   }
@@ -48,11 +47,11 @@ struct Desk {
     return target;
   }
 
-  /// However long a busy machine takes.
+  /// Ticks until it is seen, a minute of the hand's time at most.
   bool waitFor(const std::function<bool(const haptics::Tick&)>& seen) {
-    for (int n = 0; n < 6000; ++n) {
+    for (int n = 0; n < 60'000; ++n) {
+      workstation->step(1);
       if (seen(workstation->newestTick())) return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     return false;
   }
@@ -72,6 +71,7 @@ TEST(CommandDesk, TakesAStrokeBackAndRecordsSoThatItReplays) {
   EXPECT_EQ(at.desk->inForce().undo_serial, 0u) << "there is none yet";
   at.mouse->setTarget(Desk::at({0.0, 0.0, 0.4}, true));
   ASSERT_TRUE(at.waitFor([&](const haptics::Tick& tick) { return tick.strokes == 1; }));
+  at.workstation->step(300);
   at.mouse->setTarget(Desk::at({0.0, 0.0, 2.5}, false));
   ASSERT_TRUE(at.waitFor([&](const haptics::Tick& tick) {
     cut = tick.bone_digest;
@@ -125,10 +125,8 @@ TEST(CommandDesk, NeitherFileNorGuideLiftsAFault) {
   at.desk->follow(before);
   EXPECT_EQ(at.desk->inForce().rearm, armed) << "a guide's command is another number only for who arms";
   write("# longer, so that it is read again\n[law]\nname = \"forssim\"\n");
-  for (int n = 0; n < 100 && at.desk->inForce().law.kind != haptics::LawKind::forssim; ++n) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    at.desk->lookAtFile(std::chrono::steady_clock::now());
-  }
+  const LiveParameters::Clock::time_point start;
+  at.desk->lookAtFile(start + std::chrono::seconds(1));
   ASSERT_EQ(at.desk->inForce().law.kind, haptics::LawKind::forssim);
   EXPECT_EQ(at.desk->inForce().rearm, armed);
   at.workstation->stop();

@@ -67,7 +67,7 @@ void expectSound(const MeshModel& model, const fs::path& path) {
 class Scratch : public testing::Test {
  protected:
   void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "molar_gltf_XXXXXX").string();
+    std::string pattern = (fs::temp_directory_path() / "molar_gltf_").string() + std::string(6, 'X');
     folder_ = mkdtemp(pattern.data());
   }
   void TearDown() override { fs::remove_all(folder_); }

@@ -1,5 +1,6 @@
 #include "calibration/webcam/live_pictures.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -8,50 +9,106 @@ namespace calibration {
 namespace {
 
 using namespace std::chrono_literals;
+using testing::HasSubstr;
 
-/// Numbers its frames; hangs in decoding the first one until told.
+/// What a test sees and says of the camera behind the frames.
 struct Camera {
-  std::atomic<int> frames{0};
-  std::atomic<bool> hangs{true}, hanging{false};
+  std::atomic<int> frames{0}, last{1'000'000'000};
+  std::atomic<bool> waits_with_frames{false}, waits_in_decoding{false};  ///< until told otherwise
+  std::atomic<bool> is_decoding{false};
 };
 
+/// Its pictures are as wide as their number.
 class NumberedFrames final : public FrameGiver {
  public:
   explicit NumberedFrames(Camera& camera) : camera_(camera) {}
   bool next() override {
-    std::this_thread::sleep_for(100us);
-    ++camera_.frames;
-    return true;
+    do {
+      std::this_thread::sleep_for(100us);
+    } while (camera_.waits_with_frames);
+    return ++camera_.frames <= camera_.last;
   }
   GreyPicture decoded() override {
     const int frame = camera_.frames;
-    camera_.hanging.store(true);
-    while (camera_.hangs.load()) std::this_thread::sleep_for(100us);
+    camera_.is_decoding = true;
+    while (camera_.waits_in_decoding) std::this_thread::sleep_for(100us);
     GreyPicture picture;
     picture.size_px = {frame, 1};
     picture.grey.resize(static_cast<std::size_t>(frame));
     return picture;
   }
-  std::string remarks() override { return {}; }
+  std::string remarks() override { return "no focus"; }
 
  private:
   Camera& camera_;
 };
 
+LivePictures picturesOf(Camera& camera, std::chrono::milliseconds frame_patience = 250s) {
+  return {"webcam", [&] { return std::make_unique<NumberedFrames>(camera); }, {250s, frame_patience}};
+}
+
+std::string refusal(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const CalibrationError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(LivePictures, GiveAPictureThatBeganAfterTheCall) {
+  Camera camera;
+  LivePictures live = picturesOf(camera);
+  EXPECT_EQ(live.remarks(), "no focus");
+  for (int i = 0; i < 3; ++i) {
+    const int before = camera.frames;
+    EXPECT_GE(live.take().size_px.x, before + 2);
+  }
+}
+
+TEST(LivePictures, WaitNoLongerThanTold) {
+  Camera camera;
+  camera.waits_with_frames = true;
+  LivePictures live = picturesOf(camera, 50ms);
+  EXPECT_THAT(refusal([&] { live.take(); }), HasSubstr("in time"));
+  camera.waits_with_frames = false;
+}
+
+TEST(LivePictures, SayThatTheCameraIsGone) {
+  Camera camera;
+  camera.last = 1;
+  LivePictures live = picturesOf(camera);
+  for (int i = 0; i < 2; ++i) EXPECT_THAT(refusal([&] { live.take(); }), HasSubstr("no more pictures"));
+}
+
+TEST(LivePictures, SayWhyTheCameraDoesNotOpen) {
+  const auto fails = []() -> std::unique_ptr<FrameGiver> { throw CalibrationError("webcam: busy"); };
+  EXPECT_EQ(refusal([&] { LivePictures("webcam", fails, {250s, 250s}); }), "webcam: busy");
+  const auto runs_out = []() -> std::unique_ptr<FrameGiver> { throw std::bad_alloc(); };
+  EXPECT_THAT(refusal([&] { LivePictures("webcam", runs_out, {250s, 250s}); }), HasSubstr("does not answer"));
+  // Longer than anybody waits; on a busy machine it may have come back by then, with nothing.
+  const auto sleeps = []() -> std::unique_ptr<FrameGiver> {
+    std::this_thread::sleep_for(200ms);
+    return nullptr;
+  };
+  EXPECT_THAT(refusal([&] { LivePictures("webcam", sleeps, {20ms, 250s}); }), HasSubstr("does not answer"));
+}
+
 TEST(LivePictures, NeverHandOutOneThatIsOlderThanTheCall) {
   Camera camera;
-  LivePictures pictures("camera", [&] { return std::make_unique<NumberedFrames>(camera); }, {20s, 200ms});
+  camera.waits_in_decoding = true;
+  LivePictures live = picturesOf(camera, 200ms);
   // Nobody waits any more for the picture that is still being decoded.
-  while (!camera.hanging.load()) EXPECT_THROW(pictures.take(), CalibrationError);
+  while (!camera.is_decoding) EXPECT_THROW(live.take(), CalibrationError);
 
   std::thread release([&] {
     std::this_thread::sleep_for(50ms);
-    camera.hangs.store(false);
+    camera.waits_in_decoding = false;
   });
   for (bool has_one = false; !has_one;) {
     const int before = camera.frames;
     try {
-      EXPECT_GT(pictures.take().size_px.x, before);
+      EXPECT_GT(live.take().size_px.x, before);
       has_one = true;
     } catch (const CalibrationError&) {
       // The machine was busy for longer than anybody waits: the next one.

@@ -1,18 +1,16 @@
-#include <atomic>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "calibration/picture_file.h"
-#include "calibration/webcam/live_pictures.h"
 #include "calibration/webcam/webcam_source.h"
 
 namespace calibration {
 namespace {
 
-using namespace std::chrono_literals;
 using testing::HasSubstr;
 
 std::string refusal(const std::function<void()>& act) {
@@ -40,55 +38,6 @@ TEST(PictureFolder, GivesItsPicturesByTheirNumbers) {
   std::filesystem::create_directories(folder);
   EXPECT_THAT(refusal([&] { pictureFolder(folder); }), HasSubstr("no PNG or JPEG"));
   std::filesystem::remove_all(folder);
-}
-
-/// Counts its frames; hangs or ends when told to.
-class NumberedFrames final : public FrameGiver {
- public:
-  explicit NumberedFrames(std::atomic<int>& given) : given_(given) {}
-  bool next() override {
-    std::this_thread::sleep_for(given_ == 20 ? 400ms : 1ms);
-    return ++given_ <= 30;
-  }
-  GreyPicture decoded() override { return {{1, 1}, {static_cast<std::uint8_t>(given_)}}; }
-  std::string remarks() override { return "no focus"; }
-
- private:
-  std::atomic<int>& given_;
-};
-
-TEST(LivePictures, GiveAPictureThatBeganAfterTheCall) {
-  std::atomic<int> given{0};
-  LivePictures live("webcam", [&] { return std::make_unique<NumberedFrames>(given); }, {1000ms, 3000ms});
-  EXPECT_EQ(live.remarks(), "no focus");
-  for (int i = 0; i < 3; ++i) {
-    const int before = given;
-    const int taken = live.take().grey[0];
-    EXPECT_GE(taken, before + 2);
-  }
-}
-
-TEST(LivePictures, WaitNoLongerThanTold) {
-  std::atomic<int> given{20};
-  LivePictures live("webcam", [&] { return std::make_unique<NumberedFrames>(given); }, {1000ms, 50ms});
-  EXPECT_THAT(refusal([&] { live.take(); }), HasSubstr("in time"));
-}
-
-TEST(LivePictures, SayThatTheCameraIsGone) {
-  std::atomic<int> given{29};
-  LivePictures live("webcam", [&] { return std::make_unique<NumberedFrames>(given); }, {1000ms, 3000ms});
-  EXPECT_THAT(refusal([&] { live.take(), live.take(); }), HasSubstr("no more pictures"));
-  EXPECT_THAT(refusal([&] { live.take(); }), HasSubstr("no more pictures"));
-}
-
-TEST(LivePictures, SayWhyTheCameraDoesNotOpen) {
-  const auto fails = []() -> std::unique_ptr<FrameGiver> { throw CalibrationError("webcam: busy"); };
-  EXPECT_EQ(refusal([&] { LivePictures("webcam", fails, {1000ms, 100ms}); }), "webcam: busy");
-  const auto sleeps = []() -> std::unique_ptr<FrameGiver> {
-    std::this_thread::sleep_for(200ms);
-    return nullptr;
-  };
-  EXPECT_THAT(refusal([&] { LivePictures("webcam", sleeps, {20ms, 100ms}); }), HasSubstr("does not answer"));
 }
 
 TEST(WebcamSource, SaysInOneLineThatThereIsNoCamera) {

@@ -12,7 +12,7 @@
 
 namespace app {
 
-struct WizardRun {
+struct RobotRun {
   std::vector<std::string> titles;  ///< as they came, each once in a row
   std::set<std::string> messages;
   std::vector<WizardView> pages;  ///< the first view of each title
@@ -42,9 +42,9 @@ struct WizardRun {
 /// What happens to a tick between device and wizard.
 using Mishap = std::function<void(StylusSample&, const WizardView&)>;
 
-inline WizardRun runWizard(Wizard& wizard, RobotTechnician& technician, double rate_Hz = 500.0,
-                           const Mishap& mishap = {}, double most_s = 1200.0) {
-  WizardRun run;
+inline RobotRun runWizard(Wizard& wizard, RobotTechnician& technician, double rate_Hz = 500.0,
+                          const Mishap& mishap = {}, double most_s = 1200.0) {
+  RobotRun run;
   WizardView view = wizard.look();
   const int every = static_cast<int>(rate_Hz / 30.0);
   for (int i = 0; i < static_cast<int>(most_s * rate_Hz) && !wizard.isOver(); ++i) {
@@ -60,7 +60,7 @@ inline WizardRun runWizard(Wizard& wizard, RobotTechnician& technician, double r
   return run;
 }
 
-inline WizardPlan planFor(const calibration::SyntheticRig& rig, Procedure procedure,
+inline WizardPlan planFor(const calibration::SyntheticRig& rig, CalibrationProcedure procedure,
                           const std::string& method = "jig27") {
   WizardPlan plan;
   plan.procedure = procedure;
