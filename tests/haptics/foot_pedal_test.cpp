@@ -1,6 +1,7 @@
 #include "haptics/device/pedal/foot_pedal.h"
 
 #include <linux/input-event-codes.h>
+#include <sys/resource.h>
 
 #include <chrono>
 #include <memory>
@@ -116,6 +117,23 @@ TEST(FootPedal, LetsGoOfADeviceThatSpeaksGarbage) {
   ASSERT_TRUE(eventually([&] { return pedal.held().has(HandAction::drill); }));
   device.sendBytes("no event");
   EXPECT_TRUE(eventually([&] { return pedal.held() == HandActions{}; }));
+}
+
+TEST(FootPedal, LetsGoWhenItCanNotBeWaitedForAnyMore) {
+  const FakeInputFolder folder("poll");
+  FakeInputDevice device(folder, 1, kThreeSwitches);
+  const FootPedal pedal({}, folder.folders());
+  ASSERT_TRUE(eventually([&] { return pedal.isThere(); }));
+  // poll(2) fails with EINVAL for more handles than a process may have.
+  rlimit limit{};
+  ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &limit), 0);
+  const rlimit one{1, limit.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &one), 0);
+  device.send(EV_KEY, BTN_0, 1);
+  EXPECT_TRUE(eventually([&] { return pedal.presses(HandAction::drill) == 1 && !pedal.isThere(); }));
+  EXPECT_EQ(setrlimit(RLIMIT_NOFILE, &limit), 0);
+  EXPECT_EQ(pedal.held(), HandActions{});
+  EXPECT_NE(pedal.described().find("read no more"), std::string::npos);
 }
 
 TEST(FootPedal, SaysWhyThereIsNone) {

@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <system_error>
 
 #include "haptics/device/haptic_device.h"
 
@@ -152,7 +153,8 @@ void FootPedal::run() try {
       there_.store(reading != nullptr);
     }
     std::array<pollfd, 2> waits{{{wake_fd_, POLLIN, 0}, {reading ? reading->fd() : -1, POLLIN, 0}}};
-    if (poll(waits.data(), waits.size(), reading ? -1 : kBetweenLooks_ms) < 0 && errno != EINTR) return;
+    if (poll(waits.data(), waits.size(), reading ? -1 : kBetweenLooks_ms) < 0 && errno != EINTR)
+      throw std::system_error(errno, std::generic_category());
     if (waits[0].revents != 0) return;
     if (!reading || waits[1].revents == 0) continue;
     const bool gone = !reading->read() || (waits[1].revents & (POLLHUP | POLLERR | POLLNVAL)) != 0;
