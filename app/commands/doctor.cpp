@@ -10,6 +10,7 @@
 #include "app/doctor/findings_text.h"
 #include "app/doctor/haptic_usb.h"
 #include "app/text/page_look.h"
+#include "haptics/device/thread_priority.h"
 
 namespace app {
 namespace {
@@ -17,6 +18,7 @@ namespace {
 struct DoctorOptions {
   bool json = false, udev_rules = false;
   std::string sessions = ".";
+  int priority = haptics::kServoPriority;
 };
 
 int doctor(const DoctorOptions& options) {
@@ -24,7 +26,7 @@ int doctor(const DoctorOptions& options) {
     std::fputs(udevRules().c_str(), stdout);
     return 0;
   }
-  const std::vector<Finding> findings = examine(Machine::here(options.sessions));
+  const std::vector<Finding> findings = examine(Machine::here(options.sessions), options.priority);
   const std::string page = options.json ? asJson(findings) : asText(findings, lookOfOutput());
   std::fputs(page.c_str(), stdout);
   return missingAmong(findings) > 0 ? 1 : 0;
@@ -41,6 +43,9 @@ void addDoctor(CLI::App& molar, Chosen& chosen) {
   command->add_option("--sessions", o->sessions, "Folder where recordings go")
       ->check(CLI::ExistingDirectory)
       ->type_name("FOLDER")
+      ->capture_default_str();
+  command->add_option("--priority", o->priority, "Real-time priority that rehearse is given")
+      ->check(CLI::Range(haptics::kLeastServoPriority, haptics::kMostServoPriority))
       ->capture_default_str();
   command->callback([o, &chosen] { chosen.action = [o] { return doctor(*o); }; });
 }

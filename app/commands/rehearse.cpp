@@ -55,6 +55,7 @@ struct RehearseOptions {
   assets::JawParameters jaw;
   std::optional<double> seconds, face_window_mm;
   std::optional<int> monitor, quality;
+  int priority = haptics::kServoPriority;
   std::optional<double> rate_Hz;
   double loupes = 4.0;
   bool headless = false, force = false, operators_window = false;
@@ -175,6 +176,7 @@ int run(const RehearseOptions& options) {
                       options.second_tool == "mirror" ? SecondTool::mirror : SecondTool::retractor};
   refuseUnlessSecondHand(plan.second_hand, options.device);
   plan.device_options.falcon_program = options.falcon_firmware;
+  plan.device_options.servo_priority = options.priority;
   plan.device_options.falcon_scale = [] { return keptFalconScale(usualFalconScaleFile()); };
   plan.device_options.tell = [](const std::string& line) { std::fprintf(stderr, "molar: %s\n", line.c_str()); };
   plan.display = options.display.mode();
@@ -261,6 +263,9 @@ void addRehearse(CLI::App& molar, Chosen& chosen) {
                       "key=value: stiffness_N_per_mm, peak_force_N, spindle_rpm, worn, removal_rate_per_s, …");
   command->add_option("--rate", o->rate_Hz, "Servo rate, Hz [1000, or as recorded]")
       ->check(numberRange(500.0, 10'000.0));
+  command->add_option("--priority", o->priority, "Real-time priority of the servo, its USB thread has the next")
+      ->check(CLI::Range(haptics::kLeastServoPriority, haptics::kMostServoPriority))
+      ->capture_default_str();
   command
       ->add_option("--pace", o->pace,
                    "real, by the clock; fast, a hand in numbers without a window as fast as the machine can")

@@ -8,6 +8,7 @@
 
 #include "app/doctor/finding.h"
 #include "app/doctor/machine.h"
+#include "haptics/device/thread_priority.h"
 
 namespace app {
 
@@ -49,11 +50,12 @@ Finding checkClock(const Machine& machine, double resolution_ns);
 struct WakeUps {
   double median_us = 0.0, p99_us = 0.0, worst_us = 0.0;
 };
-WakeUps measureWakeUps();
+WakeUps measureWakeUps(int servo_priority = haptics::kServoPriority);
 Finding checkWakeUps(const WakeUps& measured);
 
-Finding checkPriorityLimit(const Machine& machine);
-Finding checkMemoryLimit(const Machine& machine);
+/// Both prescribe all that a servo of this priority needs: their lines go into one file.
+Finding checkPriorityLimit(const Machine& machine, int servo_priority = haptics::kServoPriority);
+Finding checkMemoryLimit(const Machine& machine, int servo_priority = haptics::kServoPriority);
 Finding checkProcessors(const Machine& machine);
 
 /// Where recordings go: writes 16 MB and takes them away again.
@@ -65,6 +67,6 @@ DiskFacts lookAtDisk(const std::filesystem::path& folder);
 Finding checkDisk(const std::filesystem::path& folder, const DiskFacts& facts);
 
 /// All of it, in the order it is shown.
-std::vector<Finding> examine(const Machine& machine);
+std::vector<Finding> examine(const Machine& machine, int servo_priority);
 
 }  // namespace app

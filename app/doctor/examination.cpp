@@ -3,9 +3,9 @@
 
 namespace app {
 
-std::vector<Finding> examine(const Machine& machine) {
+std::vector<Finding> examine(const Machine& machine, int servo_priority) {
   // Punctuality first, while nothing of ours works in the background.
-  const Finding wake_up = checkWakeUps(measureWakeUps());
+  const Finding wake_up = checkWakeUps(measureWakeUps(servo_priority));
   const ScreenFacts screens = lookAtScreens();
   return {
       checkGraphics(lookAtGraphics()),
@@ -18,8 +18,8 @@ std::vector<Finding> examine(const Machine& machine) {
       checkVendorLibrary(machine, haptics::HdLibrary::whyUnavailable()),
       checkClock(machine, clockResolution_ns()),
       wake_up,
-      checkPriorityLimit(machine),
-      checkMemoryLimit(machine),
+      checkPriorityLimit(machine, servo_priority),
+      checkMemoryLimit(machine, servo_priority),
       checkProcessors(machine),
       checkDisk(machine.sessions, lookAtDisk(machine.sessions)),
   };

@@ -3,7 +3,6 @@
 
 #include "app/doctor/checks.h"
 #include "app/text/printed.h"
-#include "haptics/device/thread_priority.h"
 
 namespace app {
 namespace {
@@ -11,12 +10,10 @@ namespace {
 constexpr unsigned kSysNice = 23, kIpcLock = 14;  // linux/capability.h
 
 /// The lines themselves, ready to be put there.
-std::string limitsFor(const std::string& user) {
-  return "printf '" + user + " - rtprio 95\\n" + user +
+std::string limitsFor(const std::string& user, int most_needed) {
+  return printed("printf '%s - rtprio %d\\n", user.c_str(), most_needed) + user +
          " - memlock unlimited\\n' | sudo tee /etc/security/limits.d/70-molar.conf, then sign in again.";
 }
-
-constexpr int kMostNeeded = haptics::usbPriority(haptics::kServoPriority);
 
 /// The real-time priority in the 40th field of proc(5)'s stat; its second is a name in brackets that may hold blanks.
 std::optional<int> realtimePriority(const std::string& stat) {
@@ -52,26 +49,31 @@ std::optional<InterruptThread> lowestInterruptThread(const Machine& machine) {
 
 }  // namespace
 
-Finding checkPriorityLimit(const Machine& machine) {
+Finding checkPriorityLimit(const Machine& machine, int servo_priority) {
+  const int most_needed = haptics::usbPriority(servo_priority);
   const bool may_anything = hasCapability(machine, kSysNice).value_or(false);
   const double most = softLimit(machine, "Max realtime priority").value_or(0.0);
-  if (!may_anything && most >= 0.0 && most < kMostNeeded)
+  if (!may_anything && most >= 0.0 && most < most_needed)
     return {"priority-limit", Health::warn,
-            printed("The servo may not have real-time priority: %.0f of %d is allowed.", most, kMostNeeded),
-            limitsFor(machine.user)};
+            printed("The servo may not have real-time priority: %.0f of %d is allowed.", most, most_needed),
+            limitsFor(machine.user, most_needed)};
   const auto lowest = lowestInterruptThread(machine);
-  if (lowest && lowest->priority <= kMostNeeded)
+  if (lowest && lowest->priority <= most_needed) {
+    constexpr int kInterrupts = haptics::kInterruptPriority;
     return {"priority-limit", Health::warn,
             printed("%s has real-time priority %d, the servo that may wait for it %d.", lowest->name.c_str(),
-                    lowest->priority, haptics::kServoPriority),
-            printed("sudo chrt -f -p %d %s puts it back where the kernel starts it.", haptics::kInterruptPriority,
-                    lowest->process.c_str())};
-  return {
-      "priority-limit", Health::ok,
-      printed("The servo may have real-time priority %d, below the interrupts it waits for.", haptics::kServoPriority)};
+                    lowest->priority, servo_priority),
+            most_needed < kInterrupts
+                ? printed("sudo chrt -f -p %d %s puts it back where the kernel starts it.", kInterrupts,
+                          lowest->process.c_str())
+                : printed("Give rehearse a --priority of %d or less: the kernel starts them at %d.", kInterrupts - 2,
+                          kInterrupts)};
+  }
+  return {"priority-limit", Health::ok,
+          printed("The servo may have real-time priority %d, below the interrupts it waits for.", servo_priority)};
 }
 
-Finding checkMemoryLimit(const Machine& machine) {
+Finding checkMemoryLimit(const Machine& machine, int servo_priority) {
   if (hasCapability(machine, kIpcLock).value_or(false))
     return {"memory-limit", Health::ok, "The servo's memory may be kept from being swapped out."};
   const double most_MB = softLimit(machine, "Max locked memory").value_or(0.0) / (1024.0 * 1024.0);
@@ -80,7 +82,7 @@ Finding checkMemoryLimit(const Machine& machine) {
   return {
       "memory-limit", Health::warn,
       printed("Only %.0f MB may be kept from being swapped out: the servo keeps its stack, the bone may go.", most_MB),
-      limitsFor(machine.user)};
+      limitsFor(machine.user, haptics::usbPriority(servo_priority))};
 }
 
 }  // namespace app

@@ -23,8 +23,8 @@ std::int64_t now_ns() {
 }
 
 /// On absolute deadlines, as the servo does.
-void wakeUp(std::vector<double>& late_us) {
-  haptics::askForRealtime();
+void wakeUp(int priority, std::vector<double>& late_us) {
+  haptics::askForRealtime(priority);
   std::int64_t due_ns = now_ns();
   for (double& late : late_us) {
     due_ns += kPeriod_ns;
@@ -37,9 +37,9 @@ void wakeUp(std::vector<double>& late_us) {
 
 }  // namespace
 
-WakeUps measureWakeUps() {
+WakeUps measureWakeUps(int servo_priority) {
   std::vector<double> late_us(kWakeUps);
-  std::thread(wakeUp, std::ref(late_us)).join();
+  std::thread(wakeUp, servo_priority, std::ref(late_us)).join();
   munlockall();
   std::ranges::sort(late_us);
   return {late_us[kWakeUps / 2], late_us[kWakeUps * 99 / 100], late_us.back()};

@@ -20,6 +20,7 @@ void Equipment::join(const RehearsalPlan& plan, const haptics::Command& in_force
                                              .X_PD = hand_.X_PD,
                                              .X_HT = hand_.X_HT,
                                              .arm = hand_.arm,
+                                             .priority = plan.device_options.servo_priority,
                                              .buttons = {},
                                              .pedal = pedal_ ? &*pedal_ : nullptr},
                        in_force, plan.recording, plan.ticking);

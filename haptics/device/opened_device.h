@@ -10,6 +10,7 @@
 
 #include "haptics/device/haptic_device.h"
 #include "haptics/device/openhaptics/hd_library.h"
+#include "haptics/device/thread_priority.h"
 #include "haptics/device/usb/falcon_force_scale.h"
 
 namespace haptics {
@@ -18,6 +19,7 @@ struct DeviceOptions {
   std::filesystem::path falcon_program;  ///< its maker's firmware
   /// What a balance showed of this user's Falcon; asked when there is one to open.
   std::function<FalconForceScale()> falcon_scale = [] { return FalconForceScale(); };
+  int servo_priority = kServoPriority;  ///< the thread that reads its USB lies next to it
   std::optional<bool> docked_value;  ///< OpenHaptics: what the inkwell's switch shows of a docked stylus; none: learned
   std::function<void(const std::string&)> tell = [](const std::string&) {};  ///< progress, and what a person shall do
   std::function<bool()> given_up = [] { return false; };                     ///< asked while it waits for a person

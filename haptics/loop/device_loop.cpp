@@ -31,12 +31,12 @@ double threadTime_us() {
 
 }  // namespace
 
-DeviceLoop::DeviceLoop(ServedDevice served, double rate_Hz, bool realtime)
+DeviceLoop::DeviceLoop(ServedDevice served, double rate_Hz, std::optional<int> priority)
     : device_(served.device),
       by_hand_(served.by_hand),
       capabilities_(device_.capabilities()),
       rate_Hz_(rate_Hz),
-      realtime_(realtime && by_hand_ == nullptr),
+      priority_(by_hand_ == nullptr ? priority : std::nullopt),
       gate_(capabilities_) {
   if (!(rate_Hz >= 500.0 && rate_Hz <= 10'000.0))
     throw DeviceError("servo rate, " + std::to_string(std::lround(rate_Hz)) + " Hz, choose one from 500 to 10000 Hz");
@@ -85,7 +85,7 @@ LoopFigures DeviceLoop::figures() const {
 }
 
 void DeviceLoop::begin() noexcept {
-  if (realtime_) statistics_.setGrants(askForRealtime());
+  if (priority_) statistics_.setGrants(askForRealtime(*priority_));
 }
 
 MotorCommand DeviceLoop::tick(const HandleState& state, const Beat& beat) noexcept {

@@ -20,8 +20,9 @@ namespace haptics {
 
 class DeviceLoop : private DeviceServo {
  public:
-  /// Borrows the device. Throws DeviceError when the rate is outside 500..10000 Hz.
-  DeviceLoop(ServedDevice served, double rate_Hz, bool realtime);
+  /// Borrows the device. `priority`: SCHED_FIFO's that its thread asks for, with a core and locked memory; none: for
+  /// none of them. Throws DeviceError when the rate is outside 500..10000 Hz.
+  DeviceLoop(ServedDevice served, double rate_Hz, std::optional<int> priority);
   ~DeviceLoop() override;
   DeviceLoop(const DeviceLoop&) = delete;
   DeviceLoop& operator=(const DeviceLoop&) = delete;
@@ -74,7 +75,7 @@ class DeviceLoop : private DeviceServo {
   DeviceInNumbers* const by_hand_;
   const DeviceCapabilities& capabilities_;
   const double rate_Hz_;
-  const bool realtime_;
+  const std::optional<int> priority_;
   MotorGate gate_;
   LoopStatistics statistics_;
   std::atomic<std::uint64_t> ticks_{0};

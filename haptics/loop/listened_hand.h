@@ -13,7 +13,7 @@ namespace haptics {
 class ListenedHand final : public DeviceLoop {
  public:
   /// Borrows the device. Throws DeviceError when the rate is outside 500..10000 Hz.
-  ListenedHand(ServedDevice served, double rate_Hz) : DeviceLoop(served, rate_Hz, false) { forbidForce(); }
+  ListenedHand(ServedDevice served, double rate_Hz);
   ~ListenedHand() override { stop(); }
 
   /// All since the last call, believed or not, appended. Always the same thread.
@@ -22,10 +22,7 @@ class ListenedHand final : public DeviceLoop {
   std::uint64_t dropped() const { return log_.dropped(); }
 
  private:
-  Answer answer(const HandleState& state, const Beat& beat) noexcept override {
-    log_.push({1e-9 * static_cast<double>(beat.at_ns - began_ns_), state});
-    return {{}, false};
-  }
+  Answer answer(const HandleState& state, const Beat& beat) noexcept override;
 
   const std::int64_t began_ns_ = now_ns();
   HandleLog log_;

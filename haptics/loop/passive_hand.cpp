@@ -16,7 +16,9 @@ bool isBelieved(const HandleState& state) {
 
 }  // namespace
 
-PassiveHand::PassiveHand(ServedDevice served, double rate_Hz) : DeviceLoop(served, rate_Hz, false) { forbidForce(); }
+PassiveHand::PassiveHand(ServedDevice served, double rate_Hz) : DeviceLoop(served, rate_Hz, std::nullopt) {
+  forbidForce();
+}
 
 std::optional<HandleState> PassiveHand::newest() {
   // A device that hangs brings nothing at all.

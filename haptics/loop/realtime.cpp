@@ -11,13 +11,11 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "haptics/device/thread_priority.h"
-
 namespace haptics {
 namespace {
 
 /// More than any tick uses.
-constexpr std::size_t kStack_bytes = 256 * 1024;
+constexpr std::size_t kStack_bytes = 256 * 1024, kLeastStack_bytes = 4096;
 
 std::optional<int> lastAllowedCore() {
   cpu_set_t allowed;
@@ -39,7 +37,7 @@ bool isMemoryUnlimited() {
   return (getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY) || mayPassMemoryLimits();
 }
 
-/// Brings in what lies below the caller of this thread's stack, and keeps it there.
+/// Brings in what lies below the caller of this thread's stack, as much as a limit leaves, and keeps it there.
 void lockOwnStack() {
   pthread_attr_t attributes;
   if (pthread_getattr_np(pthread_self(), &attributes) != 0) return;
@@ -47,18 +45,19 @@ void lockOwnStack() {
   std::size_t size = 0, guard = 0;
   if (pthread_attr_getstack(&attributes, &lowest, &size) == 0 && pthread_attr_getguardsize(&attributes, &guard) == 0) {
     auto* const here = static_cast<std::byte*>(__builtin_frame_address(0));
-    auto* const begin = std::max(static_cast<std::byte*>(lowest) + guard, here - kStack_bytes);
-    if (begin < here) mlock(begin, static_cast<std::size_t>(here - begin));
+    const auto below = static_cast<std::size_t>(here - (static_cast<std::byte*>(lowest) + guard));
+    std::size_t bytes = std::min(below, kStack_bytes);
+    while (bytes > kLeastStack_bytes && mlock(here - bytes, bytes) != 0) bytes /= 2;
   }
   pthread_attr_destroy(&attributes);
 }
 
 }  // namespace
 
-RealtimeGrants askForRealtime() noexcept {
+RealtimeGrants askForRealtime(int priority) noexcept {
   RealtimeGrants grants;
   sched_param param{};
-  param.sched_priority = kServoPriority;
+  param.sched_priority = priority;
   grants.priority = pthread_setschedparam(pthread_self(), SCHED_FIFO, &param) == 0;
   grants.memory_locked = isMemoryUnlimited() && mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
   if (!grants.memory_locked) lockOwnStack();

@@ -13,7 +13,7 @@ struct RealtimeGrants {
   std::optional<int> core;     ///< the thread runs there and nowhere else
 };
 
-/// For the calling thread.
-RealtimeGrants askForRealtime() noexcept;
+/// For the calling thread; `priority` is SCHED_FIFO's (device/thread_priority).
+RealtimeGrants askForRealtime(int priority) noexcept;
 
 }  // namespace haptics

@@ -48,7 +48,7 @@ Command limitedTo(const DeviceCapabilities& device, double rate_Hz, const Comman
 
 HapticLoop::HapticLoop(Servo& servo, ServedDevice served, Latest<Command>& commands, TickLog& log, Latest<Tick>& newest,
                        const LoopSettings& settings)
-    : DeviceLoop(served, settings.rate_Hz, settings.realtime),
+    : DeviceLoop(served, settings.rate_Hz, settings.priority),
       servo_(servo),
       commands_(commands),
       log_(log),

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "haptics/device/pedal/foot_pedal.h"
+#include "haptics/device/thread_priority.h"
 #include "haptics/latest.h"
 #include "haptics/loop/device_loop.h"
 #include "haptics/safety/trips.h"
@@ -23,7 +24,7 @@ struct LoopSettings {
   calibration::Pose<calibration::Patient, calibration::Device> X_PD;  ///< where the device stands
   calibration::Pose<calibration::Handle, calibration::Tool> X_HT;     ///< how the handle holds the tool
   std::optional<calibration::MeasuredArm> arm = std::nullopt;         ///< none: as the device's driver has it
-  bool realtime = true;                                               ///< ask for priority, a core, locked memory
+  std::optional<int> priority = kServoPriority;                       ///< as DeviceLoop's
   ButtonMeanings buttons;                                             ///< of those on the handle
   const FootPedal* pedal = nullptr;                                   ///< drills beside them; borrowed
 };

@@ -87,7 +87,7 @@ struct Bench {
   Latest<Tick> newest;
   LoopSettings settings = [] {
     LoopSettings s;
-    s.realtime = false;
+    s.priority = std::nullopt;
     return s;
   }();
 

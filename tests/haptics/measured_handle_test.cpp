@@ -135,7 +135,7 @@ TEST(HapticLoop, WithAMeasuredArmFeelsTheBoneWhereAndAsItIsSeen) {
     TickLog log;
     Latest<Tick> newest;
     LoopSettings settings;
-    settings.realtime = false;
+    settings.priority = std::nullopt;
     settings.X_PD = {X_WD.rotation, X_WD.translation_mm};
     settings.X_HT = X_HT;
     settings.arm = measured;

@@ -10,7 +10,7 @@ using namespace open_haptics_bench;
 /// Pushes for ever.
 class PushingLoop final : public DeviceLoop {
  public:
-  explicit PushingLoop(HapticDevice& device) : DeviceLoop(device, 1000.0, false) {}
+  explicit PushingLoop(HapticDevice& device) : DeviceLoop(device, 1000.0, std::nullopt) {}
   ~PushingLoop() override { stop(); }
 
  private:

@@ -61,7 +61,7 @@ CarvedBone bone() { return halfSpace(7.0, 0.25).bone(1); }
 
 LoopSettings ordinary() {
   LoopSettings settings;
-  settings.realtime = false;
+  settings.priority = std::nullopt;
   return settings;
 }
 

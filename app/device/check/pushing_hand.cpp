@@ -24,9 +24,17 @@ haptics::HandSample sampleOf(const haptics::HandleState& state) {
 
 }  // namespace
 
-PushingHand::PushingHand(haptics::HapticDevice& device, double rate_Hz)
-    : DeviceLoop(device, rate_Hz, true),
-      limits_(haptics::limitedTo(device.capabilities(), rate_Hz, haptics::Command{}).safety) {}
+PushingHand::PushingHand(haptics::ServedDevice served, double rate_Hz)
+    : DeviceLoop(served, rate_Hz, haptics::kServoPriority),
+      by_hand_(served.by_hand != nullptr),
+      limits_(haptics::limitedTo(served.device.capabilities(), rate_Hz, haptics::Command{}).safety) {}
+
+void PushingHand::wait(std::chrono::milliseconds time) {
+  if (by_hand_)
+    step(static_cast<std::uint64_t>(rate_Hz() * std::chrono::duration<double>(time).count()));
+  else
+    std::this_thread::sleep_for(time);
+}
 
 PushingHand::Answer PushingHand::answer(const haptics::HandleState& state, const haptics::Beat& beat) noexcept {
   const double dt_s = 1.0 / rate_Hz();

@@ -50,8 +50,9 @@ DeviceCapabilities capabilitiesOf(const FalconForceScale& scale, const std::stri
   return can;
 }
 
-UsbStream falconStream() {
+UsbStream falconStream(int servo_priority) {
   UsbStream stream;
+  stream.priority = usbPriority(servo_priority);
   stream.reader = [line = FalconStream()](std::span<const std::uint8_t> transfer) mutable -> std::optional<UsbReport> {
     std::array<std::uint8_t, UsbReport::kMostBytes> payload;
     if (transfer.size() > payload.size()) return {};
@@ -85,7 +86,7 @@ Falcon::Falcon(const FalconSettings& settings) : scale_(settings.scale) {
                         DeviceTrouble::no_driver);
     loadFalcon(*usb_, program, settings.tell, settings.greetings);
   }
-  usb_->run(falconStream());
+  usb_->run(falconStream(settings.servo_priority));
   if (settings.homing_patience > 0s) awaitHoming(settings);
 }
 

@@ -16,6 +16,7 @@
 
 #include "haptics/device/found_device.h"
 #include "haptics/device/paced_device.h"
+#include "haptics/device/thread_priority.h"
 #include "haptics/device/usb/falcon_force_scale.h"
 #include "haptics/device/usb/falcon_start.h"
 #include "haptics/device/usb/usb_clock.h"
@@ -32,6 +33,7 @@ struct FalconSettings {
   FalconTell tell;                           ///< progress and what the owner shall do
   std::chrono::seconds homing_patience{60};  ///< 0: does not wait, ticks uncalibrated until it is homed
   int greetings = 100;                       ///< of the boot loader
+  int servo_priority = kServoPriority;       ///< the thread that reads its USB lies next to it
   UsbClock clock = {};
 };
 

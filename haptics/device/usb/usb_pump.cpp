@@ -1,5 +1,4 @@
 #include "haptics/device/usb/usb_pump.h"
-#include "haptics/device/thread_priority.h"
 
 #include <pthread.h>
 #include <sched.h>
@@ -23,9 +22,9 @@ constexpr std::int64_t kWait_ns = kMillisecond_ns / 2;
 std::int64_t ns(std::chrono::milliseconds time) { return std::chrono::nanoseconds(time).count(); }
 
 /// Best effort.
-void hurry() noexcept {
+void hurry(int priority) noexcept {
   sched_param param{};
-  param.sched_priority = usbPriority(kServoPriority);
+  param.sched_priority = priority;
   pthread_setschedparam(pthread_self(), SCHED_FIFO, &param);
   pthread_setname_np(pthread_self(), "molar-usb");
 }
@@ -106,7 +105,7 @@ UsbCounters UsbPump::counters() const noexcept {
 // ---- the event thread
 
 void UsbPump::run() noexcept {
-  hurry();
+  hurry(stream_.priority);
   while (!quit_.load()) {
     std::int64_t now_ns = link_.clock().now_ns();
     if (gone_) {

@@ -42,8 +42,9 @@ DeviceCapabilities capabilitiesOf(const WoodenModel& model, const std::string& s
   return can;
 }
 
-UsbStream woodenStream() {
+UsbStream woodenStream(int servo_priority) {
   UsbStream stream;
+  stream.priority = usbPriority(servo_priority);
   stream.report_bytes = kWoodenReportBytes;
   stream.rest = woodenRest();
   stream.rest_after = kRestAfter;
@@ -80,7 +81,7 @@ WoodenHaptics::WoodenHaptics(const WoodenSettings& settings)
     throw DeviceError(where() + "its packets hold no report, it is another device with the same id",
                       DeviceTrouble::faulty);
   state_.calibrated = false;
-  usb_->run(woodenStream());
+  usb_->run(woodenStream(settings.servo_priority));
   wake();
   if (settings.homing_patience > 0s) awaitHoming(settings);
 }

@@ -17,6 +17,7 @@
 
 #include "haptics/device/found_device.h"
 #include "haptics/device/paced_device.h"
+#include "haptics/device/thread_priority.h"
 #include "haptics/device/usb/usb_clock.h"
 #include "haptics/device/usb/wooden_homing.h"
 #include "haptics/device/usb/wooden_kinematics.h"
@@ -41,6 +42,7 @@ struct WoodenSettings {
   WoodenModel model = woodenHaptics2019();
   WoodenTell tell;
   std::chrono::seconds homing_patience{60};  ///< 0: does not wait, ticks uncalibrated until it is homed
+  int servo_priority = kServoPriority;       ///< the thread that reads its USB lies next to it
   UsbClock clock = {};
 };
 

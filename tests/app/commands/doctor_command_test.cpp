@@ -35,6 +35,7 @@ TEST_F(DoctorCommand, RefusesWhatItDoesNotKnow) {
   expectRefusal("doctor --sessions " + at("nowhere"), "nowhere");
   expectRefusal("doctor --json --udev-rules", "udev-rules");
   expectRefusal("doctor everything");
+  expectRefusal("doctor --priority 99", "priority");
 }
 
 }  // namespace

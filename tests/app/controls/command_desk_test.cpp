@@ -34,7 +34,7 @@ struct Desk {
     mouse = device.get();
     desk.emplace(block.start().command, other_tools, settings_file, 0.002, 1000.0);
     haptics::LoopSettings settings;
-    settings.realtime = false;
+    settings.priority = std::nullopt;
     workstation.emplace(patient, std::move(device), settings, desk->inForce(), Recording{path, true}, Ticking::by_hand);
     desk->serve(*workstation);
     workstation->start();

@@ -48,7 +48,8 @@ class WrittenDevice final : public haptics::PacedDevice {
 
 class Pusher final : public haptics::DeviceLoop {
  public:
-  Pusher(haptics::HapticDevice& device, std::string end) : DeviceLoop(device, 1000.0, false), end_(std::move(end)) {}
+  Pusher(haptics::HapticDevice& device, std::string end)
+      : DeviceLoop(device, 1000.0, std::nullopt), end_(std::move(end)) {}
   ~Pusher() override { stop(); }
 
  private:

@@ -138,7 +138,7 @@ TEST(DoctorLimits, GiveTheLinesForWhoeverIsHeldBack) {
                                       "Max realtime priority     0                    99");
   const Finding priority = checkPriorityLimit(paper.machine()), memory = checkMemoryLimit(paper.machine());
   EXPECT_EQ(priority.health, Health::warn);
-  EXPECT_THAT(priority.next_step, HasSubstr("eva - rtprio 95"));
+  EXPECT_THAT(priority.next_step, HasSubstr("eva - rtprio 46\\n"));
   EXPECT_THAT(priority.next_step, HasSubstr("/etc/security/limits.d/"));
   EXPECT_EQ(memory.health, Health::warn);
   EXPECT_THAT(memory.sentence, HasSubstr("Only 8 MB"));
@@ -167,6 +167,10 @@ TEST(DoctorLimits, WantNoMorePriorityThanTheServoAndItsUsbThreadTake) {
   const Finding enough = checkPriorityLimit(paper.machine());
   EXPECT_EQ(enough.health, Health::ok);
   EXPECT_THAT(enough.sentence, HasSubstr("priority 45, below the interrupts"));
+  const Finding of_choice = checkPriorityLimit(paper.machine(), 60);
+  EXPECT_EQ(of_choice.health, Health::warn);
+  EXPECT_THAT(of_choice.next_step, HasSubstr("eva - rtprio 61\\n"));
+  EXPECT_THAT(checkMemoryLimit(paper.machine(), 60).next_step, HasSubstr("eva - rtprio 61\\n"));
 }
 
 TEST(DoctorLimits, WantTheInterruptsAboveTheServoThatWaitsForThem) {
@@ -183,6 +187,12 @@ TEST(DoctorLimits, WantTheInterruptsAboveTheServoThatWaitsForThem) {
   put("71", "irq/30-xhci (a b)", 50);
   put("72", "kworker/0:1", 1);
   EXPECT_EQ(checkPriorityLimit(paper.machine()).health, Health::ok);
+  const Finding chosen = checkPriorityLimit(paper.machine(), 60);
+  EXPECT_EQ(chosen.health, Health::warn);
+  EXPECT_THAT(chosen.sentence,
+              HasSubstr("irq/30-xhci (a b) has real-time priority 50, the servo that may wait for it 60"));
+  EXPECT_THAT(chosen.next_step, HasSubstr("--priority of 48 or less"));
+  EXPECT_EQ(checkPriorityLimit(paper.machine(), 48).health, Health::ok);
   put("73", "irq/31-ehci", 20);
   const Finding low = checkPriorityLimit(paper.machine());
   EXPECT_EQ(low.health, Health::warn);
