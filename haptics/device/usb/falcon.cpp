@@ -93,9 +93,10 @@ Falcon::Falcon(const FalconSettings& settings) : scale_(settings.scale) {
 Falcon::~Falcon() { stop(); }
 
 void Falcon::awaitHoming(const FalconSettings& settings) {
-  const std::int64_t deadline_ns = monotonic_ns() + std::chrono::nanoseconds(settings.homing_patience).count();
+  const UsbClock clock = usb_->clock();
+  const std::int64_t deadline_ns = clock.now_ns() + std::chrono::nanoseconds(settings.homing_patience).count();
   const std::string where = "Falcon on USB " + usb_->path() + ", ";
-  while (monotonic_ns() < deadline_ns) {
+  while (clock.now_ns() < deadline_ns) {
     usb_->send(reportOf({{}, true, FalconLights::red}), usb_->rests());
     usb_->awaitReport(monotonic_ns() + std::chrono::nanoseconds(20ms).count());
     const auto report = decodeFalconReport(usb_->newestReport().content());

@@ -22,7 +22,10 @@ constexpr double kVelocityCutoff_Hz = 50.0;
 constexpr double kContinuousShare = 0.27;
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
-std::int64_t after(std::chrono::milliseconds time) { return monotonic_ns() + std::chrono::nanoseconds(time).count(); }
+/// By the machine's clock, unless by another.
+std::int64_t after(std::chrono::milliseconds time, const UsbClock& clock = {}) {
+  return clock.now_ns() + std::chrono::nanoseconds(time).count();
+}
 
 DeviceCapabilities capabilitiesOf(const WoodenModel& model, const std::string& serial) {
   DeviceCapabilities can;
@@ -91,8 +94,9 @@ WoodenHaptics::~WoodenHaptics() { stop(); }
 std::string WoodenHaptics::where() const { return model_.name + " on USB " + usb_->path() + ", "; }
 
 void WoodenHaptics::wake() {
-  const std::int64_t deadline_ns = after(kAnswer);
-  while (monotonic_ns() < deadline_ns) {
+  const UsbClock clock = usb_->clock();
+  const std::int64_t deadline_ns = after(kAnswer, clock);
+  while (clock.now_ns() < deadline_ns) {
     usb_->send(woodenRest(), usb_->rests());
     if (usb_->awaitReport(after(kWakeUp))) return;
   }
@@ -100,8 +104,9 @@ void WoodenHaptics::wake() {
 }
 
 void WoodenHaptics::awaitHoming(const WoodenSettings& settings) {
-  const std::int64_t deadline_ns = after(settings.homing_patience);
-  while (monotonic_ns() < deadline_ns) {
+  const UsbClock clock = usb_->clock();
+  const std::int64_t deadline_ns = after(settings.homing_patience, clock);
+  while (clock.now_ns() < deadline_ns) {
     rests_ = usb_->rests();
     usb_->awaitReport(after(kWakeUp));
     if (listen() && homing_.isHome()) return;

@@ -12,6 +12,7 @@
 #include "haptics/latest.h"
 #include "haptics/safety/motor_gate.h"
 #include "tests/haptics/allocation_count.h"
+#include "tests/haptics/usb/held_clock.h"
 #include "tests/haptics/usb/simulated_falcon.h"
 
 namespace haptics {
@@ -20,6 +21,7 @@ namespace {
 using namespace std::chrono_literals;
 using simulated_usb::Bus;
 using simulated_usb::Bytes;
+using simulated_usb::HeldClock;
 using simulated_usb::SimulatedFalcon;
 
 const std::string kNoForce = "<AAAAAAAAAAAA";
@@ -102,6 +104,7 @@ class FalconOnTheBus : public testing::Test {
 
   SimulatedFalcon unit;
   Bytes program;
+  HeldClock time;
   std::optional<Bus> bus;
   int files_ = 0;
 };
@@ -196,8 +199,15 @@ TEST_F(FalconOnTheBus, GivesUpHomingAfterItsPatienceOrWhenTold) {
   unit.runs = true;
   unit.homed = 3;
   FalconSettings settings;
-  settings.homing_patience = 1s;
+  settings.clock = time.clock();
+  int told = 0;
+  settings.tell = [&](const std::string&, double) {
+    ++told;
+    time.pass(30s);
+    return true;
+  };
   has(refusal(settings), "not homed, start again and pull");
+  EXPECT_EQ(told, 2);
   settings.tell = [](const std::string&, double) { return false; };
   has(refusal(settings), "given up");
 }
@@ -346,7 +356,10 @@ TEST_F(FalconOnTheBus, GarbageIsNeitherAPlaceNorAReasonToPush) {
 
 TEST_F(FalconOnTheBus, AsksASilentUnitSeldomAndWithoutForce) {
   unit.runs = true;
-  Falcon falcon({});
+  // Time stands on the line: what goes out is the servo's, no rest comes by itself after a silence.
+  FalconSettings settings;
+  settings.clock = time.clock();
+  Falcon falcon(settings);
   SteadyHand hand(falcon.capabilities());
   hand.push({0.0, 0.0, 0.3});
   falcon.start(hand, 1000.0);

@@ -155,7 +155,9 @@ struct Bus::Parts {
   std::vector<std::unique_ptr<Plug>> unplugged;  ///< handles may still be open
   std::atomic<int> halts_cleared{0}, cancelled{0}, looks{0};
 
-  double now_s() const { return std::chrono::duration<double>(Clock::now() - began).count(); }
+  std::optional<Clock::time_point> held;
+
+  double now_s() const { return std::chrono::duration<double>(held.value_or(Clock::now()) - began).count(); }
   static std::string sysPath(const std::string& port) { return "/sys/devices/pci0000:00/0000:00:14.0/usb1/1-" + port; }
 };
 
@@ -345,6 +347,17 @@ void Bus::unplug(const std::string& port) {
 void Bus::set(const Faults& faults, const std::string& port) {
   const std::lock_guard lock(parts_->mutex);
   parts_->plugs.at(port)->faults = faults;
+}
+
+void Bus::holdTime() {
+  const std::lock_guard lock(parts_->mutex);
+  parts_->held = Clock::now();
+}
+
+void Bus::letTimePass() {
+  const std::lock_guard lock(parts_->mutex);
+  parts_->began += Clock::now() - parts_->held.value();
+  parts_->held.reset();
 }
 
 void Bus::locked(const std::function<void()>& look) {

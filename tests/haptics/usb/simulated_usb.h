@@ -77,6 +77,10 @@ class Bus {
   void unplug(const std::string& port = "1");
 
   void set(const Faults& faults, const std::string& port = "1");
+  /// For the models time stands, until it goes on from there.
+  void holdTime();
+  void letTimePass();
+
   /// The test's look at a model, while nothing else touches it.
   void locked(const std::function<void()>& look);
 

@@ -107,7 +107,7 @@ TEST_F(UsbTransportOnTheBus, ReadsPipesFromTheDescriptors) {
 }
 
 TEST_F(UsbTransportOnTheBus, CarriesReportsBothWays) {
-  UsbTransport usb({0x1234, 6});
+  UsbTransport usb({0x1234, 6}, time.clock());
   usb.run(echoStream());
   std::uint64_t serial = 0;
   for (int i = 1; i <= 100; ++i) {
@@ -223,21 +223,27 @@ TEST_F(UsbTransportOnTheBus, IsLateWhileNothingComesAndWellAgainAfter) {
   ASSERT_TRUE(soon([&] { return usb.state() == UsbState::ok; }));
   bus->set({.in_silent = true});
   ASSERT_TRUE(soon([&] { return usb.counters().in_timeouts >= 6; }));
-  EXPECT_EQ(usb.state(), UsbState::late);
+  EXPECT_TRUE(soon([&] { return usb.state() == UsbState::late; }));
   bus->set({});
   EXPECT_TRUE(soon([&] { return usb.state() == UsbState::ok; }));
 }
 
 TEST_F(UsbTransportOnTheBus, TakesBackAReportNobodyTookAndSendsTheNewest) {
-  UsbTransport usb({0x1234, 6});
+  UsbTransport usb({0x1234, 6}, time.clock());
   usb.run(echoStream());
   ASSERT_TRUE(soon([&] { return usb.state() == UsbState::ok; }));
   bus->set({.out_refused = true});
   usb.send(report(1), usb.rests());
-  ASSERT_TRUE(soon([&] { return usb.counters().out_timeouts >= 1 && usb.state() == UsbState::late; }));
+  const auto timesOut = [&](std::uint64_t times) {
+    return soon([&] {
+      time.pass(5ms);
+      return usb.counters().out_timeouts >= times && usb.state() == UsbState::late;
+    });
+  };
+  ASSERT_TRUE(timesOut(1));
   // One is on its way again and again; of those that come meanwhile only the newest counts.
   for (std::uint8_t i = 2; i <= 9; ++i) usb.send(report(i), usb.rests());
-  ASSERT_TRUE(soon([&] { return usb.counters().out_timeouts >= 2; }));
+  ASSERT_TRUE(timesOut(2));
   usb.send(report(10), usb.rests());
   bus->set({});
   ASSERT_TRUE(soon([&] { return usb.newestReport().bytes[1] == 10 && usb.state() == UsbState::ok; }));
@@ -246,7 +252,7 @@ TEST_F(UsbTransportOnTheBus, TakesBackAReportNobodyTookAndSendsTheNewest) {
 }
 
 TEST_F(UsbTransportOnTheBus, ClearsAHaltedPipeAndGoesOn) {
-  UsbTransport usb({0x1234, 6});
+  UsbTransport usb({0x1234, 6}, time.clock());
   usb.run(echoStream());
   ASSERT_TRUE(soon([&] { return usb.state() == UsbState::ok; }));
   bus->set({.in_halted = true});
@@ -274,7 +280,7 @@ TEST_F(UsbTransportOnTheBus, ClearsAHaltThatStaysNoMoreThanAFewTimes) {
 }
 
 TEST_F(UsbTransportOnTheBus, NeverShowsAReportOfTheWrongLength) {
-  UsbTransport usb({0x1234, 6});
+  UsbTransport usb({0x1234, 6}, time.clock());
   bus->locked([&] { echo.report_bytes = 3; });
   usb.run(echoStream());
   ASSERT_TRUE(soon([&] { return usb.counters().short_reports >= 3; }));
@@ -296,7 +302,7 @@ TEST_F(UsbTransportOnTheBus, NeverShowsAReportOfTheWrongLength) {
 }
 
 TEST_F(UsbTransportOnTheBus, HearsReportsInTheOrderTheyWereSaid) {
-  UsbTransport usb({0x1234, 6});
+  UsbTransport usb({0x1234, 6}, time.clock());
   UsbStream stream = echoStream();
   std::vector<std::uint8_t> heard;
   stream.reader = [&](std::span<const std::uint8_t> bytes) -> std::optional<UsbReport> {
@@ -311,7 +317,7 @@ TEST_F(UsbTransportOnTheBus, HearsReportsInTheOrderTheyWereSaid) {
 }
 
 TEST_F(UsbTransportOnTheBus, LetsAReaderPutReportsTogether) {
-  UsbTransport usb({0x1234, 6});
+  UsbTransport usb({0x1234, 6}, time.clock());
   UsbStream stream = echoStream();
   int pieces = 0;
   stream.reader = [&](std::span<const std::uint8_t> bytes) -> std::optional<UsbReport> {
@@ -326,7 +332,7 @@ TEST_F(UsbTransportOnTheBus, LetsAReaderPutReportsTogether) {
 }
 
 TEST_F(UsbTransportOnTheBus, ARestMakesVoidWhatWasMadeBefore) {
-  UsbTransport usb({0x1234, 6});
+  UsbTransport usb({0x1234, 6}, time.clock());
   usb.run(echoStream());
   const std::uint32_t before = usb.rests();
   usb.send(report(5), before);
@@ -379,7 +385,7 @@ TEST_F(UsbTransportOnTheBus, RestsByItselfWhenNobodySendsAnything) {
 }
 
 TEST_F(UsbTransportOnTheBus, SendsTheLastReportAndThenNothingEver) {
-  UsbTransport usb({0x1234, 6});
+  UsbTransport usb({0x1234, 6}, time.clock());
   usb.run(echoStream());
   std::atomic<bool> over{false};
   std::atomic<int> sent{0};
