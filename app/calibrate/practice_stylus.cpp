@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "calibration/arm/phantom_models.h"
-#include "haptics/device/simulated/phantom_mechanics.h"
 
 namespace app {
 namespace {
@@ -19,9 +18,6 @@ constexpr double kTurnsIn_s = 0.08, kSteadiesIn_s = 0.05;
 constexpr double kSteadiedShare = 0.2;  ///< of the tremor that is left in a pit
 constexpr double kDocks_mm = 2.0;
 
-/// Of the driver's model: the unit is an Omni.
-const haptics::PhantomMechanics& omni() { return *haptics::findSimulatedPhantom("omni"); }
-
 bool isUsable(const PracticeHold& hold) {
   const double length = glm::length(hold.along_W.xyz);
   return std::isfinite(glm::length(hold.tip_W.mm)) && std::isfinite(length) && length > 0.1;
@@ -35,8 +31,9 @@ Pose<World, Handle> heldSo(const glm::dvec3& tip_W, const glm::dvec3& along_W, c
 
 PracticeStylus::PracticeStylus(const calibration::SyntheticRig& rig, const PracticeHold& start, double tremor_rms_mm)
     : rig_(rig),
+      omni_(*haptics::findSimulatedPhantom("omni")),
       hold_(start),
-      sensors_(omni().geometry, omni().sensing, rig.seed, rig.arm),
+      sensors_(omni_.geometry, omni_.sensing, rig.seed, rig.arm),
       tremor_(tremor_rms_mm, rig.seed + 1),
       along_W_(glm::normalize(start.along_W.xyz)) {
   capabilities_.model = "practice stylus";
@@ -44,7 +41,7 @@ PracticeStylus::PracticeStylus(const calibration::SyntheticRig& rig, const Pract
   capabilities_.has_inkwell = true;
   hand_.place_mm = start.tip_W.mm;
   const Pose<Device, Handle> X_DH = rig_.X_WD.inverse() * heldSo(start.tip_W.mm, along_W_, rig_.arm.truth.tip_H_mm);
-  const auto arm_rad = calibration::armReaching(omni().geometry, {X_DH.translation_mm});
+  const auto arm_rad = calibration::armReaching(omni_.geometry, {X_DH.translation_mm});
   if (!arm_rad) throw haptics::DeviceError("practice stylus: its arm does not reach where it starts, move it nearer");
   joints_ = {*arm_rad, calibration::wristTurnedTo(*arm_rad, X_DH.rotation)};
   seen_.publish({start.tip_W, {along_W_}});
@@ -77,13 +74,13 @@ haptics::HandleState PracticeStylus::exchange(const haptics::Wrench<Device>&, do
   t_s_ += dt_s;
   const Pose<Device, Handle> X_DH = wanted(dt_s);
   // At its stops it stands where it last was.
-  if (const auto arm_rad = calibration::armReaching(omni().geometry, {X_DH.translation_mm})) joints_.arm_rad = *arm_rad;
+  if (const auto arm_rad = calibration::armReaching(omni_.geometry, {X_DH.translation_mm})) joints_.arm_rad = *arm_rad;
   const glm::dvec3 wrist_rad = calibration::wristTurnedTo(joints_.arm_rad, X_DH.rotation);
   for (int axis = 0; axis < 3; ++axis) {
-    const calibration::AngleRange& range = omni().geometry.wrist[static_cast<std::size_t>(axis)];
+    const calibration::AngleRange& range = omni_.geometry.wrist[static_cast<std::size_t>(axis)];
     joints_.wrist_rad[axis] = std::clamp(wrist_rad[axis], range.least_rad, range.most_rad);
   }
-  const Pose<Device, Handle> is_DH = calibration::handlePose(omni().geometry, joints_);
+  const Pose<Device, Handle> is_DH = calibration::handlePose(omni_.geometry, joints_);
   const Pose<World, Handle> X_WH = rig_.X_WD * is_DH;
   seen_.publish({X_WH * Point<Handle>{rig_.arm.truth.tip_H_mm}, {X_WH.rotation * glm::dvec3(0.0, 0.0, 1.0)}});
 

@@ -7,6 +7,7 @@
 #include "app/calibrate/page_scene.h"
 #include "calibration/synthetic/synthetic_rig.h"
 #include "haptics/device/device_in_numbers.h"
+#include "haptics/device/simulated/phantom_mechanics.h"
 #include "haptics/device/simulated/phantom_sensors.h"
 #include "haptics/device/simulated/tremor.h"
 #include "haptics/device/simulated/virtual_hand.h"
@@ -41,6 +42,7 @@ class PracticeStylus final : public haptics::DeviceInNumbers {
   calibration::Pose<calibration::Device, calibration::Handle> wanted(double dt_s) noexcept;
 
   calibration::SyntheticRig rig_;
+  const haptics::PhantomMechanics& omni_;  ///< the driver's model of the unit
   haptics::Latest<PracticeHold> hold_;
   haptics::Latest<SeenStylus> seen_;
   haptics::DeviceCapabilities capabilities_;
