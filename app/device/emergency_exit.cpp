@@ -15,13 +15,11 @@ namespace {
 constexpr std::array kEnds = {SIGSEGV, SIGBUS,  SIGILL,  SIGFPE,  SIGABRT,   SIGQUIT, SIGTRAP, SIGSYS, SIGXCPU,
                               SIGXFSZ, SIGUSR1, SIGUSR2, SIGALRM, SIGVTALRM, SIGPROF, SIGIO,   SIGPWR, SIGSTKFLT};
 
-/// Two ticks without force are enough; the supervisor needs 60 ms where none come.
-constexpr int kLongestWait_ms = 120;
-
 std::atomic<haptics::DeviceLoop*> guarded{nullptr};
 /// False from when one is guarded until its motors were let go of.
 std::atomic<bool> is_quiet{true};
 std::atomic<bool> exit_is_watched{false};
+std::atomic<std::int64_t> longest_wait_ms{0};
 
 /// How each signal was met before.
 std::array<struct sigaction, kEnds.size()> former;
@@ -31,9 +29,9 @@ stack_t former_stack;
 alignas(16) std::array<char, 64 * 1024> handler_stack;
 
 template <class Condition>
-void awaitUpTo(int most_ms, const Condition& is_so) {
+void awaitUpTo(std::int64_t most_ms, const Condition& is_so) {
   const timespec one_ms{0, 1'000'000};
-  for (int ms = 0; ms < most_ms && !is_so(); ++ms) nanosleep(&one_ms, nullptr);
+  for (std::int64_t ms = 0; ms < most_ms && !is_so(); ++ms) nanosleep(&one_ms, nullptr);
 }
 
 /// The first to come lets the motors go; whoever comes meanwhile waits, for what ends the program must not end it
@@ -41,12 +39,12 @@ void awaitUpTo(int most_ms, const Condition& is_so) {
 void letGo(bool stops_device) {
   haptics::DeviceLoop* const loop = guarded.exchange(nullptr);
   if (loop == nullptr) {
-    awaitUpTo(2 * kLongestWait_ms, [] { return is_quiet.load(); });
+    awaitUpTo(2 * longest_wait_ms.load(), [] { return is_quiet.load(); });
     return;
   }
   loop->forbidForce();
-  const std::uint64_t then = loop->ticks();
-  awaitUpTo(kLongestWait_ms, [&] { return loop->ticks() >= then + 2; });
+  const std::uint64_t ticks = loop->ticks(), silences = loop->silences();
+  awaitUpTo(longest_wait_ms.load(), [&] { return loop->ticks() >= ticks + 2 || loop->silences() > silences; });
   if (stops_device) loop->emergencyStop();
   is_quiet.store(true);
 }
@@ -67,8 +65,9 @@ void forbidForceNow() noexcept {
   if (haptics::DeviceLoop* loop = guarded.load()) loop->forbidForce();
 }
 
-EmergencyExit::EmergencyExit(haptics::DeviceLoop& loop) {
+EmergencyExit::EmergencyExit(haptics::DeviceLoop& loop, std::chrono::milliseconds longest) {
   is_quiet.store(false);
+  longest_wait_ms.store(longest.count());
   [[maybe_unused]] haptics::DeviceLoop* before = guarded.exchange(&loop);
   assert(before == nullptr);
   if (!exit_is_watched.exchange(true)) std::atexit(onExit);

@@ -80,7 +80,7 @@ void DeviceLoop::emergencyStop() noexcept {
 
 LoopFigures DeviceLoop::figures() const {
   LoopFigures figures = statistics_.figures();
-  figures.silences = supervisor_ ? supervisor_->trips() : 0;
+  figures.silences = silences();
   return figures;
 }
 

@@ -45,6 +45,8 @@ class DeviceLoop : private DeviceServo {
 
   /// So far. Any thread, signal handlers too.
   std::uint64_t ticks() const noexcept { return ticks_.load(std::memory_order_relaxed); }
+  /// How often the supervisor has switched the motors off, for want of ticks.
+  std::uint64_t silences() const noexcept { return supervisor_ ? supervisor_->trips() : 0; }
   LoopFigures figures() const;
 
  protected:

@@ -63,11 +63,10 @@ class Pusher final : public haptics::DeviceLoop {
 };
 
 /// One thread crashes while another that has crashed still waits for the motors, which tick slowly.
-void crashTwice() {
-  std::thread second([] {
-    while (!crashing.load()) {
+void crashTwice(const haptics::DeviceLoop& loop) {
+  std::thread second([&] {
+    while (!loop.isForbidden()) {
     }
-    std::this_thread::sleep_for(5ms);
     std::raise(SIGSEGV);
   });
   crashing.store(true);
@@ -97,9 +96,10 @@ int main(int argc, char** argv) {
     const app::EmergencyExit emergency(loop);
   }
   if (end == "handler-comes-back") std::raise(SIGUSR1);
-  app::EmergencyExit emergency(loop);
+  // However busy the machine is.
+  app::EmergencyExit emergency(loop, 60s);
   while (loop.ticks() < 50) std::this_thread::sleep_for(1ms);
-  if (end == "two-crashes") crashTwice();
+  if (end == "two-crashes") crashTwice(loop);
   if (end == "handler-of-before" || end == "ignored") std::raise(SIGUSR1);
   if (end == "ignored") std::_Exit(8);
   if (end == "abort") std::abort();
@@ -110,6 +110,9 @@ int main(int argc, char** argv) {
   if (end == "exit") std::exit(3);
   if (end == "throw") throw std::runtime_error("nobody catches this");
   if (end == "kill-without-guard") std::raise(SIGKILL);
-  std::this_thread::sleep_for(end == "hang-in-tick" ? 500ms : 60s);
+  if (end == "hang-in-tick")
+    while (loop.silences() == 0) std::this_thread::sleep_for(1ms);
+  else
+    std::this_thread::sleep_for(60s);
   std::_Exit(4);
 }
