@@ -52,6 +52,11 @@ std::string firstRealDevice() {
 struct Unit {
   std::unique_ptr<Owner> owner;
   haptics::OpenedDevice opened;
+  haptics::DeviceInNumbers* in_numbers = nullptr;  ///< it needs no clock: it is stepped
+
+  haptics::ServedDevice served() const {
+    return in_numbers ? haptics::ServedDevice::byHand(*in_numbers) : haptics::ServedDevice(*opened.device);
+  }
 };
 
 Unit unitAt(const std::string& address, const CheckOptions& options, haptics::FalconForceScale& scale) {
@@ -62,7 +67,9 @@ Unit unitAt(const std::string& address, const CheckOptions& options, haptics::Fa
     if (phantom == nullptr)
       throw UsageError("devices check " + address + ": no such device, choose omni, touch, desktop or premium");
     auto hand = std::make_unique<ObedientHand>(*phantom);
-    unit.opened.device = std::make_unique<haptics::SimulatedPhantom>(*phantom, hand->script());
+    auto simulated = std::make_unique<haptics::SimulatedPhantom>(*phantom, hand->script());
+    unit.in_numbers = simulated.get();
+    unit.opened.device = std::move(simulated);
     unit.opened.address = address;
     unit.owner = std::move(hand);
     return unit;
@@ -108,7 +115,7 @@ int check(const CheckOptions& options) {
   dialogue.say("Check of " + unit.opened.device->capabilities().model + ". q leaves at any question, motors off.");
 
   const DeviceCheckPlan plan{address, axesAt(address), options.rate_Hz, options.rate_seconds};
-  DeviceCheck done = checkDevice(*unit.opened.device, plan, *unit.owner, dialogue);
+  DeviceCheck done = checkDevice(unit.served(), plan, *unit.owner, dialogue);
   done.report.date = today();
   done.report.program = MOLAR_VERSION;
   if (address.starts_with("falcon") && done.readings.size() >= 3) keepFalconScale(options, scale, done);

@@ -1,7 +1,6 @@
 #include "app/device/check/bench_waits.h"
 
 #include <chrono>
-#include <thread>
 #include <utility>
 
 #include "app/text/printed.h"
@@ -22,7 +21,7 @@ bool pushUntilSteady(CheckBench& bench, const glm::dvec3& force_D_N) {
   const double asked_N = glm::length(force_D_N);
   for (int i = 0; i < kMostLooks; ++i) {
     if (glm::length(bench.hand.newest().lately_D_N - force_D_N) <= kSteady * asked_N) return true;
-    std::this_thread::sleep_for(kBetweenLooks);
+    bench.hand.wait(kBetweenLooks);
   }
   return false;
 }
@@ -30,14 +29,14 @@ bool pushUntilSteady(CheckBench& bench, const glm::dvec3& force_D_N) {
 void letGo(CheckBench& bench) {
   bench.hand.push(glm::dvec3(0.0));
   for (int i = 0; i < kMostLooks && glm::length(bench.hand.newest().pushed_D_N) > 0.0; ++i)
-    std::this_thread::sleep_for(kBetweenLooks);
+    bench.hand.wait(kBetweenLooks);
 }
 
 PushingHand::Seen lookAtRest(CheckBench& bench) {
   int quiet = 0;
   std::uint64_t ticks = bench.hand.newest().ticks;
   for (int i = 0; i < kMostLooksAtRest && quiet < kQuietLooks; ++i) {
-    std::this_thread::sleep_for(kBetweenLooks);
+    bench.hand.wait(kBetweenLooks);
     const PushingHand::Seen& seen = bench.hand.newest();
     // A device that has not ticked since has not come to rest.
     if (std::exchange(ticks, seen.ticks) == seen.ticks) continue;

@@ -1,5 +1,5 @@
-// Waiting at the bench for what a device does by itself: to be armed, to push as asked, to have let go. Polls a hundred
-// times a second, gives up after ten seconds. Main thread.
+// Waiting at the bench for what a device does by itself: to be armed, to push as asked, to have let go. Looks a hundred
+// times a second of the device's time, gives up after ten seconds. Main thread.
 #pragma once
 
 #include "app/device/check/check_steps.h"

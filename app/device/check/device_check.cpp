@@ -55,13 +55,13 @@ DeviceAxes axesAt(const std::string& address) {
   return {};
 }
 
-DeviceCheck checkDevice(haptics::HapticDevice& device, const DeviceCheckPlan& plan, Owner& owner, Dialogue& dialogue) {
+DeviceCheck checkDevice(haptics::ServedDevice served, const DeviceCheckPlan& plan, Owner& owner, Dialogue& dialogue) {
   DeviceCheck check;
   check.report.address = plan.address;
-  check.report.device = device.capabilities();
+  check.report.device = served.device.capabilities();
   addFacts(check.report);
 
-  PushingHand hand(device, plan.rate_Hz);
+  PushingHand hand(served, plan.rate_Hz);
   hand.start();
   {
     const EmergencyExit emergency(hand);

@@ -7,7 +7,7 @@
 #include "app/device/check/check_steps.h"
 #include "app/device/check/dialogue.h"
 #include "app/device/check/owner.h"
-#include "haptics/device/haptic_device.h"
+#include "haptics/loop/served_device.h"
 
 namespace app {
 
@@ -22,8 +22,8 @@ struct DeviceCheck {
   std::vector<ForceReading> readings;  ///< of the balance, down positive
 };
 
-/// Throws DeviceError when the device can not be started.
-DeviceCheck checkDevice(haptics::HapticDevice& device, const DeviceCheckPlan& plan, Owner& owner, Dialogue& dialogue);
+/// By hand it takes no time but a person's. Throws DeviceError when the device can not be started.
+DeviceCheck checkDevice(haptics::ServedDevice served, const DeviceCheckPlan& plan, Owner& owner, Dialogue& dialogue);
 
 /// Of a device of this address.
 DeviceAxes axesAt(const std::string& address);

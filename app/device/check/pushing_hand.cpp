@@ -1,5 +1,8 @@
 #include "app/device/check/pushing_hand.h"
 
+#include <thread>
+
+#include "haptics/device/thread_priority.h"
 #include "haptics/servo/haptic_loop.h"
 
 namespace app {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 
 #include "haptics/latest.h"
@@ -24,7 +25,7 @@ class PushingHand final : public haptics::DeviceLoop {
   };
 
   /// Borrows the device. Throws DeviceError when it can not be served at the rate.
-  PushingHand(haptics::HapticDevice& device, double rate_Hz);
+  PushingHand(haptics::ServedDevice served, double rate_Hz);
   ~PushingHand() override { stop(); }
 
   void push(const glm::dvec3& force_D_N) { wish_D_N_.publish(force_D_N); }
@@ -34,9 +35,14 @@ class PushingHand final : public haptics::DeviceLoop {
 
   const haptics::SafetyLimits& limits() const { return limits_; }
 
+  /// While the device works: by hand that time is stepped, else it passes.
+  void wait(std::chrono::milliseconds time);
+  using DeviceLoop::now_ns;
+
  private:
   Answer answer(const haptics::HandleState& state, const haptics::Beat& beat) noexcept override;
 
+  const bool by_hand_;
   const haptics::SafetyLimits limits_;
   haptics::Latest<glm::dvec3> wish_D_N_{glm::dvec3(0.0)};
   haptics::Latest<Seen> newest_;

@@ -1,6 +1,5 @@
 #include <chrono>
 #include <cmath>
-#include <thread>
 
 #include "app/device/check/bench_waits.h"
 #include "app/device/check/check_steps.h"
@@ -110,9 +109,9 @@ bool checkAxes(CheckBench& bench) {
 bool checkRate(CheckBench& bench, double rate_Hz, double seconds) {
   bench.dialogue.say(printed("  Hold it quietly for %g s.", seconds));
   const std::uint64_t ticks_before = bench.hand.ticks();
-  const auto begun = std::chrono::steady_clock::now();
-  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-  const double taken_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  const std::int64_t begun_ns = bench.hand.now_ns();
+  bench.hand.wait(std::chrono::milliseconds(std::llround(1e3 * seconds)));
+  const double taken_s = 1e-9 * static_cast<double>(bench.hand.now_ns() - begun_ns);
   const double found_Hz = static_cast<double>(bench.hand.ticks() - ticks_before) / taken_s;
   const haptics::LoopFigures figures = bench.hand.figures();
   const bool is_right = std::abs(found_Hz - rate_Hz) < 0.02 * rate_Hz;

@@ -35,12 +35,13 @@ TEST_F(DevicesCommand, ListsWhatIsHereAndSaysWhatNoUnitHasProved) {
 TEST_F(DevicesCommand, CheckTakesAGoodUnitToTheEnd) {
   const Said said = check(goodAnswers("r\nu\nt\n", "0\n30.6\n61.2\n102\n-30.6\n-61.2\n-102\n"));
   const std::string page = read("report.md");
+  EXPECT_EQ(said.status, 0) << said.err << page;
   EXPECT_EQ(said.out, "");
   for (const char* line : {"| pushes right | right | right, moved +", "| pushes towards you | towards you |",
                            "| inkwell says docked | yes, then no | yes, then no | ok |",
                            "| buttons: free, first, second | none, bits 1, bits 2 | none, bits 1, bits 2 | ok |",
-                           "| scale of the force | 1.00 ± 0.10 |", "| rate | 1000 Hz |", "- [ ] a newton is a newton",
-                           "This unit is simulated"})
+                           "| scale of the force | 1.00 ± 0.10 |", "| rate | 1000 Hz | 1000.0 Hz | ok |",
+                           "- [ ] a newton is a newton", "This unit is simulated"})
     EXPECT_NE(page.find(line), std::string::npos) << line << "\n" << page << said.err;
   EXPECT_EQ(page.find("left before the end"), std::string::npos) << page;
 }

@@ -228,7 +228,15 @@ TEST_F(RehearseCommand, ServesAPhantomThroughTheVendorsLibrary) {
   const Said said = molar(line + "--record " + at("s.molar"));
   unsetenv("MOLAR_OPENHAPTICS");
   ASSERT_EQ(said.status, 0) << said.err;
-  EXPECT_EQ(said.out.find("latched"), std::string::npos) << said.out;
+  // A machine so busy that ticks are late may take the force away, the device itself gives no cause.
+  const std::vector<haptics::Tick> ticks = ticksOf(at("s.molar"));
+  ASSERT_FALSE(ticks.empty());
+  bool punctual = true;
+  for (const haptics::Tick& tick : ticks) {
+    punctual = punctual && tick.hand.gap_s == 0.0;
+    ASSERT_FALSE(haptics::has(tick.faults, haptics::Fault::device)) << tick.index;
+    ASSERT_FALSE(punctual && haptics::has(tick.faults, haptics::Fault::latched)) << tick.index << said.out;
+  }
   EXPECT_EQ(molar("replay " + at("s.molar") + " --verify").status, 0);
 }
 

@@ -1,24 +1,19 @@
 #include "app/device/check/pushing_hand.h"
 
 #include <algorithm>
-#include <atomic>
-#include <chrono>
 #include <limits>
-#include <thread>
 
 #include <gtest/gtest.h>
 
 #include "app/device/check/obedient_hand.h"
-#include "haptics/device/paced_device.h"
+#include "haptics/device/device_in_numbers.h"
 #include "haptics/device/simulated/simulated_phantom.h"
 
 namespace app {
 namespace {
 
-using namespace std::chrono_literals;
-
 /// Stands still and remembers the largest force and the last word.
-class StillDevice final : public haptics::PacedDevice {
+class StillDevice final : public haptics::DeviceInNumbers {
  public:
   StillDevice() {
     can_.has_motors = true;
@@ -26,48 +21,45 @@ class StillDevice final : public haptics::PacedDevice {
   }
   ~StillDevice() override { stop(); }
   const haptics::DeviceCapabilities& capabilities() const override { return can_; }
-  haptics::HandleState sense(double) noexcept override {
+  haptics::HandleState exchange(const haptics::Wrench<calibration::Device>&, double) noexcept override {
     haptics::HandleState state;
-    state.docked = docked.load();
+    state.docked = docked;
     return state;
   }
   void drive(const haptics::MotorCommand& command) noexcept override {
     last_N = glm::length(command.wrench_D().force_N.xyz);
-    most_N.store(std::max(most_N.load(), last_N));
+    most_N = std::max(most_N, last_N);
     steepest_N = std::max(steepest_N, last_N - before_N_);
     before_N_ = last_N;
     motors_on = command.motorsOn();
   }
-  std::atomic<bool> docked{false};
-  std::atomic<double> most_N{0.0};
-  double last_N = 0.0, steepest_N = 0.0;  // read after stop()
-  bool motors_on = true;
+  double last_N = 0.0, most_N = 0.0, steepest_N = 0.0;
+  bool docked = false, motors_on = true;
 
  private:
   haptics::DeviceCapabilities can_;
   double before_N_ = 0.0;
 };
 
+/// Within three seconds of its time.
 template <class Condition>
-bool eventually(Condition condition) {
-  for (int i = 0; i < 5000; ++i) {
-    if (condition()) return true;
-    std::this_thread::sleep_for(4ms);
-  }
-  return false;
+bool eventually(PushingHand& hand, Condition condition) {
+  for (int i = 0; i < 3000 && !condition(); ++i) hand.step(1);
+  return condition();
 }
 
 TEST(PushingHand, PushesAsAskedWithinEveryLimitAndEndsMotorsOff) {
   StillDevice device;
   {
-    PushingHand hand(device, 1000.0);
+    PushingHand hand(haptics::ServedDevice::byHand(device), 1000.0);
     hand.start();
     hand.push({0.0, -0.6, 0.0});
-    EXPECT_TRUE(eventually([&] { return glm::length(hand.newest().lately_D_N - glm::dvec3(0.0, -0.6, 0.0)) < 0.01; }));
+    EXPECT_TRUE(
+        eventually(hand, [&] { return glm::length(hand.newest().lately_D_N - glm::dvec3(0.0, -0.6, 0.0)) < 0.01; }));
     hand.push({50.0, 0.0, 0.0});
-    EXPECT_TRUE(eventually([&] { return hand.newest().pushed_D_N.x > 0.8; }));
+    EXPECT_TRUE(eventually(hand, [&] { return hand.newest().pushed_D_N.x > 0.8; }));
     hand.push({std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0});
-    EXPECT_TRUE(eventually([&] { return glm::length(hand.newest().pushed_D_N) == 0.0; }));
+    EXPECT_TRUE(eventually(hand, [&] { return glm::length(hand.newest().pushed_D_N) == 0.0; }));
     hand.stop();
   }
   EXPECT_LE(device.most_N, 0.9 * 3.3 + 1e-9);
@@ -79,14 +71,14 @@ TEST(PushingHand, PushesAsAskedWithinEveryLimitAndEndsMotorsOff) {
 TEST(PushingHand, PushesNobodyWhileTheHandleIsInItsInkwell) {
   StillDevice device;
   device.docked = true;
-  PushingHand hand(device, 1000.0);
+  PushingHand hand(haptics::ServedDevice::byHand(device), 1000.0);
   hand.start();
   hand.push({0.0, 1.0, 0.0});
-  ASSERT_TRUE(eventually([&] { return hand.newest().ticks > 200; }));
+  hand.step(200);
   EXPECT_EQ(device.most_N, 0.0);
   EXPECT_TRUE(hand.newest().state.docked);
   device.docked = false;
-  EXPECT_TRUE(eventually([&] { return hand.newest().pushed_D_N.y > 0.8; }));
+  EXPECT_TRUE(eventually(hand, [&] { return hand.newest().pushed_D_N.y > 0.8; }));
 }
 
 TEST(ObedientHand, DoesWhatItIsToldNoFasterThanItMay) {
