@@ -18,6 +18,12 @@ const char* nameOf(haptics::Provenance provenance) {
   return kNames[static_cast<int>(provenance)];
 }
 
+const char* nameOf(haptics::DeviceTrouble trouble) {
+  constexpr const char* kNames[] = {"not-there", "no-rights", "no-driver", "busy",
+                                    "not-ready", "faulty",    "no-means",  "bad-setting"};
+  return kNames[static_cast<int>(trouble)];
+}
+
 bool isReal(const FoundDevice& device) { return device.provenance != haptics::Provenance::simulated; }
 
 std::string bold(const std::string& text, const PageLook& look) {
@@ -36,7 +42,8 @@ std::string here(const DeviceCatalogue& catalogue, const PageLook& look) {
       text += std::string(indent, ' ') + "→ " + wrappedText(one.advice, indent + 2, look.width) + "\n";
   }
   if (std::ranges::none_of(catalogue.devices, isReal)) text += "  No device with motors, no pedal.\n";
-  for (const std::string& trouble : catalogue.troubles) text += "  " + wrappedText(trouble, 2, look.width) + "\n";
+  for (const haptics::DeviceError& trouble : catalogue.troubles)
+    text += "  " + wrappedText(trouble.what(), 2, look.width) + "\n";
   return text;
 }
 
@@ -75,7 +82,7 @@ std::string asText(const DeviceCatalogue& catalogue, const PageLook& look) {
 
 std::string asJson(const DeviceCatalogue& catalogue) {
   using nlohmann::ordered_json;
-  ordered_json devices = ordered_json::array(), all_kinds = ordered_json::array();
+  ordered_json devices = ordered_json::array(), all_kinds = ordered_json::array(), troubles = ordered_json::array();
   for (const FoundDevice& one : catalogue.devices)
     devices.push_back({{"name", one.name},
                        {"address", one.address},
@@ -90,7 +97,9 @@ std::string asJson(const DeviceCatalogue& catalogue) {
                          {"proved_against", kind.proof},
                          {"is_hardware", kind.isHardware()},
                          {"ran_on_a_real_unit", kind.ran_on_a_unit}});
-  const ordered_json all = {{"devices", devices}, {"kinds", all_kinds}, {"troubles", catalogue.troubles}};
+  for (const haptics::DeviceError& one : catalogue.troubles)
+    troubles.push_back({{"kind", nameOf(one.trouble)}, {"line", one.what()}});
+  const ordered_json all = {{"devices", devices}, {"kinds", all_kinds}, {"troubles", troubles}};
   return all.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -11,7 +11,8 @@ namespace app {
 
 std::string asText(const haptics::DeviceCatalogue& catalogue, const PageLook& look);
 /// {"devices": [{"name", "address", "place", "provenance", "driver", "next_step"}], "kinds": [{"key", "name",
-/// "driver", "proved_against", "is_hardware", "ran_on_a_real_unit"}], "troubles": […]}
+/// "driver", "proved_against", "is_hardware", "ran_on_a_real_unit"}], "troubles":
+/// [{"kind", "line"}]}, a search that failed each; kinds as DeviceTrouble, "no-rights"
 std::string asJson(const haptics::DeviceCatalogue& catalogue);
 
 }  // namespace app

@@ -24,7 +24,7 @@ std::optional<calibration::SyntheticRig> practiceRig(const std::string& address)
     has_seed = error == std::errc{} && end == digits.data() + digits.size();
   }
   if (!scenario || !has_seed)
-    throw UsageError("--device " + address + ": a practice device is practice:SCENARIO[:SEED], A to G and a number, " +
+    throw UsageError(address + ": a practice device is practice:SCENARIO[:SEED], A to G and a number, " +
                      "as in practice:D:7");
   return calibration::syntheticRig(*scenario, seed);
 }

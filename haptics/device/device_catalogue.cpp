@@ -93,7 +93,7 @@ DeviceCatalogue findDevices() {
     try {
       for (FoundDevice& device : find()) catalogue.devices.push_back(std::move(device));
     } catch (const DeviceError& error) {
-      catalogue.troubles.emplace_back(error.what());
+      catalogue.troubles.push_back(error);
     }
   };
   add(findPresent);  // those that another driver than Molar's would drive

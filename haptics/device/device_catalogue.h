@@ -1,6 +1,7 @@
 // Every device there is for a hand, a line each: its address, what drives it and what it was proved against, how it is
-// found and how it is opened. A new back-end is a folder and a line here. Searches open no device; they read files, ask
-// libusb, and load the vendor's library to see whether it could be used. Any thread but the servo's.
+// found and how it is opened. A new back-end is a folder, its open… in opened_device and a line here. Searches open no
+// device; they read files, ask libusb, and load the vendor's library to see whether it could be used. Any thread but
+// the servo's.
 #pragma once
 
 #include <span>
@@ -35,7 +36,7 @@ std::span<const DeviceKind> deviceKinds();
 
 struct DeviceCatalogue {
   std::vector<FoundDevice> devices;   ///< real ones first
-  std::vector<std::string> troubles;  ///< searches that failed, one line each
+  std::vector<DeviceError> troubles;  ///< of searches that failed
 };
 
 DeviceCatalogue findDevices();

@@ -78,6 +78,12 @@ TEST(SecondHand, RefusesWhatCanNotHoldAnInstrument) {
   for (const char* device : {"mouse", "simulated", "simulated:omni", "nonsense"})
     EXPECT_THROW(refuseUnlessSecondHand({device, SecondTool::mirror}, "scripted"), UsageError) << device;
   EXPECT_THROW(refuseUnlessSecondHand({"wooden:1-2", SecondTool::mirror}, "wooden:1-2"), UsageError);
+  try {
+    refuseUnlessSecondHand({"practice:Z", SecondTool::mirror}, "scripted");
+    FAIL();
+  } catch (const UsageError& refused) {
+    EXPECT_TRUE(std::string(refused.what()).starts_with("practice:Z: ")) << "it is nobody's --device";
+  }
   for (const char* device : {"", "scripted", "replay:s.molar", "wooden:1-2", "openhaptics:Left"})
     EXPECT_NO_THROW(refuseUnlessSecondHand({device, SecondTool::retractor}, "wooden:1-3")) << device;
 }
