@@ -1,6 +1,6 @@
 // Damaged copies of good files, for tests that feed readers with what nobody would write by hand: flipped bits, cut
 // ends, spliced and doubled pieces, lines lost, doubled or far too long, numbers of a text or of the bytes made NaN,
-// huge, negative or none. Mutant n of a file is always the same bytes, on any machine.
+// huge, negative or none, or lists nested in lists. Mutant n of a file is always the same bytes, on any machine.
 // `forEachMutant` tries as many as the caller says, or as the environment's MOLAR_MUTANTS says, from MOLAR_FIRST_MUTANT
 // on; a mutant that takes more than 10 s of processor time ends the program (SIGPROF), and one that makes the
 // program larger than 1 GB fails the test. About 2 µs a mutant of a few kilobytes.
@@ -129,7 +129,14 @@ class Mutator {
     const std::size_t from = bytes_.find_first_of(kDigits, at);
     if (from == std::string::npos || from > at + 200) return;
     const std::size_t end = std::min(bytes_.find_first_not_of("+-.0123456789e", from), bytes_.size());
-    bytes_.replace(from, end - from, below(2) == 0 ? std::to_string(below(300)) : piece());
+    bytes_.replace(from, end - from, below(2) == 0 ? smallNumberOrNest() : piece());
+  }
+
+  /// Now and then lists in lists, deeper than a reader that calls itself for each can follow.
+  std::string smallNumberOrNest() {
+    const std::size_t number = below(300);
+    const std::size_t deep = number < 295 ? 0 : 100'000;
+    return deep == 0 ? std::to_string(number) : std::string(deep, '[') + std::string(deep, ']');
   }
 
   void changeLine(std::size_t at) {

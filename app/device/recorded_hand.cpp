@@ -16,7 +16,7 @@ std::unique_ptr<haptics::ReplayedHand> recordedHand(const std::string& session_p
       state.healthy = tick.hand.device_healthy;
       states.push_back(state);
     }
-  return std::make_unique<haptics::ReplayedHand>(std::move(states), session.start().dt_s);
+  return std::make_unique<haptics::ReplayedHand>(std::move(states), session.about().dt_s);
 }
 
 }  // namespace app

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/session/json_depth.h"
 #include "app/session/session_error.h"
 
 namespace app {
@@ -197,31 +198,22 @@ void setFrom(Kind& kind, const nlohmann::json& json, const std::string& key) {
   setByKey(kind, json.get_ref<const std::string&>());
 }
 
-nlohmann::json objectFrom(std::string_view text) {
-  nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
-  if (!json.is_object()) throw damagedSession("a command can not be read");
-  return json;
-}
-
 }  // namespace
 
-std::string commandText(const haptics::Command& command, const std::string& others) {
-  nlohmann::json json = others.empty() ? nlohmann::json::object() : objectFrom(others);
+std::string commandText(const haptics::Command& command) {
+  nlohmann::json json = nlohmann::json::object();
   forEachKey(command, [&](const std::string& key, const auto& member) { json[key] = jsonOf(member); });
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-ReadCommand commandFromText(std::string_view text) {
-  nlohmann::json json = objectFrom(text);
-  ReadCommand read;
-  forEachKey(read.command, [&](const std::string& key, auto& member) {
-    const auto found = json.find(key);
-    if (found == json.end()) return;
-    setFrom(member, *found, key);
-    json.erase(found);
+haptics::Command commandFromText(std::string_view text) {
+  const nlohmann::json json = isNestedTooDeep(text) ? nlohmann::json() : nlohmann::json::parse(text, nullptr, false);
+  if (!json.is_object()) throw damagedSession("a command can not be read");
+  haptics::Command command;
+  forEachKey(command, [&](const std::string& key, auto& member) {
+    if (const auto found = json.find(key); found != json.end()) setFrom(member, *found, key);
   });
-  if (!json.empty()) read.others = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  return read;
+  return command;
 }
 
 }  // namespace app

@@ -37,7 +37,7 @@ void addTick(SessionMetrics& sum, const haptics::Tick& tick, const std::optional
   if (tick.drilling && touches && !irrigating) sum.dry_drilling_s += tick.dt_s;
   sum.max_force_N = std::max(sum.max_force_N, force_N);
   sum.max_depth_mm = std::max(sum.max_depth_mm, tick.depth_mm);
-  sum.removed_mm3 += tick.removed_mm3;
+  sum.removed_mm3 += tick.removed_mm3;  // as far as no tick was lost
   if (tick.removed_mm3 < 0.0) sum.returned_mm3 -= tick.removed_mm3;
   if (has(tick.faults, Fault::clamped | Fault::slewed)) sum.limited_s += tick.dt_s;
   if (has(tick.faults, Fault::bad_pose | Fault::bad_force | Fault::device)) sum.faulty_s += tick.dt_s;
@@ -49,8 +49,8 @@ void addTick(SessionMetrics& sum, const haptics::Tick& tick, const std::optional
 }
 
 /// None where what is left is another bone than the recorded one.
-std::optional<RemovedByTissue> removedByRunningAgain(const std::string& path) {
-  const ReplayedMoment end = replayTo(path, std::numeric_limits<double>::infinity());
+std::optional<RemovedByTissue> removedByRunningAgain(SessionReader& session) {
+  const ReplayedMoment end = replayTo(session, std::numeric_limits<double>::infinity());
   if (end.departure) return std::nullopt;
   return removedByKey(end.bone.removedByTissue_mm3());
 }
@@ -59,17 +59,14 @@ std::optional<RemovedByTissue> removedByRunningAgain(const std::string& path) {
 
 SessionMetrics metricsOf(const std::string& path) {
   SessionReader session(path);
-  if (const auto damage = session.damage())
-    throw SessionError(path + ": is damaged (" + *damage + "): see `molar replay " + path + " --verify`",
-                       SessionTrouble::damaged);
+  refuseDamaged(session, path);
   SessionMetrics metrics;
-  const StoredStart start = session.start();
-  metrics.patient_title = start.patient_title;
-  metrics.program_version = start.program_version;
-  metrics.calibration = start.calibration;
+  const StoredStart about = session.about();
+  metrics.patient_title = about.patient_title;
+  metrics.program_version = about.program_version;
+  metrics.calibration = about.calibration;
   metrics.closed = session.closed();
   metrics.missing_log = session.missingLog();
-  metrics.lost = session.lost();
   const std::vector<SessionCommand> commands = session.commands();
   metrics.commands = commands.size();
   metrics.events = session.events().size();
@@ -87,10 +84,14 @@ SessionMetrics metricsOf(const std::string& path) {
     }
     metrics.removed_mm3_by_label = std::move(block.removed_mm3);
   }
-  if (metrics.missing_log && metrics.ticks == 0)
-    throw SessionError(path + ": was being recorded when its program was killed, and its log " + *metrics.missing_log +
-                       " is not beside it: copy both files");
-  if (!metrics.removed_mm3_by_label) metrics.removed_mm3_by_label = removedByRunningAgain(path);
+  if (metrics.missing_log && metrics.ticks == 0) throw withoutLog(path, *metrics.missing_log);
+  metrics.lost = session.lost();
+  if (metrics.removed_mm3_by_label) {
+    metrics.removed_mm3 = 0.0;
+    for (const auto& [tissue, removed_mm3] : *metrics.removed_mm3_by_label) metrics.removed_mm3 += removed_mm3;
+  } else {
+    metrics.removed_mm3_by_label = removedByRunningAgain(session);
+  }
   if (metrics.contact_s > 0.0) metrics.mean_contact_force_N /= metrics.contact_s;
   metrics.work_p50_us = quantile(work_us, 0.50);
   metrics.work_p99_us = quantile(work_us, 0.99);

@@ -29,29 +29,26 @@ SessionError notMade(const std::string& path, int error) {
   return SessionError(path + ": can not be created (" + std::strerror(error) + "): check the folder and its rights");
 }
 
-/// Through a link to what it stands for: that is what is replaced.
-std::string resolved(const std::string& path) {
-  std::error_code failed;
-  if (!fs::is_symlink(path, failed)) return path;
-  const fs::path target = fs::weakly_canonical(path, failed);
-  return failed ? path : target.string();
+bool isCalled(int file, const std::string& path) {
+  struct stat ours {
+  }, named{};
+  return ::fstat(file, &ours) == 0 && ::stat(path.c_str(), &named) == 0 && ours.st_ino == named.st_ino &&
+         ours.st_dev == named.st_dev;
 }
 
 /// The descriptor; -1: somebody else has it, or it is not the file of that name any more.
 int locked(int file, const std::string& path) {
-  struct stat ours {
-  }, named{};
-  const bool held = ::flock(file, LOCK_EX | LOCK_NB) == 0 && ::fstat(file, &ours) == 0 &&
-                    ::stat(path.c_str(), &named) == 0 && ours.st_ino == named.st_ino && ours.st_dev == named.st_dev;
-  if (held) return file;
+  if (::flock(file, LOCK_EX | LOCK_NB) == 0 && isCalled(file, path)) return file;
   ::close(file);
   return -1;
 }
 
-/// What a program left that was killed before its first tick: nothing, or a start that nothing follows.
+/// What a program left that was killed before its first ticks were kept: nothing, a start that nothing follows, or one
+/// that was still being written, as the journal beside it says.
 bool holdsNothing(const std::string& path) {
   std::error_code failed;
   if (fs::file_size(path, failed) == 0) return !failed;
+  if (fs::exists(path + "-journal", failed)) return bearsSessionMark(path) || !isDatabase(path);
   try {
     SessionReader session(path);
     return session.nextBlock().ticks.empty();
@@ -81,6 +78,13 @@ std::vector<std::string> filesOf(const std::string& path) {
   return {path, path + "-wal", path + "-shm", path + "-journal"};
 }
 
+std::string throughLinks(const std::string& path) {
+  std::error_code failed;
+  if (!fs::is_symlink(path, failed)) return path;
+  const fs::path target = fs::weakly_canonical(path, failed);
+  return failed ? path : target.string();
+}
+
 bool isBeingRecorded(const std::string& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) return false;
@@ -89,7 +93,7 @@ bool isBeingRecorded(const std::string& path) {
   return busy;
 }
 
-RecordingPlace::RecordingPlace(std::string path, bool overwrite) : path_(resolved(path)) {
+RecordingPlace::RecordingPlace(std::string path, bool overwrite) : path_(throughLinks(path)) {
   try {
     refuseUnlessFree(overwrite);
     claimBeside();
@@ -140,6 +144,7 @@ void RecordingPlace::claimBeside() {
     if (lock < 0) throw inUse(path_);
     if (is_new) {
       locks_.push_back(lock);
+      own_ = lock;
       file_ = name;
       return;
     }
@@ -150,23 +155,31 @@ void RecordingPlace::claimBeside() {
 }
 
 void RecordingPlace::takeName() {
-  if (!replaces_) {
-    if (const int error = renameOntoNothing(file_, path_); error == EEXIST)
-      throw SessionError(path_ + ": has been made by another program meanwhile: choose another name");
-    else if (error != 0)
-      throw notMade(path_, error);
-    file_ = path_;
-    syncFolderOf(path_);
-  }
   kept_ = true;
+  if (replaces_ || file_ == path_) return;
+  if (const int error = renameOntoNothing(file_, path_); error != 0)
+    throw SessionError(path_ + ": can not be given to the recording (" + std::strerror(error) + "): it is " + file_,
+                       SessionTrouble::failed);
+  file_ = path_;
+  syncFolderOf(path_);
+}
+
+void RecordingPlace::refuseUnlessOurs() const {
+  if (!isCalled(own_, file_))
+    throw SessionError(
+        file_ + ": was replaced or removed by another program while it was recorded: what was in it is lost",
+        SessionTrouble::failed);
 }
 
 void RecordingPlace::letGo() {
   for (const int lock : locks_) ::close(lock);
   locks_.clear();
+  own_ = -1;
 }
 
 void RecordingPlace::finish() {
+  refuseUnlessOurs();
+  sealFile(own_, file_);
   if (replaces_) {
     // Nothing of the old one may be taken for the log of the new one.
     std::vector<std::string> logs = filesOf(path_);

@@ -1,9 +1,9 @@
 // Where a recording lies while it is made, and when it gets its name. It is begun beside it, as NAME.new; where nothing
-// stands under the name it takes it with its first ticks, so a program killed before leaves nothing there; where
-// something is to be replaced it takes it once it is closed, so the old one is lost to nothing but a whole new one.
-// Locked (flock) from first to last, and what it will replace too: no second program records to the same name, asked
-// to overwrite or not. A NAME.new that a killed program left is kept if it holds ticks, and the next is NAME.new2.
-// One thread; a few file operations a call.
+// stands under the name it takes it once its first ticks are in it, so what a killed program leaves there holds ticks;
+// where something is to be replaced it takes it once it is closed, so the old one is lost to nothing but a whole new
+// one. Locked (flock) from first to last, and what it will replace too: no second program records to the same name,
+// asked to overwrite or not. A NAME.new that a killed program left is kept if it holds ticks, and the next is
+// NAME.new2. One thread; a few file operations a call.
 #pragma once
 
 #include <string>
@@ -22,11 +22,15 @@ class RecordingPlace {
 
   /// The file as it is called now.
   const std::string& file() const { return file_; }
+  /// Whether something stands under the name until the end.
+  bool replaces() const { return replaces_; }
 
-  /// From here on it is worth keeping; not while a database is open on it. Throws SessionError if somebody else has
-  /// taken the name meanwhile.
+  /// It holds ticks from here on and is kept; not while a database is open on it. Throws SessionError if somebody else
+  /// has taken the name meanwhile.
   void takeName();
-  /// Closed and whole: replaces what stood there, and is anybody's to read.
+  /// Throws SessionError if the file of that name is not the one that was begun any more.
+  void refuseUnlessOurs() const;
+  /// Once the database is closed: seals the file, lets it replace what stood there, and it is anybody's to read.
   void finish();
 
  private:
@@ -36,8 +40,12 @@ class RecordingPlace {
 
   std::string path_, file_;
   std::vector<int> locks_;
+  int own_ = -1;  ///< of them, that of the file
   bool replaces_ = false, kept_ = false;
 };
+
+/// Through links to what they stand for, beside which its log lies.
+std::string throughLinks(const std::string& path);
 
 /// Whether a program is recording to this file now.
 bool isBeingRecorded(const std::string& path);

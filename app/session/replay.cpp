@@ -120,25 +120,20 @@ ReplayReport verifyReadable(const std::string& path) {
   SessionReader session(path);
   ReplayReport report;
   report.closed = session.closed();
-  report.lost = session.lost();
   report.missing_log = session.missingLog();
   report.damage = session.damage();
   if (report.damage) return report;
   report.unsealed = session.isUnsealed();
 
-  const std::string version = session.programVersion();
+  const std::string version = session.about().program_version;
   if (version == thisVersion()) {
     runAgain(session, report);
   } else {
     report.other_version = version;
     readThrough(session, report);
   }
+  report.lost = session.lost();
   return report;
-}
-
-SessionError damagedFile(const std::string& path, const std::string& damage) {
-  return SessionError(path + ": is damaged (" + damage + "): see `molar replay " + path + " --verify`",
-                      SessionTrouble::damaged);
 }
 
 std::string departureWords(const ReplayedMoment& moment) {
@@ -152,6 +147,12 @@ std::string departureWords(const ReplayedMoment& moment) {
 }  // namespace
 
 std::string_view thisVersion() { return MOLAR_VERSION; }
+
+void refuseDamaged(SessionReader& session, const std::string& path) {
+  if (const auto damage = session.damage())
+    throw SessionError(path + ": is damaged (" + *damage + "): see `molar replay " + path + " --verify`",
+                       SessionTrouble::damaged);
+}
 
 std::string ReplayReport::line() const {
   if (damage) return "NOT verified: the file was changed: " + *damage;
@@ -190,7 +191,12 @@ ReplayReport verify(const std::string& path) {
 
 ReplayedMoment replayTo(const std::string& path, double t_s) {
   SessionReader session(path);
-  if (const auto damage = session.damage()) throw damagedFile(path, *damage);
+  refuseDamaged(session, path);
+  return replayTo(session, t_s);
+}
+
+ReplayedMoment replayTo(SessionReader& session, double t_s) {
+  session.rewind();
   StoredStart start = session.start();
   haptics::CarvedBone bone(start.grid, start.solid, start.label);
   Rerun rerun(bone, session.commands());
@@ -221,14 +227,13 @@ ReplayedMoment replayTo(const std::string& path, double t_s) {
 
 BoneThen boneThen(const std::string& path, std::optional<double> t_s) {
   SessionReader session(path);
-  if (const auto damage = session.damage()) throw damagedFile(path, *damage);
+  refuseDamaged(session, path);
   BoneThen then;
-  if (const auto log = session.missingLog())
-    then.remarks.push_back("its log " + *log + " is not beside it: what it holds is missing, copy both files");
   double end_s = 0.0;
   for (TickBlock block = session.nextBlock(); !block.ticks.empty(); block = session.nextBlock())
     end_s = block.ticks.back().t_s + block.ticks.back().dt_s;
   if (!t_s || *t_s >= end_s) {
+    if (const auto log = session.missingLog()) throw withoutLog(path, *log);
     then.start = session.start();
     then.t_s = end_s;
     if (auto left = session.boneLeft(then.start)) {
@@ -240,7 +245,7 @@ BoneThen boneThen(const std::string& path, std::optional<double> t_s) {
         "recorded it (" +
         then.start.program_version + ")");
   }
-  ReplayedMoment moment = replayTo(path, t_s.value_or(std::numeric_limits<double>::infinity()));
+  ReplayedMoment moment = replayTo(session, t_s.value_or(std::numeric_limits<double>::infinity()));
   if (moment.departure) then.remarks.push_back(departureWords(moment));
   then.solid = moment.bone.solidInGridOrder();
   then.t_s = moment.tick.t_s + moment.tick.dt_s;

@@ -19,6 +19,9 @@ namespace app {
 /// Of the program whose sessions are run again and compared: this one.
 std::string_view thisVersion();
 
+/// Throws SessionError, one line, if a stored byte was changed. Reads it all.
+void refuseDamaged(SessionReader& session, const std::string& path);
+
 struct ReplayDifference {
   std::uint64_t tick = 0;
   std::string what;  ///< "the force served differs", or why it can not be run
@@ -27,7 +30,7 @@ struct ReplayDifference {
 struct ReplayReport {
   std::uint64_t ticks = 0;     ///< in the file
   std::uint64_t replayed = 0;  ///< run again and found identical
-  std::uint64_t lost = 0;      ///< made, but not in the file; known only of a closed session
+  std::uint64_t lost = 0;      ///< made, but not in the file
   double duration_s = 0.0;
   bool closed = false;                         ///< false: the recording ended early, by a kill or a full disk
   std::optional<std::string> damage;           ///< the checksum chain is broken here: nothing was run
@@ -63,6 +66,8 @@ struct ReplayedMoment {
 /// The state after every tick that began before `t_s`. Runs on past differences and losses: the departure tells.
 /// Throws SessionError if the session is damaged.
 ReplayedMoment replayTo(const std::string& path, double t_s);
+/// Of a session that was found undamaged; from its beginning, wherever it was read to.
+ReplayedMoment replayTo(SessionReader& session, double t_s);
 
 /// The bone at a moment; as it was left where none is named or it lies past the end.
 struct BoneThen {
@@ -72,7 +77,8 @@ struct BoneThen {
   std::vector<std::string> remarks;  ///< for people: that it was run again, and how true that is
 };
 
-/// As it was recorded at the close, else run again. Throws SessionError if the session is damaged.
+/// As it was recorded at the close, else run again. Throws SessionError if the session is damaged, or was killed and
+/// its log, in which that moment lies, is not there.
 BoneThen boneThen(const std::string& path, std::optional<double> t_s);
 
 }  // namespace app

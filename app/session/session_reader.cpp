@@ -23,14 +23,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool hasLog(const std::string& path) {
+enum class Log { none, beside, missing };
+
+/// What lies beside a closed file is another's.
+Log logOf(const std::string& path) {
+  if (!awaitsLog(path)) return Log::none;
   std::error_code failed;
   const auto bytes = fs::file_size(path + "-wal", failed);
-  return !failed && bytes > 0;
+  return !failed && bytes > 0 ? Log::beside : Log::missing;
 }
 
-/// A file without log beside it is opened as what can not change. With one it is read without locks, which a read-only
-/// folder would not have: so no third file is made, and nothing is folded in.
+/// A file without log is opened as what can not change. With one it is read without locks, which a read-only folder
+/// would not have: so no third file is made, and nothing is folded in.
 std::string address(const std::string& path) {
   std::string uri = "file:";
   for (const char c : fs::absolute(path).string()) {
@@ -41,7 +45,7 @@ std::string address(const std::string& path) {
       uri += c;
     }
   }
-  return uri + (hasLog(path) ? "?vfs=unix-none" : "?immutable=1");
+  return uri + (logOf(path) == Log::beside ? "?vfs=unix-none" : "?immutable=1");
 }
 
 std::span<const std::uint8_t> blobOf(const SQLite::Column& column) {
@@ -75,13 +79,13 @@ struct SessionReader::Impl {
   std::string path;
   SQLite::Database database;
   std::int64_t schema = 0;
-  std::string program_version;
   bool closed = false;
   SessionEnd end;
   LabelTable label{};
   std::optional<FileSeal> trailer;
   std::optional<TickUnpacker> unpacker;
   std::optional<SQLite::Statement> blocks;
+  std::uint64_t next_index = 0, gaps = 0;  // in the numbers of the ticks that were read
 
   /// Does `work`, telling trouble with the database as one line about this file.
   template <class Work>
@@ -113,9 +117,7 @@ struct SessionReader::Impl {
     if (database.execAndGet("PRAGMA application_id").getInt64() != session_format::kApplicationId)
       refuse("is no session: name a file made by `molar rehearse`");
     if (!database.tableExists("meta")) {
-      if (missingLog())
-        refuse("was being recorded when its program was killed, and its log " + *missingLog() +
-               " is not beside it: copy both files");
+      if (const auto log = missingLog()) throw withoutLog(path, *log);
       refuse("is no session of this version of the program: name a file made by `molar rehearse`");
     }
     SQLite::Statement meta(database, "SELECT schema FROM meta");
@@ -130,8 +132,6 @@ struct SessionReader::Impl {
     SQLite::Statement seal(database, "SELECT ticks, lost FROM seal");
     closed = seal.executeStep();
     if (closed) end = {countOf(seal.getColumn(0)), countOf(seal.getColumn(1)), {}};
-    if (SQLite::Statement meta(database, "SELECT program FROM meta"); meta.executeStep())
-      program_version = textOf(meta.getColumn(0));
     label = old_formats::packedLabels();
     unpacker.emplace(old_formats::packedTickColumns());
     blocks.emplace(database, "SELECT count, ticks FROM tick_block ORDER BY row");
@@ -141,9 +141,7 @@ struct SessionReader::Impl {
     SQLite::Statement seal(database, "SELECT about FROM seal");
     closed = seal.executeStep();
     if (closed) end = sealFromText(textOf(seal.getColumn(0)));
-    const SessionAbout itself = about();
-    program_version = itself.start.program_version;
-    label = itself.label;
+    label = aboutWithLabels().label;
     SQLite::Statement rows(database, "SELECT name, type, unit, frame FROM tick_column ORDER BY row");
     std::vector<TickColumn> columns;
     while (rows.executeStep())
@@ -160,10 +158,10 @@ struct SessionReader::Impl {
   }
 
   std::optional<std::string> missingLog() const {
-    return awaitsLog(path) && !hasLog(path) ? std::optional(path + "-wal") : std::nullopt;
+    return logOf(path) == Log::missing ? std::optional(path + "-wal") : std::nullopt;
   }
 
-  SessionAbout about() {
+  SessionAbout aboutWithLabels() {
     SQLite::Statement meta(database, "SELECT about FROM meta");
     if (!meta.executeStep()) throw damagedSession("it has no start");
     SessionAbout about = aboutFromText(textOf(meta.getColumn(0)));
@@ -195,24 +193,31 @@ struct SessionReader::Impl {
     return values;
   }
 
+  StoredStart about() { return isPacked() ? old_formats::packedAbout(database, schema) : aboutWithLabels().start; }
+
   StoredStart start() {
+    StoredStart start = about();
     if (isPacked()) {
-      StoredStart packed = old_formats::packedStart(database, schema);
-      for (std::uint8_t& value : packed.label) value = label[value];
-      return packed;
+      old_formats::readPackedBone(database, start);
+    } else {
+      const std::size_t voxels = start.grid.voxelCount();
+      start.solid = volume(session_format::kSolid, voxels);
+      if (start.solid.empty()) throw damagedSession("it has no bone");
+      start.label = volume(session_format::kLabel, voxels);
+      if (start.label.empty()) start.label.resize(voxels);
     }
-    StoredStart start = about().start;
-    const std::size_t voxels = start.grid.voxelCount();
-    start.solid = volume(session_format::kSolid, voxels);
-    if (start.solid.empty()) throw damagedSession("it has no bone");
-    start.label = volume(session_format::kLabel, voxels);
-    if (start.label.empty()) start.label.resize(voxels);
     for (std::uint8_t& value : start.label) value = label[value];
     return start;
   }
 };
 
-SessionReader::SessionReader(const std::string& path) {
+SessionError withoutLog(const std::string& path, const std::string& log) {
+  return SessionError(path + ": was being recorded when its program was killed, and its log " + log +
+                      " is not beside it: copy both files");
+}
+
+SessionReader::SessionReader(const std::string& named) {
+  const std::string path = throughLinks(named);
   std::error_code failed;
   if (!fs::exists(path, failed)) throw SessionError(path + ": there is no such session file: check the name");
   if (!fs::is_regular_file(path, failed))
@@ -231,7 +236,7 @@ SessionReader::SessionReader(const std::string& path) {
 SessionReader::~SessionReader() = default;
 
 bool SessionReader::closed() const { return impl_->closed; }
-std::uint64_t SessionReader::lost() const { return impl_->end.lost; }
+std::uint64_t SessionReader::lost() const { return std::max(impl_->end.lost, impl_->gaps); }
 std::optional<std::string> SessionReader::missingLog() const {
   return impl_->isPacked() && impl_->closed ? std::nullopt : impl_->missingLog();
 }
@@ -241,6 +246,9 @@ bool SessionReader::isUnsealed() const { return impl_->closed && impl_->seal() !
 std::optional<std::string> SessionReader::damage() {
   try {
     if (auto damaged = chainDamage(impl_->database)) return damaged;
+    const std::uint64_t there = countOf(impl_->database.execAndGet("SELECT total(count) FROM tick_block"));
+    if (impl_->closed && there != impl_->end.ticks)
+      return "it holds " + std::to_string(there) + " ticks, and its seal says " + std::to_string(impl_->end.ticks);
   } catch (const SQLite::Exception& trouble) {
     if (troubleOf(trouble) == SessionTrouble::failed) throw notRead(impl_->path, trouble);
     return std::string("its rows can not be read (") + trouble.what() + ")";
@@ -251,7 +259,9 @@ std::optional<std::string> SessionReader::damage() {
   return std::nullopt;
 }
 
-std::string SessionReader::programVersion() const { return impl_->program_version; }
+StoredStart SessionReader::about() {
+  return impl_->reading([&] { return impl_->about(); });
+}
 
 StoredStart SessionReader::start() {
   return impl_->reading([&] { return impl_->start(); });
@@ -263,8 +273,7 @@ std::vector<SessionCommand> SessionReader::commands() {
     std::vector<SessionCommand> commands;
     SQLite::Statement rows(impl_->database, "SELECT first_tick, command FROM command ORDER BY row");
     while (rows.executeStep()) {
-      ReadCommand read = commandFromText(textOf(rows.getColumn(1)));
-      commands.push_back({read.command, countOf(rows.getColumn(0)), std::move(read.others)});
+      commands.push_back({commandFromText(textOf(rows.getColumn(1))), countOf(rows.getColumn(0))});
     }
     return commands;
   });
@@ -291,9 +300,18 @@ TickBlock SessionReader::nextBlock() {
     block.ticks =
         impl_->unpacker->unpack(decompress(blobOf(rows.getColumn(1)), count * impl_->unpacker->bytesPerTick()));
     if (!impl_->isPacked()) block.removed_mm3 = removedFromText(textOf(rows.getColumn(2)));
-    for (haptics::Tick& tick : block.ticks) tick.contact_tissue = impl_->label[tick.contact_tissue];
+    for (haptics::Tick& tick : block.ticks) {
+      tick.contact_tissue = impl_->label[tick.contact_tissue];
+      if (tick.index > impl_->next_index) impl_->gaps += tick.index - impl_->next_index;
+      impl_->next_index = tick.index + 1;
+    }
     return block;
   });
+}
+
+void SessionReader::rewind() {
+  impl_->reading([&] { impl_->blocks->reset(); });
+  impl_->next_index = impl_->gaps = 0;
 }
 
 std::optional<SessionReader::BoneLeft> SessionReader::boneLeft(const StoredStart& start) {

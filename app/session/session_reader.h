@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/session/session_error.h"
 #include "app/session/session_text.h"
 #include "app/session/session_writer.h"
 
@@ -18,6 +19,9 @@ struct TickBlock {
   std::vector<haptics::Tick> ticks;            ///< empty: there are no more; their removed_so_far_mm3 is not stored
   std::optional<RemovedByTissue> removed_mm3;  ///< since the start, after the last of them; none: schema 3 or 4
 };
+
+/// The refusal of a killed recording for which its second file is needed, and is not there.
+SessionError withoutLog(const std::string& path, const std::string& log);
 
 class SessionReader {
  public:
@@ -34,16 +38,18 @@ class SessionReader {
   bool isUnsealed() const;
   /// A killed recording is two files: the name of the second, where it is not there.
   std::optional<std::string> missingLog() const;
-  /// Ticks the recorder could not take; known only of a closed session.
+  /// Ticks that were made and are not in it: as its seal says, or gaps in the numbers of the ticks read so far.
   std::uint64_t lost() const;
 
-  /// That recorded it.
-  std::string programVersion() const;
+  /// The start without its voxels, which cost most.
+  StoredStart about();
   StoredStart start();
   std::vector<SessionCommand> commands();
   std::vector<SessionEvent> events();
   /// The next block of ticks in recorded order.
   TickBlock nextBlock();
+  /// Before the first of them again.
+  void rewind();
 
   struct BoneLeft {
     std::vector<std::uint8_t> solid;  ///< in the order of the grid

@@ -32,7 +32,6 @@ struct StoredStart {
   assets::VolumeGrid grid;
   std::vector<std::uint8_t> solid, label;
   std::optional<SessionCalibration> calibration;  ///< none: recorded before it was
-  std::string others;                             ///< keys this program does not know, a JSON object; empty: none
 };
 
 }  // namespace app

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/session/json_depth.h"
 #include "app/session/session_error.h"
 #include "app/text/printed.h"
 #include "assets/tissue.h"
@@ -17,23 +18,21 @@ using nlohmann::json;
 std::string dumped(const json& object) { return object.dump(-1, ' ', false, json::error_handler_t::replace); }
 
 json objectFrom(std::string_view text, const char* what) {
-  json object = json::parse(text, nullptr, false);
+  json object = isNestedTooDeep(text) ? json() : json::parse(text, nullptr, false);
   if (!object.is_object()) throw damagedSession(std::string("what it says of ") + what + " can not be read");
   return object;
 }
 
-/// Takes a key out of the object; `otherwise` where there is none.
+/// `otherwise` where the object has no such key.
 template <class T>
-T taken(json& object, const char* key, T otherwise) {
+T valueOf(const json& object, const char* key, T otherwise) {
   const auto found = object.find(key);
   if (found == object.end() || found->is_null()) return otherwise;
   bool fits = found->is_string();
   if constexpr (std::is_same_v<T, double>) fits = found->is_number();
   if constexpr (std::is_integral_v<T>) fits = found->is_number_integer();
   if (!fits) throw damagedSession(std::string("it has no usable value of ") + key);
-  T value = found->template get<T>();
-  object.erase(found);
-  return value;
+  return found->template get<T>();
 }
 
 json calibrationJson(const SessionCalibration& c) {
@@ -45,19 +44,19 @@ json calibrationJson(const SessionCalibration& c) {
   return object;
 }
 
-SessionCalibration calibrationFrom(json& object) {
+SessionCalibration calibrationFrom(const json& object) {
   SessionCalibration c;
-  c.rig = taken(object, "rig", c.rig);
-  c.rig_id = taken(object, "rig_id", c.rig_id);
-  c.device_serial = taken(object, "device_serial", c.device_serial);
-  c.verdict = taken(object, "verdict", c.verdict);
-  c.touches = taken(object, "touches", c.touches);
-  c.rms_mm = taken(object, "rms_mm", c.rms_mm);
-  c.p95_mm = taken(object, "p95_mm", c.p95_mm);
-  c.max_mm = taken(object, "max_mm", c.max_mm);
-  c.checked_utc = taken(object, "checked_utc", c.checked_utc);
-  if (object.contains("age_days")) c.age_days = taken(object, "age_days", 0.0);
-  c.despite = taken(object, "despite", c.despite);
+  c.rig = valueOf(object, "rig", c.rig);
+  c.rig_id = valueOf(object, "rig_id", c.rig_id);
+  c.device_serial = valueOf(object, "device_serial", c.device_serial);
+  c.verdict = valueOf(object, "verdict", c.verdict);
+  c.touches = valueOf(object, "touches", c.touches);
+  c.rms_mm = valueOf(object, "rms_mm", c.rms_mm);
+  c.p95_mm = valueOf(object, "p95_mm", c.p95_mm);
+  c.max_mm = valueOf(object, "max_mm", c.max_mm);
+  c.checked_utc = valueOf(object, "checked_utc", c.checked_utc);
+  if (object.contains("age_days")) c.age_days = valueOf(object, "age_days", 0.0);
+  c.despite = valueOf(object, "despite", c.despite);
   return c;
 }
 
@@ -153,21 +152,17 @@ std::string aboutText(const SessionStart& start) {
 }
 
 SessionAbout aboutFromText(std::string_view text) {
-  json object = objectFrom(text, "itself");
+  const json object = objectFrom(text, "itself");
   SessionAbout about;
-  about.start.program_version = taken(object, "program", std::string());
-  about.start.patient_title = taken(object, "patient", std::string());
-  about.start.dt_s = taken(object, "dt_s", 0.001);
+  about.start.program_version = valueOf(object, "program", std::string());
+  about.start.patient_title = valueOf(object, "patient", std::string());
+  about.start.dt_s = valueOf(object, "dt_s", 0.001);
   about.start.grid = gridFrom(object);
-  object.erase("grid");
-  about.label = labelsFrom(object["labels"]);
-  object.erase("labels");
+  if (const auto found = object.find("labels"); found != object.end()) about.label = labelsFrom(*found);
   if (const auto found = object.find("calibration"); found != object.end()) {
     if (!found->is_object()) throw damagedSession("it has no usable calibration");
     about.start.calibration = calibrationFrom(*found);
-    object.erase(found);
   }
-  if (!object.empty()) about.start.others = dumped(object);
   return about;
 }
 
@@ -178,11 +173,11 @@ std::string sealText(const SessionEnd& end) {
 }
 
 SessionEnd sealFromText(std::string_view text) {
-  json object = objectFrom(text, "its end");
+  const json object = objectFrom(text, "its end");
   SessionEnd end;
-  end.ticks = taken(object, "ticks", std::uint64_t{0});
-  end.lost = taken(object, "lost", std::uint64_t{0});
-  if (const std::string digest = taken(object, "bone_digest", std::string()); !digest.empty())
+  end.ticks = valueOf(object, "ticks", std::uint64_t{0});
+  end.lost = valueOf(object, "lost", std::uint64_t{0});
+  if (const std::string digest = valueOf(object, "bone_digest", std::string()); !digest.empty())
     end.bone_digest = std::strtoull(digest.c_str(), nullptr, 16);
   return end;
 }

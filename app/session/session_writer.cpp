@@ -12,7 +12,6 @@
 #include "app/session/chain.h"
 #include "app/session/command_keys.h"
 #include "app/session/compressed.h"
-#include "app/session/file_seal.h"
 #include "app/session/recording_place.h"
 #include "app/session/session_error.h"
 #include "app/session/session_format.h"
@@ -45,7 +44,6 @@ SessionError notWritten(const std::string& path, const std::exception& trouble) 
 }  // namespace
 
 struct SessionWriter::Impl {
-  std::string path;
   RecordingPlace place;
   assets::VolumeGrid grid;
   std::optional<SQLite::Database> database;
@@ -56,7 +54,7 @@ struct SessionWriter::Impl {
   std::uint64_t ticks = 0;
 
   Impl(const std::string& name, bool overwrite, const assets::VolumeGrid& bone_grid)
-      : path(name), place(name, overwrite), grid(bone_grid) {}
+      : place(name, overwrite), grid(bone_grid) {}
 
   void open() { database.emplace(place.file(), SQLite::OPEN_READWRITE); }
   void close() {
@@ -157,18 +155,18 @@ struct SessionWriter::Impl {
       transaction.commit();
     } catch (const SQLite::Exception& trouble) {
       restore();
-      throw notWritten(path, trouble);
+      throw notWritten(place.file(), trouble);
     } catch (...) {
       restore();
       throw;
     }
   }
 
-  /// Nobody else knows the file yet, so it needs no log.
+  /// All or nothing of it, as the journal beside it shows whoever finds it.
   void begin(const SessionStart& start) {
     open();
-    database->exec("PRAGMA journal_mode=OFF; PRAGMA application_id=" + std::to_string(session_format::kApplicationId));
     inTransaction([&] {
+      database->exec("PRAGMA application_id=" + std::to_string(session_format::kApplicationId));
       for (const session_format::Table& table : session_format::kTables)
         database->exec("CREATE TABLE " + std::string(table.name) + "(row INTEGER PRIMARY KEY, " +
                        std::string(table.columns) + ", digest BLOB) STRICT");
@@ -177,16 +175,28 @@ struct SessionWriter::Impl {
     close();
   }
 
-  /// Exclusive: no second program meets a file that is being written, and no -shm file is needed.
-  void openForTicks() {
-    if (database) return;
-    place.takeName();
+  /// What comes first is in the file before it takes the name; all that follows goes through the log. No second program
+  /// meets a file that is being written, and there is no -shm file.
+  template <class Work>
+  void keep(Work&& work) {
+    place.refuseUnlessOurs();
+    if (database) {
+      inTransaction(work);
+      return;
+    }
     try {
+      open();
+      inTransaction(work);
+      close();
+      place.takeName();
       open();
       database->exec("PRAGMA locking_mode=EXCLUSIVE; PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL;");
     } catch (const SQLite::Exception& trouble) {
       close();
-      throw notWritten(path, trouble);
+      throw notWritten(place.file(), trouble);
+    } catch (...) {
+      close();
+      throw;
     }
   }
 };
@@ -198,7 +208,7 @@ SessionWriter::SessionWriter(const std::string& path, bool overwrite, const Sess
   try {
     impl_->begin(start);
   } catch (const SQLite::Exception& trouble) {
-    throw notWritten(path, trouble);
+    throw notWritten(impl_->place.file(), trouble);
   }
 }
 
@@ -215,12 +225,15 @@ SessionWriter::~SessionWriter() {
 
 std::uint64_t SessionWriter::ticks() const { return impl_->ticks; }
 
+const std::string& SessionWriter::file() const { return impl_->place.file(); }
+
+bool SessionWriter::replaces() const { return impl_->place.replaces(); }
+
 void SessionWriter::write(const SessionBatch& batch) {
-  impl_->openForTicks();
-  impl_->inTransaction([&] {
+  impl_->keep([&] {
     for (const SessionCommand& change : batch.commands)
-      impl_->append("command", {sqlInteger(change.command.serial), sqlInteger(change.first_tick),
-                                commandText(change.command, change.others)});
+      impl_->append("command",
+                    {sqlInteger(change.command.serial), sqlInteger(change.first_tick), commandText(change.command)});
     impl_->appendTicks(batch.ticks);
     for (const SessionEvent& event : batch.events)
       impl_->append("event", {sqlInteger(event.tick), event.kind, event.text});
@@ -228,9 +241,8 @@ void SessionWriter::write(const SessionBatch& batch) {
 }
 
 void SessionWriter::seal(std::uint64_t lost, const haptics::CarvedBone* bone) {
-  impl_->openForTicks();
   SessionEnd end{impl_->ticks, lost, {}};
-  impl_->inTransaction([&] {
+  impl_->keep([&] {
     if (bone != nullptr) {
       impl_->appendGone(*bone);
       end.bone_digest = bone->digest();
@@ -243,10 +255,9 @@ void SessionWriter::seal(std::uint64_t lost, const haptics::CarvedBone* bone) {
     impl_->database->exec("PRAGMA wal_checkpoint(TRUNCATE); PRAGMA journal_mode=DELETE;");
     impl_->close();
   } catch (const SQLite::Exception& trouble) {
-    throw SessionError(impl_->path + ": can not be closed (" + trouble.what() + "): check the free space on the disk",
+    throw SessionError(file() + ": can not be closed (" + trouble.what() + "): check the free space on the disk",
                        SessionTrouble::failed);
   }
-  sealFile(impl_->place.file());
   impl_->place.finish();
 }
 

@@ -24,7 +24,6 @@ struct SessionEvent {
 struct SessionCommand {
   haptics::Command command;
   std::uint64_t first_tick = 0;  ///< from which it is in force
-  std::string others = {};       ///< keys this program does not know, a JSON object; empty: none
 };
 
 /// What is written together.
@@ -50,6 +49,9 @@ class SessionWriter {
   void seal(std::uint64_t lost, const haptics::CarvedBone* bone = nullptr);
 
   std::uint64_t ticks() const;
+  /// The file as it is called now, and whether it takes the place of another once it is closed.
+  const std::string& file() const;
+  bool replaces() const;
 
  private:
   struct Impl;

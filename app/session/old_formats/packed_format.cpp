@@ -237,7 +237,7 @@ haptics::Command commandFrom(std::span<const std::uint8_t> bytes) {
     }
   }
   if (!packed.isEmpty()) throw damagedSession("a command has a wrong length");
-  return commandFromText(keys.dump()).command;
+  return commandFromText(keys.dump());
 }
 
 std::span<const std::uint8_t> blobOf(const SQLite::Column& column) {
@@ -286,7 +286,7 @@ const std::vector<TickColumn>& packedTickColumns() {
 
 LabelTable packedLabels() { return labelsOfKeys(kTissues); }
 
-StoredStart packedStart(SQLite::Database& database, std::int64_t schema) {
+StoredStart packedAbout(SQLite::Database& database, std::int64_t schema) {
   SQLite::Statement meta(database, "SELECT program, patient, dt_s FROM meta");
   SQLite::Statement bone(database, "SELECT * FROM bone");
   if (!meta.executeStep() || !bone.executeStep()) throw damagedSession("it has no start");
@@ -301,10 +301,15 @@ StoredStart packedStart(SQLite::Database& database, std::int64_t schema) {
   }
   start.grid.spacing_mm = bone.getColumn(4).getDouble();
   refuseUnlessUsable(start.grid);
-  start.solid = decompress(blobOf(bone.getColumn(8)), start.grid.voxelCount());
-  start.label = decompress(blobOf(bone.getColumn(9)), start.grid.voxelCount());
   if (schema >= 4) start.calibration = calibrationFrom(database);
   return start;
+}
+
+void readPackedBone(SQLite::Database& database, StoredStart& about) {
+  SQLite::Statement bone(database, "SELECT * FROM bone");
+  if (!bone.executeStep()) throw damagedSession("it has no bone");
+  about.solid = decompress(blobOf(bone.getColumn(8)), about.grid.voxelCount());
+  about.label = decompress(blobOf(bone.getColumn(9)), about.grid.voxelCount());
 }
 
 std::vector<SessionCommand> packedCommands(SQLite::Database& database) {
@@ -312,7 +317,7 @@ std::vector<SessionCommand> packedCommands(SQLite::Database& database) {
   SQLite::Statement rows(database, "SELECT first_tick, bytes FROM command ORDER BY row");
   while (rows.executeStep())
     commands.push_back(
-        {commandFrom(blobOf(rows.getColumn(1))), static_cast<std::uint64_t>(rows.getColumn(0).getInt64()), ""});
+        {commandFrom(blobOf(rows.getColumn(1))), static_cast<std::uint64_t>(rows.getColumn(0).getInt64())});
   return commands;
 }
 

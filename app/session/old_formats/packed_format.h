@@ -31,7 +31,10 @@ const std::vector<TickColumn>& packedTickColumns();
 /// Own label by stored label.
 LabelTable packedLabels();
 
-StoredStart packedStart(SQLite::Database& database, std::int64_t schema);
+/// Without voxels.
+StoredStart packedAbout(SQLite::Database& database, std::int64_t schema);
+/// Adds them, labels as stored.
+void readPackedBone(SQLite::Database& database, StoredStart& about);
 std::vector<SessionCommand> packedCommands(SQLite::Database& database);
 
 }  // namespace app::old_formats

@@ -7,11 +7,13 @@
 
 #include "app/session/compressed.h"
 #include "app/session/session_error.h"
+#include "app/session/session_text.h"
+#include "tests/app/session/small_session.h"
 
 namespace app {
 namespace {
 
-haptics::Command again(const haptics::Command& command) { return commandFromText(commandText(command)).command; }
+haptics::Command again(const haptics::Command& command) { return commandFromText(commandText(command)); }
 
 TEST(CommandKeys, BringACommandBackBitForBit) {
   haptics::Command command;
@@ -79,21 +81,28 @@ TEST(CommandKeys, NameLawsShapesAndTissues) {
   EXPECT_EQ(back.tool.head.kind, haptics::ShapeKind::cone);
 }
 
-TEST(CommandKeys, OfAnotherProgramAreKeptAndMissingOnesDefaulted) {
-  const ReadCommand read =
+TEST(CommandKeys, OfAnotherProgramArePassedByAndMissingOnesDefaulted) {
+  const haptics::Command read =
       commandFromText(R"({"serial":4,"law.kind":"gravity","coolant_ml_per_min":40,"nested":{"a":[1,2]}})");
-  EXPECT_EQ(read.command.serial, 4u);
-  EXPECT_EQ(read.command.law.kind, haptics::LawKind::agus) << "a law that is unknown here";
-  EXPECT_EQ(read.command.spindle.commanded_rpm, haptics::Command{}.spindle.commanded_rpm);
-  EXPECT_EQ(read.others, R"({"coolant_ml_per_min":40,"nested":{"a":[1,2]}})");
-  const ReadCommand twice = commandFromText(commandText(read.command, read.others));
-  EXPECT_EQ(twice.others, read.others);
+  EXPECT_EQ(read.serial, 4u);
+  EXPECT_EQ(read.law.kind, haptics::LawKind::agus) << "a law that is unknown here";
+  EXPECT_EQ(read.spindle.commanded_rpm, haptics::Command{}.spindle.commanded_rpm);
 }
 
 TEST(CommandKeys, RefuseWhatCanNotBeRead) {
   for (const char* text : {"", "[]", "{", "{\"serial\":-1}", "{\"serial\":\"x\"}", "{\"irrigating\":1}",
                            "{\"spindle.droop\":\"big\"}", "{\"law.kind\":3}"})
     EXPECT_THROW(commandFromText(text), SessionError) << text;
+}
+
+TEST(SessionTexts, RefuseWhatIsNestedTooDeep) {
+  const std::string nested = std::string(100'000, '[') + std::string(100'000, ']');
+  const std::string about = aboutText(test::SmallBone().start());
+  EXPECT_THROW(commandFromText("{\"x\":" + nested + "}"), SessionError);
+  EXPECT_THROW(aboutFromText("{\"x\":" + nested + "," + about.substr(1)), SessionError);
+  EXPECT_THROW(removedFromText("{\"x\":" + nested + "}"), SessionError);
+  EXPECT_THROW(sealFromText("{\"x\":" + nested + "}"), SessionError);
+  EXPECT_NO_THROW(aboutFromText("{\"x\":[[1]]," + about.substr(1)));
 }
 
 TEST(Compressed, RefusesAnythingButTheExpectedBytes) {

@@ -190,10 +190,14 @@ TEST(Recorder, LeavesAFileThatCanBeReadOnAFullDisk) {
     haptics::TickLog log(100'000);
     const FullDisk full(400'000);
     Recorder recorder(path, false, bone.start(), log, Draining::by_hand);
-    for (std::uint64_t i = 0; i < 20'000; ++i) log.push(imaginedTick(i));
-    for (int part = 0; part < 3; ++part) recorder.drain();
+    for (std::uint64_t i = 0; i < 20'000; ++i) {
+      log.push(imaginedTick(i));
+      if (i % 200 == 199) recorder.drain();
+    }
     summary = recorder.stop();
   }
+  ASSERT_GT(summary.ticks, 0u);
+  ASSERT_LT(summary.ticks, 20'000u);
   const FullDisk full(0);
   SessionReader session(path);
   EXPECT_EQ(session.damage(), std::nullopt);

@@ -1,8 +1,11 @@
 #include "app/session/recording_place.h"
 
+#include <signal.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <filesystem>
+#include <random>
 
 #include <gmock/gmock.h>
 
@@ -76,6 +79,66 @@ TEST(RecordingPlace, IsNotBlockedByAProgramKilledBeforeItsFirstTick) {
   EXPECT_EQ(at.ticks(at.path), 5u);
 }
 
+/// From here on the system kills this process where it would let a file grow past `bytes`.
+void beKilledPast(rlim_t bytes) {
+  ::signal(SIGXFSZ, SIG_DFL);
+  const rlimit limit{bytes, bytes};
+  ::setrlimit(RLIMIT_FSIZE, &limit);
+}
+
+TEST(RecordingPlace, IsNotBlockedByAProgramKilledWhileItWroteTheStart) {
+  // Larger than what SQLite keeps in memory, so that pages reach the file out of order.
+  assets::VolumeGrid grid{{200, 200, 100}, 0.2, {0.0, 0.0, 0.0}};
+  std::vector<std::uint8_t> solid(grid.voxelCount());
+  std::mt19937 random(1);
+  for (std::uint8_t& value : solid) value = static_cast<std::uint8_t>(random());
+  for (const rlim_t bytes : {0, 1, 512, 4096, 5000, 9000, 100'000, 3'000'000, 4'000'000}) {
+    const Place at;
+    SessionStart start = at.bone.start();
+    start.grid = grid, start.solid = solid, start.label = {};
+    EXPECT_EXIT((beKilledPast(bytes), SessionWriter(at.path, false, start)), testing::KilledBySignal(SIGXFSZ), "");
+    EXPECT_FALSE(std::filesystem::exists(at.path));
+    at.record(false, 5);
+    EXPECT_THAT(at.folder.names(), UnorderedElementsAre("s.molar")) << bytes;
+  }
+}
+
+TEST(RecordingPlace, IsNotBlockedByAProgramKilledWhileItTookItsName) {
+  int took_it = 0;
+  for (rlim_t bytes = 0; bytes < 80'000; bytes += bytes < 1024 ? 256 : 8192) {
+    const Place at;
+    const auto beKilledWriting = [&] {
+      SessionWriter writer(at.path, false, at.bone.start());
+      beKilledPast(bytes);
+      for (std::uint64_t n = 0;; ++n) writer.write({{}, imaginedTicks(50 * n, 50), {}});
+    };
+    EXPECT_EXIT(beKilledWriting(), testing::KilledBySignal(SIGXFSZ), "");
+    // What bears the name holds ticks.
+    if (!std::filesystem::exists(at.path)) continue;
+    ++took_it;
+    EXPECT_GT(at.ticks(at.path), 0u) << bytes;
+  }
+  EXPECT_GT(took_it, 0);
+}
+
+TEST(RecordingPlace, ThatAnotherProgramReplacesEndsTheRecordingAndStaysAsItIs) {
+  const Place at;
+  const std::string csv = at.folder.file("forces.csv");
+  for (const bool between_writes : {true, false}) {
+    {
+      SessionWriter writer(at.path, false, at.bone.start());
+      writer.write({{}, imaginedTicks(0, 50), {}});
+      writeBytes(csv, "t_s,fx_N\n");
+      std::filesystem::rename(csv, at.path);
+      const auto end = [&] { between_writes ? writer.write({{}, imaginedTicks(50, 50), {}}) : writer.seal(0); };
+      EXPECT_THAT(refusalOf(end), HasSubstr("was replaced or removed by another program"));
+    }
+    EXPECT_EQ(bytesOf(at.path), "t_s,fx_N\n");
+    EXPECT_THAT(at.folder.names(), UnorderedElementsAre("s.molar"));
+    std::filesystem::remove(at.path);
+  }
+}
+
 TEST(RecordingPlace, KeepsTheOldFileUntilTheNewOneIsWhole) {
   const Place at;
   at.record(false, 50);
@@ -113,7 +176,7 @@ TEST(RecordingPlace, TakesTheLogOfAKilledOneAwayWithIt) {
   const Place at;
   {
     SessionWriter writer(at.folder.file("live"), false, at.bone.start());
-    writer.write({{}, imaginedTicks(0, 50), {}});
+    for (std::uint64_t n = 0; n < 2; ++n) writer.write({{}, imaginedTicks(25 * n, 25), {}});
     at.leave(at.folder.file("live"), at.path);
   }
   ASSERT_TRUE(std::filesystem::exists(at.path + "-wal"));
@@ -178,11 +241,56 @@ TEST(KilledRecording, WithoutItsLogIsNamedSo) {
   EXPECT_THAT(at.folder.names(), UnorderedElementsAre("copy.molar", "live"));
 }
 
+TEST(KilledRecording, WithoutItsLogHasNoBoneThatWasLeft) {
+  const Place at;
+  const std::string copy = at.folder.file("copy.molar");
+  {
+    SessionWriter writer(at.folder.file("live"), false, at.bone.start());
+    for (std::uint64_t n = 0; n < 10; ++n) writer.write({{}, imaginedTicks(50 * n, 50), {}});
+    std::filesystem::copy_file(at.folder.file("live"), copy);
+  }
+  const std::string refusal = "its log " + copy + "-wal is not beside it: copy both files";
+  EXPECT_THAT(refusalOf([&] { boneThen(copy, std::nullopt); }), HasSubstr(refusal));
+  EXPECT_THAT(refusalOf([&] { boneThen(copy, 0.4); }), HasSubstr(refusal));
+}
+
+TEST(KilledRecording, IsReadThroughALinkWithItsLog) {
+  const Place at;
+  {
+    SessionWriter writer(at.folder.file("live"), false, at.bone.start());
+    for (std::uint64_t n = 0; n < 4; ++n) writer.write({{}, imaginedTicks(50 * n, 50), {}});
+    at.leave(at.folder.file("live"), at.path);
+  }
+  std::filesystem::create_symlink("s.molar", at.folder.file("link"));
+  std::filesystem::create_symlink("link", at.folder.file("link_to_link"));
+  EXPECT_EQ(at.ticks(at.folder.file("link_to_link")), 200u);
+}
+
+TEST(ClosedRecording, IsNotReadAsWhatAnothersLogSays) {
+  const Place at;
+  const std::string good = at.folder.file("good.molar");
+  {
+    SessionWriter writer(at.folder.file("live"), false, at.bone.start());
+    for (std::uint64_t n = 0; n < 4; ++n) writer.write({{}, imaginedTicks(50 * n, 50), {}});
+    at.leave(at.folder.file("live"), at.path);
+  }
+  {
+    SessionWriter writer(good, false, at.bone.start());
+    writer.write({{}, imaginedTicks(0, 7), {}});
+    writer.seal(0);
+  }
+  std::filesystem::copy_file(good, at.path, std::filesystem::copy_options::overwrite_existing);
+  ASSERT_TRUE(std::filesystem::exists(at.path + "-wal"));
+  EXPECT_EQ(at.ticks(at.path), 7u);
+  EXPECT_TRUE(verify(at.path).closed);
+  EXPECT_EQ(verify(at.path).damage, std::nullopt);
+}
+
 TEST(KilledRecording, IsReadWithoutWritingToItsFolder) {
   const Place at;
   {
     SessionWriter writer(at.folder.file("live"), false, at.bone.start());
-    writer.write({{}, imaginedTicks(0, 50), {}});
+    for (std::uint64_t n = 0; n < 2; ++n) writer.write({{}, imaginedTicks(25 * n, 25), {}});
     at.leave(at.folder.file("live"), at.path);
   }
   const std::string file = bytesOf(at.path), log = bytesOf(at.path + "-wal");

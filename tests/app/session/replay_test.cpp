@@ -369,6 +369,22 @@ TEST(Metrics, StandAsRecordedThoughARerunDiffersAndTicksWereLost) {
   EXPECT_NEAR(metrics.removed_mm3_by_label->at("cortical"), session.bone.removedByTissue_mm3()[1], 1e-12);
 }
 
+TEST(Metrics, CountTheVolumeOfLostTicksToo) {
+  for (const bool closed : {true, false}) {
+    Recorded session;
+    const auto lost = session.ticks.begin() + 200;  // while it drills
+    double lost_mm3 = 0.0;
+    for (auto tick = lost; tick != lost + 60; ++tick) lost_mm3 += tick->removed_mm3;
+    ASSERT_GT(lost_mm3, 0.001);
+    session.ticks.erase(lost, lost + 60);
+    session.write(closed, closed ? 60 : 0);
+    const SessionMetrics metrics = metricsOf(session.path);
+    EXPECT_EQ(metrics.lost, 60u) << "by the seal, or by the gap in the numbers of the ticks";
+    EXPECT_NEAR(metrics.removed_mm3, session.bone.removedByTissue_mm3()[1], 1e-12);
+    EXPECT_EQ(verify(session.path).lost, 60u);
+  }
+}
+
 TEST(Metrics, OfAKilledRecordingComeFromItsTicks) {
   Recorded session;
   session.write(false);
