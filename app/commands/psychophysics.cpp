@@ -52,9 +52,14 @@ calibration::Rig rigFor(const PsychophysicsOptions& options, const ProbeSite& si
   return rig;
 }
 
-/// At the window, blind, until the last trial or Esc. True when every trial was answered.
-bool runAtTheWindow(const PsychophysicsOptions& options, const Protocol& protocol, const ProbedBone& bone,
-                    Experiment& experiment, const TrialDesk::OnTrial& on_trial) {
+struct AtTheWindow {
+  bool complete = false;  ///< every trial was answered
+  int answer = 0;         ///< the program's: 1 where a recording was asked for and is not whole
+};
+
+/// At the window, blind, until the last trial or Esc.
+AtTheWindow runAtTheWindow(const PsychophysicsOptions& options, const Protocol& protocol, const ProbedBone& bone,
+                           Experiment& experiment, const TrialDesk::OnTrial& on_trial) {
   TrialDesk desk(experiment, bone.site, protocol.between_trials_s, on_trial);
   RehearsalPlan plan;
   plan.patient = bone.patient;
@@ -68,8 +73,8 @@ bool runAtTheWindow(const PsychophysicsOptions& options, const Protocol& protoco
   plan.overwrite = options.force;
   if (!options.record.empty()) plan.recording = Recording{options.record, options.force};
   plan.procedure = &desk;
-  rehearse(std::move(plan));
-  return desk.isOver();
+  const int answer = rehearse(std::move(plan));
+  return {desk.isOver(), answer};
 }
 
 int run(const PsychophysicsOptions& options) {
@@ -84,11 +89,11 @@ int run(const PsychophysicsOptions& options) {
   TrialTable table(options.out, options.force, protocol);
 
   std::vector<TrialRecord> trials;
-  bool complete = true;
+  AtTheWindow ended{true, 0};
   std::optional<Experiment> experiment;
   if (options.observer == "keyboard") {
     experiment.emplace(protocol, options.seed);
-    complete = runAtTheWindow(options, protocol, bone, *experiment, [&](const TrialRecord& record) {
+    ended = runAtTheWindow(options, protocol, bone, *experiment, [&](const TrialRecord& record) {
       table.add(record);
       trials.push_back(record);
     });
@@ -104,11 +109,11 @@ int run(const PsychophysicsOptions& options) {
                               });
     if (shows_progress) std::fputc('\n', stderr);
   }
-  const Outcome outcome = outcomeOf(protocol, *experiment, std::move(trials), complete, options.seed);
+  const Outcome outcome = outcomeOf(protocol, *experiment, std::move(trials), ended.complete, options.seed);
   writeText(summary, summaryJson(protocol, outcome, options.seed, options.observer));
   if (!outcome.trials.empty()) drawChart(chartOf(protocol, outcome), picture);
   std::fputs(summaryWords(protocol, outcome).c_str(), stderr);
-  return 0;
+  return ended.answer;
 }
 
 }  // namespace

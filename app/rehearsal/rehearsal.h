@@ -9,6 +9,6 @@ namespace app {
 
 /// The program's answer. Throws what its parts throw before anything runs. Prints the summary on stdout, or, where a
 /// procedure leads, on stderr.
-int rehearse(RehearsalPlan plan);
+[[nodiscard]] int rehearse(RehearsalPlan plan);
 
 }  // namespace app

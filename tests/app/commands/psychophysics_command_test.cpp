@@ -69,6 +69,20 @@ TEST_F(PsychophysicsCommand, OverwritesNothingUnasked) {
   EXPECT_EQ(molar("psychophysics " + protocol + " --out " + at("r.csv") + " --force").status, 0);
 }
 
+TEST_F(PsychophysicsCommand, AnswersNoWhereItsRecordingIsLost) {
+  if (std::getenv("DISPLAY") == nullptr) GTEST_SKIP() << "no DISPLAY: run under xvfb-run";
+  // The disk is full after 200 kB, a second of ticks; once that was said, it is ended.
+  const int status =
+      std::system(("trap '' XFSZ; ulimit -f 400; " + std::string(MOLAR_PROGRAM) + " psychophysics " +
+                   write("p.toml", kQuick) + " --observer keyboard --out " + at("r.csv") + " --record " +
+                   at("s.molar") + " >/dev/null 2>" + at("said") + " & p=$!; while ! grep -qF 'recording ended' " +
+                   at("said") + " && kill -0 $p; do sleep 0.05; done; kill -TERM $p; wait $p")
+                      .c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 1) << read("said");
+  EXPECT_NE(read("said").find("in " + at("s.molar") + "; the recording ended early: "), std::string::npos)
+      << read("said");
+}
+
 TEST_F(PsychophysicsCommand, KeepsEveryAnsweredTrialWhenKilled) {
   std::string slow = kQuick;
   slow.replace(slow.find("repetitions = 8"), 15, "repetitions = 500");
