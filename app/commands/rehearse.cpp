@@ -142,8 +142,6 @@ void refuseUnlessRecordable(const RehearseOptions& options) {
     if (hand.starts_with("replay:") && fs::equivalent(hand.substr(7), path, failed))
       throw UsageError("--record " + path + ": it is the session that is replayed, choose another name");
   if (!options.force) throw UsageError(path + ": exists already: choose another name for the recording or use --force");
-  std::fprintf(stderr, "molar: recording into %s.new until it is closed, then in the place of %s\n", path.c_str(),
-               path.c_str());
 }
 
 int run(const RehearseOptions& options) {

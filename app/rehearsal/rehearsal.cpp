@@ -62,6 +62,8 @@ class Rehearsal {
 
   int run() {
     for (const std::string& remark : plan_.remarks) journal_.say(remark);
+    if (const auto beside = station().recordedBeside())
+      journal_.say("recording into " + *beside + " until it is closed, then in the place of " + plan_.recording->path);
     double first_picture_s = 0.0;
     if (pace_->isWatched()) {
       picture_.show(frame_);

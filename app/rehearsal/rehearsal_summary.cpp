@@ -82,9 +82,9 @@ std::string summaryText(const RehearsalFigures& f) {
                     f.slow_latency->total_ms());
   if (f.recording)
     text +=
-        printed("  recorded         %llu ticks, %llu lost%s%s\n", static_cast<unsigned long long>(f.recording->ticks),
-                static_cast<unsigned long long>(f.recording->lost), f.recording->trouble ? "; " : "",
-                f.recording->trouble.value_or("").c_str());
+        printed("  recorded         %llu ticks, %llu lost, in %s%s%s\n",
+                static_cast<unsigned long long>(f.recording->ticks), static_cast<unsigned long long>(f.recording->lost),
+                f.recording->file.c_str(), f.recording->trouble ? "; " : "", f.recording->trouble.value_or("").c_str());
   return text;
 }
 

@@ -14,10 +14,6 @@
 
 namespace app {
 
-namespace {
-constexpr std::chrono::milliseconds kBetweenWrites{20};
-}
-
 struct Recorder::Impl {
   haptics::TickLog& log;
 
@@ -32,6 +28,7 @@ struct Recorder::Impl {
 
   // The recording thread's own.
   SessionWriter writer;
+  const std::optional<std::string> beside;
   SessionBatch batch;
   std::vector<haptics::Command> waiting_commands;
   std::uint64_t serial_in_force, ticks_seen = 0, next_index = 0, gaps = 0;
@@ -41,7 +38,10 @@ struct Recorder::Impl {
   std::thread thread;
 
   Impl(const std::string& path, bool overwrite, const SessionStart& start, haptics::TickLog& ticks)
-      : log(ticks), writer(path, overwrite, start), serial_in_force(start.command.serial) {}
+      : log(ticks),
+        writer(path, overwrite, start),
+        beside(writer.replaces() ? std::optional(writer.file()) : std::nullopt),
+        serial_in_force(start.command.serial) {}
 
   void run() {
     for (bool last = false; !last;) {
@@ -149,6 +149,8 @@ Recorder::Recorder(const std::string& path, bool overwrite, const SessionStart& 
 
 Recorder::~Recorder() { stop(); }
 
+const std::optional<std::string>& Recorder::recordedBeside() const { return impl_->beside; }
+
 void Recorder::command(const haptics::Command& command) noexcept {
   const std::scoped_lock lock(impl_->mutex);
   try {
@@ -186,7 +188,7 @@ RecordingSummary Recorder::stop(const haptics::CarvedBone* bone_left) {
   else
     impl_->drain();
   impl_->close(bone_left);
-  impl_->summary = RecordingSummary{impl_->writer.ticks(), impl_->lost(), trouble()};
+  impl_->summary = RecordingSummary{impl_->writer.ticks(), impl_->lost(), trouble(), impl_->writer.file()};
   return *impl_->summary;
 }
 

@@ -1,11 +1,12 @@
 // Records a rehearsal: drains the servo's tick log and a queue of commands and events into a session file, on a thread
-// of its own every 20 ms, so that a kill at any moment loses well under 100 ms; or when its owner says so, where the
-// ticks themselves are made by hand. Never stops the rehearsal: when the file can not be written any more or memory is
-// out, recording ends, the file stays valid to its last write, and trouble() says so. The servo knows nothing of this;
-// ticks it could not log are counted as lost. Calls: any thread but the servo, microseconds; the constructor writes the
-// bone (0.1 s), stop() closes the file.
+// of its own every kBetweenWrites, so that a kill loses no more than came since, and what a write takes; or when its
+// owner says so, where the ticks themselves are made by hand. Never stops the rehearsal: when the file can not be
+// written any more or memory is out, recording ends, the file stays valid to its last write, and trouble() says so. The
+// servo knows nothing of this; ticks it could not log are counted as lost. Calls: any thread but the servo,
+// microseconds; the constructor writes the bone (0.1 s), stop() closes the file.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -21,10 +22,13 @@ struct RecordingSummary {
   std::uint64_t ticks = 0;             ///< in the file
   std::uint64_t lost = 0;              ///< made by the servo, not in the file
   std::optional<std::string> trouble;  ///< one line, if recording ended early
+  std::string file = {};               ///< as it is called now: where another was to be replaced, not always its name
 
   /// Everything that happened is in the file.
   bool isWhole() const { return lost == 0 && !trouble; }
 };
+
+inline constexpr std::chrono::milliseconds kBetweenWrites{20};
 
 enum class Draining { by_thread, by_hand };
 
@@ -36,6 +40,9 @@ class Recorder {
            Draining draining = Draining::by_thread);
   /// Stops, if stop() was not called.
   ~Recorder();
+
+  /// The file that is written until the close, where another bears the name until then; none: it soon has its name.
+  const std::optional<std::string>& recordedBeside() const;
 
   /// To be called before the command is published to the servo.
   void command(const haptics::Command& command) noexcept;

@@ -86,6 +86,10 @@ void Workstation::change(haptics::Command command) {
   commands_.publish(command_);
 }
 
+std::optional<std::string> Workstation::recordedBeside() const {
+  return recorder_ ? recorder_->recordedBeside() : std::nullopt;
+}
+
 std::optional<std::string> Workstation::recordingTrouble() const {
   return recorder_ ? recorder_->trouble() : std::nullopt;
 }

@@ -50,6 +50,8 @@ class Workstation {
   void change(haptics::Command command);
   void note(const std::string& kind, const std::string& text);
 
+  /// Recorder::recordedBeside.
+  std::optional<std::string> recordedBeside() const;
   /// One line, once recording has ended early.
   std::optional<std::string> recordingTrouble() const;
 

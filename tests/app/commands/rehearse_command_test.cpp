@@ -308,6 +308,17 @@ TEST_F(RehearseCommand, ShowsWhatTheOtherHandHolds) {
   expectRefusal(kCoarse + std::string("--second-hand mouse"), "--second-hand mouse");
 }
 
+TEST_F(RehearseCommand, SaysWhereItRecordsWhatReplacesAnother) {
+  const std::string line = kCoarse + std::string("--seconds 0.2 --record ") + at("s.molar");
+  ASSERT_EQ(molar(line).status, 0);
+  write("s.molar.new", "somebody's");
+  const Said said = molar(line + " --force");
+  EXPECT_EQ(said.status, 0) << said.err;
+  EXPECT_NE(said.err.find("recording into " + at("s.molar.new2") + " until it is closed"), std::string::npos)
+      << said.err;
+  EXPECT_NE(said.out.find("0 lost, in " + at("s.molar") + "\n"), std::string::npos) << said.out;
+}
+
 TEST_F(RehearseCommand, KeepsAnOldRecording) {
   write("s.molar", "precious");
   expectRefusal(kCoarse + std::string("--seconds 0.2 --record ") + at("s.molar"), "s.molar");

@@ -27,11 +27,11 @@ TEST(RehearsalOutputs, SummaryIsOfTheLastMoment) {
   figures.last.tick.dt_s = 0.001;
   figures.last.quality = "as asked";
   figures.removed_mm3[1] = 4.0;
-  figures.recording = RecordingSummary{12000, 3, std::nullopt};
+  figures.recording = RecordingSummary{12000, 3, std::nullopt, "s.molar.new"};
   const std::string text = summaryText(figures);
   for (const char* line :
        {"patient          block of bone\n", "bur              sphere:1.5 mm\n", "duration         12.0 s\n",
-        "removed          4.0 mm³\n", "quality: as asked\n", "recorded         12000 ticks, 3 lost\n"})
+        "removed          4.0 mm³\n", "quality: as asked\n", "recorded         12000 ticks, 3 lost, in s.molar.new\n"})
     EXPECT_NE(text.find(line), std::string::npos) << line << text;
   EXPECT_EQ(figures.last.recording_path, "s.molar");
 }

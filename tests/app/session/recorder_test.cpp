@@ -78,6 +78,62 @@ TEST(Recorder, DrainsByItselfOnItsThread) {
   EXPECT_EQ(recorder.stop().ticks, 1u);
 }
 
+static_assert(kBetweenWrites <= 20ms, "what a kill may cost");
+
+TEST(Recorder, TakesCommandsAndEventsWhileItsThreadDrains) {
+  const test::ScratchFolder folder;
+  const test::SmallBone bone;
+  haptics::TickLog log;
+  Recorder recorder(folder.file("s.molar"), false, bone.start(), log);
+  haptics::Command command = bone.start().command;
+  std::uint64_t told = 0;
+  // Until the thread has come a few times between the calls.
+  for (std::size_t drains = 0, room = log.room(); drains < 5; room = log.room()) {
+    ++command.serial;
+    recorder.command(command);
+    recorder.event("note", std::to_string(told));
+    log.push(imaginedTick(told++, command.serial));
+    EXPECT_EQ(recorder.trouble(), std::nullopt);
+    std::this_thread::sleep_for(100us);
+    if (log.room() > room) ++drains;
+  }
+  EXPECT_TRUE(recorder.stop().isWhole());
+  SessionReader session(folder.file("s.molar"));
+  EXPECT_EQ(session.events().size(), told);
+  const auto commands = session.commands();
+  ASSERT_EQ(commands.size(), told + 1);
+  for (std::uint64_t n = 0; n < told; ++n) ASSERT_EQ(commands[n + 1].first_tick, n);
+}
+
+TEST(Recorder, SaysHowItsFileIsCalled) {
+  ByHand at;
+  EXPECT_EQ(at.recorder.recordedBeside(), std::nullopt);
+  at.push(10);
+  EXPECT_EQ(at.recorder.stop().file, at.path);
+  const test::SmallBone bone;
+  haptics::TickLog log;
+  Recorder second(at.path, true, bone.start(), log, Draining::by_hand);
+  EXPECT_EQ(second.recordedBeside(), at.path + ".new");
+  log.push(imaginedTick(0));
+  second.drain();
+  std::filesystem::remove(at.path + ".new");
+  log.push(imaginedTick(1));
+  const RecordingSummary summary = second.stop();
+  EXPECT_EQ(summary.file, at.path + ".new") << "the old one is still there";
+  ASSERT_TRUE(summary.trouble.has_value());
+  EXPECT_NE(summary.trouble->find(at.path + ".new: "), std::string::npos) << *summary.trouble;
+}
+
+TEST(Recorder, IsBegunBesideWhereALogAloneIsToGo) {
+  const test::ScratchFolder folder;
+  test::writeBytes(folder.file("s.molar-wal"), "the rest of a killed session");
+  test::writeBytes(folder.file("s.molar.new"), "somebody's");
+  const test::SmallBone bone;
+  haptics::TickLog log;
+  Recorder recorder(folder.file("s.molar"), true, bone.start(), log, Draining::by_hand);
+  EXPECT_EQ(recorder.recordedBeside(), folder.file("s.molar.new2"));
+}
+
 TEST(Recorder, NotesTheTickFromWhichACommandIsInForce) {
   ByHand at;
   haptics::Command command;
