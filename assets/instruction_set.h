@@ -2,11 +2,19 @@
 // compiled once for each and choose by this: no asset, but what both may include. Any thread; a load.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 namespace assets {
 
 enum class InstructionSet : std::uint8_t { portable, avx2, avx512 };
+
+constexpr std::string_view nameOf(InstructionSet set) noexcept {
+  constexpr std::array<std::string_view, 3> kNames = {"portable", "avx2", "avx512"};
+  return kNames[static_cast<std::size_t>(set)];
+}
 
 /// AVX2 with FMA; AVX-512 F, BW, DQ, VL.
 bool available(InstructionSet set) noexcept;

@@ -115,6 +115,19 @@ void readThrough(SessionReader& session, ReplayReport& report) {
   }
 }
 
+/// None: this program gives the same bits.
+std::optional<std::string> whyNotComparable(const StoredStart& recorded) {
+  const ServoBuild own = thisServo();
+  if (recorded.servo.revision != own.revision)
+    return printed("recorded by another version (%s with servo revision %lld, this is %s with %lld)",
+                   recorded.program_version.c_str(), static_cast<long long>(recorded.servo.revision),
+                   std::string(thisVersion()).c_str(), static_cast<long long>(own.revision));
+  if (!recorded.servo.sumsAsDoes(own))
+    return "recorded with another processor's instructions (" + recorded.servo.instruction_set + ", these are " +
+           own.instruction_set + ", see MOLAR_INSTRUCTIONS)";
+  return std::nullopt;
+}
+
 /// What there is to say of a session that can be opened.
 ReplayReport verifyReadable(const std::string& path) {
   SessionReader session(path);
@@ -125,13 +138,8 @@ ReplayReport verifyReadable(const std::string& path) {
   if (report.damage) return report;
   report.unsealed = session.isUnsealed();
 
-  const std::string version = session.about().program_version;
-  if (version == thisVersion()) {
-    runAgain(session, report);
-  } else {
-    report.other_version = version;
-    readThrough(session, report);
-  }
+  report.not_comparable = whyNotComparable(session.about());
+  report.not_comparable ? readThrough(session, report) : runAgain(session, report);
   report.lost = session.lost();
   return report;
 }
@@ -168,10 +176,9 @@ std::string ReplayReport::line() const {
     return "NOT verified: at tick " + std::to_string(difference->tick) + " " + difference->what + " (of " + figures +
            ")" + ended;
   }
-  if (other_version)
-    return (lost > 0 ? "NOT verified: " : "checksums right: ") + figures + "; recorded by another version (" +
-           *other_version + ", this is " + std::string(thisVersion()) +
-           "): numbers are read, the re-run is not comparable" + ended;
+  if (not_comparable)
+    return (lost > 0 ? "NOT verified: " : "checksums right: ") + figures + "; " + *not_comparable +
+           ": numbers are read, the re-run is not comparable" + ended;
   if (!verified()) return "NOT verified: " + figures + ", all of them bit-identical" + ended;
   const std::string digest = printed("%016llx", static_cast<unsigned long long>(bone_digest));
   return "verified: " + figures + ", every force and the final bone (" + digest + ") bit-identical" + ended;

@@ -1,8 +1,8 @@
 // Runs a recorded session again: the bone from its start, the servo over the recorded hands and commands, and every
 // force, proxy, removed volume and bone digest compared bit for bit. No clock, no device, no thread of its own.
 // Frame P. Any thread but the servo; takes what the servo's own work in it took.
-// The bits are promised within one version of the program; another's session is checked and read, not compared. What
-// was recorded of the bone needs no re-run.
+// The bits are promised for one revision of the servo on one kind of processor (servo_build.h); the session of another
+// is checked and read, not compared. What was recorded of the bone needs no re-run.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace app {
 
-/// Of the program whose sessions are run again and compared: this one.
+/// Of this program.
 std::string_view thisVersion();
 
 /// Throws SessionError, one line, if a stored byte was changed. Reads it all.
@@ -36,13 +36,13 @@ struct ReplayReport {
   std::optional<std::string> damage;           ///< the checksum chain is broken here: nothing was run
   bool unsealed = false;                       ///< closed, but its seal is missing, as after a power cut
   std::optional<std::string> missing_log;      ///< killed, and this second file of it is not there
-  std::optional<std::string> other_version;    ///< that recorded it: nothing was run
+  std::optional<std::string> not_comparable;   ///< "recorded by another version …", or processor: nothing was run
   std::optional<ReplayDifference> difference;  ///< nothing was run past it
   std::uint64_t bone_digest = 0;               ///< of the bone after the last tick replayed
 
   /// Every tick made is in the file, and was found identical where that can be asked.
   bool verified() const {
-    return !damage && !difference && !missing_log && lost == 0 && (other_version || replayed == ticks);
+    return !damage && !difference && !missing_log && lost == 0 && (not_comparable || replayed == ticks);
   }
   /// For people: what was found.
   std::string line() const;

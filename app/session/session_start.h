@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/session/servo_build.h"
 #include "app/session/session_calibration.h"
 #include "assets/volume_grid.h"
 #include "haptics/servo/command.h"
@@ -23,6 +24,7 @@ struct SessionStart {
   std::span<const std::uint8_t> label;  ///< the same, or empty: unlabelled
   haptics::Command command;             ///< in force from the first tick
   SessionCalibration calibration = {};
+  ServoBuild servo = thisServo();
 };
 
 /// The same as stored, owning its voxels; labels are those of this program.
@@ -32,6 +34,7 @@ struct StoredStart {
   assets::VolumeGrid grid;
   std::vector<std::uint8_t> solid, label;
   std::optional<SessionCalibration> calibration;  ///< none: recorded before it was
+  ServoBuild servo;
 };
 
 }  // namespace app

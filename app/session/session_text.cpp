@@ -145,6 +145,8 @@ void refuseUnlessUsable(const assets::VolumeGrid& grid) {
 std::string aboutText(const SessionStart& start) {
   return dumped({{"program", start.program_version},
                  {"patient", start.patient_title},
+                 {"servo_revision", start.servo.revision},
+                 {"instruction_set", start.servo.instruction_set},
                  {"dt_s", start.dt_s},
                  {"grid", gridJson(start.grid)},
                  {"labels", ownLabels()},
@@ -156,6 +158,8 @@ SessionAbout aboutFromText(std::string_view text) {
   SessionAbout about;
   about.start.program_version = valueOf(object, "program", std::string());
   about.start.patient_title = valueOf(object, "patient", std::string());
+  about.start.servo.revision = valueOf(object, "servo_revision", std::int64_t{0});
+  about.start.servo.instruction_set = valueOf(object, "instruction_set", std::string());
   about.start.dt_s = valueOf(object, "dt_s", 0.001);
   about.start.grid = gridFrom(object);
   if (const auto found = object.find("labels"); found != object.end()) about.label = labelsFrom(*found);

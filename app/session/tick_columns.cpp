@@ -190,14 +190,15 @@ TickUnpacker::TickUnpacker(std::span<const TickColumn> stored) {
   if (stored.empty() || stored.size() > kMostColumns) throw damagedSession("its ticks have no columns");
   default_row_.resize(packedTickBytes());
   packInto(default_row_.data(), haptics::Tick{});
+  static const std::vector<Type> kOwnTypes = [] {
+    std::vector<Type> types;
+    for (const TickColumn& own : tickColumns()) types.push_back(typeOf(own.type));
+    return types;
+  }();
   for (const TickColumn& column : stored) {
     const Type type = typeOf(column.type);
-    std::size_t to = 0;
-    for (const TickColumn& own : tickColumns()) {
-      const Type own_type = typeOf(own.type);
-      if (own.name == column.name) routes_.push_back({bytes_per_tick_, to, type, own_type});
-      to += own_type.bytes;
-    }
+    for (std::size_t own = 0, to = 0; own < kOwnTypes.size(); to += kOwnTypes[own++].bytes)
+      if (tickColumns()[own].name == column.name) routes_.push_back({bytes_per_tick_, to, type, kOwnTypes[own]});
     bytes_per_tick_ += type.bytes;
   }
 }

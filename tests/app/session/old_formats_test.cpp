@@ -67,6 +67,13 @@ TEST_P(OldFormats, HaveTheirCommands) {
   EXPECT_EQ(second.law.machining.flutes, 8.0);
 }
 
+TEST_P(OldFormats, AreOfAnotherVersion) {
+  const ReplayReport report = verify(recorded(GetParam()));
+  EXPECT_TRUE(report.verified()) << report.line();
+  EXPECT_NE(report.line().find("recorded by another version (0.1.0 with servo revision 0"), std::string::npos)
+      << report.line();
+}
+
 TEST_P(OldFormats, HaveTheirNumbers) {
   const SessionMetrics metrics = metricsOf(recorded(GetParam()));
   EXPECT_EQ(metrics.ticks, 300u);

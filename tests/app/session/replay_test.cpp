@@ -24,12 +24,12 @@ struct Recorded {
   haptics::CarvedBone bone{block.grid, block.solid, block.label};
   std::vector<haptics::Tick> ticks = test::rehearse(bone, block.start().command, kTicks, kChange);
 
-  std::string version{thisVersion()};
+  ServoBuild servo = thisServo();
 
   /// Writes `ticks` as they are now.
   void write(bool closed = true, std::uint64_t lost = 0) {
     SessionStart start = block.start();
-    start.program_version = version;
+    start.servo = servo;
     SessionWriter writer(path, true, start);
     const auto change = ticks.begin() + static_cast<std::ptrdiff_t>(std::min(kChange, ticks.size()));
     writer.write({{}, {ticks.begin(), change}, {}});
@@ -340,14 +340,16 @@ TEST(Replay, BringsBackTheBoneOfAnyMoment) {
 
 TEST(Replay, ReadsTheNumbersOfAnotherVersionAndComparesNothing) {
   Recorded session;
-  session.version = "99.1.0";
+  session.servo.revision = 99;
   session.ticks[321].served_force_P_N.xyz.z += 1.0;
   session.write();
   const ReplayReport report = verify(session.path);
   EXPECT_TRUE(report.verified()) << report.line();
   EXPECT_EQ(report.replayed, 0u);
   EXPECT_EQ(report.ticks, kTicks);
-  EXPECT_NE(report.line().find("recorded by another version (99.1.0"), std::string::npos) << report.line();
+  EXPECT_NE(report.line().find("recorded by another version (0.1.0 with servo revision 99, this is "),
+            std::string::npos)
+      << report.line();
   EXPECT_NE(report.line().find("numbers are read, the re-run is not comparable"), std::string::npos);
   EXPECT_NEAR(metricsOf(session.path).removed_mm3_by_label->at("cortical"), session.bone.removedByTissue_mm3()[1],
               1e-12);
@@ -356,6 +358,29 @@ TEST(Replay, ReadsTheNumbersOfAnotherVersionAndComparesNothing) {
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 4);
   test::writeBytes(session.path, bytes);
   EXPECT_FALSE(verify(session.path).verified());
+}
+
+TEST(Replay, ComparesNothingThatAnotherKindOfProcessorSummed) {
+  Recorded session;
+  session.servo.instruction_set = thisServo().instruction_set == "portable" ? "avx2" : "portable";
+  session.ticks[321].served_force_P_N.xyz.z += 1e-7;
+  session.write();
+  const ReplayReport report = verify(session.path);
+  EXPECT_TRUE(report.verified()) << report.line();
+  EXPECT_NE(report.line().find("another processor's instructions"), std::string::npos) << report.line();
+}
+
+TEST(Replay, ComparesWhatWasSummedWithVectorsOfAnyWidth) {
+  const ServoBuild avx2{1, "avx2"}, avx512{1, "avx512"}, portable{1, "portable"};
+  EXPECT_TRUE(avx2.sumsAsDoes(avx512));
+  EXPECT_TRUE(portable.sumsAsDoes(portable));
+  EXPECT_FALSE(avx512.sumsAsDoes(portable));
+}
+
+TEST(Replay, TakesASessionThatDoesNotTellItsServoForAnOlderOne) {
+  std::string about = aboutText(test::BoneBlock().start());
+  about.replace(about.find("servo_revision"), 14, "of_another_key");
+  EXPECT_EQ(aboutFromText(about).start.servo.revision, 0);
 }
 
 TEST(Metrics, StandAsRecordedThoughARerunDiffersAndTicksWereLost) {
@@ -395,7 +420,7 @@ TEST(Metrics, OfAKilledRecordingComeFromItsTicks) {
 
 TEST(BoneThen, IsTheOneThatWasLeftWhateverARerunWouldSay) {
   Recorded session;
-  session.version = "99.1.0";
+  session.servo.revision = 99;
   for (haptics::Tick& tick : session.ticks) tick.hand.X_PT.translation_mm.z += 5.0;
   session.write();
   const BoneThen bone = boneThen(session.path, std::nullopt);
