@@ -2,10 +2,11 @@
 
 #include <filesystem>
 #include <fstream>
-#include <random>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "tests/mutants.h"
 
 namespace calibration {
 namespace {
@@ -124,14 +125,8 @@ TEST_F(RigFile, RefusesAnEyeOnTheScreen) {
 }
 
 TEST_F(RigFile, SurvivesRandomDamage) {
-  const std::string good = rigText(mirroredRig());
-  std::mt19937 generator(11);
-  for (int i = 0; i < 400; ++i) {
-    std::string bad = good;
-    for (int k = 0; k < 1 + i % 4; ++k) bad[generator() % bad.size()] = static_cast<char>(generator() % 256);
-    if (i % 7 == 0) bad.resize(generator() % bad.size());
-    refusal(bad);
-  }
+  mutants::forEachMutant({rigText(mirroredRig())}, 400,
+                         [&](const std::string& bad, std::size_t, std::uint64_t) { refusal(bad); });
 }
 
 TEST_F(RigFile, NamesAMissingFile) {

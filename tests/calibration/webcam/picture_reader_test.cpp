@@ -2,12 +2,13 @@
 
 #include <filesystem>
 #include <fstream>
-#include <random>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+
+#include "tests/mutants.h"
 
 namespace calibration {
 namespace {
@@ -96,28 +97,19 @@ TEST_F(PictureReader, RefusesWhatIsNoPicture) {
 }
 
 TEST_F(PictureReader, SpoiltBytesAreRefusedOrReadAtTheirSize) {
-  std::mt19937 chance(17);
+  std::vector<std::string> whole;
   for (const char* ending : {".png", ".jpg"}) {
-    const Bytes whole = encoded(ending);
-    for (int round = 0; round < 800; ++round) {
-      Bytes spoilt = whole;
-      const int strokes = 1 + static_cast<int>(chance() % 4);
-      for (int s = 0; s < strokes; ++s) {
-        const std::size_t at = chance() % (round % 2 == 0 ? spoilt.size() : std::min<std::size_t>(spoilt.size(), 200));
-        if (chance() % 5 == 0) {
-          spoilt.erase(spoilt.begin() + static_cast<std::ptrdiff_t>(at));
-        } else {
-          spoilt[at] = static_cast<std::uint8_t>(chance());
-        }
-      }
-      try {
-        const GreyPicture picture = read(spoilt);
-        EXPECT_EQ(picture.grey.size(),
-                  static_cast<std::size_t>(picture.size_px.x) * static_cast<std::size_t>(picture.size_px.y));
-      } catch (const CalibrationError&) {
-      }
-    }
+    const Bytes bytes = encoded(ending);
+    whole.emplace_back(bytes.begin(), bytes.end());
   }
+  mutants::forEachMutant(whole, 1600, [&](const std::string& spoilt, std::size_t, std::uint64_t) {
+    try {
+      const GreyPicture picture = read(Bytes(spoilt.begin(), spoilt.end()));
+      EXPECT_EQ(picture.grey.size(),
+                static_cast<std::size_t>(picture.size_px.x) * static_cast<std::size_t>(picture.size_px.y));
+    } catch (const CalibrationError&) {
+    }
+  });
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/mutants.h"
+
 namespace calibration {
 namespace {
 
@@ -113,29 +115,14 @@ TEST_F(WebcamFile, RefusesWithTheReason) {
 }
 
 TEST_F(WebcamFile, SpoiltTextIsRefusedOrReadAsNumbers) {
-  std::mt19937 chance(23);
-  for (int round = 0; round < 600; ++round) {
-    std::string spoilt = text_;
-    for (int stroke = 0; stroke < 3; ++stroke) {
-      const std::size_t at = chance() % spoilt.size();
-      switch (chance() % 3) {
-        case 0:
-          spoilt[at] = static_cast<char>(chance() % 256);
-          break;
-        case 1:
-          spoilt.erase(at, 1 + chance() % 20);
-          break;
-        default:
-          spoilt.insert(at, spoilt.substr(chance() % spoilt.size(), 1 + chance() % 20));
-      }
-    }
+  mutants::forEachMutant({text_}, 600, [&](const std::string& spoilt, std::size_t, std::uint64_t) {
     try {
       for (const CameraPosition& position : readWebcamFile(write(spoilt)).sights.positions)
         for (const TipSight& tip : position.tips)
           for (const double angle : tip.joints_rad) EXPECT_TRUE(std::isfinite(angle));
     } catch (const CalibrationError&) {
     }
-  }
+  });
 }
 
 }  // namespace

@@ -2,9 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
-
 #include "haptics/device/usb/falcon_protocol.h"
+#include "tests/mutants.h"
 
 namespace usb_recording {
 namespace {
@@ -125,14 +124,10 @@ TEST(UsbRecording, WhateverTheFileHoldsItIsReadOrRefused) {
   EXPECT_FALSE(readRecording(Bytes(1000, 0)));
   for (std::size_t size = 24; size < recorder.file.size(); ++size)
     EXPECT_LE(readRecording(std::span(recorder.file).first(size))->size(), 20u);
-  std::mt19937 random(8);
-  for (int i = 0; i < 20'000; ++i) {
-    Bytes file = recorder.file;
-    for (auto changes = 1 + random() % 20; changes > 0; --changes)
-      file[random() % file.size()] = static_cast<std::uint8_t>(random());
-    const auto read = readRecording(file);
-    if (read) trafficOf(*read, 5);
-  }
+  const std::string good(recorder.file.begin(), recorder.file.end());
+  mutants::forEachMutant({good}, 20'000, [&](const std::string& bad, std::size_t, std::uint64_t) {
+    if (const auto read = readRecording(Bytes(bad.begin(), bad.end()))) trafficOf(*read, 5);
+  });
 }
 
 }  // namespace
