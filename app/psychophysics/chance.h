@@ -1,6 +1,6 @@
 // Chance that is the same everywhere: a seeded generator and the few distributions an experiment needs, spelled out
-// because the standard library's differ between implementations. splitmix64 (Steele, Lea, Flood, OOPSLA 2014);
-// Box-Muller for the normal. One thread per object. Not for secrets.
+// because the standard library's differ between implementations. Bits by calibration/geometry/mixed_bits; Box-Muller
+// for the normal. One thread per object. Not for secrets.
 #pragma once
 
 #include <cmath>
@@ -9,14 +9,17 @@
 #include <utility>
 #include <vector>
 
+#include "calibration/geometry/mixed_bits.h"
+
 namespace app {
 
 class Chance {
  public:
   /// `stream` separates the uses of one seed: hand, order, observer.
-  explicit Chance(std::uint64_t seed, std::uint64_t stream = 0) : state_(mixed(seed) ^ mixed(~stream)) {}
+  explicit Chance(std::uint64_t seed, std::uint64_t stream = 0)
+      : state_(calibration::mixedBits(seed) ^ calibration::mixedBits(~stream)) {}
 
-  std::uint64_t bits() { return mixed(state_ += 0x9e3779b97f4a7c15ull); }
+  std::uint64_t bits() { return calibration::mixedBits(state_ += calibration::kMixedStep); }
   /// 0 <= u < 1.
   double uniform() { return static_cast<double>(bits() >> 11) * 0x1.0p-53; }
   bool coin(double probability) { return uniform() < probability; }
@@ -34,11 +37,6 @@ class Chance {
   }
 
  private:
-  static std::uint64_t mixed(std::uint64_t x) {
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
-    return x ^ (x >> 31);
-  }
   std::uint64_t state_;
 };
 

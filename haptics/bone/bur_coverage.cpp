@@ -4,32 +4,14 @@
 #include <cmath>
 
 #include "calibration/geometry/finite.h"
+#include "haptics/bone/face_share_body.h"
 #include "haptics/bone/voxel_sphere.h"
 
 namespace haptics {
 namespace {
 
 using calibration::isFinite;
-
 using calibration::kPi;
-
-/// A ball against one face: how much of it is behind, and how far its middle shifts inwards times that.
-struct FaceShare {
-  double fraction, shift;
-};
-inline FaceShare behindFace(double distance, double bend, double eta, double per_eta) {
-  const double raw = -distance * per_eta, low = raw < -1.0 ? -1.0 : raw, t = low > 1.0 ? 1.0 : low;
-  const double rim = 1.0 - t * t;
-  return {0.25 * (2.0 + 3.0 * t - t * t * t) - bend * rim * rim, 0.1875 * eta * rim * rim};
-}
-
-/// 3/32 of the curvature times eta; a face rounder than the ball is taken for one as round.
-inline double bendOf(double curvature, double eta) {
-  const double round = curvature * eta;
-  return 0.09375 * (round < 1.0 ? round : 1.0);
-}
-
-inline double atLeast(double value, double least) { return value > least ? value : least; }
 
 /// What a voxel at (x, y, z) in T shares with the bur. Its first moment is (radial x, radial y, axial).
 struct AxialShare {

@@ -1,8 +1,9 @@
 // The body of the head kernels: included once by each instruction set's source. Internal linkage throughout and no
-// header but the one below, so that nothing of it is shared between instruction sets. Written for the compiler's
+// header but those below, so that nothing of it is shared between instruction sets. Written for the compiler's
 // vectoriser. The formulas and their reasons: bone/bur_coverage.
 #pragma once
 
+#include "haptics/bone/face_share_body.h"
 #include "haptics/bone/head_kernels.h"
 
 namespace haptics {
@@ -11,21 +12,6 @@ namespace {
 constexpr float kPi = 3.14159265358979323846f;
 constexpr int kSphere = 0, kCapsule = 1, kCylinder = 2, kCone = 3;  // ShapeKind
 constexpr int kLanes = 16, kRows = 4;
-
-/// Ball against one face: fraction behind it, and how far its middle shifts inwards times that.
-struct Face {
-  float fraction, shift;
-};
-inline Face behind(float distance, float bend, float eta, float per_eta) {
-  const float raw = -distance * per_eta, low = raw < -1.0f ? -1.0f : raw, t = low > 1.0f ? 1.0f : low;
-  const float rim = 1.0f - t * t;
-  return {0.25f * (2.0f + 3.0f * t - t * t * t) - bend * rim * rim, 0.1875f * eta * rim * rim};
-}
-inline float bendOf(float curvature, float eta) {
-  const float round = curvature * eta;
-  return 0.09375f * (round < 1.0f ? round : 1.0f);
-}
-inline float atLeast(float value, float least) { return value > least ? value : least; }
 
 /// The first moment is (radial x, radial y, axial).
 struct Share {
@@ -50,20 +36,20 @@ inline Share shareAt(const HeadShape& head, float x, float y, float z) {
     const float over = high - half, dz = over > 0.0f ? over * up : 0.0f;
     const float away = __builtin_sqrtf(x * x + y * y + dz * dz);
     const float raw = 0.5f + 0.5f * over * per_eta, low = raw < 0.0f ? 0.0f : raw, end = low > 1.0f ? 1.0f : low;
-    const Face face = behind(away - R, bendOf((1.0f + end) / R, eta), eta, per_eta);
+    const FaceShare face = behindFace(away - R, bendOf((1.0f + end) / R, eta), eta, per_eta);
     const float shift = face.shift / atLeast(away, 1e-6f);
     return {face.fraction, face.fraction - shift, face.fraction * z - shift * dz};
   }
   const float rho = __builtin_sqrtf(x * x + y * y), per_rho = 1.0f / atLeast(rho, 1e-6f);
-  const Face end = behind(high - half, 0.0f, eta, per_eta);
+  const FaceShare end = behindFace(high - half, 0.0f, eta, per_eta);
   if constexpr (kKind == kCylinder) {
-    const Face side = behind(rho - R, bendOf(1.0f / R, eta), eta, per_eta);
+    const FaceShare side = behindFace(rho - R, bendOf(1.0f / R, eta), eta, per_eta);
     const float fraction = side.fraction * end.fraction;
     return {fraction, fraction - side.shift * end.fraction * per_rho, fraction * z - side.fraction * end.shift * up};
   }
   const float distance = rho * head.side_cos - (z + half) * head.side_sin;
   const float foot = atLeast(rho - distance * head.side_cos, 1e-6f);
-  const Face side = behind(distance, bendOf(head.side_cos / foot, eta), eta, per_eta);
+  const FaceShare side = behindFace(distance, bendOf(head.side_cos / foot, eta), eta, per_eta);
   const float fraction = side.fraction * end.fraction, shift = side.shift * end.fraction;
   return {fraction, fraction - shift * head.side_cos * per_rho,
           fraction * z - side.fraction * end.shift * up + shift * head.side_sin};

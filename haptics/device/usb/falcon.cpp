@@ -10,6 +10,7 @@
 #include "haptics/device/usb/falcon_kinematics.h"
 #include "haptics/device/usb/falcon_program.h"
 #include "haptics/device/usb/falcon_protocol.h"
+#include "haptics/device/usb/smoothed_velocity.h"
 #include "haptics/device/usb/usb_devices.h"
 #include "haptics/device/usb/usb_transport.h"
 
@@ -20,8 +21,6 @@ using namespace std::chrono_literals;
 
 /// Without an answer for so long it is not healthy; a question older than this is asked again.
 constexpr double kSilent_s = 0.02, kAskAgain_s = 0.005;
-/// One count is up to 0.04 mm: 40 mm/s from one tick to the next at 1 kHz, 10 mm/s behind this filter.
-constexpr double kVelocityCutoff_Hz = 50.0;
 constexpr auto kLastPacketTime = 50ms;
 /// The unit is not known to let go by itself: without a packet for so long the USB's own thread does.
 constexpr auto kRestAfter = 20ms;
@@ -168,13 +167,10 @@ void Falcon::take(const FalconReport& report, double since_s) noexcept {
   const bool goes_on = has_place_;
   has_place_ = grip_D.has_value();
   state_.jacobian_D_mm = grip_D ? falconJacobian_mm(legs_rad, *grip_D) : glm::dmat3(0.0);
-  glm::dvec3& velocity = state_.velocity_D_mm_per_s.xyz;
-  if (!grip_D || !goes_on || !(since_s > 0.0)) {
-    velocity = glm::dvec3(0.0);
-  } else {
-    const double blend = 1.0 - std::exp(-2.0 * calibration::kPi * kVelocityCutoff_Hz * since_s);
-    velocity += blend * ((grip_D->mm - last_D.mm) / since_s - velocity);
-  }
+  if (grip_D && goes_on)
+    follow(state_.velocity_D_mm_per_s, grip_D->mm - last_D.mm, since_s);
+  else
+    state_.velocity_D_mm_per_s = {};
   if (grip_D) state_.X_DH.translation_mm = grip_D->mm;
 }
 

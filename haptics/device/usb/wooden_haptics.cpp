@@ -5,6 +5,7 @@
 
 #include "calibration/geometry/units.h"
 #include "haptics/device/monotonic_clock.h"
+#include "haptics/device/usb/smoothed_velocity.h"
 #include "haptics/device/usb/usb_devices.h"
 #include "haptics/device/usb/usb_transport.h"
 #include "haptics/device/usb/wooden_protocol.h"
@@ -16,8 +17,6 @@ using namespace std::chrono_literals;
 
 /// Asked again as often while it is silent (public driver), and for so long before it is given up.
 constexpr std::chrono::milliseconds kWakeUp = 100ms, kAnswer = 1500ms, kRestAfter = 20ms, kLastReportTime = 50ms;
-/// One count is up to 0.08 mm: 80 mm/s from one tick to the next at 1 kHz, 20 mm/s behind this filter.
-constexpr double kVelocityCutoff_Hz = 50.0;
 /// Continuous to peak force as of a Touch (reference/devices 4.3); of these motors it is not published.
 constexpr double kContinuousShare = 0.27;
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
@@ -176,13 +175,10 @@ void WoodenHaptics::move(const WoodenReading& reading, std::int64_t received_ns)
   joints_ = kinematics_.joints(reading.encoders);
   const auto X_DH = kinematics_.handle(joints_);
   const double since_s = static_cast<double>(received_ns - received_ns_) / static_cast<double>(kSecond_ns);
-  glm::dvec3& velocity = state_.velocity_D_mm_per_s.xyz;
-  if (!has_place_ || !(since_s > 0.0)) {
-    velocity = glm::dvec3(0.0);
-  } else {
-    const double blend = 1.0 - std::exp(-2.0 * calibration::kPi * kVelocityCutoff_Hz * since_s);
-    velocity += blend * ((X_DH.translation_mm - state_.X_DH.translation_mm) / since_s - velocity);
-  }
+  if (has_place_)
+    follow(state_.velocity_D_mm_per_s, X_DH.translation_mm - state_.X_DH.translation_mm, since_s);
+  else
+    state_.velocity_D_mm_per_s = {};
   state_.X_DH = X_DH;
   state_.jacobian_D_mm = kinematics_.jacobian_mm(joints_.arm_rad);
   state_.buttons = reading.button ? 1 : 0;
