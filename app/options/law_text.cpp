@@ -18,8 +18,7 @@ std::string lawName(haptics::LawKind law) {
 }
 
 haptics::LawKind lawNamed(const std::string& name, const std::string& where) {
-  for (const haptics::LawName& one : haptics::kLaws)
-    if (one.key == name) return one.kind;
+  if (const auto law = haptics::lawOfKey(name)) return *law;
   throw UsageError(where + name + ": no such law, give one of " + lawNames());
 }
 

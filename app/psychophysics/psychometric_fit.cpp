@@ -126,7 +126,6 @@ double normalQuantile(double p) {
 double Psychometric::probability(double level) const {
   return lapse + (1.0 - 2.0 * lapse) * normalBelow((level - pse) / sigma);
 }
-double Psychometric::levelAt(double p) const { return pse + sigma * normalQuantile(p); }
 double Psychometric::jnd() const { return kJndPerSigma * sigma; }
 
 std::optional<Psychometric> fitPsychometric(const std::vector<LevelCount>& counts, std::optional<double> fixed_lapse) {

@@ -23,8 +23,6 @@ struct Psychometric {
   double pse = 0.0, sigma = 1.0, lapse = 0.0;
 
   double probability(double level) const;
-  /// The level with this chance, lapses aside.
-  double levelAt(double probability) const;
   double jnd() const;
 };
 

@@ -16,7 +16,7 @@
 namespace calibration {
 namespace {
 
-constexpr std::size_t kLeastPairs = 3, kLeastSlanted = 3;
+constexpr std::size_t kLeastSlanted = 3;
 constexpr double kLeastSlant_deg = 15.0, kLeastCovered = 0.5, kMostRms_px = 1.5;
 constexpr glm::ivec2 kFields{6, 4};
 constexpr double kWildOfMedian = 2.5, kWild_px = 0.5;  ///< a view beyond both does not fit the others
@@ -147,40 +147,6 @@ Intrinsics fitIntrinsics(const glm::ivec2& size_px, const std::vector<glm::dvec2
     result.rms_px = fit.rms_px;
     return result;
   }
-}
-
-StereoPair fitStereo(const CameraModel& left, const CameraModel& right, const std::vector<glm::dvec2>& places_mm,
-                     const std::vector<BoardView>& left_views, const std::vector<BoardView>& right_views) {
-  if (left_views.size() != right_views.size()) refuse("left and right views are not as many", "give them in pairs");
-  if (left_views.size() < kLeastPairs) refuse("fewer than 3 pairs of views", "take 8 or more");
-  const Places places = placesOf(places_mm);
-  const std::vector<Pixels> left_px = pixelsOf(left_views, places.size());
-  const std::vector<Pixels> right_px = pixelsOf(right_views, places.size());
-  const auto matrix = [](const CameraModel& camera) {
-    return cv::Mat(
-        cv::Matx33d(camera.focal_px.x, 0, camera.centre_px.x, 0, camera.focal_px.y, camera.centre_px.y, 0, 0, 1));
-  };
-  const auto bent = [](const CameraModel& camera) {
-    return cv::Mat(cv::Vec4d(camera.k1, camera.k2, camera.p1, camera.p2), true);
-  };
-  cv::Mat left_K = matrix(left), left_D = bent(left), right_K = matrix(right), right_D = bent(right), unused_E,
-          unused_F;
-  cv::Matx33d R;
-  cv::Vec3d t;
-  StereoPair pair;
-  try {
-    pair.rms_px = cv::stereoCalibrate(std::vector<Places>(left_px.size(), places), left_px, right_px, left_K, left_D,
-                                      right_K, right_D, {left.size_px.x, left.size_px.y}, R, t, unused_E, unused_F,
-                                      cv::CALIB_FIX_INTRINSIC);
-  } catch (const cv::Exception&) {
-    refuse("the pairs make no stereo camera", "take them again at the same moment left and right");
-  }
-  glm::dmat3 rotation;
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column) rotation[column][row] = R(row, column);
-  pair.rotation = glm::normalize(glm::quat_cast(rotation));
-  pair.translation_mm = {t[0], t[1], t[2]};
-  return pair;
 }
 
 }  // namespace calibration

@@ -1,7 +1,7 @@
 // A camera's lens from views of a flat board: focal lengths, centre, k1, k2, p1, p2; k3 stays 0. Views that fit badly
 // are named and left out; too few, too frontal or too narrow sets are refused, for a lens fitted to them looks good and
 // is wrong. px, mm. Any thread; under 1 s for 15 views of 84 corners. Source: Zhang, PAMI 2000, as OpenCV's
-// calibrateCamera and stereoCalibrate; reference/calibration 2.3, 3.3.
+// calibrateCamera; reference/calibration 2.3, 3.3.
 #pragma once
 
 #include <string>
@@ -34,16 +34,5 @@ struct Intrinsics {
 /// third of the views left out, or a result that is no lens.
 Intrinsics fitIntrinsics(const glm::ivec2& size_px, const std::vector<glm::dvec2>& places_mm,
                          const std::vector<BoardView>& views);
-
-/// Two cameras that stand still to each other.
-struct StereoPair {
-  glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
-  glm::dvec3 translation_mm{0.0};  ///< p_right = rotation p_left + translation
-  double rms_px = 0.0;
-};
-
-/// Views in pairs, the lenses as they are. Throws CalibrationError as above for fewer than 3 pairs.
-StereoPair fitStereo(const CameraModel& left, const CameraModel& right, const std::vector<glm::dvec2>& places_mm,
-                     const std::vector<BoardView>& left_views, const std::vector<BoardView>& right_views);
 
 }  // namespace calibration

@@ -55,10 +55,6 @@ double lossPerRate(const CutMoment& moment, const CutMemory& memory) {
 
 }  // namespace
 
-double grantedRate_mm3_per_s(const ErosionSettings& settings, const CutMoment& moment, assets::Tissue tissue) noexcept {
-  return rate_mm3_per_s(settings, moment, settings.tissue_factor[static_cast<std::size_t>(tissue)]);
-}
-
 ErosionStep erosionStep(const ErosionSettings& settings, const CutMoment& moment, const CutMemory& memory) noexcept {
   ErosionStep step;
   step.axis_P = moment.axis_P;

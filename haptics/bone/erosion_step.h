@@ -59,7 +59,4 @@ ErosionStep erosionStep(const ErosionSettings& settings, const CutMoment& moment
 CutMemory remembered(const ErosionSettings& settings, const CutMoment& moment, const CutMemory& memory,
                      const std::array<double, assets::kTissueCount>& removed_mm3) noexcept;
 
-/// mm3/s the law grants if all that is cut were this tissue; for `time` with the overlap as it is.
-double grantedRate_mm3_per_s(const ErosionSettings& settings, const CutMoment& moment, assets::Tissue tissue) noexcept;
-
 }  // namespace haptics

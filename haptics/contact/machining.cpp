@@ -9,6 +9,7 @@
 #include "haptics/contact/field_sample.h"
 #include "haptics/contact/head_surface.h"
 #include "haptics/contact/shape_contact.h"
+#include "haptics/tool/spindle.h"
 
 namespace haptics {
 namespace {
@@ -58,7 +59,7 @@ struct Wrench {
 
 /// Part of the law that cuts; the rest is the wall.
 double cuttingShare(const MachiningParameters& parameters, double spindle_rad_per_s) {
-  const double rpm = std::abs(spindle_rad_per_s) * (60.0 / (2.0 * kPi));
+  const double rpm = rpmOf(std::abs(spindle_rad_per_s));
   const double share = parameters.slowest_cut_rpm > 0.0 ? std::clamp(rpm / parameters.slowest_cut_rpm, 0.0, 1.0)
                                                         : (rpm > 0.0 ? 1.0 : 0.0);
   return share * share * (3.0 - 2.0 * share);

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/glm.hpp>
+
 #include "calibration/geometry/units.h"
 #include "haptics/tool/bur_shape.h"
 

@@ -1,13 +1,10 @@
 // The cutting head of a bur: a body of revolution in frame T, origin at its centre, +z along the shaft away from the
-// tip, mm. Plain values and closed forms: exact signed distance (to the outline in the half-plane of rho and z),
-// volume, reach. Trivially copyable; any thread; under 50 ns a call, no allocation, no throw.
-// Not the shaft (tool/tool), not what it shares with bone (contact/shape_overlap), not the picture (assets/instrument).
+// tip, mm. Plain values and closed forms: volume, reach. Trivially copyable; any thread; under 50 ns a call, no
+// allocation, no throw. Not the shaft (tool/tool), not what it shares with bone (contact/shape_overlap), not the
+// picture (assets/instrument).
 #pragma once
 
 #include <cstdint>
-
-#include "calibration/geometry/frames.h"
-#include "calibration/geometry/pose.h"
 
 namespace haptics {
 
@@ -27,14 +24,6 @@ inline constexpr double kLeastHeadLength_mm = 0.1, kLongestHead_mm = 20.0;
 
 /// The nearest shape in range; a number that is none becomes the default's. A sphere's length is 0, a capsule's may be.
 BurShape sanitised(const BurShape& shape) noexcept;
-
-/// Distance to the surface, negative inside, and its gradient: the unit vector away from the nearest point of the
-/// surface (outwards on both sides). On the axis, where all sides are alike, the radial part is 0.
-struct SurfaceDistance {
-  double distance_mm = 0.0;
-  calibration::Vector<calibration::Tool> gradient_T;
-};
-SurfaceDistance surfaceDistance(const BurShape& shape, const calibration::Point<calibration::Tool>& p_T) noexcept;
 
 double volume_mm3(const BurShape& shape) noexcept;
 

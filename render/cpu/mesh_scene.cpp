@@ -150,14 +150,8 @@ MeshScene::~MeshScene() = default;
 void MeshScene::setModel(Model model, const assets::MeshModel& mesh) { impl_->bodies.setModel(model, mesh); }
 void MeshScene::place(const MeshPlacement& placement) { impl_->bodies.place(placement); }
 
-bool MeshScene::hasOpaque() const { return impl_->bodies.hasStill() || impl_->bodies.hasMoving(); }
 bool MeshScene::hasTransparent() const { return impl_->bodies.hasTransparent() || impl_->bodies.hasThrough(); }
 std::uint64_t MeshScene::stillRevision() const { return impl_->bodies.stillRevision(); }
-
-void MeshScene::firstHits(const RayBatch& rays, MeshHits& hits) const {
-  stillHits(rays, hits);
-  addMovingHits(rays, hits);
-}
 
 void MeshScene::stillHits(const RayBatch& rays, MeshHits& hits) const {
   std::fill_n(hits.distance_mm, rays.count, 0.0f);

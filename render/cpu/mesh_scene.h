@@ -45,13 +45,10 @@ class MeshScene {
   void setModel(Model model, const assets::MeshModel& mesh);
   void place(const MeshPlacement& placement);
 
-  bool hasOpaque() const;
   bool hasTransparent() const;
 
-  /// The first opaque place along every ray, 0 mm where there is none.
-  void firstHits(const RayBatch& rays, MeshHits& hits) const;
-  /// The two halves of it: face and gum, which stay what they are for the same rays until stillRevision() changes; then
-  /// the instruments, where they lie before them.
+  /// The first opaque place along every ray, 0 mm where there is none, in two halves: face and gum, which stay what
+  /// they are for the same rays until stillRevision() changes; then the instruments, where they lie before them.
   void stillHits(const RayBatch& rays, MeshHits& hits) const;
   void addMovingHits(const RayBatch& rays, MeshHits& hits) const;
   std::uint64_t stillRevision() const;

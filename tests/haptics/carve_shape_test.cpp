@@ -6,6 +6,7 @@
 
 #include "haptics/contact/shape_overlap.h"
 #include "haptics/tool/bur_shape.h"
+#include "tests/haptics/head_distance.h"
 #include "tests/haptics/phantom.h"
 
 namespace haptics {
@@ -56,7 +57,7 @@ TEST(CarveShape, RemovesNothingOutsideTheHead) {
       for (int j = 0; j < bone.grid().size.y; ++j)
         for (int i = 0; i < bone.grid().size.x; ++i) {
           const calibration::Point<Patient> p_P{bone.grid().centre_P_mm({i, j, k})};
-          const double away = surfaceDistance(head, kPose.inverse() * p_P).distance_mm;
+          const double away = headDistance_mm(head, kPose.inverse() * p_P);
           const std::uint8_t solid = bone.field().solidAt({i, j, k});
           // Twice the voxel's ball at the rim, where two faces are met one by one.
           if (away > 0.09) {

@@ -11,6 +11,7 @@
 #include "calibration/geometry/units.h"
 #include "haptics/bone/stroke_history.h"
 #include "haptics/contact/law.h"
+#include "tests/haptics/granted_rate.h"
 #include "tests/haptics/phantom.h"
 
 namespace haptics {

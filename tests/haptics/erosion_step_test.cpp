@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "calibration/geometry/units.h"
+#include "tests/haptics/granted_rate.h"
 
 namespace haptics {
 namespace {

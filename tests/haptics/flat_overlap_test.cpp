@@ -5,6 +5,9 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <vector>
+
+#include <glm/glm.hpp>
 
 #include "calibration/geometry/units.h"
 #include "haptics/contact/cap.h"

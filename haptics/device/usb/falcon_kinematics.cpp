@@ -70,15 +70,6 @@ FalconLegs falconLegs_rad(const std::array<std::int16_t, 3>& encoders) {
   return legs_rad;
 }
 
-std::array<std::int16_t, 3> falconEncoders(const FalconLegs& legs_rad) {
-  std::array<std::int16_t, 3> encoders;
-  for (std::size_t leg = 0; leg < 3; ++leg) {
-    const double counts = std::round((legs_rad[static_cast<glm::length_t>(leg)] - kRadAtZero) / kRadPerCount);
-    encoders[leg] = static_cast<std::int16_t>(std::clamp(counts, -32768.0, 32767.0));
-  }
-  return encoders;
-}
-
 std::optional<FalconLegs> falconLegsAt_rad(const Point<Device>& grip_D) {
   FalconLegs legs_rad;
   for (std::size_t leg = 0; leg < 3; ++leg) {

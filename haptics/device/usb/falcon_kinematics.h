@@ -19,8 +19,6 @@ namespace haptics {
 using FalconLegs = glm::dvec3;  ///< angles of the three thighs, rad
 
 FalconLegs falconLegs_rad(const std::array<std::int16_t, 3>& encoders);
-/// The inverse, to the nearest count.
-std::array<std::int16_t, 3> falconEncoders(const FalconLegs& legs_rad);
 
 /// Inverse kinematics, closed form; none where a leg does not reach.
 std::optional<FalconLegs> falconLegsAt_rad(const calibration::Point<calibration::Device>& grip_D);

@@ -36,8 +36,8 @@ TEST(PsychometricFit, ReturnsTheFunctionOfAnswersWithoutChance) {
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->pse, known.pse, 1e-3);
   EXPECT_NEAR(found->sigma, known.sigma, 1e-3);
-  EXPECT_NEAR(found->probability(found->levelAt(0.75)), 0.75, 1e-3);
-  EXPECT_NEAR(found->jnd(), found->levelAt(0.75) - found->pse, 1e-12);
+  EXPECT_NEAR(found->probability(found->pse + found->jnd()), 0.75, 1e-3);
+  EXPECT_NEAR(found->jnd(), found->sigma * normalQuantile(0.75), 1e-12);
 }
 
 /// Seen from many experiments: no bias beyond chance, and intervals that hold the truth as often as they say.

@@ -6,6 +6,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/core.hpp>
 
 #include "calibration/webcam/board.h"
 #include "calibration/webcam/picture_reader.h"
@@ -128,6 +130,33 @@ class OpenCvChessboards : public testing::Test {
   static inline const std::string kFolder = "/usr/share/doc/opencv-doc/examples/data/";
 };
 
+/// What the two lenses as they are leave over, their cameras standing still to each other.
+double stereoRms_px(const Intrinsics& left, const Intrinsics& right, const std::vector<glm::dvec2>& places_mm,
+                    const std::vector<BoardView>& left_views, const std::vector<BoardView>& right_views) {
+  const auto pixels = [](const std::vector<BoardView>& views) {
+    std::vector<std::vector<cv::Point2f>> all;
+    for (const BoardView& view : views) {
+      all.emplace_back();
+      for (const glm::dvec2& px : view.corners_px) all.back().emplace_back(px.x, px.y);
+    }
+    return all;
+  };
+  const auto matrix = [](const CameraModel& camera) {
+    return cv::Mat(
+        cv::Matx33d(camera.focal_px.x, 0, camera.centre_px.x, 0, camera.focal_px.y, camera.centre_px.y, 0, 0, 1));
+  };
+  const auto bent = [](const CameraModel& camera) {
+    return cv::Mat(cv::Vec4d(camera.k1, camera.k2, camera.p1, camera.p2), true);
+  };
+  std::vector<cv::Point3f> places;
+  for (const glm::dvec2& mm : places_mm) places.emplace_back(mm.x, mm.y, 0.0);
+  cv::Mat left_K = matrix(left.camera), left_D = bent(left.camera), right_K = matrix(right.camera),
+          right_D = bent(right.camera), R, t, E, F;
+  return cv::stereoCalibrate(std::vector(left_views.size(), places), pixels(left_views), pixels(right_views), left_K,
+                             left_D, right_K, right_D, {left.camera.size_px.x, left.camera.size_px.y}, R, t, E, F,
+                             cv::CALIB_FIX_INTRINSIC);
+}
+
 TEST_F(OpenCvChessboards, AreAllFoundAndMakeGoodLenses) {
   if (!std::filesystem::exists(kFolder + "left01.jpg"))
     GTEST_SKIP() << "NO REAL PICTURES WERE TESTED: " << kFolder << " is missing (apt-get install opencv-doc)";
@@ -138,14 +167,13 @@ TEST_F(OpenCvChessboards, AreAllFoundAndMakeGoodLenses) {
   ASSERT_FALSE(HasFailure());
   const Intrinsics left = fitIntrinsics({640, 480}, places_mm, left_views);
   const Intrinsics right = fitIntrinsics({640, 480}, places_mm, right_views);
-  const StereoPair pair = fitStereo(left.camera, right.camera, places_mm, left_views, right_views);
-  std::cout << "13 pairs: left " << left.rms_px << ", right " << right.rms_px << ", stereo " << pair.rms_px
+  const double stereo_rms_px = stereoRms_px(left, right, places_mm, left_views, right_views);
+  std::cout << "13 pairs: left " << left.rms_px << ", right " << right.rms_px << ", stereo " << stereo_rms_px
             << " px RMS\n";
   EXPECT_TRUE(left.left_out.empty() && right.left_out.empty());
   EXPECT_LE(left.rms_px, 0.45);
   EXPECT_LE(right.rms_px, 0.45);
-  EXPECT_LE(pair.rms_px, 0.5);
-  EXPECT_THROW(fitStereo(left.camera, right.camera, places_mm, left_views, {}), CalibrationError);
+  EXPECT_LE(stereo_rms_px, 0.5);
 }
 
 }  // namespace

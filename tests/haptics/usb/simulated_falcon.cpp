@@ -9,6 +9,16 @@ namespace {
 /// What holds the grip: 1 N moves it 20 mm/s.
 constexpr double kHand_Ns_per_mm = 0.05;
 
+/// 1280 counts for a turn of the shaft, 14.25 mm against the 110 mm of a leg's drum; 0 at 35 degrees.
+std::array<std::int16_t, 3> countsOf(const haptics::FalconLegs& legs_rad) {
+  constexpr double kPi = 3.14159265358979323846, kCountsPerRad = 1280.0 / (2.0 * kPi) * 110.0 / 14.25;
+  std::array<std::int16_t, 3> counts{};
+  for (int leg = 0; leg < 3; ++leg)
+    counts[static_cast<std::size_t>(leg)] =
+        static_cast<std::int16_t>(std::lround((legs_rad[leg] - 35.0 / 180.0 * kPi) * kCountsPerRad));
+  return counts;
+}
+
 }  // namespace
 
 Description SimulatedFalcon::description() {
@@ -124,7 +134,7 @@ void SimulatedFalcon::report() {
     for (char c : std::string("<AAAABBBBQQ>>noise<<")) said_.push_back(static_cast<std::uint8_t>(c));
     return;
   }
-  const auto encoders = haptics::falconEncoders(*haptics::falconLegsAt_rad({grip_mm}));
+  const std::array<std::int16_t, 3> encoders = countsOf(*haptics::falconLegsAt_rad({grip_mm}));
   said_.push_back('<');
   for (std::int16_t encoder : encoders)
     for (int shift = 0; shift < 16; shift += 4)

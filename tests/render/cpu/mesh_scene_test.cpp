@@ -53,10 +53,15 @@ struct Met {
   std::vector<float> distance_mm;
 };
 
+void findFirst(const MeshScene& scene, const RayBatch& batch, MeshHits& hits) {
+  scene.stillHits(batch, hits);
+  scene.addMovingHits(batch, hits);
+}
+
 Met first(const MeshScene& scene, const RayBatch& batch) {
   Met met;
   MeshHits hits;
-  scene.firstHits(batch, hits);
+  findFirst(scene, batch, hits);
   scene.addSeen(batch, hits, hits.distance_mm, met.points);
   met.distance_mm.assign(hits.distance_mm, hits.distance_mm + batch.count);
   return met;
@@ -82,7 +87,6 @@ std::optional<double> distanceTo(const glm::dvec3& o, const glm::dvec3& d, const
 
 TEST(MeshScene, MeetsNothingWhenItIsEmpty) {
   MeshScene scene;
-  EXPECT_FALSE(scene.hasOpaque());
   const Met met = first(scene, rays({0, 0, 50}, {{0, 0, -1}}));
   EXPECT_EQ(met.points.count, 0);
   EXPECT_EQ(met.distance_mm[0], 0.0f);
@@ -249,7 +253,6 @@ TEST(MeshScene, CollectsLayersFromBackToFrontAsASlowSortDoes) {
   }
   MeshScene scene;
   scene.setModel(Model::gum, model);
-  EXPECT_FALSE(scene.hasOpaque());
   ASSERT_TRUE(scene.hasTransparent());
   const MeshPoints met = layersOf(scene, rays({0, 1, 100}, {{0, 0, -1}, {0, 1, 0}, {0, 0, -1}}));
   ASSERT_EQ(met.count, 80);
@@ -284,7 +287,7 @@ TEST(MeshScene, LooksUpOnlyWhatNothingHides) {
   scene.setModel(Model::face, {{sheet(0.0f)}});
   const RayBatch batch = rays({0, 1, 100}, {{0, 0, -1}, {0, 0, -1}, {0, 1, 0}});
   MeshHits hits;
-  scene.firstHits(batch, hits);
+  findFirst(scene, batch, hits);
   const float seen[] = {60.0f, 100.0f, 0.0f};
   MeshPoints points;
   scene.addSeen(batch, hits, seen, points);
