@@ -139,6 +139,18 @@ TEST(RecordingPlace, ThatAnotherProgramReplacesEndsTheRecordingAndStaysAsItIs) {
   }
 }
 
+TEST(RecordingPlace, IsBesideItsNameWhereAnotherProgramTookThatMeanwhile) {
+  const Place at;
+  {
+    SessionWriter writer(at.path, false, at.bone.start());
+    writeBytes(at.path, "somebody's");
+    EXPECT_THAT(refusalOf([&] { writer.write({{}, imaginedTicks(0, 50), {}}); }), HasSubstr("it is " + writer.file()));
+    EXPECT_EQ(writer.ticks(), 50u);
+  }
+  EXPECT_EQ(bytesOf(at.path), "somebody's");
+  EXPECT_EQ(at.ticks(at.path + ".new"), 50u);
+}
+
 TEST(RecordingPlace, KeepsTheOldFileUntilTheNewOneIsWhole) {
   const Place at;
   at.record(false, 50);
