@@ -24,6 +24,13 @@ enum class Tissue : std::uint8_t {
 };
 inline constexpr int kTissueCount = 10;
 
+/// Bone, enamel, dentine: what is solid in a scan.
+constexpr bool isHard(std::uint8_t label) {
+  const Tissue tissue{label};
+  return tissue == Tissue::cortical || tissue == Tissue::trabecular || tissue == Tissue::other_teeth ||
+         tissue == Tissue::enamel || tissue == Tissue::dentine;
+}
+
 struct TissueProperties {
   std::string_view key;     ///< in files and on the command line
   std::string_view name;    ///< for people

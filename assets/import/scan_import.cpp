@@ -102,90 +102,85 @@ std::array<std::size_t, 256> countsOf(const std::vector<std::uint8_t>& values) {
   return count;
 }
 
-/// Tissues as labelled, or guessed where no label is one of ours; says what is odd about the labels.
-void readTissues(const std::optional<std::string>& labels, const std::string& ct_path, CtVolume& ct,
-                 std::vector<std::string>& remarks) {
-  const auto guess = [&] { ct.label = labelsFromGrey(ct.grid, ct.hounsfield); };
-  if (!labels) return guess();
-  ct.label = valuesOn(ct.grid, *labels, ct_path);
-  const auto count = countsOf(ct.label);
-  std::string foreign;
-  std::size_t known_voxels = 0;
-  for (std::size_t value = 1; value < count.size(); ++value) {
-    if (count[value] == 0) continue;
-    if (value < kTissueCount)
-      known_voxels += count[value];
-    else
-      foreign += (foreign.empty() ? "" : ", ") + std::to_string(value);
-  }
-  const std::string legend =
-      " (1 cortical, 2 trabecular, 3 other teeth, 4 enamel, 5 dentine, 6 pulp, 7 mandibular "
-      "canal, 8 ligament, 9 gingiva)";
-  if (known_voxels == 0) {
-    remarks.push_back("labels: " + (foreign.empty() ? std::string("all are 0") : "none is one of ours" + legend) +
-                      "; tissues are guessed from grey values");
-    return guess();
-  }
-  if (!foreign.empty())
-    remarks.push_back("labels: " + foreign + " are none of ours" + legend + "; they count as unlabelled");
-  labelPartialVoxels(ct.grid, ct.hounsfield, ct.solid, ct.label);
+/// "4, 17", or none.
+template <class Numbers>
+std::string listOf(const Numbers& numbers) {
+  std::string list;
+  for (const auto number : numbers) list += (list.empty() ? "" : ", ") + std::to_string(number);
+  return list;
 }
 
-/// Which tooth each voxel belongs to.
-void readTeeth(const Sources& sources, CtVolume& ct, std::vector<std::string>& remarks) {
-  if (!sources.teeth) {
-    constexpr double kMostOfATooth_mm3 = 3000.0;  // a large molar is 1,200 (Wheeler)
-    if (!sources.labels) return;
-    numberThirdMolar(ct);
-    for (const auto& [fdi, volume_mm3] : toothVolumes_mm3(ct))
-      if (volume_mm3 > kMostOfATooth_mm3)
-        remarks.push_back("labels: enamel, dentine and pulp (4 to 6) fill " + std::to_string(std::lround(volume_mm3)) +
-                          " mm3, more than one tooth; tell teeth apart in teeth.nrrd, or check the legend");
-    return;
+enum class Tissues { labelled, guessed };
+
+/// Labels as they stand in the file if they are ours, else guessed from grey values.
+Tissues readTissues(const std::optional<std::string>& labels, const std::string& ct_path, CtVolume& ct,
+                    std::vector<std::string>& remarks) {
+  if (labels) {
+    ct.label = valuesOn(ct.grid, *labels, ct_path);
+    const auto count = countsOf(ct.label);
+    std::vector<std::size_t> foreign;
+    for (std::size_t value = kTissueCount; value < count.size(); ++value)
+      if (count[value] > 0) foreign.push_back(value);
+    if (!foreign.empty())
+      throw LoadError(*labels + ": its value" +
+                      (foreign.size() > 1 ? "s " + listOf(foreign) + " are" : " " + listOf(foreign) + " is") +
+                      " none of ours; give 1 cortical, 2 trabecular, 3 undivided teeth, 4 enamel, 5 dentine, 6 pulp, 7 "
+                      "mandibular canal, 8 ligament, 9 gingiva, and 0 for all else");
+    if (count[0] < ct.label.size()) return Tissues::labelled;
+    remarks.push_back("labels: all are 0; tissues are guessed from grey values");
   }
-  ct.tooth = valuesOn(ct.grid, *sources.teeth, sources.ct);
+  ct.label = labelsFromGrey(ct.grid, ct.hounsfield);
+  return Tissues::guessed;
+}
+
+/// Which tooth each voxel belongs to, as the file has it.
+void readTeeth(const std::string& teeth, const std::string& ct_path, CtVolume& ct, std::vector<std::string>& remarks) {
+  ct.tooth = valuesOn(ct.grid, teeth, ct_path);
   const auto count = countsOf(ct.tooth);
   for (std::size_t value = 1; value < count.size(); ++value)
     if (count[value] > 0 && !isToothNumber(static_cast<int>(value)))
-      throw LoadError(*sources.teeth + ": its value " + std::to_string(value) +
+      throw LoadError(teeth + ": its value " + std::to_string(value) +
                       " is no FDI number of a tooth; give 11 to 48, 51 to 85, and 0 where there is none");
   if (count[0] == ct.tooth.size()) remarks.push_back("teeth: no tooth is told apart, all are 0");
-  if (sources.labels) return;
-  for (std::size_t v = 0; v < ct.tooth.size(); ++v)
-    if (ct.tooth[v] != 0 && Tissue{ct.label[v]} != Tissue::enamel)
-      ct.label[v] = static_cast<std::uint8_t>(toothTissueFromGrey(ct.hounsfield[v]));
+  labelNumberedTeeth(ct);
 }
 
-std::string namesOf(const std::map<int, double>& teeth) {
-  std::string names;
-  for (const auto& [fdi, volume_mm3] : teeth) names += (names.empty() ? "" : ", ") + std::to_string(fdi);
-  return names;
+/// Labels without numbers: one marked tooth is a third molar.
+void takeMarkedTooth(const std::optional<int>& asked_fdi, CtVolume& ct, std::vector<std::string>& remarks) {
+  const ThirdMolar molar = numberThirdMolar(ct, asked_fdi);
+  if (molar == ThirdMolar::too_large)
+    remarks.push_back("labels: enamel, dentine and pulp (4 to 6) fill " +
+                      std::to_string(std::lround(markedTeeth_mm3(ct))) +
+                      " mm3, more than one tooth; tell teeth apart in teeth.nrrd, or check the legend");
+  if (molar == ThirdMolar::of_unknown_side)
+    remarks.push_back(
+        "labels: nothing in front of the tooth says whether it is a right or a left one; --tooth 48 or "
+        "--tooth 38 says it");
 }
 
 /// The tooth asked for, or the third molar: lower ones first, as they are operated most.
 std::optional<OperativeSite> siteOf(const CtVolume& ct, const std::optional<int>& asked_fdi, const std::string& source,
                                     std::vector<std::string>& remarks) {
-  const auto teeth = toothVolumes_mm3(ct);
+  const std::vector<int> teeth = teethForASite(ct);
   if (asked_fdi) {
     if (const auto site = siteAtTooth(ct, *asked_fdi)) return site;
     throw LoadError(source + ": tooth " + std::to_string(*asked_fdi) + " is not labelled in it, " +
                     (teeth.empty() ? "nor is any other; give its number in teeth.nrrd"
-                                   : "these are: " + namesOf(teeth) + "; name one with --tooth"));
+                                   : "these are: " + listOf(teeth) + "; name one with --tooth"));
   }
   std::optional<OperativeSite> site;
   for (const int fdi : {48, 38, 28, 18}) {
-    if (!teeth.contains(fdi)) continue;
-    const auto found = siteAtTooth(ct, fdi);
+    if (std::ranges::find(teeth, fdi) == teeth.end()) continue;
     if (!site)
-      site = found;
-    else if (found)
+      site = siteAtTooth(ct, fdi);
+    else
       remarks.push_back("tooth " + std::to_string(fdi) + " is labelled too; --tooth " + std::to_string(fdi) +
                         " makes it the site");
   }
   if (site) return site;
-  remarks.push_back("no third molar labelled here" +
-                    (teeth.empty() ? std::string()
-                                   : "; these teeth are: " + namesOf(teeth) + ", --tooth makes one of them the site"));
+  remarks.push_back(
+      "no third molar labelled here" +
+      (teeth.empty() ? std::string() : "; these teeth are: " + listOf(teeth) + ", --tooth makes one of them the site"));
   return std::nullopt;
 }
 
@@ -204,8 +199,12 @@ ImportedScan importScan(const std::string& source, const ScanChoices& choices) {
   patient.ct.solid = classify(patient.ct.grid, patient.ct.hounsfield, choices.classification);
   const glm::dvec3 middle_P_mm = middleOfSolid(patient.ct, sources.ct, choices.classification.iso_hu);
 
-  readTissues(sources.labels, sources.ct, patient.ct, imported.remarks);
-  readTeeth(sources, patient.ct, imported.remarks);
+  const Tissues tissues = readTissues(sources.labels, sources.ct, patient.ct, imported.remarks);
+  if (sources.teeth)
+    readTeeth(*sources.teeth, sources.ct, patient.ct, imported.remarks);
+  else if (tissues == Tissues::labelled)
+    takeMarkedTooth(choices.tooth_fdi, patient.ct, imported.remarks);
+  if (tissues == Tissues::labelled) labelPartialVoxels(patient.ct);
   patient.site = siteOf(patient.ct, choices.tooth_fdi, source, imported.remarks);
   const auto beside_P_mm = patient.site ? std::optional(patient.site->centre_P_mm) : std::nullopt;
   if (auto canal = mandibularCanalLine(patient.ct.grid, patient.ct.label, beside_P_mm)) {

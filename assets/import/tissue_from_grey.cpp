@@ -65,9 +65,34 @@ Tissue tissueAt(const Greys& greys, glm::ivec3 ijk, int hounsfield, int reach, i
   return behind == Tissue::trabecular ? Tissue::cortical : behind;
 }
 
-bool isHard(Tissue tissue) {
-  return tissue == Tissue::cortical || tissue == Tissue::trabecular || tissue == Tissue::other_teeth ||
-         tissue == Tissue::enamel || tissue == Tissue::dentine;
+template <class Visit>
+void forVoxels(const VolumeGrid& grid, const Visit& visit) {
+  std::size_t v = 0;
+  for (int k = 0; k < grid.size.z; ++k)
+    for (int j = 0; j < grid.size.y; ++j)
+      for (int i = 0; i < grid.size.x; ++i, ++v) visit(glm::ivec3(i, j, k), v);
+}
+
+/// The 26 around a voxel that lie in the grid.
+template <class Visit>
+void forNeighbours(const VolumeGrid& grid, glm::ivec3 ijk, const Visit& visit) {
+  for (int n = 0; n < 27; ++n) {
+    const glm::ivec3 next = ijk + glm::ivec3(n % 3, n / 3 % 3, n / 9) - 1;
+    if (next != ijk && grid.contains(next)) visit(grid.index(next));
+  }
+}
+
+/// Whether a tooth's number outweighs such a label.
+bool canBeToothsOwn(Tissue label) {
+  return label == Tissue::unlabelled || label == Tissue::cortical || label == Tissue::trabecular ||
+         label == Tissue::gingiva;
+}
+
+bool isInsideItsTooth(const CtVolume& ct, glm::ivec3 ijk) {
+  const std::uint8_t fdi = ct.tooth[ct.grid.index(ijk)];
+  bool is_inside = true;
+  forNeighbours(ct.grid, ijk, [&](std::size_t beside) { is_inside = is_inside && ct.tooth[beside] == fdi; });
+  return is_inside;
 }
 
 }  // namespace
@@ -77,33 +102,36 @@ std::vector<std::uint8_t> labelsFromGrey(const VolumeGrid& grid, const std::vect
   const int reach = std::max(2, static_cast<int>(std::ceil(kReach_mm / grid.spacing_mm)));
   const int void_depth = std::max(1, static_cast<int>(std::ceil(kVoidDepth_mm / grid.spacing_mm)));
   std::vector<std::uint8_t> label(hounsfield.size());
-  std::size_t v = 0;
-  for (int k = 0; k < grid.size.z; ++k)
-    for (int j = 0; j < grid.size.y; ++j)
-      for (int i = 0; i < grid.size.x; ++i, ++v)
-        label[v] = static_cast<std::uint8_t>(tissueAt(greys, {i, j, k}, hounsfield[v], reach, void_depth));
+  forVoxels(grid, [&](glm::ivec3 ijk, std::size_t v) {
+    label[v] = static_cast<std::uint8_t>(tissueAt(greys, ijk, hounsfield[v], reach, void_depth));
+  });
   return label;
 }
 
-void labelPartialVoxels(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield,
-                        const std::vector<std::uint8_t>& solid, std::vector<std::uint8_t>& label) {
-  const std::vector<std::uint8_t> before = label;
-  std::size_t v = 0;
-  for (int k = 0; k < grid.size.z; ++k)
-    for (int j = 0; j < grid.size.y; ++j)
-      for (int i = 0; i < grid.size.x; ++i, ++v) {
-        const Tissue own{before[v]};
-        if (solid[v] < kHalfSolid || (own != Tissue::unlabelled && own != Tissue::gingiva)) continue;
-        int densest = std::numeric_limits<int>::min();
-        for (int n = 0; n < 27; ++n) {
-          const glm::ivec3 next = glm::ivec3(i, j, k) + glm::ivec3(n % 3, n / 3 % 3, n / 9) - 1;
-          if (!grid.contains(next)) continue;
-          const std::size_t beside = grid.index(next);
-          if (!isHard(Tissue{before[beside]}) || hounsfield[beside] <= densest) continue;
-          densest = hounsfield[beside];
-          label[v] = before[beside];
-        }
-      }
+void labelNumberedTeeth(CtVolume& ct) {
+  forVoxels(ct.grid, [&](glm::ivec3 ijk, std::size_t v) {
+    if (ct.tooth[v] == 0 || !canBeToothsOwn(Tissue{ct.label[v]})) return;
+    const Tissue grey = tissueFromGrey(ct.hounsfield[v]);
+    const bool is_soft = grey == Tissue::unlabelled || grey == Tissue::trabecular;
+    Tissue tissue = grey == Tissue::enamel ? grey : Tissue::dentine;
+    if (is_soft && isInsideItsTooth(ct, ijk)) tissue = Tissue::pulp;
+    ct.label[v] = static_cast<std::uint8_t>(tissue);
+  });
+}
+
+void labelPartialVoxels(CtVolume& ct) {
+  const std::vector<std::uint8_t> label = ct.label, tooth = ct.tooth;
+  forVoxels(ct.grid, [&](glm::ivec3 ijk, std::size_t v) {
+    const Tissue own{label[v]};
+    if (ct.solid[v] < kHalfSolid || (own != Tissue::unlabelled && own != Tissue::gingiva)) return;
+    int densest = std::numeric_limits<int>::min();
+    forNeighbours(ct.grid, ijk, [&](std::size_t beside) {
+      if (!isHard(label[beside]) || ct.hounsfield[beside] <= densest) return;
+      densest = ct.hounsfield[beside];
+      ct.label[v] = label[beside];
+      if (!tooth.empty()) ct.tooth[v] = tooth[beside];
+    });
+  });
 }
 
 }  // namespace assets

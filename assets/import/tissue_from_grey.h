@@ -10,8 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "assets/tissue.h"
-#include "assets/volume_grid.h"
+#include "assets/ct_volume.h"
 
 namespace assets {
 
@@ -26,17 +25,15 @@ constexpr Tissue tissueFromGrey(int hounsfield) {
   return Tissue::unlabelled;
 }
 
-/// Of a voxel inside a tooth.
-constexpr Tissue toothTissueFromGrey(int hounsfield) {
-  if (hounsfield > 2100) return Tissue::enamel;
-  return hounsfield > 700 ? Tissue::dentine : Tissue::pulp;
-}
-
 std::vector<std::uint8_t> labelsFromGrey(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield);
 
-/// Gives what is drawn (solid at least half) but labelled as nothing or as gum the label of the densest hard neighbour:
-/// labels end in voxel steps, often inside of where the grey values end.
-void labelPartialVoxels(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield,
-                        const std::vector<std::uint8_t>& solid, std::vector<std::uint8_t>& label);
+/// Gives the voxels of numbered teeth (ct.tooth) that are labelled as nothing, as bone or as gum a tissue of teeth:
+/// enamel above 2100 HU; pulp up to 700 HU where all neighbours are of the same tooth, as a tooth's skin is soft in a
+/// scan too; else dentine.
+void labelNumberedTeeth(CtVolume& ct);
+
+/// Gives what is drawn (solid at least half) but labelled as nothing or as gum the label of the densest hard neighbour,
+/// and the number of its tooth: labels end in voxel steps, often inside of where the grey values end.
+void labelPartialVoxels(CtVolume& ct);
 
 }  // namespace assets

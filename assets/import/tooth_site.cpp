@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "assets/import/tooth_axis.h"
 
 namespace assets {
 namespace {
 
-constexpr double kSmallest_mm3 = 10.0;
+constexpr double kSmallest_mm3 = 10.0, kLargest_mm3 = 3000.0;  // a large molar has 1,200 (Wheeler)
 constexpr double kFront_mm = 5.0;
 
 bool isPartOfMarkedTooth(std::uint8_t label) {
@@ -47,40 +46,52 @@ glm::dvec3 centroid_P_mm(const VolumeGrid& grid, const Mass& mass) {
   return grid.origin_P_mm + grid.spacing_mm * (mass.sum / mass.count + 0.5 * glm::dvec3(grid.size));
 }
 
-/// Mean x of the most anterior 5 mm of a tissue, or NaN.
-double frontOf(const CtVolume& ct, Tissue tissue) {
+/// Mean of the most anterior 5 mm of a tissue.
+std::optional<glm::dvec3> frontOf_P_mm(const CtVolume& ct, Tissue tissue) {
   const VolumeGrid& grid = ct.grid;
   const auto value = static_cast<std::uint8_t>(tissue);
   const int depth = std::max(1, static_cast<int>(std::lround(kFront_mm / grid.spacing_mm)));
-  double sum = 0.0;
-  double count = 0.0;
+  Mass front;
   int end = grid.size.y;
   for (int j = 0; j < end; ++j)
     for (int k = 0; k < grid.size.z; ++k)
       for (int i = 0; i < grid.size.x; ++i) {
         if (ct.label[grid.index({i, j, k})] != value) continue;
         end = std::min(end, j + depth);
-        sum += i;
-        count += 1.0;
+        front.sum += glm::dvec3(i, j, k) - 0.5 * glm::dvec3(grid.size);
+        front.count += 1.0;
       }
-  return count > 0.0 ? grid.origin_P_mm.x + grid.spacing_mm * sum / count : std::numeric_limits<double>::quiet_NaN();
+  return front.count > 0.0 ? std::optional(centroid_P_mm(grid, front)) : std::nullopt;
+}
+
+/// 48 or 38, by what lies in front of the tooth.
+std::optional<int> thirdMolarAt(const CtVolume& ct, const glm::dvec3& tooth_P_mm) {
+  for (const Tissue tissue : {Tissue::other_teeth, Tissue::cortical})
+    if (const auto front_P_mm = frontOf_P_mm(ct, tissue); front_P_mm && front_P_mm->y < tooth_P_mm.y - kFront_mm)
+      return tooth_P_mm.x < front_P_mm->x ? 48 : 38;
+  return std::nullopt;
 }
 
 }  // namespace
 
-void numberThirdMolar(CtVolume& ct) {
+double markedTeeth_mm3(const CtVolume& ct) {
+  return static_cast<double>(std::ranges::count_if(ct.label, isPartOfMarkedTooth)) * ct.grid.voxelVolume_mm3();
+}
+
+ThirdMolar numberThirdMolar(CtVolume& ct, const std::optional<int>& asked_fdi) {
   const Mass hard = massOf(
       ct.grid, [&](std::size_t v) { return isPartOfMarkedTooth(ct.label[v]) && Tissue{ct.label[v]} != Tissue::pulp; });
-  if (hard.count * ct.grid.voxelVolume_mm3() < kSmallest_mm3) return;
-  double front_P_mm = frontOf(ct, Tissue::other_teeth);
-  if (std::isnan(front_P_mm)) front_P_mm = frontOf(ct, Tissue::cortical);
-  if (std::isnan(front_P_mm)) front_P_mm = ct.grid.centre_P_mm(ct.grid.size / 2).x;
-  const int fdi = centroid_P_mm(ct.grid, hard).x < front_P_mm ? 48 : 38;
+  if (hard.count * ct.grid.voxelVolume_mm3() < kSmallest_mm3) return ThirdMolar::none;
+  if (markedTeeth_mm3(ct) > kLargest_mm3) return ThirdMolar::too_large;
+  std::optional<int> fdi = thirdMolarAt(ct, centroid_P_mm(ct.grid, hard));
+  if (!fdi && (asked_fdi == 48 || asked_fdi == 38)) fdi = asked_fdi;
+  if (!fdi) return ThirdMolar::of_unknown_side;
 
   ct.tooth.resize(ct.label.size());
-  std::ranges::transform(ct.label, ct.tooth.begin(), [fdi](std::uint8_t label) {
-    return static_cast<std::uint8_t>(isPartOfMarkedTooth(label) ? fdi : 0);
+  std::ranges::transform(ct.label, ct.tooth.begin(), [&](std::uint8_t label) {
+    return static_cast<std::uint8_t>(isPartOfMarkedTooth(label) ? *fdi : 0);
   });
+  return ThirdMolar::numbered;
 }
 
 std::map<int, double> toothVolumes_mm3(const CtVolume& ct) {
@@ -90,6 +101,17 @@ std::map<int, double> toothVolumes_mm3(const CtVolume& ct) {
   for (std::size_t fdi = 1; fdi < voxels.size(); ++fdi)
     if (voxels[fdi] > 0) volumes[static_cast<int>(fdi)] = static_cast<double>(voxels[fdi]) * ct.grid.voxelVolume_mm3();
   return volumes;
+}
+
+std::vector<int> teethForASite(const CtVolume& ct) {
+  std::array<std::size_t, 256> hard_voxels{};
+  for (std::size_t v = 0; v < ct.tooth.size(); ++v)
+    if (isHardOfTooth(ct.label[v])) ++hard_voxels[ct.tooth[v]];
+  std::vector<int> teeth;
+  for (std::size_t fdi = 1; fdi < hard_voxels.size(); ++fdi)
+    if (static_cast<double>(hard_voxels[fdi]) * ct.grid.voxelVolume_mm3() >= kSmallest_mm3)
+      teeth.push_back(static_cast<int>(fdi));
+  return teeth;
 }
 
 std::optional<OperativeSite> siteAtTooth(const CtVolume& ct, int fdi) {

@@ -14,19 +14,6 @@ namespace {
 constexpr std::array<float, 5> kBinomial{1.0f, 4.0f, 6.0f, 4.0f, 1.0f};
 constexpr float kSoftWeight = 0.02f;
 
-bool isHard(std::uint8_t label) {
-  switch (static_cast<Tissue>(label)) {
-    case Tissue::cortical:
-    case Tissue::trabecular:
-    case Tissue::other_teeth:
-    case Tissue::enamel:
-    case Tissue::dentine:
-      return true;
-    default:
-      return false;
-  }
-}
-
 /// Hard matter around a place: of the body asked for, and of all.
 struct Matter {
   float body = 0.0f, all = 0.0f;

@@ -21,11 +21,7 @@ constexpr double kEdgeRound_mm = 1.6;
 constexpr int kBandVoxels = 5;
 constexpr int kSmoothingSteps = 3;
 
-bool isHard(std::uint8_t label) {
-  const auto tissue = static_cast<Tissue>(label);
-  return tissue == Tissue::cortical || tissue == Tissue::trabecular || tissue == Tissue::other_teeth ||
-         tissue == Tissue::enamel || tissue == Tissue::dentine || tissue == Tissue::ligament;
-}
+bool carriesGum(std::uint8_t label) { return isHard(label) || Tissue{label} == Tissue::ligament; }
 
 // Gum voxels, and the bone or tooth just below them, so that the underside is out of sight.
 openvdb::MaskGrid::Ptr gumVoxels(const CtVolume& ct) {
@@ -46,7 +42,7 @@ openvdb::MaskGrid::Ptr gumVoxels(const CtVolume& ct) {
             glm::ivec3 below = at;
             for (int depth = 0; depth < kUnder; ++depth) {
               below[axis] += step;
-              if (!isHard(label_at(below))) break;
+              if (!carriesGum(label_at(below))) break;
               accessor.setValueOn({below.x, below.y, below.z});
             }
           }

@@ -197,23 +197,163 @@ TEST(ScanImport, TakesTheToothAskedForAsTheSite) {
   EXPECT_THAT(refusalOf(folder.at("")), HasSubstr("its value 9 is no FDI number"));
 }
 
-TEST(ScanImport, SaysWhatIsOddAboutLabels) {
+/// One tooth, 6 x 6 x 8 mm, enamel above dentine about a pulp; 12 mm in front of it bone, to its left.
+struct OneTooth {
+  VolumeGrid grid{{48, 60, 40}, 0.5, {0, 0, 0}};
+  std::vector<std::int16_t> hounsfield = std::vector<std::int16_t>(grid.voxelCount(), -1000);
+  std::vector<std::uint8_t> label = std::vector<std::uint8_t>(grid.voxelCount()), tooth = label;
+
+  OneTooth() {
+    for (int k = 10; k < 26; ++k)
+      for (int j = 36; j < 48; ++j)
+        for (int i = 10; i < 22; ++i) {
+          const std::size_t v = grid.index({i, j, k});
+          const bool is_pulp = k < 16 && std::abs(i - 15) < 2 && std::abs(j - 42) < 2;
+          hounsfield[v] = k > 18 ? 2500 : is_pulp ? 150 : 1650;
+          label[v] = k > 18 ? 4 : is_pulp ? 6 : 5;
+          tooth[v] = 48;
+        }
+    for (int k = 4; k < 12; ++k)
+      for (int j = 8; j < 16; ++j)
+        for (int i = 30; i < 40; ++i) {
+          hounsfield[grid.index({i, j, k})] = 1350;
+          label[grid.index({i, j, k})] = 1;
+        }
+  }
+
+  assets::ImportedScan imported(const on_disk::Folder& folder, const assets::ScanChoices& choices = {}) const {
+    auto file = assets::nrrdOutput(folder.at("ct.nrrd"), true);
+    assets::writeHounsfield(grid, hounsfield, file);
+    return importScan(folder.at(""), choices);
+  }
+  void forVoxels(const std::function<void(glm::ivec3, std::size_t)>& visit) const {
+    for (int k = 0; k < grid.size.z; ++k)
+      for (int j = 0; j < grid.size.y; ++j)
+        for (int i = 0; i < grid.size.x; ++i) visit({i, j, k}, grid.index({i, j, k}));
+  }
+};
+
+TEST(ScanImport, TakesTheOneToothMarkedForAThirdMolar) {
   const on_disk::Folder folder;
-  TwoTeeth scan;
-  scan.writeTo(folder);
-  std::filesystem::remove(folder.at("teeth.nrrd"));
-  const auto remarksWith = [&](const std::function<std::uint8_t(std::uint8_t)>& legend) {
+  const OneTooth scan;
+  writeGreys(folder.at("labels.nrrd"), scan.grid, scan.label);
+  const auto imported = scan.imported(folder);
+  ASSERT_TRUE(imported.patient.site);
+  EXPECT_EQ(imported.patient.site->fdi, 48);
+  EXPECT_THAT(imported.remarks, testing::IsEmpty());
+}
+
+TEST(ScanImport, MakesNoThirdMolarOfTissuesGuessedFromGrey) {
+  const on_disk::Folder folder;
+  const OneTooth scan;
+  writeGreys(folder.at("labels.nrrd"), scan.grid, std::vector<std::uint8_t>(scan.label.size(), 0));
+  const auto imported = scan.imported(folder);
+  EXPECT_FALSE(imported.patient.site);
+  EXPECT_TRUE(imported.patient.ct.tooth.empty());
+  EXPECT_THAT(imported.remarks, testing::Contains(HasSubstr("all are 0")));
+}
+
+TEST(ScanImport, MakesNoThirdMolarOfMoreThanOneTooth) {
+  const on_disk::Folder folder;
+  OneTooth scan;
+  scan.grid.spacing_mm = 1.2;
+  writeGreys(folder.at("labels.nrrd"), scan.grid, scan.label);
+  const auto imported = scan.imported(folder);
+  EXPECT_FALSE(imported.patient.site);
+  EXPECT_TRUE(imported.patient.ct.tooth.empty());
+  EXPECT_THAT(imported.remarks, testing::Contains(HasSubstr("mm3, more than one tooth")));
+  EXPECT_THAT(refusalOf(folder.at(""), {.tooth_fdi = 48}), HasSubstr("not labelled in it"));
+}
+
+TEST(ScanImport, MakesUpNoSide) {
+  const on_disk::Folder folder;
+  OneTooth scan;
+  std::ranges::replace(scan.label, std::uint8_t{1}, std::uint8_t{0});
+  writeGreys(folder.at("labels.nrrd"), scan.grid, scan.label);
+  const auto imported = scan.imported(folder);
+  EXPECT_FALSE(imported.patient.site);
+  EXPECT_THAT(imported.remarks, testing::Contains(HasSubstr("--tooth 48 or --tooth 38")));
+  const auto told = importScan(folder.at(""), {.tooth_fdi = 38});
+  ASSERT_TRUE(told.patient.site);
+  EXPECT_EQ(told.patient.site->fdi, 38);
+}
+
+TEST(ScanImport, RefusesLabelsOfAnotherLegend) {
+  const on_disk::Folder folder;
+  OneTooth scan;
+  scan.imported(folder);
+  const auto refusalWith = [&](const std::function<std::uint8_t(std::uint8_t)>& legend) {
     std::vector<std::uint8_t> label = scan.label;
     std::ranges::transform(label, label.begin(), legend);
     writeGreys(folder.at("labels.nrrd"), scan.grid, label);
-    return importScan(folder.at(""), {}).remarks;
+    return refusalOf(folder.at(""));
   };
-  EXPECT_THAT(remarksWith([](std::uint8_t l) { return l; }), testing::IsEmpty());
-  EXPECT_THAT(remarksWith([](std::uint8_t) { return std::uint8_t{0}; }), testing::Contains(HasSubstr("all are 0")));
-  EXPECT_THAT(remarksWith([](std::uint8_t l) { return static_cast<std::uint8_t>(l == 0 ? 0 : l + 100); }),
-              testing::Contains(HasSubstr("none is one of ours")));
-  EXPECT_THAT(remarksWith([](std::uint8_t l) { return static_cast<std::uint8_t>(l == 4 ? 44 : l); }),
-              testing::Contains(HasSubstr("44 are none of ours")));
+  EXPECT_THAT(refusalWith([](std::uint8_t l) { return static_cast<std::uint8_t>(l == 0 ? 0 : l + 100); }),
+              HasSubstr("labels.nrrd: its values 101, 104, 105, 106 are none of ours"));
+  EXPECT_THAT(refusalWith([](std::uint8_t l) { return static_cast<std::uint8_t>(l == 4 ? 44 : l); }),
+              HasSubstr("labels.nrrd: its value 44 is none of ours"));
+}
+
+/// Masks half a voxel tight, undivided teeth: the skin is the tooth's own.
+TEST(ScanImport, CountsAToothsSkinToTheTooth) {
+  const on_disk::Folder folder;
+  OneTooth scan;
+  scan.forVoxels([&](glm::ivec3 at, std::size_t v) {
+    if (scan.tooth[v] == 0) return;
+    const bool is_skin = at.x == 10 || at.x == 21 || at.y == 36 || at.y == 47 || at.z == 10 || at.z == 25;
+    scan.label[v] = is_skin ? 0 : 3;
+    scan.tooth[v] = is_skin ? 0 : 48;
+  });
+  writeGreys(folder.at("labels.nrrd"), scan.grid, scan.label);
+  writeGreys(folder.at("teeth.nrrd"), scan.grid, scan.tooth);
+  const auto ct = scan.imported(folder).patient.ct;
+  for (std::size_t v = 0; v < ct.label.size(); ++v)
+    if (ct.label[v] == 3) {
+      ASSERT_EQ(ct.tooth[v], 48) << v;
+    }
+  EXPECT_EQ(ct.tooth[ct.grid.index({10, 40, 20})], 48) << "skin";
+}
+
+TEST(ScanImport, TellsTheTissuesOfNumberedTeethThatHaveNone) {
+  const on_disk::Folder folder;
+  OneTooth scan;
+  scan.forVoxels([&](glm::ivec3, std::size_t v) {
+    if (scan.hounsfield[v] == 1650) scan.hounsfield[v] = 1400;  // below what is dentine anywhere in a head
+    if (scan.tooth[v] != 0) scan.label[v] = v % 2 == 0 ? 0 : 1;
+  });
+  writeGreys(folder.at("labels.nrrd"), scan.grid, scan.label);
+  writeGreys(folder.at("teeth.nrrd"), scan.grid, scan.tooth);
+  const auto patient = scan.imported(folder).patient;
+  ASSERT_TRUE(patient.site);
+  EXPECT_EQ(patient.site->fdi, 48);
+  EXPECT_EQ(patient.ct.label[scan.grid.index({15, 42, 22})], 4);
+  EXPECT_EQ(patient.ct.label[scan.grid.index({12, 38, 14})], 5);
+  EXPECT_EQ(patient.ct.label[scan.grid.index({15, 42, 13})], 6);
+}
+
+TEST(ScanImport, GivesTeethWithoutLabelsNoShellOfPulp) {
+  const on_disk::Folder folder;
+  OneTooth scan;
+  // A soft skin, as the scanner's blur makes one.
+  scan.forVoxels([&](glm::ivec3 at, std::size_t v) {
+    if (scan.tooth[v] != 0 && (at.x == 10 || at.x == 21 || at.y == 36 || at.y == 47 || at.z == 10))
+      scan.hounsfield[v] = 500;
+  });
+  writeGreys(folder.at("teeth.nrrd"), scan.grid, scan.tooth);
+  const auto label = scan.imported(folder).patient.ct.label;
+  EXPECT_EQ(label[scan.grid.index({10, 42, 14})], 5) << "skin";
+  EXPECT_EQ(label[scan.grid.index({15, 42, 13})], 6) << "inside";
+}
+
+/// Too small to be a site: not offered as one.
+TEST(ScanImport, OffersNoToothThatCanNotBeTheSite) {
+  const on_disk::Folder folder;
+  OneTooth scan;
+  std::ranges::replace(scan.tooth, std::uint8_t{48}, std::uint8_t{46});
+  scan.tooth[0] = 31;
+  writeGreys(folder.at("teeth.nrrd"), scan.grid, scan.tooth);
+  scan.imported(folder);
+  EXPECT_THAT(refusalOf(folder.at(""), {.tooth_fdi = 31}), HasSubstr("these are: 46;"));
 }
 
 TEST(ScanImport, NeverMakesAnEmptyPictureOfEightBits) {

@@ -95,20 +95,20 @@ TEST(TissueFromGrey, LeavesTrabeculaeBesideMarrowSpacesAlone) {
 }
 
 TEST(PartialVoxels, TakeTheLabelOfTheDensestNeighbour) {
-  const auto hounsfield = ballsOf(-1000.0, {{5.0, 2500.0}});
-  const auto solid = assets::classify(kGrid, hounsfield, {});
+  assets::CtVolume ct{kGrid, ballsOf(-1000.0, {{5.0, 2500.0}}), {}, {}, {}};
+  ct.solid = assets::classify(kGrid, ct.hounsfield, {});
   // Labels that end half a voxel too early, as masks drawn by hand do.
-  std::vector<std::uint8_t> label(kGrid.voxelCount(), 0);
+  ct.label.assign(kGrid.voxelCount(), 0);
   for (int k = 0; k < kGrid.size.z; ++k)
     for (int j = 0; j < kGrid.size.y; ++j)
       for (int i = 0; i < kGrid.size.x; ++i)
         if (glm::distance(kGrid.centre_P_mm({i, j, k}), kMiddle_mm) < 4.85)
-          label[kGrid.index({i, j, k})] = static_cast<std::uint8_t>(Tissue::enamel);
-  assets::labelPartialVoxels(kGrid, hounsfield, solid, label);
+          ct.label[kGrid.index({i, j, k})] = static_cast<std::uint8_t>(Tissue::enamel);
+  assets::labelPartialVoxels(ct);
   std::size_t bare = 0, beyond = 0;
-  for (std::size_t v = 0; v < label.size(); ++v) {
-    bare += solid[v] >= 128 && label[v] == 0 ? 1 : 0;
-    beyond += solid[v] < 128 && label[v] != 0 ? 1 : 0;
+  for (std::size_t v = 0; v < ct.label.size(); ++v) {
+    bare += ct.solid[v] >= 128 && ct.label[v] == 0 ? 1 : 0;
+    beyond += ct.solid[v] < 128 && ct.label[v] != 0 ? 1 : 0;
   }
   EXPECT_EQ(bare, 0u);
   EXPECT_EQ(beyond, 0u) << "nothing that is not drawn is labelled";

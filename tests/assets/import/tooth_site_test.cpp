@@ -68,8 +68,9 @@ TEST(ToothSite, IsWhereItsHardTissueIsAndPointsToItsEnamel) {
     const glm::dvec3 crown = glm::normalize(glm::dvec3(component(random), component(random), component(random)));
     CtVolume ct = emptyVolume();
     addTooth(ct, {115, 35, -28}, crown);
-    numberThirdMolar(ct);
-    const auto site = siteAtTooth(ct, 48) ? siteAtTooth(ct, 48) : siteAtTooth(ct, 38);
+    EXPECT_EQ(numberThirdMolar(ct), assets::ThirdMolar::of_unknown_side);
+    EXPECT_EQ(numberThirdMolar(ct, 48), assets::ThirdMolar::numbered);
+    const auto site = siteAtTooth(ct, 48);
     ASSERT_TRUE(site);
     EXPECT_LT(glm::distance(site->centre_P_mm, glm::dvec3(115, 35, -28)), 0.1);
     EXPECT_LT(degreesBetween(site->axis_P, crown), 3.0);
@@ -82,8 +83,8 @@ TEST(ToothSite, TakesItsSideFromTheFrontTeeth) {
   CtVolume cropped_right = ct;  // front teeth to the left of the molar: it is a right one
   addOtherTeeth(cropped_right, 45, 58, 2);
   addOtherTeeth(cropped_right, 0, 20, 40);  // a neighbour far back says nothing
-  numberThirdMolar(cropped_right);
-  EXPECT_TRUE(siteAtTooth(cropped_right, 48));
+  numberThirdMolar(cropped_right, 38);
+  EXPECT_TRUE(siteAtTooth(cropped_right, 48)) << "whatever is asked for";
   CtVolume cropped_left = ct;
   addOtherTeeth(cropped_left, 2, 12, 2);
   addOtherTeeth(cropped_left, 30, 59, 40);
@@ -94,7 +95,7 @@ TEST(ToothSite, TakesItsSideFromTheFrontTeeth) {
 TEST(ToothSite, IsNoneWithoutLabels) {
   CtVolume ct = emptyVolume();
   std::ranges::fill(ct.label, std::uint8_t{1});
-  numberThirdMolar(ct);
+  EXPECT_EQ(numberThirdMolar(ct, 48), assets::ThirdMolar::none);
   EXPECT_FALSE(siteAtTooth(ct, 48));
   EXPECT_TRUE(assets::toothVolumes_mm3(ct).empty());
 }
