@@ -234,6 +234,9 @@ inline long largest_kB() {
   return usage.ru_maxrss;
 }
 
+/// Tries from which on their shares, refused and not, mean something.
+inline constexpr std::uint64_t kEnoughToJudge = 50;
+
 /// Calls `judge(mutant, which of the good files, number)`; the good files take turns. Where a mutant `costs` as much as
 /// that many others, MOLAR_MUTANTS means as many fewer.
 template <class Judge>

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <new>
 
 #include "assets/load_error.h"
 #include "assets/scan/regrid.h"
@@ -114,6 +115,8 @@ CtVolume parseVdb(const std::string& path) {
     file.open(false);
     metadata = file.getMetadata();
     grids = file.getGrids();
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception&) {
     refuse(path, "it can not be read as OpenVDB");
   }

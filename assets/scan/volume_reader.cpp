@@ -16,6 +16,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <new>
 #include <span>
 
 #include "assets/load_error.h"
@@ -29,6 +30,7 @@ namespace {
 constexpr int kAnswerDescriptor = 3;
 constexpr int kRefused = 3;
 constexpr int kFailed = 4;
+constexpr int kOutOfMemory = 5;
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kMemoryCanBeLimited = false;  // the sanitizers take terabytes for themselves
@@ -89,15 +91,13 @@ std::uint64_t dataBytes() {
   return data * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
-timeval timeOf(std::uint32_t ms) { return {ms / 1000, 1000 * (ms % 1000)}; }
+itimerval onceAfter(std::uint32_t ms) { return {{0, 0}, {ms / 1000, 1000 * (ms % 1000)}}; }
 
 void confine(const ReaderLimits& limits) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   ::prctl(PR_SET_DUMPABLE, 0);
-  const itimerval processor{{0, 0}, timeOf(limits.processor_ms)};
+  const itimerval processor = onceAfter(limits.processor_ms), wait = onceAfter(limits.wait_ms);
   ::setitimer(ITIMER_PROF, &processor, nullptr);
-  constexpr std::uint32_t kLongestWait = 20;  // times the processor time: the disk is slow, other programs run
-  const itimerval wait{{0, 0}, timeOf(kLongestWait * limits.processor_ms)};
   ::setitimer(ITIMER_REAL, &wait, nullptr);
   if (!kMemoryCanBeLimited) return;
   const std::uint64_t bytes = dataBytes() + limits.memory_bytes;
@@ -117,6 +117,22 @@ class Descriptor {
   int descriptor_;
 };
 
+/// As long as this lives children wait to be asked how they ended, whatever the program's caller had set.
+class ChildrenWait {
+ public:
+  ChildrenWait() {
+    struct sigaction standard {};
+    standard.sa_handler = SIG_DFL;
+    ::sigaction(SIGCHLD, &standard, &before_);
+  }
+  ~ChildrenWait() { ::sigaction(SIGCHLD, &before_, nullptr); }
+  ChildrenWait(const ChildrenWait&) = delete;
+  ChildrenWait& operator=(const ChildrenWait&) = delete;
+
+ private:
+  struct sigaction before_ {};
+};
+
 [[noreturn]] void refuseFailure(const std::string& path) {
   throw LoadError(path + ": it is damaged (its reader failed on it); import the scan again");
 }
@@ -126,7 +142,9 @@ class Descriptor {
 ReaderLimits readerLimits(std::uint64_t file_bytes) {
   constexpr std::uint64_t kMegabyte = 1'000'000;
   const std::uint64_t sane_bytes = std::min<std::uint64_t>(file_bytes, 100'000 * kMegabyte);
-  return {600 * kMegabyte + 100 * sane_bytes, static_cast<std::uint32_t>(4000 + 600 * (sane_bytes / kMegabyte))};
+  const auto processor_ms = static_cast<std::uint32_t>(4000 + 600 * (sane_bytes / kMegabyte));
+  constexpr std::uint32_t kLongestWait = 20;
+  return {600 * kMegabyte + 100 * sane_bytes, processor_ms, kLongestWait * processor_ms};
 }
 
 void serveVolume(const std::string& path, const ReaderLimits& limits, int answer_descriptor) {
@@ -147,6 +165,8 @@ void serveVolume(const std::string& path, const ReaderLimits& limits, int answer
   } catch (const LoadError& refusal) {
     const std::string_view text = refusal.what();
     ::_exit(writeAll(answer_descriptor, std::as_bytes(std::span(text))) ? kRefused : kFailed);
+  } catch (const std::bad_alloc&) {
+    ::_exit(kOutOfMemory);
   } catch (...) {
     ::_exit(kFailed);
   }
@@ -156,6 +176,8 @@ CtVolume volumeAnswered(int answer_descriptor, int wait_status, const std::strin
   struct stat facts {};
   if (!WIFEXITED(wait_status) || ::fstat(answer_descriptor, &facts) != 0) refuseFailure(path);
   const auto bytes = static_cast<std::uint64_t>(facts.st_size);
+  if (WEXITSTATUS(wait_status) == kOutOfMemory)
+    throw LoadError(path + ": there is not enough memory to read it; close other programs, or import the scan again");
   if (WEXITSTATUS(wait_status) == kRefused) {
     constexpr std::uint64_t kLongest = 1 << 13;
     std::string text(std::min(bytes, kLongest), ' ');
@@ -194,6 +216,7 @@ CtVolume readVolumeApart(const std::string& path) {
   const Descriptor answer(::memfd_create("volume", MFD_CLOEXEC));
   std::error_code error;
   const std::uint64_t bytes = std::filesystem::file_size(path, error);
+  const ChildrenWait children_wait;
   const pid_t reader = answer < 0 ? -1 : ::fork();
   if (reader == 0) serveVolume(path, readerLimits(error ? 0 : bytes), answer);
   if (reader < 0) throw LoadError(path + ": no process can be started to read it; close other programs");

@@ -29,7 +29,7 @@ assets::CtVolume smallVolume() {
 assets::CtVolume readWithinNarrowLimits(const std::string& path) {
   const int answer = ::memfd_create("answer", MFD_CLOEXEC);
   const pid_t reader = ::fork();
-  if (reader == 0) assets::serveVolume(path, {600'000'000, 300}, answer);
+  if (reader == 0) assets::serveVolume(path, {600'000'000, 300, 6000}, answer);
   int status = 0;
   while (::waitpid(reader, &status, 0) < 0) {
   }
@@ -62,7 +62,9 @@ TEST(VolumeMutants, AForgedVolumeIsReadOrRefusedWhateverItDoesToItsReader) {
   };
   constexpr std::uint64_t kForkCosts = 50;
   mutants::forEachMutant({sealed.substr(0, sealed.size() - kSealBytes)}, 60, judge, kForkCosts);
-  EXPECT_GT(refused, tried / 4);
+  if (tried >= mutants::kEnoughToJudge) {
+    EXPECT_GT(refused, tried / 4);
+  }
 }
 
 TEST(VolumeMutants, AnUnsealedChangeIsAlwaysNoticed) {

@@ -74,6 +74,34 @@ TEST(VolumeReader, AnswersAsTheFileStands) {
   EXPECT_EQ(read.tooth, volume.tooth);
 }
 
+TEST(VolumeReader, ReadsThoughTheCallerHadChildrenForgotten) {
+  const on_disk::Folder folder;
+  assets::writeVdb(oneLeaf(), folder.at("v.vdb"));
+  const auto before = ::signal(SIGCHLD, SIG_IGN);
+  EXPECT_EQ(refusalOf([&] { assets::readVolumeApart(folder.at("v.vdb")); }), "accepted");
+  EXPECT_EQ(::signal(SIGCHLD, before), SIG_IGN) << "as it was";
+}
+
+TEST(VolumeReader, SaysWhenMemoryIsWhatIsMissing) {
+  const on_disk::Folder folder;
+  assets::CtVolume large;
+  large.grid = {{300, 300, 300}, 0.5, {0, 0, 0}};
+  large.hounsfield.assign(27'000'000, 5);
+  large.label.assign(27'000'000, 1);
+  large.solid.assign(27'000'000, 9);
+  assets::writeVdb(large, folder.at("v.vdb"));
+  const int answer = ::memfd_create("answer", MFD_CLOEXEC);
+  const pid_t child = ::fork();
+  if (child == 0) assets::serveVolume(folder.at("v.vdb"), {60'000'000, 60'000, 60'000}, answer);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // memory can not be limited there
+  EXPECT_THAT(refusalOf([&] { assets::volumeAnswered(answer, status, "p/volume.vdb"); }),
+              HasSubstr("not enough memory"));
+#endif
+  ::close(answer);
+}
+
 TEST(VolumeReader, RefusesWithTheReadersWords) {
   const on_disk::Folder folder;
   on_disk::write(folder.at("v.vdb"), std::string(2000, 'x'));
@@ -85,6 +113,7 @@ TEST(VolumeReader, OutlivesAReaderThatCrashesOrIsCutOff) {
   EXPECT_EQ(refusalOfAnswer(goodAnswer(), [] {}), "accepted");
   EXPECT_THAT(refusalOfAnswer(goodAnswer(), [] { ::raise(SIGKILL); }), HasSubstr("its reader failed on it"));
   EXPECT_THAT(refusalOfAnswer(goodAnswer(), [] { ::_exit(4); }), HasSubstr("its reader failed on it"));
+  EXPECT_THAT(refusalOfAnswer("", [] { ::_exit(5); }), HasSubstr("not enough memory"));
   EXPECT_EQ(refusalOfAnswer("p/volume.vdb: told\nso", [] { ::_exit(3); }), "p/volume.vdb: told?so");
 }
 
@@ -115,7 +144,7 @@ TEST(VolumeReader, StopsAtItsLimitOfProcessorTime) {
   assets::writeVdb(large, folder.at("v.vdb"));
   const int answer = ::memfd_create("answer", MFD_CLOEXEC);
   const pid_t child = ::fork();
-  if (child == 0) assets::serveVolume(folder.at("v.vdb"), {4'000'000'000, 1}, answer);
+  if (child == 0) assets::serveVolume(folder.at("v.vdb"), {4'000'000'000, 1, 60'000}, answer);
   int status = 0;
   ::waitpid(child, &status, 0);
   ::close(answer);
