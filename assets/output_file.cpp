@@ -53,7 +53,8 @@ void refuseWithoutParent(const std::string& path) {
   if (name.empty() || name == "." || name == "..") refuse(path, "that is no name for something new; give it one");
 }
 
-constexpr std::string_view kMarkBegin = ".part-", kMarkDigits = "0123456789abcdefghijklmnopqrstuvwxyz";
+constexpr std::string_view kMarkBegin = ".part-", kKeptBegin = ".kept-",
+                           kMarkDigits = "0123456789abcdefghijklmnopqrstuvwxyz";
 constexpr std::size_t kMarkLength = kMarkBegin.size() + 8 + 1;  // .part-k3x80qzd-
 
 /// Whether the mark of a temporary name begins there.
@@ -70,6 +71,11 @@ std::string temporaryNameFor(const std::string& path) {
   std::string mark(kMarkBegin);
   for (int i = 0; i < 8; ++i) mark += kMarkDigits[digit(source)];
   return (parentOf(path) / (mark + "-" + fs::path(path).filename().string())).string();
+}
+
+/// Where the folder in place waits while another takes its place, on file systems that exchange none.
+std::string keptNameFor(const std::string& path) {
+  return (parentOf(path) / (std::string(kKeptBegin) + fs::path(path).filename().string())).string();
 }
 
 /// Locks a temporary for as long as the descriptor is open, a killed program's included.
@@ -109,6 +115,18 @@ void waitUntilOnDisk(const std::string& path) {
   ::close(descriptor);
 }
 
+/// A program killed within an exchange leaves the folder that was in place under another name, alone or beside its
+/// successor.
+void restoreKept(const std::string& path) {
+  const std::string kept = keptNameFor(path);
+  std::error_code ignored;
+  if (!exists(kept)) return;
+  if (exists(path))
+    fs::remove_all(kept, ignored);
+  else
+    ::rename(kept.c_str(), path.c_str());
+}
+
 /// rename(2) that does not replace; a file system without that flag falls back to look-then-rename.
 int renameOntoNothing(const std::string& from, const std::string& to) {
   if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
@@ -117,18 +135,21 @@ int renameOntoNothing(const std::string& from, const std::string& to) {
   return ::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
 }
 
-/// Exchanges two folders; a file system without that flag falls back to two renames, undone if the second fails.
+/// Puts our folder where theirs is, which then is at our name or gone; a file system that exchanges none falls back to
+/// two renames, undone if the second fails.
 int exchange(const std::string& ours, const std::string& theirs) {
   if (::renameat2(AT_FDCWD, ours.c_str(), AT_FDCWD, theirs.c_str(), RENAME_EXCHANGE) == 0) return 0;
   if (errno != EINVAL && errno != ENOSYS) return errno;
-  const std::string aside = temporaryNameFor(theirs);
+  const std::string aside = keptNameFor(theirs);
   if (::rename(theirs.c_str(), aside.c_str()) != 0) return errno;
   if (::rename(ours.c_str(), theirs.c_str()) != 0) {
     const int error = errno;
     ::rename(aside.c_str(), theirs.c_str());
     return error;
   }
-  return ::rename(aside.c_str(), ours.c_str()) == 0 ? 0 : errno;
+  std::error_code ignored;
+  fs::remove_all(aside, ignored);
+  return 0;
 }
 
 }  // namespace
@@ -179,6 +200,7 @@ void OutputFile::commit() {
 OutputFolder::OutputFolder(std::string path, bool overwrite, std::vector<std::string> contents)
     : path_(resolved(std::move(path))), contents_(std::move(contents)), overwrite_(overwrite) {
   refuseWithoutParent(path_);
+  restoreKept(path_);
   refuseUnlessReplaceable();
   clearAbandoned(path_);
   temporary_path_ = temporaryNameFor(path_);

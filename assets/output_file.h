@@ -2,7 +2,8 @@
 // commit. A killed or failing program leaves the target as it was; the destructor removes what was not committed.
 // Refused with one line (LoadError) at construction, before any work: no such parent folder, not writable, target there
 // and no leave to replace it, target not a plain file (a device, a folder).
-// What a killed program left unfinished goes when the same target is next written, a minute later at the earliest.
+// What a killed program left unfinished goes when the same target is next written, a minute later at the earliest; a
+// folder that it had set aside is put back then.
 // Any thread, one thread per object. A few system calls; commit waits until the bytes are on the disk.
 // Not a writer: whoever holds one writes to `temporaryPath()` by any means.
 #pragma once

@@ -152,6 +152,17 @@ TEST_F(Output, ClearsWhatAKilledProgramLeftOfTheSameTarget) {
   EXPECT_EQ(entries(), 0);
 }
 
+TEST_F(Output, PutsBackTheFolderThatAKilledProgramHadSetAside) {
+  fs::create_directory(at(".kept-patient"));
+  write(at(".kept-patient/x"), "old");
+  EXPECT_THAT(refusalOf([&] { OutputFolder(at("patient"), false, {"x"}); }), testing::HasSubstr("--force"));
+  EXPECT_EQ(read(at("patient/x")), "old");
+  fs::create_directory(at(".kept-patient"));  // killed a step later: its successor is in place
+  { OutputFolder folder(at("patient"), true, {"x"}); }
+  EXPECT_EQ(read(at("patient/x")), "old");
+  EXPECT_EQ(entries(), 1);
+}
+
 TEST_F(Output, LeavesWhatIsBeingWrittenOrIsOfAnotherTarget) {
   OutputFile at_work(at("a.nrrd"), false);
   OutputFolder folder_at_work(at("patient"), false, {});
