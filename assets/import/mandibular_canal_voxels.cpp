@@ -1,8 +1,10 @@
 #include "assets/import/mandibular_canal_voxels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <queue>
 #include <unordered_map>
 
@@ -122,20 +124,43 @@ struct Join {
   double gap_mm = kLargestGap_mm;
 };
 
-/// The nearest two cells of two parts, if they are near enough.
-Join nearestOf(const std::vector<std::size_t>& a, const std::vector<std::size_t>& b, const std::vector<Cell>& cells) {
-  glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
-  for (const std::size_t c : b) {
-    low = glm::min(low, cells[c].mean_P_mm());
-    high = glm::max(high, cells[c].mean_P_mm());
+/// A part's cells by the cube of the largest gap's edge that they lie in.
+class Cubes {
+ public:
+  Cubes(const std::vector<std::size_t>& part, const std::vector<Cell>& cells) {
+    for (const std::size_t c : part) cells_[cubeAt(cells[c].mean_P_mm())].push_back(c);
   }
+
+  /// Visits the cells that can lie within the largest gap of `p_P_mm`.
+  template <class Visit>
+  void forCellsAround(const glm::dvec3& p_P_mm, const Visit& visit) const {
+    const Cube middle = cubeAt(p_P_mm);
+    for (int n = 0; n < 27; ++n) {
+      const auto found = cells_.find({middle[0] + n % 3 - 1, middle[1] + n / 3 % 3 - 1, middle[2] + n / 9 - 1});
+      if (found == cells_.end()) continue;
+      for (const std::size_t c : found->second) visit(c);
+    }
+  }
+
+ private:
+  using Cube = std::array<std::int64_t, 3>;
+  static Cube cubeAt(const glm::dvec3& p_P_mm) {
+    const glm::dvec3 at = glm::floor(p_P_mm / kLargestGap_mm);
+    return {static_cast<std::int64_t>(at.x), static_cast<std::int64_t>(at.y), static_cast<std::int64_t>(at.z)};
+  }
+
+  std::map<Cube, std::vector<std::size_t>> cells_;
+};
+
+/// The nearest two cells of two parts, if they are near enough.
+Join nearestOf(const std::vector<std::size_t>& a, const Cubes& b, const std::vector<Cell>& cells) {
   Join nearest;
   for (const std::size_t from : a) {
     const glm::dvec3 mean = cells[from].mean_P_mm();
-    if (glm::distance(mean, glm::clamp(mean, low, high)) >= nearest.gap_mm) continue;
-    for (const std::size_t to : b)
+    b.forCellsAround(mean, [&](std::size_t to) {
       if (const double gap_mm = glm::distance(mean, cells[to].mean_P_mm()); gap_mm < nearest.gap_mm)
         nearest = {from, to, gap_mm};
+    });
   }
   return nearest;
 }
@@ -146,13 +171,15 @@ void joinAcrossGaps(std::vector<Cell>& cells) {
   auto parts = canalsOf(cells);
   std::ranges::stable_sort(parts, std::greater{}, [&](const auto& part) { return voxelsOf(part, cells); });
   parts.resize(std::min(parts.size(), kMostParts));
-  for (std::size_t a = 0; a < parts.size(); ++a)
-    for (std::size_t b = a + 1; b < parts.size(); ++b) {
-      const Join join = nearestOf(parts[a], parts[b], cells);
+  for (std::size_t b = 1; b < parts.size(); ++b) {
+    const Cubes cubes(parts[b], cells);
+    for (std::size_t a = 0; a < b; ++a) {
+      const Join join = nearestOf(parts[a], cubes, cells);
       if (join.from == join.to) continue;
       cells[join.from].neighbours.push_back(join.to);
       cells[join.to].neighbours.push_back(join.from);
     }
+  }
 }
 
 /// The canal meant: nearest to the place given, crumbs of less than a tenth of the largest left aside; or the largest.

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "assets/tissue.h"
+#include "tests/mutants.h"
 
 namespace {
 
@@ -127,9 +128,22 @@ TEST(MandibularCanalLine, IsNotHeldUpBySpeckles) {
     for (int k = -3; k <= 3; ++k)
       for (int i = -3; i <= 3; ++i)
         if (i * i + k * k <= 9) label[grid.index({80 + i, j, 80 + k})] = kCanal;
+  const mutants::HangWatch watch;
   const auto canal = mandibularCanalLine(grid, label, glm::dvec3(40, 40, 45));
   ASSERT_TRUE(canal);
   EXPECT_LT(distanceToLine(canal->line_P_mm, {40, 40, 40}), 1.5);
+}
+
+/// Oblique sheets, 9 mm apart: each box holds the next sheet, and no pair is near enough to be joined.
+TEST(MandibularCanalLine, IsNotHeldUpByLargeParts) {
+  const VolumeGrid grid{glm::ivec3(125), 0.8, {0, 0, 0}};
+  std::vector<std::uint8_t> label(grid.voxelCount(), 0);
+  for (int k = 0; k < 125; ++k)
+    for (int j = 0; j < 125; ++j)
+      for (int i = 0; i < 125; ++i)
+        if ((i + j) % 16 < 2) label[grid.index({i, j, k})] = kCanal;
+  const mutants::HangWatch watch;
+  EXPECT_TRUE(mandibularCanalLine(grid, label, glm::dvec3(50, 50, 50)));
 }
 
 TEST(MandibularCanalLine, TakesTheCanalBesideTheTooth) {
