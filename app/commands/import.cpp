@@ -22,7 +22,6 @@ namespace {
 struct ImportOptions {
   std::string source, out, window;
   assets::ScanChoices choices;
-  int tooth_fdi = 0;
   bool force = false;
 };
 
@@ -127,12 +126,8 @@ assets::GreyWindow windowOf(const std::string& text) {
 }
 
 int import(ImportOptions options) {
-  if (options.tooth_fdi != 0) {
-    if (!assets::isToothNumber(options.tooth_fdi))
-      throw UsageError("--tooth " + std::to_string(options.tooth_fdi) +
-                       ": it is no FDI number of a tooth, give 11 to 48 or 51 to 85");
-    options.choices.tooth_fdi = options.tooth_fdi;
-  }
+  if (const auto fdi = options.choices.tooth_fdi; fdi && !assets::isToothNumber(*fdi))
+    throw UsageError("--tooth " + std::to_string(*fdi) + ": it is no FDI number of a tooth, give 11 to 48 or 51 to 85");
   if (!options.window.empty()) options.choices.window = windowOf(options.window);
   assets::ImportedScan imported = assets::importScan(options.source, options.choices);
   for (const std::string& remark : imported.remarks)
@@ -167,7 +162,8 @@ void addImport(CLI::App& molar, Chosen& chosen) {
   command->add_option("--sigma", options->choices.classification.sigma_hu, "Width of the soft transition, HU")
       ->check(numberRange(1.0, 2000.0))
       ->capture_default_str();
-  command->add_option("--tooth", options->tooth_fdi, "The tooth to operate on, FDI number; else the third molar");
+  command->add_option("--tooth", options->choices.tooth_fdi,
+                      "The tooth to operate on, FDI number; else the third molar");
   command->add_option("--window", options->window, "LOW:HIGH, the HU that 0 and 255 of an 8-bit volume mean");
   command->add_flag("--force", options->force, "Replace the patient folder if it exists");
   command->callback([options, &chosen] { chosen.action = [options] { return import(*options); }; });

@@ -9,6 +9,7 @@
 
 #include "assets/import/lower_jaw.h"
 #include "assets/import/mandibular_canal_line.h"
+#include "assets/import/scan_scale.h"
 #include "assets/import/tissue_from_grey.h"
 #include "assets/import/tooth_site.h"
 #include "assets/load_error.h"
@@ -188,14 +189,15 @@ std::optional<OperativeSite> siteOf(const CtVolume& ct, const std::optional<int>
 
 ImportedScan importScan(const std::string& source, const ScanChoices& choices) {
   const Sources sources = sourcesAt(source);
-  HounsfieldImage image = readHounsfield(sources.ct);
-  scaleGreys(image.hounsfield, choices.window, sources.ct);
+  HounsfieldImage image = readHounsfield(sources.ct, choices.window);
   ImportedScan imported;
   Patient& patient = imported.patient;
   patient.classification = choices.classification;
   patient.ct.grid = image.grid;
   patient.ct.hounsfield = std::move(image.hounsfield);
   if (!choices.window) imported.remarks = scaleRemarks(patient.ct.grid, patient.ct.hounsfield);
+  if (!image.states_sides)
+    imported.remarks.push_back("it does not say which side is right; taken as LPS (left-posterior-superior)");
   patient.ct.solid = classify(patient.ct.grid, patient.ct.hounsfield, choices.classification);
   const glm::dvec3 middle_P_mm = middleOfSolid(patient.ct, sources.ct, choices.classification.iso_hu);
 

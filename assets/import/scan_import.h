@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "assets/import/scan_scale.h"
 #include "assets/patient.h"
+#include "assets/scan/grey_window.h"
 
 namespace assets {
 

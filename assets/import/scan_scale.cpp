@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "assets/load_error.h"
+#include <optional>
 
 namespace assets {
 namespace {
 
-constexpr int kBrightestByte = 255;
 constexpr int kBone_hu = 700, kMetal_hu = 3000;     // enamel ends at 2955 (Reshetnikov 2024)
 constexpr int kNoAirBelow_hu = -300, kBin_hu = 16;  // fat lies at -100, air at -1000
 constexpr double kMostBone = 0.3, kLeastMetal_mm3 = 10.0;
@@ -24,7 +22,8 @@ class Histogram {
   /// Share of the voxels above `low` and up to `high`.
   double between(int low, int high) const {
     double sum = 0.0;
-    for (int value = low + 1; value <= high; ++value) sum += static_cast<double>(count_[std::size_t(value + kShift)]);
+    for (int value = low + 1; value <= std::min<int>(high, std::numeric_limits<std::int16_t>::max()); ++value)
+      sum += static_cast<double>(count_[std::size_t(value + kShift)]);
     return sum / all_;
   }
   /// The value that a share of the voxels does not exceed.
@@ -64,22 +63,6 @@ std::optional<int> offsetAir_hu(const Histogram& greys) {
 }
 
 }  // namespace
-
-void scaleGreys(std::vector<std::int16_t>& hounsfield, const std::optional<GreyWindow>& window,
-                const std::string& path) {
-  const auto [least, most] = std::ranges::minmax(hounsfield);
-  const bool is_8_bit = least >= 0 && most <= kBrightestByte;
-  if (is_8_bit && !window)
-    throw LoadError(path + ": its values are 8-bit greys (" + std::to_string(least) + " to " + std::to_string(most) +
-                    "), no Hounsfield; say which HU 0 and 255 mean, for example --window=-1000:3000");
-  if (!window) return;
-  if (!is_8_bit)
-    throw LoadError(path + ": its values go from " + std::to_string(least) + " to " + std::to_string(most) +
-                    ", a window is for 8-bit greys (0 to 255); leave --window out");
-  for (std::int16_t& value : hounsfield)
-    value = static_cast<std::int16_t>(
-        std::lround(window->low_hu + (window->high_hu - window->low_hu) * value / kBrightestByte));
-}
 
 std::vector<std::string> scaleRemarks(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield) {
   const Histogram greys(hounsfield);

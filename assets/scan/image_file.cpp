@@ -107,7 +107,7 @@ class Scan {
   }
 
   const Regrid& regrid() const { return regrid_; }
-  bool isPicture() const { return header_.type == VoxelType::uint8 && !header_.isRescaled(); }
+  bool statesSides() const { return header_.states_sides; }
 
   template <class Value>
   std::vector<Value> values(const char* advice) const {
@@ -135,10 +135,11 @@ NrrdArray arrayOf(const VolumeGrid& grid, VoxelType type, const std::vector<Valu
 
 }  // namespace
 
-HounsfieldImage readHounsfield(const std::string& path) {
+HounsfieldImage readHounsfield(const std::string& path, const std::optional<GreyWindow>& window) {
   const Scan scan(path);
-  return {scan.regrid().grid(), scan.regrid().linear(scan.values<std::int16_t>("rescale it to Hounsfield"), kAirHu),
-          scan.isPicture()};
+  std::vector<std::int16_t> values = scan.values<std::int16_t>("rescale it to Hounsfield");
+  scaleGreys(values, window, path);
+  return {scan.regrid().grid(), scan.regrid().linear(std::move(values), kAirHu), scan.statesSides()};
 }
 
 ByteImage readSolid(const std::string& path) {

@@ -8,10 +8,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "assets/output_file.h"
+#include "assets/scan/grey_window.h"
 #include "assets/volume_grid.h"
 
 namespace assets {
@@ -19,7 +21,7 @@ namespace assets {
 struct HounsfieldImage {
   VolumeGrid grid;
   std::vector<std::int16_t> hounsfield;
-  bool is_8_bit = false;  ///< stored as unsigned bytes without a rescale: greys of a picture, no Hounsfield
+  bool states_sides = true;  ///< the file says which way its axes lie; if not they are taken for LPS
 };
 
 /// One byte a voxel: solid fraction or labels.
@@ -30,8 +32,8 @@ struct ByteImage {
 
 inline constexpr std::int16_t kAirHu = -1000;
 
-/// Interpolated linearly where it must be; air outside.
-HounsfieldImage readHounsfield(const std::string& path);
+/// Interpolated linearly where it must be; air outside. 8-bit greys are refused without a window.
+HounsfieldImage readHounsfield(const std::string& path, const std::optional<GreyWindow>& window = std::nullopt);
 /// Values 0..255; interpolated linearly where it must be; 0 outside.
 ByteImage readSolid(const std::string& path);
 /// Whole numbers 0..255; nearest voxel where it must be; 0 outside.

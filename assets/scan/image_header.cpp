@@ -29,13 +29,23 @@ std::size_t bytesOf(VoxelType type) {
   return 1;
 }
 
-ImageHeader readImageHeader(const std::string& path) {
-  const PlainFile file(path);
+namespace {
+
+ImageHeader headerAsStated(const PlainFile& file) {
+  const std::string& path = file.path();
   const std::string name = lowerCase(path);
   if (name.ends_with(".nrrd") || name.ends_with(".nhdr")) return readNrrdHeader(file);
   if (name.ends_with(".nii") || name.ends_with(".nii.gz")) return readNiftiHeader(file);
   if (name.ends_with(".mha") || name.ends_with(".mhd")) return readMetaHeader(file);
   throw LoadError(path + ": its name ends in nothing known; give a .nrrd, .nhdr, .nii, .nii.gz, .mha or .mhd file");
+}
+
+}  // namespace
+
+ImageHeader readImageHeader(const std::string& path) {
+  ImageHeader header = headerAsStated(PlainFile(path));
+  refuseUnlessSound(header.geometry, path);
+  return header;
 }
 
 }  // namespace assets

@@ -1,8 +1,9 @@
 // What a volume file says of itself, judged before one of its voxels is read: NRRD, NIfTI-1 and MetaImage, by extension
 // (nrrd_header.h, nifti_header.h, meta_header.h). A header that comes back is complete: three axes, sizes, a type, a
 // place in P (LPS mm, units obeyed), and the files that hold the voxels, each a plain file in the header's folder or
-// below. Everything else is a LoadError of one line. No number is made up: where spacing, orientation or byte order
-// matters and is not stated, the file is refused. Any thread; reads at most 1 MB. Voxels: voxel_bytes.h.
+// below. Everything else is a LoadError of one line. No number is made up: where spacing or byte order matters and is
+// not stated, the file is refused; where NRRD or MetaImage do not state which way their axes lie, they are taken along
+// LPS, as their own readers do, and `states_sides` says so. Any thread; reads at most 1 MB. Voxels: voxel_bytes.h.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +21,7 @@ std::size_t bytesOf(VoxelType type);
 /// gzip also stands for a bare zlib stream, as MetaImage has it; text and hex are for people to read.
 enum class VoxelCoding { raw, gzip, text, hex };
 
-/// A file with an equal share of the voxels.
+/// A file with an equal share of the voxels, behind its first bytes as they are stored.
 struct VoxelFile {
   std::string path;
   std::uint64_t from_byte = 0;
@@ -29,6 +30,7 @@ struct VoxelFile {
 struct ImageHeader {
   std::string path;
   ScanGeometry geometry;
+  bool states_sides = true;  ///< the file itself says which way its axes lie
   VoxelType type = VoxelType::int16;
   VoxelCoding coding = VoxelCoding::raw;
   bool is_big_endian = false;

@@ -26,12 +26,12 @@ class MetaHeader {
     ImageHeader header;
     header.path = path_;
     header.geometry = geometry();
-    refuseUnlessSound(header.geometry, path_);
+    header.states_sides = has("transformmatrix") || has("rotation") || has("orientation");
     header.type = type();
     header.coding = coding();
     header.is_big_endian = header.coding != VoxelCoding::text && bytesOf(header.type) > 1 && isBigEndian();
-    header.skipped_bytes = headerSize();
     header.files = files();
+    skipHeaderOf(header);
     return header;
   }
 
@@ -48,7 +48,7 @@ class MetaHeader {
         refuseScan(path_, "its header has " + asShown(name) + " twice" + kExport);
       if (name != "elementdatafile") continue;
       end_byte_ = text.nextByte();
-      if (lowerCase(value_[name]).starts_with("list"))
+      if (isList(value_[name]))
         while (const auto listed = text.line())
           if (const std::string each = trimmed(*listed); !each.empty()) listed_files_.push_back(each);
       return;
@@ -168,11 +168,15 @@ class MetaHeader {
 
   bool isLocal() const { return lowerCase(value("elementdatafile")) == "local"; }
 
-  std::int64_t headerSize() const {
-    if (!has("headersize")) return 0;
+  /// HeaderSize is of the file as it is stored, packed or not.
+  void skipHeaderOf(ImageHeader& header) const {
+    if (!has("headersize")) return;
     const auto size = wholeNumber(value("headersize"));
     if (!size || *size < kVoxelsEndTheFile || (isLocal() && *size > 0)) refuseField("headersize");
-    return *size;
+    if (*size == kVoxelsEndTheFile)
+      header.skipped_bytes = *size;
+    else if (*size > 0)
+      for (VoxelFile& each : header.files) each.from_byte = static_cast<std::uint64_t>(*size);
   }
 
   /// How many files there must be if each holds the first `file_axes` axes.
@@ -188,7 +192,7 @@ class MetaHeader {
     const std::string name = value("elementdatafile");
     const std::vector<std::string> words = wordsOf(name);
     if (words.empty()) refuseField("elementdatafile");
-    if (lowerCase(words[0]) == "list") return listedFiles(words);
+    if (isList(name)) return listedFiles(words);
     if (name.find('%') == std::string::npos) return {fileBeside(path_, name)};
 
     // "NAME%03d.raw first last step", each slice of the last axis in a file.

@@ -52,7 +52,6 @@ class NiftiHeader {
     header.is_big_endian = is_big_endian_;
     header.type = type();
     header.geometry = geometry();
-    refuseUnlessSound(header.geometry, path_);
     readRescale(header);
     header.files = {{path_, 0}};
     header.skipped_bytes = voxelOffset();

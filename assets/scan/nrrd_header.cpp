@@ -70,7 +70,7 @@ Fields fieldsOf(const PlainFile& file) {
                                   std::string(kExport));
     if (!fields.value.emplace(name, trimmed(line->substr(colon + 2))).second)
       refuseScan(file.path(), "its header has '" + name + "' twice" + std::string(kExport));
-    if (name == "datafile" && lowerCase(fields["datafile"]).starts_with("list")) {
+    if (name == "datafile" && isList(fields["datafile"])) {
       readListedFiles(text, fields);
       break;
     }
@@ -149,7 +149,7 @@ class NrrdHeader {
     ImageHeader header;
     header.path = path_;
     header.geometry = geometry();
-    refuseUnlessSound(header.geometry, path_);
+    header.states_sides = fields_.has("space");
     header.type = typeNamed(needed("type"), path_);
     header.coding = codingNamed(needed("encoding"), path_);
     header.is_big_endian = isBigEndian(header);
@@ -284,6 +284,9 @@ class NrrdHeader {
       result.size[a] = static_cast<int>(axis.size);
       if (axis.step) {
         if (!std::isnan(axis.spacing)) refuseField("spacings");
+        if (axis.mm_per_unit != 1.0)
+          refuseScan(path_, "its units " + asShown(fields_["units"]) +
+                                " stand at axes with directions, whose unit is that of the space; export it in mm");
         result.step_P_mm[a] = mm * *axis.step;
         continue;
       }
@@ -344,7 +347,7 @@ class NrrdHeader {
     const std::vector<std::string> words = wordsOf(name);
     if (words.empty()) refuseField("datafile");
     const auto axes_word = [&](std::size_t w) { return words.size() > w ? wholeNumber(words[w]) : std::nullopt; };
-    if (lowerCase(words[0]) == "list") {
+    if (isList(name)) {
       if (words.size() > 2 || (words.size() == 2 && !axes_word(1))) refuseField("datafile");
       const std::uint64_t needed_files = filesNeeded(axes_word(1), fields_.listed_files.size());
       if (fields_.listed_files.size() != needed_files)

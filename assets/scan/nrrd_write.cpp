@@ -34,7 +34,7 @@ std::string exact(double value) {
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
-/// (1,0,0) with the value at one place, or along all of `origin`.
+/// "(1,0,0)".
 std::string vectorText(const std::vector<double>& values) {
   std::string text = "(";
   for (std::size_t a = 0; a < values.size(); ++a) text += (a == 0 ? "" : ",") + exact(values[a]);

@@ -294,13 +294,14 @@ std::unique_ptr<ByteSource> sourceOf(const ImageHeader& header, const PlainFile&
   return unpacked;
 }
 
-/// Nothing but a line's end may follow the voxels; reading on also checks the checksum at a packed stream's end.
-void refuseMore(ByteSource& source, const std::string& path) {
-  constexpr std::size_t kLineEnd = 2;
+/// Nothing may follow the voxels but a line's end in a file of raw ones; reading on also checks the checksum at a
+/// packed stream's end.
+void refuseMore(ByteSource& source, VoxelCoding coding, const std::string& path) {
+  const std::size_t line_end = coding == VoxelCoding::raw ? 2 : 0;
   std::array<char, 8> more{};
   const std::size_t got = source.fill(more);
   const auto is_line_end = [](char c) { return c == '\n' || c == '\r'; };
-  if (got > kLineEnd || !std::all_of(more.begin(), more.begin() + static_cast<std::ptrdiff_t>(got), is_line_end))
+  if (got > line_end || !std::all_of(more.begin(), more.begin() + static_cast<std::ptrdiff_t>(got), is_line_end))
     refuseScan(path, "it holds more voxels than its header promises; export the volume again");
 }
 
@@ -331,7 +332,7 @@ void forVoxelBytes(const ImageHeader& header, const std::function<void(std::span
       take(next);
       left -= next.size();
     }
-    if (header.skipped_bytes != kVoxelsEndTheFile) refuseMore(*source, each.path);
+    if (header.skipped_bytes != kVoxelsEndTheFile) refuseMore(*source, header.coding, each.path);
   }
 }
 

@@ -65,6 +65,11 @@ bool isBelow(const fs::path& file, const fs::path& folder) {
 
 }  // namespace
 
+bool isList(const std::string& entry) {
+  const std::vector<std::string> words = wordsOf(entry);
+  return !words.empty() && lowerCase(words[0]) == "list";
+}
+
 VoxelFile fileBeside(const std::string& header_path, const std::string& name) {
   const fs::path relative = name;
   const bool leaves = relative.is_absolute() || std::find(relative.begin(), relative.end(), "..") != relative.end();

@@ -10,6 +10,9 @@
 
 namespace assets {
 
+/// Whether the entry says that a list of names follows ("LIST", "LIST 2"), and is no name itself.
+bool isList(const std::string& entry);
+
 /// The file of that name beside the header.
 VoxelFile fileBeside(const std::string& header_path, const std::string& name);
 

@@ -25,7 +25,7 @@ struct FacePlacement {
   FacePose X_PF;
   double rms_mm = 0.0;      ///< between the teeth's centroids of jaw and face, the one at the site not counted
   double at_site_mm = 0.0;  ///< how far the tooth at the site lies from where the face has it; 0 if it has none
-  int teeth = 0;            ///< teeth used, the the one at the site not counted
+  int teeth = 0;            ///< teeth used, the one at the site not counted
 };
 
 /// The lower teeth of a teeth.json. Throws LoadError.

@@ -36,6 +36,15 @@ std::string refusalOf(const std::string& source, const assets::ScanChoices& choi
   return "accepted";
 }
 
+std::string refusalOfReading(const std::string& path) {
+  try {
+    assets::readHounsfield(path);
+  } catch (const assets::LoadError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
 double distanceToLine(const std::vector<glm::dvec3>& line, const glm::dvec3& p) {
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t s = 0; s + 1 < line.size(); ++s) {
@@ -140,6 +149,15 @@ TEST(ScanImport, KeepsNothingThatTellsWho) {
 void writeGreys(const std::string& path, const VolumeGrid& grid, const std::vector<std::uint8_t>& values) {
   auto file = assets::nrrdOutput(path, true);
   assets::writeSolid(grid, values, file);
+}
+
+TEST(ScanImport, SaysWhenTheSidesAreNotStated) {
+  const on_disk::Folder folder;
+  const std::string head = "NRRD0001\ntype: short\ndimension: 3\nsizes: 12 12 12\nspacings: .5 .5 .5\n";
+  on_disk::write(folder.at("a.nrrd"),
+                 head + "endian: little\nencoding: raw\n\n" + on_disk::bytesOf(std::vector<std::int16_t>(1728, 1000)));
+  EXPECT_THAT(importScan(folder.at("a.nrrd"), {}).remarks,
+              testing::Contains(HasSubstr("does not say which side is right; taken as LPS")));
 }
 
 /// Two teeth, 8 mm high, of which the lower half is dentine.
@@ -362,6 +380,7 @@ TEST(ScanImport, NeverMakesAnEmptyPictureOfEightBits) {
   for (std::size_t v = 400; v < 1300; ++v) greys[v] = 180;
   writeGreys(folder.at("u8.nrrd"), kBlock, greys);
   EXPECT_THAT(refusalOf(folder.at("u8.nrrd")), HasSubstr("--window"));
+  EXPECT_THAT(refusalOfReading(folder.at("u8.nrrd")), HasSubstr("8-bit greys")) << "whoever reads it";
   const auto windowed = importScan(folder.at("u8.nrrd"), {.window = assets::GreyWindow{-1000.0, 3000.0}});
   EXPECT_EQ(windowed.patient.ct.hounsfield[500], 1824);
 }

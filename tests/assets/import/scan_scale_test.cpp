@@ -6,6 +6,7 @@
 #include <random>
 
 #include "assets/load_error.h"
+#include "assets/scan/grey_window.h"
 
 namespace {
 
@@ -55,7 +56,12 @@ TEST(ScanScale, NoticesMetal) {
   EXPECT_THAT(assets::scaleRemarks(kGrid, hounsfield), IsEmpty()) << "a few bright voxels are noise";
 }
 
-TEST(ScanScale, NeedsAWindowForEightBits) {
+TEST(ScanScale, TakesTheGreatestValuesThereAre) {
+  const std::vector<std::int16_t> hounsfield(kGrid.voxelCount(), 32767);
+  EXPECT_THAT(assets::scaleRemarks(kGrid, hounsfield), testing::SizeIs(1));
+}
+
+TEST(GreyWindow, IsNeededForEightBits) {
   std::vector<std::int16_t> greys{0, 51, 255};
   try {
     assets::scaleGreys(greys, std::nullopt, "scan.nrrd");

@@ -277,15 +277,18 @@ TEST_F(GltfMutants, AreReadSoundlyOrRefused) {
     if (fs::exists(generated / name)) seeds.push_back(bytesOf(generated / name));
   }
 
-  int loaded = 0;
+  std::uint64_t loaded = 0, tried = 0;
   mutants::forEachMutant(seeds, 3000, [&](const std::string& bytes, std::size_t, std::uint64_t) {
+    ++tried;
     MeshModel model;
     const fs::path file = write("damaged.gltf", bytes);
     if (refusalOf(file, &model).refused) return;
     ++loaded;
     expectSound(model, file);
   });
-  EXPECT_GT(loaded, 50);
+  if (tried >= mutants::kEnoughToJudge) {
+    EXPECT_GT(loaded, tried / 60);
+  }
 }
 
 }  // namespace

@@ -149,7 +149,7 @@ void expectReads(const on_disk::Folder& folder, const std::string& type) {
   const std::vector<Stored> values = {0, 1, 2, 100, 127, 7, 8, 9};
   const on_disk::Scan cube{{2, 2, 2}, glm::dmat3(0.5), {0, 0, 0}};
   on_disk::write(folder.at("a.nrrd"), on_disk::nrrd(cube, type, on_disk::bytesOf(values)));
-  EXPECT_EQ(assets::readHounsfield(folder.at("a.nrrd")).hounsfield,
+  EXPECT_EQ(assets::readHounsfield(folder.at("a.nrrd"), assets::GreyWindow{0.0, 255.0}).hounsfield,
             (std::vector<std::int16_t>{0, 1, 2, 100, 127, 7, 8, 9}));
   EXPECT_EQ(assets::readSolid(folder.at("a.nrrd")).values, (std::vector<std::uint8_t>{0, 1, 2, 100, 127, 7, 8, 9}));
   EXPECT_EQ(assets::readLabels(folder.at("a.nrrd")).values, (std::vector<std::uint8_t>{0, 1, 2, 100, 127, 7, 8, 9}));

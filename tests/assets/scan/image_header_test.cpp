@@ -161,6 +161,36 @@ TEST_F(NrrdReading, ObeysUnitsOfLength) {
   EXPECT_DOUBLE_EQ(assets::readImageHeader(folder_.at("a.nrrd")).geometry.step_P_mm[2][2], 0.5);
 }
 
+/// The unit of a direction is that of the space; metres read as mm would be a thousand times too small.
+TEST_F(NrrdReading, RefusesUnitsOfAxesWithDirections) {
+  const auto with_units = [&](const std::string& units) {
+    return answer("a.nrrd", with(nrrd_, "\n\n", "\nunits: " + units + "\n\n") + kRaw);
+  };
+  EXPECT_EQ(with_units(R"("mm" "" "none")"), "the voxels");
+  EXPECT_THAT(with_units(R"("m" "m" "m")"), HasSubstr("stand at axes with directions"));
+  EXPECT_THAT(with_units(R"("ell" "ell" "ell")"), HasSubstr("'ell'"));
+}
+
+TEST_F(NrrdReading, TakesAFileForAListOnlyIfItIsOne) {
+  put("list_of_bone.raw", kRaw);
+  EXPECT_EQ(answer("a.nhdr", detached_ + "data file: list_of_bone.raw\nkey:=value\n"), "the voxels");
+  EXPECT_EQ(answer("a.mhd", with(meta_, "LOCAL", "list_of_bone.raw")), "the voxels");
+}
+
+TEST_F(ScanReading, SaysWhetherSidesAreStated) {
+  const auto states_sides = [&](const std::string& name, const std::string& bytes) {
+    put(name, bytes + kRaw);
+    return assets::readHounsfield(folder_.at(name)).states_sides;
+  };
+  const std::string end = "endian: little\nencoding: raw\n\n";
+  EXPECT_TRUE(states_sides("a.nrrd", nrrd_));
+  EXPECT_FALSE(states_sides("a.nrrd", "NRRD0001\ntype: short\ndimension: 3\nsizes: 3 4 5\nspacings: 1 1 1\n" + end));
+  EXPECT_FALSE(states_sides("a.nrrd", with(nrrd_, "space: left-posterior-superior", "space dimension: 3")));
+  EXPECT_TRUE(states_sides("a.mha", meta_));
+  EXPECT_FALSE(states_sides("a.mha", with(meta_, "TransformMatrix", "AnotherMatrix")));
+  EXPECT_TRUE(states_sides("a.nii", nifti_.substr(0, 352)));
+}
+
 TEST_F(NrrdReading, DropsAxesOfOneVoxelThatAreNoneOfSpace) {
   const std::string end = "endian: little\nencoding: raw\n\n" + kRaw;
   EXPECT_EQ(answer("a.nrrd", "NRRD0001\ntype: short\ndimension: 4\nsizes: 1 3 4 5\nspacings: NaN .01 .01 .01\n" + end),
@@ -256,6 +286,7 @@ TEST_F(VoxelReading, ChecksAPackedStreamToItsEnd) {
     EXPECT_THAT(answer("a.nrrd", head + zipped.substr(0, byte)), HasSubstr("a.nrrd: ")) << byte;
   }
   EXPECT_THAT(answer("a.nrrd", head + zipped + "more"), HasSubstr("more stands behind"));
+  EXPECT_THAT(answer("a.nrrd", head + gzipped(kRaw + "\n")), HasSubstr("more voxels")) << "no line ends in a stream";
   EXPECT_THAT(answer("a.nrrd", head + gzipped(kRaw + "more")), HasSubstr("more voxels"));
 }
 
@@ -356,6 +387,11 @@ TEST_F(MetaReading, TakesVoxelsOfOtherFilesInItsFolder) {
             "the voxels");
   EXPECT_EQ(answer("a.mhd", with(meta_, "ElementDataFile = LOCAL", "HeaderSize = -1\nElementDataFile = v.raw")),
             "the voxels");
+  put("v.zraw", std::string(77, 'x') + gzipped(kRaw, 15));
+  const std::string packed = with(meta_, "CompressedData = False", "CompressedData = True");
+  EXPECT_EQ(answer("a.mhd", with(packed, "ElementDataFile = LOCAL", "HeaderSize = 77\nElementDataFile = v.zraw")),
+            "the voxels")
+      << "bytes of the file as it is stored";
   putSlices(5);
   EXPECT_EQ(answer("a.mhd", with(meta_, "LOCAL", "LIST") + "s0.raw\ns1.raw\ns2.raw\ns3.raw\ns4.raw\n"), "the voxels");
   EXPECT_EQ(answer("a.mhd", with(meta_, "LOCAL", "LIST 2D") + "s0.raw\ns1.raw\ns2.raw\n\ns3.raw\ns4.raw"),
