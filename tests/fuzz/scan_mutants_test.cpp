@@ -149,8 +149,10 @@ void judge(const std::vector<Seed>& seeds) {
     ++tried;
     refused += refusal == "accepted" ? 0 : 1;
   });
-  EXPECT_GT(refused, tried / 4);
-  EXPECT_LT(refused, tried);
+  if (tried >= mutants::kEnoughToJudge) {
+    EXPECT_GT(refused, tried / 4);
+    EXPECT_LT(refused, tried);
+  }
 }
 
 TEST(ScanMutants, NrrdIsReadAsItStandsOrRefused) { judge(nrrdSeeds()); }
