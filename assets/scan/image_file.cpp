@@ -16,6 +16,7 @@
 #include "assets/scan/nrrd_write.h"
 #include "assets/scan/regrid.h"
 #include "assets/scan/voxel_bytes.h"
+#include "assets/scan/voxel_type.h"
 
 namespace assets {
 
@@ -34,28 +35,7 @@ class WholeNumbers {
 
  private:
   void append(std::span<const char> bytes) {
-    switch (header_.type) {
-      case VoxelType::int8:
-        return appendStored<std::int8_t>(bytes);
-      case VoxelType::uint8:
-        return appendStored<std::uint8_t>(bytes);
-      case VoxelType::int16:
-        return appendStored<std::int16_t>(bytes);
-      case VoxelType::uint16:
-        return appendStored<std::uint16_t>(bytes);
-      case VoxelType::int32:
-        return appendStored<std::int32_t>(bytes);
-      case VoxelType::uint32:
-        return appendStored<std::uint32_t>(bytes);
-      case VoxelType::int64:
-        return appendStored<std::int64_t>(bytes);
-      case VoxelType::uint64:
-        return appendStored<std::uint64_t>(bytes);
-      case VoxelType::float32:
-        return appendStored<float>(bytes);
-      case VoxelType::float64:
-        return appendStored<double>(bytes);
-    }
+    withStored(header_.type, [&](auto stored) { appendStored<decltype(stored)>(bytes); });
   }
 
   template <class Stored>

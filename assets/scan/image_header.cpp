@@ -9,26 +9,6 @@
 
 namespace assets {
 
-std::size_t bytesOf(VoxelType type) {
-  switch (type) {
-    case VoxelType::int8:
-    case VoxelType::uint8:
-      return 1;
-    case VoxelType::int16:
-    case VoxelType::uint16:
-      return 2;
-    case VoxelType::int32:
-    case VoxelType::uint32:
-    case VoxelType::float32:
-      return 4;
-    case VoxelType::int64:
-    case VoxelType::uint64:
-    case VoxelType::float64:
-      return 8;
-  }
-  return 1;
-}
-
 namespace {
 
 ImageHeader headerAsStated(const PlainFile& file) {

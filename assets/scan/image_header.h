@@ -11,12 +11,9 @@
 #include <vector>
 
 #include "assets/scan/regrid.h"
+#include "assets/scan/voxel_type.h"
 
 namespace assets {
-
-enum class VoxelType { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
-
-std::size_t bytesOf(VoxelType type);
 
 /// gzip also stands for a bare zlib stream, as MetaImage has it; text and hex are for people to read.
 enum class VoxelCoding { raw, gzip, text, hex };

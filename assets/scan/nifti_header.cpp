@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "assets/scan/header_text.h"
-#include "assets/scan/voxel_bytes.h"
+#include "assets/scan/packed_bytes.h"
 
 namespace assets {
 

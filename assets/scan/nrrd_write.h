@@ -9,7 +9,7 @@
 #include <glm/glm.hpp>
 
 #include "assets/output_file.h"
-#include "assets/scan/image_header.h"
+#include "assets/scan/voxel_type.h"
 
 namespace assets {
 

@@ -4,13 +4,10 @@
 // memory; about 300 MB/s from a gzip stream, 40 MB/s from text, else the disk's speed.
 #pragma once
 
-#include <cstddef>
 #include <functional>
 #include <span>
-#include <string>
 
 #include "assets/scan/image_header.h"
-#include "assets/scan/plain_file.h"
 
 namespace assets {
 
@@ -19,9 +16,5 @@ void refuseUnlessLongEnough(const ImageHeader& header);
 
 /// Hands out blocks of whole voxels; those of text are in the machine's byte order.
 void forVoxelBytes(const ImageHeader& header, const std::function<void(std::span<const char>)>& take);
-
-bool isGzip(const PlainFile& file);
-/// Fewer if the stream ends before or is damaged.
-std::string firstUnpackedBytes(const PlainFile& file, std::size_t count);
 
 }  // namespace assets

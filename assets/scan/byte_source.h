@@ -1,0 +1,45 @@
+// Bytes of voxels in a row, whatever a file stores them as, and those that it stores as they are. A file that ends too
+// soon is a LoadError of one line. One thread each; the file must outlive it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "assets/scan/header_text.h"
+#include "assets/scan/plain_file.h"
+
+namespace assets {
+
+inline constexpr std::size_t kBlockBytes = 1 << 20;
+
+[[noreturn]] inline void refuseShort(const std::string& path) {
+  refuseScan(path,
+             "it is truncated or damaged: it holds fewer voxels than its header promises; export the volume again");
+}
+
+/// Bytes one after the other, as the voxels need them.
+class ByteSource {
+ public:
+  virtual ~ByteSource() = default;
+  /// How many were there: fewer than asked for at the end only.
+  virtual std::size_t fill(std::span<char> bytes) = 0;
+};
+
+class RawSource : public ByteSource {
+ public:
+  RawSource(const PlainFile& file, std::uint64_t from_byte) : file_(file), at_(from_byte) {}
+
+  std::size_t fill(std::span<char> bytes) override {
+    const std::size_t got = file_.readAt(at_, bytes);
+    at_ += got;
+    return got;
+  }
+
+ private:
+  const PlainFile& file_;
+  std::uint64_t at_;
+};
+
+}  // namespace assets
