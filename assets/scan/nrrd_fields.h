@@ -1,0 +1,48 @@
+// The lines of an NRRD header as fields by name, and the lines behind "data file: LIST". Knows which names the format
+// has, not what they mean. Throws LoadError of one line. Any thread.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "assets/scan/plain_file.h"
+
+namespace assets {
+
+/// Names are asked for in lower case and without spaces.
+class NrrdFields {
+ public:
+  /// Throws if it is no NRRD file, or a field is unknown or stands twice.
+  explicit NrrdFields(const PlainFile& file);
+
+  const std::string& path() const { return path_; }
+  bool has(const std::string& name) const { return value_.contains(name); }
+  /// Empty if there is none.
+  std::string operator[](const std::string& name) const;
+  /// Throws if there is none.
+  std::string needed(const std::string& name) const;
+
+  /// Its words; a vector "(1,0,0)" or a quoted text is one word.
+  std::vector<std::string> items(const std::string& name) const;
+  /// Throws unless there are `count` of them, or the field is not there.
+  std::vector<std::string> items(const std::string& name, std::size_t count) const;
+
+  const std::vector<std::string>& listedFiles() const { return listed_files_; }
+  /// Where the voxels begin if they follow.
+  std::uint64_t endByte() const { return end_byte_; }
+
+  [[noreturn]] void refuseField(const std::string& name) const;
+  /// With the advice to export the volume again.
+  [[noreturn]] void refuse(const std::string& reason) const;
+
+ private:
+  std::string path_;
+  std::map<std::string, std::string> value_;
+  std::vector<std::string> listed_files_;
+  std::uint64_t end_byte_ = 0;
+};
+
+}  // namespace assets
