@@ -46,10 +46,13 @@ DeviceLoop::~DeviceLoop() { assert(!started_ || phase_.load() != Phase::serving)
 
 void DeviceLoop::start() {
   assert(!started_);
+  if (by_hand_ != nullptr)
+    by_hand_->startByHand(*this, rate_Hz_);
+  else
+    device_.start(*this, rate_Hz_);
+  // One that refuses to be started has nothing to let go of.
   started_ = true;
-  if (by_hand_ != nullptr) return by_hand_->startByHand(*this, rate_Hz_);
-  device_.start(*this, rate_Hz_);
-  supervisor_.emplace(device_, ticks_);
+  if (by_hand_ == nullptr) supervisor_.emplace(device_, ticks_);
 }
 
 void DeviceLoop::stop() noexcept {
@@ -60,13 +63,15 @@ void DeviceLoop::stop() noexcept {
 }
 
 void DeviceLoop::awaitGoodbye() noexcept {
-  const std::int64_t until_ns = now_ns() + std::chrono::nanoseconds(kLongestGoodbye).count();
-  while (phase_.load() != Phase::over && now_ns() < until_ns) {
-    if (by_hand_ != nullptr)
-      by_hand_->step(1);
-    else
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  if (by_hand_ != nullptr) {
+    // Counted: of a device that was stopped before, neither ticks nor time come.
+    auto steps =
+        static_cast<std::int64_t>(std::ceil(std::chrono::duration<double>(kLongestGoodbye).count() * rate_Hz_));
+    for (; steps > 0 && phase_.load() != Phase::over; --steps) by_hand_->step(1);
+    return;
   }
+  const std::int64_t until_ns = now_ns() + std::chrono::nanoseconds(kLongestGoodbye).count();
+  while (phase_.load() != Phase::over && now_ns() < until_ns) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
 std::int64_t DeviceLoop::now_ns() const noexcept {

@@ -11,6 +11,7 @@
 
 #include "haptics/device/device_in_numbers.h"
 #include "haptics/device/simulated/mouse_device.h"
+#include "haptics/device/simulated/replayed_hand.h"
 #include "tests/haptics/phantom.h"
 
 namespace haptics {
@@ -215,6 +216,22 @@ TEST(HapticLoop, RefusesRatesAndPosesItCannotServe) {
   bad = {};
   bad.X_HT.rotation = glm::dquat(2.0, 0.0, 0.0, 0.0);
   EXPECT_THROW(make(bad), DeviceError);
+}
+
+TEST(HapticLoop, ByHandEndsWhereTheDeviceRefusesItsRateOrIsGone) {
+  Bench bench;
+  bench.settings.rate_Hz = 2000.0;
+  ReplayedHand recorded_at_1_kHz({HandleState{}}, 0.001);
+  {
+    HapticLoop loop(bench.servo, ServedDevice::byHand(recorded_at_1_kHz), bench.commands, bench.log, bench.newest,
+                    bench.settings);
+    EXPECT_THROW(loop.start(), DeviceError);
+    loop.stop();
+  }
+  PressedDevice device;
+  const auto loop = bench.byHand(device);
+  device.stop();
+  loop->stop();
 }
 
 TEST(HapticLoop, ServesTorqueAboutTheHandleToADeviceThatHasIt) {
