@@ -9,6 +9,10 @@
 namespace app {
 namespace {
 
+void refuse(const std::string& where, const std::string& why) {
+  std::fprintf(stderr, "molar: %s%s%s\n", where.c_str(), where.empty() ? "" : ": ", why.c_str());
+}
+
 /// What hand, foot and operator decide, neither file nor procedure.
 void keepSwitches(const haptics::Command& from, haptics::Command& to) {
   to.irrigating = from.irrigating;
@@ -38,21 +42,20 @@ void CommandDesk::check(const haptics::Command& command) const {
   refuseUnlessHeld(command, device_damping_Ns_per_mm_, rate_Hz_);
 }
 
-bool CommandDesk::obey(const ControlWish& wish) {
+bool CommandDesk::obey(const ControlWish& wish, const std::string& where) {
   switch (wish.control) {
     case Control::law:
-      switchLaw(haptics::kLaws[static_cast<std::size_t>(wish.value)].kind);
-      return true;
+      return switchLaw(haptics::kLaws[static_cast<std::size_t>(wish.value)].kind, where), true;
     case Control::drill:
       return switchDrill(wish.value), true;
     case Control::tool:
-      return changeTool(wish.value), true;
+      return changeTool(wish.value, where), true;
     case Control::irrigation:
       return switchIrrigation(wish.value), true;
     case Control::undo:
-      return undoStroke(), true;
+      return undoStroke(where), true;
     case Control::arm:
-      return armAgain(), true;
+      return armAgain(where), true;
     default:
       return false;
   }
@@ -63,6 +66,7 @@ void CommandDesk::switchDrill(int on) {
   if (wanted == command_.drill_enabled) return;
   command_.drill_enabled = wanted;
   workstation_->change(command_);
+  tell("drill", wanted ? "drill unlocked" : "drill locked");
 }
 
 void CommandDesk::switchIrrigation(int on) {
@@ -73,49 +77,39 @@ void CommandDesk::switchIrrigation(int on) {
   tell("irrigation", command_.irrigating ? "irrigation on" : "irrigation off: the bur turns dry");
 }
 
-void CommandDesk::undoStroke() {
+void CommandDesk::undoStroke(const std::string& where) {
   const unsigned strokes = workstation_->newestTick().strokes;
-  if (strokes == 0) {
-    std::fprintf(stderr, "molar: there is no stroke to take back\n");
-    return;
-  }
+  if (strokes == 0) return refuse(where, "there is no stroke to take back");
   ++command_.undo_serial;
   workstation_->change(command_);
   tell("undo", "the newest of " + std::to_string(strokes) + (strokes == 1 ? " stroke" : " strokes") + " is taken back");
 }
 
-void CommandDesk::armAgain() {
-  if (const haptics::Tick tick = workstation_->newestTick();
-      tick.dt_s > 0.0 && tick.state == haptics::SafetyState::off) {
-    std::fprintf(stderr, "molar: the motors are off for good, end the rehearsal and start it again\n");
-    return;
-  }
+void CommandDesk::armAgain(const std::string& where) {
+  if (const haptics::Tick tick = workstation_->newestTick(); tick.dt_s > 0.0 && tick.state == haptics::SafetyState::off)
+    return refuse(where, "the motors are off for good, end the rehearsal and start it again");
   ++command_.rearm;
   workstation_->change(command_);
   tell("armed again", "the fault is lifted, if its cause is over");
 }
 
-void CommandDesk::switchLaw(haptics::LawKind law) {
+void CommandDesk::switchLaw(haptics::LawKind law, const std::string& where) {
   haptics::Command wanted = command_;
   wanted.law.kind = law;
   try {
     change(loweredUntilHeld(wanted, device_damping_Ns_per_mm_, rate_Hz_));
   } catch (const UsageError& error) {
-    std::fprintf(stderr, "molar: %s; the old law stays\n", error.what());
+    refuse(where, std::string(error.what()) + "; the old law stays");
   }
 }
 
-void CommandDesk::changeTool(int to) {
-  if (tray_.size() < 2) {
-    std::fprintf(stderr, "molar: there is one tool only, name more with --tool to change between them\n");
-    return;
-  }
+void CommandDesk::changeTool(int to, const std::string& where) {
+  if (tray_.size() < 2 && to == kNoValue)
+    return refuse(where, "there is one tool only, name more with --tool to change between them");
   const std::size_t next = to != kNoValue ? static_cast<std::size_t>(to) : (in_hand_ + 1) % tray_.size();
-  if (next >= tray_.size()) {
-    std::fprintf(stderr, "molar: there is no tool %zu, the tray holds %zu, name more with --tool\n", next + 1,
-                 tray_.size());
-    return;
-  }
+  if (next >= tray_.size())
+    return refuse(where, "there is no tool " + std::to_string(next + 1) + ", the tray holds " +
+                             std::to_string(tray_.size()) + ", name more with --tool");
   haptics::Command wanted = command_;
   wanted.tool = tray_[next];
   try {
@@ -123,7 +117,7 @@ void CommandDesk::changeTool(int to) {
     change(loweredUntilHeld(wanted, device_damping_Ns_per_mm_, rate_Hz_));
     in_hand_ = next;
   } catch (const UsageError& error) {
-    std::fprintf(stderr, "molar: %s; the old tool stays in the hand\n", error.what());
+    refuse(where, std::string(error.what()) + "; the old tool stays in the hand");
   }
 }
 
@@ -145,17 +139,21 @@ void CommandDesk::lookAtFile(LiveParameters::Clock::time_point now) {
 void CommandDesk::follow(const haptics::Command& command) {
   haptics::Command wanted = command;
   keepSwitches(command_, wanted);
+  put(wanted);
+}
+
+/// In force and recorded.
+void CommandDesk::put(const haptics::Command& wanted) {
+  other_tool_ = other_tool_ || !(command_.tool == wanted.tool);
   command_ = wanted;
   workstation_->change(command_);
 }
 
-/// In force, recorded, and every difference logged.
+/// The same, and every difference logged.
 void CommandDesk::change(const haptics::Command& wanted) {
   const std::vector<std::string> changes = changesBetween(command_, wanted);
   if (changes.empty()) return;
-  other_bur_ = other_bur_ || !(command_.tool.head == wanted.tool.head);
-  command_ = wanted;
-  workstation_->change(command_);
+  put(wanted);
   for (const std::string& line : changes) tell("parameters", line);
 }
 
@@ -164,6 +162,6 @@ void CommandDesk::tell(const std::string& kind, const std::string& line) {
   workstation_->note(kind, line);
 }
 
-bool CommandDesk::takeOtherBur() { return std::exchange(other_bur_, false); }
+bool CommandDesk::takeOtherTool() { return std::exchange(other_tool_, false); }
 
 }  // namespace app

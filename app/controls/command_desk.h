@@ -28,8 +28,8 @@ class CommandDesk {
 
   /// What the command has a word for: law, drill, tool (the next of the tray, after the last the first), irrigation,
   /// undo (of the newest stroke; again, of the one before), arm (lifts a latched fault whose cause is over). False: the
-  /// wish is somebody else's.
-  bool obey(const ControlWish& wish);
+  /// wish is somebody else's. `where`: it is written, named where it can not be obeyed.
+  bool obey(const ControlWish& wish, const std::string& where = {});
   void lookAtFile(LiveParameters::Clock::time_point now);
   /// As it is, unsaid: the procedure knows why.
   void follow(const haptics::Command& command);
@@ -37,19 +37,20 @@ class CommandDesk {
   /// What may be in the hand, the first one first.
   const std::vector<haptics::Tool>& tray() const { return tray_; }
 
-  /// True once after the bur became another.
-  bool takeOtherBur();
+  /// True once after the tool became another.
+  bool takeOtherTool();
 
  private:
   void check(const haptics::Command& command) const;
   void tell(const std::string& kind, const std::string& line);
+  void put(const haptics::Command& wanted);
   void change(const haptics::Command& wanted);
   void switchDrill(int on);
   void switchIrrigation(int on);
-  void undoStroke();
-  void armAgain();
-  void switchLaw(haptics::LawKind law);
-  void changeTool(int to);
+  void undoStroke(const std::string& where);
+  void armAgain(const std::string& where);
+  void switchLaw(haptics::LawKind law, const std::string& where);
+  void changeTool(int to, const std::string& where);
 
   haptics::Command command_;
   std::vector<haptics::Tool> tray_;
@@ -57,7 +58,7 @@ class CommandDesk {
   double device_damping_Ns_per_mm_, rate_Hz_;
   std::optional<LiveParameters> file_;
   Workstation* workstation_ = nullptr;
-  bool other_bur_ = false;
+  bool other_tool_ = false;
 };
 
 }  // namespace app

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 #include "app/options/tool_text.h"
 #include "app/text/usage_error.h"
@@ -17,14 +18,17 @@ std::uint64_t tickAt(double t_s, double rate_Hz) {
   return tick;
 }
 
+/// The index itself, where the tray has it.
+int onTray(const std::vector<haptics::Tool>& tray, int index, const std::string& written) {
+  if (index >= 0 && index < static_cast<int>(tray.size())) return index;
+  throw UsageError("tool " + written + ": the tray holds " + std::to_string(tray.size()) +
+                   ", write its number from 1 or name more with --tool");
+}
+
 int toolIn(const std::vector<haptics::Tool>& tray, const std::string& text) {
   int number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error == std::errc{} && end == text.data() + text.size()) {
-    if (number >= 1 && number <= static_cast<int>(tray.size())) return number - 1;
-    throw UsageError("tool " + text + ": the tray holds " + std::to_string(tray.size()) +
-                     ", write its number from 1 or name more with --tool");
-  }
+  if (error == std::errc{} && end == text.data() + text.size()) return onTray(tray, number - 1, text);
   const haptics::BurShape head = headFrom(text);
   const auto found = std::ranges::find(tray, head, &haptics::Tool::head);
   if (found == tray.end()) throw UsageError("tool " + text + ": it is not on the tray, name it with --tool");
@@ -35,20 +39,28 @@ int toolIn(const std::vector<haptics::Tool>& tray, const std::string& text) {
 
 ControlScript::ControlScript(const std::vector<HandAsks>& asked, const std::vector<haptics::Tool>& tray,
                              double rate_Hz) {
-  std::string held;
+  int held = 0;
   for (const HandAsks& row : asked) try {
       const std::uint64_t tick = tickAt(row.t_s, rate_Hz);
-      if (!row.tool.empty() && row.tool != held)
-        wishes_.push_back({tick, {Control::tool, toolIn(tray, held = row.tool)}});
-      if (!row.action.empty()) wishes_.push_back({tick, wishFrom(row.action)});
+      const auto ask = [&](const ControlWish& wish) { wishes_.push_back({tick, {wish, row.where}}); };
+      if (!row.tool.empty())
+        if (const int wanted = toolIn(tray, row.tool); std::exchange(held, wanted) != wanted)
+          ask({Control::tool, wanted});
+      if (row.action.empty()) continue;
+      const ControlWish wish = wishFrom(row.action);
+      ask(wish);
+      if (wish.control != Control::tool) continue;
+      held = wish.value != kNoValue ? onTray(tray, wish.value, std::to_string(wish.value + 1))
+                                    : (held + 1) % static_cast<int>(tray.size());
     } catch (const UsageError& error) {
       throw UsageError(row.where + ": " + error.what());
     }
 }
 
-std::vector<ControlWish> ControlScript::takeDue(std::uint64_t next_tick) {
-  std::vector<ControlWish> due;
-  for (; taken_ < wishes_.size() && wishes_[taken_].tick <= next_tick; ++taken_) due.push_back(wishes_[taken_].wish);
+std::vector<ScriptedWish> ControlScript::takeDue(std::uint64_t next_tick) {
+  std::vector<ScriptedWish> due;
+  for (; taken_ < wishes_.size() && wishes_[taken_].tick <= next_tick; ++taken_)
+    due.push_back(wishes_[taken_].scripted);
   return due;
 }
 

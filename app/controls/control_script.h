@@ -14,24 +14,30 @@
 
 namespace app {
 
+struct ScriptedWish {
+  ControlWish wish;
+  std::string where;  ///< it is written, for people
+  bool operator==(const ScriptedWish&) const = default;
+};
+
 class ControlScript {
  public:
   /// Asks for nothing.
   ControlScript() = default;
-  /// `tray`: as the command desk has it. Throws UsageError that names the row.
+  /// `tray`: as the command desk has it, the first one in the hand. Throws UsageError that names the row.
   ControlScript(const std::vector<HandAsks>& asked, const std::vector<haptics::Tool>& tray, double rate_Hz);
 
   /// What is due at the tick that comes next, or was already; each once.
-  std::vector<ControlWish> takeDue(std::uint64_t next_tick);
+  std::vector<ScriptedWish> takeDue(std::uint64_t next_tick);
   /// Of the next wish; none: nothing more is asked for.
   std::optional<std::uint64_t> nextTick() const;
 
  private:
-  struct Scripted {
+  struct Due {
     std::uint64_t tick;
-    ControlWish wish;
+    ScriptedWish scripted;
   };
-  std::vector<Scripted> wishes_;  ///< in order
+  std::vector<Due> wishes_;  ///< in order
   std::size_t taken_ = 0;
 };
 

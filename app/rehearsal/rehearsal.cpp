@@ -76,12 +76,11 @@ class Rehearsal {
     const Pace::Time looping_since = pace_->now();
     const std::uint64_t settled = picture_.pictures();
     std::optional<Ending> ending;
-    while (!(ending = endingNow())) {
-      takeInput();
+    while (takeInput(), !(ending = endingNow())) {
       // When a file was changed is the wall's time.
       if (pace_->isWatched()) desk_.lookAtFile(pace_->now());
       followProcedure();
-      if (desk_.takeOtherBur()) picture_.showInstrument();
+      if (desk_.takeOtherTool()) picture_.showInstrument();
       pace_->toNextFrame();
       followServo();
       if (pace_->isWatched()) picture_.show(frame_);
@@ -114,7 +113,8 @@ class Rehearsal {
   }
 
   std::optional<Ending> endingNow() {
-    return monitor_.ending(newest_, pace_->now(), isInterrupted(), plan_.procedure && plan_.procedure->isOver());
+    return monitor_.ending(newest_, pace_->now(), isInterrupted(), plan_.procedure && plan_.procedure->isOver(),
+                           !station().isInForce(newest_));
   }
 
   void takeInput() {
@@ -125,13 +125,21 @@ class Rehearsal {
     }
     if (haptics::MouseDevice* const mouse = equipment_.mouse())
       mouse->setTarget({{input_.X_WT().rotation, input_.X_WT().translation_mm}, input_.pedal()});
-    for (const ControlWish& wish : script_.takeDue(newest_.dt_s > 0.0 ? newest_.index + 1 : 0)) obey(wish);
+    obeyScript();
     for (const ControlWish& wish : equipment_.takeWishes()) obey(wish);
     for (const ControlWish& wish : input_.takeWishes()) obey(wish);
   }
 
-  void obey(const ControlWish& wish) {
-    if ((plan_.procedure && plan_.procedure->take(wish)) || desk_.obey(wish)) return;
+  /// What is due at the tick that comes next; after the last one, what was due until then.
+  void obeyScript() {
+    const std::uint64_t made = newest_.dt_s > 0.0 ? newest_.index + 1 : 0;
+    const std::uint64_t due = made > 0 && monitor_.isTimeOver(newest_) ? made - 1 : made;
+    for (const ScriptedWish& scripted : script_.takeDue(due)) obey(scripted.wish, scripted.where);
+  }
+
+  /// `where`: it is written, if it is.
+  void obey(const ControlWish& wish, const std::string& where = {}) {
+    if ((plan_.procedure && plan_.procedure->take(wish)) || desk_.obey(wish, where)) return;
     frame_.layers = layersAfter(frame_.layers, wish);
     if (wish.control == Control::end) monitor_.endByUser();
     if (wish.control == Control::snapshot) takeSnapshot();

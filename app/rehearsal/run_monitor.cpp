@@ -26,14 +26,18 @@ const char* textOf(Ending ending) {
   return "the device fell silent";
 }
 
+bool RunMonitor::isTimeOver(const haptics::Tick& newest) const {
+  return duration_s_ && newest.t_s + newest.dt_s >= *duration_s_ - kRounding_s;
+}
+
 std::optional<Ending> RunMonitor::ending(const haptics::Tick& newest, Time now, bool interrupted,
-                                         bool procedure_is_over) {
+                                         bool procedure_is_over, bool awaits_tick) {
   if (newest.index != index_seen_ || !ticked_at_) ticked_at_ = now;
   index_seen_ = newest.index;
   if (interrupted) return Ending::interrupted;
   if (ended_by_user_) return Ending::by_user;
   if (procedure_is_over) return Ending::procedure;
-  if (duration_s_ && newest.t_s + newest.dt_s >= *duration_s_ - kRounding_s) return Ending::time_over;
+  if (isTimeOver(newest) && !awaits_tick) return Ending::time_over;
   return now - *ticked_at_ >= kLongestSilence ? std::optional(Ending::silent) : std::nullopt;
 }
 

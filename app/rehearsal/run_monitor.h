@@ -36,8 +36,12 @@ class RunMonitor {
   explicit RunMonitor(std::optional<double> duration_s) : duration_s_(duration_s) {}
 
   void endByUser() { ended_by_user_ = true; }
-  /// None while it goes on. A device that does not tick any more ends nothing by itself, so 10 s of silence do.
-  std::optional<Ending> ending(const haptics::Tick& newest, Time now, bool interrupted, bool procedure_is_over);
+  /// Whether this tick is the last of its time.
+  bool isTimeOver(const haptics::Tick& newest) const;
+  /// None while it goes on. `awaits_tick`: something asked for is not in force yet, the time is over only once it was.
+  /// A device that does not tick any more ends nothing by itself, so 10 s of silence do.
+  std::optional<Ending> ending(const haptics::Tick& newest, Time now, bool interrupted, bool procedure_is_over,
+                               bool awaits_tick = false);
 
   /// What is new of it and has to be told.
   std::vector<Notice> look(const StationHealth& health, const haptics::Tick& newest);

@@ -48,6 +48,8 @@ class Workstation {
 
   /// In force from a tick after this call, by hand from the next; recorded.
   void change(haptics::Command command);
+  /// Whether the newest change was in force in this tick.
+  bool isInForce(const haptics::Tick& tick) const { return tick.command_serial == command_.serial; }
   void note(const std::string& kind, const std::string& text);
 
   /// Recorder::recordedBeside.

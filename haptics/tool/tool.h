@@ -10,11 +10,13 @@ namespace haptics {
 struct Shaft {
   double radius_mm = 0.0;
   double length_mm = 0.0;
+  bool operator==(const Shaft&) const = default;
 };
 
 struct Tool {
   BurShape head;
   Shaft shaft;
+  bool operator==(const Tool&) const = default;
 };
 
 /// What the servo takes: head and shaft drawn back into their ranges, no shaft if it is none.

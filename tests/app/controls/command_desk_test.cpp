@@ -142,11 +142,39 @@ TEST(CommandDesk, TakesTheToolThatIsNamedOrTheNext) {
     return at.desk->inForce().tool.head.radius_mm;
   };
   EXPECT_EQ(radiusAfter({Control::tool, 2}), 0.8);
-  EXPECT_TRUE(at.desk->takeOtherBur());
+  EXPECT_TRUE(at.desk->takeOtherTool());
   EXPECT_EQ(radiusAfter({Control::tool}), 1.0) << "after the last the first";
   EXPECT_EQ(radiusAfter({Control::tool}), 0.5);
   EXPECT_EQ(radiusAfter({Control::tool, 3}), 0.5) << "there is no fourth";
   EXPECT_EQ(radiusAfter({Control::tool}), 0.8) << "the next of the one in the hand";
+}
+
+TEST(CommandDesk, SaysWhereItIsWrittenWhatItCanNotObey) {
+  std::vector<haptics::Tool> others(1);
+  others[0].head = {haptics::ShapeKind::cone, 1.0, 2.0};
+  Desk at({}, others);
+  at.desk->obey({Control::tool, 1});
+  const auto saidOf = [&](const ControlWish& wish) {
+    testing::internal::CaptureStderr();
+    EXPECT_TRUE(at.desk->obey(wish, "pose file a.csv line 7"));
+    return testing::internal::GetCapturedStderr();
+  };
+  const ControlWish harmonic = wishFrom("law:harmonic");
+  for (const ControlWish& wish : {harmonic, ControlWish{Control::tool, 5}, ControlWish{Control::undo}})
+    EXPECT_EQ(saidOf(wish).find("molar: pose file a.csv line 7: "), 0u) << saidOf(wish);
+}
+
+TEST(CommandDesk, DrawsWhatAGuidePutsIntoTheHand) {
+  Desk at;
+  haptics::Command guided = at.desk->inForce();
+  at.desk->follow(guided);
+  EXPECT_FALSE(at.desk->takeOtherTool());
+  guided.tool.head.radius_mm = 0.7;
+  at.desk->follow(guided);
+  EXPECT_TRUE(at.desk->takeOtherTool());
+  guided.tool.shaft.radius_mm = 0.4;
+  at.desk->follow(guided);
+  EXPECT_TRUE(at.desk->takeOtherTool()) << "the neck is drawn too";
 }
 
 TEST(CommandDesk, SwitchesToWhatWasSaidOrTheOtherWay) {
@@ -161,6 +189,9 @@ TEST(CommandDesk, SwitchesToWhatWasSaidOrTheOtherWay) {
   EXPECT_FALSE(at.desk->inForce().drill_enabled);
   at.desk->obey({Control::law, 1});
   EXPECT_EQ(at.desk->inForce().law.kind, haptics::LawKind::forssim);
+  at.workstation->stop();
+  EXPECT_TRUE(hasEvent(at.path, "drill", "drill locked"));
+  EXPECT_TRUE(hasEvent(at.path, "drill", "drill unlocked"));
   for (const Control others : {Control::snapshot, Control::stop, Control::home, Control::end, Control::layer})
     EXPECT_FALSE(at.desk->obey({others, 0})) << nameOf(others);
 }
