@@ -1,12 +1,15 @@
-// What may guide the surgeon on this patient: the mandibular canal, and the trough that is planned beside the crown.
-// Start-up only; milliseconds.
+// What may guide the surgeon on this patient: the mandibular canal, and the cut that is planned. Pure; any thread.
 #pragma once
 
+#include <optional>
+
 #include "assets/patient.h"
+#include "assets/planned_cut.h"
 #include "render/volume/guide_field.h"
 
 namespace app {
 
-render::Guides guidesFor(const assets::Patient& patient, double bur_radius_mm);
+/// No cut: the canal alone.
+render::Guides guidesFor(const assets::Patient& patient, const std::optional<assets::PlannedCut>& cut);
 
 }  // namespace app

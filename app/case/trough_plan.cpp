@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "assets/solid_sample.h"
@@ -22,7 +23,8 @@ constexpr double kRayStart_mm = 12.0, kRayLength_mm = 20.0, kRayStep_mm = 0.05;
 constexpr double kTroughDepth_mm = 4.0, kToothMargin_mm = 0.7;
 constexpr double kCrownFromCentroid_mm = 3.5;
 constexpr double kNearestBuccal_mm = 5.0, kFarthestBuccal_mm = 9.0, kFarthestMesial_mm = -5.0;
-constexpr double kNeighbourhood_mm = 22.0, kRowEnd_mm = 5.0;
+constexpr double kNeighbourhood_mm = 22.0;
+constexpr double kNextTo_mm = 14.0, kLeastElongated = 2.0;
 constexpr double kSearch_mm = 40.0, kSearchStep_mm = 4.0;
 
 struct Hit {
@@ -104,35 +106,12 @@ std::vector<glm::dvec3> straightBone(const CtVolume& ct, int site_fdi, const glm
   return straight;
 }
 
-/// Direction of the dental arch at a tooth, mesial to distal, horizontal: from the middle of its neighbours where it
-/// stands at the end of their row, along the row where it stands in it.
-glm::dvec3 archDirection(const CtVolume& ct, const assets::OperativeSite& site) {
-  glm::dvec3 sum{0.0};
-  glm::dmat2 spread(0.0);
-  double count = 0.0;
-  for (int k = 0; k < ct.grid.size.z; ++k)
-    for (int j = 0; j < ct.grid.size.y; ++j)
-      for (int i = 0; i < ct.grid.size.x; ++i) {
-        const glm::dvec3 p = ct.grid.centre_P_mm({i, j, k});
-        if (!isOtherTooth(ct, ct.grid.index({i, j, k}), site.fdi) ||
-            glm::distance(p, site.centre_P_mm) > kNeighbourhood_mm)
-          continue;
-        sum += p;
-        const glm::dvec2 beside(p - site.centre_P_mm);
-        spread += glm::outerProduct(beside, beside);
-        count += 1.0;
-      }
-  // Distal is away from the midline at the incisors, to the back at the molars: across from the cheek.
-  const glm::dvec3 buccal = assets::buccalDirection_P(site.fdi);
-  const glm::dvec3 usual(isRight(site.fdi) ? glm::dvec2(buccal.y, -buccal.x) : glm::dvec2(-buccal.y, buccal.x), 0.0);
-  if (count == 0.0) return {0.0, 1.0, 0.0};
-  glm::dvec3 along = site.centre_P_mm - sum / count;
-  along.z = 0.0;
-  if (glm::length(along) > kRowEnd_mm || assets::placeOf(site.fdi) == 8)
-    return glm::length(along) > 1.0 ? glm::normalize(along) : glm::dvec3(0.0, 1.0, 0.0);
-  const double turn = 0.5 * std::atan2(2.0 * spread[0][1], spread[0][0] - spread[1][1]);
-  const glm::dvec3 row(std::cos(turn), std::sin(turn), 0.0);
-  return glm::dot(row, usual) < 0.0 ? -row : row;
+/// Where the voxels within `radius_mm` of a place lie: first and last index.
+std::pair<glm::ivec3, glm::ivec3> indexBox(const assets::VolumeGrid& grid, const glm::dvec3& place_P_mm,
+                                           double radius_mm) {
+  const glm::ivec3 first(glm::floor(grid.indexFromPoint(place_P_mm - radius_mm)));
+  const glm::ivec3 last(glm::ceil(grid.indexFromPoint(place_P_mm + radius_mm)));
+  return {glm::max(first, glm::ivec3(0)), glm::min(last, grid.size - 1)};
 }
 
 /// A cut along the stations of a line on bone. The hand sweeps straight: along the line the surface takes, square to it
@@ -152,10 +131,46 @@ assets::PlannedCut cutAlong(const std::vector<glm::dvec3>& surface, const glm::d
 
 }  // namespace
 
+glm::dvec3 archDirection_P(const CtVolume& ct, const assets::OperativeSite& site) {
+  // Distal is away from the midline at the incisors, to the back at the molars: across from the cheek.
+  const glm::dvec3 buccal = assets::buccalDirection_P(site.fdi);
+  const glm::dvec3 usual(isRight(site.fdi) ? glm::dvec2(buccal.y, -buccal.x) : glm::dvec2(-buccal.y, buccal.x), 0.0);
+  glm::dvec3 sum{0.0};
+  glm::dmat2 spread(0.0);
+  double count = 0.0;
+  const bool ends_row = assets::placeOf(site.fdi) == 8;
+  const double reach_mm = ends_row ? kNeighbourhood_mm : kNextTo_mm;
+  const auto [first, last] = indexBox(ct.grid, site.centre_P_mm, reach_mm);
+  for (int k = first.z; k <= last.z; ++k)
+    for (int j = first.y; j <= last.y; ++j)
+      for (int i = first.x; i <= last.x; ++i) {
+        const glm::dvec3 p = ct.grid.centre_P_mm({i, j, k});
+        if (!isOtherTooth(ct, ct.grid.index({i, j, k}), site.fdi) || glm::distance(p, site.centre_P_mm) > reach_mm)
+          continue;
+        sum += p;
+        const glm::dvec2 beside(p - site.centre_P_mm);
+        spread += glm::outerProduct(beside, beside);
+        count += 1.0;
+      }
+  if (count == 0.0) return usual;
+  if (ends_row) {
+    glm::dvec3 along = site.centre_P_mm - sum / count;
+    along.z = 0.0;
+    return glm::length(along) > 1.0 ? glm::normalize(along) : usual;
+  }
+  // Eigenvalues of the spread: middle +- half of their difference.
+  const double middle = 0.5 * (spread[0][0] + spread[1][1]);
+  const double half = glm::length(glm::dvec2(0.5 * (spread[0][0] - spread[1][1]), spread[0][1]));
+  if (middle + half < kLeastElongated * (middle - half)) return usual;
+  const double turn = 0.5 * std::atan2(2.0 * spread[0][1], spread[0][0] - spread[1][1]);
+  const glm::dvec3 row(std::cos(turn), std::sin(turn), 0.0);
+  return glm::dot(row, usual) < 0.0 ? -row : row;
+}
+
 std::optional<assets::PlannedCut> planBuccalTrough(const assets::Patient& patient, double bur_radius_mm) {
   if (!patient.site) return std::nullopt;
   const assets::OperativeSite& site = *patient.site;
-  const glm::dvec3 distal = archDirection(patient.ct, site), up = assets::occlusalDirection_P(site.fdi);
+  const glm::dvec3 distal = archDirection_P(patient.ct, site), up = assets::occlusalDirection_P(site.fdi);
   glm::dvec3 buccal = glm::cross(up, distal);
   if (glm::dot(buccal, assets::buccalDirection_P(site.fdi)) < 0.0) buccal = -buccal;
   const glm::dvec3 outward = glm::normalize(0.45 * buccal + up);
@@ -203,9 +218,10 @@ std::optional<assets::PlannedCut> planOnNearestBone(const assets::Patient& patie
   return cutAlong(best, outward, across, bur_radius_mm);
 }
 
-std::optional<assets::PlannedCut> plannedCut(const assets::Patient& patient, double bur_radius_mm) {
-  const auto trough = planBuccalTrough(patient, bur_radius_mm);
-  return trough ? trough : planOnNearestBone(patient, bur_radius_mm);
+std::optional<CutPlan> plannedCut(const assets::Patient& patient, double bur_radius_mm) {
+  if (const auto trough = planBuccalTrough(patient, bur_radius_mm)) return CutPlan{*trough, CutKind::buccal_trough};
+  const auto practice = planOnNearestBone(patient, bur_radius_mm);
+  return practice ? std::optional(CutPlan{*practice, CutKind::nearest_bone}) : std::nullopt;
 }
 
 }  // namespace app

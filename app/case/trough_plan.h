@@ -11,13 +11,25 @@
 
 namespace app {
 
+/// Direction of the dental arch at a tooth, mesial to distal, horizontal, unit: of a third molar, which ends the row,
+/// from the middle of its neighbours; of any other the principal axis of where those next to it stand. As a normal arch
+/// has it where they do not tell.
+glm::dvec3 archDirection_P(const assets::CtVolume& ct, const assets::OperativeSite& site);
+
 /// The buccal trough that bares the tooth. None where no bone lies beside the crown, or the patient has no site.
 std::optional<assets::PlannedCut> planBuccalTrough(const assets::Patient& patient, double bur_radius_mm);
 
 /// A cut to practise with. None where no bone is seen within 40 mm.
 std::optional<assets::PlannedCut> planOnNearestBone(const assets::Patient& patient, double bur_radius_mm);
 
-/// The trough, or else the cut to practise with: what a hand in numbers works at.
-std::optional<assets::PlannedCut> plannedCut(const assets::Patient& patient, double bur_radius_mm);
+enum class CutKind { buccal_trough, nearest_bone };
+
+struct CutPlan {
+  assets::PlannedCut cut;
+  CutKind kind = CutKind::buccal_trough;
+};
+
+/// The trough, or else the cut to practise with: what a hand in numbers works at and what guides show.
+std::optional<CutPlan> plannedCut(const assets::Patient& patient, double bur_radius_mm);
 
 }  // namespace app

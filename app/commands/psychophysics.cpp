@@ -17,6 +17,7 @@
 #include "app/psychophysics/summary.h"
 #include "app/psychophysics/trial_desk.h"
 #include "app/psychophysics/trial_table.h"
+#include "app/rehearsal/recording_check.h"
 #include "app/rehearsal/rehearsal.h"
 #include "app/text/toml_keys.h"
 #include "app/text/usage_error.h"
@@ -81,6 +82,7 @@ int run(const PsychophysicsOptions& options) {
   if (std::filesystem::path(options.out).extension() != ".csv")
     throw UsageError("--out " + options.out + ": rows are CSV, give a name that ends in .csv");
   refuseSameFile(options.out, {options.protocol});
+  if (!options.record.empty()) refuseUnlessRecordable(options.record, options.force);
   const Protocol protocol = protocolFromToml(readSmallFile(options.protocol), options.protocol);
   if (protocol.bone.kind == BoneChoice::Kind::volume) refuseSameFile(options.out, {protocol.bone.path});
   assets::OutputFile summary(beside(options.out, ".json"), options.force);

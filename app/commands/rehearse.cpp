@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <filesystem>
 #include <memory>
 #include <thread>
 
@@ -10,6 +9,7 @@
 
 #include "app/case/patient_source.h"
 #include "app/case/room.h"
+#include "app/case/trough_plan.h"
 #include "app/commands/command.h"
 #include "app/controls/control.h"
 #include "app/device/falcon_scale_file.h"
@@ -23,14 +23,15 @@
 #include "app/options/settings_text.h"
 #include "app/options/tool_text.h"
 #include "app/options/view_option.h"
+#include "app/rehearsal/recording_check.h"
 #include "app/rehearsal/rehearsal.h"
-#include "app/session/recording_place.h"
 #include "app/station/case_reach.h"
 #include "app/station/rig_choice.h"
 #include "app/text/number_range.h"
 #include "app/text/usage_error.h"
 #include "assets/patient/patient_folder.h"
 #include "assets/synthetic/face.h"
+#include "assets/tooth.h"
 #include "calibration/record/utc.h"
 #include "haptics/device/device_catalogue.h"
 #include "render/quality_ladder.h"
@@ -121,27 +122,22 @@ void refuseUnlessSteppable(const RehearseOptions& options) {
     throw UsageError("--pace fast: a pedal has the clock's time, leave --pedal out");
 }
 
+void planCut(RehearsalPlan& plan) {
+  const auto planned = plannedCut(plan.patient, plan.command.tool.head.radius_mm);
+  if (!planned) return;
+  plan.cut = planned->cut;
+  const HandKind* const hand = handKindOf(plan.device);
+  if (planned->kind == CutKind::buccal_trough || !hand || !hand->works_by_plan) return;
+  const std::string why = plan.patient.site ? "no trough fits beside the " + assets::toothName(plan.patient.site->fdi)
+                                            : std::string("no tooth to work at is labelled here");
+  std::fprintf(stderr, "molar: %s, the hand works at the nearest bone\n", why.c_str());
+}
+
 /// A software renderer would take every core; one is the servo's.
 void leaveACoreToTheServo() {
   const unsigned cores = std::thread::hardware_concurrency();
   const std::string threads = std::to_string(cores > 1 ? cores - 1 : 1);
   setenv("LP_NUM_THREADS", threads.c_str(), 0);
-}
-
-/// Before a patient is made; what comes up meanwhile the recorder refuses.
-void refuseUnlessRecordable(const RehearseOptions& options) {
-  namespace fs = std::filesystem;
-  const std::string& path = options.record;
-  std::error_code failed;
-  if (!fs::exists(path, failed)) return;
-  if (!fs::is_regular_file(path, failed))
-    throw UsageError("--record " + path + ": it is not a plain file, choose another name");
-  if (isBeingRecorded(path))
-    throw UsageError("--record " + path + ": another program is recording to it, choose another name");
-  for (const std::string& hand : {options.device, options.second_hand})
-    if (hand.starts_with("replay:") && fs::equivalent(hand.substr(7), path, failed))
-      throw UsageError("--record " + path + ": it is the session that is replayed, choose another name");
-  if (!options.force) throw UsageError(path + ": exists already: choose another name for the recording or use --force");
 }
 
 int run(const RehearseOptions& options) {
@@ -193,14 +189,14 @@ int run(const RehearseOptions& options) {
   plan.overwrite = options.force;
   if (!options.snapshot.empty() && options.snapshot == options.first_snapshot)
     throw UsageError("--first-snapshot " + options.snapshot + ": the same as --snapshot, give another name");
-  if (!options.record.empty()) refuseUnlessRecordable(options);
+  if (!options.record.empty())
+    refuseUnlessRecordable(options.record, options.force, {options.device, options.second_hand});
   if (!options.record.empty()) plan.recording = Recording{options.record, options.force};
 
   assets::JawParameters jaw = options.jaw;
   jaw.right_side = options.side == "right";
   plan.patient = options.patient.empty() ? builtInPatient(jaw) : assets::loadPatient(options.patient);
-  if (!plan.patient.site)
-    std::fputs("molar: no third molar labelled here, the hand works at the nearest bone\n", stderr);
+  planCut(plan);
   assets::FacePose X_PF = assets::kFaceAxes_PF;
   if (!options.face.empty()) X_PF = dressWithFace(plan.patient, options.face);
   plan.face_window_mm = options.face_window_mm.value_or(options.face.empty() ? 0.0 : kForeignFaceWindow_mm);

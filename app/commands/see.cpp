@@ -10,6 +10,7 @@
 
 #include "app/case/patient_guides.h"
 #include "app/case/room.h"
+#include "app/case/trough_plan.h"
 #include "app/commands/command.h"
 #include "app/options/picture_option.h"
 #include "app/options/view_option.h"
@@ -75,7 +76,8 @@ int see(const SeeOptions& options) {
     volume = options.volume.load();
   } else {
     patient = assets::loadPatient(options.patient);
-    guides = guidesFor(patient, kUsualBur_mm);
+    const auto plan = plannedCut(patient, kUsualBur_mm);
+    guides = guidesFor(patient, plan ? std::optional(plan->cut) : std::nullopt);
     volume = {patient.ct.grid, std::move(patient.ct.solid), std::move(patient.ct.label)};
   }
   const render::Eye eye = options.view.apply(frame.rig, volume.grid);

@@ -35,10 +35,11 @@ void standAsMeasured(HandAtWork& hand, const calibration::Rig& rig) {
 }
 
 HandAtWork handAtWork(const std::string& address, const DeviceOptions& options, const assets::Patient& patient,
-                      const calibration::Rig& rig, double bur_radius_mm, std::optional<OpenedDevice> opened) {
+                      const calibration::Rig& rig, const std::optional<assets::PlannedCut>& cut,
+                      std::optional<OpenedDevice> opened) {
   refuseUnlessHand(address);
   const HandKind* const kind = handKindOf(address);
-  HandAtWork hand = kind     ? kind->begin(restOf(address), {patient, rig, bur_radius_mm})
+  HandAtWork hand = kind     ? kind->begin(restOf(address), {patient, rig, cut})
                     : opened ? deviceAtWork(std::move(*opened), rig)
                              : deviceAtWork(haptics::openDevice(address, options), rig);
   if (hand.name.empty()) hand.name = hand.device->capabilities().model;

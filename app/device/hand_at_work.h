@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "assets/patient.h"
+#include "assets/planned_cut.h"
 #include "calibration/rig.h"
 #include "haptics/device/haptic_device.h"
 #include "haptics/device/opened_device.h"
@@ -41,11 +42,11 @@ struct HandAtWork {
 calibration::Pose<calibration::World, calibration::Tool> restingTool();
 
 /// A rig with a measured arm is this device's (rig_choice has looked): of a Phantom its correction is the arm's and its
-/// tip the tool's. `opened`: the real device of the address, where it is open already. Throws UsageError for no device
-/// at all, where the patient has nothing for a scripted hand to do, or a simulated arm
-/// does not reach it; haptics::DeviceError when a real one can not be had; SessionError for no recording.
+/// tip the tool's. `cut`: what a scripted hand takes. `opened`: the real device of the address, where it is open
+/// already. Throws UsageError for no device at all, where there is no cut for a scripted hand, or a simulated arm does
+/// not reach it; haptics::DeviceError when a real one can not be had; SessionError for no recording.
 HandAtWork handAtWork(const std::string& address, const DeviceOptions& options, const assets::Patient& patient,
-                      const calibration::Rig& rig, double bur_radius_mm,
+                      const calibration::Rig& rig, const std::optional<assets::PlannedCut>& cut,
                       std::optional<OpenedDevice> opened = std::nullopt);
 
 }  // namespace app

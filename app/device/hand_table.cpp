@@ -19,14 +19,14 @@ bool isPractice(const std::string& rest) {
 }
 
 constexpr std::array<HandKind, 6> kHands = {{
-    {"mouse", "", false, false, isNothing, mouseAtWork},
-    {"scripted", "", true, false, isNothing, scriptAtWork},
-    {"simulated", "[:omni|touch|desktop|premium], the script holding a Phantom in numbers", true, false, isModel,
+    {"mouse", "", false, false, false, isNothing, mouseAtWork},
+    {"scripted", "", true, false, true, isNothing, scriptAtWork},
+    {"simulated", "[:omni|touch|desktop|premium], the script holding a Phantom in numbers", true, false, true, isModel,
      simulatedAtWork},
-    {"practice", ":SCENARIO[:SEED], the same with an Omni as untrue as real ones, A to G", true, false, isPractice,
-     practiceAtWork},
-    {"replay", ":SESSION, a recorded hand", true, true, isSomething, replayAtWork},
-    {"poses", ":FILE, a hand exactly where a pose CSV has it, that asks for its tools and actions", true, false,
+    {"practice", ":SCENARIO[:SEED], the same with an Omni as untrue as real ones, A to G", true, false, true,
+     isPractice, practiceAtWork},
+    {"replay", ":SESSION, a recorded hand", true, true, false, isSomething, replayAtWork},
+    {"poses", ":FILE, a hand exactly where a pose CSV has it, that asks for its tools and actions", true, false, false,
      isSomething, posesAtWork},
 }};
 

@@ -16,6 +16,7 @@ struct HandKind {
   std::string_view help;                   ///< how the address goes on, and what it is
   bool in_numbers;                         ///< it works by itself: no window, no clock of its own
   bool holds_any_tool;                     ///< as the other hand too
+  bool works_by_plan;                      ///< it takes the cut that is planned
   bool (*takes)(const std::string& rest);  ///< whether an address may go on so; may throw UsageError to say more
   HandAtWork (*begin)(const std::string& rest, const HandCase& at);
 };

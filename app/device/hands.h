@@ -13,7 +13,7 @@ namespace app {
 struct HandCase {
   const assets::Patient& patient;
   const calibration::Rig& rig;
-  double bur_radius_mm = 1.0;
+  const std::optional<assets::PlannedCut>& cut;  ///< none: a script has nothing to do
 };
 
 HandAtWork mouseAtWork(const std::string& rest, const HandCase& at);

@@ -1,4 +1,3 @@
-#include "app/case/trough_plan.h"
 #include "app/device/hands.h"
 #include "app/device/phantom_at_work.h"
 #include "app/device/practice_device.h"
@@ -9,11 +8,10 @@ namespace app {
 namespace {
 
 /// What a hand in numbers cuts on this patient.
-assets::PlannedCut cutFor(const HandCase& at) {
-  auto cut = plannedCut(at.patient, at.bur_radius_mm);
-  if (!cut)
+const assets::PlannedCut& cutFor(const HandCase& at) {
+  if (!at.cut)
     throw UsageError("--device: no bone of this patient can be reached by a script, use --device replay:SESSION");
-  return *cut;
+  return *at.cut;
 }
 
 /// So that the handpiece does not hide the site.

@@ -56,7 +56,7 @@ HandAtWork deviceOf(const SecondHandPlan& plan, const DeviceOptions& options, co
     calibration::Rig others = rig;
     others.device.reset(), others.arm.reset();  // they are of the first
     others.X_WD = rig.second_X_WD.value_or(Pose<World, Device>{{1.0, 0.0, 0.0, 0.0}, hold.translation_mm});
-    return handAtWork(plan.device, options, patient, others, 1.0);
+    return handAtWork(plan.device, options, patient, others, {});
   }
   const Pose<Patient, OtherTool> X_PO = rig.X_WP.inverse() * hold;
   HandAtWork hand;

@@ -108,7 +108,7 @@ ProbedBone probedBone(const Protocol& protocol) {
   } else {
     const auto trough = planBuccalTrough(patient, protocol.tool.head.radius_mm);
     if (!trough)
-      throw UsageError("bone.patient: no third molar with bone beside it, say bone.site_P_mm and bone.outward_P");
+      throw UsageError("bone.patient: no tooth at work with bone beside it, say bone.site_P_mm and bone.outward_P");
     site = {{trough->middle_P_mm}, {trough->outward_P}};
   }
   site = onSurface(patient.ct, site);

@@ -5,8 +5,7 @@
 namespace app {
 
 Equipment::Equipment(RehearsalPlan& plan)
-    : hand_(handAtWork(plan.device, plan.device_options, plan.patient, plan.rig, plan.command.tool.head.radius_mm,
-                       std::move(plan.opened))),
+    : hand_(handAtWork(plan.device, plan.device_options, plan.patient, plan.rig, plan.cut, std::move(plan.opened))),
       rate_Hz_(plan.rate_Hz.value_or(hand_.rate_Hz.value_or(1000.0))),
       damping_Ns_per_mm_(hand_.device->capabilities().damping_Ns_per_mm) {
   if (!plan.second_hand.device.empty())

@@ -53,7 +53,8 @@ SurgeonDisplay& LivePicture::display() {
 
 /// In the current context, from the bone as it is.
 std::unique_ptr<render::FrameRenderer> LivePicture::newRenderer(render::Backend backend) {
-  auto renderer = dressedRenderer(plan_.patient, in_force_.tool, plan_.patient.ct.solid, {.backend = backend});
+  auto renderer =
+      dressedRenderer(plan_.patient, in_force_.tool, plan_.cut, plan_.patient.ct.solid, {.backend = backend});
   if (second_hand_ != nullptr) second_hand_->dress(*renderer);
   if (bone_ != nullptr) upload_.bringAgain(*bone_, *renderer);
   return renderer;
@@ -86,7 +87,7 @@ void LivePicture::showInstrument() {
 }
 
 void LivePicture::take(EyePictures& pictures, render::Frame frame, std::span<const std::uint8_t> solid) {
-  const auto renderer = dressedRenderer(plan_.patient, in_force_.tool, solid,
+  const auto renderer = dressedRenderer(plan_.patient, in_force_.tool, plan_.cut, solid,
                                         {.backend = display().backend(), .samples = kSnapshotSamples});
   if (second_hand_ != nullptr) second_hand_->dress(*renderer);
   frame.quality = {};

@@ -12,6 +12,7 @@
 #include "app/procedure/procedure.h"
 #include "app/station/workstation.h"
 #include "assets/patient.h"
+#include "assets/planned_cut.h"
 #include "calibration/rig.h"
 #include "haptics/device/pedal/foot_pedal.h"
 #include "haptics/servo/command.h"
@@ -22,6 +23,7 @@ namespace app {
 
 struct RehearsalPlan {
   assets::Patient patient;
+  std::optional<assets::PlannedCut> cut;  ///< what a hand in numbers takes, and what the layer of plans shows
   calibration::Rig rig;
   render::DisplayMode display = render::DisplayMode::mono;
   bool eyes_swapped = false;

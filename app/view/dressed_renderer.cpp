@@ -19,12 +19,13 @@ static_assert(static_cast<int>(assets::BurForm::cone) == static_cast<int>(haptic
 }  // namespace
 
 std::unique_ptr<render::FrameRenderer> dressedRenderer(const assets::Patient& patient, const haptics::Tool& tool,
+                                                       const std::optional<assets::PlannedCut>& cut,
                                                        std::span<const std::uint8_t> solid,
                                                        const render::RenderOptions& options) {
   auto renderer = std::make_unique<render::FrameRenderer>(patient.ct.grid, solid, patient.ct.label, options);
   renderer->setFace(patient.face);
   renderer->setGum(patient.gum);
-  renderer->setGuides(guidesFor(patient, tool.head.radius_mm));
+  renderer->setGuides(guidesFor(patient, cut));
   renderer->setScan(
       {patient.ct.hounsfield, patient.ct.solid, patient.mandibular_canal_P_mm, patient.mandibular_canal_radius_mm});
   showInstrument(*renderer, tool);

@@ -4,16 +4,19 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "assets/patient.h"
+#include "assets/planned_cut.h"
 #include "haptics/tool/tool.h"
 #include "render/frame_renderer.h"
 
 namespace app {
 
-/// `solid`: the bone as it is now, in the order of the patient's grid.
+/// `cut`: as it is planned, if one is. `solid`: the bone as it is now, in the order of the patient's grid.
 std::unique_ptr<render::FrameRenderer> dressedRenderer(const assets::Patient& patient, const haptics::Tool& tool,
+                                                       const std::optional<assets::PlannedCut>& cut,
                                                        std::span<const std::uint8_t> solid,
                                                        const render::RenderOptions& options);
 

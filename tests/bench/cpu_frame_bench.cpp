@@ -63,7 +63,7 @@ int main(int count, char** words) {
   const calibration::Vector<calibration::Face> eye_F = assets::kFaceAxes_PF.inverse() * eye_P, up_F{{0.0, 1.0, 0.0}};
   rig.X_WP = app::standPatient({patient.workplace_P_mm()}, X_PF * eye_F, X_PF * up_F);
 
-  const auto renderer = app::dressedRenderer(patient, {}, patient.ct.solid, {.backend = render::Backend::cpu});
+  const auto renderer = app::dressedRenderer(patient, {}, {}, patient.ct.solid, {.backend = render::Backend::cpu});
   render::Frame frame;
   frame.rig = rig;
   frame.display = render::DisplayMode::side_by_side_full;

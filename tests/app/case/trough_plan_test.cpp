@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "assets/tooth.h"
+
 namespace app {
 namespace {
 
@@ -95,15 +97,65 @@ TEST(TroughPlan, LiesBesideAToothInTheMiddleOfTheRow) {
   EXPECT_GT(std::abs(along.y), 0.95) << "along the row";
 }
 
+/// Where the teeth of a lower arch stand, a parabola, by the usual widths of crowns; y to the back, from the incisors.
+glm::dvec3 inArch_P_mm(int fdi) {
+  constexpr double kWidth_mm[] = {5.3, 5.9, 6.9, 7.0, 7.1, 11.0, 10.5, 10.0}, kBend_per_mm = 0.06, kStep_mm = 0.001;
+  double to_centre_mm = 0.5 * kWidth_mm[assets::placeOf(fdi) - 1], x_mm = 0.0;
+  for (int place = 1; place < assets::placeOf(fdi); ++place) to_centre_mm += kWidth_mm[place - 1];
+  for (double arc_mm = 0.0; arc_mm < to_centre_mm; x_mm += kStep_mm)
+    arc_mm += kStep_mm * std::hypot(1.0, 2.0 * kBend_per_mm * x_mm);
+  return {assets::isRight(fdi) ? -x_mm : x_mm, kBend_per_mm * x_mm * x_mm, 0.0};
+}
+
+glm::dvec3 distalInArch_P(int fdi) {
+  const glm::dvec3 ahead = inArch_P_mm(fdi - 1 + (assets::placeOf(fdi) == 1)), behind = inArch_P_mm(fdi + 1);
+  return glm::normalize(behind - ahead);
+}
+
+enum class Standing { all, its_quadrant, alone };
+constexpr double kWithin25Degrees = 0.906;  ///< cosine
+
+TEST(ArchDirection, FollowsTheRowAtEveryToothHoweverManyStandInIt) {
+  assets::CtVolume ct;
+  ct.grid = {{160, 140, 8}, 0.5, {-40.0, -10.0, -2.0}};
+  ct.label.assign(ct.grid.voxelCount(), 0);
+  for (const int site : {31, 32, 33, 34, 36, 37, 41, 42, 43, 45, 46, 47})
+    for (const Standing standing : {Standing::all, Standing::its_quadrant, Standing::alone}) {
+      ct.tooth.assign(ct.label.size(), 0);
+      for (int fdi = 31; fdi <= 48; ++fdi) {
+        if (!assets::isToothNumber(fdi) || (standing == Standing::alone && fdi != site)) continue;
+        if (standing == Standing::its_quadrant && assets::quadrantOf(fdi) != assets::quadrantOf(site)) continue;
+        const glm::dvec3 centre = inArch_P_mm(fdi);
+        for (int k = 0; k < ct.grid.size.z; ++k)
+          for (int j = 0; j < ct.grid.size.y; ++j)
+            for (int i = 0; i < ct.grid.size.x; ++i)
+              if (glm::distance(glm::dvec2(ct.grid.centre_P_mm({i, j, k})), glm::dvec2(centre)) < 3.0)
+                ct.tooth[ct.grid.index({i, j, k})] = static_cast<std::uint8_t>(fdi);
+      }
+      const glm::dvec3 found = archDirection_P(ct, {site, inArch_P_mm(site), {0.0, 0.0, 1.0}});
+      EXPECT_GT(glm::dot(found, distalInArch_P(site)), kWithin25Degrees)
+          << site << ", case " << static_cast<int>(standing);
+    }
+}
+
+TEST(PlannedCut, IsTheTroughWhereOneFits) {
+  const auto plan = plannedCut(blockWithMolar(), 2.0);
+  ASSERT_TRUE(plan.has_value());
+  EXPECT_EQ(plan->kind, CutKind::buccal_trough);
+  EXPECT_EQ(plan->cut.middle_P_mm, planBuccalTrough(blockWithMolar(), 2.0)->middle_P_mm);
+}
+
 TEST(PlannedCut, LiesOnTheNearestBoneOfAPatientWithoutASite) {
   assets::Patient patient = blockWithMolar();
   patient.site.reset();
   patient.jaw_P_mm = {-10.0, 38.0, -8.0};
-  const auto cut = plannedCut(patient, 1.5);
-  ASSERT_TRUE(cut.has_value());
-  EXPECT_NEAR(cut->middle_P_mm.z, 0.0, 0.6) << "the block's upper face is what the eye sees";
-  EXPECT_LT(glm::distance(cut->middle_P_mm, patient.jaw_P_mm), 20.0);
-  EXPECT_GT(cut->outward_P.z, 0.2);
+  const auto plan = plannedCut(patient, 1.5);
+  ASSERT_TRUE(plan.has_value());
+  EXPECT_EQ(plan->kind, CutKind::nearest_bone);
+  const assets::PlannedCut& cut = plan->cut;
+  EXPECT_NEAR(cut.middle_P_mm.z, 0.0, 0.6) << "the block's upper face is what the eye sees";
+  EXPECT_LT(glm::distance(cut.middle_P_mm, patient.jaw_P_mm), 20.0);
+  EXPECT_GT(cut.outward_P.z, 0.2);
   std::ranges::fill(patient.ct.solid, std::uint8_t{0});
   EXPECT_FALSE(plannedCut(patient, 1.5).has_value());
 }

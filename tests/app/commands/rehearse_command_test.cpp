@@ -135,11 +135,51 @@ TEST_F(RehearseCommand, SaysWhichRowOfThePosesCanNotBeObeyed) {
   };
   refused("1,0,0,9,1,0,0,0,0,2,", "line 3: tool 2: the tray holds 1");
   refused("1,0,0,9,1,0,0,0,0,,jump", "line 3: ");
+  refused("1,0,0,9,1,0,0,0,0,,tool:9", "line 3: tool 9: the tray holds 1");
   refused("1,0,0,9,2,0,0,0,0,,", "line 3: the quaternion");
   refused("0,0,0,9,1,0,0,0,0,,", "line 3: t_s does not rise");
   refused("4000,0,0,9,1,0,0,0,0,,", "line 3: t_s is beyond an hour");
   expectRefusal(kQuick + ("--device poses:" + folder_.string()), "plain file");
   expectRefusal(kQuick + ("--device poses:" + at("none.csv")), "none.csv");
+}
+
+TEST_F(RehearseCommand, ObeysTheLastRowAtRealPaceToo) {
+  write("p.csv", std::string(kPoseHeader) + "0,100,0,200,1,0,0,0,0,,\n0.3,100,0,200,1,0,0,0,0,2,snapshot\n");
+  const std::string line = "cd " + folder_.string() + " && " + MOLAR_PROGRAM +
+                           " rehearse --headless --voxel 0.6 --size 96x64 --renderer cpu --tool sphere:1.5 --tool "
+                           "sphere:1 --device poses:p.csv --record s.molar >out 2>err";
+  ASSERT_EQ(std::system(line.c_str()), 0) << read("err");
+  EXPECT_FALSE(read("molar-snapshot-1.png").empty()) << read("err");
+  const std::vector<SessionCommand> commands = SessionReader(at("s.molar")).commands();
+  ASSERT_FALSE(commands.empty());
+  EXPECT_EQ(commands.back().command.tool.head.radius_mm, 1.0);
+  EXPECT_EQ(ticksOf(at("s.molar")).back().command_serial, commands.back().command.serial) << "in force for a tick";
+}
+
+TEST_F(RehearseCommand, EndsAtTheTickOfTheRowThatSaysSo) {
+  write("p.csv",
+        std::string(kPoseHeader) + "0,100,0,200,1,0,0,0,0,,\n0.3,100,0,200,1,0,0,0,0,,end\n1,100,0,200,1,0,0,0,0,,\n");
+  const Said said = molar(kQuick + ("--device poses:" + at("p.csv") + " --record " + at("s.molar")));
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_EQ(ticksOf(at("s.molar")).size(), 300u);
+}
+
+TEST_F(RehearseCommand, RefusesARateThatTheRecordedHandDoesNotHave) {
+  ASSERT_EQ(molar(kCoarse + std::string("--seconds 0.2 --record ") + at("s.molar")).status, 0);
+  expectRefusal(kQuick + ("--device replay:" + at("s.molar") + " --rate 2000 --record " + at("t.molar")), "2000 Hz");
+  EXPECT_EQ(fileCount(), 1u) << "no stub of the other";
+}
+
+TEST_F(RehearseCommand, RecordsOverRecordingsAlone) {
+  const std::string poses = std::string(kPoseHeader) + "0,100,0,200,1,0,0,0,0,,\n0.3,100,0,200,1,0,0,0,0,,\n";
+  write("p.csv", poses);
+  write("feel.toml", "[law]\n");
+  expectRefusal(kQuick + ("--force --device poses:" + at("p.csv") + " --record " + at("p.csv")), "no recording");
+  expectRefusal(kCoarse + ("--force --parameters " + at("feel.toml") + " --record " + at("feel.toml")), "no recording");
+  EXPECT_EQ(read("p.csv"), poses);
+  const std::string recorded = kQuick + ("--force --device poses:" + at("p.csv") + " --record " + at("s.molar"));
+  EXPECT_EQ(molar(recorded).status, 0);
+  EXPECT_EQ(molar(recorded).status, 0);
 }
 
 TEST_F(RehearseCommand, GoesFastWithHandsInNumbersAlone) {
