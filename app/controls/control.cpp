@@ -118,28 +118,6 @@ ControlWish wishFrom(const std::string& text) {
   return wish;
 }
 
-std::string textOf(const ControlWish& wish) {
-  const ControlMeaning& meaning = meaningOf(wish.control);
-  const std::string name(meaning.name);
-  const int value = wish.value;
-  if (value == kNoValue) return name;
-  switch (meaning.value) {
-    case ControlValue::on_or_off:
-      return name + (value != 0 ? ":on" : ":off");
-    case ControlValue::tool:
-      return name + ":" + std::to_string(value + 1);
-    case ControlValue::law:
-      return name + ":" + std::string(haptics::kLaws[static_cast<std::size_t>(value)].key);
-    case ControlValue::layer:
-      return name + ":" + std::string(kPictureLayers[static_cast<std::size_t>(value)].name);
-    case ControlValue::percent:
-      return name + ":" + std::to_string(value);
-    case ControlValue::none:
-      break;
-  }
-  return name;
-}
-
 std::vector<KeyMeaning> keyMeanings() {
   std::vector<KeyMeaning> keys(kMovements.begin(), kMovements.end());
   for (const ControlMeaning& one : kControls)

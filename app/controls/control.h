@@ -30,36 +30,31 @@ struct ControlWish {
 enum class ControlValue : std::uint8_t { none, on_or_off, tool, law, layer, percent };
 constexpr bool isNeeded(ControlValue value) { return value >= ControlValue::law; }
 
-/// Who may ask for it: a key of either window, a script, and …
-enum class AlsoBy : std::uint8_t { nobody, hand, panel };  // … a button of handle or pedal, the instructor's panel
-
 struct ControlMeaning {
   Control control;
   std::string_view name;  ///< as a script writes it
   std::string_view key;   ///< empty: none
   std::string_view does;
   ControlValue value;
-  AlsoBy also;
   bool is_felt;  ///< changes what is felt, cut or watered: a procedure may keep it for itself
 };
 
 inline constexpr std::array<ControlMeaning, 12> kControls = {{
-    {Control::law, "law", "1 - 7", "choose the force law", ControlValue::law, AlsoBy::panel, true},
-    {Control::drill, "drill", "D", "lock or unlock the drill", ControlValue::on_or_off, AlsoBy::panel, true},
-    {Control::tool, "tool", "T", "change the tool", ControlValue::tool, AlsoBy::hand, true},
-    {Control::irrigation, "irrigation", "I", "irrigation on or off", ControlValue::on_or_off, AlsoBy::hand, true},
-    {Control::undo, "undo", "U", "undo the last stroke", ControlValue::none, AlsoBy::hand, true},
-    {Control::snapshot, "snapshot", "P", "snapshot", ControlValue::none, AlsoBy::panel, false},
-    {Control::stop, "stop", "X", "emergency stop: motors off", ControlValue::none, AlsoBy::panel, false},
-    {Control::arm, "arm", "R", "arm again after a fault", ControlValue::none, AlsoBy::panel, false},
-    {Control::home, "home", "H", "the handle stands at home", ControlValue::none, AlsoBy::nobody, false},
-    {Control::end, "end", "Esc", "end", ControlValue::none, AlsoBy::panel, false},
-    {Control::layer, "layer", "", "show or hide a layer", ControlValue::layer, AlsoBy::panel, false},
-    {Control::face, "face", "", "how much of the face is seen", ControlValue::percent, AlsoBy::panel, false},
+    {Control::law, "law", "1 - 7", "choose the force law", ControlValue::law, true},
+    {Control::drill, "drill", "D", "lock or unlock the drill", ControlValue::on_or_off, true},
+    {Control::tool, "tool", "T", "change the tool", ControlValue::tool, true},
+    {Control::irrigation, "irrigation", "I", "irrigation on or off", ControlValue::on_or_off, true},
+    {Control::undo, "undo", "U", "undo the last stroke", ControlValue::none, true},
+    {Control::snapshot, "snapshot", "P", "snapshot", ControlValue::none, false},
+    {Control::stop, "stop", "X", "emergency stop: motors off", ControlValue::none, false},
+    {Control::arm, "arm", "R", "arm again after a fault", ControlValue::none, false},
+    {Control::home, "home", "H", "the handle stands at home", ControlValue::none, false},
+    {Control::end, "end", "Esc", "end", ControlValue::none, false},
+    {Control::layer, "layer", "", "show or hide a layer", ControlValue::layer, false},
+    {Control::face, "face", "", "how much of the face is seen", ControlValue::percent, false},
 }};
 
 constexpr const ControlMeaning& meaningOf(Control control) { return kControls[static_cast<std::size_t>(control)]; }
-constexpr std::string_view nameOf(Control control) { return meaningOf(control).name; }
 
 constexpr std::optional<Control> controlNamed(std::string_view name) {
   for (const ControlMeaning& one : kControls)
@@ -70,7 +65,6 @@ constexpr std::optional<Control> controlNamed(std::string_view name) {
 /// As a script writes it: `undo`, `irrigation`, `irrigation:off`, `tool:2`, `law:agus`, `layer:canal`, `face:30`.
 /// Throws UsageError that says what may stand there.
 ControlWish wishFrom(const std::string& text);
-std::string textOf(const ControlWish& wish);
 
 /// None for drilling, which is held and no wish.
 constexpr std::optional<ControlWish> wishOf(haptics::HandAction action) {
@@ -86,6 +80,15 @@ constexpr std::optional<ControlWish> wishOf(haptics::HandAction action) {
   }
   return {};
 }
+
+/// A pedal calls what it asks for as everybody else does.
+constexpr bool areNamedAlike() {
+  for (const haptics::HandAction action :
+       {haptics::HandAction::irrigation, haptics::HandAction::undo, haptics::HandAction::tool_change})
+    if (haptics::nameOf(action) != meaningOf(wishOf(action)->control).name) return false;
+  return true;
+}
+static_assert(areNamedAlike());
 
 /// What keys and mouse do in a window, the hand's movements first.
 struct KeyMeaning {

@@ -15,7 +15,7 @@ constexpr std::size_t kMostBindings = 64;
 
 haptics::HandAction actionNamed(const std::string& where, const std::string& name) {
   const auto action = haptics::handActionNamed(name);
-  if (!action) refuse(where, "no such action, choose drill, irrigation, undo or tool-change");
+  if (!action) refuse(where, "no such action, choose drill, irrigation, undo or tool");
   return *action;
 }
 

@@ -1,7 +1,8 @@
 // `--pedal`: which pedal, and which of its switches means what, as people write it.
 //   auto · none · /dev/input/event4 · a part of its name, then commas: auto,KEY_B=drill,-ABS_Z=irrigation
 //   FILE.toml: device = "…", table [actions] of switch = "action", table [thresholds] of axis = 0.15 to 0.95
-// Actions: drill, irrigation, undo, tool-change. Switches by the kernel's names, as evtest shows them. Start-up only.
+// Actions, called as the controls are (controls/control.h): drill, while it is held; irrigation, undo, tool. Switches
+// by the kernel's names, as evtest shows them. Start-up only.
 #pragma once
 
 #include <optional>

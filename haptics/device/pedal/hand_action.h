@@ -14,12 +14,13 @@ namespace haptics {
 enum class HandAction : std::uint8_t { drill, irrigation, undo, tool_change };
 
 inline constexpr std::size_t kHandActions = 4;
-inline constexpr std::array<std::string_view, kHandActions> kHandActionNames = {"drill", "irrigation", "undo",
-                                                                                "tool-change"};
+inline constexpr std::array<std::string_view, kHandActions> kHandActionNames = {"drill", "irrigation", "undo", "tool"};
 
 constexpr std::string_view nameOf(HandAction action) { return kHandActionNames[static_cast<std::size_t>(action)]; }
 
+/// "tool-change" is how a change of tool was written before.
 constexpr std::optional<HandAction> handActionNamed(std::string_view name) {
+  if (name == "tool-change") return HandAction::tool_change;
   for (std::size_t i = 0; i < kHandActions; ++i)
     if (kHandActionNames[i] == name) return static_cast<HandAction>(i);
   return {};

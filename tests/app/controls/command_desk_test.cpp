@@ -193,7 +193,7 @@ TEST(CommandDesk, SwitchesToWhatWasSaidOrTheOtherWay) {
   EXPECT_TRUE(hasEvent(at.path, "drill", "drill locked"));
   EXPECT_TRUE(hasEvent(at.path, "drill", "drill unlocked"));
   for (const Control others : {Control::snapshot, Control::stop, Control::home, Control::end, Control::layer})
-    EXPECT_FALSE(at.desk->obey({others, 0})) << nameOf(others);
+    EXPECT_FALSE(at.desk->obey({others, 0})) << meaningOf(others).name;
 }
 
 TEST(CommandDesk, LiftsNoEmergencyStop) {

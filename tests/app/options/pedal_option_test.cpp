@@ -25,6 +25,11 @@ TEST(PedalOption, ReadsWhichPedalAndWhatItsSwitchesMean) {
   EXPECT_EQ(choice->mapping[1].control, "-ABS_Z");
 }
 
+TEST(PedalOption, CallsAChangeOfToolAsTheControlsDoAndAsBefore) {
+  for (const char* text : {"auto,KEY_B=tool", "auto,KEY_B=tool-change"})
+    EXPECT_EQ(pedalFrom(text)->mapping.at(0).action, HandAction::tool_change) << text;
+}
+
 TEST(PedalOption, RefusesWhatCanNotBe) {
   for (const char* text : {"", ",KEY_B=drill", "auto,KEY_B", "auto,", "auto,KEY_B=dril", "auto,KEY_NONE=drill",
                            "auto,=", "auto,KEY_B=drill,", "/no/such/file.toml"})
