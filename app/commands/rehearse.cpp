@@ -63,7 +63,7 @@ struct RehearseOptions {
 };
 
 /// On a desk the surgeon wears loupes: the same screen, its picture magnified. With a rig everything is 1:1, and the
-/// patient stands as it says, or else with the third molar at the origin of W.
+/// patient stands as it says, or else with the tooth at work at the origin of W.
 calibration::Rig rigFor(const RehearseOptions& options, const std::optional<ChosenRig>& chosen,
                         const assets::Patient& patient, const assets::FacePose& X_PF) {
   if (chosen) {
@@ -75,7 +75,7 @@ calibration::Rig rigFor(const RehearseOptions& options, const std::optional<Chos
   const glm::ivec2 px = options.size.empty() ? (options.headless ? glm::ivec2(640, 400) : glm::ivec2(1280, 800))
                                              : pictureSize(options.size);
   calibration::Rig rig = calibration::desktopRig(px, kMonitorWidth_mm / options.loupes);
-  // X_WD stays identity, so the third molar is at the origin of D too: the middle of every Phantom's workspace, its
+  // X_WD stays identity, so the tooth at work is at the origin of D too: the middle of every Phantom's workspace, its
   // axes as the surgeon's.
   rig.X_WP = standAtSite(patient, X_PF);
   return rig;

@@ -133,7 +133,9 @@ void addSee(CLI::App& molar, Chosen& chosen) {
   command->add_option("--samples", options->samples, "Rays along each edge of a pixel, 1 to 4")
       ->check(CLI::Range(1, 4))
       ->capture_default_str();
-  command->add_option("--tool-at", options->tool_at_mm, "x,y,z: where slices are taken, mm in P (default: third molar)")
+  command
+      ->add_option("--tool-at", options->tool_at_mm,
+                   "x,y,z: where slices are taken, mm in P (default: the tooth at work)")
       ->delimiter(',')
       ->expected(3)
       ->check(numberRange(-1e4, 1e4));

@@ -68,7 +68,7 @@ HandAtWork deviceOf(const SecondHandPlan& plan, const DeviceOptions& options, co
 }  // namespace
 
 Pose<World, OtherTool> scriptedHold(SecondTool tool, bool right_side) {
-  // As the surgeon sees a right third molar; a left one is the mirror image of that.
+  // As the surgeon sees a tooth on the right; on the left it is the mirror image of that.
   const double s = right_side ? 1.0 : -1.0;
   if (tool == SecondTool::mirror) return mirrorHeld({0.9 * s, -0.1, 0.6}, {17.0 * s, 10.0, 23.0});
   return held({-0.46 * s, 0.07, 0.79}, {0.85 * s, -0.05, 0.5}, {15.5 * s, 6.5, 6.0});

@@ -24,8 +24,8 @@ inline constexpr const char* kSecondHandHelp =
     "The other hand, seen but not felt: scripted, holding still beside the site; replay:SESSION; or a device as "
     "--device takes it";
 
-/// How the other hand holds its instrument by script: beside the third molar, on the side of the tongue. The glass of a
-/// mirror looks half towards the eye and half towards the tooth; a retractor holds the tongue away from it.
+/// How the other hand holds its instrument by script: beside the tooth at work, on the side of the tongue. The glass of
+/// a mirror looks half towards the eye and half towards the tooth; a retractor holds the tongue away from it.
 calibration::Pose<calibration::World, calibration::OtherTool> scriptedHold(SecondTool tool, bool right_side);
 
 /// Throws UsageError for what is no second hand.

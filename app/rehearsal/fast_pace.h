@@ -1,6 +1,6 @@
-// Time as fast as the machine can make it: a frame is so many ticks, made on this thread, and what time it is follows
-// from them alone. Nobody looks at the frames on the way. The ticks up to a wish of the script, and up to the end, are
-// never passed over. Main thread.
+// Time as fast as the machine can make it: a frame is so many ticks, made on this thread, fewer up to the next wish of
+// the script and up to the end; what time it is follows from them alone. Nobody looks at the frames on the way, and
+// only snapshots are drawn. Main thread.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // Whether a case lies where the workstation can serve it: near enough to the virtual screen for a head that moves, and
-// within the arm's reach with room to spare. The region is a box of 60 x 50 x 40 mm about the third molar, the part of
-// it that was scanned. Sources: reference/calibration 1.4, 5. Frames P and W, mm. Pure; start-up only, under 0.2 s.
+// within the arm's reach with room to spare. The region is a box of 60 x 50 x 40 mm about the tooth at work, the part
+// of it that was scanned. Sources: reference/calibration 1.4, 5. Frames P and W, mm. Pure; start-up only, under 0.2 s.
 #pragma once
 
 #include <optional>
@@ -19,7 +19,7 @@ struct Reach {
   int corners_out = 0;  ///< of 8: not reached, or nearer than 5 mm to a limit of the arm, or a gimbal beyond 60 degrees
   struct Shift {
     glm::dvec3 by_W_mm{0.0};
-    double turn_deg = 0.0;  ///< about the vertical through the third molar
+    double turn_deg = 0.0;  ///< about the vertical through the tooth at work
   };
   std::optional<Shift> helps;  ///< the smallest within 15 mm and 20 degrees that brings all within reach
 };

@@ -4,11 +4,11 @@
 
 #include <filesystem>
 #include <fstream>
-#include <random>
 
 #include <gtest/gtest.h>
 
 #include "app/text/usage_error.h"
+#include "tests/mutants.h"
 
 namespace app {
 namespace {
@@ -116,12 +116,7 @@ TEST_F(PoseCsv, NamesAMissingFile) { EXPECT_THROW(readPoses("/nonexistent/p.csv"
 
 TEST_F(PoseCsv, SurvivesRandomDamage) {
   const std::string good = std::string(kHeader) + "0,1,2,3,1,0,0,0\n0.001,1,2,3,1,0,0,0\n";
-  std::mt19937 generator(5);
-  for (int i = 0; i < 500; ++i) {
-    std::string bad = good;
-    for (int k = 0; k < 1 + i % 5; ++k) bad[generator() % bad.size()] = static_cast<char>(generator() % 256);
-    refusal(bad);
-  }
+  mutants::forEachMutant({good}, 500, [&](const std::string& bad, std::size_t, std::uint64_t) { refusal(bad); });
 }
 
 }  // namespace
