@@ -30,7 +30,7 @@ namespace {
 struct PsychophysicsOptions {
   std::string protocol, out, observer = "simulated", rig, record;
   std::uint64_t seed = 1;
-  bool force = false;
+  bool force = false, operators_window = false;
 };
 
 /// results.csv and results.json.
@@ -74,6 +74,7 @@ AtTheWindow runAtTheWindow(const PsychophysicsOptions& options, const Protocol& 
   plan.overwrite = options.force;
   if (!options.record.empty()) plan.recording = Recording{options.record, options.force};
   plan.procedure = &desk;
+  plan.operators_window = options.operators_window;
   const int answer = rehearse(std::move(plan));
   return {desk.isOver(), answer};
 }
@@ -133,6 +134,8 @@ void addPsychophysics(CLI::App& molar, Chosen& chosen) {
   command->add_option("--seed", options->seed, "Of order, hand and observer")->capture_default_str();
   command->add_option("--rig", options->rig, "keyboard: rig file, 1:1")->type_name("FILE");
   command->add_option("--record", options->record, "keyboard: session file to write")->type_name("FILE");
+  command->add_flag("--operator", options->operators_window,
+                    "keyboard: a window for the operator, on the next monitor where there is one");
   command->add_flag("--force", options->force, "Replace outputs that exist");
   command->callback([options, &chosen] { chosen.action = [options] { return run(*options); }; });
 }

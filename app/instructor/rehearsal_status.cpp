@@ -15,17 +15,18 @@ const char* drillText(const RehearsalStatus& status) {
 }
 
 std::string statusLine(const RehearsalStatus& s) {
-  if (!s.to_surgeon.empty()) return "Molar   " + s.to_surgeon;
-  const std::string text = printed(
-      "Molar   %.1f s   %s   force %.2f N   depth %.2f mm   %s   servo p99 %.0f µs   %.0f pictures/s, %s   "
-      "motion to photon %.0f ms",
-      s.tick.t_s, lawName(s.command.law.kind).c_str(), glm::length(s.tick.served_force_P_N.xyz), s.tick.depth_mm,
-      drillText(s), s.servo.work_p99_us, s.pictures_per_s, s.quality.c_str(), s.latency.total_ms());
   if (s.tick.state != haptics::SafetyState::active) {
     const haptics::StateWords& words = haptics::wordsOf(s.tick.state);
     return "Molar   " + std::string(words.what) + " " + std::string(words.next);
   }
-  return s.recording == RecordingState::ended_early ? text + "   NOT RECORDING" : text;
+  const std::string lead = s.recording == RecordingState::ended_early ? "Molar   NOT RECORDING   " : "Molar   ";
+  if (!s.to_surgeon.empty()) return lead + s.to_surgeon;
+  return lead + printed(
+                    "%.1f s   %s   force %.2f N   depth %.2f mm   %s   servo p99 %.0f µs   %.0f pictures/s, %s   "
+                    "motion to photon %.0f ms",
+                    s.tick.t_s, lawName(s.command.law.kind).c_str(), glm::length(s.tick.served_force_P_N.xyz),
+                    s.tick.depth_mm, drillText(s), s.servo.work_p99_us, s.pictures_per_s, s.quality.c_str(),
+                    s.latency.total_ms());
 }
 
 }  // namespace app

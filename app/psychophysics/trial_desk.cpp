@@ -67,8 +67,10 @@ std::optional<haptics::Command> TrialDesk::followTick(const haptics::Tick& tick)
   const haptics::Command command = experiment_.commandOf(interval_);
   if (changed_) {
     changed_ = false;
+    serial_before_ = tick.command_serial;
     return command;
   }
+  if (tick.command_serial <= serial_before_) return std::nullopt;
   // Along the way the bur comes, from where it would first touch.
   const glm::dvec3 touch_P = site_.surface_P.mm + command.tool.head.radius_mm * site_.outward_P.xyz;
   felt_[interval_].push_back({glm::dot(touch_P - tick.hand.X_PT.translation_mm, site_.outward_P.xyz),

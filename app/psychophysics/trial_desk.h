@@ -1,9 +1,10 @@
 // The participant's side of an experiment at the window: keys 1 and 2 put the first or the second stimulus into the
 // hand, as often as wanted; A and B answer which was harder, once both were felt; then a pause, then the next trial.
-// Says nothing of law, force or value: blind. What is felt is kept from the ticks the frame loop sees (60 a second),
-// enough for the record, not for the answer. Main thread; no clock of its own: time is that of the ticks.
+// Says nothing of law, force or value: blind. What is felt is kept from every tick under the stimulus' own command.
+// Main thread; no clock of its own: time is that of the ticks.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -37,6 +38,7 @@ class TrialDesk final : public Procedure {
   std::vector<FeltSample> felt_[2];  ///< of the newest visit to each
   int interval_ = 0;
   bool changed_ = true, is_over_ = false, pausing_ = false;
+  std::uint64_t serial_before_ = 0;  ///< of the command that was in force when the stimulus was asked for
   double t_s_ = 0.0, since_s_ = 0.0, pause_ends_s_ = 0.0;
   std::string hint_;
 };

@@ -22,7 +22,7 @@ void Equipment::join(const RehearsalPlan& plan, const haptics::Command& in_force
                                              .priority = plan.device_options.servo_priority,
                                              .buttons = {},
                                              .pedal = pedal_ ? &*pedal_ : nullptr},
-                       in_force, plan.recording, plan.ticking);
+                       in_force, plan.recording, plan.ticking, plan.procedure != nullptr);
 }
 
 void Equipment::start() {

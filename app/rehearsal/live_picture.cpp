@@ -87,8 +87,10 @@ void LivePicture::showInstrument() {
 }
 
 void LivePicture::take(EyePictures& pictures, render::Frame frame, std::span<const std::uint8_t> solid) {
-  const auto renderer = dressedRenderer(plan_.patient, in_force_.tool, plan_.cut, solid,
-                                        {.backend = display().backend(), .samples = kSnapshotSamples});
+  const auto renderer = display().newRenderer([&](render::Backend backend) {
+    return dressedRenderer(plan_.patient, in_force_.tool, plan_.cut, solid,
+                           {.backend = backend, .samples = kSnapshotSamples});
+  });
   if (second_hand_ != nullptr) second_hand_->dress(*renderer);
   frame.quality = {};
   frame.rig.screen.px = plan_.snapshot_px;

@@ -7,8 +7,6 @@
 #include "app/controls/command_desk.h"
 #include "app/controls/control_script.h"
 #include "app/controls/hand_input.h"
-#include "app/instructor/operator_seat.h"
-#include "app/options/tool_text.h"
 #include "app/rehearsal/equipment.h"
 #include "app/rehearsal/fast_pace.h"
 #include "app/rehearsal/frame_builder.h"
@@ -16,12 +14,10 @@
 #include "app/rehearsal/pace.h"
 #include "app/rehearsal/rehearsal_outputs.h"
 #include "app/rehearsal/run_monitor.h"
+#include "app/rehearsal/status_board.h"
 
 namespace app {
 namespace {
-
-constexpr std::chrono::milliseconds kStatusEvery{500};
-constexpr std::chrono::seconds kLatencyNotedEvery{5};
 
 double width_mm(const calibration::ScreenCorners& screen) {
   return glm::distance(screen.lower_left.mm, screen.lower_right.mm);
@@ -49,10 +45,7 @@ class Rehearsal {
     desk_.serve(station());
     pace_ = paceOf();
     picture_.follow(station().bone());
-    if (plan_.operators_window)
-      operator_.emplace(picture_.display(), plan_.rig, plan_.monitor.value_or(0), [this](const std::string& line) {
-        journal_.tell({"display", line});
-      });
+    board_.emplace(plan_, equipment_, picture_, monitor_, journal_);
   }
 
   /// However it ends: the force goes first, then windows.
@@ -80,12 +73,12 @@ class Rehearsal {
       // When a file was changed is the wall's time.
       if (pace_->isWatched()) desk_.lookAtFile(pace_->now());
       followProcedure();
-      if (desk_.takeOtherTool()) picture_.showInstrument();
+      if (desk_.takeOtherTool() && pace_->isWatched()) picture_.showInstrument();
       pace_->toNextFrame();
       followServo();
       if (pace_->isWatched()) picture_.show(frame_);
       if (picture_.adaptQuality(newest_.drilling || newest_.depth_mm > 0.0)) noteQuality();
-      showStatus();
+      board_->show(pace_->now(), moment());
       serveOperator();
     }
     const double loop_s = secondsSince(looping_since);
@@ -139,26 +132,18 @@ class Rehearsal {
 
   /// `where`: it is written, if it is.
   void obey(const ControlWish& wish, const std::string& where = {}) {
+    if (wish.control == Control::stop) return stopForGood();
+    if (wish.control == Control::end) return monitor_.endByUser();
     if ((plan_.procedure && plan_.procedure->take(wish)) || desk_.obey(wish, where)) return;
     frame_.layers = layersAfter(frame_.layers, wish);
-    if (wish.control == Control::end) monitor_.endByUser();
-    if (wish.control == Control::snapshot) takeSnapshot();
+    if (wish.control == Control::snapshot) takeSnapshot(picture_, frame_, pace_->isWatched(), journal_);
     if (wish.control == Control::home) station().setHome();
-    if (wish.control != Control::stop) return;
+  }
+
+  void stopForGood() {
     station().emergencyStop();
     journal_.note("emergency stop", "motors off for good");
     journal_.say("emergency stop: the motors are off; end and start again to feel");
-  }
-
-  /// Where nobody watches, the picture is drawn for it.
-  void takeSnapshot() {
-    if (!pace_->isWatched()) {
-      picture_.display();
-      picture_.bringBone();
-      picture_.showInstrument();
-      picture_.show(frame_);
-    }
-    app::takeSnapshot(picture_, journal_);
   }
 
   bool isForProcedure(const render::WindowEvent& event) const {
@@ -170,7 +155,9 @@ class Rehearsal {
 
   void followProcedure() {
     if (!plan_.procedure) return;
-    if (const auto wanted = plan_.procedure->follow({&newest_, 1})) desk_.follow(*wanted);
+    const std::vector<haptics::Tick> ticks = station().takeTicks();
+    if (ticks.empty()) return;
+    if (const auto wanted = plan_.procedure->follow(ticks)) desk_.follow(*wanted);
   }
 
   /// The tick first, then the bricks: what that tick cut is in this very frame.
@@ -178,49 +165,15 @@ class Rehearsal {
     newest_ = station().newestTick();
     frame_ = nextFrame(frame_, newest_, desk_.inForce());
     if (equipment_.secondHand()) equipment_.secondHand()->place(frame_);
-    picture_.bringBone();
+    if (pace_->isWatched()) picture_.bringBone();
   }
 
   void noteQuality() { journal_.note("quality", picture_.qualityText()); }
 
-  RehearsalStatus status() {
-    RehearsalStatus s = statusOf(plan_);
-    s.bur = textOf(desk_.inForce().tool.head);
-    s.tick = newest_;
-    s.command = desk_.inForce();
-    s.layers = frame_.layers;
-    if (plan_.procedure) {
-      const ProcedureWords words = plan_.procedure->words();
-      s.to_surgeon = words.to_surgeon;
-      s.to_instructor = words.to_instructor;
-    }
-    equipment_.describe(s);
-    picture_.describe(s);
-    monitor_.describe(s);
-    return s;
-  }
+  StatusBoard::Moment moment() const { return {newest_, desk_.inForce(), frame_.layers}; }
 
-  void showStatus() {
-    const Pace::Time now = pace_->now();
-    if (now - status_shown_ < kStatusEvery) return;
-    status_shown_ = now;
-    picture_.measureRate(now);
-    for (const Notice& notice : monitor_.look(equipment_.health(), newest_)) journal_.tell(notice);
-    render::Window* const window = picture_.window();
-    if (window == nullptr) return;
-    if (now - latency_noted_ > kLatencyNotedEvery && picture_.latency().pictures() > 0) {
-      latency_noted_ = now;
-      journal_.note("latency", photonText(picture_.latency().now()));
-    }
-    window->setTitle(statusLine(status()));
-  }
-
-  /// While the surgeon's picture is on its way.
   void serveOperator() {
-    if (!operator_) return;
-    operator_->keepOpen();
-    if (!operator_->isDue()) return;
-    const OperatorSeat::Heard heard = operator_->serve(status());
+    const OperatorSeat::Heard heard = board_->serveOperator(moment());
     for (const render::WindowEvent& event : heard.keys)
       if (!isForProcedure(event)) input_.take(event, 0.0);
     for (const ControlWish& wish : heard.wishes) obey(wish);
@@ -242,7 +195,7 @@ class Rehearsal {
                       station().bone().solidInGridOrder());
     RehearsalFigures figures;
     figures.ticking = plan_.ticking;
-    figures.last = status();
+    figures.last = board_->status(moment());
     figures.last.trips = station().trips();
     figures.removed_mm3 = station().bone().removedByTissue_mm3();
     picture_.describe(figures);
@@ -259,12 +212,11 @@ class Rehearsal {
   RehearsalOutputs outputs_;
   LivePicture picture_;
   std::unique_ptr<Pace> pace_;
-  std::optional<OperatorSeat> operator_;  // goes before the surgeon's window, which it shares with
   std::optional<double> duration_s_;
   RunMonitor monitor_;
+  std::optional<StatusBoard> board_;  // goes before the picture
   render::Frame frame_;
   haptics::Tick newest_;
-  Pace::Time status_shown_ = {}, latency_noted_ = {};
 };
 
 }  // namespace

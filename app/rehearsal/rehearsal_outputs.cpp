@@ -19,7 +19,13 @@ void RehearsalOutputs::takeLast(LivePicture& picture, const render::Frame& frame
   if (last_) picture.take(*last_, frame, solid);
 }
 
-void takeSnapshot(LivePicture& picture, Journal& journal) {
+void takeSnapshot(LivePicture& picture, const render::Frame& frame, bool is_watched, Journal& journal) {
+  if (!is_watched) {
+    picture.display().renderer();
+    picture.bringBone();
+    picture.showInstrument();
+    picture.show(frame);
+  }
   try {
     const std::string path = saveNextSnapshot(picture.newest());
     journal.note("snapshot", path);

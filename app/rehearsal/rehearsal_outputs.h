@@ -27,8 +27,9 @@ class RehearsalOutputs {
   std::optional<EyePictures> first_, last_;
 };
 
-/// The window's picture under the first free name; says where, or why not.
-void takeSnapshot(LivePicture& picture, Journal& journal);
+/// The newest picture under the first free name; says where, or why not. Where nobody watches the frame is drawn for
+/// it.
+void takeSnapshot(LivePicture& picture, const render::Frame& frame, bool is_watched, Journal& journal);
 
 /// The program's answer: 1 where a recording was asked for and is not whole.
 int answerOf(const RehearsalFigures& figures);

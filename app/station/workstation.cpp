@@ -7,7 +7,7 @@
 namespace app {
 namespace {
 
-constexpr double kLogged_s = 10.0;  // of ticks, while the recorder is held up
+constexpr double kLogged_s = 10.0;  // of ticks, while their reader is held up
 constexpr double kWrittenTogether_s = 0.5;
 
 std::unique_ptr<Recorder> recorderOf(const std::optional<Recording>& recording, const assets::Patient& patient,
@@ -27,21 +27,29 @@ std::unique_ptr<Recorder> recorderOf(const std::optional<Recording>& recording, 
                                     ticking == Ticking::by_hand ? Draining::by_hand : Draining::by_thread);
 }
 
+std::size_t roomAt(double rate_Hz) { return static_cast<std::size_t>(std::ceil(kLogged_s * rate_Hz)); }
+
+haptics::LoopSettings withSecondLog(haptics::LoopSettings settings, std::optional<haptics::TickLog>& log, bool wanted) {
+  if (wanted) settings.second_log = &log.emplace(roomAt(settings.rate_Hz));
+  return settings;
+}
+
 }  // namespace
 
 Workstation::Workstation(const assets::Patient& patient, std::unique_ptr<haptics::HapticDevice> device,
                          const haptics::LoopSettings& settings, const haptics::Command& command,
-                         const std::optional<Recording>& recording, Ticking ticking)
+                         const std::optional<Recording>& recording, Ticking ticking, bool keeps_ticks)
     : device_(std::move(device)),
       bone_(patient.ct.grid, patient.ct.solid, patient.ct.label),
       servo_(bone_),
       rate_Hz_(settings.rate_Hz),
       command_(haptics::limitedTo(device_->capabilities(), rate_Hz_, command)),
       commands_(command_),
-      log_(static_cast<std::size_t>(std::ceil(kLogged_s * rate_Hz_))),
+      log_(roomAt(rate_Hz_)),
       recorder_(recorderOf(recording, patient, settings.rate_Hz, command_, log_, ticking)),
       pedal_(settings.pedal),
-      loop_(servo_, servedAs(*device_, ticking), commands_, log_, newest_, settings) {}
+      loop_(servo_, servedAs(*device_, ticking), commands_, log_, newest_,
+            withSecondLog(settings, kept_ticks_, keeps_ticks)) {}
 
 void Workstation::start() {
   loop_.start();
@@ -66,6 +74,12 @@ void Workstation::step(std::uint64_t ticks) {
     if (recorder_) recorder_->drain();
     unwritten_ = 0;
   }
+}
+
+std::vector<haptics::Tick> Workstation::takeTicks() {
+  std::vector<haptics::Tick> ticks;
+  if (kept_ticks_) kept_ticks_->drainInto(ticks);
+  return ticks;
 }
 
 std::vector<haptics::HandAction> Workstation::takeActions() {

@@ -29,10 +29,11 @@ struct Recording {
 
 class Workstation {
  public:
-  /// Throws SessionError or haptics::DeviceError.
+  /// `keeps_ticks`: for takeTicks(). Throws SessionError or haptics::DeviceError.
   Workstation(const assets::Patient& patient, std::unique_ptr<haptics::HapticDevice> device,
               const haptics::LoopSettings& settings, const haptics::Command& command,
-              const std::optional<Recording>& recording, Ticking ticking = Ticking::by_itself);
+              const std::optional<Recording>& recording, Ticking ticking = Ticking::by_itself,
+              bool keeps_ticks = false);
 
   ~Workstation() { loop_.stop(); }
 
@@ -65,6 +66,9 @@ class Workstation {
   void setHome() { device_->setHome(); }
   haptics::TripLedger trips() { return loop_.trips(); }
   haptics::Tick newestTick() { return newest_.read(); }
+  /// Where they are kept: every tick since the last call, oldest first; after 10 s without a call the newest are
+  /// missing.
+  std::vector<haptics::Tick> takeTicks();
   haptics::CarvedBone& bone() { return bone_; }
   haptics::LoopFigures figures() const { return loop_.figures(); }
 
@@ -77,6 +81,7 @@ class Workstation {
   haptics::Latest<haptics::Command> commands_;
   haptics::Latest<haptics::Tick> newest_;
   haptics::TickLog log_;
+  std::optional<haptics::TickLog> kept_ticks_;
   std::unique_ptr<Recorder> recorder_;
   std::uint64_t unwritten_ = 0;  ///< by hand: ticks made since the recorder wrote
   const haptics::FootPedal* pedal_;

@@ -39,7 +39,6 @@ void SurgeonDisplay::open() {
   else
     options_.backend = rendererForWindow(options_.backend, tell_);
   fence_.emplace();
-  openRenderer();
 }
 
 void SurgeonDisplay::openOffscreen() {
@@ -51,11 +50,17 @@ void SurgeonDisplay::openOffscreen() {
   }
 }
 
-/// A driver that does not take the shaders: the next best renderer.
-void SurgeonDisplay::openRenderer() {
-  while (!renderer_) {
+render::FrameRenderer& SurgeonDisplay::renderer() {
+  if (!renderer_) renderer_ = newRenderer(make_renderer_);
+  return *renderer_;
+}
+
+std::unique_ptr<render::FrameRenderer> SurgeonDisplay::newRenderer(const MakeRenderer& make) {
+  for (;;) {
     try {
-      renderer_ = make_renderer_(*options_.backend);
+      return make(*options_.backend);
+    } catch (const render::ContextLost&) {
+      throw;
     } catch (const render::GpuError& error) {
       if (options_.backend == Backend::cpu) throw;
       const bool compute = options_.backend == Backend::gl_compute;
@@ -104,7 +109,7 @@ void SurgeonDisplay::show(render::Frame frame) {
 
 void SurgeonDisplay::drawAndPresent(render::Frame& frame) {
   const Clock::time_point begun = Clock::now();
-  renderer_->render(frame);
+  renderer().render(frame);
   if (!windows_) {
     renderer_->readPicture();
     handed_over_ = Clock::now();

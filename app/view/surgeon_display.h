@@ -33,8 +33,8 @@ class SurgeonDisplay {
     bool needs_window = true;  ///< the hand is the mouse: without a display there is nothing to do
   };
 
-  /// `make_renderer` is called with the context current: now, and again after a reset. Throws GpuError when nothing can
-  /// be opened.
+  /// `make_renderer` is called with the context current: for the first picture, and again after a reset. Throws
+  /// GpuError when nothing can be opened.
   SurgeonDisplay(const Options& options, MakeRenderer make_renderer, Tell tell);
   ~SurgeonDisplay();
 
@@ -56,7 +56,10 @@ class SurgeonDisplay {
   std::vector<render::WindowEvent> takeEvents() {
     return windows_ ? windows_->takeEvents() : std::vector<render::WindowEvent>{};
   }
-  render::FrameRenderer& renderer() { return *renderer_; }
+  /// Made when it is first asked for. Throws GpuError when not even the processor can.
+  render::FrameRenderer& renderer();
+  /// Another one, in the same context; of what the driver does not take the next best.
+  std::unique_ptr<render::FrameRenderer> newRenderer(const MakeRenderer& make);
   double refresh_Hz() { return windows_ ? windows_->first().refresh_Hz() : 60.0; }
   /// How often everything was made anew.
   int timesLost() const { return recovery_.timesLost(); }
@@ -70,7 +73,6 @@ class SurgeonDisplay {
  private:
   void open();
   void openOffscreen();
-  void openRenderer();
   void drawAndPresent(render::Frame& frame);
   void close();
 

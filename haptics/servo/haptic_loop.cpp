@@ -109,6 +109,7 @@ DeviceLoop::Answer HapticLoop::answer(const HandleState& state, const Beat& beat
 void HapticLoop::answered(double work_us) noexcept {
   tick_.work_us = static_cast<float>(work_us);
   log_.push(tick_);
+  if (settings_.second_log != nullptr) settings_.second_log->push(tick_);
   newest_.publish(tick_);
 
   ledger_.add(tick_.index, tick_.faults);

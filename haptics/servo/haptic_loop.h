@@ -27,6 +27,7 @@ struct LoopSettings {
   std::optional<int> priority = kServoPriority;                       ///< as DeviceLoop's
   ButtonMeanings buttons;                                             ///< of those on the handle
   const FootPedal* pedal = nullptr;                                   ///< drills beside them; borrowed
+  TickLog* second_log = nullptr;                                      ///< another reader's of every tick; borrowed
 };
 
 /// The command with its limits cut down to what the device can give and hold at this rate: peak force, torque and joint

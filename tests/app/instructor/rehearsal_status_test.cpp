@@ -23,6 +23,10 @@ TEST(RehearsalStatus, LineIsTheProceduresWhereOneLeads) {
   status.to_surgeon = "trial 2 of at most 40";
   status.to_instructor = "trial 2, felt: A";
   EXPECT_EQ(statusLine(status), "Molar   trial 2 of at most 40");
+  status.recording = RecordingState::ended_early;
+  EXPECT_EQ(statusLine(status), "Molar   NOT RECORDING   trial 2 of at most 40");
+  status.tick.state = haptics::SafetyState::fault;
+  EXPECT_EQ(statusLine(status).find("trial"), std::string::npos) << "safety first";
 }
 
 TEST(RehearsalStatus, LineWarnsOfWhatIsNotRecorded) {

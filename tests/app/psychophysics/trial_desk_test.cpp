@@ -18,9 +18,12 @@ class AtTheDesk : public testing::Test {
   std::optional<haptics::Command> at(double t_s, double depth_mm = -1.0, double force_N = 0.0) {
     haptics::Tick tick;
     tick.t_s = t_s;
+    tick.command_serial = serial_;
     tick.hand.X_PT.translation_mm = {0.0, 0.0, 2.0 - depth_mm};
     tick.served_force_P_N = {{0.0, 0.0, force_N}};
-    return desk_->follow({&tick, 1});
+    const auto wanted = desk_->follow({&tick, 1});
+    if (wanted) ++serial_;
+    return wanted;
   }
   /// Presses once into what is felt now, at `stiffness`.
   void feel(double t_s, double stiffness_N_per_mm) {
@@ -31,6 +34,7 @@ class AtTheDesk : public testing::Test {
   std::optional<Experiment> experiment_;
   std::optional<TrialDesk> desk_;
   std::vector<TrialRecord> records_;
+  std::uint64_t serial_ = 0;
 };
 
 TEST_F(AtTheDesk, EachKeyPutsItsStimulusIntoTheHand) {
@@ -95,11 +99,21 @@ TEST_F(AtTheDesk, MissesNoTickOfThoseItIsShown) {
   std::vector<haptics::Tick> ticks(10);
   for (std::size_t n = 0; n < ticks.size(); ++n) {
     ticks[n].t_s = 0.1 + 0.001 * static_cast<double>(n);
+    ticks[n].command_serial = serial_;
     ticks[n].served_force_P_N = {{0.0, 0.0, n == 4 ? 1.0 : 0.0}};
   }
   EXPECT_EQ(desk_->words().to_instructor, "trial 1, felt: none");
   EXPECT_FALSE(desk_->follow(ticks));
   EXPECT_EQ(desk_->words().to_instructor, "trial 1, felt: A") << "touched in between only";
+}
+
+TEST_F(AtTheDesk, CountsNothingFeltUnderTheCommandBefore) {
+  haptics::Tick late;
+  late.served_force_P_N = {{0.0, 0.0, 1.0}};
+  const std::vector<haptics::Tick> before(5, late);
+  ASSERT_TRUE(desk_->follow(before));
+  EXPECT_FALSE(desk_->follow(before));
+  EXPECT_EQ(desk_->words().to_instructor, "trial 1, felt: none");
 }
 
 TEST_F(AtTheDesk, TellsNothingOfWhatIsFelt) {

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <vector>
 
+#include "app/view/brick_upload.h"
+#include "haptics/servo/servo.h"
 #include "render/display/camera.h"
+#include "render/gpu/gpu_error.h"
 
 namespace app {
 namespace {
@@ -46,11 +49,56 @@ TEST(SurgeonDisplay, ComesBackWithTheSamePictureAfterEverythingWasLost) {
   display.show(frameAbove());
   const std::vector<std::uint8_t> before = display.renderer().readPicture().rgba;
   display.makeAnew();
-  EXPECT_EQ(renderers, 2);
   EXPECT_EQ(told_first, 1) << "what shares with the windows goes before them";
   display.show(frameAbove());
+  EXPECT_EQ(renderers, 2);
   EXPECT_EQ(display.renderer().readPicture().rgba, before);
   EXPECT_GT(std::count(before.begin(), before.end(), 0xff), 0) << "the control: something is drawn";
+}
+
+/// The card goes again while what lived on it is made anew: show() brings back bone and cut all the same.
+TEST(SurgeonDisplay, BringsTheCutBoneBackThroughALossWhileItIsShown) {
+  std::vector<std::uint8_t> solid(kGrid.voxelCount(), 0);
+  for (int k = 8; k < 24; ++k)
+    for (int j = 8; j < 24; ++j)
+      for (int i = 8; i < 24; ++i) solid[kGrid.index({i, j, k})] = 255;
+  haptics::CarvedBone bone(kGrid, solid, {});
+  BrickUpload upload;
+  int renderers = 0;
+  SurgeonDisplay display(
+      onTheProcessor(),
+      [&](render::Backend backend) {
+        if (++renderers == 2) throw render::ContextLost("the graphics card was reset");
+        auto renderer = std::make_unique<render::FrameRenderer>(kGrid, solid, std::vector<std::uint8_t>{},
+                                                                render::RenderOptions{.backend = backend});
+        upload.bringAgain(bone, *renderer);
+        return renderer;
+      },
+      [](const std::string&) {});
+  display.show(frameAbove());
+  const std::vector<std::uint8_t> whole = display.renderer().readPicture().rgba;
+
+  haptics::Servo servo(bone);
+  haptics::Command command;
+  command.tool.head.radius_mm = 1.5;
+  command.erosion.time.removal_rate_per_s = 1000.0;
+  haptics::HandSample hand;
+  hand.drill_pedal = true;
+  hand.X_PT.translation_mm = {0.0, 0.0, 6.0};
+  for (int spin_up = 0; spin_up < 2000; ++spin_up) servo.step(hand, command, 0.001);
+  hand.X_PT.translation_mm = {0.0, 0.0, 2.4};
+  ASSERT_GT(servo.step(hand, command, 0.001).removed_mm3, 0.5);
+  ASSERT_GT(upload.bring(bone, display.renderer()), 0u);
+  display.show(frameAbove());
+  const std::vector<std::uint8_t> cut = display.renderer().readPicture().rgba;
+  ASSERT_NE(cut, whole);
+
+  display.makeAnew();
+  display.show(frameAbove());
+  EXPECT_EQ(display.timesLost(), 1);
+  EXPECT_EQ(renderers, 3);
+  EXPECT_EQ(display.backend(), render::Backend::cpu);
+  EXPECT_EQ(display.renderer().readPicture().rgba, cut);
 }
 
 }  // namespace
