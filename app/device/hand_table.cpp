@@ -32,6 +32,8 @@ constexpr std::array<HandKind, 6> kHands = {{
 
 }  // namespace
 
+std::span<const HandKind> handKinds() { return kHands; }
+
 std::string restOf(const std::string& address) {
   const std::size_t colon = address.find(':');
   return colon == std::string::npos ? std::string() : address.substr(colon + 1);

@@ -3,6 +3,7 @@
 // Plain data; any thread.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -20,6 +21,7 @@ struct HandKind {
   HandAtWork (*begin)(const std::string& rest, const HandCase& at);
 };
 
+std::span<const HandKind> handKinds();
 /// Of this address; null for what is none, a real device too. Throws UsageError for one that goes on wrongly and says
 /// how.
 const HandKind* handKindOf(const std::string& address);
