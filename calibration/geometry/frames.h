@@ -12,8 +12,6 @@ struct OtherTool {};    ///< O: what the other hand holds, as its mesh has it; +
 struct Patient {};      ///< P: LPS as the scan; x to the patient's left, y posterior, z superior
 struct Screen {};       ///< S: the physical panel
 struct ScreenImage {};  ///< I: the panel's mirror image, the virtual screen
-struct LeftEye {};      ///< L
-struct RightEye {};     ///< R
 struct Camera {};       ///< C: a webcam
 struct Board {};        ///< B: calibration board or jig
 struct Face {};         ///< F: glTF axes of a face model, in mm; x to the patient's left, y up, z forward
