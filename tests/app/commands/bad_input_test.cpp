@@ -41,7 +41,8 @@ TEST_F(BadInput, FilesAreNamed) {
                     " --out " + at("c.nrrd"),
                 "hour");
   for (const char* name : {"missing.csv", "bad.csv", "v.nrrd"}) expectRefusal(feel("v.nrrd", name), name);
-  expectRefusal("see --volume " + at("v.nrrd") + " --rig " + at("p.csv") + " --out " + at("a.png"), "rig file");
+  expectRefusal("see --volume " + at("v.nrrd") + " --field solid --rig " + at("p.csv") + " --out " + at("a.png"),
+                "rig file");
   expectRefusal("see --patient " + at("nobody") + " --out " + at("a.png"), "nobody");
   expectRefusal("rehearse " + at("nobody") + " --headless --device scripted", "nobody");
   expectRefusal("replay " + at("v.nrrd") + " --verify", "v.nrrd");
