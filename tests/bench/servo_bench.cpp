@@ -56,10 +56,6 @@ void print(const char* scene, double s, double R, const Figures& figures, double
   std::printf("\n");
 }
 
-const char* nameOf(assets::InstructionSet set) {
-  return set == assets::InstructionSet::avx512 ? "AVX-512" : set == assets::InstructionSet::avx2 ? "AVX2" : "portable";
-}
-
 /// Bone of which 55 % of the voxels hold anything, at random: nothing is empty and nothing full.
 Phantom trabecular(double half_mm, double s) {
   Phantom phantom = block(half_mm, s);
@@ -87,8 +83,8 @@ glm::dvec3 place(int i, double R, const Scene& scene) {
 }
 
 void sums() {
-  std::printf("one sum, %s\n%-24s %4s %4s %9s %9s %9s %9s %9s\n", nameOf(assets::chosenInstructionSet()), "scene", "s",
-              "R", "p10 us", "p50 us", "p99 us", "max us", "twin/p10");
+  std::printf("one sum, %s\n%-24s %4s %4s %9s %9s %9s %9s %9s\n", nameOf(assets::chosenInstructionSet()).data(),
+              "scene", "s", "R", "p10 us", "p50 us", "p99 us", "max us", "twin/p10");
   volatile double sink = 0.0;
   for (const Scene& scene : kScenes)
     for (double s : {0.2, 0.1})
@@ -158,14 +154,15 @@ void instructionSets() {
   for (assets::InstructionSet set :
        {assets::InstructionSet::portable, assets::InstructionSet::avx2, assets::InstructionSet::avx512}) {
     if (!assets::available(set)) {
-      std::printf("%-24s not on this machine\n", nameOf(set));
+      std::printf("%-24s not on this machine\n", nameOf(set).data());
       continue;
     }
     const auto one = [&](int i) {
       return sphereOverlapBy(set, field, {centre.mm + glm::dvec3(0.0005 * i, 0.0, 0.0)}, 4.0, nullptr).volume_mm3;
     };
     const auto fast = measure(1000, [&](int i) { sink = one(i); });
-    std::printf("%-24s p10 %7.1f us, volume off by %.1e of itself\n", nameOf(set), fast.p10, one(0) / exact - 1.0);
+    std::printf("%-24s p10 %7.1f us, volume off by %.1e of itself\n", nameOf(set).data(), fast.p10,
+                one(0) / exact - 1.0);
   }
 }
 
