@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "assets/load_error.h"
+#include "tests/refusal.h"
 
 namespace {
 
@@ -38,12 +39,7 @@ class Output : public testing::Test {
 };
 
 std::string refusalOf(const auto& act) {
-  try {
-    act();
-  } catch (const LoadError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return tests::refusalOf<LoadError>([&] { act(); });
 }
 
 TEST_F(Output, AppearsWholeAtCommitAndNotBefore) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <unistd.h>
+#include <zlib.h>
 
 #include <array>
 #include <cstdint>
@@ -36,6 +37,31 @@ class Folder {
   }
   std::filesystem::path path_ = std::filesystem::temp_directory_path() / ownName();
 };
+
+/// Windows of zlib.
+constexpr int kGzip = 15 + 16, kZlib = 15;
+
+/// Through zlib.
+inline std::string packed(const std::string& bytes, int window = kGzip) {
+  z_stream stream{};
+  deflateInit2(&stream, 6, Z_DEFLATED, window, 8, Z_DEFAULT_STRATEGY);
+  std::string out(bytes.size() + 200, '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  stream.next_out = reinterpret_cast<Bytef*>(out.data());
+  stream.avail_out = static_cast<uInt>(out.size());
+  EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
+  out.resize(stream.total_out);
+  deflateEnd(&stream);
+  return out;
+}
+
+/// The first place of it; it must be there.
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
 
 inline void write(const std::string& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
 

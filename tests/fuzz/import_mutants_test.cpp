@@ -7,8 +7,8 @@
 #include "assets/load_error.h"
 #include "assets/tooth.h"
 #include "tests/assets/scan_on_disk.h"
-#include "tests/fuzz/refusal.h"
 #include "tests/mutants.h"
+#include "tests/refusal.h"
 
 namespace {
 
@@ -59,11 +59,11 @@ void judge(const std::string& damaged) {
   if (damaged == "teeth.nrrd") on_disk::write(folder.at("teeth.nrrd"), head + on_disk::bytesOf(voxels.tooth));
   const std::string good = on_disk::read(folder.at(damaged));
   const auto import = [&] { expectWhole(assets::importScan(folder.at(""), {})); };
-  EXPECT_EQ(fuzz::refusalOf<assets::LoadError>(import), "accepted");
+  EXPECT_EQ(tests::refusalOf<assets::LoadError>(import), "accepted");
   constexpr std::uint64_t kImportCosts = 10;
   const auto judge_one = [&](const std::string& mutant, std::size_t, std::uint64_t) {
     on_disk::write(folder.at(damaged), mutant);
-    fuzz::refusalOf<assets::LoadError>(import);
+    tests::refusalOf<assets::LoadError>(import);
   };
   mutants::forEachMutant({good}, 100, judge_one, kImportCosts);
 }

@@ -1,6 +1,5 @@
 // A damaged scan is refused in one line, or what is read is what stands in the file: never a patient that is made up.
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <cstring>
 #include <functional>
@@ -9,8 +8,8 @@
 #include "assets/load_error.h"
 #include "assets/scan/image_file.h"
 #include "tests/assets/scan_on_disk.h"
-#include "tests/fuzz/refusal.h"
 #include "tests/mutants.h"
+#include "tests/refusal.h"
 
 namespace {
 
@@ -20,27 +19,6 @@ std::vector<std::int16_t> greys() {
   std::vector<std::int16_t> values(210);
   for (std::size_t v = 0; v < values.size(); ++v) values[v] = static_cast<std::int16_t>(37 * v % 2200 - 1000);
   return values;
-}
-
-std::string packed(const std::string& bytes, int window) {
-  z_stream stream{};
-  deflateInit2(&stream, 6, Z_DEFLATED, window, 8, Z_DEFAULT_STRATEGY);
-  std::string out(bytes.size() + 200, '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-  stream.avail_in = static_cast<uInt>(bytes.size());
-  stream.next_out = reinterpret_cast<Bytef*>(out.data());
-  stream.avail_out = static_cast<uInt>(out.size());
-  EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
-  out.resize(stream.total_out);
-  deflateEnd(&stream);
-  return out;
-}
-constexpr int kGzip = 15 + 16, kZlib = 15;
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
 }
 
 std::string asText() {
@@ -70,8 +48,8 @@ std::vector<Seed> nrrdSeeds() {
     list += name + "\n";
   }
   return {{"a.nrrd", head, raw},
-          {"gz.nrrd", replaced(head, "raw", "gzip"), packed(raw, kGzip), false},
-          {"txt.nrrd", replaced(head, "raw", "ascii"), asText(), false},
+          {"gz.nrrd", on_disk::replaced(head, "raw", "gzip"), on_disk::packed(raw, on_disk::kGzip), false},
+          {"txt.nrrd", on_disk::replaced(head, "raw", "ascii"), asText(), false},
           {"one.nhdr", detached + "data file: v.raw\n", "", false, {{"v.raw", raw}}},
           {"list.nhdr", detached + "data file: LIST\n" + list, "", false, slices},
           {"numbered.nhdr", detached + "data file: s%d.raw 0 6 1\n", "", false, slices},
@@ -94,7 +72,7 @@ std::vector<Seed> niftiSeeds() {
   return {{"a.nii", whole.substr(0, 352), raw},
           {"q.nii", turned.substr(0, 352), raw},
           {"rescaled.nii", rescaled, "", false},
-          {"a.nii.gz", packed(whole, kGzip), "", false}};
+          {"a.nii.gz", on_disk::packed(whole, on_disk::kGzip), "", false}};
 }
 
 std::vector<Seed> metaSeeds() {
@@ -108,11 +86,12 @@ std::vector<Seed> metaSeeds() {
     list += name + "\n";
   }
   return {{"a.mha", head, raw},
-          {"z.mha", replaced(head, "CompressedData = False", "CompressedData = True"), packed(raw, kZlib), false},
-          {"txt.mha", replaced(head, "BinaryData = True", "BinaryData = False"), asText(), false},
-          {"one.mhd", replaced(head, "LOCAL", "v.raw"), "", false, {{"v.raw", raw}}},
-          {"list.mhd", replaced(head, "LOCAL", "LIST 2D") + list, "", false, slices},
-          {"numbered.mhd", replaced(head, "LOCAL", "s%d.raw 0 6 1"), "", false, slices}};
+          {"z.mha", on_disk::replaced(head, "CompressedData = False", "CompressedData = True"),
+           on_disk::packed(raw, on_disk::kZlib), false},
+          {"txt.mha", on_disk::replaced(head, "BinaryData = True", "BinaryData = False"), asText(), false},
+          {"one.mhd", on_disk::replaced(head, "LOCAL", "v.raw"), "", false, {{"v.raw", raw}}},
+          {"list.mhd", on_disk::replaced(head, "LOCAL", "LIST 2D") + list, "", false, slices},
+          {"numbered.mhd", on_disk::replaced(head, "LOCAL", "s%d.raw 0 6 1"), "", false, slices}};
 }
 
 /// Is what was read what stands behind the unchanged header?
@@ -136,13 +115,13 @@ void judge(const std::vector<Seed>& seeds) {
     for (const auto& [name, bytes] : seed.beside) on_disk::write(folder.at(name), bytes);
     good.push_back(seed.header + seed.voxels);
     on_disk::write(folder.at(seed.name), good.back());
-    EXPECT_EQ(fuzz::refusalOf<assets::LoadError>([&] { assets::readHounsfield(folder.at(seed.name)); }), "accepted")
+    EXPECT_EQ(tests::refusalOf<assets::LoadError>([&] { assets::readHounsfield(folder.at(seed.name)); }), "accepted")
         << seed.name;
   }
   std::uint64_t refused = 0, tried = 0;
   mutants::forEachMutant(good, 1000, [&](const std::string& mutant, std::size_t which, std::uint64_t) {
     on_disk::write(folder.at(seeds[which].name), mutant);
-    const std::string refusal = fuzz::refusalOf<assets::LoadError>([&] {
+    const std::string refusal = tests::refusalOf<assets::LoadError>([&] {
       const auto image = assets::readHounsfield(folder.at(seeds[which].name));
       expectTrue(seeds[which], mutant, image);
     });
@@ -163,10 +142,10 @@ TEST(ScanMutants, MetaImageIsReadAsItStandsOrRefused) { judge(metaSeeds()); }
 TEST(ScanMutants, ADetachedDataFileIsReadAsItStandsOrRefused) {
   const on_disk::Folder folder;
   const std::string raw = on_disk::bytesOf(greys());
-  on_disk::write(folder.at("a.mhd"), replaced(on_disk::meta(kSmall, "MET_SHORT", ""), "LOCAL", "v.raw"));
+  on_disk::write(folder.at("a.mhd"), on_disk::replaced(on_disk::meta(kSmall, "MET_SHORT", ""), "LOCAL", "v.raw"));
   mutants::forEachMutant({raw}, 500, [&](const std::string& mutant, std::size_t, std::uint64_t) {
     on_disk::write(folder.at("v.raw"), mutant);
-    const std::string refusal = fuzz::refusalOf<assets::LoadError>([&] {
+    const std::string refusal = tests::refusalOf<assets::LoadError>([&] {
       const auto image = assets::readHounsfield(folder.at("a.mhd"));
       EXPECT_EQ(on_disk::bytesOf(image.hounsfield), mutant.substr(0, raw.size()));
     });

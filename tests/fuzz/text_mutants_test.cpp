@@ -19,18 +19,18 @@
 #include "calibration/record/rig_file.h"
 #include "tests/assets/scan_on_disk.h"
 #include "tests/calibration/record/full_record.h"
-#include "tests/fuzz/refusal.h"
 #include "tests/mutants.h"
+#include "tests/refusal.h"
 
 namespace {
 
 template <class Refusal>
 void judge(const std::string& good, const std::function<void(const std::string&)>& read) {
-  EXPECT_EQ(fuzz::refusalOf<Refusal>([&] { read(good); }), "accepted");
+  EXPECT_EQ(tests::refusalOf<Refusal>([&] { read(good); }), "accepted");
   std::uint64_t refused = 0, tried = 0;
   const auto judge_one = [&](const std::string& mutant, std::size_t, std::uint64_t) {
     ++tried;
-    refused += fuzz::refusalOf<Refusal>([&] { read(mutant); }) == "accepted" ? 0 : 1;
+    refused += tests::refusalOf<Refusal>([&] { read(mutant); }) == "accepted" ? 0 : 1;
   };
   constexpr std::uint64_t kSmallTextsCost = 10;
   mutants::forEachMutant({good}, 500, judge_one, kSmallTextsCost);

@@ -9,8 +9,8 @@
 #include "assets/scan/vdb_file.h"
 #include "assets/scan/volume_reader.h"
 #include "tests/assets/scan_on_disk.h"
-#include "tests/fuzz/refusal.h"
 #include "tests/mutants.h"
+#include "tests/refusal.h"
 
 namespace {
 
@@ -52,7 +52,7 @@ TEST(VolumeMutants, AForgedVolumeIsReadOrRefusedWhateverItDoesToItsReader) {
   const auto judge = [&](const std::string& mutant, std::size_t, std::uint64_t) {
     on_disk::write(folder.at("v.vdb"), mutant);
     assets::seal(folder.at("v.vdb"));
-    const std::string refusal = fuzz::refusalOf<assets::LoadError>([&] {
+    const std::string refusal = tests::refusalOf<assets::LoadError>([&] {
       const auto volume = readWithinNarrowLimits(folder.at("v.vdb"));
       EXPECT_EQ(volume.hounsfield.size(), volume.grid.voxelCount());
       EXPECT_EQ(volume.solid.size(), volume.grid.voxelCount());
@@ -74,7 +74,7 @@ TEST(VolumeMutants, AnUnsealedChangeIsAlwaysNoticed) {
   mutants::forEachMutant({sealed}, 300, [&](const std::string& mutant, std::size_t, std::uint64_t) {
     if (mutant == sealed) return;
     on_disk::write(folder.at("v.vdb"), mutant);
-    EXPECT_NE(fuzz::refusalOf<assets::LoadError>([&] { assets::refuseUnlessSealed(folder.at("v.vdb")); }), "accepted");
+    EXPECT_NE(tests::refusalOf<assets::LoadError>([&] { assets::refuseUnlessSealed(folder.at("v.vdb")); }), "accepted");
   });
 }
 

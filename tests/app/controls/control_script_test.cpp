@@ -4,6 +4,7 @@
 
 #include "app/options/tool_text.h"
 #include "app/text/usage_error.h"
+#include "tests/refusal.h"
 
 namespace app {
 namespace {
@@ -32,12 +33,7 @@ std::vector<ControlWish> due(ControlScript& script, std::uint64_t next_tick) {
 }
 
 std::string refusal(const HandAsks& asked) {
-  try {
-    ControlScript({asked}, tray(), 1000.0);
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return tests::refusalOf<UsageError>([&] { ControlScript({asked}, tray(), 1000.0); });
 }
 
 TEST(ControlScript, AsksAtTheFirstTickThatDoesNotBeginBeforeTheRow) {

@@ -17,6 +17,7 @@
 #include "assets/scan/image_file.h"
 #include "assets/scan/solid_fraction.h"
 #include "tests/assets/scan_on_disk.h"
+#include "tests/refusal.h"
 #include "tests/shared_data.h"
 
 namespace {
@@ -27,22 +28,11 @@ using testing::HasSubstr;
 using testing::Not;
 
 std::string refusalOf(const std::string& source, const assets::ScanChoices& choices = {}) {
-  try {
-    importScan(source, choices);
-  } catch (const assets::LoadError& error) {
-    EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
-    return error.what();
-  }
-  return "accepted";
+  return tests::refusalOf<assets::LoadError>([&] { importScan(source, choices); });
 }
 
 std::string refusalOfReading(const std::string& path) {
-  try {
-    assets::readHounsfield(path);
-  } catch (const assets::LoadError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return tests::refusalOf<assets::LoadError>([&] { assets::readHounsfield(path); });
 }
 
 double distanceToLine(const std::vector<glm::dvec3>& line, const glm::dvec3& p) {

@@ -7,6 +7,7 @@
 #include "assets/patient/patient_toml.h"
 #include "assets/scenery/face_frame.h"
 #include "tests/assets/scan_on_disk.h"
+#include "tests/refusal.h"
 
 namespace {
 
@@ -15,13 +16,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 std::string refusalOf(const auto& act) {
-  try {
-    act();
-  } catch (const assets::LoadError& error) {
-    EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
-    return error.what();
-  }
-  return "accepted";
+  return tests::refusalOf<assets::LoadError>([&] { act(); });
 }
 
 assets::MeshPart triangle(const std::string& name) {

@@ -11,6 +11,7 @@
 
 #include "assets/load_error.h"
 #include "tests/assets/scan_on_disk.h"
+#include "tests/refusal.h"
 
 namespace {
 
@@ -20,13 +21,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 std::string refusalOf(const auto& act) {
-  try {
-    act();
-  } catch (const assets::LoadError& error) {
-    EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
-    return error.what();
-  }
-  return "accepted";
+  return tests::refusalOf<assets::LoadError>([&] { act(); });
 }
 
 const on_disk::Scan kSmall{{3, 4, 5}, glm::dmat3(0.5), {10, -20, 30}};

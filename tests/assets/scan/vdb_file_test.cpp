@@ -11,6 +11,7 @@
 #include "assets/load_error.h"
 #include "assets/scan/file_seal.h"
 #include "tests/assets/scan_on_disk.h"
+#include "tests/refusal.h"
 #include "tests/shared_data.h"
 
 namespace {
@@ -20,13 +21,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 std::string refusalOf(const std::string& path) {
-  try {
-    assets::readVdb(path);
-  } catch (const assets::LoadError& error) {
-    EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
-    return error.what();
-  }
-  return "accepted";
+  return tests::refusalOf<assets::LoadError>([&] { assets::readVdb(path); });
 }
 
 /// Air around a block of every grey value there is; sizes that leave the last leaves partly outside.

@@ -14,18 +14,14 @@
 #include "assets/load_error.h"
 #include "assets/scan/vdb_file.h"
 #include "tests/assets/scan_on_disk.h"
+#include "tests/refusal.h"
 
 namespace {
 
 using testing::HasSubstr;
 
 std::string refusalOf(const std::function<void()>& read) {
-  try {
-    read();
-  } catch (const assets::LoadError& refusal) {
-    return refusal.what();
-  }
-  return "accepted";
+  return tests::refusalOf<assets::LoadError>([&] { read(); });
 }
 
 /// A process that answers so and ends so.

@@ -9,6 +9,7 @@
 
 #include "calibration/arm/phantom_models.h"
 #include "calibration/synthetic/synthetic_rig.h"
+#include "tests/refusal.h"
 
 namespace calibration {
 namespace {
@@ -84,13 +85,7 @@ double median(std::vector<double> values) {
 }
 
 std::string refusal(const TouchSet& set) {
-  try {
-    fitArm(set);
-  } catch (const CalibrationError& error) {
-    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-    return error.what();
-  }
-  return "accepted";
+  return tests::refusalOf<CalibrationError>([&] { fitArm(set); });
 }
 
 TouchSet flipped(TouchSet set, int axis) {

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "calibration/arm/phantom_models.h"
+#include "tests/refusal.h"
 
 namespace calibration {
 namespace {
@@ -34,12 +35,7 @@ std::vector<RawJoints> swung(double side_rad, double up_rad, int n = 20, double 
 }
 
 std::string refusal(const std::vector<RawJoints>& holds) {
-  try {
-    pivoted(kOmniGeometry, {}, holds);
-  } catch (const CalibrationError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return tests::refusalOf<CalibrationError>([&] { pivoted(kOmniGeometry, {}, holds); });
 }
 
 TEST(Pivot, FindsTheEndOfABur) {

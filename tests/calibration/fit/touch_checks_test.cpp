@@ -8,6 +8,7 @@
 
 #include "calibration/arm/phantom_models.h"
 #include "calibration/geometry/units.h"
+#include "tests/refusal.h"
 
 namespace calibration {
 namespace {
@@ -23,12 +24,7 @@ TouchSet fiveTouches() {
 }
 
 std::string refusal(const TouchSet& set) {
-  try {
-    checkTouches(set);
-  } catch (const CalibrationError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return tests::refusalOf<CalibrationError>([&] { checkTouches(set); });
 }
 
 TEST(TouchChecks, LetGoodTouchesPass) { EXPECT_EQ(refusal(fiveTouches()), "accepted"); }

@@ -12,6 +12,7 @@
 #include "calibration/webcam/board.h"
 #include "calibration/webcam/picture_reader.h"
 #include "tests/calibration/webcam/seen_screen.h"
+#include "tests/refusal.h"
 
 namespace calibration {
 namespace {
@@ -50,12 +51,7 @@ std::vector<BoardView> views(std::size_t n, double slant, double noise_px, doubl
 }
 
 std::string refusal(const std::vector<BoardView>& given) {
-  try {
-    fitIntrinsics(kWebcam.size_px, boardPlaces(), given);
-  } catch (const CalibrationError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return tests::refusalOf<CalibrationError>([&] { fitIntrinsics(kWebcam.size_px, boardPlaces(), given); });
 }
 
 TEST(Intrinsics, FindTheLensThatTookTheViews) {

@@ -5,6 +5,8 @@
 
 #include <atomic>
 
+#include "tests/refusal.h"
+
 namespace calibration {
 namespace {
 
@@ -48,12 +50,7 @@ LivePictures picturesOf(Camera& camera, std::chrono::milliseconds frame_patience
 }
 
 std::string refusal(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const CalibrationError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return tests::refusalOf<CalibrationError>([&] { act(); });
 }
 
 TEST(LivePictures, GiveAPictureThatBeganAfterTheCall) {

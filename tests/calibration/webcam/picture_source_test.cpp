@@ -7,6 +7,7 @@
 
 #include "calibration/picture_file.h"
 #include "calibration/webcam/webcam_source.h"
+#include "tests/refusal.h"
 
 namespace calibration {
 namespace {
@@ -14,13 +15,7 @@ namespace {
 using testing::HasSubstr;
 
 std::string refusal(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const CalibrationError& error) {
-    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << "a refusal is one line";
-    return error.what();
-  }
-  return "accepted";
+  return tests::refusalOf<CalibrationError>([&] { act(); });
 }
 
 TEST(PictureFolder, GivesItsPicturesByTheirNumbers) {

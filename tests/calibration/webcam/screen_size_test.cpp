@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/refusal.h"
+
 namespace calibration {
 namespace {
 
@@ -11,12 +13,7 @@ using testing::HasSubstr;
 const ScreenCorners kBelieved = desktopRig({1920, 1080}, 500.0).screen;
 
 std::string refusal(const MeasuredBars& bars) {
-  try {
-    checkedSize(kBelieved, bars);
-  } catch (const CalibrationError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return tests::refusalOf<CalibrationError>([&] { checkedSize(kBelieved, bars); });
 }
 
 TEST(ScreenSize, LeavesAScreenAloneThatARulerFindsRight) {

@@ -10,6 +10,7 @@
 
 #include "calibration/fit/target_plan.h"
 #include "calibration/synthetic/webcam_sights.h"
+#include "tests/refusal.h"
 
 namespace calibration {
 namespace {
@@ -147,13 +148,7 @@ TEST(WebcamFit, IsFarBetterThanOnePositionAlone) {
 }
 
 std::string refusal(const WebcamSights& sights) {
-  try {
-    fitWebcam(sights);
-  } catch (const CalibrationError& error) {
-    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-    return error.what();
-  }
-  return "accepted";
+  return tests::refusalOf<CalibrationError>([&] { fitWebcam(sights); });
 }
 
 TEST(WebcamFit, RefusesWhatWouldLookGoodAndBeWrong) {

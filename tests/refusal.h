@@ -1,16 +1,16 @@
-// What a reader says of a file: its one line, or "accepted".
+// What a refusal says: its one line, or "accepted".
 #pragma once
 
 #include <string>
 
 #include <gtest/gtest.h>
 
-namespace fuzz {
+namespace tests {
 
-template <class Refusal, class Read>
-std::string refusalOf(const Read& read) {
+template <class Refusal, class Act>
+std::string refusalOf(const Act& act) {
   try {
-    read();
+    act();
   } catch (const Refusal& refusal) {
     const std::string text = refusal.what();
     EXPECT_EQ(text.find('\n'), std::string::npos) << text;
@@ -20,4 +20,4 @@ std::string refusalOf(const Read& read) {
   return "accepted";
 }
 
-}  // namespace fuzz
+}  // namespace tests
