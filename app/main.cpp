@@ -11,9 +11,8 @@
 #include <new>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
 #include "app/commands/command.h"
+#include "app/text/command_line.h"
 #include "assets/output_file.h"
 
 namespace {
@@ -42,33 +41,24 @@ void holdStandardStreams() {
 }
 
 int run(int argc, char** argv) {
-  CLI::App molar{"Molar: rehearse a third-molar extraction, seen and felt. A training device, not a clinical one."};
-  molar.require_subcommand(1);
-  molar.set_version_flag("--version", MOLAR_VERSION);
-  app::Chosen chosen;
-  app::addRehearse(molar, chosen);
-  app::addImport(molar, chosen);
-  app::addInspect(molar, chosen);
-  app::addFeel(molar, chosen);
-  app::addCarve(molar, chosen);
-  app::addSee(molar, chosen);
-  app::addDisplay(molar, chosen);
-  app::addCalibrate(molar, chosen);
-  app::addDevices(molar, chosen);
-  app::addDoctor(molar, chosen);
-  app::addReplay(molar, chosen);
-  app::addMetrics(molar, chosen);
-  app::addExport(molar, chosen);
-  app::addLaws(molar, chosen);
-  app::addPsychophysics(molar, chosen);
-  try {
-    molar.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    // Help and version are answers, everything else is a refusal.
-    if (error.get_exit_code() == 0) return molar.exit(error);
-    return refuse("command line: " + std::string(error.what()) + ", see molar --help or molar COMMAND --help");
-  }
-  const int status = chosen.action();
+  app::CommandLine molar(
+      "Molar: rehearse a third-molar extraction, seen and felt. A training device, not a clinical one.", MOLAR_VERSION);
+  app::addRehearse(molar);
+  app::addImport(molar);
+  app::addInspect(molar);
+  app::addFeel(molar);
+  app::addCarve(molar);
+  app::addSee(molar);
+  app::addDisplay(molar);
+  app::addCalibrate(molar);
+  app::addDevices(molar);
+  app::addDoctor(molar);
+  app::addReplay(molar);
+  app::addMetrics(molar);
+  app::addExport(molar);
+  app::addLaws(molar);
+  app::addPsychophysics(molar);
+  const int status = molar.run(argc, argv);
   if (std::fflush(stdout) != 0 || std::ferror(stdout))
     return refuse("standard output: the answer can not be written, check where it goes");
   return status;

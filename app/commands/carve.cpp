@@ -6,7 +6,6 @@
 #include <limits>
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "app/commands/command.h"
@@ -15,6 +14,7 @@
 #include "app/options/settings_text.h"
 #include "app/options/tool_text.h"
 #include "app/options/volume_option.h"
+#include "app/text/command_line.h"
 #include "assets/scan/image_file.h"
 #include "haptics/bone/carve.h"
 #include "haptics/contact/cut_moment.h"
@@ -162,26 +162,26 @@ int carve(const CarveOptions& options) {
 
 }  // namespace
 
-void addCarve(CLI::App& molar, Chosen& chosen) {
+void addCarve(CommandLine& molar) {
   auto options = std::make_shared<CarveOptions>();
-  CLI::App* command = molar.add_subcommand("carve", "Carving along timed poses: carved NRRD, removed mm³ as JSON");
-  options->volume.addTo(*command);
-  command->add_option("--tool", options->tool, kHeadHelp)->required();
-  command->add_option("--erosion", options->erosion, "Erosion law: time, dose or machining")
-      ->check(CLI::IsMember(erosionNames()))
-      ->capture_default_str();
-  command->add_option("--set", options->settings, "key=value, see below");
-  command->add_option("--poses", options->poses, "t_s,px_mm,py_mm,pz_mm,qw,qx,qy,qz[,drill] (X_PT)")->required();
-  command->add_option("--out", options->out, "Solid fraction that is left, .nrrd")->required();
-  command->add_flag("--force", options->force, "Replace the output if it exists");
-  command->footer(
+  CommandLine& command = molar.command("carve", "Carving along timed poses: carved NRRD, removed mm³ as JSON");
+  options->volume.addTo(command);
+  command.option("--tool", options->tool, kHeadHelp).required();
+  command.option("--erosion", options->erosion, "Erosion law: time, dose or machining")
+      .oneOf(erosionNames())
+      .showsDefault();
+  command.option("--set", options->settings, "key=value, see below");
+  command.option("--poses", options->poses, "t_s,px_mm,py_mm,pz_mm,qw,qx,qy,qz[,drill] (X_PT)").required();
+  command.option("--out", options->out, "Solid fraction that is left, .nrrd").required();
+  command.flag("--force", options->force, "Replace the output if it exists");
+  command.footer(
       erosionHelp() +
       "  dose and machining, besides: what presses the bur on,\n"
       "    normal_force_N (N): pays for dose; loads the spindle\n"
       "    stiffness_N_per_mm (N/mm): dose without normal_force_N takes k h of the law agus at each pose\n"
       "The spindle turns at spindle_rpm while the pedal is down, slower under load; machining takes its feed from the "
       "poses.");
-  command->callback([options, &chosen] { chosen.action = [options] { return carve(*options); }; });
+  command.does([options] { return carve(*options); });
 }
 
 }  // namespace app

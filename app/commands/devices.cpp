@@ -9,14 +9,12 @@
 #include <iostream>
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
 #include "app/commands/command.h"
 #include "app/device/check/device_check.h"
 #include "app/device/check/obedient_hand.h"
 #include "app/device/device_table.h"
 #include "app/device/falcon_scale_file.h"
-#include "app/text/number_range.h"
+#include "app/text/command_line.h"
 #include "app/text/page_look.h"
 #include "app/text/usage_error.h"
 #include "app/text/written_text.h"
@@ -138,27 +136,22 @@ int list(bool json) {
 
 }  // namespace
 
-void addDevices(CLI::App& molar, Chosen& chosen) {
+void addDevices(CommandLine& molar) {
   auto json = std::make_shared<bool>(false);
   auto o = std::make_shared<CheckOptions>();
   o->falcon_scale = usualFalconScaleFile();
-  CLI::App* devices = molar.add_subcommand("devices", "What is plugged in and what drives it; proving a unit");
-  devices->add_flag("--json", *json, "For programs");
-  CLI::App* command = devices->add_subcommand("check", "Prove a unit, ten minutes with a kitchen balance: a report");
-  command->add_option("ADDRESS", o->address, "As molar devices lists it, or simulated:omni [the first real one]");
-  command->add_option("--report", o->report, "The page to write, Markdown")->type_name("FILE")->capture_default_str();
-  command->add_flag("--force", o->force, "Replace a report that exists");
-  command->add_option("--rate", o->rate_Hz, "Servo rate, Hz")
-      ->check(numberRange(500.0, 10'000.0))
-      ->capture_default_str();
-  command->add_option("--rate-seconds", o->rate_seconds, "How long the rate is watched, s")
-      ->check(numberRange(0.5, 600.0))
-      ->capture_default_str();
-  command->add_option("--falcon-firmware", o->falcon_firmware, "Novint's firmware for a Falcon")->type_name("FILE");
-  command->add_option("--falcon-scale", o->falcon_scale, "Where a Falcon's force scale is kept")->type_name("FILE");
-  devices->callback([json, o, command, &chosen] {
-    chosen.action = [json, o, is_check = command->parsed()] { return is_check ? check(*o) : list(*json); };
-  });
+  CommandLine& devices = molar.command("devices", "What is plugged in and what drives it; proving a unit");
+  devices.flag("--json", *json, "For programs");
+  CommandLine& command = devices.command("check", "Prove a unit, ten minutes with a kitchen balance: a report");
+  command.option("ADDRESS", o->address, "As molar devices lists it, or simulated:omni [the first real one]");
+  command.option("--report", o->report, "The page to write, Markdown").valueNamed("FILE").showsDefault();
+  command.flag("--force", o->force, "Replace a report that exists");
+  command.option("--rate", o->rate_Hz, "Servo rate, Hz").from(500.0, 10'000.0).showsDefault();
+  command.option("--rate-seconds", o->rate_seconds, "How long the rate is watched, s").from(0.5, 600.0).showsDefault();
+  command.option("--falcon-firmware", o->falcon_firmware, "Novint's firmware for a Falcon").valueNamed("FILE");
+  command.option("--falcon-scale", o->falcon_scale, "Where a Falcon's force scale is kept").valueNamed("FILE");
+  command.does([o] { return check(*o); });
+  devices.does([json] { return list(*json); });
 }
 
 }  // namespace app

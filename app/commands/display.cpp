@@ -7,14 +7,12 @@
 #include <optional>
 #include <thread>
 
-#include <CLI/CLI.hpp>
-
 #include "app/commands/command.h"
 #include "app/options/display_option.h"
 #include "app/options/view_option.h"
 #include "app/pattern/test_pattern.h"
 #include "app/station/rig_choice.h"
-#include "app/text/number_range.h"
+#include "app/text/command_line.h"
 #include "app/text/usage_error.h"
 #include "app/view/display_windows.h"
 #include "app/view/snapshot.h"
@@ -25,7 +23,6 @@
 namespace app {
 namespace {
 
-constexpr double kDeskMonitor_mm = 531.0;  ///< width of a 24-inch monitor
 constexpr auto kBetweenLooks = std::chrono::milliseconds(30);
 
 volatile std::sig_atomic_t interrupted = 0;
@@ -53,8 +50,7 @@ calibration::Rig rigOf(const DisplayOptions& options) {
     rig = options.rig.choose({}, calibration::nowUtc())->record.rig;
     if (!options.size.empty()) rig.screen.px = pictureSize(options.size);
   } else {
-    rig = calibration::desktopRig(options.size.empty() ? glm::ivec2(1920, 1080) : pictureSize(options.size),
-                                  kDeskMonitor_mm);
+    rig = calibration::desktopRig(options.size.empty() ? glm::ivec2(1920, 1080) : pictureSize(options.size));
   }
   options.display.refuseUnlessFits(rig);
   return rig;
@@ -154,23 +150,21 @@ int display(const DisplayOptions& options) {
 
 }  // namespace
 
-void addDisplay(CLI::App& molar, Chosen& chosen) {
+void addDisplay(CommandLine& molar) {
   auto o = std::make_shared<DisplayOptions>();
-  CLI::App* command =
-      molar.add_subcommand("display", "Test patterns on the display, until Esc; monitors that are there");
-  command->add_option("--pattern", o->pattern, "eyes, crosstalk, grid, cross or text; right and left arrow change it")
-      ->capture_default_str();
-  o->rig.addTo(*command, false);
-  o->display.addTo(*command);
-  command->add_option("--monitor", o->monitor, "Monitor, from 1; two windows take the next one as well")
-      ->check(CLI::Range(1, 16));
-  command->add_option("--size", o->size, "Pixels of the screen")->type_name("WxH");
-  command->add_flag("--windowed", o->windowed, "In a window instead of the full screen");
-  command->add_option("--seconds", o->seconds, "End after this time")->check(numberRange(0.1, 86400.0));
-  command->add_option("--out", o->out, "The picture as a file instead, .png")->type_name("FILE");
-  command->add_flag("--force", o->force, "Replace an output that exists");
-  command->add_flag("--monitors", o->monitors, "List the monitors and do nothing else");
-  command->callback([o, &chosen] { chosen.action = [o] { return display(*o); }; });
+  CommandLine& command = molar.command("display", "Test patterns on the display, until Esc; monitors that are there");
+  command.option("--pattern", o->pattern, "eyes, crosstalk, grid, cross or text; right and left arrow change it")
+      .showsDefault();
+  o->rig.addTo(command, false);
+  o->display.addTo(command);
+  command.option("--monitor", o->monitor, "Monitor, from 1; two windows take the next one as well").wholeFrom(1, 16);
+  command.option("--size", o->size, "Pixels of the screen").valueNamed("WxH");
+  command.flag("--windowed", o->windowed, "In a window instead of the full screen");
+  command.option("--seconds", o->seconds, "End after this time").from(0.1, 86400.0);
+  command.option("--out", o->out, "The picture as a file instead, .png").valueNamed("FILE");
+  command.flag("--force", o->force, "Replace an output that exists");
+  command.flag("--monitors", o->monitors, "List the monitors and do nothing else");
+  command.does([o] { return display(*o); });
 }
 
 }  // namespace app

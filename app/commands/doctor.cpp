@@ -3,12 +3,11 @@
 #include <cstdio>
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
 #include "app/commands/command.h"
 #include "app/doctor/checks.h"
 #include "app/doctor/findings_text.h"
 #include "app/doctor/haptic_usb.h"
+#include "app/text/command_line.h"
 #include "app/text/page_look.h"
 #include "haptics/device/thread_priority.h"
 
@@ -34,20 +33,20 @@ int doctor(const DoctorOptions& options) {
 
 }  // namespace
 
-void addDoctor(CLI::App& molar, Chosen& chosen) {
+void addDoctor(CommandLine& molar) {
   auto o = std::make_shared<DoctorOptions>();
-  CLI::App* command = molar.add_subcommand("doctor", "What this machine has and lacks, each with the next step");
-  auto* json = command->add_flag("--json", o->json, "For programs");
-  command->add_flag("--udev-rules", o->udev_rules, "Print the rules that let you use devices and pedals, nothing else")
-      ->excludes(json);
-  command->add_option("--sessions", o->sessions, "Folder where recordings go")
-      ->check(CLI::ExistingDirectory)
-      ->type_name("FOLDER")
-      ->capture_default_str();
-  command->add_option("--priority", o->priority, "Real-time priority that rehearse is given")
-      ->check(CLI::Range(haptics::kLeastServoPriority, haptics::kMostServoPriority))
-      ->capture_default_str();
-  command->callback([o, &chosen] { chosen.action = [o] { return doctor(*o); }; });
+  CommandLine& command = molar.command("doctor", "What this machine has and lacks, each with the next step");
+  Option json = command.flag("--json", o->json, "For programs");
+  command.flag("--udev-rules", o->udev_rules, "Print the rules that let you use devices and pedals, nothing else")
+      .excludes(json);
+  command.option("--sessions", o->sessions, "Folder where recordings go")
+      .anExistingFolder()
+      .valueNamed("FOLDER")
+      .showsDefault();
+  command.option("--priority", o->priority, "Real-time priority that rehearse is given")
+      .wholeFrom(haptics::kLeastServoPriority, haptics::kMostServoPriority)
+      .showsDefault();
+  command.does([o] { return doctor(*o); });
 }
 
 }  // namespace app

@@ -5,13 +5,12 @@
 #include <memory>
 #include <optional>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "app/commands/command.h"
 #include "app/options/volume_option.h"
 #include "app/session/replay.h"
-#include "app/text/number_range.h"
+#include "app/text/command_line.h"
 #include "app/text/usage_error.h"
 #include "assets/mesh/bone_surface.h"
 #include "assets/mesh/gltf_file.h"
@@ -113,19 +112,17 @@ int exportSurface(const ExportOptions& options) {
 
 }  // namespace
 
-void addExport(CLI::App& molar, Chosen& chosen) {
+void addExport(CommandLine& molar) {
   auto options = std::make_shared<ExportOptions>();
-  CLI::App* command = molar.add_subcommand("export", "Bone and teeth as a surface, .stl (mm, LPS) or .glb (metres)");
-  command->add_option("SESSION", options->session, "Session file: the bone as it was left");
-  command->add_option("--to", options->to_s, "As it was at this time, s")->check(numberRange(0.0, 1e9));
-  command->add_option("--patient", options->patient, "Patient folder, instead of SESSION")->type_name("DIR");
-  options->volume.addTo(*command);
-  command->add_option("--tissue", options->tissue, "all, bone or tooth")
-      ->check(CLI::IsMember({"all", "bone", "tooth"}))
-      ->capture_default_str();
-  command->add_option("--out", options->out, "Surface, .stl or .glb")->required();
-  command->add_flag("--force", options->force, "Replace the output if it exists");
-  command->callback([options, &chosen] { chosen.action = [options] { return exportSurface(*options); }; });
+  CommandLine& command = molar.command("export", "Bone and teeth as a surface, .stl (mm, LPS) or .glb (metres)");
+  command.option("SESSION", options->session, "Session file: the bone as it was left");
+  command.option("--to", options->to_s, "As it was at this time, s").from(0.0, 1e9);
+  command.option("--patient", options->patient, "Patient folder, instead of SESSION").valueNamed("DIR");
+  options->volume.addTo(command);
+  command.option("--tissue", options->tissue, "all, bone or tooth").oneOf({"all", "bone", "tooth"}).showsDefault();
+  command.option("--out", options->out, "Surface, .stl or .glb").required();
+  command.flag("--force", options->force, "Replace the output if it exists");
+  command.does([options] { return exportSurface(*options); });
 }
 
 }  // namespace app

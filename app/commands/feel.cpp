@@ -5,8 +5,6 @@
 #include <cstdio>
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
 #include "app/commands/command.h"
 #include "app/device/pose_csv.h"
 #include "app/options/command_settings.h"
@@ -14,6 +12,7 @@
 #include "app/options/settings_text.h"
 #include "app/options/tool_text.h"
 #include "app/options/volume_option.h"
+#include "app/text/command_line.h"
 #include "app/text/usage_error.h"
 #include "assets/output_file.h"
 #include "haptics/bone/cubelets.h"
@@ -126,20 +125,20 @@ int feel(const FeelOptions& options) {
 
 }  // namespace
 
-void addFeel(CLI::App& molar, Chosen& chosen) {
+void addFeel(CommandLine& molar) {
   auto options = std::make_shared<FeelOptions>();
-  CLI::App* command = molar.add_subcommand("feel", "A force law on given poses, no device: CSV of forces, frame P");
-  options->volume.addTo(*command);
-  command->add_option("--tool", options->tool, kHeadHelp)->required();
-  command->add_option("--shaft", options->shaft, kShaftHelp)->capture_default_str();
-  command->add_option("--law", options->law, "Force law: " + lawNames())->capture_default_str();
-  command->add_option("--set", options->settings, "key=value: stiffness_N_per_mm, damping_Ns_per_mm, …");
-  command->add_option("--poses", options->poses, "t_s,px_mm,py_mm,pz_mm,qw,qx,qy,qz (X_PT)")->required();
-  command->add_option("--out", options->out, "Forces on the hand, CSV")->required();
-  auto* raw = command->add_flag("--raw", options->raw, "The law alone (default)");
-  command->add_flag("--served", options->served, "With proxy and safety, as the servo serves it")->excludes(raw);
-  command->add_flag("--force", options->force, "Replace the output if it exists");
-  command->callback([options, &chosen] { chosen.action = [options] { return feel(*options); }; });
+  CommandLine& command = molar.command("feel", "A force law on given poses, no device: CSV of forces, frame P");
+  options->volume.addTo(command);
+  command.option("--tool", options->tool, kHeadHelp).required();
+  command.option("--shaft", options->shaft, kShaftHelp).showsDefault();
+  command.option("--law", options->law, "Force law: " + lawNames()).showsDefault();
+  command.option("--set", options->settings, "key=value: stiffness_N_per_mm, damping_Ns_per_mm, …");
+  command.option("--poses", options->poses, "t_s,px_mm,py_mm,pz_mm,qw,qx,qy,qz (X_PT)").required();
+  command.option("--out", options->out, "Forces on the hand, CSV").required();
+  Option raw = command.flag("--raw", options->raw, "The law alone (default)");
+  command.flag("--served", options->served, "With proxy and safety, as the servo serves it").excludes(raw);
+  command.flag("--force", options->force, "Replace the output if it exists");
+  command.does([options] { return feel(*options); });
 }
 
 }  // namespace app

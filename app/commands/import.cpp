@@ -4,11 +4,10 @@
 #include <memory>
 #include <numeric>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "app/commands/command.h"
-#include "app/text/number_range.h"
+#include "app/text/command_line.h"
 #include "app/text/usage_error.h"
 #include "assets/import/scan_import.h"
 #include "assets/import/tooth_site.h"
@@ -150,31 +149,30 @@ int inspect(const InspectOptions& options) {
 
 }  // namespace
 
-void addImport(CLI::App& molar, Chosen& chosen) {
+void addImport(CommandLine& molar) {
   auto options = std::make_shared<ImportOptions>();
-  CLI::App* command = molar.add_subcommand("import", "A scan becomes a patient folder, de-identified");
-  command->add_option("SOURCE", options->source, "Folder with ct.nrrd, labels.nrrd and teeth.nrrd, or one volume file")
-      ->required();
-  command->add_option("--out", options->out, "Patient folder to write")->required();
-  command->add_option("--iso", options->choices.classification.iso_hu, "Grey value of the bone's surface, HU")
-      ->check(numberRange(-1000.0, 4000.0))
-      ->capture_default_str();
-  command->add_option("--sigma", options->choices.classification.sigma_hu, "Width of the soft transition, HU")
-      ->check(numberRange(1.0, 2000.0))
-      ->capture_default_str();
-  command->add_option("--tooth", options->choices.tooth_fdi,
-                      "The tooth to operate on, FDI number; else the third molar");
-  command->add_option("--window", options->window, "LOW:HIGH, the HU that 0 and 255 of an 8-bit volume mean");
-  command->add_flag("--force", options->force, "Replace the patient folder if it exists");
-  command->callback([options, &chosen] { chosen.action = [options] { return import(*options); }; });
+  CommandLine& command = molar.command("import", "A scan becomes a patient folder, de-identified");
+  command.option("SOURCE", options->source, "Folder with ct.nrrd, labels.nrrd and teeth.nrrd, or one volume file")
+      .required();
+  command.option("--out", options->out, "Patient folder to write").required();
+  command.option("--iso", options->choices.classification.iso_hu, "Grey value of the bone's surface, HU")
+      .from(-1000.0, 4000.0)
+      .showsDefault();
+  command.option("--sigma", options->choices.classification.sigma_hu, "Width of the soft transition, HU")
+      .from(1.0, 2000.0)
+      .showsDefault();
+  command.option("--tooth", options->choices.tooth_fdi, "The tooth to operate on, FDI number; else the third molar");
+  command.option("--window", options->window, "LOW:HIGH, the HU that 0 and 255 of an 8-bit volume mean");
+  command.flag("--force", options->force, "Replace the patient folder if it exists");
+  command.does([options] { return import(*options); });
 }
 
-void addInspect(CLI::App& molar, Chosen& chosen) {
+void addInspect(CommandLine& molar) {
   auto options = std::make_shared<InspectOptions>();
-  CLI::App* command = molar.add_subcommand("inspect", "What a patient folder holds");
-  command->add_option("PATIENT", options->patient, "Patient folder")->required();
-  command->add_flag("--json", options->json, "For programs");
-  command->callback([options, &chosen] { chosen.action = [options] { return inspect(*options); }; });
+  CommandLine& command = molar.command("inspect", "What a patient folder holds");
+  command.option("PATIENT", options->patient, "Patient folder").required();
+  command.flag("--json", options->json, "For programs");
+  command.does([options] { return inspect(*options); });
 }
 
 }  // namespace app

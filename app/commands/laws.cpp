@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "app/commands/command.h"
@@ -14,7 +13,7 @@
 #include "app/options/tool_text.h"
 #include "app/report/chart.h"
 #include "app/report/law_curves.h"
-#include "app/text/number_range.h"
+#include "app/text/command_line.h"
 #include "app/text/toml_keys.h"
 #include "app/text/usage_error.h"
 #include "haptics/contact/law_parameters.h"
@@ -160,22 +159,20 @@ int laws(const LawsOptions& options) {
 
 }  // namespace
 
-void addLaws(CLI::App& molar, Chosen& chosen) {
+void addLaws(CommandLine& molar) {
   auto o = std::make_shared<LawsOptions>();
-  CLI::App* command = molar.add_subcommand("laws", "Force laws: parameters, units, ranges, sources; F(h) and K(h)");
-  command->add_option("--law", o->laws, "Which, or all")->delimiter(',')->capture_default_str();
-  auto* plot = command->add_option("--plot", o->plot, "Draw force and stiffness over depth, .png")->type_name("FILE");
-  command->add_flag("--json", o->json, "For programs")->excludes(plot);
-  command->add_option("--tool", o->tool, std::string("--plot: ") + kHeadHelp)->capture_default_str();
-  command->add_option("--set", o->settings, "--plot: key=value of the law chosen")->needs(plot);
-  command->add_option("--rate", o->rate_Hz, "--plot: servo rate, Hz")
-      ->check(numberRange(500.0, 10000.0))
-      ->capture_default_str();
-  command->add_option("--device-damping", o->device_damping_Ns_per_mm, "--plot: damping of device and hand, Ns/mm")
-      ->check(numberRange(0.0, 0.1))
-      ->capture_default_str();
-  command->add_flag("--force", o->force, "Replace the picture if it exists");
-  command->callback([o, &chosen] { chosen.action = [o] { return laws(*o); }; });
+  CommandLine& command = molar.command("laws", "Force laws: parameters, units, ranges, sources; F(h) and K(h)");
+  command.option("--law", o->laws, "Which, or all").separatedByCommas().showsDefault();
+  Option plot = command.option("--plot", o->plot, "Draw force and stiffness over depth, .png").valueNamed("FILE");
+  command.flag("--json", o->json, "For programs").excludes(plot);
+  command.option("--tool", o->tool, std::string("--plot: ") + kHeadHelp).showsDefault();
+  command.option("--set", o->settings, "--plot: key=value of the law chosen").needs(plot);
+  command.option("--rate", o->rate_Hz, "--plot: servo rate, Hz").from(500.0, 10000.0).showsDefault();
+  command.option("--device-damping", o->device_damping_Ns_per_mm, "--plot: damping of device and hand, Ns/mm")
+      .from(0.0, 0.1)
+      .showsDefault();
+  command.flag("--force", o->force, "Replace the picture if it exists");
+  command.does([o] { return laws(*o); });
 }
 
 }  // namespace app

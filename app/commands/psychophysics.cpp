@@ -7,8 +7,6 @@
 #include <filesystem>
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
 #include "app/case/room.h"
 #include "app/commands/command.h"
 #include "app/options/settings_text.h"
@@ -19,6 +17,7 @@
 #include "app/psychophysics/trial_table.h"
 #include "app/rehearsal/recording_check.h"
 #include "app/rehearsal/rehearsal.h"
+#include "app/text/command_line.h"
 #include "app/text/toml_keys.h"
 #include "app/text/usage_error.h"
 #include "app/text/written_text.h"
@@ -38,13 +37,13 @@ std::string beside(const std::string& csv, const char* ending) {
   return std::filesystem::path(csv).replace_extension(ending).string();
 }
 
-constexpr double kMonitorWidth_mm = 531.0, kLoupes = 4.0;  ///< of a 24-inch monitor, as in `rehearse`
+constexpr double kLoupes = 4.0;
 constexpr glm::ivec2 kWindow_px{1280, 800};
 
 /// The site in the middle of the screen, seen from where the bur comes, a little from the side so that depth shows.
 calibration::Rig rigFor(const PsychophysicsOptions& options, const ProbeSite& site) {
   if (!options.rig.empty()) return calibration::readRig(options.rig);
-  calibration::Rig rig = calibration::desktopRig(kWindow_px, kMonitorWidth_mm / kLoupes);
+  calibration::Rig rig = calibration::desktopRig(kWindow_px, calibration::kDeskMonitorWidth_mm / kLoupes);
   const glm::dvec3 z = site.outward_P.xyz;
   const glm::dvec3 side =
       glm::normalize(glm::cross(glm::abs(z.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0), z));
@@ -121,23 +120,23 @@ int run(const PsychophysicsOptions& options) {
 
 }  // namespace
 
-void addPsychophysics(CLI::App& molar, Chosen& chosen) {
+void addPsychophysics(CommandLine& molar) {
   auto options = std::make_shared<PsychophysicsOptions>();
-  CLI::App* command =
-      molar.add_subcommand("psychophysics", "Which of two feels harder? Blind comparisons by protocol: CSV, JSON");
-  command->add_option("PROTOCOL", options->protocol, "Experiment, TOML (app/psychophysics/example.toml)")->required();
-  command->add_option("--out", options->out, "A row a trial, .csv; summary and picture go beside it as .json, .png")
-      ->required();
-  command->add_option("--observer", options->observer, "Who answers: simulated, or a person at the window by keyboard")
-      ->check(CLI::IsMember({"simulated", "keyboard"}))
-      ->capture_default_str();
-  command->add_option("--seed", options->seed, "Of order, hand and observer")->capture_default_str();
-  command->add_option("--rig", options->rig, "keyboard: rig file, 1:1")->type_name("FILE");
-  command->add_option("--record", options->record, "keyboard: session file to write")->type_name("FILE");
-  command->add_flag("--operator", options->operators_window,
-                    "keyboard: a window for the operator, on the next monitor where there is one");
-  command->add_flag("--force", options->force, "Replace outputs that exist");
-  command->callback([options, &chosen] { chosen.action = [options] { return run(*options); }; });
+  CommandLine& command =
+      molar.command("psychophysics", "Which of two feels harder? Blind comparisons by protocol: CSV, JSON");
+  command.option("PROTOCOL", options->protocol, "Experiment, TOML (app/psychophysics/example.toml)").required();
+  command.option("--out", options->out, "A row a trial, .csv; summary and picture go beside it as .json, .png")
+      .required();
+  command.option("--observer", options->observer, "Who answers: simulated, or a person at the window by keyboard")
+      .oneOf({"simulated", "keyboard"})
+      .showsDefault();
+  command.option("--seed", options->seed, "Of order, hand and observer").showsDefault();
+  command.option("--rig", options->rig, "keyboard: rig file, 1:1").valueNamed("FILE");
+  command.option("--record", options->record, "keyboard: session file to write").valueNamed("FILE");
+  command.flag("--operator", options->operators_window,
+               "keyboard: a window for the operator, on the next monitor where there is one");
+  command.flag("--force", options->force, "Replace outputs that exist");
+  command.does([options] { return run(*options); });
 }
 
 }  // namespace app

@@ -5,8 +5,6 @@
 #include <memory>
 #include <thread>
 
-#include <CLI/CLI.hpp>
-
 #include "app/case/patient_source.h"
 #include "app/case/room.h"
 #include "app/case/trough_plan.h"
@@ -27,7 +25,7 @@
 #include "app/rehearsal/rehearsal.h"
 #include "app/station/case_reach.h"
 #include "app/station/rig_choice.h"
-#include "app/text/number_range.h"
+#include "app/text/command_line.h"
 #include "app/text/usage_error.h"
 #include "assets/patient/patient_folder.h"
 #include "assets/synthetic/face.h"
@@ -39,7 +37,6 @@
 namespace app {
 namespace {
 
-constexpr double kMonitorWidth_mm = 531.0;  ///< of a 24-inch monitor
 constexpr double kForeignFaceWindow_mm = 24.0;
 
 struct RehearseOptions {
@@ -74,7 +71,7 @@ calibration::Rig rigFor(const RehearseOptions& options, const std::optional<Chos
   }
   const glm::ivec2 px = options.size.empty() ? (options.headless ? glm::ivec2(640, 400) : glm::ivec2(1280, 800))
                                              : pictureSize(options.size);
-  calibration::Rig rig = calibration::desktopRig(px, kMonitorWidth_mm / options.loupes);
+  calibration::Rig rig = calibration::desktopRig(px, calibration::kDeskMonitorWidth_mm / options.loupes);
   // X_WD stays identity, so the tooth at work is at the origin of D too: the middle of every Phantom's workspace, its
   // axes as the surgeon's.
   rig.X_WP = standAtSite(patient, X_PF);
@@ -208,93 +205,84 @@ int run(const RehearseOptions& options) {
 
 }  // namespace
 
-void addRehearse(CLI::App& molar, Chosen& chosen) {
+void addRehearse(CommandLine& molar) {
   auto o = std::make_shared<RehearseOptions>();
-  CLI::App* command = molar.add_subcommand("rehearse", "Rehearse a third-molar extraction, seen and felt");
-  auto* patient = command->add_option("PATIENT", o->patient, "Patient folder (default: the built-in patient)");
-  command->add_option("--pedal", o->pedal, kPedalHelp)->capture_default_str();
-  command->add_option("--device", o->device, handHelp())->capture_default_str();
-  command->add_option("--falcon-firmware", o->falcon_firmware, "Novint's firmware for a Falcon")->type_name("FILE");
-  auto* second = command->add_option("--second-hand", o->second_hand, kSecondHandHelp);
-  command->add_option("--second-tool", o->second_tool, "What the other hand holds: mirror or retractor")
-      ->check(CLI::IsMember({"mirror", "retractor"}))
-      ->capture_default_str()
-      ->needs(second);
-  auto* rig = o->rig.addTo(*command, true);
-  o->display.addTo(*command);
-  o->picture.addTo(*command);
-  command->add_option("--monitor", o->monitor, "Monitor of the picture, from 1; two windows take the next one as well")
-      ->check(CLI::Range(1, 16));
-  command->add_flag("--operator", o->operators_window,
-                    "A window for the operator, on the next monitor where there is one");
-  command->add_option("--quality", o->quality, "Hold this quality, 0 best to 6 fastest [by measured frame times]")
-      ->check(CLI::Range(0, static_cast<int>(render::kQualitySteps.size()) - 1));
-  command->add_option("--size", o->size, "Picture size")->type_name("WxH");
-  command->add_option("--loupes", o->loupes, "Magnification on a desk (without --rig)")
-      ->check(numberRange(1.0, 8.0))
-      ->capture_default_str()
-      ->excludes(rig);
-  command->add_option("--face", o->face, "Face model, glTF; teeth.json beside it places the jaw")->type_name("FILE");
-  command->add_option("--face-window", o->face_window_mm, "Face cut away around the line of sight, mm")
-      ->check(numberRange(0.0, 100.0));
-  command->add_option("--tool", o->tools, std::string(kHeadHelp) + "; several are changed between, by key T or pedal")
-      ->type_size(1)
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->capture_default_str();
-  command->add_option("--shaft", o->shaft, std::string(kShaftHelp) + " [a neck that fits, up to 2.35 mm thick]");
-  command->add_option("--law", o->law, "Force law: " + lawNames())->capture_default_str();
+  CommandLine& command = molar.command("rehearse", "Rehearse a third-molar extraction, seen and felt");
+  Option patient = command.option("PATIENT", o->patient, "Patient folder (default: the built-in patient)");
+  command.option("--pedal", o->pedal, kPedalHelp).showsDefault();
+  command.option("--device", o->device, handHelp()).showsDefault();
+  command.option("--falcon-firmware", o->falcon_firmware, "Novint's firmware for a Falcon").valueNamed("FILE");
+  Option second = command.option("--second-hand", o->second_hand, kSecondHandHelp);
+  command.option("--second-tool", o->second_tool, "What the other hand holds: mirror or retractor")
+      .oneOf({"mirror", "retractor"})
+      .showsDefault()
+      .needs(second);
+  Option rig = o->rig.addTo(command, true);
+  o->display.addTo(command);
+  o->picture.addTo(command);
+  command.option("--monitor", o->monitor, "Monitor of the picture, from 1; two windows take the next one as well")
+      .wholeFrom(1, 16);
+  command.flag("--operator", o->operators_window, "A window for the operator, on the next monitor where there is one");
+  command.option("--quality", o->quality, "Hold this quality, 0 best to 6 fastest [by measured frame times]")
+      .wholeFrom(0, static_cast<int>(render::kQualitySteps.size()) - 1);
+  command.option("--size", o->size, "Picture size").valueNamed("WxH");
+  command.option("--loupes", o->loupes, "Magnification on a desk (without --rig)")
+      .from(1.0, 8.0)
+      .showsDefault()
+      .excludes(rig);
+  command.option("--face", o->face, "Face model, glTF; teeth.json beside it places the jaw").valueNamed("FILE");
+  command.option("--face-window", o->face_window_mm, "Face cut away around the line of sight, mm").from(0.0, 100.0);
+  command.option("--tool", o->tools, std::string(kHeadHelp) + "; several are changed between, by key T or pedal")
+      .repeated()
+      .showsDefault();
+  command.option("--shaft", o->shaft, std::string(kShaftHelp) + " [a neck that fits, up to 2.35 mm thick]");
+  command.option("--law", o->law, "Force law: " + lawNames()).showsDefault();
   command
-      ->add_option(
-          "--parameters", o->parameters,
-          "Settings file, TOML, obeyed while it changes (app/options/feel.toml); it rules over --law and --set")
-      ->type_name("FILE");
-  command->add_option("--erosion", o->erosion, "Erosion law: time, dose or machining")
-      ->check(CLI::IsMember(erosionNames()))
-      ->capture_default_str();
-  command->add_option("--set", o->settings,
-                      "key=value: stiffness_N_per_mm, peak_force_N, spindle_rpm, worn, removal_rate_per_s, …");
-  command->add_option("--rate", o->rate_Hz, "Servo rate, Hz [1000, or as recorded]")
-      ->check(numberRange(500.0, 10'000.0));
-  command->add_option("--priority", o->priority, "Real-time priority of the servo, its USB thread has the next")
-      ->check(CLI::Range(haptics::kLeastServoPriority, haptics::kMostServoPriority))
-      ->capture_default_str();
+      .option("--parameters", o->parameters,
+              "Settings file, TOML, obeyed while it changes (app/options/feel.toml); it rules over --law and --set")
+      .valueNamed("FILE");
+  command.option("--erosion", o->erosion, "Erosion law: time, dose or machining").oneOf(erosionNames()).showsDefault();
+  command.option("--set", o->settings,
+                 "key=value: stiffness_N_per_mm, peak_force_N, spindle_rpm, worn, removal_rate_per_s, …");
+  command.option("--rate", o->rate_Hz, "Servo rate, Hz [1000, or as recorded]").from(500.0, 10'000.0);
+  command.option("--priority", o->priority, "Real-time priority of the servo, its USB thread has the next")
+      .wholeFrom(haptics::kLeastServoPriority, haptics::kMostServoPriority)
+      .showsDefault();
   command
-      ->add_option("--pace", o->pace,
-                   "real, by the clock; fast, a hand in numbers without a window as fast as the machine can")
-      ->check(CLI::IsMember({"real", "fast"}))
-      ->capture_default_str();
-  command->add_option("--seconds", o->seconds, "End after this time")->check(numberRange(0.1, 86400.0));
-  command->add_option("--record", o->record, "Session file to write")->type_name("FILE");
-  command->add_option("--snapshot", o->snapshot, "Pictures at the end: NAME_left.png, NAME_right.png");
-  command->add_option("--first-snapshot", o->first_snapshot, "The same before the first cut");
-  command->add_option("--snapshot-size", o->snapshot_size, "Size of those")->type_name("WxH")->capture_default_str();
-  command->add_flag("--headless", o->headless, "Without a window");
-  command->add_flag("--force", o->force, "Replace outputs that exist");
-  command->add_option("--side", o->side, "Built-in patient: right or left")
-      ->check(CLI::IsMember({"right", "left"}))
-      ->capture_default_str()
-      ->excludes(patient);
-  command->add_option("--winter-angle", o->jaw.winter_angle_deg, "Built-in patient: tilt, degrees")
-      ->capture_default_str()
-      ->excludes(patient)
-      ->check(numberRange(-79.0, 100.0));
-  command->add_option("--depth", o->jaw.depth_mm, "Built-in patient: crown below the occlusal plane, mm")
-      ->capture_default_str()
-      ->excludes(patient)
-      ->check(numberRange(0.0, 8.0));
-  command->add_option("--canal-distance", o->jaw.mandibular_canal_distance_mm, "Built-in patient: root to canal, mm")
-      ->capture_default_str()
-      ->excludes(patient)
-      ->check(numberRange(0.3, 6.0));
-  command->add_option("--voxel", o->jaw.spacing_mm, "Built-in patient: voxel edge, mm")
-      ->capture_default_str()
-      ->excludes(patient)
-      ->check(numberRange(0.15, 1.0));
-  command->add_option("--seed", o->jaw.seed, "Built-in patient: seed")->capture_default_str()->excludes(patient);
-  command->footer(keyHelp());
-  command->callback([o, &chosen] { chosen.action = [o] { return run(*o); }; });
+      .option("--pace", o->pace,
+              "real, by the clock; fast, a hand in numbers without a window as fast as the machine can")
+      .oneOf({"real", "fast"})
+      .showsDefault();
+  command.option("--seconds", o->seconds, "End after this time").from(0.1, 86400.0);
+  command.option("--record", o->record, "Session file to write").valueNamed("FILE");
+  command.option("--snapshot", o->snapshot, "Pictures at the end: NAME_left.png, NAME_right.png");
+  command.option("--first-snapshot", o->first_snapshot, "The same before the first cut");
+  command.option("--snapshot-size", o->snapshot_size, "Size of those").valueNamed("WxH").showsDefault();
+  command.flag("--headless", o->headless, "Without a window");
+  command.flag("--force", o->force, "Replace outputs that exist");
+  command.option("--side", o->side, "Built-in patient: right or left")
+      .oneOf({"right", "left"})
+      .showsDefault()
+      .excludes(patient);
+  command.option("--winter-angle", o->jaw.winter_angle_deg, "Built-in patient: tilt, degrees")
+      .showsDefault()
+      .excludes(patient)
+      .from(-79.0, 100.0);
+  command.option("--depth", o->jaw.depth_mm, "Built-in patient: crown below the occlusal plane, mm")
+      .showsDefault()
+      .excludes(patient)
+      .from(0.0, 8.0);
+  command.option("--canal-distance", o->jaw.mandibular_canal_distance_mm, "Built-in patient: root to canal, mm")
+      .showsDefault()
+      .excludes(patient)
+      .from(0.3, 6.0);
+  command.option("--voxel", o->jaw.spacing_mm, "Built-in patient: voxel edge, mm")
+      .showsDefault()
+      .excludes(patient)
+      .from(0.15, 1.0);
+  command.option("--seed", o->jaw.seed, "Built-in patient: seed").showsDefault().excludes(patient);
+  command.footer(keyHelp());
+  command.does([o] { return run(*o); });
 }
 
 }  // namespace app

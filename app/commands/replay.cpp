@@ -4,12 +4,10 @@
 #include <memory>
 #include <optional>
 
-#include <CLI/CLI.hpp>
-
 #include "app/commands/command.h"
 #include "app/session/metrics.h"
 #include "app/session/replay.h"
-#include "app/text/number_range.h"
+#include "app/text/command_line.h"
 #include "assets/scan/image_file.h"
 
 namespace app {
@@ -40,35 +38,30 @@ int bringBack(const ReplayOptions& options) {
 
 }  // namespace
 
-void addReplay(CLI::App& molar, Chosen& chosen) {
+void addReplay(CommandLine& molar) {
   auto options = std::make_shared<ReplayOptions>();
-  CLI::App* command = molar.add_subcommand("replay", "Run a recorded session again");
-  command->add_option("SESSION", options->session, "Session file")->required();
-  auto* check =
-      command->add_flag("--verify", options->verify, "Compare every force and the bone, bit for bit (default)");
-  auto* to = command->add_option("--to", options->to_s, "Stop at this time, s")->check(numberRange(0.0, 1e9));
-  auto* out = command->add_option("--out", options->out, "Write the bone as it then was, .nrrd");
-  out->excludes(check);
-  to->needs(out);
-  command->add_flag("--force", options->force, "Replace the output if it exists");
-  command->callback([options, &chosen] {
-    chosen.action = [options] { return options->out.empty() ? verifySession(options->session) : bringBack(*options); };
-  });
+  CommandLine& command = molar.command("replay", "Run a recorded session again");
+  command.option("SESSION", options->session, "Session file").required();
+  Option check = command.flag("--verify", options->verify, "Compare every force and the bone, bit for bit (default)");
+  Option to = command.option("--to", options->to_s, "Stop at this time, s").from(0.0, 1e9);
+  Option out = command.option("--out", options->out, "Write the bone as it then was, .nrrd");
+  out.excludes(check);
+  to.needs(out);
+  command.flag("--force", options->force, "Replace the output if it exists");
+  command.does([options] { return options->out.empty() ? verifySession(options->session) : bringBack(*options); });
 }
 
-void addMetrics(CLI::App& molar, Chosen& chosen) {
+void addMetrics(CommandLine& molar) {
   auto session = std::make_shared<std::string>();
   auto json_only = std::make_shared<bool>(false);
-  CLI::App* command = molar.add_subcommand("metrics", "Numbers of a recorded session, JSON");
-  command->add_option("SESSION", *session, "Session file")->required();
-  command->add_flag("--json", *json_only, "JSON alone, without the words for people on stderr");
-  command->callback([session, json_only, &chosen] {
-    chosen.action = [session, json_only] {
-      const SessionMetrics metrics = metricsOf(*session);
-      std::printf("%s\n", metricsJson(metrics).c_str());
-      if (!*json_only) std::fprintf(stderr, "%s", metricsWords(metrics).c_str());
-      return 0;
-    };
+  CommandLine& command = molar.command("metrics", "Numbers of a recorded session, JSON");
+  command.option("SESSION", *session, "Session file").required();
+  command.flag("--json", *json_only, "JSON alone, without the words for people on stderr");
+  command.does([session, json_only] {
+    const SessionMetrics metrics = metricsOf(*session);
+    std::printf("%s\n", metricsJson(metrics).c_str());
+    if (!*json_only) std::fprintf(stderr, "%s", metricsWords(metrics).c_str());
+    return 0;
   });
 }
 

@@ -5,7 +5,6 @@
 #include <memory>
 #include <optional>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "app/case/patient_guides.h"
@@ -15,7 +14,7 @@
 #include "app/options/picture_option.h"
 #include "app/options/view_option.h"
 #include "app/options/volume_option.h"
-#include "app/text/number_range.h"
+#include "app/text/command_line.h"
 #include "app/text/usage_error.h"
 #include "app/view/renderer_choice.h"
 #include "assets/output_file.h"
@@ -123,28 +122,26 @@ int see(const SeeOptions& options) {
 
 }  // namespace
 
-void addSee(CLI::App& molar, Chosen& chosen) {
+void addSee(CommandLine& molar) {
   auto options = std::make_shared<SeeOptions>();
-  CLI::App* command = molar.add_subcommand("see", "One picture without a window: PNG, depths, matrices");
-  options->volume.addTo(*command);
-  command->add_option("--patient", options->patient, "Patient folder, instead of --volume")->type_name("DIR");
-  options->view.addTo(*command);
-  options->picture.addTo(*command);
-  command->add_option("--samples", options->samples, "Rays along each edge of a pixel, 1 to 4")
-      ->check(CLI::Range(1, 4))
-      ->capture_default_str();
+  CommandLine& command = molar.command("see", "One picture without a window: PNG, depths, matrices");
+  options->volume.addTo(command);
+  command.option("--patient", options->patient, "Patient folder, instead of --volume").valueNamed("DIR");
+  options->view.addTo(command);
+  options->picture.addTo(command);
+  command.option("--samples", options->samples, "Rays along each edge of a pixel, 1 to 4")
+      .wholeFrom(1, 4)
+      .showsDefault();
   command
-      ->add_option("--tool-at", options->tool_at_mm,
-                   "x,y,z: where slices are taken, mm in P (default: the tooth at work)")
-      ->delimiter(',')
-      ->expected(3)
-      ->check(numberRange(-1e4, 1e4));
-  command->add_flag("--bone-only", options->bone_only, "Without face and gum");
-  command->add_option("--out", options->out, "Picture, .png")->required();
-  command->add_option("--depth", options->depth, "Distances along the rays in mm, .nrrd");
-  command->add_option("--matrices", options->matrices, "clip_from_P and size, .json");
-  command->add_flag("--force", options->force, "Replace outputs that exist");
-  command->callback([options, &chosen] { chosen.action = [options] { return see(*options); }; });
+      .option("--tool-at", options->tool_at_mm, "x,y,z: where slices are taken, mm in P (default: the tooth at work)")
+      .numbers(3)
+      .from(-1e4, 1e4);
+  command.flag("--bone-only", options->bone_only, "Without face and gum");
+  command.option("--out", options->out, "Picture, .png").required();
+  command.option("--depth", options->depth, "Distances along the rays in mm, .nrrd");
+  command.option("--matrices", options->matrices, "clip_from_P and size, .json");
+  command.flag("--force", options->force, "Replace outputs that exist");
+  command.does([options] { return see(*options); });
 }
 
 }  // namespace app

@@ -1,7 +1,6 @@
 #include "app/options/display_option.h"
 
-#include <CLI/CLI.hpp>
-
+#include "app/text/command_line.h"
 #include "app/text/usage_error.h"
 #include "render/display/stereo_layout.h"
 
@@ -14,9 +13,9 @@ std::string displayNames() {
   return names;
 }
 
-void DisplayOption::addTo(CLI::App& command) {
+void DisplayOption::addTo(CommandLine& command) {
   command
-      .add_option_function<std::string>(
+      .option(
           "--display",
           [this](const std::string& name) {
             const auto mode = render::displayModeNamed(name);
@@ -24,8 +23,8 @@ void DisplayOption::addTo(CLI::App& command) {
             mode_ = *mode;
           },
           "Stereo display: " + displayNames() + " [mono]")
-      ->type_name("MODE");
-  command.add_flag("--swap-eyes", swapped_, "The display shows left for right: exchange them");
+      .valueNamed("MODE");
+  command.flag("--swap-eyes", swapped_, "The display shows left for right: exchange them");
 }
 
 void DisplayOption::refuseUnlessFits(const calibration::Rig& rig) const {

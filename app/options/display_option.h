@@ -6,18 +6,16 @@
 #include "calibration/rig.h"
 #include "render/display/display_mode.h"
 
-namespace CLI {
-class App;
-}
-
 namespace app {
+
+class CommandLine;
 
 /// "mono, quad-buffer, …"
 std::string displayNames();
 
 class DisplayOption {
  public:
-  void addTo(CLI::App& command);
+  void addTo(CommandLine& command);
   render::DisplayMode mode() const { return mode_; }
   bool swapped() const { return swapped_; }
   /// Throws UsageError where the mode can not be sent from a screen like this.

@@ -2,9 +2,8 @@
 
 #include <map>
 
-#include <CLI/CLI.hpp>
-
 #include "app/options/picture_layers.h"
+#include "app/text/command_line.h"
 #include "app/text/usage_error.h"
 
 namespace app {
@@ -43,26 +42,22 @@ std::vector<std::string> namesOf(const std::map<std::string, T>& named) {
 
 PictureOption::PictureOption(Antialias antialias) : antialias_(antialias == Antialias::edges ? "edges" : "none") {}
 
-void PictureOption::addTo(CLI::App& command) {
+void PictureOption::addTo(CommandLine& command) {
   command
-      .add_option("--renderer", renderer_,
-                  "gl-fragment, gl-compute, cpu (without OpenGL); auto: cpu where there is no graphics card")
-      ->check(CLI::IsMember(namesOf(kBackends)))
-      ->capture_default_str();
-  command.add_option("--mode", mode_, "Tooth and bone as iso (surface), dvr (translucent) or mesh (triangles)")
-      ->check(CLI::IsMember(namesOf(kModes)))
-      ->capture_default_str();
+      .option("--renderer", renderer_,
+              "gl-fragment, gl-compute, cpu (without OpenGL); auto: cpu where there is no graphics card")
+      .oneOf(namesOf(kBackends))
+      .showsDefault();
+  command.option("--mode", mode_, "Tooth and bone as iso (surface), dvr (translucent) or mesh (triangles)")
+      .oneOf(namesOf(kModes))
+      .showsDefault();
   command
-      .add_option("--layers", layers_,
-                  "Shown besides: canal, clearance (bands around it), plan (bone to go), ghost (the hand), slices (CT)")
-      ->delimiter(',')
-      ->check(CLI::IsMember(namesOf(kLayers)));
-  command.add_option("--face-opacity", face_opacity_, "The face faded: 1 whole, 0 away")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
-  command.add_option("--antialias", antialias_, "Silhouettes: none or edges")
-      ->check(CLI::IsMember(namesOf(kAntialias)))
-      ->capture_default_str();
+      .option("--layers", layers_,
+              "Shown besides: canal, clearance (bands around it), plan (bone to go), ghost (the hand), slices (CT)")
+      .separatedByCommas()
+      .oneOf(namesOf(kLayers));
+  command.option("--face-opacity", face_opacity_, "The face faded: 1 whole, 0 away").from(0.0, 1.0).showsDefault();
+  command.option("--antialias", antialias_, "Silhouettes: none or edges").oneOf(namesOf(kAntialias)).showsDefault();
 }
 
 std::optional<Backend> PictureOption::backend() const {

@@ -10,17 +10,15 @@
 #include "render/frame.h"
 #include "render/render_options.h"
 
-namespace CLI {
-class App;
-}
-
 namespace app {
+
+class CommandLine;
 
 class PictureOption {
  public:
   explicit PictureOption(render::Antialias antialias = render::Antialias::none);
 
-  void addTo(CLI::App& command);
+  void addTo(CommandLine& command);
   /// Empty: what suits the machine.
   std::optional<render::Backend> backend() const;
   /// View mode, layers and quality. Throws UsageError.

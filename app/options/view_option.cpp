@@ -7,9 +7,9 @@
 #include <set>
 #include <sstream>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "app/text/command_line.h"
 #include "app/text/usage_error.h"
 #include "calibration/geometry/units.h"
 #include "calibration/record/utc.h"
@@ -97,16 +97,15 @@ glm::ivec2 pictureSize(const std::string& text) {
   return px;
 }
 
-void ViewOption::addTo(CLI::App& command) {
-  auto* rig = rig_.addTo(command, false);
-  command.add_option("--eye", eye_, "Which eye of the rig: left, right or cyclopean")
-      ->check(CLI::IsMember({"left", "right", "cyclopean"}));
+void ViewOption::addTo(CommandLine& command) {
+  Option rig = rig_.addTo(command, false);
+  command.option("--eye", eye_, "Which eye of the rig: left, right or cyclopean").oneOf({"left", "right", "cyclopean"});
   command
-      .add_option("--camera", camera_,
-                  "Instead of a rig: {\"eye_mm\":[x,y,z],\"look_at_mm\":[…],\"up\":[…],\"fov_y_deg\":30}")
-      ->type_name("JSON")
-      ->excludes(rig);
-  command.add_option("--size", size_, "Picture size (default: the rig's screen, or 640x480)")->type_name("WxH");
+      .option("--camera", camera_,
+              "Instead of a rig: {\"eye_mm\":[x,y,z],\"look_at_mm\":[…],\"up\":[…],\"fov_y_deg\":30}")
+      .valueNamed("JSON")
+      .excludes(rig);
+  command.option("--size", size_, "Picture size (default: the rig's screen, or 640x480)").valueNamed("WxH");
 }
 
 render::Eye ViewOption::apply(calibration::Rig& rig, const assets::VolumeGrid& grid) const {

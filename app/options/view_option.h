@@ -10,18 +10,16 @@
 #include "calibration/rig.h"
 #include "render/display/eye_projection.h"
 
-namespace CLI {
-class App;
-}
-
 namespace app {
+
+class CommandLine;
 
 /// "640x480", each 16 to 16384. Throws UsageError.
 glm::ivec2 pictureSize(const std::string& text);
 
 class ViewOption {
  public:
-  void addTo(CLI::App& command);
+  void addTo(CommandLine& command);
   /// A rig by name, not by file: it says nothing of the patient.
   bool namesRig() const { return rig_.isName(); }
   /// Fills `rig`, its screen in pixels of the picture, and says which eye is asked for.

@@ -1,7 +1,6 @@
 #include "app/options/volume_option.h"
 
-#include <CLI/CLI.hpp>
-
+#include "app/text/command_line.h"
 #include "app/text/usage_error.h"
 #include "assets/patient.h"
 #include "assets/scan/image_file.h"
@@ -9,15 +8,14 @@
 
 namespace app {
 
-void VolumeOption::addTo(CLI::App& command) {
-  command.add_option("--volume", path_, "Volume: .nrrd, .nhdr, .nii, .nii.gz or .mha, frame P = LPS mm")
-      ->type_name("FILE");
-  command.add_option("--field", field_, "What it holds: hu (Hounsfield) or solid (0..255 = solid fraction)")
-      ->check(CLI::IsMember({"hu", "solid"}));
-  command.add_option("--iso", iso_hu_, "hu: grey value of the surface, HU (default 300)");
-  command.add_option("--sigma", sigma_hu_,
-                     "hu: width of the soft transition, HU, taken as given (default 75, widened to at least a voxel)");
-  command.add_option("--labels", labels_, "Tissue labels on the same grid")->type_name("FILE");
+void VolumeOption::addTo(CommandLine& command) {
+  command.option("--volume", path_, "Volume: .nrrd, .nhdr, .nii, .nii.gz or .mha, frame P = LPS mm").valueNamed("FILE");
+  command.option("--field", field_, "What it holds: hu (Hounsfield) or solid (0..255 = solid fraction)")
+      .oneOf({"hu", "solid"});
+  command.option("--iso", iso_hu_, "hu: grey value of the surface, HU (default 300)");
+  command.option("--sigma", sigma_hu_,
+                 "hu: width of the soft transition, HU, taken as given (default 75, widened to at least a voxel)");
+  command.option("--labels", labels_, "Tissue labels on the same grid").valueNamed("FILE");
 }
 
 SolidVolume VolumeOption::load() const {

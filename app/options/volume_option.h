@@ -9,11 +9,9 @@
 
 #include "assets/volume_grid.h"
 
-namespace CLI {
-class App;
-}
-
 namespace app {
+
+class CommandLine;
 
 struct SolidVolume {
   assets::VolumeGrid grid;
@@ -24,7 +22,7 @@ struct SolidVolume {
 class VolumeOption {
  public:
   /// Adds the options to `command`.
-  void addTo(CLI::App& command);
+  void addTo(CommandLine& command);
   bool given() const { return !path_.empty(); }
   const std::string& path() const { return path_; }
   /// Throws UsageError or assets::LoadError.

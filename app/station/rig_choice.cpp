@@ -4,9 +4,8 @@
 #include <cctype>
 #include <cmath>
 
-#include <CLI/CLI.hpp>
-
 #include "app/device/practice_device.h"
+#include "app/text/command_line.h"
 #include "app/text/printed.h"
 #include "app/text/usage_error.h"
 #include "calibration/record/default_rigs.h"
@@ -52,21 +51,20 @@ DeviceAtHand deviceAtHand(const std::string& address, const haptics::DeviceCapab
   return {Kind::real, address, real->arm_model.empty() ? real->model : real->arm_model, real->serial};
 }
 
-CLI::Option* RigOption::addTo(CLI::App& command, bool for_device) {
-  auto* rig = command
-                  .add_option("--rig", rig_,
-                              for_device ? "Rig, 1:1: a file; current[:RIG], the calibration in force of this device; "
-                                           "mirrored or desktop, not measured [the only current one of a real device]"
-                                         : "Rig: a file; current[:RIG], the calibration in force; mirrored or desktop")
-                  ->type_name("RIG");
-  command.add_option("--rig-store", store_, "Where calibrations are kept [$MOLAR_CALIBRATION, else the data folder]")
-      ->type_name("DIR");
+Option RigOption::addTo(CommandLine& command, bool for_device) {
+  Option rig = command
+                   .option("--rig", rig_,
+                           for_device ? "Rig, 1:1: a file; current[:RIG], the calibration in force of this device; "
+                                        "mirrored or desktop, not measured [the only current one of a real device]"
+                                      : "Rig: a file; current[:RIG], the calibration in force; mirrored or desktop")
+                   .valueNamed("RIG");
+  command.option("--rig-store", store_, "Where calibrations are kept [$MOLAR_CALIBRATION, else the data folder]")
+      .valueNamed("DIR");
   if (!for_device) return rig;
-  command.add_option("--mount", mount_, "On which side of the surgeon the device stands [as the rig has it]")
-      ->check(CLI::IsMember({"left", "right"}));
-  command
-      .add_option("--despite-calibration", despite_, "Work with a calibration that is red; why, kept in the session")
-      ->type_name("WORD");
+  command.option("--mount", mount_, "On which side of the surgeon the device stands [as the rig has it]")
+      .oneOf({"left", "right"});
+  command.option("--despite-calibration", despite_, "Work with a calibration that is red; why, kept in the session")
+      .valueNamed("WORD");
   return rig;
 }
 

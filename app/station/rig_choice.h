@@ -11,12 +11,10 @@
 #include "calibration/record/rig_record.h"
 #include "haptics/device/haptic_device.h"
 
-namespace CLI {
-class App;
-class Option;
-}  // namespace CLI
-
 namespace app {
+
+class CommandLine;
+class Option;
 
 /// For whom a rig is chosen.
 struct DeviceAtHand {
@@ -42,7 +40,7 @@ struct ChosenRig {
 class RigOption {
  public:
   /// Adds --rig and --rig-store; with `for_device` also --mount and --despite-calibration.
-  CLI::Option* addTo(CLI::App& command, bool for_device);
+  Option addTo(CommandLine& command, bool for_device);
 
   bool isGiven() const { return !rig_.empty(); }
   /// "current…", "mirrored", "desktop": not a file.

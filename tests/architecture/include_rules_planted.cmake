@@ -47,6 +47,7 @@ plant(assets/patient/d.cpp "\"assets/scan/scan.h\"" "")
 plant(haptics/servo/d.cpp "\"haptics/device/mouse.h\"" "")
 plant(render/display/d.cpp "\"render/frame.h\"" "")
 plant(app/text/e.cpp "<CLI/CLI.hpp>" "")
+plant(app/commands/f.cpp "<CLI/CLI.hpp>" "includes <CLI/CLI.hpp>, which belongs to app/text")
 plant(tests/render/e_test.cpp "\"haptics/servo/tick.h\"" "")
 
 execute_process(COMMAND ${CMAKE_COMMAND} -DROOT=${SCRATCH} -P ${SCRIPTS}/include_rules.cmake

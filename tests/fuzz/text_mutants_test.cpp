@@ -3,8 +3,6 @@
 
 #include <functional>
 
-#include <CLI/CLI.hpp>
-
 #include "app/device/pose_csv.h"
 #include "app/options/command_settings.h"
 #include "app/options/view_option.h"
@@ -17,6 +15,7 @@
 #include "calibration/calibration_error.h"
 #include "calibration/fit/touches_file.h"
 #include "calibration/record/rig_file.h"
+#include "tests/app/typed.h"
 #include "tests/assets/scan_on_disk.h"
 #include "tests/calibration/record/full_record.h"
 #include "tests/mutants.h"
@@ -94,10 +93,8 @@ TEST(TextMutants, CameraJson) {
   judgeFile<app::UsageError>(
       "camera.json", R"({"eye_mm": [-30, -80.5, 2e1], "look_at_mm": [0, 0, 0], "up": [0, 0, 1], "fov_y_deg": 30})",
       [](const std::string& path) {
-        CLI::App command;
         app::ViewOption view;
-        view.addTo(command);
-        command.parse("--camera " + path);
+        tests::type("--camera " + path, [&](app::CommandLine& command) { view.addTo(command); });
         calibration::Rig rig;
         view.apply(rig, {{8, 8, 8}, 0.5, {0, 0, 0}});
       });

@@ -4,9 +4,8 @@
 
 #include <cstdio>
 
-#include <CLI/CLI.hpp>
-
 #include "app/calibrate/calibration_text.h"
+#include "app/text/command_line.h"
 #include "app/text/usage_error.h"
 #include "app/text/written_text.h"
 #include "calibration/fit/touches_file.h"
@@ -23,20 +22,20 @@ bool comesIntoForce(const RigRecord& record) { return record.proof && record.pro
 
 }  // namespace
 
-void addStore(CLI::App& command, std::string& store) {
-  command.add_option("--store", store, "Folder of the store [$MOLAR_CALIBRATION or the user's data folder]")
-      ->type_name("DIR");
+void addStore(CommandLine& command, std::string& store) {
+  command.option("--store", store, "Folder of the store [$MOLAR_CALIBRATION or the user's data folder]")
+      .valueNamed("DIR");
 }
 
 RigStore storeAt(const std::string& folder) {
   return RigStore(folder.empty() ? RigStore::usualRoot() : std::filesystem::path(folder));
 }
 
-void KeepOption::addTo(CLI::App& command) {
-  command.add_option("--out", out, "Rig file to write")->type_name("FILE");
-  command.add_flag("--keep", into_store, "Keep it in the store; in force from then on unless it is red or unproved");
+void KeepOption::addTo(CommandLine& command) {
+  command.option("--out", out, "Rig file to write").valueNamed("FILE");
+  command.flag("--keep", into_store, "Keep it in the store; in force from then on unless it is red or unproved");
   addStore(command, store);
-  command.add_flag("--force", force, "Replace a file that exists");
+  command.flag("--force", force, "Replace a file that exists");
 }
 
 void KeepOption::note(const RigRecord& record, DriftKind kind, const TargetErrors& errors) const {
@@ -73,14 +72,14 @@ void KeepOption::keep(const RigRecord& record, const std::string& touches_text) 
                                 "verify --keep");
 }
 
-void addMeasuring(CLI::App& command, Measuring& measuring) {
-  command.add_option("--rig-id", measuring.rig_id, "Name of the workstation")->capture_default_str();
-  command.add_option("--mount", measuring.mount, "Side of the surgeon on which the device stands")
-      ->check(CLI::IsMember({"right", "left"}))
-      ->capture_default_str();
-  command.add_option("--serial", measuring.serial, "Serial of the device [as the observations have it]");
-  command.add_option("--tip", measuring.stylus_tip, "Which bur or stylus end is in the handle");
-  command.add_option("--operator", measuring.operator_code, "A code for who measures, never a name");
+void addMeasuring(CommandLine& command, Measuring& measuring) {
+  command.option("--rig-id", measuring.rig_id, "Name of the workstation").showsDefault();
+  command.option("--mount", measuring.mount, "Side of the surgeon on which the device stands")
+      .oneOf({"right", "left"})
+      .showsDefault();
+  command.option("--serial", measuring.serial, "Serial of the device [as the observations have it]");
+  command.option("--tip", measuring.stylus_tip, "Which bur or stylus end is in the handle");
+  command.option("--operator", measuring.operator_code, "A code for who measures, never a name");
 }
 
 namespace {
@@ -111,18 +110,18 @@ int concluded(const WizardOption::Led& led, Measuring measuring, const KeepOptio
 
 int statusOf(Verdict verdict) { return verdict == Verdict::green ? 0 : 1; }
 
-void addCalibrate(CLI::App& molar, Chosen& chosen) {
-  CLI::App* calibrate = molar.add_subcommand("calibrate", "Align hand and eye: measure, fit, prove, keep");
-  calibrate->require_subcommand(1);
-  addCalibrateSimulate(*calibrate, chosen);
-  addCalibrateCollect(*calibrate, chosen);
-  addCalibrateFit(*calibrate, chosen);
-  addCalibrateProofs(*calibrate, chosen);
-  addCalibrateRezero(*calibrate, chosen);
-  addCalibratePivot(*calibrate, chosen);
-  addCalibrateLens(*calibrate, chosen);
-  addCalibrateReport(*calibrate, chosen);
-  addCalibrateStore(*calibrate, chosen);
+void addCalibrate(CommandLine& molar) {
+  CommandLine& calibrate = molar.command("calibrate", "Align hand and eye: measure, fit, prove, keep");
+  calibrate.wantsCommand();
+  addCalibrateSimulate(calibrate);
+  addCalibrateCollect(calibrate);
+  addCalibrateFit(calibrate);
+  addCalibrateProofs(calibrate);
+  addCalibrateRezero(calibrate);
+  addCalibratePivot(calibrate);
+  addCalibrateLens(calibrate);
+  addCalibrateReport(calibrate);
+  addCalibrateStore(calibrate);
 }
 
 }  // namespace app

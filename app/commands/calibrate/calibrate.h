@@ -13,25 +13,25 @@
 
 namespace app {
 
-void addCalibrateSimulate(CLI::App& calibrate, Chosen& chosen);
-void addCalibrateCollect(CLI::App& calibrate, Chosen& chosen);
-void addCalibrateFit(CLI::App& calibrate, Chosen& chosen);
-void addCalibrateProofs(CLI::App& calibrate, Chosen& chosen);  ///< verify, check
-void addCalibrateRezero(CLI::App& calibrate, Chosen& chosen);
-void addCalibratePivot(CLI::App& calibrate, Chosen& chosen);
-void addCalibrateLens(CLI::App& calibrate, Chosen& chosen);
-void addCalibrateReport(CLI::App& calibrate, Chosen& chosen);
-void addCalibrateStore(CLI::App& calibrate, Chosen& chosen);  ///< list, diff, rollback
+void addCalibrateSimulate(CommandLine& calibrate);
+void addCalibrateCollect(CommandLine& calibrate);
+void addCalibrateFit(CommandLine& calibrate);
+void addCalibrateProofs(CommandLine& calibrate);  ///< verify, check
+void addCalibrateRezero(CommandLine& calibrate);
+void addCalibratePivot(CommandLine& calibrate);
+void addCalibrateLens(CommandLine& calibrate);
+void addCalibrateReport(CommandLine& calibrate);
+void addCalibrateStore(CommandLine& calibrate);  ///< list, diff, rollback
 
 /// --store: where calibrations are kept.
-void addStore(CLI::App& command, std::string& store);
+void addStore(CommandLine& command, std::string& store);
 /// Of a folder's name; empty: the usual one.
 calibration::RigStore storeAt(const std::string& folder);
 
 /// Where a result goes: a file, the store, or nowhere.
 class KeepOption {
  public:
-  void addTo(CLI::App& command);
+  void addTo(CommandLine& command);
 
   calibration::RigStore rigs() const { return storeAt(store); }
   calibration::RigPlace placeOf(const calibration::RigRecord& record) const;
@@ -51,7 +51,7 @@ class KeepOption {
 };
 
 /// Who measures, as options.
-void addMeasuring(CLI::App& command, Measuring& measuring);
+void addMeasuring(CommandLine& command, Measuring& measuring);
 
 /// What a technician was led to, told and kept; the exit status.
 int concluded(const WizardOption::Led& led, Measuring measuring, const KeepOption& keep);

@@ -3,12 +3,10 @@
 #include <cstdio>
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
 #include "app/calibrate/base_rig.h"
 #include "app/calibrate/calibration_text.h"
 #include "app/commands/calibrate/calibrate.h"
-#include "app/text/number_range.h"
+#include "app/text/command_line.h"
 #include "app/text/usage_error.h"
 #include "app/text/written_text.h"
 #include "calibration/fit/touches_file.h"
@@ -84,31 +82,28 @@ int collect(const CollectOptions& asked) {
 
 }  // namespace
 
-void addCalibrateCollect(CLI::App& calibrate, Chosen& chosen) {
+void addCalibrateCollect(CommandLine& calibrate) {
   auto o = std::make_shared<CollectOptions>();
-  CLI::App* command = calibrate.add_subcommand(
+  CommandLine& command = calibrate.command(
       "collect", "Lead a technician through a calibration at the workstation, by the stylus and its button alone");
-  o->wizard.addTo(*command)->required();
-  o->wizard.addCameraTo(*command);
+  o->wizard.addTo(command).required();
+  o->wizard.addCameraTo(command);
   command
-      ->add_option("--method", o->method,
-                   "jig27 or jig8: a block with pits; visual15 or visual25: nothing but eyes; webcam3: a webcam at "
-                   "three places; rest: where the hand rests")
-      ->capture_default_str();
-  command->add_option("--rig", o->rig, std::string(kBaseRigHelp) + " [the one in force of this device, else mirrored]");
-  command->add_option("--jig", o->jig, "Where the block stands in W: x,y,z mm and its turns about x, y, z in degrees")
-      ->delimiter(',')
-      ->expected(6)
-      ->check(numberRange(-1000.0, 1000.0));
-  command->add_option("--rest-mark", o->rest_marks, "A mark of the hand rest in its own frame, x,y,z mm; six of them")
-      ->delimiter(',')
-      ->expected(3)
-      ->check(numberRange(-1000.0, 1000.0));
-  command->add_option("--observations", o->observations, "The touches as a file as well, to fit again")
-      ->type_name("FILE");
-  addMeasuring(*command, o->measuring);
-  o->keep.addTo(*command);
-  command->callback([o, &chosen] { chosen.action = [o] { return collect(*o); }; });
+      .option("--method", o->method,
+              "jig27 or jig8: a block with pits; visual15 or visual25: nothing but eyes; webcam3: a webcam at "
+              "three places; rest: where the hand rests")
+      .showsDefault();
+  command.option("--rig", o->rig, std::string(kBaseRigHelp) + " [the one in force of this device, else mirrored]");
+  command.option("--jig", o->jig, "Where the block stands in W: x,y,z mm and its turns about x, y, z in degrees")
+      .numbers(6)
+      .from(-1000.0, 1000.0);
+  command.option("--rest-mark", o->rest_marks, "A mark of the hand rest in its own frame, x,y,z mm; six of them")
+      .numbers(3)
+      .from(-1000.0, 1000.0);
+  command.option("--observations", o->observations, "The touches as a file as well, to fit again").valueNamed("FILE");
+  addMeasuring(command, o->measuring);
+  o->keep.addTo(command);
+  command.does([o] { return collect(*o); });
 }
 
 }  // namespace app

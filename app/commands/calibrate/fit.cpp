@@ -4,12 +4,10 @@
 #include <cstdio>
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
 #include "app/calibrate/base_rig.h"
 #include "app/calibrate/calibration_text.h"
 #include "app/commands/calibrate/calibrate.h"
-#include "app/text/number_range.h"
+#include "app/text/command_line.h"
 #include "app/text/usage_error.h"
 #include "calibration/fit/touch_checks.h"
 #include "calibration/fit/touches_file.h"
@@ -125,22 +123,22 @@ int fit(const CalibrateFitOptions& options) {
 
 }  // namespace
 
-void addCalibrateFit(CLI::App& calibrate, Chosen& chosen) {
+void addCalibrateFit(CommandLine& calibrate) {
   auto o = std::make_shared<CalibrateFitOptions>();
-  CLI::App* command = calibrate.add_subcommand("fit", "From touches to a rig file; exit 0 green, 1 amber or red");
-  command->add_option("OBSERVATIONS", o->observations, "Touches, or what a webcam saw; YAML")->required();
+  CommandLine& command = calibrate.command("fit", "From touches to a rig file; exit 0 green, 1 amber or red");
+  command.option("OBSERVATIONS", o->observations, "Touches, or what a webcam saw; YAML").required();
   command
-      ->add_option("--model", o->model,
-                   "rigid, joints (gains, offsets, tip; after Harders), full, or auto: by cross-validation")
-      ->check(CLI::IsMember({"auto", "rigid", "joints", "harders", "full"}))
-      ->capture_default_str();
-  command->add_option("--rig", o->rig, kBaseRigHelp)->capture_default_str();
-  command->add_option("--held-out", o->held_out, "Touches it has not seen, to prove it by")->type_name("FILE");
-  command->add_option("--region", o->region_mm3, "Volume that the case needs, mm3")->check(numberRange(0.0, 1e8));
-  addMeasuring(*command, o->measuring);
-  o->keep.addTo(*command);
-  command->add_flag("--json", o->json, "The fit as JSON on standard output");
-  command->callback([o, &chosen] { chosen.action = [o] { return fit(*o); }; });
+      .option("--model", o->model,
+              "rigid, joints (gains, offsets, tip; after Harders), full, or auto: by cross-validation")
+      .oneOf({"auto", "rigid", "joints", "harders", "full"})
+      .showsDefault();
+  command.option("--rig", o->rig, kBaseRigHelp).showsDefault();
+  command.option("--held-out", o->held_out, "Touches it has not seen, to prove it by").valueNamed("FILE");
+  command.option("--region", o->region_mm3, "Volume that the case needs, mm3").from(0.0, 1e8);
+  addMeasuring(command, o->measuring);
+  o->keep.addTo(command);
+  command.flag("--json", o->json, "The fit as JSON on standard output");
+  command.does([o] { return fit(*o); });
 }
 
 }  // namespace app

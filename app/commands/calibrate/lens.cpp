@@ -4,12 +4,10 @@
 #include <filesystem>
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
 #include "app/calibrate/lens_text.h"
 #include "app/commands/calibrate/calibrate.h"
 #include "app/options/view_option.h"
-#include "app/text/number_range.h"
+#include "app/text/command_line.h"
 #include "app/text/usage_error.h"
 #include "app/text/written_text.h"
 #include "calibration/record/utc.h"
@@ -119,25 +117,23 @@ int lens(const LensOptions& options) {
 
 }  // namespace
 
-void addCalibrateLens(CLI::App& calibrate, Chosen& chosen) {
+void addCalibrateLens(CommandLine& calibrate) {
   auto o = std::make_shared<LensOptions>();
-  CLI::App* command = calibrate.add_subcommand(
+  CommandLine& command = calibrate.command(
       "lens", "A camera's lens from 12 to 15 pictures of a chessboard; exit 0 green (0.3 px), 1 amber (0.6 px) or red");
-  command->add_option("PICTURES", o->folder, "Folder of PNG or JPEG")->required();
-  command->add_option("--board", o->board, "Inner corners of a plain chessboard, 9x6 [the board that our screen shows]")
-      ->type_name("CxR");
-  command->add_option("--square-mm", o->square_mm, "Side of its squares; the lens does not depend on it")
-      ->check(numberRange(0.1, 1000.0))
-      ->capture_default_str();
-  command->add_option("--screen", o->screen, "Size of the screen that shows our board")
-      ->type_name("WxH")
-      ->capture_default_str();
-  command->add_option("--out", o->out, "Camera file to write, YAML; what --lens takes")->type_name("FILE");
-  command->add_option("--name", o->name, "Which camera it is, for people");
-  command->add_option("--serial", o->serial, "Its serial number");
-  command->add_flag("--force", o->force, "Replace a file that exists");
-  command->add_flag("--json", o->json, "The lens as JSON on standard output");
-  command->callback([o, &chosen] { chosen.action = [o] { return lens(*o); }; });
+  command.option("PICTURES", o->folder, "Folder of PNG or JPEG").required();
+  command.option("--board", o->board, "Inner corners of a plain chessboard, 9x6 [the board that our screen shows]")
+      .valueNamed("CxR");
+  command.option("--square-mm", o->square_mm, "Side of its squares; the lens does not depend on it")
+      .from(0.1, 1000.0)
+      .showsDefault();
+  command.option("--screen", o->screen, "Size of the screen that shows our board").valueNamed("WxH").showsDefault();
+  command.option("--out", o->out, "Camera file to write, YAML; what --lens takes").valueNamed("FILE");
+  command.option("--name", o->name, "Which camera it is, for people");
+  command.option("--serial", o->serial, "Its serial number");
+  command.flag("--force", o->force, "Replace a file that exists");
+  command.flag("--json", o->json, "The lens as JSON on standard output");
+  command.does([o] { return lens(*o); });
 }
 
 }  // namespace app

@@ -3,11 +3,10 @@
 #include <cstdio>
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
 #include "app/calibrate/base_rig.h"
 #include "app/calibrate/calibration_text.h"
 #include "app/commands/calibrate/calibrate.h"
+#include "app/text/command_line.h"
 #include "app/text/usage_error.h"
 #include "calibration/fit/touches_file.h"
 
@@ -65,17 +64,16 @@ int pivot(const PivotOptions& options) {
 
 }  // namespace
 
-void addCalibratePivot(CLI::App& calibrate, Chosen& chosen) {
+void addCalibratePivot(CommandLine& calibrate) {
   auto o = std::make_shared<PivotOptions>();
-  CLI::App* command = calibrate.add_subcommand(
+  CommandLine& command = calibrate.command(
       "pivot", "The tip of a new bur: its end in one pit, the handle swung to all sides, 12 touches or more");
-  command->add_option("OBSERVATIONS", o->observations, "Touches in one pit, YAML; where it is does not matter")
-      ->required();
-  command->add_option("--rig", o->rig, std::string(kBaseRigHelp) + " [the arm as its model says]");
-  addMeasuring(*command, o->measuring);
-  o->keep.addTo(*command);
-  command->add_flag("--json", o->json, "What was found as JSON on standard output");
-  command->callback([o, &chosen] { chosen.action = [o] { return pivot(*o); }; });
+  command.option("OBSERVATIONS", o->observations, "Touches in one pit, YAML; where it is does not matter").required();
+  command.option("--rig", o->rig, std::string(kBaseRigHelp) + " [the arm as its model says]");
+  addMeasuring(command, o->measuring);
+  o->keep.addTo(command);
+  command.flag("--json", o->json, "What was found as JSON on standard output");
+  command.does([o] { return pivot(*o); });
 }
 
 }  // namespace app

@@ -3,11 +3,10 @@
 #include <cstdio>
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
 #include "app/calibrate/base_rig.h"
 #include "app/calibrate/calibration_text.h"
 #include "app/commands/calibrate/calibrate.h"
+#include "app/text/command_line.h"
 #include "app/text/usage_error.h"
 #include "calibration/fit/touches_file.h"
 
@@ -79,28 +78,28 @@ int prove(const ProveOptions& options) {
   return statusOf(judgement.verdict);
 }
 
-void addOne(CLI::App& calibrate, Chosen& chosen, bool session_check) {
+void addOne(CommandLine& calibrate, bool session_check) {
   auto o = std::make_shared<ProveOptions>();
   o->session_check = session_check;
-  CLI::App* command =
-      session_check ? calibrate.add_subcommand("check", "Four touches at the start of a session: is it still right?")
-                    : calibrate.add_subcommand("verify", "A rig against touches it has not seen");
-  command->add_option("RIG", o->rig, kBaseRigHelp);
-  command->add_option("OBSERVATIONS", o->observations, "Touches, YAML");
-  command->add_flag("--json", o->json, "Numbers as JSON on standard output");
-  o->keep.addTo(*command);
+  CommandLine& command = session_check
+                             ? calibrate.command("check", "Four touches at the start of a session: is it still right?")
+                             : calibrate.command("verify", "A rig against touches it has not seen");
+  command.option("RIG", o->rig, kBaseRigHelp);
+  command.option("OBSERVATIONS", o->observations, "Touches, YAML");
+  command.flag("--json", o->json, "Numbers as JSON on standard output");
+  o->keep.addTo(command);
   if (session_check) {
-    o->wizard.addTo(*command);
-    addMeasuring(*command, o->measuring);
+    o->wizard.addTo(command);
+    addMeasuring(command, o->measuring);
   }
-  command->callback([o, &chosen] { chosen.action = [o] { return prove(*o); }; });
+  command.does([o] { return prove(*o); });
 }
 
 }  // namespace
 
-void addCalibrateProofs(CLI::App& calibrate, Chosen& chosen) {
-  addOne(calibrate, chosen, false);
-  addOne(calibrate, chosen, true);
+void addCalibrateProofs(CommandLine& calibrate) {
+  addOne(calibrate, false);
+  addOne(calibrate, true);
 }
 
 }  // namespace app

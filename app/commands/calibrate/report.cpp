@@ -2,11 +2,10 @@
 
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
 #include "app/calibrate/base_rig.h"
 #include "app/calibrate/report/calibration_report.h"
 #include "app/commands/calibrate/calibrate.h"
+#include "app/text/command_line.h"
 #include "app/text/written_text.h"
 #include "calibration/record/later_check.h"
 #include "calibration/record/utc.h"
@@ -29,14 +28,14 @@ int report(const ReportOptions& options) {
 
 }  // namespace
 
-void addCalibrateReport(CLI::App& calibrate, Chosen& chosen) {
+void addCalibrateReport(CommandLine& calibrate) {
   auto o = std::make_shared<ReportOptions>();
-  CLI::App* command = calibrate.add_subcommand("report", "A calibration as one HTML page: how good, where, since when");
-  command->add_option("RIG", o->rig, kBaseRigHelp)->required();
-  command->add_option("--out,--html", o->keep.out, "Page to write, .html")->type_name("FILE")->required();
-  addStore(*command, o->keep.store);
-  command->add_flag("--force", o->keep.force, "Replace a file that exists");
-  command->callback([o, &chosen] { chosen.action = [o] { return report(*o); }; });
+  CommandLine& command = calibrate.command("report", "A calibration as one HTML page: how good, where, since when");
+  command.option("RIG", o->rig, kBaseRigHelp).required();
+  command.option("--out,--html", o->keep.out, "Page to write, .html").valueNamed("FILE").required();
+  addStore(command, o->keep.store);
+  command.flag("--force", o->keep.force, "Replace a file that exists");
+  command.does([o] { return report(*o); });
 }
 
 }  // namespace app

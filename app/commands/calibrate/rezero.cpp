@@ -3,11 +3,10 @@
 #include <cstdio>
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
 #include "app/calibrate/base_rig.h"
 #include "app/calibrate/calibration_text.h"
 #include "app/commands/calibrate/calibrate.h"
+#include "app/text/command_line.h"
 #include "app/text/usage_error.h"
 #include "calibration/fit/touches_file.h"
 
@@ -61,16 +60,16 @@ int rezero(const RezeroOptions& options) {
 
 }  // namespace
 
-void addCalibrateRezero(CLI::App& calibrate, Chosen& chosen) {
+void addCalibrateRezero(CommandLine& calibrate) {
   auto o = std::make_shared<RezeroOptions>();
-  CLI::App* command = calibrate.add_subcommand("rezero", "Bring a rig up to date with five touches, 30 s");
-  command->add_option("RIG", o->rig, kBaseRigHelp);
-  command->add_option("OBSERVATIONS", o->observations, "Touches, YAML");
-  command->add_option("--held-out", o->held_out, "Four touches more, to prove it by")->type_name("FILE");
-  o->wizard.addTo(*command);
-  addMeasuring(*command, o->measuring);
-  o->keep.addTo(*command);
-  command->callback([o, &chosen] { chosen.action = [o] { return rezero(*o); }; });
+  CommandLine& command = calibrate.command("rezero", "Bring a rig up to date with five touches, 30 s");
+  command.option("RIG", o->rig, kBaseRigHelp);
+  command.option("OBSERVATIONS", o->observations, "Touches, YAML");
+  command.option("--held-out", o->held_out, "Four touches more, to prove it by").valueNamed("FILE");
+  o->wizard.addTo(command);
+  addMeasuring(command, o->measuring);
+  o->keep.addTo(command);
+  command.does([o] { return rezero(*o); });
 }
 
 }  // namespace app

@@ -2,10 +2,8 @@
 
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
 #include "app/commands/calibrate/calibrate.h"
-#include "app/text/number_range.h"
+#include "app/text/command_line.h"
 #include "app/text/usage_error.h"
 #include "app/text/written_text.h"
 #include "calibration/fit/touches_file.h"
@@ -61,42 +59,36 @@ int simulate(const SimulateOptions& options) {
 
 }  // namespace
 
-void addCalibrateSimulate(CLI::App& calibrate, Chosen& chosen) {
+void addCalibrateSimulate(CommandLine& calibrate) {
   auto o = std::make_shared<SimulateOptions>();
-  CLI::App* command =
-      calibrate.add_subcommand("simulate", "Touches on a workstation whose truth is known, by scenario and seed");
+  CommandLine& command =
+      calibrate.command("simulate", "Touches on a workstation whose truth is known, by scenario and seed");
   command
-      ->add_option("--scenario", o->scenario,
-                   "A good unit, B typical, C bad, D typical with what no correction can express, E held one way, F "
-                   "touched by eye, G badly modelled")
-      ->check(CLI::IsMember({"A", "B", "C", "D", "E", "F", "G"}))
-      ->capture_default_str();
-  command->add_option("--seed", o->seed, "Which unit")->capture_default_str();
+      .option("--scenario", o->scenario,
+              "A good unit, B typical, C bad, D typical with what no correction can express, E held one way, F "
+              "touched by eye, G badly modelled")
+      .oneOf({"A", "B", "C", "D", "E", "F", "G"})
+      .showsDefault();
+  command.option("--seed", o->seed, "Which unit").showsDefault();
   command
-      ->add_option("--method", o->method,
-                   "Procedure: jig27, jig8, visual15, visual25, rezero5, check4, verify8; pivot12: a bur in one pit")
-      ->capture_default_str();
-  command->add_option("--outliers", o->outliers, "Share of touches that are off by 5 to 20 mm")
-      ->check(numberRange(0.0, 0.5))
-      ->capture_default_str();
-  command->add_option("--drift-deg", o->drift_deg, "Joint offsets since the unit was calibrated, one sigma, degrees")
-      ->check(numberRange(0.0, 5.0));
-  command->add_option("--drift-mm", o->drift_mm, "How far its base was pushed since, one sigma an axis, mm")
-      ->check(numberRange(0.0, 50.0));
-  command
-      ->add_option("--bur-mm", o->bur_mm, "How far the tip of the bur now in it is from the former one, x,y,z in H, mm")
-      ->delimiter(',')
-      ->expected(3)
-      ->check(numberRange(-100.0, 100.0));
-  command->add_option("--out", o->out, "Observations to write, YAML")->type_name("FILE")->required();
-  command->add_option("--held-out", o->held_out, "Touches to judge by, with tilts of their own, YAML")
-      ->type_name("FILE");
-  command->add_option("--held-out-n", o->held_out_n, "How many of these")
-      ->check(CLI::Range(4, 1000))
-      ->capture_default_str();
-  command->add_option("--rig", o->rig, "The rig as it is believed before, YAML")->type_name("FILE");
-  command->add_flag("--force", o->force, "Replace files that exist");
-  command->callback([o, &chosen] { chosen.action = [o] { return simulate(*o); }; });
+      .option("--method", o->method,
+              "Procedure: jig27, jig8, visual15, visual25, rezero5, check4, verify8; pivot12: a bur in one pit")
+      .showsDefault();
+  command.option("--outliers", o->outliers, "Share of touches that are off by 5 to 20 mm")
+      .from(0.0, 0.5)
+      .showsDefault();
+  command.option("--drift-deg", o->drift_deg, "Joint offsets since the unit was calibrated, one sigma, degrees")
+      .from(0.0, 5.0);
+  command.option("--drift-mm", o->drift_mm, "How far its base was pushed since, one sigma an axis, mm").from(0.0, 50.0);
+  command.option("--bur-mm", o->bur_mm, "How far the tip of the bur now in it is from the former one, x,y,z in H, mm")
+      .numbers(3)
+      .from(-100.0, 100.0);
+  command.option("--out", o->out, "Observations to write, YAML").valueNamed("FILE").required();
+  command.option("--held-out", o->held_out, "Touches to judge by, with tilts of their own, YAML").valueNamed("FILE");
+  command.option("--held-out-n", o->held_out_n, "How many of these").wholeFrom(4, 1000).showsDefault();
+  command.option("--rig", o->rig, "The rig as it is believed before, YAML").valueNamed("FILE");
+  command.flag("--force", o->force, "Replace files that exist");
+  command.does([o] { return simulate(*o); });
 }
 
 }  // namespace app

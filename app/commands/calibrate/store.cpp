@@ -3,11 +3,10 @@
 #include <cstdio>
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
 #include "app/calibrate/base_rig.h"
 #include "app/calibrate/calibration_text.h"
 #include "app/commands/calibrate/calibrate.h"
+#include "app/text/command_line.h"
 #include "app/text/usage_error.h"
 #include "calibration/record/rig_differences.h"
 #include "calibration/record/rig_file.h"
@@ -83,29 +82,29 @@ int rollBack(const StoreOptions& options) {
   return 0;
 }
 
-void addPlace(CLI::App& command, StoreOptions& options) {
-  command.add_option("--rig-id", options.rig_id, "Name of the workstation");
-  command.add_option("--serial", options.serial, "Serial of the device");
-  command.add_option("--mount", options.mount, "right or left");
+void addPlace(CommandLine& command, StoreOptions& options) {
+  command.option("--rig-id", options.rig_id, "Name of the workstation");
+  command.option("--serial", options.serial, "Serial of the device");
+  command.option("--mount", options.mount, "right or left");
 }
 
 }  // namespace
 
-void addCalibrateStore(CLI::App& calibrate, Chosen& chosen) {
+void addCalibrateStore(CommandLine& calibrate) {
   auto o = std::make_shared<StoreOptions>();
-  CLI::App* listing = calibrate.add_subcommand("list", "Rigs that are kept; * is in force");
-  addStore(*listing, o->store);
-  listing->callback([o, &chosen] { chosen.action = [o] { return list(*o); }; });
+  CommandLine& listing = calibrate.command("list", "Rigs that are kept; * is in force");
+  addStore(listing, o->store);
+  listing.does([o] { return list(*o); });
 
-  CLI::App* compare = calibrate.add_subcommand("diff", "What differs between two rigs, with units");
-  compare->add_option("BEFORE", o->before, kBaseRigHelp)->required();
-  compare->add_option("AFTER", o->after, "The other")->required();
-  compare->callback([o, &chosen] { chosen.action = [o] { return diff(*o); }; });
+  CommandLine& compare = calibrate.command("diff", "What differs between two rigs, with units");
+  compare.option("BEFORE", o->before, kBaseRigHelp).required();
+  compare.option("AFTER", o->after, "The other").required();
+  compare.does([o] { return diff(*o); });
 
-  CLI::App* back = calibrate.add_subcommand("rollback", "The rig before comes into force again");
-  addStore(*back, o->store);
-  addPlace(*back, *o);
-  back->callback([o, &chosen] { chosen.action = [o] { return rollBack(*o); }; });
+  CommandLine& back = calibrate.command("rollback", "The rig before comes into force again");
+  addStore(back, o->store);
+  addPlace(back, *o);
+  back.does([o] { return rollBack(*o); });
 }
 
 }  // namespace app

@@ -4,14 +4,13 @@
 #include <cstdio>
 #include <utility>
 
-#include <CLI/CLI.hpp>
-
 #include "app/calibrate/base_rig.h"
 #include "app/calibrate/webcam_show.h"
 #include "app/calibrate/wizard_show.h"
 #include "app/device/practice_device.h"
 #include "app/options/view_option.h"
 #include "app/station/rig_choice.h"
+#include "app/text/command_line.h"
 #include "app/text/usage_error.h"
 #include "calibration/webcam/camera_file.h"
 #include "calibration/webcam/webcam_source.h"
@@ -30,26 +29,26 @@ RigPlace placeOf(const Measuring& measuring) { return {measuring.rig_id, measuri
 
 }  // namespace
 
-CLI::Option* WizardOption::addTo(CLI::App& command) {
-  auto* device = command.add_option("--device", device_,
-                                    "Stylus: openhaptics[:NAME], or practice:D[:SEED], one in numbers on which nothing "
-                                    "can break (mouse moves it, space is its button)");
-  auto* robot = command.add_flag("--robot", robot_, "A robot holds the practice stylus and does what the pages say");
-  command.add_flag("--hurried", hurried_, "The robot takes no time")->needs(robot);
-  command.add_flag("--headless", headless_, "The robot without a window")->needs(robot);
+Option WizardOption::addTo(CommandLine& command) {
+  Option device = command.option("--device", device_,
+                                 "Stylus: openhaptics[:NAME], or practice:D[:SEED], one in numbers on which nothing "
+                                 "can break (mouse moves it, space is its button)");
+  Option robot = command.flag("--robot", robot_, "A robot holds the practice stylus and does what the pages say");
+  command.flag("--hurried", hurried_, "The robot takes no time").needs(robot);
+  command.flag("--headless", headless_, "The robot without a window").needs(robot);
   display_.addTo(command);
-  command.add_option("--monitor", monitor_, "Monitor, from 1")->check(CLI::Range(1, 16));
-  command.add_flag("--windowed", windowed_, "In a window instead of the full screen");
-  command.add_flag("--quiet", quiet_, "Without sounds");
-  command.add_option("--pages", pages_, "A picture of every page into this folder")->type_name("DIR");
+  command.option("--monitor", monitor_, "Monitor, from 1").wholeFrom(1, 16);
+  command.flag("--windowed", windowed_, "In a window instead of the full screen");
+  command.flag("--quiet", quiet_, "Without sounds");
+  command.option("--pages", pages_, "A picture of every page into this folder").valueNamed("DIR");
   return device;
 }
 
-void WizardOption::addCameraTo(CLI::App& command) {
-  command.add_option("--camera", camera_, "Webcam for webcam3: its number or path [practice: a rendered one]");
-  command.add_option("--camera-size", camera_size_, "Size of its pictures")->type_name("WxH")->capture_default_str();
-  command.add_option("--lens", lens_, "Camera file of its lens [measured on the way]")->type_name("FILE");
-  command.add_flag("--gray-code", gray_code_, "Stripes instead of a chessboard on the screen");
+void WizardOption::addCameraTo(CommandLine& command) {
+  command.option("--camera", camera_, "Webcam for webcam3: its number or path [practice: a rendered one]");
+  command.option("--camera-size", camera_size_, "Size of its pictures").valueNamed("WxH").showsDefault();
+  command.option("--lens", lens_, "Camera file of its lens [measured on the way]").valueNamed("FILE");
+  command.flag("--gray-code", gray_code_, "Stripes instead of a chessboard on the screen");
 }
 
 WizardOption::Stylus WizardOption::stylus(Measuring& measuring) const {

@@ -14,19 +14,17 @@
 #include "calibration/webcam/webcam_file.h"
 #include "haptics/device/opened_device.h"
 
-namespace CLI {
-class App;
-class Option;
-}  // namespace CLI
-
 namespace app {
+
+class CommandLine;
+class Option;
 
 class WizardOption {
  public:
   /// Adds --device and everything that goes with it; returns --device.
-  CLI::Option* addTo(CLI::App& command);
+  Option addTo(CommandLine& command);
   /// Adds --camera and what goes with it.
-  void addCameraTo(CLI::App& command);
+  void addCameraTo(CommandLine& command);
 
   bool isGiven() const { return !device_.empty(); }
 

@@ -7,13 +7,12 @@
 #include <fstream>
 #include <thread>
 
-#include <CLI/CLI.hpp>
-
 #include "app/device/practice_device.h"
 #include "app/text/usage_error.h"
 #include "calibration/record/rig_file.h"
 #include "calibration/record/rig_store.h"
 #include "tests/app/session/small_session.h"
+#include "tests/app/typed.h"
 
 namespace app {
 namespace {
@@ -59,10 +58,9 @@ class RigChoice : public Test {
   }
   /// As typed; the store is this test's.
   std::optional<ChosenRig> choose(const std::string& arguments, const DeviceAtHand& device) const {
-    CLI::App command;
     RigOption option;
-    option.addTo(command, true);
-    command.parse("--rig-store " + folder_.file("store") + " " + arguments, false);
+    tests::type("--rig-store " + folder_.file("store") + " " + arguments,
+                [&](CommandLine& command) { option.addTo(command, true); });
     return option.choose(device, kNow);
   }
   std::string refusal(const std::string& arguments, const DeviceAtHand& device) const {

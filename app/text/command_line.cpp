@@ -1,0 +1,183 @@
+#include "app/text/command_line.h"
+
+#include <utility>
+
+#include <CLI/CLI.hpp>
+
+#include "app/text/usage_error.h"
+
+namespace app {
+namespace {
+
+/// As a person writes it: no zeros behind.
+std::string shortText(double value) {
+  std::string text = std::to_string(value);
+  text.erase(text.find_last_not_of('0') + 1);
+  return text.back() == '.' ? text.substr(0, text.size() - 1) : text;
+}
+
+/// Unlike the library's own it refuses what is not a number.
+CLI::Validator numberRange(double low, double high) {
+  const std::string words = shortText(low) + " to " + shortText(high);
+  return {[=](const std::string& given) {
+            double value = 0.0;
+            const bool inside = CLI::detail::lexical_cast(given, value) && value >= low && value <= high;
+            return inside ? std::string() : "give a number from " + words;
+          },
+          words, "numberRange"};
+}
+
+}  // namespace
+
+Option& Option::required() {
+  option_->required();
+  return *this;
+}
+
+Option& Option::valueNamed(const std::string& name) {
+  option_->type_name(name);
+  return *this;
+}
+
+Option& Option::showsDefault() {
+  option_->capture_default_str();
+  return *this;
+}
+
+Option& Option::oneOf(const std::vector<std::string>& values) {
+  option_->check(CLI::IsMember(values));
+  return *this;
+}
+
+Option& Option::from(double low, double high) {
+  option_->check(numberRange(low, high));
+  return *this;
+}
+
+Option& Option::wholeFrom(int low, int high) {
+  option_->check(CLI::Range(low, high));
+  return *this;
+}
+
+Option& Option::anExistingFolder() {
+  option_->check(CLI::ExistingDirectory);
+  return *this;
+}
+
+Option& Option::numbers(int count) {
+  option_->expected(count);
+  return separatedByCommas();
+}
+
+Option& Option::separatedByCommas() {
+  option_->delimiter(',');
+  return *this;
+}
+
+Option& Option::repeated() {
+  option_->type_size(1)->expected(1)->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  return *this;
+}
+
+Option& Option::needs(const Option& other) {
+  option_->needs(other.option_);
+  return *this;
+}
+
+Option& Option::excludes(const Option& other) {
+  option_->excludes(other.option_);
+  return *this;
+}
+
+CommandLine::CommandLine(const std::string& about, const std::string& version)
+    : program_(std::make_unique<CLI::App>(about)), app_(*program_) {
+  app_.set_version_flag("--version", version);
+  wantsCommand();
+}
+
+CommandLine::CommandLine(CLI::App& app) : app_(app) {}
+
+CommandLine::~CommandLine() = default;
+
+CommandLine& CommandLine::command(const std::string& name, const std::string& about) {
+  commands_.emplace_back(new CommandLine(*app_.add_subcommand(name, about)));
+  return *commands_.back();
+}
+
+void CommandLine::wantsCommand() { app_.require_subcommand(1); }
+
+Option CommandLine::option(const std::string& name, std::string& value, const std::string& help) {
+  return Option(*app_.add_option(name, value, help));
+}
+
+Option CommandLine::option(const std::string& name, std::vector<std::string>& value, const std::string& help) {
+  return Option(*app_.add_option(name, value, help));
+}
+
+Option CommandLine::option(const std::string& name, double& value, const std::string& help) {
+  return Option(*app_.add_option(name, value, help));
+}
+
+Option CommandLine::option(const std::string& name, int& value, const std::string& help) {
+  return Option(*app_.add_option(name, value, help));
+}
+
+Option CommandLine::option(const std::string& name, std::uint32_t& value, const std::string& help) {
+  return Option(*app_.add_option(name, value, help));
+}
+
+Option CommandLine::option(const std::string& name, std::uint64_t& value, const std::string& help) {
+  return Option(*app_.add_option(name, value, help));
+}
+
+Option CommandLine::option(const std::string& name, std::vector<double>& value, const std::string& help) {
+  return Option(*app_.add_option(name, value, help));
+}
+
+Option CommandLine::option(const std::string& name, std::vector<std::vector<double>>& value, const std::string& help) {
+  return Option(*app_.add_option(name, value, help));
+}
+
+Option CommandLine::option(const std::string& name, std::optional<std::string>& value, const std::string& help) {
+  return Option(*app_.add_option(name, value, help));
+}
+
+Option CommandLine::option(const std::string& name, std::optional<double>& value, const std::string& help) {
+  return Option(*app_.add_option(name, value, help));
+}
+
+Option CommandLine::option(const std::string& name, std::optional<int>& value, const std::string& help) {
+  return Option(*app_.add_option(name, value, help));
+}
+
+Option CommandLine::option(const std::string& name, std::function<void(const std::string&)> take,
+                           const std::string& help) {
+  return Option(*app_.add_option_function<std::string>(name, std::move(take), help));
+}
+
+Option CommandLine::flag(const std::string& name, bool& value, const std::string& help) {
+  return Option(*app_.add_flag(name, value, help));
+}
+
+void CommandLine::footer(const std::string& text) { app_.footer(text); }
+
+int CommandLine::run(int argc, const char* const* argv) {
+  try {
+    app_.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    // Help and version are answers, everything else is a refusal.
+    if (error.get_exit_code() == 0) return app_.exit(error);
+    throw UsageError("command line: " + std::string(error.what()) + ", see molar --help or molar COMMAND --help");
+  }
+  // The innermost one that was named.
+  const CommandLine* chosen = this;
+  for (const CommandLine* next = this; next != nullptr;) {
+    chosen = next;
+    next = nullptr;
+    for (const auto& command : chosen->commands_)
+      if (command->app_.parsed()) next = command.get();
+  }
+  return chosen->action_();
+}
+
+}  // namespace app
