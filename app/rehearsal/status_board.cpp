@@ -1,7 +1,6 @@
 #include "app/rehearsal/status_board.h"
 
 #include "app/options/tool_text.h"
-#include "app/rehearsal/rehearsal_summary.h"
 
 namespace app {
 namespace {
@@ -55,6 +54,26 @@ OperatorSeat::Heard StatusBoard::serveOperator(const Moment& moment) {
   if (!operator_) return {};
   operator_->keepOpen();
   return operator_->isDue() ? operator_->serve(status(moment)) : OperatorSeat::Heard{};
+}
+
+void StatusBoard::tellEnd(Ending ending) {
+  if (ending == Ending::silent)
+    journal_.tell({"device", "the device has not ticked for 10 s, so the rehearsal ends; check its cable and driver"});
+  if (picture_.latency().pictures() > 0) journal_.note("latency", "median " + photonText(picture_.latency().median()));
+  Workstation& station = equipment_.workstation();
+  journal_.note("end", textOf(ending));
+  journal_.note("servo", punctualityText(station.figures()));
+  journal_.note("safety", "trips: " + tripsText(station.trips()));
+}
+
+RehearsalFigures StatusBoard::figures(const Moment& moment) {
+  RehearsalFigures figures;
+  figures.ticking = plan_.ticking;
+  figures.last = status(moment);
+  figures.last.trips = equipment_.workstation().trips();
+  figures.removed_mm3 = equipment_.workstation().bone().removedByTissue_mm3();
+  picture_.describe(figures);
+  return figures;
 }
 
 }  // namespace app

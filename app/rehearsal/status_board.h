@@ -1,6 +1,6 @@
 // Who is told how a rehearsal stands, and how often: the surgeon by the window's title, the journal of what is new of
-// safety, device, recording and latency, both twice a second; the operator ten times a second. Main thread, once a
-// frame; microseconds until something is due.
+// safety, device, recording and latency, both twice a second; the operator ten times a second; all of them at the end.
+// Main thread, once a frame; microseconds until something is due.
 #pragma once
 
 #include <optional>
@@ -10,6 +10,7 @@
 #include "app/rehearsal/journal.h"
 #include "app/rehearsal/live_picture.h"
 #include "app/rehearsal/rehearsal_plan.h"
+#include "app/rehearsal/rehearsal_summary.h"
 #include "app/rehearsal/run_monitor.h"
 
 namespace app {
@@ -32,6 +33,10 @@ class StatusBoard {
   void show(Time now, const Moment& moment);
   /// While the surgeon's picture is on its way. What the operator wishes now.
   OperatorSeat::Heard serveOperator(const Moment& moment);
+  /// Why it ended and how punctual it was, before the station stops.
+  void tellEnd(Ending ending);
+  /// How it stands after that; times and recording are left out.
+  RehearsalFigures figures(const Moment& moment);
 
  private:
   const RehearsalPlan& plan_;

@@ -108,8 +108,10 @@ struct Recorder::Impl {
     batch.commands.clear(), batch.ticks.clear(), batch.events.clear();
   }
 
+  /// Without a tick there is nothing to keep, and no file stays.
   void close(const haptics::CarvedBone* bone_left) noexcept {
     if (!writing) return;
+    if (next_index == 0) return endWith("no tick came");
     attempt([&] {
       if (!batch.events.empty()) writer.write(batch);
       writer.seal(lost(), bone_left);

@@ -48,6 +48,15 @@ struct ByHand {
   }
 };
 
+TEST(Recorder, WithoutATickLeavesWhatWasThere) {
+  ByHand refused;
+  refused.recorder.event("device", "refused at its start");
+  const RecordingSummary nothing = refused.recorder.stop();
+  EXPECT_EQ(nothing.trouble, "the recording ended early: no tick came");
+  EXPECT_FALSE(nothing.isWhole());
+  EXPECT_FALSE(std::filesystem::exists(refused.path));
+}
+
 TEST(Recorder, WritesEveryTickAndSealsTheFile) {
   ByHand at;
   for (int part = 0; part < 60; ++part) {
