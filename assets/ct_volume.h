@@ -11,6 +11,9 @@
 
 namespace assets {
 
+/// Of CtVolume::solid: the surface lies below.
+inline constexpr std::uint8_t kHalfSolid = 128;
+
 struct CtVolume {
   VolumeGrid grid;
   std::vector<std::int16_t> hounsfield;  ///< grid.voxelCount() values, i fastest

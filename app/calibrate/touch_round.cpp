@@ -16,7 +16,7 @@ constexpr double kMostOffUnmeasured_mm = 60.0;  // a stand put down by eye, arm 
 constexpr double kSamePlace_mm = 3.0, kSameTilt_deg = 5.0;
 constexpr double kUsualInterval_s = 6.0;
 constexpr double kHeard_s = 0.7, kSameBreath_s = 0.7;
-constexpr double kSilence_s = 0.5;  // of the clock while nothing came: it was not worked then
+constexpr double kIdle_s = 0.5;  // of the clock while nothing came: it was not worked then
 
 /// How far apart two touches of the same target may be while the device counts the same.
 double sameCount_mm(const calibration::TouchPrecision& precision) { return 0.6 + 4.0 * precision.in_plane_mm; }
@@ -200,7 +200,7 @@ void TouchRound::lost() {
 
 void TouchRound::keepTime(double t_s) {
   const double passed_s = t_s - seen_s_;
-  if (now_ && !pause_ && passed_s < kSilence_s) busy_s_ += passed_s;
+  if (now_ && !pause_ && passed_s < kIdle_s) busy_s_ += passed_s;
   seen_s_ = t_s;
 }
 

@@ -23,7 +23,6 @@ namespace {
 using namespace calibration;
 using Clock = std::chrono::steady_clock;
 
-constexpr auto kFrame = std::chrono::milliseconds(25);
 /// Until a screen shows what it was given, its own delay and two frames.
 constexpr auto kShown = std::chrono::milliseconds(120);
 constexpr double kMedian_s = 0.2;
@@ -59,7 +58,7 @@ class WebcamShow {
       } else {
         feel();
         if (procedure_.wants() == WebcamWants::picture) takePicture();
-        std::this_thread::sleep_until(began + kFrame);
+        std::this_thread::sleep_until(began + kPageTime);
       }
       tellNews();
     }

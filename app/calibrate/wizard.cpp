@@ -17,7 +17,7 @@
 namespace app {
 namespace {
 
-constexpr double kSilence_s = 0.3;
+constexpr double kLost_s = 0.3;
 
 std::vector<StepName> pagesOf(CalibrationProcedure procedure) {
   using enum StepName;
@@ -101,7 +101,7 @@ void Wizard::feel(const StylusSample& sample) {
     believed_s_ = sample.t_s;
   } else if (step().needsDevice()) {
     if (!believed_s_) believed_s_ = sample.t_s;
-    if (!lost_ && sample.t_s - *believed_s_ > kSilence_s) {
+    if (!lost_ && sample.t_s - *believed_s_ > kLost_s) {
       lost_ = true;
       ++book_.outcome.silences;
       button_.forget();

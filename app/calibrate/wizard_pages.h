@@ -3,6 +3,7 @@
 // 10 to 20 ms of one core: words that have not changed are drawn once. Not the window: wizard_show.
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,6 +16,9 @@
 #include "render/picture.h"
 
 namespace app {
+
+/// From page to page, where nobody hurries.
+inline constexpr std::chrono::milliseconds kPageTime{25};
 
 class WizardPages {
  public:

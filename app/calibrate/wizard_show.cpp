@@ -18,7 +18,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// Between two pictures; the ticks in between are not lost.
-constexpr auto kFrame = std::chrono::milliseconds(25);
 /// The same for a robot in a hurry, which is not held up by the display.
 constexpr auto kHurriedFrame = std::chrono::milliseconds(250);
 /// How long the last page stands.
@@ -71,7 +70,7 @@ class WizardShow {
     if (sounds_)
       for (const WizardSound sound : view_.sounds) sounds_->play(sound);
     show();
-    if (!run_.hurried) std::this_thread::sleep_until(began + kFrame);
+    if (!run_.hurried) std::this_thread::sleep_until(began + kPageTime);
   }
 
   void takeEvents() {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "app/text/printed.h"
 #include "app/text/usage_error.h"
 #include "haptics/servo/servo.h"
 
@@ -18,13 +19,6 @@ std::optional<double> numberIn(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
   return value;
-}
-
-std::string shortText(double value) {
-  std::string text = std::to_string(value);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text;
 }
 
 /// The setting of a key, or of the key it was called before.

@@ -38,7 +38,7 @@ const std::vector<Form>& forms() {
   return kKnown;
 }
 
-std::string shortText(double value) {
+std::string exactText(double value) {
   char text[32];
   const auto end = std::to_chars(text, text + sizeof text, value).ptr;
   return {text, end};
@@ -60,8 +60,8 @@ std::vector<double> measuresIn(std::string_view text, const std::vector<Measure>
     if (error != std::errc{} || end != part.data() + part.size() || !std::isfinite(value))
       throw UsageError(asked + ": the " + measure.name + " is not a number" + give);
     if (value < measure.least_mm || value > measure.most_mm)
-      throw UsageError(asked + ": the " + measure.name + " is out of range, give " + shortText(measure.least_mm) +
-                       " to " + shortText(measure.most_mm) + " mm");
+      throw UsageError(asked + ": the " + measure.name + " is out of range, give " + exactText(measure.least_mm) +
+                       " to " + exactText(measure.most_mm) + " mm");
     values.push_back(value);
   }
   if (values.size() < measures.size())
@@ -93,8 +93,8 @@ haptics::Shaft shaftFrom(const std::string& text) {
 std::string textOf(const BurShape& head) {
   for (const Form& form : forms())
     if (form.kind == head.kind)
-      return std::string(form.key) + ":" + shortText(head.radius_mm) +
-             (form.measures.size() > 1 ? "," + shortText(head.length_mm) : "");
+      return std::string(form.key) + ":" + exactText(head.radius_mm) +
+             (form.measures.size() > 1 ? "," + exactText(head.length_mm) : "");
   return "unknown";
 }
 

@@ -115,7 +115,7 @@ std::string metricsWords(const SessionMetrics& metrics) {
 
 namespace {
 
-nlohmann::ordered_json calibrationJson(const SessionCalibration& c) {
+nlohmann::ordered_json calibrationFigures(const SessionCalibration& c) {
   nlohmann::ordered_json json = {{"rig", c.rig},        {"rig_id", c.rig_id},   {"device_serial", c.device_serial},
                                  {"verdict", nullptr},  {"touches", c.touches}, {"checked_utc", nullptr},
                                  {"age_days", nullptr}, {"despite", nullptr}};
@@ -142,7 +142,7 @@ std::string metricsJson(const SessionMetrics& metrics) {
   const nlohmann::ordered_json json = {
       {"patient", metrics.patient_title},
       {"program_version", metrics.program_version},
-      {"calibration", metrics.calibration ? calibrationJson(*metrics.calibration) : nlohmann::ordered_json()},
+      {"calibration", metrics.calibration ? calibrationFigures(*metrics.calibration) : nlohmann::ordered_json()},
       {"closed", metrics.closed},
       {"log_missing", metrics.missing_log.has_value()},
       {"ticks", metrics.ticks},

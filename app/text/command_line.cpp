@@ -4,17 +4,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/text/printed.h"
 #include "app/text/usage_error.h"
 
 namespace app {
 namespace {
-
-/// As a person writes it: no zeros behind.
-std::string shortText(double value) {
-  std::string text = std::to_string(value);
-  text.erase(text.find_last_not_of('0') + 1);
-  return text.back() == '.' ? text.substr(0, text.size() - 1) : text;
-}
 
 /// Unlike the library's own it refuses what is not a number.
 CLI::Validator numberRange(double low, double high) {

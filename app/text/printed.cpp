@@ -17,4 +17,11 @@ std::string printed(const char* format, ...) {
   return text;
 }
 
+std::string shortText(double value) {
+  std::string text = std::to_string(value);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
 }  // namespace app

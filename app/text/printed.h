@@ -1,4 +1,4 @@
-// printf into a string, as long as it becomes: a line of a summary or a panel. Any thread.
+// Numbers in text: printf into a string, as long as it becomes; a number as a person writes it. Any thread.
 #pragma once
 
 #include <string>
@@ -6,5 +6,8 @@
 namespace app {
 
 [[gnu::format(printf, 1, 2)]] std::string printed(const char* format, ...);
+
+/// At most six decimals, no zeros behind.
+std::string shortText(double value);
 
 }  // namespace app

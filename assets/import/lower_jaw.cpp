@@ -12,7 +12,6 @@ namespace {
 constexpr double kCell_mm = 2.0;
 constexpr double kFace_mm = 25.0, kBeside_mm = 18.0, kHollowFrom_mm = 22.0, kHollowTo_mm = 40.0, kHollowHalf_mm = 6.0;
 constexpr double kArchHeight_mm = 26.0, kChin_mm = 16.0, kFront_mm = 20.0, kWall_mm = 60.0;
-constexpr std::uint8_t kHalfSolid = 128;
 constexpr int kLeastFront = 3;  ///< cells of bone in the front row of a slice
 
 /// Solid in cells of 2 mm: i to the left, j to the back, k up.

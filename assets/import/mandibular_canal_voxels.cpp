@@ -14,7 +14,7 @@ namespace assets {
 
 namespace {
 
-constexpr double kCell_mm = 0.8;
+constexpr double kFinestCell_mm = 0.8;
 constexpr std::size_t kMostParts = 64;  ///< of a canal; the rest are speckles
 constexpr double kLargestGap_mm = 8.0;  // segmentations lose the canal where a root lies on it
 
@@ -30,7 +30,7 @@ struct Cell {
 
 std::vector<Cell> cellsOf(const VolumeGrid& grid, const std::vector<std::uint8_t>& label) {
   std::vector<Cell> cells;
-  const double cell_mm = std::max(kCell_mm, grid.spacing_mm);
+  const double cell_mm = std::max(kFinestCell_mm, grid.spacing_mm);
   const auto cell_of = [&](glm::ivec3 ijk) {
     return glm::ivec3(glm::floor(glm::dvec3(ijk) * grid.spacing_mm / cell_mm + 1.0e-9));
   };

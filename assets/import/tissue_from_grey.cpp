@@ -9,7 +9,6 @@ namespace {
 
 constexpr double kReach_mm = 0.6;      ///< half width of a surface in a scan, at least two voxels
 constexpr double kVoidDepth_mm = 1.0;  ///< of outside; marrow spaces are smaller
-constexpr std::uint8_t kHalfSolid = 128;
 
 /// Grey values at any place, the border's beyond it.
 class Greys {

@@ -10,7 +10,7 @@ namespace assets {
 namespace {
 
 constexpr double kSmallest_mm3 = 10.0, kLargest_mm3 = 3000.0;  // a large molar has 1,200 (Wheeler)
-constexpr double kFront_mm = 5.0;
+constexpr double kFrontSlab_mm = 5.0;
 
 bool isPartOfMarkedTooth(std::uint8_t label) {
   const Tissue tissue{label};
@@ -50,7 +50,7 @@ glm::dvec3 centroid_P_mm(const VolumeGrid& grid, const Mass& mass) {
 std::optional<glm::dvec3> frontOf_P_mm(const CtVolume& ct, Tissue tissue) {
   const VolumeGrid& grid = ct.grid;
   const auto value = static_cast<std::uint8_t>(tissue);
-  const int depth = std::max(1, static_cast<int>(std::lround(kFront_mm / grid.spacing_mm)));
+  const int depth = std::max(1, static_cast<int>(std::lround(kFrontSlab_mm / grid.spacing_mm)));
   Mass front;
   int end = grid.size.y;
   for (int j = 0; j < end; ++j)
@@ -67,7 +67,7 @@ std::optional<glm::dvec3> frontOf_P_mm(const CtVolume& ct, Tissue tissue) {
 /// 48 or 38, by what lies in front of the tooth.
 std::optional<int> thirdMolarAt(const CtVolume& ct, const glm::dvec3& tooth_P_mm) {
   for (const Tissue tissue : {Tissue::other_teeth, Tissue::cortical})
-    if (const auto front_P_mm = frontOf_P_mm(ct, tissue); front_P_mm && front_P_mm->y < tooth_P_mm.y - kFront_mm)
+    if (const auto front_P_mm = frontOf_P_mm(ct, tissue); front_P_mm && front_P_mm->y < tooth_P_mm.y - kFrontSlab_mm)
       return tooth_P_mm.x < front_P_mm->x ? 48 : 38;
   return std::nullopt;
 }

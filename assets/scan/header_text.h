@@ -13,6 +13,9 @@
 namespace assets {
 
 /// Throws LoadError: the file, why.
+/// What to do about a header that contradicts itself.
+inline constexpr const char* kExportAgain = "; export the volume again";
+
 [[noreturn]] void refuseScan(const std::string& path, const std::string& reason);
 
 class HeaderText {

@@ -15,8 +15,6 @@ namespace assets {
 
 namespace {
 
-constexpr const char* kExport = "; export the volume again";
-
 class MetaHeader {
  public:
   explicit MetaHeader(const PlainFile& file) : path_(file.path()) { readFields(file); }
@@ -43,9 +41,10 @@ class MetaHeader {
       const std::size_t sign = line->find_first_of("=:");
       const std::string name = lowerCase(trimmed(line->substr(0, sign)));
       if (sign == std::string::npos || !isName(name))
-        refuseScan(path_, "line " + std::to_string(text.lineNumber()) + " is no field of a MetaImage header" + kExport);
+        refuseScan(path_,
+                   "line " + std::to_string(text.lineNumber()) + " is no field of a MetaImage header" + kExportAgain);
       if (!value_.emplace(name, trimmed(line->substr(sign + 1))).second)
-        refuseScan(path_, "its header has " + asShown(name) + " twice" + kExport);
+        refuseScan(path_, "its header has " + asShown(name) + " twice" + kExportAgain);
       if (name != "elementdatafile") continue;
       end_byte_ = text.nextByte();
       if (isList(value_[name]))
@@ -53,7 +52,8 @@ class MetaHeader {
           if (const std::string each = trimmed(*listed); !each.empty()) listed_files_.push_back(each);
       return;
     }
-    refuseScan(path_, std::string("it is no MetaImage file, or its header has no end (ElementDataFile)") + kExport);
+    refuseScan(path_,
+               std::string("it is no MetaImage file, or its header has no end (ElementDataFile)") + kExportAgain);
   }
 
   static bool isName(const std::string& name) {
@@ -75,7 +75,7 @@ class MetaHeader {
   }
 
   [[noreturn]] void refuseField(const std::string& name) const {
-    refuseScan(path_, "its '" + name + "' " + asShown(value(name)) + " can not be understood" + kExport);
+    refuseScan(path_, "its '" + name + "' " + asShown(value(name)) + " can not be understood" + kExportAgain);
   }
 
   bool yes(const std::string& name, bool otherwise) const {
@@ -115,7 +115,7 @@ class MetaHeader {
       const auto found = realNumbers(text, count);
       if (!found)
         refuseScan(path_, "its " + std::string(*names.begin()) + " " + asShown(text) + " is not " +
-                              std::to_string(count) + " numbers" + kExport);
+                              std::to_string(count) + " numbers" + kExportAgain);
       return found;
     };
     const std::vector<double> spacing = *numbers({"elementspacing", "elementsize"}, axes);
@@ -129,12 +129,12 @@ class MetaHeader {
     for (std::size_t a = 0; a < 3; ++a) {
       const int i = static_cast<int>(a);
       if (!(spacing[a] > 0.0) || !std::isfinite(spacing[a]))
-        refuseScan(path_, std::string("its ElementSpacing is not all above 0 and finite") + kExport);
+        refuseScan(path_, std::string("its ElementSpacing is not all above 0 and finite") + kExportAgain);
       result.size[i] = static_cast<int>(sizes_[a]);
       if (!axis.empty()) result.step_P_mm[i] = {axis[a * axes], axis[a * axes + 1], axis[a * axes + 2]};
       constexpr double kUnit = 1.0e-3;
       if (!(std::abs(glm::length(result.step_P_mm[i]) - 1.0) <= kUnit))
-        refuseScan(path_, std::string("the axes of its TransformMatrix are not of length 1") + kExport);
+        refuseScan(path_, std::string("the axes of its TransformMatrix are not of length 1") + kExportAgain);
       result.step_P_mm[i] *= *mm * spacing[a];
       if (!origin.empty()) result.origin_P_mm[i] = *mm * origin[a];
     }
@@ -223,7 +223,7 @@ class MetaHeader {
     const std::uint64_t needed = filesNeeded(file_axes);
     if (listed_files_.size() != needed)
       refuseScan(path_, "it lists " + std::to_string(listed_files_.size()) + " data files where it needs " +
-                            std::to_string(needed) + kExport);
+                            std::to_string(needed) + kExportAgain);
     std::vector<VoxelFile> files;
     for (const std::string& each : listed_files_) files.push_back(fileBeside(path_, each));
     return files;

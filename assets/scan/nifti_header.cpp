@@ -17,7 +17,6 @@ namespace assets {
 namespace {
 
 constexpr std::size_t kHeaderBytes = 348;
-constexpr const char* kExport = "; export the volume again";
 
 // Byte offsets of the fields, nifti1.h.
 enum At : std::size_t {
@@ -148,7 +147,7 @@ class NiftiHeader {
     for (int a = 0; a < 3; ++a) {
       spacing[a] = real(at_pixdim, a + 1);
       if (!(spacing[a] > 0.0) || !std::isfinite(spacing[a]))
-        refuseScan(path_, std::string("its voxel sizes (pixdim) are not all above 0 and finite") + kExport);
+        refuseScan(path_, std::string("its voxel sizes (pixdim) are not all above 0 and finite") + kExportAgain);
     }
     if (whole(at_sform_code) > 0)
       placeBySform(spacing, result);
@@ -173,9 +172,10 @@ class NiftiHeader {
     constexpr double kShear = 1.0e-3;
     for (int a = 0; a < 3; ++a) {
       const double length = glm::length(result.step_P_mm[a]);
-      if (!std::isfinite(length)) refuseScan(path_, std::string("its sform holds what is no finite number") + kExport);
+      if (!std::isfinite(length))
+        refuseScan(path_, std::string("its sform holds what is no finite number") + kExportAgain);
       if (!(std::abs(length - spacing[a]) <= kAgree * spacing[a]))
-        refuseScan(path_, std::string("its voxel sizes (pixdim) and its sform do not agree") + kExport);
+        refuseScan(path_, std::string("its voxel sizes (pixdim) and its sform do not agree") + kExportAgain);
     }
     for (int a = 0; a < 3; ++a) {
       const int b = (a + 1) % 3;
@@ -192,7 +192,7 @@ class NiftiHeader {
     const double handed = real(at_pixdim);
     constexpr double kRounding = 1.0e-4;
     if (!(square <= 1.0 + kRounding) || !std::isfinite(handed))
-      refuseScan(path_, std::string("its qform is no rotation") + kExport);
+      refuseScan(path_, std::string("its qform is no rotation") + kExportAgain);
     const glm::dquat rotation = glm::normalize(glm::dquat(std::sqrt(std::max(1.0 - square, 0.0)), bcd.x, bcd.y, bcd.z));
     const glm::dmat3 axes = glm::mat3_cast(rotation);
     for (int a = 0; a < 3; ++a) {
@@ -207,7 +207,7 @@ class NiftiHeader {
     const double slope = real(at_slope), intercept = real(at_inter);
     if (slope == 0.0 || (std::isnan(slope) && (std::isnan(intercept) || intercept == 0.0))) return;
     if (!std::isfinite(slope) || !std::isfinite(intercept))
-      refuseScan(path_, std::string("its rescale (scl_slope, scl_inter) is no finite number") + kExport);
+      refuseScan(path_, std::string("its rescale (scl_slope, scl_inter) is no finite number") + kExportAgain);
     header.slope = slope;
     header.intercept = intercept;
   }
@@ -218,7 +218,7 @@ class NiftiHeader {
     const double offset = real(at_vox_offset);
     if (offset == 0.0) return static_cast<std::int64_t>(kFirst);
     if (!(offset >= kHeaderBytes && offset <= kLast) || offset != std::floor(offset))
-      refuseScan(path_, std::string("its voxels begin where they can not (vox_offset)") + kExport);
+      refuseScan(path_, std::string("its voxels begin where they can not (vox_offset)") + kExportAgain);
     return static_cast<std::int64_t>(offset);
   }
 

@@ -173,7 +173,7 @@ constexpr std::array<SectionStation, 9> kStations = {{
        {1.6, -11},
        {0.8, -4}}}},
 }};
-constexpr int kPointsPerSpan = 5;
+constexpr int kRidgePointsPerSpan = 5;
 
 /// Section at an arch position: Hermite through the stations, point by point.
 Section sectionAt(const DentalArch& arch, double along_mm) {
@@ -194,8 +194,8 @@ using Contour = std::vector<glm::dvec2>;
 Contour contourOf(const Section& s) {
   Contour contour;
   for (std::size_t n = 0; n < kSectionPoints; ++n)
-    for (int step = 0; step < kPointsPerSpan; ++step) {
-      const double t = static_cast<double>(step) / kPointsPerSpan;
+    for (int step = 0; step < kRidgePointsPerSpan; ++step) {
+      const double t = static_cast<double>(step) / kRidgePointsPerSpan;
       const glm::dvec2 a = s[(n + kSectionPoints - 1) % kSectionPoints], b = s[n], c = s[(n + 1) % kSectionPoints],
                        d = s[(n + 2) % kSectionPoints];
       contour.push_back(0.5 * (2.0 * b + t * (c - a) + t * t * (2.0 * a - 5.0 * b + 4.0 * c - d) +

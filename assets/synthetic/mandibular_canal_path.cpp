@@ -25,7 +25,7 @@ constexpr std::array<CourseKnot, 11> kCourse = {{{76.0, 4.6, -3.0},
                                                  {21.0, 3.2, -26.0},
                                                  {18.2, 4.3, -24.3},
                                                  {19.4, 7.2, -22.9}}};
-constexpr int kPointsPerSpan = 16;
+constexpr int kCanalPointsPerSpan = 16;
 constexpr double kDropWidth_mm = 13.0;
 
 }  // namespace
@@ -40,8 +40,8 @@ MandibularCanalPath::MandibularCanalPath(const DentalArch& arch, double beside_a
                        knot.height_mm - drop_mm * std::exp(-turn * turn));
   }
   for (std::size_t n = 0; n + 1 < knots.size(); ++n)
-    for (int step = 0; step < kPointsPerSpan; ++step) {
-      const double t = static_cast<double>(step) / kPointsPerSpan;
+    for (int step = 0; step < kCanalPointsPerSpan; ++step) {
+      const double t = static_cast<double>(step) / kCanalPointsPerSpan;
       const glm::dvec3 a = knots[n == 0 ? 0 : n - 1], b = knots[n], c = knots[n + 1],
                        d = knots[std::min(n + 2, knots.size() - 1)];
       points_J_mm_.push_back(0.5 * (2.0 * b + t * (c - a) + t * t * (2.0 * a - 5.0 * b + 4.0 * c - d) +

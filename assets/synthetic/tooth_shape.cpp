@@ -8,7 +8,7 @@
 namespace assets {
 namespace {
 
-constexpr double kLattice_mm = 0.2;
+constexpr double kToothLattice_mm = 0.2;
 constexpr double kPulpLattice_mm = 0.25;
 constexpr double kMargin_mm = 1.6;
 
@@ -139,7 +139,7 @@ LatticeBox boxOf(const ToothForm& form) {
 
 ToothShape::ToothShape(const ToothForm& form)
     : form_(form),
-      outer_(boxOf(form), kLattice_mm, [&form](const glm::dvec3& p) { return outerField_mm(form, p); }),
+      outer_(boxOf(form), kToothLattice_mm, [&form](const glm::dvec3& p) { return outerField_mm(form, p); }),
       pulp_(boxOf(form), kPulpLattice_mm, [&form](const glm::dvec3& p) { return pulpField_mm(form, p); }) {
   outer_.redistance();
 }

@@ -17,7 +17,6 @@ using Indices = std::vector<std::size_t>;
 constexpr std::array kModels = {ArmModel::rigid, ArmModel::joint_gains, ArmModel::full};
 constexpr std::size_t kAffineNumbers = 12;
 constexpr double kSimplerIsPreferred = 1.1;  ///< within this ratio of mean squares
-constexpr double kFlat_mm = 3.0;
 constexpr double kOtherTilt_rad = radFromDegrees(25.0);
 
 struct Candidate {
@@ -147,7 +146,7 @@ ArmFit fitArm(const TouchSet& set, const FitOptions& options) {
                               .tilt_spread_deg = fit.tilt_spread_deg,
                               .hull_mm3 = fit.hull_mm3,
                               .region_mm3 = options.region_mm3,
-                              .flat = extentOf(targets).spread_mm[2] < kFlat_mm,
+                              .flat = extentOf(targets).spread_mm[2] < kFlatTargets_mm,
                               .may_be_mirrored = agreement.may_be_mirrored,
                               .fre_rms_mm = fit.fre_rms_mm,
                               .cv_rms_mm = fit.cv_rms_mm,

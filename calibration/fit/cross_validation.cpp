@@ -12,7 +12,6 @@ namespace {
 using Indices = std::vector<std::size_t>;
 
 constexpr std::size_t kFolds = 5, kFewPlaces = 20;
-constexpr double kUsualMismatch_mm = 0.15;
 constexpr double kSamePlace_mm = 1.0;
 
 /// The fold of each touch: places are dealt in the order they were touched in, those of touches that do not count too,

@@ -14,7 +14,7 @@ constexpr double kWeightsLeave = 0.842;
 constexpr int kRounds = 12;
 constexpr double kSettled = 0.02;  ///< of the mismatch
 // What mismatch is expected: 0.15 mm, give or take a factor of three; looked for within these.
-constexpr double kUsualMismatch_mm = 0.15, kMismatchFactor = 3.0;
+constexpr double kMismatchFactor = 3.0;
 constexpr double kLeastMismatch_mm = 1e-3, kMostMismatch_mm = 10.0;
 
 /// The touches' least squares of some of the arm's numbers, at a given mismatch.

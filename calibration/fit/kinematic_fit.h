@@ -13,6 +13,9 @@
 
 namespace calibration {
 
+/// What is expected of a touch against the arm beyond its precision, one sigma, an axis.
+inline constexpr double kUsualMismatch_mm = 0.15;
+
 struct KinematicFit {
   ArmNumbers numbers{};
   ArmNumbers sigma{};               ///< 1 sigma of those fitted, 0 of the others

@@ -14,10 +14,10 @@ namespace calibration {
 namespace {
 
 // A turn and a shift of the base, offsets of six joints, the tip.
-constexpr std::size_t kNumbers = 15;
+constexpr std::size_t kQuickNumbers = 15;
 constexpr std::size_t kTurn = 0, kShift = 3, kOffset = 6, kTip = 12;
-constexpr std::array<double, kNumbers> kSigma = {0.1,   0.1,  0.1,  30.0, 30.0, 30.0, 0.015, 0.015,
-                                                 0.015, 0.02, 0.02, 0.02, 1.0,  1.0,  1.0};
+constexpr std::array<double, kQuickNumbers> kSigma = {0.1,   0.1,  0.1,  30.0, 30.0, 30.0, 0.015, 0.015,
+                                                      0.015, 0.02, 0.02, 0.02, 1.0,  1.0,  1.0};
 constexpr double kMismatch_mm = 0.3;  ///< what so few numbers can not say of an arm, an axis
 constexpr double kCauchy = 3.0;
 constexpr std::size_t kLeastTouches = 4;
@@ -43,8 +43,8 @@ glm::dvec3 leftOut(const MeasuredArm& start, const LeastSquaresResult& fit, cons
                    const glm::dvec3& sigma_mm) {
   const glm::dvec3 left = weighed(changed(start, fit.numbers), touch, sigma_mm);
   if (fit.covariance.empty()) return left;
-  std::array<glm::dvec3, kNumbers> J;
-  for (std::size_t k = 0; k < kNumbers; ++k) {
+  std::array<glm::dvec3, kQuickNumbers> J;
+  for (std::size_t k = 0; k < kQuickNumbers; ++k) {
     const double step = 1e-5 * kSigma[k];
     std::vector<double> more = fit.numbers, less = fit.numbers;
     more[k] += step;
@@ -53,9 +53,9 @@ glm::dvec3 leftOut(const MeasuredArm& start, const LeastSquaresResult& fit, cons
            (2.0 * step);
   }
   glm::dmat3 remains(1.0);
-  for (std::size_t a = 0; a < kNumbers; ++a)
-    for (std::size_t b = 0; b < kNumbers; ++b)
-      remains -= weight * fit.covariance[a * kNumbers + b] * glm::outerProduct(J[a], J[b]);
+  for (std::size_t a = 0; a < kQuickNumbers; ++a)
+    for (std::size_t b = 0; b < kQuickNumbers; ++b)
+      remains -= weight * fit.covariance[a * kQuickNumbers + b] * glm::outerProduct(J[a], J[b]);
   return glm::determinant(remains) > 1e-9 ? glm::inverse(remains) * left : left;
 }
 
@@ -69,7 +69,7 @@ QuickFit quickFit(const MeasuredArm& start, const TouchSet& set) {
   if (touches.size() < kLeastTouches) return quick;
 
   LeastSquares problem;
-  problem.start.assign(kNumbers, 0.0);
+  problem.start.assign(kQuickNumbers, 0.0);
   problem.residuals = 3 * touches.size();
   problem.residuals_at = [&](std::span<const double> x, std::span<double> r) {
     const MeasuredArm arm = changed(start, x);

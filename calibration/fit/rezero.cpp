@@ -16,16 +16,16 @@ constexpr double kLeft_mm = 0.15;
 /// A homing is rarely off by more; of the pose nothing is believed beforehand.
 constexpr double kHomingSigma_deg = 1.0;
 /// A touch that the others contradict by more than this, and by so many times what they differ among themselves.
-constexpr double kOutlier_mm = 1.8, kOutlierTimes = 4.0;
-constexpr std::size_t kFewest = 3;
-constexpr double kNarrow_mm = 5.0;  ///< targets this near to a line say nothing of the turn about it
+constexpr double kStrayPit_mm = 1.8, kStrayPitTimes = 4.0;
+constexpr std::size_t kFewestPits = 3;
+constexpr double kNarrowPits_mm = 5.0;  ///< targets this near to a line say nothing of the turn about it
 
 /// Turn about the targets' middle, shift, offsets of the three joints.
-constexpr std::size_t kNumbers = 9;
+constexpr std::size_t kRezeroNumbers = 9;
 
 using Touches = std::vector<Touch>;
 
-[[noreturn]] void refuse(const std::string& what) { throw CalibrationError("re-zero: " + what); }
+[[noreturn]] void refuseRezero(const std::string& what) { throw CalibrationError("re-zero: " + what); }
 
 bool finite(const Touch& touch) {
   double sum = touch.target_W.mm.x + touch.target_W.mm.y + touch.target_W.mm.z;
@@ -50,16 +50,17 @@ double width_mm(const Touches& touches) {
 }
 
 void check(const Touches& touches) {
-  if (touches.size() < kFewest)
-    refuse(std::to_string(touches.size()) + " touches, at least 3 are needed: touch the 5 pits shown");
+  if (touches.size() < kFewestPits)
+    refuseRezero(std::to_string(touches.size()) + " touches, at least 3 are needed: touch the 5 pits shown");
   for (std::size_t i = 0; i < touches.size(); ++i) {
     const std::string name = "touch " + std::to_string(touches[i].id);
-    if (!finite(touches[i])) refuse(name + " has a number that is none: touch that pit again");
+    if (!finite(touches[i])) refuseRezero(name + " has a number that is none: touch that pit again");
     for (std::size_t k = 0; k < i; ++k)
       if (touches[k].joints_rad == touches[i].joints_rad)
-        refuse(name + " is the same as touch " + std::to_string(touches[k].id) + ": touch each pit once");
+        refuseRezero(name + " is the same as touch " + std::to_string(touches[k].id) + ": touch each pit once");
   }
-  if (width_mm(touches) < kNarrow_mm) refuse("the touches lie on a line: touch pits that are spread to all sides");
+  if (width_mm(touches) < kNarrowPits_mm)
+    refuseRezero("the touches lie on a line: touch pits that are spread to all sides");
 }
 
 glm::dvec3 middleOf_mm(const Touches& touches) {
@@ -84,9 +85,9 @@ MeasuredArm fitted(const MeasuredArm& arm, const Touches& touches, const std::ve
   const glm::dvec3 middle_mm = middleOf_mm(touches);
   const glm::dvec3 sigma_mm = touchSigma_mm(precision, kLeft_mm);
   LeastSquares problem;
-  problem.start.assign(kNumbers, 0.0);
-  problem.priors.assign(kNumbers, {});
-  for (std::size_t i = 6; i < kNumbers; ++i) problem.priors[i].sigma = radFromDegrees(kHomingSigma_deg);
+  problem.start.assign(kRezeroNumbers, 0.0);
+  problem.priors.assign(kRezeroNumbers, {});
+  for (std::size_t i = 6; i < kRezeroNumbers; ++i) problem.priors[i].sigma = radFromDegrees(kHomingSigma_deg);
   problem.residuals = 3 * static_cast<std::size_t>(std::count(out.begin(), out.end(), false));
   problem.residuals_at = [&](std::span<const double> x, std::span<double> r) {
     const MeasuredArm tried = moved(arm, x, middle_mm);
@@ -119,9 +120,9 @@ double rms_mm(const MeasuredArm& arm, const Touches& touches, const std::vector<
 /// base, so each is foretold from the others alone.
 std::vector<bool> contradicted(const MeasuredArm& arm, const Touches& touches, const TouchPrecision& precision) {
   std::vector<bool> out(touches.size(), false);
-  const double least_mm = std::hypot(kOutlier_mm, 3.0 * std::hypot(precision.in_plane_mm, precision.along_sight_mm));
+  const double least_mm = std::hypot(kStrayPit_mm, 3.0 * std::hypot(precision.in_plane_mm, precision.along_sight_mm));
   // Four touches or more must agree on who is wrong.
-  for (std::size_t rounds = (touches.size() - kFewest) / 2; rounds > 0; --rounds) {
+  for (std::size_t rounds = (touches.size() - kFewestPits) / 2; rounds > 0; --rounds) {
     std::size_t worst = touches.size();
     double best_rms_mm = rms_mm(fitted(arm, touches, out, precision), touches, out);
     for (std::size_t i = 0; i < touches.size(); ++i) {
@@ -130,7 +131,7 @@ std::vector<bool> contradicted(const MeasuredArm& arm, const Touches& touches, c
       without[i] = true;
       const MeasuredArm others = fitted(arm, touches, without, precision);
       const double rest_mm = rms_mm(others, touches, without);
-      if (rest_mm < best_rms_mm && off_mm(others, touches[i]) > std::max(least_mm, kOutlierTimes * rest_mm)) {
+      if (rest_mm < best_rms_mm && off_mm(others, touches[i]) > std::max(least_mm, kStrayPitTimes * rest_mm)) {
         best_rms_mm = rest_mm;
         worst = i;
       }

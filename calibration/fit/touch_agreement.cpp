@@ -19,9 +19,8 @@ constexpr double kMostLimit_mm = 13.0;  ///< an arm that is further from its mod
 /// An outlier is this far off and so many sigmas of a touch.
 constexpr double kOutlier_mm = 1.5, kOutlierSigmas = 6.0;
 constexpr std::size_t kEnoughForFull = 12, kHandful = 7;
-constexpr int kRounds = 4;
-constexpr double kFlat_mm = 3.0;  ///< targets no thicker than this, root mean square, lie in a plane
-constexpr double kFacing = 0.2;   ///< cosine of the plane's normal to the viewer, below which it faces nobody
+constexpr int kAgreementRounds = 4;
+constexpr double kFacing = 0.2;  ///< cosine of the plane's normal to the viewer, below which it faces nobody
 
 /// Tips as the model has them, and where they were.
 struct Places {
@@ -66,7 +65,7 @@ RigidAgreement rightHanded(const Places& places, bool& doubtful) {
   const auto mirrored = agreement(Handedness::mirrored, kept ? kept->limit_mm : kMostLimit_mm);
   // Two thirds of a handful agree on much: there one touch more in the mirror tells, if they do not lie in a plane.
   const std::size_t n = places.index.size();
-  const bool handful = n <= kHandful && extentOf(places.targets_W).spread_mm[2] > kFlat_mm;
+  const bool handful = n <= kHandful && extentOf(places.targets_W).spread_mm[2] > kFlatTargets_mm;
   const std::size_t clearly = handful ? 1 : std::max<std::size_t>(2, n / 20);
   if (mirrored) {
     if (!kept || mirrored->agreeing.size() >= kept->agreeing.size() + clearly) refuseMirrored();
@@ -103,7 +102,7 @@ bool looksMirrored(const TouchAgreement& agreement, const TouchSet& set) {
   }
   const Extent extent = extentOf(targets);
   const glm::dvec3 normal = extent.axes[2] * (extent.axes[2].z < 0.0 ? -1.0 : 1.0);
-  return extent.spread_mm[2] < kFlat_mm && normal.z > kFacing && glm::dot(normal, stylus_W) < 0.0;
+  return extent.spread_mm[2] < kFlatTargets_mm && normal.z > kFacing && glm::dot(normal, stylus_W) < 0.0;
 }
 
 }  // namespace
@@ -126,7 +125,7 @@ TouchAgreement touchAgreement(const TouchSet& set) {
   // A finer arm is a finer judge, as far as there are touches enough for it.
   for (const ArmModel finer : {ArmModel::joint_gains, ArmModel::full}) {
     if (finer == ArmModel::full && places.index.size() < kEnoughForFull) break;
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kAgreementRounds; ++round) {
       Indices which = foretold(agreement, set, places, finer);
       const bool stays = which == agreement.which;
       if (3 * which.size() < 2 * places.index.size() || which.size() < 4) refuseUnexplained(places.index.size());

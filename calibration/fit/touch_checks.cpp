@@ -14,12 +14,12 @@
 namespace calibration {
 namespace {
 
-constexpr std::size_t kFewest = 4;
+constexpr std::size_t kFewestTouches = 4;
 constexpr double kSameAngle_rad = 1e-7;
 constexpr double kNarrow_mm = 3.0;  ///< a line of targets is no broader, root mean square
 constexpr std::size_t kDirections = 400;
 
-[[noreturn]] void refuse(const std::string& what) { throw CalibrationError("touches: " + what); }
+[[noreturn]] void refuseTouches(const std::string& what) { throw CalibrationError("touches: " + what); }
 
 bool sameAngles(const RawJoints& a, const RawJoints& b) {
   for (std::size_t i = 0; i < a.size(); ++i)
@@ -32,8 +32,8 @@ void checkTwice(const std::vector<const Touch*>& touches) {
   std::ranges::stable_sort(sorted, {}, [](const Touch* touch) { return touch->joints_rad; });
   for (std::size_t i = 1; i < sorted.size(); ++i)
     if (sameAngles(sorted[i - 1]->joints_rad, sorted[i]->joints_rad))
-      refuse("touch " + std::to_string(sorted[i]->id) + " is touch " + std::to_string(sorted[i - 1]->id) +
-             " again, with the same joint angles, remove one or touch anew");
+      refuseTouches("touch " + std::to_string(sorted[i]->id) + " is touch " + std::to_string(sorted[i - 1]->id) +
+                    " again, with the same joint angles, remove one or touch anew");
 }
 
 /// A triangle of the hull, seen from outside counter-clockwise.
@@ -118,34 +118,37 @@ class Hull {
 }  // namespace
 
 void checkTouches(const TouchSet& set) {
-  if (!findPhantomModel(set.device_model)) refuse("device model '" + set.device_model + "' is not known, correct it");
+  if (!findPhantomModel(set.device_model))
+    refuseTouches("device model '" + set.device_model + "' is not known, correct it");
   std::vector<const Touch*> used;
   std::vector<glm::dvec3> places;
   for (const Touch& touch : set.touches) {
     double sum = touch.target_W.mm.x + touch.target_W.mm.y + touch.target_W.mm.z;
     for (const double angle_rad : touch.joints_rad) sum += angle_rad;
     if (!std::isfinite(sum))
-      refuse("touch " + std::to_string(touch.id) + " holds a number that is none, touch it again");
+      refuseTouches("touch " + std::to_string(touch.id) + " holds a number that is none, touch it again");
     if (!touch.used) continue;
     used.push_back(&touch);
     places.push_back(touch.target_W.mm);
   }
   if (!(set.precision.in_plane_mm >= 0.0) || !(set.precision.along_sight_mm >= 0.0) ||
       !std::isfinite(set.precision.in_plane_mm + set.precision.along_sight_mm))
-    refuse("their precision is none, give one sigma in mm");
-  if (used.size() < kFewest)
-    refuse(std::to_string(used.size()) + " are used, at least 4 are needed, touch more (16 for a good calibration)");
+    refuseTouches("their precision is none, give one sigma in mm");
+  if (used.size() < kFewestTouches)
+    refuseTouches(std::to_string(used.size()) +
+                  " are used, at least 4 are needed, touch more (16 for a good calibration)");
   checkTwice(used);
   const Extent extent = extentOf(places);
-  if (extent.spread_mm[0] < kNarrow_mm) refuse("all targets are in one place, touch targets that are spread out");
-  if (extent.spread_mm[1] < kNarrow_mm) refuse("all targets lie on a line, touch some to the sides of it");
+  if (extent.spread_mm[0] < kNarrow_mm)
+    refuseTouches("all targets are in one place, touch targets that are spread out");
+  if (extent.spread_mm[1] < kNarrow_mm) refuseTouches("all targets lie on a line, touch some to the sides of it");
 }
 
 void checkUnseen(const TouchSet& fitted, const TouchSet& proof) {
   const auto must_agree = [](const std::string& what, const std::string& a, const std::string& b) {
     if (!a.empty() && !b.empty() && a != b)
-      refuse("they were made with " + what + " '" + a + "', those to prove them by with '" + b +
-             "', give touches of one device");
+      refuseTouches("they were made with " + what + " '" + a + "', those to prove them by with '" + b +
+                    "', give touches of one device");
   };
   must_agree("device model", fitted.device_model, proof.device_model);
   must_agree("serial", fitted.serial, proof.serial);
@@ -153,8 +156,8 @@ void checkUnseen(const TouchSet& fitted, const TouchSet& proof) {
   for (const Touch& one : proof.touches)
     for (const Touch& seen : fitted.touches)
       if (one.used && seen.used && sameAngles(one.joints_rad, seen.joints_rad))
-        refuse("touch " + std::to_string(one.id) + " of the proof is touch " + std::to_string(seen.id) +
-               " of the fit, which proves nothing, touch other places");
+        refuseTouches("touch " + std::to_string(one.id) + " of the proof is touch " + std::to_string(seen.id) +
+                      " of the fit, which proves nothing, touch other places");
 }
 
 double pairSpread_deg(const std::vector<glm::dvec3>& directions) {
@@ -182,7 +185,7 @@ double tiltSpread_deg(const PhantomGeometry& geometry, const std::vector<Touch>&
 }
 
 double hullVolume_mm3(const std::vector<glm::dvec3>& places_mm) {
-  if (places_mm.size() < kFewest) return 0.0;
+  if (places_mm.size() < kFewestTouches) return 0.0;
   // Grids have four and more in a plane: a hundred-thousandth of a millimetre aside, none has.
   std::mt19937 chance(5);
   std::vector<glm::dvec3> aside = places_mm;

@@ -30,6 +30,9 @@ double pairSpread_deg(const std::vector<glm::dvec3>& directions);
 /// Of the convex hull; 0 of what lies in a plane.
 double hullVolume_mm3(const std::vector<glm::dvec3>& places_mm);
 
+/// Places with no more than this as their least spread lie in a plane.
+inline constexpr double kFlatTargets_mm = 3.0;
+
 /// Middle, axes as columns by falling spread, and root mean square distance from the middle along each.
 struct Extent {
   glm::dvec3 middle_mm{0.0};

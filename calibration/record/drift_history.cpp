@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 constexpr std::string_view kHeader = "utc,kind,n,rms_mm,bias_x_mm,bias_y_mm,bias_z_mm";
 constexpr std::uintmax_t kLargestFile_bytes = 16 << 20;
 constexpr std::array kKinds = {DriftKind::check, DriftKind::rezero, DriftKind::calibration};
-constexpr double kMostError_mm = 1000.0;
-constexpr int kMostTouches = 10000;
+constexpr double kMostEntryError_mm = 1000.0;
+constexpr int kMostEntryTouches = 10000;
 
 template <class Number>
 std::optional<Number> numberIn(std::string_view text) {
@@ -51,11 +51,11 @@ std::optional<DriftEntry> entryIn(std::string_view line) {
   }
   const auto kind = kindIn(cells[1]);
   const auto n = numberIn<int>(cells[2]);
-  if (!secondsOfUtc(cells[0]) || !kind || !n || *n < 1 || *n > kMostTouches) return std::nullopt;
+  if (!secondsOfUtc(cells[0]) || !kind || !n || *n < 1 || *n > kMostEntryTouches) return std::nullopt;
   std::array<double, 4> mm{};
   for (std::size_t i = 0; i < mm.size(); ++i) {
     const auto value = numberIn<double>(cells[i + 3]);
-    if (!value || !(std::abs(*value) <= kMostError_mm)) return std::nullopt;
+    if (!value || !(std::abs(*value) <= kMostEntryError_mm)) return std::nullopt;
     mm[i] = *value;
   }
   if (mm[0] < 0.0) return std::nullopt;
@@ -68,7 +68,7 @@ std::string lineOf(const DriftEntry& entry) {
          shortest(entry.bias_mm.xyz.z);
 }
 
-[[noreturn]] void refuse(const fs::path& path, const std::string& what, const std::string& mend) {
+[[noreturn]] void refuseHistory(const fs::path& path, const std::string& what, const std::string& mend) {
   throw CalibrationError("history " + path.string() + ": " + what + ", " + mend);
 }
 
@@ -83,11 +83,11 @@ std::vector<DriftEntry> readHistory(const fs::path& path) {
   std::error_code error;
   if (!fs::exists(path, error)) return {};
   if (!fs::is_regular_file(path, error) || fs::file_size(path, error) > kLargestFile_bytes)
-    refuse(path, "it is no history", "move it away");
+    refuseHistory(path, "it is no history", "move it away");
   std::ifstream in(path, std::ios::binary);
   std::ostringstream bytes;
   bytes << in.rdbuf();
-  if (!in) refuse(path, "it can not be read", "check its permissions");
+  if (!in) refuseHistory(path, "it can not be read", "check its permissions");
   std::string_view rest = bytes.view();
 
   // What has no end of line was torn while it was written.
@@ -97,11 +97,11 @@ std::vector<DriftEntry> readHistory(const fs::path& path) {
     const std::string_view line = rest.substr(0, end);
     rest.remove_prefix(end + 1);
     if (++line_number == 1) {
-      if (line != kHeader) refuse(path, "its first line is not a history's", "move it away");
+      if (line != kHeader) refuseHistory(path, "its first line is not a history's", "move it away");
       continue;
     }
     const auto entry = entryIn(line);
-    if (!entry) refuse(path, "line " + std::to_string(line_number) + " can not be read", "remove that line");
+    if (!entry) refuseHistory(path, "line " + std::to_string(line_number) + " can not be read", "remove that line");
     history.push_back(*entry);
   }
   return history;
@@ -109,7 +109,7 @@ std::vector<DriftEntry> readHistory(const fs::path& path) {
 
 void appendHistory(const fs::path& path, const DriftEntry& entry) {
   const std::string line = lineOf(entry);
-  if (!entryIn(line)) refuse(path, "this can not be an entry: " + line, "check where it comes from");
+  if (!entryIn(line)) refuseHistory(path, "this can not be an entry: " + line, "check where it comes from");
   makeFolder(path.parent_path());
   const FolderLock lock(path.parent_path());
   readHistory(path);  // to what is no history nothing is added

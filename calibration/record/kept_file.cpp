@@ -14,19 +14,19 @@ namespace fs = std::filesystem;
 
 constexpr const char* kHidden = ".part-";
 
-[[noreturn]] void refuse(const fs::path& path, const std::string& what, const std::string& mend) {
+[[noreturn]] void refuseWriting(const fs::path& path, const std::string& what, const std::string& mend) {
   throw CalibrationError("can not write " + path.string() + ": " + what + ", " + mend);
 }
 
-[[noreturn]] void refuseForSystem(const fs::path& path, int error) {
-  refuse(path, std::strerror(error), "make room there or choose another place");
+[[noreturn]] void refuseWritingForSystem(const fs::path& path, int error) {
+  refuseWriting(path, std::strerror(error), "make room there or choose another place");
 }
 
 /// Closed whatever happens.
 class Descriptor {
  public:
   Descriptor(const fs::path& path, int flags) : path_(path), number_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {
-    if (number_ < 0) refuseForSystem(path, errno);
+    if (number_ < 0) refuseWritingForSystem(path, errno);
   }
   ~Descriptor() { ::close(number_); }
   Descriptor(const Descriptor&) = delete;
@@ -38,12 +38,12 @@ class Descriptor {
     while (done < text.size()) {
       const ssize_t written = ::write(number_, text.data() + done, text.size() - done);
       if (written < 0 && errno == EINTR) continue;
-      if (written < 0) refuseForSystem(path_, errno);
+      if (written < 0) refuseWritingForSystem(path_, errno);
       done += static_cast<std::size_t>(written);
     }
   }
   void force() const {
-    if (::fsync(number_) != 0) refuseForSystem(path_, errno);
+    if (::fsync(number_) != 0) refuseWritingForSystem(path_, errno);
   }
 
  private:
@@ -59,16 +59,16 @@ void makeFolder(const fs::path& folder) {
   std::error_code error;
   if (folder.empty() || fs::is_directory(folder, error)) return;
   makeFolder(folder.parent_path());
-  if (!fs::create_directory(folder, error) && error) refuseForSystem(folder, error.value());
+  if (!fs::create_directory(folder, error) && error) refuseWritingForSystem(folder, error.value());
   forceFolder(folder.parent_path());
 }
 
 FolderLock::FolderLock(const fs::path& folder)
     : descriptor_(::open((folder / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
-  if (descriptor_ < 0) refuseForSystem(folder, errno);
+  if (descriptor_ < 0) refuseWritingForSystem(folder, errno);
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
   ::close(descriptor_);
-  refuse(folder, "another program is writing there", "wait until it has finished");
+  refuseWriting(folder, "another program is writing there", "wait until it has finished");
 }
 
 FolderLock::~FolderLock() { ::close(descriptor_); }
@@ -98,10 +98,11 @@ KeptFile::~KeptFile() {
 void KeptFile::putInPlace() {
   // A link fails where the name is taken, on every file system that has links.
   if (::link(hidden_path_.c_str(), path_.c_str()) != 0) {
-    if (errno == EEXIST) refuse(path_, "it is there already", "nothing that was measured is overwritten");
-    if (errno != EPERM && errno != ENOTSUP) refuseForSystem(path_, errno);
+    if (errno == EEXIST) refuseWriting(path_, "it is there already", "nothing that was measured is overwritten");
+    if (errno != EPERM && errno != ENOTSUP) refuseWritingForSystem(path_, errno);
     std::error_code error;
-    if (fs::exists(path_, error)) refuse(path_, "it is there already", "nothing that was measured is overwritten");
+    if (fs::exists(path_, error))
+      refuseWriting(path_, "it is there already", "nothing that was measured is overwritten");
     return replace();
   }
   ::unlink(hidden_path_.c_str());
@@ -110,7 +111,7 @@ void KeptFile::putInPlace() {
 }
 
 void KeptFile::replace() {
-  if (::rename(hidden_path_.c_str(), path_.c_str()) != 0) refuseForSystem(path_, errno);
+  if (::rename(hidden_path_.c_str(), path_.c_str()) != 0) refuseWritingForSystem(path_, errno);
   hidden_path_.clear();
   forceFolder(path_.parent_path());
 }
@@ -124,7 +125,7 @@ void appendLine(const fs::path& path, const std::string& line) {
   char last = '\n';
   off_t whole = end;
   while (whole > 0 && ::pread(file.number(), &last, 1, whole - 1) == 1 && last != '\n') --whole;
-  if (whole != end && ::ftruncate(file.number(), whole) != 0) refuseForSystem(path, errno);
+  if (whole != end && ::ftruncate(file.number(), whole) != 0) refuseWritingForSystem(path, errno);
   file.write(line + "\n");
   file.force();
   if (is_new) forceFolder(path.parent_path());

@@ -10,7 +10,6 @@
 namespace calibration {
 namespace {
 
-constexpr std::uint8_t kWhite = 235, kBlack = 16;
 constexpr double kSpotRadius = 0.22;  ///< of a square's side
 
 /// How much darker or brighter a square is in its middle than towards its corners, 0..255.
@@ -97,7 +96,7 @@ GreyPicture pictureOf(const ShownBoard& board) {
       bool black = on_board && (square.x + square.y) % 2 == 0;
       if (on_board && board.hasSpot(square) && glm::distance(at, glm::dvec2(square) + 0.5) < kSpotRadius)
         black = !black;
-      picture.grey.push_back(black ? kBlack : kWhite);
+      picture.grey.push_back(black ? kShownBlack : kShownWhite);
     }
   return picture;
 }

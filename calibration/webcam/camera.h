@@ -40,6 +40,9 @@ struct CameraModel {
   }
 };
 
+/// Grey levels of what a screen shows a camera: short of glare, and of what a screen can not tell from black.
+inline constexpr std::uint8_t kShownWhite = 235, kShownBlack = 16;
+
 /// 8 bits a pixel, rows from the top.
 struct GreyPicture {
   glm::ivec2 size_px{0};

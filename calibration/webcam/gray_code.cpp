@@ -12,10 +12,9 @@
 namespace calibration {
 namespace {
 
-constexpr std::uint8_t kWhite = 235, kBlack = 16;
 constexpr int kLeastContrast = 24;     ///< of white to black, grey levels: less is not the screen
 constexpr double kLeastOfWhite = 0.2;  ///< of a pattern to its inverse, of white to black: less is an edge
-constexpr int kLeastPixels = 6;        ///< of a cell
+constexpr int kLeastCellPixels = 6;    ///< of a cell
 
 unsigned grayOf(unsigned number) { return number ^ (number >> 1); }
 unsigned numberOf(unsigned gray) {
@@ -53,7 +52,7 @@ int codeAt(const std::vector<GreyPicture>& pictures, std::size_t first, int bits
   return static_cast<int>(numberOf(gray));
 }
 
-bool isSeen(const Cell& cell) { return cell.pixels >= kLeastPixels; }
+bool isSeen(const Cell& cell) { return cell.pixels >= kLeastCellPixels; }
 
 /// A cell's pixels lie together.
 bool isCompact(const Cell& cell) {
@@ -145,8 +144,8 @@ std::vector<GreyPicture> picturesOf(const GrayCode& code) {
   if (code.screen_px.x < 64 || code.screen_px.y < 64 || code.cell_px < 2)
     throw CalibrationError("Gray code: a screen under 64 px or stripes under 2 px, use a larger window");
   const std::size_t pixels = static_cast<std::size_t>(code.screen_px.x) * static_cast<std::size_t>(code.screen_px.y);
-  std::vector<GreyPicture> pictures{{code.screen_px, std::vector<std::uint8_t>(pixels, kWhite)},
-                                    {code.screen_px, std::vector<std::uint8_t>(pixels, kBlack)}};
+  std::vector<GreyPicture> pictures{{code.screen_px, std::vector<std::uint8_t>(pixels, kShownWhite)},
+                                    {code.screen_px, std::vector<std::uint8_t>(pixels, kShownBlack)}};
   for (int axis = 0; axis < 2; ++axis)
     for (int bit = code.bits()[axis] - 1; bit >= 0; --bit) {
       GreyPicture pattern{code.screen_px, {}}, inverse{code.screen_px, {}};
@@ -155,8 +154,8 @@ std::vector<GreyPicture> picturesOf(const GrayCode& code) {
         for (int x = 0; x < code.screen_px.x; ++x) {
           const auto cell = static_cast<unsigned>((axis == 0 ? x : y) / code.cell_px);
           const bool white = ((grayOf(cell) >> bit) & 1U) != 0;
-          pattern.grey.push_back(white ? kWhite : kBlack);
-          inverse.grey.push_back(white ? kBlack : kWhite);
+          pattern.grey.push_back(white ? kShownWhite : kShownBlack);
+          inverse.grey.push_back(white ? kShownBlack : kShownWhite);
         }
       pictures.push_back(std::move(pattern));
       pictures.push_back(std::move(inverse));

@@ -24,7 +24,7 @@ constexpr double kWildOfMedian = 2.5, kWild_px = 0.5;  ///< a view beyond both d
 using Places = std::vector<cv::Point3f>;
 using Pixels = std::vector<cv::Point2f>;
 
-[[noreturn]] void refuse(const std::string& what, const std::string& mend) {
+[[noreturn]] void refuseLens(const std::string& what, const std::string& mend) {
   throw CalibrationError("lens: " + what + ", " + mend);
 }
 
@@ -38,11 +38,11 @@ std::vector<Pixels> pixelsOf(const std::vector<BoardView>& views, std::size_t co
   std::vector<Pixels> pixels;
   for (const BoardView& view : views) {
     if (view.corners_px.size() != corners)
-      refuse("'" + view.name + "' has another number of corners than the board", "use pictures of one board");
+      refuseLens("'" + view.name + "' has another number of corners than the board", "use pictures of one board");
     Pixels& of_view = pixels.emplace_back();
     for (const glm::dvec2& px : view.corners_px) {
       if (!std::isfinite(px.x) || !std::isfinite(px.y))
-        refuse("'" + view.name + "' has a corner that is not finite", "take it again");
+        refuseLens("'" + view.name + "' has a corner that is not finite", "take it again");
       of_view.emplace_back(static_cast<float>(px.x), static_cast<float>(px.y));
     }
   }
@@ -75,7 +75,7 @@ LensFit fitted(const glm::ivec2& size_px, const Places& places, const std::vecto
         cv::calibrateCamera(std::vector<Places>(views.size(), places), views, {size_px.x, size_px.y}, K, fit.distortion,
                             fit.turns, moves, unused_lens, unused_poses, fit.view_rms_px, cv::CALIB_FIX_K3);
   } catch (const cv::Exception&) {
-    refuse("the views make no lens", "take them again, the board flat, sharp and slanted");
+    refuseLens("the views make no lens", "take them again, the board flat, sharp and slanted");
   }
   fit.K = K;
   return fit;
@@ -93,7 +93,7 @@ CameraModel modelOf(const glm::ivec2& size_px, const LensFit& fit) {
   CameraModel camera{size_px, {fit.K(0, 0), fit.K(1, 1)}, {fit.K(0, 2), fit.K(1, 2)}, bent(0), bent(1), bent(2),
                      bent(3)};
   if (!std::isfinite(fit.rms_px) || !impossibleOf(camera).empty())
-    refuse("the result is no webcam's lens", "slant the board more, and fill the picture with it");
+    refuseLens("the result is no webcam's lens", "slant the board more, and fill the picture with it");
   return camera;
 }
 
@@ -101,19 +101,19 @@ void checkVariety(const LensFit& fit, double covered_share) {
   std::size_t slanted = 0;
   for (const cv::Mat& turn : fit.turns) slanted += slant_deg(turn) >= kLeastSlant_deg;
   if (slanted < kLeastSlanted)
-    refuse("the board was faced squarely in nearly all views", "slant it by 20 to 40 degrees, each way");
+    refuseLens("the board was faced squarely in nearly all views", "slant it by 20 to 40 degrees, each way");
   if (covered_share < kLeastCovered)
-    refuse("the views cover " + std::to_string(std::lround(100.0 * covered_share)) + " % of the picture",
-           "show the board in all its corners");
+    refuseLens("the views cover " + std::to_string(std::lround(100.0 * covered_share)) + " % of the picture",
+               "show the board in all its corners");
 }
 
 }  // namespace
 
 Intrinsics fitIntrinsics(const glm::ivec2& size_px, const std::vector<glm::dvec2>& places_mm,
                          const std::vector<BoardView>& views) {
-  if (size_px.x < 16 || size_px.y < 16 || places_mm.size() < 6) refuse("no board or no picture", "give both");
+  if (size_px.x < 16 || size_px.y < 16 || places_mm.size() < 6) refuseLens("no board or no picture", "give both");
   if (views.size() < kLeastViews)
-    refuse(std::to_string(views.size()) + " views are too few", "take 12 to 15, the board slanted each way");
+    refuseLens(std::to_string(views.size()) + " views are too few", "take 12 to 15, the board slanted each way");
   const Places places = placesOf(places_mm);
   const std::vector<Pixels> all = pixelsOf(views, places.size());
 
@@ -134,12 +134,13 @@ Intrinsics fitIntrinsics(const glm::ivec2& size_px, const std::vector<glm::dvec2
     if (worst_px > kWild_px && worst_px > kWildOfMedian * medianOf(rms_px)) {
       result.left_out.push_back(views[used[worst]].name);
       if (3 * result.left_out.size() > views.size())
-        refuse("more than a third of the views do not fit the others", "hold camera and board still, lock the focus");
+        refuseLens("more than a third of the views do not fit the others",
+                   "hold camera and board still, lock the focus");
       used.erase(used.begin() + static_cast<std::ptrdiff_t>(worst));
       continue;
     }
     if (!(fit.rms_px < kMostRms_px))
-      refuse("the views do not fit together", "hold camera and board still, lock the focus, keep the board flat");
+      refuseLens("the views do not fit together", "hold camera and board still, lock the focus, keep the board flat");
     result.covered_share = coveredShare(size_px, pixels);
     for (const cv::Mat& turn : fit.turns) result.most_slant_deg = std::max(result.most_slant_deg, slant_deg(turn));
     checkVariety(fit, result.covered_share);

@@ -11,7 +11,7 @@ namespace {
 constexpr double kRuler_mm = 0.3;
 constexpr double kShortestBar_mm = 50.0, kMostOff = 0.2, kMostStretched = 0.03;
 
-void refuse(const std::string& what, const std::string& mend) {
+void refuseScreenSize(const std::string& what, const std::string& mend) {
   throw CalibrationError("screen size: " + what + ", " + mend);
 }
 
@@ -24,13 +24,16 @@ std::string percent(double ratio) {
 }  // namespace
 
 SizeCheck checkedSize(const ScreenCorners& believed, const MeasuredBars& bars) {
-  if (!std::isfinite(bars.drawn_mm + bars.across_mm + bars.up_mm)) refuse("a length is no number", "type it again");
-  if (bars.drawn_mm < kShortestBar_mm) refuse("the bar is shorter than 50 mm", "draw one of 100 mm or more");
+  if (!std::isfinite(bars.drawn_mm + bars.across_mm + bars.up_mm))
+    refuseScreenSize("a length is no number", "type it again");
+  if (bars.drawn_mm < kShortestBar_mm) refuseScreenSize("the bar is shorter than 50 mm", "draw one of 100 mm or more");
   const double across = bars.across_mm / bars.drawn_mm, up = bars.up_mm / bars.drawn_mm;
   if (std::max(std::abs(across - 1.0), std::abs(up - 1.0)) > kMostOff)
-    refuse("a bar is more than 20 % off", "measure in mm, check that the picture fills the monitor and its size in mm");
+    refuseScreenSize("a bar is more than 20 % off",
+                     "measure in mm, check that the picture fills the monitor and its size in mm");
   if (std::abs(across / up - 1.0) > kMostStretched)
-    refuse("the picture is stretched by " + percent(across / up), "set the monitor to its own resolution, no overscan");
+    refuseScreenSize("the picture is stretched by " + percent(across / up),
+                     "set the monitor to its own resolution, no overscan");
 
   SizeCheck check{.across = across, .up = up, .agrees = true, .corners = believed, .line = ""};
   check.agrees = std::max(std::abs(across - 1.0), std::abs(up - 1.0)) * bars.drawn_mm <= kRuler_mm;

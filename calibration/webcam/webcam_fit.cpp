@@ -23,7 +23,7 @@ constexpr int kRounds = 4;
 constexpr std::size_t kFolds = 5;
 constexpr double kLeastOfForetold = 0.3;  ///< of the squares: noise was said too large, or hides the arm
 
-[[noreturn]] void refuse(const std::string& what, const std::string& mend) {
+[[noreturn]] void refuseWebcam(const std::string& what, const std::string& mend) {
   throw CalibrationError("webcam: " + what + ", " + mend);
 }
 
@@ -32,21 +32,23 @@ bool isFinite(const glm::dvec2& v) { return std::isfinite(v.x) && std::isfinite(
 void checkPosition(const WebcamSights& sights, std::size_t c) {
   const std::string where = "camera position " + std::to_string(c + 1);
   const CameraPosition& position = sights.positions[c];
-  if (position.screen.size() < kLeastPlaces) refuse(where + " sees too little of the screen", "show the board again");
+  if (position.screen.size() < kLeastPlaces)
+    refuseWebcam(where + " sees too little of the screen", "show the board again");
   if (position.tips.size() < kLeastTipsAtOne)
-    refuse(where + " has only " + std::to_string(position.tips.size()) + " tips", "touch at least 4 places from there");
+    refuseWebcam(where + " has only " + std::to_string(position.tips.size()) + " tips",
+                 "touch at least 4 places from there");
   for (const PlaceSight& sight : position.screen)
     if (!isFinite(sight.camera_px) || !isFinite(glm::dvec2(sight.place_W.mm)) || sight.place_W.mm.z != 0.0)
-      refuse(where + " has a place of the screen that is not finite or not on it", "take its pictures again");
+      refuseWebcam(where + " has a place of the screen that is not finite or not on it", "take its pictures again");
   for (const TipSight& sight : position.tips)
     if (!isFinite(sight.camera_px) ||
         !std::ranges::all_of(sight.joints_rad, [](double a) { return std::abs(a) < 13.0; }))
-      refuse(where + ", touch " + std::to_string(sight.id) + ": a number that is not finite", "leave it out");
+      refuseWebcam(where + ", touch " + std::to_string(sight.id) + ": a number that is not finite", "leave it out");
 }
 
 void checkSights(const WebcamSights& sights) {
   if (findPhantomModel(sights.device_model) == nullptr)
-    refuse("the device model '" + sights.device_model + "' is not known", "give omni, touch, desktop or premium");
+    refuseWebcam("the device model '" + sights.device_model + "' is not known", "give omni, touch, desktop or premium");
   for (std::size_t c = 0; c < sights.positions.size(); ++c) checkPosition(sights, c);
 }
 
@@ -233,13 +235,14 @@ void warn(const WebcamSights& sights, WebcamFit& fit) {
 
 WebcamFit fitWebcam(const WebcamSights& sights, ArmModel model) {
   if (sights.positions.size() < kLeastPositions)
-    refuse("one camera position can be wrong by a centimetre and look good", "move the camera and take a second one");
+    refuseWebcam("one camera position can be wrong by a centimetre and look good",
+                 "move the camera and take a second one");
   if (tipsOf(sights) < kLeastTips)
-    refuse(std::to_string(tipsOf(sights)) + " tips are too few",
-           "touch at least 16 places in all, better 27 each time");
+    refuseWebcam(std::to_string(tipsOf(sights)) + " tips are too few",
+                 "touch at least 16 places in all, better 27 each time");
   checkSights(sights);
   const WebcamBundle guess = firstGuess(sights);
-  if (baseOf_deg(guess) < kLeastBase_deg) refuse("the camera stood in one place", "move it by 25° to each side");
+  if (baseOf_deg(guess) < kLeastBase_deg) refuseWebcam("the camera stood in one place", "move it by 25° to each side");
 
   const WebcamBundle bundle = fitted(sights, guess, model);
   WebcamFit fit;
@@ -252,7 +255,7 @@ WebcamFit fitWebcam(const WebcamSights& sights, ArmModel model) {
   fit.sigma.assign(bundle.sigma.begin(), bundle.sigma.end());
   measure(sights, bundle, fit);
   if (3 * fit.outliers > fit.used || !(bundle.mismatch_mm < kMostMismatch_mm))
-    refuse("no arm explains where the tip is seen", "check that touches and pictures belong together");
+    refuseWebcam("no arm explains where the tip is seen", "check that touches and pictures belong together");
   fit.cv_rms_mm = crossValidated_mm(sights, bundle);
   warn(sights, fit);
   return fit;

@@ -26,7 +26,7 @@ struct Lens {
         bent(camera.k1, camera.k2, camera.p1, camera.p2) {}
 };
 
-[[noreturn]] void refuse(std::size_t position, const std::string& what, const std::string& mend) {
+[[noreturn]] void refusePosition(std::size_t position, const std::string& what, const std::string& mend) {
   throw CalibrationError("webcam, camera position " + std::to_string(position + 1) + ": " + what + ", " + mend);
 }
 
@@ -52,14 +52,14 @@ Pose<Camera, World> cameraSeeing(const WebcamSights& sights, std::size_t positio
   cv::Vec3d turn, shift;
   try {
     if (!cv::solvePnP(places, pixels, lens.K, lens.bent, turn, shift, false, cv::SOLVEPNP_IPPE))
-      refuse(position, "no place of the camera explains the screen", "take the pictures again");
+      refusePosition(position, "no place of the camera explains the screen", "take the pictures again");
     cv::solvePnPRefineLM(places, pixels, lens.K, lens.bent, turn, shift);
   } catch (const cv::Exception&) {
-    refuse(position, "the places of the screen are not flat or lie on a line", "show the whole board");
+    refusePosition(position, "the places of the screen are not flat or lie on a line", "show the whole board");
   }
   const auto X_CW = poseOf<World>(turn, shift);
   if (X_CW.inverse().translation_mm.z <= 0.0)
-    refuse(position, "the screen is seen mirrored", "correct the screen's corners in the rig file");
+    refusePosition(position, "the screen is seen mirrored", "correct the screen's corners in the rig file");
 
   double sum = 0.0;
   for (const PlaceSight& sight : sights.positions[position].screen) {
@@ -67,7 +67,8 @@ Pose<Camera, World> cameraSeeing(const WebcamSights& sights, std::size_t positio
     sum += glm::dot(off, off);
   }
   if (!(std::sqrt(sum / double(places.size())) < kMostScreenRms_px))
-    refuse(position, "no place of the camera explains the screen", "measure the lens again, keep the zoom locked");
+    refusePosition(position, "no place of the camera explains the screen",
+                   "measure the lens again, keep the zoom locked");
   return X_CW;
 }
 
@@ -105,8 +106,8 @@ Pose<World, Device> deviceSeen(const WebcamSights& sights, std::size_t position,
     }
     return X_CW.inverse() * poseOf<Device>(turn, shift);
   }
-  refuse(position, "no place of the device explains where the tip is seen",
-         "check that touches and pictures belong together and that the device is the right one");
+  refusePosition(position, "no place of the device explains where the tip is seen",
+                 "check that touches and pictures belong together and that the device is the right one");
 }
 
 }  // namespace calibration

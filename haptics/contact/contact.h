@@ -19,6 +19,8 @@ struct TissueStiffness {
     for (std::size_t i = 0; i < known.size(); ++i) known[i] = assets::kTissues[i].stiffness_factor;
     return known;
   }();
+
+  double of(std::uint8_t label) const { return factor[label < assets::kTissueCount ? label : 0]; }
 };
 
 struct ToolMotion {

@@ -30,10 +30,6 @@ constexpr Within kWithin = [] {
   return within;
 }();
 
-double factorOf(const ToolInBone& at, std::uint8_t label) {
-  return at.tissue.factor[label < assets::kTissueCount ? label : 0];
-}
-
 /// The bur in voxels, and the blocks it may touch.
 struct Reach {
   glm::dvec3 centre{0.0};
@@ -160,19 +156,19 @@ class HarmonicSum {
     const glm::dvec3 from =
         low + glm::dvec3(field_.weight_x[block], field_.weight_y[block], field_.weight_z[block]) / weight;
     const double d2 = glm::dot(from, from);
-    force_ += weight * factorOf(at_, field_.only_label[block]) * (0.5 / kPi) / (d2 * std::sqrt(d2)) * from;
+    force_ += weight * at_.tissue.of(field_.only_label[block]) * (0.5 / kPi) / (d2 * std::sqrt(d2)) * from;
   }
 
   void addVoxels(const glm::dvec3& low, std::size_t block) {
     const std::uint8_t* solid = field_.solid + kBlockVoxels * block;
     alignas(64) BlockWeights weight;
     if (field_.only_label[block] != kMixedLabels) {
-      const auto factor = static_cast<float>(factorOf(at_, field_.only_label[block]));
+      const auto factor = static_cast<float>(at_.tissue.of(field_.only_label[block]));
       for (std::size_t n = 0; n < kBlockVoxels; ++n) weight[n] = factor * static_cast<float>(solid[n]);
     } else {
       const std::uint8_t* label = field_.label + kBlockVoxels * block;
       for (std::size_t n = 0; n < kBlockVoxels; ++n)
-        weight[n] = static_cast<float>(factorOf(at_, label[n])) * static_cast<float>(solid[n]);
+        weight[n] = static_cast<float>(at_.tissue.of(label[n])) * static_cast<float>(solid[n]);
     }
     std::array<float, 3> pull;
     // By name, so that what the servo reaches is plain to see.
@@ -224,7 +220,7 @@ calibration::Vector<calibration::Patient> harmonicForceVoxelByVoxel_mm(const Too
         const glm::dvec3 from = glm::dvec3(i, j, k) - reach.centre;
         const double d = glm::length(from);
         if (d <= 0.0) continue;
-        const double weight = at.field.solidAt({i, j, k}) / 255.0 * factorOf(at, at.field.labelAt({i, j, k}));
+        const double weight = at.field.solidAt({i, j, k}) / 255.0 * at.tissue.of(at.field.labelAt({i, j, k}));
         force -= weight * 3.0 / (4.0 * kPi * kB * kB * kB) * harmonicForceOfBall(reach.radius, kB, d) / d * from;
       }
   return {at.field.grid.spacing_mm * force};

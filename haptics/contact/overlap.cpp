@@ -47,10 +47,6 @@ Box boxOf(const SolidField& field, const glm::dvec3& centre, double outer) {
   return {first, last};
 }
 
-double factorOf(const TissueStiffness& tissue, std::uint8_t label) {
-  return tissue.factor[label < assets::kTissueCount ? label : 0];
-}
-
 SphereOverlap scaled(double weight, const glm::dvec3& moment, double grey, double stiff, double spacing_mm) {
   const double s3 = spacing_mm * spacing_mm * spacing_mm;
   return {weight / 255.0 * s3, {moment * (s3 * spacing_mm / 255.0)}, grey / (255.0 * 255.0) * s3, stiff / 255.0 * s3};
@@ -143,7 +139,7 @@ SphereOverlap sphereOverlapVoxelByVoxel(const SolidField& field, const Point<Pat
         const Lens lens = lensOfSpheres(radius, kVoxelSphereRadius, d);
         volume += w * lens.volume;
         grey += w * (255.0 - w) * lens.volume;
-        stiff += w * lens.volume * (tissue == nullptr ? 1.0 : factorOf(*tissue, field.labelAt({i, j, k})));
+        stiff += w * lens.volume * (tissue == nullptr ? 1.0 : tissue->of(field.labelAt({i, j, k})));
         if (d > 0.0) moment += w * lens.moment / d * offset;
       }
   return scaled(volume, moment, grey, stiff, field.grid.spacing_mm);

@@ -22,10 +22,6 @@ struct Sums {
   glm::dvec3 rise_index{0.0};    ///< of each voxel's neighbours along i, j, k, by the part that is covered
 };
 
-double factorOf(const TissueStiffness& tissue, std::uint8_t label) {
-  return tissue.factor[label < assets::kTissueCount ? label : 0];
-}
-
 /// A block and the six beside it; air beyond the volume.
 class Neighbourhood {
  public:
@@ -204,7 +200,7 @@ class BlockSums {
       block.only_factor = static_cast<float>(*only);
     } else {
       for (std::size_t n = 0; n < kBlockVoxels; ++n)
-        factor_[n] = static_cast<float>(factorOf(tissue_, field_.label[around.index() * kBlockVoxels + n]));
+        factor_[n] = static_cast<float>(tissue_.of(field_.label[around.index() * kBlockVoxels + n]));
       block.factor = factor_.data();
     }
     const HeadSums cut = bur_.hasKernel() ? sumUnderHead(head_, block) : sumInParts(block, corner);
@@ -245,13 +241,13 @@ class BlockSums {
   std::optional<double> onlyFactor(const Neighbourhood& around) const {
     if (field_.label == nullptr || around.airInside()) return tissue_.factor[0];
     const std::uint8_t only = field_.only_label[around.index()];
-    return only == kMixedLabels ? std::nullopt : std::optional(factorOf(tissue_, only));
+    return only == kMixedLabels ? std::nullopt : std::optional(tissue_.of(only));
   }
   double stiffOf(const Neighbourhood& around) const {
     if (const auto only = onlyFactor(around)) return around.weight() * *only;
     double sum = 0.0;
     for (std::size_t n = 0; n < kBlockVoxels; ++n)
-      sum += around.solid()[n] * factorOf(tissue_, field_.label[around.index() * kBlockVoxels + n]);
+      sum += around.solid()[n] * tissue_.of(field_.label[around.index() * kBlockVoxels + n]);
     return sum;
   }
 
@@ -321,7 +317,7 @@ ShapeOverlap shapeOverlapVoxelByVoxel(const SolidField& field, const BurShape& s
         const double w = solid_at(ijk);
         if (w == 0.0) continue;
         sums.volume += w * share.fraction;
-        sums.stiff += w * share.fraction * factorOf(tissue, field.labelAt(ijk));
+        sums.stiff += w * share.fraction * tissue.of(field.labelAt(ijk));
         sums.grey += w * (255.0 - w) * share.fraction;
         sums.moment_T += w * share.moment;
       }

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 
+#include "render/gpu/vertex_array.h"
 #include "render/shaders/shared_numbers.glsl"
 
 namespace render {
@@ -14,14 +15,6 @@ void enable(GLenum capability, bool on) { on ? glEnable(capability) : glDisable(
 void setMask(GLuint target, bool on) {
   const GLboolean write = on ? GL_TRUE : GL_FALSE;
   glColorMaski(target, write, write, write, write);
-}
-
-void deleteVertexArray(unsigned name) { glDeleteVertexArrays(1, &name); }
-
-GlName newVertexArray() {
-  GLuint name = 0;
-  glCreateVertexArrays(1, &name);
-  return {name, &deleteVertexArray};
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "render/gpu/vertex_array.h"
 #include "render/shaders/shared_numbers.glsl"
 
 namespace render {
@@ -12,17 +13,15 @@ namespace {
 
 constexpr std::size_t kVertexBytes = sizeof(glm::vec3), kIndexBytes = sizeof(std::uint16_t);
 
-void deleteVertexArray(unsigned name) { glDeleteVertexArrays(1, &name); }
-
 GlName layoutOf(const Buffer& vertices, const Buffer& indices) {
-  GLuint name = 0;
-  glCreateVertexArrays(1, &name);
+  GlName layout = newVertexArray();
+  const GLuint name = layout.get();
   glEnableVertexArrayAttrib(name, POSITION_ATTRIBUTE);
   glVertexArrayAttribFormat(name, POSITION_ATTRIBUTE, 3, GL_FLOAT, GL_FALSE, 0);
   glVertexArrayAttribBinding(name, POSITION_ATTRIBUTE, 0);
   glVertexArrayVertexBuffer(name, 0, vertices.name(), 0, kVertexBytes);
   glVertexArrayElementBuffer(name, indices.name());
-  return {name, &deleteVertexArray};
+  return layout;
 }
 
 void write(const Buffer& to, std::size_t first_byte, std::span<const std::byte> bytes) {

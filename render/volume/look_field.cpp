@@ -12,7 +12,7 @@
 namespace render {
 namespace {
 
-constexpr int kB = assets::kBrickVoxels, kWide = kB + 2;
+constexpr int kCore = assets::kBrickVoxels, kWide = kCore + 2;
 
 // Colour and finish times weight, and the weight.
 using Share = std::array<float, 5>;
@@ -42,7 +42,7 @@ void melt(Block& block, std::size_t step) {
 }  // namespace
 
 BorderedField<std::uint32_t> lookField(const BorderedField<std::uint8_t>& solid, std::span<const std::uint8_t> label) {
-  const glm::ivec3 size = solid.layout().size, bricks = (size + (kB - 1)) / kB;
+  const glm::ivec3 size = solid.layout().size, bricks = (size + (kCore - 1)) / kCore;
   const TissueLook& plain = kTissueLook[0];
   BorderedField<std::uint32_t> field(size, packed(plain.albedo, plain.finish));
   const auto tissue_at = [&](glm::ivec3 v) -> const TissueLook& {
@@ -55,7 +55,7 @@ BorderedField<std::uint32_t> lookField(const BorderedField<std::uint8_t>& solid,
   };
   const auto melt_brick = [&](glm::ivec3 brick) {
     // What the brick and its border hold; air without a label needs no colour.
-    const glm::ivec3 first = kB * brick;
+    const glm::ivec3 first = kCore * brick;
     bool any = false;
     Block block{};
     for (int k = 0; k < kWide; ++k)
@@ -75,7 +75,7 @@ BorderedField<std::uint32_t> lookField(const BorderedField<std::uint8_t>& solid,
     melt(block, at(1, 0, 0));
     melt(block, at(0, 1, 0));
     melt(block, at(0, 0, 1));
-    const glm::ivec3 extent = glm::min(glm::ivec3(kB), size - first);
+    const glm::ivec3 extent = glm::min(glm::ivec3(kCore), size - first);
     for (int k = 0; k < extent.z; ++k)
       for (int j = 0; j < extent.y; ++j)
         for (int i = 0; i < extent.x; ++i) {

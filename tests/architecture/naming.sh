@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Names in every .cpp of the product and in the headers it reads, as .clang-tidy says.
-# naming.sh ROOT BUILD [all]: BUILD has the compile_commands.json. A file that passed is not read again until it, a header
+# naming.sh ROOT BUILD [all]: works in BUILD. A file that passed is not read again until it, a header
 # or the rules change. Where git knows the commit in names_checked, at which all names were good, only what differs from
 # it is read: reading everything takes minutes. `all` reads everything and, where all is good, writes names_checked.
 # Exit 77 (skipped) without clang-tidy.
@@ -12,6 +12,11 @@ if ! command -v clang-tidy >/dev/null; then
   exit 77
 fi
 
+# Every source by itself, and what the build writes for them.
+alone=$build/names
+cmake -S "$root" -B "$alone" -G Ninja -DBUILD_TESTING=OFF >/dev/null 2>&1
+cmake --build "$alone" --target render/shaders/shader_sources.inc >/dev/null
+
 passed=$build/naming_passed
 mkdir -p "$passed"
 cd "$root"
@@ -20,7 +25,7 @@ rules=$({ cat .clang-tidy; find calibration assets haptics render app -name '*.h
 
 # Every source; or those that changed, and for a header that changed one that reads it.
 folders='calibration|assets|haptics|render|app'
-sources=$(sed -nE 's|^ *"file": "(.*\.cpp)",?$|\1|p' "$build/compile_commands.json" | grep -E "^$root/($folders)/" | sort -u)
+sources=$(sed -nE 's|^ *"file": "(.*\.cpp)",?$|\1|p' "$alone/compile_commands.json" | grep -E "^$root/($folders)/" | sort -u)
 checked=$root/tests/architecture/names_checked
 if [ "$extent" != all ] && [ -e "$checked" ] && since=$(git rev-parse -q --verify "$(cat "$checked")^{commit}" 2>/dev/null) &&
   git diff --quiet "$since" -- .clang-tidy; then
@@ -44,12 +49,12 @@ done < <(grep . <<<"$sources" || true)
 # clang may stumble over a third party's header that only g++ reads; only names are judged here.
 check() {
   read -r source key <<<"$1"
-  said=$(clang-tidy -p "$build" --quiet --extra-arg=-w "$source" 2>/dev/null) || true
+  said=$(clang-tidy -p "$alone" --quiet --extra-arg=-w "$source" 2>/dev/null) || true
   if grep -F -A 3 '[readability-identifier-naming' <<<"$said"; then return 1; fi
   touch "$passed/$key"
 }
 export -f check
-export build passed
+export alone passed
 if ((${#waiting[@]} > 0)) && ! printf '%s\n' "${waiting[@]}" | xargs -P "$(nproc)" -d '\n' -I '{}' bash -c 'check "{}"'; then
   echo "the names above do not follow .clang-tidy"
   exit 1

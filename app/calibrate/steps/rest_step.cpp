@@ -7,7 +7,7 @@ namespace app {
 namespace {
 
 constexpr std::size_t kMarks = 3;
-constexpr double kFar_mm = 60.0;  // a rest that was never registered stands where it was put
+constexpr double kFarRest_mm = 60.0;  // a rest that was never registered stands where it was put
 
 /// Marks of a rest in this pose; the stylus as it comes.
 calibration::TargetPlan marksPlan(const char* method, const calibration::RestRegistration& rest,
@@ -24,12 +24,12 @@ void RestStep::begin() {
   made_of_.clear();
   book_.outcome.rest.reset();
   const auto believed = book_.plan.record.rest.value_or(calibration::RestRegistration{});
-  round_.emplace(marksPlan("rest3", believed, book_.plan.rest_marks_mm, 0), book_.arm, kFar_mm, book_.voice);
+  round_.emplace(marksPlan("rest3", believed, book_.plan.rest_marks_mm, 0), book_.arm, kFarRest_mm, book_.voice);
   round_->letTiltBe();
 }
 
 void RestStep::beginProof() {
-  round_.emplace(marksPlan("rest3proof", *book_.outcome.rest, book_.plan.rest_marks_mm, kMarks), book_.arm, kFar_mm,
+  round_.emplace(marksPlan("rest3proof", *book_.outcome.rest, book_.plan.rest_marks_mm, kMarks), book_.arm, kFarRest_mm,
                  book_.voice);
   round_->letTiltBe();
 }

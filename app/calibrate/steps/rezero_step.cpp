@@ -6,7 +6,7 @@
 namespace app {
 namespace {
 
-constexpr double kFar_mm = 25.0;      // a base that was pushed
+constexpr double kFarBase_mm = 25.0;  // a base that was pushed
 constexpr double kMostLeft_mm = 2.0;  // after it: beyond, a touch was of another pit, or the arm is another
 
 }  // namespace
@@ -14,7 +14,7 @@ constexpr double kMostLeft_mm = 2.0;  // after it: beyond, a touch was of anothe
 void RezeroStep::begin() {
   const calibration::TargetPlan plan = *calibration::targetPlan("rezero5", book_.plan.jig);
   book_.outcome.zeroing = emptySet(book_, plan);
-  round_.emplace(plan, book_.arm, kFar_mm, book_.voice);
+  round_.emplace(plan, book_.arm, kFarBase_mm, book_.voice);
 }
 
 StepAnswer RezeroStep::feel(const StylusSample& sample, Press press, double pressed_s) {

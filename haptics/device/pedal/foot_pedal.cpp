@@ -23,10 +23,6 @@ constexpr int kBetweenLooks_ms = 500;
 constexpr std::string_view kLastWords =
     "the pedal is read no more, memory or handles ran out: close other programs and start again";
 
-struct Freed {
-  void operator()(libevdev* device) const { libevdev_free(device); }
-};
-
 /// With the ranges of its axes; what the device does not have is left out.
 std::vector<PedalSwitch> switchesOn(const libevdev* device, std::vector<PedalSwitch> switches) {
   std::erase_if(switches, [&](const PedalSwitch& one) {
@@ -96,6 +92,10 @@ class FootPedal::Reading {
   }
 
   int fd_;
+  struct Freed {
+    void operator()(libevdev* device) const { libevdev_free(device); }
+  };
+
   std::unique_ptr<libevdev, Freed> device_;
   PedalSwitches switches_;
   bool has_switches_ = false;

@@ -5,6 +5,7 @@
 
 #include "calibration/geometry/units.h"
 #include "haptics/device/haptic_device.h"
+#include "haptics/device/simulated/eased.h"
 
 namespace haptics {
 namespace {
@@ -12,11 +13,6 @@ namespace {
 constexpr double kApproach_mm_per_s = 20.0;
 constexpr int kFinishingPasses = 4;  // at full depth, while the bone gives way
 constexpr double kTilt_rad = 0.35;   // of the shaft towards the cheek, so that the handpiece clears the teeth
-
-double smooth(double u) {
-  const double v = std::clamp(u, 0.0, 1.0);
-  return v * v * (3.0 - 2.0 * v);
-}
 
 bool positive(double x) { return std::isfinite(x) && x > 0.0; }
 
@@ -57,16 +53,16 @@ HandTarget TroughPath::at(double t_s) const {
   const double step_mm = cut_.depth_mm / deepening_passes_;
   double height_mm = high_mm, along_mm = -0.5 * cut_.length_mm;
   if (cut_s <= 0.0) {
-    height_mm = glm::mix(high_mm, rest_mm, smooth(t_s / approach_s_));
+    height_mm = glm::mix(high_mm, rest_mm, eased(t_s / approach_s_));
   } else if (cut_s < end_s) {
     const double pass = std::floor(cut_s / pass_s_), u = cut_s / pass_s_ - pass;
     // Eases in and out of each turn; sinks to the pass's depth in its first fifth.
     const double way = 0.5 - 0.5 * std::cos(u * calibration::kPi);
     along_mm = cut_.length_mm * ((static_cast<int>(pass) % 2 == 0 ? way : 1.0 - way) - 0.5);
-    height_mm = rest_mm - std::min(cut_.depth_mm, step_mm * (pass + smooth(5.0 * u)));
+    height_mm = rest_mm - std::min(cut_.depth_mm, step_mm * (pass + eased(5.0 * u)));
   } else {
     along_mm = cut_.length_mm * ((passes_ % 2 == 0 ? 0.0 : 1.0) - 0.5);
-    height_mm = glm::mix(rest_mm - cut_.depth_mm, high_mm, smooth((cut_s - end_s) / retreat_s_));
+    height_mm = glm::mix(rest_mm - cut_.depth_mm, high_mm, eased((cut_s - end_s) / retreat_s_));
   }
   const bool pedal = cut_s > -0.1 * approach_s_ && cut_s < end_s;
   return {middle_D_mm_ + height_mm * outward_ + along_mm * along_, rotation_, pedal, 0, true};

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
+#include "haptics/device/simulated/eased.h"
+
 namespace haptics {
 namespace {
 
 constexpr double kLies_s = 0.3, kTakes_s = 0.2, kWaits_s = 1.0;
 constexpr double kMean_mm_per_s = 80.0;
-
-double smooth(double u) { return u * u * (3.0 - 2.0 * u); }
 
 }  // namespace
 
@@ -33,8 +33,8 @@ HandTarget WorkRound::onTheWay(double t_s) const {
   const Leg& leg =
       *std::find_if(legs_.begin(), legs_.end() - 1, [&](const Leg& one) { return t < one.begins_s + one.takes_s; });
   HandTarget target;
-  target.place_mm = glm::mix(leg.from_mm, leg.to_mm, smooth(std::clamp((t - leg.begins_s) / leg.takes_s, 0.0, 1.0)));
-  target.rotation = glm::slerp(rest_.rotation, start_.rotation, smooth(t / way_s_));
+  target.place_mm = glm::mix(leg.from_mm, leg.to_mm, eased(std::clamp((t - leg.begins_s) / leg.takes_s, 0.0, 1.0)));
+  target.rotation = glm::slerp(rest_.rotation, start_.rotation, eased(t / way_s_));
   return target;
 }
 
@@ -49,7 +49,7 @@ HandTarget WorkRound::at(double t_s) const {
     target = onTheWay(way_s_ + 1.0 - std::max(back_s, 1.0));
     if (back_s < 1.0) {
       target = work_.at(work_.duration_s());
-      target.place_mm = glm::mix(target.place_mm, start_.place_mm, smooth(std::max(back_s, 0.0)));
+      target.place_mm = glm::mix(target.place_mm, start_.place_mm, eased(std::max(back_s, 0.0)));
     }
   }
   target.pedal = false;

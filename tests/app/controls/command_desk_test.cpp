@@ -179,6 +179,7 @@ TEST(CommandDesk, DrawsWhatAGuidePutsIntoTheHand) {
 
 TEST(CommandDesk, SwitchesToWhatWasSaidOrTheOtherWay) {
   Desk at;
+  ASSERT_TRUE(at.waitFor([](const haptics::Tick& tick) { return tick.dt_s > 0.0; }));
   for (const bool on : {false, false, true, true}) {
     at.desk->obey({Control::drill, on ? 1 : 0});
     at.desk->obey({Control::irrigation, on ? 1 : 0});
