@@ -2,8 +2,8 @@
 // ends, spliced and doubled pieces, lines lost, doubled or far too long, numbers of a text or of the bytes made NaN,
 // huge, negative or none, or lists nested in lists. Mutant n of a file is always the same bytes, on any machine.
 // `forEachMutant` tries as many as the caller says, or as the environment's MOLAR_MUTANTS says, from MOLAR_FIRST_MUTANT
-// on; a mutant that takes more than 10 s of processor time ends the program (SIGPROF), and one that makes the
-// program larger than 1 GB fails the test. About 2 µs a mutant of a few kilobytes.
+// on; a mutant that takes more than 10 s of processor time (60 under a sanitizer) ends the program (SIGPROF), and one
+// that makes the program larger than 1 GB fails the test. About 2 µs a mutant of a few kilobytes.
 #pragma once
 
 #include <sys/resource.h>
@@ -216,12 +216,18 @@ inline std::uint64_t numberFromEnvironment(const char* name, std::uint64_t other
 /// makes.
 class HangWatch {
  public:
-  HangWatch() { set(10); }
+  HangWatch() { set(kLongest_s); }
   ~HangWatch() { set(0); }
   HangWatch(const HangWatch&) = delete;
   HangWatch& operator=(const HangWatch&) = delete;
 
  private:
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  static constexpr time_t kLongest_s = 60;
+#else
+  static constexpr time_t kLongest_s = 10;
+#endif
+
   static void set(time_t seconds) {
     const itimerval timer{{0, 0}, {seconds, 0}};
     ::setitimer(ITIMER_PROF, &timer, nullptr);

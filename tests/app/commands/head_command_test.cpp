@@ -10,7 +10,7 @@
 namespace app {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 struct HeadOverBone {
   const char* tool;
@@ -20,10 +20,10 @@ struct HeadOverBone {
 };
 
 const std::vector<HeadOverBone> kHeads = {
-    {"sphere:1.5", 1.5, 4.0 / 3.0 * kPi * 3.375, kPi * 0.25 * (1.5 - 0.5 / 3.0)},
-    {"capsule:1,2", 2.0, 4.0 / 3.0 * kPi + 2.0 * kPi, kPi * 0.25 * (1.0 - 0.5 / 3.0)},
-    {"cylinder:1,3", 1.5, 3.0 * kPi, 0.5 * kPi},
-    {"cone:1.5,2", 1.0, 1.5 * kPi, kPi / 3.0 * std::pow(0.5 * 1.5 / 2.0, 2) * 0.5}};
+    {"sphere:1.5", 1.5, 4.0 / 3.0 * pi * 3.375, pi * 0.25 * (1.5 - 0.5 / 3.0)},
+    {"capsule:1,2", 2.0, 4.0 / 3.0 * pi + 2.0 * pi, pi * 0.25 * (1.0 - 0.5 / 3.0)},
+    {"cylinder:1,3", 1.5, 3.0 * pi, 0.5 * pi},
+    {"cone:1.5,2", 1.0, 1.5 * pi, pi / 3.0 * std::pow(0.5 * 1.5 / 2.0, 2) * 0.5}};
 
 class HeadCommand : public ProgramTest {};
 

@@ -7,7 +7,7 @@
 namespace app {
 namespace {
 
-const std::string kQuick = R"(participant = "P07"
+const std::string kQuickProtocol = R"(participant = "P07"
 method = "2afc-constant"
 [bone]
 voxel_mm = 0.3
@@ -28,7 +28,7 @@ repetitions = 8
 class PsychophysicsCommand : public ProgramTest {};
 
 TEST_F(PsychophysicsCommand, WritesARowATrialAndASummary) {
-  const Said said = molar("psychophysics " + write("p.toml", kQuick) + " --out " + at("r.csv"));
+  const Said said = molar("psychophysics " + write("p.toml", kQuickProtocol) + " --out " + at("r.csv"));
   ASSERT_EQ(said.status, 0) << said.err;
   const std::string csv = read("r.csv");
   EXPECT_TRUE(csv.starts_with("trial,participant,method,track,first,parameter,unit,")) << csv;
@@ -44,7 +44,7 @@ TEST_F(PsychophysicsCommand, WritesARowATrialAndASummary) {
 }
 
 TEST_F(PsychophysicsCommand, RepeatsItselfFromItsSeed) {
-  const std::string run = "psychophysics " + write("p.toml", kQuick) + " --out ";
+  const std::string run = "psychophysics " + write("p.toml", kQuickProtocol) + " --out ";
   ASSERT_EQ(molar(run + at("a.csv") + " --seed 5").status, 0);
   ASSERT_EQ(molar(run + at("b.csv") + " --seed 5").status, 0);
   ASSERT_EQ(molar(run + at("c.csv") + " --seed 6").status, 0);
@@ -54,7 +54,7 @@ TEST_F(PsychophysicsCommand, RepeatsItselfFromItsSeed) {
 }
 
 TEST_F(PsychophysicsCommand, OverwritesNothingUnasked) {
-  const std::string protocol = write("p.toml", kQuick);
+  const std::string protocol = write("p.toml", kQuickProtocol);
   write("r.csv", "precious");
   expectRefusal("psychophysics " + protocol + " --out " + at("r.csv"), "r.csv");
   EXPECT_EQ(read("r.csv"), "precious");
@@ -63,7 +63,7 @@ TEST_F(PsychophysicsCommand, OverwritesNothingUnasked) {
   EXPECT_EQ(read("s.json"), "precious");
   expectRefusal("psychophysics " + protocol + " --out " + at("r.txt"), ".csv");
   expectRefusal("psychophysics " + at("none.toml") + " --out " + at("q.csv"), "none.toml");
-  write("bad.toml", kQuick + "colour = 1\n");
+  write("bad.toml", kQuickProtocol + "colour = 1\n");
   expectRefusal("psychophysics " + at("bad.toml") + " --out " + at("r.csv") + " --force", "line 17: [vary] colour");
   EXPECT_EQ(read("r.csv"), "precious") << "a bad protocol costs nothing";
   EXPECT_EQ(molar("psychophysics " + protocol + " --out " + at("r.csv") + " --force").status, 0);
@@ -74,7 +74,7 @@ TEST_F(PsychophysicsCommand, AnswersNoWhereItsRecordingIsLost) {
   // The disk is full after 200 kB, a second of ticks; once that was said, it is ended.
   const int status =
       std::system(("trap '' XFSZ; ulimit -f 400; " + std::string(MOLAR_PROGRAM) + " psychophysics " +
-                   write("p.toml", kQuick) + " --observer keyboard --out " + at("r.csv") + " --record " +
+                   write("p.toml", kQuickProtocol) + " --observer keyboard --out " + at("r.csv") + " --record " +
                    at("s.molar") + " >/dev/null 2>" + at("said") + " & p=$!; while ! grep -qF 'recording ended' " +
                    at("said") + " && kill -0 $p; do sleep 0.05; done; kill -TERM $p; wait $p")
                       .c_str());
@@ -84,7 +84,7 @@ TEST_F(PsychophysicsCommand, AnswersNoWhereItsRecordingIsLost) {
 }
 
 TEST_F(PsychophysicsCommand, KeepsEveryAnsweredTrialWhenKilled) {
-  std::string slow = kQuick;
+  std::string slow = kQuickProtocol;
   slow.replace(slow.find("repetitions = 8"), 15, "repetitions = 500");
   const std::string protocol = write("p.toml", slow);
   // Killed as soon as some rows are there, however slow the machine is.

@@ -35,7 +35,7 @@ void record(const std::string& path, bool closed) {
     for (const char* part : {"", "-wal"}) std::filesystem::copy_file(path + part, path + ".killed" + part);
 }
 
-void readEverything(SessionReader& session) {
+void readToTheEnd(SessionReader& session) {
   const StoredStart start = session.start();
   session.commands();
   session.events();
@@ -50,7 +50,7 @@ bool isRefused(const std::string& path) {
     SessionReader session(path);
     const bool damaged = session.damage().has_value();
     try {
-      readEverything(session);
+      readToTheEnd(session);
     } catch (const SessionError& refusal) {
       EXPECT_TRUE(damaged) << refusal.what();
       throw;

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "assets/tissue.h"
+#include "tests/assets/import/distance_to_line.h"
 #include "tests/mutants.h"
 
 namespace {
@@ -39,16 +40,6 @@ void addTube(
       }
 }
 
-double distanceToLine(const std::vector<glm::dvec3>& line, const glm::dvec3& p) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t s = 0; s + 1 < line.size(); ++s) {
-    const glm::dvec3 segment = line[s + 1] - line[s];
-    const double t = glm::clamp(glm::dot(p - line[s], segment) / glm::dot(segment, segment), 0.0, 1.0);
-    nearest = std::min(nearest, glm::distance(p, line[s] + t * segment));
-  }
-  return nearest;
-}
-
 // A quarter of a circle of 20 mm, from anterior to superior, as the canal rises into the ramus.
 glm::dvec3 quarter(double t) {
   const double angle = t * std::acos(0.0);
@@ -63,7 +54,7 @@ TEST(MandibularCanalLine, FollowsTheMiddleOfACurvedTube) {
     const auto canal = mandibularCanalLine(grid, label, std::nullopt);
     ASSERT_TRUE(canal);
     for (double t = 0.01; t < 1.0; t += 0.01)
-      EXPECT_LT(distanceToLine(canal->line_P_mm, quarter(t)), t > 0.06 && t < 0.94 ? 0.25 : 0.5) << t;
+      EXPECT_LT(tests::distanceToLine(canal->line_P_mm, quarter(t)), t > 0.06 && t < 0.94 ? 0.25 : 0.5) << t;
     EXPECT_NEAR(canal->radius_mm, 1.5, 0.12);
     EXPECT_LT(glm::distance(canal->line_P_mm.front(), quarter(0.0)), 0.8);
     EXPECT_LT(glm::distance(canal->line_P_mm.back(), quarter(1.0)), 0.8);
@@ -78,9 +69,9 @@ TEST(MandibularCanalLine, GoesOnAcrossAGap) {
   addTube(grid, label, 1.5, quarter, [](double t) { return std::abs(t - 0.5) > 0.07; });
   const auto canal = mandibularCanalLine(grid, label, std::nullopt);
   ASSERT_TRUE(canal);
-  EXPECT_LT(distanceToLine(canal->line_P_mm, quarter(0.1)), 0.3);
-  EXPECT_LT(distanceToLine(canal->line_P_mm, quarter(0.5)), 0.3);
-  EXPECT_LT(distanceToLine(canal->line_P_mm, quarter(0.9)), 0.3);
+  EXPECT_LT(tests::distanceToLine(canal->line_P_mm, quarter(0.1)), 0.3);
+  EXPECT_LT(tests::distanceToLine(canal->line_P_mm, quarter(0.5)), 0.3);
+  EXPECT_LT(tests::distanceToLine(canal->line_P_mm, quarter(0.9)), 0.3);
   EXPECT_NEAR(canal->radius_mm, 1.5, 0.15);
 }
 
@@ -110,7 +101,7 @@ TEST(MandibularCanalLine, PassesARootThatHidesItsLabels) {
     ASSERT_TRUE(canal);
     double farthest_mm = 0.0;
     for (double t = 0.1; t < 0.9; t += 0.01)
-      farthest_mm = std::max(farthest_mm, distanceToLine(canal->line_P_mm, course(t)));
+      farthest_mm = std::max(farthest_mm, tests::distanceToLine(canal->line_P_mm, course(t)));
     RecordProperty("farthest_mm", std::to_string(farthest_mm));
     EXPECT_LT(farthest_mm, 0.5) << clearance_mm;
     for (const glm::dvec3& p : canal->line_P_mm)
@@ -131,7 +122,7 @@ TEST(MandibularCanalLine, IsNotHeldUpBySpeckles) {
   const mutants::HangWatch watch;
   const auto canal = mandibularCanalLine(grid, label, glm::dvec3(40, 40, 45));
   ASSERT_TRUE(canal);
-  EXPECT_LT(distanceToLine(canal->line_P_mm, {40, 40, 40}), 1.5);
+  EXPECT_LT(tests::distanceToLine(canal->line_P_mm, {40, 40, 40}), 1.5);
 }
 
 /// Oblique sheets, 9 mm apart: each box holds the next sheet, and no pair is near enough to be joined.

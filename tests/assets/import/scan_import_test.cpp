@@ -16,6 +16,7 @@
 #include "assets/patient/patient_toml.h"
 #include "assets/scan/image_file.h"
 #include "assets/scan/solid_fraction.h"
+#include "tests/assets/import/distance_to_line.h"
 #include "tests/assets/scan_on_disk.h"
 #include "tests/refusal.h"
 #include "tests/shared_data.h"
@@ -33,16 +34,6 @@ std::string refusalOf(const std::string& source, const assets::ScanChoices& choi
 
 std::string refusalOfReading(const std::string& path) {
   return tests::refusalOf<assets::LoadError>([&] { assets::readHounsfield(path); });
-}
-
-double distanceToLine(const std::vector<glm::dvec3>& line, const glm::dvec3& p) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t s = 0; s + 1 < line.size(); ++s) {
-    const glm::dvec3 segment = line[s + 1] - line[s];
-    const double t = glm::clamp(glm::dot(p - line[s], segment) / glm::dot(segment, segment), 0.0, 1.0);
-    nearest = std::min(nearest, glm::distance(p, line[s] + t * segment));
-  }
-  return nearest;
 }
 
 class ScanImportRealData : public testing::Test {
@@ -70,10 +61,10 @@ TEST_F(ScanImportRealData, HasItsThirdMolarAndCanalWhereTheTruthSays) {
 
   std::vector<glm::dvec3> canal;
   for (const auto& ijk : truth["canal_polyline_ijk"]) canal.push_back(pointOf(ijk));
-  for (const auto& p : canal) EXPECT_LT(distanceToLine(patient.mandibular_canal_P_mm, p), 1.0);
+  for (const auto& p : canal) EXPECT_LT(tests::distanceToLine(patient.mandibular_canal_P_mm, p), 1.0);
   for (const auto& p : patient.mandibular_canal_P_mm)
     if (p.y > canal.front().y && p.y < canal.back().y) {
-      EXPECT_LT(distanceToLine(canal, p), 1.0);
+      EXPECT_LT(tests::distanceToLine(canal, p), 1.0);
     }
   EXPECT_NEAR(patient.mandibular_canal_radius_mm, 1.3, 0.2);
 }

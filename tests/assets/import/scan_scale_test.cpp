@@ -14,14 +14,14 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-const assets::VolumeGrid kGrid{{60, 60, 60}, 0.5, {0, 0, 0}};
+const assets::VolumeGrid kHeadGrid{{60, 60, 60}, 0.5, {0, 0, 0}};
 
 /// Shares of a head: air, fat, soft tissue, trabecular and cortical bone, enamel; noise of 30 HU.
 std::vector<std::int16_t> head(double air, double offset_hu) {
   std::mt19937 random(7);
   std::normal_distribution<double> noise(0.0, 30.0);
   std::uniform_real_distribution<double> share(0.0, 1.0);
-  std::vector<std::int16_t> hounsfield(kGrid.voxelCount());
+  std::vector<std::int16_t> hounsfield(kHeadGrid.voxelCount());
   for (std::int16_t& value : hounsfield) {
     double at = share(random);
     double grey = -1000.0;
@@ -39,26 +39,26 @@ std::vector<std::int16_t> head(double air, double offset_hu) {
 }
 
 TEST(ScanScale, SaysNothingOfHounsfieldWithOrWithoutAir) {
-  EXPECT_THAT(assets::scaleRemarks(kGrid, head(0.4, 0.0)), IsEmpty());
-  EXPECT_THAT(assets::scaleRemarks(kGrid, head(0.0, 0.0)), IsEmpty());
+  EXPECT_THAT(assets::scaleRemarks(kHeadGrid, head(0.4, 0.0)), IsEmpty());
+  EXPECT_THAT(assets::scaleRemarks(kHeadGrid, head(0.0, 0.0)), IsEmpty());
 }
 
 TEST(ScanScale, NoticesAnOffsetOf1024) {
   for (const double air : {0.4, 0.6, 0.8})
-    EXPECT_THAT(assets::scaleRemarks(kGrid, head(air, 1024.0)), ElementsAre(HasSubstr("instead of -1000"))) << air;
+    EXPECT_THAT(assets::scaleRemarks(kHeadGrid, head(air, 1024.0)), ElementsAre(HasSubstr("instead of -1000"))) << air;
 }
 
 TEST(ScanScale, NoticesMetal) {
   auto hounsfield = head(0.4, 0.0);
   for (std::size_t v = 0; v < 200; ++v) hounsfield[v] = 3071;
-  EXPECT_THAT(assets::scaleRemarks(kGrid, hounsfield), ElementsAre(HasSubstr("25 mm3")));
+  EXPECT_THAT(assets::scaleRemarks(kHeadGrid, hounsfield), ElementsAre(HasSubstr("25 mm3")));
   for (std::size_t v = 0; v < 150; ++v) hounsfield[v] = 100;
-  EXPECT_THAT(assets::scaleRemarks(kGrid, hounsfield), IsEmpty()) << "a few bright voxels are noise";
+  EXPECT_THAT(assets::scaleRemarks(kHeadGrid, hounsfield), IsEmpty()) << "a few bright voxels are noise";
 }
 
 TEST(ScanScale, TakesTheGreatestValuesThereAre) {
-  const std::vector<std::int16_t> hounsfield(kGrid.voxelCount(), 32767);
-  EXPECT_THAT(assets::scaleRemarks(kGrid, hounsfield), testing::SizeIs(1));
+  const std::vector<std::int16_t> hounsfield(kHeadGrid.voxelCount(), 32767);
+  EXPECT_THAT(assets::scaleRemarks(kHeadGrid, hounsfield), testing::SizeIs(1));
 }
 
 TEST(GreyWindow, IsNeededForEightBits) {

@@ -22,7 +22,7 @@ TEST(TissueFromGrey, GoesByThresholds) {
   EXPECT_EQ(tissueFromGrey(-1000), Tissue::unlabelled);
 }
 
-const VolumeGrid kGrid{{48, 48, 48}, 0.3, {0, 0, 0}};
+const VolumeGrid kBallGrid{{48, 48, 48}, 0.3, {0, 0, 0}};
 const glm::dvec3 kMiddle_mm = 0.5 * 0.3 * glm::dvec3(47.0);
 
 /// Balls within one another, each surface blurred in closed form as a scanner does (sd 0.2 mm): outermost first.
@@ -32,17 +32,17 @@ struct Shell {
 };
 
 std::vector<std::int16_t> ballsOf(double outside_hu, const std::vector<Shell>& shells) {
-  std::vector<std::int16_t> hounsfield(kGrid.voxelCount());
-  for (int k = 0; k < kGrid.size.z; ++k)
-    for (int j = 0; j < kGrid.size.y; ++j)
-      for (int i = 0; i < kGrid.size.x; ++i) {
-        const double r_mm = glm::distance(kGrid.centre_P_mm({i, j, k}), kMiddle_mm);
+  std::vector<std::int16_t> hounsfield(kBallGrid.voxelCount());
+  for (int k = 0; k < kBallGrid.size.z; ++k)
+    for (int j = 0; j < kBallGrid.size.y; ++j)
+      for (int i = 0; i < kBallGrid.size.x; ++i) {
+        const double r_mm = glm::distance(kBallGrid.centre_P_mm({i, j, k}), kMiddle_mm);
         double grey = outside_hu, around = outside_hu;
         for (const Shell& shell : shells) {
           grey += (shell.hounsfield - around) * 0.5 * std::erfc((r_mm - shell.radius_mm) / (0.2 * std::sqrt(2.0)));
           around = shell.hounsfield;
         }
-        hounsfield[kGrid.index({i, j, k})] = static_cast<std::int16_t>(std::lround(grey));
+        hounsfield[kBallGrid.index({i, j, k})] = static_cast<std::int16_t>(std::lround(grey));
       }
   return hounsfield;
 }
@@ -50,13 +50,13 @@ std::vector<std::int16_t> ballsOf(double outside_hu, const std::vector<Shell>& s
 /// What share of the voxels that are solid and near the surface carries the tissue.
 double shareAtSurface(const std::vector<std::int16_t>& hounsfield, double radius_mm, Tissue tissue,
                       double deep_mm = 1.0) {
-  const auto label = assets::labelsFromGrey(kGrid, hounsfield);
+  const auto label = assets::labelsFromGrey(kBallGrid, hounsfield);
   double all = 0.0, right = 0.0;
-  for (int k = 0; k < kGrid.size.z; ++k)
-    for (int j = 0; j < kGrid.size.y; ++j)
-      for (int i = 0; i < kGrid.size.x; ++i) {
-        const std::size_t v = kGrid.index({i, j, k});
-        const double r_mm = glm::distance(kGrid.centre_P_mm({i, j, k}), kMiddle_mm);
+  for (int k = 0; k < kBallGrid.size.z; ++k)
+    for (int j = 0; j < kBallGrid.size.y; ++j)
+      for (int i = 0; i < kBallGrid.size.x; ++i) {
+        const std::size_t v = kBallGrid.index({i, j, k});
+        const double r_mm = glm::distance(kBallGrid.centre_P_mm({i, j, k}), kMiddle_mm);
         if (label[v] == 0 || r_mm < radius_mm - deep_mm) continue;
         all += 1.0;
         right += Tissue{label[v]} == tissue ? 1.0 : 0.0;
@@ -80,14 +80,14 @@ TEST(TissueFromGrey, GivesASurfaceTheTissueBehindIt) {
 
 TEST(TissueFromGrey, LeavesTrabeculaeBesideMarrowSpacesAlone) {
   // Struts a voxel wide every fourth voxel, marrow between them.
-  std::vector<std::int16_t> hounsfield(kGrid.voxelCount(), 1350);
+  std::vector<std::int16_t> hounsfield(kBallGrid.voxelCount(), 1350);
   const auto inside = [](int n) { return n > 8 && n < 40; };
-  for (int k = 0; k < kGrid.size.z; ++k)
-    for (int j = 0; j < kGrid.size.y; ++j)
-      for (int i = 0; i < kGrid.size.x; ++i)
+  for (int k = 0; k < kBallGrid.size.z; ++k)
+    for (int j = 0; j < kBallGrid.size.y; ++j)
+      for (int i = 0; i < kBallGrid.size.x; ++i)
         if (inside(i) && inside(j) && inside(k))
-          hounsfield[kGrid.index({i, j, k})] = (i % 4 == 0 || j % 4 == 0) ? 500 : 60;
-  const auto label = assets::labelsFromGrey(kGrid, hounsfield);
+          hounsfield[kBallGrid.index({i, j, k})] = (i % 4 == 0 || j % 4 == 0) ? 500 : 60;
+  const auto label = assets::labelsFromGrey(kBallGrid, hounsfield);
   std::size_t struts = 0, kept = 0;
   for (std::size_t v = 0; v < label.size(); ++v)
     if (hounsfield[v] == 500) ++struts, kept += Tissue{label[v]} == Tissue::trabecular ? 1 : 0;
@@ -95,15 +95,15 @@ TEST(TissueFromGrey, LeavesTrabeculaeBesideMarrowSpacesAlone) {
 }
 
 TEST(PartialVoxels, TakeTheLabelOfTheDensestNeighbour) {
-  assets::CtVolume ct{kGrid, ballsOf(-1000.0, {{5.0, 2500.0}}), {}, {}, {}};
-  ct.solid = assets::classify(kGrid, ct.hounsfield, {});
+  assets::CtVolume ct{kBallGrid, ballsOf(-1000.0, {{5.0, 2500.0}}), {}, {}, {}};
+  ct.solid = assets::classify(kBallGrid, ct.hounsfield, {});
   // Labels that end half a voxel too early, as masks drawn by hand do.
-  ct.label.assign(kGrid.voxelCount(), 0);
-  for (int k = 0; k < kGrid.size.z; ++k)
-    for (int j = 0; j < kGrid.size.y; ++j)
-      for (int i = 0; i < kGrid.size.x; ++i)
-        if (glm::distance(kGrid.centre_P_mm({i, j, k}), kMiddle_mm) < 4.85)
-          ct.label[kGrid.index({i, j, k})] = static_cast<std::uint8_t>(Tissue::enamel);
+  ct.label.assign(kBallGrid.voxelCount(), 0);
+  for (int k = 0; k < kBallGrid.size.z; ++k)
+    for (int j = 0; j < kBallGrid.size.y; ++j)
+      for (int i = 0; i < kBallGrid.size.x; ++i)
+        if (glm::distance(kBallGrid.centre_P_mm({i, j, k}), kMiddle_mm) < 4.85)
+          ct.label[kBallGrid.index({i, j, k})] = static_cast<std::uint8_t>(Tissue::enamel);
   assets::labelPartialVoxels(ct);
   std::size_t bare = 0, beyond = 0;
   for (std::size_t v = 0; v < ct.label.size(); ++v) {

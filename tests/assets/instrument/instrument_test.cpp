@@ -8,15 +8,10 @@
 #include <numbers>
 
 #include "assets/load_error.h"
+#include "tests/assets/instrument/part_named.h"
 
 namespace assets {
 namespace {
-
-const MeshPart& partNamed(const MeshModel& model, const std::string& name) {
-  const auto found = std::ranges::find(model.parts, name, &MeshPart::name);
-  EXPECT_NE(found, model.parts.end()) << name;
-  return *found;
-}
 
 // Vertices of the head: those in front of the neck.
 std::vector<glm::dvec3> headVertices(const MeshPart& bur, double radius_mm) {
@@ -31,7 +26,7 @@ TEST(Instrument, BladesReachExactlyTheRadiusOfTheBur) {
   for (const double radius_mm : {0.5, 1.0, 2.0, 4.0}) {
     const MeshModel model = surgicalHandpiece({.bur_radius_mm = radius_mm});
     double furthest_mm = 0.0;
-    for (const glm::dvec3& p : headVertices(partNamed(model, "Bur"), radius_mm)) {
+    for (const glm::dvec3& p : headVertices(tests::partNamed(model, "Bur"), radius_mm)) {
       furthest_mm = std::max(furthest_mm, glm::length(p));
     }
     EXPECT_NEAR(furthest_mm, radius_mm, 1e-5);
@@ -43,7 +38,7 @@ TEST(Instrument, HasOneBladeAFlute) {
   const MeshModel model = surgicalHandpiece({.bur_radius_mm = radius_mm, .flutes = 12});
   // Round the equator, count the rises from a gullet to a blade.
   std::map<double, bool> on_blade;
-  const std::vector<glm::dvec3> head = headVertices(partNamed(model, "Bur"), radius_mm);
+  const std::vector<glm::dvec3> head = headVertices(tests::partNamed(model, "Bur"), radius_mm);
   const auto sine = [](const glm::dvec3& p) { return std::abs(p.z) / glm::length(p); };
   const double equator = sine(*std::ranges::min_element(head, {}, sine)) + 1e-4;
   for (const glm::dvec3& p : head) {
@@ -96,7 +91,7 @@ TEST(Instrument, BladesFollowTheOutlineOfEveryForm) {
     const MeshModel model = surgicalHandpiece(
         {.bur_radius_mm = radius_mm, .form = form, .bur_length_mm = length_mm, .neck_radius_mm = 0.4});
     double widest_mm = 0.0, lowest_mm = 0.0, farthest_out_mm = -1.0, nearest_mm = -1.0;
-    for (const glm::dvec3 p : partNamed(model, "Bur").position_mm) {
+    for (const glm::dvec3 p : tests::partNamed(model, "Bur").position_mm) {
       if (p.z > half_mm) continue;
       const double rho = std::hypot(p.x, p.y);
       const double outline = form == BurForm::cone ? radius_mm * (p.z + half_mm) / length_mm

@@ -7,18 +7,13 @@
 #include "assets/instrument/dental_mirror.h"
 #include "assets/instrument/retractor.h"
 #include "assets/mesh/closed_sweep.h"
+#include "tests/assets/instrument/part_named.h"
 #include "tests/assets/mesh/closed_mesh.h"
 
 namespace assets {
 namespace {
 
 using glm::dvec3;
-
-const MeshPart& partNamed(const MeshModel& model, const std::string& name) {
-  const auto found = std::ranges::find(model.parts, name, &MeshPart::name);
-  EXPECT_NE(found, model.parts.end()) << name;
-  return *found;
-}
 
 dvec3 corner(const MeshPart& part, std::size_t index) { return part.position_mm[part.triangles[index]]; }
 
@@ -109,7 +104,7 @@ TEST(SecondInstrument, HasNoSharpEdge) {
 TEST(DentalMirror, IsAsWideAsANumberFive) {
   const MeshModel model = dentalMirror();
   double widest_mm = 0.0;
-  for (const dvec3 p : partNamed(model, "Casing").position_mm) {
+  for (const dvec3 p : tests::partNamed(model, "Casing").position_mm) {
     EXPECT_LT(glm::length(p), 12.2);
     widest_mm = std::max(widest_mm, std::abs(p.x));
   }
@@ -124,7 +119,7 @@ TEST(DentalMirror, HasItsGlassAtTheOriginHalfARightAngleToTheHandle) {
   const dvec3 out = glm::normalize(dvec3(0, -1, 1));
   // The face of the glass: flat, through the origin, all around it.
   double face_mm2 = 0.0;
-  const MeshPart& glass = partNamed(model, "Glass");
+  const MeshPart& glass = tests::partNamed(model, "Glass");
   for (std::size_t t = 0; t < glass.triangles.size(); t += 3) {
     const dvec3 area = areaNormal(glass, t);
     if (glm::dot(area, out) < 0.999 * glm::length(area) || glm::length(area) == 0.0) continue;
@@ -136,12 +131,12 @@ TEST(DentalMirror, HasItsGlassAtTheOriginHalfARightAngleToTheHandle) {
 
   // Nothing stands before it but the rim.
   for (const char* name : {"Casing", "Stem", "Handle"})
-    for (const dvec3 p : partNamed(model, name).position_mm)
+    for (const dvec3 p : tests::partNamed(model, name).position_mm)
       EXPECT_TRUE(glm::length(p - glm::dot(p, out) * out) > 10.8 || glm::dot(p, out) < 0.0) << name;
 
   // The handle runs along z.
   dvec3 low(1e9), high(-1e9);
-  for (const dvec3 p : partNamed(model, "Handle").position_mm) low = glm::min(low, p), high = glm::max(high, p);
+  for (const dvec3 p : tests::partNamed(model, "Handle").position_mm) low = glm::min(low, p), high = glm::max(high, p);
   EXPECT_NEAR(high.x - low.x, 7.0, 0.05);
   EXPECT_NEAR(high.y - low.y, 7.0, 0.05);
   EXPECT_GT(high.z - low.z, 100.0);
@@ -151,11 +146,11 @@ TEST(DentalMirror, HangsTogether) {
   const MeshModel model = dentalMirror();
   // A place of the stem lies in the casing, another one in the handle.
   int in_casing = 0, in_handle = 0;
-  const MeshPart& stem = partNamed(model, "Stem");
+  const MeshPart& stem = tests::partNamed(model, "Stem");
   for (std::size_t v = 0; v < stem.position_mm.size(); v += 4) {
     const dvec3 p = stem.position_mm[v];
-    in_casing += test::windingNumber(partNamed(model, "Casing"), p) > 0.5 ? 1 : 0;
-    in_handle += test::windingNumber(partNamed(model, "Handle"), p) > 0.5 ? 1 : 0;
+    in_casing += test::windingNumber(tests::partNamed(model, "Casing"), p) > 0.5 ? 1 : 0;
+    in_handle += test::windingNumber(tests::partNamed(model, "Handle"), p) > 0.5 ? 1 : 0;
   }
   EXPECT_GE(in_casing, 5);
   EXPECT_GE(in_handle, 5);

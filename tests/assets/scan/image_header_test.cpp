@@ -24,12 +24,12 @@ using testing::HasSubstr;
 
 const on_disk::Scan kScan{{3, 4, 5}, glm::dmat3(0.5), {10, -20, 30}};
 
-std::vector<std::int16_t> counting() {
+std::vector<std::int16_t> countingUp() {
   std::vector<std::int16_t> values(60);
   for (std::size_t v = 0; v < 60; ++v) values[v] = static_cast<std::int16_t>(10 * v - 300);
   return values;
 }
-const std::string kRaw = on_disk::bytesOf(counting());
+const std::string kRaw = on_disk::bytesOf(countingUp());
 
 std::string bigEndian(std::string bytes) {
   for (std::size_t b = 0; b + 1 < bytes.size(); b += 2) std::swap(bytes[b], bytes[b + 1]);
@@ -47,7 +47,7 @@ class ScanReading : public testing::Test {
     put(name, bytes);
     try {
       const HounsfieldImage image = assets::readHounsfield(folder_.at(name));
-      return image.hounsfield == counting() ? "the voxels" : "other voxels";
+      return image.hounsfield == countingUp() ? "the voxels" : "other voxels";
     } catch (const assets::LoadError& refusal) {
       EXPECT_EQ(std::string(refusal.what()).find('\n'), std::string::npos);
       return refusal.what();
@@ -83,7 +83,7 @@ std::string asHex(const std::string& bytes) {
 
 std::string asText() {
   std::string text;
-  for (const auto value : counting()) text += std::to_string(value) + (value % 3 == 0 ? "\n" : " ");
+  for (const auto value : countingUp()) text += std::to_string(value) + (value % 3 == 0 ? "\n" : " ");
   return text;
 }
 
@@ -290,11 +290,11 @@ std::string niftiWith(std::string file, std::size_t at, auto value) {
 
 TEST_F(NiftiReading, RescalesAsTheHeaderSays) {
   std::vector<std::uint16_t> raised;
-  for (const auto value : counting()) raised.push_back(static_cast<std::uint16_t>(value + 1024));
+  for (const auto value : countingUp()) raised.push_back(static_cast<std::uint16_t>(value + 1024));
   std::string file = on_disk::nifti(kScan, 512, 16, on_disk::bytesOf(raised));
   EXPECT_EQ(answer("a.nii", niftiWith(file, 116, -1024.0F)), "the voxels");
   std::vector<std::int16_t> halved;
-  for (const auto value : counting()) halved.push_back(static_cast<std::int16_t>(value / 2));
+  for (const auto value : countingUp()) halved.push_back(static_cast<std::int16_t>(value / 2));
   EXPECT_EQ(answer("a.nii", niftiWith(on_disk::nifti(kScan, 4, 16, on_disk::bytesOf(halved)), 112, 2.0F)),
             "the voxels");
   EXPECT_EQ(answer("a.nii", niftiWith(nifti_, 112, 0.0F)), "the voxels");

@@ -20,7 +20,7 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string refusalOf(const std::function<void()>& read) {
+std::string refusalToRead(const std::function<void()>& read) {
   return tests::refusalOf<assets::LoadError>([&] { read(); });
 }
 
@@ -35,7 +35,7 @@ std::string refusalOfAnswer(const std::string& bytes, const std::function<void()
   }
   int status = 0;
   ::waitpid(child, &status, 0);
-  const std::string refusal = refusalOf([&] { assets::volumeAnswered(answer, status, "p/volume.vdb"); });
+  const std::string refusal = refusalToRead([&] { assets::volumeAnswered(answer, status, "p/volume.vdb"); });
   ::close(answer);
   return refusal;
 }
@@ -74,7 +74,7 @@ TEST(VolumeReader, ReadsThoughTheCallerHadChildrenForgotten) {
   const on_disk::Folder folder;
   assets::writeVdb(oneLeaf(), folder.at("v.vdb"));
   const auto before = ::signal(SIGCHLD, SIG_IGN);
-  EXPECT_EQ(refusalOf([&] { assets::readVolumeApart(folder.at("v.vdb")); }), "accepted");
+  EXPECT_EQ(refusalToRead([&] { assets::readVolumeApart(folder.at("v.vdb")); }), "accepted");
   EXPECT_EQ(::signal(SIGCHLD, before), SIG_IGN) << "as it was";
 }
 
@@ -92,7 +92,7 @@ TEST(VolumeReader, SaysWhenMemoryIsWhatIsMissing) {
   int status = 0;
   ::waitpid(child, &status, 0);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // memory can not be limited there
-  EXPECT_THAT(refusalOf([&] { assets::volumeAnswered(answer, status, "p/volume.vdb"); }),
+  EXPECT_THAT(refusalToRead([&] { assets::volumeAnswered(answer, status, "p/volume.vdb"); }),
               HasSubstr("not enough memory"));
 #endif
   ::close(answer);
@@ -101,7 +101,7 @@ TEST(VolumeReader, SaysWhenMemoryIsWhatIsMissing) {
 TEST(VolumeReader, RefusesWithTheReadersWords) {
   const on_disk::Folder folder;
   on_disk::write(folder.at("v.vdb"), std::string(2000, 'x'));
-  EXPECT_THAT(refusalOf([&] { assets::readVolumeApart(folder.at("v.vdb")); }),
+  EXPECT_THAT(refusalToRead([&] { assets::readVolumeApart(folder.at("v.vdb")); }),
               HasSubstr("it can not be read as OpenVDB"));
 }
 

@@ -23,28 +23,28 @@ TouchSet fiveTouches() {
   return set;
 }
 
-std::string refusal(const TouchSet& set) {
+std::string refusalOfTouches(const TouchSet& set) {
   return tests::refusalOf<CalibrationError>([&] { checkTouches(set); });
 }
 
-TEST(TouchChecks, LetGoodTouchesPass) { EXPECT_EQ(refusal(fiveTouches()), "accepted"); }
+TEST(TouchChecks, LetGoodTouchesPass) { EXPECT_EQ(refusalOfTouches(fiveTouches()), "accepted"); }
 
 TEST(TouchChecks, NameTheTouchThatIsNoNumber) {
   TouchSet set = fiveTouches();
   set.touches[2].joints_rad[4] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(refusal(set), HasSubstr("touch 3 holds a number that is none"));
+  EXPECT_THAT(refusalOfTouches(set), HasSubstr("touch 3 holds a number that is none"));
   set = fiveTouches();
   set.touches[1].target_W.mm.y = std::numeric_limits<double>::infinity();
-  EXPECT_THAT(refusal(set), HasSubstr("touch 2"));
+  EXPECT_THAT(refusalOfTouches(set), HasSubstr("touch 2"));
 }
 
 TEST(TouchChecks, NameTheTouchThatWasTakenTwice) {
   TouchSet set = fiveTouches();
   set.touches.push_back(set.touches[1]);
   set.touches.back().id = 9;
-  EXPECT_THAT(refusal(set), testing::AllOf(HasSubstr("touch 9 is touch 2 again")));
+  EXPECT_THAT(refusalOfTouches(set), testing::AllOf(HasSubstr("touch 9 is touch 2 again")));
   set.touches.back().used = false;
-  EXPECT_EQ(refusal(set), "accepted") << "what was set aside does not count";
+  EXPECT_EQ(refusalOfTouches(set), "accepted") << "what was set aside does not count";
 }
 
 TEST(TouchChecks, RefuseAProofByTouchesOfTheFitOrOfAnotherDevice) {
@@ -72,21 +72,21 @@ TEST(TouchChecks, RefuseAProofByTouchesOfTheFitOrOfAnotherDevice) {
 TEST(TouchChecks, RefuseTooFewALineAndOnePlace) {
   TouchSet set = fiveTouches();
   set.touches.resize(3);
-  EXPECT_THAT(refusal(set), HasSubstr("at least 4 are needed"));
+  EXPECT_THAT(refusalOfTouches(set), HasSubstr("at least 4 are needed"));
   set = fiveTouches();
   for (Touch& touch : set.touches) touch.target_W.mm = {10.0 * touch.id, 5.0 * touch.id, 0.3 * (touch.id % 2)};
-  EXPECT_THAT(refusal(set), HasSubstr("lie on a line"));
+  EXPECT_THAT(refusalOfTouches(set), HasSubstr("lie on a line"));
   for (Touch& touch : set.touches) touch.target_W.mm = {1.0, 0.1 * touch.id, 0.0};
-  EXPECT_THAT(refusal(set), HasSubstr("in one place"));
+  EXPECT_THAT(refusalOfTouches(set), HasSubstr("in one place"));
 }
 
 TEST(TouchChecks, RefuseAModelOrPrecisionThatIsNone) {
   TouchSet set = fiveTouches();
   set.device_model = "novint";
-  EXPECT_THAT(refusal(set), HasSubstr("novint"));
+  EXPECT_THAT(refusalOfTouches(set), HasSubstr("novint"));
   set = fiveTouches();
   set.precision.in_plane_mm = -1.0;
-  EXPECT_THAT(refusal(set), HasSubstr("precision"));
+  EXPECT_THAT(refusalOfTouches(set), HasSubstr("precision"));
 }
 
 TEST(TiltSpread, IsTheSmallerOfThatInTheRoomAndThatOfTheGimbal) {

@@ -90,7 +90,7 @@ View randomView(std::mt19937& random, glm::ivec3 size) {
   return view;
 }
 
-std::vector<InstructionSet> sets() {
+std::vector<InstructionSet> setsHere() {
   std::vector<InstructionSet> all;
   for (const InstructionSet set : {InstructionSet::portable, InstructionSet::avx2, InstructionSet::avx512})
     if (assets::available(set)) all.push_back(set);
@@ -210,7 +210,7 @@ TEST(VolumeCast, SkippingFindsTheSurfaceOfBruteForceToTheBit) {
     const SolidCells cells(scene.solid);
     for (int n = 0; n < 25; ++n) {
       const View view = randomView(random, scene.solid.layout().size);
-      for (const InstructionSet set : sets()) {
+      for (const InstructionSet set : setsHere()) {
         const VolumePoints fast = surfaceOf(cells, view, true, set);
         ASSERT_EQ(text(fast), text(surfaceOf(cells, view, false, set))) << "scene " << seed << ", view " << n;
         hits += fast.count;
@@ -228,7 +228,7 @@ TEST(VolumeCast, SkippingSeesThroughTheVolumeLikeBruteForceToTheBit) {
     const SolidCells cells(scene.solid);
     for (int n = 0; n < 20; ++n) {
       const View view = randomView(random, scene.solid.layout().size);
-      for (const InstructionSet set : sets()) {
+      for (const InstructionSet set : setsHere()) {
         RaySums fast_sums, slow_sums;
         const VolumePoints fast = throughOf(cells, scene, view, fast_sums, true, set);
         ASSERT_EQ(text(fast), text(throughOf(cells, scene, view, slow_sums, false, set)));
@@ -262,7 +262,7 @@ TEST(VolumeCast, AgreesWithTheSlowTwinInDouble) {
     const Twin twin{scene};
     for (int n = 0; n < 8; ++n) {
       const View view = randomView(random, scene.solid.layout().size);
-      for (const InstructionSet set : sets()) {
+      for (const InstructionSet set : setsHere()) {
         std::array<double, RayBatch::kMost> length;
         length.fill(-1.0);
         const VolumePoints points = surfaceOf(cells, view, true, set);
@@ -287,7 +287,7 @@ TEST(VolumeCast, GathersTheOpacityOfTheSlowTwin) {
   int rays = 0, apart = 0, seen = 0;
   for (int n = 0; n < 12; ++n) {
     const View view = randomView(random, scene.solid.layout().size);
-    for (const InstructionSet set : sets()) {
+    for (const InstructionSet set : setsHere()) {
       RaySums sums;
       throughOf(cells, scene, view, sums, true, set);
       for (std::size_t r = 0; r < RayBatch::kMost; ++r, ++rays) {
@@ -303,7 +303,7 @@ TEST(VolumeCast, GathersTheOpacityOfTheSlowTwin) {
 }
 
 TEST(VolumeCast, InstructionSetsAgreeWithinRounding) {
-  if (sets().size() < 2) GTEST_SKIP() << "this machine has only the portable kernels";
+  if (setsHere().size() < 2) GTEST_SKIP() << "this machine has only the portable kernels";
   std::mt19937 random(16);
   const Scene scene = lumps(5);
   const SolidCells cells(scene.solid);
@@ -311,7 +311,7 @@ TEST(VolumeCast, InstructionSetsAgreeWithinRounding) {
   for (int n = 0; n < 30; ++n) {
     const View view = randomView(random, scene.solid.layout().size);
     const VolumePoints plain = surfaceOf(cells, view, true, InstructionSet::portable);
-    for (const InstructionSet set : sets()) {
+    for (const InstructionSet set : setsHere()) {
       const VolumePoints fast = surfaceOf(cells, view, true, set);
       std::array<float, RayBatch::kMost> length{};
       for (std::size_t p = 0; p < static_cast<std::size_t>(plain.count); ++p)
@@ -397,7 +397,7 @@ TEST(VolumeCast, AlongTheAxesAFlatFaceIsMetWhereItIs) {
   view.limit_mm.fill(1e9f);
   for (const float from : {-100.0f, -1.0f, 0.0f, 4.25f}) {
     view.settings.eye_index = {from, 12.0f, 12.0f};
-    for (const InstructionSet set : sets()) {
+    for (const InstructionSet set : setsHere()) {
       const VolumePoints points = surfaceOf(cells, view, true, set);
       ASSERT_EQ(points.count, 1);
       EXPECT_NEAR(points.length[0] + from, 9.5f, 0.5f / 64.0f);
@@ -420,7 +420,7 @@ TEST(VolumeCast, NothingIsEverNotANumber) {
   const SolidCells cells(scene.solid);
   for (int n = 0; n < 40; ++n) {
     const View view = randomView(random, scene.solid.layout().size);
-    for (const InstructionSet set : sets()) {
+    for (const InstructionSet set : setsHere()) {
       RaySums sums;
       const VolumePoints points = throughOf(cells, scene, view, sums, true, set);
       for (std::size_t p = 0; p < static_cast<std::size_t>(points.count); ++p) {
