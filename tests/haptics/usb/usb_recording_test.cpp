@@ -11,8 +11,10 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 
 void push(Bytes& bytes, std::uint64_t value, std::size_t count, bool big_endian = false) {
-  for (std::size_t i = 0; i < count; ++i)
-    bytes.push_back(static_cast<std::uint8_t>(value >> (8 * (big_endian ? count - 1 - i : i))));
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t byte = big_endian ? count - 1 - i : i;
+    bytes.push_back(byte < sizeof value ? static_cast<std::uint8_t>(value >> (8 * byte)) : std::uint8_t{0});
+  }
 }
 
 /// Writes as usbmon and tcpdump do.
