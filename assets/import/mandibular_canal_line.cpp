@@ -24,23 +24,38 @@ double lengthOf(const Points& line) {
   return length_mm;
 }
 
-/// Where along the line its nearest point to p lies; the end segments go on beyond the ends.
-double alongLine(const Points& line, const glm::dvec3& p_P_mm) {
-  double along_mm = 0.0;
-  double nearest_mm = std::numeric_limits<double>::infinity();
+/// A line's segments as every point asks for them.
+struct Segment {
+  glm::dvec3 start{0.0}, along{0.0};
+  double length_mm = 0.0, per_squared = 0.0, before_mm = 0.0;
+};
+
+std::vector<Segment> segmentsOf(const Points& line) {
+  std::vector<Segment> segments;
   double before_mm = 0.0;
-  for (std::size_t s = 0; s + 1 < line.size(); ++s) {
-    const glm::dvec3 segment = line[s + 1] - line[s];
-    const double length_mm = glm::length(segment);
-    double t = glm::dot(p_P_mm - line[s], segment) / (length_mm * length_mm);
-    if (s > 0) t = std::max(t, 0.0);
-    if (s + 2 < line.size()) t = std::min(t, 1.0);
-    const double distance_mm = glm::distance(p_P_mm, line[s] + t * segment);
-    if (distance_mm < nearest_mm) {
-      nearest_mm = distance_mm;
-      along_mm = before_mm + t * length_mm;
-    }
+  for (std::size_t p = 0; p + 1 < line.size(); ++p) {
+    const glm::dvec3 along = line[p + 1] - line[p];
+    const double length_mm = glm::length(along);
+    segments.push_back({line[p], along, length_mm, 1.0 / (length_mm * length_mm), before_mm});
     before_mm += length_mm;
+  }
+  return segments;
+}
+
+/// Where along the line its nearest point to p lies; the end segments go on beyond the ends. 2 ns a segment.
+double alongLine(const std::vector<Segment>& line, const glm::dvec3& p_P_mm) {
+  double along_mm = 0.0;
+  double nearest_mm2 = std::numeric_limits<double>::infinity();
+  for (std::size_t s = 0; s < line.size(); ++s) {
+    const glm::dvec3 from_start = p_P_mm - line[s].start;
+    double t = glm::dot(from_start, line[s].along) * line[s].per_squared;
+    if (s > 0) t = std::max(t, 0.0);
+    if (s + 1 < line.size()) t = std::min(t, 1.0);
+    const glm::dvec3 apart = from_start - t * line[s].along;
+    const double squared = glm::dot(apart, apart);
+    if (squared >= nearest_mm2) continue;
+    nearest_mm2 = squared;
+    along_mm = line[s].before_mm + t * line[s].length_mm;
   }
   return along_mm;
 }
@@ -169,7 +184,7 @@ std::optional<MandibularCanalLine> mandibularCanalLine(const VolumeGrid& grid, c
 
   Means means = meansAlong(points, along_mm);
   for (int refinement = 0; refinement < kRefinements && means.line.size() >= 2; ++refinement) {
-    const Points line = trimmed(smoothed(means.line));
+    const std::vector<Segment> line = segmentsOf(trimmed(smoothed(means.line)));
     for (std::size_t p = 0; p < points.size(); ++p) along_mm[p] = alongLine(line, points[p]);
     means = meansAlong(points, along_mm);
   }

@@ -165,16 +165,16 @@ Join nearestOf(const std::vector<std::size_t>& a, const Cubes& b, const std::vec
   return nearest;
 }
 
-/// Joins parts of one canal: their nearest cells become neighbours. The largest parts alone, so that speckled labels
-/// cost no more than a canal's.
+/// Joins parts of one canal: their nearest cells become neighbours. The largest parts alone, and from the smaller of
+/// two, so that speckled labels cost no more than a canal's.
 void joinAcrossGaps(std::vector<Cell>& cells) {
   auto parts = canalsOf(cells);
   std::ranges::stable_sort(parts, std::greater{}, [&](const auto& part) { return voxelsOf(part, cells); });
   parts.resize(std::min(parts.size(), kMostParts));
-  for (std::size_t b = 1; b < parts.size(); ++b) {
-    const Cubes cubes(parts[b], cells);
-    for (std::size_t a = 0; a < b; ++a) {
-      const Join join = nearestOf(parts[a], cubes, cells);
+  for (std::size_t larger = 0; larger + 1 < parts.size(); ++larger) {
+    const Cubes cubes(parts[larger], cells);
+    for (std::size_t smaller = larger + 1; smaller < parts.size(); ++smaller) {
+      const Join join = nearestOf(parts[smaller], cubes, cells);
       if (join.from == join.to) continue;
       cells[join.from].neighbours.push_back(join.to);
       cells[join.to].neighbours.push_back(join.from);
