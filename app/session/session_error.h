@@ -19,8 +19,11 @@ struct SessionError : std::runtime_error {
   SessionTrouble trouble;
 };
 
-/// "…: the session is damaged", as it is said of every stored part that can not be what was recorded.
-inline SessionError damagedSession(const std::string& what) {
+/// "…: the session is damaged", as it is said of every stored part that can not be what was recorded. What it quotes of
+/// the file stays on the line.
+inline SessionError damagedSession(std::string what) {
+  for (char& c : what)
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
   return SessionError(what + ": the session is damaged", SessionTrouble::damaged);
 }
 

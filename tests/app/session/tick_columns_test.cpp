@@ -10,6 +10,7 @@
 
 #include "app/session/session_error.h"
 #include "tests/app/session/small_session.h"
+#include "tests/refusal.h"
 
 namespace app {
 namespace {
@@ -135,6 +136,10 @@ TEST(TickColumns, RefuseBytesOfAnotherLengthAndTypesThatAreNone) {
   for (const char* type : {"", "f8", "u128", "text", "f64 "})
     EXPECT_THROW(TickUnpacker(std::vector<TickColumn>{{"index", type, "", "", ""}}), SessionError) << type;
   EXPECT_THROW(TickUnpacker(std::vector<TickColumn>{}), SessionError);
+  EXPECT_EQ(tests::refusalOf<SessionError>([] {
+              TickUnpacker(std::vector<TickColumn>{{"index", "f\n\x1b", "", "", ""}});
+            }),
+            "a column of its ticks is of type 'f??', which is none: the session is damaged");
 }
 
 }  // namespace
