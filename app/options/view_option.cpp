@@ -14,6 +14,7 @@
 #include "calibration/geometry/units.h"
 #include "calibration/record/utc.h"
 #include "render/display/camera.h"
+#include "render/gpu/gpu_error.h"
 
 namespace app {
 namespace {
@@ -114,7 +115,12 @@ render::Eye ViewOption::apply(calibration::Rig& rig, const assets::VolumeGrid& g
     if (!size_.empty()) rig.screen.px = pictureSize(size_);
   } else {
     const glm::ivec2 px = size_.empty() ? glm::ivec2(640, 480) : pictureSize(size_);
-    rig = render::cameraRig(camera_.empty() ? cameraOn(grid) : cameraFrom(camera_), px);
+    const render::Camera camera = camera_.empty() ? cameraOn(grid) : cameraFrom(camera_);
+    try {
+      rig = render::cameraRig(camera, px);
+    } catch (const render::GpuError& no_view) {
+      throw UsageError(std::string("--camera: ") + no_view.what());
+    }
   }
   return eye_ == "left" ? render::Eye::left : eye_ == "right" ? render::Eye::right : render::Eye::cyclopean;
 }

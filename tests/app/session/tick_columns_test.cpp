@@ -139,7 +139,8 @@ TEST(TickColumns, RefuseBytesOfAnotherLengthAndTypesThatAreNone) {
   EXPECT_EQ(tests::refusalOf<SessionError>([] {
               TickUnpacker(std::vector<TickColumn>{{"index", "f\n\x1b", "", "", ""}});
             }),
-            "a column of its ticks is of type 'f??', which is none: the session is damaged");
+            "a column of its ticks is of type 'f?"
+            "?', which is none: the session is damaged");
 }
 
 }  // namespace
