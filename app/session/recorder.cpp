@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
+#include <deque>
 #include <mutex>
 #include <new>
 #include <thread>
@@ -30,7 +31,7 @@ struct Recorder::Impl {
   SessionWriter writer;
   const std::optional<std::string> beside;
   SessionBatch batch;
-  std::vector<haptics::Command> waiting_commands;
+  std::deque<haptics::Command> waiting_commands;
   std::uint64_t serial_in_force, ticks_seen = 0, next_index = 0, gaps = 0;
   bool writing = true;
 
