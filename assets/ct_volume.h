@@ -11,7 +11,7 @@
 
 namespace assets {
 
-/// Of CtVolume::solid: the surface lies below.
+/// Of CtVolume::solid: from here on a voxel is more solid than not.
 inline constexpr std::uint8_t kHalfSolid = 128;
 
 struct CtVolume {

@@ -17,7 +17,7 @@
 
 namespace app {
 
-/// From page to page, where nobody hurries.
+/// Between two pictures where nobody hurries; the ticks in between are not lost.
 inline constexpr std::chrono::milliseconds kPageTime{25};
 
 class WizardPages {

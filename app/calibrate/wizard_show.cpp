@@ -17,8 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Between two pictures; the ticks in between are not lost.
-/// The same for a robot in a hurry, which is not held up by the display.
+/// Between two pictures for a robot in a hurry, which is not held up by the display.
 constexpr auto kHurriedFrame = std::chrono::milliseconds(250);
 /// How long the last page stands.
 constexpr auto kLastPage = std::chrono::milliseconds(2500);

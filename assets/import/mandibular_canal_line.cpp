@@ -42,7 +42,7 @@ std::vector<Segment> segmentsOf(const Points& line) {
   return segments;
 }
 
-/// Where along the line its nearest point to p lies; the end segments go on beyond the ends. 2 ns a segment.
+/// Where along the line its nearest point to p lies; the end segments go on beyond the ends.
 double alongLine(const std::vector<Segment>& line, const glm::dvec3& p_P_mm) {
   double along_mm = 0.0;
   double nearest_mm2 = std::numeric_limits<double>::infinity();
