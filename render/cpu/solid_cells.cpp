@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "assets/ct_volume.h"
 #include "render/volume/brick_distance.h"
 
 namespace render {
@@ -31,7 +32,7 @@ Block voxelsOf(const BorderedField<std::uint8_t>& solid, glm::ivec3 brick) {
 
 /// A bit for each eighth of the cells with a corner that is solid.
 std::uint8_t solidEighths(const Block& block) {
-  static_assert(SolidCells::kSolidFrom == 128);
+  static_assert(assets::kHalfSolid == 1 << 7);
   constexpr int kHalf = kEdge / 2;
   std::uint8_t eighths = 0;
   for (int n = 0; n < 8; ++n) {

@@ -1,11 +1,11 @@
 // The solid field as the CPU's rays read it. A cell is the cube between eight voxels; of every cell four values lie in
 // one 32-bit word, (j,k) (j+1,k) (j,k+1) (j+1,k+1), so the next word holds the other four and one 64-bit load fetches
 // all that a trilinear sample needs. Cells are kept in bricks of 8x8x8 (9 words a row, so that no row ends early) and
-// only where a value reaches 128 of 255, as the surface and all that shows in the translucent view do: an eighth of a
-// jaw. A table says for every brick which of its eight halves hold something solid and where its cells are, or how many
-// bricks away (Chebyshev) the next ones with cells are; it has a border of bricks all round, for the border of air.
-// Distances left stale by carving are too small, which costs time and shows the same picture.
-// One thread; the reading of tables and cells by many at once. Update: about 0.4 us per brick touched.
+// only where a value is assets::kHalfSolid or more, as on the surface and all that shows in the translucent view: an
+// eighth of a jaw. A table says for every brick which of its eight halves hold something solid and where its cells are,
+// or how many bricks away (Chebyshev) the next ones with cells are; it has a border of bricks all round, for the border
+// of air. Distances left stale by carving are too small, which costs time and shows the same picture. One thread; the
+// reading of tables and cells by many at once. Update: about 0.4 us per brick touched.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,6 @@ class SolidCells {
   static constexpr int kEdge = assets::kBrickVoxels, kRowWords = kEdge + 1, kLayerWords = kRowWords * kEdge;
   static constexpr int kBrickWords = kLayerWords * kEdge;
   static constexpr int kFarthest = 31;
-  static constexpr std::uint8_t kSolidFrom = 128;
 
   /// The field is borrowed: it must outlive its cells.
   explicit SolidCells(const BorderedField<std::uint8_t>& solid);

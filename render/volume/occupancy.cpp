@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "assets/ct_volume.h"
 #include "render/shaders/shared_numbers.glsl"
 #include "render/volume/brick_distance.h"
 
@@ -32,7 +33,8 @@ bool Occupancy::isOccupied(const BorderedField<std::uint8_t>& solid, glm::ivec3 
   for (int k = 0; k < box.extent.z; ++k)
     for (int j = 0; j < box.extent.y; ++j) {
       const std::uint8_t* const row = solid.at(box.first + glm::ivec3(0, j, k));
-      if (std::any_of(row, row + box.extent.x, [](std::uint8_t value) { return value >= kSolidFrom; })) return true;
+      if (std::any_of(row, row + box.extent.x, [](std::uint8_t value) { return value >= assets::kHalfSolid; }))
+        return true;
     }
   return false;
 }

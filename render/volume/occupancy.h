@@ -1,7 +1,7 @@
 // Which bricks a ray can pass without looking: those in which no trilinear sample reaches 0.5, where both views begin
 // to see something; and from them, per brick, how far the next occupied one is. A sample touches a brick's 8x8x8 voxels
-// and one voxel around them; occupied where one of them is 128 or more of 255. Plain CPU data, one thread; reads the
-// field it is given and keeps no reference to it. Update: at most 27 bricks of 1000 voxels (about 10 us); the
+// and one voxel around them; occupied where one of them reaches assets::kHalfSolid. Plain CPU data, one thread; reads
+// the field it is given and keeps no reference to it. Update: at most 27 bricks of 1000 voxels (about 10 us); the
 // distances: brick_distance.h. The CPU back-end has its own, finer: SolidCells.
 #pragma once
 
@@ -18,7 +18,6 @@ namespace render {
 class Occupancy {
  public:
   static constexpr int kBrickValues = assets::kBrickVoxels * assets::kBrickVoxels * assets::kBrickVoxels;
-  static constexpr std::uint8_t kSolidFrom = 128;
   static constexpr std::uint8_t kFarthest = 31;
 
   explicit Occupancy(const BorderedField<std::uint8_t>& solid);

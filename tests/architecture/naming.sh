@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Names in every .cpp of the product and in the headers it reads, as .clang-tidy says.
+# Names in every .cpp of the product and in the headers it reads, as .clang-tidy says; and that each source says itself
+# what it includes, which the presets that compile a library as one do not show.
 # naming.sh ROOT BUILD [all]: works in BUILD. A file that passed is not read again until it, a header
 # or the rules change. Where git knows the commit in names_checked, at which all names were good, only what differs from
 # it is read: reading everything takes minutes. `all` reads everything and, where all is good, writes names_checked.
@@ -46,17 +47,18 @@ while read -r source; do
   [ -e "$passed/$key" ] || waiting+=("$source $key")
 done < <(grep . <<<"$sources" || true)
 
-# clang may stumble over a third party's header that only g++ reads; only names are judged here.
+# clang may stumble over a third party's header that only g++ reads; only what is ours is judged here.
 check() {
   read -r source key <<<"$1"
   said=$(clang-tidy -p "$alone" --quiet --extra-arg=-w "$source" 2>/dev/null) || true
   if grep -F -A 3 '[readability-identifier-naming' <<<"$said"; then return 1; fi
+  if grep -E -A 3 "^$root/.*: error: " <<<"$said"; then return 1; fi
   touch "$passed/$key"
 }
 export -f check
-export alone passed
+export alone passed root
 if ((${#waiting[@]} > 0)) && ! printf '%s\n' "${waiting[@]}" | xargs -P "$(nproc)" -d '\n' -I '{}' bash -c 'check "{}"'; then
-  echo "the names above do not follow .clang-tidy"
+  echo "the names above do not follow .clang-tidy, or a source does not stand alone"
   exit 1
 fi
 if [ "$extent" = all ]; then git rev-parse HEAD >"$checked"; fi

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/mutants.h"
+#include "tests/refusal.h"
 
 namespace calibration {
 namespace {
@@ -23,13 +24,7 @@ class RigFile : public testing::Test {
     return path_;
   }
   std::string refusal(const std::string& text) {
-    try {
-      readRig(write(text));
-    } catch (const CalibrationError& error) {
-      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << "a refusal is one line";
-      return error.what();
-    }
-    return "accepted";
+    return tests::refusalOf<CalibrationError>([&] { readRig(write(text)); });
   }
   static std::string replaced(std::string text, const std::string& from, const std::string& to) {
     const auto at = text.find(from);

@@ -1,6 +1,7 @@
 // A volume.vdb that was changed and sealed anew: OpenVDB may crash, hang or fill the memory on it, in its own process.
 #include <gtest/gtest.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -64,6 +65,47 @@ TEST(VolumeMutants, AForgedVolumeIsReadOrRefusedWhateverItDoesToItsReader) {
   mutants::forEachMutant({sealed.substr(0, sealed.size() - kSealBytes)}, 60, judge, kForkCosts);
   if (tried >= mutants::kEnoughToJudge) {
     EXPECT_GT(refused, tried / 4);
+  }
+}
+
+// What a reader that was taken over might say.
+TEST(VolumeMutants, ADamagedAnswerOfTheReaderIsAVolumeOrRefused) {
+  const on_disk::Folder folder;
+  assets::writeVdb(smallVolume(), folder.at("v.vdb"));
+  const int served = ::memfd_create("answer", MFD_CLOEXEC);
+  const pid_t reader = ::fork();
+  if (reader == 0) assets::serveVolume(folder.at("v.vdb"), {600'000'000, 300, 6000}, served);
+  int status = 0;
+  while (::waitpid(reader, &status, 0) < 0) {
+  }
+  ASSERT_EQ(status, 0);
+  struct stat facts {};
+  ASSERT_EQ(::fstat(served, &facts), 0);
+  std::string good(static_cast<std::size_t>(facts.st_size), '\0');
+  ASSERT_EQ(::pread(served, good.data(), good.size(), 0), facts.st_size);
+  ::close(served);
+
+  const int answer = ::memfd_create("answer", MFD_CLOEXEC);
+  std::uint64_t tried = 0, refused = 0;
+  mutants::forEachMutant({good}, 1000, [&](const std::string& mutant, std::size_t, std::uint64_t number) {
+    ASSERT_EQ(::ftruncate(answer, 0), 0);
+    ASSERT_EQ(::pwrite(answer, mutant.data(), mutant.size(), 0), static_cast<ssize_t>(mutant.size()));
+    constexpr int kExit = 1 << 8, kInWords = 3 * kExit;
+    const int ended = number % 10 == 0 ? kInWords : 0;
+    const std::string refusal = tests::refusalOf<assets::LoadError>([&] {
+      const auto volume = assets::volumeAnswered(answer, ended, folder.at("v.vdb"));
+      EXPECT_EQ(volume.hounsfield.size(), volume.grid.voxelCount());
+      EXPECT_EQ(volume.label.size(), volume.grid.voxelCount());
+      EXPECT_EQ(volume.solid.size(), volume.grid.voxelCount());
+      EXPECT_EQ(ended, 0);
+    });
+    ++tried;
+    refused += refusal == "accepted" ? 0 : 1;
+  });
+  ::close(answer);
+  if (tried >= mutants::kEnoughToJudge) {
+    EXPECT_GT(refused, tried / 4);
+    EXPECT_LT(refused, tried);
   }
 }
 

@@ -1,5 +1,6 @@
 // Trouble and ends of the OpenHaptics backend: errors, unplugging, slow and hanging schedulers, refusals, two runs.
 #include "tests/haptics/open_haptics_bench.h"
+#include "tests/refusal.h"
 
 namespace haptics {
 namespace {
@@ -14,12 +15,7 @@ class OpenHapticsTrouble : public OpenHapticsBench {
 };
 
 std::string refusal(const std::function<void()>& attempt) {
-  try {
-    attempt();
-  } catch (const DeviceError& error) {
-    return error.what();
-  }
-  return "nothing was refused";
+  return tests::refusalOf<DeviceError>([&] { attempt(); });
 }
 
 TEST_F(OpenHapticsTrouble, SaysWhyADeviceDoesNotStart) {

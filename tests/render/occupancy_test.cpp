@@ -43,7 +43,7 @@ VoxelBox put(const std::vector<std::uint8_t>& values, glm::ivec3 brick, Bordered
 bool touchesSolid(const assets::CtVolume& ct, glm::ivec3 brick) {
   for (int n = 0; n < 1000; ++n)
     if (const glm::ivec3 voxel = 8 * brick + glm::ivec3(n % 10, n / 10 % 10, n / 100) - 1;
-        ct.grid.contains(voxel) && ct.solid[ct.grid.index(voxel)] >= Occupancy::kSolidFrom)
+        ct.grid.contains(voxel) && ct.solid[ct.grid.index(voxel)] >= assets::kHalfSolid)
       return true;
   return false;
 }
@@ -56,7 +56,7 @@ TEST(Occupancy, NeverSkipsAPlaceWhoseTrilinearFootprintIsSolid) {
     for (int k = 0; k < ct.grid.size.z; ++k)
       for (int j = 0; j < ct.grid.size.y; ++j)
         for (int i = 0; i < ct.grid.size.x; ++i) {
-          if (ct.solid[ct.grid.index({i, j, k})] < Occupancy::kSolidFrom) continue;
+          if (ct.solid[ct.grid.index({i, j, k})] < assets::kHalfSolid) continue;
           // Samples that touch this voxel lie less than one voxel from it.
           for (int c = 0; c < 8; ++c) {
             const glm::ivec3 touching = glm::ivec3(i, j, k) + glm::ivec3(c & 1, c >> 1 & 1, c >> 2) * 2 - 1;

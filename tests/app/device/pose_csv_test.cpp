@@ -9,6 +9,7 @@
 
 #include "app/text/usage_error.h"
 #include "tests/mutants.h"
+#include "tests/refusal.h"
 
 namespace app {
 namespace {
@@ -25,13 +26,7 @@ class PoseCsv : public testing::Test {
     return path_;
   }
   std::string refusal(const std::string& text) {
-    try {
-      readPoses(write(text));
-    } catch (const UsageError& error) {
-      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-      return error.what();
-    }
-    return "accepted";
+    return tests::refusalOf<UsageError>([&] { readPoses(write(text)); });
   }
 };
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "app/text/usage_error.h"
+#include "tests/refusal.h"
 
 namespace app {
 namespace {
@@ -32,12 +33,7 @@ TEST(ToolText, RefusesWhatIsNoHead) {
 }
 
 std::string complaint(const std::string& text) {
-  try {
-    headFrom(text);
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return "";
+  return tests::refusalOf<UsageError>([&] { headFrom(text); });
 }
 
 TEST(ToolText, SaysWhatIsWrongAndWhatMayBe) {

@@ -14,6 +14,7 @@
 #include "app/session/session_reader.h"
 #include "app/session/session_writer.h"
 #include "tests/app/session/small_session.h"
+#include "tests/refusal.h"
 
 namespace app {
 namespace {
@@ -25,12 +26,7 @@ using testing::HasSubstr;
 using testing::UnorderedElementsAre;
 
 std::string refusalOf(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const SessionError& refusal) {
-    return refusal.what();
-  }
-  return "";
+  return tests::refusalOf<SessionError>([&] { work(); });
 }
 
 struct Place {

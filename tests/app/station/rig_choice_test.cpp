@@ -13,6 +13,7 @@
 #include "calibration/record/rig_store.h"
 #include "tests/app/session/small_session.h"
 #include "tests/app/typed.h"
+#include "tests/refusal.h"
 
 namespace app {
 namespace {
@@ -64,12 +65,7 @@ class RigChoice : public Test {
     return option.choose(device, kNow);
   }
   std::string refusal(const std::string& arguments, const DeviceAtHand& device) const {
-    try {
-      choose(arguments, device);
-    } catch (const UsageError& error) {
-      return error.what();
-    }
-    return "accepted";
+    return tests::refusalOf<UsageError>([&] { choose(arguments, device); });
   }
   const test::ScratchFolder folder_;
   const DeviceAtHand practice_ = deviceAtHand("practice:D:7", nullptr), mouse_ = deviceAtHand("mouse", nullptr);

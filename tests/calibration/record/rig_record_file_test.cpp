@@ -10,6 +10,7 @@
 #include "calibration/record/sha256.h"
 #include "tests/calibration/record/full_record.h"
 #include "tests/mutants.h"
+#include "tests/refusal.h"
 
 namespace calibration {
 namespace {
@@ -29,13 +30,7 @@ class RigRecordFile : public testing::Test {
     return readRigRecord(path_);
   }
   std::string refusal(const std::string& text) {
-    try {
-      read(text);
-    } catch (const CalibrationError& error) {
-      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << "a refusal is one line";
-      return error.what();
-    }
-    return "accepted";
+    return tests::refusalOf<CalibrationError>([&] { read(text); });
   }
   static std::string replaced(std::string text, const std::string& from, const std::string& to) {
     const auto at = text.find(from);

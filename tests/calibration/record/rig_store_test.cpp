@@ -17,6 +17,7 @@
 #include "calibration/record/rig_file.h"
 #include "calibration/record/utc.h"
 #include "tests/calibration/record/full_record.h"
+#include "tests/refusal.h"
 
 namespace calibration {
 namespace {
@@ -50,13 +51,7 @@ class Store : public testing::Test {
   static void write(const fs::path& path, const std::string& text) { std::ofstream(path) << text; }
   template <class Act>
   static std::string refusal(Act act) {
-    try {
-      act();
-    } catch (const CalibrationError& error) {
-      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << "a refusal is one line";
-      return error.what();
-    }
-    return "accepted";
+    return tests::refusalOf<CalibrationError>([&] { act(); });
   }
 };
 

@@ -14,7 +14,7 @@ using namespace std::chrono_literals;
 using testing::HasSubstr;
 
 /// What a test sees and says of the camera behind the frames.
-struct Camera {
+struct PlayedCamera {
   std::atomic<int> frames{0}, last{1'000'000'000};
   std::atomic<bool> waits_with_frames{false}, waits_in_decoding{false};  ///< until told otherwise
   std::atomic<bool> is_decoding{false};
@@ -23,7 +23,7 @@ struct Camera {
 /// Its pictures are as wide as their number.
 class NumberedFrames final : public FrameGiver {
  public:
-  explicit NumberedFrames(Camera& camera) : camera_(camera) {}
+  explicit NumberedFrames(PlayedCamera& camera) : camera_(camera) {}
   bool next() override {
     do {
       std::this_thread::sleep_for(100us);
@@ -42,10 +42,10 @@ class NumberedFrames final : public FrameGiver {
   std::string remarks() override { return "no focus"; }
 
  private:
-  Camera& camera_;
+  PlayedCamera& camera_;
 };
 
-LivePictures picturesOf(Camera& camera, std::chrono::milliseconds frame_patience = 250s) {
+LivePictures picturesOf(PlayedCamera& camera, std::chrono::milliseconds frame_patience = 250s) {
   return {"webcam", [&] { return std::make_unique<NumberedFrames>(camera); }, {250s, frame_patience}};
 }
 
@@ -54,7 +54,7 @@ std::string refusal(const std::function<void()>& act) {
 }
 
 TEST(LivePictures, GiveAPictureThatBeganAfterTheCall) {
-  Camera camera;
+  PlayedCamera camera;
   LivePictures live = picturesOf(camera);
   EXPECT_EQ(live.remarks(), "no focus");
   for (int i = 0; i < 3; ++i) {
@@ -64,7 +64,7 @@ TEST(LivePictures, GiveAPictureThatBeganAfterTheCall) {
 }
 
 TEST(LivePictures, WaitNoLongerThanTold) {
-  Camera camera;
+  PlayedCamera camera;
   camera.waits_with_frames = true;
   LivePictures live = picturesOf(camera, 50ms);
   EXPECT_THAT(refusal([&] { live.take(); }), HasSubstr("in time"));
@@ -72,7 +72,7 @@ TEST(LivePictures, WaitNoLongerThanTold) {
 }
 
 TEST(LivePictures, SayThatTheCameraIsGone) {
-  Camera camera;
+  PlayedCamera camera;
   camera.last = 1;
   LivePictures live = picturesOf(camera);
   for (int i = 0; i < 2; ++i) EXPECT_THAT(refusal([&] { live.take(); }), HasSubstr("no more pictures"));
@@ -92,7 +92,7 @@ TEST(LivePictures, SayWhyTheCameraDoesNotOpen) {
 }
 
 TEST(LivePictures, NeverHandOutOneThatIsOlderThanTheCall) {
-  Camera camera;
+  PlayedCamera camera;
   camera.waits_in_decoding = true;
   LivePictures live = picturesOf(camera, 200ms);
   // Nobody waits any more for the picture that is still being decoded.

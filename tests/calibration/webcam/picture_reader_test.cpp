@@ -9,6 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "tests/mutants.h"
+#include "tests/refusal.h"
 
 namespace calibration {
 namespace {
@@ -35,13 +36,7 @@ class PictureReader : public testing::Test {
     return readGreyPicture(path_);
   }
   std::string refusal(const Bytes& bytes) {
-    try {
-      read(bytes);
-    } catch (const CalibrationError& error) {
-      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << "a refusal is one line";
-      return error.what();
-    }
-    return "accepted";
+    return tests::refusalOf<CalibrationError>([&] { read(bytes); });
   }
 
   std::string path_ =

@@ -14,10 +14,6 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string refusal(const std::function<void()>& act) {
-  return tests::refusalOf<CalibrationError>([&] { act(); });
-}
-
 TEST(PictureFolder, GivesItsPicturesByTheirNumbers) {
   const std::string folder = testing::TempDir() + "picture_folder_test";
   std::filesystem::create_directories(folder);
@@ -27,19 +23,21 @@ TEST(PictureFolder, GivesItsPicturesByTheirNumbers) {
   std::ofstream(folder + "/notes3.txt") << "not a picture";
   const auto source = openPictures({.device = folder, .exposure_ms = {}, .focus = {}}).pictures;
   for (const int number : {1, 2, 10, 33}) EXPECT_EQ(source->take().grey[0], number);
-  EXPECT_THAT(refusal([&] { source->take(); }), HasSubstr("used up"));
+  EXPECT_THAT(tests::refusalOf<CalibrationError>([&] { source->take(); }), HasSubstr("used up"));
   std::filesystem::remove_all(folder);
-  EXPECT_THAT(refusal([&] { pictureFolder(folder); }), HasSubstr("can not be read"));
+  EXPECT_THAT(tests::refusalOf<CalibrationError>([&] { pictureFolder(folder); }), HasSubstr("can not be read"));
   std::filesystem::create_directories(folder);
-  EXPECT_THAT(refusal([&] { pictureFolder(folder); }), HasSubstr("no PNG or JPEG"));
+  EXPECT_THAT(tests::refusalOf<CalibrationError>([&] { pictureFolder(folder); }), HasSubstr("no PNG or JPEG"));
   std::filesystem::remove_all(folder);
 }
 
 TEST(WebcamSource, SaysInOneLineThatThereIsNoCamera) {
-  EXPECT_THAT(refusal([] { openPictures({.device = "97", .exposure_ms = {}, .focus = {}}); }),
-              testing::AllOf(HasSubstr("webcam /dev/video97"), HasSubstr("not there")));
-  EXPECT_THAT(refusal([] { openPictures({.device = "/dev/null", .exposure_ms = {}, .focus = {}}); }),
-              HasSubstr("no camera"));
+  EXPECT_THAT(
+      tests::refusalOf<CalibrationError>([] { openPictures({.device = "97", .exposure_ms = {}, .focus = {}}); }),
+      testing::AllOf(HasSubstr("webcam /dev/video97"), HasSubstr("not there")));
+  EXPECT_THAT(
+      tests::refusalOf<CalibrationError>([] { openPictures({.device = "/dev/null", .exposure_ms = {}, .focus = {}}); }),
+      HasSubstr("no camera"));
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "tests/haptics/allocation_count.h"
 #include "tests/haptics/usb/held_clock.h"
 #include "tests/haptics/usb/simulated_falcon.h"
+#include "tests/refusal.h"
 
 namespace haptics {
 namespace {
@@ -93,12 +94,7 @@ class FalconOnTheBus : public testing::Test {
     return value;
   }
   std::string refusal(const FalconSettings& settings) {
-    try {
-      Falcon falcon(settings);
-    } catch (const DeviceError& error) {
-      return error.what();
-    }
-    return "it opened";
+    return tests::refusalOf<DeviceError>([&] { Falcon falcon(settings); });
   }
   void has(const std::string& text, const std::string& part) { EXPECT_NE(text.find(part), std::string::npos) << text; }
 
