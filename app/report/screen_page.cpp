@@ -309,7 +309,8 @@ render::Picture ScreenPage::picture() const {
   std::uint8_t* to = picture.rgba.data();
   for (int y = 0; y < h; ++y) {
     // Native-endian 0x00RRGGBB.
-    const auto* pixel = reinterpret_cast<const std::uint32_t*>(rows + y * row_bytes);
+    const void* const row = rows + y * row_bytes;
+    const auto* pixel = static_cast<const std::uint32_t*>(row);
     for (int x = 0; x < w; ++x, ++pixel, to += 4) {
       to[0] = static_cast<std::uint8_t>(*pixel >> 16);
       to[1] = static_cast<std::uint8_t>(*pixel >> 8);

@@ -67,7 +67,7 @@ void Cubelets::setBlock(std::size_t block, const std::array<std::uint8_t, kBlock
   grey_[block] = grey;
   // Whole words, relaxed: a reader sees the old or the new of every byte.
   using Word __attribute__((may_alias)) = std::uint64_t;
-  auto* const words = reinterpret_cast<Word*>(solid_.data() + block * kBlockVoxels);
+  auto* const words = static_cast<Word*>(static_cast<void*>(solid_.data() + block * kBlockVoxels));
   for (std::size_t n = 0; n < kBlockVoxels / sizeof(Word); ++n) {
     Word word;
     std::memcpy(&word, solid.data() + n * sizeof(Word), sizeof(Word));

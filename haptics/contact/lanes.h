@@ -18,7 +18,8 @@ struct Lanes {
 inline Lanes all(float x) { return {_mm512_set1_ps(x)}; }
 inline Lanes load(const float* x) { return {_mm512_loadu_ps(x)}; }
 inline Lanes load(const std::uint8_t* x) {
-  return {_mm512_cvtepi32_ps(_mm512_cvtepu8_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(x))))};
+  const void* const bytes = x;
+  return {_mm512_cvtepi32_ps(_mm512_cvtepu8_epi32(_mm_loadu_si128(static_cast<const __m128i*>(bytes))))};
 }
 inline void store(float* out, Lanes a) { _mm512_storeu_ps(out, a.v); }
 inline Lanes operator+(Lanes a, Lanes b) { return {_mm512_add_ps(a.v, b.v)}; }
@@ -35,7 +36,7 @@ struct Lanes {
 inline Lanes all(float x) { return {{_mm256_set1_ps(x), _mm256_set1_ps(x)}}; }
 inline Lanes load(const float* x) { return {{_mm256_loadu_ps(x), _mm256_loadu_ps(x + 8)}}; }
 inline Lanes load(const std::uint8_t* x) {
-  const __m128i bytes = _mm_loadu_si128(reinterpret_cast<const __m128i*>(x));
+  const __m128i bytes = _mm_loadu_si128(static_cast<const __m128i*>(static_cast<const void*>(x)));
   return {{_mm256_cvtepi32_ps(_mm256_cvtepu8_epi32(bytes)),
            _mm256_cvtepi32_ps(_mm256_cvtepu8_epi32(_mm_srli_si128(bytes, 8)))}};
 }

@@ -86,7 +86,8 @@ inline IntPair gather64(const void* base, Int index) {
   alignas(32) std::int32_t i[kLanes];
   spill(i, index);
   const auto at = [&](int n) {
-    return reinterpret_cast<const double*>(static_cast<const char*>(base) + static_cast<std::ptrdiff_t>(i[n]) * kScale);
+    const void* const place = static_cast<const char*>(base) + static_cast<std::ptrdiff_t>(i[n]) * kScale;
+    return static_cast<const double*>(place);
   };
   const auto two = [&](int n) { return _mm_loadh_pd(_mm_load_sd(at(n)), at(n + 1)); };
   const __m256 outer = _mm256_castpd_ps(_mm256_set_m128d(two(4), two(0)));
