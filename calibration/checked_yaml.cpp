@@ -46,6 +46,12 @@ int depthOf(const std::string& bytes) {
   return deepest;
 }
 
+/// OpenCV looks for ever for what follows a zero byte.
+bool isText(const std::string& bytes) {
+  return std::ranges::none_of(
+      bytes, [](unsigned char c) { return c == 0x7f || (c < ' ' && c != '\n' && c != '\r' && c != '\t'); });
+}
+
 bool isNumber(const cv::FileNode& node) { return node.isInt() || node.isReal(); }
 
 }  // namespace
@@ -68,6 +74,7 @@ CheckedYaml::CheckedYaml(std::string kind, std::string path)
   bytes << in.rdbuf();
   if (!in) refuse("it can not be read", "check its permissions and the disk");
   storage_->bytes = bytes.str();
+  if (!isText(storage_->bytes)) refuse("it holds bytes that are no text", "give the file that calibration wrote");
   if (depthOf(storage_->bytes) > kDeepest)
     refuse("its lists lie in one another more than 64 deep", "give the file that calibration wrote");
   // OpenCV throws its own exceptions and, of spoilt text, the standard library's.

@@ -28,7 +28,8 @@ void putLittle(char* at, std::uint64_t value, int bytes) {
 Seal sealOf(std::istream& file, std::uint64_t length) {
   uLong crc = ::crc32(0, nullptr, 0);
   uLong adler = ::adler32(0, nullptr, 0);
-  std::vector<char> block(1 << 20);
+  constexpr std::uint64_t kMegabyte = 1 << 20;
+  std::vector<char> block(std::min(length, kMegabyte));
   for (std::uint64_t left = length; left > 0 && file;) {
     file.read(block.data(), static_cast<std::streamsize>(std::min<std::uint64_t>(left, block.size())));
     const auto got = static_cast<uInt>(file.gcount());

@@ -181,7 +181,7 @@ CtVolume volumeAnswered(int answer_descriptor, int wait_status, const std::strin
   if (WEXITSTATUS(wait_status) == kRefused) {
     constexpr std::uint64_t kLongest = 1 << 13;
     std::string text(std::min(bytes, kLongest), ' ');
-    if (!readAll(answer_descriptor, std::as_writable_bytes(std::span(text)), 0)) refuseFailure(path);
+    if (text.empty() || !readAll(answer_descriptor, std::as_writable_bytes(std::span(text)), 0)) refuseFailure(path);
     std::replace_if(
         text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, '?');
     throw LoadError(text);

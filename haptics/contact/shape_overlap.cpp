@@ -98,8 +98,7 @@ class AxisSpans {
   explicit AxisSpans(const BurCoverage& bur) : centre_(bur.centre), axis_(bur.to_T[0].z, bur.to_T[1].z, bur.to_T[2].z) {
     const bool flat = bur.kind == ShapeKind::cylinder || bur.kind == ShapeKind::cone;
     // Discs reach across the axis, balls all ways; a voxel within reach of two faces of an edge lies farther out.
-    for (int axis = 0; axis < 3; ++axis)
-      reach_[axis] = (flat ? std::sqrt(std::max(0.0, 1.0 - axis_[axis] * axis_[axis])) : 1.0) * bur.radius;
+    reach_ = (flat ? glm::sqrt(glm::max(glm::dvec3(0.0), 1.0 - axis_ * axis_)) : glm::dvec3(1.0)) * bur.radius;
     const double at_an_edge = flat ? 1.0 / std::min(bur.side_cos, 0.7) : 1.0;
     reach_ += bur.voxel_reach * at_an_edge * (bur.kind == ShapeKind::cone ? 2.0 : 1.0);
   }

@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "app/device/falcon_scale_file.h"
 #include "app/device/pose_csv.h"
 #include "app/options/command_settings.h"
 #include "app/options/view_option.h"
@@ -14,6 +15,7 @@
 #include "assets/scenery/face_placement.h"
 #include "calibration/calibration_error.h"
 #include "calibration/fit/touches_file.h"
+#include "calibration/record/drift_history.h"
 #include "calibration/record/rig_file.h"
 #include "tests/app/typed.h"
 #include "tests/assets/scan_on_disk.h"
@@ -31,8 +33,7 @@ void judge(const std::string& good, const std::function<void(const std::string&)
     ++tried;
     refused += tests::refusalOf<Refusal>([&] { read(mutant); }) == "accepted" ? 0 : 1;
   };
-  constexpr std::uint64_t kSmallTextsCost = 10;
-  mutants::forEachMutant({good}, 500, judge_one, kSmallTextsCost);
+  mutants::forEachMutant({good}, 500, judge_one);
   if (tried >= mutants::kEnoughToJudge) {
     EXPECT_GT(refused, 0u);
   }
@@ -103,6 +104,21 @@ TEST(TextMutants, CameraJson) {
 TEST(TextMutants, RigYaml) {
   judgeFile<calibration::CalibrationError>("rig.yaml", calibration::rigRecordText(calibration::fullRecord()),
                                            [](const std::string& path) { calibration::readRigRecord(path); });
+}
+
+TEST(TextMutants, DriftHistoryCsv) {
+  const on_disk::Folder folder;
+  calibration::appendHistory(folder.at("h.csv"), {"2026-11-22T08:20:00Z", calibration::DriftKind::check, 5, 0.25, {}});
+  calibration::appendHistory(folder.at("h.csv"), {"2026-11-23T08:20:00Z", calibration::DriftKind::rezero, 8, 1.5, {}});
+  judgeFile<calibration::CalibrationError>("history.csv", on_disk::read(folder.at("h.csv")),
+                                           [](const std::string& path) { calibration::readHistory(path); });
+}
+
+TEST(TextMutants, FalconScaleToml) {
+  const on_disk::Folder folder;
+  app::writeFalconScale(folder.at("f.toml"), {12.5, 0.98, "FH000001"}, false);
+  judgeFile<app::UsageError>("falcon.toml", on_disk::read(folder.at("f.toml")),
+                             [](const std::string& path) { app::readFalconScale(path); });
 }
 
 TEST(TextMutants, TeethJson) {

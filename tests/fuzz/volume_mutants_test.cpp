@@ -30,7 +30,7 @@ assets::CtVolume smallVolume() {
 assets::CtVolume readWithinNarrowLimits(const std::string& path) {
   const int answer = ::memfd_create("answer", MFD_CLOEXEC);
   const pid_t reader = ::fork();
-  if (reader == 0) assets::serveVolume(path, {600'000'000, 300, 6000}, answer);
+  if (reader == 0) assets::serveVolume(path, {600'000'000, 100, 6000}, answer);
   int status = 0;
   while (::waitpid(reader, &status, 0) < 0) {
   }

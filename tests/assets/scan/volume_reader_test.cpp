@@ -111,6 +111,8 @@ TEST(VolumeReader, OutlivesAReaderThatCrashesOrIsCutOff) {
   EXPECT_THAT(refusalOfAnswer(goodAnswer(), [] { ::_exit(4); }), HasSubstr("its reader failed on it"));
   EXPECT_THAT(refusalOfAnswer("", [] { ::_exit(5); }), HasSubstr("not enough memory"));
   EXPECT_EQ(refusalOfAnswer("p/volume.vdb: told\nso", [] { ::_exit(3); }), "p/volume.vdb: told?so");
+  EXPECT_THAT(refusalOfAnswer("", [] { ::_exit(3); }), HasSubstr("its reader failed on it"))
+      << "a refusal without words";
 }
 
 TEST(VolumeReader, TrustsNoAnswer) {

@@ -97,21 +97,6 @@ TEST_F(History, TakesNoEntryThatItCouldNotRead) {
   EXPECT_FALSE(fs::exists(path_));
 }
 
-TEST_F(History, SurvivesDamage) {
-  std::mt19937 chance(4);
-  std::string good = kHead;
-  for (int i = 0; i < 20; ++i) good += kLine;
-  for (int i = 0; i < 500; ++i) {
-    std::string bad = good;
-    for (int k = 0; k < 1 + i % 4; ++k) bad[chance() % bad.size()] = static_cast<char>(chance() % 256);
-    write(bad);
-    try {
-      EXPECT_LE(readHistory(path_).size(), 24u);
-    } catch (const CalibrationError&) {
-    }
-  }
-}
-
 TEST_F(History, LosesNoLineWheneverItIsKilled) {
   std::mt19937 chance(5);
   std::size_t known = 0;

@@ -250,6 +250,17 @@ TEST_F(RigRecordFile, SurvivesDamageUnderAFittingHash) {
   }
 }
 
+// OpenCV's reader stays for ever at a zero byte after a line.
+TEST_F(RigRecordFile, RefusesBytesThatAreNoText) {
+  const std::string good = rigRecordText(fullRecord());
+  const auto after_a_line = static_cast<std::ptrdiff_t>(good.find('\n', good.find("px:")) + 1);
+  for (const char byte : {'\0', '\1', '\x7f'}) {
+    std::string spoilt = good;
+    spoilt.insert(spoilt.begin() + after_a_line, byte);
+    EXPECT_THAT(refusal(spoilt), HasSubstr("bytes that are no text"));
+  }
+}
+
 TEST_F(RigRecordFile, RefusesListsInListsWithoutEnd) {
   for (const char* bracket : {"[", "{a:", "- ", "[ \"]\", ", "[ ']', "}) {
     std::string hostile = "%YAML:1.0\n---\nkind: ";
