@@ -112,7 +112,8 @@ TEST(FrameRenderer, AMirroredRigShowsTheTurnedOverPicture) {
     renderer.renderEye(frameFor(mirrored), eye);
     const Picture seen = renderer.readEye(eye);
     EXPECT_GT(pixelsThatDiffer(seen, turned, 8), 1000u) << "control: it must be turned";
-    auto* pixels = reinterpret_cast<std::uint32_t*>(turned.rgba.data());
+    void* const first = turned.rgba.data();
+    auto* const pixels = static_cast<std::uint32_t*>(first);
     for (int y = 0; y < turned.h; ++y) std::reverse(pixels + y * turned.w, pixels + (y + 1) * turned.w);
     EXPECT_LT(pixelsThatDiffer(seen, turned, 2), 40u) << "edges may fall either way";
   }
