@@ -25,8 +25,8 @@ class Mute final : public simulated_usb::Device {
 
 TEST(StarvedPresence, WatchesNoMoreAndSaysSo) {
   if (!simulated_usb::Bus::available()) GTEST_SKIP() << "umockdev is not there: run under umockdev-wrapper";
-  simulated_usb::Bus bus;
   Mute inside;
+  simulated_usb::Bus bus;
   simulated_usb::Description touch;
   touch.vendor = 0x2988;
   touch.product = 0x0302;

@@ -20,11 +20,11 @@ class Nothing final : public simulated_usb::Device {
 
 TEST(UsbBus, ListsWhatIsPluggedInAndWhatComesAndGoes) {
   if (!simulated_usb::Bus::available()) GTEST_SKIP() << "umockdev is not there: run under umockdev-wrapper";
+  Nothing inside;
   simulated_usb::Bus rig;
   const UsbBus bus;
   EXPECT_TRUE(bus.devices().empty());
 
-  Nothing inside;
   simulated_usb::Description pen;
   pen.vendor = 0x2988;
   pen.product = 0x0302;

@@ -93,7 +93,7 @@ class UsbTransportOnTheBus : public testing::Test {
     bus->locked([&] { copy = value; });
     return copy;
   }
-  Echo echo;
+  Echo echo, another;
   HeldClock time;
   std::optional<Bus> bus;
 };
@@ -144,14 +144,13 @@ TEST_F(UsbTransportOnTheBus, ClaimsWhereDetachingIsNotServed) {
 }
 
 TEST_F(UsbTransportOnTheBus, ChoosesAmongTwinsByPathAndServesBulkPipes) {
-  Echo other;
   simulated_usb::Description twin = interruptDevice();
   twin.port = "2";
   twin.number = 3;
   twin.serial = "FS0002";
   twin.interface_class = 0xff;
   twin.endpoints = {{0x02, 2, 32}, {0x83, 2, 32}};
-  bus->plug(twin, other);
+  bus->plug(twin, another);
   UsbTransport usb({0x1234, 6, "1-2"});
   EXPECT_EQ(usb.serialNumber(), "FS0002");
   EXPECT_EQ(usb.inPacketBytes(), 32u);
@@ -462,15 +461,14 @@ TEST_F(UsbTransportOnTheBus, IsGoneForGoodWhenUnplugged) {
   ASSERT_TRUE(soon([&] { return usb.state() == UsbState::ok; }));
   bus->unplug();
   ASSERT_TRUE(soon([&] { return usb.state() == UsbState::gone; }));
-  Echo again;
   simulated_usb::Description replugged = interruptDevice();
   replugged.number = 3;  // as the kernel does: never the same one at once
-  bus->plug(replugged, again);
+  bus->plug(replugged, another);
   usb.send(report(1), usb.rests());
   EXPECT_FALSE(usb.sendLast(report(0), 200ms));
   EXPECT_EQ(usb.state(), UsbState::gone);
   usb.stop();
-  EXPECT_TRUE(again.told.empty());
+  EXPECT_TRUE(another.told.empty());
   // Whoever wants it back opens it again.
   UsbTransport fresh({0x1234, 6});
   fresh.run(echoStream());

@@ -111,7 +111,7 @@ class WoodenOnTheBus : public testing::Test {
     bus->locked([&] { unit.hold({0.1, 0.35, 0.65}); });
   }
 
-  SimulatedWooden unit;
+  SimulatedWooden unit, another;
   HeldClock time;
   std::optional<Bus> bus;
 };
@@ -437,10 +437,9 @@ TEST_F(WoodenOnTheBus, OutlivesBeingUnpluggedInMidStroke) {
   wooden.motorsOff();
   wooden.stop();
   // Plugged in again it is another one, and begins from the start.
-  SimulatedWooden again;
   simulated_usb::Description replugged = SimulatedWooden::description();
   replugged.number = 3;
-  bus->plug(replugged, again);
+  bus->plug(replugged, another);
   WoodenHaptics fresh(unattended());
   Pusher idle(fresh, always(glm::dvec3(0.0)));
   fresh.start(idle, 500.0);
