@@ -1,9 +1,8 @@
 #!/usr/bin/env bash
 # Names in every .cpp of the product and in the headers it reads, as .clang-tidy says; and that each source says itself
 # what it includes, which the presets that compile a library as one do not show.
-# naming.sh ROOT BUILD [all]: works in BUILD. A file that passed is not read again until it, a header
-# or the rules change. Where git knows the commit in names_checked, at which all names were good, only what differs from
-# it is read: reading everything takes minutes. `all` reads everything and, where all is good, writes names_checked.
+# naming.sh ROOT BUILD [all]: works in BUILD. A file that passed is not read again until it, a header or the rules change.
+# Where git knows the commit in `checked`, only what differs from it is read, unless told `all`.
 # Exit 77 (skipped) without clang-tidy.
 set -euo pipefail
 root=$1 build=$2 extent=${3:-changed}
@@ -21,17 +20,15 @@ cmake --build "$alone" --target render/shaders/shader_sources.inc >/dev/null
 passed=$build/naming_passed
 mkdir -p "$passed"
 cd "$root"
-rules=$({ cat .clang-tidy; find calibration assets haptics render app -name '*.h' -print0 | sort -z | xargs -0 cat; } |
+# shellcheck source-path=SCRIPTDIR source=changed.sh
+. tests/architecture/changed.sh
+# shellcheck disable=SC2086 # a list of folders
+rules=$({ cat .clang-tidy; find ${folders//|/ } -name '*.h' -print0 | sort -z | xargs -0 cat; } |
   sha256sum | cut -c1-64)
 
 # Every source; or those that changed, and for a header that changed one that reads it.
-folders='calibration|assets|haptics|render|app'
 sources=$(sed -nE 's|^ *"file": "(.*\.cpp)",?$|\1|p' "$alone/compile_commands.json" | grep -E "^$root/($folders)/" | sort -u)
-checked=$root/tests/architecture/names_checked
-if [ "$extent" != all ] && [ -e "$checked" ] && since=$(git rev-parse -q --verify "$(cat "$checked")^{commit}" 2>/dev/null) &&
-  git diff --quiet "$since" -- .clang-tidy; then
-  changed=$({ git diff --name-only --diff-filter=d "$since" && git ls-files --others --exclude-standard; } |
-    grep -E "^($folders)/.*\.(cpp|h)$" | sort -u || true)
+if [ "$extent" != all ] && changed=$(changed .clang-tidy); then
   sources=$(while read -r file; do
     case $file in
       *.cpp) grep -Fx "$root/$file" <<<"$sources" || true ;;
@@ -61,5 +58,4 @@ if ((${#waiting[@]} > 0)) && ! printf '%s\n' "${waiting[@]}" | xargs -P "$(nproc
   echo "the names above do not follow .clang-tidy, or a source does not stand alone"
   exit 1
 fi
-if [ "$extent" = all ]; then git rev-parse HEAD >"$checked"; fi
 echo "${#waiting[@]} sources read, the rest had passed before"

@@ -5,5 +5,5 @@ if ! command -v shellcheck >/dev/null; then
   echo "SKIPPED: shellcheck is not installed, scripts were not checked (apt-get install shellcheck)"
   exit 77
 fi
-shellcheck "$@"
+shellcheck -x "$@"
 echo "$# scripts are sound"
