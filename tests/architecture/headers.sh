@@ -2,7 +2,7 @@
 # Compiles public headers alone. headers.sh ROOT BUILD [all]: those that differ from the commit in `checked`, and those
 # that read one of them; all of them where git does not know that commit, or when told.
 set -euo pipefail
-root=$1 build=$(realpath "$2") extent=${3:-changed}
+root=$(realpath "$1") build=$(realpath "$2") extent=${3:-changed}
 cd "$root"
 # shellcheck source-path=SCRIPTDIR source=changed.sh
 . tests/architecture/changed.sh

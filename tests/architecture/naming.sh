@@ -5,7 +5,7 @@
 # Where git knows the commit in `checked`, only what differs from it is read, unless told `all`.
 # Exit 77 (skipped) without clang-tidy.
 set -euo pipefail
-root=$1 build=$2 extent=${3:-changed}
+root=$(realpath "$1") build=$(realpath "$2") extent=${3:-changed}
 
 if ! command -v clang-tidy >/dev/null; then
   echo "SKIPPED: clang-tidy is not installed, names were not checked (apt-get install clang-tidy)"
