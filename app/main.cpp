@@ -13,6 +13,7 @@
 
 #include "app/commands/command.h"
 #include "app/text/command_line.h"
+#include "app/text/version.h"
 #include "assets/output_file.h"
 
 namespace {
@@ -42,7 +43,8 @@ void holdStandardStreams() {
 
 int run(int argc, char** argv) {
   app::CommandLine molar(
-      "Molar: rehearse a third-molar extraction, seen and felt. A training device, not a clinical one.", MOLAR_VERSION);
+      "Molar: rehearse a third-molar extraction, seen and felt. A training device, not a clinical one.",
+      std::string(app::programBuild()));
   app::addRehearse(molar);
   app::addImport(molar);
   app::addInspect(molar);
@@ -58,6 +60,8 @@ int run(int argc, char** argv) {
   app::addExport(molar);
   app::addLaws(molar);
   app::addPsychophysics(molar);
+  app::addManual(molar);
+  app::addCompletion(molar);
   const int status = molar.run(argc, argv);
   if (std::fflush(stdout) != 0 || std::ferror(stdout))
     return refuse("standard output: the answer can not be written, check where it goes");

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "app/text/version.h"
 #include "calibration/checked_yaml.h"
 #include "calibration/record/utc.h"
 
@@ -21,7 +22,7 @@ void stamp(RigRecord& record, const RigRecord& base, const Measuring& measuring)
   const std::string now = nowUtc();
   record.provenance.rig_id = measuring.rig_id;
   record.provenance.created_utc = now;
-  record.provenance.program = MOLAR_VERSION;
+  record.provenance.program = programVersion();
   record.provenance.opencv = openCvVersion();
   record.provenance.operator_code = measuring.operator_code;
   record.provenance.parent = base.hash;

@@ -21,5 +21,7 @@ void addMetrics(CommandLine& molar);
 void addExport(CommandLine& molar);
 void addLaws(CommandLine& molar);
 void addPsychophysics(CommandLine& molar);
+void addManual(CommandLine& molar);
+void addCompletion(CommandLine& molar);
 
 }  // namespace app

@@ -17,6 +17,7 @@
 #include "app/text/command_line.h"
 #include "app/text/page_look.h"
 #include "app/text/usage_error.h"
+#include "app/text/version.h"
 #include "app/text/written_text.h"
 #include "haptics/device/device_catalogue.h"
 #include "haptics/device/simulated/simulated_phantom.h"
@@ -115,7 +116,7 @@ int check(const CheckOptions& options) {
   const DeviceCheckPlan plan{address, axesAt(address), options.rate_Hz, options.rate_seconds};
   DeviceCheck done = checkDevice(unit.served(), plan, *unit.owner, dialogue);
   done.report.date = today();
-  done.report.program = MOLAR_VERSION;
+  done.report.program = programVersion();
   if (address.starts_with("falcon") && done.readings.size() >= 3) keepFalconScale(options, scale, done);
 
   writeText(report, pageOf(done.report));

@@ -9,6 +9,7 @@
 #include "app/psychophysics/trial_table.h"
 #include "app/text/printed.h"
 #include "app/text/toml_keys.h"
+#include "app/text/version.h"
 
 namespace app {
 namespace {
@@ -107,7 +108,7 @@ std::string summaryJson(const Protocol& protocol, const Outcome& outcome, std::u
            {"method", methodName(protocol.method)},
            {"observer", observer},
            {"seed", seed},
-           {"program", MOLAR_VERSION},
+           {"program", programVersion()},
            {"complete", outcome.complete},
            {"trials", outcome.trials.size()},
            {"standard", jsonOf(protocol.standard)},

@@ -6,6 +6,7 @@
 
 #include "app/session/session_error.h"
 #include "app/text/printed.h"
+#include "app/text/version.h"
 #include "haptics/servo/servo.h"
 
 namespace app {
@@ -121,7 +122,7 @@ std::optional<std::string> whyNotComparable(const StoredStart& recorded) {
   if (recorded.servo.revision != own.revision)
     return printed("recorded by another version (%s with servo revision %lld, this is %s with %lld)",
                    recorded.program_version.c_str(), static_cast<long long>(recorded.servo.revision),
-                   std::string(thisVersion()).c_str(), static_cast<long long>(own.revision));
+                   std::string(programVersion()).c_str(), static_cast<long long>(own.revision));
   if (!recorded.servo.sumsAsDoes(own))
     return "recorded with another processor's instructions (" + recorded.servo.instruction_set + ", these are " +
            own.instruction_set + ", see MOLAR_INSTRUCTIONS)";
@@ -153,8 +154,6 @@ std::string departureWords(const ReplayedMoment& moment) {
 }
 
 }  // namespace
-
-std::string_view thisVersion() { return MOLAR_VERSION; }
 
 void refuseDamaged(SessionReader& session, const std::string& path) {
   if (const auto damage = session.damage())

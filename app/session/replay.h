@@ -16,9 +16,6 @@
 
 namespace app {
 
-/// Of this program.
-std::string_view thisVersion();
-
 /// Throws SessionError, one line, if a stored byte was changed. Reads it all.
 void refuseDamaged(SessionReader& session, const std::string& path);
 

@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "app/text/version.h"
+
 namespace app {
 namespace {
 
@@ -16,7 +18,7 @@ std::unique_ptr<Recorder> recorderOf(const std::optional<Recording>& recording, 
   if (!recording) return nullptr;
   SessionStart start;
   start.patient_title = patient.title;
-  start.program_version = std::string(MOLAR_VERSION);
+  start.program_version = std::string(programVersion());
   start.dt_s = 1.0 / rate_Hz;
   start.grid = patient.ct.grid;
   start.solid = patient.ct.solid;

@@ -1,5 +1,6 @@
 #include "app/text/command_line.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <CLI/CLI.hpp>
@@ -19,6 +20,35 @@ CLI::Validator numberRange(double low, double high) {
             return inside ? std::string() : "give a number from " + words;
           },
           words, "numberRange"};
+}
+
+/// CLI11 has them as a piece of its help alone: "TEXT:{iso,dvr}".
+std::vector<std::string> choicesIn(const std::string& type) {
+  std::vector<std::string> choices;
+  const std::size_t from = type.find('{'), end = type.rfind('}');
+  if (from == std::string::npos || end == std::string::npos || end < from) return choices;
+  for (std::size_t at = from + 1; at <= end;) {
+    const std::size_t comma = std::min(type.find(',', at), end);
+    choices.push_back(type.substr(at, comma - at));
+    at = comma + 1;
+  }
+  return choices;
+}
+
+OptionWords wordsOf(const CLI::Option& option) {
+  OptionWords words;
+  words.names = option.get_name(false, true);
+  words.about = option.get_description();
+  words.is_required = option.get_required();
+  words.is_by_place = option.get_positional();
+  if (option.get_items_expected_max() == 0) return words;
+  const std::string type = option.get_type_name();
+  words.choices = choicesIn(type);
+  words.value = type.substr(0, type.find(':'));
+  words.usual = option.get_default_str();
+  // A list of one is told as that one.
+  if (words.usual.starts_with('[')) words.usual = words.usual.substr(1, words.usual.size() - 2);
+  return words;
 }
 
 }  // namespace
@@ -154,6 +184,13 @@ Option CommandLine::flag(const std::string& name, bool& value, const std::string
 }
 
 void CommandLine::footer(const std::string& text) { app_.footer(text); }
+
+CommandWords CommandLine::words() const {
+  CommandWords words{app_.get_name(), app_.get_description(), app_.get_footer(), {}, {}};
+  for (const CLI::Option* option : app_.get_options()) words.options.push_back(wordsOf(*option));
+  for (const auto& command : commands_) words.commands.push_back(command->words());
+  return words;
+}
 
 int CommandLine::run(int argc, const char* const* argv) {
   try {

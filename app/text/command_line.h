@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "app/text/command_words.h"
+
 namespace CLI {
 class App;
 class Option;
@@ -72,6 +74,9 @@ class CommandLine {
   Option flag(const std::string& name, bool& value, const std::string& help);
   /// Below the options.
   void footer(const std::string& text);
+
+  /// All that was added so far.
+  CommandWords words() const;
 
   /// Its answer is the program's exit status.
   void does(std::function<int()> action) { action_ = std::move(action); }

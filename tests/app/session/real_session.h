@@ -8,6 +8,7 @@
 
 #include "app/session/recorder.h"
 #include "app/session/replay.h"
+#include "app/text/version.h"
 #include "haptics/bone/carved_bone.h"
 #include "haptics/servo/servo.h"
 #include "tests/app/session/small_session.h"
@@ -30,7 +31,7 @@ struct BoneBlock {
     }
   }
   SessionStart start() const {
-    SessionStart start{"block of bone", std::string(thisVersion()), 0.001, grid, solid, label, {}};
+    SessionStart start{"block of bone", std::string(programVersion()), 0.001, grid, solid, label, {}};
     start.command.serial = 1;
     start.command.tool.head.radius_mm = 1.0;
     return start;

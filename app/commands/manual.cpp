@@ -1,0 +1,75 @@
+// The manual's pages and the shell's completion, made from the commands themselves.
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/commands/command.h"
+#include "app/text/command_line.h"
+#include "app/text/manual_page.h"
+#include "app/text/shell_completion.h"
+#include "app/text/usage_error.h"
+#include "app/text/version.h"
+#include "app/text/written_text.h"
+
+namespace app {
+namespace {
+
+struct ManualOptions {
+  std::vector<std::string> command;
+  std::string into;
+  bool force = false;
+};
+
+std::string programWords() { return "Molar " + std::string(programVersion()); }
+
+void writePages(const std::string& name, const CommandWords& command, const ManualOptions& options) {
+  const auto path = std::filesystem::path(options.into) / manualFile(name);
+  assets::OutputFile file(path.string(), options.force);
+  writeText(file, manualPage(name, command, programWords()));
+  for (const CommandWords& each : command.commands) writePages(name + " " + each.name, each, options);
+}
+
+int manual(const CommandLine& molar, const ManualOptions& options) {
+  CommandWords words = molar.words();
+  std::string name = "molar";
+  if (!options.into.empty()) {
+    writePages(name, words, options);
+    return 0;
+  }
+  for (const std::string& asked : options.command) {
+    CommandWords found;
+    for (const CommandWords& each : words.commands)
+      if (each.name == asked) found = each;
+    if (found.name.empty())
+      throw UsageError("manual: " + name + " has no command " + asked + ", see " + name + " --help");
+    words = found;
+    name += " " + asked;
+  }
+  std::fputs(manualPage(name, words, programWords()).c_str(), stdout);
+  return 0;
+}
+
+}  // namespace
+
+void addManual(CommandLine& molar) {
+  auto o = std::make_shared<ManualOptions>();
+  CommandLine& command = molar.command("manual", "A command's page of the manual: molar manual rehearse | man -l -");
+  Option path = command.option("command", o->command, "Of which command; none: of the program").valueNamed("COMMAND");
+  Option into = command.option("--into", o->into, "Write every page into this folder instead").anExistingFolder();
+  into.valueNamed("FOLDER").excludes(path);
+  command.flag("--force", o->force, "Overwrite pages that are there").needs(into);
+  command.does([o, &molar] { return manual(molar, *o); });
+}
+
+void addCompletion(CommandLine& molar) {
+  CommandLine& command =
+      molar.command("completion", "What the shell offers on Tab: source <(molar completion), for bash");
+  command.does([&molar] {
+    std::fputs(bashCompletion("molar", molar.words()).c_str(), stdout);
+    return 0;
+  });
+}
+
+}  // namespace app

@@ -1,0 +1,44 @@
+#include "app/text/shell_completion.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "tests/app/text/surgery_words.h"
+
+namespace app {
+namespace {
+
+/// What bash offers for these words, the last of which is being typed.
+std::string offered(const std::string& words) {
+  const SurgeryWords surgery;
+  const auto script = std::filesystem::path(testing::TempDir()) / "completion.bash";
+  std::ofstream(script) << bashCompletion("surgery", surgery.program.words());
+  const std::string ask = ". '" + script.string() + "'; COMP_WORDS=(" + words +
+                          "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _surgery; echo \"${COMPREPLY[*]}\"";
+  std::FILE* const shell = ::popen(("bash -c '" + ask + "' 2>&1").c_str(), "r");
+  std::string said;
+  char line[1000];
+  while (std::fgets(line, sizeof line, shell) != nullptr) said += line;
+  ::pclose(shell);
+  return said;
+}
+
+TEST(ShellCompletion, OffersCommandsThenOptionsThenChoices) {
+  EXPECT_EQ(offered("surgery c"), "cut close\n");
+  EXPECT_EQ(offered("surgery \"\""), "cut close -h --help --version\n");
+  EXPECT_EQ(offered("surgery cut --"), "--help --out --mode --quick\n");
+  EXPECT_EQ(offered("surgery cut somebody --mode d"), "dvr\n");
+  EXPECT_EQ(offered("surgery close \"\""), "stitch -h --help\n");
+  EXPECT_EQ(offered("surgery close stitch -"), "-h --help --most\n");
+}
+
+TEST(ShellCompletion, LeavesFilesToTheShell) {
+  EXPECT_EQ(offered("surgery cut som"), "\n");
+  EXPECT_EQ(offered("surgery cut --out som"), "\n");
+}
+
+}  // namespace
+}  // namespace app
