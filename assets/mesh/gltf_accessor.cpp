@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <span>
 
 #include "assets/load_error.h"
@@ -29,47 +30,51 @@ double as(const unsigned char* at, bool normalise) {
   return static_cast<double>(value);
 }
 
-double component(const unsigned char* at, int type, bool normalise) {
-  switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-      return as<std::int8_t>(at, normalise);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return as<std::uint8_t>(at, normalise);
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-      return as<std::int16_t>(at, normalise);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return as<std::uint16_t>(at, normalise);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-      return as<std::uint32_t>(at, normalise);
-    default:
-      return as<float>(at, normalise);
-  }
+// How one number of an accessor is stored.
+struct Component {
+  std::size_t bytes = 0;
+  double (*read)(const unsigned char* at, bool normalise) = nullptr;
+};
+
+Component componentOf(int type) {
+  static const std::map<int, Component> kComponents = {
+      {TINYGLTF_COMPONENT_TYPE_BYTE, {1, as<std::int8_t>}},
+      {TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, {1, as<std::uint8_t>}},
+      {TINYGLTF_COMPONENT_TYPE_SHORT, {2, as<std::int16_t>}},
+      {TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, {2, as<std::uint16_t>}},
+      {TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, {4, as<std::uint32_t>}},
+      {TINYGLTF_COMPONENT_TYPE_FLOAT, {4, as<float>}},
+  };
+  const auto found = kComponents.find(type);
+  if (found == kComponents.end()) throw LoadError("an accessor's componentType is unknown");
+  return found->second;
 }
 
 // The bytes of `count` elements, or an error.
 Bytes elements(const tinygltf::Model& model, int view_index, std::size_t offset, std::size_t element_bytes,
                std::size_t stride, std::size_t count) {
   const auto fail = [] { throw LoadError("an accessor reaches past its data"); };
-  if (view_index < 0 || static_cast<std::size_t>(view_index) >= model.bufferViews.size() || count == 0) fail();
+  if (view_index < 0 || static_cast<std::size_t>(view_index) >= model.bufferViews.size()) fail();
   const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(view_index)];
   if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= model.buffers.size()) fail();
   const auto& data = model.buffers[static_cast<std::size_t>(view.buffer)].data;
-  const std::size_t needed = offset + stride * (count - 1) + element_bytes;
-  if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset || needed > view.byteLength) {
+  const std::size_t needed = stride * (count - 1) + element_bytes;
+  if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset || offset > view.byteLength ||
+      needed > view.byteLength - offset) {
     fail();
   }
-  return {data.data() + view.byteOffset + offset, needed - offset};
+  return {data.data() + view.byteOffset + offset, needed};
 }
 
 const tinygltf::Accessor& checked(const tinygltf::Model& model, int index) {
   if (index < 0 || static_cast<std::size_t>(index) >= model.accessors.size()) {
     throw LoadError("a primitive names an accessor that is not there");
   }
-  return model.accessors[static_cast<std::size_t>(index)];
-}
-
-std::size_t sizeOf(int component_type) {
-  return static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(component_type)));
+  const tinygltf::Accessor& accessor = model.accessors[static_cast<std::size_t>(index)];
+  if (accessor.count == 0 || accessor.count > kMaxGltfElements) {
+    throw LoadError("an accessor holds nothing or more than 20 million elements");
+  }
+  return accessor;
 }
 
 // All components of all elements, sparse overrides applied: `write(element, component, value)`.
@@ -77,34 +82,45 @@ template <class Write>
 void forEachComponent(const tinygltf::Model& model, const tinygltf::Accessor& accessor, Write write) {
   const auto components =
       static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)));
-  const std::size_t component_bytes = sizeOf(accessor.componentType);
-  const std::size_t element_bytes = components * component_bytes;
+  const Component component = componentOf(accessor.componentType);
+  const std::size_t element_bytes = components * component.bytes;
   const auto read = [&](const unsigned char* element, std::size_t index) {
     for (std::size_t c = 0; c < components; ++c) {
-      const double value = component(element + c * component_bytes, accessor.componentType, accessor.normalized);
+      const double value = component.read(element + c * component.bytes, accessor.normalized);
       if (!std::isfinite(value)) throw LoadError("a vertex is not a number (NaN or infinite)");
       write(index, c, value);
     }
   };
 
-  const tinygltf::BufferView& view = model.bufferViews.at(static_cast<std::size_t>(accessor.bufferView));
-  const std::size_t stride = view.byteStride != 0 ? view.byteStride : element_bytes;
-  const Bytes base = elements(model, accessor.bufferView, accessor.byteOffset, element_bytes, stride, accessor.count);
-  for (std::size_t i = 0; i < accessor.count; ++i) read(base.data() + i * stride, i);
+  // Without a view the elements are zeros.
+  if (accessor.bufferView < 0) {
+    const std::vector<unsigned char> zeros(element_bytes);
+    for (std::size_t i = 0; i < accessor.count; ++i) read(zeros.data(), i);
+  } else {
+    const std::size_t given = model.bufferViews.at(static_cast<std::size_t>(accessor.bufferView)).byteStride;
+    const std::size_t stride = given != 0 ? given : element_bytes;
+    if (stride < element_bytes) throw LoadError("a byteStride is smaller than an element");
+    const Bytes base = elements(model, accessor.bufferView, accessor.byteOffset, element_bytes, stride, accessor.count);
+    for (std::size_t i = 0; i < accessor.count; ++i) read(base.data() + i * stride, i);
+  }
 
   if (!accessor.sparse.isSparse) return;
   const auto& sparse = accessor.sparse;
+  if (sparse.count < 1 || static_cast<std::size_t>(sparse.count) > accessor.count) {
+    throw LoadError("a sparse accessor's count is out of range");
+  }
   const auto count = static_cast<std::size_t>(sparse.count);
-  const std::size_t index_bytes = sizeOf(sparse.indices.componentType);
+  const Component at_component = componentOf(sparse.indices.componentType);
   const Bytes at = elements(model, sparse.indices.bufferView, static_cast<std::size_t>(sparse.indices.byteOffset),
-                            index_bytes, index_bytes, count);
+                            at_component.bytes, at_component.bytes, count);
   const Bytes values = elements(model, sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset),
                                 element_bytes, element_bytes, count);
   for (std::size_t i = 0; i < count; ++i) {
-    const auto target =
-        static_cast<std::size_t>(component(at.data() + i * index_bytes, sparse.indices.componentType, false));
-    if (target >= accessor.count) throw LoadError("a sparse accessor changes an element that is not there");
-    read(values.data() + i * element_bytes, target);
+    const double target = at_component.read(at.data() + i * at_component.bytes, false);
+    if (!(target >= 0.0 && target < static_cast<double>(accessor.count))) {
+      throw LoadError("a sparse accessor changes an element that is not there");
+    }
+    read(values.data() + i * element_bytes, static_cast<std::size_t>(target));
   }
 }
 

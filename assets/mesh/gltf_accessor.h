@@ -1,6 +1,6 @@
 // The numbers behind a glTF accessor: strides, component types, normalised integers and sparse overrides resolved.
-// Checks every offset against the bytes once more, whatever was checked before. Any thread; one pass.
-// Internal to the glTF reader: the only header that shows tinygltf. Conversion: glTF 2.0, section 3.6.2.
+// Checks every count and offset against the bytes before it takes memory. Any thread; one pass.
+// Internal to the glTF reader. Conversion: glTF 2.0, section 3.6.2.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +12,8 @@ class Model;
 }
 
 namespace assets {
+
+inline constexpr std::size_t kMaxGltfElements = 20'000'000;
 
 /// Components a reader wants per element; missing ones are filled with 1 (alpha). Throws LoadError (text without the
 /// path) on anything out of range or not finite.

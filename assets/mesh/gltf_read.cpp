@@ -7,54 +7,16 @@
 
 #include "assets/load_error.h"
 #include "assets/mesh/gltf_accessor.h"
-#include "assets/mesh/gltf_document.h"
 #include "assets/mesh/gltf_file.h"
+#include "assets/mesh/gltf_model.h"
 #include "assets/vertex_normals.h"
 #include "calibration/geometry/units.h"
 
 namespace assets {
 namespace {
 
-constexpr std::size_t kMaxVertices = 20'000'000;
 constexpr std::size_t kMaxCorners = 120'000'000;
 constexpr double kMaxCoordinate_mm = 1e6;
-
-// --- tinygltf in a closed world: it opens no file and decodes no image ---
-
-using Buffers = std::vector<std::vector<unsigned char>>;
-
-bool isBuffer(const std::string&, void*) { return true; }
-std::string asGiven(const std::string& path, void*) { return path; }
-bool writeNothing(std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }
-
-bool serveBuffer(std::vector<unsigned char>* out, std::string*, const std::string& name, void* user) {
-  const Buffers& buffers = *static_cast<const Buffers*>(user);
-  const std::size_t digits = name.find_last_not_of("0123456789");
-  const std::string number = digits == std::string::npos ? name : name.substr(digits + 1);
-  if (number.empty() || number.size() > 9 || std::stoul(number) >= buffers.size()) return false;
-  *out = buffers[std::stoul(number)];
-  return true;
-}
-
-bool skipImage(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
-  return true;
-}
-
-tinygltf::Model parsed(GltfDocument document) {
-  tinygltf::TinyGLTF loader;
-  loader.SetFsCallbacks({isBuffer, asGiven, serveBuffer, writeNothing, &document.buffers});
-  loader.SetImageLoader(skipImage, nullptr);
-  tinygltf::Model model;
-  std::string error;
-  std::string warning;
-  const auto length = static_cast<unsigned int>(document.json.size());
-  if (!loader.LoadASCIIFromString(&model, &error, &warning, document.json.c_str(), length, "")) {
-    std::ranges::replace_if(
-        error, [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
-    throw LoadError("tinygltf: " + error.substr(0, 120));
-  }
-  return model;
-}
 
 // --- one primitive ---
 
@@ -171,13 +133,6 @@ MeshPart placed(const tinygltf::Model& model, const tinygltf::Primitive& primiti
 
 // --- the scene ---
 
-std::string printable(const std::string& name) {
-  std::string out = name.substr(0, 100);
-  std::ranges::replace_if(
-      out, [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
-  return out;
-}
-
 glm::dmat4 localTransform(const tinygltf::Node& node) {
   glm::dmat4 X(1.0);
   if (node.matrix.size() == 16) {
@@ -196,36 +151,12 @@ glm::dmat4 localTransform(const tinygltf::Node& node) {
   return X;
 }
 
-// The parent of each node, -1 for a root. Refuses cycles and nodes with two parents.
-std::vector<int> parentsOf(const tinygltf::Model& model) {
-  std::vector<int> parent(model.nodes.size(), -1);
-  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
-    for (const int child : model.nodes[i].children) {
-      if (child < 0 || static_cast<std::size_t>(child) >= parent.size()) throw LoadError("a node has an unknown child");
-      int& slot = parent[static_cast<std::size_t>(child)];
-      if (slot != -1) throw LoadError("a node has two parents");
-      slot = static_cast<int>(i);
-    }
-  }
-  // Climb from each node; meeting one's own trail is a cycle, meeting an older trail is not.
-  std::vector<int> trail(parent.size(), -1);
-  for (int start = 0; start < static_cast<int>(parent.size()); ++start) {
-    for (int i = start; i != -1 && trail[static_cast<std::size_t>(i)] == -1; i = parent[static_cast<std::size_t>(i)]) {
-      trail[static_cast<std::size_t>(i)] = start;
-      const int up = parent[static_cast<std::size_t>(i)];
-      if (up != -1 && trail[static_cast<std::size_t>(up)] == start) throw LoadError("the nodes form a cycle");
-    }
-  }
-  return parent;
-}
-
 class Scene {
  public:
-  explicit Scene(const tinygltf::Model& model) : model_(model) {}
+  explicit Scene(const tinygltf::Model& model) : model_(model), met_(model.nodes.size()) {}
 
   MeshModel collect() {
-    const std::vector<int> parent = parentsOf(model_);
-    for (const int root : roots(parent)) visit(root);
+    for (const int root : roots()) visit(root);
     const bool library = model_.scenes.empty() && out_.parts.empty();
     for (std::size_t i = 0; library && i < model_.meshes.size(); ++i) {
       add(static_cast<int>(i), {model_.meshes[i].name, glm::dmat4(1.0), &model_.meshes[i].weights});
@@ -234,14 +165,17 @@ class Scene {
   }
 
  private:
-  std::vector<int> roots(const std::vector<int>& parent) const {
-    if (!model_.scenes.empty()) {
-      const std::size_t chosen = model_.defaultScene >= 0 ? static_cast<std::size_t>(model_.defaultScene) : 0;
-      return model_.scenes.at(chosen).nodes;
+  // Those of the scene; without one, the nodes that are nobody's child.
+  std::vector<int> roots() const {
+    if (!model_.scenes.empty())
+      return model_.scenes.at(static_cast<std::size_t>(std::max(model_.defaultScene, 0))).nodes;
+    std::vector<bool> is_child(model_.nodes.size());
+    for (const tinygltf::Node& node : model_.nodes) {
+      for (const int child : node.children) is_child.at(static_cast<std::size_t>(child)) = true;
     }
     std::vector<int> out;
-    for (std::size_t i = 0; i < parent.size(); ++i) {
-      if (parent[i] == -1) out.push_back(static_cast<int>(i));
+    for (std::size_t i = 0; i < is_child.size(); ++i) {
+      if (!is_child[i]) out.push_back(static_cast<int>(i));
     }
     return out;
   }
@@ -253,6 +187,8 @@ class Scene {
       const auto [index, parent_transform] = open.back();
       open.pop_back();
       const tinygltf::Node& node = model_.nodes.at(static_cast<std::size_t>(index));
+      if (met_[static_cast<std::size_t>(index)]) throw LoadError("a node has two parents or is part of a cycle");
+      met_[static_cast<std::size_t>(index)] = true;
       const glm::dmat4 X = parent_transform * localTransform(node);
       if (node.mesh >= 0) {
         const tinygltf::Mesh& mesh = model_.meshes.at(static_cast<std::size_t>(node.mesh));
@@ -274,7 +210,7 @@ class Scene {
       // The budget is checked before the memory is spent: one mesh may stand in many places.
       vertices_ += count(position->second);
       corners_ += 3 * count(primitive.indices >= 0 ? primitive.indices : position->second);
-      if (vertices_ > kMaxVertices || corners_ > kMaxCorners) throw LoadError("more than 20 million vertices");
+      if (vertices_ > kMaxGltfElements || corners_ > kMaxCorners) throw LoadError("more than 20 million vertices");
       MeshPart part = placed(model_, primitive, placement);
       if (!part.triangles.empty()) out_.parts.push_back(std::move(part));
     }
@@ -283,6 +219,7 @@ class Scene {
   std::size_t count(int accessor) const { return model_.accessors.at(static_cast<std::size_t>(accessor)).count; }
 
   const tinygltf::Model& model_;
+  std::vector<bool> met_;  ///< node by node
   MeshModel out_;
   std::size_t vertices_ = 0;
   std::size_t corners_ = 0;
@@ -291,9 +228,8 @@ class Scene {
 }  // namespace
 
 MeshModel readGltf(const std::string& path) {
-  GltfDocument document = openGltfDocument(path);
+  const tinygltf::Model model = openGltfModel(path);
   try {
-    const tinygltf::Model model = parsed(std::move(document));
     MeshModel out = Scene(model).collect();
     if (out.parts.empty()) throw LoadError("holds no triangles to draw");
     return out;

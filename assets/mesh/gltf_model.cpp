@@ -1,0 +1,156 @@
+#include "assets/mesh/gltf_model.h"
+
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "assets/load_error.h"
+
+namespace assets {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxBytes = std::size_t{512} << 20;
+constexpr int kMaxDepth = 128;
+
+// The file's folder: nothing outside it is opened, and no more than the budget is read in all.
+struct Folder {
+  fs::path path;
+  std::size_t budget_bytes = kMaxBytes;
+};
+
+// Where a relative name leads, empty if that is outside the folder (also by a symbolic link) or no file.
+fs::path inFolder(const Folder& folder, const std::string& name) {
+  std::error_code error;
+  if (name.find('\0') != std::string::npos || fs::path(name).is_absolute()) return {};
+  const fs::path target = fs::canonical(folder.path / name, error);
+  if (error || !fs::is_regular_file(target, error)) return {};
+  return *target.lexically_relative(folder.path).begin() == ".." ? fs::path() : target;
+}
+
+std::vector<unsigned char> wholeFile(const fs::path& path, std::size_t limit_bytes) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) throw LoadError(path.string() + ": no such file, check the path");
+  const auto size = fs::file_size(path, error);
+  if (error || size > limit_bytes) throw LoadError(path.string() + ": larger than 512 MiB, simplify the model");
+  std::vector<unsigned char> bytes(size);
+  std::ifstream in(path, std::ios::binary);
+  if (!in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size))) {
+    throw LoadError(path.string() + ": can not be read to its end, check the file");
+  }
+  return bytes;
+}
+
+// --- what tinygltf asks of its surroundings ---
+
+bool isInFolder(const std::string& name, void* user) {
+  return !inFolder(*static_cast<const Folder*>(user), name).empty();
+}
+std::string asGiven(const std::string& path, void*) { return path; }
+bool writeNothing(std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }
+bool skipImage(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
+  return true;
+}
+
+bool readInFolder(std::vector<unsigned char>* out, std::string*, const std::string& name, void* user) {
+  Folder& folder = *static_cast<Folder*>(user);
+  *out = wholeFile(inFolder(folder, name), folder.budget_bytes);
+  folder.budget_bytes -= out->size();
+  return true;
+}
+
+// --- checks around it ---
+
+// The JSON of a .glb of at least 20 bytes (glTF 2.0, section 4.4). The length of the second chunk is judged here, for
+// tinygltf lets it end 8 bytes past the file.
+std::string_view glbJson(const std::string& path, std::string_view bytes) {
+  const auto word = [&](std::size_t at) {
+    std::uint32_t value = 0;
+    std::memcpy(&value, bytes.data() + at, sizeof value);
+    return std::size_t{value};
+  };
+  const std::size_t second = 20 + word(12);
+  if (second + 8 <= bytes.size() && word(second) > bytes.size() - second - 8) {
+    throw LoadError(path + ": a chunk is cut short, copy the file again");
+  }
+  return bytes.substr(20, word(12));
+}
+
+// Nesting of the raw JSON: tinygltf walks extensions and extras by recursion.
+bool isNestedTooDeep(std::string_view text) {
+  int depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size() && depth <= kMaxDepth; ++i) {
+    const char c = text[i];
+    if (c == '\\') ++i;
+    if (c == '"') in_string = !in_string;
+    if (!in_string && (c == '{' || c == '[')) ++depth;
+    if (!in_string && (c == '}' || c == ']')) --depth;
+  }
+  return depth > kMaxDepth;
+}
+
+// Extensions that may be required: they change how the surface looks, or are read here.
+bool isUnderstood(const std::string& extension) {
+  return extension == "KHR_mesh_quantization" || extension == "KHR_texture_transform" ||
+         extension == "KHR_texture_basisu" || extension == "EXT_texture_webp" ||
+         extension.starts_with("KHR_materials_");
+}
+
+void checkAsset(const tinygltf::Model& model, const std::string& path) {
+  if (!model.asset.version.starts_with("2.")) throw LoadError(path + ": not glTF version 2, export as glTF 2.0");
+  if (!model.asset.minVersion.empty() && model.asset.minVersion != "2.0") {
+    throw LoadError(path + ": needs a glTF version above 2.0, export as glTF 2.0");
+  }
+  const auto foreign = std::ranges::find_if_not(model.extensionsRequired, isUnderstood);
+  if (foreign != model.extensionsRequired.end()) {
+    throw LoadError(path + ": requires the extension '" + printable(*foreign) +
+                    "', export without compression or custom extensions");
+  }
+}
+
+}  // namespace
+
+tinygltf::Model openGltfModel(const std::string& path) {
+  const std::vector<unsigned char> bytes = wholeFile(path, kMaxBytes);
+  const auto size = static_cast<unsigned int>(bytes.size());
+  const char* text = reinterpret_cast<const char*>(bytes.data());
+  const bool is_binary = size >= 20 && std::memcmp(text, "glTF", 4) == 0;
+  if (isNestedTooDeep(is_binary ? glbJson(path, {text, size}) : std::string_view(text, size))) {
+    throw LoadError(path + ": JSON nested deeper than 128, not a glTF a modeller writes");
+  }
+
+  tinygltf::TinyGLTF loader;
+  Folder folder{fs::canonical(path).parent_path()};
+  loader.SetFsCallbacks({isInFolder, asGiven, readInFolder, writeNothing, &folder});
+  loader.SetImageLoader(skipImage, nullptr);
+  tinygltf::Model model;
+  std::string error;
+  std::string warning;
+  bool is_read = false;
+  try {
+    is_read = is_binary ? loader.LoadBinaryFromMemory(&model, &error, &warning, bytes.data(), size)
+                        : loader.LoadASCIIFromString(&model, &error, &warning, text, size, "");
+  } catch (const std::exception& thrown) {
+    error += thrown.what();
+  }
+  if (is_read || !model.asset.version.empty()) checkAsset(model, path);
+  if (!is_read) {
+    throw LoadError(path + ": not read by tinygltf (" + printable(error) + "), check the file with a glTF validator");
+  }
+  return model;
+}
+
+std::string printable(std::string text) {
+  text.resize(std::min<std::size_t>(text.size(), 100));
+  std::ranges::replace_if(
+      text, [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
+  return text;
+}
+
+}  // namespace assets
