@@ -14,7 +14,7 @@
 #include "app/commands/command.h"
 #include "app/text/command_line.h"
 #include "app/text/version.h"
-#include "assets/output_file.h"
+#include "calibration/output_file.h"
 
 namespace {
 
@@ -30,7 +30,7 @@ std::string oneLine(std::string text) {
 }
 
 int refuse(const std::string& text) {
-  std::fprintf(stderr, "molar: %s\n", oneLine(assets::withoutTemporaryMarks(text)).c_str());
+  std::fprintf(stderr, "molar: %s\n", oneLine(calibration::withoutTemporaryMarks(text)).c_str());
   return 2;
 }
 

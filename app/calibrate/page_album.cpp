@@ -3,7 +3,7 @@
 #include <cctype>
 
 #include "app/text/usage_error.h"
-#include "assets/output_file.h"
+#include "calibration/output_file.h"
 #include "calibration/picture_file.h"
 
 namespace app {
@@ -45,7 +45,7 @@ PageAlbum::PageAlbum(std::filesystem::path folder) : folder_(std::move(folder)) 
 void PageAlbum::keep(const WizardView& view, const std::function<render::Picture()>& draw) {
   if (view.title.empty() || !kept_.insert(kindOf(view)).second) return;
   const render::Picture picture = draw();
-  assets::OutputFile file((folder_ / fileNameOf(++count_, view.title)).string(), false);
+  calibration::OutputFile file((folder_ / fileNameOf(++count_, view.title)).string(), false);
   calibration::writePng(file.temporaryPath(), {picture.w, picture.h}, picture.rgba);
   file.commit();
 }

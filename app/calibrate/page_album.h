@@ -17,7 +17,7 @@ class PageAlbum {
   /// Makes the folder. Throws UsageError when there is something in it already, or it can not be had.
   explicit PageAlbum(std::filesystem::path folder);
 
-  /// Draws and saves it where no page like this was saved before. Throws assets::LoadError, CalibrationError.
+  /// Draws and saves it where no page like this was saved before. Throws CalibrationError.
   void keep(const WizardView& view, const std::function<render::Picture()>& draw);
   int count() const { return count_; }
 

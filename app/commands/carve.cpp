@@ -136,7 +136,7 @@ int carve(const CarveOptions& options) {
   applySettings(options.settings, settings);
 
   refuseSameFile(options.out, {options.poses, options.volume.path()});
-  assets::OutputFile out = assets::nrrdOutput(options.out, options.force);
+  calibration::OutputFile out = assets::nrrdOutput(options.out, options.force);
   const std::vector<TimedPose> poses = readPoses(options.poses);
   refuseControls(poses, options.poses);
   refuseLongRun(poses, options.poses);

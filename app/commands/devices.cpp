@@ -18,7 +18,6 @@
 #include "app/text/page_look.h"
 #include "app/text/usage_error.h"
 #include "app/text/version.h"
-#include "app/text/written_text.h"
 #include "haptics/device/device_catalogue.h"
 #include "haptics/device/simulated/simulated_phantom.h"
 
@@ -104,7 +103,7 @@ void keepFalconScale(const CheckOptions& options, const haptics::FalconForceScal
 }
 
 int check(const CheckOptions& options) {
-  assets::OutputFile report(options.report, options.force);
+  calibration::OutputFile report(options.report, options.force);
   const std::string asked = options.address.empty() ? firstRealDevice() : options.address;
   haptics::FalconForceScale scale;
   const Unit unit = unitAt(asked, options, scale);
@@ -119,7 +118,7 @@ int check(const CheckOptions& options) {
   done.report.program = programVersion();
   if (address.starts_with("falcon") && done.readings.size() >= 3) keepFalconScale(options, scale, done);
 
-  writeText(report, pageOf(done.report));
+  report.commit(pageOf(done.report));
   dialogue.say("\n" +
                std::string(done.report.left_early ? "Left before the end."
                            : done.report.isGood() ? "All that was tried is as it should be."

@@ -16,7 +16,7 @@
 #include "app/text/usage_error.h"
 #include "app/view/display_windows.h"
 #include "app/view/snapshot.h"
-#include "assets/output_file.h"
+#include "calibration/output_file.h"
 #include "calibration/record/utc.h"
 #include "render/gpu/window_upload.h"
 
@@ -140,7 +140,7 @@ int display(const DisplayOptions& options) {
   if (render::outputCount(options.display.mode()) > 1)
     throw UsageError("--out: " + std::string(render::nameOf(options.display.mode())) +
                      " is two pictures, choose a display that is one");
-  assets::OutputFile file(options.out, options.force);
+  calibration::OutputFile file(options.out, options.force);
   savePng(
       patternOutput(*testPatternNamed(options.pattern), rig,
                     {.mode = options.display.mode(), .screen_px = rig.screen.px, .swapped = options.display.swapped()}),

@@ -94,7 +94,7 @@ int exportSurface(const ExportOptions& options) {
                      ": surfaces are written as STL or glTF, let the name end in .stl or .glb");
 
   // The output is claimed before any work.
-  assets::OutputFile out(options.out, options.force);
+  calibration::OutputFile out(options.out, options.force);
   const assets::MeshModel model_P = modelOf(options, sourceOf(options));
   nlohmann::json parts = nlohmann::json::array();
   for (const assets::MeshPart& part : model_P.parts)

@@ -14,7 +14,7 @@
 #include "app/options/volume_option.h"
 #include "app/text/command_line.h"
 #include "app/text/usage_error.h"
-#include "assets/output_file.h"
+#include "calibration/output_file.h"
 #include "haptics/bone/cubelets.h"
 #include "haptics/contact/agus.h"
 #include "haptics/servo/servo.h"
@@ -97,7 +97,7 @@ int feel(const FeelOptions& options) {
   applyTo(command, options.settings);
   refuseUnlessAdmitted(command);
   refuseSameFile(options.out, {options.poses, options.volume.path()});
-  assets::OutputFile out(options.out, options.force);
+  calibration::OutputFile out(options.out, options.force);
   const std::vector<TimedPose> poses = readPoses(options.poses);
   refuseControls(poses, options.poses);
   if (options.served) {

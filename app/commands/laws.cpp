@@ -99,7 +99,7 @@ void plot(const LawsOptions& options, const std::vector<const haptics::LawName*>
   PressedBur press;
   press.head = headFrom(options.tool);
   press.deepest_mm = press.head.radius_mm;
-  assets::OutputFile file(options.plot, options.force);
+  calibration::OutputFile file(options.plot, options.force);
 
   Chart chart;
   chart.title = "Force laws on flat cortical bone";

@@ -11,7 +11,6 @@
 #include "app/text/shell_completion.h"
 #include "app/text/usage_error.h"
 #include "app/text/version.h"
-#include "app/text/written_text.h"
 
 namespace app {
 namespace {
@@ -26,8 +25,8 @@ std::string programWords() { return "Molar " + std::string(programVersion()); }
 
 void writePages(const std::string& name, const CommandWords& command, const ManualOptions& options) {
   const auto path = std::filesystem::path(options.into) / manualFile(name);
-  assets::OutputFile file(path.string(), options.force);
-  writeText(file, manualPage(name, command, programWords()));
+  calibration::OutputFile file(path.string(), options.force);
+  file.commit(manualPage(name, command, programWords()));
   for (const CommandWords& each : command.commands) writePages(name + " " + each.name, each, options);
 }
 

@@ -20,7 +20,6 @@
 #include "app/text/command_line.h"
 #include "app/text/toml_keys.h"
 #include "app/text/usage_error.h"
-#include "app/text/written_text.h"
 #include "calibration/record/rig_file.h"
 
 namespace app {
@@ -85,8 +84,8 @@ int run(const PsychophysicsOptions& options) {
   if (!options.record.empty()) refuseUnlessRecordable(options.record, options.force);
   const Protocol protocol = protocolFromToml(readSmallFile(options.protocol), options.protocol);
   if (protocol.bone.kind == BoneChoice::Kind::volume) refuseSameFile(options.out, {protocol.bone.path});
-  assets::OutputFile summary(beside(options.out, ".json"), options.force);
-  assets::OutputFile picture(beside(options.out, ".png"), options.force);
+  calibration::OutputFile summary(beside(options.out, ".json"), options.force);
+  calibration::OutputFile picture(beside(options.out, ".png"), options.force);
   const ProbedBone bone = probedBone(protocol);
   TrialTable table(options.out, options.force, protocol);
 
@@ -112,7 +111,7 @@ int run(const PsychophysicsOptions& options) {
     if (shows_progress) std::fputc('\n', stderr);
   }
   const Outcome outcome = outcomeOf(protocol, *experiment, std::move(trials), ended.complete, options.seed);
-  writeText(summary, summaryJson(protocol, outcome, options.seed, options.observer));
+  summary.commit(summaryJson(protocol, outcome, options.seed, options.observer));
   if (!outcome.trials.empty()) drawChart(chartOf(protocol, outcome), picture);
   std::fputs(summaryWords(protocol, outcome).c_str(), stderr);
   return ended.answer;

@@ -28,7 +28,7 @@ int verifySession(const std::string& path) {
 
 /// The bone as it was at a moment, as a volume.
 int bringBack(const ReplayOptions& options) {
-  assets::OutputFile out = assets::nrrdOutput(options.out, options.force);
+  calibration::OutputFile out = assets::nrrdOutput(options.out, options.force);
   const BoneThen bone = boneThen(options.session, options.to_s);
   for (const std::string& remark : bone.remarks) std::fprintf(stderr, "molar: %s\n", remark.c_str());
   assets::writeSolid(bone.start.grid, bone.solid, out);

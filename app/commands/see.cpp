@@ -1,7 +1,6 @@
 // `molar see`: one picture without a window. PNG, and on request the distances along the rays and the matrices.
 
 #include <cstdio>
-#include <fstream>
 #include <memory>
 #include <optional>
 
@@ -17,9 +16,9 @@
 #include "app/text/command_line.h"
 #include "app/text/usage_error.h"
 #include "app/view/renderer_choice.h"
-#include "assets/output_file.h"
 #include "assets/patient/patient_folder.h"
 #include "assets/scan/image_file.h"
+#include "calibration/output_file.h"
 #include "calibration/picture_file.h"
 #include "render/frame_renderer.h"
 #include "render/gpu/offscreen_context.h"
@@ -39,13 +38,6 @@ struct SeeOptions {
   bool bone_only = false, force = false;
 };
 
-void writeText(const std::string& text, const std::string& path) {
-  std::ofstream file(path);
-  file << text;
-  file.close();
-  if (!file) throw UsageError("--matrices: it can not be written, check the free space");
-}
-
 std::string matricesText(const glm::dmat4& clip_from_P, glm::ivec2 px) {
   std::vector<double> rows;
   for (int r = 0; r < 4; ++r)
@@ -62,10 +54,11 @@ int see(const SeeOptions& options) {
     throw UsageError("--layers slices: they show a patient's grey values, use --patient");
 
   // Every output is claimed before any work.
-  assets::OutputFile out(options.out, options.force);
-  std::unique_ptr<assets::OutputFile> depth;
-  std::optional<assets::OutputFile> matrices;
-  if (!options.depth.empty()) depth.reset(new assets::OutputFile(assets::nrrdOutput(options.depth, options.force)));
+  calibration::OutputFile out(options.out, options.force);
+  std::unique_ptr<calibration::OutputFile> depth;
+  std::optional<calibration::OutputFile> matrices;
+  if (!options.depth.empty())
+    depth.reset(new calibration::OutputFile(assets::nrrdOutput(options.depth, options.force)));
   if (!options.matrices.empty()) matrices.emplace(options.matrices, options.force);
 
   SolidVolume volume;
@@ -110,7 +103,7 @@ int see(const SeeOptions& options) {
 
   // Everything is written before anything is put in place.
   calibration::writePng(out.temporaryPath(), {picture.w, picture.h}, picture.rgba);
-  if (matrices) writeText(matricesText(clip_from_P, frame.rig.screen.px), matrices->temporaryPath());
+  if (matrices) matrices->write(matricesText(clip_from_P, frame.rig.screen.px));
   if (depth) {
     const render::DistancePicture distance = renderer.readDistance(eye);
     assets::writeDepth(distance.w, distance.h, distance.mm, *depth);

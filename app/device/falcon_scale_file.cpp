@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
+#include <sstream>
 
 #include "app/text/toml_keys.h"
-#include "assets/output_file.h"
+#include "calibration/output_file.h"
 
 namespace app {
 namespace {
@@ -46,15 +46,12 @@ haptics::FalconForceScale readFalconScale(const std::string& path) {
 
 void writeFalconScale(const std::string& path, const haptics::FalconForceScale& scale, bool overwrite) {
   haptics::check(scale);
-  assets::OutputFile file(path, overwrite);
-  {
-    std::ofstream stream(file.temporaryPath());
-    stream << "# The force of a Novint Falcon as a spring scale showed it.\nversion = " << kVersion << "\n";
-    if (isPlain(scale.serial) && !scale.serial.empty()) stream << "serial = \"" << scale.serial << "\"\n";
-    stream << "words_per_Nmm = " << numberText(scale.words_per_Nmm) << "\nheaviest_N = " << numberText(scale.heaviest_N)
-           << "\n";
-  }
-  file.commit();
+  std::ostringstream text;
+  text << "# The force of a Novint Falcon as a spring scale showed it.\nversion = " << kVersion << "\n";
+  if (isPlain(scale.serial) && !scale.serial.empty()) text << "serial = \"" << scale.serial << "\"\n";
+  text << "words_per_Nmm = " << numberText(scale.words_per_Nmm) << "\nheaviest_N = " << numberText(scale.heaviest_N)
+       << "\n";
+  calibration::OutputFile(path, overwrite).commit(text.str());
 }
 
 }  // namespace app

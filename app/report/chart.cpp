@@ -87,7 +87,7 @@ class Page {
     return text(words, {}, size_px, Anchor::left, bold, width_px, false);
   }
 
-  void save(assets::OutputFile& file) const {
+  void save(calibration::OutputFile& file) const {
     if (cairo_surface_write_to_png(surface_.get(), file.temporaryPath().c_str()) != CAIRO_STATUS_SUCCESS)
       throw UsageError("picture: it can not be written, check the folder and the free space");
     file.commit();
@@ -302,7 +302,7 @@ double legend(const Page& page, const Chart& chart, double top_px, bool draws) {
 
 }  // namespace
 
-void drawChart(const Chart& chart, assets::OutputFile& file) {
+void drawChart(const Chart& chart, calibration::OutputFile& file) {
   const Page page(chart.size_px);
   const double margin = 36.0, width = chart.size_px.x - 2.0 * margin;
   page.colour(kInk);

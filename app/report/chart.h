@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "assets/output_file.h"
+#include "calibration/output_file.h"
 
 namespace app {
 
@@ -42,7 +42,7 @@ struct Chart {
   glm::ivec2 size_px{2040, 1080};
 };
 
-/// Throws LoadError when the file can not be written. The file is committed.
-void drawChart(const Chart& chart, assets::OutputFile& file);
+/// Throws std::runtime_error when the file can not be written. The file is committed.
+void drawChart(const Chart& chart, calibration::OutputFile& file);
 
 }  // namespace app

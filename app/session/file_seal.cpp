@@ -92,13 +92,6 @@ bool isCutShort(const std::string& found, const std::string& expected) {
 
 }  // namespace
 
-void waitUntilOnDisk(const std::string& path) {
-  const int file = ::open(path.empty() ? "." : path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return;
-  ::fsync(file);
-  ::close(file);
-}
-
 void sealFile(int file, const std::string& path) {
   const std::uint64_t size = bytesIn(file);
   const std::string bytes = trailer(digestOfFirst(file, size, path));

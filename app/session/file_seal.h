@@ -26,7 +26,4 @@ bool isDatabase(const std::string& path);
 /// Whether the file says that a log belongs to it (SQLite's WAL mode): it was being recorded, and never closed.
 bool awaitsLog(const std::string& path);
 
-/// Waits until a file or folder is on the disk, as far as can be had.
-void waitUntilOnDisk(const std::string& path);
-
 }  // namespace app

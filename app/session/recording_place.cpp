@@ -13,6 +13,7 @@
 #include "app/session/file_seal.h"
 #include "app/session/session_error.h"
 #include "app/session/session_reader.h"
+#include "calibration/output_file.h"
 
 namespace app {
 namespace {
@@ -62,15 +63,7 @@ void removeFiles(const std::vector<std::string>& files) {
   for (const std::string& file : files) fs::remove(file, failed);
 }
 
-void syncFolderOf(const std::string& path) { waitUntilOnDisk(fs::path(path).parent_path().string()); }
-
-/// rename(2) that does not replace; a file system without that flag falls back to look-then-rename.
-int renameOntoNothing(const std::string& from, const std::string& to) {
-  if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
-  if (errno != EINVAL && errno != ENOSYS) return errno;
-  if (::access(to.c_str(), F_OK) == 0) return EEXIST;
-  return ::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
-}
+void syncFolderOf(const std::string& path) { calibration::waitUntilOnDisk(fs::path(path).parent_path().string()); }
 
 }  // namespace
 
@@ -157,7 +150,7 @@ void RecordingPlace::claimBeside() {
 void RecordingPlace::takeName() {
   kept_ = true;
   if (replaces_ || file_ == path_) return;
-  if (const int error = renameOntoNothing(file_, path_); error != 0)
+  if (const int error = calibration::renameOntoNothing(file_, path_); error != 0)
     throw SessionError(path_ + ": can not be given to the recording (" + std::strerror(error) + "): it is " + file_,
                        SessionTrouble::failed);
   file_ = path_;

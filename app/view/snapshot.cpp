@@ -18,7 +18,7 @@ std::string withWord(const std::string& path, const std::string& word) {
 
 }  // namespace
 
-void savePng(const render::Picture& picture, assets::OutputFile& file) {
+void savePng(const render::Picture& picture, calibration::OutputFile& file) {
   calibration::writePng(file.temporaryPath(), {picture.w, picture.h}, picture.rgba);
   file.commit();
 }
@@ -27,7 +27,7 @@ std::string saveNextSnapshot(const render::Picture& picture) {
   std::string path;
   for (int n = 1; path.empty() || std::filesystem::exists(path); ++n)
     path = "molar-snapshot-" + std::to_string(n) + ".png";
-  assets::OutputFile file(path, false);
+  calibration::OutputFile file(path, false);
   savePng(picture, file);
   return path;
 }

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "assets/output_file.h"
+#include "calibration/output_file.h"
 #include "render/frame_renderer.h"
 #include "render/picture.h"
 
@@ -13,18 +13,18 @@ namespace app {
 /// Under the first free of `molar-snapshot-1.png`, …; its name.
 std::string saveNextSnapshot(const render::Picture& picture);
 
-void savePng(const render::Picture& picture, assets::OutputFile& file);
+void savePng(const render::Picture& picture, calibration::OutputFile& file);
 
 class EyePictures {
  public:
-  /// Refuses (LoadError) what is there already, unless `overwrite`.
+  /// Refuses (CalibrationError) what is there already, unless `overwrite`.
   EyePictures(const std::string& path, bool overwrite);
   void save(const render::Picture& left, const render::Picture& right);
   /// Draws both eyes of the frame and saves them.
   void take(render::FrameRenderer& renderer, const render::Frame& frame);
 
  private:
-  assets::OutputFile left_, right_;
+  calibration::OutputFile left_, right_;
 };
 
 }  // namespace app

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "assets/mesh.h"
-#include "assets/output_file.h"
+#include "calibration/output_file.h"
 
 namespace assets {
 
@@ -19,9 +19,9 @@ namespace assets {
 MeshModel readGltf(const std::string& path);
 
 /// Writes a binary .glb in metres: POSITION, NORMAL, COLOR_0, indices, one material and one named node per part.
-/// Replaces nothing unless `overwrite`. Throws LoadError.
+/// Replaces nothing unless `overwrite`. Throws LoadError, and as OutputFile.
 void writeGltf(const MeshModel& model_F, const std::string& path, bool overwrite = false);
 /// The same into a file claimed before; commits it.
-void writeGltf(const MeshModel& model_F, OutputFile& file);
+void writeGltf(const MeshModel& model_F, calibration::OutputFile& file);
 
 }  // namespace assets

@@ -6,8 +6,8 @@
 
 #include "assets/load_error.h"
 #include "assets/mesh/gltf_file.h"
-#include "assets/output_file.h"
 #include "calibration/geometry/units.h"
+#include "calibration/output_file.h"
 
 namespace assets {
 namespace {
@@ -98,11 +98,11 @@ void appendPart(tinygltf::Model& model, const MeshPart& part) {
 }  // namespace
 
 void writeGltf(const MeshModel& model_F, const std::string& path, bool overwrite) {
-  OutputFile file(path, overwrite);
+  calibration::OutputFile file(path, overwrite);
   writeGltf(model_F, file);
 }
 
-void writeGltf(const MeshModel& model_F, OutputFile& file) {
+void writeGltf(const MeshModel& model_F, calibration::OutputFile& file) {
   tinygltf::Model model;
   model.asset.version = "2.0";
   model.asset.generator = "molar";

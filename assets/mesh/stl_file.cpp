@@ -45,7 +45,7 @@ void putPart(std::ostream& out, const MeshPart& part) {
 
 }  // namespace
 
-void writeStl(const MeshModel& model_P, OutputFile& file) {
+void writeStl(const MeshModel& model_P, calibration::OutputFile& file) {
   std::size_t triangles = 0;
   for (const MeshPart& part : model_P.parts) triangles += part.triangles.size() / 3;
   if (triangles == 0)

@@ -5,11 +5,11 @@
 #pragma once
 
 #include "assets/mesh.h"
-#include "assets/output_file.h"
+#include "calibration/output_file.h"
 
 namespace assets {
 
 /// Writes and commits. Throws LoadError: nothing to write, more triangles than STL can count, no space.
-void writeStl(const MeshModel& model_P, OutputFile& file);
+void writeStl(const MeshModel& model_P, calibration::OutputFile& file);
 
 }  // namespace assets

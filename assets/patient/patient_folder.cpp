@@ -7,10 +7,10 @@
 
 #include "assets/load_error.h"
 #include "assets/mesh/gltf_file.h"
-#include "assets/output_file.h"
 #include "assets/patient/patient_toml.h"
 #include "assets/scan/vdb_file.h"
 #include "assets/scenery/face_frame.h"
+#include "calibration/output_file.h"
 
 namespace assets {
 
@@ -79,7 +79,7 @@ void tellSiteToothApart(CtVolume& ct, int fdi) {
 }  // namespace
 
 void savePatient(const Patient& patient, const std::string& folder, bool overwrite) {
-  OutputFolder output(folder, overwrite, {kWords, kVolume, kMeshes});
+  calibration::OutputFolder output(folder, overwrite, {kWords, kVolume, kMeshes});
   const fs::path made = output.temporaryPath();
   writeText(patientToml(patient), (made / kWords).string());
   writeVdb(patient.ct, (made / kVolume).string());

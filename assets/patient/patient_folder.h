@@ -10,8 +10,8 @@
 
 namespace assets {
 
-/// Throws LoadError: no parent folder, not writable, in place already without `overwrite`, or in place and holding
-/// anything else (which would be lost).
+/// Throws as OutputFolder: no parent folder, not writable, in place already without `overwrite`, or in place and
+/// holding anything else (which would be lost).
 void savePatient(const Patient& patient, const std::string& folder, bool overwrite);
 
 /// Throws LoadError: no such folder, a file missing, damaged or of another program, a value out of range.

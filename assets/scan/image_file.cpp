@@ -141,21 +141,22 @@ bool isSameGrid(const VolumeGrid& a, const VolumeGrid& b) {
   return std::max({first_mm.x, first_mm.y, first_mm.z, last_mm.x, last_mm.y, last_mm.z}) <= tolerance_mm;
 }
 
-OutputFile nrrdOutput(const std::string& path, bool overwrite) {
+calibration::OutputFile nrrdOutput(const std::string& path, bool overwrite) {
   if (!lowerCase(path).ends_with(".nrrd"))
     refuseScan(path, "volumes are written as NRRD; choose a name that ends in .nrrd");
-  return OutputFile(path, overwrite);
+  return calibration::OutputFile(path, overwrite);
 }
 
-void writeHounsfield(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield, OutputFile& file) {
+void writeHounsfield(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield,
+                     calibration::OutputFile& file) {
   writeNrrd(arrayOf(grid, VoxelType::int16, hounsfield), file);
 }
 
-void writeSolid(const VolumeGrid& grid, const std::vector<std::uint8_t>& solid, OutputFile& file) {
+void writeSolid(const VolumeGrid& grid, const std::vector<std::uint8_t>& solid, calibration::OutputFile& file) {
   writeNrrd(arrayOf(grid, VoxelType::uint8, solid), file);
 }
 
-void writeDepth(int width_px, int height_px, const std::vector<float>& depth_mm, OutputFile& file) {
+void writeDepth(int width_px, int height_px, const std::vector<float>& depth_mm, calibration::OutputFile& file) {
   assert(depth_mm.size() == static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px));
   writeNrrd({VoxelType::float32, {width_px, height_px}, 1.0, glm::dvec3(0.0), std::as_bytes(std::span(depth_mm))},
             file);

@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "assets/output_file.h"
 #include "assets/scan/grey_window.h"
 #include "assets/volume_grid.h"
+#include "calibration/output_file.h"
 
 namespace assets {
 
@@ -42,13 +42,14 @@ ByteImage readLabels(const std::string& path);
 /// Two grids are one: same size, and no voxel centre differs by more than a hundredth of a voxel.
 bool isSameGrid(const VolumeGrid& a, const VolumeGrid& b);
 
-/// An OutputFile for the writers below; refuses a name that does not end in .nrrd.
-OutputFile nrrdOutput(const std::string& path, bool overwrite);
+/// An calibration::OutputFile for the writers below; refuses a name that does not end in .nrrd.
+calibration::OutputFile nrrdOutput(const std::string& path, bool overwrite);
 
 /// The writers fill `file` and commit it.
-void writeHounsfield(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield, OutputFile& file);
-void writeSolid(const VolumeGrid& grid, const std::vector<std::uint8_t>& solid, OutputFile& file);
+void writeHounsfield(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield,
+                     calibration::OutputFile& file);
+void writeSolid(const VolumeGrid& grid, const std::vector<std::uint8_t>& solid, calibration::OutputFile& file);
 /// A picture of distances along the ray in mm, first row on top, 0 where nothing is hit: a 2-D NRRD of floats.
-void writeDepth(int width_px, int height_px, const std::vector<float>& depth_mm, OutputFile& file);
+void writeDepth(int width_px, int height_px, const std::vector<float>& depth_mm, calibration::OutputFile& file);
 
 }  // namespace assets

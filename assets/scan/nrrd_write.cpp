@@ -86,7 +86,7 @@ void writePacked(std::span<const std::byte> voxels, std::ostream& file) {
 
 }  // namespace
 
-void writeNrrd(const NrrdArray& array, OutputFile& file) {
+void writeNrrd(const NrrdArray& array, calibration::OutputFile& file) {
   std::ofstream output(file.temporaryPath(), std::ios::binary | std::ios::trunc);
   output << headerOf(array);
   writePacked(array.voxels, output);

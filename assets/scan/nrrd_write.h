@@ -8,8 +8,8 @@
 
 #include <glm/glm.hpp>
 
-#include "assets/output_file.h"
 #include "assets/scan/voxel_type.h"
+#include "calibration/output_file.h"
 
 namespace assets {
 
@@ -22,6 +22,6 @@ struct NrrdArray {
 };
 
 /// Fills the file and commits it.
-void writeNrrd(const NrrdArray& array, OutputFile& file);
+void writeNrrd(const NrrdArray& array, calibration::OutputFile& file);
 
 }  // namespace assets

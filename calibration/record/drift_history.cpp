@@ -7,7 +7,7 @@
 #include <optional>
 #include <sstream>
 
-#include "calibration/record/kept_file.h"
+#include "calibration/record/record_folder.h"
 #include "calibration/record/utc.h"
 
 namespace calibration {

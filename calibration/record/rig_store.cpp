@@ -5,7 +5,8 @@
 #include <fstream>
 #include <tuple>
 
-#include "calibration/record/kept_file.h"
+#include "calibration/output_file.h"
+#include "calibration/record/record_folder.h"
 #include "calibration/record/rig_file.h"
 #include "calibration/record/sha256.h"
 #include "calibration/record/utc.h"
@@ -215,22 +216,21 @@ fs::path RigStore::keep(const RigPlace& place, const RigRecord& record, const st
       throw CalibrationError("rig store: " + folder.string() + " holds 99 rigs of this second, set the clock");
 
   // Only what can be read again is kept; touches before what names them, and the pointer last.
-  KeptFile rig(folder / (name.stem() + kEnding), rigRecordText(kept));
-  readRigRecord(rig.hiddenPath().string());
-  std::optional<KeptFile> touches;
-  if (!touches_text.empty()) touches.emplace(folder / (name.stem() + kTouchesEnding), touches_text);
-  std::optional<KeptFile> pointer;
-  if (make_current) pointer.emplace(folder / "current", name.stem() + kEnding + "\n");
+  OutputFile rig(folder / (name.stem() + kEnding), false);
+  rig.write(rigRecordText(kept));
+  readRigRecord(rig.temporaryPath());
+  std::optional<OutputFile> touches, pointer;
+  if (!touches_text.empty()) touches.emplace(folder / (name.stem() + kTouchesEnding), false).write(touches_text);
+  if (make_current) pointer.emplace(folder / "current", true).write(name.stem() + kEnding + "\n");
   try {
-    if (touches) touches->putInPlace();
-    rig.putInPlace();
-    if (pointer) pointer->replace();
+    if (touches) touches->commit();
+    rig.commit();
+    if (pointer) pointer->commit();
   } catch (const CalibrationError&) {
-    // What the pointer names already stays, and what somebody else had put there.
+    // Not what somebody else had put there.
     std::error_code ignored;
-    const bool is_named = pointer && pointer->isInPlace();
-    if (rig.isInPlace() && !is_named) fs::remove(folder / (name.stem() + kEnding), ignored);
-    if (touches && touches->isInPlace() && !is_named) fs::remove(folder / (name.stem() + kTouchesEnding), ignored);
+    if (rig.isCommitted()) fs::remove(rig.path(), ignored);
+    if (touches && touches->isCommitted()) fs::remove(touches->path(), ignored);
     throw;
   }
   return folder / (name.stem() + kEnding);
@@ -270,7 +270,7 @@ std::string RigStore::rollBack(const RigPlace& place) {
   const RigRecord old = readRigRecord((folder / before).string());
   if (const std::string why = whyNotOf(old, place); !why.empty())
     throw CalibrationError("rig file " + (folder / before).string() + ": " + why + ", calibrate again");
-  KeptFile(folder / "current", before + "\n").replace();
+  OutputFile(folder / "current", true).commit(before + "\n");
   return before;
 }
 

@@ -22,7 +22,7 @@ inline void writeHalfSpace(const std::string& path, double spacing_mm, const glm
         const double d = (glm::dot(normal, grid.centre_P_mm({i, j, k})) - offset_mm) / spacing_mm;
         solid[grid.index({i, j, k})] = static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(0.5 - d, 0.0, 1.0)));
       }
-  assets::OutputFile out = assets::nrrdOutput(path, true);
+  calibration::OutputFile out = assets::nrrdOutput(path, true);
   assets::writeSolid(grid, solid, out);
 }
 

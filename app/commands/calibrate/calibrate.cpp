@@ -7,7 +7,6 @@
 #include "app/calibrate/calibration_text.h"
 #include "app/text/command_line.h"
 #include "app/text/usage_error.h"
-#include "app/text/written_text.h"
 #include "calibration/fit/touches_file.h"
 #include "calibration/record/rig_file.h"
 #include "calibration/record/utc.h"
@@ -54,13 +53,13 @@ RigPlace KeepOption::placeOf(const RigRecord& record) const {
 }
 
 void KeepOption::refuseUnlessWritable() const {
-  if (!out.empty()) assets::OutputFile claim(out, force);
+  if (!out.empty()) calibration::OutputFile claim(out, force);
 }
 
 void KeepOption::keep(const RigRecord& record, const std::string& touches_text) const {
   if (!out.empty()) {
-    assets::OutputFile file(out, force);
-    writeText(file, rigRecordText(record));
+    calibration::OutputFile file(out, force);
+    file.commit(rigRecordText(record));
   }
   if (!into_store) return;
   const bool passes = comesIntoForce(record);

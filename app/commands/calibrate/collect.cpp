@@ -8,7 +8,6 @@
 #include "app/commands/calibrate/calibrate.h"
 #include "app/text/command_line.h"
 #include "app/text/usage_error.h"
-#include "app/text/written_text.h"
 #include "calibration/fit/touches_file.h"
 #include "calibration/geometry/units.h"
 
@@ -32,14 +31,14 @@ JigPose jigPose(const std::vector<double>& numbers) {
   return {{glm::dquat(turned), {numbers[0], numbers[1], numbers[2]}}};
 }
 
-int collectByWebcam(CollectOptions& options, assets::OutputFile* observations) {
+int collectByWebcam(CollectOptions& options, calibration::OutputFile* observations) {
   const auto [before, seen] = options.wizard.look(options.rig, options.keep.rigs(), options.measuring);
   if (!seen) {
     std::fputs("molar: left before the end: nothing is changed\n", stderr);
     return 1;
   }
   const std::string text = webcamFileText(*seen);
-  if (observations != nullptr) writeText(*observations, text);
+  if (observations != nullptr) observations->commit(text);
   const WebcamFit fit = fitWebcam(seen->sights);
   RigRecord record = before;
   record.rig.device = RigDevice{seen->sights.device_model, options.measuring.serial, options.measuring.mount,
@@ -66,16 +65,16 @@ int collect(const CollectOptions& asked) {
   for (const auto& mark : options.rest_marks) options.wizard.rest_marks_mm.emplace_back(mark[0], mark[1], mark[2]);
   options.wizard.jig = jigPose(options.jig);
   options.keep.refuseUnlessWritable();
-  std::unique_ptr<assets::OutputFile> observations;
+  std::unique_ptr<calibration::OutputFile> observations;
   if (!options.observations.empty())
-    observations = std::make_unique<assets::OutputFile>(options.observations, options.keep.force);
+    observations = std::make_unique<calibration::OutputFile>(options.observations, options.keep.force);
 
   if (webcam) return collectByWebcam(options, observations.get());
   const WizardOption::Led led =
       options.wizard.lead(rest ? CalibrationProcedure::rest : CalibrationProcedure::full, options.method, options.rig,
                           options.keep.rigs(), options.measuring);
   if (observations && !led.outcome.touches.touches.empty()) {
-    writeText(*observations, touchesText(led.outcome.touches));
+    observations->commit(touchesText(led.outcome.touches));
   }
   return concluded(led, options.measuring, options.keep);
 }

@@ -9,7 +9,6 @@
 #include "app/options/view_option.h"
 #include "app/text/command_line.h"
 #include "app/text/usage_error.h"
-#include "app/text/written_text.h"
 #include "calibration/record/utc.h"
 #include "calibration/webcam/board.h"
 #include "calibration/webcam/camera_file.h"
@@ -89,9 +88,9 @@ Views viewsIn(const LensOptions& options, const WantedBoard& board) {
 }
 
 int lens(const LensOptions& options) {
-  std::unique_ptr<assets::OutputFile> out;
+  std::unique_ptr<calibration::OutputFile> out;
   const WantedBoard board(options);
-  if (!options.out.empty()) out = std::make_unique<assets::OutputFile>(options.out, options.force);
+  if (!options.out.empty()) out = std::make_unique<calibration::OutputFile>(options.out, options.force);
   const Views views = viewsIn(options, board);
   // What is wrong with the pictures says more than that they are too few.
   if (views.usable.size() < kLeastViews && !views.refused.empty())
@@ -109,7 +108,7 @@ int lens(const LensOptions& options) {
     record.measured_utc = nowUtc();
     record.rms_px = fitted.rms_px;
     record.views = static_cast<int>(views.usable.size() - fitted.left_out.size());
-    writeText(*out, cameraText(record));
+    out->commit(cameraText(record));
   }
   if (options.json) std::fputs(lensJson(fitted, views.refused).c_str(), stdout);
   return statusOf(verdictOfLens(fitted));

@@ -6,7 +6,6 @@
 #include "app/calibrate/report/calibration_report.h"
 #include "app/commands/calibrate/calibrate.h"
 #include "app/text/command_line.h"
-#include "app/text/written_text.h"
 #include "calibration/record/later_check.h"
 #include "calibration/record/utc.h"
 
@@ -19,10 +18,10 @@ struct ReportOptions {
 };
 
 int report(const ReportOptions& options) {
-  assets::OutputFile file(options.keep.out, options.keep.force);
+  calibration::OutputFile file(options.keep.out, options.keep.force);
   const calibration::RigRecord record = baseRig(options.rig);
   const auto history = calibration::readHistory(options.keep.rigs().historyPath(options.keep.placeOf(record)));
-  writeText(file, reportHtml(calibration::withLaterCheck(record, history), history, calibration::nowUtc()));
+  file.commit(reportHtml(calibration::withLaterCheck(record, history), history, calibration::nowUtc()));
   return 0;
 }
 

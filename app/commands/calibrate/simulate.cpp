@@ -5,7 +5,6 @@
 #include "app/commands/calibrate/calibrate.h"
 #include "app/text/command_line.h"
 #include "app/text/usage_error.h"
-#include "app/text/written_text.h"
 #include "calibration/fit/touches_file.h"
 #include "calibration/record/rig_file.h"
 #include "calibration/synthetic/synthetic_rig.h"
@@ -31,10 +30,10 @@ int simulate(const SimulateOptions& options) {
   if (!plan)
     throw UsageError("--method " + options.method +
                      ": not a procedure, choose jig27, jig8, visual15, visual25, rezero5, check4, verify8 or pivot12");
-  assets::OutputFile out(options.out, options.force);
-  std::unique_ptr<assets::OutputFile> held_out, rig_out;
-  if (!options.held_out.empty()) held_out = std::make_unique<assets::OutputFile>(options.held_out, options.force);
-  if (!options.rig.empty()) rig_out = std::make_unique<assets::OutputFile>(options.rig, options.force);
+  calibration::OutputFile out(options.out, options.force);
+  std::unique_ptr<calibration::OutputFile> held_out, rig_out;
+  if (!options.held_out.empty()) held_out = std::make_unique<calibration::OutputFile>(options.held_out, options.force);
+  if (!options.rig.empty()) rig_out = std::make_unique<calibration::OutputFile>(options.rig, options.force);
 
   SyntheticRig rig = syntheticRig(*scenarioNamed(options.scenario), options.seed);
   rig.habits.outlier_share = options.outliers;
@@ -50,10 +49,10 @@ int simulate(const SimulateOptions& options) {
     TouchSet judges = touches;
     judges.method = "held-out";
     judges.touches = heldOut(rig, options.held_out_n, kHeldOutHalf_mm, chance);
-    writeText(*held_out, touchesText(judges));
+    held_out->commit(touchesText(judges));
   }
-  if (rig_out) writeText(*rig_out, rigText(rig.nominal));
-  writeText(out, touchesText(touches));
+  if (rig_out) rig_out->commit(rigText(rig.nominal));
+  out.commit(touchesText(touches));
   return 0;
 }
 

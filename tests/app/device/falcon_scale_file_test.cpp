@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "app/text/usage_error.h"
-#include "assets/load_error.h"
+#include "calibration/calibration_error.h"
 #include "haptics/device/haptic_device.h"
 
 namespace app {
@@ -47,7 +47,7 @@ TEST_F(FalconScaleFile, ComesBackAsItWasWritten) {
 
 TEST_F(FalconScaleFile, IsNotReplacedWithoutLeave) {
   writeFalconScale(path, {10.0, 1.0, "A"}, false);
-  EXPECT_THROW(writeFalconScale(path, {11.0, 1.0, "A"}, false), assets::LoadError);
+  EXPECT_THROW(writeFalconScale(path, {11.0, 1.0, "A"}, false), calibration::CalibrationError);
   EXPECT_EQ(readFalconScale(path).words_per_Nmm, 10.0);
 }
 

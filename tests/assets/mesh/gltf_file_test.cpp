@@ -120,7 +120,7 @@ TEST_F(GltfWrite, ComesBackAsItWas) {
 TEST_F(GltfWrite, ReplacesNothingUnlessTold) {
   const std::string path = write("model.glb", "precious").string();
   const MeshModel model{{triangle("Gum")}};
-  EXPECT_THROW(writeGltf(model, path), LoadError);
+  EXPECT_THROW(writeGltf(model, path), calibration::CalibrationError);
   EXPECT_EQ(bytesOf(path), "precious");
   writeGltf(model, path, true);
   EXPECT_EQ(triangleCount(readGltf(path)), 1u);

@@ -32,7 +32,7 @@ MeshPart ball(const std::string& name) {
 
 TEST_F(StlFile, HoldsTheTrianglesAndTheirNormals) {
   const MeshPart mesh = ball("someone's name");
-  OutputFile out(path_, true);
+  calibration::OutputFile out(path_, true);
   writeStl({{mesh}}, out);
   const test::StlFile found = test::readStl(path_);
   ASSERT_EQ(found.mesh.triangles.size(), mesh.triangles.size());
@@ -47,7 +47,7 @@ TEST_F(StlFile, HoldsTheTrianglesAndTheirNormals) {
 }
 
 TEST_F(StlFile, SaysUnitAndFrameAndNothingElseInItsHeader) {
-  OutputFile out(path_, true);
+  calibration::OutputFile out(path_, true);
   writeStl({{ball("someone's name")}}, out);
   std::string header = test::readStl(path_).header;
   EXPECT_NE(header.find("SPACE=LPS"), std::string::npos);
@@ -59,13 +59,13 @@ TEST_F(StlFile, SaysUnitAndFrameAndNothingElseInItsHeader) {
 
 TEST_F(StlFile, HoldsEveryPart) {
   const MeshPart mesh = ball("");
-  OutputFile out(path_, true);
+  calibration::OutputFile out(path_, true);
   writeStl({{mesh, mesh}}, out);
   EXPECT_EQ(test::readStl(path_).normal.size(), 2 * mesh.triangles.size() / 3);
 }
 
 TEST_F(StlFile, IsNotWrittenWithoutTriangles) {
-  OutputFile out(path_, true);
+  calibration::OutputFile out(path_, true);
   EXPECT_THROW(writeStl({}, out), LoadError);
   EXPECT_FALSE(std::filesystem::exists(path_));
 }

@@ -1,4 +1,4 @@
-#include "calibration/record/kept_file.h"
+#include "calibration/record/record_folder.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -11,8 +11,6 @@ namespace calibration {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* kHidden = ".part-";
 
 [[noreturn]] void refuseWriting(const fs::path& path, const std::string& what, const std::string& mend) {
   throw CalibrationError("can not write " + path.string() + ": " + what + ", " + mend);
@@ -76,44 +74,7 @@ FolderLock::~FolderLock() { ::close(descriptor_); }
 void removeLeftovers(const fs::path& folder) {
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder, ignored))
-    if (entry.path().filename().string().starts_with(kHidden)) fs::remove(entry.path(), ignored);
-}
-
-KeptFile::KeptFile(fs::path path, const std::string& text)
-    : path_(std::move(path)), hidden_path_(path_.parent_path() / (kHidden + path_.filename().string())) {
-  try {
-    const Descriptor file(hidden_path_, O_WRONLY | O_CREAT | O_TRUNC);
-    file.write(text);
-    file.force();
-  } catch (const CalibrationError&) {
-    ::unlink(hidden_path_.c_str());
-    throw;
-  }
-}
-
-KeptFile::~KeptFile() {
-  if (!hidden_path_.empty()) ::unlink(hidden_path_.c_str());
-}
-
-void KeptFile::putInPlace() {
-  // A link fails where the name is taken, on every file system that has links.
-  if (::link(hidden_path_.c_str(), path_.c_str()) != 0) {
-    if (errno == EEXIST) refuseWriting(path_, "it is there already", "nothing that was measured is overwritten");
-    if (errno != EPERM && errno != ENOTSUP) refuseWritingForSystem(path_, errno);
-    std::error_code error;
-    if (fs::exists(path_, error))
-      refuseWriting(path_, "it is there already", "nothing that was measured is overwritten");
-    return replace();
-  }
-  ::unlink(hidden_path_.c_str());
-  hidden_path_.clear();
-  forceFolder(path_.parent_path());
-}
-
-void KeptFile::replace() {
-  if (::rename(hidden_path_.c_str(), path_.c_str()) != 0) refuseWritingForSystem(path_, errno);
-  hidden_path_.clear();
-  forceFolder(path_.parent_path());
+    if (entry.path().filename().string().starts_with(".part-")) fs::remove(entry.path(), ignored);
 }
 
 void appendLine(const fs::path& path, const std::string& line) {

@@ -1,4 +1,4 @@
-#include "assets/output_file.h"
+#include "calibration/output_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,15 +9,14 @@
 #include <fstream>
 #include <sstream>
 
-#include "assets/load_error.h"
 #include "tests/refusal.h"
 
 namespace {
 
 namespace fs = std::filesystem;
-using assets::LoadError;
-using assets::OutputFile;
-using assets::OutputFolder;
+using calibration::CalibrationError;
+using calibration::OutputFile;
+using calibration::OutputFolder;
 
 class Output : public testing::Test {
  protected:
@@ -39,7 +38,7 @@ class Output : public testing::Test {
 };
 
 std::string refusalOf(const auto& act) {
-  return tests::refusalOf<LoadError>([&] { act(); });
+  return tests::refusalOf<CalibrationError>([&] { act(); });
 }
 
 TEST_F(Output, AppearsWholeAtCommitAndNotBefore) {
@@ -79,7 +78,7 @@ TEST_F(Output, ReplacesOnlyWithLeave) {
 TEST_F(Output, DoesNotReplaceWhatCameMeanwhile) {
   OutputFile file(at("a"), false);
   write(at("a"), "someone else's");
-  EXPECT_THROW(file.commit(), LoadError);
+  EXPECT_THROW(file.commit(), CalibrationError);
   EXPECT_EQ(read(at("a")), "someone else's");
 }
 
@@ -176,10 +175,10 @@ TEST_F(Output, LeavesWhatIsBeingWrittenOrIsOfAnotherTarget) {
 }
 
 TEST(TemporaryMarks, AreTakenOutOfMessages) {
-  EXPECT_EQ(assets::withoutTemporaryMarks("picture out/.part-q2dm741g-o.png: no room, .part-00000000-x"),
+  EXPECT_EQ(calibration::withoutTemporaryMarks("picture out/.part-q2dm741g-o.png: no room, .part-00000000-x"),
             "picture out/o.png: no room, x");
-  EXPECT_EQ(assets::withoutTemporaryMarks(".part-q2dm741g"), ".part-q2dm741g");
-  EXPECT_EQ(assets::withoutTemporaryMarks(".part-q2dm741G-o .part-"), ".part-q2dm741G-o .part-");
+  EXPECT_EQ(calibration::withoutTemporaryMarks(".part-q2dm741g"), ".part-q2dm741g");
+  EXPECT_EQ(calibration::withoutTemporaryMarks(".part-q2dm741G-o .part-"), ".part-q2dm741G-o .part-");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "assets/output_file.h"
+#include "calibration/output_file.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -11,19 +11,18 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <random>
 #include <string_view>
 
-#include "assets/load_error.h"
-
-namespace assets {
+namespace calibration {
 
 namespace {
 
 namespace fs = std::filesystem;
 
 [[noreturn]] void refuse(const std::string& path, const std::string& reason) {
-  throw LoadError("can not write " + path + ": " + reason);
+  throw CalibrationError("can not write " + path + ": " + reason);
 }
 
 [[noreturn]] void refuseForSystem(const std::string& path, int error) {
@@ -108,13 +107,6 @@ bool exists(const std::string& path) {
   return ::lstat(path.c_str(), &status) == 0;
 }
 
-void waitUntilOnDisk(const std::string& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  ::fsync(descriptor);
-  ::close(descriptor);
-}
-
 /// A program killed within an exchange leaves the folder that was in place under another name, alone or beside its
 /// successor.
 void restoreKept(const std::string& path) {
@@ -125,14 +117,6 @@ void restoreKept(const std::string& path) {
     fs::remove_all(kept, ignored);
   else
     ::rename(kept.c_str(), path.c_str());
-}
-
-/// rename(2) that does not replace; a file system without that flag falls back to look-then-rename.
-int renameOntoNothing(const std::string& from, const std::string& to) {
-  if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
-  if (errno != EINVAL && errno != ENOSYS) return errno;
-  if (exists(to)) return EEXIST;
-  return ::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
 }
 
 /// Puts our folder where theirs is, which then is at our name or gone; a file system that exchanges none falls back to
@@ -153,6 +137,21 @@ int exchange(const std::string& ours, const std::string& theirs) {
 }
 
 }  // namespace
+
+int renameOntoNothing(const std::string& from, const std::string& to) {
+  if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
+  if (errno != EINVAL && errno != ENOSYS) return errno;
+  if (exists(to)) return EEXIST;
+  return ::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
+}
+
+int waitUntilOnDisk(const std::string& path) {
+  const int descriptor = ::open(path.empty() ? "." : path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return errno;
+  const int error = ::fsync(descriptor) == 0 ? 0 : errno;
+  ::close(descriptor);
+  return error;
+}
 
 std::string withoutTemporaryMarks(std::string text) {
   for (std::size_t at = text.find(kMarkBegin); at != std::string::npos; at = text.find(kMarkBegin, at)) {
@@ -187,10 +186,22 @@ OutputFile::~OutputFile() {
   ::close(claim_);
 }
 
+void OutputFile::write(const std::string& text) {
+  std::ofstream out(temporary_path_, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) refuse(path_, "the disk is full or fails; make room there");
+}
+
+void OutputFile::commit(const std::string& text) {
+  write(text);
+  commit();
+}
+
 void OutputFile::commit() {
-  waitUntilOnDisk(temporary_path_);
-  const int error = overwrite_ ? (::rename(temporary_path_.c_str(), path_.c_str()) == 0 ? 0 : errno)
-                               : renameOntoNothing(temporary_path_, path_);
+  int error = waitUntilOnDisk(temporary_path_);
+  if (error == 0 && overwrite_) error = ::rename(temporary_path_.c_str(), path_.c_str()) == 0 ? 0 : errno;
+  if (error == 0 && !overwrite_) error = renameOntoNothing(temporary_path_, path_);
   if (error == EEXIST) refuse(path_, "it exists; use --force to replace it");
   if (error != 0) refuseForSystem(path_, error);
   committed_ = true;
@@ -251,4 +262,4 @@ void OutputFolder::commit() {
   waitUntilOnDisk(parentOf(path_).string());
 }
 
-}  // namespace assets
+}  // namespace calibration
