@@ -14,8 +14,8 @@
 #include "app/report/chart.h"
 #include "app/report/law_curves.h"
 #include "app/text/command_line.h"
-#include "app/text/toml_keys.h"
 #include "app/text/usage_error.h"
+#include "assets/toml_keys.h"
 #include "haptics/contact/law_parameters.h"
 #include "haptics/safety/safety_limits.h"
 
@@ -72,9 +72,10 @@ void printJson(const std::vector<const haptics::LawName*>& laws) {
 }
 
 void printRow(const LawParameter& one) {
-  const std::string range = numberText(one.lowest) + " .. " + numberText(one.highest);
-  std::printf("    %-26s %9s  %-14s %-7s %s\n", std::string(one.key).c_str(), numberText(one.standard()).c_str(),
-              range.c_str(), std::string(one.unit).c_str(), std::string(one.meaning).c_str());
+  const std::string range = assets::numberText(one.lowest) + " .. " + assets::numberText(one.highest);
+  std::printf("    %-26s %9s  %-14s %-7s %s\n", std::string(one.key).c_str(),
+              assets::numberText(one.standard()).c_str(), range.c_str(), std::string(one.unit).c_str(),
+              std::string(one.meaning).c_str());
   std::printf("    %-26s %9s  %-14s %-7s   %s\n", "", "", "", "", std::string(one.source).c_str());
 }
 
@@ -93,7 +94,7 @@ void printTable(const std::vector<const haptics::LawName*>& laws) {
     if (!one.law) printRow(one);
 }
 
-std::string numberOf(double value) { return numberText(std::round(1e4 * value) / 1e4); }
+std::string numberOf(double value) { return assets::numberText(std::round(1e4 * value) / 1e4); }
 
 void plot(const LawsOptions& options, const std::vector<const haptics::LawName*>& laws) {
   PressedBur press;

@@ -18,8 +18,8 @@
 #include "app/rehearsal/recording_check.h"
 #include "app/rehearsal/rehearsal.h"
 #include "app/text/command_line.h"
-#include "app/text/toml_keys.h"
 #include "app/text/usage_error.h"
+#include "assets/toml_keys.h"
 #include "calibration/record/rig_file.h"
 
 namespace app {
@@ -82,7 +82,7 @@ int run(const PsychophysicsOptions& options) {
     throw UsageError("--out " + options.out + ": rows are CSV, give a name that ends in .csv");
   refuseSameFile(options.out, {options.protocol});
   if (!options.record.empty()) refuseUnlessRecordable(options.record, options.force);
-  const Protocol protocol = protocolFromToml(readSmallFile(options.protocol), options.protocol);
+  const Protocol protocol = protocolFromToml(assets::readSmallFile(options.protocol), options.protocol);
   if (protocol.bone.kind == BoneChoice::Kind::volume) refuseSameFile(options.out, {protocol.bone.path});
   calibration::OutputFile summary(beside(options.out, ".json"), options.force);
   calibration::OutputFile picture(beside(options.out, ".png"), options.force);

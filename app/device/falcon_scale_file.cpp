@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "app/text/toml_keys.h"
+#include "assets/toml_keys.h"
 #include "calibration/output_file.h"
 
 namespace app {
@@ -34,7 +34,7 @@ haptics::FalconForceScale keptFalconScale(const std::string& path) {
 }
 
 haptics::FalconForceScale readFalconScale(const std::string& path) {
-  TomlKeys keys = TomlKeys::fromFile(path);
+  assets::TomlKeys keys = assets::TomlKeys::fromFile(path);
   keys.whole("", "version", kVersion, kVersion);
   haptics::FalconForceScale scale;
   scale.serial = keys.text("", "serial", "");
@@ -49,8 +49,8 @@ void writeFalconScale(const std::string& path, const haptics::FalconForceScale& 
   std::ostringstream text;
   text << "# The force of a Novint Falcon as a spring scale showed it.\nversion = " << kVersion << "\n";
   if (isPlain(scale.serial) && !scale.serial.empty()) text << "serial = \"" << scale.serial << "\"\n";
-  text << "words_per_Nmm = " << numberText(scale.words_per_Nmm) << "\nheaviest_N = " << numberText(scale.heaviest_N)
-       << "\n";
+  text << "words_per_Nmm = " << assets::numberText(scale.words_per_Nmm)
+       << "\nheaviest_N = " << assets::numberText(scale.heaviest_N) << "\n";
   calibration::OutputFile(path, overwrite).commit(text.str());
 }
 

@@ -6,8 +6,8 @@
 #include "app/options/law_text.h"
 #include "app/options/tool_text.h"
 #include "app/text/printed.h"
-#include "app/text/toml_keys.h"
 #include "app/text/usage_error.h"
+#include "assets/toml_keys.h"
 #include "haptics/contact/law_limits.h"
 
 namespace app {
@@ -26,7 +26,7 @@ std::string erosionName(haptics::ErosionKind kind) {
   return "unknown";
 }
 
-void readNumbers(TomlKeys& keys, const std::string& table, const std::map<std::string, Setting>& settings) {
+void readNumbers(assets::TomlKeys& keys, const std::string& table, const std::map<std::string, Setting>& settings) {
   for (const auto& [name, setting] : settings) {
     const std::string former(formerKey(name));
     const std::string& key = !former.empty() && keys.has(table, former) ? former : name;
@@ -43,7 +43,7 @@ std::map<std::string, Setting> lawParametersOf(haptics::LawSettings& law) {
 
 /// Runs `read`, and says its refusal as one of the file.
 template <class Read>
-void asKey(TomlKeys& keys, const std::string& table, const std::string& key, const char* otherwise, Read read) {
+void asKey(assets::TomlKeys& keys, const std::string& table, const std::string& key, const char* otherwise, Read read) {
   try {
     read();
   } catch (const UsageError&) {
@@ -57,13 +57,14 @@ void compare(const std::string& table, const std::map<std::string, Setting>& bef
   for (const auto& [key, setting] : after) {
     const auto was = before.find(key);
     if (was == before.end() || *was->second.value == *setting.value) continue;
-    lines.push_back("[" + table + "] " + key + " " + numberText(*was->second.value) + " -> " +
-                    numberText(*setting.value) + (setting.unit.empty() ? "" : " ") + std::string(setting.unit));
+    lines.push_back("[" + table + "] " + key + " " + assets::numberText(*was->second.value) + " -> " +
+                    assets::numberText(*setting.value) + (setting.unit.empty() ? "" : " ") + std::string(setting.unit));
   }
 }
 
 std::string shaftText(const haptics::Shaft& shaft) {
-  return shaft.length_mm > 0.0 ? numberText(shaft.radius_mm) + "," + numberText(shaft.length_mm) : "none";
+  return shaft.length_mm > 0.0 ? assets::numberText(shaft.radius_mm) + "," + assets::numberText(shaft.length_mm)
+                               : "none";
 }
 
 }  // namespace
@@ -81,7 +82,7 @@ void applyTo(haptics::Command& command, const std::vector<std::string>& texts) {
   command.law.machining.worn = command.erosion.worn;
 }
 
-haptics::Command commandFromToml(TomlKeys& keys, const haptics::Command& base) {
+haptics::Command commandFromToml(assets::TomlKeys& keys, const haptics::Command& base) {
   haptics::Command command = base;
   const std::string law = keys.text("law", "name", lawName(base.law.kind));
   asKey(keys, "law", "name", ("no such law, give one of " + lawNames()).c_str(),

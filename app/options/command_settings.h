@@ -10,9 +10,11 @@
 #include "app/options/settings_text.h"
 #include "haptics/servo/command.h"
 
-namespace app {
-
+namespace assets {
 class TomlKeys;
+}
+
+namespace app {
 
 /// Of the laws in force: law, erosion, spindle, limits.
 std::map<std::string, Setting> settingsOf(haptics::Command& command);
@@ -21,8 +23,8 @@ std::map<std::string, Setting> settingsOf(haptics::Command& command);
 void applyTo(haptics::Command& command, const std::vector<std::string>& texts);
 
 /// [law] name and its parameters, [erosion] name and its, [spindle], [tool] head and shaft, [safety]; what the file
-/// leaves out is as in `base`. Throws UsageError with file, line and key.
-haptics::Command commandFromToml(TomlKeys& keys, const haptics::Command& base);
+/// leaves out is as in `base`. Throws LoadError with file, line and key.
+haptics::Command commandFromToml(assets::TomlKeys& keys, const haptics::Command& base);
 
 /// Refuses a law that does not admit the head.
 void refuseUnlessAdmitted(const haptics::Command& command);

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "app/options/command_settings.h"
-#include "app/text/toml_keys.h"
 #include "app/text/usage_error.h"
+#include "assets/toml_keys.h"
 
 namespace app {
 namespace {
@@ -25,7 +25,7 @@ LiveParameters::Mark LiveParameters::markOf() const {
 }
 
 haptics::Command LiveParameters::read() const {
-  TomlKeys keys = TomlKeys::fromFile(path_);
+  assets::TomlKeys keys = assets::TomlKeys::fromFile(path_);
   const haptics::Command command = commandFromToml(keys, base_);
   try {
     check_(command);
@@ -49,7 +49,7 @@ std::optional<LiveParameters::Reading> LiveParameters::look(Clock::time_point no
   seen_ = mark;
   try {
     return Reading{read(), {}};
-  } catch (const UsageError& error) {
+  } catch (const std::runtime_error& error) {
     return Reading{std::nullopt, std::string(error.what()) + "; the old values stay"};
   }
 }

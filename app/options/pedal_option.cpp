@@ -1,7 +1,7 @@
 #include "app/options/pedal_option.h"
 
-#include "app/text/toml_keys.h"
 #include "app/text/usage_error.h"
+#include "assets/toml_keys.h"
 #include "haptics/device/haptic_device.h"
 
 namespace app {
@@ -20,7 +20,7 @@ haptics::HandAction actionNamed(const std::string& where, const std::string& nam
 }
 
 haptics::PedalChoice fromFile(const std::string& path) {
-  TomlKeys keys = TomlKeys::fromFile(path);
+  assets::TomlKeys keys = assets::TomlKeys::fromFile(path);
   haptics::PedalChoice choice;
   choice.wanted = keys.text("", "device", "auto");
   for (const std::string& control : keys.keysOf("actions")) {

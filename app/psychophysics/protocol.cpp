@@ -6,8 +6,8 @@
 #include "app/options/law_text.h"
 #include "app/options/settings_text.h"
 #include "app/options/tool_text.h"
-#include "app/text/toml_keys.h"
 #include "app/text/usage_error.h"
+#include "assets/toml_keys.h"
 
 namespace app {
 namespace {
@@ -28,7 +28,7 @@ bool isAnonymousId(const std::string& id) {
          });
 }
 
-BoneChoice boneOf(TomlKeys& keys) {
+BoneChoice boneOf(assets::TomlKeys& keys) {
   BoneChoice bone;
   const int sources = keys.has("bone", "phantom") + keys.has("bone", "volume") + keys.has("bone", "patient");
   if (sources > 1) keys.refuse("bone", "", "more than one bone is named, keep one of phantom, volume and patient");
@@ -60,7 +60,7 @@ BoneChoice boneOf(TomlKeys& keys) {
   return bone;
 }
 
-haptics::Tool toolOf(TomlKeys& keys) {
+haptics::Tool toolOf(assets::TomlKeys& keys) {
   haptics::Tool tool;
   const std::string head = keys.text("tool", "head", "sphere:2");
   try {
@@ -71,7 +71,7 @@ haptics::Tool toolOf(TomlKeys& keys) {
   return tool;
 }
 
-ProbePlan probeOf(TomlKeys& keys) {
+ProbePlan probeOf(assets::TomlKeys& keys) {
   ProbePlan plan;
   plan.motion = static_cast<Motion>(keys.choice("probe", "motion", {"tap", "press", "stroke", "free"}, 1));
   plan.reach_mm = keys.number("probe", "reach_mm", {0.1, 10.0, "mm"}, plan.reach_mm);
@@ -86,7 +86,7 @@ ProbePlan probeOf(TomlKeys& keys) {
 }
 
 /// [standard] or [comparison]: a law and any of its parameters.
-haptics::LawSettings lawOf(TomlKeys& keys, const std::string& table) {
+haptics::LawSettings lawOf(assets::TomlKeys& keys, const std::string& table) {
   haptics::LawSettings law;
   const std::string name = keys.text(table, "law", "agus");
   try {
@@ -100,7 +100,7 @@ haptics::LawSettings lawOf(TomlKeys& keys, const std::string& table) {
 }
 
 /// What varies, and the range the law gives it.
-Setting variedOf(TomlKeys& keys, Protocol& protocol) {
+Setting variedOf(assets::TomlKeys& keys, Protocol& protocol) {
   protocol.parameter = keys.text("vary", "parameter");
   const auto known = parametersOf(protocol.comparison);
   const auto found = known.find(protocol.parameter);
@@ -113,7 +113,7 @@ Setting variedOf(TomlKeys& keys, Protocol& protocol) {
   return found->second;
 }
 
-void readConstant(TomlKeys& keys, Protocol& protocol) {
+void readConstant(assets::TomlKeys& keys, Protocol& protocol) {
   const Setting varied = variedOf(keys, protocol);
   protocol.levels = keys.numbers("vary", "levels", {varied.low, varied.high, varied.unit}, 2, kMostLevels);
   for (std::size_t i = 1; i < protocol.levels.size(); ++i)
@@ -124,7 +124,7 @@ void readConstant(TomlKeys& keys, Protocol& protocol) {
     keys.refuse("vary", "repetitions", "that is more than 5000 trials, give fewer");
 }
 
-void readStaircase(TomlKeys& keys, Protocol& protocol) {
+void readStaircase(assets::TomlKeys& keys, Protocol& protocol) {
   const Setting varied = variedOf(keys, protocol);
   StaircaseRule& rule = protocol.staircase;
   rule.low = varied.low, rule.high = varied.high;
@@ -132,8 +132,9 @@ void readStaircase(TomlKeys& keys, Protocol& protocol) {
   rule.up = static_cast<int>(keys.whole("staircase", "up", 1, 8, 1));
   rule.down = static_cast<int>(keys.whole("staircase", "down", 1, 8, 2));
   rule.kind = keys.choice("staircase", "step_kind", {"added", "ratio"}, 0) == 0 ? StepKind::added : StepKind::ratio;
-  const NumberRange steps = rule.kind == StepKind::ratio ? NumberRange{1.001, 10.0, ""}
-                                                         : NumberRange{1e-6, varied.high - varied.low, varied.unit};
+  const assets::NumberRange steps = rule.kind == StepKind::ratio
+                                        ? assets::NumberRange{1.001, 10.0, ""}
+                                        : assets::NumberRange{1e-6, varied.high - varied.low, varied.unit};
   rule.steps = keys.numbers("staircase", "steps", steps, 1, 20);
   rule.reversals_per_step = static_cast<int>(keys.whole("staircase", "reversals_per_step", 1, 50, 2));
   rule.up_to_down = keys.number("staircase", "up_to_down", {0.1, 10.0, ""}, 1.0);
@@ -161,7 +162,7 @@ std::optional<double> Protocol::standardValue() const {
 }
 
 Protocol protocolFromToml(const std::string& text, const std::string& where) {
-  TomlKeys keys(text, where);
+  assets::TomlKeys keys(text, where);
   Protocol protocol;
   protocol.title = keys.text("", "title", "");
   protocol.participant = keys.text("", "participant");

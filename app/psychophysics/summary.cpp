@@ -8,8 +8,8 @@
 #include "app/options/law_text.h"
 #include "app/psychophysics/trial_table.h"
 #include "app/text/printed.h"
-#include "app/text/toml_keys.h"
 #include "app/text/version.h"
+#include "assets/toml_keys.h"
 
 namespace app {
 namespace {

@@ -8,8 +8,8 @@
 #include <cstring>
 
 #include "app/options/law_text.h"
-#include "app/text/toml_keys.h"
 #include "app/text/usage_error.h"
+#include "assets/toml_keys.h"
 
 namespace app {
 namespace {
@@ -20,11 +20,11 @@ constexpr const char* kHeader =
     "standard_depth_mm,standard_work_Nmm,comparison_stiffness_N_per_mm,comparison_peak_N,comparison_depth_mm,"
     "comparison_work_Nmm\n";
 
-std::string orEmpty(const std::optional<double>& value) { return value ? numberText(*value) : std::string(); }
+std::string orEmpty(const std::optional<double>& value) { return value ? assets::numberText(*value) : std::string(); }
 
 std::string feltText(const Felt& felt) {
-  return numberText(felt.stiffness_N_per_mm) + "," + numberText(felt.peak_force_N) + "," + numberText(felt.depth_mm) +
-         "," + numberText(felt.work_Nmm);
+  return assets::numberText(felt.stiffness_N_per_mm) + "," + assets::numberText(felt.peak_force_N) + "," +
+         assets::numberText(felt.depth_mm) + "," + assets::numberText(felt.work_Nmm);
 }
 
 }  // namespace

@@ -24,12 +24,6 @@ constexpr const char* kMeshes = "face.glb";
 constexpr const char* kGum = "Gum";
 constexpr std::uintmax_t kLongestWords = 4 << 20;
 
-void writeText(const std::string& text, const std::string& path) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  if (!file.flush()) throw LoadError(path + ": writing failed; make room on the disk");
-}
-
 std::string readText(const std::string& path) {
   std::error_code error;
   if (!fs::is_regular_file(path, error))
@@ -81,7 +75,7 @@ void tellSiteToothApart(CtVolume& ct, int fdi) {
 void savePatient(const Patient& patient, const std::string& folder, bool overwrite) {
   calibration::OutputFolder output(folder, overwrite, {kWords, kVolume, kMeshes});
   const fs::path made = output.temporaryPath();
-  writeText(patientToml(patient), (made / kWords).string());
+  calibration::OutputFile(made / kWords, false).commit(patientToml(patient));
   writeVdb(patient.ct, (made / kVolume).string());
   const MeshModel meshes_P = joined(patient.gum, patient.face);
   if (!meshes_P.parts.empty()) writeGltf(modelInFaceFrame(meshes_P), (made / kMeshes).string());

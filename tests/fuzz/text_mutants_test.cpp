@@ -8,11 +8,11 @@
 #include "app/options/command_settings.h"
 #include "app/options/view_option.h"
 #include "app/psychophysics/protocol.h"
-#include "app/text/toml_keys.h"
 #include "app/text/usage_error.h"
 #include "assets/load_error.h"
 #include "assets/patient/patient_toml.h"
 #include "assets/scenery/face_placement.h"
+#include "assets/toml_keys.h"
 #include "calibration/calibration_error.h"
 #include "calibration/fit/touches_file.h"
 #include "calibration/record/drift_history.h"
@@ -67,15 +67,15 @@ TEST(TextMutants, PoseCsv) {
 
 TEST(TextMutants, ForceSettingsToml) {
   const haptics::Command base;
-  judge<app::UsageError>("[law]\nname = \"agus\"\nstiffness_N_per_mm = 0.8\n", [&](const std::string& text) {
-    app::TomlKeys keys(text, "settings.toml");
+  judge<std::runtime_error>("[law]\nname = \"agus\"\nstiffness_N_per_mm = 0.8\n", [&](const std::string& text) {
+    assets::TomlKeys keys(text, "settings.toml");
     app::commandFromToml(keys, base);
     keys.refuseRest();
   });
 }
 
 TEST(TextMutants, ProtocolToml) {
-  judge<app::UsageError>(
+  judge<std::runtime_error>(
       "participant = \"P07\"\nmethod = \"2afc-constant\"\n[standard]\nlaw = \"agus\"\nstiffness_N_per_mm = "
       "0.8\n[comparison]\nlaw = \"agus\"\n[vary]\nparameter = \"stiffness_N_per_mm\"\nlevels = [0.6, 0.8, 1.0]\n",
       [](const std::string& text) { app::protocolFromToml(text, "protocol.toml"); });
@@ -117,8 +117,8 @@ TEST(TextMutants, DriftHistoryCsv) {
 TEST(TextMutants, FalconScaleToml) {
   const on_disk::Folder folder;
   app::writeFalconScale(folder.at("f.toml"), {12.5, 0.98, "FH000001"}, false);
-  judgeFile<app::UsageError>("falcon.toml", on_disk::read(folder.at("f.toml")),
-                             [](const std::string& path) { app::readFalconScale(path); });
+  judgeFile<std::runtime_error>("falcon.toml", on_disk::read(folder.at("f.toml")),
+                                [](const std::string& path) { app::readFalconScale(path); });
 }
 
 TEST(TextMutants, TeethJson) {

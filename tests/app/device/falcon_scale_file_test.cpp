@@ -23,7 +23,7 @@ class FalconScaleFile : public testing::Test {
     try {
       readFalconScale(path);
       ADD_FAILURE() << "accepted: " << text;
-    } catch (const UsageError& error) {
+    } catch (const std::runtime_error& error) {
       EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
     }
   }

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "app/psychophysics/chance.h"
-#include "app/text/toml_keys.h"
 #include "app/text/usage_error.h"
+#include "assets/toml_keys.h"
 
 namespace app {
 namespace {
@@ -32,7 +32,7 @@ void expectRefused(const std::string& text, const std::string& word) {
   try {
     protocolFromToml(text, "protocol.toml");
     ADD_FAILURE() << "accepted:\n" << text;
-  } catch (const UsageError& error) {
+  } catch (const std::runtime_error& error) {
     const std::string said = error.what();
     EXPECT_TRUE(said.starts_with("protocol.toml: ")) << said;
     EXPECT_NE(said.find(word), std::string::npos) << said;
@@ -42,13 +42,13 @@ void expectRefused(const std::string& text, const std::string& word) {
 
 TEST(Protocol, ReadsTheExamples) {
   const std::string folder = std::string(MOLAR_SOURCES) + "/app/psychophysics/";
-  const Protocol constant = protocolFromToml(readSmallFile(folder + "example.toml"), "example.toml");
+  const Protocol constant = protocolFromToml(assets::readSmallFile(folder + "example.toml"), "example.toml");
   EXPECT_EQ(constant.method, Method::constant);
   EXPECT_EQ(constant.levels.size(), 7u);
   EXPECT_EQ(constant.standardValue(), 0.8);
   EXPECT_EQ(constant.comparisonAt(1.04).agus.stiffness_N_per_mm, 1.04);
   const Protocol staircase =
-      protocolFromToml(readSmallFile(folder + "example_staircase.toml"), "example_staircase.toml");
+      protocolFromToml(assets::readSmallFile(folder + "example_staircase.toml"), "example_staircase.toml");
   EXPECT_EQ(staircase.method, Method::staircase);
   EXPECT_EQ(staircase.bone.kind, BoneChoice::Kind::trabecular);
   EXPECT_EQ(staircase.staircase.kind, StepKind::ratio);
@@ -144,13 +144,13 @@ TEST(Protocol, SurvivesAnyBytes) {
       const Protocol protocol = protocolFromToml(text, "f");
       ++accepted;
       for (const double level : protocol.levels) EXPECT_TRUE(level >= 0.0 && level <= 20.0) << text;
-    } catch (const UsageError& error) {
+    } catch (const std::runtime_error& error) {
       EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
     }
   }
   EXPECT_GT(accepted, 10);
   std::string nested(20000, '[');
-  EXPECT_THROW(protocolFromToml("a = " + nested, "f"), UsageError);
+  EXPECT_THROW(protocolFromToml("a = " + nested, "f"), assets::LoadError);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // A small TOML file as typed answers: table by table, key by key, with the range each number must keep. Every refusal
-// is one line (UsageError) that names file, line and key; what nobody asked for is refused too (refuseRest), so that a
+// is one line (LoadError) that names file, line and key; what nobody asked for is refused too (refuseRest), so that a
 // misspelt key is never silently a default. Start-up and, for files read anew while running, the frame loop; never the
-// servo. Files up to 64 kB. The one home of toml++ in app.
+// servo. Files up to 64 kB. The one home of toml++.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace app {
+namespace assets {
 
 struct NumberRange {
   double low = 0.0, high = 0.0;
@@ -41,7 +41,7 @@ class TomlKeys {
                 std::optional<double> otherwise = {});
   std::int64_t whole(const std::string& table, const std::string& key, std::int64_t low, std::int64_t high,
                      std::optional<std::int64_t> otherwise = {});
-  bool yesOrNo(const std::string& table, const std::string& key, bool otherwise);
+  bool yesOrNo(const std::string& table, const std::string& key, std::optional<bool> otherwise = {});
   std::string text(const std::string& table, const std::string& key, std::optional<std::string> otherwise = {});
   /// One of `choices`; the index into them.
   std::size_t choice(const std::string& table, const std::string& key, std::initializer_list<std::string_view> choices,
@@ -50,6 +50,8 @@ class TomlKeys {
   std::vector<double> numbers(const std::string& table, const std::string& key, const NumberRange& range,
                               std::size_t least, std::size_t most);
   glm::dvec3 vector(const std::string& table, const std::string& key, double largest);
+  /// A list of points, none among them.
+  std::vector<glm::dvec3> vectors(const std::string& table, const std::string& key, double largest, std::size_t most);
 
   /// Refuses the first key or table that was not asked for.
   void refuseRest() const;
@@ -60,10 +62,13 @@ class TomlKeys {
   std::unique_ptr<Document> document_;
 };
 
-/// Whole file, at most 64 kB; throws UsageError.
+/// Whole file, at most 64 kB; throws LoadError.
 std::string readSmallFile(const std::string& path);
+
+/// The text as a TOML value, in quotes.
+std::string quotedToml(const std::string& text);
 
 /// 0.8, not 0.800000: a number as a person writes it.
 std::string numberText(double value);
 
-}  // namespace app
+}  // namespace assets

@@ -1,4 +1,4 @@
-#include "app/text/toml_keys.h"
+#include "assets/toml_keys.h"
 
 #include <toml++/toml.h>
 
@@ -8,10 +8,11 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <sstream>
 
-#include "app/text/usage_error.h"
+#include "assets/load_error.h"
 
-namespace app {
+namespace assets {
 namespace {
 
 constexpr std::size_t kLargestFile_bytes = 64 * 1024;
@@ -40,7 +41,26 @@ std::string rangeText(const NumberRange& range) {
   return numberText(range.low) + " to " + numberText(range.high) + unit;
 }
 
+/// None unless it is a list, and of numbers in the range alone.
+std::optional<std::vector<double>> numbersIn(const toml::node& node, const NumberRange& range) {
+  const toml::array* list = node.as_array();
+  if (!list) return std::nullopt;
+  std::vector<double> values;
+  for (const toml::node& one : *list) {
+    const std::optional<double> value = one.is_number() ? one.value<double>() : std::nullopt;
+    if (!value || !(*value >= range.low && *value <= range.high)) return std::nullopt;
+    values.push_back(*value);
+  }
+  return values;
+}
+
 }  // namespace
+
+std::string quotedToml(const std::string& text) {
+  std::ostringstream quoted;
+  quoted << toml::value<std::string>(text);
+  return quoted.str();
+}
 
 std::string numberText(double value) {
   std::array<char, 40> text{};
@@ -51,14 +71,14 @@ std::string numberText(double value) {
 std::string readSmallFile(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error))
-    throw UsageError(path + ": there is no such plain file, check the name");
+    throw LoadError(path + ": there is no such plain file, check the name");
   std::ifstream file(path, std::ios::binary);
   std::string text(kLargestFile_bytes + 1, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (file.bad() || !(file || file.eof()) || file.gcount() < 0)
-    throw UsageError(path + ": it can not be read, check its permissions");
+    throw LoadError(path + ": it can not be read, check its permissions");
   text.resize(static_cast<std::size_t>(file.gcount()));
-  if (text.size() > kLargestFile_bytes) throw UsageError(path + ": it is larger than 64 kB, this is no settings file");
+  if (text.size() > kLargestFile_bytes) throw LoadError(path + ": it is larger than 64 kB, this is no settings file");
   return text;
 }
 
@@ -83,8 +103,8 @@ TomlKeys::TomlKeys(std::string_view text, std::string where) : document_(std::ma
   try {
     document_->root = toml::parse(text);
   } catch (const toml::parse_error& error) {
-    throw UsageError(document_->where + ": line " + std::to_string(error.source().begin.line) + ": no TOML (" +
-                     shown(error.description()) + "), correct it");
+    throw LoadError(document_->where + ": line " + std::to_string(error.source().begin.line) + ": no TOML (" +
+                    shown(error.description()) + "), correct it");
   }
 }
 
@@ -116,8 +136,8 @@ int TomlKeys::lineOf(const std::string& table, const std::string& key) const {
 
 void TomlKeys::refuse(const std::string& table, const std::string& key, const std::string& reason) const {
   const int line = lineOf(table, key);
-  throw UsageError(document_->where + ": " + (line > 0 ? "line " + std::to_string(line) + ": " : "") +
-                   nameOf(shown(table), shown(key)) + ": " + reason);
+  throw LoadError(document_->where + ": " + (line > 0 ? "line " + std::to_string(line) + ": " : "") +
+                  nameOf(shown(table), shown(key)) + ": " + reason);
 }
 
 double TomlKeys::number(const std::string& table, const std::string& key, const NumberRange& range,
@@ -143,10 +163,10 @@ std::int64_t TomlKeys::whole(const std::string& table, const std::string& key, s
   return *value;
 }
 
-bool TomlKeys::yesOrNo(const std::string& table, const std::string& key, bool otherwise) {
+bool TomlKeys::yesOrNo(const std::string& table, const std::string& key, std::optional<bool> otherwise) {
   const toml::node* node = document_->take(table, key);
-  if (!node) return otherwise;
-  if (!node->is_boolean()) refuse(table, key, "give true or false");
+  if (!node && otherwise) return *otherwise;
+  if (!node || !node->is_boolean()) refuse(table, key, "give true or false");
   return *node->value<bool>();
 }
 
@@ -181,20 +201,29 @@ std::vector<double> TomlKeys::numbers(const std::string& table, const std::strin
       "give a list of " + std::to_string(least) + " to " + std::to_string(most) + " numbers from " + rangeText(range);
   if (!node) refuse(table, key, "it is missing, " + want);
   if (least <= 1 && node->is_number()) return {number(table, key, range)};
-  const toml::array* list = node->as_array();
-  if (!list || list->size() < least || list->size() > most) refuse(table, key, want);
-  std::vector<double> values;
-  for (const toml::node& one : *list) {
-    const std::optional<double> value = one.is_number() ? one.value<double>() : std::nullopt;
-    if (!value || !(*value >= range.low && *value <= range.high)) refuse(table, key, want);
-    values.push_back(*value);
-  }
-  return values;
+  const auto values = numbersIn(*node, range);
+  if (!values || values->size() < least || values->size() > most) refuse(table, key, want);
+  return *values;
 }
 
 glm::dvec3 TomlKeys::vector(const std::string& table, const std::string& key, double largest) {
   const std::vector<double> v = numbers(table, key, {-largest, largest, ""}, 3, 3);
   return {v[0], v[1], v[2]};
+}
+
+std::vector<glm::dvec3> TomlKeys::vectors(const std::string& table, const std::string& key, double largest,
+                                          std::size_t most) {
+  const toml::node* node = document_->take(table, key);
+  const NumberRange range{-largest, largest, ""};
+  const toml::array* list = node ? node->as_array() : nullptr;
+  std::vector<glm::dvec3> points;
+  for (std::size_t i = 0; list && i < list->size() && i <= most; ++i)
+    if (const auto v = numbersIn((*list)[i], range); v && v->size() == 3)
+      points.emplace_back((*v)[0], (*v)[1], (*v)[2]);
+  if (!list || points.size() != list->size() || points.size() > most)
+    refuse(table, key,
+           "give a list of at most " + std::to_string(most) + " points of three numbers from " + rangeText(range));
+  return points;
 }
 
 void TomlKeys::refuseRest() const {
@@ -220,4 +249,4 @@ void TomlKeys::refuseRest() const {
   }
 }
 
-}  // namespace app
+}  // namespace assets
