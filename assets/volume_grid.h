@@ -39,4 +39,37 @@ struct VolumeGrid {
   glm::ivec3 bricks() const { return (size + (kBrickVoxels - 1)) / kBrickVoxels; }
 };
 
+/// visit(ijk) from `low` to before `end`, i fastest.
+template <class Visit>
+void forVoxels(glm::ivec3 low, glm::ivec3 end, const Visit& visit) {
+  for (int k = low.z; k < end.z; ++k)
+    for (int j = low.y; j < end.y; ++j)
+      for (int i = low.x; i < end.x; ++i) visit(glm::ivec3(i, j, k));
+}
+
+/// visit(ijk, index) over a whole grid.
+template <class Visit>
+void forVoxels(const VolumeGrid& grid, const Visit& visit) {
+  std::size_t v = 0;
+  forVoxels(glm::ivec3(0), grid.size, [&](glm::ivec3 ijk) { visit(ijk, v++); });
+}
+
+/// How many voxels, and the sum of their indices: exact, whatever the order.
+struct VoxelSum {
+  double count = 0.0;
+  glm::dvec3 sum{0.0};
+};
+
+/// Over the voxels whose number belongs.
+template <class Belongs>
+VoxelSum voxelSum(const VolumeGrid& grid, const Belongs& belongs) {
+  VoxelSum found;
+  forVoxels(grid, [&](glm::ivec3 ijk, std::size_t v) {
+    if (!belongs(v)) return;
+    found.sum += glm::dvec3(ijk);
+    found.count += 1.0;
+  });
+  return found;
+}
+
 }  // namespace assets

@@ -16,6 +16,7 @@
 #include "app/options/volume_option.h"
 #include "app/text/command_line.h"
 #include "assets/scan/image_file.h"
+#include "calibration/output_file.h"
 #include "haptics/bone/carve.h"
 #include "haptics/contact/cut_moment.h"
 #include "haptics/contact/law.h"

@@ -18,6 +18,7 @@
 #include "app/text/page_look.h"
 #include "app/text/usage_error.h"
 #include "app/text/version.h"
+#include "calibration/output_file.h"
 #include "haptics/device/device_catalogue.h"
 #include "haptics/device/simulated/simulated_phantom.h"
 

@@ -18,6 +18,7 @@
 #include "assets/patient/patient_folder.h"
 #include "assets/scan/hard_tissue.h"
 #include "assets/scenery/face_frame.h"
+#include "calibration/output_file.h"
 
 namespace app {
 namespace {

@@ -16,6 +16,7 @@
 #include "app/text/command_line.h"
 #include "app/text/usage_error.h"
 #include "assets/toml_keys.h"
+#include "calibration/output_file.h"
 #include "haptics/contact/law_parameters.h"
 #include "haptics/safety/safety_limits.h"
 

@@ -11,6 +11,7 @@
 #include "app/text/shell_completion.h"
 #include "app/text/usage_error.h"
 #include "app/text/version.h"
+#include "calibration/output_file.h"
 
 namespace app {
 namespace {

@@ -20,6 +20,7 @@
 #include "app/text/command_line.h"
 #include "app/text/usage_error.h"
 #include "assets/toml_keys.h"
+#include "calibration/output_file.h"
 #include "calibration/record/rig_file.h"
 
 namespace app {

@@ -9,6 +9,7 @@
 #include "app/session/replay.h"
 #include "app/text/command_line.h"
 #include "assets/scan/image_file.h"
+#include "calibration/output_file.h"
 
 namespace app {
 namespace {

@@ -8,8 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/session/json_depth.h"
 #include "app/session/session_error.h"
+#include "assets/json_depth.h"
 
 namespace app {
 namespace {
@@ -207,7 +207,8 @@ std::string commandText(const haptics::Command& command) {
 }
 
 haptics::Command commandFromText(std::string_view text) {
-  const nlohmann::json json = isNestedTooDeep(text) ? nlohmann::json() : nlohmann::json::parse(text, nullptr, false);
+  const nlohmann::json json =
+      assets::isNestedTooDeep(text) ? nlohmann::json() : nlohmann::json::parse(text, nullptr, false);
   if (!json.is_object()) throw damagedSession("a command can not be read");
   haptics::Command command;
   forEachKey(command, [&](const std::string& key, auto& member) {

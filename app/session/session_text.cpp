@@ -5,9 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/session/json_depth.h"
 #include "app/session/session_error.h"
 #include "app/text/printed.h"
+#include "assets/json_depth.h"
 #include "assets/tissue.h"
 
 namespace app {
@@ -18,7 +18,7 @@ using nlohmann::json;
 std::string dumped(const json& object) { return object.dump(-1, ' ', false, json::error_handler_t::replace); }
 
 json objectFrom(std::string_view text, const char* what) {
-  json object = isNestedTooDeep(text) ? json() : json::parse(text, nullptr, false);
+  json object = assets::isNestedTooDeep(text) ? json() : json::parse(text, nullptr, false);
   if (!object.is_object()) throw damagedSession(std::string("what it says of ") + what + " can not be read");
   return object;
 }

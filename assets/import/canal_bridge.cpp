@@ -32,19 +32,16 @@ Points toothSurface(const VolumeGrid& grid, const std::vector<std::uint8_t>& lab
       glm::clamp(glm::ivec3(glm::ceil(grid.indexFromPoint(high_P_mm))) + 1, glm::ivec3(0), grid.size);
   const auto is_tooth = [&](glm::ivec3 p) { return grid.contains(p) && isTooth(label[grid.index(p)]); };
   Points surface;
-  for (int k = low.z; k < end.z; ++k)
-    for (int j = low.y; j < end.y; ++j)
-      for (int i = low.x; i < end.x; ++i) {
-        const glm::ivec3 p(i, j, k);
-        if (!is_tooth(p)) continue;
-        bool is_inner = true;
-        for (int axis = 0; axis < 3; ++axis) {
-          glm::ivec3 step(0);
-          step[axis] = 1;
-          is_inner &= is_tooth(p + step) && is_tooth(p - step);
-        }
-        if (!is_inner) surface.push_back(grid.centre_P_mm(p));
-      }
+  forVoxels(low, end, [&](glm::ivec3 p) {
+    if (!is_tooth(p)) return;
+    bool is_inner = true;
+    for (int axis = 0; axis < 3; ++axis) {
+      glm::ivec3 step(0);
+      step[axis] = 1;
+      is_inner &= is_tooth(p + step) && is_tooth(p - step);
+    }
+    if (!is_inner) surface.push_back(grid.centre_P_mm(p));
+  });
   return surface;
 }
 

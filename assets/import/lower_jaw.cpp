@@ -33,12 +33,11 @@ Coarse coarseOf(const CtVolume& ct) {
   coarse.size = (ct.grid.size + step - 1) / step;
   std::vector<std::uint32_t> count(static_cast<std::size_t>(coarse.size.x) * static_cast<std::size_t>(coarse.size.y) *
                                    static_cast<std::size_t>(coarse.size.z));
-  std::size_t v = 0;
-  for (int k = 0; k < ct.grid.size.z; ++k)
-    for (int j = 0; j < ct.grid.size.y; ++j)
-      for (int i = 0; i < ct.grid.size.x; ++i, ++v)
-        if (ct.solid[v] >= kHalfSolid)
-          ++count[static_cast<std::size_t>(((k / step) * coarse.size.y + j / step) * coarse.size.x + i / step)];
+  forVoxels(ct.grid, [&](glm::ivec3 ijk, std::size_t v) {
+    const glm::ivec3 cell = ijk / step;
+    if (ct.solid[v] >= kHalfSolid)
+      ++count[static_cast<std::size_t>((cell.z * coarse.size.y + cell.y) * coarse.size.x + cell.x)];
+  });
   const double half = 0.3 * step * step * step;
   for (const std::uint32_t solid : count) coarse.solid.push_back(solid >= half);
   return coarse;
@@ -112,14 +111,8 @@ std::optional<glm::dvec3> archOf(const CtVolume& ct) {
 }
 
 std::optional<glm::dvec3> middleOfLowerTeeth(const CtVolume& ct) {
-  glm::dvec3 sum(0.0);
-  double count = 0.0;
-  std::size_t v = 0;
   if (ct.tooth.empty()) return std::nullopt;
-  for (int k = 0; k < ct.grid.size.z; ++k)
-    for (int j = 0; j < ct.grid.size.y; ++j)
-      for (int i = 0; i < ct.grid.size.x; ++i, ++v)
-        if (ct.tooth[v] != 0 && !isUpper(ct.tooth[v])) sum += glm::dvec3(i, j, k), count += 1.0;
+  const auto [count, sum] = voxelSum(ct.grid, [&](std::size_t v) { return ct.tooth[v] != 0 && !isUpper(ct.tooth[v]); });
   if (count == 0.0) return std::nullopt;
   return ct.grid.origin_P_mm + ct.grid.spacing_mm * (sum / count);
 }

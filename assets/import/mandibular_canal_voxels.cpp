@@ -39,17 +39,15 @@ std::vector<Cell> cellsOf(const VolumeGrid& grid, const std::vector<std::uint8_t
     return (static_cast<std::int64_t>(at.z) * lattice.y + at.y) * lattice.x + at.x;
   };
   std::unordered_map<std::int64_t, std::size_t> index;
-  for (int k = 0; k < grid.size.z; ++k)
-    for (int j = 0; j < grid.size.y; ++j)
-      for (int i = 0; i < grid.size.x; ++i) {
-        if (label[grid.index({i, j, k})] != static_cast<std::uint8_t>(Tissue::mandibular_canal)) continue;
-        const glm::ivec3 at = cell_of({i, j, k});
-        const auto [found, is_new] = index.try_emplace(key_of(at), cells.size());
-        if (is_new) cells.push_back({at, {}, {}, {}});
-        Cell& cell = cells[found->second];
-        cell.points_P_mm.push_back(grid.centre_P_mm({i, j, k}));
-        cell.sum_P_mm += cell.points_P_mm.back();
-      }
+  forVoxels(grid, [&](glm::ivec3 ijk, std::size_t v) {
+    if (label[v] != static_cast<std::uint8_t>(Tissue::mandibular_canal)) return;
+    const glm::ivec3 at = cell_of(ijk);
+    const auto [found, is_new] = index.try_emplace(key_of(at), cells.size());
+    if (is_new) cells.push_back({at, {}, {}, {}});
+    Cell& cell = cells[found->second];
+    cell.points_P_mm.push_back(grid.centre_P_mm(ijk));
+    cell.sum_P_mm += cell.points_P_mm.back();
+  });
 
   // Two cells are neighbours if at most one empty cell lies between.
   for (std::size_t c = 0; c < cells.size(); ++c)

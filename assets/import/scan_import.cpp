@@ -73,16 +73,7 @@ Sources sourcesAt(const std::string& source) {
 glm::dvec3 middleOfSolid(const CtVolume& ct, const std::string& path, double iso_hu) {
   constexpr std::uint8_t kHalf = 128;
   constexpr double kLeast_mm3 = 10.0;
-  glm::dvec3 sum(0.0);
-  double count = 0.0;
-  std::size_t v = 0;
-  for (int k = 0; k < ct.grid.size.z; ++k)
-    for (int j = 0; j < ct.grid.size.y; ++j)
-      for (int i = 0; i < ct.grid.size.x; ++i, ++v) {
-        if (ct.solid[v] < kHalf) continue;
-        sum += glm::dvec3(i, j, k);
-        count += 1.0;
-      }
+  const auto [count, sum] = voxelSum(ct.grid, [&](std::size_t v) { return ct.solid[v] >= kHalf; });
   if (count * ct.grid.voxelVolume_mm3() < kLeast_mm3)
     throw LoadError(path + ": less than 10 mm3 of it is above " + std::to_string(static_cast<int>(iso_hu)) +
                     " HU; give a CT in Hounsfield, or another --iso");

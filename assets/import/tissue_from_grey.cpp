@@ -64,14 +64,6 @@ Tissue tissueAt(const Greys& greys, glm::ivec3 ijk, int hounsfield, int reach, i
   return behind == Tissue::trabecular ? Tissue::cortical : behind;
 }
 
-template <class Visit>
-void forVoxels(const VolumeGrid& grid, const Visit& visit) {
-  std::size_t v = 0;
-  for (int k = 0; k < grid.size.z; ++k)
-    for (int j = 0; j < grid.size.y; ++j)
-      for (int i = 0; i < grid.size.x; ++i, ++v) visit(glm::ivec3(i, j, k), v);
-}
-
 /// The 26 around a voxel that lie in the grid.
 template <class Visit>
 void forNeighbours(const VolumeGrid& grid, glm::ivec3 ijk, const Visit& visit) {

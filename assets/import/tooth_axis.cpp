@@ -43,17 +43,10 @@ struct Box {
   glm::ivec3 low{std::numeric_limits<int>::max()}, high{-1};
 };
 
-template <class Visit>
-void forVoxels(const Box& box, const Visit& visit) {
-  for (int k = box.low.z; k <= box.high.z; ++k)
-    for (int j = box.low.y; j <= box.high.y; ++j)
-      for (int i = box.low.x; i <= box.high.x; ++i) visit(glm::ivec3(i, j, k));
-}
-
 Box boxOf(const CtVolume& ct, int fdi) {
   Box box;
-  forVoxels({glm::ivec3(0), ct.grid.size - 1}, [&](glm::ivec3 p) {
-    if (ct.tooth[ct.grid.index(p)] != fdi) return;
+  forVoxels(ct.grid, [&](glm::ivec3 p, std::size_t v) {
+    if (ct.tooth[v] != fdi) return;
     box.low = glm::min(box.low, p);
     box.high = glm::max(box.high, p);
   });
@@ -63,7 +56,7 @@ Box boxOf(const CtVolume& ct, int fdi) {
 /// From dentine to enamel, in faces of a voxel.
 glm::dvec3 vectorAreaOfCap(const ToothParts& tooth, const Box& box) {
   glm::dvec3 area(0.0);
-  forVoxels(box, [&](glm::ivec3 p) {
+  forVoxels(box.low, box.high + 1, [&](glm::ivec3 p) {
     const Part here = tooth.at(p);
     if (here == Part::none) return;
     for (int axis = 0; axis < 3; ++axis) {
@@ -81,7 +74,7 @@ glm::dvec3 vectorAreaOfCap(const ToothParts& tooth, const Box& box) {
 std::vector<glm::dvec3> cervicalLine(const VolumeGrid& grid, const ToothParts& tooth, const Box& box) {
   constexpr int kMargin = 2;
   std::vector<glm::dvec3> line;
-  forVoxels(box, [&](glm::ivec3 p) {
+  forVoxels(box.low, box.high + 1, [&](glm::ivec3 p) {
     if (tooth.at(p) != Part::enamel || glm::any(glm::lessThan(p, glm::ivec3(kMargin))) ||
         glm::any(glm::greaterThanEqual(p, grid.size - kMargin)))
       return;
@@ -121,7 +114,7 @@ struct Shape {
 glm::dvec3 principalAxis(const ToothParts& tooth, const Box& box, int fdi) {
   Shape shape;
   const glm::dvec3 middle = 0.5 * glm::dvec3(box.low + box.high);
-  forVoxels(box, [&](glm::ivec3 p) {
+  forVoxels(box.low, box.high + 1, [&](glm::ivec3 p) {
     const Part here = tooth.at(p);
     if (here == Part::none) return;
     const glm::dvec3 q = glm::dvec3(p) - middle;
@@ -151,7 +144,7 @@ glm::dvec3 toothAxis_P(const CtVolume& ct, int fdi) {
   const double face_mm2 = ct.grid.spacing_mm * ct.grid.spacing_mm;
   if (glm::length(area) * face_mm2 < kLeastCap_mm2) return principalAxis(tooth, box, fdi);
   bool is_cut = false;
-  forVoxels(box, [&](glm::ivec3 p) {
+  forVoxels(box.low, box.high + 1, [&](glm::ivec3 p) {
     is_cut |= (glm::any(glm::equal(p, glm::ivec3(0))) || glm::any(glm::equal(p, ct.grid.size - 1))) &&
               tooth.at(p) == Part::enamel;
   });

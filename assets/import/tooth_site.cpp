@@ -22,28 +22,10 @@ bool isHardOfTooth(std::uint8_t label) {
   return tissue == Tissue::enamel || tissue == Tissue::dentine || tissue == Tissue::other_teeth;
 }
 
-struct Mass {
-  double count = 0.0;
-  glm::dvec3 sum{0.0};
-};
-
-/// Voxels, and the sum of their indices from the grid's middle, so that the sums keep their digits.
-template <class Belongs>
-Mass massOf(const VolumeGrid& grid, const Belongs& belongs) {
-  Mass mass;
-  std::size_t v = 0;
-  for (int k = 0; k < grid.size.z; ++k)
-    for (int j = 0; j < grid.size.y; ++j)
-      for (int i = 0; i < grid.size.x; ++i, ++v) {
-        if (!belongs(v)) continue;
-        mass.sum += glm::dvec3(i, j, k) - 0.5 * glm::dvec3(grid.size);
-        mass.count += 1.0;
-      }
-  return mass;
-}
-
-glm::dvec3 centroid_P_mm(const VolumeGrid& grid, const Mass& mass) {
-  return grid.origin_P_mm + grid.spacing_mm * (mass.sum / mass.count + 0.5 * glm::dvec3(grid.size));
+/// From the grid's middle, so that it keeps its digits.
+glm::dvec3 centroid_P_mm(const VolumeGrid& grid, const VoxelSum& voxels) {
+  const glm::dvec3 middle = 0.5 * glm::dvec3(grid.size);
+  return grid.origin_P_mm + grid.spacing_mm * ((voxels.sum - voxels.count * middle) / voxels.count + middle);
 }
 
 /// Mean of the most anterior 5 mm of a tissue.
@@ -51,14 +33,14 @@ std::optional<glm::dvec3> frontOf_P_mm(const CtVolume& ct, Tissue tissue) {
   const VolumeGrid& grid = ct.grid;
   const auto value = static_cast<std::uint8_t>(tissue);
   const int depth = std::max(1, static_cast<int>(std::lround(kFrontSlab_mm / grid.spacing_mm)));
-  Mass front;
+  VoxelSum front;
   int end = grid.size.y;
   for (int j = 0; j < end; ++j)
     for (int k = 0; k < grid.size.z; ++k)
       for (int i = 0; i < grid.size.x; ++i) {
         if (ct.label[grid.index({i, j, k})] != value) continue;
         end = std::min(end, j + depth);
-        front.sum += glm::dvec3(i, j, k) - 0.5 * glm::dvec3(grid.size);
+        front.sum += glm::dvec3(i, j, k);
         front.count += 1.0;
       }
   return front.count > 0.0 ? std::optional(centroid_P_mm(grid, front)) : std::nullopt;
@@ -79,7 +61,7 @@ double markedTeeth_mm3(const CtVolume& ct) {
 }
 
 ThirdMolar numberThirdMolar(CtVolume& ct, const std::optional<int>& asked_fdi) {
-  const Mass hard = massOf(
+  const VoxelSum hard = voxelSum(
       ct.grid, [&](std::size_t v) { return isPartOfMarkedTooth(ct.label[v]) && Tissue{ct.label[v]} != Tissue::pulp; });
   if (hard.count * ct.grid.voxelVolume_mm3() < kSmallest_mm3) return ThirdMolar::none;
   if (markedTeeth_mm3(ct) > kLargest_mm3) return ThirdMolar::too_large;
@@ -116,7 +98,8 @@ std::vector<int> teethForASite(const CtVolume& ct) {
 
 std::optional<OperativeSite> siteAtTooth(const CtVolume& ct, int fdi) {
   if (ct.tooth.empty()) return std::nullopt;
-  const Mass hard = massOf(ct.grid, [&](std::size_t v) { return ct.tooth[v] == fdi && isHardOfTooth(ct.label[v]); });
+  const VoxelSum hard =
+      voxelSum(ct.grid, [&](std::size_t v) { return ct.tooth[v] == fdi && isHardOfTooth(ct.label[v]); });
   if (hard.count * ct.grid.voxelVolume_mm3() < kSmallest_mm3) return std::nullopt;
   return OperativeSite{fdi, centroid_P_mm(ct.grid, hard), toothAxis_P(ct, fdi)};
 }

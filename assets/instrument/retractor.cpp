@@ -1,7 +1,6 @@
 #include "assets/instrument/retractor.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "assets/mesh/closed_sweep.h"
@@ -19,18 +18,9 @@ struct Bend {
   dvec2 yz_mm;
   double half_width_mm;
 };
-constexpr std::array<Bend, 12> kCourse = {{{{0, 0}, 5.5},
-                                           {{5, -1}, 6.5},
-                                           {{12, 2}, 7.0},
-                                           {{20, 8}, 7.0},
-                                           {{27, 15}, 6.6},
-                                           {{31, 24}, 6.2},
-                                           {{32, 36}, 6.0},
-                                           {{31, 55}, 6.6},
-                                           {{30, 80}, 7.2},
-                                           {{30, 105}, 7.2},
-                                           {{32, 125}, 6.8},
-                                           {{37, 138}, 6.0}}};
+constexpr Bend kCourse[] = {{{0, 0}, 5.5},   {{5, -1}, 6.5},   {{12, 2}, 7.0},   {{20, 8}, 7.0},
+                            {{27, 15}, 6.6}, {{31, 24}, 6.2},  {{32, 36}, 6.0},  {{31, 55}, 6.6},
+                            {{30, 80}, 7.2}, {{30, 105}, 7.2}, {{32, 125}, 6.8}, {{37, 138}, 6.0}};
 constexpr double kHalfThickness_mm = 0.5 * kRetractorThickness_mm;
 constexpr double kDish_mm = 0.5;  ///< how far the edges stand over the middle
 constexpr int kPerSpan = 12, kAtEdge = 6, kAcross = 8;
@@ -43,8 +33,8 @@ struct Station {
 /// Catmull & Rom 1974 through the bends.
 std::vector<Station> stations() {
   std::vector<Station> all;
-  const auto bend = [](std::size_t n) -> const Bend& { return kCourse[std::min(n, kCourse.size() - 1)]; };
-  for (std::size_t span = 0; span + 1 < kCourse.size(); ++span) {
+  const auto bend = [](std::size_t n) -> const Bend& { return kCourse[std::min(n, std::size(kCourse) - 1)]; };
+  for (std::size_t span = 0; span + 1 < std::size(kCourse); ++span) {
     const Bend &a = bend(span == 0 ? 0 : span - 1), &b = bend(span), &c = bend(span + 1), &d = bend(span + 2);
     for (int n = span == 0 ? 0 : 1; n <= kPerSpan; ++n) {
       const double t = static_cast<double>(n) / kPerSpan;

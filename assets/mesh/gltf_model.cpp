@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "assets/json_depth.h"
 #include "assets/load_error.h"
 
 namespace assets {
@@ -16,7 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxBytes = std::size_t{512} << 20;
-constexpr int kMaxDepth = 128;
 
 // The file's folder: nothing outside it is opened, and no more than the budget is read in all.
 struct Folder {
@@ -81,20 +81,6 @@ std::string_view glbJson(const std::string& path, std::string_view bytes) {
   return bytes.substr(20, word(12));
 }
 
-// Nesting of the raw JSON: tinygltf walks extensions and extras by recursion.
-bool isNestedTooDeep(std::string_view text) {
-  int depth = 0;
-  bool in_string = false;
-  for (std::size_t i = 0; i < text.size() && depth <= kMaxDepth; ++i) {
-    const char c = text[i];
-    if (c == '\\') ++i;
-    if (c == '"') in_string = !in_string;
-    if (!in_string && (c == '{' || c == '[')) ++depth;
-    if (!in_string && (c == '}' || c == ']')) --depth;
-  }
-  return depth > kMaxDepth;
-}
-
 // Extensions that may be required: they change how the surface looks, or are read here.
 bool isUnderstood(const std::string& extension) {
   return extension == "KHR_mesh_quantization" || extension == "KHR_texture_transform" ||
@@ -121,6 +107,7 @@ tinygltf::Model openGltfModel(const std::string& path) {
   const auto size = static_cast<unsigned int>(bytes.size());
   const char* text = reinterpret_cast<const char*>(bytes.data());
   const bool is_binary = size >= 20 && std::memcmp(text, "glTF", 4) == 0;
+  // tinygltf walks extensions and extras by recursion.
   if (isNestedTooDeep(is_binary ? glbJson(path, {text, size}) : std::string_view(text, size))) {
     throw LoadError(path + ": JSON nested deeper than 128, not a glTF a modeller writes");
   }

@@ -1,10 +1,9 @@
 #include "assets/scan/header_text.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <charconv>
-#include <utility>
+#include <map>
 
 #include "assets/load_error.h"
 
@@ -31,6 +30,10 @@ std::optional<Number> numberIn(std::string_view word) {
 }  // namespace
 
 void refuseScan(const std::string& path, const std::string& reason) { throw LoadError(path + ": " + reason); }
+
+void refuseSeveralValues(const std::string& path) {
+  refuseScan(path, "its voxels are vectors, colours or complex numbers; give a volume with one value per voxel");
+}
 
 HeaderText::HeaderText(const PlainFile& file) : file_(file) {
   text_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(file.size(), kLongestHeader)));
@@ -97,37 +100,33 @@ std::optional<std::vector<double>> realNumbers(std::string_view text, std::size_
 }
 
 std::optional<double> millimetresPer(const std::string& unit) {
-  static constexpr std::array<std::pair<std::string_view, double>, 25> kUnits = {{
-      {"", 1.0},
-      {"none", 1.0},
-      {"???", 1.0},
-      {"?", 1.0},
-      {"mm", 1.0},
-      {"millimeter", 1.0},
-      {"millimeters", 1.0},
-      {"millimetre", 1.0},
-      {"millimetres", 1.0},
-      {"m", 1.0e3},
-      {"meter", 1.0e3},
-      {"meters", 1.0e3},
-      {"metre", 1.0e3},
-      {"metres", 1.0e3},
-      {"cm", 10.0},
-      {"centimeter", 10.0},
-      {"centimetre", 10.0},
-      {"um", 1.0e-3},
-      {"\xc2\xb5m", 1.0e-3},
-      {"\xce\xbcm", 1.0e-3},
-      {"micron", 1.0e-3},
-      {"microns", 1.0e-3},
-      {"micrometer", 1.0e-3},
-      {"micrometers", 1.0e-3},
-      {"micrometre", 1.0e-3},
-  }};
-  const std::string word = lowerCase(unit);
-  for (const auto& [name, mm] : kUnits)
-    if (word == name) return mm;
-  return std::nullopt;
+  static const std::map<std::string, double> kUnits = {{"", 1.0},
+                                                       {"none", 1.0},
+                                                       {"???", 1.0},
+                                                       {"?", 1.0},
+                                                       {"mm", 1.0},
+                                                       {"millimeter", 1.0},
+                                                       {"millimeters", 1.0},
+                                                       {"millimetre", 1.0},
+                                                       {"millimetres", 1.0},
+                                                       {"m", 1.0e3},
+                                                       {"meter", 1.0e3},
+                                                       {"meters", 1.0e3},
+                                                       {"metre", 1.0e3},
+                                                       {"metres", 1.0e3},
+                                                       {"cm", 10.0},
+                                                       {"centimeter", 10.0},
+                                                       {"centimetre", 10.0},
+                                                       {"um", 1.0e-3},
+                                                       {"\xc2\xb5m", 1.0e-3},
+                                                       {"\xce\xbcm", 1.0e-3},
+                                                       {"micron", 1.0e-3},
+                                                       {"microns", 1.0e-3},
+                                                       {"micrometer", 1.0e-3},
+                                                       {"micrometers", 1.0e-3},
+                                                       {"micrometre", 1.0e-3}};
+  const auto found = kUnits.find(lowerCase(unit));
+  return found == kUnits.end() ? std::nullopt : std::optional(found->second);
 }
 
 }  // namespace assets

@@ -12,11 +12,12 @@
 
 namespace assets {
 
-/// Throws LoadError: the file, why.
 /// What to do about a header that contradicts itself.
 inline constexpr const char* kExportAgain = "; export the volume again";
 
+/// Throws LoadError: the file, why.
 [[noreturn]] void refuseScan(const std::string& path, const std::string& reason);
+[[noreturn]] void refuseSeveralValues(const std::string& path);
 
 class HeaderText {
  public:

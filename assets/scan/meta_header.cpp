@@ -101,8 +101,7 @@ class MetaHeader {
                                                              [](std::int64_t size) { return size == 1; });
     if (!is_volume) refuseScan(path_, "it has " + std::to_string(*axes) + " axes; give a volume with three");
     const auto channels = has("elementnumberofchannels") ? wholeNumber(value("elementnumberofchannels")) : 1;
-    if (channels != 1 || lowerCase(value("elementtype")).ends_with("_array"))
-      refuseScan(path_, "its voxels are vectors, colours or complex numbers; give a volume with one value per voxel");
+    if (channels != 1 || lowerCase(value("elementtype")).ends_with("_array")) refuseSeveralValues(path_);
   }
 
   ScanGeometry geometry() const {
@@ -220,13 +219,7 @@ class MetaHeader {
       if (words.size() > 2 || !number || *number < 1 || *number > all) refuseField("elementdatafile");
       file_axes = *number;
     }
-    const std::uint64_t needed = filesNeeded(file_axes);
-    if (listed_files_.size() != needed)
-      refuseScan(path_, "it lists " + std::to_string(listed_files_.size()) + " data files where it needs " +
-                            std::to_string(needed) + kExportAgain);
-    std::vector<VoxelFile> files;
-    for (const std::string& each : listed_files_) files.push_back(fileBeside(path_, each));
-    return files;
+    return listedFilesBeside(path_, listed_files_, filesNeeded(file_axes));
   }
 
   std::string path_;

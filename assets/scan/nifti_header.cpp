@@ -7,7 +7,9 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <optional>
+#include <set>
 
 #include "assets/scan/header_text.h"
 #include "assets/scan/packed_bytes.h"
@@ -86,50 +88,24 @@ class NiftiHeader {
   }
 
   VoxelType type() const {
-    switch (whole(at_datatype)) {
-      case 2:
-        return VoxelType::uint8;
-      case 4:
-        return VoxelType::int16;
-      case 8:
-        return VoxelType::int32;
-      case 16:
-        return VoxelType::float32;
-      case 64:
-        return VoxelType::float64;
-      case 256:
-        return VoxelType::int8;
-      case 512:
-        return VoxelType::uint16;
-      case 768:
-        return VoxelType::uint32;
-      case 1024:
-        return VoxelType::int64;
-      case 1280:
-        return VoxelType::uint64;
-      case 32:
-      case 128:
-      case 1792:
-      case 2048:
-      case 2304:
-        refuseScan(path_, "its voxels are vectors, colours or complex numbers; give a volume with one value per voxel");
-      default:
-        refuseScan(path_, "its voxels are of a type that can not be read; store integers or floats");
-    }
+    static const std::map<int, VoxelType> kTypes = {
+        {2, VoxelType::uint8},    {4, VoxelType::int16},    {8, VoxelType::int32},    {16, VoxelType::float32},
+        {64, VoxelType::float64}, {256, VoxelType::int8},   {512, VoxelType::uint16}, {768, VoxelType::uint32},
+        {1024, VoxelType::int64}, {1280, VoxelType::uint64}};
+    static const std::set<int> kSeveralValues = {32, 128, 1792, 2048, 2304};
+    const int code = whole(at_datatype);
+    if (kSeveralValues.contains(code)) refuseSeveralValues(path_);
+    const auto found = kTypes.find(code);
+    if (found == kTypes.end())
+      refuseScan(path_, "its voxels are of a type that can not be read; store integers or floats");
+    return found->second;
   }
 
   double millimetresPerUnit() const {
-    switch (bytes_[at_units] & 7) {
-      case 0:
-      case 2:
-        return 1.0;
-      case 1:
-        return 1.0e3;
-      case 3:
-        return 1.0e-3;
-      default:
-        refuseScan(path_, "its unit of length is not known; export it in mm");
-    }
+    static const std::map<int, double> kUnits = {{0, 1.0}, {1, 1.0e3}, {2, 1.0}, {3, 1.0e-3}};
+    const auto found = kUnits.find(bytes_[at_units] & 7);
+    if (found == kUnits.end()) refuseScan(path_, "its unit of length is not known; export it in mm");
+    return found->second;
   }
 
   ScanGeometry geometry() const {

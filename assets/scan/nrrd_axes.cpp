@@ -141,8 +141,7 @@ class NrrdAxes {
       if (!axis.is_spatial && axis.size > 1 && std::isnan(axis.spacing) && fields_.has("spacings"))
         fields_.refuse("its spacings " + asShown(fields_["spacings"]) + " are no finite numbers");
       else if (!axis.is_spatial && axis.size > 1)
-        refuseScan(fields_.path(),
-                   "its voxels are vectors, colours or complex numbers; give a volume with one value per voxel");
+        refuseSeveralValues(fields_.path());
     std::erase_if(axes_, [](const Axis& axis) { return !axis.is_spatial; });
     while (axes_.size() > 3) {
       const auto single = std::find_if(axes_.rbegin(), axes_.rend(), [](const Axis& axis) { return axis.size == 1; });

@@ -94,13 +94,8 @@ std::vector<VoxelFile> filesOf(const NrrdFields& fields) {
   const auto axes_word = [&](std::size_t w) { return words.size() > w ? wholeNumber(words[w]) : std::nullopt; };
   if (isList(name)) {
     if (words.size() > 2 || (words.size() == 2 && !axes_word(1))) fields.refuseField("datafile");
-    const std::uint64_t needed_files = filesNeeded(fields, axes_word(1), fields.listedFiles().size());
-    if (fields.listedFiles().size() != needed_files)
-      fields.refuse("it lists " + std::to_string(fields.listedFiles().size()) + " data files where it needs " +
-                    std::to_string(needed_files));
-    std::vector<VoxelFile> listed;
-    for (const std::string& each : fields.listedFiles()) listed.push_back(fileBeside(fields.path(), each));
-    return listed;
+    return listedFilesBeside(fields.path(), fields.listedFiles(),
+                             filesNeeded(fields, axes_word(1), fields.listedFiles().size()));
   }
   if (words[0].find('%') == std::string::npos) return {fileBeside(fields.path(), name)};
 
@@ -108,11 +103,8 @@ std::vector<VoxelFile> filesOf(const NrrdFields& fields) {
   if (words.size() < 4 || words.size() > 5 || !first || !last || !step || (words.size() == 5 && !file_axes) ||
       *step == 0)
     fields.refuseField("datafile");
-  const std::int64_t far = 1'000'000'000;
-  const bool is_sane = std::max({std::abs(*first), std::abs(*last), std::abs(*step)}) <= far;
-  const std::size_t given =
-      is_sane ? static_cast<std::size_t>(std::max<std::int64_t>((*last - *first) / *step + 1, 0)) : 0;
-  return numberedFilesBeside(fields.path(), {words[0], *first, *last, *step}, filesNeeded(fields, file_axes, given));
+  const NumberedNames names{words[0], *first, *last, *step};
+  return numberedFilesBeside(fields.path(), names, filesNeeded(fields, file_axes, names.count()));
 }
 
 }  // namespace

@@ -89,19 +89,32 @@ VoxelFile fileBeside(const std::string& header_path, const std::string& name) {
   return {file.string(), 0};
 }
 
+std::vector<VoxelFile> listedFilesBeside(const std::string& header_path, const std::vector<std::string>& names,
+                                         std::uint64_t expected) {
+  if (names.size() != expected)
+    refuseScan(header_path, "it lists " + std::to_string(names.size()) + " data files where it needs " +
+                                std::to_string(expected) + kExportAgain);
+  std::vector<VoxelFile> files;
+  for (const std::string& each : names) files.push_back(fileBeside(header_path, each));
+  return files;
+}
+
+std::uint64_t NumberedNames::count() const {
+  constexpr std::int64_t kFarthest = 1'000'000'000;
+  if (std::max({std::abs(first), std::abs(last), std::abs(step)}) > kFarthest || step == 0) return 0;
+  return static_cast<std::uint64_t>(std::max<std::int64_t>((last - first) / step + 1, 0));
+}
+
 std::vector<VoxelFile> numberedFilesBeside(const std::string& header_path, const NumberedNames& names,
                                            std::uint64_t expected) {
   const Pattern pattern = patternIn(header_path, names.pattern);
-  constexpr std::int64_t kFarthest = 1'000'000'000;
-  const bool is_sane = std::abs(names.first) <= kFarthest && std::abs(names.last) <= kFarthest && names.step != 0 &&
-                       std::abs(names.step) <= kFarthest;
-  const std::int64_t count = is_sane ? (names.last - names.first) / names.step + 1 : 0;
-  if (count < 1 || static_cast<std::uint64_t>(count) != expected)
-    refuseScan(header_path, "it names " + std::to_string(std::max<std::int64_t>(count, 0)) +
-                                " data files where it needs " + std::to_string(expected) + "; export it again");
+  const std::uint64_t count = names.count();
+  if (count < 1 || count != expected)
+    refuseScan(header_path, "it names " + std::to_string(count) + " data files where it needs " +
+                                std::to_string(expected) + "; export it again");
   std::vector<VoxelFile> files;
-  for (std::int64_t n = 0; n < count; ++n)
-    files.push_back(fileBeside(header_path, pattern.with(names.first + n * names.step)));
+  for (std::uint64_t n = 0; n < count; ++n)
+    files.push_back(fileBeside(header_path, pattern.with(names.first + static_cast<std::int64_t>(n) * names.step)));
   return files;
 }
 

@@ -16,6 +16,10 @@ bool isList(const std::string& entry);
 /// The file of that name beside the header.
 VoxelFile fileBeside(const std::string& header_path, const std::string& name);
 
+/// All of those names, which must be as many as expected.
+std::vector<VoxelFile> listedFilesBeside(const std::string& header_path, const std::vector<std::string>& names,
+                                         std::uint64_t expected);
+
 /// All the files of "NAME%03d.raw", numbered from `first` to `last` by `step`. Exactly one number in the name (%d, %i,
 /// %u with an optional width); no other conversion.
 struct NumberedNames {
@@ -23,6 +27,9 @@ struct NumberedNames {
   std::int64_t first = 1;
   std::int64_t last = 1;
   std::int64_t step = 1;
+
+  /// 0 where the numbers make no sense.
+  std::uint64_t count() const;
 };
 std::vector<VoxelFile> numberedFilesBeside(const std::string& header_path, const NumberedNames& names,
                                            std::uint64_t expected);

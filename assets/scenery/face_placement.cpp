@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "assets/json_depth.h"
 #include "assets/load_error.h"
 #include "assets/scenery/rigid_fit.h"
 #include "assets/tooth.h"
@@ -236,12 +237,7 @@ std::vector<FaceTooth> readFaceTeeth(const std::string& path) {
   if (size > kMaxFileBytes) throw LoadError(path + ": larger than 1 MiB, not a list of teeth");
   std::ifstream in(path, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(in), {}};
-  // Three levels are all it has; depth is checked on the text, before a parser has to survive it.
-  int depth = 0;
-  for (const char c : text) {
-    depth += c == '{' || c == '[' ? 1 : c == '}' || c == ']' ? -1 : 0;
-    if (depth > 16) throw LoadError(path + ": nested too deep, not a list of teeth");
-  }
+  if (isNestedTooDeep(text)) throw LoadError(path + ": nested too deep, not a list of teeth");
   const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
   if (!json.is_object()) throw LoadError(path + ": not a JSON object of teeth, check the file");
 

@@ -16,17 +16,10 @@ struct Bend {
   dvec3 from_corner_mm;
   double width_mm;
 };
-constexpr std::array<Bend, 11> kCourse = {{{{-8.6, 31, -9}, 9},
-                                           {{-7.4, 25, -8}, 12},
-                                           {{-5.8, 15, -4}, 13},
-                                           {{-5.8, 5, -1}, 12.5},
-                                           {{-5.4, -4.5, 0}, 12},
-                                           {{1.5, -10.2, -0.5}, 12},
-                                           {{13, -9.5, -3}, 12.5},
-                                           {{36, -5, -9}, 14},
-                                           {{64, -9, -18}, 15},
-                                           {{90, -16, -27}, 14},
-                                           {{102, -20, -31}, 9}}};
+constexpr Bend kCourse[] = {{{-8.6, 31, -9}, 9},    {{-7.4, 25, -8}, 12},  {{-5.8, 15, -4}, 13},
+                            {{-5.8, 5, -1}, 12.5},  {{-5.4, -4.5, 0}, 12}, {{1.5, -10.2, -0.5}, 12},
+                            {{13, -9.5, -3}, 12.5}, {{36, -5, -9}, 14},    {{64, -9, -18}, 15},
+                            {{90, -16, -27}, 14},   {{102, -20, -31}, 9}};
 constexpr double kHalfThickness_mm = 0.6;
 constexpr int kPerSpan = 8;
 constexpr int kAround = 16;
@@ -37,8 +30,8 @@ MeshPart cheekRetractor(const MouthRim& rim) {
   const dvec3 corner = rim.heldCorner_mm();
   std::vector<dvec3> line;
   std::vector<double> width;
-  for (std::size_t span = 0; span + 1 < kCourse.size(); ++span) {
-    const auto bend = [&](std::size_t n) -> const Bend& { return kCourse[std::min(n, kCourse.size() - 1)]; };
+  for (std::size_t span = 0; span + 1 < std::size(kCourse); ++span) {
+    const auto bend = [&](std::size_t n) -> const Bend& { return kCourse[std::min(n, std::size(kCourse) - 1)]; };
     const Bend &a = bend(span == 0 ? 0 : span - 1), &b = bend(span), &c = bend(span + 1), &d = bend(span + 2);
     for (int n = 0; n < kPerSpan; ++n) {
       const double t = static_cast<double>(n) / kPerSpan;

@@ -7,32 +7,20 @@
 namespace assets {
 namespace {
 
-constexpr std::array<glm::dvec2, 13> kArchForm_mm = {{{-5.4, 0.9},
-                                                      {0.0, 0.0},
-                                                      {5.4, 0.9},
-                                                      {10.6, 4.4},
-                                                      {14.7, 9.5},
-                                                      {17.7, 16.0},
-                                                      {20.2, 23.0},
-                                                      {22.8, 32.0},
-                                                      {25.3, 41.5},
-                                                      {28.2, 52.0},
-                                                      {31.4, 63.0},
-                                                      {34.2, 73.0},
-                                                      {36.8, 83.0}}};
+constexpr glm::dvec2 kArchForm_mm[] = {{-5.4, 0.9},  {0.0, 0.0},   {5.4, 0.9},   {10.6, 4.4},  {14.7, 9.5},
+                                       {17.7, 16.0}, {20.2, 23.0}, {22.8, 32.0}, {25.3, 41.5}, {28.2, 52.0},
+                                       {31.4, 63.0}, {34.2, 73.0}, {36.8, 83.0}};
 constexpr int kPointsPerSpan = 12;
 
 }  // namespace
 
 DentalArch::DentalArch() {
   // Catmull-Rom through the form, resampled finely.
-  for (std::size_t span = 1; span + 2 < kArchForm_mm.size(); ++span)
+  for (std::size_t span = 1; span + 2 < std::size(kArchForm_mm); ++span)
     for (int step = 0; step < kPointsPerSpan; ++step) {
       const double t = static_cast<double>(step) / kPointsPerSpan;
-      const glm::dvec2 a = kArchForm_mm[span - 1], b = kArchForm_mm[span], c = kArchForm_mm[span + 1],
-                       d = kArchForm_mm[span + 2];
-      points_mm_.push_back(0.5 * (2.0 * b + t * (c - a) + t * t * (2.0 * a - 5.0 * b + 4.0 * c - d) +
-                                  t * t * t * (3.0 * b - a - 3.0 * c + d)));
+      points_mm_.push_back(
+          catmullRom(kArchForm_mm[span - 1], kArchForm_mm[span], kArchForm_mm[span + 1], kArchForm_mm[span + 2], t));
     }
   along_mm_.push_back(0.0);
   for (std::size_t n = 1; n < points_mm_.size(); ++n)

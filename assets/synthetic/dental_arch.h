@@ -24,6 +24,13 @@ struct ArchCoordinates {
   double buccal_mm = 0.0;  ///< outward positive
 };
 
+/// The curve between b and c at t in 0..1.
+inline glm::dvec2 catmullRom(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, const glm::dvec2& d,
+                             double t) {
+  return 0.5 *
+         (2.0 * b + t * (c - a) + t * t * (2.0 * a - 5.0 * b + 4.0 * c - d) + t * t * t * (3.0 * b - a - 3.0 * c + d));
+}
+
 class DentalArch {
  public:
   DentalArch();

@@ -1,4 +1,5 @@
-// The solids the synthetic face is modelled from: signed distances in mm, negative inside, and soft ways to join them.
+// The solids the synthetic face is modelled from: signed distances in mm, negative inside
+// (joined softly by implicit_shape.h).
 // Frame of whoever calls. Any thread; a few flops each. Ellipsoids are first-order distances: right at the surface,
 // within a factor of the axis ratio elsewhere. Formulas after Quilez, "distance functions" (2008-2013).
 #pragma once
@@ -7,6 +8,8 @@
 #include <cmath>
 
 #include <glm/glm.hpp>
+
+#include "assets/synthetic/implicit_shape.h"
 
 namespace assets {
 
@@ -33,21 +36,6 @@ inline glm::dvec3 turnedAboutX(const glm::dvec3& p, double angle_rad) {
   const double c = std::cos(angle_rad);
   const double s = std::sin(angle_rad);
   return {p.x, c * p.y - s * p.z, s * p.y + c * p.z};
-}
-
-/// Union whose seam is filled over `blend` mm.
-inline double joined(double a, double b, double blend) {
-  const double h = std::max(blend - std::abs(a - b), 0.0) / blend;
-  return std::min(a, b) - 0.25 * h * h * blend;
-}
-
-/// `a` without `b`, the edge rounded over `blend` mm.
-inline double without(double a, double b, double blend) { return -joined(-a, b, blend); }
-
-/// 0 below `from`, 1 above `to`, smooth between.
-inline double ramp(double from, double to, double x) {
-  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
 }
 
 /// A bump of height 1 and about `width` mm across, round in all directions.

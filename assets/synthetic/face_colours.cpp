@@ -71,31 +71,31 @@ glm::vec3 FaceColours::head(const dvec3& p, const dvec3& n) const {
     const double bow = lower ? 0.0 : 1.2 * std::exp(-std::pow(std::sin(round) / 0.14, 2.0));
     const double width = 3.4 + (lower ? 4.4 : 3.4) * std::pow(middle, 1.4) - bow;
     const double outside = head_.rim().opening_mm(p.x, p.z);
-    const double red = 0.92 * ramp(width + 1.0, width - 0.8, outside) * ramp(5.5, 2.5, lip.distance_mm);
+    const double red = 0.92 * smoothStep(width + 1.0, width - 0.8, outside) * smoothStep(5.5, 2.5, lip.distance_mm);
     const double crease = 1.0 - 0.10 * std::pow(std::abs(std::sin(lip.turn * 260.0 + 2.0 * mottling(p, 7.0))), 3.0);
     colour = glm::mix(colour, kVermilion * crease, red);
     const double depth = head_.closed_mm(p);
-    const double lining = ramp(-2.0, -5.0, depth) * ramp(-1.0, 2.0, lip.distance_mm + 1.5) *
-                          ramp(-8.0, -2.0, 19.0 + 0.5 * (k.y + 16.0) - k.z);
-    const double inside = std::max(lining, ramp(0.5, -1.5, outside) * ramp(-0.8, -2.2, depth));
+    const double lining = smoothStep(-2.0, -5.0, depth) * smoothStep(-1.0, 2.0, lip.distance_mm + 1.5) *
+                          smoothStep(-8.0, -2.0, 19.0 + 0.5 * (k.y + 16.0) - k.z);
+    const double inside = std::max(lining, smoothStep(0.5, -1.5, outside) * smoothStep(-0.8, -2.2, depth));
     const dvec3 wet = kMucosa * (1.0 + 0.10 * mottling(p, 6.0));
     colour = glm::mix(colour, wet, inside);
     // The throat takes the light.
-    colour *= 1.0 - 0.85 * inside * ramp(40.0, 84.0, p.y);
+    colour *= 1.0 - 0.85 * inside * smoothStep(40.0, 84.0, p.y);
   }
   return glm::vec3(colour * glm::mix(dvec3(0.30, 0.22, 0.20), dvec3(1.0), light(p, n)));
 }
 
 glm::vec3 FaceColours::tongue(const dvec3& p, const dvec3& n) const {
-  const double coat = 0.25 * ramp(4.0, 40.0, p.y) * ramp(0.3, 0.9, n.z);
-  const dvec3 colour =
-      glm::mix(kTongue, dvec3(0.60, 0.36, 0.31), coat + 0.08 * mottling(p, 2.3)) * (1.0 - 0.8 * ramp(44.0, 84.0, p.y));
+  const double coat = 0.25 * smoothStep(4.0, 40.0, p.y) * smoothStep(0.3, 0.9, n.z);
+  const dvec3 colour = glm::mix(kTongue, dvec3(0.60, 0.36, 0.31), coat + 0.08 * mottling(p, 2.3)) *
+                       (1.0 - 0.8 * smoothStep(44.0, 84.0, p.y));
   return glm::vec3(colour * glm::mix(0.3, 1.0, light(p + 1.0 * n, n)));
 }
 
 glm::vec3 FaceColours::tooth(const dvec3& p, const dvec3& n) const {
   // Yellower and darker toward the gum, and backward in the mouth.
-  const double gum = 1.0 - ramp(0.5, 4.5, head_.distance_mm(p));
+  const double gum = 1.0 - smoothStep(0.5, 4.5, head_.distance_mm(p));
   const dvec3 colour = glm::mix(kEnamel, kNeck, 0.65 * gum);
   return glm::vec3(colour * glm::mix(0.4, 1.0, light(p + 0.5 * n, n)));
 }

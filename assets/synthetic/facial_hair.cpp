@@ -65,7 +65,7 @@ MeshPart facialHair(const HeadShape& head, std::uint32_t seed) {
       const double middle = 84.6 + 5.6 * std::sin(1.9 * u) - 3.4 * u * u;
       const double thick = 3.3 * (1.0 - 0.72 * u) * std::min(1.0, 0.45 + 6.0 * u);
       const dvec3 root = rootAt(head, side * x, middle + between(-1.0, 1.0) * thick);
-      const double lie = ramp(-0.05, 0.55, u);
+      const double lie = smoothStep(-0.05, 0.55, u);
       const dvec3 direction = glm::normalize(
           dvec3(side * glm::mix(0.25, 0.95, lie), -0.20 + 0.25 * u, glm::mix(0.95, 0.18, lie) + between(-0.2, 0.2)));
       addHair(part, root, direction, {side * 0.12, 0.08, -0.16}, between(3.6, 6.2) * (0.75 + 0.25 * lie),

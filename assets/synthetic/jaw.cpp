@@ -109,17 +109,10 @@ void scan(const JawAnatomy& anatomy, const JawParameters& p, CtVolume& ct) {
 
 /// Nothing where the third molar has no voxel.
 std::optional<OperativeSite> siteOf(const CtVolume& ct, const JawAnatomy& anatomy, bool right_side) {
-  glm::dvec3 sum(0.0);
-  double count = 0.0;
-  std::size_t voxel = 0;
-  for (int k = 0; k < ct.grid.size.z; ++k)
-    for (int j = 0; j < ct.grid.size.y; ++j)
-      for (int i = 0; i < ct.grid.size.x; ++i, ++voxel) {
-        const auto tissue = static_cast<Tissue>(ct.label[voxel]);
-        if (tissue != Tissue::enamel && tissue != Tissue::dentine) continue;
-        sum += glm::dvec3(i, j, k);
-        count += 1.0;
-      }
+  const auto [count, sum] = voxelSum(ct.grid, [&](std::size_t voxel) {
+    const auto tissue = static_cast<Tissue>(ct.label[voxel]);
+    return tissue == Tissue::enamel || tissue == Tissue::dentine;
+  });
   if (count == 0.0) return std::nullopt;
   return OperativeSite{right_side ? 48 : 38, ct.grid.origin_P_mm + ct.grid.spacing_mm * sum / count,
                        mirrored(anatomy.thirdMolar().axes_J[2], right_side)};

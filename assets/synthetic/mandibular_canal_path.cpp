@@ -14,17 +14,9 @@ struct CourseKnot {
 };
 
 // From behind to the mental foramen between the premolars; the last two turn outward through the cheek-side cortex.
-constexpr std::array<CourseKnot, 11> kCourse = {{{76.0, 4.6, -3.0},
-                                                 {69.0, 4.3, -10.0},
-                                                 {63.0, 4.5, -16.5},
-                                                 {57.0, 4.3, -21.6},
-                                                 {51.0, 3.8, -24.4},
-                                                 {44.0, 3.2, -25.8},
-                                                 {36.0, 2.9, -26.8},
-                                                 {28.0, 2.7, -26.9},
-                                                 {21.0, 3.2, -26.0},
-                                                 {18.2, 4.3, -24.3},
-                                                 {19.4, 7.2, -22.9}}};
+constexpr CourseKnot kCourse[] = {{76.0, 4.6, -3.0},  {69.0, 4.3, -10.0}, {63.0, 4.5, -16.5}, {57.0, 4.3, -21.6},
+                                  {51.0, 3.8, -24.4}, {44.0, 3.2, -25.8}, {36.0, 2.9, -26.8}, {28.0, 2.7, -26.9},
+                                  {21.0, 3.2, -26.0}, {18.2, 4.3, -24.3}, {19.4, 7.2, -22.9}};
 constexpr int kCanalPointsPerSpan = 16;
 constexpr double kDropWidth_mm = 13.0;
 

@@ -1,6 +1,5 @@
 #include "assets/synthetic/mouth_interior.h"
 
-#include <array>
 #include <span>
 #include <vector>
 
@@ -13,24 +12,10 @@ using glm::dvec2;
 using glm::dvec3;
 
 // Half arches through the middles of the crowns, from the midline back (x lateral, y posterior).
-constexpr std::array<dvec2, 9> kLowerArch = {{{0, 0},
-                                              {5.4, 0.9},
-                                              {10.6, 4.4},
-                                              {14.7, 9.5},
-                                              {17.7, 16.0},
-                                              {20.2, 23.0},
-                                              {22.8, 32.0},
-                                              {25.3, 41.5},
-                                              {27.0, 48.0}}};
-constexpr std::array<dvec2, 9> kUpperArch = {{{0, -3},
-                                              {6.0, -2.0},
-                                              {12.2, 2.2},
-                                              {16.8, 8.0},
-                                              {20.3, 15.5},
-                                              {23.0, 23.0},
-                                              {25.4, 32.0},
-                                              {27.4, 41.5},
-                                              {28.5, 48.0}}};
+constexpr dvec2 kLowerArch[] = {{0, 0},       {5.4, 0.9},   {10.6, 4.4},  {14.7, 9.5}, {17.7, 16.0},
+                                {20.2, 23.0}, {22.8, 32.0}, {25.3, 41.5}, {27.0, 48.0}};
+constexpr dvec2 kUpperArch[] = {{0, -3},      {6.0, -2.0},  {12.2, 2.2},  {16.8, 8.0}, {20.3, 15.5},
+                                {23.0, 23.0}, {25.4, 32.0}, {27.4, 41.5}, {28.5, 48.0}};
 
 struct Crown {
   double width_mm;  ///< along the arch
@@ -38,20 +23,10 @@ struct Crown {
   double height_mm;
   int cusps;  ///< 0 a cutting edge, 1 a point, 2 and more a chewing surface
 };
-constexpr std::array<Crown, 7> kUpperCrowns = {{{8.6, 7.0, 10.5, 0},
-                                                {6.6, 6.2, 9.2, 0},
-                                                {7.6, 8.0, 10.0, 1},
-                                                {7.1, 9.0, 8.5, 2},
-                                                {6.8, 9.0, 8.3, 2},
-                                                {10.2, 11.0, 7.6, 4},
-                                                {9.6, 10.8, 7.2, 4}}};
-constexpr std::array<Crown, 7> kLowerCrowns = {{{5.3, 6.0, 9.0, 0},
-                                                {5.8, 6.4, 9.3, 0},
-                                                {6.9, 7.6, 10.4, 1},
-                                                {7.0, 7.7, 8.6, 2},
-                                                {7.1, 8.2, 8.0, 2},
-                                                {11.0, 10.3, 7.6, 4},
-                                                {10.5, 10.0, 7.2, 4}}};
+constexpr Crown kUpperCrowns[] = {{8.6, 7.0, 10.5, 0}, {6.6, 6.2, 9.2, 0},   {7.6, 8.0, 10.0, 1}, {7.1, 9.0, 8.5, 2},
+                                  {6.8, 9.0, 8.3, 2},  {10.2, 11.0, 7.6, 4}, {9.6, 10.8, 7.2, 4}};
+constexpr Crown kLowerCrowns[] = {{5.3, 6.0, 9.0, 0}, {5.8, 6.4, 9.3, 0},   {6.9, 7.6, 10.4, 1}, {7.0, 7.7, 8.6, 2},
+                                  {7.1, 8.2, 8.0, 2}, {11.0, 10.3, 7.6, 4}, {10.5, 10.0, 7.2, 4}};
 
 struct Station {
   dvec2 middle;
@@ -81,8 +56,8 @@ double crown(const Crown& c, const dvec3& p) {
   const double up = std::clamp(p.z / c.height_mm, -0.5, 1.2);
   // Narrow at the gum, widest at two thirds; front teeth thin toward their edge.
   const double belly = 1.0 - 0.16 * (up - 0.65) * (up - 0.65) / 0.42;
-  const double thin =
-      c.cusps < 2 ? glm::mix(1.0, c.cusps == 0 ? 0.24 : 0.45, ramp(0.15, 1.05, up)) : 1.0 - 0.12 * ramp(0.5, 1.0, up);
+  const double thin = c.cusps < 2 ? glm::mix(1.0, c.cusps == 0 ? 0.24 : 0.45, smoothStep(0.15, 1.05, up))
+                                  : 1.0 - 0.12 * smoothStep(0.5, 1.0, up);
   const double a = 0.5 * c.width_mm * belly;
   const double b = 0.5 * c.depth_mm * thin * (c.cusps < 2 ? 1.0 : belly);
   const double lean = c.cusps < 2 ? 0.09 * c.depth_mm * (1.0 - up) : 0.0;
@@ -100,35 +75,34 @@ double crown(const Crown& c, const dvec3& p) {
         std::abs(std::sin(3.14 * p.x / c.width_mm * 1.7)) * std::abs(std::sin(3.14 * p.y / c.depth_mm * 1.7));
     top -= 1.9 - 1.9 * std::sqrt(std::clamp(cross, 0.0, 1.0));
   }
-  d = -joined(-d, -(p.z - top) * 0.8, 1.2);
+  d = smoothMax(d, (p.z - top) * 0.8, 1.2);
   return std::max(d, -p.z - 3.0);
 }
 
-// The teeth of a half arch from the midline on, `first` to `last`; z counted from the occlusal plane toward the gum.
-double row(std::span<const dvec2> arch, std::span<const Crown> crowns, std::size_t count, const dvec3& p,
-           double toward_gum) {
+// The teeth of a half arch from the midline on; z counted from the occlusal plane toward the gum.
+double row(std::span<const dvec2> arch, std::span<const Crown> crowns, const dvec3& p, double toward_gum) {
   double d = 1e9;
   double along = 0.05;
-  for (std::size_t n = 0; n < count; ++n) {
-    along += 0.5 * crowns[n].width_mm;
+  for (const Crown& c : crowns) {
+    along += 0.5 * c.width_mm;
     const Station s = stationAt(arch, along);
-    along += 0.5 * crowns[n].width_mm;
+    along += 0.5 * c.width_mm;
     const dvec2 offset = dvec2(p.x, p.y) - s.middle;
-    const double z = crowns[n].height_mm - p.z * toward_gum;
+    const double z = c.height_mm - p.z * toward_gum;
     if (glm::dot(offset, offset) > 14.0 * 14.0) {
       d = std::min(d, glm::length(offset) - 8.0);
       continue;
     }
     const dvec2 outward(s.along.y, -s.along.x);
-    d = std::min(d, crown(crowns[n], {glm::dot(offset, s.along), glm::dot(offset, outward), z}));
+    d = std::min(d, crown(c, {glm::dot(offset, s.along), glm::dot(offset, outward), z}));
   }
   return d;
 }
 
 // A ridge of gum along an arch, scalloped a little between the teeth.
-double ridge(std::span<const dvec2> arch, std::size_t count, const dvec3& p, double z, double radius, double tall) {
+double ridge(std::span<const dvec2> arch, const dvec3& p, double z, double radius, double tall) {
   double d = 1e9;
-  for (std::size_t n = 0; n + 1 < count; ++n) {
+  for (std::size_t n = 0; n + 1 < arch.size(); ++n) {
     const dvec3 squeezed(p.x, p.y, z + (p.z - z) / tall);
     d = std::min(d, capsule(squeezed, {arch[n].x, arch[n].y, z}, {arch[n + 1].x, arch[n + 1].y, z}, radius, radius));
   }
@@ -140,30 +114,29 @@ double ridge(std::span<const dvec2> arch, std::size_t count, const dvec3& p, dou
 double upperGum_mm(const dvec3& k) {
   const dvec3 m(std::abs(k.x), k.y, k.z);
   // Ridge, and the palate's vault between its limbs.
-  const double limbs = ridge(kUpperArch, kUpperArch.size(), m, 17.0, 5.8, 1.65);
+  const double limbs = ridge(kUpperArch, m, 17.0, 5.8, 1.65);
   double vault = ellipsoid(k, {0, 30, 34}, {30, 38, 13});
   vault += 0.35 * std::sin(k.y * 1.1) * bump(k, {0, 10, 24}, {12, 9, 8});
-  return joined(limbs, vault, 9.0);
+  return smoothMin(limbs, vault, 9.0);
 }
 
 double lowerGum_mm(const dvec3& p) {
   // Front teeth on both sides, the whole row on the free side; the floor of the mouth inside it.
   const dvec3 mirrored(-p.x, p.y, p.z);
-  double d = ridge(kLowerArch, kLowerArch.size(), mirrored, -17.5, 4.8, 1.8);
-  d = joined(d, ridge(kLowerArch, 4, p, -17.5, 4.8, 1.8), 2.0);
+  double d = ridge(kLowerArch, mirrored, -17.5, 4.8, 1.8);
+  d = smoothMin(d, ridge(std::span(kLowerArch).first(4), p, -17.5, 4.8, 1.8), 2.0);
   const double floor = ellipsoid(p, {-4, 34, -34}, {26, 40, 20});
-  d = joined(d, floor, 8.0);
-  return d;
+  return smoothMin(d, floor, 8.0);
 }
 
 double upperTeeth_mm(const dvec3& k) {
   const dvec3 m(std::abs(k.x), k.y, k.z + 0.6 - 0.035 * k.y);
-  return row(kUpperArch, kUpperCrowns, kUpperCrowns.size(), m, 1.0);
+  return row(kUpperArch, kUpperCrowns, m, 1.0);
 }
 
 double lowerTeeth_mm(const dvec3& p) {
-  const double free_side = row(kLowerArch, kLowerCrowns, kLowerCrowns.size(), {-p.x, p.y, p.z}, -1.0);
-  const double held_side = row(kLowerArch, kLowerCrowns, 3, p, -1.0);
+  const double free_side = row(kLowerArch, kLowerCrowns, {-p.x, p.y, p.z}, -1.0);
+  const double held_side = row(kLowerArch, std::span(kLowerCrowns).first(3), p, -1.0);
   return std::min(free_side, std::max(held_side, -1.2 - jawBed_mm(p)));
 }
 
@@ -171,9 +144,9 @@ double tongue_mm(const dvec3& p) {
   // Held away from the operated side.
   const dvec3 q(p.x + 6.5 - 0.05 * p.y, p.y, p.z);
   double d = ellipsoid(q, {0, 40, -9}, {19, 34, 15});
-  d = joined(d, ellipsoid(q, {0, 62, -4}, {18, 22, 17}), 14.0);
-  d = joined(d, ellipsoid(q, {0, 17, -7}, {13, 12, 8}), 10.0);
-  d += 1.5 * std::exp(-q.x * q.x / 7.0) * ramp(-8.0, 2.0, q.z) * ramp(6.0, 20.0, q.y);
+  d = smoothMin(d, ellipsoid(q, {0, 62, -4}, {18, 22, 17}), 14.0);
+  d = smoothMin(d, ellipsoid(q, {0, 17, -7}, {13, 12, 8}), 10.0);
+  d += 1.5 * std::exp(-q.x * q.x / 7.0) * smoothStep(-8.0, 2.0, q.z) * smoothStep(6.0, 20.0, q.y);
   d += 0.05 * std::sin(q.x * 2.9 + 1.3 * std::sin(q.y * 0.9)) * std::sin(q.y * 2.6 + 1.5 * std::sin(q.x * 1.3));
   return d;
 }
@@ -181,15 +154,10 @@ double tongue_mm(const dvec3& p) {
 double jawBed_mm(const dvec3& p) {
   // The body follows the arch, its outer side swelling toward the ramus.
   double d = 1e9;
-  constexpr std::array<dvec3, 7> kCourse = {{{15.4, 10.0, 8.2},
-                                             {18.2, 16.5, 8.0},
-                                             {21.2, 24.0, 8.0},
-                                             {23.6, 32.0, 9.0},
-                                             {27.4, 41.5, 10.0},
-                                             {32.0, 52.0, 11.0},
-                                             {37.2, 68.0, 11.0}}};
-  const double upper = 3.0 + 8.0 * ramp(34.0, 58.0, p.y);
-  for (std::size_t n = 0; n + 1 < kCourse.size(); ++n) {
+  constexpr dvec3 kCourse[] = {{15.4, 10.0, 8.2},  {18.2, 16.5, 8.0},  {21.2, 24.0, 8.0}, {23.6, 32.0, 9.0},
+                               {27.4, 41.5, 10.0}, {32.0, 52.0, 11.0}, {37.2, 68.0, 11.0}};
+  const double upper = 3.0 + 8.0 * smoothStep(34.0, 58.0, p.y);
+  for (std::size_t n = 0; n + 1 < std::size(kCourse); ++n) {
     const dvec2 a(kCourse[n]);
     const dvec2 b(kCourse[n + 1]);
     const dvec2 at(p.x, p.y);
@@ -198,7 +166,7 @@ double jawBed_mm(const dvec3& p) {
     d = std::min(d, glm::length(at - glm::mix(a, b, t)) - half);
   }
   const double vertical = std::max(p.z - upper, -39.0 - p.z);
-  return -joined(-d, -vertical, 5.0);
+  return -smoothMin(-d, -vertical, 5.0);
 }
 
 }  // namespace assets

@@ -8,6 +8,7 @@
 #include "app/text/command_line.h"
 #include "app/text/usage_error.h"
 #include "calibration/fit/touches_file.h"
+#include "calibration/output_file.h"
 #include "calibration/record/rig_file.h"
 #include "calibration/record/utc.h"
 

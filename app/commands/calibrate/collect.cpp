@@ -10,6 +10,7 @@
 #include "app/text/usage_error.h"
 #include "calibration/fit/touches_file.h"
 #include "calibration/geometry/units.h"
+#include "calibration/output_file.h"
 
 namespace app {
 namespace {

@@ -9,6 +9,7 @@
 #include "app/options/view_option.h"
 #include "app/text/command_line.h"
 #include "app/text/usage_error.h"
+#include "calibration/output_file.h"
 #include "calibration/record/utc.h"
 #include "calibration/webcam/board.h"
 #include "calibration/webcam/camera_file.h"

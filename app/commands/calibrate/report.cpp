@@ -6,6 +6,7 @@
 #include "app/calibrate/report/calibration_report.h"
 #include "app/commands/calibrate/calibrate.h"
 #include "app/text/command_line.h"
+#include "calibration/output_file.h"
 #include "calibration/record/later_check.h"
 #include "calibration/record/utc.h"
 

@@ -4,6 +4,7 @@
 
 #include "app/psychophysics/chance.h"
 #include "app/text/usage_error.h"
+#include "assets/load_error.h"
 #include "assets/toml_keys.h"
 
 namespace app {

@@ -42,7 +42,7 @@ TEST(SurfaceMesher, WindsTrianglesOutward) {
 TEST(SurfaceMesher, ClosesTheSurface) {
   const MeshPart part = meshOf(
       [](const glm::dvec3& p) {
-        return joined(ballAtOrigin(p), ball(p, {14, 0, 0}, 6), 4.0);
+        return smoothMin(ballAtOrigin(p), ball(p, {14, 0, 0}, 6), 4.0);
       },
       {{-12, -12, -12}, {22, 12, 12}}, 1.0, 0.02);
   // Each edge is walked once in each direction.
