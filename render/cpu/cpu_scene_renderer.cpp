@@ -12,7 +12,6 @@
 #include <thread>
 
 #include "render/cpu/cpu_compositor.h"
-#include "render/cpu/crowded_bricks.h"
 #include "render/cpu/edges.h"
 #include "render/cpu/eye_canvas.h"
 #include "render/cpu/ray_painter.h"
@@ -97,7 +96,7 @@ class CpuSceneRenderer final : public SceneRenderer {
         arena_(threadsFor(options)),
         fields_(grid, solid, label),
         cells_(fields_.solid()),
-        crowded_(fields_) {}
+        crowded_(fields_.ambient(), BRICK_VOXELS / AMBIENT_CELL_VOXELS, std::uint16_t{1}) {}
 
   void setFace(const assets::MeshModel& face_P) override { meshes_.setModel(MeshScene::Model::face, face_P); }
   void setGum(const assets::MeshModel& gum_P) override { meshes_.setModel(MeshScene::Model::gum, gum_P); }
@@ -147,7 +146,7 @@ class CpuSceneRenderer final : public SceneRenderer {
   tbb::task_arena arena_;
   VolumeFields fields_;
   SolidCells cells_;
-  CrowdedBricks crowded_;
+  Occupancy crowded_;  ///< how far soft shade can be felt
   TransferFunction transfer_;
   OpacityTable opacity_;
   std::optional<BorderedField<std::uint32_t>> guides_;
@@ -177,7 +176,8 @@ void CpuSceneRenderer::prepare(const Frame& frame) {
   arena_.execute([&] {
     // Both views pass the same empty bricks, for the ramp begins at the surface or above.
     const FieldChanges& changes = fields_.prepare();
-    crowded_.update(fields_, changes);
+    for (const VoxelBox& cells : changes.ambient) crowded_.touch(cells);
+    crowded_.refresh();
     for (const VoxelBox& box : changes.solid) cells_.touch(box);
     cells_.refresh();
     if (changes.solid.empty()) cells_.rebuildIfStale();
@@ -216,7 +216,7 @@ PaintScene CpuSceneRenderer::sceneFor(const Frame& frame, Eye eye) {
   shade.smooth = viewOf(fields_.smooth());
   shade.ambient = viewOf(fields_.ambient());
   shade.look = viewOf(fields_.look());
-  shade.crowded = {.border = crowded_.distances(),
+  shade.crowded = {.border = crowded_.emptiness().data(),
                    .row = crowded_.bricks().x,
                    .slice = crowded_.bricks().x * crowded_.bricks().y,
                    .size = crowded_.bricks()};

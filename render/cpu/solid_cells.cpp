@@ -6,7 +6,6 @@
 #include <cstring>
 
 #include "assets/ct_volume.h"
-#include "render/volume/brick_distance.h"
 
 namespace render {
 namespace {
@@ -58,88 +57,57 @@ void fill(const Block& block, std::uint32_t* words) {
 }  // namespace
 
 SolidCells::SolidCells(const BorderedField<std::uint8_t>& solid)
-    : solid_(&solid), bricks_((solid.layout().size + kEdge - 1) / kEdge + 2) {
-  const std::size_t count = index(bricks_ - 1) + 1;
-  solid_eighths_.resize(count);
-  slot_.assign(count, -1);
-  is_touched_.resize(count);
-
-  // Which bricks need cells, then their cells.
-  const auto over_layers = [this](auto work) {
-    oneapi::tbb::parallel_for(0, bricks_.z, [&](int k) {
-      for (int j = 0; j < bricks_.y; ++j)
-        for (int i = 0; i < bricks_.x; ++i) work(glm::ivec3(i, j, k));
-    });
-  };
-  over_layers([this](glm::ivec3 brick) { solid_eighths_[index(brick)] = solidEighths(voxelsOf(*solid_, brick)); });
+    : solid_(&solid),
+      occupancy_((solid.layout().size + kEdge - 1) / kEdge + 2, kEdge,
+                 [&solid](glm::ivec3 brick) { return solidEighths(voxelsOf(solid, brick)); }),
+      slot_(occupancy_.marks().size(), -1) {
   std::int32_t kept = 0;
-  for (std::size_t b = 0; b < count; ++b)
-    if (solid_eighths_[b] != 0) slot_[b] = kept++;
+  for (std::size_t b = 0; b < slot_.size(); ++b)
+    if (occupancy_.marks()[b] != 0) slot_[b] = kept++;
   words_.resize(static_cast<std::size_t>(kept) * kBrickWords);
-  over_layers([this](glm::ivec3 brick) {
-    if (const std::int32_t slot = slot_[index(brick)]; slot >= 0) fill(voxelsOf(*solid_, brick), wordsOf(slot));
+  oneapi::tbb::parallel_for(0, bricks().z, [this](int k) {
+    forEachIn({{0, 0, k}, {bricks().x, bricks().y, 1}}, [this](glm::ivec3 brick) {
+      if (const std::int32_t slot = slot_[indexIn(bricks(), brick)]; slot >= 0)
+        fill(voxelsOf(*solid_, brick), wordsOf(slot));
+    });
   });
-  rebuild();
-}
-
-std::size_t SolidCells::index(glm::ivec3 brick) const {
-  return (static_cast<std::size_t>(brick.z) * static_cast<std::size_t>(bricks_.y) + static_cast<std::size_t>(brick.y)) *
-             static_cast<std::size_t>(bricks_.x) +
-         static_cast<std::size_t>(brick.x);
+  writeTable();
 }
 
 std::size_t SolidCells::bytes() const {
   return words_.size() * sizeof(std::uint32_t) + slot_.size() * 2 * (1 + sizeof(std::int32_t));
 }
 
-void SolidCells::touch(const VoxelBox& voxels) {
-  if (voxels.empty()) return;
-  // The bricks of every cell that has one of the voxels for a corner: from the one below the first.
-  const glm::ivec3 low = (voxels.first - 1 + kEdge) / kEdge, high = (voxels.first + voxels.extent - 1 + kEdge) / kEdge;
-  for (int k = low.z; k <= high.z; ++k)
-    for (int j = low.y; j <= high.y; ++j)
-      for (int i = low.x; i <= high.x; ++i)
-        if (std::uint8_t& touched = is_touched_[index({i, j, k})]; touched == 0) {
-          touched = 1;
-          touched_.push_back({i, j, k});
-        }
-}
+// Cells reach one voxel up, and the table has a border of one brick.
+void SolidCells::touch(const VoxelBox& voxels) { occupancy_.touch({voxels.first + kEdge, voxels.extent - 1}); }
 
 void SolidCells::refresh() {
-  bool is_fuller = false;
-  for (const glm::ivec3& brick : touched_) {
-    const std::size_t b = index(brick);
-    is_touched_[b] = 0;
-    const Block block = voxelsOf(*solid_, brick);
-    const std::uint8_t eighths = solidEighths(block);
-    const bool was = solid_eighths_[b] != 0, is = eighths != 0;
-    if (is && slot_[b] < 0) {
+  const std::vector<glm::ivec3> touched = occupancy_.touched();
+  const bool is_fuller = occupancy_.refresh();
+  for (const glm::ivec3& brick : touched) {
+    const std::size_t b = indexIn(bricks(), brick);
+    const std::uint8_t eighths = occupancy_.marks()[b];
+    if (eighths != 0 && slot_[b] < 0) {
       slot_[b] = static_cast<std::int32_t>(words_.size() / kBrickWords);
       words_.resize(words_.size() + kBrickWords);
     }
-    if (slot_[b] >= 0) fill(block, wordsOf(slot_[b]));
-    solid_eighths_[b] = eighths;
-    is_fuller = is_fuller || (is && !was);
-    is_stale_ = is_stale_ || is != was;
+    if (slot_[b] >= 0) fill(voxelsOf(*solid_, brick), wordsOf(slot_[b]));
     // An emptied brick may be passed at once; how far beyond is seen when the distances are rebuilt.
-    if (was) table_[b] = is ? slot_[b] * 256 + eighths : -1;
+    table_[b] = eighths != 0 ? slot_[b] * 256 + eighths : std::min(table_[b], -1);
   }
-  touched_.clear();
-  if (is_fuller) rebuild();
+  if (is_fuller) writeTable();
 }
 
 void SolidCells::rebuildIfStale() {
   refresh();
-  if (is_stale_) rebuild();
+  if (occupancy_.rebuildIfStale()) writeTable();
 }
 
-void SolidCells::rebuild() {
-  is_stale_ = false;
+void SolidCells::writeTable() {
   table_.resize(slot_.size());
-  std::vector<std::uint8_t> away(table_.size());
-  distancesInBricks(bricks_, solid_eighths_, kFarthest, away);
   for (std::size_t b = 0; b < table_.size(); ++b)
-    table_[b] = solid_eighths_[b] != 0 ? slot_[b] * 256 + solid_eighths_[b] : -std::int32_t{away[b]};
+    table_[b] =
+        occupancy_.marks()[b] != 0 ? slot_[b] * 256 + occupancy_.marks()[b] : -std::int32_t{occupancy_.emptiness()[b]};
 }
 
 }  // namespace render

@@ -13,8 +13,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "assets/volume_grid.h"
-#include "render/volume/bordered_field.h"
+#include "render/volume/occupancy.h"
 
 namespace render {
 
@@ -22,7 +21,6 @@ class SolidCells {
  public:
   static constexpr int kEdge = assets::kBrickVoxels, kRowWords = kEdge + 1, kLayerWords = kRowWords * kEdge;
   static constexpr int kBrickWords = kLayerWords * kEdge;
-  static constexpr int kFarthest = 31;
 
   /// The field is borrowed: it must outlive its cells.
   explicit SolidCells(const BorderedField<std::uint8_t>& solid);
@@ -36,7 +34,7 @@ class SolidCells {
 
   /// What the kernels read. Places count from the corner of the border: voxel (0,0,0) lies at (kEdge, kEdge, kEdge).
   const BorderedField<std::uint8_t>& solid() const { return *solid_; }
-  glm::ivec3 bricks() const { return bricks_; }
+  glm::ivec3 bricks() const { return occupancy_.bricks(); }
   const std::uint32_t* words() const { return words_.data(); }
   /// i fastest: the number of its brick of words() times 256, plus a bit for each 4x4x4 cells in which something
   /// reaches 128 (bit i + 2 j + 4 k); or minus the distance in bricks.
@@ -44,19 +42,14 @@ class SolidCells {
   std::size_t bytes() const;
 
  private:
-  std::size_t index(glm::ivec3 brick) const;
   std::uint32_t* wordsOf(std::int32_t slot) { return &words_[static_cast<std::size_t>(slot) * kBrickWords]; }
-  void rebuild();
+  void writeTable();
 
   const BorderedField<std::uint8_t>* solid_;
-  glm::ivec3 bricks_;
+  Occupancy occupancy_;  ///< marks: solid eighths, as in the table
   std::vector<std::uint32_t> words_;
-  std::vector<std::uint8_t> solid_eighths_;  ///< per brick, as in the table; 0: nothing in it reaches 128
-  std::vector<std::int32_t> slot_;           ///< number of each brick with cells; -1: none
+  std::vector<std::int32_t> slot_;  ///< number of each brick with cells; -1: none
   std::vector<std::int32_t> table_;
-  bool is_stale_ = false;
-  std::vector<glm::ivec3> touched_;
-  std::vector<std::uint8_t> is_touched_;
 };
 
 }  // namespace render

@@ -14,20 +14,15 @@ assets::SolidVoxels voxelsOf(const VolumeFields& fields) {
           static_cast<std::size_t>(layout.slice)};
 }
 
-template <class Visit>
-void forEachBrick(glm::ivec3 first, glm::ivec3 last, const Visit& visit) {
-  for (int k = first.z; k <= last.z; ++k)
-    for (int j = first.y; j <= last.y; ++j)
-      for (int i = first.x; i <= last.x; ++i) visit(glm::ivec3(i, j, k));
-}
-
 }  // namespace
 
 void BoneMesh::note(const FieldChanges& changes) {
   if (!surface_) return;
-  for (const VoxelBox& box : changes.solid)
-    forEachBrick(box.first / assets::kBrickVoxels, (box.first + box.extent - 1) / assets::kBrickVoxels,
-                 [this](glm::ivec3 brick) { changed_.push_back(brick); });
+  for (const VoxelBox& box : changes.solid) {
+    const glm::ivec3 first = box.first / assets::kBrickVoxels;
+    forEachIn({first, (box.first + box.extent - 1) / assets::kBrickVoxels + 1 - first},
+              [this](glm::ivec3 brick) { changed_.push_back(brick); });
+  }
 }
 
 void BoneMesh::prepare(const VolumeFields& fields) {
@@ -38,16 +33,14 @@ void BoneMesh::prepare(const VolumeFields& fields) {
     return;
   }
   surface_.emplace(voxelsOf(fields));
-  const glm::ivec3 bricks = fields.grid().bricks();
+  const VoxelBox bricks{glm::ivec3(0), fields.grid().bricks()};
   std::size_t vertices = 0, indices = 0;
-  forEachBrick({0, 0, 0}, bricks - 1, [&](glm::ivec3 brick) {
+  forEachIn(bricks, [&](glm::ivec3 brick) {
     vertices += surface_->patch(brick).position_P_mm.size();
     indices += surface_->patch(brick).triangles.size();
   });
-  pool_.emplace(
-      static_cast<std::size_t>(bricks.x) * static_cast<std::size_t>(bricks.y) * static_cast<std::size_t>(bricks.z),
-      3 * vertices / 2, 3 * indices / 2);
-  forEachBrick({0, 0, 0}, bricks - 1, [&](glm::ivec3 brick) {
+  pool_.emplace(bricks.count(), 3 * vertices / 2, 3 * indices / 2);
+  forEachIn(bricks, [&](glm::ivec3 brick) {
     if (!surface_->patch(brick).empty()) upload(brick);
   });
 }

@@ -43,16 +43,22 @@ class BorderedField {
   std::vector<T> values_;
 };
 
+/// Places of an array of that size without a border, i fastest.
+inline std::size_t countIn(glm::ivec3 size) {
+  return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);
+}
+inline std::size_t indexIn(glm::ivec3 size, glm::ivec3 ijk) {
+  return (static_cast<std::size_t>(ijk.z) * static_cast<std::size_t>(size.y) + static_cast<std::size_t>(ijk.y)) *
+             static_cast<std::size_t>(size.x) +
+         static_cast<std::size_t>(ijk.x);
+}
+
 /// A box of voxels.
 struct VoxelBox {
   glm::ivec3 first{0}, extent{0};
 
   bool empty() const { return extent.x <= 0 || extent.y <= 0 || extent.z <= 0; }
-  std::size_t count() const {
-    return empty() ? 0
-                   : static_cast<std::size_t>(extent.x) * static_cast<std::size_t>(extent.y) *
-                         static_cast<std::size_t>(extent.z);
-  }
+  std::size_t count() const { return empty() ? 0 : countIn(extent); }
   bool operator==(const VoxelBox&) const = default;
 };
 
@@ -67,6 +73,15 @@ inline VoxelBox boxAround(const VoxelBox& a, const VoxelBox& b) {
 inline VoxelBox grown(const VoxelBox& box, int by, glm::ivec3 size) {
   const glm::ivec3 low = glm::max(box.first - by, glm::ivec3(0));
   return {low, glm::min(box.first + box.extent + by, size) - low};
+}
+
+/// Calls visit(ijk) for every voxel of the box, i fastest.
+template <class Visit>
+void forEachIn(const VoxelBox& box, const Visit& visit) {
+  const glm::ivec3 end = box.first + box.extent;
+  for (int k = box.first.z; k < end.z; ++k)
+    for (int j = box.first.y; j < end.y; ++j)
+      for (int i = box.first.x; i < end.x; ++i) visit(glm::ivec3(i, j, k));
 }
 
 }  // namespace render

@@ -47,11 +47,8 @@ BorderedField<std::uint32_t> lookField(const BorderedField<std::uint8_t>& solid,
   BorderedField<std::uint32_t> field(size, packed(plain.albedo, plain.finish));
   const auto tissue_at = [&](glm::ivec3 v) -> const TissueLook& {
     if (label.empty()) return plain;
-    const std::size_t index =
-        (static_cast<std::size_t>(v.z) * static_cast<std::size_t>(size.y) + static_cast<std::size_t>(v.y)) *
-            static_cast<std::size_t>(size.x) +
-        static_cast<std::size_t>(v.x);
-    return kTissueLook[label[index] < kTissueLook.size() ? label[index] : 0];
+    const std::uint8_t tissue = label[indexIn(size, v)];
+    return kTissueLook[tissue < kTissueLook.size() ? tissue : 0];
   };
   const auto melt_brick = [&](glm::ivec3 brick) {
     // What the brick and its border hold; air without a label needs no colour.
@@ -76,18 +73,12 @@ BorderedField<std::uint32_t> lookField(const BorderedField<std::uint8_t>& solid,
     melt(block, at(0, 1, 0));
     melt(block, at(0, 0, 1));
     const glm::ivec3 extent = glm::min(glm::ivec3(kCore), size - first);
-    for (int k = 0; k < extent.z; ++k)
-      for (int j = 0; j < extent.y; ++j)
-        for (int i = 0; i < extent.x; ++i) {
-          const Share& share = block[at(i + 1, j + 1, k + 1)];
-          *field.at(first + glm::ivec3(i, j, k)) =
-              packed(glm::vec3(share[0], share[1], share[2]) / share[4], share[3] / share[4]);
-        }
+    forEachIn({glm::ivec3(0), extent}, [&](glm::ivec3 v) {
+      const Share& share = block[at(v.x + 1, v.y + 1, v.z + 1)];
+      *field.at(first + v) = packed(glm::vec3(share[0], share[1], share[2]) / share[4], share[3] / share[4]);
+    });
   };
-  tbb::parallel_for(0, bricks.z, [&](int k) {
-    for (int j = 0; j < bricks.y; ++j)
-      for (int i = 0; i < bricks.x; ++i) melt_brick({i, j, k});
-  });
+  tbb::parallel_for(0, bricks.z, [&](int k) { forEachIn({{0, 0, k}, {bricks.x, bricks.y, 1}}, melt_brick); });
   return field;
 }
 

@@ -1,83 +1,79 @@
 #include "render/volume/occupancy.h"
 
-#include <algorithm>
+#include <tbb/parallel_for.h>
 
-#include "assets/ct_volume.h"
+#include <utility>
+
 #include "render/shaders/shared_numbers.glsl"
-#include "render/volume/brick_distance.h"
 
 namespace render {
 
 static_assert(BRICK_VOXELS == assets::kBrickVoxels);
 
-Occupancy::Occupancy(const BorderedField<std::uint8_t>& solid)
-    : bricks_((solid.layout().size + (assets::kBrickVoxels - 1)) / assets::kBrickVoxels) {
-  const std::size_t count = brickIndex(bricks_ - 1) + 1;
-  is_occupied_.resize(count);
-  emptiness_.resize(count);
-  is_pending_.resize(count);
-  for (int k = 0; k < bricks_.z; ++k)
-    for (int j = 0; j < bricks_.y; ++j)
-      for (int i = 0; i < bricks_.x; ++i) is_occupied_[brickIndex({i, j, k})] = isOccupied(solid, {i, j, k}) ? 1 : 0;
+Occupancy::Occupancy(glm::ivec3 bricks, int edge, MarkOf mark_of)
+    : bricks_(bricks),
+      edge_(edge),
+      mark_of_(std::move(mark_of)),
+      marks_(countIn(bricks)),
+      emptiness_(marks_.size()),
+      is_touched_(marks_.size()) {
+  tbb::parallel_for(0, bricks.z, [this](int k) {
+    forEachIn({{0, 0, k}, {bricks_.x, bricks_.y, 1}},
+              [this](glm::ivec3 brick) { marks_[indexIn(bricks_, brick)] = mark_of_(brick); });
+  });
   rebuild();
 }
 
-std::size_t Occupancy::brickIndex(glm::ivec3 brick) const {
-  return (static_cast<std::size_t>(brick.z) * static_cast<std::size_t>(bricks_.y) + static_cast<std::size_t>(brick.y)) *
-             static_cast<std::size_t>(bricks_.x) +
-         static_cast<std::size_t>(brick.x);
-}
-
-bool Occupancy::isOccupied(const BorderedField<std::uint8_t>& solid, glm::ivec3 brick) {
-  const VoxelBox box = grown({brick * assets::kBrickVoxels, glm::ivec3(assets::kBrickVoxels)}, 1, solid.layout().size);
-  for (int k = 0; k < box.extent.z; ++k)
-    for (int j = 0; j < box.extent.y; ++j) {
-      const std::uint8_t* const row = solid.at(box.first + glm::ivec3(0, j, k));
-      if (std::any_of(row, row + box.extent.x, [](std::uint8_t value) { return value >= assets::kHalfSolid; }))
-        return true;
-    }
-  return false;
-}
-
 void Occupancy::touch(const VoxelBox& box) {
-  // Every brick whose border of one voxel reaches in.
-  if (box.empty()) return;
-  const glm::ivec3 low = glm::max((box.first - 1) / assets::kBrickVoxels, glm::ivec3(0));
-  const glm::ivec3 high = glm::min((box.first + box.extent) / assets::kBrickVoxels, bricks_ - 1);
-  for (int k = low.z; k <= high.z; ++k)
-    for (int j = low.y; j <= high.y; ++j)
-      for (int i = low.x; i <= high.x; ++i)
-        if (std::uint8_t& pending = is_pending_[brickIndex({i, j, k})]; pending == 0) {
-          pending = 1;
-          pending_.push_back({i, j, k});
-        }
+  // Every brick whose border of one value reaches in.
+  const glm::ivec3 low = glm::max((box.first - 1) / edge_, glm::ivec3(0));
+  const glm::ivec3 high = glm::min((box.first + box.extent) / edge_, bricks_ - 1);
+  forEachIn({low, high - low + 1}, [this](glm::ivec3 brick) {
+    if (std::exchange(is_touched_[indexIn(bricks_, brick)], std::uint8_t{1}) == 0) touched_.push_back(brick);
+  });
 }
 
-bool Occupancy::refresh(const BorderedField<std::uint8_t>& solid) {
+bool Occupancy::refresh() {
   bool filled = false;
-  for (const glm::ivec3& brick : pending_) {
-    const std::size_t index = brickIndex(brick);
-    const bool was_solid = is_occupied_[index] != 0, is_solid = isOccupied(solid, brick);
-    is_occupied_[index] = is_solid ? 1 : 0;
+  for (const glm::ivec3& brick : touched_) {
+    const std::size_t index = indexIn(bricks_, brick);
+    const bool was_solid = marks_[index] != 0;
+    marks_[index] = mark_of_(brick);
+    const bool is_solid = marks_[index] != 0;
     filled = filled || (is_solid && !was_solid);
     stale_ = stale_ || is_solid != was_solid;
-    is_pending_[index] = 0;
+    is_touched_[index] = 0;
   }
-  pending_.clear();
+  touched_.clear();
   if (filled) rebuild();
   return filled;
 }
 
-bool Occupancy::rebuildIfStale(const BorderedField<std::uint8_t>& solid) {
-  const bool changed = refresh(solid);
+bool Occupancy::rebuildIfStale() {
+  const bool changed = refresh();
   if (!stale_) return changed;
   rebuild();
   return true;
 }
 
+// Along one axis after the other: the least over the bricks of a line of how far each is or knows the next to be.
 void Occupancy::rebuild() {
   stale_ = false;
-  distancesInBricks(bricks_, is_occupied_, kFarthest, emptiness_);
+  std::ranges::transform(marks_, emptiness_.begin(), [](std::uint8_t mark) { return mark != 0 ? 0 : kFarthest; });
+  std::size_t stride = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::vector<std::uint8_t> before = emptiness_;
+    const std::size_t block = stride * static_cast<std::size_t>(bricks_[axis]);
+    for (std::uint8_t away = 1; away < std::min<int>(kFarthest, bricks_[axis]); ++away)
+      for (std::size_t first = 0; first < before.size(); first += block) {
+        const std::size_t shift = away * stride, count = block - shift;
+        const std::uint8_t* const from = &before[first];
+        std::uint8_t* const to = &emptiness_[first];
+        for (std::size_t n = 0; n < count; ++n) to[n] = std::min(to[n], std::max(away, from[n + shift]));
+        for (std::size_t n = 0; n < count; ++n) to[n + shift] = std::min(to[n + shift], std::max(away, from[n]));
+      }
+    stride = block;
+  }
 }
 
 }  // namespace render

@@ -84,17 +84,12 @@ void VolumeFields::updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, O
 }
 
 void VolumeFields::meanCells(const VoxelBox& cells) {
-  for (int k = 0; k < cells.extent.z; ++k)
-    for (int j = 0; j < cells.extent.y; ++j)
-      for (int i = 0; i < cells.extent.x; ++i) {
-        const glm::ivec3 cell = cells.first + glm::ivec3(i, j, k);
-        const VoxelBox inside = grown({kEdge * cell, glm::ivec3(kEdge)}, 0, grid_.size);
-        std::uint32_t sum = 0;
-        for (int z = 0; z < inside.extent.z; ++z)
-          for (int y = 0; y < inside.extent.y; ++y)
-            for (int x = 0; x < inside.extent.x; ++x) sum += *solid_.at(inside.first + glm::ivec3(x, y, z));
-        *ambient_.at(cell) = static_cast<std::uint16_t>(sum * 257u / (kEdge * kEdge * kEdge));
-      }
+  forEachIn(cells, [this](glm::ivec3 cell) {
+    std::uint32_t sum = 0;
+    forEachIn(grown({kEdge * cell, glm::ivec3(kEdge)}, 0, grid_.size),
+              [&](glm::ivec3 voxel) { sum += *solid_.at(voxel); });
+    *ambient_.at(cell) = static_cast<std::uint16_t>(sum * 257u / (kEdge * kEdge * kEdge));
+  });
 }
 
 const FieldChanges& VolumeFields::prepare() {

@@ -1,5 +1,6 @@
 #include "render/volume/volume_texture.h"
 
+#include "assets/ct_volume.h"
 #include "render/shaders/shared_numbers.glsl"
 
 namespace render {
@@ -27,7 +28,7 @@ VolumeTexture::VolumeTexture(const VolumeFields& fields)
       label_(Texture::volume(fields.grid().size, TexelFormat::r8ui)),
       emptiness_(Texture::volume(fields.grid().bricks(), TexelFormat::r8ui)),
       ambient_(Texture::volume(fields.ambient().layout().size, TexelFormat::r16)),
-      occupancy_(fields.solid()) {
+      occupancy_(fields.solid(), assets::kBrickVoxels, assets::kHalfSolid) {
   // Slice by slice, to keep the working memory small.
   for (int k = 0; k < fields.grid().size.z; ++k)
     uploadSolid(fields, {{0, 0, k}, {fields.grid().size.x, fields.grid().size.y, 1}});
@@ -57,9 +58,9 @@ void VolumeTexture::update(const VolumeFields& fields, const FieldChanges& chang
   for (const VoxelBox& box : changes.ambient) upload(ambient_, fields.ambient(), box);
 
   for (const VoxelBox& box : changes.solid) occupancy_.touch(box);
-  bool moved = occupancy_.refresh(fields.solid());
+  bool moved = occupancy_.refresh();
   if (changes.solid.empty() || ++frames_since_rebuild_ >= kFramesBetweenRebuilds) {
-    moved = occupancy_.rebuildIfStale(fields.solid()) || moved;
+    moved = occupancy_.rebuildIfStale() || moved;
     frames_since_rebuild_ = 0;
   }
   if (moved) emptiness_.upload({0, 0, 0}, occupancy_.bricks(), std::as_bytes(occupancy_.emptiness()));

@@ -10,6 +10,8 @@ namespace {
 using testing::brickOf;
 using testing::Random;
 
+Occupancy occupancyOf(const BorderedField<std::uint8_t>& solid) { return {solid, 8, assets::kHalfSolid}; }
+
 // Sparse random matter: a few boxes of random value in a volume whose edges are no multiples of a brick.
 assets::CtVolume randomMatter(Random& random, glm::ivec3 size) {
   const assets::VolumeGrid grid = testing::smallGrid(size);
@@ -52,7 +54,8 @@ TEST(Occupancy, NeverSkipsAPlaceWhoseTrilinearFootprintIsSolid) {
   Random random(11);
   for (int n = 0; n < 20; ++n) {
     const assets::CtVolume ct = randomMatter(random, {37, 43, 50});
-    const Occupancy occupancy(testing::borderedSolid(ct));
+    const BorderedField<std::uint8_t> solid = testing::borderedSolid(ct);
+    const Occupancy occupancy = occupancyOf(solid);
     for (int k = 0; k < ct.grid.size.z; ++k)
       for (int j = 0; j < ct.grid.size.y; ++j)
         for (int i = 0; i < ct.grid.size.x; ++i) {
@@ -71,7 +74,8 @@ TEST(Occupancy, DistanceIsTheChessboardDistanceToTheNextOccupiedBrick) {
   Random random(12);
   for (int n = 0; n < 20; ++n) {
     const assets::CtVolume ct = randomMatter(random, {70, 40, 90});
-    const Occupancy occupancy(testing::borderedSolid(ct));
+    const BorderedField<std::uint8_t> solid = testing::borderedSolid(ct);
+    const Occupancy occupancy = occupancyOf(solid);
     const glm::ivec3 bricks = occupancy.bricks();
     std::vector<glm::ivec3> occupied;
     const auto everyBrick = [&](auto&& visit) {
@@ -98,7 +102,7 @@ TEST(Occupancy, BrickUpdatesEqualARebuild) {
   for (int n = 0; n < 30; ++n) {
     const assets::CtVolume before = randomMatter(random, {37, 43, 50}), after = randomMatter(random, {37, 43, 50});
     BorderedField<std::uint8_t> solid = testing::borderedSolid(before);
-    Occupancy updated(solid);
+    Occupancy updated = occupancyOf(solid);
     for (int k = 0; k < updated.bricks().z; ++k)
       for (int j = 0; j < updated.bricks().y; ++j)
         for (int i = 0; i < updated.bricks().x; ++i) {
@@ -106,8 +110,9 @@ TEST(Occupancy, BrickUpdatesEqualARebuild) {
           if (values == brickOf(before, {i, j, k})) continue;
           updated.touch(put(values, {i, j, k}, solid));
         }
-    updated.rebuildIfStale(solid);
-    const Occupancy rebuilt(testing::borderedSolid(after));
+    updated.rebuildIfStale();
+    const BorderedField<std::uint8_t> solid_after = testing::borderedSolid(after);
+    const Occupancy rebuilt = occupancyOf(solid_after);
     EXPECT_TRUE(std::ranges::equal(updated.emptiness(), rebuilt.emptiness()));
   }
 }
@@ -117,7 +122,7 @@ TEST(Occupancy, StaysConservativeWhileStale) {
   for (int n = 0; n < 30; ++n) {
     const assets::CtVolume before = randomMatter(random, {37, 43, 50}), after = randomMatter(random, {37, 43, 50});
     BorderedField<std::uint8_t> mixed = testing::borderedSolid(before);
-    Occupancy stale(mixed);
+    Occupancy stale = occupancyOf(mixed);
     const glm::ivec3 bricks = stale.bricks();
     for (int step = 0; step < 10; ++step) {
       const glm::ivec3 brick{static_cast<int>(random.between(0, bricks.x - 0.01)),
@@ -125,8 +130,8 @@ TEST(Occupancy, StaysConservativeWhileStale) {
                              static_cast<int>(random.between(0, bricks.z - 0.01))};
       const std::vector<std::uint8_t> values = brickOf(after, brick);
       stale.touch(put(values, brick, mixed));
-      stale.refresh(mixed);
-      const Occupancy exact(mixed);
+      stale.refresh();
+      const Occupancy exact = occupancyOf(mixed);
       for (std::size_t b = 0; b < exact.emptiness().size(); ++b) ASSERT_LE(stale.emptiness()[b], exact.emptiness()[b]);
     }
   }
@@ -134,15 +139,16 @@ TEST(Occupancy, StaysConservativeWhileStale) {
 
 TEST(Occupancy, KeepsTheDistancesWhileBricksOnlyEmptyAndMendsThemOnRequest) {
   const assets::CtVolume ct = testing::ballVolume(testing::smallGrid(), {{{0, 0, 0}, 6.0}});
-  Occupancy occupancy(testing::borderedSolid(ct));
+  BorderedField<std::uint8_t> solid = testing::borderedSolid(ct);
+  Occupancy occupancy = occupancyOf(solid);
   const std::vector<std::uint8_t> before(occupancy.emptiness().begin(), occupancy.emptiness().end());
-  const BorderedField<std::uint8_t> air(ct.grid.size);
+  solid = BorderedField<std::uint8_t>(ct.grid.size);  // air
   occupancy.touch({glm::ivec3(0), ct.grid.size});
-  EXPECT_FALSE(occupancy.refresh(air));
+  EXPECT_FALSE(occupancy.refresh());
   EXPECT_TRUE(std::ranges::equal(occupancy.emptiness(), before));
-  EXPECT_TRUE(occupancy.rebuildIfStale(air));
+  EXPECT_TRUE(occupancy.rebuildIfStale());
   EXPECT_TRUE(std::ranges::all_of(occupancy.emptiness(), [](int e) { return e == Occupancy::kFarthest; }));
-  EXPECT_FALSE(occupancy.rebuildIfStale(air));
+  EXPECT_FALSE(occupancy.rebuildIfStale());
 }
 
 }  // namespace
