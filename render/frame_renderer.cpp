@@ -9,6 +9,7 @@
 #include "render/gl_scene_renderer.h"
 #include "render/gpu/gpu_error.h"
 #include "render/gpu/window_upload.h"
+#include "render/scene/mandibular_canal_tube.h"
 #include "render/scene_renderer.h"
 
 namespace render {
@@ -29,35 +30,41 @@ Picture turned(Picture picture, bool flip_x, bool flip_y) {
 }  // namespace
 
 FrameRenderer::FrameRenderer(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid,
-                             std::span<const std::uint8_t> label, RenderOptions options) {
+                             std::span<const std::uint8_t> label, RenderOptions options)
+    : fields_(grid, solid, label) {
   if (options.samples < 1 || options.samples > 8)
     throw GpuError("samples " + std::to_string(options.samples) + ", renderer options: choose 1 to 8");
   if (options.backend != Backend::cpu) {
-    scene_ = glSceneRenderer(grid, solid, label, options);
+    scene_ = glSceneRenderer(fields_, options);
     return;
   }
   upload_ = std::make_unique<WindowUpload>();
-  scene_ = cpuSceneRenderer(grid, solid, label, options, [this](const Picture& picture, const WindowPlace& place) {
-    upload_->show(picture, place);
-  });
+  scene_ = cpuSceneRenderer(
+      fields_, options, [this](const Picture& picture, const WindowPlace& place) { upload_->show(picture, place); });
 }
 
 FrameRenderer::~FrameRenderer() = default;
 
-void FrameRenderer::setFace(const assets::MeshModel& face_P) { scene_->setFace(face_P); }
-void FrameRenderer::setGum(const assets::MeshModel& gum_P) { scene_->setGum(gum_P); }
-void FrameRenderer::setInstrument(const assets::MeshModel& instrument_T) { scene_->setInstrument(instrument_T); }
+void FrameRenderer::setFace(const assets::MeshModel& face_P) { scene_->setModel(Model::face, face_P); }
+void FrameRenderer::setGum(const assets::MeshModel& gum_P) { scene_->setModel(Model::gum, gum_P); }
+void FrameRenderer::setInstrument(const assets::MeshModel& instrument_T) {
+  for (const Model model : {Model::instrument, Model::ghost}) scene_->setModel(model, instrument_T);
+}
 void FrameRenderer::setSecondInstrument(const assets::MeshModel& instrument_O) {
-  scene_->setSecondInstrument(instrument_O);
+  scene_->setModel(Model::second_instrument, instrument_O);
 }
 
-void FrameRenderer::setGuides(const Guides& guides) { scene_->setGuides(guides); }
+void FrameRenderer::setGuides(const Guides& guides) {
+  const assets::MeshModel tube = mandibularCanalTube(guides.mandibular_canal_P_mm, guides.mandibular_canal_radius_mm);
+  for (const Model model : {Model::mandibular_canal, Model::mandibular_canal_through}) scene_->setModel(model, tube);
+  scene_->setGuides(guideField(fields_.grid(), guides));
+}
 
-void FrameRenderer::setScan(CtScan scan) { slices_.emplace(scene_->fields().grid(), std::move(scan)); }
+void FrameRenderer::setScan(CtScan scan) { slices_.emplace(fields_.grid(), std::move(scan)); }
 
 Picture FrameRenderer::slice(SlicePlane plane, const Frame& frame, int edge_px) const {
   assert(slices_);
-  return slices_->picture(plane, frame, scene_->fields().solid(), edge_px);
+  return slices_->picture(plane, frame, fields_.solid(), edge_px);
 }
 
 // A column at the viewer's left, upright for the viewer however the panel hangs.
@@ -85,35 +92,54 @@ void FrameRenderer::layInsets(const Frame& frame, glm::ivec2 eye_px) {
 }
 
 void FrameRenderer::updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, Occupancy::kBrickValues> solid) {
-  scene_->updateBrick(brick, solid);
+  fields_.updateBrick(brick, solid);
+}
+
+void FrameRenderer::drawEye(const Frame& frame, Eye eye, glm::ivec2 px) {
+  scene_->drawEye(frame, eye, px);
+  drawn(eye) = {frame, px};
 }
 
 void FrameRenderer::render(const Frame& frame) {
-  const glm::ivec2 place_px = eyePictureSize(frame.display, frame.rig.screen.px);
+  StereoLayout layout{.mode = frame.display,
+                      .screen_px = frame.rig.screen.px,
+                      .at_px = frame.output_at_px,
+                      .swapped = frame.eyes_swapped};
+  const glm::ivec2 place_px = eyePictureSize(layout.mode, layout.screen_px);
   const glm::ivec2 eye_px = glm::max((place_px + frame.quality.pixel_edge - 1) / frame.quality.pixel_edge, 1);
-  scene_->prepare(frame);
+  const bool mono = frame.display == DisplayMode::mono;
+  const Eye left = mono ? Eye::cyclopean : Eye::left, right = mono ? Eye::cyclopean : Eye::right;
+  scene_->prepare(frame, fields_.prepare());
   layInsets(frame, eye_px);
-  if (frame.display == DisplayMode::mono) {
-    scene_->drawEye(frame, Eye::cyclopean, eye_px);
-  } else {
-    scene_->drawEye(frame, Eye::left, eye_px);
-    scene_->drawEye(frame, Eye::right, eye_px);
-  }
-  scene_->compose(frame);
+  drawEye(frame, left, eye_px);
+  if (!mono) drawEye(frame, right, eye_px);
+  for (; layout.output < outputCount(layout.mode); ++layout.output) scene_->compose(layout, left, right, layout.output);
+  composed_from_ = left;
 }
 
 void FrameRenderer::renderEye(const Frame& frame, Eye eye) {
-  scene_->prepare(frame);
+  scene_->prepare(frame, fields_.prepare());
   layInsets(frame, frame.rig.screen.px);
-  scene_->drawEye(frame, eye, frame.rig.screen.px);
+  drawEye(frame, eye, frame.rig.screen.px);
 }
 
-void FrameRenderer::composeForBystander() { scene_->composeForBystander(); }
+void FrameRenderer::composeForBystander() {
+  scene_->compose({.screen_px = drawn(composed_from_).frame.rig.screen.px}, composed_from_, composed_from_,
+                  kBystanderOutput);
+}
+
 void FrameRenderer::showOnWindow(const WindowPlace& place, int output) { scene_->showOnWindow(place, output); }
 void FrameRenderer::showBystander(const WindowPlace& place) { scene_->showOnWindow(place, kBystanderOutput); }
 Picture FrameRenderer::readPicture(int output) { return scene_->readPicture(output); }
-Picture FrameRenderer::readEye(Eye eye) { return scene_->readEye(eye); }
-DistancePicture FrameRenderer::readDistance(Eye eye) { return scene_->readDistance(eye); }
+Picture FrameRenderer::readEye(Eye eye) {
+  assert(drawn(eye).px.x > 0);
+  scene_->compose({.screen_px = drawn(eye).px}, eye, eye, kEyeOutput);
+  return readPicture(kEyeOutput);
+}
+DistancePicture FrameRenderer::readDistance(Eye eye) {
+  assert(drawn(eye).px.x > 0);
+  return scene_->readDistance(drawn(eye).frame, eye);
+}
 void FrameRenderer::throwIfError() { scene_->throwIfError(); }
 
 glm::dmat4 clipFromPatient(const calibration::Rig& rig, const EyeView& view) {

@@ -4,6 +4,7 @@
 // Bricks given before render() are in both eyes of that very frame. Reading back waits for the GPU.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -17,7 +18,7 @@
 #include "render/render_options.h"
 #include "render/volume/ct_slices.h"
 #include "render/volume/guide_field.h"
-#include "render/volume/occupancy.h"
+#include "render/volume/volume_fields.h"
 
 namespace render {
 
@@ -67,11 +68,20 @@ class FrameRenderer {
   void throwIfError();
 
  private:
+  struct DrawnEye {
+    Frame frame;
+    glm::ivec2 px{0};  ///< 0: it was not drawn
+  };
+  DrawnEye& drawn(Eye eye) { return eyes_[static_cast<std::size_t>(eye)]; }
   void layInsets(const Frame& frame, glm::ivec2 eye_px);
+  void drawEye(const Frame& frame, Eye eye, glm::ivec2 px);
 
+  VolumeFields fields_;
   std::unique_ptr<WindowUpload> upload_;  ///< of a back-end without OpenGL
   std::unique_ptr<SceneRenderer> scene_;
   std::optional<CtSlices> slices_;
+  std::array<DrawnEye, 3> eyes_;
+  Eye composed_from_ = Eye::cyclopean;
 };
 
 /// OpenGL clip space from frame P, for those who want to know where a point of the patient lands in the picture.

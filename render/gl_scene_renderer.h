@@ -9,8 +9,7 @@
 
 namespace render {
 
-/// `solid` and `label` in the order of `grid`; label may be empty. Throws GpuError.
-std::unique_ptr<SceneRenderer> glSceneRenderer(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid,
-                                               std::span<const std::uint8_t> label, const RenderOptions& options);
+/// Throws GpuError.
+std::unique_ptr<SceneRenderer> glSceneRenderer(const VolumeFields& fields, const RenderOptions& options);
 
 }  // namespace render

@@ -9,7 +9,6 @@ struct RenderOptions {
   Backend backend = Backend::gl_fragment;
   int samples = 1;               ///< along each edge of a pixel; 2 for snapshots
   bool skip_empty_space = true;  ///< false marches through everything, for tests
-  int threads = 0;               ///< of the CPU back-end; 0: all cores but one, on a pair of cores both
 };
 
 }  // namespace render

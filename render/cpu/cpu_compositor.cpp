@@ -29,12 +29,6 @@ glm::vec3 seen(const EyeCanvas& canvas, glm::ivec2 place_px, glm::ivec2 px) {
   return glm::mix(glm::mix(corner(0, 0), corner(1, 0), part.x), glm::mix(corner(0, 1), corner(1, 1), part.x), part.y);
 }
 
-void resize(Picture& picture, glm::ivec2 size) {
-  picture.w = size.x;
-  picture.h = size.y;
-  picture.rgba.resize(4 * static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
-}
-
 // Bytes red first, whichever way the machine keeps its words.
 void putRow(Picture& picture, int y, const std::uint32_t* rgba) {
   static_assert(std::endian::native == std::endian::little);
@@ -48,7 +42,9 @@ void compose(const StereoLayout& layout, const EyeCanvas& left, const EyeCanvas&
              Picture& output) {
   const glm::ivec2 size = outputSize(layout.mode, layout.screen_px);
   const glm::ivec2 place_px = eyePictureSize(layout.mode, layout.screen_px);
-  resize(output, size);
+  output.w = size.x;
+  output.h = size.y;
+  output.rgba.resize(4 * static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
   const auto width = static_cast<std::size_t>(size.x);
   const bool in_runs = layout.mode != DisplayMode::column_interleaved && layout.mode != DisplayMode::checkerboard &&
                        !isAnaglyph(layout.mode) && left.px == place_px && right.px == place_px;
@@ -99,19 +95,6 @@ void compose(const StereoLayout& layout, const EyeCanvas& left, const EyeCanvas&
     kernels.encode(r, g, b, size.x, rgba.data());
     putRow(output, y, rgba.data());
   });
-}
-
-Picture pictureOf(const EyeCanvas& canvas, const ShadeKernels& kernels) {
-  Picture picture;
-  resize(picture, canvas.px);
-  tbb::parallel_for(0, canvas.px.y, [&](int y) {
-    thread_local std::vector<std::uint32_t> rgba;
-    rgba.resize(static_cast<std::size_t>(canvas.px.x) + kLanePadding);
-    const std::size_t n = canvas.at(0, y);
-    kernels.encode(&canvas.r[n], &canvas.g[n], &canvas.b[n], canvas.px.x, rgba.data());
-    putRow(picture, y, rgba.data());
-  });
-  return picture;
 }
 
 }  // namespace render

@@ -14,7 +14,4 @@ namespace render {
 void compose(const StereoLayout& layout, const EyeCanvas& left, const EyeCanvas& right, const ShadeKernels& kernels,
              Picture& output);
 
-/// The canvas itself.
-Picture pictureOf(const EyeCanvas& canvas, const ShadeKernels& kernels);
-
 }  // namespace render

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <optional>
 #include <thread>
@@ -16,9 +15,6 @@
 #include "render/cpu/eye_canvas.h"
 #include "render/cpu/ray_painter.h"
 #include "render/eye_block.h"
-#include "render/gpu/gpu_error.h"
-#include "render/scene/guide_opacity.h"
-#include "render/scene/mandibular_canal_tube.h"
 #include "render/shaders/shared_numbers.glsl"
 #include "render/volume/transfer_function.h"
 #include "render/volume/volume_fields.h"
@@ -30,8 +26,7 @@ constexpr int kTile = 16;  // pixels along the edge of a tile
 constexpr int kBlock = 4;  // rays of a 4x4 block follow one another, so that packets are compact
 
 // The servo keeps a core where there is more than a pair; on two it takes what it needs by its priority.
-int threadsFor(const RenderOptions& options) {
-  if (options.threads > 0) return options.threads;
+int threads() {
   const int cores = static_cast<int>(std::thread::hardware_concurrency());
   return cores > 2 ? cores - 1 : std::max(cores, 1);
 }
@@ -82,54 +77,32 @@ void layOver(const Inset& inset, EyeCanvas& canvas) {
 struct DrawnEye {
   StillHits still;
   EyeCanvas canvas;
-  Frame frame;
-  bool drawn = false;
 };
 
 class CpuSceneRenderer final : public SceneRenderer {
  public:
-  CpuSceneRenderer(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid,
-                   std::span<const std::uint8_t> label, const RenderOptions& options, ShowPicture show)
+  CpuSceneRenderer(const VolumeFields& fields, const RenderOptions& options, ShowPicture show)
       : options_(options),
         show_(std::move(show)),
         kernels_(shadeKernels()),
-        arena_(threadsFor(options)),
-        fields_(grid, solid, label),
+        arena_(threads()),
+        fields_(fields),
         cells_(fields_.solid()),
         crowded_(fields_.ambient(), BRICK_VOXELS / AMBIENT_CELL_VOXELS, std::uint16_t{1}) {}
 
-  void setFace(const assets::MeshModel& face_P) override { meshes_.setModel(MeshScene::Model::face, face_P); }
-  void setGum(const assets::MeshModel& gum_P) override { meshes_.setModel(MeshScene::Model::gum, gum_P); }
-  void setInstrument(const assets::MeshModel& instrument_T) override {
-    meshes_.setModel(MeshScene::Model::instrument, instrument_T);
-    meshes_.setModel(MeshScene::Model::ghost, instrument_T);
-  }
-  void setSecondInstrument(const assets::MeshModel& instrument_O) override {
-    meshes_.setModel(MeshScene::Model::second_instrument, instrument_O);
-  }
-  void setGuides(const Guides& guides) override;
-  void updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, Occupancy::kBrickValues> solid) override {
-    fields_.updateBrick(brick, solid);
-  }
-
+  void setModel(Model model, const assets::MeshModel& mesh) override { meshes_.setModel(model, mesh); }
+  void setGuides(GuideField guides) override { guides_ = std::move(guides); }
   void setInsets(std::vector<Inset> insets) override { insets_ = std::move(insets); }
-  const VolumeFields& fields() const override { return fields_; }
 
-  void prepare(const Frame& frame) override;
+  void prepare(const Frame& frame, const FieldChanges& changes) override;
   void drawEye(const Frame& frame, Eye eye, glm::ivec2 px) override;
-  void compose(const Frame& frame) override;
-  void composeForBystander() override;
+  void compose(const StereoLayout& layout, Eye left, Eye right, int output) override;
 
   void showOnWindow(const WindowPlace& place, int output) override {
-    if (!show_) throw GpuError("no OpenGL for the window, renderer cpu: use --headless, or install a graphics driver");
     show_(outputs_[static_cast<std::size_t>(output)], place);
   }
   Picture readPicture(int output) override { return outputs_[static_cast<std::size_t>(output)]; }
-  Picture readEye(Eye eye) override {
-    assert(drawn(eye).drawn);
-    return arena_.execute([&] { return pictureOf(drawn(eye).canvas, kernels_); });
-  }
-  DistancePicture readDistance(Eye eye) override;
+  DistancePicture readDistance(const Frame& frame, Eye eye) override;
   void throwIfError() override {}
 
  private:
@@ -144,57 +117,30 @@ class CpuSceneRenderer final : public SceneRenderer {
   ShowPicture show_;
   const ShadeKernels& kernels_;
   tbb::task_arena arena_;
-  VolumeFields fields_;
+  const VolumeFields& fields_;
   SolidCells cells_;
   Occupancy crowded_;  ///< how far soft shade can be felt
   TransferFunction transfer_;
   OpacityTable opacity_;
-  std::optional<BorderedField<std::uint32_t>> guides_;
+  std::optional<GuideField> guides_;
   MeshScene meshes_;
   std::vector<Inset> insets_;
   tbb::enumerable_thread_specific<std::unique_ptr<RayPainter>> painters_{[] { return std::make_unique<RayPainter>(); }};
   std::array<DrawnEye, 3> eyes_;
-  std::array<Picture, kBystanderOutput + 1> outputs_;
-  Eye composed_from_ = Eye::cyclopean;
+  std::array<Picture, kOutputs> outputs_;
 };
 
-void CpuSceneRenderer::setGuides(const Guides& guides) {
-  const assets::MeshModel tube = mandibularCanalTube(guides.mandibular_canal_P_mm, guides.mandibular_canal_radius_mm);
-  meshes_.setModel(MeshScene::Model::mandibular_canal, tube);
-  meshes_.setModel(MeshScene::Model::mandibular_canal_through, tube);
-  const GuideField field(fields_.grid(), guides);
-  guides_.emplace(field.size());
-  std::size_t n = 0;
-  for (int k = 0; k < field.size().z; ++k)
-    for (int j = 0; j < field.size().y; ++j)
-      for (int i = 0; i < field.size().x; ++i, n += 2)
-        *guides_->at({i, j, k}) = field.values()[n] | static_cast<std::uint32_t>(field.values()[n + 1]) << 16;
-}
-
-void CpuSceneRenderer::prepare(const Frame& frame) {
+void CpuSceneRenderer::prepare(const Frame& frame, const FieldChanges& changes) {
   const EyeBlock any_eye = eyeBlock(frame, eyeView(frame.rig, Eye::cyclopean));
   arena_.execute([&] {
     // Both views pass the same empty bricks, for the ramp begins at the surface or above.
-    const FieldChanges& changes = fields_.prepare();
     for (const VoxelBox& cells : changes.ambient) crowded_.touch(cells);
     crowded_.refresh();
     for (const VoxelBox& box : changes.solid) cells_.touch(box);
     cells_.refresh();
     if (changes.solid.empty()) cells_.rebuildIfStale();
-    meshes_.place({.P_from_tool = frame.X_PT.matrix(),
-                   .bur_angle_rad = frame.bur_angle_rad,
-                   .tool_visible = frame.tool_visible,
-                   .gum_visible = frame.layers.gum,
-                   .P_from_second = frame.X_PO.matrix(),
-                   .second_visible = frame.second_visible,
-                   .face_opacity = frame.layers.face_opacity,
-                   .mandibular_canal_visible = frame.layers.mandibular_canal,
-                   .P_from_hand = frame.X_PT_at_hand.matrix(),
-                   .ghost_opacity = ghostOpacity(frame),
-                   .mandibular_canal_through_opacity = kMandibularCanalThrough,
-                   .window_eye_P = glm::vec3(any_eye.window_eye_P),
-                   .window_site_P = glm::vec3(any_eye.window_site_P),
-                   .window_mm = any_eye.window_site_P.w});
+    meshes_.place(placementsIn(frame),
+                  {glm::vec3(any_eye.window_eye_P), glm::vec3(any_eye.window_site_P), any_eye.window_site_P.w});
   });
 }
 
@@ -222,7 +168,7 @@ PaintScene CpuSceneRenderer::sceneFor(const Frame& frame, Eye eye) {
                    .size = crowded_.bricks()};
   if (guides_) {
     shade.guides = viewOf(*guides_);
-    shade.shown_guides = (frame.layers.clearance ? GUIDE_CLEARANCE : 0) | (frame.layers.planned_cut ? GUIDE_PLAN : 0);
+    shade.shown_guides = shownGuides(frame);
   }
   shade.ambient_shade = frame.quality.ambient_occlusion;
   shade.lamp_shadow = frame.quality.lamp_shadow;
@@ -242,8 +188,6 @@ PaintScene CpuSceneRenderer::sceneFor(const Frame& frame, Eye eye) {
 void CpuSceneRenderer::drawEye(const Frame& frame, Eye eye, glm::ivec2 px) {
   DrawnEye& to = drawn(eye);
   to.canvas.resize(px);
-  to.frame = frame;
-  to.drawn = true;
   const PaintScene scene = sceneFor(frame, eye);
   arena_.execute([&] {
     draw(scene, options_.samples, to.canvas, options_.samples == 1 ? &to.still : nullptr);
@@ -352,52 +296,32 @@ void CpuSceneRenderer::drawEdgesAgain(const PaintScene& scene, EyeCanvas& canvas
   });
 }
 
-void CpuSceneRenderer::compose(const Frame& frame) {
-  StereoLayout layout{.mode = frame.display,
-                      .screen_px = frame.rig.screen.px,
-                      .at_px = frame.output_at_px,
-                      .swapped = frame.eyes_swapped};
-  const bool mono = frame.display == DisplayMode::mono;
-  composed_from_ = mono ? Eye::cyclopean : Eye::left;
-  const EyeCanvas& left = drawn(composed_from_).canvas;
-  const EyeCanvas& right = drawn(mono ? Eye::cyclopean : Eye::right).canvas;
+void CpuSceneRenderer::compose(const StereoLayout& layout, Eye left, Eye right, int output) {
   arena_.execute([&] {
-    for (layout.output = 0; layout.output < outputCount(frame.display); ++layout.output)
-      render::compose(layout, left, right, kernels_, outputs_[static_cast<std::size_t>(layout.output)]);
+    render::compose(layout, drawn(left).canvas, drawn(right).canvas, kernels_,
+                    outputs_[static_cast<std::size_t>(output)]);
   });
 }
 
-void CpuSceneRenderer::composeForBystander() {
-  const DrawnEye& seen = drawn(composed_from_);
-  arena_.execute([&] {
-    render::compose({.screen_px = seen.frame.rig.screen.px}, seen.canvas, seen.canvas, kernels_,
-                    outputs_[kBystanderOutput]);
-  });
-}
-
-DistancePicture CpuSceneRenderer::readDistance(Eye eye) {
-  const DrawnEye& shown = drawn(eye);
-  assert(shown.drawn);
-  const auto picture = [](const EyeCanvas& canvas) -> DistancePicture {
-    const auto count = static_cast<std::ptrdiff_t>(canvas.px.x) * canvas.px.y;
-    return {canvas.px.x, canvas.px.y, {canvas.distance_mm.begin(), canvas.distance_mm.begin() + count}};
-  };
-  if (options_.samples == 1) return picture(shown.canvas);
-
-  // Samples lie beside the pixel's centre, where the distance is asked for: draw it there.
+DistancePicture CpuSceneRenderer::readDistance(const Frame& frame, Eye eye) {
+  const EyeCanvas* canvas = &drawn(eye).canvas;
   EyeCanvas centred;
-  centred.resize(shown.canvas.px);
-  const PaintScene scene = sceneFor(shown.frame, eye);
-  arena_.execute([&] { draw(scene, 1, centred, nullptr); });
-  return picture(centred);
+  if (options_.samples > 1) {
+    // Samples lie beside the pixel's centre, where the distance is asked for: draw it there.
+    centred.resize(canvas->px);
+    const PaintScene scene = sceneFor(frame, eye);
+    arena_.execute([&] { draw(scene, 1, centred, nullptr); });
+    canvas = &centred;
+  }
+  const auto count = static_cast<std::ptrdiff_t>(canvas->px.x) * canvas->px.y;
+  return {canvas->px.x, canvas->px.y, {canvas->distance_mm.begin(), canvas->distance_mm.begin() + count}};
 }
 
 }  // namespace
 
-std::unique_ptr<SceneRenderer> cpuSceneRenderer(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid,
-                                                std::span<const std::uint8_t> label, const RenderOptions& options,
+std::unique_ptr<SceneRenderer> cpuSceneRenderer(const VolumeFields& fields, const RenderOptions& options,
                                                 ShowPicture show) {
-  return std::make_unique<CpuSceneRenderer>(grid, solid, label, options, std::move(show));
+  return std::make_unique<CpuSceneRenderer>(fields, options, std::move(show));
 }
 
 }  // namespace render

@@ -11,8 +11,6 @@
 namespace render {
 namespace {
 
-using Model = MeshScene::Model;
-
 bool isThrough(Model model) { return model == Model::mandibular_canal_through || model == Model::ghost; }
 bool isInHand(Model model) { return model == Model::instrument || model == Model::second_instrument; }
 
@@ -31,23 +29,6 @@ MeshBodyPart keptPart(const assets::MeshPart& part, Model model) {
 }
 
 }  // namespace
-
-Finish finishOf(Model model) {
-  switch (model) {
-    case Model::face:
-      return Finish::skin;
-    case Model::gum:
-      return Finish::gum;
-    case Model::mandibular_canal:
-    case Model::mandibular_canal_through:
-      return Finish::guide;
-    case Model::instrument:
-    case Model::second_instrument:
-    case Model::ghost:
-      break;
-  }
-  return Finish::instrument;
-}
 
 MeshBodies::MeshBodies() : device_(rtcNewDevice(nullptr)) {
   if (device_ == nullptr)
@@ -112,26 +93,6 @@ void MeshBodies::remove(std::size_t index) {
   body = MeshBody{};
 }
 
-float MeshBodies::opacityOf(const MeshBody& body) const {
-  switch (body.model) {
-    case Model::face:
-      return placement_.face_opacity;
-    case Model::gum:
-      return placement_.gum_visible ? 1.0f : 0.0f;
-    case Model::instrument:
-      return placement_.tool_visible ? 1.0f : 0.0f;
-    case Model::second_instrument:
-      return placement_.second_visible ? 1.0f : 0.0f;
-    case Model::mandibular_canal:
-      return placement_.mandibular_canal_visible ? 1.0f : 0.0f;
-    case Model::mandibular_canal_through:
-      return placement_.mandibular_canal_visible ? placement_.mandibular_canal_through_opacity : 0.0f;
-    case Model::ghost:
-      return placement_.ghost_opacity;
-  }
-  return 0.0f;
-}
-
 RTCScene MeshBodies::sceneOf(const std::vector<const assets::MeshPart*>& from, MeshBody& body) {
   RTCScene scene = rtcNewScene(device_);
   rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
@@ -188,33 +149,30 @@ void MeshBodies::setModel(Model model, const assets::MeshModel& mesh) {
       rtcSetGeometryTransform(at->instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &at->pose);
       rtcCommitGeometry(at->instance);
     }
-  place(placement_);
+  place(placements_, window_);
 }
 
-void MeshBodies::place(const MeshPlacement& placement) {
-  if (placement.window_mm != placement_.window_mm || placement.window_eye_P != placement_.window_eye_P ||
-      placement.window_site_P != placement_.window_site_P)
-    ++still_revision_;
-  placement_ = placement;
+void MeshBodies::place(const Placements& placements, const FaceWindow& window) {
+  if (window != window_) ++still_revision_;
+  window_ = window;
+  placements_ = placements;
   has_still_ = has_moving_ = has_transparent_ = has_through_ = false;
-  const bool guided = placement.mandibular_canal_visible || placement.ghost_opacity > 0.0f;
-  const glm::dmat4 turned = glm::rotate(glm::dmat4(1.0), placement.bur_angle_rad, glm::dvec3(0.0, 0.0, 1.0));
+  const bool guided = opacityOf(Model::mandibular_canal) > 0.0f || opacityOf(Model::ghost) > 0.0f;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     MeshBody& body = bodies_[i];
     if (body.scene == nullptr) continue;
     const bool is_through = isThrough(body.model), is_in_hand = isInHand(body.model);
-    const float opacity = opacityOf(body);
-    const bool visible = opacity > 0.0f, is_clear = body.transparent || opacity < 1.0f;
+    const Placement& at = placements_[body.model];
+    const bool visible = at.opacity > 0.0f, is_clear = body.transparent || at.opacity < 1.0f;
     RTCScene in = is_through ? through_ : is_clear ? transparent_ : is_in_hand ? moving_ : still_;
     show(i, visible ? in : nullptr);
     cover(i, guided && visible && !is_clear && (is_in_hand || body.model == Model::face));
     if (visible)
       (is_through ? has_through_ : is_clear ? has_transparent_ : is_in_hand ? has_moving_ : has_still_) = true;
 
-    if (body.model == Model::second_instrument) move(body, placement.P_from_second);
-    if (body.model != Model::instrument && body.model != Model::ghost) continue;
-    const glm::dmat4& held = body.model == Model::instrument ? placement.P_from_tool : placement.P_from_hand;
-    move(body, body.turns ? held * turned : held);
+    if (!is_in_hand && body.model != Model::ghost) continue;
+    const glm::dmat4 turned = glm::rotate(glm::dmat4(1.0), at.bur_angle_rad, glm::dvec3(0.0, 0.0, 1.0));
+    move(body, body.turns ? at.P_from_mesh * turned : at.P_from_mesh);
   }
   for (RTCScene scene : {still_, moving_, transparent_, through_, covers_}) rtcCommitScene(scene);
   complain();

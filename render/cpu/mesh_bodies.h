@@ -9,7 +9,6 @@
 
 #include "assets/mesh.h"
 #include "render/cpu/mesh_scene.h"
-#include "render/scene/finish.h"
 
 // Embree's, whose own header stays in .cpp files.
 struct RTCDeviceTy;
@@ -27,7 +26,7 @@ struct MeshBodyPart {
 
 /// Parts that move alike and are seen alike.
 struct MeshBody {
-  MeshScene::Model model = MeshScene::Model::face;
+  Model model = Model::face;
   bool turns = false, transparent = false;
   bool is_held = false;             ///< its pose is not the identity
   glm::vec3 low{0.0f}, high{0.0f};  ///< its box, in its own frame
@@ -45,8 +44,6 @@ enum class MeshTrait : std::uintptr_t { plain = 0, cuttable = 1, outside_only = 
 
 class MeshBodies {
  public:
-  using Model = MeshScene::Model;
-
   /// Throws GpuError if Embree can not be had.
   MeshBodies();
   ~MeshBodies();
@@ -54,13 +51,12 @@ class MeshBodies {
   MeshBodies& operator=(const MeshBodies&) = delete;
 
   void setModel(Model model, const assets::MeshModel& mesh);
-  void place(const MeshPlacement& placement);
+  void place(const Placements& placements, const FaceWindow& window);
 
   /// By their numbers in the upper scenes; some places may be free.
   const std::vector<MeshBody>& all() const { return bodies_; }
-  const MeshPlacement& placement() const { return placement_; }
-  /// Of the whole model; 0: it is not shown.
-  float opacityOf(const MeshBody& body) const;
+  float opacityOf(Model model) const { return placements_[model].opacity; }
+  const FaceWindow& window() const { return window_; }
   std::uint64_t stillRevision() const { return still_revision_; }
 
   RTCSceneTy* still() const { return still_; }
@@ -85,11 +81,10 @@ class MeshBodies {
   RTCDeviceTy* device_;
   RTCSceneTy *still_ = nullptr, *moving_ = nullptr, *transparent_ = nullptr, *through_ = nullptr, *covers_ = nullptr;
   std::vector<MeshBody> bodies_;
-  MeshPlacement placement_;
+  Placements placements_ = placementsIn(Frame{});
+  FaceWindow window_;
   bool has_still_ = false, has_moving_ = false, has_transparent_ = false, has_through_ = false;
   std::uint64_t still_revision_ = 0;
 };
-
-Finish finishOf(MeshScene::Model model);
 
 }  // namespace render

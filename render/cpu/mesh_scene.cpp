@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "render/cpu/mesh_bodies.h"
+#include "render/shaders/light_numbers.glsl"
 
 namespace render {
 namespace {
@@ -25,25 +26,25 @@ struct Layer {
 /// What the filter of a query is told.
 struct Query {
   RTCIntersectContext context;  // first: Embree hands back its address
-  const MeshPlacement* placement;
+  const FaceWindow* window;
   std::vector<Layer>* layers;  ///< null: looking for the first hit
 };
 
 // mm from the rim of the window, negative inside: rimDistance of mesh.frag.
-float rimDistance(const MeshPlacement& m, const glm::vec3& p) {
-  const glm::vec3 line = m.window_site_P - m.window_eye_P;
+float rimDistance(const FaceWindow& window, const glm::vec3& p) {
+  const glm::vec3 line = window.site_P - window.eye_P;
   const float reach = glm::length(line);
   const glm::vec3 axis = line / reach;
-  const glm::vec3 offset = p - m.window_eye_P;
+  const glm::vec3 offset = p - window.eye_P;
   const float along = glm::dot(offset, axis);
-  return std::max(glm::length(offset - along * axis) - m.window_mm, along - (reach - 2.0f));
+  return std::max(glm::length(offset - along * axis) - window.radius_mm, along - (reach - RIM_BEHIND));
 }
 
 // Embree asks before it takes a hit: the window lets rays through, a guide's inside too, layers are noted and passed.
 void filter(const RTCFilterFunctionNArguments* args) {
   const Query& query = *reinterpret_cast<const Query*>(args->context);
   const auto trait = static_cast<MeshTrait>(reinterpret_cast<std::uintptr_t>(args->geometryUserPtr));
-  const bool may_cut = trait == MeshTrait::cuttable && query.placement->window_mm > 0.0f;
+  const bool may_cut = trait == MeshTrait::cuttable && query.window->radius_mm > 0.0f;
   const bool one_sided = trait == MeshTrait::outside_only;
   if (!may_cut && !one_sided && query.layers == nullptr) return;
   const unsigned n = args->N;
@@ -55,7 +56,7 @@ void filter(const RTCFilterFunctionNArguments* args) {
     if (may_cut) {
       const glm::vec3 origin(RTCRayN_org_x(args->ray, n, i), RTCRayN_org_y(args->ray, n, i),
                              RTCRayN_org_z(args->ray, n, i));
-      if (rimDistance(*query.placement, origin + t * direction) < 0.0f) {
+      if (rimDistance(*query.window, origin + t * direction) < 0.0f) {
         args->valid[i] = 0;
         continue;
       }
@@ -135,11 +136,10 @@ struct MeshScene::Impl {
 };
 
 Query MeshScene::Impl::queryFor(std::vector<Layer>* layers) const {
-  const MeshPlacement& placement = bodies.placement();
-  Query query{.context = {}, .placement = &placement, .layers = layers};
+  Query query{.context = {}, .window = &bodies.window(), .layers = layers};
   rtcInitIntersectContext(&query.context);
   query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  if (layers != nullptr || placement.window_mm > 0.0f || placement.mandibular_canal_visible)
+  if (layers != nullptr || bodies.window().radius_mm > 0.0f || bodies.opacityOf(Model::mandibular_canal) > 0.0f)
     query.context.filter = filter;
   return query;
 }
@@ -148,7 +148,9 @@ MeshScene::MeshScene() : impl_(std::make_unique<Impl>()) {}
 MeshScene::~MeshScene() = default;
 
 void MeshScene::setModel(Model model, const assets::MeshModel& mesh) { impl_->bodies.setModel(model, mesh); }
-void MeshScene::place(const MeshPlacement& placement) { impl_->bodies.place(placement); }
+void MeshScene::place(const Placements& placements, const FaceWindow& window) {
+  impl_->bodies.place(placements, window);
+}
 
 bool MeshScene::hasTransparent() const { return impl_->bodies.hasTransparent() || impl_->bodies.hasThrough(); }
 std::uint64_t MeshScene::stillRevision() const { return impl_->bodies.stillRevision(); }
@@ -272,7 +274,7 @@ void MeshScene::layers(const RayBatch& rays, const float* limit_mm, MeshPoints& 
   for (const Layer& layer : met) {
     const MeshBody& body = bodies.all()[layer.body];
     add(to, body, body.parts[layer.part], layer.triangle, layer.u, layer.v, layer.ray, layer.distance_mm,
-        layer.faces_eye, bodies.opacityOf(body));
+        layer.faces_eye, bodies.opacityOf(body.model));
   }
 }
 

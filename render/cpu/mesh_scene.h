@@ -9,41 +9,30 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
-#include <vector>
 
 #include "assets/mesh.h"
 #include "render/cpu/mesh_points.h"
+#include "render/scene/models.h"
 
 namespace render {
 
-/// Where the models are in this frame, and how much of them is seen.
-struct MeshPlacement {
-  glm::dmat4 P_from_tool{1.0};
-  double bur_angle_rad = 0.0;
-  bool tool_visible = true, gum_visible = true;
-  glm::dmat4 P_from_second{1.0};
-  bool second_visible = false;
-  float face_opacity = 1.0f;  ///< 0: no face
-  bool mandibular_canal_visible = false;
-  glm::dmat4 P_from_hand{1.0};  ///< of the ghost
-  float ghost_opacity = 0.0f;
-  float mandibular_canal_through_opacity = 0.0f;
-  glm::vec3 window_eye_P{0.0f}, window_site_P{0.0f};
-  float window_mm = 0.0f;  ///< 0: the face is whole
+/// The hole in the face, around the line from the eyes to the site.
+struct FaceWindow {
+  glm::vec3 eye_P{0.0f}, site_P{0.0f};
+  float radius_mm = 0.0f;  ///< 0: the face is whole
+  bool operator==(const FaceWindow&) const = default;
 };
 
 class MeshScene {
  public:
-  /// `canal` where it lies open and, `_through`, through bone and gum; `ghost`: the instrument at the hand, likewise.
-  enum class Model { face, gum, instrument, second_instrument, mandibular_canal, mandibular_canal_through, ghost };
-
   /// Throws GpuError if Embree can not be had.
   MeshScene();
   ~MeshScene();
 
   /// An empty model removes what was there. The instrument's part "Bur" turns about its z axis.
   void setModel(Model model, const assets::MeshModel& mesh);
-  void place(const MeshPlacement& placement);
+  /// At first as in a frame of default values.
+  void place(const Placements& placements, const FaceWindow& window = {});
 
   bool hasTransparent() const;
 

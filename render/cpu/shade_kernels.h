@@ -32,7 +32,7 @@ struct ShadeScene {
   FieldView<std::uint16_t> smooth, ambient;
   FieldView<std::uint32_t> look;
   FieldView<std::uint8_t> crowded;  ///< per brick, without border: bricks to the next with anything in it
-  FieldView<std::uint32_t> guides;  ///< guide_field.h on the cells of the ambient map, two halves a cell
+  FieldView<glm::u16vec2> guides;   ///< guide_field.h on the cells of the ambient map
   int shown_guides = 0;             ///< GUIDE_CLEARANCE, GUIDE_PLAN
   bool ambient_shade = true, lamp_shadow = true;
 };

@@ -63,7 +63,7 @@ struct GuideDistances {
 };
 
 inline GuideDistances guideDistances(const ShadeScene& scene, const Float3& index, Mask mask) {
-  const FieldView<std::uint32_t>& field = scene.guides;
+  const FieldView<glm::u16vec2>& field = scene.guides;
   constexpr float kCell = 1.0f / AMBIENT_CELL_VOXELS;
   const Float3 at = kCell * (index + 0.5f) + 0.5f;
   const Mask inside = mask & insideBorder(at, field.size);

@@ -22,20 +22,16 @@ static_assert(static_cast<int>(DisplayMode::mono) == DISPLAY_MONO &&
 
 }  // namespace
 
-StereoCompositor::StereoCompositor() : program_("screen.vert", "output.frag") {}
-
 void StereoCompositor::compose(const StereoLayout& layout, const Texture& left, const Texture& right, int samples,
                                const Framebuffer& output) {
   output.bind();
-  apply({.depth_test = false, .depth_write = false});
-  program_.use();
   left.bind(LEFT_EYE_UNIT);
   right.bind(RIGHT_EYE_UNIT);
   block_.set(OUTPUT_BLOCK,
              {.mode = {static_cast<int>(layout.mode), samples, layout.output, layout.swapped ? 1 : 0},
               .place = {layout.at_px, output.size()},
               .eye = {eyePictureSize(layout.mode, layout.screen_px), packingGap_px(layout.screen_px.y), 0}});
-  drawScreen();
+  drawScreen(program_, {.depth_test = false, .depth_write = false});
 }
 
 }  // namespace render

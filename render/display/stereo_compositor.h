@@ -18,15 +18,13 @@ struct OutputBlock {
 
 class StereoCompositor {
  public:
-  StereoCompositor();
-
   /// `left` and `right`: linear pictures, `samples` values along each edge of a pixel, of eyePictureSize() or smaller;
   /// mono shows `left`. `output`: outputSize() large.
   void compose(const StereoLayout& layout, const Texture& left, const Texture& right, int samples,
                const Framebuffer& output);
 
  private:
-  Program program_;
+  Program program_{"screen.vert", "output.frag"};
   UniformBlock<OutputBlock> block_;
 };
 

@@ -18,11 +18,15 @@ static_assert(static_cast<int>(Key::space) == GLFW_KEY_SPACE && static_cast<int>
               static_cast<int>(Key::left) == GLFW_KEY_LEFT && static_cast<int>(Key::page_down) == GLFW_KEY_PAGE_DOWN &&
               static_cast<int>(Key::left_alt) == GLFW_KEY_LEFT_ALT && keyOf('A') == static_cast<Key>(GLFW_KEY_A));
 
+MouseButton buttonOf(int glfw_button) {
+  if (glfw_button == GLFW_MOUSE_BUTTON_LEFT) return MouseButton::left;
+  if (glfw_button == GLFW_MOUSE_BUTTON_RIGHT) return MouseButton::right;
+  return glfw_button == GLFW_MOUSE_BUTTON_MIDDLE ? MouseButton::middle : MouseButton::none;
+}
+
 MouseButton heldButton(GLFWwindow* window) {
-  const auto is_held = [window](int button) { return glfwGetMouseButton(window, button) == GLFW_PRESS; };
-  if (is_held(GLFW_MOUSE_BUTTON_LEFT)) return MouseButton::left;
-  if (is_held(GLFW_MOUSE_BUTTON_RIGHT)) return MouseButton::right;
-  if (is_held(GLFW_MOUSE_BUTTON_MIDDLE)) return MouseButton::middle;
+  for (const int button : {GLFW_MOUSE_BUTTON_LEFT, GLFW_MOUSE_BUTTON_RIGHT, GLFW_MOUSE_BUTTON_MIDDLE})
+    if (glfwGetMouseButton(window, button) == GLFW_PRESS) return buttonOf(button);
   return MouseButton::none;
 }
 
@@ -44,12 +48,6 @@ GLFWmonitor* monitorFor(const Window::Options& options) {
   GLFWmonitor** const all = glfwGetMonitors(&count);
   if (options.monitor) return *options.monitor >= 0 && *options.monitor < count ? all[*options.monitor] : nullptr;
   return options.full_screen ? glfwGetPrimaryMonitor() : nullptr;
-}
-
-MouseButton buttonOf(int glfw_button) {
-  if (glfw_button == GLFW_MOUSE_BUTTON_LEFT) return MouseButton::left;
-  if (glfw_button == GLFW_MOUSE_BUTTON_RIGHT) return MouseButton::right;
-  return glfw_button == GLFW_MOUSE_BUTTON_MIDDLE ? MouseButton::middle : MouseButton::none;
 }
 
 }  // namespace
@@ -86,7 +84,6 @@ Window::Impl::Impl(const Options& options) : owns_library(options.beside == null
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-  glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, options.debugging ? GLFW_TRUE : GLFW_FALSE);
   glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
   glfwWindowHint(GLFW_VISIBLE, options.visible ? GLFW_TRUE : GLFW_FALSE);
   glfwWindowHint(GLFW_FOCUSED, options.focused ? GLFW_TRUE : GLFW_FALSE);

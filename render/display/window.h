@@ -83,7 +83,6 @@ class Window {
     bool wait_for_refresh = true;  ///< vsync
     bool visible = true;
     bool focused = true;             ///< takes the keyboard when it opens
-    bool debugging = false;          ///< KHR_debug context
     bool quad_buffer = false;        ///< left and right back buffers
     const Window* beside = nullptr;  ///< shares textures with it
   };

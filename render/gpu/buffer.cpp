@@ -3,31 +3,21 @@
 #include <epoxy/gl.h>
 
 namespace render {
-namespace {
 
-void deleteBuffer(unsigned name) { glDeleteBuffers(1, &name); }
-
-unsigned newBuffer() {
-  GLuint name = 0;
-  glCreateBuffers(1, &name);
-  return name;
-}
-
-}  // namespace
-
-Buffer::Buffer(std::span<const std::byte> content) : name_(newBuffer(), &deleteBuffer) {
+Buffer::Buffer(std::span<const std::byte> content) : name_(newBuffer()) {
   if (!content.empty()) glNamedBufferStorage(name(), static_cast<GLsizeiptr>(content.size()), content.data(), 0);
 }
 
 Buffer Buffer::ofSize(std::size_t bytes) {
   Buffer buffer;
-  buffer.name_ = GlName(newBuffer(), &deleteBuffer);
+  buffer.name_ = newBuffer();
   glNamedBufferStorage(buffer.name(), static_cast<GLsizeiptr>(bytes), nullptr, GL_DYNAMIC_STORAGE_BIT);
   return buffer;
 }
 
-void Buffer::update(std::span<const std::byte> content) {
-  glNamedBufferSubData(name(), 0, static_cast<GLsizeiptr>(content.size()), content.data());
+void Buffer::update(std::span<const std::byte> content, std::size_t first_byte) {
+  glNamedBufferSubData(name(), static_cast<GLintptr>(first_byte), static_cast<GLsizeiptr>(content.size()),
+                       content.data());
 }
 
 void Buffer::bindUniform(int block) const { glBindBufferBase(GL_UNIFORM_BUFFER, static_cast<GLuint>(block), name()); }

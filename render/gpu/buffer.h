@@ -16,7 +16,7 @@ class Buffer {
   /// Room for `bytes` to be rewritten with update().
   static Buffer ofSize(std::size_t bytes);
 
-  void update(std::span<const std::byte> content);
+  void update(std::span<const std::byte> content, std::size_t first_byte = 0);
   /// Binds it as the uniform block with that binding.
   void bindUniform(int block) const;
   /// Binds it as the storage block with that binding.

@@ -4,13 +4,10 @@
 
 #include <cstddef>
 
-#include "render/gpu/vertex_array.h"
 #include "render/shaders/shared_numbers.glsl"
 
 namespace render {
 namespace {
-
-void enable(GLenum capability, bool on) { on ? glEnable(capability) : glDisable(capability); }
 
 void setMask(GLuint target, bool on) {
   const GLboolean write = on ? GL_TRUE : GL_FALSE;
@@ -21,14 +18,12 @@ void setMask(GLuint target, bool on) {
 
 void apply(const DrawState& state) {
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-  enable(GL_DEPTH_TEST, state.depth_test);
+  state.depth_test ? glEnable(GL_DEPTH_TEST) : glDisable(GL_DEPTH_TEST);
   glDepthFunc(state.at_same_depth ? GL_GEQUAL : GL_GREATER);
   glDepthMask(state.depth_write ? GL_TRUE : GL_FALSE);
-  enable(GL_BLEND, false);
-  if (state.blend != Blend::none) {
-    glEnablei(GL_BLEND, 0);
-    glBlendFunc(state.blend == Blend::over ? GL_SRC_ALPHA : GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  }
+  glDisable(GL_BLEND);
+  if (state.lay_over) glEnablei(GL_BLEND, 0);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glDisable(GL_CULL_FACE);
   glDisable(GL_FRAMEBUFFER_SRGB);
   glFrontFace(state.mirrored ? GL_CW : GL_CCW);
@@ -40,7 +35,9 @@ void setViewport(glm::ivec2 corner, glm::ivec2 size) { glViewport(corner.x, corn
 
 void finishStorageWrites() { glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT); }
 
-void drawScreen() {
+void drawScreen(const Program& program, const DrawState& state) {
+  apply(state);
+  program.use();
   const GlName nothing = newVertexArray();
   glBindVertexArray(nothing.get());
   glDrawArrays(GL_TRIANGLES, 0, 3);

@@ -7,16 +7,15 @@
 #include <span>
 
 #include "render/gpu/buffer.h"
+#include "render/gpu/program.h"
 
 namespace render {
-
-enum class Blend { none, over, premultiplied_over };
 
 struct DrawState {
   bool depth_test = true;
   bool depth_write = true;
   bool at_same_depth = false;  ///< what lies at the very depth that is there already is drawn too
-  Blend blend = Blend::none;   ///< of the first colour attachment
+  bool lay_over = false;       ///< premultiplied, over the first colour attachment
   bool mirrored = false;       ///< the view is left-handed: front faces turn clockwise
   bool write_colour = true;    ///< first colour attachment
   bool write_distance = true;  ///< second colour attachment
@@ -30,8 +29,8 @@ void setViewport(glm::ivec2 corner, glm::ivec2 size);
 /// Makes what shaders stored in buffers and images so far readable by the next draw.
 void finishStorageWrites();
 
-/// The triangle of screen.vert.
-void drawScreen();
+/// The triangle of screen.vert over all of the bound framebuffer, or of its viewport.
+void drawScreen(const Program& program, const DrawState& state);
 
 /// Runs the compute program in use over `size` invocations in square groups, and makes the images it wrote readable as
 /// textures.

@@ -8,20 +8,9 @@
 #include "render/gpu/gpu_error.h"
 
 namespace render {
-namespace {
-
-void deleteFramebuffer(unsigned name) { glDeleteFramebuffers(1, &name); }
-
-unsigned newFramebuffer() {
-  GLuint name = 0;
-  glCreateFramebuffers(1, &name);
-  return name;
-}
-
-}  // namespace
 
 Framebuffer::Framebuffer(glm::ivec2 size, std::span<const TexelFormat> colours, bool depth)
-    : name_(newFramebuffer(), &deleteFramebuffer), size_(size) {
+    : name_(newFramebuffer()), size_(size) {
   std::vector<GLenum> buffers;
   for (const TexelFormat format : colours) {
     const GLenum attachment = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(colours_.size());
@@ -37,6 +26,10 @@ Framebuffer::Framebuffer(glm::ivec2 size, std::span<const TexelFormat> colours, 
   if (glCheckNamedFramebufferStatus(name_.get(), GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
     throw GpuError("picture of " + std::to_string(size.x) + "x" + std::to_string(size.y) +
                    " px, graphics driver: it can not be drawn into; choose a smaller one");
+}
+
+void Framebuffer::fit(glm::ivec2 size, std::span<const TexelFormat> colours, bool depth) {
+  if (size_ != size) *this = Framebuffer(size, colours, depth);
 }
 
 void Framebuffer::bind() const {

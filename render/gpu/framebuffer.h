@@ -15,6 +15,8 @@ class Framebuffer {
   Framebuffer() = default;
   /// Colour attachments 0, 1, … in the order of `colours`; with `depth` a 32-bit float depth as well.
   Framebuffer(glm::ivec2 size, std::span<const TexelFormat> colours, bool depth);
+  /// Makes it anew unless it has that size.
+  void fit(glm::ivec2 size, std::span<const TexelFormat> colours, bool depth);
 
   void bind() const;
   /// Colour 0, distances 0, depth far (reverse-Z).

@@ -29,4 +29,12 @@ class GlName {
   Delete remove_ = nullptr;
 };
 
+// New objects, without content yet.
+GlName newBuffer();
+GlName newFramebuffer();
+/// `target`: GL_TEXTURE_2D or GL_TEXTURE_3D.
+GlName newTexture(unsigned target);
+/// How the vertices of a drawing lie in their buffers.
+GlName newVertexArray();
+
 }  // namespace render

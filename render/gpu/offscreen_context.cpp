@@ -43,22 +43,16 @@ std::vector<EGLDisplay> candidateDisplays() {
 }
 
 // An OpenGL 4.5 core context current without a surface, or EGL_NO_CONTEXT.
-EGLContext contextOn(EGLDisplay display, bool debugging) {
+EGLContext contextOn(EGLDisplay display) {
   if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) return EGL_NO_CONTEXT;
   if (!eglBindAPI(EGL_OPENGL_API)) return EGL_NO_CONTEXT;
   const std::array<EGLint, 5> wish{EGL_SURFACE_TYPE, EGL_DONT_CARE, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
   EGLConfig config = nullptr;
   EGLint count = 0;
   if (!eglChooseConfig(display, wish.data(), &config, 1, &count) || count == 0) return EGL_NO_CONTEXT;
-  const std::array<EGLint, 9> attributes{EGL_CONTEXT_MAJOR_VERSION,
-                                         4,
-                                         EGL_CONTEXT_MINOR_VERSION,
-                                         5,
-                                         EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                         EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                         EGL_CONTEXT_OPENGL_DEBUG,
-                                         debugging ? EGL_TRUE : EGL_FALSE,
-                                         EGL_NONE};
+  const std::array<EGLint, 7> attributes{
+      EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
   const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
   if (context == EGL_NO_CONTEXT) return EGL_NO_CONTEXT;
   if (eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) return context;
@@ -68,21 +62,19 @@ EGLContext contextOn(EGLDisplay display, bool debugging) {
 
 }  // namespace
 
-OffscreenContext::OffscreenContext(Debugging debugging) {
+OffscreenContext::OffscreenContext() {
   for (const EGLDisplay display : candidateDisplays()) {
-    context_ = contextOn(display, debugging == Debugging::on);
+    context_ = contextOn(display);
     display_ = display;
     if (context_ != EGL_NO_CONTEXT) break;
   }
   if (context_ == EGL_NO_CONTEXT)
     throw GpuError("no OpenGL 4.5 core context, EGL without display: install libegl-mesa0 and libgl1-mesa-dri");
-  log_ = std::make_unique<GlDebugLog>(debugging == Debugging::on);
 }
 
 // Terminating ends the driver's threads here and not after main, where leak checkers trip over them.
 OffscreenContext::~OffscreenContext() {
   makeCurrent();
-  log_.reset();
   eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   eglDestroyContext(display_, context_);
   eglTerminate(display_);

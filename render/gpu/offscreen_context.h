@@ -4,30 +4,22 @@
 // Not for quad-buffered stereo.
 #pragma once
 
-#include <memory>
-
-#include "render/gpu/gl_debug_log.h"
-
 namespace render {
 
 class OffscreenContext {
  public:
-  enum class Debugging { off, on };
-
   /// Throws GpuError when no OpenGL 4.5 can be had.
-  explicit OffscreenContext(Debugging debugging = Debugging::off);
+  OffscreenContext();
   ~OffscreenContext();
   OffscreenContext(const OffscreenContext&) = delete;
   OffscreenContext& operator=(const OffscreenContext&) = delete;
 
   /// Makes it current on the calling thread, after it was current on no other or a window was opened.
   void makeCurrent();
-  GlDebugLog& debugLog() { return *log_; }
 
  private:
   void* display_ = nullptr;
   void* context_ = nullptr;
-  std::unique_ptr<GlDebugLog> log_;
 };
 
 }  // namespace render

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "render/gpu/gpu_error.h"
 #include "render/gpu/shader_library.h"
@@ -11,61 +12,48 @@
 namespace render {
 namespace {
 
-void deleteShader(unsigned name) { glDeleteShader(name); }
-void deleteProgram(unsigned name) { glDeleteProgram(name); }
-
-[[noreturn]] void throwBuildError(const std::string& what, std::string log) {
+/// `ask` and `read`: OpenGL's questions for the state and the log of a shader or of a program.
+template <class Ask, class Read>
+void throwUnlessGood(GLuint name, GLenum state, Ask ask, Read read, const std::string& what) {
+  GLint good = GL_FALSE;
+  ask(name, state, &good);
+  if (good == GL_TRUE) return;
   constexpr std::size_t kWords = 240;  // the driver's first complaint; the rest follows from it
-  log.resize(std::min(log.find('\n'), std::min(log.size(), kWords)));
+  std::string log(2000, '\0');
+  GLsizei used = 0;
+  read(name, static_cast<GLsizei>(log.size()), &used, log.data());
+  log.resize(std::min({log.find('\n'), static_cast<std::size_t>(used), kWords}));
   throw GpuError(what + ", graphics driver: " + log);
 }
 
-GlName compiled(GLenum stage, std::string_view file) {
+GlName compiled(std::string_view file) {
+  const GLenum stage = file.ends_with(".vert")   ? GL_VERTEX_SHADER
+                       : file.ends_with(".frag") ? GL_FRAGMENT_SHADER
+                                                 : GL_COMPUTE_SHADER;
   const std::string_view text = shaderSource(file);
-  GlName shader(glCreateShader(stage), &deleteShader);
+  GlName shader(glCreateShader(stage), [](unsigned name) { glDeleteShader(name); });
   const GLchar* start = text.data();
   const GLint length = static_cast<GLint>(text.size());
   glShaderSource(shader.get(), 1, &start, &length);
   glCompileShader(shader.get());
-  GLint good = GL_FALSE;
-  glGetShaderiv(shader.get(), GL_COMPILE_STATUS, &good);
-  if (good == GL_TRUE) return shader;
-  std::string log(2000, '\0');
-  GLsizei used = 0;
-  glGetShaderInfoLog(shader.get(), static_cast<GLsizei>(log.size()), &used, log.data());
-  log.resize(static_cast<std::size_t>(used));
-  throwBuildError("shader " + std::string(file) + " does not compile", log);
+  throwUnlessGood(shader.get(), GL_COMPILE_STATUS, glGetShaderiv, glGetShaderInfoLog,
+                  "shader " + std::string(file) + " does not compile");
+  return shader;
 }
 
 }  // namespace
 
-Program::Program(std::string_view vertex, std::string_view fragment) : name_(glCreateProgram(), &deleteProgram) {
-  const GlName vertex_shader = compiled(GL_VERTEX_SHADER, vertex);
-  const GlName fragment_shader = compiled(GL_FRAGMENT_SHADER, fragment);
-  glAttachShader(name_.get(), vertex_shader.get());
-  glAttachShader(name_.get(), fragment_shader.get());
-  link("shaders " + std::string(vertex) + " and " + std::string(fragment) + " do not link");
-  glDetachShader(name_.get(), vertex_shader.get());
-  glDetachShader(name_.get(), fragment_shader.get());
-}
-
-Program::Program(std::string_view compute) : name_(glCreateProgram(), &deleteProgram) {
-  const GlName shader = compiled(GL_COMPUTE_SHADER, compute);
-  glAttachShader(name_.get(), shader.get());
-  link("shader " + std::string(compute) + " does not link");
-  glDetachShader(name_.get(), shader.get());
-}
-
-void Program::link(const std::string& what) {
+Program::Program(std::initializer_list<std::string_view> files)
+    : name_(glCreateProgram(), [](unsigned name) { glDeleteProgram(name); }) {
+  std::vector<GlName> shaders;
+  std::string all;
+  for (const std::string_view file : files) {
+    glAttachShader(name_.get(), shaders.emplace_back(compiled(file)).get());
+    all += (all.empty() ? "" : " and ") + std::string(file);
+  }
   glLinkProgram(name_.get());
-  GLint good = GL_FALSE;
-  glGetProgramiv(name_.get(), GL_LINK_STATUS, &good);
-  if (good == GL_TRUE) return;
-  std::string log(2000, '\0');
-  GLsizei used = 0;
-  glGetProgramInfoLog(name_.get(), static_cast<GLsizei>(log.size()), &used, log.data());
-  log.resize(static_cast<std::size_t>(used));
-  throwBuildError(what, log);
+  throwUnlessGood(name_.get(), GL_LINK_STATUS, glGetProgramiv, glGetProgramInfoLog, "shaders " + all + " do not link");
+  for (const GlName& shader : shaders) glDetachShader(name_.get(), shader.get());
 }
 
 void Program::use() const { glUseProgram(name_.get()); }

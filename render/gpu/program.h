@@ -3,7 +3,7 @@
 // Move-only. Thread: the context's. Cost: compiling, 0.1 to 0.5 s on a software rasteriser.
 #pragma once
 
-#include <string>
+#include <initializer_list>
 #include <string_view>
 
 #include "render/gpu/gl_name.h"
@@ -12,15 +12,13 @@ namespace render {
 
 class Program {
  public:
-  /// Names of shaders, as "screen.vert". Throws GpuError with the driver's words if they do not build.
-  Program(std::string_view vertex, std::string_view fragment);
-  explicit Program(std::string_view compute);
+  /// Names of shaders, which end in .vert, .frag or .comp. Throws GpuError with the driver's words if they do not
+  /// build.
+  Program(std::initializer_list<std::string_view> files);
 
   void use() const;
 
  private:
-  void link(const std::string& what);
-
   GlName name_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <epoxy/gl.h>
 
+#include <array>
 #include <cassert>
 #include <string>
 
@@ -15,40 +16,22 @@ struct FormatFacts {
   std::size_t bytes;
 };
 
-FormatFacts factsOf(TexelFormat format) {
-  switch (format) {
-    case TexelFormat::r8ui:
-      return {GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, 1};
-    case TexelFormat::r32ui:
-      return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4};
-    case TexelFormat::rg16:
-      return {GL_RG16, GL_RG, GL_UNSIGNED_SHORT, 4};
-    case TexelFormat::r16:
-      return {GL_R16, GL_RED, GL_UNSIGNED_SHORT, 2};
-    case TexelFormat::rgba8:
-      return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
-    case TexelFormat::rgba16f:
-      return {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8};
-    case TexelFormat::r32f:
-      return {GL_R32F, GL_RED, GL_FLOAT, 4};
-    case TexelFormat::depth32f:
-      return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4};
-  }
-  return {};
-}
+// In the order of TexelFormat.
+constexpr std::array<FormatFacts, 8> kFacts{{{GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, 1},
+                                             {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4},
+                                             {GL_RG16, GL_RG, GL_UNSIGNED_SHORT, 4},
+                                             {GL_R16, GL_RED, GL_UNSIGNED_SHORT, 2},
+                                             {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4},
+                                             {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8},
+                                             {GL_R32F, GL_RED, GL_FLOAT, 4},
+                                             {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4}}};
 
-void deleteTexture(unsigned name) { glDeleteTextures(1, &name); }
-
-unsigned newTexture(GLenum target) {
-  GLuint name = 0;
-  glCreateTextures(target, 1, &name);
-  return name;
-}
+const FormatFacts& factsOf(TexelFormat format) { return kFacts[static_cast<std::size_t>(format)]; }
 
 }  // namespace
 
 Texture::Texture(unsigned target, glm::ivec3 size, TexelFormat format)
-    : name_(newTexture(target), &deleteTexture), size_(size), format_(format) {
+    : name_(newTexture(target)), size_(size), format_(format) {
   assert(size.x > 0 && size.y > 0 && size.z > 0);
 }
 

@@ -33,7 +33,6 @@ class Texture {
   void fill(std::uint32_t value);
 
   glm::ivec3 size() const { return size_; }
-  TexelFormat format() const { return format_; }
   unsigned name() const { return name_.get(); }
 
  private:

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cassert>
 
-#include "render/gpu/vertex_array.h"
 #include "render/shaders/shared_numbers.glsl"
 
 namespace render {
@@ -22,11 +21,6 @@ GlName layoutOf(const Buffer& vertices, const Buffer& indices) {
   glVertexArrayVertexBuffer(name, 0, vertices.name(), 0, kVertexBytes);
   glVertexArrayElementBuffer(name, indices.name());
   return layout;
-}
-
-void write(const Buffer& to, std::size_t first_byte, std::span<const std::byte> bytes) {
-  glNamedBufferSubData(to.name(), static_cast<GLintptr>(first_byte), static_cast<GLsizeiptr>(bytes.size()),
-                       bytes.data());
 }
 
 void copy(const Buffer& from, std::size_t from_byte, const Buffer& to, std::size_t to_byte, std::size_t bytes) {
@@ -58,8 +52,8 @@ void TrianglePool::set(std::size_t patch, std::span<const glm::vec3> positions,
     makeRoom(slot, positions.size(), indices.size());
   narrow_.resize(indices.size());
   std::ranges::transform(indices, narrow_.begin(), [](std::uint32_t n) { return static_cast<std::uint16_t>(n); });
-  write(vertices_, slot.first_vertex * kVertexBytes, std::as_bytes(positions));
-  write(indices_, slot.first_index * kIndexBytes, std::as_bytes(std::span(narrow_)));
+  vertices_.update(std::as_bytes(positions), slot.first_vertex * kVertexBytes);
+  indices_.update(std::as_bytes(std::span(narrow_)), slot.first_index * kIndexBytes);
 }
 
 void TrianglePool::makeRoom(Slot& slot, std::size_t vertices, std::size_t indices) {

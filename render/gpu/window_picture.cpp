@@ -17,18 +17,16 @@ GLenum nameOf(WindowBuffer buffer) {
 
 // Framebuffer objects are not shared between contexts: this one lives for one copy.
 void showPictureOnWindow(const Texture& picture, const WindowPlace& place) {
-  GLuint from = 0;
-  glCreateFramebuffers(1, &from);
-  glNamedFramebufferTexture(from, GL_COLOR_ATTACHMENT0, picture.name(), 0);
+  const GlName from = newFramebuffer();
+  glNamedFramebufferTexture(from.get(), GL_COLOR_ATTACHMENT0, picture.name(), 0);
   const glm::ivec2 size = picture.size();
   glm::ivec2 low = place.corner_px, high = low + place.size_px;
   if (place.flipped_x) std::swap(low.x, high.x);
   if (place.flipped_y) std::swap(low.y, high.y);
   glNamedFramebufferDrawBuffer(0, nameOf(place.buffer));
-  glBlitNamedFramebuffer(from, 0, 0, 0, size.x, size.y, low.x, low.y, high.x, high.y, GL_COLOR_BUFFER_BIT,
+  glBlitNamedFramebuffer(from.get(), 0, 0, 0, size.x, size.y, low.x, low.y, high.x, high.y, GL_COLOR_BUFFER_BIT,
                          place.size_px == size ? GL_NEAREST : GL_LINEAR);
   glNamedFramebufferDrawBuffer(0, GL_BACK);
-  glDeleteFramebuffers(1, &from);
 }
 
 void blackenWindow(WindowBuffer buffer) {

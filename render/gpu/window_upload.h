@@ -10,11 +10,10 @@ namespace render {
 
 class WindowUpload {
  public:
-  void show(const Picture& picture, const WindowPlace& place);
+  void show(const Picture& picture, WindowPlace place);
 
  private:
   Texture texture_;
-  std::vector<std::uint8_t> bottom_first_;
 };
 
 }  // namespace render

@@ -14,7 +14,7 @@ constexpr std::size_t kHeader_bytes = 8, kPlace_bytes = 16, kPlacesPerPixel = 4,
 }  // namespace
 
 void ClearLists::begin(glm::ivec2 size) {
-  if (!over_) over_.emplace("screen.vert", "clear_over.frag");
+  if (!over_) over_ = Program{"screen.vert", "clear_over.frag"};
   if (heads_.size() != glm::ivec3(size, 1)) {
     heads_ = Texture::picture(size, TexelFormat::r32ui);
     const std::size_t pixels = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
@@ -32,9 +32,7 @@ void ClearLists::begin(glm::ivec2 size) {
 void ClearLists::layOver(const Framebuffer& picture) {
   finishStorageWrites();
   picture.bind();
-  apply({.depth_test = false, .depth_write = false, .blend = Blend::premultiplied_over, .write_distance = false});
-  over_->use();
-  drawScreen();
+  drawScreen(*over_, {.depth_test = false, .depth_write = false, .lay_over = true, .write_distance = false});
 }
 
 }  // namespace render

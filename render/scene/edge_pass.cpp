@@ -13,29 +13,23 @@ constexpr std::array kMaskTargets{TexelFormat::r8ui};
 }  // namespace
 
 void EdgePass::find(const Framebuffer& picture) {
-  if (mask_.size() != picture.size()) mask_ = Framebuffer(picture.size(), kMaskTargets, false);
+  mask_.fit(picture.size(), kMaskTargets, false);
   picture.colour(DISTANCE_TARGET).bind(SCENE_DISTANCE_UNIT);
   mask_.bind();
-  apply({.depth_test = false, .depth_write = false});
-  find_.use();
-  drawScreen();
+  drawScreen(find_, {.depth_test = false, .depth_write = false});
 }
 
 void EdgePass::bar(const Framebuffer& samples) {
   mask_.colour(0).bind(EDGE_MASK_UNIT);
   samples.bind();
-  apply({.write_colour = false});
-  bar_.use();
-  drawScreen();
+  drawScreen(bar_, {.write_colour = false});
 }
 
 void EdgePass::average(const Framebuffer& samples, const Framebuffer& picture) {
   mask_.colour(0).bind(EDGE_MASK_UNIT);
   samples.colour(COLOUR_TARGET).bind(LAYER_LIGHT_UNIT);
   picture.bind();
-  apply({.depth_test = false, .depth_write = false, .write_distance = false});
-  average_.use();
-  drawScreen();
+  drawScreen(average_, {.depth_test = false, .depth_write = false, .write_distance = false});
 }
 
 }  // namespace render

@@ -14,13 +14,11 @@ Texture InsetPass::onGpu(const Picture& picture) {
 void InsetPass::draw(std::span<const Placed> insets, const Framebuffer& target, int samples) {
   if (insets.empty()) return;
   target.bind();
-  apply({.depth_test = false, .depth_write = false, .write_distance = false});
-  program_.use();
   for (const Placed& inset : insets) {
     const glm::ivec2 first = samples * inset.first_px, size = samples * inset.size_px;
     setViewport({first.x, target.size().y - first.y - size.y}, size);
     inset.picture.bind(INSET_UNIT);
-    drawScreen();
+    drawScreen(program_, {.depth_test = false, .depth_write = false, .write_distance = false});
   }
   target.bind();
 }

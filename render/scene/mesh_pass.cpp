@@ -31,14 +31,15 @@ bool MeshPass::hasTransparent(const SceneMesh& mesh, float opacity) {
       mesh.parts_, [opacity](const SceneMesh::Part& part) { return part.material.base_colour.a * opacity < 1.0f; });
 }
 
-void MeshPass::draw(const SceneMesh& mesh, Parts parts, const Placement& placement) {
+void MeshPass::draw(const SceneMesh& mesh, Parts parts, const Placement& placement, bool view_is_mirrored) {
   const bool transparent = parts == Parts::transparent;
-  if (placement.opacity <= 0.0f || (transparent && !hasTransparent(mesh, placement.opacity))) return;
+  if (placement.opacity <= 0.0f || mesh.parts_.empty() || (transparent && !hasTransparent(mesh, placement.opacity)))
+    return;
   apply({.depth_write = !transparent,
-         .mirrored = placement.view_is_mirrored,
+         .mirrored = view_is_mirrored,
          .write_colour = !transparent,
          .write_distance = !transparent});
-  if (transparent && !clear_) clear_.emplace("mesh.vert", "mesh_clear.frag");
+  if (transparent && !clear_) clear_ = Program{"mesh.vert", "mesh_clear.frag"};
   (transparent ? *clear_ : opaque_).use();
   const glm::dmat4 turned =
       placement.P_from_mesh * glm::rotate(glm::dmat4(1.0), placement.bur_angle_rad, glm::dvec3(0.0, 0.0, 1.0));

@@ -11,7 +11,7 @@
 #include "assets/mesh.h"
 #include "render/gpu/drawing.h"
 #include "render/gpu/program.h"
-#include "render/scene/finish.h"
+#include "render/scene/models.h"
 
 namespace render {
 
@@ -26,6 +26,7 @@ static_assert(sizeof(PartBlock) == 96);
 /// A model on the GPU. A part named "Bur" turns about the mesh's z axis.
 class SceneMesh {
  public:
+  SceneMesh() = default;
   SceneMesh(const assets::MeshModel& model, Finish finish);
 
  private:
@@ -36,20 +37,14 @@ class SceneMesh {
     bool turns = false;
   };
   std::vector<Part> parts_;
-  Finish finish_;
+  Finish finish_ = Finish::skin;
 };
 
 class MeshPass {
  public:
   enum class Parts { opaque, transparent };
-  struct Placement {
-    glm::dmat4 P_from_mesh{1.0};
-    double bur_angle_rad = 0.0;
-    bool view_is_mirrored = false;
-    float opacity = 1.0f;  ///< of the whole model, besides that of its parts
-  };
 
-  void draw(const SceneMesh& mesh, Parts parts, const Placement& placement);
+  void draw(const SceneMesh& mesh, Parts parts, const Placement& placement, bool view_is_mirrored);
   /// Whether draw() with Parts::transparent has anything to draw.
   static bool hasTransparent(const SceneMesh& mesh, float opacity);
 

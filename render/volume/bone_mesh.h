@@ -18,8 +18,6 @@ namespace render {
 
 class BoneMesh {
  public:
-  BoneMesh() : depth_("bone_mesh.vert", "bone_depth.frag"), light_("bone_mesh.vert", "bone_mesh.frag") {}
-
   /// What became of the volume since the last call, whether or not triangles are drawn.
   void note(const FieldChanges& changes);
   /// Before drawing: triangles for all that was noted.
@@ -29,7 +27,7 @@ class BoneMesh {
  private:
   void upload(glm::ivec3 brick);
 
-  Program depth_, light_;
+  Program depth_{"bone_mesh.vert", "bone_depth.frag"}, light_{"bone_mesh.vert", "bone_mesh.frag"};
   std::optional<assets::BoneSurface> surface_;
   std::optional<TrianglePool> pool_;
   std::vector<glm::ivec3> changed_;  ///< bricks, some of them twice

@@ -32,25 +32,26 @@ double distanceToCut_mm(const PlannedCut& cut, const glm::dvec3& p_P_mm) {
   return glm::length(offset - nearest) - cut.radius_mm;
 }
 
-GuideField::GuideField(const assets::VolumeGrid& grid, const Guides& guides)
-    : size_((grid.bricks() * assets::kBrickVoxels) / AMBIENT_CELL_VOXELS) {
-  const std::size_t cells =
-      static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) * static_cast<std::size_t>(size_.z);
-  values_.assign(2 * cells, 65535);
+int shownGuides(const Frame& frame) {
+  return (frame.layers.clearance ? GUIDE_CLEARANCE : 0) | (frame.layers.planned_cut ? GUIDE_PLAN : 0);
+}
+
+GuideField guideField(const assets::VolumeGrid& grid, const Guides& guides) {
+  const glm::ivec3 size = (grid.bricks() * assets::kBrickVoxels) / AMBIENT_CELL_VOXELS;
+  GuideField field(size);
+  forEachIn({glm::ivec3(0), size}, [&](glm::ivec3 cell) { *field.at(cell) = glm::u16vec2(65535); });
   const double cell_mm = AMBIENT_CELL_VOXELS * grid.spacing_mm;
   const glm::dvec3 first_P_mm = grid.origin_P_mm + 0.5 * (AMBIENT_CELL_VOXELS - 1) * grid.spacing_mm;
 
   // Each shape writes the cells around it, the least distance wins.
-  const auto write = [&](const glm::dvec3& low_P_mm, const glm::dvec3& high_P_mm, std::size_t channel,
+  const auto write = [&](const glm::dvec3& low_P_mm, const glm::dvec3& high_P_mm, int channel,
                          const auto& distance_mm) {
     const glm::ivec3 low = glm::max(glm::ivec3(glm::floor((low_P_mm - first_P_mm) / cell_mm)), glm::ivec3(0));
-    const glm::ivec3 high = glm::min(glm::ivec3(glm::ceil((high_P_mm - first_P_mm) / cell_mm)), size_ - 1);
-    for (int k = low.z; k <= high.z; ++k)
-      for (int j = low.y; j <= high.y; ++j)
-        for (int i = low.x; i <= high.x; ++i) {
-          std::uint16_t& value = values_[2 * static_cast<std::size_t>((k * size_.y + j) * size_.x + i) + channel];
-          value = std::min(value, packed(distance_mm(first_P_mm + cell_mm * glm::dvec3(i, j, k))));
-        }
+    const glm::ivec3 high = glm::min(glm::ivec3(glm::ceil((high_P_mm - first_P_mm) / cell_mm)), size - 1);
+    forEachIn({low, high - low + 1}, [&](glm::ivec3 cell) {
+      std::uint16_t& value = (*field.at(cell))[channel];
+      value = std::min(value, packed(distance_mm(first_P_mm + cell_mm * glm::dvec3(cell))));
+    });
   };
   for (std::size_t n = 0; n + 1 < guides.mandibular_canal_P_mm.size(); ++n) {
     const glm::dvec3 &a = guides.mandibular_canal_P_mm[n], &b = guides.mandibular_canal_P_mm[n + 1];
@@ -64,6 +65,7 @@ GuideField::GuideField(const assets::VolumeGrid& grid, const Guides& guides)
     write(cut.middle_P_mm - reach_mm, cut.middle_P_mm + reach_mm, 1,
           [&](const glm::dvec3& p) { return distanceToCut_mm(cut, p); });
   }
+  return field;
 }
 
 }  // namespace render

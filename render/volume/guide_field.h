@@ -3,13 +3,13 @@
 // Frame P, mm. Made once, start-up; some ten milliseconds. Plain values; any thread.
 #pragma once
 
-#include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "assets/volume_grid.h"
+#include "render/frame.h"
+#include "render/volume/bordered_field.h"
 
 namespace render {
 
@@ -29,18 +29,12 @@ struct Guides {
 /// Outside the cut: above zero.
 double distanceToCut_mm(const PlannedCut& cut, const glm::dvec3& p_P_mm);
 
-class GuideField {
- public:
-  /// Distances are held from GUIDE_LOW_MM to GUIDE_HIGH_MM and clamped beyond.
-  GuideField(const assets::VolumeGrid& grid, const Guides& guides);
+/// Per cell: to the canal's wall, to the planned cut; 0 is GUIDE_LOW_MM, 65535 GUIDE_HIGH_MM or beyond.
+using GuideField = BorderedField<glm::u16vec2>;
 
-  glm::ivec3 size() const { return size_; }
-  /// Per cell, i fastest: to the canal's wall, to the planned cut; 0 is GUIDE_LOW_MM, 65535 GUIDE_HIGH_MM.
-  std::span<const std::uint16_t> values() const { return values_; }
+GuideField guideField(const assets::VolumeGrid& grid, const Guides& guides);
 
- private:
-  glm::ivec3 size_;
-  std::vector<std::uint16_t> values_;
-};
+/// GUIDE_CLEARANCE, GUIDE_PLAN: what a frame shows of them.
+int shownGuides(const Frame& frame);
 
 }  // namespace render

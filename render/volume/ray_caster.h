@@ -24,29 +24,18 @@ struct VolumeBlock {
 };
 static_assert(sizeof(VolumeBlock) == 80);
 
-/// What the rays of one eye saw, before it is laid over the eye's picture.
-class VolumeLayer {
- public:
-  /// Makes it as large as the picture.
-  void fit(glm::ivec2 size);
-  const Framebuffer& target() const { return target_; }
-
- private:
-  Framebuffer target_;
-};
-
 class RayCaster {
  public:
   enum class Stage { fragment, compute };
 
   RayCaster(Stage stage, bool skip_empty_space);
 
-  /// Binds volume, block and transfer function; `guided`: a field of guides is bound. passes that ask the volume for
-  /// shade need this before drawing.
+  /// Binds volume, block and transfer function. Passes that ask the volume for shade need this before drawing.
   void bind(const VolumeFields& fields, const VolumeTexture& volume, const Frame& frame,
-            const TransferFunction& transfer, bool guided);
-  /// After bind(): casts into `layer` and lays it over `picture` (colour, distance, depth).
-  void draw(VolumeLayer& layer, const Framebuffer& picture);
+            const TransferFunction& transfer);
+  /// After bind(): casts into `layer`, made as large as it must be, and lays it over `picture` (colour, distance,
+  /// depth).
+  void draw(Framebuffer& layer, const Framebuffer& picture);
 
  private:
   void cast(const Framebuffer& layer, const Texture& scene_distance) const;

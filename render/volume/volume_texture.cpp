@@ -66,6 +66,11 @@ void VolumeTexture::update(const VolumeFields& fields, const FieldChanges& chang
   if (moved) emptiness_.upload({0, 0, 0}, occupancy_.bricks(), std::as_bytes(occupancy_.emptiness()));
 }
 
+void VolumeTexture::setGuides(const GuideField& guides) {
+  guides_ = Texture::volume(guides.layout().size, TexelFormat::rg16);
+  upload(guides_, guides, whole(guides));
+}
+
 void VolumeTexture::bind() const {
   solid_.bind(SOLID_UNIT);
   smooth_.bind(SMOOTH_UNIT);
@@ -73,6 +78,7 @@ void VolumeTexture::bind() const {
   label_.bind(LABEL_UNIT);
   emptiness_.bind(EMPTINESS_UNIT);
   ambient_.bind(AMBIENT_UNIT);
+  if (hasGuides()) guides_.bind(GUIDE_UNIT);
 }
 
 }  // namespace render

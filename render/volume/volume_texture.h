@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/gpu/texture.h"
+#include "render/volume/guide_field.h"
 #include "render/volume/occupancy.h"
 #include "render/volume/volume_fields.h"
 
@@ -18,12 +19,14 @@ class VolumeTexture {
   explicit VolumeTexture(const VolumeFields& fields);
 
   void update(const VolumeFields& fields, const FieldChanges& changes);
+  void setGuides(const GuideField& guides);
+  bool hasGuides() const { return guides_.name() != 0; }
   void bind() const;
 
  private:
   void uploadSolid(const VolumeFields& fields, const VoxelBox& box);
 
-  Texture solid_, smooth_, look_, label_, emptiness_, ambient_;
+  Texture solid_, smooth_, look_, label_, emptiness_, ambient_, guides_;
   Occupancy occupancy_;
   std::vector<std::uint16_t> wide_;
   int frames_since_rebuild_ = 0;

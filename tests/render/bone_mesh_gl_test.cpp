@@ -59,7 +59,7 @@ void bring(FrameRenderer& renderer, const assets::CtVolume& ct, const std::vecto
 }
 
 TEST(BoneMesh, LiesWhereTheRaysFindTheSurface) {
-  const OffscreenContext context(OffscreenContext::Debugging::on);
+  const OffscreenContext context;
   const assets::CtVolume ct = twoBalls();
   FrameRenderer renderer(ct.grid, ct.solid, ct.label);
   for (const glm::dvec3& from : {glm::dvec3(60, -200, 80), glm::dvec3(-150, 30, -150), glm::dvec3(10, 210, 5)}) {
@@ -80,7 +80,7 @@ TEST(BoneMesh, LiesWhereTheRaysFindTheSurface) {
 }
 
 TEST(BoneMesh, LooksLikeTheRayCastSurface) {
-  const OffscreenContext context(OffscreenContext::Debugging::on);
+  const OffscreenContext context;
   const assets::CtVolume ct = twoBalls();
   FrameRenderer renderer(ct.grid, ct.solid, ct.label);
   const Picture rays = drawn(renderer, frameOf(ViewMode::iso)).picture;
@@ -91,7 +91,7 @@ TEST(BoneMesh, LooksLikeTheRayCastSurface) {
 }
 
 TEST(BoneMesh, AfterCarvingIsThatOfTheCarvedBone) {
-  const OffscreenContext context(OffscreenContext::Debugging::on);
+  const OffscreenContext context;
   assets::CtVolume ct = twoBalls();
   FrameRenderer renderer(ct.grid, ct.solid, ct.label);
   const Drawn uncarved = drawn(renderer, frameOf(ViewMode::mesh));
@@ -109,7 +109,7 @@ TEST(BoneMesh, AfterCarvingIsThatOfTheCarvedBone) {
 }
 
 TEST(BoneMesh, KeepsEveryPatchWhenItsBuffersGrow) {
-  const OffscreenContext context(OffscreenContext::Debugging::on);
+  const OffscreenContext context;
   // From a small ball much more surface appears than the first buffers had room for.
   assets::CtVolume ct = ballVolume(smallGrid(), {{{0, 0, 0}, 3.0}});
   FrameRenderer renderer(ct.grid, ct.solid, ct.label);
@@ -127,7 +127,7 @@ TEST(BoneMesh, KeepsEveryPatchWhenItsBuffersGrow) {
 }
 
 TEST(BoneMesh, ShowsNothingWithoutBone) {
-  const OffscreenContext context(OffscreenContext::Debugging::on);
+  const OffscreenContext context;
   const assets::VolumeGrid grid = smallGrid();
   const std::vector<std::uint8_t> air(grid.voxelCount());
   FrameRenderer renderer(grid, air, {});

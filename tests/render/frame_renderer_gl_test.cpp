@@ -50,7 +50,7 @@ const std::uint8_t* pixelAt(const Picture& picture, int x, int y) {
 }
 
 TEST(FrameRenderer, ThreeBallsLandWherePredictedInBothEyesOfAnyRig) {
-  const OffscreenContext context(OffscreenContext::Debugging::on);
+  const OffscreenContext context;
   const std::vector<Ball> balls{{{-21, 3, -9}, 4.5}, {{20, -6, -12}, 3.5}, {{1, 4, 21}, 4.0}};
   const assets::CtVolume ct = ballVolume(smallGrid(glm::ivec3(110), 0.5), balls);
   FrameRenderer renderer(ct.grid, ct.solid, ct.label);
@@ -301,7 +301,7 @@ TEST(FrameRenderer, TransparentPartsLetTheBoneThroughAndKeepItsDistance) {
 
 // Two clear balls, one in the other's place from either side: what is nearer colours more, whichever was given first.
 TEST(FrameRenderer, TransparentPartsAreOrderedByDistanceInEveryPixel) {
-  const OffscreenContext context(OffscreenContext::Debugging::on);
+  const OffscreenContext context;
   const assets::CtVolume ct = noBone();
   FrameRenderer renderer(ct.grid, ct.solid, ct.label);
   const auto seenWith = [&](double red_y_mm, double blue_y_mm, bool red_first) {
@@ -368,7 +368,7 @@ TEST(FrameRenderer, TransparentPartsBehindTheBoneStayHidden) {
 
 // Guides colour the bone near them and nothing else, and leave no trace when they are switched off.
 TEST(FrameRenderer, GuidesShowWhereTheyLieAndOnlyWhenAskedFor) {
-  const OffscreenContext context(OffscreenContext::Debugging::on);
+  const OffscreenContext context;
   const assets::CtVolume ct = ballVolume(smallGrid(), {{{0, 0, 0}, 9.0}});
   for (const Backend backend : {Backend::gl_fragment, Backend::gl_compute, Backend::cpu}) {
     FrameRenderer renderer(ct.grid, ct.solid, ct.label, {.backend = backend});
@@ -424,7 +424,7 @@ TEST(FrameRenderer, GuidesShowWhereTheyLieAndOnlyWhenAskedFor) {
 
 // The canal shines through bone and gum, but not through the face and the instrument, which lie outside.
 TEST(FrameRenderer, TheCanalHidesBehindFaceAndInstrumentAlone) {
-  const OffscreenContext context(OffscreenContext::Debugging::on);
+  const OffscreenContext context;
   const assets::CtVolume ct = ballVolume(smallGrid(), {{{0, 0, 0}, 9.0}});
   const glm::vec4 grey(0.5f, 0.5f, 0.5f, 1.0f);
   const assets::MeshModel gum = sphereMesh({{0, -20, 0}, 4.0}, grey), cover = sphereMesh({{0, -19, 0}, 4.0}, grey),
@@ -486,7 +486,7 @@ TEST(FrameRenderer, TheGhostShowsTheHandThroughTheBone) {
 
 // Silhouettes are smoothed, and nothing else is touched: where the distance runs straight on, not a bit changes.
 TEST(FrameRenderer, AntialiasingDrawsSilhouettesAgainAndNothingElse) {
-  const OffscreenContext context(OffscreenContext::Debugging::on);
+  const OffscreenContext context;
   const assets::CtVolume ct = ballVolume(smallGrid(), {{{-4, 0, 0}, 7.0}});
   for (const Backend backend : {Backend::gl_fragment, Backend::gl_compute}) {
     FrameRenderer renderer(ct.grid, ct.solid, ct.label, {.backend = backend}),

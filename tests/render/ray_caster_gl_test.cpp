@@ -49,7 +49,7 @@ Drawn drawn(FrameRenderer& renderer, const Rig& rig, ViewMode mode = ViewMode::i
 }
 
 TEST(RayCaster, DrawsTheSurfaceWhereSolidIsAHalf) {
-  const OffscreenContext context(OffscreenContext::Debugging::on);
+  const OffscreenContext context;
   const Ball ball{{0.3, -0.2, 0.1}, 9.0};
   const assets::CtVolume ct = ballVolume(smallGrid(), {ball});
   FrameRenderer renderer(ct.grid, ct.solid, ct.label);
@@ -94,7 +94,7 @@ TEST(RayCaster, SkippingEmptySpaceChangesNoBit) {
 // One body builds both. Drivers may contract or reorder its arithmetic differently in the two stages, so a rounding
 // step is allowed; more would be another picture.
 TEST(RayCaster, FragmentAndComputeDrawOnePicture) {
-  const OffscreenContext context(OffscreenContext::Debugging::on);
+  const OffscreenContext context;
   const assets::CtVolume ct = ballVolume(smallGrid(), {{{-6, 0, 5}, 6.0}, {{7, 4, -6}, 4.0}});
   FrameRenderer fragment(ct.grid, ct.solid, ct.label),
       compute(ct.grid, ct.solid, ct.label, {.backend = Backend::gl_compute});

@@ -19,7 +19,7 @@ constexpr std::array kTop{3, 52, 101};
 
 class SlicesInThePicture : public ::testing::TestWithParam<Backend> {
  protected:
-  const OffscreenContext context_{OffscreenContext::Debugging::on};
+  const OffscreenContext context_;
   const assets::CtVolume ct_ = ballVolume(smallGrid(), {{{0.3, -0.2, 0.1}, 9.0}});
 
   std::unique_ptr<FrameRenderer> renderer(int samples = 1) const {

@@ -33,7 +33,6 @@ TEST(Window, ShowsAFrameOfTheRenderer) {
   if (!hasDisplay()) GTEST_SKIP() << "no DISPLAY: run under xvfb-run";
   Window::Options options;
   options.size_px = {320, 240};
-  options.debugging = true;
   Window window(options);
   const assets::CtVolume ct = testing::ballVolume(testing::smallGrid(), {{{0, 0, 0}, 9.0}});
   FrameRenderer renderer(ct.grid, ct.solid, ct.label);

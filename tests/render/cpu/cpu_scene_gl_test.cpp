@@ -1,6 +1,7 @@
 // The CPU back-end against the shaders that specify it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <cstdio>
 
@@ -225,8 +226,9 @@ TEST_F(CpuScene, KeepsWhatAStillEyeMeetsAndForgetsItWhenAnythingStillChanges) {
 
 TEST_F(CpuScene, DrawsTheSameBitsWithAnyNumberOfThreads) {
   Picture one;
-  for (const int threads : {1, 2}) {
-    FrameRenderer renderer(ct_.grid, ct_.solid, ct_.label, {.backend = Backend::cpu, .threads = threads});
+  for (const std::size_t threads : {1u, 2u}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    FrameRenderer renderer(ct_.grid, ct_.solid, ct_.label, {.backend = Backend::cpu});
     renderer.setFace({{ballMesh({-8, -6, 6}, 8.0f, {0.8f, 0.6f, 0.5f, 0.5f})}});
     Frame f = frame();
     f.quality.antialias = Antialias::edges;

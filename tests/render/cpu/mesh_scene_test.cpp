@@ -5,18 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 #include <map>
 #include <optional>
 #include <random>
 
-#include "render/scene/finish.h"
-
 namespace render {
 namespace {
-
-using Model = MeshScene::Model;
 
 assets::MeshPart triangle(glm::vec3 a, glm::vec3 b, glm::vec3 c, float opacity = 1.0f) {
   assets::MeshPart part;
@@ -184,7 +179,7 @@ TEST(MeshScene, CutsTheWindowIntoSkinBeforeTheSiteAlone) {
   steel.material.metallic = 1.0f;
   MeshScene scene;
   scene.setModel(Model::face, {{sheet(20.0f), sheet(-20.0f), steel}});
-  scene.place({.window_eye_P = {0, 0, 100}, .window_site_P = {0, 0, 0}, .window_mm = 5.0f});
+  scene.place(placementsIn(Frame{}), {.eye_P = {0, 0, 100}, .site_P = {0, 0, 0}, .radius_mm = 5.0f});
   const RayBatch batch = rays({0, 0, 100}, {{0, 0, -1}, glm::normalize(glm::vec3(8, 0, -80))});
   Met met = first(scene, batch);
   EXPECT_FLOAT_EQ(met.distance_mm[0], 90.0f) << "the skin before is open, steel is not";
@@ -199,18 +194,18 @@ TEST(MeshScene, MovesTheInstrumentAndTurnsItsBur) {
   bur.name = "Bur";
   MeshScene scene;
   scene.setModel(Model::instrument, {{bur, sheet(-5.0f)}});
-  MeshPlacement placement;
-  placement.P_from_tool = glm::translate(glm::dmat4(1.0), glm::dvec3(100, 0, 0));
-  placement.bur_angle_rad = 1.5707963267948966;
-  scene.place(placement);
+  Frame frame;
+  frame.X_PT.translation_mm = {100, 0, 0};
+  frame.bur_angle_rad = 1.5707963267948966;
+  scene.place(placementsIn(frame));
   // Turned a quarter, the corner (2, 0, 0) of the tool lies at (0, 2, 0).
   const Met turned = first(scene, rays({100, 2, 10}, {{0, 0, -1}}));
   ASSERT_EQ(turned.points.count, 1);
   EXPECT_NEAR(turned.distance_mm[0], 10.0, 1e-4);
   EXPECT_EQ(turned.points.finish[0], FINISH_INSTRUMENT);
   EXPECT_NEAR(first(scene, rays({102, 0, 10}, {{0, 0, -1}})).distance_mm[0], 15.0, 1e-4) << "the shaft stands still";
-  placement.tool_visible = false;
-  scene.place(placement);
+  frame.tool_visible = false;
+  scene.place(placementsIn(frame));
   EXPECT_EQ(first(scene, rays({100, 2, 10}, {{0, 0, -1}})).points.count, 0);
 }
 
@@ -219,22 +214,22 @@ TEST(MeshScene, MovesTheSecondInstrumentWithoutForgettingWhatIsStill) {
   scene.setModel(Model::gum, {{sheet(0.0f)}});
   scene.setModel(Model::instrument, {{sheet(10.0f)}});
   scene.setModel(Model::second_instrument, {{sheet(20.0f)}});
-  MeshPlacement placement;
+  Frame frame;
   const std::uint64_t revision = scene.stillRevision();
   const auto distance = [&] {
-    scene.place(placement);
+    scene.place(placementsIn(frame));
     return first(scene, rays({0, 1, 50}, {{0, 0, -1}})).distance_mm[0];
   };
   EXPECT_FLOAT_EQ(distance(), 40.0f) << "not seen unless asked for";
-  placement.second_visible = true;
+  frame.second_visible = true;
   EXPECT_FLOAT_EQ(distance(), 30.0f);
-  placement.P_from_second = glm::translate(glm::dmat4(1.0), glm::dvec3(0, 0, -15));
+  frame.X_PO.translation_mm = {0, 0, -15};
   EXPECT_FLOAT_EQ(distance(), 40.0f) << "behind the first";
-  placement.P_from_tool = glm::translate(glm::dmat4(1.0), glm::dvec3(0, 0, -8));
+  frame.X_PT.translation_mm = {0, 0, -8};
   EXPECT_FLOAT_EQ(distance(), 45.0f) << "before it";
-  placement.tool_visible = false;
+  frame.tool_visible = false;
   EXPECT_FLOAT_EQ(distance(), 45.0f);
-  placement.P_from_second = glm::translate(glm::dmat4(1.0), glm::dvec3(40, 0, 0));
+  frame.X_PO.translation_mm = {40, 0, 0};
   EXPECT_FLOAT_EQ(distance(), 50.0f) << "aside";
   EXPECT_EQ(scene.stillRevision(), revision);
   scene.setModel(Model::second_instrument, {});
@@ -271,14 +266,17 @@ TEST(MeshScene, MakesAFadedFaceALayerAndAHiddenOneNothing) {
   MeshScene scene;
   scene.setModel(Model::face, {{sheet(0.0f)}});
   const RayBatch batch = rays({0, 1, 100}, {{0, 0, -1}});
-  scene.place({.face_opacity = 0.25f});
+  Frame frame;
+  frame.layers.face_opacity = 0.25f;
+  scene.place(placementsIn(frame));
   EXPECT_EQ(first(scene, batch).points.count, 0);
   const MeshPoints faded = layersOf(scene, batch);
   ASSERT_EQ(faded.count, 1);
   EXPECT_FLOAT_EQ(faded.a[0], 0.25f);
-  scene.place({.face_opacity = 0.0f});
+  frame.layers.face_opacity = 0.0f;
+  scene.place(placementsIn(frame));
   EXPECT_EQ(layersOf(scene, batch).count, 0);
-  scene.place({});
+  scene.place(placementsIn(Frame{}));
   EXPECT_EQ(first(scene, batch).points.count, 1);
 }
 

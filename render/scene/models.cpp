@@ -1,0 +1,30 @@
+#include "render/scene/models.h"
+
+namespace render {
+namespace {
+
+constexpr float kMandibularCanalThrough = 0.45f;  // the canal through what covers it
+
+// The tool at the hand: comes up as the hand leaves the tool that the bone holds, from 0.1 to 0.5 mm.
+float ghostOpacity(const Frame& frame) {
+  constexpr double kMost = 0.4, kFrom_mm = 0.1, kFull_mm = 0.5;
+  if (!frame.tool_visible || !frame.layers.ghost_tool) return 0.0f;
+  const double held_mm = glm::distance(frame.X_PT_at_hand.translation_mm, frame.X_PT.translation_mm);
+  return static_cast<float>(kMost * glm::clamp((held_mm - kFrom_mm) / (kFull_mm - kFrom_mm), 0.0, 1.0));
+}
+
+}  // namespace
+
+Placements placementsIn(const Frame& frame) {
+  const Layers& layers = frame.layers;
+  const auto shown = [](bool is_shown) { return is_shown ? 1.0f : 0.0f; };
+  return {{{{.opacity = layers.face_opacity},
+            {.opacity = shown(layers.gum)},
+            {frame.X_PT.matrix(), frame.bur_angle_rad, shown(frame.tool_visible)},
+            {.P_from_mesh = frame.X_PO.matrix(), .opacity = shown(frame.second_visible)},
+            {.opacity = shown(layers.mandibular_canal)},
+            {.opacity = layers.mandibular_canal ? kMandibularCanalThrough : 0.0f},
+            {frame.X_PT_at_hand.matrix(), frame.bur_angle_rad, ghostOpacity(frame)}}}};
+}
+
+}  // namespace render
