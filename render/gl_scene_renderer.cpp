@@ -85,7 +85,6 @@ class GlSceneRenderer final : public SceneRenderer {
   int samples_;
   const VolumeFields& fields_;
   VolumeTexture volume_;
-  TransferFunction transfer_;
   RayCaster caster_;
   std::optional<BoneMesh> bone_mesh_;  ///< from the first frame that shows it
   MeshPass meshes_;
@@ -119,7 +118,7 @@ void GlSceneRenderer::drawScene(const Frame& frame, Eye eye, glm::ivec2 size, Ca
   target.fit(size, kSceneTargets, true);
   const EyeView view = eyeView(frame.rig, eye);
   eye_block_.set(EYE_BLOCK, eyeBlock(frame, view));
-  caster_.bind(fields_, volume_, frame, transfer_);
+  caster_.bind(fields_, volume_, frame);
   target.bind();
   target.clear();
   if (where == Where::edges) edges_.bar(target);

@@ -120,7 +120,6 @@ class CpuSceneRenderer final : public SceneRenderer {
   const VolumeFields& fields_;
   SolidCells cells_;
   Occupancy crowded_;  ///< how far soft shade can be felt
-  TransferFunction transfer_;
   OpacityTable opacity_;
   std::optional<GuideField> guides_;
   MeshScene meshes_;
@@ -177,8 +176,7 @@ PaintScene CpuSceneRenderer::sceneFor(const Frame& frame, Eye eye) {
                 .step = static_cast<float>(frame.quality.step_voxels),
                 .skip_empty_space = options_.skip_empty_space};
   if (frame.mode == ViewMode::dvr) {
-    opacity_ = opacityTable(transfer_.ramp_start, transfer_.ramp_full, transfer_.opacity_per_mm,
-                            scene.cast.step * shade.spacing_mm);
+    opacity_ = opacityTable(kRampStart, kRampFull, kOpacityPerMm, scene.cast.step * shade.spacing_mm);
     scene.opacity = &opacity_;
     scene.label = &fields_.label();
   }

@@ -84,9 +84,7 @@ namespace render::cpu {
 namespace {
 
 inline bool any(Mask mask) { return bits(mask) != 0; }
-inline bool all(Mask mask) { return bits(mask) == (1u << kLanes) - 1u; }
 inline bool none(Mask mask) { return bits(mask) == 0; }
-inline int count(Mask mask) { return __builtin_popcount(bits(mask)); }
 
 inline Float select(Mask mask, Float yes, float no) { return select(mask, yes, splat(no)); }
 inline Float minimum(Float a, float b) { return minimum(a, splat(b)); }

@@ -1,34 +1,32 @@
 #include "render/cpu/mesh_points.h"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 namespace render {
+namespace {
+
+// Gives every array its part of a new memory, with what it held.
+template <class T, std::size_t kArrays>
+void move(T** const (&arrays)[kArrays], std::size_t used, std::size_t room, std::vector<T>& memory) {
+  std::vector<T> roomier(kArrays * room);
+  T* to = roomier.data();
+  for (T** array : arrays) {
+    if (used > 0) std::copy_n(*array, used, to);
+    *array = std::exchange(to, to + room);
+  }
+  memory = std::move(roomier);
+}
+
+}  // namespace
 
 void MeshPoints::makeRoom(int more) {
   const auto wanted = static_cast<std::size_t>(count + more + kLanePadding);
   if (wanted <= room_) return;
-  const std::size_t room = wanted + wanted / 2, used = static_cast<std::size_t>(count);
-  float** const floats[] = {&distance_mm, &nx, &ny, &nz, &r, &g, &b, &a, &roughness, &metallic};
-  std::int32_t** const integers[] = {&ray, &finish, &is_cut, &faces_eye};
-  std::vector<float> values(std::size(floats) * room, 0.0f);
-  std::vector<std::int32_t> numbers(std::size(integers) * room, 0);
-  float* value = values.data();
-  for (float** array : floats) {
-    if (used > 0) std::copy_n(*array, used, value);
-    *array = value;
-    value += room;
-  }
-  std::int32_t* number = numbers.data();
-  for (std::int32_t** array : integers) {
-    if (used > 0) std::copy_n(*array, used, number);
-    *array = number;
-    number += room;
-  }
-  values_ = std::move(values);
-  numbers_ = std::move(numbers);
-  room_ = room;
+  room_ = wanted + wanted / 2;
+  const auto used = static_cast<std::size_t>(count);
+  move({&distance_mm, &nx, &ny, &nz, &r, &g, &b, &a, &roughness, &metallic}, used, room_, values_);
+  move({&ray, &finish, &is_cut, &faces_eye}, used, room_, numbers_);
 }
 
 }  // namespace render

@@ -12,16 +12,21 @@ inline Float3 indexOf(const ShadeScene& scene, const Float3& p_P) {
   return (1.0f / scene.spacing_mm) * (p_P - splat(scene.origin_P));
 }
 
-// Two neighbours along i from each of the four rows around a place, mixed; `x`, `y`, `z`: 0 at the first border value.
-inline Float trilinear(const FieldView<std::uint16_t>& field, const Float3& at, Mask mask) {
+// The four rows around a place, mixed; `x`, `y`, `z`: 0 at the first border value. `pair` mixes two neighbours along i.
+template <class T, class Pair>
+inline auto mixedAround(const FieldView<T>& field, const Float3& at, Mask mask, Pair pair) {
   const Int i = toInt(at.x), j = toInt(at.y), k = toInt(at.z);
   const Float fx = at.x - toFloat(i), fy = at.y - toFloat(j), fz = at.z - toFloat(k);
   const Int offset = (k * field.slice + j * field.row + i) & mask;
-  const auto row = [&](std::int32_t further) {
-    const Int both = gather32<2>(field.border + further, offset);
-    return mix(toFloat(both & 0xffff), toFloat(shiftRightLogical(both, 16)), fx);
-  };
+  const auto row = [&](std::int32_t further) { return pair(field.border + further, offset, fx); };
   return mix(mix(row(0), row(field.row), fy), mix(row(field.slice), row(field.slice + field.row), fy), fz);
+}
+
+inline Float trilinear(const FieldView<std::uint16_t>& field, const Float3& at, Mask mask) {
+  return mixedAround(field, at, mask, [](const std::uint16_t* from, Int offset, Float part) {
+    const Int both = gather32<2>(from, offset);
+    return mix(toFloat(both & 0xffff), toFloat(shiftRightLogical(both, 16)), part);
+  });
 }
 
 // Where a place lies within a field and its border, in values from the first of the border.

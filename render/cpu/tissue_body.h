@@ -25,33 +25,30 @@ inline Float noise(const Float3& x) {
   return mix(mix(row(j, k), row(j + 1, k), fy), mix(row(j, k + 1), row(j + 1, k + 1), fy), fz);
 }
 
+struct Look {
+  Float3 root;
+  Float finish;
+};
+inline Look mix(const Look& from, const Look& to, Float part) {
+  return {mix(from.root, to.root, part), mix(from.finish, to.finish, part)};
+}
+
 // Colour and finish just below a surface place: eight corners, mixed in the stored roots.
 inline Float3 lookAt(const ShadeScene& scene, const Float3& index, Mask mask, Float& finish) {
   const FieldView<std::uint32_t>& field = scene.look;
   const Float3 at{clamp(index.x, 0.0f, static_cast<float>(field.size.x - 1)) + 1.0f,
                   clamp(index.y, 0.0f, static_cast<float>(field.size.y - 1)) + 1.0f,
                   clamp(index.z, 0.0f, static_cast<float>(field.size.z - 1)) + 1.0f};
-  const Int i = toInt(at.x), j = toInt(at.y), k = toInt(at.z);
-  const Float fx = at.x - toFloat(i), fy = at.y - toFloat(j), fz = at.z - toFloat(k);
-  const Int offset = (k * field.slice + j * field.row + i) & mask;
-  struct Look {
-    Float r, g, b, a;
-  };
-  const auto mixed = [](const Look& from, const Look& to, Float part) {
-    return Look{mix(from.r, to.r, part), mix(from.g, to.g, part), mix(from.b, to.b, part), mix(from.a, to.a, part)};
-  };
   const auto unpacked = [](Int rgba) {
-    return Look{toFloat(rgba & 0xff), toFloat((rgba >> 8) & 0xff), toFloat((rgba >> 16) & 0xff),
+    return Look{{toFloat(rgba & 0xff), toFloat((rgba >> 8) & 0xff), toFloat((rgba >> 16) & 0xff)},
                 toFloat(shiftRightLogical(rgba, 24))};
   };
-  const auto row = [&](std::int32_t further) {
-    const IntPair both = gather64<4>(field.border + further, offset);
-    return mixed(unpacked(both.low), unpacked(both.high), fx);
-  };
-  const Look look =
-      mixed(mixed(row(0), row(field.row), fy), mixed(row(field.slice), row(field.slice + field.row), fy), fz);
-  finish = look.a * (1.0f / 255.0f);
-  const Float3 root = (1.0f / 255.0f) * Float3{look.r, look.g, look.b};
+  const Look look = mixedAround(field, at, mask, [&](const std::uint32_t* from, Int offset, Float part) {
+    const IntPair both = gather64<4>(from, offset);
+    return mix(unpacked(both.low), unpacked(both.high), part);
+  });
+  finish = look.finish * (1.0f / 255.0f);
+  const Float3 root = (1.0f / 255.0f) * look.root;
   return root * root;
 }
 
@@ -61,27 +58,27 @@ inline Float fract(Float x) { return x - floor(x); }
 struct GuideDistances {
   Float mandibular_canal, cut;
 };
+inline GuideDistances mix(const GuideDistances& from, const GuideDistances& to, Float part) {
+  return {mix(from.mandibular_canal, to.mandibular_canal, part), mix(from.cut, to.cut, part)};
+}
 
 inline GuideDistances guideDistances(const ShadeScene& scene, const Float3& index, Mask mask) {
-  const FieldView<glm::u16vec2>& field = scene.guides;
   constexpr float kCell = 1.0f / AMBIENT_CELL_VOXELS;
   const Float3 at = kCell * (index + 0.5f) + 0.5f;
-  const Mask inside = mask & insideBorder(at, field.size);
-  const Int i = toInt(at.x), j = toInt(at.y), k = toInt(at.z);
-  const Float fx = at.x - toFloat(i), fy = at.y - toFloat(j), fz = at.z - toFloat(k);
-  const Int offset = (k * field.slice + j * field.row + i) & inside;
-  const auto row = [&](std::int32_t further) {
-    const IntPair both = gather64<4>(field.border + further, offset);
-    return GuideDistances{mix(toFloat(both.low & 0xffff), toFloat(both.high & 0xffff), fx),
-                          mix(toFloat(shiftRightLogical(both.low, 16)), toFloat(shiftRightLogical(both.high, 16)), fx)};
+  const Mask inside = mask & insideBorder(at, scene.guides.size);
+  const auto unpacked = [](Int halves) {
+    return GuideDistances{toFloat(halves & 0xffff), toFloat(shiftRightLogical(halves, 16))};
   };
-  const GuideDistances a = row(0), b = row(field.row), c = row(field.slice), d = row(field.slice + field.row);
-  const auto distance = [&](Float p, Float q, Float r, Float s) {
+  const GuideDistances share =
+      mixedAround(scene.guides, at, inside, [&](const glm::u16vec2* from, Int offset, Float part) {
+        const IntPair both = gather64<4>(from, offset);
+        return mix(unpacked(both.low), unpacked(both.high), part);
+      });
+  const auto distance = [&](Float value) {
     constexpr float kPerUnit = (GUIDE_HIGH_MM - GUIDE_LOW_MM) / 65535.0f;
-    return GUIDE_LOW_MM + kPerUnit * select(inside, mix(mix(p, q, fy), mix(r, s, fy), fz), splat(0.0f));
+    return GUIDE_LOW_MM + kPerUnit * select(inside, value, splat(0.0f));
   };
-  return {distance(a.mandibular_canal, b.mandibular_canal, c.mandibular_canal, d.mandibular_canal),
-          distance(a.cut, b.cut, c.cut, d.cut)};
+  return {distance(share.mandibular_canal), distance(share.cut)};
 }
 
 inline Float lineAt(Float distance_mm, float half_width_mm) {

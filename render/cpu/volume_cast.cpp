@@ -48,24 +48,16 @@ CastJob jobOf(const SolidCells& cells, const CastSettings& settings, const RayBa
   return job;
 }
 
-template <class Kernel>
-void choose([[maybe_unused]] assets::InstructionSet set, Kernel portable, [[maybe_unused]] Kernel avx2,
-            [[maybe_unused]] Kernel avx512, CastJob& job) {
-  assert(assets::available(set));
-  if (set == assets::InstructionSet::avx512)
-    avx512(job);
-  else if (set == assets::InstructionSet::avx2)
-    avx2(job);
-  else
-    portable(job);
-}
-
 }  // namespace
 
 #if !defined(__x86_64__)
 namespace avx2 = portable;
 namespace avx512 = portable;
 #endif
+
+// In the order of assets::InstructionSet.
+constexpr std::array kCastSurface{portable::castSurface, avx2::castSurface, avx512::castSurface};
+constexpr std::array kCastThrough{portable::castThrough, avx2::castThrough, avx512::castThrough};
 
 OpacityTable opacityTable(float ramp_start, float ramp_full, std::span<const float> per_mm, float step_mm) {
   OpacityTable table;
@@ -83,7 +75,8 @@ OpacityTable opacityTable(float ramp_start, float ramp_full, std::span<const flo
 void castSurface(const SolidCells& cells, const CastSettings& settings, const RayBatch& rays, const float* limit_mm,
                  VolumePoints& to, assets::InstructionSet set) {
   CastJob job = jobOf(cells, settings, rays, limit_mm, to);
-  choose(set, portable::castSurface, avx2::castSurface, avx512::castSurface, job);
+  assert(assets::available(set));
+  kCastSurface[static_cast<std::size_t>(set)](job);
   to.count = job.points;
 }
 
@@ -98,7 +91,8 @@ void castThrough(const SolidCells& cells, const CastSettings& settings, const Bo
   job.ramp_per_solid = opacity.ramp_per_solid;
   job.sum = sums.opacity.data();
   job.reach = sums.reach.data();
-  choose(set, portable::castThrough, avx2::castThrough, avx512::castThrough, job);
+  assert(assets::available(set));
+  kCastThrough[static_cast<std::size_t>(set)](job);
   to.count = job.points;
 }
 

@@ -24,23 +24,10 @@ Point<World> placeOf(const Rig& rig, Eye eye) {
   return rig.cyclopeanEye();
 }
 
-double distanceToScreen_mm(const Rig& rig, const Point<World>& eye_W) {
-  const calibration::ScreenCorners seen = calibration::virtualScreen(rig);
-  const glm::dvec3 pll = seen.lower_left.mm;
-  const glm::dvec3 normal = glm::normalize(glm::cross(seen.lower_right.mm - pll, seen.upper_left.mm - pll));
-  return std::abs(glm::dot(normal, eye_W.mm - pll));
-}
-
 }  // namespace
 
 EyeView eyeView(const Rig& rig, Eye eye) {
-  // From a tenth of the way to the screen to twenty times as far; reverse-Z floats make the range free.
   const Point<World> eye_W = placeOf(rig, eye);
-  const double distance_mm = std::max(distanceToScreen_mm(rig, eye_W), 1.0);
-  return eyeView(rig, eye_W, kNearOfScreen * distance_mm, kFarOfScreen * distance_mm);
-}
-
-EyeView eyeView(const Rig& rig, const Point<World>& eye_W, double near_mm, double far_mm) {
   const glm::dvec3 e = eye_W.mm;
   const calibration::ScreenCorners seen = calibration::virtualScreen(rig);
   const glm::dvec3 pll = seen.lower_left.mm, plr = seen.lower_right.mm, pul = seen.upper_left.mm;
@@ -51,8 +38,9 @@ EyeView eyeView(const Rig& rig, const Point<World>& eye_W, double near_mm, doubl
   const bool mirrored = glm::dot(vn, e - pll) < 0.0;
   if (mirrored) vn = -vn;
 
-  // The frustum through the screen's edges, at the near plane.
+  // The frustum through the screen's edges, at the near plane; reverse-Z floats make its range free.
   const double distance_mm = glm::dot(vn, e - pll);
+  const double near_mm = kNearOfScreen * std::max(distance_mm, 1.0), far_mm = kFarOfScreen * std::max(distance_mm, 1.0);
   const double k = near_mm / std::max(distance_mm, 1e-6);
   const glm::dmat4 frustum = glm::frustumRH_NO(glm::dot(vr, pll - e) * k, glm::dot(vr, plr - e) * k,
                                                glm::dot(vu, pll - e) * k, glm::dot(vu, pul - e) * k, near_mm, far_mm);

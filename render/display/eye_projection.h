@@ -26,8 +26,4 @@ inline constexpr double kNearOfScreen = 0.1, kFarOfScreen = 20.0;
 
 EyeView eyeView(const calibration::Rig& rig, Eye eye);
 
-/// `near_mm` and `far_mm` along the screen's normal.
-EyeView eyeView(const calibration::Rig& rig, const calibration::Point<calibration::World>& eye_W, double near_mm,
-                double far_mm);
-
 }  // namespace render

@@ -18,13 +18,7 @@ float castRay(vec3 origin, vec3 direction, float limit) {
   bool found = false;
   while (k <= last) {
     vec3 place = entry + (float(k) * step) * direction;
-    if (volume.size.w != 0) {
-      float leave = emptyLength(place, entry, direction);
-      if (leave != 0.0) {
-        k = max(k + 1, int(ceil(leave / step)));
-        continue;
-      }
-    }
+    if (skips(k, place, entry, direction)) continue;
     if (solidAt(place) >= kIso) {
       found = true;
       break;

@@ -24,6 +24,15 @@ float emptyLength(vec3 place, vec3 entry, vec3 direction) {
   return min(leave.x, min(leave.y, leave.z)) - kGuard;
 }
 
+// Whether the sample numbered k, at `place`, lies in empty bricks; k goes on to the first sample behind them.
+bool skips(inout int k, vec3 place, vec3 entry, vec3 direction) {
+  if (volume.size.w == 0) return false;
+  float leave = emptyLength(place, entry, direction);
+  if (leave == 0.0) return false;
+  k = max(k + 1, int(ceil(leave / volume.march.x)));
+  return true;
+}
+
 // Towards air, as long as the smoothed field falls over two voxels: central differences, so that no voxel is a terrace.
 vec3 fallAt(vec3 place) {
   const vec2 h = vec2(1.0, 0.0);

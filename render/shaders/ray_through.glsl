@@ -44,13 +44,7 @@ Gathered gatherAlong(vec3 origin, vec3 direction, float limit) {
   int k = 0;
   while (k <= last && gathered.light.a < DVR_OPAQUE) {
     vec3 place = entry + (float(k) * step) * direction;
-    if (volume.size.w != 0) {
-      float leave = emptyLength(place, entry, direction);
-      if (leave != 0.0) {
-        k = max(k + 1, int(ceil(leave / step)));
-        continue;
-      }
-    }
+    if (skips(k, place, entry, direction)) continue;
     float per_mm = opacityPerMm(place);
     if (per_mm > 0.0) {
       float share = (1.0 - gathered.light.a) * (1.0 - pow(1.0 - per_mm, step_mm));

@@ -1,4 +1,4 @@
-// How translucent matter is in the translucent view. C++ twin: render::TransferBlock, filled from TransferFunction.
+// How translucent matter is in the translucent view. C++ twin: render::TransferBlock.
 #include "shared_numbers.glsl"
 
 layout(std140, binding = TRANSFER_BLOCK) uniform TransferBlock {

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "render/gpu/gpu_error.h"
+#include "render/volume/guide_field.h"
 #include "render/volume/slice_lettering.h"
 
 namespace render {
@@ -181,15 +182,11 @@ void drawCanal(Sheet& sheet, const Layout& layout, const glm::dvec3& middle, con
     const int x1 = std::min(edge - 1, static_cast<int>(sheet.columnOf(high[layout.right_axis])));
     const int y0 = std::max(0, static_cast<int>(std::min(ya, yb)));
     const int y1 = std::min(edge - 1, static_cast<int>(std::max(ya, yb)));
-    const glm::dvec3 way = b - a;
-    const double square = std::max(glm::dot(way, way), 1e-12);
     for (int y = y0; y <= y1; ++y)
       for (int x = x0; x <= x1; ++x) {
-        const glm::dvec3 from_a = sheet.place_P_mm(x, y) - a;
-        const double t = std::clamp(glm::dot(from_a, way) / square, 0.0, 1.0);
+        const double wall_mm = distanceToSegment(sheet.place_P_mm(x, y), a, b) - scan.mandibular_canal_radius_mm;
         float& nearest = distance_mm[static_cast<std::size_t>(y * edge + x)];
-        nearest =
-            std::min(nearest, static_cast<float>(glm::length(from_a - t * way) - scan.mandibular_canal_radius_mm));
+        nearest = std::min(nearest, static_cast<float>(wall_mm));
       }
   }
   drawOutline(sheet, distance_mm, kCanal);
@@ -310,10 +307,6 @@ Picture CtSlices::picture(SlicePlane plane, const Frame& frame, const BorderedFi
 double burDistance_mm(const Frame& frame, const glm::dvec3& p_T_mm) {
   const double radius = frame.bur_radius_mm, half = 0.5 * frame.bur_length_mm;
   const glm::dvec2 p{std::hypot(p_T_mm.x, p_T_mm.y), p_T_mm.z};  // from the axis, along it
-  const auto to_segment = [&p](glm::dvec2 a, glm::dvec2 b) {
-    const glm::dvec2 way = b - a;
-    return glm::length(p - a - std::clamp(glm::dot(p - a, way) / glm::dot(way, way), 0.0, 1.0) * way);
-  };
   switch (frame.bur_form) {
     case assets::BurForm::round:
       return glm::length(p) - radius;
@@ -324,8 +317,8 @@ double burDistance_mm(const Frame& frame, const glm::dvec3& p_T_mm) {
       return std::min(std::max(out.x, out.y), 0.0) + glm::length(glm::max(out, 0.0));
     }
     case assets::BurForm::cone: {
-      const double nearest =
-          std::min(to_segment({0.0, -half}, {radius, half}), to_segment({0.0, half}, {radius, half}));
+      const glm::dvec2 rim{radius, half};
+      const double nearest = std::min(distanceToSegment(p, {0.0, -half}, rim), distanceToSegment(p, {0.0, half}, rim));
       const bool inside = p.y < half && p.x * 2.0 * half < radius * (p.y + half);
       return inside ? -nearest : nearest;
     }

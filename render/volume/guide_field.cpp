@@ -15,13 +15,6 @@ std::uint16_t packed(double mm) {
   return static_cast<std::uint16_t>(std::lround(65535.0 * std::clamp(share, 0.0, 1.0)));
 }
 
-double distanceToSegment_mm(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
-  const glm::dvec3 along = b - a;
-  const double length2 = glm::dot(along, along);
-  const double t = length2 > 0.0 ? std::clamp(glm::dot(p - a, along) / length2, 0.0, 1.0) : 0.0;
-  return glm::distance(p, a + t * along);
-}
-
 }  // namespace
 
 double distanceToCut_mm(const PlannedCut& cut, const glm::dvec3& p_P_mm) {
@@ -57,7 +50,7 @@ GuideField guideField(const assets::VolumeGrid& grid, const Guides& guides) {
     const glm::dvec3 &a = guides.mandibular_canal_P_mm[n], &b = guides.mandibular_canal_P_mm[n + 1];
     const double reach_mm = guides.mandibular_canal_radius_mm + kReach_mm;
     write(glm::min(a, b) - reach_mm, glm::max(a, b) + reach_mm, 0,
-          [&](const glm::dvec3& p) { return distanceToSegment_mm(p, a, b) - guides.mandibular_canal_radius_mm; });
+          [&](const glm::dvec3& p) { return distanceToSegment(p, a, b) - guides.mandibular_canal_radius_mm; });
   }
   if (guides.cut) {
     const PlannedCut& cut = *guides.cut;

@@ -26,6 +26,15 @@ struct Guides {
   std::optional<PlannedCut> cut;
 };
 
+/// From a place to the line between two others, in two dimensions or three.
+template <class Vector>
+double distanceToSegment(const Vector& p, const Vector& a, const Vector& b) {
+  const Vector along = b - a;
+  const double square = glm::dot(along, along);
+  const double t = square > 0.0 ? glm::clamp(glm::dot(p - a, along) / square, 0.0, 1.0) : 0.0;
+  return glm::distance(p, a + t * along);
+}
+
 /// Outside the cut: above zero.
 double distanceToCut_mm(const PlannedCut& cut, const glm::dvec3& p_P_mm);
 

@@ -17,8 +17,7 @@ RayCaster::RayCaster(Stage stage, bool skip_empty_space)
       skips_(skip_empty_space),
       caster_(stage == Stage::compute ? Program{"volume.comp"} : Program{"screen.vert", "volume.frag"}) {}
 
-void RayCaster::bind(const VolumeFields& fields, const VolumeTexture& volume, const Frame& frame,
-                     const TransferFunction& transfer) {
+void RayCaster::bind(const VolumeFields& fields, const VolumeTexture& volume, const Frame& frame) {
   const int guides = volume.hasGuides() ? shownGuides(frame) : 0;
   const assets::VolumeGrid& grid = fields.grid();
   block_.set(VOLUME_BLOCK,
@@ -28,7 +27,7 @@ void RayCaster::bind(const VolumeFields& fields, const VolumeTexture& volume, co
               .ambient_size = glm::ivec4(fields.ambient().layout().size, 0),
               .march = {static_cast<float>(frame.quality.step_voxels), frame.quality.ambient_occlusion ? 1.0f : 0.0f,
                         frame.quality.lamp_shadow ? 1.0f : 0.0f, static_cast<float>(guides)}});
-  transfer_.set(TRANSFER_BLOCK, transferBlock(transfer));
+  transfer_.set(TRANSFER_BLOCK, transferBlock());
   volume.bind();
 }
 

@@ -31,8 +31,7 @@ class RayCaster {
   RayCaster(Stage stage, bool skip_empty_space);
 
   /// Binds volume, block and transfer function. Passes that ask the volume for shade need this before drawing.
-  void bind(const VolumeFields& fields, const VolumeTexture& volume, const Frame& frame,
-            const TransferFunction& transfer);
+  void bind(const VolumeFields& fields, const VolumeTexture& volume, const Frame& frame);
   /// After bind(): casts into `layer`, made as large as it must be, and lays it over `picture` (colour, distance,
   /// depth).
   void draw(Framebuffer& layer, const Framebuffer& picture);

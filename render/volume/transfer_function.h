@@ -4,9 +4,7 @@
 // pass the same empty bricks.
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cstdint>
 #include <glm/glm.hpp>
 
 #include "assets/tissue.h"
@@ -14,14 +12,11 @@
 
 namespace render {
 
-struct TransferFunction {
-  float ramp_start =
-      0.5f;  ///< solid fraction where matter begins to show; never below 0.5, where bricks count as empty
-  float ramp_full = 0.9f;
-  /// 0 … <1, in the order of assets::Tissue.
-  std::array<float, assets::kTissueCount> opacity_per_mm{0.30f, 0.24f, 0.05f, 0.80f, 0.92f,
-                                                         0.75f, 0.50f, 0.50f, 0.05f, 0.05f};
-};
+/// Solid fractions where matter begins to show, never below 0.5, where bricks count as empty, and where it shows fully.
+inline constexpr float kRampStart = 0.5f, kRampFull = 0.9f;
+/// 0 … <1, in the order of assets::Tissue.
+inline constexpr std::array<float, assets::kTissueCount> kOpacityPerMm{0.30f, 0.24f, 0.05f, 0.80f, 0.92f,
+                                                                       0.75f, 0.50f, 0.50f, 0.05f, 0.05f};
 
 /// std140 twin of transfer_block.glsl.
 struct TransferBlock {
@@ -30,12 +25,9 @@ struct TransferBlock {
 };
 static_assert(sizeof(TransferBlock) == 16 * (1 + TISSUE_COUNT));
 
-inline TransferBlock transferBlock(const TransferFunction& transfer) {
-  TransferBlock block;
-  const float start = std::clamp(transfer.ramp_start, 0.0f, 0.99f);
-  block.ramp = {start, 1.0f / std::max(transfer.ramp_full - start, 0.01f), 0.0f, 0.0f};
-  for (std::size_t n = 0; n < block.opacity_per_mm.size(); ++n)
-    block.opacity_per_mm[n].x = std::clamp(transfer.opacity_per_mm[n], 0.0f, 0.999f);
+inline TransferBlock transferBlock() {
+  TransferBlock block{.ramp = {kRampStart, 1.0f / (kRampFull - kRampStart), 0.0f, 0.0f}};
+  for (std::size_t n = 0; n < kOpacityPerMm.size(); ++n) block.opacity_per_mm[n].x = kOpacityPerMm[n];
   return block;
 }
 

@@ -151,11 +151,10 @@ TEST(RayCaster, TranslucentMatterStopsLightByItsThickness) {
   };
 
   // The optical thickness: 1.5 mm of full bone and half a millimetre of ramp on each side.
-  const TransferFunction transfer;
-  const double a = transfer.opacity_per_mm[1];
+  const double a = double{kOpacityPerMm[1]};
   double log_through = 1.5 * std::log(1.0 - a);
   for (double x = 0.0005; x < 1.0; x += 0.001) {
-    const double share = std::clamp((x - transfer.ramp_start) / (transfer.ramp_full - transfer.ramp_start), 0.0, 1.0);
+    const double share = std::clamp((x - kRampStart) / (kRampFull - kRampStart), 0.0, 1.0);
     log_through += 2.0 * 0.5 * 0.001 * std::log(1.0 - a * share);
   }
   const double bare = plateLight(nothing, 0.5);
