@@ -77,7 +77,7 @@ foreach(part volume scene display)
 endforeach()
 # The CPU back-end stands beside gpu: of that folder it knows the exception alone.
 set(render/cpu ${render_words} render/gpu/gpu_error.h render/gpu/window_place.h render/cpu/ render/volume/ render/display/
-    render/scene/finish.h render/scene/mandibular_canal_tube.h render/scene/guide_opacity.h render/eye_block.h
+    render/scene/models.h render/eye_block.h
     render/scene_renderer.h render/render_options.h render/shaders/)
 
 # Third parties: a regular expression of what is included, and the folders or rooms that may.
