@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "calibration/chance.h"
 #include "calibration/geometry/units.h"
 
 namespace app {
@@ -12,9 +13,8 @@ constexpr double kNotch_mm = 1.0, kTilt_rad = calibration::radFromDegrees(3.0);
 constexpr double kDrawsIn_mm = 3.5;
 
 glm::dvec3 errorOf(calibration::TouchPrecision precision, std::mt19937& chance) {
-  std::normal_distribution<double> one;
-  const double x = one(chance), y = one(chance), z = one(chance);
-  return {precision.in_plane_mm * x, precision.in_plane_mm * y, precision.along_sight_mm * z};
+  return calibration::gaussianVector(chance, 1.0) *
+         glm::dvec3(precision.in_plane_mm, precision.in_plane_mm, precision.along_sight_mm);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "calibration/webcam/flip_check.h"
-#include "calibration/webcam/ring_check.h"
+#include "calibration/webcam/ring_picture.h"
 #include "calibration/webcam/tip_spot.h"
 
 namespace app {

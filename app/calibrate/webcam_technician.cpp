@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibration/synthetic/chance.h"
-#include "calibration/synthetic/webcam_sights.h"
+#include "calibration/chance.h"
 
 namespace app {
 namespace {

@@ -43,7 +43,7 @@ Experiment runSimulated(const Protocol& protocol, haptics::CarvedBone& bone, con
                         const std::function<void(const TrialRecord&, const Experiment&)>& on_trial) {
   Experiment experiment(protocol, seed);
   SimulatedObserver observer(protocol.observer, seed);
-  Chance hand(seed, 2);
+  calibration::Chance hand(seed, 2);
   while (experiment.next()) {
     const Felt first = feltIn(probe(bone, site, experiment.commandOf(0), protocol.probe, hand));
     const Felt second = feltIn(probe(bone, site, experiment.commandOf(1), protocol.probe, hand));

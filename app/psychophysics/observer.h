@@ -7,8 +7,8 @@
 
 #include <cstdint>
 
-#include "app/psychophysics/chance.h"
 #include "app/psychophysics/felt.h"
+#include "calibration/chance.h"
 
 namespace app {
 
@@ -34,7 +34,7 @@ class SimulatedObserver {
   double perceived(const Felt& felt);
 
   ObserverSettings settings_;
-  Chance chance_;
+  calibration::Chance chance_;
 };
 
 }  // namespace app

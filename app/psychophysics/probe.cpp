@@ -26,7 +26,7 @@ void addPress(std::vector<Leg>& way, const glm::dvec2& place_mm, double reach_mm
   way.push_back({{place_mm, kClearance_mm}, 0.4 * duration_s});
 }
 
-std::vector<Leg> wayOf(const ProbePlan& plan, Chance& hand) {
+std::vector<Leg> wayOf(const ProbePlan& plan, calibration::Chance& hand) {
   const glm::dvec2 place = plan.wander_mm * glm::dvec2(hand.normal(), hand.normal());
   const auto reach = [&](double spread) { return plan.reach_mm * std::max(0.2, 1.0 + spread * hand.normal()); };
   std::vector<Leg> way{{{place, kClearance_mm}, 0.0}};
@@ -63,7 +63,7 @@ double smoothRate(double s) { return 30.0 * s * s * (1.0 - s) * (1.0 - s); }
 }  // namespace
 
 std::vector<FeltSample> probe(haptics::CarvedBone& bone, const ProbeSite& site, const haptics::Command& command,
-                              const ProbePlan& plan, Chance& hand) {
+                              const ProbePlan& plan, calibration::Chance& hand) {
   const std::vector<Leg> way = wayOf(plan, hand);
   const glm::dvec3 z = site.outward_P.xyz;
   const glm::dvec3 x = glm::normalize(glm::cross(glm::abs(z.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0), z));

@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "app/psychophysics/chance.h"
 #include "app/psychophysics/felt.h"
+#include "calibration/chance.h"
 #include "haptics/bone/carved_bone.h"
 #include "haptics/servo/command.h"
 
@@ -37,6 +37,6 @@ struct ProbeSite {
 
 /// One interval. `bone` is borrowed and not changed.
 std::vector<FeltSample> probe(haptics::CarvedBone& bone, const ProbeSite& site, const haptics::Command& command,
-                              const ProbePlan& plan, Chance& hand);
+                              const ProbePlan& plan, calibration::Chance& hand);
 
 }  // namespace app

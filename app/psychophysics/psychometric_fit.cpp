@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/psychophysics/chance.h"
+#include "calibration/chance.h"
 
 namespace app {
 namespace {
@@ -170,7 +170,7 @@ std::optional<PsychometricFit> fitWithIntervals(const std::vector<LevelCount>& c
   fit.deviance = 2.0 * (saturated(counts) - fit.log_likelihood);
 
   // The same levels and trials, answered by the fitted observer.
-  Chance chance(seed, 0xb007);
+  calibration::Chance chance(seed, 0xb007);
   std::vector<double> pse, jnd;
   int worse = 0;
   for (int draw = 0; draw < draws; ++draw) {

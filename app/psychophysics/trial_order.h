@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "app/psychophysics/chance.h"
 #include "app/psychophysics/protocol.h"
+#include "calibration/chance.h"
 
 namespace app {
 
@@ -34,7 +34,7 @@ class TrialOrder {
  private:
   bool nextOrder();
 
-  Chance chance_;
+  calibration::Chance chance_;
   std::vector<PlannedTrial> planned_;  ///< constant and pair, all of them
   std::vector<Staircase> tracks_;
   std::vector<bool> orders_;

@@ -10,12 +10,15 @@
 
 #include "assets/json_depth.h"
 #include "assets/load_error.h"
-#include "assets/scenery/rigid_fit.h"
 #include "assets/tooth.h"
+#include "calibration/fit/rigid_fit.h"
 #include "calibration/geometry/units.h"
 
 namespace assets {
 namespace {
+
+using calibration::PointPair;
+using Motion = calibration::Pose<calibration::Patient, calibration::Face>;
 
 constexpr std::size_t kMaxFileBytes = 1 << 20;
 constexpr double kToothHeight_mm = 24.0;  ///< root included: the centroids of the face's teeth are those of whole teeth
@@ -122,7 +125,7 @@ double squaredApart_mm2(const glm::dvec3& a, const glm::dvec3& b) {
 }
 
 // The voxels nearest to each tooth, as pairs of centroids; the tooth at the site is paired already.
-std::vector<PointPair> pairsFor(const RigidMotion& X, const std::vector<glm::dvec3>& voxels,
+std::vector<PointPair> pairsFor(const Motion& X, const std::vector<glm::dvec3>& voxels,
                                 const std::vector<FaceTooth>& teeth, int site_fdi, double voxel_mm3) {
   std::vector<glm::dvec3> sum(teeth.size(), glm::dvec3(0.0));
   std::vector<double> count(teeth.size(), 0.0);
@@ -148,7 +151,7 @@ std::vector<PointPair> pairsFor(const RigidMotion& X, const std::vector<glm::dve
   return pairs;
 }
 
-double residual_mm(const RigidMotion& X, const PointPair& pair) {
+double residual_mm(const Motion& X, const PointPair& pair) {
   return glm::distance(X.rotation * pair.from_mm + X.translation_mm, pair.to_mm);
 }
 
@@ -172,7 +175,7 @@ struct Arch {
 
 // Assigns and fits in turn until it stands still; no teeth if too few agree. The chewing planes are kept together by
 // giving each tooth a second point above it.
-FacePlacement settled(RigidMotion X, const Arch& arch, const std::vector<FaceTooth>& teeth) {
+FacePlacement settled(Motion X, const Arch& arch, const std::vector<FaceTooth>& teeth) {
   std::vector<PointPair> kept;
   for (int n = 0; n < kIterations; ++n) {
     kept = pairsFor(X, arch.voxels_P_mm, teeth, arch.site_fdi, arch.voxel_mm3);
@@ -184,20 +187,20 @@ FacePlacement settled(RigidMotion X, const Arch& arch, const std::vector<FaceToo
     for (std::size_t i = 0, count = held.size(); i < count; ++i) {
       held.push_back({held[i].to_mm + kHold_mm * arch.up_P, held[i].from_mm + kHold_mm * arch.up_F, held[i].weight});
     }
-    X = rigidFit(held);
+    const auto map = calibration::rigidFit(held);
+    if (!map) return {};
+    X = {glm::normalize(glm::quat_cast(map->turn)), map->shift_mm};
   }
   double squares = 0.0;
   for (const PointPair& pair : kept) squares += std::pow(residual_mm(X, pair), 2.0);
-  return {{X.rotation, X.translation_mm},
-          std::sqrt(squares / static_cast<double>(kept.size())),
-          arch.at_site ? residual_mm(X, *arch.at_site) : 0.0,
+  return {X, std::sqrt(squares / static_cast<double>(kept.size())), arch.at_site ? residual_mm(X, *arch.at_site) : 0.0,
           static_cast<int>(kept.size())};
 }
 
 // How badly a placement explains the teeth: mean squared distance to the nearest tooth, far ones counted alike, and
 // the one's at the site.
 double misfit_mm2(const FacePlacement& placement, const Arch& arch, const std::vector<FaceTooth>& teeth) {
-  const RigidMotion X{placement.X_PF.rotation, placement.X_PF.translation_mm};
+  const Motion& X = placement.X_PF;
   double sum = 0.0;
   for (const glm::dvec3& p : arch.voxels_P_mm) {
     double best = kNearTooth_mm * kNearTooth_mm;
@@ -295,7 +298,7 @@ FacePlacement fitFace(const CtVolume& ct, const std::optional<OperativeSite>& si
   double best_misfit = 1e18;
   for (const std::vector<glm::dvec3>& arch_F : {withoutThirdMolars(teeth, 0), same_side_F}) {
     for (double turn_deg = -50.0; turn_deg <= 50.0; turn_deg += 10.0) {
-      RigidMotion X;
+      Motion X;
       X.rotation = glm::angleAxis(calibration::radFromDegrees(turn_deg), arch.up_P) * flat;
       X.translation_mm = meanOf(arch.voxels_P_mm) - X.rotation * meanOf(arch_F);
       const FacePlacement found = settled(X, arch, teeth);

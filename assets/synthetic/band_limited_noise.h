@@ -9,7 +9,7 @@
 
 #include <glm/glm.hpp>
 
-#include "calibration/geometry/mixed_bits.h"
+#include "calibration/chance.h"
 
 namespace assets {
 

@@ -2,10 +2,10 @@
 
 #include <cmath>
 #include <optional>
-#include <random>
 
 #include "assets/synthetic/face_frames.h"
 #include "assets/vertex_normals.h"
+#include "calibration/chance.h"
 
 namespace assets {
 namespace {
@@ -53,9 +53,7 @@ void addHair(MeshPart& part, const dvec3& root_K, const dvec3& direction, const 
 
 MeshPart facialHair(const HeadShape& head, std::uint32_t seed) {
   std::mt19937 random(seed);
-  const auto between = [&](double low, double high) {
-    return low + (high - low) * static_cast<double>(random()) / 4294967295.0;
-  };
+  const auto between = [&](double low, double high) { return calibration::evenly(random, low, high); };
   MeshPart part;
   for (const double side : {1.0, -1.0}) {
     // Brow: dense and upright near the nose, thin and lying toward the temple.

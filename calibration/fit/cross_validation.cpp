@@ -1,10 +1,10 @@
 #include "calibration/fit/cross_validation.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "calibration/fit/least_squares.h"
+#include <Eigen/Dense>
+#include <glm/gtc/type_ptr.hpp>
 
 namespace calibration {
 namespace {
@@ -49,42 +49,30 @@ glm::dvec3 overFolds_mm2(const std::vector<Touch>& touches, std::span<const std:
 
 double rootOfSum(const glm::dvec3& squares) { return std::sqrt(squares.x + squares.y + squares.z); }
 
-struct Affine {
-  std::array<glm::dvec4, 3> rows{};  ///< of x, y, z: three factors and a constant
-
-  glm::dvec3 operator()(const glm::dvec3& p) const {
-    const glm::dvec4 h(p, 1.0);
-    return {glm::dot(rows[0], h), glm::dot(rows[1], h), glm::dot(rows[2], h)};
-  }
-};
-
 /// Nominal tips, in W by the start so that the numbers are of one size.
 glm::dvec3 nominalTip_mm(const ArmStart& start, const Touch& touch) {
   return armOf(start, {}).tip_W(touch.joints_rad).mm - start.middle_W.mm;
 }
 
-std::optional<Affine> affineFit(const ArmStart& start, const std::vector<Touch>& touches,
-                                std::span<const std::size_t> which) {
+/// p_W of a nominal tip and a constant 1.
+std::optional<glm::dmat4x3> affineFit(const ArmStart& start, const std::vector<Touch>& touches,
+                                      std::span<const std::size_t> which) {
   if (which.size() < 5) return std::nullopt;
-  std::array<double, 16> normal{};
-  std::array<std::array<double, 4>, 3> right{};
+  glm::dmat4 normal(0.0);
+  glm::dmat4x3 right(0.0);
   for (const std::size_t i : which) {
     const glm::dvec4 h(nominalTip_mm(start, touches[i]), 1.0);
-    for (int r = 0; r < 4; ++r) {
-      for (int c = 0; c < 4; ++c) normal[static_cast<std::size_t>(4 * r + c)] += h[r] * h[c];
-      for (int axis = 0; axis < 3; ++axis)
-        right[static_cast<std::size_t>(axis)][static_cast<std::size_t>(r)] += h[r] * touches[i].target_W.mm[axis];
-    }
+    normal += glm::outerProduct(h, h);
+    right += glm::outerProduct(touches[i].target_W.mm, h);
   }
   // Flat to within half a millimetre: nothing is known across.
-  if (!choleskyFactored(normal, 4)) return std::nullopt;
-  for (std::size_t k = 0; k < 3; ++k)
-    if (normal[5 * k] < 0.5 * std::sqrt(static_cast<double>(which.size()))) return std::nullopt;
-  Affine affine;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    choleskySolved(normal, 4, right[axis]);
-    affine.rows[axis] = {right[axis][0], right[axis][1], right[axis][2], right[axis][3]};
-  }
+  const Eigen::LLT<Eigen::Matrix4d> factor(Eigen::Matrix4d::Map(glm::value_ptr(normal)));
+  const double least = 0.5 * std::sqrt(static_cast<double>(which.size()));
+  if (factor.info() != Eigen::Success || factor.matrixLLT().diagonal().head<3>().minCoeff() < least)
+    return std::nullopt;
+  using Right = Eigen::Matrix<double, 3, 4>;
+  glm::dmat4x3 affine;
+  Right::Map(glm::value_ptr(affine)) = factor.solve(Right::Map(glm::value_ptr(right)).transpose()).transpose();
   return affine;
 }
 
@@ -115,7 +103,7 @@ std::optional<AffineScore> affineScore(const ArmStart& start, const std::vector<
     glm::dvec3 sum{0.0};
     for (const std::size_t i : asked) {
       if (!affine) break;
-      const glm::dvec3 error = (*affine)(nominalTip_mm(start, touches[i])) - touches[i].target_W.mm;
+      const glm::dvec3 error = *affine * glm::dvec4(nominalTip_mm(start, touches[i]), 1.0) - touches[i].target_W.mm;
       sum += error * error;
     }
     return sum;

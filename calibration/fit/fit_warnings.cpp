@@ -1,8 +1,8 @@
 #include "calibration/fit/fit_warnings.h"
 
 #include <algorithm>
-#include <cstdarg>
-#include <cstdio>
+
+#include <fmt/format.h>
 
 namespace calibration {
 namespace {
@@ -12,19 +12,6 @@ constexpr double kManyOutliers = 0.1;
 constexpr double kOptimistic = 2.0;  ///< foretold error at unseen tilts over the cross-validated
 constexpr double kMatters_mm = 0.3;  ///< an error below this is nothing to warn of
 constexpr double kOverFitted = 3.0;  ///< cross-validated error over that of the touches fitted
-
-#if defined(__GNUC__)
-__attribute__((format(printf, 1, 2)))
-#endif
-std::string
-line(const char* format, ...) {
-  char text[300];
-  va_list values;
-  va_start(values, format);
-  std::vsnprintf(text, sizeof text, format, values);
-  va_end(values);
-  return text;
-}
 
 }  // namespace
 
@@ -37,29 +24,33 @@ std::vector<FitWarning> fitWarnings(const FitEvidence& e) {
                         "check that the drawn F reads right, or that the device does stand behind the screen"});
   if (e.used < kGoodCount)
     warnings.push_back(
-        {Kind::few_touches, line("%d touches are few: take %d or more, 27 for the best", e.used, kGoodCount)});
+        {Kind::few_touches, fmt::format("{} touches are few: take {} or more, 27 for the best", e.used, kGoodCount)});
   if (!e.flat && e.hull_mm3 < kEnoughOfRegion * e.region_mm3)
-    warnings.push_back({Kind::small_volume, line("the touches span %.0f of the case's %.0f cm3: touch further out, "
-                                                 "outside of them the error grows",
-                                                 e.hull_mm3 / 1000.0, e.region_mm3 / 1000.0)});
-  if (e.tilt_spread_deg < kLeastTilt_deg)
-    warnings.push_back({Kind::little_tilt, line("the stylus was held much the same way (%.0f deg apart, at least %.0f "
-                                                "are needed): tilt it differently at each touch",
-                                                e.tilt_spread_deg, kLeastTilt_deg)});
-  if (e.unseen_tilts_rms_mm > std::max(kMatters_mm, kOptimistic * e.cv_rms_mm))
-    warnings.push_back({Kind::optimistic_check,
-                        line("the cross-validated %.2f mm hold for these ways of holding the stylus alone, %.1f mm are "
-                             "possible for others: touch with other tilts, or verify with them",
-                             e.cv_rms_mm, e.unseen_tilts_rms_mm)});
-  if (e.outliers > kManyOutliers * (e.used + e.outliers))
     warnings.push_back(
-        {Kind::many_outliers, line("%d of %d touches fit no common arm: check that the jig is fast and the order of "
-                                   "the targets kept",
-                                   e.outliers, e.used + e.outliers)});
+        {Kind::small_volume, fmt::format("the touches span {:.0f} of the case's {:.0f} cm3: touch further out, "
+                                         "outside of them the error grows",
+                                         e.hull_mm3 / 1000.0, e.region_mm3 / 1000.0)});
+  if (e.tilt_spread_deg < kLeastTilt_deg)
+    warnings.push_back(
+        {Kind::little_tilt, fmt::format("the stylus was held much the same way ({:.0f} deg apart, at least {:.0f} "
+                                        "are needed): tilt it differently at each touch",
+                                        e.tilt_spread_deg, kLeastTilt_deg)});
+  if (e.unseen_tilts_rms_mm > std::max(kMatters_mm, kOptimistic * e.cv_rms_mm))
+    warnings.push_back(
+        {Kind::optimistic_check,
+         fmt::format("the cross-validated {:.2f} mm hold for these ways of holding the stylus alone, {:.1f} mm are "
+                     "possible for others: touch with other tilts, or verify with them",
+                     e.cv_rms_mm, e.unseen_tilts_rms_mm)});
+  if (e.outliers > kManyOutliers * (e.used + e.outliers))
+    warnings.push_back({Kind::many_outliers,
+                        fmt::format("{} of {} touches fit no common arm: check that the jig is fast and the order of "
+                                    "the targets kept",
+                                    e.outliers, e.used + e.outliers)});
   if (e.cv_rms_mm > std::max(kMatters_mm, kOverFitted * e.fre_rms_mm))
-    warnings.push_back({Kind::over_fitted, line("%.2f mm at the touches fitted say nothing: touches left out were off "
-                                                "by %.2f mm; take more touches",
-                                                e.fre_rms_mm, e.cv_rms_mm)});
+    warnings.push_back(
+        {Kind::over_fitted, fmt::format("{:.2f} mm at the touches fitted say nothing: touches left out were off "
+                                        "by {:.2f} mm; take more touches",
+                                        e.fre_rms_mm, e.cv_rms_mm)});
   return warnings;
 }
 

@@ -49,10 +49,4 @@ struct LeastSquaresResult {
 /// Deterministic: the same numbers for the same input on one machine.
 LeastSquaresResult solved(const LeastSquares& problem);
 
-/// A dense symmetric positive definite system by Cholesky, in place: `matrix` (row-major, n by n) becomes its lower
-/// factor. False: it is not positive definite.
-bool choleskyFactored(std::span<double> matrix, std::size_t n);
-/// x of L L^T x = b, in place of b.
-void choleskySolved(std::span<const double> factor, std::size_t n, std::span<double> b);
-
 }  // namespace calibration

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "calibration/fit/rigid_fit.h"
 #include "calibration/geometry/finite.h"
@@ -21,14 +20,9 @@ RestRegistration restRegistered(const std::vector<MarkTouch>& made_of, const std
         throw CalibrationError("hand rest: a touch is not a number: touch its marks again");
   if (made_of.size() < 3) throw CalibrationError("hand rest: fewer than three marks: touch three");
 
-  std::vector<glm::dvec3> marks_mm, touched_mm;
-  std::vector<std::size_t> all(made_of.size());
-  std::iota(all.begin(), all.end(), 0);
-  for (const MarkTouch& touch : made_of) {
-    marks_mm.push_back(touch.mark_mm);
-    touched_mm.push_back(touch.touched_W.mm);
-  }
-  const auto laid = rigidFit(marks_mm, touched_mm, all);
+  std::vector<PointPair> pairs;
+  for (const MarkTouch& touch : made_of) pairs.push_back({touch.touched_W.mm, touch.mark_mm});
+  const auto laid = rigidFit(pairs);
   if (!laid) throw CalibrationError("hand rest: its marks lie on a line: choose three that make a triangle");
 
   RestRegistration found;

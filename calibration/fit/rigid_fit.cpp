@@ -5,7 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include <opencv2/core.hpp>
+#include <Eigen/Dense>
+#include <glm/gtc/type_ptr.hpp>
 
 namespace calibration {
 namespace {
@@ -49,7 +50,7 @@ class Agreement {
   RigidAgreement largest(double limit_mm) const {
     RigidAgreement best;
     for (const auto& four : fours_) {
-      const auto rough = rigidFit(from_, to_, four, handedness_);
+      const auto rough = fit(four);
       if (!rough) continue;
       // A map of four is rough far from them: what is twice as near has its say before the count.
       RigidAgreement candidate;
@@ -66,7 +67,7 @@ class Agreement {
   /// Map and RMS of its set, then the set within the limit of that map, until it stays.
   void refit(RigidAgreement& agreement, double limit_mm) const {
     for (int round = 0; round < 4; ++round) {
-      const auto map = rigidFit(from_, to_, agreement.agreeing, handedness_);
+      const auto map = fit(agreement.agreeing);
       if (!map) return agreement.agreeing.clear();
       agreement.map = *map;
       agreement.limit_mm = limit_mm;
@@ -79,6 +80,11 @@ class Agreement {
   }
 
  private:
+  std::optional<RigidMap> fit(std::span<const std::size_t> which) const {
+    std::vector<PointPair> pairs;
+    for (const std::size_t i : which) pairs.push_back({to_[i], from_[i]});
+    return rigidFit(pairs, handedness_);
+  }
   double error(const RigidMap& map, std::size_t i) const { return glm::distance(map(from_[i]), to_[i]); }
   Indices within(const RigidMap& map, double limit_mm) const {
     Indices near;
@@ -99,27 +105,29 @@ class Agreement {
 
 }  // namespace
 
-std::optional<RigidMap> rigidFit(std::span<const glm::dvec3> from_mm, std::span<const glm::dvec3> to_mm,
-                                 std::span<const std::size_t> which, Handedness handedness) {
-  if (which.size() < 3) return std::nullopt;
-  const double share = 1.0 / static_cast<double>(which.size());
+std::optional<RigidMap> rigidFit(std::span<const PointPair> pairs, Handedness handedness) {
+  if (pairs.size() < 3) return std::nullopt;
+  double weight = 0.0;
   glm::dvec3 from_middle{0.0}, to_middle{0.0};
-  for (const std::size_t i : which) from_middle += share * from_mm[i], to_middle += share * to_mm[i];
-  cv::Matx33d together = cv::Matx33d::zeros();
-  for (const std::size_t i : which)
-    for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c) together(r, c) += share * (to_mm[i] - to_middle)[r] * (from_mm[i] - from_middle)[c];
+  for (const PointPair& pair : pairs) {
+    weight += pair.weight;
+    from_middle += pair.weight * pair.from_mm;
+    to_middle += pair.weight * pair.to_mm;
+  }
+  from_middle /= weight, to_middle /= weight;
+  glm::dmat3 together(0.0);
+  for (const PointPair& pair : pairs)
+    together += pair.weight / weight * glm::outerProduct(pair.to_mm - to_middle, pair.from_mm - from_middle);
 
-  cv::Matx33d u, vt;
-  cv::Matx31d w;
-  cv::SVD::compute(together, w, u, vt);
-  if (!(w(1) > kOnALine * kOnALine * w(0)) || !std::isfinite(w(0))) return std::nullopt;
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(Eigen::Matrix3d::Map(glm::value_ptr(together)),
+                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::Vector3d& w = svd.singularValues();
+  if (!(w[1] > kOnALine * kOnALine * w[0]) || !std::isfinite(w[0])) return std::nullopt;
   const double wanted = handedness == Handedness::kept ? 1.0 : -1.0;
-  const double sign = cv::determinant(u) * cv::determinant(vt) * wanted < 0.0 ? -1.0 : 1.0;
-  const cv::Matx33d turn = u * cv::Matx33d::diag({1.0, 1.0, sign}) * vt;
+  const double sign = svd.matrixU().determinant() * svd.matrixV().determinant() * wanted < 0.0 ? -1.0 : 1.0;
+  const Eigen::Matrix3d turn = svd.matrixU() * Eigen::Vector3d(1.0, 1.0, sign).asDiagonal() * svd.matrixV().transpose();
   RigidMap map;
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c) map.turn[c][r] = turn(r, c);
+  map.turn = glm::make_mat3(turn.data());
   map.shift_mm = to_middle - map.turn * from_middle;
   return map;
 }

@@ -23,9 +23,13 @@ struct RigidMap {
 
 enum class Handedness { kept, mirrored };
 
-/// Least squares over these indices. None: fewer than three, or all on a line.
-std::optional<RigidMap> rigidFit(std::span<const glm::dvec3> from_mm, std::span<const glm::dvec3> to_mm,
-                                 std::span<const std::size_t> which, Handedness handedness = Handedness::kept);
+struct PointPair {
+  glm::dvec3 to_mm{0.0}, from_mm{0.0};
+  double weight = 1.0;
+};
+
+/// Least squares, each pair by its weight. None: fewer than three, or all on a line.
+std::optional<RigidMap> rigidFit(std::span<const PointPair> pairs, Handedness handedness = Handedness::kept);
 
 struct RigidAgreement {
   RigidMap map;

@@ -106,14 +106,6 @@ std::vector<Target> swung(const Pose<World, Board>& X_WB) {
   return targets;
 }
 
-/// Every place between the pits once.
-std::vector<Target> rings() {
-  std::vector<Target> targets;
-  for (const Target& target : held(kBetween, 0, {}))
-    if (target.id % 2 == 0) targets.push_back({target.id / 2 + 1, target.place_W, target.stylus_W});
-  return targets;
-}
-
 /// Four corners that are no neighbours, and the middle.
 constexpr std::array<Hold, 5> kRezero = {
     {{{-1, -1, -1}, -20, 10}, {{1, 1, -1}, 15, -20}, {{0, 0, 0}, 0, 0}, {{-1, 1, 1}, 20, 20}, {{1, -1, 1}, -15, -15}}};
@@ -144,9 +136,6 @@ std::optional<TargetPlan> targetPlan(std::string_view method, const JigPose& jig
   } else if (method == "pivot12") {
     plan.targets = swung(jig.X_WB);
     plan.one_pit = true;
-  } else if (method == "ring8") {
-    plan.kind = TargetKind::webcam_place;
-    plan.targets = rings();
   } else if (method == "visual15" || method == "visual25") {
     plan.kind = TargetKind::cross;
     plan.precision = kCrossPrecision;

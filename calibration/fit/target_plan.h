@@ -38,8 +38,8 @@ struct JigPose {
 };
 
 /// "jig27", "jig8", "visual15", "visual25", "webcam27" (places for each camera position), "rezero5", "check4",
-/// "verify8" (8 places not in any fit, two new tilts each: 16 touches), "pivot12" (one pit, twelve tilts), "ring8" (the
-/// places of verify8 before the screen, one tilt each). None for another name.
+/// "verify8" (8 places not in any fit, two new tilts each: 16 touches), "pivot12" (one pit, twelve tilts). None for
+/// another name.
 std::optional<TargetPlan> targetPlan(std::string_view method, const JigPose& jig = {});
 
 /// A turn of the handle about H's axes that holds the stylus in this direction; the roll as little as may be.

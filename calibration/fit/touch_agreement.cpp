@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include <fmt/format.h>
 
 #include "calibration/arm/phantom_models.h"
 #include "calibration/fit/kinematic_fit.h"
@@ -47,12 +48,10 @@ Places usedPlaces(const PhantomGeometry& geometry, const std::vector<Touch>& tou
 }
 
 [[noreturn]] void refuseUnexplained(std::size_t n) {
-  char line[240];
-  std::snprintf(line, sizeof line,
-                "touches: no pose of this device brings two thirds of the %zu within %.0f mm of their targets, check "
-                "device model, homing and the order of the targets, then touch again",
-                n, kMostLimit_mm);
-  throw CalibrationError(line);
+  throw CalibrationError(fmt::format(
+      "touches: no pose of this device brings two thirds of the {} within {:.0f} mm of their targets, check "
+      "device model, homing and the order of the targets, then touch again",
+      n, kMostLimit_mm));
 }
 
 /// The lay in the room's handedness; throws where the mirror's is clearly the better one. `doubtful`: of a handful of

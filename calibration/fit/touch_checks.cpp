@@ -1,12 +1,11 @@
 #include "calibration/fit/touch_checks.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
-#include <random>
 
-#include <opencv2/core.hpp>
+#include <libqhull_r/qhull_ra.h>
+#include <Eigen/Dense>
+#include <glm/gtc/type_ptr.hpp>
 
 #include "calibration/arm/phantom_models.h"
 #include "calibration/geometry/units.h"
@@ -17,6 +16,7 @@ namespace {
 constexpr std::size_t kFewestTouches = 4;
 constexpr double kSameAngle_rad = 1e-7;
 constexpr double kNarrow_mm = 3.0;  ///< a line of targets is no broader, root mean square
+constexpr double kFlatHull_mm = 0.02;
 constexpr std::size_t kDirections = 400;
 
 [[noreturn]] void refuseTouches(const std::string& what) { throw CalibrationError("touches: " + what); }
@@ -35,85 +35,6 @@ void checkTwice(const std::vector<const Touch*>& touches) {
       refuseTouches("touch " + std::to_string(sorted[i]->id) + " is touch " + std::to_string(sorted[i - 1]->id) +
                     " again, with the same joint angles, remove one or touch anew");
 }
-
-/// A triangle of the hull, seen from outside counter-clockwise.
-struct Facet {
-  std::array<std::size_t, 3> corner;
-  glm::dvec3 normal;  ///< unit
-  double offset_mm;
-};
-
-class Hull {
- public:
-  explicit Hull(std::vector<glm::dvec3> places) : places_(std::move(places)) {}
-
-  /// False: they lie in a plane.
-  bool begin() {
-    const auto farthest = [&](auto&& distance) {
-      std::size_t best = 0;
-      for (std::size_t i = 1; i < places_.size(); ++i)
-        if (distance(places_[i]) > distance(places_[best])) best = i;
-      return best;
-    };
-    const std::size_t a = farthest([&](const glm::dvec3& p) { return glm::distance(p, places_[0]); });
-    const std::size_t b = farthest([&](const glm::dvec3& p) { return glm::distance(p, places_[a]); });
-    const glm::dvec3 line = places_[b] - places_[a];
-    const std::size_t c = farthest([&](const glm::dvec3& p) { return glm::length(glm::cross(p - places_[a], line)); });
-    const glm::dvec3 across = glm::cross(line, places_[c] - places_[a]);
-    const std::size_t d = farthest([&](const glm::dvec3& p) { return std::abs(glm::dot(p - places_[a], across)); });
-    if (glm::length(across) < 1e-3 || std::abs(glm::dot(places_[d] - places_[a], across)) < 0.1 * glm::length(across))
-      return false;
-    middle_ = 0.25 * (places_[a] + places_[b] + places_[c] + places_[d]);
-    for (const auto& corner : {std::array{a, b, c}, std::array{a, b, d}, std::array{a, c, d}, std::array{b, c, d}})
-      facets_.push_back(outward(corner));
-    return true;
-  }
-
-  /// What sees the place goes; the rim it leaves is joined to the place.
-  void add(std::size_t place) {
-    std::vector<Facet> hidden, seen;
-    for (const Facet& facet : facets_)
-      (glm::dot(facet.normal, places_[place]) > facet.offset_mm + 1e-9 ? seen : hidden).push_back(facet);
-    if (seen.empty()) return;
-    std::vector<std::array<std::size_t, 2>> rim;
-    for (const Facet& facet : seen)
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t from = facet.corner[k], to = facet.corner[(k + 1) % 3];
-        const auto back = std::ranges::find(rim, std::array{to, from});
-        if (back != rim.end())
-          rim.erase(back);
-        else
-          rim.push_back({from, to});
-      }
-    facets_ = std::move(hidden);
-    for (const auto& edge : rim) facets_.push_back(outward({edge[0], edge[1], place}));
-  }
-
-  double volume_mm3() const {
-    double six = 0.0;
-    for (const Facet& facet : facets_) {
-      const glm::dvec3 a = places_[facet.corner[0]] - middle_, b = places_[facet.corner[1]] - middle_,
-                       c = places_[facet.corner[2]] - middle_;
-      six += std::abs(glm::dot(a, glm::cross(b, c)));
-    }
-    return six / 6.0;
-  }
-
- private:
-  Facet outward(std::array<std::size_t, 3> corner) const {
-    const glm::dvec3& a = places_[corner[0]];
-    glm::dvec3 normal = glm::normalize(glm::cross(places_[corner[1]] - a, places_[corner[2]] - a));
-    if (glm::dot(normal, middle_ - a) > 0.0) {
-      normal = -normal;
-      std::swap(corner[1], corner[2]);
-    }
-    return {corner, normal, glm::dot(normal, a)};
-  }
-
-  std::vector<glm::dvec3> places_;
-  glm::dvec3 middle_{0.0};
-  std::vector<Facet> facets_;
-};
 
 }  // namespace
 
@@ -186,15 +107,17 @@ double tiltSpread_deg(const PhantomGeometry& geometry, const std::vector<Touch>&
 
 double hullVolume_mm3(const std::vector<glm::dvec3>& places_mm) {
   if (places_mm.size() < kFewestTouches) return 0.0;
-  // Grids have four and more in a plane: a hundred-thousandth of a millimetre aside, none has.
-  std::mt19937 chance(5);
-  std::vector<glm::dvec3> aside = places_mm;
-  for (glm::dvec3& p : aside)
-    for (int c = 0; c < 3; ++c) p[c] += 1e-5 * (static_cast<double>(chance()) / 4294967296.0 - 0.5);
-  Hull hull(aside);
-  if (!hull.begin()) return 0.0;
-  for (std::size_t i = 0; i < aside.size(); ++i) hull.add(i);
-  return hull.volume_mm3();
+  if (extentOf(places_mm).spread_mm[2] < kFlatHull_mm) return 0.0;
+  std::vector<glm::dvec3> places = places_mm;
+  char options[] = "qhull";
+  qhT hull;
+  qh_zero(&hull, nullptr);
+  if (qh_new_qhull(&hull, 3, static_cast<int>(places.size()), glm::value_ptr(places.front()), False, options, nullptr,
+                   nullptr) == qh_ERRnone)
+    qh_getarea(&hull, hull.facet_list);
+  const double volume_mm3 = hull.totvol;
+  qh_freeqhull(&hull, qh_ALL);
+  return volume_mm3;
 }
 
 Extent extentOf(const std::vector<glm::dvec3>& places_mm) {
@@ -202,16 +125,14 @@ Extent extentOf(const std::vector<glm::dvec3>& places_mm) {
   if (places_mm.empty()) return extent;
   const double share = 1.0 / static_cast<double>(places_mm.size());
   for (const glm::dvec3& p : places_mm) extent.middle_mm += share * p;
-  cv::Matx33d about_middle = cv::Matx33d::zeros();
+  glm::dmat3 about_middle(0.0);
   for (const glm::dvec3& p : places_mm)
-    for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c) about_middle(r, c) += share * (p - extent.middle_mm)[r] * (p - extent.middle_mm)[c];
-  cv::Matx31d values;
-  cv::Matx33d vectors;
-  cv::eigen(about_middle, values, vectors);
+    about_middle += share * glm::outerProduct(p - extent.middle_mm, p - extent.middle_mm);
+  // Eigen has the least first.
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> main(Eigen::Matrix3d::Map(glm::value_ptr(about_middle)));
   for (int k = 0; k < 3; ++k) {
-    extent.spread_mm[k] = std::sqrt(std::max(0.0, values(k)));
-    extent.axes[k] = {vectors(k, 0), vectors(k, 1), vectors(k, 2)};
+    extent.spread_mm[k] = std::sqrt(std::max(0.0, main.eigenvalues()[2 - k]));
+    extent.axes[k] = glm::make_vec3(main.eigenvectors().col(2 - k).data());
   }
   return extent;
 }

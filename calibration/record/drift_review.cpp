@@ -1,16 +1,11 @@
 #include "calibration/record/drift_review.h"
 
 #include <algorithm>
-#include <cstdio>
+
+#include <fmt/format.h>
 
 namespace calibration {
 namespace {
-
-std::string millimetres(double value_mm) {
-  char text[48];
-  std::snprintf(text, sizeof text, "%.2f mm", value_mm);
-  return text;
-}
 
 /// Limits for the value that follows these.
 std::optional<ControlLimits> limitsAfter(std::span<const double> before) {
@@ -18,9 +13,8 @@ std::optional<ControlLimits> limitsAfter(std::span<const double> before) {
 }
 
 std::string sentenceOf(const DriftEntry& entry, DriftQuantity quantity, ControlRule rule, const ControlLimits& limits) {
-  return entry.utc.substr(0, 10) + ": " + std::string(nameOf(quantity)) + " " +
-         millimetres(valueOf_mm(entry, quantity)) + ", " + std::string(nameOf(rule)) + " (mean " +
-         millimetres(limits.centre) + ", sigma " + millimetres(limits.sigma) + ")";
+  return fmt::format("{}: {} {:.2f} mm, {} (mean {:.2f} mm, sigma {:.2f} mm)", entry.utc.substr(0, 10),
+                     nameOf(quantity), valueOf_mm(entry, quantity), nameOf(rule), limits.centre, limits.sigma);
 }
 
 void review(const std::vector<DriftEntry>& history, DriftQuantity quantity, DriftReview& found) {
@@ -65,17 +59,8 @@ std::string_view nameOf(DriftQuantity quantity) {
 }
 
 double valueOf_mm(const DriftEntry& entry, DriftQuantity quantity) {
-  switch (quantity) {
-    case DriftQuantity::rms:
-      return entry.rms_mm;
-    case DriftQuantity::right:
-      return entry.bias_mm.xyz.x;
-    case DriftQuantity::up:
-      return entry.bias_mm.xyz.y;
-    case DriftQuantity::nearer:
-      return entry.bias_mm.xyz.z;
-  }
-  return 0.0;
+  const glm::dvec3& bias_mm = entry.bias_mm.xyz;
+  return std::array{entry.rms_mm, bias_mm.x, bias_mm.y, bias_mm.z}[static_cast<std::size_t>(quantity)];
 }
 
 DriftReview reviewOf(const std::vector<DriftEntry>& history) {

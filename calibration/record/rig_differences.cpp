@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include <fmt/format.h>
 
 #include "calibration/geometry/turn.h"
 #include "calibration/geometry/units.h"
@@ -13,14 +14,13 @@ namespace {
 const char* const kJoints[] = {"turret", "thigh", "shin", "gimbal 1", "gimbal 2", "gimbal 3"};
 
 std::string written(double value, int digits) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", digits, value + 0.0);
+  const std::string text = fmt::format("{:.{}f}", value, digits);
   // No minus before nothing.
-  return std::string_view(text).find_first_not_of("-0.") == std::string_view::npos && text[0] == '-' ? text + 1 : text;
+  return text[0] == '-' && text.find_first_not_of("-0.") == std::string::npos ? text.substr(1) : text;
 }
 
 std::string written(const glm::dvec3& v, int digits) {
-  return "(" + written(v.x, digits) + ", " + written(v.y, digits) + ", " + written(v.z, digits) + ")";
+  return fmt::format("({}, {}, {})", written(v.x, digits), written(v.y, digits), written(v.z, digits));
 }
 
 /// Lines for what differs in what is written of it.

@@ -2,7 +2,8 @@
 
 #include <charconv>
 #include <chrono>
-#include <cstdio>
+
+#include <fmt/chrono.h>
 
 namespace calibration {
 namespace {
@@ -36,16 +37,7 @@ std::optional<std::int64_t> secondsOfUtc(std::string_view text) {
 }
 
 std::string utcOf(std::int64_t seconds) {
-  const std::chrono::sys_seconds time{std::chrono::seconds(seconds)};
-  const auto midnight = std::chrono::floor<std::chrono::days>(time);
-  const std::chrono::year_month_day day{midnight};
-  const std::chrono::hh_mm_ss clock{time - midnight};
-  char text[40];
-  std::snprintf(text, sizeof text, "%04d-%02u-%02uT%02d:%02d:%02dZ", static_cast<int>(day.year()),
-                static_cast<unsigned>(day.month()), static_cast<unsigned>(day.day()),
-                static_cast<int>(clock.hours().count()), static_cast<int>(clock.minutes().count()),
-                static_cast<int>(clock.seconds().count()));
-  return text;
+  return fmt::format("{:%FT%TZ}", fmt::gmtime(static_cast<std::time_t>(seconds)));
 }
 
 std::string nowUtc() {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "calibration/arm/phantom_models.h"
+#include "calibration/chance.h"
 #include "calibration/geometry/turn.h"
-#include "calibration/synthetic/chance.h"
 
 namespace calibration {
 namespace {

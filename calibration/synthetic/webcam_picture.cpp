@@ -5,13 +5,14 @@
 #include <cmath>
 #include <limits>
 
-#include "calibration/geometry/mixed_bits.h"
+#include "calibration/chance.h"
 
 namespace calibration {
 namespace {
 
 constexpr double kPanelGamma = 2.2;
-constexpr int kTipRays = 6;  ///< a side of a pixel
+constexpr int kTipRays = 6;           ///< a side of a pixel
+constexpr double kPutDown_mm = 10.0;  ///< a clamp is set by eye, one sigma
 
 std::size_t area(const glm::ivec2& size) { return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y); }
 
@@ -101,6 +102,12 @@ void blur(std::vector<float>& light, const glm::ivec2& size, double sigma) {
 Pose<World, Camera> lookingAt(const Point<World>& from_W, const Point<World>& at_W, const glm::dvec3& up_W) {
   const glm::dvec3 ahead = glm::normalize(at_W.mm - from_W.mm), right = glm::normalize(glm::cross(ahead, up_W));
   return {glm::normalize(glm::quat_cast(glm::dmat3(right, glm::cross(ahead, right), ahead))), from_W.mm};
+}
+
+Pose<World, Camera> cameraPutUp(const Rig& rig, double aside_deg, std::mt19937& chance) {
+  const glm::dquat aside = glm::angleAxis(radFromDegrees(aside_deg), glm::dvec3(0.0, 1.0, 0.0));
+  const Point<World> from_W{aside * rig.cyclopeanEye().mm + gaussianVector(chance, kPutDown_mm)};
+  return lookingAt(from_W, {gaussianVector(chance, kPutDown_mm)}, {0.0, 1.0, 0.0});
 }
 
 WebcamView::WebcamView(const WebcamScene& scene, const Webcam& webcam) : scene_(scene), webcam_(webcam) {

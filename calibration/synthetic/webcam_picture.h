@@ -6,8 +6,10 @@
 // Not modelled: rolling shutter, automatic exposure, a panel that is brighter from one side, a hand.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <random>
 #include <vector>
 
 #include "calibration/rig.h"
@@ -71,5 +73,10 @@ class WebcamView {
 
 /// A camera that looks at a place from another, the picture's up towards `up_W`.
 Pose<World, Camera> lookingAt(const Point<World>& from_W, const Point<World>& at_W, const glm::dvec3& up_W);
+
+/// From the middle of the case: at the eyes, and to the right and left of them.
+inline constexpr std::array<double, 3> kCameraAside_deg = {0.0, 25.0, -25.0};
+/// Where a camera stands that somebody has put up there by eye, a centimetre off, one sigma an axis.
+Pose<World, Camera> cameraPutUp(const Rig& rig, double aside_deg, std::mt19937& chance);
 
 }  // namespace calibration

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
+
+#include <fmt/format.h>
 
 namespace calibration {
 namespace {
@@ -37,12 +38,6 @@ Verdict against(double value_mm, const ProofLimit& limit) {
 double largestOf(const glm::dvec3& v) {
   const glm::dvec3 size = glm::abs(v);
   return std::isfinite(size.x + size.y + size.z) ? std::max({size.x, size.y, size.z}) : size.x + size.y + size.z;
-}
-
-std::string clause(const char* format, double a, double b) {
-  std::array<char, 160> text{};
-  std::snprintf(text.data(), text.size(), format, a, b);
-  return text.data();
 }
 
 }  // namespace
@@ -93,10 +88,10 @@ Judgement judge(const TargetErrors& errors, ProofKind kind) {
     ProofLimit limit;
   };
   const std::array quantities = {
-      Quantity{"root mean square at most %.2f mm (95 %% sure)", judgement.sure_rms_mm, limits.rms},
-      Quantity{"95 of 100 touches within %.2f mm", errors.p95_mm, limits.p95},
-      Quantity{"the worst touch %.2f mm off", errors.max_mm, limits.max},
-      Quantity{"all touches off one way by %.2f mm", largestOf(errors.bias_mm.xyz), limits.bias}};
+      Quantity{"root mean square at most {:.2f} mm (95 % sure)", judgement.sure_rms_mm, limits.rms},
+      Quantity{"95 of 100 touches within {:.2f} mm", errors.p95_mm, limits.p95},
+      Quantity{"the worst touch {:.2f} mm off", errors.max_mm, limits.max},
+      Quantity{"all touches off one way by {:.2f} mm", largestOf(errors.bias_mm.xyz), limits.bias}};
 
   // The worst colour decides; of one colour what is furthest beyond its limit.
   const auto beyond = [](const Quantity& q) { return q.value_mm / q.limit.green_mm; };
@@ -107,9 +102,9 @@ Judgement judge(const TargetErrors& errors, ProofKind kind) {
   const Quantity& deciding = *std::ranges::max_element(quantities, worse);
   judgement.verdict = against(deciding.value_mm, deciding.limit);
   const double limit_mm = judgement.verdict == Verdict::red ? deciding.limit.amber_mm : deciding.limit.green_mm;
-  judgement.reason =
-      clause(deciding.what, deciding.value_mm, 0.0) +
-      clause(judgement.verdict == Verdict::green ? ", %.2f mm are allowed" : ", more than %.2f mm", limit_mm, 0.0);
+  judgement.reason = fmt::format(fmt::runtime(deciding.what), deciding.value_mm) +
+                     (judgement.verdict == Verdict::green ? fmt::format(", {:.2f} mm are allowed", limit_mm)
+                                                          : fmt::format(", more than {:.2f} mm", limit_mm));
   if (errors.n < kFewestForGreen && judgement.verdict == Verdict::green) {
     judgement.verdict = Verdict::amber;
     judgement.reason = std::to_string(errors.n) + " touches are too few to be sure, 4 are needed";
@@ -135,7 +130,7 @@ std::string worstPlaceSentence(const std::vector<Residual>& residuals, const Poi
   say(2, "back", "front");
   say(0, "left", "right");
   say(1, "low", "high");
-  return "worst: " + (place.empty() ? "in the middle" : place) + clause(", %.1f mm", length(worst->error_mm), 0.0);
+  return fmt::format("worst: {}, {:.1f} mm", place.empty() ? "in the middle" : place, length(worst->error_mm));
 }
 
 }  // namespace calibration

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
+#include <fmt/format.h>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
@@ -63,12 +63,6 @@ bool holdsAPart(const cv::Mat& grey) {
   } catch (const cv::Exception&) {
     return false;
   }
-}
-
-std::string withNumber(const char* format, double value) {
-  std::array<char, 160> text{};
-  std::snprintf(text.data(), text.size(), format, value);
-  return text.data();
 }
 
 BoardSighting refused(BoardTrouble trouble, std::string line, BoardSighting sighting = {}) {
@@ -183,19 +177,19 @@ BoardSighting judged(const cv::Mat& grey, const glm::ivec2& count) {
   if (sighting.slant_deg > kMostSlant_deg)
     return refused(
         BoardTrouble::too_oblique,
-        withNumber("the board is seen too obliquely (%.0f degrees, at most 60): face it more", sighting.slant_deg),
+        fmt::format("the board is seen too obliquely ({:.0f} degrees, at most 60): face it more", sighting.slant_deg),
         sighting);
   if (side_px < kLeastSide_px)
     return refused(
         BoardTrouble::too_small,
-        withNumber("the board is too small in the picture (a square is %.0f px, at least 9): go nearer", side_px),
+        fmt::format("the board is too small in the picture (a square is {:.0f} px, at least 9): go nearer", side_px),
         sighting);
   sighting.edge_px = edgeOf_px(grey, *corners, size);
   if (sighting.edge_px > std::min(kMostEdge_px, kMostEdgeOfSide * side_px))
     return refused(BoardTrouble::blurred,
-                   withNumber("the picture is blurred (edges are %.1f px wide): hold the camera still and focus on "
-                              "the screen",
-                              sighting.edge_px),
+                   fmt::format("the picture is blurred (edges are {:.1f} px wide): hold the camera still and focus on "
+                               "the screen",
+                               sighting.edge_px),
                    sighting);
   return sighting;
 }

@@ -1,9 +1,9 @@
 #include "calibration/webcam/screen_size.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
+
+#include <fmt/format.h>
 
 namespace calibration {
 namespace {
@@ -15,11 +15,7 @@ void refuseScreenSize(const std::string& what, const std::string& mend) {
   throw CalibrationError("screen size: " + what + ", " + mend);
 }
 
-std::string percent(double ratio) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%+.1f %%", 100.0 * (ratio - 1.0));
-  return text.data();
-}
+std::string percent(double ratio) { return fmt::format("{:+.1f} %", 100.0 * (ratio - 1.0)); }
 
 }  // namespace
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
-#include "calibration/geometry/mixed_bits.h"
+#include "calibration/chance.h"
 #include "haptics/bone/block_kernels.h"
 #include "haptics/bone/stroke_history.h"
 

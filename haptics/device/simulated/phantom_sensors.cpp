@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "calibration/chance.h"
 #include "calibration/geometry/units.h"
 
 namespace haptics {
@@ -31,8 +32,7 @@ calibration::PhantomJoints PhantomSensors::sensed(const calibration::PhantomJoin
 double PhantomSensors::turnedKnob(double angle_rad) noexcept {
   if (!(sensing_.levels_per_turn > 0.0)) return angle_rad;
   const double level_rad = kTurn_rad / sensing_.levels_per_turn;
-  const double noise = static_cast<double>(noise_()) / 4294967296.0 - 0.5;
-  return std::round(angle_rad / level_rad + noise) * level_rad;
+  return std::round(angle_rad / level_rad + calibration::evenly(noise_, -0.5, 0.5)) * level_rad;
 }
 
 PhantomSensors::Reading PhantomSensors::read(const calibration::PhantomJoints& truth,

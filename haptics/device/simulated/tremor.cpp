@@ -1,9 +1,8 @@
 #include "haptics/device/simulated/tremor.h"
 
 #include <cmath>
-#include <random>
 
-#include "calibration/geometry/units.h"
+#include "calibration/chance.h"
 
 namespace haptics {
 namespace {
@@ -15,12 +14,10 @@ constexpr double kSlowest_Hz = 8.0, kFastest_Hz = 12.0;
 // The mean square of a wave is half its height squared; they add up.
 Tremor::Tremor(double rms_mm, std::uint32_t seed) : height_mm_(rms_mm * std::sqrt(2.0 / (3.0 * kWaves))) {
   std::mt19937 random(seed);
-  const auto between = [&](double least, double most) {
-    return least + (most - least) * (static_cast<double>(random()) / 4294967296.0);
-  };
   for (auto& axis : waves_)
     for (Wave& wave : axis)
-      wave = {2.0 * calibration::kPi * between(kSlowest_Hz, kFastest_Hz), between(0.0, 2.0 * calibration::kPi)};
+      wave = {2.0 * calibration::kPi * calibration::evenly(random, kSlowest_Hz, kFastest_Hz),
+              calibration::evenly(random, 0.0, 2.0 * calibration::kPi)};
 }
 
 glm::dvec3 Tremor::at(double t_s) const {

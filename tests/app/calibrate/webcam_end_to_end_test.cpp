@@ -9,8 +9,9 @@
 #include "app/calibrate/webcam_procedure.h"
 #include "app/calibrate/webcam_technician.h"
 #include "calibration/synthetic/synthetic_rig.h"
-#include "calibration/webcam/ring_check.h"
+#include "calibration/webcam/ring_picture.h"
 #include "calibration/webcam/webcam_fit.h"
+#include "tests/calibration/webcam/ring_check.h"
 
 namespace app {
 namespace {

@@ -73,7 +73,7 @@ TEST(TrialOrder, MixesTracksUntilEachIsOver) {
   protocol.levels = {1.3, 1.2, 0.9};
   protocol.staircase.low = 0.0, protocol.staircase.high = 5.0;
   TrialOrder order(protocol, 2);
-  Chance chance(1);
+  calibration::Chance chance(1);
   int trials = 0, first = 0, switches = 0;
   std::size_t last = 0;
   while (const auto trial = order.next()) {
@@ -116,7 +116,7 @@ TEST(Probe, FeelsTheStiffnessOfTheLawOnFlatBone) {
     haptics::Command command;
     command.tool = protocol.tool;
     command.law = protocol.comparisonAt(0.6);
-    Chance hand(5);
+    calibration::Chance hand(5);
     const Felt felt = feltIn(probe(live, bone.site, command, protocol.probe, hand));
     EXPECT_NEAR(felt.stiffness_N_per_mm, 0.6, 0.015) << static_cast<int>(motion);
     EXPECT_GT(felt.depth_mm, 0.2);

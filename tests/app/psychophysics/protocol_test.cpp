@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "app/psychophysics/chance.h"
 #include "app/text/usage_error.h"
 #include "assets/load_error.h"
 #include "assets/toml_keys.h"
+#include "calibration/chance.h"
 
 namespace app {
 namespace {
@@ -121,7 +121,7 @@ TEST(Protocol, RefusesEachBadKeyByName) {
 
 /// Whatever the bytes: a protocol or one line of refusal, never a crash and never a value out of range.
 TEST(Protocol, SurvivesAnyBytes) {
-  Chance chance(7);
+  calibration::Chance chance(7);
   const std::string pieces = "[]=\"'#.,\n 0123456789-+einfa\\{}\xff\x01\t";
   int accepted = 0;
   for (int n = 0; n < 3000; ++n) {

@@ -4,13 +4,13 @@
 
 #include <cmath>
 
-#include "app/psychophysics/chance.h"
+#include "calibration/chance.h"
 
 namespace app {
 namespace {
 
 std::vector<LevelCount> answers(const Psychometric& observer, int trials, std::uint64_t seed) {
-  Chance chance(seed);
+  calibration::Chance chance(seed);
   std::vector<LevelCount> counts;
   for (const double level : {0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.1}) {
     LevelCount count{level, trials, 0};

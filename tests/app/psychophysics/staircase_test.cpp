@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "app/psychophysics/chance.h"
 #include "app/psychophysics/psychometric_fit.h"
+#include "calibration/chance.h"
 
 namespace app {
 namespace {
@@ -64,7 +64,7 @@ TEST(Staircase, FindsTheLevelOf70PercentOfAKnownObserver) {
   r.steps = {0.1, 0.03};
   r.reversals = 44, r.discarded = 4, r.most_trials = 2000;
   const double expected = known.pse + known.sigma * normalQuantile(targetProbability(r));
-  Chance chance(11);
+  calibration::Chance chance(11);
   constexpr int kTracks = 400;
   double sum = 0.0, squares = 0.0, said = 0.0;
   for (int n = 0; n < kTracks; ++n) {

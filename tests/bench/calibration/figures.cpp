@@ -4,14 +4,14 @@
 #include <cmath>
 #include <cstdio>
 
+#include "calibration/chance.h"
 #include "calibration/fit/arm_fit.h"
 #include "calibration/fit/rezero.h"
-#include "calibration/synthetic/chance.h"
-#include "calibration/synthetic/seen_error.h"
 #include "calibration/synthetic/synthetic_rig.h"
-#include "calibration/synthetic/webcam_sights.h"
 #include "calibration/webcam/webcam_fit.h"
 #include "tests/bench/cpu_time.h"
+#include "tests/calibration/synthetic/seen_error.h"
+#include "tests/calibration/synthetic/webcam_sights.h"
 
 namespace bench {
 namespace {

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numeric>
 #include <random>
 
 #include "calibration/fit/rigid_fit.h"
@@ -30,14 +29,14 @@ TEST(ExpectedErrorMap, IsWhatRigidFitsOfNoisyTouchesDo) {
   std::normal_distribution<double> noise(0.0, 0.3);
   std::vector<glm::dvec3> from, to(8);
   for (const auto& corner : corners()) from.push_back(corner.mm);
-  std::vector<std::size_t> all(8);
-  std::iota(all.begin(), all.end(), std::size_t{0});
+  std::vector<PointPair> pairs(8);
   const glm::dvec3 place(90.0, 60.0, -40.0);
   double sum = 0.0;
   constexpr int kTrials = 4000;
   for (int trial = 0; trial < kTrials; ++trial) {
-    for (std::size_t i = 0; i < 8; ++i) to[i] = from[i] + glm::dvec3(noise(chance), noise(chance), noise(chance));
-    const glm::dvec3 error = (*rigidFit(from, to, all))(place)-place;
+    for (std::size_t i = 0; i < 8; ++i)
+      pairs[i] = {from[i] + glm::dvec3(noise(chance), noise(chance), noise(chance)), from[i]};
+    const glm::dvec3 error = (*rigidFit(pairs))(place)-place;
     sum += glm::dot(error, error);
   }
   const ExpectedErrorMap map(corners(), 0.3 * std::sqrt(3.0));

@@ -25,11 +25,16 @@ struct Laid {
       all.push_back(i);
     }
   }
+  std::vector<PointPair> pairs() const {
+    std::vector<PointPair> pairs;
+    for (const std::size_t i : all) pairs.push_back({to[i], from[i]});
+    return pairs;
+  }
 };
 
 TEST(RigidFit, FindsTurnAndShift) {
   const Laid laid(6);
-  const auto map = rigidFit(laid.from, laid.to, laid.all);
+  const auto map = rigidFit(laid.pairs());
   ASSERT_TRUE(map);
   EXPECT_NEAR(glm::determinant(map->turn), 1.0, 1e-12);
   EXPECT_LT(glm::distance((*map)({1.0, 2.0, 3.0}), laid.turn * glm::dvec3(1.0, 2.0, 3.0) + laid.shift), 1e-9);
@@ -37,8 +42,7 @@ TEST(RigidFit, FindsTurnAndShift) {
 
 TEST(RigidFit, KeepsTheHandednessItIsAskedFor) {
   const Laid laid(6, true);
-  const auto kept = rigidFit(laid.from, laid.to, laid.all),
-             mirrored = rigidFit(laid.from, laid.to, laid.all, Handedness::mirrored);
+  const auto kept = rigidFit(laid.pairs()), mirrored = rigidFit(laid.pairs(), Handedness::mirrored);
   ASSERT_TRUE(kept && mirrored);
   EXPECT_NEAR(glm::determinant(kept->turn), 1.0, 1e-12);
   EXPECT_NEAR(glm::determinant(mirrored->turn), -1.0, 1e-12);
@@ -47,9 +51,41 @@ TEST(RigidFit, KeepsTheHandednessItIsAskedFor) {
 
 TEST(RigidFit, TakesThreePlacesButNotALine) {
   const Laid laid(3);
-  EXPECT_TRUE(rigidFit(laid.from, laid.to, laid.all));
-  const std::vector<glm::dvec3> line = {{0, 0, 0}, {10, 0, 0}, {50, 0, 0}};
-  EXPECT_FALSE(rigidFit(line, laid.to, laid.all));
+  EXPECT_TRUE(rigidFit(laid.pairs()));
+  Laid line = laid;
+  line.from = {{0, 0, 0}, {10, 0, 0}, {50, 0, 0}};
+  EXPECT_FALSE(rigidFit(line.pairs()));
+}
+
+TEST(RigidFit, RecoversAnyRotationAndShift) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  for (int round = 0; round < 200; ++round) {
+    const glm::dquat R = glm::normalize(glm::dquat(normal(random), normal(random), normal(random), normal(random)));
+    const glm::dvec3 t(50.0 * normal(random), 50.0 * normal(random), 50.0 * normal(random));
+    std::vector<PointPair> pairs;
+    for (int n = 0; n < 6; ++n) {
+      const glm::dvec3 p(20.0 * normal(random), 20.0 * normal(random), 20.0 * normal(random));
+      pairs.push_back({R * p + t, p, 0.5 + n});
+    }
+    const auto map = rigidFit(pairs);
+    ASSERT_TRUE(map);
+    EXPECT_GT(std::abs(glm::dot(glm::quat_cast(map->turn), R)), 1.0 - 1e-12);
+    EXPECT_LT(glm::distance(map->shift_mm, t), 1e-8);
+  }
+}
+
+TEST(RigidFit, NeverMirrors) {
+  // Points of a plane, mirrored: the best rotation is still a rotation.
+  const std::vector<PointPair> pairs = {
+      {{-1, 0, 0}, {1, 0, 0}}, {{0, 2, 0}, {0, 2, 0}}, {{0, 0, 3}, {0, 0, 3}}, {{-1, 1, 1}, {1, 1, 1}}};
+  EXPECT_NEAR(glm::determinant(rigidFit(pairs)->turn), 1.0, 1e-12);
+}
+
+TEST(RigidFit, WeighsItsPairs) {
+  const std::vector<PointPair> pairs = {
+      {{0, 0, 0}, {0, 0, 0}, 1000.0}, {{11, 0, 0}, {10, 0, 0}}, {{0, 11, 0}, {0, 10, 0}}};
+  EXPECT_LT(glm::length(rigidFit(pairs)->shift_mm), 0.05);
 }
 
 TEST(RigidAgreement, FindsWhoAgrees) {

@@ -28,7 +28,6 @@ TEST(TargetPlan, HasAsManyTargetsAsItsNameSays) {
   EXPECT_EQ(targetPlan("check4")->targets.size(), 4u);
   EXPECT_EQ(targetPlan("verify8")->targets.size(), 16u);
   EXPECT_EQ(targetPlan("pivot12")->targets.size(), 12u);
-  EXPECT_EQ(targetPlan("ring8")->targets.size(), 8u);
   EXPECT_FALSE(targetPlan("jig28"));
   EXPECT_FALSE(targetPlan(""));
 }

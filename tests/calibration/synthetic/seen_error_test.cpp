@@ -1,8 +1,8 @@
-#include "calibration/synthetic/seen_error.h"
+#include "tests/calibration/synthetic/seen_error.h"
 
 #include <gtest/gtest.h>
 
-#include "calibration/synthetic/chance.h"
+#include "calibration/chance.h"
 
 namespace calibration {
 namespace {

@@ -1,4 +1,4 @@
-#include "calibration/synthetic/webcam_sights.h"
+#include "tests/calibration/synthetic/webcam_sights.h"
 
 #include <gtest/gtest.h>
 

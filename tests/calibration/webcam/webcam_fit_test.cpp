@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "calibration/fit/target_plan.h"
-#include "calibration/synthetic/webcam_sights.h"
+#include "tests/calibration/synthetic/webcam_sights.h"
 #include "tests/refusal.h"
 
 namespace calibration {

@@ -1,14 +1,13 @@
-#include "calibration/synthetic/webcam_sights.h"
+#include "tests/calibration/synthetic/webcam_sights.h"
 
 #include <cmath>
 
-#include "calibration/synthetic/chance.h"
+#include "calibration/chance.h"
 #include "calibration/synthetic/webcam_picture.h"
 
 namespace calibration {
 namespace {
 
-constexpr double kPutDown_mm = 10.0;      ///< a clamp is set by eye, one sigma
 constexpr double kBesideTarget_mm = 3.0;  ///< no pit holds the tip, one sigma
 
 /// Corners of a displayed board.
@@ -40,12 +39,6 @@ WebcamCare coarseWebcam() {
   care.camera.centre_px = {639.5, 359.5};
   care.tip_noise_px = 1.0;
   return care;
-}
-
-Pose<World, Camera> cameraPutUp(const Rig& rig, double aside_deg, std::mt19937& chance) {
-  const glm::dquat aside = glm::angleAxis(radFromDegrees(aside_deg), glm::dvec3(0.0, 1.0, 0.0));
-  const Point<World> from_W{aside * rig.cyclopeanEye().mm + gaussianVector(chance, kPutDown_mm)};
-  return lookingAt(from_W, {gaussianVector(chance, kPutDown_mm)}, {0.0, 1.0, 0.0});
 }
 
 WebcamSights webcamSights(const SyntheticRig& rig, const TargetPlan& plan, const WebcamCare& care,

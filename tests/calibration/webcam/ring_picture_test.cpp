@@ -1,4 +1,4 @@
-#include "calibration/webcam/ring_check.h"
+#include "calibration/webcam/ring_picture.h"
 
 #include <random>
 
@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/calibration/synthetic/mirrored_workstation.h"
+#include "tests/calibration/webcam/ring_check.h"
 
 namespace calibration {
 namespace {
@@ -73,22 +74,6 @@ TEST_F(RingCheckAtAWebcam, SeesWhatTheGlassShifts) {
   EXPECT_NEAR(glm::length(offset_mm(sighting(tip, {.middle_W = {tip}}), tip).xyz), shift_mm, 0.05);
 }
 
-TEST_F(RingCheckAtAWebcam, MeasuresTheDelayOfASweep) {
-  constexpr double kDelay_s = 0.04, kOpen_s = 0.01;
-  std::vector<SweepPicture> sweep;
-  for (const double speed : {5.0, 10.0, -5.0, 100.0, 95.0, -105.0})
-    for (const double x : {-20.0, 10.0}) {
-      const glm::dvec3 tip(x, 5, 10), velocity(speed, 0, 0);
-      const RingSighting both = sighting(tip - kDelay_s * velocity + glm::dvec3(0.3, 0.2, 0),
-                                         {.middle_W = {tip}, .smear_mm = {kOpen_s * velocity}});
-      ASSERT_EQ(both.line, "");
-      sweep.push_back({webcam_.X_WC.inverse() * Vector<World>{velocity}, offset_mm(both, tip)});
-    }
-  const SeenDelay delay = seenDelay(sweep);
-  EXPECT_NEAR(delay.delay_s, kDelay_s, 0.001);
-  EXPECT_LT(delay.sigma_s, 0.001);
-}
-
 TEST_F(RingCheckAtAWebcam, SaysWhatIsMissing) {
   const glm::dvec3 tip(0, 0, 0);
   const GreyPicture dark = view_->picture(nullptr, {}, 1);
@@ -112,14 +97,6 @@ TEST(RingCheck, PassesUpToAMillimetreOnAverage) {
   EXPECT_FALSE(judgedRing(offsets).passed);
   offsets.pop_back();
   EXPECT_THROW(judgedRing(offsets), CalibrationError);
-}
-
-TEST(RingCheck, ADelayWantsSlowAndFast) {
-  const SweepPicture slow{{{5, 0, 0}}, {{0.2, 0, 0}}};
-  EXPECT_THROW(seenDelay({slow, slow, slow, slow}), CalibrationError);
-  EXPECT_THROW(seenDelay({slow, slow}), CalibrationError);
-  const SweepPicture fast{{{105, 0, 40}}, {{4.2, 0, 9}}};
-  EXPECT_NEAR(seenDelay({slow, slow, fast, fast}).delay_s, 0.04, 1e-12);
 }
 
 }  // namespace

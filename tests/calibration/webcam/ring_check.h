@@ -1,26 +1,19 @@
 // The proof that is seen: the screen shows a thin ring at the place where the calibrated arm says its tip is, a webcam
 // at the eye sees ring and lit tip, and how far apart they are, at the tip's depth, is the error of the whole chain:
-// arm, mirror, screen, glass, and, in a sweep, the delay. Frames W and C, mm, px, s. Any thread; drawing and reading 10
-// to 50 ms each at 1080p. It sees no error along its own line of sight. Source: reference/calibration 4.4.
+// arm, mirror, screen, glass. Frames W and C, mm, px. It sees no error along its own line of sight. Source:
+// reference/calibration 4.4.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "calibration/calibration_error.h"
-#include "calibration/rig.h"
 #include "calibration/webcam/camera.h"
 
 namespace calibration {
 
 inline constexpr int kRingPlaces = 8;
 inline constexpr double kRingLimit_mm = 1.0;  ///< of the mean; reference/calibration 4.4
-inline constexpr double kRingRadius_mm = 8.0, kRingLine_mm = 0.8;
-
-/// The framebuffer with a ring about `tip_W`, as an eye there sees it; flips come from the rig's corners. White on
-/// black.
-GreyPicture ringPicture(const Rig& rig, const Point<World>& eye_W, const Point<World>& tip_W);
-
 struct RingSighting {
   std::string line;  ///< why nothing can be said, and what to do; empty: both were found
   glm::dvec2 ring_px{0.0}, tip_px{0.0};
@@ -43,16 +36,5 @@ struct RingCheck {
 
 /// Throws CalibrationError for fewer than 8 places.
 RingCheck judgedRing(const std::vector<Vector<Camera>>& offsets_mm);
-
-/// One picture of a sweep: how fast the tip moved, and how far it was ahead of its ring.
-struct SweepPicture {
-  Vector<Camera> velocity_mm_per_s, offset_mm;
-};
-struct SeenDelay {
-  double delay_s = 0.0, sigma_s = 0.0;
-};
-/// Distance over speed, less what is off at rest: the least-squares line through slow and fast pictures. Throws
-/// CalibrationError for fewer than four pictures or speeds that differ by less than 50 mm/s across the line of sight.
-SeenDelay seenDelay(const std::vector<SweepPicture>& sweep);
 
 }  // namespace calibration

@@ -1,4 +1,4 @@
-#include "calibration/webcam/ring_check.h"
+#include "tests/calibration/webcam/ring_check.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,6 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "calibration/virtual_screen.h"
 #include "calibration/webcam/picture_matrix.h"
 
 namespace calibration {
@@ -96,33 +95,6 @@ std::optional<std::pair<glm::dvec2, double>> ringIn(const Blob& blob, const cv::
 
 }  // namespace
 
-GreyPicture ringPicture(const Rig& rig, const Point<World>& eye_W, const Point<World>& tip_W) {
-  const ScreenCorners seen = virtualScreen(rig);
-  const glm::dvec3 corner = seen.upper_left.mm;
-  const glm::dvec3 down = seen.lower_left.mm - corner, across = seen.lower_right.mm - seen.lower_left.mm;
-  const glm::ivec2 px = rig.screen.px;
-  const glm::dvec3 sight = glm::normalize(tip_W.mm - eye_W.mm);
-  // One pixel of the screen, as large as it is at the tip's distance.
-  const glm::dvec3 middle = corner + 0.5 * (down + across);
-  const double pixel_mm =
-      glm::length(across) / px.x * glm::distance(tip_W.mm, eye_W.mm) / glm::distance(middle, eye_W.mm);
-
-  GreyPicture picture{px, std::vector<std::uint8_t>(static_cast<std::size_t>(px.x * px.y), 0)};
-  std::size_t at = 0;
-  for (int y = 0; y < px.y; ++y)
-    for (int x = 0; x < px.x; ++x, ++at) {
-      const glm::dvec3 place = corner + (x + 0.5) / px.x * across + (y + 0.5) / px.y * down - eye_W.mm;
-      const double ahead = glm::dot(place, sight);
-      if (ahead <= 0.0) continue;
-      // How far this line of sight passes by the tip, in the plane across it.
-      const double off_mm = glm::length(place * (glm::distance(tip_W.mm, eye_W.mm) / ahead) - (tip_W.mm - eye_W.mm));
-      const double covered = 0.5 + (0.5 * kRingLine_mm - std::abs(off_mm - kRingRadius_mm)) / pixel_mm;
-      // The share of the pixel is a share of light.
-      picture.grey[at] = static_cast<std::uint8_t>(255.0 * std::pow(std::clamp(covered, 0.0, 1.0), 1.0 / 2.2) + 0.5);
-    }
-  return picture;
-}
-
 RingSighting sightRing(const GreyPicture& dark, const GreyPicture& with_both) {
   if (dark.size_px != with_both.size_px || !isWhole(dark) || !isWhole(with_both))
     throw CalibrationError("ring check: the pictures are not of one size, take both with one camera");
@@ -183,32 +155,6 @@ RingCheck judgedRing(const std::vector<Vector<Camera>>& offsets_mm) {
                 check.max_mm, check.worst + 1, check.passed ? "passed" : "calibrate again");
   check.line = line.data();
   return check;
-}
-
-SeenDelay seenDelay(const std::vector<SweepPicture>& sweep) {
-  if (sweep.size() < 4) throw CalibrationError("seen delay: fewer than four pictures of a sweep, take more");
-  const double n = static_cast<double>(sweep.size());
-  const auto across = [](const Vector<Camera>& v) { return glm::dvec2(v.xyz); };
-  glm::dvec2 mean_velocity(0.0), mean_offset(0.0);
-  for (const SweepPicture& p : sweep)
-    mean_velocity += across(p.velocity_mm_per_s) / n, mean_offset += across(p.offset_mm) / n;
-  double spread = 0.0, together = 0.0, farthest = 0.0;
-  for (const SweepPicture& p : sweep) {
-    const glm::dvec2 v = across(p.velocity_mm_per_s) - mean_velocity;
-    spread += glm::dot(v, v);
-    together += glm::dot(v, across(p.offset_mm) - mean_offset);
-    for (const SweepPicture& q : sweep)
-      farthest = std::max(farthest, glm::distance(across(p.velocity_mm_per_s), across(q.velocity_mm_per_s)));
-  }
-  if (!(farthest >= 50.0))
-    throw CalibrationError("seen delay: the speeds are too alike, sweep once slowly and once at 100 mm/s");
-  const double delay_s = together / spread;
-  double left = 0.0;
-  for (const SweepPicture& p : sweep) {
-    const glm::dvec2 rest = across(p.offset_mm) - mean_offset - delay_s * (across(p.velocity_mm_per_s) - mean_velocity);
-    left += glm::dot(rest, rest);
-  }
-  return {delay_s, std::sqrt(left / (2.0 * n - 3.0) / spread)};
 }
 
 }  // namespace calibration

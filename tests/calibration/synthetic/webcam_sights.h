@@ -5,8 +5,6 @@
 // is found here. Sizes: reference/calibration 2.3.
 #pragma once
 
-#include <array>
-
 #include "calibration/synthetic/synthetic_rig.h"
 #include "calibration/webcam/webcam_fit.h"
 
@@ -21,11 +19,6 @@ struct WebcamCare {
 /// Of 1920 x 1080 with tips found to 0.5 px, and of 1280 x 720 to 1 px.
 WebcamCare fineWebcam();
 WebcamCare coarseWebcam();
-
-/// From the middle of the case: at the eyes, and to the right and left of them.
-inline constexpr std::array<double, 3> kCameraAside_deg = {0.0, 25.0, -25.0};
-/// Where a camera stands that somebody has put up there by eye, a centimetre off, one sigma an axis.
-Pose<World, Camera> cameraPutUp(const Rig& rig, double aside_deg, std::mt19937& chance);
 
 /// Three camera positions, the plan's places touched anew at each.
 WebcamSights webcamSights(const SyntheticRig& rig, const TargetPlan& plan, const WebcamCare& care,

@@ -1,10 +1,10 @@
-#include "calibration/synthetic/seen_error.h"
+#include "tests/calibration/synthetic/seen_error.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/chance.h"
 #include "calibration/geometry/turn.h"
-#include "calibration/synthetic/chance.h"
 #include "calibration/virtual_screen.h"
 
 namespace calibration {
