@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "calibration/arm/phantom_models.h"
+#include "calibration/fit/arm_problem.h"
 #include "calibration/fit/cross_validation.h"
 #include "calibration/fit/kinematic_fit.h"
 #include "calibration/fit/touch_agreement.h"
@@ -26,13 +27,6 @@ struct Candidate {
   double fre_rms_mm = 0.0;
   CrossValidation unseen;
 };
-
-double rms_mm(const MeasuredArm& arm, const std::vector<Touch>& touches, const Indices& which) {
-  double sum = 0.0;
-  for (const std::size_t i : which)
-    sum += std::pow(glm::distance(arm.tip_W(touches[i].joints_rad).mm, touches[i].target_W.mm), 2);
-  return std::sqrt(sum / static_cast<double>(which.size()));
-}
 
 Candidate candidate(ArmModel model, const TouchAgreement& agreement, const TouchSet& set) {
   Candidate c;

@@ -24,20 +24,19 @@ glm::dmat3 leftJacobian(const glm::dvec3& turn_rad) {
          (1.0 - std::sin(a) / a) * glm::outerProduct(u, u);
 }
 
-ArmCorrection correctionOf(const ArmNumbers& numbers) {
-  ArmCorrection correction;
+ArmCorrection corrected(ArmCorrection correction, const ArmNumbers& numbers) {
   for (std::size_t i = 0; i < 3; ++i) {
-    correction.offset_rad[i] = numbers[kOffset + i];
-    correction.offset_rad[i + 3] = numbers[kGimbalOffset + i];
-    correction.gain[i] = numbers[kGain + i];
-    correction.gain[i + 3] = numbers[kGimbalGain + i];
-    correction.quadratic_per_rad[i] = numbers[kQuadratic + i];
+    correction.offset_rad[i] += numbers[kOffset + i];
+    correction.offset_rad[i + 3] += numbers[kGimbalOffset + i];
+    correction.gain[i] += numbers[kGain + i];
+    correction.gain[i + 3] += numbers[kGimbalGain + i];
+    correction.quadratic_per_rad[i] += numbers[kQuadratic + i];
   }
-  correction.thigh_more_mm = numbers[kThigh];
-  correction.shin_more_mm = numbers[kShin];
-  correction.tilt_rad = numbers[kTilt];
-  correction.reach_more_mm = numbers[kReach];
-  correction.tip_H_mm = kNominalTip_H_mm + three(numbers, kTip);
+  correction.thigh_more_mm += numbers[kThigh];
+  correction.shin_more_mm += numbers[kShin];
+  correction.tilt_rad += numbers[kTilt];
+  correction.reach_more_mm += numbers[kReach];
+  correction.tip_H_mm += three(numbers, kTip);
   return correction;
 }
 
@@ -96,7 +95,7 @@ MeasuredArm armOf(const ArmStart& start, const ArmNumbers& numbers) {
   const glm::dvec3 from_middle_mm = start.X_WD.translation_mm - start.middle_W.mm;
   return {
       start.geometry,
-      correctionOf(numbers),
+      corrected(start.correction, numbers),
       {glm::normalize(turn * start.X_WD.rotation), start.middle_W.mm + turn * from_middle_mm + three(numbers, kShift)}};
 }
 

@@ -57,11 +57,12 @@ using ArmNumbers = std::array<double, kArmParameters.size()>;
 /// Which of them a model fits: rigid 6, joint gains and offsets with the tip 15, full 28.
 std::vector<std::size_t> numbersOf(ArmModel model);
 
-/// Where all numbers are zero: the arm as its model, standing here.
+/// Where all numbers are zero: the arm as its model, or as it is believed to differ from it, standing here.
 struct ArmStart {
   PhantomGeometry geometry;
   Pose<World, Device> X_WD;
   Point<World> middle_W;  ///< what the pose numbers turn about
+  ArmCorrection correction{};
 };
 
 MeasuredArm armOf(const ArmStart& start, const ArmNumbers& numbers);

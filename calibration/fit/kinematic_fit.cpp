@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibration/fit/least_squares.h"
+#include "calibration/fit/arm_problem.h"
 
 namespace calibration {
 namespace {
@@ -16,63 +16,6 @@ constexpr double kSettled = 0.02;  ///< of the mismatch
 // What mismatch is expected: 0.15 mm, give or take a factor of three; looked for within these.
 constexpr double kMismatchFactor = 3.0;
 constexpr double kLeastMismatch_mm = 1e-3, kMostMismatch_mm = 10.0;
-
-/// The touches' least squares of some of the arm's numbers, at a given mismatch.
-class ArmProblem {
- public:
-  ArmProblem(const ArmStart& start, const std::vector<Touch>& touches, std::span<const std::size_t> which,
-             const std::vector<std::size_t>& numbers)
-      : start_(start), touches_(touches), which_(which), numbers_(numbers) {
-    problem_.residuals = 3 * which.size();
-    problem_.groups.assign(which.size(), {3, kCauchy});
-    for (const std::size_t k : numbers) problem_.priors.push_back({0.0, kArmParameters[k].prior_sigma});
-    problem_.residuals_at = [this](std::span<const double> x, std::span<double> r) { residuals(x, r); };
-    problem_.jacobian_at = [this](std::span<const double> x, std::span<double> J) { jacobian(x, J); };
-  }
-  ArmProblem(const ArmProblem&) = delete;
-  ArmProblem& operator=(const ArmProblem&) = delete;
-
-  LeastSquaresResult solvedFrom(const ArmNumbers& numbers, const glm::dvec3& sigma_mm) {
-    sigma_mm_ = sigma_mm;
-    problem_.start.clear();
-    for (const std::size_t k : numbers_) problem_.start.push_back(numbers[k]);
-    return solved(problem_);
-  }
-
-  ArmNumbers all(std::span<const double> x) const {
-    ArmNumbers numbers{};
-    for (std::size_t i = 0; i < numbers_.size(); ++i) numbers[numbers_[i]] = x[i];
-    return numbers;
-  }
-
- private:
-  void residuals(std::span<const double> x, std::span<double> r) const {
-    const MeasuredArm arm = armOf(start_, all(x));
-    for (std::size_t i = 0; i < which_.size(); ++i) {
-      const Touch& touch = touches_[which_[i]];
-      const glm::dvec3 error = (arm.tip_W(touch.joints_rad).mm - touch.target_W.mm) / sigma_mm_;
-      for (int c = 0; c < 3; ++c) r[3 * i + static_cast<std::size_t>(c)] = error[c];
-    }
-  }
-
-  void jacobian(std::span<const double> x, std::span<double> J) const {
-    const ArmNumbers numbers = all(x);
-    for (std::size_t i = 0; i < which_.size(); ++i) {
-      const TipSlopes slopes = tipSlopes(start_, numbers, touches_[which_[i]].joints_rad);
-      for (std::size_t k = 0; k < numbers_.size(); ++k)
-        for (int c = 0; c < 3; ++c)
-          J[(3 * i + static_cast<std::size_t>(c)) * numbers_.size() + k] =
-              slopes.by_number[numbers_[k]][c] / sigma_mm_[c];
-    }
-  }
-
-  const ArmStart& start_;
-  const std::vector<Touch>& touches_;
-  std::span<const std::size_t> which_;
-  const std::vector<std::size_t>& numbers_;
-  glm::dvec3 sigma_mm_{1.0};
-  LeastSquares problem_;
-};
 
 /// The most probable mismatch under these errors, of which the fit has taken up a share. On a logarithmic scale, by
 /// golden section: the sum has one valley.
@@ -113,7 +56,7 @@ KinematicFit kinematicFit(const ArmStart& start, const std::vector<Touch>& touch
   fit.fitted = std::move(numbers);
   if (near) fit.numbers = near->numbers;
   fit.mismatch_mm = near ? near->mismatch_mm : 2.0 * kUsualMismatch_mm;
-  ArmProblem problem(start, touches, which, fit.fitted);
+  ArmProblem problem(start, touches, which, fit.fitted, kCauchy);
   LeastSquaresResult result;
   // The numbers at a mismatch, the mismatch from what they leave.
   for (int round = 0; round < kRounds; ++round) {

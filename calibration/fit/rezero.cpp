@@ -1,10 +1,13 @@
 #include "calibration/fit/rezero.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
+#include "calibration/fit/arm_problem.h"
 #include "calibration/fit/kinematic_fit.h"
-#include "calibration/fit/least_squares.h"
+#include "calibration/fit/touch_checks.h"
 #include "calibration/geometry/turn.h"
 #include "calibration/geometry/units.h"
 
@@ -13,25 +16,19 @@ namespace {
 
 /// What a good calibration leaves at a touch, an axis: no touch is trusted further than that.
 constexpr double kLeft_mm = 0.15;
-/// A homing is rarely off by more; of the pose nothing is believed beforehand.
-constexpr double kHomingSigma_deg = 1.0;
 /// A touch that the others contradict by more than this, and by so many times what they differ among themselves.
 constexpr double kStrayPit_mm = 1.8, kStrayPitTimes = 4.0;
 constexpr std::size_t kFewestPits = 3;
 constexpr double kNarrowPits_mm = 5.0;  ///< targets this near to a line say nothing of the turn about it
 
-/// Turn about the targets' middle, shift, offsets of the three joints.
-constexpr std::size_t kRezeroNumbers = 9;
+/// Turn about the targets' middle, shift, offsets of the three joints; by their priors a homing is rarely off by more
+/// than a degree, and of the pose nothing is believed beforehand.
+constexpr std::array<std::size_t, 9> kRezeroNumbers = {0, 1, 2, 3, 4, 5, 9, 10, 11};
 
 using Touches = std::vector<Touch>;
+using Indices = std::vector<std::size_t>;
 
 [[noreturn]] void refuseRezero(const std::string& what) { throw CalibrationError("re-zero: " + what); }
-
-bool finite(const Touch& touch) {
-  double sum = touch.target_W.mm.x + touch.target_W.mm.y + touch.target_W.mm.z;
-  for (const double angle_rad : touch.joints_rad) sum += angle_rad;
-  return std::isfinite(sum);
-}
 
 /// How far the targets reach to the sides of the line through the two that are farthest apart.
 double width_mm(const Touches& touches) {
@@ -54,7 +51,7 @@ void check(const Touches& touches) {
     refuseRezero(std::to_string(touches.size()) + " touches, at least 3 are needed: touch the 5 pits shown");
   for (std::size_t i = 0; i < touches.size(); ++i) {
     const std::string name = "touch " + std::to_string(touches[i].id);
-    if (!finite(touches[i])) refuseRezero(name + " has a number that is none: touch that pit again");
+    if (!isFinite(touches[i])) refuseRezero(name + " has a number that is none: touch that pit again");
     for (std::size_t k = 0; k < i; ++k)
       if (touches[k].joints_rad == touches[i].joints_rad)
         refuseRezero(name + " is the same as touch " + std::to_string(touches[k].id) + ": touch each pit once");
@@ -69,77 +66,39 @@ glm::dvec3 middleOf_mm(const Touches& touches) {
   return sum / static_cast<double>(touches.size());
 }
 
-MeasuredArm moved(const MeasuredArm& arm, std::span<const double> x, const glm::dvec3& middle_mm) {
-  MeasuredArm now = arm;
-  const glm::dquat turn = turnBy({x[0], x[1], x[2]});
-  const glm::dvec3 shift_mm(x[3], x[4], x[5]);
-  now.X_WD = {glm::normalize(turn * arm.X_WD.rotation),
-              middle_mm + turn * (arm.X_WD.translation_mm - middle_mm) + shift_mm};
-  for (std::size_t i = 0; i < 3; ++i) now.correction.offset_rad[i] += x[6 + i];
-  return now;
-}
-
-/// The most probable arm given the touches not left out.
-MeasuredArm fitted(const MeasuredArm& arm, const Touches& touches, const std::vector<bool>& out,
+/// The most probable arm given the touches at these indices.
+MeasuredArm fitted(const MeasuredArm& arm, const Touches& touches, const Indices& which,
                    const TouchPrecision& precision) {
-  const glm::dvec3 middle_mm = middleOf_mm(touches);
-  const glm::dvec3 sigma_mm = touchSigma_mm(precision, kLeft_mm);
-  LeastSquares problem;
-  problem.start.assign(kRezeroNumbers, 0.0);
-  problem.priors.assign(kRezeroNumbers, {});
-  for (std::size_t i = 6; i < kRezeroNumbers; ++i) problem.priors[i].sigma = radFromDegrees(kHomingSigma_deg);
-  problem.residuals = 3 * static_cast<std::size_t>(std::count(out.begin(), out.end(), false));
-  problem.residuals_at = [&](std::span<const double> x, std::span<double> r) {
-    const MeasuredArm tried = moved(arm, x, middle_mm);
-    std::size_t row = 0;
-    for (std::size_t i = 0; i < touches.size(); ++i) {
-      if (out[i]) continue;
-      const glm::dvec3 off = (tried.tip_W(touches[i].joints_rad) - touches[i].target_W).xyz / sigma_mm;
-      for (int axis = 0; axis < 3; ++axis) r[row++] = off[axis];
-    }
-  };
-  return moved(arm, solved(problem).numbers, middle_mm);
+  const ArmStart start{arm.geometry, arm.X_WD, {middleOf_mm(touches)}, arm.correction};
+  ArmProblem problem(start, touches, which, kRezeroNumbers, 0.0);
+  return armOf(start, problem.all(problem.solvedFrom({}, touchSigma_mm(precision, kLeft_mm)).numbers));
 }
 
-double off_mm(const MeasuredArm& arm, const Touch& touch) {
-  return glm::length((arm.tip_W(touch.joints_rad) - touch.target_W).xyz);
-}
-
-double rms_mm(const MeasuredArm& arm, const Touches& touches, const std::vector<bool>& out) {
-  double sum = 0.0;
-  int count = 0;
-  for (std::size_t i = 0; i < touches.size(); ++i) {
-    if (out[i]) continue;
-    sum += std::pow(off_mm(arm, touches[i]), 2);
-    ++count;
-  }
-  return count > 0 ? std::sqrt(sum / count) : 0.0;
-}
-
-/// Leaves out touches that the others contradict, the worst first: so few points forgive a wild one by turning the
-/// base, so each is foretold from the others alone.
-std::vector<bool> contradicted(const MeasuredArm& arm, const Touches& touches, const TouchPrecision& precision) {
-  std::vector<bool> out(touches.size(), false);
+/// All but touches that the others contradict, the worst first: so few points forgive a wild one by turning the base,
+/// so each is foretold from the others alone.
+Indices agreeing(const MeasuredArm& arm, const Touches& touches, const TouchPrecision& precision) {
+  Indices which(touches.size());
+  std::iota(which.begin(), which.end(), std::size_t{0});
   const double least_mm = std::hypot(kStrayPit_mm, 3.0 * std::hypot(precision.in_plane_mm, precision.along_sight_mm));
   // Four touches or more must agree on who is wrong.
   for (std::size_t rounds = (touches.size() - kFewestPits) / 2; rounds > 0; --rounds) {
-    std::size_t worst = touches.size();
-    double best_rms_mm = rms_mm(fitted(arm, touches, out, precision), touches, out);
-    for (std::size_t i = 0; i < touches.size(); ++i) {
-      if (out[i]) continue;
-      std::vector<bool> without = out;
-      without[i] = true;
-      const MeasuredArm others = fitted(arm, touches, without, precision);
-      const double rest_mm = rms_mm(others, touches, without);
-      if (rest_mm < best_rms_mm && off_mm(others, touches[i]) > std::max(least_mm, kStrayPitTimes * rest_mm)) {
+    Indices best = which;
+    double best_rms_mm = rms_mm(fitted(arm, touches, which, precision), touches, which);
+    for (const std::size_t i : which) {
+      Indices others = which;
+      std::erase(others, i);
+      const MeasuredArm by_others = fitted(arm, touches, others, precision);
+      const double rest_mm = rms_mm(by_others, touches, others);
+      const double off_mm = rms_mm(by_others, touches, std::array{i});
+      if (rest_mm < best_rms_mm && off_mm > std::max(least_mm, kStrayPitTimes * rest_mm)) {
         best_rms_mm = rest_mm;
-        worst = i;
+        best = std::move(others);
       }
     }
-    if (worst == touches.size()) break;
-    out[worst] = true;
+    if (best == which) break;
+    which = std::move(best);
   }
-  return out;
+  return which;
 }
 
 }  // namespace
@@ -150,18 +109,18 @@ Rezero rezeroed(const MeasuredArm& arm, const TouchSet& set) {
     if (touch.used) touches.push_back(touch);
   check(touches);
 
-  const std::vector<bool> out = contradicted(arm, touches, set.precision);
+  const Indices which = agreeing(arm, touches, set.precision);
   Rezero result;
-  result.arm = fitted(arm, touches, out, set.precision);
-  result.before_rms_mm = rms_mm(arm, touches, out);
-  result.after_rms_mm = rms_mm(result.arm, touches, out);
-  result.outliers = static_cast<int>(std::count(out.begin(), out.end(), true));
+  result.arm = fitted(arm, touches, which, set.precision);
+  result.before_rms_mm = rms_mm(arm, touches, which);
+  result.after_rms_mm = rms_mm(result.arm, touches, which);
+  result.outliers = static_cast<int>(touches.size() - which.size());
 
   // Of every touch that was given, those set aside too.
   std::size_t next = 0;
   for (const Touch& touch : set.touches)
-    result.residuals.push_back(
-        {touch.id, touch.target_W, result.arm.tip_W(touch.joints_rad) - touch.target_W, touch.used && !out[next++]});
+    result.residuals.push_back({touch.id, touch.target_W, result.arm.tip_W(touch.joints_rad) - touch.target_W,
+                                touch.used && std::ranges::binary_search(which, next++)});
 
   result.turned_deg = degreesFromRad(angleBetween_rad(arm.X_WD.rotation, result.arm.X_WD.rotation));
   result.moved_mm = glm::distance(result.arm.X_WD.translation_mm, arm.X_WD.translation_mm);

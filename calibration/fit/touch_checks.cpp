@@ -8,6 +8,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "calibration/arm/phantom_models.h"
+#include "calibration/geometry/finite.h"
 #include "calibration/geometry/units.h"
 
 namespace calibration {
@@ -38,15 +39,18 @@ void checkTwice(const std::vector<const Touch*>& touches) {
 
 }  // namespace
 
+bool isFinite(const Touch& touch) {
+  const auto finite = [](double angle_rad) { return std::isfinite(angle_rad); };
+  return isFinite(touch.target_W.mm) && std::ranges::all_of(touch.joints_rad, finite);
+}
+
 void checkTouches(const TouchSet& set) {
   if (!findPhantomModel(set.device_model))
     refuseTouches("device model '" + set.device_model + "' is not known, correct it");
   std::vector<const Touch*> used;
   std::vector<glm::dvec3> places;
   for (const Touch& touch : set.touches) {
-    double sum = touch.target_W.mm.x + touch.target_W.mm.y + touch.target_W.mm.z;
-    for (const double angle_rad : touch.joints_rad) sum += angle_rad;
-    if (!std::isfinite(sum))
+    if (!isFinite(touch))
       refuseTouches("touch " + std::to_string(touch.id) + " holds a number that is none, touch it again");
     if (!touch.used) continue;
     used.push_back(&touch);

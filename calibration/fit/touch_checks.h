@@ -11,6 +11,9 @@
 
 namespace calibration {
 
+/// Whether all its numbers are.
+bool isFinite(const Touch& touch);
+
 /// Of the touches marked used. Throws CalibrationError, one line that names the touch: an unknown model, numbers that
 /// are not finite, the same touch twice, fewer than four, targets all on a line or in one place.
 void checkTouches(const TouchSet& set);
