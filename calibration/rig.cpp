@@ -39,6 +39,12 @@ Rig mirroredWorkstationRig(glm::ivec2 px, double width_mm, double eye_distance_m
   return rig;
 }
 
+std::optional<Rig> defaultRig(std::string_view name) {
+  if (name == "mirrored") return mirroredWorkstationRig();
+  if (name == "desktop") return desktopRig({1920, 1080});
+  return std::nullopt;
+}
+
 std::optional<MeasuredArm> measuredArm(const Rig& rig) {
   if (!rig.device || !rig.arm) return std::nullopt;
   const PhantomModel* const model = findPhantomModel(rig.device->model);

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "calibration/arm/arm_correction.h"
 #include "calibration/geometry/frames.h"
@@ -55,6 +56,10 @@ Rig desktopRig(glm::ivec2 px, double width_mm = kDeskMonitorWidth_mm, double eye
 /// the work. The device stands behind and below (X_WD: reference/calibration 1.1, 5). X_WP is identity.
 Rig mirroredWorkstationRig(glm::ivec2 px = {1920, 1080}, double width_mm = kDeskMonitorWidth_mm,
                            double eye_distance_mm = 450.0);
+
+/// The rigs that come with the program. "mirrored": a 45 degree mirror over the hand, panel above it · "desktop": a
+/// monitor without mirror. None for another name.
+std::optional<Rig> defaultRig(std::string_view name);
 
 /// The arm of the rig's device as it stands: null where the rig has none, or a model that is not known.
 std::optional<MeasuredArm> measuredArm(const Rig& rig);

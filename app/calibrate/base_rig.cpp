@@ -1,9 +1,9 @@
 #include "app/calibrate/base_rig.h"
 
 #include "calibration/arm/phantom_models.h"
-#include "calibration/record/default_rigs.h"
 #include "calibration/record/rig_file.h"
 #include "calibration/record/rig_store.h"
+#include "calibration/rig.h"
 
 namespace app {
 

@@ -8,10 +8,10 @@
 #include "app/text/command_line.h"
 #include "app/text/printed.h"
 #include "app/text/usage_error.h"
-#include "calibration/record/default_rigs.h"
 #include "calibration/record/later_check.h"
 #include "calibration/record/rig_file.h"
 #include "calibration/record/rig_store.h"
+#include "calibration/rig.h"
 
 namespace app {
 namespace {

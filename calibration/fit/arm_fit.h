@@ -16,7 +16,7 @@
 
 namespace calibration {
 
-std::string_view nameOf(ArmModel model);  ///< "rigid", "joints", "full"
+std::string_view nameOf(ArmModel model);  ///< "rigid", "joints", "full": in rig files too
 std::optional<ArmModel> armModelNamed(std::string_view name);
 
 /// One model, how well it foretells touches it has not seen.

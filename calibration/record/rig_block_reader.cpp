@@ -1,12 +1,12 @@
 #include "calibration/record/rig_block_reader.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <opencv2/core.hpp>
 
 #include "calibration/arm/phantom_models.h"
 #include "calibration/geometry/units.h"
-#include "calibration/record/rig_file_words.h"
 #include "calibration/virtual_screen.h"
 
 namespace calibration {
@@ -84,26 +84,25 @@ RigDevice deviceIn(const CheckedYaml& yaml) {
   return device;
 }
 
-/// Numbers that are near zero in every arm that works.
+/// Of every arm that works a number is near zero.
+void checkSmall(const CheckedYaml& yaml, const char* key, double value, double most, const char* unit) {
+  if (std::abs(value) > most)
+    yaml.refuse(std::string("'kinematics.") + key + "' is beyond what an arm can be off (" + unit + ")",
+                "calibrate again");
+}
+
 template <std::size_t n>
 std::array<double, n> smallNumbers(const CheckedYaml& yaml, const cv::FileNode& node, const char* key, double most,
                                    const char* unit) {
-  const std::vector<double> list = yaml.numbers(node[key], key, n);
   std::array<double, n> values{};
-  for (std::size_t i = 0; i < n; ++i) {
-    if (std::abs(list[i]) > most)
-      yaml.refuse(std::string("'kinematics.") + key + "' is beyond what an arm can be off (" + unit + ")",
-                  "calibrate again");
-    values[i] = list[i];
-  }
+  std::ranges::copy(yaml.numbers(node[key], key, n), values.begin());
+  for (const double value : values) checkSmall(yaml, key, value, most, unit);
   return values;
 }
 
 double smallNumber(const CheckedYaml& yaml, const cv::FileNode& node, const char* key, double most, const char* unit) {
   const double value = yaml.number(node, key);
-  if (std::abs(value) > most)
-    yaml.refuse(std::string("'kinematics.") + key + "' is beyond what an arm can be off (" + unit + ")",
-                "calibrate again");
+  checkSmall(yaml, key, value, most, unit);
   return value;
 }
 
@@ -121,9 +120,7 @@ std::array<double, n> overBase(const CheckedYaml& yaml, const cv::FileNode& node
     if (!yaml.has(node, exact_key)) values[i] = more;
     if (std::abs(more - values[i]) > kSameWritten)
       yaml.refuse(std::string("'kinematics.") + total_key + "' and '" + exact_key + "' do not agree", "remove one");
-    if (std::abs(more) > most)
-      yaml.refuse(std::string("'kinematics.") + total_key + "' is beyond what an arm can be off (" + unit + ")",
-                  "calibrate again");
+    checkSmall(yaml, total_key, more, most, unit);
   }
   return values;
 }

@@ -2,10 +2,15 @@
 // kinematics. mm, rad, frame W. A part of rig_file; start-up only. Throws CalibrationError naming key and remedy.
 #pragma once
 
+#include <string_view>
+
 #include "calibration/checked_yaml.h"
 #include "calibration/rig.h"
 
 namespace calibration {
+
+/// How the arm is computed from its numbers; a file of another kind of arm has another word.
+inline constexpr std::string_view kKinematicsWord = "phantom6_v1";
 
 /// Hand-typed matrices are rounded; measured ones are not.
 inline constexpr double kTypedRotationTolerance = 1e-3, kMeasuredRotationTolerance = 1e-6;

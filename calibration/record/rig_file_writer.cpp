@@ -1,8 +1,8 @@
 #include <opencv2/core.hpp>
 
 #include "calibration/arm/phantom_models.h"
+#include "calibration/record/rig_block_reader.h"
 #include "calibration/record/rig_file.h"
-#include "calibration/record/rig_file_words.h"
 #include "calibration/record/sha256.h"
 
 namespace calibration {
@@ -121,7 +121,7 @@ void writeProcedure(RigYaml& yaml, const RigProcedure& procedure) {
   yaml.list("precision_mm", std::array{procedure.precision.in_plane_mm, procedure.precision.along_sight_mm});
   yaml.close();
   yaml.open("fit");
-  yaml.word("model", wordOf(kArmModelWords, procedure.model));
+  yaml.word("model", nameOf(procedure.model));
   yaml.put("fre_rms", procedure.fre_rms_mm);
   yaml.put("cv_rms", procedure.cv_rms_mm);
   yaml.close();
@@ -151,8 +151,8 @@ void writeProof(RigYaml& yaml, const RigProof& proof) {
   yaml.vector("bias", proof.errors.bias_mm.xyz);
   yaml.put("in_plane_rms", proof.errors.in_plane_rms_mm);
   yaml.put("along_sight_rms", proof.errors.along_sight_rms_mm);
-  yaml.word("kind", wordOf(kProofKindWords, proof.kind));
-  yaml.word("verdict", wordOf(kVerdictWords, proof.verdict));
+  yaml.word("kind", nameOf(proof.kind));
+  yaml.word("verdict", nameOf(proof.verdict));
   if (!proof.checked_utc.empty()) yaml.put("checked_utc", proof.checked_utc);
   if (!proof.worst.empty()) yaml.put("worst", proof.worst);
   if (!proof.residuals.empty()) writeResiduals(yaml, proof.residuals);

@@ -1,17 +1,20 @@
 #include "calibration/record/rig_knowledge_reader.h"
 
 #include <algorithm>
+#include <array>
 
 #include <opencv2/core.hpp>
 
 #include "calibration/record/rig_block_reader.h"
-#include "calibration/record/rig_file_words.h"
 #include "calibration/record/utc.h"
 
 namespace calibration {
 namespace {
 
 constexpr int kMostTouches = 10000, kMostNumbers = 64;
+constexpr std::array kModels = {ArmModel::rigid, ArmModel::joint_gains, ArmModel::full};
+constexpr std::array kVerdicts = {Verdict::green, Verdict::amber, Verdict::red};
+constexpr std::array kProofKinds = {ProofKind::full, ProofKind::by_eyes, ProofKind::session_check};
 constexpr std::size_t kLongestCode = 32;
 constexpr double kMostError_mm = 1000.0, kMostDuration_s = 1e5;
 
@@ -60,13 +63,15 @@ double errorIf_mm(const CheckedYaml& yaml, const cv::FileNode& parent, const cha
   return yaml.has(parent, key) ? error_mm(yaml, parent, key) : 0.0;
 }
 
+/// That of them whose name stands there.
 template <class Value, std::size_t n>
-Value word(const CheckedYaml& yaml, const cv::FileNode& parent, const char* key,
-           const std::array<FileWord<Value>, n>& words) {
-  const auto value = valueOf(words, yaml.text(parent, key));
-  if (value) return *value;
+Value named(const CheckedYaml& yaml, const cv::FileNode& parent, const char* key, const std::array<Value, n>& values) {
+  const std::string text = yaml.text(parent, key);
   std::string known;
-  for (const FileWord<Value>& one : words) known += (known.empty() ? "" : ", ") + std::string(one.word);
+  for (const Value value : values) {
+    if (text == nameOf(value)) return value;
+    known += (known.empty() ? "" : ", ") + std::string(nameOf(value));
+  }
   yaml.refuse(std::string("'") + key + "' is a word that is not known", "give one of " + known);
 }
 
@@ -108,7 +113,7 @@ RigProcedure procedureIn(const CheckedYaml& yaml) {
   }
   if (yaml.has(yaml.root(), "fit")) {
     const cv::FileNode fit = yaml.map(yaml.root(), "fit");
-    if (yaml.has(fit, "model")) procedure.model = word(yaml, fit, "model", kArmModelWords);
+    if (yaml.has(fit, "model")) procedure.model = named(yaml, fit, "model", kModels);
     procedure.fre_rms_mm = error_mm(yaml, fit, "fre_rms");
     procedure.cv_rms_mm = error_mm(yaml, fit, "cv_rms");
   }
@@ -141,8 +146,8 @@ RigProof proofIn(const CheckedYaml& yaml) {
   proof.errors.bias_mm = {yaml.vector(node, "bias")};
   proof.errors.in_plane_rms_mm = errorIf_mm(yaml, node, "in_plane_rms");
   proof.errors.along_sight_rms_mm = errorIf_mm(yaml, node, "along_sight_rms");
-  if (yaml.has(node, "kind")) proof.kind = word(yaml, node, "kind", kProofKindWords);
-  proof.verdict = word(yaml, node, "verdict", kVerdictWords);
+  if (yaml.has(node, "kind")) proof.kind = named(yaml, node, "kind", kProofKinds);
+  proof.verdict = named(yaml, node, "verdict", kVerdicts);
   proof.checked_utc = utcIf(yaml, node, "checked_utc");
   proof.worst = textIf(yaml, node, "worst");
   if (yaml.has(node, "residuals")) proof.residuals = residualsIn(yaml, node);

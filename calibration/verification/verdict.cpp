@@ -46,6 +46,10 @@ std::string_view nameOf(Verdict verdict) {
   return verdict == Verdict::green ? "green" : verdict == Verdict::amber ? "amber" : "red";
 }
 
+std::string_view nameOf(ProofKind kind) {
+  return kind == ProofKind::full ? "full" : kind == ProofKind::by_eyes ? "by_eyes" : "session_check";
+}
+
 TargetErrors targetErrors(const std::vector<Residual>& residuals) {
   TargetErrors errors;
   std::vector<double> lengths;

@@ -12,7 +12,7 @@
 namespace calibration {
 
 enum class Verdict { green, amber, red };
-std::string_view nameOf(Verdict verdict);
+std::string_view nameOf(Verdict verdict);  ///< in rig files too: a word that is there keeps its meaning
 
 /// Of touches that were not used for the fit.
 struct TargetErrors {
@@ -26,6 +26,7 @@ TargetErrors targetErrors(const std::vector<Residual>& residuals);
 
 /// Against which limits: a full calibration by jig or webcam, by eyes alone, or the check at the start of a session.
 enum class ProofKind { full, by_eyes, session_check };
+std::string_view nameOf(ProofKind kind);  ///< "full", …: in rig files
 
 struct ProofLimit {
   double green_mm, amber_mm;

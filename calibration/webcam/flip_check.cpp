@@ -200,29 +200,4 @@ std::optional<Reading> readF(const GreyPicture& seen) {
   return best.best;
 }
 
-std::optional<Reading> readingOf(const std::vector<glm::dvec2>& drawn_px, const std::vector<glm::dvec2>& camera_px) {
-  if (drawn_px.size() < 4 || drawn_px.size() != camera_px.size()) return std::nullopt;
-  // The best affine map from drawn to seen, by its normal equations about the middles.
-  glm::dvec2 drawn_middle(0.0), camera_middle(0.0);
-  for (std::size_t i = 0; i < drawn_px.size(); ++i) drawn_middle += drawn_px[i], camera_middle += camera_px[i];
-  drawn_middle /= static_cast<double>(drawn_px.size()), camera_middle /= static_cast<double>(drawn_px.size());
-  glm::dmat2 spread(0.0), together(0.0);
-  for (std::size_t i = 0; i < drawn_px.size(); ++i) {
-    const glm::dvec2 drawn = drawn_px[i] - drawn_middle;
-    spread += glm::outerProduct(drawn, drawn);
-    together += glm::outerProduct(camera_px[i] - camera_middle, drawn);
-  }
-  const double size = spread[0][0] + spread[1][1];
-  if (!(glm::determinant(spread) > 1e-6 * size * size)) return std::nullopt;
-  const glm::dmat2 map = together * glm::inverse(spread);
-  const double area = glm::determinant(map);
-  if (!(std::abs(area) > 1e-6)) return std::nullopt;
-
-  // Where "down" goes tells the turn, the sign of the area the mirror.
-  const glm::dvec2 down = map[1];
-  const bool upright = std::abs(down.y) >= std::abs(down.x);
-  if (upright) return Reading{area<0.0, down.y> 0.0 ? 0 : 2};
-  return Reading{area < 0.0, down.x < 0.0 ? 1 : 3};
-}
-
 }  // namespace calibration

@@ -1,7 +1,7 @@
-// Whether what the screen shows reads right to the eye before it: a drawn F says it to a technician and to a webcam,
-// and so does any pattern whose places are known. The rig's corners and mirror alone say how a framebuffer should reach
-// the eye; here that is proved, and the remedy named. px, rows from the top. Any thread; milliseconds, reading an F 20
-// ms at 1080p. Not a measurement: the turn is known to the nearest quarter, the camera must be level within 40 degrees.
+// Whether what the screen shows reads right to the eye before it: a drawn F says it to a technician and to a webcam.
+// The rig's corners and mirror alone say how a framebuffer should reach the eye; here that is proved, and the remedy
+// named. px, rows from the top. Any thread; milliseconds, reading an F 20 ms at 1080p. Not a measurement: the turn is
+// known to the nearest quarter, the camera must be level within 40 degrees.
 #pragma once
 
 #include <array>
@@ -54,9 +54,5 @@ Point<World> placeOn(const ScreenCorners& seen_screen, const glm::dvec2& px);
 GreyPicture letterF(const glm::ivec2& size_px);
 /// How the F reads in a picture of it. None: no F can be made out.
 std::optional<Reading> readF(const GreyPicture& seen);
-
-/// How a pattern reads whose places are known as they should be seen, and where a camera sees them, in the same order.
-/// None: fewer than four places, or no picture of each other.
-std::optional<Reading> readingOf(const std::vector<glm::dvec2>& drawn_px, const std::vector<glm::dvec2>& camera_px);
 
 }  // namespace calibration

@@ -105,13 +105,10 @@ SeenCells cellsSeen(const GrayCode& code, const std::vector<GreyPicture>& pictur
   return seen;
 }
 
-/// How the picture's place grows with the screen's, as one affine map by least squares: columns of `linear` for x and
-/// y.
-struct Direction {
-  glm::dmat2 linear{0.0};
-  bool known = false;
-};
-Direction directionOf(const std::vector<ScreenSight>& sights) {
+/// How the picture's place grows with the screen's x and y (columns), as one affine map by least squares. None: too few
+/// or on a line.
+std::optional<glm::dmat2> directionOf(const std::vector<ScreenSight>& sights) {
+  if (sights.size() < 12) return std::nullopt;
   glm::dvec2 screen{0.0}, camera{0.0};
   for (const ScreenSight& sight : sights) screen += sight.screen_px, camera += sight.camera_px;
   screen /= double(sights.size()), camera /= double(sights.size());
@@ -122,8 +119,8 @@ Direction directionOf(const std::vector<ScreenSight>& sights) {
     both += glm::outerProduct(c, s);
   }
   const double size = spread[0][0] * spread[1][1];
-  if (!(glm::determinant(spread) > 1e-6 * size) || size <= 0.0) return {};
-  return {both * glm::inverse(spread), true};
+  if (!(glm::determinant(spread) > 1e-6 * size) || size <= 0.0) return std::nullopt;
+  return both * glm::inverse(spread);
 }
 
 CodeSighting refused(CodeTrouble trouble, const char* line, CodeSighting sighting) {
@@ -184,23 +181,23 @@ CodeSighting decoded(const GrayCode& code, const std::vector<GreyPicture>& pictu
     }
   sighting.seen_share = double(complete) / std::max(1, (seen.count.x - 2) * (seen.count.y - 2));
 
-  const Direction direction = sighting.sights.size() < 12 ? Direction{} : directionOf(sighting.sights);
+  const auto direction = directionOf(sighting.sights);
   if (seen.impossible > seen.decoded / 10 || scattered > complete / 4)
     return refused(CodeTrouble::mixed_up,
                    "the stripes do not fit together: hold camera and light still during the sweep and take it again",
                    std::move(sighting));
-  if (!direction.known)
+  if (!direction)
     return refused(CodeTrouble::not_seen,
                    "the stripes are not seen: point the camera at the screen, go nearer, darken the room",
                    std::move(sighting));
   // Columns that decrease to the right or rows that decrease downwards: a flip too many, or a turned camera.
-  if (glm::determinant(direction.linear) < 0.0)
+  if (glm::determinant(*direction) < 0.0)
     return refused(CodeTrouble::mirrored,
-                   direction.linear[0].x < 0.0
+                   (*direction)[0].x < 0.0
                        ? "the screen is mirrored left to right: correct its corners in the rig file"
                        : "the screen is mirrored top to bottom: correct its corners in the rig file",
                    std::move(sighting));
-  if (direction.linear[0].x < 0.0)
+  if ((*direction)[0].x < 0.0)
     return refused(CodeTrouble::upside_down,
                    "the screen stands on its head: turn the camera by half a turn, or correct the rig file's corners",
                    std::move(sighting));

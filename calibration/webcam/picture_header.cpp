@@ -4,6 +4,8 @@
 #include <array>
 #include <string_view>
 
+#include <zlib.h>
+
 namespace calibration {
 namespace {
 
@@ -21,22 +23,6 @@ std::optional<glm::ivec2> sizeFrom(std::uint32_t across, std::uint32_t down) {
   return glm::ivec2(across, down);
 }
 
-/// CRC-32 of ISO 3309, a byte at a time.
-std::uint32_t checksum(Bytes bytes) {
-  static constexpr std::array<std::uint32_t, 256> kTable = [] {
-    std::array<std::uint32_t, 256> table{};
-    for (std::uint32_t i = 0; i < 256; ++i) {
-      std::uint32_t value = i;
-      for (int bit = 0; bit < 8; ++bit) value = (value & 1U) != 0 ? 0xedb88320U ^ (value >> 1) : value >> 1;
-      table[i] = value;
-    }
-    return table;
-  }();
-  std::uint32_t sum = 0xffffffffU;
-  for (const std::uint8_t byte : bytes) sum = kTable[(sum ^ byte) & 0xffU] ^ (sum >> 8);
-  return ~sum;
-}
-
 /// Chunk by chunk to IEND, their checksums too; the size is in the first, IHDR.
 std::optional<glm::ivec2> sizeOfPng(Bytes file) {
   constexpr std::size_t kFrame = 12;  // length, name, checksum
@@ -44,7 +30,7 @@ std::optional<glm::ivec2> sizeOfPng(Bytes file) {
   for (std::size_t at = 8; at + kFrame <= file.size();) {
     const std::size_t length = bigEndian(file, at, 4);
     if (length > file.size() - at - kFrame) return std::nullopt;
-    if (checksum(file.subspan(at + 4, 4 + length)) != bigEndian(file, at + 8 + length, 4)) return std::nullopt;
+    if (crc32_z(0, &file[at + 4], 4 + length) != bigEndian(file, at + 8 + length, 4)) return std::nullopt;
     const std::string_view name(reinterpret_cast<const char*>(&file[at + 4]), 4);
     if (!size) {
       if (name != "IHDR" || length != 13) return std::nullopt;

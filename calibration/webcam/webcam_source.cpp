@@ -116,18 +116,14 @@ class V4lFrames final : public FrameGiver {
 
 }  // namespace
 
-OpenWebcam openWebcam(const WebcamWanted& wanted) {
+OpenWebcam openPictures(const WebcamWanted& wanted) {
+  if (!isWebcam(wanted.device)) return {pictureFolder(wanted.device), ""};
   const std::string path = isIndex(wanted.device) ? "/dev/video" + wanted.device : wanted.device;
   checkDevice(path);
   auto live = std::make_unique<LivePictures>(
       "webcam " + path, [path, wanted] { return std::make_unique<V4lFrames>(path, wanted); }, LivePictures::Patience{});
   std::string remarks = live->remarks();
   return {std::move(live), std::move(remarks)};
-}
-
-OpenWebcam openPictures(const WebcamWanted& wanted) {
-  if (isWebcam(wanted.device)) return openWebcam(wanted);
-  return {pictureFolder(wanted.device), ""};
 }
 
 }  // namespace calibration

@@ -23,10 +23,8 @@ struct OpenWebcam {
   std::string remarks;  ///< what it would not do: "focus can not be fixed"; empty: all as asked
 };
 
-/// Throws CalibrationError: not there, no permission, no camera, busy, another size than asked for.
-OpenWebcam openWebcam(const WebcamWanted& wanted);
-
-/// "0" or "/dev/video2" for a webcam, else a folder's path.
+/// "0" or "/dev/video2" for a webcam, else a folder's path. Throws CalibrationError: not there, no permission, no
+/// camera, busy, another size than asked for.
 OpenWebcam openPictures(const WebcamWanted& wanted);
 
 }  // namespace calibration

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "calibration/arm/phantom_models.h"
-#include "calibration/record/default_rigs.h"
+#include "calibration/rig.h"
 
 namespace {
 

@@ -135,28 +135,5 @@ TEST(FlipCheck, WhereThereIsNoFItSaysNothing) {
   EXPECT_FALSE(readF(cropped).has_value()) << "half of it is beside the picture";
 }
 
-TEST(FlipCheck, KnownPlacesTellHowTheyRead) {
-  std::mt19937 chance(8);
-  std::uniform_real_distribution<double> any(-1.0, 1.0);
-  for (int i = 0; i < 50; ++i)
-    for (const Reading& reading : kReadings) {
-      std::vector<glm::dvec2> drawn, seen;
-      const double roll = 0.6 * any(chance), squint = 0.0004 * any(chance);
-      for (int p = 0; p < 30; ++p) {
-        const glm::dvec2 place(960 * any(chance), 540 * any(chance));
-        glm::dvec2 to = place;
-        if (reading.mirrored) to.x = -to.x;
-        for (int q = 0; q < reading.quarters; ++q) to = {-to.y, to.x};
-        to = glm::dvec2(std::cos(roll) * to.x - std::sin(roll) * to.y, std::sin(roll) * to.x + std::cos(roll) * to.y) /
-             (1.0 + squint * to.x);
-        drawn.push_back(place);
-        seen.push_back(to);
-      }
-      EXPECT_TRUE(readingOf(drawn, seen) == reading) << nameOf(reading);
-    }
-  EXPECT_FALSE(readingOf({{0, 0}, {1, 1}, {2, 2}, {3, 3}}, {{0, 0}, {1, 1}, {2, 2}, {3, 3}}).has_value()) << "a line";
-  EXPECT_FALSE(readingOf({{0, 0}}, {{0, 0}}).has_value());
-}
-
 }  // namespace
 }  // namespace calibration
