@@ -1,5 +1,5 @@
-// A thin ring drawn where the tip is wanted, for those who see no stereo, or where the arm says that it is. Frame W, mm,
-// px. Any thread; 10 to 50 ms at 1080p.
+// A thin ring drawn where the tip is wanted, for those who see no stereo, or where the arm says that it is. Frame W,
+// mm, px. Any thread; 10 to 50 ms at 1080p.
 #pragma once
 
 #include "calibration/rig.h"

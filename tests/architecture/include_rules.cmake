@@ -11,7 +11,7 @@ cmake_minimum_required(VERSION 3.25)
 set(calibration calibration/)
 set(calibration/geometry calibration/geometry/)
 set(calibration/arm calibration/geometry/ calibration/arm/)
-set(calibration_words calibration/geometry/ calibration/arm/ calibration/rig.h calibration/virtual_screen.h calibration/median.h
+set(calibration_words calibration/geometry/ calibration/arm/ calibration/chance.h calibration/rig.h calibration/virtual_screen.h calibration/median.h
     calibration/calibration_error.h calibration/checked_yaml.h calibration/picture_file.h)
 set(calibration/fit ${calibration_words} calibration/fit/)
 set(calibration/webcam ${calibration_words} calibration/fit/ calibration/webcam/)
@@ -82,8 +82,10 @@ set(render/cpu ${render_words} render/gpu/gpu_error.h render/gpu/window_place.h 
 
 # Third parties: a regular expression of what is included, and the folders or rooms that may.
 set(third_parties
-  "opencv2/" "calibration"
-  "openvdb/|nanovdb/|itk|gdcm|tiny_gltf|nifti1|zlib" "assets"
+  "opencv2/|Eigen/|libqhull_r/" "calibration"
+  "openvdb/|nanovdb/|itk|gdcm|tiny_gltf|nifti1" "assets"
+  "zlib" "calibration|assets"
+  "fmt/" "calibration|app"
   "toml\\+\\+/" "assets|app"
   "cairo|pango/" "app"
   "nlohmann/" "assets|app"
@@ -95,7 +97,7 @@ set(third_parties
   "epoxy/" "render"
   "openssl/" "calibration"
   "CLI/" "app/text"
-  "spdlog/|fmt/|imgui|backends/imgui|SQLiteCpp/|sqlite3|zstd|portaudio|sndfile" "app")
+  "spdlog/|imgui|backends/imgui|SQLiteCpp/|sqlite3|zstd|portaudio|sndfile" "app")
 set(operating_system
   "^(sys/[a-z]+|linux/[a-z0-9-]+|unistd|fcntl|pthread|pwd|sched|signal|spawn|time|poll|dlfcn|link|termios|immintrin|x86intrin)\\.h$")
 
