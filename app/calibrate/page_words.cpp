@@ -32,18 +32,18 @@ struct Sheet {
     return page.paragraph(text, u * top, u * width, u * height, ink, align) / u;
   }
   double height(const std::string& text, double width, double line) const {
-    return page.paragraphHeight_mm(text, u * width, u * line) / u;
+    return page.paragraphHeight(text, u * width, u * line) / u;
   }
   /// One line, smaller where it would not fit.
   void line(const std::string& text, glm::dvec2 top, double width, double height, const Ink& ink, Align align) const {
-    const double is = page.textWidth_mm(text, u * height) / u, fits = is > width ? width / is : 1.0;
+    const double is = page.textWidth(text, u * height) / u, fits = is > width ? width / is : 1.0;
     words(text, {top.x, top.y + 0.5 * (1.0 - fits) * height}, width + 1.0, fits * height, ink, align);
   }
   /// In as many lines, smaller where they would be more; `bottom`: of the last one, else `top` of the first.
   void lines(int most, const std::string& text, double top, double height, const Ink& ink,
              std::optional<double> bottom = std::nullopt) const {
     // A line that is broken at a word is a little short.
-    const double is = page.textWidth_mm(text, u * height) / u, room = (most > 1 ? 0.93 : 1.0) * most * width();
+    const double is = page.textWidth(text, u * height) / u, room = (most > 1 ? 0.93 : 1.0) * most * width();
     const double fits = is > room ? room / is : 1.0;
     const double count = std::ceil(std::max(is * fits, 1.0) / width());
     words(text, {0.0, bottom ? *bottom - count * fits * height : top}, width(), fits * height, ink, Align::centre);

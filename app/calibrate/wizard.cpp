@@ -1,17 +1,7 @@
 #include "app/calibrate/wizard.h"
 
-#include "app/calibrate/steps/collect_step.h"
-#include "app/calibrate/steps/eye_check_step.h"
-#include "app/calibrate/steps/eyes_step.h"
-#include "app/calibrate/steps/fit_step.h"
-#include "app/calibrate/steps/flip_step.h"
-#include "app/calibrate/steps/home_step.h"
-#include "app/calibrate/steps/identity_step.h"
-#include "app/calibrate/steps/length_step.h"
-#include "app/calibrate/steps/proof_step.h"
-#include "app/calibrate/steps/rest_step.h"
-#include "app/calibrate/steps/rezero_step.h"
-#include "app/calibrate/steps/sign_off_step.h"
+#include <array>
+
 #include "calibration/arm/phantom_models.h"
 
 namespace app {
@@ -45,39 +35,11 @@ calibration::MeasuredArm armOf(const WizardPlan& plan) {
   return {model->geometry, {}, plan.record.rig.X_WD};
 }
 
-}  // namespace
+/// In the order of StepName.
+constexpr std::array kSteps = {identityStep, homeStep,   flipStep,  lengthStep, eyesStep, collectStep, fitStep,
+                               eyeCheckStep, verifyStep, checkStep, rezeroStep, restStep, signOffStep};
 
-std::unique_ptr<WizardStep> makeStep(StepName name, WizardBook& book) {
-  switch (name) {
-    case StepName::identity:
-      return std::make_unique<IdentityStep>(book);
-    case StepName::home:
-      return std::make_unique<HomeStep>(book);
-    case StepName::flip:
-      return std::make_unique<FlipStep>(book);
-    case StepName::length:
-      return std::make_unique<LengthStep>(book);
-    case StepName::eyes:
-      return std::make_unique<EyesStep>(book);
-    case StepName::collect:
-      return std::make_unique<CollectStep>(book);
-    case StepName::fit:
-      return std::make_unique<FitStep>(book);
-    case StepName::eye_check:
-      return std::make_unique<EyeCheckStep>(book);
-    case StepName::verify:
-      return std::make_unique<ProofStep>(book, "verify8");
-    case StepName::check:
-      return std::make_unique<ProofStep>(book, "check4");
-    case StepName::rezero:
-      return std::make_unique<RezeroStep>(book);
-    case StepName::rest:
-      return std::make_unique<RestStep>(book);
-    case StepName::sign_off:
-      return std::make_unique<SignOffStep>(book);
-  }
-  return nullptr;
-}
+}  // namespace
 
 Wizard::Wizard(WizardPlan plan) {
   if (plan.procedure == CalibrationProcedure::full && !calibration::targetPlan(plan.method, plan.jig))
@@ -86,11 +48,10 @@ Wizard::Wizard(WizardPlan plan) {
   book_.plan = std::move(plan);
   book_.arm = armOf(book_.plan);
   book_.arm_is_measured = book_.plan.procedure != CalibrationProcedure::full && book_.plan.record.rig.arm.has_value();
-  for (const StepName name : pagesOf(book_.plan.procedure)) steps_.emplace_back(name, makeStep(name, book_));
+  for (const StepName name : pagesOf(book_.plan.procedure))
+    steps_.emplace_back(name, kSteps[static_cast<std::size_t>(name)](book_));
   turnTo(0);
 }
-
-Wizard::~Wizard() = default;
 
 void Wizard::feel(const StylusSample& sample) {
   if (isOver()) return;

@@ -16,7 +16,6 @@ class Wizard {
  public:
   /// Throws CalibrationError: no such method, no such model of device.
   explicit Wizard(WizardPlan plan);
-  ~Wizard();
 
   /// In the order of time. Every tick of 500 to 10,000 Hz; also while nothing can be believed.
   void feel(const StylusSample& sample);

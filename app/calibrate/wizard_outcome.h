@@ -45,6 +45,9 @@ struct WizardOutcome {
   int silences = 0;         ///< of the device, in between
 };
 
+/// The rig with what is known by now of screen and eyes.
+calibration::Rig rigSoFar(const calibration::Rig& rig, const WizardOutcome& outcome);
+
 /// The record with everything that was accepted put in. Times, versions, operator and parent are left to who saves it.
 /// As `before` unless it was accepted.
 calibration::RigRecord recordOf(const WizardPlan& plan, const WizardOutcome& outcome);

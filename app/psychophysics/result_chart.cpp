@@ -122,7 +122,7 @@ Chart chartOf(const Protocol& protocol, const Outcome& outcome) {
     chart.panels.push_back(sharePanel(outcome));
   else
     chart.panels.push_back(psychometricPanel(protocol, outcome));
-  if (chart.panels.size() == 1) chart.size_px = {1360, 1080};
+  if (chart.panels.size() == 1) chart.size.x = 544.0;
   return chart;
 }
 

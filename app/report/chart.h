@@ -1,7 +1,6 @@
-// A figure for a report: panels side by side with curves, points with bars, reference lines, one legend below. Drawn by
-// Cairo and Pango, which stay in the .cpp, to a PNG for print at 20 px a mm (300 dpi at 170 mm width). Colours of
-// curves are Okabe and Ito's, told apart by colour-blind eyes and in grey; dashes help where lines cross. Not the
-// rehearsal's picture (render). Any one thread; a tenth of a second.
+// A figure for a report: panels side by side with curves, points with bars, reference lines, one legend below. A PNG
+// for print, 300 dpi. Colours of curves are Okabe and Ito's, told apart by colour-blind eyes and in grey; dashes help
+// where lines cross. Not the rehearsal's picture (render). Any one thread; a tenth of a second.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -39,10 +38,10 @@ struct Panel {
 struct Chart {
   std::string title, caption;
   std::vector<Panel> panels;
-  glm::ivec2 size_px{2040, 1080};
+  glm::dvec2 size{816.0, 432.0};  ///< 120ths of an inch
 };
 
-/// Throws std::runtime_error when the file can not be written. The file is committed.
-void drawChart(const Chart& chart, calibration::OutputFile& file);
+/// Throws UsageError when the file can not be written. The file is committed.
+void drawChart(const Chart& chart, assets::OutputFile& file);
 
 }  // namespace app

@@ -8,7 +8,8 @@
 #include "app/calibrate/report/history_view.h"
 #include "app/calibrate/report/report_tables.h"
 #include "app/calibrate/report/residual_views.h"
-#include "app/report/svg.h"
+#include "app/report/drawing.h"
+#include "app/report/markup.h"
 #include "calibration/fit/expected_error_map.h"
 #include "calibration/record/drift_review.h"
 
@@ -49,16 +50,16 @@ h2, tr { break-after: avoid; break-inside: avoid; }
 
 /// A shape of its own for each verdict.
 std::string symbolOf(const std::optional<Verdict>& verdict) {
-  Svg svg({44.0, 44.0}, "");
+  Drawing drawing({44.0, 44.0});
   if (!verdict)
-    svg.box({4.0, 4.0}, {36.0, 36.0}, paper::kWhite, {paper::kQuiet, 3.0, "6 4"});
+    drawing.outline({4.0, 4.0}, {36.0, 36.0}, 3.0, paper::kQuiet, {6.0, 4.0});
   else if (*verdict == Verdict::green)
-    svg.disc({22.0, 22.0}, 19.0, paper::kGreen);
+    drawing.disc({22.0, 22.0}, 19.0, paper::kGreen);
   else if (*verdict == Verdict::amber)
-    svg.area({{22.0, 3.0}, {42.0, 40.0}, {2.0, 40.0}}, "#e69f00");
+    drawing.polygon({{22.0, 3.0}, {42.0, 40.0}, {2.0, 40.0}}, paper::kAmber);
   else
-    svg.box({4.0, 4.0}, {36.0, 36.0}, paper::kOrange);
-  return svg.markup();
+    drawing.box({4.0, 4.0}, {36.0, 36.0}, paper::kOrange);
+  return drawing.markup("");
 }
 
 std::string wordsOf(const std::optional<Verdict>& verdict) {

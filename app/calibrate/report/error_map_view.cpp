@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "app/report/axis_ticks.h"
-#include "app/report/svg.h"
+#include "app/report/axes.h"
+#include "app/report/markup.h"
 
 namespace app {
 namespace {
@@ -14,11 +14,11 @@ using calibration::Point;
 using calibration::World;
 
 constexpr glm::dvec2 kHalf_mm{80.0, 60.0};
-constexpr double kCell_mm = 2.0, kPxPerMm = 3.2, kLeft = 50.0, kTop = 26.0, kBelow = 46.0, kScale = 150.0;
+constexpr double kCell_mm = 2.0, kPxPerMm = 3.2, kLeft = 50.0, kTop = 26.0, kScale = 150.0, kDot = 3.2;
 
 /// Light is small; steps that stay apart in grey. After ColorBrewer's Blues (Brewer 2003).
-constexpr std::array<std::string_view, 7> kBands = {"#eff3ff", "#c6dbef", "#9ecae1", "#6baed6",
-                                                    "#4292c6", "#2171b5", "#084594"};
+constexpr std::array kBands = {inkOf(0xeff3ff), inkOf(0xc6dbef), inkOf(0x9ecae1), inkOf(0x6baed6),
+                               inkOf(0x4292c6), inkOf(0x2171b5), inkOf(0x084594)};
 
 struct Bands {
   double low_mm = 0.0, step_mm = 0.05;
@@ -38,11 +38,7 @@ Bands bandsFor(double least_mm, double most_mm) {
   return {0.0, 10.0};
 }
 
-glm::dvec2 placed(double x_mm, double y_mm) {
-  return {kLeft + kPxPerMm * (x_mm + kHalf_mm.x), kTop + kPxPerMm * (kHalf_mm.y - y_mm)};
-}
-
-void drawField(Svg& svg, const ExpectedError& expected_mm, const Bands& bands) {
+void drawField(const Drawing& drawing, const Axes& axes, const ExpectedError& expected_mm, const Bands& bands) {
   // Cells of one band in a row are one box.
   const int columns = static_cast<int>(2.0 * kHalf_mm.x / kCell_mm),
             rows = static_cast<int>(2.0 * kHalf_mm.y / kCell_mm);
@@ -55,37 +51,31 @@ void drawField(Svg& svg, const ExpectedError& expected_mm, const Bands& bands) {
       const std::size_t band = band_at(from);
       for (to = from + 1; to < columns && band_at(to) == band; ++to) continue;
       // A hair over, so that no white shows between.
-      svg.box(placed(-kHalf_mm.x + from * kCell_mm, y_mm + 0.5 * kCell_mm),
-              {kPxPerMm * kCell_mm * (to - from) + 0.4, kPxPerMm * kCell_mm + 0.4}, kBands[band]);
+      drawing.box(axes.at({-kHalf_mm.x + from * kCell_mm, y_mm + 0.5 * kCell_mm}),
+                  {kPxPerMm * kCell_mm * (to - from) + 0.4, kPxPerMm * kCell_mm + 0.4}, kBands[band]);
     }
   }
 }
 
-void drawAxes(Svg& svg) {
-  const glm::dvec2 corner = placed(-kHalf_mm.x, kHalf_mm.y), foot = placed(kHalf_mm.x, -kHalf_mm.y);
-  svg.box(corner, foot - corner, paper::kNone, {paper::kQuiet, 1.0});
-  for (const double x_mm : {-80.0, -40.0, 0.0, 40.0, 80.0})
-    svg.words({placed(x_mm, 0.0).x, foot.y + 16.0}, fixedText(x_mm, 0), TextAnchor::middle, paper::kQuiet, 11.0);
-  for (const double y_mm : {-60.0, -30.0, 0.0, 30.0, 60.0})
-    svg.words({kLeft - 6.0, placed(0.0, y_mm).y + 4.0}, fixedText(y_mm, 0), TextAnchor::end, paper::kQuiet, 11.0);
-  svg.words({0.5 * (corner.x + foot.x), foot.y + 34.0}, "x, to the right / mm", TextAnchor::middle, paper::kInk, 11.5);
-  svg.words({kLeft, kTop - 9.0}, "y, upwards / mm", TextAnchor::start, paper::kInk, 11.5);
+void drawTouch(const Drawing& drawing, const glm::dvec2& at) {
+  drawing.disc(at, kDot, paper::kWhite);
+  drawing.circle(at, kDot, 1.2, paper::kInk);
 }
 
-void drawScale(Svg& svg, const Bands& bands, std::size_t used) {
-  const double x = placed(kHalf_mm.x, 0.0).x + 30.0, step = 24.0;
+void drawScale(const Drawing& drawing, const Bands& bands, std::size_t used, const glm::dvec2& corner) {
+  constexpr glm::dvec2 kBox{26.0, 24.0}, kToWords{34.0, 0.5 * kBox.y};
   const int digits = bands.step_mm < 0.1 ? 2 : 1;
-  double y = kTop + 24.0;
-  svg.words({x, kTop + 8.0}, "expected error / mm", TextAnchor::start, paper::kInk, 11.5);
-  for (std::size_t band = 0; band < used; ++band, y += step) {
-    svg.box({x, y}, {26.0, step}, kBands[band], {paper::kQuiet, 0.6});
+  drawing.text("expected error / mm", corner + glm::dvec2(0.0, 4.0), kLabelLine, paper::kInk, Align::left);
+  glm::dvec2 at = corner + glm::dvec2(0.0, kBox.y);
+  for (std::size_t band = 0; band < used; ++band, at.y += kBox.y) {
+    drawing.box(at, kBox, kBands[band]);
+    drawing.outline(at, kBox, 0.6, paper::kQuiet);
     const double low_mm = bands.low_mm + bands.step_mm * static_cast<double>(band);
-    svg.words({x + 34.0, y + 0.5 * step + 4.0},
-              fixedText(low_mm, digits) + " to " + fixedText(low_mm + bands.step_mm, digits), TextAnchor::start,
-              paper::kInk, 11.0);
+    drawing.text(fixedText(low_mm, digits) + " to " + fixedText(low_mm + bands.step_mm, digits), at + kToWords,
+                 kNumberLine, paper::kInk, Align::left);
   }
-  svg.disc({x + 13.0, y + 20.0}, 3.2, paper::kWhite, {paper::kInk, 1.2});
-  svg.words({x + 34.0, y + 24.0}, "touches", TextAnchor::start, paper::kInk, 11.0);
+  drawTouch(drawing, at + glm::dvec2(0.5 * kBox.x, 20.0));
+  drawing.text("touches", at + glm::dvec2(kToWords.x, 20.0), kNumberLine, paper::kInk, Align::left);
 }
 
 }  // namespace
@@ -99,15 +89,19 @@ std::string errorMapView(const ExpectedError& expected_mm, const std::vector<Poi
       most_mm = std::max(most_mm, mm);
     }
   const Bands bands = bandsFor(least_mm, most_mm);
-  const glm::dvec2 foot = placed(kHalf_mm.x, -kHalf_mm.y);
-  Svg svg({foot.x + kScale, foot.y + kBelow}, "Error to be expected over the plane through the site");
-  drawField(svg, expected_mm, bands);
+  const Axes axes{{kLeft, kTop},
+                  2.0 * kPxPerMm * kHalf_mm,
+                  axisOf(axisTicks(-kHalf_mm.x, kHalf_mm.x, 8, false), "x, to the right / mm"),
+                  axisOf(axisTicks(-kHalf_mm.y, kHalf_mm.y, 6, false), "y, upwards / mm"),
+                  ""};
+  Drawing drawing(axes.foot() + glm::dvec2(kScale, Axes::kBelow));
+  axes.draw(drawing);
+  drawField(drawing, axes, expected_mm, bands);
   for (const Point<World>& touch : touches_W)
-    if (std::abs(touch.mm.x) < kHalf_mm.x && std::abs(touch.mm.y) < kHalf_mm.y)
-      svg.disc(placed(touch.mm.x, touch.mm.y), 3.2, paper::kWhite, {paper::kInk, 1.2});
-  drawAxes(svg);
-  drawScale(svg, bands, bands.of(most_mm) + 1);
-  return svg.markup();
+    if (std::abs(touch.mm.x) < kHalf_mm.x && std::abs(touch.mm.y) < kHalf_mm.y) drawTouch(drawing, axes.at(touch.mm));
+  drawing.outline(axes.corner, axes.size, 1.0, paper::kQuiet);
+  drawScale(drawing, bands, bands.of(most_mm) + 1, {axes.foot().x + 30.0, axes.corner.y});
+  return drawing.markup("Error to be expected over the plane through the site");
 }
 
 }  // namespace app

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/report/svg.h"
+#include "app/report/markup.h"
 #include "calibration/fit/fit_warnings.h"
 #include "calibration/fit/rest_registration.h"
 #include "calibration/record/rig_store.h"

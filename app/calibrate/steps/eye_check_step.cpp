@@ -1,17 +1,20 @@
-#include "app/calibrate/steps/eye_check_step.h"
+// Four crosses in stereo, before and behind the screen's plane: where they seem to be tells whether pupils and distance
+// were measured well. Eyes are never solved from them: so few alignments leave 20 mm open. One thread.
+// Source: reference/calibration 2.2.
 
 #include <cmath>
 
+#include "app/calibrate/choice_menu.h"
 #include "app/calibrate/number_words.h"
-#include "app/calibrate/steps/collect_step.h"
+#include "app/calibrate/steps/step.h"
+#include "app/calibrate/touch_round.h"
 
 namespace app {
 namespace {
 
 constexpr double kMostBias_mm = 1.0, kMostDepthBias_mm = 2.0;
 
-}  // namespace
-
+/// Where they are, and how the stylus is held there.
 calibration::TargetPlan eyeCheckPlan() {
   calibration::TargetPlan plan{"eyes4", calibration::TargetKind::cross, calibration::kCrossPrecision, {}};
   const calibration::Vector<calibration::World> rest = calibration::kRestingStylus_W;
@@ -22,53 +25,67 @@ calibration::TargetPlan eyeCheckPlan() {
   return plan;
 }
 
-void EyeCheckStep::begin() {
-  const calibration::TargetPlan plan = eyeCheckPlan();
-  book_.outcome.eye_check = emptySet(book_, plan);
-  round_.emplace(plan, book_.arm, 0.0, book_.voice);
-  round_->letTiltBe();
-  doubt_.reset();
-}
-
-StepAnswer EyeCheckStep::feel(const StylusSample& sample, Press press, double pressed_s) {
-  if (doubt_) {
-    const auto chosen = doubt_->feel(press);
-    if (!chosen) return {};
-    return *chosen == 0 ? StepAnswer::goTo(StepName::eyes) : StepAnswer::next();
+class EyeCheckStep final : public WizardStep {
+ public:
+  using WizardStep::WizardStep;
+  void begin() override {
+    const calibration::TargetPlan plan = eyeCheckPlan();
+    book_.outcome.eye_check = emptySet(book_, plan);
+    round_.emplace(plan, book_.arm, 0.0, book_.voice);
+    round_->letTiltBe();
+    doubt_.reset();
   }
-  if (round_->feel(sample, press, pressed_s) == TouchRound::Happened::left) return StepAnswer::declined();
-  if (!round_->isComplete()) return {};
-  book_.outcome.eye_check.touches = round_->touches();
 
-  // Nearer before the plane and further behind it: pupils or distance; all to one side: the head's place.
-  glm::dvec3 bias_mm(0.0);
-  double stretch_mm = 0.0;
-  for (const calibration::Residual& seen : calibration::residualsOf(book_.arm, book_.outcome.eye_check.touches)) {
-    bias_mm += 0.25 * seen.error_mm.xyz;
-    stretch_mm += 0.25 * seen.error_mm.xyz.z * (seen.target_W.mm.z > 0.0 ? 1.0 : -1.0);
+  StepAnswer feel(const StylusSample& sample, Press press, double pressed_s) override {
+    if (doubt_) {
+      const auto chosen = doubt_->feel(press);
+      if (!chosen) return {};
+      return *chosen == 0 ? StepAnswer::goTo(StepName::eyes) : StepAnswer::next();
+    }
+    if (round_->feel(sample, press, pressed_s) == TouchRound::Happened::left) return StepAnswer::declined();
+    if (!round_->isComplete()) return {};
+    book_.outcome.eye_check.touches = round_->touches();
+
+    // Nearer before the plane and further behind it: pupils or distance; all to one side: the head's place.
+    glm::dvec3 bias_mm(0.0);
+    double stretch_mm = 0.0;
+    for (const calibration::Residual& seen : calibration::residualsOf(book_.arm, book_.outcome.eye_check.touches)) {
+      bias_mm += 0.25 * seen.error_mm.xyz;
+      stretch_mm += 0.25 * seen.error_mm.xyz.z * (seen.target_W.mm.z > 0.0 ? 1.0 : -1.0);
+    }
+    const double across_mm = std::hypot(bias_mm.x, bias_mm.y);
+    if (across_mm <= kMostBias_mm && std::abs(bias_mm.z) <= kMostDepthBias_mm &&
+        std::abs(stretch_mm) <= kMostDepthBias_mm)
+      return StepAnswer::next();
+    finding_ =
+        std::abs(stretch_mm) > kMostDepthBias_mm
+            ? "Depth is seen " + inMm(std::abs(stretch_mm)) + (stretch_mm > 0.0 ? " too large" : " too small") +
+                  " at 25 mm: measure pupils and distance again."
+            : "The crosses seem " + inMm(glm::length(bias_mm)) + " off: sit as for work and measure the eyes again.";
+    doubt_ = ChoiceMenu({"measure the eyes again", "go on as it is"});
+    book_.voice.refuse(finding_);
+    return {};
   }
-  const double across_mm = std::hypot(bias_mm.x, bias_mm.y);
-  if (across_mm <= kMostBias_mm && std::abs(bias_mm.z) <= kMostDepthBias_mm &&
-      std::abs(stretch_mm) <= kMostDepthBias_mm)
-    return StepAnswer::next();
-  finding_ =
-      std::abs(stretch_mm) > kMostDepthBias_mm
-          ? "Depth is seen " + inMm(std::abs(stretch_mm)) + (stretch_mm > 0.0 ? " too large" : " too small") +
-                " at 25 mm: measure pupils and distance again."
-          : "The crosses seem " + inMm(glm::length(bias_mm)) + " off: sit as for work and measure the eyes again.";
-  doubt_ = ChoiceMenu({"measure the eyes again", "go on as it is"});
-  book_.voice.refuse(finding_);
-  return {};
-}
 
-void EyeCheckStep::show(WizardView& view) const {
-  view.title = "Crosses in depth";
-  view.sentence = "Both eyes open, head in its rest: tip to the glowing cross where it floats.";
-  round_->show(view);
-  view.zero_parallax = false;
-  if (!doubt_) return;
-  view.sentence = finding_;
-  doubt_->show(view);
-}
+  void lost() override { round_->lost(); }
+  void show(WizardView& view) const override {
+    view.title = "Crosses in depth";
+    view.sentence = "Both eyes open, head in its rest: tip to the glowing cross where it floats.";
+    round_->show(view);
+    view.zero_parallax = false;
+    if (!doubt_) return;
+    view.sentence = finding_;
+    doubt_->show(view);
+  }
+
+ private:
+  std::optional<TouchRound> round_;
+  std::optional<ChoiceMenu> doubt_;
+  std::string finding_;
+};
+
+}  // namespace
+
+std::unique_ptr<WizardStep> eyeCheckStep(WizardBook& book) { return std::make_unique<EyeCheckStep>(book); }
 
 }  // namespace app

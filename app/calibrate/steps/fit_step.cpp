@@ -1,6 +1,9 @@
-#include "app/calibrate/steps/fit_step.h"
+// The arm is worked out from its touches; what makes the result less than it seems is said. One thread; feel() takes up
+// to a second once.
 
+#include "app/calibrate/choice_menu.h"
 #include "app/calibrate/number_words.h"
+#include "app/calibrate/steps/step.h"
 
 namespace app {
 namespace {
@@ -8,77 +11,90 @@ namespace {
 constexpr double kShown_s = 0.1;     // the page is seen before it is worked
 constexpr double kMuddled_mm = 4.0;  // cross-validated: no arm is as untrue as that
 
+class FitStep final : public WizardStep {
+ public:
+  using WizardStep::WizardStep;
+  void begin() override {
+    worked_ = failed_ = false;
+    since_s_.reset();
+    book_.outcome.fit.reset();
+    book_.outcome.arm.reset();
+  }
+
+  StepAnswer feel(const StylusSample& sample, Press press, double) override {
+    if (!since_s_) since_s_ = sample.t_s;
+    if (!worked_) {
+      if (sample.t_s - *since_s_ >= kShown_s) work();
+      return {};
+    }
+    const auto chosen = menu_.feel(press);
+    if (!chosen) return {};
+    if (!failed_ && *chosen == 0) return StepAnswer::next();
+    if (*chosen == (failed_ ? 0U : 1U)) return StepAnswer::goTo(StepName::collect);
+    if (failed_) return StepAnswer::refused(why_);
+    return StepAnswer::declined();
+  }
+
+  bool needsDevice() const override { return false; }
+  void show(WizardView& view) const override {
+    view.title = !worked_ ? "One moment" : failed_ ? "It does not work out" : "The arm is worked out";
+    if (!worked_) {
+      view.sentence = "The arm is worked out from its touches.";
+      return;
+    }
+    menu_.show(view);
+    if (failed_) {
+      view.sentence = why_;
+      return;
+    }
+    const calibration::ArmFit& fit = *book_.outcome.fit;
+    view.sentence = "Now it is proved with touches that it has not seen.";
+    view.facts = {std::to_string(fit.used) + " touches used, " + std::to_string(fit.outliers) + " set aside",
+                  "expected error " + inMm(fit.cv_rms_mm)};
+    for (const calibration::FitWarning& warning : fit.warnings) view.facts.push_back(warning.line);
+  }
+
+ private:
+  void work() {
+    worked_ = true;
+    try {
+      calibration::FitOptions options;
+      options.region_mm3 = book_.plan.region_mm3;
+      calibration::ArmFit fit = calibration::fitArm(book_.outcome.touches, options);
+      for (const calibration::FitWarning& warning : fit.warnings) {
+        if (warning.kind == calibration::FitWarning::Kind::mirrored) return refuse(warning.line);
+        if (warning.kind == calibration::FitWarning::Kind::many_outliers && fit.outliers * 3 > fit.used)
+          return refuse(warning.line);
+      }
+      if (fit.cv_rms_mm > kMuddled_mm && !book_.byEyes())
+        return refuse("The touches do not fit together (" + inMm(fit.cv_rms_mm) +
+                      "): touch the pits in the order they glow, and see that the block does not move.");
+      book_.outcome.fit = std::move(fit);
+      book_.outcome.arm = book_.outcome.fit->arm;
+      book_.arm = book_.outcome.fit->arm;
+      book_.arm_is_measured = true;
+      menu_ = ChoiceMenu({"go on to the proof", "touch all again", "leave; the old calibration stays"});
+      book_.voice.praise("Worked out.", WizardSound::next);
+    } catch (const calibration::CalibrationError& error) {
+      refuse(error.what());
+    }
+  }
+
+  void refuse(std::string why) {
+    failed_ = true;
+    why_ = std::move(why);
+    menu_ = ChoiceMenu({"touch all again", "leave; the old calibration stays"});
+    book_.voice.refuse("No arm explains these touches.");
+  }
+
+  std::optional<double> since_s_;
+  bool worked_ = false, failed_ = false;
+  std::string why_;
+  ChoiceMenu menu_{{}};
+};
+
 }  // namespace
 
-void FitStep::begin() {
-  worked_ = failed_ = false;
-  since_s_.reset();
-  book_.outcome.fit.reset();
-  book_.outcome.arm.reset();
-}
-
-StepAnswer FitStep::feel(const StylusSample& sample, Press press, double) {
-  if (!since_s_) since_s_ = sample.t_s;
-  if (!worked_) {
-    if (sample.t_s - *since_s_ >= kShown_s) work();
-    return {};
-  }
-  const auto chosen = menu_.feel(press);
-  if (!chosen) return {};
-  if (!failed_ && *chosen == 0) return StepAnswer::next();
-  if (*chosen == (failed_ ? 0U : 1U)) return StepAnswer::goTo(StepName::collect);
-  if (failed_) return StepAnswer::refused(why_);
-  return StepAnswer::declined();
-}
-
-void FitStep::work() {
-  worked_ = true;
-  try {
-    calibration::FitOptions options;
-    options.region_mm3 = book_.plan.region_mm3;
-    calibration::ArmFit fit = calibration::fitArm(book_.outcome.touches, options);
-    for (const calibration::FitWarning& warning : fit.warnings) {
-      if (warning.kind == calibration::FitWarning::Kind::mirrored) return refuse(warning.line);
-      if (warning.kind == calibration::FitWarning::Kind::many_outliers && fit.outliers * 3 > fit.used)
-        return refuse(warning.line);
-    }
-    if (fit.cv_rms_mm > kMuddled_mm && !book_.byEyes())
-      return refuse("The touches do not fit together (" + inMm(fit.cv_rms_mm) +
-                    "): touch the pits in the order they glow, and see that the block does not move.");
-    book_.outcome.fit = std::move(fit);
-    book_.outcome.arm = book_.outcome.fit->arm;
-    book_.arm = book_.outcome.fit->arm;
-    book_.arm_is_measured = true;
-    menu_ = ChoiceMenu({"go on to the proof", "touch all again", "leave; the old calibration stays"});
-    book_.voice.praise("Worked out.", WizardSound::next);
-  } catch (const calibration::CalibrationError& error) {
-    refuse(error.what());
-  }
-}
-
-void FitStep::refuse(std::string why) {
-  failed_ = true;
-  why_ = std::move(why);
-  menu_ = ChoiceMenu({"touch all again", "leave; the old calibration stays"});
-  book_.voice.refuse("No arm explains these touches.");
-}
-
-void FitStep::show(WizardView& view) const {
-  view.title = !worked_ ? "One moment" : failed_ ? "It does not work out" : "The arm is worked out";
-  if (!worked_) {
-    view.sentence = "The arm is worked out from its touches.";
-    return;
-  }
-  menu_.show(view);
-  if (failed_) {
-    view.sentence = why_;
-    return;
-  }
-  const calibration::ArmFit& fit = *book_.outcome.fit;
-  view.sentence = "Now it is proved with touches that it has not seen.";
-  view.facts = {std::to_string(fit.used) + " touches used, " + std::to_string(fit.outliers) + " set aside",
-                "expected error " + inMm(fit.cv_rms_mm)};
-  for (const calibration::FitWarning& warning : fit.warnings) view.facts.push_back(warning.line);
-}
+std::unique_ptr<WizardStep> fitStep(WizardBook& book) { return std::make_unique<FitStep>(book); }
 
 }  // namespace app

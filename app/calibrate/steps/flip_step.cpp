@@ -1,6 +1,9 @@
-#include "app/calibrate/steps/flip_step.h"
+// Whether the picture reaches the eye the right way round: a drawn F must read right. One thread.
 
 #include <array>
+
+#include "app/calibrate/choice_menu.h"
+#include "app/calibrate/steps/step.h"
 
 namespace app {
 namespace {
@@ -14,34 +17,45 @@ ChoiceMenu which() {
                      "turned to the left", "back"});
 }
 
+class FlipStep final : public WizardStep {
+ public:
+  using WizardStep::WizardStep;
+  void begin() override {
+    which_ = false;
+    menu_ = whether();
+  }
+
+  StepAnswer feel(const StylusSample&, Press press, double) override {
+    const auto chosen = menu_.feel(press);
+    if (!chosen) return {};
+    if (!which_ && *chosen == 0) {
+      book_.outcome.flip = calibration::Reading{};
+      return StepAnswer::next();
+    }
+    if (!which_ || *chosen == kWays.size()) {
+      which_ = !which_;
+      menu_ = which_ ? which() : whether();
+      return {};
+    }
+    book_.outcome.flip = kWays[*chosen];
+    return StepAnswer::refused(calibration::remedyFor(kWays[*chosen]));
+  }
+
+  bool needsDevice() const override { return false; }
+  void show(WizardView& view) const override {
+    view.title = which_ ? "How does it read?" : "Does the F read right?";
+    view.sentence = "Look into the mirror as for work: the letter must stand upright and read as on paper.";
+    view.figure = WizardFigure::letter_f;
+    menu_.show(view);
+  }
+
+ private:
+  ChoiceMenu menu_{{}};
+  bool which_ = false;  ///< it does not read right: asked how
+};
+
 }  // namespace
 
-void FlipStep::begin() {
-  which_ = false;
-  menu_ = whether();
-}
-
-StepAnswer FlipStep::feel(const StylusSample&, Press press, double) {
-  const auto chosen = menu_.feel(press);
-  if (!chosen) return {};
-  if (!which_ && *chosen == 0) {
-    book_.outcome.flip = calibration::Reading{};
-    return StepAnswer::next();
-  }
-  if (!which_ || *chosen == kWays.size()) {
-    which_ = !which_;
-    menu_ = which_ ? which() : whether();
-    return {};
-  }
-  book_.outcome.flip = kWays[*chosen];
-  return StepAnswer::refused(calibration::remedyFor(kWays[*chosen]));
-}
-
-void FlipStep::show(WizardView& view) const {
-  view.title = which_ ? "How does it read?" : "Does the F read right?";
-  view.sentence = "Look into the mirror as for work: the letter must stand upright and read as on paper.";
-  view.figure = WizardFigure::letter_f;
-  menu_.show(view);
-}
+std::unique_ptr<WizardStep> flipStep(WizardBook& book) { return std::make_unique<FlipStep>(book); }
 
 }  // namespace app

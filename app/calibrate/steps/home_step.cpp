@@ -1,6 +1,8 @@
-#include "app/calibrate/steps/home_step.h"
+// The device finds its zero in its inkwell, and gets time to settle. One thread.
 
 #include <algorithm>
+
+#include "app/calibrate/steps/step.h"
 
 namespace app {
 namespace {
@@ -8,79 +10,92 @@ namespace {
 constexpr double kDocked_s = 0.5;
 constexpr double kDoubted_s = 0.3;
 
+class HomeStep final : public WizardStep {
+ public:
+  using WizardStep::WizardStep;
+  void begin() override {
+    phase_ = Phase::to_inkwell;
+    seen_ = false;
+    settled_s_ = 0.0;
+  }
+
+  StepAnswer feel(const StylusSample& sample, Press press, double) override {
+    if (press == Press::long_press)
+      return StepAnswer::refused("The device was not brought home: nothing can be measured with it.");
+    const double passed_s = seen_ ? std::max(0.0, sample.t_s - since_s_) : 0.0;
+    seen_ = true;
+
+    switch (phase_) {
+      case Phase::to_inkwell: {
+        const bool is_home = sample.believable && (sample.docked || !book_.plan.has_inkwell);
+        if (press == Press::short_press && book_.plan.has_inkwell && !sample.docked)
+          book_.voice.refuse("The stylus is not in its inkwell: push it home.");
+        else if (press == Press::short_press && !sample.believable)
+          book_.voice.refuse("The device does not know its zero yet.");
+        // A device without an inkwell is told by a press.
+        if (!is_home || (!book_.plan.has_inkwell && press != Press::short_press)) {
+          since_s_ = sample.t_s;
+          return {};
+        }
+        if (book_.plan.has_inkwell && sample.t_s - since_s_ < kDocked_s) return {};
+        since_s_ = sample.t_s;
+        phase_ = Phase::settling;
+        book_.voice.praise("Home.");
+        return {};
+      }
+      case Phase::settling:
+        if (!sample.believable && passed_s > kDoubted_s) {
+          begin();
+          return {};
+        }
+        if (sample.believable) {
+          settled_s_ += passed_s;
+          since_s_ = sample.t_s;
+        }
+        if (settled_s_ < book_.plan.settle_s && book_.plan.procedure == CalibrationProcedure::full) return {};
+        phase_ = Phase::take_out;
+        if (sample.docked) book_.voice.sounds.push_back(WizardSound::next);
+        return {};
+      case Phase::take_out:
+        return sample.docked ? StepAnswer{} : StepAnswer::next();
+    }
+    return {};
+  }
+
+  void lost() override { begin(); }
+  bool needsDevice() const override { return false; }
+  void show(WizardView& view) const override {
+    view.title = "Bring the device home";
+    view.button = {"", "leave", ""};
+    view.inkwell = book_.plan.has_inkwell && phase_ != Phase::take_out;
+    switch (phase_) {
+      case Phase::to_inkwell:
+        if (book_.plan.has_inkwell) {
+          view.sentence = "Push the stylus into its inkwell and let it go.";
+        } else {
+          view.sentence = "Bring the stylus where its maker says is home, then press.";
+          view.button.short_press = "it is home";
+        }
+        break;
+      case Phase::settling:
+        view.sentence = "Leave it: arm and motors settle. Lamp under the mirror on, arm supported, seat as for work.";
+        view.time_left_s = std::max(0.0, book_.plan.settle_s - settled_s_);
+        view.progress = std::min(1.0, settled_s_ / std::max(1e-9, book_.plan.settle_s));
+        break;
+      case Phase::take_out:
+        view.sentence = "Take the stylus out.";
+        break;
+    }
+  }
+
+ private:
+  enum class Phase { to_inkwell, settling, take_out } phase_ = Phase::to_inkwell;
+  double since_s_ = 0.0, settled_s_ = 0.0;
+  bool seen_ = false;
+};
+
 }  // namespace
 
-void HomeStep::begin() {
-  phase_ = Phase::to_inkwell;
-  seen_ = false;
-  settled_s_ = 0.0;
-}
-
-StepAnswer HomeStep::feel(const StylusSample& sample, Press press, double) {
-  if (press == Press::long_press)
-    return StepAnswer::refused("The device was not brought home: nothing can be measured with it.");
-  const double passed_s = seen_ ? std::max(0.0, sample.t_s - since_s_) : 0.0;
-  seen_ = true;
-
-  switch (phase_) {
-    case Phase::to_inkwell: {
-      const bool is_home = sample.believable && (sample.docked || !book_.plan.has_inkwell);
-      if (press == Press::short_press && book_.plan.has_inkwell && !sample.docked)
-        book_.voice.refuse("The stylus is not in its inkwell: push it home.");
-      else if (press == Press::short_press && !sample.believable)
-        book_.voice.refuse("The device does not know its zero yet.");
-      // A device without an inkwell is told by a press.
-      if (!is_home || (!book_.plan.has_inkwell && press != Press::short_press)) {
-        since_s_ = sample.t_s;
-        return {};
-      }
-      if (book_.plan.has_inkwell && sample.t_s - since_s_ < kDocked_s) return {};
-      since_s_ = sample.t_s;
-      phase_ = Phase::settling;
-      book_.voice.praise("Home.");
-      return {};
-    }
-    case Phase::settling:
-      if (!sample.believable && passed_s > kDoubted_s) {
-        begin();
-        return {};
-      }
-      if (sample.believable) {
-        settled_s_ += passed_s;
-        since_s_ = sample.t_s;
-      }
-      if (settled_s_ < book_.plan.settle_s && book_.plan.procedure == CalibrationProcedure::full) return {};
-      phase_ = Phase::take_out;
-      if (sample.docked) book_.voice.sounds.push_back(WizardSound::next);
-      return {};
-    case Phase::take_out:
-      return sample.docked ? StepAnswer{} : StepAnswer::next();
-  }
-  return {};
-}
-
-void HomeStep::show(WizardView& view) const {
-  view.title = "Bring the device home";
-  view.button = {"", "leave", ""};
-  view.inkwell = book_.plan.has_inkwell && phase_ != Phase::take_out;
-  switch (phase_) {
-    case Phase::to_inkwell:
-      if (book_.plan.has_inkwell) {
-        view.sentence = "Push the stylus into its inkwell and let it go.";
-      } else {
-        view.sentence = "Bring the stylus where its maker says is home, then press.";
-        view.button.short_press = "it is home";
-      }
-      break;
-    case Phase::settling:
-      view.sentence = "Leave it: arm and motors settle. Lamp under the mirror on, arm supported, seat as for work.";
-      view.time_left_s = std::max(0.0, book_.plan.settle_s - settled_s_);
-      view.progress = std::min(1.0, settled_s_ / std::max(1e-9, book_.plan.settle_s));
-      break;
-    case Phase::take_out:
-      view.sentence = "Take the stylus out.";
-      break;
-  }
-}
+std::unique_ptr<WizardStep> homeStep(WizardBook& book) { return std::make_unique<HomeStep>(book); }
 
 }  // namespace app

@@ -1,4 +1,7 @@
-#include "app/calibrate/steps/identity_step.h"
+// Which rig, device, side and stylus tip: shown, and confirmed by who holds it. One thread.
+
+#include "app/calibrate/choice_menu.h"
+#include "app/calibrate/steps/step.h"
 
 namespace app {
 namespace {
@@ -20,30 +23,40 @@ std::string whyNotBuiltOn(const calibration::Rig& rig, const calibration::RigDev
   return {};
 }
 
+class IdentityStep final : public WizardStep {
+ public:
+  using WizardStep::WizardStep;
+  void begin() override { menu_ = ChoiceMenu({"all of it is right", "something is wrong"}); }
+
+  StepAnswer feel(const StylusSample&, Press press, double) override {
+    if (book_.plan.procedure != CalibrationProcedure::full)
+      if (std::string why = whyNotBuiltOn(book_.plan.record.rig, book_.plan.device); !why.empty())
+        return StepAnswer::refused(std::move(why));
+    const auto chosen = menu_.feel(press);
+    if (!chosen) return {};
+    if (*chosen == 0) return StepAnswer::next();
+    return StepAnswer::refused("Start again with the rig, device and stylus tip that are there.");
+  }
+
+  bool needsDevice() const override { return false; }
+  void show(WizardView& view) const override {
+    view.title = "Is this what stands before you?";
+    view.sentence = "Read the lines and compare them with rig, device and stylus. The forces are off.";
+    const calibration::RigProvenance& known = book_.plan.record.provenance;
+    const calibration::RigDevice& device = book_.plan.device;
+    view.facts = {
+        "rig " + orUnknown(known.rig_id), "device " + device.model + ", serial number " + orUnknown(device.serial),
+        "stands at the " + orUnknown(device.mount) + " of the surgeon", "stylus tip " + orUnknown(device.stylus_tip),
+        known.created_utc.empty() ? "never calibrated" : "calibrated " + known.created_utc};
+    menu_.show(view);
+  }
+
+ private:
+  ChoiceMenu menu_{{}};
+};
+
 }  // namespace
 
-void IdentityStep::begin() { menu_ = ChoiceMenu({"all of it is right", "something is wrong"}); }
-
-StepAnswer IdentityStep::feel(const StylusSample&, Press press, double) {
-  if (book_.plan.procedure != CalibrationProcedure::full)
-    if (std::string why = whyNotBuiltOn(book_.plan.record.rig, book_.plan.device); !why.empty())
-      return StepAnswer::refused(std::move(why));
-  const auto chosen = menu_.feel(press);
-  if (!chosen) return {};
-  if (*chosen == 0) return StepAnswer::next();
-  return StepAnswer::refused("Start again with the rig, device and stylus tip that are there.");
-}
-
-void IdentityStep::show(WizardView& view) const {
-  view.title = "Is this what stands before you?";
-  view.sentence = "Read the lines and compare them with rig, device and stylus. The forces are off.";
-  const calibration::RigProvenance& known = book_.plan.record.provenance;
-  const calibration::RigDevice& device = book_.plan.device;
-  view.facts = {
-      "rig " + orUnknown(known.rig_id), "device " + device.model + ", serial number " + orUnknown(device.serial),
-      "stands at the " + orUnknown(device.mount) + " of the surgeon", "stylus tip " + orUnknown(device.stylus_tip),
-      known.created_utc.empty() ? "never calibrated" : "calibrated " + known.created_utc};
-  menu_.show(view);
-}
+std::unique_ptr<WizardStep> identityStep(WizardBook& book) { return std::make_unique<IdentityStep>(book); }
 
 }  // namespace app

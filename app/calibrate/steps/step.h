@@ -62,6 +62,8 @@ struct StepAnswer {
 
 class WizardStep {
  public:
+  /// Borrows the book.
+  explicit WizardStep(WizardBook& book) : book_(book) {}
   virtual ~WizardStep() = default;
   /// Every time its page is turned to.
   virtual void begin() = 0;
@@ -72,9 +74,16 @@ class WizardStep {
   /// False: it can be read and answered without a device that is calibrated.
   virtual bool needsDevice() const { return true; }
   virtual void show(WizardView& view) const = 0;
+
+ protected:
+  WizardBook& book_;
 };
 
-/// Borrows the book.
-std::unique_ptr<WizardStep> makeStep(StepName name, WizardBook& book);
+/// A touch set of the plan's device, ready for its touches.
+calibration::TouchSet emptySet(const WizardBook& book, const calibration::TargetPlan& plan);
+
+using StepMaker = std::unique_ptr<WizardStep>(WizardBook& book);
+StepMaker identityStep, homeStep, flipStep, lengthStep, eyesStep, collectStep, fitStep, eyeCheckStep, verifyStep,
+    checkStep, rezeroStep, restStep, signOffStep;
 
 }  // namespace app

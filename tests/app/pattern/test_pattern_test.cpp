@@ -94,10 +94,10 @@ TEST(TestPattern, ThroughAMirrorThePanelShowsItTurnedSoThatItReadsRight) {
 
 TEST(ScreenPage, WordsAreAsWideWhateverShapeThePixelsHave) {
   const ScreenPage square(desk(), {320, 200}), halved(desk(), {160, 200}), fine(desk(), {1920, 1200});
-  const double width = square.textWidth_mm("lean the handle to the left", 13.5);
-  EXPECT_NEAR(halved.textWidth_mm("lean the handle to the left", 13.5), width, 0.01);
-  EXPECT_NEAR(fine.textWidth_mm("lean the handle to the left", 13.5), width, 0.01);
-  EXPECT_NEAR(square.textWidth_mm("lean the handle to the left", 27.0), 2.0 * width, 0.1);
+  const double width = square.textWidth("lean the handle to the left", 13.5);
+  EXPECT_NEAR(halved.textWidth("lean the handle to the left", 13.5), width, 0.01);
+  EXPECT_NEAR(fine.textWidth("lean the handle to the left", 13.5), width, 0.01);
+  EXPECT_NEAR(square.textWidth("lean the handle to the left", 27.0), 2.0 * width, 0.1);
 }
 
 // reference/rendering 5a: a point z before the screen, seen from D: disparity ipd z / (D - z); on the screen none.

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/report/svg.h"
+#include "app/report/markup.h"
 #include "tests/app/calibrate/report/example_record.h"
 #include "tests/app/calibrate/report/markup.h"
 
@@ -75,6 +75,7 @@ TEST(CalibrationReport, IsOneWholePageWithNothingFromElsewhere) {
   EXPECT_EQ(countOf(html, "<svg"), 7u);  // verdict, arrows, map, four charts
   for (const char* outside : {"<script", "<link", "<img", "src=", "href=", "url(", "@import", "https:"})
     EXPECT_THAT(html, Not(HasSubstr(outside))) << outside;
+  EXPECT_EQ(countOf(html, " id="), 0u);
   EXPECT_EQ(countOf(html, "http:"), countOf(html, "xmlns=\"http://www.w3.org/2000/svg\""));
 }
 

@@ -6,7 +6,7 @@
 #include "app/calibrate/report/error_map_view.h"
 #include "app/calibrate/report/history_view.h"
 #include "app/calibrate/report/residual_views.h"
-#include "app/report/svg.h"
+#include "app/report/markup.h"
 #include "tests/app/calibrate/report/example_record.h"
 #include "tests/app/calibrate/report/markup.h"
 
@@ -18,11 +18,12 @@ using calibration::Residual;
 using testing::HasSubstr;
 using testing::Not;
 
+const std::string kBlue = "rgb\\(0%,44.7\\d*%,69.8\\d*%\\)", kInk = "rgb\\(13.3\\d*%,13.3\\d*%,13.3\\d*%\\)";
+
 /// Ends of every line of a colour, y downwards.
 std::vector<std::pair<glm::dvec2, glm::dvec2>> linesOf(const std::string& svg, const std::string& colour) {
   std::vector<std::pair<glm::dvec2, glm::dvec2>> lines;
-  const std::regex line("<line x1=\"([^\"]+)\" y1=\"([^\"]+)\" x2=\"([^\"]+)\" y2=\"([^\"]+)\" stroke=\"" + colour +
-                        "\"");
+  const std::regex line(";stroke:" + colour + ";[^\"]*\" d=\"M (\\S+) (\\S+) L (\\S+) (\\S+) \"");
   for (std::sregex_iterator it(svg.begin(), svg.end(), line), end; it != end; ++it)
     lines.push_back({{std::stod((*it)[1]), std::stod((*it)[2])}, {std::stod((*it)[3]), std::stod((*it)[4])}});
   return lines;
@@ -32,7 +33,7 @@ TEST(ResidualViews, DrawArrowsFiftyTimesAsLongAndSaySo) {
   // 0.5 mm to the right and up: in the front view as long as the scale's arrow times the root of two.
   const std::string svg = residualViews({}, {{1, {{-20, 0, 0}}, {{0.5, 0.5, 0.0}}, true}});
   EXPECT_THAT(svg, HasSubstr("0.5 mm (arrows 50 times as long)"));
-  const auto arrows = linesOf(svg, "#0072b2"), scale = linesOf(svg, "#222222");
+  const auto arrows = linesOf(svg, kBlue), scale = linesOf(svg, kInk);
   ASSERT_EQ(arrows.size(), 2u);
   ASSERT_EQ(scale.size(), 1u);
   const double head = 0.7 * 5.4, unit = glm::distance(scale[0].first, scale[0].second) + head;
@@ -43,7 +44,7 @@ TEST(ResidualViews, DrawArrowsFiftyTimesAsLongAndSaySo) {
 }
 
 TEST(ResidualViews, ShowTheViewerAtTheLeftFromTheRight) {
-  const auto arrows = linesOf(residualViews({}, {{1, {{0, 0, 0}}, {{0.0, 0.0, 0.5}}, true}}), "#0072b2");
+  const auto arrows = linesOf(residualViews({}, {{1, {{0, 0, 0}}, {{0.0, 0.0, 0.5}}, true}}), kBlue);
   ASSERT_EQ(arrows.size(), 2u);
   EXPECT_LT(arrows[1].second.x, arrows[1].first.x - 20.0);
 }
@@ -62,16 +63,18 @@ TEST(ResidualViews, NameAnOutlierAndDoNotLetItScale) {
 TEST(ErrorMapView, IsOneBandWhereTheErrorIsTheSame) {
   const std::string svg = errorMapView([](const auto&) { return 0.22; }, {});
   EXPECT_THAT(svg, HasSubstr(">0.22 to 0.23<"));
-  EXPECT_THAT(svg, Not(HasSubstr("#c6dbef")));
+  EXPECT_THAT(svg, Not(HasSubstr("fill:rgb(77.6")));
   EXPECT_EQ(whatIsWrongWith(svg), "");
 }
 
 TEST(ErrorMapView, IsDarkerWhereTheErrorIsLarger) {
   const std::string svg = errorMapView([](const auto& p) { return p.mm.x < 0.0 ? 0.11 : 0.41; }, {{{0, 0, 30}}});
   // Bands of 0.05 mm from 0.10: left the first, right the seventh.
-  EXPECT_THAT(svg, HasSubstr("<rect x=\"50.00\" y=\"26.00\" width=\"256.40\" height=\"6.80\" fill=\"#eff3ff\"/>"));
-  EXPECT_THAT(svg, HasSubstr("<rect x=\"306.00\" y=\"26.00\" width=\"256.40\" height=\"6.80\" fill=\"#084594\"/>"));
-  EXPECT_EQ(countOf(svg, "<circle"), 2u) << "a touch and the legend's";
+  EXPECT_TRUE(
+      std::regex_search(svg, std::regex("fill:rgb\\(93.7\\d*%,95.2\\d*%,100%\\);[^\"]*\" d=\"M 50 26 L 306\\.")));
+  EXPECT_TRUE(
+      std::regex_search(svg, std::regex("fill:rgb\\(3.1\\d*%,27.0\\d*%,58.0\\d*%\\);[^\"]*\" d=\"M 306 26 L 562\\.")));
+  EXPECT_EQ(countOf(svg, "stroke-width:1.2;"), 2u) << "a touch and the legend's";
 }
 
 TEST(HistoryView, RingsEveryAlarmOfItsQuantity) {
@@ -81,7 +84,7 @@ TEST(HistoryView, RingsEveryAlarmOfItsQuantity) {
   for (const DriftQuantity quantity : calibration::kDriftQuantities) {
     const std::string svg = historyView(history, review, quantity);
     const auto alarms = std::ranges::count(review.alarms, quantity, &calibration::DriftAlarm::quantity);
-    EXPECT_EQ(countOf(svg, "r=\"7.50\""), static_cast<std::size_t>(alarms));
+    EXPECT_EQ(countOf(svg, "stroke-width:2.2;"), static_cast<std::size_t>(alarms));
     EXPECT_EQ(whatIsWrongWith(svg), "");
     rings_in_all += static_cast<std::size_t>(alarms);
   }

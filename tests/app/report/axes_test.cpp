@@ -1,4 +1,4 @@
-#include "app/report/axis_ticks.h"
+#include "app/report/axes.h"
 
 #include <gtest/gtest.h>
 
@@ -36,6 +36,22 @@ TEST(AxisTicks, SurviveEveryRange) {
     EXPECT_LT(ticks.low, ticks.high);
     EXPECT_LT(ticks.at.size(), 20u);
   }
+}
+
+TEST(Axes, PlaceValuesUpwardsAndEitherWayAcross) {
+  Axes axes{{10.0, 20.0}, {100.0, 50.0}, {0.0, 4.0, {}, ""}, {-1.0, 1.0, {}, ""}, ""};
+  EXPECT_EQ(axes.at({1.0, 1.0}), glm::dvec2(35.0, 20.0));
+  EXPECT_EQ(axes.at({4.0, -1.0}), axes.foot());
+  std::swap(axes.x.from, axes.x.to);
+  EXPECT_EQ(axes.at({1.0, 0.0}), glm::dvec2(85.0, 45.0));
+}
+
+TEST(Legend, BeginsANewRowWhereOneIsFull) {
+  const Drawing drawing({100.0, 100.0});
+  const std::vector<LegendEntry> entries(3, {"forty units", 10.0, {}});
+  const double one = legend(drawing, entries, {}, 1000.0, false);
+  EXPECT_EQ(legend(drawing, entries, {}, 60.0, false), 3.0 * one);
+  EXPECT_EQ(legend(drawing, {}, {}, 60.0, false), 0.0);
 }
 
 }  // namespace

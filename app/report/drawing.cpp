@@ -1,0 +1,269 @@
+#include "app/report/drawing.h"
+
+#include <cairo-svg.h>
+#include <pango/pangocairo.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+#include "app/report/markup.h"
+#include "app/text/printed.h"
+#include "app/text/usage_error.h"
+
+namespace app {
+namespace {
+
+/// Letters are laid out in steps so small that no rounding shows, whatever the unit and the shape of its pixels.
+constexpr double kStepsPerUnit = 64.0 * PANGO_SCALE, kLineOfFont = 1.17;
+
+struct Unref {
+  void operator()(void* object) const { g_object_unref(object); }
+};
+using Layout = std::unique_ptr<PangoLayout, Unref>;
+
+cairo_t* penOn(cairo_surface_t* surface) {
+  cairo_t* const pen = cairo_create(surface);
+  cairo_surface_destroy(surface);
+  return pen;
+}
+
+cairo_status_t append(void* text, const unsigned char* data, unsigned int count) {
+  static_cast<std::string*>(text)->append(data, data + count);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+void choose(cairo_t* pen, const Ink& ink) { cairo_set_source_rgb(pen, ink.red, ink.green, ink.blue); }
+
+void trace(cairo_t* pen, const std::vector<glm::dvec2>& points) {
+  cairo_new_path(pen);
+  for (const glm::dvec2& p : points) {
+    if (std::isfinite(p.x) && std::isfinite(p.y))
+      cairo_line_to(pen, p.x, p.y);
+    else
+      cairo_new_sub_path(pen);
+  }
+}
+
+/// The path that was traced.
+void stroke(cairo_t* pen, double width, const Ink& ink, const Dashes& dashes = {}) {
+  choose(pen, ink);
+  cairo_set_line_width(pen, width);
+  cairo_set_dash(pen, dashes.data(), static_cast<int>(dashes.size()), 0.0);
+  cairo_stroke(pen);
+}
+
+Layout layoutOf(const std::string& words, double height, bool bold, double width = 0.0) {
+  const std::unique_ptr<PangoContext, Unref> context(pango_font_map_create_context(pango_cairo_font_map_get_default()));
+  pango_context_set_round_glyph_positions(context.get(), FALSE);
+  cairo_font_options_t* options = cairo_font_options_create();
+  cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
+  cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
+  pango_cairo_context_set_font_options(context.get(), options);
+  cairo_font_options_destroy(options);
+  Layout layout(pango_layout_new(context.get()));
+  PangoFontDescription* font = pango_font_description_from_string(bold ? "DejaVu Sans Bold" : "DejaVu Sans");
+  pango_font_description_set_absolute_size(font, height / kLineOfFont * kStepsPerUnit);
+  pango_layout_set_font_description(layout.get(), font);
+  pango_font_description_free(font);
+  pango_layout_set_text(layout.get(), words.c_str(), -1);
+  if (width > 0.0) pango_layout_set_width(layout.get(), static_cast<int>(width * kStepsPerUnit));
+  pango_layout_set_wrap(layout.get(), PANGO_WRAP_WORD_CHAR);
+  return layout;
+}
+
+glm::dvec2 sizeOf(const Layout& layout) {
+  int w = 0, h = 0;
+  pango_layout_get_size(layout.get(), &w, &h);
+  return glm::dvec2(w, h) / kStepsPerUnit;
+}
+
+constexpr std::array kAnchors = {"start", "middle", "end"};
+/// How much of its width lies left of the place that a text is aligned to.
+double shareLeft(Align align) { return align == Align::left ? 0.0 : align == Align::right ? 1.0 : 0.5; }
+
+std::string colourOf(const Ink& ink) {
+  const auto byte = [](double part) { return static_cast<int>(std::lround(255.0 * part)); };
+  return printed("#%02x%02x%02x", byte(ink.red), byte(ink.green), byte(ink.blue));
+}
+
+}  // namespace
+
+Drawing::Drawing(glm::dvec2 size)
+    : size_(size), pen_(penOn(cairo_svg_surface_create_for_stream(append, &svg_, size.x, size.y)), cairo_destroy) {}
+
+Drawing::Drawing(glm::ivec2 px, double px_per_unit)
+    : size_(glm::dvec2(px) / px_per_unit),
+      pen_(penOn(cairo_image_surface_create(CAIRO_FORMAT_RGB24, px.x, px.y)), cairo_destroy) {
+  cairo_scale(pen(), px_per_unit, px_per_unit);
+}
+
+void Drawing::fill(const Ink& ink) const {
+  choose(pen(), ink);
+  cairo_paint(pen());
+}
+
+void Drawing::box(const glm::dvec2& corner, const glm::dvec2& size, const Ink& ink) const {
+  choose(pen(), ink);
+  cairo_rectangle(pen(), corner.x, corner.y, size.x, size.y);
+  cairo_fill(pen());
+}
+
+void Drawing::outline(const glm::dvec2& corner, const glm::dvec2& size, double width, const Ink& ink,
+                      const Dashes& dashes) const {
+  cairo_set_line_join(pen(), CAIRO_LINE_JOIN_MITER);
+  cairo_set_line_cap(pen(), CAIRO_LINE_CAP_BUTT);
+  cairo_rectangle(pen(), corner.x, corner.y, size.x, size.y);
+  stroke(pen(), width, ink, dashes);
+}
+
+void Drawing::line(const glm::dvec2& from, const glm::dvec2& to, double width, const Ink& ink,
+                   const Dashes& dashes) const {
+  cairo_set_line_cap(pen(), dashes.empty() ? CAIRO_LINE_CAP_SQUARE : CAIRO_LINE_CAP_BUTT);
+  trace(pen(), {from, to});
+  stroke(pen(), width, ink, dashes);
+}
+
+void Drawing::path(const std::vector<glm::dvec2>& points, double width, const Ink& ink, bool closed,
+                   const Dashes& dashes) const {
+  if (points.empty()) return;
+  cairo_set_line_cap(pen(), dashes.empty() ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
+  cairo_set_line_join(pen(), CAIRO_LINE_JOIN_ROUND);
+  trace(pen(), points);
+  if (closed) cairo_close_path(pen());
+  stroke(pen(), width, ink, dashes);
+}
+
+void Drawing::polygon(const std::vector<glm::dvec2>& corners, const Ink& ink) const {
+  choose(pen(), ink);
+  trace(pen(), corners);
+  cairo_fill(pen());
+}
+
+void Drawing::circle(const glm::dvec2& centre, double radius, double width, const Ink& ink) const {
+  cairo_new_path(pen());
+  cairo_arc(pen(), centre.x, centre.y, radius, 0.0, 2.0 * std::numbers::pi);
+  cairo_close_path(pen());
+  stroke(pen(), width, ink);
+}
+
+void Drawing::disc(const glm::dvec2& centre, double radius, const Ink& ink) const {
+  choose(pen(), ink);
+  cairo_new_path(pen());
+  cairo_arc(pen(), centre.x, centre.y, radius, 0.0, 2.0 * std::numbers::pi);
+  cairo_fill(pen());
+}
+
+void Drawing::arc(const glm::dvec2& centre, double radius, double share, double width, const Ink& ink) const {
+  const double begins = -0.5 * std::numbers::pi;
+  cairo_set_line_cap(pen(), CAIRO_LINE_CAP_BUTT);
+  cairo_new_path(pen());
+  cairo_arc(pen(), centre.x, centre.y, radius, begins, begins + 2.0 * std::numbers::pi * std::clamp(share, 0.0, 1.0));
+  stroke(pen(), width, ink);
+}
+
+void Drawing::cross(const glm::dvec2& centre, double half, double width, const Ink& ink) const {
+  line(centre - half, centre + half, width, ink);
+  line(centre + glm::dvec2(-half, half), centre + glm::dvec2(half, -half), width, ink);
+}
+
+void Drawing::arrow(const glm::dvec2& from, const glm::dvec2& to, double width, const Ink& ink) const {
+  const double length = glm::distance(from, to), head = 4.0 + width;
+  if (length < head) return line(from, to, width, ink);
+  const glm::dvec2 along = (to - from) / length, across(-along.y, along.x);
+  line(from, to - 0.7 * head * along, width, ink);
+  polygon({to, to - head * along + 0.45 * head * across, to - head * along - 0.45 * head * across}, ink);
+}
+
+void Drawing::inside(const glm::dvec2& corner, const glm::dvec2& size, const std::function<void()>& draw) const {
+  cairo_save(pen());
+  cairo_rectangle(pen(), corner.x, corner.y, size.x, size.y);
+  cairo_clip(pen());
+  draw();
+  cairo_restore(pen());
+}
+
+double Drawing::textWidth(const std::string& words, double height, bool bold) const {
+  return sizeOf(layoutOf(words, height, bold || always_bold_)).x;
+}
+
+void Drawing::text(const std::string& words, const glm::dvec2& at, double height, const Ink& ink, Align align,
+                   bool bold) const {
+  const Layout layout = layoutOf(words, height, bold || always_bold_);
+  const glm::dvec2 size = sizeOf(layout);
+  show(layout.get(), at - size * glm::dvec2(shareLeft(align), 0.5), align, ink);
+}
+
+double Drawing::paragraphHeight(const std::string& words, double width, double height) const {
+  return sizeOf(layoutOf(words, height, always_bold_, width)).y;
+}
+
+double Drawing::paragraph(const std::string& words, const glm::dvec2& top, double width, double height, const Ink& ink,
+                          Align align) const {
+  const Layout layout = layoutOf(words, height, always_bold_, width);
+  pango_layout_set_alignment(layout.get(), align == Align::left    ? PANGO_ALIGN_LEFT
+                                           : align == Align::right ? PANGO_ALIGN_RIGHT
+                                                                   : PANGO_ALIGN_CENTER);
+  show(layout.get(), top - glm::dvec2(shareLeft(align) * width, 0.0), align, ink);
+  return sizeOf(layout).y;
+}
+
+/// In SVG each line is a text of its own; in pixels their outlines are filled.
+void Drawing::show(PangoLayout* layout, const glm::dvec2& corner, Align align, const Ink& ink) const {
+  if (!isSvg()) {
+    choose(pen(), ink);
+    cairo_save(pen());
+    cairo_translate(pen(), corner.x, corner.y);
+    cairo_scale(pen(), PANGO_SCALE / kStepsPerUnit, PANGO_SCALE / kStepsPerUnit);
+    cairo_move_to(pen(), 0.0, 0.0);
+    pango_cairo_layout_path(pen(), layout);
+    cairo_fill(pen());
+    cairo_restore(pen());
+    return;
+  }
+  const PangoFontDescription* const font = pango_layout_get_font_description(layout);
+  const bool bold = pango_font_description_get_weight(font) == PANGO_WEIGHT_BOLD;
+  const std::unique_ptr<PangoLayoutIter, decltype(&pango_layout_iter_free)> at(pango_layout_get_iter(layout),
+                                                                               pango_layout_iter_free);
+  do {
+    PangoRectangle box;
+    pango_layout_iter_get_line_extents(at.get(), nullptr, &box);
+    const PangoLayoutLine* const line = pango_layout_iter_get_line_readonly(at.get());
+    const std::string words(pango_layout_get_text(layout) + line->start_index, static_cast<std::size_t>(line->length));
+    const glm::dvec2 place =
+        corner +
+        glm::dvec2(box.x + shareLeft(align) * box.width, pango_layout_iter_get_baseline(at.get())) / kStepsPerUnit;
+    words_ +=
+        printed("<text x=\"%.2f\" y=\"%.2f\" font-size=\"%.2f\"%s fill=\"%s\" text-anchor=\"%s\">", place.x, place.y,
+                pango_font_description_get_size(font) / kStepsPerUnit, bold ? " font-weight=\"bold\"" : "",
+                colourOf(ink).c_str(), kAnchors[static_cast<std::size_t>(align)]) +
+        escaped(words) + "</text>\n";
+  } while (pango_layout_iter_next_line(at.get()));
+}
+
+std::string Drawing::markup(std::string_view description) {
+  assert(isSvg());
+  cairo_surface_finish(cairo_get_target(pen()));
+  // Cairo's own element says nothing of what it shows, and its group has an id that nobody needs.
+  const std::size_t shapes = svg_.find('>', svg_.find("<svg")) + 1;
+  std::string drawn = svg_.substr(shapes, svg_.rfind("</svg>") - shapes);
+  if (const std::size_t id = drawn.find(" id=\"surface"); id != std::string::npos)
+    drawn.erase(id, drawn.find('>', id) - id);
+  return printed(
+             "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"0 0 %.2f %.2f\" width=\"%.2f\" "
+             "height=\"%.2f\" font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\" aria-label=\"",
+             size_.x, size_.y, size_.x, size_.y) +
+         escaped(description) + "\">" + drawn + words_ + "</svg>\n";
+}
+
+void Drawing::save(assets::OutputFile& file) const {
+  if (cairo_surface_write_to_png(cairo_get_target(pen()), file.temporaryPath().c_str()) != CAIRO_STATUS_SUCCESS)
+    throw UsageError("picture: it can not be written, check the folder and the free space");
+  file.commit();
+}
+
+bool Drawing::isSvg() const { return cairo_surface_get_type(cairo_get_target(pen())) == CAIRO_SURFACE_TYPE_SVG; }
+
+}  // namespace app

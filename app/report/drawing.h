@@ -1,0 +1,98 @@
+// Shapes and words drawn by Cairo and Pango, which stay in the .cpp: as a picture of pixels, or as SVG inside a page.
+// One set of calls for both; y downwards. Lines of letters are given by their height, 1.17 times the size of the font.
+// In SVG words stay words, which can be marked, searched and read aloud (Cairo alone would write outlines of letters,
+// with ids that clash on a page of several drawings). Any one thread.
+#pragma once
+
+#include <functional>
+#include <glm/glm.hpp>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "assets/output_file.h"
+
+using cairo_t = struct _cairo;
+using PangoLayout = struct _PangoLayout;
+
+namespace app {
+
+/// As the screen encodes it, 0..1.
+struct Ink {
+  double red, green, blue;
+};
+constexpr Ink inkOf(int rgb) { return {(rgb >> 16) / 255.0, (rgb >> 8 & 255) / 255.0, (rgb & 255) / 255.0}; }
+
+/// Okabe and Ito 2008: told apart by any colour vision, and in grey by shape or dash beside them.
+namespace paper {
+inline constexpr Ink kInk = inkOf(0x222222), kQuiet = inkOf(0x666666), kFaint = inkOf(0xd8d8d8),
+                     kBlue = inkOf(0x0072b2), kOrange = inkOf(0xd55e00), kGreen = inkOf(0x009e73),
+                     kAmber = inkOf(0xe69f00), kWhite = inkOf(0xffffff);
+}  // namespace paper
+
+enum class Align { left, centre, right };
+using Dashes = std::vector<double>;
+
+class Drawing {
+ public:
+  /// SVG for a page, its width as the page allows.
+  explicit Drawing(glm::dvec2 size);
+  /// Pixels, black; a unit is that many of them.
+  Drawing(glm::ivec2 px, double px_per_unit);
+  Drawing(const Drawing&) = delete;
+  Drawing& operator=(const Drawing&) = delete;
+
+  void fill(const Ink& ink) const;
+  void box(const glm::dvec2& corner, const glm::dvec2& size, const Ink& ink) const;
+  void outline(const glm::dvec2& corner, const glm::dvec2& size, double width, const Ink& ink,
+               const Dashes& dashes = {}) const;
+  void line(const glm::dvec2& from, const glm::dvec2& to, double width, const Ink& ink,
+            const Dashes& dashes = {}) const;
+  /// Through all points, round at corners and ends; a point that is not finite breaks it.
+  void path(const std::vector<glm::dvec2>& points, double width, const Ink& ink, bool closed = false,
+            const Dashes& dashes = {}) const;
+  void polygon(const std::vector<glm::dvec2>& corners, const Ink& ink) const;
+  void circle(const glm::dvec2& centre, double radius, double width, const Ink& ink) const;
+  void disc(const glm::dvec2& centre, double radius, const Ink& ink) const;
+  /// From the top, clockwise; `share` of the whole circle.
+  void arc(const glm::dvec2& centre, double radius, double share, double width, const Ink& ink) const;
+  void cross(const glm::dvec2& centre, double half, double width, const Ink& ink) const;
+  /// With a head; what is too short for one is a line.
+  void arrow(const glm::dvec2& from, const glm::dvec2& to, double width, const Ink& ink) const;
+  /// What `draw` draws, inside the box alone.
+  void inside(const glm::dvec2& corner, const glm::dvec2& size, const std::function<void()>& draw) const;
+
+  /// Of one line.
+  double textWidth(const std::string& words, double height, bool bold = false) const;
+  /// One line: its left, middle or right, half-way up, is `at`.
+  void text(const std::string& words, const glm::dvec2& at, double height, const Ink& ink, Align align = Align::centre,
+            bool bold = false) const;
+  /// Of all lines that paragraph() would draw.
+  double paragraphHeight(const std::string& words, double width, double height) const;
+  /// Lines broken where they would be wider than `width`; `top` is the left, middle or right of its upper edge.
+  /// Returns the height of them all.
+  double paragraph(const std::string& words, const glm::dvec2& top, double width, double height, const Ink& ink,
+                   Align align = Align::centre) const;
+
+  /// Of SVG, once: an element to put into a page. `description`: what it shows, for those who do not see it.
+  std::string markup(std::string_view description);
+  /// Of pixels, as PNG; the file is committed. Throws UsageError when it can not be written.
+  void save(assets::OutputFile& file) const;
+
+ protected:
+  cairo_t* pen() const { return pen_.get(); }
+
+  bool always_bold_ = false;
+
+ private:
+  bool isSvg() const;
+  void show(PangoLayout* layout, const glm::dvec2& corner, Align align, const Ink& ink) const;
+
+  glm::dvec2 size_{0.0};
+  std::string svg_;            ///< what Cairo has written
+  mutable std::string words_;  ///< of SVG, over all shapes
+  std::unique_ptr<cairo_t, void (*)(cairo_t*)> pen_;
+};
+
+}  // namespace app
