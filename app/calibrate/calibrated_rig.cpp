@@ -61,13 +61,20 @@ void putPivot(RigRecord& record, const MeasuredArm& arm, const Pivot& pivot, con
   record.proof.reset();
 }
 
-void putWebcamFit(RigRecord& record, const WebcamFit& fit, const std::string& method, double duration_s) {
+void putWebcamFit(RigRecord& record, const WebcamFit& fit) {
   record.rig.arm = fit.arm.correction;
   record.rig.X_WD = fit.arm.X_WD;
   record.residuals = fit.residuals;
   record.sigma = fit.sigma;
-  record.procedure = RigProcedure{
-      method, fit.model, fit.used, fit.outliers, fit.tilt_spread_deg, duration_s, fit.fre_rms_mm, fit.cv_rms_mm, {}};
+  record.procedure = RigProcedure{"webcam" + std::to_string(fit.X_WC.size()),
+                                  fit.model,
+                                  fit.used,
+                                  fit.outliers,
+                                  fit.tilt_spread_deg,
+                                  0.0,
+                                  fit.fre_rms_mm,
+                                  fit.cv_rms_mm,
+                                  {}};
 
   // As widely as tips left out lie and what leaves no trace in them, distributed as those that were fitted.
   std::vector<Residual> left_out = fit.residuals;

@@ -32,8 +32,7 @@ void putPivot(calibration::RigRecord& record, const calibration::MeasuredArm& ar
               const std::string& name);
 /// The arm as a webcam measured it, proved by tips that were left out in turn: how far these lie off is known across
 /// the lines of sight, and taken up to three axes.
-void putWebcamFit(calibration::RigRecord& record, const calibration::WebcamFit& fit, const std::string& method,
-                  double duration_s);
+void putWebcamFit(calibration::RigRecord& record, const calibration::WebcamFit& fit);
 /// What touches it has not seen say of it.
 void putProof(calibration::RigRecord& record, const std::vector<calibration::Residual>& held_out,
               calibration::ProofKind kind);

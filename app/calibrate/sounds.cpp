@@ -19,27 +19,15 @@ constexpr double kLoudest = 0.25, kEdge_s = 0.008;
 
 /// A note; `buzz`: odd overtones, so that it is told from the others without an ear for pitch.
 struct Note {
-  double pitch_Hz, length_s;
+  double pitch_Hz = 0.0, length_s = 0.0;
   bool buzz = false;
 };
 
-std::span<const Note> notesOf(WizardSound sound) {
-  static constexpr std::array kOk{Note{880.0, 0.09}};
-  static constexpr std::array kReject{Note{150.0, 0.28, true}};
-  static constexpr std::array kNext{Note{587.0, 0.06}, Note{784.0, 0.07}};
-  static constexpr std::array kDone{Note{523.0, 0.12}, Note{659.0, 0.12}, Note{784.0, 0.12}, Note{1047.0, 0.25}};
-  switch (sound) {
-    case WizardSound::ok:
-      return kOk;
-    case WizardSound::reject:
-      return kReject;
-    case WizardSound::next:
-      return kNext;
-    case WizardSound::done:
-      break;
-  }
-  return kDone;
-}
+/// In the order of WizardSound.
+constexpr std::array<std::array<Note, 4>, 4> kNotes{{{{{880.0, 0.09}}},
+                                                     {{{150.0, 0.28, true}}},
+                                                     {{{587.0, 0.06}, {784.0, 0.07}}},
+                                                     {{{523.0, 0.12}, {659.0, 0.12}, {784.0, 0.12}, {1047.0, 0.25}}}}};
 
 /// Sound libraries speak on stderr of every card they do not find; nobody who calibrates wants to read that.
 class SilentStderr {
@@ -68,7 +56,7 @@ class SilentStderr {
 
 std::vector<float> soundSamples(WizardSound sound, double rate_Hz) {
   std::vector<float> samples;
-  for (const Note& note : notesOf(sound)) {
+  for (const Note& note : kNotes[static_cast<std::size_t>(sound)]) {
     const auto count = static_cast<std::size_t>(note.length_s * rate_Hz);
     for (std::size_t n = 0; n < count; ++n) {
       const double t_s = static_cast<double>(n) / rate_Hz, left_s = static_cast<double>(count - 1 - n) / rate_Hz;

@@ -29,15 +29,8 @@ ChoiceMenu pauseMenu() {
 
 const char* nounOf(const calibration::TargetPlan& plan) {
   if (plan.method.starts_with("rest")) return "mark";
-  switch (plan.kind) {
-    case calibration::TargetKind::pit:
-      return "pit";
-    case calibration::TargetKind::cross:
-      return "cross";
-    case calibration::TargetKind::webcam_place:
-      break;
-  }
-  return "place";
+  if (plan.kind == calibration::TargetKind::pit) return "pit";
+  return plan.kind == calibration::TargetKind::cross ? "cross" : "place";
 }
 
 TouchRound::TouchRound(calibration::TargetPlan plan, const calibration::MeasuredArm& believed, double far_mm,
@@ -121,13 +114,11 @@ std::string TouchRound::objection(std::size_t index, const calibration::RawJoint
   // Further off than what is known of the arm explains.
   const double off_mm = glm::length(tip_mm - target.place_W.mm);
   if (off_mm > (far_mm_ > 0.0 ? far_mm_ : kMostOffUnmeasured_mm)) {
-    std::size_t nearest = index;
-    for (std::size_t i = 0; i < plan_.targets.size(); ++i)
-      if (glm::length(tip_mm - plan_.targets[i].place_W.mm) < glm::length(tip_mm - plan_.targets[nearest].place_W.mm))
-        nearest = i;
+    const auto nearest = std::ranges::min_element(
+        plan_.targets, {}, [&](const calibration::Target& one) { return glm::distance(tip_mm, one.place_W.mm); });
     std::string why = "This seems " + inMm(off_mm) + " from the glowing " + noun;
-    if (glm::length(plan_.targets[nearest].place_W.mm - target.place_W.mm) > 1.0)
-      why += ", nearer to " + noun + " " + std::to_string(nearest + 1);
+    if (glm::distance(nearest->place_W.mm, target.place_W.mm) > 1.0)
+      why += ", nearer to " + noun + " " + std::to_string(nearest - plan_.targets.begin() + 1);
     return why;
   }
   if (!tilt_is_wrong) return {};

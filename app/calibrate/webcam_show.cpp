@@ -1,54 +1,35 @@
 #include "app/calibrate/webcam_show.h"
 
-#include <algorithm>
-#include <chrono>
-#include <cstddef>
 #include <deque>
-#include <memory>
 #include <thread>
-#include <vector>
 
 #include "app/calibrate/button_press.h"
-#include "app/calibrate/sounds.h"
-#include "app/calibrate/stylus_source.h"
 #include "app/calibrate/webcam_technician.h"
 #include "app/calibrate/wizard_pages.h"
 #include "app/text/usage_error.h"
 #include "calibration/median.h"
-#include "render/display/eye_projection.h"
 
 namespace app {
 namespace {
 
 using namespace calibration;
-using Clock = std::chrono::steady_clock;
 
 /// Until a screen shows what it was given, its own delay and two frames.
 constexpr auto kShown = std::chrono::milliseconds(120);
 constexpr double kMedian_s = 0.2;
 
-class WebcamShow {
+class WebcamShow : LedShow {
  public:
-  explicit WebcamShow(const WebcamRun& run) : run_(run), procedure_(run.plan), pages_(run.plan.rig.mirror) {
-    if ((run.robot || run.device == nullptr) && !run.practice)
-      throw UsageError("calibrate: no device, give one or practise");
-    if (!run.windows && !run.robot)
-      throw UsageError("calibrate: without a window nobody sees what to do, let the robot practise");
+  explicit WebcamShow(const WebcamRun& run)
+      : LedShow(run, run.plan.rig.screen.px, run.robot), run_(run), procedure_(run.plan), pages_(run.plan.rig.mirror) {
     if (run.device != nullptr && run.pictures == nullptr)
       throw UsageError("calibrate: the webcam procedure needs a webcam, give --camera");
     if (run.practice) technician_.emplace(*run.practice, run.practice_px, run.practice->seed);
-    if (run.sounds) sounds_.emplace(run.tell);
-    if (run.windows) screen_.emplace(run.display, run.plan.rig.screen.px, run.tell);
-    if (run.device != nullptr)
-      source_ = std::make_unique<DeviceSource>(*run.device);
-    else if (!run.robot)
-      source_ = std::make_unique<PracticeSource>(*run.practice);
   }
 
   std::optional<WebcamObservations> run() {
     while (procedure_.wants() != WebcamWants::nothing) {
-      if (run_.given_up()) left_ = true;
-      takeEvents();
+      takeEvents(run_.plan.rig);
       if (left_) return std::nullopt;
       const auto began = Clock::now();
       showPage();
@@ -66,18 +47,6 @@ class WebcamShow {
   }
 
  private:
-  void takeEvents() {
-    if (!screen_) return;
-    const render::EyeView eye = render::eyeView(run_.plan.rig, render::Eye::cyclopean);
-    const glm::dvec2 px = glm::max(screen_->window_px(), 1);
-    for (const render::WindowEvent& event : screen_->takeEvents()) {
-      const auto* key = std::get_if<render::KeyPressed>(&event);
-      if (std::holds_alternative<render::CloseAsked>(event)) left_ = true;
-      if (key != nullptr && key->down && key->key == render::Key::escape) left_ = true;
-      if (source_) source_->take(event, eye.right_edge_W.xyz / px.x, eye.up_edge_W.xyz / px.y);
-    }
-  }
-
   /// Presses lead on; the last joints are kept for the picture.
   void feel() {
     samples_.clear();
@@ -141,10 +110,8 @@ class WebcamShow {
     if (const auto target = procedure_.target())
       view_.targets = {{target->place_W, target->stylus_W, TargetState::next, std::to_string(target->id)}};
     if (!screen_ || procedure_.wants() != WebcamWants::press) return;
-    const double t_s = std::chrono::duration<double>(Clock::now() - began_).count();
-    screen_->show([&](const render::StereoLayout& layout) {
-      return pages_.output(view_, source_ ? source_->seen() : std::nullopt, layout, t_s);
-    });
+    const double t_s = shownFor_s();
+    screen_->show([&](const render::StereoLayout& layout) { return pages_.output(view_, seenStylus(), layout, t_s); });
   }
 
   void tellNews() {
@@ -157,16 +124,9 @@ class WebcamShow {
   WebcamProcedure procedure_;
   WizardPages pages_;
   std::optional<WebcamTechnician> technician_;
-  std::optional<Sounds> sounds_;
-  std::optional<WizardScreen> screen_;
-  std::unique_ptr<StylusSource> source_;
   ButtonPress button_;
-  WizardView view_;
-  std::vector<StylusSample> samples_;
   std::deque<StylusSample> recent_;
   double progress_ = 0.0;
-  bool left_ = false;
-  Clock::time_point began_ = Clock::now();
 };
 
 }  // namespace

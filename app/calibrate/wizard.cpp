@@ -1,5 +1,6 @@
 #include "app/calibrate/wizard.h"
 
+#include <algorithm>
 #include <array>
 
 #include "calibration/arm/phantom_models.h"
@@ -83,23 +84,17 @@ void Wizard::turnTo(std::size_t page) {
 }
 
 void Wizard::obey(const StepAnswer& answer) {
-  switch (answer.kind) {
-    case StepAnswer::Kind::stay:
-      return;
-    case StepAnswer::Kind::next:
-      return turnTo(at_ + 1);
-    case StepAnswer::Kind::go_to:
-      for (std::size_t page = 0; page < steps_.size(); ++page)
-        if (steps_[page].first == answer.to) return turnTo(page);
-      return;
-    case StepAnswer::Kind::end:
-      book_.outcome.end = answer.end;
-      book_.outcome.reason = answer.reason;
-      book_.voice.message = {};
-      book_.voice.sounds.push_back(answer.end == WizardOutcome::End::accepted ? WizardSound::done
-                                                                              : WizardSound::reject);
-      return;
+  if (answer.next_page) return turnTo(at_ + 1);
+  if (answer.page) {
+    const auto page = std::ranges::find(steps_, *answer.page, &Page::first);
+    if (page != steps_.end()) turnTo(static_cast<std::size_t>(page - steps_.begin()));
+    return;
   }
+  if (answer.end == WizardOutcome::End::running) return;
+  book_.outcome.end = answer.end;
+  book_.outcome.reason = answer.reason;
+  book_.voice.message = {};
+  book_.voice.sounds.push_back(answer.end == WizardOutcome::End::accepted ? WizardSound::done : WizardSound::reject);
 }
 
 WizardView Wizard::look() {

@@ -32,7 +32,8 @@ class Wizard {
   void obey(const StepAnswer& answer);
 
   WizardBook book_;
-  std::vector<std::pair<StepName, std::unique_ptr<WizardStep>>> steps_;
+  using Page = std::pair<StepName, std::unique_ptr<WizardStep>>;
+  std::vector<Page> steps_;
   std::size_t at_ = 0;
   std::string said_before_;  ///< the message with which this page began
   ButtonPress button_;

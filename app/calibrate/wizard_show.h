@@ -10,30 +10,19 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <optional>
-#include <string>
 
+#include "app/calibrate/led_show.h"
 #include "app/calibrate/robot_technician.h"
 #include "app/calibrate/wizard_outcome.h"
-#include "app/calibrate/wizard_screen.h"
-#include "calibration/synthetic/synthetic_rig.h"
-#include "haptics/device/haptic_device.h"
 
 namespace app {
 
-struct WizardRun {
+struct WizardRun : LedRun {
   WizardPlan plan;
-  haptics::HapticDevice* device = nullptr;            ///< opened, not started; null: practice
-  std::optional<calibration::SyntheticRig> practice;  ///< what is practised on, where there is no device
-  std::optional<TechnicianHabits> robot;              ///< holds the practice stylus instead of mouse and keys
-  bool hurried = false;                               ///< the robot takes no more time than it needs to think
-  bool windows = true;                                ///< false: nothing is shown; the robot's only
-  WizardDisplay display;
-  std::filesystem::path pages;  ///< a folder for a picture of each page; empty: none
-  bool sounds = true;
-  std::function<void(const std::string& line)> tell = [](const std::string&) {};
-  std::function<bool()> given_up = [] { return false; };  ///< asked many times a second: an interrupt
+  std::optional<TechnicianHabits> robot;  ///< holds the practice stylus instead of mouse and keys
+  bool hurried = false;                   ///< the robot takes no more time than it needs to think
+  std::filesystem::path pages;            ///< a folder for a picture of each page; empty: none
 };
 
 /// Throws CalibrationError and UsageError for what can not be run, haptics::DeviceError for a device that can not be

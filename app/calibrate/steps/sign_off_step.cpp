@@ -8,15 +8,8 @@ namespace app {
 namespace {
 
 const char* judgedAs(calibration::Verdict verdict) {
-  switch (verdict) {
-    case calibration::Verdict::green:
-      return "Good";
-    case calibration::Verdict::amber:
-      return "Usable, not good";
-    case calibration::Verdict::red:
-      break;
-  }
-  return "Not good enough";
+  if (verdict == calibration::Verdict::green) return "Good";
+  return verdict == calibration::Verdict::amber ? "Usable, not good" : "Not good enough";
 }
 
 std::string signedMm(double length_mm) { return (length_mm > 0.0 ? "+" : "") + inWords(length_mm, 2); }

@@ -41,22 +41,21 @@ enum class StepName {
   sign_off
 };
 
+/// On this page nothing has come to an end, unless one of these is said.
 struct StepAnswer {
-  enum class Kind { stay, next, go_to, end } kind = Kind::stay;
-  StepName to = StepName::sign_off;  ///< of go_to
+  bool next_page = false;
+  std::optional<StepName> page{};  ///< to go to
   WizardOutcome::End end = WizardOutcome::End::running;
-  std::string reason;
+  std::string reason{};
 
-  static StepAnswer next() { return {Kind::next, StepName::sign_off, WizardOutcome::End::running, {}}; }
-  static StepAnswer goTo(StepName name) { return {Kind::go_to, name, WizardOutcome::End::running, {}}; }
-  static StepAnswer refused(std::string why) {
-    return {Kind::end, StepName::sign_off, WizardOutcome::End::refused, std::move(why)};
-  }
+  static StepAnswer next() { return {.next_page = true}; }
+  static StepAnswer goTo(StepName name) { return {.page = name}; }
+  static StepAnswer refused(std::string why) { return {.end = WizardOutcome::End::refused, .reason = std::move(why)}; }
   static StepAnswer declined() {
-    return {Kind::end, StepName::sign_off, WizardOutcome::End::declined, "Left: the old calibration stays."};
+    return {.end = WizardOutcome::End::declined, .reason = "Left: the old calibration stays."};
   }
   static StepAnswer accepted(std::string words) {
-    return {Kind::end, StepName::sign_off, WizardOutcome::End::accepted, std::move(words)};
+    return {.end = WizardOutcome::End::accepted, .reason = std::move(words)};
   }
 };
 

@@ -11,6 +11,7 @@
 #include "calibration/output_file.h"
 #include "calibration/record/rig_file.h"
 #include "calibration/record/utc.h"
+#include "calibration/webcam/webcam_file.h"
 
 namespace app {
 
@@ -90,7 +91,7 @@ const TouchSet& touchesOf(const WizardOutcome& outcome) {
 
 }  // namespace
 
-int concluded(const WizardOption::Led& led, Measuring measuring, const KeepOption& keep) {
+int concluded(const WizardOption::Led& led, const KeepOption& keep) {
   const WizardOutcome& outcome = led.outcome;
   if (outcome.fit) std::fputs(fitText(*outcome.fit).c_str(), stderr);
   if (outcome.rezero) std::fputs(rezeroText(*outcome.rezero).c_str(), stderr);
@@ -98,7 +99,7 @@ int concluded(const WizardOption::Led& led, Measuring measuring, const KeepOptio
   if (outcome.end != WizardOutcome::End::accepted) return 1;
 
   RigRecord record = recordOf(led.plan, outcome);
-  stamp(record, led.plan.record, measuring);
+  stamp(record, led.plan.record, led.measuring);
   if (const auto before = measuredArm(led.plan.record.rig); outcome.rezero && before)
     keep.note(record, DriftKind::rezero, targetErrors(residualsOf(*before, outcome.zeroing.touches)));
   else if (outcome.errors)
@@ -106,6 +107,20 @@ int concluded(const WizardOption::Led& led, Measuring measuring, const KeepOptio
   // A check that found all well changes nothing.
   if (outcome.arm || outcome.rest || outcome.screen) keep.keep(record, touchesText(touchesOf(outcome)));
   return outcome.judgement ? statusOf(outcome.judgement->verdict) : 0;
+}
+
+int concluded(const WebcamObservations& seen, const WebcamFit& fit, const RigRecord& before, const Measuring& measuring,
+              const KeepOption& keep, const std::vector<Residual>& proof) {
+  RigRecord record = before;
+  record.rig.device = RigDevice{seen.sights.device_model, measuring.serial, measuring.mount, measuring.stylus_tip};
+  putWebcamFit(record, fit);
+  if (!proof.empty()) putProof(record, proof, ProofKind::full);
+  stamp(record, before, measuring);
+  std::fputs(webcamFitText(fit).c_str(), stderr);
+  std::fputs(proofText(record.proof->errors, judge(record.proof->errors, ProofKind::full)).c_str(), stderr);
+  keep.keep(record, webcamFileText(seen));
+  keep.note(record, DriftKind::calibration, record.proof->errors);
+  return statusOf(record.proof->verdict);
 }
 
 int statusOf(Verdict verdict) { return verdict == Verdict::green ? 0 : 1; }

@@ -41,8 +41,7 @@ class KeepOption {
   void keep(const calibration::RigRecord& record, const std::string& touches_text) const;
 
   /// What was found, into the history of the place; only with --keep. Calibrations and re-zeros make up for what checks
-  /// have found, so only
-  /// those that come into force are noted.
+  /// have found, so only those that come into force are noted.
   void note(const calibration::RigRecord& record, calibration::DriftKind kind,
             const calibration::TargetErrors& errors) const;
 
@@ -54,7 +53,11 @@ class KeepOption {
 void addMeasuring(CommandLine& command, Measuring& measuring);
 
 /// What a technician was led to, told and kept; the exit status.
-int concluded(const WizardOption::Led& led, Measuring measuring, const KeepOption& keep);
+int concluded(const WizardOption::Led& led, const KeepOption& keep);
+/// The same of a rig fitted to what a webcam saw; `before`: what it comes after, `proof`: touches held out, if any.
+int concluded(const calibration::WebcamObservations& seen, const calibration::WebcamFit& fit,
+              const calibration::RigRecord& before, const Measuring& measuring, const KeepOption& keep,
+              const std::vector<calibration::Residual>& proof = {});
 
 /// Exit status of a verdict.
 int statusOf(calibration::Verdict verdict);

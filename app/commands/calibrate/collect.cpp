@@ -32,25 +32,14 @@ JigPose jigPose(const std::vector<double>& numbers) {
   return {{glm::dquat(turned), {numbers[0], numbers[1], numbers[2]}}};
 }
 
-int collectByWebcam(CollectOptions& options, calibration::OutputFile* observations) {
-  const auto [before, seen] = options.wizard.look(options.rig, options.keep.rigs(), options.measuring);
+int collectByWebcam(const CollectOptions& options, assets::OutputFile* observations) {
+  const auto [before, seen, measuring] = options.wizard.look(options.rig, options.keep.rigs(), options.measuring);
   if (!seen) {
     std::fputs("molar: left before the end: nothing is changed\n", stderr);
     return 1;
   }
-  const std::string text = webcamFileText(*seen);
-  if (observations != nullptr) observations->commit(text);
-  const WebcamFit fit = fitWebcam(seen->sights);
-  RigRecord record = before;
-  record.rig.device = RigDevice{seen->sights.device_model, options.measuring.serial, options.measuring.mount,
-                                options.measuring.stylus_tip};
-  putWebcamFit(record, fit, options.method, 0.0);
-  stamp(record, before, options.measuring);
-  std::fputs(webcamFitText(fit).c_str(), stderr);
-  std::fputs(proofText(record.proof->errors, judge(record.proof->errors, record.proof->kind)).c_str(), stderr);
-  options.keep.keep(record, text);
-  options.keep.note(record, DriftKind::calibration, record.proof->errors);
-  return statusOf(record.proof->verdict);
+  if (observations != nullptr) writeText(*observations, webcamFileText(*seen));
+  return concluded(*seen, fitWebcam(seen->sights), before, measuring, options.keep);
 }
 
 int collect(const CollectOptions& asked) {
@@ -74,10 +63,8 @@ int collect(const CollectOptions& asked) {
   const WizardOption::Led led =
       options.wizard.lead(rest ? CalibrationProcedure::rest : CalibrationProcedure::full, options.method, options.rig,
                           options.keep.rigs(), options.measuring);
-  if (observations && !led.outcome.touches.touches.empty()) {
-    observations->commit(touchesText(led.outcome.touches));
-  }
-  return concluded(led, options.measuring, options.keep);
+  if (observations && !led.outcome.touches.touches.empty()) writeText(*observations, touchesText(led.outcome.touches));
+  return concluded(led, options.keep);
 }
 
 }  // namespace

@@ -72,24 +72,17 @@ int fitWebcamFile(const CalibrateFitOptions& options) {
   measuring.serial = serialOf(measuring.serial, observations.serial);
   if (!observations.mount.empty()) measuring.mount = observations.mount;
   const WebcamFit fitted = fitWebcam(observations.sights, fitOptions(options).model.value_or(ArmModel::full));
-  RigRecord record = base;
-  record.rig.device =
-      RigDevice{observations.sights.device_model, measuring.serial, measuring.mount, measuring.stylus_tip};
-  putWebcamFit(record, fitted, "webcam" + std::to_string(fitted.X_WC.size()), 0.0);
+  std::vector<Residual> proof;
   if (!options.held_out.empty()) {
     TouchSet device;
     device.device_model = observations.sights.device_model;
     device.serial = measuring.serial;
     device.mount = measuring.mount;
-    putProof(record, heldOut(options.held_out, fitted.arm, device), ProofKind::full);
+    proof = heldOut(options.held_out, fitted.arm, device);
   }
-  stamp(record, base, measuring);
-  std::fputs(webcamFitText(fitted).c_str(), stderr);
-  std::fputs(proofText(record.proof->errors, judge(record.proof->errors, ProofKind::full)).c_str(), stderr);
-  options.keep.keep(record, webcamFileText(observations));
-  options.keep.note(record, DriftKind::calibration, record.proof->errors);
+  const int status = concluded(observations, fitted, base, measuring, options.keep, proof);
   if (options.json) std::fputs(webcamFitJson(fitted).c_str(), stdout);
-  return statusOf(record.proof->verdict);
+  return status;
 }
 
 int fit(const CalibrateFitOptions& options) {

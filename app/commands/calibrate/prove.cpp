@@ -23,14 +23,6 @@ struct ProveOptions {
   bool session_check = false, json = false;
 };
 
-/// At the workstation, which is brought up to date at once where it has to be.
-int checkWithDevice(const ProveOptions& asked) {
-  ProveOptions options = asked;
-  const auto led =
-      options.wizard.lead(CalibrationProcedure::check, "check4", options.rig, options.keep.rigs(), options.measuring);
-  return concluded(led, options.measuring, options.keep);
-}
-
 /// A touch it was fitted to leaves the very same error at the very same place.
 void refuseSeen(const RigRecord& record, const std::vector<Residual>& residuals, const std::string& path) {
   constexpr double kSame_mm = 1e-6;
@@ -43,7 +35,11 @@ void refuseSeen(const RigRecord& record, const std::vector<Residual>& residuals,
 }
 
 int prove(const ProveOptions& options) {
-  if (options.wizard.isGiven()) return checkWithDevice(options);
+  // At the workstation it is brought up to date at once where it has to be.
+  if (options.wizard.isGiven())
+    return concluded(
+        options.wizard.lead(CalibrationProcedure::check, "check4", options.rig, options.keep.rigs(), options.measuring),
+        options.keep);
   if (options.rig.empty() || options.observations.empty())
     throw UsageError(std::string("calibrate ") + (options.session_check ? "check" : "verify") +
                      ": it needs a rig and touches" + (options.session_check ? ", or a device (--device)" : ""));

@@ -22,15 +22,11 @@ struct RezeroOptions {
   KeepOption keep;
 };
 
-int rezeroWithDevice(const RezeroOptions& asked) {
-  RezeroOptions options = asked;
-  const auto led =
-      options.wizard.lead(CalibrationProcedure::rezero, "rezero5", options.rig, options.keep.rigs(), options.measuring);
-  return concluded(led, options.measuring, options.keep);
-}
-
 int rezero(const RezeroOptions& options) {
-  if (options.wizard.isGiven()) return rezeroWithDevice(options);
+  if (options.wizard.isGiven())
+    return concluded(options.wizard.lead(CalibrationProcedure::rezero, "rezero5", options.rig, options.keep.rigs(),
+                                         options.measuring),
+                     options.keep);
   if (options.rig.empty() || options.observations.empty())
     throw UsageError("calibrate rezero: it needs a rig and touches, or a device (--device)");
   options.keep.refuseUnlessWritable();

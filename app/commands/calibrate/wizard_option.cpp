@@ -95,8 +95,19 @@ RigRecord WizardOption::before(const Stylus& stylus, const std::string& rig, con
   return record;
 }
 
+void WizardOption::prepare(LedRun& run, const Stylus& held) const {
+  run.device = held.opened.device.get();
+  run.practice = held.practice;
+  run.windows = !headless_;
+  run.sounds = !quiet_ && !headless_;
+  run.display = {display_.mode(), display_.swapped(), !windowed_,
+                 monitor_ ? std::optional(*monitor_ - 1) : std::nullopt};
+  run.tell = tell;
+  run.given_up = [] { return interrupted != 0; };
+}
+
 WizardOption::Led WizardOption::lead(CalibrationProcedure procedure, const std::string& method, const std::string& rig,
-                                     const RigStore& store, Measuring& measuring) const {
+                                     const RigStore& store, Measuring measuring) const {
   const Stylus held = stylus(measuring);
   WizardRun run;
   run.plan.procedure = procedure;
@@ -105,28 +116,21 @@ WizardOption::Led WizardOption::lead(CalibrationProcedure procedure, const std::
   run.plan.rest_marks_mm = rest_marks_mm;
   run.plan.device = {held.model, measuring.serial, measuring.mount, measuring.stylus_tip};
   run.plan.record = before(held, rig, store, measuring);
-  run.device = held.opened.device.get();
+  prepare(run, held);
   if (run.device != nullptr) run.plan.has_inkwell = run.device->capabilities().has_inkwell;
-  run.practice = held.practice;
   if (robot_) {
     run.robot = TechnicianHabits{};
     run.practice->habits.outlier_share = 0.0;
   }
   if (hurried_) run.plan.settle_s = 0.0;
   run.hurried = hurried_;
-  run.windows = !headless_;
-  run.sounds = !quiet_ && !headless_;
-  run.display = {display_.mode(), display_.swapped(), !windowed_,
-                 monitor_ ? std::optional(*monitor_ - 1) : std::nullopt};
   run.pages = pages_;
-  run.tell = tell;
-  run.given_up = [] { return interrupted != 0; };
-  Led led{run.plan, runWizard(run)};
+  Led led{run.plan, runWizard(run), measuring};
   if (!led.outcome.reason.empty()) tell(led.outcome.reason);
   return led;
 }
 
-WizardOption::Seen WizardOption::look(const std::string& rig, const RigStore& store, Measuring& measuring) const {
+WizardOption::Seen WizardOption::look(const std::string& rig, const RigStore& store, Measuring measuring) const {
   const Stylus held = stylus(measuring);
   Seen seen;
   seen.before = before(held, rig, store, measuring);
@@ -148,17 +152,11 @@ WizardOption::Seen WizardOption::look(const std::string& rig, const RigStore& st
     if (!webcam.remarks.empty()) tell(webcam.pictures->name() + ": " + webcam.remarks);
     run.pictures = webcam.pictures.get();
   }
-  run.device = held.opened.device.get();
-  run.practice = held.practice;
+  prepare(run, held);
   run.practice_px = size_px;
   run.robot = robot_;
-  run.windows = !headless_;
-  run.sounds = !quiet_ && !headless_;
-  run.display = {display_.mode(), display_.swapped(), !windowed_,
-                 monitor_ ? std::optional(*monitor_ - 1) : std::nullopt};
-  run.tell = tell;
-  run.given_up = [] { return interrupted != 0; };
   seen.observations = runWebcam(run);
+  seen.measuring = measuring;
   return seen;
 }
 

@@ -18,6 +18,7 @@ namespace app {
 
 class CommandLine;
 class Option;
+struct LedRun;
 
 class WizardOption {
  public:
@@ -31,18 +32,20 @@ class WizardOption {
   struct Led {
     WizardPlan plan;
     WizardOutcome outcome;
+    Measuring measuring;  ///< with what the device says of itself
   };
   /// Leads through touches. `rig`: named by the user, or empty: the current one of this device in the store, else the
-  /// mirrored workstation. Fills `measuring` with what the device says of itself. Throws as runWizard, readRigRecord.
+  /// mirrored workstation. Throws as runWizard, readRigRecord.
   Led lead(CalibrationProcedure procedure, const std::string& method, const std::string& rig,
-           const calibration::RigStore& store, Measuring& measuring) const;
+           const calibration::RigStore& store, Measuring measuring) const;
 
   struct Seen {
     calibration::RigRecord before;
     std::optional<calibration::WebcamObservations> observations;  ///< none: somebody left
+    Measuring measuring;
   };
   /// The same through a webcam.
-  Seen look(const std::string& rig, const calibration::RigStore& store, Measuring& measuring) const;
+  Seen look(const std::string& rig, const calibration::RigStore& store, Measuring measuring) const;
 
   calibration::JigPose jig;
   std::vector<glm::dvec3> rest_marks_mm;
@@ -54,6 +57,8 @@ class WizardOption {
     std::string model;  ///< key of phantom_models
   };
   Stylus stylus(Measuring& measuring) const;
+  /// What both ways of leading need; borrows the stylus.
+  void prepare(LedRun& run, const Stylus& held) const;
   calibration::RigRecord before(const Stylus& stylus, const std::string& rig, const calibration::RigStore& store,
                                 const Measuring& measuring) const;
 
