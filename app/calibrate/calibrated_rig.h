@@ -1,4 +1,5 @@
-// A rig file's content from what was measured: the blocks that a procedure found out are new, all others stay as the
+// The rig that a calibration starts from or is proved with, as people name it, and a rig file's content from what was
+// measured: the blocks that a procedure found out are new, all others stay as the
 // base has them, and the chain to the base is written down. Frame W, mm. Plain functions; start-up and between
 // rehearsals only.
 #pragma once
@@ -12,6 +13,16 @@
 #include "calibration/webcam/webcam_fit.h"
 
 namespace app {
+
+inline constexpr const char* kBaseRigHelp = "Rig file, or mirrored or desktop as they come with the program";
+
+/// Throws CalibrationError as readRigRecord.
+calibration::RigRecord baseRig(const std::string& named);
+
+/// The arm of the rig, or the model's own where none was measured. Throws CalibrationError when the touches are of
+/// another device than the rig's.
+calibration::MeasuredArm armOf(const calibration::RigRecord& record, const calibration::TouchSet& touches,
+                               const std::string& named);
 
 /// Who measures, and where; nothing that names a person.
 struct Measuring {

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "calibration/fit/arm_fit.h"
 #include "calibration/fit/pivot.h"
 #include "calibration/fit/rezero.h"
 #include "calibration/record/rig_record.h"
 #include "calibration/verification/verdict.h"
+#include "calibration/webcam/intrinsics.h"
 #include "calibration/webcam/webcam_fit.h"
 
 namespace app {
@@ -30,6 +32,15 @@ std::string rezeroText(const calibration::Rezero& rezero);
 std::string pivotText(const calibration::Pivot& pivot, const glm::dvec3& before_H_mm);
 /// {"tip_H_mm","rms_mm","sigma_mm","tilt_spread_deg"}
 std::string pivotJson(const calibration::Pivot& pivot);
+
+inline constexpr double kGoodLens_px = 0.3, kFairLens_px = 0.6;  ///< root mean square; reference/calibration 3.3
+
+calibration::Verdict verdictOfLens(const calibration::Intrinsics& lens);
+
+/// `refused`: pictures in which no board could be used, a line each.
+std::string lensText(const calibration::Intrinsics& lens, const std::vector<std::string>& refused);
+/// {"size_px","focal_px","centre_px","distortion","rms_px","views","left_out","covered_share","most_slant_deg","verdict"}
+std::string lensJson(const calibration::Intrinsics& lens, const std::vector<std::string>& refused);
 
 /// A line of a store's list: when, how, how good.
 std::string recordLine(const calibration::RigRecord& record);

@@ -24,8 +24,6 @@ double eased(double share) {
   return s * s * s * (10.0 - 15.0 * s + 6.0 * s * s);
 }
 
-bool begins(const std::string& text, const std::string& with) { return !with.empty() && text.rfind(with, 0) == 0; }
-
 }  // namespace
 
 RobotTechnician::RobotTechnician(const calibration::SyntheticRig& rig, const TechnicianHabits& habits,
@@ -100,7 +98,7 @@ void RobotTechnician::decide(const WizardView& view, double t_s) {
 std::optional<std::size_t> RobotTechnician::wanted(const WizardView& view) const {
   const auto choice = [&](const std::string& words) -> std::optional<std::size_t> {
     for (std::size_t i = 0; i < view.choices.size(); ++i)
-      if (begins(view.choices[i], words)) return i;
+      if (!words.empty() && view.choices[i].starts_with(words)) return i;
     return std::nullopt;
   };
   if (!view.value.empty()) {

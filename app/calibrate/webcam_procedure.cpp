@@ -23,11 +23,6 @@ constexpr double kNewView = 0.06;
 constexpr double kTipNoise_px = 0.3, kBoardNoise_px = 0.25;
 constexpr double kFlat_mm = 0.01;  ///< of the virtual screen: W lies in it
 
-GreyPicture plain(const glm::ivec2& size_px) {
-  return {size_px,
-          std::vector<std::uint8_t>(static_cast<std::size_t>(size_px.x) * static_cast<std::size_t>(size_px.y), 0)};
-}
-
 bool isNew(const BoardSighting& sighting, const std::vector<BoardView>& views, double width_px) {
   return std::ranges::all_of(views, [&](const BoardView& view) {
     double farthest = 0.0;
@@ -64,7 +59,8 @@ WebcamProcedure::WebcamProcedure(const WebcamPlan& plan)
   } else {
     patterns_ = {calibration::pictureOf(board_)};
   }
-  dark_ = plain(screen_.px);
+  dark_.size_px = screen_.px;
+  dark_.grey.assign(static_cast<std::size_t>(screen_.px.x) * static_cast<std::size_t>(screen_.px.y), 0);
   calibration::WebcamSights& sights = observations_.sights;
   sights.device_model = plan_.device_model;
   sights.screen_noise_px = kBoardNoise_px;
@@ -96,11 +92,6 @@ double WebcamProcedure::progress() const {
 
 void WebcamProcedure::show(const GreyPicture& as_seen) { shown_ = calibration::framebufferFor(plan_.rig, as_seen); }
 
-/// The place where the tip is wanted, flat: for those who do not draw it in stereo.
-void WebcamProcedure::showWanted() {
-  shown_ = calibration::ringPicture(plan_.rig, plan_.rig.cyclopeanEye(), target()->place_W);
-}
-
 void WebcamProcedure::turnTo(WebcamStep step) {
   step_ = step;
   pressed_ = false;
@@ -126,7 +117,8 @@ void WebcamProcedure::turnTo(WebcamStep step) {
       pressed_ = true;
       return;
     case WebcamStep::tips:
-      showWanted();
+      // The place where the tip is wanted, flat: for those who do not draw it in stereo.
+      shown_ = calibration::ringPicture(plan_.rig, plan_.rig.cyclopeanEye(), target()->place_W);
       sentence_ = "Light the tip, hold it at the ring, then press: " +
                   std::to_string(observations_.sights.positions.back().tips.size() + 1) + " of " +
                   std::to_string(plan_.places.targets.size()) + ".";
@@ -230,11 +222,6 @@ void WebcamProcedure::seePattern(const GreyPicture& picture) {
     if (!camera_px.empty()) screen_px = board_.cornerPlaces_px();
   }
   if (camera_px.empty()) return turnTo(WebcamStep::pattern);
-  believePattern(screen_px, camera_px);
-}
-
-void WebcamProcedure::believePattern(const std::vector<glm::dvec2>& screen_px,
-                                     const std::vector<glm::dvec2>& camera_px) {
   calibration::CameraPosition& position = observations_.sights.positions.back();
   for (std::size_t i = 0; i < screen_px.size(); ++i)
     position.screen.push_back({{{glm::dvec2(calibration::placeOn(screen_, screen_px[i]).mm), 0.0}}, camera_px[i]});

@@ -63,12 +63,10 @@ class WebcamProcedure {
  private:
   void turnTo(WebcamStep step);
   void show(const calibration::GreyPicture& as_seen);
-  void showWanted();
   void seeLetter(const calibration::GreyPicture& picture);
   void seeLens(const calibration::GreyPicture& picture);
   void seePattern(const calibration::GreyPicture& picture);
   void seeTip(const calibration::GreyPicture& picture, const calibration::RawJoints& joints_rad);
-  void believePattern(const std::vector<glm::dvec2>& screen_px, const std::vector<glm::dvec2>& camera_px);
 
   WebcamPlan plan_;
   calibration::ScreenCorners screen_;

@@ -53,6 +53,11 @@ double coinChance(int hits, int trials) {
 }
 
 json finite(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+json orNull(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
+
+int countHarder(const Outcome& outcome) {
+  return static_cast<int>(std::ranges::count_if(outcome.trials, &TrialRecord::comparison_harder));
+}
 
 }  // namespace
 
@@ -113,11 +118,10 @@ std::string summaryJson(const Protocol& protocol, const Outcome& outcome, std::u
            {"trials", outcome.trials.size()},
            {"standard", jsonOf(protocol.standard)},
            {"comparison", jsonOf(protocol.comparison)}};
-  int correct = 0, judged = 0, comparison_first = 0, harder = 0;
+  int correct = 0, judged = 0, comparison_first = 0;
   for (const TrialRecord& t : outcome.trials) {
     if (t.correct) ++judged, correct += *t.correct ? 1 : 0;
     comparison_first += t.comparison_first ? 1 : 0;
-    harder += t.comparison_harder ? 1 : 0;
   }
   out["comparison_first"] = comparison_first;
   if (judged > 0) out["share_correct"] = static_cast<double>(correct) / judged;
@@ -133,8 +137,7 @@ std::string summaryJson(const Protocol& protocol, const Outcome& outcome, std::u
                         {"share_95", jsonOf(wilson95(c.harder, c.trials))}});
     out["levels"] = levels;
     out["fit"] = outcome.fit ? jsonOf(*outcome.fit) : json(nullptr);
-    const auto weber = weberFraction(protocol, outcome);
-    out["weber_fraction"] = weber ? json(*weber) : json(nullptr);
+    out["weber_fraction"] = orNull(weberFraction(protocol, outcome));
   }
   if (protocol.method == Method::staircase) {
     json tracks = json::array();
@@ -143,14 +146,13 @@ std::string summaryJson(const Protocol& protocol, const Outcome& outcome, std::u
                         {"reversals", outcome.tracks[i].reversals()},
                         {"threshold", finite(outcome.tracks[i].threshold())},
                         {"standard_error", finite(outcome.tracks[i].standardError())}});
-    const auto jnd = trackJnd(protocol, outcome);
     out["staircase"] = {{"target_probability", targetProbability(protocol.staircase)},
-                        {"threshold", outcome.threshold ? json(*outcome.threshold) : json(nullptr)},
-                        {"jnd", jnd ? json(*jnd) : json(nullptr)},
+                        {"threshold", orNull(outcome.threshold)},
+                        {"jnd", orNull(trackJnd(protocol, outcome))},
                         {"tracks", tracks}};
   }
   if (protocol.method == Method::pair && !outcome.trials.empty()) {
-    const int n = static_cast<int>(outcome.trials.size());
+    const int n = static_cast<int>(outcome.trials.size()), harder = countHarder(outcome);
     out["harder"] = {{"count", harder},
                      {"share", static_cast<double>(harder) / n},
                      {"share_95", jsonOf(wilson95(harder, n))},
@@ -183,9 +185,7 @@ std::string summaryWords(const Protocol& protocol, const Outcome& outcome) {
     text += "  JND (75 %)       " + number(*jnd) + unit + "  from threshold and standard, Weber fraction " +
             number(*weberFraction(protocol, outcome)) + "\n";
   if (protocol.method == Method::pair) {
-    int harder = 0;
-    for (const TrialRecord& t : outcome.trials) harder += t.comparison_harder ? 1 : 0;
-    const int n = static_cast<int>(outcome.trials.size());
+    const int n = static_cast<int>(outcome.trials.size()), harder = countHarder(outcome);
     const Interval share = wilson95(harder, n);
     text += "  comparison harder in " + std::to_string(harder) + " of " + std::to_string(n) +
             "  (95 %: " + number(share.low) + " to " + number(share.high) + ")\n";

@@ -1,14 +1,14 @@
 #include "app/psychophysics/trial_desk.h"
 
+#include <algorithm>
+
 namespace app {
 namespace {
 
 constexpr double kTouch_N = 0.05;
 
 bool touched(const std::vector<FeltSample>& felt) {
-  for (const FeltSample& sample : felt)
-    if (sample.force_N > kTouch_N) return true;
-  return false;
+  return std::ranges::any_of(felt, [](const FeltSample& sample) { return sample.force_N > kTouch_N; });
 }
 
 }  // namespace

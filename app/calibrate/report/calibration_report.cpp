@@ -4,10 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "app/calibrate/report/error_map_view.h"
-#include "app/calibrate/report/history_view.h"
-#include "app/calibrate/report/report_tables.h"
-#include "app/calibrate/report/residual_views.h"
+#include "app/calibrate/report/report_views.h"
 #include "app/report/drawing.h"
 #include "app/report/markup.h"
 #include "calibration/fit/expected_error_map.h"

@@ -1,4 +1,4 @@
-#include "app/calibrate/report/history_view.h"
+#include "app/calibrate/report/report_views.h"
 
 #include <algorithm>
 #include <cmath>

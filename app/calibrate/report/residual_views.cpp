@@ -1,4 +1,4 @@
-#include "app/calibrate/report/residual_views.h"
+#include "app/calibrate/report/report_views.h"
 
 #include <algorithm>
 #include <array>

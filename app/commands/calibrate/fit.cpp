@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <memory>
 
-#include "app/calibrate/base_rig.h"
 #include "app/calibrate/calibration_text.h"
 #include "app/commands/calibrate/calibrate.h"
 #include "app/text/command_line.h"

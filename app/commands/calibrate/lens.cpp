@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/calibrate/lens_text.h"
+#include "app/calibrate/calibration_text.h"
 #include "app/commands/calibrate/calibrate.h"
 #include "app/options/view_option.h"
 #include "app/text/command_line.h"

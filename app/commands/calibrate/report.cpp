@@ -2,7 +2,6 @@
 
 #include <memory>
 
-#include "app/calibrate/base_rig.h"
 #include "app/calibrate/report/calibration_report.h"
 #include "app/commands/calibrate/calibrate.h"
 #include "app/text/command_line.h"

@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <utility>
 
-#include "app/calibrate/base_rig.h"
 #include "app/calibrate/webcam_show.h"
 #include "app/calibrate/wizard_show.h"
 #include "app/device/practice_device.h"

@@ -3,9 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/calibrate/report/error_map_view.h"
-#include "app/calibrate/report/history_view.h"
-#include "app/calibrate/report/residual_views.h"
+#include "app/calibrate/report/report_views.h"
 #include "app/report/markup.h"
 #include "tests/app/calibrate/report/example_record.h"
 #include "tests/app/calibrate/report/markup.h"
