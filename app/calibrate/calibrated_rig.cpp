@@ -5,7 +5,6 @@
 #include "app/text/version.h"
 #include "calibration/arm/phantom_models.h"
 #include "calibration/checked_yaml.h"
-#include "calibration/record/default_rigs.h"
 #include "calibration/record/rig_file.h"
 #include "calibration/record/rig_store.h"
 #include "calibration/record/utc.h"

@@ -124,7 +124,7 @@ std::vector<LegendEntry> entriesOf(const Drawing& drawing, const Chart& chart) {
 
 }  // namespace
 
-void drawChart(const Chart& chart, assets::OutputFile& file) {
+void drawChart(const Chart& chart, calibration::OutputFile& file) {
   const Drawing drawing(glm::ivec2(glm::round(kPxPerUnit * chart.size)), kPxPerUnit);
   drawing.fill(paper::kWhite);
   const double width = chart.size.x - 2.0 * kMargin;

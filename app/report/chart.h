@@ -42,6 +42,6 @@ struct Chart {
 };
 
 /// Throws UsageError when the file can not be written. The file is committed.
-void drawChart(const Chart& chart, assets::OutputFile& file);
+void drawChart(const Chart& chart, calibration::OutputFile& file);
 
 }  // namespace app

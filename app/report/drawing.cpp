@@ -258,7 +258,7 @@ std::string Drawing::markup(std::string_view description) {
          escaped(description) + "\">" + drawn + words_ + "</svg>\n";
 }
 
-void Drawing::save(assets::OutputFile& file) const {
+void Drawing::save(calibration::OutputFile& file) const {
   if (cairo_surface_write_to_png(cairo_get_target(pen()), file.temporaryPath().c_str()) != CAIRO_STATUS_SUCCESS)
     throw UsageError("picture: it can not be written, check the folder and the free space");
   file.commit();

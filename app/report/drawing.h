@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "assets/output_file.h"
+#include "calibration/output_file.h"
 
 using cairo_t = struct _cairo;
 using PangoLayout = struct _PangoLayout;
@@ -78,7 +78,7 @@ class Drawing {
   /// Of SVG, once: an element to put into a page. `description`: what it shows, for those who do not see it.
   std::string markup(std::string_view description);
   /// Of pixels, as PNG; the file is committed. Throws UsageError when it can not be written.
-  void save(assets::OutputFile& file) const;
+  void save(calibration::OutputFile& file) const;
 
  protected:
   cairo_t* pen() const { return pen_.get(); }

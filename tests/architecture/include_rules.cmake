@@ -21,7 +21,7 @@ set(calibration/synthetic ${calibration_words} calibration/fit/ calibration/webc
 set(calibration/record ${calibration_words} calibration/fit/ calibration/verification/ calibration/record/)
 # Rooms of assets: plain types at the root, then what reads and writes, then what puts together.
 set(assets_words calibration/ assets/ct_volume.h assets/instruction_set.h assets/load_error.h assets/mesh.h
-    assets/operative_site.h assets/output_file.h assets/patient.h assets/planned_cut.h assets/solid_sample.h
+    assets/operative_site.h calibration/output_file.h assets/patient.h assets/planned_cut.h assets/solid_sample.h
     assets/solid_voxels.h assets/tissue.h assets/tooth.h assets/vertex_normals.h assets/volume_grid.h)
 set(assets_root ${assets_words})
 foreach(room mesh scan scenery)

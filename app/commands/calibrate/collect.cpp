@@ -31,13 +31,13 @@ JigPose jigPose(const std::vector<double>& numbers) {
   return {{glm::dquat(turned), {numbers[0], numbers[1], numbers[2]}}};
 }
 
-int collectByWebcam(const CollectOptions& options, assets::OutputFile* observations) {
+int collectByWebcam(const CollectOptions& options, calibration::OutputFile* observations) {
   const auto [before, seen, measuring] = options.wizard.look(options.rig, options.keep.rigs(), options.measuring);
   if (!seen) {
     std::fputs("molar: left before the end: nothing is changed\n", stderr);
     return 1;
   }
-  if (observations != nullptr) writeText(*observations, webcamFileText(*seen));
+  if (observations != nullptr) observations->commit(webcamFileText(*seen));
   return concluded(*seen, fitWebcam(seen->sights), before, measuring, options.keep);
 }
 
@@ -62,7 +62,7 @@ int collect(const CollectOptions& asked) {
   const WizardOption::Led led =
       options.wizard.lead(rest ? CalibrationProcedure::rest : CalibrationProcedure::full, options.method, options.rig,
                           options.keep.rigs(), options.measuring);
-  if (observations && !led.outcome.touches.touches.empty()) writeText(*observations, touchesText(led.outcome.touches));
+  if (observations && !led.outcome.touches.touches.empty()) observations->commit(touchesText(led.outcome.touches));
   return concluded(led, options.keep);
 }
 
