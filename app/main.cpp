@@ -13,6 +13,7 @@
 
 #include "app/commands/command.h"
 #include "app/text/command_line.h"
+#include "app/text/said.h"
 #include "app/text/version.h"
 #include "calibration/output_file.h"
 
@@ -30,7 +31,7 @@ std::string oneLine(std::string text) {
 }
 
 int refuse(const std::string& text) {
-  std::fprintf(stderr, "molar: %s\n", oneLine(calibration::withoutTemporaryMarks(text)).c_str());
+  app::say(oneLine(calibration::withoutTemporaryMarks(text)));
   return 2;
 }
 

@@ -2,9 +2,8 @@
 
 #include <cmath>
 
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
-
-#include "app/text/printed.h"
 
 namespace app {
 namespace {
@@ -12,7 +11,7 @@ namespace {
 using namespace calibration;
 using nlohmann::ordered_json;
 
-std::string listOf(const glm::dvec3& v) { return printed("(%+.2f, %+.2f, %+.2f)", v.x, v.y, v.z); }
+std::string listOf(const glm::dvec3& v) { return fmt::format("({:+.2f}, {:+.2f}, {:+.2f})", v.x, v.y, v.z); }
 std::array<double, 3> numbersOf(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
 glm::dvec3 middleOf(const std::vector<Residual>& residuals) {
@@ -24,16 +23,16 @@ glm::dvec3 middleOf(const std::vector<Residual>& residuals) {
 }  // namespace
 
 std::string fitText(const ArmFit& fit) {
-  std::string text = printed("%d touches used, %d set aside, stylus tilted over %.0f degrees\n", fit.used,
-                             static_cast<int>(fit.residuals.size()) - fit.used, fit.tilt_spread_deg);
+  std::string text = fmt::format("{} touches used, {} set aside, stylus tilted over {:.0f} degrees\n", fit.used,
+                                 static_cast<int>(fit.residuals.size()) - fit.used, fit.tilt_spread_deg);
   text += "model         numbers   foretells (5-fold)   fits (no accuracy)\n";
   for (const ModelScore& score : fit.scores)
-    text += printed("%-12s %8d %16.2f mm %17.2f mm%s\n", score.name.c_str(), score.numbers, score.cv_rms_mm,
-                    score.fre_rms_mm, score.name == nameOf(fit.model) ? "   chosen" : "");
+    text += fmt::format("{:12} {:8} {:16.2f} mm {:17.2f} mm{}\n", score.name, score.numbers, score.cv_rms_mm,
+                        score.fre_rms_mm, score.name == nameOf(fit.model) ? "   chosen" : "");
   for (const Residual& one : fit.residuals)
     if (!one.used)
-      text += printed("touch %d set aside: off by %.1f mm %s\n", one.id, glm::length(one.error_mm.xyz),
-                      listOf(one.error_mm.xyz).c_str());
+      text += fmt::format("touch {} set aside: off by {:.1f} mm {}\n", one.id, glm::length(one.error_mm.xyz),
+                          listOf(one.error_mm.xyz));
   for (const FitWarning& warning : fit.warnings) text += "note: " + warning.line + "\n";
   text += "mean error " + listOf(fit.bias_mm.xyz) + " mm; " +
           worstPlaceSentence(fit.residuals, {middleOf(fit.residuals)}) + "\n";
@@ -65,10 +64,10 @@ std::string fitJson(const ArmFit& fit) {
 }
 
 std::string webcamFitText(const WebcamFit& fit) {
-  std::string text = printed("%d tips used, %d set aside, from %d places up to %.0f degrees apart\n", fit.used,
-                             fit.outliers, static_cast<int>(fit.X_WC.size()), fit.base_deg);
-  text += printed("screen seen to %.2f px, tips to %.2f px; tips left out are foretold to %.2f mm\n", fit.screen_rms_px,
-                  fit.tip_rms_px, fit.cv_rms_mm);
+  std::string text = fmt::format("{} tips used, {} set aside, from {} places up to {:.0f} degrees apart\n", fit.used,
+                                 fit.outliers, static_cast<int>(fit.X_WC.size()), fit.base_deg);
+  text += fmt::format("screen seen to {:.2f} px, tips to {:.2f} px; tips left out are foretold to {:.2f} mm\n",
+                      fit.screen_rms_px, fit.tip_rms_px, fit.cv_rms_mm);
   for (const FitWarning& warning : fit.warnings) text += "note: " + warning.line + "\n";
   return text;
 }
@@ -90,9 +89,10 @@ std::string webcamFitJson(const WebcamFit& fit) {
 }
 
 std::string proofText(const TargetErrors& errors, const Judgement& judgement) {
-  return printed("%s: %.2f mm RMS of %d touches, mean %.2f, 95 of 100 within %.2f, largest %.2f mm, bias %s mm; ",
-                 std::string(nameOf(judgement.verdict)).c_str(), errors.rms_mm, errors.n, errors.mean_mm, errors.p95_mm,
-                 errors.max_mm, listOf(errors.bias_mm.xyz).c_str()) +
+  return fmt::format(
+             "{}: {:.2f} mm RMS of {} touches, mean {:.2f}, 95 of 100 within {:.2f}, largest {:.2f} mm, bias {} mm; ",
+             nameOf(judgement.verdict), errors.rms_mm, errors.n, errors.mean_mm, errors.p95_mm, errors.max_mm,
+             listOf(errors.bias_mm.xyz)) +
          judgement.reason + "\n";
 }
 
@@ -112,18 +112,19 @@ std::string proofJson(const TargetErrors& errors, const Judgement& judgement) {
 }
 
 std::string rezeroText(const Rezero& rezero) {
-  return printed("before %.2f mm RMS, after %.2f mm; base moved %.2f mm and turned %.2f degrees; ",
-                 rezero.before_rms_mm, rezero.after_rms_mm, rezero.moved_mm, rezero.turned_deg) +
-         printed("joints by %+.2f, %+.2f, %+.2f degrees", rezero.offset_change_deg[0], rezero.offset_change_deg[1],
-                 rezero.offset_change_deg[2]) +
-         (rezero.outliers > 0 ? printed("; %d touches set aside", rezero.outliers) : std::string()) + "\n";
+  return fmt::format("before {:.2f} mm RMS, after {:.2f} mm; base moved {:.2f} mm and turned {:.2f} degrees; ",
+                     rezero.before_rms_mm, rezero.after_rms_mm, rezero.moved_mm, rezero.turned_deg) +
+         fmt::format("joints by {:+.2f}, {:+.2f}, {:+.2f} degrees", rezero.offset_change_deg[0],
+                     rezero.offset_change_deg[1], rezero.offset_change_deg[2]) +
+         (rezero.outliers > 0 ? fmt::format("; {} touches set aside", rezero.outliers) : std::string()) + "\n";
 }
 
 std::string pivotText(const Pivot& pivot, const glm::dvec3& before_H_mm) {
   return "tip in the handle " + listOf(pivot.tip_H_mm) +
-         printed(" mm, %.2f mm from where it was believed\n", glm::distance(pivot.tip_H_mm, before_H_mm)) +
-         printed(
-             "known to %.2f mm, one sigma; the tip wandered in its pit by %.2f mm RMS, the handle was swung over %.0f "
+         fmt::format(" mm, {:.2f} mm from where it was believed\n", glm::distance(pivot.tip_H_mm, before_H_mm)) +
+         fmt::format(
+             "known to {:.2f} mm, one sigma; the tip wandered in its pit by {:.2f} mm RMS, the handle was swung over "
+             "{:.0f} "
              "degrees\n",
              pivot.sigma_mm, pivot.rms_mm, pivot.tilt_spread_deg);
 }
@@ -181,11 +182,11 @@ std::string recordLine(const RigRecord& record) {
   std::string line = record.provenance.created_utc.empty() ? "undated" : record.provenance.created_utc;
   if (record.procedure)
     line += "  " + record.procedure->method + ", " + std::string(nameOf(record.procedure->model)) +
-            printed(", foretells %.2f mm", record.procedure->cv_rms_mm);
+            fmt::format(", foretells {:.2f} mm", record.procedure->cv_rms_mm);
   if (record.proof)
     line += "  " + std::string(nameOf(record.proof->verdict)) +
-            printed(", %.2f mm RMS of %d, largest %.2f mm", record.proof->errors.rms_mm, record.proof->errors.n,
-                    record.proof->errors.max_mm);
+            fmt::format(", {:.2f} mm RMS of {}, largest {:.2f} mm", record.proof->errors.rms_mm, record.proof->errors.n,
+                        record.proof->errors.max_mm);
   else
     line += "  not proved";
   return line;

@@ -3,11 +3,11 @@
 
 #include <string>
 
-#include "app/text/printed.h"
+#include <fmt/core.h>
 
 namespace app {
 
-inline std::string inWords(double number, int decimals) { return printed("%.*f", decimals, number); }
+inline std::string inWords(double number, int decimals) { return fmt::format("{:.{}f}", number, decimals); }
 inline std::string inMm(double length_mm) { return inWords(length_mm, length_mm < 10.0 ? 2 : 1) + " mm"; }
 
 }  // namespace app

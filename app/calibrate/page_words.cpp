@@ -5,8 +5,9 @@
 #include <cmath>
 #include <optional>
 
+#include <fmt/core.h>
+
 #include "app/calibrate/page_inks.h"
-#include "app/text/printed.h"
 
 namespace app {
 namespace {
@@ -57,7 +58,7 @@ struct Sheet {
 
 std::string minutes(double seconds) {
   const int whole = static_cast<int>(std::ceil(std::clamp(seconds, 0.0, 5999.0) / 5.0)) * 5;
-  return printed("%d:%02d left", whole / 60, whole % 60);
+  return fmt::format("{}:{:02} left", whole / 60, whole % 60);
 }
 
 /// "12 of 27 · 1:20 left"

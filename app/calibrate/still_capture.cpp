@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/text/printed.h"
+#include <fmt/core.h>
+
 #include "calibration/median.h"
 
 namespace app {
@@ -127,9 +128,10 @@ std::optional<StillTake> StillCapture::before(double t_s, std::string& why) cons
   if (found.gap || take.samples < kLeastSamples)
     why = "the device sent too little: wait a moment, then press again";
   else if (found.speed_mm_per_s > limits_.speed_mm_per_s)
-    why = printed("moving at %.0f mm/s: hold still, then press", found.speed_mm_per_s);
+    why = fmt::format("moving at {:.0f} mm/s: hold still, then press", found.speed_mm_per_s);
   else if (found.still_s < kMedian_s)
-    why = printed("moving by %.2f mm: rest the hand, hold still, then press", std::max(found.sd_mm, limits_.sd_mm));
+    why =
+        fmt::format("moving by {:.2f} mm: rest the hand, hold still, then press", std::max(found.sd_mm, limits_.sd_mm));
   else
     return take;
   return std::nullopt;

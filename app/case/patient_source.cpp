@@ -4,7 +4,9 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "app/text/printed.h"
+#include <fmt/core.h>
+
+#include "app/text/said.h"
 #include "assets/load_error.h"
 #include "assets/mesh/gltf_file.h"
 #include "assets/patient/patient_folder.h"
@@ -26,9 +28,9 @@ fs::path cacheFolder() {
 }
 
 std::string cacheName(const assets::JawParameters& p) {
-  return printed("built-in-%d-%s-%g-%g-%g-%g-%llu", assets::kSyntheticPatientRevision, p.right_side ? "right" : "left",
-                 p.winter_angle_deg, p.depth_mm, p.mandibular_canal_distance_mm, p.spacing_mm,
-                 static_cast<unsigned long long>(p.seed));
+  return fmt::format("built-in-{}-{}-{:g}-{:g}-{:g}-{:g}-{}", assets::kSyntheticPatientRevision,
+                     p.right_side ? "right" : "left", p.winter_angle_deg, p.depth_mm, p.mandibular_canal_distance_mm,
+                     p.spacing_mm, p.seed);
 }
 
 assets::Patient generate(const assets::JawParameters& parameters) {
@@ -47,17 +49,17 @@ assets::Patient builtInPatient(const assets::JawParameters& parameters) {
     try {
       return assets::loadPatient(folder.string());
     } catch (const assets::LoadError&) {
-      std::fprintf(stderr, "molar: the cached built-in patient can not be read, making it again\n");
+      say("the cached built-in patient can not be read, making it again");
     }
   } else {
-    std::fprintf(stderr, "molar: making the built-in patient (once, up to a minute)\n");
+    say("making the built-in patient (once, up to a minute)");
   }
   const assets::Patient made = generate(parameters);
   try {
     fs::create_directories(folder.parent_path(), ignored);
     assets::savePatient(made, folder.string(), true);
   } catch (const assets::LoadError& error) {
-    std::fprintf(stderr, "molar: the built-in patient is not kept for next time: %s\n", error.what());
+    say(fmt::format("the built-in patient is not kept for next time: {}", error.what()));
     return made;
   }
   // What is rehearsed is what the cache holds, so the first run and the next are the same.
@@ -69,7 +71,7 @@ assets::FacePose dressWithFace(assets::Patient& patient, const std::string& face
   const fs::path teeth = fs::path(face_path).parent_path() / "teeth.json";
   const assets::FacePlacement placed = assets::fitFace(patient.ct, patient.site, assets::readFaceTeeth(teeth.string()));
   patient.face = assets::modelInPatientFrame(face_F, placed.X_PF);
-  std::fprintf(stderr, "molar: face placed on %d teeth, %.1f mm rms, 1:1\n", placed.teeth, placed.rms_mm);
+  say(fmt::format("face placed on {} teeth, {:.1f} mm rms, 1:1", placed.teeth, placed.rms_mm));
   return placed.X_PF;
 }
 

@@ -10,7 +10,7 @@
 
 #include "app/commands/command.h"
 #include "app/device/pose_csv.h"
-#include "app/options/erosion_text.h"
+#include "app/options/law_text.h"
 #include "app/options/settings_text.h"
 #include "app/options/tool_text.h"
 #include "app/options/volume_option.h"
@@ -167,10 +167,8 @@ void addCarve(CommandLine& molar) {
   auto options = std::make_shared<CarveOptions>();
   CommandLine& command = molar.command("carve", "Carving along timed poses: carved NRRD, removed mm³ as JSON");
   options->volume.addTo(command);
-  command.option("--tool", options->tool, kHeadHelp).required();
-  command.option("--erosion", options->erosion, "Erosion law: time, dose or machining")
-      .oneOf(erosionNames())
-      .showsDefault();
+  command.option("--tool", options->tool, headHelp()).required();
+  command.option("--erosion", options->erosion, "Erosion law").oneOf(erosionNames()).showsDefault();
   command.option("--set", options->settings, "key=value, see below");
   command.option("--poses", options->poses, "t_s,px_mm,py_mm,pz_mm,qw,qx,qy,qz[,drill] (X_PT)").required();
   command.option("--out", options->out, "Solid fraction that is left, .nrrd").required();

@@ -16,6 +16,7 @@
 #include "app/device/falcon_scale_file.h"
 #include "app/text/command_line.h"
 #include "app/text/page_look.h"
+#include "app/text/said.h"
 #include "app/text/usage_error.h"
 #include "app/text/version.h"
 #include "calibration/output_file.h"
@@ -76,7 +77,7 @@ Unit unitAt(const std::string& address, const CheckOptions& options, haptics::Fa
   haptics::DeviceOptions device;
   device.falcon_program = options.falcon_firmware;
   device.falcon_scale = [&] { return scale = keptFalconScale(options.falcon_scale); };
-  device.tell = [](const std::string& words) { std::fprintf(stderr, "molar: %s\n", words.c_str()); };
+  device.tell = say;
   unit.opened = haptics::openDevice(address, device);
   unit.owner = std::make_unique<Owner>();
   return unit;
@@ -100,7 +101,7 @@ void keepFalconScale(const CheckOptions& options, const haptics::FalconForceScal
   std::error_code none;
   std::filesystem::create_directories(std::filesystem::path(options.falcon_scale).parent_path(), none);
   writeFalconScale(options.falcon_scale, scale, true);
-  std::fprintf(stderr, "molar: the force scale is kept in %s\n", options.falcon_scale.c_str());
+  say("the force scale is kept in " + options.falcon_scale);
 }
 
 int check(const CheckOptions& options) {

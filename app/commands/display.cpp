@@ -7,12 +7,16 @@
 #include <optional>
 #include <thread>
 
+#include <fmt/core.h>
+
 #include "app/commands/command.h"
 #include "app/options/display_option.h"
 #include "app/options/view_option.h"
 #include "app/pattern/test_pattern.h"
 #include "app/station/rig_choice.h"
 #include "app/text/command_line.h"
+#include "app/text/list.h"
+#include "app/text/said.h"
 #include "app/text/usage_error.h"
 #include "app/view/display_windows.h"
 #include "app/view/snapshot.h"
@@ -39,8 +43,10 @@ struct DisplayOptions {
 int listMonitors() {
   int n = 0;
   for (const render::Monitor& monitor : render::monitors())
-    std::printf("%d  %s  %dx%d at %d,%d  %.0f Hz\n", ++n, monitor.name.c_str(), monitor.px.x, monitor.px.y,
-                monitor.at_px.x, monitor.at_px.y, monitor.refresh_Hz);
+    std::fputs(fmt::format("{}  {}  {}x{} at {},{}  {:.0f} Hz\n", ++n, monitor.name, monitor.px.x, monitor.px.y,
+                           monitor.at_px.x, monitor.at_px.y, monitor.refresh_Hz)
+                   .c_str(),
+               stdout);
   return 0;
 }
 
@@ -67,7 +73,7 @@ class PatternShow {
                   .screen_px = rig.screen.px,
                   .full_screen = !options.windowed,
                   .monitor = options.monitor ? std::optional(*options.monitor - 1) : std::nullopt},
-                 [](const std::string& line) { std::fprintf(stderr, "molar: %s\n", line.c_str()); }) {}
+                 say) {}
 
   void run(std::optional<double> seconds) {
     const auto begun = std::chrono::steady_clock::now();
@@ -126,11 +132,9 @@ class PatternShow {
 
 int display(const DisplayOptions& options) {
   if (options.monitors) return listMonitors();
-  if (!testPatternNamed(options.pattern)) {
-    std::string names;
-    for (const TestPatternName& one : kTestPatterns) names += (names.empty() ? "" : ", ") + std::string(one.name);
-    throw UsageError("--pattern " + options.pattern + ": not a pattern, choose one of " + names);
-  }
+  if (!testPatternNamed(options.pattern))
+    throw UsageError("--pattern " + options.pattern + ": not a pattern, choose one of " +
+                     listed(kTestPatterns, &TestPatternName::name));
   const calibration::Rig rig = rigOf(options);
   if (options.out.empty()) {
     std::signal(SIGINT, [](int) { interrupted = 1; });
@@ -153,7 +157,9 @@ int display(const DisplayOptions& options) {
 void addDisplay(CommandLine& molar) {
   auto o = std::make_shared<DisplayOptions>();
   CommandLine& command = molar.command("display", "Test patterns on the display, until Esc; monitors that are there");
-  command.option("--pattern", o->pattern, "eyes, crosstalk, grid, cross or text; right and left arrow change it")
+  command
+      .option("--pattern", o->pattern,
+              listed(kTestPatterns, &TestPatternName::name) + "; right and left arrow change it")
       .showsDefault();
   o->rig.addTo(command, false);
   o->display.addTo(command);

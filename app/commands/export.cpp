@@ -11,6 +11,7 @@
 #include "app/options/volume_option.h"
 #include "app/session/replay.h"
 #include "app/text/command_line.h"
+#include "app/text/said.h"
 #include "app/text/usage_error.h"
 #include "assets/mesh/bone_surface.h"
 #include "assets/mesh/gltf_file.h"
@@ -41,7 +42,7 @@ SolidVolume sourceOf(const ExportOptions& options) {
     return {patient.ct.grid, std::move(patient.ct.solid), std::move(patient.ct.label)};
   }
   BoneThen bone = boneThen(options.session, options.to_s);
-  for (const std::string& remark : bone.remarks) std::fprintf(stderr, "molar: %s\n", remark.c_str());
+  for (const std::string& remark : bone.remarks) say(remark);
   return {bone.start.grid, std::move(bone.solid), std::move(bone.start.label)};
 }
 

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <memory>
+
+#include <fmt/core.h>
 
 #include "app/commands/command.h"
 #include "app/device/pose_csv.h"
@@ -13,7 +14,6 @@
 #include "app/options/tool_text.h"
 #include "app/options/volume_option.h"
 #include "app/text/command_line.h"
-#include "app/text/usage_error.h"
 #include "calibration/output_file.h"
 #include "haptics/bone/cubelets.h"
 #include "haptics/contact/agus.h"
@@ -108,18 +108,13 @@ int feel(const FeelOptions& options) {
   const SolidVolume volume = options.volume.load();
   const auto rows = options.served ? feelServed(volume, command, poses) : feelRaw(volume, command, poses);
 
-  std::FILE* file = std::fopen(out.temporaryPath().c_str(), "w");
-  if (!file) throw UsageError("--out " + options.out + ": it can not be written, check the folder");
-  std::fputs("t_s,fx_N,fy_N,fz_N,tx_Nmm,ty_Nmm,tz_Nmm,volume_mm3,depth_mm\n", file);
+  std::string csv = "t_s,fx_N,fy_N,fz_N,tx_Nmm,ty_Nmm,tz_Nmm,volume_mm3,depth_mm\n";
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const glm::dvec3 &F = rows[i].force_P_N.xyz, &M = rows[i].torque_P_Nmm.xyz;
-    std::fprintf(file, "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", poses[i].t_s, F.x, F.y, F.z, M.x, M.y, M.z,
-                 rows[i].volume_mm3, rows[i].depth_mm);
+    csv += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", poses[i].t_s, F.x, F.y, F.z,
+                       M.x, M.y, M.z, rows[i].volume_mm3, rows[i].depth_mm);
   }
-  const bool written = !std::ferror(file);
-  if (std::fclose(file) != 0 || !written)
-    throw UsageError("--out " + options.out + ": it can not be written, check the free space");
-  out.commit();
+  out.commit(csv);
   return 0;
 }
 
@@ -129,7 +124,7 @@ void addFeel(CommandLine& molar) {
   auto options = std::make_shared<FeelOptions>();
   CommandLine& command = molar.command("feel", "A force law on given poses, no device: CSV of forces, frame P");
   options->volume.addTo(command);
-  command.option("--tool", options->tool, kHeadHelp).required();
+  command.option("--tool", options->tool, headHelp()).required();
   command.option("--shaft", options->shaft, kShaftHelp).showsDefault();
   command.option("--law", options->law, "Force law: " + lawNames()).showsDefault();
   command.option("--set", options->settings, "key=value: stiffness_N_per_mm, damping_Ns_per_mm, …");

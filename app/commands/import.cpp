@@ -4,10 +4,14 @@
 #include <memory>
 #include <numeric>
 
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "app/commands/command.h"
 #include "app/text/command_line.h"
+#include "app/text/list.h"
+#include "app/text/number_in.h"
+#include "app/text/said.h"
 #include "app/text/usage_error.h"
 #include "assets/import/scan_import.h"
 #include "assets/import/tooth_site.h"
@@ -91,37 +95,33 @@ nlohmann::json jsonOf(const assets::Patient& patient) {
   return out;
 }
 
-void printForPeople(const assets::Patient& patient, std::FILE* out) {
+std::string wordsOn(const assets::Patient& patient) {
   const assets::VolumeGrid& grid = patient.ct.grid;
-  std::fprintf(out, "patient      %s\n", patient.title.c_str());
-  std::fprintf(out, "volume       %d x %d x %d voxels of %.3f mm\n", grid.size.x, grid.size.y, grid.size.z,
-               grid.spacing_mm);
-  if (patient.site)
-    std::fprintf(out, "site         FDI %d, %s, at (%.1f, %.1f, %.1f) mm\n", patient.site->fdi,
-                 assets::toothName(patient.site->fdi).c_str(), patient.site->centre_P_mm.x, patient.site->centre_P_mm.y,
-                 patient.site->centre_P_mm.z);
+  std::string words = fmt::format("patient      {}\nvolume       {} x {} x {} voxels of {:.3f} mm\n", patient.title,
+                                  grid.size.x, grid.size.y, grid.size.z, grid.spacing_mm);
+  if (const auto& site = patient.site)
+    words += fmt::format("site         FDI {}, {}, at ({:.1f}, {:.1f}, {:.1f}) mm\n", site->fdi,
+                         assets::toothName(site->fdi), site->centre_P_mm.x, site->centre_P_mm.y, site->centre_P_mm.z);
   else
-    std::fputs("site         no third molar labelled here\n", out);
+    words += "site         no third molar labelled here\n";
   for (const auto& [fdi, volume_mm3] : assets::toothVolumes_mm3(patient.ct))
-    std::fprintf(out, "  tooth %d         %9.1f mm³\n", fdi, volume_mm3);
+    words += fmt::format("  tooth {}         {:9.1f} mm³\n", fdi, volume_mm3);
   const Volumes_mm3 volumes = tissueVolumes(patient.ct);
   for (std::size_t l = 1; l < volumes.size(); ++l)
-    if (volumes[l] > 0.0)
-      std::fprintf(out, "  %-16s %9.1f mm³\n", std::string(assets::kTissues[l].name).c_str(), volumes[l]);
+    if (volumes[l] > 0.0) words += fmt::format("  {:16} {:9.1f} mm³\n", assets::kTissues[l].name, volumes[l]);
   if (!patient.mandibular_canal_P_mm.empty())
-    std::fprintf(out, "canal        %.1f mm long, radius %.1f mm\n", mandibularCanalLength_mm(patient),
-                 patient.mandibular_canal_radius_mm);
+    words += fmt::format("canal        {:.1f} mm long, radius {:.1f} mm\n", mandibularCanalLength_mm(patient),
+                         patient.mandibular_canal_radius_mm);
+  return words;
 }
 
 /// LOW:HIGH in HU.
 assets::GreyWindow windowOf(const std::string& text) {
-  assets::GreyWindow window;
-  int read = 0;
-  const bool fits = std::sscanf(text.c_str(), "%lf:%lf%n", &window.low_hu, &window.high_hu, &read) == 2 &&
-                    static_cast<std::size_t>(read) == text.size() && window.low_hu >= -2000.0 &&
-                    window.high_hu <= 32000.0 && window.low_hu < window.high_hu;
-  if (!fits) throw UsageError("--window " + text + ": give LOW:HIGH in HU, from -2000 to 32000, LOW below HIGH");
-  return window;
+  const std::vector<std::string_view> ends = partsOf(text, ':');
+  const auto low_hu = numberIn<double>(ends.front()), high_hu = numberIn<double>(ends.back());
+  if (ends.size() != 2 || !low_hu || !high_hu || *low_hu < -2000.0 || *high_hu > 32000.0 || *low_hu >= *high_hu)
+    throw UsageError("--window " + text + ": give LOW:HIGH in HU, from -2000 to 32000, LOW below HIGH");
+  return {*low_hu, *high_hu};
 }
 
 int import(ImportOptions options) {
@@ -129,21 +129,17 @@ int import(ImportOptions options) {
     throw UsageError("--tooth " + std::to_string(*fdi) + ": it is no FDI number of a tooth, give 11 to 48 or 51 to 85");
   if (!options.window.empty()) options.choices.window = windowOf(options.window);
   assets::ImportedScan imported = assets::importScan(options.source, options.choices);
-  for (const std::string& remark : imported.remarks)
-    std::fprintf(stderr, "molar: %s: %s\n", options.source.c_str(), remark.c_str());
+  for (const std::string& remark : imported.remarks) say(options.source + ": " + remark);
   assets::Patient& patient = imported.patient;
   patient.gum = assets::gumSurface(patient.ct, patient.site);
   assets::savePatient(patient, options.out, options.force);
-  printForPeople(patient, stderr);
+  std::fputs(wordsOn(patient).c_str(), stderr);
   return 0;
 }
 
 int inspect(const InspectOptions& options) {
   const assets::Patient patient = assets::loadPatient(options.patient);
-  if (options.json)
-    std::printf("%s\n", jsonOf(patient).dump(2).c_str());
-  else
-    printForPeople(patient, stdout);
+  std::fputs((options.json ? jsonOf(patient).dump(2) + "\n" : wordsOn(patient)).c_str(), stdout);
   return 0;
 }
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <memory>
 
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "app/commands/command.h"
@@ -57,9 +58,7 @@ void printJson(const std::vector<const haptics::LawName*>& laws) {
     for (const LawParameter& one : haptics::lawParameters())
       if (one.law == law->kind) parameters.push_back(jsonOf(one));
     json shapes = json::array();
-    for (const auto& [kind, name] :
-         {std::pair{haptics::ShapeKind::sphere, "sphere"}, std::pair{haptics::ShapeKind::capsule, "capsule"},
-          std::pair{haptics::ShapeKind::cylinder, "cylinder"}, std::pair{haptics::ShapeKind::cone, "cone"}})
+    for (const auto& [kind, name] : headKinds())
       if (haptics::admits(law->kind, kind)) shapes.push_back(name);
     list.push_back({{"law", law->key},
                     {"formula", law->formula},
@@ -72,30 +71,29 @@ void printJson(const std::vector<const haptics::LawName*>& laws) {
   std::printf("%s\n", json{{"laws", list}, {"every_law", common}}.dump(2).c_str());
 }
 
-void printRow(const LawParameter& one) {
-  const std::string range = assets::numberText(one.lowest) + " .. " + assets::numberText(one.highest);
-  std::printf("    %-26s %9s  %-14s %-7s %s\n", std::string(one.key).c_str(),
-              assets::numberText(one.standard()).c_str(), range.c_str(), std::string(one.unit).c_str(),
-              std::string(one.meaning).c_str());
-  std::printf("    %-26s %9s  %-14s %-7s   %s\n", "", "", "", "", std::string(one.source).c_str());
+std::string rowsOf(const LawParameter& one) {
+  return fmt::format("    {:26} {:>9.9g}  {:14} {:7} {}\n    {:26} {:9}  {:14} {:7}   {}\n", one.key, one.standard(),
+                     fmt::format("{:.9g} .. {:.9g}", one.lowest, one.highest), one.unit, one.meaning, "", "", "", "",
+                     one.source);
 }
 
 void printTable(const std::vector<const haptics::LawName*>& laws) {
+  std::string page;
   for (const haptics::LawName* law : laws) {
-    std::printf("%s   %s\n  %s%s\n", std::string(law->key).c_str(), std::string(law->formula).c_str(),
-                std::string(law->good_for).c_str(),
-                haptics::admits(law->kind, haptics::ShapeKind::cylinder) ? "" : "; round heads only");
-    std::printf("    %-26s %9s  %-14s %-7s %s\n", "parameter", "default", "range", "unit", "meaning, source");
+    page += fmt::format("{}   {}\n  {}{}\n", law->key, law->formula, law->good_for,
+                        haptics::admits(law->kind, haptics::ShapeKind::cylinder) ? "" : "; round heads only");
+    page += fmt::format("    {:26} {:>9}  {:14} {:7} {}\n", "parameter", "default", "range", "unit", "meaning, source");
     for (const LawParameter& one : haptics::lawParameters())
-      if (one.law == law->kind) printRow(one);
-    std::printf("\n");
+      if (one.law == law->kind) page += rowsOf(one);
+    page += "\n";
   }
-  std::printf("every law\n");
+  page += "every law\n";
   for (const LawParameter& one : haptics::lawParameters())
-    if (!one.law) printRow(one);
+    if (!one.law) page += rowsOf(one);
+  std::fputs(page.c_str(), stdout);
 }
 
-std::string numberOf(double value) { return assets::numberText(std::round(1e4 * value) / 1e4); }
+std::string numberOf(double value) { return fmt::format("{:.9g}", std::round(1e4 * value) / 1e4); }
 
 void plot(const LawsOptions& options, const std::vector<const haptics::LawName*>& laws) {
   PressedBur press;
@@ -167,7 +165,7 @@ void addLaws(CommandLine& molar) {
   command.option("--law", o->laws, "Which, or all").separatedByCommas().showsDefault();
   Option plot = command.option("--plot", o->plot, "Draw force and stiffness over depth, .png").valueNamed("FILE");
   command.flag("--json", o->json, "For programs").excludes(plot);
-  command.option("--tool", o->tool, std::string("--plot: ") + kHeadHelp).showsDefault();
+  command.option("--tool", o->tool, "--plot: " + headHelp()).showsDefault();
   command.option("--set", o->settings, "--plot: key=value of the law chosen").needs(plot);
   command.option("--rate", o->rate_Hz, "--plot: servo rate, Hz").from(500.0, 10000.0).showsDefault();
   command.option("--device-damping", o->device_damping_Ns_per_mm, "--plot: damping of device and hand, Ns/mm")

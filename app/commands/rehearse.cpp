@@ -14,7 +14,6 @@
 #include "app/device/hand_table.h"
 #include "app/options/command_settings.h"
 #include "app/options/display_option.h"
-#include "app/options/erosion_text.h"
 #include "app/options/law_text.h"
 #include "app/options/pedal_option.h"
 #include "app/options/picture_option.h"
@@ -26,6 +25,7 @@
 #include "app/station/case_reach.h"
 #include "app/station/rig_choice.h"
 #include "app/text/command_line.h"
+#include "app/text/said.h"
 #include "app/text/usage_error.h"
 #include "assets/patient/patient_folder.h"
 #include "assets/synthetic/face.h"
@@ -127,7 +127,7 @@ void planCut(RehearsalPlan& plan) {
   if (planned->kind == CutKind::buccal_trough || !hand || !hand->works_by_plan) return;
   const std::string why = plan.patient.site ? "no trough fits beside the " + assets::toothName(plan.patient.site->fdi)
                                             : std::string("no tooth to work at is labelled here");
-  std::fprintf(stderr, "molar: %s, the hand works at the nearest bone\n", why.c_str());
+  say(why + ", the hand works at the nearest bone");
 }
 
 /// A software renderer would take every core; one is the servo's.
@@ -169,7 +169,7 @@ int run(const RehearseOptions& options) {
   plan.device_options.falcon_program = options.falcon_firmware;
   plan.device_options.servo_priority = options.priority;
   plan.device_options.falcon_scale = [] { return keptFalconScale(usualFalconScaleFile()); };
-  plan.device_options.tell = [](const std::string& line) { std::fprintf(stderr, "molar: %s\n", line.c_str()); };
+  plan.device_options.tell = say;
   plan.display = options.display.mode();
   plan.eyes_swapped = options.display.swapped();
   plan.backend = options.picture.backend();
@@ -232,7 +232,7 @@ void addRehearse(CommandLine& molar) {
       .excludes(rig);
   command.option("--face", o->face, "Face model, glTF; teeth.json beside it places the jaw").valueNamed("FILE");
   command.option("--face-window", o->face_window_mm, "Face cut away around the line of sight, mm").from(0.0, 100.0);
-  command.option("--tool", o->tools, std::string(kHeadHelp) + "; several are changed between, by key T or pedal")
+  command.option("--tool", o->tools, headHelp() + "; several are changed between, by key T or pedal")
       .repeated()
       .showsDefault();
   command.option("--shaft", o->shaft, std::string(kShaftHelp) + " [a neck that fits, up to 2.35 mm thick]");
@@ -241,7 +241,7 @@ void addRehearse(CommandLine& molar) {
       .option("--parameters", o->parameters,
               "Settings file, TOML, obeyed while it changes (app/options/feel.toml); it rules over --law and --set")
       .valueNamed("FILE");
-  command.option("--erosion", o->erosion, "Erosion law: time, dose or machining").oneOf(erosionNames()).showsDefault();
+  command.option("--erosion", o->erosion, "Erosion law").oneOf(erosionNames()).showsDefault();
   command.option("--set", o->settings,
                  "key=value: stiffness_N_per_mm, peak_force_N, spindle_rpm, worn, removal_rate_per_s, …");
   command.option("--rate", o->rate_Hz, "Servo rate, Hz [1000, or as recorded]").from(500.0, 10'000.0);

@@ -8,6 +8,7 @@
 #include "app/session/metrics.h"
 #include "app/session/replay.h"
 #include "app/text/command_line.h"
+#include "app/text/said.h"
 #include "assets/scan/image_file.h"
 #include "calibration/output_file.h"
 
@@ -31,7 +32,7 @@ int verifySession(const std::string& path) {
 int bringBack(const ReplayOptions& options) {
   calibration::OutputFile out = assets::nrrdOutput(options.out, options.force);
   const BoneThen bone = boneThen(options.session, options.to_s);
-  for (const std::string& remark : bone.remarks) std::fprintf(stderr, "molar: %s\n", remark.c_str());
+  for (const std::string& remark : bone.remarks) say(remark);
   assets::writeSolid(bone.start.grid, bone.solid, out);
   std::printf("bone after %.3f s written\n", bone.t_s);
   return 0;

@@ -14,7 +14,9 @@
 #include "app/options/view_option.h"
 #include "app/options/volume_option.h"
 #include "app/text/command_line.h"
+#include "app/text/said.h"
 #include "app/text/usage_error.h"
+#include "calibration/output_file.h"
 #include "app/view/renderer_choice.h"
 #include "assets/patient/patient_folder.h"
 #include "assets/scan/image_file.h"
@@ -83,9 +85,7 @@ int see(const SeeOptions& options) {
 
   std::optional<render::OffscreenContext> context;
   render::RenderOptions how;
-  how.backend = rendererWithoutWindow(options.picture.backend(), context, [](const std::string& line) {
-    std::fprintf(stderr, "molar: %s\n", line.c_str());
-  });
+  how.backend = rendererWithoutWindow(options.picture.backend(), context, say);
   how.samples = options.samples;
   render::FrameRenderer renderer(volume.grid, volume.solid, volume.label, how);
   renderer.setGuides(guides);

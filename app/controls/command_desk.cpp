@@ -1,17 +1,17 @@
 #include "app/controls/command_desk.h"
 
-#include <cstdio>
 #include <utility>
 
+#include <fmt/core.h>
+
 #include "app/options/command_settings.h"
+#include "app/text/said.h"
 #include "app/text/usage_error.h"
 
 namespace app {
 namespace {
 
-void refuse(const std::string& where, const std::string& why) {
-  std::fprintf(stderr, "molar: %s%s%s\n", where.c_str(), where.empty() ? "" : ": ", why.c_str());
-}
+void refuse(const std::string& where, const std::string& why) { say(where.empty() ? why : where + ": " + why); }
 
 /// What hand, foot and operator decide, neither file nor procedure.
 void keepSwitches(const haptics::Command& from, haptics::Command& to) {
@@ -131,7 +131,7 @@ void CommandDesk::lookAtFile(LiveParameters::Clock::time_point now) {
     keepSwitches(command_, wanted);
     change(wanted);
   } else {
-    std::fprintf(stderr, "molar: %s\n", reading->trouble.c_str());
+    say(reading->trouble);
     workstation_->note("parameters", reading->trouble);
   }
 }
@@ -158,7 +158,7 @@ void CommandDesk::change(const haptics::Command& wanted) {
 }
 
 void CommandDesk::tell(const std::string& kind, const std::string& line) {
-  std::fprintf(stderr, "molar: at %.3f s %s\n", workstation_->newestTick().t_s, line.c_str());
+  say(fmt::format("at {:.3f} s {}", workstation_->newestTick().t_s, line));
   workstation_->note(kind, line);
 }
 

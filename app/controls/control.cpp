@@ -1,10 +1,14 @@
 #include "app/controls/control.h"
 
-#include <charconv>
+#include <algorithm>
+#include <functional>
+
+#include <fmt/core.h>
 
 #include "app/options/law_text.h"
 #include "app/options/picture_layers.h"
-#include "app/text/printed.h"
+#include "app/text/list.h"
+#include "app/text/number_in.h"
 #include "app/text/usage_error.h"
 
 namespace app {
@@ -27,57 +31,34 @@ static_assert(isInOrder());
 
 constexpr int kMostTools = 64;
 
-std::string layerNames() {
-  std::string names;
-  for (const PictureLayer& layer : kPictureLayers) names += (names.empty() ? "" : ", ") + std::string(layer.name);
-  return names;
+template <class Table, class Name = std::identity>
+std::optional<int> indexIn(const Table& table, std::string_view text, Name name = {}) {
+  const auto found = std::ranges::find(table, text, name);
+  return found == table.end() ? std::nullopt : std::optional(static_cast<int>(found - table.begin()));
 }
 
-std::string controlNames() {
-  std::string names;
-  for (const ControlMeaning& one : kControls) names += (names.empty() ? "" : ", ") + std::string(one.name);
-  return names;
+std::optional<int> within(std::optional<int> number, int least, int most) {
+  return number && *number >= least && *number <= most ? number : std::nullopt;
 }
 
-std::optional<int> numberIn(std::string_view text, int least, int most) {
-  int number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc{} || end != text.data() + text.size() || number < least || number > most) return {};
-  return number;
-}
-
-template <class Table, class Name>
-std::optional<int> indexIn(const Table& table, std::string_view text, Name name) {
-  for (std::size_t i = 0; i < table.size(); ++i)
-    if (table[i].*name == text) return static_cast<int>(i);
-  return {};
-}
-
-std::optional<int> onOrOff(std::string_view text) {
-  if (text == "on") return 1;
-  return text == "off" ? std::optional(0) : std::nullopt;
-}
-
-/// Counted from 1 by people, from 0 inside.
-std::optional<int> countedFromOne(std::string_view text, int most) {
-  const auto number = numberIn(text, 1, most);
-  return number ? std::optional(*number - 1) : std::nullopt;
-}
-
+/// Tools and laws are counted from 1 by people, from 0 inside.
 std::optional<int> valueIn(ControlValue kind, std::string_view text) {
+  static constexpr std::array<std::string_view, 2> kSwitch = {"off", "on"};
+  const std::optional<int> number = numberIn<int>(text);
+  const auto from_one = [&](int most) { return within(number, 1, most) ? std::optional(*number - 1) : std::nullopt; };
   switch (kind) {
     case ControlValue::on_or_off:
-      return onOrOff(text);
+      return indexIn(kSwitch, text);
     case ControlValue::tool:
-      return countedFromOne(text, kMostTools);
+      return from_one(kMostTools);
     case ControlValue::law: {
       const auto named = indexIn(haptics::kLaws, text, &haptics::LawName::key);
-      return named ? named : countedFromOne(text, static_cast<int>(haptics::kLaws.size()));
+      return named ? named : from_one(static_cast<int>(haptics::kLaws.size()));
     }
     case ControlValue::layer:
       return indexIn(kPictureLayers, text, &PictureLayer::name);
     case ControlValue::percent:
-      return numberIn(text, 0, 100);
+      return within(number, 0, 100);
     case ControlValue::none:
       break;
   }
@@ -93,7 +74,7 @@ std::string whatMayFollow(ControlValue kind) {
     case ControlValue::law:
       return "one of " + lawNames();
     case ControlValue::layer:
-      return "one of " + layerNames();
+      return "one of " + listed(kPictureLayers, &PictureLayer::name);
     case ControlValue::percent:
       return "percent, 0 to 100";
     case ControlValue::none:
@@ -107,7 +88,8 @@ std::string whatMayFollow(ControlValue kind) {
 ControlWish wishFrom(const std::string& text) {
   const std::size_t colon = text.find(':');
   const auto control = controlNamed(std::string_view(text).substr(0, colon));
-  if (!control) throw UsageError("\"" + text + "\": there is no such control, write " + controlNames());
+  if (!control)
+    throw UsageError("\"" + text + "\": there is no such control, write " + listed(kControls, &ControlMeaning::name));
   const ControlMeaning& meaning = meaningOf(*control);
   ControlWish wish{*control};
   if (colon != std::string::npos)
@@ -127,8 +109,7 @@ std::vector<KeyMeaning> keyMeanings() {
 
 std::string keyHelp() {
   std::string text = "Keys:\n";
-  for (const KeyMeaning& key : keyMeanings())
-    text += printed("  %-8s%s\n", std::string(key.key).c_str(), std::string(key.does).c_str());
+  for (const KeyMeaning& key : keyMeanings()) text += fmt::format("  {:8}{}\n", key.key, key.does);
   return text;
 }
 

@@ -1,11 +1,11 @@
 #include "app/controls/control_script.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
 #include "app/options/tool_text.h"
+#include "app/text/number_in.h"
 #include "app/text/usage_error.h"
 
 namespace app {
@@ -26,9 +26,7 @@ int onTray(const std::vector<haptics::Tool>& tray, int index, const std::string&
 }
 
 int toolIn(const std::vector<haptics::Tool>& tray, const std::string& text) {
-  int number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error == std::errc{} && end == text.data() + text.size()) return onTray(tray, number - 1, text);
+  if (const auto number = numberIn<int>(text)) return onTray(tray, *number - 1, text);
   const haptics::BurShape head = headFrom(text);
   const auto found = std::ranges::find(tray, head, &haptics::Tool::head);
   if (found == tray.end()) throw UsageError("tool " + text + ": it is not on the tray, name it with --tool");

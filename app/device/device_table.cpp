@@ -1,9 +1,9 @@
 #include "app/device/device_table.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "app/text/printed.h"
 #include "app/text/wrapped_text.h"
 
 namespace app {
@@ -36,7 +36,7 @@ std::string here(const DeviceCatalogue& catalogue, const PageLook& look) {
   const std::size_t indent = 2 + longest + 2;
   std::string text;
   for (const FoundDevice& one : catalogue.devices) {
-    text += printed("  %-*s  ", static_cast<int>(longest), one.address.c_str());
+    text += fmt::format("  {:{}}  ", one.address, longest);
     text += wrappedText(one.name + ", " + one.place + ", by " + one.driver, indent, look.width) + "\n";
     if (!one.advice.empty())
       text += std::string(indent, ' ') + "→ " + wrappedText(one.advice, indent + 2, look.width) + "\n";
@@ -57,7 +57,7 @@ std::string kinds(const PageLook& look) {
     said += kind.isHardware() ? "Tested with " + std::string(kind.proof) + ", " +
                                     (kind.ran_on_a_unit ? "and on a real unit." : "never on a real unit.")
                               : "No hardware.";
-    text += printed("  %-*s  ", static_cast<int>(longest), std::string(kind.key).c_str());
+    text += fmt::format("  {:{}}  ", kind.key, longest);
     text += wrappedText(said, indent, look.width) + "\n";
   }
   return text;

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <sstream>
+
+#include <fmt/core.h>
 
 #include "assets/toml_keys.h"
 #include "calibration/output_file.h"
@@ -46,12 +47,12 @@ haptics::FalconForceScale readFalconScale(const std::string& path) {
 
 void writeFalconScale(const std::string& path, const haptics::FalconForceScale& scale, bool overwrite) {
   haptics::check(scale);
-  std::ostringstream text;
-  text << "# The force of a Novint Falcon as a spring scale showed it.\nversion = " << kVersion << "\n";
-  if (isPlain(scale.serial) && !scale.serial.empty()) text << "serial = \"" << scale.serial << "\"\n";
-  text << "words_per_Nmm = " << assets::numberText(scale.words_per_Nmm)
-       << "\nheaviest_N = " << assets::numberText(scale.heaviest_N) << "\n";
-  calibration::OutputFile(path, overwrite).commit(text.str());
+  calibration::OutputFile file(path, overwrite);
+  std::string text =
+      fmt::format("# The force of a Novint Falcon as a spring scale showed it.\nversion = {}\n", kVersion);
+  if (isPlain(scale.serial) && !scale.serial.empty()) text += fmt::format("serial = \"{}\"\n", scale.serial);
+  text += fmt::format("words_per_Nmm = {:.9g}\nheaviest_N = {:.9g}\n", scale.words_per_Nmm, scale.heaviest_N);
+  file.commit(text);
 }
 
 }  // namespace app

@@ -1,12 +1,13 @@
 #include "app/device/pose_csv.h"
 
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <optional>
 #include <string_view>
 
+#include "app/text/list.h"
+#include "app/text/number_in.h"
 #include "app/text/usage_error.h"
 
 namespace app {
@@ -27,16 +28,12 @@ std::string place(const std::string& path, std::size_t line) {
 }
 
 std::vector<std::string_view> cells(std::string_view row) {
-  std::vector<std::string_view> out;
-  for (;;) {
-    const std::size_t comma = row.find(',');
-    std::string_view cell = row.substr(0, comma);
+  std::vector<std::string_view> out = partsOf(row);
+  for (std::string_view& cell : out) {
     while (!cell.empty() && cell.front() == ' ') cell.remove_prefix(1);
     while (!cell.empty() && cell.back() == ' ') cell.remove_suffix(1);
-    out.push_back(cell);
-    if (comma == std::string_view::npos) return out;
-    row.remove_prefix(comma + 1);
   }
+  return out;
 }
 
 /// Where the columns are that a file may leave out.
@@ -74,14 +71,9 @@ struct Row {
   std::vector<std::string_view> cell;
 
   double number(std::size_t column) const {
-    static constexpr const char* kNames[] = {"t_s", "px_mm", "py_mm", "pz_mm", "qw", "qx", "qy", "qz"};
-    double value = 0.0;
-    const std::string_view text = cell[column];
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
-      refuse(path, line, std::string(column < kRequired ? kNames[column] : "drill") + " is not a finite number",
-             "correct it");
-    return value;
+    if (const auto value = numberIn<double>(cell[column])) return *value;
+    const std::string_view name = column < kRequired ? partsOf(kHeader)[column] : "drill";
+    refuse(path, line, std::string(name) + " is not a finite number", "correct it");
   }
 };
 

@@ -1,8 +1,8 @@
 #include "app/device/practice_device.h"
 
-#include <charconv>
 #include <string_view>
 
+#include "app/text/number_in.h"
 #include "app/text/usage_error.h"
 
 namespace app {
@@ -16,17 +16,12 @@ std::optional<calibration::SyntheticRig> practiceRig(const std::string& address)
 
   const std::size_t colon = rest.find(':');
   const auto scenario = calibration::scenarioNamed(rest.substr(0, colon));
-  std::uint32_t seed = 1;
-  bool has_seed = true;
-  if (colon != std::string_view::npos) {
-    const std::string_view digits = rest.substr(colon + 1);
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), seed);
-    has_seed = error == std::errc{} && end == digits.data() + digits.size();
-  }
-  if (!scenario || !has_seed)
+  std::optional<std::uint32_t> seed = 1;
+  if (colon != std::string_view::npos) seed = numberIn<std::uint32_t>(rest.substr(colon + 1));
+  if (!scenario || !seed)
     throw UsageError(address + ": a practice device is practice:SCENARIO[:SEED], A to G and a number, " +
                      "as in practice:D:7");
-  return calibration::syntheticRig(*scenario, seed);
+  return calibration::syntheticRig(*scenario, *seed);
 }
 
 }  // namespace app

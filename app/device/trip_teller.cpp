@@ -1,6 +1,6 @@
 #include "app/device/trip_teller.h"
 
-#include "app/text/printed.h"
+#include <fmt/core.h>
 
 namespace app {
 namespace {
@@ -15,9 +15,8 @@ std::vector<std::string> TripTeller::look(const haptics::TripLedger& trips, hapt
   for (const haptics::TripWords& trip : haptics::kTrips) {
     const auto &now = trips.of(trip.fault), &before = seen_.of(trip.fault);
     if (now.times == before.times || onlyLimits(trip.fault)) continue;
-    std::string line = printed("%s %s (tick %llu", std::string(trip.what).c_str(), std::string(trip.next).c_str(),
-                               static_cast<unsigned long long>(now.last_tick));
-    if (now.times > 1) line += printed(", %llu times", static_cast<unsigned long long>(now.times));
+    std::string line = fmt::format("{} {} (tick {}", trip.what, trip.next, now.last_tick);
+    if (now.times > 1) line += fmt::format(", {} times", now.times);
     lines.push_back(line + ")");
   }
   if (state != state_) {
@@ -33,8 +32,7 @@ std::string tripsText(const haptics::TripLedger& trips) {
   std::string text;
   for (const haptics::TripWords& trip : haptics::kTrips)
     if (const auto& entry = trips.of(trip.fault); entry.times > 0)
-      text += printed("%s%s %llu", text.empty() ? "" : ", ", std::string(trip.key).c_str(),
-                      static_cast<unsigned long long>(entry.times));
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", trip.key, entry.times);
   return text.empty() ? "none" : text;
 }
 

@@ -1,7 +1,8 @@
 #include <time.h>
 
+#include <fmt/core.h>
+
 #include "app/doctor/checks.h"
-#include "app/text/printed.h"
 
 namespace app {
 namespace {
@@ -25,7 +26,7 @@ Finding checkClock(const Machine& machine, double resolution_ns) {
   const std::string source =
       firstLine(machine.sys / "devices/system/clocksource/clocksource0/current_clocksource").value_or("");
   const std::string name = source.empty() ? "a clock the kernel does not name" : "clock " + source;
-  const std::string sentence = printed("Time comes from %s, in steps of %.0f ns.", name.c_str(), resolution_ns);
+  const std::string sentence = fmt::format("Time comes from {}, in steps of {:.0f} ns.", name, resolution_ns);
   if (resolution_ns > kHighResolution_ns)
     return {"clock", Health::missing, sentence,
             "Start a kernel with high-resolution timers: a servo of 1 kHz can not wake on time with these."};

@@ -4,8 +4,9 @@
 #include <chrono>
 #include <cstdlib>
 
+#include <fmt/core.h>
+
 #include "app/doctor/checks.h"
-#include "app/text/printed.h"
 
 namespace app {
 namespace {
@@ -50,10 +51,10 @@ Finding checkDisk(const std::filesystem::path& folder, const DiskFacts& facts) {
   if (!facts.is_writable)
     return {"disk", Health::missing, where + ": no recording can be written there.",
             "Name a folder of yours with --sessions, or change its owner."};
-  const std::string free =
-      facts.free_MB >= 1000.0 ? printed("%.1f GB", facts.free_MB / 1000.0) : printed("%.0f MB", facts.free_MB);
+  const std::string free = facts.free_MB >= 1000.0 ? fmt::format("{:.1f} GB", facts.free_MB / 1000.0)
+                                                   : fmt::format("{:.0f} MB", facts.free_MB);
   const std::string sentence =
-      where + ": " + free + " free, written at " + printed("%.0f MB/s.", facts.written_MB_per_s);
+      where + ": " + free + " free, written at " + fmt::format("{:.0f} MB/s.", facts.written_MB_per_s);
   if (facts.free_MB < kLeastFree_MB)
     return {"disk", Health::missing, where + ": only " + free + " free.", "Delete what you do not need."};
   if (facts.free_MB < kEnoughFree_MB)

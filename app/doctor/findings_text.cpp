@@ -1,9 +1,9 @@
 #include "app/doctor/findings_text.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "app/text/printed.h"
 #include "app/text/wrapped_text.h"
 
 namespace app {
@@ -35,16 +35,16 @@ std::string asText(const std::vector<Finding>& findings, const PageLook& look) {
   std::string text;
   for (const Finding& one : findings) {
     const Mark mark = markOf(one.health);
-    const std::string word = printed("%-*s", static_cast<int>(kMarkWidth), mark.word);
+    const std::string word = fmt::format("{:{}}", mark.word, kMarkWidth);
     text += "  " + (look.coloured ? mark.colour + word + "\033[0m" : word);
-    text += printed("  %-*s  ", static_cast<int>(longest_id), one.id.c_str());
+    text += fmt::format("  {:{}}  ", one.id, longest_id);
     text += wrappedText(one.sentence, indent, look.width) + "\n";
     if (!one.next_step.empty())
       text += std::string(indent, ' ') + "→ " + wrappedText(one.next_step, indent + 2, look.width) + "\n";
   }
   const int missing = missingAmong(findings), warned = countOf(findings, Health::warn);
-  text += printed("\n  %d in order, %d to look at, %d missing, %d not needed.\n", countOf(findings, Health::ok), warned,
-                  missing, countOf(findings, Health::not_needed));
+  text += fmt::format("\n  {} in order, {} to look at, {} missing, {} not needed.\n", countOf(findings, Health::ok),
+                      warned, missing, countOf(findings, Health::not_needed));
   return text;
 }
 

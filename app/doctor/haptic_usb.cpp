@@ -2,21 +2,23 @@
 
 #include <optional>
 
-#include "app/text/printed.h"
+#include <fmt/core.h>
+
+#include "app/text/number_in.h"
 #include "haptics/device/usb/known_devices.h"
 
 namespace app {
 namespace {
 
 struct Identity {
-  std::uint64_t vendor, product;
+  std::uint16_t vendor, product;
 };
 
 /// Units that a doctor has something to say of.
 std::optional<UnitMaker> makerOf(const Identity& is) {
   haptics::UsbDevice device;
-  device.vendor = static_cast<std::uint16_t>(is.vendor);
-  device.product = static_cast<std::uint16_t>(is.product);
+  device.vendor = is.vendor;
+  device.product = is.product;
   const auto kind = haptics::knownAs(device);
   if (!kind || *kind == haptics::KnownDevice::force_dimension) return {};
   if (*kind == haptics::KnownDevice::falcon) return UnitMaker::falcon;
@@ -27,7 +29,7 @@ std::string nameOf(UnitMaker maker, const Identity& is) {
   const char* name = maker == UnitMaker::systems_3d ? "3D Systems unit"
                      : maker == UnitMaker::falcon   ? "Novint Falcon"
                                                     : "WoodenHaptics";
-  return printed("%s (%04x:%04x)", name, static_cast<unsigned>(is.vendor), static_cast<unsigned>(is.product));
+  return fmt::format("{} ({:04x}:{:04x})", name, is.vendor, is.product);
 }
 
 /// ttyACM* and hidraw* anywhere below; links lead elsewhere and are not followed.
@@ -45,9 +47,9 @@ void addNodes(HapticUnit& unit, const std::filesystem::path& folder, const std::
 /// A unit and its interfaces, both entries of one folder: "1-2", "1-2:1.0".
 HapticUnit unitAt(const std::filesystem::path& entry, UnitMaker maker, const Identity& is, const Machine& machine) {
   HapticUnit unit{maker, nameOf(maker, is), {}};
-  const int bus = std::atoi(firstLine(entry / "busnum").value_or("0").c_str());
-  const int device = std::atoi(firstLine(entry / "devnum").value_or("0").c_str());
-  unit.nodes.push_back(machine.dev / printed("bus/usb/%03d/%03d", bus, device));
+  const int bus = numberIn<int>(firstLine(entry / "busnum").value_or("")).value_or(0);
+  const int device = numberIn<int>(firstLine(entry / "devnum").value_or("")).value_or(0);
+  unit.nodes.push_back(machine.dev / fmt::format("bus/usb/{:03}/{:03}", bus, device));
   for (const auto& beside : entriesOf(entry.parent_path()))
     if (beside.filename().string().starts_with(entry.filename().string() + ":")) addNodes(unit, beside, machine.dev);
   return unit;
@@ -58,8 +60,8 @@ HapticUnit unitAt(const std::filesystem::path& entry, UnitMaker maker, const Ide
 std::vector<HapticUnit> hapticUnits(const Machine& machine) {
   std::vector<HapticUnit> units;
   for (const auto& entry : entriesOf(machine.sys / "bus/usb/devices")) {
-    const auto vendor = fromHexadecimal(firstLine(entry / "idVendor").value_or(""));
-    const auto product = fromHexadecimal(firstLine(entry / "idProduct").value_or(""));
+    const auto vendor = numberIn<std::uint16_t>(firstLine(entry / "idVendor").value_or(""), 16);
+    const auto product = numberIn<std::uint16_t>(firstLine(entry / "idProduct").value_or(""), 16);
     if (!vendor || !product) continue;
     const Identity is{*vendor, *product};
     if (const auto maker = makerOf(is)) units.push_back(unitAt(entry, *maker, is, machine));

@@ -1,8 +1,9 @@
-#include <charconv>
 #include <sstream>
 
+#include <fmt/core.h>
+
 #include "app/doctor/checks.h"
-#include "app/text/printed.h"
+#include "app/text/number_in.h"
 
 namespace app {
 namespace {
@@ -11,7 +12,7 @@ constexpr unsigned kSysNice = 23, kIpcLock = 14;  // linux/capability.h
 
 /// The lines themselves, ready to be put there.
 std::string limitsFor(const std::string& user, int most_needed) {
-  return printed("printf '%s - rtprio %d\\n", user.c_str(), most_needed) + user +
+  return fmt::format("printf '{} - rtprio {}\\n", user, most_needed) + user +
          " - memlock unlimited\\n' | sudo tee /etc/security/limits.d/70-molar.conf, then sign in again.";
 }
 
@@ -24,9 +25,7 @@ std::optional<int> realtimePriority(const std::string& stat) {
   std::string field;
   for (int place = 0; place < kPlaceBehindName; ++place)
     if (!(fields >> field)) return {};
-  int value = 0;
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  return error == std::errc{} && end == field.data() + field.size() ? std::optional(value) : std::nullopt;
+  return numberIn<int>(field);
 }
 
 /// The lowest of the kernel's interrupt threads; none: interrupts have no threads here.
@@ -55,22 +54,22 @@ Finding checkPriorityLimit(const Machine& machine, int servo_priority) {
   const double most = softLimit(machine, "Max realtime priority").value_or(0.0);
   if (!may_anything && most >= 0.0 && most < most_needed)
     return {"priority-limit", Health::warn,
-            printed("The servo may not have real-time priority: %.0f of %d is allowed.", most, most_needed),
+            fmt::format("The servo may not have real-time priority: {:.0f} of {} is allowed.", most, most_needed),
             limitsFor(machine.user, most_needed)};
   const auto lowest = lowestInterruptThread(machine);
   if (lowest && lowest->priority <= most_needed) {
     constexpr int kInterrupts = haptics::kInterruptPriority;
     return {"priority-limit", Health::warn,
-            printed("%s has real-time priority %d, the servo that may wait for it %d.", lowest->name.c_str(),
-                    lowest->priority, servo_priority),
+            fmt::format("{} has real-time priority {}, the servo that may wait for it {}.", lowest->name,
+                        lowest->priority, servo_priority),
             most_needed < kInterrupts
-                ? printed("sudo chrt -f -p %d %s puts it back where the kernel starts it.", kInterrupts,
-                          lowest->process.c_str())
-                : printed("Give rehearse a --priority of %d or less: the kernel starts them at %d.", kInterrupts - 2,
-                          kInterrupts)};
+                ? fmt::format("sudo chrt -f -p {} {} puts it back where the kernel starts it.", kInterrupts,
+                              lowest->process)
+                : fmt::format("Give rehearse a --priority of {} or less: the kernel starts them at {}.",
+                              kInterrupts - 2, kInterrupts)};
   }
   return {"priority-limit", Health::ok,
-          printed("The servo may have real-time priority %d, below the interrupts it waits for.", servo_priority)};
+          fmt::format("The servo may have real-time priority {}, below the interrupts it waits for.", servo_priority)};
 }
 
 Finding checkMemoryLimit(const Machine& machine, int servo_priority) {
@@ -79,10 +78,10 @@ Finding checkMemoryLimit(const Machine& machine, int servo_priority) {
   const double most_MB = softLimit(machine, "Max locked memory").value_or(0.0) / (1024.0 * 1024.0);
   if (most_MB < 0.0) return {"memory-limit", Health::ok, "The servo's memory may be kept from being swapped out."};
   // Whatever the number: all of a program that grows can be locked only without one.
-  return {
-      "memory-limit", Health::warn,
-      printed("Only %.0f MB may be kept from being swapped out: the servo keeps its stack, the bone may go.", most_MB),
-      limitsFor(machine.user, haptics::usbPriority(servo_priority))};
+  return {"memory-limit", Health::warn,
+          fmt::format("Only {:.0f} MB may be kept from being swapped out: the servo keeps its stack, the bone may go.",
+                      most_MB),
+          limitsFor(machine.user, haptics::usbPriority(servo_priority))};
 }
 
 }  // namespace app

@@ -4,9 +4,10 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdlib>
 #include <fstream>
+
+#include "app/text/number_in.h"
 
 namespace app {
 namespace {
@@ -64,18 +65,11 @@ std::vector<std::filesystem::path> entriesOf(const std::filesystem::path& folder
   return entries;
 }
 
-std::optional<std::uint64_t> fromHexadecimal(std::string_view text) {
-  std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, 16);
-  if (error != std::errc{} || end != text.data() + text.size()) return {};
-  return value;
-}
-
 std::optional<bool> hasCapability(const Machine& machine, unsigned number) {
   constexpr std::string_view kEffective = "CapEff:";
   for (const std::string& line : linesOf(machine.proc / "self/status"))
     if (line.starts_with(kEffective))
-      if (const auto bits = fromHexadecimal(trimmed(std::string_view(line).substr(kEffective.size()))))
+      if (const auto bits = numberIn<std::uint64_t>(trimmed(std::string_view(line).substr(kEffective.size())), 16))
         return (*bits >> number & 1u) != 0;
   return {};
 }
@@ -86,8 +80,7 @@ std::optional<double> softLimit(const Machine& machine, std::string_view resourc
     const std::string_view rest = trimmed(std::string_view(line).substr(resource.size()));
     const std::string_view soft = rest.substr(0, rest.find(' '));
     if (soft == "unlimited") return -1.0;
-    double value = 0.0;
-    if (std::from_chars(soft.data(), soft.data() + soft.size(), value).ec == std::errc{}) return value;
+    if (const auto value = numberIn<double>(soft)) return value;
   }
   return {};
 }

@@ -33,8 +33,6 @@ std::optional<std::string> firstLine(const std::filesystem::path& file);
 std::vector<std::string> linesOf(const std::filesystem::path& file);
 /// What is in a folder, by name; none when there is no such folder.
 std::vector<std::filesystem::path> entriesOf(const std::filesystem::path& folder);
-/// Of hexadecimal digits alone.
-std::optional<std::uint64_t> fromHexadecimal(std::string_view text);
 
 /// Whether this process holds a capability (linux/capability.h); none when the kernel does not say.
 std::optional<bool> hasCapability(const Machine& machine, unsigned number);

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <set>
 
+#include <fmt/core.h>
+
 #include "app/doctor/checks.h"
-#include "app/text/printed.h"
+#include "app/text/list.h"
 
 namespace app {
 namespace {
@@ -25,10 +27,8 @@ Finding checkProcessors(const Machine& machine) {
   const std::string isolated = firstLine(machine.sys / "devices/system/cpu/isolated").value_or("");
   const bool realtime_kernel = firstLine(machine.sys / "kernel/realtime") == "1";
 
-  std::string names;
-  for (const std::string& one : governors) names += (names.empty() ? "" : ", ") + one;
-  std::string sentence = printed("%d core%s", count, count == 1 ? "" : "s");
-  sentence += governors.empty() ? ", speed not the system's to choose" : ", governor " + names;
+  std::string sentence = fmt::format("{} core{}", count, count == 1 ? "" : "s");
+  sentence += governors.empty() ? ", speed not the system's to choose" : ", governor " + listed(governors);
   sentence += isolated.empty() ? ", none set apart" : ", set apart: " + isolated;
   sentence += realtime_kernel ? ", real-time kernel." : ".";
   if (count < 2)

@@ -1,5 +1,6 @@
+#include <fmt/core.h>
+
 #include "app/doctor/checks.h"
-#include "app/text/printed.h"
 #include "render/display/window.h"
 #include "render/gpu/gpu_error.h"
 
@@ -43,7 +44,7 @@ Finding checkScreens(const ScreenFacts& facts) {
   for (const ScreenFacts::Screen& one : facts.screens) {
     finding.sentence += finding.sentence.empty() ? "" : ", ";
     finding.sentence +=
-        printed("%s %d × %d px at %.0f Hz", one.name.c_str(), one.width_px, one.height_px, one.refresh_Hz);
+        fmt::format("{} {} × {} px at {:.0f} Hz", one.name, one.width_px, one.height_px, one.refresh_Hz);
     if (one.refresh_Hz < kSlowScreen_Hz) {
       finding.health = Health::warn;
       finding.next_step = "Choose a mode of 60 Hz or more in the system's display settings.";

@@ -5,8 +5,9 @@
 #include <cerrno>
 #include <thread>
 
+#include <fmt/core.h>
+
 #include "app/doctor/checks.h"
-#include "app/text/printed.h"
 #include "haptics/loop/realtime.h"
 
 namespace app {
@@ -46,9 +47,10 @@ WakeUps measureWakeUps(int servo_priority) {
 }
 
 Finding checkWakeUps(const WakeUps& measured) {
-  Finding finding{"wake-up", Health::ok,
-                  printed("A servo at 1 kHz woke %.0f µs late in the middle, %.0f µs at 99 %%, %.0f µs at worst.",
-                          measured.median_us, measured.p99_us, measured.worst_us)};
+  Finding finding{
+      "wake-up", Health::ok,
+      fmt::format("A servo at 1 kHz woke {:.0f} µs late in the middle, {:.0f} µs at 99 %, {:.0f} µs at worst.",
+                  measured.median_us, measured.p99_us, measured.worst_us)};
   if (measured.p99_us > kPunctual_us) {
     finding.health = Health::warn;
     finding.next_step = "Mend priority-limit and processors below, and close programs that work in the background.";

@@ -1,5 +1,6 @@
 #include "app/instructor/operator_panel.h"
 
+#include <fmt/core.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -9,7 +10,6 @@
 
 #include "app/device/trip_teller.h"
 #include "app/options/picture_layers.h"
-#include "app/text/printed.h"
 #include "assets/tissue.h"
 #include "haptics/contact/law_parameters.h"
 #include "render/quality_ladder.h"
@@ -77,7 +77,7 @@ void drawState(const RehearsalStatus& s) {
                                  : "Free");
   const int t_s = static_cast<int>(s.tick.t_s);
   ImGui::SameLine();
-  const std::string time = printed("%d:%02d", t_s / 60, t_s % 60);
+  const std::string time = fmt::format("{}:{:02}", t_s / 60, t_s % 60);
   ImGui::PushFont(font(large_font));
   const float width = ImGui::CalcTextSize(time.c_str()).x;
   ImGui::PopFont();
@@ -98,9 +98,9 @@ void drawTool(const RehearsalStatus& s) {
   heading("Tool");
   const double force_N = glm::length(s.tick.served_force_P_N.xyz), peak_N = s.command.safety.peak_force_N;
   row("Bur", s.bur + " mm");
-  row("Force on the hand", printed("%.2f of %.1f N", force_N, peak_N), force_N > 0.95 * peak_N ? kWarn : kInk);
+  row("Force on the hand", fmt::format("{:.2f} of {:.1f} N", force_N, peak_N), force_N > 0.95 * peak_N ? kWarn : kInk);
   bar(force_N / peak_N, force_N > 0.95 * peak_N ? kWarn : kAccent);
-  row("Depth in the surface", printed("%.2f mm", s.tick.depth_mm));
+  row("Depth in the surface", fmt::format("{:.2f} mm", s.tick.depth_mm));
   row("Touches", s.tick.depth_mm > 0.0 ? std::string(assets::kTissues[s.tick.contact_tissue].name) : "–");
 }
 
@@ -108,10 +108,10 @@ void drawLaw(const RehearsalStatus& s, Wishes& wishes) {
   heading("Force law");
   const haptics::LawName& now = haptics::kLaws[static_cast<std::size_t>(s.command.law.kind)];
   ImGui::SetNextItemWidth(-1.0f);
-  if (ImGui::BeginCombo("##law", printed("%s     %s", now.key.data(), now.formula.data()).c_str())) {
+  if (ImGui::BeginCombo("##law", fmt::format("{}     {}", now.key.data(), now.formula.data()).c_str())) {
     for (const haptics::LawName& one : haptics::kLaws) {
       const bool admitted = haptics::admits(one.kind, s.command.tool.head.kind);
-      const std::string label = printed("%s     %s", one.key.data(), one.formula.data());
+      const std::string label = fmt::format("{}     {}", one.key.data(), one.formula.data());
       if (ImGui::Selectable(label.c_str(), one.kind == now.kind, admitted ? 0 : ImGuiSelectableFlags_Disabled))
         wishes.push_back({Control::law, static_cast<int>(one.kind)});
     }
@@ -122,7 +122,7 @@ void drawLaw(const RehearsalStatus& s, Wishes& wishes) {
     for (const haptics::LawParameter& p : haptics::lawParameters()) {
       if (p.law && *p.law != s.command.law.kind) continue;
       if ((p.unit.empty() && p.key.starts_with("stiffness_")) != of_tissues) continue;
-      row(std::string(p.key).c_str(), printed("%.4g %s", p.of(s.command.law), std::string(p.unit).c_str()));
+      row(std::string(p.key).c_str(), fmt::format("{:.4g} {}", p.of(s.command.law), p.unit));
       if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(p.meaning).c_str());
     }
   };
@@ -136,11 +136,11 @@ void drawLaw(const RehearsalStatus& s, Wishes& wishes) {
 void drawPictureFigures(const RehearsalStatus& s) {
   heading("Picture");
   const bool late = s.drawing_ms > s.budget_ms;
-  row("Display", s.display + printed(", %.0f Hz", s.refresh_Hz));
-  row("Drawn in", printed("%.1f of %.1f ms", s.drawing_ms, s.budget_ms), late ? kWarn : kGood);
+  row("Display", s.display + fmt::format(", {:.0f} Hz", s.refresh_Hz));
+  row("Drawn in", fmt::format("{:.1f} of {:.1f} ms", s.drawing_ms, s.budget_ms), late ? kWarn : kGood);
   bar(s.drawing_ms / s.budget_ms, late ? kWarn : kGood);
-  row("Pictures", printed("%.0f a second", s.pictures_per_s));
-  row("Motion to photon", printed("%.0f ms", s.latency.total_ms()));
+  row("Pictures", fmt::format("{:.0f} a second", s.pictures_per_s));
+  row("Motion to photon", fmt::format("{:.0f} ms", s.latency.total_ms()));
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip(
         "pose to swap %.1f ms, measured\nservo %.1f + blank %.1f + scan-out %.1f ms, added\n"
@@ -155,15 +155,12 @@ void drawServo(const RehearsalStatus& s) {
   const ImVec4 health = s.servo.work_p99_us > 0.8 * budget_us   ? kBad
                         : s.servo.work_p99_us > 0.5 * budget_us ? kWarn
                                                                 : kGood;
-  row("Work, 99 % below", printed("%.0f of %.0f µs", s.servo.work_p99_us, budget_us), health);
+  row("Work, 99 % below", fmt::format("{:.0f} of {:.0f} µs", s.servo.work_p99_us, budget_us), health);
   bar(s.servo.work_p99_us / budget_us, health);
   const double missed_share =
       static_cast<double>(s.servo.missed) / static_cast<double>(std::max<std::uint64_t>(1, s.servo.ticks));
-  row("Deadlines missed",
-      printed("%llu of %llu", static_cast<unsigned long long>(s.servo.missed),
-              static_cast<unsigned long long>(s.servo.ticks)),
-      missed_share > 0.01 ? kWarn : kInk);
-  row("Wakes late by", printed("%.0f µs, 99 %% below %.0f", s.servo.late_p50_us, s.servo.late_p99_us));
+  row("Deadlines missed", fmt::format("{} of {}", s.servo.missed, s.servo.ticks), missed_share > 0.01 ? kWarn : kInk);
+  row("Wakes late by", fmt::format("{:.0f} µs, 99 % below {:.0f}", s.servo.late_p50_us, s.servo.late_p99_us));
   row("Real-time priority", s.servo.grants.priority ? "granted" : "not granted",
       s.servo.grants.priority ? kGood : kWarn);
 }
@@ -171,7 +168,7 @@ void drawServo(const RehearsalStatus& s) {
 void drawCalibration(const RehearsalStatus& s) {
   const std::string& verdict = s.calibration.verdict;
   row("Calibration",
-      verdict.empty() ? calibrationWords(s.calibration) : printed("%s, %.2f mm", verdict.c_str(), s.calibration.rms_mm),
+      verdict.empty() ? calibrationWords(s.calibration) : fmt::format("{}, {:.2f} mm", verdict, s.calibration.rms_mm),
       verdict == "green"            ? kGood
       : verdict == "red"            ? kBad
       : s.calibration.rig == "none" ? kQuiet
@@ -201,7 +198,7 @@ void drawHand(const RehearsalStatus& s, Wishes& wishes) {
     ImGui::SetTooltip("%s\n%s", std::string(words.what).c_str(), std::string(words.next).c_str());
   if (s.tick.hand.motor_heat > 0.0) {
     const ImVec4 warmth = s.tick.hand.motor_heat > 0.8 ? kBad : s.tick.hand.motor_heat > 0.5 ? kWarn : kGood;
-    row("Motors", printed("%.0f %% of their heat", 100.0 * s.tick.hand.motor_heat), warmth);
+    row("Motors", fmt::format("{:.0f} % of their heat", 100.0 * s.tick.hand.motor_heat), warmth);
   }
   row("Safety", tripsText(s.trips));
   const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);

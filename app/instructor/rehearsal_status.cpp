@@ -1,7 +1,8 @@
 #include "app/instructor/rehearsal_status.h"
 
+#include <fmt/core.h>
+
 #include "app/options/law_text.h"
-#include "app/text/printed.h"
 
 namespace app {
 
@@ -21,12 +22,12 @@ std::string statusLine(const RehearsalStatus& s) {
   }
   const std::string lead = s.recording == RecordingState::ended_early ? "Molar   NOT RECORDING   " : "Molar   ";
   if (!s.to_surgeon.empty()) return lead + s.to_surgeon;
-  return lead + printed(
-                    "%.1f s   %s   force %.2f N   depth %.2f mm   %s   servo p99 %.0f µs   %.0f pictures/s, %s   "
-                    "motion to photon %.0f ms",
-                    s.tick.t_s, lawName(s.command.law.kind).c_str(), glm::length(s.tick.served_force_P_N.xyz),
-                    s.tick.depth_mm, drillText(s), s.servo.work_p99_us, s.pictures_per_s, s.quality.c_str(),
-                    s.latency.total_ms());
+  return lead +
+         fmt::format(
+             "{:.1f} s   {}   force {:.2f} N   depth {:.2f} mm   {}   servo p99 {:.0f} µs   {:.0f} pictures/s, {}   "
+             "motion to photon {:.0f} ms",
+             s.tick.t_s, lawName(s.command.law.kind), glm::length(s.tick.served_force_P_N.xyz), s.tick.depth_mm,
+             drillText(s), s.servo.work_p99_us, s.pictures_per_s, s.quality, s.latency.total_ms());
 }
 
 }  // namespace app

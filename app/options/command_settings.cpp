@@ -2,10 +2,12 @@
 
 #include <cmath>
 
-#include "app/options/erosion_text.h"
+#include <fmt/core.h>
+
 #include "app/options/law_text.h"
 #include "app/options/tool_text.h"
-#include "app/text/printed.h"
+#include "app/text/list.h"
+#include "assets/toml_keys.h"
 #include "app/text/usage_error.h"
 #include "assets/toml_keys.h"
 #include "haptics/contact/law_limits.h"
@@ -20,13 +22,7 @@ std::map<std::string, Setting> limitsOf(haptics::SafetyLimits& safety) {
           {"slew_Nmm_per_s", {&safety.slew_Nmm_per_s, 1.0, 1e6, "Nmm/s"}}};
 }
 
-std::string erosionName(haptics::ErosionKind kind) {
-  for (const haptics::ErosionName& one : haptics::kErosions)
-    if (one.kind == kind) return std::string(one.key);
-  return "unknown";
-}
-
-void readNumbers(assets::TomlKeys& keys, const std::string& table, const std::map<std::string, Setting>& settings) {
+void readNumbers(TomlKeys& keys, const std::string& table, const std::map<std::string, Setting>& settings) {
   for (const auto& [name, setting] : settings) {
     const std::string former(formerKey(name));
     const std::string& key = !former.empty() && keys.has(table, former) ? former : name;
@@ -41,11 +37,12 @@ std::map<std::string, Setting> lawParametersOf(haptics::LawSettings& law) {
   return settings;
 }
 
-/// Runs `read`, and says its refusal as one of the file.
-template <class Read>
-void asKey(assets::TomlKeys& keys, const std::string& table, const std::string& key, const char* otherwise, Read read) {
+/// What `make` makes of the text; its refusal is one of the file.
+template <class Make>
+auto madeOf(TomlKeys& keys, const std::string& table, const std::string& key, const std::string& text,
+            const std::string& otherwise, Make make) {
   try {
-    read();
+    return make(text);
   } catch (const UsageError&) {
     keys.refuse(table, key, otherwise);
   }
@@ -84,24 +81,22 @@ void applyTo(haptics::Command& command, const std::vector<std::string>& texts) {
 
 haptics::Command commandFromToml(assets::TomlKeys& keys, const haptics::Command& base) {
   haptics::Command command = base;
-  const std::string law = keys.text("law", "name", lawName(base.law.kind));
-  asKey(keys, "law", "name", ("no such law, give one of " + lawNames()).c_str(),
-        [&] { command.law.kind = lawNamed(law); });
+  command.law.kind = madeOf(keys, "law", "name", keys.text("law", "name", lawName(base.law.kind)),
+                            "no such law, give one of " + lawNames(), [](const auto& text) { return lawNamed(text); });
   readNumbers(keys, "law", lawParametersOf(command.law));
-  const std::string erosion = keys.text("erosion", "name", erosionName(base.erosion.kind));
-  const auto kind = haptics::erosionOfKey(erosion);
-  if (!kind) keys.refuse("erosion", "name", "no such erosion, give time, dose or machining");
-  command.erosion.kind = *kind;
+  const auto erosion = haptics::erosionOfKey(keys.text("erosion", "name", erosionName(base.erosion.kind)));
+  if (!erosion) keys.refuse("erosion", "name", "no such erosion, give one of " + listed(erosionNames()));
+  command.erosion.kind = *erosion;
   readNumbers(keys, "erosion", parametersOf(command.erosion));
   command.law.machining.worn = command.erosion.worn;
   readNumbers(keys, "spindle", parametersOf(command.spindle));
   readNumbers(keys, "safety", limitsOf(command.safety));
   if (keys.has("tool", "head"))
-    asKey(keys, "tool", "head", "no such head, give sphere:R, capsule:R,L, cylinder:R,L or cone:R,L in mm",
-          [&] { command.tool.head = headFrom(keys.text("tool", "head")); });
+    command.tool.head = madeOf(keys, "tool", "head", keys.text("tool", "head"),
+                               "no such head, give " + headForms() + " in mm", headFrom);
   if (keys.has("tool", "shaft"))
-    asKey(keys, "tool", "shaft", "no such shaft, give R,L in mm or none",
-          [&] { command.tool.shaft = shaftFrom(keys.text("tool", "shaft")); });
+    command.tool.shaft =
+        madeOf(keys, "tool", "shaft", keys.text("tool", "shaft"), "no such shaft, give R,L in mm or none", shaftFrom);
   keys.refuseRest();
   return command;
 }
@@ -120,12 +115,11 @@ void refuseUnlessHeld(const haptics::Command& command, double device_damping_Ns_
   if (admission.answer != haptics::Admission::Answer::too_stiff) return;
   // Rounded down, so that what is advised is allowed.
   const double nearest = std::floor(1000.0 * admission.nearest) / 1000.0;
-  throw UsageError(printed(
-      "law %s: with %s it is up to %.3g N/mm stiff, at %g Hz the device holds %.3g N/mm (2b/T): lower %s to %g %s"
-      " or raise --rate",
-      lawName(command.law.kind).c_str(), textOf(command.tool.head).c_str(), admission.slope_N_per_mm, rate_Hz, most,
-      admission.lower ? std::string(admission.lower->key).c_str() : "its gain", nearest,
-      admission.lower ? std::string(admission.lower->unit).c_str() : ""));
+  throw UsageError(fmt::format(
+      "law {}: with {} it is up to {:.3g} N/mm stiff, at {:g} Hz the device holds {:.3g} N/mm (2b/T): "
+      "lower {} to {:g} {} or raise --rate",
+      lawName(command.law.kind), textOf(command.tool.head), admission.slope_N_per_mm, rate_Hz, most,
+      admission.lower ? admission.lower->key : "its gain", nearest, admission.lower ? admission.lower->unit : ""));
 }
 
 haptics::Command loweredUntilHeld(haptics::Command command, double device_damping_Ns_per_mm, double rate_Hz) {

@@ -1,17 +1,13 @@
 #include "app/options/display_option.h"
 
 #include "app/text/command_line.h"
+#include "app/text/list.h"
 #include "app/text/usage_error.h"
 #include "render/display/stereo_layout.h"
 
 namespace app {
 
-std::string displayNames() {
-  std::string names;
-  for (const render::DisplayModeName& one : render::kDisplayModes)
-    names += (names.empty() ? "" : ", ") + std::string(one.name);
-  return names;
-}
+std::string displayNames() { return listed(render::kDisplayModes, &render::DisplayModeName::name); }
 
 void DisplayOption::addTo(CommandLine& command) {
   command

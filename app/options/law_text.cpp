@@ -1,33 +1,81 @@
 #include "app/options/law_text.h"
 
+#include <algorithm>
+
+#include <fmt/core.h>
+
+#include "app/text/list.h"
 #include "app/text/usage_error.h"
 #include "haptics/contact/law_parameters.h"
 
 namespace app {
+namespace {
 
-std::string lawNames() {
-  std::string names;
-  for (const haptics::LawName& one : haptics::kLaws) names += (names.empty() ? "" : ", ") + std::string(one.key);
-  return names;
+template <class Table, class Kind>
+std::string nameIn(const Table& table, Kind kind) {
+  const auto one = std::ranges::find_if(table, [&](const auto& law) { return law.kind == kind; });
+  return one == table.end() ? "unknown" : std::string(one->key);
 }
 
-std::string lawName(haptics::LawKind law) {
-  for (const haptics::LawName& one : haptics::kLaws)
-    if (one.kind == law) return std::string(one.key);
-  return "unknown";
+/// Those of the law in force, of a table whose parameters may be of one law.
+template <class Parameters, class Settings>
+std::map<std::string, Setting> inForce(const Parameters& parameters, Settings& settings) {
+  std::map<std::string, Setting> found;
+  for (const auto& one : parameters)
+    if (one.law.value_or(settings.kind) == settings.kind)
+      found[std::string(one.key)] = {&one.in(settings), one.lowest, one.highest, one.unit};
+  return found;
 }
+
+std::string helpOn(const auto& parameter) {
+  const std::string unit = parameter.unit.empty() ? "" : fmt::format(" ({})", parameter.unit);
+  return fmt::format("    {}{}: {}\n", parameter.key, unit, parameter.meaning);
+}
+
+}  // namespace
+
+std::string lawNames() { return listed(haptics::kLaws, &haptics::LawName::key); }
+std::string lawName(haptics::LawKind law) { return nameIn(haptics::kLaws, law); }
+std::string erosionName(haptics::ErosionKind law) { return nameIn(haptics::kErosions, law); }
 
 haptics::LawKind lawNamed(const std::string& name, const std::string& where) {
   if (const auto law = haptics::lawOfKey(name)) return *law;
   throw UsageError(where + name + ": no such law, give one of " + lawNames());
 }
 
+std::vector<std::string> erosionNames() {
+  std::vector<std::string> names;
+  for (const haptics::ErosionName& law : haptics::kErosions) names.emplace_back(law.key);
+  return names;
+}
+
 std::map<std::string, Setting> parametersOf(haptics::LawSettings& law) {
+  return inForce(haptics::lawParameters(), law);
+}
+
+std::map<std::string, Setting> parametersOf(haptics::ErosionSettings& erosion) {
+  return inForce(haptics::erosionParameters(), erosion);
+}
+
+std::map<std::string, Setting> parametersOf(haptics::SpindleSettings& spindle) {
   std::map<std::string, Setting> settings;
-  for (const haptics::LawParameter& one : haptics::lawParameters())
-    if (!one.law || *one.law == law.kind)
-      settings[std::string(one.key)] = {&one.of(law), one.lowest, one.highest, one.unit};
+  for (const haptics::SpindleParameter& one : haptics::spindleParameters())
+    settings[std::string(one.key)] = {&(spindle.*one.value), one.lowest, one.highest, one.unit};
   return settings;
+}
+
+std::string erosionHelp() {
+  std::string text = "Erosion laws and their --set keys:\n";
+  for (const haptics::ErosionName& law : haptics::kErosions) {
+    text += fmt::format("  {}: {}\n", law.key, law.formula);
+    for (const haptics::ErosionParameter& one : haptics::erosionParameters())
+      if (one.law == law.kind) text += helpOn(one);
+  }
+  text += "  every law, and the spindle:\n";
+  for (const haptics::ErosionParameter& one : haptics::erosionParameters())
+    if (!one.law) text += helpOn(one);
+  for (const haptics::SpindleParameter& one : haptics::spindleParameters()) text += helpOn(one);
+  return text;
 }
 
 }  // namespace app

@@ -1,5 +1,9 @@
 #include "app/options/pedal_option.h"
 
+#include <span>
+
+#include "app/text/list.h"
+#include "assets/toml_keys.h"
 #include "app/text/usage_error.h"
 #include "assets/toml_keys.h"
 #include "haptics/device/haptic_device.h"
@@ -15,7 +19,7 @@ constexpr std::size_t kMostBindings = 64;
 
 haptics::HandAction actionNamed(const std::string& where, const std::string& name) {
   const auto action = haptics::handActionNamed(name);
-  if (!action) refuse(where, "no such action, choose drill, irrigation, undo or tool");
+  if (!action) refuse(where, "no such action, choose one of " + listed(haptics::kHandActionNames));
   return *action;
 }
 
@@ -33,16 +37,14 @@ haptics::PedalChoice fromFile(const std::string& path) {
 }
 
 haptics::PedalChoice fromWords(const std::string& text) {
+  const std::vector<std::string_view> parts = partsOf(text);
   haptics::PedalChoice choice;
-  std::size_t begin = text.find(',');
-  choice.wanted = text.substr(0, begin);
-  while (begin != std::string::npos) {
-    const std::size_t end = text.find(',', begin + 1);
-    const std::string one = text.substr(begin + 1, end == std::string::npos ? end : end - begin - 1);
+  choice.wanted = parts.front();
+  for (const std::string_view one : std::span(parts).subspan(1)) {
     const std::size_t equals = one.find('=');
-    if (equals == std::string::npos) refuse(text, "write SWITCH=ACTION after the comma, as KEY_B=drill");
-    choice.mapping.push_back({one.substr(0, equals), actionNamed(text, one.substr(equals + 1))});
-    begin = end;
+    if (equals == std::string_view::npos) refuse(text, "write SWITCH=ACTION after the comma, as KEY_B=drill");
+    choice.mapping.push_back(
+        {std::string(one.substr(0, equals)), actionNamed(text, std::string(one.substr(equals + 1)))});
   }
   return choice;
 }

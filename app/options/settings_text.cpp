@@ -1,25 +1,18 @@
 #include "app/options/settings_text.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <filesystem>
-#include <optional>
 #include <set>
 
-#include "app/text/printed.h"
+#include <fmt/core.h>
+
+#include "app/text/list.h"
+#include "app/text/number_in.h"
 #include "app/text/usage_error.h"
 #include "haptics/servo/servo.h"
 
 namespace app {
 namespace {
-
-std::optional<double> numberIn(std::string_view text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
 
 /// The setting of a key, or of the key it was called before.
 std::map<std::string, Setting>::const_iterator settingOf(const std::string& key,
@@ -42,19 +35,17 @@ void applySettings(const std::vector<std::string>& texts, const std::map<std::st
   for (const std::string& text : texts) {
     const std::size_t equals = text.find('=');
     const auto found = settingOf(text.substr(0, equals), settings);
-    if (equals == std::string::npos || found == settings.end()) {
-      std::string keys;
-      for (const auto& [name, setting] : settings) keys += (keys.empty() ? "" : ", ") + name;
-      throw UsageError("--set " + text + ": no such setting, use key=value with one of " + keys);
-    }
+    if (equals == std::string::npos || found == settings.end())
+      throw UsageError("--set " + text + ": no such setting, use key=value with one of " +
+                       listed(settings, [](const auto& one) { return one.first; }));
     const std::string& key = found->first;
     if (!seen.insert(key).second) throw UsageError("--set " + key + ": it is given twice, give it once");
-    const auto value = numberIn(std::string_view(text).substr(equals + 1));
+    const auto value = numberIn<double>(std::string_view(text).substr(equals + 1));
     const Setting& setting = found->second;
     if (!value) throw UsageError("--set " + text + ": the value is not a number, correct it");
     if (*value < setting.low || *value > setting.high)
-      throw UsageError("--set " + text + ": the value is out of range, give " + shortText(setting.low) + " to " +
-                       shortText(setting.high) + (setting.unit.empty() ? "" : " ") + std::string(setting.unit));
+      throw UsageError(fmt::format("--set {}: the value is out of range, give {:.9g} to {:.9g}{}{}", text, setting.low,
+                                   setting.high, setting.unit.empty() ? "" : " ", setting.unit));
     *setting.value = *value;
   }
 }
@@ -63,8 +54,8 @@ void refuseUnlessObeyed(const haptics::Command& command) {
   const haptics::Command obeyed = haptics::sanitised(command);
   const auto check = [](const char* what, double asked, double taken, const char* unit) {
     if (asked != taken)
-      throw UsageError(std::string(what) + " " + shortText(asked) + " " + unit + ": the servo goes no further than " +
-                       shortText(taken) + " " + unit + ", ask for that");
+      throw UsageError(fmt::format("{} {:.9g} {}: the servo goes no further than {:.9g} {}, ask for that", what, asked,
+                                   unit, taken, unit));
   };
   check("bur radius", command.tool.head.radius_mm, obeyed.tool.head.radius_mm, "mm");
   check("bur length", command.tool.head.length_mm, obeyed.tool.head.length_mm, "mm");

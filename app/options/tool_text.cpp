@@ -1,11 +1,12 @@
 #include "app/options/tool_text.h"
 
-#include <charconv>
-#include <cmath>
-#include <optional>
 #include <string_view>
 #include <vector>
 
+#include <fmt/core.h>
+
+#include "app/text/list.h"
+#include "app/text/number_in.h"
 #include "app/text/usage_error.h"
 
 namespace app {
@@ -38,31 +39,20 @@ const std::vector<Form>& forms() {
   return kKnown;
 }
 
-std::string exactText(double value) {
-  char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
-  return {text, end};
-}
-
 /// Reads `1.5,4` as the measures ask; `asked` begins every complaint, `pattern` says what may be.
 std::vector<double> measuresIn(std::string_view text, const std::vector<Measure>& measures, const std::string& asked,
                                const std::string& pattern) {
   const std::string give = ", give " + pattern + " in mm";
   std::vector<double> values;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t comma = std::min(text.find(',', begin), text.size());
-    const std::string_view part = text.substr(begin, comma - begin);
-    begin = comma + 1;
+  for (const std::string_view part : partsOf(text)) {
     if (values.size() == measures.size()) throw UsageError(asked + ": there are too many numbers" + give);
     const Measure& measure = measures[values.size()];
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
-    if (error != std::errc{} || end != part.data() + part.size() || !std::isfinite(value))
-      throw UsageError(asked + ": the " + measure.name + " is not a number" + give);
-    if (value < measure.least_mm || value > measure.most_mm)
-      throw UsageError(asked + ": the " + measure.name + " is out of range, give " + exactText(measure.least_mm) +
-                       " to " + exactText(measure.most_mm) + " mm");
-    values.push_back(value);
+    const auto value = numberIn<double>(part);
+    if (!value) throw UsageError(asked + ": the " + measure.name + " is not a number" + give);
+    if (*value < measure.least_mm || *value > measure.most_mm)
+      throw UsageError(fmt::format("{}: the {} is out of range, give {} to {} mm", asked, measure.name,
+                                   measure.least_mm, measure.most_mm));
+    values.push_back(*value);
   }
   if (values.size() < measures.size())
     throw UsageError(asked + ": the " + measures[values.size()].name + " is missing" + give);
@@ -70,6 +60,20 @@ std::vector<double> measuresIn(std::string_view text, const std::vector<Measure>
 }
 
 }  // namespace
+
+std::string headForms() {
+  std::vector<std::string_view> patterns;
+  for (const Form& form : forms()) patterns.push_back(form.pattern);
+  const std::string_view last = patterns.back();
+  patterns.pop_back();
+  return listed(patterns) + " or " + std::string(last);
+}
+
+std::map<ShapeKind, std::string_view> headKinds() {
+  std::map<ShapeKind, std::string_view> kinds;
+  for (const Form& form : forms()) kinds[form.kind] = form.key;
+  return kinds;
+}
 
 BurShape headFrom(const std::string& text) {
   const std::string_view whole = text;
@@ -80,7 +84,7 @@ BurShape headFrom(const std::string& text) {
     const auto values = measuresIn(numbers, form.measures, "--tool " + text, form.pattern);
     return {form.kind, values[0], values.size() > 1 ? values[1] : 0.0};
   }
-  throw UsageError("--tool " + text + ": no such head, give sphere:R, capsule:R,L, cylinder:R,L or cone:R,L in mm");
+  throw UsageError("--tool " + text + ": no such head, give " + headForms() + " in mm");
 }
 
 haptics::Shaft shaftFrom(const std::string& text) {
@@ -93,8 +97,8 @@ haptics::Shaft shaftFrom(const std::string& text) {
 std::string textOf(const BurShape& head) {
   for (const Form& form : forms())
     if (form.kind == head.kind)
-      return std::string(form.key) + ":" + exactText(head.radius_mm) +
-             (form.measures.size() > 1 ? "," + exactText(head.length_mm) : "");
+      return fmt::format("{}:{}", form.key, head.radius_mm) +
+             (form.measures.size() > 1 ? fmt::format(",{}", head.length_mm) : "");
   return "unknown";
 }
 

@@ -2,14 +2,22 @@
 // (R at the base, L high) and shafts `R,L`, all in mm. Start-up only. UsageError says what is wrong and what may be.
 #pragma once
 
+#include <map>
 #include <string>
+#include <string_view>
 
 #include "haptics/tool/tool.h"
 
 namespace app {
 
-inline constexpr const char* kHeadHelp = "Cutting head: sphere:R, capsule:R,L, cylinder:R,L or cone:R,L (mm)";
 inline constexpr const char* kShaftHelp = "Shaft above the head, felt and never cutting: R,L (mm) or none";
+
+/// "sphere:R, capsule:R,L, … or cone:R,L"
+std::string headForms();
+inline std::string headHelp() { return "Cutting head: " + headForms() + " (mm)"; }
+
+/// "sphere", "capsule", …
+std::map<haptics::ShapeKind, std::string_view> headKinds();
 
 /// Radius 0.1..20, length 0.1..40 mm (a capsule's from 0).
 haptics::BurShape headFrom(const std::string& text);

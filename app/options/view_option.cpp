@@ -1,6 +1,5 @@
 #include "app/options/view_option.h"
 
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -10,6 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/text/command_line.h"
+#include "app/text/list.h"
+#include "app/text/number_in.h"
 #include "app/text/usage_error.h"
 #include "calibration/geometry/units.h"
 #include "calibration/record/utc.h"
@@ -85,14 +86,9 @@ render::Camera cameraOn(const assets::VolumeGrid& grid) {
 }  // namespace
 
 glm::ivec2 pictureSize(const std::string& text) {
+  const std::vector<std::string_view> edges = partsOf(text, 'x');
   glm::ivec2 px{0};
-  const std::size_t x = text.find('x');
-  const auto edge = [&](std::size_t from, std::size_t to) {
-    int value = 0;
-    const auto [end, error] = std::from_chars(text.data() + from, text.data() + to, value);
-    return error == std::errc{} && end == text.data() + to ? value : 0;
-  };
-  if (x != std::string::npos) px = {edge(0, x), edge(x + 1, text.size())};
+  if (edges.size() == 2) px = {numberIn<int>(edges[0]).value_or(0), numberIn<int>(edges[1]).value_or(0)};
   if (px.x < 16 || px.y < 16 || px.x > 16384 || px.y > 16384)
     throw UsageError("--size " + text + ": not a picture size, give WIDTHxHEIGHT, each 16 to 16384");
   return px;

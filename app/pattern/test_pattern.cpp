@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/core.h>
+
 #include "app/report/screen_page.h"
 #include "app/report/stereo_picture.h"
-#include "app/text/printed.h"
 
 namespace app {
 namespace {
@@ -53,7 +54,7 @@ void drawCrosstalk(const ScreenPage& page, Eye eye) {
     const double light = kSteps[s] / 100.0;
     const glm::dvec2 corner{-half.x + static_cast<double>(s) * width, 0.42 * half.y};
     page.box(corner, {width, 0.58 * half.y}, ofLight(light));
-    page.text(printed("%g %%", kSteps[s]), corner + glm::dvec2(0.5 * width, 0.46 * half.y), 0.055 * half.y, kSoft);
+    page.text(fmt::format("{:g} %", kSteps[s]), corner + glm::dvec2(0.5 * width, 0.46 * half.y), 0.055 * half.y, kSoft);
   }
   page.text("of white, in both eyes", {0.0, 0.36 * half.y}, 0.055 * half.y, kGrey);
 }
@@ -75,7 +76,8 @@ void drawGrid(const ScreenPage& page) {
     }
   page.circle({0.0, 0.0}, 0.40 * shorter, 2.0 * thin, kWhite);
   page.frame(4.0 * thin, kLeftInk);
-  const std::string text = printed("squares of %g mm, screen %.1f × %.1f mm", square, 2.0 * half.x, 2.0 * half.y);
+  const std::string text =
+      fmt::format("squares of {:g} mm, screen {:.1f} × {:.1f} mm", square, 2.0 * half.x, 2.0 * half.y);
   page.label(text, {0.0, -half.y + 0.10 * shorter}, 0.035 * shorter, kWhite);
   page.label("TOP", {0.0, -half.y + 0.045 * shorter}, 0.035 * shorter, kWhite);
   page.label("LEFT", {-half.x + 0.09 * shorter, 0.0}, 0.035 * shorter, kWhite);
@@ -93,8 +95,8 @@ void drawCross(const ScreenPage& page, const calibration::Rig& rig, Eye eye) {
     page.circle(seen, 0.24 * unit, 0.016 * unit, ink);
     page.text(words, seen + glm::dvec2(0.0, 0.40 * unit), 0.065 * unit, ink);
   };
-  ring_at(kRingDepth_mm, -0.68 * unit, {0.95, 0.75, 0.25}, printed("%.0f mm before", kRingDepth_mm));
-  ring_at(-kRingDepth_mm, 0.68 * unit, {0.35, 0.75, 0.95}, printed("%.0f mm behind", kRingDepth_mm));
+  ring_at(kRingDepth_mm, -0.68 * unit, {0.95, 0.75, 0.25}, fmt::format("{:.0f} mm before", kRingDepth_mm));
+  ring_at(-kRingDepth_mm, 0.68 * unit, {0.35, 0.75, 0.95}, fmt::format("{:.0f} mm behind", kRingDepth_mm));
   page.text("The cross lies on the screen: one cross, not two", {0.0, -0.62 * unit}, 0.065 * unit, kWhite);
   page.text("the left ring is nearer than it, the right ring farther; the other way round: swap the eyes",
             {0.0, -0.50 * unit}, 0.05 * unit, kGrey);
@@ -106,7 +108,7 @@ void drawText(const ScreenPage& page) {
   double y = -0.82 * half.y;
   for (const double height : {12.0, 8.0, 6.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0}) {
     if (y + 1.5 * height > 0.55 * half.y) continue;
-    page.text(printed("%.1f mm   mandibular canal 38 – 48   Ångström", height), {0.0, y + 0.5 * height}, height,
+    page.text(fmt::format("{:.1f} mm   mandibular canal 38 – 48   Ångström", height), {0.0, y + 0.5 * height}, height,
               kWhite);
     y += 1.5 * height + 1.0;
   }
@@ -117,7 +119,7 @@ void drawText(const ScreenPage& page) {
     const double line = pixels * pixel, length = 0.16 * half.x;
     for (int n = 0; n * 2.0 * line < length; ++n)
       page.pixelBox({x + 2.0 * n * line, 0.66 * half.y}, {line, 0.22 * half.y}, kWhite);
-    page.text(printed("%d px", pixels), {x + 0.5 * length, 0.94 * half.y}, 0.05 * half.y, kGrey);
+    page.text(fmt::format("{} px", pixels), {x + 0.5 * length, 0.94 * half.y}, 0.05 * half.y, kGrey);
     x += 0.31 * half.x;
   }
 }

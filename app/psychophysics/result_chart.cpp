@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/core.h>
+
 #include "app/options/law_text.h"
 #include "app/psychophysics/trial_table.h"
-#include "app/text/printed.h"
 
 namespace app {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 constexpr int kAnswers = 0, kFit = 1;
 constexpr int kCurveSteps = 200, kFewest = 3;
 
-std::string shortNumber(double value) { return printed("%.3g", value); }
+std::string shortNumber(double value) { return fmt::format("{:.3g}", value); }
 
 std::string valueLabel(const Protocol& protocol) {
   return "comparison " + protocol.parameter.substr(0, protocol.parameter.find('_')) +

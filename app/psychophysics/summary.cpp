@@ -1,5 +1,6 @@
 #include "app/psychophysics/summary.h"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -7,7 +8,7 @@
 
 #include "app/options/law_text.h"
 #include "app/psychophysics/trial_table.h"
-#include "app/text/printed.h"
+#include "assets/toml_keys.h"
 #include "app/text/version.h"
 #include "assets/toml_keys.h"
 
@@ -162,7 +163,7 @@ std::string summaryJson(const Protocol& protocol, const Outcome& outcome, std::u
 }
 
 std::string summaryWords(const Protocol& protocol, const Outcome& outcome) {
-  const auto number = [](double v) { return printed("%.4g", v); };
+  const auto number = [](double v) { return fmt::format("{:.4g}", v); };
   const std::string unit = protocol.unit.empty() ? "" : " " + protocol.unit;
   std::string text = "Psychophysics, participant " + protocol.participant + "\n  trials           " +
                      std::to_string(outcome.trials.size()) + (outcome.complete ? "" : ", ended early") + "\n";

@@ -1,7 +1,8 @@
 #include "app/rehearsal/journal.h"
 
-#include <cstdio>
 #include <utility>
+
+#include "app/text/said.h"
 
 namespace app {
 
@@ -9,8 +10,6 @@ void Journal::keepIn(Workstation& workstation) {
   workstation_ = &workstation;
   for (const Notice& notice : std::exchange(waiting_, {})) workstation_->note(notice.kind, notice.line);
 }
-
-void Journal::say(const std::string& line) { std::fprintf(stderr, "molar: %s\n", line.c_str()); }
 
 void Journal::note(const std::string& kind, const std::string& line) {
   if (workstation_ != nullptr)

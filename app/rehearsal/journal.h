@@ -20,7 +20,6 @@ class Journal {
   /// From now on kept there, what was told before included. Borrowed.
   void keepIn(Workstation& workstation);
 
-  void say(const std::string& line);
   void note(const std::string& kind, const std::string& line);
   /// Says and notes.
   void tell(const Notice& notice);

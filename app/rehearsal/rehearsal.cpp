@@ -14,6 +14,7 @@
 #include "app/rehearsal/run_monitor.h"
 #include "app/rehearsal/status_board.h"
 #include "app/rehearsal/wish_router.h"
+#include "app/text/said.h"
 
 namespace app {
 namespace {
@@ -28,12 +29,14 @@ class Rehearsal {
         duration_s_(plan_.seconds ? plan_.seconds : equipment_.duration_s()),
         monitor_(duration_s_),
         router_(plan_, equipment_, desk_, monitor_, picture_, journal_),
-        outputs_(plan_),
         picture_(plan_, desk_.inForce(), equipment_.secondHand(), equipment_.rate_Hz(),
                  [this](const std::string& line) {
                    journal_.tell({"display", line});
                  }),
         frame_(openingFrame(plan_)) {
+    // Pictures with a name are claimed before the work.
+    if (!plan_.snapshot.empty()) last_.emplace(plan_.snapshot, plan_.overwrite);
+    if (!plan_.first_snapshot.empty()) first_.emplace(plan_.first_snapshot, plan_.overwrite);
     if (plan_.recording) plan_.recording->calibration = plan_.calibration;
     equipment_.join(plan_, desk_.inForce());
     desk_.serve(station());
@@ -48,9 +51,9 @@ class Rehearsal {
   Rehearsal& operator=(const Rehearsal&) = delete;
 
   int run() {
-    for (const std::string& remark : plan_.remarks) journal_.say(remark);
+    for (const std::string& remark : plan_.remarks) say(remark);
     if (const auto beside = station().recordedBeside())
-      journal_.say("recording into " + *beside + " until it is closed, then in the place of " + plan_.recording->path);
+      say("recording into " + *beside + " until it is closed, then in the place of " + plan_.recording->path);
     double first_picture_s = 0.0;
     if (pace_->isWatched()) {
       picture_.show(frame_);
@@ -58,7 +61,7 @@ class Rehearsal {
       // Before the hand is there.
       picture_.settle(frame_);
     }
-    outputs_.takeFirst(picture_, frame_, plan_.patient.ct.solid);
+    if (first_) picture_.take(*first_, frame_, plan_.patient.ct.solid);
     start();
     const Pace::Time looping_since = pace_->now();
     const std::uint64_t settled = picture_.pictures();
@@ -129,8 +132,9 @@ class Rehearsal {
     const RecordingSummary recorded = station().stop();
     // One more picture of what the bone has become.
     followServo();
-    outputs_.takeLast(picture_, closingFrame(frame_, newest_, equipment_.mouse() != nullptr),
-                      station().bone().solidInGridOrder());
+    if (last_)
+      picture_.take(*last_, closingFrame(frame_, newest_, equipment_.mouse() != nullptr),
+                    station().bone().solidInGridOrder());
     RehearsalFigures figures = board_->figures(moment());
     if (plan_.recording) figures.recording = recorded;
     return figures;
@@ -143,7 +147,7 @@ class Rehearsal {
   std::optional<double> duration_s_;
   RunMonitor monitor_;
   WishRouter router_;
-  RehearsalOutputs outputs_;
+  std::optional<EyePictures> first_, last_;
   LivePicture picture_;
   std::unique_ptr<Pace> pace_;
   std::optional<StatusBoard> board_;  // goes before the picture

@@ -11,19 +11,9 @@ constexpr double kRounding_s = 1e-7;  ///< of the sum of the ticks' dt
 }  // namespace
 
 const char* textOf(Ending ending) {
-  switch (ending) {
-    case Ending::interrupted:
-      return "interrupted";
-    case Ending::by_user:
-      return "by the user";
-    case Ending::procedure:
-      return "the procedure is over";
-    case Ending::time_over:
-      return "time over";
-    case Ending::silent:
-      break;
-  }
-  return "the device fell silent";
+  constexpr const char* kTexts[] = {"interrupted", "by the user", "the procedure is over", "time over",
+                                    "the device fell silent"};
+  return kTexts[static_cast<int>(ending)];
 }
 
 bool RunMonitor::isTimeOver(const haptics::Tick& newest) const {

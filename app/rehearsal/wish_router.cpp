@@ -4,6 +4,7 @@
 
 #include "app/rehearsal/frame_builder.h"
 #include "app/rehearsal/rehearsal_outputs.h"
+#include "app/text/said.h"
 
 namespace app {
 namespace {
@@ -68,7 +69,7 @@ void WishRouter::obey(const ControlWish& wish, render::Frame& frame, const std::
 void WishRouter::stopForGood() {
   equipment_.workstation().emergencyStop();
   journal_.note("emergency stop", "motors off for good");
-  journal_.say("emergency stop: the motors are off; end and start again to feel");
+  say("emergency stop: the motors are off; end and start again to feel");
 }
 
 bool WishRouter::isForProcedure(const render::WindowEvent& event) const {

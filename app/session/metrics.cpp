@@ -5,11 +5,11 @@
 #include <optional>
 #include <vector>
 
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "app/session/replay.h"
 #include "app/session/session_error.h"
-#include "app/text/printed.h"
 
 namespace app {
 namespace {
@@ -100,12 +100,13 @@ SessionMetrics metricsOf(const std::string& path) {
 }
 
 std::string metricsWords(const SessionMetrics& metrics) {
-  std::string words = printed("%.1f s, of them %.1f s in contact and %.1f s drilling in bone; %.1f mm³ removed",
-                              metrics.duration_s, metrics.contact_s, metrics.drill_in_contact_s, metrics.removed_mm3);
-  if (metrics.returned_mm3 > 0.0) words += printed(", %.1f mm³ more taken back", metrics.returned_mm3);
+  std::string words =
+      fmt::format("{:.1f} s, of them {:.1f} s in contact and {:.1f} s drilling in bone; {:.1f} mm³ removed",
+                  metrics.duration_s, metrics.contact_s, metrics.drill_in_contact_s, metrics.removed_mm3);
+  if (metrics.returned_mm3 > 0.0) words += fmt::format(", {:.1f} mm³ more taken back", metrics.returned_mm3);
   words += metrics.drill_in_contact_s == 0.0 ? "\n"
            : metrics.dry_drilling_s > 0.0
-               ? printed("\ndry: %.1f s of drilling in bone without irrigation\n", metrics.dry_drilling_s)
+               ? fmt::format("\ndry: {:.1f} s of drilling in bone without irrigation\n", metrics.dry_drilling_s)
                : std::string("\nirrigated whenever it drilled in bone\n");
   if (metrics.missing_log)
     words += "its log " + *metrics.missing_log + " is not beside it: what it holds is missing, copy both files\n";

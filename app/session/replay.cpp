@@ -4,8 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/core.h>
+
 #include "app/session/session_error.h"
-#include "app/text/printed.h"
 #include "app/text/version.h"
 #include "haptics/servo/servo.h"
 
@@ -120,9 +121,8 @@ void readThrough(SessionReader& session, ReplayReport& report) {
 std::optional<std::string> whyNotComparable(const StoredStart& recorded) {
   const ServoBuild own = thisServo();
   if (recorded.servo.revision != own.revision)
-    return printed("recorded by another version (%s with servo revision %lld, this is %s with %lld)",
-                   recorded.program_version.c_str(), static_cast<long long>(recorded.servo.revision),
-                   std::string(programVersion()).c_str(), static_cast<long long>(own.revision));
+    return fmt::format("recorded by another version ({} with servo revision {}, this is {} with {})",
+                       recorded.program_version, recorded.servo.revision, programVersion(), own.revision);
   if (!recorded.servo.sumsAsDoes(own))
     return "recorded with another processor's instructions (" + recorded.servo.instruction_set + ", these are " +
            own.instruction_set + ", see MOLAR_INSTRUCTIONS)";
@@ -146,11 +146,11 @@ ReplayReport verifyReadable(const std::string& path) {
 }
 
 std::string departureWords(const ReplayedMoment& moment) {
-  return printed(
-      "the re-run departs from the recording at tick %llu (%s): its bone has lost %.3f mm³ %s than the "
+  return fmt::format(
+      "the re-run departs from the recording at tick {} ({}): its bone has lost {:.3f} mm³ {} than the "
       "recorded one; the version that recorded it brings back the very one",
-      static_cast<unsigned long long>(moment.departure->tick), moment.departure->what.c_str(),
-      std::abs(moment.removed_otherwise_mm3), moment.removed_otherwise_mm3 < 0.0 ? "less" : "more");
+      moment.departure->tick, moment.departure->what, std::abs(moment.removed_otherwise_mm3),
+      moment.removed_otherwise_mm3 < 0.0 ? "less" : "more");
 }
 
 }  // namespace
@@ -163,7 +163,7 @@ void refuseDamaged(SessionReader& session, const std::string& path) {
 
 std::string ReplayReport::line() const {
   if (damage) return "NOT verified: the file was changed: " + *damage;
-  const std::string figures = printed("%llu ticks, %.3f s", static_cast<unsigned long long>(ticks), duration_s);
+  const std::string figures = fmt::format("{} ticks, {:.3f} s", ticks, duration_s);
   std::string ended;
   if (lost > 0) ended += "; " + std::to_string(lost) + " ticks were lost";
   if (!closed) ended += "; the recording ended early (killed, or the disk was full) and is whole up to there";
@@ -179,7 +179,7 @@ std::string ReplayReport::line() const {
     return (lost > 0 ? "NOT verified: " : "checksums right: ") + figures + "; " + *not_comparable +
            ": numbers are read, the re-run is not comparable" + ended;
   if (!verified()) return "NOT verified: " + figures + ", all of them bit-identical" + ended;
-  const std::string digest = printed("%016llx", static_cast<unsigned long long>(bone_digest));
+  const std::string digest = fmt::format("{:016x}", bone_digest);
   return "verified: " + figures + ", every force and the final bone (" + digest + ") bit-identical" + ended;
 }
 
@@ -193,12 +193,6 @@ ReplayReport verify(const std::string& path) {
     report.damage = refusal.what();
     return report;
   }
-}
-
-ReplayedMoment replayTo(const std::string& path, double t_s) {
-  SessionReader session(path);
-  refuseDamaged(session, path);
-  return replayTo(session, t_s);
 }
 
 ReplayedMoment replayTo(SessionReader& session, double t_s) {

@@ -61,8 +61,6 @@ struct ReplayedMoment {
 };
 
 /// The state after every tick that began before `t_s`. Runs on past differences and losses: the departure tells.
-/// Throws SessionError if the session is damaged.
-ReplayedMoment replayTo(const std::string& path, double t_s);
 /// Of a session that was found undamaged; from its beginning, wherever it was read to.
 ReplayedMoment replayTo(SessionReader& session, double t_s);
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "app/text/printed.h"
+#include <fmt/core.h>
 
 namespace app {
 namespace {
@@ -20,7 +20,7 @@ std::string calibrationWords(const SessionCalibration& c) {
   if (c.rig == "none") return "none";
   std::string words;
   if (!c.verdict.empty())
-    words = c.verdict + printed(", %.2f mm RMS of %d", c.rms_mm, c.touches);
+    words = c.verdict + fmt::format(", {:.2f} mm RMS of {}", c.rms_mm, c.touches);
   else
     words = c.rig == "default" ? "a default rig, not measured" : "never proved";
   if (c.age_days) words += ", " + ageWords(*c.age_days);

@@ -18,6 +18,15 @@ struct SessionCalibration {
   std::string despite;             ///< why it was used although red; empty: it was not
 };
 
+/// Each field with its key, in the order they were first stored in.
+void forEachField(auto& calibration, auto&& visit) {
+  auto& [rig, rig_id, device_serial, verdict, touches, rms_mm, p95_mm, max_mm, checked_utc, age_days, despite] =
+      calibration;
+  visit("rig", rig), visit("rig_id", rig_id), visit("device_serial", device_serial), visit("verdict", verdict);
+  visit("touches", touches), visit("rms_mm", rms_mm), visit("p95_mm", p95_mm), visit("max_mm", max_mm);
+  visit("checked_utc", checked_utc), visit("age_days", age_days), visit("despite", despite);
+}
+
 /// "green, 0.24 mm RMS of 16, 3 days old"; "none"; "never proved, 12 days old"; "red, … used despite: WORD".
 std::string calibrationWords(const SessionCalibration& calibration);
 

@@ -3,11 +3,10 @@
 #include <cmath>
 #include <cstdlib>
 
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "app/session/session_error.h"
-#include "app/text/printed.h"
-#include "assets/json_depth.h"
 #include "assets/tissue.h"
 
 namespace app {
@@ -35,29 +34,29 @@ T valueOf(const json& object, const char* key, T otherwise) {
   return found->template get<T>();
 }
 
-json calibrationJson(const SessionCalibration& c) {
-  json object = {{"rig", c.rig},         {"rig_id", c.rig_id},   {"device_serial", c.device_serial},
-                 {"verdict", c.verdict}, {"touches", c.touches}, {"rms_mm", c.rms_mm},
-                 {"p95_mm", c.p95_mm},   {"max_mm", c.max_mm},   {"checked_utc", c.checked_utc},
-                 {"despite", c.despite}};
-  if (c.age_days) object["age_days"] = *c.age_days;
+template <class T>
+std::optional<T> valueOf(const json& object, const char* key, const std::optional<T>& otherwise) {
+  return object.contains(key) ? std::optional(valueOf(object, key, T{})) : otherwise;
+}
+
+json jsonOf(const auto& value) { return value; }
+template <class T>
+json jsonOf(const std::optional<T>& value) {
+  return value ? json(*value) : json();
+}
+
+json calibrationJson(const SessionCalibration& calibration) {
+  json object = json::object();
+  forEachField(calibration, [&](const char* key, const auto& value) {
+    if (json one = jsonOf(value); !one.is_null()) object[key] = std::move(one);
+  });
   return object;
 }
 
 SessionCalibration calibrationFrom(const json& object) {
-  SessionCalibration c;
-  c.rig = valueOf(object, "rig", c.rig);
-  c.rig_id = valueOf(object, "rig_id", c.rig_id);
-  c.device_serial = valueOf(object, "device_serial", c.device_serial);
-  c.verdict = valueOf(object, "verdict", c.verdict);
-  c.touches = valueOf(object, "touches", c.touches);
-  c.rms_mm = valueOf(object, "rms_mm", c.rms_mm);
-  c.p95_mm = valueOf(object, "p95_mm", c.p95_mm);
-  c.max_mm = valueOf(object, "max_mm", c.max_mm);
-  c.checked_utc = valueOf(object, "checked_utc", c.checked_utc);
-  if (object.contains("age_days")) c.age_days = valueOf(object, "age_days", 0.0);
-  c.despite = valueOf(object, "despite", c.despite);
-  return c;
+  SessionCalibration calibration;
+  forEachField(calibration, [&](const char* key, auto& value) { value = valueOf(object, key, value); });
+  return calibration;
 }
 
 json gridJson(const assets::VolumeGrid& grid) {
@@ -172,7 +171,7 @@ SessionAbout aboutFromText(std::string_view text) {
 
 std::string sealText(const SessionEnd& end) {
   json object = {{"ticks", end.ticks}, {"lost", end.lost}};
-  if (end.bone_digest) object["bone_digest"] = printed("%016llx", static_cast<unsigned long long>(*end.bone_digest));
+  if (end.bone_digest) object["bone_digest"] = fmt::format("{:016x}", *end.bone_digest);
   return dumped(object);
 }
 

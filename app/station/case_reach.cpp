@@ -4,8 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include <fmt/core.h>
+
 #include "app/device/hand_at_work.h"
-#include "app/text/printed.h"
 #include "calibration/arm/phantom_models.h"
 #include "calibration/geometry/units.h"
 
@@ -64,11 +65,12 @@ int cornersOut(const Arm& arm, const std::array<glm::dvec3, 8>& corners_W_mm) {
 std::string shiftWords(const Reach::Shift& shift) {
   std::string words;
   const auto add = [&](double mm, const char* more, const char* less) {
-    if (mm != 0.0) words += (words.empty() ? "" : ", ") + printed("%.0f mm %s", std::abs(mm), mm > 0.0 ? more : less);
+    if (mm != 0.0)
+      words += (words.empty() ? "" : ", ") + fmt::format("{:.0f} mm {}", std::abs(mm), mm > 0.0 ? more : less);
   };
   add(shift.by_W_mm.x, "right", "left"), add(shift.by_W_mm.y, "up", "down"), add(shift.by_W_mm.z, "nearer", "back");
   if (shift.turn_deg != 0.0)
-    words += (words.empty() ? "" : ", ") + printed("turned by %.0f degrees about the vertical", shift.turn_deg);
+    words += (words.empty() ? "" : ", ") + fmt::format("turned by {:.0f} degrees about the vertical", shift.turn_deg);
   return words;
 }
 
@@ -118,18 +120,19 @@ std::vector<std::string> caseRemarks(const calibration::Rig& rig, const assets::
   if (off_mm > kFarOffScreen_mm && eye_sd_mm > kTrackedEye_mm) {
     const double eye_mm = std::max(1.0, std::abs(rig.cyclopeanEye().mm.z));
     remarks.push_back(
-        printed("case: it reaches %.0f mm from the virtual screen, where a head that is not tracked and "
-                "moves %.0f mm sees it %.1f mm off: stand the tooth nearer the screen (X_WP)",
-                off_mm, eye_sd_mm, eye_sd_mm * off_mm / eye_mm));
+        fmt::format("case: it reaches {:.0f} mm from the virtual screen, where a head that is not tracked and "
+                    "moves {:.0f} mm sees it {:.1f} mm off: stand the tooth nearer the screen (X_WP)",
+                    off_mm, eye_sd_mm, eye_sd_mm * off_mm / eye_mm));
   }
   const calibration::PhantomModel* const model = calibration::findPhantomModel(arm_model);
   if (model == nullptr) return remarks;
   const Reach reach = reachOf(rig, patient, model->geometry);
   if (reach.corners_out > 0)
     remarks.push_back(
-        printed("case: %d of 8 corners of the region about the tooth are beyond the arm's reach or nearer than %.0f mm "
-                "to its limits: ",
-                reach.corners_out, kMargin_mm) +
+        fmt::format(
+            "case: {} of 8 corners of the region about the tooth are beyond the arm's reach or nearer than {:.0f} mm "
+            "to its limits: ",
+            reach.corners_out, kMargin_mm) +
         (reach.helps ? "stand the patient " + shiftWords(*reach.helps) + " (X_WP)"
                      : "no shift of 15 mm or turn of 20 degrees helps, move the device's base"));
   return remarks;

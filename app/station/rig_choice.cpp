@@ -4,9 +4,11 @@
 #include <cctype>
 #include <cmath>
 
+#include <fmt/core.h>
+
 #include "app/device/practice_device.h"
 #include "app/text/command_line.h"
-#include "app/text/printed.h"
+#include "app/text/list.h"
 #include "app/text/usage_error.h"
 #include "calibration/record/later_check.h"
 #include "calibration/record/rig_file.h"
@@ -39,7 +41,7 @@ std::string nameOf(const DeviceAtHand& device) {
 std::string nameOf(const RigPlace& place) { return place.rig_id + " " + place.serial + " " + place.mount; }
 
 std::string ofTouches(const calibration::RigProof& proof) {
-  return printed("%.2f mm RMS of %d", proof.errors.rms_mm, proof.errors.n);
+  return fmt::format("{:.2f} mm RMS of {}", proof.errors.rms_mm, proof.errors.n);
 }
 
 }  // namespace
@@ -91,10 +93,9 @@ std::optional<RigRecord> RigOption::currentFor(const DeviceAtHand& device, const
                      ", calibrate first, name a rig file, or give --rig-store");
   }
   if (suiting.size() > 1) {
-    std::string all;
-    for (const RigPlace& place : suiting) all += (all.empty() ? "" : ", ") + nameOf(place);
     if (!is_asked) return std::nullopt;
-    throw UsageError("--rig " + rig_ + ": several calibrations are in force" + whose + " (" + all +
+    throw UsageError("--rig " + rig_ + ": several calibrations are in force" + whose + " (" +
+                     listed(suiting, [](const RigPlace& place) { return nameOf(place); }) +
                      "), say which with --rig current:RIG and --mount");
   }
   auto record = store.current(suiting.front());
@@ -144,8 +145,8 @@ void RigOption::judge(ChosenRig& chosen, const DeviceAtHand& device, const std::
   }
   const auto remark = [&](const std::string& line) { chosen.remarks.push_back(chosen.source + ": " + line); };
   if (kept.age_days && *kept.age_days > calibration::kOldRig_days)
-    remark(printed("it was measured %.0f days ago, more than %.0f: calibrate again", *kept.age_days,
-                   calibration::kOldRig_days));
+    remark(fmt::format("it was measured {:.0f} days ago, more than {:.0f}: calibrate again", *kept.age_days,
+                       calibration::kOldRig_days));
 
   // An arm is of one device; eyes, screen and patient serve every hand.
   if (!device.isCalibrated()) {

@@ -1,11 +1,13 @@
 #include "app/text/command_line.h"
 
-#include <algorithm>
+#include <cstdint>
+#include <optional>
 #include <utility>
 
+#include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
-#include "app/text/printed.h"
+#include "app/text/list.h"
 #include "app/text/usage_error.h"
 
 namespace app {
@@ -13,7 +15,7 @@ namespace {
 
 /// Unlike the library's own it refuses what is not a number.
 CLI::Validator numberRange(double low, double high) {
-  const std::string words = shortText(low) + " to " + shortText(high);
+  const std::string words = fmt::format("{:.9g} to {:.9g}", low, high);
   return {[=](const std::string& given) {
             double value = 0.0;
             const bool inside = CLI::detail::lexical_cast(given, value) && value >= low && value <= high;
@@ -24,15 +26,10 @@ CLI::Validator numberRange(double low, double high) {
 
 /// CLI11 has them as a piece of its help alone: "TEXT:{iso,dvr}".
 std::vector<std::string> choicesIn(const std::string& type) {
-  std::vector<std::string> choices;
   const std::size_t from = type.find('{'), end = type.rfind('}');
-  if (from == std::string::npos || end == std::string::npos || end < from) return choices;
-  for (std::size_t at = from + 1; at <= end;) {
-    const std::size_t comma = std::min(type.find(',', at), end);
-    choices.push_back(type.substr(at, comma - at));
-    at = comma + 1;
-  }
-  return choices;
+  if (from == std::string::npos || end == std::string::npos || end < from) return {};
+  const auto choices = partsOf(std::string_view(type).substr(from + 1, end - from - 1));
+  return {choices.begin(), choices.end()};
 }
 
 OptionWords wordsOf(const CLI::Option& option) {
@@ -130,49 +127,22 @@ CommandLine& CommandLine::command(const std::string& name, const std::string& ab
 
 void CommandLine::wantsCommand() { app_.require_subcommand(1); }
 
-Option CommandLine::option(const std::string& name, std::string& value, const std::string& help) {
+template <class Value>
+Option CommandLine::option(const std::string& name, Value& value, const std::string& help) {
   return Option(*app_.add_option(name, value, help));
 }
 
-Option CommandLine::option(const std::string& name, std::vector<std::string>& value, const std::string& help) {
-  return Option(*app_.add_option(name, value, help));
-}
-
-Option CommandLine::option(const std::string& name, double& value, const std::string& help) {
-  return Option(*app_.add_option(name, value, help));
-}
-
-Option CommandLine::option(const std::string& name, int& value, const std::string& help) {
-  return Option(*app_.add_option(name, value, help));
-}
-
-Option CommandLine::option(const std::string& name, std::uint32_t& value, const std::string& help) {
-  return Option(*app_.add_option(name, value, help));
-}
-
-Option CommandLine::option(const std::string& name, std::uint64_t& value, const std::string& help) {
-  return Option(*app_.add_option(name, value, help));
-}
-
-Option CommandLine::option(const std::string& name, std::vector<double>& value, const std::string& help) {
-  return Option(*app_.add_option(name, value, help));
-}
-
-Option CommandLine::option(const std::string& name, std::vector<std::vector<double>>& value, const std::string& help) {
-  return Option(*app_.add_option(name, value, help));
-}
-
-Option CommandLine::option(const std::string& name, std::optional<std::string>& value, const std::string& help) {
-  return Option(*app_.add_option(name, value, help));
-}
-
-Option CommandLine::option(const std::string& name, std::optional<double>& value, const std::string& help) {
-  return Option(*app_.add_option(name, value, help));
-}
-
-Option CommandLine::option(const std::string& name, std::optional<int>& value, const std::string& help) {
-  return Option(*app_.add_option(name, value, help));
-}
+template Option CommandLine::option(const std::string&, std::string&, const std::string&);
+template Option CommandLine::option(const std::string&, std::vector<std::string>&, const std::string&);
+template Option CommandLine::option(const std::string&, double&, const std::string&);
+template Option CommandLine::option(const std::string&, int&, const std::string&);
+template Option CommandLine::option(const std::string&, std::uint32_t&, const std::string&);
+template Option CommandLine::option(const std::string&, std::uint64_t&, const std::string&);
+template Option CommandLine::option(const std::string&, std::vector<double>&, const std::string&);
+template Option CommandLine::option(const std::string&, std::vector<std::vector<double>>&, const std::string&);
+template Option CommandLine::option(const std::string&, std::optional<std::string>&, const std::string&);
+template Option CommandLine::option(const std::string&, std::optional<double>&, const std::string&);
+template Option CommandLine::option(const std::string&, std::optional<int>&, const std::string&);
 
 Option CommandLine::option(const std::string& name, std::function<void(const std::string&)> take,
                            const std::string& help) {

@@ -2,10 +2,8 @@
 // is slow to compile. Names: "--long", or a word that stands by its place. Main thread, start-up only.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -58,17 +56,9 @@ class CommandLine {
   void wantsCommand();
 
   /// The variable outlives run(); it is set where the option is given.
-  Option option(const std::string& name, std::string& value, const std::string& help);
-  Option option(const std::string& name, std::vector<std::string>& value, const std::string& help);
-  Option option(const std::string& name, double& value, const std::string& help);
-  Option option(const std::string& name, int& value, const std::string& help);
-  Option option(const std::string& name, std::uint32_t& value, const std::string& help);
-  Option option(const std::string& name, std::uint64_t& value, const std::string& help);
-  Option option(const std::string& name, std::vector<double>& value, const std::string& help);
-  Option option(const std::string& name, std::vector<std::vector<double>>& value, const std::string& help);
-  Option option(const std::string& name, std::optional<std::string>& value, const std::string& help);
-  Option option(const std::string& name, std::optional<double>& value, const std::string& help);
-  Option option(const std::string& name, std::optional<int>& value, const std::string& help);
+  /// Of text, number or list, optional or not.
+  template <class Value>
+  Option option(const std::string& name, Value& value, const std::string& help);
   /// `take` may throw UsageError.
   Option option(const std::string& name, std::function<void(const std::string&)> take, const std::string& help);
   Option flag(const std::string& name, bool& value, const std::string& help);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "app/text/list.h"
+
 namespace app {
 namespace {
 
@@ -55,19 +57,14 @@ std::string entry(const std::string& head, const std::string& about) {
 
 /// "-h, --help", each name bold.
 std::string boldNames(const std::string& names) {
-  const std::size_t comma = names.find(',');
-  if (comma == std::string::npos) return bold(names);
-  return bold(names.substr(0, comma)) + ", " + boldNames(names.substr(comma + 1));
+  return listed(partsOf(names), [](std::string_view name) { return bold(std::string(name)); });
 }
 
 std::string entryOf(const OptionWords& option) {
   std::string head = option.is_by_place ? slanted(upper(option.names)) : boldNames(option.names);
   if (!option.is_by_place && !option.value.empty()) head += " " + slanted(option.value);
   std::string about = option.about;
-  if (!option.choices.empty()) {
-    about += about.empty() ? "One of " : ". One of ";
-    for (std::size_t n = 0; n < option.choices.size(); ++n) about += (n == 0 ? "" : ", ") + option.choices[n];
-  }
+  if (!option.choices.empty()) about += (about.empty() ? "One of " : ". One of ") + listed(option.choices);
   if (!option.usual.empty()) about += " [" + option.usual + "]";
   return entry(head, about);
 }

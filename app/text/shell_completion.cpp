@@ -1,7 +1,8 @@
 #include "app/text/shell_completion.h"
 
-#include <algorithm>
 #include <vector>
+
+#include "app/text/list.h"
 
 namespace app {
 namespace {
@@ -10,23 +11,6 @@ std::string quoted(const std::string& text) {
   std::string out = "'";
   for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return out + "'";
-}
-
-/// "-h,--help" is two.
-std::vector<std::string> namesOf(const OptionWords& option) {
-  std::vector<std::string> names;
-  for (std::size_t at = 0; at <= option.names.size();) {
-    const std::size_t comma = std::min(option.names.find(',', at), option.names.size());
-    names.push_back(option.names.substr(at, comma - at));
-    at = comma + 1;
-  }
-  return names;
-}
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string line;
-  for (const std::string& word : words) line += (line.empty() ? "" : " ") + word;
-  return line;
 }
 
 /// The three tables, a line per command or option.
@@ -38,13 +22,14 @@ struct Tables {
     for (const CommandWords& each : command.commands) offered.push_back(each.name);
     for (const OptionWords& option : command.options) {
       if (option.is_by_place) continue;
-      for (const std::string& name : namesOf(option)) {
-        offered.push_back(name);
+      // "-h,--help" is two.
+      for (const std::string_view part : partsOf(option.names)) {
+        const std::string& name = offered.emplace_back(part);
         if (option.value.empty()) continue;
-        values += "    " + quoted(path + " " + name) + ") values=" + quoted(joined(option.choices)) + " ;;\n";
+        values += "    " + quoted(path + " " + name) + ") values=" + quoted(listed(option.choices, {}, " ")) + " ;;\n";
       }
     }
-    words += "    " + quoted(path) + ") words=" + quoted(joined(offered)) +
+    words += "    " + quoted(path) + ") words=" + quoted(listed(offered, {}, " ")) +
              (command.commands.empty() ? "" : " has_commands=1") + " ;;\n";
     for (const CommandWords& each : command.commands) {
       const std::string inner = path.empty() ? each.name : path + " " + each.name;

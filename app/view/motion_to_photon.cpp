@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/text/printed.h"
+#include <fmt/core.h>
 
 namespace app {
 namespace {
@@ -39,8 +39,8 @@ PhotonEstimate MotionToPhoton::percentile(double share) const {
 }
 
 std::string photonText(const PhotonEstimate& e) {
-  return printed("motion to photon %.0f ms (pose to swap %.1f, servo %.1f, blank %.1f, scan-out %.1f)", e.total_ms(),
-                 e.pose_to_swap_ms, e.servo_ms, e.blank_ms, e.scan_out_ms);
+  return fmt::format("motion to photon {:.0f} ms (pose to swap {:.1f}, servo {:.1f}, blank {:.1f}, scan-out {:.1f})",
+                     e.total_ms(), e.pose_to_swap_ms, e.servo_ms, e.blank_ms, e.scan_out_ms);
 }
 
 }  // namespace app

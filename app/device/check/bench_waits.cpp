@@ -3,7 +3,7 @@
 #include <chrono>
 #include <utility>
 
-#include "app/text/printed.h"
+#include <fmt/core.h>
 
 namespace app {
 namespace {
@@ -46,7 +46,7 @@ PushingHand::Seen lookAtRest(CheckBench& bench) {
 }
 
 std::string newtons(const glm::dvec3& force_N) {
-  return printed("%+.2f, %+.2f, %+.2f N", force_N.x, force_N.y, force_N.z);
+  return fmt::format("{:+.2f}, {:+.2f}, {:+.2f} N", force_N.x, force_N.y, force_N.z);
 }
 
 }  // namespace app

@@ -2,8 +2,9 @@
 
 #include <functional>
 
+#include <fmt/core.h>
+
 #include "app/device/emergency_exit.h"
-#include "app/text/printed.h"
 #include "haptics/safety/fault.h"
 
 namespace app {
@@ -12,15 +13,15 @@ namespace {
 void addFacts(CheckReport& report) {
   const haptics::DeviceCapabilities& can = report.device;
   report.lines.push_back({"peak and lasting force", "as its maker says",
-                          printed("%.1f N, %.2f N%s", can.peak_force_N, can.continuous_force_N,
-                                  can.force_is_calibrated ? "" : ", never weighed"),
+                          fmt::format("{:.1f} N, {:.2f} N{}", can.peak_force_N, can.continuous_force_N,
+                                      can.force_is_calibrated ? "" : ", never weighed"),
                           Verdict::ok});
 }
 
 /// Until somebody leaves: the steps, in the order in which each may rely on the ones before.
 bool runSteps(CheckBench& bench, const DeviceCheckPlan& plan, std::vector<ForceReading>& readings) {
   int number = 0;
-  const auto begin = [&](const char* title) { bench.dialogue.say(printed("\n%d. %s", ++number, title)); };
+  const auto begin = [&](const char* title) { bench.dialogue.say(fmt::format("\n{}. {}", ++number, title)); };
   bool sign_is_right = false;
   begin("Inkwell");
   if (!checkInkwell(bench)) return false;

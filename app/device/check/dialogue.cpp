@@ -1,11 +1,12 @@
 #include "app/device/check/dialogue.h"
 
 #include <algorithm>
-#include <charconv>
 #include <istream>
 #include <ostream>
 
-#include "app/text/printed.h"
+#include <fmt/core.h>
+
+#include "app/text/number_in.h"
 
 namespace app {
 
@@ -38,11 +39,8 @@ std::optional<char> Dialogue::choice(const std::string& question, std::string_vi
 std::optional<double> Dialogue::number(const std::string& question, double least, double most) {
   while (auto text = line("  " + question + " ")) {
     std::ranges::replace(*text, ',', '.');
-    double value = 0.0;
-    const char* end = text->data() + text->size();
-    const auto [stopped, error] = std::from_chars(text->data(), end, value);
-    if (error == std::errc{} && stopped == end && value >= least && value <= most) return value;
-    say(printed("  Give a number from %g to %g; q leaves.", least, most));
+    if (const auto value = numberIn<double>(*text); value && *value >= least && *value <= most) return value;
+    say(fmt::format("  Give a number from {:g} to {:g}; q leaves.", least, most));
   }
   return {};
 }

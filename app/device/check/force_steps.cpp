@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
+
+#include <fmt/core.h>
 
 #include "app/device/check/bench_waits.h"
 #include "app/device/check/check_steps.h"
-#include "app/text/printed.h"
 
 namespace app {
 namespace {
@@ -19,33 +21,19 @@ double within(const CheckBench& bench, double force_N) {
   return std::min(force_N, 0.8 * bench.hand.limits().peak_force_N);
 }
 
-struct Side {
+/// What a person may answer; the first three are the ways it pushes.
+struct Way {
+  char answer;
   const char* name;
-  char right_answer;
-  glm::dvec3 DeviceAxes::*axis;
+  glm::dvec3 DeviceAxes::*axis = nullptr;
 };
-constexpr std::array<Side, 3> kSides = {{{"right", 'r', &DeviceAxes::right_D},
-                                         {"up", 'u', &DeviceAxes::up_D},
-                                         {"towards you", 't', &DeviceAxes::towards_D}}};
-
-std::string nameOfAnswer(char answer) {
-  switch (answer) {
-    case 'r':
-      return "right";
-    case 'l':
-      return "left";
-    case 'u':
-      return "up";
-    case 'd':
-      return "down";
-    case 't':
-      return "towards you";
-    case 'a':
-      return "away from you";
-    default:
-      return "nothing";
-  }
-}
+constexpr std::array<Way, 7> kWays = {{{'r', "right", &DeviceAxes::right_D},
+                                       {'u', "up", &DeviceAxes::up_D},
+                                       {'t', "towards you", &DeviceAxes::towards_D},
+                                       {'l', "left"},
+                                       {'d', "down"},
+                                       {'a', "away from you"},
+                                       {'n', "nothing"}}};
 
 struct Step {
   double up_N = 0.0;
@@ -66,10 +54,10 @@ bool checkForceSign(CheckBench& bench, bool& sign_is_right) {
   sign_is_right = true;
   bench.owner.told(HandTask::hold);
   if (!bench.dialogue.asked(
-          printed("It will push with %.1f N, as much as 50 g weigh. Hold the handle loosely in the middle.",
-                  within(bench, kSign_N))))
+          fmt::format("It will push with {:.1f} N, as much as 50 g weigh. Hold the handle loosely in the middle.",
+                      within(bench, kSign_N))))
     return false;
-  for (const Side& side : kSides) {
+  for (const Way& side : std::span(kWays).first(3)) {
     const glm::dvec3 axis_D = bench.axes.*side.axis;
     const glm::dvec3 before_mm = bench.hand.newest().state.X_DH.translation_mm;
     const bool steady = pushUntilSteady(bench, within(bench, kSign_N) * axis_D);
@@ -79,12 +67,13 @@ bool checkForceSign(CheckBench& bench, bool& sign_is_right) {
     letGo(bench);
     if (!answer) return false;
     const double moved_mm = glm::dot(pushed.state.X_DH.translation_mm - before_mm, axis_D);
-    const bool is_right = *answer == side.right_answer && steady;
+    const bool is_right = *answer == side.answer && steady;
     sign_is_right = sign_is_right && is_right;
-    bench.report.lines.push_back({std::string("pushes ") + side.name, side.name,
-                                  nameOfAnswer(*answer) + printed(", moved %+.1f mm", moved_mm) +
-                                      (steady ? "" : ", the safety layer let only " + newtons(pushed.lately_D_N)),
-                                  is_right ? Verdict::ok : Verdict::wrong});
+    bench.report.lines.push_back(
+        {std::string("pushes ") + side.name, side.name,
+         fmt::format("{}, moved {:+.1f} mm", std::ranges::find(kWays, *answer, &Way::answer)->name, moved_mm) +
+             (steady ? "" : ", the safety layer let only " + newtons(pushed.lately_D_N)),
+         is_right ? Verdict::ok : Verdict::wrong});
     if (*answer != 'n' && std::ranges::count(bench.report.proved, Proof::moves) == 0)
       bench.report.proved.push_back(Proof::moves);
   }
@@ -100,28 +89,28 @@ bool checkForceScale(CheckBench& bench, std::vector<ForceReading>& readings) {
   if (!nothing_g) return false;
   for (const Step& step : stepsOf(bench)) {
     pushUntilSteady(bench, step.up_N * bench.axes.up_D);
-    const auto shown_g =
-        dialogue.number(printed("It pushes %s with %.1f N. What does it show, in g?", step.way, std::abs(step.up_N)),
-                        -kMostGrams, kMostGrams);
+    const auto shown_g = dialogue.number(
+        fmt::format("It pushes {} with {:.1f} N. What does it show, in g?", step.way, std::abs(step.up_N)), -kMostGrams,
+        kMostGrams);
     const double given_N = -glm::dot(bench.hand.newest().lately_D_N, bench.axes.up_D);
     letGo(bench);
     if (!shown_g) return false;
     if (std::abs(given_N) < kLeastForce_N) {
-      bench.report.lines.push_back({printed("%s with %.1f N", step.way, std::abs(step.up_N)), "a force",
+      bench.report.lines.push_back({fmt::format("{} with {:.1f} N", step.way, std::abs(step.up_N)), "a force",
                                     "the safety layer let none through", Verdict::wrong});
       continue;
     }
     readings.push_back({given_N, (*shown_g - *nothing_g) / kGrams_per_N});
-    bench.report.lines.push_back({printed("%s with %.2f N", step.way, std::abs(given_N)),
-                                  printed("%.0f g", given_N * kGrams_per_N), printed("%.0f g", *shown_g - *nothing_g),
-                                  Verdict::ok});
+    bench.report.lines.push_back({fmt::format("{} with {:.2f} N", step.way, std::abs(given_N)),
+                                  fmt::format("{:.0f} g", given_N * kGrams_per_N),
+                                  fmt::format("{:.0f} g", *shown_g - *nothing_g), Verdict::ok});
   }
   if (readings.size() < 2) return true;
   const ForceScaleFit fit = forceScale(readings);
   const bool is_right = std::abs(fit.scale - 1.0) <= kScaleTolerance;
   bench.report.lines.push_back({"scale of the force", "1.00 ± 0.10",
-                                printed("%.3f ± %.3f, offset %+.2f N, farthest %.2f N off", fit.scale, fit.scale_error,
-                                        fit.offset_N, fit.worst_N),
+                                fmt::format("{:.3f} ± {:.3f}, offset {:+.2f} N, farthest {:.2f} N off", fit.scale,
+                                            fit.scale_error, fit.offset_N, fit.worst_N),
                                 is_right ? Verdict::ok : Verdict::wrong});
   if (is_right) bench.report.proved.push_back(Proof::force_scale);
   return true;

@@ -1,9 +1,10 @@
 #include <chrono>
 #include <cmath>
 
+#include <fmt/core.h>
+
 #include "app/device/check/bench_waits.h"
 #include "app/device/check/check_steps.h"
-#include "app/text/printed.h"
 
 namespace app {
 namespace {
@@ -19,7 +20,7 @@ void proveIfOk(CheckBench& bench, Verdict verdict, Proof proof) {
   if (verdict == Verdict::ok) bench.report.proved.push_back(proof);
 }
 
-std::string bitsOf(std::uint32_t buttons) { return buttons == 0 ? "none" : printed("bits %x", buttons); }
+std::string bitsOf(std::uint32_t buttons) { return buttons == 0 ? "none" : fmt::format("bits {:x}", buttons); }
 
 }  // namespace
 
@@ -100,14 +101,14 @@ bool checkAxes(CheckBench& bench) {
   constexpr double kLeast_mm = 20.0;
   const bool is_right = found_mm.x > kLeast_mm && found_mm.y > kLeast_mm && found_mm.z > kLeast_mm;
   bench.report.lines.push_back({"from corner to corner: right, up, towards you", "more than 20 mm each",
-                                printed("%.0f, %.0f, %.0f mm", found_mm.x, found_mm.y, found_mm.z),
+                                fmt::format("{:.0f}, {:.0f}, {:.0f} mm", found_mm.x, found_mm.y, found_mm.z),
                                 is_right ? Verdict::ok : Verdict::wrong});
   if (is_right) bench.report.proved.push_back(Proof::axes);
   return true;
 }
 
 bool checkRate(CheckBench& bench, double rate_Hz, double seconds) {
-  bench.dialogue.say(printed("  Hold it quietly for %g s.", seconds));
+  bench.dialogue.say(fmt::format("  Hold it quietly for {:g} s.", seconds));
   const std::uint64_t ticks_before = bench.hand.ticks();
   const std::int64_t begun_ns = bench.hand.now_ns();
   bench.hand.wait(std::chrono::milliseconds(std::llround(1e3 * seconds)));
@@ -115,12 +116,12 @@ bool checkRate(CheckBench& bench, double rate_Hz, double seconds) {
   const double found_Hz = static_cast<double>(bench.hand.ticks() - ticks_before) / taken_s;
   const haptics::LoopFigures figures = bench.hand.figures();
   const bool is_right = std::abs(found_Hz - rate_Hz) < 0.02 * rate_Hz;
-  bench.report.lines.push_back(
-      {"rate", printed("%.0f Hz", rate_Hz), printed("%.1f Hz", found_Hz), is_right ? Verdict::ok : Verdict::wrong});
+  bench.report.lines.push_back({"rate", fmt::format("{:.0f} Hz", rate_Hz), fmt::format("{:.1f} Hz", found_Hz),
+                                is_right ? Verdict::ok : Verdict::wrong});
   bench.report.lines.push_back(
       {"a tick wakes late", "under 1000 µs",
-       printed("%.0f µs in the middle, %.0f µs at 99 %%, %.0f µs at worst, %llu ticks missed", figures.late_p50_us,
-               figures.late_p99_us, figures.latest_us, static_cast<unsigned long long>(figures.missed)),
+       fmt::format("{:.0f} µs in the middle, {:.0f} µs at 99 %, {:.0f} µs at worst, {} ticks missed",
+                   figures.late_p50_us, figures.late_p99_us, figures.latest_us, figures.missed),
        figures.late_p99_us < 1000.0 ? Verdict::ok : Verdict::wrong});
   if (is_right) bench.report.proved.push_back(Proof::rate);
   return true;

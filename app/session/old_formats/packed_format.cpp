@@ -245,24 +245,19 @@ std::span<const std::uint8_t> blobOf(const SQLite::Column& column) {
   return {bytes, bytes == nullptr ? 0 : static_cast<std::size_t>(column.getBytes())};
 }
 
+void setFrom(std::string& value, const SQLite::Column& column) { value = column.getString(); }
+void setFrom(int& value, const SQLite::Column& column) { value = column.getInt(); }
+void setFrom(double& value, const SQLite::Column& column) { value = column.getDouble(); }
+void setFrom(std::optional<double>& value, const SQLite::Column& column) {
+  if (!column.isNull()) value = column.getDouble();
+}
+
 SessionCalibration calibrationFrom(SQLite::Database& database) {
-  SQLite::Statement row(database,
-                        "SELECT rig, rig_id, device_serial, verdict, touches, rms_mm, p95_mm, max_mm, checked_utc, "
-                        "age_days, despite FROM calibration");
+  SQLite::Statement row(database, "SELECT * FROM calibration");
   if (!row.executeStep()) throw damagedSession("it has no calibration");
-  SessionCalibration c;
-  c.rig = row.getColumn(0).getString();
-  c.rig_id = row.getColumn(1).getString();
-  c.device_serial = row.getColumn(2).getString();
-  c.verdict = row.getColumn(3).getString();
-  c.touches = row.getColumn(4).getInt();
-  c.rms_mm = row.getColumn(5).getDouble();
-  c.p95_mm = row.getColumn(6).getDouble();
-  c.max_mm = row.getColumn(7).getDouble();
-  c.checked_utc = row.getColumn(8).getString();
-  if (!row.getColumn(9).isNull()) c.age_days = row.getColumn(9).getDouble();
-  c.despite = row.getColumn(10).getString();
-  return c;
+  SessionCalibration calibration;
+  forEachField(calibration, [&](const char* key, auto& value) { setFrom(value, row.getColumn(key)); });
+  return calibration;
 }
 
 }  // namespace

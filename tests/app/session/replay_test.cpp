@@ -16,6 +16,12 @@ namespace {
 
 constexpr std::size_t kTicks = 900, kChange = 500;
 
+ReplayedMoment momentOf(const std::string& path, double t_s) {
+  SessionReader session(path);
+  refuseDamaged(session, path);
+  return replayTo(session, t_s);
+}
+
 /// One recorded rehearsal and the bone it left.
 struct Recorded {
   test::ScratchFolder folder;
@@ -261,8 +267,8 @@ TEST(Replay, SaysWhereTicksWereLost) {
   EXPECT_FALSE(report.verified());
   EXPECT_EQ(report.difference->tick, 207u);
   EXPECT_EQ(report.difference->what, "7 ticks before it were lost");
-  EXPECT_EQ(replayTo(session.path, 0.150).departure, std::nullopt);
-  const ReplayedMoment after = replayTo(session.path, 0.3);
+  EXPECT_EQ(momentOf(session.path, 0.150).departure, std::nullopt);
+  const ReplayedMoment after = momentOf(session.path, 0.3);
   ASSERT_TRUE(after.departure.has_value());
   EXPECT_EQ(after.departure->tick, 207u);
 }
@@ -295,7 +301,7 @@ TEST(Replay, ReportsAChangedFileInsteadOfRunningIt) {
   const ReplayReport report = verify(session.path);
   EXPECT_FALSE(report.verified());
   EXPECT_TRUE(report.damage.has_value());
-  EXPECT_THROW(replayTo(session.path, 1.0), SessionError);
+  EXPECT_THROW(momentOf(session.path, 1.0), SessionError);
   EXPECT_THROW(metricsOf(session.path), SessionError);
 }
 
@@ -325,16 +331,16 @@ TEST(Replay, RefusesWhatNeverWasASession) {
 TEST(Replay, BringsBackTheBoneOfAnyMoment) {
   Recorded session;
   session.write();
-  EXPECT_TRUE(std::ranges::equal(replayTo(session.path, 0.0).bone.solidInGridOrder(), session.block.solid));
+  EXPECT_TRUE(std::ranges::equal(momentOf(session.path, 0.0).bone.solidInGridOrder(), session.block.solid));
   for (const std::size_t ticks : {1u, 50u, 437u, 500u, 501u}) {
     haptics::CarvedBone bone(session.block.grid, session.block.solid, session.block.label);
     test::rehearse(bone, session.block.start().command, ticks, kChange);
-    const ReplayedMoment moment = replayTo(session.path, (static_cast<double>(ticks) - 0.5) * 0.001);
+    const ReplayedMoment moment = momentOf(session.path, (static_cast<double>(ticks) - 0.5) * 0.001);
     EXPECT_TRUE(std::ranges::equal(moment.bone.solidInGridOrder(), bone.solidInGridOrder())) << ticks;
     EXPECT_EQ(moment.tick.index, ticks - 1);
     EXPECT_EQ(moment.command.serial, ticks <= kChange ? 1u : 2u);
   }
-  const ReplayedMoment end = replayTo(session.path, std::numeric_limits<double>::infinity());
+  const ReplayedMoment end = momentOf(session.path, std::numeric_limits<double>::infinity());
   EXPECT_EQ(end.bone.digest(), session.bone.digest());
 }
 
