@@ -46,23 +46,7 @@ int run(int argc, char** argv) {
   app::CommandLine molar(
       "Molar: rehearse a third-molar extraction, seen and felt. A training device, not a clinical one.",
       std::string(app::programBuild()));
-  app::addRehearse(molar);
-  app::addImport(molar);
-  app::addInspect(molar);
-  app::addFeel(molar);
-  app::addCarve(molar);
-  app::addSee(molar);
-  app::addDisplay(molar);
-  app::addCalibrate(molar);
-  app::addDevices(molar);
-  app::addDoctor(molar);
-  app::addReplay(molar);
-  app::addMetrics(molar);
-  app::addExport(molar);
-  app::addLaws(molar);
-  app::addPsychophysics(molar);
-  app::addManual(molar);
-  app::addCompletion(molar);
+  for (const auto add : app::kCommands) add(molar);
   const int status = molar.run(argc, argv);
   if (std::fflush(stdout) != 0 || std::ferror(stdout))
     return refuse("standard output: the answer can not be written, check where it goes");

@@ -2,6 +2,8 @@
 // the exit status: 0 success, 1 the answer is "no". Bad input throws; main prints one line, exit 2.
 #pragma once
 
+#include <initializer_list>
+
 namespace app {
 
 class CommandLine;
@@ -23,5 +25,10 @@ void addLaws(CommandLine& molar);
 void addPsychophysics(CommandLine& molar);
 void addManual(CommandLine& molar);
 void addCompletion(CommandLine& molar);
+
+/// In the order of the help.
+inline constexpr auto kCommands = {addRehearse, addImport,    addInspect,       addFeel,   addCarve,     addSee,
+                                   addDisplay,  addCalibrate, addDevices,       addDoctor, addReplay,    addMetrics,
+                                   addExport,   addLaws,      addPsychophysics, addManual, addCompletion};
 
 }  // namespace app

@@ -40,23 +40,20 @@ namespace {
 constexpr double kForeignFaceWindow_mm = 24.0;
 
 struct RehearseOptions {
-  std::string patient, parameters, device = "mouse", pedal = "auto", falcon_firmware, record, snapshot, first_snapshot,
-                                   face;
+  RehearsalPlan plan;
+  std::string patient, pedal = "auto", falcon_firmware, record, face;
   RigOption rig;
   std::vector<std::string> tools{"sphere:1.5"};
   std::string shaft, law = "agus", erosion = "time", size, snapshot_size = "1280x800";
   std::string pace = "real";
-  std::string side = "right", second_hand, second_tool = "mirror";
+  std::string side = "right", second_tool = "mirror";
   PictureOption picture;
   std::vector<std::string> settings;
   DisplayOption display;
   assets::JawParameters jaw;
-  std::optional<double> seconds, face_window_mm;
-  std::optional<int> monitor, quality;
-  int priority = haptics::kServoPriority;
-  std::optional<double> rate_Hz;
+  std::optional<double> face_window_mm;
+  std::optional<int> monitor;
   double loupes = 4.0;
-  bool headless = false, force = false, operators_window = false;
 };
 
 /// On a desk the surgeon wears loupes: the same screen, its picture magnified. With a rig everything is 1:1, and the
@@ -69,7 +66,7 @@ calibration::Rig rigFor(const RehearseOptions& options, const std::optional<Chos
     if (leavesPatientOpen(rig)) rig.X_WP = standAtSite(patient, X_PF);
     return rig;
   }
-  const glm::ivec2 px = options.size.empty() ? (options.headless ? glm::ivec2(640, 400) : glm::ivec2(1280, 800))
+  const glm::ivec2 px = options.size.empty() ? (options.plan.headless ? glm::ivec2(640, 400) : glm::ivec2(1280, 800))
                                              : pictureSize(options.size);
   calibration::Rig rig = calibration::desktopRig(px, calibration::kDeskMonitorWidth_mm / options.loupes);
   // X_WD stays identity, so the tooth at work is at the origin of D too: the middle of every Phantom's workspace, its
@@ -80,9 +77,10 @@ calibration::Rig rigFor(const RehearseOptions& options, const std::optional<Chos
 
 /// The device is opened first: a rig is one device's, and only the device knows its serial.
 void chooseRig(RehearsalPlan& plan, const RehearseOptions& options, const assets::FacePose& X_PF) {
-  if (haptics::isDeviceAddress(options.device)) plan.opened = haptics::openDevice(options.device, plan.device_options);
+  if (haptics::isDeviceAddress(options.plan.device))
+    plan.opened = haptics::openDevice(options.plan.device, plan.device_options);
   const DeviceAtHand device =
-      deviceAtHand(options.device, plan.opened ? &plan.opened->device->capabilities() : nullptr);
+      deviceAtHand(options.plan.device, plan.opened ? &plan.opened->device->capabilities() : nullptr);
   const std::optional<ChosenRig> chosen = options.rig.choose(device, calibration::nowUtc());
   plan.rig = rigFor(options, chosen, plan.patient, X_PF);
   plan.full_screen = chosen.has_value();
@@ -99,22 +97,23 @@ void chooseRig(RehearsalPlan& plan, const RehearseOptions& options, const assets
   const std::vector<std::string> fit = caseRemarks(plan.rig, plan.patient, chosen->record.eye_sd_mm,
                                                    device.isCalibrated() ? device.model : std::string());
   plan.remarks.insert(plan.remarks.end(), fit.begin(), fit.end());
-  if (haptics::isDeviceAddress(options.second_hand) && !plan.rig.second_X_WD)
-    throw UsageError("--second-hand " + options.second_hand + ": " + chosen->source +
+  if (haptics::isDeviceAddress(options.plan.second_hand.device) && !plan.rig.second_X_WD)
+    throw UsageError("--second-hand " + options.plan.second_hand.device + ": " + chosen->source +
                      " does not say where its base stands, add X_WD2");
 }
 
 /// As fast as the machine can: nothing that has a time of its own.
 void refuseUnlessSteppable(const RehearseOptions& options) {
-  if (!options.headless) throw UsageError("--pace fast: a window has the clock's time, add --headless");
-  const HandKind* const hand = handKindOf(options.device);
+  if (!options.plan.headless) throw UsageError("--pace fast: a window has the clock's time, add --headless");
+  const HandKind* const hand = handKindOf(options.plan.device);
   if (!hand || !hand->in_numbers)
-    throw UsageError("--pace fast: " + options.device +
+    throw UsageError("--pace fast: " + options.plan.device +
                      " is no hand in numbers, choose --device scripted, simulated, practice, replay or poses");
-  if (!options.second_hand.empty() && haptics::isDeviceAddress(options.second_hand))
-    throw UsageError("--pace fast: --second-hand " + options.second_hand +
+  if (!options.plan.second_hand.device.empty() && haptics::isDeviceAddress(options.plan.second_hand.device))
+    throw UsageError("--pace fast: --second-hand " + options.plan.second_hand.device +
                      " is no hand in numbers, choose scripted or replay:SESSION");
-  if (options.operators_window) throw UsageError("--pace fast: a window has the clock's time, leave --operator out");
+  if (options.plan.operators_window)
+    throw UsageError("--pace fast: a window has the clock's time, leave --operator out");
   if (options.pedal != "auto" && options.pedal != "none")
     throw UsageError("--pace fast: a pedal has the clock's time, leave --pedal out");
 }
@@ -137,8 +136,8 @@ void leaveACoreToTheServo() {
   setenv("LP_NUM_THREADS", threads.c_str(), 0);
 }
 
-int run(const RehearseOptions& options) {
-  RehearsalPlan plan;
+int run(RehearseOptions& options) {
+  RehearsalPlan& plan = options.plan;
   const auto tool_of = [&](const std::string& text) {
     const haptics::BurShape head = headFrom(text);
     return haptics::Tool{head, options.shaft.empty() ? haptics::usualShaft(head) : shaftFrom(options.shaft)};
@@ -151,23 +150,19 @@ int run(const RehearseOptions& options) {
   applyTo(plan.command, options.settings);
   refuseUnlessObeyed(plan.command);
   refuseUnlessAdmitted(plan.command);
-  plan.parameters = options.parameters;
-  if (options.headless && options.device == "mouse")
+  if (plan.headless && plan.device == "mouse")
     throw UsageError("--headless: there is no mouse without a window, add --device scripted");
-  refuseUnlessHand(options.device);
+  refuseUnlessHand(plan.device);
   options.rig.refuseUnlessReadable();
-  plan.device = options.device;
   if (options.pace == "fast") {
     refuseUnlessSteppable(options);
     plan.ticking = Ticking::by_hand;
   } else {
     plan.pedal = pedalFrom(options.pedal);
   }
-  plan.second_hand = {options.second_hand,
-                      options.second_tool == "mirror" ? SecondTool::mirror : SecondTool::retractor};
-  refuseUnlessSecondHand(plan.second_hand, options.device);
+  plan.second_hand.tool = options.second_tool == "mirror" ? SecondTool::mirror : SecondTool::retractor;
+  refuseUnlessSecondHand(plan.second_hand, plan.device);
   plan.device_options.falcon_program = options.falcon_firmware;
-  plan.device_options.servo_priority = options.priority;
   plan.device_options.falcon_scale = [] { return keptFalconScale(usualFalconScaleFile()); };
   plan.device_options.tell = say;
   plan.display = options.display.mode();
@@ -175,20 +170,12 @@ int run(const RehearseOptions& options) {
   plan.backend = options.picture.backend();
   options.picture.apply(plan.first_frame);
   if (options.monitor) plan.monitor = *options.monitor - 1;
-  plan.operators_window = options.operators_window;
-  plan.quality_step = options.quality;
-  plan.rate_Hz = options.rate_Hz;
-  plan.seconds = options.seconds;
-  plan.snapshot = options.snapshot;
-  plan.first_snapshot = options.first_snapshot;
   plan.snapshot_px = pictureSize(options.snapshot_size);
-  plan.headless = options.headless;
-  plan.overwrite = options.force;
-  if (!options.snapshot.empty() && options.snapshot == options.first_snapshot)
-    throw UsageError("--first-snapshot " + options.snapshot + ": the same as --snapshot, give another name");
+  if (!plan.snapshot.empty() && plan.snapshot == plan.first_snapshot)
+    throw UsageError("--first-snapshot " + plan.snapshot + ": the same as --snapshot, give another name");
   if (!options.record.empty())
-    refuseUnlessRecordable(options.record, options.force, {options.device, options.second_hand});
-  if (!options.record.empty()) plan.recording = Recording{options.record, options.force};
+    refuseUnlessRecordable(options.record, plan.overwrite, {plan.device, plan.second_hand.device});
+  if (!options.record.empty()) plan.recording = Recording{options.record, plan.overwrite};
 
   assets::JawParameters jaw = options.jaw;
   jaw.right_side = options.side == "right";
@@ -210,9 +197,9 @@ void addRehearse(CommandLine& molar) {
   CommandLine& command = molar.command("rehearse", "Rehearse a third-molar extraction, seen and felt");
   Option patient = command.option("PATIENT", o->patient, "Patient folder (default: the built-in patient)");
   command.option("--pedal", o->pedal, kPedalHelp).showsDefault();
-  command.option("--device", o->device, handHelp()).showsDefault();
+  command.option("--device", o->plan.device, handHelp()).showsDefault();
   command.option("--falcon-firmware", o->falcon_firmware, "Novint's firmware for a Falcon").valueNamed("FILE");
-  Option second = command.option("--second-hand", o->second_hand, kSecondHandHelp);
+  Option second = command.option("--second-hand", o->plan.second_hand.device, kSecondHandHelp);
   command.option("--second-tool", o->second_tool, "What the other hand holds: mirror or retractor")
       .oneOf({"mirror", "retractor"})
       .showsDefault()
@@ -222,8 +209,9 @@ void addRehearse(CommandLine& molar) {
   o->picture.addTo(command);
   command.option("--monitor", o->monitor, "Monitor of the picture, from 1; two windows take the next one as well")
       .wholeFrom(1, 16);
-  command.flag("--operator", o->operators_window, "A window for the operator, on the next monitor where there is one");
-  command.option("--quality", o->quality, "Hold this quality, 0 best to 6 fastest [by measured frame times]")
+  command.flag("--operator", o->plan.operators_window,
+               "A window for the operator, on the next monitor where there is one");
+  command.option("--quality", o->plan.quality_step, "Hold this quality, 0 best to 6 fastest [by measured frame times]")
       .wholeFrom(0, static_cast<int>(render::kQualitySteps.size()) - 1);
   command.option("--size", o->size, "Picture size").valueNamed("WxH");
   command.option("--loupes", o->loupes, "Magnification on a desk (without --rig)")
@@ -238,14 +226,16 @@ void addRehearse(CommandLine& molar) {
   command.option("--shaft", o->shaft, std::string(kShaftHelp) + " [a neck that fits, up to 2.35 mm thick]");
   command.option("--law", o->law, "Force law: " + lawNames()).showsDefault();
   command
-      .option("--parameters", o->parameters,
+      .option("--parameters", o->plan.parameters,
               "Settings file, TOML, obeyed while it changes (app/options/feel.toml); it rules over --law and --set")
       .valueNamed("FILE");
   command.option("--erosion", o->erosion, "Erosion law").oneOf(erosionNames()).showsDefault();
   command.option("--set", o->settings,
                  "key=value: stiffness_N_per_mm, peak_force_N, spindle_rpm, worn, removal_rate_per_s, …");
-  command.option("--rate", o->rate_Hz, "Servo rate, Hz [1000, or as recorded]").from(500.0, 10'000.0);
-  command.option("--priority", o->priority, "Real-time priority of the servo, its USB thread has the next")
+  command.option("--rate", o->plan.rate_Hz, "Servo rate, Hz [1000, or as recorded]").from(500.0, 10'000.0);
+  command
+      .option("--priority", o->plan.device_options.servo_priority,
+              "Real-time priority of the servo, its USB thread has the next")
       .wholeFrom(haptics::kLeastServoPriority, haptics::kMostServoPriority)
       .showsDefault();
   command
@@ -253,13 +243,13 @@ void addRehearse(CommandLine& molar) {
               "real, by the clock; fast, a hand in numbers without a window as fast as the machine can")
       .oneOf({"real", "fast"})
       .showsDefault();
-  command.option("--seconds", o->seconds, "End after this time").from(0.1, 86400.0);
+  command.option("--seconds", o->plan.seconds, "End after this time").from(0.1, 86400.0);
   command.option("--record", o->record, "Session file to write").valueNamed("FILE");
-  command.option("--snapshot", o->snapshot, "Pictures at the end: NAME_left.png, NAME_right.png");
-  command.option("--first-snapshot", o->first_snapshot, "The same before the first cut");
+  command.option("--snapshot", o->plan.snapshot, "Pictures at the end: NAME_left.png, NAME_right.png");
+  command.option("--first-snapshot", o->plan.first_snapshot, "The same before the first cut");
   command.option("--snapshot-size", o->snapshot_size, "Size of those").valueNamed("WxH").showsDefault();
-  command.flag("--headless", o->headless, "Without a window");
-  command.flag("--force", o->force, "Replace outputs that exist");
+  command.flag("--headless", o->plan.headless, "Without a window");
+  command.flag("--force", o->plan.overwrite, "Replace outputs that exist");
   command.option("--side", o->side, "Built-in patient: right or left")
       .oneOf({"right", "left"})
       .showsDefault()

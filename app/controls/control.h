@@ -66,29 +66,14 @@ constexpr std::optional<Control> controlNamed(std::string_view name) {
 /// Throws UsageError that says what may stand there.
 ControlWish wishFrom(const std::string& text);
 
-/// None for drilling, which is held and no wish.
+/// By its name, for a pedal calls what it asks for as everybody else does. None for drilling, which is held and no
+/// wish.
 constexpr std::optional<ControlWish> wishOf(haptics::HandAction action) {
-  switch (action) {
-    case haptics::HandAction::irrigation:
-      return ControlWish{Control::irrigation};
-    case haptics::HandAction::undo:
-      return ControlWish{Control::undo};
-    case haptics::HandAction::tool_change:
-      return ControlWish{Control::tool};
-    case haptics::HandAction::drill:
-      break;
-  }
-  return {};
+  const std::optional<Control> control = controlNamed(haptics::nameOf(action));
+  return control && action != haptics::HandAction::drill ? std::optional(ControlWish{*control}) : std::nullopt;
 }
-
-/// A pedal calls what it asks for as everybody else does.
-constexpr bool areNamedAlike() {
-  for (const haptics::HandAction action :
-       {haptics::HandAction::irrigation, haptics::HandAction::undo, haptics::HandAction::tool_change})
-    if (haptics::nameOf(action) != meaningOf(wishOf(action)->control).name) return false;
-  return true;
-}
-static_assert(areNamedAlike());
+static_assert(wishOf(haptics::HandAction::irrigation) && wishOf(haptics::HandAction::undo) &&
+              wishOf(haptics::HandAction::tool_change));
 
 /// What keys and mouse do in a window, the hand's movements first.
 struct KeyMeaning {

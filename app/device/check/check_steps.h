@@ -23,6 +23,19 @@ struct CheckBench {
   const haptics::DeviceCapabilities& device;
   DeviceAxes axes;
   CheckReport& report;
+
+  /// True once the owner did it.
+  bool asked(HandTask task, const std::string& to_do) {
+    owner.told(task);
+    return dialogue.asked(to_do);
+  }
+  /// A line of the report, and what it proves where it is right.
+  void saw(std::string what, std::string expected, std::string found, bool is_right, std::optional<Proof> proof = {}) {
+    report.lines.push_back(
+        {std::move(what), std::move(expected), std::move(found), is_right ? Verdict::ok : Verdict::wrong});
+    if (is_right && proof) report.proved.push_back(*proof);
+  }
+  void sawNone(const std::string& part) { report.lines.push_back({part, "none", "none", Verdict::not_there}); }
 };
 
 bool checkInkwell(CheckBench& bench);

@@ -33,7 +33,7 @@ bool runSteps(CheckBench& bench, const DeviceCheckPlan& plan, std::vector<ForceR
   if (!checkAxes(bench)) return false;
   begin("Which way it pushes");
   if (!bench.device.has_motors) {
-    bench.report.lines.push_back({"force", "none", "none", Verdict::not_there});
+    bench.sawNone("force");
   } else {
     if (!checkForceSign(bench, sign_is_right)) return false;
     begin("How strong it is");

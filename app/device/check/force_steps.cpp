@@ -52,8 +52,8 @@ std::vector<Step> stepsOf(const CheckBench& bench) {
 
 bool checkForceSign(CheckBench& bench, bool& sign_is_right) {
   sign_is_right = true;
-  bench.owner.told(HandTask::hold);
-  if (!bench.dialogue.asked(
+  if (!bench.asked(
+          HandTask::hold,
           fmt::format("It will push with {:.1f} N, as much as 50 g weigh. Hold the handle loosely in the middle.",
                       within(bench, kSign_N))))
     return false;
@@ -69,11 +69,10 @@ bool checkForceSign(CheckBench& bench, bool& sign_is_right) {
     const double moved_mm = glm::dot(pushed.state.X_DH.translation_mm - before_mm, axis_D);
     const bool is_right = *answer == side.answer && steady;
     sign_is_right = sign_is_right && is_right;
-    bench.report.lines.push_back(
-        {std::string("pushes ") + side.name, side.name,
-         fmt::format("{}, moved {:+.1f} mm", std::ranges::find(kWays, *answer, &Way::answer)->name, moved_mm) +
-             (steady ? "" : ", the safety layer let only " + newtons(pushed.lately_D_N)),
-         is_right ? Verdict::ok : Verdict::wrong});
+    bench.saw(std::string("pushes ") + side.name, side.name,
+              fmt::format("{}, moved {:+.1f} mm", std::ranges::find(kWays, *answer, &Way::answer)->name, moved_mm) +
+                  (steady ? "" : ", the safety layer let only " + newtons(pushed.lately_D_N)),
+              is_right);
     if (*answer != 'n' && std::ranges::count(bench.report.proved, Proof::moves) == 0)
       bench.report.proved.push_back(Proof::moves);
   }
@@ -96,23 +95,20 @@ bool checkForceScale(CheckBench& bench, std::vector<ForceReading>& readings) {
     letGo(bench);
     if (!shown_g) return false;
     if (std::abs(given_N) < kLeastForce_N) {
-      bench.report.lines.push_back({fmt::format("{} with {:.1f} N", step.way, std::abs(step.up_N)), "a force",
-                                    "the safety layer let none through", Verdict::wrong});
+      bench.saw(fmt::format("{} with {:.1f} N", step.way, std::abs(step.up_N)), "a force",
+                "the safety layer let none through", false);
       continue;
     }
     readings.push_back({given_N, (*shown_g - *nothing_g) / kGrams_per_N});
-    bench.report.lines.push_back({fmt::format("{} with {:.2f} N", step.way, std::abs(given_N)),
-                                  fmt::format("{:.0f} g", given_N * kGrams_per_N),
-                                  fmt::format("{:.0f} g", *shown_g - *nothing_g), Verdict::ok});
+    bench.saw(fmt::format("{} with {:.2f} N", step.way, std::abs(given_N)),
+              fmt::format("{:.0f} g", given_N * kGrams_per_N), fmt::format("{:.0f} g", *shown_g - *nothing_g), true);
   }
   if (readings.size() < 2) return true;
   const ForceScaleFit fit = forceScale(readings);
-  const bool is_right = std::abs(fit.scale - 1.0) <= kScaleTolerance;
-  bench.report.lines.push_back({"scale of the force", "1.00 ± 0.10",
-                                fmt::format("{:.3f} ± {:.3f}, offset {:+.2f} N, farthest {:.2f} N off", fit.scale,
-                                            fit.scale_error, fit.offset_N, fit.worst_N),
-                                is_right ? Verdict::ok : Verdict::wrong});
-  if (is_right) bench.report.proved.push_back(Proof::force_scale);
+  bench.saw("scale of the force", "1.00 ± 0.10",
+            fmt::format("{:.3f} ± {:.3f}, offset {:+.2f} N, farthest {:.2f} N off", fit.scale, fit.scale_error,
+                        fit.offset_N, fit.worst_N),
+            std::abs(fit.scale - 1.0) <= kScaleTolerance, Proof::force_scale);
   return true;
 }
 

@@ -9,15 +9,8 @@
 namespace app {
 namespace {
 
-/// A switch looked at in two positions; true first, then false, is right.
-Verdict judged(bool first, bool then) { return first && !then ? Verdict::ok : Verdict::wrong; }
-
 std::string yesNo(bool first, bool then) {
   return std::string(first ? "yes" : "no") + ", then " + (then ? "yes" : "no");
-}
-
-void proveIfOk(CheckBench& bench, Verdict verdict, Proof proof) {
-  if (verdict == Verdict::ok) bench.report.proved.push_back(proof);
 }
 
 std::string bitsOf(std::uint32_t buttons) { return buttons == 0 ? "none" : fmt::format("bits {:x}", buttons); }
@@ -26,73 +19,57 @@ std::string bitsOf(std::uint32_t buttons) { return buttons == 0 ? "none" : fmt::
 
 bool checkInkwell(CheckBench& bench) {
   if (!bench.device.has_inkwell) {
-    bench.report.lines.push_back({"inkwell", "none", "none", Verdict::not_there});
-    bench.owner.told(HandTask::hold);
-    return bench.dialogue.asked("Take the handle into your hand.");
+    bench.sawNone("inkwell");
+    return bench.asked(HandTask::hold, "Take the handle into your hand.");
   }
-  bench.owner.told(HandTask::rest);
-  if (!bench.dialogue.asked("Put the stylus into its inkwell.")) return false;
+  if (!bench.asked(HandTask::rest, "Put the stylus into its inkwell.")) return false;
   const PushingHand::Seen inside = lookAtRest(bench);
-  bench.owner.told(HandTask::hold);
-  if (!bench.dialogue.asked("Take it out and hold it in the middle of its room.")) return false;
+  if (!bench.asked(HandTask::hold, "Take it out and hold it in the middle of its room.")) return false;
   const PushingHand::Seen outside = lookAtRest(bench);
-  const Verdict verdict = judged(inside.state.docked, outside.state.docked);
-  bench.report.lines.push_back(
-      {"inkwell says docked", "yes, then no", yesNo(inside.state.docked, outside.state.docked), verdict});
-  proveIfOk(bench, verdict, Proof::inkwell);
-
-  const Verdict calibrated = outside.state.calibrated ? Verdict::ok : Verdict::wrong;
-  bench.report.lines.push_back({"pose is calibrated", "yes", outside.state.calibrated ? "yes" : "no", calibrated});
-  proveIfOk(bench, calibrated, Proof::calibration);
+  bench.saw("inkwell says docked", "yes, then no", yesNo(inside.state.docked, outside.state.docked),
+            inside.state.docked && !outside.state.docked, Proof::inkwell);
+  const bool is_calibrated = outside.state.calibrated;
+  bench.saw("pose is calibrated", "yes", is_calibrated ? "yes" : "no", is_calibrated, Proof::calibration);
   return true;
 }
 
 bool checkDeadman(CheckBench& bench) {
   if (!bench.device.has_deadman) {
-    bench.report.lines.push_back({"deadman", "none", "none", Verdict::not_there});
+    bench.sawNone("deadman");
     return true;
   }
-  bench.owner.told(HandTask::hold);
-  if (!bench.dialogue.asked("Hold the stylus as you would at work.")) return false;
+  if (!bench.asked(HandTask::hold, "Hold the stylus as you would at work.")) return false;
   const bool held = lookAtRest(bench).state.held;
-  bench.owner.told(HandTask::let_go);
-  if (!bench.dialogue.asked("Let go of it.")) return false;
+  if (!bench.asked(HandTask::let_go, "Let go of it.")) return false;
   const bool left = lookAtRest(bench).state.held;
-  bench.owner.told(HandTask::hold);
-  if (!bench.dialogue.asked("Hold it again.")) return false;
-  const Verdict verdict = judged(held, left);
-  bench.report.lines.push_back({"deadman feels a hand", "yes, then no", yesNo(held, left), verdict});
-  proveIfOk(bench, verdict, Proof::deadman);
+  if (!bench.asked(HandTask::hold, "Hold it again.")) return false;
+  bench.saw("deadman feels a hand", "yes, then no", yesNo(held, left), held && !left, Proof::deadman);
   return true;
 }
 
 bool checkButtons(CheckBench& bench) {
   const std::uint32_t before = bench.hand.newest().state.buttons;
-  bench.owner.told(HandTask::first_button);
-  if (!bench.dialogue.asked("Hold the first button down.")) return false;
+  if (!bench.asked(HandTask::first_button, "Hold the first button down.")) return false;
   const std::uint32_t first = lookAtRest(bench).state.buttons;
-  bench.owner.told(HandTask::second_button);
-  if (!bench.dialogue.asked("Hold the second button down, the first one not; if there is none, nothing.")) return false;
+  if (!bench.asked(HandTask::second_button,
+                   "Hold the second button down, the first one not; if there is none, nothing."))
+    return false;
   const std::uint32_t second = lookAtRest(bench).state.buttons;
-  bench.owner.told(HandTask::hold);
-  if (!bench.dialogue.asked("Let the buttons go.")) return false;
+  if (!bench.asked(HandTask::hold, "Let the buttons go.")) return false;
   const bool is_right = before == 0 && first == 1 && (second == 2 || second == 0);
-  bench.report.lines.push_back({"buttons: free, first, second", "none, bits 1, bits 2",
-                                bitsOf(before) + ", " + bitsOf(first) + ", " + bitsOf(second),
-                                is_right ? Verdict::ok : Verdict::wrong});
+  bench.saw("buttons: free, first, second", "none, bits 1, bits 2",
+            bitsOf(before) + ", " + bitsOf(first) + ", " + bitsOf(second), is_right);
   return true;
 }
 
 bool checkAxes(CheckBench& bench) {
-  bench.owner.told(HandTask::upper_corner);
-  if (!bench.dialogue.asked("Bring the handle to the right, upward and towards you, as far as it goes easily."))
+  if (!bench.asked(HandTask::upper_corner,
+                   "Bring the handle to the right, upward and towards you, as far as it goes easily."))
     return false;
   const glm::dvec3 upper_mm = lookAtRest(bench).state.X_DH.translation_mm;
-  bench.owner.told(HandTask::lower_corner);
-  if (!bench.dialogue.asked("Now to the left, downward and away from you.")) return false;
+  if (!bench.asked(HandTask::lower_corner, "Now to the left, downward and away from you.")) return false;
   const glm::dvec3 lower_mm = lookAtRest(bench).state.X_DH.translation_mm;
-  bench.owner.told(HandTask::hold);
-  if (!bench.dialogue.asked("Bring it back to the middle.")) return false;
+  if (!bench.asked(HandTask::hold, "Bring it back to the middle.")) return false;
   lookAtRest(bench);
 
   const glm::dvec3 way_mm = upper_mm - lower_mm;
@@ -100,10 +77,8 @@ bool checkAxes(CheckBench& bench) {
                             glm::dot(way_mm, bench.axes.towards_D));
   constexpr double kLeast_mm = 20.0;
   const bool is_right = found_mm.x > kLeast_mm && found_mm.y > kLeast_mm && found_mm.z > kLeast_mm;
-  bench.report.lines.push_back({"from corner to corner: right, up, towards you", "more than 20 mm each",
-                                fmt::format("{:.0f}, {:.0f}, {:.0f} mm", found_mm.x, found_mm.y, found_mm.z),
-                                is_right ? Verdict::ok : Verdict::wrong});
-  if (is_right) bench.report.proved.push_back(Proof::axes);
+  bench.saw("from corner to corner: right, up, towards you", "more than 20 mm each",
+            fmt::format("{:.0f}, {:.0f}, {:.0f} mm", found_mm.x, found_mm.y, found_mm.z), is_right, Proof::axes);
   return true;
 }
 
@@ -116,14 +91,11 @@ bool checkRate(CheckBench& bench, double rate_Hz, double seconds) {
   const double found_Hz = static_cast<double>(bench.hand.ticks() - ticks_before) / taken_s;
   const haptics::LoopFigures figures = bench.hand.figures();
   const bool is_right = std::abs(found_Hz - rate_Hz) < 0.02 * rate_Hz;
-  bench.report.lines.push_back({"rate", fmt::format("{:.0f} Hz", rate_Hz), fmt::format("{:.1f} Hz", found_Hz),
-                                is_right ? Verdict::ok : Verdict::wrong});
-  bench.report.lines.push_back(
-      {"a tick wakes late", "under 1000 µs",
-       fmt::format("{:.0f} µs in the middle, {:.0f} µs at 99 %, {:.0f} µs at worst, {} ticks missed",
-                   figures.late_p50_us, figures.late_p99_us, figures.latest_us, figures.missed),
-       figures.late_p99_us < 1000.0 ? Verdict::ok : Verdict::wrong});
-  if (is_right) bench.report.proved.push_back(Proof::rate);
+  bench.saw("rate", fmt::format("{:.0f} Hz", rate_Hz), fmt::format("{:.1f} Hz", found_Hz), is_right, Proof::rate);
+  bench.saw("a tick wakes late", "under 1000 µs",
+            fmt::format("{:.0f} µs in the middle, {:.0f} µs at 99 %, {:.0f} µs at worst, {} ticks missed",
+                        figures.late_p50_us, figures.late_p99_us, figures.latest_us, figures.missed),
+            figures.late_p99_us < 1000.0);
   return true;
 }
 
