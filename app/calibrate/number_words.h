@@ -3,11 +3,9 @@
 
 #include <string>
 
-#include <fmt/core.h>
-
 namespace app {
 
-inline std::string inWords(double number, int decimals) { return fmt::format("{:.{}f}", number, decimals); }
+std::string inWords(double number, int decimals);
 inline std::string inMm(double length_mm) { return inWords(length_mm, length_mm < 10.0 ? 2 : 1) + " mm"; }
 
 }  // namespace app
