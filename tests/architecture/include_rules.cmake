@@ -55,7 +55,7 @@ foreach(room pattern doctor calibrate psychophysics)
   set(app/${room} ${seen} app/procedure/ app/${room}/)
 endforeach()
 set(app/commands ${floors} app/)
-set(app_root ${floors} app/commands/ app/text/command_line.h app/text/version.h)
+set(app_root ${floors} app/commands/ app/text/command_line.h app/text/said.h app/text/version.h)
 set(tests ${floors} app/ tests/)
 
 # Inside haptics and render a sub-folder names what it may see; the folder itself sees all of its own. Latest, by which
