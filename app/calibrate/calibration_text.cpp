@@ -148,14 +148,15 @@ std::string lensText(const Intrinsics& lens, const std::vector<std::string>& ref
   std::string text;
   for (const std::string& line : refused) text += "left out: " + line + "\n";
   for (const std::string& name : lens.left_out) text += "left out: " + name + ": it does not fit the others\n";
+  text += fmt::format(
+      "{} views used, {} left out; corners cover {:.0f} % of the picture, boards slanted up to {:.0f} degrees\n",
+      static_cast<int>(lens.view_rms_px.size() - lens.left_out.size()),
+      static_cast<int>(lens.left_out.size() + refused.size()), 100.0 * lens.covered_share, lens.most_slant_deg);
   text +=
-      printed("%d views used, %d left out; corners cover %.0f %% of the picture, boards slanted up to %.0f degrees\n",
-              static_cast<int>(lens.view_rms_px.size() - lens.left_out.size()),
-              static_cast<int>(lens.left_out.size() + refused.size()), 100.0 * lens.covered_share, lens.most_slant_deg);
-  text += printed("focal length (%.1f, %.1f) px, centre (%.1f, %.1f) px, distortion k1 %+.4f, k2 %+.4f\n",
+      fmt::format("focal length ({:.1f}, {:.1f}) px, centre ({:.1f}, {:.1f}) px, distortion k1 {:+.4f}, k2 {:+.4f}\n",
                   camera.focal_px.x, camera.focal_px.y, camera.centre_px.x, camera.centre_px.y, camera.k1, camera.k2);
   const Verdict verdict = verdictOfLens(lens);
-  text += std::string(nameOf(verdict)) + printed(": corners are found back to %.2f px RMS; ", lens.rms_px);
+  text += std::string(nameOf(verdict)) + fmt::format(": corners are found back to {:.2f} px RMS; ", lens.rms_px);
   if (verdict == Verdict::green) return text + "within 0.3 px\n";
   return text + (verdict == Verdict::amber ? "above 0.3 px: " : "above 0.6 px: ") +
          "hold camera and board still, lock the focus, keep the board flat\n";

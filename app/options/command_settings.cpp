@@ -7,7 +7,6 @@
 #include "app/options/law_text.h"
 #include "app/options/tool_text.h"
 #include "app/text/list.h"
-#include "assets/toml_keys.h"
 #include "app/text/usage_error.h"
 #include "assets/toml_keys.h"
 #include "haptics/contact/law_limits.h"
@@ -22,7 +21,7 @@ std::map<std::string, Setting> limitsOf(haptics::SafetyLimits& safety) {
           {"slew_Nmm_per_s", {&safety.slew_Nmm_per_s, 1.0, 1e6, "Nmm/s"}}};
 }
 
-void readNumbers(TomlKeys& keys, const std::string& table, const std::map<std::string, Setting>& settings) {
+void readNumbers(assets::TomlKeys& keys, const std::string& table, const std::map<std::string, Setting>& settings) {
   for (const auto& [name, setting] : settings) {
     const std::string former(formerKey(name));
     const std::string& key = !former.empty() && keys.has(table, former) ? former : name;
@@ -39,7 +38,7 @@ std::map<std::string, Setting> lawParametersOf(haptics::LawSettings& law) {
 
 /// What `make` makes of the text; its refusal is one of the file.
 template <class Make>
-auto madeOf(TomlKeys& keys, const std::string& table, const std::string& key, const std::string& text,
+auto madeOf(assets::TomlKeys& keys, const std::string& table, const std::string& key, const std::string& text,
             const std::string& otherwise, Make make) {
   try {
     return make(text);

@@ -9,8 +9,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/core.h>
 #include "app/report/markup.h"
-#include "app/text/printed.h"
 #include "app/text/usage_error.h"
 
 namespace app {
@@ -86,7 +86,7 @@ double shareLeft(Align align) { return align == Align::left ? 0.0 : align == Ali
 
 std::string colourOf(const Ink& ink) {
   const auto byte = [](double part) { return static_cast<int>(std::lround(255.0 * part)); };
-  return printed("#%02x%02x%02x", byte(ink.red), byte(ink.green), byte(ink.blue));
+  return fmt::format("#{:02x}{:02x}{:02x}", byte(ink.red), byte(ink.green), byte(ink.blue));
 }
 
 }  // namespace
@@ -236,9 +236,9 @@ void Drawing::show(PangoLayout* layout, const glm::dvec2& corner, Align align, c
         corner +
         glm::dvec2(box.x + shareLeft(align) * box.width, pango_layout_iter_get_baseline(at.get())) / kStepsPerUnit;
     words_ +=
-        printed("<text x=\"%.2f\" y=\"%.2f\" font-size=\"%.2f\"%s fill=\"%s\" text-anchor=\"%s\">", place.x, place.y,
-                pango_font_description_get_size(font) / kStepsPerUnit, bold ? " font-weight=\"bold\"" : "",
-                colourOf(ink).c_str(), kAnchors[static_cast<std::size_t>(align)]) +
+        fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"{:.2f}\"{} fill=\"{}\" text-anchor=\"{}\">", place.x,
+                    place.y, pango_font_description_get_size(font) / kStepsPerUnit, bold ? " font-weight=\"bold\"" : "",
+                    colourOf(ink), kAnchors[static_cast<std::size_t>(align)]) +
         escaped(words) + "</text>\n";
   } while (pango_layout_iter_next_line(at.get()));
 }
@@ -251,9 +251,9 @@ std::string Drawing::markup(std::string_view description) {
   std::string drawn = svg_.substr(shapes, svg_.rfind("</svg>") - shapes);
   if (const std::size_t id = drawn.find(" id=\"surface"); id != std::string::npos)
     drawn.erase(id, drawn.find('>', id) - id);
-  return printed(
-             "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"0 0 %.2f %.2f\" width=\"%.2f\" "
-             "height=\"%.2f\" font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\" aria-label=\"",
+  return fmt::format(
+             "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"0 0 {:.2f} {:.2f}\" width=\"{:.2f}\" "
+             "height=\"{:.2f}\" font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\" aria-label=\"",
              size_.x, size_.y, size_.x, size_.y) +
          escaped(description) + "\">" + drawn + words_ + "</svg>\n";
 }

@@ -1,6 +1,6 @@
 #include "app/report/markup.h"
 
-#include "app/text/printed.h"
+#include <fmt/core.h>
 
 namespace app {
 
@@ -24,7 +24,7 @@ std::string escaped(std::string_view text) {
 }
 
 std::string fixedText(double value, int digits) {
-  const std::string text = printed("%.*f", digits, value);
+  const std::string text = fmt::format("{:.{}f}", value, digits);
   if (text[0] != '-') return text;
   return (text.find_first_not_of("0.", 1) == std::string::npos ? "" : "\u2212") + text.substr(1);
 }
