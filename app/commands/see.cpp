@@ -16,7 +16,6 @@
 #include "app/text/command_line.h"
 #include "app/text/said.h"
 #include "app/text/usage_error.h"
-#include "calibration/output_file.h"
 #include "app/view/renderer_choice.h"
 #include "assets/patient/patient_folder.h"
 #include "assets/scan/image_file.h"

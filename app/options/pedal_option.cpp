@@ -3,7 +3,6 @@
 #include <span>
 
 #include "app/text/list.h"
-#include "assets/toml_keys.h"
 #include "app/text/usage_error.h"
 #include "assets/toml_keys.h"
 #include "haptics/device/haptic_device.h"

@@ -8,7 +8,6 @@
 
 #include "app/options/law_text.h"
 #include "app/psychophysics/trial_table.h"
-#include "assets/toml_keys.h"
 #include "app/text/version.h"
 #include "assets/toml_keys.h"
 

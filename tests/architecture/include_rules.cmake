@@ -18,11 +18,11 @@ set(calibration/webcam ${calibration_words} calibration/fit/ calibration/webcam/
 set(calibration/verification ${calibration_words} calibration/fit/ calibration/verification/)
 set(calibration/synthetic ${calibration_words} calibration/fit/ calibration/webcam/ calibration/verification/
     calibration/synthetic/)
-set(calibration/record ${calibration_words} calibration/fit/ calibration/verification/ calibration/record/)
+set(calibration/record ${calibration_words} calibration/output_file.h calibration/fit/ calibration/verification/ calibration/record/)
 # Rooms of assets: plain types at the root, then what reads and writes, then what puts together.
-set(assets_words calibration/ assets/ct_volume.h assets/instruction_set.h assets/load_error.h assets/mesh.h
-    assets/operative_site.h calibration/output_file.h assets/patient.h assets/planned_cut.h assets/solid_sample.h
-    assets/solid_voxels.h assets/tissue.h assets/tooth.h assets/vertex_normals.h assets/volume_grid.h)
+set(assets_words calibration/ assets/ct_volume.h assets/instruction_set.h assets/json_depth.h assets/load_error.h assets/mesh.h
+    assets/operative_site.h assets/patient.h assets/planned_cut.h assets/solid_sample.h
+    assets/solid_voxels.h assets/tissue.h assets/toml_keys.h assets/tooth.h assets/vertex_normals.h assets/volume_grid.h)
 set(assets_root ${assets_words})
 foreach(room mesh scan scenery)
   set(assets/${room} ${assets_words} assets/${room}/)
