@@ -78,7 +78,7 @@ double legend(const Drawing& drawing, const std::vector<LegendEntry>& entries, c
     for (; first < end; ++first) {
       const LegendEntry& entry = entries[first];
       if (draws) {
-        entry.drawSample(at);
+        entry.draw_sample(at);
         drawing.text(entry.label, at + glm::dvec2(entry.sample_width + kBesideSample, 0.0), kLabelLine, paper::kInk,
                      Align::left);
       }

@@ -54,7 +54,7 @@ struct Axes {
 struct LegendEntry {
   std::string label;
   double sample_width = 0.0;
-  std::function<void(const glm::dvec2& left)> drawSample;  ///< from its left, half-way up
+  std::function<void(const glm::dvec2& left)> draw_sample;  ///< from its left, half-way up
 };
 
 /// In rows, each as full as it may be, centred below `top`. Returns the height; `draws`: else it is measured alone.

@@ -13,7 +13,7 @@
 
 #include "calibration/output_file.h"
 
-using cairo_t = struct _cairo;
+struct _cairo;
 using PangoLayout = struct _PangoLayout;
 
 namespace app {
@@ -81,7 +81,7 @@ class Drawing {
   void save(calibration::OutputFile& file) const;
 
  protected:
-  cairo_t* pen() const { return pen_.get(); }
+  _cairo* pen() const { return pen_.get(); }
 
   bool always_bold_ = false;
 
@@ -92,7 +92,7 @@ class Drawing {
   glm::dvec2 size_{0.0};
   std::string svg_;            ///< what Cairo has written
   mutable std::string words_;  ///< of SVG, over all shapes
-  std::unique_ptr<cairo_t, void (*)(cairo_t*)> pen_;
+  std::unique_ptr<_cairo, void (*)(_cairo*)> pen_;
 };
 
 }  // namespace app

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/session/session_error.h"
+#include "assets/json_depth.h"
 #include "assets/tissue.h"
 
 namespace app {
