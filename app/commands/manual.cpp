@@ -1,4 +1,4 @@
-// The manual's pages and the shell's completion, made from the commands themselves.
+// `molar manual` and `molar completion`: manual pages and bash completion, generated from the commands' own help.
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -22,12 +22,12 @@ struct ManualOptions {
   bool force = false;
 };
 
-std::string programWords() { return "Molar " + std::string(programVersion()); }
+std::string programName() { return "Molar " + std::string(programVersion()); }
 
 void writePages(const std::string& name, const CommandWords& command, const ManualOptions& options) {
   const auto path = std::filesystem::path(options.into) / manualFile(name);
   calibration::OutputFile file(path.string(), options.force);
-  file.commit(manualPage(name, command, programWords()));
+  file.commit(manualPage(name, command, programName()));
   for (const CommandWords& each : command.commands) writePages(name + " " + each.name, each, options);
 }
 
@@ -38,16 +38,16 @@ int manual(const CommandLine& molar, const ManualOptions& options) {
     writePages(name, words, options);
     return 0;
   }
-  for (const std::string& asked : options.command) {
+  for (const std::string& requested : options.command) {
     CommandWords found;
     for (const CommandWords& each : words.commands)
-      if (each.name == asked) found = each;
+      if (each.name == requested) found = each;
     if (found.name.empty())
-      throw UsageError("manual: " + name + " has no command " + asked + ", see " + name + " --help");
+      throw UsageError("manual: " + name + " has no command " + requested + ", see " + name + " --help");
     words = found;
-    name += " " + asked;
+    name += " " + requested;
   }
-  std::fputs(manualPage(name, words, programWords()).c_str(), stdout);
+  std::fputs(manualPage(name, words, programName()).c_str(), stdout);
   return 0;
 }
 
@@ -55,17 +55,16 @@ int manual(const CommandLine& molar, const ManualOptions& options) {
 
 void addManual(CommandLine& molar) {
   auto o = std::make_shared<ManualOptions>();
-  CommandLine& command = molar.command("manual", "A command's page of the manual: molar manual rehearse | man -l -");
-  Option path = command.option("command", o->command, "Of which command; none: of the program").valueNamed("COMMAND");
-  Option into = command.option("--into", o->into, "Write every page into this folder instead").anExistingFolder();
+  CommandLine& command = molar.command("manual", "Manual page of a command: molar manual rehearse | man -l -");
+  Option path = command.option("command", o->command, "The command; none: the program").valueNamed("COMMAND");
+  Option into = command.option("--into", o->into, "Write all pages into this folder instead").anExistingFolder();
   into.valueNamed("FOLDER").excludes(path);
-  command.flag("--force", o->force, "Overwrite pages that are there").needs(into);
+  command.flag("--force", o->force, "Overwrite existing pages").needs(into);
   command.does([o, &molar] { return manual(molar, *o); });
 }
 
 void addCompletion(CommandLine& molar) {
-  CommandLine& command =
-      molar.command("completion", "What the shell offers on Tab: source <(molar completion), for bash");
+  CommandLine& command = molar.command("completion", "Completion script for bash: source <(molar completion)");
   command.does([&molar] {
     std::fputs(bashCompletion("molar", molar.words()).c_str(), stdout);
     return 0;

@@ -8,8 +8,8 @@
 namespace app {
 namespace {
 
-/// Nothing in it is a request of groff's, and a hyphen stays one that can be copied.
-std::string plain(const std::string& text) {
+/// Escapes groff's control characters. Hyphens become \-, which can be copied from the page as a minus.
+std::string escaped(const std::string& text) {
   std::string out;
   bool begins_line = true;
   for (const char c : text) {
@@ -26,8 +26,8 @@ std::string plain(const std::string& text) {
 }
 
 std::string heading(const std::string& words) { return ".SH " + words + "\n"; }
-std::string bold(const std::string& words) { return "\\fB" + plain(words) + "\\fR"; }
-std::string slanted(const std::string& words) { return "\\fI" + plain(words) + "\\fR"; }
+std::string bold(const std::string& words) { return "\\fB" + escaped(words) + "\\fR"; }
+std::string italic(const std::string& words) { return "\\fI" + escaped(words) + "\\fR"; }
 
 std::string dashed(std::string name) {
   std::ranges::replace(name, ' ', '-');
@@ -42,17 +42,17 @@ std::string upper(std::string text) {
 std::string synopsis(const std::string& name, const CommandWords& command) {
   std::string line = bold(name);
   for (const OptionWords& option : command.options)
-    if (!option.is_by_place && option.is_required) line += " " + bold(option.names) + " " + slanted(option.value);
-  line += " [" + slanted("OPTIONS") + "]";
+    if (!option.is_by_place && option.is_required) line += " " + bold(option.names) + " " + italic(option.value);
+  line += " [" + italic("OPTIONS") + "]";
   for (const OptionWords& option : command.options)
     if (option.is_by_place)
-      line += option.is_required ? " " + slanted(upper(option.names)) : " [" + slanted(upper(option.names)) + "]";
-  if (!command.commands.empty()) line += " " + slanted("COMMAND");
+      line += option.is_required ? " " + italic(upper(option.names)) : " [" + italic(upper(option.names)) + "]";
+  if (!command.commands.empty()) line += " " + italic("COMMAND");
   return line + "\n";
 }
 
 std::string entry(const std::string& head, const std::string& about) {
-  return ".TP\n" + head + "\n" + plain(about) + "\n";
+  return ".TP\n" + head + "\n" + escaped(about) + "\n";
 }
 
 /// "-h, --help", each name bold.
@@ -61,8 +61,8 @@ std::string boldNames(const std::string& names) {
 }
 
 std::string entryOf(const OptionWords& option) {
-  std::string head = option.is_by_place ? slanted(upper(option.names)) : boldNames(option.names);
-  if (!option.is_by_place && !option.value.empty()) head += " " + slanted(option.value);
+  std::string head = option.is_by_place ? italic(upper(option.names)) : boldNames(option.names);
+  if (!option.is_by_place && !option.value.empty()) head += " " + italic(option.value);
   std::string about = option.about;
   if (!option.choices.empty()) about += (about.empty() ? "One of " : ". One of ") + listed(option.choices);
   if (!option.usual.empty()) about += " [" + option.usual + "]";
@@ -75,23 +75,23 @@ std::string manualFile(const std::string& name) { return dashed(name) + ".1"; }
 
 std::string manualPage(const std::string& name, const CommandWords& command, const std::string& program) {
   std::string page = ".TH \"" + upper(dashed(name)) + "\" 1 \"\" \"" + program + "\" \"Molar\"\n";
-  page += heading("NAME") + plain(dashed(name)) + " \\- " + plain(command.about) + "\n";
+  page += heading("NAME") + escaped(dashed(name)) + " \\- " + escaped(command.about) + "\n";
   page += heading("SYNOPSIS") + synopsis(name, command);
   if (!command.commands.empty()) {
     page += heading("COMMANDS");
     for (const CommandWords& each : command.commands)
-      page += entry("\\fB" + plain(dashed(name + " " + each.name)) + "\\fR(1)", each.about);
+      page += entry("\\fB" + escaped(dashed(name + " " + each.name)) + "\\fR(1)", each.about);
   }
   page += heading("OPTIONS");
   for (const bool by_place : {true, false})
     for (const OptionWords& option : command.options)
       if (option.is_by_place == by_place) page += entryOf(option);
-  if (!command.footer.empty()) page += heading("NOTES") + ".nf\n" + plain(command.footer) + "\n.fi\n";
+  if (!command.footer.empty()) page += heading("NOTES") + ".nf\n" + escaped(command.footer) + "\n.fi\n";
   page += heading("EXIT STATUS") + entry("0", "success") + entry("1", "the answer is \"no\"") +
-          entry("2", "bad input, told in one line: molar: what, where, what to do");
+          entry("2", "bad input, one line: molar: what, where, what to do");
   const std::size_t last = name.rfind(' ');
   if (last != std::string::npos)
-    page += heading("SEE ALSO") + "\\fB" + plain(dashed(name.substr(0, last))) + "\\fR(1)\n";
+    page += heading("SEE ALSO") + "\\fB" + escaped(dashed(name.substr(0, last))) + "\\fR(1)\n";
   return page;
 }
 

@@ -1,5 +1,5 @@
-// A command's page of the manual, as `man` reads it (groff's man macros), made from the words of the command line. Main
-// thread; text only.
+// Manual page of a command in groff's man macros, generated from the command line's description (command_words.h).
+// Main thread.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace app {
 
-/// `name` is the whole command, "molar calibrate fit"; `program` heads the page, "Molar 0.1.0".
+/// `name`: the full command, "molar calibrate fit". `program`: the page's footer, "Molar 0.1.0".
 std::string manualPage(const std::string& name, const CommandWords& command, const std::string& program);
 
-/// The page's file: "molar-calibrate-fit.1".
+/// File name of the page: "molar-calibrate-fit.1".
 std::string manualFile(const std::string& name);
 
 }  // namespace app

@@ -13,7 +13,7 @@ std::string quoted(const std::string& text) {
   return out + "'";
 }
 
-/// The three tables, a line per command or option.
+/// Three tables of the script, a line per command or option.
 struct Tables {
   std::string commands, values, words;
 

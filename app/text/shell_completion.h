@@ -1,6 +1,5 @@
-// What the shell offers when Tab is pressed, as a script for bash (zsh reads it after `bashcompinit`), made from the
-// words of the command line: commands, options, and values where there is a choice; files elsewhere. Main thread; text
-// only.
+// Completion script for bash (zsh: after `bashcompinit`), generated from the command line's description
+// (command_words.h): commands, options and the values of options that have choices; file names elsewhere. Main thread.
 #pragma once
 
 #include <string>
@@ -9,7 +8,7 @@
 
 namespace app {
 
-/// `program` holds the commands of `name`, "molar".
+/// `program`: description of the program called `name`, "molar", with all its commands.
 std::string bashCompletion(const std::string& name, const CommandWords& program);
 
 }  // namespace app

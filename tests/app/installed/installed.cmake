@@ -1,22 +1,28 @@
-# cmake -DBUILD=… -DPREFIX=… -DVERSION=… -P: installs into PREFIX, and looks at what is there as its user would.
+# cmake -DBUILD=… -DPREFIX=… -DVERSION=… -P installed.cmake: installs into PREFIX and checks the result.
 file(REMOVE_RECURSE ${PREFIX})
 execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --prefix ${PREFIX} OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 
-foreach(file bin/molar share/man/man1/molar.1.gz share/man/man1/molar-rehearse.1.gz share/man/man1/molar-calibrate-fit.1.gz
-        share/bash-completion/completions/molar lib/udev/rules.d/70-molar.rules share/applications/molar.desktop
-        share/icons/hicolor/scalable/apps/molar.svg share/doc/molar/copyright share/doc/molar/changelog.gz
-        share/doc/molar/examples/feel.toml)
+foreach(file bin/molar share/man/man1/molar.1.gz share/man/man1/molar-rehearse.1.gz
+        share/man/man1/molar-calibrate-fit.1.gz share/bash-completion/completions/molar lib/udev/rules.d/70-molar.rules share/applications/molar.desktop
+        share/icons/hicolor/scalable/apps/molar.svg share/doc/molar/copyright share/doc/molar/NEWS.gz
+        share/doc/molar/changelog.gz share/doc/molar/examples/feel.toml)
   if(NOT EXISTS ${PREFIX}/${file})
     message(SEND_ERROR "not installed: ${file}")
   endif()
 endforeach()
 
-execute_process(COMMAND ${PREFIX}/bin/molar --version OUTPUT_VARIABLE said COMMAND_ERROR_IS_FATAL ANY)
-if(NOT said MATCHES "^${VERSION}( \\([0-9a-f]+\\+?\\))?\n$")
-  message(SEND_ERROR "molar --version says: ${said}")
+execute_process(COMMAND ${PREFIX}/bin/molar --version OUTPUT_VARIABLE printed COMMAND_ERROR_IS_FATAL ANY)
+if(NOT printed MATCHES "^${VERSION}( \\([0-9a-f]+\\+?\\))?\n$")
+  message(SEND_ERROR "molar --version prints: ${printed}")
 endif()
 
-# Every command has its page, and no page is without its command.
+# The change log has an entry for this version.
+execute_process(COMMAND gzip -dc ${PREFIX}/share/doc/molar/NEWS.gz OUTPUT_VARIABLE news COMMAND_ERROR_IS_FATAL ANY)
+if(NOT news MATCHES "\n## ${VERSION}[,\n]")
+  message(SEND_ERROR "CHANGELOG.md has no entry for ${VERSION}")
+endif()
+
+# One page per command.
 execute_process(COMMAND ${PREFIX}/bin/molar completion OUTPUT_VARIABLE completion COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX MATCHALL "command='[a-z ]+'" commands "${completion}")
 file(GLOB pages ${PREFIX}/share/man/man1/*.1.gz)
@@ -24,16 +30,17 @@ list(LENGTH commands command_count)
 list(LENGTH pages page_count)
 math(EXPR page_count "${page_count} - 1")
 if(command_count LESS 20 OR NOT command_count EQUAL page_count)
-  message(SEND_ERROR "${command_count} commands, ${page_count} pages of them")
+  message(SEND_ERROR "${command_count} commands, but ${page_count} manual pages")
 endif()
 
-# Where the tools are there: pages, script and menu entry are what they should be.
+# Syntax of manual pages, completion script and desktop entry, where a checker is installed.
 find_program(GROFF groff)
 if(GROFF)
   foreach(page IN LISTS pages)
-    execute_process(COMMAND gzip -dc ${page} COMMAND ${GROFF} -K utf8 -man -Tutf8 -ww OUTPUT_QUIET ERROR_VARIABLE said)
-    if(said)
-      message(SEND_ERROR "${said}")
+    execute_process(COMMAND gzip -dc ${page} COMMAND ${GROFF} -K utf8 -man -Tutf8 -ww OUTPUT_QUIET
+      ERROR_VARIABLE printed)
+    if(printed)
+      message(SEND_ERROR "${printed}")
     endif()
   endforeach()
 endif()
@@ -44,5 +51,6 @@ if(SHELL_OF_COMPLETION)
 endif()
 find_program(DESKTOP_FILE_VALIDATE desktop-file-validate)
 if(DESKTOP_FILE_VALIDATE)
-  execute_process(COMMAND ${DESKTOP_FILE_VALIDATE} ${PREFIX}/share/applications/molar.desktop COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${DESKTOP_FILE_VALIDATE} ${PREFIX}/share/applications/molar.desktop
+    COMMAND_ERROR_IS_FATAL ANY)
 endif()
