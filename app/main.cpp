@@ -13,7 +13,7 @@
 
 #include "app/commands/command.h"
 #include "app/text/command_line.h"
-#include "app/text/said.h"
+#include "app/text/message.h"
 #include "app/text/version.h"
 #include "calibration/output_file.h"
 
@@ -31,7 +31,7 @@ std::string oneLine(std::string text) {
 }
 
 int refuse(const std::string& text) {
-  app::say(oneLine(calibration::withoutTemporaryMarks(text)));
+  app::printMessage(oneLine(calibration::withoutTemporaryNames(text)));
   return 2;
 }
 

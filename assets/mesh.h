@@ -1,5 +1,5 @@
 // Triangle meshes as drawn context: a model is a list of named parts, each one material.
-// Positions in mm, frame given by whoever holds the model (face and gum: P; instrument: T). Normals unit length.
+// Positions in mm, frame given by whoever holds the model (face and gingiva: P; instrument: T). Normals unit length.
 // Winding counter-clockwise seen from outside. Plain data; any thread. Nothing here is ever touched by the bur.
 #pragma once
 

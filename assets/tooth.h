@@ -13,14 +13,14 @@ namespace assets {
 
 constexpr int quadrantOf(int fdi) { return fdi / 10; }
 /// 1 next to the midline.
-constexpr int placeOf(int fdi) { return fdi % 10; }
+constexpr int positionOf(int fdi) { return fdi % 10; }
 constexpr bool isPrimaryTooth(int fdi) { return quadrantOf(fdi) >= 5; }
 constexpr bool isToothNumber(int fdi) {
-  return fdi >= 11 && quadrantOf(fdi) <= 8 && placeOf(fdi) >= 1 && placeOf(fdi) <= (isPrimaryTooth(fdi) ? 5 : 8);
+  return fdi >= 11 && quadrantOf(fdi) <= 8 && positionOf(fdi) >= 1 && positionOf(fdi) <= (isPrimaryTooth(fdi) ? 5 : 8);
 }
 constexpr bool isUpper(int fdi) { return quadrantOf(fdi) % 4 == 1 || quadrantOf(fdi) % 4 == 2; }
 constexpr bool isRight(int fdi) { return quadrantOf(fdi) % 4 <= 1; }
-constexpr bool isThirdMolar(int fdi) { return isToothNumber(fdi) && placeOf(fdi) == 8; }
+constexpr bool isThirdMolar(int fdi) { return isToothNumber(fdi) && positionOf(fdi) == 8; }
 
 /// "lower right third molar", "upper left primary canine".
 inline std::string toothName(int fdi) {
@@ -36,7 +36,7 @@ inline std::string toothName(int fdi) {
   constexpr std::array<std::string_view, 6> kPrimary{"",       "central incisor", "lateral incisor",
                                                      "canine", "first molar",     "second molar"};
   if (!isToothNumber(fdi)) return "no tooth";
-  const auto place = static_cast<std::size_t>(placeOf(fdi));
+  const auto place = static_cast<std::size_t>(positionOf(fdi));
   return std::string(isUpper(fdi) ? "upper " : "lower ") + (isRight(fdi) ? "right " : "left ") +
          (isPrimaryTooth(fdi) ? "primary " + std::string(kPrimary[place]) : std::string(kPermanent[place]));
 }
@@ -55,7 +55,7 @@ inline glm::dvec3 buccalDirection_P(int fdi) {
                                                        {0.95, 0.3},
                                                        {0.97, 0.25},
                                                        {0.97, 0.25}}};
-  const glm::dvec2 way = kOutwardForward[static_cast<std::size_t>(placeOf(fdi)) % kOutwardForward.size()];
+  const glm::dvec2 way = kOutwardForward[static_cast<std::size_t>(positionOf(fdi)) % kOutwardForward.size()];
   return glm::normalize(glm::dvec3(isRight(fdi) ? -way.x : way.x, -way.y, 0.0));
 }
 

@@ -1,4 +1,4 @@
-// The one exception of this folder: a rig, picture or measurement that can not be used.
+// The one exception of this folder: a rig, image or measurement that can not be used.
 // The text is one line: what, where, what to do.
 #pragma once
 

@@ -138,14 +138,14 @@ int exchange(const std::string& ours, const std::string& theirs) {
 
 }  // namespace
 
-int renameOntoNothing(const std::string& from, const std::string& to) {
+int renameNoReplace(const std::string& from, const std::string& to) {
   if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
   if (errno != EINVAL && errno != ENOSYS) return errno;
   if (exists(to)) return EEXIST;
   return ::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
 }
 
-int waitUntilOnDisk(const std::string& path) {
+int syncToDisk(const std::string& path) {
   const int descriptor = ::open(path.empty() ? "." : path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return errno;
   const int error = ::fsync(descriptor) == 0 ? 0 : errno;
@@ -153,7 +153,7 @@ int waitUntilOnDisk(const std::string& path) {
   return error;
 }
 
-std::string withoutTemporaryMarks(std::string text) {
+std::string withoutTemporaryNames(std::string text) {
   for (std::size_t at = text.find(kMarkBegin); at != std::string::npos; at = text.find(kMarkBegin, at)) {
     if (isMarkAt(text, at))
       text.erase(at, kMarkLength);
@@ -199,13 +199,13 @@ void OutputFile::commit(const std::string& text) {
 }
 
 void OutputFile::commit() {
-  int error = waitUntilOnDisk(temporary_path_);
+  int error = syncToDisk(temporary_path_);
   if (error == 0 && overwrite_) error = ::rename(temporary_path_.c_str(), path_.c_str()) == 0 ? 0 : errno;
-  if (error == 0 && !overwrite_) error = renameOntoNothing(temporary_path_, path_);
+  if (error == 0 && !overwrite_) error = renameNoReplace(temporary_path_, path_);
   if (error == EEXIST) refuse(path_, "it exists; use --force to replace it");
   if (error != 0) refuseForSystem(path_, error);
   committed_ = true;
-  waitUntilOnDisk(parentOf(path_).string());
+  syncToDisk(parentOf(path_).string());
 }
 
 OutputFolder::OutputFolder(std::string path, bool overwrite, std::vector<std::string> contents)
@@ -243,13 +243,13 @@ void OutputFolder::refuseUnlessReplaceable() const {
 void OutputFolder::commit() {
   // Files first, then the folder that names them.
   std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(temporary_path_, ignored)) waitUntilOnDisk(entry.path().string());
-  waitUntilOnDisk(temporary_path_);
+  for (const auto& entry : fs::directory_iterator(temporary_path_, ignored)) syncToDisk(entry.path().string());
+  syncToDisk(temporary_path_);
 
   refuseUnlessReplaceable();
   int error = 0;
   if (!exists(path_)) {
-    error = renameOntoNothing(temporary_path_, path_);
+    error = renameNoReplace(temporary_path_, path_);
   } else if (fs::is_empty(path_, ignored)) {
     error = ::rename(temporary_path_.c_str(), path_.c_str()) == 0 ? 0 : errno;
   } else {
@@ -259,7 +259,7 @@ void OutputFolder::commit() {
   if (error == EEXIST) refuse(path_, "it exists; use --force to replace it");
   if (error != 0) refuseForSystem(path_, error);
   committed_ = true;
-  waitUntilOnDisk(parentOf(path_).string());
+  syncToDisk(parentOf(path_).string());
 }
 
 }  // namespace calibration

@@ -15,13 +15,13 @@
 namespace calibration {
 
 /// rename(2) that does not replace; a file system without that flag falls back to look-then-rename. The error, or 0.
-int renameOntoNothing(const std::string& from, const std::string& to);
+int renameNoReplace(const std::string& from, const std::string& to);
 
 /// Waits until a file or folder (the working one without a name) is on the disk, as far as can be had. The error, or 0.
-int waitUntilOnDisk(const std::string& path);
+int syncToDisk(const std::string& path);
 
 /// The text without the marks of temporary names: for messages of writers, which know no other name.
-std::string withoutTemporaryMarks(std::string text);
+std::string withoutTemporaryNames(std::string text);
 
 class OutputFile {
  public:

@@ -44,14 +44,14 @@ struct Rig {
 /// Distance between the pupils of an average adult (rendering reference §5a), mm.
 inline constexpr double kInterpupillary_mm = 63.0;
 
-/// Width of the picture of a 24-inch monitor, 16:9, mm.
+/// Width of the image of a 24-inch monitor, 16:9, mm.
 inline constexpr double kDeskMonitorWidth_mm = 531.0;
 
 /// A monitor on the desk, without mirror: its centre is the origin of W, `width_mm` wide, as high as the pixels ask,
 /// eyes `eye_distance_mm` in front of it. X_WP and X_WD are identity.
 Rig desktopRig(glm::ivec2 px, double width_mm = kDeskMonitorWidth_mm, double eye_distance_mm = 500.0);
 
-/// A monitor tipped forward over the hand, its picture seen in a mirror at 45 degrees, before anything is measured:
+/// A monitor tipped forward over the hand, its image seen in a mirror at 45 degrees, before anything is measured:
 /// the virtual screen stands upright about the origin of W, the mirror between it and the eyes, panel and mirror above
 /// the work. The device stands behind and below (X_WD: reference/calibration 1.1, 5). X_WP is identity.
 Rig mirroredWorkstationRig(glm::ivec2 px = {1920, 1080}, double width_mm = kDeskMonitorWidth_mm,

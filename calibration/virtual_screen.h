@@ -6,7 +6,7 @@
 
 namespace calibration {
 
-/// Corners of the framebuffer's picture, as they are seen.
+/// Corners of the framebuffer's image, as they are seen.
 inline ScreenCorners virtualScreen(const Rig& rig) {
   ScreenCorners seen = rig.screen;
   if (rig.mirror)

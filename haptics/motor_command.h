@@ -18,7 +18,7 @@ class MotorCommand {
   bool motorsOn() const { return motors_on_; }
 
   /// The same with `share` of its force; 0 to 1, anything else counts as 0.
-  MotorCommand faded(double share) const {
+  MotorCommand scaled(double share) const {
     return {(share >= 0.0 && share <= 1.0 ? share : 0.0) * wrench_D_, motors_on_};
   }
 

@@ -2,7 +2,7 @@
 // so both eyes see the same instant. Frame W unless named. Render thread.
 #pragma once
 
-#include "assets/instrument/instrument.h"
+#include "assets/instrument/handpiece.h"
 #include "calibration/geometry/frames.h"
 #include "calibration/geometry/pose.h"
 #include "calibration/rig.h"
@@ -16,7 +16,7 @@ enum class ViewMode { iso, dvr, mesh };
 /// What may be shown besides, and how much of the face.
 struct Layers {
   float face_opacity = 1.0f;  ///< 0: no face
-  bool gum = true;
+  bool gingiva = true;
   bool mandibular_canal = false;  ///< the mandibular canal …
   bool clearance = false;         ///< … and bands of distance to it on the bone
   bool planned_cut = false;       ///< bone that is planned to go

@@ -15,14 +15,14 @@
 namespace render {
 namespace {
 
-Picture turned(Picture picture, bool flip_x, bool flip_y) {
-  if (!flip_x && !flip_y) return picture;
-  Picture result = picture;
-  for (int y = 0; y < picture.h; ++y)
-    for (int x = 0; x < picture.w; ++x) {
-      const int from_x = flip_x ? picture.w - 1 - x : x, from_y = flip_y ? picture.h - 1 - y : y;
-      std::copy_n(&picture.rgba[4 * static_cast<std::size_t>(from_y * picture.w + from_x)], 4,
-                  &result.rgba[4 * static_cast<std::size_t>(y * picture.w + x)]);
+Image turned(Image image, bool flip_x, bool flip_y) {
+  if (!flip_x && !flip_y) return image;
+  Image result = image;
+  for (int y = 0; y < image.h; ++y)
+    for (int x = 0; x < image.w; ++x) {
+      const int from_x = flip_x ? image.w - 1 - x : x, from_y = flip_y ? image.h - 1 - y : y;
+      std::copy_n(&image.rgba[4 * static_cast<std::size_t>(from_y * image.w + from_x)], 4,
+                  &result.rgba[4 * static_cast<std::size_t>(y * image.w + x)]);
     }
   return result;
 }
@@ -40,13 +40,13 @@ FrameRenderer::FrameRenderer(const assets::VolumeGrid& grid, std::span<const std
   }
   upload_ = std::make_unique<WindowUpload>();
   scene_ = cpuSceneRenderer(
-      fields_, options, [this](const Picture& picture, const WindowPlace& place) { upload_->show(picture, place); });
+      fields_, options, [this](const Image& image, const WindowTarget& place) { upload_->show(image, place); });
 }
 
 FrameRenderer::~FrameRenderer() = default;
 
 void FrameRenderer::setFace(const assets::MeshModel& face_P) { scene_->setModel(Model::face, face_P); }
-void FrameRenderer::setGum(const assets::MeshModel& gum_P) { scene_->setModel(Model::gum, gum_P); }
+void FrameRenderer::setGingiva(const assets::MeshModel& gum_P) { scene_->setModel(Model::gingiva, gum_P); }
 void FrameRenderer::setInstrument(const assets::MeshModel& instrument_T) {
   for (const Model model : {Model::instrument, Model::ghost}) scene_->setModel(model, instrument_T);
 }
@@ -56,22 +56,22 @@ void FrameRenderer::setSecondInstrument(const assets::MeshModel& instrument_O) {
 
 void FrameRenderer::setGuides(const Guides& guides) {
   const assets::MeshModel tube = mandibularCanalTube(guides.mandibular_canal_P_mm, guides.mandibular_canal_radius_mm);
-  for (const Model model : {Model::mandibular_canal, Model::mandibular_canal_through}) scene_->setModel(model, tube);
+  for (const Model model : {Model::mandibular_canal, Model::mandibular_canal_overlay}) scene_->setModel(model, tube);
   scene_->setGuides(guideField(fields_.grid(), guides));
 }
 
 void FrameRenderer::setScan(CtScan scan) { slices_.emplace(fields_.grid(), std::move(scan)); }
 
-Picture FrameRenderer::slice(SlicePlane plane, const Frame& frame, int edge_px) const {
+Image FrameRenderer::slice(SlicePlane plane, const Frame& frame, int edge_px) const {
   assert(slices_);
-  return slices_->picture(plane, frame, fields_.solid(), edge_px);
+  return slices_->image(plane, frame, fields_.solid(), edge_px);
 }
 
 // A column at the viewer's left, upright for the viewer however the panel hangs.
-void FrameRenderer::layInsets(const Frame& frame, glm::ivec2 eye_px) {
+void FrameRenderer::updateInsets(const Frame& frame, glm::ivec2 eye_px) {
   std::vector<Inset> insets;
   if (frame.layers.slices && slices_) {
-    constexpr double kHeight = 0.3, kGap = 0.025;  // of the picture's
+    constexpr double kHeight = 0.3, kGap = 0.025;  // of the image's
     const glm::dvec2 screen_px = frame.rig.screen.px;
     const glm::dvec2 per_height{eye_px.x * screen_px.y / screen_px.x, eye_px.y};
     const EyeView view = eyeView(frame.rig, Eye::cyclopean);
@@ -84,7 +84,7 @@ void FrameRenderer::layInsets(const Frame& frame, glm::ivec2 eye_px) {
       inset.first_px.y += static_cast<int>(n) * inset.size_px.y;
       if (flip_x) inset.first_px.x = eye_px.x - inset.first_px.x - inset.size_px.x;
       if (flip_y) inset.first_px.y = eye_px.y - inset.first_px.y - inset.size_px.y;
-      inset.picture = turned(slice(kSlicePlanes[n], frame, inset.size_px.y), flip_x, flip_y);
+      inset.image = turned(slice(kSlicePlanes[n], frame, inset.size_px.y), flip_x, flip_y);
       insets.push_back(std::move(inset));
     }
   }
@@ -105,12 +105,12 @@ void FrameRenderer::render(const Frame& frame) {
                       .screen_px = frame.rig.screen.px,
                       .at_px = frame.output_at_px,
                       .swapped = frame.eyes_swapped};
-  const glm::ivec2 place_px = eyePictureSize(layout.mode, layout.screen_px);
+  const glm::ivec2 place_px = eyeImageSize(layout.mode, layout.screen_px);
   const glm::ivec2 eye_px = glm::max((place_px + frame.quality.pixel_edge - 1) / frame.quality.pixel_edge, 1);
   const bool mono = frame.display == DisplayMode::mono;
   const Eye left = mono ? Eye::cyclopean : Eye::left, right = mono ? Eye::cyclopean : Eye::right;
   scene_->prepare(frame, fields_.prepare());
-  layInsets(frame, eye_px);
+  updateInsets(frame, eye_px);
   drawEye(frame, left, eye_px);
   if (!mono) drawEye(frame, right, eye_px);
   for (; layout.output < outputCount(layout.mode); ++layout.output) scene_->compose(layout, left, right, layout.output);
@@ -119,7 +119,7 @@ void FrameRenderer::render(const Frame& frame) {
 
 void FrameRenderer::renderEye(const Frame& frame, Eye eye) {
   scene_->prepare(frame, fields_.prepare());
-  layInsets(frame, frame.rig.screen.px);
+  updateInsets(frame, frame.rig.screen.px);
   drawEye(frame, eye, frame.rig.screen.px);
 }
 
@@ -128,15 +128,15 @@ void FrameRenderer::composeForBystander() {
                   kBystanderOutput);
 }
 
-void FrameRenderer::showOnWindow(const WindowPlace& place, int output) { scene_->showOnWindow(place, output); }
-void FrameRenderer::showBystander(const WindowPlace& place) { scene_->showOnWindow(place, kBystanderOutput); }
-Picture FrameRenderer::readPicture(int output) { return scene_->readPicture(output); }
-Picture FrameRenderer::readEye(Eye eye) {
+void FrameRenderer::showOnWindow(const WindowTarget& place, int output) { scene_->showOnWindow(place, output); }
+void FrameRenderer::showBystander(const WindowTarget& place) { scene_->showOnWindow(place, kBystanderOutput); }
+Image FrameRenderer::readImage(int output) { return scene_->readImage(output); }
+Image FrameRenderer::readEye(Eye eye) {
   assert(drawn(eye).px.x > 0);
   scene_->compose({.screen_px = drawn(eye).px}, eye, eye, kEyeOutput);
-  return readPicture(kEyeOutput);
+  return readImage(kEyeOutput);
 }
-DistancePicture FrameRenderer::readDistance(Eye eye) {
+DistanceImage FrameRenderer::readDistance(Eye eye) {
   assert(drawn(eye).px.x > 0);
   return scene_->readDistance(drawn(eye).frame, eye);
 }

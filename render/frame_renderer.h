@@ -1,6 +1,6 @@
-// Draws frames: jaw, face, gum and instruments for each eye, then the picture for the display. The one door to this
+// Draws frames: jaw, face, gingiva and instruments for each eye, then the image for the display. The one door to this
 // folder. But for Backend::cpu it needs a current OpenGL 4.5 context (OffscreenContext or Window) that outlives it.
-// Render thread only. Linear light throughout, sRGB once, when the display's picture is composed.
+// Render thread only. Linear light throughout, sRGB once, when the display's image is composed.
 // Bricks given before render() are in both eyes of that very frame. Reading back waits for the GPU.
 #pragma once
 
@@ -13,8 +13,8 @@
 #include "assets/volume_grid.h"
 #include "render/display/eye_projection.h"
 #include "render/frame.h"
-#include "render/gpu/window_place.h"
-#include "render/picture.h"
+#include "render/gpu/window_target.h"
+#include "render/image.h"
 #include "render/render_options.h"
 #include "render/volume/ct_slices.h"
 #include "render/volume/guide_field.h"
@@ -32,9 +32,9 @@ class FrameRenderer {
                 std::span<const std::uint8_t> label, RenderOptions options = {});
   ~FrameRenderer();
 
-  /// Empty models remove what was drawn. Face and gum in P; the instrument in T, what the other hand holds in O.
+  /// Empty models remove what was drawn. Face and gingiva in P; the instrument in T, what the other hand holds in O.
   void setFace(const assets::MeshModel& face_P);
-  void setGum(const assets::MeshModel& gum_P);
+  void setGingiva(const assets::MeshModel& gum_P);
   void setInstrument(const assets::MeshModel& instrument_T);
   void setSecondInstrument(const assets::MeshModel& instrument_O);
   /// Canal and planned cut, shown as Frame::layers says.
@@ -51,40 +51,40 @@ class FrameRenderer {
   void renderEye(const Frame& frame, Eye eye);
 
   /// A CT slice through the bur of `frame` and the bone as it is now; after setScan().
-  Picture slice(SlicePlane plane, const Frame& frame, int edge_px) const;
+  Image slice(SlicePlane plane, const Frame& frame, int edge_px) const;
 
   /// What was rendered last, from one eye, for showBystander: no second drawing, one pass over its pixels.
   void composeForBystander();
 
   /// Scales an output into the current window: that of the renderer's context or of one that shares with it.
-  void showOnWindow(const WindowPlace& place, int output = 0);
-  void showBystander(const WindowPlace& place);
-  Picture readPicture(int output = 0);
+  void showOnWindow(const WindowTarget& place, int output = 0);
+  void showBystander(const WindowTarget& place);
+  Image readImage(int output = 0);
   /// The eye as last drawn; it must have been drawn.
-  Picture readEye(Eye eye);
-  DistancePicture readDistance(Eye eye);
+  Image readEye(Eye eye);
+  DistanceImage readDistance(Eye eye);
 
   /// Throws GpuError if OpenGL reported an error since the last call.
   void throwIfError();
 
  private:
-  struct DrawnEye {
+  struct RenderedEye {
     Frame frame;
     glm::ivec2 px{0};  ///< 0: it was not drawn
   };
-  DrawnEye& drawn(Eye eye) { return eyes_[static_cast<std::size_t>(eye)]; }
-  void layInsets(const Frame& frame, glm::ivec2 eye_px);
+  RenderedEye& drawn(Eye eye) { return eyes_[static_cast<std::size_t>(eye)]; }
+  void updateInsets(const Frame& frame, glm::ivec2 eye_px);
   void drawEye(const Frame& frame, Eye eye, glm::ivec2 px);
 
   VolumeFields fields_;
   std::unique_ptr<WindowUpload> upload_;  ///< of a back-end without OpenGL
   std::unique_ptr<SceneRenderer> scene_;
   std::optional<CtSlices> slices_;
-  std::array<DrawnEye, 3> eyes_;
+  std::array<RenderedEye, 3> eyes_;
   Eye composed_from_ = Eye::cyclopean;
 };
 
-/// OpenGL clip space from frame P, for those who want to know where a point of the patient lands in the picture.
+/// OpenGL clip space from frame P, for those who want to know where a point of the patient lands in the image.
 glm::dmat4 clipFromPatient(const calibration::Rig& rig, const EyeView& view);
 
 }  // namespace render

@@ -10,8 +10,8 @@
 #include "render/gpu/drawing.h"
 #include "render/gpu/framebuffer.h"
 #include "render/gpu/gl_error.h"
-#include "render/gpu/window_picture.h"
-#include "render/scene/clear_lists.h"
+#include "render/gpu/window_image.h"
+#include "render/scene/fragment_lists.h"
 #include "render/scene/edge_pass.h"
 #include "render/scene/inset_pass.h"
 #include "render/scene/mesh_pass.h"
@@ -37,9 +37,9 @@ std::vector<T> flipped(std::vector<T> rows, std::size_t row_length) {
 }
 
 // What a scene is drawn into.
-struct Canvas {
+struct SceneTarget {
   Framebuffer target, layer;  ///< layer: what the rays saw of the volume
-  ClearLists clear;
+  FragmentLists clear;
 };
 
 class GlSceneRenderer final : public SceneRenderer {
@@ -58,29 +58,29 @@ class GlSceneRenderer final : public SceneRenderer {
   void setInsets(std::vector<Inset> insets) override {
     insets_.clear();
     for (const Inset& inset : insets)
-      insets_.push_back({InsetPass::onGpu(inset.picture), inset.first_px, inset.size_px});
+      insets_.push_back({InsetPass::uploaded(inset.image), inset.first_px, inset.size_px});
   }
 
   void prepare(const Frame& frame, const FieldChanges& changes) override {
     volume_.update(fields_, changes);
     if (frame.mode == ViewMode::mesh && !bone_mesh_) bone_mesh_.emplace();
-    if (bone_mesh_) bone_mesh_->note(changes);
+    if (bone_mesh_) bone_mesh_->markChanged(changes);
     if (frame.mode == ViewMode::mesh) bone_mesh_->prepare(fields_);
   }
   void drawEye(const Frame& frame, Eye eye, glm::ivec2 px) override;
   void compose(const StereoLayout& layout, Eye left, Eye right, int output) override;
 
-  void showOnWindow(const WindowPlace& place, int output) override {
-    showPictureOnWindow(outputs_[static_cast<std::size_t>(output)].colour(0), place);
+  void showOnWindow(const WindowTarget& place, int output) override {
+    showImageOnWindow(outputs_[static_cast<std::size_t>(output)].colour(0), place);
   }
-  Picture readPicture(int output) override;
-  DistancePicture readDistance(const Frame& frame, Eye eye) override;
+  Image readImage(int output) override;
+  DistanceImage readDistance(const Frame& frame, Eye eye) override;
   void throwIfError() override { throwIfGlError("drawing a frame"); }
 
  private:
-  Canvas& canvasOf(Eye eye) { return canvases_[static_cast<std::size_t>(eye)]; }
+  SceneTarget& canvasOf(Eye eye) { return canvases_[static_cast<std::size_t>(eye)]; }
   enum class Where { everywhere, edges };
-  void drawScene(const Frame& frame, Eye eye, glm::ivec2 size, Canvas& canvas, Where where = Where::everywhere);
+  void drawScene(const Frame& frame, Eye eye, glm::ivec2 size, SceneTarget& canvas, Where where = Where::everywhere);
 
   int samples_;
   const VolumeFields& fields_;
@@ -94,14 +94,14 @@ class GlSceneRenderer final : public SceneRenderer {
   std::array<SceneMesh, kModels> models_;
   EdgePass edges_;
   InsetPass inset_pass_;
-  std::vector<InsetPass::Placed> insets_;
-  std::array<Canvas, 3> canvases_;  ///< of the eyes as last drawn
-  Canvas edge_samples_;
+  std::vector<InsetPass::GpuInset> insets_;
+  std::array<SceneTarget, 3> canvases_;  ///< of the eyes as last drawn
+  SceneTarget edge_samples_;
   std::array<Framebuffer, kOutputs> outputs_;
 };
 
 void GlSceneRenderer::drawEye(const Frame& frame, Eye eye, glm::ivec2 px) {
-  Canvas& canvas = canvasOf(eye);
+  SceneTarget& canvas = canvasOf(eye);
   const glm::ivec2 size = samples_ * px;
   drawScene(frame, eye, size, canvas);
   if (samples_ == 1 && frame.quality.antialias == Antialias::edges) {
@@ -113,7 +113,7 @@ void GlSceneRenderer::drawEye(const Frame& frame, Eye eye, glm::ivec2 px) {
   inset_pass_.draw(insets_, canvas.target, samples_);
 }
 
-void GlSceneRenderer::drawScene(const Frame& frame, Eye eye, glm::ivec2 size, Canvas& canvas, Where where) {
+void GlSceneRenderer::drawScene(const Frame& frame, Eye eye, glm::ivec2 size, SceneTarget& canvas, Where where) {
   Framebuffer& target = canvas.target;
   target.fit(size, kSceneTargets, true);
   const EyeView view = eyeView(frame.rig, eye);
@@ -121,8 +121,8 @@ void GlSceneRenderer::drawScene(const Frame& frame, Eye eye, glm::ivec2 size, Ca
   caster_.bind(fields_, volume_, frame);
   target.bind();
   target.clear();
-  if (where == Where::edges) edges_.bar(target);
-  drawScreen(background_, {.depth_write = false, .at_same_depth = true, .write_distance = false});
+  if (where == Where::edges) edges_.rejectInterior(target);
+  drawScreen(background_, {.depth_write = false, .allow_equal_depth = true, .write_distance = false});
 
   const Placements placements = placementsIn(frame);
   const auto draw = [&](std::span<const Model> models, MeshPass::Parts parts) {
@@ -130,17 +130,17 @@ void GlSceneRenderer::drawScene(const Frame& frame, Eye eye, glm::ivec2 size, Ca
       meshes_.draw(models_[static_cast<std::size_t>(model)], parts, placements[model], view.mirrored);
   };
   constexpr std::array kOutside{Model::face, Model::instrument, Model::second_instrument};
-  constexpr std::array kInside{Model::gum, Model::mandibular_canal};
-  constexpr std::array kThrough{Model::mandibular_canal_through, Model::ghost};
+  constexpr std::array kInside{Model::gingiva, Model::mandibular_canal};
+  constexpr std::array kOverlay{Model::mandibular_canal_overlay, Model::ghost};
   bool any_transparent = false;
   for (std::size_t m = 0; m < kModels; ++m)
     any_transparent = any_transparent || MeshPass::hasTransparent(models_[m], placements[m].opacity);
   if (any_transparent) canvas.clear.begin(target.size());
 
-  // Opaque meshes, and before the depth of bone and gum is known, what is seen through these; the volume between the
+  // Opaque meshes, and before the depth of bone and gingiva is known, what is seen through these; the volume between the
   // meshes; then what lets it shine through.
   draw(kOutside, MeshPass::Parts::opaque);
-  draw(kThrough, MeshPass::Parts::transparent);
+  draw(kOverlay, MeshPass::Parts::transparent);
   draw(kInside, MeshPass::Parts::opaque);
   if (frame.mode == ViewMode::mesh)
     bone_mesh_->draw(view.mirrored);
@@ -149,7 +149,7 @@ void GlSceneRenderer::drawScene(const Frame& frame, Eye eye, glm::ivec2 size, Ca
   if (!any_transparent) return;
   draw(kOutside, MeshPass::Parts::transparent);
   draw(kInside, MeshPass::Parts::transparent);
-  canvas.clear.layOver(target);
+  canvas.clear.blendOver(target);
 }
 
 void GlSceneRenderer::compose(const StereoLayout& layout, Eye left, Eye right, int output) {
@@ -159,16 +159,16 @@ void GlSceneRenderer::compose(const StereoLayout& layout, Eye left, Eye right, i
                       samples_, to);
 }
 
-Picture GlSceneRenderer::readPicture(int output) {
+Image GlSceneRenderer::readImage(int output) {
   const Framebuffer& target = outputs_[static_cast<std::size_t>(output)];
   const glm::ivec2 size = target.size();
   return {size.x, size.y, flipped(target.readRgba8(0), 4 * static_cast<std::size_t>(size.x))};
 }
 
-DistancePicture GlSceneRenderer::readDistance(const Frame& frame, Eye eye) {
+DistanceImage GlSceneRenderer::readDistance(const Frame& frame, Eye eye) {
   const Framebuffer* target = &canvasOf(eye).target;
   const glm::ivec2 px = target->size() / samples_;
-  Canvas centred;
+  SceneTarget centred;
   if (samples_ > 1) {
     // Samples lie beside the pixel's centre, where the distance is asked for: draw it there.
     drawScene(frame, eye, px, centred);

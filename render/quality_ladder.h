@@ -1,6 +1,6 @@
 // Which quality a machine can keep up with: a ladder of steps, climbed and descended by measured frame times. Down soon
 // when frames come late, up slowly and only where the better step should still be in time; a climb that fails makes the
-// next one wait twice as long. Never changes while it must not (`may_change`): a picture that turns in the middle of a
+// next one wait twice as long. Never changes while it must not (`may_change`): a image that turns in the middle of a
 // stroke distracts the hand. Fed with times, so it has no clock. Any one thread; a sort of a dozen numbers a frame.
 // Costs of steps relative to each other: reference/rendering 6 (shading) and 2a (step, size); what is measured decides.
 #pragma once
@@ -15,7 +15,7 @@
 namespace render {
 
 struct QualityStep {
-  std::string_view words;  ///< for the status line
+  std::string_view description;  ///< for the status line
   Quality quality;
   double climb_cost;  ///< how many times the time the next better step takes
 };
@@ -41,7 +41,7 @@ class QualityLadder {
 
   int step() const { return step_; }
   const Quality& quality() const { return kQualitySteps[static_cast<std::size_t>(step_)].quality; }
-  std::string_view words() const { return kQualitySteps[static_cast<std::size_t>(step_)].words; }
+  std::string_view description() const { return kQualitySteps[static_cast<std::size_t>(step_)].description; }
 
  private:
   double typical_s() const;

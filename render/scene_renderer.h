@@ -1,5 +1,5 @@
 // What stands behind FrameRenderer: one way of drawing the scene, in OpenGL (gl_scene_renderer) or on the CPU
-// (cpu_scene_renderer). Both draw the same picture from the same values; the GLSL in render/shaders is the
+// (cpu_scene_renderer). Both draw the same image from the same values; the GLSL in render/shaders is the
 // specification. The fields of the volume are borrowed from FrameRenderer. Render thread. Errors: GpuError.
 #pragma once
 
@@ -9,8 +9,8 @@
 #include "render/display/eye_projection.h"
 #include "render/display/stereo_layout.h"
 #include "render/frame.h"
-#include "render/gpu/window_place.h"
-#include "render/picture.h"
+#include "render/gpu/window_target.h"
+#include "render/image.h"
 #include "render/scene/models.h"
 #include "render/volume/guide_field.h"
 #include "render/volume/volume_fields.h"
@@ -20,10 +20,10 @@ namespace render {
 /// Besides the one or two of the display: what those see who stand by, and an eye that is read alone.
 inline constexpr int kBystanderOutput = 2, kEyeOutput = 3, kOutputs = 4;
 
-/// A small picture laid over every eye at one place, so that it lies on the screen itself.
+/// A small image laid over every eye at one place, so that it lies on the screen itself.
 struct Inset {
-  Picture picture;
-  glm::ivec2 first_px{0}, size_px{0};  ///< of the eye's picture, from its top left
+  Image image;
+  glm::ivec2 first_px{0}, size_px{0};  ///< of the eye's image, from its top left
 };
 
 class SceneRenderer {
@@ -44,14 +44,14 @@ class SceneRenderer {
   /// One eye, in linear light, `px` large; kept until it is drawn again.
   virtual void drawEye(const Frame& frame, Eye eye, glm::ivec2 px) = 0;
   /// Two drawn eyes become an output, sRGB (display/stereo_layout.h); mono shows `left`. Eyes drawn smaller than
-  /// eyePictureSize() are stretched bilinearly.
+  /// eyeImageSize() are stretched bilinearly.
   virtual void compose(const StereoLayout& layout, Eye left, Eye right, int output) = 0;
 
   /// Scales an output into the current window; the context may be one that shares with the renderer's.
-  virtual void showOnWindow(const WindowPlace& place, int output) = 0;
-  virtual Picture readPicture(int output) = 0;
+  virtual void showOnWindow(const WindowTarget& place, int output) = 0;
+  virtual Image readImage(int output) = 0;
   /// `frame`: as the eye was drawn last.
-  virtual DistancePicture readDistance(const Frame& frame, Eye eye) = 0;
+  virtual DistanceImage readDistance(const Frame& frame, Eye eye) = 0;
   virtual void throwIfError() = 0;
 };
 

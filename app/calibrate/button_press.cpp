@@ -2,7 +2,7 @@
 
 namespace app {
 
-Press ButtonPress::feel(double t_s, bool button) {
+Press ButtonPress::update(double t_s, bool button) {
   if (button != read_) {
     read_ = button;
     changed_s_ = t_s;

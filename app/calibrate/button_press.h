@@ -17,7 +17,7 @@ class ButtonPress {
  public:
   static constexpr double kBounce_s = 0.02, kLong_s = 0.8, kRepeat_s = 0.2;
 
-  Press feel(double t_s, bool button);
+  Press update(double t_s, bool button);
 
   /// When it went down, before the bounce was waited for.
   double downAt_s() const { return down_at_s_; }

@@ -35,22 +35,22 @@ MeasuredArm armOf(const RigRecord& record, const TouchSet& touches, const std::s
     throw CalibrationError("observations: device '" + touches.device_model + "' is not known, give omni, touch, " +
                            "desktop or premium");
   if (record.rig.device) {
-    const std::string why = whyNotFor(record, touches.device_model, touches.serial, touches.mount);
+    const std::string why = mismatchWith(record, touches.device_model, touches.serial, touches.mount);
     if (!why.empty()) throw CalibrationError("rig file " + named + ": " + why);
   }
   return {model->geometry, record.rig.arm.value_or(ArmCorrection{}), record.rig.X_WD};
 }
 
-void stamp(RigRecord& record, const RigRecord& base, const Measuring& measuring) {
+void stamp(RigRecord& record, const RigRecord& base, const MeasurementInfo& info) {
   const std::string now = nowUtc();
-  record.provenance.rig_id = measuring.rig_id;
+  record.provenance.rig_id = info.rig_id;
   record.provenance.created_utc = now;
   record.provenance.program = programVersion();
   record.provenance.opencv = openCvVersion();
-  record.provenance.operator_code = measuring.operator_code;
+  record.provenance.operator_code = info.operator_code;
   record.provenance.parent = base.hash;
   record.hash.clear();
-  if (record.proof && record.proof->checked_utc.empty()) record.proof->checked_utc = now;
+  if (record.verification && record.verification->checked_utc.empty()) record.verification->checked_utc = now;
 }
 
 void putFit(RigRecord& record, const TouchSet& touches, const ArmFit& fit, double duration_s) {
@@ -60,7 +60,7 @@ void putFit(RigRecord& record, const TouchSet& touches, const ArmFit& fit, doubl
   record.sigma = fit.sigma;
   record.procedure = RigProcedure{touches.method, fit.model,      fit.used,      fit.outliers,     fit.tilt_spread_deg,
                                   duration_s,     fit.fre_rms_mm, fit.cv_rms_mm, touches.precision};
-  record.proof.reset();
+  record.verification.reset();
 }
 
 void putRezero(RigRecord& record, const TouchSet& touches, const Rezero& rezero, double duration_s) {
@@ -74,14 +74,14 @@ void putRezero(RigRecord& record, const TouchSet& touches, const Rezero& rezero,
   procedure.duration_s = duration_s;
   procedure.fre_rms_mm = rezero.after_rms_mm;
   record.procedure = procedure;
-  record.proof.reset();
+  record.verification.reset();
 }
 
 void putPivot(RigRecord& record, const MeasuredArm& arm, const Pivot& pivot, const std::string& name) {
   record.rig.arm = arm.correction;
   record.rig.arm->tip_H_mm = pivot.tip_H_mm;
   if (record.rig.device && !name.empty()) record.rig.device->stylus_tip = name;
-  record.proof.reset();
+  record.verification.reset();
 }
 
 void putWebcamFit(RigRecord& record, const WebcamFit& fit) {
@@ -104,21 +104,21 @@ void putWebcamFit(RigRecord& record, const WebcamFit& fit) {
   const double fitted_mm = targetErrors(left_out).rms_mm;
   for (Residual& one : left_out)
     one.error_mm.xyz *= fitted_mm > 0.0 ? std::hypot(fit.cv_rms_mm, kUnseen_mm) / fitted_mm : 1.0;
-  putProof(record, left_out, ProofKind::full);
+  putProof(record, left_out, VerificationKind::full);
 }
 
-void putProof(RigRecord& record, const std::vector<Residual>& held_out, ProofKind kind) {
-  RigProof proof;
-  proof.errors = targetErrors(held_out);
-  proof.kind = kind;
-  proof.verdict = judge(proof.errors, kind).verdict;
-  proof.worst = worstPlaceSentence(held_out, {});
-  proof.residuals = held_out;
-  record.proof = proof;
+void putProof(RigRecord& record, const std::vector<Residual>& held_out, VerificationKind kind) {
+  RigVerification verification;
+  verification.errors = targetErrors(held_out);
+  verification.kind = kind;
+  verification.verdict = assess(verification.errors, kind).verdict;
+  verification.worst = worstErrorSentence(held_out, {});
+  verification.residuals = held_out;
+  record.verification = verification;
 }
 
-ProofKind proofKindOf(const std::string& method) {
-  return method.starts_with("visual") ? ProofKind::by_eyes : ProofKind::full;
+VerificationKind proofKindOf(const std::string& method) {
+  return method.starts_with("visual") ? VerificationKind::by_eyes : VerificationKind::full;
 }
 
 }  // namespace app

@@ -25,14 +25,14 @@ calibration::MeasuredArm armOf(const calibration::RigRecord& record, const calib
                                const std::string& named);
 
 /// Who measures, and where; nothing that names a person.
-struct Measuring {
+struct MeasurementInfo {
   std::string rig_id = "rig", serial, mount = "right", stylus_tip, operator_code;
 };
 
 /// `record`, measured now by these people and this program, as what comes after `base`.
-void stamp(calibration::RigRecord& record, const calibration::RigRecord& base, const Measuring& measuring);
+void stamp(calibration::RigRecord& record, const calibration::RigRecord& base, const MeasurementInfo& info);
 
-/// The fitted arm and how it was found. A proof is no longer one: that takes touches it has not seen.
+/// The fitted arm and how it was found. A verification is no longer one: that takes touches it has not seen.
 void putFit(calibration::RigRecord& record, const calibration::TouchSet& touches, const calibration::ArmFit& fit,
             double duration_s);
 /// The arm brought up to date. Tilts and cross-validation stay those of the calibration it comes of.
@@ -46,9 +46,9 @@ void putPivot(calibration::RigRecord& record, const calibration::MeasuredArm& ar
 void putWebcamFit(calibration::RigRecord& record, const calibration::WebcamFit& fit);
 /// What touches it has not seen say of it.
 void putProof(calibration::RigRecord& record, const std::vector<calibration::Residual>& held_out,
-              calibration::ProofKind kind);
+              calibration::VerificationKind kind);
 
 /// By the method a rig was measured with: eyes alone are held to wider limits.
-calibration::ProofKind proofKindOf(const std::string& method);
+calibration::VerificationKind proofKindOf(const std::string& method);
 
 }  // namespace app

@@ -27,7 +27,7 @@ std::string fitText(const ArmFit& fit) {
                                  static_cast<int>(fit.residuals.size()) - fit.used, fit.tilt_spread_deg);
   text += "model         numbers   foretells (5-fold)   fits (no accuracy)\n";
   for (const ModelScore& score : fit.scores)
-    text += fmt::format("{:12} {:8} {:16.2f} mm {:17.2f} mm{}\n", score.name, score.numbers, score.cv_rms_mm,
+    text += fmt::format("{:12} {:8} {:16.2f} mm {:17.2f} mm{}\n", score.name, score.parameters, score.cv_rms_mm,
                         score.fre_rms_mm, score.name == nameOf(fit.model) ? "   chosen" : "");
   for (const Residual& one : fit.residuals)
     if (!one.used)
@@ -35,7 +35,7 @@ std::string fitText(const ArmFit& fit) {
                           listOf(one.error_mm.xyz));
   for (const FitWarning& warning : fit.warnings) text += "note: " + warning.line + "\n";
   text += "mean error " + listOf(fit.bias_mm.xyz) + " mm; " +
-          worstPlaceSentence(fit.residuals, {middleOf(fit.residuals)}) + "\n";
+          worstErrorSentence(fit.residuals, {middleOf(fit.residuals)}) + "\n";
   return text;
 }
 
@@ -52,7 +52,7 @@ std::string fitJson(const ArmFit& fit) {
   json["hull_mm3"] = fit.hull_mm3;
   for (const ModelScore& score : fit.scores)
     json["models"].push_back({{"name", score.name},
-                              {"numbers", score.numbers},
+                              {"numbers", score.parameters},
                               {"fre_rms_mm", score.fre_rms_mm},
                               {"cv_rms_mm", score.cv_rms_mm}});
   json["outliers"] = ordered_json::array();
@@ -65,7 +65,7 @@ std::string fitJson(const ArmFit& fit) {
 
 std::string webcamFitText(const WebcamFit& fit) {
   std::string text = fmt::format("{} tips used, {} set aside, from {} places up to {:.0f} degrees apart\n", fit.used,
-                                 fit.outliers, static_cast<int>(fit.X_WC.size()), fit.base_deg);
+                                 fit.outliers, static_cast<int>(fit.X_WC.size()), fit.baseline_deg);
   text += fmt::format("screen seen to {:.2f} px, tips to {:.2f} px; tips left out are foretold to {:.2f} mm\n",
                       fit.screen_rms_px, fit.tip_rms_px, fit.cv_rms_mm);
   for (const FitWarning& warning : fit.warnings) text += "note: " + warning.line + "\n";
@@ -81,22 +81,22 @@ std::string webcamFitJson(const WebcamFit& fit) {
   json["tip_rms_px"] = fit.tip_rms_px;
   json["fre_rms_mm"] = fit.fre_rms_mm;
   json["cv_rms_mm"] = fit.cv_rms_mm;
-  json["positions_apart_deg"] = fit.base_deg;
+  json["positions_apart_deg"] = fit.baseline_deg;
   json["tilt_spread_deg"] = fit.tilt_spread_deg;
   json["warnings"] = ordered_json::array();
   for (const FitWarning& warning : fit.warnings) json["warnings"].push_back(warning.line);
   return json.dump(1) + "\n";
 }
 
-std::string proofText(const TargetErrors& errors, const Judgement& judgement) {
+std::string proofText(const TargetErrors& errors, const Assessment& assessment) {
   return fmt::format(
              "{}: {:.2f} mm RMS of {} touches, mean {:.2f}, 95 of 100 within {:.2f}, largest {:.2f} mm, bias {} mm; ",
-             nameOf(judgement.verdict), errors.rms_mm, errors.n, errors.mean_mm, errors.p95_mm, errors.max_mm,
+             nameOf(assessment.verdict), errors.rms_mm, errors.n, errors.mean_mm, errors.p95_mm, errors.max_mm,
              listOf(errors.bias_mm.xyz)) +
-         judgement.reason + "\n";
+         assessment.reason + "\n";
 }
 
-std::string proofJson(const TargetErrors& errors, const Judgement& judgement) {
+std::string proofJson(const TargetErrors& errors, const Assessment& assessment) {
   ordered_json json;
   json["n"] = errors.n;
   json["tre_mean_mm"] = errors.mean_mm;
@@ -106,8 +106,8 @@ std::string proofJson(const TargetErrors& errors, const Judgement& judgement) {
   json["bias_mm"] = numbersOf(errors.bias_mm.xyz);
   json["in_plane_rms_mm"] = errors.in_plane_rms_mm;
   json["along_sight_rms_mm"] = errors.along_sight_rms_mm;
-  json["verdict"] = nameOf(judgement.verdict);
-  json["reason"] = judgement.reason;
+  json["verdict"] = nameOf(assessment.verdict);
+  json["reason"] = assessment.reason;
   return json.dump(1) + "\n";
 }
 
@@ -138,7 +138,7 @@ std::string pivotJson(const Pivot& pivot) {
   return json.dump(1) + "\n";
 }
 
-Verdict verdictOfLens(const Intrinsics& lens) {
+Verdict lensVerdict(const Intrinsics& lens) {
   if (lens.rms_px <= kGoodLens_px) return Verdict::green;
   return lens.rms_px <= kFairLens_px ? Verdict::amber : Verdict::red;
 }
@@ -151,11 +151,11 @@ std::string lensText(const Intrinsics& lens, const std::vector<std::string>& ref
   text += fmt::format(
       "{} views used, {} left out; corners cover {:.0f} % of the picture, boards slanted up to {:.0f} degrees\n",
       static_cast<int>(lens.view_rms_px.size() - lens.left_out.size()),
-      static_cast<int>(lens.left_out.size() + refused.size()), 100.0 * lens.covered_share, lens.most_slant_deg);
+      static_cast<int>(lens.left_out.size() + refused.size()), 100.0 * lens.covered_share, lens.max_slant_deg);
   text +=
       fmt::format("focal length ({:.1f}, {:.1f}) px, centre ({:.1f}, {:.1f}) px, distortion k1 {:+.4f}, k2 {:+.4f}\n",
                   camera.focal_px.x, camera.focal_px.y, camera.centre_px.x, camera.centre_px.y, camera.k1, camera.k2);
-  const Verdict verdict = verdictOfLens(lens);
+  const Verdict verdict = lensVerdict(lens);
   text += std::string(nameOf(verdict)) + fmt::format(": corners are found back to {:.2f} px RMS; ", lens.rms_px);
   if (verdict == Verdict::green) return text + "within 0.3 px\n";
   return text + (verdict == Verdict::amber ? "above 0.3 px: " : "above 0.6 px: ") +
@@ -174,8 +174,8 @@ std::string lensJson(const Intrinsics& lens, const std::vector<std::string>& ref
   json["left_out"] = refused;
   for (const std::string& name : lens.left_out) json["left_out"].push_back(name + ": it does not fit the others");
   json["covered_share"] = lens.covered_share;
-  json["most_slant_deg"] = lens.most_slant_deg;
-  json["verdict"] = nameOf(verdictOfLens(lens));
+  json["most_slant_deg"] = lens.max_slant_deg;
+  json["verdict"] = nameOf(lensVerdict(lens));
   return json.dump(1) + "\n";
 }
 
@@ -184,10 +184,10 @@ std::string recordLine(const RigRecord& record) {
   if (record.procedure)
     line += "  " + record.procedure->method + ", " + std::string(nameOf(record.procedure->model)) +
             fmt::format(", foretells {:.2f} mm", record.procedure->cv_rms_mm);
-  if (record.proof)
-    line += "  " + std::string(nameOf(record.proof->verdict)) +
-            fmt::format(", {:.2f} mm RMS of {}, largest {:.2f} mm", record.proof->errors.rms_mm, record.proof->errors.n,
-                        record.proof->errors.max_mm);
+  if (record.verification)
+    line += "  " + std::string(nameOf(record.verification->verdict)) +
+            fmt::format(", {:.2f} mm RMS of {}, largest {:.2f} mm", record.verification->errors.rms_mm, record.verification->errors.n,
+                        record.verification->errors.max_mm);
   else
     line += "  not proved";
   return line;

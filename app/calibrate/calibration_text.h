@@ -22,9 +22,9 @@ std::string webcamFitText(const calibration::WebcamFit& fit);
 std::string webcamFitJson(const calibration::WebcamFit& fit);
 
 /// One line: verdict, numbers, which limit decided.
-std::string proofText(const calibration::TargetErrors& errors, const calibration::Judgement& judgement);
+std::string proofText(const calibration::TargetErrors& errors, const calibration::Assessment& assessment);
 /// {"n","tre_mean_mm","tre_rms_mm","tre_p95_mm","tre_max_mm","bias_mm","verdict"}
-std::string proofJson(const calibration::TargetErrors& errors, const calibration::Judgement& judgement);
+std::string proofJson(const calibration::TargetErrors& errors, const calibration::Assessment& assessment);
 
 std::string rezeroText(const calibration::Rezero& rezero);
 
@@ -35,7 +35,7 @@ std::string pivotJson(const calibration::Pivot& pivot);
 
 inline constexpr double kGoodLens_px = 0.3, kFairLens_px = 0.6;  ///< root mean square; reference/calibration 3.3
 
-calibration::Verdict verdictOfLens(const calibration::Intrinsics& lens);
+calibration::Verdict lensVerdict(const calibration::Intrinsics& lens);
 
 /// `refused`: pictures in which no board could be used, a line each.
 std::string lensText(const calibration::Intrinsics& lens, const std::vector<std::string>& refused);

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "app/calibrate/number_words.h"
+#include "app/calibrate/number_text.h"
 
 namespace app {
 
-std::optional<std::size_t> ChoiceMenu::feel(Press press, bool again) {
+std::optional<std::size_t> ChoiceMenu::update(Press press, bool again) {
   if (press == Press::short_press && !choices_.empty()) marked_ = (marked_ + 1) % choices_.size();
   if (press == Press::long_press || (again && press == Press::repeated)) return marked_;
   return std::nullopt;
@@ -18,8 +18,8 @@ void ChoiceMenu::show(WizardView& view) const {
   view.button = {choices_.size() > 1 ? "next choice" : "", "choose", ""};
 }
 
-bool NumberDial::feel(Press press) {
-  const auto chosen = menu_.feel(press, true);
+bool NumberDial::update(Press press) {
+  const auto chosen = menu_.update(press, true);
   // A held button turns the dial; it does not take the number.
   if (chosen == 2) return press == Press::long_press;
   if (chosen) value_ = std::clamp(value_ + (*chosen == 0 ? step_ : -step_), least_, most_);
@@ -29,7 +29,7 @@ bool NumberDial::feel(Press press) {
 void NumberDial::show(WizardView& view, const char* unit) const {
   menu_.show(view);
   view.button.long_press = "choose; held on, again and again";
-  view.value = inWords(value_, step_ < 1.0 ? 1 : 0) + " " + unit;
+  view.value = numberText(value_, step_ < 1.0 ? 1 : 0) + " " + unit;
 }
 
 }  // namespace app

@@ -16,7 +16,7 @@ class ChoiceMenu {
       : choices_(std::move(choices)), marked_(marked) {}
 
   /// The choice that was made, if one was. `again`: held on, the marked one is chosen again and again.
-  std::optional<std::size_t> feel(Press press, bool again = false);
+  std::optional<std::size_t> update(Press press, bool again = false);
   void show(WizardView& view) const;
 
  private:
@@ -31,7 +31,7 @@ class NumberDial {
       : value_(value), least_(least), most_(most), step_(step) {}
 
   /// True once it was taken.
-  bool feel(Press press);
+  bool update(Press press);
   void show(WizardView& view, const char* unit) const;
   double value() const { return value_; }
 

@@ -4,7 +4,7 @@
 
 #include "app/text/usage_error.h"
 #include "calibration/output_file.h"
-#include "calibration/picture_file.h"
+#include "calibration/png_file.h"
 
 namespace app {
 namespace {
@@ -42,9 +42,9 @@ PageAlbum::PageAlbum(std::filesystem::path folder) : folder_(std::move(folder)) 
     throw UsageError("pages " + folder_.string() + ": the folder is not empty, choose another");
 }
 
-void PageAlbum::keep(const WizardView& view, const std::function<render::Picture()>& draw) {
+void PageAlbum::keep(const WizardView& view, const std::function<render::Image()>& draw) {
   if (view.title.empty() || !kept_.insert(kindOf(view)).second) return;
-  const render::Picture picture = draw();
+  const render::Image picture = draw();
   calibration::OutputFile file((folder_ / fileNameOf(++count_, view.title)).string(), false);
   calibration::writePng(file.temporaryPath(), {picture.w, picture.h}, picture.rgba);
   file.commit();

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "app/calibrate/wizard_view.h"
-#include "render/picture.h"
+#include "render/image.h"
 
 namespace app {
 
@@ -18,7 +18,7 @@ class PageAlbum {
   explicit PageAlbum(std::filesystem::path folder);
 
   /// Draws and saves it where no page like this was saved before. Throws CalibrationError.
-  void keep(const WizardView& view, const std::function<render::Picture()>& draw);
+  void keep(const WizardView& view, const std::function<render::Image()>& draw);
   int count() const { return count_; }
 
  private:

@@ -40,18 +40,18 @@ void drawCross(const Sight& sight, glm::dvec2 p, double arm_mm, double width_mm,
 }
 
 /// A cone that opens towards the eye, its point where the tip has to go.
-void drawPit(const Sight& sight, const glm::dvec3& place_W, double radius_mm, double width_mm, const Ink& ink) {
-  const glm::dvec3 out = glm::normalize(sight.rig.cyclopeanEye().mm - place_W);
+void drawPit(const Sight& sight, const glm::dvec3& position_W, double radius_mm, double width_mm, const Ink& ink) {
+  const glm::dvec3 out = glm::normalize(sight.rig.cyclopeanEye().mm - position_W);
   const glm::dvec3 x = glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), out)), y = glm::cross(out, x);
   std::vector<glm::dvec2> rim;
   constexpr int kSides = 32;
   for (int n = 0; n < kSides; ++n) {
     const double turn = 2.0 * calibration::kPi * n / kSides;
-    rim.push_back(sight.at(place_W + radius_mm * (out + std::cos(turn) * x + std::sin(turn) * y)));
+    rim.push_back(sight.at(position_W + radius_mm * (out + std::cos(turn) * x + std::sin(turn) * y)));
   }
   sight.page.path(rim, width_mm, ink, true);
   for (int n = kSides / 8; n < kSides; n += kSides / 4)
-    sight.page.path({sight.at(place_W), rim[static_cast<std::size_t>(n)]}, 0.6 * width_mm, ink);
+    sight.page.path({sight.at(position_W), rim[static_cast<std::size_t>(n)]}, 0.6 * width_mm, ink);
 }
 
 void drawMarker(const Sight& sight, const WizardView& view, const ShownTarget& target, glm::dvec2 p, double s,
@@ -59,14 +59,14 @@ void drawMarker(const Sight& sight, const WizardView& view, const ShownTarget& t
   const double size = is_next ? 1.0 : 0.45;
   if (view.target_kind == TargetKind::cross) return drawCross(sight, p, 11.0 * size * s, is_next ? 0.7 : 0.5, ink);
   if (view.target_kind == TargetKind::pit && !view.zero_parallax)
-    return drawPit(sight, target.place_W.mm, 5.0 * size, 0.9 * size * s, ink);
+    return drawPit(sight, target.position_W.mm, 5.0 * size, 0.9 * size * s, ink);
   sight.page.circle(p, 5.0 * size * s, 0.9 * size * s, ink);
   sight.page.disc(p, 0.8 * s, ink);
 }
 
 void drawTarget(const Sight& sight, const WizardView& view, const ShownTarget& target, double glow) {
-  const glm::dvec2 p = sight.at(target.place_W.mm);
-  const double s = sight.scaleAt(target.place_W.mm);
+  const glm::dvec2 p = sight.at(target.position_W.mm);
+  const double s = sight.scaleAt(target.position_W.mm);
   const Ink done = dimmed(kGoodInk, 0.6);
   switch (target.state) {
     case TargetState::pending:
@@ -116,7 +116,7 @@ void drawCapture(const Sight& sight, glm::dvec2 p, double s, double share) {
 }
 
 /// Tip ball, cone, shaft.
-void drawStylus(const Sight& sight, const SeenStylus& stylus) {
+void drawStylus(const Sight& sight, const TrueStylus& stylus) {
   const glm::dvec3 tip = stylus.tip_W.mm, along = stylus.along_W.xyz;
   struct Girth {
     double from_tip_mm, radius_mm;
@@ -144,7 +144,7 @@ void drawStylus(const Sight& sight, const SeenStylus& stylus) {
 }  // namespace
 
 void drawScene(const ScreenPage& page, const calibration::Rig& rig, Eye eye, const WizardView& view,
-               const std::optional<SeenStylus>& stylus, double glow) {
+               const std::optional<TrueStylus>& stylus, double glow) {
   if (!view.numbers.empty()) return;
   const Sight sight{page, rig, eye}, flat{page, rig, Eye::cyclopean};
   const Sight& targets = view.zero_parallax ? flat : sight;
@@ -154,10 +154,10 @@ void drawScene(const ScreenPage& page, const calibration::Rig& rig, Eye eye, con
     if (target.state != TargetState::next) drawTarget(targets, view, target, glow);
   }
   if (next != nullptr) {
-    const glm::dvec2 p = targets.at(next->place_W.mm);
-    drawCapture(targets, p, targets.scaleAt(next->place_W.mm), view.capture);
+    const glm::dvec2 p = targets.at(next->position_W.mm);
+    drawCapture(targets, p, targets.scaleAt(next->position_W.mm), view.capture);
     drawTarget(targets, view, *next, glow);
-    if (view.tilt) drawTilt(sight, next->place_W.mm, *view.tilt);
+    if (view.tilt) drawTilt(sight, next->position_W.mm, *view.tilt);
   } else if (view.capture > 0.0) {
     drawCapture(flat, {0.0, 0.0}, 1.0, view.capture);
   }

@@ -11,13 +11,13 @@
 namespace app {
 
 /// A stylus as it truly is.
-struct SeenStylus {
+struct TrueStylus {
   calibration::Point<calibration::World> tip_W;
   calibration::Vector<calibration::World> along_W;  ///< unit, from the tip to the handle
 };
 
 /// `glow`: 0 to 1, how bright the next target is now.
 void drawScene(const ScreenPage& page, const calibration::Rig& rig, render::Eye eye, const WizardView& view,
-               const std::optional<SeenStylus>& stylus, double glow);
+               const std::optional<TrueStylus>& stylus, double glow);
 
 }  // namespace app

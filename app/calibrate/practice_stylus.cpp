@@ -18,18 +18,18 @@ constexpr double kTurnsIn_s = 0.08, kSteadiesIn_s = 0.05;
 constexpr double kSteadiedShare = 0.2;  ///< of the tremor that is left in a pit
 constexpr double kDocks_mm = 2.0;
 
-bool isUsable(const PracticeHold& hold) {
+bool isUsable(const PracticePose& hold) {
   const double length = glm::length(hold.along_W.xyz);
   return std::isfinite(glm::length(hold.tip_W.mm)) && std::isfinite(length) && length > 0.1;
 }
 
 Pose<World, Handle> heldSo(const glm::dvec3& tip_W, const glm::dvec3& along_W, const glm::dvec3& tip_H_mm) {
-  return calibration::handleHolding({.id = 0, .place_W = {tip_W}, .stylus_W = {along_W}}, tip_H_mm);
+  return calibration::handleHolding({.id = 0, .position_W = {tip_W}, .stylus_W = {along_W}}, tip_H_mm);
 }
 
 }  // namespace
 
-PracticeStylus::PracticeStylus(const calibration::SyntheticRig& rig, const PracticeHold& start, double tremor_rms_mm)
+PracticeStylus::PracticeStylus(const calibration::SyntheticRig& rig, const PracticePose& start, double tremor_rms_mm)
     : rig_(rig),
       omni_(*haptics::findSimulatedPhantom("omni")),
       hold_(start),
@@ -39,25 +39,25 @@ PracticeStylus::PracticeStylus(const calibration::SyntheticRig& rig, const Pract
   capabilities_.model = "practice stylus";
   capabilities_.serial = rig.nominal.device ? rig.nominal.device->serial : "";
   capabilities_.has_inkwell = true;
-  hand_.place_mm = start.tip_W.mm;
+  hand_.position_mm = start.tip_W.mm;
   const Pose<Device, Handle> X_DH = rig_.X_WD.inverse() * heldSo(start.tip_W.mm, along_W_, rig_.arm.truth.tip_H_mm);
-  const auto arm_rad = calibration::armReaching(omni_.geometry, {X_DH.translation_mm});
+  const auto arm_rad = calibration::armAnglesFor(omni_.geometry, {X_DH.translation_mm});
   if (!arm_rad) throw haptics::DeviceError("practice stylus: its arm does not reach where it starts, move it nearer");
-  joints_ = {*arm_rad, calibration::wristTurnedTo(*arm_rad, X_DH.rotation)};
+  joints_ = {*arm_rad, calibration::wristAnglesFor(*arm_rad, X_DH.rotation)};
   seen_.publish({start.tip_W, {along_W_}});
 }
 
-void PracticeStylus::hold(const PracticeHold& hold) {
+void PracticeStylus::hold(const PracticePose& hold) {
   if (isUsable(hold)) hold_.publish(hold);
 }
 
 /// Where the hand has it after this step, tremor included.
 Pose<Device, Handle> PracticeStylus::wanted(double dt_s) noexcept {
-  const PracticeHold& hold = hold_.read();
+  const PracticePose& hold = hold_.read();
   if (hold.in_inkwell) {
     const Pose<Device, Handle> rest_DH{glm::dquat(1.0, 0.0, 0.0, 0.0), calibration::kOmniInkwell_D.mm};
     const Pose<World, Handle> X_WH = rig_.X_WD * rest_DH;
-    hand_.place_mm = (X_WH * Point<Handle>{rig_.arm.truth.tip_H_mm}).mm;
+    hand_.position_mm = (X_WH * Point<Handle>{rig_.arm.truth.tip_H_mm}).mm;
     hand_.velocity_mm_per_s = glm::dvec3(0.0);
     along_W_ = X_WH.rotation * glm::dvec3(0.0, 0.0, 1.0);
     return rest_DH;
@@ -67,18 +67,18 @@ Pose<Device, Handle> PracticeStylus::wanted(double dt_s) noexcept {
   if (glm::length(turned) > 1e-3) along_W_ = glm::normalize(turned);
   steady_ += -std::expm1(-dt_s / kSteadiesIn_s) * ((hold.steadied ? 1.0 : 0.0) - steady_);
   const glm::dvec3 trembles = glm::mix(1.0, kSteadiedShare, steady_) * tremor_.at(t_s_);
-  return rig_.X_WD.inverse() * heldSo(hand_.place_mm + trembles, along_W_, rig_.arm.truth.tip_H_mm);
+  return rig_.X_WD.inverse() * heldSo(hand_.position_mm + trembles, along_W_, rig_.arm.truth.tip_H_mm);
 }
 
 haptics::HandleState PracticeStylus::exchange(const haptics::Wrench<Device>&, double dt_s) noexcept {
   t_s_ += dt_s;
   const Pose<Device, Handle> X_DH = wanted(dt_s);
   // At its stops it stands where it last was.
-  if (const auto arm_rad = calibration::armReaching(omni_.geometry, {X_DH.translation_mm})) joints_.arm_rad = *arm_rad;
-  const glm::dvec3 wrist_rad = calibration::wristTurnedTo(joints_.arm_rad, X_DH.rotation);
+  if (const auto arm_rad = calibration::armAnglesFor(omni_.geometry, {X_DH.translation_mm})) joints_.arm_rad = *arm_rad;
+  const glm::dvec3 wrist_rad = calibration::wristAnglesFor(joints_.arm_rad, X_DH.rotation);
   for (int axis = 0; axis < 3; ++axis) {
     const calibration::AngleRange& range = omni_.geometry.wrist[static_cast<std::size_t>(axis)];
-    joints_.wrist_rad[axis] = std::clamp(wrist_rad[axis], range.least_rad, range.most_rad);
+    joints_.wrist_rad[axis] = std::clamp(wrist_rad[axis], range.min_rad, range.max_rad);
   }
   const Pose<Device, Handle> is_DH = calibration::handlePose(omni_.geometry, joints_);
   const Pose<World, Handle> X_WH = rig_.X_WD * is_DH;

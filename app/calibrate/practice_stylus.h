@@ -6,7 +6,7 @@
 
 #include "app/calibrate/page_scene.h"
 #include "calibration/synthetic/synthetic_rig.h"
-#include "haptics/device/device_in_numbers.h"
+#include "haptics/device/simulated_device.h"
 #include "haptics/device/simulated/phantom_mechanics.h"
 #include "haptics/device/simulated/phantom_sensors.h"
 #include "haptics/device/simulated/tremor.h"
@@ -16,7 +16,7 @@
 namespace app {
 
 /// How the hand wants the stylus to be.
-struct PracticeHold {
+struct PracticePose {
   calibration::Point<calibration::World> tip_W;
   calibration::Vector<calibration::World> along_W = calibration::kRestingStylus_W;  ///< from the tip to the handle
   bool button = false;
@@ -24,16 +24,16 @@ struct PracticeHold {
   bool in_inkwell = false;  ///< wherever the tip is wanted
 };
 
-class PracticeStylus final : public haptics::DeviceInNumbers {
+class PracticeStylus final : public haptics::SimulatedDevice {
  public:
   /// The unit of this rig. Throws haptics::DeviceError when its arm does not reach `start`.
-  PracticeStylus(const calibration::SyntheticRig& rig, const PracticeHold& start, double tremor_rms_mm = 0.05);
+  PracticeStylus(const calibration::SyntheticRig& rig, const PracticePose& start, double tremor_rms_mm = 0.05);
   ~PracticeStylus() override { stop(); }
 
   /// UI thread. What is not finite, or has no direction, is ignored.
-  void hold(const PracticeHold& hold);
+  void hold(const PracticePose& hold);
   /// UI thread: where it truly is.
-  SeenStylus seen() { return seen_.read(); }
+  TrueStylus seen() { return seen_.read(); }
 
   const haptics::DeviceCapabilities& capabilities() const override { return capabilities_; }
   haptics::HandleState exchange(const haptics::Wrench<calibration::Device>& wrench_D, double dt_s) noexcept override;
@@ -43,8 +43,8 @@ class PracticeStylus final : public haptics::DeviceInNumbers {
 
   calibration::SyntheticRig rig_;
   const haptics::PhantomMechanics& omni_;  ///< the driver's model of the unit
-  haptics::Latest<PracticeHold> hold_;
-  haptics::Latest<SeenStylus> seen_;
+  haptics::Latest<PracticePose> hold_;
+  haptics::Latest<TrueStylus> seen_;
   haptics::DeviceCapabilities capabilities_;
   haptics::PhantomSensors sensors_;
   haptics::Tremor tremor_;

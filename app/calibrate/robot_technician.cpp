@@ -26,24 +26,24 @@ double eased(double share) {
 
 }  // namespace
 
-RobotTechnician::RobotTechnician(const calibration::SyntheticRig& rig, const TechnicianHabits& habits,
+RobotTechnician::RobotTechnician(const calibration::SyntheticRig& rig, const TechnicianSettings& habits,
                                  std::uint32_t seed)
-    : rig_(rig), habits_(habits), chance_(seed) {
-  chance_.discard(1000);
+    : rig_(rig), settings_(habits), rng_(seed) {
+  rng_.discard(1000);
 }
 
 StylusSample RobotTechnician::next(const WizardView& view, double t_s) {
   decide(view, t_s);
   StylusSample sample;
   sample.t_s = t_s;
-  sample.believable = true;
-  sample.docked = docked_ && t_s - left_s_ >= habits_.way_s;
-  const double gone = eased((t_s - left_s_) / habits_.way_s);
+  sample.valid = true;
+  sample.docked = docked_ && t_s - left_s_ >= settings_.move_s;
+  const double gone = eased((t_s - left_s_) / settings_.move_s);
   for (std::size_t i = 0; i < 6; ++i) sample.raw_rad[i] = from_rad_[i] + gone * (to_rad_[i] - from_rad_[i]);
   // A hand trembles; the inkwell does not.
   const double reach_mm = rig_.arm.geometry.thigh_mm;
   if (!sample.docked && gone >= 1.0 && reach_mm > 0.0)
-    sample.raw_rad[0] += habits_.tremor_mm / reach_mm * std::sin(2.0 * calibration::kPi * kTremor_Hz * t_s);
+    sample.raw_rad[0] += settings_.tremor_mm / reach_mm * std::sin(2.0 * calibration::kPi * kTremor_Hz * t_s);
   sample.X_DH = calibration::handlePose(rig_.arm.geometry, {}, sample.raw_rad);
   sample.button = press_from_s_ && t_s >= *press_from_s_ && t_s < *press_to_s_;
   return sample;
@@ -54,7 +54,7 @@ void RobotTechnician::decide(const WizardView& view, double t_s) {
   std::size_t target = view.targets.size();
   for (std::size_t i = 0; i < view.targets.size(); ++i)
     if (view.targets[i].state == TargetState::next) target = i;
-  if (target < view.targets.size() && habits_.reversed) target = view.targets.size() - 1 - target;
+  if (target < view.targets.size() && settings_.reversed) target = view.targets.size() - 1 - target;
   std::string seen = view.title + "|" + view.count + "|" + view.value + "|" + std::to_string(target) + "|" +
                      (view.marked ? view.choices[*view.marked] : "") + "|" + (view.inkwell ? "home" : "");
   const bool is_new = seen != seen_;
@@ -83,8 +83,8 @@ void RobotTechnician::decide(const WizardView& view, double t_s) {
   }
   // A target: come to rest, then press, or wait.
   if (target >= view.targets.size() || !view.choices.empty()) return;
-  const bool arrived = t_s - left_s_ > habits_.way_s + kSettles_s;
-  if (!arrived || (!habits_.presses && presses_here_ == 0 && t_s - left_s_ < habits_.way_s + 2.0)) return;
+  const bool arrived = t_s - left_s_ > settings_.move_s + kSettles_s;
+  if (!arrived || (!settings_.presses && presses_here_ == 0 && t_s - left_s_ < settings_.move_s + 2.0)) return;
   if (press_to_s_ && presses_here_ > 0 && t_s - *press_to_s_ < kAgain_s) return;
   // What was objected to is touched anew.
   if (presses_here_ > 0) {
@@ -103,22 +103,22 @@ std::optional<std::size_t> RobotTechnician::wanted(const WizardView& view) const
   };
   if (!view.value.empty()) {
     const double shown = std::strtod(view.value.c_str(), nullptr);
-    double want = habits_.bar_mm;
-    if (view.title.find("pupils") != std::string::npos) want = habits_.ipd_mm;
-    if (view.title.find("eye") != std::string::npos) want = habits_.distance_mm;
+    double want = settings_.bar_mm;
+    if (view.title.find("pupils") != std::string::npos) want = settings_.ipd_mm;
+    if (view.title.find("eye") != std::string::npos) want = settings_.distance_mm;
     return shown < want ? 0 : shown > want ? 1 : 2;
   }
   if (view.figure == WizardFigure::letter_f)
-    if (const auto i = choice(habits_.flip)) return i;
-  if (view.figure == WizardFigure::letter_f && habits_.flip != "yes")
+    if (const auto i = choice(settings_.flip)) return i;
+  if (view.figure == WizardFigure::letter_f && settings_.flip != "yes")
     if (const auto i = choice("no")) return i;
   if (view.verdict) {
-    if (const auto i = choice(habits_.at_the_end)) return i;
+    if (const auto i = choice(settings_.final_choice)) return i;
     if (const auto i = choice("done")) return i;
     return choice("leave");
   }
   // "measure the eyes again" would find the same.
-  if (const auto i = choice("go on")) return habits_.redoes && view.marked == 1 && choice("touch the worst") ? 1 : *i;
+  if (const auto i = choice("go on")) return settings_.repeats_doubtful && view.marked == 1 && choice("touch the worst") ? 1 : *i;
   return view.marked ? std::optional<std::size_t>(0) : std::nullopt;
 }
 
@@ -129,7 +129,7 @@ void RobotTechnician::press(double t_s, double seconds) {
 }
 
 void RobotTechnician::goTo(const calibration::RawJoints& raw_rad, double t_s) {
-  const double gone = set_out_ ? eased((t_s - left_s_) / habits_.way_s) : 1.0;
+  const double gone = set_out_ ? eased((t_s - left_s_) / settings_.move_s) : 1.0;
   for (std::size_t i = 0; i < 6; ++i) from_rad_[i] += gone * (to_rad_[i] - from_rad_[i]);
   if (!set_out_) from_rad_ = raw_rad;
   set_out_ = true;
@@ -138,10 +138,10 @@ void RobotTechnician::goTo(const calibration::RawJoints& raw_rad, double t_s) {
 }
 
 void RobotTechnician::goToTarget(const WizardView& view, std::size_t target, double t_s) {
-  calibration::Target wish{static_cast<int>(target) + 1, view.targets[target].place_W, view.targets[target].stylus_W};
+  calibration::Target wish{static_cast<int>(target) + 1, view.targets[target].position_W, view.targets[target].stylus_W};
   // Out of reach as asked: a little nearer to how the hand likes it, until it is reached.
   for (int n = 0; n < kHolds; ++n) {
-    if (const auto touch = calibration::touched(rig_, wish, chance_)) return goTo(touch->joints_rad, t_s);
+    if (const auto touch = calibration::simulatedTouch(rig_, wish, rng_)) return goTo(touch->joints_rad, t_s);
     wish.stylus_W.xyz = glm::normalize(0.9 * wish.stylus_W.xyz + 0.1 * calibration::kRestingStylus_W.xyz);
   }
 }

@@ -14,20 +14,20 @@
 
 namespace app {
 
-struct TechnicianHabits {
+struct TechnicianSettings {
   bool presses = true;                                        ///< takes touches by the button; false: by holding still
   double tremor_mm = 0.03;                                    ///< at the wrist, one axis, 9 Hz
-  double way_s = 0.6;                                         ///< from one target to the next
+  double move_s = 0.6;                                         ///< from one target to the next
   std::string flip = "yes";                                   ///< how the F reads to them: the beginning of a choice
   double bar_mm = 100.0, ipd_mm = 63.0, distance_mm = 450.0;  ///< what ruler and tape say
   bool reversed = false;                                      ///< touches the targets in the opposite order
-  bool redoes = true;                                         ///< touches a doubtful one again, as the page offers
-  std::string at_the_end = "take it";  ///< the beginning of what is chosen at the end; else what is marked
+  bool repeats_doubtful = true;                                         ///< touches a doubtful one again, as the page offers
+  std::string final_choice = "take it";  ///< the beginning of what is chosen at the end; else what is marked
 };
 
 class RobotTechnician {
  public:
-  RobotTechnician(const calibration::SyntheticRig& rig, const TechnicianHabits& habits, std::uint32_t seed);
+  RobotTechnician(const calibration::SyntheticRig& rig, const TechnicianSettings& habits, std::uint32_t seed);
 
   /// The stylus at this time, by somebody who saw this view last.
   StylusSample next(const WizardView& view, double t_s);
@@ -42,8 +42,8 @@ class RobotTechnician {
   void press(double t_s, double seconds);
 
   calibration::SyntheticRig rig_;
-  TechnicianHabits habits_;
-  std::mt19937 chance_;
+  TechnicianSettings settings_;
+  std::mt19937 rng_;
 
   calibration::RawJoints from_rad_{}, to_rad_{};
   double left_s_ = 0.0;  ///< when the hand set out

@@ -137,10 +137,10 @@ struct Sounds::Player {
 Sounds::Sounds(const std::function<void(const std::string&)>& tell) : player_(std::make_unique<Player>(tell)) {}
 Sounds::~Sounds() = default;
 
-bool Sounds::areHeard() const { return player_->stream != nullptr; }
+bool Sounds::isAvailable() const { return player_->stream != nullptr; }
 
 void Sounds::play(WizardSound sound) {
-  if (!areHeard()) return;
+  if (!isAvailable()) return;
   const std::size_t asked = player_->asked_count.load(std::memory_order_relaxed);
   if (asked - player_->taken_count.load(std::memory_order_acquire) >= Player::kWaiting) return;
   player_->asked[asked % Player::kWaiting] = sound;

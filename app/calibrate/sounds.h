@@ -24,7 +24,7 @@ class Sounds {
   Sounds(const Sounds&) = delete;
   Sounds& operator=(const Sounds&) = delete;
 
-  bool areHeard() const;
+  bool isAvailable() const;
   /// After those that still sound; more than a few are dropped.
   void play(WizardSound sound);
 

@@ -39,7 +39,7 @@ StillCapture::StillCapture(const StillLimits& limits) : limits_(limits), ring_(k
 
 const StillCapture::Seen& StillCapture::back(std::size_t n) const { return ring_[(newest_ + kRing - n) % kRing]; }
 
-void StillCapture::feel(const StylusSample& sample) {
+void StillCapture::update(const StylusSample& sample) {
   if (count_ > 0 && sample.t_s - back(0).t_s < kLeastStep_s) return;
   newest_ = (newest_ + 1) % kRing;
   count_ = std::min(count_ + 1, kRing);
@@ -99,8 +99,8 @@ StillCapture::Stillness StillCapture::stillness(double end_s, double most_s) con
   return found;
 }
 
-StillTake StillCapture::median(double end_s) const {
-  StillTake take;
+StillReading StillCapture::median(double end_s) const {
+  StillReading take;
   std::vector<double> angles;
   for (std::size_t joint = 0; joint < 6; ++joint) {
     angles.clear();
@@ -113,16 +113,16 @@ StillTake StillCapture::median(double end_s) const {
   return take;
 }
 
-std::optional<StillTake> StillCapture::dwelt() const {
+std::optional<StillReading> StillCapture::heldStill() const {
   if (progress_ < 1.0 || count_ == 0) return std::nullopt;
-  StillTake take = median(back(0).t_s);
+  StillReading take = median(back(0).t_s);
   if (take.samples < kLeastSamples) return std::nullopt;
   take.sd_mm = stillness(looked_s_, limits_.hold_s).sd_mm;
   return take;
 }
 
-std::optional<StillTake> StillCapture::before(double t_s, std::string& why) const {
-  StillTake take = median(t_s);
+std::optional<StillReading> StillCapture::before(double t_s, std::string& why) const {
+  StillReading take = median(t_s);
   const Stillness found = stillness(t_s, kMedian_s);
   take.sd_mm = found.sd_mm;
   if (found.gap || take.samples < kLeastSamples)
@@ -137,7 +137,7 @@ std::optional<StillTake> StillCapture::before(double t_s, std::string& why) cons
   return std::nullopt;
 }
 
-void StillCapture::waitUntilItLeaves() {
+void StillCapture::waitForMove() {
   left_ = false;
   progress_ = 0.0;
   left_from_.reset();

@@ -22,7 +22,7 @@ struct StillLimits {
 };
 inline constexpr StillLimits kPitStillness{}, kCrossStillness{0.4, 2.0, 0.1, 1.2};
 
-struct StillTake {
+struct StillReading {
   calibration::RawJoints raw_rad{};  ///< medians
   int samples = 0;
   double sd_mm = 0.0;  ///< of the means, the worst axis
@@ -32,17 +32,17 @@ class StillCapture {
  public:
   explicit StillCapture(const StillLimits& limits = kPitStillness);
 
-  void feel(const StylusSample& sample);
+  void update(const StylusSample& sample);
 
   /// 0 to 1: for how much of the time it has been still. 0 until it has left where it was taken last.
   double progress() const { return progress_; }
   /// Held still long enough, once for each place.
-  std::optional<StillTake> dwelt() const;
+  std::optional<StillReading> heldStill() const;
   /// The 0.2 s before a press; none: `why` says it in words.
-  std::optional<StillTake> before(double t_s, std::string& why) const;
+  std::optional<StillReading> before(double t_s, std::string& why) const;
 
   /// It counts again once the stylus has gone 5 mm or turned 5° from here.
-  void waitUntilItLeaves();
+  void waitForMove();
   void forget();
 
  private:
@@ -59,7 +59,7 @@ class StillCapture {
   const Seen& back(std::size_t n) const;
   /// How long, up to `most_s`, it had been still at `end_s`; and what it was like over all of that time.
   Stillness stillness(double end_s, double most_s) const;
-  StillTake median(double end_s) const;
+  StillReading median(double end_s) const;
 
   StillLimits limits_;
   std::vector<Seen> ring_;

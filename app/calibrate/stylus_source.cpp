@@ -30,9 +30,9 @@ StylusSample sampleOf(const haptics::TimedHandle& handle) {
   sample.X_DH = state.X_DH;
   sample.button = (state.buttons & 1U) != 0;
   sample.docked = state.docked;
-  sample.believable = state.healthy && state.calibrated && std::isfinite(norm) && std::abs(norm - 1.0) < 1e-6 &&
+  sample.valid = state.healthy && state.calibrated && std::isfinite(norm) && std::abs(norm - 1.0) < 1e-6 &&
                       std::isfinite(glm::length(state.X_DH.translation_mm));
-  for (const double angle : state.joints_rad) sample.believable = sample.believable && std::isfinite(angle);
+  for (const double angle : state.joints_rad) sample.valid = sample.valid && std::isfinite(angle);
   return sample;
 }
 
@@ -46,7 +46,7 @@ void DeviceSource::takeInto(std::vector<StylusSample>& out, const WizardView&) {
   hand_.takeInto(taken_);
   for (const haptics::TimedHandle& handle : taken_) {
     StylusSample sample = sampleOf(handle);
-    if (sample.believable && !handle.state.has_joints)
+    if (sample.valid && !handle.state.has_joints)
       throw UsageError(model_ + ": it does not tell its joint angles, calibrate a Phantom or Touch");
     if (sample.t_s <= last_s_) continue;
     last_s_ = sample.t_s;
@@ -71,7 +71,7 @@ void PracticeSource::take(const render::WindowEvent& event, const glm::dvec3& ac
   hand_.take(event, across_W, up_W);
 }
 
-RobotSource::RobotSource(const calibration::SyntheticRig& rig, const TechnicianHabits& habits, bool hurried)
+RobotSource::RobotSource(const calibration::SyntheticRig& rig, const TechnicianSettings& habits, bool hurried)
     : rig_(rig), robot_(rig, habits, rig.seed), hurried_(hurried) {}
 
 void RobotSource::takeInto(std::vector<StylusSample>& out, const WizardView& view) {
@@ -80,7 +80,7 @@ void RobotSource::takeInto(std::vector<StylusSample>& out, const WizardView& vie
     out.push_back(robot_.next(view, static_cast<double>(++ticks_) / kRate_Hz));
   if (out.empty()) return;
   const calibration::Pose<calibration::World, calibration::Handle> X_WH = rig_.X_WD * rig_.arm.X_DH(out.back().raw_rad);
-  seen_ = SeenStylus{X_WH * calibration::Point<calibration::Handle>{rig_.arm.truth.tip_H_mm},
+  seen_ = TrueStylus{X_WH * calibration::Point<calibration::Handle>{rig_.arm.truth.tip_H_mm},
                      {X_WH.rotation * glm::dvec3(0.0, 0.0, 1.0)}};
 }
 

@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "app/calibrate/page_scene.h"
-#include "app/calibrate/practice_hand.h"
+#include "app/calibrate/practice_input.h"
 #include "app/calibrate/robot_technician.h"
 #include "app/calibrate/stylus_sample.h"
-#include "haptics/loop/listened_hand.h"
+#include "haptics/loop/handle_recorder.h"
 
 namespace app {
 
-/// As the wizard is told of it; believable where the device is healthy and calibrated and its pose a pose.
+/// As the wizard is told of it; valid where the device is healthy and calibrated and its pose a pose.
 StylusSample sampleOf(const haptics::TimedHandle& handle);
 
 class StylusSource {
@@ -25,7 +25,7 @@ class StylusSource {
   virtual void takeInto(std::vector<StylusSample>& out, const WizardView& view) = 0;
   virtual void take(const render::WindowEvent&, const glm::dvec3& /*across_W*/, const glm::dvec3& /*up_W*/) {}
   /// The stylus itself, where it would not be seen without being drawn.
-  virtual std::optional<SeenStylus> seen() { return std::nullopt; }
+  virtual std::optional<TrueStylus> seen() { return std::nullopt; }
 };
 
 /// Listens to a device from construction to destruction. Throws haptics::DeviceError; UsageError at the first tick of a
@@ -40,7 +40,7 @@ class DeviceSource : public StylusSource {
   std::vector<haptics::TimedHandle> taken_;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   double last_s_ = -1.0;
-  haptics::ListenedHand hand_;
+  haptics::HandleRecorder hand_;
 };
 
 /// A practice stylus, held by mouse and keys.
@@ -49,20 +49,20 @@ class PracticeSource final : public StylusSource {
   explicit PracticeSource(const calibration::SyntheticRig& rig);
   void takeInto(std::vector<StylusSample>& out, const WizardView& view) override;
   void take(const render::WindowEvent& event, const glm::dvec3& across_W, const glm::dvec3& up_W) override;
-  std::optional<SeenStylus> seen() override { return stylus_.seen(); }
+  std::optional<TrueStylus> seen() override { return stylus_.seen(); }
 
  private:
   PracticeStylus stylus_;
-  PracticeHand hand_;
+  PracticeInput hand_;
   DeviceSource device_;  // stops before its device goes
 };
 
 class RobotSource final : public StylusSource {
  public:
   /// `hurried`: every call brings 20 ms more; else what the clock says.
-  RobotSource(const calibration::SyntheticRig& rig, const TechnicianHabits& habits, bool hurried);
+  RobotSource(const calibration::SyntheticRig& rig, const TechnicianSettings& habits, bool hurried);
   void takeInto(std::vector<StylusSample>& out, const WizardView& view) override;
-  std::optional<SeenStylus> seen() override { return seen_; }
+  std::optional<TrueStylus> seen() override { return seen_; }
 
  private:
   calibration::SyntheticRig rig_;
@@ -70,7 +70,7 @@ class RobotSource final : public StylusSource {
   bool hurried_;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   std::int64_t ticks_ = 0;
-  std::optional<SeenStylus> seen_;
+  std::optional<TrueStylus> seen_;
 };
 
 }  // namespace app

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/calibrate/number_words.h"
-#include "app/calibrate/tilt_words.h"
+#include "app/calibrate/number_text.h"
+#include "app/calibrate/tilt_text.h"
 #include "calibration/fit/touch_checks.h"
 #include "calibration/median.h"
 
@@ -33,19 +33,19 @@ const char* nounOf(const calibration::TargetPlan& plan) {
   return plan.kind == calibration::TargetKind::cross ? "cross" : "place";
 }
 
-TouchRound::TouchRound(calibration::TargetPlan plan, const calibration::MeasuredArm& believed, double far_mm,
-                       Announcements& voice)
+TouchRound::TouchRound(calibration::TargetPlan plan, const calibration::MeasuredArm& believed, double max_distance_mm,
+                       Announcements& announcements)
     : plan_(std::move(plan)),
-      believed_(believed),
-      far_mm_(far_mm),
-      voice_(voice),
+      arm_(believed),
+      max_distance_mm_(max_distance_mm),
+      announcements_(announcements),
       still_(plan_.kind == calibration::TargetKind::cross ? kCrossStillness : kPitStillness),
       taken_(plan_.targets.size()) {}
 
-TouchRound::Happened TouchRound::feel(const StylusSample& sample, Press press, double pressed_s) {
+TouchRound::TouchEvent TouchRound::update(const StylusSample& sample, Press press, double pressed_s) {
   keepTime(sample.t_s);
   now_ = sample;
-  still_.feel(sample);
+  still_.update(sample);
 
   // Put away is paused, taken up goes on.
   if (sample.docked && !docked_) pause_ = pauseMenu();
@@ -54,24 +54,24 @@ TouchRound::Happened TouchRound::feel(const StylusSample& sample, Press press, d
   if (pause_) return pause(press);
 
   if (press == Press::long_press) return undo();
-  if (isComplete()) return Happened::nothing;
-  if (press == Press::short_press && dwelt_at_s_ && pressed_s - *dwelt_at_s_ < kSameBreath_s) return Happened::nothing;
+  if (isComplete()) return TouchEvent::nothing;
+  if (press == Press::short_press && dwelt_at_s_ && pressed_s - *dwelt_at_s_ < kSameBreath_s) return TouchEvent::nothing;
   if (press == Press::short_press) {
     std::string why;
     const auto taken = still_.before(pressed_s, why);
     if (taken) return take(*taken, true);
-    voice_.refuse("Not taken: " + why + ".");
-    return Happened::nothing;
+    announcements_.refuse("Not taken: " + why + ".");
+    return TouchEvent::nothing;
   }
-  const auto dwelt = still_.dwelt();
-  if (!dwelt) return Happened::nothing;
+  const auto heldStill = still_.heldStill();
+  if (!heldStill) return TouchEvent::nothing;
   dwelt_at_s_ = sample.t_s;
-  return take(*dwelt, false);
+  return take(*heldStill, false);
 }
 
-TouchRound::Happened TouchRound::take(const StillTake& take, bool pressed) {
-  if (!pressed) still_.waitUntilItLeaves();
-  if (proving_) return prove(take);
+TouchRound::TouchEvent TouchRound::take(const StillReading& take, bool pressed) {
+  if (!pressed) still_.waitForMove();
+  if (confirming_) return confirm(take);
 
   const std::size_t index = *next();
   bool tilt_is_wrong = false;
@@ -81,112 +81,112 @@ TouchRound::Happened TouchRound::take(const StillTake& take, bool pressed) {
     if (never || !insisted) {
       objected_ = never ? std::nullopt : std::optional(index);
       objected_at_s_ = now_->t_s;
-      voice_.refuse(why + (never ? "." : ". Press again to take it as it is."));
-      return Happened::nothing;
+      announcements_.refuse(why + (never ? "." : ". Press again to take it as it is."));
+      return TouchEvent::nothing;
     }
   }
 
-  still_.waitUntilItLeaves();
+  still_.waitForMove();
   objected_.reset();
   last_rad_ = take.raw_rad;
   taken_[index] = Taken{take.raw_rad, tilt_is_wrong, false};
   order_.push_back(index);
   intervals_s_.push_back(busy_s_ - taken_at_s_);
   taken_at_s_ = busy_s_;
-  voice_.praise("Taken: " + std::string(nounOf(plan_)) + " " + std::to_string(index + 1) +
+  announcements_.praise("Taken: " + std::string(nounOf(plan_)) + " " + std::to_string(index + 1) +
                     (tilt_is_wrong ? ", though not held as asked." : "."),
                 isComplete() ? WizardSound::next : WizardSound::ok);
-  return Happened::taken;
+  return TouchEvent::taken;
 }
 
 std::string TouchRound::objection(std::size_t index, const calibration::RawJoints& raw_rad, bool& tilt_is_wrong) const {
   const calibration::Target& target = plan_.targets[index];
   const auto along_W = heldAlong_W(raw_rad);
-  const glm::dvec3 tip_mm = believed_.tip_W(raw_rad).mm;
+  const glm::dvec3 tip_mm = arm_.tip_W(raw_rad).mm;
   const double off_deg = angleBetween_deg(along_W.xyz, target.stylus_W.xyz);
   tilt_is_wrong = !any_tilt_ && off_deg > kMostTiltOff_deg;
   const std::string noun = nounOf(plan_);
 
-  if (last_rad_ && glm::length(tip_mm - believed_.tip_W(*last_rad_).mm) < kSamePlace_mm &&
+  if (last_rad_ && glm::length(tip_mm - arm_.tip_W(*last_rad_).mm) < kSamePlace_mm &&
       angleBetween_deg(along_W.xyz, heldAlong_W(*last_rad_).xyz) < kSameTilt_deg)
     return "This is where the last touch was: go to the glowing " + noun;
 
   // Further off than what is known of the arm explains.
-  const double off_mm = glm::length(tip_mm - target.place_W.mm);
-  if (off_mm > (far_mm_ > 0.0 ? far_mm_ : kMostOffUnmeasured_mm)) {
+  const double off_mm = glm::length(tip_mm - target.position_W.mm);
+  if (off_mm > (max_distance_mm_ > 0.0 ? max_distance_mm_ : kMostOffUnmeasured_mm)) {
     const auto nearest = std::ranges::min_element(
-        plan_.targets, {}, [&](const calibration::Target& one) { return glm::distance(tip_mm, one.place_W.mm); });
-    std::string why = "This seems " + inMm(off_mm) + " from the glowing " + noun;
-    if (glm::distance(nearest->place_W.mm, target.place_W.mm) > 1.0)
+        plan_.targets, {}, [&](const calibration::Target& one) { return glm::distance(tip_mm, one.position_W.mm); });
+    std::string why = "This seems " + mmText(off_mm) + " from the glowing " + noun;
+    if (glm::distance(nearest->position_W.mm, target.position_W.mm) > 1.0)
       why += ", nearer to " + noun + " " + std::to_string(nearest - plan_.targets.begin() + 1);
     return why;
   }
   if (!tilt_is_wrong) return {};
-  const std::string words = tiltWords(along_W, target.stylus_W);
-  return "Held " + inWords(off_deg, 0) + "° off the cue" + (words.empty() ? "" : ": " + words);
+  const std::string words = tiltText(along_W, target.stylus_W);
+  return "Held " + numberText(off_deg, 0) + "° off the cue" + (words.empty() ? "" : ": " + words);
 }
 
-TouchRound::Happened TouchRound::prove(const StillTake& take) {
-  still_.waitUntilItLeaves();
-  const calibration::RawJoints& before = taken_[*proving_]->raw_rad;
+TouchRound::TouchEvent TouchRound::confirm(const StillReading& take) {
+  still_.waitForMove();
+  const calibration::RawJoints& before = taken_[*confirming_]->raw_rad;
   const auto along_W = heldAlong_W(take.raw_rad), along_before_W = heldAlong_W(before);
   if (!any_tilt_ && angleBetween_deg(along_W.xyz, along_before_W.xyz) > kMostTiltOff_deg) {
-    const std::string words = tiltWords(along_W, along_before_W);
-    voice_.refuse("Hold it as before" + (words.empty() ? "." : ": " + words + "."));
-    return Happened::nothing;
+    const std::string words = tiltText(along_W, along_before_W);
+    announcements_.refuse("Hold it as before" + (words.empty() ? "." : ": " + words + "."));
+    return TouchEvent::nothing;
   }
   // Along the line of sight nobody aims at a cross exactly.
-  glm::dvec3 apart_mm = believed_.tip_W(take.raw_rad).mm - believed_.tip_W(before).mm;
+  glm::dvec3 apart_mm = arm_.tip_W(take.raw_rad).mm - arm_.tip_W(before).mm;
   if (plan_.kind == calibration::TargetKind::cross) apart_mm.z = 0.0;
-  proving_.reset();
+  confirming_.reset();
   if (glm::length(apart_mm) <= sameCount_mm(plan_.precision)) {
     last_rad_ = take.raw_rad;
-    voice_.praise("The device still counts the same: go on.");
-    return Happened::nothing;
+    announcements_.praise("The device still counts the same: go on.");
+    return TouchEvent::nothing;
   }
-  againAll();
-  voice_.refuse("The device counts otherwise since it was silent (" + inMm(glm::length(apart_mm)) +
+  retakeAll();
+  announcements_.refuse("The device counts otherwise since it was silent (" + mmText(glm::length(apart_mm)) +
                 " apart): these touches start again.");
-  return Happened::started_again;
+  return TouchEvent::started_again;
 }
 
-TouchRound::Happened TouchRound::pause(Press press) {
-  const auto chosen = pause_->feel(press);
-  if (!chosen) return Happened::nothing;
+TouchRound::TouchEvent TouchRound::pause(Press press) {
+  const auto chosen = pause_->update(press);
+  if (!chosen) return TouchEvent::nothing;
   // In the inkwell the menu stays: going on is taking the stylus up.
   if (*chosen == 0) {
     if (docked_)
-      voice_.say("Take the stylus out of its inkwell to go on.");
+      announcements_.say("Take the stylus out of its inkwell to go on.");
     else
       pause_.reset();
-    return Happened::nothing;
+    return TouchEvent::nothing;
   }
   if (!docked_) pause_.reset();
-  if (*chosen == 2) return Happened::left;
-  againAll();
-  voice_.say("All touches of this page start again.");
-  return Happened::started_again;
+  if (*chosen == 2) return TouchEvent::left;
+  retakeAll();
+  announcements_.say("All touches of this page start again.");
+  return TouchEvent::started_again;
 }
 
-TouchRound::Happened TouchRound::undo() {
+TouchRound::TouchEvent TouchRound::undo() {
   objected_.reset();
   if (order_.empty()) {
     pause_ = pauseMenu();
-    return Happened::nothing;
+    return TouchEvent::nothing;
   }
   const std::size_t index = order_.back();
   order_.pop_back();
   taken_[index].reset();
-  proving_.reset();
+  confirming_.reset();
   last_rad_.reset();
-  voice_.say("Undone: " + std::string(nounOf(plan_)) + " " + std::to_string(index + 1) + ".");
-  return Happened::undone;
+  announcements_.say("Undone: " + std::string(nounOf(plan_)) + " " + std::to_string(index + 1) + ".");
+  return TouchEvent::undone;
 }
 
 void TouchRound::lost() {
   still_.forget();
   objected_.reset();
-  if (!order_.empty()) proving_ = order_.back();
+  if (!order_.empty()) confirming_ = order_.back();
 }
 
 void TouchRound::keepTime(double t_s) {
@@ -199,21 +199,21 @@ void TouchRound::show(WizardView& view) const {
   const std::string noun = nounOf(plan_);
   view.target_kind = plan_.kind;
   view.zero_parallax = plan_.kind == calibration::TargetKind::cross;
-  const auto glowing = proving_ ? proving_ : next();
+  const auto glowing = confirming_ ? confirming_ : next();
   for (std::size_t i = 0; i < plan_.targets.size(); ++i) {
     TargetState state = TargetState::pending;
     if (taken_[i]) state = taken_[i]->doubtful ? TargetState::doubtful : TargetState::done;
     if (glowing == i) state = TargetState::next;
-    view.targets.push_back({plan_.targets[i].place_W, plan_.targets[i].stylus_W, state, std::to_string(i + 1)});
+    view.targets.push_back({plan_.targets[i].position_W, plan_.targets[i].stylus_W, state, std::to_string(i + 1)});
   }
 
   // Where it is, and how it is held.
-  if (now_ && !docked_) view.tip_W = believed_.tip_W(now_->raw_rad);
+  if (now_ && !docked_) view.tip_W = arm_.tip_W(now_->raw_rad);
   if (now_ && glowing && !any_tilt_) {
     TiltCue cue{plan_.targets[*glowing].stylus_W, heldAlong_W(now_->raw_rad), 0.0, false, {}};
     cue.off_deg = angleBetween_deg(cue.present_W.xyz, cue.wanted_W.xyz);
     cue.met = cue.off_deg <= kMostTiltOff_deg;
-    if (!cue.met) cue.words = tiltWords(cue.present_W, cue.wanted_W);
+    if (!cue.met) cue.words = tiltText(cue.present_W, cue.wanted_W);
     view.tilt = cue;
   }
 
@@ -229,8 +229,8 @@ void TouchRound::show(WizardView& view) const {
   }
   view.capture = still_.progress();
   view.button = {"take this " + noun, order_.empty() ? "pause" : "undo the last", "takes it by itself"};
-  if (proving_)
-    view.sentence = "The device was silent. Touch " + noun + " " + std::to_string(*proving_ + 1) +
+  if (confirming_)
+    view.sentence = "The device was silent. Touch " + noun + " " + std::to_string(*confirming_ + 1) +
                     " once more, to see whether it counts as before.";
 }
 
@@ -240,12 +240,12 @@ std::optional<std::size_t> TouchRound::next() const {
   return std::nullopt;
 }
 
-bool TouchRound::isComplete() const { return !next() && !proving_; }
+bool TouchRound::isComplete() const { return !next() && !confirming_; }
 
 std::vector<calibration::Touch> TouchRound::touches() const {
   std::vector<calibration::Touch> touches;
   for (std::size_t i = 0; i < taken_.size(); ++i)
-    if (taken_[i]) touches.push_back({plan_.targets[i].id, taken_[i]->raw_rad, plan_.targets[i].place_W, true});
+    if (taken_[i]) touches.push_back({plan_.targets[i].id, taken_[i]->raw_rad, plan_.targets[i].position_W, true});
   return touches;
 }
 
@@ -256,23 +256,23 @@ double TouchRound::tiltSpread_deg() const {
   return calibration::pairSpread_deg(directions);
 }
 
-std::vector<std::size_t> TouchRound::wronglyHeld() const {
+std::vector<std::size_t> TouchRound::wronglyTilted() const {
   std::vector<std::size_t> wrong;
   std::size_t touch = 0;
   for (const auto& taken : taken_)
     if (taken) {
-      if (taken->wrongly_held) wrong.push_back(touch);
+      if (taken->wrongly_tilted) wrong.push_back(touch);
       ++touch;
     }
   return wrong;
 }
 
-void TouchRound::believe(const calibration::MeasuredArm& arm, double far_mm) {
-  believed_ = arm;
-  far_mm_ = far_mm;
+void TouchRound::setArm(const calibration::MeasuredArm& arm, double max_distance_mm) {
+  arm_ = arm;
+  max_distance_mm_ = max_distance_mm;
 }
 
-void TouchRound::doubt(const std::vector<bool>& doubtful) {
+void TouchRound::setDoubtful(const std::vector<bool>& doubtful) {
   std::size_t touch = 0;
   for (auto& taken : taken_)
     if (taken && touch < doubtful.size()) taken->doubtful = doubtful[touch++];
@@ -286,13 +286,13 @@ void TouchRound::again(std::size_t touch) {
   objected_.reset();
 }
 
-void TouchRound::againAll() {
+void TouchRound::retakeAll() {
   std::fill(taken_.begin(), taken_.end(), std::nullopt);
   order_.clear();
   intervals_s_.clear();
   last_rad_.reset();
   objected_.reset();
-  proving_.reset();
+  confirming_.reset();
 }
 
 std::string TouchRound::nameOf(std::size_t touch) const {
@@ -311,7 +311,7 @@ std::size_t TouchRound::planIndex(std::size_t touch) const {
 }
 
 calibration::Vector<calibration::World> TouchRound::heldAlong_W(const calibration::RawJoints& raw_rad) const {
-  return {believed_.X_WH(raw_rad).rotation * -glm::normalize(believed_.correction.tip_H_mm)};
+  return {arm_.X_WH(raw_rad).rotation * -glm::normalize(arm_.correction.tip_H_mm)};
 }
 
 }  // namespace app

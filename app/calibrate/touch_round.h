@@ -22,16 +22,16 @@ const char* nounOf(const calibration::TargetPlan& plan);
 
 class TouchRound {
  public:
-  enum class Happened { nothing, taken, undone, started_again, left };
+  enum class TouchEvent { nothing, taken, undone, started_again, left };
 
-  /// `far_mm`: a tip believed further from its target is objected to; 0: the arm is not known so well.
-  TouchRound(calibration::TargetPlan plan, const calibration::MeasuredArm& believed, double far_mm,
-             Announcements& voice);
+  /// `max_distance_mm`: a tip believed further from its target is objected to; 0: the arm is not known so well.
+  TouchRound(calibration::TargetPlan plan, const calibration::MeasuredArm& believed, double max_distance_mm,
+             Announcements& announcements);
 
   /// `pressed_s`: when the button went down.
-  Happened feel(const StylusSample& sample, Press press, double pressed_s);
+  TouchEvent update(const StylusSample& sample, Press press, double pressed_s);
   /// However the stylus is held.
-  void letTiltBe() { any_tilt_ = true; }
+  void ignoreTilt() { any_tilt_ = true; }
   /// The device was silent.
   void lost();
   void show(WizardView& view) const;
@@ -42,23 +42,23 @@ class TouchRound {
   /// Of all taken ones.
   double tiltSpread_deg() const;
   /// Indices of those that were taken although their tilt was wrong.
-  std::vector<std::size_t> wronglyHeld() const;
+  std::vector<std::size_t> wronglyTilted() const;
   double duration_s() const { return busy_s_; }
 
   /// The arm as it is known by now.
-  void believe(const calibration::MeasuredArm& arm, double far_mm);
+  void setArm(const calibration::MeasuredArm& arm, double max_distance_mm);
   /// In the order of touches().
-  void doubt(const std::vector<bool>& doubtful);
+  void setDoubtful(const std::vector<bool>& doubtful);
   /// Of those taken, by their place in touches(): it is the next again.
   void again(std::size_t touch);
-  void againAll();
+  void retakeAll();
   std::string nameOf(std::size_t touch) const;
   bool isDoubtful(std::size_t touch) const;
 
  private:
   struct Taken {
     calibration::RawJoints raw_rad{};
-    bool wrongly_held = false, doubtful = false;
+    bool wrongly_tilted = false, doubtful = false;
   };
 
   std::optional<std::size_t> next() const;
@@ -66,21 +66,21 @@ class TouchRound {
   calibration::Vector<calibration::World> heldAlong_W(const calibration::RawJoints& raw_rad) const;
   /// Why it should not be taken; empty: nothing speaks against it.
   std::string objection(std::size_t index, const calibration::RawJoints& raw_rad, bool& tilt_is_wrong) const;
-  Happened take(const StillTake& take, bool pressed);
-  Happened prove(const StillTake& take);
-  Happened pause(Press press);
-  Happened undo();
+  TouchEvent take(const StillReading& take, bool pressed);
+  TouchEvent confirm(const StillReading& take);
+  TouchEvent pause(Press press);
+  TouchEvent undo();
   void keepTime(double t_s);
 
   calibration::TargetPlan plan_;
-  calibration::MeasuredArm believed_;
-  double far_mm_;
+  calibration::MeasuredArm arm_;
+  double max_distance_mm_;
   bool any_tilt_ = false;
-  Announcements& voice_;
+  Announcements& announcements_;
   StillCapture still_;
   std::vector<std::optional<Taken>> taken_;  ///< one a target
   std::vector<std::size_t> order_;           ///< in which they were taken
-  std::optional<std::size_t> proving_;       ///< was taken before the silence
+  std::optional<std::size_t> confirming_;       ///< was taken before the silence
   std::optional<std::size_t> objected_;      ///< a press that follows, once it was heard, takes it
   double objected_at_s_ = 0.0;
   std::optional<double> dwelt_at_s_;  ///< a press in the same breath means the same touch

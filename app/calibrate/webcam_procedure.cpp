@@ -5,25 +5,25 @@
 #include <cmath>
 
 #include "calibration/webcam/flip_check.h"
-#include "calibration/webcam/ring_picture.h"
+#include "calibration/webcam/ring_image.h"
 #include "calibration/webcam/tip_spot.h"
 
 namespace app {
 
 namespace {
 
-using calibration::BoardSighting;
+using calibration::BoardDetection;
 using calibration::BoardView;
-using calibration::CodeSighting;
-using calibration::GreyPicture;
+using calibration::CodeDetection;
+using calibration::GreyImage;
 
-/// Views of the lens must differ by this share of the picture's width at some corner.
+/// Views of the lens must differ by this share of the image's width at some corner.
 constexpr double kNewView = 0.06;
 /// Tips are found to about this, one sigma an axis: hand, exposure and shading of the ball together.
 constexpr double kTipNoise_px = 0.3, kBoardNoise_px = 0.25;
 constexpr double kFlat_mm = 0.01;  ///< of the virtual screen: W lies in it
 
-bool isNew(const BoardSighting& sighting, const std::vector<BoardView>& views, double width_px) {
+bool isNew(const BoardDetection& sighting, const std::vector<BoardView>& views, double width_px) {
   return std::ranges::all_of(views, [&](const BoardView& view) {
     double farthest = 0.0;
     for (std::size_t i = 0; i < view.corners_px.size(); ++i)
@@ -32,7 +32,7 @@ bool isNew(const BoardSighting& sighting, const std::vector<BoardView>& views, d
   });
 }
 
-std::string whereToStand(int position) {
+std::string cameraPosition(int position) {
   constexpr std::array<const char*, 3> kPlaces = {"at the surgeon's eyes", "25° further to the right",
                                                   "25° to the left of the eyes"};
   const auto which = static_cast<std::size_t>(std::clamp(position - 1, 0, 2));
@@ -55,13 +55,13 @@ WebcamProcedure::WebcamProcedure(const WebcamPlan& plan)
           "file");
   code_.screen_px = screen_.px;
   if (plan_.gray_code) {
-    patterns_ = calibration::picturesOf(code_);
+    patterns_ = calibration::patternImages(code_);
   } else {
-    patterns_ = {calibration::pictureOf(board_)};
+    patterns_ = {calibration::boardImage(board_)};
   }
   dark_.size_px = screen_.px;
   dark_.grey.assign(static_cast<std::size_t>(screen_.px.x) * static_cast<std::size_t>(screen_.px.y), 0);
-  calibration::WebcamSights& sights = observations_.sights;
+  calibration::WebcamObservations& sights = observations_.sights;
   sights.device_model = plan_.device_model;
   sights.screen_noise_px = kBoardNoise_px;
   sights.tip_noise_px = kTipNoise_px;
@@ -70,9 +70,9 @@ WebcamProcedure::WebcamProcedure(const WebcamPlan& plan)
   turnTo(WebcamStep::letter);
 }
 
-WebcamWants WebcamProcedure::wants() const {
-  if (step_ == WebcamStep::done) return WebcamWants::nothing;
-  return pressed_ ? WebcamWants::picture : WebcamWants::press;
+WebcamInput WebcamProcedure::expects() const {
+  if (step_ == WebcamStep::done) return WebcamInput::nothing;
+  return pressed_ ? WebcamInput::image : WebcamInput::press;
 }
 
 std::optional<calibration::Target> WebcamProcedure::target() const {
@@ -81,7 +81,7 @@ std::optional<calibration::Target> WebcamProcedure::target() const {
 }
 
 double WebcamProcedure::progress() const {
-  // A view of the lens, a pattern and a tip are each one picture to whoever waits.
+  // A view of the lens, a pattern and a tip are each one image to whoever waits.
   const double a_position = 1.0 + static_cast<double>(plan_.places.targets.size());
   const double lens = plan_.lens ? 0.0 : plan_.lens_views;
   double done = lens_ ? lens : static_cast<double>(views_.size());
@@ -90,7 +90,7 @@ double WebcamProcedure::progress() const {
   return std::min(1.0, done / (lens + plan_.positions * a_position));
 }
 
-void WebcamProcedure::show(const GreyPicture& as_seen) { shown_ = calibration::framebufferFor(plan_.rig, as_seen); }
+void WebcamProcedure::show(const GreyImage& as_seen) { shown_ = calibration::framebufferFor(plan_.rig, as_seen); }
 
 void WebcamProcedure::turnTo(WebcamStep step) {
   step_ = step;
@@ -99,17 +99,17 @@ void WebcamProcedure::turnTo(WebcamStep step) {
     case WebcamStep::letter:
       show(calibration::letterF(screen_.px));
       sentence_ =
-          "Clamp the webcam " + whereToStand(1) + " so that it sees the whole screen in the mirror, then press.";
+          "Clamp the webcam " + cameraPosition(1) + " so that it sees the whole screen in the mirror, then press.";
       return;
     case WebcamStep::lens:
-      show(calibration::pictureOf(board_));
+      show(calibration::boardImage(board_));
       sentence_ = "Hold the webcam still, another view each time, tilted 20 to 40°, then press: view " +
                   std::to_string(views_.size() + 1) + " of " + std::to_string(plan_.lens_views) + ".";
       return;
     case WebcamStep::pattern:
       seen_patterns_.clear();
       show(patterns_.front());
-      sentence_ = "Clamp the webcam " + whereToStand(position()) + ", take the stylus out of its sight, then press.";
+      sentence_ = "Clamp the webcam " + cameraPosition(position()) + ", take the stylus out of its sight, then press.";
       return;
     case WebcamStep::without_tip:
       show(dark_);
@@ -118,7 +118,7 @@ void WebcamProcedure::turnTo(WebcamStep step) {
       return;
     case WebcamStep::tips:
       // The place where the tip is wanted, flat: for those who do not draw it in stereo.
-      shown_ = calibration::ringPicture(plan_.rig, plan_.rig.cyclopeanEye(), target()->place_W);
+      shown_ = calibration::ringImage(plan_.rig, plan_.rig.cyclopeanEye(), target()->position_W);
       sentence_ = "Light the tip, hold it at the ring, then press: " +
                   std::to_string(observations_.sights.positions.back().tips.size() + 1) + " of " +
                   std::to_string(plan_.places.targets.size()) + ".";
@@ -137,34 +137,34 @@ void WebcamProcedure::press() {
   if (step_ == WebcamStep::tips) show(dark_);
 }
 
-void WebcamProcedure::see(const GreyPicture& picture, const calibration::RawJoints& joints_rad) {
-  if (wants() != WebcamWants::picture) return;
+void WebcamProcedure::see(const GreyImage& image, const calibration::RawJoints& joints_rad) {
+  if (expects() != WebcamInput::image) return;
   answer_.clear();
-  if (!picture_px_) picture_px_ = plan_.lens ? plan_.lens->size_px : picture.size_px;
-  if (picture.size_px != *picture_px_) {
-    answer_ = "The picture is " + std::to_string(picture.size_px.x) + " x " + std::to_string(picture.size_px.y) +
+  if (!picture_px_) picture_px_ = plan_.lens ? plan_.lens->size_px : image.size_px;
+  if (image.size_px != *picture_px_) {
+    answer_ = "The picture is " + std::to_string(image.size_px.x) + " x " + std::to_string(image.size_px.y) +
               ": set the webcam to " + std::to_string(picture_px_->x) + " x " + std::to_string(picture_px_->y) + ".";
     return turnTo(step_);
   }
   switch (step_) {
     case WebcamStep::letter:
-      return seeLetter(picture);
+      return checkLetter(image);
     case WebcamStep::lens:
-      return seeLens(picture);
+      return checkLens(image);
     case WebcamStep::pattern:
-      return seePattern(picture);
+      return checkPattern(image);
     case WebcamStep::without_tip:
-      without_tip_ = picture;
+      without_tip_ = image;
       return turnTo(WebcamStep::tips);
     case WebcamStep::tips:
-      return seeTip(picture, joints_rad);
+      return checkTip(image, joints_rad);
     case WebcamStep::done:
       return;
   }
 }
 
-void WebcamProcedure::seeLetter(const GreyPicture& picture) {
-  const auto reading = calibration::readF(picture);
+void WebcamProcedure::checkLetter(const GreyImage& image) {
+  const auto reading = calibration::orientationOfF(image);
   if (!reading || !reading->right()) {
     answer_ = reading ? calibration::remedyFor(*reading)
                       : "No F can be read: show all of the screen to the webcam, sharp, level within 40°.";
@@ -176,21 +176,21 @@ void WebcamProcedure::seeLetter(const GreyPicture& picture) {
   turnTo(WebcamStep::pattern);
 }
 
-void WebcamProcedure::seeLens(const GreyPicture& picture) {
-  const BoardSighting sighting = calibration::findBoard(picture, board_);
+void WebcamProcedure::checkLens(const GreyImage& image) {
+  const BoardDetection sighting = calibration::findBoard(image, board_);
   if (sighting.trouble) {
     answer_ = sighting.line;
-  } else if (!isNew(sighting, views_, picture.size_px.x)) {
+  } else if (!isNew(sighting, views_, image.size_px.x)) {
     answer_ = "This view is like one before: move or tilt the webcam.";
   } else {
     views_.push_back({"view " + std::to_string(views_.size() + 1), sighting.corners_px});
   }
   if (views_.size() < static_cast<std::size_t>(plan_.lens_views)) return turnTo(WebcamStep::lens);
 
-  std::vector<glm::dvec2> places_mm;
-  for (const glm::dvec2& px : board_.cornerPlaces_px()) places_mm.emplace_back(calibration::placeOn(screen_, px).mm);
+  std::vector<glm::dvec2> positions_mm;
+  for (const glm::dvec2& px : board_.cornerPositions_px()) positions_mm.emplace_back(calibration::positionOn(screen_, px).mm);
   try {
-    lens_ = calibration::fitIntrinsics(picture.size_px, places_mm, views_);
+    lens_ = calibration::fitIntrinsics(image.size_px, positions_mm, views_);
   } catch (const calibration::CalibrationError& error) {
     answer_ = error.what();
     views_.clear();
@@ -202,34 +202,34 @@ void WebcamProcedure::seeLens(const GreyPicture& picture) {
   turnTo(WebcamStep::pattern);
 }
 
-void WebcamProcedure::seePattern(const GreyPicture& picture) {
-  seen_patterns_.push_back(picture);
+void WebcamProcedure::checkPattern(const GreyImage& image) {
+  seen_patterns_.push_back(image);
   // The whole code is one press.
   if (seen_patterns_.size() < patterns_.size()) return show(patterns_[seen_patterns_.size()]);
 
   std::vector<glm::dvec2> screen_px, camera_px;
   if (plan_.gray_code) {
-    const CodeSighting sighting = calibration::decoded(code_, seen_patterns_);
+    const CodeDetection sighting = calibration::decoded(code_, seen_patterns_);
     answer_ = sighting.line;
-    for (const calibration::ScreenSight& sight : sighting.sights) {
+    for (const calibration::ScreenCorrespondence& sight : sighting.sights) {
       screen_px.push_back(sight.screen_px);
       camera_px.push_back(sight.camera_px);
     }
   } else {
-    const BoardSighting sighting = calibration::findBoard(picture, board_);
+    const BoardDetection sighting = calibration::findBoard(image, board_);
     answer_ = sighting.line;
     camera_px = sighting.corners_px;
-    if (!camera_px.empty()) screen_px = board_.cornerPlaces_px();
+    if (!camera_px.empty()) screen_px = board_.cornerPositions_px();
   }
   if (camera_px.empty()) return turnTo(WebcamStep::pattern);
   calibration::CameraPosition& position = observations_.sights.positions.back();
   for (std::size_t i = 0; i < screen_px.size(); ++i)
-    position.screen.push_back({{{glm::dvec2(calibration::placeOn(screen_, screen_px[i]).mm), 0.0}}, camera_px[i]});
+    position.screen.push_back({{{glm::dvec2(calibration::positionOn(screen_, screen_px[i]).mm), 0.0}}, camera_px[i]});
   turnTo(WebcamStep::without_tip);
 }
 
-void WebcamProcedure::seeTip(const GreyPicture& picture, const calibration::RawJoints& joints_rad) {
-  const calibration::TipSpot spot = calibration::findTipSpot(without_tip_, picture);
+void WebcamProcedure::checkTip(const GreyImage& image, const calibration::RawJoints& joints_rad) {
+  const calibration::TipSpot spot = calibration::findTipSpot(without_tip_, image);
   calibration::CameraPosition& position = observations_.sights.positions.back();
   if (spot.trouble) {
     answer_ = spot.line;

@@ -1,8 +1,8 @@
 // The calibration through a webcam, step by step, as whoever has the screen, the camera and the stylus drives it: the
 // screen's F must read right, the camera's lens is measured on the shown board, then from three places the board or a
 // Gray code and, with the screen dark, the lit tip at 27 places each. It says what the screen must show, what the
-// technician is asked, and whether it waits for a press or for a picture; what was gathered comes out as observations.
-// No window, no camera, no clock. Frames W and C, mm, px, rad. One thread; a picture takes 10 ms to 2 s to read.
+// technician is asked, and whether it waits for a press or for a image; what was gathered comes out as observations.
+// No window, no camera, no clock. Frames W and C, mm, px, rad. One thread; a image takes 10 ms to 2 s to read.
 // Procedure: reference/calibration 2.3.
 #pragma once
 
@@ -29,7 +29,7 @@ struct WebcamPlan {
 };
 
 enum class WebcamStep { letter, lens, pattern, without_tip, tips, done };
-enum class WebcamWants { press, picture, nothing };
+enum class WebcamInput { press, image, nothing };
 
 class WebcamProcedure {
  public:
@@ -38,11 +38,11 @@ class WebcamProcedure {
   explicit WebcamProcedure(const WebcamPlan& plan);
 
   WebcamStep step() const { return step_; }
-  WebcamWants wants() const;
+  WebcamInput expects() const;
   const std::string& sentence() const { return sentence_; }  ///< the one thing to do
-  const std::string& answer() const { return answer_; }      ///< to the last picture: why it was not taken; or empty
+  const std::string& answer() const { return answer_; }      ///< to the last image: why it was not taken; or empty
   /// For the framebuffer as it is; right way round by the rig's corners.
-  const calibration::GreyPicture& shown() const { return shown_; }
+  const calibration::GreyImage& shown() const { return shown_; }
   /// Where the tip is wanted now.
   std::optional<calibration::Target> target() const;
   int position() const { return static_cast<int>(observations_.sights.positions.size()); }  ///< from 1
@@ -51,38 +51,38 @@ class WebcamProcedure {
   /// The technician is ready: the camera stands, the tip is in its place.
   void press();
   /// Taken while shown() had been on the screen for two frames; `joints_rad` as the sensors read meanwhile.
-  void see(const calibration::GreyPicture& picture, const calibration::RawJoints& joints_rad);
+  void see(const calibration::GreyImage& image, const calibration::RawJoints& joints_rad);
   /// The last tip is taken again; nothing where there is none at this position.
   void undo();
 
   /// Of the lens, once measured here.
   const std::optional<calibration::Intrinsics>& lens() const { return lens_; }
-  /// All that was gathered; complete once wants() nothing.
-  const calibration::WebcamObservations& observations() const { return observations_; }
+  /// All that was gathered; complete once expects() nothing.
+  const calibration::WebcamObservationFile& observations() const { return observations_; }
 
  private:
   void turnTo(WebcamStep step);
-  void show(const calibration::GreyPicture& as_seen);
-  void seeLetter(const calibration::GreyPicture& picture);
-  void seeLens(const calibration::GreyPicture& picture);
-  void seePattern(const calibration::GreyPicture& picture);
-  void seeTip(const calibration::GreyPicture& picture, const calibration::RawJoints& joints_rad);
+  void show(const calibration::GreyImage& as_seen);
+  void checkLetter(const calibration::GreyImage& image);
+  void checkLens(const calibration::GreyImage& image);
+  void checkPattern(const calibration::GreyImage& image);
+  void checkTip(const calibration::GreyImage& image, const calibration::RawJoints& joints_rad);
 
   WebcamPlan plan_;
   calibration::ScreenCorners screen_;
   calibration::ShownBoard board_;
   calibration::GrayCode code_;
-  std::vector<calibration::GreyPicture> patterns_, seen_patterns_;
-  calibration::GreyPicture dark_, without_tip_;
+  std::vector<calibration::GreyImage> patterns_, seen_patterns_;
+  calibration::GreyImage dark_, without_tip_;
   std::vector<calibration::BoardView> views_;
   std::optional<calibration::Intrinsics> lens_;
-  calibration::WebcamObservations observations_;
+  calibration::WebcamObservationFile observations_;
 
   WebcamStep step_ = WebcamStep::letter;
   bool pressed_ = false;
-  std::optional<glm::ivec2> picture_px_;  ///< of the first picture: all have it
+  std::optional<glm::ivec2> picture_px_;  ///< of the first image: all have it
   std::string sentence_, answer_;
-  calibration::GreyPicture shown_;
+  calibration::GreyImage shown_;
 };
 
 }  // namespace app

@@ -1,6 +1,6 @@
 // A technician with a webcam at a workstation whose truth is known: does what the webcam procedure asks, and takes the
-// pictures that its camera would take, through lens, mirror and glass. For practice, demonstration and tests. Frames W
-// and C, mm, px, rad. Deterministic for a seed. One thread; a picture of 1080p takes 20 to 300 ms.
+// images that its camera would take, through lens, mirror and glass. For practice, demonstration and tests. Frames W
+// and C, mm, px, rad. Deterministic for a seed. One thread; a image of 1080p takes 20 to 300 ms.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 #include "app/calibrate/webcam_procedure.h"
 #include "calibration/synthetic/synthetic_rig.h"
-#include "calibration/synthetic/webcam_picture.h"
+#include "calibration/synthetic/webcam_image.h"
 
 namespace app {
 
@@ -22,34 +22,34 @@ class WebcamTechnician {
 
   const calibration::CameraModel& lens() const { return webcam_.model; }
   /// Where the webcam was put at a position, from 0.
-  const calibration::Pose<calibration::World, calibration::Camera>& stood(std::size_t position) const {
-    return stood_[position];
+  const calibration::Pose<calibration::World, calibration::Camera>& webcamPose(std::size_t position) const {
+    return webcam_poses_[position];
   }
 
-  /// Does what is asked now: gets ready and presses, or takes the picture.
+  /// Does what is asked now: gets ready and presses, or takes the image.
   void act(WebcamProcedure& procedure);
 
   /// For a person who holds the stylus: the webcam where the procedure wants it now.
-  void putUpFor(const WebcamProcedure& procedure);
+  void placeWebcamFor(const WebcamProcedure& procedure);
   /// What the webcam sees of what the procedure shows, with the tip lit, if any.
-  calibration::GreyPicture picture(const WebcamProcedure& procedure,
+  calibration::GreyImage image(const WebcamProcedure& procedure,
                                    const std::optional<calibration::Point<calibration::World>>& tip_W);
   /// From where the webcam stands now; no framebuffer: the screen is dark.
-  calibration::GreyPicture taken(const calibration::GreyPicture* shown, const std::optional<calibration::LitTip>& tip);
+  calibration::GreyImage taken(const calibration::GreyImage* shown, const std::optional<calibration::LitTip>& tip);
 
  private:
   void getReady(const WebcamProcedure& procedure);
   void holdForLens();
-  void putUp(double aside_deg);
-  void look();
+  void placeWebcam(double aside_deg);
+  void updateView();
 
   calibration::SyntheticRig rig_;
-  std::mt19937 chance_;
+  std::mt19937 rng_;
   calibration::Webcam webcam_;
   double plate_mm_;
-  std::optional<calibration::WebcamView> view_;
+  std::optional<calibration::WebcamRenderer> view_;
   std::optional<calibration::Touch> touch_;
-  std::vector<calibration::Pose<calibration::World, calibration::Camera>> stood_;
+  std::vector<calibration::Pose<calibration::World, calibration::Camera>> webcam_poses_;
   int views_ = 0;
   std::uint64_t pictures_ = 0;
 };

@@ -46,44 +46,44 @@ Wizard::Wizard(WizardPlan plan) {
   if (plan.procedure == CalibrationProcedure::full && !calibration::targetPlan(plan.method, plan.jig))
     throw calibration::CalibrationError("calibration: no method \"" + plan.method +
                                         "\": use one of jig27, jig8, visual15, visual25");
-  book_.plan = std::move(plan);
-  book_.arm = armOf(book_.plan);
-  book_.arm_is_measured = book_.plan.procedure != CalibrationProcedure::full && book_.plan.record.rig.arm.has_value();
-  for (const StepName name : pagesOf(book_.plan.procedure))
-    steps_.emplace_back(name, kSteps[static_cast<std::size_t>(name)](book_));
+  context_.plan = std::move(plan);
+  context_.arm = armOf(context_.plan);
+  context_.arm_is_measured = context_.plan.procedure != CalibrationProcedure::full && context_.plan.record.rig.arm.has_value();
+  for (const StepName name : pagesOf(context_.plan.procedure))
+    steps_.emplace_back(name, kSteps[static_cast<std::size_t>(name)](context_));
   turnTo(0);
 }
 
-void Wizard::feel(const StylusSample& sample) {
+void Wizard::update(const StylusSample& sample) {
   if (isOver()) return;
   // A device that was silent is told of once it is there again.
-  if (sample.believable) {
+  if (sample.valid) {
     if (lost_) step().lost();
     lost_ = false;
-    believed_s_ = sample.t_s;
+    valid_s_ = sample.t_s;
   } else if (step().needsDevice()) {
-    if (!believed_s_) believed_s_ = sample.t_s;
-    if (!lost_ && sample.t_s - *believed_s_ > kLost_s) {
+    if (!valid_s_) valid_s_ = sample.t_s;
+    if (!lost_ && sample.t_s - *valid_s_ > kLost_s) {
       lost_ = true;
-      ++book_.outcome.silences;
+      ++context_.outcome.silences;
       button_.forget();
-      book_.voice.refuse("The device has fallen silent.");
+      context_.announcements.refuse("The device has fallen silent.");
     }
     return;
   }
-  const Press press = button_.feel(sample.t_s, sample.button);
-  obey(step().feel(sample, press, button_.downAt_s()));
+  const Press press = button_.update(sample.t_s, sample.button);
+  apply(step().update(sample, press, button_.downAt_s()));
 }
 
 void Wizard::turnTo(std::size_t page) {
   // What was said on this page is still to be read on the next one, what was said before it is not.
-  if (book_.voice.message.text == said_before_) book_.voice.message = {};
-  said_before_ = book_.voice.message.text;
+  if (context_.announcements.message.text == said_before_) context_.announcements.message = {};
+  said_before_ = context_.announcements.message.text;
   at_ = page;
   step().begin();
 }
 
-void Wizard::obey(const StepAnswer& answer) {
+void Wizard::apply(const StepResult& answer) {
   if (answer.next_page) return turnTo(at_ + 1);
   if (answer.page) {
     const auto page = std::ranges::find(steps_, *answer.page, &Page::first);
@@ -91,24 +91,24 @@ void Wizard::obey(const StepAnswer& answer) {
     return;
   }
   if (answer.end == WizardOutcome::End::running) return;
-  book_.outcome.end = answer.end;
-  book_.outcome.reason = answer.reason;
-  book_.voice.message = {};
-  book_.voice.sounds.push_back(answer.end == WizardOutcome::End::accepted ? WizardSound::done : WizardSound::reject);
+  context_.outcome.end = answer.end;
+  context_.outcome.reason = answer.reason;
+  context_.announcements.message = {};
+  context_.announcements.sounds.push_back(answer.end == WizardOutcome::End::accepted ? WizardSound::done : WizardSound::reject);
 }
 
-WizardView Wizard::look() {
+WizardView Wizard::takeView() {
   WizardView view;
-  const calibration::Rig rig = rigSoFar(book_.plan.record.rig, book_.outcome);
+  const calibration::Rig rig = rigSoFar(context_.plan.record.rig, context_.outcome);
   view.screen = rig.screen;
   view.left_eye = rig.left_eye;
   view.right_eye = rig.right_eye;
-  view.message = book_.voice.message;
-  view.sounds = std::exchange(book_.voice.sounds, {});
+  view.message = context_.announcements.message;
+  view.sounds = std::exchange(context_.announcements.sounds, {});
 
   if (isOver()) {
-    view.title = book_.outcome.end == WizardOutcome::End::accepted ? "Taken" : "Nothing is changed";
-    view.sentence = book_.outcome.reason;
+    view.title = context_.outcome.end == WizardOutcome::End::accepted ? "Taken" : "Nothing is changed";
+    view.sentence = context_.outcome.reason;
     return view;
   }
   step().show(view);

@@ -1,7 +1,7 @@
-// The technician's work, led page by page: identity, homing, flips, pixel size, eyes, touches, fit, proof, sign-off;
+// The technician's work, led page by page: identity, homing, flips, pixel size, eyes, touches, fit, verification, sign-off;
 // and the short ones. Told of the stylus tick by tick, it says what is to be seen and heard; it knows no window, clock,
 // file or device, and never pushes: the device is looked at with its forces off. The same ticks give the same outcome.
-// Frame W, mm, s. One thread; a tick is a few microseconds, the one that fits up to a second; look() a few more.
+// Frame W, mm, s. One thread; a tick is a few microseconds, the one that fits up to a second; takeView() a few more.
 #pragma once
 
 #include <memory>
@@ -18,27 +18,27 @@ class Wizard {
   explicit Wizard(WizardPlan plan);
 
   /// In the order of time. Every tick of 500 to 10,000 Hz; also while nothing can be believed.
-  void feel(const StylusSample& sample);
-  /// With the sounds since the last look.
-  WizardView look();
+  void update(const StylusSample& sample);
+  /// With the sounds since the last takeView.
+  WizardView takeView();
 
-  bool isOver() const { return book_.outcome.end != WizardOutcome::End::running; }
-  const WizardOutcome& outcome() const { return book_.outcome; }
-  const WizardPlan& plan() const { return book_.plan; }
+  bool isOver() const { return context_.outcome.end != WizardOutcome::End::running; }
+  const WizardOutcome& outcome() const { return context_.outcome; }
+  const WizardPlan& plan() const { return context_.plan; }
 
  private:
   WizardStep& step() const { return *steps_[at_].second; }
   void turnTo(std::size_t page);
-  void obey(const StepAnswer& answer);
+  void apply(const StepResult& answer);
 
-  WizardBook book_;
+  WizardContext context_;
   using Page = std::pair<StepName, std::unique_ptr<WizardStep>>;
   std::vector<Page> steps_;
   std::size_t at_ = 0;
   std::string said_before_;  ///< the message with which this page began
   ButtonPress button_;
   bool lost_ = false;
-  std::optional<double> believed_s_;  ///< when the device could last be believed
+  std::optional<double> valid_s_;  ///< when the device could last be believed
 };
 
 }  // namespace app

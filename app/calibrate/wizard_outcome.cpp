@@ -36,7 +36,7 @@ calibration::RigRecord recordOf(const WizardPlan& plan, const WizardOutcome& out
     putFit(record, outcome.touches, *fit, outcome.duration_s);
   else if (const auto& rezero = outcome.rezero)
     putRezero(record, outcome.zeroing, *rezero, outcome.duration_s);
-  if (outcome.errors && outcome.judgement) putProof(record, outcome.proof_residuals, outcome.proof_kind);
+  if (outcome.errors && outcome.assessment) putProof(record, outcome.proof_residuals, outcome.verification_kind);
   if (outcome.rest) record.rest = outcome.rest;
   return record;
 }

@@ -24,22 +24,22 @@ struct WizardOutcome {
   End end = End::running;
   std::string reason;  ///< one sentence, what to do with it
 
-  std::optional<calibration::Reading> flip;       ///< how the drawn F read
+  std::optional<calibration::ImageOrientation> flip;       ///< how the drawn F read
   std::optional<calibration::MeasuredBars> bars;  ///< by a ruler
   std::optional<double> ipd_mm, eye_distance_mm;
   std::optional<calibration::ScreenCorners> screen;  ///< corrected by the bars; none: as it was
 
   calibration::TouchSet touches;  ///< of the calibration; empty: none was made
-  calibration::TouchSet proof;    ///< held out, or of the last check
+  calibration::TouchSet verification;    ///< held out, or of the last check
   calibration::TouchSet zeroing;  ///< of the re-zero
   calibration::TouchSet eye_check;
   std::optional<calibration::ArmFit> fit;
   std::optional<calibration::Rezero> rezero;
   std::optional<calibration::MeasuredArm> arm;  ///< the result; none: as before
-  calibration::ProofKind proof_kind = calibration::ProofKind::full;
+  calibration::VerificationKind verification_kind = calibration::VerificationKind::full;
   std::vector<calibration::Residual> proof_residuals;
   std::optional<calibration::TargetErrors> errors;
-  std::optional<calibration::Judgement> judgement;
+  std::optional<calibration::Assessment> assessment;
   std::optional<calibration::RestRegistration> rest;
   double duration_s = 0.0;  ///< of the touches of calibration or re-zero
   int silences = 0;         ///< of the device, in between

@@ -3,7 +3,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "app/calibrate/page_words.h"
+#include "app/calibrate/page_text.h"
 #include "app/report/stereo_picture.h"
 #include "calibration/geometry/units.h"
 
@@ -11,7 +11,7 @@ namespace app {
 namespace {
 
 using render::Eye;
-using render::Picture;
+using render::Image;
 
 constexpr double kPulse_s = 1.2;
 
@@ -42,13 +42,13 @@ void WizardPages::prepare(const WizardView& view, glm::ivec2 px) {
     eye_ = std::make_unique<ScreenPage>(rig, px);
     drawn_words_.clear();
   }
-  std::string words = wordsOf(view);
+  std::string words = textOf(view);
   if (words == drawn_words_) return;
-  drawWords(*words_, view);
+  drawText(*words_, view);
   drawn_words_ = std::move(words);
 }
 
-Picture WizardPages::page(const WizardView& view, const std::optional<SeenStylus>& stylus, Eye eye, glm::ivec2 px,
+Image WizardPages::page(const WizardView& view, const std::optional<TrueStylus>& stylus, Eye eye, glm::ivec2 px,
                           double t_s) {
   prepare(view, px);
   eye_->copy(*words_);
@@ -57,22 +57,22 @@ Picture WizardPages::page(const WizardView& view, const std::optional<SeenStylus
   return eye_->picture();
 }
 
-Picture WizardPages::output(const WizardView& view, const std::optional<SeenStylus>& stylus,
+Image WizardPages::output(const WizardView& view, const std::optional<TrueStylus>& stylus,
                             const render::StereoLayout& layout, double t_s) {
-  const glm::ivec2 px = render::eyePictureSize(layout.mode, layout.screen_px);
+  const glm::ivec2 px = render::eyeImageSize(layout.mode, layout.screen_px);
   if (layout.mode == render::DisplayMode::mono) return page(view, stylus, Eye::cyclopean, px, t_s);
   if (render::outputCount(layout.mode) > 1)
     return page(view, stylus, (layout.output == 1) != layout.swapped ? Eye::right : Eye::left, px, t_s);
-  const Picture left = page(view, stylus, Eye::left, px, t_s);
+  const Image left = page(view, stylus, Eye::left, px, t_s);
   return stereoPicture(left, page(view, stylus, Eye::right, px, t_s), layout);
 }
 
-Picture patternForCamera(const calibration::GreyPicture& pattern, const render::StereoLayout& layout) {
+Image patternForCamera(const calibration::GreyImage& pattern, const render::StereoLayout& layout) {
   assert(pattern.size_px == layout.screen_px);
-  const glm::ivec2 px = render::eyePictureSize(layout.mode, layout.screen_px);
+  const glm::ivec2 px = render::eyeImageSize(layout.mode, layout.screen_px);
   // Of a halved display each eye has every second row or column.
   const glm::ivec2 step{layout.screen_px.x / px.x, layout.screen_px.y / px.y};
-  Picture eye{px.x, px.y, {}};
+  Image eye{px.x, px.y, {}};
   eye.rgba.reserve(4 * static_cast<std::size_t>(px.x) * static_cast<std::size_t>(px.y));
   for (int y = 0; y < px.y; ++y)
     for (int x = 0; x < px.x; ++x) {

@@ -13,7 +13,7 @@
 #include "app/report/screen_page.h"
 #include "calibration/webcam/camera.h"
 #include "render/display/stereo_layout.h"
-#include "render/picture.h"
+#include "render/image.h"
 
 namespace app {
 
@@ -26,10 +26,10 @@ class WizardPages {
   explicit WizardPages(std::optional<calibration::Plane<calibration::World>> mirror) : mirror_(mirror) {}
 
   /// What an output of the layout shows. `t_s`: time, for what glows.
-  render::Picture output(const WizardView& view, const std::optional<SeenStylus>& stylus,
+  render::Image output(const WizardView& view, const std::optional<TrueStylus>& stylus,
                          const render::StereoLayout& layout, double t_s);
   /// What an eye is shown, `px` pixels over the whole screen.
-  render::Picture page(const WizardView& view, const std::optional<SeenStylus>& stylus, render::Eye eye, glm::ivec2 px,
+  render::Image page(const WizardView& view, const std::optional<TrueStylus>& stylus, render::Eye eye, glm::ivec2 px,
                        double t_s);
 
   /// The rig that a view is drawn through.
@@ -48,6 +48,6 @@ class WizardPages {
 
 /// A camera's pattern over the whole screen, the same for both eyes, pixel by pixel, nothing smoothed. It must be as
 /// large as the layout's screen.
-render::Picture patternForCamera(const calibration::GreyPicture& pattern, const render::StereoLayout& layout);
+render::Image patternForCamera(const calibration::GreyImage& pattern, const render::StereoLayout& layout);
 
 }  // namespace app

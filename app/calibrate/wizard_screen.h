@@ -9,7 +9,7 @@
 #include "app/view/display_windows.h"
 #include "render/display/stereo_layout.h"
 #include "render/gpu/window_upload.h"
-#include "render/picture.h"
+#include "render/image.h"
 
 namespace app {
 
@@ -23,14 +23,14 @@ struct WizardDisplay {
 class WizardScreen {
  public:
   /// `screen_px`: the rig's. `tell`: what could not be had and what is shown instead.
-  WizardScreen(const WizardDisplay& display, glm::ivec2 screen_px, const DisplayWindows::Tell& tell);
+  WizardScreen(const WizardDisplay& display, glm::ivec2 screen_px, const DisplayWindows::ReportLine& tell);
 
   std::vector<render::WindowEvent> takeEvents() { return windows_.takeEvents(); }
   glm::ivec2 window_px() { return windows_.first().framebufferSize_px(); }
 
   /// Hands over what `draw` makes of each output; waits for the display. `as_the_panel`: drawn in the panel's pixels,
   /// whatever the window has: patterns for a camera.
-  void show(const std::function<render::Picture(const render::StereoLayout&)>& draw, bool as_the_panel = false);
+  void show(const std::function<render::Image(const render::StereoLayout&)>& draw, bool as_the_panel = false);
 
  private:
   WizardDisplay display_;

@@ -17,7 +17,7 @@ namespace app {
 enum class TargetState { pending, next, done, doubtful };
 
 struct ShownTarget {
-  calibration::Point<calibration::World> place_W;
+  calibration::Point<calibration::World> position_W;
   calibration::Vector<calibration::World> stylus_W;  ///< unit, from the tip to the handle
   TargetState state = TargetState::pending;
   std::string name;  ///< "5", as the message says it
@@ -57,7 +57,7 @@ struct ShownVerdict {
 };
 
 /// A line of the second page.
-struct ShownNumber {
+struct ShownValue {
   std::string what, value;  ///< "error, 95 of 100", "0.41 mm"
 };
 
@@ -89,7 +89,7 @@ struct WizardView {
   std::optional<double> time_left_s;
 
   std::optional<ShownVerdict> verdict;
-  std::vector<ShownNumber> numbers;  ///< the second page; empty unless it is asked for
+  std::vector<ShownValue> numbers;  ///< the second page; empty unless it is asked for
 
   std::vector<WizardSound> sounds;  ///< since the last look; to be played once
 

@@ -6,13 +6,13 @@
 
 #include <fmt/core.h>
 
-#include "app/text/said.h"
+#include "app/text/message.h"
 #include "assets/load_error.h"
 #include "assets/mesh/gltf_file.h"
 #include "assets/patient/patient_folder.h"
 #include "assets/scenery/face_frame.h"
 #include "assets/scenery/face_placement.h"
-#include "assets/scenery/gum_surface.h"
+#include "assets/scenery/gingiva_surface.h"
 #include "assets/synthetic/face.h"
 
 namespace app {
@@ -35,8 +35,8 @@ std::string cacheName(const assets::JawParameters& p) {
 
 assets::Patient generate(const assets::JawParameters& parameters) {
   assets::Patient patient = assets::syntheticJaw(parameters);
-  patient.gum = assets::gumSurface(patient.ct, patient.site);
-  patient.face = assets::syntheticFace({.tooth_fdi = patient.toothAtWork()});
+  patient.gingiva = assets::gingivaSurface(patient.ct, patient.site);
+  patient.face = assets::syntheticFace({.tooth_fdi = patient.operatedTooth()});
   return patient;
 }
 
@@ -49,29 +49,29 @@ assets::Patient builtInPatient(const assets::JawParameters& parameters) {
     try {
       return assets::loadPatient(folder.string());
     } catch (const assets::LoadError&) {
-      say("the cached built-in patient can not be read, making it again");
+      printMessage("the cached built-in patient can not be read, making it again");
     }
   } else {
-    say("making the built-in patient (once, up to a minute)");
+    printMessage("making the built-in patient (once, up to a minute)");
   }
   const assets::Patient made = generate(parameters);
   try {
     fs::create_directories(folder.parent_path(), ignored);
     assets::savePatient(made, folder.string(), true);
   } catch (const assets::LoadError& error) {
-    say(fmt::format("the built-in patient is not kept for next time: {}", error.what()));
+    printMessage(fmt::format("the built-in patient is not kept for next time: {}", error.what()));
     return made;
   }
   // What is rehearsed is what the cache holds, so the first run and the next are the same.
   return assets::loadPatient(folder.string());
 }
 
-assets::FacePose dressWithFace(assets::Patient& patient, const std::string& face_path) {
+assets::FacePose replaceFace(assets::Patient& patient, const std::string& face_path) {
   const assets::MeshModel face_F = assets::readGltf(face_path);
   const fs::path teeth = fs::path(face_path).parent_path() / "teeth.json";
   const assets::FacePlacement placed = assets::fitFace(patient.ct, patient.site, assets::readFaceTeeth(teeth.string()));
   patient.face = assets::modelInPatientFrame(face_F, placed.X_PF);
-  say(fmt::format("face placed on {} teeth, {:.1f} mm rms, 1:1", placed.teeth, placed.rms_mm));
+  printMessage(fmt::format("face placed on {} teeth, {:.1f} mm rms, 1:1", placed.teeth, placed.rms_mm));
   return placed.X_PF;
 }
 

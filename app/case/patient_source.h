@@ -15,6 +15,6 @@ namespace app {
 assets::Patient builtInPatient(const assets::JawParameters& parameters);
 
 /// Replaces the patient's face by a glTF model, placed by the `teeth.json` beside it, 1:1. Returns where it stands.
-assets::FacePose dressWithFace(assets::Patient& patient, const std::string& face_path);
+assets::FacePose replaceFace(assets::Patient& patient, const std::string& face_path);
 
 }  // namespace app

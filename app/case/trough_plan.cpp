@@ -123,7 +123,7 @@ assets::PlannedCut cutAlong(const std::vector<glm::dvec3>& surface, const glm::d
   assets::PlannedCut cut;
   cut.middle_P_mm = surface[surface.size() / 2];
   cut.outward_P = square;
-  cut.aside_P = glm::normalize(aside - glm::dot(aside, square) * square - glm::dot(aside, along) * along);
+  cut.lateral_P = glm::normalize(aside - glm::dot(aside, square) * square - glm::dot(aside, along) * along);
   cut.bur_radius_mm = bur_radius_mm;
   cut.length_mm = 2.0 * kHalfLength_mm;
   return cut;
@@ -138,7 +138,7 @@ glm::dvec3 archDirection_P(const CtVolume& ct, const assets::OperativeSite& site
   glm::dvec3 sum{0.0};
   glm::dmat2 spread(0.0);
   double count = 0.0;
-  const bool ends_row = assets::placeOf(site.fdi) == 8;
+  const bool ends_row = assets::positionOf(site.fdi) == 8;
   const double reach_mm = ends_row ? kNeighbourhood_mm : kNextTo_mm;
   const auto [first, last] = indexBox(ct.grid, site.centre_P_mm, reach_mm);
   for (int k = first.z; k <= last.z; ++k)
@@ -192,7 +192,7 @@ std::optional<assets::PlannedCut> planBuccalTrough(const assets::Patient& patien
 }
 
 std::optional<assets::PlannedCut> planOnNearestBone(const assets::Patient& patient, double bur_radius_mm) {
-  const int fdi = patient.toothAtWork();
+  const int fdi = patient.operatedTooth();
   const glm::dvec3 outward = assets::surgeonEyeDirection(fdi);
   const glm::dvec3 side = glm::normalize(glm::cross(outward, assets::occlusalDirection_P(fdi)));
   const glm::dvec3 across = glm::cross(side, outward);
@@ -206,7 +206,7 @@ std::optional<assets::PlannedCut> planOnNearestBone(const assets::Patient& patie
   std::vector<glm::dvec3> best;
   for (const glm::ivec2& place : places) {
     const glm::dvec3 seen =
-        patient.workplace_P_mm() + kSearchStep_mm * (double(place.x) * side + double(place.y) * across);
+        patient.focus_P_mm() + kSearchStep_mm * (double(place.x) * side + double(place.y) * across);
     const auto hit = firstSolid(patient.ct, seen + kSearch_mm * outward, -outward, 2.0 * kSearch_mm);
     if (!hit || !hit->bone) continue;
     std::vector<glm::dvec3> found =

@@ -18,7 +18,7 @@
 #include "assets/scan/image_file.h"
 #include "calibration/output_file.h"
 #include "haptics/bone/carve.h"
-#include "haptics/contact/cut_moment.h"
+#include "haptics/contact/cut_conditions.h"
 #include "haptics/contact/law.h"
 
 namespace app {
@@ -89,15 +89,15 @@ class Carving {
   }
 
   void step(const PoseOfTool& from, const PoseOfTool& middle, const PoseOfTool& to, double dt_s) {
-    const haptics::CutMoment moment = momentAt(middle, to.translation_mm - from.translation_mm, dt_s);
+    const haptics::CutConditions moment = momentAt(middle, to.translation_mm - from.translation_mm, dt_s);
     const haptics::ErosionStep share = haptics::erosionStep(cut_.erosion, moment, memory_);
     haptics::CarveResult removed;
-    if (!share.takesNothing()) removed = haptics::carveSweep(bone_, cut_.head, from, to, share, tick_);
-    memory_ = haptics::remembered(cut_.erosion, moment, memory_, removed.removed_mm3_by_label);
+    if (!share.isZero()) removed = haptics::carveSweep(bone_, cut_.head, from, to, share, tick_);
+    memory_ = haptics::updatedErosion(cut_.erosion, moment, memory_, removed.removed_mm3_by_label);
     removed_ += removed;
   }
 
-  haptics::CutMoment momentAt(const PoseOfTool& X_PT, const glm::dvec3& way_mm, double dt_s) const {
+  haptics::CutConditions momentAt(const PoseOfTool& X_PT, const glm::dvec3& way_mm, double dt_s) const {
     const haptics::SolidField field = bone_.field();
     haptics::ToolInBone at{field, cut_.head, X_PT, cut_.law.tissue, {}};
     at.motion.velocity_P_mm_per_s.xyz = way_mm / dt_s;
@@ -108,7 +108,7 @@ class Carving {
     if (cut_.erosion.kind != haptics::ErosionKind::time) contact = haptics::contactOf(cut_.law, at);
     const double pressing_N =
         std::isnan(cut_.normal_force_N) ? glm::dot(contact.force_P_N.xyz, contact.normal_P.xyz) : cut_.normal_force_N;
-    haptics::CutMoment moment = haptics::cutMoment(cut_.erosion, cut_.spindle, at, contact, pressing_N);
+    haptics::CutConditions moment = haptics::cutConditions(cut_.erosion, cut_.spindle, at, contact, pressing_N);
     if (cut_.erosion.kind == haptics::ErosionKind::time) return moment;
     moment.spindle_rad_per_s = speedUnder(cut_.spindle, haptics::spindleLoad_Nmm(cut_.erosion, moment, 0.0));
     moment.power_Nmm_per_s = haptics::availablePower_Nmm_per_s(cut_.spindle, moment.spindle_rad_per_s);
@@ -117,7 +117,7 @@ class Carving {
 
   haptics::CarvedBone& bone_;
   const Cut& cut_;
-  haptics::CutMemory memory_;
+  haptics::ErosionState memory_;
   haptics::CarveResult removed_;
   double drilled_s_ = 0.0;
   std::uint64_t tick_ = 0;

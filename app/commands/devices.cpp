@@ -11,12 +11,12 @@
 
 #include "app/commands/command.h"
 #include "app/device/check/device_check.h"
-#include "app/device/check/obedient_hand.h"
+#include "app/device/check/simulated_owner.h"
 #include "app/device/device_table.h"
 #include "app/device/falcon_scale_file.h"
 #include "app/text/command_line.h"
-#include "app/text/page_look.h"
-#include "app/text/said.h"
+#include "app/text/terminal_format.h"
+#include "app/text/message.h"
 #include "app/text/usage_error.h"
 #include "app/text/version.h"
 #include "calibration/output_file.h"
@@ -52,10 +52,10 @@ std::string firstRealDevice() {
 struct Unit {
   std::unique_ptr<Owner> owner;
   haptics::OpenedDevice opened;
-  haptics::DeviceInNumbers* in_numbers = nullptr;  ///< it needs no clock: it is stepped
+  haptics::SimulatedDevice* simulated = nullptr;  ///< it needs no clock: it is stepped
 
   haptics::ServedDevice served() const {
-    return in_numbers ? haptics::ServedDevice::byHand(*in_numbers) : haptics::ServedDevice(*opened.device);
+    return simulated ? haptics::ServedDevice::steppedManually(*simulated) : haptics::ServedDevice(*opened.device);
   }
 };
 
@@ -66,9 +66,9 @@ Unit unitAt(const std::string& address, const CheckOptions& options, haptics::Fa
     const haptics::PhantomMechanics* phantom = haptics::findSimulatedPhantom(address.substr(kSimulated.size()));
     if (phantom == nullptr)
       throw UsageError("devices check " + address + ": no such device, choose omni, touch, desktop or premium");
-    auto hand = std::make_unique<ObedientHand>(*phantom);
+    auto hand = std::make_unique<SimulatedOwner>(*phantom);
     auto simulated = std::make_unique<haptics::SimulatedPhantom>(*phantom, hand->script());
-    unit.in_numbers = simulated.get();
+    unit.simulated = simulated.get();
     unit.opened.device = std::move(simulated);
     unit.opened.address = address;
     unit.owner = std::move(hand);
@@ -76,8 +76,8 @@ Unit unitAt(const std::string& address, const CheckOptions& options, haptics::Fa
   }
   haptics::DeviceOptions device;
   device.falcon_program = options.falcon_firmware;
-  device.falcon_scale = [&] { return scale = keptFalconScale(options.falcon_scale); };
-  device.tell = say;
+  device.falcon_scale = [&] { return scale = savedFalconScale(options.falcon_scale); };
+  device.tell = printMessage;
   unit.opened = haptics::openDevice(address, device);
   unit.owner = std::make_unique<Owner>();
   return unit;
@@ -101,7 +101,7 @@ void keepFalconScale(const CheckOptions& options, const haptics::FalconForceScal
   std::error_code none;
   std::filesystem::create_directories(std::filesystem::path(options.falcon_scale).parent_path(), none);
   writeFalconScale(options.falcon_scale, scale, true);
-  say("the force scale is kept in " + options.falcon_scale);
+  printMessage("the force scale is kept in " + options.falcon_scale);
 }
 
 int check(const CheckOptions& options) {
@@ -132,7 +132,7 @@ int check(const CheckOptions& options) {
 
 int list(bool json) {
   const haptics::DeviceCatalogue catalogue = haptics::findDevices();
-  std::fputs((json ? asJson(catalogue) : asText(catalogue, lookOfOutput())).c_str(), stdout);
+  std::fputs((json ? asJson(catalogue) : asText(catalogue, terminalFormat())).c_str(), stdout);
   return 0;
 }
 
@@ -141,7 +141,7 @@ int list(bool json) {
 void addDevices(CommandLine& molar) {
   auto json = std::make_shared<bool>(false);
   auto o = std::make_shared<CheckOptions>();
-  o->falcon_scale = usualFalconScaleFile();
+  o->falcon_scale = defaultFalconScaleFile();
   CommandLine& devices = molar.command("devices", "What is plugged in and what drives it; proving a unit");
   devices.flag("--json", *json, "For programs");
   CommandLine& command = devices.command("check", "Prove a unit, ten minutes with a kitchen balance: a report");

@@ -16,7 +16,7 @@
 #include "app/station/rig_choice.h"
 #include "app/text/command_line.h"
 #include "app/text/list.h"
-#include "app/text/said.h"
+#include "app/text/message.h"
 #include "app/text/usage_error.h"
 #include "app/view/display_windows.h"
 #include "app/view/snapshot.h"
@@ -54,9 +54,9 @@ calibration::Rig rigOf(const DisplayOptions& options) {
   calibration::Rig rig;
   if (options.rig.isGiven()) {
     rig = options.rig.choose({}, calibration::nowUtc())->record.rig;
-    if (!options.size.empty()) rig.screen.px = pictureSize(options.size);
+    if (!options.size.empty()) rig.screen.px = imageSize(options.size);
   } else {
-    rig = calibration::desktopRig(options.size.empty() ? glm::ivec2(1920, 1080) : pictureSize(options.size));
+    rig = calibration::desktopRig(options.size.empty() ? glm::ivec2(1920, 1080) : imageSize(options.size));
   }
   options.display.refuseUnlessFits(rig);
   return rig;
@@ -73,7 +73,7 @@ class PatternShow {
                   .screen_px = rig.screen.px,
                   .full_screen = !options.windowed,
                   .monitor = options.monitor ? std::optional(*options.monitor - 1) : std::nullopt},
-                 say) {}
+                 printMessage) {}
 
   void run(std::optional<double> seconds) {
     const auto begun = std::chrono::steady_clock::now();
@@ -81,7 +81,7 @@ class PatternShow {
            !(seconds && std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count() > *seconds)) {
       for (const render::WindowEvent& event : windows_.takeEvents()) take(event);
       drawIfChanged();
-      windows_.fill([this](const render::WindowPlace& place, int output) {
+      windows_.fill([this](const render::WindowTarget& place, int output) {
         upload_[output].show(outputs_[static_cast<std::size_t>(output)], place);
       });
       windows_.first().present();
@@ -91,7 +91,7 @@ class PatternShow {
 
  private:
   void take(const render::WindowEvent& event) {
-    if (std::holds_alternative<render::CloseAsked>(event)) over_ = true;
+    if (std::holds_alternative<render::CloseRequested>(event)) over_ = true;
     const auto* key = std::get_if<render::KeyPressed>(&event);
     if (key == nullptr || !key->down || key->repeated) return;
     if (key->key == render::Key::escape) over_ = true;
@@ -109,7 +109,7 @@ class PatternShow {
     render::StereoLayout layout{
         .mode = windows_.mode(), .screen_px = rig_.screen.px, .at_px = {0, 0}, .swapped = swapped_};
     if (render::outputSize(layout.mode, window_px) == window_px) layout.screen_px = window_px;
-    if (render::isInterleaved(layout.mode)) layout.at_px = windows_.first().placeOnPanel_px();
+    if (render::isInterleaved(layout.mode)) layout.at_px = windows_.first().positionOnPanel_px();
     if (!outputs_.empty() && pattern_ == drawn_ && layout.screen_px == drawn_layout_.screen_px &&
         layout.at_px == drawn_layout_.at_px)
       return;
@@ -124,7 +124,7 @@ class PatternShow {
   bool swapped_;
   TestPattern pattern_, drawn_ = TestPattern::eyes;
   render::StereoLayout drawn_layout_;
-  std::vector<render::Picture> outputs_;
+  std::vector<render::Image> outputs_;
   DisplayWindows windows_;
   render::WindowUpload upload_[2];  // textures: before the windows go
   bool over_ = false;
@@ -134,7 +134,7 @@ int display(const DisplayOptions& options) {
   if (options.monitors) return listMonitors();
   if (!testPatternNamed(options.pattern))
     throw UsageError("--pattern " + options.pattern + ": not a pattern, choose one of " +
-                     listed(kTestPatterns, &TestPatternName::name));
+                     joined(kTestPatterns, &TestPatternName::name));
   const calibration::Rig rig = rigOf(options);
   if (options.out.empty()) {
     std::signal(SIGINT, [](int) { interrupted = 1; });
@@ -159,7 +159,7 @@ void addDisplay(CommandLine& molar) {
   CommandLine& command = molar.command("display", "Test patterns on the display, until Esc; monitors that are there");
   command
       .option("--pattern", o->pattern,
-              listed(kTestPatterns, &TestPatternName::name) + "; right and left arrow change it")
+              joined(kTestPatterns, &TestPatternName::name) + "; right and left arrow change it")
       .showsDefault();
   o->rig.addTo(command, false);
   o->display.addTo(command);

@@ -8,7 +8,7 @@
 #include "app/doctor/findings_text.h"
 #include "app/doctor/haptic_usb.h"
 #include "app/text/command_line.h"
-#include "app/text/page_look.h"
+#include "app/text/terminal_format.h"
 #include "haptics/device/thread_priority.h"
 
 namespace app {
@@ -26,9 +26,9 @@ int doctor(const DoctorOptions& options) {
     return 0;
   }
   const std::vector<Finding> findings = examine(Machine::here(options.sessions), options.priority);
-  const std::string page = options.json ? asJson(findings) : asText(findings, lookOfOutput());
+  const std::string page = options.json ? asJson(findings) : asText(findings, terminalFormat());
   std::fputs(page.c_str(), stdout);
-  return missingAmong(findings) > 0 ? 1 : 0;
+  return missingCount(findings) > 0 ? 1 : 0;
 }
 
 }  // namespace
@@ -40,11 +40,11 @@ void addDoctor(CommandLine& molar) {
   command.flag("--udev-rules", o->udev_rules, "Print the rules that let you use devices and pedals, nothing else")
       .excludes(json);
   command.option("--sessions", o->sessions, "Folder where recordings go")
-      .anExistingFolder()
+      .existingFolder()
       .valueNamed("FOLDER")
       .showsDefault();
   command.option("--priority", o->priority, "Real-time priority that rehearse is given")
-      .wholeFrom(haptics::kLeastServoPriority, haptics::kMostServoPriority)
+      .wholeFrom(haptics::kMinServoPriority, haptics::kMaxServoPriority)
       .showsDefault();
   command.does([o] { return doctor(*o); });
 }

@@ -11,7 +11,7 @@
 #include "app/options/volume_option.h"
 #include "app/session/replay.h"
 #include "app/text/command_line.h"
-#include "app/text/said.h"
+#include "app/text/message.h"
 #include "app/text/usage_error.h"
 #include "assets/mesh/bone_surface.h"
 #include "assets/mesh/gltf_file.h"
@@ -41,8 +41,8 @@ SolidVolume sourceOf(const ExportOptions& options) {
     assets::Patient patient = assets::loadPatient(options.patient);
     return {patient.ct.grid, std::move(patient.ct.solid), std::move(patient.ct.label)};
   }
-  BoneThen bone = boneThen(options.session, options.to_s);
-  for (const std::string& remark : bone.remarks) say(remark);
+  BoneAtTime bone = boneAtTime(options.session, options.to_s);
+  for (const std::string& remark : bone.remarks) printMessage(remark);
   return {bone.start.grid, std::move(bone.solid), std::move(bone.start.label)};
 }
 
@@ -52,7 +52,7 @@ assets::Material materialOf(HardTissue tissue) {
 }
 
 assets::MeshPart surfaceOf(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid, std::string name) {
-  return assets::BoneSurface(assets::SolidVoxels::inGridOrder(grid, solid)).welded(std::move(name));
+  return assets::BoneSurface(assets::SolidVoxels::inGridOrder(grid, solid)).mergedMesh(std::move(name));
 }
 
 /// One part for a body asked for. All: a part per body in glTF, and one skin round both in STL, which knows no parts.

@@ -85,7 +85,7 @@ std::vector<FeltRow> feelServed(const SolidVolume& volume, const haptics::Comman
                      glm::mix(poses[i - 1].X_PT.translation_mm, poses[i].X_PT.translation_mm, part)};
       tick = servo.step(hand, command, span_s / ticks);
     }
-    rows.push_back({tick.served_force_P_N, tick.served_torque_P_Nmm, tick.overlap_mm3, tick.depth_mm});
+    rows.push_back({tick.commanded_force_P_N, tick.commanded_torque_P_Nmm, tick.overlap_mm3, tick.depth_mm});
   }
   return rows;
 }
@@ -101,8 +101,8 @@ int feel(const FeelOptions& options) {
   const std::vector<TimedPose> poses = readPoses(options.poses);
   refuseControls(poses, options.poses);
   if (options.served) {
-    refuseUnlessObeyed(command);
-    refuseUnlessHeld(command, kUsualDeviceDamping_Ns_per_mm, 1.0 / kTick_s);
+    refuseBeyondServoLimits(command);
+    refuseUnlessStable(command, kUsualDeviceDamping_Ns_per_mm, 1.0 / kTick_s);
     refuseLongRun(poses, options.poses);
   }
   const SolidVolume volume = options.volume.load();

@@ -10,13 +10,13 @@
 #include "app/commands/command.h"
 #include "app/text/command_line.h"
 #include "app/text/list.h"
-#include "app/text/number_in.h"
-#include "app/text/said.h"
+#include "app/text/parse_number.h"
+#include "app/text/message.h"
 #include "app/text/usage_error.h"
 #include "assets/import/scan_import.h"
 #include "assets/import/tooth_site.h"
 #include "assets/patient/patient_folder.h"
-#include "assets/scenery/gum_surface.h"
+#include "assets/scenery/gingiva_surface.h"
 #include "assets/tooth.h"
 
 namespace app {
@@ -24,7 +24,7 @@ namespace {
 
 struct ImportOptions {
   std::string source, out, window;
-  assets::ScanChoices choices;
+  assets::ScanImportOptions choices;
   bool force = false;
 };
 
@@ -75,7 +75,7 @@ nlohmann::json jsonOf(const assets::Patient& patient) {
             {{"points", patient.mandibular_canal_P_mm.size()},
              {"length_mm", mandibularCanalLength_mm(patient)},
              {"radius_mm", patient.mandibular_canal_radius_mm}}},
-           {"gum_triangles", triangles(patient.gum)},
+           {"gum_triangles", triangles(patient.gingiva)},
            {"face_triangles", triangles(patient.face)}};
   json teeth = json::array();
   for (const auto& [fdi, volume_mm3] : assets::toothVolumes_mm3(patient.ct))
@@ -117,8 +117,8 @@ std::string wordsOn(const assets::Patient& patient) {
 
 /// LOW:HIGH in HU.
 assets::GreyWindow windowOf(const std::string& text) {
-  const std::vector<std::string_view> ends = partsOf(text, ':');
-  const auto low_hu = numberIn<double>(ends.front()), high_hu = numberIn<double>(ends.back());
+  const std::vector<std::string_view> ends = split(text, ':');
+  const auto low_hu = parseNumber<double>(ends.front()), high_hu = parseNumber<double>(ends.back());
   if (ends.size() != 2 || !low_hu || !high_hu || *low_hu < -2000.0 || *high_hu > 32000.0 || *low_hu >= *high_hu)
     throw UsageError("--window " + text + ": give LOW:HIGH in HU, from -2000 to 32000, LOW below HIGH");
   return {*low_hu, *high_hu};
@@ -129,9 +129,9 @@ int import(ImportOptions options) {
     throw UsageError("--tooth " + std::to_string(*fdi) + ": it is no FDI number of a tooth, give 11 to 48 or 51 to 85");
   if (!options.window.empty()) options.choices.window = windowOf(options.window);
   assets::ImportedScan imported = assets::importScan(options.source, options.choices);
-  for (const std::string& remark : imported.remarks) say(options.source + ": " + remark);
+  for (const std::string& remark : imported.remarks) printMessage(options.source + ": " + remark);
   assets::Patient& patient = imported.patient;
-  patient.gum = assets::gumSurface(patient.ct, patient.site);
+  patient.gingiva = assets::gingivaSurface(patient.ct, patient.site);
   assets::savePatient(patient, options.out, options.force);
   std::fputs(wordsOn(patient).c_str(), stderr);
   return 0;

@@ -16,7 +16,7 @@
 #include "app/report/law_curves.h"
 #include "app/text/command_line.h"
 #include "app/text/usage_error.h"
-#include "assets/toml_keys.h"
+#include "assets/toml_reader.h"
 #include "calibration/output_file.h"
 #include "haptics/contact/law_parameters.h"
 #include "haptics/safety/safety_limits.h"
@@ -46,7 +46,7 @@ std::vector<const haptics::LawName*> chosenLaws(const LawsOptions& options) {
 
 nlohmann::json jsonOf(const LawParameter& one) {
   return {{"key", one.key},         {"unit", one.unit},          {"lowest", one.lowest},
-          {"highest", one.highest}, {"default", one.standard()}, {"meaning", one.meaning},
+          {"highest", one.highest}, {"default", one.defaultValue()}, {"meaning", one.meaning},
           {"source", one.source}};
 }
 
@@ -59,7 +59,7 @@ void printJson(const std::vector<const haptics::LawName*>& laws) {
       if (one.law == law->kind) parameters.push_back(jsonOf(one));
     json shapes = json::array();
     for (const auto& [kind, name] : headKinds())
-      if (haptics::admits(law->kind, kind)) shapes.push_back(name);
+      if (haptics::supports(law->kind, kind)) shapes.push_back(name);
     list.push_back({{"law", law->key},
                     {"formula", law->formula},
                     {"good_for", law->good_for},
@@ -72,7 +72,7 @@ void printJson(const std::vector<const haptics::LawName*>& laws) {
 }
 
 std::string rowsOf(const LawParameter& one) {
-  return fmt::format("    {:26} {:>9.9g}  {:14} {:7} {}\n    {:26} {:9}  {:14} {:7}   {}\n", one.key, one.standard(),
+  return fmt::format("    {:26} {:>9.9g}  {:14} {:7} {}\n    {:26} {:9}  {:14} {:7}   {}\n", one.key, one.defaultValue(),
                      fmt::format("{:.9g} .. {:.9g}", one.lowest, one.highest), one.unit, one.meaning, "", "", "", "",
                      one.source);
 }
@@ -81,7 +81,7 @@ void printTable(const std::vector<const haptics::LawName*>& laws) {
   std::string page;
   for (const haptics::LawName* law : laws) {
     page += fmt::format("{}   {}\n  {}{}\n", law->key, law->formula, law->good_for,
-                        haptics::admits(law->kind, haptics::ShapeKind::cylinder) ? "" : "; round heads only");
+                        haptics::supports(law->kind, haptics::ShapeKind::cylinder) ? "" : "; round heads only");
     page += fmt::format("    {:26} {:>9}  {:14} {:7} {}\n", "parameter", "default", "range", "unit", "meaning, source");
     for (const LawParameter& one : haptics::lawParameters())
       if (one.law == law->kind) page += rowsOf(one);
@@ -96,7 +96,7 @@ void printTable(const std::vector<const haptics::LawName*>& laws) {
 std::string numberOf(double value) { return fmt::format("{:.9g}", std::round(1e4 * value) / 1e4); }
 
 void plot(const LawsOptions& options, const std::vector<const haptics::LawName*>& laws) {
-  PressedBur press;
+  BurIndentation press;
   press.head = headFrom(options.tool);
   press.deepest_mm = press.head.radius_mm;
   calibration::OutputFile file(options.plot, options.force);
@@ -112,7 +112,7 @@ void plot(const LawsOptions& options, const std::vector<const haptics::LawName*>
   Panel stiffness{"Stiffness", "depth h / mm", "stiffness K = dF/dh / (N/mm)", {}, {}, {}, {}};
   double strongest = 0.0, stiffest = 0.0, softest = 0.0;
   for (const haptics::LawName* law : laws) {
-    if (!haptics::admits(law->kind, press.head.kind)) continue;
+    if (!haptics::supports(law->kind, press.head.kind)) continue;
     haptics::LawSettings settings;
     settings.kind = law->kind;
     if (!options.settings.empty()) applySettings(options.settings, parametersOf(settings));

@@ -24,23 +24,23 @@ struct ManualOptions {
 
 std::string programName() { return "Molar " + std::string(programVersion()); }
 
-void writePages(const std::string& name, const CommandWords& command, const ManualOptions& options) {
+void writePages(const std::string& name, const CommandHelp& command, const ManualOptions& options) {
   const auto path = std::filesystem::path(options.into) / manualFile(name);
   calibration::OutputFile file(path.string(), options.force);
   file.commit(manualPage(name, command, programName()));
-  for (const CommandWords& each : command.commands) writePages(name + " " + each.name, each, options);
+  for (const CommandHelp& each : command.commands) writePages(name + " " + each.name, each, options);
 }
 
 int manual(const CommandLine& molar, const ManualOptions& options) {
-  CommandWords words = molar.words();
+  CommandHelp words = molar.words();
   std::string name = "molar";
   if (!options.into.empty()) {
     writePages(name, words, options);
     return 0;
   }
   for (const std::string& requested : options.command) {
-    CommandWords found;
-    for (const CommandWords& each : words.commands)
+    CommandHelp found;
+    for (const CommandHelp& each : words.commands)
       if (each.name == requested) found = each;
     if (found.name.empty())
       throw UsageError("manual: " + name + " has no command " + requested + ", see " + name + " --help");
@@ -57,7 +57,7 @@ void addManual(CommandLine& molar) {
   auto o = std::make_shared<ManualOptions>();
   CommandLine& command = molar.command("manual", "Manual page of a command: molar manual rehearse | man -l -");
   Option path = command.option("command", o->command, "The command; none: the program").valueNamed("COMMAND");
-  Option into = command.option("--into", o->into, "Write all pages into this folder instead").anExistingFolder();
+  Option into = command.option("--into", o->into, "Write all pages into this folder instead").existingFolder();
   into.valueNamed("FOLDER").excludes(path);
   command.flag("--force", o->force, "Overwrite existing pages").needs(into);
   command.does([o, &molar] { return manual(molar, *o); });

@@ -7,19 +7,19 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/case/room.h"
+#include "app/case/patient_placement.h"
 #include "app/commands/command.h"
 #include "app/options/settings_text.h"
 #include "app/psychophysics/probed_bone.h"
 #include "app/psychophysics/result_chart.h"
 #include "app/psychophysics/summary.h"
-#include "app/psychophysics/trial_desk.h"
+#include "app/psychophysics/trial_runner.h"
 #include "app/psychophysics/trial_table.h"
 #include "app/rehearsal/recording_check.h"
 #include "app/rehearsal/rehearsal.h"
 #include "app/text/command_line.h"
 #include "app/text/usage_error.h"
-#include "assets/toml_keys.h"
+#include "assets/toml_reader.h"
 #include "calibration/output_file.h"
 #include "calibration/record/rig_file.h"
 
@@ -29,7 +29,7 @@ namespace {
 struct PsychophysicsOptions {
   std::string protocol, out, observer = "simulated", rig, record;
   std::uint64_t seed = 1;
-  bool force = false, operators_window = false;
+  bool force = false, instructor_window = false;
 };
 
 /// results.csv and results.json.
@@ -48,7 +48,7 @@ calibration::Rig rigFor(const PsychophysicsOptions& options, const ProbeSite& si
   const glm::dvec3 side =
       glm::normalize(glm::cross(glm::abs(z.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0), z));
   const glm::dvec3 up = glm::cross(z, side);
-  rig.X_WP = standPatient(site.surface_P, {glm::normalize(z - 0.5 * up)}, {up});
+  rig.X_WP = placePatient(site.surface_P, {glm::normalize(z - 0.5 * up)}, {up});
   return rig;
 }
 
@@ -59,8 +59,8 @@ struct AtTheWindow {
 
 /// At the window, blind, until the last trial or Esc.
 AtTheWindow runAtTheWindow(const PsychophysicsOptions& options, const Protocol& protocol, const ProbedBone& bone,
-                           Experiment& experiment, const TrialDesk::OnTrial& on_trial) {
-  TrialDesk desk(experiment, bone.site, protocol.between_trials_s, on_trial);
+                           Experiment& experiment, const TrialRunner::OnTrial& on_trial) {
+  TrialRunner desk(experiment, bone.site, protocol.between_trials_s, on_trial);
   RehearsalPlan plan;
   plan.patient = bone.patient;
   // What is looked at is the bone that is probed.
@@ -73,7 +73,7 @@ AtTheWindow runAtTheWindow(const PsychophysicsOptions& options, const Protocol& 
   plan.overwrite = options.force;
   if (!options.record.empty()) plan.recording = Recording{options.record, options.force};
   plan.procedure = &desk;
-  plan.operators_window = options.operators_window;
+  plan.instructor_window = options.instructor_window;
   const int answer = rehearse(std::move(plan));
   return {desk.isOver(), answer};
 }
@@ -114,7 +114,7 @@ int run(const PsychophysicsOptions& options) {
   const Outcome outcome = outcomeOf(protocol, *experiment, std::move(trials), ended.complete, options.seed);
   summary.commit(summaryJson(protocol, outcome, options.seed, options.observer));
   if (!outcome.trials.empty()) drawChart(chartOf(protocol, outcome), picture);
-  std::fputs(summaryWords(protocol, outcome).c_str(), stderr);
+  std::fputs(outcomeText(protocol, outcome).c_str(), stderr);
   return ended.answer;
 }
 
@@ -133,7 +133,7 @@ void addPsychophysics(CommandLine& molar) {
   command.option("--seed", options->seed, "Of order, hand and observer").showsDefault();
   command.option("--rig", options->rig, "keyboard: rig file, 1:1").valueNamed("FILE");
   command.option("--record", options->record, "keyboard: session file to write").valueNamed("FILE");
-  command.flag("--operator", options->operators_window,
+  command.flag("--operator", options->instructor_window,
                "keyboard: a window for the operator, on the next monitor where there is one");
   command.flag("--force", options->force, "Replace outputs that exist");
   command.does([options] { return run(*options); });

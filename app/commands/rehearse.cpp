@@ -6,12 +6,12 @@
 #include <thread>
 
 #include "app/case/patient_source.h"
-#include "app/case/room.h"
+#include "app/case/patient_placement.h"
 #include "app/case/trough_plan.h"
 #include "app/commands/command.h"
 #include "app/controls/control.h"
 #include "app/device/falcon_scale_file.h"
-#include "app/device/hand_table.h"
+#include "app/device/pose_source_table.h"
 #include "app/options/command_settings.h"
 #include "app/options/display_option.h"
 #include "app/options/law_text.h"
@@ -25,7 +25,7 @@
 #include "app/station/case_reach.h"
 #include "app/station/rig_choice.h"
 #include "app/text/command_line.h"
-#include "app/text/said.h"
+#include "app/text/message.h"
 #include "app/text/usage_error.h"
 #include "assets/patient/patient_folder.h"
 #include "assets/synthetic/face.h"
@@ -62,16 +62,16 @@ calibration::Rig rigFor(const RehearseOptions& options, const std::optional<Chos
                         const assets::Patient& patient, const assets::FacePose& X_PF) {
   if (chosen) {
     calibration::Rig rig = chosen->record.rig;
-    if (!options.size.empty()) rig.screen.px = pictureSize(options.size);
-    if (leavesPatientOpen(rig)) rig.X_WP = standAtSite(patient, X_PF);
+    if (!options.size.empty()) rig.screen.px = imageSize(options.size);
+    if (hasNoPatientPose(rig)) rig.X_WP = placePatientAtSite(patient, X_PF);
     return rig;
   }
   const glm::ivec2 px = options.size.empty() ? (options.plan.headless ? glm::ivec2(640, 400) : glm::ivec2(1280, 800))
-                                             : pictureSize(options.size);
+                                             : imageSize(options.size);
   calibration::Rig rig = calibration::desktopRig(px, calibration::kDeskMonitorWidth_mm / options.loupes);
   // X_WD stays identity, so the tooth at work is at the origin of D too: the middle of every Phantom's workspace, its
   // axes as the surgeon's.
-  rig.X_WP = standAtSite(patient, X_PF);
+  rig.X_WP = placePatientAtSite(patient, X_PF);
   return rig;
 }
 
@@ -79,20 +79,20 @@ calibration::Rig rigFor(const RehearseOptions& options, const std::optional<Chos
 void chooseRig(RehearsalPlan& plan, const RehearseOptions& options, const assets::FacePose& X_PF) {
   if (haptics::isDeviceAddress(options.plan.device))
     plan.opened = haptics::openDevice(options.plan.device, plan.device_options);
-  const DeviceAtHand device =
-      deviceAtHand(options.plan.device, plan.opened ? &plan.opened->device->capabilities() : nullptr);
+  const DeviceIdentity device =
+      deviceIdentity(options.plan.device, plan.opened ? &plan.opened->device->capabilities() : nullptr);
   const std::optional<ChosenRig> chosen = options.rig.choose(device, calibration::nowUtc());
   plan.rig = rigFor(options, chosen, plan.patient, X_PF);
   plan.full_screen = chosen.has_value();
   if (!chosen) {
-    if (device.kind == DeviceAtHand::Kind::real)
+    if (device.kind == DeviceIdentity::Kind::real)
       plan.remarks.push_back("no calibration of " + device.model + " " + device.serial +
                              " is in force: hand and eye may be a centimetre apart, see molar calibrate");
     return;
   }
   plan.calibration = chosen->calibration;
   if (device.isCalibrated() && chosen->calibration.rig != "default")
-    plan.remarks.push_back(chosen->source + ": " + calibrationWords(chosen->calibration));
+    plan.remarks.push_back(chosen->source + ": " + calibrationText(chosen->calibration));
   plan.remarks.insert(plan.remarks.end(), chosen->remarks.begin(), chosen->remarks.end());
   const std::vector<std::string> fit = caseRemarks(plan.rig, plan.patient, chosen->record.eye_sd_mm,
                                                    device.isCalibrated() ? device.model : std::string());
@@ -105,14 +105,14 @@ void chooseRig(RehearsalPlan& plan, const RehearseOptions& options, const assets
 /// As fast as the machine can: nothing that has a time of its own.
 void refuseUnlessSteppable(const RehearseOptions& options) {
   if (!options.plan.headless) throw UsageError("--pace fast: a window has the clock's time, add --headless");
-  const HandKind* const hand = handKindOf(options.plan.device);
-  if (!hand || !hand->in_numbers)
+  const PoseSourceKind* const hand = poseSourceKindOf(options.plan.device);
+  if (!hand || !hand->simulated)
     throw UsageError("--pace fast: " + options.plan.device +
                      " is no hand in numbers, choose --device scripted, simulated, practice, replay or poses");
   if (!options.plan.second_hand.device.empty() && haptics::isDeviceAddress(options.plan.second_hand.device))
     throw UsageError("--pace fast: --second-hand " + options.plan.second_hand.device +
                      " is no hand in numbers, choose scripted or replay:SESSION");
-  if (options.plan.operators_window)
+  if (options.plan.instructor_window)
     throw UsageError("--pace fast: a window has the clock's time, leave --operator out");
   if (options.pedal != "auto" && options.pedal != "none")
     throw UsageError("--pace fast: a pedal has the clock's time, leave --pedal out");
@@ -122,11 +122,11 @@ void planCut(RehearsalPlan& plan) {
   const auto planned = plannedCut(plan.patient, plan.command.tool.head.radius_mm);
   if (!planned) return;
   plan.cut = planned->cut;
-  const HandKind* const hand = handKindOf(plan.device);
-  if (planned->kind == CutKind::buccal_trough || !hand || !hand->works_by_plan) return;
+  const PoseSourceKind* const hand = poseSourceKindOf(plan.device);
+  if (planned->kind == CutKind::buccal_trough || !hand || !hand->follows_plan) return;
   const std::string why = plan.patient.site ? "no trough fits beside the " + assets::toothName(plan.patient.site->fdi)
                                             : std::string("no tooth to work at is labelled here");
-  say(why + ", the hand works at the nearest bone");
+  printMessage(why + ", the hand works at the nearest bone");
 }
 
 /// A software renderer would take every core; one is the servo's.
@@ -140,7 +140,7 @@ int run(RehearseOptions& options) {
   RehearsalPlan& plan = options.plan;
   const auto tool_of = [&](const std::string& text) {
     const haptics::BurShape head = headFrom(text);
-    return haptics::Tool{head, options.shaft.empty() ? haptics::usualShaft(head) : shaftFrom(options.shaft)};
+    return haptics::Tool{head, options.shaft.empty() ? haptics::standardShaft(head) : shaftFrom(options.shaft)};
   };
   plan.command.tool = tool_of(options.tools.front());
   for (auto other = options.tools.begin() + 1; other != options.tools.end(); ++other)
@@ -148,29 +148,29 @@ int run(RehearseOptions& options) {
   plan.command.erosion.kind = *haptics::erosionOfKey(options.erosion);
   plan.command.law.kind = lawNamed(options.law);
   applyTo(plan.command, options.settings);
-  refuseUnlessObeyed(plan.command);
+  refuseBeyondServoLimits(plan.command);
   refuseUnlessAdmitted(plan.command);
   if (plan.headless && plan.device == "mouse")
     throw UsageError("--headless: there is no mouse without a window, add --device scripted");
-  refuseUnlessHand(plan.device);
+  refuseUnlessPoseSource(plan.device);
   options.rig.refuseUnlessReadable();
   if (options.pace == "fast") {
     refuseUnlessSteppable(options);
-    plan.ticking = Ticking::by_hand;
+    plan.ticking = Ticking::stepped;
   } else {
     plan.pedal = pedalFrom(options.pedal);
   }
   plan.second_hand.tool = options.second_tool == "mirror" ? SecondTool::mirror : SecondTool::retractor;
   refuseUnlessSecondHand(plan.second_hand, plan.device);
   plan.device_options.falcon_program = options.falcon_firmware;
-  plan.device_options.falcon_scale = [] { return keptFalconScale(usualFalconScaleFile()); };
-  plan.device_options.tell = say;
+  plan.device_options.falcon_scale = [] { return savedFalconScale(defaultFalconScaleFile()); };
+  plan.device_options.tell = printMessage;
   plan.display = options.display.mode();
   plan.eyes_swapped = options.display.swapped();
   plan.backend = options.picture.backend();
   options.picture.apply(plan.first_frame);
   if (options.monitor) plan.monitor = *options.monitor - 1;
-  plan.snapshot_px = pictureSize(options.snapshot_size);
+  plan.snapshot_px = imageSize(options.snapshot_size);
   if (!plan.snapshot.empty() && plan.snapshot == plan.first_snapshot)
     throw UsageError("--first-snapshot " + plan.snapshot + ": the same as --snapshot, give another name");
   if (!options.record.empty())
@@ -182,7 +182,7 @@ int run(RehearseOptions& options) {
   plan.patient = options.patient.empty() ? builtInPatient(jaw) : assets::loadPatient(options.patient);
   planCut(plan);
   assets::FacePose X_PF = assets::kFaceAxes_PF;
-  if (!options.face.empty()) X_PF = dressWithFace(plan.patient, options.face);
+  if (!options.face.empty()) X_PF = replaceFace(plan.patient, options.face);
   plan.face_window_mm = options.face_window_mm.value_or(options.face.empty() ? 0.0 : kForeignFaceWindow_mm);
   chooseRig(plan, options, X_PF);
   options.display.refuseUnlessFits(plan.rig);
@@ -197,7 +197,7 @@ void addRehearse(CommandLine& molar) {
   CommandLine& command = molar.command("rehearse", "Rehearse a third-molar extraction, seen and felt");
   Option patient = command.option("PATIENT", o->patient, "Patient folder (default: the built-in patient)");
   command.option("--pedal", o->pedal, kPedalHelp).showsDefault();
-  command.option("--device", o->plan.device, handHelp()).showsDefault();
+  command.option("--device", o->plan.device, poseSourceHelp()).showsDefault();
   command.option("--falcon-firmware", o->falcon_firmware, "Novint's firmware for a Falcon").valueNamed("FILE");
   Option second = command.option("--second-hand", o->plan.second_hand.device, kSecondHandHelp);
   command.option("--second-tool", o->second_tool, "What the other hand holds: mirror or retractor")
@@ -209,7 +209,7 @@ void addRehearse(CommandLine& molar) {
   o->picture.addTo(command);
   command.option("--monitor", o->monitor, "Monitor of the picture, from 1; two windows take the next one as well")
       .wholeFrom(1, 16);
-  command.flag("--operator", o->plan.operators_window,
+  command.flag("--operator", o->plan.instructor_window,
                "A window for the operator, on the next monitor where there is one");
   command.option("--quality", o->plan.quality_step, "Hold this quality, 0 best to 6 fastest [by measured frame times]")
       .wholeFrom(0, static_cast<int>(render::kQualitySteps.size()) - 1);
@@ -236,7 +236,7 @@ void addRehearse(CommandLine& molar) {
   command
       .option("--priority", o->plan.device_options.servo_priority,
               "Real-time priority of the servo, its USB thread has the next")
-      .wholeFrom(haptics::kLeastServoPriority, haptics::kMostServoPriority)
+      .wholeFrom(haptics::kMinServoPriority, haptics::kMaxServoPriority)
       .showsDefault();
   command
       .option("--pace", o->pace,

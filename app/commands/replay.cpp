@@ -8,7 +8,7 @@
 #include "app/session/metrics.h"
 #include "app/session/replay.h"
 #include "app/text/command_line.h"
-#include "app/text/said.h"
+#include "app/text/message.h"
 #include "assets/scan/image_file.h"
 #include "calibration/output_file.h"
 
@@ -31,8 +31,8 @@ int verifySession(const std::string& path) {
 /// The bone as it was at a moment, as a volume.
 int bringBack(const ReplayOptions& options) {
   calibration::OutputFile out = assets::nrrdOutput(options.out, options.force);
-  const BoneThen bone = boneThen(options.session, options.to_s);
-  for (const std::string& remark : bone.remarks) say(remark);
+  const BoneAtTime bone = boneAtTime(options.session, options.to_s);
+  for (const std::string& remark : bone.remarks) printMessage(remark);
   assets::writeSolid(bone.start.grid, bone.solid, out);
   std::printf("bone after %.3f s written\n", bone.t_s);
   return 0;
@@ -62,7 +62,7 @@ void addMetrics(CommandLine& molar) {
   command.does([session, json_only] {
     const SessionMetrics metrics = metricsOf(*session);
     std::printf("%s\n", metricsJson(metrics).c_str());
-    if (!*json_only) std::fprintf(stderr, "%s", metricsWords(metrics).c_str());
+    if (!*json_only) std::fprintf(stderr, "%s", metricsText(metrics).c_str());
     return 0;
   });
 }

@@ -7,20 +7,20 @@
 #include <nlohmann/json.hpp>
 
 #include "app/case/patient_guides.h"
-#include "app/case/room.h"
+#include "app/case/patient_placement.h"
 #include "app/case/trough_plan.h"
 #include "app/commands/command.h"
 #include "app/options/picture_option.h"
 #include "app/options/view_option.h"
 #include "app/options/volume_option.h"
 #include "app/text/command_line.h"
-#include "app/text/said.h"
+#include "app/text/message.h"
 #include "app/text/usage_error.h"
 #include "app/view/renderer_choice.h"
 #include "assets/patient/patient_folder.h"
 #include "assets/scan/image_file.h"
 #include "calibration/output_file.h"
-#include "calibration/picture_file.h"
+#include "calibration/png_file.h"
 #include "render/frame_renderer.h"
 #include "render/gpu/offscreen_context.h"
 
@@ -74,8 +74,8 @@ int see(const SeeOptions& options) {
     volume = {patient.ct.grid, std::move(patient.ct.solid), std::move(patient.ct.label)};
   }
   const render::Eye eye = options.view.apply(frame.rig, volume.grid);
-  if (options.view.namesRig() && leavesPatientOpen(frame.rig) && !options.patient.empty())
-    frame.rig.X_WP = standAtSite(patient, assets::kFaceAxes_PF);
+  if (options.view.namesRig() && hasNoPatientPose(frame.rig) && !options.patient.empty())
+    frame.rig.X_WP = placePatientAtSite(patient, assets::kFaceAxes_PF);
   frame.tool_visible = false;
   if (!options.tool_at_mm.empty())
     frame.X_PT.translation_mm = {options.tool_at_mm[0], options.tool_at_mm[1], options.tool_at_mm[2]};
@@ -84,19 +84,19 @@ int see(const SeeOptions& options) {
 
   std::optional<render::OffscreenContext> context;
   render::RenderOptions how;
-  how.backend = rendererWithoutWindow(options.picture.backend(), context, say);
+  how.backend = rendererWithoutWindow(options.picture.backend(), context, printMessage);
   how.samples = options.samples;
   render::FrameRenderer renderer(volume.grid, volume.solid, volume.label, how);
   renderer.setGuides(guides);
   if (!options.bone_only) {
     renderer.setFace(patient.face);
-    renderer.setGum(patient.gum);
+    renderer.setGingiva(patient.gingiva);
   }
   if (frame.layers.slices)
     renderer.setScan({std::move(patient.ct.hounsfield), volume.solid, std::move(patient.mandibular_canal_P_mm),
                       patient.mandibular_canal_radius_mm});
   renderer.renderEye(frame, eye);
-  const render::Picture picture = renderer.readEye(eye);
+  const render::Image picture = renderer.readEye(eye);
   const glm::dmat4 clip_from_P = render::clipFromPatient(frame.rig, render::eyeView(frame.rig, eye));
   renderer.throwIfError();
 
@@ -104,7 +104,7 @@ int see(const SeeOptions& options) {
   calibration::writePng(out.temporaryPath(), {picture.w, picture.h}, picture.rgba);
   if (matrices) matrices->write(matricesText(clip_from_P, frame.rig.screen.px));
   if (depth) {
-    const render::DistancePicture distance = renderer.readDistance(eye);
+    const render::DistanceImage distance = renderer.readDistance(eye);
     assets::writeDepth(distance.w, distance.h, distance.mm, *depth);
   }
   if (matrices) matrices->commit();

@@ -8,7 +8,7 @@
 #include "app/options/law_text.h"
 #include "app/options/picture_layers.h"
 #include "app/text/list.h"
-#include "app/text/number_in.h"
+#include "app/text/parse_number.h"
 #include "app/text/usage_error.h"
 
 namespace app {
@@ -44,7 +44,7 @@ std::optional<int> within(std::optional<int> number, int least, int most) {
 /// Tools and laws are counted from 1 by people, from 0 inside.
 std::optional<int> valueIn(ControlValue kind, std::string_view text) {
   static constexpr std::array<std::string_view, 2> kSwitch = {"off", "on"};
-  const std::optional<int> number = numberIn<int>(text);
+  const std::optional<int> number = parseNumber<int>(text);
   const auto from_one = [&](int most) { return within(number, 1, most) ? std::optional(*number - 1) : std::nullopt; };
   switch (kind) {
     case ControlValue::on_or_off:
@@ -74,7 +74,7 @@ std::string whatMayFollow(ControlValue kind) {
     case ControlValue::law:
       return "one of " + lawNames();
     case ControlValue::layer:
-      return "one of " + listed(kPictureLayers, &PictureLayer::name);
+      return "one of " + joined(kPictureLayers, &PictureLayer::name);
     case ControlValue::percent:
       return "percent, 0 to 100";
     case ControlValue::none:
@@ -85,19 +85,19 @@ std::string whatMayFollow(ControlValue kind) {
 
 }  // namespace
 
-ControlWish wishFrom(const std::string& text) {
+ControlRequest requestFrom(const std::string& text) {
   const std::size_t colon = text.find(':');
   const auto control = controlNamed(std::string_view(text).substr(0, colon));
   if (!control)
-    throw UsageError("\"" + text + "\": there is no such control, write " + listed(kControls, &ControlMeaning::name));
+    throw UsageError("\"" + text + "\": there is no such control, write " + joined(kControls, &ControlMeaning::name));
   const ControlMeaning& meaning = meaningOf(*control);
-  ControlWish wish{*control};
+  ControlRequest request{*control};
   if (colon != std::string::npos)
-    wish.value = valueIn(meaning.value, std::string_view(text).substr(colon + 1)).value_or(kNoValue);
-  if ((colon != std::string::npos || isNeeded(meaning.value)) && wish.value == kNoValue)
+    request.value = valueIn(meaning.value, std::string_view(text).substr(colon + 1)).value_or(kNoValue);
+  if ((colon != std::string::npos || isNeeded(meaning.value)) && request.value == kNoValue)
     throw UsageError("\"" + text + "\": after " + std::string(meaning.name) + " stands " +
                      whatMayFollow(meaning.value));
-  return wish;
+  return request;
 }
 
 std::vector<KeyMeaning> keyMeanings() {

@@ -20,10 +20,10 @@ inline constexpr int kNoValue = -1;  ///< of a switch the other way, of the tool
 
 /// One thing asked for, once. Its value: of a law, tool or layer the index from 0; of a switch 1 on, 0 off; of the face
 /// percent.
-struct ControlWish {
+struct ControlRequest {
   Control control = Control::end;
   int value = kNoValue;
-  bool operator==(const ControlWish&) const = default;
+  bool operator==(const ControlRequest&) const = default;
 };
 
 /// What may follow a name: a switch's :on or :off and a tool's number may be left out, the others not.
@@ -64,16 +64,16 @@ constexpr std::optional<Control> controlNamed(std::string_view name) {
 
 /// As a script writes it: `undo`, `irrigation`, `irrigation:off`, `tool:2`, `law:agus`, `layer:canal`, `face:30`.
 /// Throws UsageError that says what may stand there.
-ControlWish wishFrom(const std::string& text);
+ControlRequest requestFrom(const std::string& text);
 
 /// By its name, for a pedal calls what it asks for as everybody else does. None for drilling, which is held and no
-/// wish.
-constexpr std::optional<ControlWish> wishOf(haptics::HandAction action) {
+/// request.
+constexpr std::optional<ControlRequest> requestOf(haptics::HandAction action) {
   const std::optional<Control> control = controlNamed(haptics::nameOf(action));
-  return control && action != haptics::HandAction::drill ? std::optional(ControlWish{*control}) : std::nullopt;
+  return control && action != haptics::HandAction::drill ? std::optional(ControlRequest{*control}) : std::nullopt;
 }
-static_assert(wishOf(haptics::HandAction::irrigation) && wishOf(haptics::HandAction::undo) &&
-              wishOf(haptics::HandAction::tool_change));
+static_assert(requestOf(haptics::HandAction::irrigation) && requestOf(haptics::HandAction::undo) &&
+              requestOf(haptics::HandAction::tool_change));
 
 /// What keys and mouse do in a window, the hand's movements first.
 struct KeyMeaning {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "app/options/tool_text.h"
-#include "app/text/number_in.h"
+#include "app/text/parse_number.h"
 #include "app/text/usage_error.h"
 
 namespace app {
@@ -26,7 +26,7 @@ int onTray(const std::vector<haptics::Tool>& tray, int index, const std::string&
 }
 
 int toolIn(const std::vector<haptics::Tool>& tray, const std::string& text) {
-  if (const auto number = numberIn<int>(text)) return onTray(tray, *number - 1, text);
+  if (const auto number = parseNumber<int>(text)) return onTray(tray, *number - 1, text);
   const haptics::BurShape head = headFrom(text);
   const auto found = std::ranges::find(tray, head, &haptics::Tool::head);
   if (found == tray.end()) throw UsageError("tool " + text + ": it is not on the tray, name it with --tool");
@@ -35,35 +35,35 @@ int toolIn(const std::vector<haptics::Tool>& tray, const std::string& text) {
 
 }  // namespace
 
-ControlScript::ControlScript(const std::vector<HandAsks>& asked, const std::vector<haptics::Tool>& tray,
+ControlScript::ControlScript(const std::vector<TimedRequest>& asked, const std::vector<haptics::Tool>& tray,
                              double rate_Hz) {
   int held = 0;
-  for (const HandAsks& row : asked) try {
+  for (const TimedRequest& row : asked) try {
       const std::uint64_t tick = tickAt(row.t_s, rate_Hz);
-      const auto ask = [&](const ControlWish& wish) { wishes_.push_back({tick, {wish, row.where}}); };
+      const auto ask = [&](const ControlRequest& request) { requests_.push_back({tick, {request, row.where}}); };
       if (!row.tool.empty())
         if (const int wanted = toolIn(tray, row.tool); std::exchange(held, wanted) != wanted)
           ask({Control::tool, wanted});
       if (row.action.empty()) continue;
-      const ControlWish wish = wishFrom(row.action);
-      ask(wish);
-      if (wish.control != Control::tool) continue;
-      held = wish.value != kNoValue ? onTray(tray, wish.value, std::to_string(wish.value + 1))
+      const ControlRequest request = requestFrom(row.action);
+      ask(request);
+      if (request.control != Control::tool) continue;
+      held = request.value != kNoValue ? onTray(tray, request.value, std::to_string(request.value + 1))
                                     : (held + 1) % static_cast<int>(tray.size());
     } catch (const UsageError& error) {
       throw UsageError(row.where + ": " + error.what());
     }
 }
 
-std::vector<ScriptedWish> ControlScript::takeDue(std::uint64_t next_tick) {
-  std::vector<ScriptedWish> due;
-  for (; taken_ < wishes_.size() && wishes_[taken_].tick <= next_tick; ++taken_)
-    due.push_back(wishes_[taken_].scripted);
+std::vector<ScriptedRequest> ControlScript::takeDue(std::uint64_t next_tick) {
+  std::vector<ScriptedRequest> due;
+  for (; taken_ < requests_.size() && requests_[taken_].tick <= next_tick; ++taken_)
+    due.push_back(requests_[taken_].scripted);
   return due;
 }
 
 std::optional<std::uint64_t> ControlScript::nextTick() const {
-  return taken_ < wishes_.size() ? std::optional(wishes_[taken_].tick) : std::nullopt;
+  return taken_ < requests_.size() ? std::optional(requests_[taken_].tick) : std::nullopt;
 }
 
 }  // namespace app

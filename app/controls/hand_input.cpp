@@ -12,12 +12,12 @@ constexpr double kWheelNotch_mm = 0.5;
 constexpr double kTurn_rad = calibration::radFromDegrees(3.0);
 
 /// By the table of controls; laws have the digits.
-std::optional<ControlWish> wishOf(render::Key key) {
-  if (key == render::Key::escape) return ControlWish{Control::end};
+std::optional<ControlRequest> requestOf(render::Key key) {
+  if (key == render::Key::escape) return ControlRequest{Control::end};
   for (std::size_t law = 0; law < haptics::kLaws.size(); ++law)
-    if (key == render::keyOf(static_cast<char>('1' + law))) return ControlWish{Control::law, static_cast<int>(law)};
+    if (key == render::keyOf(static_cast<char>('1' + law))) return ControlRequest{Control::law, static_cast<int>(law)};
   for (const ControlMeaning& one : kControls)
-    if (one.key.size() == 1 && key == render::keyOf(one.key.front())) return ControlWish{one.control};
+    if (one.key.size() == 1 && key == render::keyOf(one.key.front())) return ControlRequest{one.control};
   return {};
 }
 
@@ -32,8 +32,8 @@ void HandInput::take(const render::WindowEvent& event, double mm_per_px) {
     X_WT_.translation_mm.z -= kWheelNotch_mm * wheel->notches;
   } else if (const auto* key = std::get_if<render::KeyPressed>(&event)) {
     press(*key);
-  } else if (std::holds_alternative<render::CloseAsked>(event)) {
-    wishes_.push_back({Control::end});
+  } else if (std::holds_alternative<render::CloseRequested>(event)) {
+    requests_.push_back({Control::end});
   }
 }
 
@@ -49,13 +49,13 @@ void HandInput::press(const render::KeyPressed& key) {
   if (key.key == render::keyOf('Q')) turn({0, 0, 1}, kTurn_rad);
   if (key.key == render::keyOf('E')) turn({0, 0, 1}, -kTurn_rad);
   if (key.repeated) return;
-  if (const auto wish = wishOf(key.key)) wishes_.push_back(*wish);
+  if (const auto request = requestOf(key.key)) requests_.push_back(*request);
 }
 
 void HandInput::turn(const glm::dvec3& axis_W, double angle_rad) {
   X_WT_.rotation = glm::normalize(glm::angleAxis(angle_rad, axis_W) * X_WT_.rotation);
 }
 
-std::vector<ControlWish> HandInput::takeWishes() { return std::exchange(wishes_, {}); }
+std::vector<ControlRequest> HandInput::takeRequests() { return std::exchange(requests_, {}); }
 
 }  // namespace app

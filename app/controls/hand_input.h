@@ -1,6 +1,6 @@
 // Mouse and keys as a hand: window events move and turn the place where the tool is wanted, 1:1 on the screen.
 // Drag: in the plane of the screen; wheel: 0.5 mm a notch towards or away; arrows, Q, E: 3 degrees a press; space: the
-// pedal. All other keys are wishes (control.h), in the order they were pressed. Frame W, mm. Main thread. The device
+// pedal. All other keys are requests (control.h), in the order they were pressed. Frame W, mm. Main thread. The device
 // (haptics::MouseDevice) makes smooth motion of it.
 #pragma once
 
@@ -24,14 +24,14 @@ class HandInput {
   const calibration::Pose<calibration::World, calibration::Tool>& X_WT() const { return X_WT_; }
   bool pedal() const { return pedal_; }
   /// Everything asked for since the last call.
-  std::vector<ControlWish> takeWishes();
+  std::vector<ControlRequest> takeRequests();
 
  private:
   void press(const render::KeyPressed& key);
   void turn(const glm::dvec3& axis_W, double angle_rad);
 
   calibration::Pose<calibration::World, calibration::Tool> X_WT_;
-  std::vector<ControlWish> wishes_;
+  std::vector<ControlRequest> requests_;
   bool pedal_ = false;
 };
 

@@ -26,11 +26,11 @@ const char* nameOf(haptics::DeviceTrouble trouble) {
 
 bool isReal(const FoundDevice& device) { return device.provenance != haptics::Provenance::simulated; }
 
-std::string bold(const std::string& text, const PageLook& look) {
+std::string bold(const std::string& text, const TerminalFormat& look) {
   return look.coloured ? "\033[1m" + text + "\033[0m" : text;
 }
 
-std::string here(const DeviceCatalogue& catalogue, const PageLook& look) {
+std::string here(const DeviceCatalogue& catalogue, const TerminalFormat& look) {
   std::size_t longest = 0;
   for (const FoundDevice& one : catalogue.devices) longest = std::max(longest, one.address.size());
   const std::size_t indent = 2 + longest + 2;
@@ -47,7 +47,7 @@ std::string here(const DeviceCatalogue& catalogue, const PageLook& look) {
   return text;
 }
 
-std::string kinds(const PageLook& look) {
+std::string kinds(const TerminalFormat& look) {
   std::size_t longest = 0;
   for (const DeviceKind& kind : haptics::deviceKinds()) longest = std::max(longest, kind.key.size());
   const std::size_t indent = 2 + longest + 2;
@@ -65,7 +65,7 @@ std::string kinds(const PageLook& look) {
 
 }  // namespace
 
-std::string asText(const DeviceCatalogue& catalogue, const PageLook& look) {
+std::string asText(const DeviceCatalogue& catalogue, const TerminalFormat& look) {
   std::string text = bold("Here now", look) + ", and the address that --device takes\n" + here(catalogue, look);
   text += "\n" + bold("What Molar drives", look) + "\n" + kinds(look);
   const bool unproved = std::ranges::any_of(

@@ -29,9 +29,9 @@ stack_t former_stack;
 alignas(16) std::array<char, 64 * 1024> handler_stack;
 
 template <class Condition>
-void awaitUpTo(std::int64_t most_ms, const Condition& is_so) {
+void awaitUpTo(std::int64_t most_ms, const Condition& condition) {
   const timespec one_ms{0, 1'000'000};
-  for (std::int64_t ms = 0; ms < most_ms && !is_so(); ++ms) nanosleep(&one_ms, nullptr);
+  for (std::int64_t ms = 0; ms < most_ms && !condition(); ++ms) nanosleep(&one_ms, nullptr);
 }
 
 /// The first to come lets the motors go; whoever comes meanwhile waits, for what ends the program must not end it
@@ -42,9 +42,9 @@ void letGo(bool stops_device) {
     awaitUpTo(2 * longest_wait_ms.load(), [] { return is_quiet.load(); });
     return;
   }
-  loop->forbidForce();
-  const std::uint64_t ticks = loop->ticks(), silences = loop->silences();
-  awaitUpTo(longest_wait_ms.load(), [&] { return loop->ticks() >= ticks + 2 || loop->silences() > silences; });
+  loop->disableForce();
+  const std::uint64_t ticks = loop->ticks(), silences = loop->watchdogTrips();
+  awaitUpTo(longest_wait_ms.load(), [&] { return loop->ticks() >= ticks + 2 || loop->watchdogTrips() > silences; });
   if (stops_device) loop->emergencyStop();
   is_quiet.store(true);
 }
@@ -62,7 +62,7 @@ void onExit() { letGo(true); }
 }  // namespace
 
 void forbidForceNow() noexcept {
-  if (haptics::DeviceLoop* loop = guarded.load()) loop->forbidForce();
+  if (haptics::DeviceLoop* loop = guarded.load()) loop->disableForce();
 }
 
 EmergencyExit::EmergencyExit(haptics::DeviceLoop& loop, std::chrono::milliseconds longest) {

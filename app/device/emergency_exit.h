@@ -17,10 +17,10 @@ namespace app {
 class EmergencyExit {
  public:
   /// Two ticks without force are enough; the supervisor needs 60 ms where none come.
-  static constexpr std::chrono::milliseconds kLongestFarewell{120};
+  static constexpr std::chrono::milliseconds kMaxShutdown{120};
 
   /// Borrows the loop. `longest`: that the program's end is held up.
-  explicit EmergencyExit(haptics::DeviceLoop& loop, std::chrono::milliseconds longest = kLongestFarewell);
+  explicit EmergencyExit(haptics::DeviceLoop& loop, std::chrono::milliseconds longest = kMaxShutdown);
   ~EmergencyExit();
   EmergencyExit(const EmergencyExit&) = delete;
   EmergencyExit& operator=(const EmergencyExit&) = delete;

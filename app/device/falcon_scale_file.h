@@ -10,10 +10,10 @@
 namespace app {
 
 /// Where it is looked for: molar/falcon.toml beneath XDG_CONFIG_HOME or ~/.config.
-std::string usualFalconScaleFile();
+std::string defaultFalconScaleFile();
 
 /// As weighed where the file is there, else as guessed.
-haptics::FalconForceScale keptFalconScale(const std::string& path);
+haptics::FalconForceScale savedFalconScale(const std::string& path);
 haptics::FalconForceScale readFalconScale(const std::string& path);
 void writeFalconScale(const std::string& path, const haptics::FalconForceScale& scale, bool overwrite);
 

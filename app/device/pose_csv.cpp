@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "app/text/list.h"
-#include "app/text/number_in.h"
+#include "app/text/parse_number.h"
 #include "app/text/usage_error.h"
 
 namespace app {
@@ -28,7 +28,7 @@ std::string place(const std::string& path, std::size_t line) {
 }
 
 std::vector<std::string_view> cells(std::string_view row) {
-  std::vector<std::string_view> out = partsOf(row);
+  std::vector<std::string_view> out = split(row);
   for (std::string_view& cell : out) {
     while (!cell.empty() && cell.front() == ' ') cell.remove_prefix(1);
     while (!cell.empty() && cell.back() == ' ') cell.remove_suffix(1);
@@ -71,8 +71,8 @@ struct Row {
   std::vector<std::string_view> cell;
 
   double number(std::size_t column) const {
-    if (const auto value = numberIn<double>(cell[column])) return *value;
-    const std::string_view name = column < kRequired ? partsOf(kHeader)[column] : "drill";
+    if (const auto value = parseNumber<double>(cell[column])) return *value;
+    const std::string_view name = column < kRequired ? split(kHeader)[column] : "drill";
     refuse(path, line, std::string(name) + " is not a finite number", "correct it");
   }
 };

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "app/text/number_in.h"
+#include "app/text/parse_number.h"
 #include "app/text/usage_error.h"
 
 namespace app {
@@ -17,7 +17,7 @@ std::optional<calibration::SyntheticRig> practiceRig(const std::string& address)
   const std::size_t colon = rest.find(':');
   const auto scenario = calibration::scenarioNamed(rest.substr(0, colon));
   std::optional<std::uint32_t> seed = 1;
-  if (colon != std::string_view::npos) seed = numberIn<std::uint32_t>(rest.substr(colon + 1));
+  if (colon != std::string_view::npos) seed = parseNumber<std::uint32_t>(rest.substr(colon + 1));
   if (!scenario || !seed)
     throw UsageError(address + ": a practice device is practice:SCENARIO[:SEED], A to G and a number, " +
                      "as in practice:D:7");

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <utility>
 
-#include "app/device/hand_table.h"
+#include "app/device/pose_source_table.h"
 #include "app/text/usage_error.h"
 #include "assets/instrument/dental_mirror.h"
 #include "assets/instrument/retractor.h"
 #include "assets/tooth.h"
 #include "haptics/device/device_catalogue.h"
-#include "haptics/device/simulated/still_hand.h"
+#include "haptics/device/simulated/fixed_device.h"
 
 namespace app {
 namespace {
@@ -44,23 +44,23 @@ Pose<World, OtherTool> mirrorHeld(const glm::dvec3& handle_W, const glm::dvec3& 
 
 /// The script's place for the instrument, beside the tooth wherever the rig has it.
 Pose<World, OtherTool> holdBeside(const assets::Patient& patient, const calibration::Rig& rig, SecondTool tool) {
-  Pose<World, OtherTool> hold = scriptedHold(tool, assets::isRight(patient.toothAtWork()));
-  hold.translation_mm += (rig.X_WP * calibration::Point<Patient>{patient.workplace_P_mm()}).mm;
+  Pose<World, OtherTool> hold = scriptedHold(tool, assets::isRight(patient.operatedTooth()));
+  hold.translation_mm += (rig.X_WP * calibration::Point<Patient>{patient.focus_P_mm()}).mm;
   return hold;
 }
 
-HandAtWork deviceOf(const SecondHandPlan& plan, const DeviceOptions& options, const assets::Patient& patient,
+PoseSource deviceOf(const SecondHandPlan& plan, const DeviceOptions& options, const assets::Patient& patient,
                     const calibration::Rig& rig) {
   const Pose<World, OtherTool> hold = holdBeside(patient, rig, plan.tool);
   if (plan.device != "scripted") {
     calibration::Rig others = rig;
     others.device.reset(), others.arm.reset();  // they are of the first
     others.X_WD = rig.second_X_WD.value_or(Pose<World, Device>{{1.0, 0.0, 0.0, 0.0}, hold.translation_mm});
-    return handAtWork(plan.device, options, patient, others, {});
+    return openPoseSource(plan.device, options, patient, others, {});
   }
   const Pose<Patient, OtherTool> X_PO = rig.X_WP.inverse() * hold;
-  HandAtWork hand;
-  hand.device = std::make_unique<haptics::StillHand>(Pose<Device, Handle>{X_PO.rotation, X_PO.translation_mm});
+  PoseSource hand;
+  hand.device = std::make_unique<haptics::FixedDevice>(Pose<Device, Handle>{X_PO.rotation, X_PO.translation_mm});
   hand.name = hand.device->capabilities().model;
   return hand;
 }
@@ -77,7 +77,7 @@ Pose<World, OtherTool> scriptedHold(SecondTool tool, bool right_side) {
 void refuseUnlessSecondHand(const SecondHandPlan& plan, const std::string& first_device) {
   if (plan.device.empty()) return;
   const bool is_device = haptics::isDeviceAddress(plan.device);
-  const HandKind* const kind = handKindOf(plan.device);
+  const PoseSourceKind* const kind = poseSourceKindOf(plan.device);
   if (plan.device != "scripted" && !(kind && kind->holds_any_tool) && !is_device)
     throw UsageError("--second-hand " + plan.device + ": it can not hold a " + nameOf(plan.tool) +
                      ", choose scripted, replay:SESSION or a device of molar devices");
@@ -90,8 +90,8 @@ SecondHand::SecondHand(const SecondHandPlan& plan, const DeviceOptions& options,
     : tool_(plan.tool), device_(deviceOf(plan, options, patient, rig)) {
   const haptics::DeviceCapabilities& can = device_.device->capabilities();
   name_ = std::string(nameOf(tool_)) + ", " + device_.name;
-  rate_Hz_ = device_.rate_Hz.value_or(std::clamp(kRate_Hz, can.least_rate_Hz, can.most_rate_Hz));
-  hand_ = std::make_unique<haptics::PassiveHand>(servedAs(*device_.device, ticking), rate_Hz_);
+  rate_Hz_ = device_.rate_Hz.value_or(std::clamp(kRate_Hz, can.min_rate_Hz, can.max_rate_Hz));
+  hand_ = std::make_unique<haptics::InstrumentTracker>(servedAs(*device_.device, ticking), rate_Hz_);
 }
 
 void SecondHand::stepTo(double t_s) {

@@ -7,9 +7,9 @@
 #include <optional>
 #include <string>
 
-#include "app/device/hand_at_work.h"
+#include "app/device/pose_source.h"
 #include "app/device/ticking.h"
-#include "haptics/loop/passive_hand.h"
+#include "haptics/loop/instrument_tracker.h"
 #include "render/frame_renderer.h"
 
 namespace app {
@@ -33,10 +33,10 @@ void refuseUnlessSecondHand(const SecondHandPlan& plan, const std::string& first
 
 class SecondHand {
  public:
-  /// Throws as handAtWork does. A device's base stands where the rig says (X_WD2), else so that the middle of its
+  /// Throws as openPoseSource does. A device's base stands where the rig says (X_WD2), else so that the middle of its
   /// workspace is where the script would hold the instrument.
   SecondHand(const SecondHandPlan& plan, const DeviceOptions& options, const assets::Patient& patient,
-             const calibration::Rig& rig, Ticking ticking = Ticking::by_itself);
+             const calibration::Rig& rig, Ticking ticking = Ticking::realtime);
 
   /// As people read it: "mirror, scripted still hand".
   const std::string& name() const { return name_; }
@@ -53,10 +53,10 @@ class SecondHand {
 
  private:
   SecondTool tool_;
-  HandAtWork device_;
+  PoseSource device_;
   std::string name_;
   double rate_Hz_;
-  std::unique_ptr<haptics::PassiveHand> hand_;  // stops before its device goes
+  std::unique_ptr<haptics::InstrumentTracker> hand_;  // stops before its device goes
   bool is_seen_ = false, was_seen_ = false, was_lost_ = false;
 };
 

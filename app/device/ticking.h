@@ -6,7 +6,7 @@
 
 namespace app {
 
-enum class Ticking { by_itself, by_hand };
+enum class Ticking { realtime, stepped };
 
 /// Throws haptics::DeviceError for what can not be stepped: a real device.
 haptics::ServedDevice servedAs(haptics::HapticDevice& device, Ticking ticking);

@@ -17,7 +17,7 @@ struct GraphicsFacts {
   std::string version, card;
   bool is_software = false;
 };
-std::optional<GraphicsFacts> lookAtGraphics();
+std::optional<GraphicsFacts> probeGraphics();
 Finding checkGraphics(const std::optional<GraphicsFacts>& facts);
 
 /// What can be seen on. Opens an invisible window.
@@ -30,7 +30,7 @@ struct ScreenFacts {
   std::vector<Screen> screens;  ///< none: no display
   bool has_quad_buffer = false;
 };
-ScreenFacts lookAtScreens();
+ScreenFacts probeScreens();
 Finding checkScreens(const ScreenFacts& facts);
 Finding checkStereo(const ScreenFacts& facts);
 
@@ -63,7 +63,7 @@ struct DiskFacts {
   double free_MB = 0.0, written_MB_per_s = 0.0;
   bool is_writable = false;
 };
-DiskFacts lookAtDisk(const std::filesystem::path& folder);
+DiskFacts probeDisk(const std::filesystem::path& folder);
 Finding checkDisk(const std::filesystem::path& folder, const DiskFacts& facts);
 
 /// All of it, in the order it is shown.

@@ -26,7 +26,7 @@ bool write(int file) {
 
 }  // namespace
 
-DiskFacts lookAtDisk(const std::filesystem::path& folder) {
+DiskFacts probeDisk(const std::filesystem::path& folder) {
   DiskFacts facts;
   std::error_code error;
   const std::filesystem::space_info space = std::filesystem::space(folder, error);

@@ -6,9 +6,9 @@ namespace app {
 std::vector<Finding> examine(const Machine& machine, int servo_priority) {
   // Punctuality first, while nothing of ours works in the background.
   const Finding wake_up = checkWakeUps(measureWakeUps(servo_priority));
-  const ScreenFacts screens = lookAtScreens();
+  const ScreenFacts screens = probeScreens();
   return {
-      checkGraphics(lookAtGraphics()),
+      checkGraphics(probeGraphics()),
       checkScreens(screens),
       checkStereo(screens),
       checkSound(machine),
@@ -21,7 +21,7 @@ std::vector<Finding> examine(const Machine& machine, int servo_priority) {
       checkPriorityLimit(machine, servo_priority),
       checkMemoryLimit(machine, servo_priority),
       checkProcessors(machine),
-      checkDisk(machine.sessions, lookAtDisk(machine.sessions)),
+      checkDisk(machine.sessions, probeDisk(machine.sessions)),
   };
 }
 

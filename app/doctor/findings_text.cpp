@@ -24,9 +24,9 @@ int countOf(const std::vector<Finding>& findings, Health health) {
 
 }  // namespace
 
-int missingAmong(const std::vector<Finding>& findings) { return countOf(findings, Health::missing); }
+int missingCount(const std::vector<Finding>& findings) { return countOf(findings, Health::missing); }
 
-std::string asText(const std::vector<Finding>& findings, const PageLook& look) {
+std::string asText(const std::vector<Finding>& findings, const TerminalFormat& look) {
   std::size_t longest_id = 0;
   for (const Finding& one : findings) longest_id = std::max(longest_id, one.id.size());
   constexpr std::size_t kMarkWidth = 7;
@@ -42,7 +42,7 @@ std::string asText(const std::vector<Finding>& findings, const PageLook& look) {
     if (!one.next_step.empty())
       text += std::string(indent, ' ') + "→ " + wrappedText(one.next_step, indent + 2, look.width) + "\n";
   }
-  const int missing = missingAmong(findings), warned = countOf(findings, Health::warn);
+  const int missing = missingCount(findings), warned = countOf(findings, Health::warn);
   text += fmt::format("\n  {} in order, {} to look at, {} missing, {} not needed.\n", countOf(findings, Health::ok),
                       warned, missing, countOf(findings, Health::not_needed));
   return text;
@@ -53,7 +53,7 @@ std::string asJson(const std::vector<Finding>& findings) {
   for (const Finding& one : findings)
     checks.push_back(
         {{"id", one.id}, {"state", nameOf(one.health)}, {"sentence", one.sentence}, {"next_step", one.next_step}});
-  const nlohmann::ordered_json all = {{"checks", checks}, {"missing", missingAmong(findings)}};
+  const nlohmann::ordered_json all = {{"checks", checks}, {"missing", missingCount(findings)}};
   return all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

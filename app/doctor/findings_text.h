@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "app/doctor/finding.h"
-#include "app/text/page_look.h"
+#include "app/text/terminal_format.h"
 
 namespace app {
 
 /// How many of them say that something needed is missing.
-int missingAmong(const std::vector<Finding>& findings);
+int missingCount(const std::vector<Finding>& findings);
 
-std::string asText(const std::vector<Finding>& findings, const PageLook& look);
+std::string asText(const std::vector<Finding>& findings, const TerminalFormat& look);
 /// {"checks": [{"id", "state", "sentence", "next_step"}], "missing": n}
 std::string asJson(const std::vector<Finding>& findings);
 

@@ -5,7 +5,7 @@
 
 namespace app {
 
-std::optional<GraphicsFacts> lookAtGraphics() {
+std::optional<GraphicsFacts> probeGraphics() {
   try {
     const render::OffscreenContext context;
     const render::GraphicsCard card = render::currentGraphicsCard();

@@ -4,7 +4,7 @@
 
 #include <fmt/core.h>
 
-#include "app/text/number_in.h"
+#include "app/text/parse_number.h"
 #include "haptics/device/usb/known_devices.h"
 
 namespace app {
@@ -47,8 +47,8 @@ void addNodes(HapticUnit& unit, const std::filesystem::path& folder, const std::
 /// A unit and its interfaces, both entries of one folder: "1-2", "1-2:1.0".
 HapticUnit unitAt(const std::filesystem::path& entry, UnitMaker maker, const Identity& is, const Machine& machine) {
   HapticUnit unit{maker, nameOf(maker, is), {}};
-  const int bus = numberIn<int>(firstLine(entry / "busnum").value_or("")).value_or(0);
-  const int device = numberIn<int>(firstLine(entry / "devnum").value_or("")).value_or(0);
+  const int bus = parseNumber<int>(firstLine(entry / "busnum").value_or("")).value_or(0);
+  const int device = parseNumber<int>(firstLine(entry / "devnum").value_or("")).value_or(0);
   unit.nodes.push_back(machine.dev / fmt::format("bus/usb/{:03}/{:03}", bus, device));
   for (const auto& beside : entriesOf(entry.parent_path()))
     if (beside.filename().string().starts_with(entry.filename().string() + ":")) addNodes(unit, beside, machine.dev);
@@ -60,8 +60,8 @@ HapticUnit unitAt(const std::filesystem::path& entry, UnitMaker maker, const Ide
 std::vector<HapticUnit> hapticUnits(const Machine& machine) {
   std::vector<HapticUnit> units;
   for (const auto& entry : entriesOf(machine.sys / "bus/usb/devices")) {
-    const auto vendor = numberIn<std::uint16_t>(firstLine(entry / "idVendor").value_or(""), 16);
-    const auto product = numberIn<std::uint16_t>(firstLine(entry / "idProduct").value_or(""), 16);
+    const auto vendor = parseNumber<std::uint16_t>(firstLine(entry / "idVendor").value_or(""), 16);
+    const auto product = parseNumber<std::uint16_t>(firstLine(entry / "idProduct").value_or(""), 16);
     if (!vendor || !product) continue;
     const Identity is{*vendor, *product};
     if (const auto maker = makerOf(is)) units.push_back(unitAt(entry, *maker, is, machine));

@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 
 #include "app/doctor/checks.h"
-#include "app/text/number_in.h"
+#include "app/text/parse_number.h"
 
 namespace app {
 namespace {
@@ -25,7 +25,7 @@ std::optional<int> realtimePriority(const std::string& stat) {
   std::string field;
   for (int place = 0; place < kPlaceBehindName; ++place)
     if (!(fields >> field)) return {};
-  return numberIn<int>(field);
+  return parseNumber<int>(field);
 }
 
 /// The lowest of the kernel's interrupt threads; none: interrupts have no threads here.

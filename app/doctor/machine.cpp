@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "app/text/number_in.h"
+#include "app/text/parse_number.h"
 
 namespace app {
 namespace {
@@ -69,7 +69,7 @@ std::optional<bool> hasCapability(const Machine& machine, unsigned number) {
   constexpr std::string_view kEffective = "CapEff:";
   for (const std::string& line : linesOf(machine.proc / "self/status"))
     if (line.starts_with(kEffective))
-      if (const auto bits = numberIn<std::uint64_t>(trimmed(std::string_view(line).substr(kEffective.size())), 16))
+      if (const auto bits = parseNumber<std::uint64_t>(trimmed(std::string_view(line).substr(kEffective.size())), 16))
         return (*bits >> number & 1u) != 0;
   return {};
 }
@@ -80,7 +80,7 @@ std::optional<double> softLimit(const Machine& machine, std::string_view resourc
     const std::string_view rest = trimmed(std::string_view(line).substr(resource.size()));
     const std::string_view soft = rest.substr(0, rest.find(' '));
     if (soft == "unlimited") return -1.0;
-    if (const auto value = numberIn<double>(soft)) return value;
+    if (const auto value = parseNumber<double>(soft)) return value;
   }
   return {};
 }

@@ -13,9 +13,9 @@ Finding checkPermissions(const Machine& machine) {
   for (const HapticUnit& unit : units)
     for (const auto& node : unit.nodes)
       if (std::filesystem::exists(node, none) && !machine.may_use(node)) closed.push_back(node.string());
-  const std::string names = listed(units, &HapticUnit::name);
+  const std::string names = joined(units, &HapticUnit::name);
   if (closed.empty()) return {"permissions", Health::ok, names + ": you may use every node."};
-  return {"permissions", Health::missing, names + ": you may not use " + listed(closed) + ".",
+  return {"permissions", Health::missing, names + ": you may not use " + joined(closed) + ".",
           std::string("molar doctor --udev-rules | sudo tee ") + kUdevRulesFile +
               " && sudo udevadm control --reload && sudo udevadm trigger, then plug it in again."};
 }

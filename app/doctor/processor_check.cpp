@@ -28,7 +28,7 @@ Finding checkProcessors(const Machine& machine) {
   const bool realtime_kernel = firstLine(machine.sys / "kernel/realtime") == "1";
 
   std::string sentence = fmt::format("{} core{}", count, count == 1 ? "" : "s");
-  sentence += governors.empty() ? ", speed not the system's to choose" : ", governor " + listed(governors);
+  sentence += governors.empty() ? ", speed not the system's to choose" : ", governor " + joined(governors);
   sentence += isolated.empty() ? ", none set apart" : ", set apart: " + isolated;
   sentence += realtime_kernel ? ", real-time kernel." : ".";
   if (count < 2)

@@ -24,7 +24,7 @@ bool opensInQuadBuffer() {
 
 }  // namespace
 
-ScreenFacts lookAtScreens() {
+ScreenFacts probeScreens() {
   ScreenFacts facts;
   try {
     for (const render::Monitor& one : render::monitors())

@@ -18,9 +18,9 @@ Finding checkSound(const Machine& machine) {
     return {"sound", Health::warn, "There is no sound card: the drill is felt and seen, not heard.",
             "Plug in a sound card or a headset if you want to hear it."};
   if (server.empty())
-    return {"sound", Health::ok, listed(cards) + ", without a sound server: one program at a time.",
+    return {"sound", Health::ok, joined(cards) + ", without a sound server: one program at a time.",
             "sudo apt install pipewire-audio shares it between programs."};
-  return {"sound", Health::ok, (cards.empty() ? "No card of its own" : listed(cards)) + ", by " + server + "."};
+  return {"sound", Health::ok, (cards.empty() ? "No card of its own" : joined(cards)) + ", by " + server + "."};
 }
 
 }  // namespace app

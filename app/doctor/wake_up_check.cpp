@@ -25,7 +25,7 @@ std::int64_t now_ns() {
 
 /// On absolute deadlines, as the servo does.
 void wakeUp(int priority, std::vector<double>& late_us) {
-  haptics::askForRealtime(priority);
+  haptics::requestRealtime(priority);
   std::int64_t due_ns = now_ns();
   for (double& late : late_us) {
     due_ns += kPeriod_ns;

@@ -26,14 +26,14 @@ struct RehearsalStatus {
   std::string device;  ///< as people read it
   SessionCalibration calibration;
   std::vector<std::string> remarks;  ///< on calibration and case
-  haptics::TripLedger trips;
+  haptics::TripCounter trips;
   haptics::LoopFigures servo;
   double servo_rate_Hz = 1000.0;
   double drawing_ms = 0.0;  ///< of the newest frame
   double pictures_per_s = 0.0;
   double refresh_Hz = 60.0;
   double budget_ms = 16.7;  ///< for drawing a frame
-  PhotonEstimate latency;
+  LatencyEstimate latency;
   std::string quality;  ///< the step, in words
   int quality_step = 0;
   bool quality_is_held = false;  ///< chosen by hand

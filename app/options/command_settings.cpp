@@ -8,7 +8,7 @@
 #include "app/options/tool_text.h"
 #include "app/text/list.h"
 #include "app/text/usage_error.h"
-#include "assets/toml_keys.h"
+#include "assets/toml_reader.h"
 #include "haptics/contact/law_limits.h"
 
 namespace app {
@@ -21,7 +21,7 @@ std::map<std::string, Setting> limitsOf(haptics::SafetyLimits& safety) {
           {"slew_Nmm_per_s", {&safety.slew_Nmm_per_s, 1.0, 1e6, "Nmm/s"}}};
 }
 
-void readNumbers(assets::TomlKeys& keys, const std::string& table, const std::map<std::string, Setting>& settings) {
+void readNumbers(assets::TomlReader& keys, const std::string& table, const std::map<std::string, Setting>& settings) {
   for (const auto& [name, setting] : settings) {
     const std::string former(formerKey(name));
     const std::string& key = !former.empty() && keys.has(table, former) ? former : name;
@@ -38,7 +38,7 @@ std::map<std::string, Setting> lawParametersOf(haptics::LawSettings& law) {
 
 /// What `make` makes of the text; its refusal is one of the file.
 template <class Make>
-auto madeOf(assets::TomlKeys& keys, const std::string& table, const std::string& key, const std::string& text,
+auto madeOf(assets::TomlReader& keys, const std::string& table, const std::string& key, const std::string& text,
             const std::string& otherwise, Make make) {
   try {
     return make(text);
@@ -78,13 +78,13 @@ void applyTo(haptics::Command& command, const std::vector<std::string>& texts) {
   command.law.machining.worn = command.erosion.worn;
 }
 
-haptics::Command commandFromToml(assets::TomlKeys& keys, const haptics::Command& base) {
+haptics::Command commandFromToml(assets::TomlReader& keys, const haptics::Command& base) {
   haptics::Command command = base;
   command.law.kind = madeOf(keys, "law", "name", keys.text("law", "name", lawName(base.law.kind)),
                             "no such law, give one of " + lawNames(), [](const auto& text) { return lawNamed(text); });
   readNumbers(keys, "law", lawParametersOf(command.law));
   const auto erosion = haptics::erosionOfKey(keys.text("erosion", "name", erosionName(base.erosion.kind)));
-  if (!erosion) keys.refuse("erosion", "name", "no such erosion, give one of " + listed(erosionNames()));
+  if (!erosion) keys.refuse("erosion", "name", "no such erosion, give one of " + joined(erosionNames()));
   command.erosion.kind = *erosion;
   readNumbers(keys, "erosion", parametersOf(command.erosion));
   command.law.machining.worn = command.erosion.worn;
@@ -96,17 +96,17 @@ haptics::Command commandFromToml(assets::TomlKeys& keys, const haptics::Command&
   if (keys.has("tool", "shaft"))
     command.tool.shaft =
         madeOf(keys, "tool", "shaft", keys.text("tool", "shaft"), "no such shaft, give R,L in mm or none", shaftFrom);
-  keys.refuseRest();
+  keys.refuseUnknownKeys();
   return command;
 }
 
 void refuseUnlessAdmitted(const haptics::Command& command) {
-  if (!haptics::admits(command.law.kind, command.tool.head.kind))
+  if (!haptics::supports(command.law.kind, command.tool.head.kind))
     throw UsageError("law " + lawName(command.law.kind) + ": it does not admit " + textOf(command.tool.head) +
                      ", give a sphere or another law");
 }
 
-void refuseUnlessHeld(const haptics::Command& command, double device_damping_Ns_per_mm, double rate_Hz) {
+void refuseUnlessStable(const haptics::Command& command, double device_damping_Ns_per_mm, double rate_Hz) {
   refuseUnlessAdmitted(command);
   const double most =
       haptics::passiveStiffness_N_per_mm(device_damping_Ns_per_mm, command.law.damping_Ns_per_mm, 1.0 / rate_Hz);
@@ -121,7 +121,7 @@ void refuseUnlessHeld(const haptics::Command& command, double device_damping_Ns_
       admission.lower ? admission.lower->key : "its gain", nearest, admission.lower ? admission.lower->unit : ""));
 }
 
-haptics::Command loweredUntilHeld(haptics::Command command, double device_damping_Ns_per_mm, double rate_Hz) {
+haptics::Command loweredUntilStable(haptics::Command command, double device_damping_Ns_per_mm, double rate_Hz) {
   const double most =
       haptics::passiveStiffness_N_per_mm(device_damping_Ns_per_mm, command.law.damping_Ns_per_mm, 1.0 / rate_Hz);
   // A law has at most a few gains that make it stiff.
@@ -130,7 +130,7 @@ haptics::Command loweredUntilHeld(haptics::Command command, double device_dampin
     if (admission.answer != haptics::Admission::Answer::too_stiff || !admission.lower) break;
     admission.lower->of(command.law) = std::floor(1000.0 * admission.nearest) / 1000.0;
   }
-  refuseUnlessHeld(command, device_damping_Ns_per_mm, rate_Hz);
+  refuseUnlessStable(command, device_damping_Ns_per_mm, rate_Hz);
   return command;
 }
 

@@ -11,7 +11,7 @@
 #include "haptics/servo/command.h"
 
 namespace assets {
-class TomlKeys;
+class TomlReader;
 }
 
 namespace app {
@@ -24,18 +24,18 @@ void applyTo(haptics::Command& command, const std::vector<std::string>& texts);
 
 /// [law] name and its parameters, [erosion] name and its, [spindle], [tool] head and shaft, [safety]; what the file
 /// leaves out is as in `base`. Throws LoadError with file, line and key.
-haptics::Command commandFromToml(assets::TomlKeys& keys, const haptics::Command& base);
+haptics::Command commandFromToml(assets::TomlReader& keys, const haptics::Command& base);
 
 /// Refuses a law that does not admit the head.
 void refuseUnlessAdmitted(const haptics::Command& command);
 
 /// The same, and refuses a law that is stiffer than a device of this damping holds at this rate
 /// (passivity, haptics/contact/law_limits): with the reason and the nearest value that is allowed.
-void refuseUnlessHeld(const haptics::Command& command, double device_damping_Ns_per_mm, double rate_Hz);
+void refuseUnlessStable(const haptics::Command& command, double device_damping_Ns_per_mm, double rate_Hz);
 
 /// The command with the law's gains lowered until that device holds it; for switching laws in the middle of work.
 /// Throws UsageError where lowering does not help.
-haptics::Command loweredUntilHeld(haptics::Command command, double device_damping_Ns_per_mm, double rate_Hz);
+haptics::Command loweredUntilStable(haptics::Command command, double device_damping_Ns_per_mm, double rate_Hz);
 
 /// "[law] stiffness_N_per_mm 0.8 -> 1 N/mm", a line for everything that differs; serial, drill lock, irrigation and
 /// undo aside.

@@ -7,7 +7,7 @@
 
 namespace app {
 
-std::string displayNames() { return listed(render::kDisplayModes, &render::DisplayModeName::name); }
+std::string displayNames() { return joined(render::kDisplayModes, &render::DisplayModeName::name); }
 
 void DisplayOption::addTo(CommandLine& command) {
   command

@@ -34,7 +34,7 @@ std::string helpOn(const auto& parameter) {
 
 }  // namespace
 
-std::string lawNames() { return listed(haptics::kLaws, &haptics::LawName::key); }
+std::string lawNames() { return joined(haptics::kLaws, &haptics::LawName::key); }
 std::string lawName(haptics::LawKind law) { return nameIn(haptics::kLaws, law); }
 std::string erosionName(haptics::ErosionKind law) { return nameIn(haptics::kErosions, law); }
 

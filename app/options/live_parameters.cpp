@@ -6,7 +6,7 @@
 
 #include "app/options/command_settings.h"
 #include "app/text/usage_error.h"
-#include "assets/toml_keys.h"
+#include "assets/toml_reader.h"
 
 namespace app {
 namespace {
@@ -25,7 +25,7 @@ LiveParameters::Mark LiveParameters::markOf() const {
 }
 
 haptics::Command LiveParameters::read() const {
-  assets::TomlKeys keys = assets::TomlKeys::fromFile(path_);
+  assets::TomlReader keys = assets::TomlReader::fromFile(path_);
   const haptics::Command command = commandFromToml(keys, base_);
   try {
     check_(command);

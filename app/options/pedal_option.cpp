@@ -4,7 +4,7 @@
 
 #include "app/text/list.h"
 #include "app/text/usage_error.h"
-#include "assets/toml_keys.h"
+#include "assets/toml_reader.h"
 #include "haptics/device/haptic_device.h"
 
 namespace app {
@@ -18,12 +18,12 @@ constexpr std::size_t kMostBindings = 64;
 
 haptics::HandAction actionNamed(const std::string& where, const std::string& name) {
   const auto action = haptics::handActionNamed(name);
-  if (!action) refuse(where, "no such action, choose one of " + listed(haptics::kHandActionNames));
+  if (!action) refuse(where, "no such action, choose one of " + joined(haptics::kHandActionNames));
   return *action;
 }
 
 haptics::PedalChoice fromFile(const std::string& path) {
-  assets::TomlKeys keys = assets::TomlKeys::fromFile(path);
+  assets::TomlReader keys = assets::TomlReader::fromFile(path);
   haptics::PedalChoice choice;
   choice.wanted = keys.text("", "device", "auto");
   for (const std::string& control : keys.keysOf("actions")) {
@@ -31,12 +31,12 @@ haptics::PedalChoice fromFile(const std::string& path) {
     binding.threshold = keys.number("thresholds", control, {0.15, 0.95, "of the travel"}, binding.threshold);
     choice.mapping.push_back(binding);
   }
-  keys.refuseRest();
+  keys.refuseUnknownKeys();
   return choice;
 }
 
 haptics::PedalChoice fromWords(const std::string& text) {
-  const std::vector<std::string_view> parts = partsOf(text);
+  const std::vector<std::string_view> parts = split(text);
   haptics::PedalChoice choice;
   choice.wanted = parts.front();
   for (const std::string_view one : std::span(parts).subspan(1)) {

@@ -16,7 +16,7 @@ struct PictureLayer {
 };
 
 inline constexpr std::array<PictureLayer, 6> kPictureLayers = {{
-    {"gum", "Gum", &render::Layers::gum},
+    {"gum", "Gum", &render::Layers::gingiva},
     {"canal", "Mandibular canal", &render::Layers::mandibular_canal},
     {"clearance", "Clearance bands", &render::Layers::clearance},
     {"plan", "Planned cut", &render::Layers::planned_cut},

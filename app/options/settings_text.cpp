@@ -7,7 +7,7 @@
 #include <fmt/core.h>
 
 #include "app/text/list.h"
-#include "app/text/number_in.h"
+#include "app/text/parse_number.h"
 #include "app/text/usage_error.h"
 #include "haptics/servo/servo.h"
 
@@ -37,10 +37,10 @@ void applySettings(const std::vector<std::string>& texts, const std::map<std::st
     const auto found = settingOf(text.substr(0, equals), settings);
     if (equals == std::string::npos || found == settings.end())
       throw UsageError("--set " + text + ": no such setting, use key=value with one of " +
-                       listed(settings, [](const auto& one) { return one.first; }));
+                       joined(settings, [](const auto& one) { return one.first; }));
     const std::string& key = found->first;
     if (!seen.insert(key).second) throw UsageError("--set " + key + ": it is given twice, give it once");
-    const auto value = numberIn<double>(std::string_view(text).substr(equals + 1));
+    const auto value = parseNumber<double>(std::string_view(text).substr(equals + 1));
     const Setting& setting = found->second;
     if (!value) throw UsageError("--set " + text + ": the value is not a number, correct it");
     if (*value < setting.low || *value > setting.high)
@@ -50,7 +50,7 @@ void applySettings(const std::vector<std::string>& texts, const std::map<std::st
   }
 }
 
-void refuseUnlessObeyed(const haptics::Command& command) {
+void refuseBeyondServoLimits(const haptics::Command& command) {
   const haptics::Command obeyed = haptics::sanitised(command);
   const auto check = [](const char* what, double asked, double taken, const char* unit) {
     if (asked != taken)

@@ -29,7 +29,7 @@ std::string_view formerKey(std::string_view key);
 void applySettings(const std::vector<std::string>& texts, const std::map<std::string, Setting>& settings);
 
 /// Refuses a command of which the servo would obey only a part, so that what is asked is what is felt, cut and drawn.
-void refuseUnlessObeyed(const haptics::Command& command);
+void refuseBeyondServoLimits(const haptics::Command& command);
 
 /// Refuses an output that is one of the inputs: --force must not eat what is being read.
 void refuseSameFile(const std::string& output, std::initializer_list<std::string> inputs);

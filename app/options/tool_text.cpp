@@ -6,7 +6,7 @@
 #include <fmt/core.h>
 
 #include "app/text/list.h"
-#include "app/text/number_in.h"
+#include "app/text/parse_number.h"
 #include "app/text/usage_error.h"
 
 namespace app {
@@ -44,10 +44,10 @@ std::vector<double> measuresIn(std::string_view text, const std::vector<Measure>
                                const std::string& pattern) {
   const std::string give = ", give " + pattern + " in mm";
   std::vector<double> values;
-  for (const std::string_view part : partsOf(text)) {
+  for (const std::string_view part : split(text)) {
     if (values.size() == measures.size()) throw UsageError(asked + ": there are too many numbers" + give);
     const Measure& measure = measures[values.size()];
-    const auto value = numberIn<double>(part);
+    const auto value = parseNumber<double>(part);
     if (!value) throw UsageError(asked + ": the " + measure.name + " is not a number" + give);
     if (*value < measure.least_mm || *value > measure.most_mm)
       throw UsageError(fmt::format("{}: the {} is out of range, give {} to {} mm", asked, measure.name,
@@ -66,7 +66,7 @@ std::string headForms() {
   for (const Form& form : forms()) patterns.push_back(form.pattern);
   const std::string_view last = patterns.back();
   patterns.pop_back();
-  return listed(patterns) + " or " + std::string(last);
+  return joined(patterns) + " or " + std::string(last);
 }
 
 std::map<ShapeKind, std::string_view> headKinds() {

@@ -10,7 +10,7 @@
 
 #include "app/text/command_line.h"
 #include "app/text/list.h"
-#include "app/text/number_in.h"
+#include "app/text/parse_number.h"
 #include "app/text/usage_error.h"
 #include "calibration/geometry/units.h"
 #include "calibration/record/utc.h"
@@ -85,10 +85,10 @@ render::Camera cameraOn(const assets::VolumeGrid& grid) {
 
 }  // namespace
 
-glm::ivec2 pictureSize(const std::string& text) {
-  const std::vector<std::string_view> edges = partsOf(text, 'x');
+glm::ivec2 imageSize(const std::string& text) {
+  const std::vector<std::string_view> edges = split(text, 'x');
   glm::ivec2 px{0};
-  if (edges.size() == 2) px = {numberIn<int>(edges[0]).value_or(0), numberIn<int>(edges[1]).value_or(0)};
+  if (edges.size() == 2) px = {parseNumber<int>(edges[0]).value_or(0), parseNumber<int>(edges[1]).value_or(0)};
   if (px.x < 16 || px.y < 16 || px.x > 16384 || px.y > 16384)
     throw UsageError("--size " + text + ": not a picture size, give WIDTHxHEIGHT, each 16 to 16384");
   return px;
@@ -108,9 +108,9 @@ void ViewOption::addTo(CommandLine& command) {
 render::Eye ViewOption::apply(calibration::Rig& rig, const assets::VolumeGrid& grid) const {
   if (rig_.isGiven()) {
     rig = rig_.choose({}, calibration::nowUtc())->record.rig;
-    if (!size_.empty()) rig.screen.px = pictureSize(size_);
+    if (!size_.empty()) rig.screen.px = imageSize(size_);
   } else {
-    const glm::ivec2 px = size_.empty() ? glm::ivec2(640, 480) : pictureSize(size_);
+    const glm::ivec2 px = size_.empty() ? glm::ivec2(640, 480) : imageSize(size_);
     const render::Camera camera = camera_.empty() ? cameraOn(grid) : cameraFrom(camera_);
     try {
       rig = render::cameraRig(camera, px);

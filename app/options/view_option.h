@@ -15,7 +15,7 @@ namespace app {
 class CommandLine;
 
 /// "640x480", each 16 to 16384. Throws UsageError.
-glm::ivec2 pictureSize(const std::string& text);
+glm::ivec2 imageSize(const std::string& text);
 
 class ViewOption {
  public:

@@ -53,7 +53,7 @@ void drawCrosstalk(const ScreenPage& page, Eye eye) {
   for (std::size_t s = 0; s < kSteps.size(); ++s) {
     const double light = kSteps[s] / 100.0;
     const glm::dvec2 corner{-half.x + static_cast<double>(s) * width, 0.42 * half.y};
-    page.box(corner, {width, 0.58 * half.y}, ofLight(light));
+    page.box(corner, {width, 0.58 * half.y}, greyOfLight(light));
     page.text(fmt::format("{:g} %", kSteps[s]), corner + glm::dvec2(0.5 * width, 0.46 * half.y), 0.055 * half.y, kSoft);
   }
   page.text("of white, in both eyes", {0.0, 0.36 * half.y}, 0.055 * half.y, kGrey);
@@ -132,7 +132,7 @@ std::optional<TestPattern> testPatternNamed(std::string_view name) {
   return std::nullopt;
 }
 
-render::Picture patternFor(TestPattern pattern, const calibration::Rig& rig, Eye eye, glm::ivec2 px) {
+render::Image patternFor(TestPattern pattern, const calibration::Rig& rig, Eye eye, glm::ivec2 px) {
   ScreenPage page(rig, px);
   if (pattern == TestPattern::eyes) drawEyes(page, eye);
   if (pattern == TestPattern::crosstalk) drawCrosstalk(page, eye);
@@ -142,8 +142,8 @@ render::Picture patternFor(TestPattern pattern, const calibration::Rig& rig, Eye
   return page.picture();
 }
 
-render::Picture patternOutput(TestPattern pattern, const calibration::Rig& rig, const render::StereoLayout& layout) {
-  const glm::ivec2 eye_px = render::eyePictureSize(layout.mode, layout.screen_px);
+render::Image patternOutput(TestPattern pattern, const calibration::Rig& rig, const render::StereoLayout& layout) {
+  const glm::ivec2 eye_px = render::eyeImageSize(layout.mode, layout.screen_px);
   if (layout.mode == render::DisplayMode::mono) return patternFor(pattern, rig, Eye::cyclopean, eye_px);
   return stereoPicture(patternFor(pattern, rig, Eye::left, eye_px), patternFor(pattern, rig, Eye::right, eye_px),
                        layout);

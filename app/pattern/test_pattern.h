@@ -16,7 +16,7 @@
 #include "calibration/rig.h"
 #include "render/display/eye_projection.h"
 #include "render/display/stereo_layout.h"
-#include "render/picture.h"
+#include "render/image.h"
 
 namespace app {
 
@@ -38,9 +38,9 @@ inline constexpr std::array<TestPatternName, 5> kTestPatterns = {{
 std::optional<TestPattern> testPatternNamed(std::string_view name);
 
 /// One eye's picture, `px` large, over the whole of the rig's screen.
-render::Picture patternFor(TestPattern pattern, const calibration::Rig& rig, render::Eye eye, glm::ivec2 px);
+render::Image patternFor(TestPattern pattern, const calibration::Rig& rig, render::Eye eye, glm::ivec2 px);
 
 /// What the display is given: every pixel from the eye the layout says, mixed in linear light for anaglyphs.
-render::Picture patternOutput(TestPattern pattern, const calibration::Rig& rig, const render::StereoLayout& layout);
+render::Image patternOutput(TestPattern pattern, const calibration::Rig& rig, const render::StereoLayout& layout);
 
 }  // namespace app

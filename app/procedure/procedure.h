@@ -16,9 +16,9 @@ namespace app {
 
 /// One line each; empty: nothing to say. The surgeon reads it in the window's title, unless the safety layer has to say
 /// something; the instructor in the operator's window, where there is one (--operator).
-struct ProcedureWords {
+struct ProcedureMessages {
   std::string to_surgeon, to_instructor;
-  bool operator==(const ProcedureWords&) const = default;
+  bool operator==(const ProcedureMessages&) const = default;
 };
 
 class Procedure {
@@ -27,11 +27,11 @@ class Procedure {
   /// A key as its upper-case letter, in either window. True: it was the procedure's, nobody else gets it.
   virtual bool takeKey(char /*key*/) { return false; }
   /// Neither stop nor end. True: nobody else obeys. By itself a procedure keeps what is felt.
-  virtual bool take(const ControlWish& wish) { return meaningOf(wish.control).is_felt; }
+  virtual bool take(const ControlRequest& request) { return meaningOf(request.control).is_felt; }
   /// Every tick since the last call, each once, oldest first, at least one. What is to be felt from now on, under a
   /// higher command_serial than that of the newest of them; none: as it is.
   virtual std::optional<haptics::Command> follow(std::span<const haptics::Tick> ticks) = 0;
-  virtual ProcedureWords words() const = 0;
+  virtual ProcedureMessages words() const = 0;
   virtual bool isOver() const = 0;
 };
 

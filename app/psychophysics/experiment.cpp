@@ -20,7 +20,7 @@ haptics::Command Experiment::commandOf(int interval) const {
   return command;
 }
 
-TrialRecord Experiment::answer(bool second_harder, const Felt& first, const Felt& second,
+TrialRecord Experiment::answer(bool second_harder, const ProbeMeasures& first, const ProbeMeasures& second,
                                std::optional<double> response_s) {
   TrialRecord record;
   record.trial = trial_;
@@ -31,8 +31,8 @@ TrialRecord Experiment::answer(bool second_harder, const Felt& first, const Felt
   record.comparison_harder = second_harder != planned_.comparison_first;
   if (record.standard && record.comparison && *record.standard != *record.comparison)
     record.correct = record.comparison_harder == (*record.comparison > *record.standard);
-  record.standard_felt = planned_.comparison_first ? second : first;
-  record.comparison_felt = planned_.comparison_first ? first : second;
+  record.standard_measures = planned_.comparison_first ? second : first;
+  record.comparison_measures = planned_.comparison_first ? first : second;
   record.response_s = response_s;
   record.reversal = order_.answer(record.comparison_harder);
   if (!order_.tracks().empty()) record.reversals = order_.tracks()[planned_.track].reversals();
@@ -43,10 +43,10 @@ Experiment runSimulated(const Protocol& protocol, haptics::CarvedBone& bone, con
                         const std::function<void(const TrialRecord&, const Experiment&)>& on_trial) {
   Experiment experiment(protocol, seed);
   SimulatedObserver observer(protocol.observer, seed);
-  calibration::Chance hand(seed, 2);
+  calibration::RandomGenerator hand(seed, 2);
   while (experiment.next()) {
-    const Felt first = feltIn(probe(bone, site, experiment.commandOf(0), protocol.probe, hand));
-    const Felt second = feltIn(probe(bone, site, experiment.commandOf(1), protocol.probe, hand));
+    const ProbeMeasures first = measuresOf(probe(bone, site, experiment.commandOf(0), protocol.probe, hand));
+    const ProbeMeasures second = measuresOf(probe(bone, site, experiment.commandOf(1), protocol.probe, hand));
     on_trial(experiment.answer(observer.secondHarder(first, second), first, second), experiment);
   }
   return experiment;

@@ -19,7 +19,7 @@ struct TrialRecord {
   std::optional<bool> correct;  ///< none where nothing says which is harder: equal, or different laws
   bool reversal = false;
   int reversals = 0;  ///< of this track so far
-  Felt standard_felt, comparison_felt;
+  ProbeMeasures standard_measures, comparison_measures;
   std::optional<double> response_s;  ///< a person's time to the answer
 };
 
@@ -32,7 +32,7 @@ class Experiment {
   /// What is felt in the first (0) or second (1) interval of this trial.
   haptics::Command commandOf(int interval) const;
   /// The answer to this trial.
-  TrialRecord answer(bool second_harder, const Felt& first, const Felt& second, std::optional<double> response_s = {});
+  TrialRecord answer(bool second_harder, const ProbeMeasures& first, const ProbeMeasures& second, std::optional<double> response_s = {});
 
   int trial() const { return trial_; }
   int most() const { return order_.most(); }

@@ -7,8 +7,8 @@
 
 #include <cstdint>
 
-#include "app/psychophysics/felt.h"
-#include "calibration/chance.h"
+#include "app/psychophysics/probe_measures.h"
+#include "calibration/random.h"
 
 namespace app {
 
@@ -25,16 +25,16 @@ double noiseShare(const ObserverSettings& settings);
 
 class SimulatedObserver {
  public:
-  SimulatedObserver(const ObserverSettings& settings, std::uint64_t seed) : settings_(settings), chance_(seed, 3) {}
+  SimulatedObserver(const ObserverSettings& settings, std::uint64_t seed) : settings_(settings), rng_(seed, 3) {}
 
   /// Was the second interval harder than the first?
-  bool secondHarder(const Felt& first, const Felt& second);
+  bool secondHarder(const ProbeMeasures& first, const ProbeMeasures& second);
 
  private:
-  double perceived(const Felt& felt);
+  double perceived(const ProbeMeasures& felt);
 
   ObserverSettings settings_;
-  calibration::Chance chance_;
+  calibration::RandomGenerator rng_;
 };
 
 }  // namespace app

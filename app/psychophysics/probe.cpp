@@ -20,13 +20,13 @@ struct Leg {
   double duration_s = 0.0;
 };
 
-void addPress(std::vector<Leg>& way, const glm::dvec2& place_mm, double reach_mm, double duration_s) {
-  way.push_back({{place_mm, -reach_mm}, 0.4 * duration_s});
-  way.push_back({{place_mm, -reach_mm}, 0.2 * duration_s});
-  way.push_back({{place_mm, kClearance_mm}, 0.4 * duration_s});
+void addPress(std::vector<Leg>& way, const glm::dvec2& position_mm, double reach_mm, double duration_s) {
+  way.push_back({{position_mm, -reach_mm}, 0.4 * duration_s});
+  way.push_back({{position_mm, -reach_mm}, 0.2 * duration_s});
+  way.push_back({{position_mm, kClearance_mm}, 0.4 * duration_s});
 }
 
-std::vector<Leg> wayOf(const ProbePlan& plan, calibration::Chance& hand) {
+std::vector<Leg> legsOf(const ProbePlan& plan, calibration::RandomGenerator& hand) {
   const glm::dvec2 place = plan.wander_mm * glm::dvec2(hand.normal(), hand.normal());
   const auto reach = [&](double spread) { return plan.reach_mm * std::max(0.2, 1.0 + spread * hand.normal()); };
   std::vector<Leg> way{{{place, kClearance_mm}, 0.0}};
@@ -57,14 +57,14 @@ std::vector<Leg> wayOf(const ProbePlan& plan, calibration::Chance& hand) {
 }
 
 /// Minimum jerk: 10 s^3 - 15 s^4 + 6 s^5 of the way, and its rate.
-double smoothWay(double s) { return s * s * s * (10.0 + s * (-15.0 + 6.0 * s)); }
-double smoothRate(double s) { return 30.0 * s * s * (1.0 - s) * (1.0 - s); }
+double minimumJerk(double s) { return s * s * s * (10.0 + s * (-15.0 + 6.0 * s)); }
+double minimumJerkRate(double s) { return 30.0 * s * s * (1.0 - s) * (1.0 - s); }
 
 }  // namespace
 
-std::vector<FeltSample> probe(haptics::CarvedBone& bone, const ProbeSite& site, const haptics::Command& command,
-                              const ProbePlan& plan, calibration::Chance& hand) {
-  const std::vector<Leg> way = wayOf(plan, hand);
+std::vector<ProbeSample> probe(haptics::CarvedBone& bone, const ProbeSite& site, const haptics::Command& command,
+                              const ProbePlan& plan, calibration::RandomGenerator& hand) {
+  const std::vector<Leg> way = legsOf(plan, hand);
   const glm::dvec3 z = site.outward_P.xyz;
   const glm::dvec3 x = glm::normalize(glm::cross(glm::abs(z.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0), z));
   const glm::dmat3 R{x, glm::cross(z, x), z};
@@ -77,23 +77,23 @@ std::vector<FeltSample> probe(haptics::CarvedBone& bone, const ProbeSite& site, 
   flesh.mass_kg = kHandMass_kg;
   flesh.stiffness_N_per_mm = plan.grip_N_per_mm;
   flesh.damping_Ns_per_mm = haptics::criticalDamping_Ns_per_mm(kHandMass_kg, plan.grip_N_per_mm);
-  flesh.place_mm = way[0].to_mm;
+  flesh.position_mm = way[0].to_mm;
   const double dt_s = 1.0 / plan.rate_Hz;
   glm::dvec3 force_N{0.0};
-  std::vector<FeltSample> samples;
+  std::vector<ProbeSample> samples;
   for (std::size_t leg = 1; leg < way.size(); ++leg) {
     const glm::dvec3 from = way[leg - 1].to_mm, by = way[leg].to_mm - from;
     const double duration_s = way[leg].duration_s;
     const int ticks = std::max(1, static_cast<int>(std::lround(duration_s / dt_s)));
     for (int n = 1; n <= ticks; ++n) {
       const double s = static_cast<double>(n) / ticks;
-      flesh.advance(from + smoothWay(s) * by, smoothRate(s) / duration_s * by, force_N, dt_s);
+      flesh.advance(from + minimumJerk(s) * by, minimumJerkRate(s) / duration_s * by, force_N, dt_s);
       haptics::HandSample sample;
-      sample.X_PT = {glm::quat_cast(R), touch_P + R * flesh.place_mm};
+      sample.X_PT = {glm::quat_cast(R), touch_P + R * flesh.position_mm};
       sample.velocity_P_mm_per_s = {R * flesh.velocity_mm_per_s};
       const haptics::Tick tick = servo.step(sample, still, dt_s);
-      force_N = glm::transpose(R) * tick.served_force_P_N.xyz;
-      samples.push_back({-flesh.place_mm.z, force_N.z});
+      force_N = glm::transpose(R) * tick.commanded_force_P_N.xyz;
+      samples.push_back({-flesh.position_mm.z, force_N.z});
     }
   }
   return samples;

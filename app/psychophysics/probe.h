@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "app/psychophysics/felt.h"
-#include "calibration/chance.h"
+#include "app/psychophysics/probe_measures.h"
+#include "calibration/random.h"
 #include "haptics/bone/carved_bone.h"
 #include "haptics/servo/command.h"
 
@@ -36,7 +36,7 @@ struct ProbeSite {
 };
 
 /// One interval. `bone` is borrowed and not changed.
-std::vector<FeltSample> probe(haptics::CarvedBone& bone, const ProbeSite& site, const haptics::Command& command,
-                              const ProbePlan& plan, calibration::Chance& hand);
+std::vector<ProbeSample> probe(haptics::CarvedBone& bone, const ProbeSite& site, const haptics::Command& command,
+                              const ProbePlan& plan, calibration::RandomGenerator& hand);
 
 }  // namespace app

@@ -7,7 +7,7 @@
 #include "app/options/settings_text.h"
 #include "app/options/tool_text.h"
 #include "app/text/usage_error.h"
-#include "assets/toml_keys.h"
+#include "assets/toml_reader.h"
 
 namespace app {
 namespace {
@@ -28,7 +28,7 @@ bool isAnonymousId(const std::string& id) {
          });
 }
 
-BoneChoice boneOf(assets::TomlKeys& keys) {
+BoneChoice boneOf(assets::TomlReader& keys) {
   BoneChoice bone;
   const int sources = keys.has("bone", "phantom") + keys.has("bone", "volume") + keys.has("bone", "patient");
   if (sources > 1) keys.refuse("bone", "", "more than one bone is named, keep one of phantom, volume and patient");
@@ -55,12 +55,12 @@ BoneChoice boneOf(assets::TomlKeys& keys) {
                                                                                : BoneChoice::Kind::trabecular;
     bone.voxel_mm = keys.number("bone", "voxel_mm", {0.05, 0.5, "mm"}, 0.2);
     if (bone.kind == BoneChoice::Kind::trabecular)
-      bone.seed = static_cast<std::uint64_t>(keys.whole("bone", "seed", 0, 1'000'000'000, 1));
+      bone.seed = static_cast<std::uint64_t>(keys.integer("bone", "seed", 0, 1'000'000'000, 1));
   }
   return bone;
 }
 
-haptics::Tool toolOf(assets::TomlKeys& keys) {
+haptics::Tool toolOf(assets::TomlReader& keys) {
   haptics::Tool tool;
   const std::string head = keys.text("tool", "head", "sphere:2");
   try {
@@ -71,7 +71,7 @@ haptics::Tool toolOf(assets::TomlKeys& keys) {
   return tool;
 }
 
-ProbePlan probeOf(assets::TomlKeys& keys) {
+ProbePlan probeOf(assets::TomlReader& keys) {
   ProbePlan plan;
   plan.motion = static_cast<Motion>(keys.choice("probe", "motion", {"tap", "press", "stroke", "free"}, 1));
   plan.reach_mm = keys.number("probe", "reach_mm", {0.1, 10.0, "mm"}, plan.reach_mm);
@@ -86,7 +86,7 @@ ProbePlan probeOf(assets::TomlKeys& keys) {
 }
 
 /// [standard] or [comparison]: a law and any of its parameters.
-haptics::LawSettings lawOf(assets::TomlKeys& keys, const std::string& table) {
+haptics::LawSettings lawOf(assets::TomlReader& keys, const std::string& table) {
   haptics::LawSettings law;
   const std::string name = keys.text(table, "law", "agus");
   try {
@@ -100,7 +100,7 @@ haptics::LawSettings lawOf(assets::TomlKeys& keys, const std::string& table) {
 }
 
 /// What varies, and the range the law gives it.
-Setting variedOf(assets::TomlKeys& keys, Protocol& protocol) {
+Setting variedOf(assets::TomlReader& keys, Protocol& protocol) {
   protocol.parameter = keys.text("vary", "parameter");
   const auto known = parametersOf(protocol.comparison);
   const auto found = known.find(protocol.parameter);
@@ -113,36 +113,36 @@ Setting variedOf(assets::TomlKeys& keys, Protocol& protocol) {
   return found->second;
 }
 
-void readConstant(assets::TomlKeys& keys, Protocol& protocol) {
+void readConstant(assets::TomlReader& keys, Protocol& protocol) {
   const Setting varied = variedOf(keys, protocol);
   protocol.levels = keys.numbers("vary", "levels", {varied.low, varied.high, varied.unit}, 2, kMostLevels);
   for (std::size_t i = 1; i < protocol.levels.size(); ++i)
     if (!(protocol.levels[i] > protocol.levels[i - 1]))
       keys.refuse("vary", "levels", "the levels must rise, put them in order and leave out doubles");
-  protocol.trials = static_cast<int>(keys.whole("vary", "repetitions", 1, 500, 20));
+  protocol.trials = static_cast<int>(keys.integer("vary", "repetitions", 1, 500, 20));
   if (static_cast<std::int64_t>(protocol.levels.size()) * protocol.trials > kMostTrials)
     keys.refuse("vary", "repetitions", "that is more than 5000 trials, give fewer");
 }
 
-void readStaircase(assets::TomlKeys& keys, Protocol& protocol) {
+void readStaircase(assets::TomlReader& keys, Protocol& protocol) {
   const Setting varied = variedOf(keys, protocol);
   StaircaseRule& rule = protocol.staircase;
   rule.low = varied.low, rule.high = varied.high;
   protocol.levels = keys.numbers("staircase", "start", {varied.low, varied.high, varied.unit}, 1, 8);
-  rule.up = static_cast<int>(keys.whole("staircase", "up", 1, 8, 1));
-  rule.down = static_cast<int>(keys.whole("staircase", "down", 1, 8, 2));
+  rule.up = static_cast<int>(keys.integer("staircase", "up", 1, 8, 1));
+  rule.down = static_cast<int>(keys.integer("staircase", "down", 1, 8, 2));
   rule.kind = keys.choice("staircase", "step_kind", {"added", "ratio"}, 0) == 0 ? StepKind::added : StepKind::ratio;
   const assets::NumberRange steps = rule.kind == StepKind::ratio
                                         ? assets::NumberRange{1.001, 10.0, ""}
                                         : assets::NumberRange{1e-6, varied.high - varied.low, varied.unit};
   rule.steps = keys.numbers("staircase", "steps", steps, 1, 20);
-  rule.reversals_per_step = static_cast<int>(keys.whole("staircase", "reversals_per_step", 1, 50, 2));
+  rule.reversals_per_step = static_cast<int>(keys.integer("staircase", "reversals_per_step", 1, 50, 2));
   rule.up_to_down = keys.number("staircase", "up_to_down", {0.1, 10.0, ""}, 1.0);
-  rule.reversals = static_cast<int>(keys.whole("staircase", "reversals", 2, 500, 12));
-  rule.discarded = static_cast<int>(keys.whole("staircase", "discarded_reversals", 0, 498, 4));
+  rule.reversals = static_cast<int>(keys.integer("staircase", "reversals", 2, 500, 12));
+  rule.discarded = static_cast<int>(keys.integer("staircase", "discarded_reversals", 0, 498, 4));
   if (rule.discarded + 2 > rule.reversals)
     keys.refuse("staircase", "discarded_reversals", "fewer than two reversals are left, discard fewer");
-  rule.most_trials = static_cast<int>(keys.whole("staircase", "most_trials", 2, kMostTrials, 200));
+  rule.max_trials = static_cast<int>(keys.integer("staircase", "most_trials", 2, kMostTrials, 200));
   if (rule.kind == StepKind::ratio && !(*std::min_element(protocol.levels.begin(), protocol.levels.end()) > 0.0))
     keys.refuse("staircase", "start", "steps by ratio never leave zero, start above it");
 }
@@ -162,7 +162,7 @@ std::optional<double> Protocol::standardValue() const {
 }
 
 Protocol protocolFromToml(const std::string& text, const std::string& where) {
-  assets::TomlKeys keys(text, where);
+  assets::TomlReader keys(text, where);
   Protocol protocol;
   protocol.title = keys.text("", "title", "");
   protocol.participant = keys.text("", "participant");
@@ -178,12 +178,12 @@ Protocol protocolFromToml(const std::string& text, const std::string& where) {
   protocol.peak_force_N = keys.number("safety", "peak_force_N", {0.1, 40.0, "N"}, protocol.peak_force_N);
   if (protocol.method == Method::constant) readConstant(keys, protocol);
   if (protocol.method == Method::staircase) readStaircase(keys, protocol);
-  if (protocol.method == Method::pair) protocol.trials = static_cast<int>(keys.whole("", "trials", 1, kMostTrials, 40));
+  if (protocol.method == Method::pair) protocol.trials = static_cast<int>(keys.integer("", "trials", 1, kMostTrials, 40));
   protocol.between_trials_s = keys.number("timing", "between_trials_s", {0.0, 600.0, "s"}, 1.0);
   protocol.observer.cue = static_cast<Cue>(keys.choice("observer", "cue", {"stiffness", "peak_force"}, 0));
   protocol.observer.weber_fraction = keys.number("observer", "weber_fraction", {0.0, 1.0, ""}, 0.15);
   protocol.observer.lapse_rate = keys.number("observer", "lapse_rate", {0.0, 0.5, ""}, 0.02);
-  keys.refuseRest();
+  keys.refuseUnknownKeys();
   return protocol;
 }
 

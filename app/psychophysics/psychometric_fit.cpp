@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "calibration/chance.h"
+#include "calibration/random.h"
 
 namespace app {
 namespace {
@@ -74,7 +74,7 @@ class Scoring {
     double i_aa = 1e-9, i_ab = 0.0, i_bb = 1e-9, g_a = 0.0, g_b = 0.0;
     for (const LevelCount& c : counts_) {
       const double u = (c.level - centre_) / range_, z = line.a + line.b * u;
-      const double p = std::clamp(lapse + (1.0 - 2.0 * lapse) * normalBelow(z), 1e-12, 1.0 - 1e-12);
+      const double p = std::clamp(lapse + (1.0 - 2.0 * lapse) * normalCdf(z), 1e-12, 1.0 - 1e-12);
       const double slope = (1.0 - 2.0 * lapse) * density(z), spread = p * (1.0 - p);
       const double score = slope * (c.harder - c.trials * p) / spread;
       const double weight = c.trials * slope * slope / spread;
@@ -111,20 +111,20 @@ Interval percentiles95(std::vector<double>& draws) {
 
 }  // namespace
 
-double normalBelow(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
+double normalCdf(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 
 double normalQuantile(double p) {
   // Bisection of Phi: slow, obvious, exact to the last digits.
   double low = -40.0, high = 40.0;
   for (int i = 0; i < 90; ++i) {
     const double middle = 0.5 * (low + high);
-    (normalBelow(middle) < p ? low : high) = middle;
+    (normalCdf(middle) < p ? low : high) = middle;
   }
   return 0.5 * (low + high);
 }
 
 double Psychometric::probability(double level) const {
-  return lapse + (1.0 - 2.0 * lapse) * normalBelow((level - pse) / sigma);
+  return lapse + (1.0 - 2.0 * lapse) * normalCdf((level - pse) / sigma);
 }
 double Psychometric::jnd() const { return kJndPerSigma * sigma; }
 
@@ -170,7 +170,7 @@ std::optional<PsychometricFit> fitWithIntervals(const std::vector<LevelCount>& c
   fit.deviance = 2.0 * (saturated(counts) - fit.log_likelihood);
 
   // The same levels and trials, answered by the fitted observer.
-  calibration::Chance chance(seed, 0xb007);
+  calibration::RandomGenerator rng(seed, 0xb007);
   std::vector<double> pse, jnd;
   int worse = 0;
   for (int draw = 0; draw < draws; ++draw) {
@@ -178,7 +178,7 @@ std::optional<PsychometricFit> fitWithIntervals(const std::vector<LevelCount>& c
     for (LevelCount& c : drawn) {
       const double p = function->probability(c.level);
       c.harder = 0;
-      for (int i = 0; i < c.trials; ++i) c.harder += chance.coin(p) ? 1 : 0;
+      for (int i = 0; i < c.trials; ++i) c.harder += rng.coin(p) ? 1 : 0;
     }
     const std::optional<Psychometric> again = fitPsychometric(drawn, fixed_lapse);
     if (!again) continue;
@@ -189,7 +189,7 @@ std::optional<PsychometricFit> fitWithIntervals(const std::vector<LevelCount>& c
   if (fit.draws == 0) return std::nullopt;
   fit.pse_95 = percentiles95(pse);
   fit.jnd_95 = percentiles95(jnd);
-  fit.deviance_share = static_cast<double>(worse) / fit.draws;
+  fit.deviance_p_value = static_cast<double>(worse) / fit.draws;
   return fit;
 }
 

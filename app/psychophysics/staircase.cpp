@@ -32,7 +32,7 @@ double targetProbability(const StaircaseRule& rule) {
   return 0.5 * (low + high);
 }
 
-bool Staircase::over() const { return reversals() >= rule_.reversals || trials_ >= rule_.most_trials; }
+bool Staircase::over() const { return reversals() >= rule_.reversals || trials_ >= rule_.max_trials; }
 
 bool Staircase::answer(bool comparison_harder) {
   ++trials_;

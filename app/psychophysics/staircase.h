@@ -21,7 +21,7 @@ struct StaircaseRule {
   double up_to_down = 1.0;         ///< a step upwards in steps downwards (of the logarithm, for a ratio)
   int reversals = 12;              ///< the track ends with this many
   int discarded = 4;               ///< of them, the first, that the threshold leaves out
-  int most_trials = 200;
+  int max_trials = 200;
   double low = 0.0, high = 0.0;  ///< the level stays within
 };
 

@@ -9,7 +9,7 @@
 #include "app/options/law_text.h"
 #include "app/psychophysics/trial_table.h"
 #include "app/text/version.h"
-#include "assets/toml_keys.h"
+#include "assets/toml_reader.h"
 
 namespace app {
 namespace {
@@ -37,7 +37,7 @@ json jsonOf(const PsychometricFit& fit) {
           {"lapse", fit.function.lapse},
           {"log_likelihood", fit.log_likelihood},
           {"deviance", fit.deviance},
-          {"deviance_share", fit.deviance_share},
+          {"deviance_share", fit.deviance_p_value},
           {"bootstrap_draws", fit.draws}};
 }
 
@@ -161,7 +161,7 @@ std::string summaryJson(const Protocol& protocol, const Outcome& outcome, std::u
   return out.dump(2) + "\n";
 }
 
-std::string summaryWords(const Protocol& protocol, const Outcome& outcome) {
+std::string outcomeText(const Protocol& protocol, const Outcome& outcome) {
   const auto number = [](double v) { return fmt::format("{:.4g}", v); };
   const std::string unit = protocol.unit.empty() ? "" : " " + protocol.unit;
   std::string text = "Psychophysics, participant " + protocol.participant + "\n  trials           " +
@@ -173,7 +173,7 @@ std::string summaryWords(const Protocol& protocol, const Outcome& outcome) {
     text += "  JND (75 %)       " + number(f.function.jnd()) + unit + "  (95 %: " + number(f.jnd_95.low) + " to " +
             number(f.jnd_95.high) + ")\n";
     if (const auto weber = weberFraction(protocol, outcome)) text += "  Weber fraction   " + number(*weber) + "\n";
-    if (f.deviance_share < 0.05)
+    if (f.deviance_p_value < 0.05)
       text += "  the curve fits the answers badly: look at the picture before believing it\n";
   } else if (protocol.method == Method::constant) {
     text += "  no psychometric function: the answers do not rise with " + protocol.parameter + "\n";

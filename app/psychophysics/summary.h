@@ -32,6 +32,6 @@ std::optional<double> weberFraction(const Protocol& protocol, const Outcome& out
 
 std::string summaryJson(const Protocol& protocol, const Outcome& outcome, std::uint64_t seed,
                         const std::string& observer);
-std::string summaryWords(const Protocol& protocol, const Outcome& outcome);
+std::string outcomeText(const Protocol& protocol, const Outcome& outcome);
 
 }  // namespace app

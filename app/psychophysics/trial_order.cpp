@@ -7,15 +7,15 @@ constexpr std::size_t kOrderBlock = 8;
 
 }  // namespace
 
-TrialOrder::TrialOrder(const Protocol& protocol, std::uint64_t seed) : chance_(seed, 1) {
+TrialOrder::TrialOrder(const Protocol& protocol, std::uint64_t seed) : rng_(seed, 1) {
   if (protocol.method == Method::staircase) {
     for (const double start : protocol.levels) tracks_.emplace_back(protocol.staircase, start);
-    most_ = static_cast<int>(tracks_.size()) * protocol.staircase.most_trials;
+    most_ = static_cast<int>(tracks_.size()) * protocol.staircase.max_trials;
     return;
   }
   const std::vector<double> levels = protocol.method == Method::constant ? protocol.levels : std::vector<double>{0.0};
   // An odd repetition out goes to either order in turn, level by level.
-  bool odd_first = chance_.coin(0.5);
+  bool odd_first = rng_.coin(0.5);
   for (int done = 0; done < protocol.trials; done += 2) {
     std::vector<PlannedTrial> block;
     for (const double level : levels) {
@@ -27,7 +27,7 @@ TrialOrder::TrialOrder(const Protocol& protocol, std::uint64_t seed) : chance_(s
         odd_first = !odd_first;
       }
     }
-    chance_.shuffle(block);
+    rng_.shuffle(block);
     planned_.insert(planned_.end(), block.begin(), block.end());
   }
   most_ = static_cast<int>(planned_.size());
@@ -37,7 +37,7 @@ bool TrialOrder::nextOrder() {
   if (orders_.empty()) {
     std::vector<char> block(kOrderBlock);
     for (std::size_t i = 0; i < kOrderBlock; ++i) block[i] = static_cast<char>(i % 2);
-    chance_.shuffle(block);
+    rng_.shuffle(block);
     orders_.assign(block.begin(), block.end());
   }
   const bool first = orders_.back();
@@ -54,7 +54,7 @@ std::optional<PlannedTrial> TrialOrder::next() {
   for (std::size_t i = 0; i < tracks_.size(); ++i)
     if (!tracks_[i].over()) running.push_back(i);
   if (running.empty()) return std::nullopt;
-  track_ = running[chance_.below(running.size())];
+  track_ = running[rng_.below(running.size())];
   return PlannedTrial{tracks_[track_].level(), track_, nextOrder()};
 }
 

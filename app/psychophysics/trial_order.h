@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/psychophysics/protocol.h"
-#include "calibration/chance.h"
+#include "calibration/random.h"
 
 namespace app {
 
@@ -34,7 +34,7 @@ class TrialOrder {
  private:
   bool nextOrder();
 
-  calibration::Chance chance_;
+  calibration::RandomGenerator rng_;
   std::vector<PlannedTrial> planned_;  ///< constant and pair, all of them
   std::vector<Staircase> tracks_;
   std::vector<bool> orders_;

@@ -9,7 +9,7 @@
 
 #include "app/options/law_text.h"
 #include "app/text/usage_error.h"
-#include "assets/toml_keys.h"
+#include "assets/toml_reader.h"
 
 namespace app {
 namespace {
@@ -22,7 +22,7 @@ constexpr const char* kHeader =
 
 std::string orEmpty(const std::optional<double>& value) { return value ? assets::numberText(*value) : std::string(); }
 
-std::string feltText(const Felt& felt) {
+std::string measuresText(const ProbeMeasures& felt) {
   return assets::numberText(felt.stiffness_N_per_mm) + "," + assets::numberText(felt.peak_force_N) + "," +
          assets::numberText(felt.depth_mm) + "," + assets::numberText(felt.work_Nmm);
 }
@@ -63,8 +63,8 @@ void TrialTable::add(const TrialRecord& r) {
   line += r.comparison_harder ? ",1," : ",0,";
   line += r.correct ? (*r.correct ? "1" : "0") : "";
   line += r.reversal ? ",1," : ",0,";
-  line += std::to_string(r.reversals) + "," + orEmpty(r.response_s) + "," + feltText(r.standard_felt) + "," +
-          feltText(r.comparison_felt) + "\n";
+  line += std::to_string(r.reversals) + "," + orEmpty(r.response_s) + "," + measuresText(r.standard_measures) + "," +
+          measuresText(r.comparison_measures) + "\n";
   write(line);
 }
 

@@ -5,7 +5,7 @@
 namespace app {
 
 Equipment::Equipment(RehearsalPlan& plan)
-    : hand_(handAtWork(plan.device, plan.device_options, plan.patient, plan.rig, plan.cut, std::move(plan.opened))),
+    : hand_(openPoseSource(plan.device, plan.device_options, plan.patient, plan.rig, plan.cut, std::move(plan.opened))),
       rate_Hz_(plan.rate_Hz.value_or(hand_.rate_Hz.value_or(1000.0))),
       damping_Ns_per_mm_(hand_.device->capabilities().damping_Ns_per_mm) {
   if (!plan.second_hand.device.empty())
@@ -34,11 +34,11 @@ void Equipment::start() {
   workstation_->note("second hand", second_hand_->name());
 }
 
-std::vector<ControlWish> Equipment::takeWishes() {
-  std::vector<ControlWish> wishes;
+std::vector<ControlRequest> Equipment::takeRequests() {
+  std::vector<ControlRequest> requests;
   for (const haptics::HandAction action : workstation_->takeActions())
-    if (const auto wish = wishOf(action)) wishes.push_back(*wish);
-  return wishes;
+    if (const auto request = requestOf(action)) requests.push_back(*request);
+  return requests;
 }
 
 StationHealth Equipment::health() {

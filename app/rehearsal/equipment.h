@@ -16,14 +16,14 @@ namespace app {
 
 class Equipment {
  public:
-  /// Takes over the plan's open device. Throws as handAtWork does.
+  /// Takes over the plan's open device. Throws as openPoseSource does.
   explicit Equipment(RehearsalPlan& plan);
 
   double rate_Hz() const { return rate_Hz_; }
   /// Of a hand that ends by itself.
   std::optional<double> duration_s() const { return hand_.duration_s; }
   /// What the hand asks for beside moving.
-  const std::vector<HandAsks>& asks() const { return hand_.asks; }
+  const std::vector<TimedRequest>& asks() const { return hand_.asks; }
   double damping_Ns_per_mm() const { return damping_Ns_per_mm_; }
   /// Where the window moves the hand, else nullptr.
   haptics::MouseDevice* mouse() { return hand_.mouse; }
@@ -35,12 +35,12 @@ class Equipment {
   void start();
 
   /// What buttons and pedal have asked for since the last call.
-  std::vector<ControlWish> takeWishes();
+  std::vector<ControlRequest> takeRequests();
   StationHealth health();
   void describe(RehearsalStatus& status) const;
 
  private:
-  HandAtWork hand_;
+  PoseSource hand_;
   double rate_Hz_, damping_Ns_per_mm_;
   std::optional<SecondHand> second_hand_;
   std::optional<haptics::FootPedal> pedal_;

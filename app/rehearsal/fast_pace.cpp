@@ -17,7 +17,7 @@ Pace::Time FastPace::now() const {
 
 void FastPace::toNextFrame() {
   std::uint64_t until = ticks_ + std::max<std::uint64_t>(1, static_cast<std::uint64_t>(rate_Hz_ / kFrames_per_s));
-  if (const auto wished = script_.nextTick()) until = std::min(until, *wished);
+  if (const auto requested = script_.nextTick()) until = std::min(until, *requested);
   // The sum of the ticks' dt is a rounded number.
   if (duration_s_) until = std::min(until, static_cast<std::uint64_t>(std::ceil(*duration_s_ * rate_Hz_ - 1e-6)));
   until = std::max(until, ticks_ + 1);

@@ -1,4 +1,4 @@
-// Time as fast as the machine can make it: a frame is so many ticks, made on this thread, fewer up to the next wish of
+// Time as fast as the machine can make it: a frame is so many ticks, made on this thread, fewer up to the next request of
 // the script and up to the end; what time it is follows from them alone. Nobody looks at the frames on the way, and
 // only snapshots are drawn. Main thread.
 #pragma once
@@ -26,7 +26,7 @@ class FastPace final : public Pace {
 
   Time now() const override;
   void toNextFrame() override;
-  bool isWatched() const override { return false; }
+  bool isRealTime() const override { return false; }
 
  private:
   Workstation& workstation_;

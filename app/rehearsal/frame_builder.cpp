@@ -16,7 +16,7 @@ render::Frame openingFrame(const RehearsalPlan& plan) {
   render::Frame frame = plan.first_frame;
   frame.rig = plan.rig;
   frame.face_window_mm = plan.face_window_mm;
-  frame.site_P = {plan.patient.workplace_P_mm()};
+  frame.site_P = {plan.patient.focus_P_mm()};
   frame.X_PT.translation_mm = frame.site_P.mm;
   return nextFrame(frame, {}, plan.command);
 }
@@ -42,13 +42,13 @@ render::Frame closingFrame(const render::Frame& last, const haptics::Tick& tick,
   return frame;
 }
 
-render::Layers layersAfter(const render::Layers& before, const ControlWish& wish) {
+render::Layers layersAfter(const render::Layers& before, const ControlRequest& request) {
   render::Layers layers = before;
-  if (wish.control == Control::layer) {
-    bool& shown = layers.*kPictureLayers[static_cast<std::size_t>(wish.value)].on;
+  if (request.control == Control::layer) {
+    bool& shown = layers.*kPictureLayers[static_cast<std::size_t>(request.value)].on;
     shown = !shown;
   }
-  if (wish.control == Control::face) layers.face_opacity = static_cast<float>(wish.value) / 100.0f;
+  if (request.control == Control::face) layers.face_opacity = static_cast<float>(request.value) / 100.0f;
   return layers;
 }
 

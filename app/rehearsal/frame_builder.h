@@ -20,7 +20,7 @@ render::Frame nextFrame(const render::Frame& before, const haptics::Tick& tick, 
 /// The last one: a scripted hand that has withdrawn only hides its work.
 render::Frame closingFrame(const render::Frame& last, const haptics::Tick& tick, bool is_moved_by_a_person);
 
-/// As the wish has it: `layer` switches one over, `face` fades it; others change nothing.
-render::Layers layersAfter(const render::Layers& before, const ControlWish& wish);
+/// As the request has it: `layer` switches one over, `face` fades it; others change nothing.
+render::Layers layersAfter(const render::Layers& before, const ControlRequest& request);
 
 }  // namespace app

@@ -11,7 +11,7 @@ volatile std::sig_atomic_t interrupted = 0;
 
 }  // namespace
 
-void obeyInterrupts() {
+void installInterruptHandlers() {
   for (const int asked : {SIGINT, SIGTERM, SIGHUP})
     std::signal(asked, [](int) {
       if (interrupted) forbidForceNow();

@@ -1,10 +1,10 @@
 // Ctrl-C, SIGTERM and SIGHUP end a rehearsal in order. The second time at the latest something hangs: then the force
-// goes without it. Main thread; from obeyInterrupts() on.
+// goes without it. Main thread; from installInterruptHandlers() on.
 #pragma once
 
 namespace app {
 
-void obeyInterrupts();
+void installInterruptHandlers();
 bool isInterrupted() noexcept;
 
 }  // namespace app

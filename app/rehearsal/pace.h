@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include "app/rehearsal/live_picture.h"
+#include "app/rehearsal/live_view.h"
 
 namespace app {
 
@@ -17,19 +17,19 @@ class Pace {
   /// To the time of the next frame: what the servo has done until then is drawn in it.
   virtual void toNextFrame() = 0;
   /// Whether anybody looks at the frames on the way.
-  virtual bool isWatched() const = 0;
+  virtual bool isRealTime() const = 0;
 };
 
 /// The servo keeps time by itself; a frame comes as soon as the display has shown the one before.
 class RealPace final : public Pace {
  public:
-  explicit RealPace(LivePicture& picture) : picture_(picture) {}
+  explicit RealPace(LiveView& picture) : view_(picture) {}
   Time now() const override { return std::chrono::steady_clock::now(); }
-  void toNextFrame() override { picture_.waitUntilShown(); }
-  bool isWatched() const override { return true; }
+  void toNextFrame() override { view_.waitUntilShown(); }
+  bool isRealTime() const override { return true; }
 
  private:
-  LivePicture& picture_;
+  LiveView& view_;
 };
 
 }  // namespace app

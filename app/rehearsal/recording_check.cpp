@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "app/session/file_seal.h"
-#include "app/session/recording_place.h"
+#include "app/session/recording_file.h"
 #include "app/text/usage_error.h"
 
 namespace app {
@@ -22,7 +22,7 @@ void refuseUnlessRecordable(const std::string& path, bool force, std::initialize
       refuse("it is the session that is replayed");
   if (!force) throw UsageError(path + ": exists already: choose another name for the recording or use --force");
   // Poses, settings, rigs, models: whatever is no recording is somebody's work.
-  if (fs::file_size(path, failed) > 0 && !bearsSessionMark(path))
+  if (fs::file_size(path, failed) > 0 && !hasSessionMark(path))
     refuse("it is no recording, --force replaces nothing else");
 }
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <utility>
 
-#include "app/controls/command_desk.h"
+#include "app/controls/active_command.h"
 #include "app/rehearsal/equipment.h"
 #include "app/rehearsal/fast_pace.h"
 #include "app/rehearsal/frame_builder.h"
@@ -12,9 +12,9 @@
 #include "app/rehearsal/pace.h"
 #include "app/rehearsal/rehearsal_outputs.h"
 #include "app/rehearsal/run_monitor.h"
-#include "app/rehearsal/status_board.h"
-#include "app/rehearsal/wish_router.h"
-#include "app/text/said.h"
+#include "app/rehearsal/status_reporter.h"
+#include "app/rehearsal/control_router.h"
+#include "app/text/message.h"
 
 namespace app {
 namespace {
@@ -25,24 +25,24 @@ class Rehearsal {
   explicit Rehearsal(RehearsalPlan plan)
       : plan_(std::move(plan)),
         equipment_(plan_),
-        desk_(plan_.command, plan_.other_tools, plan_.parameters, equipment_.damping_Ns_per_mm(), equipment_.rate_Hz()),
+        active_command_(plan_.command, plan_.other_tools, plan_.parameters, equipment_.damping_Ns_per_mm(), equipment_.rate_Hz()),
         duration_s_(plan_.seconds ? plan_.seconds : equipment_.duration_s()),
         monitor_(duration_s_),
-        router_(plan_, equipment_, desk_, monitor_, picture_, journal_),
-        picture_(plan_, desk_.inForce(), equipment_.secondHand(), equipment_.rate_Hz(),
+        router_(plan_, equipment_, active_command_, monitor_, view_, event_log_),
+        view_(plan_, active_command_.inForce(), equipment_.secondHand(), equipment_.rate_Hz(),
                  [this](const std::string& line) {
-                   journal_.tell({"display", line});
+                   event_log_.report({"display", line});
                  }),
         frame_(openingFrame(plan_)) {
     // Pictures with a name are claimed before the work.
     if (!plan_.snapshot.empty()) last_.emplace(plan_.snapshot, plan_.overwrite);
     if (!plan_.first_snapshot.empty()) first_.emplace(plan_.first_snapshot, plan_.overwrite);
     if (plan_.recording) plan_.recording->calibration = plan_.calibration;
-    equipment_.join(plan_, desk_.inForce());
-    desk_.serve(station());
+    equipment_.join(plan_, active_command_.inForce());
+    active_command_.serve(station());
     pace_ = paceOf();
-    picture_.follow(station().bone());
-    board_.emplace(plan_, equipment_, picture_, monitor_, journal_);
+    view_.follow(station().bone());
+    status_reporter_.emplace(plan_, equipment_, view_, monitor_, event_log_);
   }
 
   /// However it ends: the force goes first, then windows.
@@ -51,44 +51,44 @@ class Rehearsal {
   Rehearsal& operator=(const Rehearsal&) = delete;
 
   int run() {
-    for (const std::string& remark : plan_.remarks) say(remark);
-    if (const auto beside = station().recordedBeside())
-      say("recording into " + *beside + " until it is closed, then in the place of " + plan_.recording->path);
+    for (const std::string& remark : plan_.remarks) printMessage(remark);
+    if (const auto beside = station().temporaryFile())
+      printMessage("recording into " + *beside + " until it is closed, then in the place of " + plan_.recording->path);
     double first_picture_s = 0.0;
-    if (pace_->isWatched()) {
-      picture_.show(frame_);
+    if (pace_->isRealTime()) {
+      view_.show(frame_);
       first_picture_s = secondsSince(plan_.begun);
       // Before the hand is there.
-      picture_.settle(frame_);
+      view_.settle(frame_);
     }
-    if (first_) picture_.take(*first_, frame_, plan_.patient.ct.solid);
+    if (first_) view_.take(*first_, frame_, plan_.patient.ct.solid);
     start();
     const Pace::Time looping_since = pace_->now();
-    const std::uint64_t settled = picture_.pictures();
+    const std::uint64_t settled = view_.pictures();
     std::optional<Ending> ending;
-    while (router_.takeInput(newest_, frame_), !(ending = endingNow())) {
+    while (router_.handleInput(newest_, frame_), !(ending = endingNow())) {
       // When a file was changed is the wall's time.
-      if (pace_->isWatched()) desk_.lookAtFile(pace_->now());
+      if (pace_->isRealTime()) active_command_.pollSettingsFile(pace_->now());
       followProcedure();
-      if (desk_.takeOtherTool() && pace_->isWatched()) picture_.showInstrument();
+      if (active_command_.takeToolChange() && pace_->isRealTime()) view_.showInstrument();
       pace_->toNextFrame();
       followServo();
-      if (pace_->isWatched()) picture_.show(frame_);
-      if (picture_.adaptQuality(newest_.drilling || newest_.depth_mm > 0.0)) noteQuality();
-      board_->show(pace_->now(), moment());
-      router_.takeFromOperator(board_->serveOperator(moment()), frame_);
+      if (pace_->isRealTime()) view_.show(frame_);
+      if (view_.adaptQuality(newest_.drilling || newest_.depth_mm > 0.0)) noteQuality();
+      status_reporter_->show(pace_->now(), moment());
+      router_.handleInstructorInput(status_reporter_->updateInstructor(moment()), frame_);
     }
     const double loop_s = secondsSince(looping_since);
     RehearsalFigures figures = finish(*ending);
     figures.first_picture_s = first_picture_s;
     figures.frame_ms = 1000.0 * loop_s / static_cast<double>(std::max<std::uint64_t>(1, figures.frames - settled));
     std::fputs(summaryText(figures).c_str(), plan_.procedure ? stderr : stdout);
-    return answerOf(figures);
+    return exitStatus(figures);
   }
 
  private:
   std::unique_ptr<Pace> paceOf() {
-    if (plan_.ticking == Ticking::by_itself) return std::make_unique<RealPace>(picture_);
+    if (plan_.ticking == Ticking::realtime) return std::make_unique<RealPace>(view_);
     return std::make_unique<FastPace>(station(), equipment_.secondHand(), router_.script(), equipment_.rate_Hz(),
                                       duration_s_);
   }
@@ -99,58 +99,58 @@ class Rehearsal {
   void start() {
     equipment_.start();
     for (const std::string& remark : plan_.remarks) station().note("calibration", remark);
-    journal_.keepIn(station());
+    event_log_.recordInto(station());
     noteQuality();
   }
 
   std::optional<Ending> endingNow() {
     return monitor_.ending(newest_, pace_->now(), isInterrupted(), plan_.procedure && plan_.procedure->isOver(),
-                           !station().isInForce(newest_));
+                           !station().isApplied(newest_));
   }
 
   void followProcedure() {
     if (!plan_.procedure) return;
     const std::vector<haptics::Tick> ticks = station().takeTicks();
     if (ticks.empty()) return;
-    if (const auto wanted = plan_.procedure->follow(ticks)) desk_.follow(*wanted);
+    if (const auto wanted = plan_.procedure->follow(ticks)) active_command_.follow(*wanted);
   }
 
   /// The tick first, then the bricks: what that tick cut is in this very frame.
   void followServo() {
     newest_ = station().newestTick();
-    frame_ = nextFrame(frame_, newest_, desk_.inForce());
+    frame_ = nextFrame(frame_, newest_, active_command_.inForce());
     if (equipment_.secondHand()) equipment_.secondHand()->place(frame_);
-    if (pace_->isWatched()) picture_.bringBone();
+    if (pace_->isRealTime()) view_.uploadBone();
   }
 
-  void noteQuality() { journal_.note("quality", picture_.qualityText()); }
+  void noteQuality() { event_log_.note("quality", view_.qualityText()); }
 
-  StatusBoard::Moment moment() const { return {newest_, desk_.inForce(), frame_.layers}; }
+  StatusReporter::FrameState moment() const { return {newest_, active_command_.inForce(), frame_.layers}; }
 
   RehearsalFigures finish(Ending ending) {
-    board_->tellEnd(ending);
+    status_reporter_->reportEnd(ending);
     const RecordingSummary recorded = station().stop();
     // One more picture of what the bone has become.
     followServo();
     if (last_)
-      picture_.take(*last_, closingFrame(frame_, newest_, equipment_.mouse() != nullptr),
+      view_.take(*last_, closingFrame(frame_, newest_, equipment_.mouse() != nullptr),
                     station().bone().solidInGridOrder());
-    RehearsalFigures figures = board_->figures(moment());
+    RehearsalFigures figures = status_reporter_->figures(moment());
     if (plan_.recording) figures.recording = recorded;
     return figures;
   }
 
   RehearsalPlan plan_;
-  Journal journal_;
+  EventLog event_log_;
   Equipment equipment_;
-  CommandDesk desk_;
+  ActiveCommand active_command_;
   std::optional<double> duration_s_;
   RunMonitor monitor_;
-  WishRouter router_;
-  std::optional<EyePictures> first_, last_;
-  LivePicture picture_;
+  ControlRouter router_;
+  std::optional<StereoSnapshot> first_, last_;
+  LiveView view_;
   std::unique_ptr<Pace> pace_;
-  std::optional<StatusBoard> board_;  // goes before the picture
+  std::optional<StatusReporter> status_reporter_;  // goes before the picture
   render::Frame frame_;
   haptics::Tick newest_;
 };
@@ -158,7 +158,7 @@ class Rehearsal {
 }  // namespace
 
 int rehearse(RehearsalPlan plan) {
-  obeyInterrupts();
+  installInterruptHandlers();
   plan.device_options.given_up = [] { return isInterrupted(); };
   return Rehearsal(std::move(plan)).run();
 }

@@ -1,27 +1,27 @@
 #include "app/rehearsal/rehearsal_outputs.h"
-#include "app/text/said.h"
+#include "app/text/message.h"
 
 #include <exception>
 #include <string>
 
 namespace app {
 
-void takeSnapshot(LivePicture& picture, const render::Frame& frame, bool is_watched, Journal& journal) {
-  if (!is_watched) {
+void takeSnapshot(LiveView& picture, const render::Frame& frame, bool is_real_time, EventLog& event_log) {
+  if (!is_real_time) {
     picture.display().renderer();
-    picture.bringBone();
+    picture.uploadBone();
     picture.showInstrument();
     picture.show(frame);
   }
   try {
     const std::string path = saveNextSnapshot(picture.newest());
-    journal.note("snapshot", path);
-    say("snapshot " + path);
+    event_log.note("snapshot", path);
+    printMessage("snapshot " + path);
   } catch (const std::exception& error) {
-    say(error.what());
+    printMessage(error.what());
   }
 }
 
-int answerOf(const RehearsalFigures& figures) { return figures.recording && !figures.recording->isWhole() ? 1 : 0; }
+int exitStatus(const RehearsalFigures& figures) { return figures.recording && !figures.recording->isWhole() ? 1 : 0; }
 
 }  // namespace app

@@ -2,17 +2,17 @@
 // thread.
 #pragma once
 
-#include "app/rehearsal/journal.h"
-#include "app/rehearsal/live_picture.h"
+#include "app/rehearsal/event_log.h"
+#include "app/rehearsal/live_view.h"
 #include "app/rehearsal/rehearsal_summary.h"
 
 namespace app {
 
 /// The newest picture under the first free name; says where, or why not. Where nobody watches the frame is drawn for
 /// it.
-void takeSnapshot(LivePicture& picture, const render::Frame& frame, bool is_watched, Journal& journal);
+void takeSnapshot(LiveView& picture, const render::Frame& frame, bool is_real_time, EventLog& event_log);
 
 /// The program's answer: 1 where a recording was asked for and is not whole.
-int answerOf(const RehearsalFigures& figures);
+int exitStatus(const RehearsalFigures& figures);
 
 }  // namespace app

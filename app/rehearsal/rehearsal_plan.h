@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/device/hand_at_work.h"
+#include "app/device/pose_source.h"
 #include "app/device/second_hand.h"
 #include "app/procedure/procedure.h"
 #include "app/station/workstation.h"
@@ -46,10 +46,10 @@ struct RehearsalPlan {
   std::string snapshot, first_snapshot;  ///< PNG paths; `_left` and `_right` are put before the ending
   glm::ivec2 snapshot_px{1280, 800};
   double face_window_mm = 0.0;
-  Ticking ticking = Ticking::by_itself;  ///< by hand: as fast as the machine can, nobody watches
+  Ticking ticking = Ticking::realtime;  ///< by hand: as fast as the machine can, nobody watches
   bool headless = false, full_screen = false, overwrite = false;
   std::optional<int> monitor;       ///< index of render::monitors()
-  bool operators_window = false;    ///< on the next monitor, or beside the picture on the same
+  bool instructor_window = false;    ///< on the next monitor, or beside the picture on the same
   std::optional<int> quality_step;  ///< held; none: by measured frame times
   std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();  ///< when the user asked for it
 };

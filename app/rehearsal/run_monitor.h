@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "app/device/trip_teller.h"
+#include "app/device/trip_reporter.h"
 #include "app/instructor/rehearsal_status.h"
-#include "app/rehearsal/journal.h"
+#include "app/rehearsal/event_log.h"
 #include "haptics/safety/trips.h"
 #include "haptics/servo/tick.h"
 
@@ -22,7 +22,7 @@ const char* textOf(Ending ending);
 
 /// What the station says of itself.
 struct StationHealth {
-  haptics::TripLedger trips;
+  haptics::TripCounter trips;
   std::string device_trouble;                    ///< while there is any
   std::optional<std::string> recording_trouble;  ///< from the moment it ended early
   std::vector<std::string> news;                 ///< of units unplugged and the other hand: each given once
@@ -54,8 +54,8 @@ class RunMonitor {
   std::optional<Time> ticked_at_;
   std::uint64_t index_seen_ = 0;
   std::string device_trouble_;
-  TripTeller trip_teller_;
-  haptics::TripLedger trips_;
+  TripReporter trip_teller_;
+  haptics::TripCounter trips_;
   bool ended_by_user_ = false, recording_ended_ = false;
 };
 

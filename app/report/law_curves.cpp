@@ -17,9 +17,9 @@ constexpr double kVoxelsPerRadius = 16.0, kFinest_mm = 0.03, kCoarsest_mm = 0.2;
 constexpr double kFaceInLayer = 0.2113248654;
 
 /// Solid below z = 0, room for the head to go in.
-haptics::CarvedBone flatBone(const PressedBur& press) {
-  const double s = std::clamp(press.head.radius_mm / kVoxelsPerRadius, kFinest_mm, kCoarsest_mm);
-  const double half_mm = press.head.radius_mm + 3.0 * s, depth_mm = press.deepest_mm + 4.0 * s;
+haptics::CarvedBone flatBone(const BurIndentation& bur) {
+  const double s = std::clamp(bur.head.radius_mm / kVoxelsPerRadius, kFinest_mm, kCoarsest_mm);
+  const double half_mm = bur.head.radius_mm + 3.0 * s, depth_mm = bur.deepest_mm + 4.0 * s;
   const int across = static_cast<int>(std::ceil(2.0 * half_mm / s)), down = static_cast<int>(std::ceil(depth_mm / s));
   const assets::VolumeGrid grid{
       {across, across, down + 2}, s, {-half_mm + 0.5 * s, -half_mm + 0.5 * s, (0.5 - kFaceInLayer - down) * s}};
@@ -36,18 +36,18 @@ haptics::CarvedBone flatBone(const PressedBur& press) {
 
 }  // namespace
 
-LawCurve lawCurve(const haptics::LawSettings& law, const PressedBur& press) {
-  const haptics::CarvedBone bone = flatBone(press);
+LawCurve lawCurve(const haptics::LawSettings& law, const BurIndentation& bur) {
+  const haptics::CarvedBone bone = flatBone(bur);
   LawCurve curve;
   curve.law = law.kind;
   haptics::ToolMotion motion;
-  motion.velocity_P_mm_per_s = {{0.0, 0.0, -press.feed_mm_per_s}};
-  motion.spindle_rad_per_s = press.spindle_rpm * 2.0 * std::numbers::pi / 60.0;
-  const double first_touch_mm = haptics::reach_mm(press.head, -1.0);
+  motion.velocity_P_mm_per_s = {{0.0, 0.0, -bur.feed_mm_per_s}};
+  motion.spindle_rad_per_s = bur.spindle_rpm * 2.0 * std::numbers::pi / 60.0;
+  const double first_touch_mm = haptics::reach_mm(bur.head, -1.0);
   for (int n = 0; n <= kSteps; ++n) {
-    const double depth_mm = press.deepest_mm * n / kSteps;
+    const double depth_mm = bur.deepest_mm * n / kSteps;
     const haptics::ToolInBone at{
-        bone.field(), press.head, {{1, 0, 0, 0}, {0.0, 0.0, first_touch_mm - depth_mm}}, law.tissue, motion};
+        bone.field(), bur.head, {{1, 0, 0, 0}, {0.0, 0.0, first_touch_mm - depth_mm}}, law.tissue, motion};
     const haptics::Contact contact = haptics::contactOf(law, at);
     curve.force_N.emplace_back(depth_mm, contact.force_P_N.xyz.z);
   }

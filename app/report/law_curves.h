@@ -16,12 +16,12 @@ struct LawCurve {
   std::vector<glm::dvec2> stiffness_N_per_mm;  ///< depth, dF/dh
 };
 
-struct PressedBur {
+struct BurIndentation {
   haptics::BurShape head;
   double deepest_mm = 1.0;
   double spindle_rpm = 40000.0, feed_mm_per_s = 1.0;  ///< what the machining law goes by
 };
 
-LawCurve lawCurve(const haptics::LawSettings& law, const PressedBur& press);
+LawCurve lawCurve(const haptics::LawSettings& law, const BurIndentation& bur);
 
 }  // namespace app

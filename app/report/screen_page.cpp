@@ -20,7 +20,7 @@ std::uint8_t encoded(double light) {
   return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(s, 0.0, 1.0)));
 }
 
-Ink ofLight(double share) {
+Ink greyOfLight(double share) {
   const double s = encoded(share) / 255.0;
   return {s, s, s};
 }
@@ -107,13 +107,13 @@ void ScreenPage::label(const std::string& words, const glm::dvec2& centre, doubl
   text(words, centre, height_mm, ink);
 }
 
-render::Picture ScreenPage::picture() const {
+render::Image ScreenPage::picture() const {
   cairo_surface_t* const surface = cairo_get_target(pen());
   cairo_surface_flush(surface);
   const int w = cairo_image_surface_get_width(surface), h = cairo_image_surface_get_height(surface);
   const int row_bytes = cairo_image_surface_get_stride(surface);
   const unsigned char* const rows = cairo_image_surface_get_data(surface);
-  render::Picture picture{w, h, {}};
+  render::Image picture{w, h, {}};
   picture.rgba.resize(4 * static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
   std::uint8_t* to = picture.rgba.data();
   for (int y = 0; y < h; ++y) {

@@ -11,12 +11,12 @@
 #include "app/report/drawing.h"
 #include "calibration/rig.h"
 #include "render/display/eye_projection.h"
-#include "render/picture.h"
+#include "render/image.h"
 
 namespace app {
 
 /// Grey that gives this share of white's light.
-Ink ofLight(double share);
+Ink greyOfLight(double share);
 /// Linear light as a byte of sRGB.
 std::uint8_t encoded(double light);
 
@@ -44,7 +44,7 @@ class ScreenPage : public Drawing {
   /// Text on black, centred.
   void label(const std::string& words, const glm::dvec2& centre, double height_mm, const Ink& ink) const;
 
-  render::Picture picture() const;
+  render::Image picture() const;
 
  private:
   glm::dvec2 size_mm_{0.0};

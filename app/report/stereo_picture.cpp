@@ -11,10 +11,10 @@
 namespace app {
 namespace {
 
-using render::Picture;
-using render::Shown;
+using render::Image;
+using render::PixelSource;
 
-const std::uint8_t* pixelOf(const Picture& picture, glm::ivec2 px) {
+const std::uint8_t* pixelOf(const Image& picture, glm::ivec2 px) {
   return picture.rgba.data() +
          4 * (static_cast<std::size_t>(px.y) * static_cast<std::size_t>(picture.w) + static_cast<std::size_t>(px.x));
 }
@@ -63,24 +63,24 @@ bool runsAlongRows(render::DisplayMode mode) {
 
 }  // namespace
 
-Picture stereoPicture(const Picture& left, const Picture& right, const render::StereoLayout& layout) {
+Image stereoPicture(const Image& left, const Image& right, const render::StereoLayout& layout) {
   const glm::ivec2 size = render::outputSize(layout.mode, layout.screen_px);
-  const int eye_w = render::eyePictureSize(layout.mode, layout.screen_px).x;
-  Picture all{size.x, size.y, {}};
+  const int eye_w = render::eyeImageSize(layout.mode, layout.screen_px).x;
+  Image all{size.x, size.y, {}};
   all.rgba.resize(4 * static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
   Mixer mixer(layout.mode, layout.swapped);
   const int most = runsAlongRows(layout.mode) ? eye_w : 1;
   for (int y = 0; y < size.y; ++y) {
     std::uint8_t* to = all.rgba.data() + 4 * static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x);
     for (int x = 0; x < size.x;) {
-      const render::ShownPixel shown = render::shownAt(layout, {x, y});
+      const render::SourcePixel shown = render::sourcePixelAt(layout, {x, y});
       const int count = std::min(most, size.x - x);
-      if (shown.eye == Shown::both) {
+      if (shown.eye == PixelSource::both) {
         mixer.mix(pixelOf(left, shown.px), pixelOf(right, shown.px), to);
-      } else if (shown.eye == Shown::black) {
+      } else if (shown.eye == PixelSource::black) {
         for (int n = 0; n < count; ++n) to[4 * n + 3] = 255;
       } else {
-        std::memcpy(to, pixelOf(shown.eye == Shown::right ? right : left, shown.px),
+        std::memcpy(to, pixelOf(shown.eye == PixelSource::right ? right : left, shown.px),
                     4 * static_cast<std::size_t>(count));
       }
       x += count;

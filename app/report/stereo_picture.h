@@ -3,12 +3,12 @@
 #pragma once
 
 #include "render/display/stereo_layout.h"
-#include "render/picture.h"
+#include "render/image.h"
 
 namespace app {
 
-/// `left`, `right`: eyePictureSize() of the layout; mono shows `left`.
-render::Picture stereoPicture(const render::Picture& left, const render::Picture& right,
+/// `left`, `right`: eyeImageSize() of the layout; mono shows `left`.
+render::Image stereoPicture(const render::Image& left, const render::Image& right,
                               const render::StereoLayout& layout);
 
 }  // namespace app

@@ -110,38 +110,38 @@ void visitSpindle(auto& spindle, Visit&& visit) {
 
 template <class Visit>
 void visitThresholds(auto& thresholds, Visit&& visit) {
-  auto& [longest_pause_s, arming_mm_per_s, let_go_s, soft_start_s, soft_start_N_per_s, braked_mm_per_s, cut_mm_per_s,
-         cut_s, buzz_mm_per_s, stale_s, stale_fades_s, longest_stale_s, warm_motor, share_of_hottest] = thresholds;
-  visit("safety.thresholds.longest_pause_s", longest_pause_s);
+  auto& [max_pause_s, arming_mm_per_s, release_s, soft_start_s, soft_start_N_per_s, brake_mm_per_s, cutoff_mm_per_s,
+         cutoff_s, buzz_mm_per_s, stale_s, stale_fade_s, max_stale_s, warm_motor, share_at_hottest] = thresholds;
+  visit("safety.thresholds.longest_pause_s", max_pause_s);
   visit("safety.thresholds.arming_mm_per_s", arming_mm_per_s);
-  visit("safety.thresholds.let_go_s", let_go_s);
+  visit("safety.thresholds.let_go_s", release_s);
   visit("safety.thresholds.soft_start_s", soft_start_s);
   visit("safety.thresholds.soft_start_N_per_s", soft_start_N_per_s);
-  visit("safety.thresholds.braked_mm_per_s", braked_mm_per_s);
-  visit("safety.thresholds.cut_mm_per_s", cut_mm_per_s);
-  visit("safety.thresholds.cut_s", cut_s);
+  visit("safety.thresholds.braked_mm_per_s", brake_mm_per_s);
+  visit("safety.thresholds.cut_mm_per_s", cutoff_mm_per_s);
+  visit("safety.thresholds.cut_s", cutoff_s);
   visit("safety.thresholds.buzz_mm_per_s", buzz_mm_per_s);
   visit("safety.thresholds.stale_s", stale_s);
-  visit("safety.thresholds.stale_fades_s", stale_fades_s);
-  visit("safety.thresholds.longest_stale_s", longest_stale_s);
+  visit("safety.thresholds.stale_fades_s", stale_fade_s);
+  visit("safety.thresholds.longest_stale_s", max_stale_s);
   visit("safety.thresholds.warm_motor", warm_motor);
-  visit("safety.thresholds.share_of_hottest", share_of_hottest);
+  visit("safety.thresholds.share_of_hottest", share_at_hottest);
 }
 
 template <class Visit>
 void visitSafety(auto& safety, Visit&& visit) {
-  auto& [peak_force_N, slew_N_per_s, peak_torque_Nmm, slew_Nmm_per_s, most_stiffness_N_per_mm, most_damping_Ns_per_mm,
-         continuous_force_N, peak_joint_torque_Nmm, fastest_mm_per_s, fastest_turn_rad_per_s, must_be_armed,
+  auto& [peak_force_N, slew_N_per_s, peak_torque_Nmm, slew_Nmm_per_s, max_stiffness_N_per_mm, max_damping_Ns_per_mm,
+         continuous_force_N, peak_joint_torque_Nmm, max_speed_mm_per_s, max_angular_speed_rad_per_s, must_be_armed,
          thresholds] = safety;
   visit("safety.peak_force_N", peak_force_N), visit("safety.slew_N_per_s", slew_N_per_s);
   visit("safety.peak_torque_Nmm", peak_torque_Nmm), visit("safety.slew_Nmm_per_s", slew_Nmm_per_s);
-  visit("safety.most_stiffness_N_per_mm", most_stiffness_N_per_mm);
-  visit("safety.most_damping_Ns_per_mm", most_damping_Ns_per_mm);
+  visit("safety.most_stiffness_N_per_mm", max_stiffness_N_per_mm);
+  visit("safety.most_damping_Ns_per_mm", max_damping_Ns_per_mm);
   visit("safety.continuous_force_N", continuous_force_N);
   visit("safety.peak_joint_torque_Nmm.joint_1", peak_joint_torque_Nmm.x);
   visit("safety.peak_joint_torque_Nmm.joint_2", peak_joint_torque_Nmm.y);
   visit("safety.peak_joint_torque_Nmm.joint_3", peak_joint_torque_Nmm.z);
-  visit("safety.fastest_mm_per_s", fastest_mm_per_s), visit("safety.fastest_turn_rad_per_s", fastest_turn_rad_per_s);
+  visit("safety.fastest_mm_per_s", max_speed_mm_per_s), visit("safety.fastest_turn_rad_per_s", max_angular_speed_rad_per_s);
   visit("safety.must_be_armed", must_be_armed);
   visitThresholds(thresholds, visit);
 }

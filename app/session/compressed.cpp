@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kLevel = 3;
 /// A block of at most 128 KiB takes at least 4 bytes (RFC 8878, 3.1.1.2): no frame holds more for its length.
-constexpr std::size_t kMostPerByte = 32'768;
+constexpr std::size_t kMaxRatio = 32'768;
 
 }  // namespace
 
@@ -32,14 +32,14 @@ std::vector<std::uint8_t> Compressor::compress(std::span<const std::uint8_t> byt
       ZSTD_compressCCtx(context_->zstd, out.data(), out.size(), bytes.data(), bytes.size(), kLevel);
   if (ZSTD_isError(size))
     throw SessionError(std::string("can not compress: ") + ZSTD_getErrorName(size) + ": check the free memory",
-                       SessionTrouble::failed);
+                       SessionErrorKind::failed);
   out.resize(size);
   return out;
 }
 
-void refuseUnlessHolds(std::span<const std::uint8_t> compressed, std::size_t expected_bytes) {
+void refuseUnlessContentSize(std::span<const std::uint8_t> compressed, std::size_t expected_bytes) {
   if (ZSTD_getFrameContentSize(compressed.data(), compressed.size()) != expected_bytes ||
-      expected_bytes / kMostPerByte > compressed.size())
+      expected_bytes / kMaxRatio > compressed.size())
     throw damagedSession("a compressed part is not the " + std::to_string(expected_bytes) + " bytes it should be");
 }
 
@@ -49,7 +49,7 @@ void decompressInto(std::span<std::uint8_t> out, std::span<const std::uint8_t> c
 }
 
 std::vector<std::uint8_t> decompress(std::span<const std::uint8_t> compressed, std::size_t expected_bytes) {
-  refuseUnlessHolds(compressed, expected_bytes);
+  refuseUnlessContentSize(compressed, expected_bytes);
   std::vector<std::uint8_t> out(expected_bytes);
   decompressInto(out, compressed);
   return out;

@@ -26,7 +26,7 @@ class Compressor {
 void decompressInto(std::span<std::uint8_t> out, std::span<const std::uint8_t> compressed);
 
 /// Throws SessionError unless the frame says that it holds so many bytes and can do so: before they are allocated.
-void refuseUnlessHolds(std::span<const std::uint8_t> compressed, std::size_t expected_bytes);
+void refuseUnlessContentSize(std::span<const std::uint8_t> compressed, std::size_t expected_bytes);
 
 /// Both: judged, allocated, filled.
 std::vector<std::uint8_t> decompress(std::span<const std::uint8_t> compressed, std::size_t expected_bytes);

@@ -71,7 +71,7 @@ Digest digestOfFirst(int file, std::uint64_t bytes, const std::string& path) {
   for (std::uint64_t done = 0; done < bytes;) {
     const std::string chunk = textAt(file, done, std::min(bytes - done, kChunkBytes));
     if (chunk.empty())
-      throw SessionError(path + ": can not be read to its end: check the disk", SessionTrouble::failed);
+      throw SessionError(path + ": can not be read to its end: check the disk", SessionErrorKind::failed);
     hash.add({reinterpret_cast<const std::uint8_t*>(chunk.data()), chunk.size()});
     done += chunk.size();
   }
@@ -99,7 +99,7 @@ void sealFile(int file, const std::string& path) {
   if (written == static_cast<ssize_t>(bytes.size()) && ::fsync(file) == 0) return;
   std::ignore = ::ftruncate(file, static_cast<off_t>(size));
   throw SessionError(path + ": its closing seal can not be written: check the free space on the disk",
-                     SessionTrouble::failed);
+                     SessionErrorKind::failed);
 }
 
 FileSeal fileSeal(const std::string& path) {
@@ -115,7 +115,7 @@ FileSeal fileSeal(const std::string& path) {
 
 bool isDatabase(const std::string& path) { return textAt(OpenFile(path), 0, kDatabaseMark.size()) == kDatabaseMark; }
 
-bool bearsSessionMark(const std::string& path) {
+bool hasSessionMark(const std::string& path) {
   std::error_code failed;
   if (!std::filesystem::is_regular_file(path, failed)) return false;
   const OpenFile file(path);
@@ -124,7 +124,7 @@ bool bearsSessionMark(const std::string& path) {
          (size > kTrailerBytes && textAt(file, size - kTrailerBytes, kTrailerMark.size()) == kTrailerMark);
 }
 
-bool awaitsLog(const std::string& path) {
+bool needsLog(const std::string& path) {
   return isDatabase(path) && bigEndianAt(OpenFile(path), kReadVersionPlace, 1) == 2;
 }
 

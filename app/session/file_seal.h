@@ -18,12 +18,12 @@ FileSeal fileSeal(const std::string& path);
 
 /// Whether the file was written as a session, whatever became of it: the mark of its header or that of its trailer.
 /// False for what is no plain file.
-bool bearsSessionMark(const std::string& path);
+bool hasSessionMark(const std::string& path);
 
 /// Whether it begins as an SQLite database does.
 bool isDatabase(const std::string& path);
 
 /// Whether the file says that a log belongs to it (SQLite's WAL mode): it was being recorded, and never closed.
-bool awaitsLog(const std::string& path);
+bool needsLog(const std::string& path);
 
 }  // namespace app

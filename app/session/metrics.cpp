@@ -27,7 +27,7 @@ double quantile(std::vector<float>& values, double fraction) {
 /// Adds what one tick says; `before` is the tick before it.
 void addTick(SessionMetrics& sum, const haptics::Tick& tick, const std::optional<haptics::Tick>& before,
              bool irrigating) {
-  const double force_N = glm::length(tick.served_force_P_N.xyz);
+  const double force_N = glm::length(tick.commanded_force_P_N.xyz);
   const bool touches = tick.overlap_mm3 > 0.0;
   ++sum.ticks;
   sum.duration_s = tick.t_s + tick.dt_s;
@@ -49,9 +49,9 @@ void addTick(SessionMetrics& sum, const haptics::Tick& tick, const std::optional
 }
 
 /// None where what is left is another bone than the recorded one.
-std::optional<RemovedByTissue> removedByRunningAgain(SessionReader& session) {
-  const ReplayedMoment end = replayTo(session, std::numeric_limits<double>::infinity());
-  if (end.departure) return std::nullopt;
+std::optional<RemovedByTissue> removedByReplay(SessionReader& session) {
+  const ReplayedState end = replayTo(session, std::numeric_limits<double>::infinity());
+  if (end.divergence) return std::nullopt;
   return removedByKey(end.bone.removedByTissue_mm3());
 }
 
@@ -84,13 +84,13 @@ SessionMetrics metricsOf(const std::string& path) {
     }
     metrics.removed_mm3_by_label = std::move(block.removed_mm3);
   }
-  if (metrics.missing_log && metrics.ticks == 0) throw withoutLog(path, *metrics.missing_log);
+  if (metrics.missing_log && metrics.ticks == 0) throw missingLogError(path, *metrics.missing_log);
   metrics.lost = session.lost();
   if (metrics.removed_mm3_by_label) {
     metrics.removed_mm3 = 0.0;
     for (const auto& [tissue, removed_mm3] : *metrics.removed_mm3_by_label) metrics.removed_mm3 += removed_mm3;
   } else {
-    metrics.removed_mm3_by_label = removedByRunningAgain(session);
+    metrics.removed_mm3_by_label = removedByReplay(session);
   }
   if (metrics.contact_s > 0.0) metrics.mean_contact_force_N /= metrics.contact_s;
   metrics.work_p50_us = quantile(work_us, 0.50);
@@ -99,7 +99,7 @@ SessionMetrics metricsOf(const std::string& path) {
   return metrics;
 }
 
-std::string metricsWords(const SessionMetrics& metrics) {
+std::string metricsText(const SessionMetrics& metrics) {
   std::string words =
       fmt::format("{:.1f} s, of them {:.1f} s in contact and {:.1f} s drilling in bone; {:.1f} mm³ removed",
                   metrics.duration_s, metrics.contact_s, metrics.drill_in_contact_s, metrics.removed_mm3);
@@ -110,13 +110,13 @@ std::string metricsWords(const SessionMetrics& metrics) {
                : std::string("\nirrigated whenever it drilled in bone\n");
   if (metrics.missing_log)
     words += "its log " + *metrics.missing_log + " is not beside it: what it holds is missing, copy both files\n";
-  if (metrics.calibration) words += "calibration: " + calibrationWords(*metrics.calibration) + "\n";
+  if (metrics.calibration) words += "calibration: " + calibrationText(*metrics.calibration) + "\n";
   return words;
 }
 
 namespace {
 
-nlohmann::ordered_json calibrationFigures(const SessionCalibration& c) {
+nlohmann::ordered_json calibrationJson(const SessionCalibration& c) {
   nlohmann::ordered_json json = {{"rig", c.rig},        {"rig_id", c.rig_id},   {"device_serial", c.device_serial},
                                  {"verdict", nullptr},  {"touches", c.touches}, {"checked_utc", nullptr},
                                  {"age_days", nullptr}, {"despite", nullptr}};
@@ -143,7 +143,7 @@ std::string metricsJson(const SessionMetrics& metrics) {
   const nlohmann::ordered_json json = {
       {"patient", metrics.patient_title},
       {"program_version", metrics.program_version},
-      {"calibration", metrics.calibration ? calibrationFigures(*metrics.calibration) : nlohmann::ordered_json()},
+      {"calibration", metrics.calibration ? calibrationJson(*metrics.calibration) : nlohmann::ordered_json()},
       {"closed", metrics.closed},
       {"log_missing", metrics.missing_log.has_value()},
       {"ticks", metrics.ticks},

@@ -40,7 +40,7 @@ struct SessionMetrics {
 SessionMetrics metricsOf(const std::string& path);
 
 /// What a person wants to know first, a few short lines.
-std::string metricsWords(const SessionMetrics& metrics);
+std::string metricsText(const SessionMetrics& metrics);
 
 /// One JSON object, keys as the fields; labels by the key of their tissue.
 std::string metricsJson(const SessionMetrics& metrics);

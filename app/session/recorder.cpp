@@ -22,7 +22,7 @@ struct Recorder::Impl {
   mutable std::mutex mutex;
   std::condition_variable wake;
   bool stopping = false;
-  std::vector<haptics::Command> asked_commands;
+  std::vector<haptics::Command> pending_commands;
   std::vector<SessionEvent> events;
   std::string trouble;  ///< empty: none
   bool out_of_memory = false;
@@ -31,7 +31,7 @@ struct Recorder::Impl {
   SessionWriter writer;
   const std::optional<std::string> beside;
   SessionBatch batch;
-  std::deque<haptics::Command> waiting_commands;
+  std::deque<haptics::Command> unconfirmed_commands;
   std::uint64_t serial_in_force, ticks_seen = 0, next_index = 0, gaps = 0;
   bool writing = true;
 
@@ -56,7 +56,7 @@ struct Recorder::Impl {
   }
 
   void drain() noexcept {
-    if (writing) attempt([this] { take(), noteTicks(), write(); });
+    if (writing) attempt([this] { take(), trackTicks(), write(); });
     // Ended early, or something failed on the way: the rest is lost, and counted.
     if (!writing) ticks_seen += log.discard();
   }
@@ -68,8 +68,8 @@ struct Recorder::Impl {
     const std::size_t before = batch.ticks.size();
     log.drainInto(batch.ticks);
     ticks_seen += batch.ticks.size() - before;
-    waiting_commands.insert(waiting_commands.end(), asked_commands.begin(), asked_commands.end());
-    asked_commands.clear();
+    unconfirmed_commands.insert(unconfirmed_commands.end(), pending_commands.begin(), pending_commands.end());
+    pending_commands.clear();
     for (SessionEvent& event : events) {
       event.tick = next_index;
       batch.events.push_back(std::move(event));
@@ -78,27 +78,27 @@ struct Recorder::Impl {
   }
 
   /// Finds where commands came into force and where ticks are missing.
-  void noteTicks() {
+  void trackTicks() {
     for (const haptics::Tick& tick : batch.ticks) {
       if (tick.index > next_index) {
         gaps += tick.index - next_index;
         batch.events.push_back({next_index, "lost", std::to_string(tick.index - next_index) + " ticks"});
       }
-      if (tick.command_serial != serial_in_force) noteCommand(tick);
+      if (tick.command_serial != serial_in_force) trackCommand(tick);
       next_index = tick.index + 1;
     }
   }
 
   /// Earlier ones still waiting were overtaken before any tick saw them: newest wins.
-  void noteCommand(const haptics::Tick& tick) {
+  void trackCommand(const haptics::Tick& tick) {
     serial_in_force = tick.command_serial;
-    const auto found = std::ranges::find(waiting_commands, serial_in_force, &haptics::Command::serial);
-    if (found == waiting_commands.end()) {
+    const auto found = std::ranges::find(unconfirmed_commands, serial_in_force, &haptics::Command::serial);
+    if (found == unconfirmed_commands.end()) {
       batch.events.push_back({tick.index, "lost", "command " + std::to_string(serial_in_force) + " was never told"});
       return;
     }
     batch.commands.push_back({*found, tick.index});
-    waiting_commands.erase(waiting_commands.begin(), found + 1);
+    unconfirmed_commands.erase(unconfirmed_commands.begin(), found + 1);
   }
 
   /// Nothing before the first tick: until then the file has no name.
@@ -110,12 +110,12 @@ struct Recorder::Impl {
   }
 
   /// Without a tick there is nothing to keep, and no file stays.
-  void close(const haptics::CarvedBone* bone_left) noexcept {
+  void close(const haptics::CarvedBone* final_bone) noexcept {
     if (!writing) return;
-    if (next_index == 0) return endWith("no tick came");
+    if (next_index == 0) return stopRecording("no tick came");
     attempt([&] {
       if (!batch.events.empty()) writer.write(batch);
-      writer.seal(lost(), bone_left);
+      writer.seal(lost(), final_bone);
     });
   }
 
@@ -127,13 +127,13 @@ struct Recorder::Impl {
     try {
       work();
     } catch (const std::bad_alloc&) {
-      endWith("memory is out");
+      stopRecording("memory is out");
     } catch (const std::exception& failed) {
-      endWith(failed.what());
+      stopRecording(failed.what());
     }
   }
 
-  void endWith(const char* why) noexcept {
+  void stopRecording(const char* why) noexcept {
     writing = false;
     const std::scoped_lock lock(mutex);
     try {
@@ -145,19 +145,19 @@ struct Recorder::Impl {
 };
 
 Recorder::Recorder(const std::string& path, bool overwrite, const SessionStart& start, haptics::TickLog& log,
-                   Draining draining)
+                   DrainMode drain_mode)
     : impl_(std::make_unique<Impl>(path, overwrite, start, log)) {
-  if (draining == Draining::by_thread) impl_->thread = std::thread([impl = impl_.get()] { impl->run(); });
+  if (drain_mode == DrainMode::by_thread) impl_->thread = std::thread([impl = impl_.get()] { impl->run(); });
 }
 
 Recorder::~Recorder() { stop(); }
 
-const std::optional<std::string>& Recorder::recordedBeside() const { return impl_->beside; }
+const std::optional<std::string>& Recorder::temporaryFile() const { return impl_->beside; }
 
 void Recorder::command(const haptics::Command& command) noexcept {
   const std::scoped_lock lock(impl_->mutex);
   try {
-    impl_->asked_commands.push_back(command);
+    impl_->pending_commands.push_back(command);
   } catch (const std::bad_alloc&) {
     impl_->out_of_memory = true;  // a recording without it could not be run again
   }
@@ -179,7 +179,7 @@ std::optional<std::string> Recorder::trouble() const {
   return impl_->trouble.empty() ? std::nullopt : std::optional(impl_->trouble);
 }
 
-RecordingSummary Recorder::stop(const haptics::CarvedBone* bone_left) {
+RecordingSummary Recorder::stop(const haptics::CarvedBone* final_bone) {
   if (impl_->summary) return *impl_->summary;
   {
     const std::scoped_lock lock(impl_->mutex);
@@ -190,7 +190,7 @@ RecordingSummary Recorder::stop(const haptics::CarvedBone* bone_left) {
     impl_->thread.join();
   else
     impl_->drain();
-  impl_->close(bone_left);
+  impl_->close(final_bone);
   impl_->summary = RecordingSummary{impl_->writer.ticks(), impl_->lost(), trouble(), impl_->writer.file()};
   return *impl_->summary;
 }

@@ -30,19 +30,19 @@ struct RecordingSummary {
 
 inline constexpr std::chrono::milliseconds kBetweenWrites{20};
 
-enum class Draining { by_thread, by_hand };
+enum class DrainMode { by_thread, by_hand };
 
 class Recorder {
  public:
   /// Throws SessionError if the file exists and not `overwrite`, or can not be created. Borrows the log, of which this
   /// becomes the one reader; construct it before the servo's first tick.
   Recorder(const std::string& path, bool overwrite, const SessionStart& start, haptics::TickLog& log,
-           Draining draining = Draining::by_thread);
+           DrainMode drain_mode = DrainMode::by_thread);
   /// Stops, if stop() was not called.
   ~Recorder();
 
   /// The file that is written until the close, where another bears the name until then; none: it soon has its name.
-  const std::optional<std::string>& recordedBeside() const;
+  const std::optional<std::string>& temporaryFile() const;
 
   /// To be called before the command is published to the servo.
   void command(const haptics::Command& command) noexcept;
@@ -56,7 +56,7 @@ class Recorder {
 
   /// After the servo's last tick: writes what is left and the bone that is left (null: it is not kept), seals and
   /// closes the file. Again: the same answer.
-  RecordingSummary stop(const haptics::CarvedBone* bone_left = nullptr);
+  RecordingSummary stop(const haptics::CarvedBone* final_bone = nullptr);
 
  private:
   struct Impl;

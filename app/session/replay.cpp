@@ -23,9 +23,9 @@ std::optional<std::string> differenceOf(const haptics::Tick& recorded, const hap
   if (recorded.command_serial != again.command_serial) return "the command in force differs";
   if (!same(recorded.proxy_P.mm, again.proxy_P.mm)) return "the proxy differs";
   if (!same(recorded.law_force_P_N.xyz, again.law_force_P_N.xyz)) return "the force of the law differs";
-  if (!same(recorded.served_force_P_N.xyz, again.served_force_P_N.xyz)) return "the force served differs";
+  if (!same(recorded.commanded_force_P_N.xyz, again.commanded_force_P_N.xyz)) return "the force served differs";
   if (!same(recorded.law_torque_P_Nmm.xyz, again.law_torque_P_Nmm.xyz)) return "the torque of the law differs";
-  if (!same(recorded.served_torque_P_Nmm.xyz, again.served_torque_P_Nmm.xyz)) return "the torque served differs";
+  if (!same(recorded.commanded_torque_P_Nmm.xyz, again.commanded_torque_P_Nmm.xyz)) return "the torque served differs";
   if (!same(recorded.energy_Nmm, again.energy_Nmm)) return "the energy differs";
   if (!same(recorded.spindle_rad_per_s, again.spindle_rad_per_s)) return "the speed of the spindle differs";
   if (!same(recorded.overlap_mm3, again.overlap_mm3)) return "the overlap differs";
@@ -33,7 +33,7 @@ std::optional<std::string> differenceOf(const haptics::Tick& recorded, const hap
   if (!same(recorded.removed_mm3, again.removed_mm3)) return "the removed volume differs";
   if (recorded.bone_digest != again.bone_digest) return "the bone differs";
   if (recorded.contact_tissue != again.contact_tissue) return "the tissue in contact differs";
-  if (recorded.drilling != again.drilling || recorded.rest != again.rest) return "the drill differs";
+  if (recorded.drilling != again.drilling || recorded.drill_inhibit != again.drill_inhibit) return "the drill differs";
   if (recorded.strokes != again.strokes) return "the strokes to take back differ";
   if (recorded.state != again.state) return "the state of the safety layer differs";
   if (recorded.faults != again.faults) return "the faults differ";
@@ -47,7 +47,7 @@ class Rerun {
       : servo_(bone), commands_(std::move(commands)) {}
 
   /// Moves on to the command recorded as in force at this tick; false if the session has none of that serial.
-  bool obey(const haptics::Tick& recorded) {
+  bool selectCommand(const haptics::Tick& recorded) {
     while (next_ < commands_.size() && commands_[next_].first_tick <= recorded.index) {
       command_ = commands_[next_++].command;
     }
@@ -66,27 +66,27 @@ class Rerun {
 std::optional<std::string> stepDifference(Rerun& rerun, const haptics::Tick& recorded, std::uint64_t next_index,
                                           haptics::Tick& again) {
   if (recorded.index != next_index) return std::to_string(recorded.index - next_index) + " ticks before it were lost";
-  if (!rerun.obey(recorded)) return "its command was not recorded";
+  if (!rerun.selectCommand(recorded)) return "its command was not recorded";
   again = rerun.step(recorded);
   return differenceOf(recorded, again);
 }
 
 /// Of what was kept beside the ticks: what had gone by tissue after a block, and the bone at the close.
-std::optional<std::string> keptDifference(const TickBlock& block, const haptics::Tick& again) {
-  if (block.removed_mm3 && *block.removed_mm3 != removedByKey(again.removed_so_far_mm3))
+std::optional<std::string> blockDifference(const TickBlock& block, const haptics::Tick& again) {
+  if (block.removed_mm3 && *block.removed_mm3 != removedByKey(again.removed_total_mm3))
     return "the removed volume by tissue differs";
   return std::nullopt;
 }
 
-std::optional<std::string> leftDifference(SessionReader& session, const StoredStart& start,
+std::optional<std::string> finalBoneDifference(SessionReader& session, const StoredStart& start,
                                           const haptics::CarvedBone& bone) {
-  const auto left = session.boneLeft(start);
+  const auto left = session.finalBone(start);
   if (left && (left->digest != bone.digest() || left->solid != bone.solidInGridOrder()))
     return "the bone that was left differs";
   return std::nullopt;
 }
 
-void runAgain(SessionReader& session, ReplayReport& report) {
+void rerunAll(SessionReader& session, ReplayReport& report) {
   const StoredStart start = session.start();
   haptics::CarvedBone bone(start.grid, start.solid, start.label);
   Rerun rerun(bone, session.commands());
@@ -97,7 +97,7 @@ void runAgain(SessionReader& session, ReplayReport& report) {
       report.duration_s = recorded.t_s + recorded.dt_s;
       if (report.difference) continue;
       auto what = stepDifference(rerun, recorded, report.replayed, again);
-      if (!what && &recorded == &block.ticks.back()) what = keptDifference(block, again);
+      if (!what && &recorded == &block.ticks.back()) what = blockDifference(block, again);
       if (what)
         report.difference = ReplayDifference{recorded.index, *what};
       else
@@ -105,7 +105,7 @@ void runAgain(SessionReader& session, ReplayReport& report) {
     }
   }
   if (!report.difference && report.closed)
-    if (const auto what = leftDifference(session, start, bone))
+    if (const auto what = finalBoneDifference(session, start, bone))
       report.difference = ReplayDifference{again.index, *what};
   report.bone_digest = bone.digest();
 }
@@ -123,7 +123,7 @@ std::optional<std::string> whyNotComparable(const StoredStart& recorded) {
   if (recorded.servo.revision != own.revision)
     return fmt::format("recorded by another version ({} with servo revision {}, this is {} with {})",
                        recorded.program_version, recorded.servo.revision, programVersion(), own.revision);
-  if (!recorded.servo.sumsAsDoes(own))
+  if (!recorded.servo.sumsIdentically(own))
     return "recorded with another processor's instructions (" + recorded.servo.instruction_set + ", these are " +
            own.instruction_set + ", see MOLAR_INSTRUCTIONS)";
   return std::nullopt;
@@ -140,17 +140,17 @@ ReplayReport verifyReadable(const std::string& path) {
   report.unsealed = session.isUnsealed();
 
   report.not_comparable = whyNotComparable(session.about());
-  report.not_comparable ? readThrough(session, report) : runAgain(session, report);
+  report.not_comparable ? readThrough(session, report) : rerunAll(session, report);
   report.lost = session.lost();
   return report;
 }
 
-std::string departureWords(const ReplayedMoment& moment) {
+std::string divergenceText(const ReplayedState& moment) {
   return fmt::format(
       "the re-run departs from the recording at tick {} ({}): its bone has lost {:.3f} mm³ {} than the "
       "recorded one; the version that recorded it brings back the very one",
-      moment.departure->tick, moment.departure->what, std::abs(moment.removed_otherwise_mm3),
-      moment.removed_otherwise_mm3 < 0.0 ? "less" : "more");
+      moment.divergence->tick, moment.divergence->what, std::abs(moment.removed_excess_mm3),
+      moment.removed_excess_mm3 < 0.0 ? "less" : "more");
 }
 
 }  // namespace
@@ -158,7 +158,7 @@ std::string departureWords(const ReplayedMoment& moment) {
 void refuseDamaged(SessionReader& session, const std::string& path) {
   if (const auto damage = session.damage())
     throw SessionError(path + ": is damaged (" + *damage + "): see `molar replay " + path + " --verify`",
-                       SessionTrouble::damaged);
+                       SessionErrorKind::damaged);
 }
 
 std::string ReplayReport::line() const {
@@ -188,55 +188,55 @@ ReplayReport verify(const std::string& path) {
     return verifyReadable(path);
   } catch (const SessionError& refusal) {
     // A session too damaged to be read is an answer; a file that never was one, or a disk that fails, is none.
-    if (refusal.trouble != SessionTrouble::damaged) throw;
+    if (refusal.trouble != SessionErrorKind::damaged) throw;
     ReplayReport report;
     report.damage = refusal.what();
     return report;
   }
 }
 
-ReplayedMoment replayTo(SessionReader& session, double t_s) {
+ReplayedState replayTo(SessionReader& session, double t_s) {
   session.rewind();
   StoredStart start = session.start();
   haptics::CarvedBone bone(start.grid, start.solid, start.label);
   Rerun rerun(bone, session.commands());
   haptics::Tick last, last_recorded;
-  std::optional<ReplayDifference> departure;
+  std::optional<ReplayDifference> divergence;
   double recorded_mm3 = 0.0, again_mm3 = 0.0;
   std::uint64_t next_index = 0;
   for (TickBlock block = session.nextBlock(); !block.ticks.empty(); block = session.nextBlock()) {
     for (const haptics::Tick& recorded : block.ticks) {
       if (!(recorded.t_s < t_s)) break;
       const auto lost = recorded.index - next_index;
-      const bool commanded = rerun.obey(recorded);
+      const bool commanded = rerun.selectCommand(recorded);
       last = rerun.step(recorded);
       const auto what = lost > 0     ? std::optional(std::to_string(lost) + " ticks before it were lost")
                         : !commanded ? std::optional<std::string>("its command was not recorded")
                                      : differenceOf(recorded, last);
-      if (what && !departure) departure = ReplayDifference{recorded.index, *what};
+      if (what && !divergence) divergence = ReplayDifference{recorded.index, *what};
       next_index = recorded.index + 1;
       recorded_mm3 += recorded.removed_mm3, again_mm3 += last.removed_mm3;
       last_recorded = recorded;
     }
   }
   // A bone of the same digest is the recorded one, whatever a force was in its last bit.
-  if (departure && last_recorded.bone_digest == bone.digest()) departure.reset();
+  if (divergence && last_recorded.bone_digest == bone.digest()) divergence.reset();
   const haptics::Command command = rerun.command();
-  return {std::move(start), std::move(bone), last, command, departure, again_mm3 - recorded_mm3};
+  return {std::move(start), std::move(bone), last, command, divergence, again_mm3 - recorded_mm3};
 }
 
-BoneThen boneThen(const std::string& path, std::optional<double> t_s) {
+BoneAtTime boneAtTime(const std::string& path, std::optional<double> t_s) {
   SessionReader session(path);
   refuseDamaged(session, path);
-  BoneThen then;
+  BoneAtTime then;
   double end_s = 0.0;
   for (TickBlock block = session.nextBlock(); !block.ticks.empty(); block = session.nextBlock())
     end_s = block.ticks.back().t_s + block.ticks.back().dt_s;
   if (!t_s || *t_s >= end_s) {
-    if (const auto log = session.missingLog()) throw withoutLog(path, *log);
+    if (const auto log = session.missingLog()) throw missingLogError(path, *log);
     then.start = session.start();
     then.t_s = end_s;
-    if (auto left = session.boneLeft(then.start)) {
+    if (auto left = session.finalBone(then.start)) {
       then.solid = std::move(left->solid);
       return then;
     }
@@ -245,8 +245,8 @@ BoneThen boneThen(const std::string& path, std::optional<double> t_s) {
         "recorded it (" +
         then.start.program_version + ")");
   }
-  ReplayedMoment moment = replayTo(session, t_s.value_or(std::numeric_limits<double>::infinity()));
-  if (moment.departure) then.remarks.push_back(departureWords(moment));
+  ReplayedState moment = replayTo(session, t_s.value_or(std::numeric_limits<double>::infinity()));
+  if (moment.divergence) then.remarks.push_back(divergenceText(moment));
   then.solid = moment.bone.solidInGridOrder();
   then.t_s = moment.tick.t_s + moment.tick.dt_s;
   then.start = std::move(moment.start);

@@ -49,23 +49,23 @@ struct ReplayReport {
 ReplayReport verify(const std::string& path);
 
 /// A moment of the rehearsal, brought back.
-struct ReplayedMoment {
+struct ReplayedState {
   StoredStart start;
   haptics::CarvedBone bone;  ///< what is left
   haptics::Tick tick;        ///< the last one run; default before the first
   haptics::Command command;  ///< in force
   /// Where the run first departed from the recording, if it did and the bone is not the recorded one for it: by what
   /// was lost, or by another version of the program.
-  std::optional<ReplayDifference> departure;
-  double removed_otherwise_mm3 = 0.0;  ///< by then, against the recording
+  std::optional<ReplayDifference> divergence;
+  double removed_excess_mm3 = 0.0;  ///< by then, against the recording
 };
 
-/// The state after every tick that began before `t_s`. Runs on past differences and losses: the departure tells.
+/// The state after every tick that began before `t_s`. Runs on past differences and losses: the divergence tells.
 /// Of a session that was found undamaged; from its beginning, wherever it was read to.
-ReplayedMoment replayTo(SessionReader& session, double t_s);
+ReplayedState replayTo(SessionReader& session, double t_s);
 
 /// The bone at a moment; as it was left where none is named or it lies past the end.
-struct BoneThen {
+struct BoneAtTime {
   StoredStart start;
   std::vector<std::uint8_t> solid;  ///< in the order of its grid
   double t_s = 0.0;
@@ -74,6 +74,6 @@ struct BoneThen {
 
 /// As it was recorded at the close, else run again. Throws SessionError if the session is damaged, or was killed and
 /// its log, in which that moment lies, is not there.
-BoneThen boneThen(const std::string& path, std::optional<double> t_s);
+BoneAtTime boneAtTime(const std::string& path, std::optional<double> t_s);
 
 }  // namespace app

@@ -5,7 +5,7 @@
 
 namespace app {
 
-bool ServoBuild::sumsAsDoes(const ServoBuild& other) const {
+bool ServoBuild::sumsIdentically(const ServoBuild& other) const {
   const auto portable = assets::nameOf(assets::InstructionSet::portable);
   return (instruction_set == portable) == (other.instruction_set == portable);
 }

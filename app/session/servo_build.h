@@ -12,7 +12,7 @@ struct ServoBuild {
   std::string instruction_set;  ///< assets::nameOf it; empty: the same
 
   /// AVX2 and AVX-512 sum alike, portable code does not (haptics/README).
-  bool sumsAsDoes(const ServoBuild& other) const;
+  bool sumsIdentically(const ServoBuild& other) const;
 };
 
 ServoBuild thisServo();

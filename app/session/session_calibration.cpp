@@ -7,7 +7,7 @@
 namespace app {
 namespace {
 
-std::string ageWords(double days) {
+std::string ageText(double days) {
   if (days < 0.0) return "dated in the future";
   const auto whole = static_cast<long>(std::floor(days));
   if (whole < 1) return "of today";
@@ -16,14 +16,14 @@ std::string ageWords(double days) {
 
 }  // namespace
 
-std::string calibrationWords(const SessionCalibration& c) {
+std::string calibrationText(const SessionCalibration& c) {
   if (c.rig == "none") return "none";
   std::string words;
   if (!c.verdict.empty())
     words = c.verdict + fmt::format(", {:.2f} mm RMS of {}", c.rms_mm, c.touches);
   else
     words = c.rig == "default" ? "a default rig, not measured" : "never proved";
-  if (c.age_days) words += ", " + ageWords(*c.age_days);
+  if (c.age_days) words += ", " + ageText(*c.age_days);
   if (!c.despite.empty()) words += ", used despite that: " + c.despite;
   return words;
 }

@@ -28,6 +28,6 @@ void forEachField(auto& calibration, auto&& visit) {
 }
 
 /// "green, 0.24 mm RMS of 16, 3 days old"; "none"; "never proved, 12 days old"; "red, … used despite: WORD".
-std::string calibrationWords(const SessionCalibration& calibration);
+std::string calibrationText(const SessionCalibration& calibration);
 
 }  // namespace app

@@ -7,16 +7,16 @@
 
 namespace app {
 
-enum class SessionTrouble {
+enum class SessionErrorKind {
   refused,  ///< the name, or what lies there, is not what is needed
   damaged,  ///< what is stored is not what was recorded
   failed,   ///< disk, rights or memory: nothing is known of the file
 };
 
 struct SessionError : std::runtime_error {
-  explicit SessionError(const std::string& line, SessionTrouble which = SessionTrouble::refused)
+  explicit SessionError(const std::string& line, SessionErrorKind which = SessionErrorKind::refused)
       : std::runtime_error(line), trouble(which) {}
-  SessionTrouble trouble;
+  SessionErrorKind trouble;
 };
 
 /// "…: the session is damaged", as it is said of every stored part that can not be what was recorded. What it quotes of
@@ -24,7 +24,7 @@ struct SessionError : std::runtime_error {
 inline SessionError damagedSession(std::string what) {
   for (char& c : what)
     if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
-  return SessionError(what + ": the session is damaged", SessionTrouble::damaged);
+  return SessionError(what + ": the session is damaged", SessionErrorKind::damaged);
 }
 
 }  // namespace app

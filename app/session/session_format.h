@@ -22,7 +22,7 @@ inline constexpr std::string_view kTrailerMark = "MOLRSEAL";
 inline constexpr std::size_t kTrailerBytes = kTrailerMark.size() + 32;
 
 /// Volumes, part by part in the order of the grid. The last is what has gone: the start's less the end's.
-inline constexpr std::string_view kSolid = "solid", kLabel = "label", kGone = "gone";
+inline constexpr std::string_view kSolid = "solid", kLabel = "label", kRemoved = "gone";
 
 struct Table {
   std::string_view name, columns;  ///< between `row` and `digest`

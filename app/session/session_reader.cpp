@@ -12,7 +12,7 @@
 #include "app/session/compressed.h"
 #include "app/session/file_seal.h"
 #include "app/session/old_formats/packed_format.h"
-#include "app/session/recording_place.h"
+#include "app/session/recording_file.h"
 #include "app/session/session_error.h"
 #include "app/session/session_format.h"
 #include "app/session/tables.h"
@@ -27,7 +27,7 @@ enum class Log { none, beside, missing };
 
 /// What lies beside a closed file is another's.
 Log logOf(const std::string& path) {
-  if (!awaitsLog(path)) return Log::none;
+  if (!needsLog(path)) return Log::none;
   std::error_code failed;
   const auto bytes = fs::file_size(path + "-wal", failed);
   return !failed && bytes > 0 ? Log::beside : Log::missing;
@@ -58,18 +58,18 @@ std::string textOf(const SQLite::Column& column) { return column.getString(); }
 std::uint64_t countOf(const SQLite::Column& column) { return static_cast<std::uint64_t>(column.getInt64()); }
 
 /// What SQLite says of a file: that its bytes are not as they were, or that they can not be had.
-SessionTrouble troubleOf(const SQLite::Exception& exception) {
+SessionErrorKind errorKindOf(const SQLite::Exception& exception) {
   const int code = exception.getErrorCode() & 0xff;
   const bool by_bytes = code == SQLITE_CORRUPT || code == SQLITE_NOTADB || code == SQLITE_ERROR ||
                         code == SQLITE_TOOBIG || code == SQLITE_SCHEMA || code == SQLITE_CONSTRAINT ||
                         code == SQLITE_MISMATCH || code == SQLITE_FORMAT;
-  return by_bytes ? SessionTrouble::damaged : SessionTrouble::failed;
+  return by_bytes ? SessionErrorKind::damaged : SessionErrorKind::failed;
 }
 
 SessionError notRead(const std::string& path, const SQLite::Exception& exception) {
-  const SessionTrouble trouble = troubleOf(exception);
+  const SessionErrorKind trouble = errorKindOf(exception);
   const std::string what = path + ": can not be read (" + exception.what() + "): ";
-  return SessionError(what + (trouble == SessionTrouble::damaged ? "the session is damaged" : "check disk and rights"),
+  return SessionError(what + (trouble == SessionErrorKind::damaged ? "the session is damaged" : "check disk and rights"),
                       trouble);
 }
 
@@ -111,21 +111,21 @@ struct SessionReader::Impl {
 
   void checkSchema() {
     const auto refuse = [&](const std::string& why) {
-      const bool changed = !awaitsLog(path) && seal() == FileSeal::broken;
-      throw SessionError(path + ": " + why, changed ? SessionTrouble::damaged : SessionTrouble::refused);
+      const bool changed = !needsLog(path) && seal() == FileSeal::broken;
+      throw SessionError(path + ": " + why, changed ? SessionErrorKind::damaged : SessionErrorKind::refused);
     };
     if (database.execAndGet("PRAGMA application_id").getInt64() != session_format::kApplicationId)
       refuse("is no session: name a file made by `molar rehearse`");
     if (!database.tableExists("meta")) {
-      if (const auto log = missingLog()) throw withoutLog(path, *log);
+      if (const auto log = missingLog()) throw missingLogError(path, *log);
       refuse("is no session of this version of the program: name a file made by `molar rehearse`");
     }
     SQLite::Statement meta(database, "SELECT schema FROM meta");
     if (meta.executeStep()) schema = meta.getColumn(0).getInt64();
     if (schema < session_format::kOldestSchema || schema > session_format::kSchema)
       refuse("has a schema this program does not know: use the version that recorded it");
-    if (const auto wrong = isPacked() ? packedTablesWrong(database, schema) : tablesWrong(database))
-      throw SessionError(path + ": " + *wrong + ": the session is damaged", SessionTrouble::damaged);
+    if (const auto wrong = isPacked() ? packedTableError(database, schema) : tableError(database))
+      throw SessionError(path + ": " + *wrong + ": the session is damaged", SessionErrorKind::damaged);
   }
 
   void readPackedTables() {
@@ -165,7 +165,7 @@ struct SessionReader::Impl {
     SQLite::Statement meta(database, "SELECT about FROM meta");
     if (!meta.executeStep()) throw damagedSession("it has no start");
     SessionAbout about = aboutFromText(textOf(meta.getColumn(0)));
-    refuseUnlessUsable(about.start.grid);
+    refuseInvalidGrid(about.start.grid);
     return about;
   }
 
@@ -177,7 +177,7 @@ struct SessionReader::Impl {
     for (bool more = parts.executeStep(); more; more = parts.executeStep()) {
       const std::uint64_t in_part = countOf(parts.getColumn(0));
       if (in_part < 1 || in_part > voxels - there) throw damagedSession("a volume has too many voxels");
-      refuseUnlessHolds(blobOf(parts.getColumn(1)), in_part);
+      refuseUnlessContentSize(blobOf(parts.getColumn(1)), in_part);
       there += in_part;
     }
     if (there == 0) return {};
@@ -211,13 +211,13 @@ struct SessionReader::Impl {
   }
 };
 
-SessionError withoutLog(const std::string& path, const std::string& log) {
+SessionError missingLogError(const std::string& path, const std::string& log) {
   return SessionError(path + ": was being recorded when its program was killed, and its log " + log +
                       " is not beside it: copy both files");
 }
 
 SessionReader::SessionReader(const std::string& named) {
-  const std::string path = throughLinks(named);
+  const std::string path = resolvedLinks(named);
   std::error_code failed;
   if (!fs::exists(path, failed)) throw SessionError(path + ": there is no such session file: check the name");
   if (!fs::is_regular_file(path, failed))
@@ -227,9 +227,9 @@ SessionReader::SessionReader(const std::string& named) {
   try {
     impl_ = std::make_unique<Impl>(path);
   } catch (const SQLite::Exception& trouble) {
-    if (troubleOf(trouble) == SessionTrouble::failed) throw notRead(path, trouble);
+    if (errorKindOf(trouble) == SessionErrorKind::failed) throw notRead(path, trouble);
     throw SessionError(path + ": is no readable session (" + trouble.what() + "): name a file made by `molar rehearse`",
-                       bearsSessionMark(path) ? SessionTrouble::damaged : SessionTrouble::refused);
+                       hasSessionMark(path) ? SessionErrorKind::damaged : SessionErrorKind::refused);
   }
 }
 
@@ -250,11 +250,11 @@ std::optional<std::string> SessionReader::damage() {
     if (impl_->closed && there != impl_->end.ticks)
       return "it holds " + std::to_string(there) + " ticks, and its seal says " + std::to_string(impl_->end.ticks);
   } catch (const SQLite::Exception& trouble) {
-    if (troubleOf(trouble) == SessionTrouble::failed) throw notRead(impl_->path, trouble);
+    if (errorKindOf(trouble) == SessionErrorKind::failed) throw notRead(impl_->path, trouble);
     return std::string("its rows can not be read (") + trouble.what() + ")";
   }
   // While a log belongs to it the file is no whole database, and never has a trailer.
-  if (!awaitsLog(impl_->path) && impl_->seal() == FileSeal::broken)
+  if (!needsLog(impl_->path) && impl_->seal() == FileSeal::broken)
     return "a byte outside its rows was changed, or its end was cut off";
   return std::nullopt;
 }
@@ -314,10 +314,10 @@ void SessionReader::rewind() {
   impl_->next_index = impl_->gaps = 0;
 }
 
-std::optional<SessionReader::BoneLeft> SessionReader::boneLeft(const StoredStart& start) {
-  return impl_->reading([&]() -> std::optional<BoneLeft> {
+std::optional<SessionReader::FinalBone> SessionReader::finalBone(const StoredStart& start) {
+  return impl_->reading([&]() -> std::optional<FinalBone> {
     if (impl_->isPacked() || !impl_->closed || !impl_->end.bone_digest) return std::nullopt;
-    BoneLeft left{impl_->volume(session_format::kGone, start.grid.voxelCount()), *impl_->end.bone_digest};
+    FinalBone left{impl_->volume(session_format::kRemoved, start.grid.voxelCount()), *impl_->end.bone_digest};
     if (left.solid.size() != start.solid.size()) throw damagedSession("the bone that was left is missing");
     for (std::size_t v = 0; v < left.solid.size(); ++v)
       left.solid[v] = static_cast<std::uint8_t>(start.solid[v] - left.solid[v]);

@@ -16,12 +16,12 @@ namespace app {
 
 /// Up to 50 ticks.
 struct TickBlock {
-  std::vector<haptics::Tick> ticks;            ///< empty: there are no more; their removed_so_far_mm3 is not stored
+  std::vector<haptics::Tick> ticks;            ///< empty: there are no more; their removed_total_mm3 is not stored
   std::optional<RemovedByTissue> removed_mm3;  ///< since the start, after the last of them; none: schema 3 or 4
 };
 
 /// The refusal of a killed recording for which its second file is needed, and is not there.
-SessionError withoutLog(const std::string& path, const std::string& log);
+SessionError missingLogError(const std::string& path, const std::string& log);
 
 class SessionReader {
  public:
@@ -51,12 +51,12 @@ class SessionReader {
   /// Before the first of them again.
   void rewind();
 
-  struct BoneLeft {
+  struct FinalBone {
     std::vector<std::uint8_t> solid;  ///< in the order of the grid
     std::uint64_t digest = 0;         ///< haptics::CarvedBone::digest()
   };
   /// The bone at the close; none: killed, or schema 3 or 4. `start` is this session's.
-  std::optional<BoneLeft> boneLeft(const StoredStart& start);
+  std::optional<FinalBone> finalBone(const StoredStart& start);
 
  private:
   struct Impl;

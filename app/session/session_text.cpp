@@ -132,7 +132,7 @@ LabelTable labelsOfKeys(std::span<const std::string_view> keys) {
   return own;
 }
 
-void refuseUnlessUsable(const assets::VolumeGrid& grid) {
+void refuseInvalidGrid(const assets::VolumeGrid& grid) {
   constexpr int kMostVoxelsPerAxis = 4096;
   constexpr std::size_t kMostVoxels = std::size_t{1} << 31;
   bool usable = std::isfinite(grid.spacing_mm) && grid.spacing_mm > 0.0;

@@ -29,7 +29,7 @@ using LabelTable = std::array<std::uint8_t, 256>;
 LabelTable labelsOfKeys(std::span<const std::string_view> keys);
 
 /// Judges a stored grid before voxels are allocated by it.
-void refuseUnlessUsable(const assets::VolumeGrid& grid);
+void refuseInvalidGrid(const assets::VolumeGrid& grid);
 
 struct SessionAbout {
   StoredStart start;  ///< without voxels

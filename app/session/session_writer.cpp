@@ -12,7 +12,7 @@
 #include "app/session/chain.h"
 #include "app/session/command_keys.h"
 #include "app/session/compressed.h"
-#include "app/session/recording_place.h"
+#include "app/session/recording_file.h"
 #include "app/session/session_error.h"
 #include "app/session/session_format.h"
 #include "app/session/session_text.h"
@@ -38,13 +38,13 @@ void bind(SQLite::Statement& insert, int place, const ColumnValue& value) {
 
 SessionError notWritten(const std::string& path, const std::exception& trouble) {
   return SessionError(path + ": can not be written (" + trouble.what() + "): check the free space on the disk",
-                      SessionTrouble::failed);
+                      SessionErrorKind::failed);
 }
 
 }  // namespace
 
 struct SessionWriter::Impl {
-  RecordingPlace place;
+  RecordingFile place;
   assets::VolumeGrid grid;
   std::optional<SQLite::Database> database;
   std::map<std::string, SQLite::Statement, std::less<>> inserts;  // of the open database
@@ -86,7 +86,7 @@ struct SessionWriter::Impl {
   void appendTicks(std::span<const haptics::Tick> ticks_now) {
     for (std::size_t first = 0; first < ticks_now.size(); first += kTicksPerBlock) {
       const auto block = ticks_now.subspan(first, std::min(kTicksPerBlock, ticks_now.size() - first));
-      const std::string removed_mm3 = removedText(removedByKey(block.back().removed_so_far_mm3));
+      const std::string removed_mm3 = removedText(removedByKey(block.back().removed_total_mm3));
       append("tick_block", {sqlInteger(block.front().index), sqlInteger(block.size()), removed_mm3,
                             compressor.compress(packTicks(block))});
     }
@@ -119,12 +119,12 @@ struct SessionWriter::Impl {
   }
 
   /// What has gone of the start, whose parts are read back one by one.
-  void appendGone(const haptics::CarvedBone& bone) {
+  void appendRemoved(const haptics::CarvedBone& bone) {
     SQLite::Statement parts(*database, "SELECT bytes FROM bone_part WHERE volume = 'solid' ORDER BY row");
     std::vector<std::uint8_t> start;
     const haptics::SolidField field = bone.field();
     glm::ivec3 ijk(0);
-    appendVolume(session_format::kGone, [&](std::size_t, std::span<std::uint8_t> part) {
+    appendVolume(session_format::kRemoved, [&](std::size_t, std::span<std::uint8_t> part) {
       if (!parts.executeStep()) throw damagedSession("a part of its bone is missing");
       const SQLite::Column stored = parts.getColumn(0);
       start.resize(part.size());
@@ -179,7 +179,7 @@ struct SessionWriter::Impl {
   /// meets a file that is being written, and there is no -shm file.
   template <class Work>
   void keep(Work&& work) {
-    place.refuseUnlessOurs();
+    place.refuseIfReplaced();
     if (database) {
       inTransaction(work);
       return;
@@ -188,7 +188,7 @@ struct SessionWriter::Impl {
       open();
       inTransaction(work);
       close();
-      place.takeName();
+      place.publish();
       open();
       database->exec("PRAGMA locking_mode=EXCLUSIVE; PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL;");
     } catch (const SQLite::Exception& trouble) {
@@ -244,7 +244,7 @@ void SessionWriter::seal(std::uint64_t lost, const haptics::CarvedBone* bone) {
   SessionEnd end{impl_->ticks, lost, {}};
   impl_->keep([&] {
     if (bone != nullptr) {
-      impl_->appendGone(*bone);
+      impl_->appendRemoved(*bone);
       end.bone_digest = bone->digest();
     }
     impl_->append("seal", {sealText(end)});
@@ -256,7 +256,7 @@ void SessionWriter::seal(std::uint64_t lost, const haptics::CarvedBone* bone) {
     impl_->close();
   } catch (const SQLite::Exception& trouble) {
     throw SessionError(file() + ": can not be closed (" + trouble.what() + "): check the free space on the disk",
-                       SessionTrouble::failed);
+                       SessionErrorKind::failed);
   }
   impl_->place.finish();
 }

@@ -94,7 +94,7 @@ struct Cursor {
 
 }  // namespace
 
-std::optional<std::string> tablesWrong(SQLite::Database& database) {
+std::optional<std::string> tableError(SQLite::Database& database) {
   SQLite::Statement tables(database, "SELECT type, name, sql FROM sqlite_schema ORDER BY rowid");
   std::size_t known = 0, count = 0;
   while (tables.executeStep()) {
@@ -113,7 +113,7 @@ std::optional<std::string> tablesWrong(SQLite::Database& database) {
   return std::nullopt;
 }
 
-std::optional<std::string> packedTablesWrong(SQLite::Database& database, std::int64_t schema) {
+std::optional<std::string> packedTableError(SQLite::Database& database, std::int64_t schema) {
   SQLite::Statement tables(database, "SELECT name, sql FROM sqlite_schema ORDER BY rowid");
   for (const old_formats::Table& table : old_formats::packedTables(schema))
     if (!tables.executeStep() || tables.getColumn(0).getString() != table.name ||

@@ -33,7 +33,7 @@ void visitXyz(Text text, auto& v, Visit&& visit) {
 template <class Visit>
 void visitHand(auto& hand, Visit&& visit) {
   auto& [X_PT, velocity_P_mm_per_s, arm_P_mm, handle_velocity_P_mm_per_s, jacobian_P_mm, motor_heat, gap_s, drill_pedal,
-         fresh, docked, held, calibrated, stop_asked, device_healthy] = hand;
+         fresh, docked, held, calibrated, stop_requested, device_healthy] = hand;
   auto& [rotation, translation_mm] = X_PT;
   visit(Text{"hand.X_PT.rotation", ".w", "", "P"}, rotation.w);
   visitXyz(Text{"hand.X_PT.rotation", "", "", "P"}, rotation, visit);
@@ -51,15 +51,15 @@ void visitHand(auto& hand, Visit&& visit) {
   visit(Text{"hand.docked"}, docked);
   visit(Text{"hand.held"}, held);
   visit(Text{"hand.calibrated"}, calibrated);
-  visit(Text{"hand.stop_asked"}, stop_asked);
+  visit(Text{"hand.stop_asked"}, stop_requested);
   visit(Text{"hand.device_healthy"}, device_healthy);
 }
 
 template <class Visit>
 void forEachColumn(auto& tick, Visit&& visit) {
-  auto& [index, t_s, dt_s, command_serial, hand, proxy_P, law_force_P_N, law_torque_P_Nmm, served_force_P_N,
-         served_torque_P_Nmm, energy_Nmm, spindle_rad_per_s, overlap_mm3, depth_mm, removed_mm3, bone_digest,
-         removed_so_far_mm3, contact_tissue, drilling, rest, strokes, state, faults, work_us] = tick;
+  auto& [index, t_s, dt_s, command_serial, hand, proxy_P, law_force_P_N, law_torque_P_Nmm, commanded_force_P_N,
+         commanded_torque_P_Nmm, energy_Nmm, spindle_rad_per_s, overlap_mm3, depth_mm, removed_mm3, bone_digest,
+         removed_total_mm3, contact_tissue, drilling, drill_inhibit, strokes, state, faults, work_us] = tick;
   visit(Text{"index"}, index);
   visit(Text{"t_s", "", "s"}, t_s);
   visit(Text{"dt_s", "", "s"}, dt_s);
@@ -68,8 +68,8 @@ void forEachColumn(auto& tick, Visit&& visit) {
   visitXyz(Text{"proxy_P_mm", "", "mm", "P"}, proxy_P.mm, visit);
   visitXyz(Text{"law_force_P_N", "", "N", "P"}, law_force_P_N.xyz, visit);
   visitXyz(Text{"law_torque_P_Nmm", "", "N mm", "P"}, law_torque_P_Nmm.xyz, visit);
-  visitXyz(Text{"served_force_P_N", "", "N", "P"}, served_force_P_N.xyz, visit);
-  visitXyz(Text{"served_torque_P_Nmm", "", "N mm", "P"}, served_torque_P_Nmm.xyz, visit);
+  visitXyz(Text{"served_force_P_N", "", "N", "P"}, commanded_force_P_N.xyz, visit);
+  visitXyz(Text{"served_torque_P_Nmm", "", "N mm", "P"}, commanded_torque_P_Nmm.xyz, visit);
   visit(Text{"energy_Nmm", "", "N mm"}, energy_Nmm);
   visit(Text{"spindle_rad_per_s", "", "rad/s", "T"}, spindle_rad_per_s);
   visit(Text{"overlap_mm3", "", "mm3"}, overlap_mm3);
@@ -78,7 +78,7 @@ void forEachColumn(auto& tick, Visit&& visit) {
   visit(Text{"bone_digest"}, bone_digest);
   visit(Text{"contact_tissue", "", "", "", "place in the labels of meta"}, contact_tissue);
   visit(Text{"drilling"}, drilling);
-  visit(Text{"rest", "", "", "", kRests}, rest);
+  visit(Text{"rest", "", "", "", kRests}, drill_inhibit);
   visit(Text{"strokes"}, strokes);
   visit(Text{"state", "", "", "", kStates}, state);
   visit(Text{"faults", "", "", "", kFaults}, faults);

@@ -3,7 +3,7 @@
 // it passes by, what is not there has the value of a Tick as it is made. A block holds column after column; a column
 // is stored plane by plane (the lowest byte of every tick, then the next …), little-endian, reals as their IEEE 754
 // bits: a round trip is bit-exact on every machine, and neighbouring ticks compress.
-// Not stored: removed_so_far_mm3, which each block has once. Any thread; O(bytes), allocates. Not the compression.
+// Not stored: removed_total_mm3, which each block has once. Any thread; O(bytes), allocates. Not the compression.
 #pragma once
 
 #include <cstddef>

@@ -6,7 +6,7 @@
 
 #include <fmt/core.h>
 
-#include "app/device/hand_at_work.h"
+#include "app/device/pose_source.h"
 #include "calibration/arm/phantom_models.h"
 #include "calibration/geometry/units.h"
 
@@ -28,7 +28,7 @@ constexpr int kSteps = 3, kTurnSteps = 2;
 
 std::array<glm::dvec3, 8> corners_P_mm(const assets::Patient& patient) {
   const assets::VolumeGrid& grid = patient.ct.grid;
-  const glm::dvec3 site = patient.workplace_P_mm();
+  const glm::dvec3 site = patient.focus_P_mm();
   const glm::dvec3 least = glm::max(site - kRegionHalf_P_mm, grid.origin_P_mm);
   const glm::dvec3 most =
       glm::min(site + kRegionHalf_P_mm, grid.origin_P_mm + grid.spacing_mm * glm::dvec3(grid.size - 1));
@@ -85,7 +85,7 @@ double farthestOffScreen_mm(const calibration::Rig& rig, const assets::Patient& 
 
 Reach reachOf(const calibration::Rig& rig, const assets::Patient& patient, const calibration::PhantomGeometry& model) {
   const Arm arm{model, rig.X_WD, rig.arm ? rig.arm->tip_H_mm : calibration::kNominalTip_H_mm};
-  const glm::dvec3 site_W_mm = (rig.X_WP * Point<Patient>{patient.workplace_P_mm()}).mm;
+  const glm::dvec3 site_W_mm = (rig.X_WP * Point<Patient>{patient.focus_P_mm()}).mm;
   std::array<glm::dvec3, 8> corners_W_mm;
   std::ranges::transform(corners_P_mm(patient), corners_W_mm.begin(),
                          [&](const glm::dvec3& corner) { return (rig.X_WP * Point<Patient>{corner}).mm; });

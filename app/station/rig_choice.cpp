@@ -18,11 +18,11 @@
 namespace app {
 namespace {
 
-using calibration::RigPlace;
+using calibration::RigLocation;
 using calibration::RigRecord;
 using calibration::RigStore;
 using calibration::Verdict;
-using Kind = DeviceAtHand::Kind;
+using Kind = DeviceIdentity::Kind;
 
 constexpr std::string_view kCurrent = "current";
 constexpr std::size_t kLongestWord = 120;
@@ -34,19 +34,19 @@ std::optional<std::string> currentAsked(const std::string& rig) {
   return std::nullopt;
 }
 
-std::string nameOf(const DeviceAtHand& device) {
+std::string nameOf(const DeviceIdentity& device) {
   return device.model + (device.serial.empty() ? "" : " " + device.serial);
 }
 
-std::string nameOf(const RigPlace& place) { return place.rig_id + " " + place.serial + " " + place.mount; }
+std::string nameOf(const RigLocation& location) { return location.rig_id + " " + location.serial + " " + location.mount; }
 
-std::string ofTouches(const calibration::RigProof& proof) {
-  return fmt::format("{:.2f} mm RMS of {}", proof.errors.rms_mm, proof.errors.n);
+std::string ofTouches(const calibration::RigVerification& verification) {
+  return fmt::format("{:.2f} mm RMS of {}", verification.errors.rms_mm, verification.errors.n);
 }
 
 }  // namespace
 
-DeviceAtHand deviceAtHand(const std::string& address, const haptics::DeviceCapabilities* real) {
+DeviceIdentity deviceIdentity(const std::string& address, const haptics::DeviceCapabilities* real) {
   if (const auto practice = practiceRig(address))
     return {Kind::practice, address, practice->nominal.device->model, practice->nominal.device->serial};
   if (real == nullptr) return {Kind::without_hardware, address, "", ""};
@@ -76,15 +76,15 @@ void RigOption::refuseUnlessReadable() const {
   if (isGiven() && !isName()) calibration::readRigRecord(rig_);
 }
 
-std::optional<RigRecord> RigOption::currentFor(const DeviceAtHand& device, const std::string& rig_id) const {
+std::optional<RigRecord> RigOption::currentFor(const DeviceIdentity& device, const std::string& rig_id) const {
   const bool is_asked = isGiven();
   const std::filesystem::path root = store_.empty() ? RigStore::usualRoot() : std::filesystem::path(store_);
   const RigStore store(root);
-  std::vector<RigPlace> suiting;
-  for (const RigPlace& place : store.places()) {
-    const bool its_serial = !device.isCalibrated() || place.serial == device.serial;
-    const bool its_rig = rig_id.empty() || place.rig_id == rig_id, its_mount = mount_.empty() || place.mount == mount_;
-    if (its_serial && its_rig && its_mount && store.currentName(place)) suiting.push_back(place);
+  std::vector<RigLocation> suiting;
+  for (const RigLocation& location : store.locations()) {
+    const bool its_serial = !device.isCalibrated() || location.serial == device.serial;
+    const bool its_rig = rig_id.empty() || location.rig_id == rig_id, its_mount = mount_.empty() || location.mount == mount_;
+    if (its_serial && its_rig && its_mount && store.currentName(location)) suiting.push_back(location);
   }
   const std::string whose = device.isCalibrated() ? " of " + nameOf(device) : "";
   if (suiting.empty()) {
@@ -95,7 +95,7 @@ std::optional<RigRecord> RigOption::currentFor(const DeviceAtHand& device, const
   if (suiting.size() > 1) {
     if (!is_asked) return std::nullopt;
     throw UsageError("--rig " + rig_ + ": several calibrations are in force" + whose + " (" +
-                     listed(suiting, [](const RigPlace& place) { return nameOf(place); }) +
+                     joined(suiting, [](const RigLocation& location) { return nameOf(location); }) +
                      "), say which with --rig current:RIG and --mount");
   }
   auto record = store.current(suiting.front());
@@ -106,7 +106,7 @@ std::optional<RigRecord> RigOption::currentFor(const DeviceAtHand& device, const
   return withLaterCheck(*std::move(record), calibration::readHistory(store.historyPath(suiting.front())));
 }
 
-std::optional<ChosenRig> RigOption::choose(const DeviceAtHand& device, const std::string& now_utc) const {
+std::optional<ChosenRig> RigOption::choose(const DeviceIdentity& device, const std::string& now_utc) const {
   ChosenRig chosen;
   const auto current = isGiven() ? currentAsked(rig_) : std::string();
   const bool looks_in_store = isGiven() ? current.has_value() : device.isCalibrated();
@@ -128,7 +128,7 @@ std::optional<ChosenRig> RigOption::choose(const DeviceAtHand& device, const std
   return chosen;
 }
 
-void RigOption::judge(ChosenRig& chosen, const DeviceAtHand& device, const std::string& now_utc) const {
+void RigOption::judge(ChosenRig& chosen, const DeviceIdentity& device, const std::string& now_utc) const {
   const bool is_default = isGiven() && calibration::defaultRig(rig_).has_value();
   RigRecord& record = chosen.record;
   SessionCalibration& kept = chosen.calibration;
@@ -136,12 +136,12 @@ void RigOption::judge(ChosenRig& chosen, const DeviceAtHand& device, const std::
   kept.rig_id = record.provenance.rig_id;
   kept.device_serial = device.serial;
   kept.age_days = calibration::age_days(record, now_utc);
-  if (record.proof) {
-    const calibration::TargetErrors& errors = record.proof->errors;
-    kept.verdict = calibration::nameOf(record.proof->verdict);
+  if (record.verification) {
+    const calibration::TargetErrors& errors = record.verification->errors;
+    kept.verdict = calibration::nameOf(record.verification->verdict);
     kept.touches = errors.n;
     kept.rms_mm = errors.rms_mm, kept.p95_mm = errors.p95_mm, kept.max_mm = errors.max_mm;
-    kept.checked_utc = record.proof->checked_utc;
+    kept.checked_utc = record.verification->checked_utc;
   }
   const auto remark = [&](const std::string& line) { chosen.remarks.push_back(chosen.source + ": " + line); };
   if (kept.age_days && *kept.age_days > calibration::kOldRig_days)
@@ -154,29 +154,29 @@ void RigOption::judge(ChosenRig& chosen, const DeviceAtHand& device, const std::
     record.rig.arm.reset();
     return;
   }
-  const std::string why_not = calibration::whyNotFor(record, device.model, device.serial, mount_);
+  const std::string why_not = calibration::mismatchWith(record, device.model, device.serial, mount_);
   if (!why_not.empty())
     throw UsageError("--rig, " + chosen.source + ": " + why_not +
                      ": choose the rig of this device or calibrate it (molar calibrate)");
-  if (!record.proof) {
+  if (!record.verification) {
     remark(is_default || !record.rig.arm
                ? "it was not measured with this device: hand and eye may be a centimetre apart, see molar calibrate"
                : "nobody has verified it: molar calibrate verify");
     return;
   }
-  const Verdict verdict = record.proof->verdict;
-  if (verdict == Verdict::amber) remark("its calibration is amber, " + ofTouches(*record.proof) + ": usable, not good");
+  const Verdict verdict = record.verification->verdict;
+  if (verdict == Verdict::amber) remark("its calibration is amber, " + ofTouches(*record.verification) + ": usable, not good");
   if (verdict != Verdict::red) return;
   const bool is_word = std::ranges::any_of(despite_, [](unsigned char c) { return std::isgraph(c) != 0; }) &&
                        std::ranges::none_of(despite_, [](unsigned char c) { return std::iscntrl(c) != 0; });
   if (!is_word)
     throw UsageError(
-        "--device " + device.address + ": " + chosen.source + " is red, " + ofTouches(*record.proof) +
+        "--device " + device.address + ": " + chosen.source + " is red, " + ofTouches(*record.verification) +
         ": calibrate again (molar calibrate) or say with --despite-calibration \"WORD\" why it is used all the same");
   if (despite_.size() > kLongestWord)
     throw UsageError("--despite-calibration: the word is too long, 120 bytes at most");
   kept.despite = despite_;
-  remark("its calibration is red, " + ofTouches(*record.proof) + ", used despite that: " + despite_);
+  remark("its calibration is red, " + ofTouches(*record.verification) + ", used despite that: " + despite_);
 }
 
 }  // namespace app

@@ -17,7 +17,7 @@ class CommandLine;
 class Option;
 
 /// For whom a rig is chosen.
-struct DeviceAtHand {
+struct DeviceIdentity {
   enum class Kind { without_hardware, practice, real };
   Kind kind = Kind::without_hardware;
   std::string address;
@@ -28,7 +28,7 @@ struct DeviceAtHand {
 
 /// `real`: what the real device of the address can; null for hands without hardware. Throws UsageError for an address
 /// of a practice device that is none.
-DeviceAtHand deviceAtHand(const std::string& address, const haptics::DeviceCapabilities* real);
+DeviceIdentity deviceIdentity(const std::string& address, const haptics::DeviceCapabilities* real);
 
 struct ChosenRig {
   calibration::RigRecord record;     ///< without its arm where that is another hand's
@@ -50,11 +50,11 @@ class RigOption {
 
   /// None: nothing was asked for, and no current rig is this device's alone. Throws UsageError: not this device's, no
   /// such current one, several, or red; CalibrationError where a file can not be read. `now_utc` as in records.
-  std::optional<ChosenRig> choose(const DeviceAtHand& device, const std::string& now_utc) const;
+  std::optional<ChosenRig> choose(const DeviceIdentity& device, const std::string& now_utc) const;
 
  private:
-  std::optional<calibration::RigRecord> currentFor(const DeviceAtHand& device, const std::string& rig_id) const;
-  void judge(ChosenRig& chosen, const DeviceAtHand& device, const std::string& now_utc) const;
+  std::optional<calibration::RigRecord> currentFor(const DeviceIdentity& device, const std::string& rig_id) const;
+  void judge(ChosenRig& chosen, const DeviceIdentity& device, const std::string& now_utc) const;
 
   std::string rig_, store_, mount_, despite_;
 };

@@ -26,7 +26,7 @@ std::unique_ptr<Recorder> recorderOf(const std::optional<Recording>& recording, 
   start.command = command;
   start.calibration = recording->calibration;
   return std::make_unique<Recorder>(recording->path, recording->overwrite, start, log,
-                                    ticking == Ticking::by_hand ? Draining::by_hand : Draining::by_thread);
+                                    ticking == Ticking::stepped ? DrainMode::by_hand : DrainMode::by_thread);
 }
 
 std::size_t roomAt(double rate_Hz) { return static_cast<std::size_t>(std::ceil(kLogged_s * rate_Hz)); }
@@ -102,8 +102,8 @@ void Workstation::change(haptics::Command command) {
   commands_.publish(command_);
 }
 
-std::optional<std::string> Workstation::recordedBeside() const {
-  return recorder_ ? recorder_->recordedBeside() : std::nullopt;
+std::optional<std::string> Workstation::temporaryFile() const {
+  return recorder_ ? recorder_->temporaryFile() : std::nullopt;
 }
 
 std::optional<std::string> Workstation::recordingTrouble() const {

@@ -32,7 +32,7 @@ class Workstation {
   /// `keeps_ticks`: for takeTicks(). Throws SessionError or haptics::DeviceError.
   Workstation(const assets::Patient& patient, std::unique_ptr<haptics::HapticDevice> device,
               const haptics::LoopSettings& settings, const haptics::Command& command,
-              const std::optional<Recording>& recording, Ticking ticking = Ticking::by_itself,
+              const std::optional<Recording>& recording, Ticking ticking = Ticking::realtime,
               bool keeps_ticks = false);
 
   ~Workstation() { loop_.stop(); }
@@ -50,11 +50,11 @@ class Workstation {
   /// In force from a tick after this call, by hand from the next; recorded.
   void change(haptics::Command command);
   /// Whether the newest change was in force in this tick.
-  bool isInForce(const haptics::Tick& tick) const { return tick.command_serial == command_.serial; }
+  bool isApplied(const haptics::Tick& tick) const { return tick.command_serial == command_.serial; }
   void note(const std::string& kind, const std::string& text);
 
-  /// Recorder::recordedBeside.
-  std::optional<std::string> recordedBeside() const;
+  /// Recorder::temporaryFile.
+  std::optional<std::string> temporaryFile() const;
   /// One line, once recording has ended early.
   std::optional<std::string> recordingTrouble() const;
 
@@ -64,7 +64,7 @@ class Workstation {
   /// What the device says is wrong, or that a person shall do; empty: nothing.
   std::string deviceTrouble() const { return device_->trouble(); }
   void setHome() { device_->setHome(); }
-  haptics::TripLedger trips() { return loop_.trips(); }
+  haptics::TripCounter trips() { return loop_.trips(); }
   haptics::Tick newestTick() { return newest_.read(); }
   /// Where they are kept: every tick since the last call, oldest first; after 10 s without a call the newest are
   /// missing.

@@ -28,23 +28,23 @@ CLI::Validator numberRange(double low, double high) {
 std::vector<std::string> choicesIn(const std::string& type) {
   const std::size_t from = type.find('{'), end = type.rfind('}');
   if (from == std::string::npos || end == std::string::npos || end < from) return {};
-  const auto choices = partsOf(std::string_view(type).substr(from + 1, end - from - 1));
+  const auto choices = split(std::string_view(type).substr(from + 1, end - from - 1));
   return {choices.begin(), choices.end()};
 }
 
-OptionWords wordsOf(const CLI::Option& option) {
-  OptionWords words;
+OptionHelp wordsOf(const CLI::Option& option) {
+  OptionHelp words;
   words.names = option.get_name(false, true);
   words.about = option.get_description();
   words.is_required = option.get_required();
-  words.is_by_place = option.get_positional();
+  words.is_positional = option.get_positional();
   if (option.get_items_expected_max() == 0) return words;
   const std::string type = option.get_type_name();
   words.choices = choicesIn(type);
   words.value = type.substr(0, type.find(':'));
-  words.usual = option.get_default_str();
+  words.default_value = option.get_default_str();
   // A list of one is told as that one.
-  if (words.usual.starts_with('[')) words.usual = words.usual.substr(1, words.usual.size() - 2);
+  if (words.default_value.starts_with('[')) words.default_value = words.default_value.substr(1, words.default_value.size() - 2);
   return words;
 }
 
@@ -80,7 +80,7 @@ Option& Option::wholeFrom(int low, int high) {
   return *this;
 }
 
-Option& Option::anExistingFolder() {
+Option& Option::existingFolder() {
   option_->check(CLI::ExistingDirectory);
   return *this;
 }
@@ -113,7 +113,7 @@ Option& Option::excludes(const Option& other) {
 CommandLine::CommandLine(const std::string& about, const std::string& version)
     : program_(std::make_unique<CLI::App>(about)), app_(*program_) {
   app_.set_version_flag("--version", version);
-  wantsCommand();
+  requireCommand();
 }
 
 CommandLine::CommandLine(CLI::App& app) : app_(app) {}
@@ -125,7 +125,7 @@ CommandLine& CommandLine::command(const std::string& name, const std::string& ab
   return *commands_.back();
 }
 
-void CommandLine::wantsCommand() { app_.require_subcommand(1); }
+void CommandLine::requireCommand() { app_.require_subcommand(1); }
 
 template <class Value>
 Option CommandLine::option(const std::string& name, Value& value, const std::string& help) {
@@ -155,8 +155,8 @@ Option CommandLine::flag(const std::string& name, bool& value, const std::string
 
 void CommandLine::footer(const std::string& text) { app_.footer(text); }
 
-CommandWords CommandLine::words() const {
-  CommandWords words{app_.get_name(), app_.get_description(), app_.get_footer(), {}, {}};
+CommandHelp CommandLine::words() const {
+  CommandHelp words{app_.get_name(), app_.get_description(), app_.get_footer(), {}, {}};
   for (const CLI::Option* option : app_.get_options()) words.options.push_back(wordsOf(*option));
   for (const auto& command : commands_) words.commands.push_back(command->words());
   return words;

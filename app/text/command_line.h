@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/text/command_words.h"
+#include "app/text/command_help.h"
 
 namespace CLI {
 class App;
@@ -30,7 +30,7 @@ class Option {
   /// Both included; what is no number is refused, too.
   Option& from(double low, double high);
   Option& wholeFrom(int low, int high);
-  Option& anExistingFolder();
+  Option& existingFolder();
   /// So many numbers, as in "1,2,3".
   Option& numbers(int count);
   Option& separatedByCommas();
@@ -53,7 +53,7 @@ class CommandLine {
 
   /// Lives as long as this one.
   CommandLine& command(const std::string& name, const std::string& about);
-  void wantsCommand();
+  void requireCommand();
 
   /// The variable outlives run(); it is set where the option is given.
   /// Of text, number or list, optional or not.
@@ -66,7 +66,7 @@ class CommandLine {
   void footer(const std::string& text);
 
   /// All that was added so far.
-  CommandWords words() const;
+  CommandHelp words() const;
 
   /// Its answer is the program's exit status.
   void does(std::function<int()> action) { action_ = std::move(action); }

@@ -10,7 +10,7 @@ namespace app {
 
 /// `name`: a member or a function of each entry.
 template <class Table, class Name = std::identity>
-std::string listed(const Table& table, Name name = {}, std::string_view between = ", ") {
+std::string joined(const Table& table, Name name = {}, std::string_view between = ", ") {
   std::string list;
   for (const auto& one : table) {
     if (!list.empty()) list += between;
@@ -20,7 +20,7 @@ std::string listed(const Table& table, Name name = {}, std::string_view between 
 }
 
 /// At least one, empty ones too; parts of `text`.
-inline std::vector<std::string_view> partsOf(std::string_view text, char between = ',') {
+inline std::vector<std::string_view> split(std::string_view text, char between = ',') {
   std::vector<std::string_view> parts;
   for (std::size_t end; (end = text.find(between)) != std::string_view::npos; text.remove_prefix(end + 1))
     parts.push_back(text.substr(0, end));

@@ -39,13 +39,13 @@ std::string upper(std::string text) {
   return text;
 }
 
-std::string synopsis(const std::string& name, const CommandWords& command) {
+std::string synopsis(const std::string& name, const CommandHelp& command) {
   std::string line = bold(name);
-  for (const OptionWords& option : command.options)
-    if (!option.is_by_place && option.is_required) line += " " + bold(option.names) + " " + italic(option.value);
+  for (const OptionHelp& option : command.options)
+    if (!option.is_positional && option.is_required) line += " " + bold(option.names) + " " + italic(option.value);
   line += " [" + italic("OPTIONS") + "]";
-  for (const OptionWords& option : command.options)
-    if (option.is_by_place)
+  for (const OptionHelp& option : command.options)
+    if (option.is_positional)
       line += option.is_required ? " " + italic(upper(option.names)) : " [" + italic(upper(option.names)) + "]";
   if (!command.commands.empty()) line += " " + italic("COMMAND");
   return line + "\n";
@@ -57,15 +57,15 @@ std::string entry(const std::string& head, const std::string& about) {
 
 /// "-h, --help", each name bold.
 std::string boldNames(const std::string& names) {
-  return listed(partsOf(names), [](std::string_view name) { return bold(std::string(name)); });
+  return joined(split(names), [](std::string_view name) { return bold(std::string(name)); });
 }
 
-std::string entryOf(const OptionWords& option) {
-  std::string head = option.is_by_place ? italic(upper(option.names)) : boldNames(option.names);
-  if (!option.is_by_place && !option.value.empty()) head += " " + italic(option.value);
+std::string entryOf(const OptionHelp& option) {
+  std::string head = option.is_positional ? italic(upper(option.names)) : boldNames(option.names);
+  if (!option.is_positional && !option.value.empty()) head += " " + italic(option.value);
   std::string about = option.about;
-  if (!option.choices.empty()) about += (about.empty() ? "One of " : ". One of ") + listed(option.choices);
-  if (!option.usual.empty()) about += " [" + option.usual + "]";
+  if (!option.choices.empty()) about += (about.empty() ? "One of " : ". One of ") + joined(option.choices);
+  if (!option.default_value.empty()) about += " [" + option.default_value + "]";
   return entry(head, about);
 }
 
@@ -73,19 +73,19 @@ std::string entryOf(const OptionWords& option) {
 
 std::string manualFile(const std::string& name) { return dashed(name) + ".1"; }
 
-std::string manualPage(const std::string& name, const CommandWords& command, const std::string& program) {
+std::string manualPage(const std::string& name, const CommandHelp& command, const std::string& program) {
   std::string page = ".TH \"" + upper(dashed(name)) + "\" 1 \"\" \"" + program + "\" \"Molar\"\n";
   page += heading("NAME") + escaped(dashed(name)) + " \\- " + escaped(command.about) + "\n";
   page += heading("SYNOPSIS") + synopsis(name, command);
   if (!command.commands.empty()) {
     page += heading("COMMANDS");
-    for (const CommandWords& each : command.commands)
+    for (const CommandHelp& each : command.commands)
       page += entry("\\fB" + escaped(dashed(name + " " + each.name)) + "\\fR(1)", each.about);
   }
   page += heading("OPTIONS");
   for (const bool by_place : {true, false})
-    for (const OptionWords& option : command.options)
-      if (option.is_by_place == by_place) page += entryOf(option);
+    for (const OptionHelp& option : command.options)
+      if (option.is_positional == by_place) page += entryOf(option);
   if (!command.footer.empty()) page += heading("NOTES") + ".nf\n" + escaped(command.footer) + "\n.fi\n";
   page += heading("EXIT STATUS") + entry("0", "success") + entry("1", "the answer is \"no\"") +
           entry("2", "bad input, one line: molar: what, where, what to do");

@@ -17,21 +17,21 @@ std::string quoted(const std::string& text) {
 struct Tables {
   std::string commands, values, words;
 
-  void add(const std::string& path, const CommandWords& command) {
+  void add(const std::string& path, const CommandHelp& command) {
     std::vector<std::string> offered;
-    for (const CommandWords& each : command.commands) offered.push_back(each.name);
-    for (const OptionWords& option : command.options) {
-      if (option.is_by_place) continue;
+    for (const CommandHelp& each : command.commands) offered.push_back(each.name);
+    for (const OptionHelp& option : command.options) {
+      if (option.is_positional) continue;
       // "-h,--help" is two.
-      for (const std::string_view part : partsOf(option.names)) {
+      for (const std::string_view part : split(option.names)) {
         const std::string& name = offered.emplace_back(part);
         if (option.value.empty()) continue;
-        values += "    " + quoted(path + " " + name) + ") values=" + quoted(listed(option.choices, {}, " ")) + " ;;\n";
+        values += "    " + quoted(path + " " + name) + ") values=" + quoted(joined(option.choices, {}, " ")) + " ;;\n";
       }
     }
-    words += "    " + quoted(path) + ") words=" + quoted(listed(offered, {}, " ")) +
+    words += "    " + quoted(path) + ") words=" + quoted(joined(offered, {}, " ")) +
              (command.commands.empty() ? "" : " has_commands=1") + " ;;\n";
-    for (const CommandWords& each : command.commands) {
+    for (const CommandHelp& each : command.commands) {
       const std::string inner = path.empty() ? each.name : path + " " + each.name;
       commands += "      " + quoted(path + " " + each.name) + ") command=" + quoted(inner) + " ;;\n";
       add(inner, each);
@@ -41,7 +41,7 @@ struct Tables {
 
 }  // namespace
 
-std::string bashCompletion(const std::string& name, const CommandWords& program) {
+std::string bashCompletion(const std::string& name, const CommandHelp& program) {
   Tables tables;
   tables.add("", program);
   const std::string function = "_" + name;

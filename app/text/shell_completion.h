@@ -4,11 +4,11 @@
 
 #include <string>
 
-#include "app/text/command_words.h"
+#include "app/text/command_help.h"
 
 namespace app {
 
 /// `program`: description of the program called `name`, "molar", with all its commands.
-std::string bashCompletion(const std::string& name, const CommandWords& program);
+std::string bashCompletion(const std::string& name, const CommandHelp& program);
 
 }  // namespace app

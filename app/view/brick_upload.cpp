@@ -27,7 +27,7 @@ std::size_t BrickUpload::bring(haptics::CarvedBone& from, render::FrameRenderer&
   return bricks_.size();
 }
 
-void BrickUpload::bringAgain(const haptics::CarvedBone& from, render::FrameRenderer& to) const {
+void BrickUpload::uploadAllAgain(const haptics::CarvedBone& from, render::FrameRenderer& to) const {
   for (const glm::ivec3 brick : ever_) bringBrick(from, brick, to);
 }
 

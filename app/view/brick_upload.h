@@ -23,7 +23,7 @@ class BrickUpload {
   /// Returns how many bricks were brought over.
   std::size_t bring(haptics::CarvedBone& from, render::FrameRenderer& to);
   /// All that was ever brought, to a renderer that was made from the bone of the start.
-  void bringAgain(const haptics::CarvedBone& from, render::FrameRenderer& to) const;
+  void uploadAllAgain(const haptics::CarvedBone& from, render::FrameRenderer& to) const;
 
  private:
   struct InOrder {

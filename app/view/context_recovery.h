@@ -9,24 +9,24 @@ namespace app {
 
 class ContextRecovery {
  public:
-  /// `make_anew` is told what was lost. Throws ContextLost after the third time.
+  /// `recreate` is told what was lost. Throws ContextLost after the third time.
   template <class Draw, class MakeAnew>
-  void draw(Draw draw, MakeAnew make_anew) {
+  void draw(Draw draw, MakeAnew recreate) {
     for (;;) {
       try {
         return draw();
       } catch (const render::ContextLost& lost) {
-        if (times_lost_ == kMostResets) throw;
-        ++times_lost_;
-        make_anew(lost);
+        if (context_losses_ == kMaxResets) throw;
+        ++context_losses_;
+        recreate(lost);
       }
     }
   }
-  int timesLost() const { return times_lost_; }
+  int contextLosses() const { return context_losses_; }
 
  private:
-  static constexpr int kMostResets = 3;
-  int times_lost_ = 0;
+  static constexpr int kMaxResets = 3;
+  int context_losses_ = 0;
 };
 
 }  // namespace app

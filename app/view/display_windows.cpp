@@ -14,19 +14,19 @@ std::string sizeText(glm::ivec2 px) { return std::to_string(px.x) + "x" + std::t
 
 }  // namespace
 
-DisplayWindows::DisplayWindows(const Options& options, const Tell& tell) : mode_(options.mode) {
+DisplayWindows::DisplayWindows(const Options& options, const ReportLine& report) : mode_(options.mode) {
   const auto here = render::monitors();
   const auto wanted = static_cast<std::size_t>(options.monitor.value_or(0));
   // Two full screens need two monitors; both eyes on one of them are halves.
   if (mode_ == DisplayMode::two_windows && options.full_screen && wanted + 1 >= here.size())
-    insteadShow(DisplayMode::side_by_side, "there is one monitor only", tell);
+    fallBack(DisplayMode::side_by_side, "there is one monitor only", report);
   // A packed frame is a video mode of its own; scaled to another it is no frame. What unpacks it takes halves as well.
   const glm::ivec2 output_px = render::outputSize(mode_, options.screen_px);
   if (mode_ == DisplayMode::frame_packing && options.full_screen && wanted < here.size() &&
       here[wanted].px != output_px)
-    insteadShow(
+    fallBack(
         DisplayMode::top_bottom,
-        "the monitor is set to " + sizeText(here[wanted].px) + ", not to the packed mode " + sizeText(output_px), tell);
+        "the monitor is set to " + sizeText(here[wanted].px) + ", not to the packed mode " + sizeText(output_px), report);
 
   render::Window::Options first;
   first.full_screen = options.full_screen;
@@ -37,32 +37,32 @@ DisplayWindows::DisplayWindows(const Options& options, const Tell& tell) : mode_
     first_ = std::make_unique<render::Window>(first);
   } catch (const render::GpuError& error) {
     if (!first.quad_buffer) throw;
-    insteadShow(DisplayMode::mono, error.what(), tell);
+    fallBack(DisplayMode::mono, error.what(), report);
     first.quad_buffer = false;
     first_ = std::make_unique<render::Window>(first);
   }
-  if (mode_ == DisplayMode::two_windows) openSecond(options, tell);
+  if (mode_ == DisplayMode::two_windows) openSecond(options, report);
 }
 
 DisplayWindows::~DisplayWindows() = default;
 
-void DisplayWindows::insteadShow(DisplayMode mode, const std::string& because, const Tell& tell) {
-  tell("--display " + nameText(mode_) + ": " + because + "; showing " + nameText(mode));
+void DisplayWindows::fallBack(DisplayMode mode, const std::string& because, const ReportLine& report) {
+  report("--display " + nameText(mode_) + ": " + because + "; showing " + nameText(mode));
   mode_ = mode;
 }
 
-void DisplayWindows::openSecond(const Options& options, const Tell& tell) {
+void DisplayWindows::openSecond(const Options& options, const ReportLine& report) {
   render::Window::Options second;
   second.title = "Molar, right eye";
   second.full_screen = options.full_screen;
   if (render::monitors().size() > 1) second.monitor = options.monitor.value_or(0) + 1;
   second.size_px = options.screen_px;
   second.focused = false;
-  second.beside = first_.get();
+  second.share_with = first_.get();
   try {
     second_ = std::make_unique<render::Window>(second);
   } catch (const render::GpuError& error) {
-    insteadShow(DisplayMode::mono, error.what(), tell);
+    fallBack(DisplayMode::mono, error.what(), report);
   }
   first_->makeCurrent();
 }
@@ -72,7 +72,7 @@ std::vector<render::WindowEvent> DisplayWindows::takeEvents() {
   if (second_)
     for (const render::WindowEvent& event : second_->takeEvents())
       // The pointer belongs to the first window's pixels.
-      if (std::holds_alternative<render::KeyPressed>(event) || std::holds_alternative<render::CloseAsked>(event))
+      if (std::holds_alternative<render::KeyPressed>(event) || std::holds_alternative<render::CloseRequested>(event))
         events.push_back(event);
   return events;
 }
@@ -88,7 +88,7 @@ void DisplayWindows::fill(const ShowOutput& show) {
   if (!second_) return;
   drawn_.mark();
   second_->makeCurrent();
-  drawn_.follow();
+  drawn_.waitOnGpu();
   show({.size_px = second_->framebufferSize_px()}, 1);
   second_->present();
   first_->makeCurrent();

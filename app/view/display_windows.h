@@ -10,15 +10,15 @@
 #include "render/display/display_mode.h"
 #include "render/display/window.h"
 #include "render/gpu/frame_fence.h"
-#include "render/gpu/window_place.h"
+#include "render/gpu/window_target.h"
 
 namespace app {
 
 class DisplayWindows {
  public:
-  using Tell = std::function<void(const std::string& line)>;
+  using ReportLine = std::function<void(const std::string& line)>;
   /// Puts an output into the current window.
-  using ShowOutput = std::function<void(const render::WindowPlace& place, int output)>;
+  using ShowOutput = std::function<void(const render::WindowTarget& place, int output)>;
 
   struct Options {
     render::DisplayMode mode = render::DisplayMode::mono;
@@ -28,7 +28,7 @@ class DisplayWindows {
   };
 
   /// Throws GpuError where no window can be had at all.
-  DisplayWindows(const Options& options, const Tell& tell);
+  DisplayWindows(const Options& options, const ReportLine& report);
   ~DisplayWindows();
 
   render::DisplayMode mode() const { return mode_; }
@@ -40,8 +40,8 @@ class DisplayWindows {
   void fill(const ShowOutput& show);
 
  private:
-  void insteadShow(render::DisplayMode mode, const std::string& because, const Tell& tell);
-  void openSecond(const Options& options, const Tell& tell);
+  void fallBack(render::DisplayMode mode, const std::string& because, const ReportLine& report);
+  void openSecond(const Options& options, const ReportLine& report);
 
   render::DisplayMode mode_;
   std::unique_ptr<render::Window> first_, second_;  // the second shares with the first

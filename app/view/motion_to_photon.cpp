@@ -22,13 +22,13 @@ void MotionToPhoton::add(double pose_to_swap_s) {
   ++bins_[std::min(static_cast<std::size_t>(std::max(0.0, ms) / kBin_ms), bins_.size() - 1)];
 }
 
-PhotonEstimate MotionToPhoton::now() const { return with(smoothed_ms_); }
+LatencyEstimate MotionToPhoton::now() const { return with(smoothed_ms_); }
 
-PhotonEstimate MotionToPhoton::with(double pose_to_swap_ms) const {
+LatencyEstimate MotionToPhoton::with(double pose_to_swap_ms) const {
   return {pose_to_swap_ms, servo_ms_, half_refresh_ms_, half_refresh_ms_};
 }
 
-PhotonEstimate MotionToPhoton::percentile(double share) const {
+LatencyEstimate MotionToPhoton::percentile(double share) const {
   const double wanted = share * static_cast<double>(count_);
   std::uint64_t below = 0;
   for (std::size_t b = 0; b < bins_.size(); ++b) {
@@ -38,7 +38,7 @@ PhotonEstimate MotionToPhoton::percentile(double share) const {
   return with(0.0);
 }
 
-std::string photonText(const PhotonEstimate& e) {
+std::string latencyText(const LatencyEstimate& e) {
   return fmt::format("motion to photon {:.0f} ms (pose to swap {:.1f}, servo {:.1f}, blank {:.1f}, scan-out {:.1f})",
                      e.total_ms(), e.pose_to_swap_ms, e.servo_ms, e.blank_ms, e.scan_out_ms);
 }

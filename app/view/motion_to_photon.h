@@ -11,7 +11,7 @@
 
 namespace app {
 
-struct PhotonEstimate {
+struct LatencyEstimate {
   double pose_to_swap_ms = 0.0;  ///< measured
   double servo_ms = 0.0, blank_ms = 0.0, scan_out_ms = 0.0;
   double total_ms() const { return pose_to_swap_ms + servo_ms + blank_ms + scan_out_ms; }
@@ -25,14 +25,14 @@ class MotionToPhoton {
 
   std::uint64_t pictures() const { return count_; }
   /// Of the newest pictures, smoothed.
-  PhotonEstimate now() const;
+  LatencyEstimate now() const;
   /// Of all so far: half, or all but a twentieth of the pictures were faster.
-  PhotonEstimate median() const { return percentile(0.5); }
-  PhotonEstimate slow() const { return percentile(0.95); }
+  LatencyEstimate median() const { return percentile(0.5); }
+  LatencyEstimate slow() const { return percentile(0.95); }
 
  private:
-  PhotonEstimate with(double pose_to_swap_ms) const;
-  PhotonEstimate percentile(double share) const;
+  LatencyEstimate with(double pose_to_swap_ms) const;
+  LatencyEstimate percentile(double share) const;
 
   static constexpr double kBin_ms = 0.25;
   std::array<std::uint32_t, 8000> bins_{};  ///< the last holds everything longer than 2 s
@@ -41,6 +41,6 @@ class MotionToPhoton {
 };
 
 /// "motion to photon 31 ms (pose to swap 14.2, servo 0.5, blank 8.3, scan-out 8.3)".
-std::string photonText(const PhotonEstimate& estimate);
+std::string latencyText(const LatencyEstimate& estimate);
 
 }  // namespace app

@@ -35,7 +35,7 @@ class QualityChoice {
   double budget_s() const { return budget_s_; }
   int step() const { return ladder_.step(); }
   bool isHeld() const { return held_; }
-  std::string text() { return rules() ? std::string(ladder_.words()) : "as asked"; }
+  std::string text() { return rules() ? std::string(ladder_.description()) : "as asked"; }
 
  private:
   static constexpr int kSettled = 4;  ///< pictures without a change of quality

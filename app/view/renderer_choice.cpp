@@ -8,35 +8,35 @@ namespace {
 
 using render::Backend;
 
-Backend byCard(std::optional<Backend> asked, const TellLine& tell) {
+Backend byCard(std::optional<Backend> asked, const ReportLine& report) {
   const render::GraphicsCard card = render::currentGraphicsCard();
   if (!asked && card.is_software) {
-    tell("drawing on the CPU: no graphics card, OpenGL is " + card.name);
+    report("drawing on the CPU: no graphics card, OpenGL is " + card.name);
     return Backend::cpu;
   }
-  if (!asked) tell("drawing with OpenGL on " + card.name);
+  if (!asked) report("drawing with OpenGL on " + card.name);
   return asked.value_or(Backend::gl_fragment);
 }
 
 }  // namespace
 
 Backend rendererWithoutWindow(std::optional<Backend> asked, std::optional<render::OffscreenContext>& context,
-                              const TellLine& tell) {
+                              const ReportLine& report) {
   if (asked == Backend::cpu) return Backend::cpu;
   try {
     context.emplace();
   } catch (const render::GpuError&) {
     if (asked) throw;
-    tell("drawing on the CPU: there is no OpenGL 4.5");
+    report("drawing on the CPU: there is no OpenGL 4.5");
     return Backend::cpu;
   }
-  const Backend backend = byCard(asked, tell);
+  const Backend backend = byCard(asked, report);
   if (backend == Backend::cpu) context.reset();
   return backend;
 }
 
-Backend rendererForWindow(std::optional<Backend> asked, const TellLine& tell) {
-  return asked == Backend::cpu ? Backend::cpu : byCard(asked, tell);
+Backend rendererForWindow(std::optional<Backend> asked, const ReportLine& report) {
+  return asked == Backend::cpu ? Backend::cpu : byCard(asked, report);
 }
 
 }  // namespace app

@@ -11,14 +11,14 @@
 
 namespace app {
 
-using TellLine = std::function<void(const std::string& line)>;
+using ReportLine = std::function<void(const std::string& line)>;
 
 /// `asked`: empty for the choice. Makes the context that the answer needs; GpuError if there is none though it was
 /// asked for.
 render::Backend rendererWithoutWindow(std::optional<render::Backend> asked,
-                                      std::optional<render::OffscreenContext>& context, const TellLine& tell);
+                                      std::optional<render::OffscreenContext>& context, const ReportLine& report);
 
 /// With the window's context current.
-render::Backend rendererForWindow(std::optional<render::Backend> asked, const TellLine& tell);
+render::Backend rendererForWindow(std::optional<render::Backend> asked, const ReportLine& report);
 
 }  // namespace app

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "assets/load_error.h"
-#include "calibration/picture_file.h"
+#include "calibration/png_file.h"
 
 namespace app {
 namespace {
@@ -18,12 +18,12 @@ std::string withWord(const std::string& path, const std::string& word) {
 
 }  // namespace
 
-void savePng(const render::Picture& picture, calibration::OutputFile& file) {
+void savePng(const render::Image& picture, calibration::OutputFile& file) {
   calibration::writePng(file.temporaryPath(), {picture.w, picture.h}, picture.rgba);
   file.commit();
 }
 
-std::string saveNextSnapshot(const render::Picture& picture) {
+std::string saveNextSnapshot(const render::Image& picture) {
   std::string path;
   for (int n = 1; path.empty() || std::filesystem::exists(path); ++n)
     path = "molar-snapshot-" + std::to_string(n) + ".png";
@@ -32,15 +32,15 @@ std::string saveNextSnapshot(const render::Picture& picture) {
   return path;
 }
 
-EyePictures::EyePictures(const std::string& path, bool overwrite)
+StereoSnapshot::StereoSnapshot(const std::string& path, bool overwrite)
     : left_(withWord(path, "left"), overwrite), right_(withWord(path, "right"), overwrite) {}
 
-void EyePictures::save(const render::Picture& left, const render::Picture& right) {
+void StereoSnapshot::save(const render::Image& left, const render::Image& right) {
   savePng(left, left_);
   savePng(right, right_);
 }
 
-void EyePictures::take(render::FrameRenderer& renderer, const render::Frame& frame) {
+void StereoSnapshot::take(render::FrameRenderer& renderer, const render::Frame& frame) {
   renderer.renderEye(frame, render::Eye::left);
   renderer.renderEye(frame, render::Eye::right);
   renderer.throwIfError();

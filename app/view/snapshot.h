@@ -6,20 +6,20 @@
 
 #include "calibration/output_file.h"
 #include "render/frame_renderer.h"
-#include "render/picture.h"
+#include "render/image.h"
 
 namespace app {
 
 /// Under the first free of `molar-snapshot-1.png`, …; its name.
-std::string saveNextSnapshot(const render::Picture& picture);
+std::string saveNextSnapshot(const render::Image& picture);
 
-void savePng(const render::Picture& picture, calibration::OutputFile& file);
+void savePng(const render::Image& picture, calibration::OutputFile& file);
 
-class EyePictures {
+class StereoSnapshot {
  public:
   /// Refuses (CalibrationError) what is there already, unless `overwrite`.
-  EyePictures(const std::string& path, bool overwrite);
-  void save(const render::Picture& left, const render::Picture& right);
+  StereoSnapshot(const std::string& path, bool overwrite);
+  void save(const render::Image& left, const render::Image& right);
   /// Draws both eyes of the frame and saves them.
   void take(render::FrameRenderer& renderer, const render::Frame& frame);
 

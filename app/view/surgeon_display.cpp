@@ -17,8 +17,8 @@ double secondsBetween(SurgeonDisplay::Clock::time_point from, SurgeonDisplay::Cl
 
 }  // namespace
 
-SurgeonDisplay::SurgeonDisplay(const Options& options, MakeRenderer make_renderer, Tell tell)
-    : options_(options), make_renderer_(std::move(make_renderer)), tell_(std::move(tell)) {
+SurgeonDisplay::SurgeonDisplay(const Options& options, MakeRenderer make_renderer, ReportLine report)
+    : options_(options), make_renderer_(std::move(make_renderer)), report_(std::move(report)) {
   open();
 }
 
@@ -27,25 +27,25 @@ SurgeonDisplay::~SurgeonDisplay() { close(); }
 void SurgeonDisplay::open() {
   if (!options_.headless) {
     try {
-      windows_.emplace(options_.windows, tell_);
+      windows_.emplace(options_.windows, report_);
     } catch (const render::GpuError& error) {
       if (options_.needs_window) throw;
-      tell_(std::string(error.what()) + "; going on without a window");
+      report_(std::string(error.what()) + "; going on without a window");
       options_.headless = true;
     }
   }
   if (options_.headless)
     openOffscreen();
   else
-    options_.backend = rendererForWindow(options_.backend, tell_);
+    options_.backend = rendererForWindow(options_.backend, report_);
   fence_.emplace();
 }
 
 void SurgeonDisplay::openOffscreen() {
   try {
-    options_.backend = rendererWithoutWindow(options_.backend, offscreen_, tell_);
+    options_.backend = rendererWithoutWindow(options_.backend, offscreen_, report_);
   } catch (const render::GpuError& error) {
-    tell_(std::string(error.what()) + "; drawing on the processor");
+    report_(std::string(error.what()) + "; drawing on the processor");
     options_.backend = Backend::cpu;
   }
 }
@@ -64,7 +64,7 @@ std::unique_ptr<render::FrameRenderer> SurgeonDisplay::newRenderer(const MakeRen
     } catch (const render::GpuError& error) {
       if (options_.backend == Backend::cpu) throw;
       const bool compute = options_.backend == Backend::gl_compute;
-      tell_(std::string(error.what()) + (compute ? "; drawing with fragment shaders" : "; drawing on the processor"));
+      report_(std::string(error.what()) + (compute ? "; drawing with fragment shaders" : "; drawing on the processor"));
       options_.backend = compute ? Backend::gl_fragment : Backend::cpu;
     }
   }
@@ -78,8 +78,8 @@ void SurgeonDisplay::close() {
   offscreen_.reset();
 }
 
-void SurgeonDisplay::makeAnew() {
-  if (before_making_anew_) before_making_anew_();
+void SurgeonDisplay::recreate() {
+  if (before_recreation_) before_recreation_();
   close();
   open();
 }
@@ -97,13 +97,13 @@ void SurgeonDisplay::show(render::Frame frame) {
     // Scaling would mix the eyes' lines.
     if (render::isInterleaved(mode())) {
       frame.rig.screen.px = window_px;
-      frame.output_at_px = window()->placeOnPanel_px();
+      frame.output_at_px = window()->positionOnPanel_px();
     }
   }
   recovery_.draw([&] { drawAndPresent(frame); },
                  [&](const render::ContextLost& lost) {
-                   tell_(std::string(lost.what()) + "; everything is drawn anew");
-                   makeAnew();
+                   report_(std::string(lost.what()) + "; everything is drawn anew");
+                   recreate();
                  });
 }
 
@@ -111,13 +111,13 @@ void SurgeonDisplay::drawAndPresent(render::Frame& frame) {
   const Clock::time_point begun = Clock::now();
   renderer().render(frame);
   if (!windows_) {
-    renderer_->readPicture();
-    handed_over_ = Clock::now();
-    drawing_s_ = secondsBetween(begun, handed_over_);
+    renderer_->readImage();
+    presented_at_ = Clock::now();
+    drawing_s_ = secondsBetween(begun, presented_at_);
     renderer_->throwIfError();
     return;
   }
-  windows_->fill([this](const render::WindowPlace& place, int output) { renderer_->showOnWindow(place, output); });
+  windows_->fill([this](const render::WindowTarget& place, int output) { renderer_->showOnWindow(place, output); });
   // What drawing costs is known before the display is waited for.
   fence_->mark();
   fence_->wait();
@@ -125,13 +125,13 @@ void SurgeonDisplay::drawAndPresent(render::Frame& frame) {
   renderer_->throwIfError();
   windows_->first().present();
   fence_->mark();
-  handed_over_ = Clock::now();
+  presented_at_ = Clock::now();
 }
 
 void SurgeonDisplay::waitUntilShown() {
   if (!windows_) return;
   fence_->wait();
-  handed_over_ = Clock::now();
+  presented_at_ = Clock::now();
 }
 
 }  // namespace app

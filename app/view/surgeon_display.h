@@ -23,7 +23,7 @@ class SurgeonDisplay {
  public:
   using Clock = std::chrono::steady_clock;
   using MakeRenderer = std::function<std::unique_ptr<render::FrameRenderer>(render::Backend)>;
-  using Tell = DisplayWindows::Tell;
+  using ReportLine = DisplayWindows::ReportLine;
 
   struct Options {
     DisplayWindows::Options windows;
@@ -35,7 +35,7 @@ class SurgeonDisplay {
 
   /// `make_renderer` is called with the context current: for the first picture, and again after a reset. Throws
   /// GpuError when nothing can be opened.
-  SurgeonDisplay(const Options& options, MakeRenderer make_renderer, Tell tell);
+  SurgeonDisplay(const Options& options, MakeRenderer make_renderer, ReportLine report);
   ~SurgeonDisplay();
 
   /// Draws and hands over. The frame's display, parity and, on interleaved displays, size are this one's.
@@ -46,7 +46,7 @@ class SurgeonDisplay {
   /// How long the newest frame took to draw, without waiting for the display, s.
   double drawing_s() const { return drawing_s_; }
   /// When the newest picture was handed over, as far as is known.
-  Clock::time_point handedOver() const { return handed_over_; }
+  Clock::time_point presentedAt() const { return presented_at_; }
 
   render::DisplayMode mode() const { return windows_ ? windows_->mode() : options_.windows.mode; }
   render::Backend backend() const { return *options_.backend; }
@@ -62,11 +62,11 @@ class SurgeonDisplay {
   std::unique_ptr<render::FrameRenderer> newRenderer(const MakeRenderer& make);
   double refresh_Hz() { return windows_ ? windows_->first().refresh_Hz() : 60.0; }
   /// How often everything was made anew.
-  int timesLost() const { return recovery_.timesLost(); }
+  int contextLosses() const { return recovery_.contextLosses(); }
   /// Called before windows are closed to be made anew: what shares with them must go first.
-  void beforeMakingAnew(std::function<void()> call) { before_making_anew_ = std::move(call); }
+  void beforeRecreation(std::function<void()> call) { before_recreation_ = std::move(call); }
   /// As after a reset of the graphics card.
-  void makeAnew();
+  void recreate();
   /// The next drawing belongs to the surgeon's context again.
   void makeCurrent();
 
@@ -78,13 +78,13 @@ class SurgeonDisplay {
 
   Options options_;
   MakeRenderer make_renderer_;
-  Tell tell_;
-  std::function<void()> before_making_anew_;
+  ReportLine report_;
+  std::function<void()> before_recreation_;
   std::optional<render::OffscreenContext> offscreen_;
   std::optional<DisplayWindows> windows_;
   std::unique_ptr<render::FrameRenderer> renderer_;
   std::optional<render::FrameFence> fence_;
-  Clock::time_point handed_over_{};
+  Clock::time_point presented_at_{};
   double drawing_s_ = 0.0;
   ContextRecovery recovery_;
 };

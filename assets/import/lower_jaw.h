@@ -14,6 +14,6 @@
 namespace assets {
 
 /// None where no lower jaw is found.
-std::optional<glm::dvec3> lowerJaw_P_mm(const CtVolume& ct, const std::vector<glm::dvec3>& mandibular_canal_P_mm);
+std::optional<glm::dvec3> lowerJawCentre_P_mm(const CtVolume& ct, const std::vector<glm::dvec3>& mandibular_canal_P_mm);
 
 }  // namespace assets

@@ -176,8 +176,8 @@ Points evenlySpaced(const Points& line) {
 }  // namespace
 
 std::optional<MandibularCanalLine> mandibularCanalLine(const VolumeGrid& grid, const std::vector<std::uint8_t>& label,
-                                                       const std::optional<glm::dvec3>& beside_P_mm) {
-  const OrderedVoxels canal = orderedMandibularCanal(grid, label, beside_P_mm);
+                                                       const std::optional<glm::dvec3>& near_P_mm) {
+  const OrderedVoxels canal = orderedMandibularCanal(grid, label, near_P_mm);
   const Points& points = canal.centre_P_mm;
   std::vector<double> along_mm = canal.along_mm;
   if (points.empty()) return std::nullopt;
@@ -193,7 +193,7 @@ std::optional<MandibularCanalLine> mandibularCanalLine(const VolumeGrid& grid, c
 
   const double volume_mm3 = static_cast<double>(points.size()) * grid.voxelVolume_mm3();
   const double radius_mm = std::sqrt(volume_mm3 / (std::numbers::pi * means.labelled_mm));
-  bridgeBesideTeeth(line, means.is_bridge, radius_mm, grid, label);
+  routeAroundTeeth(line, means.is_bridge, radius_mm, grid, label);
   extendEnds(line, means.before_mm, means.after_mm);
   if (line.front().y > line.back().y) std::reverse(line.begin(), line.end());
   return MandibularCanalLine{evenlySpaced(line), radius_mm};

@@ -20,9 +20,9 @@ struct MandibularCanalLine {
   double radius_mm = 0.0;
 };
 
-/// Of several canals the one nearest to `beside_P_mm`, or without that the largest. None if nothing of at least 5 mm
+/// Of several canals the one nearest to `near_P_mm`, or without that the largest. None if nothing of at least 5 mm
 /// length is labelled Tissue::mandibular_canal.
 std::optional<MandibularCanalLine> mandibularCanalLine(const VolumeGrid& grid, const std::vector<std::uint8_t>& label,
-                                                       const std::optional<glm::dvec3>& beside_P_mm);
+                                                       const std::optional<glm::dvec3>& near_P_mm);
 
 }  // namespace assets

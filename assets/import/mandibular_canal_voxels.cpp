@@ -181,7 +181,7 @@ void joinAcrossGaps(std::vector<Cell>& cells) {
 }
 
 /// The canal meant: nearest to the place given, crumbs of less than a tenth of the largest left aside; or the largest.
-std::vector<std::size_t> canalMeant(const std::vector<Cell>& cells, const std::optional<glm::dvec3>& beside_P_mm) {
+std::vector<std::size_t> canalMeant(const std::vector<Cell>& cells, const std::optional<glm::dvec3>& near_P_mm) {
   const auto canals = canalsOf(cells);
   std::size_t largest = 0;
   for (const auto& canal : canals) largest = std::max(largest, voxelsOf(canal, cells));
@@ -191,10 +191,10 @@ std::vector<std::size_t> canalMeant(const std::vector<Cell>& cells, const std::o
     const std::size_t voxels = voxelsOf(canal, cells);
     if (voxels * 10 < largest) continue;
     double distance = -static_cast<double>(voxels);
-    if (beside_P_mm) {
+    if (near_P_mm) {
       distance = std::numeric_limits<double>::infinity();
       for (const std::size_t c : canal)
-        distance = std::min(distance, glm::distance(cells[c].mean_P_mm(), *beside_P_mm));
+        distance = std::min(distance, glm::distance(cells[c].mean_P_mm(), *near_P_mm));
     }
     if (distance >= best) continue;
     best = distance;
@@ -206,10 +206,10 @@ std::vector<std::size_t> canalMeant(const std::vector<Cell>& cells, const std::o
 }  // namespace
 
 OrderedVoxels orderedMandibularCanal(const VolumeGrid& grid, const std::vector<std::uint8_t>& label,
-                                     const std::optional<glm::dvec3>& beside_P_mm) {
+                                     const std::optional<glm::dvec3>& near_P_mm) {
   std::vector<Cell> cells = cellsOf(grid, label);
   joinAcrossGaps(cells);
-  const std::vector<std::size_t> canal = canalMeant(cells, beside_P_mm);
+  const std::vector<std::size_t> canal = canalMeant(cells, near_P_mm);
   if (canal.empty()) return {};
 
   // From any cell the farthest is an end; the way from there orders all others.

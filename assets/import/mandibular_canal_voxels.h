@@ -17,8 +17,8 @@ struct OrderedVoxels {
   std::vector<double> along_mm;  ///< one per centre, to a cell's width
 };
 
-/// Of several canals the one nearest to `beside_P_mm`, or without that the largest. Empty if none is labelled.
+/// Of several canals the one nearest to `near_P_mm`, or without that the largest. Empty if none is labelled.
 OrderedVoxels orderedMandibularCanal(const VolumeGrid& grid, const std::vector<std::uint8_t>& label,
-                                     const std::optional<glm::dvec3>& beside_P_mm);
+                                     const std::optional<glm::dvec3>& near_P_mm);
 
 }  // namespace assets

@@ -142,7 +142,7 @@ void takeMarkedTooth(const std::optional<int>& asked_fdi, CtVolume& ct, std::vec
   const ThirdMolar molar = numberThirdMolar(ct, asked_fdi);
   if (molar == ThirdMolar::too_large)
     remarks.push_back("labels: enamel, dentine and pulp (4 to 6) fill " +
-                      std::to_string(std::lround(markedTeeth_mm3(ct))) +
+                      std::to_string(std::lround(labelledTeeth_mm3(ct))) +
                       " mm3, more than one tooth; tell teeth apart in teeth.nrrd, or check the legend");
   if (molar == ThirdMolar::of_unknown_side)
     remarks.push_back(
@@ -153,7 +153,7 @@ void takeMarkedTooth(const std::optional<int>& asked_fdi, CtVolume& ct, std::vec
 /// The tooth asked for, or the third molar: lower ones first, as they are operated most.
 std::optional<OperativeSite> siteOf(const CtVolume& ct, const std::optional<int>& asked_fdi, const std::string& source,
                                     std::vector<std::string>& remarks) {
-  const std::vector<int> teeth = teethForASite(ct);
+  const std::vector<int> teeth = siteCandidates(ct);
   if (asked_fdi) {
     if (const auto site = siteAtTooth(ct, *asked_fdi)) return site;
     throw LoadError(source + ": tooth " + std::to_string(*asked_fdi) + " is not labelled in it, " +
@@ -178,7 +178,7 @@ std::optional<OperativeSite> siteOf(const CtVolume& ct, const std::optional<int>
 
 }  // namespace
 
-ImportedScan importScan(const std::string& source, const ScanChoices& choices) {
+ImportedScan importScan(const std::string& source, const ScanImportOptions& choices) {
   const Sources sources = sourcesAt(source);
   HounsfieldImage image = readHounsfield(sources.ct, choices.window);
   ImportedScan imported;
@@ -187,7 +187,7 @@ ImportedScan importScan(const std::string& source, const ScanChoices& choices) {
   patient.ct.grid = image.grid;
   patient.ct.hounsfield = std::move(image.hounsfield);
   if (!choices.window) imported.remarks = scaleRemarks(patient.ct.grid, patient.ct.hounsfield);
-  if (!image.states_sides)
+  if (!image.orientation_known)
     imported.remarks.push_back("it does not say which side is right; taken as LPS (left-posterior-superior)");
   patient.ct.solid = classify(patient.ct.grid, patient.ct.hounsfield, choices.classification);
   const glm::dvec3 middle_P_mm = middleOfSolid(patient.ct, sources.ct, choices.classification.iso_hu);
@@ -199,8 +199,8 @@ ImportedScan importScan(const std::string& source, const ScanChoices& choices) {
     takeMarkedTooth(choices.tooth_fdi, patient.ct, imported.remarks);
   if (tissues == Tissues::labelled) labelPartialVoxels(patient.ct);
   patient.site = siteOf(patient.ct, choices.tooth_fdi, source, imported.remarks);
-  const auto beside_P_mm = patient.site ? std::optional(patient.site->centre_P_mm) : std::nullopt;
-  if (auto canal = mandibularCanalLine(patient.ct.grid, patient.ct.label, beside_P_mm)) {
+  const auto near_P_mm = patient.site ? std::optional(patient.site->centre_P_mm) : std::nullopt;
+  if (auto canal = mandibularCanalLine(patient.ct.grid, patient.ct.label, near_P_mm)) {
     patient.mandibular_canal_P_mm = std::move(canal->line_P_mm);
     patient.mandibular_canal_radius_mm = canal->radius_mm;
   }
@@ -209,7 +209,7 @@ ImportedScan importScan(const std::string& source, const ScanChoices& choices) {
     patient.title = "imported scan, " + toothName(patient.site->fdi) + " (" + std::to_string(patient.site->fdi) + ")";
     return imported;
   }
-  const auto jaw_P_mm = lowerJaw_P_mm(patient.ct, patient.mandibular_canal_P_mm);
+  const auto jaw_P_mm = lowerJawCentre_P_mm(patient.ct, patient.mandibular_canal_P_mm);
   imported.remarks.push_back(jaw_P_mm ? "the view goes to the lower jaw"
                                       : "no lower jaw found, the view goes to the middle of what is solid");
   patient.jaw_P_mm = jaw_P_mm.value_or(middle_P_mm);

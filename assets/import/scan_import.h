@@ -4,7 +4,7 @@
 // teeth.nrrd, or without that the only tooth whose enamel and dentine are labelled, if the scan shows its side. Labels
 // give the mandibular canal's line; without them tissues are guessed from grey values and no tooth is. Nothing of the
 // file but voxels and geometry is kept: no name, date or identifier, not even the file's own name. Any thread, at
-// start-up (see image_file.h); about 2 s per 10^7 voxels. Gum and face are made elsewhere. No DICOM yet.
+// start-up (see image_file.h); about 2 s per 10^7 voxels. Gingiva and face are made elsewhere. No DICOM yet.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@
 
 namespace assets {
 
-struct ScanChoices {
+struct ScanImportOptions {
   Classification classification{};
   std::optional<int> tooth_fdi{};      ///< the site; none: a third molar
   std::optional<GreyWindow> window{};  ///< of an 8-bit volume
@@ -28,6 +28,6 @@ struct ImportedScan {
 };
 
 /// Throws LoadError of one line.
-ImportedScan importScan(const std::string& source, const ScanChoices& choices);
+ImportedScan importScan(const std::string& source, const ScanImportOptions& choices);
 
 }  // namespace assets

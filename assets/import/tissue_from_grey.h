@@ -27,12 +27,12 @@ constexpr Tissue tissueFromGrey(int hounsfield) {
 
 std::vector<std::uint8_t> labelsFromGrey(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield);
 
-/// Gives the voxels of numbered teeth (ct.tooth) that are labelled as nothing, as bone or as gum a tissue of teeth:
+/// Gives the voxels of numbered teeth (ct.tooth) that are labelled as nothing, as bone or as gingiva a tissue of teeth:
 /// enamel above 2100 HU; pulp up to 700 HU where all neighbours are of the same tooth, as a tooth's skin is soft in a
 /// scan too; else dentine.
 void labelNumberedTeeth(CtVolume& ct);
 
-/// Gives what is drawn (solid at least half) but labelled as nothing or as gum the label of the densest hard neighbour,
+/// Gives what is drawn (solid at least half) but labelled as nothing or as gingiva the label of the densest hard neighbour,
 /// and the number of its tooth: labels end in voxel steps, often inside of where the grey values end.
 void labelPartialVoxels(CtVolume& ct);
 

@@ -56,7 +56,7 @@ std::optional<int> thirdMolarAt(const CtVolume& ct, const glm::dvec3& tooth_P_mm
 
 }  // namespace
 
-double markedTeeth_mm3(const CtVolume& ct) {
+double labelledTeeth_mm3(const CtVolume& ct) {
   return static_cast<double>(std::ranges::count_if(ct.label, isPartOfMarkedTooth)) * ct.grid.voxelVolume_mm3();
 }
 
@@ -64,7 +64,7 @@ ThirdMolar numberThirdMolar(CtVolume& ct, const std::optional<int>& asked_fdi) {
   const VoxelSum hard = voxelSum(
       ct.grid, [&](std::size_t v) { return isPartOfMarkedTooth(ct.label[v]) && Tissue{ct.label[v]} != Tissue::pulp; });
   if (hard.count * ct.grid.voxelVolume_mm3() < kSmallest_mm3) return ThirdMolar::none;
-  if (markedTeeth_mm3(ct) > kLargest_mm3) return ThirdMolar::too_large;
+  if (labelledTeeth_mm3(ct) > kLargest_mm3) return ThirdMolar::too_large;
   std::optional<int> fdi = thirdMolarAt(ct, centroid_P_mm(ct.grid, hard));
   if (!fdi && (asked_fdi == 48 || asked_fdi == 38)) fdi = asked_fdi;
   if (!fdi) return ThirdMolar::of_unknown_side;
@@ -85,7 +85,7 @@ std::map<int, double> toothVolumes_mm3(const CtVolume& ct) {
   return volumes;
 }
 
-std::vector<int> teethForASite(const CtVolume& ct) {
+std::vector<int> siteCandidates(const CtVolume& ct) {
   std::array<std::size_t, 256> hard_voxels{};
   for (std::size_t v = 0; v < ct.tooth.size(); ++v)
     if (isHardOfTooth(ct.label[v])) ++hard_voxels[ct.tooth[v]];

@@ -15,7 +15,7 @@
 namespace assets {
 
 /// mm3 of the enamel, dentine and pulp of all teeth.
-double markedTeeth_mm3(const CtVolume& ct);
+double labelledTeeth_mm3(const CtVolume& ct);
 
 /// What became of the marked tooth. none: less than 10 mm3; too_large: above 3000 mm3, no single tooth.
 enum class ThirdMolar { none, numbered, too_large, of_unknown_side };
@@ -28,7 +28,7 @@ ThirdMolar numberThirdMolar(CtVolume& ct, const std::optional<int>& asked_fdi = 
 std::map<int, double> toothVolumes_mm3(const CtVolume& ct);
 
 /// The numbers of those that siteAtTooth takes: with at least 10 mm3 of hard tissue.
-std::vector<int> teethForASite(const CtVolume& ct);
+std::vector<int> siteCandidates(const CtVolume& ct);
 
 /// Centroid of the tooth's enamel, dentine and undivided hard tissue, and its axis (tooth_axis.h); none if that is less
 /// than 10 mm3.

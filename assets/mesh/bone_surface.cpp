@@ -75,7 +75,7 @@ std::size_t BoneSurface::triangleCount() const {
   return count;
 }
 
-MeshPart BoneSurface::welded(std::string name) const {
+MeshPart BoneSurface::mergedMesh(std::string name) const {
   MeshPart part;
   part.name = std::move(name);
 

@@ -29,7 +29,7 @@ class BoneSurface {
   std::size_t triangleCount() const;
 
   /// All patches as one mesh, each vertex once, in the order of the lattice; normals weighted by area.
-  MeshPart welded(std::string name) const;
+  MeshPart mergedMesh(std::string name) const;
 
  private:
   glm::ivec3 brickOf(std::size_t index) const;

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 constexpr const char* kWords = "patient.toml";
 constexpr const char* kVolume = "volume.vdb";
 constexpr const char* kMeshes = "face.glb";
-constexpr const char* kGum = "Gum";
+constexpr const char* kGingivaPrefix = "Gum";
 constexpr std::uintmax_t kLongestWords = 4 << 20;
 
 std::string readText(const std::string& path) {
@@ -37,21 +37,21 @@ std::string readText(const std::string& path) {
 }
 
 /// Gum and face as one model; their names tell them apart.
-MeshModel joined(const MeshModel& gum, const MeshModel& face) {
+MeshModel joined(const MeshModel& gingiva, const MeshModel& face) {
   MeshModel both;
-  for (const MeshPart& part : gum.parts) {
+  for (const MeshPart& part : gingiva.parts) {
     both.parts.push_back(part);
-    if (!part.name.starts_with(kGum)) both.parts.back().name = std::string(kGum) + " " + part.name;
+    if (!part.name.starts_with(kGingivaPrefix)) both.parts.back().name = std::string(kGingivaPrefix) + " " + part.name;
   }
   for (const MeshPart& part : face.parts) {
     both.parts.push_back(part);
-    if (part.name.starts_with(kGum)) both.parts.back().name = "Face " + part.name;
+    if (part.name.starts_with(kGingivaPrefix)) both.parts.back().name = "Face " + part.name;
   }
   return both;
 }
 
-void divide(MeshModel both, MeshModel& gum, MeshModel& face) {
-  for (MeshPart& one : both.parts) (one.name.starts_with(kGum) ? gum : face).parts.push_back(std::move(one));
+void divide(MeshModel both, MeshModel& gingiva, MeshModel& face) {
+  for (MeshPart& one : both.parts) (one.name.starts_with(kGingivaPrefix) ? gingiva : face).parts.push_back(std::move(one));
 }
 
 bool isInside(const glm::dvec3& p_P_mm, const VolumeGrid& grid) {
@@ -77,7 +77,7 @@ void savePatient(const Patient& patient, const std::string& folder, bool overwri
   const fs::path made = output.temporaryPath();
   calibration::OutputFile(made / kWords, false).commit(patientToml(patient));
   writeVdb(patient.ct, (made / kVolume).string());
-  const MeshModel meshes_P = joined(patient.gum, patient.face);
+  const MeshModel meshes_P = joined(patient.gingiva, patient.face);
   if (!meshes_P.parts.empty()) writeGltf(modelInFaceFrame(meshes_P), (made / kMeshes).string());
   output.commit();
 }
@@ -96,7 +96,7 @@ Patient loadPatient(const std::string& folder) {
   if (patient.ct.tooth.empty() && patient.site) tellSiteToothApart(patient.ct, patient.site->fdi);
 
   const std::string meshes = (path / kMeshes).string();
-  if (fs::exists(meshes, error)) divide(modelInPatientFrame(readGltf(meshes)), patient.gum, patient.face);
+  if (fs::exists(meshes, error)) divide(modelInPatientFrame(readGltf(meshes)), patient.gingiva, patient.face);
   return patient;
 }
 

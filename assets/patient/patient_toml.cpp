@@ -6,7 +6,7 @@
 #include <limits>
 #include <sstream>
 
-#include "assets/toml_keys.h"
+#include "assets/toml_reader.h"
 #include "assets/tooth.h"
 
 namespace assets {
@@ -27,27 +27,27 @@ std::string exact(double value) {
 
 std::string exact(const glm::dvec3& v) { return "[" + exact(v.x) + ", " + exact(v.y) + ", " + exact(v.z) + "]"; }
 
-glm::dvec3 unitVector(TomlKeys& keys, const char* key) {
+glm::dvec3 unitVector(TomlReader& keys, const char* key) {
   const glm::dvec3 direction = keys.vector("site", key, 1.001);
   if (std::abs(glm::length(direction) - 1.0) > 1.0e-3) keys.refuse("site", key, "give a direction of length 1");
   return direction;
 }
 
-int toothNumber(TomlKeys& keys, const char* key) {
-  const auto fdi = static_cast<int>(keys.whole("site", key, 11, 85));
+int toothNumber(TomlReader& keys, const char* key) {
+  const auto fdi = static_cast<int>(keys.integer("site", key, 11, 85));
   if (!isToothNumber(fdi)) keys.refuse("site", key, "give an FDI number, 11 to 48 or 51 to 85");
   return fdi;
 }
 
 /// As schema 1 has it: a place and a direction even where no tooth is known.
-void readFormerSite(TomlKeys& keys, Patient& patient) {
+void readFormerSite(TomlReader& keys, Patient& patient) {
   const OperativeSite site{toothNumber(keys, "tooth_fdi"), keys.vector("site", "third_molar_P_mm", kFarthest_mm),
                            unitVector(keys, "crown_direction_P")};
   patient.jaw_P_mm = site.centre_P_mm;
-  if (keys.yesOrNo("site", "known")) patient.site = site;
+  if (keys.boolean("site", "known")) patient.site = site;
 }
 
-void readSite(TomlKeys& keys, Patient& patient) {
+void readSite(TomlReader& keys, Patient& patient) {
   patient.jaw_P_mm = keys.vector("jaw", "place_P_mm", kFarthest_mm);
   if (keys.has("site"))
     patient.site = {toothNumber(keys, "fdi"), keys.vector("site", "centre_P_mm", kFarthest_mm),
@@ -72,9 +72,9 @@ std::string patientToml(const Patient& patient) {
 }
 
 Patient patientFromToml(const std::string& text, const std::string& where) {
-  TomlKeys keys(text, where);
+  TomlReader keys(text, where);
   if (!keys.has("", "schema")) keys.refuse("", "schema", "it is missing, so this is no patient; import the scan again");
-  const auto schema = keys.whole("", "schema", 0, std::numeric_limits<int>::max());
+  const auto schema = keys.integer("", "schema", 0, std::numeric_limits<int>::max());
   if (schema != kSchema && schema != kFormerSchema)
     keys.refuse("", "schema",
                 "it is " + std::to_string(schema) + ", this program reads 1 and 2; import the scan again");

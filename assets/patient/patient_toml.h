@@ -10,10 +10,10 @@
 
 namespace assets {
 
-/// The text for everything of the patient but ct, gum and face.
+/// The text for everything of the patient but ct, gingiva and face.
 std::string patientToml(const Patient& patient);
 
-/// A Patient without ct, gum and face. `where` names the file in refusals. Throws LoadError of one line: not TOML,
+/// A Patient without ct, gingiva and face. `where` names the file in refusals. Throws LoadError of one line: not TOML,
 /// another schema, a missing key, a number that is not finite or out of its range.
 Patient patientFromToml(const std::string& text, const std::string& where);
 

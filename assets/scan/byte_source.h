@@ -8,13 +8,13 @@
 #include <string>
 
 #include "assets/scan/header_text.h"
-#include "assets/scan/plain_file.h"
+#include "assets/scan/regular_file.h"
 
 namespace assets {
 
 inline constexpr std::size_t kBlockBytes = 1 << 20;
 
-[[noreturn]] inline void refuseShort(const std::string& path) {
+[[noreturn]] inline void refuseTruncated(const std::string& path) {
   refuseScan(path,
              "it is truncated or damaged: it holds fewer voxels than its header promises; export the volume again");
 }
@@ -29,7 +29,7 @@ class ByteSource {
 
 class RawSource : public ByteSource {
  public:
-  RawSource(const PlainFile& file, std::uint64_t from_byte) : file_(file), at_(from_byte) {}
+  RawSource(const RegularFile& file, std::uint64_t from_byte) : file_(file), at_(from_byte) {}
 
   std::size_t fill(std::span<char> bytes) override {
     const std::size_t got = file_.readAt(at_, bytes);
@@ -38,7 +38,7 @@ class RawSource : public ByteSource {
   }
 
  private:
-  const PlainFile& file_;
+  const RegularFile& file_;
   std::uint64_t at_;
 };
 

@@ -35,7 +35,7 @@ void refuseSeveralValues(const std::string& path) {
   refuseScan(path, "its voxels are vectors, colours or complex numbers; give a volume with one value per voxel");
 }
 
-HeaderText::HeaderText(const PlainFile& file) : file_(file) {
+HeaderText::HeaderText(const RegularFile& file) : file_(file) {
   text_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(file.size(), kLongestHeader)));
   text_.resize(file.readAt(0, text_));
 }
@@ -77,7 +77,7 @@ std::vector<std::string> wordsOf(std::string_view text) {
   return words;
 }
 
-std::string asShown(std::string_view text) {
+std::string printableExcerpt(std::string_view text) {
   constexpr std::size_t kMost = 40;
   std::string shown(text.substr(0, kMost));
   for (char& c : shown)
@@ -85,14 +85,14 @@ std::string asShown(std::string_view text) {
   return "'" + shown + (text.size() > kMost ? "...'" : "'");
 }
 
-std::optional<std::int64_t> wholeNumber(std::string_view word) { return numberIn<std::int64_t>(word); }
+std::optional<std::int64_t> parseInteger(std::string_view word) { return numberIn<std::int64_t>(word); }
 
-std::optional<double> realNumber(std::string_view word) { return numberIn<double>(word); }
+std::optional<double> parseReal(std::string_view word) { return numberIn<double>(word); }
 
-std::optional<std::vector<double>> realNumbers(std::string_view text, std::size_t count) {
+std::optional<std::vector<double>> parseReals(std::string_view text, std::size_t count) {
   std::vector<double> numbers;
   for (const std::string& word : wordsOf(text)) {
-    const auto number = realNumber(word);
+    const auto number = parseReal(word);
     if (!number || numbers.size() == count) return std::nullopt;
     numbers.push_back(*number);
   }

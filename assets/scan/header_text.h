@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "assets/scan/plain_file.h"
+#include "assets/scan/regular_file.h"
 
 namespace assets {
 
@@ -21,7 +21,7 @@ inline constexpr const char* kExportAgain = "; export the volume again";
 
 class HeaderText {
  public:
-  explicit HeaderText(const PlainFile& file);
+  explicit HeaderText(const RegularFile& file);
 
   /// The next line without its end (LF or CR LF); none at the end of the file. Throws LoadError if the header is longer
   /// than 1 MB.
@@ -31,7 +31,7 @@ class HeaderText {
   std::uint64_t nextByte() const { return at_; }
 
  private:
-  const PlainFile& file_;
+  const RegularFile& file_;
   std::string text_;
   std::size_t at_ = 0;
   int line_number_ = 0;
@@ -42,13 +42,13 @@ std::string trimmed(std::string_view text);
 /// Divided at white space.
 std::vector<std::string> wordsOf(std::string_view text);
 /// What a stranger's file says, fit for a message: at most 40 characters, all of them printable ASCII.
-std::string asShown(std::string_view text);
+std::string printableExcerpt(std::string_view text);
 
-std::optional<std::int64_t> wholeNumber(std::string_view word);
+std::optional<std::int64_t> parseInteger(std::string_view word);
 /// May be NaN or infinite if the word says so; none if it does not fit a double.
-std::optional<double> realNumber(std::string_view word);
+std::optional<double> parseReal(std::string_view word);
 /// None unless there are exactly `count` of them.
-std::optional<std::vector<double>> realNumbers(std::string_view text, std::size_t count);
+std::optional<std::vector<double>> parseReals(std::string_view text, std::size_t count);
 
 /// mm per unit of a length: mm, m, cm, um in their usual spellings; 1 for no unit at all; none for any other word.
 std::optional<double> millimetresPer(const std::string& unit);

@@ -14,7 +14,7 @@
 #include "assets/scan/header_text.h"
 #include "assets/scan/image_header.h"
 #include "assets/scan/nrrd_write.h"
-#include "assets/scan/regrid.h"
+#include "assets/scan/resampling.h"
 #include "assets/scan/voxel_bytes.h"
 #include "assets/scan/voxel_type.h"
 
@@ -24,18 +24,18 @@ namespace {
 
 /// The voxels of a file as whole numbers of type `Value`; stops at the first that does not fit.
 template <class Value>
-class WholeNumbers {
+class IntegerVoxels {
  public:
-  WholeNumbers(const ImageHeader& header, const char* advice) : header_(header), advice_(advice) {
+  IntegerVoxels(const ImageHeader& header, const char* advice) : header_(header), advice_(advice) {
     values_.reserve(header.voxelCount());
-    forVoxelBytes(header, [this](std::span<const char> bytes) { append(bytes); });
+    forEachVoxelBlock(header, [this](std::span<const char> bytes) { append(bytes); });
   }
 
   std::vector<Value> take() { return std::move(values_); }
 
  private:
   void append(std::span<const char> bytes) {
-    withStored(header_.type, [&](auto stored) { appendStored<decltype(stored)>(bytes); });
+    withVoxelType(header_.type, [&](auto stored) { appendStored<decltype(stored)>(bytes); });
   }
 
   template <class Stored>
@@ -82,17 +82,17 @@ class WholeNumbers {
 /// A file opened as far as its header; nothing allocated for its voxels yet.
 class Scan {
  public:
-  explicit Scan(const std::string& path) : header_(readImageHeader(path)), regrid_(header_.geometry, path) {
-    refuseUnlessLongEnough(header_);
+  explicit Scan(const std::string& path) : header_(readImageHeader(path)), resampling_(header_.geometry, path) {
+    requireDataLength(header_);
   }
 
-  const Regrid& regrid() const { return regrid_; }
-  bool statesSides() const { return header_.states_sides; }
+  const Resampling& resampling() const { return resampling_; }
+  bool orientationKnown() const { return header_.orientation_known; }
 
   template <class Value>
   std::vector<Value> values(const char* advice) const {
     try {
-      return WholeNumbers<Value>(header_, advice).take();
+      return IntegerVoxels<Value>(header_, advice).take();
     } catch (const std::bad_alloc&) {
       refuseScan(header_.path, "there is not enough memory for it; crop it");
     }
@@ -100,7 +100,7 @@ class Scan {
 
  private:
   ImageHeader header_;
-  Regrid regrid_;
+  Resampling resampling_;
 };
 
 template <class Value>
@@ -118,19 +118,19 @@ NrrdArray arrayOf(const VolumeGrid& grid, VoxelType type, const std::vector<Valu
 HounsfieldImage readHounsfield(const std::string& path, const std::optional<GreyWindow>& window) {
   const Scan scan(path);
   std::vector<std::int16_t> values = scan.values<std::int16_t>("rescale it to Hounsfield");
-  scaleGreys(values, window, path);
-  return {scan.regrid().grid(), scan.regrid().linear(std::move(values), kAirHu), scan.statesSides()};
+  applyGreyWindow(values, window, path);
+  return {scan.resampling().grid(), scan.resampling().linear(std::move(values), kAirHu), scan.orientationKnown()};
 }
 
 ByteImage readSolid(const std::string& path) {
   const Scan scan(path);
-  return {scan.regrid().grid(),
-          scan.regrid().linear(scan.values<std::uint8_t>("store solid as 0..255, or read it as hu"), 0)};
+  return {scan.resampling().grid(),
+          scan.resampling().linear(scan.values<std::uint8_t>("store solid as 0..255, or read it as hu"), 0)};
 }
 
 ByteImage readLabels(const std::string& path) {
   const Scan scan(path);
-  return {scan.regrid().grid(), scan.regrid().nearest(scan.values<std::uint8_t>("store labels as 0..255"), 0)};
+  return {scan.resampling().grid(), scan.resampling().nearest(scan.values<std::uint8_t>("store labels as 0..255"), 0)};
 }
 
 bool isSameGrid(const VolumeGrid& a, const VolumeGrid& b) {

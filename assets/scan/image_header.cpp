@@ -5,13 +5,13 @@
 #include "assets/scan/meta_header.h"
 #include "assets/scan/nifti_header.h"
 #include "assets/scan/nrrd_header.h"
-#include "assets/scan/plain_file.h"
+#include "assets/scan/regular_file.h"
 
 namespace assets {
 
 namespace {
 
-ImageHeader headerAsStated(const PlainFile& file) {
+ImageHeader headerAsStated(const RegularFile& file) {
   const std::string& path = file.path();
   const std::string name = lowerCase(path);
   if (name.ends_with(".nrrd") || name.ends_with(".nhdr")) return readNrrdHeader(file);
@@ -23,8 +23,8 @@ ImageHeader headerAsStated(const PlainFile& file) {
 }  // namespace
 
 ImageHeader readImageHeader(const std::string& path) {
-  ImageHeader header = headerAsStated(PlainFile(path));
-  refuseUnlessSound(header.geometry, path);
+  ImageHeader header = headerAsStated(RegularFile(path));
+  requireValidGeometry(header.geometry, path);
   return header;
 }
 

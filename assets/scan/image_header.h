@@ -3,14 +3,14 @@
 // place in P (LPS mm, units obeyed), and the files that hold the voxels, each a plain file in the header's folder or
 // below. Everything else is a LoadError of one line. No number is made up: where spacing or byte order matters and is
 // not stated, the file is refused; where NRRD or MetaImage do not state which way their axes lie, they are taken along
-// LPS, as their own readers do, and `states_sides` says so. Any thread; reads at most 1 MB. Voxels: voxel_bytes.h.
+// LPS, as their own readers do, and `orientation_known` says so. Any thread; reads at most 1 MB. Voxels: voxel_bytes.h.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "assets/scan/regrid.h"
+#include "assets/scan/resampling.h"
 #include "assets/scan/voxel_type.h"
 
 namespace assets {
@@ -27,7 +27,7 @@ struct VoxelFile {
 struct ImageHeader {
   std::string path;
   ScanGeometry geometry;
-  bool states_sides = true;  ///< the file itself says which way its axes lie
+  bool orientation_known = true;  ///< the file itself says which way its axes lie
   VoxelType type = VoxelType::int16;
   VoxelCoding coding = VoxelCoding::raw;
   bool is_big_endian = false;
@@ -35,7 +35,7 @@ struct ImageHeader {
   double intercept = 0.0;  ///< value = slope * stored + intercept
   std::vector<VoxelFile> files;
 
-  /// In each file, ahead of the voxels: lines, then bytes of what is unpacked. kVoxelsEndTheFile: as many bytes as
+  /// In each file, ahead of the voxels: lines, then bytes of what is unpacked. kVoxelsAtFileEnd: as many bytes as
   /// there are ahead of the last voxels.
   std::int64_t skipped_lines = 0;
   std::int64_t skipped_bytes = 0;
@@ -47,7 +47,7 @@ struct ImageHeader {
   }
 };
 
-inline constexpr std::int64_t kVoxelsEndTheFile = -1;
+inline constexpr std::int64_t kVoxelsAtFileEnd = -1;
 
 ImageHeader readImageHeader(const std::string& path);
 

@@ -17,14 +17,14 @@ namespace {
 
 class MetaHeader {
  public:
-  explicit MetaHeader(const PlainFile& file) : path_(file.path()) { readFields(file); }
+  explicit MetaHeader(const RegularFile& file) : path_(file.path()) { readFields(file); }
 
   ImageHeader header() {
     readSizes();
     ImageHeader header;
     header.path = path_;
     header.geometry = geometry();
-    header.states_sides = has("transformmatrix") || has("rotation") || has("orientation");
+    header.orientation_known = has("transformmatrix") || has("rotation") || has("orientation");
     header.type = type();
     header.coding = coding();
     header.is_big_endian = header.coding != VoxelCoding::text && bytesOf(header.type) > 1 && isBigEndian();
@@ -34,7 +34,7 @@ class MetaHeader {
   }
 
  private:
-  void readFields(const PlainFile& file) {
+  void readFields(const RegularFile& file) {
     HeaderText text(file);
     while (const auto line = text.line()) {
       if (trimmed(*line).empty()) continue;
@@ -44,7 +44,7 @@ class MetaHeader {
         refuseScan(path_,
                    "line " + std::to_string(text.lineNumber()) + " is no field of a MetaImage header" + kExportAgain);
       if (!value_.emplace(name, trimmed(line->substr(sign + 1))).second)
-        refuseScan(path_, "its header has " + asShown(name) + " twice" + kExportAgain);
+        refuseScan(path_, "its header has " + printableExcerpt(name) + " twice" + kExportAgain);
       if (name != "elementdatafile") continue;
       end_byte_ = text.nextByte();
       if (isList(value_[name]))
@@ -75,7 +75,7 @@ class MetaHeader {
   }
 
   [[noreturn]] void refuseField(const std::string& name) const {
-    refuseScan(path_, "its '" + name + "' " + asShown(value(name)) + " can not be understood" + kExportAgain);
+    refuseScan(path_, "its '" + name + "' " + printableExcerpt(value(name)) + " can not be understood" + kExportAgain);
   }
 
   bool yes(const std::string& name, bool otherwise) const {
@@ -88,19 +88,19 @@ class MetaHeader {
 
   void readSizes() {
     if (has("objecttype") && lowerCase(value("objecttype")) != "image") refuseField("objecttype");
-    const auto axes = wholeNumber(value("ndims"));
+    const auto axes = parseInteger(value("ndims"));
     constexpr std::int64_t kMostAxes = 10;
     if (!axes || *axes < 1 || *axes > kMostAxes) refuseField("ndims");
     const std::vector<std::string> words = wordsOf(value("dimsize"));
     if (words.size() != static_cast<std::size_t>(*axes)) refuseField("dimsize");
     for (const std::string& word : words) {
-      sizes_.push_back(wholeNumber(word).value_or(0));
+      sizes_.push_back(parseInteger(word).value_or(0));
       if (sizes_.back() < 1 || sizes_.back() > std::numeric_limits<int>::max()) refuseField("dimsize");
     }
     const bool is_volume = sizes_.size() >= 3 && std::all_of(sizes_.begin() + std::min<long>(3, *axes), sizes_.end(),
                                                              [](std::int64_t size) { return size == 1; });
     if (!is_volume) refuseScan(path_, "it has " + std::to_string(*axes) + " axes; give a volume with three");
-    const auto channels = has("elementnumberofchannels") ? wholeNumber(value("elementnumberofchannels")) : 1;
+    const auto channels = has("elementnumberofchannels") ? parseInteger(value("elementnumberofchannels")) : 1;
     if (channels != 1 || lowerCase(value("elementtype")).ends_with("_array")) refuseSeveralValues(path_);
   }
 
@@ -111,9 +111,9 @@ class MetaHeader {
     const auto numbers = [&](std::initializer_list<const char*> names, std::size_t count) {
       const std::string text = value(names);
       if (text.empty()) return std::optional(std::vector<double>());
-      const auto found = realNumbers(text, count);
+      const auto found = parseReals(text, count);
       if (!found)
-        refuseScan(path_, "its " + std::string(*names.begin()) + " " + asShown(text) + " is not " +
+        refuseScan(path_, "its " + std::string(*names.begin()) + " " + printableExcerpt(text) + " is not " +
                               std::to_string(count) + " numbers" + kExportAgain);
       return found;
     };
@@ -149,7 +149,7 @@ class MetaHeader {
         {"met_ulong_long", VoxelType::uint64}, {"met_float", VoxelType::float32}, {"met_double", VoxelType::float64}};
     const auto found = kTypes.find(lowerCase(value("elementtype")));
     if (found == kTypes.end())
-      refuseScan(path_, "its voxels are of type " + asShown(value("elementtype")) +
+      refuseScan(path_, "its voxels are of type " + printableExcerpt(value("elementtype")) +
                             ", which can not be read; store integers or floats");
     return found->second;
   }
@@ -170,9 +170,9 @@ class MetaHeader {
   /// HeaderSize is of the file as it is stored, packed or not.
   void skipHeaderOf(ImageHeader& header) const {
     if (!has("headersize")) return;
-    const auto size = wholeNumber(value("headersize"));
-    if (!size || *size < kVoxelsEndTheFile || (isLocal() && *size > 0)) refuseField("headersize");
-    if (*size == kVoxelsEndTheFile)
+    const auto size = parseInteger(value("headersize"));
+    if (!size || *size < kVoxelsAtFileEnd || (isLocal() && *size > 0)) refuseField("headersize");
+    if (*size == kVoxelsAtFileEnd)
       header.skipped_bytes = *size;
     else if (*size > 0)
       for (VoxelFile& each : header.files) each.from_byte = static_cast<std::uint64_t>(*size);
@@ -192,14 +192,14 @@ class MetaHeader {
     const std::vector<std::string> words = wordsOf(name);
     if (words.empty()) refuseField("elementdatafile");
     if (isList(name)) return listedFiles(words);
-    if (name.find('%') == std::string::npos) return {fileBeside(path_, name)};
+    if (name.find('%') == std::string::npos) return {dataFile(path_, name)};
 
     // "NAME%03d.raw first last step", each slice of the last axis in a file.
     const auto all = static_cast<std::int64_t>(sizes_.size());
     const std::uint64_t needed = filesNeeded(all - 1);
     const auto number = [&](std::size_t w, std::int64_t otherwise) {
       if (words.size() <= w) return otherwise;
-      const auto found = wholeNumber(words[w]);
+      const auto found = parseInteger(words[w]);
       if (!found) refuseField("elementdatafile");
       return *found;
     };
@@ -207,7 +207,7 @@ class MetaHeader {
     const std::int64_t first = number(1, 1);
     if (std::abs(first) > std::numeric_limits<int>::max()) refuseField("elementdatafile");
     const std::int64_t last = number(2, first + static_cast<std::int64_t>(needed) - 1);
-    return numberedFilesBeside(path_, {words[0], first, last, number(3, 1)}, needed);
+    return numberedDataFiles(path_, {words[0], first, last, number(3, 1)}, needed);
   }
 
   std::vector<VoxelFile> listedFiles(const std::vector<std::string>& words) const {
@@ -215,11 +215,11 @@ class MetaHeader {
     std::int64_t file_axes = all - 1;
     if (words.size() > 1) {
       const std::string axes = lowerCase(words[1]);
-      const auto number = wholeNumber(axes.ends_with('d') ? axes.substr(0, axes.size() - 1) : axes);
+      const auto number = parseInteger(axes.ends_with('d') ? axes.substr(0, axes.size() - 1) : axes);
       if (words.size() > 2 || !number || *number < 1 || *number > all) refuseField("elementdatafile");
       file_axes = *number;
     }
-    return listedFilesBeside(path_, listed_files_, filesNeeded(file_axes));
+    return listedDataFiles(path_, listed_files_, filesNeeded(file_axes));
   }
 
   std::string path_;
@@ -231,6 +231,6 @@ class MetaHeader {
 
 }  // namespace
 
-ImageHeader readMetaHeader(const PlainFile& file) { return MetaHeader(file).header(); }
+ImageHeader readMetaHeader(const RegularFile& file) { return MetaHeader(file).header(); }
 
 }  // namespace assets

@@ -4,10 +4,10 @@
 #pragma once
 
 #include "assets/scan/image_header.h"
-#include "assets/scan/plain_file.h"
+#include "assets/scan/regular_file.h"
 
 namespace assets {
 
-ImageHeader readMetaHeader(const PlainFile& file);
+ImageHeader readMetaHeader(const RegularFile& file);
 
 }  // namespace assets

@@ -12,7 +12,7 @@
 #include <set>
 
 #include "assets/scan/header_text.h"
-#include "assets/scan/packed_bytes.h"
+#include "assets/scan/compressed_bytes.h"
 
 namespace assets {
 
@@ -39,9 +39,9 @@ enum At : std::size_t {
 
 class NiftiHeader {
  public:
-  explicit NiftiHeader(const PlainFile& file) : path_(file.path()) {
+  explicit NiftiHeader(const RegularFile& file) : path_(file.path()) {
     is_packed_ = isGzip(file);
-    bytes_ = is_packed_ ? firstUnpackedBytes(file, kHeaderBytes) : std::string(kHeaderBytes, '\0');
+    bytes_ = is_packed_ ? firstDecompressedBytes(file, kHeaderBytes) : std::string(kHeaderBytes, '\0');
     if (!is_packed_) bytes_.resize(file.readAt(0, bytes_));
     judgeKind();
   }
@@ -206,6 +206,6 @@ class NiftiHeader {
 
 }  // namespace
 
-ImageHeader readNiftiHeader(const PlainFile& file) { return NiftiHeader(file).header(); }
+ImageHeader readNiftiHeader(const RegularFile& file) { return NiftiHeader(file).header(); }
 
 }  // namespace assets

@@ -44,7 +44,7 @@ class NrrdAxes {
         if (!std::isnan(axis.spacing)) fields_.refuseField("spacings");
         if (axis.mm_per_unit != 1.0)
           refuseScan(fields_.path(),
-                     "its units " + asShown(fields_["units"]) +
+                     "its units " + printableExcerpt(fields_["units"]) +
                          " stand at axes with directions, whose unit is that of the space; export it in mm");
         result.step_P_mm[a] = mm * *axis.step;
         continue;
@@ -52,7 +52,7 @@ class NrrdAxes {
       if (!fields_.has("spacings"))
         refuseScan(fields_.path(), "it does not say how large its voxels are; export it with spacing");
       if (!(axis.spacing > 0.0) || !std::isfinite(axis.spacing))
-        fields_.refuse("its spacings " + asShown(fields_["spacings"]) + " are not all above 0");
+        fields_.refuse("its spacings " + printableExcerpt(fields_["spacings"]) + " are not all above 0");
       if (signs != glm::dvec3(1.0))
         refuseScan(fields_.path(), "it does not say how its axes lie in its space; export it with space directions");
       result.step_P_mm[a] = glm::dvec3(0.0);
@@ -70,19 +70,19 @@ class NrrdAxes {
   std::vector<std::string> perAxis(const std::string& name) const { return fields_.items(name, axes_.size()); }
 
   void readAxes() {
-    const auto dimension = wholeNumber(fields_.needed("dimension"));
+    const auto dimension = parseInteger(fields_.required("dimension"));
     if (!dimension || *dimension < 1 || *dimension > 16) fields_.refuseField("dimension");
     axes_.resize(static_cast<std::size_t>(*dimension));
-    fields_.needed("sizes");
+    fields_.required("sizes");
     const std::vector<std::string> sizes = perAxis("sizes");
     const std::vector<std::string> spacings = perAxis("spacings"), kinds = perAxis("kinds"), units = perAxis("units");
     const std::vector<std::string> directions = perAxis("spacedirections");
     for (std::size_t a = 0; a < axes_.size(); ++a) {
       Axis& axis = axes_[a];
-      axis.size = wholeNumber(sizes[a]).value_or(0);
+      axis.size = parseInteger(sizes[a]).value_or(0);
       if (axis.size < 1 || axis.size > std::numeric_limits<int>::max()) fields_.refuseField("sizes");
       if (!spacings.empty()) {
-        const auto spacing = realNumber(spacings[a]);
+        const auto spacing = parseReal(spacings[a]);
         if (!spacing) fields_.refuseField("spacings");
         axis.spacing = *spacing;
       }
@@ -101,7 +101,7 @@ class NrrdAxes {
     const std::vector<std::string> centers = perAxis(fields_.has("centers") ? "centers" : "centerings");
     bool is_placed = !mins.empty();
     for (std::size_t a = 0; a < mins.size(); ++a) {
-      const auto lowest = realNumber(mins[a]);
+      const auto lowest = parseReal(mins[a]);
       if (!lowest) fields_.refuseField("axismins");
       const bool is_node = !centers.empty() && lowerCase(centers[a]) == "node";
       axes_[a].first = *lowest + (is_node ? 0.0 : 0.5 * axes_[a].spacing);
@@ -120,7 +120,7 @@ class NrrdAxes {
     std::erase(word, '"');
     const auto mm = millimetresPer(trimmed(word));
     if (!mm)
-      refuseScan(fields_.path(), "its unit " + asShown(word) + " is no length that is understood; export it in mm");
+      refuseScan(fields_.path(), "its unit " + printableExcerpt(word) + " is no length that is understood; export it in mm");
     return *mm;
   }
 
@@ -129,7 +129,7 @@ class NrrdAxes {
     text = text.substr(1, text.size() - 2);
     if (std::count(text.begin(), text.end(), ',') != 2) fields_.refuseField(field);
     std::replace(text.begin(), text.end(), ',', ' ');
-    const auto numbers = realNumbers(text, 3);
+    const auto numbers = parseReals(text, 3);
     if (!numbers) fields_.refuseField(field);
     return {(*numbers)[0], (*numbers)[1], (*numbers)[2]};
   }
@@ -139,7 +139,7 @@ class NrrdAxes {
     const std::string axes = "it has " + std::to_string(axes_.size()) + " axes; give a volume with three";
     for (const Axis& axis : axes_)
       if (!axis.is_spatial && axis.size > 1 && std::isnan(axis.spacing) && fields_.has("spacings"))
-        fields_.refuse("its spacings " + asShown(fields_["spacings"]) + " are no finite numbers");
+        fields_.refuse("its spacings " + printableExcerpt(fields_["spacings"]) + " are no finite numbers");
       else if (!axis.is_spatial && axis.size > 1)
         refuseSeveralValues(fields_.path());
     std::erase_if(axes_, [](const Axis& axis) { return !axis.is_spatial; });
@@ -159,7 +159,7 @@ class NrrdAxes {
     if (space.empty() || space == "left-posterior-superior" || space == "lps") return glm::dvec3(1.0);
     if (space == "right-anterior-superior" || space == "ras") return {-1.0, -1.0, 1.0};
     refuseScan(fields_.path(),
-               "its space " + asShown(space) + " is not understood; export it as left-posterior-superior");
+               "its space " + printableExcerpt(space) + " is not understood; export it as left-posterior-superior");
   }
 
   glm::dvec3 millimetresPerSpaceUnit() const {

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "assets/scan/nrrd_fields.h"
-#include "assets/scan/regrid.h"
+#include "assets/scan/resampling.h"
 
 namespace assets {
 

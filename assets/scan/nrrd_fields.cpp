@@ -52,7 +52,7 @@ std::vector<std::string> itemsOf(const std::string& text) {
 
 }  // namespace
 
-NrrdFields::NrrdFields(const PlainFile& file) : path_(file.path()) {
+NrrdFields::NrrdFields(const RegularFile& file) : path_(file.path()) {
   HeaderText text(file);
   const std::string magic = text.line().value_or("");
   if (magic.size() != 8 || !magic.starts_with("NRRD000") || magic[7] < '1' || magic[7] > '5')
@@ -82,7 +82,7 @@ std::string NrrdFields::operator[](const std::string& name) const {
   return found == value_.end() ? std::string() : found->second;
 }
 
-std::string NrrdFields::needed(const std::string& name) const {
+std::string NrrdFields::required(const std::string& name) const {
   if (!has(name)) refuse("its header has no '" + name + "'");
   return (*this)[name];
 }
@@ -96,7 +96,7 @@ std::vector<std::string> NrrdFields::items(const std::string& name, std::size_t 
 }
 
 void NrrdFields::refuseField(const std::string& name) const {
-  refuse("its '" + name + "' " + asShown((*this)[name]) + " can not be understood");
+  refuse("its '" + name + "' " + printableExcerpt((*this)[name]) + " can not be understood");
 }
 
 void NrrdFields::refuse(const std::string& reason) const { refuseScan(path_, reason + "; export the volume again"); }

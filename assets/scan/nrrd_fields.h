@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "assets/scan/plain_file.h"
+#include "assets/scan/regular_file.h"
 
 namespace assets {
 
@@ -16,14 +16,14 @@ namespace assets {
 class NrrdFields {
  public:
   /// Throws if it is no NRRD file, or a field is unknown or stands twice.
-  explicit NrrdFields(const PlainFile& file);
+  explicit NrrdFields(const RegularFile& file);
 
   const std::string& path() const { return path_; }
   bool has(const std::string& name) const { return value_.contains(name); }
   /// Empty if there is none.
   std::string operator[](const std::string& name) const;
   /// Throws if there is none.
-  std::string needed(const std::string& name) const;
+  std::string required(const std::string& name) const;
 
   /// Its words; a vector "(1,0,0)" or a quoted text is one word.
   std::vector<std::string> items(const std::string& name) const;

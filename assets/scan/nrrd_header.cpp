@@ -39,7 +39,7 @@ VoxelType typeNamed(const std::string& name, const std::string& path) {
   }();
   const auto found = kTypes.find(lowerCase(name));
   if (found == kTypes.end())
-    refuseScan(path, "its voxels are of type " + asShown(name) + ", which can not be read; store integers or floats");
+    refuseScan(path, "its voxels are of type " + printableExcerpt(name) + ", which can not be read; store integers or floats");
   return found->second;
 }
 
@@ -51,7 +51,7 @@ VoxelCoding codingNamed(const std::string& name, const std::string& path) {
   if (word == "hex") return VoxelCoding::hex;
   if (word == "bzip2" || word == "bz2")
     refuseScan(path, "its voxels are packed with bzip2, which is not read; export it with gzip or raw");
-  refuseScan(path, "its encoding " + asShown(name) + " is not known; export it with gzip or raw");
+  refuseScan(path, "its encoding " + printableExcerpt(name) + " is not known; export it with gzip or raw");
 }
 
 bool isBigEndian(const NrrdFields& fields, const ImageHeader& header) {
@@ -64,7 +64,7 @@ bool isBigEndian(const NrrdFields& fields, const ImageHeader& header) {
 
 std::int64_t skip(const NrrdFields& fields, const std::string& field, std::int64_t lowest) {
   if (!fields.has(field)) return 0;
-  const auto number = wholeNumber(fields[field]);
+  const auto number = parseInteger(fields[field]);
   if (!number || *number < lowest) fields.refuseField(field);
   return *number;
 }
@@ -76,7 +76,7 @@ std::uint64_t filesNeeded(const NrrdFields& fields, std::optional<std::int64_t> 
   const std::int64_t axes = file_axes.value_or(all - 1);
   if (axes < 1 || axes > all) fields.refuseField("datafile");
   const auto size_of = [&](std::int64_t a) {
-    return static_cast<std::uint64_t>(wholeNumber(sizes[static_cast<std::size_t>(a)]).value_or(0));
+    return static_cast<std::uint64_t>(parseInteger(sizes[static_cast<std::size_t>(a)]).value_or(0));
   };
 
   // Files with all the axes are slabs of the last one.
@@ -91,35 +91,35 @@ std::vector<VoxelFile> filesOf(const NrrdFields& fields) {
   const std::string name = fields["datafile"];
   const std::vector<std::string> words = wordsOf(name);
   if (words.empty()) fields.refuseField("datafile");
-  const auto axes_word = [&](std::size_t w) { return words.size() > w ? wholeNumber(words[w]) : std::nullopt; };
+  const auto axes_word = [&](std::size_t w) { return words.size() > w ? parseInteger(words[w]) : std::nullopt; };
   if (isList(name)) {
     if (words.size() > 2 || (words.size() == 2 && !axes_word(1))) fields.refuseField("datafile");
-    return listedFilesBeside(fields.path(), fields.listedFiles(),
+    return listedDataFiles(fields.path(), fields.listedFiles(),
                              filesNeeded(fields, axes_word(1), fields.listedFiles().size()));
   }
-  if (words[0].find('%') == std::string::npos) return {fileBeside(fields.path(), name)};
+  if (words[0].find('%') == std::string::npos) return {dataFile(fields.path(), name)};
 
   const auto first = axes_word(1), last = axes_word(2), step = axes_word(3), file_axes = axes_word(4);
   if (words.size() < 4 || words.size() > 5 || !first || !last || !step || (words.size() == 5 && !file_axes) ||
       *step == 0)
     fields.refuseField("datafile");
   const NumberedNames names{words[0], *first, *last, *step};
-  return numberedFilesBeside(fields.path(), names, filesNeeded(fields, file_axes, names.count()));
+  return numberedDataFiles(fields.path(), names, filesNeeded(fields, file_axes, names.count()));
 }
 
 }  // namespace
 
-ImageHeader readNrrdHeader(const PlainFile& file) {
+ImageHeader readNrrdHeader(const RegularFile& file) {
   const NrrdFields fields(file);
   ImageHeader header;
   header.path = fields.path();
   header.geometry = nrrdGeometry(fields);
-  header.states_sides = fields.has("space");
-  header.type = typeNamed(fields.needed("type"), fields.path());
-  header.coding = codingNamed(fields.needed("encoding"), fields.path());
+  header.orientation_known = fields.has("space");
+  header.type = typeNamed(fields.required("type"), fields.path());
+  header.coding = codingNamed(fields.required("encoding"), fields.path());
   header.is_big_endian = isBigEndian(fields, header);
   header.skipped_lines = skip(fields, "lineskip", 0);
-  header.skipped_bytes = skip(fields, "byteskip", kVoxelsEndTheFile);
+  header.skipped_bytes = skip(fields, "byteskip", kVoxelsAtFileEnd);
   header.files = filesOf(fields);
   return header;
 }

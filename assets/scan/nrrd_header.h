@@ -5,10 +5,10 @@
 #pragma once
 
 #include "assets/scan/image_header.h"
-#include "assets/scan/plain_file.h"
+#include "assets/scan/regular_file.h"
 
 namespace assets {
 
-ImageHeader readNrrdHeader(const PlainFile& file);
+ImageHeader readNrrdHeader(const RegularFile& file);
 
 }  // namespace assets

@@ -5,7 +5,7 @@
 #include <cassert>
 
 #include "assets/load_error.h"
-#include "assets/scan/file_seal.h"
+#include "assets/scan/file_checksum.h"
 #include "assets/scan/vdb_leaf.h"
 #include "assets/scan/vdb_parse.h"
 #include "assets/scan/volume_reader.h"
@@ -34,7 +34,7 @@ typename Grid::Ptr sparse(const char* name, const VolumeGrid& grid, const std::v
       for (int i = 0; i < grid.size.x; i += kLeafVoxels) {
         auto leaf = std::make_unique<Leaf>(openvdb::Coord(i, j, k), background);
         auto* buffer = leaf->buffer().data();
-        forVoxelsOf({i, j, k}, grid, [&](std::uint32_t offset, std::size_t v) {
+        forEachLeafVoxel({i, j, k}, grid, [&](std::uint32_t offset, std::size_t v) {
           const auto value = convert(values[v]);
           if (value == background) return;
           buffer[offset] = value;
@@ -75,12 +75,12 @@ void writeVdb(const CtVolume& volume, const std::string& path) {
   } catch (const std::exception&) {
     throw LoadError(path + ": writing failed; make room on the disk or choose another place");
   }
-  seal(path);
+  appendChecksum(path);
 }
 
 CtVolume readVdb(const std::string& path) {
-  refuseUnlessSealed(path);
-  return readVolumeApart(path);
+  requireChecksum(path);
+  return readVolumeInChild(path);
 }
 
 }  // namespace assets

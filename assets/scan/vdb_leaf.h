@@ -11,7 +11,7 @@ inline constexpr int kLeafVoxels = 8;
 
 /// Calls `voxel(offset in leaf, index in volume)` for the voxels of the leaf at `origin` that lie in the volume.
 template <class Voxel>
-void forVoxelsOf(const glm::ivec3& origin, const VolumeGrid& grid, const Voxel& voxel) {
+void forEachLeafVoxel(const glm::ivec3& origin, const VolumeGrid& grid, const Voxel& voxel) {
   const glm::ivec3 first = glm::max(glm::ivec3(0), -origin);
   const glm::ivec3 end = glm::min(glm::ivec3(kLeafVoxels), grid.size - origin);
   for (int i = first.x; i < end.x; ++i)

@@ -8,7 +8,7 @@
 #include <new>
 
 #include "assets/load_error.h"
-#include "assets/scan/regrid.h"
+#include "assets/scan/resampling.h"
 #include "assets/scan/vdb_leaf.h"
 #include "assets/tooth.h"
 
@@ -48,7 +48,7 @@ std::vector<Value> dense(const Grid& source, const VolumeGrid& grid, const std::
                            box.min().x() < grid.size.x && box.min().y() < grid.size.y && box.min().z() < grid.size.z;
     if (!is_inside) refuse(path, "grid '" + source.getName() + "' reaches out of its volume");
     const auto* buffer = leaf->buffer().data();
-    forVoxelsOf({box.min().x(), box.min().y(), box.min().z()}, grid,
+    forEachLeafVoxel({box.min().x(), box.min().y(), box.min().z()}, grid,
                 [&](std::uint32_t offset, std::size_t v) { values[v] = convert(buffer[offset]); });
   }
   return values;
@@ -88,7 +88,7 @@ VolumeGrid volumeGridOf(const openvdb::MetaMap& metadata, const openvdb::math::T
   placeOf(transform, grid, path);
 
   // The rules for a geometry are those for every scan.
-  return Regrid({grid.size, glm::dmat3(grid.spacing_mm), grid.origin_P_mm}, path).grid();
+  return Resampling({grid.size, glm::dmat3(grid.spacing_mm), grid.origin_P_mm}, path).grid();
 }
 
 template <class Value>

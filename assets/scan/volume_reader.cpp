@@ -20,7 +20,7 @@
 #include <span>
 
 #include "assets/load_error.h"
-#include "assets/scan/regrid.h"
+#include "assets/scan/resampling.h"
 #include "assets/scan/vdb_parse.h"
 
 namespace assets {
@@ -72,7 +72,7 @@ std::span<const std::byte> bytesOf(const std::vector<Value>& values) {
 }
 
 /// No handler of the program's, no file but the answer, nothing said anywhere.
-void leaveTheProgram(int answer_descriptor) {
+void detachFromParent(int answer_descriptor) {
   for (int number = 1; number < NSIG; ++number) ::signal(number, SIG_DFL);
   sigset_t none;
   sigemptyset(&none);
@@ -118,16 +118,16 @@ class Descriptor {
 };
 
 /// As long as this lives children wait to be asked how they ended, whatever the program's caller had set.
-class ChildrenWait {
+class DefaultChildSignal {
  public:
-  ChildrenWait() {
+  DefaultChildSignal() {
     struct sigaction standard {};
     standard.sa_handler = SIG_DFL;
     ::sigaction(SIGCHLD, &standard, &before_);
   }
-  ~ChildrenWait() { ::sigaction(SIGCHLD, &before_, nullptr); }
-  ChildrenWait(const ChildrenWait&) = delete;
-  ChildrenWait& operator=(const ChildrenWait&) = delete;
+  ~DefaultChildSignal() { ::sigaction(SIGCHLD, &before_, nullptr); }
+  DefaultChildSignal(const DefaultChildSignal&) = delete;
+  DefaultChildSignal& operator=(const DefaultChildSignal&) = delete;
 
  private:
   struct sigaction before_ {};
@@ -147,8 +147,8 @@ ReaderLimits readerLimits(std::uint64_t file_bytes) {
   return {600 * kMegabyte + 100 * sane_bytes, processor_ms, kLongestWait * processor_ms};
 }
 
-void serveVolume(const std::string& path, const ReaderLimits& limits, int answer_descriptor) {
-  leaveTheProgram(answer_descriptor);
+void runVolumeReader(const std::string& path, const ReaderLimits& limits, int answer_descriptor) {
+  detachFromParent(answer_descriptor);
   answer_descriptor = kAnswerDescriptor;
   confine(limits);
   try {
@@ -172,7 +172,7 @@ void serveVolume(const std::string& path, const ReaderLimits& limits, int answer
   }
 }
 
-CtVolume volumeAnswered(int answer_descriptor, int wait_status, const std::string& path) {
+CtVolume volumeFromAnswer(int answer_descriptor, int wait_status, const std::string& path) {
   struct stat facts {};
   if (!WIFEXITED(wait_status) || ::fstat(answer_descriptor, &facts) != 0) refuseFailure(path);
   const auto bytes = static_cast<std::uint64_t>(facts.st_size);
@@ -194,7 +194,7 @@ CtVolume volumeAnswered(int answer_descriptor, int wait_status, const std::strin
   volume.grid = {{head.size[0], head.size[1], head.size[2]},
                  head.spacing_mm,
                  {head.origin_P_mm[0], head.origin_P_mm[1], head.origin_P_mm[2]}};
-  refuseUnlessSound({volume.grid.size, glm::dmat3(volume.grid.spacing_mm), volume.grid.origin_P_mm}, path);
+  requireValidGeometry({volume.grid.size, glm::dmat3(volume.grid.spacing_mm), volume.grid.origin_P_mm}, path);
   const std::size_t voxels = volume.grid.voxelCount();
   constexpr std::uint64_t kVoxelBytes = 4;
   const bool has_teeth = bytes == sizeof head + (kVoxelBytes + 1) * voxels;
@@ -212,18 +212,18 @@ CtVolume volumeAnswered(int answer_descriptor, int wait_status, const std::strin
   return volume;
 }
 
-CtVolume readVolumeApart(const std::string& path) {
+CtVolume readVolumeInChild(const std::string& path) {
   const Descriptor answer(::memfd_create("volume", MFD_CLOEXEC));
   std::error_code error;
   const std::uint64_t bytes = std::filesystem::file_size(path, error);
-  const ChildrenWait children_wait;
+  const DefaultChildSignal children_wait;
   const pid_t reader = answer < 0 ? -1 : ::fork();
-  if (reader == 0) serveVolume(path, readerLimits(error ? 0 : bytes), answer);
+  if (reader == 0) runVolumeReader(path, readerLimits(error ? 0 : bytes), answer);
   if (reader < 0) throw LoadError(path + ": no process can be started to read it; close other programs");
   int status = 0;
   while (::waitpid(reader, &status, 0) < 0)
     if (errno != EINTR) refuseFailure(path);
-  return volumeAnswered(answer, status, path);
+  return volumeFromAnswer(answer, status, path);
 }
 
 }  // namespace assets

@@ -24,13 +24,13 @@ struct ReaderLimits {
 ReaderLimits readerLimits(std::uint64_t file_bytes);
 
 /// Throws LoadError: what the reader says of the file, or that it failed on it.
-CtVolume readVolumeApart(const std::string& path);
+CtVolume readVolumeInChild(const std::string& path);
 
 /// All that the reading process does: leaves the program behind, reads `path` within the limits, answers into the open
 /// file, and never returns. Its exit status is 0 for a volume, 3 for a refusal in words, 5 for want of memory.
-[[noreturn]] void serveVolume(const std::string& path, const ReaderLimits& limits, int answer_descriptor);
+[[noreturn]] void runVolumeReader(const std::string& path, const ReaderLimits& limits, int answer_descriptor);
 
 /// The answer of a reading process that has ended with that status (waitpid).
-CtVolume volumeAnswered(int answer_descriptor, int wait_status, const std::string& path);
+CtVolume volumeFromAnswer(int answer_descriptor, int wait_status, const std::string& path);
 
 }  // namespace assets

@@ -7,9 +7,9 @@
 
 #include "assets/scan/byte_source.h"
 #include "assets/scan/header_text.h"
-#include "assets/scan/packed_bytes.h"
-#include "assets/scan/plain_file.h"
-#include "assets/scan/written_numbers.h"
+#include "assets/scan/compressed_bytes.h"
+#include "assets/scan/regular_file.h"
+#include "assets/scan/text_voxels.h"
 
 namespace assets {
 
@@ -18,13 +18,13 @@ namespace {
 constexpr double kDeflateAtBest = 1040.0;  // deflate packs 1032:1 at most (RFC 1951: 258 bytes in 2 bits)
 
 /// Where the voxels of one data file begin, behind the lines to skip.
-std::uint64_t firstByte(const ImageHeader& header, const PlainFile& file, std::uint64_t from_byte) {
+std::uint64_t firstByte(const ImageHeader& header, const RegularFile& file, std::uint64_t from_byte) {
   if (header.skipped_lines == 0) return from_byte;
-  Characters characters(file, from_byte);
+  CharacterReader characters(file, from_byte);
   std::uint64_t at = from_byte;
   for (std::int64_t lines = 0; lines < header.skipped_lines; ++at) {
     const auto c = characters.next();
-    if (!c) refuseShort(file.path());
+    if (!c) refuseTruncated(file.path());
     lines += *c == '\n' ? 1 : 0;
   }
   return at;
@@ -38,26 +38,26 @@ void skipBytes(ByteSource& source, std::int64_t count, const std::string& path) 
   std::vector<char> passed(static_cast<std::size_t>(std::min<std::int64_t>(count, kBlockBytes)));
   while (count > 0) {
     const auto step = static_cast<std::size_t>(std::min<std::int64_t>(count, kBlockBytes));
-    if (source.fill(std::span(passed).first(step)) < step) refuseShort(path);
+    if (source.fill(std::span(passed).first(step)) < step) refuseTruncated(path);
     count -= static_cast<std::int64_t>(step);
   }
 }
 
 /// The bytes of one data file, behind all that is skipped.
-std::unique_ptr<ByteSource> sourceOf(const ImageHeader& header, const PlainFile& file, std::uint64_t from_byte) {
+std::unique_ptr<ByteSource> sourceOf(const ImageHeader& header, const RegularFile& file, std::uint64_t from_byte) {
   const std::uint64_t first = firstByte(header, file, from_byte);
   const std::uint64_t bytes = bytesInEachFile(header);
-  if (header.skipped_bytes == kVoxelsEndTheFile) {
+  if (header.skipped_bytes == kVoxelsAtFileEnd) {
     if (header.coding != VoxelCoding::raw)
       refuseScan(file.path(), "its packed voxels have no stated place (a skip of -1); export the volume again");
-    if (file.size() < first + bytes) refuseShort(file.path());
+    if (file.size() < first + bytes) refuseTruncated(file.path());
     return std::make_unique<RawSource>(file, file.size() - bytes);
   }
 
   // A skip is of unpacked bytes where they are packed.
   const bool is_packed = header.coding == VoxelCoding::gzip;
   const auto skipped = static_cast<std::uint64_t>(header.skipped_bytes);
-  if (!is_packed && skipped > file.size()) refuseShort(file.path());
+  if (!is_packed && skipped > file.size()) refuseTruncated(file.path());
   const std::uint64_t start = is_packed ? first : first + skipped;
   switch (header.coding) {
     case VoxelCoding::raw:
@@ -69,7 +69,7 @@ std::unique_ptr<ByteSource> sourceOf(const ImageHeader& header, const PlainFile&
     case VoxelCoding::gzip:
       break;
   }
-  auto unpacked = unpackedSource(file, start);
+  auto unpacked = decompressedSource(file, start);
   skipBytes(*unpacked, header.skipped_bytes, file.path());
   return unpacked;
 }
@@ -87,32 +87,32 @@ void refuseMore(ByteSource& source, VoxelCoding coding, const std::string& path)
 
 }  // namespace
 
-void refuseUnlessLongEnough(const ImageHeader& header) {
+void requireDataLength(const ImageHeader& header) {
   const auto bytes = static_cast<double>(bytesInEachFile(header));
   for (const VoxelFile& each : header.files) {
-    const PlainFile file(each.path);
+    const RegularFile file(each.path);
     const auto held = static_cast<double>(file.size() - std::min(each.from_byte, file.size()));
     double needed = bytes;
     if (header.coding == VoxelCoding::gzip) needed = bytes / kDeflateAtBest;
     if (header.coding == VoxelCoding::hex) needed = 2.0 * bytes;
     if (header.coding == VoxelCoding::text) needed = 2.0 * bytes / static_cast<double>(bytesOf(header.type)) - 1.0;
-    if (held < needed) refuseShort(each.path);
+    if (held < needed) refuseTruncated(each.path);
   }
 }
 
-void forVoxelBytes(const ImageHeader& header, const std::function<void(std::span<const char>)>& take) {
+void forEachVoxelBlock(const ImageHeader& header, const std::function<void(std::span<const char>)>& take) {
   std::vector<char> block(kBlockBytes);
   for (const VoxelFile& each : header.files) {
-    const PlainFile file(each.path);
+    const RegularFile file(each.path);
     const auto source = sourceOf(header, file, each.from_byte);
     for (std::uint64_t left = bytesInEachFile(header); left > 0;) {
       const std::span<char> next =
           std::span(block).first(static_cast<std::size_t>(std::min<std::uint64_t>(left, kBlockBytes)));
-      if (source->fill(next) < next.size()) refuseShort(each.path);
+      if (source->fill(next) < next.size()) refuseTruncated(each.path);
       take(next);
       left -= next.size();
     }
-    if (header.skipped_bytes != kVoxelsEndTheFile) refuseMore(*source, header.coding, each.path);
+    if (header.skipped_bytes != kVoxelsAtFileEnd) refuseMore(*source, header.coding, each.path);
   }
 }
 

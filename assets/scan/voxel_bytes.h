@@ -12,9 +12,9 @@
 namespace assets {
 
 /// Throws if the files can not hold what the header promises; cheap, so ask before memory is taken for the voxels.
-void refuseUnlessLongEnough(const ImageHeader& header);
+void requireDataLength(const ImageHeader& header);
 
 /// Hands out blocks of whole voxels; those of text are in the machine's byte order.
-void forVoxelBytes(const ImageHeader& header, const std::function<void(std::span<const char>)>& take);
+void forEachVoxelBlock(const ImageHeader& header, const std::function<void(std::span<const char>)>& take);
 
 }  // namespace assets

@@ -29,7 +29,7 @@ struct Pattern {
 
 Pattern patternIn(const std::string& header_path, const std::string& text) {
   const auto refuse = [&] {
-    refuseScan(header_path, "the name " + asShown(text) +
+    refuseScan(header_path, "the name " + printableExcerpt(text) +
                                 " of its data files needs one number, as in 'slice%03d.raw'; name the files so");
   };
   Pattern pattern;
@@ -51,7 +51,7 @@ Pattern patternIn(const std::string& header_path, const std::string& text) {
     const std::string width = text.substr(at + 1, kind - at - 1);
     if (kind == text.size() || std::string("diu").find(text[kind]) == std::string::npos || width.size() > 2) refuse();
     pattern.is_zero_filled = width.starts_with('0');
-    pattern.width = width.empty() ? 0 : static_cast<std::size_t>(wholeNumber(width).value_or(0));
+    pattern.width = width.empty() ? 0 : static_cast<std::size_t>(parseInteger(width).value_or(0));
     at = kind;
   }
   if (!has_number) refuse();
@@ -70,11 +70,11 @@ bool isList(const std::string& entry) {
   return !words.empty() && lowerCase(words[0]) == "list";
 }
 
-VoxelFile fileBeside(const std::string& header_path, const std::string& name) {
+VoxelFile dataFile(const std::string& header_path, const std::string& name) {
   const fs::path relative = name;
   const bool leaves = relative.is_absolute() || std::find(relative.begin(), relative.end(), "..") != relative.end();
   const auto refuse = [&](const std::string& reason) {
-    refuseScan(header_path, "its data file " + asShown(name) + " " + reason);
+    refuseScan(header_path, "its data file " + printableExcerpt(name) + " " + reason);
   };
   if (leaves) refuse("is outside its folder; put both into one folder");
   if (name.empty() || name.find('\0') != std::string::npos) refuse("has no name; export the volume again");
@@ -89,13 +89,13 @@ VoxelFile fileBeside(const std::string& header_path, const std::string& name) {
   return {file.string(), 0};
 }
 
-std::vector<VoxelFile> listedFilesBeside(const std::string& header_path, const std::vector<std::string>& names,
+std::vector<VoxelFile> listedDataFiles(const std::string& header_path, const std::vector<std::string>& names,
                                          std::uint64_t expected) {
   if (names.size() != expected)
     refuseScan(header_path, "it lists " + std::to_string(names.size()) + " data files where it needs " +
                                 std::to_string(expected) + kExportAgain);
   std::vector<VoxelFile> files;
-  for (const std::string& each : names) files.push_back(fileBeside(header_path, each));
+  for (const std::string& each : names) files.push_back(dataFile(header_path, each));
   return files;
 }
 
@@ -105,7 +105,7 @@ std::uint64_t NumberedNames::count() const {
   return static_cast<std::uint64_t>(std::max<std::int64_t>((last - first) / step + 1, 0));
 }
 
-std::vector<VoxelFile> numberedFilesBeside(const std::string& header_path, const NumberedNames& names,
+std::vector<VoxelFile> numberedDataFiles(const std::string& header_path, const NumberedNames& names,
                                            std::uint64_t expected) {
   const Pattern pattern = patternIn(header_path, names.pattern);
   const std::uint64_t count = names.count();
@@ -114,7 +114,7 @@ std::vector<VoxelFile> numberedFilesBeside(const std::string& header_path, const
                                 std::to_string(expected) + "; export it again");
   std::vector<VoxelFile> files;
   for (std::uint64_t n = 0; n < count; ++n)
-    files.push_back(fileBeside(header_path, pattern.with(names.first + static_cast<std::int64_t>(n) * names.step)));
+    files.push_back(dataFile(header_path, pattern.with(names.first + static_cast<std::int64_t>(n) * names.step)));
   return files;
 }
 

@@ -14,10 +14,10 @@ namespace assets {
 bool isList(const std::string& entry);
 
 /// The file of that name beside the header.
-VoxelFile fileBeside(const std::string& header_path, const std::string& name);
+VoxelFile dataFile(const std::string& header_path, const std::string& name);
 
 /// All of those names, which must be as many as expected.
-std::vector<VoxelFile> listedFilesBeside(const std::string& header_path, const std::vector<std::string>& names,
+std::vector<VoxelFile> listedDataFiles(const std::string& header_path, const std::vector<std::string>& names,
                                          std::uint64_t expected);
 
 /// All the files of "NAME%03d.raw", numbered from `first` to `last` by `step`. Exactly one number in the name (%d, %i,
@@ -31,7 +31,7 @@ struct NumberedNames {
   /// 0 where the numbers make no sense.
   std::uint64_t count() const;
 };
-std::vector<VoxelFile> numberedFilesBeside(const std::string& header_path, const NumberedNames& names,
+std::vector<VoxelFile> numberedDataFiles(const std::string& header_path, const NumberedNames& names,
                                            std::uint64_t expected);
 
 }  // namespace assets

@@ -10,7 +10,7 @@ enum class VoxelType { int8, uint8, int16, uint16, int32, uint32, int64, uint64,
 
 /// f(Stored{}), where `Stored` is the C++ type of one voxel of that type.
 template <class Function>
-decltype(auto) withStored(VoxelType type, const Function& f) {
+decltype(auto) withVoxelType(VoxelType type, const Function& f) {
   switch (type) {
     case VoxelType::int8:
       return f(std::int8_t{});
@@ -37,7 +37,7 @@ decltype(auto) withStored(VoxelType type, const Function& f) {
 }
 
 inline std::size_t bytesOf(VoxelType type) {
-  return withStored(type, [](auto stored) { return sizeof(stored); });
+  return withVoxelType(type, [](auto stored) { return sizeof(stored); });
 }
 
 }  // namespace assets

@@ -17,7 +17,7 @@ using FacePose = calibration::Pose<calibration::Patient, calibration::Face>;
 inline const FacePose kFaceAxes_PF{glm::dquat(0.70710678118654752, 0.70710678118654752, 0.0, 0.0), glm::dvec3(0.0)};
 
 template <class To, class From>
-MeshModel modelMoved(MeshModel model, const calibration::Pose<To, From>& X) {
+MeshModel transformedModel(MeshModel model, const calibration::Pose<To, From>& X) {
   const glm::dmat3 turn = glm::mat3_cast(X.rotation);
   for (MeshPart& part : model.parts) {
     for (glm::vec3& p : part.position_mm) p = glm::vec3(turn * glm::dvec3(p) + X.translation_mm);
@@ -27,11 +27,11 @@ MeshModel modelMoved(MeshModel model, const calibration::Pose<To, From>& X) {
 }
 
 inline MeshModel modelInPatientFrame(MeshModel model_F, const FacePose& X_PF = kFaceAxes_PF) {
-  return modelMoved(std::move(model_F), X_PF);
+  return transformedModel(std::move(model_F), X_PF);
 }
 
 inline MeshModel modelInFaceFrame(MeshModel model_P, const FacePose& X_PF = kFaceAxes_PF) {
-  return modelMoved(std::move(model_P), X_PF.inverse());
+  return transformedModel(std::move(model_P), X_PF.inverse());
 }
 
 }  // namespace assets

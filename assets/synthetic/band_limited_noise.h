@@ -9,12 +9,12 @@
 
 #include <glm/glm.hpp>
 
-#include "calibration/chance.h"
+#include "calibration/random.h"
 
 namespace assets {
 
 /// A well-mixed 64-bit hash.
-constexpr std::uint64_t mixBits(std::uint64_t x) { return calibration::mixedBits(x + calibration::kMixedStep); }
+constexpr std::uint64_t mixBits(std::uint64_t x) { return calibration::mixedBits(x + calibration::kSplitMixStep); }
 
 class BandLimitedNoise {
  public:

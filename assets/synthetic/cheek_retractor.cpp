@@ -27,7 +27,7 @@ constexpr int kAround = 16;
 }  // namespace
 
 MeshPart cheekRetractor(const MouthRim& rim) {
-  const dvec3 corner = rim.heldCorner_mm();
+  const dvec3 corner = rim.retractedCorner_mm();
   std::vector<dvec3> line;
   std::vector<double> width;
   for (std::size_t span = 0; span + 1 < std::size(kCourse); ++span) {

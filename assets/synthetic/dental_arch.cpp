@@ -61,7 +61,7 @@ ArchCoordinates DentalArch::coordinatesOf(const glm::dvec2& point_mm) const {
   return coordinates;
 }
 
-double DentalArch::alongAtPosterior(double y_mm) const {
+double DentalArch::arcLengthAtPosterior(double y_mm) const {
   const auto above = std::lower_bound(points_mm_.begin(), points_mm_.end(), y_mm,
                                       [](const glm::dvec2& p, double y) { return p.y < y; });
   const auto n = static_cast<std::size_t>(

@@ -37,7 +37,7 @@ class DentalArch {
 
   ArchStation stationAt(double along_mm) const;
   ArchCoordinates coordinatesOf(const glm::dvec2& point_mm) const;
-  double alongAtPosterior(double y_mm) const;
+  double arcLengthAtPosterior(double y_mm) const;
 
  private:
   std::vector<glm::dvec2> points_mm_;

@@ -128,7 +128,7 @@ double DistanceLattice::at(const glm::dvec3& point_mm) const {
   return low + t.z * (high - low) + outside_mm;
 }
 
-double DistanceLattice::atLeast_mm(const glm::dvec3& point_mm) const {
+double DistanceLattice::lowerBound_mm(const glm::dvec3& point_mm) const {
   const double outside_mm = glm::distance(glm::clamp(point_mm, box_.low_mm, box_.high_mm), point_mm);
   if (outside_mm == 0.0) return at(point_mm);
   return std::max(outside_mm, at(point_mm) - 2.0 * outside_mm);

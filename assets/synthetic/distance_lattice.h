@@ -28,7 +28,7 @@ class DistanceLattice {
   /// Trilinear: keeps detail. About 10 ns.
   double at(const glm::dvec3& point_mm) const;
   /// No point of the zero surface is nearer than this (within interpolation error), inside the box or outside.
-  double atLeast_mm(const glm::dvec3& point_mm) const;
+  double lowerBound_mm(const glm::dvec3& point_mm) const;
   /// Cubic B-spline: twice differentiable, rounds detail finer than a lattice step. About 60 ns.
   double smoothAt(const glm::dvec3& point_mm) const;
 

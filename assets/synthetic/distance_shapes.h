@@ -32,7 +32,7 @@ inline double capsule(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3
 }
 
 /// Rotation about x: positive turns y toward z.
-inline glm::dvec3 turnedAboutX(const glm::dvec3& p, double angle_rad) {
+inline glm::dvec3 rotatedAboutX(const glm::dvec3& p, double angle_rad) {
   const double c = std::cos(angle_rad);
   const double s = std::sin(angle_rad);
   return {p.x, c * p.y - s * p.z, s * p.y + c * p.z};

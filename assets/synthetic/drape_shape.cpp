@@ -20,13 +20,13 @@ double cloth(double body_mm, double under_mm, double thickness_mm, double folds_
 
 }  // namespace
 
-double underCap_mm(const dvec3& p) {
+double depthUnderCap_mm(const dvec3& p) {
   // From the middle of the forehead down in front of the ears to the nape, a little lower at the temples.
   const dvec3 k = skullFromMandible(p);
   return (k.z + 0.80 * k.y - 88.0 + 0.0016 * k.x * k.x) / 1.28;
 }
 
-double underDrape_mm(const dvec3& p) {
+double depthUnderDrape_mm(const dvec3& p) {
   // Under the chin and along the lower border of the jaw, sagging between.
   return (-52.0 + 0.22 * p.y - 0.0022 * p.x * p.x - p.z) / 1.02;
 }
@@ -38,7 +38,7 @@ double cap_mm(const HeadShape& head, const dvec3& p) {
   body = smoothMin(body, ellipsoid(m, {70, 82, 62}, {11, 19, 32}), 12.0);
   // Spare cloth at the crown, gathered toward the hem.
   body = smoothMin(body, ellipsoid(k, {0, 96, 122}, {74, 88, 78}), 20.0);
-  const double under = underCap_mm(p);
+  const double under = depthUnderCap_mm(p);
   const double around = std::atan2(k.x, k.y - 78.0 + 0.5 * k.z);
   const double fold = std::sin(around * 11.0 + 1.6 * std::sin(k.z * 0.05 + k.x * 0.03)) * 1.3 +
                       std::sin(around * 23.0 + 0.06 * k.z) * 0.5 + std::sin(k.z * 0.09 + k.x * 0.05) * 1.2;
@@ -55,7 +55,7 @@ double drape_mm(const HeadShape& head, const dvec3& p) {
                       0.7 * std::sin(p.x * 0.19 - p.z * 0.07);
   // Ends outside the usual picture: over the shoulders, on the chest.
   const double end = std::max({q.x - 140.0, -140.0 - p.z, p.y - 170.0});
-  return -smoothMin(-cloth(body, underDrape_mm(p), 2.6, fold + 2.0), -end, 12.0);
+  return -smoothMin(-cloth(body, depthUnderDrape_mm(p), 2.6, fold + 2.0), -end, 12.0);
 }
 
 }  // namespace assets

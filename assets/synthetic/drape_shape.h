@@ -8,8 +8,8 @@
 namespace assets {
 
 /// Positive above the hem: how deep under the cloth a point of the head lies.
-double underCap_mm(const glm::dvec3& p);
-double underDrape_mm(const glm::dvec3& p);
+double depthUnderCap_mm(const glm::dvec3& p);
+double depthUnderDrape_mm(const glm::dvec3& p);
 
 double cap_mm(const HeadShape& head, const glm::dvec3& p);
 double drape_mm(const HeadShape& head, const glm::dvec3& p);

@@ -63,7 +63,7 @@ MeshPart chosen(const MeshPart& from, const std::vector<bool>& wanted) {
 // Skin and the wet lining of the mouth are one surface of two materials.
 void addFace(MeshModel& model, const HeadShape& head, const FaceColours& colours, double voxel_mm) {
   const auto visible = [&](const dvec3& p) {
-    const double hidden = std::max({underCap_mm(p) - kTucked_mm, underDrape_mm(p) - kTucked_mm, p.y - 112.0});
+    const double hidden = std::max({depthUnderCap_mm(p) - kTucked_mm, depthUnderDrape_mm(p) - kTucked_mm, p.y - 112.0});
     return hidden > 25.0 ? hidden : std::max(head.distance_mm(p), hidden);
   };
   const MeshPart whole = coloured(meshOf(visible, kFaceBox, voxel_mm, 0.002), "Face", {glm::vec4(1.0f), 0.52f, 0.0f},

@@ -64,7 +64,7 @@ glm::vec3 FaceColours::head(const dvec3& p, const dvec3& n) const {
   const dvec3 from_mouth = p - dvec3(8, 10, 14);
   if (glm::dot(from_mouth, from_mouth) < 90.0 * 90.0) {
     // Vermilion: the lips' front, broader in the middle than at the corners.
-    const MouthRim::Place lip = head_.rim().lip(p);
+    const MouthRim::LipPoint lip = head_.rim().lip(p);
     const double round = 6.2832 * lip.turn;
     const bool lower = lip.turn > 0.28 && lip.turn < 0.78;
     const double middle = std::max(0.0, lower ? -std::cos(round - 0.12) : std::cos(round));
@@ -94,9 +94,9 @@ glm::vec3 FaceColours::tongue(const dvec3& p, const dvec3& n) const {
 }
 
 glm::vec3 FaceColours::tooth(const dvec3& p, const dvec3& n) const {
-  // Yellower and darker toward the gum, and backward in the mouth.
-  const double gum = 1.0 - smoothStep(0.5, 4.5, head_.distance_mm(p));
-  const dvec3 colour = glm::mix(kEnamel, kNeck, 0.65 * gum);
+  // Yellower and darker toward the gingiva, and backward in the mouth.
+  const double gingiva = 1.0 - smoothStep(0.5, 4.5, head_.distance_mm(p));
+  const dvec3 colour = glm::mix(kEnamel, kNeck, 0.65 * gingiva);
   return glm::vec3(colour * glm::mix(0.4, 1.0, light(p + 0.5 * n, n)));
 }
 

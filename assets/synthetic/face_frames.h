@@ -14,11 +14,11 @@ inline constexpr glm::dvec3 kHinge_K_mm{0.0, 88.0, 48.0};
 inline constexpr glm::dvec3 kGlide_K_mm{0.0, -10.0, -4.0};
 
 inline glm::dvec3 skullFromMandible(const glm::dvec3& p_P) {
-  return kHinge_K_mm + turnedAboutX(p_P - kHinge_K_mm, kOpening_rad) + kGlide_K_mm;
+  return kHinge_K_mm + rotatedAboutX(p_P - kHinge_K_mm, kOpening_rad) + kGlide_K_mm;
 }
 
 inline glm::dvec3 mandibleFromSkull(const glm::dvec3& p_K) {
-  return kHinge_K_mm + turnedAboutX(p_K - kGlide_K_mm - kHinge_K_mm, -kOpening_rad);
+  return kHinge_K_mm + rotatedAboutX(p_K - kGlide_K_mm - kHinge_K_mm, -kOpening_rad);
 }
 
 }  // namespace assets

@@ -5,7 +5,7 @@
 
 #include "assets/synthetic/face_frames.h"
 #include "assets/vertex_normals.h"
-#include "calibration/chance.h"
+#include "calibration/random.h"
 
 namespace assets {
 namespace {
@@ -53,7 +53,7 @@ void addHair(MeshPart& part, const dvec3& root_K, const dvec3& direction, const 
 
 MeshPart facialHair(const HeadShape& head, std::uint32_t seed) {
   std::mt19937 random(seed);
-  const auto between = [&](double low, double high) { return calibration::evenly(random, low, high); };
+  const auto between = [&](double low, double high) { return calibration::uniform(random, low, high); };
   MeshPart part;
   for (const double side : {1.0, -1.0}) {
     // Brow: dense and upright near the nose, thin and lying toward the temple.

@@ -77,7 +77,7 @@ double nose(double d, const dvec3& m) {
   d += 0.9 * std::exp(-std::pow((wing - 1.4) / 1.2, 2.0)) * smoothStep(-17.0, -9.0, m.y) * smoothStep(20.0, 25.0, m.z) *
        smoothStep(41.0, 33.0, m.z);
   // Nostrils.
-  const dvec3 hole = turnedAboutX(m - dvec3(6.7, -18.0, 22.8), -0.25);
+  const dvec3 hole = rotatedAboutX(m - dvec3(6.7, -18.0, 22.8), -0.25);
   const dvec3 splayed(hole.x - 0.3 * hole.y, hole.y, hole.z);
   return smoothMax(d, -ellipsoid(splayed, {0, 0, 0}, {3.0, 6.0, 5.2}), 2.0);
 }
@@ -132,9 +132,9 @@ double HeadShape::distance_mm(const dvec3& p) const {
   const double opening = behind > 22.0 ? 1e3 : rim_.opening_mm(p.x, p.z);
   const double hole = behind > 22.0 ? behind : std::max(opening, behind);
   d = smoothMax(d, -smoothMin(hole, cavity_mm(p), 4.0), 4.0);
-  d = smoothMin(d, std::min(upperGum_mm(skullFromMandible(p)), lowerGum_mm(p)), 3.0);
+  d = smoothMin(d, std::min(upperGingiva_mm(skullFromMandible(p)), lowerGingiva_mm(p)), 3.0);
   if (std::abs(opening) < 24.0) d = smoothMin(d, rim_.lip(p).distance_mm, 7.0);
-  return smoothMax(d, -jawBed_mm(p), 3.0);
+  return smoothMax(d, -jawSegmentSpace_mm(p), 3.0);
 }
 
 }  // namespace assets

@@ -77,7 +77,7 @@ void scan(const JawAnatomy& anatomy, const JawParameters& p, CtVolume& ct) {
     const glm::ivec3 low = brick * kBrickVoxels, high = glm::min(low + kBrickVoxels, size);
     const glm::dvec3 middle_J =
         kScanBox.low_mm + p.spacing_mm * (glm::dvec3(low) + 0.5 * static_cast<double>(kBrickVoxels - 1));
-    const Nearby nearby = anatomy.nearby(middle_J, brick_radius_mm);
+    const NearbyStructures nearby = anatomy.nearby(middle_J, brick_radius_mm);
     for (int k = low.z; k < high.z; ++k)
       for (int j = low.y; j < high.y; ++j)
         for (int i = low.x; i < high.x; ++i) {
@@ -86,7 +86,7 @@ void scan(const JawAnatomy& anatomy, const JawParameters& p, CtVolume& ct) {
                                       static_cast<std::uint64_t>(i);
           double grey_hu = air_hu;
           const std::size_t voxel = ct.grid.index({p.right_side ? size.x - 1 - i : i, j, k});
-          if (nearby.anything) {
+          if (nearby.any) {
             const glm::dvec3 p_J = kScanBox.low_mm + p.spacing_mm * glm::dvec3(i, j, k);
             const TissueDistances distances = anatomy.at(p_J, nearby);
             const Tissue tissue = tissueAt(distances);
@@ -147,8 +147,8 @@ JawLandmarks syntheticLandmarks(const JawParameters& parameters) {
   const DentalArch arch;
   JawLandmarks landmarks;
   for (int position = 1; position <= 7; ++position) {
-    const ArchStation station = arch.stationAt(alongOfTooth_mm(position));
-    const glm::dvec3 crown_J(station.centre_mm, -0.5 * crownHeightOfTooth_mm(position));
+    const ArchStation station = arch.stationAt(arcLengthAtTooth_mm(position));
+    const glm::dvec3 crown_J(station.centre_mm, -0.5 * toothCrownHeight_mm(position));
     landmarks.lower_teeth.push_back({40 + position, mirrored(crown_J, true)});
     landmarks.lower_teeth.push_back({30 + position, crown_J});
   }

@@ -12,7 +12,7 @@
 
 namespace assets {
 
-/// Rises when the jaw, its gum or the face is made differently, so that no copy kept from before passes for the new
+/// Rises when the jaw, its gingiva or the face is made differently, so that no copy kept from before passes for the new
 /// one.
 inline constexpr int kSyntheticPatientRevision = 3;
 

@@ -84,23 +84,23 @@ void JawAnatomy::placeMandibularCanal(double distance_mm) {
     refuseMandibularCanal(distance_mm);
 }
 
-Nearby JawAnatomy::nearby(const glm::dvec3& centre_J, double radius_mm) const {
-  Nearby nearby;
+NearbyStructures JawAnatomy::nearby(const glm::dvec3& centre_J, double radius_mm) const {
+  NearbyStructures nearby;
   const double reach_mm = 1.15 * radius_mm + 0.7;
-  nearby.anything = mandible_.outer_mm(centre_J) < reach_mm + kMucosa_mm && mandible_.cut_mm(centre_J) < reach_mm;
+  nearby.any = mandible_.outer_mm(centre_J) < reach_mm + kMucosa_mm && mandible_.cut_mm(centre_J) < reach_mm;
   for (std::size_t n = 0; n < teeth_.size(); ++n) {
-    const double tooth_mm = teeth_[n].shape.outerAtLeast_mm(teeth_[n].local(centre_J));
+    const double tooth_mm = teeth_[n].shape.outerLowerBound_mm(teeth_[n].local(centre_J));
     if (tooth_mm > reach_mm + kReach_mm) continue;
     nearby.teeth |= 1u << n;
-    nearby.anything = true;
+    nearby.any = true;
   }
-  nearby.mandibular_canal = nearby.anything && mandibular_canal_->lumen_mm(centre_J) < reach_mm + kReach_mm;
+  nearby.mandibular_canal = nearby.any && mandibular_canal_->lumen_mm(centre_J) < reach_mm + kReach_mm;
   return nearby;
 }
 
-TissueDistances JawAnatomy::at(const glm::dvec3& p_J, const Nearby& nearby) const {
+TissueDistances JawAnatomy::at(const glm::dvec3& p_J, const NearbyStructures& nearby) const {
   TissueDistances d;
-  if (!nearby.anything) return d;
+  if (!nearby.any) return d;
   const double cut_mm = mandible_.cut_mm(p_J);
   double bone_mm = mandible_.outer_mm(p_J);
   double lining_mm = TissueDistances::kFar_mm;
@@ -112,7 +112,7 @@ TissueDistances JawAnatomy::at(const glm::dvec3& p_J, const Nearby& nearby) cons
     const glm::dvec3 q = tooth.local(p_J);
     const double outer_mm = tooth.shape.outer_mm(q);
     if (outer_mm > kReach_mm) continue;
-    const double over_cervix_mm = tooth.shape.overCervix_mm(q);
+    const double over_cervix_mm = tooth.shape.heightAboveCervix_mm(q);
     const bool third = tooth.position == 8;
     if (outer_mm < 1.0) {
       if (!third && outer_mm < d.other_tooth) d.other_position = tooth.position;

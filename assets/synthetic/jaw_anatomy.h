@@ -1,6 +1,6 @@
 // The whole synthetic jaw as nested signed distances, tissue by tissue, at any point.
 // Frame J (dental_arch.h), mm, negative inside. Immutable; any thread reads. A query costs 0.1-1 us, less where
-// `Nearby` says that structures are out of reach. No grey values here (scanner.h), no voxels (jaw.h). Periodontal
+// `NearbyStructures` says that structures are out of reach. No grey values here (scanner.h), no voxels (jaw.h). Periodontal
 // ligament 0.25 mm, follicle 0.8 mm round the crown, lamina dura 0.45 mm (textbook means).
 #pragma once
 
@@ -28,12 +28,12 @@ struct TissueDistances {
   double mandibular_canal = kFar_mm;  ///< lumen
   double trabecular = kFar_mm;
   double bone = kFar_mm;     ///< outer surface, sockets not subtracted
-  double gingiva = kFar_mm;  ///< gum, bone included
+  double gingiva = kFar_mm;  ///< gingiva, bone included
 };
 
 /// What can matter within a ball; found once per brick.
-struct Nearby {
-  bool anything = false;
+struct NearbyStructures {
+  bool any = false;
   bool mandibular_canal = false;
   std::uint32_t teeth = 0;  ///< bit n: tooth n of the row
 };
@@ -50,8 +50,8 @@ class JawAnatomy {
   /// Throws LoadError when the third molar, the canal at that distance and the bone can not be had together.
   explicit JawAnatomy(const AnatomyParameters& parameters);
 
-  Nearby nearby(const glm::dvec3& centre_J, double radius_mm) const;
-  TissueDistances at(const glm::dvec3& p_J, const Nearby& nearby) const;
+  NearbyStructures nearby(const glm::dvec3& centre_J, double radius_mm) const;
+  TissueDistances at(const glm::dvec3& p_J, const NearbyStructures& nearby) const;
 
   const PlacedTooth& thirdMolar() const { return teeth_.back(); }
   const std::vector<PlacedTooth>& teeth() const { return teeth_; }

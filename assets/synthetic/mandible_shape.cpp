@@ -53,7 +53,7 @@ Section sectionAt(const DentalArch& arch, double along_mm) {
   for (std::size_t point = 0; point < kSectionPoints; ++point)
     for (int axis = 0; axis < 2; ++axis) {
       for (std::size_t n = 0; n < kStations; ++n)
-        knots[n] = {arch.alongAtPosterior(kPosterior_mm[n]), kSections_mm[n][axis][point]};
+        knots[n] = {arch.arcLengthAtPosterior(kPosterior_mm[n]), kSections_mm[n][axis][point]};
       section[point][axis] = profile(knots, along_mm);
     }
   return section;
@@ -88,7 +88,7 @@ double signedDistance_mm(const Contour& contour, const glm::dvec2& p) {
 DistanceLattice loft(const DentalArch& arch, std::uint64_t seed) {
   // Contours every half millimetre, drawn once.
   constexpr double kStep_mm = 0.5;
-  const double first_mm = arch.alongAtPosterior(0.5), last_mm = arch.alongAtPosterior(80.0);
+  const double first_mm = arch.arcLengthAtPosterior(0.5), last_mm = arch.arcLengthAtPosterior(80.0);
   std::vector<Contour> contours;
   for (double along_mm = first_mm; along_mm < last_mm; along_mm += kStep_mm)
     contours.push_back(contourOf(sectionAt(arch, along_mm)));

@@ -22,12 +22,12 @@ constexpr double kDropWidth_mm = 13.0;
 
 }  // namespace
 
-MandibularCanalPath::MandibularCanalPath(const DentalArch& arch, double beside_along_mm, double drop_mm) {
+MandibularCanalPath::MandibularCanalPath(const DentalArch& arch, double third_molar_along_mm, double drop_mm) {
   std::vector<glm::dvec3> knots;
   for (const CourseKnot& knot : kCourse) {
-    const double along_mm = arch.alongAtPosterior(knot.posterior_mm);
+    const double along_mm = arch.arcLengthAtPosterior(knot.posterior_mm);
     const ArchStation station = arch.stationAt(along_mm);
-    const double turn = (along_mm - beside_along_mm) / kDropWidth_mm;
+    const double turn = (along_mm - third_molar_along_mm) / kDropWidth_mm;
     knots.emplace_back(station.centre_mm + knot.buccal_mm * station.buccal,
                        knot.height_mm - drop_mm * std::exp(-turn * turn));
   }

@@ -15,8 +15,8 @@ class MandibularCanalPath {
   static constexpr double kRadius_mm = 1.4;
   static constexpr double kWall_mm = 0.55;
 
-  /// The mean course, shifted by `drop_mm` downwards where it passes the third molar at `beside_along_mm`.
-  MandibularCanalPath(const DentalArch& arch, double beside_along_mm, double drop_mm);
+  /// The mean course, shifted by `drop_mm` downwards where it passes the third molar at `third_molar_along_mm`.
+  MandibularCanalPath(const DentalArch& arch, double third_molar_along_mm, double drop_mm);
 
   /// Distance to the lumen's wall, negative inside; about 0.3 us.
   double lumen_mm(const glm::dvec3& p_J) const;

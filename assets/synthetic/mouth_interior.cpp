@@ -51,10 +51,10 @@ Station stationAt(std::span<const dvec2> arch, double along_mm) {
   return {arch.back(), {0, 1}};
 }
 
-// A crown in its own frame: x along the arch, y outward, z from the gum to the cutting edge.
+// A crown in its own frame: x along the arch, y outward, z from the gingiva to the cutting edge.
 double crown(const Crown& c, const dvec3& p) {
   const double up = std::clamp(p.z / c.height_mm, -0.5, 1.2);
-  // Narrow at the gum, widest at two thirds; front teeth thin toward their edge.
+  // Narrow at the gingiva, widest at two thirds; front teeth thin toward their edge.
   const double belly = 1.0 - 0.16 * (up - 0.65) * (up - 0.65) / 0.42;
   const double thin = c.cusps < 2 ? glm::mix(1.0, c.cusps == 0 ? 0.24 : 0.45, smoothStep(0.15, 1.05, up))
                                   : 1.0 - 0.12 * smoothStep(0.5, 1.0, up);
@@ -79,8 +79,8 @@ double crown(const Crown& c, const dvec3& p) {
   return std::max(d, -p.z - 3.0);
 }
 
-// The teeth of a half arch from the midline on; z counted from the occlusal plane toward the gum.
-double row(std::span<const dvec2> arch, std::span<const Crown> crowns, const dvec3& p, double toward_gum) {
+// The teeth of a half arch from the midline on; z counted from the occlusal plane toward the gingiva.
+double row(std::span<const dvec2> arch, std::span<const Crown> crowns, const dvec3& p, double toward_gingiva) {
   double d = 1e9;
   double along = 0.05;
   for (const Crown& c : crowns) {
@@ -88,7 +88,7 @@ double row(std::span<const dvec2> arch, std::span<const Crown> crowns, const dve
     const Station s = stationAt(arch, along);
     along += 0.5 * c.width_mm;
     const dvec2 offset = dvec2(p.x, p.y) - s.middle;
-    const double z = c.height_mm - p.z * toward_gum;
+    const double z = c.height_mm - p.z * toward_gingiva;
     if (glm::dot(offset, offset) > 14.0 * 14.0) {
       d = std::min(d, glm::length(offset) - 8.0);
       continue;
@@ -99,7 +99,7 @@ double row(std::span<const dvec2> arch, std::span<const Crown> crowns, const dve
   return d;
 }
 
-// A ridge of gum along an arch, scalloped a little between the teeth.
+// A ridge of gingiva along an arch, scalloped a little between the teeth.
 double ridge(std::span<const dvec2> arch, const dvec3& p, double z, double radius, double tall) {
   double d = 1e9;
   for (std::size_t n = 0; n + 1 < arch.size(); ++n) {
@@ -111,7 +111,7 @@ double ridge(std::span<const dvec2> arch, const dvec3& p, double z, double radiu
 
 }  // namespace
 
-double upperGum_mm(const dvec3& k) {
+double upperGingiva_mm(const dvec3& k) {
   const dvec3 m(std::abs(k.x), k.y, k.z);
   // Ridge, and the palate's vault between its limbs.
   const double limbs = ridge(kUpperArch, m, 17.0, 5.8, 1.65);
@@ -120,7 +120,7 @@ double upperGum_mm(const dvec3& k) {
   return smoothMin(limbs, vault, 9.0);
 }
 
-double lowerGum_mm(const dvec3& p) {
+double lowerGingiva_mm(const dvec3& p) {
   // Front teeth on both sides, the whole row on the free side; the floor of the mouth inside it.
   const dvec3 mirrored(-p.x, p.y, p.z);
   double d = ridge(kLowerArch, mirrored, -17.5, 4.8, 1.8);
@@ -137,7 +137,7 @@ double upperTeeth_mm(const dvec3& k) {
 double lowerTeeth_mm(const dvec3& p) {
   const double free_side = row(kLowerArch, kLowerCrowns, {-p.x, p.y, p.z}, -1.0);
   const double held_side = row(kLowerArch, std::span(kLowerCrowns).first(3), p, -1.0);
-  return std::min(free_side, std::max(held_side, -1.2 - jawBed_mm(p)));
+  return std::min(free_side, std::max(held_side, -1.2 - jawSegmentSpace_mm(p)));
 }
 
 double tongue_mm(const dvec3& p) {
@@ -151,7 +151,7 @@ double tongue_mm(const dvec3& p) {
   return d;
 }
 
-double jawBed_mm(const dvec3& p) {
+double jawSegmentSpace_mm(const dvec3& p) {
   // The body follows the arch, its outer side swelling toward the ramus.
   double d = 1e9;
   constexpr dvec3 kCourse[] = {{15.4, 10.0, 8.2},  {18.2, 16.5, 8.0},  {21.2, 24.0, 8.0}, {23.6, 32.0, 9.0},

@@ -9,13 +9,13 @@
 
 namespace assets {
 
-double upperGum_mm(const glm::dvec3& p_K);
-double lowerGum_mm(const glm::dvec3& p);
+double upperGingiva_mm(const glm::dvec3& p_K);
+double lowerGingiva_mm(const glm::dvec3& p);
 double upperTeeth_mm(const glm::dvec3& p_K);
 double lowerTeeth_mm(const glm::dvec3& p);
 double tongue_mm(const glm::dvec3& p);
 
 /// The space that the scanned jaw segment takes up, with a margin: nothing of the face may reach into it.
-double jawBed_mm(const glm::dvec3& p);
+double jawSegmentSpace_mm(const glm::dvec3& p);
 
 }  // namespace assets

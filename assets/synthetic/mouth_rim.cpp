@@ -59,8 +59,8 @@ MouthRim::MouthRim(const std::function<double(double, double)>& depth_at) {
   }
 }
 
-MouthRim::Place MouthRim::lip(const glm::dvec3& p) const {
-  Place best{1e9, 0.0};
+MouthRim::LipPoint MouthRim::lip(const glm::dvec3& p) const {
+  LipPoint best{1e9, 0.0};
   for (std::size_t n = 0; n < kPoints; ++n) {
     const std::size_t next = (n + 1) % kPoints;
     const glm::dvec3 edge = lip_[next] - lip_[n];

@@ -17,17 +17,17 @@ class MouthRim {
   /// `depth_at(x, z)`: y of the closed face's skin, on which the rim is laid.
   explicit MouthRim(const std::function<double(double x_mm, double z_mm)>& depth_at);
 
-  struct Place {
+  struct LipPoint {
     double distance_mm = 0.0;  ///< to the tube of lip around the rim, negative inside the lip
     double turn = 0.0;         ///< 0..1 round the rim, from the middle of the upper lip toward the operated side
   };
-  Place lip(const glm::dvec3& p_mm) const;
+  LipPoint lip(const glm::dvec3& p_mm) const;
 
   /// Signed distance in the frontal plane (x, z) to the opening: negative inside it.
   double opening_mm(double x_mm, double z_mm) const;
 
   /// The middle of the lip where the retractor holds it.
-  const glm::dvec3& heldCorner_mm() const { return lip_[kPoints * 13 / 40]; }
+  const glm::dvec3& retractedCorner_mm() const { return lip_[kPoints * 13 / 40]; }
 
  private:
   std::array<glm::dvec2, kPoints> edge_;

@@ -2,7 +2,7 @@
 // moved onto the exact surface and given the gradient as normal.
 // mm, frame of the distance; negative inside; triangles counter-clockwise seen from outside. Any thread; parallel
 // inside, the result does not depend on the number of threads. Cost: about 2 evaluations a voxel near the surface. The
-// distance may be a bound, but must not grow faster than 1.3 mm a mm. Not a mesher of label volumes (gum_surface).
+// distance may be a bound, but must not grow faster than 1.3 mm a mm. Not a mesher of label volumes (gingiva_surface).
 #pragma once
 
 #include <functional>

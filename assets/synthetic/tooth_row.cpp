@@ -38,17 +38,17 @@ double highest_mm(const std::vector<glm::dvec3>& surface, const PlacedTooth& too
 
 }  // namespace
 
-double alongOfTooth_mm(int position) { return kAlong_mm[static_cast<std::size_t>(position)]; }
-double crownHeightOfTooth_mm(int position) { return kCrownHeight_mm[static_cast<std::size_t>(position)]; }
+double arcLengthAtTooth_mm(int position) { return kAlong_mm[static_cast<std::size_t>(position)]; }
+double toothCrownHeight_mm(int position) { return kCrownHeight_mm[static_cast<std::size_t>(position)]; }
 
 PlacedTooth eruptedTooth(const DentalArch& arch, int position) {
-  const ArchStation station = arch.stationAt(alongOfTooth_mm(position));
+  const ArchStation station = arch.stationAt(arcLengthAtTooth_mm(position));
   const double lean_deg = kLingualLean_deg[static_cast<std::size_t>(position)];
   PlacedTooth tooth{position, lowerToothShape(position),
-                    glm::dvec3(station.centre_mm, -crownHeightOfTooth_mm(position)),
+                    glm::dvec3(station.centre_mm, -toothCrownHeight_mm(position)),
                     toothAxes(station, lean_deg, 0.0, 0.0)};
   // The lean swings the crown to the tongue: seat the middle of the crown back on the arch, the cusps on the plane.
-  tooth.cervix_J_mm += 0.35 * std::sin(calibration::radFromDegrees(lean_deg)) * crownHeightOfTooth_mm(position) *
+  tooth.cervix_J_mm += 0.35 * std::sin(calibration::radFromDegrees(lean_deg)) * toothCrownHeight_mm(position) *
                        glm::dvec3(station.buccal, 0.0);
   tooth.cervix_J_mm.z -= highest_mm(tooth.shape.surfacePoints_mm(), tooth);
   return tooth;
@@ -56,7 +56,7 @@ PlacedTooth eruptedTooth(const DentalArch& arch, int position) {
 
 PlacedTooth impactedThirdMolar(const DentalArch& arch, const PlacedTooth& second_molar, double winter_angle_deg,
                                double depth_mm) {
-  const ArchStation station = arch.stationAt(alongOfTooth_mm(7) + 9.0);
+  const ArchStation station = arch.stationAt(arcLengthAtTooth_mm(7) + 9.0);
   PlacedTooth tooth{8, lowerToothShape(8), glm::dvec3(station.centre_mm + kThirdMolarBuccal_mm * station.buccal, 0.0),
                     toothAxes(station, kThirdMolarLean_deg, winter_angle_deg, kThirdMolarRoll_deg)};
   const std::vector<glm::dvec3> surface = tooth.shape.surfacePoints_mm();

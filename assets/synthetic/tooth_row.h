@@ -21,8 +21,8 @@ struct PlacedTooth {
 };
 
 /// Arc length of the centre of each tooth, 1..7, and height of its crown: shared with the landmarks.
-double alongOfTooth_mm(int position);
-double crownHeightOfTooth_mm(int position);
+double arcLengthAtTooth_mm(int position);
+double toothCrownHeight_mm(int position);
 
 /// A premolar or one of the first two molars (4..7), upright on the arch with the natural lean to the tongue.
 PlacedTooth eruptedTooth(const DentalArch& arch, int position);

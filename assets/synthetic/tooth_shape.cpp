@@ -19,17 +19,17 @@ double distanceToSegment_mm(const glm::dvec2& p, const glm::dvec2& a, const glm:
 }
 
 /// Height of the chewing surface: the upper envelope of cusps and ridges; the valleys between them are the fissures.
-double occlusalHeight_mm(const ToothForm& form, const glm::dvec2& p) {
+double occlusalHeight_mm(const ToothParameters& form, const glm::dvec2& p) {
   constexpr double kRounding_mm = 0.45, kFissure_mm = 0.16;
   double height_mm = -100.0;
-  for (const CuspForm& cusp : form.cusps) {
+  for (const CuspParameters& cusp : form.cusps) {
     const glm::dvec2 d = p - cusp.tip_mm;
     const double r = std::sqrt(glm::dot(d, d) + kRounding_mm * kRounding_mm) - kRounding_mm;
     const double ridge = std::cos(4.0 * (std::atan2(d.y, d.x) - cusp.ridge_rad));
     const double slope = cusp.slope * (1.0 - 0.30 * ridge * smoothStep(0.0, 1.5, r));
     height_mm = smoothMax(height_mm, cusp.height_mm - slope * r, kFissure_mm);
   }
-  for (const RidgeForm& ridge : form.ridges) {
+  for (const RidgeParameters& ridge : form.ridges) {
     const double r = distanceToSegment_mm(p, ridge.from_mm, ridge.to_mm);
     const double rounded = std::sqrt(r * r + 0.3 * 0.3) - 0.3;
     height_mm = smoothMax(height_mm, ridge.height_mm - 0.9 * rounded, kFissure_mm);
@@ -37,7 +37,7 @@ double occlusalHeight_mm(const ToothForm& form, const glm::dvec2& p) {
   return height_mm;
 }
 
-double crown_mm(const ToothForm& form, const glm::dvec3& p) {
+double crown_mm(const ToothParameters& form, const glm::dvec3& p) {
   // Half widths at this height, quadrant by quadrant.
   const double mesiodistal_mm = profile(p.x > 0.0 ? form.mesial_mm : form.distal_mm, p.z);
   const double buccolingual_mm = profile(p.y > 0.0 ? form.buccal_mm : form.lingual_mm, p.z);
@@ -47,7 +47,7 @@ double crown_mm(const ToothForm& form, const glm::dvec3& p) {
   double radius = std::pow(std::pow(u, form.squareness) + std::pow(v, form.squareness), 1.0 / form.squareness);
   const double direction_rad = std::atan2(p.y, p.x);
   double pinch = 0.0;
-  for (const GrooveForm& groove : form.grooves) {
+  for (const GrooveParameters& groove : form.grooves) {
     const double turn = std::remainder(direction_rad - groove.direction_rad, 2.0 * calibration::kPi) / groove.width_rad;
     pinch += groove.depth * std::exp(-turn * turn);
   }
@@ -60,12 +60,12 @@ double crown_mm(const ToothForm& form, const glm::dvec3& p) {
   return smoothMax(smoothMax(side_mm, top_mm, 0.8), bottom_mm, 0.5);
 }
 
-glm::dvec2 rootCentre_mm(const RootForm& root, double t) {
+glm::dvec2 rootCentre_mm(const RootParameters& root, double t) {
   const glm::dvec2 straight = glm::mix(root.neck_mm, root.apex_mm, t * t * (1.6 - 0.6 * t));
   return straight + glm::dvec2(root.bow_mm * std::sin(calibration::kPi * std::min(t, 1.0)), 0.0);
 }
 
-double root_mm(const RootForm& root, const glm::dvec3& p) {
+double root_mm(const RootParameters& root, const glm::dvec3& p) {
   const double t = std::clamp(-p.z / root.length_mm, 0.0, 1.1);
   const glm::dvec2 d = glm::dvec2(p.x, p.y) - rootCentre_mm(root, t);
   glm::dvec2 half_mm = glm::mix(root.neck_half_mm, root.apex_half_mm, std::pow(t, 1.15));
@@ -79,17 +79,17 @@ double root_mm(const RootForm& root, const glm::dvec3& p) {
   return smoothMax(smoothMax(side_mm, end_mm, 2.2), p.z - 1.5, 0.5);
 }
 
-double outerField_mm(const ToothForm& form, const glm::dvec3& p) {
+double outerField_mm(const ToothParameters& form, const glm::dvec3& p) {
   if (p.z < -4.0 && form.roots.size() == 1) return root_mm(form.roots[0], p);
   const double distance_mm = p.z < -4.0 ? 1e3 : crown_mm(form, p);
   if (p.z > 3.5) return distance_mm;
   double roots_mm = 1e3;
-  for (const RootForm& root : form.roots) roots_mm = smoothMin(roots_mm, root_mm(root, p), 1.3);
+  for (const RootParameters& root : form.roots) roots_mm = smoothMin(roots_mm, root_mm(root, p), 1.3);
   return smoothMin(distance_mm, roots_mm, 1.0);
 }
 
 /// Chamber under the crown, horns towards the cusps, canals down the roots.
-double pulpField_mm(const ToothForm& form, const glm::dvec3& p) {
+double pulpField_mm(const ToothParameters& form, const glm::dvec3& p) {
   const double width_mm = form.mesial_mm[1].value, depth_mm = form.buccal_mm[1].value;
   const glm::dvec3 half(0.52 * width_mm * form.pulp, 0.46 * depth_mm * form.pulp, 1.25 * form.pulp);
   const glm::dvec3 q = (p - glm::dvec3(0.0, 0.0, 0.4)) / half;
@@ -98,7 +98,7 @@ double pulpField_mm(const ToothForm& form, const glm::dvec3& p) {
        1.0) *
       std::min({half.x, half.y, half.z});
 
-  for (const CuspForm& cusp : form.cusps) {
+  for (const CuspParameters& cusp : form.cusps) {
     const glm::dvec3 from(0.3 * cusp.tip_mm, 0.6), to(0.66 * cusp.tip_mm, 0.42 * cusp.height_mm);
     const glm::dvec3 edge = to - from;
     const double t = std::clamp(glm::dot(p - from, edge) / glm::dot(edge, edge), 0.0, 1.0);
@@ -106,7 +106,7 @@ double pulpField_mm(const ToothForm& form, const glm::dvec3& p) {
     distance_mm = smoothMin(distance_mm, glm::distance(p, from + t * edge) - radius_mm, 0.6);
   }
 
-  for (const RootForm& root : form.roots) {
+  for (const RootParameters& root : form.roots) {
     const double t = std::clamp(-p.z / root.length_mm, 0.0, 0.985);
     const double spread_mm = root.canals == 2 ? 0.5 * glm::mix(root.neck_half_mm.y, root.apex_half_mm.y, t) : 0.0;
     const double outside_mm = std::max({0.0, -p.z - 0.985 * root.length_mm, p.z});
@@ -124,7 +124,7 @@ double pulpField_mm(const ToothForm& form, const glm::dvec3& p) {
   return distance_mm;
 }
 
-LatticeBox boxOf(const ToothForm& form) {
+LatticeBox boxOf(const ToothParameters& form) {
   const auto widest = [](const std::vector<ProfileKnot>& knots) {
     double value = 0.0;
     for (const ProfileKnot& knot : knots) value = std::max(value, knot.value);
@@ -137,20 +137,20 @@ LatticeBox boxOf(const ToothForm& form) {
 
 }  // namespace
 
-ToothShape::ToothShape(const ToothForm& form)
+ToothShape::ToothShape(const ToothParameters& form)
     : form_(form),
       outer_(boxOf(form), kToothLattice_mm, [&form](const glm::dvec3& p) { return outerField_mm(form, p); }),
       pulp_(boxOf(form), kPulpLattice_mm, [&form](const glm::dvec3& p) { return pulpField_mm(form, p); }) {
   outer_.redistance();
 }
 
-double ToothShape::overCervix_mm(const glm::dvec3& p) const {
+double ToothShape::heightAboveCervix_mm(const glm::dvec3& p) const {
   const double direction_rad = std::atan2(p.y, p.x);
   return p.z - 0.55 * std::cos(2.0 * direction_rad) * smoothStep(0.5, 3.0, std::hypot(p.x, p.y));
 }
 
 double ToothShape::core_mm(const glm::dvec3& p, double outer_mm) const {
-  const double height_mm = overCervix_mm(p);
+  const double height_mm = heightAboveCervix_mm(p);
   static constexpr ProfileKnot kEnamel_mm[] = {{0.0, 0.0}, {0.8, 0.45}, {2.0, 1.0}, {4.0, 1.5}, {5.5, 2.0}, {7.0, 2.3}};
   if (height_mm <= 0.0) return outer_mm;
   return outer_mm + profile(kEnamel_mm, height_mm);
@@ -158,7 +158,7 @@ double ToothShape::core_mm(const glm::dvec3& p, double outer_mm) const {
 
 template <int position>
 static const ToothShape& shapeOnce() {
-  static const ToothShape kShape(lowerToothForm(position));
+  static const ToothShape kShape(lowerToothParameters(position));
   return kShape;
 }
 

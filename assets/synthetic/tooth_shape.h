@@ -5,28 +5,28 @@
 #pragma once
 
 #include "assets/synthetic/distance_lattice.h"
-#include "assets/synthetic/tooth_form.h"
+#include "assets/synthetic/tooth_parameters.h"
 
 namespace assets {
 
 class ToothShape {
  public:
-  explicit ToothShape(const ToothForm& form);
+  explicit ToothShape(const ToothParameters& form);
 
   double outer_mm(const glm::dvec3& p) const { return outer_.at(p); }
-  double outerAtLeast_mm(const glm::dvec3& p) const { return outer_.atLeast_mm(p); }
+  double outerLowerBound_mm(const glm::dvec3& p) const { return outer_.lowerBound_mm(p); }
   /// Dentine and pulp: the tooth without its enamel, given the outer distance at p.
   double core_mm(const glm::dvec3& p, double outer_mm) const;
   double pulp_mm(const glm::dvec3& p) const { return pulp_.at(p); }
   /// Height of p over the cervical line, which dips on the cheek and tongue side and rises between teeth.
-  double overCervix_mm(const glm::dvec3& p) const;
+  double heightAboveCervix_mm(const glm::dvec3& p) const;
 
   std::vector<glm::dvec3> surfacePoints_mm() const { return outer_.surfacePoints_mm(); }
   const LatticeBox& box() const { return outer_.box(); }
-  const ToothForm& form() const { return form_; }
+  const ToothParameters& form() const { return form_; }
 
  private:
-  ToothForm form_;
+  ToothParameters form_;
   DistanceLattice outer_;
   DistanceLattice pulp_;
 };

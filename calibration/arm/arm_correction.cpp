@@ -19,15 +19,15 @@ Pose<Device, Handle> handlePose(const PhantomGeometry& geometry, const ArmCorrec
                                 const RawJoints& raw_rad) {
   const PhantomJoints joints = correctedJoints(correction, raw_rad);
   PhantomGeometry measured = geometry;
-  measured.thigh_mm += correction.thigh_more_mm;
-  measured.shin_mm += correction.shin_more_mm;
+  measured.thigh_mm += correction.thigh_delta_mm;
+  measured.shin_mm += correction.shin_delta_mm;
   Pose<Device, Handle> X_DH = handlePose(measured, joints);
 
   // Only the wrist's place knows reach and tilt: it is turned back out of the turret, moved, and turned in again.
-  if (correction.reach_more_mm == 0.0 && correction.tilt_rad == 0.0) return X_DH;
+  if (correction.reach_delta_mm == 0.0 && correction.tilt_rad == 0.0) return X_DH;
   const double s1 = std::sin(joints.arm_rad.x), c1 = std::cos(joints.arm_rad.x);
   const glm::dvec3 from_shoulder = X_DH.translation_mm - geometry.shoulder_D.mm;
-  const double out_mm = correction.reach_more_mm - s1 * from_shoulder.x + c1 * from_shoulder.z;
+  const double out_mm = correction.reach_delta_mm - s1 * from_shoulder.x + c1 * from_shoulder.z;
   const double across_mm = -std::sin(correction.tilt_rad) * from_shoulder.y;
   const double up_mm = std::cos(correction.tilt_rad) * from_shoulder.y;
   X_DH.translation_mm =

@@ -24,9 +24,9 @@ struct ArmCorrection {
   std::array<double, 6> offset_rad{};
   std::array<double, 6> gain{};  ///< relative
   std::array<double, 3> quadratic_per_rad{};
-  double thigh_more_mm = 0.0, shin_more_mm = 0.0;
+  double thigh_delta_mm = 0.0, shin_delta_mm = 0.0;
   double tilt_rad = 0.0;       ///< of the shoulder's axis against the turret's
-  double reach_more_mm = 0.0;  ///< from the turret's axis to the shoulder's
+  double reach_delta_mm = 0.0;  ///< from the turret's axis to the shoulder's
   glm::dvec3 tip_H_mm = kNominalTip_H_mm;
 };
 
@@ -37,7 +37,7 @@ PhantomJoints correctedJoints(const ArmCorrection& correction, const RawJoints& 
 Pose<Device, Handle> handlePose(const PhantomGeometry& geometry, const ArmCorrection& correction,
                                 const RawJoints& raw_rad);
 
-/// An arm as it was measured, where it stands: all that is needed from sensors to the tip in the surgeon's picture.
+/// An arm as it was measured, where it stands: all that is needed from sensors to the tip in the surgeon's image.
 /// Plain data: a copy is the immutable snapshot that the servo works with.
 struct MeasuredArm {
   PhantomGeometry geometry;

@@ -37,7 +37,7 @@ double turnedInto(const AngleRange& range, double angle_rad) {
 
 }  // namespace
 
-Point<Device> wristPlace(const PhantomGeometry& geometry, const glm::dvec3& arm_rad) {
+Point<Device> wristPosition(const PhantomGeometry& geometry, const glm::dvec3& arm_rad) {
   const Arm a(geometry, arm_rad);
   const glm::dvec3& o = geometry.shoulder_D.mm;
   return {{o.x - a.out_mm * a.s1, o.y + geometry.thigh_mm * a.s2 - geometry.shin_mm * a.c3, o.z + a.out_mm * a.c1}};
@@ -45,7 +45,7 @@ Point<Device> wristPlace(const PhantomGeometry& geometry, const glm::dvec3& arm_
 
 Pose<Device, Handle> handlePose(const PhantomGeometry& geometry, const PhantomJoints& joints) {
   const glm::dvec3& g = joints.wrist_rad;
-  return {armTurn(joints.arm_rad) * aboutY(g.x) * aboutX(-g.y) * aboutZ(-g.z), wristPlace(geometry, joints.arm_rad).mm};
+  return {armTurn(joints.arm_rad) * aboutY(g.x) * aboutX(-g.y) * aboutZ(-g.z), wristPosition(geometry, joints.arm_rad).mm};
 }
 
 glm::dmat3 armJacobian_mm(const PhantomGeometry& geometry, const glm::dvec3& arm_rad) {
@@ -64,7 +64,7 @@ bool withinLimits(const PhantomGeometry& geometry, const glm::dvec3& arm_rad) {
          geometry.arm[2].contains(arm_rad.z) && geometry.elbow.contains(arm_rad.z - arm_rad.y);
 }
 
-std::optional<glm::dvec3> armReaching(const PhantomGeometry& geometry, const Point<Device>& wrist_D) {
+std::optional<glm::dvec3> armAnglesFor(const PhantomGeometry& geometry, const Point<Device>& wrist_D) {
   const double l1 = geometry.thigh_mm, l2 = geometry.shin_mm;
   const glm::dvec3 away = wrist_D.mm - geometry.shoulder_D.mm;
   const double out_mm = std::hypot(away.x, away.z), up_mm = away.y;
@@ -84,16 +84,16 @@ std::optional<glm::dvec3> armReaching(const PhantomGeometry& geometry, const Poi
   return std::nullopt;
 }
 
-glm::dvec3 wristTurnedTo(const glm::dvec3& arm_rad, const glm::dquat& R_DH) {
+glm::dvec3 wristAnglesFor(const glm::dvec3& arm_rad, const glm::dquat& R_DH) {
   // Ry(a) Rx(b) Rz(c), read off its matrix; GLM counts columns first.
   const glm::dmat3 m = glm::mat3_cast(glm::conjugate(armTurn(arm_rad)) * R_DH);
   return {std::atan2(m[2][0], m[2][2]), std::asin(std::clamp(m[2][1], -1.0, 1.0)), -std::atan2(m[0][1], m[1][1])};
 }
 
 std::optional<PhantomJoints> jointsReaching(const PhantomGeometry& geometry, const Pose<Device, Handle>& X_DH) {
-  const auto arm_rad = armReaching(geometry, {X_DH.translation_mm});
+  const auto arm_rad = armAnglesFor(geometry, {X_DH.translation_mm});
   if (!arm_rad) return std::nullopt;
-  const PhantomJoints joints{*arm_rad, wristTurnedTo(*arm_rad, X_DH.rotation)};
+  const PhantomJoints joints{*arm_rad, wristAnglesFor(*arm_rad, X_DH.rotation)};
   for (int axis = 0; axis < 3; ++axis)
     if (!geometry.wrist[static_cast<std::size_t>(axis)].contains(joints.wrist_rad[axis])) return std::nullopt;
   return joints;

@@ -17,9 +17,9 @@
 namespace calibration {
 
 struct AngleRange {
-  double least_rad = -1e3, most_rad = 1e3;
+  double min_rad = -1e3, max_rad = 1e3;
 
-  bool contains(double angle_rad) const { return angle_rad >= least_rad && angle_rad <= most_rad; }
+  bool contains(double angle_rad) const { return angle_rad >= min_rad && angle_rad <= max_rad; }
 };
 
 struct PhantomGeometry {
@@ -35,7 +35,7 @@ struct PhantomJoints {
   glm::dvec3 wrist_rad{0.0};  ///< the gimbal: right +, up -, clockwise +
 };
 
-Point<Device> wristPlace(const PhantomGeometry& geometry, const glm::dvec3& arm_rad);
+Point<Device> wristPosition(const PhantomGeometry& geometry, const glm::dvec3& arm_rad);
 Pose<Device, Handle> handlePose(const PhantomGeometry& geometry, const PhantomJoints& joints);
 
 /// dx = J dq of the arm, mm/rad; columns turret, thigh, shin.
@@ -47,10 +47,10 @@ glm::dvec3 armTorque_Nmm(const PhantomGeometry& geometry, const glm::dvec3& arm_
 bool withinLimits(const PhantomGeometry& geometry, const glm::dvec3& arm_rad);
 
 /// Of the up to four ways to reach a place, turret before or behind and elbow up or down, the one within the limits.
-std::optional<glm::dvec3> armReaching(const PhantomGeometry& geometry, const Point<Device>& wrist_D);
+std::optional<glm::dvec3> armAnglesFor(const PhantomGeometry& geometry, const Point<Device>& wrist_D);
 
 /// The gimbal's angles that turn the handle so, whatever the limits; up and down within a right angle.
-glm::dvec3 wristTurnedTo(const glm::dvec3& arm_rad, const glm::dquat& R_DH);
+glm::dvec3 wristAnglesFor(const glm::dvec3& arm_rad, const glm::dquat& R_DH);
 
 /// None where arm or gimbal would be beyond its limits.
 std::optional<PhantomJoints> jointsReaching(const PhantomGeometry& geometry, const Pose<Device, Handle>& X_DH);

@@ -31,8 +31,8 @@ struct Candidate {
 Candidate candidate(ArmModel model, const TouchAgreement& agreement, const TouchSet& set) {
   Candidate c;
   c.model = model;
-  c.fit = kinematicFit(agreement.start, set.touches, agreement.which, set.precision, numbersOf(model));
-  c.arm = armOf(agreement.start, c.fit.numbers);
+  c.fit = kinematicFit(agreement.start, set.touches, agreement.which, set.precision, parametersOf(model));
+  c.arm = armOf(agreement.start, c.fit.parameters);
   c.fre_rms_mm = rms_mm(c.arm, set.touches, agreement.which);
   c.unseen = crossValidated(agreement.start, set.touches, agreement.which, set.precision, c.fit);
   return c;
@@ -42,13 +42,13 @@ Candidate candidate(ArmModel model, const TouchAgreement& agreement, const Touch
 const Candidate& chosen(const std::vector<Candidate>& candidates, int used, double tilt_spread_deg) {
   std::size_t best = 0;
   for (std::size_t k = 1; k < candidates.size(); ++k) {
-    if (candidates[k].model == ArmModel::full && (used < kFewestForFull || tilt_spread_deg < kLeastTilt_deg)) continue;
+    if (candidates[k].model == ArmModel::full && (used < kMinForFullModel || tilt_spread_deg < kMinTilt_deg)) continue;
     if (std::pow(candidates[best].unseen.relative / candidates[k].unseen.relative, 2) > kSimplerIsPreferred) best = k;
   }
   return candidates[best];
 }
 
-/// What the numbers' uncertainty leaves of the tip if at the same places the stylus were held otherwise.
+/// What the parameters' uncertainty leaves of the tip if at the same places the stylus were held otherwise.
 double unseenTilts_mm(const TouchAgreement& agreement, const TouchSet& set, const KinematicFit& fit) {
   const std::size_t n = fit.fitted.size();
   if (fit.covariance.empty()) return 0.0;
@@ -60,19 +60,19 @@ double unseenTilts_mm(const TouchAgreement& agreement, const TouchSet& set, cons
       RawJoints raw = set.touches[i].joints_rad;
       raw[3] += side * kOtherTilt_rad;
       raw[4] += up * kOtherTilt_rad;
-      const TipSlopes slopes = tipSlopes(agreement.start, fit.numbers, raw);
+      const TipJacobian slopes = tipJacobian(agreement.start, fit.parameters, raw);
       for (std::size_t a = 0; a < n; ++a)
         for (std::size_t b = 0; b < n; ++b)
-          sum += fit.covariance[a * n + b] * glm::dot(slopes.by_number[fit.fitted[a]], slopes.by_number[fit.fitted[b]]);
+          sum += fit.covariance[a * n + b] * glm::dot(slopes.by_parameter[fit.fitted[a]], slopes.by_parameter[fit.fitted[b]]);
       ++count;
     }
   return std::sqrt(sum / count);
 }
 
-/// Root mean square of the residuals that the touches' precision alone would leave after so many numbers.
-double expectedFre_mm(const TouchPrecision& precision, double effective_numbers, std::size_t n) {
+/// Root mean square of the residuals that the touches' precision alone would leave after so many parameters.
+double expectedFre_mm(const TouchPrecision& precision, double effective_parameters, std::size_t n) {
   const glm::dvec3 sigma = touchSigma_mm(precision, 0.0);
-  return std::sqrt(glm::dot(sigma, sigma) * std::max(0.0, 1.0 - effective_numbers / static_cast<double>(3 * n)));
+  return std::sqrt(glm::dot(sigma, sigma) * std::max(0.0, 1.0 - effective_parameters / static_cast<double>(3 * n)));
 }
 
 std::vector<glm::dvec3> targetsOf(const std::vector<Touch>& touches, const Indices& which) {
@@ -130,7 +130,7 @@ ArmFit fitArm(const TouchSet& set, const FitOptions& options) {
   fit.mismatch_mm = best.fit.mismatch_mm;
   fit.iterations = best.fit.iterations;
   fit.sigma.assign(best.fit.sigma.begin(), best.fit.sigma.end());
-  fit.expected_fre_mm = expectedFre_mm(set.precision, best.fit.effective_numbers, which.size());
+  fit.expected_fre_mm = expectedFre_mm(set.precision, best.fit.effective_parameters, which.size());
   describeResiduals(set, which, fit);
 
   const std::vector<glm::dvec3> targets = targetsOf(set.touches, which);

@@ -5,26 +5,26 @@
 namespace calibration {
 
 ArmProblem::ArmProblem(const ArmStart& start, const std::vector<Touch>& touches, std::span<const std::size_t> which,
-                       std::span<const std::size_t> numbers, double cauchy)
-    : start_(start), touches_(touches), which_(which), numbers_(numbers) {
+                       std::span<const std::size_t> parameters, double cauchy)
+    : start_(start), touches_(touches), which_(which), parameters_(parameters) {
   least_squares.residuals = 3 * which.size();
   least_squares.groups.assign(which.size(), {3, cauchy});
-  for (const std::size_t k : numbers) least_squares.priors.push_back({0.0, kArmParameters[k].prior_sigma});
+  for (const std::size_t k : parameters) least_squares.priors.push_back({0.0, kArmParameters[k].prior_sigma});
   least_squares.residuals_at = [this](std::span<const double> x, std::span<double> r) { residuals(x, r); };
   least_squares.jacobian_at = [this](std::span<const double> x, std::span<double> J) { jacobian(x, J); };
 }
 
-LeastSquaresResult ArmProblem::solvedFrom(const ArmNumbers& numbers, const glm::dvec3& sigma_mm) {
+LeastSquaresResult ArmProblem::solvedFrom(const ArmParameters& parameters, const glm::dvec3& sigma_mm) {
   sigma_mm_ = sigma_mm;
   least_squares.start.clear();
-  for (const std::size_t k : numbers_) least_squares.start.push_back(numbers[k]);
+  for (const std::size_t k : parameters_) least_squares.start.push_back(parameters[k]);
   return solved(least_squares);
 }
 
-ArmNumbers ArmProblem::all(std::span<const double> x) const {
-  ArmNumbers numbers{};
-  for (std::size_t i = 0; i < numbers_.size(); ++i) numbers[numbers_[i]] = x[i];
-  return numbers;
+ArmParameters ArmProblem::all(std::span<const double> x) const {
+  ArmParameters parameters{};
+  for (std::size_t i = 0; i < parameters_.size(); ++i) parameters[parameters_[i]] = x[i];
+  return parameters;
 }
 
 void ArmProblem::residuals(std::span<const double> x, std::span<double> r) const {
@@ -37,13 +37,13 @@ void ArmProblem::residuals(std::span<const double> x, std::span<double> r) const
 }
 
 void ArmProblem::jacobian(std::span<const double> x, std::span<double> J) const {
-  const ArmNumbers numbers = all(x);
+  const ArmParameters parameters = all(x);
   for (std::size_t i = 0; i < which_.size(); ++i) {
-    const TipSlopes slopes = tipSlopes(start_, numbers, touches_[which_[i]].joints_rad);
-    for (std::size_t k = 0; k < numbers_.size(); ++k)
+    const TipJacobian slopes = tipJacobian(start_, parameters, touches_[which_[i]].joints_rad);
+    for (std::size_t k = 0; k < parameters_.size(); ++k)
       for (int c = 0; c < 3; ++c)
-        J[(3 * i + static_cast<std::size_t>(c)) * numbers_.size() + k] =
-            slopes.by_number[numbers_[k]][c] / sigma_mm_[c];
+        J[(3 * i + static_cast<std::size_t>(c)) * parameters_.size() + k] =
+            slopes.by_parameter[parameters_[k]][c] / sigma_mm_[c];
   }
 }
 

@@ -1,11 +1,11 @@
-// The touches' least squares of some of an arm's numbers: where the arm has the tip, less where it was. Frame W, mm,
-// rad. Any thread but the servo's. Touches, start and numbers are borrowed.
+// The touches' least squares of some of an arm's parameters: where the arm has the tip, less where it was. Frame W, mm,
+// rad. Any thread but the servo's. Touches, start and parameters are borrowed.
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "calibration/fit/arm_numbers.h"
+#include "calibration/fit/arm_parameters.h"
 #include "calibration/fit/least_squares.h"
 #include "calibration/fit/touches.h"
 
@@ -13,16 +13,16 @@ namespace calibration {
 
 class ArmProblem {
  public:
-  /// Touches at these indices; the numbers (of kArmParameters) under their priors. `cauchy` of a touch, in sigmas.
+  /// Touches at these indices; the parameters (of kArmParameters) under their priors. `cauchy` of a touch, in sigmas.
   ArmProblem(const ArmStart& start, const std::vector<Touch>& touches, std::span<const std::size_t> which,
-             std::span<const std::size_t> numbers, double cauchy);
+             std::span<const std::size_t> parameters, double cauchy);
   ArmProblem(const ArmProblem&) = delete;
   ArmProblem& operator=(const ArmProblem&) = delete;
 
   /// `sigma_mm`: of a touch, an axis of W.
-  LeastSquaresResult solvedFrom(const ArmNumbers& numbers, const glm::dvec3& sigma_mm);
+  LeastSquaresResult solvedFrom(const ArmParameters& parameters, const glm::dvec3& sigma_mm);
   /// Zero those that are not fitted.
-  ArmNumbers all(std::span<const double> x) const;
+  ArmParameters all(std::span<const double> x) const;
 
   LeastSquares least_squares;  ///< priors and limits may be changed before it is solved
 
@@ -32,7 +32,7 @@ class ArmProblem {
 
   const ArmStart& start_;
   const std::vector<Touch>& touches_;
-  std::span<const std::size_t> which_, numbers_;
+  std::span<const std::size_t> which_, parameters_;
   glm::dvec3 sigma_mm_{1.0};
 };
 

@@ -49,7 +49,7 @@ glm::dvec3 overFolds_mm2(const std::vector<Touch>& touches, std::span<const std:
 
 double rootOfSum(const glm::dvec3& squares) { return std::sqrt(squares.x + squares.y + squares.z); }
 
-/// Nominal tips, in W by the start so that the numbers are of one size.
+/// Nominal tips, in W by the start so that the parameters are of one size.
 glm::dvec3 nominalTip_mm(const ArmStart& start, const Touch& touch) {
   return armOf(start, {}).tip_W(touch.joints_rad).mm - start.middle_W.mm;
 }
@@ -82,7 +82,7 @@ CrossValidation crossValidated(const ArmStart& start, const std::vector<Touch>& 
                                std::span<const std::size_t> which, const TouchPrecision& precision,
                                const KinematicFit& whole) {
   const glm::dvec3 squares = overFolds_mm2(touches, which, [&](const Indices& seen, const Indices& asked) {
-    const MeasuredArm arm = armOf(start, kinematicFit(start, touches, seen, precision, whole.fitted, &whole).numbers);
+    const MeasuredArm arm = armOf(start, kinematicFit(start, touches, seen, precision, whole.fitted, &whole).parameters);
     glm::dvec3 sum{0.0};
     for (const std::size_t i : asked) {
       const glm::dvec3 error = arm.tip_W(touches[i].joints_rad).mm - touches[i].target_W.mm;

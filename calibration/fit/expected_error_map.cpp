@@ -28,8 +28,8 @@ ExpectedErrorMap::ExpectedErrorMap(const std::vector<Point<World>>& targets_W, d
   count_ = std::max<double>(1.0, static_cast<double>(places.size()));
 }
 
-double ExpectedErrorMap::at_mm(const Point<World>& place_W) const {
-  const glm::dvec3 shares = fromAxes_mm2(glm::transpose(axes_) * (place_W.mm - middle_mm_)) / spread_mm2_;
+double ExpectedErrorMap::at_mm(const Point<World>& position_W) const {
+  const glm::dvec3 shares = fromAxes_mm2(glm::transpose(axes_) * (position_W.mm - middle_mm_)) / spread_mm2_;
   return fle_mm_ * std::sqrt((1.0 + (shares.x + shares.y + shares.z) / 3.0) / count_);
 }
 

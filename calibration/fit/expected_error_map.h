@@ -15,7 +15,7 @@ class ExpectedErrorMap {
  public:
   /// `fle_mm`: root mean square distance of one touch from where it should be.
   ExpectedErrorMap(const std::vector<Point<World>>& targets_W, double fle_mm);
-  double at_mm(const Point<World>& place_W) const;
+  double at_mm(const Point<World>& position_W) const;
 
  private:
   glm::dvec3 middle_mm_{0.0};

@@ -30,11 +30,11 @@ std::vector<FitWarning> fitWarnings(const FitEvidence& e) {
         {Kind::small_volume, fmt::format("the touches span {:.0f} of the case's {:.0f} cm3: touch further out, "
                                          "outside of them the error grows",
                                          e.hull_mm3 / 1000.0, e.region_mm3 / 1000.0)});
-  if (e.tilt_spread_deg < kLeastTilt_deg)
+  if (e.tilt_spread_deg < kMinTilt_deg)
     warnings.push_back(
         {Kind::little_tilt, fmt::format("the stylus was held much the same way ({:.0f} deg apart, at least {:.0f} "
                                         "are needed): tilt it differently at each touch",
-                                        e.tilt_spread_deg, kLeastTilt_deg)});
+                                        e.tilt_spread_deg, kMinTilt_deg)});
   if (e.unseen_tilts_rms_mm > std::max(kMatters_mm, kOptimistic * e.cv_rms_mm))
     warnings.push_back(
         {Kind::optimistic_check,

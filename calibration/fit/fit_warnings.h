@@ -24,8 +24,8 @@ struct FitWarning {
 };
 
 /// Below these a full model is not chosen by itself, or the technician is told.
-inline constexpr int kFewestForFull = 8, kGoodCount = 16;
-inline constexpr double kLeastTilt_deg = 25.0;
+inline constexpr int kMinForFullModel = 8, kGoodCount = 16;
+inline constexpr double kMinTilt_deg = 25.0;
 
 struct FitEvidence {
   int used = 0, outliers = 0;

@@ -20,9 +20,9 @@ constexpr double kLeastMismatch_mm = 1e-3, kMostMismatch_mm = 10.0;
 /// The most probable mismatch under these errors, of which the fit has taken up a share. On a logarithmic scale, by
 /// golden section: the sum has one valley.
 double probableMismatch_mm(const std::vector<glm::dvec3>& errors_mm, const TouchPrecision& precision,
-                           double effective_numbers) {
+                           double effective_parameters) {
   const double left =
-      kWeightsLeave * std::max(0.1, 1.0 - effective_numbers / static_cast<double>(3 * errors_mm.size()));
+      kWeightsLeave * std::max(0.1, 1.0 - effective_parameters / static_cast<double>(3 * errors_mm.size()));
   const auto unlikely = [&](double log_mm) {
     const glm::dvec3 sigma = touchSigma_mm(precision, std::exp(log_mm));
     double sum = std::pow((log_mm - std::log(kUsualMismatch_mm)) / std::log(kMismatchFactor), 2);
@@ -51,27 +51,27 @@ glm::dvec3 touchSigma_mm(const TouchPrecision& precision, double mismatch_mm) {
 }
 
 KinematicFit kinematicFit(const ArmStart& start, const std::vector<Touch>& touches, std::span<const std::size_t> which,
-                          const TouchPrecision& precision, std::vector<std::size_t> numbers, const KinematicFit* near) {
+                          const TouchPrecision& precision, std::vector<std::size_t> parameters, const KinematicFit* near) {
   KinematicFit fit;
-  fit.fitted = std::move(numbers);
-  if (near) fit.numbers = near->numbers;
+  fit.fitted = std::move(parameters);
+  if (near) fit.parameters = near->parameters;
   fit.mismatch_mm = near ? near->mismatch_mm : 2.0 * kUsualMismatch_mm;
   ArmProblem problem(start, touches, which, fit.fitted, kCauchy);
   LeastSquaresResult result;
-  // The numbers at a mismatch, the mismatch from what they leave.
+  // The parameters at a mismatch, the mismatch from what they leave.
   for (int round = 0; round < kRounds; ++round) {
-    result = problem.solvedFrom(fit.numbers, touchSigma_mm(precision, fit.mismatch_mm));
-    fit.numbers = problem.all(result.numbers);
+    result = problem.solvedFrom(fit.parameters, touchSigma_mm(precision, fit.mismatch_mm));
+    fit.parameters = problem.all(result.parameters);
     fit.iterations += result.iterations;
-    fit.effective_numbers = result.effective_numbers;
+    fit.effective_parameters = result.effective_parameters;
     if (near) break;
-    const MeasuredArm arm = armOf(start, fit.numbers);
+    const MeasuredArm arm = armOf(start, fit.parameters);
     std::vector<glm::dvec3> errors_mm;
     for (std::size_t i = 0; i < which.size(); ++i)
       errors_mm.push_back(std::sqrt(result.weights[i]) *
                           (arm.tip_W(touches[which[i]].joints_rad).mm - touches[which[i]].target_W.mm));
     const double was_mm = fit.mismatch_mm;
-    fit.mismatch_mm = probableMismatch_mm(errors_mm, precision, fit.effective_numbers);
+    fit.mismatch_mm = probableMismatch_mm(errors_mm, precision, fit.effective_parameters);
     if (std::abs(fit.mismatch_mm - was_mm) < kSettled * was_mm) break;
   }
   fit.covariance = result.covariance;

@@ -126,51 +126,51 @@ void describeCertainty(const LeastSquares& problem, const Linearised& at, LeastS
   if (!factor) return;
   const MatrixXd covariance = factor->solve(MatrixXd::Identity(at.curvature().rows(), at.curvature().cols()));
   result.covariance.assign(covariance.data(), covariance.data() + covariance.size());
-  result.effective_numbers = covariance.cwiseProduct(at.information()).sum();
+  result.effective_parameters = covariance.cwiseProduct(at.information()).sum();
 }
 
 }  // namespace
 
 LeastSquaresResult solved(const LeastSquares& problem) {
   LeastSquaresResult result;
-  VectorXd numbers = VectorXd::Map(problem.start.data(), static_cast<Index>(problem.start.size()));
-  result.numbers = problem.start;
+  VectorXd parameters = VectorXd::Map(problem.start.data(), static_cast<Index>(problem.start.size()));
+  result.parameters = problem.start;
   Linearised at(problem);
-  result.cost = at.costAt(numbers);
+  result.cost = at.costAt(parameters);
   if (!std::isfinite(result.cost)) return result;
   const double zero_cost = kNothing * static_cast<double>(problem.residuals + 1);
 
   double damping = kFirstDamping, growth = 2.0;
-  while (result.iterations < problem.most_iterations && !result.converged) {
-    at.linearise(numbers);
+  while (result.iterations < problem.max_iterations && !result.converged) {
+    at.linearise(parameters);
     ++result.iterations;
     // Damping grows until a step is better than where it starts.
     for (bool better = false; !better && !result.converged;) {
       const auto step = dampedStep(at, damping);
       const double gain_promised = step ? promised(at, *step) : 0.0;
-      const double cost = step ? at.costAt(numbers + *step) : result.cost;
+      const double cost = step ? at.costAt(parameters + *step) : result.cost;
       const double gain = result.cost - cost;
       better = std::isfinite(cost) && gain > 0.0;
       if (better) {
         const double kept = gain / std::max(gain_promised, gain * 1e-3);
         damping = std::max(1e-15, damping * std::clamp(1.0 - std::pow(2.0 * kept - 1.0, 3), 1.0 / 3.0, 2.0));
         growth = 2.0;
-        result.converged = gain <= problem.good_enough * result.cost || cost <= zero_cost;
-        numbers += *step;
+        result.converged = gain <= problem.relative_tolerance * result.cost || cost <= zero_cost;
+        parameters += *step;
         result.cost = cost;
       } else {
         // Nothing left to gain, or no step that is any use.
-        result.converged = step && gain_promised <= std::max(problem.good_enough * result.cost, zero_cost);
+        result.converged = step && gain_promised <= std::max(problem.relative_tolerance * result.cost, zero_cost);
         damping *= growth;
         growth *= 2.0;
         if (damping > kLargestDamping) result.converged = true;
       }
     }
   }
-  at.costAt(numbers);
-  at.linearise(numbers);
+  at.costAt(parameters);
+  at.linearise(parameters);
   describeCertainty(problem, at, result);
-  result.numbers.assign(numbers.begin(), numbers.end());
+  result.parameters.assign(parameters.begin(), parameters.end());
   return result;
 }
 

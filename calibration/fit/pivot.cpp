@@ -18,7 +18,7 @@ constexpr double kLeastKnown = 1.5;  ///< sigma of the tip over that of a hold: 
 [[noreturn]] void refuse(const std::string& what) { throw CalibrationError("pivot: " + what); }
 
 void check(const std::vector<RawJoints>& holds_rad) {
-  if (holds_rad.size() < kFewestHolds)
+  if (holds_rad.size() < kMinHolds)
     refuse(fmt::format("{} ways of holding are too few, hold it in 12 or more", holds_rad.size()));
   for (std::size_t i = 0; i < holds_rad.size(); ++i)
     if (std::ranges::any_of(holds_rad[i], [](double angle_rad) { return !std::isfinite(angle_rad); }))
@@ -27,7 +27,7 @@ void check(const std::vector<RawJoints>& holds_rad) {
 
 }  // namespace
 
-Pivot pivoted(const PhantomGeometry& geometry, const ArmCorrection& correction,
+Pivot fitPivot(const PhantomGeometry& geometry, const ArmCorrection& correction,
               const std::vector<RawJoints>& holds_rad) {
   check(holds_rad);
   std::vector<Pose<Device, Handle>> holds;
@@ -38,7 +38,7 @@ Pivot pivoted(const PhantomGeometry& geometry, const ArmCorrection& correction,
   }
   Pivot pivot;
   pivot.tilt_spread_deg = pairSpread_deg(directions);
-  if (pivot.tilt_spread_deg < kLeastSwing_deg)
+  if (pivot.tilt_spread_deg < kMinSwing_deg)
     refuse(fmt::format("the handle was swung by {:.0f} degrees, at least 40 are needed, swing it wider",
                        pivot.tilt_spread_deg));
 
@@ -71,7 +71,7 @@ Pivot pivoted(const PhantomGeometry& geometry, const ArmCorrection& correction,
     sum += std::pow(glm::distance((hold * Point<Handle>{pivot.tip_H_mm}).mm, pivot.pit_D.mm), 2);
   pivot.rms_mm = std::sqrt(sum / n);
   pivot.sigma_mm = least_known * std::sqrt(sum / (3.0 * n - kPivotNumbers));
-  if (!(pivot.rms_mm <= kMostWandering_mm))
+  if (!(pivot.rms_mm <= kMaxPivotRms_mm))
     refuse(fmt::format(
         "the tip wandered by {:.2f} mm, more than 0.3, see that it stays in the pit and the arm is calibrated",
         pivot.rms_mm));

@@ -19,13 +19,13 @@ struct Pivot {
   double sigma_mm = 0.0;         ///< of the tip, along the axis that is known least
 };
 
-inline constexpr std::size_t kFewestHolds = 12;
-inline constexpr double kLeastSwing_deg = 40.0, kMostWandering_mm = 0.3;
+inline constexpr std::size_t kMinHolds = 12;
+inline constexpr double kMinSwing_deg = 40.0, kMaxPivotRms_mm = 0.3;
 
 /// `holds_rad`: one of each way the handle was held. Throws CalibrationError, one line: fewer than 12, not finite,
 /// swung less than 40 degrees or in one plane only, more than 0.3 mm root mean square (it slipped, or the gimbal is
 /// off).
-Pivot pivoted(const PhantomGeometry& geometry, const ArmCorrection& correction,
+Pivot fitPivot(const PhantomGeometry& geometry, const ArmCorrection& correction,
               const std::vector<RawJoints>& holds_rad);
 
 }  // namespace calibration

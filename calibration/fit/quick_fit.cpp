@@ -16,13 +16,13 @@ namespace {
 constexpr std::array<std::size_t, 15> kQuickNumbers = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 20, 21, 22};
 constexpr std::array<double, 15> kSigma = {0.1, 0.1,   0.1,   30.0,  30.0, 30.0, 1.0, 1.0,
                                            1.0, 0.015, 0.015, 0.015, 0.02, 0.02, 0.02};
-constexpr double kMismatch_mm = 0.3;  ///< what so few numbers can not say of an arm, an axis
+constexpr double kMismatch_mm = 0.3;  ///< what so few parameters can not say of an arm, an axis
 constexpr double kCauchy = 3.0;
 constexpr std::size_t kLeastTouches = 4;
 constexpr double kDoubt = 3.0, kLeastDoubt = 4.5;  ///< robust sigmas; and sigmas of a touch, of which it is never less
 
 /// What is left at a touch when it had no say: (I - w J C J^T)^-1 r; each axis over its sigma.
-glm::dvec3 leftOut(const TipSlopes& tip, const std::vector<double>& covariance, const Touch& touch, double weight,
+glm::dvec3 leftOut(const TipJacobian& tip, const std::vector<double>& covariance, const Touch& touch, double weight,
                    const glm::dvec3& sigma_mm) {
   const glm::dvec3 left = (tip.tip_W_mm - touch.target_W.mm) / sigma_mm;
   if (covariance.empty()) return left;
@@ -31,7 +31,7 @@ glm::dvec3 leftOut(const TipSlopes& tip, const std::vector<double>& covariance, 
     for (std::size_t b = 0; b < kQuickNumbers.size(); ++b)
       remains -=
           weight * covariance[a * kQuickNumbers.size() + b] *
-          glm::outerProduct(tip.by_number[kQuickNumbers[a]] / sigma_mm, tip.by_number[kQuickNumbers[b]] / sigma_mm);
+          glm::outerProduct(tip.by_parameter[kQuickNumbers[a]] / sigma_mm, tip.by_parameter[kQuickNumbers[b]] / sigma_mm);
   return glm::determinant(remains) > 1e-9 ? glm::inverse(remains) * left : left;
 }
 
@@ -51,16 +51,16 @@ QuickFit quickFit(const MeasuredArm& start, const TouchSet& set) {
   ArmProblem problem(from, touches, all, kQuickNumbers, kCauchy);
   problem.least_squares.priors.clear();
   for (const double sigma : kSigma) problem.least_squares.priors.push_back({0.0, sigma});
-  problem.least_squares.most_iterations = 20;
+  problem.least_squares.max_iterations = 20;
   const LeastSquaresResult fit = problem.solvedFrom({}, sigma_mm);
-  const ArmNumbers numbers = problem.all(fit.numbers);
-  quick.arm = armOf(from, numbers);
+  const ArmParameters parameters = problem.all(fit.parameters);
+  quick.arm = armOf(from, parameters);
 
   // How far each is from where the others foretell it.
   std::vector<double> errors;
   std::vector<double> left_mm;
   for (std::size_t i = 0; i < touches.size(); ++i) {
-    const TipSlopes tip = tipSlopes(from, numbers, touches[i].joints_rad);
+    const TipJacobian tip = tipJacobian(from, parameters, touches[i].joints_rad);
     const glm::dvec3 left_out =
         leftOut(tip, fit.covariance, touches[i], fit.weights.empty() ? 1.0 : fit.weights[i], sigma_mm);
     quick.left_out_mm[i] = {left_out * sigma_mm};

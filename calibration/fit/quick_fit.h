@@ -1,4 +1,4 @@
-// A first idea of the arm while its touches still come in: pose, offsets of all joints and the tip, 15 numbers under
+// A first idea of the arm while its touches still come in: pose, offsets of all joints and the tip, 15 parameters under
 // wide priors, wild touches without a say; and for each touch the error the others foretell for it (leave-one-out, by
 // the fit's own linear form). To name doubtful touches and to show the tip nearly where it is; what is kept is made by
 // fitArm. Frame W, mm, rad. Any thread but the servo's; allocates; some milliseconds for 27 touches.

@@ -13,7 +13,7 @@ constexpr double kOtherMarks_mm = 3.0;
 
 }  // namespace
 
-RestRegistration restRegistered(const std::vector<MarkTouch>& made_of, const std::vector<MarkTouch>& proved_by) {
+RestRegistration registerRest(const std::vector<MarkTouch>& made_of, const std::vector<MarkTouch>& proved_by) {
   for (const auto* touches : {&made_of, &proved_by})
     for (const MarkTouch& touch : *touches)
       if (!isFinite(touch.mark_mm) || !isFinite(touch.touched_W.mm))
@@ -31,7 +31,7 @@ RestRegistration restRegistered(const std::vector<MarkTouch>& made_of, const std
   const double n = static_cast<double>(made_of.size());
   double sum_mm2 = 0.0, largest_mm = 0.0;
   for (const MarkTouch& touch : made_of) {
-    const double off_mm = glm::length(found.place_W(touch.mark_mm).mm - touch.touched_W.mm);
+    const double off_mm = glm::length(found.position_W(touch.mark_mm).mm - touch.touched_W.mm);
     sum_mm2 += off_mm * off_mm / n;
     largest_mm = std::max(largest_mm, off_mm);
   }
@@ -39,7 +39,7 @@ RestRegistration restRegistered(const std::vector<MarkTouch>& made_of, const std
   if (largest_mm > kOtherMarks_mm)
     throw CalibrationError("hand rest: the touches lie unlike its marks: touch the marks in their order");
   for (const MarkTouch& touch : proved_by)
-    found.worst_mm = std::max(found.worst_mm, glm::length(found.place_W(touch.mark_mm).mm - touch.touched_W.mm));
+    found.worst_mm = std::max(found.worst_mm, glm::length(found.position_W(touch.mark_mm).mm - touch.touched_W.mm));
   return found;
 }
 

@@ -22,12 +22,12 @@ struct RestRegistration {
   double fre_rms_mm = 0.0;  ///< over the marks it was made of
   double worst_mm = 0.0;    ///< over those that prove it
 
-  Point<World> place_W(const glm::dvec3& mark_mm) const { return {rotation * mark_mm + translation_mm}; }
+  Point<World> position_W(const glm::dvec3& mark_mm) const { return {rotation * mark_mm + translation_mm}; }
 };
-inline constexpr double kMostRestError_mm = 2.0;
+inline constexpr double kMaxRestError_mm = 2.0;
 
 /// Throws CalibrationError for fewer than three marks, marks on a line, numbers not finite, or touches that lie unlike
 /// their marks by more than 3 mm: another order, another rest.
-RestRegistration restRegistered(const std::vector<MarkTouch>& made_of, const std::vector<MarkTouch>& proved_by);
+RestRegistration registerRest(const std::vector<MarkTouch>& made_of, const std::vector<MarkTouch>& proved_by);
 
 }  // namespace calibration

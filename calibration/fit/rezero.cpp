@@ -8,7 +8,7 @@
 #include "calibration/fit/arm_problem.h"
 #include "calibration/fit/kinematic_fit.h"
 #include "calibration/fit/touch_checks.h"
-#include "calibration/geometry/turn.h"
+#include "calibration/geometry/rotation.h"
 #include "calibration/geometry/units.h"
 
 namespace calibration {
@@ -71,7 +71,7 @@ MeasuredArm fitted(const MeasuredArm& arm, const Touches& touches, const Indices
                    const TouchPrecision& precision) {
   const ArmStart start{arm.geometry, arm.X_WD, {middleOf_mm(touches)}, arm.correction};
   ArmProblem problem(start, touches, which, kRezeroNumbers, 0.0);
-  return armOf(start, problem.all(problem.solvedFrom({}, touchSigma_mm(precision, kLeft_mm)).numbers));
+  return armOf(start, problem.all(problem.solvedFrom({}, touchSigma_mm(precision, kLeft_mm)).parameters));
 }
 
 /// All but touches that the others contradict, the worst first: so few points forgive a wild one by turning the base,

@@ -1,5 +1,5 @@
 // A calibration brought up to date after the arm was homed anew or its base was moved: three joint offsets and six
-// numbers of the pose, as the most probable values given few touches (nine numbers, five touches, 30 s). Everything
+// parameters of the pose, as the most probable values given few touches (nine parameters, five touches, 30 s). Everything
 // else stays. Frame W; mm, rad. Any thread but the servo's; milliseconds. Source: reference/calibration 4.3.
 #pragma once
 
@@ -17,7 +17,7 @@ struct Rezero {
 };
 
 /// Of five touches one may slip; where more than one did, after_rms_mm says so: above 0.6 mm touch them again.
-/// Throws CalibrationError for fewer than 3 touches, all on a line, the same touch twice, or numbers not finite.
+/// Throws CalibrationError for fewer than 3 touches, all on a line, the same touch twice, or parameters not finite.
 Rezero rezeroed(const MeasuredArm& arm, const TouchSet& touches);
 
 }  // namespace calibration

@@ -29,11 +29,11 @@ std::vector<std::array<std::size_t, kOfFour>> foursOf(std::size_t n) {
           for (std::size_t d = c + 1; d < n; ++d) fours.push_back({a, b, c, d});
     return fours;
   }
-  std::mt19937 chance(11);
+  std::mt19937 rng(11);
   for (int i = 0; i < kTries; ++i) {
     std::array<std::size_t, kOfFour> four{};
     for (std::size_t k = 0; k < kOfFour; ++k) do
-        four[k] = chance() % n;
+        four[k] = rng() % n;
       while (std::find(four.begin(), four.begin() + static_cast<std::ptrdiff_t>(k), four[k]) !=
              four.begin() + static_cast<std::ptrdiff_t>(k));
     fours.push_back(four);
@@ -139,7 +139,7 @@ std::optional<RigidAgreement> rigidAgreement(std::span<const glm::dvec3> from_mm
   for (double limit_mm = least_limit_mm; limit_mm <= most_limit_mm; limit_mm *= kLimitGrowth) {
     RigidAgreement best = agreement.largest(limit_mm);
     if (best.agreeing.size() < needed) continue;
-    // The limit follows the spread of those who agree, so that an untrue arm is no crowd of outliers.
+    // The limit follows the spread of those who agree, so that an perturbed arm is no crowd of outliers.
     for (int round = 0; round < 3; ++round) agreement.refit(best, std::max(limit_mm, 3.0 * best.rms_mm));
     if (best.agreeing.size() >= needed) return best;
   }

@@ -152,7 +152,7 @@ std::optional<TargetPlan> targetPlan(std::string_view method, const JigPose& jig
 Pose<World, Handle> handleHolding(const Target& target, const glm::dvec3& tip_H_mm) {
   // H's z runs from the tip to the handle.
   const glm::dquat turn = turnOfZ(target.stylus_W.xyz);
-  return {turn, target.place_W.mm - turn * tip_H_mm};
+  return {turn, target.position_W.mm - turn * tip_H_mm};
 }
 
 }  // namespace calibration

@@ -14,7 +14,7 @@ namespace calibration {
 
 struct Target {
   int id = 0;
-  Point<World> place_W;
+  Point<World> position_W;
   Vector<World> stylus_W;  ///< unit
 };
 

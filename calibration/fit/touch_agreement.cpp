@@ -80,8 +80,8 @@ RigidAgreement rightHanded(const Places& places, bool& doubtful) {
 
 /// Of an arm fitted to those that agree: everybody it foretells.
 Indices foretold(const TouchAgreement& agreement, const TouchSet& set, const Places& places, ArmModel model) {
-  const KinematicFit fit = kinematicFit(agreement.start, set.touches, agreement.which, set.precision, numbersOf(model));
-  const MeasuredArm arm = armOf(agreement.start, fit.numbers);
+  const KinematicFit fit = kinematicFit(agreement.start, set.touches, agreement.which, set.precision, parametersOf(model));
+  const MeasuredArm arm = armOf(agreement.start, fit.parameters);
   const glm::dvec3 sigma_mm = touchSigma_mm(set.precision, fit.mismatch_mm);
   Indices which;
   for (const std::size_t i : places.index) {
@@ -121,7 +121,7 @@ TouchAgreement touchAgreement(const TouchSet& set) {
   }
   agreement.start = {model.geometry, {glm::normalize(glm::quat_cast(rigid.map.turn)), rigid.map.shift_mm}, {middle_mm}};
 
-  // A finer arm is a finer judge, as far as there are touches enough for it.
+  // A finer arm is a finer assess, as far as there are touches enough for it.
   for (const ArmModel finer : {ArmModel::joint_gains, ArmModel::full}) {
     if (finer == ArmModel::full && places.index.size() < kEnoughForFull) break;
     for (int round = 0; round < kAgreementRounds; ++round) {

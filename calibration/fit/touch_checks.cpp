@@ -69,16 +69,16 @@ void checkTouches(const TouchSet& set) {
   if (extent.spread_mm[1] < kNarrow_mm) refuseTouches("all targets lie on a line, touch some to the sides of it");
 }
 
-void checkUnseen(const TouchSet& fitted, const TouchSet& proof) {
+void checkUnseen(const TouchSet& fitted, const TouchSet& verification) {
   const auto must_agree = [](const std::string& what, const std::string& a, const std::string& b) {
     if (!a.empty() && !b.empty() && a != b)
       refuseTouches("they were made with " + what + " '" + a + "', those to prove them by with '" + b +
                     "', give touches of one device");
   };
-  must_agree("device model", fitted.device_model, proof.device_model);
-  must_agree("serial", fitted.serial, proof.serial);
-  must_agree("mount", fitted.mount, proof.mount);
-  for (const Touch& one : proof.touches)
+  must_agree("device model", fitted.device_model, verification.device_model);
+  must_agree("serial", fitted.serial, verification.serial);
+  must_agree("mount", fitted.mount, verification.mount);
+  for (const Touch& one : verification.touches)
     for (const Touch& seen : fitted.touches)
       if (one.used && seen.used && sameAngles(one.joints_rad, seen.joints_rad))
         refuseTouches("touch " + std::to_string(one.id) + " of the proof is touch " + std::to_string(seen.id) +
@@ -109,10 +109,10 @@ double tiltSpread_deg(const PhantomGeometry& geometry, const std::vector<Touch>&
   return std::min(pairSpread_deg(in_room), pairSpread_deg(against_forearm));
 }
 
-double hullVolume_mm3(const std::vector<glm::dvec3>& places_mm) {
-  if (places_mm.size() < kFewestTouches) return 0.0;
-  if (extentOf(places_mm).spread_mm[2] < kFlatHull_mm) return 0.0;
-  std::vector<glm::dvec3> places = places_mm;
+double hullVolume_mm3(const std::vector<glm::dvec3>& positions_mm) {
+  if (positions_mm.size() < kFewestTouches) return 0.0;
+  if (extentOf(positions_mm).spread_mm[2] < kFlatHull_mm) return 0.0;
+  std::vector<glm::dvec3> places = positions_mm;
   char options[] = "qhull";
   qhT hull;
   qh_zero(&hull, nullptr);
@@ -124,13 +124,13 @@ double hullVolume_mm3(const std::vector<glm::dvec3>& places_mm) {
   return volume_mm3;
 }
 
-Extent extentOf(const std::vector<glm::dvec3>& places_mm) {
+Extent extentOf(const std::vector<glm::dvec3>& positions_mm) {
   Extent extent;
-  if (places_mm.empty()) return extent;
-  const double share = 1.0 / static_cast<double>(places_mm.size());
-  for (const glm::dvec3& p : places_mm) extent.middle_mm += share * p;
+  if (positions_mm.empty()) return extent;
+  const double share = 1.0 / static_cast<double>(positions_mm.size());
+  for (const glm::dvec3& p : positions_mm) extent.middle_mm += share * p;
   glm::dmat3 about_middle(0.0);
-  for (const glm::dvec3& p : places_mm)
+  for (const glm::dvec3& p : positions_mm)
     about_middle += share * glm::outerProduct(p - extent.middle_mm, p - extent.middle_mm);
   // Eigen has the least first.
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> main(Eigen::Matrix3d::Map(glm::value_ptr(about_middle)));

@@ -20,7 +20,7 @@ void checkTouches(const TouchSet& set);
 
 /// Touches prove a fit only if they are of the same device and it has not seen them. Throws CalibrationError, one line
 /// that names what differs (what is not known of one is not compared) or the touch.
-void checkUnseen(const TouchSet& fitted, const TouchSet& proof);
+void checkUnseen(const TouchSet& fitted, const TouchSet& verification);
 
 /// How differently the stylus was held, as an angle that 95 of 100 pairs of its directions are within: the smaller of
 /// that in the room, which tells of the tip, and that against the forearm, which tells of the gimbal.
@@ -31,7 +31,7 @@ double tiltSpread_deg(const PhantomGeometry& geometry, const std::vector<Touch>&
 double pairSpread_deg(const std::vector<glm::dvec3>& directions);
 
 /// Of the convex hull; 0 of what lies in a plane.
-double hullVolume_mm3(const std::vector<glm::dvec3>& places_mm);
+double hullVolume_mm3(const std::vector<glm::dvec3>& positions_mm);
 
 /// Places with no more than this as their least spread lie in a plane.
 inline constexpr double kFlatTargets_mm = 3.0;
@@ -42,6 +42,6 @@ struct Extent {
   glm::dmat3 axes{1.0};
   glm::dvec3 spread_mm{0.0};
 };
-Extent extentOf(const std::vector<glm::dvec3>& places_mm);
+Extent extentOf(const std::vector<glm::dvec3>& positions_mm);
 
 }  // namespace calibration

@@ -9,7 +9,7 @@ namespace {
 
 /// Limits for the value that follows these.
 std::optional<ControlLimits> limitsAfter(std::span<const double> before) {
-  return controlLimits(before.first(std::min(before.size(), kMostBaseline)), kLeastBaseline, kLeastSigma_mm);
+  return controlLimits(before.first(std::min(before.size(), kMaxBaseline)), kMinBaseline, kMinSigma_mm);
 }
 
 std::string sentenceOf(const DriftEntry& entry, DriftQuantity quantity, ControlRule rule, const ControlLimits& limits) {
@@ -20,7 +20,7 @@ std::string sentenceOf(const DriftEntry& entry, DriftQuantity quantity, ControlR
 void review(const std::vector<DriftEntry>& history, DriftQuantity quantity, DriftReview& found) {
   std::vector<double> values_mm, sigmas;
   std::vector<ControlLimits> limits;
-  for (const std::size_t entry : found.judged) {
+  for (const std::size_t entry : found.charted) {
     const double value_mm = valueOf_mm(history[entry], quantity);
     if (const auto known = limitsAfter(values_mm)) {
       limits.push_back(*known);
@@ -32,18 +32,18 @@ void review(const std::vector<DriftEntry>& history, DriftQuantity quantity, Drif
   const std::size_t unjudged = values_mm.size() - sigmas.size();
   for (const ControlAlarm& alarm : controlAlarms(sigmas)) {
     if (quantity == DriftQuantity::rms && !alarm.above) continue;
-    const std::size_t entry = found.judged[unjudged + alarm.at];
+    const std::size_t entry = found.charted[unjudged + alarm.at];
     found.alarms.push_back(
         {entry, quantity, alarm.rule, sentenceOf(history[entry], quantity, alarm.rule, limits[alarm.at])});
   }
 }
 
 std::string standing(const std::vector<DriftEntry>& history, const DriftReview& found) {
-  if (found.judged.empty())
+  if (found.charted.empty())
     return history.empty() ? "No check was made yet: make one after every homing."
                            : "No check was made since the last calibration: make one after every homing.";
   if (!found.limits[0])
-    return std::to_string(found.judged.size()) + " of the " + std::to_string(kLeastBaseline) +
+    return std::to_string(found.charted.size()) + " of the " + std::to_string(kMinBaseline) +
            " checks that limits are made of.";
   if (!found.alarmed) return "Steady: the newest check is as those before it.";
   return "Not steady: " + found.alarms.back().sentence +
@@ -68,13 +68,13 @@ DriftReview reviewOf(const std::vector<DriftEntry>& history) {
   // A calibration begins anew.
   for (std::size_t i = 0; i < history.size(); ++i) {
     if (history[i].kind == DriftKind::calibration)
-      found.judged.clear();
+      found.charted.clear();
     else
-      found.judged.push_back(i);
+      found.charted.push_back(i);
   }
   for (const DriftQuantity quantity : kDriftQuantities) review(history, quantity, found);
   std::ranges::stable_sort(found.alarms, {}, &DriftAlarm::entry);
-  found.alarmed = !found.alarms.empty() && found.alarms.back().entry == found.judged.back();
+  found.alarmed = !found.alarms.empty() && found.alarms.back().entry == found.charted.back();
   found.sentence = standing(history, found);
   return found;
 }

@@ -1,5 +1,5 @@
 // What the history of a place says: whether the arm still stands where its calibration found it. Four charts, RMS and
-// the bias along each axis of W, over the checks and re-zeros since the last calibration; each value is judged by those
+// the bias along each axis of W, over the checks and re-zeros since the last calibration; each value is charted by those
 // before it, by the first twenty at most. A small RMS is no alarm. mm. Pure; any thread.
 // Source of the rules: control_chart.h; that they be used: reference/calibration 4.3.
 #pragma once
@@ -14,9 +14,9 @@
 
 namespace calibration {
 
-inline constexpr std::size_t kLeastBaseline = 8, kMostBaseline = 20;
+inline constexpr std::size_t kMinBaseline = 8, kMaxBaseline = 20;
 /// An encoder's step at the tip (reference/calibration 1.2): no check repeats more finely.
-inline constexpr double kLeastSigma_mm = 0.055;
+inline constexpr double kMinSigma_mm = 0.055;
 
 enum class DriftQuantity { rms, right, up, nearer };
 inline constexpr std::array kDriftQuantities = {DriftQuantity::rms, DriftQuantity::right, DriftQuantity::up,
@@ -32,8 +32,8 @@ struct DriftAlarm {
 };
 
 struct DriftReview {
-  std::vector<std::size_t> judged;                     ///< entries on the charts, oldest first
-  std::array<std::optional<ControlLimits>, 4> limits;  ///< by DriftQuantity; as the next check will be judged
+  std::vector<std::size_t> charted;                     ///< entries on the charts, oldest first
+  std::array<std::optional<ControlLimits>, 4> limits;  ///< by DriftQuantity; as the next check will be charted
   std::vector<DriftAlarm> alarms;                      ///< oldest first
   std::string sentence;                                ///< how it stands now, and what to do
   bool alarmed = false;                                ///< the newest entry has an alarm

@@ -17,14 +17,14 @@ RigRecord withLaterCheck(RigRecord record, const std::vector<DriftEntry>& histor
   errors.n = last->n;
   errors.mean_mm = errors.rms_mm = errors.p95_mm = errors.max_mm = last->rms_mm;
   errors.bias_mm = last->bias_mm;
-  const Verdict verdict = judge(errors, ProofKind::session_check).verdict;
-  if (record.proof && verdict <= record.proof->verdict) return record;
-  RigProof proof;
-  proof.errors = errors;
-  proof.kind = ProofKind::session_check;
-  proof.verdict = verdict;
-  proof.checked_utc = last->utc;
-  record.proof = proof;
+  const Verdict verdict = assess(errors, VerificationKind::session_check).verdict;
+  if (record.verification && verdict <= record.verification->verdict) return record;
+  RigVerification verification;
+  verification.errors = errors;
+  verification.kind = VerificationKind::session_check;
+  verification.verdict = verdict;
+  verification.checked_utc = last->utc;
+  record.verification = verification;
   return record;
 }
 

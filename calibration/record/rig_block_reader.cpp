@@ -127,7 +127,7 @@ std::array<double, n> overBase(const CheckedYaml& yaml, const cv::FileNode& node
 
 ArmCorrection correctionIn(const CheckedYaml& yaml, const PhantomGeometry& geometry) {
   const cv::FileNode node = yaml.map(yaml.root(), "kinematics");
-  if (yaml.text(node, "model") != kKinematicsWord)
+  if (yaml.text(node, "model") != kKinematicsKind)
     yaml.refuse("'kinematics.model' is not phantom6_v1", "update the program or calibrate again");
   ArmCorrection correction;
   correction.offset_rad = smallNumbers<6>(yaml, node, "m", kMostOffset_rad, "30 degrees");
@@ -135,10 +135,10 @@ ArmCorrection correctionIn(const CheckedYaml& yaml, const PhantomGeometry& geome
   correction.quadratic_per_rad = smallNumbers<3>(yaml, node, "q", kMostQuadratic_per_rad, "0.1 a radian");
   const auto more_mm =
       overBase<2>(yaml, node, "l", "more_mm", {geometry.thigh_mm, geometry.shin_mm}, kMostLength_mm, "20 mm");
-  correction.thigh_more_mm = more_mm[0];
-  correction.shin_more_mm = more_mm[1];
+  correction.thigh_delta_mm = more_mm[0];
+  correction.shin_delta_mm = more_mm[1];
   correction.tilt_rad = smallNumber(yaml, node, "tilt", kMostTilt_rad, "10 degrees");
-  correction.reach_more_mm = smallNumber(yaml, node, "a1", kMostLength_mm, "20 mm");
+  correction.reach_delta_mm = smallNumber(yaml, node, "a1", kMostLength_mm, "20 mm");
   correction.tip_H_mm = yaml.vector(node, "tip");
   if (glm::length(correction.tip_H_mm) > kMostTip_mm)
     yaml.refuse("'kinematics.tip' is more than 250 mm from the gimbal", "give the tip in H, in mm");

@@ -10,7 +10,7 @@
 namespace calibration {
 
 /// How the arm is computed from its numbers; a file of another kind of arm has another word.
-inline constexpr std::string_view kKinematicsWord = "phantom6_v1";
+inline constexpr std::string_view kKinematicsKind = "phantom6_v1";
 
 /// Hand-typed matrices are rounded; measured ones are not.
 inline constexpr double kTypedRotationTolerance = 1e-3, kMeasuredRotationTolerance = 1e-6;

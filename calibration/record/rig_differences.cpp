@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "calibration/geometry/turn.h"
+#include "calibration/geometry/rotation.h"
 #include "calibration/geometry/units.h"
 
 namespace calibration {
@@ -106,10 +106,10 @@ void compareArm(Lines& lines, const Rig& before, const Rig& after) {
   for (std::size_t i = 0; i < 3; ++i)
     lines.number(std::string("quadratic term of ") + kJoints[i], a.quadratic_per_rad[i], b.quadratic_per_rad[i], 5,
                  "per rad");
-  lines.number("thigh, longer by", a.thigh_more_mm, b.thigh_more_mm, 3, "mm");
-  lines.number("shin, longer by", a.shin_more_mm, b.shin_more_mm, 3, "mm");
+  lines.number("thigh, longer by", a.thigh_delta_mm, b.thigh_delta_mm, 3, "mm");
+  lines.number("shin, longer by", a.shin_delta_mm, b.shin_delta_mm, 3, "mm");
   lines.number("tilt of the shoulder", degreesFromRad(a.tilt_rad), degreesFromRad(b.tilt_rad), 3, "\u00b0");
-  lines.number("reach, longer by", a.reach_more_mm, b.reach_more_mm, 3, "mm");
+  lines.number("reach, longer by", a.reach_delta_mm, b.reach_delta_mm, 3, "mm");
   lines.place("tip in the handle", a.tip_H_mm, b.tip_H_mm);
 }
 
@@ -131,12 +131,12 @@ void compareKnowledge(Lines& lines, const RigRecord& before, const RigRecord& af
     lines.number("cross-validated error, RMS", before.procedure->cv_rms_mm, after.procedure->cv_rms_mm, 2, "mm");
   }
   const auto verdict = [](const RigRecord& r) {
-    return r.proof ? std::string(nameOf(r.proof->verdict)) : std::string();
+    return r.verification ? std::string(nameOf(r.verification->verdict)) : std::string();
   };
   lines.text("verdict", verdict(before), verdict(after));
-  if (before.proof && after.proof) {
-    lines.number("error on held-out touches, RMS", before.proof->errors.rms_mm, after.proof->errors.rms_mm, 2, "mm");
-    lines.number("error on held-out touches, largest", before.proof->errors.max_mm, after.proof->errors.max_mm, 2,
+  if (before.verification && after.verification) {
+    lines.number("error on held-out touches, RMS", before.verification->errors.rms_mm, after.verification->errors.rms_mm, 2, "mm");
+    lines.number("error on held-out touches, largest", before.verification->errors.max_mm, after.verification->errors.max_mm, 2,
                  "mm");
   }
 }

@@ -4,7 +4,7 @@
 
 #include "calibration/checked_yaml.h"
 #include "calibration/record/rig_block_reader.h"
-#include "calibration/record/rig_knowledge_reader.h"
+#include "calibration/record/rig_metadata_reader.h"
 #include "calibration/record/sha256.h"
 
 namespace calibration {
@@ -47,7 +47,7 @@ RigRecord readRigRecord(const std::string& path) {
   record.hash = sealOf(yaml);
   const double tolerance = record.hash.empty() ? kTypedRotationTolerance : kMeasuredRotationTolerance;
   record.rig = rigIn(yaml, tolerance);
-  readKnowledge(yaml, tolerance, record);
+  readMetadata(yaml, tolerance, record);
   return record;
 }
 

@@ -83,15 +83,15 @@ void writeKinematics(RigYaml& yaml, const ArmCorrection& arm, const PhantomGeome
   std::array<double, 6> k = arm.gain;
   for (double& v : k) v += 1.0;
   yaml.open("kinematics");
-  yaml.word("model", kKinematicsWord);
-  yaml.list("l", std::array{geometry.thigh_mm + arm.thigh_more_mm, geometry.shin_mm + arm.shin_more_mm});
-  yaml.list("more_mm", std::array{arm.thigh_more_mm, arm.shin_more_mm});
+  yaml.word("model", kKinematicsKind);
+  yaml.list("l", std::array{geometry.thigh_mm + arm.thigh_delta_mm, geometry.shin_mm + arm.shin_delta_mm});
+  yaml.list("more_mm", std::array{arm.thigh_delta_mm, arm.shin_delta_mm});
   yaml.list("m", arm.offset_rad);
   yaml.list("k", k);
   yaml.list("gain", arm.gain);
   yaml.list("q", arm.quadratic_per_rad);
   yaml.put("tilt", arm.tilt_rad);
-  yaml.put("a1", arm.reach_more_mm);
+  yaml.put("a1", arm.reach_delta_mm);
   yaml.vector("tip", arm.tip_H_mm);
   if (!sigma.empty()) yaml.list("sigma", sigma);
   yaml.close();
@@ -141,21 +141,21 @@ void writeResiduals(RigYaml& yaml, const std::vector<Residual>& residuals) {
   yaml.raw() << "]";
 }
 
-void writeProof(RigYaml& yaml, const RigProof& proof) {
+void writeProof(RigYaml& yaml, const RigVerification& verification) {
   yaml.open("verify");
-  yaml.put("n", proof.errors.n);
-  yaml.put("tre_mean", proof.errors.mean_mm);
-  yaml.put("tre_rms", proof.errors.rms_mm);
-  yaml.put("tre_p95", proof.errors.p95_mm);
-  yaml.put("tre_max", proof.errors.max_mm);
-  yaml.vector("bias", proof.errors.bias_mm.xyz);
-  yaml.put("in_plane_rms", proof.errors.in_plane_rms_mm);
-  yaml.put("along_sight_rms", proof.errors.along_sight_rms_mm);
-  yaml.word("kind", nameOf(proof.kind));
-  yaml.word("verdict", nameOf(proof.verdict));
-  if (!proof.checked_utc.empty()) yaml.put("checked_utc", proof.checked_utc);
-  if (!proof.worst.empty()) yaml.put("worst", proof.worst);
-  if (!proof.residuals.empty()) writeResiduals(yaml, proof.residuals);
+  yaml.put("n", verification.errors.n);
+  yaml.put("tre_mean", verification.errors.mean_mm);
+  yaml.put("tre_rms", verification.errors.rms_mm);
+  yaml.put("tre_p95", verification.errors.p95_mm);
+  yaml.put("tre_max", verification.errors.max_mm);
+  yaml.vector("bias", verification.errors.bias_mm.xyz);
+  yaml.put("in_plane_rms", verification.errors.in_plane_rms_mm);
+  yaml.put("along_sight_rms", verification.errors.along_sight_rms_mm);
+  yaml.word("kind", nameOf(verification.kind));
+  yaml.word("verdict", nameOf(verification.verdict));
+  if (!verification.checked_utc.empty()) yaml.put("checked_utc", verification.checked_utc);
+  if (!verification.worst.empty()) yaml.put("worst", verification.worst);
+  if (!verification.residuals.empty()) writeResiduals(yaml, verification.residuals);
   yaml.close();
 }
 
@@ -180,7 +180,7 @@ std::string rigRecordText(const RigRecord& record) {
     writeKinematics(yaml, *record.rig.arm, model->geometry, record.sigma);
   }
   if (record.procedure) writeProcedure(yaml, *record.procedure);
-  if (record.proof) writeProof(yaml, *record.proof);
+  if (record.verification) writeProof(yaml, *record.verification);
   if (!record.residuals.empty()) writeResiduals(yaml, record.residuals);
   if (record.rest) {
     yaml.open("rest");

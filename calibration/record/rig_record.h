@@ -35,12 +35,12 @@ struct RigProcedure {
 };
 
 /// How good it is, on touches it has not seen.
-struct RigProof {
+struct RigVerification {
   TargetErrors errors;
-  ProofKind kind = ProofKind::full;
+  VerificationKind kind = VerificationKind::full;
   Verdict verdict = Verdict::red;
   std::string checked_utc{};
-  std::string worst{};                ///< where it is worst, as worstPlaceSentence says it
+  std::string worst{};                ///< where it is worst, as worstErrorSentence says it
   std::vector<Residual> residuals{};  ///< of the touches that were held out
 };
 
@@ -49,7 +49,7 @@ struct RigRecord {
   RigProvenance provenance;
   double eye_sd_mm = 5.0;  ///< how far the head wanders, one sigma an axis: tracked 2, chin rest 5, seated 15
   std::optional<RigProcedure> procedure;
-  std::optional<RigProof> proof;
+  std::optional<RigVerification> verification;
   std::vector<Residual> residuals;  ///< of the fit
   std::optional<RestRegistration> rest;
   std::vector<double> sigma;  ///< of the fit's numbers, as ArmFit has them; empty: not known

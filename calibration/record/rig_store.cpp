@@ -89,15 +89,15 @@ const std::string& checkedFileName(const std::string& name) {
   return name;
 }
 
-/// Empty: it is of this place.
-std::string whyNotOf(const RigRecord& record, const RigPlace& place) {
+/// Empty: it is of this location.
+std::string whyNotOf(const RigRecord& record, const RigLocation& location) {
   if (!record.rig.device) return "it was measured with no device";
-  if (record.rig.device->serial != place.serial)
-    return "it was measured with serial " + shown(record.rig.device->serial) + ", not " + shown(place.serial);
-  if (record.rig.device->mount != place.mount)
-    return "it was measured at mount " + shown(record.rig.device->mount) + ", not " + shown(place.mount);
-  if (!record.provenance.rig_id.empty() && record.provenance.rig_id != place.rig_id)
-    return "it was measured at rig " + shown(record.provenance.rig_id) + ", not " + shown(place.rig_id);
+  if (record.rig.device->serial != location.serial)
+    return "it was measured with serial " + shown(record.rig.device->serial) + ", not " + shown(location.serial);
+  if (record.rig.device->mount != location.mount)
+    return "it was measured at mount " + shown(record.rig.device->mount) + ", not " + shown(location.mount);
+  if (!record.provenance.rig_id.empty() && record.provenance.rig_id != location.rig_id)
+    return "it was measured at rig " + shown(record.provenance.rig_id) + ", not " + shown(location.rig_id);
   return "";
 }
 
@@ -134,31 +134,31 @@ fs::path RigStore::usualRoot() {
   throw CalibrationError("rig store: no place for calibrations is known, set MOLAR_CALIBRATION to a folder");
 }
 
-fs::path RigStore::folderOf(const RigPlace& place) const {
-  return root_ / checkedName(place.rig_id, "rig") / serialFolder(place.serial) / checkedName(place.mount, "mount");
+fs::path RigStore::folderOf(const RigLocation& location) const {
+  return root_ / checkedName(location.rig_id, "rig") / serialFolder(location.serial) / checkedName(location.mount, "mount");
 }
 
-std::vector<RigPlace> RigStore::places() const {
-  std::vector<RigPlace> found;
+std::vector<RigLocation> RigStore::locations() const {
+  std::vector<RigLocation> found;
   for (const fs::path& rig : foldersIn(root_))
     for (const fs::path& serial : foldersIn(rig))
       for (const fs::path& mount : foldersIn(serial)) {
-        RigPlace place{rig.filename().string(), serial.filename().string(), mount.filename().string()};
-        if (place.serial == kUnknownSerial) place.serial.clear();
-        const std::vector<std::string> files = names(place);
+        RigLocation location{rig.filename().string(), serial.filename().string(), mount.filename().string()};
+        if (location.serial == kUnknownSerial) location.serial.clear();
+        const std::vector<std::string> files = names(location);
         if (files.empty()) continue;
         // A folder's name can not hold every serial: the files know it.
         if (const auto record = readable(mount / files.back()); record && record->rig.device)
-          place.serial = record->rig.device->serial;
-        found.push_back(place);
+          location.serial = record->rig.device->serial;
+        found.push_back(location);
       }
   return found;
 }
 
-std::vector<std::string> RigStore::names(const RigPlace& place) const {
+std::vector<std::string> RigStore::names(const RigLocation& location) const {
   std::vector<FileName> found;
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folderOf(place), error))
+  for (const auto& entry : fs::directory_iterator(folderOf(location), error))
     if (const auto name = fileNameIn(entry.path().filename().string()); name && entry.is_regular_file(error))
       found.push_back(*name);
   std::ranges::sort(found, {}, &FileName::order);
@@ -167,14 +167,14 @@ std::vector<std::string> RigStore::names(const RigPlace& place) const {
   return texts;
 }
 
-fs::path RigStore::pathOf(const RigPlace& place, const std::string& name) const {
-  return folderOf(place) / checkedFileName(name);
+fs::path RigStore::pathOf(const RigLocation& location, const std::string& name) const {
+  return folderOf(location) / checkedFileName(name);
 }
 
-fs::path RigStore::historyPath(const RigPlace& place) const { return folderOf(place) / "history.csv"; }
+fs::path RigStore::historyPath(const RigLocation& location) const { return folderOf(location) / "history.csv"; }
 
-std::optional<std::string> RigStore::currentName(const RigPlace& place) const {
-  const fs::path path = folderOf(place) / "current";
+std::optional<std::string> RigStore::currentName(const RigLocation& location) const {
+  const fs::path path = folderOf(location) / "current";
   std::ifstream in(path);
   if (!in) return std::nullopt;
   std::string name;
@@ -184,22 +184,22 @@ std::optional<std::string> RigStore::currentName(const RigPlace& place) const {
   return name;
 }
 
-std::optional<RigRecord> RigStore::current(const RigPlace& place) const {
-  const auto name = currentName(place);
+std::optional<RigRecord> RigStore::current(const RigLocation& location) const {
+  const auto name = currentName(location);
   if (!name) return std::nullopt;
-  const fs::path path = pathOf(place, *name);
+  const fs::path path = pathOf(location, *name);
   RigRecord record = readRigRecord(path.string());
-  if (const std::string why = whyNotOf(record, place); !why.empty())
+  if (const std::string why = whyNotOf(record, location); !why.empty())
     throw CalibrationError("rig file " + path.string() + ": " + why + ", calibrate this device");
   return record;
 }
 
-fs::path RigStore::keep(const RigPlace& place, const RigRecord& record, const std::string& touches_text,
+fs::path RigStore::keep(const RigLocation& location, const RigRecord& record, const std::string& touches_text,
                         bool make_current) {
-  const fs::path folder = folderOf(place);
+  const fs::path folder = folderOf(location);
   const auto seconds = secondsOfUtc(record.provenance.created_utc);
   if (!seconds) throw CalibrationError("rig store: a rig without its time (created_utc) can not be kept, give it");
-  if (const std::string why = whyNotOf(record, place); !why.empty())
+  if (const std::string why = whyNotOf(record, location); !why.empty())
     throw CalibrationError("rig store: " + why + ", keep it where it belongs");
   makeFolder(folder);
   const FolderLock lock(folder);
@@ -207,7 +207,7 @@ fs::path RigStore::keep(const RigPlace& place, const RigRecord& record, const st
 
   // What it follows upon, so that rolling back finds the way whatever the clock did.
   RigRecord kept = record;
-  if (const auto before = nameInForce(place); before && kept.provenance.parent.empty())
+  if (const auto before = nameInForce(location); before && kept.provenance.parent.empty())
     if (const auto old = readable(folder / *before)) kept.provenance.parent = old->hash;
 
   FileName name{*seconds, 1};
@@ -236,27 +236,27 @@ fs::path RigStore::keep(const RigPlace& place, const RigRecord& record, const st
   return folder / (name.stem() + kEnding);
 }
 
-std::optional<std::string> RigStore::nameInForce(const RigPlace& place) const {
+std::optional<std::string> RigStore::nameInForce(const RigLocation& location) const {
   try {
-    const auto name = currentName(place);
-    if (name && fs::exists(pathOf(place, *name))) return name;
+    const auto name = currentName(location);
+    if (name && fs::exists(pathOf(location, *name))) return name;
   } catch (const CalibrationError&) {
     // A spoilt pointer is none.
   }
   return std::nullopt;
 }
 
-std::string RigStore::rollBack(const RigPlace& place) {
-  const fs::path folder = folderOf(place);
+std::string RigStore::rollBack(const RigLocation& location) {
+  const fs::path folder = folderOf(location);
   const CalibrationError none("rig store: " + folder.string() + " has no rig before this one, calibrate again");
-  if (names(place).empty()) throw none;
+  if (names(location).empty()) throw none;
   const FolderLock lock(folder);
   removeLeftovers(folder);
-  const std::vector<std::string> files = names(place);
+  const std::vector<std::string> files = names(location);
 
   // The one it was made after, by hash; else by time; and where nothing is in force, the newest.
   std::string before = files.back();
-  if (const auto now = nameInForce(place)) {
+  if (const auto now = nameInForce(location)) {
     const auto at = std::ranges::find(files, *now);
     const auto record = readable(folder / *now);
     const auto parent = std::ranges::find_if(files, [&](const std::string& name) {
@@ -268,13 +268,13 @@ std::string RigStore::rollBack(const RigPlace& place) {
     before = parent != files.end() ? *parent : *(at - 1);
   }
   const RigRecord old = readRigRecord((folder / before).string());
-  if (const std::string why = whyNotOf(old, place); !why.empty())
+  if (const std::string why = whyNotOf(old, location); !why.empty())
     throw CalibrationError("rig file " + (folder / before).string() + ": " + why + ", calibrate again");
   OutputFile(folder / "current", true).commit(before + "\n");
   return before;
 }
 
-std::string whyNotFor(const RigRecord& record, const std::string& device_model, const std::string& serial,
+std::string mismatchWith(const RigRecord& record, const std::string& device_model, const std::string& serial,
                       const std::string& mount) {
   if (!record.rig.device) return "";
   const RigDevice& measured = *record.rig.device;

@@ -16,7 +16,7 @@ double tangentInside(double sine, double refractive_index) {
   return sine / std::sqrt(refractive_index * refractive_index - sine * sine);
 }
 
-Bend bendOf(const GlassPlate& plate, const Sight& sight) {
+Bend bendOf(const GlassPlate& plate, const Ray& sight) {
   const double into = glm::dot(sight.along_W.xyz, plate.face.normal);
   const glm::dvec3 sideways = sight.along_W.xyz - into * plate.face.normal;
   const double sine = glm::length(sideways), cosine = std::max(std::abs(into), 1e-9);
@@ -35,21 +35,21 @@ double ghostSpacing_mm(const GlassPlate& plate, double angle_rad) {
   return 2.0 * plate.thickness_mm * tangentInside(std::sin(angle_rad), plate.refractive_index) * std::cos(angle_rad);
 }
 
-Sight seenThrough(const GlassPlate& plate, const Sight& sight) {
+Ray seenThrough(const GlassPlate& plate, const Ray& sight) {
   const Bend bend = bendOf(plate, sight);
   const double moved_mm = plate.thickness_mm * (bend.tan_inside - bend.tan_outside);
   return {{sight.from_W.mm + moved_mm * bend.along_face}, sight.along_W};
 }
 
-Sight mirrored(const Plane<World>& face, const Sight& sight) {
+Ray mirrored(const Plane<World>& face, const Ray& sight) {
   const double into = glm::dot(sight.along_W.xyz, face.normal);
   const double way_mm = -face.distance_mm(sight.from_W) / (std::abs(into) < 1e-12 ? 1e-12 : into);
   return {{sight.from_W.mm + way_mm * sight.along_W.xyz}, {sight.along_W.xyz - 2.0 * into * face.normal}};
 }
 
-Sight mirroredByFarFace(const GlassPlate& plate, const Sight& sight) {
+Ray mirroredByFarFace(const GlassPlate& plate, const Ray& sight) {
   const Bend bend = bendOf(plate, sight);
-  Sight out = mirrored(plate.face, sight);
+  Ray out = mirrored(plate.face, sight);
   out.from_W.mm += 2.0 * plate.thickness_mm * bend.tan_inside * bend.along_face;
   return out;
 }

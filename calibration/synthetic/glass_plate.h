@@ -15,7 +15,7 @@ struct GlassPlate {
   double refractive_index = 1.52;
 };
 
-struct Sight {
+struct Ray {
   Point<World> from_W;
   Vector<World> along_W;  ///< unit
 };
@@ -24,14 +24,14 @@ struct Sight {
 /// moved sideways behind it.
 double plateShift_mm(const GlassPlate& plate, double angle_rad);
 
-/// How far apart, across the line of sight, the two pictures stand that front and far face mirror.
+/// How far apart, across the line of sight, the two images stand that front and far face mirror.
 double ghostSpacing_mm(const GlassPlate& plate, double angle_rad);
 
 /// The same line as it goes on behind the plate.
-Sight seenThrough(const GlassPlate& plate, const Sight& sight);
+Ray seenThrough(const GlassPlate& plate, const Ray& sight);
 
 /// The same line after the mirroring face, or after the far face and out again.
-Sight mirrored(const Plane<World>& face, const Sight& sight);
-Sight mirroredByFarFace(const GlassPlate& plate, const Sight& sight);
+Ray mirrored(const Plane<World>& face, const Ray& sight);
+Ray mirroredByFarFace(const GlassPlate& plate, const Ray& sight);
 
 }  // namespace calibration

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "calibration/arm/phantom_models.h"
-#include "calibration/chance.h"
-#include "calibration/geometry/turn.h"
+#include "calibration/random.h"
+#include "calibration/geometry/rotation.h"
 
 namespace calibration {
 namespace {
@@ -52,47 +52,47 @@ constexpr double kHeldOutTilt_rad = 0.5;
 constexpr double kOtherHold_mm = 5.0;
 constexpr int kTries = 60;
 
-UntrueArm drawnArm(const ErrorSizes& sizes, std::mt19937& chance) {
-  UntrueArm arm;
+PerturbedArm drawnArm(const ErrorSizes& sizes, std::mt19937& rng) {
+  PerturbedArm arm;
   arm.geometry = kOmniGeometry;
   ArmCorrection& truth = arm.truth;
-  truth.thigh_more_mm = gaussian(chance, sizes.link_mm);
-  truth.shin_more_mm = gaussian(chance, sizes.link_mm);
+  truth.thigh_delta_mm = gaussian(rng, sizes.link_mm);
+  truth.shin_delta_mm = gaussian(rng, sizes.link_mm);
   for (std::size_t i = 0; i < 3; ++i) {
-    truth.offset_rad[i] = gaussian(chance, radFromDegrees(sizes.offset_deg));
-    truth.gain[i] = gaussian(chance, sizes.gain);
-    arm.ripple[i] = {radFromDegrees(sizes.cyclic_deg), evenly(chance, 8.0, 25.0), evenly(chance, 0.0, 2.0 * kPi)};
+    truth.offset_rad[i] = gaussian(rng, radFromDegrees(sizes.offset_deg));
+    truth.gain[i] = gaussian(rng, sizes.gain);
+    arm.ripple[i] = {radFromDegrees(sizes.cyclic_deg), uniform(rng, 8.0, 25.0), uniform(rng, 0.0, 2.0 * kPi)};
   }
   for (std::size_t i = 3; i < 6; ++i) {
-    truth.offset_rad[i] = gaussian(chance, radFromDegrees(sizes.gimbal_deg));
-    truth.gain[i] = gaussian(chance, sizes.gimbal_gain);
-    arm.ripple[i] = {radFromDegrees(sizes.gimbal_ripple_deg), 3.0, evenly(chance, 0.0, 2.0 * kPi)};
+    truth.offset_rad[i] = gaussian(rng, radFromDegrees(sizes.gimbal_deg));
+    truth.gain[i] = gaussian(rng, sizes.gimbal_gain);
+    arm.ripple[i] = {radFromDegrees(sizes.gimbal_ripple_deg), 3.0, uniform(rng, 0.0, 2.0 * kPi)};
   }
-  truth.tilt_rad = gaussian(chance, radFromDegrees(sizes.axes_deg));
-  truth.reach_more_mm = gaussian(chance, sizes.reach_mm);
-  truth.tip_H_mm += gaussianVector(chance, sizes.tip_mm);
+  truth.tilt_rad = gaussian(rng, radFromDegrees(sizes.axes_deg));
+  truth.reach_delta_mm = gaussian(rng, sizes.reach_mm);
+  truth.tip_H_mm += gaussianVector(rng, sizes.tip_mm);
 
   // Six waves about 250 mm long: a third of the size in each axis makes the whole of it.
   for (Warp& one : arm.warp)
-    one = {gaussianVector(chance, sizes.warp_mm / 3.0), gaussianVector(chance, 1.0 / 40.0),
-           evenly(chance, 0.0, 2.0 * kPi)};
+    one = {gaussianVector(rng, sizes.warp_mm / 3.0), gaussianVector(rng, 1.0 / 40.0),
+           uniform(rng, 0.0, 2.0 * kPi)};
   return arm;
 }
 
-Pose<World, Device> putDown(const Pose<World, Device>& nominal, std::mt19937& chance) {
-  const glm::dvec3 turn_rad = evenVector(chance, glm::dvec3(radFromDegrees(kStandTurn_deg)));
-  const glm::dvec3 shift_mm = evenVector(chance, glm::dvec3(kStandShift_mm));
-  return {turnBy(turn_rad) * nominal.rotation, nominal.translation_mm + shift_mm};
+Pose<World, Device> putDown(const Pose<World, Device>& nominal, std::mt19937& rng) {
+  const glm::dvec3 turn_rad = uniformVector(rng, glm::dvec3(radFromDegrees(kStandTurn_deg)));
+  const glm::dvec3 shift_mm = uniformVector(rng, glm::dvec3(kStandShift_mm));
+  return {rotationFromVector(turn_rad) * nominal.rotation, nominal.translation_mm + shift_mm};
 }
 
 /// What the sensors read while the handle is there; none beyond the stops of arm or gimbal.
-std::optional<RawJoints> readAt(const SyntheticRig& rig, const Pose<World, Handle>& X_WH, std::mt19937& chance) {
+std::optional<RawJoints> readAt(const SyntheticRig& rig, const Pose<World, Handle>& X_WH, std::mt19937& rng) {
   auto raw = rig.arm.rawAt(rig.X_WD.inverse() * X_WH);
   if (!raw) return std::nullopt;
   for (std::size_t i = 0; i < 3; ++i)
     if (!rig.arm.geometry.wrist[i].contains((*raw)[i + 3])) return std::nullopt;
   for (std::size_t i = 0; i < raw->size(); ++i)
-    (*raw)[i] += gaussian(chance, i < 3 ? rig.habits.arm_noise_rad : rig.habits.gimbal_noise_rad);
+    (*raw)[i] += gaussian(rng, i < 3 ? rig.technician.arm_noise_rad : rig.technician.gimbal_noise_rad);
   return raw;
 }
 
@@ -114,48 +114,48 @@ std::optional<Scenario> scenarioNamed(std::string_view letter) {
 
 SyntheticRig syntheticRig(Scenario scenario, std::uint32_t seed) {
   // Neighbouring seeds of a Mersenne twister begin alike: the first draws are left.
-  std::mt19937 chance(seed);
-  chance.discard(1000);
+  std::mt19937 rng(seed);
+  rng.discard(1000);
 
   SyntheticRig rig;
   rig.scenario = scenario;
   rig.seed = seed;
-  rig.arm = drawnArm(sizesOf(scenario), chance);
+  rig.arm = drawnArm(sizesOf(scenario), rng);
   rig.nominal = mirroredWorkstationRig();
   rig.nominal.device = RigDevice{.model = "omni",
                                  .serial = std::string("SIM-") + static_cast<char>(scenario) + std::to_string(seed),
                                  .mount = "right",
                                  .stylus_tip = "ball-3mm"};
-  rig.X_WD = putDown(rig.nominal.X_WD, chance);
-  rig.habits.outlier_share = kOutlierShare;
-  rig.habits.precision = scenario == Scenario::f ? kCrossPrecision : kPitPrecision;
+  rig.X_WD = putDown(rig.nominal.X_WD, rng);
+  rig.technician.outlier_share = kOutlierShare;
+  rig.technician.precision = scenario == Scenario::f ? kCrossPrecision : kPitPrecision;
   if (scenario == Scenario::e) {
-    rig.habits.one_tilt = true;
-    rig.habits.tilt_noise_rad = rig.habits.roll_rad = kOneTiltNoise_rad;
+    rig.technician.one_tilt = true;
+    rig.technician.tilt_noise_rad = rig.technician.roll_rad = kOneTiltNoise_rad;
   }
   return rig;
 }
 
-std::optional<Touch> touched(const SyntheticRig& rig, const Target& target, std::mt19937& chance) {
-  const TouchHabits& habits = rig.habits;
+std::optional<Touch> simulatedTouch(const SyntheticRig& rig, const Target& target, std::mt19937& rng) {
+  const TechnicianModel& technician = rig.technician;
   // Where the tip truly is: never quite at the target, now and then elsewhere.
   Target hold = target;
-  hold.place_W.mm +=
-      glm::dvec3(gaussian(chance, habits.precision.in_plane_mm), gaussian(chance, habits.precision.in_plane_mm),
-                 gaussian(chance, habits.precision.along_sight_mm));
-  if (evenly(chance, 0.0, 1.0) < habits.outlier_share)
-    hold.place_W.mm += evenly(chance, kLeastOutlier_mm, kMostOutlier_mm) * glm::normalize(gaussianVector(chance, 1.0));
+  hold.position_W.mm +=
+      glm::dvec3(gaussian(rng, technician.precision.in_plane_mm), gaussian(rng, technician.precision.in_plane_mm),
+                 gaussian(rng, technician.precision.along_sight_mm));
+  if (uniform(rng, 0.0, 1.0) < technician.outlier_share)
+    hold.position_W.mm += uniform(rng, kLeastOutlier_mm, kMostOutlier_mm) * glm::normalize(gaussianVector(rng, 1.0));
 
-  if (habits.one_tilt) hold.stylus_W = kRestingStylus_W;
-  const glm::dvec3 turn_rad(gaussian(chance, habits.tilt_noise_rad), gaussian(chance, habits.tilt_noise_rad),
-                            evenly(chance, -habits.roll_rad, habits.roll_rad));
+  if (technician.one_tilt) hold.stylus_W = kRestingStylus_W;
+  const glm::dvec3 turn_rad(gaussian(rng, technician.tilt_noise_rad), gaussian(rng, technician.tilt_noise_rad),
+                            uniform(rng, -technician.roll_rad, technician.roll_rad));
   const glm::dvec3& tip_H_mm = rig.arm.truth.tip_H_mm;
-  const auto raw = readAt(rig, turnedAboutTip(handleHolding(hold, tip_H_mm), tip_H_mm, turn_rad), chance);
+  const auto raw = readAt(rig, turnedAboutTip(handleHolding(hold, tip_H_mm), tip_H_mm, turn_rad), rng);
   if (!raw) return std::nullopt;
-  return Touch{.id = target.id, .joints_rad = *raw, .target_W = target.place_W};
+  return Touch{.id = target.id, .joints_rad = *raw, .target_W = target.position_W};
 }
 
-TouchSet touchedAll(const SyntheticRig& rig, const TargetPlan& plan, std::mt19937& chance) {
+TouchSet simulatedTouches(const SyntheticRig& rig, const TargetPlan& plan, std::mt19937& rng) {
   const RigDevice& device = *rig.nominal.device;
   TouchSet set{.device_model = device.model,
                .serial = device.serial,
@@ -164,32 +164,32 @@ TouchSet touchedAll(const SyntheticRig& rig, const TargetPlan& plan, std::mt1993
                .precision = plan.precision,
                .touches = {}};
   for (Target target : plan.targets) {
-    auto touch = touched(rig, target, chance);
+    auto touch = simulatedTouch(rig, target, rng);
     for (int n = 0; !touch && n < kTries; ++n) {
-      if (!plan.one_pit) target.place_W.mm += gaussianVector(chance, kOtherHold_mm) - 0.1 * target.place_W.mm;
-      touch = touched(rig, target, chance);
+      if (!plan.one_pit) target.position_W.mm += gaussianVector(rng, kOtherHold_mm) - 0.1 * target.position_W.mm;
+      touch = simulatedTouch(rig, target, rng);
     }
     if (touch) set.touches.push_back(*touch);
   }
   return set;
 }
 
-std::vector<Touch> heldOut(const SyntheticRig& rig, int n, const glm::dvec3& half_mm, std::mt19937& chance) {
+std::vector<Touch> heldOutTouches(const SyntheticRig& rig, int n, const glm::dvec3& half_mm, std::mt19937& rng) {
   std::vector<Touch> touches;
   const glm::dvec3& tip_H_mm = rig.arm.truth.tip_H_mm;
   while (static_cast<int>(touches.size()) < n) {
-    const Target target{static_cast<int>(touches.size()) + 1, {evenVector(chance, half_mm)}, kRestingStylus_W};
-    const glm::dvec3 turn_rad = evenVector(chance, glm::dvec3(kHeldOutTilt_rad));
-    const auto raw = readAt(rig, turnedAboutTip(handleHolding(target, tip_H_mm), tip_H_mm, turn_rad), chance);
-    if (raw) touches.push_back({.id = target.id, .joints_rad = *raw, .target_W = target.place_W});
+    const Target target{static_cast<int>(touches.size()) + 1, {uniformVector(rng, half_mm)}, kRestingStylus_W};
+    const glm::dvec3 turn_rad = uniformVector(rng, glm::dvec3(kHeldOutTilt_rad));
+    const auto raw = readAt(rig, turnedAboutTip(handleHolding(target, tip_H_mm), tip_H_mm, turn_rad), rng);
+    if (raw) touches.push_back({.id = target.id, .joints_rad = *raw, .target_W = target.position_W});
   }
   return touches;
 }
 
-SyntheticRig drifted(const SyntheticRig& rig, double offset_deg, double shift_mm, std::mt19937& chance) {
+SyntheticRig drifted(const SyntheticRig& rig, double offset_deg, double shift_mm, std::mt19937& rng) {
   SyntheticRig moved = rig;
-  for (std::size_t i = 0; i < 3; ++i) moved.arm.truth.offset_rad[i] += gaussian(chance, radFromDegrees(offset_deg));
-  moved.X_WD.translation_mm += gaussianVector(chance, shift_mm);
+  for (std::size_t i = 0; i < 3; ++i) moved.arm.truth.offset_rad[i] += gaussian(rng, radFromDegrees(offset_deg));
+  moved.X_WD.translation_mm += gaussianVector(rng, shift_mm);
   return moved;
 }
 

@@ -9,11 +9,11 @@
 namespace calibration {
 namespace {
 
-constexpr ProofLimits kFull{{0.5, 1.0}, {0.8, 1.8}, {1.2, 2.5}, {0.3, 0.6}};
+constexpr VerificationLimits kFull{{0.5, 1.0}, {0.8, 1.8}, {1.2, 2.5}, {0.3, 0.6}};
 // By eye only the root mean square has a limit of its own: the others stand to it as they do above.
-constexpr ProofLimits kByEyes{{0.8, 1.5}, {1.3, 2.7}, {1.9, 3.75}, {0.5, 0.9}};
+constexpr VerificationLimits kByEyes{{0.8, 1.5}, {1.3, 2.7}, {1.9, 3.75}, {0.5, 0.9}};
 // Of four touches, all of which a shift may explain: bias has the limits of the root mean square.
-constexpr ProofLimits kSessionCheck{{0.6, 1.2}, {1.0, 2.0}, {1.0, 2.0}, {0.6, 1.2}};
+constexpr VerificationLimits kSessionCheck{{0.6, 1.2}, {1.0, 2.0}, {1.0, 2.0}, {0.6, 1.2}};
 
 constexpr int kFewestForGreen = 4;
 constexpr double kOneSided95 = 1.65;
@@ -30,7 +30,7 @@ double percentile(std::vector<double> sorted, double share) {
 }
 
 /// Not a number is never within.
-Verdict against(double value_mm, const ProofLimit& limit) {
+Verdict against(double value_mm, const VerificationLimit& limit) {
   return value_mm <= limit.green_mm ? Verdict::green : value_mm <= limit.amber_mm ? Verdict::amber : Verdict::red;
 }
 
@@ -46,8 +46,8 @@ std::string_view nameOf(Verdict verdict) {
   return verdict == Verdict::green ? "green" : verdict == Verdict::amber ? "amber" : "red";
 }
 
-std::string_view nameOf(ProofKind kind) {
-  return kind == ProofKind::full ? "full" : kind == ProofKind::by_eyes ? "by_eyes" : "session_check";
+std::string_view nameOf(VerificationKind kind) {
+  return kind == VerificationKind::full ? "full" : kind == VerificationKind::by_eyes ? "by_eyes" : "session_check";
 }
 
 TargetErrors targetErrors(const std::vector<Residual>& residuals) {
@@ -74,25 +74,25 @@ TargetErrors targetErrors(const std::vector<Residual>& residuals) {
   return errors;
 }
 
-const ProofLimits& limitsOf(ProofKind kind) {
-  return kind == ProofKind::full ? kFull : kind == ProofKind::by_eyes ? kByEyes : kSessionCheck;
+const VerificationLimits& limitsOf(VerificationKind kind) {
+  return kind == VerificationKind::full ? kFull : kind == VerificationKind::by_eyes ? kByEyes : kSessionCheck;
 }
 
-Judgement judge(const TargetErrors& errors, ProofKind kind) {
-  Judgement judgement;
+Assessment assess(const TargetErrors& errors, VerificationKind kind) {
+  Assessment assessment;
   if (errors.n == 0) {
-    judgement.reason = "no touch to judge by";
-    return judgement;
+    assessment.reason = "no touch to judge by";
+    return assessment;
   }
-  const ProofLimits& limits = limitsOf(kind);
-  judgement.sure_rms_mm = errors.rms_mm * (1.0 + kOneSided95 / std::sqrt(6.0 * errors.n));
+  const VerificationLimits& limits = limitsOf(kind);
+  assessment.rms_upper_bound_mm = errors.rms_mm * (1.0 + kOneSided95 / std::sqrt(6.0 * errors.n));
   struct Quantity {
     const char* what;
     double value_mm;
-    ProofLimit limit;
+    VerificationLimit limit;
   };
   const std::array quantities = {
-      Quantity{"root mean square at most {:.2f} mm (95 % sure)", judgement.sure_rms_mm, limits.rms},
+      Quantity{"root mean square at most {:.2f} mm (95 % sure)", assessment.rms_upper_bound_mm, limits.rms},
       Quantity{"95 of 100 touches within {:.2f} mm", errors.p95_mm, limits.p95},
       Quantity{"the worst touch {:.2f} mm off", errors.max_mm, limits.max},
       Quantity{"all touches off one way by {:.2f} mm", largestOf(errors.bias_mm.xyz), limits.bias}};
@@ -104,19 +104,19 @@ Judgement judge(const TargetErrors& errors, ProofKind kind) {
     return va != vb ? va < vb : beyond(a) < beyond(b);
   };
   const Quantity& deciding = *std::ranges::max_element(quantities, worse);
-  judgement.verdict = against(deciding.value_mm, deciding.limit);
-  const double limit_mm = judgement.verdict == Verdict::red ? deciding.limit.amber_mm : deciding.limit.green_mm;
-  judgement.reason = fmt::format(fmt::runtime(deciding.what), deciding.value_mm) +
-                     (judgement.verdict == Verdict::green ? fmt::format(", {:.2f} mm are allowed", limit_mm)
+  assessment.verdict = against(deciding.value_mm, deciding.limit);
+  const double limit_mm = assessment.verdict == Verdict::red ? deciding.limit.amber_mm : deciding.limit.green_mm;
+  assessment.reason = fmt::format(fmt::runtime(deciding.what), deciding.value_mm) +
+                     (assessment.verdict == Verdict::green ? fmt::format(", {:.2f} mm are allowed", limit_mm)
                                                           : fmt::format(", more than {:.2f} mm", limit_mm));
-  if (errors.n < kFewestForGreen && judgement.verdict == Verdict::green) {
-    judgement.verdict = Verdict::amber;
-    judgement.reason = std::to_string(errors.n) + " touches are too few to be sure, 4 are needed";
+  if (errors.n < kFewestForGreen && assessment.verdict == Verdict::green) {
+    assessment.verdict = Verdict::amber;
+    assessment.reason = std::to_string(errors.n) + " touches are too few to be sure, 4 are needed";
   }
-  return judgement;
+  return assessment;
 }
 
-std::string worstPlaceSentence(const std::vector<Residual>& residuals, const Point<World>& middle_W) {
+std::string worstErrorSentence(const std::vector<Residual>& residuals, const Point<World>& middle_W) {
   const Residual* worst = nullptr;
   glm::dvec3 reach_mm{0.0};
   for (const Residual& residual : residuals) {

@@ -25,28 +25,28 @@ struct TargetErrors {
 TargetErrors targetErrors(const std::vector<Residual>& residuals);
 
 /// Against which limits: a full calibration by jig or webcam, by eyes alone, or the check at the start of a session.
-enum class ProofKind { full, by_eyes, session_check };
-std::string_view nameOf(ProofKind kind);  ///< "full", …: in rig files
+enum class VerificationKind { full, by_eyes, session_check };
+std::string_view nameOf(VerificationKind kind);  ///< "full", …: in rig files
 
-struct ProofLimit {
+struct VerificationLimit {
   double green_mm, amber_mm;
 };
-struct ProofLimits {
-  ProofLimit rms, p95, max, bias;
+struct VerificationLimits {
+  VerificationLimit rms, p95, max, bias;
 };
-const ProofLimits& limitsOf(ProofKind kind);
+const VerificationLimits& limitsOf(VerificationKind kind);
 
-struct Judgement {
+struct Assessment {
   Verdict verdict = Verdict::red;
-  double sure_rms_mm = 0.0;  ///< rms times (1 + 1.65 / sqrt(6 n)): 95 % sure it is no more
+  double rms_upper_bound_mm = 0.0;  ///< rms times (1 + 1.65 / sqrt(6 n)): 95 % sure it is no more
   std::string reason;        ///< which limit decided it, one clause with its numbers
 };
 /// Fewer than 4 touches are never green.
-Judgement judge(const TargetErrors& errors, ProofKind kind);
+Assessment assess(const TargetErrors& errors, VerificationKind kind);
 
 /// The one sentence at the end: where the worst error is and how large, as the surgeon sees it: "worst: back left low,
 /// 0.9 mm". Places by W's axes through `middle_W`: left/right, low/high, back/front; the middle third of each is not
 /// said.
-std::string worstPlaceSentence(const std::vector<Residual>& residuals, const Point<World>& middle_W);
+std::string worstErrorSentence(const std::vector<Residual>& residuals, const Point<World>& middle_W);
 
 }  // namespace calibration

@@ -13,12 +13,12 @@ namespace {
 constexpr double kSpotRadius = 0.22;  ///< of a square's side
 
 /// How much darker or brighter a square is in its middle than towards its corners, 0..255.
-double spotOf(const GreyPicture& picture, const std::array<glm::dvec2, 4>& corners_px) {
+double spotOf(const GreyImage& image, const std::array<glm::dvec2, 4>& corners_px) {
   const glm::dvec2 middle = 0.25 * (corners_px[0] + corners_px[1] + corners_px[2] + corners_px[3]);
   const auto grey_at = [&](const glm::dvec2& px) {
-    const int x = std::clamp(static_cast<int>(std::lround(px.x)), 0, picture.size_px.x - 1);
-    const int y = std::clamp(static_cast<int>(std::lround(px.y)), 0, picture.size_px.y - 1);
-    return double(picture.grey[static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.size_px.x) +
+    const int x = std::clamp(static_cast<int>(std::lround(px.x)), 0, image.size_px.x - 1);
+    const int y = std::clamp(static_cast<int>(std::lround(px.y)), 0, image.size_px.y - 1);
+    return double(image.grey[static_cast<std::size_t>(y) * static_cast<std::size_t>(image.size_px.x) +
                                static_cast<std::size_t>(x)]);
   };
   double inside = 2.0 * grey_at(middle), outside = 0.0;
@@ -48,7 +48,7 @@ int contradictions(const ShownBoard& board, const Order& order, const std::vecto
   return wrong;
 }
 
-BoardSighting refused(BoardTrouble trouble, const char* line, BoardSighting sighting) {
+BoardDetection refused(BoardTrouble trouble, const char* line, BoardDetection sighting) {
   sighting.trouble = trouble;
   sighting.line = line;
   sighting.corners_px.clear();
@@ -57,7 +57,7 @@ BoardSighting refused(BoardTrouble trouble, const char* line, BoardSighting sigh
 
 }  // namespace
 
-std::vector<glm::dvec2> ShownBoard::cornerPlaces_px() const {
+std::vector<glm::dvec2> ShownBoard::cornerPositions_px() const {
   std::vector<glm::dvec2> places;
   for (int y = 1; y < squares.y; ++y)
     for (int x = 1; x < squares.x; ++x)
@@ -84,9 +84,9 @@ ShownBoard boardFor(const glm::ivec2& screen_px) {
   return board;
 }
 
-GreyPicture pictureOf(const ShownBoard& board) {
-  GreyPicture picture{board.screen_px, {}};
-  picture.grey.reserve(static_cast<std::size_t>(board.screen_px.x) * static_cast<std::size_t>(board.screen_px.y));
+GreyImage boardImage(const ShownBoard& board) {
+  GreyImage image{board.screen_px, {}};
+  image.grey.reserve(static_cast<std::size_t>(board.screen_px.x) * static_cast<std::size_t>(board.screen_px.y));
   for (int y = 0; y < board.screen_px.y; ++y)
     for (int x = 0; x < board.screen_px.x; ++x) {
       const glm::dvec2 at = (glm::dvec2(x, y) + 0.5 - glm::dvec2(board.upper_left_px)) / double(board.square_px);
@@ -96,14 +96,14 @@ GreyPicture pictureOf(const ShownBoard& board) {
       bool black = on_board && (square.x + square.y) % 2 == 0;
       if (on_board && board.hasSpot(square) && glm::distance(at, glm::dvec2(square) + 0.5) < kSpotRadius)
         black = !black;
-      picture.grey.push_back(black ? kShownBlack : kShownWhite);
+      image.grey.push_back(black ? kShownBlack : kShownWhite);
     }
-  return picture;
+  return image;
 }
 
-BoardSighting findBoard(const GreyPicture& picture, const ShownBoard& board) {
+BoardDetection findBoard(const GreyImage& image, const ShownBoard& board) {
   const glm::ivec2 count = board.corners(), inner = count - 1;
-  BoardSighting sighting = findChessboard(picture, count);
+  BoardDetection sighting = findChessboard(image, count);
   if (sighting.trouble) return sighting;
 
   // Which squares hold a spot, still in the finder's order.
@@ -111,7 +111,7 @@ BoardSighting findBoard(const GreyPicture& picture, const ShownBoard& board) {
   for (int y = 0; y < inner.y; ++y)
     for (int x = 0; x < inner.x; ++x) {
       const auto at = [&](int column, int row) { return sighting.corners_px[indexIn({}, count, column, row)]; };
-      spots.push_back(spotOf(picture, {at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)}));
+      spots.push_back(spotOf(image, {at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)}));
     }
   const double threshold = 0.5 * *std::ranges::max_element(spots);
 

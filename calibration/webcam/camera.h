@@ -1,5 +1,5 @@
 // A camera as numbers: pinhole with two radial and two tangential terms, pixel centres at whole numbers (OpenCV's
-// convention), and pictures as it gives them. px, mm. Frame C: x right, y down, z ahead. Plain data; any thread.
+// convention), and images as it gives them. px, mm. Frame C: x right, y down, z ahead. Plain data; any thread.
 #pragma once
 
 #include <cstdint>
@@ -44,7 +44,7 @@ struct CameraModel {
 inline constexpr std::uint8_t kShownWhite = 235, kShownBlack = 16;
 
 /// 8 bits a pixel, rows from the top.
-struct GreyPicture {
+struct GreyImage {
   glm::ivec2 size_px{0};
   std::vector<std::uint8_t> grey;
 };

@@ -10,8 +10,8 @@ namespace calibration {
 namespace {
 
 constexpr double kSmallest_px = 16.0, kLargest_px = 16384.0;
-constexpr double kLeastFocal = 0.15, kMostFocal = 8.0;           ///< of the picture's side
-constexpr double kLeastCentre = 0.1, kMostCentre = 0.9;          ///< of the picture's side
+constexpr double kLeastFocal = 0.15, kMostFocal = 8.0;           ///< of the image's side
+constexpr double kLeastCentre = 0.1, kMostCentre = 0.9;          ///< of the image's side
 constexpr double kMostUnsquare = 0.1;                            ///< one focal length over the other, less 1
 constexpr std::array<double, 4> kMostBent{2.0, 20.0, 0.2, 0.2};  ///< k1, k2, p1, p2
 
@@ -20,7 +20,7 @@ bool isWithin(double value, double least, double most) { return value >= least &
 
 }  // namespace
 
-std::string_view impossibleOf(const CameraModel& camera) {
+std::string_view implausibleParameter(const CameraModel& camera) {
   for (int axis = 0; axis < 2; ++axis) {
     const double side = camera.size_px[axis];
     if (!isWithin(side, kSmallest_px, kLargest_px)) return "size_px";
@@ -48,12 +48,12 @@ CameraModel cameraIn(const CheckedYaml& yaml, const cv::FileNode& node) {
                            bent[1],
                            bent[2],
                            bent[3]};
-  if (const std::string_view key = impossibleOf(camera); !key.empty())
+  if (const std::string_view key = implausibleParameter(camera); !key.empty())
     yaml.refuse("'" + std::string(key) + "' is no lens that a webcam can have", "measure the camera again");
   return camera;
 }
 
-void putCamera(cv::FileStorage& out, const CameraModel& camera) {
+void writeCamera(cv::FileStorage& out, const CameraModel& camera) {
   const std::string open = "[:", close = "]";
   out << "size_px" << open << camera.size_px.x << camera.size_px.y << close;
   out << "focal_px" << open << camera.focal_px.x << camera.focal_px.y << close;

@@ -13,14 +13,14 @@ class FileStorage;
 
 namespace calibration {
 
-/// Which of its numbers no webcam's lens has, as files call it; empty: it is one. A lens fits its picture, sees 10 to
+/// Which of its numbers no webcam's lens has, as files call it; empty: it is one. A lens fits its image, sees 10 to
 /// 150 degrees, its pixels are square within a tenth, and it bends less than a fish-eye.
-std::string_view impossibleOf(const CameraModel& camera);
+std::string_view implausibleParameter(const CameraModel& camera);
 
 /// Throws CalibrationError naming the key: missing, not finite, or no webcam's lens.
 CameraModel cameraIn(const CheckedYaml& yaml, const cv::FileNode& node);
 
 /// Into the map that is open.
-void putCamera(cv::FileStorage& out, const CameraModel& camera);
+void writeCamera(cv::FileStorage& out, const CameraModel& camera);
 
 }  // namespace calibration

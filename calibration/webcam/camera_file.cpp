@@ -36,7 +36,7 @@ std::string cameraText(const CameraRecord& record) {
   cv::FileStorage out("camera.yaml", cv::FileStorage::WRITE | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_YAML);
   out << "schema" << kSchema << "kind" << std::string("molar_camera");
   out << "name" << record.name << "serial" << record.serial << "measured_utc" << record.measured_utc;
-  putCamera(out, record.camera);
+  writeCamera(out, record.camera);
   out << "rms_px" << record.rms_px << "views" << record.views;
   return out.releaseAndGetString();
 }

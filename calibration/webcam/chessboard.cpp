@@ -12,7 +12,7 @@
 #include "calibration/calibration_error.h"
 #include "calibration/geometry/units.h"
 #include "calibration/median.h"
-#include "calibration/webcam/picture_matrix.h"
+#include "calibration/webcam/image_matrix.h"
 
 namespace calibration {
 namespace {
@@ -44,7 +44,7 @@ cv::Mat coarser(const cv::Mat& grey, int factor) {
   return coarse;
 }
 
-/// A large picture is looked through at half its size first: four times as fast, and corners are refined anyway.
+/// A large image is looked through at half its size first: four times as fast, and corners are refined anyway.
 std::optional<Corners> chessboardIn(const cv::Mat& grey, const cv::Size& size) {
   if (grey.cols > kLargePicture_px)
     if (auto corners = chessboardAsItIs(coarser(grey, 2), size)) {
@@ -65,14 +65,14 @@ bool holdsAPart(const cv::Mat& grey) {
   }
 }
 
-BoardSighting refused(BoardTrouble trouble, std::string line, BoardSighting sighting = {}) {
+BoardDetection refused(BoardTrouble trouble, std::string line, BoardDetection sighting = {}) {
   sighting.trouble = trouble;
   sighting.line = std::move(line);
   sighting.corners_px.clear();
   return sighting;
 }
 
-BoardSighting notFound(const cv::Mat& grey, const cv::Size& size) {
+BoardDetection notFound(const cv::Mat& grey, const cv::Size& size) {
   for (const int factor : kCoarser) {
     const cv::Mat coarse = coarser(grey, factor);
     if (std::min(coarse.cols, coarse.rows) > 60 && chessboardAsItIs(coarse, size))
@@ -164,13 +164,13 @@ double edgeOf_px(const cv::Mat& grey, const Corners& corners, const cv::Size& si
 }
 
 /// Found, and good enough to be used: corners still in the finder's order.
-BoardSighting judged(const cv::Mat& grey, const glm::ivec2& count) {
+BoardDetection charted(const cv::Mat& grey, const glm::ivec2& count) {
   const cv::Size size(count.x, count.y);
   auto corners = chessboardIn(grey, size);
   if (!corners) return notFound(grey, size);
 
   refine(grey, *corners, size);
-  BoardSighting sighting;
+  BoardDetection sighting;
   for (const cv::Point2f& corner : *corners) sighting.corners_px.emplace_back(corner.x, corner.y);
   sighting.slant_deg = slantOf_deg(*corners, size);
   const double side_px = leastSide_px(*corners, size);
@@ -196,9 +196,9 @@ BoardSighting judged(const cv::Mat& grey, const glm::ivec2& count) {
 
 }  // namespace
 
-BoardSighting findChessboard(const GreyPicture& picture, const glm::ivec2& corners) {
-  if (!isWhole(picture)) throw CalibrationError("camera picture: its size and its bytes disagree, take it again");
-  return judged(matrixOf(picture), corners);
+BoardDetection findChessboard(const GreyImage& image, const glm::ivec2& corners) {
+  if (!isWhole(image)) throw CalibrationError("camera picture: its size and its bytes disagree, take it again");
+  return charted(matrixOf(image), corners);
 }
 
 }  // namespace calibration

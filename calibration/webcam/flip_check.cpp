@@ -7,18 +7,18 @@
 #include <opencv2/imgproc.hpp>
 
 #include "calibration/virtual_screen.h"
-#include "calibration/webcam/picture_matrix.h"
+#include "calibration/webcam/image_matrix.h"
 
 namespace calibration {
 namespace {
 
 constexpr int kTemplate_px = 64;
 constexpr double kLeastLikeness = 0.55, kLeastLead = 0.12;
-constexpr double kLeastShare = 0.002;  ///< of the picture, that the F's square must cover
+constexpr double kLeastShare = 0.002;  ///< of the image, that the F's square must cover
 
 /// The square with the F in it, `side` px.
-GreyPicture squareWithF(int side) {
-  GreyPicture square{{side, side}, std::vector<std::uint8_t>(static_cast<std::size_t>(side * side), 255)};
+GreyImage squareWithF(int side) {
+  GreyImage square{{side, side}, std::vector<std::uint8_t>(static_cast<std::size_t>(side * side), 255)};
   const auto bar = [&](double left, double top, double right, double bottom) {
     for (int y = static_cast<int>(top * side); y < static_cast<int>(bottom * side); ++y)
       for (int x = static_cast<int>(left * side); x < static_cast<int>(right * side); ++x)
@@ -30,7 +30,7 @@ GreyPicture squareWithF(int side) {
   return square;
 }
 
-/// Corners of a convex quadrangle, clockwise in the picture, the first so that the first edge runs most to the right.
+/// Corners of a convex quadrangle, clockwise in the image, the first so that the first edge runs most to the right.
 std::optional<std::array<cv::Point2f, 4>> quadrangle(const std::vector<cv::Point>& outline) {
   std::vector<cv::Point> hull, corners;
   cv::convexHull(outline, hull);
@@ -51,7 +51,7 @@ std::optional<std::array<cv::Point2f, 4>> quadrangle(const std::vector<cv::Point
   return ordered;
 }
 
-/// Correlation of two pictures of one size, without regard to brightness.
+/// Correlation of two images of one size, without regard to brightness.
 double likeness(const cv::Mat& a, const cv::Mat& b) {
   cv::Mat result;
   cv::matchTemplate(a, b, result, cv::TM_CCOEFF_NORMED);
@@ -60,15 +60,15 @@ double likeness(const cv::Mat& a, const cv::Mat& b) {
 
 /// How alike the two best readings of this square are to what is seen.
 struct Likeness {
-  Reading best;
+  ImageOrientation best;
   double first = -1.0, second = -1.0;
 };
 
 Likeness compared(const cv::Mat& square) {
-  const GreyPicture letter = squareWithF(kTemplate_px);
+  const GreyImage letter = squareWithF(kTemplate_px);
   Likeness found;
-  for (const Reading& reading : kReadings) {
-    const GreyPicture expected = reaching(reading, letter);
+  for (const ImageOrientation& reading : kImageOrientations) {
+    const GreyImage expected = oriented(reading, letter);
     const double alike = likeness(square, matrixOf(expected));
     if (alike > found.first) {
       found = {reading, alike, found.first};
@@ -81,12 +81,12 @@ Likeness compared(const cv::Mat& square) {
 
 }  // namespace
 
-Reading opposite(const Reading& reading) {
-  // A mirrored picture that is turned goes back by mirroring and the same turn again.
-  return reading.mirrored ? reading : Reading{false, (4 - reading.quarters) % 4};
+ImageOrientation inverseOf(const ImageOrientation& reading) {
+  // A mirrored image that is turned goes back by mirroring and the same turn again.
+  return reading.mirrored ? reading : ImageOrientation{false, (4 - reading.quarters) % 4};
 }
 
-std::string_view nameOf(const Reading& reading) {
+std::string_view nameOf(const ImageOrientation& reading) {
   constexpr std::array<std::string_view, 8> kNames{"right",
                                                    "turned to the right",
                                                    "upside down",
@@ -98,7 +98,7 @@ std::string_view nameOf(const Reading& reading) {
   return kNames[static_cast<std::size_t>((reading.mirrored ? 4 : 0) + reading.quarters)];
 }
 
-std::string remedyFor(const Reading& reading) {
+std::string remedyFor(const ImageOrientation& reading) {
   if (reading.right()) return "the picture reads right, go on";
   if (reading.quarters % 2 == 1)
     return "the picture is " + std::string(nameOf(reading)) + ", set the screen's rotation in the system's settings";
@@ -106,9 +106,9 @@ std::string remedyFor(const Reading& reading) {
          ", switch off any flip in the monitor's or system's settings, or correct the screen's corners in the rig file";
 }
 
-GreyPicture reaching(const Reading& reading, const GreyPicture& picture) {
-  const glm::ivec2 in = picture.size_px, out = reading.quarters % 2 == 0 ? in : glm::ivec2(in.y, in.x);
-  GreyPicture seen{out, std::vector<std::uint8_t>(picture.grey.size())};
+GreyImage oriented(const ImageOrientation& reading, const GreyImage& image) {
+  const glm::ivec2 in = image.size_px, out = reading.quarters % 2 == 0 ? in : glm::ivec2(in.y, in.x);
+  GreyImage seen{out, std::vector<std::uint8_t>(image.grey.size())};
   std::size_t at = 0;
   for (int y = 0; y < out.y; ++y)
     for (int x = 0; x < out.x; ++x) {
@@ -118,12 +118,12 @@ GreyPicture reaching(const Reading& reading, const GreyPicture& picture) {
       if (reading.quarters == 2) from = in - 1 - from;
       if (reading.quarters == 3) from = {in.x - 1 - y, x};
       if (reading.mirrored) from.x = in.x - 1 - from.x;
-      seen.grey[at++] = picture.grey[static_cast<std::size_t>(from.y * in.x + from.x)];
+      seen.grey[at++] = image.grey[static_cast<std::size_t>(from.y * in.x + from.x)];
     }
   return seen;
 }
 
-Reading framebufferReading(const Rig& rig) {
+ImageOrientation framebufferOrientation(const Rig& rig) {
   const ScreenCorners seen = virtualScreen(rig);
   const glm::dvec3 across = seen.lower_right.mm - seen.lower_left.mm, up = seen.upper_left.mm - seen.lower_left.mm;
   // x and y of W are right and up to the eye. Where the framebuffer's upward edge points, after any mirroring.
@@ -133,37 +133,37 @@ Reading framebufferReading(const Rig& rig) {
   return {mirrored, up.x > 0.0 ? 1 : 3};
 }
 
-GreyPicture framebufferFor(const Rig& rig, const GreyPicture& as_seen) {
-  return reaching(opposite(framebufferReading(rig)), as_seen);
+GreyImage framebufferFor(const Rig& rig, const GreyImage& as_seen) {
+  return oriented(inverseOf(framebufferOrientation(rig)), as_seen);
 }
 
 glm::ivec2 seenSize_px(const Rig& rig) {
   const glm::ivec2 px = rig.screen.px;
-  return framebufferReading(rig).quarters % 2 == 0 ? px : glm::ivec2(px.y, px.x);
+  return framebufferOrientation(rig).quarters % 2 == 0 ? px : glm::ivec2(px.y, px.x);
 }
 
 ScreenCorners seenScreen(const Rig& rig) {
   const ScreenCorners seen = virtualScreen(rig);
   glm::dvec3 across = seen.lower_right.mm - seen.lower_left.mm, up = seen.upper_left.mm - seen.lower_left.mm;
   const glm::dvec3 middle = seen.lower_left.mm + 0.5 * (across + up);
-  if (framebufferReading(rig).quarters % 2 == 1) std::swap(across, up);
+  if (framebufferOrientation(rig).quarters % 2 == 1) std::swap(across, up);
   if (across.x < 0.0) across = -across;
   if (up.y < 0.0) up = -up;
   return {
       seenSize_px(rig), {middle - 0.5 * (across + up)}, {middle + 0.5 * (across - up)}, {middle - 0.5 * (across - up)}};
 }
 
-Point<World> placeOn(const ScreenCorners& seen_screen, const glm::dvec2& px) {
+Point<World> positionOn(const ScreenCorners& seen_screen, const glm::dvec2& px) {
   const glm::dvec3 across = seen_screen.lower_right.mm - seen_screen.lower_left.mm;
   const glm::dvec3 down = seen_screen.lower_left.mm - seen_screen.upper_left.mm;
   return {seen_screen.upper_left.mm + (px.x + 0.5) / seen_screen.px.x * across +
           (px.y + 0.5) / seen_screen.px.y * down};
 }
 
-GreyPicture letterF(const glm::ivec2& size_px) {
-  GreyPicture page{size_px, std::vector<std::uint8_t>(static_cast<std::size_t>(size_px.x * size_px.y), 0)};
+GreyImage letterF(const glm::ivec2& size_px) {
+  GreyImage page{size_px, std::vector<std::uint8_t>(static_cast<std::size_t>(size_px.x * size_px.y), 0)};
   const int side = 6 * std::min(size_px.x, size_px.y) / 10;
-  const GreyPicture square = squareWithF(side);
+  const GreyImage square = squareWithF(side);
   const glm::ivec2 low = (size_px - side) / 2;
   for (int y = 0; y < side; ++y)
     std::copy_n(&square.grey[static_cast<std::size_t>(y * side)], side,
@@ -171,7 +171,7 @@ GreyPicture letterF(const glm::ivec2& size_px) {
   return page;
 }
 
-std::optional<Reading> readF(const GreyPicture& seen) {
+std::optional<ImageOrientation> orientationOfF(const GreyImage& seen) {
   if (seen.size_px.x < kTemplate_px || seen.size_px.y < kTemplate_px) return std::nullopt;
   cv::Mat smooth, bright;
   cv::GaussianBlur(matrixOf(seen), smooth, {5, 5}, 0.0);

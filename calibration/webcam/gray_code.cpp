@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "calibration/calibration_error.h"
-#include "calibration/webcam/picture_matrix.h"
+#include "calibration/webcam/image_matrix.h"
 
 namespace calibration {
 namespace {
@@ -30,22 +30,22 @@ struct Cell {
   int pixels = 0;
 };
 
-void checkPictures(const GrayCode& code, const std::vector<GreyPicture>& pictures) {
-  if (static_cast<int>(pictures.size()) != code.pictures())
-    throw CalibrationError("Gray code: " + std::to_string(pictures.size()) + " pictures instead of " +
-                           std::to_string(code.pictures()) + ", take the sweep again");
-  for (const GreyPicture& picture : pictures)
-    if (picture.size_px != pictures.front().size_px || !isWhole(picture))
+void checkPictures(const GrayCode& code, const std::vector<GreyImage>& images) {
+  if (static_cast<int>(images.size()) != code.images())
+    throw CalibrationError("Gray code: " + std::to_string(images.size()) + " pictures instead of " +
+                           std::to_string(code.images()) + ", take the sweep again");
+  for (const GreyImage& image : images)
+    if (image.size_px != images.front().size_px || !isWhole(image))
       throw CalibrationError("Gray code: the pictures differ in size, take the sweep again");
 }
 
 /// The bits from `first` on, of one pixel; -1 where one of them can not be told.
-int codeAt(const std::vector<GreyPicture>& pictures, std::size_t first, int bits, std::size_t pixel,
+int codeAt(const std::vector<GreyImage>& images, std::size_t first, int bits, std::size_t pixel,
            int white_to_black) {
   unsigned gray = 0;
   for (int bit = 0; bit < bits; ++bit) {
     const std::size_t shown = first + 2 * static_cast<std::size_t>(bit);
-    const int difference = int{pictures[shown].grey[pixel]} - int{pictures[shown + 1].grey[pixel]};
+    const int difference = int{images[shown].grey[pixel]} - int{images[shown + 1].grey[pixel]};
     if (std::abs(difference) < kLeastOfWhite * white_to_black) return -1;
     gray = (gray << 1) | static_cast<unsigned>(difference > 0);
   }
@@ -69,7 +69,7 @@ struct SeenCells {
   Cell& at(int x, int y) {
     return cells[static_cast<std::size_t>(y) * static_cast<std::size_t>(count.x) + static_cast<std::size_t>(x)];
   }
-  /// Seen with its eight neighbours: not cut by the picture's edge, by a shadow, by the screen's end.
+  /// Seen with its eight neighbours: not cut by the image's edge, by a shadow, by the screen's end.
   bool isWhole(int x, int y) {
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx)
@@ -77,18 +77,18 @@ struct SeenCells {
     return true;
   }
 };
-SeenCells cellsSeen(const GrayCode& code, const std::vector<GreyPicture>& pictures, GreyPicture& mask) {
-  const glm::ivec2 size = pictures.front().size_px, bits = code.bits();
+SeenCells cellsSeen(const GrayCode& code, const std::vector<GreyImage>& images, GreyImage& mask) {
+  const glm::ivec2 size = images.front().size_px, bits = code.bits();
   SeenCells seen{code.cells(), {}};
   seen.cells.resize(static_cast<std::size_t>(seen.count.x) * static_cast<std::size_t>(seen.count.y));
   for (int y = 0; y < size.y; ++y)
     for (int x = 0; x < size.x; ++x) {
       const std::size_t pixel =
           static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x) + static_cast<std::size_t>(x);
-      const int white_to_black = int{pictures[0].grey[pixel]} - int{pictures[1].grey[pixel]};
+      const int white_to_black = int{images[0].grey[pixel]} - int{images[1].grey[pixel]};
       if (white_to_black < kLeastContrast) continue;
-      const int column = codeAt(pictures, 2, bits.x, pixel, white_to_black);
-      const int row = codeAt(pictures, 2 + 2 * static_cast<std::size_t>(bits.x), bits.y, pixel, white_to_black);
+      const int column = codeAt(images, 2, bits.x, pixel, white_to_black);
+      const int row = codeAt(images, 2 + 2 * static_cast<std::size_t>(bits.x), bits.y, pixel, white_to_black);
       if (column < 0 || row < 0) continue;
       ++seen.decoded;
       if (column >= seen.count.x || row >= seen.count.y) {
@@ -105,15 +105,15 @@ SeenCells cellsSeen(const GrayCode& code, const std::vector<GreyPicture>& pictur
   return seen;
 }
 
-/// How the picture's place grows with the screen's x and y (columns), as one affine map by least squares. None: too few
+/// How the image's place grows with the screen's x and y (columns), as one affine map by least squares. None: too few
 /// or on a line.
-std::optional<glm::dmat2> directionOf(const std::vector<ScreenSight>& sights) {
+std::optional<glm::dmat2> directionOf(const std::vector<ScreenCorrespondence>& sights) {
   if (sights.size() < 12) return std::nullopt;
   glm::dvec2 screen{0.0}, camera{0.0};
-  for (const ScreenSight& sight : sights) screen += sight.screen_px, camera += sight.camera_px;
+  for (const ScreenCorrespondence& sight : sights) screen += sight.screen_px, camera += sight.camera_px;
   screen /= double(sights.size()), camera /= double(sights.size());
   glm::dmat2 spread{0.0}, both{0.0};
-  for (const ScreenSight& sight : sights) {
+  for (const ScreenCorrespondence& sight : sights) {
     const glm::dvec2 s = sight.screen_px - screen, c = sight.camera_px - camera;
     spread += glm::outerProduct(s, s);
     both += glm::outerProduct(c, s);
@@ -123,7 +123,7 @@ std::optional<glm::dmat2> directionOf(const std::vector<ScreenSight>& sights) {
   return both * glm::inverse(spread);
 }
 
-CodeSighting refused(CodeTrouble trouble, const char* line, CodeSighting sighting) {
+CodeDetection refused(CodeTrouble trouble, const char* line, CodeDetection sighting) {
   sighting.trouble = trouble;
   sighting.line = line;
   sighting.sights.clear();
@@ -137,15 +137,15 @@ glm::ivec2 GrayCode::bits() const {
   return {enough(cells().x), enough(cells().y)};
 }
 
-std::vector<GreyPicture> picturesOf(const GrayCode& code) {
+std::vector<GreyImage> patternImages(const GrayCode& code) {
   if (code.screen_px.x < 64 || code.screen_px.y < 64 || code.cell_px < 2)
     throw CalibrationError("Gray code: a screen under 64 px or stripes under 2 px, use a larger window");
   const std::size_t pixels = static_cast<std::size_t>(code.screen_px.x) * static_cast<std::size_t>(code.screen_px.y);
-  std::vector<GreyPicture> pictures{{code.screen_px, std::vector<std::uint8_t>(pixels, kShownWhite)},
+  std::vector<GreyImage> images{{code.screen_px, std::vector<std::uint8_t>(pixels, kShownWhite)},
                                     {code.screen_px, std::vector<std::uint8_t>(pixels, kShownBlack)}};
   for (int axis = 0; axis < 2; ++axis)
     for (int bit = code.bits()[axis] - 1; bit >= 0; --bit) {
-      GreyPicture pattern{code.screen_px, {}}, inverse{code.screen_px, {}};
+      GreyImage pattern{code.screen_px, {}}, inverse{code.screen_px, {}};
       pattern.grey.reserve(pixels), inverse.grey.reserve(pixels);
       for (int y = 0; y < code.screen_px.y; ++y)
         for (int x = 0; x < code.screen_px.x; ++x) {
@@ -154,17 +154,17 @@ std::vector<GreyPicture> picturesOf(const GrayCode& code) {
           pattern.grey.push_back(white ? kShownWhite : kShownBlack);
           inverse.grey.push_back(white ? kShownBlack : kShownWhite);
         }
-      pictures.push_back(std::move(pattern));
-      pictures.push_back(std::move(inverse));
+      images.push_back(std::move(pattern));
+      images.push_back(std::move(inverse));
     }
-  return pictures;
+  return images;
 }
 
-CodeSighting decoded(const GrayCode& code, const std::vector<GreyPicture>& pictures) {
-  checkPictures(code, pictures);
-  CodeSighting sighting;
-  sighting.mask = {pictures.front().size_px, std::vector<std::uint8_t>(pictures.front().grey.size(), 0)};
-  SeenCells seen = cellsSeen(code, pictures, sighting.mask);
+CodeDetection decoded(const GrayCode& code, const std::vector<GreyImage>& images) {
+  checkPictures(code, images);
+  CodeDetection sighting;
+  sighting.mask = {images.front().size_px, std::vector<std::uint8_t>(images.front().grey.size(), 0)};
+  SeenCells seen = cellsSeen(code, images, sighting.mask);
 
   // Whole cells only, by the mean place of their pixels.
   int complete = 0, scattered = 0;

@@ -28,9 +28,9 @@ using Pixels = std::vector<cv::Point2f>;
   throw CalibrationError("lens: " + what + ", " + mend);
 }
 
-Places placesOf(const std::vector<glm::dvec2>& places_mm) {
+Places placesOf(const std::vector<glm::dvec2>& positions_mm) {
   Places places;
-  for (const glm::dvec2& mm : places_mm) places.emplace_back(static_cast<float>(mm.x), static_cast<float>(mm.y), 0.0F);
+  for (const glm::dvec2& mm : positions_mm) places.emplace_back(static_cast<float>(mm.x), static_cast<float>(mm.y), 0.0F);
   return places;
 }
 
@@ -92,7 +92,7 @@ CameraModel modelOf(const glm::ivec2& size_px, const LensFit& fit) {
   const auto bent = [&](int i) { return fit.distortion.at<double>(i); };
   CameraModel camera{size_px, {fit.K(0, 0), fit.K(1, 1)}, {fit.K(0, 2), fit.K(1, 2)}, bent(0), bent(1), bent(2),
                      bent(3)};
-  if (!std::isfinite(fit.rms_px) || !impossibleOf(camera).empty())
+  if (!std::isfinite(fit.rms_px) || !implausibleParameter(camera).empty())
     refuseLens("the result is no webcam's lens", "slant the board more, and fill the picture with it");
   return camera;
 }
@@ -109,12 +109,12 @@ void checkVariety(const LensFit& fit, double covered_share) {
 
 }  // namespace
 
-Intrinsics fitIntrinsics(const glm::ivec2& size_px, const std::vector<glm::dvec2>& places_mm,
+Intrinsics fitIntrinsics(const glm::ivec2& size_px, const std::vector<glm::dvec2>& positions_mm,
                          const std::vector<BoardView>& views) {
-  if (size_px.x < 16 || size_px.y < 16 || places_mm.size() < 6) refuseLens("no board or no picture", "give both");
-  if (views.size() < kLeastViews)
+  if (size_px.x < 16 || size_px.y < 16 || positions_mm.size() < 6) refuseLens("no board or no picture", "give both");
+  if (views.size() < kMinViews)
     refuseLens(std::to_string(views.size()) + " views are too few", "take 12 to 15, the board slanted each way");
-  const Places places = placesOf(places_mm);
+  const Places places = placesOf(positions_mm);
   const std::vector<Pixels> all = pixelsOf(views, places.size());
 
   // The worst view goes while it does not fit the others.
@@ -142,7 +142,7 @@ Intrinsics fitIntrinsics(const glm::ivec2& size_px, const std::vector<glm::dvec2
     if (!(fit.rms_px < kMostRms_px))
       refuseLens("the views do not fit together", "hold camera and board still, lock the focus, keep the board flat");
     result.covered_share = coveredShare(size_px, pixels);
-    for (const cv::Mat& turn : fit.turns) result.most_slant_deg = std::max(result.most_slant_deg, slant_deg(turn));
+    for (const cv::Mat& turn : fit.turns) result.max_slant_deg = std::max(result.max_slant_deg, slant_deg(turn));
     checkVariety(fit, result.covered_share);
     result.camera = modelOf(size_px, fit);
     result.rms_px = fit.rms_px;

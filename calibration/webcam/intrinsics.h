@@ -12,27 +12,27 @@
 
 namespace calibration {
 
-/// Corners of one picture, in the order of the board's places.
+/// Corners of one image, in the order of the board's places.
 struct BoardView {
   std::string name;  ///< for people: a file's name, "view 3"
   std::vector<glm::dvec2> corners_px;
 };
 
-inline constexpr std::size_t kLeastViews = 8;
+inline constexpr std::size_t kMinViews = 8;
 
 struct Intrinsics {
   CameraModel camera;
   double rms_px = 0.0;                ///< over the views used
   std::vector<double> view_rms_px;    ///< of every view given
   std::vector<std::string> left_out;  ///< names of views that do not fit the others
-  double covered_share = 0.0;         ///< of the picture's 6 x 4 fields, those that hold a corner
-  double most_slant_deg = 0.0;        ///< of the boards
+  double covered_share = 0.0;         ///< of the image's 6 x 4 fields, those that hold a corner
+  double max_slant_deg = 0.0;        ///< of the boards
 };
 
-/// `places_mm`: of the board's corners, on its plane. Throws CalibrationError with the remedy: fewer than 8 views,
-/// views that do not match the board, all slanted less than 15°, less than half of the picture covered, more than a
+/// `positions_mm`: of the board's corners, on its plane. Throws CalibrationError with the remedy: fewer than 8 views,
+/// views that do not match the board, all slanted less than 15°, less than half of the image covered, more than a
 /// third of the views left out, or a result that is no lens.
-Intrinsics fitIntrinsics(const glm::ivec2& size_px, const std::vector<glm::dvec2>& places_mm,
+Intrinsics fitIntrinsics(const glm::ivec2& size_px, const std::vector<glm::dvec2>& positions_mm,
                          const std::vector<BoardView>& views);
 
 }  // namespace calibration

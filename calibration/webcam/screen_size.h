@@ -1,4 +1,4 @@
-// How large the screen's picture truly is, from a bar that is drawn so many mm long and a ruler laid on it, across and
+// How large the screen's image truly is, from a bar that is drawn so many mm long and a ruler laid on it, across and
 // up. A webcam can not say it: a screen twice as large twice as far looks the same, only the arm's own millimetres
 // tell them apart, to about 0.5 %. Frame W, mm. Any thread. A ruler reads to 0.3 mm.
 #pragma once
@@ -24,7 +24,7 @@ struct SizeCheck {
 };
 
 /// Throws CalibrationError with the remedy: bars under 50 mm, beyond 20 % of what was drawn (another unit, another
-/// monitor, a picture that is cut off), or stretched by more than 3 % one way (not the monitor's own resolution).
+/// monitor, a image that is cut off), or stretched by more than 3 % one way (not the monitor's own resolution).
 SizeCheck checkedSize(const ScreenCorners& believed, const MeasuredBars& bars);
 
 }  // namespace calibration

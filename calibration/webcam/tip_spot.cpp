@@ -10,7 +10,7 @@
 #include "calibration/calibration_error.h"
 #include "calibration/geometry/units.h"
 #include "calibration/median.h"
-#include "calibration/webcam/picture_matrix.h"
+#include "calibration/webcam/image_matrix.h"
 
 namespace calibration {
 namespace {
@@ -19,12 +19,12 @@ constexpr double kLeastOverNoise = 8.0, kLeastHeight = 14.0;  ///< grey levels
 constexpr double kRival = 0.4;     ///< of the brightest spot's height: another such is one too many
 constexpr double kPedestal = 0.2;  ///< of its height: less has no say in the centre
 constexpr int kLeastPixels = 4;
-constexpr int kSmallest_px = 16;      ///< of a picture's side
+constexpr int kSmallest_px = 16;      ///< of a image's side
 constexpr double kMostLength = 1.8;   ///< of a spot to its width
 constexpr double kSoftSpread = 3.2;   ///< area at a quarter of the height to that at three quarters
 constexpr double kMostSoft_px = 8.0;  ///< a soft spot narrower than this is a LED, not out of focus
 constexpr double kSaturated = 250.0;
-constexpr double kMostOfWidth = 1.0 / 48.0;  ///< of the picture: a 3 mm ball is a quarter of that
+constexpr double kMostOfWidth = 1.0 / 48.0;  ///< of the image: a 3 mm ball is a quarter of that
 
 /// One sigma of what is left between pixels near each other, wild ones aside.
 double noiseOf(const cv::Mat& difference) {
@@ -39,7 +39,7 @@ double noiseOf(const cv::Mat& difference) {
   return std::max(0.3, std::sqrt(0.5 * sum / count));
 }
 
-/// What changed slowly over the picture: the room's light, the inside of a shadow.
+/// What changed slowly over the image: the room's light, the inside of a shadow.
 cv::Mat slowChange(const cv::Mat& difference) {
   const int cell = std::max(8, difference.cols / 80);
   cv::Mat coarse, median, slow;
@@ -52,7 +52,7 @@ cv::Mat slowChange(const cv::Mat& difference) {
 
 double diameterOf(double area) { return 2.0 * std::sqrt(area / kPi); }
 
-/// A connected part of the picture above a threshold.
+/// A connected part of the image above a threshold.
 struct Patch {
   cv::Rect box;
   int pixels = 0, label = 0;
@@ -105,7 +105,7 @@ TipSpot refused(SpotTrouble trouble, const char* line, TipSpot spot) {
 
 }  // namespace
 
-TipSpot findTipSpot(const GreyPicture& before, const GreyPicture& with_tip) {
+TipSpot findTipSpot(const GreyImage& before, const GreyImage& with_tip) {
   const bool fit = before.size_px == with_tip.size_px && isWhole(before) && isWhole(with_tip);
   if (!fit || before.size_px.x < kSmallest_px || before.size_px.y < kSmallest_px)
     throw CalibrationError("tip: the pictures with and without it differ in size, take both again");
@@ -140,18 +140,18 @@ TipSpot findTipSpot(const GreyPicture& before, const GreyPicture& with_tip) {
   if (patches.size() > 1)
     return refused(SpotTrouble::several, "more than one light is seen: cover the others, avoid reflections", spot);
   const Patch& patch = patches.front();
-  const cv::Rect picture(0, 0, height.cols, height.rows);
+  const cv::Rect image(0, 0, height.cols, height.rows);
   const int margin = 2 + std::max(patch.box.width, patch.box.height) / 2;
   const cv::Rect window(patch.box.x - margin, patch.box.y - margin, patch.box.width + 2 * margin,
                         patch.box.height + 2 * margin);
 
-  const Shape shape = shapeOf(height, window & picture, kPedestal * peak);
+  const Shape shape = shapeOf(height, window & image, kPedestal * peak);
   spot.centre_px = shape.centre_px;
-  const cv::Mat around = smooth(window & picture);
+  const cv::Mat around = smooth(window & image);
   const auto area_above = [&](double share) { return double(cv::countNonZero(around > share * peak)); };
   spot.across_px = diameterOf(area_above(0.5));
-  const bool touches_edge = patch.box.x < 3 || patch.box.y < 3 || patch.box.br().x > picture.width - 3 ||
-                            patch.box.br().y > picture.height - 3;
+  const bool touches_edge = patch.box.x < 3 || patch.box.y < 3 || patch.box.br().x > image.width - 3 ||
+                            patch.box.br().y > image.height - 3;
   if (touches_edge)
     return refused(SpotTrouble::at_the_edge, "the tip is at the picture's edge: bring it further in", spot);
   if (spot.across_px > most_px)

@@ -1,6 +1,6 @@
-// Where a lit tip (a 3 mm ball or a LED) is in a camera's picture: the brightest new spot between a picture before and
+// Where a lit tip (a 3 mm ball or a LED) is in a camera's image: the brightest new spot between a image before and
 // one with it, less what the room's light did meanwhile. Centre to about 0.2 px. px, centres at whole numbers. Any
-// thread; 10 ms at 1080p. Not a tracker: it trusts nothing but these two pictures. Source: reference/calibration 2.3.
+// thread; 10 ms at 1080p. Not a tracker: it trusts nothing but these two images. Source: reference/calibration 2.3.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,7 @@ struct TipSpot {
   double above_noise = 0.0;  ///< its height over the noise of the difference
 };
 
-/// Throws CalibrationError for pictures whose sizes differ.
-TipSpot findTipSpot(const GreyPicture& before, const GreyPicture& with_tip);
+/// Throws CalibrationError for images whose sizes differ.
+TipSpot findTipSpot(const GreyImage& before, const GreyImage& with_tip);
 
 }  // namespace calibration

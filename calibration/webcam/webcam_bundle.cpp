@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "calibration/fit/least_squares.h"
-#include "calibration/geometry/turn.h"
+#include "calibration/geometry/rotation.h"
 
 namespace calibration {
 namespace {
@@ -17,7 +17,7 @@ constexpr int kMostIterations = 40;
 
 glm::dmat3 crossOf(const glm::dvec3& v) { return {0.0, v.z, -v.y, -v.z, 0.0, v.x, v.y, -v.x, 0.0}; }
 
-/// A pixel with its slopes by the point in C, and by the lens's three numbers.
+/// A pixel with its slopes by the point in C, and by the lens's three parameters.
 struct PixelSlopes {
   glm::dvec2 px{0.0};
   glm::dmat3x2 by_point{0.0};  ///< columns x, y, z of p_C
@@ -40,28 +40,28 @@ PixelSlopes pixelSlopes(const CameraModel& camera, const glm::dvec3& p_C) {
 }
 
 /// A camera that turns about, and moves with, the place in it where W's origin is.
-Pose<Camera, World> movedPose(const Pose<Camera, World>& X_CW, const double* numbers) {
-  return {glm::normalize(turnBy({numbers[0], numbers[1], numbers[2]}) * X_CW.rotation),
-          X_CW.translation_mm + glm::dvec3(numbers[3], numbers[4], numbers[5])};
+Pose<Camera, World> movedPose(const Pose<Camera, World>& X_CW, const double* parameters) {
+  return {glm::normalize(rotationFromVector({parameters[0], parameters[1], parameters[2]}) * X_CW.rotation),
+          X_CW.translation_mm + glm::dvec3(parameters[3], parameters[4], parameters[5])};
 }
 
-CameraModel movedLens(CameraModel camera, const double* numbers) {
-  camera.focal_px *= 1.0 + numbers[0];
-  camera.centre_px += glm::dvec2(numbers[1], numbers[2]);
+CameraModel movedLens(CameraModel camera, const double* parameters) {
+  camera.focal_px *= 1.0 + parameters[0];
+  camera.centre_px += glm::dvec2(parameters[1], parameters[2]);
   return camera;
 }
 
-/// The numbers in order: the arm's, six of each camera position, three of the lens.
+/// The parameters in order: the arm's, six of each camera position, three of the lens.
 class BundleProblem {
  public:
-  BundleProblem(const WebcamSights& sights, const WebcamBundle& from) : sights_(sights), from_(from) {
+  BundleProblem(const WebcamObservations& sights, const WebcamBundle& from) : sights_(sights), from_(from) {
     first_pose_ = from.fitted.size();
     first_lens_ = first_pose_ + kPoseNumbers * sights.positions.size();
     count_ = first_lens_ + kLensNumbers;
 
     LeastSquares& p = problem_;
     for (const std::size_t k : from.fitted) {
-      p.start.push_back(from.numbers[k]);
+      p.start.push_back(from.parameters[k]);
       p.priors.push_back({0.0, kArmParameters[k].prior_sigma});
     }
     p.start.resize(count_, 0.0);
@@ -81,8 +81,8 @@ class BundleProblem {
       }
     }
     p.residuals = 2 * p.groups.size();
-    p.most_iterations = kMostIterations;
-    p.good_enough = 1e-7;
+    p.max_iterations = kMostIterations;
+    p.relative_tolerance = 1e-7;
     p.residuals_at = [this](std::span<const double> x, std::span<double> r) { evaluate(x, r, {}); };
     p.jacobian_at = [this](std::span<const double> x, std::span<double> J) { evaluate(x, {}, J); };
   }
@@ -92,18 +92,18 @@ class BundleProblem {
   WebcamBundle solution() const {
     const LeastSquaresResult result = solved(problem_);
     WebcamBundle bundle = from_;
-    bundle.numbers = armNumbers(result.numbers);
+    bundle.parameters = armNumbers(result.parameters);
     for (std::size_t c = 0; c < bundle.X_CW.size(); ++c)
-      bundle.X_CW[c] = movedPose(from_.X_CW[c], &result.numbers[first_pose_ + kPoseNumbers * c]);
-    bundle.camera = movedLens(from_.camera, &result.numbers[first_lens_]);
+      bundle.X_CW[c] = movedPose(from_.X_CW[c], &result.parameters[first_pose_ + kPoseNumbers * c]);
+    bundle.camera = movedLens(from_.camera, &result.parameters[first_lens_]);
     bundle.iterations += result.iterations;
     bundle.sigma = {};
-    bundle.arm_said = 0.0;
+    bundle.effective_arm_parameters = 0.0;
     for (std::size_t i = 0; i < from_.fitted.size() && !result.covariance.empty(); ++i) {
       const double variance = result.covariance[i * count_ + i];
       const double prior = kArmParameters[from_.fitted[i]].prior_sigma;
       bundle.sigma[from_.fitted[i]] = std::sqrt(variance);
-      bundle.arm_said += prior > 0.0 ? 1.0 - variance / (prior * prior) : 1.0;
+      bundle.effective_arm_parameters += prior > 0.0 ? 1.0 - variance / (prior * prior) : 1.0;
     }
     return bundle;
   }
@@ -114,35 +114,35 @@ class BundleProblem {
     double sigma_px;
   };
 
-  ArmNumbers armNumbers(std::span<const double> x) const {
-    ArmNumbers numbers{};
-    for (std::size_t i = 0; i < from_.fitted.size(); ++i) numbers[from_.fitted[i]] = x[i];
-    return numbers;
+  ArmParameters armNumbers(std::span<const double> x) const {
+    ArmParameters parameters{};
+    for (std::size_t i = 0; i < from_.fitted.size(); ++i) parameters[from_.fitted[i]] = x[i];
+    return parameters;
   }
 
   /// Residuals, or their slopes: position after position its screen, then its tips.
   void evaluate(std::span<const double> x, std::span<double> r, std::span<double> J) const {
     const CameraModel camera = movedLens(from_.camera, &x[first_lens_]);
-    const ArmNumbers numbers = armNumbers(x);
-    const MeasuredArm arm = armOf(from_.start, numbers);
+    const ArmParameters parameters = armNumbers(x);
+    const MeasuredArm arm = armOf(from_.start, parameters);
     std::size_t row = 0;
     auto tip = tips_.begin();
     for (std::size_t c = 0; c < sights_.positions.size(); ++c) {
       const double* pose = &x[first_pose_ + kPoseNumbers * c];
       const Pose<Camera, World> X_CW = movedPose(from_.X_CW[c], pose);
-      for (const PlaceSight& sight : sights_.positions[c].screen)
-        setRows(row++, r, J, c, pose, camera, X_CW, sight.place_W.mm, sight.camera_px, sights_.screen_noise_px);
+      for (const ScreenObservation& sight : sights_.positions[c].screen)
+        setRows(row++, r, J, c, pose, camera, X_CW, sight.position_W.mm, sight.camera_px, sights_.screen_noise_px);
       for (; tip != tips_.end() && tip->position == c; ++tip) {
-        const TipSight& sight = sights_.positions[c].tips[tip->index];
+        const TipObservation& sight = sights_.positions[c].tips[tip->index];
         if (J.empty()) {
           setRows(row++, r, J, c, pose, camera, X_CW, arm.tip_W(sight.joints_rad).mm, sight.camera_px, tip->sigma_px);
           continue;
         }
-        const TipSlopes slopes = tipSlopes(from_.start, numbers, sight.joints_rad);
+        const TipJacobian slopes = tipJacobian(from_.start, parameters, sight.joints_rad);
         const glm::dmat3x2 by_W =
             setRows(row, r, J, c, pose, camera, X_CW, slopes.tip_W_mm, sight.camera_px, tip->sigma_px);
         for (std::size_t k = 0; k < from_.fitted.size(); ++k)
-          setSlope(J, row, k, by_W * slopes.by_number[from_.fitted[k]] / tip->sigma_px);
+          setSlope(J, row, k, by_W * slopes.by_parameter[from_.fitted[k]] / tip->sigma_px);
         ++row;
       }
     }
@@ -153,7 +153,7 @@ class BundleProblem {
     J[(2 * row + 1) * count_ + number] = slope.y;
   }
 
-  /// Of one point, but for the arm's numbers; returns the pixel's slopes by its place in W.
+  /// Of one point, but for the arm's parameters; returns the pixel's slopes by its place in W.
   glm::dmat3x2 setRows(std::size_t row, std::span<double> r, std::span<double> J, std::size_t c, const double* pose,
                        const CameraModel& camera, const Pose<Camera, World>& X_CW, const glm::dvec3& p_W,
                        const glm::dvec2& seen_px, double sigma_px) const {
@@ -179,7 +179,7 @@ class BundleProblem {
     return slopes.by_point * glm::mat3_cast(X_CW.rotation);
   }
 
-  const WebcamSights& sights_;
+  const WebcamObservations& sights_;
   const WebcamBundle& from_;
   std::size_t first_pose_ = 0, first_lens_ = 0, count_ = 0;
   std::vector<Tip> tips_;
@@ -188,13 +188,13 @@ class BundleProblem {
 
 }  // namespace
 
-double tipSigma_px(const WebcamSights& sights, const WebcamBundle& bundle, std::size_t position,
+double tipSigma_px(const WebcamObservations& sights, const WebcamBundle& bundle, std::size_t position,
                    const Point<World>& tip_W) {
   const double away_mm = std::max(50.0, (bundle.X_CW[position] * tip_W).mm.z);
   return std::hypot(sights.tip_noise_px, bundle.mismatch_mm * bundle.camera.focal_px.x / away_mm);
 }
 
-WebcamBundle adjusted(const WebcamSights& sights, const WebcamBundle& from) {
+WebcamBundle adjusted(const WebcamObservations& sights, const WebcamBundle& from) {
   return BundleProblem(sights, from).solution();
 }
 

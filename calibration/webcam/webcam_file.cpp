@@ -24,13 +24,13 @@ class Reader {
  public:
   explicit Reader(const std::string& path) : yaml_("webcam observations", path) {}
 
-  WebcamObservations observations() {
+  WebcamObservationFile observations() {
     const cv::FileNode root = yaml_.root(), kind = root["kind"];
     if (!kind.isString() || kind.string() != kKind)
       yaml_.refuse("it holds no webcam observations (kind: \"molar_webcam_observations\" missing)",
                    "give the file that the webcam procedure wrote");
     yaml_.integer(root, "schema", 1, 1);
-    WebcamObservations all;
+    WebcamObservationFile all;
     all.sights.device_model = yaml_.text(root, "device_model");
     if (!findPhantomModel(all.sights.device_model))
       yaml_.refuse("device_model '" + all.sights.device_model + "' is not known", "give a key of molar devices");
@@ -60,22 +60,22 @@ class Reader {
   }
 
   glm::dvec2 pixel(double u, double v, const std::string& where) const {
-    // Half a picture beside it at the most: nothing is seen there.
+    // Half a image beside it at the most: nothing is seen there.
     if (std::abs(u - 0.5 * size_px_.x) > size_px_.x || std::abs(v - 0.5 * size_px_.y) > size_px_.y)
       yaml_.refuse(where + ": a pixel lies far beside the picture", "measure again");
     return {u, v};
   }
 
-  PlaceSight place(const cv::FileNode& node, const std::string& where) const {
+  ScreenObservation place(const cv::FileNode& node, const std::string& where) const {
     const auto n = yaml_.numbers(node, where, 5);
     if (std::max({std::abs(n[0]), std::abs(n[1]), std::abs(n[2])}) > kFarthest_mm)
       yaml_.refuse(where + " is beyond 2 m", "give mm in frame W");
     return {{{n[0], n[1], n[2]}}, pixel(n[3], n[4], where)};
   }
 
-  TipSight tip(const cv::FileNode& node, const std::string& where) const {
+  TipObservation tip(const cv::FileNode& node, const std::string& where) const {
     if (!node.isMap()) yaml_.refuse(where + " is no map", "write { id, joints_rad: [6], camera_px: [2] }");
-    TipSight tip;
+    TipObservation tip;
     tip.id = yaml_.integer(node, "id", 0, kLargestId);
     const auto joints = yaml_.numbers(node["joints_rad"], where + ": joints_rad", tip.joints_rad.size());
     if (std::ranges::any_of(joints, [](double angle) { return std::abs(angle) > kMostTurned_rad; }))
@@ -116,10 +116,10 @@ bool isWebcamFile(const std::string& path) {
   }
 }
 
-WebcamObservations readWebcamFile(const std::string& path) { return Reader(path).observations(); }
+WebcamObservationFile readWebcamFile(const std::string& path) { return Reader(path).observations(); }
 
-std::string webcamFileText(const WebcamObservations& observations) {
-  const WebcamSights& sights = observations.sights;
+std::string webcamFileText(const WebcamObservationFile& observations) {
+  const WebcamObservations& sights = observations.sights;
   const std::string open = "[:", close = "]", open_map = "{", close_map = "}";
   cv::FileStorage out("webcam.yaml", cv::FileStorage::WRITE | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_YAML);
   const auto pair = [&](const char* key, const glm::dvec2& v) { out << key << open << v.x << v.y << close; };
@@ -127,17 +127,17 @@ std::string webcamFileText(const WebcamObservations& observations) {
   if (!observations.serial.empty()) out << "serial" << observations.serial;
   if (!observations.mount.empty()) out << "mount" << observations.mount;
   out << "camera" << open_map;
-  putCamera(out, sights.camera);
+  writeCamera(out, sights.camera);
   out << close_map;
   pair("noise_px", {sights.screen_noise_px, sights.tip_noise_px});
   out << "positions" << std::string("[");
   for (const CameraPosition& position : sights.positions) {
     out << open_map << "screen" << std::string("[");
-    for (const PlaceSight& place : position.screen)
-      out << open << place.place_W.mm.x << place.place_W.mm.y << place.place_W.mm.z << place.camera_px.x
+    for (const ScreenObservation& place : position.screen)
+      out << open << place.position_W.mm.x << place.position_W.mm.y << place.position_W.mm.z << place.camera_px.x
           << place.camera_px.y << close;
     out << close << "tips" << std::string("[");
-    for (const TipSight& tip : position.tips) {
+    for (const TipObservation& tip : position.tips) {
       out << open_map << "id" << tip.id << "joints_rad" << open;
       for (const double angle_rad : tip.joints_rad) out << angle_rad;
       out << close;

@@ -11,8 +11,8 @@
 
 namespace calibration {
 
-struct WebcamObservations {
-  WebcamSights sights;
+struct WebcamObservationFile {
+  WebcamObservations sights;
   std::string serial, mount;  ///< of the device; empty: not known
 };
 
@@ -20,11 +20,11 @@ struct WebcamObservations {
 bool isWebcamFile(const std::string& path);
 
 /// Throws CalibrationError, one line with file, position and remedy: unreadable, truncated, not finite, an unknown
-/// model, no lens that can be, pixels far beside the picture, more than 12 positions, 20,000 places or 1,000 tips at
+/// model, no lens that can be, pixels far beside the image, more than 12 positions, 20,000 places or 1,000 tips at
 /// one. Whether it suffices for a fit is the fit's business.
-WebcamObservations readWebcamFile(const std::string& path);
+WebcamObservationFile readWebcamFile(const std::string& path);
 
 /// The text of such a file; writing it is the caller's.
-std::string webcamFileText(const WebcamObservations& observations);
+std::string webcamFileText(const WebcamObservationFile& observations);
 
 }  // namespace calibration

@@ -29,7 +29,7 @@ constexpr double kLeastOfForetold = 0.3;  ///< of the squares: noise was said to
 
 bool isFinite(const glm::dvec2& v) { return std::isfinite(v.x) && std::isfinite(v.y); }
 
-void checkPosition(const WebcamSights& sights, std::size_t c) {
+void checkPosition(const WebcamObservations& sights, std::size_t c) {
   const std::string where = "camera position " + std::to_string(c + 1);
   const CameraPosition& position = sights.positions[c];
   if (position.screen.size() < kLeastPlaces)
@@ -37,29 +37,29 @@ void checkPosition(const WebcamSights& sights, std::size_t c) {
   if (position.tips.size() < kLeastTipsAtOne)
     refuseWebcam(where + " has only " + std::to_string(position.tips.size()) + " tips",
                  "touch at least 4 places from there");
-  for (const PlaceSight& sight : position.screen)
-    if (!isFinite(sight.camera_px) || !isFinite(glm::dvec2(sight.place_W.mm)) || sight.place_W.mm.z != 0.0)
+  for (const ScreenObservation& sight : position.screen)
+    if (!isFinite(sight.camera_px) || !isFinite(glm::dvec2(sight.position_W.mm)) || sight.position_W.mm.z != 0.0)
       refuseWebcam(where + " has a place of the screen that is not finite or not on it", "take its pictures again");
-  for (const TipSight& sight : position.tips)
+  for (const TipObservation& sight : position.tips)
     if (!isFinite(sight.camera_px) ||
         !std::ranges::all_of(sight.joints_rad, [](double a) { return std::abs(a) < 13.0; }))
       refuseWebcam(where + ", touch " + std::to_string(sight.id) + ": a number that is not finite", "leave it out");
 }
 
-void checkSights(const WebcamSights& sights) {
+void checkSights(const WebcamObservations& sights) {
   if (findPhantomModel(sights.device_model) == nullptr)
     refuseWebcam("the device model '" + sights.device_model + "' is not known", "give omni, touch, desktop or premium");
   for (std::size_t c = 0; c < sights.positions.size(); ++c) checkPosition(sights, c);
 }
 
-std::size_t tipsOf(const WebcamSights& sights) {
+std::size_t tipsOf(const WebcamObservations& sights) {
   std::size_t count = 0;
   for (const CameraPosition& position : sights.positions) count += position.tips.size();
   return count;
 }
 
 template <class Use>
-void eachTip(const WebcamSights& sights, Use&& use) {
+void eachTip(const WebcamObservations& sights, Use&& use) {
   for (std::size_t c = 0; c < sights.positions.size(); ++c)
     for (std::size_t i = 0; i < sights.positions[c].tips.size(); ++i) use(c, i, sights.positions[c].tips[i]);
 }
@@ -70,7 +70,7 @@ struct TipError {
   glm::dvec2 off_px{0.0};
   double mm_per_px = 0.0;  ///< at its distance
 };
-TipError tipError(const WebcamBundle& bundle, const MeasuredArm& arm, std::size_t c, const TipSight& sight) {
+TipError tipError(const WebcamBundle& bundle, const MeasuredArm& arm, std::size_t c, const TipObservation& sight) {
   TipError error{arm.tip_W(sight.joints_rad)};
   const Point<Camera> p_C = bundle.X_CW[c] * error.tip_W;
   error.off_px = bundle.camera.pixelOf(p_C) - sight.camera_px;
@@ -78,8 +78,8 @@ TipError tipError(const WebcamBundle& bundle, const MeasuredArm& arm, std::size_
   return error;
 }
 
-/// The best of what the single positions make of it, judged by all of them.
-WebcamBundle firstGuess(const WebcamSights& sights) {
+/// The best of what the single positions make of it, charted by all of them.
+WebcamBundle firstGuess(const WebcamObservations& sights) {
   WebcamBundle guess;
   guess.camera = sights.camera;
   guess.start.geometry = findPhantomModel(sights.device_model)->geometry;
@@ -91,7 +91,7 @@ WebcamBundle firstGuess(const WebcamSights& sights) {
   for (std::size_t c = 0; c < sights.positions.size(); ++c) {
     const MeasuredArm arm{guess.start.geometry, {}, deviceSeen(sights, c, guess.X_CW[c])};
     double sum = 0.0;
-    eachTip(sights, [&](std::size_t at, std::size_t, const TipSight& sight) {
+    eachTip(sights, [&](std::size_t at, std::size_t, const TipObservation& sight) {
       const TipError error = tipError(guess, arm, at, sight);
       sum += std::min(100.0, error.mm_per_px * error.mm_per_px * glm::dot(error.off_px, error.off_px));
     });
@@ -101,7 +101,7 @@ WebcamBundle firstGuess(const WebcamSights& sights) {
   // The pose's numbers turn about the middle of the tips.
   const MeasuredArm arm{guess.start.geometry, {}, guess.start.X_WD};
   glm::dvec3 sum{0.0};
-  eachTip(sights, [&](std::size_t, std::size_t, const TipSight& sight) { sum += arm.tip_W(sight.joints_rad).mm; });
+  eachTip(sights, [&](std::size_t, std::size_t, const TipObservation& sight) { sum += arm.tip_W(sight.joints_rad).mm; });
   guess.start.middle_W = {sum / double(tipsOf(sights))};
   return guess;
 }
@@ -118,11 +118,11 @@ double baseOf_deg(const WebcamBundle& bundle) {
   return widest;
 }
 
-/// Which tips are wild, and how much the others are off beyond their noise in the picture.
-void judgeTips(const WebcamSights& sights, WebcamBundle& bundle) {
+/// Which tips are wild, and how much the others are off beyond their noise in the image.
+void judgeTips(const WebcamObservations& sights, WebcamBundle& bundle) {
   const MeasuredArm arm = bundle.arm();
   double squares_mm2 = 0.0, noise_mm2 = 0.0, count = 0.0;
-  eachTip(sights, [&](std::size_t c, std::size_t i, const TipSight& sight) {
+  eachTip(sights, [&](std::size_t c, std::size_t i, const TipObservation& sight) {
     const TipError error = tipError(bundle, arm, c, sight);
     bundle.tip_used[c][i] = glm::length(error.off_px) < kWild * tipSigma_px(sights, bundle, c, error.tip_W);
     if (!bundle.tip_used[c][i]) return;
@@ -130,17 +130,17 @@ void judgeTips(const WebcamSights& sights, WebcamBundle& bundle) {
     noise_mm2 += std::pow(sights.tip_noise_px * error.mm_per_px, 2);
     count += 1.0;
   });
-  const double free = std::max(0.5 * count, 2.0 * count - bundle.arm_said);
+  const double free = std::max(0.5 * count, 2.0 * count - bundle.effective_arm_parameters);
   const double left_mm2 = squares_mm2 / std::max(1.0, free) - noise_mm2 / std::max(1.0, count);
   bundle.mismatch_mm = std::clamp(std::sqrt(std::max(0.0, left_mm2)), kLeastMismatch_mm, kMostMismatch_mm);
 }
 
-WebcamBundle fitted(const WebcamSights& sights, WebcamBundle bundle, ArmModel model) {
-  // The pose first, then all the numbers, and what they leave judged in turn with them.
-  bundle.fitted = numbersOf(ArmModel::rigid);
+WebcamBundle fitted(const WebcamObservations& sights, WebcamBundle bundle, ArmModel model) {
+  // The pose first, then all the numbers, and what they leave charted in turn with them.
+  bundle.fitted = parametersOf(ArmModel::rigid);
   bundle.mismatch_mm = kRigidMismatch_mm;
   bundle = adjusted(sights, bundle);
-  bundle.fitted = numbersOf(model);
+  bundle.fitted = parametersOf(model);
   for (int round = 0; round < kRounds; ++round) {
     bundle = adjusted(sights, bundle);
     const auto was_used = bundle.tip_used;
@@ -155,19 +155,19 @@ WebcamBundle fitted(const WebcamSights& sights, WebcamBundle bundle, ArmModel mo
 double upToThreeAxes(double squares_mm2, double count) { return std::sqrt(1.5 * squares_mm2 / std::max(1.0, count)); }
 
 /// Of tips that were left out, a fifth at a time; less the noise with which they are seen, for that is not the arm's.
-double crossValidated_mm(const WebcamSights& sights, const WebcamBundle& bundle) {
+double crossValidated_mm(const WebcamObservations& sights, const WebcamBundle& bundle) {
   double squares_mm2 = 0.0, noise_mm2 = 0.0, count = 0.0;
   for (std::size_t fold = 0; fold < kFolds; ++fold) {
     WebcamBundle without = bundle;
     const auto is_out = [&](std::size_t c, std::size_t i) {
       return bundle.tip_used[c][i] && (i + 2 * c) % kFolds == fold;
     };
-    eachTip(sights, [&](std::size_t c, std::size_t i, const TipSight&) {
+    eachTip(sights, [&](std::size_t c, std::size_t i, const TipObservation&) {
       if (is_out(c, i)) without.tip_used[c][i] = false;
     });
     without = adjusted(sights, without);
     const MeasuredArm arm = without.arm();
-    eachTip(sights, [&](std::size_t c, std::size_t i, const TipSight& sight) {
+    eachTip(sights, [&](std::size_t c, std::size_t i, const TipObservation& sight) {
       if (!is_out(c, i)) return;
       const TipError error = tipError(without, arm, c, sight);
       squares_mm2 += error.mm_per_px * error.mm_per_px * glm::dot(error.off_px, error.off_px);
@@ -179,7 +179,7 @@ double crossValidated_mm(const WebcamSights& sights, const WebcamBundle& bundle)
 }
 
 /// From the nearest place on the line of sight to the arm's tip: square to that line, as long as it looks.
-Residual residualOf(const WebcamBundle& bundle, std::size_t c, const TipSight& sight, const TipError& error,
+Residual residualOf(const WebcamBundle& bundle, std::size_t c, const TipObservation& sight, const TipError& error,
                     bool used) {
   const Pose<World, Camera> X_WC = bundle.X_CW[c].inverse();
   const glm::dvec3 ahead = glm::normalize(error.tip_W.mm - X_WC.translation_mm);
@@ -188,16 +188,16 @@ Residual residualOf(const WebcamBundle& bundle, std::size_t c, const TipSight& s
   return {sight.id, {error.tip_W.mm - off}, {off}, used};
 }
 
-void measure(const WebcamSights& sights, const WebcamBundle& bundle, WebcamFit& fit) {
+void measure(const WebcamObservations& sights, const WebcamBundle& bundle, WebcamFit& fit) {
   double screen_px2 = 0.0, places = 0.0, tip_px2 = 0.0, tip_mm2 = 0.0;
   for (std::size_t c = 0; c < sights.positions.size(); ++c)
-    for (const PlaceSight& sight : sights.positions[c].screen) {
-      const glm::dvec2 off = bundle.camera.pixelOf(bundle.X_CW[c] * sight.place_W) - sight.camera_px;
+    for (const ScreenObservation& sight : sights.positions[c].screen) {
+      const glm::dvec2 off = bundle.camera.pixelOf(bundle.X_CW[c] * sight.position_W) - sight.camera_px;
       screen_px2 += glm::dot(off, off);
       places += 1.0;
     }
   std::vector<Touch> touches;
-  eachTip(sights, [&](std::size_t c, std::size_t i, const TipSight& sight) {
+  eachTip(sights, [&](std::size_t c, std::size_t i, const TipObservation& sight) {
     const bool used = bundle.tip_used[c][i];
     const TipError error = tipError(bundle, fit.arm, c, sight);
     fit.residuals.push_back(residualOf(bundle, c, sight, error, used));
@@ -215,15 +215,15 @@ void measure(const WebcamSights& sights, const WebcamBundle& bundle, WebcamFit& 
   fit.tilt_spread_deg = tiltSpread_deg(bundle.start.geometry, touches, all);
 }
 
-void warn(const WebcamSights& sights, WebcamFit& fit) {
+void warn(const WebcamObservations& sights, WebcamFit& fit) {
   const auto add = [&](FitWarning::Kind kind, std::string line) { fit.warnings.push_back({kind, std::move(line)}); };
   if (tipsOf(sights) < kFewTips)
     add(FitWarning::Kind::few_touches,
         std::to_string(tipsOf(sights)) + " tips are few: touch 27 places from each of three camera positions");
-  if (fit.base_deg < kNarrowBase_deg)
-    add(FitWarning::Kind::narrow_view, "the camera positions are only " + std::to_string(std::lround(fit.base_deg)) +
+  if (fit.baseline_deg < kNarrowBase_deg)
+    add(FitWarning::Kind::narrow_view, "the camera positions are only " + std::to_string(std::lround(fit.baseline_deg)) +
                                            "° apart: move the camera by 25° to each side");
-  if (fit.tilt_spread_deg < kLeastTilt_deg)
+  if (fit.tilt_spread_deg < kMinTilt_deg)
     add(FitWarning::Kind::little_tilt, "the stylus was held one way: what its gimbal gets wrong is not seen, tilt it");
   if (10 * fit.outliers > fit.used + fit.outliers)
     add(FitWarning::Kind::many_outliers, std::to_string(fit.outliers) + " of " +
@@ -233,7 +233,7 @@ void warn(const WebcamSights& sights, WebcamFit& fit) {
 
 }  // namespace
 
-WebcamFit fitWebcam(const WebcamSights& sights, ArmModel model) {
+WebcamFit fitWebcam(const WebcamObservations& sights, ArmModel model) {
   if (sights.positions.size() < kLeastPositions)
     refuseWebcam("one camera position can be wrong by a centimetre and look good",
                  "move the camera and take a second one");
@@ -250,7 +250,7 @@ WebcamFit fitWebcam(const WebcamSights& sights, ArmModel model) {
   fit.arm = bundle.arm();
   fit.camera = bundle.camera;
   for (const auto& X_CW : bundle.X_CW) fit.X_WC.push_back(X_CW.inverse());
-  fit.base_deg = baseOf_deg(bundle);
+  fit.baseline_deg = baseOf_deg(bundle);
   fit.iterations = bundle.iterations;
   fit.sigma.assign(bundle.sigma.begin(), bundle.sigma.end());
   measure(sights, bundle, fit);
@@ -261,7 +261,7 @@ WebcamFit fitWebcam(const WebcamSights& sights, ArmModel model) {
   return fit;
 }
 
-MeasuredArm armFromOnePosition(const WebcamSights& sights, std::size_t position) {
+MeasuredArm armFromOnePosition(const WebcamObservations& sights, std::size_t position) {
   checkSights(sights);
   const Pose<Camera, World> X_CW = cameraSeeing(sights, position);
   return {findPhantomModel(sights.device_model)->geometry, {}, deviceSeen(sights, position, X_CW)};

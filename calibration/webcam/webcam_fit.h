@@ -9,7 +9,7 @@
 
 #include "calibration/calibration_error.h"
 #include "calibration/fit/arm_fit.h"
-#include "calibration/webcam/sights.h"
+#include "calibration/webcam/webcam_observations.h"
 
 namespace calibration {
 
@@ -25,9 +25,9 @@ struct WebcamFit {
   std::vector<FitWarning> warnings;
   int used = 0, outliers = 0;
   double fre_rms_mm = 0.0;  ///< of the residuals, taken up to three axes
-  double cv_rms_mm = 0.0;   ///< foretold for places not touched (5-fold): as above, less the tips' noise in the picture
+  double cv_rms_mm = 0.0;   ///< foretold for places not touched (5-fold): as above, less the tips' noise in the image
   double tilt_spread_deg = 0.0;
-  double base_deg = 0.0;  ///< the widest angle between two camera positions, from the middle of the tips
+  double baseline_deg = 0.0;  ///< the widest angle between two camera positions, from the middle of the tips
   int iterations = 0;
   std::vector<double> sigma;  ///< as ArmFit has it
 };
@@ -35,10 +35,10 @@ struct WebcamFit {
 /// Throws CalibrationError for fewer than 2 camera positions, all of them within 5°, fewer than 16 tips in all or 4 at
 /// a position, fewer than 6 places of the screen at a position, the screen seen mirrored, numbers not finite, an
 /// unknown model, or sights that no pose of the arm explains.
-WebcamFit fitWebcam(const WebcamSights& sights, ArmModel model = ArmModel::full);
+WebcamFit fitWebcam(const WebcamObservations& sights, ArmModel model = ArmModel::full);
 
 /// What a single camera position makes of it, with the arm as its model says: where fitWebcam starts, and how far off
 /// one position alone would be. Same errors, for that position.
-MeasuredArm armFromOnePosition(const WebcamSights& sights, std::size_t position);
+MeasuredArm armFromOnePosition(const WebcamObservations& sights, std::size_t position);
 
 }  // namespace calibration

@@ -16,8 +16,8 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
-#include "calibration/webcam/live_pictures.h"
-#include "calibration/webcam/picture_matrix.h"
+#include "calibration/webcam/live_image_source.h"
+#include "calibration/webcam/image_matrix.h"
 
 namespace calibration {
 namespace {
@@ -50,9 +50,9 @@ void checkDevice(const std::string& path) {
   if (!answered || (what & V4L2_CAP_VIDEO_CAPTURE) == 0U) refuse("it gives no pictures, try the next of /dev/video*");
 }
 
-class V4lFrames final : public FrameGiver {
+class V4lFrames final : public FrameGrabber {
  public:
-  V4lFrames(const std::string& path, const WebcamWanted& wanted) {
+  V4lFrames(const std::string& path, const WebcamSettings& wanted) {
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     const auto refuse = [&](const std::string& what) { throw CalibrationError("webcam " + path + ": " + what); };
     try {
@@ -79,7 +79,7 @@ class V4lFrames final : public FrameGiver {
       return false;
     }
   }
-  GreyPicture decoded() override {
+  GreyImage decoded() override {
     cv::Mat frame, grey;
     try {
       if (!camera_.retrieve(frame) || frame.empty()) return {};
@@ -91,12 +91,12 @@ class V4lFrames final : public FrameGiver {
     } catch (const cv::Exception&) {
       return {};
     }
-    return greyPictureOf(grey);
+    return greyImageOf(grey);
   }
   std::string remarks() override { return remarks_; }
 
  private:
-  void hold(const WebcamWanted& wanted) {
+  void hold(const WebcamSettings& wanted) {
     const auto ask = [&](int what, double value, const char* remark) {
       if (!camera_.set(what, value)) remarks_ += (remarks_.empty() ? "" : "; ") + std::string(remark);
     };
@@ -116,12 +116,12 @@ class V4lFrames final : public FrameGiver {
 
 }  // namespace
 
-OpenWebcam openPictures(const WebcamWanted& wanted) {
-  if (!isWebcam(wanted.device)) return {pictureFolder(wanted.device), ""};
+OpenedImageSource openImageSource(const WebcamSettings& wanted) {
+  if (!isWebcam(wanted.device)) return {imageFolder(wanted.device), ""};
   const std::string path = isIndex(wanted.device) ? "/dev/video" + wanted.device : wanted.device;
   checkDevice(path);
-  auto live = std::make_unique<LivePictures>(
-      "webcam " + path, [path, wanted] { return std::make_unique<V4lFrames>(path, wanted); }, LivePictures::Patience{});
+  auto live = std::make_unique<LiveImageSource>(
+      "webcam " + path, [path, wanted] { return std::make_unique<V4lFrames>(path, wanted); }, LiveImageSource::Timeouts{});
   std::string remarks = live->remarks();
   return {std::move(live), std::move(remarks)};
 }

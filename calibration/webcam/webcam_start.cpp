@@ -7,7 +7,7 @@
 #include <opencv2/core.hpp>
 
 #include "calibration/arm/phantom_models.h"
-#include "calibration/geometry/turn.h"
+#include "calibration/geometry/rotation.h"
 
 namespace calibration {
 namespace {
@@ -36,17 +36,17 @@ cv::Point2d pixelOf(const glm::dvec2& px) { return {px.x, px.y}; }
 /// X_C?: OpenCV's turn and shift.
 template <class To>
 Pose<Camera, To> poseOf(const cv::Vec3d& turn, const cv::Vec3d& shift) {
-  return {turnBy({turn[0], turn[1], turn[2]}), {shift[0], shift[1], shift[2]}};
+  return {rotationFromVector({turn[0], turn[1], turn[2]}), {shift[0], shift[1], shift[2]}};
 }
 
 }  // namespace
 
-Pose<Camera, World> cameraSeeing(const WebcamSights& sights, std::size_t position) {
+Pose<Camera, World> cameraSeeing(const WebcamObservations& sights, std::size_t position) {
   const Lens lens(sights.camera);
   std::vector<cv::Point3d> places;
   std::vector<cv::Point2d> pixels;
-  for (const PlaceSight& sight : sights.positions[position].screen) {
-    places.push_back(pointOf(sight.place_W.mm));
+  for (const ScreenObservation& sight : sights.positions[position].screen) {
+    places.push_back(pointOf(sight.position_W.mm));
     pixels.push_back(pixelOf(sight.camera_px));
   }
   cv::Vec3d turn, shift;
@@ -62,8 +62,8 @@ Pose<Camera, World> cameraSeeing(const WebcamSights& sights, std::size_t positio
     refusePosition(position, "the screen is seen mirrored", "correct the screen's corners in the rig file");
 
   double sum = 0.0;
-  for (const PlaceSight& sight : sights.positions[position].screen) {
-    const glm::dvec2 off = sights.camera.pixelOf(X_CW * sight.place_W) - sight.camera_px;
+  for (const ScreenObservation& sight : sights.positions[position].screen) {
+    const glm::dvec2 off = sights.camera.pixelOf(X_CW * sight.position_W) - sight.camera_px;
     sum += glm::dot(off, off);
   }
   if (!(std::sqrt(sum / double(places.size())) < kMostScreenRms_px))
@@ -72,13 +72,13 @@ Pose<Camera, World> cameraSeeing(const WebcamSights& sights, std::size_t positio
   return X_CW;
 }
 
-Pose<World, Device> deviceSeen(const WebcamSights& sights, std::size_t position, const Pose<Camera, World>& X_CW) {
+Pose<World, Device> deviceSeen(const WebcamObservations& sights, std::size_t position, const Pose<Camera, World>& X_CW) {
   const Lens lens(sights.camera);
   MeasuredArm nominal;
   nominal.geometry = findPhantomModel(sights.device_model)->geometry;
   std::vector<cv::Point3d> tips;
   std::vector<cv::Point2d> pixels;
-  for (const TipSight& sight : sights.positions[position].tips) {
+  for (const TipObservation& sight : sights.positions[position].tips) {
     tips.push_back(pointOf(nominal.tip_W(sight.joints_rad).mm));  // X_WD is none yet: in D
     pixels.push_back(pixelOf(sight.camera_px));
   }

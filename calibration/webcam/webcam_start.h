@@ -5,16 +5,16 @@
 #pragma once
 
 #include "calibration/calibration_error.h"
-#include "calibration/fit/arm_numbers.h"
-#include "calibration/webcam/sights.h"
+#include "calibration/fit/arm_parameters.h"
+#include "calibration/webcam/webcam_observations.h"
 
 namespace calibration {
 
 /// From the screen it sees. Throws CalibrationError: seen from behind (mirrored), or no pose explains it.
-Pose<Camera, World> cameraSeeing(const WebcamSights& sights, std::size_t position);
+Pose<Camera, World> cameraSeeing(const WebcamObservations& sights, std::size_t position);
 
 /// From the tips it sees, those that no pose explains aside. Throws CalibrationError: fewer than two thirds agree on
 /// one.
-Pose<World, Device> deviceSeen(const WebcamSights& sights, std::size_t position, const Pose<Camera, World>& X_CW);
+Pose<World, Device> deviceSeen(const WebcamObservations& sights, std::size_t position, const Pose<Camera, World>& X_CW);
 
 }  // namespace calibration

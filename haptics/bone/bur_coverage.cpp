@@ -160,7 +160,7 @@ double BurCoverage::beyondFaces(const glm::dvec3& p_T) const {
 }
 
 VoxelShare BurCoverage::shareAt(glm::ivec3 ijk) const {
-  const glm::dvec3 place = placeOf(ijk);
+  const glm::dvec3 place = positionInTool(ijk);
   if (parts == 1) return shareOfPart(*this, place);
   const double beyond = beyondFaces(place);
   if (beyond >= voxel_reach) return {};

@@ -31,7 +31,7 @@ class BurCoverage {
   bool empty() const { return first.x > last.x || first.y > last.y || first.z > last.z; }
 
   /// Of a voxel's centre, in T, voxels.
-  glm::dvec3 placeOf(glm::ivec3 ijk) const { return to_T * (glm::dvec3(ijk) - centre); }
+  glm::dvec3 positionInTool(glm::ivec3 ijk) const { return to_T * (glm::dvec3(ijk) - centre); }
 
   /// Distance beyond the face that lies farthest inwards; no steeper than 1, so a ball of radius r about p touches
   /// nothing of the bur if this is at least r, and lies inside it if it is at most -r.

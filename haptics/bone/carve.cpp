@@ -22,7 +22,7 @@ class RoundCoverage {
  public:
   RoundCoverage(const glm::dvec3& centre, double radius, double spacing_mm, const ErosionStep& step)
       : centre_(centre), radius_(radius) {
-    const LensCurve curve(std::max(radius, LensCurve::kLeastRadius));
+    const LensCurve curve(std::max(radius, LensCurve::kMinRadius));
     at_.coefficients = curve.coefficients;
     at_.scale = curve.scale;
     at_.offset = curve.offset;
@@ -41,7 +41,7 @@ class RoundCoverage {
     if (glm::length(first + 1.5) - kBlockReach >= outer()) return false;
     for (int axis = 0; axis < 3; ++axis) at_.first[axis] = first[axis];
     coverBlock(at_, cut.coverage.data(), cut.exposure.data());
-    if (radius_ < LensCurve::kLeastRadius) coverByClosedForm(first, cut);
+    if (radius_ < LensCurve::kMinRadius) coverByClosedForm(first, cut);
     return true;
   }
 
@@ -81,7 +81,7 @@ class HeadCoverage {
     if (beyond <= -reach_) {
       fraction.fill(1.0f);
     } else if (bur_.hasKernel()) {
-      const glm::vec3 place = bur_.placeOf(corner);
+      const glm::vec3 place = bur_.positionInTool(corner);
       coverUnderHead(head_, &place.x, fraction.data());
     } else {
       for (int n = 0; n < kBlockVoxels; ++n)
@@ -188,7 +188,7 @@ CarveResult& CarveResult::operator+=(const CarveResult& part) noexcept {
   return *this;
 }
 
-int carvingTurns(const CarvedBone& bone, double radius_mm, const ErosionStep& step) noexcept {
+int carveInterleave(const CarvedBone& bone, double radius_mm, const ErosionStep& step) noexcept {
   const double radius = radius_mm / bone.grid().spacing_mm;
   const double most_loss = *std::max_element(step.loss.begin(), step.loss.end());
   int turns = radius > 32.0 ? 8 : radius > 16.0 ? 4 : radius > 8.0 ? 2 : 1;
@@ -196,13 +196,13 @@ int carvingTurns(const CarvedBone& bone, double radius_mm, const ErosionStep& st
   return turns;
 }
 
-int carvingTurns(const CarvedBone& bone, const BurShape& head, const ErosionStep& step) noexcept {
+int carveInterleave(const CarvedBone& bone, const BurShape& head, const ErosionStep& step) noexcept {
   const double R = head.radius_mm, L = head.length_mm;
   const double surface_per_pi = head.kind == ShapeKind::sphere     ? 4.0 * R * R
                                 : head.kind == ShapeKind::capsule  ? 4.0 * R * R + 2.0 * R * L
                                 : head.kind == ShapeKind::cylinder ? 2.0 * R * R + 2.0 * R * L
                                                                    : R * R + R * std::hypot(R, L);
-  return carvingTurns(bone, 0.5 * std::sqrt(surface_per_pi), step);
+  return carveInterleave(bone, 0.5 * std::sqrt(surface_per_pi), step);
 }
 
 CarveResult carveSphere(CarvedBone& bone, const Point<Patient>& centre_P, double radius_mm, const ErosionStep& step,
@@ -240,7 +240,7 @@ CarveResult carveSweep(CarvedBone& bone, const BurShape& head,
   const double way_mm = length_mm + turn * (halfHeight_mm(head) + head.radius_mm);
   if (!std::isfinite(way_mm)) return {};
   const double wanted = 1.0 + std::ceil(way_mm / (0.5 * bone.grid().spacing_mm));
-  const int steps = static_cast<int>(std::clamp(wanted, 1.0, static_cast<double>(kMostSweepSteps)));
+  const int steps = static_cast<int>(std::clamp(wanted, 1.0, static_cast<double>(kMaxSweepSteps)));
   ErosionStep part = step;
   for (double& loss : part.loss) loss /= steps;
   CarveResult total;
@@ -249,7 +249,7 @@ CarveResult carveSweep(CarvedBone& bone, const BurShape& head,
     const calibration::Pose<Patient, calibration::Tool> X_PT{
         glm::slerp(from_X_PT.rotation, to_X_PT.rotation, along),
         glm::mix(from_X_PT.translation_mm, to_X_PT.translation_mm, along)};
-    total += carveTool(bone, head, X_PT, part, tick * kMostSweepSteps + static_cast<std::uint64_t>(n));
+    total += carveTool(bone, head, X_PT, part, tick * kMaxSweepSteps + static_cast<std::uint64_t>(n));
   }
   return total;
 }

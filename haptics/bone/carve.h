@@ -39,17 +39,17 @@ CarveResult carveTool(CarvedBone& bone, const BurShape& head,
 
 /// As many turns as keep a tick with this bur short, while no tissue loses more than three quarters of a voxel in a
 /// turn.
-int carvingTurns(const CarvedBone& bone, double radius_mm, const ErosionStep& step) noexcept;
+int carveInterleave(const CarvedBone& bone, double radius_mm, const ErosionStep& step) noexcept;
 /// The same for a head of any shape: of a ball with its surface.
-int carvingTurns(const CarvedBone& bone, const BurShape& head, const ErosionStep& step) noexcept;
+int carveInterleave(const CarvedBone& bone, const BurShape& head, const ErosionStep& step) noexcept;
 
 /// One step for a head that moves straight from `from` to `to` during it and turns evenly on its way: in equal parts in
-/// which no point of it moves more than half a voxel, at most `kMostSweepSteps` of them. For poses too far apart to be
+/// which no point of it moves more than half a voxel, at most `kMaxSweepSteps` of them. For poses too far apart to be
 /// taken as steps of their own.
 CarveResult carveSweep(CarvedBone& bone, const BurShape& head,
                        const calibration::Pose<calibration::Patient, calibration::Tool>& from_X_PT,
                        const calibration::Pose<calibration::Patient, calibration::Tool>& to_X_PT,
                        const ErosionStep& step, std::uint64_t tick) noexcept;
-inline constexpr int kMostSweepSteps = 1024;
+inline constexpr int kMaxSweepSteps = 1024;
 
 }  // namespace haptics

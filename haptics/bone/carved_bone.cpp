@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
-#include "calibration/chance.h"
+#include "calibration/random.h"
 #include "haptics/bone/block_kernels.h"
 #include "haptics/bone/stroke_history.h"
 
@@ -68,7 +68,7 @@ bool CarvedBone::cutBlock(glm::ivec3 block_ijk, const BlockCut& cut,
   const bool mixed_labels = at.only_label[block] == kMixedLabels;
   const std::size_t only_tissue = tissueOf(at, start);
   if (!meetsBlock(before, cut.coverage.data())) return false;
-  if (strokes != nullptr && strokes->lacks(block)) strokes->save(block, stateOf(block));
+  if (strokes != nullptr && strokes->needsSaving(block)) strokes->save(block, stateOf(block));
 
   alignas(64) std::array<std::uint32_t, kBlockVoxels> loss_q32;
   alignas(64) std::array<std::uint8_t, kBlockVoxels> after;
@@ -172,7 +172,7 @@ void CarvedBone::copyBrick(glm::ivec3 brick, std::span<std::uint8_t, 512> solid_
         const glm::ivec3 ijk = corner + glm::ivec3(i, j, k);
         // The atomic view needs a mutable reference; nothing is written through it.
         solid_out[out] = grid_.contains(ijk)
-                             ? std::atomic_ref<std::uint8_t>(const_cast<std::uint8_t&>(at.solid[at.placeOf(ijk)]))
+                             ? std::atomic_ref<std::uint8_t>(const_cast<std::uint8_t&>(at.solid[at.offsetOf(ijk)]))
                                    .load(std::memory_order_relaxed)
                              : std::uint8_t{0};
       }

@@ -29,7 +29,7 @@ Cubelets::Cubelets(const assets::VolumeGrid& grid, std::span<const std::uint8_t>
   for (int k = 0; k < grid.size.z; ++k)
     for (int j = 0; j < grid.size.y; ++j)
       for (int i = 0; i < grid.size.x; ++i) {
-        const std::size_t from = grid.index({i, j, k}), place = at.placeOf({i, j, k}), block = place / kBlockVoxels;
+        const std::size_t from = grid.index({i, j, k}), place = at.offsetOf({i, j, k}), block = place / kBlockVoxels;
         const std::uint32_t w = solid_[place] = solid[from];
         weight_[block] = static_cast<std::uint16_t>(weight_[block] + w);
         weight_x_[block] = static_cast<std::uint16_t>(weight_x_[block] + w * static_cast<std::uint32_t>(i & 3));

@@ -20,13 +20,13 @@ constexpr double kMillijoulesPerJoule = 1000.0;
 double finite(double value) { return std::isfinite(value) ? std::max(0.0, value) : 0.0; }
 
 /// Of a voxel's first content, by the law that is linear in time.
-double timeLoss_per_s(const ErosionSettings& settings, const CutMoment& moment, double factor) {
+double timeLoss_per_s(const ErosionSettings& settings, const CutConditions& moment, double factor) {
   const double rated_rad_per_s = settings.time.rated_rpm * (2.0 * calibration::kPi / 60.0);
   return settings.time.removal_rate_per_s * factor * (1.0 - settings.worn) * std::abs(moment.spindle_rad_per_s) /
          rated_rad_per_s;
 }
 
-double rate_mm3_per_s(const ErosionSettings& settings, const CutMoment& moment, double factor) {
+double rate_mm3_per_s(const ErosionSettings& settings, const CutConditions& moment, double factor) {
   const double sharp = 1.0 - settings.worn;
   if (moment.spindle_rad_per_s == 0.0) return 0.0;
   switch (settings.kind) {
@@ -48,14 +48,14 @@ double rate_mm3_per_s(const ErosionSettings& settings, const CutMoment& moment, 
 
 /// What a rate has to be multiplied by for the loss of an untouched voxel. What is owed is made up for while a share of
 /// the overlap goes.
-double lossPerRate(const CutMoment& moment, const CutMemory& memory) {
-  const double made_up = 1.0 + std::clamp(memory.owed_mm3 / (kOwedShare * moment.overlap_mm3), -1.0, 1.0);
+double lossPerRate(const CutConditions& moment, const ErosionState& memory) {
+  const double made_up = 1.0 + std::clamp(memory.deficit_mm3 / (kOwedShare * moment.overlap_mm3), -1.0, 1.0);
   return finite(moment.dt_s) * made_up / (moment.overlap_mm3 * std::max(kLeastYield, memory.yield));
 }
 
 }  // namespace
 
-ErosionStep erosionStep(const ErosionSettings& settings, const CutMoment& moment, const CutMemory& memory) noexcept {
+ErosionStep erosionStep(const ErosionSettings& settings, const CutConditions& moment, const ErosionState& memory) noexcept {
   ErosionStep step;
   step.axis_P = moment.axis_P;
   const auto& factor = settings.tissue_factor;
@@ -76,7 +76,7 @@ ErosionStep erosionStep(const ErosionSettings& settings, const CutMoment& moment
   return step;
 }
 
-CutMemory remembered(const ErosionSettings& settings, const CutMoment& moment, const CutMemory& memory,
+ErosionState updatedErosion(const ErosionSettings& settings, const CutConditions& moment, const ErosionState& memory,
                      const std::array<double, assets::kTissueCount>& removed_mm3) noexcept {
   const double reference_mm3_per_s = rate_mm3_per_s(settings, moment, kReference);
   if (settings.kind == ErosionKind::time || !(finite(moment.overlap_mm3) > 0.0)) return {};
@@ -88,13 +88,13 @@ CutMemory remembered(const ErosionSettings& settings, const CutMoment& moment, c
     const double rate = rate_mm3_per_s(settings, moment, settings.tissue_factor[tissue]);
     if (rate > 0.0) gone_mm3 += removed_mm3[tissue] * reference_mm3_per_s / rate;
   }
-  CutMemory next = memory;
+  ErosionState next = memory;
   const double asked = std::min(1.0, reference_mm3_per_s * lossPerRate(moment, memory));
   if (asked > 0.0)
     next.yield += -std::expm1(-asked / kLearningDose) * (gone_mm3 / (asked * moment.overlap_mm3) - memory.yield);
   const double most_mm3 = kOwedShare * moment.overlap_mm3;
-  next.owed_mm3 =
-      std::clamp(memory.owed_mm3 + reference_mm3_per_s * finite(moment.dt_s) - gone_mm3, -most_mm3, most_mm3);
+  next.deficit_mm3 =
+      std::clamp(memory.deficit_mm3 + reference_mm3_per_s * finite(moment.dt_s) - gone_mm3, -most_mm3, most_mm3);
   return next;
 }
 

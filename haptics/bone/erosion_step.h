@@ -5,7 +5,7 @@
 //   dose:       mm3/s = alpha f (1 - worn) mu F_n v_c, v_c = |w| sliding_arm; the loss goes with |r x axis|.
 //   machining:  mm3/s = (1 - worn) min(swept, f P / u).
 // f is the tissue's factor. A law in mm3/s is met by what really goes: a voxel half used up yields more than it shows,
-// one used up nothing. CutMemory learns that yield and carries the difference on, so that over tissues t
+// one used up nothing. ErosionState learns that yield and carries the difference on, so that over tissues t
 //   sum removed_t / rate_t = time spent cutting   (Agus: the work of friction is the work of removal).
 // Nothing is owed out of contact, and no more than 5 % of the bur's overlap at any time.
 #pragma once
@@ -29,11 +29,11 @@ struct ErosionStep {
   calibration::Vector<calibration::Patient> axis_P{{0.0, 0.0, 1.0}};  ///< of the spindle, unit
   double mean_arm_mm = 1.0;  ///< mean |r x axis| over the cut, so that the speed share changes where, not how much
 
-  bool takesNothing() const { return loss == std::array<double, assets::kTissueCount>{}; }
+  bool isZero() const { return loss == std::array<double, assets::kTissueCount>{}; }
 };
 
 /// The moment a step is worked out for.
-struct CutMoment {
+struct CutConditions {
   double dt_s = 0.0;
   double spindle_rad_per_s = 0.0;  ///< either way round
   calibration::Vector<calibration::Patient> axis_P{{0.0, 0.0, 1.0}};
@@ -47,16 +47,16 @@ struct CutMoment {
 };
 
 /// From step to step, part of the servo's state. Forget it when the bur leaves the bone.
-struct CutMemory {
+struct ErosionState {
   double yield = 1.0;     ///< what a step took, relative to its loss of the overlap
-  double owed_mm3 = 0.0;  ///< of reference tissue, granted and not yet gone
+  double deficit_mm3 = 0.0;  ///< of reference tissue, granted and not yet gone
 };
 
 /// Nothing for a spindle that stands, or a moment that is not a number.
-ErosionStep erosionStep(const ErosionSettings& settings, const CutMoment& moment, const CutMemory& memory) noexcept;
+ErosionStep erosionStep(const ErosionSettings& settings, const CutConditions& moment, const ErosionState& memory) noexcept;
 
 /// The memory after the step of this moment took `removed_mm3` of each tissue.
-CutMemory remembered(const ErosionSettings& settings, const CutMoment& moment, const CutMemory& memory,
+ErosionState updatedErosion(const ErosionSettings& settings, const CutConditions& moment, const ErosionState& memory,
                      const std::array<double, assets::kTissueCount>& removed_mm3) noexcept;
 
 }  // namespace haptics

@@ -7,7 +7,7 @@
 namespace haptics {
 namespace {
 
-using Values = std::array<double, LensCurve::kMostCoefficients>;
+using Values = std::array<double, LensCurve::kMaxCoefficients>;
 
 /// Newton's divided differences over the nodes, multiplied out to powers of t.
 Values interpolated(const Values& node, Values value, int count) {

@@ -13,15 +13,15 @@
 namespace haptics {
 
 struct LensCurve {
-  static constexpr int kMostCoefficients = 8;
+  static constexpr int kMaxCoefficients = 8;
   /// Below this the closed form itself is summed: there are few voxels.
-  static constexpr double kLeastRadius = 3.0;
+  static constexpr double kMinRadius = 3.0;
 
-  /// Of a bur of `radius` voxels, at least kLeastRadius.
+  /// Of a bur of `radius` voxels, at least kMinRadius.
   explicit LensCurve(double radius) noexcept;
 
-  int coefficients = kMostCoefficients;  ///< 4, 5, 6 or 8: q = c[0] + c[1] t + …
-  std::array<float, kMostCoefficients> volume{}, cap{};
+  int coefficients = kMaxCoefficients;  ///< 4, 5, 6 or 8: q = c[0] + c[1] t + …
+  std::array<float, kMaxCoefficients> volume{}, cap{};
   double scale = 0.0;  ///< t = offset - scale d^2
   double offset = 0.0;
 };

@@ -30,12 +30,12 @@ struct SolidField {
            static_cast<std::size_t>(block.x);
   }
   /// Of a voxel of the grid, in the order of memory.
-  std::size_t placeOf(glm::ivec3 ijk) const {
+  std::size_t offsetOf(glm::ivec3 ijk) const {
     const int within = (ijk.z & 3) * 16 + (ijk.y & 3) * 4 + (ijk.x & 3);
     return blockAt({ijk.x >> 2, ijk.y >> 2, ijk.z >> 2}) * kBlockVoxels + static_cast<std::size_t>(within);
   }
-  std::uint8_t solidAt(glm::ivec3 ijk) const { return solid[placeOf(ijk)]; }
-  std::uint8_t labelAt(glm::ivec3 ijk) const { return label == nullptr ? std::uint8_t{0} : label[placeOf(ijk)]; }
+  std::uint8_t solidAt(glm::ivec3 ijk) const { return solid[offsetOf(ijk)]; }
+  std::uint8_t labelAt(glm::ivec3 ijk) const { return label == nullptr ? std::uint8_t{0} : label[offsetOf(ijk)]; }
 };
 
 }  // namespace haptics

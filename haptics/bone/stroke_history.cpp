@@ -10,11 +10,11 @@ constexpr std::size_t kLargestShare = 4;
 
 }  // namespace
 
-StrokeHistory::StrokeHistory(const CarvedBone& bone, std::size_t most_blocks) {
+StrokeHistory::StrokeHistory(const CarvedBone& bone, std::size_t max_blocks) {
   const glm::ivec3 blocks = bone.field().blocks;
   const std::size_t all = bone.field().blockAt({0, 0, blocks.z});
   saved_in_.assign(all, 0);
-  saved_.resize(std::max(kLargestShare, std::min(kLargestShare * all, most_blocks)));
+  saved_.resize(std::max(kLargestShare, std::min(kLargestShare * all, max_blocks)));
 }
 
 void StrokeHistory::save(std::size_t block, const BlockState& state) noexcept {
@@ -31,7 +31,7 @@ void StrokeHistory::save(std::size_t block, const BlockState& state) noexcept {
 }
 
 void StrokeHistory::beginStroke() noexcept {
-  if (count_ == kMostStrokes) forgetOldest();
+  if (count_ == kMaxStrokes) forgetOldest();
   const std::size_t first = count_ == 0 ? 0 : (newest().first + newest().blocks) % saved_.size();
   ++count_;
   newest() = {first, 0};
@@ -46,17 +46,17 @@ void StrokeHistory::endStroke() noexcept {
 
 void StrokeHistory::forgetOldest() noexcept {
   saved_count_ -= strokes_[oldest_].blocks;
-  oldest_ = (oldest_ + 1) % kMostStrokes;
+  oldest_ = (oldest_ + 1) % kMaxStrokes;
   --count_;
 }
 
-StrokeHistory::GivenBack StrokeHistory::giveBack(CarvedBone& bone, std::size_t most_blocks) noexcept {
+StrokeHistory::Restored StrokeHistory::restore(CarvedBone& bone, std::size_t max_blocks) noexcept {
   endStroke();
-  GivenBack given;
+  Restored given;
   if (count_ == 0) return given;
   Stroke& stroke = newest();
   std::int64_t steps = 0;
-  for (; given.blocks < most_blocks && stroke.blocks > 0; ++given.blocks) {
+  for (; given.blocks < max_blocks && stroke.blocks > 0; ++given.blocks) {
     const Saved& saved = saved_[(stroke.first + --stroke.blocks) % saved_.size()];
     steps += bone.restoreBlock(saved.block, saved.state);
     --saved_count_;

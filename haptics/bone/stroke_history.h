@@ -4,7 +4,7 @@
 // bytes for each block of the bone. When it is full the oldest stroke is forgotten, always as a whole; a stroke of
 // more than a quarter of the room counts as several, each taken back by itself. So what comes back is always a bone
 // that once was, and never half a block. Only the reserve for precise cutting (CarvedBone::blocksLeft) does not come
-// back. Servo thread; no allocation, no throw; save() some 30 ns, giveBack() some 300 ns a block. Not a recording.
+// back. Servo thread; no allocation, no throw; save() some 30 ns, restore() some 300 ns a block. Not a recording.
 #pragma once
 
 #include <array>
@@ -18,14 +18,14 @@ namespace haptics {
 
 class StrokeHistory {
  public:
-  static constexpr std::size_t kMostStrokes = 32;
-  static constexpr std::size_t kMostBlocks = 60'000;  ///< of 260 bytes
+  static constexpr std::size_t kMaxStrokes = 32;
+  static constexpr std::size_t kMaxBlocks = 60'000;  ///< of 260 bytes
 
-  /// Room for four times the whole bone, at most for `most_blocks` (at least 4).
-  explicit StrokeHistory(const CarvedBone& bone, std::size_t most_blocks = kMostBlocks);
+  /// Room for four times the whole bone, at most for `max_blocks` (at least 4).
+  explicit StrokeHistory(const CarvedBone& bone, std::size_t max_blocks = kMaxBlocks);
 
   /// Whether a block has to be saved before it is written.
-  bool lacks(std::size_t block) const { return saved_in_[block] != stroke_; }
+  bool needsSaving(std::size_t block) const { return saved_in_[block] != stroke_; }
   /// Begins a stroke if none is on.
   void save(std::size_t block, const BlockState& state) noexcept;
   /// What is saved from now on belongs to another stroke.
@@ -34,13 +34,13 @@ class StrokeHistory {
   /// That can be taken back.
   std::size_t strokes() const { return count_; }
 
-  struct GivenBack {
+  struct Restored {
     double volume_mm3 = 0.0;
     std::size_t blocks = 0;
   };
-  /// Gives back up to `most_blocks` of the newest stroke, its last first, and forgets them; ends the stroke that is on.
+  /// Gives back up to `max_blocks` of the newest stroke, its last first, and forgets them; ends the stroke that is on.
   /// The stroke has come back when strokes() has fallen by one. Only for the bone this was made for.
-  GivenBack giveBack(CarvedBone& bone, std::size_t most_blocks) noexcept;
+  Restored restore(CarvedBone& bone, std::size_t max_blocks) noexcept;
 
   std::size_t bytes() const { return saved_.size() * sizeof(Saved) + saved_in_.size() * sizeof(std::uint32_t); }
 
@@ -52,13 +52,13 @@ class StrokeHistory {
   struct Stroke {
     std::size_t first = 0, blocks = 0;  ///< places in saved_, which is a ring
   };
-  Stroke& newest() { return strokes_[(oldest_ + count_ - 1) % kMostStrokes]; }
+  Stroke& newest() { return strokes_[(oldest_ + count_ - 1) % kMaxStrokes]; }
   void forgetOldest() noexcept;
   void beginStroke() noexcept;
 
   std::vector<Saved> saved_;
   std::vector<std::uint32_t> saved_in_;  ///< by block: the stroke that saved it last
-  std::array<Stroke, kMostStrokes> strokes_{};
+  std::array<Stroke, kMaxStrokes> strokes_{};
   std::size_t oldest_ = 0, count_ = 0, saved_count_ = 0;
   std::uint32_t stroke_ = 1;  ///< the one that is on, or the next
   bool on_ = false;

@@ -27,7 +27,7 @@ struct ToolMotion {
   calibration::Vector<calibration::Patient> velocity_P_mm_per_s;  ///< of T's origin
   double spindle_rad_per_s = 0.0;                                 ///< about +z of T; 0: not turning
   double dt_s = 1e-3;
-  double buzz_rad = 0.0;  ///< phase of what is felt of the turning (tool/spindle)
+  double vibration_phase_rad = 0.0;  ///< phase of what is felt of the turning (tool/spindle)
 };
 
 /// The tool as it stands in the bone.

@@ -50,7 +50,7 @@ FieldSample sampleAt(const SolidField& field, const glm::dvec3& index) {
   double sum = 0.0;
   if (inside) {
     const auto blocks_x = static_cast<std::size_t>(field.blocks.x), blocks_y = static_cast<std::size_t>(field.blocks.y);
-    sum = interpolated(field.solid + field.placeOf(low), stepFrom(low.x, 1, kBlockVoxels),
+    sum = interpolated(field.solid + field.offsetOf(low), stepFrom(low.x, 1, kBlockVoxels),
                        stepFrom(low.y, 4, kBlockVoxels * blocks_x),
                        stepFrom(low.z, 16, kBlockVoxels * blocks_x * blocks_y), part);
   } else {
@@ -74,8 +74,8 @@ ToolSampler::ToolSampler(const SolidField& field,
       turn_(glm::mat3_cast(X_PT.rotation) / field.grid.spacing_mm),
       origin_(field.grid.indexFromPoint(X_PT.translation_mm)) {}
 
-FieldSample ToolSampler::at(const glm::dvec3& place_T_mm) const noexcept {
-  return sampleAt(field_, turn_ * place_T_mm + origin_);
+FieldSample ToolSampler::at(const glm::dvec3& position_T_mm) const noexcept {
+  return sampleAt(field_, turn_ * position_T_mm + origin_);
 }
 
 }  // namespace haptics

@@ -24,7 +24,7 @@ FieldSample sampleField(const SolidField& field, const glm::dvec3& at_P_mm) noex
 class ToolSampler {
  public:
   ToolSampler(const SolidField& field, const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT) noexcept;
-  FieldSample at(const glm::dvec3& place_T_mm) const noexcept;
+  FieldSample at(const glm::dvec3& position_T_mm) const noexcept;
 
  private:
   const SolidField& field_;

@@ -21,7 +21,7 @@ struct ForssimParameters {
 Contact forssimContact(const ForssimParameters& parameters, const ToolInBone& at, const LawState& state) noexcept;
 
 /// Starts or ends the hold, by the last look of a tick.
-void rememberForssim(const ForssimParameters& parameters, const ToolInBone& at, const Contact& contact,
+void updateForssimState(const ForssimParameters& parameters, const ToolInBone& at, const Contact& contact,
                      LawState& state) noexcept;
 
 }  // namespace haptics

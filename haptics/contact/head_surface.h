@@ -16,7 +16,7 @@
 namespace haptics {
 
 struct Patch {
-  glm::dvec3 place_T{0.0}, normal_T{0.0};
+  glm::dvec3 position_T{0.0}, normal_T{0.0};
   double area_mm2 = 0.0;
 };
 

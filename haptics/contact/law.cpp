@@ -7,7 +7,7 @@
 namespace haptics {
 
 Contact contactOf(const LawSettings& law, const ToolInBone& at, const LawState& state) noexcept {
-  if (!admits(law.kind, at.head.kind)) return {};
+  if (!supports(law.kind, at.head.kind)) return {};
   switch (law.kind) {
     case LawKind::agus:
       return agusLaw(law.agus, at);
@@ -29,9 +29,9 @@ Contact contactOf(const LawSettings& law, const ToolInBone& at, const LawState& 
 
 Contact contactOf(const LawSettings& law, const ToolInBone& at) noexcept { return contactOf(law, at, LawState{}); }
 
-void remember(const LawSettings& law, const ToolInBone& at, const Contact& contact, LawState& state) noexcept {
-  if (law.kind == LawKind::forssim) rememberForssim(law.forssim, at, contact, state);
-  if (law.kind == LawKind::points) rememberPoints(contact, state);
+void updateLawState(const LawSettings& law, const ToolInBone& at, const Contact& contact, LawState& state) noexcept {
+  if (law.kind == LawKind::forssim) updateForssimState(law.forssim, at, contact, state);
+  if (law.kind == LawKind::points) updatePointsState(contact, state);
 }
 
 calibration::Vector<calibration::Patient> dampingForce_N(

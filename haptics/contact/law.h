@@ -14,7 +14,7 @@ Contact contactOf(const LawSettings& law, const ToolInBone& at, const LawState& 
 Contact contactOf(const LawSettings& law, const ToolInBone& at) noexcept;
 
 /// Takes in the last look of a tick. Out of contact nothing is remembered but that a hold is over.
-void remember(const LawSettings& law, const ToolInBone& at, const Contact& contact, LawState& state) noexcept;
+void updateLawState(const LawSettings& law, const ToolInBone& at, const Contact& contact, LawState& state) noexcept;
 
 /// The part of the force that takes energy from the moving hand: -b v while in contact, every law's.
 calibration::Vector<calibration::Patient> dampingForce_N(

@@ -48,8 +48,8 @@ const LawParameter* gainOf(LawKind law) {
 }  // namespace
 
 FlatResponse flatResponse(const LawSettings& law, const BurShape& head, double depth_mm, double cos_axis) noexcept {
-  if (!admits(law.kind, head.kind) || !(depth_mm > 0.0)) return {};
-  const double R = head.radius_mm, h = std::min(depth_mm, wholeDepth_mm(head, cos_axis));
+  if (!supports(law.kind, head.kind) || !(depth_mm > 0.0)) return {};
+  const double R = head.radius_mm, h = std::min(depth_mm, fullDepth_mm(head, cos_axis));
   switch (law.kind) {
     case LawKind::agus:
       return {law.agus.stiffness_N_per_mm * h, law.agus.stiffness_N_per_mm};
@@ -105,7 +105,7 @@ double passiveStiffness_N_per_mm(double device_damping_Ns_per_mm, double law_dam
 }
 
 Admission admissible(const LawSettings& law, const BurShape& head, double most_N_per_mm) noexcept {
-  if (!admits(law.kind, head.kind)) return {Admission::Answer::no_such_head, 0.0, nullptr, 0.0};
+  if (!supports(law.kind, head.kind)) return {Admission::Answer::no_such_head, 0.0, nullptr, 0.0};
   Admission admission;
   admission.slope_N_per_mm = stiffestSlope_N_per_mm(law, head);
   if (admission.slope_N_per_mm <= most_N_per_mm) return admission;

@@ -25,7 +25,7 @@ struct LawParameter {
     LawSettings copy = settings;
     return in(copy);
   }
-  double standard() const { return of(LawSettings{}); }
+  double defaultValue() const { return of(LawSettings{}); }
 };
 
 std::span<const LawParameter> lawParameters();

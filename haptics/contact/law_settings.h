@@ -51,6 +51,6 @@ inline constexpr std::array<LawName, 7> kLaws = {{
 }};
 
 /// Whether the law has an answer for heads of this shape; where not, contactOf is zero.
-constexpr bool admits(LawKind law, ShapeKind shape) { return law != LawKind::harmonic || shape == ShapeKind::sphere; }
+constexpr bool supports(LawKind law, ShapeKind shape) { return law != LawKind::harmonic || shape == ShapeKind::sphere; }
 
 }  // namespace haptics

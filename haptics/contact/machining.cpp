@@ -37,7 +37,7 @@ template <class Visit>
 void visitEngaged(const ToolInBone& at, const Engagement& where, Visit&& visit) {
   const ToolSampler sampler(at.field, at.X_PT);
   visitHeadSurface(at.head, where.towards_T, where.reach_mm, [&](const Patch& patch) {
-    const FieldSample sample = sampler.at(patch.place_T);
+    const FieldSample sample = sampler.at(patch.position_T);
     if (sample.solid > 0.0) visit(patch, sample.solid, sample.label < assets::kTissueCount ? sample.label : 0);
   });
 }
@@ -86,10 +86,10 @@ class Flutes {
     const double chip =
         std::min(parameters_.thickest_chip_mm, std::max(0.0, glm::dot(feed_per_tooth_, patch.normal_T)));
     // Within half a patch of the axis the flutes meet; there the patch's own size is the arm.
-    const double arm = std::sqrt(patch.place_T.x * patch.place_T.x + patch.place_T.y * patch.place_T.y);
+    const double arm = std::sqrt(patch.position_T.x * patch.position_T.x + patch.position_T.y * patch.position_T.y);
     const double length = per_turn_ * patch.area_mm2 / std::max(arm, 0.3 * std::sqrt(patch.area_mm2));
     const glm::dvec3 motion =
-        arm > 0.0 ? way_ * glm::dvec3(-patch.place_T.y, patch.place_T.x, 0.0) / arm : glm::dvec3(0.0);
+        arm > 0.0 ? way_ * glm::dvec3(-patch.position_T.y, patch.position_T.x, 0.0) / arm : glm::dvec3(0.0);
     const glm::dvec3 up = glm::cross(patch.normal_T, way_ * motion);  // along the flute, away from the tip
     return length *
            (-(parameters_.chip_tangential_N_per_mm2 * chip + edge_ * parameters_.edge_tangential_N_per_mm) * motion -
@@ -112,7 +112,7 @@ double rimStiffness_N_per_mm(const MachiningParameters& parameters, const ToolIn
   const double edge = (1.0 + (kWornEdge - 1.0) * parameters.worn) * parameters.edge_radial_N_per_mm;
   double turning = 0.0;
   visitRing(height * towards_T, towards_T, rim, height / R * towards_T, rim / R, 1.0, 0, [&](const Patch& patch) {
-    turning += patch.area_mm2 / std::max(std::hypot(patch.place_T.x, patch.place_T.y), 0.1 * R);
+    turning += patch.area_mm2 / std::max(std::hypot(patch.position_T.x, patch.position_T.y), 0.1 * R);
   });
   return (1.0 - cutting) * wall + cutting * edge * parameters.flutes * height * turning;
 }
@@ -151,8 +151,8 @@ Contact machiningContact(const MachiningParameters& parameters, const ToolInBone
   double area = 0.0, hardness = 0.0;
   visitEngaged(at, where, [&](const Patch& patch, double solid, std::uint8_t label) {
     const double hard = solid * at.tissue.factor[label];
-    if (cutting > 0.0) turning.add(patch.place_T, hard * flutes.force(patch));
-    if (cutting < 1.0) wall.add(patch.place_T, -hard * pressure * patch.area_mm2 * patch.normal_T);
+    if (cutting > 0.0) turning.add(patch.position_T, hard * flutes.force(patch));
+    if (cutting < 1.0) wall.add(patch.position_T, -hard * pressure * patch.area_mm2 * patch.normal_T);
     area += solid * patch.area_mm2;
     hardness += hard * patch.area_mm2;
   });
@@ -170,7 +170,7 @@ Contact machiningContact(const MachiningParameters& parameters, const ToolInBone
   const double share = std::clamp(parameters.vibration_share, 0.0, kMostVibrationShare);
   const double amplitude = cutting * std::min(kMostVibration_N, share * glm::length(mean.force));
   contact.vibration_P_N.xyz =
-      at.X_PT.rotation * (amplitude * glm::dvec3(std::cos(at.motion.buzz_rad), std::sin(at.motion.buzz_rad), 0.0));
+      at.X_PT.rotation * (amplitude * glm::dvec3(std::cos(at.motion.vibration_phase_rad), std::sin(at.motion.vibration_phase_rad), 0.0));
   return contact;
 }
 

@@ -58,7 +58,7 @@ SphereOverlap sphereOverlapBy(assets::InstructionSet set, const SolidField& fiel
                               double radius_mm, const TissueStiffness* tissue) noexcept {
   assert(assets::available(set));
   const double radius = radius_mm / field.grid.spacing_mm;
-  if (!(radius >= LensCurve::kLeastRadius && radius <= kMostSumRadius))
+  if (!(radius >= LensCurve::kMinRadius && radius <= kMaxSumRadius))
     return sphereOverlapVoxelByVoxel(field, centre_P, radius_mm, tissue);
   const glm::dvec3 centre = field.grid.indexFromPoint(centre_P.mm);
   if (boxOf(field, centre, radius + kVoxelSphereRadius).empty()) return {};
@@ -156,7 +156,7 @@ std::uint8_t dominantLabel(const SolidField& field, const Point<Patient>& centre
     for (const double part : {0.98, 0.88, 0.7, 0.4}) {
       const glm::ivec3 ijk(glm::floor(centre + part * radius * direction + 0.5));
       if (!field.grid.contains(ijk)) continue;
-      const std::size_t place = field.placeOf(ijk);
+      const std::size_t place = field.offsetOf(ijk);
       weight[field.label[place]] += static_cast<std::uint32_t>(field.solid[place]);
     }
   const auto most = std::max_element(weight.begin(), weight.end());

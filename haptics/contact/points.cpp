@@ -34,16 +34,16 @@ void visitSamplePoints(const BurShape& head, Visit&& visit) {
   glm::dvec3 unit(0.5);
   for (int n = 0; n < tried; ++n) {
     unit = glm::fract(unit + kStep);
-    const glm::dvec3 place_T = (2.0 * unit - 1.0) * glm::dvec3(R, R, half);
-    const double radius2 = place_T.x * place_T.x + place_T.y * place_T.y;
-    const double beyond = std::max(0.0, std::abs(place_T.z) - 0.5 * head.length_mm);
+    const glm::dvec3 position_T = (2.0 * unit - 1.0) * glm::dvec3(R, R, half);
+    const double radius2 = position_T.x * position_T.x + position_T.y * position_T.y;
+    const double beyond = std::max(0.0, std::abs(position_T.z) - 0.5 * head.length_mm);
     bool inside = radius2 <= R * R;
-    if (head.kind == ShapeKind::sphere) inside = radius2 + place_T.z * place_T.z <= R * R;
+    if (head.kind == ShapeKind::sphere) inside = radius2 + position_T.z * position_T.z <= R * R;
     if (head.kind == ShapeKind::capsule) inside = radius2 + beyond * beyond <= R * R;
-    if (head.kind == ShapeKind::cone) inside = std::sqrt(radius2) * head.length_mm <= R * (place_T.z + half);
+    if (head.kind == ShapeKind::cone) inside = std::sqrt(radius2) * head.length_mm <= R * (position_T.z + half);
     if (!inside) continue;
-    visit(place_T);
-    visit(glm::dvec3(-place_T.x, -place_T.y, head.kind == ShapeKind::cone ? place_T.z : -place_T.z));
+    visit(position_T);
+    visit(glm::dvec3(-position_T.x, -position_T.y, head.kind == ShapeKind::cone ? position_T.z : -position_T.z));
   }
 }
 
@@ -51,16 +51,16 @@ Cloud cloudIn(const ToolInBone& at) {
   Cloud cloud;
   const double half = 0.5 * at.head.length_mm;
   const ToolSampler sampler(at.field, at.X_PT);
-  visitSamplePoints(at.head, [&](const glm::dvec3& place_T) {
+  visitSamplePoints(at.head, [&](const glm::dvec3& position_T) {
     cloud.all += 1.0;
-    const FieldSample sample = sampler.at(place_T);
+    const FieldSample sample = sampler.at(position_T);
     if (sample.solid <= 0.0) return;
     cloud.count += sample.solid;
     cloud.dense += sample.solid * at.tissue.factor[std::min<std::size_t>(sample.label, assets::kTissueCount - 1)];
-    cloud.place += sample.solid * place_T;
-    glm::dvec3 from_axis(place_T.x, place_T.y, 0.0);
+    cloud.place += sample.solid * position_T;
+    glm::dvec3 from_axis(position_T.x, position_T.y, 0.0);
     if (at.head.kind == ShapeKind::capsule) {
-      from_axis.z = place_T.z - std::clamp(place_T.z, -half, half);
+      from_axis.z = position_T.z - std::clamp(position_T.z, -half, half);
       if (from_axis.z == 0.0) cloud.beside += sample.solid;
     }
     cloud.from_axis += sample.solid * from_axis;
@@ -181,7 +181,7 @@ Contact pointsContact(const PointsParameters& parameters, const ToolInBone& at, 
   return contact;
 }
 
-void rememberPoints(const Contact& contact, LawState& state) noexcept {
+void updatePointsState(const Contact& contact, LawState& state) noexcept {
   if (contact.depth_mm > 0.0) state.density.push(contact.tissue_factor);
 }
 

@@ -19,6 +19,6 @@ inline constexpr int kSamplePoints = 2048;
 Contact pointsContact(const PointsParameters& parameters, const ToolInBone& at, const LawState& state) noexcept;
 
 /// Takes the density of the last look of a tick into the window.
-void rememberPoints(const Contact& contact, LawState& state) noexcept;
+void updatePointsState(const Contact& contact, LawState& state) noexcept;
 
 }  // namespace haptics

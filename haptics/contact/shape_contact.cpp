@@ -47,7 +47,7 @@ ShapeContact shapeContact(const ToolInBone& at) noexcept {
   if (contact.depth_mm <= 0.0) return contact;
 
   // Nearly wholly in, the face of flat bone vanishes and so does what is compared with it.
-  const double half_way_mm = 0.5 * wholeDepth_mm(at.head, cos_axis);
+  const double half_way_mm = 0.5 * fullDepth_mm(at.head, cos_axis);
   const double half_way_mm2 = flatOverlap(at.head, half_way_mm, cos_axis).area_mm2;
   contact.area_mm2 = flatOverlap(at.head, contact.depth_mm, cos_axis).area_mm2;
   const double least_mm2 = contact.depth_mm > half_way_mm ? 0.05 * half_way_mm2 : 0.0;

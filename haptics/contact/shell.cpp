@@ -27,22 +27,22 @@ Contact shellContact(const ShellParameters& parameters, const ToolInBone& at) no
   if (immersion.volume_mm3 <= 0.0) return contact;
 
   // The pressure on each point's patch, in T: the shape turns, the lattice of points with it.
-  const Outline outline(at.head);
+  const HeadProfile profile(at.head);
   const ToolSampler sampler(at.field, at.X_PT);
   glm::dvec3 force(0.0), torque(0.0);
   double pressed = 0.0, bare = 0.0;
-  visitSurfacePoints(outline, kShellPoints, [&](const glm::dvec3& place_T, const glm::dvec3& normal_T) {
-    const FieldSample sample = sampler.at(place_T);
+  visitSurfacePoints(profile, kShellPoints, [&](const glm::dvec3& position_T, const glm::dvec3& normal_T) {
+    const FieldSample sample = sampler.at(position_T);
     if (sample.solid <= 0.0) return;
     const double pressure =
         sample.solid * at.tissue.factor[std::min<std::size_t>(sample.label, assets::kTissueCount - 1)];
     bare += sample.solid;
     pressed += pressure;
     force -= pressure * normal_T;
-    torque -= pressure * glm::cross(place_T, normal_T);
+    torque -= pressure * glm::cross(position_T, normal_T);
   });
   if (bare <= 0.0) return contact;
-  const double per_point_N = parameters.shell_N_per_mm3 * outline.area_mm2() / kShellPoints;
+  const double per_point_N = parameters.shell_N_per_mm3 * profile.area_mm2() / kShellPoints;
   contact.force_P_N.xyz = per_point_N * (at.X_PT.rotation * force);
   contact.torque_P_Nmm.xyz = per_point_N * (at.X_PT.rotation * torque);
   contact.tissue_factor = pressed / bare;

@@ -8,8 +8,8 @@
 namespace haptics {
 
 /// Blocks a bur may span along an axis.
-inline constexpr int kMostBlocksAcross = 72;
-inline constexpr double kMostSumRadius = 130.0;
+inline constexpr int kMaxBlocksAcross = 72;
+inline constexpr double kMaxSumRadius = 130.0;
 
 /// Stiffness factors are counted in steps of 2^-16, so that whole blocks add up exactly.
 inline constexpr double kFactorSteps = 65536.0;
@@ -22,7 +22,7 @@ struct SphereSumsInput {
   const std::uint8_t* only_label;
   int blocks[3];
   double centre[3];
-  double radius;     ///< LensCurve::kLeastRadius .. kMostSumRadius
+  double radius;     ///< LensCurve::kMinRadius .. kMaxSumRadius
   int coefficients;  ///< 4, 5, 6 or 8: of the lens curve
   float volume[8], cap[8];
   double scale, offset;

@@ -182,8 +182,8 @@ class SphereSum {
   int first_[3], last_[3];
   Lanes volume_[kCoefficients], cap_[kCoefficients];
   Lanes weight_ = all(0.0f), grey_ = all(0.0f), stiff_ = all(0.0f), x_ = all(0.0f), y_ = all(0.0f), z_ = all(0.0f);
-  alignas(64) float dx_[kMostBlocksAcross][16];
-  alignas(64) float tx_[kMostBlocksAcross][16];
+  alignas(64) float dx_[kMaxBlocksAcross][16];
+  alignas(64) float tx_[kMaxBlocksAcross][16];
 };
 
 template <int kCoefficients>

@@ -1,5 +1,5 @@
 // Points spread evenly over the surface of a cutting head, each with its normal and its share of the area: Fibonacci's
-// lattice, the golden angle from point to point and equal areas along the outline from tip to shaft. Frame T, mm.
+// lattice, the golden angle from point to point and equal areas along the profile from tip to shaft. Frame T, mm.
 // Exactly even in area; the rotation is a recurrence, so no table and no trigonometry. Servo thread; some 5 ns a point.
 #pragma once
 
@@ -16,15 +16,15 @@ namespace haptics {
 /// cos and sin of the golden angle pi (3 - sqrt 5).
 inline constexpr double kGoldenCos = -0.73736887807831985597, kGoldenSin = 0.67549029426152362720;
 
-/// Height and radius of a place on a head's outline, and the outward normal there, as (out, up).
-struct OutlinePlace {
+/// Height and radius of a place on a head's profile, and the outward normal there, as (out, up).
+struct ProfilePoint {
   double radius_mm = 0.0, z_mm = 0.0, normal_out = 0.0, normal_up = 0.0;
 };
 
-/// A head's outline from the tip at -z to the other end, by area.
-class Outline {
+/// A head's profile from the tip at -z to the other end, by area.
+class HeadProfile {
  public:
-  explicit Outline(const BurShape& head) : head_(head), half_(0.5 * head.length_mm) {
+  explicit HeadProfile(const BurShape& head) : head_(head), half_(0.5 * head.length_mm) {
     const double R = head.radius_mm, slant = std::hypot(R, head.length_mm), turn = 2.0 * calibration::kPi * R;
     using enum ShapeKind;
     if (head.kind == sphere || head.kind == capsule) {
@@ -45,7 +45,7 @@ class Outline {
   double area_mm2() const { return tip_ + side_ + end_; }
 
   /// The place with `below_mm2` of the area between it and the tip.
-  OutlinePlace at(double below_mm2) const {
+  ProfilePoint at(double below_mm2) const {
     const double R = head_.radius_mm;
     if (below_mm2 < tip_) return tip(below_mm2 / tip_);
     below_mm2 -= tip_;
@@ -55,13 +55,13 @@ class Outline {
       const double r = std::sqrt(part);
       return {R * r, half_ * (2.0 * r - 1.0), cone_out_, cone_up_};
     }
-    const OutlinePlace mirrored = tip(1.0 - std::min(1.0, (below_mm2 - side_) / end_));
+    const ProfilePoint mirrored = tip(1.0 - std::min(1.0, (below_mm2 - side_) / end_));
     return {mirrored.radius_mm, -mirrored.z_mm, mirrored.normal_out, -mirrored.normal_up};
   }
 
  private:
   /// Of the end at -z, `part` of its area from the axis on: half a ball or a disc.
-  OutlinePlace tip(double part) const {
+  ProfilePoint tip(double part) const {
     const double R = head_.radius_mm;
     if (head_.kind == ShapeKind::cylinder || head_.kind == ShapeKind::cone)
       return {R * std::sqrt(part), -half_, 0.0, -1.0};
@@ -73,13 +73,13 @@ class Outline {
   double half_, tip_ = 0.0, side_ = 0.0, end_ = 0.0, cone_out_ = 1.0, cone_up_ = 0.0;
 };
 
-/// Calls visit(place_T, normal_T) for each of `count` points; each stands for 1 / count of the area.
+/// Calls visit(position_T, normal_T) for each of `count` points; each stands for 1 / count of the area.
 template <class Visit>
-void visitSurfacePoints(const Outline& outline, int count, Visit&& visit) {
-  const double step_mm2 = outline.area_mm2() / count;
+void visitSurfacePoints(const HeadProfile& profile, int count, Visit&& visit) {
+  const double step_mm2 = profile.area_mm2() / count;
   double cosine = 1.0, sine = 0.0;
   for (int n = 0; n < count; ++n) {
-    const OutlinePlace place = outline.at((n + 0.5) * step_mm2);
+    const ProfilePoint place = profile.at((n + 0.5) * step_mm2);
     visit(glm::dvec3(place.radius_mm * cosine, place.radius_mm * sine, place.z_mm),
           glm::dvec3(place.normal_out * cosine, place.normal_out * sine, place.normal_up));
     const double turned = cosine * kGoldenCos - sine * kGoldenSin;

@@ -19,12 +19,12 @@ class DeadlineGrid {
   std::int64_t next_ns() const { return deadline_ns_; }
 
   /// How punctual the tick is that begins now. Early: the grid moves here, a period from now the next is due.
-  Beat woke(std::int64_t now_ns) {
-    Beat beat;
-    beat.late_us = std::max(0.0, 1e-3 * static_cast<double>(now_ns - deadline_ns_));
-    beat.missed = missed_;
+  TickTiming woke(std::int64_t now_ns) {
+    TickTiming timing;
+    timing.late_us = std::max(0.0, 1e-3 * static_cast<double>(now_ns - deadline_ns_));
+    timing.missed = missed_;
     deadline_ns_ = std::min(deadline_ns_, now_ns);
-    return beat;
+    return timing;
   }
 
   /// It is over: the next deadline that still lies ahead.

@@ -15,7 +15,7 @@ enum class DeviceTrouble : std::uint8_t {
   busy,        ///< another program or another part of this one has it
   not_ready,   ///< its owner has not homed it, or has given up
   faulty,      ///< it does not answer as it should
-  no_means,    ///< the system has no memory, descriptor or service left
+  no_resources,    ///< the system has no memory, descriptor or service left
   bad_setting  ///< a rate, pose, mapping or number with which it can not be served
 };
 

@@ -37,7 +37,7 @@ struct HandleState {
 enum class Provenance : std::uint8_t { simulated, replay, public_protocol, vendor_library };
 
 struct WorkspaceBox {
-  glm::dvec3 least_D_mm{-1e3}, most_D_mm{1e3};
+  glm::dvec3 min_D_mm{-1e3}, max_D_mm{1e3};
 };
 
 /// Defaults: a Touch-class device in a light grip (reference/devices 4.3, physics 2.5), simulated and without motors.
@@ -51,17 +51,17 @@ struct DeviceCapabilities {
   double peak_force_N = 3.3, continuous_force_N = 0.88;
   double peak_torque_Nmm = 0.0;           ///< about the handle; 0: the device has none
   glm::dvec3 peak_joint_torque_Nmm{0.0};  ///< of the motor-driven joints; 0: not known
-  double most_stiffness_N_per_mm = 20.0;  ///< that its maker or users recommend
-  double most_damping_Ns_per_mm = 0.005;  ///< the same
+  double max_stiffness_N_per_mm = 20.0;  ///< that its maker or users recommend
+  double max_damping_Ns_per_mm = 0.005;  ///< the same
   double damping_Ns_per_mm = 0.002;       ///< physical, of device and hand: takes the energy that sampling leaks
-  double least_rate_Hz = 500.0, most_rate_Hz = 10'000.0;
+  double min_rate_Hz = 500.0, max_rate_Hz = 10'000.0;
   WorkspaceBox workspace;
 
   bool hasTorque() const { return peak_torque_Nmm > 0.0; }
 };
 
 /// How punctual a tick is.
-struct Beat {
+struct TickTiming {
   double late_us = 0.0;      ///< from when it was due to when the device's thread woke
   std::uint64_t missed = 0;  ///< ticks that were due since the last one and did not happen
   std::int64_t at_ns = 0;    ///< when the state was sensed, by the clock that the ticks go by
@@ -74,7 +74,7 @@ class DeviceServo {
   virtual ~DeviceServo() = default;
   /// Once, before the first tick.
   virtual void begin() noexcept {}
-  virtual MotorCommand tick(const HandleState& state, const Beat& beat) noexcept = 0;
+  virtual MotorCommand tick(const HandleState& state, const TickTiming& timing) noexcept = 0;
 };
 
 class HapticDevice {

@@ -33,7 +33,7 @@ struct OpenedDevice {
 };
 
 /// What the back-ends call while they wait for a person: says the same thing once; false: given up.
-std::function<bool(const std::string& words)> waitingWords(const DeviceOptions& options);
+std::function<bool(const std::string& words)> waitPrompt(const DeviceOptions& options);
 
 /// `place`: the address behind its scheme and colon. Throw DeviceError.
 OpenedDevice openPhantom(const std::string& place, const DeviceOptions& options);

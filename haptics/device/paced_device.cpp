@@ -21,10 +21,10 @@ PacedDevice::~PacedDevice() { assert(!thread_.joinable()); }
 void PacedDevice::prepare(DeviceServo& servo, double rate_Hz) {
   assert(!started_);
   const DeviceCapabilities& can = capabilities();
-  if (!(rate_Hz >= can.least_rate_Hz && rate_Hz <= can.most_rate_Hz))
+  if (!(rate_Hz >= can.min_rate_Hz && rate_Hz <= can.max_rate_Hz))
     throw DeviceError(can.model + ": it is not served at " + std::to_string(std::lround(rate_Hz)) +
-                      " Hz, choose from " + std::to_string(std::lround(can.least_rate_Hz)) + " to " +
-                      std::to_string(std::lround(can.most_rate_Hz)) + " Hz");
+                      " Hz, choose from " + std::to_string(std::lround(can.min_rate_Hz)) + " to " +
+                      std::to_string(std::lround(can.max_rate_Hz)) + " Hz");
   started_ = true;
   servo_ = &servo;
   rate_Hz_ = rate_Hz;
@@ -36,7 +36,7 @@ void PacedDevice::start(DeviceServo& servo, double rate_Hz) {
   thread_ = std::thread([this] { run(); });
 }
 
-void PacedDevice::startByHand(DeviceServo& servo, double rate_Hz) {
+void PacedDevice::startStepped(DeviceServo& servo, double rate_Hz) {
   prepare(servo, rate_Hz);
   by_hand_ = true;
   servo.begin();
@@ -76,13 +76,13 @@ void PacedDevice::step(std::uint64_t ticks) noexcept {
 }
 
 void PacedDevice::turn() noexcept {
-  Beat beat = grid_->woke(now_ns());
+  TickTiming timing = grid_->woke(now_ns());
   // Switched off while it was made, a command is void.
-  const std::uint32_t times_off = times_off_.load();
+  const std::uint32_t times_off = off_requests_.load();
   const HandleState state = sense(1.0 / rate_Hz_);
-  beat.at_ns = now_ns();
-  const MotorCommand command = servo_->tick(state, beat);
-  drive(times_off_.load() == times_off ? command : MotorCommand{});
+  timing.at_ns = now_ns();
+  const MotorCommand command = servo_->tick(state, timing);
+  drive(off_requests_.load() == times_off ? command : MotorCommand{});
   grid_->ticked(now_ns());
 }
 

@@ -23,7 +23,7 @@ class PacedDevice : public HapticDevice {
 
   void start(DeviceServo& servo, double rate_Hz) override;
   void stop() noexcept override;
-  void motorsOff() noexcept override { times_off_.fetch_add(1); }
+  void motorsOff() noexcept override { off_requests_.fetch_add(1); }
 
  protected:
   /// The device's thread, once a tick; bounded, no lock, no allocation.
@@ -34,13 +34,13 @@ class PacedDevice : public HapticDevice {
   virtual void await(std::int64_t deadline_ns) noexcept;
 
   /// Instead of start(): no thread and no clock, the ticks are step()'s.
-  void startByHand(DeviceServo& servo, double rate_Hz);
+  void startStepped(DeviceServo& servo, double rate_Hz);
   /// So many ticks, each at its deadline unless time went by.
   void step(std::uint64_t ticks) noexcept;
   /// By hand alone: time in which no tick comes.
   void pass(std::chrono::nanoseconds time) noexcept { by_hand_ns_ += time.count(); }
   /// By hand alone: as far as ticks and passing time have come.
-  std::int64_t timeByHand_ns() const noexcept { return by_hand_ns_; }
+  std::int64_t steppedTime_ns() const noexcept { return by_hand_ns_; }
 
  private:
   std::int64_t now_ns() const noexcept;
@@ -49,7 +49,7 @@ class PacedDevice : public HapticDevice {
   void turn() noexcept;
 
   std::atomic<bool> running_{false};
-  std::atomic<std::uint32_t> times_off_{0};
+  std::atomic<std::uint32_t> off_requests_{0};
   std::thread thread_;
   bool started_ = false, by_hand_ = false;
 

@@ -12,7 +12,7 @@ inline constexpr int kServoPriority = 45;
 /// The USB's thread beside a servo of this priority.
 constexpr int usbPriority(int servo_priority) { return servo_priority + 1; }
 /// Of SCHED_FIFO's 1 to 99 the last one is the USB's.
-inline constexpr int kLeastServoPriority = 1, kMostServoPriority = 98;
+inline constexpr int kMinServoPriority = 1, kMaxServoPriority = 98;
 static_assert(usbPriority(kServoPriority) < kInterruptPriority);
 
 }  // namespace haptics

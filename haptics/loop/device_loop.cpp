@@ -33,10 +33,10 @@ double threadTime_us() {
 
 DeviceLoop::DeviceLoop(ServedDevice served, double rate_Hz, std::optional<int> priority)
     : device_(served.device),
-      by_hand_(served.by_hand),
+      stepped_(served.stepped),
       capabilities_(device_.capabilities()),
       rate_Hz_(rate_Hz),
-      priority_(by_hand_ == nullptr ? priority : std::nullopt),
+      priority_(stepped_ == nullptr ? priority : std::nullopt),
       gate_(capabilities_) {
   if (!(rate_Hz >= 500.0 && rate_Hz <= 10'000.0))
     throw DeviceError("servo rate, " + std::to_string(std::lround(rate_Hz)) + " Hz, choose one from 500 to 10000 Hz");
@@ -46,13 +46,13 @@ DeviceLoop::~DeviceLoop() { assert(!started_ || phase_.load() != Phase::serving)
 
 void DeviceLoop::start() {
   assert(!started_);
-  if (by_hand_ != nullptr)
-    by_hand_->startByHand(*this, rate_Hz_);
+  if (stepped_ != nullptr)
+    stepped_->startStepped(*this, rate_Hz_);
   else
     device_.start(*this, rate_Hz_);
   // One that refuses to be started has nothing to let go of.
   started_ = true;
-  if (by_hand_ == nullptr) supervisor_.emplace(device_, ticks_);
+  if (stepped_ == nullptr) supervisor_.emplace(device_, ticks_);
 }
 
 void DeviceLoop::stop() noexcept {
@@ -63,11 +63,11 @@ void DeviceLoop::stop() noexcept {
 }
 
 void DeviceLoop::awaitGoodbye() noexcept {
-  if (by_hand_ != nullptr) {
+  if (stepped_ != nullptr) {
     // Counted: of a device that was stopped before, neither ticks nor time come.
     auto steps =
         static_cast<std::int64_t>(std::ceil(std::chrono::duration<double>(kLongestGoodbye).count() * rate_Hz_));
-    for (; steps > 0 && phase_.load() != Phase::over; --steps) by_hand_->step(1);
+    for (; steps > 0 && phase_.load() != Phase::over; --steps) stepped_->step(1);
     return;
   }
   const std::int64_t until_ns = now_ns() + std::chrono::nanoseconds(kLongestGoodbye).count();
@@ -75,55 +75,55 @@ void DeviceLoop::awaitGoodbye() noexcept {
 }
 
 std::int64_t DeviceLoop::now_ns() const noexcept {
-  return by_hand_ != nullptr ? by_hand_->timeByHand_ns() : monotonic_ns();
+  return stepped_ != nullptr ? stepped_->steppedTime_ns() : monotonic_ns();
 }
 
 void DeviceLoop::emergencyStop() noexcept {
-  forbidForce();
+  disableForce();
   device_.motorsOff();
 }
 
 LoopFigures DeviceLoop::figures() const {
   LoopFigures figures = statistics_.figures();
-  figures.silences = silences();
+  figures.watchdog_trips = watchdogTrips();
   return figures;
 }
 
 void DeviceLoop::begin() noexcept {
-  if (priority_) statistics_.setGrants(askForRealtime(*priority_));
+  if (priority_) statistics_.setGrants(requestRealtime(*priority_));
 }
 
-MotorCommand DeviceLoop::tick(const HandleState& state, const Beat& beat) noexcept {
+MotorCommand DeviceLoop::tick(const HandleState& state, const TickTiming& timing) noexcept {
   ticks_.fetch_add(1, std::memory_order_relaxed);
-  if (phase_.load(std::memory_order_relaxed) != Phase::serving) return letGo(state, beat);
+  if (phase_.load(std::memory_order_relaxed) != Phase::serving) return letGo(state, timing);
 
-  const double began_us = by_hand_ != nullptr ? 0.0 : threadTime_us();
-  Beat timed = beat;
-  const double since_s = gap_s(beat);
+  const double began_us = stepped_ != nullptr ? 0.0 : threadTime_us();
+  TickTiming timed = timing;
+  const double since_s = gap_s(timing);
   timed.gap_s = since_s * rate_Hz_ > kLongestPunctual ? since_s : 0.0;
   const Answer wanted = answer(state, timed);
   last_ = gate_.admit(wanted.wrench_D, state.jacobian_D_mm, wanted.motors_on);
-  const double work_us = by_hand_ != nullptr ? 0.0 : threadTime_us() - began_us;
+  const double work_us = stepped_ != nullptr ? 0.0 : threadTime_us() - began_us;
   answered(work_us);
-  statistics_.add(work_us, 1e6 / rate_Hz_, beat.late_us);
-  statistics_.addMissed(beat.missed);
+  statistics_.add(work_us, 1e6 / rate_Hz_, timing.late_us);
+  statistics_.addMissed(timing.missed);
   return last_;
 }
 
-double DeviceLoop::gap_s(const Beat& beat) noexcept {
-  const std::int64_t last_ns = std::exchange(last_tick_ns_, beat.at_ns).value_or(beat.at_ns);
-  return 1e-9 * static_cast<double>(beat.at_ns - last_ns);
+double DeviceLoop::gap_s(const TickTiming& timing) noexcept {
+  const std::int64_t last_ns = std::exchange(last_tick_ns_, timing.at_ns).value_or(timing.at_ns);
+  return 1e-9 * static_cast<double>(timing.at_ns - last_ns);
 }
 
-MotorCommand DeviceLoop::letGo(const HandleState& state, const Beat& beat) noexcept {
+MotorCommand DeviceLoop::letGo(const HandleState& state, const TickTiming& timing) noexcept {
   // A force that a pause or the supervisor has ended does not come back to be let down.
-  if (gap_s(beat) > SafetyThresholds{}.longest_pause_s || !state.healthy) share_left_ = 0.0;
+  if (gap_s(timing) > SafetyThresholds{}.max_pause_s || !state.healthy) share_left_ = 0.0;
   // Force and torque go down together, the one that needs longer at its limit.
   const Wrench<calibration::Device>& wrench = last_.wrench_D();
   const double seconds = std::max(glm::length(wrench.force_N.xyz) / kLetDown_N_per_s,
                                   glm::length(wrench.torque_Nmm.xyz) / kLetDown_Nmm_per_s);
   share_left_ = seconds > 0.0 ? std::max(0.0, share_left_ - 1.0 / (rate_Hz_ * seconds)) : 0.0;
-  if (share_left_ > 0.0 && !gate_.isShut()) return last_.faded(share_left_);
+  if (share_left_ > 0.0 && !gate_.isShut()) return last_.scaled(share_left_);
   phase_.store(Phase::over, std::memory_order_relaxed);
   return {};
 }

@@ -34,19 +34,19 @@ class DeviceLoop : private DeviceServo {
   void stop() noexcept;
 
   /// By hand alone, between start() and stop(), on their thread: so many ticks; and time in which none comes.
-  void step(std::uint64_t ticks) noexcept { by_hand_->step(ticks); }
-  void pass(std::chrono::nanoseconds time) noexcept { by_hand_->pass(time); }
+  void step(std::uint64_t ticks) noexcept { stepped_->step(ticks); }
+  void pass(std::chrono::nanoseconds time) noexcept { stepped_->pass(time); }
 
   /// No force from this moment on, for good; the ticks go on. Only atomics: a signal handler may call it.
-  void forbidForce() noexcept { gate_.shut(); }
+  void disableForce() noexcept { gate_.shut(); }
   /// That, and motors off at once. Any thread.
   void emergencyStop() noexcept;
-  bool isForbidden() const noexcept { return gate_.isShut(); }
+  bool isForceDisabled() const noexcept { return gate_.isShut(); }
 
   /// So far. Any thread, signal handlers too.
   std::uint64_t ticks() const noexcept { return ticks_.load(std::memory_order_relaxed); }
   /// How often the supervisor has switched the motors off, for want of ticks.
-  std::uint64_t silences() const noexcept { return supervisor_ ? supervisor_->trips() : 0; }
+  std::uint64_t watchdogTrips() const noexcept { return supervisor_ ? supervisor_->trips() : 0; }
   LoopFigures figures() const;
 
  protected:
@@ -55,7 +55,7 @@ class DeviceLoop : private DeviceServo {
     bool motors_on = true;
   };
   /// The device's thread, once a tick; bounded.
-  virtual Answer answer(const HandleState& state, const Beat& beat) noexcept = 0;
+  virtual Answer answer(const HandleState& state, const TickTiming& timing) noexcept = 0;
   /// After each answer, with the CPU time it took; by hand none is measured.
   virtual void answered(double /*work_us*/) noexcept {}
 
@@ -68,13 +68,13 @@ class DeviceLoop : private DeviceServo {
   enum class Phase { serving, letting_go, over };
 
   void begin() noexcept override;
-  MotorCommand tick(const HandleState& state, const Beat& beat) noexcept override;
-  MotorCommand letGo(const HandleState& state, const Beat& beat) noexcept;
+  MotorCommand tick(const HandleState& state, const TickTiming& timing) noexcept override;
+  MotorCommand letGo(const HandleState& state, const TickTiming& timing) noexcept;
   void awaitGoodbye() noexcept;
-  double gap_s(const Beat& beat) noexcept;
+  double gap_s(const TickTiming& timing) noexcept;
 
   HapticDevice& device_;
-  DeviceInNumbers* const by_hand_;
+  SimulatedDevice* const stepped_;
   const DeviceCapabilities& capabilities_;
   const double rate_Hz_;
   const std::optional<int> priority_;

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "haptics/device/haptic_device.h"
-#include "haptics/hand_over_log.h"
+#include "haptics/spsc_ring.h"
 
 namespace haptics {
 
@@ -13,10 +13,10 @@ struct TimedHandle {
   HandleState state;
 };
 
-class HandleLog : public HandOverLog<TimedHandle> {
+class HandleLog : public SpscRing<TimedHandle> {
  public:
   /// Room for `capacity` states; 4 s at 1 kHz by default.
-  explicit HandleLog(std::size_t capacity = 4'000) : HandOverLog(capacity) {}
+  explicit HandleLog(std::size_t capacity = 4'000) : SpscRing(capacity) {}
 };
 
 }  // namespace haptics

@@ -53,7 +53,7 @@ LoopFigures LoopStatistics::figures() const {
   figures.work_max_us = work_.most_us();
   figures.late_p50_us = late_.percentile_us(0.50);
   figures.late_p99_us = late_.percentile_us(0.99);
-  figures.latest_us = late_.most_us();
+  figures.late_max_us = late_.most_us();
   figures.grants.priority = realtime_.load(kRelaxed);
   figures.grants.memory_locked = memory_locked_.load(kRelaxed);
   if (const int core = core_.load(kRelaxed); core >= 0) figures.grants.core = core;

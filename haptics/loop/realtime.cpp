@@ -54,7 +54,7 @@ void lockOwnStack() {
 
 }  // namespace
 
-RealtimeGrants askForRealtime(int priority) noexcept {
+RealtimeGrants requestRealtime(int priority) noexcept {
   RealtimeGrants grants;
   sched_param param{};
   param.sched_priority = priority;

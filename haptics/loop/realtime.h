@@ -14,6 +14,6 @@ struct RealtimeGrants {
 };
 
 /// For the calling thread; `priority` is SCHED_FIFO's (device/thread_priority).
-RealtimeGrants askForRealtime(int priority) noexcept;
+RealtimeGrants requestRealtime(int priority) noexcept;
 
 }  // namespace haptics

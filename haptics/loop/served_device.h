@@ -2,20 +2,20 @@
 // loop that serves it. Borrows; any thread.
 #pragma once
 
-#include "haptics/device/device_in_numbers.h"
+#include "haptics/device/simulated_device.h"
 
 namespace haptics {
 
 struct ServedDevice {
   HapticDevice& device;
-  DeviceInNumbers* by_hand = nullptr;
+  SimulatedDevice* stepped = nullptr;
 
   // A device ticks by itself unless somebody says otherwise.
   ServedDevice(HapticDevice& ticking) : device(ticking) {}  // NOLINT(google-explicit-constructor)
 
-  static ServedDevice byHand(DeviceInNumbers& stepped) {
+  static ServedDevice steppedManually(SimulatedDevice& stepped) {
     ServedDevice served(stepped);
-    served.by_hand = &stepped;
+    served.stepped = &stepped;
     return served;
   }
 };

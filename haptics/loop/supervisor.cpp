@@ -3,7 +3,7 @@
 #include <chrono>
 
 #include "haptics/device/monotonic_clock.h"
-#include "haptics/loop/silence_watch.h"
+#include "haptics/loop/tick_watchdog.h"
 
 namespace haptics {
 namespace {
@@ -28,11 +28,11 @@ void Supervisor::end() noexcept {
 }
 
 void Supervisor::watch() noexcept {
-  SilenceWatch watch;
+  TickWatchdog watch;
   bool was_silent = false;
   std::unique_lock lock(mutex_);
   while (!over_.wait_for(lock, kLook, [this] { return is_over_; })) {
-    const bool silent = watch.isSilent(ticks_.load(std::memory_order_relaxed), monotonic_ns());
+    const bool silent = watch.hasExpired(ticks_.load(std::memory_order_relaxed), monotonic_ns());
     // Again at every look: what a late tick may still have told the motors does not last.
     if (silent) device_.motorsOff();
     if (silent && !was_silent) trips_.fetch_add(1, std::memory_order_relaxed);

@@ -16,7 +16,7 @@ bool BuzzDetector::buzzes(const glm::dvec3& velocity_mm_per_s, double least_mm_p
   return turns_ == kTurns && now_s_ - turned_at_s_[next_] <= kWindow_s;
 }
 
-BuzzDetector::Verdict BuzzDetector::follow(const glm::dvec3& velocity_mm_per_s, const SafetyThresholds& thresholds,
+BuzzDetector::Output BuzzDetector::follow(const glm::dvec3& velocity_mm_per_s, const SafetyThresholds& thresholds,
                                            double dt_s) noexcept {
   now_s_ += dt_s;
   calm_s_ += dt_s;

@@ -16,11 +16,11 @@ class BuzzDetector {
   static constexpr std::size_t kTurns = 21;
   static constexpr double kWindow_s = 0.1, kCalm_s = 1.0;
 
-  struct Verdict {
+  struct Output {
     double share = 1.0;  ///< of the force
     bool off = false;    ///< halving it did not help
   };
-  Verdict follow(const glm::dvec3& velocity_mm_per_s, const SafetyThresholds& thresholds, double dt_s) noexcept;
+  Output follow(const glm::dvec3& velocity_mm_per_s, const SafetyThresholds& thresholds, double dt_s) noexcept;
 
  private:
   bool buzzes(const glm::dvec3& velocity_mm_per_s, double least_mm_per_s) noexcept;

@@ -41,7 +41,7 @@ HandSample held(const HandSample& good, const HandSample& now) {
   hand.docked = now.docked;
   hand.held = now.held;
   hand.calibrated = now.calibrated;
-  hand.stop_asked = now.stop_asked;
+  hand.stop_requested = now.stop_requested;
   hand.device_healthy = now.device_healthy;
   return hand;
 }
@@ -50,8 +50,8 @@ HandSample held(const HandSample& good, const HandSample& now) {
 
 /// No further since the last good sample than a hand can.
 bool HandGuard::moved(const HandSample& hand, const SafetyLimits& limits) const noexcept {
-  if (glm::length(handle_mm(hand) - handle_mm(good_)) > limits.fastest_mm_per_s * since_good_s_) return false;
-  const double half_turn_rad = 0.5 * limits.fastest_turn_rad_per_s * since_good_s_;
+  if (glm::length(handle_mm(hand) - handle_mm(good_)) > limits.max_speed_mm_per_s * since_good_s_) return false;
+  const double half_turn_rad = 0.5 * limits.max_angular_speed_rad_per_s * since_good_s_;
   if (half_turn_rad >= 1.57) return true;
   return std::abs(glm::dot(glm::normalize(hand.X_PT.rotation), good_.X_PT.rotation)) >= std::cos(half_turn_rad);
 }
@@ -60,7 +60,7 @@ HandGuard::Checked HandGuard::check(const HandSample& hand, const SafetyLimits& 
   const double elapsed_s = std::isfinite(hand.gap_s) ? std::max(dt_s, hand.gap_s) : dt_s;
   since_good_s_ += elapsed_s;
   Checked checked;
-  checked.resumed = elapsed_s > limits.thresholds.longest_pause_s;
+  checked.resumed = elapsed_s > limits.thresholds.max_pause_s;
   const bool anew = limits.must_be_armed && (checked.resumed || bad_ >= kBadInARow);
 
   if (!hand.fresh) {

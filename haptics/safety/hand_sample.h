@@ -21,7 +21,7 @@ struct HandSample {
   bool docked = false;         ///< in its inkwell
   bool held = true;            ///< the deadman feels a hand; true where there is none
   bool calibrated = true;      ///< the pose can be believed
-  bool stop_asked = false;     ///< emergency stop: no force from now on, for good
+  bool stop_requested = false;     ///< emergency stop: no force from now on, for good
   bool device_healthy = true;  ///< false: the device reports trouble, or is gone
 };
 

@@ -17,9 +17,9 @@ double shareWithin(double peak, double length) { return length > peak ? peak / l
 MotorGate::MotorGate(const DeviceCapabilities& device)
     : peak_force_N_(usable(device.peak_force_N)),
       peak_torque_Nmm_(usable(device.peak_torque_Nmm)),
-      peak_joint_torque_Nmm_(readJointPeak_Nmm(device.peak_joint_torque_Nmm.x),
-                             readJointPeak_Nmm(device.peak_joint_torque_Nmm.y),
-                             readJointPeak_Nmm(device.peak_joint_torque_Nmm.z)) {}
+      peak_joint_torque_Nmm_(sanitisedJointPeak_Nmm(device.peak_joint_torque_Nmm.x),
+                             sanitisedJointPeak_Nmm(device.peak_joint_torque_Nmm.y),
+                             sanitisedJointPeak_Nmm(device.peak_joint_torque_Nmm.z)) {}
 
 MotorCommand MotorGate::admit(const Wrench<calibration::Device>& wanted_D, const glm::dmat3& jacobian_D_mm,
                               bool motors_on) const noexcept {

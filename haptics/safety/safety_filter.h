@@ -14,7 +14,7 @@ namespace haptics {
 
 class SafetyFilter {
  public:
-  struct Served {
+  struct Delivered {
     Wrench<calibration::Patient> wrench_P;
     Fault faults = Fault::none;  ///< clamped, joints, slewed, bad_force
   };
@@ -22,7 +22,7 @@ class SafetyFilter {
   enum class Fall { at_slew, at_once };
 
   /// What the hand may feel of `wanted`, which goes to zero when it is not finite. `jacobian_P_mm` as in HandSample.
-  Served serve(const Wrench<calibration::Patient>& wanted_P, const SafetyLimits& limits, Fall fall, double dt_s,
+  Delivered serve(const Wrench<calibration::Patient>& wanted_P, const SafetyLimits& limits, Fall fall, double dt_s,
                const glm::dmat3& jacobian_P_mm = glm::dmat3(0.0)) noexcept;
 
  private:

@@ -17,7 +17,7 @@ class SoftStart {
     if (!active)
       share_ = 0.0;
     else if (letting_go)
-      share_ = std::max(0.0, share_ - dt_s / t.let_go_s);
+      share_ = std::max(0.0, share_ - dt_s / t.release_s);
     else if (!limits.must_be_armed)
       share_ = 1.0;
     else

@@ -11,16 +11,16 @@ namespace haptics {
 
 class Staleness {
  public:
-  struct Verdict {
+  struct Output {
     bool holds = false;    ///< the force is held, or what is left of it
     bool overdue = false;  ///< too long: a fault
     double share = 1.0;    ///< of the force held
   };
 
   /// `elapsed_s` since the last call, by the clock where that knows better.
-  Verdict follow(bool fresh, const SafetyThresholds& t, double elapsed_s) noexcept {
+  Output follow(bool fresh, const SafetyThresholds& t, double elapsed_s) noexcept {
     age_s_ = fresh ? 0.0 : age_s_ + elapsed_s;
-    const double left = (t.longest_stale_s - age_s_) / std::max(t.longest_stale_s - t.stale_fades_s, 1e-9);
+    const double left = (t.max_stale_s - age_s_) / std::max(t.max_stale_s - t.stale_fade_s, 1e-9);
     // A sum of ticks reaches its end but for rounding.
     return {age_s_ > t.stale_s * (1.0 + 1e-9), left < 1e-9, std::clamp(left, 0.0, 1.0)};
   }

@@ -18,7 +18,7 @@ class ThermalBudget {
  public:
   static constexpr double kWindow_s = 10.0, kAlways = 0.7, kFade_s = 0.2;
 
-  double mostForce_N(double continuous_N) const noexcept {
+  double maxForce_N(double continuous_N) const noexcept {
     const double square = continuous_N * continuous_N;
     const double left = std::max(0.0, (1.0 - kAlways) * kWindow_s * square - spent_N2s_);
     return std::sqrt(kAlways * square + left / kFade_s);
@@ -35,7 +35,7 @@ class ThermalBudget {
 /// Of the force, at this heat of the warmest motor; a heat that is no number counts as the hottest.
 inline double shareAtHeat(double heat, const SafetyThresholds& t) noexcept {
   const double hot = heat < 1.0 ? std::max(0.0, heat - t.warm_motor) / std::max(1.0 - t.warm_motor, 1e-9) : 1.0;
-  return 1.0 - (1.0 - t.share_of_hottest) * std::min(hot, 1.0);
+  return 1.0 - (1.0 - t.share_at_hottest) * std::min(hot, 1.0);
 }
 
 }  // namespace haptics

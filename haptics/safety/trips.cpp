@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::string_view kNothing = "Nothing needs to be done.";
 
-const std::array<StateWords, 6> kStates = {{
+const std::array<StateText, 6> kStates = {{
     {"off", "The force is off for good.", "End the rehearsal and start it again."},
     {"calibrate", "The device does not know yet where its handle is.",
      "Put the handle into its inkwell, or move it as the device asks."},
@@ -20,7 +20,7 @@ const std::array<StateWords, 6> kStates = {{
 
 }  // namespace
 
-const std::array<TripWords, kTripKinds> kTrips = {{
+const std::array<TripText, kTripKinds> kTrips = {{
     {Fault::bad_pose, "bad_pose", "The device said that the hand is where no hand can be.",
      "If it comes again, check the cable and calibrate the device."},
     {Fault::bad_force, "bad_force", "The force law gave no number.",
@@ -50,11 +50,11 @@ const std::array<TripWords, kTripKinds> kTrips = {{
      "End the rehearsal and start it again."},
 }};
 
-const StateWords& wordsOf(SafetyState state) {
+const StateText& textOf(SafetyState state) {
   return kStates[std::min(static_cast<std::size_t>(state), kStates.size() - 1)];
 }
 
-void TripLedger::add(std::uint64_t tick, Fault faults) noexcept {
+void TripCounter::add(std::uint64_t tick, Fault faults) noexcept {
   for (std::size_t bit = 0; bit < kTripKinds; ++bit) {
     const auto one = static_cast<Fault>(std::uint32_t{1} << bit);
     if (!has(faults, one)) continue;
@@ -66,7 +66,7 @@ void TripLedger::add(std::uint64_t tick, Fault faults) noexcept {
   last_ = faults;
 }
 
-const TripLedger::Entry& TripLedger::of(Fault one) const noexcept {
+const TripCounter::Entry& TripCounter::of(Fault one) const noexcept {
   const int bit = std::countr_zero(static_cast<std::uint32_t>(one));
   return entries_[std::min(static_cast<std::size_t>(bit), kTripKinds - 1)];
 }

@@ -9,11 +9,11 @@
 #include <string_view>
 
 #include "haptics/safety/fault.h"
-#include "haptics/safety/readiness.h"
+#include "haptics/safety/safety_state.h"
 
 namespace haptics {
 
-struct TripWords {
+struct TripText {
   Fault fault;
   std::string_view key;   ///< for files
   std::string_view what;  ///< one plain sentence
@@ -22,14 +22,14 @@ struct TripWords {
 
 /// In the order of their bits.
 inline constexpr std::size_t kTripKinds = 16;
-extern const std::array<TripWords, kTripKinds> kTrips;
+extern const std::array<TripText, kTripKinds> kTrips;
 
-struct StateWords {
+struct StateText {
   std::string_view key, what, next;
 };
-const StateWords& wordsOf(SafetyState state);
+const StateText& textOf(SafetyState state);
 
-class TripLedger {
+class TripCounter {
  public:
   struct Entry {
     std::uint64_t times = 0;

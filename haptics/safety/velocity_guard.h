@@ -12,19 +12,19 @@ namespace haptics {
 
 class VelocityGuard {
  public:
-  struct Verdict {
+  struct Output {
     glm::dvec3 brake_N{0.0};
     bool cuts = false;  ///< no force at all
   };
 
-  Verdict follow(const glm::dvec3& velocity_mm_per_s, const SafetyLimits& limits, double dt_s) noexcept {
+  Output follow(const glm::dvec3& velocity_mm_per_s, const SafetyLimits& limits, double dt_s) noexcept {
     const SafetyThresholds& t = limits.thresholds;
     const double speed = glm::length(velocity_mm_per_s);
-    cut_left_s_ = speed > t.cut_mm_per_s ? t.cut_s : std::max(0.0, cut_left_s_ - dt_s);
-    Verdict verdict;
+    cut_left_s_ = speed > t.cutoff_mm_per_s ? t.cutoff_s : std::max(0.0, cut_left_s_ - dt_s);
+    Output verdict;
     verdict.cuts = cut_left_s_ > 1e-9;
-    if (!verdict.cuts && speed > t.braked_mm_per_s)
-      verdict.brake_N = -limits.most_damping_Ns_per_mm * (1.0 - t.braked_mm_per_s / speed) * velocity_mm_per_s;
+    if (!verdict.cuts && speed > t.brake_mm_per_s)
+      verdict.brake_N = -limits.max_damping_Ns_per_mm * (1.0 - t.brake_mm_per_s / speed) * velocity_mm_per_s;
     return verdict;
   }
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "haptics/bone/carve.h"
-#include "haptics/contact/cut_moment.h"
+#include "haptics/contact/cut_conditions.h"
 #include "haptics/contact/law_settings.h"
 #include "haptics/tool/spindle.h"
 
@@ -13,7 +13,7 @@ namespace haptics {
 class Cutting {
  public:
   /// Where and how hard the head is held this tick.
-  struct Held {
+  struct Engagement {
     calibration::Pose<calibration::Patient, calibration::Tool> X_PQ;  ///< the tool at the proxy
     BurShape head;
     Contact contact;
@@ -29,7 +29,7 @@ class Cutting {
   /// Takes from the bone what the law grants with the spindle as it turns; nothing with `allowed` false. What it
   /// changes is saved to `strokes`.
   CarveResult cut(CarvedBone& bone, StrokeHistory& strokes, const ErosionSettings& erosion,
-                  const SpindleSettings& spindle, const LawSettings& law, const Held& held, bool allowed, double dt_s,
+                  const SpindleSettings& spindle, const LawSettings& law, const Engagement& held, bool allowed, double dt_s,
                   std::uint64_t tick) noexcept;
 
   const SpindleState& spindle() const { return spindle_; }
@@ -37,7 +37,7 @@ class Cutting {
 
  private:
   SpindleState spindle_;
-  CutMemory memory_;
+  ErosionState memory_;
   calibration::Point<calibration::Patient> last_P_;
   bool was_in_bone_ = false;
   double load_Nmm_ = 0.0;

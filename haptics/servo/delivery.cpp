@@ -18,9 +18,9 @@ glm::dvec3 turnBetween_rad(const glm::dquat& from, const glm::dquat& to) {
 
 }  // namespace
 
-Passivity::Motion Delivery::motionTo(const HandSample& hand, bool with_turn, double dt_s) const noexcept {
+PassivityController::Motion Delivery::motionTo(const HandSample& hand, bool with_turn, double dt_s) const noexcept {
   constexpr double kFastest_mm_per_s = 10'000.0;  // no hand is faster: it was put there
-  Passivity::Motion motion;
+  PassivityController::Motion motion;
   motion.travel_P_mm.xyz =
       (hand.X_PT.translation_mm - last_hand_.X_PT.translation_mm) + (hand.arm_P_mm.xyz - last_hand_.arm_P_mm.xyz);
   if (glm::length(motion.travel_P_mm.xyz) > kFastest_mm_per_s * dt_s) return {};
@@ -28,10 +28,10 @@ Passivity::Motion Delivery::motionTo(const HandSample& hand, bool with_turn, dou
   return motion;
 }
 
-SafetyFilter::Served Delivery::give(const Wanted& wanted, const HandSample& hand, SafetyLayer& safety,
+SafetyFilter::Delivered Delivery::deliver(const Request& wanted, const HandSample& hand, SafetyLayer& safety,
                                     const SafetyLimits& limits, double dt_s) noexcept {
   const bool with_torque = limits.peak_torque_Nmm > 0.0;
-  SafetyLayer::Wanted wish;
+  SafetyLayer::Request wish;
   if (!wanted.relocated) wish.motion = motionTo(hand, with_torque, dt_s);
   last_hand_ = hand;
 
@@ -41,8 +41,8 @@ SafetyFilter::Served Delivery::give(const Wanted& wanted, const HandSample& hand
   if (!with_torque) wrench.torque_Nmm = {};
 
   wish.wrench_P = transition_.follow(wrench, wanted.switched || wanted.relocated, dt_s);
-  wish.tremble_P_N = wanted.tremble_P_N;
-  wish.most_stored_Nmm = wanted.most_stored_Nmm;
+  wish.vibration_P_N = wanted.vibration_P_N;
+  wish.max_stored_Nmm = wanted.max_stored_Nmm;
   wish.touches = wanted.touches;
   return safety.serve(wish, limits, dt_s);
 }

@@ -26,14 +26,14 @@ Command limitedTo(const DeviceCapabilities& device, double rate_Hz, const Comman
   safety = sanitised(command.safety);
   safety.peak_force_N = at_most(safety.peak_force_N, device.peak_force_N);
   safety.peak_torque_Nmm = at_most(safety.peak_torque_Nmm, device.peak_torque_Nmm);
-  limited.law.damping_Ns_per_mm = at_most(command.law.damping_Ns_per_mm, device.most_damping_Ns_per_mm);
-  safety.most_damping_Ns_per_mm = at_most(safety.most_damping_Ns_per_mm, device.most_damping_Ns_per_mm);
-  safety.most_stiffness_N_per_mm = at_most(safety.most_stiffness_N_per_mm, device.most_stiffness_N_per_mm);
-  safety.most_stiffness_N_per_mm =
-      at_most(safety.most_stiffness_N_per_mm,
+  limited.law.damping_Ns_per_mm = at_most(command.law.damping_Ns_per_mm, device.max_damping_Ns_per_mm);
+  safety.max_damping_Ns_per_mm = at_most(safety.max_damping_Ns_per_mm, device.max_damping_Ns_per_mm);
+  safety.max_stiffness_N_per_mm = at_most(safety.max_stiffness_N_per_mm, device.max_stiffness_N_per_mm);
+  safety.max_stiffness_N_per_mm =
+      at_most(safety.max_stiffness_N_per_mm,
               0.9 * passiveStiffness_N_per_mm(device.damping_Ns_per_mm, limited.law.damping_Ns_per_mm, 1.0 / rate_Hz));
   for (int joint = 0; joint < 3; ++joint)
-    if (const double most = readJointPeak_Nmm(device.peak_joint_torque_Nmm[joint]); most > 0.0) {
+    if (const double most = sanitisedJointPeak_Nmm(device.peak_joint_torque_Nmm[joint]); most > 0.0) {
       double& peak = safety.peak_joint_torque_Nmm[joint];
       peak = peak > 0.0 ? std::min(peak, most) : most;
     }
@@ -61,20 +61,20 @@ HapticLoop::HapticLoop(Servo& servo, ServedDevice served, Latest<Command>& comma
     throw DeviceError("pose of the tool in the handle, not finite and rigid, measure it again");
 }
 
-HandSample HapticLoop::handFrom(const HandleState& measured, const Beat& beat) noexcept {
+HandSample HapticLoop::handFrom(const HandleState& measured, const TickTiming& timing) noexcept {
   const HandleState state = handle_.corrected(measured);
   HandSample hand;
   const auto X_PH = settings_.X_PD * state.X_DH;
   hand.X_PT = X_PH * settings_.X_HT;
   hand.jacobian_P_mm = glm::mat3_cast(settings_.X_PD.rotation) * state.jacobian_D_mm;
   hand.motor_heat = state.motor_heat;
-  hand.gap_s = beat.gap_s;
+  hand.gap_s = timing.gap_s;
   hand.drill_pedal = drills(state);
   hand.fresh = state.fresh;
   hand.docked = state.docked;
   hand.held = state.held;
   hand.calibrated = state.calibrated;
-  hand.stop_asked = isForbidden();
+  hand.stop_requested = isForceDisabled();
   hand.device_healthy = state.healthy;
 
   // The device measures the handle's velocity; turning moves the tool's tip too, differenced and smoothed at 100 Hz.
@@ -101,9 +101,9 @@ bool HapticLoop::drills(const HandleState& state) noexcept {
          (settings_.pedal != nullptr && settings_.pedal->held().has(HandAction::drill));
 }
 
-DeviceLoop::Answer HapticLoop::answer(const HandleState& state, const Beat& beat) noexcept {
-  tick_ = servo_.step(handFrom(state, beat), limitedTo(device(), rate_Hz(), commands_.read()), 1.0 / rate_Hz());
-  return {{X_DP_ * tick_.served_force_P_N, X_DP_ * tick_.served_torque_P_Nmm}, mayRunMotors(tick_.state)};
+DeviceLoop::Answer HapticLoop::answer(const HandleState& state, const TickTiming& timing) noexcept {
+  tick_ = servo_.step(handFrom(state, timing), limitedTo(device(), rate_Hz(), commands_.read()), 1.0 / rate_Hz());
+  return {{X_DP_ * tick_.commanded_force_P_N, X_DP_ * tick_.commanded_torque_P_Nmm}, mayRunMotors(tick_.state)};
 }
 
 void HapticLoop::answered(double work_us) noexcept {

@@ -44,16 +44,16 @@ class HapticLoop final : public DeviceLoop {
   ~HapticLoop() override { stop(); }
 
   /// What the safety layer did so far; one reader.
-  const TripLedger& trips() { return trips_.read(); }
+  const TripCounter& trips() { return trips_.read(); }
   /// How often a button of the handle asked for it. Any thread.
   std::uint32_t presses(HandAction action) const noexcept {
     return presses_[static_cast<std::size_t>(action)].load(std::memory_order_relaxed);
   }
 
  private:
-  Answer answer(const HandleState& state, const Beat& beat) noexcept override;
+  Answer answer(const HandleState& state, const TickTiming& timing) noexcept override;
   void answered(double work_us) noexcept override;
-  HandSample handFrom(const HandleState& measured, const Beat& beat) noexcept;
+  HandSample handFrom(const HandleState& measured, const TickTiming& timing) noexcept;
   bool drills(const HandleState& state) noexcept;
 
   Servo& servo_;
@@ -69,10 +69,10 @@ class HapticLoop final : public DeviceLoop {
   glm::dvec3 last_arm_P_mm_{0.0}, arm_velocity_P_mm_per_s_{0.0};
   bool has_arm_ = false;
   PressCount press_count_;
-  TripLedger ledger_;
+  TripCounter ledger_;
   Fault last_faults_ = Fault::none;
 
-  Latest<TripLedger> trips_;
+  Latest<TripCounter> trips_;
   std::array<std::atomic<std::uint32_t>, kHandActions> presses_{};
 };
 

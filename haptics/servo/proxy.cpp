@@ -33,10 +33,10 @@ Contact faded(Contact contact) {
 }
 
 /// Steeper than the device can hold: the whole contact is scaled down to what it can.
-Contact held(Contact contact, double most_stiffness_N_per_mm) {
-  if (!(contact.stiffness_N_per_mm > most_stiffness_N_per_mm)) return contact;
-  const double scale = most_stiffness_N_per_mm / contact.stiffness_N_per_mm;
-  contact.stiffness_N_per_mm = most_stiffness_N_per_mm;
+Contact held(Contact contact, double max_stiffness_N_per_mm) {
+  if (!(contact.stiffness_N_per_mm > max_stiffness_N_per_mm)) return contact;
+  const double scale = max_stiffness_N_per_mm / contact.stiffness_N_per_mm;
+  contact.stiffness_N_per_mm = max_stiffness_N_per_mm;
   contact.force_P_N.xyz *= scale;
   contact.torque_P_Nmm.xyz *= scale;
   return contact;
@@ -83,7 +83,7 @@ double thinnestRadius_mm(const BurShape& head) {
 
 }  // namespace
 
-double deepestPureContact_mm(const BurShape& head) {
+double maxLawDepth_mm(const BurShape& head) {
   const double r = thinnestRadius_mm(head);
   const double plate_mm3 =
       calibration::kPi * kThinnestPlate_mm * (r * r - kThinnestPlate_mm * kThinnestPlate_mm / 12.0);
@@ -98,14 +98,14 @@ double deepestPureContact_mm(const BurShape& head) {
   return deepest_mm;
 }
 
-Vector<Patient> Proxy::Held::force_P_N() const {
+Vector<Patient> Proxy::State::force_P_N() const {
   if (!touches()) return {};
-  return head.force_P_N + shaft.force_P_N + spring_N_per_mm * pull_P_mm;
+  return head.force_P_N + shaft.force_P_N + spring_N_per_mm * stretch_P_mm;
 }
 
-Vector<Patient> Proxy::Held::torque_P_Nmm() const { return head.torque_P_Nmm + shaft.torque_P_Nmm; }
+Vector<Patient> Proxy::State::torque_P_Nmm() const { return head.torque_P_Nmm + shaft.torque_P_Nmm; }
 
-double Proxy::Held::mostStored_Nmm() const {
+double Proxy::State::maxStored_Nmm() const {
   if (!touches()) return 0.0;
   double stored_Nmm = 0.0, all_N = 0.0;
   for (const Contact* contact : {&head, &shaft}) {
@@ -113,21 +113,21 @@ double Proxy::Held::mostStored_Nmm() const {
     stored_Nmm += (contact->stiffness_N_per_mm * contact->depth_mm + force_N) * contact->depth_mm;
     all_N += force_N;
   }
-  const double pull_mm = glm::length(pull_P_mm.xyz);
+  const double pull_mm = glm::length(stretch_P_mm.xyz);
   return stored_Nmm + (spring_N_per_mm * pull_mm + all_N) * pull_mm;
 }
 
-Proxy::Held Proxy::follow(const SolidField& field, const LawSettings& law, const Tool& tool,
+Proxy::State Proxy::follow(const SolidField& field, const LawSettings& law, const Tool& tool,
                           const calibration::Pose<Patient, calibration::Tool>& X_PT, const ToolMotion& motion,
-                          double most_stiffness_N_per_mm) noexcept {
-  // A step is short enough that no plate fits between two looks; a miss of a micrometre is not worth another look.
+                          double max_stiffness_N_per_mm) noexcept {
+  // A step is short enough that no plate fits between two evaluations; a miss of a micrometre is not worth another look.
   const bool with_shaft = tool.shaft.length_mm > 0.0 && tool.shaft.radius_mm > 0.0;
   double longest_mm = 0.5 * thinnestRadius_mm(tool.head);
   if (with_shaft) longest_mm = std::min(longest_mm, 0.5 * tool.shaft.radius_mm);
   const double enough_mm = 1e-3;
   // Where one look is dear there are fewer: the proxy goes on in the next tick.
-  const int most_looks = tool.head.radius_mm > 25.0 * field.grid.spacing_mm ? kMostLooks / 2 : kMostLooks;
-  const double deepest_mm = deepestPureContact_mm(tool.head);
+  const int max_evaluations = tool.head.radius_mm > 25.0 * field.grid.spacing_mm ? kMaxEvaluations / 2 : kMaxEvaluations;
+  const double deepest_mm = maxLawDepth_mm(tool.head);
   const double shaft_deepest_mm = with_shaft ? kShaftDepth * tool.shaft.radius_mm : 1.0;
 
   const glm::dvec3& hand_mm = X_PT.translation_mm;
@@ -144,15 +144,15 @@ Proxy::Held Proxy::follow(const SolidField& field, const LawSettings& law, const
   if (!with_shaft) shaft_ = {};
 
   // The first step trusts what the last tick saw; every later one, and the force, what is there now.
-  Held now;
+  State now;
   Contact bare;
   glm::dvec3 last_move(0.0);
   const auto at = [&] { return ToolInBone{field, tool.head, {X_PT.rotation, proxy_P_.mm}, law.tissue, motion}; };
-  while (now.looks < most_looks) {
+  while (now.evaluations < max_evaluations) {
     const glm::dvec3 to_hand = hand_mm - proxy_P_.mm;
     glm::dvec3 move = allowed(to_hand, constraintOf(head_, deepest_mm), constraintOf(shaft_, shaft_deepest_mm));
     // In a corner every wall seen alone turns the way to the other: who swings to and fro goes in shorter steps.
-    const bool free = move == to_hand, swings = now.looks > 0 && glm::dot(move, last_move) < 0.0;
+    const bool free = move == to_hand, swings = now.evaluations > 0 && glm::dot(move, last_move) < 0.0;
     if (free)
       trust_ = 1.0;
     else if (swings && glm::length(move) > 10.0 * enough_mm)
@@ -162,27 +162,27 @@ Proxy::Held Proxy::follow(const SolidField& field, const LawSettings& law, const
     last_move = move;
     if (!free) move *= trust_;
     const double length = glm::length(move);
-    if (now.looks > 0 && length <= enough_mm) break;
+    if (now.evaluations > 0 && length <= enough_mm) break;
     if (length > longest_mm) move *= longest_mm / length;
     proxy_P_.mm += move;
     bare = contactOf(law, at(), law_state_);
-    head_ = held(faded(bare), most_stiffness_N_per_mm);
+    head_ = held(faded(bare), max_stiffness_N_per_mm);
     // The shaft is a plain wall under every law, as stiff as Agus's.
     if (with_shaft)
       shaft_ = held(shaftContact(field, tool, {X_PT.rotation, proxy_P_.mm}, law.tissue, law.agus.stiffness_N_per_mm),
-                    most_stiffness_N_per_mm);
-    ++now.looks;
+                    max_stiffness_N_per_mm);
+    ++now.evaluations;
   }
   // A law's memory goes by the millisecond, whatever the rate.
   unremembered_s_ += motion.dt_s;
   if (unremembered_s_ > kMemoryStep_s * (1.0 - 1e-6)) {
-    remember(law, at(), bare, law_state_);
+    updateLawState(law, at(), bare, law_state_);
     unremembered_s_ = std::min(unremembered_s_ - kMemoryStep_s, kMemoryStep_s);
   }
   now.head = head_;
   now.shaft = shaft_;
   now.proxy_P = proxy_P_;
-  now.pull_P_mm.xyz = proxy_P_.mm - hand_mm;
+  now.stretch_P_mm.xyz = proxy_P_.mm - hand_mm;
   // The slope of whichever holds it; of both by how near they are to holding, so that neither comes in with a step.
   const double by_head = head_.depth_mm / deepest_mm, by_shaft = shaft_.depth_mm / shaft_deepest_mm;
   if (by_head + by_shaft > 0.0)
@@ -191,15 +191,15 @@ Proxy::Held Proxy::follow(const SolidField& field, const LawSettings& law, const
   return now;
 }
 
-Proxy::Held Proxy::letThrough(const SolidField& field, const LawSettings& law, const Tool& tool,
+Proxy::State Proxy::passThrough(const SolidField& field, const LawSettings& law, const Tool& tool,
                               const calibration::Pose<Patient, calibration::Tool>& X_PT,
                               const ToolMotion& motion) noexcept {
   release();
   law_state_ = {};
   const Contact head = contactOf(law, {field, tool.head, X_PT, law.tissue, motion}, law_state_);
   const Contact shaft = shaftContact(field, tool, X_PT, law.tissue, 0.0);
-  Held now;
-  now.looks = 1;
+  State now;
+  now.evaluations = 1;
   now.proxy_P.mm = X_PT.translation_mm;
   now.head.depth_mm = head.depth_mm;
   now.head.volume_mm3 = head.volume_mm3;

@@ -5,7 +5,7 @@
 //   deeper:  the proxy q waits at depth h_max, sliding to the place nearest the hand p, and
 //            F = law(q) + k (q - p),  k the law's own slope at q: over flat bone force goes on with it at every depth.
 // The two meet without a step, whichever way the hand goes and while the bone is carved away. Between walls that face
-// each other the force fades instead of flipping. Frame P. Servo thread. At most kMostLooks looks an update, one in
+// each other the force fades instead of flipping. Frame P. Servo thread. At most kMaxEvaluations evaluations an update, one in
 // steady sliding; a look is one contact sum for the head and one for a shaft. Not damping, not passivity, not limits.
 #pragma once
 
@@ -16,18 +16,18 @@ namespace haptics {
 
 /// The proxy waits at half the head's thinnest radius, or less where a large head would otherwise swallow a plate of
 /// bone of 0.6 mm, the thinnest that has to hold: at 85 % of the volume of such a plate through the head's middle.
-double deepestPureContact_mm(const BurShape& head);
+double maxLawDepth_mm(const BurShape& head);
 
 class Proxy {
  public:
-  static constexpr int kMostLooks = 6;
+  static constexpr int kMaxEvaluations = 6;
 
-  struct Held {
+  struct State {
     calibration::Point<calibration::Patient> proxy_P;     ///< of T's origin
     Contact head, shaft;                                  ///< at the proxy, faded between facing walls
-    calibration::Vector<calibration::Patient> pull_P_mm;  ///< q - p: the spring between hand and proxy
+    calibration::Vector<calibration::Patient> stretch_P_mm;  ///< q - p: the spring between hand and proxy
     double spring_N_per_mm = 0.0;                         ///< k of that spring
-    int looks = 0;                                        ///< how often the bone was asked
+    int evaluations = 0;                                        ///< how often the bone was asked
 
     bool touches() const { return head.depth_mm > 0.0 || shaft.depth_mm > 0.0; }
     /// The head where it touches, or else the shaft.
@@ -38,17 +38,17 @@ class Proxy {
     calibration::Vector<calibration::Patient> torque_P_Nmm() const;
     /// Never less than what contact and spring together could give back: k h^2 + F h is more than the energy of every
     /// law's curve up to h = R/2 (a straight one holds k h^2 / 2), also where opposing walls cancel its force.
-    double mostStored_Nmm() const;
+    double maxStored_Nmm() const;
   };
 
   /// Moves the proxy towards the hand as far as the bone lets it. A law steeper than the limit is scaled down to it.
-  Held follow(const SolidField& field, const LawSettings& law, const Tool& tool,
+  State follow(const SolidField& field, const LawSettings& law, const Tool& tool,
               const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT, const ToolMotion& motion,
-              double most_stiffness_N_per_mm) noexcept;
+              double max_stiffness_N_per_mm) noexcept;
 
   /// Lets the hand go through bone as if there were none: one look at it where the hand is, which tells depth and
   /// volume and holds nothing. Afterwards as after release().
-  Held letThrough(const SolidField& field, const LawSettings& law, const Tool& tool,
+  State passThrough(const SolidField& field, const LawSettings& law, const Tool& tool,
                   const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT,
                   const ToolMotion& motion) noexcept;
 

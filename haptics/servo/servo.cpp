@@ -45,22 +45,22 @@ Tick Servo::step(const HandSample& hand, const Command& wanted, double dt_s) noe
   tick.state = admitted.state;
 
   // Bone comes back before anyone looks at it.
-  const double returned_mm3 = undoing_.giveBack(bone_, command.undo_serial, command.tool, X_PQ_);
-  const bool caught = undoing_.hasCaught();
+  const double returned_mm3 = undo_.restore(bone_, command.undo_serial, command.tool, X_PQ_);
+  const bool embedded = undo_.isToolEmbedded();
 
   // The pedal turns the bur. A foot that cannot be believed is still where it was.
   const bool foot = believed.drill_pedal && command.drill_enabled;
-  tick.rest = undoing_.restUnder(foot || !admitted.mayDrill());
-  tick.drilling = foot && admitted.mayDrill() && tick.rest == Rest::none;
+  tick.drill_inhibit = undo_.inhibitFor(foot || !admitted.mayDrill());
+  tick.drilling = foot && admitted.mayDrill() && tick.drill_inhibit == DrillInhibit::none;
   cutting_.turn(command.spindle, tick.drilling, tick.dt_s);
   tick.spindle_rad_per_s = cutting_.spindle().rad_per_s;
 
   // Contact at the place where the surface holds the tool.
   const ToolMotion motion = cutting_.motion(believed.velocity_P_mm_per_s, tick.dt_s);
-  const Proxy::Held held = caught ? proxy_.letThrough(bone_.field(), command.law, command.tool, believed.X_PT, motion)
+  const Proxy::State held = embedded ? proxy_.passThrough(bone_.field(), command.law, command.tool, believed.X_PT, motion)
                                   : proxy_.follow(bone_.field(), command.law, command.tool, believed.X_PT, motion,
-                                                  command.safety.most_stiffness_N_per_mm);
-  if (caught && !held.touches()) undoing_.release();
+                                                  command.safety.max_stiffness_N_per_mm);
+  if (embedded && !held.touches()) undo_.release();
   X_PQ_ = {believed.X_PT.rotation, held.proxy_P.mm};
   tick.proxy_P = held.proxy_P;
   tick.overlap_mm3 = held.head.volume_mm3;
@@ -72,27 +72,27 @@ Tick Servo::step(const HandSample& hand, const Command& wanted, double dt_s) noe
   // What the law wants, then what may be given of it.
   tick.law_force_P_N = held.force_P_N() + dampingForce_N(command.law, held.touching(), believed.velocity_P_mm_per_s);
   tick.law_torque_P_Nmm = held.torque_P_Nmm();
-  Delivery::Wanted wish{{tick.law_force_P_N, tick.law_torque_P_Nmm}, held.head.vibration_P_N, held.mostStored_Nmm()};
-  wish.switched = command.serial != last_serial_ || caught != was_caught_;
+  Delivery::Request wish{{tick.law_force_P_N, tick.law_torque_P_Nmm}, held.head.vibration_P_N, held.maxStored_Nmm()};
+  wish.switched = command.serial != last_serial_ || embedded != was_embedded_;
   wish.relocated = admitted.relocated;
   wish.touches = held.touches();
   last_serial_ = command.serial;
-  was_caught_ = caught;
-  const SafetyFilter::Served served = delivery_.give(wish, believed, safety_, command.safety, tick.dt_s);
-  tick.served_force_P_N = served.wrench_P.force_N;
-  tick.served_torque_P_Nmm = served.wrench_P.torque_Nmm;
+  was_embedded_ = embedded;
+  const SafetyFilter::Delivered served = delivery_.deliver(wish, believed, safety_, command.safety, tick.dt_s);
+  tick.commanded_force_P_N = served.wrench_P.force_N;
+  tick.commanded_torque_P_Nmm = served.wrench_P.torque_Nmm;
   tick.energy_Nmm = safety_.energy_Nmm();
   tick.faults = tick.faults | served.faults;
 
   // The bur cuts where it is felt.
-  const Cutting::Held at{X_PQ_, command.tool.head, caught ? Contact{} : held.head, held.force_P_N()};
-  const CarveResult removed = cutting_.cut(bone_, undoing_.strokes(), command.erosion, command.spindle, command.law, at,
+  const Cutting::Engagement at{X_PQ_, command.tool.head, embedded ? Contact{} : held.head, held.force_P_N()};
+  const CarveResult removed = cutting_.cut(bone_, undo_.strokes(), command.erosion, command.spindle, command.law, at,
                                            tick.drilling, tick.dt_s, tick.index);
-  undoing_.follow(tick.drilling && held.head.volume_mm3 > 0.0, tick.dt_s);
+  undo_.follow(tick.drilling && held.head.volume_mm3 > 0.0, tick.dt_s);
   tick.removed_mm3 = removed.removed_mm3 - returned_mm3;
-  tick.strokes = static_cast<std::uint8_t>(undoing_.strokes().strokes());
+  tick.strokes = static_cast<std::uint8_t>(undo_.strokes().strokes());
   tick.bone_digest = bone_.digest();
-  tick.removed_so_far_mm3 = bone_.removedByTissue_mm3();
+  tick.removed_total_mm3 = bone_.removedByTissue_mm3();
   return tick;
 }
 

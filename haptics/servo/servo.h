@@ -10,7 +10,7 @@
 #include "haptics/servo/delivery.h"
 #include "haptics/servo/proxy.h"
 #include "haptics/servo/tick.h"
-#include "haptics/servo/undoing.h"
+#include "haptics/servo/stroke_undo.h"
 
 namespace haptics {
 
@@ -21,7 +21,7 @@ Command sanitised(const Command& command);
 class Servo {
  public:
   /// Borrows the bone, which must outlive this; becomes its one writer. Allocates room for what undo gives back.
-  explicit Servo(CarvedBone& bone) : bone_(bone), undoing_(bone) {}
+  explicit Servo(CarvedBone& bone) : bone_(bone), undo_(bone) {}
 
   /// One tick of length `dt_s`. Never throws whatever the input; trouble is a Fault in the Tick.
   Tick step(const HandSample& hand, const Command& command, double dt_s) noexcept;
@@ -32,9 +32,9 @@ class Servo {
   Proxy proxy_;
   Cutting cutting_;
   Delivery delivery_;
-  Undoing undoing_;
+  StrokeUndo undo_;
   calibration::Pose<calibration::Patient, calibration::Tool> X_PQ_;  ///< the tool as the last tick held it
-  bool was_caught_ = false;
+  bool was_embedded_ = false;
   std::uint64_t last_serial_ = 0;
   std::uint64_t next_index_ = 0;
   double t_s_ = 0.0;

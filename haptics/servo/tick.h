@@ -8,8 +8,8 @@
 #include "assets/tissue.h"
 #include "haptics/safety/fault.h"
 #include "haptics/safety/hand_sample.h"
-#include "haptics/safety/readiness.h"
-#include "haptics/servo/rest.h"
+#include "haptics/safety/safety_state.h"
+#include "haptics/servo/drill_inhibit.h"
 
 namespace haptics {
 
@@ -22,8 +22,8 @@ struct Tick {
   calibration::Point<calibration::Patient> proxy_P;               ///< where the bur is held by the surface
   calibration::Vector<calibration::Patient> law_force_P_N;        ///< the law with its proxy, before what follows
   calibration::Vector<calibration::Patient> law_torque_P_Nmm;     ///< the same, about T's origin
-  calibration::Vector<calibration::Patient> served_force_P_N;     ///< what the device is told
-  calibration::Vector<calibration::Patient> served_torque_P_Nmm;  ///< the same, about the handle
+  calibration::Vector<calibration::Patient> commanded_force_P_N;     ///< what the device is told
+  calibration::Vector<calibration::Patient> commanded_torque_P_Nmm;  ///< the same, about the handle
   double energy_Nmm = 0.0;                                        ///< what the hand has put in and may have back
   double spindle_rad_per_s = 0.0;                                 ///< about +z of T
   double overlap_mm3 = 0.0;                                       ///< of the bur at the proxy
@@ -31,10 +31,10 @@ struct Tick {
   double removed_mm3 = 0.0;                                       ///< this tick; below 0 while bone comes back
   std::uint64_t bone_digest = 0;                                  ///< after this tick
   /// Since the start, by assets::Tissue, less what came back: a late reader misses no part of it.
-  std::array<double, assets::kTissueCount> removed_so_far_mm3{};
+  std::array<double, assets::kTissueCount> removed_total_mm3{};
   std::uint8_t contact_tissue = 0;  ///< label with the largest overlap
   bool drilling = false;
-  Rest rest = Rest::none;                ///< why not
+  DrillInhibit drill_inhibit = DrillInhibit::none;                ///< why not
   std::uint8_t strokes = 0;              ///< that can be taken back
   SafetyState state = SafetyState::off;  ///< there is force in `active` alone
   Fault faults = Fault::none;

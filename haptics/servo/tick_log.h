@@ -2,15 +2,15 @@
 // what happens to a late reader: hand_over_log.
 #pragma once
 
-#include "haptics/hand_over_log.h"
+#include "haptics/spsc_ring.h"
 #include "haptics/servo/tick.h"
 
 namespace haptics {
 
-class TickLog : public HandOverLog<Tick> {
+class TickLog : public SpscRing<Tick> {
  public:
   /// Room for `capacity` ticks; 10 s at 1 kHz by default.
-  explicit TickLog(std::size_t capacity = 10'000) : HandOverLog(capacity) {}
+  explicit TickLog(std::size_t capacity = 10'000) : SpscRing(capacity) {}
 };
 
 }  // namespace haptics

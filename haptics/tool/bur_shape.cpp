@@ -20,9 +20,9 @@ BurShape sanitised(const BurShape& shape) noexcept {
   const BurShape defaults;
   BurShape safe;
   safe.kind = shape.kind <= ShapeKind::cone ? shape.kind : defaults.kind;
-  safe.radius_mm = within(shape.radius_mm, kLeastBurRadius_mm, kLargestBurRadius_mm, defaults.radius_mm);
-  const double least = safe.kind == ShapeKind::capsule ? 0.0 : kLeastHeadLength_mm;
-  safe.length_mm = safe.kind == ShapeKind::sphere ? 0.0 : within(shape.length_mm, least, kLongestHead_mm, least);
+  safe.radius_mm = within(shape.radius_mm, kMinBurRadius_mm, kMaxBurRadius_mm, defaults.radius_mm);
+  const double least = safe.kind == ShapeKind::capsule ? 0.0 : kMinHeadLength_mm;
+  safe.length_mm = safe.kind == ShapeKind::sphere ? 0.0 : within(shape.length_mm, least, kMaxHeadLength_mm, least);
   return safe;
 }
 

@@ -19,8 +19,8 @@ struct BurShape {
 };
 
 /// What the servo takes. Dental burs lie well inside (ISO 2157: diameters 0.5..5 mm; heads up to 12 mm long).
-inline constexpr double kLeastBurRadius_mm = 0.1, kLargestBurRadius_mm = 6.0;
-inline constexpr double kLeastHeadLength_mm = 0.1, kLongestHead_mm = 20.0;
+inline constexpr double kMinBurRadius_mm = 0.1, kMaxBurRadius_mm = 6.0;
+inline constexpr double kMinHeadLength_mm = 0.1, kMaxHeadLength_mm = 20.0;
 
 /// The nearest shape in range; a number that is none becomes the default's. A sphere's length is 0, a capsule's may be.
 BurShape sanitised(const BurShape& shape) noexcept;

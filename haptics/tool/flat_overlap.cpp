@@ -188,7 +188,7 @@ Immersed immersed(const BurShape& shape, double depth_mm, double cos_axis) {
 /// (wanted / V)^(V / (A h)); a step that leaves the bracket is halved instead. The steps shrink by squares: one as
 /// short as `accuracy` leaves its square to go.
 double shallowDepth(const BurShape& shape, double volume, double whole_volume, double cos_axis, double accuracy) {
-  double low = 0.0, high = wholeDepth_mm(shape, cos_axis), h = high * std::sqrt(volume / whole_volume);
+  double low = 0.0, high = fullDepth_mm(shape, cos_axis), h = high * std::sqrt(volume / whole_volume);
   for (int i = 0; i < 40; ++i) {
     const Immersed at = immersed(shape, h, cos_axis);
     (at.volume < volume ? low : high) = h;
@@ -236,12 +236,12 @@ double touchingDepth(const BurShape& shape, double volume, double unsmeared, dou
 
 }  // namespace
 
-double wholeDepth_mm(const BurShape& shape, double cos_axis) noexcept {
+double fullDepth_mm(const BurShape& shape, double cos_axis) noexcept {
   return reach_mm(shape, cos_axis) + reach_mm(shape, -cos_axis);
 }
 
 FlatOverlap flatOverlap(const BurShape& shape, double depth_mm, double cos_axis) noexcept {
-  const double whole = wholeDepth_mm(shape, cos_axis);
+  const double whole = fullDepth_mm(shape, cos_axis);
   if (!(depth_mm > 0.0)) return {};
   if (depth_mm >= whole) {
     const double along = shape.kind == ShapeKind::cone ? 0.25 * shape.length_mm : 0.0;
@@ -255,22 +255,22 @@ FlatOverlap flatOverlap(const BurShape& shape, double depth_mm, double cos_axis)
 double flatDepth_mm(const BurShape& shape, double shared_mm3, double cos_axis) noexcept {
   const double whole = volume_mm3(shape);
   if (!(shared_mm3 > 0.0)) return 0.0;
-  if (shared_mm3 >= whole) return wholeDepth_mm(shape, cos_axis);
+  if (shared_mm3 >= whole) return fullDepth_mm(shape, cos_axis);
   // More than half is less than half of the head seen from the other side.
   if (shared_mm3 <= 0.5 * whole) return shallowDepth(shape, shared_mm3, whole, cos_axis, kExact);
-  return wholeDepth_mm(shape, cos_axis) - shallowDepth(shape, whole - shared_mm3, whole, -cos_axis, kExact);
+  return fullDepth_mm(shape, cos_axis) - shallowDepth(shape, whole - shared_mm3, whole, -cos_axis, kExact);
 }
 
 double flatDepth_mm(const BurShape& shape, double shared_mm3, double cos_axis, double sigma_mm) noexcept {
   const double whole = volume_mm3(shape);
   if (!(shared_mm3 > 0.0)) return 0.0;
-  if (shared_mm3 >= whole) return wholeDepth_mm(shape, cos_axis);
+  if (shared_mm3 >= whole) return fullDepth_mm(shape, cos_axis);
   const bool beyond = shared_mm3 > 0.5 * whole;
   const double volume = beyond ? whole - shared_mm3 : shared_mm3, cos = beyond ? -cos_axis : cos_axis;
   double h = shallowDepth(shape, volume, whole, cos, kClose);
   if (sigma_mm > 0.0) {
     // Deep enough for the whole smear, three points of Gauss-Hermite stand for it.
-    const double side = std::sqrt(3.0) * sigma_mm, deepest = wholeDepth_mm(shape, cos);
+    const double side = std::sqrt(3.0) * sigma_mm, deepest = fullDepth_mm(shape, cos);
     if (h < 4.0 * sigma_mm || h + side > deepest) {
       h = touchingDepth(shape, volume, h, cos, sigma_mm);
     } else {
@@ -282,8 +282,8 @@ double flatDepth_mm(const BurShape& shape, double shared_mm3, double cos_axis, d
       h *= std::pow(volume / smeared, smeared / (slope * h));
     }
   }
-  h = std::clamp(h, 0.0, wholeDepth_mm(shape, cos));
-  return beyond ? wholeDepth_mm(shape, cos) - h : h;
+  h = std::clamp(h, 0.0, fullDepth_mm(shape, cos));
+  return beyond ? fullDepth_mm(shape, cos) - h : h;
 }
 
 }  // namespace haptics

@@ -20,7 +20,7 @@ struct FlatOverlap {
 FlatOverlap flatOverlap(const BurShape& shape, double depth_mm, double cos_axis) noexcept;
 
 /// Depth at which the head is wholly in.
-double wholeDepth_mm(const BurShape& shape, double cos_axis) noexcept;
+double fullDepth_mm(const BurShape& shape, double cos_axis) noexcept;
 
 /// The depth at which `shared_mm3` is shared, 0..wholeDepth, to 1e-9 of it.
 double flatDepth_mm(const BurShape& shape, double shared_mm3, double cos_axis) noexcept;

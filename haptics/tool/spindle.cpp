@@ -117,7 +117,7 @@ constexpr std::array kParameters = {
 double radPerSecond(double rpm) noexcept { return rpm * (2.0 * kPi / 60.0); }
 double rpmOf(double rad_per_s) noexcept { return rad_per_s * (60.0 / (2.0 * kPi)); }
 
-SpindleState turned(const SpindleSettings& settings, const SpindleState& state, bool on, double load_Nmm,
+SpindleState advanced(const SpindleSettings& settings, const SpindleState& state, bool on, double load_Nmm,
                     double dt_s) noexcept {
   const double against = settings.bearing_torque_Nmm + (load_Nmm > 0.0 ? load_Nmm : 0.0);
   const double wanted_way = settings.commanded_rpm < 0.0 ? -1.0 : 1.0;
@@ -140,9 +140,9 @@ SpindleState turned(const SpindleSettings& settings, const SpindleState& state, 
 
   SpindleState next;
   next.rad_per_s = way * speed;
-  next.turned_rad = wrapped(state.turned_rad + angle);
-  const double buzz_Hz = 0.5 * (buzzFrequency_Hz(state.rad_per_s) + buzzFrequency_Hz(next.rad_per_s));
-  next.buzz_rad = wrapped(state.buzz_rad + 2.0 * kPi * buzz_Hz * std::max(0.0, dt_s));
+  next.angle_rad = wrapped(state.angle_rad + angle);
+  const double buzz_Hz = 0.5 * (vibrationFrequency_Hz(state.rad_per_s) + vibrationFrequency_Hz(next.rad_per_s));
+  next.vibration_phase_rad = wrapped(state.vibration_phase_rad + 2.0 * kPi * buzz_Hz * std::max(0.0, dt_s));
   return next;
 }
 
@@ -161,7 +161,7 @@ double availablePower_Nmm_per_s(const SpindleSettings& settings, double rad_per_
   return settings.stall_torque_Nmm * std::max(0.0, left) * speed;
 }
 
-double buzzFrequency_Hz(double rad_per_s) noexcept {
+double vibrationFrequency_Hz(double rad_per_s) noexcept {
   constexpr double kLiteral_Hz = 100.0, kLowest_Hz = 120.0, kHighest_Hz = 250.0;
   const double turns_Hz = std::abs(rad_per_s) / (2.0 * kPi);
   if (!(turns_Hz > kLiteral_Hz)) return turns_Hz;

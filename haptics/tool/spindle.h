@@ -25,12 +25,12 @@ struct SpindleSettings {
 
 struct SpindleState {
   double rad_per_s = 0.0;   ///< about +z of T
-  double turned_rad = 0.0;  ///< angle of the shaft, 0..2 pi
-  double buzz_rad = 0.0;    ///< phase of the tone the hand feels, 0..2 pi; runs on when its frequency changes
+  double angle_rad = 0.0;  ///< angle of the shaft, 0..2 pi
+  double vibration_phase_rad = 0.0;    ///< phase of the tone the hand feels, 0..2 pi; runs on when its frequency changes
 };
 
 /// The state `dt_s` later with the pedal down (`on`) or up, under a load torque of at least 0.
-SpindleState turned(const SpindleSettings& settings, const SpindleState& state, bool on, double load_Nmm,
+SpindleState advanced(const SpindleSettings& settings, const SpindleState& state, bool on, double load_Nmm,
                     double dt_s) noexcept;
 
 /// The speed that lasts under a load, signed; 0: stalled.
@@ -41,7 +41,7 @@ double availablePower_Nmm_per_s(const SpindleSettings& settings, double rad_per_
 
 /// What a turning bur feels like in the hand, Hz: the spindle's own turns up to 100 Hz; above, where hand and servo can
 /// not follow, 120 to 250 Hz rising with the speed (reference/devices 6).
-double buzzFrequency_Hz(double rad_per_s) noexcept;
+double vibrationFrequency_Hz(double rad_per_s) noexcept;
 
 double radPerSecond(double rpm) noexcept;
 double rpmOf(double rad_per_s) noexcept;

@@ -20,7 +20,7 @@ Tool sanitised(const Tool& tool) noexcept {
   return safe;
 }
 
-Shaft usualShaft(const BurShape& head) noexcept {
+Shaft standardShaft(const BurShape& head) noexcept {
   return {std::min(kShankRadius_mm, kNeckPart * head.radius_mm), kOutOfHandpiece_mm};
 }
 

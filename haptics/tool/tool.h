@@ -24,6 +24,6 @@ Tool sanitised(const Tool& tool) noexcept;
 
 /// The shaft of a bur as it is made: a shank of 2.35 mm (ISO 1797, type 2), or a neck as much narrower than the head
 /// as lets chips out; felt over the 25 mm that stand out of a handpiece.
-Shaft usualShaft(const BurShape& head) noexcept;
+Shaft standardShaft(const BurShape& head) noexcept;
 
 }  // namespace haptics

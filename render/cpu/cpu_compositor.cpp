@@ -13,7 +13,7 @@ namespace render {
 namespace {
 
 // At a pixel of the eye's place, whose size is `place_px`.
-glm::vec3 seen(const EyeCanvas& canvas, glm::ivec2 place_px, glm::ivec2 px) {
+glm::vec3 seen(const EyeImage& canvas, glm::ivec2 place_px, glm::ivec2 px) {
   if (canvas.px == place_px) {
     const std::size_t n = canvas.at(px.x, px.y);
     return {canvas.r[n], canvas.g[n], canvas.b[n]};
@@ -30,18 +30,18 @@ glm::vec3 seen(const EyeCanvas& canvas, glm::ivec2 place_px, glm::ivec2 px) {
 }
 
 // Bytes red first, whichever way the machine keeps its words.
-void putRow(Picture& picture, int y, const std::uint32_t* rgba) {
+void putRow(Image& image, int y, const std::uint32_t* rgba) {
   static_assert(std::endian::native == std::endian::little);
-  const std::size_t bytes = 4 * static_cast<std::size_t>(picture.w);
-  std::memcpy(picture.rgba.data() + static_cast<std::size_t>(y) * bytes, rgba, bytes);
+  const std::size_t bytes = 4 * static_cast<std::size_t>(image.w);
+  std::memcpy(image.rgba.data() + static_cast<std::size_t>(y) * bytes, rgba, bytes);
 }
 
 }  // namespace
 
-void compose(const StereoLayout& layout, const EyeCanvas& left, const EyeCanvas& right, const ShadeKernels& kernels,
-             Picture& output) {
+void compose(const StereoLayout& layout, const EyeImage& left, const EyeImage& right, const ShadeKernels& kernels,
+             Image& output) {
   const glm::ivec2 size = outputSize(layout.mode, layout.screen_px);
-  const glm::ivec2 place_px = eyePictureSize(layout.mode, layout.screen_px);
+  const glm::ivec2 place_px = eyeImageSize(layout.mode, layout.screen_px);
   output.w = size.x;
   output.h = size.y;
   output.rgba.resize(4 * static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
@@ -55,12 +55,12 @@ void compose(const StereoLayout& layout, const EyeCanvas& left, const EyeCanvas&
       // A row shows one eye's row after the other: each is encoded where it lies.
       for (int x = 0; x < size.x; x += place_px.x) {
         const int run = std::min(place_px.x, size.x - x);
-        const ShownPixel shown = shownAt(layout, {x, y});
-        if (shown.eye == Shown::black) {
+        const SourcePixel shown = sourcePixelAt(layout, {x, y});
+        if (shown.eye == PixelSource::black) {
           std::fill_n(rgba.begin() + x, run, 0xff000000u);
           continue;
         }
-        const EyeCanvas& canvas = shown.eye == Shown::right ? right : left;
+        const EyeImage& canvas = shown.eye == PixelSource::right ? right : left;
         const std::size_t n = canvas.at(shown.px.x, shown.px.y);
         kernels.encode(&canvas.r[n], &canvas.g[n], &canvas.b[n], run, rgba.data() + x);
       }
@@ -71,20 +71,20 @@ void compose(const StereoLayout& layout, const EyeCanvas& left, const EyeCanvas&
     light.resize(3 * (width + kLanePadding));
     float *const r = light.data(), *const g = r + width + kLanePadding, *const b = g + width + kLanePadding;
     for (int x = 0; x < size.x; ++x) {
-      const ShownPixel shown = shownAt(layout, {x, y});
+      const SourcePixel shown = sourcePixelAt(layout, {x, y});
       glm::vec3 value(0.0f);
       switch (shown.eye) {
-        case Shown::black:
+        case PixelSource::black:
           break;
-        case Shown::left:
-        case Shown::cyclopean:
+        case PixelSource::left:
+        case PixelSource::cyclopean:
           value = seen(left, place_px, shown.px);
           break;
-        case Shown::right:
+        case PixelSource::right:
           value = seen(right, place_px, shown.px);
           break;
-        case Shown::both: {
-          const EyeCanvas &red = layout.swapped ? right : left, &cyan = layout.swapped ? left : right;
+        case PixelSource::both: {
+          const EyeImage &red = layout.swapped ? right : left, &cyan = layout.swapped ? left : right;
           value = glm::vec3(anaglyph(layout.mode, glm::dvec3(seen(red, place_px, shown.px)),
                                      glm::dvec3(seen(cyan, place_px, shown.px))));
           break;

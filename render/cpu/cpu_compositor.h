@@ -3,15 +3,15 @@
 // shared out over the threads of the caller's arena.
 #pragma once
 
-#include "render/cpu/eye_canvas.h"
+#include "render/cpu/eye_image.h"
 #include "render/cpu/shade_kernels.h"
 #include "render/display/stereo_layout.h"
-#include "render/picture.h"
+#include "render/image.h"
 
 namespace render {
 
 /// `left` is the cyclopean eye in mono. Canvases smaller than their place are stretched bilinearly.
-void compose(const StereoLayout& layout, const EyeCanvas& left, const EyeCanvas& right, const ShadeKernels& kernels,
-             Picture& output);
+void compose(const StereoLayout& layout, const EyeImage& left, const EyeImage& right, const ShadeKernels& kernels,
+             Image& output);
 
 }  // namespace render

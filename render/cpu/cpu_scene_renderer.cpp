@@ -12,8 +12,8 @@
 
 #include "render/cpu/cpu_compositor.h"
 #include "render/cpu/edges.h"
-#include "render/cpu/eye_canvas.h"
-#include "render/cpu/ray_painter.h"
+#include "render/cpu/eye_image.h"
+#include "render/cpu/ray_tracer.h"
 #include "render/eye_block.h"
 #include "render/shaders/shared_numbers.glsl"
 #include "render/volume/transfer_function.h"
@@ -40,8 +40,8 @@ FieldView<T> viewOf(const BorderedField<T>& field) {
           .size = layout.size};
 }
 
-// What the rays of a still eye meet of the still meshes, tile by tile: the same from picture to picture.
-struct StillHits {
+// What the rays of a still eye meet of the still meshes, tile by tile: the same from image to image.
+struct StaticHits {
   EyeBlock eye{};
   glm::ivec2 px{0};
   std::uint64_t revision = ~std::uint64_t{0};
@@ -59,36 +59,36 @@ std::array<float, 256> lightOfSrgb() {
 }
 
 // The canvas holds light as the display will show it.
-void layOver(const Inset& inset, EyeCanvas& canvas) {
+void blendOver(const Inset& inset, EyeImage& canvas) {
   static const std::array<float, 256> kLight = lightOfSrgb();
   const glm::ivec2 end = glm::min(inset.first_px + inset.size_px, canvas.px);
   for (int y = inset.first_px.y; y < end.y; ++y)
     for (int x = inset.first_px.x; x < end.x; ++x) {
-      const int column = (2 * (x - inset.first_px.x) + 1) * inset.picture.w / (2 * inset.size_px.x);
-      const int row = (2 * (y - inset.first_px.y) + 1) * inset.picture.h / (2 * inset.size_px.y);
+      const int column = (2 * (x - inset.first_px.x) + 1) * inset.image.w / (2 * inset.size_px.x);
+      const int row = (2 * (y - inset.first_px.y) + 1) * inset.image.h / (2 * inset.size_px.y);
       const std::uint8_t* const from =
-          &inset.picture.rgba[4 * static_cast<std::size_t>(row * inset.picture.w + column)];
+          &inset.image.rgba[4 * static_cast<std::size_t>(row * inset.image.w + column)];
       const std::size_t at = canvas.at(x, y);
       canvas.r[at] = kLight[from[0]], canvas.g[at] = kLight[from[1]], canvas.b[at] = kLight[from[2]];
     }
 }
 
 // An eye as last drawn.
-struct DrawnEye {
-  StillHits still;
-  EyeCanvas canvas;
+struct RenderedEye {
+  StaticHits still;
+  EyeImage canvas;
 };
 
 class CpuSceneRenderer final : public SceneRenderer {
  public:
-  CpuSceneRenderer(const VolumeFields& fields, const RenderOptions& options, ShowPicture show)
+  CpuSceneRenderer(const VolumeFields& fields, const RenderOptions& options, ShowImage show)
       : options_(options),
         show_(std::move(show)),
         kernels_(shadeKernels()),
         arena_(threads()),
         fields_(fields),
         cells_(fields_.solid()),
-        crowded_(fields_.ambient(), BRICK_VOXELS / AMBIENT_CELL_VOXELS, std::uint16_t{1}) {}
+        matter_(fields_.ambient(), BRICK_VOXELS / AMBIENT_CELL_VOXELS, std::uint16_t{1}) {}
 
   void setModel(Model model, const assets::MeshModel& mesh) override { meshes_.setModel(model, mesh); }
   void setGuides(GuideField guides) override { guides_ = std::move(guides); }
@@ -98,43 +98,43 @@ class CpuSceneRenderer final : public SceneRenderer {
   void drawEye(const Frame& frame, Eye eye, glm::ivec2 px) override;
   void compose(const StereoLayout& layout, Eye left, Eye right, int output) override;
 
-  void showOnWindow(const WindowPlace& place, int output) override {
+  void showOnWindow(const WindowTarget& place, int output) override {
     show_(outputs_[static_cast<std::size_t>(output)], place);
   }
-  Picture readPicture(int output) override { return outputs_[static_cast<std::size_t>(output)]; }
-  DistancePicture readDistance(const Frame& frame, Eye eye) override;
+  Image readImage(int output) override { return outputs_[static_cast<std::size_t>(output)]; }
+  DistanceImage readDistance(const Frame& frame, Eye eye) override;
   void throwIfError() override {}
 
  private:
-  DrawnEye& drawn(Eye eye) { return eyes_[static_cast<std::size_t>(eye)]; }
-  PaintScene sceneFor(const Frame& frame, Eye eye);
-  void draw(const PaintScene& scene, int samples, EyeCanvas& canvas, StillHits* still);
-  void drawTile(const PaintScene& scene, int samples, glm::ivec2 first, glm::ivec2 end, RayPainter& painter,
-                EyeCanvas& canvas, MeshHits* still, bool still_is_known);
-  void drawEdgesAgain(const PaintScene& scene, EyeCanvas& canvas);
+  RenderedEye& drawn(Eye eye) { return eyes_[static_cast<std::size_t>(eye)]; }
+  TraceScene sceneFor(const Frame& frame, Eye eye);
+  void draw(const TraceScene& scene, int samples, EyeImage& canvas, StaticHits* still);
+  void drawTile(const TraceScene& scene, int samples, glm::ivec2 first, glm::ivec2 end, RayTracer& tracer,
+                EyeImage& canvas, MeshHits* still, bool static_hits_valid);
+  void drawEdgesAgain(const TraceScene& scene, EyeImage& canvas);
 
   RenderOptions options_;
-  ShowPicture show_;
+  ShowImage show_;
   const ShadeKernels& kernels_;
   tbb::task_arena arena_;
   const VolumeFields& fields_;
   SolidCells cells_;
-  Occupancy crowded_;  ///< how far soft shade can be felt
+  Occupancy matter_;  ///< how far soft shade can be felt
   OpacityTable opacity_;
   std::optional<GuideField> guides_;
   MeshScene meshes_;
   std::vector<Inset> insets_;
-  tbb::enumerable_thread_specific<std::unique_ptr<RayPainter>> painters_{[] { return std::make_unique<RayPainter>(); }};
-  std::array<DrawnEye, 3> eyes_;
-  std::array<Picture, kOutputs> outputs_;
+  tbb::enumerable_thread_specific<std::unique_ptr<RayTracer>> tracers_{[] { return std::make_unique<RayTracer>(); }};
+  std::array<RenderedEye, 3> eyes_;
+  std::array<Image, kOutputs> outputs_;
 };
 
 void CpuSceneRenderer::prepare(const Frame& frame, const FieldChanges& changes) {
   const EyeBlock any_eye = eyeBlock(frame, eyeView(frame.rig, Eye::cyclopean));
   arena_.execute([&] {
     // Both views pass the same empty bricks, for the ramp begins at the surface or above.
-    for (const VoxelBox& cells : changes.ambient) crowded_.touch(cells);
-    crowded_.refresh();
+    for (const VoxelBox& cells : changes.ambient) matter_.touch(cells);
+    matter_.refresh();
     for (const VoxelBox& box : changes.solid) cells_.touch(box);
     cells_.refresh();
     if (changes.solid.empty()) cells_.rebuildIfStale();
@@ -143,9 +143,9 @@ void CpuSceneRenderer::prepare(const Frame& frame, const FieldChanges& changes) 
   });
 }
 
-PaintScene CpuSceneRenderer::sceneFor(const Frame& frame, Eye eye) {
+TraceScene CpuSceneRenderer::sceneFor(const Frame& frame, Eye eye) {
   const assets::VolumeGrid& grid = fields_.grid();
-  PaintScene scene;
+  TraceScene scene;
   scene.meshes = &meshes_;
   scene.cells = &cells_;
   scene.kernels = &kernels_;
@@ -160,16 +160,16 @@ PaintScene CpuSceneRenderer::sceneFor(const Frame& frame, Eye eye) {
   shade.voxels = grid.size;
   shade.smooth = viewOf(fields_.smooth());
   shade.ambient = viewOf(fields_.ambient());
-  shade.look = viewOf(fields_.look());
-  shade.crowded = {.border = crowded_.emptiness().data(),
-                   .row = crowded_.bricks().x,
-                   .slice = crowded_.bricks().x * crowded_.bricks().y,
-                   .size = crowded_.bricks()};
+  shade.appearance = viewOf(fields_.appearance());
+  shade.matter_distance = {.border = matter_.emptiness().data(),
+                   .row = matter_.bricks().x,
+                   .slice = matter_.bricks().x * matter_.bricks().y,
+                   .size = matter_.bricks()};
   if (guides_) {
     shade.guides = viewOf(*guides_);
-    shade.shown_guides = shownGuides(frame);
+    shade.visible_guides = visibleGuides(frame);
   }
-  shade.ambient_shade = frame.quality.ambient_occlusion;
+  shade.ambient_occlusion = frame.quality.ambient_occlusion;
   shade.lamp_shadow = frame.quality.lamp_shadow;
   scene.cast = {.eye_index = (glm::vec3(shade.eye.eye_P) - shade.origin_P) / shade.spacing_mm,
                 .spacing_mm = shade.spacing_mm,
@@ -184,59 +184,59 @@ PaintScene CpuSceneRenderer::sceneFor(const Frame& frame, Eye eye) {
 }
 
 void CpuSceneRenderer::drawEye(const Frame& frame, Eye eye, glm::ivec2 px) {
-  DrawnEye& to = drawn(eye);
+  RenderedEye& to = drawn(eye);
   to.canvas.resize(px);
-  const PaintScene scene = sceneFor(frame, eye);
+  const TraceScene scene = sceneFor(frame, eye);
   arena_.execute([&] {
     draw(scene, options_.samples, to.canvas, options_.samples == 1 ? &to.still : nullptr);
     if (options_.samples == 1 && frame.quality.antialias == Antialias::edges) drawEdgesAgain(scene, to.canvas);
   });
-  for (const Inset& inset : insets_) layOver(inset, to.canvas);
+  for (const Inset& inset : insets_) blendOver(inset, to.canvas);
 }
 
-void CpuSceneRenderer::draw(const PaintScene& scene, int samples, EyeCanvas& canvas, StillHits* still) {
+void CpuSceneRenderer::draw(const TraceScene& scene, int samples, EyeImage& canvas, StaticHits* still) {
   const int edge = kTile / samples;
   const glm::ivec2 tiles = (canvas.px + edge - 1) / edge;
-  bool still_is_known = false;
+  bool static_hits_valid = false;
   if (still != nullptr) {
     const EyeBlock& eye = scene.shade.eye;
-    still_is_known = still->revision == meshes_.stillRevision() && still->px == canvas.px &&
+    static_hits_valid = still->revision == meshes_.staticRevision() && still->px == canvas.px &&
                      still->eye.eye_P == eye.eye_P && still->eye.lower_left_P == eye.lower_left_P &&
                      still->eye.right_edge_P == eye.right_edge_P && still->eye.up_edge_P == eye.up_edge_P;
     still->eye = eye;
     still->px = canvas.px;
-    still->revision = meshes_.stillRevision();
+    still->revision = meshes_.staticRevision();
     still->tiles.resize(static_cast<std::size_t>(tiles.x) * static_cast<std::size_t>(tiles.y));
   }
   tbb::parallel_for(0, tiles.x * tiles.y, [&](int tile) {
     const glm::ivec2 first = edge * glm::ivec2(tile % tiles.x, tile / tiles.x);
     MeshHits* const hits = still != nullptr ? &still->tiles[static_cast<std::size_t>(tile)] : nullptr;
-    drawTile(scene, samples, first, glm::min(first + edge, canvas.px), *painters_.local(), canvas, hits,
-             still_is_known);
+    drawTile(scene, samples, first, glm::min(first + edge, canvas.px), *tracers_.local(), canvas, hits,
+             static_hits_valid);
   });
 }
 
 // Pixels `first` to before `end`; each the mean of samples x samples rays on an even grid.
-void CpuSceneRenderer::drawTile(const PaintScene& scene, int samples, glm::ivec2 first, glm::ivec2 end,
-                                RayPainter& painter, EyeCanvas& canvas, MeshHits* still, bool still_is_known) {
+void CpuSceneRenderer::drawTile(const TraceScene& scene, int samples, glm::ivec2 first, glm::ivec2 end,
+                                RayTracer& tracer, EyeImage& canvas, MeshHits* still, bool static_hits_valid) {
   const glm::ivec2 rays = samples * (end - first), from = samples * first, all = samples * canvas.px;
-  std::array<float, kTile> place_x, place_y;
+  std::array<float, kTile> uv_x, uv_y;
   for (int x = 0; x < rays.x; ++x)
-    place_x[static_cast<std::size_t>(x)] = (static_cast<float>(from.x + x) + 0.5f) / static_cast<float>(all.x);
+    uv_x[static_cast<std::size_t>(x)] = (static_cast<float>(from.x + x) + 0.5f) / static_cast<float>(all.x);
   for (int y = 0; y < rays.y; ++y)
-    place_y[static_cast<std::size_t>(y)] =
+    uv_y[static_cast<std::size_t>(y)] =
         (static_cast<float>(all.y - 1 - (from.y + y)) + 0.5f) / static_cast<float>(all.y);
   int n = 0;
-  std::array<std::uint16_t, RayPainter::kMost> pixel;
+  std::array<std::uint16_t, RayTracer::kMaxRays> pixel;
   for (int by = 0; by < rays.y; by += kBlock)
     for (int bx = 0; bx < rays.x; bx += kBlock)
       for (int y = by; y < std::min(by + kBlock, rays.y); ++y)
         for (int x = bx; x < std::min(bx + kBlock, rays.x); ++x, ++n) {
-          painter.place_x[n] = place_x[static_cast<std::size_t>(x)];
-          painter.place_y[n] = place_y[static_cast<std::size_t>(y)];
+          tracer.uv_x[n] = uv_x[static_cast<std::size_t>(x)];
+          tracer.uv_y[n] = uv_y[static_cast<std::size_t>(y)];
           pixel[static_cast<std::size_t>(n)] = static_cast<std::uint16_t>((y / samples) * kTile + x / samples);
         }
-  painter.paint(scene, n, still, still_is_known);
+  tracer.trace(scene, n, still, static_hits_valid);
 
   if (samples > 1)
     for (int y = first.y; y < end.y; ++y)
@@ -249,25 +249,25 @@ void CpuSceneRenderer::drawTile(const PaintScene& scene, int samples, glm::ivec2
     const int p = pixel[static_cast<std::size_t>(i)];
     const std::size_t at = canvas.at(first.x + p % kTile, first.y + p / kTile);
     if (samples == 1) {
-      canvas.r[at] = painter.r[i], canvas.g[at] = painter.g[i], canvas.b[at] = painter.b[i];
-      canvas.distance_mm[at] = painter.distance_mm[i];
+      canvas.r[at] = tracer.r[i], canvas.g[at] = tracer.g[i], canvas.b[at] = tracer.b[i];
+      canvas.distance_mm[at] = tracer.distance_mm[i];
     } else {
-      canvas.r[at] += share * painter.r[i];
-      canvas.g[at] += share * painter.g[i];
-      canvas.b[at] += share * painter.b[i];
+      canvas.r[at] += share * tracer.r[i];
+      canvas.g[at] += share * tracer.g[i];
+      canvas.b[at] += share * tracer.b[i];
     }
   }
 }
 
 // Bands of rows find their edges and draw them again in batches.
-void CpuSceneRenderer::drawEdgesAgain(const PaintScene& scene, EyeCanvas& canvas) {
+void CpuSceneRenderer::drawEdgesAgain(const TraceScene& scene, EyeImage& canvas) {
   constexpr int kSamples = EDGE_SAMPLES * EDGE_SAMPLES;
-  constexpr std::size_t kPixels = RayPainter::kMost / kSamples;
+  constexpr std::size_t kPixels = RayTracer::kMaxRays / kSamples;
   const int bands = (canvas.px.y + kTile - 1) / kTile;
   tbb::parallel_for(0, bands, [&](int band) {
     std::vector<std::uint32_t> edges;
     findEdges(canvas, band * kTile, std::min((band + 1) * kTile, canvas.px.y), edges);
-    RayPainter& painter = *painters_.local();
+    RayTracer& tracer = *tracers_.local();
     for (std::size_t first = 0; first < edges.size(); first += kPixels) {
       const std::size_t count = std::min(kPixels, edges.size() - first);
       int n = 0;
@@ -277,10 +277,10 @@ void CpuSceneRenderer::drawEdgesAgain(const PaintScene& scene, EyeCanvas& canvas
           const float x = static_cast<float>(px.x) + 0.25f + 0.5f * static_cast<float>(s % EDGE_SAMPLES);
           const float y =
               static_cast<float>(canvas.px.y - 1 - px.y) + 0.25f + 0.5f * static_cast<float>(s / EDGE_SAMPLES);
-          painter.place_x[n] = x / static_cast<float>(canvas.px.x);
-          painter.place_y[n] = y / static_cast<float>(canvas.px.y);
+          tracer.uv_x[n] = x / static_cast<float>(canvas.px.x);
+          tracer.uv_y[n] = y / static_cast<float>(canvas.px.y);
         }
-      painter.paint(scene, n);
+      tracer.trace(scene, n);
       for (std::size_t e = 0; e < count; ++e) {
         const glm::ivec2 px = edgePixel(edges[first + e]);
         const std::size_t at = canvas.at(px.x, px.y);
@@ -288,7 +288,7 @@ void CpuSceneRenderer::drawEdgesAgain(const PaintScene& scene, EyeCanvas& canvas
           const float* const from = of + kSamples * e;
           return 0.25f * (from[0] + from[1] + from[2] + from[3]);
         };
-        canvas.r[at] = mean(painter.r), canvas.g[at] = mean(painter.g), canvas.b[at] = mean(painter.b);
+        canvas.r[at] = mean(tracer.r), canvas.g[at] = mean(tracer.g), canvas.b[at] = mean(tracer.b);
       }
     }
   });
@@ -301,13 +301,13 @@ void CpuSceneRenderer::compose(const StereoLayout& layout, Eye left, Eye right, 
   });
 }
 
-DistancePicture CpuSceneRenderer::readDistance(const Frame& frame, Eye eye) {
-  const EyeCanvas* canvas = &drawn(eye).canvas;
-  EyeCanvas centred;
+DistanceImage CpuSceneRenderer::readDistance(const Frame& frame, Eye eye) {
+  const EyeImage* canvas = &drawn(eye).canvas;
+  EyeImage centred;
   if (options_.samples > 1) {
     // Samples lie beside the pixel's centre, where the distance is asked for: draw it there.
     centred.resize(canvas->px);
-    const PaintScene scene = sceneFor(frame, eye);
+    const TraceScene scene = sceneFor(frame, eye);
     arena_.execute([&] { draw(scene, 1, centred, nullptr); });
     canvas = &centred;
   }
@@ -318,7 +318,7 @@ DistancePicture CpuSceneRenderer::readDistance(const Frame& frame, Eye eye) {
 }  // namespace
 
 std::unique_ptr<SceneRenderer> cpuSceneRenderer(const VolumeFields& fields, const RenderOptions& options,
-                                                ShowPicture show) {
+                                                ShowImage show) {
   return std::make_unique<CpuSceneRenderer>(fields, options, std::move(show));
 }
 

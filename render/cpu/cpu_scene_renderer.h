@@ -12,11 +12,11 @@
 
 namespace render {
 
-/// Brings a picture into the current window: its pixels, and where in it.
-using ShowPicture = std::function<void(const Picture& picture, const WindowPlace& place)>;
+/// Brings a image into the current window: its pixels, and where in it.
+using ShowImage = std::function<void(const Image& image, const WindowTarget& place)>;
 
 /// Throws GpuError.
 std::unique_ptr<SceneRenderer> cpuSceneRenderer(const VolumeFields& fields, const RenderOptions& options,
-                                                ShowPicture show);
+                                                ShowImage show);
 
 }  // namespace render

@@ -16,7 +16,7 @@ bool bends(float a, float here, float b) {
 
 }  // namespace
 
-void findEdges(const EyeCanvas& canvas, int first_row, int end_row, std::vector<std::uint32_t>& to) {
+void findEdges(const EyeImage& canvas, int first_row, int end_row, std::vector<std::uint32_t>& to) {
   const int w = canvas.px.x, h = canvas.px.y;
   // Inverse distances of three rows, each with a straight-on value at both ends.
   std::vector<float> rows[3];

@@ -20,7 +20,7 @@ struct Surface {
   Float3 scatter;
 };
 
-struct Shade {
+struct Visibility {
   Float ambient, lamp;
 };
 
@@ -59,7 +59,7 @@ inline Float bouncedAmbient(Float open, Float albedo) {
 }
 
 inline Float3 lit(const ShadeScene& scene, const Surface& s, const Float3& p_P, const Float3& normal,
-                  const Float3& to_eye, const Shade& shade) {
+                  const Float3& to_eye, const Visibility& visibility) {
   const EyeBlock& eye = scene.eye;
   const Float3 lamp_offset = splat(eye.lamp_P) - p_P;
   const Float lamp_distance = length(lamp_offset);
@@ -82,15 +82,15 @@ inline Float3 lit(const ShadeScene& scene, const Surface& s, const Float3& p_P, 
   const Float wrapped = maximum(n_l + s.wrap, 0.0f) / (1.0f + s.wrap);
   const Float3 creeping = mix(s.scatter, vec3(1.0f, 1.0f, 1.0f), smoothStep(-s.wrap, splat(0.5f), n_l));
   const Float3 diffuse = (wrapped / kPi) * (s.albedo * creeping);
-  Float3 light = shade.lamp * ((diffuse + highlight) * lampRadiance(eye, to_lamp, lamp_distance));
+  Float3 light = visibility.lamp * ((diffuse + highlight) * lampRadiance(eye, to_lamp, lamp_distance));
 
   // The room.
   const Float sky = 0.5f + 0.5f * dot(normal, splat(eye.up_P));
-  const Float3 bounced{bouncedAmbient(shade.ambient, s.albedo.x), bouncedAmbient(shade.ambient, s.albedo.y),
-                       bouncedAmbient(shade.ambient, s.albedo.z)};
+  const Float3 bounced{bouncedAmbient(visibility.ambient, s.albedo.x), bouncedAmbient(visibility.ambient, s.albedo.y),
+                       bouncedAmbient(visibility.ambient, s.albedo.z)};
   light = light + s.albedo * (mix(vec3(FLOOR_LIGHT), vec3(SKY_LIGHT), sky) * bounced);
   const Float3 mirrored = (2.0f * dot(normal, to_eye)) * normal - to_eye;
-  return light + shade.ambient * (ambientSpecular(s.f0, s.roughness, n_v) * surroundings(scene, mirrored, s.roughness));
+  return light + visibility.ambient * (ambientSpecular(s.f0, s.roughness, n_v) * surroundings(scene, mirrored, s.roughness));
 }
 
 }  // namespace

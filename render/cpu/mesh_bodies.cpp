@@ -11,7 +11,7 @@
 namespace render {
 namespace {
 
-bool isThrough(Model model) { return model == Model::mandibular_canal_through || model == Model::ghost; }
+bool isOverlay(Model model) { return model == Model::mandibular_canal_overlay || model == Model::ghost; }
 bool isInHand(Model model) { return model == Model::instrument || model == Model::second_instrument; }
 
 MeshBodyPart keptPart(const assets::MeshPart& part, Model model) {
@@ -33,22 +33,22 @@ MeshBodyPart keptPart(const assets::MeshPart& part, Model model) {
 MeshBodies::MeshBodies() : device_(rtcNewDevice(nullptr)) {
   if (device_ == nullptr)
     throw GpuError("no ray tracing of meshes, Embree: this processor or its memory will not do; use --renderer gl");
-  for (RTCScene* scene : {&still_, &moving_, &transparent_, &through_, &covers_}) {
+  for (RTCScene* scene : {&static_, &dynamic_, &transparent_, &overlay_, &occluders_}) {
     *scene = rtcNewScene(device_);
     rtcSetSceneFlags(*scene, RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
     rtcSetSceneBuildQuality(*scene, RTC_BUILD_QUALITY_LOW);
     rtcCommitScene(*scene);
   }
-  complain();
+  throwIfFailed();
 }
 
 MeshBodies::~MeshBodies() {
   for (std::size_t i = 0; i < bodies_.size(); ++i) remove(i);
-  for (RTCScene scene : {still_, moving_, transparent_, through_, covers_}) rtcReleaseScene(scene);
+  for (RTCScene scene : {static_, dynamic_, transparent_, overlay_, occluders_}) rtcReleaseScene(scene);
   rtcReleaseDevice(device_);
 }
 
-void MeshBodies::complain() const {
+void MeshBodies::throwIfFailed() const {
   if (const RTCError error = rtcGetDeviceError(device_); error != RTC_ERROR_NONE)
     throw GpuError("meshes for the CPU, Embree: error " + std::to_string(error) +
                    (error == RTC_ERROR_OUT_OF_MEMORY ? ", out of memory; use a smaller model" : "; use --renderer gl"));
@@ -56,21 +56,21 @@ void MeshBodies::complain() const {
 
 void MeshBodies::show(std::size_t index, RTCScene in) {
   MeshBody& body = bodies_[index];
-  if (body.shown_in == in) return;
-  if (body.shown_in == still_ || in == still_) ++still_revision_;
-  if (body.shown_in != nullptr) rtcDetachGeometry(body.shown_in, static_cast<unsigned>(index));
+  if (body.attached_to == in) return;
+  if (body.attached_to == static_ || in == static_) ++static_revision_;
+  if (body.attached_to != nullptr) rtcDetachGeometry(body.attached_to, static_cast<unsigned>(index));
   if (in != nullptr) rtcAttachGeometryByID(in, body.instance, static_cast<unsigned>(index));
-  body.shown_in = in;
+  body.attached_to = in;
 }
 
 void MeshBodies::cover(std::size_t index, bool covers_guides) {
   MeshBody& body = bodies_[index];
-  if (body.covers == covers_guides) return;
+  if (body.occluders == covers_guides) return;
   if (covers_guides)
-    rtcAttachGeometryByID(covers_, body.instance, static_cast<unsigned>(index));
+    rtcAttachGeometryByID(occluders_, body.instance, static_cast<unsigned>(index));
   else
-    rtcDetachGeometry(covers_, static_cast<unsigned>(index));
-  body.covers = covers_guides;
+    rtcDetachGeometry(occluders_, static_cast<unsigned>(index));
+  body.occluders = covers_guides;
 }
 
 void MeshBodies::move(MeshBody& body, const glm::dmat4& P_from_mesh) {
@@ -102,7 +102,7 @@ RTCScene MeshBodies::sceneOf(const std::vector<const assets::MeshPart*>& from, M
         triangles, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), part->position_mm.size()));
     auto* const index = static_cast<glm::uvec3*>(rtcSetNewGeometryBuffer(
         triangles, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), part->triangles.size() / 3));
-    complain();
+    throwIfFailed();
     std::ranges::copy(part->position_mm, place);
     const MeshBodyPart& kept = body.parts.emplace_back(keptPart(*part, body.model));
     std::ranges::copy(kept.triangles, index);
@@ -120,7 +120,7 @@ RTCScene MeshBodies::sceneOf(const std::vector<const assets::MeshPart*>& from, M
   rtcGetSceneBounds(scene, &bounds);
   body.low = {bounds.lower_x, bounds.lower_y, bounds.lower_z};
   body.high = {bounds.upper_x, bounds.upper_y, bounds.upper_z};
-  complain();
+  throwIfFailed();
   return scene;
 }
 
@@ -129,18 +129,18 @@ void MeshBodies::setModel(Model model, const assets::MeshModel& mesh) {
     if (bodies_[i].model == model) remove(i);
 
   // Parts that move and are seen alike share a body.
-  for (const bool turns : {false, true})
+  for (const bool is_bur : {false, true})
     for (const bool transparent : {false, true}) {
       std::vector<const assets::MeshPart*> alike;
       for (const assets::MeshPart& part : mesh.parts)
-        if (!part.triangles.empty() && (part.name == "Bur") == turns &&
+        if (!part.triangles.empty() && (part.name == "Bur") == is_bur &&
             (part.material.base_colour.a < 1.0f) == transparent)
           alike.push_back(&part);
       if (alike.empty()) continue;
       auto at = std::ranges::find_if(bodies_, [](const MeshBody& body) { return body.scene == nullptr; });
       if (at == bodies_.end()) at = bodies_.insert(at, MeshBody{});
       at->model = model;
-      at->turns = turns;
+      at->is_bur = is_bur;
       at->transparent = transparent;
       at->scene = sceneOf(alike, *at);
       at->instance = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
@@ -153,29 +153,29 @@ void MeshBodies::setModel(Model model, const assets::MeshModel& mesh) {
 }
 
 void MeshBodies::place(const Placements& placements, const FaceWindow& window) {
-  if (window != window_) ++still_revision_;
+  if (window != window_) ++static_revision_;
   window_ = window;
   placements_ = placements;
-  has_still_ = has_moving_ = has_transparent_ = has_through_ = false;
+  has_static_ = has_dynamic_ = has_transparent_ = has_overlay_ = false;
   const bool guided = opacityOf(Model::mandibular_canal) > 0.0f || opacityOf(Model::ghost) > 0.0f;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     MeshBody& body = bodies_[i];
     if (body.scene == nullptr) continue;
-    const bool is_through = isThrough(body.model), is_in_hand = isInHand(body.model);
+    const bool is_overlay = isOverlay(body.model), is_in_hand = isInHand(body.model);
     const Placement& at = placements_[body.model];
-    const bool visible = at.opacity > 0.0f, is_clear = body.transparent || at.opacity < 1.0f;
-    RTCScene in = is_through ? through_ : is_clear ? transparent_ : is_in_hand ? moving_ : still_;
+    const bool visible = at.opacity > 0.0f, is_transparent = body.transparent || at.opacity < 1.0f;
+    RTCScene in = is_overlay ? overlay_ : is_transparent ? transparent_ : is_in_hand ? dynamic_ : static_;
     show(i, visible ? in : nullptr);
-    cover(i, guided && visible && !is_clear && (is_in_hand || body.model == Model::face));
+    cover(i, guided && visible && !is_transparent && (is_in_hand || body.model == Model::face));
     if (visible)
-      (is_through ? has_through_ : is_clear ? has_transparent_ : is_in_hand ? has_moving_ : has_still_) = true;
+      (is_overlay ? has_overlay_ : is_transparent ? has_transparent_ : is_in_hand ? has_dynamic_ : has_static_) = true;
 
     if (!is_in_hand && body.model != Model::ghost) continue;
     const glm::dmat4 turned = glm::rotate(glm::dmat4(1.0), at.bur_angle_rad, glm::dvec3(0.0, 0.0, 1.0));
-    move(body, body.turns ? at.P_from_mesh * turned : at.P_from_mesh);
+    move(body, body.is_bur ? at.P_from_mesh * turned : at.P_from_mesh);
   }
-  for (RTCScene scene : {still_, moving_, transparent_, through_, covers_}) rtcCommitScene(scene);
-  complain();
+  for (RTCScene scene : {static_, dynamic_, transparent_, overlay_, occluders_}) rtcCommitScene(scene);
+  throwIfFailed();
 }
 
 }  // namespace render

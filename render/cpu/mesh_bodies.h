@@ -27,14 +27,14 @@ struct MeshBodyPart {
 /// Parts that move alike and are seen alike.
 struct MeshBody {
   Model model = Model::face;
-  bool turns = false, transparent = false;
+  bool is_bur = false, transparent = false;
   bool is_held = false;             ///< its pose is not the identity
   glm::vec3 low{0.0f}, high{0.0f};  ///< its box, in its own frame
   std::vector<MeshBodyPart> parts;
   RTCSceneTy* scene = nullptr;  ///< null: the place is free
   RTCGeometryTy* instance = nullptr;
-  RTCSceneTy* shown_in = nullptr;  ///< the upper scene that holds the instance now
-  bool covers = false;             ///< … and `covers` too
+  RTCSceneTy* attached_to = nullptr;  ///< the upper scene that holds the instance now
+  bool occluders = false;             ///< … and `occluders` too
   glm::mat3 P_from_mesh{1.0f};
   glm::mat4x3 pose{1.0f};
 };
@@ -57,18 +57,18 @@ class MeshBodies {
   const std::vector<MeshBody>& all() const { return bodies_; }
   float opacityOf(Model model) const { return placements_[model].opacity; }
   const FaceWindow& window() const { return window_; }
-  std::uint64_t stillRevision() const { return still_revision_; }
+  std::uint64_t staticRevision() const { return static_revision_; }
 
-  RTCSceneTy* still() const { return still_; }
-  RTCSceneTy* moving() const { return moving_; }
+  RTCSceneTy* still() const { return static_; }
+  RTCSceneTy* moving() const { return dynamic_; }
   RTCSceneTy* transparent() const { return transparent_; }
-  RTCSceneTy* through() const { return through_; }
+  RTCSceneTy* through() const { return overlay_; }
   /// Once more what hides the guides that are seen through bone, while there are any.
-  RTCSceneTy* covers() const { return covers_; }
-  bool hasStill() const { return has_still_; }
-  bool hasMoving() const { return has_moving_; }
+  RTCSceneTy* occluders() const { return occluders_; }
+  bool hasStatic() const { return has_static_; }
+  bool hasDynamic() const { return has_dynamic_; }
   bool hasTransparent() const { return has_transparent_; }
-  bool hasThrough() const { return has_through_; }
+  bool hasOverlay() const { return has_overlay_; }
 
  private:
   void remove(std::size_t index);
@@ -76,15 +76,15 @@ class MeshBodies {
   void show(std::size_t index, RTCSceneTy* in);
   void cover(std::size_t index, bool covers_guides);
   void move(MeshBody& body, const glm::dmat4& P_from_mesh);
-  void complain() const;
+  void throwIfFailed() const;
 
   RTCDeviceTy* device_;
-  RTCSceneTy *still_ = nullptr, *moving_ = nullptr, *transparent_ = nullptr, *through_ = nullptr, *covers_ = nullptr;
+  RTCSceneTy *static_ = nullptr, *dynamic_ = nullptr, *transparent_ = nullptr, *overlay_ = nullptr, *occluders_ = nullptr;
   std::vector<MeshBody> bodies_;
   Placements placements_ = placementsIn(Frame{});
   FaceWindow window_;
-  bool has_still_ = false, has_moving_ = false, has_transparent_ = false, has_through_ = false;
-  std::uint64_t still_revision_ = 0;
+  bool has_static_ = false, has_dynamic_ = false, has_transparent_ = false, has_overlay_ = false;
+  std::uint64_t static_revision_ = 0;
 };
 
 }  // namespace render

@@ -12,21 +12,21 @@ namespace render {
 /// Kernels may read this many values beyond `count`.
 inline constexpr int kLanePadding = 16;
 
-/// Rays from one place. Neighbours in the picture should be neighbours here: packets of 8 are traced together.
+/// Rays from one place. Neighbours in the image should be neighbours here: packets of 8 are traced together.
 struct RayBatch {
-  static constexpr int kMost = 256;
+  static constexpr int kMaxRays = 256;
   glm::vec3 origin_P{0.0f};
   int count = 0;
-  alignas(64) float x[kMost] = {}, y[kMost] = {}, z[kMost] = {};  ///< unit directions
-  alignas(64) float near_mm[kMost] = {}, far_mm[kMost] = {};      ///< between which a mesh can be met
+  alignas(64) float x[kMaxRays] = {}, y[kMaxRays] = {}, z[kMaxRays] = {};  ///< unit directions
+  alignas(64) float near_mm[kMaxRays] = {}, far_mm[kMaxRays] = {};      ///< between which a mesh can be met
 };
 
 /// The first mesh along every ray of a batch, as it is found: attributes are looked up only where it is seen.
 struct MeshHits {
-  alignas(64) float distance_mm[RayBatch::kMost + kLanePadding] = {};  ///< 0: none
-  float u[RayBatch::kMost] = {}, v[RayBatch::kMost] = {};              ///< barycentric
-  unsigned body[RayBatch::kMost] = {}, part[RayBatch::kMost] = {}, triangle[RayBatch::kMost] = {};
-  bool faces_eye[RayBatch::kMost] = {};
+  alignas(64) float distance_mm[RayBatch::kMaxRays + kLanePadding] = {};  ///< 0: none
+  float u[RayBatch::kMaxRays] = {}, v[RayBatch::kMaxRays] = {};              ///< barycentric
+  unsigned body[RayBatch::kMaxRays] = {}, part[RayBatch::kMaxRays] = {}, triangle[RayBatch::kMaxRays] = {};
+  bool faces_eye[RayBatch::kMaxRays] = {};
 };
 
 /// Places on meshes with what is needed to shade them. Plain pointers, for the kernels.

@@ -125,11 +125,11 @@ void fill(RTCRayHit8& packet, int* valid, const RayBatch& rays, int first, const
 
 struct MeshScene::Impl {
   /// Takes away the layers from `first` on that the face or what a hand holds hides.
-  void dropCovered(const RayBatch& rays, std::vector<Layer>& layers, std::size_t first) const;
+  void removeOccluded(const RayBatch& rays, std::vector<Layer>& layers, std::size_t first) const;
   Query queryFor(std::vector<Layer>* layers) const;
   /// False where no ray comes near what is in a hand; else the limits become those of the still hits, or zero for such
   /// rays.
-  bool mayMeetMoving(const RayBatch& rays, float* limit_mm, const MeshHits& hits) const;
+  bool mayMeetDynamic(const RayBatch& rays, float* limit_mm, const MeshHits& hits) const;
   void trace(RTCScene in, const RayBatch& rays, const float* limit_mm, MeshHits& hits) const;
 
   MeshBodies bodies;
@@ -152,27 +152,27 @@ void MeshScene::place(const Placements& placements, const FaceWindow& window) {
   impl_->bodies.place(placements, window);
 }
 
-bool MeshScene::hasTransparent() const { return impl_->bodies.hasTransparent() || impl_->bodies.hasThrough(); }
-std::uint64_t MeshScene::stillRevision() const { return impl_->bodies.stillRevision(); }
+bool MeshScene::hasTransparent() const { return impl_->bodies.hasTransparent() || impl_->bodies.hasOverlay(); }
+std::uint64_t MeshScene::staticRevision() const { return impl_->bodies.staticRevision(); }
 
-void MeshScene::stillHits(const RayBatch& rays, MeshHits& hits) const {
+void MeshScene::staticHits(const RayBatch& rays, MeshHits& hits) const {
   std::fill_n(hits.distance_mm, rays.count, 0.0f);
-  if (impl_->bodies.hasStill()) impl_->trace(impl_->bodies.still(), rays, rays.far_mm, hits);
+  if (impl_->bodies.hasStatic()) impl_->trace(impl_->bodies.still(), rays, rays.far_mm, hits);
 }
 
-void MeshScene::addMovingHits(const RayBatch& rays, MeshHits& hits) const {
-  if (!impl_->bodies.hasMoving()) return;
-  alignas(64) float limit_mm[RayBatch::kMost];
-  if (!impl_->mayMeetMoving(rays, limit_mm, hits)) return;
+void MeshScene::addDynamicHits(const RayBatch& rays, MeshHits& hits) const {
+  if (!impl_->bodies.hasDynamic()) return;
+  alignas(64) float limit_mm[RayBatch::kMaxRays];
+  if (!impl_->mayMeetDynamic(rays, limit_mm, hits)) return;
   impl_->trace(impl_->bodies.moving(), rays, limit_mm, hits);
 }
 
 // Rays against the boxes of what moves, in its own frame, where they lie close around a long thin instrument.
-bool MeshScene::Impl::mayMeetMoving(const RayBatch& rays, float* limit_mm, const MeshHits& hits) const {
+bool MeshScene::Impl::mayMeetDynamic(const RayBatch& rays, float* limit_mm, const MeshHits& hits) const {
   std::fill_n(limit_mm, rays.count, 0.0f);
   bool any = false;
   for (const MeshBody& body : bodies.all()) {
-    if (body.scene == nullptr || body.shown_in != bodies.moving()) continue;
+    if (body.scene == nullptr || body.attached_to != bodies.moving()) continue;
     const glm::mat3 mesh_from_P = glm::transpose(body.P_from_mesh);
     const glm::vec3 from = mesh_from_P * (rays.origin_P - glm::vec3(body.pose[3]));
     const glm::vec3 low = body.low - 0.01f - from;
@@ -194,17 +194,17 @@ bool MeshScene::Impl::mayMeetMoving(const RayBatch& rays, float* limit_mm, const
   return any;
 }
 
-void MeshScene::Impl::dropCovered(const RayBatch& rays, std::vector<Layer>& layers, std::size_t first) const {
+void MeshScene::Impl::removeOccluded(const RayBatch& rays, std::vector<Layer>& layers, std::size_t first) const {
   if (layers.size() == first) return;
   static thread_local MeshHits cover_hits;
-  alignas(64) float limit_mm[RayBatch::kMost];
+  alignas(64) float limit_mm[RayBatch::kMaxRays];
   std::fill_n(limit_mm, rays.count, 0.0f);
   std::fill_n(cover_hits.distance_mm, rays.count, 0.0f);
   for (std::size_t n = first; n < layers.size(); ++n)
     limit_mm[layers[n].ray] = std::max(limit_mm[layers[n].ray], layers[n].distance_mm);
-  trace(bodies.covers(), rays, limit_mm, cover_hits);
+  trace(bodies.occluders(), rays, limit_mm, cover_hits);
   std::erase_if(layers, [&](const Layer& layer) {
-    const bool is_guide = bodies.all()[layer.body].shown_in == bodies.through();
+    const bool is_guide = bodies.all()[layer.body].attached_to == bodies.through();
     const float cover_mm = cover_hits.distance_mm[layer.ray];
     return is_guide && cover_mm > 0.0f && cover_mm < layer.distance_mm;
   });
@@ -261,8 +261,8 @@ void MeshScene::layers(const RayBatch& rays, const float* limit_mm, MeshPoints& 
   };
   if (bodies.hasTransparent()) collect(bodies.transparent(), limit_mm);
   const std::size_t covered_from = met.size();
-  if (bodies.hasThrough()) collect(bodies.through(), rays.far_mm);
-  impl_->dropCovered(rays, met, covered_from);
+  if (bodies.hasOverlay()) collect(bodies.through(), rays.far_mm);
+  impl_->removeOccluded(rays, met, covered_from);
   if (met.empty()) return;
 
   // Ray by ray from back to front; of two at one place the later in the models' order lies in front.

@@ -35,7 +35,7 @@ inline Mask insideBorder(const Float3& at, glm::ivec3 size) {
          (at.y < static_cast<float>(size.y + 1)) & (at.z < static_cast<float>(size.z + 1));
 }
 
-inline Float crowdingAt(const ShadeScene& scene, const Float3& index, Mask mask) {
+inline Float densityAt(const ShadeScene& scene, const Float3& index, Mask mask) {
   constexpr float kCell = 1.0f / AMBIENT_CELL_VOXELS;
   const Float3 at = kCell * (index + 0.5f) + 0.5f;
   const Mask inside = mask & insideBorder(at, scene.ambient.size);
@@ -45,32 +45,32 @@ inline Float crowdingAt(const ShadeScene& scene, const Float3& index, Mask mask)
 
 inline Float coneOpenness(const ShadeScene& scene, const Float3& index, const Float3& direction, float first,
                           Mask mask) {
-  const Float close = crowdingAt(scene, index + first * direction, mask);
-  const Float middle = crowdingAt(scene, index + (CONE_SECOND * first) * direction, mask);
-  const Float far = crowdingAt(scene, index + (CONE_THIRD * first) * direction, mask);
+  const Float close = densityAt(scene, index + first * direction, mask);
+  const Float middle = densityAt(scene, index + (CONE_SECOND * first) * direction, mask);
+  const Float far = densityAt(scene, index + (CONE_THIRD * first) * direction, mask);
   return (1.0f - close) * (1.0f - CONE_SECOND_SHADE * middle) * (1.0f - CONE_THIRD_SHADE * far);
 }
 
-// Voxels that a place may be moved along every axis before it can feel a crowded brick.
+// Voxels that a place may be moved along every axis before it can feel a matter_distance brick.
 inline Float freeVoxels(const ShadeScene& scene, const Float3& index, Mask mask) {
-  const glm::ivec3& size = scene.crowded.size;
+  const glm::ivec3& size = scene.matter_distance.size;
   constexpr float kBrick = 1.0f / BRICK_VOXELS;
   const Int i = clamp(toInt(kBrick * index.x), 0, size.x - 1), j = clamp(toInt(kBrick * index.y), 0, size.y - 1);
   const Int k = clamp(toInt(kBrick * index.z), 0, size.z - 1);
-  const Int bricks = gather(scene.crowded.border, k * scene.crowded.slice + j * scene.crowded.row + i, mask);
+  const Int bricks = gather(scene.matter_distance.border, k * scene.matter_distance.slice + j * scene.matter_distance.row + i, mask);
   return static_cast<float>(BRICK_VOXELS) * toFloat(bricks - 1);
 }
 
-inline Shade shadeFromVolume(const ShadeScene& scene, const Float3& p_P, const Float3& normal, Mask mask) {
-  Shade shade{splat(1.0f), splat(1.0f)};
-  if (scene.ambient.border == nullptr) return shade;
+inline Visibility visibilityFromVolume(const ShadeScene& scene, const Float3& p_P, const Float3& normal, Mask mask) {
+  Visibility visibility{splat(1.0f), splat(1.0f)};
+  if (scene.ambient.border == nullptr) return visibility;
   const Float3 index = indexOf(scene, p_P);
   const float first = std::fmax(CONE_FIRST_CELLS * AMBIENT_CELL_VOXELS, CONE_FIRST_MM / scene.spacing_mm);
   const Float free = freeVoxels(scene, index, mask);
 
   // Five cones, where anything is within their reach.
   const Mask near = mask & (free < CONE_THIRD * first);
-  if (scene.ambient_shade && any(near)) {
+  if (scene.ambient_occlusion && any(near)) {
     const Float zero = splat(0.0f);
     const Float3 side = normalised(
         select(absolute(normal.x) < 0.7f, Float3{zero, normal.z, -normal.y}, Float3{-normal.z, zero, normal.x}));
@@ -82,7 +82,7 @@ inline Shade shadeFromVolume(const ShadeScene& scene, const Float3& p_P, const F
                           coneOpenness(scene, index, kTilt * (normal - other), first, near);
     const Float open =
         (coneOpenness(scene, index, normal, first, near) + kTilt * leaning) * (1.0f / (1.0f + 4.0f * kTilt));
-    shade.ambient = select(near, open * squareRoot(open), 1.0f);
+    visibility.ambient = select(near, open * squareRoot(open), 1.0f);
   }
 
   // Towards the lamp, with growing steps. A place looked at is `reach` from the point at most.
@@ -91,14 +91,14 @@ inline Shade shadeFromVolume(const ShadeScene& scene, const Float3& p_P, const F
     const Float3 lifted = index + (LAMP_LIFT * first) * normal;
     Float through = splat(1.0f);
     float t = first;
-    for (int i = 0; i < LAMP_PLACES; ++i, t *= LAMP_STEP_GROWTH) {
+    for (int i = 0; i < LAMP_SAMPLES; ++i, t *= LAMP_STEP_GROWTH) {
       const Mask felt = mask & (free < t + LAMP_LIFT * first) & (through > 0.0f);
       if (none(felt)) continue;
-      through *= 1.0f - smoothStep(LAMP_CLEAR, LAMP_BLOCKED, crowdingAt(scene, lifted + t * to_lamp, felt));
+      through *= 1.0f - smoothStep(LAMP_CLEAR, LAMP_BLOCKED, densityAt(scene, lifted + t * to_lamp, felt));
     }
-    shade.lamp = LAMP_LEFT + (1.0f - LAMP_LEFT) * through;
+    visibility.lamp = LAMP_MIN + (1.0f - LAMP_MIN) * through;
   }
-  return shade;
+  return visibility;
 }
 
 }  // namespace

@@ -32,14 +32,14 @@ inline Float3 middleOfWay(const ShadeScene& scene, const RayBatch& rays, const F
 
 inline Float3 scattered(const ShadeScene& scene, const Float3& index, const Float3& to_lamp, const Float3& lamp_light,
                         Mask mask) {
-  const Float3 fall = fallAt(scene, index, mask);
-  const Float steep = length(fall);
-  const Float3 normal = (1.0f / maximum(steep, 1e-6f)) * fall;
-  const Float surface = minimum(steep * (1.0f / DVR_FULL_FALL), 1.0f);
+  const Float3 gradient = outwardGradientAt(scene, index, mask);
+  const Float steep = length(gradient);
+  const Float3 normal = (1.0f / maximum(steep, 1e-6f)) * gradient;
+  const Float surface = minimum(steep * (1.0f / DVR_FULL_GRADIENT), 1.0f);
   const Float lambert = mix(splat(DVR_INNER_LAMBERT), maximum(dot(normal, to_lamp), 0.0f), surface);
   const Float sky = 0.5f + 0.5f * surface * dot(normal, splat(scene.eye.up_P));
   Float finish;
-  return planned(scene, lookAt(scene, index, mask, finish), index, mask) *
+  return planned(scene, appearanceAt(scene, index, mask, finish), index, mask) *
          ((lambert / kPi) * lamp_light + mix(vec3(FLOOR_LIGHT), vec3(SKY_LIGHT), sky));
 }
 
@@ -55,12 +55,12 @@ inline void put(const Light& light, int at, const Float3& value) {
   store(light.b + at, value.z);
 }
 
-void aim(const EyeBlock& eye, const float* place_x, const float* place_y, RayBatch& rays) {
+void aim(const EyeBlock& eye, const float* uv_x, const float* uv_y, RayBatch& rays) {
   rays.origin_P.x = eye.eye_P.x, rays.origin_P.y = eye.eye_P.y, rays.origin_P.z = eye.eye_P.z;
   const Float3 corner = splat(eye.lower_left_P) - splat(eye.eye_P);
   for (int i = 0; i < rays.count; i += kLanes) {
     const Float3 to_screen =
-        corner + load(place_x + i) * splat(eye.right_edge_P) + load(place_y + i) * splat(eye.up_edge_P);
+        corner + load(uv_x + i) * splat(eye.right_edge_P) + load(uv_y + i) * splat(eye.up_edge_P);
     const Float reach = length(to_screen), inverse = 1.0f / reach;
     store(rays.x + i, inverse * to_screen.x);
     store(rays.y + i, inverse * to_screen.y);
@@ -70,10 +70,10 @@ void aim(const EyeBlock& eye, const float* place_x, const float* place_y, RayBat
   }
 }
 
-void background(const EyeBlock& eye, const RayBatch& rays, const float* place_x, const float* place_y, Light light) {
+void background(const EyeBlock& eye, const RayBatch& rays, const float* uv_x, const float* uv_y, Light light) {
   for (int i = 0; i < rays.count; i += kLanes) {
     const Float height = load(rays.x + i) * eye.up_P.x + load(rays.y + i) * eye.up_P.y + load(rays.z + i) * eye.up_P.z;
-    const Float dx = load(place_x + i) - 0.5f, dy = load(place_y + i) - 0.5f;
+    const Float dx = load(uv_x + i) - 0.5f, dy = load(uv_y + i) - 0.5f;
     const Float facing = 1.0f - smoothStep(0.0f, BACKGROUND_GLOW_REACH, squareRoot(dx * dx + dy * dy));
     const Float3 wall = mix(vec3(BACKGROUND_FLOOR), vec3(BACKGROUND_SKY), smoothStep(-0.5f, 0.5f, height));
     put(light, i, wall + (BACKGROUND_GLOW * facing) * vec3(BACKGROUND_GLOW_TINT));
@@ -102,13 +102,13 @@ void meshes(const ShadeScene& scene, const RayBatch& rays, const MeshPoints& poi
     normal = select(outside, normal, -normal);
 
     Surface s;
-    s.roughness = clamp(load(points.roughness + i), ROUGHNESS_LEAST, 1.0f);
+    s.roughness = clamp(load(points.roughness + i), MIN_ROUGHNESS, 1.0f);
     s.albedo = (1.0f - metallic) * base;
     s.scatter = s.albedo;
-    const Mask skin = finish == FINISH_SKIN, gum = finish == FINISH_GUM, steel = finish == FINISH_INSTRUMENT;
+    const Mask skin = finish == FINISH_SKIN, gingiva = finish == FINISH_GINGIVA, steel = finish == FINISH_INSTRUMENT;
     const Float f0 = select(skin, splat(SKIN_F0), splat(MESH_F0));
-    s.f0 = select(gum, vec3(GUM_F0, GUM_F0, GUM_F0), mix(vec3(f0), base, metallic));
-    s.wrap = select(skin, splat(SKIN_WRAP), select(gum, splat(GUM_WRAP), splat(0.0f)));
+    s.f0 = select(gingiva, vec3(GINGIVA_F0, GINGIVA_F0, GINGIVA_F0), mix(vec3(f0), base, metallic));
+    s.wrap = select(skin, splat(SKIN_WRAP), select(gingiva, splat(GINGIVA_WRAP), splat(0.0f)));
     if (any(mask & skin)) {
       const Float brightest = maximum(maximum(s.albedo.x, s.albedo.y), maximum(s.albedo.z, 1e-3f));
       const Float3 hue = (1.0f / brightest) * s.albedo;
@@ -119,15 +119,15 @@ void meshes(const ShadeScene& scene, const RayBatch& rays, const MeshPoints& poi
         s.albedo = mix(s.albedo * vec3(RIM_TINT), s.albedo, rim);
       }
     }
-    s.scatter = select(gum, vec3(GUM_SCATTER), s.scatter);
+    s.scatter = select(gingiva, vec3(GINGIVA_SCATTER), s.scatter);
 
-    Shade shade = shadeFromVolume(scene, p_P + MESH_LIFT * normal, normal, mask);
+    Visibility visibility = visibilityFromVolume(scene, p_P + MESH_LIFT * normal, normal, mask);
     const auto at_least = [&](float least, Float value) {
       return select(steel, least + (1.0f - least) * value, value);
     };
-    shade.ambient = at_least(STEEL_AMBIENT_LEAST, shade.ambient) * select(outside, splat(1.0f), splat(INSIDE_AMBIENT));
-    shade.lamp = at_least(STEEL_LAMP_LEAST, shade.lamp) * select(outside, splat(1.0f), splat(INSIDE_LAMP));
-    const Float3 shown = lit(scene, s, p_P, normal, -direction, shade);
+    visibility.ambient = at_least(STEEL_MIN_AMBIENT, visibility.ambient) * select(outside, splat(1.0f), splat(INSIDE_AMBIENT));
+    visibility.lamp = at_least(STEEL_MIN_LAMP, visibility.lamp) * select(outside, splat(1.0f), splat(INSIDE_LAMP));
+    const Float3 shown = lit(scene, s, p_P, normal, -direction, visibility);
     // A guide is lit from everywhere: it is no part of the patient and shows inside the bone.
     const Float facing = absolute(dot(normal, direction));
     put(light, i, select(finish == FINISH_GUIDE, (GUIDE_DARKEST + (1.0f - GUIDE_DARKEST) * facing) * base, shown));
@@ -145,7 +145,7 @@ void surface(const ShadeScene& scene, const RayBatch& rays, const std::int32_t* 
     const Float3 p_P = splat(rays.origin_P) + (t * scene.spacing_mm) * direction;
     const Float3 normal = surfaceNormal(scene, index, mask);
     const Surface s = tissueSurface(scene, index, normal, p_P, mask);
-    put(light, i, lit(scene, s, p_P, normal, -direction, shadeFromVolume(scene, p_P, normal, mask)));
+    put(light, i, lit(scene, s, p_P, normal, -direction, visibilityFromVolume(scene, p_P, normal, mask)));
   }
 }
 

@@ -23,18 +23,18 @@ struct FieldView {
 /// What light depends on besides the place itself. The fields are borrowed.
 struct ShadeScene {
   EyeBlock eye;
-  glm::vec3 right_axis_P{1.0f, 0.0f, 0.0f};   ///< unit, along the picture's rows
+  glm::vec3 right_axis_P{1.0f, 0.0f, 0.0f};   ///< unit, along the image's rows
   glm::vec3 window_axis_P{0.0f, 0.0f, 1.0f};  ///< unit, down the window in the face …
   float window_reach_mm = 0.0f;               ///< … from the eyes to the site
   glm::vec3 origin_P{0.0f};                   ///< of voxel (0,0,0)
   float spacing_mm = 1.0f;
   glm::ivec3 voxels{0};
   FieldView<std::uint16_t> smooth, ambient;
-  FieldView<std::uint32_t> look;
-  FieldView<std::uint8_t> crowded;  ///< per brick, without border: bricks to the next with anything in it
+  FieldView<std::uint32_t> appearance;
+  FieldView<std::uint8_t> matter_distance;  ///< per brick, without border: bricks to the next with anything in it
   FieldView<glm::u16vec2> guides;   ///< guide_field.h on the cells of the ambient map
-  int shown_guides = 0;             ///< GUIDE_CLEARANCE, GUIDE_PLAN
-  bool ambient_shade = true, lamp_shadow = true;
+  int visible_guides = 0;             ///< GUIDE_CLEARANCE, GUIDE_PLAN
+  bool ambient_occlusion = true, lamp_shadow = true;
 };
 
 /// Structure of arrays; as long as the count, rounded up to kLanePadding.
@@ -43,10 +43,10 @@ struct Light {
 };
 
 struct ShadeKernels {
-  /// Unit directions through places of the picture, 0..1 from its lower left, and where near and far plane lie along
+  /// Unit directions through places of the image, 0..1 from its lower left, and where near and far plane lie along
   /// them. rays.count of them.
-  void (*aim)(const EyeBlock& eye, const float* place_x, const float* place_y, RayBatch& rays);
-  void (*background)(const EyeBlock& eye, const RayBatch& rays, const float* place_x, const float* place_y,
+  void (*aim)(const EyeBlock& eye, const float* uv_x, const float* uv_y, RayBatch& rays);
+  void (*background)(const EyeBlock& eye, const RayBatch& rays, const float* uv_x, const float* uv_y,
                      Light light);
   void (*meshes)(const ShadeScene& scene, const RayBatch& rays, const MeshPoints& points, Light light);
   /// Tooth and bone: `count` rays of the batch by number, and how far along each the surface is, in voxels.

@@ -4,7 +4,7 @@
 // only where a value is assets::kHalfSolid or more, as on the surface and all that shows in the translucent view: an
 // eighth of a jaw. A table says for every brick which of its eight halves hold something solid and where its cells are,
 // or how many bricks away (Chebyshev) the next ones with cells are; it has a border of bricks all round, for the border
-// of air. Distances left stale by carving are too small, which costs time and shows the same picture. One thread; the
+// of air. Distances left stale by carving are too small, which costs time and shows the same image. One thread; the
 // reading of tables and cells by many at once. Update: about 0.4 us per brick touched.
 #pragma once
 
@@ -27,7 +27,7 @@ class SolidCells {
 
   /// These voxels of the field have changed.
   void touch(const VoxelBox& voxels);
-  /// Brings cells and table up to date; distances only where a picture would otherwise miss something.
+  /// Brings cells and table up to date; distances only where a image would otherwise miss something.
   void refresh();
   /// Makes the distances exact, where they are not.
   void rebuildIfStale();

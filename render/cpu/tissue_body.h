@@ -25,30 +25,30 @@ inline Float noise(const Float3& x) {
   return mix(mix(row(j, k), row(j + 1, k), fy), mix(row(j, k + 1), row(j + 1, k + 1), fy), fz);
 }
 
-struct Look {
+struct Appearance {
   Float3 root;
   Float finish;
 };
-inline Look mix(const Look& from, const Look& to, Float part) {
+inline Appearance mix(const Appearance& from, const Appearance& to, Float part) {
   return {mix(from.root, to.root, part), mix(from.finish, to.finish, part)};
 }
 
 // Colour and finish just below a surface place: eight corners, mixed in the stored roots.
-inline Float3 lookAt(const ShadeScene& scene, const Float3& index, Mask mask, Float& finish) {
-  const FieldView<std::uint32_t>& field = scene.look;
+inline Float3 appearanceAt(const ShadeScene& scene, const Float3& index, Mask mask, Float& finish) {
+  const FieldView<std::uint32_t>& field = scene.appearance;
   const Float3 at{clamp(index.x, 0.0f, static_cast<float>(field.size.x - 1)) + 1.0f,
                   clamp(index.y, 0.0f, static_cast<float>(field.size.y - 1)) + 1.0f,
                   clamp(index.z, 0.0f, static_cast<float>(field.size.z - 1)) + 1.0f};
   const auto unpacked = [](Int rgba) {
-    return Look{{toFloat(rgba & 0xff), toFloat((rgba >> 8) & 0xff), toFloat((rgba >> 16) & 0xff)},
+    return Appearance{{toFloat(rgba & 0xff), toFloat((rgba >> 8) & 0xff), toFloat((rgba >> 16) & 0xff)},
                 toFloat(shiftRightLogical(rgba, 24))};
   };
-  const Look look = mixedAround(field, at, mask, [&](const std::uint32_t* from, Int offset, Float part) {
+  const Appearance appearance = mixedAround(field, at, mask, [&](const std::uint32_t* from, Int offset, Float part) {
     const IntPair both = gather64<4>(from, offset);
     return mix(unpacked(both.low), unpacked(both.high), part);
   });
-  finish = look.finish * (1.0f / 255.0f);
-  const Float3 root = (1.0f / 255.0f) * look.root;
+  finish = appearance.finish * (1.0f / 255.0f);
+  const Float3 root = (1.0f / 255.0f) * appearance.root;
   return root * root;
 }
 
@@ -109,22 +109,22 @@ inline Float3 withPlan(const Float3& albedo, Float mm) {
 }
 
 inline Float3 planned(const ShadeScene& scene, const Float3& albedo, const Float3& index, Mask mask) {
-  return (scene.shown_guides & GUIDE_PLAN) == 0 ? albedo : withPlan(albedo, guideDistances(scene, index, mask).cut);
+  return (scene.visible_guides & GUIDE_PLAN) == 0 ? albedo : withPlan(albedo, guideDistances(scene, index, mask).cut);
 }
 
 inline Float3 guided(const ShadeScene& scene, const Float3& albedo, const Float3& index, const Float3& p_P, Mask mask) {
-  if (scene.shown_guides == 0) return albedo;
+  if (scene.visible_guides == 0) return albedo;
   const GuideDistances mm = guideDistances(scene, index, mask);
   Float3 colour = albedo;
-  if ((scene.shown_guides & GUIDE_CLEARANCE) != 0) colour = withClearance(colour, mm.mandibular_canal, p_P);
-  if ((scene.shown_guides & GUIDE_PLAN) != 0) colour = withPlan(colour, mm.cut);
+  if ((scene.visible_guides & GUIDE_CLEARANCE) != 0) colour = withClearance(colour, mm.mandibular_canal, p_P);
+  if ((scene.visible_guides & GUIDE_PLAN) != 0) colour = withPlan(colour, mm.cut);
   return colour;
 }
 
 inline Surface tissueSurface(const ShadeScene& scene, const Float3& index, const Float3& normal, const Float3& p_P,
                              Mask mask) {
   Float finish;
-  Float3 albedo = lookAt(scene, index - static_cast<float>(LOOK_DEPTH_VOXELS) * normal, mask, finish);
+  Float3 albedo = appearanceAt(scene, index - static_cast<float>(COLOUR_DEPTH_VOXELS) * normal, mask, finish);
   const Float enamel = clamp(2.0f * finish - 1.0f, 0.0f, 1.0f), marrow = clamp(1.0f - 2.0f * finish, 0.0f, 1.0f);
   const Float3 shine = mix(mix(FINISH_DULL, FINISH_MARROW, marrow), FINISH_ENAMEL, enamel);
 
@@ -140,7 +140,7 @@ inline Surface tissueSurface(const ShadeScene& scene, const Float3& index, const
 }
 
 // Central differences of the smoothed field over two voxels, towards air.
-inline Float3 fallAt(const ShadeScene& scene, const Float3& index, Mask mask) {
+inline Float3 outwardGradientAt(const ShadeScene& scene, const Float3& index, Mask mask) {
   const FieldView<std::uint16_t>& field = scene.smooth;
   const Float3 at = index + 1.0f;
   const auto beside = [&](float dx, float dy, float dz) {
@@ -154,8 +154,8 @@ inline Float3 fallAt(const ShadeScene& scene, const Float3& index, Mask mask) {
 }
 
 inline Float3 surfaceNormal(const ShadeScene& scene, const Float3& index, Mask mask) {
-  const Float3 fall = fallAt(scene, index, mask);
-  return inverseSquareRoot(maximum(dot(fall, fall), 1e-12f)) * fall;
+  const Float3 gradient = outwardGradientAt(scene, index, mask);
+  return inverseSquareRoot(maximum(dot(gradient, gradient), 1e-12f)) * gradient;
 }
 
 }  // namespace

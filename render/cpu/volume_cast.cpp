@@ -57,7 +57,7 @@ namespace avx512 = portable;
 
 // In the order of assets::InstructionSet.
 constexpr std::array kCastSurface{portable::castSurface, avx2::castSurface, avx512::castSurface};
-constexpr std::array kCastThrough{portable::castThrough, avx2::castThrough, avx512::castThrough};
+constexpr std::array kCastThrough{portable::castTranslucent, avx2::castTranslucent, avx512::castTranslucent};
 
 OpacityTable opacityTable(float ramp_start, float ramp_full, std::span<const float> per_mm, float step_mm) {
   OpacityTable table;
@@ -80,7 +80,7 @@ void castSurface(const SolidCells& cells, const CastSettings& settings, const Ra
   to.count = job.points;
 }
 
-void castThrough(const SolidCells& cells, const CastSettings& settings, const BorderedField<std::uint8_t>& label,
+void castTranslucent(const SolidCells& cells, const CastSettings& settings, const BorderedField<std::uint8_t>& label,
                  const OpacityTable& opacity, const RayBatch& rays, const float* limit_mm, VolumePoints& to,
                  RaySums& sums, assets::InstructionSet set) {
   CastJob job = jobOf(cells, settings, rays, limit_mm, to);

@@ -1,5 +1,5 @@
 // Where the rays of a batch meet the volume, on the CPU: the surface (castSurface) or all that shows of it when it is
-// translucent (castThrough). The twin of shaders/ray_cast.glsl: samples at t = k · step from the entry, six bisections.
+// translucent (castTranslucent). The twin of shaders/ray_cast.glsl: samples at t = k · step from the entry, six bisections.
 // Empty space is passed in three ways that never pass a sample that would count: a beam around up to 64 rays at once,
 // then every ray by itself, by the distances of SolidCells. Tests compare with `skip_empty_space` off, bit for bit.
 // Compiled for each instruction set (volume_cast_body.h); the machine's best is chosen. Lengths in voxels.
@@ -19,7 +19,7 @@
 namespace render {
 
 /// Places on the rays of a batch, to be shaded. castSurface: at most one per ray, in the order of the rays.
-/// castThrough: of each ray from front to back, rays in no order; the light of a ray is the sum of weight · light of
+/// castTranslucent: of each ray from front to back, rays in no order; the light of a ray is the sum of weight · light of
 /// its places.
 struct VolumePoints {
   int count = 0;
@@ -40,11 +40,11 @@ struct VolumePoints {
 
 /// Of each ray of a batch.
 struct RaySums {
-  alignas(64) std::array<float, RayBatch::kMost> opacity{};  ///< the weights' sum
-  alignas(64) std::array<float, RayBatch::kMost> reach{};    ///< voxels to where it passes one half; negative: never
+  alignas(64) std::array<float, RayBatch::kMaxRays> opacity{};  ///< the weights' sum
+  alignas(64) std::array<float, RayBatch::kMaxRays> reach{};    ///< voxels to where it passes one half; negative: never
 };
 
-/// The opacity of one step for every tissue and share of the ramp, as castThrough reads it.
+/// The opacity of one step for every tissue and share of the ramp, as castTranslucent reads it.
 struct OpacityTable {
   static constexpr int kIntervals = 256;
   int labels = 0;
@@ -68,7 +68,7 @@ void castSurface(const SolidCells& cells, const CastSettings& settings, const Ra
                  VolumePoints& to, assets::InstructionSet set = assets::chosenInstructionSet());
 
 /// Rays end where their opacity reaches 0.98. `label`: of the same grid.
-void castThrough(const SolidCells& cells, const CastSettings& settings, const BorderedField<std::uint8_t>& label,
+void castTranslucent(const SolidCells& cells, const CastSettings& settings, const BorderedField<std::uint8_t>& label,
                  const OpacityTable& opacity, const RayBatch& rays, const float* limit_mm, VolumePoints& to,
                  RaySums& sums, assets::InstructionSet set = assets::chosenInstructionSet());
 

@@ -4,6 +4,6 @@
 namespace render::avx2 {
 
 void castSurface(CastJob& job) noexcept { cpu::surface(job); }
-void castThrough(CastJob& job) noexcept { cpu::through(job); }
+void castTranslucent(CastJob& job) noexcept { cpu::through(job); }
 
 }  // namespace render::avx2

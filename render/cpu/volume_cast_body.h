@@ -11,7 +11,7 @@
 namespace render::cpu {
 namespace {
 
-constexpr int kMostRays = 256, kBeamRays = 64;
+constexpr int kMaxRays = 256, kBeamRays = 64;
 constexpr int kEdge = 8, kRowWords = 9, kLayerWords = 72, kBrickWords = 576;  // SolidCells
 constexpr float kGuard = 1e-3f;  // a skip ends this much early, so that rounding never carries it past something solid
 constexpr float kFar = 1e9f;
@@ -20,19 +20,19 @@ constexpr float kIso = 0.5f * kFull;
 constexpr int kBisections = 6;
 constexpr float kOpaque = 0.98f;
 
-struct Place {
+struct Position {
   Float x, y, z;
 };
 
 /// kLanes rays: unit direction, its inverse, entry, and the first and last sample's number (first > last: none).
 struct Rays {
-  Place direction, inverse, entry;
+  Position direction, inverse, entry;
   Float near, last;
 };
 
 inline Float inverseOf(Float direction) { return 1.0f / select(absolute(direction) < 1e-9f, splat(1e-9f), direction); }
 
-inline Place placeAt(const Rays& rays, Float t) {
+inline Position positionAt(const Rays& rays, Float t) {
   return {multiplyAdd(t, rays.direction.x, rays.entry.x), multiplyAdd(t, rays.direction.y, rays.entry.y),
           multiplyAdd(t, rays.direction.z, rays.entry.z)};
 }
@@ -136,18 +136,18 @@ float emptyLength(const CastJob& job, const Cone& cone) {
   return kFar;
 }
 
-/// Where a place's cell lies: its brick's entry in the table, and itself.
+/// Where a position's cell lies: its brick's entry in the table, and itself.
 struct Cell {
   Int i, j, k;
 };
-inline Cell cellAt(const Place& place) { return {toInt(place.x), toInt(place.y), toInt(place.z)}; }
+inline Cell cellAt(const Position& position) { return {toInt(position.x), toInt(position.y), toInt(position.z)}; }
 inline Int brickIndex(const CastJob& job, const Cell& cell) {
   return (cell.i >> 3) + ((cell.j >> 3) + (cell.k >> 3) * job.bricks[1]) * job.bricks[0];
 }
 
 /// The eight corners, by their words.
-inline Float interpolated(IntPair corners, const Place& place, const Cell& cell) {
-  const Float x = place.x - toFloat(cell.i), y = place.y - toFloat(cell.j), z = place.z - toFloat(cell.k);
+inline Float interpolated(IntPair corners, const Position& position, const Cell& cell) {
+  const Float x = position.x - toFloat(cell.i), y = position.y - toFloat(cell.j), z = position.z - toFloat(cell.k);
   const Int high = toInt(multiplyAdd(z, splat(32767.0f), splat(0.5f))), parts = (high << 16) | (32767 - high);
   constexpr std::int32_t kEven = 0x00ff00ff;
   const Float low_j = toFloat(pairSums(corners.low & kEven, parts));
@@ -158,13 +158,13 @@ inline Float interpolated(IntPair corners, const Place& place, const Cell& cell)
 }
 
 /// `where`: the brick's entry in the table.
-inline Float sampleCells(const CastJob& job, Int where, const Place& place, const Cell& cell) {
+inline Float sampleCells(const CastJob& job, Int where, const Position& position, const Cell& cell) {
   const Int word = (where >> 8) * kBrickWords + (cell.i & 7) + (cell.j & 7) * kRowWords + (cell.k & 7) * kLayerWords;
-  return interpolated(gather64<4>(job.words, word), place, cell);
+  return interpolated(gather64<4>(job.words, word), position, cell);
 }
 
 /// The same from the field, corner by corner, in lanes of the mask.
-inline Float sampleField(const CastJob& job, Mask wanted, const Place& place, const Cell& outer) {
+inline Float sampleField(const CastJob& job, Mask wanted, const Position& position, const Cell& outer) {
   // Rounding may put a ray's entry a hair before the border, where there is nothing to read.
   const Int border = splat(kEdge - 1);
   const Cell cell{maximum(outer.i, border), maximum(outer.j, border), maximum(outer.k, border)};
@@ -174,16 +174,16 @@ inline Float sampleField(const CastJob& job, Mask wanted, const Place& place, co
            (gather(job.solid, first + job.slice, wanted) << 16) |
            (gather(job.solid, first + job.row + job.slice, wanted) << 24);
   };
-  return interpolated({corners(at), corners(at + 1)}, place, cell);
+  return interpolated({corners(at), corners(at + 1)}, position, cell);
 }
 
 /// Samples in lanes of the mask; where there are no cells, less than solid.
 template <bool kSkip>
-inline Float sample(const CastJob& job, Mask wanted, const Place& place) {
-  const Cell cell = cellAt(place);
-  if constexpr (!kSkip) return sampleField(job, wanted, place, cell);
+inline Float sample(const CastJob& job, Mask wanted, const Position& position) {
+  const Cell cell = cellAt(position);
+  if constexpr (!kSkip) return sampleField(job, wanted, position, cell);
   const Int where = gather(job.table, brickIndex(job, cell), wanted);
-  return select(where >= 0, sampleCells(job, maximum(where, splat(0)), place, cell), 0.0f);
+  return select(where >= 0, sampleCells(job, maximum(where, splat(0)), position, cell), 0.0f);
 }
 
 /// Which lanes' cells lie in an eighth of a brick that holds something solid; `where` is not negative.
@@ -214,14 +214,14 @@ inline Float firstSample(const CastJob& job, const Rays& rays, float from) {
   return maximum(ceiling((from - kGuard - rays.near) / job.step), 0.0f);
 }
 
-/// Walks along kLanes rays; visit(samples wanted, their values, place, k) answers which rays end there.
+/// Walks along kLanes rays; visit(samples wanted, their values, position, k) answers which rays end there.
 template <bool kSkip, class Visit>
 inline void march(const CastJob& job, const Rays& rays, Mask active, Float k, Visit visit) {
   active &= k <= rays.last;
   [[maybe_unused]] const int last_brick = job.bricks[0] * job.bricks[1] * job.bricks[2] - 1;
   while (any(active)) {
-    const Place place = placeAt(rays, k * job.step);
-    const Cell cell = cellAt(place);
+    const Position position = positionAt(rays, k * job.step);
+    const Cell cell = cellAt(position);
     Mask wanted = active;
     Float value;
     if constexpr (kSkip) {
@@ -232,13 +232,13 @@ inline void march(const CastJob& job, const Rays& rays, Mask active, Float k, Vi
       Float next = k + 1.0f;
       if (any(empty & active)) next = select(empty, skipped(job, rays, cell, where, k), next);
       if (any(wanted)) {
-        value = sampleCells(job, where & ~empty, place, cell);
-        active &= ~visit(wanted, value, place, k);
+        value = sampleCells(job, where & ~empty, position, cell);
+        active &= ~visit(wanted, value, position, k);
       }
       k = next;
     } else {
-      value = sampleField(job, wanted, place, cell);
-      active &= ~visit(wanted, value, place, k);
+      value = sampleField(job, wanted, position, cell);
+      active &= ~visit(wanted, value, position, k);
       k = k + 1.0f;
     }
     active &= k <= rays.last;
@@ -266,8 +266,8 @@ inline void forPackets(const CastJob& job, Cast cast) {
 template <bool kSkip>
 inline void surfaceBy(CastJob& job) {
   // Along every ray to its first solid sample; those that have one, one after the other.
-  alignas(64) std::int32_t ray[kMostRays + kLanes];
-  alignas(64) float number[kMostRays + kLanes];
+  alignas(64) std::int32_t ray[kMaxRays + kLanes];
+  alignas(64) float number[kMaxRays + kLanes];
   int hits = 0;
   forPackets(job, [&](int first, float from) {
     const Rays rays =
@@ -275,7 +275,7 @@ inline void surfaceBy(CastJob& job) {
     Mask found = splat(0);
     Float at = splat(0.0f);
     march<kSkip>(job, rays, firstLanes(job.count - first), firstSample(job, rays, from),
-                 [&](Mask wanted, Float value, const Place&, Float k) {
+                 [&](Mask wanted, Float value, const Position&, Float k) {
                    const Mask solid = wanted & (value >= kIso);
                    found |= solid;
                    at = select(solid, k, at);
@@ -294,7 +294,7 @@ inline void surfaceBy(CastJob& job) {
     Float low = (k - 1.0f) * job.step, high = k * job.step;
     for (int i = 0; i < kBisections; ++i) {
       const Float middle = 0.5f * (low + high);
-      const Mask solid = sample<kSkip>(job, real & (k > 0.0f), placeAt(rays, middle)) >= kIso;
+      const Mask solid = sample<kSkip>(job, real & (k > 0.0f), positionAt(rays, middle)) >= kIso;
       high = select(solid, middle, high);
       low = select(solid, low, middle);
     }
@@ -318,13 +318,13 @@ inline void throughBy(CastJob& job) {
         aimed(job, load(job.x + first), load(job.y + first), load(job.z + first), load(job.limit_mm + first));
     Float sum = splat(0.0f), reach = splat(-1.0f);
     march<kSkip>(job, rays, firstLanes(job.count - first), firstSample(job, rays, from),
-                 [&](Mask wanted, Float value, const Place& place, Float k) {
+                 [&](Mask wanted, Float value, const Position& position, Float k) {
                    Mask shows = wanted & (value > start);
                    if (none(shows)) return shows;
 
                    // Opacity of the step, by the tissue of the nearest voxel.
                    const Float share = minimum((value - start) * per_value, 256.0f);
-                   const Cell near = cellAt({place.x + 0.5f, place.y + 0.5f, place.z + 0.5f});
+                   const Cell near = cellAt({position.x + 0.5f, position.y + 0.5f, position.z + 0.5f});
                    const Int at =
                        (near.i - (kEdge - 1)) + (near.j - (kEdge - 1)) * job.row + (near.k - (kEdge - 1)) * job.slice;
                    const Int label = minimum(gather(job.label, at, shows), splat(job.last_label));

@@ -35,16 +35,16 @@ struct CastJob {
 
 namespace portable {
 void castSurface(CastJob& job) noexcept;
-void castThrough(CastJob& job) noexcept;
+void castTranslucent(CastJob& job) noexcept;
 }  // namespace portable
 #if defined(__x86_64__)
 namespace avx2 {
 void castSurface(CastJob& job) noexcept;
-void castThrough(CastJob& job) noexcept;
+void castTranslucent(CastJob& job) noexcept;
 }  // namespace avx2
 namespace avx512 {
 void castSurface(CastJob& job) noexcept;
-void castThrough(CastJob& job) noexcept;
+void castTranslucent(CastJob& job) noexcept;
 }  // namespace avx512
 #endif
 

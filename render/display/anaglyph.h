@@ -1,4 +1,4 @@
-// Both eyes in one picture for red-cyan glasses, the red filter before the left eye. Linear light in 0..1 in and out;
+// Both eyes in one image for red-cyan glasses, the red filter before the left eye. Linear light in 0..1 in and out;
 // the twin of shaders/stereo_layout.glsl's. Any thread; pure. Source of the numbers: shaders/anaglyph_numbers.glsl.
 #pragma once
 

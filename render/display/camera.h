@@ -1,5 +1,5 @@
 // A plain camera in front of the patient, expressed as a rig: an unmirrored screen through the point looked at, facing
-// the eye, and W on it (x right, y up, z to the viewer). So pictures from a camera and from the workstation share one
+// the eye, and W on it (x right, y up, z to the viewer). So images from a camera and from the workstation share one
 // path. Frame P, mm. Any thread; pure.
 #pragma once
 

@@ -1,4 +1,4 @@
-// How the two eyes' pictures reach the two eyes: what kind of display it is, and the words people type for it.
+// How the two eyes' images reach the two eyes: what kind of display it is, and the words people type for it.
 // Plain values; any thread.
 #pragma once
 
@@ -9,7 +9,7 @@
 namespace render {
 
 enum class DisplayMode {
-  mono,               ///< one picture, from between the eyes
+  mono,               ///< one image, from between the eyes
   quad_buffer,        ///< left and right back buffer of one window; the driver and the glasses do the rest
   two_windows,        ///< a window an eye, on two monitors or projectors
   side_by_side,       ///< half: both eyes share the width, the display stretches each

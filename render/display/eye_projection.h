@@ -15,10 +15,10 @@ enum class Eye { left, right, cyclopean };
 struct EyeView {
   glm::dmat4 clip_from_W{1.0};  ///< OpenGL clip space, z from -1 (near) to 1 (far)
   calibration::Point<calibration::World> eye_W;
-  calibration::Point<calibration::World> lower_left_W;   ///< of the picture on the virtual screen
-  calibration::Vector<calibration::World> right_edge_W;  ///< along a row of the picture, its full width
+  calibration::Point<calibration::World> lower_left_W;   ///< of the image on the virtual screen
+  calibration::Vector<calibration::World> right_edge_W;  ///< along a row of the image, its full width
   calibration::Vector<calibration::World> up_edge_W;     ///< along a column, its full height
-  bool mirrored = false;                                 ///< left-handed: front faces turn clockwise in the picture
+  bool mirrored = false;                                 ///< left-handed: front faces turn clockwise in the image
 };
 
 /// Near and far plane, in distances from the eye to the screen.

@@ -30,7 +30,7 @@ void StereoCompositor::compose(const StereoLayout& layout, const Texture& left, 
   block_.set(OUTPUT_BLOCK,
              {.mode = {static_cast<int>(layout.mode), samples, layout.output, layout.swapped ? 1 : 0},
               .place = {layout.at_px, output.size()},
-              .eye = {eyePictureSize(layout.mode, layout.screen_px), packingGap_px(layout.screen_px.y), 0}});
+              .eye = {eyeImageSize(layout.mode, layout.screen_px), packingGap_px(layout.screen_px.y), 0}});
   drawScreen(program_, {.depth_test = false, .depth_write = false});
 }
 

@@ -1,4 +1,4 @@
-// The output pass: the eyes' linear pictures become what the display is given, sRGB-encoded once. Which eye a pixel
+// The output pass: the eyes' linear images become what the display is given, sRGB-encoded once. Which eye a pixel
 // shows: stereo_layout.h. Render thread.
 #pragma once
 
@@ -18,7 +18,7 @@ struct OutputBlock {
 
 class StereoCompositor {
  public:
-  /// `left` and `right`: linear pictures, `samples` values along each edge of a pixel, of eyePictureSize() or smaller;
+  /// `left` and `right`: linear images, `samples` values along each edge of a pixel, of eyeImageSize() or smaller;
   /// mono shows `left`. `output`: outputSize() large.
   void compose(const StereoLayout& layout, const Texture& left, const Texture& right, int samples,
                const Framebuffer& output);

@@ -3,7 +3,7 @@
 // pixel by pixel. Pixels count from the top left of the output, whose rows run downwards. Interleaved displays hold
 // their rows and columns still while windows move: parity follows the place on the panel. Any thread; a few additions.
 // Frame packing: HDMI 1.4a, 3D structure "frame packing": 1080p is 1920x2205 with 45 blank lines, 720p 1280x1470 with
-// 30: a 24th of the picture's height, which other heights are given as well.
+// 30: a 24th of the image's height, which other heights are given as well.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -13,12 +13,12 @@
 namespace render {
 
 /// `both`: the colours of the eyes are mixed, at the same pixel of each.
-enum class Shown { black, left, right, cyclopean, both };
+enum class PixelSource { black, left, right, cyclopean, both };
 
-struct ShownPixel {
-  Shown eye = Shown::black;
-  glm::ivec2 px{0};  ///< in the eye's picture, from its top left
-  friend constexpr bool operator==(const ShownPixel&, const ShownPixel&) = default;
+struct SourcePixel {
+  PixelSource eye = PixelSource::black;
+  glm::ivec2 px{0};  ///< in the eye's image, from its top left
+  friend constexpr bool operator==(const SourcePixel&, const SourcePixel&) = default;
 };
 
 struct StereoLayout {
@@ -46,8 +46,8 @@ constexpr bool isAnaglyph(DisplayMode mode) {
 /// Blank lines between the eyes of a packed frame.
 constexpr int packingGap_px(int screen_height_px) { return screen_height_px / 24; }
 
-/// Each eye's picture. Of a half mode its pixels are twice as wide or high as the panel's.
-constexpr glm::ivec2 eyePictureSize(DisplayMode mode, glm::ivec2 screen_px) {
+/// Each eye's image. Of a half mode its pixels are twice as wide or high as the panel's.
+constexpr glm::ivec2 eyeImageSize(DisplayMode mode, glm::ivec2 screen_px) {
   if (mode == DisplayMode::side_by_side) return {screen_px.x > 1 ? screen_px.x / 2 : 1, screen_px.y};
   if (mode == DisplayMode::top_bottom) return {screen_px.x, screen_px.y > 1 ? screen_px.y / 2 : 1};
   return screen_px;
@@ -66,17 +66,17 @@ constexpr bool isPackable(glm::ivec2 screen_px) {
   return (screen_px.x == 1920 && screen_px.y == 1080) || (screen_px.x == 1280 && screen_px.y == 720);
 }
 
-constexpr ShownPixel shownAt(const StereoLayout& layout, glm::ivec2 px) {
-  const glm::ivec2 eye_px = eyePictureSize(layout.mode, layout.screen_px);
+constexpr SourcePixel sourcePixelAt(const StereoLayout& layout, glm::ivec2 px) {
+  const glm::ivec2 eye_px = eyeImageSize(layout.mode, layout.screen_px);
   const glm::ivec2 place{px.x + layout.at_px.x, px.y + layout.at_px.y};
   const auto odd = [](int n) { return (n & 1) != 0; };
   bool second = false;  // the right eye's place
   switch (layout.mode) {
     case DisplayMode::mono:
-      return {Shown::cyclopean, px};
+      return {PixelSource::cyclopean, px};
     case DisplayMode::anaglyph:
     case DisplayMode::anaglyph_red_cyan:
-      return {Shown::both, px};
+      return {PixelSource::both, px};
     case DisplayMode::quad_buffer:
     case DisplayMode::two_windows:
       second = layout.output == 1;
@@ -109,7 +109,7 @@ constexpr ShownPixel shownAt(const StereoLayout& layout, glm::ivec2 px) {
   }
   // The gap of a packed frame, and the last line of an odd size that was halved.
   if (px.x < 0 || px.y < 0 || px.x >= eye_px.x || px.y >= eye_px.y) return {};
-  return {second != layout.swapped ? Shown::right : Shown::left, px};
+  return {second != layout.swapped ? PixelSource::right : PixelSource::left, px};
 }
 
 }  // namespace render

@@ -62,12 +62,12 @@ struct Window::Impl {
   GLFWmonitor* panel() const;
 
   GLFWwindow* window = nullptr;
-  bool owns_library = true;  ///< the first window, which the others are beside
+  bool owns_library = true;  ///< the first window, which the others are share_with
   std::vector<WindowEvent> events;
   glm::dvec2 pointer_px{0.0};
 };
 
-Window::Impl::Impl(const Options& options) : owns_library(options.beside == nullptr) {
+Window::Impl::Impl(const Options& options) : owns_library(options.share_with == nullptr) {
   startLibrary();
   // The library stays started: the next best window is opened with it.
   const auto refuse = [&](const std::string& what, const std::string& to_do) {
@@ -90,7 +90,7 @@ Window::Impl::Impl(const Options& options) : owns_library(options.beside == null
   glfwWindowHint(GLFW_FOCUS_ON_SHOW, options.focused ? GLFW_TRUE : GLFW_FALSE);
   glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);  // two full screens: the one without the keyboard stays
   glfwWindowHint(GLFW_STEREO, options.quad_buffer ? GLFW_TRUE : GLFW_FALSE);
-  GLFWwindow* const shared = options.beside != nullptr ? options.beside->impl_->window : nullptr;
+  GLFWwindow* const shared = options.share_with != nullptr ? options.share_with->impl_->window : nullptr;
   window = glfwCreateWindow(size.x, size.y, options.title.c_str(), options.full_screen ? monitor : nullptr, shared);
   if (window == nullptr && options.quad_buffer)
     refuse("no quad-buffered stereo", "it needs GLX and a professional graphics card with stereo enabled");
@@ -165,7 +165,7 @@ void Window::Impl::listen() {
     of(w).events.push_back(KeyPressed{static_cast<Key>(key), action != GLFW_RELEASE, action == GLFW_REPEAT,
                                       (modifiers & GLFW_MOD_SHIFT) != 0});
   });
-  glfwSetWindowCloseCallback(window, [](GLFWwindow* w) { of(w).events.push_back(CloseAsked{}); });
+  glfwSetWindowCloseCallback(window, [](GLFWwindow* w) { of(w).events.push_back(CloseRequested{}); });
 }
 
 Window::Window(const Options& options) : impl_(std::make_unique<Impl>(options)) {}
@@ -189,7 +189,7 @@ glm::ivec2 Window::framebufferSize_px() const {
   return px;
 }
 
-glm::ivec2 Window::placeOnPanel_px() const {
+glm::ivec2 Window::positionOnPanel_px() const {
   glm::ivec2 at{0}, corner{0};
   glfwGetWindowPos(impl_->window, &at.x, &at.y);
   if (GLFWmonitor* panel = impl_->panel()) glfwGetMonitorPos(panel, &corner.x, &corner.y);

@@ -59,9 +59,9 @@ struct KeyPressed {
   bool repeated = false;
   bool shift = false;
 };
-struct CloseAsked {};
+struct CloseRequested {};
 
-using WindowEvent = std::variant<PointerMoved, ButtonPressed, WheelTurned, KeyPressed, CloseAsked>;
+using WindowEvent = std::variant<PointerMoved, ButtonPressed, WheelTurned, KeyPressed, CloseRequested>;
 
 struct Monitor {
   std::string name;
@@ -84,7 +84,7 @@ class Window {
     bool visible = true;
     bool focused = true;             ///< takes the keyboard when it opens
     bool quad_buffer = false;        ///< left and right back buffers
-    const Window* beside = nullptr;  ///< shares textures with it
+    const Window* share_with = nullptr;  ///< shares textures with it
   };
 
   /// Throws GpuError without display, without OpenGL 4.5, without the stereo asked for or the monitor.
@@ -102,7 +102,7 @@ class Window {
   void setTitle(const std::string& title);
   glm::ivec2 framebufferSize_px() const;
   /// Top left of the framebuffer on the panel that shows most of it, px of the panel.
-  glm::ivec2 placeOnPanel_px() const;
+  glm::ivec2 positionOnPanel_px() const;
   /// Of that panel.
   double refresh_Hz() const;
 

@@ -19,10 +19,10 @@ void setMask(GLuint target, bool on) {
 void apply(const DrawState& state) {
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   state.depth_test ? glEnable(GL_DEPTH_TEST) : glDisable(GL_DEPTH_TEST);
-  glDepthFunc(state.at_same_depth ? GL_GEQUAL : GL_GREATER);
+  glDepthFunc(state.allow_equal_depth ? GL_GEQUAL : GL_GREATER);
   glDepthMask(state.depth_write ? GL_TRUE : GL_FALSE);
   glDisable(GL_BLEND);
-  if (state.lay_over) glEnablei(GL_BLEND, 0);
+  if (state.blend) glEnablei(GL_BLEND, 0);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glDisable(GL_CULL_FACE);
   glDisable(GL_FRAMEBUFFER_SRGB);

@@ -28,7 +28,7 @@ void FrameFence::wait() {
   sync_ = nullptr;
 }
 
-void FrameFence::follow() const {
+void FrameFence::waitOnGpu() const {
   if (sync_ != nullptr) glWaitSync(syncOf(sync_), 0, GL_TIMEOUT_IGNORED);
 }
 

@@ -1,4 +1,4 @@
-// Keeps the graphics card at most one picture behind: marked after a picture was handed over, waited for before the
+// Keeps the graphics card at most one image behind: marked after a image was handed over, waited for before the
 // hand is asked for the next. Thread: the context's. Cost: the wait itself; none where the card is ahead.
 #pragma once
 
@@ -16,7 +16,7 @@ class FrameFence {
   /// Until the mark is reached. At most a second: a lost context never gets there.
   void wait();
   /// Drawing asked for in the current context from now on comes after the mark, which another context may have set.
-  void follow() const;
+  void waitOnGpu() const;
 
  private:
   void* sync_ = nullptr;

@@ -14,12 +14,12 @@ Framebuffer::Framebuffer(glm::ivec2 size, std::span<const TexelFormat> colours, 
   std::vector<GLenum> buffers;
   for (const TexelFormat format : colours) {
     const GLenum attachment = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(colours_.size());
-    colours_.push_back(Texture::picture(size, format));
+    colours_.push_back(Texture::image(size, format));
     glNamedFramebufferTexture(name_.get(), attachment, colours_.back().name(), 0);
     buffers.push_back(attachment);
   }
   if (depth) {
-    depth_ = Texture::picture(size, TexelFormat::depth32f);
+    depth_ = Texture::image(size, TexelFormat::depth32f);
     glNamedFramebufferTexture(name_.get(), GL_DEPTH_ATTACHMENT, depth_.name(), 0);
   }
   glNamedFramebufferDrawBuffers(name_.get(), static_cast<GLsizei>(buffers.size()), buffers.data());

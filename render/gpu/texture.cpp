@@ -35,7 +35,7 @@ Texture::Texture(unsigned target, glm::ivec3 size, TexelFormat format)
   assert(size.x > 0 && size.y > 0 && size.z > 0);
 }
 
-Texture Texture::picture(glm::ivec2 size, TexelFormat format) {
+Texture Texture::image(glm::ivec2 size, TexelFormat format) {
   GLint largest = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
   if (size.x > largest || size.y > largest)
@@ -84,7 +84,7 @@ void Texture::upload(glm::ivec3 offset, glm::ivec3 extent, const std::byte* firs
   glPixelStorei(GL_UNPACK_IMAGE_HEIGHT, 0);
 }
 
-void Texture::uploadPicture(std::span<const std::byte> texels) {
+void Texture::uploadImage(std::span<const std::byte> texels) {
   const FormatFacts facts = factsOf(format_);
   assert(texels.size() == facts.bytes * static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y));
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);

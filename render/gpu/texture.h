@@ -15,7 +15,7 @@ enum class TexelFormat { r8ui, r32ui, rg16, r16, rgba8, rgba16f, r32f, depth32f 
 class Texture {
  public:
   Texture() = default;
-  static Texture picture(glm::ivec2 size, TexelFormat format);
+  static Texture image(glm::ivec2 size, TexelFormat format);
   /// Filtered linearly, except integers.
   static Texture volume(glm::ivec3 size, TexelFormat format);
 
@@ -23,8 +23,8 @@ class Texture {
   void upload(glm::ivec3 offset, glm::ivec3 extent, std::span<const std::byte> texels);
   /// The same out of a larger array: `row_texels` from one row to the next, `slice_rows` from one slice to the next.
   void upload(glm::ivec3 offset, glm::ivec3 extent, const std::byte* first, int row_texels, int slice_rows);
-  /// A whole picture, rows bottom first, tightly packed.
-  void uploadPicture(std::span<const std::byte> texels);
+  /// A whole image, rows bottom first, tightly packed.
+  void uploadImage(std::span<const std::byte> texels);
   void bind(int unit) const;
   /// As an image that a compute program writes.
   void bindForWriting(int image_unit) const;

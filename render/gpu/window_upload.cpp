@@ -1,15 +1,15 @@
 #include "render/gpu/window_upload.h"
 
-#include "render/gpu/window_picture.h"
+#include "render/gpu/window_image.h"
 
 namespace render {
 
-void WindowUpload::show(const Picture& picture, WindowPlace place) {
-  const glm::ivec2 size(picture.w, picture.h);
-  if (glm::ivec2(texture_.size()) != size) texture_ = Texture::picture(size, TexelFormat::rgba8);
-  texture_.uploadPicture(std::as_bytes(std::span(picture.rgba)));
+void WindowUpload::show(const Image& image, WindowTarget place) {
+  const glm::ivec2 size(image.w, image.h);
+  if (glm::ivec2(texture_.size()) != size) texture_ = Texture::image(size, TexelFormat::rgba8);
+  texture_.uploadImage(std::as_bytes(std::span(image.rgba)));
   place.flipped_y = !place.flipped_y;  // its rows come top first
-  showPictureOnWindow(texture_, place);
+  showImageOnWindow(texture_, place);
 }
 
 }  // namespace render

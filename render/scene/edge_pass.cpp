@@ -12,23 +12,23 @@ constexpr std::array kMaskTargets{TexelFormat::r8ui};
 
 }  // namespace
 
-void EdgePass::find(const Framebuffer& picture) {
-  mask_.fit(picture.size(), kMaskTargets, false);
-  picture.colour(DISTANCE_TARGET).bind(SCENE_DISTANCE_UNIT);
+void EdgePass::find(const Framebuffer& image) {
+  mask_.fit(image.size(), kMaskTargets, false);
+  image.colour(DISTANCE_TARGET).bind(SCENE_DISTANCE_UNIT);
   mask_.bind();
   drawScreen(find_, {.depth_test = false, .depth_write = false});
 }
 
-void EdgePass::bar(const Framebuffer& samples) {
+void EdgePass::rejectInterior(const Framebuffer& samples) {
   mask_.colour(0).bind(EDGE_MASK_UNIT);
   samples.bind();
-  drawScreen(bar_, {.write_colour = false});
+  drawScreen(reject_, {.write_colour = false});
 }
 
-void EdgePass::average(const Framebuffer& samples, const Framebuffer& picture) {
+void EdgePass::average(const Framebuffer& samples, const Framebuffer& image) {
   mask_.colour(0).bind(EDGE_MASK_UNIT);
   samples.colour(COLOUR_TARGET).bind(LAYER_LIGHT_UNIT);
-  picture.bind();
+  image.bind();
   drawScreen(average_, {.depth_test = false, .depth_write = false, .write_distance = false});
 }
 

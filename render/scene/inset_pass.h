@@ -1,4 +1,4 @@
-// Lays small pictures over an eye's light, so that the display shows them as they are: their sRGB goes back to light,
+// Lays small images over an eye's light, so that the display shows them as they are: their sRGB goes back to light,
 // and through the shoulder. Render thread; a textured rectangle each. Distances stay those of the scene.
 #pragma once
 
@@ -6,20 +6,20 @@
 
 #include "render/gpu/framebuffer.h"
 #include "render/gpu/program.h"
-#include "render/picture.h"
+#include "render/image.h"
 
 namespace render {
 
 class InsetPass {
  public:
-  struct Placed {
-    Texture picture;
-    glm::ivec2 first_px{0}, size_px{0};  ///< of the eye's picture, from its top left
+  struct GpuInset {
+    Texture image;
+    glm::ivec2 first_px{0}, size_px{0};  ///< of the eye's image, from its top left
   };
 
-  static Texture onGpu(const Picture& picture);
+  static Texture uploaded(const Image& image);
   /// `samples`: of the target along each edge of the eye's pixels.
-  void draw(std::span<const Placed> insets, const Framebuffer& target, int samples);
+  void draw(std::span<const GpuInset> insets, const Framebuffer& target, int samples);
 
  private:
   Program program_{"screen.vert", "inset.frag"};

@@ -7,7 +7,7 @@ namespace render {
 namespace {
 
 constexpr std::uint32_t kSides = 24;
-constexpr glm::vec4 kColour{0.90f, 0.36f, 0.05f, 1.0f};  // of the nerve in planning pictures
+constexpr glm::vec4 kColour{0.90f, 0.36f, 0.05f, 1.0f};  // of the nerve in planning images
 
 glm::dvec3 squareTo(const glm::dvec3& along) {
   const glm::dvec3 other = std::abs(along.z) < 0.8 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);

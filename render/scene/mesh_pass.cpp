@@ -8,7 +8,7 @@
 namespace render {
 namespace {
 
-Triangles onGpu(const assets::MeshPart& part) {
+Triangles uploaded(const assets::MeshPart& part) {
   std::vector<MeshVertex> vertices(part.position_mm.size());
   for (std::size_t v = 0; v < vertices.size(); ++v)
     vertices[v] = {.position_mm = part.position_mm[v],
@@ -22,7 +22,7 @@ Triangles onGpu(const assets::MeshPart& part) {
 SceneMesh::SceneMesh(const assets::MeshModel& model, Finish finish) : finish_(finish) {
   for (const assets::MeshPart& part : model.parts)
     if (!part.triangles.empty())
-      parts_.push_back({.triangles = onGpu(part), .material = part.material, .turns = part.name == "Bur"});
+      parts_.push_back({.triangles = uploaded(part), .material = part.material, .is_bur = part.name == "Bur"});
 }
 
 bool MeshPass::hasTransparent(const SceneMesh& mesh, float opacity) {
@@ -39,8 +39,8 @@ void MeshPass::draw(const SceneMesh& mesh, Parts parts, const Placement& placeme
          .mirrored = view_is_mirrored,
          .write_colour = !transparent,
          .write_distance = !transparent});
-  if (transparent && !clear_) clear_ = Program{"mesh.vert", "mesh_clear.frag"};
-  (transparent ? *clear_ : opaque_).use();
+  if (transparent && !transparent_parts_) transparent_parts_ = Program{"mesh.vert", "mesh_clear.frag"};
+  (transparent ? *transparent_parts_ : opaque_).use();
   const glm::dmat4 turned =
       placement.P_from_mesh * glm::rotate(glm::dmat4(1.0), placement.bur_angle_rad, glm::dvec3(0.0, 0.0, 1.0));
   for (const SceneMesh::Part& part : mesh.parts_) {
@@ -49,7 +49,7 @@ void MeshPass::draw(const SceneMesh& mesh, Parts parts, const Placement& placeme
     if ((colour.a < 1.0f) != transparent) continue;
     const float is_cut = mesh.finish_ == Finish::skin && part.material.metallic < 0.5f ? 1.0f : 0.0f;
     block_.set(PART_BLOCK,
-               {.P_from_mesh = glm::mat4(part.turns ? turned : placement.P_from_mesh),
+               {.P_from_mesh = glm::mat4(part.is_bur ? turned : placement.P_from_mesh),
                 .base_colour = colour,
                 .finish = {part.material.roughness, part.material.metallic, static_cast<float>(mesh.finish_), is_cut}});
     part.triangles.draw();

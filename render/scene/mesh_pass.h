@@ -1,5 +1,5 @@
-// Draws triangle meshes: face, gum, instrument. Frame P by a rigid pose given per draw. Render thread.
-// Opaque parts write depth and distance and come before the volume; transparent parts come after it, into ClearLists.
+// Draws triangle meshes: face, gingiva, instrument. Frame P by a rigid pose given per draw. Render thread.
+// Opaque parts write depth and distance and come before the volume; transparent parts come after it, into FragmentLists.
 // Parts of the face, but for metal (a retractor), open around the line from the eyes to the operating site (EyeBlock).
 // Nothing here is felt.
 #pragma once
@@ -23,7 +23,7 @@ struct PartBlock {
 };
 static_assert(sizeof(PartBlock) == 96);
 
-/// A model on the GPU. A part named "Bur" turns about the mesh's z axis.
+/// A model on the GPU. A part named "Bur" is_bur about the mesh's z axis.
 class SceneMesh {
  public:
   SceneMesh() = default;
@@ -34,7 +34,7 @@ class SceneMesh {
   struct Part {
     Triangles triangles;
     assets::Material material;
-    bool turns = false;
+    bool is_bur = false;
   };
   std::vector<Part> parts_;
   Finish finish_ = Finish::skin;
@@ -50,7 +50,7 @@ class MeshPass {
 
  private:
   Program opaque_{"mesh.vert", "mesh.frag"};
-  std::optional<Program> clear_;
+  std::optional<Program> transparent_parts_;
   UniformBlock<PartBlock> block_;
 };
 

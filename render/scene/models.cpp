@@ -19,7 +19,7 @@ Placements placementsIn(const Frame& frame) {
   const Layers& layers = frame.layers;
   const auto shown = [](bool is_shown) { return is_shown ? 1.0f : 0.0f; };
   return {{{{.opacity = layers.face_opacity},
-            {.opacity = shown(layers.gum)},
+            {.opacity = shown(layers.gingiva)},
             {frame.X_PT.matrix(), frame.bur_angle_rad, shown(frame.tool_visible)},
             {.P_from_mesh = frame.X_PO.matrix(), .opacity = shown(frame.second_visible)},
             {.opacity = shown(layers.mandibular_canal)},

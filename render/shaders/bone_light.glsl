@@ -7,5 +7,5 @@
 vec3 boneLight(vec3 index, vec3 p_P, vec3 direction) {
   vec3 normal = surfaceNormal(index);
   Surface surface = tissueSurface(index, normal, p_P);
-  return lit(surface, p_P, normal, -direction, shadeFromVolume(p_P, normal));
+  return lit(surface, p_P, normal, -direction, visibilityFromVolume(p_P, normal));
 }

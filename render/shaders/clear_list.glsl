@@ -4,16 +4,16 @@
 
 const uint kEnd = 0xffffffffu;
 
-struct ClearPlace {
+struct Fragment {
   uvec2 light;         // four halves: colour, not premultiplied, and opacity
   float distance_mm;
   uint next;
 };
 
-layout(std430, binding = CLEAR_LIST) buffer ClearList {
+layout(std430, binding = FRAGMENT_LIST) buffer FragmentList {
   uint count;
   uint capacity;
-  ClearPlace place[];
-} clear_list;
+  Fragment place[];
+} fragment_list;
 
-layout(binding = CLEAR_HEADS_IMAGE, r32ui) uniform uimage2D clear_heads;
+layout(binding = FRAGMENT_HEADS_IMAGE, r32ui) uniform uimage2D fragment_heads;

@@ -13,7 +13,7 @@ const int kLongest = 128;
 bool liesBefore(uvec3 a, uvec3 b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; }
 
 void main() {
-  uint first = imageLoad(clear_heads, ivec2(gl_FragCoord.xy)).r;
+  uint first = imageLoad(fragment_heads, ivec2(gl_FragCoord.xy)).r;
   if (first == kEnd) discard;
   colour = vec4(0.0);
 
@@ -22,9 +22,9 @@ void main() {
   for (int n = 0; n < kMost; ++n) {
     uvec3 nearest = uvec3(kEnd);
     uint at = first;
-    for (int i = 0; i < kLongest && at != kEnd; ++i, at = clear_list.place[at].next) {
+    for (int i = 0; i < kLongest && at != kEnd; ++i, at = fragment_list.place[at].next) {
       // Floats above zero are ordered as their bits.
-      uvec3 place = uvec3(floatBitsToUint(clear_list.place[at].distance_mm), clear_list.place[at].light);
+      uvec3 place = uvec3(floatBitsToUint(fragment_list.place[at].distance_mm), fragment_list.place[at].light);
       if (liesBefore(last, place) && liesBefore(place, nearest)) nearest = place;
     }
     if (nearest.x == kEnd) break;

@@ -1,5 +1,5 @@
 #version 450
-// 1 where antialiasing draws the pixel again. At the border of the picture the missing neighbour counts as straight on.
+// 1 where antialiasing draws the pixel again. At the border of the image the missing neighbour counts as straight on.
 #include "shared_numbers.glsl"
 #include "edge_rule.glsl"
 

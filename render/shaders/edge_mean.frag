@@ -14,5 +14,5 @@ void main() {
   for (int j = 0; j < EDGE_SAMPLES; ++j)
     for (int i = 0; i < EDGE_SAMPLES; ++i)
       sum += shoulder(texelFetch(samples, pixel * EDGE_SAMPLES + ivec2(i, j), 0).rgb);
-  colour = vec4(beforeShoulder(sum / float(EDGE_SAMPLES * EDGE_SAMPLES)), 1.0);
+  colour = vec4(inverseShoulder(sum / float(EDGE_SAMPLES * EDGE_SAMPLES)), 1.0);
 }

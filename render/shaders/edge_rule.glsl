@@ -1,5 +1,5 @@
 // Which pixels lie at an edge and are drawn again with 2x2 samples. A plane's inverse distance runs straight through the
-// picture, so what a surface's slope explains leaves no bend; a step does. Twin: render/cpu/edges.h.
+// image, so what a surface's slope explains leaves no bend; a step does. Twin: render/cpu/edges.h.
 #include "light_numbers.glsl"
 
 // Of a pixel and two neighbours on opposite sides, mm along their rays, 0 where nothing is met.

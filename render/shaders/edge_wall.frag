@@ -1,5 +1,5 @@
 #version 450
-// In a picture of 2x2 samples per pixel: a wall before the eye wherever the pixel is no edge, so that nothing is drawn
+// In a image of 2x2 samples per pixel: a wall before the eye wherever the pixel is no edge, so that nothing is drawn
 // there again and no ray sets out.
 #include "shared_numbers.glsl"
 

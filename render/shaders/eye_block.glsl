@@ -5,7 +5,7 @@ layout(std140, binding = EYE_BLOCK) uniform EyeBlock {
   mat4 clip_from_P;      // reverse-Z, 0..1
   vec4 eye_P;
   vec4 lower_left_P;     // corner of the virtual screen
-  vec4 right_edge_P;     // from there along the picture's rows …
+  vec4 right_edge_P;     // from there along the image's rows …
   vec4 up_edge_P;        // … and up its columns
   vec4 lamp_P;           // w: distance at which the lamp gives its nominal light
   vec4 lamp_axis_P;      // unit, from the lamp
@@ -14,7 +14,7 @@ layout(std140, binding = EYE_BLOCK) uniform EyeBlock {
   vec4 window_site_P;    // … to here; w: its radius, 0 for none
 } eye;
 
-// Unit direction from the eye through a place on the picture, 0..1 from its lower left.
+// Unit direction from the eye through a place on the image, 0..1 from its lower left.
 vec3 rayDirection(vec2 place) {
   return normalize(eye.lower_left_P.xyz - eye.eye_P.xyz + place.x * eye.right_edge_P.xyz + place.y * eye.up_edge_P.xyz);
 }

@@ -1,10 +1,10 @@
 #version 450
-// A small picture laid over the scene: the light that the output pass will turn back into these very values.
+// A small image laid over the scene: the light that the output pass will turn back into these very values.
 #include "shared_numbers.glsl"
 #include "shoulder.glsl"
 
 layout(binding = INSET_UNIT) uniform sampler2D inset;  // rows top first
-layout(location = 0) in vec2 place;
+layout(location = 0) in vec2 uv;
 layout(location = COLOUR_TARGET) out vec4 colour;
 
 // IEC 61966-2-1.
@@ -14,6 +14,6 @@ vec3 lightOf(vec3 srgb) {
 
 void main() {
   ivec2 size = textureSize(inset, 0);
-  ivec2 texel = clamp(ivec2(vec2(place.x, 1.0 - place.y) * vec2(size)), ivec2(0), size - 1);
-  colour = vec4(beforeShoulder(lightOf(texelFetch(inset, texel, 0).rgb)), 1.0);
+  ivec2 texel = clamp(ivec2(vec2(uv.x, 1.0 - uv.y) * vec2(size)), ivec2(0), size - 1);
+  colour = vec4(inverseShoulder(lightOf(texelFetch(inset, texel, 0).rgb)), 1.0);
 }

@@ -32,7 +32,7 @@
 #define BOUNCE_B -4.7951f, 0.6417f
 #define BOUNCE_C 2.7552f, 0.6903f
 
-// Soft shade from the map of crowding.
+// Soft visibility from the map of crowding.
 #define CONE_FIRST_CELLS 1.5f       // the first place along a cone, at least, in cells …
 #define CONE_FIRST_MM 1.2f          // … and in mm
 #define CONE_SECOND 2.2f            // the next, in lengths to the first
@@ -40,27 +40,27 @@
 #define CONE_SECOND_SHADE 0.85f
 #define CONE_THIRD_SHADE 0.6f
 #define CONE_TILT 0.70710678f
-#define LAMP_PLACES 9
+#define LAMP_SAMPLES 9
 #define LAMP_STEP_GROWTH 1.4f
 #define LAMP_LIFT 0.8f              // off the surface, in lengths to the first place
 #define LAMP_CLEAR 0.15f
 #define LAMP_BLOCKED 0.85f
-#define LAMP_LEFT 0.06f             // what reaches the darkest place
+#define LAMP_MIN 0.06f             // what reaches the darkest place
 
 // Meshes.
-#define ROUGHNESS_LEAST 0.06f
+#define MIN_ROUGHNESS 0.06f
 #define MESH_F0 0.04f
-#define MESH_LIFT 0.5f              // mm off the surface, where its shade is looked up
+#define MESH_LIFT 0.5f              // mm off the surface, where its visibility is looked up
 #define RIM_BEHIND 2.0f             // mm before the site where the window in the face ends
 #define RIM_WIDTH 2.5f              // mm of darker, redder cut edge around it
 #define RIM_TINT 0.45f, 0.14f, 0.11f
 #define SKIN_WRAP 0.35f
 #define SKIN_F0 0.028f
-#define GUM_WRAP 0.30f
-#define GUM_F0 0.030f
-#define GUM_SCATTER 1.0f, 0.35f, 0.30f
-#define STEEL_AMBIENT_LEAST 0.45f   // steel in a cavity still mirrors its bright mouth
-#define STEEL_LAMP_LEAST 0.35f
+#define GINGIVA_WRAP 0.30f
+#define GINGIVA_F0 0.030f
+#define GINGIVA_SCATTER 1.0f, 0.35f, 0.30f
+#define STEEL_MIN_AMBIENT 0.45f   // steel in a cavity still mirrors its bright mouth
+#define STEEL_MIN_LAMP 0.35f
 #define INSIDE_AMBIENT 0.45f        // of a mesh seen from behind
 #define INSIDE_LAMP 0.35f
 
@@ -73,8 +73,8 @@
 
 // Translucent tooth and bone.
 #define DVR_OPAQUE 0.98f            // what lies behind is not looked for
-#define DVR_SOLID 0.5f              // where so much light is stopped lies the distance of the picture
-#define DVR_FULL_FALL 0.25f         // fall of the smoothed field over two voxels that counts as a surface
+#define DVR_SOLID 0.5f              // where so much light is stopped lies the distance of the image
+#define DVR_FULL_GRADIENT 0.25f         // fall of the smoothed field over two voxels that counts as a surface
 #define DVR_INNER_LAMBERT 0.45f     // how matter without a surface takes the lamp's light
 
 #define SHOULDER_KNEE 0.70f         // up to here light is shown as it is; above it rolls off towards white

@@ -12,7 +12,7 @@ struct Surface {
   vec3 scatter;         // colour of the light that creeps
 };
 
-struct Shade {
+struct Visibility {
   float ambient;        // 1: nothing around it
   float lamp;           // 1: nothing between it and the lamp
 };
@@ -55,7 +55,7 @@ vec3 bouncedAmbient(float open, vec3 albedo) {
   return max(vec3(open), ((open * a + b) * open + c) * open);
 }
 
-vec3 lit(Surface s, vec3 p_P, vec3 normal, vec3 to_eye, Shade shade) {
+vec3 lit(Surface s, vec3 p_P, vec3 normal, vec3 to_eye, Visibility visibility) {
   vec3 lamp_offset = eye.lamp_P.xyz - p_P;
   float lamp_distance = length(lamp_offset);
   vec3 to_lamp = lamp_offset / lamp_distance;
@@ -72,12 +72,12 @@ vec3 lit(Surface s, vec3 p_P, vec3 normal, vec3 to_eye, Shade shade) {
   vec3 highlight = fresnel * (a2 / (3.14159265 * d * d)) * smith * lambert;
   float wrapped = max(n_l + s.wrap, 0.0) / (1.0 + s.wrap);
   vec3 diffuse = s.albedo / 3.14159265 * wrapped * mix(s.scatter, vec3(1.0), smoothstep(-s.wrap, 0.5, n_l));
-  vec3 light = (diffuse + highlight) * lampRadiance(p_P, to_lamp, lamp_distance) * shade.lamp;
+  vec3 light = (diffuse + highlight) * lampRadiance(p_P, to_lamp, lamp_distance) * visibility.lamp;
 
   // The room.
   float sky = 0.5 + 0.5 * dot(normal, eye.up_P.xyz);
-  light += s.albedo * mix(kFloorLight, kSkyLight, sky) * bouncedAmbient(shade.ambient, s.albedo);
+  light += s.albedo * mix(kFloorLight, kSkyLight, sky) * bouncedAmbient(visibility.ambient, s.albedo);
   vec3 mirrored = reflect(-to_eye, normal);
-  light += ambientSpecular(s.f0, s.roughness, n_v) * surroundings(mirrored, s.roughness) * shade.ambient;
+  light += ambientSpecular(s.f0, s.roughness, n_v) * surroundings(mirrored, s.roughness) * visibility.ambient;
   return light;
 }

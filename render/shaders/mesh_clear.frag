@@ -8,8 +8,8 @@ layout(early_fragment_tests) in;
 void main() {
   vec4 colour = meshColour();
   if (gl_HelperInvocation) return;
-  uint at = atomicAdd(clear_list.count, 1u);
-  if (at >= clear_list.capacity) return;
-  uint next = imageAtomicExchange(clear_heads, ivec2(gl_FragCoord.xy), at);
-  clear_list.place[at] = ClearPlace(uvec2(packHalf2x16(colour.rg), packHalf2x16(colour.ba)), distance(p_P, eye.eye_P.xyz), next);
+  uint at = atomicAdd(fragment_list.count, 1u);
+  if (at >= fragment_list.capacity) return;
+  uint next = imageAtomicExchange(fragment_heads, ivec2(gl_FragCoord.xy), at);
+  fragment_list.place[at] = Fragment(uvec2(packHalf2x16(colour.rg), packHalf2x16(colour.ba)), distance(p_P, eye.eye_P.xyz), next);
 }

@@ -1,4 +1,4 @@
-// Skin, gum and steel under the light. Both sides are drawn; the face opens around the line from the eye to the operating
+// Skin, gingiva and steel under the light. Both sides are drawn; the face opens around the line from the eye to the operating
 // site.
 #include "part_block.glsl"
 #include "guide_numbers.glsl"
@@ -39,7 +39,7 @@ vec4 meshColour() {
 
   float metallic = part.finish.y;
   Surface s;
-  s.roughness = clamp(part.finish.x, ROUGHNESS_LEAST, 1.0);
+  s.roughness = clamp(part.finish.x, MIN_ROUGHNESS, 1.0);
   s.albedo = base.rgb * (1.0 - metallic);
   s.f0 = mix(vec3(MESH_F0), base.rgb, metallic);
   s.wrap = 0.0;
@@ -50,23 +50,23 @@ vec4 meshColour() {
     vec3 hue = s.albedo / max(max(s.albedo.r, s.albedo.g), max(s.albedo.b, 1e-3));
     s.scatter = hue * hue;
     s.albedo = mix(s.albedo * vec3(RIM_TINT), s.albedo, rim);
-  } else if (finish == FINISH_GUM) {
-    s.wrap = GUM_WRAP;
-    s.f0 = vec3(GUM_F0);
-    s.scatter = vec3(GUM_SCATTER);
+  } else if (finish == FINISH_GINGIVA) {
+    s.wrap = GINGIVA_WRAP;
+    s.f0 = vec3(GINGIVA_F0);
+    s.scatter = vec3(GINGIVA_SCATTER);
   }
   if (finish == FINISH_GUIDE) {
     // Lit from everywhere: it is no part of the patient and shows inside the bone.
     float facing = abs(dot(normal, to_eye));
     return vec4(base.rgb * mix(GUIDE_DARKEST, 1.0, facing), base.a);
   }
-  Shade shade = shadeFromVolume(p_P + MESH_LIFT * normal, normal);
+  Visibility visibility = visibilityFromVolume(p_P + MESH_LIFT * normal, normal);
   if (finish == FINISH_INSTRUMENT) {
     // Steel in a cavity still mirrors its bright mouth.
-    shade.ambient = mix(STEEL_AMBIENT_LEAST, 1.0, shade.ambient);
-    shade.lamp = mix(STEEL_LAMP_LEAST, 1.0, shade.lamp);
+    visibility.ambient = mix(STEEL_MIN_AMBIENT, 1.0, visibility.ambient);
+    visibility.lamp = mix(STEEL_MIN_LAMP, 1.0, visibility.lamp);
   }
-  shade.ambient *= gl_FrontFacing ? 1.0 : INSIDE_AMBIENT;
-  shade.lamp *= gl_FrontFacing ? 1.0 : INSIDE_LAMP;
-  return vec4(lit(s, p_P, normal, to_eye, shade), base.a);
+  visibility.ambient *= gl_FrontFacing ? 1.0 : INSIDE_AMBIENT;
+  visibility.lamp *= gl_FrontFacing ? 1.0 : INSIDE_LAMP;
+  return vec4(lit(s, p_P, normal, to_eye, visibility), base.a);
 }

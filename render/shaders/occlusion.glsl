@@ -1,13 +1,13 @@
-// Soft shade from the coarse ambient map of the volume, so that a carved hole reads as a hole: five cones for the room
+// Soft visibility from the coarse ambient map of the volume, so that a carved hole reads as a hole: five cones for the room
 // (after Crassin et al. 2011, voxel cone tracing), one march towards the lamp.
 #include "volume_block.glsl"
 #include "lighting.glsl"
 
 // Share of a cone of about 45 degrees that is open, by the crowding of three places along it.
 float coneOpenness(vec3 index, vec3 direction, float first) {
-  float near = crowdingAt(index + first * direction);
-  float middle = crowdingAt(index + CONE_SECOND * first * direction);
-  float far = crowdingAt(index + CONE_THIRD * first * direction);
+  float near = densityAt(index + first * direction);
+  float middle = densityAt(index + CONE_SECOND * first * direction);
+  float far = densityAt(index + CONE_THIRD * first * direction);
   return (1.0 - near) * (1.0 - CONE_SECOND_SHADE * middle) * (1.0 - CONE_THIRD_SHADE * far);
 }
 
@@ -28,19 +28,19 @@ float openness(vec3 index, vec3 normal, float first) {
 float lampThrough(vec3 index, vec3 normal, vec3 to_lamp, float first) {
   float through = 1.0;
   float t = first;
-  for (int i = 0; i < LAMP_PLACES; ++i) {
-    through *= 1.0 - smoothstep(LAMP_CLEAR, LAMP_BLOCKED, crowdingAt(index + LAMP_LIFT * first * normal + t * to_lamp));
+  for (int i = 0; i < LAMP_SAMPLES; ++i) {
+    through *= 1.0 - smoothstep(LAMP_CLEAR, LAMP_BLOCKED, densityAt(index + LAMP_LIFT * first * normal + t * to_lamp));
     t *= LAMP_STEP_GROWTH;
   }
-  return mix(LAMP_LEFT, 1.0, through);
+  return mix(LAMP_MIN, 1.0, through);
 }
 
-Shade shadeFromVolume(vec3 p_P, vec3 normal) {
-  Shade shade = Shade(1.0, 1.0);
-  if (volume.ambient_size.x == 0) return shade;
+Visibility visibilityFromVolume(vec3 p_P, vec3 normal) {
+  Visibility visibility = Visibility(1.0, 1.0);
+  if (volume.ambient_size.x == 0) return visibility;
   vec3 index = indexFromPoint(p_P);
   float first = max(CONE_FIRST_CELLS * float(AMBIENT_CELL_VOXELS), CONE_FIRST_MM / volume.origin_P.w);
-  if (volume.march.y > 0.0) shade.ambient = openness(index, normal, first);
-  if (volume.march.z > 0.0) shade.lamp = lampThrough(index, normal, normalize(eye.lamp_P.xyz - p_P), first);
-  return shade;
+  if (volume.march.y > 0.0) visibility.ambient = openness(index, normal, first);
+  if (volume.march.z > 0.0) visibility.lamp = lampThrough(index, normal, normalize(eye.lamp_P.xyz - p_P), first);
+  return visibility;
 }

@@ -1,6 +1,6 @@
 #version 450
 // The last pass: averages the samples of each pixel in linear light, gives every pixel of the display the eye it is
-// for, and encodes sRGB, once. An eye's picture with fewer pixels than its place is stretched bilinearly.
+// for, and encodes sRGB, once. An eye's image with fewer pixels than its place is stretched bilinearly.
 #include "shared_numbers.glsl"
 #include "shoulder.glsl"
 #include "stereo_layout.glsl"
@@ -8,7 +8,7 @@
 layout(std140, binding = OUTPUT_BLOCK) uniform OutputBlock {
   ivec4 mode;     // x: DISPLAY_…, y: samples along each edge of a pixel, z: second output, w: eyes swapped
   ivec4 place;    // xy: the output's place on the panel, zw: size of the output, px
-  ivec4 eye;      // xy: size of an eye's picture, z: blank lines of a packed frame
+  ivec4 eye;      // xy: size of an eye's image, z: blank lines of a packed frame
 } job;
 
 layout(binding = LEFT_EYE_UNIT) uniform sampler2D left_eye;
@@ -17,25 +17,25 @@ layout(location = 0) in vec2 place;
 layout(location = 0) out vec4 colour;
 
 // A drawn pixel, from the lower left; beyond the edge the edge.
-vec3 resolved(sampler2D picture, ivec2 size, ivec2 pixel) {
+vec3 resolved(sampler2D image, ivec2 size, ivec2 pixel) {
   pixel = clamp(pixel, ivec2(0), size - 1);
   vec3 sum = vec3(0.0);
   for (int j = 0; j < job.mode.y; ++j)
     for (int i = 0; i < job.mode.y; ++i)
-      sum += shoulder(texelFetch(picture, pixel * job.mode.y + ivec2(i, j), 0).rgb);
+      sum += shoulder(texelFetch(image, pixel * job.mode.y + ivec2(i, j), 0).rgb);
   return sum / float(job.mode.y * job.mode.y);
 }
 
-// The eye's picture at a pixel of its place, from the top left.
-vec3 seen(sampler2D picture, ivec2 px) {
-  ivec2 size = textureSize(picture, 0) / job.mode.y;
+// The eye's image at a pixel of its place, from the top left.
+vec3 seen(sampler2D image, ivec2 px) {
+  ivec2 size = textureSize(image, 0) / job.mode.y;
   px.y = job.eye.y - 1 - px.y;
-  if (size == job.eye.xy) return resolved(picture, size, px);
+  if (size == job.eye.xy) return resolved(image, size, px);
   vec2 at = (vec2(px) + 0.5) * vec2(size) / vec2(job.eye.xy) - 0.5;
   ivec2 low = ivec2(floor(at));
   vec2 part = at - vec2(low);
-  return mix(mix(resolved(picture, size, low), resolved(picture, size, low + ivec2(1, 0)), part.x),
-             mix(resolved(picture, size, low + ivec2(0, 1)), resolved(picture, size, low + ivec2(1, 1)), part.x),
+  return mix(mix(resolved(image, size, low), resolved(image, size, low + ivec2(1, 0)), part.x),
+             mix(resolved(image, size, low + ivec2(0, 1)), resolved(image, size, low + ivec2(1, 1)), part.x),
              part.y);
 }
 
@@ -46,10 +46,10 @@ vec3 srgb(vec3 x) {
 
 vec3 light() {
   ivec2 px = ivec2(int(gl_FragCoord.x), job.place.w - 1 - int(gl_FragCoord.y));
-  ShownPixel shown = shownAt(job.mode.x, px, job.place.xy, job.eye.xy, job.eye.z, job.mode.z != 0, job.mode.w != 0);
-  if (shown.eye == SHOWN_BLACK) return vec3(0.0);
-  if (shown.eye == SHOWN_RIGHT) return seen(right_eye, shown.px);
-  if (shown.eye != SHOWN_BOTH) return seen(left_eye, shown.px);
+  SourcePixel shown = sourcePixelAt(job.mode.x, px, job.place.xy, job.eye.xy, job.eye.z, job.mode.z != 0, job.mode.w != 0);
+  if (shown.eye == SOURCE_BLACK) return vec3(0.0);
+  if (shown.eye == SOURCE_RIGHT) return seen(right_eye, shown.px);
+  if (shown.eye != SOURCE_BOTH) return seen(left_eye, shown.px);
   vec3 left = seen(left_eye, shown.px), right = seen(right_eye, shown.px);
   return job.mode.w != 0 ? anaglyph(job.mode.x, right, left) : anaglyph(job.mode.x, left, right);
 }

@@ -17,9 +17,9 @@ float castRay(vec3 origin, vec3 direction, float limit) {
   int k = 0;
   bool found = false;
   while (k <= last) {
-    vec3 place = entry + (float(k) * step) * direction;
-    if (skips(k, place, entry, direction)) continue;
-    if (solidAt(place) >= kIso) {
+    vec3 position = entry + (float(k) * step) * direction;
+    if (skips(k, position, entry, direction)) continue;
+    if (solidAt(position) >= kIso) {
       found = true;
       break;
     }
@@ -41,7 +41,7 @@ float castRay(vec3 origin, vec3 direction, float limit) {
 }
 
 // Outward normal of the surface.
-vec3 surfaceNormal(vec3 place) {
-  vec3 fall = fallAt(place);
-  return fall * inversesqrt(max(dot(fall, fall), 1e-12));
+vec3 surfaceNormal(vec3 position) {
+  vec3 gradient = outwardGradientAt(position);
+  return gradient * inversesqrt(max(dot(gradient, gradient), 1e-12));
 }

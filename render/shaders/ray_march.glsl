@@ -13,9 +13,9 @@ vec2 spanInVolume(vec3 origin, vec3 direction) {
   return vec2(max(max(low.x, low.y), max(low.z, 0.0)), min(high.x, min(high.y, high.z)));
 }
 
-// Length from `entry` to the end of the empty bricks around `place`; 0 where the brick is occupied.
-float emptyLength(vec3 place, vec3 entry, vec3 direction) {
-  ivec3 brick = clamp(ivec3(floor(place)) / BRICK_VOXELS, ivec3(0), volume.bricks.xyz - 1);
+// Length from `entry` to the end of the empty bricks around `position`; 0 where the brick is occupied.
+float emptyLength(vec3 position, vec3 entry, vec3 direction) {
+  ivec3 brick = clamp(ivec3(floor(position)) / BRICK_VOXELS, ivec3(0), volume.bricks.xyz - 1);
   int bricks_to_solid = int(texelFetch(emptiness, brick, 0).r);
   if (bricks_to_solid == 0) return 0.0;
   vec3 low = vec3((brick - bricks_to_solid + 1) * BRICK_VOXELS), high = vec3((brick + bricks_to_solid) * BRICK_VOXELS);
@@ -24,18 +24,18 @@ float emptyLength(vec3 place, vec3 entry, vec3 direction) {
   return min(leave.x, min(leave.y, leave.z)) - kGuard;
 }
 
-// Whether the sample numbered k, at `place`, lies in empty bricks; k goes on to the first sample behind them.
-bool skips(inout int k, vec3 place, vec3 entry, vec3 direction) {
+// Whether the sample numbered k, at `position`, lies in empty bricks; k goes on to the first sample behind them.
+bool skips(inout int k, vec3 position, vec3 entry, vec3 direction) {
   if (volume.size.w == 0) return false;
-  float leave = emptyLength(place, entry, direction);
+  float leave = emptyLength(position, entry, direction);
   if (leave == 0.0) return false;
   k = max(k + 1, int(ceil(leave / volume.march.x)));
   return true;
 }
 
 // Towards air, as long as the smoothed field falls over two voxels: central differences, so that no voxel is a terrace.
-vec3 fallAt(vec3 place) {
+vec3 outwardGradientAt(vec3 position) {
   const vec2 h = vec2(1.0, 0.0);
-  return vec3(smoothAt(place - h.xyy) - smoothAt(place + h.xyy), smoothAt(place - h.yxy) - smoothAt(place + h.yxy),
-              smoothAt(place - h.yyx) - smoothAt(place + h.yyx));
+  return vec3(smoothAt(position - h.xyy) - smoothAt(position + h.xyy), smoothAt(position - h.yxy) - smoothAt(position + h.yxy),
+              smoothAt(position - h.yyx) - smoothAt(position + h.yyx));
 }

@@ -10,20 +10,20 @@ struct Gathered {
   float reach;      // where half of the light is stopped; negative where that never happens
 };
 
-float opacityPerMm(vec3 place) {
-  float share = clamp((solidAt(place) - transfer.ramp.x) * transfer.ramp.y, 0.0, 1.0);
-  return share > 0.0 ? share * transfer.opacity_per_mm[labelAt(place)].x : 0.0;
+float opacityPerMm(vec3 position) {
+  float share = clamp((solidAt(position) - transfer.ramp.x) * transfer.ramp.y, 0.0, 1.0);
+  return share > 0.0 ? share * transfer.opacity_per_mm[labelAt(position)].x : 0.0;
 }
 
 // Light of the lamp, taken once per ray, and of the room on matter; where there is no surface all sides count alike.
-vec3 scattered(vec3 place, vec3 to_lamp, vec3 lamp_light) {
-  vec3 fall = fallAt(place);
-  float steep = length(fall);
-  vec3 normal = fall / max(steep, 1e-6);
-  float surface = min(steep / DVR_FULL_FALL, 1.0);
+vec3 scattered(vec3 position, vec3 to_lamp, vec3 lamp_light) {
+  vec3 gradient = outwardGradientAt(position);
+  float steep = length(gradient);
+  vec3 normal = gradient / max(steep, 1e-6);
+  float surface = min(steep / DVR_FULL_GRADIENT, 1.0);
   float lambert = mix(DVR_INNER_LAMBERT, max(dot(normal, to_lamp), 0.0), surface);
   float sky = 0.5 + 0.5 * surface * dot(normal, eye.up_P.xyz);
-  return planned(lookAt(place).rgb, place) * (lambert / 3.14159265 * lamp_light + mix(kFloorLight, kSkyLight, sky));
+  return planned(appearanceAt(position).rgb, position) * (lambert / 3.14159265 * lamp_light + mix(kFloorLight, kSkyLight, sky));
 }
 
 Gathered gatherAlong(vec3 origin, vec3 direction, float limit) {
@@ -43,12 +43,12 @@ Gathered gatherAlong(vec3 origin, vec3 direction, float limit) {
 
   int k = 0;
   while (k <= last && gathered.light.a < DVR_OPAQUE) {
-    vec3 place = entry + (float(k) * step) * direction;
-    if (skips(k, place, entry, direction)) continue;
-    float per_mm = opacityPerMm(place);
+    vec3 position = entry + (float(k) * step) * direction;
+    if (skips(k, position, entry, direction)) continue;
+    float per_mm = opacityPerMm(position);
     if (per_mm > 0.0) {
       float share = (1.0 - gathered.light.a) * (1.0 - pow(1.0 - per_mm, step_mm));
-      gathered.light += share * vec4(scattered(place, to_lamp, lamp_light), 1.0);
+      gathered.light += share * vec4(scattered(position, to_lamp, lamp_light), 1.0);
       if (gathered.reach < 0.0 && gathered.light.a >= DVR_SOLID) gathered.reach = span.x + float(k) * step;
     }
     ++k;

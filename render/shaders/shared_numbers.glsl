@@ -9,8 +9,8 @@
 #define OUTPUT_BLOCK 3
 #define TRANSFER_BLOCK 4
 
-#define CLEAR_LIST 0             // storage buffers
-#define CLEAR_HEADS_IMAGE 2      // images, beside the targets
+#define FRAGMENT_LIST 0             // storage buffers
+#define FRAGMENT_HEADS_IMAGE 2      // images, beside the targets
 
 #define SOLID_UNIT 0             // texture units
 #define LABEL_UNIT 1
@@ -20,7 +20,7 @@
 #define LEFT_EYE_UNIT 5
 #define RIGHT_EYE_UNIT 6
 #define SMOOTH_UNIT 7
-#define LOOK_UNIT 8
+#define APPEARANCE_UNIT 8
 #define LAYER_LIGHT_UNIT 9
 #define LAYER_DISTANCE_UNIT 10
 #define EDGE_MASK_UNIT 11
@@ -35,7 +35,7 @@
 #define DISTANCE_TARGET 1
 
 #define FINISH_SKIN 0            // how a mesh is shaded
-#define FINISH_GUM 1
+#define FINISH_GINGIVA 1
 #define FINISH_INSTRUMENT 2
 #define FINISH_GUIDE 3
 
@@ -53,11 +53,11 @@
 #define DISPLAY_ANAGLYPH 11
 #define DISPLAY_ANAGLYPH_RED_CYAN 12
 
-#define SHOWN_BLACK 0            // what a pixel of the output shows, render::Shown
-#define SHOWN_LEFT 1
-#define SHOWN_RIGHT 2
-#define SHOWN_CYCLOPEAN 3
-#define SHOWN_BOTH 4
+#define SOURCE_BLACK 0            // what a pixel of the output shows, render::Shown
+#define SOURCE_LEFT 1
+#define SOURCE_RIGHT 2
+#define SOURCE_CYCLOPEAN 3
+#define SOURCE_BOTH 4
 
 #define VIEW_ISO 0               // how tooth and bone are drawn
 #define VIEW_DVR 1

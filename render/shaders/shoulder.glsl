@@ -7,7 +7,7 @@ vec3 shoulder(vec3 x) {
 }
 
 // The light that the shoulder brings to y < 1.
-vec3 beforeShoulder(vec3 y) {
+vec3 inverseShoulder(vec3 y) {
   vec3 risen = clamp((y - SHOULDER_KNEE) / (1.0 - SHOULDER_KNEE), 0.0, 0.999);
   return min(y, SHOULDER_KNEE) + (1.0 - SHOULDER_KNEE) * (risen / (1.0 - risen));
 }

@@ -2,16 +2,16 @@
 // count from the top left.
 #include "anaglyph_numbers.glsl"
 
-struct ShownPixel {
+struct SourcePixel {
   int eye;   // SHOWN_…
-  ivec2 px;  // in the eye's picture
+  ivec2 px;  // in the eye's image
 };
 
-// `at`: the output's place on the panel. `eye_px`: size of an eye's picture. `gap`: blank lines of a packed frame.
+// `at`: the output's place on the panel. `eye_px`: size of an eye's image. `gap`: blank lines of a packed frame.
 // `second_output`: the right eye's buffer or window. `swapped`: the display shows left for right.
-ShownPixel shownAt(int mode, ivec2 px, ivec2 at, ivec2 eye_px, int gap, bool second_output, bool swapped) {
-  if (mode == DISPLAY_MONO) return ShownPixel(SHOWN_CYCLOPEAN, px);
-  if (mode == DISPLAY_ANAGLYPH || mode == DISPLAY_ANAGLYPH_RED_CYAN) return ShownPixel(SHOWN_BOTH, px);
+SourcePixel sourcePixelAt(int mode, ivec2 px, ivec2 at, ivec2 eye_px, int gap, bool second_output, bool swapped) {
+  if (mode == DISPLAY_MONO) return SourcePixel(SOURCE_CYCLOPEAN, px);
+  if (mode == DISPLAY_ANAGLYPH || mode == DISPLAY_ANAGLYPH_RED_CYAN) return SourcePixel(SOURCE_BOTH, px);
   ivec2 place = px + at;
   bool second = second_output;
   if (mode == DISPLAY_SIDE_BY_SIDE || mode == DISPLAY_SIDE_BY_SIDE_FULL) {
@@ -28,8 +28,8 @@ ShownPixel shownAt(int mode, ivec2 px, ivec2 at, ivec2 eye_px, int gap, bool sec
   } else if (mode == DISPLAY_CHECKERBOARD) {
     second = ((place.x + place.y) & 1) != 0;
   }
-  if (any(lessThan(px, ivec2(0))) || any(greaterThanEqual(px, eye_px))) return ShownPixel(SHOWN_BLACK, ivec2(0));
-  return ShownPixel(second != swapped ? SHOWN_RIGHT : SHOWN_LEFT, px);
+  if (any(lessThan(px, ivec2(0))) || any(greaterThanEqual(px, eye_px))) return SourcePixel(SOURCE_BLACK, ivec2(0));
+  return SourcePixel(second != swapped ? SOURCE_RIGHT : SOURCE_LEFT, px);
 }
 
 // Both eyes for red-cyan glasses, in linear light.

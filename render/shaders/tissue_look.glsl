@@ -1,4 +1,4 @@
-// The surface of tooth and bone: its look from the look field (C++: look_field.h), how a finish shines, and the fine
+// The surface of tooth and bone: its appearance from the appearance field (C++: appearance_field.h), how a finish shines, and the fine
 // unevenness no scan resolves. Shine values judged by eye; enamel is translucent (wrap, high F0).
 #include "volume_block.glsl"
 #include "lighting.glsl"
@@ -25,11 +25,11 @@ float noise(vec3 x) {
   return sum;
 }
 
-// The look of the matter just below a surface place, where the scan has it pure.
+// The appearance of the matter just below a surface place, where the scan has it pure.
 Surface tissueSurface(vec3 index, vec3 normal, vec3 p_P) {
-  vec4 look = lookAt(index - LOOK_DEPTH_VOXELS * normal);
-  vec3 albedo = look.rgb;
-  float enamel = clamp(2.0 * look.a - 1.0, 0.0, 1.0), marrow = clamp(1.0 - 2.0 * look.a, 0.0, 1.0);
+  vec4 appearance = appearanceAt(index - COLOUR_DEPTH_VOXELS * normal);
+  vec3 albedo = appearance.rgb;
+  float enamel = clamp(2.0 * appearance.a - 1.0, 0.0, 1.0), marrow = clamp(1.0 - 2.0 * appearance.a, 0.0, 1.0);
   vec3 shine = mix(mix(FINISH_DULL, FINISH_MARROW, marrow), FINISH_ENAMEL, enamel);
 
   // Bone is never even: faint mottling, and pores full of blood where the marrow lies open.

@@ -6,13 +6,13 @@ layout(std140, binding = VOLUME_BLOCK) uniform VolumeBlock {
   ivec4 size;            // voxels; w: 1 to skip empty space
   ivec4 bricks;          // w: VIEW_…
   ivec4 ambient_size;    // cells of the ambient map; x is 0 when there is no volume
-  vec4 march;            // x: voxels between samples along a ray; y, z: 1 for ambient shade, for the lamp's shadow; w: GUIDE_…
+  vec4 march;            // x: voxels between samples along a ray; y, z: 1 for ambient visibility, for the lamp's shadow; w: GUIDE_…
 } volume;
 
 layout(binding = SOLID_UNIT) uniform sampler3D solid_field;
 layout(binding = SMOOTH_UNIT) uniform sampler3D smooth_field;
 layout(binding = LABEL_UNIT) uniform usampler3D label_field;
-layout(binding = LOOK_UNIT) uniform sampler3D look_field;
+layout(binding = APPEARANCE_UNIT) uniform sampler3D appearance_field;
 layout(binding = GUIDE_UNIT) uniform sampler3D guide_field;
 layout(binding = EMPTINESS_UNIT) uniform usampler3D emptiness;
 layout(binding = AMBIENT_UNIT) uniform sampler3D ambient_map;
@@ -26,14 +26,14 @@ float solidAt(vec3 index) { return textureLod(solid_field, (index + 0.5) / vec3(
 float smoothAt(vec3 index) { return textureLod(smooth_field, (index + 0.5) / vec3(volume.size.xyz), 0.0).r; }
 
 // Colour (linear) and finish of the matter at a place, trilinear in the stored roots, the edge repeated.
-vec4 lookAt(vec3 index) {
+vec4 appearanceAt(vec3 index) {
   vec3 inside = clamp(index, vec3(0.0), vec3(volume.size.xyz - 1));
-  vec4 look = textureLod(look_field, (inside + 0.5) / vec3(volume.size.xyz), 0.0);
-  return vec4(look.rgb * look.rgb, look.a);
+  vec4 appearance = textureLod(appearance_field, (inside + 0.5) / vec3(volume.size.xyz), 0.0);
+  return vec4(appearance.rgb * appearance.rgb, appearance.a);
 }
 
 // Mean solid fraction of the cells around a place, 0..1, trilinear, air outside.
-float crowdingAt(vec3 index) {
+float densityAt(vec3 index) {
   return textureLod(ambient_map, (index + 0.5) / (float(AMBIENT_CELL_VOXELS) * vec3(volume.ambient_size.xyz)), 0.0).r;
 }
 

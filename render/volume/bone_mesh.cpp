@@ -16,7 +16,7 @@ assets::SolidVoxels voxelsOf(const VolumeFields& fields) {
 
 }  // namespace
 
-void BoneMesh::note(const FieldChanges& changes) {
+void BoneMesh::markChanged(const FieldChanges& changes) {
   if (!surface_) return;
   for (const VoxelBox& box : changes.solid) {
     const glm::ivec3 first = box.first / assets::kBrickVoxels;
@@ -55,7 +55,7 @@ void BoneMesh::draw(bool view_is_mirrored) {
   apply({.mirrored = view_is_mirrored, .write_colour = false, .write_distance = false});
   depth_.use();
   pool_->draw();
-  apply({.depth_write = false, .at_same_depth = true, .mirrored = view_is_mirrored});
+  apply({.depth_write = false, .allow_equal_depth = true, .mirrored = view_is_mirrored});
   light_.use();
   pool_->draw();
 }

@@ -1,4 +1,4 @@
-// Tooth and bone drawn as triangles: the surface of assets/bone_surface on the GPU, brick by brick, with the very look
+// Tooth and bone drawn as triangles: the surface of assets/bone_surface on the GPU, brick by brick, with the very appearance
 // and light of the ray-cast surface. Carved bricks are noted in every view and become triangles when a frame asks.
 // Frame P. Render thread. First frame: all bricks (50 ms for 4 million voxels); then about 80 us a carved brick.
 // The caster's volume must be bound while drawing. Not the ray caster's surface to the last pixel: triangles are flat
@@ -19,7 +19,7 @@ namespace render {
 class BoneMesh {
  public:
   /// What became of the volume since the last call, whether or not triangles are drawn.
-  void note(const FieldChanges& changes);
+  void markChanged(const FieldChanges& changes);
   /// Before drawing: triangles for all that was noted.
   void prepare(const VolumeFields& fields);
   void draw(bool view_is_mirrored);

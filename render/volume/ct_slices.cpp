@@ -7,7 +7,7 @@
 
 #include "render/gpu/gpu_error.h"
 #include "render/volume/guide_field.h"
-#include "render/volume/slice_lettering.h"
+#include "render/volume/slice_font.h"
 
 namespace render {
 namespace {
@@ -21,7 +21,7 @@ constexpr float kFar_mm = 1e3f;
 const glm::vec3 kGone{70.0f, 12.0f, 16.0f}, kCanal{250.0f, 205.0f, 60.0f}, kBur{90.0f, 225.0f, 255.0f},
     kCross{110.0f, 150.0f, 165.0f}, kWords{225.0f, 232.0f, 235.0f}, kRim{14.0f, 16.0f, 18.0f};
 
-/// How a plane lies in the volume: its two axes as voxel axes, the sign of each along the picture, and the words.
+/// How a plane lies in the volume: its two axes as voxel axes, the sign of each along the image, and the words.
 struct Layout {
   int right_axis, down_axis, normal_axis;
   int down_sign;  // right is always towards larger voxel indices: left, or posterior
@@ -40,10 +40,10 @@ Layout layoutOf(SlicePlane plane) {
   return {};
 }
 
-/// A picture being painted: rows of RGBA, and where its pixels are in P.
-class Sheet {
+/// A image being painted: rows of RGBA, and where its pixels are in P.
+class SliceImage {
  public:
-  Sheet(const Layout& layout, const glm::dvec3& middle_P_mm, int edge_px)
+  SliceImage(const Layout& layout, const glm::dvec3& middle_P_mm, int edge_px)
       : edge_px_(edge_px), mm_per_px_(CtSlices::kWidth_mm / edge_px), middle_(middle_P_mm), layout_(layout) {
     picture_.w = picture_.h = edge_px;
     picture_.rgba.assign(static_cast<std::size_t>(edge_px) * static_cast<std::size_t>(edge_px) * 4, 255);
@@ -57,7 +57,7 @@ class Sheet {
   double rowOf(double p_P_mm) const {
     return layout_.down_sign * (p_P_mm - middle_[layout_.down_axis]) / mm_per_px_ + 0.5 * edge_px_;
   }
-  glm::dvec3 place_P_mm(int x, int y) const {
+  glm::dvec3 position_P_mm(int x, int y) const {
     glm::dvec3 p = middle_;
     p[layout_.right_axis] += offset_mm(x);
     p[layout_.down_axis] += layout_.down_sign * offset_mm(y);
@@ -79,7 +79,7 @@ class Sheet {
     for (int y = top; y < top + height; ++y)
       for (int x = left; x < left + width; ++x) set(x, y, colour);
   }
-  Picture take() { return std::move(picture_); }
+  Image take() { return std::move(picture_); }
 
  private:
   std::uint8_t* at(int x, int y) {
@@ -91,7 +91,7 @@ class Sheet {
   double mm_per_px_;
   glm::dvec3 middle_;
   Layout layout_;
-  Picture picture_;
+  Image picture_;
 };
 
 /// Two neighbours along an axis and how much of the second; none outside the volume.
@@ -150,9 +150,9 @@ float along(const std::vector<float>& row, Between at) {
 float lineCover(double distance_px) { return static_cast<float>(std::clamp(1.3 - std::abs(distance_px), 0.0, 1.0)); }
 
 /// Where a field of distances (mm, one a pixel) crosses zero, as a line.
-void drawOutline(Sheet& sheet, const std::vector<float>& distance_mm, const glm::vec3& colour) {
-  const int edge = sheet.edge_px();
-  const auto near_mm = static_cast<float>(6.0 * sheet.mm_per_px());
+void drawOutline(SliceImage& slice, const std::vector<float>& distance_mm, const glm::vec3& colour) {
+  const int edge = slice.edge_px();
+  const auto near_mm = static_cast<float>(6.0 * slice.mm_per_px());
   const auto at = [&](int x, int y) {
     return double{
         distance_mm[static_cast<std::size_t>(y) * static_cast<std::size_t>(edge) + static_cast<std::size_t>(x)]};
@@ -164,96 +164,96 @@ void drawOutline(Sheet& sheet, const std::vector<float>& distance_mm, const glm:
       const int x0 = std::max(x - 1, 0), x1 = std::min(x + 1, edge - 1), y0 = std::max(y - 1, 0),
                 y1 = std::min(y + 1, edge - 1);
       const double rise = std::hypot((at(x1, y) - at(x0, y)) / (x1 - x0), (at(x, y1) - at(x, y0)) / (y1 - y0));
-      if (rise > 1e-6) sheet.blend(x, y, colour, lineCover(at(x, y) / rise));
+      if (rise > 1e-6) slice.blend(x, y, colour, lineCover(at(x, y) / rise));
     }
 }
 
-void drawCanal(Sheet& sheet, const Layout& layout, const glm::dvec3& middle, const CtScan& scan) {
-  const int edge = sheet.edge_px();
-  const double reach_mm = scan.mandibular_canal_radius_mm + 3.0 * sheet.mm_per_px();
+void drawCanal(SliceImage& slice, const Layout& layout, const glm::dvec3& middle, const CtScan& scan) {
+  const int edge = slice.edge_px();
+  const double reach_mm = scan.mandibular_canal_radius_mm + 3.0 * slice.mm_per_px();
   std::vector<float> distance_mm(static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge), kFar_mm);
   for (std::size_t n = 0; n + 1 < scan.mandibular_canal_P_mm.size(); ++n) {
     const glm::dvec3 a = scan.mandibular_canal_P_mm[n], b = scan.mandibular_canal_P_mm[n + 1];
     const glm::dvec3 low = glm::min(a, b) - reach_mm, high = glm::max(a, b) + reach_mm;
     if (middle[layout.normal_axis] < low[layout.normal_axis] || middle[layout.normal_axis] > high[layout.normal_axis])
       continue;
-    const double ya = sheet.rowOf(low[layout.down_axis]), yb = sheet.rowOf(high[layout.down_axis]);
-    const int x0 = std::max(0, static_cast<int>(sheet.columnOf(low[layout.right_axis])));
-    const int x1 = std::min(edge - 1, static_cast<int>(sheet.columnOf(high[layout.right_axis])));
+    const double ya = slice.rowOf(low[layout.down_axis]), yb = slice.rowOf(high[layout.down_axis]);
+    const int x0 = std::max(0, static_cast<int>(slice.columnOf(low[layout.right_axis])));
+    const int x1 = std::min(edge - 1, static_cast<int>(slice.columnOf(high[layout.right_axis])));
     const int y0 = std::max(0, static_cast<int>(std::min(ya, yb)));
     const int y1 = std::min(edge - 1, static_cast<int>(std::max(ya, yb)));
     for (int y = y0; y <= y1; ++y)
       for (int x = x0; x <= x1; ++x) {
-        const double wall_mm = distanceToSegment(sheet.place_P_mm(x, y), a, b) - scan.mandibular_canal_radius_mm;
+        const double wall_mm = distanceToSegment(slice.position_P_mm(x, y), a, b) - scan.mandibular_canal_radius_mm;
         float& nearest = distance_mm[static_cast<std::size_t>(y * edge + x)];
         nearest = std::min(nearest, static_cast<float>(wall_mm));
       }
   }
-  drawOutline(sheet, distance_mm, kCanal);
+  drawOutline(slice, distance_mm, kCanal);
 }
 
-void drawBur(Sheet& sheet, const Frame& frame) {
+void drawBur(SliceImage& slice, const Frame& frame) {
   // In T, pixels lie on an even grid around its origin.
   const auto X_TP = frame.X_PT.inverse();
   const auto place_T = [&](int x, int y) {
-    return (X_TP * calibration::Point<calibration::Patient>{sheet.place_P_mm(x, y)}).mm;
+    return (X_TP * calibration::Point<calibration::Patient>{slice.position_P_mm(x, y)}).mm;
   };
   const glm::dvec3 corner = place_T(0, 0), right = place_T(1, 0) - corner, down = place_T(0, 1) - corner;
-  const int edge = sheet.edge_px();
-  const double reach_mm = std::hypot(frame.bur_radius_mm, 0.5 * frame.bur_length_mm) + 8.0 * sheet.mm_per_px();
-  const int reach = static_cast<int>(std::min(0.5 * edge, reach_mm / sheet.mm_per_px()));
+  const int edge = slice.edge_px();
+  const double reach_mm = std::hypot(frame.bur_radius_mm, 0.5 * frame.bur_length_mm) + 8.0 * slice.mm_per_px();
+  const int reach = static_cast<int>(std::min(0.5 * edge, reach_mm / slice.mm_per_px()));
   std::vector<float> distance_mm(static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge), kFar_mm);
   for (int y = edge / 2 - reach; y < edge / 2 + reach; ++y)
     for (int x = edge / 2 - reach; x < edge / 2 + reach; ++x)
       distance_mm[static_cast<std::size_t>(y * edge + x)] =
           static_cast<float>(burDistance_mm(frame, corner + double(x) * right + double(y) * down));
-  drawOutline(sheet, distance_mm, kBur);
+  drawOutline(slice, distance_mm, kBur);
 }
 
 /// Thin lines through the middle that leave the bur free.
-void drawCross(Sheet& sheet, double free_mm) {
-  const int middle = sheet.edge_px() / 2;
-  for (int n = 0; n < sheet.edge_px(); ++n) {
-    if (std::abs(sheet.offset_mm(n)) < free_mm) continue;
-    sheet.blend(n, middle, kCross, 0.4f);
-    sheet.blend(middle, n, kCross, 0.4f);
+void drawCross(SliceImage& slice, double free_mm) {
+  const int middle = slice.edge_px() / 2;
+  for (int n = 0; n < slice.edge_px(); ++n) {
+    if (std::abs(slice.offset_mm(n)) < free_mm) continue;
+    slice.blend(n, middle, kCross, 0.4f);
+    slice.blend(middle, n, kCross, 0.4f);
   }
 }
 
 // On a dark rim, so that it reads on bone too.
-void drawWord(Sheet& sheet, std::string_view word, int left, int top, int dot_px) {
+void drawWord(SliceImage& slice, std::string_view word, int left, int top, int dot_px) {
   for (const bool rim : {true, false})
     for (std::size_t n = 0; n < word.size(); ++n) {
-      const LetterDots dots = dotsOf(word[n]);
+      const GlyphRows dots = glyphRows(word[n]);
       const int from = left + static_cast<int>(n) * (kLetterWidth + 1) * dot_px;
       for (int y = 0; y < kLetterHeight * dot_px; ++y)
         for (int x = 0; x < kLetterWidth * dot_px; ++x) {
           if ((dots[static_cast<std::size_t>(y / dot_px)] >> (kLetterWidth - 1 - x / dot_px) & 1) == 0) continue;
           if (rim)
-            sheet.fill(from + x - 1, top + y - 1, 3, 3, kRim);
+            slice.fill(from + x - 1, top + y - 1, 3, 3, kRim);
           else
-            sheet.set(from + x, top + y, kWords);
+            slice.set(from + x, top + y, kWords);
         }
     }
 }
 
-void drawWords(Sheet& sheet, const Layout& layout) {
-  const int edge = sheet.edge_px(), dot = std::max(1, edge / 200), gap = 3 * dot + 1;
+void drawWords(SliceImage& slice, const Layout& layout) {
+  const int edge = slice.edge_px(), dot = std::max(1, edge / 200), gap = 3 * dot + 1;
   const int high = kLetterHeight * dot, wide = (kLetterWidth + 1) * dot;
-  drawWord(sheet, layout.name, gap, gap, dot);
-  drawWord(sheet, layout.left_side, gap, edge / 2 - high / 2, dot);
-  drawWord(sheet, layout.right_side, edge - gap - wide + dot, edge / 2 - high / 2, dot);
+  drawWord(slice, layout.name, gap, gap, dot);
+  drawWord(slice, layout.left_side, gap, edge / 2 - high / 2, dot);
+  drawWord(slice, layout.right_side, edge - gap - wide + dot, edge / 2 - high / 2, dot);
 
   // The scale, with ends.
-  const int length = static_cast<int>(std::lround(kScale_mm / sheet.mm_per_px()));
+  const int length = static_cast<int>(std::lround(kScale_mm / slice.mm_per_px()));
   const int left = edge - gap - length, base = edge - gap - 1;
   for (const int rim : {1, 0}) {
     const glm::vec3& colour = rim ? kRim : kWords;
-    sheet.fill(left - rim, base - dot + 1 - rim, length + 1 + 2 * rim, dot + 2 * rim, colour);
+    slice.fill(left - rim, base - dot + 1 - rim, length + 1 + 2 * rim, dot + 2 * rim, colour);
     for (const int x : {left, left + length})
-      sheet.fill(x - rim, base - 3 * dot + 1 - rim, 1 + 2 * rim, 3 * dot + 2 * rim, colour);
+      slice.fill(x - rim, base - 3 * dot + 1 - rim, 1 + 2 * rim, 3 * dot + 2 * rim, colour);
   }
-  drawWord(sheet, "5 MM", left - 4 * wide - gap + dot, edge - gap - high, dot);
+  drawWord(slice, "5 MM", left - 4 * wide - gap + dot, edge - gap - high, dot);
 }
 
 }  // namespace
@@ -264,44 +264,44 @@ CtSlices::CtSlices(const assets::VolumeGrid& grid, CtScan scan) : grid_(grid), s
                    std::to_string(grid.voxelCount()) + " voxels, give one value for each");
 }
 
-Picture CtSlices::picture(SlicePlane plane, const Frame& frame, const BorderedField<std::uint8_t>& live,
+Image CtSlices::image(SlicePlane plane, const Frame& frame, const BorderedField<std::uint8_t>& live,
                           int edge_px) const {
   const Layout layout = layoutOf(plane);
   const glm::dvec3 middle = frame.X_PT.translation_mm;
-  Sheet sheet(layout, middle, edge_px);
+  SliceImage slice(layout, middle, edge_px);
   const Between normal = between(grid_.indexFromPoint(middle)[layout.normal_axis]);
 
   // Grey values, and what is gone of them.
   const Voxels<std::int16_t> grey = inGridOrder(grid_, scan_.hounsfield, kAir_HU);
   const Voxels<std::uint8_t> before = inGridOrder(grid_, scan_.solid, 0.0f);
   const Voxels<std::uint8_t> now{live.at({0, 0, 0}), {1, live.layout().row, live.layout().slice}, 0.0f};
-  const int first = between(grid_.indexFromPoint(sheet.place_P_mm(0, 0))[layout.right_axis]).low;
+  const int first = between(grid_.indexFromPoint(slice.position_P_mm(0, 0))[layout.right_axis]).low;
   std::vector<Between> columns;
   for (int x = 0; x < edge_px; ++x) {
-    columns.push_back(between(grid_.indexFromPoint(sheet.place_P_mm(x, 0))[layout.right_axis]));
+    columns.push_back(between(grid_.indexFromPoint(slice.position_P_mm(x, 0))[layout.right_axis]));
     columns.back().low -= first;
   }
   const auto length = static_cast<std::size_t>(columns.back().low) + 2;
   std::vector<float> grey_row(length), before_row(length), now_row(length);
   for (int y = 0; y < edge_px; ++y) {
-    const Between down = between(grid_.indexFromPoint(sheet.place_P_mm(0, y))[layout.down_axis]);
+    const Between down = between(grid_.indexFromPoint(slice.position_P_mm(0, y))[layout.down_axis]);
     mixRow(grid_, grey, layout, down, normal, first, grey_row);
     mixRow(grid_, before, layout, down, normal, first, before_row);
     mixRow(grid_, now, layout, down, normal, first, now_row);
     for (int x = 0; x < edge_px; ++x) {
       const Between right = columns[static_cast<std::size_t>(x)];
       const float shown = (along(grey_row, right) - kLevel_HU) / kWindow_HU + 0.5f;
-      sheet.setGrey(x, y, static_cast<std::uint8_t>(255.0f * std::clamp(shown, 0.0f, 1.0f) + 0.5f));
+      slice.setGrey(x, y, static_cast<std::uint8_t>(255.0f * std::clamp(shown, 0.0f, 1.0f) + 0.5f));
       const float solid = along(before_row, right), gone = solid - along(now_row, right);
-      if (gone > 0.0f) sheet.blend(x, y, kGone, gone / std::max(solid, 64.0f));
+      if (gone > 0.0f) slice.blend(x, y, kGone, gone / std::max(solid, 64.0f));
     }
   }
 
-  drawCanal(sheet, layout, middle, scan_);
-  drawCross(sheet, frame.bur_radius_mm + 1.0);
-  drawBur(sheet, frame);
-  drawWords(sheet, layout);
-  return sheet.take();
+  drawCanal(slice, layout, middle, scan_);
+  drawCross(slice, frame.bur_radius_mm + 1.0);
+  drawBur(slice, frame);
+  drawWords(slice, layout);
+  return slice.take();
 }
 
 double burDistance_mm(const Frame& frame, const glm::dvec3& p_T_mm) {

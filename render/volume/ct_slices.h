@@ -13,7 +13,7 @@
 
 #include "assets/volume_grid.h"
 #include "render/frame.h"
-#include "render/picture.h"
+#include "render/image.h"
 #include "render/volume/bordered_field.h"
 
 namespace render {
@@ -31,13 +31,13 @@ struct CtScan {
 
 class CtSlices {
  public:
-  static constexpr double kWidth_mm = 24.0;  ///< of what a picture shows
+  static constexpr double kWidth_mm = 24.0;  ///< of what a image shows
 
   /// Throws GpuError if the scan does not fit the grid.
   CtSlices(const assets::VolumeGrid& grid, CtScan scan);
 
-  /// A square picture of `edge_px` around the middle of the bur; `live`: the bone as it is now.
-  Picture picture(SlicePlane plane, const Frame& frame, const BorderedField<std::uint8_t>& live, int edge_px) const;
+  /// A square image of `edge_px` around the middle of the bur; `live`: the bone as it is now.
+  Image image(SlicePlane plane, const Frame& frame, const BorderedField<std::uint8_t>& live, int edge_px) const;
 
  private:
   assets::VolumeGrid grid_;

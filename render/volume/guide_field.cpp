@@ -25,7 +25,7 @@ double distanceToCut_mm(const PlannedCut& cut, const glm::dvec3& p_P_mm) {
   return glm::length(offset - nearest) - cut.radius_mm;
 }
 
-int shownGuides(const Frame& frame) {
+int visibleGuides(const Frame& frame) {
   return (frame.layers.clearance ? GUIDE_CLEARANCE : 0) | (frame.layers.planned_cut ? GUIDE_PLAN : 0);
 }
 

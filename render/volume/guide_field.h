@@ -44,6 +44,6 @@ using GuideField = BorderedField<glm::u16vec2>;
 GuideField guideField(const assets::VolumeGrid& grid, const Guides& guides);
 
 /// GUIDE_CLEARANCE, GUIDE_PLAN: what a frame shows of them.
-int shownGuides(const Frame& frame);
+int visibleGuides(const Frame& frame);
 
 }  // namespace render

@@ -45,7 +45,7 @@ class Occupancy {
   const std::vector<glm::ivec3>& touched() const { return touched_; }
 
   /// Brings the emptiness up to date where skipping would otherwise miss something; where bricks only became empty it
-  /// may stay too small, which costs time but shows the same picture. True if emptiness() changed.
+  /// may stay too small, which costs time but shows the same image. True if emptiness() changed.
   bool refresh();
   /// Makes the emptiness exact; true if it was not.
   bool rebuildIfStale();

@@ -18,7 +18,7 @@ RayCaster::RayCaster(Stage stage, bool skip_empty_space)
       caster_(stage == Stage::compute ? Program{"volume.comp"} : Program{"screen.vert", "volume.frag"}) {}
 
 void RayCaster::bind(const VolumeFields& fields, const VolumeTexture& volume, const Frame& frame) {
-  const int guides = volume.hasGuides() ? shownGuides(frame) : 0;
+  const int guides = volume.hasGuides() ? visibleGuides(frame) : 0;
   const assets::VolumeGrid& grid = fields.grid();
   block_.set(VOLUME_BLOCK,
              {.origin_P = glm::vec4(glm::vec3(grid.origin_P_mm), static_cast<float>(grid.spacing_mm)),
@@ -44,15 +44,15 @@ void RayCaster::cast(const Framebuffer& layer, const Texture& scene_distance) co
   }
 }
 
-void RayCaster::draw(Framebuffer& layer, const Framebuffer& picture) {
-  layer.fit(picture.size(), kLayerTargets, false);
-  cast(layer, picture.colour(DISTANCE_TARGET));
+void RayCaster::draw(Framebuffer& layer, const Framebuffer& image) {
+  layer.fit(image.size(), kLayerTargets, false);
+  cast(layer, image.colour(DISTANCE_TARGET));
 
   // Light first, wherever there is some; then depth where it is solid.
   layer.colour(COLOUR_TARGET).bind(LAYER_LIGHT_UNIT);
   layer.colour(DISTANCE_TARGET).bind(LAYER_DISTANCE_UNIT);
-  picture.bind();
-  drawScreen(light_, {.depth_test = false, .depth_write = false, .lay_over = true, .write_distance = false});
+  image.bind();
+  drawScreen(light_, {.depth_test = false, .depth_write = false, .blend = true, .write_distance = false});
   drawScreen(depth_, {.write_colour = false});
 }
 

@@ -1,7 +1,7 @@
-// Casts one ray per pixel into a volume and lays what it meets over an eye's picture, with depth and distance, as a
+// Casts one ray per pixel into a volume and lays what it meets over an eye's image, with depth and distance, as a
 // fragment or as a compute program built from one body (volume_pixel.glsl). Surface solid = 0.5 or translucent.
-// Rays end at what the picture's distance already holds, so meshes drawn before are respected. Frame P. Render thread.
-// Sampling places do not depend on empty-space skipping: with and without it the picture is the same, bit for bit.
+// Rays end at what the image's distance already holds, so meshes drawn before are respected. Frame P. Render thread.
+// Sampling places do not depend on empty-space skipping: with and without it the image is the same, bit for bit.
 // Cost: figures in render/README.md; on a software rasteriser about 0.2 s CPU at 640x480.
 #pragma once
 
@@ -32,9 +32,9 @@ class RayCaster {
 
   /// Binds volume, block and transfer function. Passes that ask the volume for shade need this before drawing.
   void bind(const VolumeFields& fields, const VolumeTexture& volume, const Frame& frame);
-  /// After bind(): casts into `layer`, made as large as it must be, and lays it over `picture` (colour, distance,
+  /// After bind(): casts into `layer`, made as large as it must be, and lays it over `image` (colour, distance,
   /// depth).
-  void draw(Framebuffer& layer, const Framebuffer& picture);
+  void draw(Framebuffer& layer, const Framebuffer& image);
 
  private:
   void cast(const Framebuffer& layer, const Texture& scene_distance) const;

@@ -8,7 +8,7 @@
 
 #include "render/gpu/gpu_error.h"
 #include "render/shaders/shared_numbers.glsl"
-#include "render/volume/look_field.h"
+#include "render/volume/appearance_field.h"
 
 namespace render {
 namespace {
@@ -53,7 +53,7 @@ VolumeFields::VolumeFields(const assets::VolumeGrid& grid, std::span<const std::
       solid_(bordered(grid, solid)),
       smooth_(grid.size),
       ambient_(grid.bricks() * (kB / kEdge)),
-      look_(lookField(solid_, label)),
+      appearance_(appearanceField(solid_, label)),
       label_(bordered(grid, label)) {
   // In slabs of a brick's height to keep the working memory small.
   tbb::parallel_for(0, grid.bricks().z, [&](int slab) {

@@ -1,5 +1,5 @@
-// Everything the picture needs to know of the live bone, on the CPU: the solid fraction, a smoothed copy for normals, a
-// coarse mean for soft shade, and the look and label of every voxel. The CPU back-end reads it,
+// Everything the image needs to know of the live bone, on the CPU: the solid fraction, a smoothed copy for normals, a
+// coarse mean for soft shade, and the appearance and label of every voxel. The CPU back-end reads it,
 // VolumeTexture uploads what changed. Not the bone that is carved (its owner sends bricks here) and not the scan.
 // Frame P by the grid. Render thread. Memory: 8 bytes a voxel. Cost of a carved frame: about 2 ns per voxel of the
 // changed box and its reach (40 us for a bur of 2 mm at 0.2 mm).
@@ -41,8 +41,8 @@ class VolumeFields {
   const BorderedField<std::uint16_t>& smooth() const { return smooth_; }
   /// Means of 2x2x2 voxels, one value per cell, four cells along a brick; 65535 for solid, 0 in the border.
   const BorderedField<std::uint16_t>& ambient() const { return ambient_; }
-  /// As look_field.h.
-  const BorderedField<std::uint32_t>& look() const { return look_; }
+  /// As appearance_field.h.
+  const BorderedField<std::uint32_t>& appearance() const { return appearance_; }
   /// assets::Tissue of every voxel.
   const BorderedField<std::uint8_t>& label() const { return label_; }
 
@@ -52,7 +52,7 @@ class VolumeFields {
   assets::VolumeGrid grid_;
   BorderedField<std::uint8_t> solid_;
   BorderedField<std::uint16_t> smooth_, ambient_;
-  BorderedField<std::uint32_t> look_;
+  BorderedField<std::uint32_t> appearance_;
   BorderedField<std::uint8_t> label_;
   Smoother smoother_;
   std::vector<VoxelBox> touched_;  ///< voxels changed since prepare()

@@ -24,7 +24,7 @@ VoxelBox whole(const BorderedField<T>& field) {
 VolumeTexture::VolumeTexture(const VolumeFields& fields)
     : solid_(Texture::volume(fields.grid().size, TexelFormat::r16)),
       smooth_(Texture::volume(fields.grid().size, TexelFormat::r16)),
-      look_(Texture::volume(fields.grid().size, TexelFormat::rgba8)),
+      appearance_(Texture::volume(fields.grid().size, TexelFormat::rgba8)),
       label_(Texture::volume(fields.grid().size, TexelFormat::r8ui)),
       emptiness_(Texture::volume(fields.grid().bricks(), TexelFormat::r8ui)),
       ambient_(Texture::volume(fields.ambient().layout().size, TexelFormat::r16)),
@@ -33,7 +33,7 @@ VolumeTexture::VolumeTexture(const VolumeFields& fields)
   for (int k = 0; k < fields.grid().size.z; ++k)
     uploadSolid(fields, {{0, 0, k}, {fields.grid().size.x, fields.grid().size.y, 1}});
   upload(smooth_, fields.smooth(), whole(fields.smooth()));
-  upload(look_, fields.look(), whole(fields.look()));
+  upload(appearance_, fields.appearance(), whole(fields.appearance()));
   upload(label_, fields.label(), whole(fields.label()));
   upload(ambient_, fields.ambient(), whole(fields.ambient()));
   emptiness_.upload({0, 0, 0}, occupancy_.bricks(), std::as_bytes(occupancy_.emptiness()));
@@ -74,7 +74,7 @@ void VolumeTexture::setGuides(const GuideField& guides) {
 void VolumeTexture::bind() const {
   solid_.bind(SOLID_UNIT);
   smooth_.bind(SMOOTH_UNIT);
-  look_.bind(LOOK_UNIT);
+  appearance_.bind(APPEARANCE_UNIT);
   label_.bind(LABEL_UNIT);
   emptiness_.bind(EMPTINESS_UNIT);
   ambient_.bind(AMBIENT_UNIT);

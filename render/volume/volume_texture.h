@@ -1,5 +1,5 @@
 // The fields of the live bone as textures: solid fraction, smoothed copy and ambient map in 16 bits, so that filtering
-// is not quantised; look, label and emptiness (which bricks a ray may pass) in bytes. Uploads only the boxes that
+// is not quantised; appearance, label and emptiness (which bricks a ray may pass) in bytes. Uploads only the boxes that
 // changed. Render thread. Cost: a microsecond or two a brick on a software rasteriser (reference/rendering 1).
 #pragma once
 
@@ -26,7 +26,7 @@ class VolumeTexture {
  private:
   void uploadSolid(const VolumeFields& fields, const VoxelBox& box);
 
-  Texture solid_, smooth_, look_, label_, emptiness_, ambient_, guides_;
+  Texture solid_, smooth_, appearance_, label_, emptiness_, ambient_, guides_;
   Occupancy occupancy_;
   std::vector<std::uint16_t> wide_;
   int frames_since_rebuild_ = 0;

@@ -30,7 +30,7 @@ const assets::Patient& patient() {
 
 /// From the cheek onto the bone beside the third molar.
 render::Frame fromTheCheek() {
-  const glm::dvec3 look_at = patient().workplace_P_mm() - glm::dvec3(0.0, 0.0, 6.0);
+  const glm::dvec3 look_at = patient().focus_P_mm() - glm::dvec3(0.0, 0.0, 6.0);
   render::Frame frame;
   frame.rig = render::cameraRig(
       {.eye_P_mm = look_at + glm::dvec3(-150.0, -15.0, 40.0), .look_at_P_mm = look_at, .fov_y_rad = 0.08}, kPx);
@@ -41,7 +41,7 @@ render::Frame fromTheCheek() {
 /// The places in P that a depth picture shows, and whether each is hit.
 class SeenPlaces {
  public:
-  SeenPlaces(const render::Frame& frame, const render::DistancePicture& distance) : mm_(distance.mm) {
+  SeenPlaces(const render::Frame& frame, const render::DistanceImage& distance) : mm_(distance.mm) {
     const render::EyeView view = eyeView(frame.rig, render::Eye::cyclopean);
     const auto X_PW = frame.rig.X_WP.inverse();
     const glm::dvec3 eye = (X_PW * view.eye_W).mm;
@@ -129,7 +129,7 @@ TEST_P(FeltIsSeen, WithinATwentiethOfAMillimetreBeforeAndAfterCarving) {
     return renderer.readDistance(render::Eye::cyclopean);
   };
 
-  const render::DistancePicture before = look();
+  const render::DistanceImage before = look();
   const SeenPlaces seen(frame, before);
   const Agreement untouched = agreementOf(seen, bone);
   EXPECT_GT(untouched.places, 200);
@@ -149,12 +149,12 @@ TEST_P(FeltIsSeen, WithinATwentiethOfAMillimetreBeforeAndAfterCarving) {
     haptics::carveTool(bone, head, X_PT, haptics::phantom::timeErosion(fierce, 0.001), tick);
   EXPECT_GT(BrickUpload().bring(bone, renderer), 0u);
 
-  const render::DistancePicture after = look();
+  const render::DistanceImage after = look();
   const SeenPlaces cut(frame, after);
   const Agreement carved = agreementOf(cut, bone);
   EXPECT_LT(carved.rms_mm, 0.05) << "worst " << carved.worst_mm;
   // The floor alone.
-  render::DistancePicture only_floor = after;
+  render::DistanceImage only_floor = after;
   for (std::size_t p = 0; p < before.mm.size(); ++p)
     if (after.mm[p] - before.mm[p] < 0.3f) only_floor.mm[p] = 0.0f;
   const Agreement floor = agreementOf(SeenPlaces(frame, only_floor), bone);

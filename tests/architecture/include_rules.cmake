@@ -11,8 +11,8 @@ cmake_minimum_required(VERSION 3.25)
 set(calibration calibration/)
 set(calibration/geometry calibration/geometry/)
 set(calibration/arm calibration/geometry/ calibration/arm/)
-set(calibration_words calibration/geometry/ calibration/arm/ calibration/chance.h calibration/rig.h calibration/virtual_screen.h calibration/median.h
-    calibration/calibration_error.h calibration/checked_yaml.h calibration/picture_file.h)
+set(calibration_words calibration/geometry/ calibration/arm/ calibration/random.h calibration/rig.h calibration/virtual_screen.h calibration/median.h
+    calibration/calibration_error.h calibration/checked_yaml.h calibration/png_file.h)
 set(calibration/fit ${calibration_words} calibration/fit/)
 set(calibration/webcam ${calibration_words} calibration/fit/ calibration/webcam/)
 set(calibration/verification ${calibration_words} calibration/fit/ calibration/verification/)
@@ -22,7 +22,7 @@ set(calibration/record ${calibration_words} calibration/output_file.h calibratio
 # Rooms of assets: plain types at the root, then what reads and writes, then what puts together.
 set(assets_words calibration/ assets/ct_volume.h assets/instruction_set.h assets/json_depth.h assets/load_error.h assets/mesh.h
     assets/operative_site.h assets/patient.h assets/planned_cut.h assets/solid_sample.h
-    assets/solid_voxels.h assets/tissue.h assets/toml_keys.h assets/tooth.h assets/vertex_normals.h assets/volume_grid.h)
+    assets/solid_voxels.h assets/tissue.h assets/toml_reader.h assets/tooth.h assets/vertex_normals.h assets/volume_grid.h)
 set(assets_root ${assets_words})
 foreach(room mesh scan scenery)
   set(assets/${room} ${assets_words} assets/${room}/)
@@ -55,28 +55,28 @@ foreach(room pattern doctor calibrate psychophysics)
   set(app/${room} ${seen} app/procedure/ app/${room}/)
 endforeach()
 set(app/commands ${floors} app/)
-set(app_root ${floors} app/commands/ app/text/command_line.h app/text/said.h app/text/version.h)
+set(app_root ${floors} app/commands/ app/text/command_line.h app/text/message.h app/text/version.h)
 set(tests ${floors} app/ tests/)
 
 # Inside haptics and render a sub-folder names what it may see; the folder itself sees all of its own. Latest, by which
 # values cross threads, and the plain words of render lie beside their sub-folders for all.
 set(haptics ${assets} haptics/)
-set(haptics/device ${assets} haptics/latest.h haptics/hand_over_log.h haptics/wrench.h haptics/motor_command.h haptics/device/)
-set(haptics/safety ${assets} haptics/latest.h haptics/hand_over_log.h haptics/wrench.h haptics/motor_command.h haptics/device/ haptics/safety/)
-set(haptics/loop ${assets} haptics/latest.h haptics/hand_over_log.h haptics/wrench.h haptics/motor_command.h haptics/device/ haptics/safety/ haptics/loop/)
+set(haptics/device ${assets} haptics/latest.h haptics/spsc_ring.h haptics/wrench.h haptics/motor_command.h haptics/device/)
+set(haptics/safety ${assets} haptics/latest.h haptics/spsc_ring.h haptics/wrench.h haptics/motor_command.h haptics/device/ haptics/safety/)
+set(haptics/loop ${assets} haptics/latest.h haptics/spsc_ring.h haptics/wrench.h haptics/motor_command.h haptics/device/ haptics/safety/ haptics/loop/)
 set(haptics/bone ${assets} haptics/bone/ haptics/tool/)
 set(haptics/tool ${assets} haptics/bone/ haptics/tool/)
 set(haptics/contact ${assets} haptics/bone/ haptics/tool/ haptics/contact/)
 set(haptics/servo ${haptics})
 set(render ${assets} render/)
-set(render_words ${assets} render/frame.h render/picture.h render/shaders/shared_numbers.glsl
+set(render_words ${assets} render/frame.h render/image.h render/shaders/shared_numbers.glsl
     render/shaders/anaglyph_numbers.glsl)
 set(render/gpu ${render_words} render/gpu/)
 foreach(part volume scene display)
   set(render/${part} ${render_words} render/gpu/ render/${part}/)
 endforeach()
 # The CPU back-end stands beside gpu: of that folder it knows the exception alone.
-set(render/cpu ${render_words} render/gpu/gpu_error.h render/gpu/window_place.h render/cpu/ render/volume/ render/display/
+set(render/cpu ${render_words} render/gpu/gpu_error.h render/gpu/window_target.h render/cpu/ render/volume/ render/display/
     render/scene/models.h render/eye_block.h
     render/scene_renderer.h render/render_options.h render/shaders/)
 

@@ -13,17 +13,17 @@ endfunction()
 
 file(REMOVE_RECURSE "${SCRATCH}")
 foreach(header calibration/rig.h assets/mesh.h haptics/servo/tick.h haptics/device/mouse.h haptics/bone/bone.h
-        haptics/contact/law.h render/volume/rays.h render/scene/pass.h render/frame_renderer.h render/frame.h app/case/room.h app/station/station.h assets/scan/scan.h
+        haptics/contact/law.h render/volume/rays.h render/scene/pass.h render/frame_renderer.h render/frame.h app/case/patient_placement.h app/station/station.h assets/scan/scan.h
         assets/patient/patient.h app/commands/command.h)
   plant(${header} "<vector>" "")
 endforeach()
 
-plant(app/case/room.cpp "\"render/frame.h\"" "does not include \"app/case/room.h\" first")
+plant(app/case/patient_placement.cpp "\"render/frame.h\"" "does not include \"app/case/patient_placement.h\" first")
 plant(calibration/a.cpp "\"assets/mesh.h\"" "includes \"assets/mesh.h\", but calibration may")
 plant(assets/a.cpp "\"haptics/bone/bone.h\"" "includes \"haptics/bone/bone.h\", but assets_root may")
 plant(render/a.cpp "\"haptics/bone/bone.h\"" "includes \"haptics/bone/bone.h\", but render may")
 plant(haptics/bone/a.cpp "\"render/frame.h\"" "includes \"render/frame.h\", but haptics/bone may")
-plant(render/b.cpp "\"app/case/room.h\"" "includes \"app/case/room.h\", but render may")
+plant(render/b.cpp "\"app/case/patient_placement.h\"" "includes \"app/case/patient_placement.h\", but render may")
 plant(haptics/device/a.cpp "\"haptics/servo/tick.h\"" "includes \"haptics/servo/tick.h\", but haptics/device may")
 plant(haptics/bone/b.cpp "\"haptics/contact/law.h\"" "includes \"haptics/contact/law.h\", but haptics/bone may")
 plant(haptics/contact/a.cpp "\"haptics/servo/tick.h\"" "includes \"haptics/servo/tick.h\", but haptics/contact may")
@@ -34,7 +34,7 @@ plant(render/scene/a.cpp "\"render/frame_renderer.h\"" "includes \"render/frame_
 plant(app/commands/a.cpp "\"../assets/mesh.h\"" "includes \"../assets/mesh.h\", but app/commands may")
 plant(app/case/a.cpp "\"app/station/station.h\"" "includes \"app/station/station.h\", but app/case may")
 plant(app/doctor/a.cpp "\"app/commands/command.h\"" "includes \"app/commands/command.h\", but app/doctor may")
-plant(app/loose.cpp "\"app/case/room.h\"" "includes \"app/case/room.h\", but app_root may")
+plant(app/loose.cpp "\"app/case/patient_placement.h\"" "includes \"app/case/patient_placement.h\", but app_root may")
 plant(app/attic/a.cpp "<vector>" "lies in a folder that is no room of app")
 plant(assets/scan/a.cpp "\"assets/patient/patient.h\"" "includes \"assets/patient/patient.h\", but assets/scan may")
 plant(app/commands/b.cpp "\"assets/missing.h\"" "includes \"assets/missing.h\", which does not exist")
@@ -42,7 +42,7 @@ plant(haptics/servo/c.cpp "<openvdb/openvdb.h>" "includes <openvdb/openvdb.h>, w
 plant(assets/scan/c.h "<openvdb/openvdb.h>" "is a header and includes <openvdb/openvdb.h>")
 plant(app/commands/c.cpp "<boost/any.hpp>" "includes <boost/any.hpp>, a third party that no folder declares")
 plant(app/text/d.h "<unistd.h>" "is a header and includes <unistd.h>")
-plant(app/station/d.cpp "\"app/case/room.h\"" "")
+plant(app/station/d.cpp "\"app/case/patient_placement.h\"" "")
 plant(assets/patient/d.cpp "\"assets/scan/scan.h\"" "")
 plant(haptics/servo/d.cpp "\"haptics/device/mouse.h\"" "")
 plant(render/display/d.cpp "\"render/frame.h\"" "")

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "app/case/patient_source.h"
-#include "app/case/room.h"
-#include "app/view/dressed_renderer.h"
+#include "app/case/patient_placement.h"
+#include "app/view/patient_renderer.h"
 #include "assets/instrument/dental_mirror.h"
 #include "assets/patient/patient_folder.h"
 #include "assets/synthetic/face.h"
@@ -57,18 +57,18 @@ int main(int count, char** words) {
   assets::Patient patient =
       options.contains("--patient") ? assets::loadPatient(options["--patient"]) : app::builtInPatient({});
   assets::FacePose X_PF = assets::kFaceAxes_PF;
-  if (options.contains("--face")) X_PF = app::dressWithFace(patient, options["--face"]);
+  if (options.contains("--face")) X_PF = app::replaceFace(patient, options["--face"]);
   calibration::Rig rig = calibration::desktopRig(px, 531.0 / 4.0);
-  const calibration::Vector<calibration::Patient> eye_P{assets::surgeonEyeDirection(patient.toothAtWork())};
+  const calibration::Vector<calibration::Patient> eye_P{assets::surgeonEyeDirection(patient.operatedTooth())};
   const calibration::Vector<calibration::Face> eye_F = assets::kFaceAxes_PF.inverse() * eye_P, up_F{{0.0, 1.0, 0.0}};
-  rig.X_WP = app::standPatient({patient.workplace_P_mm()}, X_PF * eye_F, X_PF * up_F);
+  rig.X_WP = app::placePatient({patient.focus_P_mm()}, X_PF * eye_F, X_PF * up_F);
 
-  const auto renderer = app::dressedRenderer(patient, {}, {}, patient.ct.solid, {.backend = render::Backend::cpu});
+  const auto renderer = app::patientRenderer(patient, {}, {}, patient.ct.solid, {.backend = render::Backend::cpu});
   render::Frame frame;
   frame.rig = rig;
   frame.display = render::DisplayMode::side_by_side_full;
-  frame.site_P = {patient.workplace_P_mm()};
-  frame.X_PT = {glm::dquat(1, 0, 0, 0), patient.workplace_P_mm() + 8.0 * eye_P.xyz};
+  frame.site_P = {patient.focus_P_mm()};
+  frame.X_PT = {glm::dquat(1, 0, 0, 0), patient.focus_P_mm() + 8.0 * eye_P.xyz};
   frame.face_window_mm = options.contains("--face") ? 24.0 : 0.0;
   std::printf("both eyes %dx%d, %s, face %s\n", px.x, px.y,
               options.contains("--patient") ? options["--patient"].c_str() : "built-in patient",
@@ -101,7 +101,7 @@ int main(int count, char** words) {
   without("without face", [](render::Frame& f) { f.layers.face_opacity = 0.0f; });
   without("without face and gum", [](render::Frame& f) {
     f.layers.face_opacity = 0.0f;
-    f.layers.gum = false;
+    f.layers.gingiva = false;
   });
   without("face faded by half", [](render::Frame& f) { f.layers.face_opacity = 0.5f; });
   without("with clearance and plan", [](render::Frame& f) { f.layers.clearance = f.layers.planned_cut = true; });
@@ -113,7 +113,7 @@ int main(int count, char** words) {
   renderer->setSecondInstrument(assets::dentalMirror());
   without("with a mirror in the other hand", [&](render::Frame& f) {
     f.second_visible = true;
-    f.X_PO = {glm::dquat(1, 0, 0, 0), patient.workplace_P_mm() + 20.0 * eye_P.xyz};
+    f.X_PO = {glm::dquat(1, 0, 0, 0), patient.focus_P_mm() + 20.0 * eye_P.xyz};
   });
   renderer->setSecondInstrument({});
   renderer->setGuides({});

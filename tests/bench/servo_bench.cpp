@@ -197,7 +197,7 @@ void ticks() {
 
 /// What the measured arm adds to a tick: a thousand angles a look, so that the clock's own cost does not show.
 void correction() {
-  const calibration::UntrueArm arm = untrueOmni(1);
+  const calibration::PerturbedArm arm = untrueOmni(1);
   MeasuredHandle handle(calibration::MeasuredArm{arm.geometry, arm.truth, {}});
   constexpr int kAtOnce = 1000;
   volatile double sink = 0.0;

@@ -50,7 +50,7 @@ int main(int argc, char** argv) {
   std::printf("all patches               %8.1f ms CPU\n", least_ms(5, [&] { assets::BoneSurface anew(voxels); }));
 
   constexpr int kTimes = 200;
-  const glm::ivec3 brick(ct.grid.indexFromPoint(patient.workplace_P_mm()) / double{assets::kBrickVoxels});
+  const glm::ivec3 brick(ct.grid.indexFromPoint(patient.focus_P_mm()) / double{assets::kBrickVoxels});
   for (const int reach : {0, 1}) {
     const std::vector<glm::ivec3> changed = around(brick, reach);
     std::size_t remade = 0;
@@ -65,7 +65,7 @@ int main(int argc, char** argv) {
   render::FrameRenderer renderer(ct.grid, ct.solid, ct.label);
   renderer.setScan({ct.hounsfield, ct.solid, patient.mandibular_canal_P_mm, patient.mandibular_canal_radius_mm});
   render::Frame frame;
-  const glm::dvec3 look_at = patient.workplace_P_mm();
+  const glm::dvec3 look_at = patient.focus_P_mm();
   frame.rig = render::cameraRig(
       {.eye_P_mm = look_at + glm::dvec3(-150.0, -60.0, 60.0), .look_at_P_mm = look_at, .fov_y_rad = 0.35}, {640, 480});
   frame.tool_visible = false;

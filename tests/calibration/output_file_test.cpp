@@ -175,10 +175,10 @@ TEST_F(Output, LeavesWhatIsBeingWrittenOrIsOfAnotherTarget) {
 }
 
 TEST(TemporaryMarks, AreTakenOutOfMessages) {
-  EXPECT_EQ(calibration::withoutTemporaryMarks("picture out/.part-q2dm741g-o.png: no room, .part-00000000-x"),
+  EXPECT_EQ(calibration::withoutTemporaryNames("picture out/.part-q2dm741g-o.png: no room, .part-00000000-x"),
             "picture out/o.png: no room, x");
-  EXPECT_EQ(calibration::withoutTemporaryMarks(".part-q2dm741g"), ".part-q2dm741g");
-  EXPECT_EQ(calibration::withoutTemporaryMarks(".part-q2dm741G-o .part-"), ".part-q2dm741G-o .part-");
+  EXPECT_EQ(calibration::withoutTemporaryNames(".part-q2dm741g"), ".part-q2dm741g");
+  EXPECT_EQ(calibration::withoutTemporaryNames(".part-q2dm741G-o .part-"), ".part-q2dm741G-o .part-");
 }
 
 }  // namespace

@@ -15,8 +15,8 @@ constexpr std::array kGeometries = {kOmniGeometry, kDesktopGeometry, kPremium15G
 struct AnyJoints {
   std::mt19937 generator{11};
   double within(AngleRange range) {
-    return std::uniform_real_distribution<double>(std::max(range.least_rad, -kPi),
-                                                  std::min(range.most_rad, kPi))(generator);
+    return std::uniform_real_distribution<double>(std::max(range.min_rad, -kPi),
+                                                  std::min(range.max_rad, kPi))(generator);
   }
   PhantomJoints operator()(const PhantomGeometry& g) {
     PhantomJoints joints;
@@ -29,22 +29,22 @@ struct AnyJoints {
 };
 
 TEST(PhantomKinematics, PutsTheOmniAtZeroWhereItsMakerDoes) {
-  EXPECT_LT(glm::distance(wristPlace(kOmniGeometry, glm::dvec3(0.0)).mm, glm::dvec3(0.0, -110.0, -35.0)), 1e-12);
-  EXPECT_LT(glm::length(wristPlace(kPremium15Geometry, glm::dvec3(0.0)).mm), 1e-12);
+  EXPECT_LT(glm::distance(wristPosition(kOmniGeometry, glm::dvec3(0.0)).mm, glm::dvec3(0.0, -110.0, -35.0)), 1e-12);
+  EXPECT_LT(glm::length(wristPosition(kPremium15Geometry, glm::dvec3(0.0)).mm), 1e-12);
 }
 
 TEST(PhantomKinematics, ReachesTheInkwellWithTheArmUpright) {
-  const auto arm_rad = armReaching(kOmniGeometry, kOmniInkwell_D);
+  const auto arm_rad = armAnglesFor(kOmniGeometry, kOmniInkwell_D);
   ASSERT_TRUE(arm_rad);
   EXPECT_NEAR(arm_rad->x, 0.0, 1e-12);
   EXPECT_NEAR(degreesFromRad(arm_rad->y), 15.4, 0.05);
   EXPECT_NEAR(degreesFromRad(arm_rad->z), -21.2, 0.05);
-  EXPECT_LT(glm::distance(wristPlace(kOmniGeometry, *arm_rad).mm, kOmniInkwell_D.mm), 1e-9);
+  EXPECT_LT(glm::distance(wristPosition(kOmniGeometry, *arm_rad).mm, kOmniInkwell_D.mm), 1e-9);
 }
 
 TEST(PhantomKinematics, NeedsMoreTorqueThanTheOmniHasToPushUpAtTheInkwell) {
   const glm::dvec3 torque_Nmm =
-      armTorque_Nmm(kOmniGeometry, armReaching(kOmniGeometry, kOmniInkwell_D).value(), {{0.0, 3.3, 0.0}});
+      armTorque_Nmm(kOmniGeometry, armAnglesFor(kOmniGeometry, kOmniInkwell_D).value(), {{0.0, 3.3, 0.0}});
   EXPECT_NEAR(torque_Nmm.x, 0.0, 1e-9);
   EXPECT_NEAR(torque_Nmm.y, 424.0, 0.5);
   EXPECT_NEAR(torque_Nmm.z, -160.0, 1.0);
@@ -69,7 +69,7 @@ TEST(PhantomKinematics, DifferentiatesItself) {
         glm::dvec3 ahead = q, behind = q;
         ahead[joint] += kStep_rad;
         behind[joint] -= kStep_rad;
-        const glm::dvec3 slope = (wristPlace(g, ahead).mm - wristPlace(g, behind).mm) / (2.0 * kStep_rad);
+        const glm::dvec3 slope = (wristPosition(g, ahead).mm - wristPosition(g, behind).mm) / (2.0 * kStep_rad);
         ASSERT_LT(glm::distance(slope, J[joint]), 1e-6 * g.thigh_mm) << "joint " << joint;
       }
       const double out_mm = g.thigh_mm * std::cos(q.y) + g.shin_mm * std::sin(q.z);
@@ -101,9 +101,9 @@ TEST(PhantomKinematics, BendsItsElbowTheWayItsStopsLetIt) {
   down.arm = {};
   down.elbow = {radFromDegrees(91.0), radFromDegrees(269.0)};
   for (const glm::dvec3& place : {glm::dvec3(0.0), glm::dvec3(40.0, 20.0, -20.0)}) {
-    const auto upwards = armReaching(kOmniGeometry, {place}), downwards = armReaching(down, {place});
+    const auto upwards = armAnglesFor(kOmniGeometry, {place}), downwards = armAnglesFor(down, {place});
     ASSERT_TRUE(upwards && downwards);
-    EXPECT_LT(glm::distance(wristPlace(down, *downwards).mm, place), 1e-9);
+    EXPECT_LT(glm::distance(wristPosition(down, *downwards).mm, place), 1e-9);
     EXPECT_GT(upwards->y, downwards->y + 0.5);
   }
 }
@@ -138,9 +138,9 @@ TEST(PhantomKinematics, WorksAsMuchAtTheJointsAsAtTheHand) {
 
 TEST(PhantomKinematics, ReachesNothingBeyondItsArm) {
   for (const PhantomGeometry& g : kGeometries) {
-    EXPECT_FALSE(armReaching(g, {g.shoulder_D.mm + glm::dvec3(0.0, 0.0, 1.001 * (g.thigh_mm + g.shin_mm))}));
-    EXPECT_FALSE(armReaching(g, {{std::nan(""), 0.0, 0.0}}));
-    EXPECT_FALSE(armReaching(g, {g.shoulder_D.mm + glm::dvec3(0.0, -g.shin_mm, -g.thigh_mm)})) << "behind its back";
+    EXPECT_FALSE(armAnglesFor(g, {g.shoulder_D.mm + glm::dvec3(0.0, 0.0, 1.001 * (g.thigh_mm + g.shin_mm))}));
+    EXPECT_FALSE(armAnglesFor(g, {{std::nan(""), 0.0, 0.0}}));
+    EXPECT_FALSE(armAnglesFor(g, {g.shoulder_D.mm + glm::dvec3(0.0, -g.shin_mm, -g.thigh_mm)})) << "behind its back";
   }
   // Thrown back behind its upper stop.
   EXPECT_FALSE(jointsReaching(kOmniGeometry, {glm::angleAxis(3.0, glm::dvec3(1, 0, 0)), {0.0, 0.0, 0.0}}));

@@ -12,7 +12,7 @@
 #include "assets/load_error.h"
 #include "assets/patient/patient_toml.h"
 #include "assets/scenery/face_placement.h"
-#include "assets/toml_keys.h"
+#include "assets/toml_reader.h"
 #include "calibration/calibration_error.h"
 #include "calibration/fit/touches_file.h"
 #include "calibration/record/drift_history.h"
@@ -68,9 +68,9 @@ TEST(TextMutants, PoseCsv) {
 TEST(TextMutants, ForceSettingsToml) {
   const haptics::Command base;
   judge<std::runtime_error>("[law]\nname = \"agus\"\nstiffness_N_per_mm = 0.8\n", [&](const std::string& text) {
-    assets::TomlKeys keys(text, "settings.toml");
+    assets::TomlReader keys(text, "settings.toml");
     app::commandFromToml(keys, base);
-    keys.refuseRest();
+    keys.refuseUnknownKeys();
   });
 }
 

@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "assets/load_error.h"
-#include "assets/scan/file_seal.h"
+#include "assets/scan/file_checksum.h"
 #include "assets/scan/vdb_file.h"
 #include "assets/scan/volume_reader.h"
 #include "tests/assets/scan_on_disk.h"
@@ -30,12 +30,12 @@ assets::CtVolume smallVolume() {
 assets::CtVolume readWithinNarrowLimits(const std::string& path) {
   const int answer = ::memfd_create("answer", MFD_CLOEXEC);
   const pid_t reader = ::fork();
-  if (reader == 0) assets::serveVolume(path, {600'000'000, 100, 6000}, answer);
+  if (reader == 0) assets::runVolumeReader(path, {600'000'000, 100, 6000}, answer);
   int status = 0;
   while (::waitpid(reader, &status, 0) < 0) {
   }
   try {
-    auto volume = assets::volumeAnswered(answer, status, path);
+    auto volume = assets::volumeFromAnswer(answer, status, path);
     ::close(answer);
     return volume;
   } catch (...) {
@@ -52,7 +52,7 @@ TEST(VolumeMutants, AForgedVolumeIsReadOrRefusedWhateverItDoesToItsReader) {
   std::uint64_t tried = 0, refused = 0;
   const auto judge = [&](const std::string& mutant, std::size_t, std::uint64_t) {
     on_disk::write(folder.at("v.vdb"), mutant);
-    assets::seal(folder.at("v.vdb"));
+    assets::appendChecksum(folder.at("v.vdb"));
     const std::string refusal = tests::refusalOf<assets::LoadError>([&] {
       const auto volume = readWithinNarrowLimits(folder.at("v.vdb"));
       EXPECT_EQ(volume.hounsfield.size(), volume.grid.voxelCount());
@@ -74,7 +74,7 @@ TEST(VolumeMutants, ADamagedAnswerOfTheReaderIsAVolumeOrRefused) {
   assets::writeVdb(smallVolume(), folder.at("v.vdb"));
   const int served = ::memfd_create("answer", MFD_CLOEXEC);
   const pid_t reader = ::fork();
-  if (reader == 0) assets::serveVolume(folder.at("v.vdb"), {600'000'000, 300, 6000}, served);
+  if (reader == 0) assets::runVolumeReader(folder.at("v.vdb"), {600'000'000, 300, 6000}, served);
   int status = 0;
   while (::waitpid(reader, &status, 0) < 0) {
   }
@@ -93,7 +93,7 @@ TEST(VolumeMutants, ADamagedAnswerOfTheReaderIsAVolumeOrRefused) {
     constexpr int kExit = 1 << 8, kInWords = 3 * kExit;
     const int ended = number % 10 == 0 ? kInWords : 0;
     const std::string refusal = tests::refusalOf<assets::LoadError>([&] {
-      const auto volume = assets::volumeAnswered(answer, ended, folder.at("v.vdb"));
+      const auto volume = assets::volumeFromAnswer(answer, ended, folder.at("v.vdb"));
       EXPECT_EQ(volume.hounsfield.size(), volume.grid.voxelCount());
       EXPECT_EQ(volume.label.size(), volume.grid.voxelCount());
       EXPECT_EQ(volume.solid.size(), volume.grid.voxelCount());
@@ -116,7 +116,7 @@ TEST(VolumeMutants, AnUnsealedChangeIsAlwaysNoticed) {
   mutants::forEachMutant({sealed}, 300, [&](const std::string& mutant, std::size_t, std::uint64_t) {
     if (mutant == sealed) return;
     on_disk::write(folder.at("v.vdb"), mutant);
-    EXPECT_NE(tests::refusalOf<assets::LoadError>([&] { assets::refuseUnlessSealed(folder.at("v.vdb")); }), "accepted");
+    EXPECT_NE(tests::refusalOf<assets::LoadError>([&] { assets::requireChecksum(folder.at("v.vdb")); }), "accepted");
   });
 }
 

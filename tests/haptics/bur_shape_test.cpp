@@ -65,8 +65,8 @@ TEST(BurShape, IsDrawnBackIntoItsRange) {
 }
 
 TEST(Tool, HasAShaftThatIsNoThickerThanItsShankAndHead) {
-  EXPECT_NEAR(usualShaft({ShapeKind::sphere, 3.0, 0.0}).radius_mm, 1.175, 1e-12);
-  EXPECT_LT(usualShaft({ShapeKind::cylinder, 0.6, 4.0}).radius_mm, 0.6);
+  EXPECT_NEAR(standardShaft({ShapeKind::sphere, 3.0, 0.0}).radius_mm, 1.175, 1e-12);
+  EXPECT_LT(standardShaft({ShapeKind::cylinder, 0.6, 4.0}).radius_mm, 0.6);
 }
 
 TEST(Tool, IsDrawnBackIntoItsRange) {

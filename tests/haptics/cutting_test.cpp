@@ -52,7 +52,7 @@ struct Bench {
     const double length = glm::length(contact.normal_P.xyz);
     const Vector<Patient> force = length > 0.0 ? (pressing_N / length) * contact.normal_P : Vector<Patient>{};
     if (pedal)
-      granted_mm3 += dt_s * grantedRate_mm3_per_s(erosion, cutMoment(erosion, spindle, at, contact, pressing_N),
+      granted_mm3 += dt_s * grantedRate_mm3_per_s(erosion, cutConditions(erosion, spindle, at, contact, pressing_N),
                                                   assets::Tissue::cortical);
     removed_mm3 += cutting.cut(bone, strokes, erosion, spindle, law, {X_PT, head, contact, force}, pedal, dt_s, tick++)
                        .removed_mm3;

@@ -11,9 +11,9 @@ TEST(DeadlineGrid, StaysOnItsGridHoweverLateATickWakes) {
   DeadlineGrid grid(1000.0, 7);
   for (std::int64_t n = 1; n < 100; ++n) {
     EXPECT_EQ(grid.next_ns(), 7 + n * kMillisecond_ns);
-    const Beat beat = grid.woke(grid.next_ns() + 1000 * (n % 5));
-    EXPECT_EQ(beat.late_us, static_cast<double>(n % 5));
-    EXPECT_EQ(beat.missed, 0u);
+    const TickTiming timing = grid.woke(grid.next_ns() + 1000 * (n % 5));
+    EXPECT_EQ(timing.late_us, static_cast<double>(n % 5));
+    EXPECT_EQ(timing.missed, 0u);
     grid.ticked(grid.next_ns() + 300'000);
   }
 }
@@ -30,8 +30,8 @@ TEST(DeadlineGrid, PassesOverDeadlinesThatWentByAndSaysHowMany) {
 
 TEST(DeadlineGrid, MovesToATickThatComesEarly) {
   DeadlineGrid grid(1000.0, 0);
-  const Beat beat = grid.woke(600'000);
-  EXPECT_EQ(beat.late_us, 0.0);
+  const TickTiming timing = grid.woke(600'000);
+  EXPECT_EQ(timing.late_us, 0.0);
   grid.ticked(700'000);
   EXPECT_EQ(grid.next_ns(), 1'600'000);
 }

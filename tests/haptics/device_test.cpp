@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "haptics/device/simulated/mouse_device.h"
-#include "haptics/device/simulated/scripted_hand.h"
+#include "haptics/device/simulated/scripted_device.h"
 
 namespace haptics {
 namespace {
@@ -16,15 +16,15 @@ assets::PlannedCut plan() {
   assets::PlannedCut cut;
   cut.middle_P_mm = {10.0, -5.0, 3.0};
   cut.outward_P = {0.0, 0.0, 1.0};
-  cut.aside_P = {1.0, 0.0, 0.2};
+  cut.lateral_P = {1.0, 0.0, 0.2};
   return cut;
 }
 
 TEST(VirtualHand, RestsWhereSpringAndForceBalance) {
   VirtualHand hand;
   for (int i = 0; i < 2000; ++i) hand.advance({1.0, 2.0, 3.0}, glm::dvec3(0.0), {0.5, 0.0, -1.0}, 1e-3);
-  EXPECT_NEAR(hand.place_mm.x, 2.0, 1e-9);
-  EXPECT_NEAR(hand.place_mm.z, 1.0, 1e-9);
+  EXPECT_NEAR(hand.position_mm.x, 2.0, 1e-9);
+  EXPECT_NEAR(hand.position_mm.z, 1.0, 1e-9);
   EXPECT_NEAR(glm::length(hand.velocity_mm_per_s), 0.0, 1e-9);
 }
 
@@ -32,7 +32,7 @@ TEST(VirtualHand, MovesTheSameAtEveryRate) {
   VirtualHand fine, coarse;
   for (int i = 0; i < 400; ++i) fine.advance({5.0, 0.0, 0.0}, glm::dvec3(0.0), {0.0, 0.1, 0.0}, 0.25e-3);
   for (int i = 0; i < 5; ++i) coarse.advance({5.0, 0.0, 0.0}, glm::dvec3(0.0), {0.0, 0.1, 0.0}, 20e-3);
-  EXPECT_NEAR(glm::length(fine.place_mm - coarse.place_mm), 0.0, 1e-9);
+  EXPECT_NEAR(glm::length(fine.position_mm - coarse.position_mm), 0.0, 1e-9);
   EXPECT_NEAR(glm::length(fine.velocity_mm_per_s - coarse.velocity_mm_per_s), 0.0, 1e-7);
 }
 
@@ -66,8 +66,8 @@ TEST(MouseDevice, IgnoresATargetThatIsNoPose) {
   EXPECT_EQ(device.exchange({}, 1e-3).X_DH.translation_mm, glm::dvec3(0.0));
 }
 
-TEST(ScriptedHand, SweepsTheTroughAndWithdraws) {
-  ScriptedHand hand(plan());
+TEST(ScriptedDevice, SweepsTheTroughAndWithdraws) {
+  ScriptedDevice hand(plan());
   const double R = plan().bur_radius_mm;
   double lowest = 1e9, least_along = 1e9, most_along = -1e9;
   bool drilled = false;
@@ -91,18 +91,18 @@ TEST(ScriptedHand, SweepsTheTroughAndWithdraws) {
   EXPECT_NEAR(most_along, 4.0, 0.2);
   EXPECT_NEAR(least_along, -4.0, 0.2);
   EXPECT_FALSE(state.pedal);
-  EXPECT_NEAR(last.z - plan().middle_P_mm.z - R, CuttingManner{}.clearance_mm, 0.01);
+  EXPECT_NEAR(last.z - plan().middle_P_mm.z - R, CuttingMotion{}.clearance_mm, 0.01);
 }
 
-TEST(ScriptedHand, HoldsTheShaftOutOfTheMouth) {
-  ScriptedHand hand(plan());
+TEST(ScriptedDevice, HoldsTheShaftOutOfTheMouth) {
+  ScriptedDevice hand(plan());
   const glm::dvec3 shaft = hand.exchange({}, 1e-3).X_DH.rotation * glm::dvec3(0.0, 0.0, 1.0);
   EXPECT_GT(shaft.z, 0.8);
   EXPECT_GT(shaft.x, 0.1);
 }
 
-TEST(ScriptedHand, GivesWayToForce) {
-  ScriptedHand pushed(plan()), free(plan());
+TEST(ScriptedDevice, GivesWayToForce) {
+  ScriptedDevice pushed(plan()), free(plan());
   HandleState a, b;
   for (int i = 0; i < 1500; ++i) {
     a = pushed.exchange({{{0.0, 0.0, 0.5}}, {}}, 1e-3);
@@ -111,13 +111,13 @@ TEST(ScriptedHand, GivesWayToForce) {
   EXPECT_NEAR(a.X_DH.translation_mm.z - b.X_DH.translation_mm.z, 1.0, 0.01);
 }
 
-TEST(ScriptedHand, RefusesAPlanWithoutDirection) {
+TEST(ScriptedDevice, RefusesAPlanWithoutDirection) {
   assets::PlannedCut bad = plan();
-  bad.aside_P = bad.outward_P;
-  EXPECT_THROW(ScriptedHand{bad}, DeviceError);
+  bad.lateral_P = bad.outward_P;
+  EXPECT_THROW(ScriptedDevice{bad}, DeviceError);
   bad = plan();
   bad.depth_mm = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(ScriptedHand{bad}, DeviceError);
+  EXPECT_THROW(ScriptedDevice{bad}, DeviceError);
 }
 
 TEST(TroughPath, TakesThePlanOfThePatientIntoTheFrameOfTheDevice) {
@@ -126,7 +126,7 @@ TEST(TroughPath, TakesThePlanOfThePatientIntoTheFrameOfTheDevice) {
   const TroughPath in_P(plan()), in_D(plan(), {}, X_DP);
   for (double t_s = 0.0; t_s < in_P.duration_s(); t_s += 0.1) {
     const HandTarget a = in_P.at(t_s), b = in_D.at(t_s);
-    EXPECT_LT(glm::distance((X_DP * calibration::Point<calibration::Patient>{a.place_mm}).mm, b.place_mm), 1e-9);
+    EXPECT_LT(glm::distance((X_DP * calibration::Point<calibration::Patient>{a.position_mm}).mm, b.position_mm), 1e-9);
     EXPECT_EQ(a.pedal, b.pedal);
   }
 }
@@ -146,12 +146,12 @@ TEST(VirtualHand, MovesExactlyWhateverTheStep) {
       constexpr int kSteps = 100'000;
       for (int i = 0; i < kSteps; ++i) {
         const double dt = 0.01 / kSteps;
-        const glm::dvec3 pull = stiffness * (target + drift * (dt * i) - slow.place_mm) +
+        const glm::dvec3 pull = stiffness * (target + drift * (dt * i) - slow.position_mm) +
                                 damping * (drift - slow.velocity_mm_per_s) - 0.002 * slow.velocity_mm_per_s;
         slow.velocity_mm_per_s += dt * 1e4 * (pull + push);
-        slow.place_mm += dt * slow.velocity_mm_per_s;
+        slow.position_mm += dt * slow.velocity_mm_per_s;
       }
-      EXPECT_LT(glm::length(hand.place_mm - slow.place_mm), 2e-4) << damping << " " << stiffness;
+      EXPECT_LT(glm::length(hand.position_mm - slow.position_mm), 2e-4) << damping << " " << stiffness;
       EXPECT_LT(glm::length(hand.velocity_mm_per_s - slow.velocity_mm_per_s), 0.03) << damping << " " << stiffness;
     }
 }

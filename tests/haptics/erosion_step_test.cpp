@@ -23,8 +23,8 @@ ErosionSettings settingsOf(ErosionKind kind) {
   return settings;
 }
 
-CutMoment moment(double dt_s) {
-  CutMoment at;
+CutConditions moment(double dt_s) {
+  CutConditions at;
   at.dt_s = dt_s;
   at.spindle_rad_per_s = k40krpm;
   at.overlap_mm3 = 3.5;
@@ -76,12 +76,12 @@ class PlainBone {
 std::array<double, assets::kTissueCount> cutFor(PlainBone& bone, const ErosionSettings& settings, double seconds,
                                                 double rate_Hz) {
   std::array<double, assets::kTissueCount> total{};
-  CutMemory memory;
+  ErosionState memory;
   for (int tick = 0; tick < static_cast<int>(std::lround(seconds * rate_Hz)); ++tick) {
-    CutMoment at = moment(1.0 / rate_Hz);
+    CutConditions at = moment(1.0 / rate_Hz);
     at.overlap_mm3 = bone.overlap_mm3();
     const auto removed = bone.cut(erosionStep(settings, at, memory));
-    memory = remembered(settings, at, memory, removed);
+    memory = updatedErosion(settings, at, memory, removed);
     for (std::size_t tissue = 0; tissue < total.size(); ++tissue) total[tissue] += removed[tissue];
   }
   return total;
@@ -109,7 +109,7 @@ TEST(ErosionByTime, IsLinearInTimeAtAnyTickRate) {
 }
 
 TEST(ErosionByTime, AsksNothingOfTheForceAndCutsAlikeAllRound) {
-  CutMoment light = moment(1e-3);
+  CutConditions light = moment(1e-3);
   light.normal_force_N = light.overlap_mm3 = 0.0;
   const ErosionStep step = erosionStep(settingsOf(ErosionKind::time), light, {});
   EXPECT_NEAR(step.loss[kCortical], 0.004, 1e-15);
@@ -162,14 +162,14 @@ TEST(ErosionByDose, LeavesEnamelLongestAndCancellousShortest) {
 
 TEST(ErosionByMachining, TakesWhatTheFeedSweepsWithinThePowerThereIs) {
   ErosionSettings settings = settingsOf(ErosionKind::machining);
-  CutMoment at = moment(1e-3);
+  CutConditions at = moment(1e-3);
   EXPECT_NEAR(grantedRate_mm3_per_s(settings, at, Tissue::cortical), 4.0, 1e-12);
   at.power_Nmm_per_s = 250.0;  // 0.1 J/mm3: 2.5 mm3/s
   EXPECT_NEAR(grantedRate_mm3_per_s(settings, at, Tissue::cortical), 2.5, 1e-12);
   EXPECT_NEAR(grantedRate_mm3_per_s(settings, at, Tissue::enamel), 2.5 / 3.0, 1e-12);
   EXPECT_NEAR(grantedRate_mm3_per_s(settings, at, Tissue::trabecular), 4.0, 1e-12);
   at.swept_mm3_per_s = 0.0;
-  EXPECT_TRUE(erosionStep(settings, at, {}).takesNothing());
+  EXPECT_TRUE(erosionStep(settings, at, {}).isZero());
 }
 
 TEST(ErosionByMachining, MeetsItsVolumeWhateverIsAlreadyUsedUp) {
@@ -183,16 +183,16 @@ TEST(ErosionByMachining, MeetsItsVolumeWhateverIsAlreadyUsedUp) {
 TEST(Erosion, StopsWithTheSpindleAndFadesWithItsEdge) {
   for (const ErosionName& law : kErosions) {
     ErosionSettings settings = settingsOf(law.kind);
-    CutMoment at = moment(1e-3);
+    CutConditions at = moment(1e-3);
     const double fresh = grantedRate_mm3_per_s(settings, at, Tissue::cortical);
     EXPECT_GT(fresh, 0.0);
     settings.worn = 0.75;
     EXPECT_NEAR(grantedRate_mm3_per_s(settings, at, Tissue::cortical), 0.25 * fresh, 1e-12) << law.key;
     settings.worn = 1.0;
-    EXPECT_TRUE(erosionStep(settings, at, {}).takesNothing()) << law.key;
+    EXPECT_TRUE(erosionStep(settings, at, {}).isZero()) << law.key;
     settings.worn = 0.0;
     at.spindle_rad_per_s = 0.0;
-    EXPECT_TRUE(erosionStep(settings, at, {}).takesNothing()) << law.key;
+    EXPECT_TRUE(erosionStep(settings, at, {}).isZero()) << law.key;
     at.spindle_rad_per_s = -k40krpm;
     EXPECT_NEAR(grantedRate_mm3_per_s(settings, at, Tissue::cortical), fresh, 1e-12) << law.key;
   }
@@ -200,7 +200,7 @@ TEST(Erosion, StopsWithTheSpindleAndFadesWithItsEdge) {
 
 TEST(Erosion, GoesWithTheSpeedOfTheSpindle) {
   for (ErosionKind kind : {ErosionKind::time, ErosionKind::dose}) {
-    CutMoment half = moment(1e-3);
+    CutConditions half = moment(1e-3);
     half.spindle_rad_per_s *= 0.5;
     EXPECT_NEAR(erosionStep(settingsOf(kind), half, {}).loss[kCortical],
                 0.5 * erosionStep(settingsOf(kind), moment(1e-3), {}).loss[kCortical], 1e-15);
@@ -210,38 +210,38 @@ TEST(Erosion, GoesWithTheSpeedOfTheSpindle) {
 TEST(Erosion, OwesLittleAndForgetsItInTheAir) {
   // Everything is used up, the hand presses on for a second, then finds fresh bone.
   const ErosionSettings settings = settingsOf(ErosionKind::dose);
-  CutMemory memory;
-  for (int tick = 0; tick < 1000; ++tick) memory = remembered(settings, moment(1e-3), memory, {});
-  EXPECT_LE(memory.owed_mm3, 0.05 * 3.5 + 1e-12);
+  ErosionState memory;
+  for (int tick = 0; tick < 1000; ++tick) memory = updatedErosion(settings, moment(1e-3), memory, {});
+  EXPECT_LE(memory.deficit_mm3, 0.05 * 3.5 + 1e-12);
   PlainBone bone(kCortical, kCortical);
   const double rate = grantedRate_mm3_per_s(settings, moment(1e-3), Tissue::cortical);
   double gone = 0.0;
   for (int tick = 0; tick < 50; ++tick) {
-    CutMoment at = moment(1e-3);
+    CutConditions at = moment(1e-3);
     at.overlap_mm3 = bone.overlap_mm3();
     const auto removed = bone.cut(erosionStep(settings, at, memory));
     gone += sum(removed);
-    memory = remembered(settings, at, memory, removed);
+    memory = updatedErosion(settings, at, memory, removed);
   }
   EXPECT_LT(gone, rate * 0.05 + 0.1 * 3.5);
-  CutMoment air = moment(1e-3);
+  CutConditions air = moment(1e-3);
   air.overlap_mm3 = 0.0;
-  EXPECT_EQ(remembered(settings, air, memory, {}).owed_mm3, 0.0);
-  EXPECT_EQ(remembered(settings, air, memory, {}).yield, 1.0);
+  EXPECT_EQ(updatedErosion(settings, air, memory, {}).deficit_mm3, 0.0);
+  EXPECT_EQ(updatedErosion(settings, air, memory, {}).yield, 1.0);
 }
 
 TEST(Erosion, RemovesNothingByWhatIsNoNumber) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
   for (const ErosionName& law : kErosions)
     for (double bad : {nan, inf, -1.0}) {
-      CutMoment at = moment(bad);
-      EXPECT_TRUE(erosionStep(settingsOf(law.kind), at, {}).takesNothing()) << law.key << bad;
+      CutConditions at = moment(bad);
+      EXPECT_TRUE(erosionStep(settingsOf(law.kind), at, {}).isZero()) << law.key << bad;
       at = moment(1e-3);
       at.normal_force_N = at.sliding_arm_mm = at.overlap_mm3 = at.swept_mm3_per_s = at.power_Nmm_per_s = bad;
       const ErosionStep step = erosionStep(settingsOf(law.kind), at, {});
       for (double loss : step.loss) EXPECT_TRUE(loss >= 0.0 && std::isfinite(loss)) << law.key << bad;
-      EXPECT_TRUE(std::isfinite(remembered(settingsOf(law.kind), at, {}, {}).owed_mm3));
-      EXPECT_TRUE(std::isfinite(remembered(settingsOf(law.kind), at, {}, {}).yield));
+      EXPECT_TRUE(std::isfinite(updatedErosion(settingsOf(law.kind), at, {}, {}).deficit_mm3));
+      EXPECT_TRUE(std::isfinite(updatedErosion(settingsOf(law.kind), at, {}, {}).yield));
     }
 }
 

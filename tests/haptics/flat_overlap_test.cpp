@@ -71,7 +71,7 @@ TEST(FlatOverlap, IsTheSumOfItsColumnsToAMillionth) {
     for (const double angle : kAngles_deg) {
       const double cos = std::cos(calibration::radFromDegrees(angle));
       for (const double part : {0.05, 0.3, 0.7}) {
-        const double depth = part * wholeDepth_mm(shape, cos);
+        const double depth = part * fullDepth_mm(shape, cos);
         const FlatOverlap fast = flatOverlap(shape, depth, cos), slow = byColumns(shape, depth, angle);
         const double size = volume_mm3(shape);
         EXPECT_NEAR(fast.volume_mm3, slow.volume_mm3, 1e-6 * size) << angle << "° " << depth;
@@ -119,7 +119,7 @@ TEST(FlatOverlap, HasTheClosedFormsOfSideAndEnd) {
 TEST(FlatOverlap, GrowsByItsAreaWithDepth) {
   for (const BurShape& shape : kShapes)
     for (const double angle : kAngles_deg) {
-      const double cos = std::cos(calibration::radFromDegrees(angle)), whole = wholeDepth_mm(shape, cos);
+      const double cos = std::cos(calibration::radFromDegrees(angle)), whole = fullDepth_mm(shape, cos);
       for (double part = 0.013; part < 1.0; part += 0.09) {
         const double h = part * whole, step = 1e-5 * whole;
         const double slope =
@@ -134,7 +134,7 @@ TEST(FlatOverlap, GrowsByItsAreaWithDepth) {
 TEST(FlatDepth, FindsTheDepthOfAVolume) {
   for (const BurShape& shape : kShapes)
     for (const double angle : kAngles_deg) {
-      const double cos = std::cos(calibration::radFromDegrees(angle)), whole = wholeDepth_mm(shape, cos);
+      const double cos = std::cos(calibration::radFromDegrees(angle)), whole = fullDepth_mm(shape, cos);
       for (double part = 0.004; part < 1.0; part += 0.037) {
         const double h = part * whole, volume = flatOverlap(shape, h, cos).volume_mm3;
         // Where the face grazes the head the volume hardly tells the depth.

@@ -81,12 +81,12 @@ TEST(HandGuard, KeepsThePoseWhenNothingNewWasMeasured) {
   stale.fresh = false;
   EXPECT_TRUE(guard.check(stale, strict({}), 1e-3).refused) << "of nothing nothing is known";
   guard.check(at(1.0), strict({}), 1e-3);
-  stale.docked = stale.stop_asked = true;
+  stale.docked = stale.stop_requested = true;
   for (int tick = 0; tick < 10; ++tick) {
     const HandGuard::Checked checked = guard.check(stale, strict({}), 1e-3);
     EXPECT_FALSE(checked.refused || checked.lost);
     EXPECT_EQ(checked.hand.X_PT.translation_mm.x, 1.0);
-    EXPECT_TRUE(checked.hand.docked && checked.hand.stop_asked);
+    EXPECT_TRUE(checked.hand.docked && checked.hand.stop_requested);
   }
   // Ten ticks at up to 2 m/s: 20 mm are believed, and not more.
   EXPECT_FALSE(HandGuard(guard).check(at(21.0), strict({}), 1e-3).refused);

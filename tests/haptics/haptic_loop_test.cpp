@@ -9,9 +9,9 @@
 #include <mutex>
 #include <vector>
 
-#include "haptics/device/device_in_numbers.h"
+#include "haptics/device/simulated_device.h"
 #include "haptics/device/simulated/mouse_device.h"
-#include "haptics/device/simulated/replayed_hand.h"
+#include "haptics/device/simulated/replay_device.h"
 #include "tests/haptics/phantom.h"
 
 namespace haptics {
@@ -21,7 +21,7 @@ using namespace phantom;
 using namespace std::chrono_literals;
 
 /// Stands still under the surface and remembers what its motors are told.
-class PressedDevice : public DeviceInNumbers {
+class PressedDevice : public SimulatedDevice {
  public:
   PressedDevice() { capabilities_.peak_force_N = 0.5; }
   ~PressedDevice() override { stop(); }
@@ -93,8 +93,8 @@ struct Bench {
   }();
 
   /// Started; ticks when it is stepped.
-  std::unique_ptr<HapticLoop> byHand(DeviceInNumbers& device) {
-    auto loop = std::make_unique<HapticLoop>(servo, ServedDevice::byHand(device), commands, log, newest, settings);
+  std::unique_ptr<HapticLoop> byHand(SimulatedDevice& device) {
+    auto loop = std::make_unique<HapticLoop>(servo, ServedDevice::steppedManually(device), commands, log, newest, settings);
     loop->start();
     return loop;
   }
@@ -163,9 +163,9 @@ TEST(HapticLoop, ByHandTakesNoTimeFromTheMachine) {
   }
   const LoopFigures figures = loop->figures();
   EXPECT_EQ(figures.missed, 0u);
-  EXPECT_EQ(figures.latest_us, 0.0);
+  EXPECT_EQ(figures.late_max_us, 0.0);
   EXPECT_EQ(figures.work_max_us, 0.0);
-  EXPECT_EQ(figures.silences, 0u);
+  EXPECT_EQ(figures.watchdog_trips, 0u);
   loop->stop();
 }
 
@@ -191,7 +191,7 @@ TEST(HapticLoop, CountsMissedDeadlinesAndGoesOn) {
   loop->pass(30ms);  // 29 deadlines and a late one
   loop->step(1);
   EXPECT_NEAR(bench.newest.read().hand.gap_s, 0.030, 1e-12);
-  EXPECT_NEAR(loop->figures().latest_us, 29'000.0, 1e-6);
+  EXPECT_NEAR(loop->figures().late_max_us, 29'000.0, 1e-6);
   loop->step(1);
   EXPECT_EQ(loop->figures().missed, 29u);
   EXPECT_EQ(bench.newest.read().hand.gap_s, 0.0) << "back on the grid";
@@ -221,9 +221,9 @@ TEST(HapticLoop, RefusesRatesAndPosesItCannotServe) {
 TEST(HapticLoop, ByHandEndsWhereTheDeviceRefusesItsRateOrIsGone) {
   Bench bench;
   bench.settings.rate_Hz = 2000.0;
-  ReplayedHand recorded_at_1_kHz({HandleState{}}, 0.001);
+  ReplayDevice recorded_at_1_kHz({HandleState{}}, 0.001);
   {
-    HapticLoop loop(bench.servo, ServedDevice::byHand(recorded_at_1_kHz), bench.commands, bench.log, bench.newest,
+    HapticLoop loop(bench.servo, ServedDevice::steppedManually(recorded_at_1_kHz), bench.commands, bench.log, bench.newest,
                     bench.settings);
     EXPECT_THROW(loop.start(), DeviceError);
     loop.stop();
@@ -270,9 +270,9 @@ TEST(HapticLoop, SupervisorSwitchesTheMotorsOffWhenTicksStop) {
   // Goes on only once its motors were switched off.
   ASSERT_TRUE(device.awaitCalls(25));
   loop.stop();
-  EXPECT_GE(loop.figures().silences, 1u) << "remembered when it has stopped";
+  EXPECT_GE(loop.figures().watchdog_trips, 1u) << "remembered when it has stopped";
   loop.stop();
-  EXPECT_GE(loop.figures().silences, 1u);
+  EXPECT_GE(loop.figures().watchdog_trips, 1u);
 }
 
 TEST(HapticLoop, BringsNoForceBackToLetItDown) {
@@ -326,9 +326,9 @@ TEST(HapticLoop, RecordsAnEmergencyStopSoThatAReplayStopsToo) {
   loop->step(30);
   loop->emergencyStop();
   loop->step(20);
-  EXPECT_TRUE(bench.newest.read().hand.stop_asked);
+  EXPECT_TRUE(bench.newest.read().hand.stop_requested);
   EXPECT_EQ(bench.newest.read().state, SafetyState::off);
-  EXPECT_EQ(glm::length(bench.newest.read().served_force_P_N.xyz), 0.0);
+  EXPECT_EQ(glm::length(bench.newest.read().commanded_force_P_N.xyz), 0.0);
   loop->stop();
 }
 
@@ -336,11 +336,11 @@ TEST(LimitedTo, IsStrictWithADeviceThatHasMotorsWhateverWasAskedFor) {
   Command command;
   command.safety.slew_N_per_s = 1e5;
   command.safety.must_be_armed = false;
-  command.safety.fastest_mm_per_s = 1e9;
-  command.safety.thresholds.cut_mm_per_s = 1e9;
+  command.safety.max_speed_mm_per_s = 1e9;
+  command.safety.thresholds.cutoff_mm_per_s = 1e9;
   command.law.damping_Ns_per_mm = 0.05;
   DeviceCapabilities device;
-  device.most_stiffness_N_per_mm = 0.7;
+  device.max_stiffness_N_per_mm = 0.7;
   device.peak_joint_torque_Nmm = {350.0, 0.0, 300.0};
   EXPECT_FALSE(limitedTo(device, 1000.0, command).safety.must_be_armed);
   EXPECT_EQ(limitedTo(device, 1000.0, command).safety.continuous_force_N, 1e3) << "no motors, no heat";
@@ -348,8 +348,8 @@ TEST(LimitedTo, IsStrictWithADeviceThatHasMotorsWhateverWasAskedFor) {
   const Command limited = limitedTo(device, 4000.0, command);
   EXPECT_TRUE(limited.safety.must_be_armed);
   EXPECT_EQ(limited.safety.slew_N_per_s, 300.0);
-  EXPECT_EQ(limited.safety.fastest_mm_per_s, 2000.0);
-  EXPECT_EQ(limited.safety.thresholds.cut_mm_per_s, 1000.0);
+  EXPECT_EQ(limited.safety.max_speed_mm_per_s, 2000.0);
+  EXPECT_EQ(limited.safety.thresholds.cutoff_mm_per_s, 1000.0);
   EXPECT_EQ(limited.safety.peak_force_N, 0.9 * 3.3);
   EXPECT_EQ(limited.safety.continuous_force_N, 0.88);
   EXPECT_EQ(limited.law.damping_Ns_per_mm, 0.005);
@@ -357,7 +357,7 @@ TEST(LimitedTo, IsStrictWithADeviceThatHasMotorsWhateverWasAskedFor) {
   // Once is enough.
   EXPECT_EQ(limitedTo(device, 4000.0, limited).safety.peak_force_N, limited.safety.peak_force_N);
   command.law.damping_Ns_per_mm = 0.0;
-  EXPECT_EQ(limitedTo(device, 4000.0, command).safety.most_stiffness_N_per_mm, 0.7);
+  EXPECT_EQ(limitedTo(device, 4000.0, command).safety.max_stiffness_N_per_mm, 0.7);
 }
 
 TEST(LimitedTo, TakesTheSmallerPeaks) {
@@ -377,13 +377,13 @@ TEST(LimitedTo, TakesTheSmallerPeaks) {
 TEST(LimitedTo, AllowsNoSlopeThatTheDeviceCannotHold) {
   Command command;
   DeviceCapabilities device;  // b = 2 N s/m
-  EXPECT_NEAR(limitedTo(device, 1000.0, command).safety.most_stiffness_N_per_mm, 3.6, 1e-12);
-  EXPECT_NEAR(limitedTo(device, 4000.0, command).safety.most_stiffness_N_per_mm, 14.4, 1e-12);
-  EXPECT_NEAR(limitedTo(device, 10'000.0, command).safety.most_stiffness_N_per_mm, 20.0, 1e-12);
+  EXPECT_NEAR(limitedTo(device, 1000.0, command).safety.max_stiffness_N_per_mm, 3.6, 1e-12);
+  EXPECT_NEAR(limitedTo(device, 4000.0, command).safety.max_stiffness_N_per_mm, 14.4, 1e-12);
+  EXPECT_NEAR(limitedTo(device, 10'000.0, command).safety.max_stiffness_N_per_mm, 20.0, 1e-12);
   command.law.damping_Ns_per_mm = 0.001;
-  EXPECT_NEAR(limitedTo(device, 1000.0, command).safety.most_stiffness_N_per_mm, 1.8, 1e-12);
+  EXPECT_NEAR(limitedTo(device, 1000.0, command).safety.max_stiffness_N_per_mm, 1.8, 1e-12);
   command.law.damping_Ns_per_mm = 0.003;
-  EXPECT_EQ(limitedTo(device, 1000.0, command).safety.most_stiffness_N_per_mm, 0.0);
+  EXPECT_EQ(limitedTo(device, 1000.0, command).safety.max_stiffness_N_per_mm, 0.0);
 }
 
 }  // namespace

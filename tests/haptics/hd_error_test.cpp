@@ -53,7 +53,7 @@ TEST(HdError, WhatALimitCausesPassesAndWhatADeviceSuffersIsFatal) {
 }
 
 TEST(HdError, ALeftOverDeviceIsToBeReplugged) {
-  const std::string words = inWords({0x0303, 12, 0});
+  const std::string words = errorText({0x0303, 12, 0});
   EXPECT_THAT(words, HasSubstr("HD 0x0303 (internal 12): "));
   EXPECT_THAT(words, HasSubstr("unplug it for ten seconds"));
   EXPECT_THAT(words, HasSubstr("ModemManager"));
@@ -80,8 +80,8 @@ TEST(HdErrors, EmptyTheStackAndKeepTheFirstFatalOne) {
 TEST(HdErrors, TakeNoMoreThanTheirShareOfAFullStack) {
   HdErrors errors;
   const HdFunctions hd = library(std::deque<unsigned>(100, 0x0201));
-  EXPECT_EQ(errors.drain(hd).count, HdErrors::kMostADrain);
-  EXPECT_EQ(stack().size(), 100u - HdErrors::kMostADrain);
+  EXPECT_EQ(errors.drain(hd).count, HdErrors::kMaxPerDrain);
+  EXPECT_EQ(stack().size(), 100u - HdErrors::kMaxPerDrain);
   EXPECT_EQ(errors.firstFatal().code, hd::kSuccess);
   // Unknown codes are counted together and end the work.
   EXPECT_TRUE(errors.drain(library({0x1234, 0xFFFF})).fatal);

@@ -87,14 +87,14 @@ TEST(HdLibrary, TellsABrokenFileFromAMissingOne) {
 
 TEST(HdLibrary, KnowsThePackageOfEachPart) {
   const auto words = [](const std::string& part) {
-    return loadFailureInWords("libHD.so.3.5", part + ": cannot open shared object file: No such file or directory");
+    return loadFailureText("libHD.so.3.5", part + ": cannot open shared object file: No such file or directory");
   };
   EXPECT_EQ(words("libncurses.so.5"),
             "OpenHaptics, libHD.so.3.5 needs libncurses.so.5, which is not there: apt install libncurses5 libtinfo5");
   EXPECT_THAT(words("libPhantomIOLib42.so"), HasSubstr("install the Touch device driver from 3D Systems"));
   EXPECT_THAT(words("libPHANToMIO.so.4"), HasSubstr("install the PHANTOM Device Drivers"));
   EXPECT_THAT(words("libraw1394.so.8"), HasSubstr("apt install libraw1394-11"));
-  EXPECT_THAT(loadFailureInWords("libHD.so", "libHD.so: wrong ELF class: ELFCLASS32"), HasSubstr("64-bit"));
+  EXPECT_THAT(loadFailureText("libHD.so", "libHD.so: wrong ELF class: ELFCLASS32"), HasSubstr("64-bit"));
 }
 
 TEST(FindOpenHaptics, ReadsTheConfigurationsAndSaysWhyTheyCanNotBeOpened) {

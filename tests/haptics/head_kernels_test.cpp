@@ -26,7 +26,7 @@ class Scene {
     bur.emplace(grid, shape, calibration::Pose<calibration::Patient, calibration::Tool>{turn, {31.3, 32.1, 30.7}});
     head = bur->kernelShape();
     for (int axis = 0; axis < 3; ++axis) corner[axis] = 4 * static_cast<int>(number(4.0, 12.0));
-    const glm::dvec3 place = bur->placeOf(corner);
+    const glm::dvec3 place = bur->positionInTool(corner);
     for (std::size_t n = 0; n < 64; ++n) {
       solid[n] = static_cast<std::uint8_t>(number(0.0, 255.9));
       factor[n] = static_cast<float>(number(0.1, 1.5));

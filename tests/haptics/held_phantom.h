@@ -27,7 +27,7 @@ class HeldPhantom {
     hand.held = state.held;
     hand.calibrated = state.calibrated;
     const Tick felt = servo_.step(hand, command_, dt_s);
-    told_.force_N.xyz = felt.served_force_P_N.xyz;
+    told_.force_N.xyz = felt.commanded_force_P_N.xyz;
     return felt;
   }
   const SimulatedPhantom& device() const { return device_; }

@@ -5,7 +5,7 @@
 #include <limits>
 #include <random>
 
-#include "haptics/device/openhaptics/callback_beat.h"
+#include "haptics/device/openhaptics/callback_timing.h"
 
 namespace haptics {
 namespace {
@@ -64,10 +64,10 @@ TEST(Inkwell, AStylusThatRattlesInItsWellNeverTeachesIt) {
   EXPECT_EQ(inkwell.dockedValue(), std::nullopt);
 }
 
-TEST(CallbackBeat, TellsHowLateACallIsAndWhatItMissed) {
-  CallbackBeat beat(1000.0);
+TEST(CallbackTiming, TellsHowLateACallIsAndWhatItMissed) {
+  CallbackTiming timing(1000.0);
   const auto expect = [&](std::int64_t at_us, double late_us, std::uint64_t missed) {
-    const Beat told = beat.next(at_us * 1000);
+    const TickTiming told = timing.next(at_us * 1000);
     EXPECT_NEAR(told.late_us, late_us, 1e-6) << at_us;
     EXPECT_EQ(told.missed, missed) << at_us;
   };

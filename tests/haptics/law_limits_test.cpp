@@ -61,7 +61,7 @@ TEST(LawLimits, RefuseWhatADeviceCannotHoldAndNameWhatItCan) {
       law.kind = name.kind;
       const BurShape head{shape, 1.0, shape == ShapeKind::sphere ? 0.0 : 2.0};
       const Admission refused = admissible(law, head, 0.05);
-      if (!admits(name.kind, shape)) {
+      if (!supports(name.kind, shape)) {
         EXPECT_EQ(refused.answer, Admission::Answer::no_such_head);
         continue;
       }

@@ -25,8 +25,8 @@ TEST(LawParameters, HaveTheirOwnPlaceAndANameOfTheirOwnInEveryLaw) {
 TEST(LawParameters, HaveADefaultWithinTheirRange) {
   for (const LawParameter& parameter : lawParameters()) {
     EXPECT_LT(parameter.lowest, parameter.highest) << parameter.key;
-    EXPECT_GE(parameter.standard(), parameter.lowest) << parameter.key;
-    EXPECT_LE(parameter.standard(), parameter.highest) << parameter.key;
+    EXPECT_GE(parameter.defaultValue(), parameter.lowest) << parameter.key;
+    EXPECT_LE(parameter.defaultValue(), parameter.highest) << parameter.key;
     EXPECT_FALSE(parameter.meaning.empty() || parameter.source.empty()) << parameter.key;
   }
 }
@@ -70,7 +70,7 @@ TEST(LawParameters, AreObeyedWithinTheirRangeOnly) {
 
   for (const LawParameter& parameter : lawParameters()) parameter.of(wild) = std::numeric_limits<double>::quiet_NaN();
   safe = sanitised(wild);
-  for (const LawParameter& parameter : lawParameters()) EXPECT_EQ(parameter.of(safe), parameter.standard());
+  for (const LawParameter& parameter : lawParameters()) EXPECT_EQ(parameter.of(safe), parameter.defaultValue());
 }
 
 }  // namespace

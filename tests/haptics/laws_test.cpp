@@ -172,7 +172,7 @@ TEST(Laws, PushEveryShapeTheyAdmitOutOfFlatBone) {
       const BurShape head{shape, 1.5, shape == ShapeKind::sphere ? 0.0 : 3.0};
       const double reach = reach_mm(head, -normal.z);
       const Contact contact = contactAt(settingsOf(name.kind), phantom, (reach - 0.5) * normal, head);
-      if (!admits(name.kind, shape)) {
+      if (!supports(name.kind, shape)) {
         EXPECT_EQ(contact.depth_mm, 0.0) << name.key;
         continue;
       }
@@ -263,7 +263,7 @@ TEST(Points, DelayTheDensityAloneAndNeverTheDepth) {
   };
   LawState state;
   for (int tick = 0; tick < 100; ++tick)
-    remember(law, at(hard_field, 1.5), contactOf(law, at(hard_field, 1.5), state), state);
+    updateLawState(law, at(hard_field, 1.5), contactOf(law, at(hard_field, 1.5), state), state);
   // A step in depth is felt at once, and looking does not change what is remembered.
   const double shallow = contactOf(law, at(hard_field, 1.5), state).force_P_N.xyz.z;
   const double deep = contactOf(law, at(hard_field, 1.0), state).force_P_N.xyz.z;
@@ -276,7 +276,7 @@ TEST(Points, DelayTheDensityAloneAndNeverTheDepth) {
     EXPECT_LE(contact.force_P_N.xyz.z, last + 1e-12);
     EXPECT_LT(last - contact.force_P_N.xyz.z, 0.02 * deep);
     last = contact.force_P_N.xyz.z;
-    remember(law, at(soft_field, 1.0), contact, state);
+    updateLawState(law, at(soft_field, 1.0), contact, state);
   }
   EXPECT_NEAR(contactOf(law, at(soft_field, 1.0), state).force_P_N.xyz.z / deep, law.tissue.factor[2], 1e-9);
 }
@@ -315,7 +315,7 @@ TEST(Forssim, HoldsFromOneFractionUntilALowerOneAndStartsWithoutAStep) {
   const auto tick = [&](double z) {
     const ToolInBone at{phantom.field(), {ShapeKind::sphere, R}, {kUpright, {0.0, 0.0, z}}, law.tissue, {}};
     const Contact contact = contactOf(law, at, state);
-    remember(law, at, contact, state);
+    updateLawState(law, at, contact, state);
     return contact.force_P_N.xyz.z;
   };
   const double ball = 4.0 / 3.0 * kPi * R * R * R;

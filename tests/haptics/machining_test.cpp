@@ -207,7 +207,7 @@ TEST(Machining, VibratesNoHarderThanTheHandAndTheDeviceCanTake) {
     for (int n = 0; n < 8; ++n) {
       const Case test(bone, 1.0, 0.4);
       ToolInBone at = test.at();
-      at.motion.buzz_rad = n * kPi / 4.0;
+      at.motion.vibration_phase_rad = n * kPi / 4.0;
       const Contact contact = machiningContact(parameters, at);
       const double amplitude = glm::length(contact.vibration_P_N.xyz), force = glm::length(contact.force_P_N.xyz);
       EXPECT_NEAR(amplitude, std::min(0.3, std::min(share, 0.1) * force), 1e-12);

@@ -6,7 +6,7 @@
 #include <mutex>
 #include <random>
 
-#include "haptics/device/device_in_numbers.h"
+#include "haptics/device/simulated_device.h"
 #include "haptics/device/simulated/simulated_phantom.h"
 #include "haptics/servo/haptic_loop.h"
 #include "tests/haptics/phantom.h"
@@ -21,15 +21,15 @@ using calibration::Handle;
 using calibration::MeasuredArm;
 using calibration::Point;
 using calibration::Pose;
-using calibration::UntrueArm;
+using calibration::PerturbedArm;
 using calibration::World;
 
-MeasuredArm perfectlyMeasured(const UntrueArm& arm, const Pose<World, Device>& X_WD = {}) {
+MeasuredArm perfectlyMeasured(const PerturbedArm& arm, const Pose<World, Device>& X_WD = {}) {
   return {arm.geometry, arm.truth, X_WD};
 }
 
 /// What the driver of an untrue arm says while the handle is truly there.
-HandleState stateAt(const UntrueArm& arm, const Pose<Device, Handle>& X_DH) {
+HandleState stateAt(const PerturbedArm& arm, const Pose<Device, Handle>& X_DH) {
   HandleState state;
   state.joints_rad = arm.rawAt(X_DH).value();
   state.has_joints = true;
@@ -46,12 +46,12 @@ TEST(MeasuredHandle, WithAPerfectCorrectionIsWhereItTrulyIs) {
   double driver_off_mm = 0.0;
   int poses = 0;
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
-    const UntrueArm arm = untrueOmni(seed);
+    const PerturbedArm arm = untrueOmni(seed);
     const MeasuredArm measured = perfectlyMeasured(arm, crooked());
     MeasuredHandle handle(measured);
-    std::mt19937 chance(seed);
+    std::mt19937 rng(seed);
     for (int n = 0; n < 25; ++n) {
-      const auto truth_DH = heldSomewhere(chance);
+      const auto truth_DH = heldSomewhere(rng);
       const HandleState state = stateAt(arm, truth_DH);
       const auto X_WH = measured.X_WD * handle.corrected(state).X_DH;
       const Point<Handle> tip_H{arm.truth.tip_H_mm};
@@ -66,9 +66,9 @@ TEST(MeasuredHandle, WithAPerfectCorrectionIsWhereItTrulyIs) {
 }
 
 TEST(MeasuredHandle, WithoutAnArmOrWithoutAnglesIsTheDrivers) {
-  std::mt19937 chance(3);
-  const UntrueArm arm = untrueOmni(3);
-  HandleState state = stateAt(arm, heldSomewhere(chance));
+  std::mt19937 rng(3);
+  const PerturbedArm arm = untrueOmni(3);
+  HandleState state = stateAt(arm, heldSomewhere(rng));
   EXPECT_EQ(MeasuredHandle(std::nullopt).corrected(state).X_DH.translation_mm, state.X_DH.translation_mm);
   state.has_joints = false;
   MeasuredHandle handle(perfectlyMeasured(arm));
@@ -78,11 +78,11 @@ TEST(MeasuredHandle, WithoutAnArmOrWithoutAnglesIsTheDrivers) {
 }
 
 TEST(MeasuredHandle, StaysWhereItWasWhenTheAnglesAreLost) {
-  std::mt19937 chance(4);
-  const UntrueArm arm = untrueOmni(4);
+  std::mt19937 rng(4);
+  const PerturbedArm arm = untrueOmni(4);
   MeasuredHandle handle(perfectlyMeasured(arm));
-  const HandleState before = handle.corrected(stateAt(arm, heldSomewhere(chance)));
-  HandleState lost = stateAt(arm, heldSomewhere(chance)), mad = lost;
+  const HandleState before = handle.corrected(stateAt(arm, heldSomewhere(rng)));
+  HandleState lost = stateAt(arm, heldSomewhere(rng)), mad = lost;
   lost.has_joints = false;
   mad.joints_rad[1] = std::numeric_limits<double>::quiet_NaN();
   for (const HandleState& state : {lost, mad}) {
@@ -100,7 +100,7 @@ TEST(MeasuredHandle, RefusesAnArmThatIsNotFinite) {
 }
 
 /// Holds one state and remembers the largest force it was told.
-class HeldDevice final : public DeviceInNumbers {
+class HeldDevice final : public SimulatedDevice {
  public:
   explicit HeldDevice(const HandleState& state) : state_(state) {}
   ~HeldDevice() override { stop(); }
@@ -120,7 +120,7 @@ class HeldDevice final : public DeviceInNumbers {
 TEST(HapticLoop, WithAMeasuredArmFeelsTheBoneWhereAndAsItIsSeen) {
   // Bone below z = 0 of W, which is P; the tool truly 1 mm above it, where only the correction puts it.
   for (std::uint32_t seed = 1; seed <= 3; ++seed) {
-    const UntrueArm arm = untrueOmni(seed);
+    const PerturbedArm arm = untrueOmni(seed);
     const MeasuredArm measured = perfectlyMeasured(arm, crooked());
     const Pose<Handle, calibration::Tool> X_HT{{1.0, 0.0, 0.0, 0.0}, arm.truth.tip_H_mm};
     const Pose<Device, Handle> held_DH{{1.0, 0.0, 0.0, 0.0}, {5.0, -20.0, 10.0}};
@@ -140,7 +140,7 @@ TEST(HapticLoop, WithAMeasuredArmFeelsTheBoneWhereAndAsItIsSeen) {
     settings.X_HT = X_HT;
     settings.arm = measured;
     HeldDevice device(stateAt(arm, held_DH));
-    HapticLoop loop(servo, ServedDevice::byHand(device), commands, log, newest, settings);
+    HapticLoop loop(servo, ServedDevice::steppedManually(device), commands, log, newest, settings);
     loop.start();
     loop.step(60);
     loop.stop();
@@ -157,17 +157,17 @@ TEST(SimulatedPhantom, OfAnUntrueArmIsTakenForAnotherPlaceByItsDriverAlone) {
   PhantomMechanics mechanics = *findSimulatedPhantom("omni");
   mechanics.sensing = {};
   mechanics.dry_N = 0.0;
-  const UntrueArm arm = untrueOmni(5);
+  const PerturbedArm arm = untrueOmni(5);
   HandTarget still;
-  still.place_mm = {10.0, -20.0, 15.0};
+  still.position_mm = {10.0, -20.0, 15.0};
   SimulatedPhantom device(mechanics, [still](double) { return still; }, {0.055, 0.3, 0.003, 0.0}, 1, {"unit-5", arm});
   EXPECT_EQ(device.capabilities().serial, "unit-5");
   EXPECT_EQ(device.capabilities().arm_model, "omni");
   const HandleState state = device.exchange({}, 1e-3);
   MeasuredHandle handle(perfectlyMeasured(arm));
   ASSERT_TRUE(state.has_joints);
-  EXPECT_GT(glm::distance(state.X_DH.translation_mm, still.place_mm), 0.3);
-  EXPECT_LT(glm::distance(handle.corrected(state).X_DH.translation_mm, still.place_mm), 1e-6);
+  EXPECT_GT(glm::distance(state.X_DH.translation_mm, still.position_mm), 0.3);
+  EXPECT_LT(glm::distance(handle.corrected(state).X_DH.translation_mm, still.position_mm), 1e-6);
 }
 
 }  // namespace

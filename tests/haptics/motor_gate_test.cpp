@@ -92,8 +92,8 @@ TEST(MotorGate, TakesAJointLimitThatCanNotBeReadForTheTightest) {
 
 TEST(MotorCommand, CanOnlyBeWeakened) {
   const MotorCommand full = MotorGate(touch()).admit(push({2.0, 0.0, 0.0}), kUnknown, true);
-  EXPECT_EQ(full.faded(0.25).wrench_D().force_N.xyz.x, 0.5);
-  for (double bad : {kNan, 1.5, -0.5, kInf}) EXPECT_EQ(full.faded(bad).wrench_D().force_N.xyz.x, 0.0);
+  EXPECT_EQ(full.scaled(0.25).wrench_D().force_N.xyz.x, 0.5);
+  for (double bad : {kNan, 1.5, -0.5, kInf}) EXPECT_EQ(full.scaled(bad).wrench_D().force_N.xyz.x, 0.0);
 }
 
 }  // namespace

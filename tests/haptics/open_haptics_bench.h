@@ -24,7 +24,7 @@ class Pusher final : public DeviceServo {
   explicit Pusher(const glm::dvec3& force_N = {}) : gate_(strong()), force_N_(force_N) {}
 
   void begin() noexcept override { ++begun; }
-  MotorCommand tick(const HandleState& state, const Beat& beat) noexcept override {
+  MotorCommand tick(const HandleState& state, const TickTiming& timing) noexcept override {
     {
       const std::lock_guard lock(mutex_);
       state_ = state;
@@ -33,11 +33,11 @@ class Pusher final : public DeviceServo {
     for (held_up = ticks == hold_at_tick; held_up && ticks == hold_at_tick;)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     held_up = false;
-    fastest_mm_per_s = std::max(fastest_mm_per_s.load(), state.velocity_D_mm_per_s.xyz.x);
+    max_speed_mm_per_s = std::max(max_speed_mm_per_s.load(), state.velocity_D_mm_per_s.xyz.x);
     if (ticks == 100) allocations_at_100 = allocation_count::now();
     if (ticks == 500) allocations_at_500 = allocation_count::now();
-    missed += static_cast<long>(beat.missed);
-    latest_us = std::max(latest_us.load(), beat.late_us);
+    missed += static_cast<long>(timing.missed);
+    late_max_us = std::max(late_max_us.load(), timing.late_us);
     unhealthy += state.healthy ? 0 : 1;
     uncalibrated += state.calibrated ? 0 : 1;
     ++ticks;
@@ -50,7 +50,7 @@ class Pusher final : public DeviceServo {
 
   std::atomic<long> ticks{0}, missed{0}, unhealthy{0}, uncalibrated{0}, slow_at_tick{-1}, hold_at_tick{-1};
   std::atomic<int> begun{0}, slow_ms{0};
-  std::atomic<double> latest_us{0.0}, fastest_mm_per_s{0.0};
+  std::atomic<double> late_max_us{0.0}, max_speed_mm_per_s{0.0};
   std::atomic<bool> pushes{true}, held_up{false};
   std::atomic<std::size_t> allocations_at_100{0}, allocations_at_500{0};  ///< of the whole process
 

@@ -14,7 +14,7 @@ class PushingLoop final : public DeviceLoop {
   ~PushingLoop() override { stop(); }
 
  private:
-  Answer answer(const HandleState&, const Beat&) noexcept override { return {{{{0.0, 1.0, 0.0}}, {}}, true}; }
+  Answer answer(const HandleState&, const TickTiming&) noexcept override { return {{{{0.0, 1.0, 0.0}}, {}}, true}; }
 };
 
 class OpenHapticsLoop : public OpenHapticsBench {
@@ -48,7 +48,7 @@ TEST_F(OpenHapticsLoop, NoticesAHangingSchedulerAndIsCutOffWhenItComesBack) {
   loop.start();
   untilItPushes();
   door.script.hangs = true;
-  until([&] { return loop.figures().silences >= 1; });
+  until([&] { return loop.figures().watchdog_trips >= 1; });
   door.script.hangs = false;
   runFor(loop, 50);
   loop.stop();

@@ -24,11 +24,11 @@ TEST_F(OpenHapticsDevice, TellsWhatItIsAndWhatItCan) {
   EXPECT_EQ(can.peak_force_N, 3.3);
   EXPECT_EQ(can.continuous_force_N, 0.88);
   EXPECT_EQ(can.peak_joint_torque_Nmm, glm::dvec3(350.0));
-  EXPECT_EQ(can.most_stiffness_N_per_mm, 0.5);
-  EXPECT_EQ(can.most_damping_Ns_per_mm, 0.003);
-  EXPECT_EQ(can.most_rate_Hz, 1000.0);
-  EXPECT_EQ(can.workspace.least_D_mm, glm::dvec3(-160.0, -70.0, -58.0));
-  EXPECT_EQ(can.workspace.most_D_mm, glm::dvec3(160.0, 200.0, 90.0));
+  EXPECT_EQ(can.max_stiffness_N_per_mm, 0.5);
+  EXPECT_EQ(can.max_damping_Ns_per_mm, 0.003);
+  EXPECT_EQ(can.max_rate_Hz, 1000.0);
+  EXPECT_EQ(can.workspace.min_D_mm, glm::dvec3(-160.0, -70.0, -58.0));
+  EXPECT_EQ(can.workspace.max_D_mm, glm::dvec3(160.0, 200.0, 90.0));
   EXPECT_EQ(device.description().driver_version, "2022.4.4");
   EXPECT_EQ(device.description().firmware_version, "");
   EXPECT_FALSE(door.seen.motors_on);
@@ -114,7 +114,7 @@ TEST_F(OpenHapticsDevice, ReadsTheTransformByColumns) {
   // The hand goes 100 mm to the right, and the velocity with it.
   door.script.hand_mm[0] = 100.0;
   until([&] { return servo.state().X_DH.translation_mm.x > 99.0; });
-  EXPECT_GT(servo.fastest_mm_per_s, 50.0);
+  EXPECT_GT(servo.max_speed_mm_per_s, 50.0);
   device.stop();
 }
 

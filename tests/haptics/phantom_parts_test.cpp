@@ -30,9 +30,9 @@ TEST(DryFriction, HoldsWithoutCreepBelowItsForce) {
   VirtualHand hand = block(0.3, 0.003);
   for (int tick = 0; tick < 5000; ++tick)
     advanceWithDryFriction(hand, kDry_N, glm::dvec3(0.0), glm::dvec3(0.0), {0.0, 0.99 * kDry_N, 0.0}, 1e-3);
-  EXPECT_EQ(hand.place_mm, glm::dvec3(0.0));
+  EXPECT_EQ(hand.position_mm, glm::dvec3(0.0));
   advanceWithDryFriction(hand, kDry_N, glm::dvec3(0.0), glm::dvec3(0.0), {0.0, 1.01 * kDry_N, 0.0}, 1e-3);
-  EXPECT_GT(hand.place_mm.y, 0.0);
+  EXPECT_GT(hand.position_mm.y, 0.0);
 }
 
 TEST(DryFriction, StopsASlidingBlockWhereItsEnergyIsSpent) {
@@ -42,7 +42,7 @@ TEST(DryFriction, StopsASlidingBlockWhereItsEnergyIsSpent) {
     hand.velocity_mm_per_s = {60.0, -80.0, 0.0};
     for (int tick = 0; tick * dt_s < 0.2; ++tick)
       advanceWithDryFriction(hand, kDry_N, glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0), dt_s);
-    EXPECT_NEAR(glm::length(hand.place_mm), 1000.0 * 0.1 * 0.01 / (2.0 * kDry_N), 1e-6) << dt_s;
+    EXPECT_NEAR(glm::length(hand.position_mm), 1000.0 * 0.1 * 0.01 / (2.0 * kDry_N), 1e-6) << dt_s;
     EXPECT_EQ(hand.velocity_mm_per_s, glm::dvec3(0.0));
   }
 }
@@ -50,18 +50,18 @@ TEST(DryFriction, StopsASlidingBlockWhereItsEnergyIsSpent) {
 TEST(DryFriction, TakesTheSameFromEverySwing) {
   // A spring's turning points come nearer by 2 F / k each.
   VirtualHand hand = block(0.3, 0.0);
-  hand.place_mm.x = 10.0;
+  hand.position_mm.x = 10.0;
   std::vector<double> turns{10.0};
   double last = 0.0;
   for (int tick = 0; tick < 5000; ++tick) {
     advanceWithDryFriction(hand, kDry_N, glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0), 0.1e-3);
-    if (last * hand.velocity_mm_per_s.x < 0.0) turns.push_back(std::abs(hand.place_mm.x));
+    if (last * hand.velocity_mm_per_s.x < 0.0) turns.push_back(std::abs(hand.position_mm.x));
     if (hand.velocity_mm_per_s.x != 0.0) last = hand.velocity_mm_per_s.x;
   }
   ASSERT_EQ(turns.size(), 6u) << "then it sticks within F/k";
   for (std::size_t n = 1; n < turns.size(); ++n) EXPECT_NEAR(turns[n - 1] - turns[n], 2.0 * kDry_N / 0.3, 1e-3);
   EXPECT_EQ(hand.velocity_mm_per_s.x, 0.0);
-  EXPECT_LE(std::abs(hand.place_mm.x), kDry_N / 0.3);
+  EXPECT_LE(std::abs(hand.position_mm.x), kDry_N / 0.3);
 }
 
 TEST(DryFriction, FollowsATargetAsManySmallStepsWould) {
@@ -77,14 +77,14 @@ TEST(DryFriction, FollowsATargetAsManySmallStepsWould) {
       for (int step = 0; step < kSteps; ++step) {
         const double dt = 1e-3 / kSteps;
         const glm::dvec3 pull =
-            0.3 * (from + speed * (step * dt) - slow.place_mm) + damping * (speed - slow.velocity_mm_per_s) + push;
+            0.3 * (from + speed * (step * dt) - slow.position_mm) + damping * (speed - slow.velocity_mm_per_s) + push;
         // Friction takes what it can of the speed, and no more.
         const glm::dvec3 free = slow.velocity_mm_per_s + dt * 1e4 * pull;
         const double quick = glm::length(free), taken = dt * 1e4 * kDry_N;
         slow.velocity_mm_per_s = quick > taken ? free * (1.0 - taken / quick) : glm::dvec3(0.0);
-        slow.place_mm += dt * slow.velocity_mm_per_s;
+        slow.position_mm += dt * slow.velocity_mm_per_s;
       }
-      ASSERT_LT(glm::distance(hand.place_mm, slow.place_mm), 5e-3) << tick << " " << damping;
+      ASSERT_LT(glm::distance(hand.position_mm, slow.position_mm), 5e-3) << tick << " " << damping;
     }
   }
 }
@@ -130,7 +130,7 @@ TEST(PhantomSensors, CountAtTheJoints) {
     PhantomJoints truth;
     truth.arm_rad = {0.3 * std::sin(0.7 * n), 0.7 + 0.3 * std::sin(1.1 * n), 0.6 + 0.3 * std::cos(0.9 * n)};
     const auto reading = sensors.read(truth, glm::dvec3(0.0), 1e-3);
-    const glm::dvec3 seen = armReaching(kOmniGeometry, {reading.X_DH.translation_mm}).value();
+    const glm::dvec3 seen = armAnglesFor(kOmniGeometry, {reading.X_DH.translation_mm}).value();
     for (int joint = 0; joint < 3; ++joint) {
       ASSERT_NEAR(seen[joint] / count_rad, std::round(seen[joint] / count_rad), 1e-5);
       ASSERT_LE(std::abs(seen[joint] - truth.arm_rad[joint]), 0.5 * count_rad + 1e-9);
@@ -154,10 +154,10 @@ TEST(PhantomSensors, ShakeTheGimbalByOneOfItsLevels) {
   constexpr int kReadings = 4000;
   for (int n = 0; n < kReadings; ++n) {
     const auto reading = sensors.read(truth, glm::dvec3(0.0), 1e-3);
-    const glm::dvec3 error = calibration::wristTurnedTo(truth.arm_rad, reading.X_DH.rotation) - truth.wrist_rad;
+    const glm::dvec3 error = calibration::wristAnglesFor(truth.arm_rad, reading.X_DH.rotation) - truth.wrist_rad;
     mean += error.x / kReadings;
     most = std::max({most, std::abs(error.x), std::abs(error.y), std::abs(error.z)});
-    ASSERT_LT(glm::distance(reading.X_DH.translation_mm, wristPlace(kOmniGeometry, truth.arm_rad).mm), 1e-9);
+    ASSERT_LT(glm::distance(reading.X_DH.translation_mm, wristPosition(kOmniGeometry, truth.arm_rad).mm), 1e-9);
   }
   EXPECT_LE(most, level_rad);
   EXPECT_GT(most, 0.4 * level_rad);
@@ -169,7 +169,7 @@ TEST(PhantomSensors, SmoothTheVelocityTheyDifference) {
   double last = 0.0, roughest = 0.0;
   for (int tick = 0; tick < 400; ++tick) {
     const glm::dvec3 place(0.0, -20.0 + 0.1 * tick, 0.0);
-    const auto reading = sensors.read({armReaching(kOmniGeometry, {place}).value(), glm::dvec3(0.0)}, {}, 1e-3);
+    const auto reading = sensors.read({armAnglesFor(kOmniGeometry, {place}).value(), glm::dvec3(0.0)}, {}, 1e-3);
     last = reading.velocity_D_mm_per_s.xyz.y;
     if (tick == 0) {
       EXPECT_EQ(last, 0.0);

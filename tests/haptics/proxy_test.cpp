@@ -15,11 +15,11 @@ using namespace phantom;
 constexpr double kRadius_mm = 2.0;
 const LawSettings kLaw;
 
-Proxy::Held held(Proxy& proxy, const SolidField& field, const glm::dvec3& hand, double R = kRadius_mm) {
+Proxy::State held(Proxy& proxy, const SolidField& field, const glm::dvec3& hand, double R = kRadius_mm) {
   Tool tool;
   tool.head.radius_mm = R;
-  const Proxy::Held now = proxy.follow(field, kLaw, tool, {glm::dquat(1, 0, 0, 0), hand}, {}, 20.0);
-  EXPECT_LE(now.looks, Proxy::kMostLooks);
+  const Proxy::State now = proxy.follow(field, kLaw, tool, {glm::dquat(1, 0, 0, 0), hand}, {}, 20.0);
+  EXPECT_LE(now.evaluations, Proxy::kMaxEvaluations);
   return now;
 }
 
@@ -33,7 +33,7 @@ TEST(Proxy, IsTheLawAloneWhileShallow) {
   Proxy proxy;
   for (double h : {-0.5, 0.1, 0.5, 0.9}) {
     const glm::dvec3 hand(0.3, -0.2, kRadius_mm - h);
-    const Proxy::Held now = held(proxy, field, hand);
+    const Proxy::State now = held(proxy, field, hand);
     EXPECT_EQ(now.proxy_P.mm, hand);
     const Contact bare = contactOf(kLaw, {field, {}, {glm::dquat(1, 0, 0, 0), hand}, kLaw.tissue, {}});
     EXPECT_EQ(now.force_P_N().xyz, bare.force_P_N.xyz);
@@ -43,9 +43,9 @@ TEST(Proxy, IsTheLawAloneWhileShallow) {
 TEST(Proxy, SpendsOneLookAtTheHandInSlowMotion) {
   const Phantom phantom = halfSpace(4.0, 0.2);
   Proxy proxy;
-  int looks = 0;
-  for (int tick = 0; tick < 100; ++tick) looks += held(proxy, phantom.field(), {0.01 * tick, 0.0, 1.6}).looks;
-  EXPECT_EQ(looks, 100);
+  int evaluations = 0;
+  for (int tick = 0; tick < 100; ++tick) evaluations += held(proxy, phantom.field(), {0.01 * tick, 0.0, 1.6}).evaluations;
+  EXPECT_EQ(evaluations, 100);
 }
 
 TEST(Proxy, IsStiffnessTimesDepthOverFlatBoneForAnyDepth) {
@@ -71,7 +71,7 @@ TEST(Proxy, GoesOnWithTheSlopeOfEveryLaw) {
     for (int step = 0; step <= 400; ++step) {
       const double depth = 0.01 * step;
       const calibration::Pose<Patient, calibration::Tool> X_PT{glm::dquat(1, 0, 0, 0), {0.0, 0.0, kRadius_mm - depth}};
-      const Proxy::Held now = proxy.follow(phantom.field(), settings, {}, X_PT, {}, 20.0);
+      const Proxy::State now = proxy.follow(phantom.field(), settings, {}, X_PT, {}, 20.0);
       const double force_N = now.force_P_N().xyz.z;
       if (step == 90) before_N = force_N;
       if (step == 100) at_N = force_N, slope_N_per_mm = now.spring_N_per_mm;
@@ -104,7 +104,7 @@ TEST(Proxy, SlidesAlongTheSurfaceAndNeverSticks) {
   forceAt(proxy, phantom.field(), {-4.0, 0.0, -1.0});
   for (int tick = 0; tick < 400; ++tick) {
     const glm::dvec3 hand(-4.0 + 0.02 * tick, 0.0, -1.0);
-    const Proxy::Held now = held(proxy, phantom.field(), hand, kRadius_mm);
+    const Proxy::State now = held(proxy, phantom.field(), hand, kRadius_mm);
     if (tick < 5) continue;
     // Straight above the hand, so the force has no drag to it.
     EXPECT_NEAR(now.proxy_P.mm.x, hand.x, 0.02);
@@ -124,7 +124,7 @@ TEST(Proxy, HoldsAtAThinPlate) {
       const int ticks = static_cast<int>((start + 1.0) / speed_mm_per_s * 1000.0);
       for (int tick = 0; tick <= ticks + 50; ++tick) {
         const double z = std::max(start - speed_mm_per_s * 1e-3 * tick, -1.0);
-        const Proxy::Held now = held(proxy, phantom.field(), {0.0, 0.0, z}, R);
+        const Proxy::State now = held(proxy, phantom.field(), {0.0, 0.0, z}, R);
         ASSERT_GT(now.proxy_P.mm.z, 0.2 * R) << "R " << R << " at " << speed_mm_per_s << " mm/s, hand at " << z;
       }
     }
@@ -134,7 +134,7 @@ TEST(Proxy, HoldsAFastHandBackAtTheSurface) {
   const Phantom phantom = halfSpace(6.0, 0.2);
   Proxy proxy;
   for (double z = 6.0; z > -3.0; z -= 0.5) {
-    const Proxy::Held now = held(proxy, phantom.field(), {0.0, 0.1 * z, z}, 1.0);
+    const Proxy::State now = held(proxy, phantom.field(), {0.0, 0.1 * z, z}, 1.0);
     EXPECT_GT(now.proxy_P.mm.z, 0.3);
   }
 }
@@ -181,14 +181,14 @@ TEST(Proxy, StaysFiniteAndContinuousInARandomWalkThroughRandomBone) {
   glm::dvec3 hand(0.0, 0.0, 4.0);
   for (int tick = 0; tick < 5000; ++tick) {
     hand = glm::clamp(hand + glm::dvec3(step(random), step(random), step(random)), -5.0, 5.0);
-    const Proxy::Held now = held(proxy, phantom.field(), hand, 0.8);
+    const Proxy::State now = held(proxy, phantom.field(), hand, 0.8);
     EXPECT_TRUE(std::isfinite(glm::length(now.force_P_N().xyz)));
     EXPECT_LE(glm::length(now.head.normal_P.xyz), 1.0 + 1e-12);
   }
 }
 
 /// A slender bur with its shaft along x, lying with it.
-Proxy::Held lying(Proxy& proxy, const SolidField& field, const glm::dvec3& hand, const Tool& tool) {
+Proxy::State lying(Proxy& proxy, const SolidField& field, const glm::dvec3& hand, const Tool& tool) {
   const glm::dquat along_x = glm::angleAxis(0.5 * calibration::kPi, glm::dvec3(0, 1, 0));
   return proxy.follow(field, kLaw, tool, {along_x, hand}, {}, 20.0);
 }
@@ -199,7 +199,7 @@ TEST(Proxy, IsHeldByTheShaftWhereOnlyTheShaftTouches) {
   Proxy proxy;
   for (int step = 0; step <= 300; ++step) {
     const double depth = 0.01 * step;
-    const Proxy::Held now = lying(proxy, phantom.field(), {-8.0, 0.0, 1.2 - depth}, tool);
+    const Proxy::State now = lying(proxy, phantom.field(), {-8.0, 0.0, 1.2 - depth}, tool);
     if (depth < 0.25) continue;
     // As stiff as Agus's wall at every depth; the head may begin to touch when the shaft gives way.
     EXPECT_NEAR(now.force_P_N().xyz.z, 0.8 * depth, 0.03 + 0.05 * depth) << depth;
@@ -221,7 +221,7 @@ TEST(Proxy, GoesIntoTheCornerBetweenHeadAndShaftWithoutAStep) {
     // Down onto the floor, then sideways until the shaft is deep in the step, and back.
     const double s = 0.5 - 0.5 * std::cos(0.002 * calibration::kPi * tick);
     const glm::dvec3 hand(-4.0, -0.6 + 3.0 * s, 0.7 - 0.8 * s);
-    const Proxy::Held now = lying(proxy, phantom.field(), hand, tool);
+    const Proxy::State now = lying(proxy, phantom.field(), hand, tool);
     const glm::dvec3 force = now.force_P_N().xyz;
     EXPECT_LT(glm::length(force - last), 0.02) << tick;
     EXPECT_LE(now.shaft.depth_mm, 0.45) << tick;
@@ -235,7 +235,7 @@ TEST(Proxy, GoesIntoTheCornerBetweenHeadAndShaftWithoutAStep) {
 TEST(Proxy, ScalesALawDownToWhatTheDeviceHolds) {
   const Phantom phantom = halfSpace(4.0, 0.2);
   Proxy proxy;
-  const Proxy::Held now =
+  const Proxy::State now =
       proxy.follow(phantom.field(), kLaw, {}, {glm::dquat(1, 0, 0, 0), {0.0, 0.0, kRadius_mm - 1.5}}, {}, 0.4);
   EXPECT_NEAR(now.force_P_N().xyz.z, 0.4 * 1.5, 0.01);
 }

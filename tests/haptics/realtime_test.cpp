@@ -54,7 +54,7 @@ int underAFiniteLimit(int (*act)()) { return underALimitOf(programSize_bytes() +
 int failsToKeepItsStack() {
   long kB = -1;
   std::thread([&] {
-    askForRealtime(kServoPriority);
+    requestRealtime(kServoPriority);
     std::ifstream status("/proc/self/status");
     for (std::string word; kB < 0 && status >> word;)
       if (word == "VmLck:") status >> kB;
@@ -66,7 +66,7 @@ int failsToKeepItsStack() {
 
 TEST(Realtime, LeavesRoomForLaterAllocationsWhereMemoryLocksAreLimited) {
   EXPECT_EQ(underAFiniteLimit([] {
-              const RealtimeGrants grants = askForRealtime(kServoPriority);
+              const RealtimeGrants grants = requestRealtime(kServoPriority);
               // Far more than may be locked.
               void* const later = std::malloc(256u << 20);
               return later == nullptr ? 1 : grants.memory_locked ? 2 : 0;
@@ -81,7 +81,7 @@ TEST(Realtime, KeepsAsMuchOfItsStackAsItMay) { EXPECT_EQ(underALimitOf(64u << 10
 TEST(Realtime, TakesThePriorityItIsGiven) {
   constexpr int kAsked = 7;
   std::thread([] {
-    const RealtimeGrants grants = askForRealtime(kAsked);
+    const RealtimeGrants grants = requestRealtime(kAsked);
     int policy = 0;
     sched_param param{};
     pthread_getschedparam(pthread_self(), &policy, &param);

@@ -87,7 +87,7 @@ TEST(Safety, GivesJointsNoMoreThanTheyBearWhereverTheyStand) {
   SafetyLimits limits;
   limits.peak_joint_torque_Nmm = glm::dvec3(350.0);
   SafetyFilter filter;
-  SafetyFilter::Served served;
+  SafetyFilter::Delivered served;
   for (int tick = 0; tick < 20; ++tick) served = filter.serve(force(0.0, 3.3, 0.0), limits, kSlowly, 1e-3, J);
   EXPECT_NEAR(served.wrench_P.force_N.xyz.y, 3.3 * 350.0 / 424.0, 1e-12);
   EXPECT_TRUE(has(served.faults, Fault::joints));

@@ -30,26 +30,26 @@ struct Bench {
   SafetyLayer layer;
   SafetyLimits limits = touch();
   SafetyLayer::Admitted admitted;
-  SafetyFilter::Served served;
+  SafetyFilter::Delivered served;
   glm::dvec3 last_place_mm{0.0}, last_N{0.0};
   std::uint64_t rearm = 0;
   double given_Nmm = 0.0;
   bool touches = false;
   glm::dvec3 tremble_N{0.0};
 
-  double tick(const HandSample& hand, const glm::dvec3& wanted_N, double dt_s, double most_stored_Nmm = 50.0) {
+  double tick(const HandSample& hand, const glm::dvec3& wanted_N, double dt_s, double max_stored_Nmm = 50.0) {
     admitted = layer.admit(hand, limits, rearm, dt_s);
-    const glm::dvec3 place_mm = admitted.hand.X_PT.translation_mm + admitted.hand.arm_P_mm.xyz;
-    SafetyLayer::Wanted wish;
+    const glm::dvec3 position_mm = admitted.hand.X_PT.translation_mm + admitted.hand.arm_P_mm.xyz;
+    SafetyLayer::Request wish;
     wish.wrench_P.force_N.xyz = wanted_N;
-    if (!admitted.relocated) wish.motion.travel_P_mm.xyz = place_mm - last_place_mm;
-    wish.tremble_P_N.xyz = tremble_N;
-    wish.most_stored_Nmm = most_stored_Nmm;
+    if (!admitted.relocated) wish.motion.travel_P_mm.xyz = position_mm - last_place_mm;
+    wish.vibration_P_N.xyz = tremble_N;
+    wish.max_stored_Nmm = max_stored_Nmm;
     wish.touches = touches;
     served = layer.serve(wish, limits, dt_s);
     const glm::dvec3 now_N = served.wrench_P.force_N.xyz;
     given_Nmm += 0.5 * glm::dot(now_N + last_N, wish.motion.travel_P_mm.xyz);
-    last_place_mm = place_mm;
+    last_place_mm = position_mm;
     last_N = now_N;
     return glm::length(now_N);
   }
@@ -89,7 +89,7 @@ TEST(SafetyLayer, TakesTheForceAwayInTheVeryTickOfDockingStopUnplugAndRunaway) {
     return bench.tick(hand, kPush, 1e-3);
   };
   EXPECT_EQ(after([](HandSample& h) { h.docked = true; }), 0.0);
-  EXPECT_EQ(after([](HandSample& h) { h.stop_asked = true; }), 0.0);
+  EXPECT_EQ(after([](HandSample& h) { h.stop_requested = true; }), 0.0);
   EXPECT_EQ(after([](HandSample& h) { h.device_healthy = false; }), 0.0);
   EXPECT_EQ(after([](HandSample& h) { h.calibrated = false; }), 0.0);
   EXPECT_EQ(after([](HandSample& h) { h.gap_s = 0.03; }), 0.0);
@@ -204,11 +204,11 @@ class HostileWorld {
     return hand;
   }
 
-  glm::dvec3 wanted_N(const glm::dvec3& place_mm, double dt_s) {
-    if (chance(10.0 * dt_s)) kind_ = static_cast<int>(random_() % 6), push_ = vector(4.0), home_ = place_mm;
+  glm::dvec3 wanted_N(const glm::dvec3& position_mm, double dt_s) {
+    if (chance(10.0 * dt_s)) kind_ = static_cast<int>(random_() % 6), push_ = vector(4.0), home_ = position_mm;
     switch (kind_) {
       case 0:
-        return -0.8 * (place_mm - home_);
+        return -0.8 * (position_mm - home_);
       case 1:
         return push_;
       case 2:
@@ -251,8 +251,8 @@ TEST(SafetyLayer, KeepsEveryLimitInAMillionHostileTicks) {
     for (int tick = 0; tick < kTicks; ++tick) {
       const double dt_s = world.dt_s();
       HandSample hand = world.hand(dt_s);
-      hand.stop_asked = tick == kTicks - 10'000;
-      stopped = stopped || hand.stop_asked;
+      hand.stop_requested = tick == kTicks - 10'000;
+      stopped = stopped || hand.stop_requested;
       if (world.chance(3.0 * dt_s)) ++bench.rearm;
       if (world.chance(4.0 * dt_s)) bench.touches = world.chance(0.5);
       bench.tremble_N = world.chance(0.01) ? glm::dvec3(kNan, 0.0, kInf) : world.vector(0.2);
@@ -270,7 +270,7 @@ TEST(SafetyLayer, KeepsEveryLimitInAMillionHostileTicks) {
       if (hand.docked || !hand.calibrated || !hand.device_healthy) {
         ASSERT_EQ(now_N, 0.0) << tick;
       }
-      ASSERT_GE(bench.layer.energy_Nmm(), -Passivity::kMostDebt_Nmm) << tick;
+      ASSERT_GE(bench.layer.energy_Nmm(), -PassivityController::kMaxDebt_Nmm) << tick;
       ASSERT_TRUE(std::isfinite(bench.layer.energy_Nmm())) << tick;
       with_force += now_N > 0.01;
       seen = seen | bench.admitted.faults | bench.served.faults;
@@ -302,7 +302,7 @@ TEST(SafetyLayer, KeepsTheMeanSquareOverTenSecondsUnderHostileHands) {
 
 /// Energy that a hand as fast as `fastest` gets on balance, ever, from laws that would drive engines with it, while
 /// deadman, heat and soft start change what is let through.
-double mostGiven_Nmm(unsigned seed, double rate_Hz, double fastest_mm_per_s, double seconds) {
+double mostGiven_Nmm(unsigned seed, double rate_Hz, double max_speed_mm_per_s, double seconds) {
   HostileWorld world(seed, rate_Hz);
   Bench bench;
   bench.limits.continuous_force_N = seed % 2 == 0 ? 1e3 : 0.88;
@@ -313,9 +313,9 @@ double mostGiven_Nmm(unsigned seed, double rate_Hz, double fastest_mm_per_s, dou
   int kind = 0;
   bool held = true;
   for (int tick = 0; tick < static_cast<int>(seconds * rate_Hz); ++tick) {
-    if (world.chance(6.0 * dt_s)) target = world.vector(fastest_mm_per_s / std::sqrt(3.0));
+    if (world.chance(6.0 * dt_s)) target = world.vector(max_speed_mm_per_s / std::sqrt(3.0));
     if (glm::length(place) > 60.0) target = -2.0 * place;
-    if (const double most = fastest_mm_per_s; glm::length(target) > most) target *= most / glm::length(target);
+    if (const double most = max_speed_mm_per_s; glm::length(target) > most) target *= most / glm::length(target);
     speed += (target - speed) * std::min(1.0, 60.0 * dt_s);
     place += speed * dt_s;
     if (world.chance(15.0 * dt_s)) kind = static_cast<int>(world.uniform(0.0, 4.0)), home = place;
@@ -343,7 +343,7 @@ TEST(SafetyLayer, NeverFeedsAHandWhateverLawAndGainsDo) {
   unsigned seed = 0;
   for (double rate_Hz : {1000.0, 4000.0, 10'000.0})
     for (int run = 0; run < 3; ++run) {
-      const double fastest = 300.0, tolerance_Nmm = Passivity::kLetDown_Nmm + 2.97 * fastest / rate_Hz;
+      const double fastest = 300.0, tolerance_Nmm = PassivityController::kReleaseDebt_Nmm + 2.97 * fastest / rate_Hz;
       EXPECT_LE(mostGiven_Nmm(++seed, rate_Hz, fastest, 60.0 * 1000.0 / rate_Hz), tolerance_Nmm) << rate_Hz;
     }
 }
@@ -371,7 +371,7 @@ TEST(SafetyLayer, BoundsWhatTheWorstHandOfTwoMetresASecondCanTake) {
         most_Nmm = std::max(most_Nmm, bench.given_Nmm - 9.0 * seconds);
       }
       // All there is at once, and what is forgiven of it in the long run.
-      EXPECT_LE(most_Nmm, Passivity::kMostDebt_Nmm) << rate_Hz;
+      EXPECT_LE(most_Nmm, PassivityController::kMaxDebt_Nmm) << rate_Hz;
     }
 }
 

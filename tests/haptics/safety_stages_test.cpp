@@ -51,7 +51,7 @@ TEST(Staleness, HoldsForFiveMillisecondsAndIsOverAfterTwenty) {
     EXPECT_EQ(staleness.follow(true, {}, dt_s).share, 1.0);
     for (int tick = 1; tick * dt_s < 0.03; ++tick) {
       const double age_s = tick * dt_s;
-      const Staleness::Verdict verdict = staleness.follow(false, {}, dt_s);
+      const Staleness::Output verdict = staleness.follow(false, {}, dt_s);
       EXPECT_EQ(verdict.holds, age_s > 0.003 + 1e-9) << age_s;
       EXPECT_NEAR(verdict.share, std::clamp((0.02 - age_s) / 0.015, 0.0, 1.0), 1e-9) << age_s;
       EXPECT_EQ(verdict.overdue, age_s > 0.02 - 1e-9) << age_s;
@@ -109,7 +109,7 @@ TEST(BuzzDetector, HearsWhatTurnsMoreThanTwentyTimesInATenthOfASecond) {
 TEST(BuzzDetector, ComesBackByStepsAfterASecondOfCalm) {
   BuzzDetector buzz;
   for (int tick = 0; tick < 300; ++tick) buzz.follow({tick % 4 < 2 ? 50.0 : -50.0, 0.0, 0.0}, {}, 1e-3);
-  BuzzDetector::Verdict verdict = buzz.follow({}, {}, 1e-3);
+  BuzzDetector::Output verdict = buzz.follow({}, {}, 1e-3);
   EXPECT_TRUE(verdict.off);
   EXPECT_EQ(verdict.share, 0.0);
   double last = 0.0;
@@ -141,7 +141,7 @@ TEST(ThermalBudget, KeepsTheMeanSquareOfAnyTenSecondsWithinTheContinuousForce) {
       for (int tick = 0; tick < static_cast<int>(60.0 * rate_Hz); ++tick) {
         // Rests to fill the bucket, then presses; seed 0 presses always.
         if (seed > 0 && tick % static_cast<int>(0.7 * rate_Hz) == 0) wish_N = random() % 3 == 0 ? 3.3 : 0.2;
-        const double given_N = std::min(wish_N, budget.mostForce_N(C));
+        const double given_N = std::min(wish_N, budget.maxForce_N(C));
         budget.spend(given_N, C, dt_s);
         squares.push_back(given_N * given_N * dt_s);
         sum += squares.back();
@@ -155,10 +155,10 @@ TEST(ThermalBudget, KeepsTheMeanSquareOfAnyTenSecondsWithinTheContinuousForce) {
 
 TEST(ThermalBudget, GivesATouchItsPeakFromColdAndNeverLessThanItsShare) {
   ThermalBudget budget;
-  EXPECT_GT(budget.mostForce_N(0.88), 3.3);
+  EXPECT_GT(budget.maxForce_N(0.88), 3.3);
   double at_peak_s = 0.0, last_N = 3.3;
   for (int tick = 0; tick < 5000; ++tick) {
-    const double most_N = budget.mostForce_N(0.88);
+    const double most_N = budget.maxForce_N(0.88);
     at_peak_s += most_N >= 3.3 ? 1e-3 : 0.0;
     ASSERT_GE(most_N, 0.88 * std::sqrt(0.7) - 1e-12);
     ASSERT_GT(most_N, last_N - 0.01) << "not felt as a step";
@@ -166,8 +166,8 @@ TEST(ThermalBudget, GivesATouchItsPeakFromColdAndNeverLessThanItsShare) {
     budget.spend(std::min(3.3, most_N), 0.88, 1e-3);
   }
   EXPECT_GT(at_peak_s, 0.015);
-  EXPECT_NEAR(budget.mostForce_N(0.88), 0.88 * std::sqrt(0.7), 1e-3);
-  EXPECT_EQ(ThermalBudget().mostForce_N(0.0), 0.0);
+  EXPECT_NEAR(budget.maxForce_N(0.88), 0.88 * std::sqrt(0.7), 1e-3);
+  EXPECT_EQ(ThermalBudget().maxForce_N(0.0), 0.0);
 }
 
 TEST(Heat, LowersTheForceInALineFromEightTenthsOn) {

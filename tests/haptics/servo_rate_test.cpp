@@ -35,8 +35,8 @@ std::vector<glm::dvec3> course(double rate_Hz, double& roughest_N) {
     hand.X_PT.translation_mm = {2.0 * std::sin(3.0 * t), 0.1, 2.2 - depth + away};
     hand.drill_pedal = t > 0.8 && t < 1.0;
     const Tick now = servo.step(hand, command, dt_s);
-    roughest_N = std::max(roughest_N, glm::length(now.served_force_P_N.xyz - last));
-    last = now.served_force_P_N.xyz;
+    roughest_N = std::max(roughest_N, glm::length(now.commanded_force_P_N.xyz - last));
+    last = now.commanded_force_P_N.xyz;
     if (tick % ticks_per_ms == ticks_per_ms - 1) felt.push_back(last);
   }
   return felt;
@@ -76,7 +76,7 @@ TEST(ServoRate, SwitchesAndCutsWithoutAKnockAtAnyRate) {
       HandSample hand;
       hand.X_PT.translation_mm = {0.0, 0.1 * std::sin(20.0 * tick / rate_Hz), 0.9};
       hand.drill_pedal = tick % 1000 > 600;
-      const glm::dvec3 felt = servo.step(hand, command, 1.0 / rate_Hz).served_force_P_N.xyz;
+      const glm::dvec3 felt = servo.step(hand, command, 1.0 / rate_Hz).commanded_force_P_N.xyz;
       fastest_N_per_s = std::max(fastest_N_per_s, glm::length(felt - last) * rate_Hz);
       last = felt;
     }

@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "haptics/device/simulated/scripted_hand.h"
+#include "haptics/device/simulated/scripted_device.h"
 #include "haptics/servo/tick_log.h"
 #include "tests/haptics/allocation_count.h"
 #include "tests/haptics/phantom.h"
@@ -29,10 +29,10 @@ std::vector<Tick> session(double seconds) {
   Servo servo(bone);
   assets::PlannedCut cut;
   cut.outward_P = {0.0, 0.0, 1.0};
-  cut.aside_P = {0.0, 1.0, 0.0};
+  cut.lateral_P = {0.0, 1.0, 0.0};
   cut.bur_radius_mm = 1.5;
   cut.depth_mm = 2.0;
-  ScriptedHand device(cut, {.clearance_mm = 2.0});
+  ScriptedDevice device(cut, {.clearance_mm = 2.0});
   Command command;
   command.tool.head.radius_mm = 1.5;
   TickLog log(100'000);
@@ -44,7 +44,7 @@ std::vector<Tick> session(double seconds) {
     hand.velocity_P_mm_per_s.xyz = state.velocity_D_mm_per_s.xyz;
     hand.drill_pedal = state.pedal;
     const Tick tick = servo.step(hand, command, 1e-3);
-    force = tick.served_force_P_N;
+    force = tick.commanded_force_P_N;
     log.push(tick);
   }
   std::vector<Tick> ticks;
@@ -63,7 +63,7 @@ TEST(Servo, ReplaysBitForBit) {
     const Tick again = servo.step(tick.hand, command, tick.dt_s);
     ASSERT_EQ(again.index, tick.index);
     ASSERT_EQ(std::memcmp(&again.law_force_P_N, &tick.law_force_P_N, sizeof tick.law_force_P_N), 0);
-    ASSERT_EQ(std::memcmp(&again.served_force_P_N, &tick.served_force_P_N, sizeof tick.served_force_P_N), 0);
+    ASSERT_EQ(std::memcmp(&again.commanded_force_P_N, &tick.commanded_force_P_N, sizeof tick.commanded_force_P_N), 0);
     ASSERT_EQ(std::memcmp(&again.proxy_P, &tick.proxy_P, sizeof tick.proxy_P), 0);
     ASSERT_EQ(again.bone_digest, tick.bone_digest);
     ASSERT_EQ(again.removed_mm3, tick.removed_mm3);
@@ -76,11 +76,11 @@ TEST(Servo, CutsATroughUnderTheScriptedHand) {
   glm::dvec3 last_N(0.0);
   for (const Tick& tick : ticks) {
     removed += tick.removed_mm3;
-    most_N = std::max(most_N, glm::length(tick.served_force_P_N.xyz));
+    most_N = std::max(most_N, glm::length(tick.commanded_force_P_N.xyz));
     if (tick.drilling) deepest_mm = std::min(deepest_mm, tick.proxy_P.mm.z - 1.5);
     ASSERT_EQ(tick.faults, Fault::none);
-    roughest_N = std::max(roughest_N, glm::length(tick.served_force_P_N.xyz - last_N));
-    last_N = tick.served_force_P_N.xyz;
+    roughest_N = std::max(roughest_N, glm::length(tick.commanded_force_P_N.xyz - last_N));
+    last_N = tick.commanded_force_P_N.xyz;
   }
   // A trough 8 mm long, 3 mm wide and 2 mm deep with a round floor and ends.
   EXPECT_GT(removed, 27.0);
@@ -111,14 +111,14 @@ TEST(Servo, NeverServesMoreThanItsLimitsOrFasterInARandomWalk) {
     if (i % 211 == 0) sample.X_PT.translation_mm.x += 5000.0;
     if (i % 307 == 0) sample.X_PT.rotation = glm::dquat(0.0, 0.0, 0.0, 0.0);
     const Tick tick = servo.step(sample, command, 1e-3);
-    ASSERT_LE(glm::length(tick.served_force_P_N.xyz), 3.3 * (1.0 + 1e-12));
+    ASSERT_LE(glm::length(tick.commanded_force_P_N.xyz), 3.3 * (1.0 + 1e-12));
     // Down it may go at once where the pose is in doubt.
-    ASSERT_LE(glm::length(tick.served_force_P_N.xyz) - glm::length(last), 0.3 * (1.0 + 1e-12));
+    ASSERT_LE(glm::length(tick.commanded_force_P_N.xyz) - glm::length(last), 0.3 * (1.0 + 1e-12));
     if (!has(tick.faults, Fault::bad_pose | Fault::overdrawn)) {
-      ASSERT_LE(glm::length(tick.served_force_P_N.xyz - last), 0.3 * (1.0 + 1e-12)) << i;
+      ASSERT_LE(glm::length(tick.commanded_force_P_N.xyz - last), 0.3 * (1.0 + 1e-12)) << i;
     }
     ASSERT_TRUE(std::isfinite(glm::length(tick.law_force_P_N.xyz)));
-    last = tick.served_force_P_N.xyz;
+    last = tick.commanded_force_P_N.xyz;
   }
 }
 
@@ -127,7 +127,7 @@ TEST(Servo, HoldsAndLetsGoWhenThePoseIsAbsurd) {
   Servo servo(bone);
   Tick tick;
   for (int i = 0; i < 50; ++i) tick = servo.step(handAt({0.0, 0.0, 1.0}), {}, 1e-3);
-  EXPECT_NEAR(tick.served_force_P_N.xyz.z, 0.8, 0.01);
+  EXPECT_NEAR(tick.commanded_force_P_N.xyz.z, 0.8, 0.01);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const glm::dvec3& absurd : {glm::dvec3(nan, 0.0, 0.0), glm::dvec3(0.0, 3000.0, 0.0), glm::dvec3(1e200)}) {
     for (int i = 0; i < 20; ++i) {
@@ -136,10 +136,10 @@ TEST(Servo, HoldsAndLetsGoWhenThePoseIsAbsurd) {
       EXPECT_FALSE(tick.drilling);
       EXPECT_EQ(tick.removed_mm3, 0.0);
     }
-    EXPECT_EQ(glm::length(tick.served_force_P_N.xyz), 0.0);
+    EXPECT_EQ(glm::length(tick.commanded_force_P_N.xyz), 0.0);
     for (int i = 0; i < 50; ++i) tick = servo.step(handAt({0.0, 0.0, 1.0}), {}, 1e-3);
     EXPECT_EQ(tick.faults, Fault::none);
-    EXPECT_NEAR(tick.served_force_P_N.xyz.z, 0.8, 0.01);
+    EXPECT_NEAR(tick.commanded_force_P_N.xyz.z, 0.8, 0.01);
   }
 }
 
@@ -162,7 +162,7 @@ TEST(Servo, LetsGoWhenTheDeviceIsUnwell) {
   Tick tick;
   for (int i = 0; i < 20; ++i) tick = servo.step(hand, {}, 1e-3);
   EXPECT_TRUE(has(tick.faults, Fault::device));
-  EXPECT_EQ(glm::length(tick.served_force_P_N.xyz), 0.0);
+  EXPECT_EQ(glm::length(tick.commanded_force_P_N.xyz), 0.0);
 }
 
 TEST(Servo, ArmsWhereTheHandIsAndNotWhereItOnceCouldNotGo) {
@@ -183,7 +183,7 @@ TEST(Servo, ArmsWhereTheHandIsAndNotWhereItOnceCouldNotGo) {
   // And from there the plate holds.
   for (int i = 0; i < 800; ++i) tick = servo.step(hand, command, 1e-3);
   for (; hand.X_PT.translation_mm.z < 0.5; hand.X_PT.translation_mm.z += 0.02) tick = servo.step(hand, command, 1e-3);
-  EXPECT_LT(tick.served_force_P_N.xyz.z, -0.5);
+  EXPECT_LT(tick.commanded_force_P_N.xyz.z, -0.5);
   EXPECT_LT(tick.proxy_P.mm.z, -0.6);
 }
 
@@ -215,7 +215,7 @@ TEST(Servo, ObeysOnlyWhatIsSaneInACommand) {
   Servo servo(bone);
   for (int i = 0; i < 10; ++i) {
     const Tick tick = servo.step(handAt({0.0, 0.0, 0.0}, true), command, nan);
-    EXPECT_EQ(glm::length(tick.served_force_P_N.xyz), 0.0);
+    EXPECT_EQ(glm::length(tick.commanded_force_P_N.xyz), 0.0);
     EXPECT_TRUE(std::isfinite(tick.removed_mm3));
     EXPECT_EQ(tick.dt_s, 1e-3);
   }

@@ -99,7 +99,7 @@ TEST(ShapeOverlap, HasTheVolumeCentroidAndDirectionOfFlatBone) {
       const glm::dquat turn = poses.turn();
       const glm::dvec3 axis = turn * glm::dvec3(0.0, 0.0, 1.0);
       const double cos = glm::dot(axis, normal);
-      const double h = poses.number(0.1, 0.9) * std::min(shape.radius_mm, wholeDepth_mm(shape, cos));
+      const double h = poses.number(0.1, 0.9) * std::min(shape.radius_mm, fullDepth_mm(shape, cos));
       const glm::dvec3 place = normal * (reach_mm(shape, -cos) - h) + 0.2 * glm::cross(normal, poses.direction());
       const ShapeOverlap overlap = shapeOverlap(phantom.field(), shape, {turn, place}, {});
 

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "calibration/geometry/units.h"
-#include "haptics/device/simulated/work_round.h"
+#include "haptics/device/simulated/work_cycle.h"
 #include "tests/haptics/allocation_count.h"
 
 namespace haptics {
@@ -22,10 +22,10 @@ const PhantomMechanics& phantom(std::string_view key) { return *findSimulatedPha
 constexpr Grip kSteady = {0.055, 0.3, 0.003, 0.0};
 constexpr glm::dvec3 kMiddle_mm(3.0, -2.0, 5.0);
 
-HandScript holdingAt(const glm::dvec3& place_mm) {
-  return [place_mm](double) {
+HandScript holdingAt(const glm::dvec3& position_mm) {
+  return [position_mm](double) {
     HandTarget target;
-    target.place_mm = place_mm;
+    target.position_mm = position_mm;
     return target;
   };
 }
@@ -37,7 +37,7 @@ HandScript takingFrom(const glm::dvec3& rest_mm) {
   return [rest_mm](double t_s) {
     HandTarget target;
     const double up = t_s < 0.4 ? (t_s - 0.1) / 0.3 : (0.7 - t_s) / 0.3;
-    target.place_mm = rest_mm + glm::dvec3(0.0, 20.0 * std::clamp(up, 0.0, 1.0), 0.0);
+    target.position_mm = rest_mm + glm::dvec3(0.0, 20.0 * std::clamp(up, 0.0, 1.0), 0.0);
     target.grips = t_s >= 0.1 && t_s < 0.8;
     target.buttons = t_s > 0.3 && t_s < 0.5 ? 2u : 0u;
     return target;
@@ -53,7 +53,7 @@ HandleState stepped(SimulatedPhantom& device, const glm::dvec3& force_N, int tic
 TroughPath trough() {
   assets::PlannedCut cut;
   cut.outward_P = {0.0, 0.4, 0.9};
-  cut.aside_P = {1.0, 0.0, 0.0};
+  cut.lateral_P = {1.0, 0.0, 0.0};
   cut.depth_mm = 3.75;  // an odd number of passes: it ends where it did not begin
   return TroughPath(cut);
 }
@@ -153,7 +153,7 @@ TEST(SimulatedPhantom, GivesNoMoreThanMotorsAndJointsCan) {
 }
 
 TEST(SimulatedPhantom, ActsAsManyTicksLaterAsItIsSlow) {
-  for (int latency : {0, 1, 2, SimulatedPhantom::kMostLatency_ticks}) {
+  for (int latency : {0, 1, 2, SimulatedPhantom::kMaxLatency_ticks}) {
     PhantomMechanics mechanics = phantom("desktop");
     mechanics.latency_ticks = latency;
     SimulatedPhantom device(mechanics, holdingAt(kMiddle_mm), kSteady);
@@ -195,7 +195,7 @@ TEST(SimulatedPhantom, StandsAtItsStopsWhateverTheHandWants) {
       HandTarget target;
       const double u = 4.0 * t_s;
       const auto n = static_cast<std::size_t>(u) % wishes.size();
-      target.place_mm = glm::mix(wishes[n], wishes[(n + 1) % wishes.size()], u - std::floor(u));
+      target.position_mm = glm::mix(wishes[n], wishes[(n + 1) % wishes.size()], u - std::floor(u));
       target.rotation = glm::angleAxis(5.0 * t_s, glm::normalize(glm::dvec3(1.0, 0.4, -0.3)));
       return target;
     });
@@ -230,7 +230,7 @@ TEST(SimulatedPhantom, ShrugsOffWhatIsNoForce) {
 TEST(SimulatedPhantom, AllocatesNothingWhileItTicks) {
   const PhantomMechanics& omni = phantom("omni");
   const HandTarget rest{omni.rest_D.mm, {1.0, 0.0, 0.0, 0.0}, false, 0, true};
-  const WorkRound round(trough(), rest, {{0.0, -60.0, 40.0}});
+  const WorkCycle round(trough(), rest, {{0.0, -60.0, 40.0}});
   SimulatedPhantom device(omni, [round](double t_s) { return round.at(t_s); });
   const std::size_t before = allocation_count::now();
   for (int tick = 0; tick < 5000; ++tick) device.exchange(push({0.0, 0.0, 0.5}), 1e-3);
@@ -290,23 +290,23 @@ TEST(SimulatedPhantom, RefusesWhatCannotBe) {
   refused([](auto&, auto&, auto& script) { script = holdingAt({0.0, 0.0, 500.0}); });
 }
 
-TEST(WorkRound, TakesWorksAndPutsBack) {
+TEST(WorkCycle, TakesWorksAndPutsBack) {
   const PhantomMechanics& omni = phantom("omni");
   const HandTarget rest{omni.rest_D.mm, {1.0, 0.0, 0.0, 0.0}, false, 0, true};
-  const WorkRound round(trough(), rest, {{0.0, -60.0, 40.0}, {0.0, 20.0, 50.0}});
+  const WorkCycle round(trough(), rest, {{0.0, -60.0, 40.0}, {0.0, 20.0, 50.0}});
   double stood_s = 0.0, longest_s = 0.0, worked_s = 0.0;
   HandTarget last = round.at(0.0);
   EXPECT_FALSE(last.grips);
-  EXPECT_EQ(last.place_mm, rest.place_mm);
+  EXPECT_EQ(last.position_mm, rest.position_mm);
   for (int tick = 1; tick * 1e-3 < round.duration_s() + 1.0; ++tick) {
     const HandTarget now = round.at(tick * 1e-3);
-    const double moved_mm = glm::distance(now.place_mm, last.place_mm);
+    const double moved_mm = glm::distance(now.position_mm, last.position_mm);
     ASSERT_LT(moved_mm, 0.2) << tick;
     ASSERT_GT(std::abs(glm::dot(now.rotation, last.rotation)), 0.9999) << tick;
-    ASSERT_TRUE(now.grips || now.place_mm == rest.place_mm) << tick;
+    ASSERT_TRUE(now.grips || now.position_mm == rest.position_mm) << tick;
     ASSERT_TRUE(now.grips || !now.pedal);
     // Before the first stroke it stands where it can be armed.
-    const bool away = glm::distance(now.place_mm, rest.place_mm) > 10.0;
+    const bool away = glm::distance(now.position_mm, rest.position_mm) > 10.0;
     if (worked_s == 0.0) stood_s = away && moved_mm < 0.01 ? stood_s + 1e-3 : 0.0;
     longest_s = std::max(longest_s, stood_s);
     worked_s += now.pedal ? 1e-3 : 0.0;
@@ -315,7 +315,7 @@ TEST(WorkRound, TakesWorksAndPutsBack) {
   EXPECT_GT(longest_s, 0.9);
   EXPECT_GT(worked_s, 10.0);
   EXPECT_FALSE(last.grips);
-  EXPECT_EQ(last.place_mm, rest.place_mm);
+  EXPECT_EQ(last.position_mm, rest.position_mm);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "haptics/device/simulated/work_round.h"
+#include "haptics/device/simulated/work_cycle.h"
 #include "haptics/servo/haptic_loop.h"
 #include "tests/haptics/held_phantom.h"
 #include "tests/haptics/phantom.h"
@@ -11,10 +11,10 @@ namespace {
 using namespace phantom;
 
 /// A short trough across the top of the bone, from above.
-WorkRound shortRound(const PhantomMechanics& mechanics) {
+WorkCycle shortRound(const PhantomMechanics& mechanics) {
   assets::PlannedCut cut;
   cut.outward_P = {0.0, 0.0, 1.0};
-  cut.aside_P = {0.0, 1.0, 0.0};
+  cut.lateral_P = {0.0, 1.0, 0.0};
   cut.length_mm = 6.0;
   cut.depth_mm = 1.0;
   const auto rest_DH = mechanics.rest_DH();
@@ -25,7 +25,7 @@ WorkRound shortRound(const PhantomMechanics& mechanics) {
 TEST(SimulatedSession, ArmsOnItsWayCarvesAndEndsWithoutForce) {
   for (const PhantomMechanics& mechanics : simulatedPhantoms()) {
     SCOPED_TRACE(mechanics.key);
-    const WorkRound round = shortRound(mechanics);
+    const WorkCycle round = shortRound(mechanics);
     const HandScript script = [&](double t_s) { return round.at(t_s); };
     const Command command = limitedTo(SimulatedPhantom(mechanics, script).capabilities(), 1000.0, {});
     HeldPhantom session(mechanics, script, {}, halfSpace(7.0, 0.25).bone(1), command);
@@ -35,7 +35,7 @@ TEST(SimulatedSession, ArmsOnItsWayCarvesAndEndsWithoutForce) {
     Tick tick;
     while (tick.t_s < round.duration_s()) {
       tick = session.step(1e-3);
-      const double force_N = glm::length(tick.served_force_P_N.xyz);
+      const double force_N = glm::length(tick.commanded_force_P_N.xyz);
       ASSERT_NE(tick.state, SafetyState::fault) << tick.t_s << " s";
       ASSERT_TRUE(force_N == 0.0 || tick.state == SafetyState::active) << tick.t_s << " s";
       was_active = was_active || tick.state == SafetyState::active;
@@ -50,7 +50,7 @@ TEST(SimulatedSession, ArmsOnItsWayCarvesAndEndsWithoutForce) {
     EXPECT_GT(contact_s, 1.0);
     EXPECT_GT(most_N, 0.1);
     EXPECT_LE(most_N, mechanics.peak_force_N);
-    EXPECT_EQ(tick.served_force_P_N.xyz, glm::dvec3(0.0));
+    EXPECT_EQ(tick.commanded_force_P_N.xyz, glm::dvec3(0.0));
     // Nothing can push in the inkwell, nor where a switch feels that the handle was let go of.
     EXPECT_EQ(tick.state == SafetyState::ready, mechanics.has_inkwell);
     EXPECT_EQ(tick.state == SafetyState::active, !mechanics.has_inkwell && !mechanics.has_deadman);

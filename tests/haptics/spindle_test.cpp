@@ -16,7 +16,7 @@ constexpr double kNmms2PerGramCm2 = 1e-4;
 SpindleState after(const SpindleSettings& settings, SpindleState state, bool on, double load_Nmm, double seconds,
                    double rate_Hz) {
   const auto ticks = static_cast<int>(std::lround(seconds * rate_Hz));
-  for (int tick = 0; tick < ticks; ++tick) state = turned(settings, state, on, load_Nmm, seconds / ticks);
+  for (int tick = 0; tick < ticks; ++tick) state = advanced(settings, state, on, load_Nmm, seconds / ticks);
   return state;
 }
 
@@ -37,8 +37,8 @@ TEST(Spindle, RunsUpAlongItsTorqueSpeedLine) {
     const SpindleState state = after(settings, {}, true, 0.0, t_s, 1000.0);
     ASSERT_LT(state.rad_per_s, 0.9 * radPerSecond(settings.commanded_rpm));
     EXPECT_NEAR(state.rad_per_s, free * -std::expm1(-t_s / tau_s), 1e-9 * free);
-    const double turned_rad = free * (t_s + tau_s * std::expm1(-t_s / tau_s));
-    EXPECT_NEAR(std::remainder(state.turned_rad - turned_rad, 2.0 * calibration::kPi), 0.0, 1e-9);
+    const double angle_rad = free * (t_s + tau_s * std::expm1(-t_s / tau_s));
+    EXPECT_NEAR(std::remainder(state.angle_rad - angle_rad, 2.0 * calibration::kPi), 0.0, 1e-9);
   }
 }
 
@@ -107,7 +107,7 @@ TEST(Spindle, IsOneCurveAtAnyTickRate) {
   for (double rate_Hz : {500.0, 4000.0, 10000.0}) {
     const SpindleState state = end(rate_Hz);
     EXPECT_NEAR(state.rad_per_s, at_1kHz.rad_per_s, 1e-8 * at_1kHz.rad_per_s) << rate_Hz;
-    EXPECT_NEAR(std::remainder(state.turned_rad - at_1kHz.turned_rad, 2.0 * calibration::kPi), 0.0, 1e-7) << rate_Hz;
+    EXPECT_NEAR(std::remainder(state.angle_rad - at_1kHz.angle_rad, 2.0 * calibration::kPi), 0.0, 1e-7) << rate_Hz;
   }
 }
 
@@ -132,7 +132,7 @@ TEST(Spindle, AgreesWithSmallStepsWhateverTheMotor) {
       w += (drive - load - settings.bearing_torque_Nmm) / (settings.inertia_g_cm2 * kNmms2PerGramCm2) * t_s / kSteps;
       w = std::max(0.0, w);
     }
-    EXPECT_NEAR(turned(settings, state, true, load, t_s).rad_per_s, w, 0.2) << trial;
+    EXPECT_NEAR(advanced(settings, state, true, load, t_s).rad_per_s, w, 0.2) << trial;
   }
 }
 
@@ -152,8 +152,8 @@ TEST(Spindle, StopsBeforeItTurnsTheOtherWay) {
   SpindleState state;
   state.rad_per_s = -200.0;
   const double stop_s = 200.0 * settings.inertia_g_cm2 * kNmms2PerGramCm2 / 5.0;
-  EXPECT_LT(turned(settings, state, true, 0.0, 0.99 * stop_s).rad_per_s, 0.0);
-  EXPECT_GT(turned(settings, state, true, 0.0, 1.01 * stop_s).rad_per_s, 0.0);
+  EXPECT_LT(advanced(settings, state, true, 0.0, 0.99 * stop_s).rad_per_s, 0.0);
+  EXPECT_GT(advanced(settings, state, true, 0.0, 1.01 * stop_s).rad_per_s, 0.0);
 }
 
 TEST(Spindle, GivesThePowerOfItsLine) {
@@ -166,11 +166,11 @@ TEST(Spindle, GivesThePowerOfItsLine) {
 
 TEST(Spindle, IsFeltAsItTurnsUpToAHundredHertzAndBelowTwoHundredAndFiftyBeyond) {
   const double turn = 2.0 * calibration::kPi;
-  EXPECT_NEAR(buzzFrequency_Hz(20.0 * turn), 20.0, 1e-9);
-  EXPECT_NEAR(buzzFrequency_Hz(-99.0 * turn), 99.0, 1e-9);
+  EXPECT_NEAR(vibrationFrequency_Hz(20.0 * turn), 20.0, 1e-9);
+  EXPECT_NEAR(vibrationFrequency_Hz(-99.0 * turn), 99.0, 1e-9);
   double last = 0.0;
   for (double turns_Hz = 101.0; turns_Hz < 7000.0; turns_Hz *= 1.1) {
-    const double buzz_Hz = buzzFrequency_Hz(turns_Hz * turn);
+    const double buzz_Hz = vibrationFrequency_Hz(turns_Hz * turn);
     EXPECT_GT(buzz_Hz, std::max(last, 120.0));
     EXPECT_LT(buzz_Hz, 250.0);
     last = buzz_Hz;
@@ -181,8 +181,8 @@ TEST(Spindle, KeepsThePhaseOfTheBuzzWhileItsPitchMoves) {
   const SpindleSettings settings;
   SpindleState state;
   for (int tick = 0; tick < 200; ++tick) {
-    const SpindleState next = turned(settings, state, true, tick > 100 ? 20.0 : 0.0, 1e-3);
-    const double step = std::remainder(next.buzz_rad - state.buzz_rad, 2.0 * calibration::kPi);
+    const SpindleState next = advanced(settings, state, true, tick > 100 ? 20.0 : 0.0, 1e-3);
+    const double step = std::remainder(next.vibration_phase_rad - state.vibration_phase_rad, 2.0 * calibration::kPi);
     EXPECT_LE(std::abs(step), 2.0 * calibration::kPi * 0.25 + 1e-9) << tick;
     state = next;
   }
@@ -200,8 +200,8 @@ TEST(Spindle, StaysFiniteWhateverItIsGiven) {
     for (double load : {0.0, -5.0, 1e9, nan}) {
       SpindleState state;
       state.rad_per_s = 300.0;
-      EXPECT_TRUE(std::isfinite(turned(safe, state, true, load, dt_s).rad_per_s));
-      EXPECT_TRUE(std::isfinite(turned(safe, state, true, load, dt_s).buzz_rad));
+      EXPECT_TRUE(std::isfinite(advanced(safe, state, true, load, dt_s).rad_per_s));
+      EXPECT_TRUE(std::isfinite(advanced(safe, state, true, load, dt_s).vibration_phase_rad));
     }
 }
 

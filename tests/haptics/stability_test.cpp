@@ -54,13 +54,13 @@ HandScript pressing(double slide_mm_per_s) {
   return [=](double t_s) {
     const double u = std::min(t_s / 0.5, 1.0);
     HandTarget target;
-    target.place_mm = {slide_mm_per_s * std::max(0.0, t_s - 0.5) - 2.0, 0.0, 5.0 - 6.0 * u * u * (3.0 - 2.0 * u)};
+    target.position_mm = {slide_mm_per_s * std::max(0.0, t_s - 0.5) - 2.0, 0.0, 5.0 - 6.0 * u * u * (3.0 - 2.0 * u)};
     return target;
   };
 }
 
 struct Pressing {
-  double fastest_mm_per_s = 0.0;  ///< in the last 0.4 s
+  double max_speed_mm_per_s = 0.0;  ///< in the last 0.4 s
   double pressed_N = 0.0;
   int buzz = 0;
 };
@@ -75,10 +75,10 @@ Pressing press(PhantomMechanics mechanics, std::uint8_t tissue, const Grip& grip
   Pressing found;
   BuzzCount buzz;
   for (int tick = 0; tick < 1200; ++tick) {
-    found.pressed_N = glm::length(pressed.step(1e-3).served_force_P_N.xyz);
+    found.pressed_N = glm::length(pressed.step(1e-3).commanded_force_P_N.xyz);
     buzz.add(pressed.velocity_mm_per_s());
     if (tick >= 800)
-      found.fastest_mm_per_s = std::max(found.fastest_mm_per_s, glm::length(pressed.velocity_mm_per_s()));
+      found.max_speed_mm_per_s = std::max(found.max_speed_mm_per_s, glm::length(pressed.velocity_mm_per_s()));
   }
   found.buzz = buzz.most();
   return found;
@@ -93,9 +93,9 @@ TEST(Stability, PressesEveryTissueWithoutALimitCycle) {
       for (bool as_served : {true, false}) {
         const Pressing found = press(mechanics, tissue, kSteady, 0.0, [&](Command& command) {
           // Not softened to what the maker recommends: 0.8 N/mm, 1.2 on enamel.
-          if (!as_served) command.safety.most_stiffness_N_per_mm = 100.0;
+          if (!as_served) command.safety.max_stiffness_N_per_mm = 100.0;
         });
-        EXPECT_LT(found.fastest_mm_per_s, 0.1) << mechanics.key << " on " << assets::properties(tissue).name;
+        EXPECT_LT(found.max_speed_mm_per_s, 0.1) << mechanics.key << " on " << assets::properties(tissue).name;
         EXPECT_EQ(found.buzz, 0) << mechanics.key << " on " << assets::properties(tissue).name;
         EXPECT_GT(found.pressed_N, 0.1) << mechanics.key << " on " << assets::properties(tissue).name;
       }
@@ -106,7 +106,7 @@ TEST(Stability, TrembleAndSlideDoNotBuzz) {
   for (const PhantomMechanics& mechanics : simulatedPhantoms())
     for (assets::Tissue tissue : {assets::Tissue::enamel, assets::Tissue::trabecular}) {
       const Pressing found = press(mechanics, static_cast<std::uint8_t>(tissue), {}, 6.0);
-      EXPECT_LT(found.fastest_mm_per_s, 25.0) << mechanics.key;
+      EXPECT_LT(found.max_speed_mm_per_s, 25.0) << mechanics.key;
       EXPECT_LE(found.buzz, 2) << mechanics.key;
     }
 }
@@ -114,7 +114,7 @@ TEST(Stability, TrembleAndSlideDoNotBuzz) {
 TEST(Stability, SeesTheLimitCycleOfAWallThatIsTooStiff) {
   for (const PhantomMechanics& mechanics : simulatedPhantoms()) {
     const Pressing found = press(mechanics, 1, kSteady, 0.0, [](Command& command) { command = bare(16.0); });
-    EXPECT_GT(found.fastest_mm_per_s, 20.0) << mechanics.key;
+    EXPECT_GT(found.max_speed_mm_per_s, 20.0) << mechanics.key;
   }
 }
 
@@ -137,7 +137,7 @@ HandScript leaning(double more_N) {
   return [=](double t_s) {
     const double lean = std::min(t_s, 1.0);
     HandTarget target;
-    target.place_mm.z = 2.0 - 500.0 * lean * lean * (3.0 - 2.0 * lean) - (t_s > 1.5 ? 500.0 * more_N : 0.0);
+    target.position_mm.z = 2.0 - 500.0 * lean * lean * (3.0 - 2.0 * lean) - (t_s > 1.5 ? 500.0 * more_N : 0.0);
     return target;
   };
 }
@@ -153,7 +153,7 @@ Shaking shaken(const PhantomMechanics& mechanics, double stiffness_N_per_mm, dou
   for (int tick = 0; tick < static_cast<int>(4.8 * rate_Hz); ++tick) {
     const Tick felt = pressed.step(1.0 / rate_Hz);
     const double t = tick / rate_Hz, v = pressed.velocity_mm_per_s().z;
-    if (t > 0.2) withheld_N = std::max(withheld_N, glm::distance(felt.served_force_P_N.xyz, felt.law_force_P_N.xyz));
+    if (t > 0.2) withheld_N = std::max(withheld_N, glm::distance(felt.commanded_force_P_N.xyz, felt.law_force_P_N.xyz));
     if (t > 1.55 && t < 1.75) early += v * v / (0.2 * rate_Hz);
     if (t > 4.55 && t < 4.75) late += v * v / (0.2 * rate_Hz);
   }
@@ -224,7 +224,7 @@ int timesTurnedBack(const PhantomMechanics& model, double share_of_edge) {
   mechanics.sensing.counts_per_turn = model.sensing.counts_per_turn;
   mechanics.dry_N = model.dry_N;
   mechanics.viscous_Ns_per_mm = 0.02;  // 2 b / T = 40 N/mm is out of the way
-  const auto arm_rad = armReaching(model.geometry, {}).value();
+  const auto arm_rad = armAnglesFor(model.geometry, {}).value();
   const double count_mm =
       glm::length(armJacobian_mm(model.geometry, arm_rad)[0]) * 2.0 * std::numbers::pi / model.sensing.counts_per_turn;
   const double stiffness = share_of_edge * 2.0 * model.dry_N / count_mm;
@@ -232,7 +232,7 @@ int timesTurnedBack(const PhantomMechanics& model, double share_of_edge) {
   const double wanted_mm = between_mm - stiffness * (2.0 - between_mm) / kLoose.stiffness_N_per_mm;
   const auto lean = [=](double t_s) {
     HandTarget target;
-    target.place_mm.x = glm::mix(2.0, wanted_mm, std::min(t_s, 1.0));
+    target.position_mm.x = glm::mix(2.0, wanted_mm, std::min(t_s, 1.0));
     return target;
   };
   HeldPhantom pressed(mechanics, lean, kLoose, halfSpace(3.5, 0.2, {1.0, 0.0, 0.0}).bone(1), bare(stiffness));

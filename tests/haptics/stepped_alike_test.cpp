@@ -12,10 +12,10 @@
 #include <tuple>
 #include <vector>
 
-#include "haptics/device/simulated/posed_hand.h"
-#include "haptics/device/simulated/scripted_hand.h"
+#include "haptics/device/simulated/pose_list_device.h"
+#include "haptics/device/simulated/scripted_device.h"
 #include "haptics/device/simulated/simulated_phantom.h"
-#include "haptics/device/simulated/work_round.h"
+#include "haptics/device/simulated/work_cycle.h"
 #include "haptics/servo/haptic_loop.h"
 #include "tests/haptics/phantom.h"
 
@@ -27,35 +27,35 @@ using namespace phantom;
 assets::PlannedCut shortCut() {
   assets::PlannedCut cut;
   cut.outward_P = {0.0, 0.0, 1.0};
-  cut.aside_P = {0.0, 1.0, 0.0};
+  cut.lateral_P = {0.0, 1.0, 0.0};
   cut.length_mm = 6.0;
   cut.depth_mm = 1.0;
   return cut;
 }
 
-const CuttingManner kQuickly{.speed_mm_per_s = 20.0, .clearance_mm = 3.0};
+const CuttingMotion kQuickly{.speed_mm_per_s = 20.0, .clearance_mm = 3.0};
 
-std::unique_ptr<DeviceInNumbers> scripted() { return std::make_unique<ScriptedHand>(shortCut(), kQuickly); }
+std::unique_ptr<SimulatedDevice> scripted() { return std::make_unique<ScriptedDevice>(shortCut(), kQuickly); }
 
-std::unique_ptr<DeviceInNumbers> simulatedTouch() {
+std::unique_ptr<SimulatedDevice> simulatedTouch() {
   const PhantomMechanics& touch = *findSimulatedPhantom("touch");
   const auto rest_DH = touch.rest_DH();
-  const WorkRound round(TroughPath(shortCut(), kQuickly), {rest_DH.translation_mm, rest_DH.rotation, false, 0, true},
+  const WorkCycle round(TroughPath(shortCut(), kQuickly), {rest_DH.translation_mm, rest_DH.rotation, false, 0, true},
                         {{0.0, 0.0, 40.0}});
   return std::make_unique<SimulatedPhantom>(touch, [round](double t_s) { return round.at(t_s); });
 }
 
-std::unique_ptr<DeviceInNumbers> posed() {
-  std::vector<TimedHold> holds;
+std::unique_ptr<SimulatedDevice> posed() {
+  std::vector<TimedHandlePose> holds;
   for (int n = 0; n < 60; ++n)
     holds.push_back(
         {0.1 * n, {glm::angleAxis(0.02 * n, glm::dvec3(0, 1, 0)), {n % 2 - 0.5, 0.0, 3.0 - 0.05 * n}}, n > 10});
-  return std::make_unique<PosedHand>(holds);
+  return std::make_unique<PoseListDevice>(holds);
 }
 
 struct Hand {
   const char* name;
-  std::function<std::unique_ptr<DeviceInNumbers>()> make;
+  std::function<std::unique_ptr<SimulatedDevice>()> make;
 };
 const std::vector<Hand> kHands = {{"scripted", scripted}, {"simulated:touch", simulatedTouch}, {"poses", posed}};
 
@@ -67,13 +67,13 @@ LoopSettings ordinary() {
   return settings;
 }
 
-std::vector<Tick> stepped(DeviceInNumbers& device, std::uint64_t ticks, std::uint64_t at_once) {
+std::vector<Tick> stepped(SimulatedDevice& device, std::uint64_t ticks, std::uint64_t at_once) {
   CarvedBone block = bone();
   Servo servo(block);
   Latest<Command> commands(limitedTo(device.capabilities(), 1000.0, {}));
   TickLog log(ticks);
   Latest<Tick> newest;
-  HapticLoop loop(servo, ServedDevice::byHand(device), commands, log, newest, ordinary());
+  HapticLoop loop(servo, ServedDevice::steppedManually(device), commands, log, newest, ordinary());
   loop.start();
   for (std::uint64_t n = 0; n < ticks; n += at_once) loop.step(std::min(at_once, ticks - n));
   loop.stop();
@@ -82,7 +82,7 @@ std::vector<Tick> stepped(DeviceInNumbers& device, std::uint64_t ticks, std::uin
   return out;
 }
 
-std::vector<Tick> ticking(DeviceInNumbers& device, std::uint64_t ticks) {
+std::vector<Tick> ticking(SimulatedDevice& device, std::uint64_t ticks) {
   CarvedBone block = bone();
   Servo servo(block);
   Latest<Command> commands(limitedTo(device.capabilities(), 1000.0, {}));
@@ -102,9 +102,9 @@ std::vector<Tick> ticking(DeviceInNumbers& device, std::uint64_t ticks) {
 auto columns(const Tick& t) {
   return std::tuple(t.index, t.t_s, t.dt_s, t.command_serial, t.hand.X_PT.translation_mm, t.hand.X_PT.rotation,
                     t.hand.velocity_P_mm_per_s.xyz, t.hand.drill_pedal, t.hand.gap_s, t.hand.motor_heat, t.proxy_P.mm,
-                    t.law_force_P_N.xyz, t.law_torque_P_Nmm.xyz, t.served_force_P_N.xyz, t.served_torque_P_Nmm.xyz,
+                    t.law_force_P_N.xyz, t.law_torque_P_Nmm.xyz, t.commanded_force_P_N.xyz, t.commanded_torque_P_Nmm.xyz,
                     t.energy_Nmm, t.spindle_rad_per_s, t.overlap_mm3, t.depth_mm, t.removed_mm3, t.bone_digest,
-                    t.contact_tissue, t.drilling, t.rest, t.strokes, t.state, t.faults);
+                    t.contact_tissue, t.drilling, t.drill_inhibit, t.strokes, t.state, t.faults);
 }
 
 TEST(SteppedHand, MakesTheSameTicksTwiceHoweverManyAtOnce) {
@@ -128,7 +128,7 @@ TEST(SteppedHand, MakesTheSameTicksTwiceHoweverManyAtOnce) {
 class Scribe final : public DeviceServo {
  public:
   Scribe(const DeviceCapabilities& can, std::size_t room) : gate_(can) { sensed.reserve(room); }
-  MotorCommand tick(const HandleState& state, const Beat&) noexcept override {
+  MotorCommand tick(const HandleState& state, const TickTiming&) noexcept override {
     if (sensed.size() < sensed.capacity()) sensed.push_back(state);
     const double phase = 0.01 * static_cast<double>(ticks.fetch_add(1));
     return gate_.admit({{{0.5 * std::sin(phase), 0.3 * std::cos(phase), 0.2}}, {}}, state.jacobian_D_mm, true);
@@ -154,7 +154,7 @@ TEST(SteppedHand, SensesWhatItDoesByItselfHoweverLate) {
     by_itself->start(real, 1000.0);
     while (real.ticks.load() < kTicks) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     by_itself->stop();
-    by_hand->startByHand(fast, 1000.0);
+    by_hand->startStepped(fast, 1000.0);
     by_hand->step(kTicks);
     by_hand->stop();
     for (std::size_t i = 0; i < kTicks; ++i) ASSERT_EQ(columns(real.sensed[i]), columns(fast.sensed[i])) << i;

@@ -88,11 +88,11 @@ struct Stroke {
 };
 
 /// Gives the newest stroke back in parts of `most` blocks.
-double giveBackOne(StrokeHistory& strokes, CarvedBone& bone, std::size_t most) {
+double restoreOne(StrokeHistory& strokes, CarvedBone& bone, std::size_t most) {
   double volume_mm3 = 0.0;
   const std::size_t before = strokes.strokes();
   for (;;) {
-    const StrokeHistory::GivenBack given = strokes.giveBack(bone, most);
+    const StrokeHistory::Restored given = strokes.restore(bone, most);
     EXPECT_LE(given.blocks, most);
     EXPECT_GT(given.blocks, 0u);
     volume_mm3 += given.volume_mm3;
@@ -113,7 +113,7 @@ TEST(StrokeHistory, GivesBackEveryByteSumAndFigureOfAnyStroke) {
     }
     ASSERT_EQ(strokes.strokes(), 5u);
     for (int n = 5; n-- > 0;) {
-      const double returned_mm3 = giveBackOne(strokes, bone, 1 + random() % 100);
+      const double returned_mm3 = restoreOne(strokes, bone, 1 + random() % 100);
       EXPECT_NEAR(returned_mm3, removed_mm3[static_cast<std::size_t>(n)], 1e-9);
       expectSame(wholeOf(bone), past[static_cast<std::size_t>(n)]);
       ASSERT_EQ(strokes.strokes(), static_cast<std::size_t>(n));
@@ -127,7 +127,7 @@ TEST(StrokeHistory, LeavesABoneThatCutsLikeOneNeverCut) {
     CarvedBone bone = noise(seed), never = noise(seed);
     StrokeHistory strokes(bone);
     Stroke(random).cutAll(bone, &strokes);
-    giveBackOne(strokes, bone, 64);
+    restoreOne(strokes, bone, 64);
     const Stroke next(random);
     EXPECT_EQ(next.cutAll(bone, &strokes), next.cutAll(never, nullptr));
     expectSame(wholeOf(bone), wholeOf(never));
@@ -160,7 +160,7 @@ TEST(StrokeHistory, GivesBackBlocksThatCouldNotBeRemembered) {
   for (double x : {-5.0, 5.0}) {
     const Whole before = wholeOf(bone);
     EXPECT_GT(carveSphere(bone, {{x, 0.0, 0.0}}, 1.5, step, tick++, 1, &strokes).removed_mm3, 1.0);
-    giveBackOne(strokes, bone, 50);
+    restoreOne(strokes, bone, 50);
     expectSame(wholeOf(bone), before);
   }
 }
@@ -173,16 +173,16 @@ TEST(StrokeHistory, ForgetsTheOldestStrokesWholeWhenItsRoomIsFull) {
   for (int n = 0; n < 60; ++n) {
     past.push_back(wholeOf(bone));
     Stroke(random).cutAll(bone, &strokes);
-    ASSERT_LE(strokes.strokes(), StrokeHistory::kMostStrokes);
+    ASSERT_LE(strokes.strokes(), StrokeHistory::kMaxStrokes);
   }
   const std::size_t kept = strokes.strokes();
   EXPECT_GE(kept, 3u);
-  EXPECT_LT(kept, StrokeHistory::kMostStrokes);
+  EXPECT_LT(kept, StrokeHistory::kMaxStrokes);
   for (std::size_t n = 0; n < kept; ++n) {
-    giveBackOne(strokes, bone, 37);
+    restoreOne(strokes, bone, 37);
     expectSame(wholeOf(bone), past[past.size() - 1 - n]);
   }
-  EXPECT_EQ(strokes.giveBack(bone, 100).blocks, 0u);
+  EXPECT_EQ(strokes.restore(bone, 100).blocks, 0u);
 }
 
 TEST(StrokeHistory, KeepsAsManyStrokesAsItSays) {
@@ -192,7 +192,7 @@ TEST(StrokeHistory, KeepsAsManyStrokesAsItSays) {
     carveSphere(bone, {{-2.0 + 0.04 * n, 0.0, 0.0}}, 0.5, phantom::timeErosion({}, 0.01), 0, 1, &strokes);
     strokes.endStroke();
   }
-  EXPECT_EQ(strokes.strokes(), StrokeHistory::kMostStrokes);
+  EXPECT_EQ(strokes.strokes(), StrokeHistory::kMaxStrokes);
 }
 
 TEST(StrokeHistory, TakesALongStrokeBackInPiecesWithoutHalfABlock) {
@@ -217,7 +217,7 @@ TEST(StrokeHistory, TakesALongStrokeBackInPiecesWithoutHalfABlock) {
   ASSERT_GE(strokes.strokes(), 3u);
   while (strokes.strokes() > 0) {
     const std::uint64_t before = bone.digest();
-    giveBackOne(strokes, bone, 16);
+    restoreOne(strokes, bone, 16);
     EXPECT_NE(bone.digest(), before);
     EXPECT_TRUE(once_was(wholeOf(bone)));
   }
@@ -230,11 +230,11 @@ TEST(StrokeHistory, StaysInItsRoomUnderRandomUse) {
   StrokeHistory strokes(bone, 300);
   for (int n = 0; n < 400; ++n) {
     const unsigned what = random() % 4;
-    if (what == 0) strokes.giveBack(bone, random() % 80);
+    if (what == 0) strokes.restore(bone, random() % 80);
     if (what == 1) strokes.endStroke();
     if (what >= 2) Stroke(random).cut(bone, &strokes, random() % 30);
   }
-  while (strokes.strokes() > 0) giveBackOne(strokes, bone, 64);
+  while (strokes.strokes() > 0) restoreOne(strokes, bone, 64);
   // Whatever was forgotten: no voxel holds more than it did, and the sums are those of its bytes.
   const Whole now = wholeOf(bone);
   for (std::size_t n = 0; n < now.blocks.size(); ++n) {
@@ -255,7 +255,7 @@ TEST(StrokeHistory, MarksTheBricksThatComeBack) {
   std::vector<glm::ivec3> cut, returned;
   bone.dirtyBricks().takeInto(cut);
   ASSERT_FALSE(cut.empty());
-  giveBackOne(strokes, bone, 1000);
+  restoreOne(strokes, bone, 1000);
   bone.dirtyBricks().takeInto(returned);
   EXPECT_EQ(cut, returned);
   EXPECT_EQ(bone.solidInGridOrder(), before);
@@ -285,7 +285,7 @@ TEST(StrokeHistory, HandsBricksToAReaderWhileTheyComeBack) {
     carveSphere(bone, {{-1.0 + 0.006 * static_cast<double>(tick), 0.0, 0.0}}, 1.0, phantom::timeErosion({}, 2e-3), tick,
                 1, &strokes);
     if (tick % 3 == 2) strokes.endStroke();
-    if (tick % 5 == 4) strokes.giveBack(bone, 20);
+    if (tick % 5 == 4) strokes.restore(bone, 20);
   }
   done.store(true);
   reader.join();

@@ -28,14 +28,14 @@ TEST(Trips, EveryStateHasWords) {
   std::set<std::string_view> keys;
   for (auto state : {SafetyState::off, SafetyState::calibrate, SafetyState::ready, SafetyState::armed,
                      SafetyState::active, SafetyState::fault})
-    keys.insert(wordsOf(state).key);
+    keys.insert(textOf(state).key);
   EXPECT_EQ(keys.size(), 6u);
-  EXPECT_EQ(wordsOf(SafetyState::fault).key, "fault");
-  EXPECT_EQ(wordsOf(static_cast<SafetyState>(77)).key, "fault") << "whatever a damaged file says";
+  EXPECT_EQ(textOf(SafetyState::fault).key, "fault");
+  EXPECT_EQ(textOf(static_cast<SafetyState>(77)).key, "fault") << "whatever a damaged file says";
 }
 
-TEST(TripLedger, CountsBeginningsAndKnowsFirstAndLastTick) {
-  TripLedger ledger;
+TEST(TripCounter, CountsBeginningsAndKnowsFirstAndLastTick) {
+  TripCounter ledger;
   ledger.add(10, Fault::none);
   ledger.add(11, Fault::clamped);
   ledger.add(12, Fault::clamped | Fault::hot);

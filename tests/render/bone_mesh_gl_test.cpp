@@ -22,8 +22,8 @@ Frame frameOf(ViewMode mode, const glm::dvec3& from = {60, -200, 80}) {
 }
 
 struct Drawn {
-  Picture picture;
-  DistancePicture distance;
+  Image image;
+  DistanceImage distance;
 };
 
 Drawn drawn(FrameRenderer& renderer, const Frame& frame) {
@@ -83,8 +83,8 @@ TEST(BoneMesh, LooksLikeTheRayCastSurface) {
   const OffscreenContext context;
   const assets::CtVolume ct = twoBalls();
   FrameRenderer renderer(ct.grid, ct.solid, ct.label);
-  const Picture rays = drawn(renderer, frameOf(ViewMode::iso)).picture;
-  const Picture mesh = drawn(renderer, frameOf(ViewMode::mesh)).picture;
+  const Image rays = drawn(renderer, frameOf(ViewMode::iso)).image;
+  const Image mesh = drawn(renderer, frameOf(ViewMode::mesh)).image;
   // The same shading over a surface a hundredth of a voxel beside it; the rest is outline.
   EXPECT_LT(pixelsThatDiffer(rays, mesh, 4), 250u);
   EXPECT_GT(pixelsThatDiffer(rays, mesh, 0), 0u);  // it is another drawing
@@ -103,9 +103,9 @@ TEST(BoneMesh, AfterCarvingIsThatOfTheCarvedBone) {
   const Drawn followed = drawn(renderer, frameOf(ViewMode::mesh));
   FrameRenderer fresh(ct.grid, ct.solid, ct.label);
   const Drawn anew = drawn(fresh, frameOf(ViewMode::mesh));
-  EXPECT_EQ(pixelsThatDiffer(followed.picture, anew.picture), 0u);
+  EXPECT_EQ(pixelsThatDiffer(followed.image, anew.image), 0u);
   EXPECT_EQ(followed.distance.mm, anew.distance.mm);
-  EXPECT_GT(pixelsThatDiffer(followed.picture, uncarved.picture, 8), 200u);
+  EXPECT_GT(pixelsThatDiffer(followed.image, uncarved.image, 8), 200u);
 }
 
 TEST(BoneMesh, KeepsEveryPatchWhenItsBuffersGrow) {

@@ -18,14 +18,14 @@ struct Rgb {
   bool operator==(const Rgb&) const = default;
 };
 
-Rgb at(const Picture& picture, int x, int y) {
-  const std::uint8_t* p = &picture.rgba[4 * static_cast<std::size_t>(y * picture.w + x)];
+Rgb at(const Image& image, int x, int y) {
+  const std::uint8_t* p = &image.rgba[4 * static_cast<std::size_t>(y * image.w + x)];
   return {p[0], p[1], p[2]};
 }
 
-/// The pixel of a place beside the middle of the picture, mm to the right and downwards.
-Rgb beside(const Picture& picture, double right_mm, double down_mm) {
-  return at(picture, static_cast<int>(0.5 * kEdge + right_mm / kMmPerPx),
+/// The pixel of a place beside the middle of the image, mm to the right and downwards.
+Rgb beside(const Image& image, double right_mm, double down_mm) {
+  return at(image, static_cast<int>(0.5 * kEdge + right_mm / kMmPerPx),
             static_cast<int>(0.5 * kEdge + down_mm / kMmPerPx));
 }
 
@@ -48,8 +48,8 @@ struct Scene {
     ct.solid = scan.solid;
     frame.bur_radius_mm = 2.0;
   }
-  Picture picture(SlicePlane plane) const {
-    return CtSlices(ct.grid, scan).picture(plane, frame, testing::borderedSolid(ct), kEdge);
+  Image image(SlicePlane plane) const {
+    return CtSlices(ct.grid, scan).image(plane, frame, testing::borderedSolid(ct), kEdge);
   }
 };
 
@@ -57,15 +57,15 @@ TEST(CtSlices, ShowGreyValuesInABoneWindow) {
   // -750 HU is black, 500 HU middle grey, 1750 HU white; a ramp along x shows in two planes and is even in the third.
   Scene scene([](glm::dvec3 p) { return 500.0 + 100.0 * p.x; });
   for (const SlicePlane plane : {SlicePlane::axial, SlicePlane::coronal}) {
-    const Picture picture = scene.picture(plane);
+    const Image image = scene.image(plane);
     for (const double x_mm : {-7.0, -3.5, 4.0, 7.0}) {
-      const Rgb seen = beside(picture, x_mm, 5.0);
+      const Rgb seen = beside(image, x_mm, 5.0);
       EXPECT_NEAR(seen.r, 127.5 + 255.0 * 100.0 * x_mm / 2500.0, 1.5);
       EXPECT_EQ(seen.r, seen.g);
       EXPECT_EQ(seen.r, seen.b);
     }
   }
-  const Picture sagittal = scene.picture(SlicePlane::sagittal);
+  const Image sagittal = scene.image(SlicePlane::sagittal);
   for (const double y_mm : {-7.0, 7.0}) EXPECT_NEAR(beside(sagittal, y_mm, 5.0).r, 127, 2);
 }
 
@@ -73,19 +73,19 @@ TEST(CtSlices, LieAsARadiologistSeesThem) {
   // One dense block towards left, posterior, superior of the middle.
   Scene scene([](glm::dvec3 p) { return p.x > 3.0 && p.y > 4.0 && p.z > 5.0 ? 1750.0 : -1000.0; });
   scene.frame.X_PT.translation_mm = {0.0, 0.0, 8.0};
-  EXPECT_EQ(beside(scene.picture(SlicePlane::axial), 6.0, 7.0).r, 255);  // left to the right, posterior down
-  EXPECT_EQ(beside(scene.picture(SlicePlane::axial), 6.0, -7.0).r, 0);
+  EXPECT_EQ(beside(scene.image(SlicePlane::axial), 6.0, 7.0).r, 255);  // left to the right, posterior down
+  EXPECT_EQ(beside(scene.image(SlicePlane::axial), 6.0, -7.0).r, 0);
   scene.frame.X_PT.translation_mm = {0.0, 8.0, 0.0};
-  EXPECT_EQ(beside(scene.picture(SlicePlane::coronal), 6.0, -8.0).r, 255);  // superior up
-  EXPECT_EQ(beside(scene.picture(SlicePlane::coronal), -6.0, -8.0).r, 0);
+  EXPECT_EQ(beside(scene.image(SlicePlane::coronal), 6.0, -8.0).r, 255);  // superior up
+  EXPECT_EQ(beside(scene.image(SlicePlane::coronal), -6.0, -8.0).r, 0);
   scene.frame.X_PT.translation_mm = {8.0, 0.0, 0.0};
-  EXPECT_EQ(beside(scene.picture(SlicePlane::sagittal), 7.0, -8.0).r, 255);  // posterior to the right
-  EXPECT_EQ(beside(scene.picture(SlicePlane::sagittal), -7.0, -8.0).r, 0);
+  EXPECT_EQ(beside(scene.image(SlicePlane::sagittal), 7.0, -8.0).r, 255);  // posterior to the right
+  EXPECT_EQ(beside(scene.image(SlicePlane::sagittal), -7.0, -8.0).r, 0);
 }
 
 TEST(CtSlices, ShowWhatIsCarvedAsGone) {
   Scene scene([](glm::dvec3) { return 1500.0; });
-  const Picture whole = scene.picture(SlicePlane::axial);
+  const Image whole = scene.image(SlicePlane::axial);
   // A pit of 3 mm beside the bur.
   for (std::size_t n = 0; n < scene.ct.solid.size(); ++n) {
     const auto v = static_cast<int>(n);
@@ -93,16 +93,16 @@ TEST(CtSlices, ShowWhatIsCarvedAsGone) {
     const glm::dvec3 p = scene.ct.grid.centre_P_mm({v % size.x, v / size.x % size.y, v / size.x / size.y});
     if (glm::length(p - glm::dvec3(6.0, 6.0, 0.0)) < 3.0) scene.ct.solid[n] = 0;
   }
-  const Picture carved = scene.picture(SlicePlane::axial);
+  const Image carved = scene.image(SlicePlane::axial);
   EXPECT_LT(beside(carved, 6.0, 6.0).g, 20);
   EXPECT_EQ(beside(whole, 6.0, 6.0).g, beside(whole, -6.0, 6.0).g);
   EXPECT_EQ(beside(carved, -6.0, 6.0), beside(whole, -6.0, 6.0));
 }
 
 /// Whether the bur's colour stands within a pixel and a half of a place, and neither 0.5 mm further in nor out.
-void expectOutlineAt(const Picture& picture, glm::dvec2 at_mm, glm::dvec2 outward) {
+void expectOutlineAt(const Image& image, glm::dvec2 at_mm, glm::dvec2 outward) {
   const auto is_bur = [&](double off_mm) {
-    const Rgb c = beside(picture, at_mm.x + off_mm * outward.x, at_mm.y + off_mm * outward.y);
+    const Rgb c = beside(image, at_mm.x + off_mm * outward.x, at_mm.y + off_mm * outward.y);
     return c.b > c.r + 60;
   };
   EXPECT_TRUE(is_bur(0.0)) << at_mm.x << " " << at_mm.y;
@@ -114,7 +114,7 @@ TEST(CtSlices, OutlineTheBurExactly) {
   Scene scene([](glm::dvec3) { return 300.0; }, {60, 60, 60});
   scene.frame.bur_radius_mm = 2.5;
   for (const SlicePlane plane : kSlicePlanes) {
-    const Picture round = scene.picture(plane);
+    const Image round = scene.image(plane);
     for (const double turn : {0.3, 1.2, 2.0, 4.0})
       expectOutlineAt(round, 2.5 * glm::dvec2(std::cos(turn), std::sin(turn)), {std::cos(turn), std::sin(turn)});
   }
@@ -123,11 +123,11 @@ TEST(CtSlices, OutlineTheBurExactly) {
   scene.frame.bur_length_mm = 8.0;
   scene.frame.bur_radius_mm = 1.5;
   scene.frame.X_PT.rotation = glm::dquat(glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0));
-  const Picture lying = scene.picture(SlicePlane::axial);
+  const Image lying = scene.image(SlicePlane::axial);
   expectOutlineAt(lying, {4.0, 0.7}, {1, 0});
   expectOutlineAt(lying, {-4.0, -0.7}, {-1, 0});
   expectOutlineAt(lying, {2.5, 1.5}, {0, 1});
-  expectOutlineAt(scene.picture(SlicePlane::sagittal), {1.06, 1.06}, {0.71, 0.71});
+  expectOutlineAt(scene.image(SlicePlane::sagittal), {1.06, 1.06}, {0.71, 0.71});
 }
 
 TEST(CtSlices, MeasureTheBurWithTheSignOfItsInside) {
@@ -155,7 +155,7 @@ TEST(CtSlices, OutlineTheCanal) {
   Scene scene([](glm::dvec3) { return 300.0; }, {60, 60, 60});
   scene.scan.mandibular_canal_P_mm = {{4.0, -20.0, 5.0}, {4.0, 0.0, 5.0}, {4.0, 20.0, 5.0}};
   scene.scan.mandibular_canal_radius_mm = 1.5;
-  const Picture coronal = scene.picture(SlicePlane::coronal);  // across it: a circle, 4 mm to the right, 5 mm up
+  const Image coronal = scene.image(SlicePlane::coronal);  // across it: a circle, 4 mm to the right, 5 mm up
   const auto is_canal = [&](double x, double y) { return beside(coronal, x, y).r > beside(coronal, x, y).b + 60; };
   for (const double turn : {0.5, 2.5, 4.5})
     EXPECT_TRUE(is_canal(4.0 + 1.5 * std::cos(turn), -5.0 + 1.5 * std::sin(turn))) << turn;
@@ -165,11 +165,11 @@ TEST(CtSlices, OutlineTheCanal) {
 
 TEST(CtSlices, CarryNameSidesAndScale) {
   Scene scene([](glm::dvec3) { return -1000.0; }, {20, 20, 20});
-  const Picture picture = scene.picture(SlicePlane::axial);
+  const Image image = scene.image(SlicePlane::axial);
   const auto bright = [&](int x0, int y0, int x1, int y1) {
     int count = 0;
     for (int y = y0; y < y1; ++y)
-      for (int x = x0; x < x1; ++x) count += at(picture, x, y).r > 200;
+      for (int x = x0; x < x1; ++x) count += at(image, x, y).r > 200;
     return count;
   };
   EXPECT_GT(bright(0, 0, 60, 20), 50);              // the name
@@ -179,7 +179,7 @@ TEST(CtSlices, CarryNameSidesAndScale) {
   int longest = 0;
   for (int y = kEdge - 20; y < kEdge; ++y)
     for (int x = 0, run = 0; x < kEdge; ++x) {
-      run = at(picture, x, y).r > 200 ? run + 1 : 0;
+      run = at(image, x, y).r > 200 ? run + 1 : 0;
       longest = std::max(longest, run);
     }
   EXPECT_NEAR(longest * kMmPerPx, 5.0, 2.0 * kMmPerPx);
@@ -189,7 +189,7 @@ TEST(CtSlices, ShowAirOutsideTheVolume) {
   Scene scene([](glm::dvec3) { return 1750.0; }, {20, 20, 20});
   for (const glm::dvec3& far : {glm::dvec3(500, 0, 0), glm::dvec3(-1e4, 3, 1e6)}) {
     scene.frame.X_PT.translation_mm = far;
-    EXPECT_EQ(beside(scene.picture(SlicePlane::axial), -7.0, 5.0), (Rgb{0, 0, 0}));
+    EXPECT_EQ(beside(scene.image(SlicePlane::axial), -7.0, 5.0), (Rgb{0, 0, 0}));
   }
 }
 

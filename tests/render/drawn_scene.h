@@ -1,4 +1,4 @@
-// Reading drawn pictures: rays of pixels, the places they hit, comparisons.
+// Reading drawn images: rays of pixels, the places they hit, comparisons.
 #pragma once
 
 #include <optional>
@@ -35,7 +35,7 @@ inline std::optional<double> distanceToBall_mm(const glm::dvec3& from, const glm
   return along - std::sqrt(under);
 }
 
-inline std::size_t pixelsThatDiffer(const Picture& a, const Picture& b, int tolerance = 0) {
+inline std::size_t pixelsThatDiffer(const Image& a, const Image& b, int tolerance = 0) {
   std::size_t count = 0;
   for (std::size_t p = 0; p + 3 < a.rgba.size(); p += 4) {
     int worst = 0;
@@ -52,7 +52,7 @@ inline Frame frameFor(const calibration::Rig& rig) {
   return frame;
 }
 
-/// The same virtual screen and eyes, made by a panel behind a mirror: pictures on the panel are flipped left to right.
+/// The same virtual screen and eyes, made by a panel behind a mirror: images on the panel are flipped left to right.
 inline calibration::Rig throughMirror(calibration::Rig rig) {
   const calibration::ScreenCorners seen = rig.screen;
   rig.mirror = calibration::Plane<calibration::World>{glm::normalize(glm::dvec3(0.2, 0.8, 0.5)), 30.0};

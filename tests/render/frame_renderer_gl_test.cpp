@@ -45,8 +45,8 @@ assets::MeshModel sphereMesh(const Ball& ball, glm::vec4 colour, const char* nam
 
 assets::CtVolume noBone() { return ballVolume(smallGrid(glm::ivec3(8), 1.0), {}); }
 
-const std::uint8_t* pixelAt(const Picture& picture, int x, int y) {
-  return &picture.rgba[4 * static_cast<std::size_t>(y * picture.w + x)];
+const std::uint8_t* pixelAt(const Image& image, int x, int y) {
+  return &image.rgba[4 * static_cast<std::size_t>(y * image.w + x)];
 }
 
 TEST(FrameRenderer, ThreeBallsLandWherePredictedInBothEyesOfAnyRig) {
@@ -61,7 +61,7 @@ TEST(FrameRenderer, ThreeBallsLandWherePredictedInBothEyesOfAnyRig) {
     for (const Eye eye : {Eye::left, Eye::right}) {
       const EyeView view = eyeView(rig, eye);
       renderer.renderEye(frameFor(rig), eye);
-      const DistancePicture seen = renderer.readDistance(eye);
+      const DistanceImage seen = renderer.readDistance(eye);
 
       // Centroid of the pixels whose place lies on each ball; a ball hidden behind another does not count.
       std::array<glm::dvec2, 3> sum{};
@@ -95,7 +95,7 @@ TEST(FrameRenderer, AMirroredRigShowsTheTurnedOverPicture) {
   const OffscreenContext context;
   const assets::CtVolume ct = ballVolume(smallGrid(), {{{-5, 2, 3}, 5.0}, {{6, -3, -4}, 3.0}});
   FrameRenderer renderer(ct.grid, ct.solid, ct.label);
-  renderer.setGum(sphereMesh({{3, -4, 6}, 4.0}, {0.3f, 0.5f, 0.8f, 1.0f}));
+  renderer.setGingiva(sphereMesh({{3, -4, 6}, 4.0}, {0.3f, 0.5f, 0.8f, 1.0f}));
   Rig plain = cameraRig({.eye_P_mm = {80, -250, 60}, .fov_y_rad = 0.17}, {160, 120});
 
   // The same virtual screen, reached by a mirror from a panel that shows its rows the other way round.
@@ -108,9 +108,9 @@ TEST(FrameRenderer, AMirroredRigShowsTheTurnedOverPicture) {
   mirrored.screen.upper_left = mirror.reflect({upper_right});
   for (const Eye eye : {Eye::left, Eye::right}) {
     renderer.renderEye(frameFor(plain), eye);
-    Picture turned = renderer.readEye(eye);
+    Image turned = renderer.readEye(eye);
     renderer.renderEye(frameFor(mirrored), eye);
-    const Picture seen = renderer.readEye(eye);
+    const Image seen = renderer.readEye(eye);
     EXPECT_GT(pixelsThatDiffer(seen, turned, 8), 1000u) << "control: it must be turned";
     void* const first = turned.rgba.data();
     auto* const pixels = static_cast<std::uint32_t*>(first);
@@ -129,7 +129,7 @@ TEST(FrameRenderer, DistanceReprojectsIntoTheOtherEye) {
     const EyeView left = eyeView(rig, Eye::left), right = eyeView(rig, Eye::right);
     renderer.renderEye(frameFor(rig), Eye::left);
     renderer.renderEye(frameFor(rig), Eye::right);
-    const DistancePicture from_left = renderer.readDistance(Eye::left), from_right = renderer.readDistance(Eye::right);
+    const DistanceImage from_left = renderer.readDistance(Eye::left), from_right = renderer.readDistance(Eye::right);
     std::vector<double> error_mm;
     for (int y = 0; y < from_left.h; ++y)
       for (int x = 0; x < from_left.w; ++x) {
@@ -152,14 +152,14 @@ TEST(FrameRenderer, MeshAndBoneMeetOnTheCircleWhereTheyCross) {
   const Ball bone{{-3, 0, 0}, 8.0}, metal{{4, -2, 2}, 7.0};
   const assets::CtVolume ct = ballVolume(smallGrid(), {bone});
   FrameRenderer renderer(ct.grid, ct.solid, ct.label);
-  renderer.setGum(sphereMesh(metal, {0.02f, 0.05f, 0.9f, 1.0f}));
+  renderer.setGingiva(sphereMesh(metal, {0.02f, 0.05f, 0.9f, 1.0f}));
   Random random(33);
   for (const bool with_mirror : {false, true}) {
     Rig rig = randomRig(random, with_mirror);
     const EyeView view = eyeView(rig, Eye::right);
     renderer.renderEye(frameFor(rig), Eye::right);
-    const Picture seen = renderer.readEye(Eye::right);
-    const DistancePicture distance = renderer.readDistance(Eye::right);
+    const Image seen = renderer.readEye(Eye::right);
+    const DistanceImage distance = renderer.readDistance(Eye::right);
     const glm::dvec3 from = eye_P_mm(rig, view);
 
     // 0: nothing, 1: bone, 2: metal, by geometry alone.
@@ -186,7 +186,7 @@ TEST(FrameRenderer, MeshAndBoneMeetOnTheCircleWhereTheyCross) {
   }
 }
 
-// Drawn pictures, straight and through a mirror; how light becomes an output is stereo_compositor_gl_test's.
+// Drawn images, straight and through a mirror; how light becomes an output is stereo_compositor_gl_test's.
 TEST(FrameRenderer, EveryDisplayModePutsTheRightEyeInTheRightPixel) {
   const OffscreenContext context;
   const assets::CtVolume ct = ballVolume(smallGrid(), {{{-5, 2, 3}, 6.0}, {{6, -12, -4}, 4.0}});
@@ -200,20 +200,20 @@ TEST(FrameRenderer, EveryDisplayModePutsTheRightEyeInTheRightPixel) {
       renderer.render(frame);
       StereoLayout layout{.mode = one.mode, .screen_px = frame.rig.screen.px};
       const bool mono = one.mode == DisplayMode::mono;
-      const Picture left = renderer.readEye(mono ? Eye::cyclopean : Eye::left),
+      const Image left = renderer.readEye(mono ? Eye::cyclopean : Eye::left),
                     right = renderer.readEye(mono ? Eye::cyclopean : Eye::right);
       EXPECT_EQ(mono, pixelsThatDiffer(left, right, 4) <= 50u) << "control: the eyes must differ";
       int wrong = 0;
       for (layout.output = 0; layout.output < outputCount(one.mode); ++layout.output) {
-        const Picture all = renderer.readPicture(layout.output);
+        const Image all = renderer.readImage(layout.output);
         ASSERT_EQ(glm::ivec2(all.w, all.h), outputSize(one.mode, layout.screen_px));
         for (int y = 0; y < all.h; ++y)
           for (int x = 0; x < all.w; ++x) {
-            const ShownPixel shown = shownAt(layout, {x, y});
+            const SourcePixel shown = sourcePixelAt(layout, {x, y});
             const std::array<std::uint8_t, 3> black{};
             const std::uint8_t* expected =
-                shown.eye == Shown::black ? black.data()
-                                          : pixelAt(shown.eye == Shown::right ? right : left, shown.px.x, shown.px.y);
+                shown.eye == PixelSource::black ? black.data()
+                                          : pixelAt(shown.eye == PixelSource::right ? right : left, shown.px.x, shown.px.y);
             for (int c = 0; c < 3; ++c) wrong += pixelAt(all, x, y)[c] != expected[c];
           }
       }
@@ -229,11 +229,11 @@ TEST(FrameRenderer, ThroughTheMirrorTheSameIsSeenFlipped) {
   Frame frame = frameFor(cameraRig({.eye_P_mm = {60, -250, 60}, .fov_y_rad = 0.17}, {80, 60}));
   for (const Eye eye : {Eye::left, Eye::right}) {
     renderer.renderEye(frame, eye);
-    const Picture straight = renderer.readEye(eye);
+    const Image straight = renderer.readEye(eye);
     Frame mirrored = frame;
     mirrored.rig = throughMirror(frame.rig);
     renderer.renderEye(mirrored, eye);
-    const Picture reflected = renderer.readEye(eye);
+    const Image reflected = renderer.readEye(eye);
     int wrong = 0;
     for (int y = 0; y < straight.h; ++y)
       for (int x = 0; x < straight.w; ++x)
@@ -291,9 +291,9 @@ TEST(FrameRenderer, TransparentPartsLetTheBoneThroughAndKeepItsDistance) {
   FrameRenderer renderer(ct.grid, ct.solid, ct.label);
   Frame frame = frameFor(cameraRig({.eye_P_mm = {0, -250, 0}, .fov_y_rad = 0.17}, {160, 120}));
   renderer.renderEye(frame, Eye::left);
-  const Picture bare = renderer.readEye(Eye::left);
-  const DistancePicture bare_distance = renderer.readDistance(Eye::left);
-  renderer.setGum(sphereMesh({{0, 0, 0}, 9.0}, {0.6f, 0.2f, 0.2f, 0.4f}));
+  const Image bare = renderer.readEye(Eye::left);
+  const DistanceImage bare_distance = renderer.readDistance(Eye::left);
+  renderer.setGingiva(sphereMesh({{0, 0, 0}, 9.0}, {0.6f, 0.2f, 0.2f, 0.4f}));
   renderer.renderEye(frame, Eye::left);
   EXPECT_GT(pixelsThatDiffer(renderer.readEye(Eye::left), bare, 8), 1000u);
   EXPECT_EQ(renderer.readDistance(Eye::left).mm, bare_distance.mm);
@@ -309,15 +309,15 @@ TEST(FrameRenderer, TransparentPartsAreOrderedByDistanceInEveryPixel) {
                       blue = sphereMesh({{0, blue_y_mm, 0}, 4.0}, {0.05f, 0.05f, 0.8f, 0.6f});
     if (!red_first) std::swap(red, blue);
     red.parts.push_back(blue.parts[0]);
-    renderer.setGum(red);
+    renderer.setGingiva(red);
     renderer.renderEye(frameFor(cameraRig({.eye_P_mm = {0, -250, 0}, .fov_y_rad = 0.17}, {80, 60})), Eye::left);
     return renderer.readEye(Eye::left);
   };
-  const Picture red_near = seenWith(-10, 10, true);
+  const Image red_near = seenWith(-10, 10, true);
   EXPECT_EQ(pixelsThatDiffer(red_near, seenWith(-10, 10, false)), 0u);
   const std::uint8_t* c = pixelAt(red_near, 40, 30);
   EXPECT_GT(c[0], c[2] + 40);
-  const Picture blue_near = seenWith(10, -10, true);
+  const Image blue_near = seenWith(10, -10, true);
   c = pixelAt(blue_near, 40, 30);
   EXPECT_GT(c[2], c[0] + 40);
   // Cutting through each other, each is in front on its own side.
@@ -335,18 +335,18 @@ TEST(FrameRenderer, TheFaceFadesAndTheGumCanBePutAway) {
     renderer.renderEye(frame, Eye::left);
     return renderer.readEye(Eye::left);
   };
-  const Picture bare = seen();
+  const Image bare = seen();
   renderer.setFace(sphereMesh({{0, 0, 0}, 10.0}, {0.8f, 0.6f, 0.5f, 1.0f}));
-  const Picture whole = seen();
+  const Image whole = seen();
   frame.layers.face_opacity = 0.3f;
-  const Picture faded = seen();
+  const Image faded = seen();
   frame.layers.face_opacity = 0.0f;
   EXPECT_EQ(seen().rgba, bare.rgba);
   EXPECT_GT(pixelsThatDiffer(faded, bare, 8), 300u);
   EXPECT_GT(pixelsThatDiffer(faded, whole, 8), 300u);
-  renderer.setGum(sphereMesh({{0, 0, 0}, 7.0}, {0.6f, 0.2f, 0.2f, 1.0f}));
+  renderer.setGingiva(sphereMesh({{0, 0, 0}, 7.0}, {0.6f, 0.2f, 0.2f, 1.0f}));
   EXPECT_GT(pixelsThatDiffer(seen(), bare, 8), 200u);
-  frame.layers.gum = false;
+  frame.layers.gingiva = false;
   EXPECT_EQ(seen().rgba, bare.rgba);
 }
 
@@ -356,12 +356,12 @@ TEST(FrameRenderer, TransparentPartsBehindTheBoneStayHidden) {
   FrameRenderer renderer(ct.grid, ct.solid, ct.label);
   const Frame frame = frameFor(cameraRig({.eye_P_mm = {0, -250, 0}, .fov_y_rad = 0.17}, {160, 120}));
   const auto seenWith = [&](double y_mm) {
-    renderer.setGum(sphereMesh({{0, y_mm, 0}, 2.0}, {0.1f, 0.2f, 0.9f, 0.5f}));
+    renderer.setGingiva(sphereMesh({{0, y_mm, 0}, 2.0}, {0.1f, 0.2f, 0.9f, 0.5f}));
     renderer.renderEye(frame, Eye::cyclopean);
     return renderer.readEye(Eye::cyclopean);
   };
-  // At the same place in the picture: a millimetre before the surface, a millimetre behind it, far behind it.
-  const Picture before = seenWith(-12.0), just_behind = seenWith(-6.0), behind = seenWith(40.0);
+  // At the same place in the image: a millimetre before the surface, a millimetre behind it, far behind it.
+  const Image before = seenWith(-12.0), just_behind = seenWith(-6.0), behind = seenWith(40.0);
   EXPECT_GT(pixelsThatDiffer(before, behind, 16), 100u);
   EXPECT_LT(pixelsThatDiffer(just_behind, behind, 16), 10u);
 }
@@ -377,7 +377,7 @@ TEST(FrameRenderer, GuidesShowWhereTheyLieAndOnlyWhenAskedFor) {
       renderer.renderEye(frame, Eye::cyclopean);
       return renderer.readEye(Eye::cyclopean);
     };
-    const Picture bare = seen();
+    const Image bare = seen();
     renderer.setGuides(
         {{{-15, -6, 0}, {15, -6, 0}}, 1.0, PlannedCut{{0, -9, 5}, {1, 0, 0}, {0, -1, 0}, 1.0, 1.0, 2.0}});
     EXPECT_EQ(seen().rgba, bare.rgba);
@@ -389,8 +389,8 @@ TEST(FrameRenderer, GuidesShowWhereTheyLieAndOnlyWhenAskedFor) {
 
     // Bone farther than 3 mm from the canal's wall keeps its colour.
     frame.layers.clearance = true;
-    const Picture banded = seen();
-    const DistancePicture distance = renderer.readDistance(Eye::cyclopean);
+    const Image banded = seen();
+    const DistanceImage distance = renderer.readDistance(Eye::cyclopean);
     const EyeView view = eyeView(frame.rig, Eye::cyclopean);
     int kept = 0, coloured = 0;
     for (int y = 0; y < 120; ++y)
@@ -413,21 +413,21 @@ TEST(FrameRenderer, GuidesShowWhereTheyLieAndOnlyWhenAskedFor) {
 
     // Translucent matter takes the plan's colour, and no bands.
     frame.mode = ViewMode::dvr;
-    const Picture through_bands = seen();
+    const Image through_bands = seen();
     frame.layers.clearance = false;
-    const Picture through = seen();
+    const Image through = seen();
     EXPECT_EQ(through_bands.rgba, through.rgba);
     frame.layers.planned_cut = true;
     EXPECT_GT(pixelsThatDiffer(seen(), through, 2), 30u);
   }
 }
 
-// The canal shines through bone and gum, but not through the face and the instrument, which lie outside.
+// The canal shines through bone and gingiva, but not through the face and the instrument, which lie outside.
 TEST(FrameRenderer, TheCanalHidesBehindFaceAndInstrumentAlone) {
   const OffscreenContext context;
   const assets::CtVolume ct = ballVolume(smallGrid(), {{{0, 0, 0}, 9.0}});
   const glm::vec4 grey(0.5f, 0.5f, 0.5f, 1.0f);
-  const assets::MeshModel gum = sphereMesh({{0, -20, 0}, 4.0}, grey), cover = sphereMesh({{0, -19, 0}, 4.0}, grey),
+  const assets::MeshModel gingiva = sphereMesh({{0, -20, 0}, 4.0}, grey), cover = sphereMesh({{0, -19, 0}, 4.0}, grey),
                           none;
   for (const Backend backend : {Backend::gl_fragment, Backend::gl_compute, Backend::cpu}) {
     FrameRenderer renderer(ct.grid, ct.solid, ct.label, {.backend = backend});
@@ -437,20 +437,20 @@ TEST(FrameRenderer, TheCanalHidesBehindFaceAndInstrumentAlone) {
     frame.tool_visible = true;
     // Pixels of the middle, all covered, that the canal changes.
     const auto shining = [&] {
-      std::array<Picture, 2> pictures;
+      std::array<Image, 2> images;
       for (const bool canal : {false, true}) {
         frame.layers.mandibular_canal = canal;
         renderer.renderEye(frame, Eye::cyclopean);
-        pictures[canal] = renderer.readEye(Eye::cyclopean);
+        images[canal] = renderer.readEye(Eye::cyclopean);
       }
       int changed = 0;
       for (int y = 50; y < 70; ++y)
         for (int x = 70; x < 90; ++x)
-          changed += std::abs(pixelAt(pictures[0], x, y)[2] - pixelAt(pictures[1], x, y)[2]) > 8 ? 1 : 0;
+          changed += std::abs(pixelAt(images[0], x, y)[2] - pixelAt(images[1], x, y)[2]) > 8 ? 1 : 0;
       return changed;
     };
     EXPECT_GT(shining(), 50) << "bone";
-    renderer.setGum(gum);
+    renderer.setGingiva(gingiva);
     EXPECT_GT(shining(), 50) << "gum";
     renderer.setFace(cover);
     EXPECT_EQ(shining(), 0) << "face";
@@ -477,7 +477,7 @@ TEST(FrameRenderer, TheGhostShowsTheHandThroughTheBone) {
     renderer.renderEye(frame, Eye::cyclopean);
     return renderer.readEye(Eye::cyclopean);
   };
-  const Picture without = seen();
+  const Image without = seen();
   frame.layers.ghost_tool = true;
   EXPECT_GT(pixelsThatDiffer(seen(), without, 8), 30u);
   frame.X_PT_at_hand = frame.X_PT;
@@ -491,16 +491,16 @@ TEST(FrameRenderer, AntialiasingDrawsSilhouettesAgainAndNothingElse) {
   for (const Backend backend : {Backend::gl_fragment, Backend::gl_compute}) {
     FrameRenderer renderer(ct.grid, ct.solid, ct.label, {.backend = backend}),
         everywhere(ct.grid, ct.solid, ct.label, {.backend = backend, .samples = 2});
-    for (FrameRenderer* r : {&renderer, &everywhere}) r->setGum(sphereMesh({{7, 3, 3}, 5.0}, {0.2f, 0.4f, 0.8f, 1.0f}));
+    for (FrameRenderer* r : {&renderer, &everywhere}) r->setGingiva(sphereMesh({{7, 3, 3}, 5.0}, {0.2f, 0.4f, 0.8f, 1.0f}));
     Frame frame = frameFor(cameraRig({.eye_P_mm = {0, -250, 0}, .fov_y_rad = 0.17}, {160, 120}));
     renderer.renderEye(frame, Eye::left);
-    const Picture plain = renderer.readEye(Eye::left);
-    const DistancePicture distance = renderer.readDistance(Eye::left);
+    const Image plain = renderer.readEye(Eye::left);
+    const DistanceImage distance = renderer.readDistance(Eye::left);
     everywhere.renderEye(frame, Eye::left);
-    const Picture supersampled = everywhere.readEye(Eye::left);
+    const Image supersampled = everywhere.readEye(Eye::left);
     frame.quality.antialias = Antialias::edges;
     renderer.renderEye(frame, Eye::left);
-    const Picture smooth = renderer.readEye(Eye::left);
+    const Image smooth = renderer.readEye(Eye::left);
     EXPECT_EQ(renderer.readDistance(Eye::left).mm, distance.mm);
     EXPECT_NO_THROW(renderer.throwIfError());
 

@@ -37,8 +37,8 @@ Rig closeUp(const glm::dvec3& from = {60, -200, 80}) {
 }
 
 struct Drawn {
-  Picture picture;
-  DistancePicture distance;
+  Image image;
+  DistanceImage distance;
 };
 
 Drawn drawn(FrameRenderer& renderer, const Rig& rig, ViewMode mode = ViewMode::iso) {
@@ -84,7 +84,7 @@ TEST(RayCaster, SkippingEmptySpaceChangesNoBit) {
     for (const glm::dvec3& from : {glm::dvec3(60, -200, 80), glm::dvec3(0, -200, 0.001), glm::dvec3(-20, 30, 210)})
       for (const ViewMode mode : {ViewMode::iso, ViewMode::dvr}) {
         const Drawn fast = drawn(skipping, closeUp(from), mode), slow = drawn(marching, closeUp(from), mode);
-        EXPECT_EQ(fast.picture.rgba, slow.picture.rgba);
+        EXPECT_EQ(fast.image.rgba, slow.image.rgba);
         EXPECT_EQ(fast.distance.mm, slow.distance.mm);
         EXPECT_GT(std::ranges::count_if(slow.distance.mm, [](float mm) { return mm > 0.0f; }), 500);
       }
@@ -92,7 +92,7 @@ TEST(RayCaster, SkippingEmptySpaceChangesNoBit) {
 }
 
 // One body builds both. Drivers may contract or reorder its arithmetic differently in the two stages, so a rounding
-// step is allowed; more would be another picture.
+// step is allowed; more would be another image.
 TEST(RayCaster, FragmentAndComputeDrawOnePicture) {
   const OffscreenContext context;
   const assets::CtVolume ct = ballVolume(smallGrid(), {{{-6, 0, 5}, 6.0}, {{7, 4, -6}, 4.0}});
@@ -100,7 +100,7 @@ TEST(RayCaster, FragmentAndComputeDrawOnePicture) {
       compute(ct.grid, ct.solid, ct.label, {.backend = Backend::gl_compute});
   for (const ViewMode mode : {ViewMode::iso, ViewMode::dvr}) {
     const Drawn one = drawn(fragment, closeUp(), mode), other = drawn(compute, closeUp(), mode);
-    EXPECT_EQ(testing::pixelsThatDiffer(one.picture, other.picture, 1), 0u);
+    EXPECT_EQ(testing::pixelsThatDiffer(one.image, other.image, 1), 0u);
     double worst_mm = 0.0;
     for (std::size_t n = 0; n < one.distance.mm.size(); ++n)
       worst_mm = std::max(worst_mm, std::abs(double{one.distance.mm[n]} - double{other.distance.mm[n]}));
@@ -137,13 +137,13 @@ TEST(RayCaster, TranslucentMatterStopsLightByItsThickness) {
   frame.mode = ViewMode::dvr;
   frame.quality.ambient_occlusion = frame.quality.lamp_shadow = false;
 
-  // What a plate behind the slab adds to the picture, by being grey rather than black.
+  // What a plate behind the slab adds to the image, by being grey rather than black.
   const auto plateLight = [&](std::span<const std::uint8_t> matter, double step) {
     FrameRenderer renderer(grid, matter, cortical);
     frame.quality.step_voxels = step;
     double light[2];
     for (const int grey : {0, 1}) {
-      renderer.setGum(plate(15.0, grey == 0 ? 0.0f : 0.5f));
+      renderer.setGingiva(plate(15.0, grey == 0 ? 0.0f : 0.5f));
       renderer.renderEye(frame, Eye::cyclopean);
       light[grey] = lightOf(renderer.readEye(Eye::cyclopean).rgba[4 * (12 * 32 + 16)]);
     }
@@ -179,12 +179,12 @@ TEST(RayCaster, CarvedBricksLookLikeAFreshUpload) {
     if (values != brickOf(before, brick)) carved.updateBrick(brick, std::span<const std::uint8_t, 512>(values));
   }
   const Drawn updated = drawn(carved, rig), expected = drawn(fresh, rig);
-  EXPECT_EQ(updated.picture.rgba, expected.picture.rgba);
+  EXPECT_EQ(updated.image.rgba, expected.image.rgba);
   EXPECT_EQ(updated.distance.mm, expected.distance.mm);
-  EXPECT_GT(testing::pixelsThatDiffer(updated.picture, control.picture, 8), 300u);
+  EXPECT_GT(testing::pixelsThatDiffer(updated.image, control.image, 8), 300u);
 
   // The next, quiet frame mends the stale distances and shows the same.
-  EXPECT_EQ(drawn(carved, rig).picture.rgba, expected.picture.rgba);
+  EXPECT_EQ(drawn(carved, rig).image.rgba, expected.image.rgba);
 }
 
 TEST(RayCaster, FilledBricksAppearAtOnce) {
@@ -197,7 +197,7 @@ TEST(RayCaster, FilledBricksAppearAtOnce) {
     const std::vector<std::uint8_t> values = brickOf(full, brick);
     refilled.updateBrick(brick, std::span<const std::uint8_t, 512>(values));
   }
-  EXPECT_EQ(drawn(refilled, closeUp()).picture.rgba, drawn(fresh, closeUp()).picture.rgba);
+  EXPECT_EQ(drawn(refilled, closeUp()).image.rgba, drawn(fresh, closeUp()).image.rgba);
 }
 
 TEST(RayCaster, ClosesTheBoneWhereTheScanEnds) {
@@ -207,7 +207,7 @@ TEST(RayCaster, ClosesTheBoneWhereTheScanEnds) {
   FrameRenderer renderer(grid, solid, {});
   const Rig rig = cameraRig({.eye_P_mm = {0, -200, 0}, .look_at_P_mm = {0, 0, 0}, .fov_y_rad = 0.17}, kPx);
   renderer.renderEye(frameFor(rig), Eye::cyclopean);
-  const DistancePicture seen = renderer.readDistance(Eye::cyclopean);
+  const DistanceImage seen = renderer.readDistance(Eye::cyclopean);
   EXPECT_NEAR(seen.mm[static_cast<std::size_t>(60 * 160 + 80)], 200.0 - 10.0, 0.02);
 }
 

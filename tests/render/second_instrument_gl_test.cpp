@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "assets/instrument/dental_mirror.h"
-#include "assets/instrument/instrument.h"
+#include "assets/instrument/handpiece.h"
 #include "assets/instrument/retractor.h"
 #include "render/gpu/offscreen_context.h"
 #include "tests/render/drawn_scene.h"
@@ -84,13 +84,13 @@ TEST_P(SecondInstrument, HidesTheCanalThatShowsThroughBone) {
   renderer_.setSecondInstrument(assets::dentalMirror());
   frame_.second_visible = true;
   const auto shining = [&] {
-    std::array<Picture, 2> pictures;
+    std::array<Image, 2> images;
     for (const bool canal : {false, true}) {
       frame_.layers.mandibular_canal = canal;
       renderer_.renderEye(frame_, Eye::cyclopean);
-      pictures[canal] = renderer_.readEye(Eye::cyclopean);
+      images[canal] = renderer_.readEye(Eye::cyclopean);
     }
-    return pixelsThatDiffer(pictures[0], pictures[1], 8);
+    return pixelsThatDiffer(images[0], images[1], 8);
   };
   frame_.X_PO = facing({0, -40, 60});
   EXPECT_GT(shining(), 50u);
@@ -112,14 +112,14 @@ TEST(SecondInstrumentTwin, LooksTheSameOnTheCpuAsInOpenGl) {
       frame.tool_visible = frame.second_visible = true;
       frame.X_PT = {glm::angleAxis(1.0, glm::dvec3(1, 0, 0)), {4, -10, 6}};
       frame.X_PO = {glm::angleAxis(0.7, glm::normalize(glm::dvec3(1, 0.4, 0.2))), {-3, -9, 2}};
-      std::array<Picture, 2> pictures;
-      std::array<DistancePicture, 2> distances;
+      std::array<Image, 2> images;
+      std::array<DistanceImage, 2> distances;
       std::size_t n = 0;
       for (FrameRenderer* renderer : {&gl, &cpu}) {
         renderer->setInstrument(assets::surgicalHandpiece({}));
         renderer->setSecondInstrument(model);
         renderer->renderEye(frame, Eye::cyclopean);
-        pictures[n] = renderer->readEye(Eye::cyclopean);
+        images[n] = renderer->readEye(Eye::cyclopean);
         distances[n++] = renderer->readDistance(Eye::cyclopean);
       }
       // But for pixels on a silhouette, where one meets what the other passes.
@@ -128,7 +128,7 @@ TEST(SecondInstrumentTwin, LooksTheSameOnTheCpuAsInOpenGl) {
         const bool is_other = std::abs(distances[0].mm[i] - distances[1].mm[i]) > 0.1f;
         int worst = 0;
         for (std::size_t c = 4 * i; c < 4 * i + 3; ++c)
-          worst = std::max(worst, std::abs(pictures[0].rgba[c] - pictures[1].rgba[c]));
+          worst = std::max(worst, std::abs(images[0].rgba[c] - images[1].rgba[c]));
         elsewhere += is_other ? 1 : 0;
         beyond += !is_other && worst > 2 ? 1 : 0;
       }
@@ -144,7 +144,7 @@ TEST(SecondInstrumentTwin, IsDrawnAnewWhereverItGoesForAnEyeThatStaysStill) {
   const auto dressed = [&] {
     auto renderer =
         std::make_unique<FrameRenderer>(ct.grid, ct.solid, ct.label, RenderOptions{.backend = Backend::cpu});
-    renderer->setGum(assets::retractor());
+    renderer->setGingiva(assets::retractor());
     renderer->setInstrument(assets::surgicalHandpiece({}));
     renderer->setSecondInstrument(assets::dentalMirror());
     return renderer;

@@ -1,4 +1,4 @@
-// CT slices in the eye's picture: the very pixels of the slice, at one place, on every back-end; nothing else changes.
+// CT slices in the eye's image: the very pixels of the slice, at one place, on every back-end; nothing else changes.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -38,7 +38,7 @@ class SlicesInThePicture : public ::testing::TestWithParam<Backend> {
   }
 };
 
-int worstBetween(const Picture& shown, glm::ivec2 first, const Picture& slice) {
+int worstBetween(const Image& shown, glm::ivec2 first, const Image& slice) {
   int worst = 0;
   for (int y = 0; y < slice.h; ++y)
     for (int x = 0; x < slice.w; ++x)
@@ -54,10 +54,10 @@ TEST_P(SlicesInThePicture, AreThePixelsOfTheSlicesAndNothingElseChanges) {
     const auto drawing = renderer(samples);
     const Frame with = frame(true);
     drawing->renderEye(frame(false), Eye::left);
-    const Picture plain = drawing->readEye(Eye::left);
-    const DistancePicture plain_distance = drawing->readDistance(Eye::left);
+    const Image plain = drawing->readEye(Eye::left);
+    const DistanceImage plain_distance = drawing->readDistance(Eye::left);
     drawing->renderEye(with, Eye::left);
-    const Picture shown = drawing->readEye(Eye::left);
+    const Image shown = drawing->readEye(Eye::left);
     EXPECT_EQ(drawing->readDistance(Eye::left).mm, plain_distance.mm);
     for (std::size_t n = 0; n < 3; ++n)
       // Half floats near white hold no more.
@@ -92,15 +92,15 @@ TEST_P(SlicesInThePicture, AreUprightForTheViewerThroughAMirror) {
   Frame mirrored = direct;
   mirrored.rig = testing::throughMirror(direct.rig);
   drawing->renderEye(direct, Eye::left);
-  const Picture seen = drawing->readEye(Eye::left);
+  const Image seen = drawing->readEye(Eye::left);
   drawing->renderEye(mirrored, Eye::left);
-  const Picture on_panel = drawing->readEye(Eye::left);
-  // The panel's picture, turned over by the mirror, is the direct one.
+  const Image on_panel = drawing->readEye(Eye::left);
+  // The panel's image, turned over by the mirror, is the direct one.
   int differ = 0;
   for (int y = 0; y < kPx.y; ++y)
     for (int x = 0; x < kEdge; ++x) {
-      const auto at = [](const Picture& picture, int px, int py) {
-        return int{picture.rgba[4 * static_cast<std::size_t>(py * kPx.x + px)]};
+      const auto at = [](const Image& image, int px, int py) {
+        return int{image.rgba[4 * static_cast<std::size_t>(py * kPx.x + px)]};
       };
       differ += std::abs(at(seen, x, y) - at(on_panel, kPx.x - 1 - x, y)) > 2;
     }

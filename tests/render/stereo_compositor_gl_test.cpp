@@ -12,16 +12,16 @@
 namespace render {
 namespace {
 
-// An eye's picture of random light, rows from the top, with the texture that holds it.
+// An eye's image of random light, rows from the top, with the texture that holds it.
 struct RandomEye {
-  RandomEye(glm::ivec2 size, unsigned seed) : px(size), texture(Texture::picture(size, TexelFormat::rgba8)) {
+  RandomEye(glm::ivec2 size, unsigned seed) : px(size), texture(Texture::image(size, TexelFormat::rgba8)) {
     std::mt19937 random(seed);
     for (int i = 0; i < 4 * px.x * px.y; ++i) bytes.push_back(static_cast<std::uint8_t>(random() & 255u));
     // OpenGL's rows run from the bottom.
     std::vector<std::uint8_t> from_below;
     for (int y = px.y - 1; y >= 0; --y)
       from_below.insert(from_below.end(), bytes.begin() + 4 * y * px.x, bytes.begin() + 4 * (y + 1) * px.x);
-    texture.uploadPicture(std::as_bytes(std::span(from_below)));
+    texture.uploadImage(std::as_bytes(std::span(from_below)));
   }
 
   glm::dvec3 at(glm::ivec2 p) const {
@@ -43,7 +43,7 @@ glm::dvec3 shouldered(const glm::dvec3& x) {
 
 double encoded(double x) { return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055; }
 
-// Light at a pixel of the eye's place, bilinearly where the picture is smaller.
+// Light at a pixel of the eye's place, bilinearly where the image is smaller.
 glm::dvec3 seen(const RandomEye& eye, glm::ivec2 place_px, glm::ivec2 px) {
   if (eye.px == place_px) return shouldered(eye.at(px));
   const glm::dvec2 at = (glm::dvec2(px) + 0.5) * glm::dvec2(eye.px) / glm::dvec2(place_px) - 0.5;
@@ -55,7 +55,7 @@ glm::dvec3 seen(const RandomEye& eye, glm::ivec2 place_px, glm::ivec2 px) {
 // The worst difference of any channel of any pixel, in steps of 255, between the shader and the layout in C++.
 int worstDifference(StereoCompositor& compositor, StereoLayout layout, const RandomEye& left, const RandomEye& right) {
   const glm::ivec2 size = outputSize(layout.mode, layout.screen_px),
-                   place = eyePictureSize(layout.mode, layout.screen_px);
+                   place = eyeImageSize(layout.mode, layout.screen_px);
   const Framebuffer output(size, std::array{TexelFormat::rgba8}, false);
   int worst = 0;
   for (layout.output = 0; layout.output < outputCount(layout.mode); ++layout.output) {
@@ -63,11 +63,11 @@ int worstDifference(StereoCompositor& compositor, StereoLayout layout, const Ran
     const std::vector<std::uint8_t> rows = output.readRgba8(0);
     for (int y = 0; y < size.y; ++y)
       for (int x = 0; x < size.x; ++x) {
-        const ShownPixel shown = shownAt(layout, {x, y});
+        const SourcePixel shown = sourcePixelAt(layout, {x, y});
         glm::dvec3 light(0.0);
-        if (shown.eye == Shown::left || shown.eye == Shown::cyclopean) light = seen(left, place, shown.px);
-        if (shown.eye == Shown::right) light = seen(right, place, shown.px);
-        if (shown.eye == Shown::both)
+        if (shown.eye == PixelSource::left || shown.eye == PixelSource::cyclopean) light = seen(left, place, shown.px);
+        if (shown.eye == PixelSource::right) light = seen(right, place, shown.px);
+        if (shown.eye == PixelSource::both)
           light = layout.swapped ? anaglyph(layout.mode, seen(right, place, shown.px), seen(left, place, shown.px))
                                  : anaglyph(layout.mode, seen(left, place, shown.px), seen(right, place, shown.px));
         const std::uint8_t* got = rows.data() + 4 * ((size.y - 1 - y) * size.x + x);
@@ -85,7 +85,7 @@ TEST(StereoCompositor, EveryPixelOfEveryModeShowsWhatTheLayoutSays) {
     for (const bool swapped : {false, true})
       for (const glm::ivec2 at : {glm::ivec2(0, 0), glm::ivec2(3, 0), glm::ivec2(0, 5), glm::ivec2(-1, 1)}) {
         const StereoLayout layout{.mode = one.mode, .screen_px = {50, 48}, .at_px = at, .swapped = swapped};
-        const glm::ivec2 eye_px = eyePictureSize(one.mode, layout.screen_px);
+        const glm::ivec2 eye_px = eyeImageSize(one.mode, layout.screen_px);
         // A step of 255 for rounding in float.
         EXPECT_LE(worstDifference(compositor, layout, RandomEye(eye_px, 1), RandomEye(eye_px, 2)), 1) << one.name;
       }
@@ -96,7 +96,7 @@ TEST(StereoCompositor, SmallerPicturesAreStretchedBilinearly) {
   StereoCompositor compositor;
   for (const DisplayModeName& one : kDisplayModes) {
     const StereoLayout layout{.mode = one.mode, .screen_px = {50, 47}};
-    const glm::ivec2 eye_px = (eyePictureSize(one.mode, layout.screen_px) + 1) / 2;
+    const glm::ivec2 eye_px = (eyeImageSize(one.mode, layout.screen_px) + 1) / 2;
     EXPECT_LE(worstDifference(compositor, layout, RandomEye(eye_px, 3), RandomEye(eye_px, 4)), 1) << one.name;
   }
 }

@@ -24,12 +24,12 @@ Census censusOf(StereoLayout layout) {
   for (layout.output = 0; layout.output < outputCount(layout.mode); ++layout.output)
     for (int y = 0; y < size.y; ++y)
       for (int x = 0; x < size.x; ++x) {
-        const ShownPixel shown = shownAt(layout, {x, y});
-        if (shown.eye == Shown::left) ++census.left[{shown.px.x, shown.px.y}];
-        if (shown.eye == Shown::right) ++census.right[{shown.px.x, shown.px.y}];
-        census.black += shown.eye == Shown::black;
-        census.cyclopean += shown.eye == Shown::cyclopean;
-        census.both += shown.eye == Shown::both;
+        const SourcePixel shown = sourcePixelAt(layout, {x, y});
+        if (shown.eye == PixelSource::left) ++census.left[{shown.px.x, shown.px.y}];
+        if (shown.eye == PixelSource::right) ++census.right[{shown.px.x, shown.px.y}];
+        census.black += shown.eye == PixelSource::black;
+        census.cyclopean += shown.eye == PixelSource::cyclopean;
+        census.both += shown.eye == PixelSource::both;
       }
   return census;
 }
@@ -51,7 +51,7 @@ TEST(StereoLayout, SplitModesShowEveryPixelOfBothEyesOnce) {
        {DisplayMode::quad_buffer, DisplayMode::two_windows, DisplayMode::side_by_side, DisplayMode::side_by_side_full,
         DisplayMode::top_bottom, DisplayMode::top_bottom_full, DisplayMode::frame_packing}) {
     const Census census = censusOf({.mode = mode, .screen_px = kScreen});
-    const glm::ivec2 eye = eyePictureSize(mode, kScreen);
+    const glm::ivec2 eye = eyeImageSize(mode, kScreen);
     for (const auto* seen : {&census.left, &census.right}) {
       EXPECT_EQ(seen->size(), static_cast<std::size_t>(eye.x * eye.y)) << nameOf(mode);
       for (const auto& [px, times] : *seen) {
@@ -63,16 +63,16 @@ TEST(StereoLayout, SplitModesShowEveryPixelOfBothEyesOnce) {
 }
 
 TEST(StereoLayout, TheLeftEyeIsLeftAboveOrFirst) {
-  const auto eyeAt = [](DisplayMode mode, glm::ivec2 px) { return shownAt({.mode = mode, .screen_px = kScreen}, px); };
-  EXPECT_EQ(eyeAt(DisplayMode::side_by_side, {5, 3}), (ShownPixel{Shown::left, {5, 3}}));
-  EXPECT_EQ(eyeAt(DisplayMode::side_by_side, {6, 3}), (ShownPixel{Shown::right, {0, 3}}));
-  EXPECT_EQ(eyeAt(DisplayMode::side_by_side_full, {11, 3}), (ShownPixel{Shown::left, {11, 3}}));
-  EXPECT_EQ(eyeAt(DisplayMode::side_by_side_full, {23, 3}), (ShownPixel{Shown::right, {11, 3}}));
-  EXPECT_EQ(eyeAt(DisplayMode::top_bottom, {7, 3}), (ShownPixel{Shown::left, {7, 3}}));
-  EXPECT_EQ(eyeAt(DisplayMode::top_bottom, {7, 4}), (ShownPixel{Shown::right, {7, 0}}));
-  EXPECT_EQ(eyeAt(DisplayMode::top_bottom_full, {7, 15}), (ShownPixel{Shown::right, {7, 7}}));
+  const auto eyeAt = [](DisplayMode mode, glm::ivec2 px) { return sourcePixelAt({.mode = mode, .screen_px = kScreen}, px); };
+  EXPECT_EQ(eyeAt(DisplayMode::side_by_side, {5, 3}), (SourcePixel{PixelSource::left, {5, 3}}));
+  EXPECT_EQ(eyeAt(DisplayMode::side_by_side, {6, 3}), (SourcePixel{PixelSource::right, {0, 3}}));
+  EXPECT_EQ(eyeAt(DisplayMode::side_by_side_full, {11, 3}), (SourcePixel{PixelSource::left, {11, 3}}));
+  EXPECT_EQ(eyeAt(DisplayMode::side_by_side_full, {23, 3}), (SourcePixel{PixelSource::right, {11, 3}}));
+  EXPECT_EQ(eyeAt(DisplayMode::top_bottom, {7, 3}), (SourcePixel{PixelSource::left, {7, 3}}));
+  EXPECT_EQ(eyeAt(DisplayMode::top_bottom, {7, 4}), (SourcePixel{PixelSource::right, {7, 0}}));
+  EXPECT_EQ(eyeAt(DisplayMode::top_bottom_full, {7, 15}), (SourcePixel{PixelSource::right, {7, 7}}));
   const StereoLayout second{.mode = DisplayMode::quad_buffer, .screen_px = kScreen, .output = 1};
-  EXPECT_EQ(shownAt(second, {2, 1}), (ShownPixel{Shown::right, {2, 1}}));
+  EXPECT_EQ(sourcePixelAt(second, {2, 1}), (SourcePixel{PixelSource::right, {2, 1}}));
 }
 
 TEST(StereoLayout, AHalvedOddSizeLeavesItsLastLineBlack) {
@@ -93,10 +93,10 @@ TEST(StereoLayout, PackedFramesHaveTheSizesAndGapsOfHdmi) {
     EXPECT_TRUE(isPackable(c.screen));
     EXPECT_EQ(outputSize(layout.mode, c.screen), c.output);
     for (int y = 0; y < c.output.y; ++y) {
-      const ShownPixel expected = y < c.screen.y           ? ShownPixel{Shown::left, {100, y}}
-                                  : y < c.screen.y + c.gap ? ShownPixel{}
-                                                           : ShownPixel{Shown::right, {100, y - c.screen.y - c.gap}};
-      ASSERT_EQ(shownAt(layout, {100, y}), expected) << y;
+      const SourcePixel expected = y < c.screen.y           ? SourcePixel{PixelSource::left, {100, y}}
+                                  : y < c.screen.y + c.gap ? SourcePixel{}
+                                                           : SourcePixel{PixelSource::right, {100, y - c.screen.y - c.gap}};
+      ASSERT_EQ(sourcePixelAt(layout, {100, y}), expected) << y;
     }
   }
   EXPECT_FALSE(isPackable({1920, 1200}));
@@ -106,13 +106,13 @@ TEST(StereoLayout, InterleavedPixelsStayWhereTheyAreAndAlternate) {
   for (int y = 0; y < kScreen.y; ++y)
     for (int x = 0; x < kScreen.x; ++x) {
       const auto eyeIn = [&](DisplayMode mode) {
-        const ShownPixel shown = shownAt({.mode = mode, .screen_px = kScreen}, {x, y});
+        const SourcePixel shown = sourcePixelAt({.mode = mode, .screen_px = kScreen}, {x, y});
         EXPECT_EQ(shown.px, glm::ivec2(x, y));
         return shown.eye;
       };
-      EXPECT_EQ(eyeIn(DisplayMode::row_interleaved), y % 2 == 0 ? Shown::left : Shown::right);
-      EXPECT_EQ(eyeIn(DisplayMode::column_interleaved), x % 2 == 0 ? Shown::left : Shown::right);
-      EXPECT_EQ(eyeIn(DisplayMode::checkerboard), (x + y) % 2 == 0 ? Shown::left : Shown::right);
+      EXPECT_EQ(eyeIn(DisplayMode::row_interleaved), y % 2 == 0 ? PixelSource::left : PixelSource::right);
+      EXPECT_EQ(eyeIn(DisplayMode::column_interleaved), x % 2 == 0 ? PixelSource::left : PixelSource::right);
+      EXPECT_EQ(eyeIn(DisplayMode::checkerboard), (x + y) % 2 == 0 ? PixelSource::left : PixelSource::right);
     }
 }
 
@@ -127,7 +127,7 @@ TEST(StereoLayout, ParityFollowsThePanelWhereverTheWindowIs) {
               moved{.mode = mode, .screen_px = {20, 20}, .at_px = at};
           const glm::ivec2 inside = glm::ivec2(x, y) - at;
           if (inside.x < 0 || inside.y < 0 || inside.x >= 20 || inside.y >= 20) continue;
-          ASSERT_EQ(shownAt(moved, inside).eye, shownAt(still, {x, y}).eye) << nameOf(mode);
+          ASSERT_EQ(sourcePixelAt(moved, inside).eye, sourcePixelAt(still, {x, y}).eye) << nameOf(mode);
         }
 }
 

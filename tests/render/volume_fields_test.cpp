@@ -5,8 +5,8 @@
 #include <array>
 
 #include "render/gpu/gpu_error.h"
-#include "render/volume/look_field.h"
-#include "render/volume/tissue_look.h"
+#include "render/volume/appearance_field.h"
+#include "render/volume/tissue_appearance.h"
 #include "tests/render/ball_volume.h"
 
 namespace render {
@@ -25,8 +25,8 @@ std::array<std::uint8_t, 512> bricksOwn(const assets::CtVolume& ct, glm::ivec3 b
   return values;
 }
 
-glm::vec4 unpacked(std::uint32_t look) {
-  const auto byte = [look](int n) { return static_cast<float>(look >> (8 * n) & 255u) / 255.0f; };
+glm::vec4 unpacked(std::uint32_t appearance) {
+  const auto byte = [appearance](int n) { return static_cast<float>(appearance >> (8 * n) & 255u) / 255.0f; };
   return {byte(0) * byte(0), byte(1) * byte(1), byte(2) * byte(2), byte(3)};
 }
 
@@ -106,10 +106,10 @@ TEST(LookField, IsTheTissuesOwnLookDeepInside) {
   assets::CtVolume ct = testing::ballVolume(testing::smallGrid(glm::ivec3(20)), {});
   std::ranges::fill(ct.solid, std::uint8_t{255});
   std::ranges::fill(ct.label, static_cast<std::uint8_t>(assets::Tissue::enamel));
-  const glm::vec4 look = unpacked(*lookField(testing::borderedSolid(ct), ct.label).at({9, 10, 11}));
-  const TissueLook& enamel = kTissueLook[static_cast<std::size_t>(assets::Tissue::enamel)];
-  EXPECT_NEAR(glm::distance(glm::vec3(look), enamel.albedo), 0.0, 0.006) << "8 bits of a root";
-  EXPECT_EQ(look.a, 1.0f);
+  const glm::vec4 appearance = unpacked(*appearanceField(testing::borderedSolid(ct), ct.label).at({9, 10, 11}));
+  const TissueAppearance& enamel = kTissueAppearance[static_cast<std::size_t>(assets::Tissue::enamel)];
+  EXPECT_NEAR(glm::distance(glm::vec3(appearance), enamel.albedo), 0.0, 0.006) << "8 bits of a root";
+  EXPECT_EQ(appearance.a, 1.0f);
 }
 
 TEST(LookField, MeltsHalfAndHalfAtABorderAndIgnoresTheAirBesideASurface) {
@@ -121,7 +121,7 @@ TEST(LookField, MeltsHalfAndHalfAtABorderAndIgnoresTheAirBesideASurface) {
                                                                       : i < 12 ? assets::Tissue::enamel
                                                                                : assets::Tissue::dentine);
   }
-  const BorderedField<std::uint32_t> field = lookField(testing::borderedSolid(ct), ct.label);
+  const BorderedField<std::uint32_t> field = appearanceField(testing::borderedSolid(ct), ct.label);
   const auto finishAt = [&](glm::ivec3 v) { return unpacked(*field.at(v)).a; };
   EXPECT_NEAR(finishAt({11, 12, 5}), kEnamel + (kDull - kEnamel) / 8.0f, 0.004);
   EXPECT_NEAR(finishAt({12, 12, 5}), kDull + (kEnamel - kDull) / 8.0f, 0.004);

@@ -40,7 +40,7 @@ TEST(Window, ShowsAFrameOfTheRenderer) {
   renderer.render(frame);
   renderer.showOnWindow({.size_px = window.framebufferSize_px()});
   window.present();
-  EXPECT_GT(renderer.readPicture().rgba[4 * (120 * 320 + 160)], 60);
+  EXPECT_GT(renderer.readImage().rgba[4 * (120 * 320 + 160)], 60);
   EXPECT_NO_THROW(renderer.throwIfError());
   EXPECT_NO_THROW(window.takeEvents());
 }
@@ -56,12 +56,12 @@ TEST(Window, ASecondWindowShowsWhatTheFirstDrew) {
   renderer.composeForBystander();
   FrameFence drawn;
   drawn.mark();
-  Window second({.size_px = {160, 120}, .wait_for_refresh = false, .focused = false, .beside = &first});
-  drawn.follow();
+  Window second({.size_px = {160, 120}, .wait_for_refresh = false, .focused = false, .share_with = &first});
+  drawn.waitOnGpu();
   renderer.showOnWindow({.size_px = {160, 120}}, 1);
   // What the window got is what the renderer has for the right eye, not for the left.
-  EXPECT_EQ(testing::windowPixels({160, 120}), renderer.readPicture(1).rgba);
-  EXPECT_NE(renderer.readPicture(0).rgba, renderer.readPicture(1).rgba);
+  EXPECT_EQ(testing::windowPixels({160, 120}), renderer.readImage(1).rgba);
+  EXPECT_NE(renderer.readImage(0).rgba, renderer.readImage(1).rgba);
   renderer.showBystander({.size_px = {160, 120}});
   EXPECT_EQ(testing::windowPixels({160, 120}), renderer.readEye(Eye::left).rgba);
   second.present();
@@ -88,9 +88,9 @@ TEST(Window, KnowsItsPlaceOnThePanelAndRefusesAMonitorThatIsNotThere) {
   EXPECT_GT(monitors()[0].px.x, 0);
   EXPECT_GT(monitors()[0].refresh_Hz, 0.0);
   const Window window({.size_px = {160, 120}, .monitor = 0});
-  EXPECT_GE(window.placeOnPanel_px().x, 0);
+  EXPECT_GE(window.positionOnPanel_px().x, 0);
   EXPECT_GT(window.refresh_Hz(), 0.0);
-  EXPECT_THROW(Window({.size_px = {160, 120}, .monitor = 9, .beside = &window}), GpuError);
+  EXPECT_THROW(Window({.size_px = {160, 120}, .monitor = 9, .share_with = &window}), GpuError);
 }
 
 }  // namespace

@@ -74,10 +74,10 @@ std::string sentence(std::string clause) {
 
 /// "worst: back left low, 0.9 mm" as a sentence of its own.
 std::string worstOf(const RigRecord& record) {
-  std::string worst = record.proof ? record.proof->worst : "";
-  const bool held_out = record.proof && !record.proof->residuals.empty();
-  const std::vector<Residual>& touches = held_out ? record.proof->residuals : record.residuals;
-  if (worst.empty() && !touches.empty()) worst = calibration::worstPlaceSentence(touches, {});
+  std::string worst = record.verification ? record.verification->worst : "";
+  const bool held_out = record.verification && !record.verification->residuals.empty();
+  const std::vector<Residual>& touches = held_out ? record.verification->residuals : record.residuals;
+  if (worst.empty() && !touches.empty()) worst = calibration::worstErrorSentence(touches, {});
   return sentence(worst);
 }
 
@@ -106,7 +106,7 @@ std::string mapSection(const RigRecord& record) {
   if (!(fle_mm > 0.0)) return "";
   const calibration::ExpectedErrorMap expected(touches_W, fle_mm);
   return section("Where more touches would help",
-                 figure(errorMapView([&](const auto& place_W) { return expected.at_mm(place_W); }, touches_W),
+                 figure(errorMapView([&](const auto& position_W) { return expected.at_mm(position_W); }, touches_W),
                         "Error to be expected over the plane through the site (z = 0) from where the touches lie and "
                         "an error of " +
                             fixedText(fle_mm, 2) +
@@ -153,12 +153,12 @@ std::string subtitle(const RigRecord& record) {
 
 std::string verdictBox(const RigRecord& record) {
   std::optional<Verdict> verdict;
-  if (record.proof) verdict = record.proof->verdict;
+  if (record.verification) verdict = record.verification->verdict;
   std::string box = "<div class=\"verdict\">\n" + symbolOf(verdict) + "<div><b>" + escaped(wordsOf(verdict)) +
                     ".</b><br>" + escaped(worstOf(record));
-  if (record.proof)
+  if (record.verification)
     box += "<br><span class=\"quiet\">" +
-           escaped(sentence(calibration::judge(record.proof->errors, record.proof->kind).reason)) + "</span>";
+           escaped(sentence(calibration::assess(record.verification->errors, record.verification->kind).reason)) + "</span>";
   return box + "</div>\n</div>\n";
 }
 
@@ -172,7 +172,7 @@ std::string reportHtml(const RigRecord& record, const std::vector<DriftEntry>& h
   page += "<h1>" + title + "</h1>\n<p class=\"quiet\">" + subtitle(record) + "</p>\n" + verdictBox(record);
   page += section("How good it is", figuresTable(record));
   const std::vector<Residual> none;
-  const std::vector<Residual>& held_out = record.proof ? record.proof->residuals : none;
+  const std::vector<Residual>& held_out = record.verification ? record.verification->residuals : none;
   if (!record.residuals.empty() || !held_out.empty())
     page +=
         section("Where the error is",

@@ -60,8 +60,8 @@ Axes axesOf(const DriftChart& chart) {
 }
 
 void drawLimits(const Drawing& drawing, const DriftChart& chart) {
-  if (!chart.limits() || chart.review.judged.empty()) return;
-  const double left = chart.at(std::max(chart.review.judged.front(), chart.from)).x - 4.0, right = chart.axes.foot().x;
+  if (!chart.limits() || chart.review.charted.empty()) return;
+  const double left = chart.at(std::max(chart.review.charted.front(), chart.from)).x - 4.0, right = chart.axes.foot().x;
   const auto draw = [&](double sigmas, double width, const Ink& ink, const Dashes& dashes, const std::string& label) {
     const double mm = chart.limits()->at(sigmas), y = chart.axes.at({0.0, mm}).y;
     if (mm < chart.axes.y.from - 1e-9) return;

@@ -11,7 +11,7 @@
 namespace app {
 namespace {
 
-using calibration::ProofLimit;
+using calibration::VerificationLimit;
 using calibration::RigRecord;
 
 std::string mm(double value_mm) { return fixedText(value_mm, 2) + " mm"; }
@@ -30,13 +30,13 @@ std::string head(std::initializer_list<const char*> cells) {
 }
 
 /// Word and shape, for colours alone say nothing in print.
-std::string standing(double value_mm, const ProofLimit& limit) {
+std::string standing(double value_mm, const VerificationLimit& limit) {
   if (value_mm <= limit.green_mm) return "<span class=\"green\">\u25cf green</span>";
   if (value_mm <= limit.amber_mm) return "<span class=\"amber\">\u25b2 amber</span>";
   return "<span class=\"red\">\u25a0 red</span>";
 }
 
-std::string limited(const char* what, const std::string& value, double judged_mm, const ProofLimit& limit) {
+std::string limited(const char* what, const std::string& value, double judged_mm, const VerificationLimit& limit) {
   return row({what, value, "\u2264 " + mm(limit.green_mm), "\u2264 " + mm(limit.amber_mm), standing(judged_mm, limit)});
 }
 
@@ -44,16 +44,16 @@ std::string plain(const char* what, const std::string& value, const char* meanin
   return row({what, value, "", "", meaning});
 }
 
-std::string proofRows(const calibration::RigProof& proof) {
-  const calibration::TargetErrors& errors = proof.errors;
-  const calibration::ProofLimits& limits = calibration::limitsOf(proof.kind);
-  const calibration::Judgement judged = calibration::judge(errors, proof.kind);
+std::string proofRows(const calibration::RigVerification& verification) {
+  const calibration::TargetErrors& errors = verification.errors;
+  const calibration::VerificationLimits& limits = calibration::limitsOf(verification.kind);
+  const calibration::Assessment judged = calibration::assess(errors, verification.kind);
   const glm::dvec3 bias_mm = errors.bias_mm.xyz;
   const double worst_bias_mm = std::max({std::abs(bias_mm.x), std::abs(bias_mm.y), std::abs(bias_mm.z)});
   std::string rows = plain("Touches held out (never fitted)", std::to_string(errors.n));
   rows += plain("Error there (TRE), mean", mm(errors.mean_mm));
   rows += plain("&emsp;RMS", mm(errors.rms_mm));
-  rows += limited("&emsp;RMS, 95 % sure it is no more", mm(judged.sure_rms_mm), judged.sure_rms_mm, limits.rms);
+  rows += limited("&emsp;RMS, 95 % sure it is no more", mm(judged.rms_upper_bound_mm), judged.rms_upper_bound_mm, limits.rms);
   rows += limited("&emsp;95 of 100 are within", mm(errors.p95_mm), errors.p95_mm, limits.p95);
   rows += limited("&emsp;largest", mm(errors.max_mm), errors.max_mm, limits.max);
   rows += limited("Bias: right, up, towards the viewer",
@@ -70,7 +70,7 @@ std::string described(const std::string& value) { return value.empty() ? "not kn
 
 std::string figuresTable(const RigRecord& record) {
   std::string table = "<table>\n" + head({"figure", "value", "green", "amber", ""});
-  if (record.proof) table += proofRows(*record.proof);
+  if (record.verification) table += proofRows(*record.verification);
   if (record.procedure) {
     const calibration::RigProcedure& procedure = *record.procedure;
     table += plain("Error foretold by cross-validation (CV), RMS", mm(procedure.cv_rms_mm));
@@ -79,14 +79,14 @@ std::string figuresTable(const RigRecord& record) {
         plain("Touches used, set aside", std::to_string(procedure.used) + ", " + std::to_string(procedure.outliers));
     table += plain(
         "Spread of the stylus's tilt", fixedText(procedure.tilt_spread_deg, 0) + "\u00b0",
-        procedure.tilt_spread_deg < calibration::kLeastTilt_deg ? "too little: it hides errors of the gimbal" : "");
+        procedure.tilt_spread_deg < calibration::kMinTilt_deg ? "too little: it hides errors of the gimbal" : "");
     table += plain("Time taken", fixedText(procedure.duration_s / 60.0, 1) + " min");
   }
   if (record.rest)
     table +=
         plain("Hand rest, residual and largest proof",
               fixedText(record.rest->fre_rms_mm, 2) + ", " + mm(record.rest->worst_mm),
-              record.rest->worst_mm > calibration::kMostRestError_mm ? "more than 2 mm off: register it again" : "");
+              record.rest->worst_mm > calibration::kMaxRestError_mm ? "more than 2 mm off: register it again" : "");
   return table + "</table>\n";
 }
 
@@ -117,7 +117,7 @@ std::string originTable(const RigRecord& record, const std::string& now_utc) {
   table += row({"Measured", described(timeText(from.created_utc)) +
                                 (age ? ", " + fixedText(std::max(*age, 0.0), 0) + " days ago" : std::string()) +
                                 (age && *age > calibration::kOldRig_days ? " <b>(old: calibrate again)</b>" : "")});
-  if (record.proof) table += row({"Verified", described(timeText(record.proof->checked_utc))});
+  if (record.verification) table += row({"Verified", described(timeText(record.verification->checked_utc))});
   table += row({"Operator", described(from.operator_code)});
   if (record.procedure) table += row({"Procedure", described(record.procedure->method)});
   table += row({"Mirror", described(mirror) + (from.plate_mm > 0.0 ? ", plate " + mm(from.plate_mm) : "")});

@@ -1,7 +1,7 @@
 // The touches of the calibration, judged while they come in: after eight, each is compared with where the others
 // foretell it. At the end the worst can be made again; one stylus direction for all is not let through. One thread.
 
-#include "app/calibrate/number_words.h"
+#include "app/calibrate/number_text.h"
 #include "app/calibrate/steps/step.h"
 #include "app/calibrate/touch_round.h"
 #include "calibration/fit/fit_warnings.h"
@@ -18,31 +18,31 @@ class CollectStep final : public WizardStep {
  public:
   using WizardStep::WizardStep;
   void begin() override {
-    const calibration::TargetPlan plan = *calibration::targetPlan(book_.plan.method, book_.plan.jig);
-    round_.emplace(plan, book_.arm, 0.0, book_.voice);
-    book_.outcome.touches = emptySet(book_, plan);
+    const calibration::TargetPlan plan = *calibration::targetPlan(context_.plan.method, context_.plan.jig);
+    round_.emplace(plan, context_.arm, 0.0, context_.announcements);
+    context_.outcome.touches = emptySet(context_, plan);
     end_.reset();
     held_one_way_ = 0;
   }
 
-  StepAnswer feel(const StylusSample& sample, Press press, double pressed_s) override {
+  StepResult update(const StylusSample& sample, Press press, double pressed_s) override {
     // At the end the button answers, and the stylus is free.
     if (end_) {
-      if (const auto chosen = end_->feel(press)) return answered(*chosen);
+      if (const auto chosen = end_->update(press)) return answered(*chosen);
       return {};
     }
-    switch (round_->feel(sample, press, pressed_s)) {
-      case TouchRound::Happened::left:
-        return StepAnswer::declined();
-      case TouchRound::Happened::started_again:
-        round_->believe(book_.arm, 0.0);
+    switch (round_->update(sample, press, pressed_s)) {
+      case TouchRound::TouchEvent::left:
+        return StepResult::declined();
+      case TouchRound::TouchEvent::started_again:
+        round_->setArm(context_.arm, 0.0);
         break;
-      case TouchRound::Happened::taken:
-      case TouchRound::Happened::undone:
+      case TouchRound::TouchEvent::taken:
+      case TouchRound::TouchEvent::undone:
         judgeSoFar();
         if (round_->isComplete()) askAtTheEnd();
         break;
-      case TouchRound::Happened::nothing:
+      case TouchRound::TouchEvent::nothing:
         break;
     }
     return {};
@@ -50,9 +50,9 @@ class CollectStep final : public WizardStep {
 
   void lost() override { round_->lost(); }
   void show(WizardView& view) const override {
-    view.title = book_.byEyes() ? "Touch the crosses" : "Touch the pits";
+    view.title = context_.byEyes() ? "Touch the crosses" : "Touch the pits";
     view.sentence =
-        book_.byEyes()
+        context_.byEyes()
             ? "Tip to the glowing cross, one eye closed: sway the head, tip and cross must not slide. Hold it "
               "as the cue shows."
             : "Tip into the glowing pit, held as the cue shows.";
@@ -60,7 +60,7 @@ class CollectStep final : public WizardStep {
     if (!end_) return;
     view.tilt.reset();
     view.title = little_tilt_ ? "Held one way all the time" : "All are touched";
-    view.sentence = little_tilt_ ? "The directions of the stylus are only " + inWords(round_->tiltSpread_deg(), 0) +
+    view.sentence = little_tilt_ ? "The directions of the stylus are only " + numberText(round_->tiltSpread_deg(), 0) +
                                        "° apart: 25° are needed."
                                  : "Go on, or make the worst touch again.";
     end_->show(view);
@@ -70,8 +70,8 @@ class CollectStep final : public WizardStep {
   void judgeSoFar() {
     const calibration::TouchSet set = touches();
     worst_.reset();
-    if (set.touches.size() < kLeastJudged) return round_->believe(book_.arm, 0.0);
-    const calibration::QuickFit quick = calibration::quickFit(book_.arm, set);
+    if (set.touches.size() < kLeastJudged) return round_->setArm(context_.arm, 0.0);
+    const calibration::QuickFit quick = calibration::quickFit(context_.arm, set);
     std::vector<bool> doubtful = quick.doubtful;
 
     // Beyond repair by one touch: the fit would say so, too, but later.
@@ -79,12 +79,12 @@ class CollectStep final : public WizardStep {
     for (const bool is : doubtful) many += is ? 1 : 0;
     const bool muddled = 3 * many > doubtful.size() || quick.median_mm > kMostMuddle_mm;
     if (muddled) {
-      round_->believe(book_.arm, 0.0);
-      book_.voice.refuse("The touches do not fit together: touch them in the order they glow.");
+      round_->setArm(context_.arm, 0.0);
+      context_.announcements.refuse("The touches do not fit together: touch them in the order they glow.");
     } else {
-      round_->believe(quick.arm, book_.byEyes() ? 6.0 : 5.0);
+      round_->setArm(quick.arm, context_.byEyes() ? 6.0 : 5.0);
     }
-    round_->doubt(doubtful);
+    round_->setDoubtful(doubtful);
     worst_mm_ = 0.0;
     for (std::size_t i = 0; i < quick.left_out_mm.size(); ++i)
       if (const double off_mm = glm::length(quick.left_out_mm[i].xyz); off_mm > worst_mm_) {
@@ -94,7 +94,7 @@ class CollectStep final : public WizardStep {
   }
 
   void askAtTheEnd() {
-    little_tilt_ = round_->tiltSpread_deg() < calibration::kLeastTilt_deg;
+    little_tilt_ = round_->tiltSpread_deg() < calibration::kMinTilt_deg;
     held_one_way_ += little_tilt_ ? 1 : 0;
     if (little_tilt_) {
       end_ = ChoiceMenu({"touch those again that were held wrongly", "leave; the old calibration stays"});
@@ -102,41 +102,41 @@ class CollectStep final : public WizardStep {
     }
     const bool doubtful = worst_ && round_->isDoubtful(*worst_);
     const std::string redo =
-        worst_ ? "touch the worst again: " + round_->nameOf(*worst_) + ", " + inMm(worst_mm_) + " off" : "start again";
+        worst_ ? "touch the worst again: " + round_->nameOf(*worst_) + ", " + mmText(worst_mm_) + " off" : "start again";
     end_ = ChoiceMenu({"go on with these touches", redo, "leave; the old calibration stays"}, doubtful ? 1 : 0);
   }
 
-  StepAnswer answered(std::size_t choice) {
+  StepResult answered(std::size_t choice) {
     end_.reset();
     if (little_tilt_) {
       if (choice == 1 || held_one_way_ > kMostOneWay)
-        return StepAnswer::refused(
+        return StepResult::refused(
             "The stylus was held one way all the time: what its gimbal gets wrong would stay hidden. "
             "Calibrate again and follow the cue.");
-      std::vector<std::size_t> wrong = round_->wronglyHeld();
+      std::vector<std::size_t> wrong = round_->wronglyTilted();
       // From the last, so that their numbers hold.
       while (!wrong.empty()) {
         round_->again(wrong.back());
         wrong.pop_back();
       }
-      if (round_->isComplete()) round_->againAll();
+      if (round_->isComplete()) round_->retakeAll();
       return {};
     }
-    if (choice == 2) return StepAnswer::declined();
+    if (choice == 2) return StepResult::declined();
     if (choice == 1) {
       if (worst_)
         round_->again(*worst_);
       else
-        round_->againAll();
+        round_->retakeAll();
       return {};
     }
-    book_.outcome.touches = touches();
-    book_.outcome.duration_s = round_->duration_s();
-    return StepAnswer::next();
+    context_.outcome.touches = touches();
+    context_.outcome.duration_s = round_->duration_s();
+    return StepResult::next();
   }
 
   calibration::TouchSet touches() const {
-    calibration::TouchSet set = book_.outcome.touches;
+    calibration::TouchSet set = context_.outcome.touches;
     set.touches = round_->touches();
     return set;
   }
@@ -151,16 +151,16 @@ class CollectStep final : public WizardStep {
 
 }  // namespace
 
-calibration::TouchSet emptySet(const WizardBook& book, const calibration::TargetPlan& plan) {
+calibration::TouchSet emptySet(const WizardContext& context, const calibration::TargetPlan& plan) {
   calibration::TouchSet set;
-  set.device_model = book.plan.device.model;
-  set.serial = book.plan.device.serial;
-  set.mount = book.plan.device.mount;
+  set.device_model = context.plan.device.model;
+  set.serial = context.plan.device.serial;
+  set.mount = context.plan.device.mount;
   set.method = plan.method;
   set.precision = plan.precision;
   return set;
 }
 
-std::unique_ptr<WizardStep> collectStep(WizardBook& book) { return std::make_unique<CollectStep>(book); }
+std::unique_ptr<WizardStep> collectStep(WizardContext& context) { return std::make_unique<CollectStep>(context); }
 
 }  // namespace app

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "app/calibrate/choice_menu.h"
-#include "app/calibrate/number_words.h"
+#include "app/calibrate/number_text.h"
 #include "app/calibrate/steps/step.h"
 #include "app/calibrate/touch_round.h"
 
@@ -30,40 +30,40 @@ class EyeCheckStep final : public WizardStep {
   using WizardStep::WizardStep;
   void begin() override {
     const calibration::TargetPlan plan = eyeCheckPlan();
-    book_.outcome.eye_check = emptySet(book_, plan);
-    round_.emplace(plan, book_.arm, 0.0, book_.voice);
-    round_->letTiltBe();
+    context_.outcome.eye_check = emptySet(context_, plan);
+    round_.emplace(plan, context_.arm, 0.0, context_.announcements);
+    round_->ignoreTilt();
     doubt_.reset();
   }
 
-  StepAnswer feel(const StylusSample& sample, Press press, double pressed_s) override {
+  StepResult update(const StylusSample& sample, Press press, double pressed_s) override {
     if (doubt_) {
-      const auto chosen = doubt_->feel(press);
+      const auto chosen = doubt_->update(press);
       if (!chosen) return {};
-      return *chosen == 0 ? StepAnswer::goTo(StepName::eyes) : StepAnswer::next();
+      return *chosen == 0 ? StepResult::goTo(StepName::eyes) : StepResult::next();
     }
-    if (round_->feel(sample, press, pressed_s) == TouchRound::Happened::left) return StepAnswer::declined();
+    if (round_->update(sample, press, pressed_s) == TouchRound::TouchEvent::left) return StepResult::declined();
     if (!round_->isComplete()) return {};
-    book_.outcome.eye_check.touches = round_->touches();
+    context_.outcome.eye_check.touches = round_->touches();
 
     // Nearer before the plane and further behind it: pupils or distance; all to one side: the head's place.
     glm::dvec3 bias_mm(0.0);
     double stretch_mm = 0.0;
-    for (const calibration::Residual& seen : calibration::residualsOf(book_.arm, book_.outcome.eye_check.touches)) {
+    for (const calibration::Residual& seen : calibration::residualsOf(context_.arm, context_.outcome.eye_check.touches)) {
       bias_mm += 0.25 * seen.error_mm.xyz;
       stretch_mm += 0.25 * seen.error_mm.xyz.z * (seen.target_W.mm.z > 0.0 ? 1.0 : -1.0);
     }
     const double across_mm = std::hypot(bias_mm.x, bias_mm.y);
     if (across_mm <= kMostBias_mm && std::abs(bias_mm.z) <= kMostDepthBias_mm &&
         std::abs(stretch_mm) <= kMostDepthBias_mm)
-      return StepAnswer::next();
+      return StepResult::next();
     finding_ =
         std::abs(stretch_mm) > kMostDepthBias_mm
-            ? "Depth is seen " + inMm(std::abs(stretch_mm)) + (stretch_mm > 0.0 ? " too large" : " too small") +
+            ? "Depth is seen " + mmText(std::abs(stretch_mm)) + (stretch_mm > 0.0 ? " too large" : " too small") +
                   " at 25 mm: measure pupils and distance again."
-            : "The crosses seem " + inMm(glm::length(bias_mm)) + " off: sit as for work and measure the eyes again.";
+            : "The crosses seem " + mmText(glm::length(bias_mm)) + " off: sit as for work and measure the eyes again.";
     doubt_ = ChoiceMenu({"measure the eyes again", "go on as it is"});
-    book_.voice.refuse(finding_);
+    context_.announcements.refuse(finding_);
     return {};
   }
 
@@ -86,6 +86,6 @@ class EyeCheckStep final : public WizardStep {
 
 }  // namespace
 
-std::unique_ptr<WizardStep> eyeCheckStep(WizardBook& book) { return std::make_unique<EyeCheckStep>(book); }
+std::unique_ptr<WizardStep> eyeCheckStep(WizardContext& context) { return std::make_unique<EyeCheckStep>(context); }
 
 }  // namespace app

@@ -12,24 +12,24 @@ class EyesStep final : public WizardStep {
  public:
   using WizardStep::WizardStep;
   void begin() override {
-    const calibration::Rig rig = rigSoFar(book_.plan.record.rig, book_.outcome);
+    const calibration::Rig rig = rigSoFar(context_.plan.record.rig, context_.outcome);
     pupils_ = NumberDial(std::round(glm::length(rig.right_eye.mm - rig.left_eye.mm)), 50.0, 76.0, 1.0);
     distance_ = NumberDial(5.0 * std::round(glm::length(rig.cyclopeanEye().mm) / 5.0), 250.0, 900.0, 5.0);
     has_pupils_ = false;
   }
 
-  StepAnswer feel(const StylusSample&, Press press, double) override {
+  StepResult update(const StylusSample&, Press press, double) override {
     if (!has_pupils_) {
-      if (pupils_.feel(press)) {
-        book_.outcome.ipd_mm = pupils_.value();
+      if (pupils_.update(press)) {
+        context_.outcome.ipd_mm = pupils_.value();
         has_pupils_ = true;
       }
       return {};
     }
-    if (!distance_.feel(press)) return {};
-    book_.outcome.eye_distance_mm = distance_.value();
+    if (!distance_.update(press)) return {};
+    context_.outcome.eye_distance_mm = distance_.value();
     // Measured again after the crosses: they are looked at again.
-    return book_.outcome.arm ? StepAnswer::goTo(StepName::eye_check) : StepAnswer::next();
+    return context_.outcome.arm ? StepResult::goTo(StepName::eye_check) : StepResult::next();
   }
 
   bool needsDevice() const override { return false; }
@@ -52,6 +52,6 @@ class EyesStep final : public WizardStep {
 
 }  // namespace
 
-std::unique_ptr<WizardStep> eyesStep(WizardBook& book) { return std::make_unique<EyesStep>(book); }
+std::unique_ptr<WizardStep> eyesStep(WizardContext& context) { return std::make_unique<EyesStep>(context); }
 
 }  // namespace app

@@ -1,8 +1,8 @@
-// The arm is worked out from its touches; what makes the result less than it seems is said. One thread; feel() takes up
+// The arm is worked out from its touches; what makes the result less than it seems is said. One thread; update() takes up
 // to a second once.
 
 #include "app/calibrate/choice_menu.h"
-#include "app/calibrate/number_words.h"
+#include "app/calibrate/number_text.h"
 #include "app/calibrate/steps/step.h"
 
 namespace app {
@@ -17,22 +17,22 @@ class FitStep final : public WizardStep {
   void begin() override {
     worked_ = failed_ = false;
     since_s_.reset();
-    book_.outcome.fit.reset();
-    book_.outcome.arm.reset();
+    context_.outcome.fit.reset();
+    context_.outcome.arm.reset();
   }
 
-  StepAnswer feel(const StylusSample& sample, Press press, double) override {
+  StepResult update(const StylusSample& sample, Press press, double) override {
     if (!since_s_) since_s_ = sample.t_s;
     if (!worked_) {
       if (sample.t_s - *since_s_ >= kShown_s) work();
       return {};
     }
-    const auto chosen = menu_.feel(press);
+    const auto chosen = menu_.update(press);
     if (!chosen) return {};
-    if (!failed_ && *chosen == 0) return StepAnswer::next();
-    if (*chosen == (failed_ ? 0U : 1U)) return StepAnswer::goTo(StepName::collect);
-    if (failed_) return StepAnswer::refused(why_);
-    return StepAnswer::declined();
+    if (!failed_ && *chosen == 0) return StepResult::next();
+    if (*chosen == (failed_ ? 0U : 1U)) return StepResult::goTo(StepName::collect);
+    if (failed_) return StepResult::refused(why_);
+    return StepResult::declined();
   }
 
   bool needsDevice() const override { return false; }
@@ -47,10 +47,10 @@ class FitStep final : public WizardStep {
       view.sentence = why_;
       return;
     }
-    const calibration::ArmFit& fit = *book_.outcome.fit;
+    const calibration::ArmFit& fit = *context_.outcome.fit;
     view.sentence = "Now it is proved with touches that it has not seen.";
     view.facts = {std::to_string(fit.used) + " touches used, " + std::to_string(fit.outliers) + " set aside",
-                  "expected error " + inMm(fit.cv_rms_mm)};
+                  "expected error " + mmText(fit.cv_rms_mm)};
     for (const calibration::FitWarning& warning : fit.warnings) view.facts.push_back(warning.line);
   }
 
@@ -59,22 +59,22 @@ class FitStep final : public WizardStep {
     worked_ = true;
     try {
       calibration::FitOptions options;
-      options.region_mm3 = book_.plan.region_mm3;
-      calibration::ArmFit fit = calibration::fitArm(book_.outcome.touches, options);
+      options.region_mm3 = context_.plan.region_mm3;
+      calibration::ArmFit fit = calibration::fitArm(context_.outcome.touches, options);
       for (const calibration::FitWarning& warning : fit.warnings) {
         if (warning.kind == calibration::FitWarning::Kind::mirrored) return refuse(warning.line);
         if (warning.kind == calibration::FitWarning::Kind::many_outliers && fit.outliers * 3 > fit.used)
           return refuse(warning.line);
       }
-      if (fit.cv_rms_mm > kMuddled_mm && !book_.byEyes())
-        return refuse("The touches do not fit together (" + inMm(fit.cv_rms_mm) +
+      if (fit.cv_rms_mm > kMuddled_mm && !context_.byEyes())
+        return refuse("The touches do not fit together (" + mmText(fit.cv_rms_mm) +
                       "): touch the pits in the order they glow, and see that the block does not move.");
-      book_.outcome.fit = std::move(fit);
-      book_.outcome.arm = book_.outcome.fit->arm;
-      book_.arm = book_.outcome.fit->arm;
-      book_.arm_is_measured = true;
+      context_.outcome.fit = std::move(fit);
+      context_.outcome.arm = context_.outcome.fit->arm;
+      context_.arm = context_.outcome.fit->arm;
+      context_.arm_is_measured = true;
       menu_ = ChoiceMenu({"go on to the proof", "touch all again", "leave; the old calibration stays"});
-      book_.voice.praise("Worked out.", WizardSound::next);
+      context_.announcements.praise("Worked out.", WizardSound::next);
     } catch (const calibration::CalibrationError& error) {
       refuse(error.what());
     }
@@ -84,7 +84,7 @@ class FitStep final : public WizardStep {
     failed_ = true;
     why_ = std::move(why);
     menu_ = ChoiceMenu({"touch all again", "leave; the old calibration stays"});
-    book_.voice.refuse("No arm explains these touches.");
+    context_.announcements.refuse("No arm explains these touches.");
   }
 
   std::optional<double> since_s_;
@@ -95,6 +95,6 @@ class FitStep final : public WizardStep {
 
 }  // namespace
 
-std::unique_ptr<WizardStep> fitStep(WizardBook& book) { return std::make_unique<FitStep>(book); }
+std::unique_ptr<WizardStep> fitStep(WizardContext& context) { return std::make_unique<FitStep>(context); }
 
 }  // namespace app

@@ -10,7 +10,7 @@ namespace {
 
 ChoiceMenu whether() { return ChoiceMenu({"yes, it reads right", "no"}); }
 /// In the order of the choices.
-constexpr std::array<calibration::Reading, 5> kWays{{{true, 0}, {true, 2}, {false, 2}, {false, 1}, {false, 3}}};
+constexpr std::array<calibration::ImageOrientation, 5> kWays{{{true, 0}, {true, 2}, {false, 2}, {false, 1}, {false, 3}}};
 
 ChoiceMenu which() {
   return ChoiceMenu({"mirrored left to right", "mirrored top to bottom", "turned by half a turn", "turned to the right",
@@ -25,20 +25,20 @@ class FlipStep final : public WizardStep {
     menu_ = whether();
   }
 
-  StepAnswer feel(const StylusSample&, Press press, double) override {
-    const auto chosen = menu_.feel(press);
+  StepResult update(const StylusSample&, Press press, double) override {
+    const auto chosen = menu_.update(press);
     if (!chosen) return {};
     if (!which_ && *chosen == 0) {
-      book_.outcome.flip = calibration::Reading{};
-      return StepAnswer::next();
+      context_.outcome.flip = calibration::ImageOrientation{};
+      return StepResult::next();
     }
     if (!which_ || *chosen == kWays.size()) {
       which_ = !which_;
       menu_ = which_ ? which() : whether();
       return {};
     }
-    book_.outcome.flip = kWays[*chosen];
-    return StepAnswer::refused(calibration::remedyFor(kWays[*chosen]));
+    context_.outcome.flip = kWays[*chosen];
+    return StepResult::refused(calibration::remedyFor(kWays[*chosen]));
   }
 
   bool needsDevice() const override { return false; }
@@ -56,6 +56,6 @@ class FlipStep final : public WizardStep {
 
 }  // namespace
 
-std::unique_ptr<WizardStep> flipStep(WizardBook& book) { return std::make_unique<FlipStep>(book); }
+std::unique_ptr<WizardStep> flipStep(WizardContext& context) { return std::make_unique<FlipStep>(context); }
 
 }  // namespace app

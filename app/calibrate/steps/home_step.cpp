@@ -19,45 +19,45 @@ class HomeStep final : public WizardStep {
     settled_s_ = 0.0;
   }
 
-  StepAnswer feel(const StylusSample& sample, Press press, double) override {
+  StepResult update(const StylusSample& sample, Press press, double) override {
     if (press == Press::long_press)
-      return StepAnswer::refused("The device was not brought home: nothing can be measured with it.");
+      return StepResult::refused("The device was not brought home: nothing can be measured with it.");
     const double passed_s = seen_ ? std::max(0.0, sample.t_s - since_s_) : 0.0;
     seen_ = true;
 
     switch (phase_) {
       case Phase::to_inkwell: {
-        const bool is_home = sample.believable && (sample.docked || !book_.plan.has_inkwell);
-        if (press == Press::short_press && book_.plan.has_inkwell && !sample.docked)
-          book_.voice.refuse("The stylus is not in its inkwell: push it home.");
-        else if (press == Press::short_press && !sample.believable)
-          book_.voice.refuse("The device does not know its zero yet.");
+        const bool is_home = sample.valid && (sample.docked || !context_.plan.has_inkwell);
+        if (press == Press::short_press && context_.plan.has_inkwell && !sample.docked)
+          context_.announcements.refuse("The stylus is not in its inkwell: push it home.");
+        else if (press == Press::short_press && !sample.valid)
+          context_.announcements.refuse("The device does not know its zero yet.");
         // A device without an inkwell is told by a press.
-        if (!is_home || (!book_.plan.has_inkwell && press != Press::short_press)) {
+        if (!is_home || (!context_.plan.has_inkwell && press != Press::short_press)) {
           since_s_ = sample.t_s;
           return {};
         }
-        if (book_.plan.has_inkwell && sample.t_s - since_s_ < kDocked_s) return {};
+        if (context_.plan.has_inkwell && sample.t_s - since_s_ < kDocked_s) return {};
         since_s_ = sample.t_s;
         phase_ = Phase::settling;
-        book_.voice.praise("Home.");
+        context_.announcements.praise("Home.");
         return {};
       }
       case Phase::settling:
-        if (!sample.believable && passed_s > kDoubted_s) {
+        if (!sample.valid && passed_s > kDoubted_s) {
           begin();
           return {};
         }
-        if (sample.believable) {
+        if (sample.valid) {
           settled_s_ += passed_s;
           since_s_ = sample.t_s;
         }
-        if (settled_s_ < book_.plan.settle_s && book_.plan.procedure == CalibrationProcedure::full) return {};
+        if (settled_s_ < context_.plan.settle_s && context_.plan.procedure == CalibrationProcedure::full) return {};
         phase_ = Phase::take_out;
-        if (sample.docked) book_.voice.sounds.push_back(WizardSound::next);
+        if (sample.docked) context_.announcements.sounds.push_back(WizardSound::next);
         return {};
       case Phase::take_out:
-        return sample.docked ? StepAnswer{} : StepAnswer::next();
+        return sample.docked ? StepResult{} : StepResult::next();
     }
     return {};
   }
@@ -67,10 +67,10 @@ class HomeStep final : public WizardStep {
   void show(WizardView& view) const override {
     view.title = "Bring the device home";
     view.button = {"", "leave", ""};
-    view.inkwell = book_.plan.has_inkwell && phase_ != Phase::take_out;
+    view.inkwell = context_.plan.has_inkwell && phase_ != Phase::take_out;
     switch (phase_) {
       case Phase::to_inkwell:
-        if (book_.plan.has_inkwell) {
+        if (context_.plan.has_inkwell) {
           view.sentence = "Push the stylus into its inkwell and let it go.";
         } else {
           view.sentence = "Bring the stylus where its maker says is home, then press.";
@@ -79,8 +79,8 @@ class HomeStep final : public WizardStep {
         break;
       case Phase::settling:
         view.sentence = "Leave it: arm and motors settle. Lamp under the mirror on, arm supported, seat as for work.";
-        view.time_left_s = std::max(0.0, book_.plan.settle_s - settled_s_);
-        view.progress = std::min(1.0, settled_s_ / std::max(1e-9, book_.plan.settle_s));
+        view.time_left_s = std::max(0.0, context_.plan.settle_s - settled_s_);
+        view.progress = std::min(1.0, settled_s_ / std::max(1e-9, context_.plan.settle_s));
         break;
       case Phase::take_out:
         view.sentence = "Take the stylus out.";
@@ -96,6 +96,6 @@ class HomeStep final : public WizardStep {
 
 }  // namespace
 
-std::unique_ptr<WizardStep> homeStep(WizardBook& book) { return std::make_unique<HomeStep>(book); }
+std::unique_ptr<WizardStep> homeStep(WizardContext& context) { return std::make_unique<HomeStep>(context); }
 
 }  // namespace app

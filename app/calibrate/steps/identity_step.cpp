@@ -28,22 +28,22 @@ class IdentityStep final : public WizardStep {
   using WizardStep::WizardStep;
   void begin() override { menu_ = ChoiceMenu({"all of it is right", "something is wrong"}); }
 
-  StepAnswer feel(const StylusSample&, Press press, double) override {
-    if (book_.plan.procedure != CalibrationProcedure::full)
-      if (std::string why = whyNotBuiltOn(book_.plan.record.rig, book_.plan.device); !why.empty())
-        return StepAnswer::refused(std::move(why));
-    const auto chosen = menu_.feel(press);
+  StepResult update(const StylusSample&, Press press, double) override {
+    if (context_.plan.procedure != CalibrationProcedure::full)
+      if (std::string why = whyNotBuiltOn(context_.plan.record.rig, context_.plan.device); !why.empty())
+        return StepResult::refused(std::move(why));
+    const auto chosen = menu_.update(press);
     if (!chosen) return {};
-    if (*chosen == 0) return StepAnswer::next();
-    return StepAnswer::refused("Start again with the rig, device and stylus tip that are there.");
+    if (*chosen == 0) return StepResult::next();
+    return StepResult::refused("Start again with the rig, device and stylus tip that are there.");
   }
 
   bool needsDevice() const override { return false; }
   void show(WizardView& view) const override {
     view.title = "Is this what stands before you?";
     view.sentence = "Read the lines and compare them with rig, device and stylus. The forces are off.";
-    const calibration::RigProvenance& known = book_.plan.record.provenance;
-    const calibration::RigDevice& device = book_.plan.device;
+    const calibration::RigProvenance& known = context_.plan.record.provenance;
+    const calibration::RigDevice& device = context_.plan.device;
     view.facts = {
         "rig " + orUnknown(known.rig_id), "device " + device.model + ", serial number " + orUnknown(device.serial),
         "stands at the " + orUnknown(device.mount) + " of the surgeon", "stylus tip " + orUnknown(device.stylus_tip),
@@ -57,6 +57,6 @@ class IdentityStep final : public WizardStep {
 
 }  // namespace
 
-std::unique_ptr<WizardStep> identityStep(WizardBook& book) { return std::make_unique<IdentityStep>(book); }
+std::unique_ptr<WizardStep> identityStep(WizardContext& context) { return std::make_unique<IdentityStep>(context); }
 
 }  // namespace app

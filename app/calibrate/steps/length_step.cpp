@@ -16,11 +16,11 @@ class LengthStep final : public WizardStep {
   void begin() override {
     dial_ = dial();
     across_mm_.reset();
-    book_.outcome.screen.reset();
+    context_.outcome.screen.reset();
   }
 
-  StepAnswer feel(const StylusSample&, Press press, double) override {
-    if (!dial_.feel(press)) return {};
+  StepResult update(const StylusSample&, Press press, double) override {
+    if (!dial_.update(press)) return {};
     if (!across_mm_) {
       across_mm_ = dial_.value();
       dial_ = dial();
@@ -29,13 +29,13 @@ class LengthStep final : public WizardStep {
 
     const calibration::MeasuredBars bars{kBar_mm, *across_mm_, dial_.value()};
     try {
-      const calibration::SizeCheck check = calibration::checkedSize(book_.plan.record.rig.screen, bars);
-      book_.outcome.bars = bars;
-      if (!check.agrees) book_.outcome.screen = check.corners;
-      book_.voice.say(check.line);
-      return StepAnswer::next();
+      const calibration::SizeCheck check = calibration::checkedSize(context_.plan.record.rig.screen, bars);
+      context_.outcome.bars = bars;
+      if (!check.agrees) context_.outcome.screen = check.corners;
+      context_.announcements.say(check.line);
+      return StepResult::next();
     } catch (const calibration::CalibrationError& error) {
-      book_.voice.refuse(error.what());
+      context_.announcements.refuse(error.what());
       begin();
       return {};
     }
@@ -57,6 +57,6 @@ class LengthStep final : public WizardStep {
 
 }  // namespace
 
-std::unique_ptr<WizardStep> lengthStep(WizardBook& book) { return std::make_unique<LengthStep>(book); }
+std::unique_ptr<WizardStep> lengthStep(WizardContext& context) { return std::make_unique<LengthStep>(context); }
 
 }  // namespace app

@@ -1,7 +1,7 @@
 // Touches that the calibration has not seen, held in new ways: after a full one 16 of them, at the start of a session
 // 4. They are judged; at a session what is not good is brought up to date, once, and checked again. One thread.
 
-#include "app/calibrate/number_words.h"
+#include "app/calibrate/number_text.h"
 #include "app/calibrate/steps/step.h"
 #include "app/calibrate/touch_round.h"
 
@@ -14,48 +14,48 @@ void ontoTheScreen(calibration::TargetPlan& plan) {
   plan.kind = calibration::TargetKind::cross;
   plan.precision = calibration::kCrossPrecision;
   for (calibration::Target& target : plan.targets) {
-    const double scale = target.place_W.mm.z < 0.0 ? kOuter : kInner;
-    target.place_W.mm = {scale * target.place_W.mm.x, scale * target.place_W.mm.y, 0.0};
+    const double scale = target.position_W.mm.z < 0.0 ? kOuter : kInner;
+    target.position_W.mm = {scale * target.position_W.mm.x, scale * target.position_W.mm.y, 0.0};
   }
 }
 
 class ProofStep final : public WizardStep {
  public:
   /// `method`: verify8 or check4.
-  ProofStep(WizardBook& book, const char* method) : WizardStep(book), method_(method) {}
+  ProofStep(WizardContext& context, const char* method) : WizardStep(context), method_(method) {}
   void begin() override {
-    const bool by_eyes = !isCheck() && book_.byEyes();
-    calibration::TargetPlan plan = *calibration::targetPlan(method_, by_eyes ? calibration::JigPose{} : book_.plan.jig);
+    const bool by_eyes = !isCheck() && context_.byEyes();
+    calibration::TargetPlan plan = *calibration::targetPlan(method_, by_eyes ? calibration::JigPose{} : context_.plan.jig);
     if (by_eyes) ontoTheScreen(plan);
-    book_.outcome.proof = emptySet(book_, plan);
-    book_.outcome.proof_kind = isCheck() ? calibration::ProofKind::session_check
-                               : by_eyes ? calibration::ProofKind::by_eyes
-                                         : calibration::ProofKind::full;
+    context_.outcome.verification = emptySet(context_, plan);
+    context_.outcome.verification_kind = isCheck() ? calibration::VerificationKind::session_check
+                               : by_eyes ? calibration::VerificationKind::by_eyes
+                                         : calibration::VerificationKind::full;
     // After a night the base may stand elsewhere by some millimetres.
-    round_.emplace(std::move(plan), book_.arm, isCheck() ? 12.0 : book_.far_mm(), book_.voice);
+    round_.emplace(std::move(plan), context_.arm, isCheck() ? 12.0 : context_.max_distance_mm(), context_.announcements);
   }
 
-  StepAnswer feel(const StylusSample& sample, Press press, double pressed_s) override {
-    if (round_->feel(sample, press, pressed_s) == TouchRound::Happened::left) return StepAnswer::declined();
+  StepResult update(const StylusSample& sample, Press press, double pressed_s) override {
+    if (round_->update(sample, press, pressed_s) == TouchRound::TouchEvent::left) return StepResult::declined();
     if (!round_->isComplete()) return {};
 
-    WizardOutcome& outcome = book_.outcome;
-    outcome.proof.touches = round_->touches();
-    outcome.proof_residuals = calibration::residualsOf(book_.arm, outcome.proof.touches);
+    WizardOutcome& outcome = context_.outcome;
+    outcome.verification.touches = round_->touches();
+    outcome.proof_residuals = calibration::residualsOf(context_.arm, outcome.verification.touches);
     outcome.errors = calibration::targetErrors(outcome.proof_residuals);
-    outcome.judgement = calibration::judge(*outcome.errors, outcome.proof_kind);
-    const bool good = outcome.judgement->verdict == calibration::Verdict::green;
+    outcome.assessment = calibration::assess(*outcome.errors, outcome.verification_kind);
+    const bool good = outcome.assessment->verdict == calibration::Verdict::green;
     if (isCheck() && !good && !outcome.rezero) {
-      book_.voice.refuse("The arm is " + inMm(outcome.errors->rms_mm) + " off: five touches bring it up to date.");
-      return StepAnswer::goTo(StepName::rezero);
+      context_.announcements.refuse("The arm is " + mmText(outcome.errors->rms_mm) + " off: five touches bring it up to date.");
+      return StepResult::goTo(StepName::rezero);
     }
-    return StepAnswer::goTo(StepName::sign_off);
+    return StepResult::goTo(StepName::sign_off);
   }
 
   void lost() override { round_->lost(); }
   void show(WizardView& view) const override {
     view.title = isCheck() ? "Check" : "Prove it";
-    const std::string noun = !isCheck() && book_.byEyes() ? "cross" : "pit";
+    const std::string noun = !isCheck() && context_.byEyes() ? "cross" : "pit";
     view.sentence = "Tip to the glowing " + noun + ", held as the cue shows: touches that nothing was fitted to.";
     round_->show(view);
   }
@@ -69,7 +69,7 @@ class ProofStep final : public WizardStep {
 
 }  // namespace
 
-std::unique_ptr<WizardStep> verifyStep(WizardBook& book) { return std::make_unique<ProofStep>(book, "verify8"); }
-std::unique_ptr<WizardStep> checkStep(WizardBook& book) { return std::make_unique<ProofStep>(book, "check4"); }
+std::unique_ptr<WizardStep> verifyStep(WizardContext& context) { return std::make_unique<ProofStep>(context, "verify8"); }
+std::unique_ptr<WizardStep> checkStep(WizardContext& context) { return std::make_unique<ProofStep>(context, "check4"); }
 
 }  // namespace app

@@ -1,6 +1,6 @@
 // Where the hand rest stands: three touches of its marks make its pose, three more prove it. One thread.
 
-#include "app/calibrate/number_words.h"
+#include "app/calibrate/number_text.h"
 #include "app/calibrate/steps/step.h"
 #include "app/calibrate/touch_round.h"
 
@@ -15,7 +15,7 @@ calibration::TargetPlan marksPlan(const char* method, const calibration::RestReg
                                   const std::vector<glm::dvec3>& marks_mm, std::size_t first) {
   calibration::TargetPlan plan{method, calibration::TargetKind::pit, calibration::kPitPrecision, {}};
   for (std::size_t i = first; i < first + kMarks; ++i)
-    plan.targets.push_back({static_cast<int>(i) + 1, rest.place_W(marks_mm[i]), calibration::kRestingStylus_W});
+    plan.targets.push_back({static_cast<int>(i) + 1, rest.position_W(marks_mm[i]), calibration::kRestingStylus_W});
   return plan;
 }
 
@@ -24,30 +24,30 @@ class RestStep final : public WizardStep {
   using WizardStep::WizardStep;
   void begin() override {
     made_of_.clear();
-    book_.outcome.rest.reset();
-    const auto believed = book_.plan.record.rest.value_or(calibration::RestRegistration{});
-    round_.emplace(marksPlan("rest3", believed, book_.plan.rest_marks_mm, 0), book_.arm, kFarRest_mm, book_.voice);
-    round_->letTiltBe();
+    context_.outcome.rest.reset();
+    const auto believed = context_.plan.record.rest.value_or(calibration::RestRegistration{});
+    round_.emplace(marksPlan("rest3", believed, context_.plan.rest_marks_mm, 0), context_.arm, kFarRest_mm, context_.announcements);
+    round_->ignoreTilt();
   }
 
-  StepAnswer feel(const StylusSample& sample, Press press, double pressed_s) override {
-    if (book_.plan.rest_marks_mm.size() != 2 * kMarks)
-      return StepAnswer::refused("The hand rest has no six known marks: name them in the rig's settings.");
-    if (round_->feel(sample, press, pressed_s) == TouchRound::Happened::left) return StepAnswer::declined();
+  StepResult update(const StylusSample& sample, Press press, double pressed_s) override {
+    if (context_.plan.rest_marks_mm.size() != 2 * kMarks)
+      return StepResult::refused("The hand rest has no six known marks: name them in the rig's settings.");
+    if (round_->update(sample, press, pressed_s) == TouchRound::TouchEvent::left) return StepResult::declined();
     if (!round_->isComplete()) return {};
 
     try {
       if (made_of_.empty()) {
-        book_.outcome.rest = calibration::restRegistered(touched(), {});
+        context_.outcome.rest = calibration::registerRest(touched(), {});
         made_of_ = touched();
         beginProof();
         return {};
       }
-      book_.outcome.rest = calibration::restRegistered(made_of_, touched());
-      return StepAnswer::next();
+      context_.outcome.rest = calibration::registerRest(made_of_, touched());
+      return StepResult::next();
     } catch (const calibration::CalibrationError& error) {
       begin();
-      book_.voice.refuse(error.what());
+      context_.announcements.refuse(error.what());
       return {};
     }
   }
@@ -64,14 +64,14 @@ class RestStep final : public WizardStep {
     std::vector<calibration::MarkTouch> marks;
     for (const calibration::Touch& touch : round_->touches())
       marks.push_back(
-          {book_.plan.rest_marks_mm[static_cast<std::size_t>(touch.id - 1)], book_.arm.tip_W(touch.joints_rad)});
+          {context_.plan.rest_marks_mm[static_cast<std::size_t>(touch.id - 1)], context_.arm.tip_W(touch.joints_rad)});
     return marks;
   }
 
   void beginProof() {
-    round_.emplace(marksPlan("rest3proof", *book_.outcome.rest, book_.plan.rest_marks_mm, kMarks), book_.arm,
-                   kFarRest_mm, book_.voice);
-    round_->letTiltBe();
+    round_.emplace(marksPlan("rest3proof", *context_.outcome.rest, context_.plan.rest_marks_mm, kMarks), context_.arm,
+                   kFarRest_mm, context_.announcements);
+    round_->ignoreTilt();
   }
 
   std::optional<TouchRound> round_;
@@ -80,6 +80,6 @@ class RestStep final : public WizardStep {
 
 }  // namespace
 
-std::unique_ptr<WizardStep> restStep(WizardBook& book) { return std::make_unique<RestStep>(book); }
+std::unique_ptr<WizardStep> restStep(WizardContext& context) { return std::make_unique<RestStep>(context); }
 
 }  // namespace app

@@ -1,6 +1,6 @@
 // Five touches bring a calibration up to date after homing or a push. One thread.
 
-#include "app/calibrate/number_words.h"
+#include "app/calibrate/number_text.h"
 #include "app/calibrate/steps/step.h"
 #include "app/calibrate/touch_round.h"
 
@@ -14,32 +14,32 @@ class RezeroStep final : public WizardStep {
  public:
   using WizardStep::WizardStep;
   void begin() override {
-    const calibration::TargetPlan plan = *calibration::targetPlan("rezero5", book_.plan.jig);
-    book_.outcome.zeroing = emptySet(book_, plan);
-    round_.emplace(plan, book_.arm, kFarBase_mm, book_.voice);
+    const calibration::TargetPlan plan = *calibration::targetPlan("rezero5", context_.plan.jig);
+    context_.outcome.zeroing = emptySet(context_, plan);
+    round_.emplace(plan, context_.arm, kFarBase_mm, context_.announcements);
   }
 
-  StepAnswer feel(const StylusSample& sample, Press press, double pressed_s) override {
-    if (round_->feel(sample, press, pressed_s) == TouchRound::Happened::left) return StepAnswer::declined();
+  StepResult update(const StylusSample& sample, Press press, double pressed_s) override {
+    if (round_->update(sample, press, pressed_s) == TouchRound::TouchEvent::left) return StepResult::declined();
     if (!round_->isComplete()) return {};
-    book_.outcome.zeroing.touches = round_->touches();
-    book_.outcome.duration_s = round_->duration_s();
+    context_.outcome.zeroing.touches = round_->touches();
+    context_.outcome.duration_s = round_->duration_s();
 
     try {
-      const calibration::Rezero rezero = calibration::rezeroed(book_.arm, book_.outcome.zeroing);
+      const calibration::Rezero rezero = calibration::rezeroed(context_.arm, context_.outcome.zeroing);
       if (rezero.after_rms_mm > kMostLeft_mm) {
-        book_.voice.refuse("The touches do not fit together (" + inMm(rezero.after_rms_mm) +
+        context_.announcements.refuse("The touches do not fit together (" + mmText(rezero.after_rms_mm) +
                            "): touch the pits in the order they glow.");
         begin();
         return {};
       }
-      book_.outcome.rezero = rezero;
-      book_.outcome.arm = rezero.arm;
-      book_.arm = rezero.arm;
-      book_.voice.praise("Up to date: the base had moved by " + inMm(rezero.moved_mm) + ".", WizardSound::next);
-      return StepAnswer::goTo(StepName::check);
+      context_.outcome.rezero = rezero;
+      context_.outcome.arm = rezero.arm;
+      context_.arm = rezero.arm;
+      context_.announcements.praise("Up to date: the base had moved by " + mmText(rezero.moved_mm) + ".", WizardSound::next);
+      return StepResult::goTo(StepName::check);
     } catch (const calibration::CalibrationError& error) {
-      book_.voice.refuse(error.what());
+      context_.announcements.refuse(error.what());
       begin();
       return {};
     }
@@ -58,6 +58,6 @@ class RezeroStep final : public WizardStep {
 
 }  // namespace
 
-std::unique_ptr<WizardStep> rezeroStep(WizardBook& book) { return std::make_unique<RezeroStep>(book); }
+std::unique_ptr<WizardStep> rezeroStep(WizardContext& context) { return std::make_unique<RezeroStep>(context); }
 
 }  // namespace app

@@ -1,7 +1,7 @@
 // The end: one sentence, the numbers on a second page, and whether it is taken. What is red can not be. One thread.
 
 #include "app/calibrate/choice_menu.h"
-#include "app/calibrate/number_words.h"
+#include "app/calibrate/number_text.h"
 #include "app/calibrate/steps/step.h"
 
 namespace app {
@@ -12,7 +12,7 @@ const char* judgedAs(calibration::Verdict verdict) {
   return verdict == calibration::Verdict::amber ? "Usable, not good" : "Not good enough";
 }
 
-std::string signedMm(double length_mm) { return (length_mm > 0.0 ? "+" : "") + inWords(length_mm, 2); }
+std::string signedMm(double length_mm) { return (length_mm > 0.0 ? "+" : "") + numberText(length_mm, 2); }
 
 class SignOffStep final : public WizardStep {
  public:
@@ -26,36 +26,36 @@ class SignOffStep final : public WizardStep {
       words.emplace_back(text);
     };
     const bool may = verdict() != calibration::Verdict::red;
-    const bool changes = book_.outcome.arm || book_.outcome.rest;
+    const bool changes = context_.outcome.arm || context_.outcome.rest;
     if (may) add(Choice::take, changes ? "take it" : "done");
     add(Choice::numbers, "the numbers");
     // Nothing is mended by doing a short check once more: what is red after a re-zero wants all of it.
-    if (book_.plan.procedure == CalibrationProcedure::full || book_.plan.procedure == CalibrationProcedure::rest)
+    if (context_.plan.procedure == CalibrationProcedure::full || context_.plan.procedure == CalibrationProcedure::rest)
       add(Choice::repeat, "touch all again");
     if (changes || !may) add(Choice::leave, "leave; the old calibration stays");
     menu_ = ChoiceMenu(words);
-    book_.voice.sounds.push_back(may ? WizardSound::done : WizardSound::reject);
+    context_.announcements.sounds.push_back(may ? WizardSound::done : WizardSound::reject);
   }
 
-  StepAnswer feel(const StylusSample&, Press press, double) override {
+  StepResult update(const StylusSample&, Press press, double) override {
     // The second page has no room for choices: any press turns back.
     if (second_page_) {
       second_page_ = press != Press::short_press && press != Press::long_press;
       return {};
     }
-    const auto chosen = menu_.feel(press);
+    const auto chosen = menu_.update(press);
     if (!chosen) return {};
     switch (choices_[*chosen]) {
       case Choice::take:
-        return StepAnswer::accepted(sentence());
+        return StepResult::accepted(sentence());
       case Choice::numbers:
         second_page_ = true;
         return {};
       case Choice::repeat:
-        return StepAnswer::goTo(book_.plan.procedure == CalibrationProcedure::rest ? StepName::rest
+        return StepResult::goTo(context_.plan.procedure == CalibrationProcedure::rest ? StepName::rest
                                                                                    : StepName::collect);
       case Choice::leave:
-        return verdict() == calibration::Verdict::red ? StepAnswer::refused(sentence()) : StepAnswer::declined();
+        return verdict() == calibration::Verdict::red ? StepResult::refused(sentence()) : StepResult::declined();
     }
     return {};
   }
@@ -78,53 +78,53 @@ class SignOffStep final : public WizardStep {
  private:
   enum class Choice { take, numbers, repeat, leave };
   calibration::Verdict verdict() const {
-    if (book_.plan.procedure != CalibrationProcedure::rest)
-      return book_.outcome.judgement ? book_.outcome.judgement->verdict : calibration::Verdict::red;
-    const auto& rest = book_.outcome.rest;
+    if (context_.plan.procedure != CalibrationProcedure::rest)
+      return context_.outcome.assessment ? context_.outcome.assessment->verdict : calibration::Verdict::red;
+    const auto& rest = context_.outcome.rest;
     if (!rest) return calibration::Verdict::red;
-    return rest->worst_mm > calibration::kMostRestError_mm ? calibration::Verdict::amber : calibration::Verdict::green;
+    return rest->worst_mm > calibration::kMaxRestError_mm ? calibration::Verdict::amber : calibration::Verdict::green;
   }
 
   std::string sentence() const {
     std::string said = judgedAs(verdict());
-    if (book_.plan.procedure == CalibrationProcedure::rest && book_.outcome.rest)
-      return said + ": the rest is known within " + inMm(book_.outcome.rest->worst_mm) +
+    if (context_.plan.procedure == CalibrationProcedure::rest && context_.outcome.rest)
+      return said + ": the rest is known within " + mmText(context_.outcome.rest->worst_mm) +
              (verdict() == calibration::Verdict::green ? "." : "; the hand would feel it: touch its marks again.");
-    if (!book_.outcome.judgement) return said + ".";
+    if (!context_.outcome.assessment) return said + ".";
     // As the surgeon sees it; what decided it where it is not good.
-    said += ": " + calibration::worstPlaceSentence(book_.outcome.proof_residuals, {});
-    if (verdict() != calibration::Verdict::green) said += " (" + book_.outcome.judgement->reason + ")";
+    said += ": " + calibration::worstErrorSentence(context_.outcome.proof_residuals, {});
+    if (verdict() != calibration::Verdict::green) said += " (" + context_.outcome.assessment->reason + ")";
     if (verdict() == calibration::Verdict::red)
-      said += book_.plan.procedure == CalibrationProcedure::full
+      said += context_.plan.procedure == CalibrationProcedure::full
                   ? "; the old calibration stays"
                   : "; calibrate it in full, and have arm and base looked at";
     return said + ".";
   }
 
-  std::vector<ShownNumber> numbers() const {
-    std::vector<ShownNumber> numbers;
-    const WizardOutcome& outcome = book_.outcome;
+  std::vector<ShownValue> numbers() const {
+    std::vector<ShownValue> numbers;
+    const WizardOutcome& outcome = context_.outcome;
     if (outcome.rest)
-      numbers = {{"rest, at the marks that made it", inMm(outcome.rest->fre_rms_mm)},
-                 {"rest, worst of three others", inMm(outcome.rest->worst_mm)}};
+      numbers = {{"rest, at the marks that made it", mmText(outcome.rest->fre_rms_mm)},
+                 {"rest, worst of three others", mmText(outcome.rest->worst_mm)}};
     if (const auto& errors = outcome.errors) {
       numbers.push_back({"touches it had not seen", std::to_string(errors->n)});
-      numbers.push_back({"error, root mean square", inMm(errors->rms_mm)});
-      numbers.push_back({"error, 95 of 100", inMm(errors->p95_mm)});
-      numbers.push_back({"error, largest", inMm(errors->max_mm)});
+      numbers.push_back({"error, root mean square", mmText(errors->rms_mm)});
+      numbers.push_back({"error, 95 of 100", mmText(errors->p95_mm)});
+      numbers.push_back({"error, largest", mmText(errors->max_mm)});
       numbers.push_back({"all to one side: right, up, near", signedMm(errors->bias_mm.xyz.x) + ", " +
                                                                  signedMm(errors->bias_mm.xyz.y) + ", " +
                                                                  signedMm(errors->bias_mm.xyz.z) + " mm"});
     }
     if (const auto& fit = outcome.fit) {
       numbers.push_back({"touches used, set aside", std::to_string(fit->used) + ", " + std::to_string(fit->outliers)});
-      numbers.push_back({"error foretold by the touches", inMm(fit->cv_rms_mm)});
-      numbers.push_back({"directions of the stylus", inWords(fit->tilt_spread_deg, 0) + "° apart"});
+      numbers.push_back({"error foretold by the touches", mmText(fit->cv_rms_mm)});
+      numbers.push_back({"directions of the stylus", numberText(fit->tilt_spread_deg, 0) + "° apart"});
     }
     if (const auto& rezero = outcome.rezero)
-      numbers.push_back({"base moved, turned", inMm(rezero->moved_mm) + ", " + inWords(rezero->turned_deg, 2) + "°"});
-    if (const auto& proof = book_.plan.record.proof) numbers.push_back({"error before", inMm(proof->errors.rms_mm)});
-    if (outcome.duration_s > 0.0) numbers.push_back({"time for the touches", inWords(outcome.duration_s, 0) + " s"});
+      numbers.push_back({"base moved, turned", mmText(rezero->moved_mm) + ", " + numberText(rezero->turned_deg, 2) + "°"});
+    if (const auto& verification = context_.plan.record.verification) numbers.push_back({"error before", mmText(verification->errors.rms_mm)});
+    if (outcome.duration_s > 0.0) numbers.push_back({"time for the touches", numberText(outcome.duration_s, 0) + " s"});
     return numbers;
   }
 
@@ -135,6 +135,6 @@ class SignOffStep final : public WizardStep {
 
 }  // namespace
 
-std::unique_ptr<WizardStep> signOffStep(WizardBook& book) { return std::make_unique<SignOffStep>(book); }
+std::unique_ptr<WizardStep> signOffStep(WizardContext& context) { return std::make_unique<SignOffStep>(context); }
 
 }  // namespace app

@@ -13,16 +13,16 @@
 namespace app {
 
 /// What all steps write into.
-struct WizardBook {
+struct WizardContext {
   WizardPlan plan;
   WizardOutcome outcome;
-  Announcements voice;
+  Announcements announcements;
   calibration::MeasuredArm arm;  ///< as it is believed by now
   bool arm_is_measured = false;  ///< else: as its model, where it was put down
 
   bool byEyes() const { return plan.method.starts_with("visual"); }
   /// Beyond which a touch can not be of its target.
-  double far_mm() const { return !arm_is_measured ? 0.0 : byEyes() ? 5.0 : 4.0; }
+  double max_distance_mm() const { return !arm_is_measured ? 0.0 : byEyes() ? 5.0 : 4.0; }
 };
 
 enum class StepName {
@@ -42,32 +42,32 @@ enum class StepName {
 };
 
 /// On this page nothing has come to an end, unless one of these is said.
-struct StepAnswer {
+struct StepResult {
   bool next_page = false;
   std::optional<StepName> page{};  ///< to go to
   WizardOutcome::End end = WizardOutcome::End::running;
   std::string reason{};
 
-  static StepAnswer next() { return {.next_page = true}; }
-  static StepAnswer goTo(StepName name) { return {.page = name}; }
-  static StepAnswer refused(std::string why) { return {.end = WizardOutcome::End::refused, .reason = std::move(why)}; }
-  static StepAnswer declined() {
+  static StepResult next() { return {.next_page = true}; }
+  static StepResult goTo(StepName name) { return {.page = name}; }
+  static StepResult refused(std::string why) { return {.end = WizardOutcome::End::refused, .reason = std::move(why)}; }
+  static StepResult declined() {
     return {.end = WizardOutcome::End::declined, .reason = "Left: the old calibration stays."};
   }
-  static StepAnswer accepted(std::string words) {
+  static StepResult accepted(std::string words) {
     return {.end = WizardOutcome::End::accepted, .reason = std::move(words)};
   }
 };
 
 class WizardStep {
  public:
-  /// Borrows the book.
-  explicit WizardStep(WizardBook& book) : book_(book) {}
+  /// Borrows the context.
+  explicit WizardStep(WizardContext& context) : context_(context) {}
   virtual ~WizardStep() = default;
   /// Every time its page is turned to.
   virtual void begin() = 0;
   /// `pressed_s`: when the button went down.
-  virtual StepAnswer feel(const StylusSample& sample, Press press, double pressed_s) = 0;
+  virtual StepResult update(const StylusSample& sample, Press press, double pressed_s) = 0;
   /// The device was silent, and is not any more.
   virtual void lost() {}
   /// False: it can be read and answered without a device that is calibrated.
@@ -75,13 +75,13 @@ class WizardStep {
   virtual void show(WizardView& view) const = 0;
 
  protected:
-  WizardBook& book_;
+  WizardContext& context_;
 };
 
 /// A touch set of the plan's device, ready for its touches.
-calibration::TouchSet emptySet(const WizardBook& book, const calibration::TargetPlan& plan);
+calibration::TouchSet emptySet(const WizardContext& context, const calibration::TargetPlan& plan);
 
-using StepMaker = std::unique_ptr<WizardStep>(WizardBook& book);
+using StepMaker = std::unique_ptr<WizardStep>(WizardContext& context);
 StepMaker identityStep, homeStep, flipStep, lengthStep, eyesStep, collectStep, fitStep, eyeCheckStep, verifyStep,
     checkStep, rezeroStep, restStep, signOffStep;
 

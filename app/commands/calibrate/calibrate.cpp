@@ -19,7 +19,7 @@ using namespace calibration;
 
 namespace {
 
-bool comesIntoForce(const RigRecord& record) { return record.proof && record.proof->verdict != Verdict::red; }
+bool becomesCurrent(const RigRecord& record) { return record.verification && record.verification->verdict != Verdict::red; }
 
 }  // namespace
 
@@ -40,12 +40,12 @@ void KeepOption::addTo(CommandLine& command) {
 }
 
 void KeepOption::note(const RigRecord& record, DriftKind kind, const TargetErrors& errors) const {
-  if (!into_store || (kind != DriftKind::check && !comesIntoForce(record))) return;
+  if (!into_store || (kind != DriftKind::check && !becomesCurrent(record))) return;
   appendHistory(rigs().historyPath(placeOf(record)), {nowUtc(), kind, errors.n, errors.rms_mm, errors.bias_mm});
 }
 
-RigPlace KeepOption::placeOf(const RigRecord& record) const {
-  RigPlace place;
+RigLocation KeepOption::placeOf(const RigRecord& record) const {
+  RigLocation place;
   if (!record.provenance.rig_id.empty()) place.rig_id = record.provenance.rig_id;
   if (record.rig.device) {
     place.serial = record.rig.device->serial;
@@ -64,23 +64,23 @@ void KeepOption::keep(const RigRecord& record, const std::string& touches_text) 
     file.commit(rigRecordText(record));
   }
   if (!into_store) return;
-  const bool passes = comesIntoForce(record);
+  const bool passes = becomesCurrent(record);
   const auto path = rigs().keep(placeOf(record), record, touches_text, passes);
   std::fprintf(stderr, "molar: kept as %s; %s\n", path.c_str(),
                passes         ? "in force from now on"
-               : record.proof ? "red, so the one before stays in force"
+               : record.verification ? "red, so the one before stays in force"
                               : "not proved yet, so the one before stays in force: prove it with molar calibrate "
                                 "verify --keep");
 }
 
-void addMeasuring(CommandLine& command, Measuring& measuring) {
-  command.option("--rig-id", measuring.rig_id, "Name of the workstation").showsDefault();
-  command.option("--mount", measuring.mount, "Side of the surgeon on which the device stands")
+void addMeasurementInfo(CommandLine& command, MeasurementInfo& info) {
+  command.option("--rig-id", info.rig_id, "Name of the workstation").showsDefault();
+  command.option("--mount", info.mount, "Side of the surgeon on which the device stands")
       .oneOf({"right", "left"})
       .showsDefault();
-  command.option("--serial", measuring.serial, "Serial of the device [as the observations have it]");
-  command.option("--tip", measuring.stylus_tip, "Which bur or stylus end is in the handle");
-  command.option("--operator", measuring.operator_code, "A code for who measures, never a name");
+  command.option("--serial", info.serial, "Serial of the device [as the observations have it]");
+  command.option("--tip", info.stylus_tip, "Which bur or stylus end is in the handle");
+  command.option("--operator", info.operator_code, "A code for who measures, never a name");
 }
 
 namespace {
@@ -91,43 +91,43 @@ const TouchSet& touchesOf(const WizardOutcome& outcome) {
 
 }  // namespace
 
-int concluded(const WizardOption::Led& led, const KeepOption& keep) {
+int conclude(const WizardOption::GuidedOutcome& led, const KeepOption& keep) {
   const WizardOutcome& outcome = led.outcome;
   if (outcome.fit) std::fputs(fitText(*outcome.fit).c_str(), stderr);
   if (outcome.rezero) std::fputs(rezeroText(*outcome.rezero).c_str(), stderr);
-  if (outcome.errors && outcome.judgement) std::fputs(proofText(*outcome.errors, *outcome.judgement).c_str(), stderr);
+  if (outcome.errors && outcome.assessment) std::fputs(proofText(*outcome.errors, *outcome.assessment).c_str(), stderr);
   if (outcome.end != WizardOutcome::End::accepted) return 1;
 
   RigRecord record = recordOf(led.plan, outcome);
-  stamp(record, led.plan.record, led.measuring);
+  stamp(record, led.plan.record, led.info);
   if (const auto before = measuredArm(led.plan.record.rig); outcome.rezero && before)
     keep.note(record, DriftKind::rezero, targetErrors(residualsOf(*before, outcome.zeroing.touches)));
   else if (outcome.errors)
     keep.note(record, outcome.fit ? DriftKind::calibration : DriftKind::check, *outcome.errors);
   // A check that found all well changes nothing.
   if (outcome.arm || outcome.rest || outcome.screen) keep.keep(record, touchesText(touchesOf(outcome)));
-  return outcome.judgement ? statusOf(outcome.judgement->verdict) : 0;
+  return outcome.assessment ? statusOf(outcome.assessment->verdict) : 0;
 }
 
-int concluded(const WebcamObservations& seen, const WebcamFit& fit, const RigRecord& before, const Measuring& measuring,
-              const KeepOption& keep, const std::vector<Residual>& proof) {
+int conclude(const WebcamObservationFile& seen, const WebcamFit& fit, const RigRecord& before, const MeasurementInfo& info,
+              const KeepOption& keep, const std::vector<Residual>& verification) {
   RigRecord record = before;
-  record.rig.device = RigDevice{seen.sights.device_model, measuring.serial, measuring.mount, measuring.stylus_tip};
+  record.rig.device = RigDevice{seen.sights.device_model, info.serial, info.mount, info.stylus_tip};
   putWebcamFit(record, fit);
-  if (!proof.empty()) putProof(record, proof, ProofKind::full);
-  stamp(record, before, measuring);
+  if (!verification.empty()) putProof(record, verification, VerificationKind::full);
+  stamp(record, before, info);
   std::fputs(webcamFitText(fit).c_str(), stderr);
-  std::fputs(proofText(record.proof->errors, judge(record.proof->errors, ProofKind::full)).c_str(), stderr);
+  std::fputs(proofText(record.verification->errors, assess(record.verification->errors, VerificationKind::full)).c_str(), stderr);
   keep.keep(record, webcamFileText(seen));
-  keep.note(record, DriftKind::calibration, record.proof->errors);
-  return statusOf(record.proof->verdict);
+  keep.note(record, DriftKind::calibration, record.verification->errors);
+  return statusOf(record.verification->verdict);
 }
 
 int statusOf(Verdict verdict) { return verdict == Verdict::green ? 0 : 1; }
 
 void addCalibrate(CommandLine& molar) {
   CommandLine& calibrate = molar.command("calibrate", "Align hand and eye: measure, fit, prove, keep");
-  calibrate.wantsCommand();
+  calibrate.requireCommand();
   addCalibrateSimulate(calibrate);
   addCalibrateCollect(calibrate);
   addCalibrateFit(calibrate);

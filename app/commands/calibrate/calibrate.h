@@ -34,10 +34,10 @@ class KeepOption {
   void addTo(CommandLine& command);
 
   calibration::RigStore rigs() const { return storeAt(store); }
-  calibration::RigPlace placeOf(const calibration::RigRecord& record) const;
+  calibration::RigLocation placeOf(const calibration::RigRecord& record) const;
   /// Claims the output before any work. Throws LoadError.
   void refuseUnlessWritable() const;
-  /// Into the file and, if asked, the store, where it comes into force unless its proof is missing or red. Says so.
+  /// Into the file and, if asked, the store, where it comes into force unless its verification is missing or red. Says so.
   void keep(const calibration::RigRecord& record, const std::string& touches_text) const;
 
   /// What was found, into the history of the place; only with --keep. Calibrations and re-zeros make up for what checks
@@ -50,14 +50,14 @@ class KeepOption {
 };
 
 /// Who measures, as options.
-void addMeasuring(CommandLine& command, Measuring& measuring);
+void addMeasurementInfo(CommandLine& command, MeasurementInfo& info);
 
 /// What a technician was led to, told and kept; the exit status.
-int concluded(const WizardOption::Led& led, const KeepOption& keep);
-/// The same of a rig fitted to what a webcam saw; `before`: what it comes after, `proof`: touches held out, if any.
-int concluded(const calibration::WebcamObservations& seen, const calibration::WebcamFit& fit,
-              const calibration::RigRecord& before, const Measuring& measuring, const KeepOption& keep,
-              const std::vector<calibration::Residual>& proof = {});
+int conclude(const WizardOption::GuidedOutcome& led, const KeepOption& keep);
+/// The same of a rig fitted to what a webcam saw; `before`: what it comes after, `verification`: touches held out, if any.
+int conclude(const calibration::WebcamObservationFile& seen, const calibration::WebcamFit& fit,
+              const calibration::RigRecord& before, const MeasurementInfo& info, const KeepOption& keep,
+              const std::vector<calibration::Residual>& verification = {});
 
 /// Exit status of a verdict.
 int statusOf(calibration::Verdict verdict);

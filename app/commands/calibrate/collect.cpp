@@ -1,4 +1,4 @@
-// `molar calibrate collect`: lead a technician through a calibration at the workstation, from homing to sign-off.
+// `molar calibrate collect`: guide a technician through a calibration at the workstation, from homing to sign-off.
 
 #include <cstdio>
 #include <memory>
@@ -21,7 +21,7 @@ struct CollectOptions {
   std::vector<double> jig{0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
   std::vector<std::vector<double>> rest_marks;
   WizardOption wizard;
-  Measuring measuring;
+  MeasurementInfo info;
   KeepOption keep;
 };
 
@@ -32,13 +32,13 @@ JigPose jigPose(const std::vector<double>& numbers) {
 }
 
 int collectByWebcam(const CollectOptions& options, calibration::OutputFile* observations) {
-  const auto [before, seen, measuring] = options.wizard.look(options.rig, options.keep.rigs(), options.measuring);
+  const auto [before, seen, info] = options.wizard.guideWebcam(options.rig, options.keep.rigs(), options.info);
   if (!seen) {
     std::fputs("molar: left before the end: nothing is changed\n", stderr);
     return 1;
   }
   if (observations != nullptr) observations->commit(webcamFileText(*seen));
-  return concluded(*seen, fitWebcam(seen->sights), before, measuring, options.keep);
+  return conclude(*seen, fitWebcam(seen->sights), before, info, options.keep);
 }
 
 int collect(const CollectOptions& asked) {
@@ -59,11 +59,11 @@ int collect(const CollectOptions& asked) {
     observations = std::make_unique<calibration::OutputFile>(options.observations, options.keep.force);
 
   if (webcam) return collectByWebcam(options, observations.get());
-  const WizardOption::Led led =
-      options.wizard.lead(rest ? CalibrationProcedure::rest : CalibrationProcedure::full, options.method, options.rig,
-                          options.keep.rigs(), options.measuring);
+  const WizardOption::GuidedOutcome led =
+      options.wizard.guide(rest ? CalibrationProcedure::rest : CalibrationProcedure::full, options.method, options.rig,
+                          options.keep.rigs(), options.info);
   if (observations && !led.outcome.touches.touches.empty()) observations->commit(touchesText(led.outcome.touches));
-  return concluded(led, options.keep);
+  return conclude(led, options.keep);
 }
 
 }  // namespace
@@ -87,7 +87,7 @@ void addCalibrateCollect(CommandLine& calibrate) {
       .numbers(3)
       .from(-1000.0, 1000.0);
   command.option("--observations", o->observations, "The touches as a file as well, to fit again").valueNamed("FILE");
-  addMeasuring(command, o->measuring);
+  addMeasurementInfo(command, o->info);
   o->keep.addTo(command);
   command.does([o] { return collect(*o); });
 }

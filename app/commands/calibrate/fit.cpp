@@ -20,7 +20,7 @@ using namespace calibration;
 struct CalibrateFitOptions {
   std::string observations, model = "auto", rig = "mirrored", held_out;
   double region_mm3 = 0.0;
-  Measuring measuring;
+  MeasurementInfo info;
   KeepOption keep;
   bool json = false;
 };
@@ -33,12 +33,12 @@ FitOptions fitOptions(const CalibrateFitOptions& options) {
 }
 
 /// Until it is proved: how well it foretells touches left out of it, as if these were all held out.
-Verdict foretold(const ArmFit& fit, ProofKind kind) {
+Verdict predictedVerdict(const ArmFit& fit, VerificationKind kind) {
   TargetErrors errors;
   errors.n = fit.used;
   errors.mean_mm = errors.rms_mm = fit.cv_rms_mm;
   errors.bias_mm = fit.bias_mm;
-  return judge(errors, kind).verdict;
+  return assess(errors, kind).verdict;
 }
 
 /// What no number of the fit shows: it may be good where it was measured alone.
@@ -58,28 +58,28 @@ std::string serialOf(const std::string& given, const std::string& measured) {
 
 /// Of the same device, and not seen by the fit.
 std::vector<Residual> heldOut(const std::string& path, const MeasuredArm& arm, const TouchSet& fitted) {
-  const TouchSet proof = readTouches(path);
-  checkUnseen(fitted, proof);
-  return residualsOf(arm, proof.touches);
+  const TouchSet verification = readTouches(path);
+  checkUnseen(fitted, verification);
+  return residualsOf(arm, verification.touches);
 }
 
 /// What a webcam saw.
 int fitWebcamFile(const CalibrateFitOptions& options) {
-  const WebcamObservations observations = readWebcamFile(options.observations);
+  const WebcamObservationFile observations = readWebcamFile(options.observations);
   const RigRecord base = baseRig(options.rig);
-  Measuring measuring = options.measuring;
-  measuring.serial = serialOf(measuring.serial, observations.serial);
-  if (!observations.mount.empty()) measuring.mount = observations.mount;
+  MeasurementInfo info = options.info;
+  info.serial = serialOf(info.serial, observations.serial);
+  if (!observations.mount.empty()) info.mount = observations.mount;
   const WebcamFit fitted = fitWebcam(observations.sights, fitOptions(options).model.value_or(ArmModel::full));
-  std::vector<Residual> proof;
+  std::vector<Residual> verification;
   if (!options.held_out.empty()) {
     TouchSet device;
     device.device_model = observations.sights.device_model;
-    device.serial = measuring.serial;
-    device.mount = measuring.mount;
-    proof = heldOut(options.held_out, fitted.arm, device);
+    device.serial = info.serial;
+    device.mount = info.mount;
+    verification = heldOut(options.held_out, fitted.arm, device);
   }
-  const int status = concluded(observations, fitted, base, measuring, options.keep, proof);
+  const int status = conclude(observations, fitted, base, info, options.keep, verification);
   if (options.json) std::fputs(webcamFitJson(fitted).c_str(), stdout);
   return status;
 }
@@ -89,28 +89,28 @@ int fit(const CalibrateFitOptions& options) {
   if (isWebcamFile(options.observations)) return fitWebcamFile(options);
   const TouchSet touches = readTouches(options.observations);
   const RigRecord base = baseRig(options.rig);
-  Measuring measuring = options.measuring;
-  measuring.serial = serialOf(measuring.serial, touches.serial);
-  if (!touches.mount.empty()) measuring.mount = touches.mount;
+  MeasurementInfo info = options.info;
+  info.serial = serialOf(info.serial, touches.serial);
+  if (!touches.mount.empty()) info.mount = touches.mount;
 
   const ArmFit fitted = fitArm(touches, fitOptions(options));
   RigRecord record = base;
-  record.rig.device = RigDevice{touches.device_model, measuring.serial, measuring.mount, measuring.stylus_tip};
+  record.rig.device = RigDevice{touches.device_model, info.serial, info.mount, info.stylus_tip};
   putFit(record, touches, fitted, 0.0);
-  const ProofKind kind = proofKindOf(touches.method);
+  const VerificationKind kind = proofKindOf(touches.method);
   std::string proof_text;
   if (!options.held_out.empty()) {
     putProof(record, heldOut(options.held_out, fitted.arm, touches), kind);
-    proof_text = proofText(record.proof->errors, judge(record.proof->errors, kind));
+    proof_text = proofText(record.verification->errors, assess(record.verification->errors, kind));
   }
-  stamp(record, base, measuring);
+  stamp(record, base, info);
   std::fputs(fitText(fitted).c_str(), stderr);
   std::fputs(proof_text.c_str(), stderr);
   options.keep.keep(record, touchesText(touches));
-  if (record.proof) options.keep.note(record, DriftKind::calibration, record.proof->errors);
+  if (record.verification) options.keep.note(record, DriftKind::calibration, record.verification->errors);
   if (options.json) std::fputs(fitJson(fitted).c_str(), stdout);
   if (isDoubtful(fitted)) return 1;
-  return statusOf(record.proof ? record.proof->verdict : foretold(fitted, kind));
+  return statusOf(record.verification ? record.verification->verdict : predictedVerdict(fitted, kind));
 }
 
 }  // namespace
@@ -127,7 +127,7 @@ void addCalibrateFit(CommandLine& calibrate) {
   command.option("--rig", o->rig, kBaseRigHelp).showsDefault();
   command.option("--held-out", o->held_out, "Touches it has not seen, to prove it by").valueNamed("FILE");
   command.option("--region", o->region_mm3, "Volume that the case needs, mm3").from(0.0, 1e8);
-  addMeasuring(command, o->measuring);
+  addMeasurementInfo(command, o->info);
   o->keep.addTo(command);
   command.flag("--json", o->json, "The fit as JSON on standard output");
   command.does([o] { return fit(*o); });

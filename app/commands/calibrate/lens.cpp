@@ -13,8 +13,8 @@
 #include "calibration/record/utc.h"
 #include "calibration/webcam/board.h"
 #include "calibration/webcam/camera_file.h"
-#include "calibration/webcam/picture_reader.h"
-#include "calibration/webcam/picture_source.h"
+#include "calibration/webcam/image_reader.h"
+#include "calibration/webcam/image_source.h"
 
 namespace app {
 namespace {
@@ -37,27 +37,27 @@ glm::ivec2 cornersNamed(const std::string& text) {
 }
 
 /// The board in the pictures: a plain one by its corners, or the one that our own screen shows.
-class WantedBoard {
+class LensBoard {
  public:
-  explicit WantedBoard(const LensOptions& options) {
+  explicit LensBoard(const LensOptions& options) {
     if (options.board.empty()) {
-      own_ = boardFor(pictureSize(options.screen));
-      places_mm_ = own_->cornerPlaces_px();  // a lens does not know the board's size
+      own_ = boardFor(imageSize(options.screen));
+      positions_mm_ = own_->cornerPositions_px();  // a lens does not know the board's size
       return;
     }
     corners_ = cornersNamed(options.board);
     for (int y = 0; y < corners_.y; ++y)
-      for (int x = 0; x < corners_.x; ++x) places_mm_.push_back(options.square_mm * glm::dvec2(x, y));
+      for (int x = 0; x < corners_.x; ++x) positions_mm_.push_back(options.square_mm * glm::dvec2(x, y));
   }
-  BoardSighting in(const GreyPicture& picture) const {
-    return own_ ? findBoard(picture, *own_) : findChessboard(picture, corners_);
+  BoardDetection in(const GreyImage& image) const {
+    return own_ ? findBoard(image, *own_) : findChessboard(image, corners_);
   }
-  const std::vector<glm::dvec2>& places_mm() const { return places_mm_; }
+  const std::vector<glm::dvec2>& positions_mm() const { return positions_mm_; }
 
  private:
   std::optional<ShownBoard> own_;
   glm::ivec2 corners_{0};
-  std::vector<glm::dvec2> places_mm_;
+  std::vector<glm::dvec2> positions_mm_;
 };
 
 std::string pixels(const glm::ivec2& size_px) {
@@ -70,16 +70,16 @@ struct Views {
   std::vector<std::string> refused;  ///< "left12.jpg: the picture is blurred …"
 };
 
-Views viewsIn(const LensOptions& options, const WantedBoard& board) {
+Views viewsIn(const LensOptions& options, const LensBoard& board) {
   Views views;
-  for (const std::string& path : picturesIn(options.folder)) {
+  for (const std::string& path : imageFilesIn(options.folder)) {
     const std::string name = std::filesystem::path(path).filename().string();
-    const GreyPicture picture = readGreyPicture(path);
-    if (views.size_px == glm::ivec2(0)) views.size_px = picture.size_px;
-    if (picture.size_px != views.size_px)
-      throw CalibrationError(path + ": it is " + pixels(picture.size_px) + ", those before " + pixels(views.size_px) +
+    const GreyImage image = readGreyImage(path);
+    if (views.size_px == glm::ivec2(0)) views.size_px = image.size_px;
+    if (image.size_px != views.size_px)
+      throw CalibrationError(path + ": it is " + pixels(image.size_px) + ", those before " + pixels(views.size_px) +
                              ", give the pictures of one camera at one size");
-    BoardSighting sighting = board.in(picture);
+    BoardDetection sighting = board.in(image);
     if (sighting.trouble)
       views.refused.push_back(name + ": " + sighting.line);
     else
@@ -90,16 +90,16 @@ Views viewsIn(const LensOptions& options, const WantedBoard& board) {
 
 int lens(const LensOptions& options) {
   std::unique_ptr<calibration::OutputFile> out;
-  const WantedBoard board(options);
+  const LensBoard board(options);
   if (!options.out.empty()) out = std::make_unique<calibration::OutputFile>(options.out, options.force);
   const Views views = viewsIn(options, board);
   // What is wrong with the pictures says more than that they are too few.
-  if (views.usable.size() < kLeastViews && !views.refused.empty())
+  if (views.usable.size() < kMinViews && !views.refused.empty())
     throw CalibrationError("folder " + options.folder + ": " + std::to_string(views.usable.size()) + " of " +
                            std::to_string(views.usable.size() + views.refused.size()) +
-                           " pictures can be used, at least " + std::to_string(kLeastViews) + " are needed; " +
+                           " pictures can be used, at least " + std::to_string(kMinViews) + " are needed; " +
                            views.refused.front());
-  const Intrinsics fitted = fitIntrinsics(views.size_px, board.places_mm(), views.usable);
+  const Intrinsics fitted = fitIntrinsics(views.size_px, board.positions_mm(), views.usable);
   std::fputs(lensText(fitted, views.refused).c_str(), stderr);
   if (out) {
     CameraRecord record;
@@ -112,7 +112,7 @@ int lens(const LensOptions& options) {
     out->commit(cameraText(record));
   }
   if (options.json) std::fputs(lensJson(fitted, views.refused).c_str(), stdout);
-  return statusOf(verdictOfLens(fitted));
+  return statusOf(lensVerdict(fitted));
 }
 
 }  // namespace

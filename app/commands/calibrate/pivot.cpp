@@ -16,7 +16,7 @@ using namespace calibration;
 
 struct PivotOptions {
   std::string observations, rig;
-  Measuring measuring;
+  MeasurementInfo info;
   KeepOption keep;
   bool json = false;
 };
@@ -29,10 +29,10 @@ std::vector<RawJoints> holdsOf(const TouchSet& touches) {
 }
 
 /// Who measures is as the rig has it, unless it is said.
-Measuring measuringOf(const PivotOptions& options, const RigRecord& base) {
-  Measuring measuring = options.measuring;
-  if (!base.provenance.rig_id.empty()) measuring.rig_id = base.provenance.rig_id;
-  return measuring;
+MeasurementInfo infoOf(const PivotOptions& options, const RigRecord& base) {
+  MeasurementInfo info = options.info;
+  if (!base.provenance.rig_id.empty()) info.rig_id = base.provenance.rig_id;
+  return info;
 }
 
 int pivot(const PivotOptions& options) {
@@ -44,16 +44,16 @@ int pivot(const PivotOptions& options) {
   const RigRecord base = options.rig.empty() ? RigRecord{} : baseRig(options.rig);
   const MeasuredArm arm = armOf(base, touches, options.rig);
 
-  const Pivot found = pivoted(arm.geometry, arm.correction, holdsOf(touches));
+  const Pivot found = fitPivot(arm.geometry, arm.correction, holdsOf(touches));
   std::fputs(pivotText(found, arm.correction.tip_H_mm).c_str(), stderr);
   if (options.json) std::fputs(pivotJson(found).c_str(), stdout);
   if (!writes) return 0;
 
   RigRecord record = base;
   if (!record.rig.device) record.rig.device = RigDevice{touches.device_model, touches.serial, touches.mount, ""};
-  if (!options.measuring.serial.empty()) record.rig.device->serial = options.measuring.serial;
-  putPivot(record, arm, found, options.measuring.stylus_tip);
-  stamp(record, base, measuringOf(options, base));
+  if (!options.info.serial.empty()) record.rig.device->serial = options.info.serial;
+  putPivot(record, arm, found, options.info.stylus_tip);
+  stamp(record, base, infoOf(options, base));
   std::fputs(
       "note: with another tip nothing is proved any more: touch pits that no fit has seen, molar calibrate verify\n",
       stderr);
@@ -69,7 +69,7 @@ void addCalibratePivot(CommandLine& calibrate) {
       "pivot", "The tip of a new bur: its end in one pit, the handle swung to all sides, 12 touches or more");
   command.option("OBSERVATIONS", o->observations, "Touches in one pit, YAML; where it is does not matter").required();
   command.option("--rig", o->rig, std::string(kBaseRigHelp) + " [the arm as its model says]");
-  addMeasuring(command, o->measuring);
+  addMeasurementInfo(command, o->info);
   o->keep.addTo(command);
   command.flag("--json", o->json, "What was found as JSON on standard output");
   command.does([o] { return pivot(*o); });

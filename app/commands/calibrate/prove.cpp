@@ -17,7 +17,7 @@ using namespace calibration;
 struct ProveOptions {
   std::string rig, observations;
   WizardOption wizard;
-  Measuring measuring;
+  MeasurementInfo info;
   KeepOption keep;
   bool session_check = false, json = false;
 };
@@ -36,8 +36,8 @@ void refuseSeen(const RigRecord& record, const std::vector<Residual>& residuals,
 int prove(const ProveOptions& options) {
   // At the workstation it is brought up to date at once where it has to be.
   if (options.wizard.isGiven())
-    return concluded(
-        options.wizard.lead(CalibrationProcedure::check, "check4", options.rig, options.keep.rigs(), options.measuring),
+    return conclude(
+        options.wizard.guide(CalibrationProcedure::check, "check4", options.rig, options.keep.rigs(), options.info),
         options.keep);
   if (options.rig.empty() || options.observations.empty())
     throw UsageError(std::string("calibrate ") + (options.session_check ? "check" : "verify") +
@@ -46,31 +46,31 @@ int prove(const ProveOptions& options) {
   RigRecord record = baseRig(options.rig);
   const TouchSet touches = readTouches(options.observations);
   const MeasuredArm arm = armOf(record, touches, options.rig);
-  const ProofKind kind = options.session_check ? ProofKind::session_check
+  const VerificationKind kind = options.session_check ? VerificationKind::session_check
                          : record.procedure    ? proofKindOf(record.procedure->method)
-                                               : ProofKind::full;
+                                               : VerificationKind::full;
   const auto residuals = residualsOf(arm, touches.touches);
   refuseSeen(record, residuals, options.observations);
   const TargetErrors errors = targetErrors(residuals);
-  const Judgement judgement = judge(errors, kind);
+  const Assessment assessment = assess(errors, kind);
 
-  std::fputs(proofText(errors, judgement).c_str(), stderr);
-  if (options.session_check && judgement.verdict != Verdict::green)
+  std::fputs(proofText(errors, assessment).c_str(), stderr);
+  if (options.session_check && assessment.verdict != Verdict::green)
     std::fputs("molar: re-zero with five touches (molar calibrate rezero); if it stays so, calibrate anew\n", stderr);
-  if (options.json) std::fputs(proofJson(errors, judgement).c_str(), stdout);
+  if (options.json) std::fputs(proofJson(errors, assessment).c_str(), stdout);
   if (options.session_check) {
     options.keep.note(record, DriftKind::check, errors);
   } else {
     const RigRecord base = record;
     putProof(record, residuals, kind);
-    Measuring measuring;
-    measuring.operator_code = base.provenance.operator_code;
-    if (!base.provenance.rig_id.empty()) measuring.rig_id = base.provenance.rig_id;
-    stamp(record, base, measuring);
+    MeasurementInfo info;
+    info.operator_code = base.provenance.operator_code;
+    if (!base.provenance.rig_id.empty()) info.rig_id = base.provenance.rig_id;
+    stamp(record, base, info);
     options.keep.keep(record, touchesText(touches));
-    options.keep.note(record, judgement.verdict == Verdict::red ? DriftKind::check : DriftKind::calibration, errors);
+    options.keep.note(record, assessment.verdict == Verdict::red ? DriftKind::check : DriftKind::calibration, errors);
   }
-  return statusOf(judgement.verdict);
+  return statusOf(assessment.verdict);
 }
 
 void addOne(CommandLine& calibrate, bool session_check) {
@@ -85,7 +85,7 @@ void addOne(CommandLine& calibrate, bool session_check) {
   o->keep.addTo(command);
   if (session_check) {
     o->wizard.addTo(command);
-    addMeasuring(command, o->measuring);
+    addMeasurementInfo(command, o->info);
   }
   command.does([o] { return prove(*o); });
 }

@@ -17,14 +17,14 @@ using namespace calibration;
 struct RezeroOptions {
   std::string rig, observations, held_out;
   WizardOption wizard;
-  Measuring measuring;
+  MeasurementInfo info;
   KeepOption keep;
 };
 
 int rezero(const RezeroOptions& options) {
   if (options.wizard.isGiven())
-    return concluded(options.wizard.lead(CalibrationProcedure::rezero, "rezero5", options.rig, options.keep.rigs(),
-                                         options.measuring),
+    return conclude(options.wizard.guide(CalibrationProcedure::rezero, "rezero5", options.rig, options.keep.rigs(),
+                                         options.info),
                      options.keep);
   if (options.rig.empty() || options.observations.empty())
     throw UsageError("calibrate rezero: it needs a rig and touches, or a device (--device)");
@@ -40,17 +40,17 @@ int rezero(const RezeroOptions& options) {
   if (!options.held_out.empty()) {
     const TouchSet others = readTouches(options.held_out);
     armOf(base, others, options.rig);
-    putProof(record, residualsOf(done.arm, others.touches), ProofKind::session_check);
-    std::fputs(proofText(record.proof->errors, judge(record.proof->errors, ProofKind::session_check)).c_str(), stderr);
+    putProof(record, residualsOf(done.arm, others.touches), VerificationKind::session_check);
+    std::fputs(proofText(record.verification->errors, assess(record.verification->errors, VerificationKind::session_check)).c_str(), stderr);
   }
-  Measuring measuring = options.measuring;
-  if (!base.provenance.rig_id.empty()) measuring.rig_id = base.provenance.rig_id;
-  stamp(record, base, measuring);
+  MeasurementInfo info = options.info;
+  if (!base.provenance.rig_id.empty()) info.rig_id = base.provenance.rig_id;
+  stamp(record, base, info);
   options.keep.keep(record, touchesText(touches));
   options.keep.note(record, DriftKind::rezero, targetErrors(residualsOf(before, touches.touches)));
   // Until others are touched, what is left at its own touches is all there is to say.
-  return statusOf(record.proof ? record.proof->verdict
-                               : judge(targetErrors(done.residuals), ProofKind::session_check).verdict);
+  return statusOf(record.verification ? record.verification->verdict
+                               : assess(targetErrors(done.residuals), VerificationKind::session_check).verdict);
 }
 
 }  // namespace
@@ -62,7 +62,7 @@ void addCalibrateRezero(CommandLine& calibrate) {
   command.option("OBSERVATIONS", o->observations, "Touches, YAML");
   command.option("--held-out", o->held_out, "Four touches more, to prove it by").valueNamed("FILE");
   o->wizard.addTo(command);
-  addMeasuring(command, o->measuring);
+  addMeasurementInfo(command, o->info);
   o->keep.addTo(command);
   command.does([o] { return rezero(*o); });
 }

@@ -37,19 +37,19 @@ int simulate(const SimulateOptions& options) {
   if (!options.rig.empty()) rig_out = std::make_unique<calibration::OutputFile>(options.rig, options.force);
 
   SyntheticRig rig = syntheticRig(*scenarioNamed(options.scenario), options.seed);
-  rig.habits.outlier_share = options.outliers;
-  std::mt19937 chance(options.seed);
+  rig.technician.outlier_share = options.outliers;
+  std::mt19937 rng(options.seed);
   if (options.drift_deg > 0.0 || options.drift_mm > 0.0)
-    rig = drifted(rig, options.drift_deg, options.drift_mm, chance);
+    rig = drifted(rig, options.drift_deg, options.drift_mm, rng);
   rig.arm.truth.tip_H_mm += glm::dvec3(options.bur_mm[0], options.bur_mm[1], options.bur_mm[2]);
-  TouchSet touches = touchedAll(rig, *plan, chance);
+  TouchSet touches = simulatedTouches(rig, *plan, rng);
   touches.serial = rig.nominal.device->serial;
   touches.mount = rig.nominal.device->mount;
   touches.method = plan->method;
   if (held_out) {
     TouchSet judges = touches;
     judges.method = "held-out";
-    judges.touches = heldOut(rig, options.held_out_n, kHeldOutHalf_mm, chance);
+    judges.touches = heldOutTouches(rig, options.held_out_n, kHeldOutHalf_mm, rng);
     held_out->commit(touchesText(judges));
   }
   if (rig_out) rig_out->commit(rigText(rig.nominal));

@@ -22,15 +22,15 @@ struct StoreOptions {
   RigStore rigs() const { return storeAt(store); }
 };
 
-std::string textOf(const RigPlace& place) { return place.rig_id + " / " + place.serial + " / " + place.mount; }
+std::string textOf(const RigLocation& location) { return location.rig_id + " / " + location.serial + " / " + location.mount; }
 
-/// The one place that is meant.
-RigPlace placeMeant(const StoreOptions& options) {
-  std::vector<RigPlace> fits;
-  for (const RigPlace& place : options.rigs().places())
-    if (options.rig_id.value_or(place.rig_id) == place.rig_id &&
-        options.serial.value_or(place.serial) == place.serial && options.mount.value_or(place.mount) == place.mount)
-      fits.push_back(place);
+/// The one location that is meant.
+RigLocation placeMeant(const StoreOptions& options) {
+  std::vector<RigLocation> fits;
+  for (const RigLocation& location : options.rigs().locations())
+    if (options.rig_id.value_or(location.rig_id) == location.rig_id &&
+        options.serial.value_or(location.serial) == location.serial && options.mount.value_or(location.mount) == location.mount)
+      fits.push_back(location);
   if (fits.empty()) throw UsageError("calibrate: the store has no such rig, see molar calibrate list");
   if (fits.size() > 1)
     throw UsageError("calibrate: several rigs are meant (" + textOf(fits[0]) + ", " + textOf(fits[1]) +
@@ -39,9 +39,9 @@ RigPlace placeMeant(const StoreOptions& options) {
 }
 
 /// A spoilt pointer is said, and hides nothing of what is kept.
-std::optional<std::string> inForceOrSaid(const RigStore& rigs, const RigPlace& place) {
+std::optional<std::string> currentOrReport(const RigStore& rigs, const RigLocation& location) {
   try {
-    return rigs.currentName(place);
+    return rigs.currentName(location);
   } catch (const CalibrationError& error) {
     std::fprintf(stderr, "molar: %s\n", error.what());
     return std::nullopt;
@@ -50,20 +50,20 @@ std::optional<std::string> inForceOrSaid(const RigStore& rigs, const RigPlace& p
 
 int list(const StoreOptions& options) {
   const RigStore rigs = options.rigs();
-  for (const RigPlace& place : rigs.places()) {
-    std::printf("%s\n", textOf(place).c_str());
-    const auto current = inForceOrSaid(rigs, place);
-    for (const std::string& name : rigs.names(place)) {
+  for (const RigLocation& location : rigs.locations()) {
+    std::printf("%s\n", textOf(location).c_str());
+    const auto current = currentOrReport(rigs, location);
+    for (const std::string& name : rigs.names(location)) {
       std::string line;
       try {
-        line = recordLine(readRigRecord(rigs.pathOf(place, name).string()));
+        line = recordLine(readRigRecord(rigs.pathOf(location, name).string()));
       } catch (const CalibrationError& error) {
         line = std::string("can not be read: ") + error.what();
       }
       std::printf("  %s %s  %s\n", current == name ? "*" : " ", name.c_str(), line.c_str());
     }
   }
-  if (rigs.places().empty()) std::fputs("molar: nothing is kept yet\n", stderr);
+  if (rigs.locations().empty()) std::fputs("molar: nothing is kept yet\n", stderr);
   return 0;
 }
 
@@ -75,9 +75,9 @@ int diff(const StoreOptions& options) {
 }
 
 int rollBack(const StoreOptions& options) {
-  const RigPlace place = placeMeant(options);
-  const std::string name = options.rigs().rollBack(place);
-  std::fprintf(stderr, "molar: %s is in force again for %s\n", name.c_str(), textOf(place).c_str());
+  const RigLocation location = placeMeant(options);
+  const std::string name = options.rigs().rollBack(location);
+  std::fprintf(stderr, "molar: %s is in force again for %s\n", name.c_str(), textOf(location).c_str());
   return 0;
 }
 

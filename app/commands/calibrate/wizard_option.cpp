@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <utility>
 
-#include "app/calibrate/webcam_show.h"
-#include "app/calibrate/wizard_show.h"
+#include "app/calibrate/run_webcam.h"
+#include "app/calibrate/run_wizard.h"
 #include "app/device/practice_device.h"
 #include "app/options/view_option.h"
 #include "app/station/rig_choice.h"
@@ -24,7 +24,7 @@ volatile std::sig_atomic_t interrupted = 0;
 
 void tell(const std::string& line) { std::fprintf(stderr, "molar: %s\n", line.c_str()); }
 
-RigPlace placeOf(const Measuring& measuring) { return {measuring.rig_id, measuring.serial, measuring.mount}; }
+RigLocation placeOf(const MeasurementInfo& info) { return {info.rig_id, info.serial, info.mount}; }
 
 }  // namespace
 
@@ -50,13 +50,13 @@ void WizardOption::addCameraTo(CommandLine& command) {
   command.flag("--gray-code", gray_code_, "Stripes instead of a chessboard on the screen");
 }
 
-WizardOption::Stylus WizardOption::stylus(Measuring& measuring) const {
+WizardOption::Stylus WizardOption::stylus(MeasurementInfo& info) const {
   for (const int asked : {SIGINT, SIGTERM, SIGHUP}) std::signal(asked, [](int) { interrupted = 1; });
   Stylus stylus;
   stylus.practice = practiceRig(device_);
-  DeviceAtHand hand;
+  DeviceIdentity hand;
   if (stylus.practice) {
-    hand = deviceAtHand(device_, nullptr);
+    hand = deviceIdentity(device_, nullptr);
   } else if (robot_) {
     throw UsageError("--robot: it holds a practice stylus only, use --device practice:D");
   } else if (haptics::isDeviceAddress(device_)) {
@@ -64,7 +64,7 @@ WizardOption::Stylus WizardOption::stylus(Measuring& measuring) const {
     options.tell = tell;
     options.given_up = [] { return interrupted != 0; };
     stylus.opened = haptics::openDevice(device_, options);
-    hand = deviceAtHand(device_, &stylus.opened.device->capabilities());
+    hand = deviceIdentity(device_, &stylus.opened.device->capabilities());
     if (stylus.opened.device->capabilities().arm_model.empty())
       throw UsageError("--device " + device_ + ": the arm of a " + hand.model +
                        " is not known well enough to be calibrated; that of a Phantom or Touch is");
@@ -72,29 +72,29 @@ WizardOption::Stylus WizardOption::stylus(Measuring& measuring) const {
     throw UsageError("--device " + device_ + ": it has no stylus to touch with, use openhaptics[:NAME] or practice:D");
   }
   stylus.model = hand.model;
-  if (measuring.serial.empty()) measuring.serial = hand.serial;
+  if (info.serial.empty()) info.serial = hand.serial;
   return stylus;
 }
 
 /// What is believed before: as named, else the one in force of this device, else as the workstation is built.
 RigRecord WizardOption::before(const Stylus& stylus, const std::string& rig, const RigStore& store,
-                               const Measuring& measuring) const {
+                               const MeasurementInfo& info) const {
   RigRecord record;
   if (!rig.empty()) {
     record = baseRig(rig);
-  } else if (auto current = store.current(placeOf(measuring))) {
+  } else if (auto current = store.current(placeOf(info))) {
     record = *std::move(current);
   } else if (stylus.practice) {
     record.rig = stylus.practice->nominal;
   } else {
     record = baseRig("mirrored");
   }
-  if (record.provenance.rig_id.empty()) record.provenance.rig_id = measuring.rig_id;
+  if (record.provenance.rig_id.empty()) record.provenance.rig_id = info.rig_id;
   display_.refuseUnlessFits(record.rig);
   return record;
 }
 
-void WizardOption::prepare(LedRun& run, const Stylus& held) const {
+void WizardOption::prepare(GuidedRun& run, const Stylus& held) const {
   run.device = held.opened.device.get();
   run.practice = held.practice;
   run.windows = !headless_;
@@ -105,57 +105,57 @@ void WizardOption::prepare(LedRun& run, const Stylus& held) const {
   run.given_up = [] { return interrupted != 0; };
 }
 
-WizardOption::Led WizardOption::lead(CalibrationProcedure procedure, const std::string& method, const std::string& rig,
-                                     const RigStore& store, Measuring measuring) const {
-  const Stylus held = stylus(measuring);
+WizardOption::GuidedOutcome WizardOption::guide(CalibrationProcedure procedure, const std::string& method, const std::string& rig,
+                                     const RigStore& store, MeasurementInfo info) const {
+  const Stylus held = stylus(info);
   WizardRun run;
   run.plan.procedure = procedure;
   run.plan.method = method;
   run.plan.jig = jig;
   run.plan.rest_marks_mm = rest_marks_mm;
-  run.plan.device = {held.model, measuring.serial, measuring.mount, measuring.stylus_tip};
-  run.plan.record = before(held, rig, store, measuring);
+  run.plan.device = {held.model, info.serial, info.mount, info.stylus_tip};
+  run.plan.record = before(held, rig, store, info);
   prepare(run, held);
   if (run.device != nullptr) run.plan.has_inkwell = run.device->capabilities().has_inkwell;
   if (robot_) {
-    run.robot = TechnicianHabits{};
-    run.practice->habits.outlier_share = 0.0;
+    run.robot = TechnicianSettings{};
+    run.practice->technician.outlier_share = 0.0;
   }
   if (hurried_) run.plan.settle_s = 0.0;
   run.hurried = hurried_;
   run.pages = pages_;
-  Led led{run.plan, runWizard(run), measuring};
+  GuidedOutcome led{run.plan, runWizard(run), info};
   if (!led.outcome.reason.empty()) tell(led.outcome.reason);
   return led;
 }
 
-WizardOption::Seen WizardOption::look(const std::string& rig, const RigStore& store, Measuring measuring) const {
-  const Stylus held = stylus(measuring);
+WizardOption::Seen WizardOption::guideWebcam(const std::string& rig, const RigStore& store, MeasurementInfo info) const {
+  const Stylus held = stylus(info);
   Seen seen;
-  seen.before = before(held, rig, store, measuring);
+  seen.before = before(held, rig, store, info);
   WebcamRun run;
   run.plan.rig = seen.before.rig;
   run.plan.places = *targetPlan("webcam27");
   if (!lens_.empty()) run.plan.lens = readCamera(lens_).camera;
   run.plan.gray_code = gray_code_;
   run.plan.device_model = held.model;
-  run.plan.serial = measuring.serial;
-  run.plan.mount = measuring.mount;
-  const glm::ivec2 size_px = pictureSize(camera_size_);
-  OpenWebcam webcam;
+  run.plan.serial = info.serial;
+  run.plan.mount = info.mount;
+  const glm::ivec2 size_px = imageSize(camera_size_);
+  OpenedImageSource webcam;
   if (!camera_.empty()) {
-    WebcamWanted wanted;
+    WebcamSettings wanted;
     wanted.device = camera_;
     wanted.size_px = size_px;
-    webcam = openPictures(wanted);
-    if (!webcam.remarks.empty()) tell(webcam.pictures->name() + ": " + webcam.remarks);
-    run.pictures = webcam.pictures.get();
+    webcam = openImageSource(wanted);
+    if (!webcam.remarks.empty()) tell(webcam.images->name() + ": " + webcam.remarks);
+    run.images = webcam.images.get();
   }
   prepare(run, held);
   run.practice_px = size_px;
   run.robot = robot_;
   seen.observations = runWebcam(run);
-  seen.measuring = measuring;
+  seen.info = info;
   return seen;
 }
 

@@ -18,7 +18,7 @@ namespace app {
 
 class CommandLine;
 class Option;
-struct LedRun;
+struct GuidedRun;
 
 class WizardOption {
  public:
@@ -29,23 +29,23 @@ class WizardOption {
 
   bool isGiven() const { return !device_.empty(); }
 
-  struct Led {
+  struct GuidedOutcome {
     WizardPlan plan;
     WizardOutcome outcome;
-    Measuring measuring;  ///< with what the device says of itself
+    MeasurementInfo info;  ///< with what the device says of itself
   };
   /// Leads through touches. `rig`: named by the user, or empty: the current one of this device in the store, else the
   /// mirrored workstation. Throws as runWizard, readRigRecord.
-  Led lead(CalibrationProcedure procedure, const std::string& method, const std::string& rig,
-           const calibration::RigStore& store, Measuring measuring) const;
+  GuidedOutcome guide(CalibrationProcedure procedure, const std::string& method, const std::string& rig,
+           const calibration::RigStore& store, MeasurementInfo info) const;
 
   struct Seen {
     calibration::RigRecord before;
-    std::optional<calibration::WebcamObservations> observations;  ///< none: somebody left
-    Measuring measuring;
+    std::optional<calibration::WebcamObservationFile> observations;  ///< none: somebody left
+    MeasurementInfo info;
   };
   /// The same through a webcam.
-  Seen look(const std::string& rig, const calibration::RigStore& store, Measuring measuring) const;
+  Seen guideWebcam(const std::string& rig, const calibration::RigStore& store, MeasurementInfo info) const;
 
   calibration::JigPose jig;
   std::vector<glm::dvec3> rest_marks_mm;
@@ -56,11 +56,11 @@ class WizardOption {
     std::optional<calibration::SyntheticRig> practice;
     std::string model;  ///< key of phantom_models
   };
-  Stylus stylus(Measuring& measuring) const;
+  Stylus stylus(MeasurementInfo& info) const;
   /// What both ways of leading need; borrows the stylus.
-  void prepare(LedRun& run, const Stylus& held) const;
+  void prepare(GuidedRun& run, const Stylus& held) const;
   calibration::RigRecord before(const Stylus& stylus, const std::string& rig, const calibration::RigStore& store,
-                                const Measuring& measuring) const;
+                                const MeasurementInfo& info) const;
 
   std::string device_, pages_, camera_, lens_, camera_size_ = "1920x1080";
   DisplayOption display_;

@@ -32,12 +32,12 @@ void letGo(CheckBench& bench) {
     bench.hand.wait(kBetweenLooks);
 }
 
-PushingHand::Seen lookAtRest(CheckBench& bench) {
+ConstantForceLoop::Seen lookAtRest(CheckBench& bench) {
   int quiet = 0;
   std::uint64_t ticks = bench.hand.newest().ticks;
   for (int i = 0; i < kMostLooksAtRest && quiet < kQuietLooks; ++i) {
     bench.hand.wait(kBetweenLooks);
-    const PushingHand::Seen& seen = bench.hand.newest();
+    const ConstantForceLoop::Seen& seen = bench.hand.newest();
     // A device that has not ticked since has not come to rest.
     if (std::exchange(ticks, seen.ticks) == seen.ticks) continue;
     quiet = glm::length(seen.state.velocity_D_mm_per_s.xyz) < kAtRest_mm_per_s ? quiet + 1 : 0;

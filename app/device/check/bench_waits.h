@@ -11,7 +11,7 @@ bool pushUntilSteady(CheckBench& bench, const glm::dvec3& force_D_N);
 void letGo(CheckBench& bench);
 
 /// The state once the handle has come to rest, three seconds later at most.
-PushingHand::Seen lookAtRest(CheckBench& bench);
+ConstantForceLoop::Seen lookAtRest(CheckBench& bench);
 
 /// "+0.50, 0.00, 0.00 N"
 std::string newtons(const glm::dvec3& force_N);

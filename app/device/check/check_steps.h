@@ -6,7 +6,7 @@
 #include "app/device/check/dialogue.h"
 #include "app/device/check/force_scale_fit.h"
 #include "app/device/check/owner.h"
-#include "app/device/check/pushing_hand.h"
+#include "app/device/check/constant_force_loop.h"
 
 namespace app {
 
@@ -18,15 +18,15 @@ struct DeviceAxes {
 /// What every step works at.
 struct CheckBench {
   Dialogue& dialogue;
-  PushingHand& hand;
+  ConstantForceLoop& hand;
   Owner& owner;
   const haptics::DeviceCapabilities& device;
   DeviceAxes axes;
   CheckReport& report;
 
   /// True once the owner did it.
-  bool asked(HandTask task, const std::string& to_do) {
-    owner.told(task);
+  bool asked(OwnerTask task, const std::string& to_do) {
+    owner.perform(task);
     return dialogue.asked(to_do);
   }
   /// A line of the report, and what it proves where it is right.

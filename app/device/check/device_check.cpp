@@ -62,7 +62,7 @@ DeviceCheck checkDevice(haptics::ServedDevice served, const DeviceCheckPlan& pla
   check.report.device = served.device.capabilities();
   addFacts(check.report);
 
-  PushingHand hand(served, plan.rate_Hz);
+  ConstantForceLoop hand(served, plan.rate_Hz);
   hand.start();
   {
     const EmergencyExit emergency(hand);

@@ -6,7 +6,7 @@
 
 #include <fmt/core.h>
 
-#include "app/text/number_in.h"
+#include "app/text/parse_number.h"
 
 namespace app {
 
@@ -39,7 +39,7 @@ std::optional<char> Dialogue::choice(const std::string& question, std::string_vi
 std::optional<double> Dialogue::number(const std::string& question, double least, double most) {
   while (auto text = line("  " + question + " ")) {
     std::ranges::replace(*text, ',', '.');
-    if (const auto value = numberIn<double>(*text); value && *value >= least && *value <= most) return value;
+    if (const auto value = parseNumber<double>(*text); value && *value >= least && *value <= most) return value;
     say(fmt::format("  Give a number from {:g} to {:g}; q leaves.", least, most));
   }
   return {};

@@ -53,7 +53,7 @@ std::vector<Step> stepsOf(const CheckBench& bench) {
 bool checkForceSign(CheckBench& bench, bool& sign_is_right) {
   sign_is_right = true;
   if (!bench.asked(
-          HandTask::hold,
+          OwnerTask::hold,
           fmt::format("It will push with {:.1f} N, as much as 50 g weigh. Hold the handle loosely in the middle.",
                       within(bench, kSign_N))))
     return false;
@@ -61,7 +61,7 @@ bool checkForceSign(CheckBench& bench, bool& sign_is_right) {
     const glm::dvec3 axis_D = bench.axes.*side.axis;
     const glm::dvec3 before_mm = bench.hand.newest().state.X_DH.translation_mm;
     const bool steady = pushUntilSteady(bench, within(bench, kSign_N) * axis_D);
-    const PushingHand::Seen pushed = bench.hand.newest();
+    const ConstantForceLoop::Seen pushed = bench.hand.newest();
     const auto answer =
         bench.dialogue.choice("Which way does it push? r l u d t(owards you) a(way) n(othing):", "rludtan");
     letGo(bench);

@@ -20,12 +20,12 @@ std::string bitsOf(std::uint32_t buttons) { return buttons == 0 ? "none" : fmt::
 bool checkInkwell(CheckBench& bench) {
   if (!bench.device.has_inkwell) {
     bench.sawNone("inkwell");
-    return bench.asked(HandTask::hold, "Take the handle into your hand.");
+    return bench.asked(OwnerTask::hold, "Take the handle into your hand.");
   }
-  if (!bench.asked(HandTask::rest, "Put the stylus into its inkwell.")) return false;
-  const PushingHand::Seen inside = lookAtRest(bench);
-  if (!bench.asked(HandTask::hold, "Take it out and hold it in the middle of its room.")) return false;
-  const PushingHand::Seen outside = lookAtRest(bench);
+  if (!bench.asked(OwnerTask::rest, "Put the stylus into its inkwell.")) return false;
+  const ConstantForceLoop::Seen inside = lookAtRest(bench);
+  if (!bench.asked(OwnerTask::hold, "Take it out and hold it in the middle of its room.")) return false;
+  const ConstantForceLoop::Seen outside = lookAtRest(bench);
   bench.saw("inkwell says docked", "yes, then no", yesNo(inside.state.docked, outside.state.docked),
             inside.state.docked && !outside.state.docked, Proof::inkwell);
   const bool is_calibrated = outside.state.calibrated;
@@ -38,24 +38,24 @@ bool checkDeadman(CheckBench& bench) {
     bench.sawNone("deadman");
     return true;
   }
-  if (!bench.asked(HandTask::hold, "Hold the stylus as you would at work.")) return false;
+  if (!bench.asked(OwnerTask::hold, "Hold the stylus as you would at work.")) return false;
   const bool held = lookAtRest(bench).state.held;
-  if (!bench.asked(HandTask::let_go, "Let go of it.")) return false;
+  if (!bench.asked(OwnerTask::let_go, "Let go of it.")) return false;
   const bool left = lookAtRest(bench).state.held;
-  if (!bench.asked(HandTask::hold, "Hold it again.")) return false;
+  if (!bench.asked(OwnerTask::hold, "Hold it again.")) return false;
   bench.saw("deadman feels a hand", "yes, then no", yesNo(held, left), held && !left, Proof::deadman);
   return true;
 }
 
 bool checkButtons(CheckBench& bench) {
   const std::uint32_t before = bench.hand.newest().state.buttons;
-  if (!bench.asked(HandTask::first_button, "Hold the first button down.")) return false;
+  if (!bench.asked(OwnerTask::first_button, "Hold the first button down.")) return false;
   const std::uint32_t first = lookAtRest(bench).state.buttons;
-  if (!bench.asked(HandTask::second_button,
+  if (!bench.asked(OwnerTask::second_button,
                    "Hold the second button down, the first one not; if there is none, nothing."))
     return false;
   const std::uint32_t second = lookAtRest(bench).state.buttons;
-  if (!bench.asked(HandTask::hold, "Let the buttons go.")) return false;
+  if (!bench.asked(OwnerTask::hold, "Let the buttons go.")) return false;
   const bool is_right = before == 0 && first == 1 && (second == 2 || second == 0);
   bench.saw("buttons: free, first, second", "none, bits 1, bits 2",
             bitsOf(before) + ", " + bitsOf(first) + ", " + bitsOf(second), is_right);
@@ -63,13 +63,13 @@ bool checkButtons(CheckBench& bench) {
 }
 
 bool checkAxes(CheckBench& bench) {
-  if (!bench.asked(HandTask::upper_corner,
+  if (!bench.asked(OwnerTask::upper_corner,
                    "Bring the handle to the right, upward and towards you, as far as it goes easily."))
     return false;
   const glm::dvec3 upper_mm = lookAtRest(bench).state.X_DH.translation_mm;
-  if (!bench.asked(HandTask::lower_corner, "Now to the left, downward and away from you.")) return false;
+  if (!bench.asked(OwnerTask::lower_corner, "Now to the left, downward and away from you.")) return false;
   const glm::dvec3 lower_mm = lookAtRest(bench).state.X_DH.translation_mm;
-  if (!bench.asked(HandTask::hold, "Bring it back to the middle.")) return false;
+  if (!bench.asked(OwnerTask::hold, "Bring it back to the middle.")) return false;
   lookAtRest(bench);
 
   const glm::dvec3 way_mm = upper_mm - lower_mm;
@@ -94,7 +94,7 @@ bool checkRate(CheckBench& bench, double rate_Hz, double seconds) {
   bench.saw("rate", fmt::format("{:.0f} Hz", rate_Hz), fmt::format("{:.1f} Hz", found_Hz), is_right, Proof::rate);
   bench.saw("a tick wakes late", "under 1000 µs",
             fmt::format("{:.0f} µs in the middle, {:.0f} µs at 99 %, {:.0f} µs at worst, {} ticks missed",
-                        figures.late_p50_us, figures.late_p99_us, figures.latest_us, figures.missed),
+                        figures.late_p50_us, figures.late_p99_us, figures.late_max_us, figures.missed),
             figures.late_p99_us < 1000.0);
   return true;
 }

@@ -295,7 +295,7 @@ StoredStart packedAbout(SQLite::Database& database, std::int64_t schema) {
     start.grid.origin_P_mm[axis] = bone.getColumn(5 + axis).getDouble();
   }
   start.grid.spacing_mm = bone.getColumn(4).getDouble();
-  refuseUnlessUsable(start.grid);
+  refuseInvalidGrid(start.grid);
   if (schema >= 4) start.calibration = calibrationFrom(database);
   return start;
 }

@@ -15,23 +15,23 @@ hd::Enum HdCalibration::updateStyle() noexcept {
   return styles_ & hd::kInkwellCalibration;
 }
 
-bool HdCalibration::keepUp(const HdFunctions& hd, double rate_Hz) noexcept {
+bool HdCalibration::update(const HdFunctions& hd, double rate_Hz) noexcept {
   const bool reset_asked = reset_asked_.load(std::memory_order_relaxed);
-  if (--ticks_to_look_ > 0 && !reset_asked) return true;
+  if (--ticks_to_check_ > 0 && !reset_asked) return true;
   state_.store(hd.check_calibration(), std::memory_order_relaxed);
 
   // The pose jumps with the update, so this frame's is not believed.
-  ticks_to_look_ = 0;
+  ticks_to_check_ = 0;
   if (const hd::Enum style = updateStyle()) {
     hd.update_calibration(style);
     return false;
   }
   if (state_.load(std::memory_order_relaxed) != hd::kCalibrationOk) return false;
-  ticks_to_look_ = static_cast<int>(rate_Hz / kLooks_Hz);
+  ticks_to_check_ = static_cast<int>(rate_Hz / kLooks_Hz);
   return true;
 }
 
-std::string HdCalibration::whatItNeeds() const {
+std::string HdCalibration::requiredAction() const {
   const hd::Enum state = state_.load(std::memory_order_relaxed);
   if (state == hd::kCalibrationOk) return {};
   const bool by_hand = state == hd::kCalibrationNeedsManualInput;

@@ -75,7 +75,7 @@ DeviceTrouble troubleOf(std::uint32_t code) {
   }
 }
 
-std::string inWords(const hd::ErrorInfo& error) {
+std::string errorText(const hd::ErrorInfo& error) {
   char numbers[64];
   std::snprintf(numbers, sizeof numbers, "HD 0x%04X (internal %d)", error.code, error.internal_code);
   const HdErrorMeaning& meaning = meaningOf(error.code);
@@ -83,9 +83,9 @@ std::string inWords(const hd::ErrorInfo& error) {
 }
 
 HdDrained HdErrors::drain(const HdFunctions& hd) noexcept {
-  static_assert(kMeanings.size() < kMostCodes);
+  static_assert(kMeanings.size() < kMaxCodes);
   HdDrained drained;
-  while (drained.count < kMostADrain) {
+  while (drained.count < kMaxPerDrain) {
     const hd::ErrorInfo error = hd.get_error();
     if (error.code == hd::kSuccess) break;
     const bool fatal = meaningOf(error.code).kind == HdErrorKind::fatal;
@@ -116,7 +116,7 @@ hd::ErrorInfo HdErrors::firstFatal() const {
 void throwOnHdError(const HdFunctions& hd, const std::string& what) {
   HdErrors errors;
   const HdDrained drained = errors.drain(hd);
-  if (drained.count > 0) throw DeviceError(what + ", " + inWords(drained.first), troubleOf(drained.first.code));
+  if (drained.count > 0) throw DeviceError(what + ", " + errorText(drained.first), troubleOf(drained.first.code));
 }
 
 }  // namespace haptics

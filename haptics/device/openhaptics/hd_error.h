@@ -1,5 +1,5 @@
 // The vendor's errors in plain words with what to do, and the drain that empties the library's error stack once a frame
-// (reference/devices 2, Errors). drain(): the thread that owns the device, at most kMostADrain calls of the library, no
+// (reference/devices 2, Errors). drain(): the thread that owns the device, at most kMaxPerDrain calls of the library, no
 // allocation, no lock; everything else: any thread. Not a log: it counts, and keeps the first error that ended the
 // work.
 #pragma once
@@ -34,7 +34,7 @@ const HdErrorMeaning& meaningOf(std::uint32_t code);
 /// As the other back-ends name it.
 DeviceTrouble troubleOf(std::uint32_t code);
 /// "HD 0x0302 (internal 17): the connection to the device broke; …"
-std::string inWords(const hd::ErrorInfo& error);
+std::string errorText(const hd::ErrorInfo& error);
 
 /// What one look at the stack found.
 struct HdDrained {
@@ -45,7 +45,7 @@ struct HdDrained {
 
 class HdErrors {
  public:
-  static constexpr int kMostADrain = 16;
+  static constexpr int kMaxPerDrain = 16;
 
   HdDrained drain(const HdFunctions& hd) noexcept;
 
@@ -56,8 +56,8 @@ class HdErrors {
   hd::ErrorInfo firstFatal() const;
 
  private:
-  static constexpr std::size_t kMostCodes = 32;
-  std::array<std::atomic<std::uint32_t>, kMostCodes> counts_{};  ///< by place in hdErrorMeanings(), unknown ones last
+  static constexpr std::size_t kMaxCodes = 32;
+  std::array<std::atomic<std::uint32_t>, kMaxCodes> counts_{};  ///< by place in hdErrorMeanings(), unknown ones last
   std::atomic<std::uint32_t> all_{0};
   std::atomic<std::uint64_t> first_fatal_{0};  ///< code and internal code, in one word
 };

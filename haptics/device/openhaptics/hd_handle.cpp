@@ -11,7 +11,7 @@ namespace {
 constexpr double kSlowLooks_Hz = 10.0;
 
 /// Large enough for any property, zero where the library wrote nothing.
-using Room = std::array<double, kHdRoom>;
+using Room = std::array<double, kHdBufferSize>;
 
 glm::dvec3 three(const Room& room) { return {room[0], room[1], room[2]}; }
 
@@ -67,12 +67,12 @@ void HdHandle::readPlace(HandleState& state) noexcept {
 }
 
 void HdHandle::readSwitches(HandleState& state, bool sure) noexcept {
-  std::array<int, kHdRoom> pressed{};
+  std::array<int, kHdBufferSize> pressed{};
   if (readPart(buttons, [&] { hd_.get_integerv(hd::kCurrentButtons, pressed.data()); }))
     state.buttons = static_cast<std::uint32_t>(pressed[0]) & 0xFu;
   state.pedal = (state.buttons & pedal_buttons_) != 0;
 
-  std::array<hd::Boolean, kHdRoom> on{};
+  std::array<hd::Boolean, kHdBufferSize> on{};
   if (model_.has_deadman && readPart(safety_switch, [&] { hd_.get_booleanv(hd::kCurrentSafetySwitch, on.data()); }))
     state.held = on[0] != 0;
   on = {};
@@ -81,9 +81,9 @@ void HdHandle::readSwitches(HandleState& state, bool sure) noexcept {
 }
 
 void HdHandle::readSlowParts(double rate_Hz) noexcept {
-  if (--ticks_to_look_ > 0) return;
-  ticks_to_look_ = static_cast<int>(rate_Hz / kSlowLooks_Hz);
-  std::array<int, kHdRoom> measured{};
+  if (--ticks_to_check_ > 0) return;
+  ticks_to_check_ = static_cast<int>(rate_Hz / kSlowLooks_Hz);
+  std::array<int, kHdBufferSize> measured{};
   if (readPart(rate, [&] { hd_.get_integerv(hd::kInstantaneousUpdateRate, measured.data()); }))
     update_rate_Hz_.store(measured[0], std::memory_order_relaxed);
 

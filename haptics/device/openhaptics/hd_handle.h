@@ -19,7 +19,7 @@
 namespace haptics {
 
 /// What is given to the library to write into: no property of HDAPI is longer.
-inline constexpr std::size_t kHdRoom = 32;
+inline constexpr std::size_t kHdBufferSize = 32;
 
 /// What a model's name tells that the library does not.
 struct HdModel {
@@ -63,7 +63,7 @@ class HdHandle {
   calibration::Pose<calibration::Device, calibration::Handle> X_DH_;
   calibration::PhantomJoints joints_;
   double heat_ = 0.0;
-  int ticks_to_look_ = 0;
+  int ticks_to_check_ = 0;
   std::atomic<int> update_rate_Hz_{0};
 };
 

@@ -86,7 +86,7 @@ Opened openFirstOf(const std::vector<std::string>& files) {
     const char* text = dlerror();
     const std::string said = text ? text : "";
     const bool absent = said.starts_with(file + ": cannot open shared object file: No such file");
-    if (!absent && opened.why_not.empty()) opened.why_not = loadFailureInWords(file, said);
+    if (!absent && opened.why_not.empty()) opened.why_not = loadFailureText(file, said);
   }
   return opened;
 }
@@ -157,7 +157,7 @@ std::string nextStepFor(const std::string& part) {
 
 }  // namespace
 
-std::string loadFailureInWords(const std::string& file, const std::string& linker_text) {
+std::string loadFailureText(const std::string& file, const std::string& linker_text) {
   const std::string name = linker_text.substr(0, linker_text.find(": "));
   const bool is_part = linker_text.find(": cannot open shared object file") != std::string::npos && name != file;
   if (is_part) return "OpenHaptics, " + file + " needs " + name + ", which is not there: " + nextStepFor(name);

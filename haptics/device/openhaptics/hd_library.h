@@ -58,6 +58,6 @@ class HdLibrary {
 };
 
 /// What the system's linker said of a file that it could not load, in plain words with the next step.
-std::string loadFailureInWords(const std::string& file, const std::string& linker_text);
+std::string loadFailureText(const std::string& file, const std::string& linker_text);
 
 }  // namespace haptics

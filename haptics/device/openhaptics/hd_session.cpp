@@ -22,7 +22,7 @@ std::string text(const HdFunctions& hd, hd::Enum property) {
 
 /// What the library says, or `otherwise` where it does not know.
 double number(const HdFunctions& hd, hd::Enum property, double otherwise) {
-  std::array<double, kHdRoom> values{};
+  std::array<double, kHdBufferSize> values{};
   hd.get_doublev(property, values.data());
   HdErrors errors;
   const bool known = errors.drain(hd).count == 0 && std::isfinite(values[0]) && values[0] > 0.0;
@@ -30,14 +30,14 @@ double number(const HdFunctions& hd, hd::Enum property, double otherwise) {
 }
 
 int integer(const HdFunctions& hd, hd::Enum property, int otherwise) {
-  std::array<int, kHdRoom> values{};
+  std::array<int, kHdBufferSize> values{};
   hd.get_integerv(property, values.data());
   HdErrors errors;
   return errors.drain(hd).count == 0 ? values[0] : otherwise;
 }
 
 bool readWorkspace(const HdFunctions& hd, hd::Enum property, WorkspaceBox& box) {
-  std::array<double, kHdRoom> v{};
+  std::array<double, kHdBufferSize> v{};
   hd.get_doublev(property, v.data());
   HdErrors errors;
   const glm::dvec3 least(v[0], v[1], v[2]), most(v[3], v[4], v[5]);
@@ -60,7 +60,7 @@ HdSession::HdSession(const HdFunctions& hd, const std::string& configuration)
   if (id_ != hd::kNoDevice) close();
   throw DeviceError(
       name_ + ", " +
-          (drained.count > 0 ? inWords(drained.first)
+          (drained.count > 0 ? errorText(drained.first)
                              : std::string("it does not start and the library gives no reason; check cable, "
                                            "power and the configuration's name")),
       drained.count > 0 ? troubleOf(drained.first.code) : DeviceTrouble::not_there);
@@ -101,10 +101,10 @@ HdDescription describe(const HdFunctions& hd) {
   can.continuous_force_N =
       std::min(number(hd, hd::kNominalMaxContinuousForce, 0.25 * can.peak_force_N), can.peak_force_N);
   if (model.geometry) can.peak_joint_torque_Nmm = glm::dvec3(model.is_omni ? kJointTorqueInUse_Nmm : 0.0);
-  can.most_stiffness_N_per_mm = std::min(number(hd, hd::kNominalMaxStiffness, 0.4), kMostStiffness_N_per_mm);
-  can.most_damping_Ns_per_mm = std::min(number(hd, hd::kNominalMaxDamping, 0.004), kMostDamping_Ns_per_mm);
-  can.least_rate_Hz = 500.0;
-  can.most_rate_Hz = std::max(1000.0, static_cast<double>(integer(hd, hd::kUpdateRate, 1000)));
+  can.max_stiffness_N_per_mm = std::min(number(hd, hd::kNominalMaxStiffness, 0.4), kMostStiffness_N_per_mm);
+  can.max_damping_Ns_per_mm = std::min(number(hd, hd::kNominalMaxDamping, 0.004), kMostDamping_Ns_per_mm);
+  can.min_rate_Hz = 500.0;
+  can.max_rate_Hz = std::max(1000.0, static_cast<double>(integer(hd, hd::kUpdateRate, 1000)));
   if (!readWorkspace(hd, hd::kUsableWorkspace, can.workspace)) readWorkspace(hd, hd::kMaxWorkspace, can.workspace);
   return description;
 }

@@ -12,13 +12,13 @@ Inkwell::Inkwell(std::optional<bool> docked_value) {
   if (docked_value) sense_.store(*docked_value ? docked_when_true : docked_when_false);
 }
 
-bool Inkwell::isDocked(bool switch_value, const glm::dvec3& place_mm, bool place_is_sure) noexcept {
-  const bool goes_on = has_box_ && switch_value == value_ && glm::length(place_mm - last_mm_) <= kLongestStep_mm;
+bool Inkwell::isDocked(bool switch_value, const glm::dvec3& position_mm, bool place_is_sure) noexcept {
+  const bool goes_on = has_box_ && switch_value == value_ && glm::length(position_mm - last_mm_) <= kLongestStep_mm;
   value_ = switch_value;
   has_box_ = place_is_sure;
-  last_mm_ = place_mm;
-  least_mm_ = goes_on ? glm::min(least_mm_, place_mm) : place_mm;
-  most_mm_ = goes_on ? glm::max(most_mm_, place_mm) : place_mm;
+  last_mm_ = position_mm;
+  least_mm_ = goes_on ? glm::min(least_mm_, position_mm) : position_mm;
+  most_mm_ = goes_on ? glm::max(most_mm_, position_mm) : position_mm;
   if (place_is_sure && glm::length(most_mm_ - least_mm_) > kFreeTravel_mm)
     sense_.store(switch_value ? docked_when_false : docked_when_true, std::memory_order_relaxed);
 

@@ -17,8 +17,8 @@ class Inkwell {
   /// `docked_value`: what the switch shows of a docked stylus, when it is known.
   explicit Inkwell(std::optional<bool> docked_value = {});
 
-  /// Once a tick. `place_mm`: of the handle in any frame that stands still; not sure: it proves nothing.
-  bool isDocked(bool switch_value, const glm::dvec3& place_mm, bool place_is_sure) noexcept;
+  /// Once a tick. `position_mm`: of the handle in any frame that stands still; not sure: it proves nothing.
+  bool isDocked(bool switch_value, const glm::dvec3& position_mm, bool place_is_sure) noexcept;
 
   /// What the switch shows of a docked stylus, as set or learned.
   std::optional<bool> dockedValue() const;

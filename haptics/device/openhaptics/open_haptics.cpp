@@ -11,7 +11,7 @@ namespace haptics {
 namespace {
 
 /// Longest wait for the last frame; a scheduler that does not call is stopped without.
-constexpr auto kLongestGoodbye = std::chrono::milliseconds(500);
+constexpr auto kMaxShutdown = std::chrono::milliseconds(500);
 constexpr double kWarmFor_s = 1.0;  ///< how long one complaint of warm motors counts
 
 }  // namespace
@@ -38,17 +38,17 @@ void OpenHaptics::start(DeviceServo& servo, double rate_Hz) {
   assert(!started_);
   const DeviceCapabilities& can = capabilities();
   const std::string rate = std::to_string(std::lround(rate_Hz)) + " Hz";
-  if (!(rate_Hz >= can.least_rate_Hz && rate_Hz <= can.most_rate_Hz))
+  if (!(rate_Hz >= can.min_rate_Hz && rate_Hz <= can.max_rate_Hz))
     throw DeviceError(session_.name() + ", " + can.model + ": it is not served at " + rate + ", choose from " +
-                      std::to_string(std::lround(can.least_rate_Hz)) + " to " +
-                      std::to_string(std::lround(can.most_rate_Hz)) + " Hz");
+                      std::to_string(std::lround(can.min_rate_Hz)) + " to " +
+                      std::to_string(std::lround(can.max_rate_Hz)) + " Hz");
   if (!HdLibrary::claimScheduler())
     throw DeviceError(session_.name() + ": another device of OpenHaptics runs already, stop that one first",
                       DeviceTrouble::busy);
   has_scheduler_ = started_ = true;
   servo_ = &servo;
   rate_Hz_ = rate_Hz;
-  beat_ = CallbackBeat(rate_Hz);
+  timing_ = CallbackTiming(rate_Hz);
 
   hd_.make_current_device(session_.id());
   switchGuardsOn();
@@ -65,7 +65,7 @@ void OpenHaptics::start(DeviceServo& servo, double rate_Hz) {
 
 void OpenHaptics::awaitLastFrame() noexcept {
   phase_.store(Phase::leaving);
-  const auto until = std::chrono::steady_clock::now() + kLongestGoodbye;
+  const auto until = std::chrono::steady_clock::now() + kMaxShutdown;
   while (phase_.load() != Phase::over && std::chrono::steady_clock::now() < until)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
@@ -85,7 +85,7 @@ void OpenHaptics::stop() noexcept {
 }
 
 HandleState OpenHaptics::sense() noexcept {
-  const bool calibrated = calibration_.keepUp(hd_, rate_Hz_);
+  const bool calibrated = calibration_.update(hd_, rate_Hz_);
   HandleState state = handle_.read(calibrated, rate_Hz_);
   newest_joints_.publish(handle_.joints());
   if (warm_ticks_left_ > 0) {
@@ -140,16 +140,16 @@ unsigned OpenHaptics::serve() noexcept {
   if (!begun_) servo_->begin();
   begun_ = true;
 
-  Beat beat = beat_.next(monotonic_ns());
-  const std::uint32_t times_off = times_off_.load();
+  TickTiming timing = timing_.next(monotonic_ns());
+  const std::uint32_t times_off = off_requests_.load();
   hd_.begin_frame(session_.id());
   const HandleState state = sense();
-  beat.at_ns = monotonic_ns();
-  const MotorCommand command = servo_->tick(state, beat);
+  timing.at_ns = monotonic_ns();
+  const MotorCommand command = servo_->tick(state, timing);
   // Switched off since the last tick or while it was made, a command is void; so is one for a place not believed.
   const bool is_void =
-      times_off != times_off_obeyed_ || times_off_.load() != times_off || !state.calibrated || isDead();
-  times_off_obeyed_ = times_off;
+      times_off != off_requests_applied_ || off_requests_.load() != times_off || !state.calibrated || isDead();
+  off_requests_applied_ = times_off;
   drive(is_void ? MotorCommand{} : command);
   absorbErrors();
   return hd::kCallbackContinues;
@@ -157,9 +157,9 @@ unsigned OpenHaptics::serve() noexcept {
 
 std::string OpenHaptics::trouble() const {
   if (const hd::ErrorInfo fatal = errors_.firstFatal(); fatal.code != hd::kSuccess)
-    return session_.name() + ", " + inWords(fatal);
+    return session_.name() + ", " + errorText(fatal);
   if (phase_.load() != Phase::serving) return {};
-  const std::string need = calibration_.whatItNeeds();
+  const std::string need = calibration_.requiredAction();
   return need.empty() ? need : session_.name() + ", " + capabilities().model + ": " + need;
 }
 

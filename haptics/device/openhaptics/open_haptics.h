@@ -12,7 +12,7 @@
 #include <optional>
 #include <string>
 
-#include "haptics/device/openhaptics/callback_beat.h"
+#include "haptics/device/openhaptics/callback_timing.h"
 #include "haptics/device/openhaptics/hd_calibration.h"
 #include "haptics/device/openhaptics/hd_handle.h"
 #include "haptics/device/openhaptics/hd_session.h"
@@ -38,7 +38,7 @@ class OpenHaptics final : public HapticDevice {
   /// Throws DeviceError too when another device of OpenHaptics runs: the vendor's scheduler is one.
   void start(DeviceServo& servo, double rate_Hz) override;
   void stop() noexcept override;
-  void motorsOff() noexcept override { times_off_.fetch_add(1); }
+  void motorsOff() noexcept override { off_requests_.fetch_add(1); }
 
   /// Versions of library, driver and firmware.
   const HdDescription& description() const { return description_; }
@@ -81,13 +81,13 @@ class OpenHaptics final : public HapticDevice {
   // Of the scheduler's thread.
   DeviceServo* servo_ = nullptr;
   double rate_Hz_ = 1000.0;
-  CallbackBeat beat_{1000.0};
+  CallbackTiming timing_{1000.0};
   bool begun_ = false, motors_on_ = false;
-  std::uint32_t times_off_obeyed_ = 0;
+  std::uint32_t off_requests_applied_ = 0;
   int warm_ticks_left_ = 0;
 
   std::atomic<Phase> phase_{Phase::idle};
-  std::atomic<std::uint32_t> times_off_{0};
+  std::atomic<std::uint32_t> off_requests_{0};
   Latest<calibration::PhantomJoints> newest_joints_;
 };
 

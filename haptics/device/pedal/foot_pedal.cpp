@@ -105,7 +105,7 @@ FootPedal::FootPedal(const PedalChoice& choice, InputFolders folders) : choice_(
   for (const PedalBinding& binding : choice_.mapping) chosen_.push_back(switchOf(binding));
   wake_fd_ = eventfd(0, EFD_CLOEXEC);
   if (wake_fd_ < 0)
-    throw DeviceError("pedal: the system has no file handles left, close other programs", DeviceTrouble::no_means);
+    throw DeviceError("pedal: the system has no file handles left, close other programs", DeviceTrouble::no_resources);
   described_.reserve(kLastWords.size());
   describe("no pedal found yet");
   thread_ = std::thread([this] { run(); });

@@ -14,7 +14,7 @@ struct Pull {
   glm::dvec3 targetAfter(double t_s) const { return target_mm + velocity_mm_per_s * t_s; }
   /// On a hand at rest.
   glm::dvec3 onResting_N(const VirtualHand& hand, double t_s) const {
-    return force_N + hand.stiffness_N_per_mm * (targetAfter(t_s) - hand.place_mm) +
+    return force_N + hand.stiffness_N_per_mm * (targetAfter(t_s) - hand.position_mm) +
            hand.damping_Ns_per_mm * velocity_mm_per_s;
   }
 };

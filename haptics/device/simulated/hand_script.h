@@ -10,7 +10,7 @@
 namespace haptics {
 
 struct HandTarget {
-  glm::dvec3 place_mm{0.0};
+  glm::dvec3 position_mm{0.0};
   glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
   bool pedal = false;
   std::uint32_t buttons = 0;  ///< of the handle; bit 0: the first

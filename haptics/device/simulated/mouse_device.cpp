@@ -6,9 +6,9 @@
 namespace haptics {
 
 MouseDevice::MouseDevice(const MouseTarget& start) : target_(start), rotation_(start.X_DH.rotation) {
-  hand_.place_mm = start.X_DH.translation_mm;
+  hand_.position_mm = start.X_DH.translation_mm;
   capabilities_.model = "mouse";
-  capabilities_.damping_Ns_per_mm = hand_.dampingInAll_Ns_per_mm();
+  capabilities_.damping_Ns_per_mm = hand_.totalDamping_Ns_per_mm();
 }
 
 void MouseDevice::setTarget(const MouseTarget& target) {
@@ -23,7 +23,7 @@ HandleState MouseDevice::exchange(const Wrench<calibration::Device>& wrench_D, d
   // Turns with the time constant of the hand.
   rotation_ = glm::slerp(rotation_, glm::normalize(target.X_DH.rotation), 1.0 - std::exp(-30.0 * dt_s));
   HandleState state;
-  state.X_DH = {glm::normalize(rotation_), hand_.place_mm};
+  state.X_DH = {glm::normalize(rotation_), hand_.position_mm};
   state.velocity_D_mm_per_s.xyz = hand_.velocity_mm_per_s;
   state.pedal = target.pedal;
   return state;

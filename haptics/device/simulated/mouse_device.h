@@ -3,7 +3,7 @@
 // Latest. No allocation after construction. Not a force display: nobody feels it but the picture shows it.
 #pragma once
 
-#include "haptics/device/device_in_numbers.h"
+#include "haptics/device/simulated_device.h"
 #include "haptics/device/simulated/virtual_hand.h"
 #include "haptics/latest.h"
 
@@ -14,7 +14,7 @@ struct MouseTarget {
   bool pedal = false;
 };
 
-class MouseDevice final : public DeviceInNumbers {
+class MouseDevice final : public SimulatedDevice {
  public:
   explicit MouseDevice(const MouseTarget& start = {});
   ~MouseDevice() override { stop(); }

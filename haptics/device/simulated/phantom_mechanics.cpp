@@ -24,7 +24,7 @@ PhantomMechanics omni() {
   m.latency_ticks = 1;
   m.peak_force_N = 3.3, m.peak_joint_Nmm = 350.0, m.continuous_force_N = 0.88;
   m.rest_D = kOmniInkwell_D, m.has_inkwell = true;
-  m.most_stiffness_N_per_mm = 0.7, m.most_damping_Ns_per_mm = 0.005;
+  m.max_stiffness_N_per_mm = 0.7, m.max_damping_Ns_per_mm = 0.005;
   m.workspace = {kOmniReaches_mm[0], kOmniReaches_mm[1]};
   return m;
 }
@@ -32,7 +32,7 @@ PhantomMechanics omni() {
 PhantomMechanics touch() {
   PhantomMechanics m = omni();
   m.key = "touch", m.name = "Touch";
-  m.most_stiffness_N_per_mm = 0.4, m.most_damping_Ns_per_mm = 0.004;
+  m.max_stiffness_N_per_mm = 0.4, m.max_damping_Ns_per_mm = 0.004;
   return m;
 }
 
@@ -47,7 +47,7 @@ PhantomMechanics desktop() {
   m.latency_ticks = 1;
   m.peak_force_N = 7.9, m.peak_joint_Nmm = 350.0 * 7.9 / 3.3, m.continuous_force_N = 1.75;
   m.rest_D = kBelow_D, m.has_deadman = true;
-  m.most_stiffness_N_per_mm = 1.0, m.most_damping_Ns_per_mm = 0.005;
+  m.max_stiffness_N_per_mm = 1.0, m.max_damping_Ns_per_mm = 0.005;
   m.workspace = {{-80.0, -60.0, -60.0}, {80.0, 60.0, 60.0}};
   return m;
 }
@@ -62,7 +62,7 @@ PhantomMechanics premium() {
   m.latency_ticks = 0;
   m.peak_force_N = 8.5, m.peak_joint_Nmm = 8.5 * 209.55, m.continuous_force_N = 1.4;
   m.rest_D = kBelow_D;
-  m.most_stiffness_N_per_mm = 0.8, m.most_damping_Ns_per_mm = 0.005;
+  m.max_stiffness_N_per_mm = 0.8, m.max_damping_Ns_per_mm = 0.005;
   m.workspace = {{-190.5, -133.5, -95.5}, {190.5, 133.5, 95.5}};
   return m;
 }
@@ -70,7 +70,7 @@ PhantomMechanics premium() {
 }  // namespace
 
 Pose<Device, Handle> PhantomMechanics::rest_DH() const {
-  return handlePose(geometry, {armReaching(geometry, rest_D).value_or(glm::dvec3(0.0)), glm::dvec3(0.0)});
+  return handlePose(geometry, {armAnglesFor(geometry, rest_D).value_or(glm::dvec3(0.0)), glm::dvec3(0.0)});
 }
 
 const std::array<PhantomMechanics, 4>& simulatedPhantoms() {

@@ -29,7 +29,7 @@ struct PhantomMechanics {
   calibration::Point<calibration::Device> rest_D;  ///< where its handle lies before anybody takes it …
   bool has_inkwell = false;                        ///< … and this is there
   bool has_deadman = false;                        ///< feels whether a hand is on the handle
-  double most_stiffness_N_per_mm = 0.0, most_damping_Ns_per_mm = 0.0;
+  double max_stiffness_N_per_mm = 0.0, max_damping_Ns_per_mm = 0.0;
   WorkspaceBox workspace;
 
   /// Its handle at rest, straight in its gimbal.

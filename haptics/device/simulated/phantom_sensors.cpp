@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "calibration/chance.h"
+#include "calibration/random.h"
 #include "calibration/geometry/units.h"
 
 namespace haptics {
@@ -29,10 +29,10 @@ calibration::PhantomJoints PhantomSensors::sensed(const calibration::PhantomJoin
   return last_sensed_;
 }
 
-double PhantomSensors::turnedKnob(double angle_rad) noexcept {
+double PhantomSensors::readPotentiometer(double angle_rad) noexcept {
   if (!(sensing_.levels_per_turn > 0.0)) return angle_rad;
   const double level_rad = kTurn_rad / sensing_.levels_per_turn;
-  return std::round(angle_rad / level_rad + calibration::evenly(noise_, -0.5, 0.5)) * level_rad;
+  return std::round(angle_rad / level_rad + calibration::uniform(noise_, -0.5, 0.5)) * level_rad;
 }
 
 PhantomSensors::Reading PhantomSensors::read(const calibration::PhantomJoints& truth,
@@ -40,7 +40,7 @@ PhantomSensors::Reading PhantomSensors::read(const calibration::PhantomJoints& t
   const calibration::PhantomJoints there = sensed(truth);
   calibration::PhantomJoints seen;
   seen.arm_rad = counted(there.arm_rad, sensing_.counts_per_turn);
-  for (int axis = 0; axis < 3; ++axis) seen.wrist_rad[axis] = turnedKnob(there.wrist_rad[axis]);
+  for (int axis = 0; axis < 3; ++axis) seen.wrist_rad[axis] = readPotentiometer(there.wrist_rad[axis]);
 
   Reading reading;
   for (int axis = 0; axis < 3; ++axis) {
@@ -50,11 +50,11 @@ PhantomSensors::Reading PhantomSensors::read(const calibration::PhantomJoints& t
   reading.X_DH = handlePose(geometry_, seen);
   reading.jacobian_D_mm = armJacobian_mm(geometry_, seen.arm_rad);
   if (sensing_.velocity_cutoff_Hz > 0.0) {
-    const glm::dvec3 place_mm = reading.X_DH.translation_mm;
-    const glm::dvec3 difference = has_last_ && dt_s > 0.0 ? (place_mm - last_mm_) / dt_s : glm::dvec3(0.0);
+    const glm::dvec3 position_mm = reading.X_DH.translation_mm;
+    const glm::dvec3 difference = has_last_ && dt_s > 0.0 ? (position_mm - last_mm_) / dt_s : glm::dvec3(0.0);
     velocity_mm_per_s_ +=
         -std::expm1(-kTurn_rad * sensing_.velocity_cutoff_Hz * dt_s) * (difference - velocity_mm_per_s_);
-    last_mm_ = place_mm;
+    last_mm_ = position_mm;
     has_last_ = true;
     reading.velocity_D_mm_per_s.xyz = velocity_mm_per_s_;
   } else {

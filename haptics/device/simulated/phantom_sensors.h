@@ -8,7 +8,7 @@
 #include <optional>
 #include <random>
 
-#include "calibration/synthetic/untrue_arm.h"
+#include "calibration/synthetic/perturbed_arm.h"
 
 namespace haptics {
 
@@ -29,7 +29,7 @@ class PhantomSensors {
   };
 
   PhantomSensors(const calibration::PhantomGeometry& geometry, const PhantomSensing& sensing, std::uint32_t seed,
-                 const std::optional<calibration::UntrueArm>& untrue = std::nullopt)
+                 const std::optional<calibration::PerturbedArm>& untrue = std::nullopt)
       : geometry_(geometry), sensing_(sensing), untrue_(untrue), noise_(seed) {}
 
   /// `truth`: the angles at which an arm as its model would hold the handle where it truly is.
@@ -37,11 +37,11 @@ class PhantomSensors {
 
  private:
   calibration::PhantomJoints sensed(const calibration::PhantomJoints& truth) noexcept;
-  double turnedKnob(double angle_rad) noexcept;
+  double readPotentiometer(double angle_rad) noexcept;
 
   calibration::PhantomGeometry geometry_;
   PhantomSensing sensing_;
-  std::optional<calibration::UntrueArm> untrue_;
+  std::optional<calibration::PerturbedArm> untrue_;
   calibration::PhantomJoints last_sensed_;
   std::mt19937 noise_;
   glm::dvec3 last_mm_{0.0}, velocity_mm_per_s_{0.0};

@@ -26,7 +26,7 @@ class SimulatedHand {
   const Grip& grip() const { return grip_; }
   HandTarget at(double t_s) const {
     HandTarget target = script_(t_s);
-    if (target.grips) target.place_mm += tremor_.at(t_s);
+    if (target.grips) target.position_mm += tremor_.at(t_s);
     return target;
   }
 

@@ -25,9 +25,9 @@ void refuseUnlessPossible(const PhantomMechanics& m, const Grip& grip) {
                         m.continuous_force_N, m.heat_time_s})
     if (!(std::isfinite(number) && number > 0.0))
       throw DeviceError(name + ", one of its numbers is not positive, give it length, mass, force and time");
-  if (m.latency_ticks < 0 || m.latency_ticks > SimulatedPhantom::kMostLatency_ticks)
+  if (m.latency_ticks < 0 || m.latency_ticks > SimulatedPhantom::kMaxLatency_ticks)
     throw DeviceError(name + ", its latency is " + std::to_string(m.latency_ticks) + " ticks, give 0 to " +
-                      std::to_string(SimulatedPhantom::kMostLatency_ticks));
+                      std::to_string(SimulatedPhantom::kMaxLatency_ticks));
 }
 
 DeviceCapabilities capabilitiesOf(const PhantomMechanics& m, const Grip& grip, const PhantomUnit& unit) {
@@ -41,8 +41,8 @@ DeviceCapabilities capabilitiesOf(const PhantomMechanics& m, const Grip& grip, c
   can.peak_force_N = m.peak_force_N;
   can.continuous_force_N = m.continuous_force_N;
   can.peak_joint_torque_Nmm = glm::dvec3(m.peak_joint_Nmm);
-  can.most_stiffness_N_per_mm = m.most_stiffness_N_per_mm;
-  can.most_damping_Ns_per_mm = m.most_damping_Ns_per_mm;
+  can.max_stiffness_N_per_mm = m.max_stiffness_N_per_mm;
+  can.max_damping_Ns_per_mm = m.max_damping_Ns_per_mm;
   // With delay K < b / (T/2 + t) instead of 2 b / T (Gil, Hulin; reference/physics 2.5): as if it had less of it.
   can.damping_Ns_per_mm = (m.viscous_Ns_per_mm + grip.damping_Ns_per_mm) / (1.0 + 2.0 * m.latency_ticks);
   can.workspace = m.workspace;
@@ -60,14 +60,14 @@ SimulatedPhantom::SimulatedPhantom(const PhantomMechanics& mechanics, HandScript
             mechanics.heat_time_s),
       capabilities_(capabilitiesOf(mechanics, grip, unit)) {
   const HandTarget start = hand_.at(0.0);
-  const auto arm_rad = armReaching(mechanics_.geometry, {start.place_mm});
+  const auto arm_rad = armAnglesFor(mechanics_.geometry, {start.position_mm});
   if (!arm_rad)
     throw DeviceError(capabilities_.model + ", its arm does not reach where the hand starts, move it nearer");
   joints_.arm_rad = *arm_rad;
-  joints_.wrist_rad = calibration::wristTurnedTo(*arm_rad, start.rotation);
+  joints_.wrist_rad = calibration::wristAnglesFor(*arm_rad, start.rotation);
   turn(start);
-  rest_rad_ = armReaching(mechanics_.geometry, mechanics_.rest_D).value_or(*arm_rad);
-  handle_.place_mm = start.place_mm;
+  rest_rad_ = armAnglesFor(mechanics_.geometry, mechanics_.rest_D).value_or(*arm_rad);
+  handle_.position_mm = start.position_mm;
   handle_.friction_Ns_per_mm = mechanics_.viscous_Ns_per_mm;
   calibrated_ = !mechanics_.has_inkwell;
   dock(start);
@@ -100,9 +100,9 @@ HandleState SimulatedPhantom::exchange(const Wrench<Device>& wrench_D, double dt
 
 glm::dvec3 SimulatedPhantom::forceOfMotors_N(const glm::dvec3& asked_N, double dt_s) noexcept {
   // What was asked some ticks ago; nothing when that is no force.
-  on_its_way_N_[tick_ % on_its_way_N_.size()] = std::isfinite(glm::length(asked_N)) ? asked_N : glm::dvec3(0.0);
-  const std::size_t arrived = tick_ + on_its_way_N_.size() - static_cast<std::size_t>(mechanics_.latency_ticks);
-  glm::dvec3 force_N = on_its_way_N_[arrived % on_its_way_N_.size()];
+  delayed_N_[tick_ % delayed_N_.size()] = std::isfinite(glm::length(asked_N)) ? asked_N : glm::dvec3(0.0);
+  const std::size_t arrived = tick_ + delayed_N_.size() - static_cast<std::size_t>(mechanics_.latency_ticks);
+  glm::dvec3 force_N = delayed_N_[arrived % delayed_N_.size()];
   ++tick_;
 
   // Too warm, they give no more than they can for ever.
@@ -122,36 +122,36 @@ void SimulatedPhantom::move(const HandTarget& from, const HandTarget& to, double
   handle_.mass_kg = mechanics_.mass_kg + grip.mass_kg;
   handle_.stiffness_N_per_mm = grip.stiffness_N_per_mm;
   handle_.damping_Ns_per_mm = grip.damping_Ns_per_mm;
-  const glm::dvec3 before_mm = handle_.place_mm;
-  const glm::dvec3 goes_mm_per_s = to.grips && from.grips ? (to.place_mm - from.place_mm) / dt_s : glm::dvec3(0.0);
-  advanceWithDryFriction(handle_, mechanics_.dry_N, from.place_mm, goes_mm_per_s, pushed_N_, dt_s);
+  const glm::dvec3 before_mm = handle_.position_mm;
+  const glm::dvec3 goes_mm_per_s = to.grips && from.grips ? (to.position_mm - from.position_mm) / dt_s : glm::dvec3(0.0);
+  advanceWithDryFriction(handle_, mechanics_.dry_N, from.position_mm, goes_mm_per_s, pushed_N_, dt_s);
 
   // At its stops the arm stands where it last was.
-  if (const auto arm_rad = armReaching(mechanics_.geometry, {handle_.place_mm})) {
+  if (const auto arm_rad = armAnglesFor(mechanics_.geometry, {handle_.position_mm})) {
     joints_.arm_rad = *arm_rad;
   } else {
-    handle_.place_mm = before_mm;
+    handle_.position_mm = before_mm;
     handle_.velocity_mm_per_s = glm::dvec3(0.0);
   }
 }
 
 void SimulatedPhantom::turn(const HandTarget& to) noexcept {
   if (!to.grips) return;
-  const glm::dvec3 wanted_rad = calibration::wristTurnedTo(joints_.arm_rad, to.rotation);
+  const glm::dvec3 wanted_rad = calibration::wristAnglesFor(joints_.arm_rad, to.rotation);
   for (int axis = 0; axis < 3; ++axis) {
     const calibration::AngleRange& range = mechanics_.geometry.wrist[static_cast<std::size_t>(axis)];
-    joints_.wrist_rad[axis] = std::clamp(wanted_rad[axis], range.least_rad, range.most_rad);
+    joints_.wrist_rad[axis] = std::clamp(wanted_rad[axis], range.min_rad, range.max_rad);
   }
 }
 
 void SimulatedPhantom::dock(const HandTarget& to) noexcept {
   if (!mechanics_.has_inkwell) return;
-  const double away_mm = glm::distance(handle_.place_mm, mechanics_.rest_D.mm);
+  const double away_mm = glm::distance(handle_.position_mm, mechanics_.rest_D.mm);
   docked_ = away_mm < (docked_ ? kUndocks_mm : kDocks_mm);
   calibrated_ = calibrated_ || docked_;
   // The well takes what is left in it.
   if (!docked_ || to.grips) return;
-  handle_.place_mm = mechanics_.rest_D.mm;
+  handle_.position_mm = mechanics_.rest_D.mm;
   handle_.velocity_mm_per_s = glm::dvec3(0.0);
   joints_.arm_rad = rest_rad_;
 }

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "haptics/device/device_in_numbers.h"
+#include "haptics/device/simulated_device.h"
 #include "haptics/device/simulated/motor_heat.h"
 #include "haptics/device/simulated/phantom_mechanics.h"
 #include "haptics/device/simulated/phantom_sensors.h"
@@ -21,12 +21,12 @@ namespace haptics {
 /// What one unit has of its own.
 struct PhantomUnit {
   std::string serial;
-  std::optional<calibration::UntrueArm> untrue;  ///< none: as its model
+  std::optional<calibration::PerturbedArm> untrue;  ///< none: as its model
 };
 
-class SimulatedPhantom final : public DeviceInNumbers {
+class SimulatedPhantom final : public SimulatedDevice {
  public:
-  static constexpr int kMostLatency_ticks = 15;
+  static constexpr int kMaxLatency_ticks = 15;
 
   /// Throws DeviceError when a number can not be, or the script starts where the arm does not reach.
   SimulatedPhantom(const PhantomMechanics& mechanics, HandScript script, const Grip& grip = {}, std::uint32_t seed = 1,
@@ -56,7 +56,7 @@ class SimulatedPhantom final : public DeviceInNumbers {
   DeviceCapabilities capabilities_;
   calibration::PhantomJoints joints_;
   glm::dvec3 rest_rad_{0.0};
-  std::array<glm::dvec3, kMostLatency_ticks + 1> on_its_way_N_{};
+  std::array<glm::dvec3, kMaxLatency_ticks + 1> delayed_N_{};
   std::size_t tick_ = 0;
   glm::dvec3 pushed_N_{0.0};
   double t_s_ = 0.0;

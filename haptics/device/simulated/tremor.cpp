@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "calibration/chance.h"
+#include "calibration/random.h"
 
 namespace haptics {
 namespace {
@@ -16,8 +16,8 @@ Tremor::Tremor(double rms_mm, std::uint32_t seed) : height_mm_(rms_mm * std::sqr
   std::mt19937 random(seed);
   for (auto& axis : waves_)
     for (Wave& wave : axis)
-      wave = {2.0 * calibration::kPi * calibration::evenly(random, kSlowest_Hz, kFastest_Hz),
-              calibration::evenly(random, 0.0, 2.0 * calibration::kPi)};
+      wave = {2.0 * calibration::kPi * calibration::uniform(random, kSlowest_Hz, kFastest_Hz),
+              calibration::uniform(random, 0.0, 2.0 * calibration::kPi)};
 }
 
 glm::dvec3 Tremor::at(double t_s) const {

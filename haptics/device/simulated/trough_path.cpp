@@ -18,11 +18,11 @@ bool positive(double x) { return std::isfinite(x) && x > 0.0; }
 
 }  // namespace
 
-TroughPath::TroughPath(const assets::PlannedCut& cut, const CuttingManner& manner,
+TroughPath::TroughPath(const assets::PlannedCut& cut, const CuttingMotion& manner,
                        const calibration::Pose<calibration::Device, calibration::Patient>& X_DP)
     : cut_(cut), manner_(manner), middle_D_mm_((X_DP * calibration::Point<calibration::Patient>{cut.middle_P_mm}).mm) {
   const glm::dvec3 outward_D = X_DP.rotation * cut.outward_P;
-  const glm::dvec3 across = glm::cross(outward_D, X_DP.rotation * cut.aside_P);
+  const glm::dvec3 across = glm::cross(outward_D, X_DP.rotation * cut.lateral_P);
   const double area = glm::length(across);
   if (!(std::isfinite(glm::length(middle_D_mm_)) && std::isfinite(area) && area > 1e-6))
     throw DeviceError("scripted hand, its site or directions are not usable, give finite ones that are not parallel");

@@ -12,7 +12,7 @@
 namespace haptics {
 
 /// How the hand goes about it.
-struct CuttingManner {
+struct CuttingMotion {
   glm::dvec3 shaft_P{0.0};       ///< from bur to handle; zero: outward, tilted to the cheek
   double speed_mm_per_s = 12.0;  ///< along the line
   double clearance_mm = 15.0;    ///< height of the bur above the bone before and after
@@ -21,7 +21,7 @@ struct CuttingManner {
 class TroughPath {
  public:
   /// Throws DeviceError when the cut is not finite, has no direction, or has sizes that are not positive.
-  explicit TroughPath(const assets::PlannedCut& cut, const CuttingManner& manner = {},
+  explicit TroughPath(const assets::PlannedCut& cut, const CuttingMotion& manner = {},
                       const calibration::Pose<calibration::Device, calibration::Patient>& X_DP = {});
 
   HandTarget at(double t_s) const;
@@ -30,7 +30,7 @@ class TroughPath {
 
  private:
   assets::PlannedCut cut_;
-  CuttingManner manner_;
+  CuttingMotion manner_;
   glm::dvec3 middle_D_mm_, outward_, along_;
   glm::dquat rotation_;
   int deepening_passes_ = 0, passes_ = 0;

@@ -33,15 +33,15 @@ void VirtualHand::advance(const glm::dvec3& target_mm, const glm::dvec3& target_
     return;
   // N/mm and N s/mm over kg, in 1/s^2 and 1/s.
   const double per_kg = 1000.0 / mass_kg;
-  const double a = 0.5 * per_kg * dampingInAll_Ns_per_mm(), w2 = per_kg * stiffness_N_per_mm;
+  const double a = 0.5 * per_kg * totalDamping_Ns_per_mm(), w2 = per_kg * stiffness_N_per_mm;
   const glm::dvec3 push_N = force_N - friction_Ns_per_mm * target_velocity_mm_per_s;
   const glm::dvec3 drift = velocity_mm_per_s - target_velocity_mm_per_s;
 
   if (stiffness_N_per_mm > 0.0) {
     // About where target and force balance.
     const Response to = responseAfter(a, w2, dt_s);
-    const glm::dvec3 rest_mm = target_mm + push_N / stiffness_N_per_mm, away = place_mm - rest_mm;
-    place_mm = rest_mm + target_velocity_mm_per_s * dt_s + to.place_of_place * away + to.place_of_velocity * drift;
+    const glm::dvec3 rest_mm = target_mm + push_N / stiffness_N_per_mm, away = position_mm - rest_mm;
+    position_mm = rest_mm + target_velocity_mm_per_s * dt_s + to.place_of_place * away + to.place_of_velocity * drift;
     velocity_mm_per_s = target_velocity_mm_per_s + to.velocity_of_place * away + to.velocity_of_velocity * drift;
     return;
   }
@@ -49,7 +49,7 @@ void VirtualHand::advance(const glm::dvec3& target_mm, const glm::dvec3& target_
   const glm::dvec3 thrust = per_kg * push_N;
   const double d = 2.0 * a, fallen = d > 0.0 ? -std::expm1(-d * dt_s) / d : dt_s;
   const double left = d > 0.0 ? (dt_s - fallen) / d : 0.5 * dt_s * dt_s;
-  place_mm += target_velocity_mm_per_s * dt_s + fallen * drift + left * thrust;
+  position_mm += target_velocity_mm_per_s * dt_s + fallen * drift + left * thrust;
   velocity_mm_per_s = target_velocity_mm_per_s + (1.0 - d * fallen) * drift + fallen * thrust;
 }
 

@@ -20,10 +20,10 @@ struct VirtualHand {
   double stiffness_N_per_mm = 0.5;
   double damping_Ns_per_mm = criticalDamping_Ns_per_mm(0.1, 0.5);  ///< of the grip
   double friction_Ns_per_mm = 0.0;                                 ///< of the device it holds, against the ground
-  glm::dvec3 place_mm{0.0};
+  glm::dvec3 position_mm{0.0};
   glm::dvec3 velocity_mm_per_s{0.0};
 
-  double dampingInAll_Ns_per_mm() const { return damping_Ns_per_mm + friction_Ns_per_mm; }
+  double totalDamping_Ns_per_mm() const { return damping_Ns_per_mm + friction_Ns_per_mm; }
 
   /// Moves by `dt_s` towards a target that itself moves at `target_velocity`, pushed by `force_N`.
   void advance(const glm::dvec3& target_mm, const glm::dvec3& target_velocity_mm_per_s, const glm::dvec3& force_N,

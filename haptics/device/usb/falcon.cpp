@@ -42,9 +42,9 @@ DeviceCapabilities capabilitiesOf(const FalconForceScale& scale, const std::stri
   can.peak_force_N = falconPeakForce_N(scale);
   can.continuous_force_N = kContinuousShare * can.peak_force_N;
   can.peak_joint_torque_Nmm = glm::dvec3(falconPeakTorque_Nmm(scale));
-  can.most_stiffness_N_per_mm = 3.0;  // reference/product, device reality
-  can.least_rate_Hz = 500.0;
-  can.most_rate_Hz = 1000.0;  // a packet each way through a bridge that hands over once a millisecond
+  can.max_stiffness_N_per_mm = 3.0;  // reference/product, device reality
+  can.min_rate_Hz = 500.0;
+  can.max_rate_Hz = 1000.0;  // a packet each way through a bridge that hands over once a millisecond
   can.workspace = {{-50.0, -50.0, 75.0}, {50.0, 50.0, 165.0}};
   return can;
 }
@@ -53,7 +53,7 @@ UsbStream falconStream(int servo_priority) {
   UsbStream stream;
   stream.priority = usbPriority(servo_priority);
   stream.reader = [line = FalconStream()](std::span<const std::uint8_t> transfer) mutable -> std::optional<UsbReport> {
-    std::array<std::uint8_t, UsbReport::kMostBytes> payload;
+    std::array<std::uint8_t, UsbReport::kMaxBytes> payload;
     if (transfer.size() > payload.size()) return {};
     const auto packet = line.take(std::span(payload).first(ftdiPayload(transfer, payload)));
     return packet ? std::optional(UsbReport(*packet)) : std::nullopt;
@@ -180,7 +180,7 @@ std::array<int, 3> Falcon::wordsFor(const MotorCommand& command) const noexcept 
   glm::dvec3 words = -scale_.words_per_Nmm * (glm::transpose(state_.jacobian_D_mm) * command.wrench_D().force_N.xyz);
   if (!std::isfinite(glm::length(words))) return {};
   const double largest = glm::max(std::abs(words.x), glm::max(std::abs(words.y), std::abs(words.z)));
-  const double most = falconMostWord(scale_);
+  const double most = falconMaxWord(scale_);
   if (largest > most) words *= most / largest;
   const auto whole = [](double word) { return static_cast<int>(std::trunc(word)); };
   return {whole(words.x), whole(words.y), whole(words.z)};

@@ -22,12 +22,12 @@ constexpr double kMostMisfit = 0.15;
 
 FalconForceScale weighed(const FalconForceScale& used, std::span<const FalconWeighing> readings) {
   if (readings.size() < 3) refuse("fewer than three readings");
-  double asked_asked = 0.0, asked_shown = 0.0, heaviest_N = 0.0;
+  double asked_asked = 0.0, asked_shown = 0.0, max_weighed_N = 0.0;
   for (const FalconWeighing& reading : readings) {
     if (!std::isfinite(reading.asked_N) || !std::isfinite(reading.shown_N)) refuse("a reading is not a number");
     asked_asked += reading.asked_N * reading.asked_N;
     asked_shown += reading.asked_N * reading.shown_N;
-    heaviest_N = std::max(heaviest_N, std::abs(reading.shown_N));
+    max_weighed_N = std::max(max_weighed_N, std::abs(reading.shown_N));
   }
 
   // shown = gain * asked, least squares through no force.
@@ -35,12 +35,12 @@ FalconForceScale weighed(const FalconForceScale& used, std::span<const FalconWei
   if (gain < 0.0) refuse("it pulls where it should push");
   if (!(gain > 0.0)) refuse("the scale showed no force");
   for (const FalconWeighing& reading : readings)
-    if (std::abs(reading.shown_N - gain * reading.asked_N) > kMostMisfit * heaviest_N)
+    if (std::abs(reading.shown_N - gain * reading.asked_N) > kMostMisfit * max_weighed_N)
       refuse("the readings do not lie on one line");
 
   FalconForceScale scale = used;
   scale.words_per_Nmm = used.words_per_Nmm / gain;
-  scale.heaviest_N = heaviest_N;
+  scale.max_weighed_N = max_weighed_N;
   check(scale);
   return scale;
 }
@@ -48,19 +48,19 @@ FalconForceScale weighed(const FalconForceScale& used, std::span<const FalconWei
 void check(const FalconForceScale& scale) {
   if (!(scale.words_per_Nmm >= 2.0 && scale.words_per_Nmm <= 50.0))
     refuse("its words per N mm are not between 2 and 50");
-  if (!(scale.heaviest_N == 0.0 || (scale.heaviest_N >= 0.2 && scale.heaviest_N <= 10.0)))
+  if (!(scale.max_weighed_N == 0.0 || (scale.max_weighed_N >= 0.2 && scale.max_weighed_N <= 10.0)))
     refuse("its heaviest reading is not between 0.2 and 10 N");
 }
 
 double falconPeakForce_N(const FalconForceScale& scale) {
-  return scale.isWeighed() ? std::min(kBeyondWeighed * scale.heaviest_N, kMakersPeak_N) : kUnweighedPeak_N;
+  return scale.isWeighed() ? std::min(kBeyondWeighed * scale.max_weighed_N, kMakersPeak_N) : kUnweighedPeak_N;
 }
 
-int falconMostWord(const FalconForceScale& scale) {
-  return static_cast<int>(kMostFalconMotorWord * (scale.isWeighed() ? 1.0 : kUnweighedShare));
+int falconMaxWord(const FalconForceScale& scale) {
+  return static_cast<int>(kMaxFalconMotorWord * (scale.isWeighed() ? 1.0 : kUnweighedShare));
 }
 
-double falconPeakTorque_Nmm(const FalconForceScale& scale) { return falconMostWord(scale) / scale.words_per_Nmm; }
+double falconPeakTorque_Nmm(const FalconForceScale& scale) { return falconMaxWord(scale) / scale.words_per_Nmm; }
 
 std::string falconForceAdvice(const FalconForceScale& scale) {
   if (scale.isWeighed()) return {};

@@ -15,10 +15,10 @@ namespace haptics {
 
 struct FalconForceScale {
   double words_per_Nmm = 10.0;  ///< positive; public code's guess
-  double heaviest_N = 0.0;      ///< the largest force that a scale has confirmed; 0: never weighed
+  double max_weighed_N = 0.0;      ///< the largest force that a scale has confirmed; 0: never weighed
   std::string serial;           ///< of the unit that was weighed; empty: not known
 
-  bool isWeighed() const { return heaviest_N > 0.0; }
+  bool isWeighed() const { return max_weighed_N > 0.0; }
 };
 
 /// One reading: what the program asked for, and what the scale showed along it.
@@ -35,7 +35,7 @@ void check(const FalconForceScale& scale);
 
 /// What it allows: a tenth of the motors' range before weighing, then three times what was weighed, never above 8 N.
 double falconPeakForce_N(const FalconForceScale& scale);
-int falconMostWord(const FalconForceScale& scale);
+int falconMaxWord(const FalconForceScale& scale);
 double falconPeakTorque_Nmm(const FalconForceScale& scale);
 
 /// The next step for its owner, one sentence; empty once it is weighed.

@@ -9,7 +9,7 @@
 namespace haptics {
 namespace {
 
-constexpr std::uintmax_t kLeastBytes = 1024, kMostBytes = 64 * 1024;
+constexpr std::uintmax_t kLeastBytes = 1024, kMaxBytes = 64 * 1024;
 
 }  // namespace
 
@@ -23,7 +23,7 @@ std::vector<std::uint8_t> readFalconProgram(const std::filesystem::path& file) {
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   if (error) throw DeviceError(where + "its size can not be read, check the disk", DeviceTrouble::no_driver);
   if (size == 0) throw DeviceError(where + "empty, copy it again", DeviceTrouble::no_driver);
-  if (size < kLeastBytes || size > kMostBytes || size % 2 != 0)
+  if (size < kLeastBytes || size > kMaxBytes || size % 2 != 0)
     throw DeviceError(where + std::to_string(size) +
                       " bytes, a firmware has an even number from 1 to 64 KiB, give the right file");
   std::ifstream stream(file, std::ios::binary);

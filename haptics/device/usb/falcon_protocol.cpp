@@ -18,7 +18,7 @@ FalconPacket encoded(const FalconCommand& command) noexcept {
   packet.front() = kBegin;
   packet.back() = kEnd;
   for (std::size_t motor = 0; motor < 3; ++motor) {
-    const int word = std::clamp(command.motor_words[motor], -kMostFalconMotorWord, kMostFalconMotorWord);
+    const int word = std::clamp(command.motor_words[motor], -kMaxFalconMotorWord, kMaxFalconMotorWord);
     const unsigned bits = static_cast<unsigned>(word) & 0xFFFFu;
     for (std::size_t nibble = 0; nibble < 4; ++nibble)
       packet[1 + 4 * motor + nibble] = letter(bits >> (4 * nibble) & 0xFu);

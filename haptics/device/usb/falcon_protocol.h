@@ -15,7 +15,7 @@ namespace haptics {
 
 inline constexpr std::uint16_t kFalconVendor = 0x0403, kFalconProduct = 0xCB48;
 inline constexpr std::uint8_t kFalconIn = 0x81, kFalconOut = 0x02;
-inline constexpr int kMostFalconMotorWord = 4096;
+inline constexpr int kMaxFalconMotorWord = 4096;
 
 using FalconPacket = std::array<std::uint8_t, 16>;
 

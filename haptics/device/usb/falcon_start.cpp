@@ -58,7 +58,7 @@ void listenFor(UsbTransport& usb, FalconLoader& loader) {
 }
 
 /// Empty when the program is there, else what went wrong.
-std::string converse(UsbTransport& usb, FalconLoader& loader, const FalconTell& tell) {
+std::string converse(UsbTransport& usb, FalconLoader& loader, const FalconProgress& tell) {
   for (;;) {
     switch (loader.ask()) {
       case FalconLoader::Ask::request:
@@ -106,7 +106,7 @@ bool falconRuns(UsbTransport& usb) {
   return false;
 }
 
-void loadFalcon(UsbTransport& usb, std::span<const std::uint8_t> program, const FalconTell& tell, int greetings) {
+void loadFalcon(UsbTransport& usb, std::span<const std::uint8_t> program, const FalconProgress& tell, int greetings) {
   std::string trouble;
   for (int attempt = 0; attempt < kMostLoads; ++attempt) {
     FalconLoader loader(program, greetings);

@@ -12,12 +12,12 @@ namespace haptics {
 class UsbTransport;
 
 /// Progress for a person, and the share done, 0..1. False: give up.
-using FalconTell = std::function<bool(const std::string& words, double share)>;
+using FalconProgress = std::function<bool(const std::string& words, double share)>;
 
 /// True when run packets are answered. Sends packets without force only.
 bool falconRuns(UsbTransport& usb);
 
 /// Throws DeviceError when the unit does not take the program, is unplugged, or `tell` gives up.
-void loadFalcon(UsbTransport& usb, std::span<const std::uint8_t> program, const FalconTell& tell, int greetings = 100);
+void loadFalcon(UsbTransport& usb, std::span<const std::uint8_t> program, const FalconProgress& tell, int greetings = 100);
 
 }  // namespace haptics

@@ -6,7 +6,7 @@ namespace haptics {
 OpenedDevice openWooden(const std::string& place, const DeviceOptions& options) {
   WoodenSettings settings = woodenAddressed("wooden:" + place).value();
   settings.servo_priority = options.servo_priority;
-  settings.tell = [goes_on = waitingWords(options)](const std::string& words) {
+  settings.tell = [goes_on = waitPrompt(options)](const std::string& words) {
     return goes_on(words) ? HomingAnswer::wait : HomingAnswer::give_up;
   };
   OpenedDevice opened;

@@ -60,7 +60,7 @@ int PresenceMonitor::Watch::onHotplug(libusb_context*, libusb_device* device, li
 PresenceMonitor::Watch::Watch(PresenceListener heard) : listener(std::move(heard)) {
   if (libusb_init(&context) != 0)
     throw DeviceError("USB: libusb does not start, look whether this user may read /dev/bus/usb",
-                      DeviceTrouble::no_means);
+                      DeviceTrouble::no_resources);
   const int events = LIBUSB_HOTPLUG_EVENT_DEVICE_ARRIVED | LIBUSB_HOTPLUG_EVENT_DEVICE_LEFT;
   const int error =
       libusb_hotplug_register_callback(context, events, LIBUSB_HOTPLUG_ENUMERATE, LIBUSB_HOTPLUG_MATCH_ANY,
@@ -69,7 +69,7 @@ PresenceMonitor::Watch::Watch(PresenceListener heard) : listener(std::move(heard
     libusb_exit(context);
     throw DeviceError(
         std::string("USB: nobody tells of devices that come and go, ") + libusb_strerror(error) + ", start udev",
-        DeviceTrouble::no_means);
+        DeviceTrouble::no_resources);
   }
   thread = std::thread([this] { run(); });
 }

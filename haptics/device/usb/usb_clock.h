@@ -15,7 +15,7 @@ struct UsbClock {
 
   std::int64_t now_ns() const noexcept { return held_ns != nullptr ? held_ns->load() : monotonic_ns(); }
   /// Who sleeps until a time looks at the clock again after so much of the machine's time.
-  std::int64_t longestSleep_ns() const noexcept {
+  std::int64_t maxSleep_ns() const noexcept {
     return held_ns != nullptr ? 200'000 : std::numeric_limits<std::int64_t>::max();
   }
 };

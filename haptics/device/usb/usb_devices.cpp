@@ -43,7 +43,7 @@ UsbBus::UsbBus() : session_(std::make_unique<Session>()) {
   if (const int error = libusb_init(&session_->context); error != 0)
     throw DeviceError(std::string("USB: libusb does not start, ") + libusb_strerror(error) +
                           ", look whether this user may read /dev/bus/usb",
-                      DeviceTrouble::no_means);
+                      DeviceTrouble::no_resources);
 }
 
 UsbBus::~UsbBus() { libusb_exit(session_->context); }

@@ -17,7 +17,7 @@ constexpr std::size_t kMostDescriptors = 16;
 /// The largest packet of full speed is 64, of high speed 1024 bytes; bits above are not its size.
 constexpr std::size_t kPacketMask = 0x7ff;
 
-std::string inWords(int error) {
+std::string errorText(int error) {
   switch (error) {
     case LIBUSB_ERROR_ACCESS:
       return "permission denied, install the udev rules that `molar doctor --udev-rules` prints and replug it";
@@ -39,7 +39,7 @@ DeviceTrouble troubleOf(int error) {
     case LIBUSB_ERROR_NO_DEVICE:
       return DeviceTrouble::not_there;
     case LIBUSB_ERROR_NO_MEM:
-      return DeviceTrouble::no_means;
+      return DeviceTrouble::no_resources;
     default:
       return DeviceTrouble::faulty;
   }
@@ -52,7 +52,7 @@ UsbLink::UsbLink(const UsbAddress& address, UsbClock clock) : clock_(clock), int
           (address.path.empty() ? "" : address.path + ", ") + usbId(address.vendor, address.product);
   try {
     if (const int error = libusb_init(&context_); error != 0)
-      throw DeviceError(name_ + ": libusb, " + inWords(error), DeviceTrouble::no_means);
+      throw DeviceError(name_ + ": libusb, " + errorText(error), DeviceTrouble::no_resources);
     open(address);
     findPipes();
     claim();
@@ -89,13 +89,13 @@ void UsbLink::open(const UsbAddress& address) {
   if (count >= 0) libusb_free_device_list(list, 1);
   if (!handle_ && error == LIBUSB_ERROR_NOT_FOUND)
     throw DeviceError(name_ + ": not on the bus, plug it in and switch it on", DeviceTrouble::not_there);
-  if (!handle_) throw DeviceError(name_ + ": " + inWords(error), troubleOf(error));
+  if (!handle_) throw DeviceError(name_ + ": " + errorText(error), troubleOf(error));
 }
 
 void UsbLink::findPipes() {
   libusb_config_descriptor* config = nullptr;
   if (const int error = libusb_get_active_config_descriptor(libusb_get_device(handle_), &config); error != 0)
-    throw DeviceError(name_ + ": its descriptors can not be read, " + inWords(error), troubleOf(error));
+    throw DeviceError(name_ + ": its descriptors can not be read, " + errorText(error), troubleOf(error));
   for (int i = 0; i < config->bNumInterfaces; ++i) {
     const libusb_interface& candidate = config->interface[i];
     if (candidate.num_altsetting < 1 || candidate.altsetting[0].bInterfaceNumber != interface_) continue;
@@ -123,13 +123,13 @@ void UsbLink::claim() {
     libusb_set_auto_detach_kernel_driver(handle_, 0);
     error = libusb_claim_interface(handle_, interface_);
   }
-  if (error != 0) throw DeviceError(name_ + ": it can not be claimed, " + inWords(error), troubleOf(error));
+  if (error != 0) throw DeviceError(name_ + ": it can not be claimed, " + errorText(error), troubleOf(error));
 }
 
 void UsbLink::watchDescriptors() {
   const libusb_pollfd** list = libusb_get_pollfds(context_);
   if (!list)
-    throw DeviceError(name_ + ": libusb gives nothing to wait for, replug it and start again", DeviceTrouble::no_means);
+    throw DeviceError(name_ + ": libusb gives nothing to wait for, replug it and start again", DeviceTrouble::no_resources);
   for (const libusb_pollfd** each = list; *each && descriptors_.size() + 1 < kMostDescriptors; ++each) {
     descriptors_.push_back((*each)->fd);
     descriptor_events_.push_back((*each)->events);
@@ -145,7 +145,7 @@ bool UsbLink::pump(std::int64_t deadline_ns, int wake_descriptor) noexcept {
   if (wake_descriptor >= 0) polled[count++] = {wake_descriptor, POLLIN, 0};
 
   const std::int64_t left_ns =
-      std::clamp<std::int64_t>(deadline_ns - clock_.now_ns(), 0, std::min(kSecond_ns, clock_.longestSleep_ns()));
+      std::clamp<std::int64_t>(deadline_ns - clock_.now_ns(), 0, std::min(kSecond_ns, clock_.maxSleep_ns()));
   const timespec left{static_cast<time_t>(left_ns / kSecond_ns), static_cast<long>(left_ns % kSecond_ns)};
   ppoll(polled.data(), count, &left, nullptr);
 

@@ -8,7 +8,7 @@ void UsbOutbox::send(const UsbReport& report, std::uint32_t rests, std::int64_t 
   wanted_.publish({report, rests, ++sent_number_, now_ns});
 }
 
-void UsbOutbox::askLast(const UsbReport& report, std::int64_t deadline_ns) noexcept {
+void UsbOutbox::requestLast(const UsbReport& report, std::int64_t deadline_ns) noexcept {
   Phase open = Phase::open;
   if (!phase_.compare_exchange_strong(open, Phase::writing)) return;
   last_ = report;
@@ -64,7 +64,7 @@ void UsbOutbox::notTaken() noexcept {
   resting_ = false;
 }
 
-std::int64_t UsbOutbox::nextLook_ns(std::int64_t never_ns) const noexcept {
+std::int64_t UsbOutbox::nextCheck_ns(std::int64_t never_ns) const noexcept {
   return !resting_ && rest_after_ns_ > 0 ? made_at_ns_ + rest_after_ns_ : never_ns;
 }
 

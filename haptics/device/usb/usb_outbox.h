@@ -1,7 +1,7 @@
 // What goes out over the USB next: the newest report of the servo, the rest report that lets the motors go, or the last
 // report of all. In this order: nothing after the last; the last before all; a rest until it is taken; the newest,
 // unless a rest or too long a wait made it void; a rest by itself after a silence. send(): the servo thread. rest(),
-// askLast(): any thread, also a signal handler. The others: the event thread. Lock-free, no allocation, no clock of its
+// requestLast(): any thread, also a signal handler. The others: the event thread. Lock-free, no allocation, no clock of its
 // own: times are given, ns of CLOCK_MONOTONIC.
 #pragma once
 
@@ -24,7 +24,7 @@ class UsbOutbox {
   std::uint32_t rests() const noexcept { return rests_.load(); }
   void rest() noexcept { rests_.fetch_add(1); }
   /// The first who asks is heard. After the deadline it is given up, one attempt made.
-  void askLast(const UsbReport& report, std::int64_t deadline_ns) noexcept;
+  void requestLast(const UsbReport& report, std::int64_t deadline_ns) noexcept;
   bool isOver() const noexcept { return phase_.load() == Phase::over; }
   bool lastWasTaken() const noexcept { return last_taken_.load(); }
   std::uint64_t replaced() const noexcept { return replaced_.load(std::memory_order_relaxed); }
@@ -35,7 +35,7 @@ class UsbOutbox {
   void taken() noexcept;
   void notTaken() noexcept;
   /// When to ask again though nobody sent anything; `never_ns` if not.
-  std::int64_t nextLook_ns(std::int64_t never_ns) const noexcept;
+  std::int64_t nextCheck_ns(std::int64_t never_ns) const noexcept;
   /// Nothing more goes out.
   void close() noexcept { end(false); }
 

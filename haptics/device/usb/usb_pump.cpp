@@ -37,7 +37,7 @@ UsbPump::UsbPump(UsbLink& link, const UsbStream& stream)
     : link_(link),
       stream_(stream),
       outbox_(stream.rest, ns(stream.rest_after)),
-      out_(link, link.out(), UsbReport::kMostBytes) {
+      out_(link, link.out(), UsbReport::kMaxBytes) {
   for (int i = 0; i < std::max(1, stream_.in_flight); ++i) ins_.emplace_back(link, link.in(), link.in().packet_bytes);
   thread_ = std::thread([this] { run(); });
 }
@@ -78,7 +78,7 @@ void UsbPump::rest() noexcept {
 
 bool UsbPump::sendLast(const UsbReport& report, std::chrono::milliseconds within) noexcept {
   const std::int64_t deadline_ns = link_.clock().now_ns() + ns(within);
-  outbox_.askLast(report, deadline_ns);
+  outbox_.requestLast(report, deadline_ns);
   wake_.raise();
   const timespec pause{0, kWait_ns};
   while (!outbox_.isOver() && link_.clock().now_ns() < deadline_ns)
@@ -117,7 +117,7 @@ void UsbPump::run() noexcept {
     clearHalt(link_.out(), out_health_);
     submitIn(now_ns);
     submitOut(now_ns);
-    if (!link_.pump(nextLook_ns(now_ns), wake_.descriptor())) gone_ = true;
+    if (!link_.pump(nextCheck_ns(now_ns), wake_.descriptor())) gone_ = true;
     wake_.lower();
     now_ns = link_.clock().now_ns();
     settleIn(now_ns);
@@ -221,7 +221,7 @@ void UsbPump::settleTrouble(UsbOutcome outcome, Health& health, std::int64_t now
 }
 
 void UsbPump::clearHalt(const UsbPipe& pipe, Health& health) noexcept {
-  if (!health.halted || health.clearings >= stream_.most_clearings) return;
+  if (!health.halted || health.clearings >= stream_.max_clearings) return;
   const bool busy = &health == &out_health_
                         ? out_.inFlight()
                         : std::any_of(ins_.begin(), ins_.end(), [](const UsbTransfer& in) { return in.inFlight(); });
@@ -238,7 +238,7 @@ void UsbPump::judge(std::int64_t now_ns) noexcept {
                                                          : UsbState::ok);
 }
 
-std::int64_t UsbPump::nextLook_ns(std::int64_t now_ns) const noexcept {
+std::int64_t UsbPump::nextCheck_ns(std::int64_t now_ns) const noexcept {
   std::int64_t look_ns = now_ns + kLook_ns;
   const auto by = [&](std::int64_t at_ns) {
     if (at_ns > now_ns) look_ns = std::min(look_ns, at_ns);
@@ -247,7 +247,7 @@ std::int64_t UsbPump::nextLook_ns(std::int64_t now_ns) const noexcept {
     if (in.inFlight()) by(in.deadline_ns());
   if (out_.inFlight()) by(out_.deadline_ns());
   by(heard_at_ns_ + ns(stream_.late_after) + 1);
-  by(outbox_.nextLook_ns(look_ns));
+  by(outbox_.nextCheck_ns(look_ns));
   by(in_health_.again_at_ns);
   by(out_health_.again_at_ns);
   // What finished while it was submitted, and a pipe that can be cleared now, do not wait.

@@ -60,7 +60,7 @@ class UsbPump {
   void hear(std::span<const std::uint8_t> bytes, std::int64_t now_ns) noexcept;
   void clearHalt(const UsbPipe& pipe, Health& health) noexcept;
   void judge(std::int64_t now_ns) noexcept;
-  std::int64_t nextLook_ns(std::int64_t now_ns) const noexcept;
+  std::int64_t nextCheck_ns(std::int64_t now_ns) const noexcept;
   void windDown() noexcept;
   bool anyInFlight() const noexcept;
 

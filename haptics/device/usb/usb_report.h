@@ -11,16 +11,16 @@ namespace haptics {
 
 /// One report, or the first bytes of a longer one.
 struct UsbReport {
-  static constexpr std::size_t kMostBytes = 64;
+  static constexpr std::size_t kMaxBytes = 64;
 
-  std::array<std::uint8_t, kMostBytes> bytes{};
+  std::array<std::uint8_t, kMaxBytes> bytes{};
   std::uint16_t size = 0;
   std::uint64_t serial = 0;      ///< of reports that came in, from 1; 0: none came yet
   std::int64_t received_ns = 0;  ///< CLOCK_MONOTONIC
 
   UsbReport() = default;
   explicit UsbReport(std::span<const std::uint8_t> content)
-      : size(static_cast<std::uint16_t>(std::min(content.size(), kMostBytes))) {
+      : size(static_cast<std::uint16_t>(std::min(content.size(), kMaxBytes))) {
     std::copy_n(content.begin(), size, bytes.begin());
   }
   std::span<const std::uint8_t> content() const { return {bytes.data(), size}; }

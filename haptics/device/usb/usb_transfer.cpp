@@ -36,7 +36,7 @@ UsbTransfer::UsbTransfer(UsbLink& link, const UsbPipe& pipe, std::size_t capacit
     : link_(link), transfer_(libusb_alloc_transfer(0)), buffer_(capacity) {
   if (!transfer_)
     throw DeviceError("USB " + link.path() + ": no memory for a transfer, close other programs",
-                      DeviceTrouble::no_means);
+                      DeviceTrouble::no_resources);
   transfer_->dev_handle = link.handle();
   transfer_->endpoint = pipe.endpoint;
   transfer_->type = pipe.transfer_type;

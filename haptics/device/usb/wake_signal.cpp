@@ -11,7 +11,7 @@ namespace haptics {
 
 WakeSignal::WakeSignal() : descriptor_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
   if (descriptor_ < 0)
-    throw DeviceError("USB: no file descriptor left for a signal, close other programs", DeviceTrouble::no_means);
+    throw DeviceError("USB: no file descriptor left for a signal, close other programs", DeviceTrouble::no_resources);
 }
 
 WakeSignal::~WakeSignal() { close(descriptor_); }

@@ -36,10 +36,10 @@ DeviceCapabilities capabilitiesOf(const WoodenModel& model, const std::string& s
   can.peak_force_N = model.peak_force_N;
   can.continuous_force_N = kContinuousShare * model.peak_force_N;
   can.peak_joint_torque_Nmm = WoodenKinematics(model).peakTorque_Nmm();
-  can.most_stiffness_N_per_mm = model.most_stiffness_N_per_mm;
-  can.most_damping_Ns_per_mm = model.most_damping_Ns_per_mm;
-  can.least_rate_Hz = 500.0;
-  can.most_rate_Hz = 1000.0;  // USB full speed: a report each way a millisecond
+  can.max_stiffness_N_per_mm = model.max_stiffness_N_per_mm;
+  can.max_damping_Ns_per_mm = model.max_damping_Ns_per_mm;
+  can.min_rate_Hz = 500.0;
+  can.max_rate_Hz = 1000.0;  // USB full speed: a report each way a millisecond
   can.workspace = {glm::dvec3(-model.workspace_radius_mm), glm::dvec3(model.workspace_radius_mm)};
   return can;
 }
@@ -113,12 +113,12 @@ void WoodenHaptics::awaitHoming(const WoodenSettings& settings) {
     if (usb_->state() == UsbState::gone)
       throw DeviceError(where() + "unplugged while it was homed, plug it in again", DeviceTrouble::not_there);
     if (homing_.wantsPreset() || !settings.tell) continue;
-    const HomingAnswer answer = settings.tell(kWoodenHomingWords);
+    const HomingAnswer answer = settings.tell(kWoodenHomingPrompt);
     if (answer == HomingAnswer::stands_at_home) setHome();
     if (answer == HomingAnswer::give_up)
       throw DeviceError(where() + "not homed, given up, start again", DeviceTrouble::not_ready);
   }
-  throw DeviceError(where() + "not homed, start again and " + kWoodenHomingWords, DeviceTrouble::not_ready);
+  throw DeviceError(where() + "not homed, start again and " + kWoodenHomingPrompt, DeviceTrouble::not_ready);
 }
 
 void WoodenHaptics::start(DeviceServo& servo, double rate_Hz) {

@@ -28,19 +28,19 @@ namespace haptics {
 class UsbTransport;
 struct UsbCounters;
 
-inline constexpr const char* kWoodenHomingWords =
+inline constexpr const char* kWoodenHomingPrompt =
     "hold the arm at its home position, turret straight ahead, upper arm upright, forearm level, and press the "
     "calibration switch";
 
 enum class HomingAnswer { wait, stands_at_home, give_up };
 /// What its owner shall do now, again and again until it is done.
-using WoodenTell = std::function<HomingAnswer(const std::string& words)>;
+using WoodenPrompt = std::function<HomingAnswer(const std::string& words)>;
 
 struct WoodenSettings {
   std::string path;  ///< bus and ports, "1-2.3"; empty: the first
   /// Of the published builds the one that a wrong guess makes weaker, not stronger.
   WoodenModel model = woodenHaptics2019();
-  WoodenTell tell;
+  WoodenPrompt tell;
   std::chrono::seconds homing_patience{60};  ///< 0: does not wait, ticks uncalibrated until it is homed
   int servo_priority = kServoPriority;       ///< the thread that reads its USB lies next to it
   UsbClock clock = {};

@@ -88,9 +88,9 @@ std::array<double, 3> WoodenKinematics::currents_mA(const glm::dvec3& arm_rad,
   const glm::dvec3 torque_Nmm = glm::transpose(jacobian_mm(arm_rad)) * force_D_N.xyz;
   glm::dvec3 current_mA =
       1e3 * torque_Nmm * model_.direction * model_.capstan_mm / model_.body_mm / model_.motor_Nmm_per_A;
-  const double most_mA = std::max({std::abs(current_mA.x), std::abs(current_mA.y), std::abs(current_mA.z)});
-  if (!std::isfinite(most_mA)) return {0.0, 0.0, 0.0};
-  if (most_mA > model_.clamp_mA()) current_mA *= model_.clamp_mA() / most_mA;
+  const double max_mA = std::max({std::abs(current_mA.x), std::abs(current_mA.y), std::abs(current_mA.z)});
+  if (!std::isfinite(max_mA)) return {0.0, 0.0, 0.0};
+  if (max_mA > model_.clamp_mA()) current_mA *= model_.clamp_mA() / max_mA;
   return {current_mA.x, current_mA.y, current_mA.z};
 }
 

@@ -15,7 +15,7 @@ std::vector<Press> told(ButtonPress& button, double seconds, double rate_Hz, Dow
   std::vector<Press> presses;
   for (int i = 0; i < static_cast<int>(seconds * rate_Hz); ++i) {
     const double t_s = from_s + i / rate_Hz;
-    const Press press = button.feel(t_s, down(t_s));
+    const Press press = button.update(t_s, down(t_s));
     if (press != Press::none) presses.push_back(press);
   }
   return presses;

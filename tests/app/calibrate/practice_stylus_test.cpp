@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/calibrate/practice_hand.h"
+#include "app/calibrate/practice_input.h"
 
 namespace app {
 namespace {
@@ -23,7 +23,7 @@ class PracticeStylusTest : public testing::Test {
   }
 
   calibration::SyntheticRig rig_ = calibration::syntheticRig(Scenario::d, 7);
-  PracticeHold start_{.tip_W = {{0.0, 0.0, 0.0}}};
+  PracticePose start_{.tip_W = {{0.0, 0.0, 0.0}}};
 };
 
 TEST_F(PracticeStylusTest, ItsTipIsTrulyWhereTheHandWantsIt) {
@@ -48,7 +48,7 @@ TEST_F(PracticeStylusTest, ItsSensorsReadWhatTheUntrueArmWouldAndItsDriverIsMist
 TEST_F(PracticeStylusTest, AHandTremblesAndLessSoInAPit) {
   const auto trembles = [&](bool steadied) {
     PracticeStylus stylus(rig_, start_, 0.05);
-    PracticeHold hold = start_;
+    PracticePose hold = start_;
     hold.steadied = steadied;
     stylus.hold(hold);
     after(stylus, 1.0);
@@ -67,7 +67,7 @@ TEST_F(PracticeStylusTest, AHandTremblesAndLessSoInAPit) {
 TEST_F(PracticeStylusTest, IsBelievedOnceItHasBeenInItsInkwellAsARealOne) {
   PracticeStylus stylus(rig_, start_);
   EXPECT_FALSE(after(stylus, 0.5).calibrated);
-  PracticeHold hold = start_;
+  PracticePose hold = start_;
   hold.in_inkwell = true;
   stylus.hold(hold);
   EXPECT_TRUE(after(stylus, 0.5).docked);
@@ -93,8 +93,8 @@ TEST_F(PracticeStylusTest, BeyondItsReachItStandsStillAndSaysNothingThatIsNotFin
   EXPECT_LT(glm::length(state.X_DH.translation_mm), 400.0);
 }
 
-TEST(PracticeHand, ADragMovesTheTipInTheScreensPlaneAndTheWheelInDepth) {
-  PracticeHand hand({.tip_W = {{1.0, 2.0, 3.0}}}, 1);
+TEST(PracticeInput, ADragMovesTheTipInTheScreensPlaneAndTheWheelInDepth) {
+  PracticeInput hand({.tip_W = {{1.0, 2.0, 3.0}}}, 1);
   const glm::dvec3 across(0.25, 0.0, 0.0), up(0.0, 0.25, 0.0);
   hand.take(render::PointerMoved{.to_px = {}, .by_px = {40.0, 20.0}, .button = render::MouseButton::left}, across, up);
   hand.take(render::PointerMoved{.to_px = {}, .by_px = {99.0, 99.0}, .button = render::MouseButton::none}, across, up);
@@ -102,8 +102,8 @@ TEST(PracticeHand, ADragMovesTheTipInTheScreensPlaneAndTheWheelInDepth) {
   EXPECT_LT(glm::distance(hand.hold({}).tip_W.mm, glm::dvec3(11.0, -3.0, 1.0)), 1e-9);
 }
 
-TEST(PracticeHand, KeysTiltItPressItsButtonAndPutItIntoTheInkwell) {
-  PracticeHand hand({}, 1);
+TEST(PracticeInput, KeysTiltItPressItsButtonAndPutItIntoTheInkwell) {
+  PracticeInput hand({}, 1);
   const glm::dvec3 across(0.25, 0.0, 0.0), up(0.0, 0.25, 0.0);
   const auto press = [&](render::Key key, bool down) {
     hand.take(render::KeyPressed{.key = key, .down = down}, across, up);
@@ -119,12 +119,12 @@ TEST(PracticeHand, KeysTiltItPressItsButtonAndPutItIntoTheInkwell) {
   EXPECT_TRUE(hand.hold({}).in_inkwell);
 }
 
-TEST(PracticeHand, APitDrawsTheTipInAndHoldsItSteady) {
-  PracticeHand hand({.tip_W = {{8.0, 2.0, 1.0}}}, 1);
+TEST(PracticeInput, APitDrawsTheTipInAndHoldsItSteady) {
+  PracticeInput hand({.tip_W = {{8.0, 2.0, 1.0}}}, 1);
   WizardView view;
   view.target_kind = calibration::TargetKind::pit;
   view.targets.push_back({{{10.0, 0.0, 0.0}}, {{0.0, 0.0, 1.0}}, TargetState::next, "1"});
-  const PracticeHold held = hand.hold(view);
+  const PracticePose held = hand.hold(view);
   EXPECT_TRUE(held.steadied);
   EXPECT_LT(glm::distance(held.tip_W.mm, glm::dvec3(10.0, 0.0, 0.0)), 0.3);
   EXPECT_EQ(hand.hold(view).tip_W.mm, held.tip_W.mm);  // it does not jump about in it

@@ -1,4 +1,4 @@
-// A whole calibration by the robot technician: ticks at a rate, a look thirty times a second, until it is over or the
+// A whole calibration by the robot technician: ticks at a rate, a takeView thirty times a second, until it is over or the
 // patience ends.
 #pragma once
 
@@ -45,18 +45,18 @@ using Mishap = std::function<void(StylusSample&, const WizardView&)>;
 inline RobotRun runWizard(Wizard& wizard, RobotTechnician& technician, double rate_Hz = 500.0,
                           const Mishap& mishap = {}, double most_s = 1200.0) {
   RobotRun run;
-  WizardView view = wizard.look();
+  WizardView view = wizard.takeView();
   const int every = static_cast<int>(rate_Hz / 30.0);
   for (int i = 0; i < static_cast<int>(most_s * rate_Hz) && !wizard.isOver(); ++i) {
     StylusSample sample = technician.next(view, i / rate_Hz);
     if (mishap) mishap(sample, view);
-    wizard.feel(sample);
+    wizard.update(sample);
     run.seconds = i / rate_Hz;
     if (i % every != 0) continue;
-    view = wizard.look();
+    view = wizard.takeView();
     run.note(view);
   }
-  run.note(wizard.look());
+  run.note(wizard.takeView());
   return run;
 }
 
@@ -73,9 +73,9 @@ inline WizardPlan planFor(const calibration::SyntheticRig& rig, CalibrationProce
 
 /// Root mean square of the tip's error anywhere within ±30 mm, held in any way.
 inline double trueError_mm(const calibration::SyntheticRig& rig, const calibration::MeasuredArm& arm) {
-  std::mt19937 chance(4711);
+  std::mt19937 rng(4711);
   double sum_mm2 = 0.0;
-  const auto touches = calibration::heldOut(rig, 200, glm::dvec3(30.0), chance);
+  const auto touches = calibration::heldOutTouches(rig, 200, glm::dvec3(30.0), rng);
   for (const calibration::Touch& touch : touches) {
     const glm::dvec3 off_mm = arm.tip_W(touch.joints_rad).mm - touch.target_W.mm;
     sum_mm2 += glm::dot(off_mm, off_mm) / static_cast<double>(touches.size());

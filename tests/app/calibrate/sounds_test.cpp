@@ -69,7 +69,7 @@ TEST_F(SoundsTest, WithoutASoundCardOneLineIsSaidAndNothingElse) {
   testing::internal::CaptureStderr();
   {
     Sounds sounds([&](const std::string& line) { told.push_back(line); });
-    EXPECT_FALSE(sounds.areHeard());
+    EXPECT_FALSE(sounds.isAvailable());
     for (int n = 0; n < 100; ++n) sounds.play(WizardSound::ok);
   }
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
@@ -100,7 +100,7 @@ TEST_F(SoundsTest, WhatIsPlayedReachesTheCard) {
   testing::internal::CaptureStderr();
   {
     Sounds sounds([](const std::string& line) { ADD_FAILURE() << line; });
-    ASSERT_TRUE(sounds.areHeard());
+    ASSERT_TRUE(sounds.isAvailable());
     for (int n = 0; n < 100; ++n) sounds.play(WizardSound::reject);  // what does not fit is dropped, and nothing waits
     EXPECT_GE(loudBytes(heard, 1000), 1000);
   }

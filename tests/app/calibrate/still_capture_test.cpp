@@ -21,7 +21,7 @@ struct Hand {
   StylusSample at(double t_s) const {
     StylusSample sample;
     sample.t_s = t_s;
-    sample.believable = true;
+    sample.valid = true;
     sample.X_DH.translation_mm = place_mm(t_s);
     for (int i = 0; i < 3; ++i) sample.raw_rad[static_cast<std::size_t>(i)] = 0.01 * sample.X_DH.translation_mm[i];
     return sample;
@@ -36,8 +36,8 @@ double takenAfter_s(const Hand& there, double rate_Hz, double seconds = 3.0,
     const double t_s = i / rate_Hz;
     StylusSample sample = there.at(t_s);
     if (t_s < 0.3) sample.X_DH.translation_mm.x += 200.0 * (0.3 - t_s);
-    capture.feel(sample);
-    if (capture.dwelt()) return t_s;
+    capture.update(sample);
+    if (capture.heldStill()) return t_s;
   }
   return -1.0;
 }
@@ -58,14 +58,14 @@ TEST(StillCapture, TakesAStillStylusAfter400MillisecondsAtEveryRate) {
 TEST(StillCapture, GivesTheMedianOfUpTo200Samples) {
   for (double rate_Hz : {500.0, 1000.0, 10000.0}) {
     StillCapture capture;
-    std::mt19937 chance(3);
+    std::mt19937 rng(3);
     std::normal_distribution<double> noise(0.0, 0.01);
-    const Hand hand{[&](double) { return glm::dvec3(1.0 + noise(chance), 2.0, 3.0); }};
+    const Hand hand{[&](double) { return glm::dvec3(1.0 + noise(rng), 2.0, 3.0); }};
     // One sample in fifty is wild: a median does not mind.
     for (int i = 0; i < static_cast<int>(rate_Hz); ++i) {
       StylusSample sample = hand.at(i / rate_Hz);
       if (i % 50 == 7) sample.raw_rad[0] = 1.0;
-      capture.feel(sample);
+      capture.update(sample);
     }
     std::string why;
     const auto take = capture.before(0.99, why);
@@ -121,7 +121,7 @@ TEST(StillCapture, TakesThe200MillisecondsBeforeAPress) {
   // The press itself shoves the stylus by a millimetre.
   const Hand pressing{[](double t_s) { return glm::dvec3(t_s < 0.5 ? 7.0 : 8.0, 0.0, 0.0); }};
   StillCapture capture;
-  for (int i = 0; i < 600; ++i) capture.feel(pressing.at(i / 1000.0));
+  for (int i = 0; i < 600; ++i) capture.update(pressing.at(i / 1000.0));
   std::string why;
   const auto take = capture.before(0.499, why);
   ASSERT_TRUE(take) << why;
@@ -132,18 +132,18 @@ TEST(StillCapture, SaysWhyAPressWasNotTaken) {
   std::string why;
   StillCapture moving;
   for (int i = 0; i < 600; ++i)
-    moving.feel(Hand{[](double t_s) { return glm::dvec3(30.0 * t_s, 0.0, 0.0); }}.at(i / 1000.0));
+    moving.update(Hand{[](double t_s) { return glm::dvec3(30.0 * t_s, 0.0, 0.0); }}.at(i / 1000.0));
   EXPECT_FALSE(moving.before(0.599, why));
   EXPECT_NE(why.find("moving at 30 mm/s"), std::string::npos) << why;
 
   StillCapture swaying;
   for (int i = 0; i < 600; ++i)
-    swaying.feel(Hand{[](double t_s) { return glm::dvec3(0.15 * std::sin(kFullTurn * 2.0 * t_s), 0, 0); }}.at(i / 1e3));
+    swaying.update(Hand{[](double t_s) { return glm::dvec3(0.15 * std::sin(kFullTurn * 2.0 * t_s), 0, 0); }}.at(i / 1e3));
   EXPECT_FALSE(swaying.before(0.599, why));
   EXPECT_NE(why.find("moving"), std::string::npos) << why;
 
   StillCapture silent;
-  silent.feel(trembling(0.0, 1.0).at(0.0));
+  silent.update(trembling(0.0, 1.0).at(0.0));
   EXPECT_FALSE(silent.before(0.1, why));
   EXPECT_NE(why.find("too little"), std::string::npos) << why;
 }
@@ -153,10 +153,10 @@ TEST(StillCapture, TakesAPlaceOnlyOnceUntilItIsLeft) {
   int taken = 0;
   const auto goThrough = [&](double from_s, double x_mm) {
     for (int i = 0; i < 1500; ++i) {
-      capture.feel(Hand{[=](double) { return glm::dvec3(x_mm, 0, 0); }}.at(from_s + i / 1000.0));
-      if (!capture.dwelt()) continue;
+      capture.update(Hand{[=](double) { return glm::dvec3(x_mm, 0, 0); }}.at(from_s + i / 1000.0));
+      if (!capture.heldStill()) continue;
       ++taken;
-      capture.waitUntilItLeaves();
+      capture.waitForMove();
     }
   };
   goThrough(0.0, 0.0);  // where it was when it began does not count
@@ -175,19 +175,19 @@ TEST(StillCapture, CountsATurnInAPitAsLeaving) {
   for (int i = 0; i < 2000; ++i) {
     StylusSample sample = Hand{[](double) { return glm::dvec3(0.0); }}.at(i / 1000.0);
     if (i > 1000) sample.X_DH.rotation = glm::angleAxis(0.2, glm::dvec3(1, 0, 0));
-    capture.feel(sample);
-    taken = taken || capture.dwelt().has_value();
+    capture.update(sample);
+    taken = taken || capture.heldStill().has_value();
   }
   EXPECT_TRUE(taken);
 }
 
 TEST(StillCapture, BelievesNoStillnessAcrossASilence) {
   StillCapture capture;
-  for (int i = 0; i < 300; ++i) capture.feel(trembling(0.0, 1.0).at(i / 1000.0));
-  for (int i = 0; i < 150; ++i) capture.feel(trembling(0.0, 1.0).at(1.0 + i / 1000.0));
+  for (int i = 0; i < 300; ++i) capture.update(trembling(0.0, 1.0).at(i / 1000.0));
+  for (int i = 0; i < 150; ++i) capture.update(trembling(0.0, 1.0).at(1.0 + i / 1000.0));
   std::string why;
   EXPECT_FALSE(capture.before(1.149, why));
-  EXPECT_FALSE(capture.dwelt());
+  EXPECT_FALSE(capture.heldStill());
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// From pixels to a measured arm: pictures of a workstation whose truth is known, through lens, mirror and glass, read
+// From pixels to a measured arm: images of a workstation whose truth is known, through lens, mirror and glass, read
 // as a camera's are, one adjustment over all, judged by touches that it has not seen. Some seconds each.
 #include <cmath>
 #include <iostream>
@@ -9,7 +9,7 @@
 #include "app/calibrate/webcam_procedure.h"
 #include "app/calibrate/webcam_technician.h"
 #include "calibration/synthetic/synthetic_rig.h"
-#include "calibration/webcam/ring_picture.h"
+#include "calibration/webcam/ring_image.h"
 #include "calibration/webcam/webcam_fit.h"
 #include "tests/calibration/webcam/ring_check.h"
 
@@ -20,7 +20,7 @@ using namespace calibration;
 
 struct Outcome {
   WebcamFit fit;
-  WebcamObservations observations;
+  WebcamObservationFile observations;
   double held_out_rms_mm = 0.0, worst_mm = 0.0;
   Vector<World> mean_mm;
   RingCheck ring;
@@ -37,12 +37,12 @@ CameraModel nearly(CameraModel lens) {
 RingCheck ringsSeen(const WebcamFit& fit, const SyntheticRig& rig, const std::vector<Touch>& touches,
                     WebcamTechnician& technician) {
   const Pose<World, Camera>& X_WC = fit.X_WC.back();
-  const GreyPicture dark = technician.taken(nullptr, {});
+  const GreyImage dark = technician.taken(nullptr, {});
   std::vector<Vector<Camera>> offsets_mm;
   for (const Touch& touch : touches) {
     const Point<World> believed_W = fit.arm.tip_W(touch.joints_rad);
-    const GreyPicture ring = ringPicture(rig.nominal, {X_WC.translation_mm}, believed_W);
-    const RingSighting both = sightRing(dark, technician.taken(&ring, LitTip{.middle_W = touch.target_W}));
+    const GreyImage ring = ringImage(rig.nominal, {X_WC.translation_mm}, believed_W);
+    const RingDetection both = detectRing(dark, technician.taken(&ring, LitTip{.middle_W = touch.target_W}));
     EXPECT_EQ(both.line, "");
     offsets_mm.push_back(ringOffset_mm(fit.camera, both, (X_WC.inverse() * believed_W).mm.z));
   }
@@ -61,8 +61,8 @@ Outcome calibrated(glm::ivec2 camera_px, std::uint32_t seed, double plate_mm) {
                              .device_model = rig.nominal.device->model,
                              .serial = "",
                              .mount = ""});
-  for (int i = 0; i < 1000 && procedure.wants() != WebcamWants::nothing; ++i) technician.act(procedure);
-  EXPECT_EQ(procedure.wants(), WebcamWants::nothing) << procedure.sentence() << " " << procedure.answer();
+  for (int i = 0; i < 1000 && procedure.expects() != WebcamInput::nothing; ++i) technician.act(procedure);
+  EXPECT_EQ(procedure.expects(), WebcamInput::nothing) << procedure.sentence() << " " << procedure.answer();
 
   Outcome outcome{.fit = fitWebcam(procedure.observations().sights),
                   .observations = procedure.observations(),
@@ -70,8 +70,8 @@ Outcome calibrated(glm::ivec2 camera_px, std::uint32_t seed, double plate_mm) {
                   .worst_mm = 0.0,
                   .mean_mm = {},
                   .ring = {}};
-  std::mt19937 chance(seed + 1000);
-  const std::vector<Touch> held_out = heldOut(rig, 400, {60.0, 40.0, 30.0}, chance);
+  std::mt19937 rng(seed + 1000);
+  const std::vector<Touch> held_out = heldOutTouches(rig, 400, {60.0, 40.0, 30.0}, rng);
   double square = 0.0;
   const double n = static_cast<double>(held_out.size());
   for (const Touch& touch : held_out) {

@@ -15,7 +15,7 @@ namespace {
 using namespace calibration;
 
 using calibration::CameraModel;
-using calibration::GreyPicture;
+using calibration::GreyImage;
 using testing::HasSubstr;
 
 constexpr calibration::RawJoints kNoJoints{};
@@ -36,7 +36,7 @@ class WebcamProcedureAtAWorkstation : public testing::Test {
     if (known_lens) plan.lens = technician_.lens();
     return plan;
   }
-  /// Until it wants something else than what the technician just does.
+  /// Until it expects something else than what the technician just does.
   void follow(WebcamProcedure& procedure, WebcamStep until) {
     for (int i = 0; i < 400 && procedure.step() != until; ++i) technician_.act(procedure);
     EXPECT_EQ(procedure.step(), until) << procedure.sentence() << " " << procedure.answer();
@@ -50,9 +50,9 @@ TEST_F(WebcamProcedureAtAWorkstation, GathersBoardAndTipsFromThreePlaces) {
   WebcamProcedure procedure(plan());
   EXPECT_EQ(procedure.progress(), 0.0);
   follow(procedure, WebcamStep::done);
-  EXPECT_EQ(procedure.wants(), WebcamWants::nothing);
+  EXPECT_EQ(procedure.expects(), WebcamInput::nothing);
   EXPECT_EQ(procedure.progress(), 1.0);
-  const calibration::WebcamObservations& all = procedure.observations();
+  const calibration::WebcamObservationFile& all = procedure.observations();
   EXPECT_EQ(all.serial, "17");
   ASSERT_EQ(all.sights.positions.size(), 3u);
   for (std::size_t p = 0; p < 3; ++p) {
@@ -60,10 +60,10 @@ TEST_F(WebcamProcedureAtAWorkstation, GathersBoardAndTipsFromThreePlaces) {
     EXPECT_EQ(position.screen.size(), 84u);
     ASSERT_EQ(position.tips.size(), 2u);
     // All lie where the truth has them.
-    const auto X_CW = technician_.stood(p).inverse();
-    for (const calibration::PlaceSight& place : position.screen)
-      EXPECT_LT(glm::distance(technician_.lens().pixelOf(X_CW * place.place_W), place.camera_px), 0.5);
-    for (const calibration::TipSight& tip : position.tips)
+    const auto X_CW = technician_.webcamPose(p).inverse();
+    for (const calibration::ScreenObservation& place : position.screen)
+      EXPECT_LT(glm::distance(technician_.lens().pixelOf(X_CW * place.position_W), place.camera_px), 0.5);
+    for (const calibration::TipObservation& tip : position.tips)
       EXPECT_LT(glm::distance(technician_.lens().pixelOf(X_CW * rig_.tip_W(tip.joints_rad)), tip.camera_px), 0.7);
   }
 }
@@ -85,10 +85,10 @@ TEST_F(WebcamProcedureAtAWorkstation, TakesAGrayCodeInOnePress) {
   follow(procedure, WebcamStep::tips);
   const calibration::CameraPosition& position = procedure.observations().sights.positions.front();
   EXPECT_GT(position.screen.size(), 2000u);
-  const auto X_CW = technician_.stood(0).inverse();
+  const auto X_CW = technician_.webcamPose(0).inverse();
   double worst_px = 0.0;
-  for (const calibration::PlaceSight& place : position.screen)
-    worst_px = std::max(worst_px, glm::distance(technician_.lens().pixelOf(X_CW * place.place_W), place.camera_px));
+  for (const calibration::ScreenObservation& place : position.screen)
+    worst_px = std::max(worst_px, glm::distance(technician_.lens().pixelOf(X_CW * place.position_W), place.camera_px));
   EXPECT_LT(worst_px, 1.0);
 }
 
@@ -100,7 +100,7 @@ TEST_F(WebcamProcedureAtAWorkstation, GoesNoFurtherWhileTheScreenReadsWrong) {
   WebcamProcedure procedure(wrong);
   technician_.act(procedure), technician_.act(procedure);
   EXPECT_EQ(procedure.step(), WebcamStep::letter);
-  EXPECT_EQ(procedure.wants(), WebcamWants::press);
+  EXPECT_EQ(procedure.expects(), WebcamInput::press);
   EXPECT_THAT(procedure.answer(), HasSubstr("mirrored"));
 }
 
@@ -110,7 +110,7 @@ TEST_F(WebcamProcedureAtAWorkstation, SaysWhyAPictureIsNotTaken) {
   procedure.see({{64, 64}, std::vector<std::uint8_t>(64 * 64)}, kNoJoints);
   EXPECT_THAT(procedure.answer(), HasSubstr("64 x 64: set the webcam to 1280 x 720"));
   procedure.press();
-  const GreyPicture black{{1280, 720}, std::vector<std::uint8_t>(1280 * 720)};
+  const GreyImage black{{1280, 720}, std::vector<std::uint8_t>(1280 * 720)};
   procedure.see(black, kNoJoints);
   EXPECT_THAT(procedure.answer(), HasSubstr("No F"));
   follow(procedure, WebcamStep::pattern);

@@ -10,7 +10,7 @@ using calibration::Rig;
 using calibration::World;
 using render::DisplayMode;
 using render::Eye;
-using render::Picture;
+using render::Image;
 
 constexpr glm::ivec2 kPx{960, 540};
 
@@ -57,7 +57,7 @@ WizardView touching(const Rig& rig) {
   return view;
 }
 
-glm::ivec3 pixelAt(const Picture& picture, glm::ivec2 px) {
+glm::ivec3 pixelAt(const Image& picture, glm::ivec2 px) {
   const std::uint8_t* c = picture.rgba.data() + 4 * (px.y * picture.w + px.x);
   return {c[0], c[1], c[2]};
 }
@@ -70,7 +70,7 @@ glm::dvec2 projected(const Rig& rig, Eye eye, const glm::dvec3& p_W, glm::ivec2 
 }
 
 /// Middle of all that is brighter with the target than without it.
-glm::dvec2 middleOfChange(const Picture& with, const Picture& without) {
+glm::dvec2 middleOfChange(const Image& with, const Image& without) {
   glm::dvec2 sum{0.0};
   double weight = 0.0;
   for (int y = 0; y < with.h; ++y)
@@ -88,7 +88,7 @@ TEST(WizardPages, ATargetIsWhereEachEyeHasToSeeIt) {
       for (const glm::dvec3 place : {glm::dvec3(0.0), glm::dvec3(40.0, 25.0, 30.0), glm::dvec3(-50.0, -30.0, -30.0)}) {
         WizardPages pages(rig.mirror);
         WizardView view = viewThrough(rig);
-        const Picture without = pages.page(view, std::nullopt, eye, kPx, 0.6);
+        const Image without = pages.page(view, std::nullopt, eye, kPx, 0.6);
         view.target_kind = calibration::TargetKind::webcam_place;
         view.targets.push_back({{place}, {{0.0, 0.0, 1.0}}, TargetState::next, "1"});
         const glm::dvec2 is = middleOfChange(pages.page(view, std::nullopt, eye, kPx, 0.6), without);
@@ -116,7 +116,7 @@ TEST(WizardPages, ThroughAMirrorThePanelShowsThePageTurnedSoThatItReadsRight) {
     WizardPages pages(rig.mirror);
     return pages.page(touching(rig), std::nullopt, Eye::left, kPx, 0.0);
   };
-  const Picture straight = pageOf(desk()), panel = pageOf(throughMirror());
+  const Image straight = pageOf(desk()), panel = pageOf(throughMirror());
   long turned = 0, same = 0;
   for (int y = 0; y < kPx.y; ++y)
     for (int x = 0; x < kPx.x; ++x) {
@@ -133,7 +133,7 @@ TEST(WizardPages, TheBarIsAsLongOnTheVirtualScreenAsItSays) {
   WizardView view = viewThrough(rig);
   view.figure = WizardFigure::length_bar;
   view.bar_mm = 100.0;
-  const Picture picture = pages.page(view, std::nullopt, Eye::left, {1920, 1080}, 0.0);
+  const Image picture = pages.page(view, std::nullopt, Eye::left, {1920, 1080}, 0.0);
   // End marks, 10 mm above the bar itself.
   int first = -1, last = -1;
   for (int x = 0; x < 1920; ++x)
@@ -149,7 +149,7 @@ TEST(WizardPages, TheFIsNoMirrorImage) {
   WizardPages pages(rig.mirror);
   WizardView view = viewThrough(rig);
   view.figure = WizardFigure::letter_f;
-  const Picture picture = pages.page(view, std::nullopt, Eye::left, {531, 299}, 0.0);
+  const Image picture = pages.page(view, std::nullopt, Eye::left, {531, 299}, 0.0);
   const auto isLit = [&](int right_mm, int up_mm) {
     return light(pixelAt(picture, {265 + right_mm, 149 - up_mm})) > 300;
   };
@@ -163,7 +163,7 @@ TEST(WizardPages, LettersAreAtLeastEightMillimetresHigh) {
   WizardPages pages(rig.mirror);
   WizardView view = viewThrough(rig);
   view.title = "HHHH";
-  const Picture picture = pages.page(view, std::nullopt, Eye::left, {1920, 1080}, 0.0);
+  const Image picture = pages.page(view, std::nullopt, Eye::left, {1920, 1080}, 0.0);
   int top = 1080, bottom = -1;
   for (int y = 0; y < 1080; ++y)
     for (int x = 0; x < 300; ++x)
@@ -176,7 +176,7 @@ TEST(WizardPages, EveryModeGetsAPictureOfItsSize) {
   WizardPages pages(rig.mirror);
   for (const render::DisplayModeName& mode : render::kDisplayModes) {
     const render::StereoLayout layout{.mode = mode.mode, .screen_px = {192, 108}};
-    const Picture all = pages.output(touching(rig), std::nullopt, layout, 0.0);
+    const Image all = pages.output(touching(rig), std::nullopt, layout, 0.0);
     EXPECT_EQ(glm::ivec2(all.w, all.h), render::outputSize(mode.mode, {192, 108})) << mode.name;
     EXPECT_EQ(all.rgba.size(), 4u * static_cast<std::size_t>(all.w * all.h)) << mode.name;
   }
@@ -193,11 +193,11 @@ TEST(WizardPages, WhatIsDrawnAfterAnotherPageIsAsIfItHadBeenTheFirst) {
 }
 
 TEST(PatternForCamera, IsShownPixelByPixelToBothEyes) {
-  calibration::GreyPicture pattern{{64, 48}, {}};
+  calibration::GreyImage pattern{{64, 48}, {}};
   for (int n = 0; n < 64 * 48; ++n) pattern.grey.push_back(static_cast<std::uint8_t>(n % 251));
-  const Picture mono = patternForCamera(pattern, {.mode = DisplayMode::mono, .screen_px = {64, 48}});
+  const Image mono = patternForCamera(pattern, {.mode = DisplayMode::mono, .screen_px = {64, 48}});
   EXPECT_EQ(pixelAt(mono, {5, 7}), glm::ivec3((7 * 64 + 5) % 251));
-  const Picture halves = patternForCamera(pattern, {.mode = DisplayMode::side_by_side, .screen_px = {64, 48}});
+  const Image halves = patternForCamera(pattern, {.mode = DisplayMode::side_by_side, .screen_px = {64, 48}});
   EXPECT_EQ(pixelAt(halves, {5, 7}), glm::ivec3((7 * 64 + 10) % 251));
   EXPECT_EQ(pixelAt(halves, {32 + 5, 7}), pixelAt(halves, {5, 7}));
 }

@@ -16,7 +16,7 @@ using End = WizardOutcome::End;
 
 SyntheticRig rigOf(Scenario scenario, std::uint32_t seed) {
   SyntheticRig rig = calibration::syntheticRig(scenario, seed);
-  rig.habits.precision = scenario == Scenario::f ? calibration::kCrossPrecision : calibration::kPitPrecision;
+  rig.technician.precision = scenario == Scenario::f ? calibration::kCrossPrecision : calibration::kPitPrecision;
   return rig;
 }
 
@@ -26,7 +26,7 @@ struct Finished {
   calibration::RigRecord record;
 };
 
-Finished calibrated(const SyntheticRig& rig, const WizardPlan& plan, const TechnicianHabits& habits = {},
+Finished calibrated(const SyntheticRig& rig, const WizardPlan& plan, const TechnicianSettings& habits = {},
                     const Mishap& mishap = {}, double rate_Hz = 500.0) {
   Wizard wizard(plan);
   RobotTechnician technician(rig, habits, rig.seed);
@@ -46,12 +46,12 @@ TEST(Wizard, CalibratesTypicalArmsWithTheJigInUnderEightMinutes) {
       const SyntheticRig rig = rigOf(scenario, seed);
       const Finished done = calibrated(rig, planFor(rig, CalibrationProcedure::full));
       ASSERT_EQ(done.outcome.end, End::accepted) << static_cast<char>(scenario) << seed << done.outcome.reason;
-      EXPECT_EQ(done.outcome.judgement->verdict, Verdict::green) << done.outcome.judgement->reason;
+      EXPECT_EQ(done.outcome.assessment->verdict, Verdict::green) << done.outcome.assessment->reason;
       EXPECT_LT(trueError_mm(rig, *done.outcome.arm), 0.35);
       EXPECT_LT(done.run.seconds, 480.0);
       ASSERT_TRUE(calibration::measuredArm(done.record.rig));
       EXPECT_EQ(done.record.procedure->method, "jig27");
-      EXPECT_EQ(done.record.proof->errors.n, 16);
+      EXPECT_EQ(done.record.verification->errors.n, 16);
     }
 }
 
@@ -59,9 +59,9 @@ TEST(Wizard, CallsAnArmThatNoModelExplainsUsableAtMost) {
   for (std::uint32_t seed = 1; seed <= 3; ++seed) {
     const SyntheticRig rig = rigOf(Scenario::g, seed);
     const Finished done = calibrated(rig, planFor(rig, CalibrationProcedure::full));
-    ASSERT_TRUE(done.outcome.judgement);
-    EXPECT_NE(done.outcome.judgement->verdict, Verdict::green) << seed;
-    EXPECT_EQ(done.outcome.end, done.outcome.judgement->verdict == Verdict::amber ? End::accepted : End::refused);
+    ASSERT_TRUE(done.outcome.assessment);
+    EXPECT_NE(done.outcome.assessment->verdict, Verdict::green) << seed;
+    EXPECT_EQ(done.outcome.end, done.outcome.assessment->verdict == Verdict::amber ? End::accepted : End::refused);
   }
 }
 
@@ -71,14 +71,14 @@ TEST(Wizard, CalibratesByEyesAloneAndSaysWhatItIsWorth) {
     const Finished done = calibrated(rig, planFor(rig, CalibrationProcedure::full, "visual25"));
     ASSERT_EQ(done.outcome.end, End::accepted) << done.outcome.reason;
     // Touches by eye prove no better than the eye aims.
-    EXPECT_EQ(done.outcome.judgement->verdict, Verdict::amber);
-    EXPECT_EQ(done.outcome.proof_kind, calibration::ProofKind::by_eyes);
+    EXPECT_EQ(done.outcome.assessment->verdict, Verdict::amber);
+    EXPECT_EQ(done.outcome.verification_kind, calibration::VerificationKind::by_eyes);
     EXPECT_LT(trueError_mm(rig, *done.outcome.arm), 0.9);
   }
 }
 
 TEST(Wizard, TakesTouchesByHoldingStillAlone) {
-  TechnicianHabits habits;
+  TechnicianSettings habits;
   habits.presses = false;
   const SyntheticRig rig = rigOf(Scenario::d, 4);
   const Finished done = calibrated(rig, planFor(rig, CalibrationProcedure::full), habits);
@@ -111,7 +111,7 @@ TEST(Wizard, LetsThroughNoCalibrationWithTheStylusHeldOneWay) {
 }
 
 TEST(Wizard, LetsThroughNoTouchesInTheWrongOrder) {
-  TechnicianHabits habits;
+  TechnicianSettings habits;
   habits.reversed = true;
   for (std::uint32_t seed = 1; seed <= 3; ++seed) {
     const SyntheticRig rig = rigOf(Scenario::d, seed);
@@ -126,7 +126,7 @@ TEST(Wizard, LetsThroughNoTouchesInTheWrongOrder) {
 TEST(Wizard, RefusesEveryWrongFlipWithWhatToDo) {
   for (const char* flip :
        {"mirrored left", "mirrored top", "turned by half", "turned to the right", "turned to the left"}) {
-    TechnicianHabits habits;
+    TechnicianSettings habits;
     habits.flip = flip;
     const SyntheticRig rig = rigOf(Scenario::a, 1);
     const Finished done = calibrated(rig, planFor(rig, CalibrationProcedure::full), habits);
@@ -139,7 +139,7 @@ TEST(Wizard, RefusesEveryWrongFlipWithWhatToDo) {
 }
 
 TEST(Wizard, CorrectsTheScreenByTheRulerAndKeepsTheEyes) {
-  TechnicianHabits habits;
+  TechnicianSettings habits;
   habits.bar_mm = 102.0;
   habits.ipd_mm = 66.0;
   habits.distance_mm = 480.0;
@@ -157,7 +157,7 @@ TEST(Wizard, CorrectsTheScreenByTheRulerAndKeepsTheEyes) {
 
 TEST(Wizard, AsksForTheWorstTouchOnceMore) {
   SyntheticRig rig = rigOf(Scenario::b, 3);
-  rig.habits.outlier_share = 0.15;
+  rig.technician.outlier_share = 0.15;
   const Finished done = calibrated(rig, planFor(rig, CalibrationProcedure::full));
   EXPECT_TRUE(done.run.turnedTo("All are touched"));
   ASSERT_EQ(done.outcome.end, End::accepted) << done.outcome.reason;
@@ -172,7 +172,7 @@ TEST(Wizard, GoesOnAfterASilenceOfTheDevice) {
       was_silent = true;
       from_s = sample.t_s;
     }
-    if (was_silent && sample.t_s < from_s + 3.0) sample.believable = false;
+    if (was_silent && sample.t_s < from_s + 3.0) sample.valid = false;
   };
   const SyntheticRig rig = rigOf(Scenario::d, 7);
   const Finished done = calibrated(rig, planFor(rig, CalibrationProcedure::full), {}, silence);
@@ -191,7 +191,7 @@ TEST(Wizard, StartsTheTouchesAgainWhenTheDeviceCountsOtherwiseAfterASilence) {
       was_silent = true;
       from_s = sample.t_s;
     }
-    if (was_silent && sample.t_s < from_s + 3.0) sample.believable = false;
+    if (was_silent && sample.t_s < from_s + 3.0) sample.valid = false;
     if (!was_silent) return;
     // Homed anew, elsewhere by half a degree.
     sample.raw_rad[0] += calibration::radFromDegrees(0.5);
@@ -202,11 +202,11 @@ TEST(Wizard, StartsTheTouchesAgainWhenTheDeviceCountsOtherwiseAfterASilence) {
   const RobotRun run = runWizard(wizard, technician, 500.0, rehomed);
   EXPECT_TRUE(run.said("counts otherwise"));
   ASSERT_EQ(wizard.outcome().end, End::accepted) << wizard.outcome().reason;
-  EXPECT_EQ(wizard.outcome().judgement->verdict, Verdict::green);
+  EXPECT_EQ(wizard.outcome().assessment->verdict, Verdict::green);
 }
 
 TEST(Wizard, CanNotTakeWhatIsRedAndLeavesTheOldCalibration) {
-  // Between the touches and their proof the base is pushed.
+  // Between the touches and their verification the base is pushed.
   SyntheticRig pushed = rigOf(Scenario::d, 8);
   pushed.X_WD.translation_mm += glm::dvec3(2.0, 0.0, 0.0);
   const SyntheticRig rig = rigOf(Scenario::d, 8);
@@ -218,7 +218,7 @@ TEST(Wizard, CanNotTakeWhatIsRedAndLeavesTheOldCalibration) {
     if (!moved && view.title == "Prove it") technician.moveTo(pushed), moved = true;
   });
   EXPECT_EQ(wizard.outcome().end, End::refused);
-  EXPECT_EQ(wizard.outcome().judgement->verdict, Verdict::red);
+  EXPECT_EQ(wizard.outcome().assessment->verdict, Verdict::red);
   EXPECT_NE(wizard.outcome().reason.find("old calibration stays"), std::string::npos);
   const calibration::RigRecord record = recordOf(plan, wizard.outcome());
   EXPECT_EQ(record.rig.X_WD.translation_mm, plan.record.rig.X_WD.translation_mm);
@@ -247,21 +247,21 @@ TEST(Wizard, ChecksAGoodCalibrationInThirtySeconds) {
   plan.record = calibratedRecord(rig);
   const Finished done = calibrated(rig, plan);
   ASSERT_EQ(done.outcome.end, End::accepted) << done.outcome.reason;
-  EXPECT_EQ(done.outcome.judgement->verdict, Verdict::green);
+  EXPECT_EQ(done.outcome.assessment->verdict, Verdict::green);
   EXPECT_FALSE(done.outcome.rezero);
   EXPECT_LT(done.run.seconds, 30.0);
   EXPECT_EQ(done.record.rig.X_WD.translation_mm, plan.record.rig.X_WD.translation_mm);
-  EXPECT_EQ(done.record.proof->kind, calibration::ProofKind::session_check);
+  EXPECT_EQ(done.record.verification->kind, calibration::VerificationKind::session_check);
 }
 
 TEST(Wizard, BringsADriftedCalibrationUpToDate) {
   for (std::uint32_t seed = 1; seed <= 4; ++seed) {
     SyntheticRig rig = rigOf(Scenario::d, seed);
-    rig.habits.outlier_share = 0.0;
+    rig.technician.outlier_share = 0.0;
     WizardPlan plan = planFor(rig, CalibrationProcedure::check);
     plan.record = calibratedRecord(rig);
-    std::mt19937 chance(seed);
-    const SyntheticRig today = calibration::drifted(rig, 0.3, 1.0, chance);
+    std::mt19937 rng(seed);
+    const SyntheticRig today = calibration::drifted(rig, 0.3, 1.0, rng);
     const Finished done = calibrated(today, plan);
     ASSERT_EQ(done.outcome.end, End::accepted) << seed << done.outcome.reason;
     ASSERT_TRUE(done.outcome.rezero);
@@ -273,7 +273,7 @@ TEST(Wizard, BringsADriftedCalibrationUpToDate) {
 
 TEST(Wizard, LocksAnArmThatFiveTouchesDoNotMend) {
   SyntheticRig rig = rigOf(Scenario::b, 2);
-  rig.habits.outlier_share = 0.0;
+  rig.technician.outlier_share = 0.0;
   WizardPlan plan = planFor(rig, CalibrationProcedure::check);
   plan.record = calibratedRecord(rig);
   // A worn belt: gains, and the gimbal.
@@ -283,25 +283,25 @@ TEST(Wizard, LocksAnArmThatFiveTouchesDoNotMend) {
   worn.arm.truth.offset_rad[4] += 0.06;
   const Finished done = calibrated(worn, plan);
   EXPECT_EQ(done.outcome.end, End::refused);
-  EXPECT_EQ(done.outcome.judgement->verdict, Verdict::red) << done.outcome.judgement->reason;
+  EXPECT_EQ(done.outcome.assessment->verdict, Verdict::red) << done.outcome.assessment->reason;
   EXPECT_NE(done.outcome.reason.find("calibrate it in full"), std::string::npos) << done.outcome.reason;
 }
 
 TEST(Wizard, ReZerosWhenItIsAskedFor) {
   SyntheticRig rig = rigOf(Scenario::d, 3);
-  rig.habits.outlier_share = 0.0;
+  rig.technician.outlier_share = 0.0;
   WizardPlan plan = planFor(rig, CalibrationProcedure::rezero);
   plan.record = calibratedRecord(rig);
-  std::mt19937 chance(3);
-  const Finished done = calibrated(calibration::drifted(rig, 0.3, 1.0, chance), plan);
+  std::mt19937 rng(3);
+  const Finished done = calibrated(calibration::drifted(rig, 0.3, 1.0, rng), plan);
   EXPECT_EQ(done.outcome.end, End::accepted) << done.outcome.reason;
   EXPECT_EQ(done.outcome.zeroing.touches.size(), 5u);
-  EXPECT_EQ(done.outcome.proof.touches.size(), 4u);
+  EXPECT_EQ(done.outcome.verification.touches.size(), 4u);
 }
 
 TEST(Wizard, FindsWhereTheHandRests) {
   SyntheticRig rig = rigOf(Scenario::d, 2);
-  rig.habits.outlier_share = 0.0;
+  rig.technician.outlier_share = 0.0;
   WizardPlan plan = planFor(rig, CalibrationProcedure::rest);
   plan.record = calibratedRecord(rig);
   plan.rest_marks_mm = {{0, 0, 0}, {60, 0, 0}, {15, 40, 5}, {10, 35, 0}, {50, 25, 5}, {30, 10, 5}};
@@ -310,7 +310,7 @@ TEST(Wizard, FindsWhereTheHandRests) {
   const Finished done = calibrated(rig, plan);
   ASSERT_EQ(done.outcome.end, End::accepted) << done.outcome.reason;
   ASSERT_TRUE(done.record.rest);
-  EXPECT_LT(done.record.rest->worst_mm, calibration::kMostRestError_mm);
+  EXPECT_LT(done.record.rest->worst_mm, calibration::kMaxRestError_mm);
   EXPECT_LT(glm::length(done.record.rest->translation_mm - glm::dvec3(-30, -20, 5)), 2.0);
 }
 

@@ -44,15 +44,15 @@ TEST(TroughPlan, LiesOnTheBoneBesideTheCrown) {
   EXPECT_NEAR(plan->middle_P_mm.y, 40.0, 2.0) << "beside the third molar";
   EXPECT_NEAR(glm::length(plan->outward_P), 1.0, 1e-12);
   EXPECT_GT(plan->outward_P.z, 0.5);
-  EXPECT_LT(plan->aside_P.x, 0.0);
-  EXPECT_NEAR(glm::dot(plan->outward_P, plan->aside_P), 0.0, 1e-9);
+  EXPECT_LT(plan->lateral_P.x, 0.0);
+  EXPECT_NEAR(glm::dot(plan->outward_P, plan->lateral_P), 0.0, 1e-9);
 }
 
 TEST(TroughPlan, KeepsOffTheNeighbouringTooth) {
   const auto plan = planBuccalTrough(blockWithMolar(), 2.0);
   ASSERT_TRUE(plan.has_value());
   const glm::dvec2 neighbour{-20.0, 28.0};
-  const glm::dvec3 along = glm::cross(plan->outward_P, plan->aside_P);
+  const glm::dvec3 along = glm::cross(plan->outward_P, plan->lateral_P);
   for (double s = -0.5; s <= 0.5; s += 0.1) {
     const glm::dvec3 p = plan->middle_P_mm + s * plan->length_mm * along;
     EXPECT_GT(glm::distance(glm::dvec2(p), neighbour), 5.0 + 2.0) << "crown and bur";
@@ -93,22 +93,22 @@ TEST(TroughPlan, LiesBesideAToothInTheMiddleOfTheRow) {
   ASSERT_TRUE(plan.has_value());
   EXPECT_GT(plan->middle_P_mm.x, 24.5) << "buccal of the crown, on the patient's left";
   EXPECT_NEAR(plan->middle_P_mm.y, 40.0, 4.0);
-  const glm::dvec3 along = glm::cross(plan->outward_P, plan->aside_P);
+  const glm::dvec3 along = glm::cross(plan->outward_P, plan->lateral_P);
   EXPECT_GT(std::abs(along.y), 0.95) << "along the row";
 }
 
 /// Where the teeth of a lower arch stand, a parabola, by the usual widths of crowns; y to the back, from the incisors.
 glm::dvec3 inArch_P_mm(int fdi) {
   constexpr double kWidth_mm[] = {5.3, 5.9, 6.9, 7.0, 7.1, 11.0, 10.5, 10.0}, kBend_per_mm = 0.06, kStep_mm = 0.001;
-  double to_centre_mm = 0.5 * kWidth_mm[assets::placeOf(fdi) - 1], x_mm = 0.0;
-  for (int place = 1; place < assets::placeOf(fdi); ++place) to_centre_mm += kWidth_mm[place - 1];
+  double to_centre_mm = 0.5 * kWidth_mm[assets::positionOf(fdi) - 1], x_mm = 0.0;
+  for (int place = 1; place < assets::positionOf(fdi); ++place) to_centre_mm += kWidth_mm[place - 1];
   for (double arc_mm = 0.0; arc_mm < to_centre_mm; x_mm += kStep_mm)
     arc_mm += kStep_mm * std::hypot(1.0, 2.0 * kBend_per_mm * x_mm);
   return {assets::isRight(fdi) ? -x_mm : x_mm, kBend_per_mm * x_mm * x_mm, 0.0};
 }
 
 glm::dvec3 distalInArch_P(int fdi) {
-  const glm::dvec3 ahead = inArch_P_mm(fdi - 1 + (assets::placeOf(fdi) == 1)), behind = inArch_P_mm(fdi + 1);
+  const glm::dvec3 ahead = inArch_P_mm(fdi - 1 + (assets::positionOf(fdi) == 1)), behind = inArch_P_mm(fdi + 1);
   return glm::normalize(behind - ahead);
 }
 

@@ -11,7 +11,7 @@ class CalibrateCommand : public ProgramTest {
  protected:
   /// A unit with its touches, and others to judge by.
   void simulate(const std::string& options = "--seed 7", const std::string& name = "obs") const {
-    const Said said = molar("calibrate simulate --scenario D " + options + " --out " + at(name + ".yaml") +
+    const ProgramOutput said = molar("calibrate simulate --scenario D " + options + " --out " + at(name + ".yaml") +
                             " --held-out " + at(name + "_held.yaml"));
     ASSERT_EQ(said.status, 0) << said.err;
   }
@@ -32,7 +32,7 @@ class CalibrateCommand : public ProgramTest {
 
 TEST_F(CalibrateCommand, FitsAndProvesAJig) {
   simulate("--seed 7 --outliers 0.03");
-  const Said said = molar("calibrate fit " + at("obs.yaml") + " --out " + at("rig.yaml") + " --json");
+  const ProgramOutput said = molar("calibrate fit " + at("obs.yaml") + " --out " + at("rig.yaml") + " --json");
   EXPECT_EQ(said.status, 0) << said.err;
   EXPECT_EQ(nlohmann::json::parse(said.out)["model"], "full");
   const auto measured = proof("rig.yaml", "obs_held.yaml");
@@ -46,7 +46,7 @@ TEST_F(CalibrateCommand, FullBeatsRigidOnTouchesNeitherHasSeen) {
   simulate();
   for (const char* model : {"rigid", "full"}) {
     const std::string name = std::string(model) + ".yaml";
-    const Said said = molar("calibrate fit " + at("obs.yaml") + " --model " + model + " --out " + at(name));
+    const ProgramOutput said = molar("calibrate fit " + at("obs.yaml") + " --model " + model + " --out " + at(name));
     EXPECT_NE(said.status, 2) << said.err;
   }
   EXPECT_LT(2.0 * proof("full.yaml", "obs_held.yaml")["tre_rms_mm"].get<double>(),
@@ -61,7 +61,7 @@ TEST_F(CalibrateCommand, RezeroBringsAPushedUnitBack) {
   molar(drift + at("five.yaml") + " --method rezero5");
   molar(drift + at("four.yaml") + " --method check4");
   EXPECT_EQ(molar("calibrate check " + at("rig.yaml") + " " + at("four.yaml")).status, 1);
-  const Said said = molar("calibrate rezero " + at("rig.yaml") + " " + at("five.yaml") + " --out " + at("new.yaml"));
+  const ProgramOutput said = molar("calibrate rezero " + at("rig.yaml") + " " + at("five.yaml") + " --out " + at("new.yaml"));
   EXPECT_EQ(said.status, 0) << said.err;
   EXPECT_EQ(molar("calibrate check " + at("new.yaml") + " " + at("four.yaml")).status, 0);
   EXPECT_LT(proof("new.yaml", "later_held.yaml")["tre_rms_mm"], 0.45);
@@ -72,7 +72,7 @@ TEST_F(CalibrateCommand, KeepsWhatIsProvedAndGoesBack) {
   simulate("--seed 7 --method jig8", "few");
   const std::string store = " --keep --store " + at("store");
   const std::string held = " --held-out " + at("obs_held.yaml");
-  const Said first = molar("calibrate fit " + at("few.yaml") + held + store);
+  const ProgramOutput first = molar("calibrate fit " + at("few.yaml") + held + store);
   EXPECT_NE(first.status, 2) << first.err;
   const std::string before = current("store");
   EXPECT_FALSE(before.empty());
@@ -84,7 +84,7 @@ TEST_F(CalibrateCommand, KeepsWhatIsProvedAndGoesBack) {
   molar("calibrate fit " + at("obs.yaml") + store);
   EXPECT_EQ(current("store"), in_force);
 
-  const Said list = molar("calibrate list --store " + at("store"));
+  const ProgramOutput list = molar("calibrate list --store " + at("store"));
   EXPECT_EQ(std::count(list.out.begin(), list.out.end(), '*'), 1) << list.out;
   EXPECT_NE(list.out.find("green"), std::string::npos) << list.out;
   EXPECT_EQ(molar("calibrate rollback --store " + at("store")).status, 0);
@@ -96,11 +96,11 @@ TEST_F(CalibrateCommand, SaysWhatDiffersAndReportsOnOnePage) {
   ASSERT_EQ(molar("calibrate fit " + at("obs.yaml") + " --held-out " + at("obs_held.yaml") + " --out " + at("rig.yaml"))
                 .status,
             0);
-  const Said diff = molar("calibrate diff mirrored " + at("rig.yaml"));
+  const ProgramOutput diff = molar("calibrate diff mirrored " + at("rig.yaml"));
   EXPECT_EQ(diff.status, 0) << diff.err;
   EXPECT_NE(diff.out.find("mm"), std::string::npos) << diff.out;
   EXPECT_EQ(molar("calibrate diff " + at("rig.yaml") + " " + at("rig.yaml")).out, "");
-  const Said said = molar("calibrate report " + at("rig.yaml") + " --out " + at("report.html"));
+  const ProgramOutput said = molar("calibrate report " + at("rig.yaml") + " --out " + at("report.html"));
   EXPECT_EQ(said.status, 0) << said.err;
   const std::string page = read("report.html");
   for (const char* words : {"<svg", "green", "mm", "jig27"}) EXPECT_NE(page.find(words), std::string::npos) << words;
@@ -110,14 +110,14 @@ TEST_F(CalibrateCommand, SaysWhatDiffersAndReportsOnOnePage) {
 TEST_F(CalibrateCommand, LeadsThroughAllOfItAndTheRehearsalWorksWithIt) {
   const std::string store = " --store " + at("store");
   const std::string robot = " --device practice:D:7 --robot --hurried --headless --keep" + store;
-  const Said said = molar("calibrate collect" + robot + " --observations " + at("touches.yaml"));
+  const ProgramOutput said = molar("calibrate collect" + robot + " --observations " + at("touches.yaml"));
   ASSERT_EQ(said.status, 0) << said.err;
   EXPECT_FALSE(current("store").empty());
   EXPECT_NE(read("touches.yaml").find("jig27"), std::string::npos);
-  const Said check = molar("calibrate check" + robot);
+  const ProgramOutput check = molar("calibrate check" + robot);
   EXPECT_EQ(check.status, 0) << check.err;
 
-  const Said rehearsed =
+  const ProgramOutput rehearsed =
       molar("rehearse --headless --pace fast --device practice:D:7 --seconds 0.3 --voxel 0.6 --rig-store " +
             at("store") + " --record " + at("s.molar"));
   EXPECT_EQ(rehearsed.status, 0) << rehearsed.err;
@@ -143,7 +143,7 @@ TEST_F(CalibrateCommand, ARedCheckLocksWhatWasGreen) {
   expectRefusal(rehearse, "red");
   EXPECT_EQ(molar("calibrate report " + rig + " --store " + at("store") + " --out " + at("page.html")).status, 0);
   EXPECT_NE(read("page.html").find("Red"), std::string::npos);
-  const Said insisted = molar(rehearse + " --despite-calibration \"to try it\"");
+  const ProgramOutput insisted = molar(rehearse + " --despite-calibration \"to try it\"");
   EXPECT_EQ(insisted.status, 0) << insisted.err;
 
   // A re-zero opens it again, once others prove it.
@@ -151,7 +151,7 @@ TEST_F(CalibrateCommand, ARedCheckLocksWhatWasGreen) {
   EXPECT_NE(molar(rezero).err.find("not proved"), std::string::npos);
   expectRefusal(rehearse, "red");
   EXPECT_NE(molar(rezero + " --held-out " + at("four.yaml")).status, 2);
-  const Said opened = molar(rehearse);
+  const ProgramOutput opened = molar(rehearse);
   EXPECT_EQ(opened.status, 0) << opened.err;
 }
 
@@ -209,7 +209,7 @@ TEST_F(CalibrateCommand, ListsWhatIsKeptThoughItIsNotKnownWhatIsInForce) {
   const std::string in_force = current("store");
   for (const auto& entry : std::filesystem::recursive_directory_iterator(at("store")))
     if (entry.path().filename() == "current") std::ofstream(entry.path()) << "banana\n";
-  const Said said = molar("calibrate list" + store);
+  const ProgramOutput said = molar("calibrate list" + store);
   EXPECT_EQ(said.status, 0) << said.err;
   EXPECT_NE(said.out.find(in_force), std::string::npos) << said.out;
   EXPECT_NE(said.err.find("names no rig"), std::string::npos) << said.err;

@@ -25,7 +25,7 @@ class CalibrateLens : public ProgramTest {
 };
 
 TEST_F(CalibrateLens, IsMeasuredOnRealPictures) {
-  const Said said = molar(lens() + " --out " + at("camera.yaml") + " --name desk --json");
+  const ProgramOutput said = molar(lens() + " --out " + at("camera.yaml") + " --name desk --json");
   const auto json = nlohmann::json::parse(said.out);
   EXPECT_EQ(said.status, json["verdict"] == "green" ? 0 : 1) << said.err;
   EXPECT_EQ(json["views"], 13);
@@ -43,7 +43,7 @@ TEST_F(CalibrateLens, NamesThePicturesItCanNotUse) {
   write("left/left20.jpg", "");
   expectRefusal(lens(), "left20.jpg");
   fs::remove(at("left/left20.jpg"));
-  const Said said = molar("calibrate lens " + at("left") + " --board 11x8");
+  const ProgramOutput said = molar("calibrate lens " + at("left") + " --board 11x8");
   EXPECT_EQ(said.status, 2) << said.err;
   EXPECT_NE(said.err.find("left01.jpg"), std::string::npos) << said.err;
   expectRefusal("calibrate lens " + at("left") + " --board nine", "9x6");
@@ -70,7 +70,7 @@ class CalibratePivot : public ProgramTest {
 };
 
 TEST_F(CalibratePivot, FindsAnotherBur) {
-  const Said said = molar("calibrate pivot " + at("pit.yaml") + " --rig " + at("rig.yaml") + " --tip bur-7 --out " +
+  const ProgramOutput said = molar("calibrate pivot " + at("pit.yaml") + " --rig " + at("rig.yaml") + " --tip bur-7 --out " +
                           at("new.yaml") + " --json");
   ASSERT_EQ(said.status, 0) << said.err;
   const auto json = nlohmann::json::parse(said.out);

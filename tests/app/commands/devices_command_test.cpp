@@ -8,7 +8,7 @@ namespace {
 class DevicesCommand : public ProgramTest {
  protected:
   /// The check with these answers, a line each.
-  Said check(const std::string& answers, const std::string& address = "simulated:omni") const {
+  ProgramOutput check(const std::string& answers, const std::string& address = "simulated:omni") const {
     return molar("devices check " + address + " --rate-seconds 0.5 --report " + at("report.md"),
                  write("answers", answers));
   }
@@ -20,7 +20,7 @@ std::string goodAnswers(const std::string& ways, const std::string& grams) {
 }
 
 TEST_F(DevicesCommand, ListsWhatIsHereAndSaysWhatNoUnitHasProved) {
-  const Said said = molar("devices");
+  const ProgramOutput said = molar("devices");
   EXPECT_EQ(said.status, 0) << said.err;
   for (const char* words :
        {"simulated:omni", "openhaptics", "wooden", "falcon", "never on a real unit", "devices check"})
@@ -33,7 +33,7 @@ TEST_F(DevicesCommand, ListsWhatIsHereAndSaysWhatNoUnitHasProved) {
 }
 
 TEST_F(DevicesCommand, CheckTakesAGoodUnitToTheEnd) {
-  const Said said = check(goodAnswers("r\nu\nt\n", "0\n30.6\n61.2\n102\n-30.6\n-61.2\n-102\n"));
+  const ProgramOutput said = check(goodAnswers("r\nu\nt\n", "0\n30.6\n61.2\n102\n-30.6\n-61.2\n-102\n"));
   const std::string page = read("report.md");
   EXPECT_EQ(said.status, 0) << said.err << page;
   EXPECT_EQ(said.out, "");
@@ -47,7 +47,7 @@ TEST_F(DevicesCommand, CheckTakesAGoodUnitToTheEnd) {
 }
 
 TEST_F(DevicesCommand, CheckFindsAForceThatPushesTheWrongWayAndPushesNoMore) {
-  const Said said = check(goodAnswers("l\nu\nt\n", ""));
+  const ProgramOutput said = check(goodAnswers("l\nu\nt\n", ""));
   EXPECT_EQ(said.status, 1) << said.err;
   const std::string page = read("report.md");
   EXPECT_NE(page.find("| pushes right | right | left"), std::string::npos) << page;
@@ -61,7 +61,7 @@ TEST_F(DevicesCommand, CheckLeavesAtAnyQuestion) {
     std::string answers = goodAnswers("r\nu\nt\n", "0\n30.6\n");
     std::size_t end = 0;
     for (int i = 0; i < lines; ++i) end = answers.find('\n', end) + 1;
-    const Said said = check(answers.substr(0, end) + "q\n");
+    const ProgramOutput said = check(answers.substr(0, end) + "q\n");
     EXPECT_EQ(said.status, 1) << lines << said.err;
     EXPECT_NE(read("report.md").find("left before the end"), std::string::npos) << lines;
   }

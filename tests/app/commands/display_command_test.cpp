@@ -10,7 +10,7 @@ class DisplayCommand : public ProgramTest {};
 TEST_F(DisplayCommand, WritesEveryPatternAsAPicture) {
   for (const char* pattern : {"eyes", "crosstalk", "grid", "cross", "text"}) {
     const std::string name = std::string(pattern) + ".png";
-    const Said said =
+    const ProgramOutput said =
         molar("display --display side-by-side --size 320x200 --pattern " + std::string(pattern) + " --out " + at(name));
     EXPECT_EQ(said.status, 0) << said.err;
     EXPECT_EQ(read(name).substr(1, 3), "PNG");
@@ -30,15 +30,15 @@ TEST_F(DisplayCommand, RefusesWhatCanNotBe) {
 TEST_F(DisplayCommand, ShowsItselfAndTheNextBestWhereADisplayHasNoStereo) {
   if (std::getenv("DISPLAY") == nullptr) GTEST_SKIP() << "no DISPLAY: run under xvfb-run";
   for (const char* mode : {"mono", "row-interleaved", "two-windows", "anaglyph"}) {
-    const Said said = molar("display --windowed --size 160x100 --seconds 0.3 --display " + std::string(mode));
+    const ProgramOutput said = molar("display --windowed --size 160x100 --seconds 0.3 --display " + std::string(mode));
     EXPECT_EQ(said.status, 0) << mode << said.err;
     EXPECT_EQ(said.err, "") << mode;
   }
   // Software rasterisers have none; a machine that has must say nothing.
-  const Said quad = molar("display --windowed --size 160x100 --seconds 0.3 --display quad-buffer");
+  const ProgramOutput quad = molar("display --windowed --size 160x100 --seconds 0.3 --display quad-buffer");
   EXPECT_EQ(quad.status, 0) << quad.err;
   EXPECT_TRUE(quad.err.empty() || quad.err.find("showing mono") != std::string::npos) << quad.err;
-  const Said listed = molar("display --monitors");
+  const ProgramOutput listed = molar("display --monitors");
   EXPECT_EQ(listed.status, 0);
   EXPECT_NE(listed.out.find("Hz"), std::string::npos);
 }

@@ -8,11 +8,11 @@ namespace {
 class DoctorCommand : public ProgramTest {};
 
 TEST_F(DoctorCommand, AnswersForPeopleAndForProgramsAlike) {
-  const Said json = molar("doctor --json --sessions " + folder_.string());
+  const ProgramOutput json = molar("doctor --json --sessions " + folder_.string());
   EXPECT_EQ(json.err, "");
   const auto all = nlohmann::json::parse(json.out);
   EXPECT_EQ(json.status, all["missing"] > 0 ? 1 : 0) << "1 when something needed is missing";
-  const Said said = molar("doctor --sessions " + folder_.string());
+  const ProgramOutput said = molar("doctor --sessions " + folder_.string());
   for (const auto& check : all["checks"]) {
     EXPECT_NE(said.out.find("  " + check["id"].get<std::string>() + " "), std::string::npos) << said.out;
     EXPECT_NE(check["sentence"], "");
@@ -24,7 +24,7 @@ TEST_F(DoctorCommand, AnswersForPeopleAndForProgramsAlike) {
 }
 
 TEST_F(DoctorCommand, PrintsRulesReadyToBePutInPlace) {
-  const Said said = molar("doctor --udev-rules");
+  const ProgramOutput said = molar("doctor --udev-rules");
   EXPECT_EQ(said.status, 0);
   EXPECT_EQ(said.err, "");
   for (const char* identity : {"2988", "0301", "1234", "cb48", "uaccess", "ID_MM_DEVICE_IGNORE"})

@@ -28,7 +28,7 @@ class ExportCommand : public ProgramTest {
     return at("s.molar");
   }
   nlohmann::json parts(const std::string& arguments) const {
-    const Said said = molar("export " + arguments);
+    const ProgramOutput said = molar("export " + arguments);
     EXPECT_EQ(said.status, 0) << said.err;
     return said.status == 0 ? nlohmann::json::parse(said.out).at("parts") : nlohmann::json::array();
   }

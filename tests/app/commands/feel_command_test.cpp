@@ -51,7 +51,7 @@ class FeelCommand : public ProgramTest {
         rows.emplace_back(rows.size(), p);
       }
     write("p.csv", poseCsv(rows));
-    const Said said = molar("feel --volume " + at("v.nrrd") + " --field solid --tool sphere:2 --law agus --poses " +
+    const ProgramOutput said = molar("feel --volume " + at("v.nrrd") + " --field solid --tool sphere:2 --law agus --poses " +
                             at("p.csv") + " --out " + at("f.csv") + " --force");
     EXPECT_EQ(said.status, 0) << said.err;
     const auto felt = feltIn(read("f.csv"));

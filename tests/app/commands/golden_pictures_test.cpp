@@ -55,7 +55,7 @@ constexpr char kRun[] =
     "rehearse --headless --pace fast --device scripted --voxel 0.5 --renderer cpu --snapshot-size 240x150 ";
 
 TEST_F(GoldenPicture, ThePatientBeforeAndAfterTheTrough) {
-  const Said said =
+  const ProgramOutput said =
       molar(kRun + std::string("--first-snapshot ") + at("before.png") + " --snapshot " + at("after.png"));
   ASSERT_EQ(said.status, 0) << said.err;
   expectGolden("before_left.png", "before_left.png", kStill);
@@ -64,7 +64,7 @@ TEST_F(GoldenPicture, ThePatientBeforeAndAfterTheTrough) {
 }
 
 TEST_F(GoldenPicture, TranslucentBoneWithTheCanalUnderAFadedFace) {
-  const Said said =
+  const ProgramOutput said =
       molar(kRun + std::string("--seconds 0.1 --mode dvr --layers canal --face-opacity 0.3 --first-snapshot ") +
             at("clear.png"));
   ASSERT_EQ(said.status, 0) << said.err;
@@ -72,7 +72,7 @@ TEST_F(GoldenPicture, TranslucentBoneWithTheCanalUnderAFadedFace) {
 }
 
 TEST_F(GoldenPicture, ThePlannedCutAndTheSlices) {
-  const Said said =
+  const ProgramOutput said =
       molar(kRun + std::string("--seconds 0.1 --layers plan,clearance,slices --first-snapshot ") + at("plan.png"));
   ASSERT_EQ(said.status, 0) << said.err;
   expectGolden("plan_left.png", "plan_left.png", kStill);

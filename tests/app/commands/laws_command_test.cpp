@@ -8,7 +8,7 @@ namespace {
 class LawsCommand : public ProgramTest {};
 
 TEST_F(LawsCommand, ListsEveryParameterWithUnitRangeDefaultAndSource) {
-  const Said said = molar("laws --json");
+  const ProgramOutput said = molar("laws --json");
   ASSERT_EQ(said.status, 0) << said.err;
   const auto all = nlohmann::json::parse(said.out);
   EXPECT_EQ(all["laws"].size(), 7u);
@@ -21,13 +21,13 @@ TEST_F(LawsCommand, ListsEveryParameterWithUnitRangeDefaultAndSource) {
       EXPECT_FALSE(one["source"].get<std::string>().empty()) << one["key"];
     }
   }
-  const Said table = molar("laws --law hertz");
+  const ProgramOutput table = molar("laws --law hertz");
   EXPECT_NE(table.out.find("hertz_N_per_mm2"), std::string::npos) << table.out;
   EXPECT_EQ(table.out.find("force_constant_N"), std::string::npos) << "only the law that was asked for";
 }
 
 TEST_F(LawsCommand, DrawsForceAndStiffness) {
-  const Said said = molar("laws --plot " + at("laws.png") + " --tool sphere:1 --law agus,hertz");
+  const ProgramOutput said = molar("laws --plot " + at("laws.png") + " --tool sphere:1 --law agus,hertz");
   ASSERT_EQ(said.status, 0) << said.err;
   const std::string png = read("laws.png");
   EXPECT_TRUE(png.starts_with("\x89PNG")) << png.size();

@@ -14,7 +14,7 @@
 
 namespace app {
 
-struct Said {
+struct ProgramOutput {
   int status = -1;  ///< exit status; 128 + signal after a crash
   std::string out, err;
 };
@@ -47,12 +47,12 @@ class ProgramTest : public testing::Test {
   }
 
   /// `arguments` as a shell would read them; `input` names a file.
-  Said molar(const std::string& arguments, const std::string& input = "/dev/null") const {
+  ProgramOutput molar(const std::string& arguments, const std::string& input = "/dev/null") const {
     const std::string out = folder_.string() + ".out", err = folder_.string() + ".err";
     const std::string line =
         std::string(MOLAR_PROGRAM) + " " + arguments + " >'" + out + "' 2>'" + err + "' <'" + input + "'";
     const int status = std::system(line.c_str());
-    Said said;
+    ProgramOutput said;
     said.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     for (const auto& [path, text] : {std::pair{out, &said.out}, std::pair{err, &said.err}}) {
       std::ifstream file(path, std::ios::binary);
@@ -66,7 +66,7 @@ class ProgramTest : public testing::Test {
 
   /// Bad input: exit 2 and exactly one line that starts with the program's name.
   void expectRefusal(const std::string& arguments, const std::string& word = "") const {
-    const Said said = molar(arguments);
+    const ProgramOutput said = molar(arguments);
     EXPECT_EQ(said.status, 2) << arguments << "\n" << said.err;
     EXPECT_EQ(said.out, "") << arguments;
     // Whichever test comes first has the built-in patient made.

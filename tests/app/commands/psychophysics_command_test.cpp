@@ -28,7 +28,7 @@ repetitions = 8
 class PsychophysicsCommand : public ProgramTest {};
 
 TEST_F(PsychophysicsCommand, WritesARowATrialAndASummary) {
-  const Said said = molar("psychophysics " + write("p.toml", kQuickProtocol) + " --out " + at("r.csv"));
+  const ProgramOutput said = molar("psychophysics " + write("p.toml", kQuickProtocol) + " --out " + at("r.csv"));
   ASSERT_EQ(said.status, 0) << said.err;
   const std::string csv = read("r.csv");
   EXPECT_TRUE(csv.starts_with("trial,participant,method,track,first,parameter,unit,")) << csv;

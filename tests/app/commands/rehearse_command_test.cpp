@@ -43,18 +43,18 @@ auto columns(const haptics::Tick& t) {
   return std::tuple(t.index, t.t_s, t.dt_s, t.command_serial, h.X_PT.translation_mm, h.X_PT.rotation,
                     h.velocity_P_mm_per_s.xyz, h.handle_velocity_P_mm_per_s.xyz, h.arm_P_mm.xyz, h.jacobian_P_mm,
                     h.motor_heat, h.gap_s, h.drill_pedal, h.fresh, h.docked, h.held, h.calibrated, t.proxy_P.mm,
-                    t.law_force_P_N.xyz, t.law_torque_P_Nmm.xyz, t.served_force_P_N.xyz, t.served_torque_P_Nmm.xyz,
+                    t.law_force_P_N.xyz, t.law_torque_P_Nmm.xyz, t.commanded_force_P_N.xyz, t.commanded_torque_P_Nmm.xyz,
                     t.energy_Nmm, t.spindle_rad_per_s, t.overlap_mm3, t.depth_mm, t.removed_mm3, t.bone_digest,
-                    t.contact_tissue, t.drilling, t.rest, t.strokes, t.state, t.faults, t.work_us);
+                    t.contact_tissue, t.drilling, t.drill_inhibit, t.strokes, t.state, t.faults, t.work_us);
 }
 
 TEST_F(RehearseCommand, RecordsWhatReplaysBitForBit) {
-  const Said said = molar(kCoarse + std::string("--seconds 4 --record ") + at("s.molar"));
+  const ProgramOutput said = molar(kCoarse + std::string("--seconds 4 --record ") + at("s.molar"));
   ASSERT_EQ(said.status, 0) << said.err;
   EXPECT_NE(said.out.find("removed"), std::string::npos);
-  const Said replay = molar("replay " + at("s.molar") + " --verify");
+  const ProgramOutput replay = molar("replay " + at("s.molar") + " --verify");
   EXPECT_EQ(replay.status, 0) << replay.out << replay.err;
-  const Said metrics = molar("metrics " + at("s.molar") + " --json");
+  const ProgramOutput metrics = molar("metrics " + at("s.molar") + " --json");
   ASSERT_EQ(metrics.status, 0) << metrics.err;
   const auto json = nlohmann::json::parse(metrics.out);
   EXPECT_NEAR(json.at("duration_s").get<double>(), 4.0, 1e-6);
@@ -75,7 +75,7 @@ TEST_F(RehearseCommand, MakesTheSameTicksTwiceAtFastPace) {
     const std::string hand = device == std::string("poses") ? "poses:" + at("p.csv") : device;
     std::vector<std::vector<haptics::Tick>> runs;
     for (const char* name : {"one.molar", "two.molar"}) {
-      const Said said = molar(kQuick + ("--force --seconds 3 --device " + hand + " --record " + at(name)));
+      const ProgramOutput said = molar(kQuick + ("--force --seconds 3 --device " + hand + " --record " + at(name)));
       ASSERT_EQ(said.status, 0) << said.err;
       EXPECT_NE(said.out.find("3000 ticks, 0 lost"), std::string::npos) << said.out;
       runs.push_back(ticksOf(at(name)));
@@ -90,7 +90,7 @@ TEST_F(RehearseCommand, MakesTheSameTicksTwiceAtFastPace) {
 }
 
 TEST_F(RehearseCommand, LosesNoTickOfALongRunAtFastPace) {
-  const Said said = molar(kCoarse + std::string("--seconds 60 --rate 2000 --record ") + at("s.molar"));
+  const ProgramOutput said = molar(kCoarse + std::string("--seconds 60 --rate 2000 --record ") + at("s.molar"));
   ASSERT_EQ(said.status, 0) << said.err;
   EXPECT_NE(said.out.find("120000 ticks, 0 lost"), std::string::npos) << said.out;
 }
@@ -103,7 +103,7 @@ TEST_F(RehearseCommand, IsWhereThePosesHaveItAndAsksAtTheirTicks) {
   rows += "0.5,101,10,200,1,0,0,0,0,sphere:1.5,drill:off\n";
   rows += "0.75,101,10,203,1,0,0,0,0,,irrigation:on\n";
   write("p.csv", rows);
-  const Said said = molar(
+  const ProgramOutput said = molar(
       kQuick + ("--tool sphere:1.5 --tool sphere:1 --device poses:" + at("p.csv") + " --record " + at("s.molar")));
   ASSERT_EQ(said.status, 0) << said.err;
   const std::vector<haptics::Tick> ticks = ticksOf(at("s.molar"));
@@ -158,7 +158,7 @@ TEST_F(RehearseCommand, ObeysTheLastRowAtRealPaceToo) {
 TEST_F(RehearseCommand, EndsAtTheTickOfTheRowThatSaysSo) {
   write("p.csv",
         std::string(kPoseHeader) + "0,100,0,200,1,0,0,0,0,,\n0.3,100,0,200,1,0,0,0,0,,end\n1,100,0,200,1,0,0,0,0,,\n");
-  const Said said = molar(kQuick + ("--device poses:" + at("p.csv") + " --record " + at("s.molar")));
+  const ProgramOutput said = molar(kQuick + ("--device poses:" + at("p.csv") + " --record " + at("s.molar")));
   ASSERT_EQ(said.status, 0) << said.err;
   EXPECT_EQ(ticksOf(at("s.molar")).size(), 300u);
 }
@@ -194,12 +194,12 @@ TEST_F(RehearseCommand, GoesFastWithHandsInNumbersAlone) {
 /// A simulated Phantom is armed and carves; what it recorded moves again as a hand of its own.
 TEST_F(RehearseCommand, ArmsASimulatedPhantomAndReplaysItsHand) {
   const std::string quiet = kQuick;
-  const Said said = molar(quiet + "--device simulated:omni --seconds 7 --record " + at("s.molar"));
+  const ProgramOutput said = molar(quiet + "--device simulated:omni --seconds 7 --record " + at("s.molar"));
   ASSERT_EQ(said.status, 0) << said.err;
   EXPECT_NE(said.err.find("There is no force yet."), std::string::npos) << said.err;
   EXPECT_NE(said.err.find("The hand feels the tissue."), std::string::npos) << said.err;
   EXPECT_EQ(molar("replay " + at("s.molar") + " --verify").status, 0);
-  const Said again = molar(quiet + "--device replay:" + at("s.molar") + " --seconds 2 --record " + at("t.molar"));
+  const ProgramOutput again = molar(quiet + "--device replay:" + at("s.molar") + " --seconds 2 --record " + at("t.molar"));
   ASSERT_EQ(again.status, 0) << again.err;
   EXPECT_EQ(molar("replay " + at("t.molar") + " --verify").status, 0);
   EXPECT_EQ(molar(quiet + "--device replay:" + at("none.molar")).status, 2);
@@ -214,12 +214,12 @@ calibration::RigRecord rigOf(const calibration::SyntheticRig& truth, calibration
   record.provenance.rig_id = "rig-02";
   record.provenance.created_utc = "2026-11-19T08:00:00Z";
   record.provenance.mirror_kind = "front_surface";
-  record.proof = calibration::RigProof{};
-  record.proof->verdict = verdict;
-  record.proof->errors.n = 16;
-  record.proof->errors.rms_mm = 1.4, record.proof->errors.mean_mm = 1.2;
-  record.proof->errors.p95_mm = 2.0, record.proof->errors.max_mm = 2.5;
-  record.proof->checked_utc = record.provenance.created_utc;
+  record.verification = calibration::RigVerification{};
+  record.verification->verdict = verdict;
+  record.verification->errors.n = 16;
+  record.verification->errors.rms_mm = 1.4, record.verification->errors.mean_mm = 1.2;
+  record.verification->errors.p95_mm = 2.0, record.verification->errors.max_mm = 2.5;
+  record.verification->checked_utc = record.provenance.created_utc;
   return record;
 }
 
@@ -234,7 +234,7 @@ TEST_F(RehearseCommand, WorksOnAPracticeDeviceWhereItsRigHasIt) {
     return nlohmann::json::parse(molar("metrics " + at(session) + " --json").out);
   };
 
-  const Said said = molar(line + "--seconds 7 --record " + at("s.molar"));
+  const ProgramOutput said = molar(line + "--seconds 7 --record " + at("s.molar"));
   ASSERT_EQ(said.status, 0) << said.err;
   EXPECT_NE(said.err.find("current rig rig-02: green"), std::string::npos) << said.err;
   EXPECT_NE(said.out.find("calibration      green, 1.40 mm RMS of 16"), std::string::npos) << said.out;
@@ -246,7 +246,7 @@ TEST_F(RehearseCommand, WorksOnAPracticeDeviceWhereItsRigHasIt) {
 
   // Red: locked, one line, until a word is given, which stays.
   std::ofstream(at("red.yaml")) << calibration::rigRecordText(red);
-  const Said locked = molar(line + "--rig " + at("red.yaml"));
+  const ProgramOutput locked = molar(line + "--rig " + at("red.yaml"));
   EXPECT_EQ(locked.status, 2);
   EXPECT_EQ(std::ranges::count(locked.err, '\n'), 1) << locked.err;
   const std::string word = "--despite-calibration 'for show' --seconds 0.3 --record ";
@@ -264,7 +264,7 @@ TEST_F(RehearseCommand, WorksOnAPracticeDeviceWhereItsRigHasIt) {
 TEST_F(RehearseCommand, ServesAPhantomThroughTheVendorsLibrary) {
   setenv("MOLAR_OPENHAPTICS", MOLAR_STAND_IN_HD, 1);
   const std::string line = "rehearse --headless --voxel 0.6 --size 96x64 --device openhaptics --seconds 2 ";
-  const Said said = molar(line + "--record " + at("s.molar"));
+  const ProgramOutput said = molar(line + "--record " + at("s.molar"));
   unsetenv("MOLAR_OPENHAPTICS");
   ASSERT_EQ(said.status, 0) << said.err;
   // A machine so busy that ticks are late may take the force away, the device itself gives no cause.
@@ -283,7 +283,7 @@ TEST_F(RehearseCommand, SaysInOneLineWhyADeviceCanNotBeHad) {
   setenv("MOLAR_OPENHAPTICS", at("libHD.so").c_str(), 1);
   for (const char* address :
        {"openhaptics", "wooden", "falcon", "usb", "wooden:9-9", "spoon", "replay:", "simulated:x"}) {
-    const Said said = molar("rehearse --headless --voxel 0.6 --device " + std::string(address));
+    const ProgramOutput said = molar("rehearse --headless --voxel 0.6 --device " + std::string(address));
     EXPECT_EQ(said.status, 2) << address;
     EXPECT_EQ(std::count(said.err.begin(), said.err.end(), '\n'), 1) << said.err;
   }
@@ -291,7 +291,7 @@ TEST_F(RehearseCommand, SaysInOneLineWhyADeviceCanNotBeHad) {
 }
 
 TEST_F(RehearseCommand, LeavesPicturesOfBothEyes) {
-  const Said said = molar(kCoarse + std::string("--seconds 0.2 --snapshot-size 160x100 --snapshot ") + at("end.png"));
+  const ProgramOutput said = molar(kCoarse + std::string("--seconds 0.2 --snapshot-size 160x100 --snapshot ") + at("end.png"));
   ASSERT_EQ(said.status, 0) << said.err;
   EXPECT_EQ(read("end_left.png").substr(1, 3), "PNG");
   EXPECT_NE(read("end_left.png"), read("end_right.png"));
@@ -323,7 +323,7 @@ name = "forssim"'
   EXPECT_NE(words.find("[law] name agus -> forssim"), std::string::npos) << words;
   EXPECT_NE(words.find("line 1: no TOML"), std::string::npos) << words;
   EXPECT_NE(words.find("the old values stay"), std::string::npos) << words;
-  const Said replay = molar("replay " + at("s.molar") + " --verify");
+  const ProgramOutput replay = molar("replay " + at("s.molar") + " --verify");
   EXPECT_EQ(replay.status, 0) << replay.out << replay.err;
 }
 
@@ -337,7 +337,7 @@ TEST_F(RehearseCommand, RefusesABadSettingsFileAtTheStart) {
 
 TEST_F(RehearseCommand, ShowsWhatTheOtherHandHolds) {
   const auto end = [&](const std::string& options, const std::string& name) {
-    const Said said = molar(kCoarse + std::string("--seconds 0.3 --renderer cpu --snapshot-size 160x100 --force ") +
+    const ProgramOutput said = molar(kCoarse + std::string("--seconds 0.3 --renderer cpu --snapshot-size 160x100 --force ") +
                             options + " --snapshot " + at(name + ".png"));
     EXPECT_EQ(said.status, 0) << said.err;
     return read(name + "_left.png");
@@ -351,7 +351,7 @@ TEST_F(RehearseCommand, SaysWhereItRecordsWhatReplacesAnother) {
   const std::string line = kCoarse + std::string("--seconds 0.2 --record ") + at("s.molar");
   ASSERT_EQ(molar(line).status, 0);
   write("s.molar.new", "somebody's");
-  const Said said = molar(line + " --force");
+  const ProgramOutput said = molar(line + " --force");
   EXPECT_EQ(said.status, 0) << said.err;
   EXPECT_NE(said.err.find("recording into " + at("s.molar.new2") + " until it is closed"), std::string::npos)
       << said.err;

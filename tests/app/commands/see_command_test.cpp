@@ -34,7 +34,7 @@ std::vector<float> floatsOf(const std::string& nrrd) {
 
 TEST_F(SeeCommand, MeasuresTheFaceAlongTheRays) {
   writeHalfSpace(at("v.nrrd"), 0.2, {0, 0, 1}, 0.0);
-  const Said said =
+  const ProgramOutput said =
       molar("see --volume " + at("v.nrrd") + " --field solid --size 96x64 --samples 1 --camera " + kCamera + " --out " +
             at("a.png") + " --depth " + at("d.nrrd") + " --matrices " + at("m.json"));
   ASSERT_EQ(said.status, 0) << said.err;
@@ -97,7 +97,7 @@ TEST_F(SeeCommand, ShowsWhatWasCarved) {
 TEST_F(SeeCommand, ShowsEveryGuideWithoutAGraphicsCard) {
   assets::savePatient(assets::syntheticJaw({.spacing_mm = 0.6}), at("p"), false);
   const auto pictureWith = [&](const std::string& layers) {
-    const Said said = molar("see --patient " + at("p") + " --size 160x120 --samples 1 --renderer cpu" + layers +
+    const ProgramOutput said = molar("see --patient " + at("p") + " --size 160x120 --samples 1 --renderer cpu" + layers +
                             " --force --out " + at("a.png"));
     EXPECT_EQ(said.status, 0) << said.err;
     return read("a.png");

@@ -13,26 +13,26 @@ std::vector<haptics::Tool> tray() {
   std::vector<haptics::Tool> tools;
   for (const char* text : {"sphere:1.5", "cylinder:0.6,5", "sphere:1"}) {
     const haptics::BurShape head = headFrom(text);
-    tools.push_back({head, haptics::usualShaft(head)});
+    tools.push_back({head, haptics::standardShaft(head)});
   }
   return tools;
 }
 
-HandAsks row(double t_s, const std::string& tool, const std::string& action) {
+TimedRequest row(double t_s, const std::string& tool, const std::string& action) {
   return {t_s, tool, action, "pose file a.csv line 7"};
 }
 
 /// What is due, without the places it is written at.
-std::vector<ControlWish> due(ControlScript& script, std::uint64_t next_tick) {
-  std::vector<ControlWish> wishes;
-  for (const ScriptedWish& one : script.takeDue(next_tick)) {
+std::vector<ControlRequest> due(ControlScript& script, std::uint64_t next_tick) {
+  std::vector<ControlRequest> requests;
+  for (const ScriptedRequest& one : script.takeDue(next_tick)) {
     EXPECT_EQ(one.where, "pose file a.csv line 7");
-    wishes.push_back(one.wish);
+    requests.push_back(one.request);
   }
-  return wishes;
+  return requests;
 }
 
-std::string refusal(const HandAsks& asked) {
+std::string refusal(const TimedRequest& asked) {
   return tests::refusalOf<UsageError>([&] { ControlScript({asked}, tray(), 1000.0); });
 }
 
@@ -40,19 +40,19 @@ TEST(ControlScript, AsksAtTheFirstTickThatDoesNotBeginBeforeTheRow) {
   ControlScript script(
       {row(0.0, "", "irrigation:off"), row(0.1, "", "undo"), row(0.1004, "", "arm"), row(0.3, "", "end")}, tray(),
       1000.0);
-  EXPECT_EQ(due(script, 0), std::vector<ControlWish>({{Control::irrigation, 0}}));
+  EXPECT_EQ(due(script, 0), std::vector<ControlRequest>({{Control::irrigation, 0}}));
   EXPECT_EQ(script.nextTick(), 100u);
   EXPECT_TRUE(due(script, 99).empty());
-  EXPECT_EQ(due(script, 100), std::vector<ControlWish>({{Control::undo}}));
+  EXPECT_EQ(due(script, 100), std::vector<ControlRequest>({{Control::undo}}));
   EXPECT_EQ(script.nextTick(), 101u);
   // A loop that looks late gets all that was due, once.
-  EXPECT_EQ(due(script, 500), std::vector<ControlWish>({{Control::arm}, {Control::end}}));
+  EXPECT_EQ(due(script, 500), std::vector<ControlRequest>({{Control::arm}, {Control::end}}));
   EXPECT_FALSE(script.nextTick());
   EXPECT_TRUE(due(script, 900).empty());
 }
 
 TEST(ControlScript, MeetsEveryMillisecondAtItsOwnTick) {
-  std::vector<HandAsks> rows;
+  std::vector<TimedRequest> rows;
   for (int ms = 0; ms < 5000; ++ms) rows.push_back(row(std::stod(std::to_string(ms) + "e-3"), "", "snapshot"));
   ControlScript script(rows, tray(), 1000.0);
   for (std::uint64_t ms = 0; ms < 5000; ++ms) ASSERT_EQ(due(script, ms).size(), 1u) << ms;
@@ -61,10 +61,10 @@ TEST(ControlScript, MeetsEveryMillisecondAtItsOwnTick) {
 TEST(ControlScript, TakesAToolByItsNumberOrItsTextAndOnceWhileItStays) {
   ControlScript script({row(0.0, "2", ""), row(0.001, "2", ""), row(0.002, "sphere:1", ""), row(0.003, "1", "undo")},
                        tray(), 1000.0);
-  EXPECT_EQ(due(script, 0), std::vector<ControlWish>({{Control::tool, 1}}));
+  EXPECT_EQ(due(script, 0), std::vector<ControlRequest>({{Control::tool, 1}}));
   EXPECT_TRUE(due(script, 1).empty());
-  EXPECT_EQ(due(script, 2), std::vector<ControlWish>({{Control::tool, 2}}));
-  EXPECT_EQ(due(script, 3), std::vector<ControlWish>({{Control::tool, 0}, {Control::undo}}));
+  EXPECT_EQ(due(script, 2), std::vector<ControlRequest>({{Control::tool, 2}}));
+  EXPECT_EQ(due(script, 3), std::vector<ControlRequest>({{Control::tool, 0}, {Control::undo}}));
 }
 
 TEST(ControlScript, AsksForNoToolThatIsInTheHandAlready) {
@@ -76,11 +76,11 @@ TEST(ControlScript, AsksForNoToolThatIsInTheHandAlready) {
                         row(0.4, "", "tool:1"), row(0.5, "3", "")},
                        tray(), 1000.0);
   EXPECT_EQ(due(script, 1000),
-            std::vector<ControlWish>({{Control::tool, 1}, {Control::tool}, {Control::tool, 0}, {Control::tool, 2}}));
+            std::vector<ControlRequest>({{Control::tool, 1}, {Control::tool}, {Control::tool, 0}, {Control::tool, 2}}));
 }
 
 TEST(ControlScript, SaysWhichRowAsksForWhatIsNotThere) {
-  for (const HandAsks& asked :
+  for (const TimedRequest& asked :
        {row(0, "4", ""), row(0, "0", ""), row(0, "sphere:2", ""), row(0, "spoon", ""), row(0, "", "jump"),
         row(0, "", "tool:two"), row(0, "", "tool:4"), row(0, "", "face:300")})
     EXPECT_EQ(refusal(asked).find("pose file a.csv line 7: "), 0u) << refusal(asked);

@@ -22,20 +22,20 @@ TEST(Control, HasOneNameAndOneKeyEach) {
 }
 
 TEST(Control, IsReadAsItIsWritten) {
-  EXPECT_EQ(wishFrom("undo"), (ControlWish{Control::undo}));
-  EXPECT_EQ(wishFrom("irrigation"), (ControlWish{Control::irrigation})) << "the other way";
-  EXPECT_EQ(wishFrom("irrigation:off"), (ControlWish{Control::irrigation, 0}));
-  EXPECT_EQ(wishFrom("drill:on"), (ControlWish{Control::drill, 1}));
-  EXPECT_EQ(wishFrom("tool"), (ControlWish{Control::tool})) << "the next one";
-  EXPECT_EQ(wishFrom("face:30"), (ControlWish{Control::face, 30}));
-  EXPECT_EQ(wishFrom("tool:1").value, 0) << "people count from 1";
-  EXPECT_EQ(wishFrom("law:3"), wishFrom("law:hertz")) << "by its key as well";
+  EXPECT_EQ(requestFrom("undo"), (ControlRequest{Control::undo}));
+  EXPECT_EQ(requestFrom("irrigation"), (ControlRequest{Control::irrigation})) << "the other way";
+  EXPECT_EQ(requestFrom("irrigation:off"), (ControlRequest{Control::irrigation, 0}));
+  EXPECT_EQ(requestFrom("drill:on"), (ControlRequest{Control::drill, 1}));
+  EXPECT_EQ(requestFrom("tool"), (ControlRequest{Control::tool})) << "the next one";
+  EXPECT_EQ(requestFrom("face:30"), (ControlRequest{Control::face, 30}));
+  EXPECT_EQ(requestFrom("tool:1").value, 0) << "people count from 1";
+  EXPECT_EQ(requestFrom("law:3"), requestFrom("law:hertz")) << "by its key as well";
 }
 
 TEST(Control, SaysWhatMayStandThere) {
   const auto refusal = [](const char* text) -> std::string {
     try {
-      wishFrom(text);
+      requestFrom(text);
     } catch (const UsageError& error) {
       return error.what();
     }
@@ -55,12 +55,12 @@ TEST(Control, SaysWhatMayStandThere) {
 }
 
 TEST(Control, OfAPedalIsNoWishWhileItDrills) {
-  EXPECT_FALSE(wishOf(haptics::HandAction::drill)) << "that is held";
+  EXPECT_FALSE(requestOf(haptics::HandAction::drill)) << "that is held";
   for (const auto action :
        {haptics::HandAction::irrigation, haptics::HandAction::undo, haptics::HandAction::tool_change}) {
-    const auto wish = wishOf(action);
-    ASSERT_TRUE(wish);
-    EXPECT_EQ(wish->value, kNoValue) << "the next, or the other way";
+    const auto request = requestOf(action);
+    ASSERT_TRUE(request);
+    EXPECT_EQ(request->value, kNoValue) << "the next, or the other way";
   }
 }
 

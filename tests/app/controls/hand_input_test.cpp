@@ -39,16 +39,16 @@ TEST(HandInput, KeysTurnAboutTheBur) {
 
 TEST(HandInput, WishesComeOnceInTheOrderOfTheKeys) {
   HandInput hand({});
-  EXPECT_TRUE(hand.takeWishes().empty());
+  EXPECT_TRUE(hand.takeRequests().empty());
   for (char letter : {'P', '3', 'D', 'X', 'R', 'T', 'U', 'I'})
     for (bool repeated : {false, true}) hand.take(KeyPressed{render::keyOf(letter), true, repeated, false}, 0.25);
   hand.take(KeyPressed{Key::escape, true, false, false}, 0.25);
-  hand.take(render::CloseAsked{}, 0.25);
-  const std::vector<ControlWish> wished = {
+  hand.take(render::CloseRequested{}, 0.25);
+  const std::vector<ControlRequest> wished = {
       {Control::snapshot}, {Control::law, 2}, {Control::drill},      {Control::stop}, {Control::arm},
       {Control::tool},     {Control::undo},   {Control::irrigation}, {Control::end},  {Control::end}};
-  EXPECT_EQ(hand.takeWishes(), wished);
-  EXPECT_TRUE(hand.takeWishes().empty());
+  EXPECT_EQ(hand.takeRequests(), wished);
+  EXPECT_TRUE(hand.takeRequests().empty());
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ using haptics::DeviceTrouble;
 
 TEST(DeviceTable, TellsPeopleAndProgramsWhichSearchesFailed) {
   haptics::DeviceCatalogue catalogue;
-  catalogue.troubles = {DeviceError("USB: it can not be looked at, try again", DeviceTrouble::no_means),
+  catalogue.troubles = {DeviceError("USB: it can not be looked at, try again", DeviceTrouble::no_resources),
                         DeviceError("pedals: nobody lets me look, ask", DeviceTrouble::no_rights)};
   const auto troubles = nlohmann::json::parse(asJson(catalogue)).at("troubles");
   ASSERT_EQ(troubles.size(), 2u);

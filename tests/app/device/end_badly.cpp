@@ -26,7 +26,7 @@ class WrittenDevice final : public haptics::PacedDevice {
  public:
   explicit WrittenDevice(double* told) : told_(told) {
     capabilities_.has_motors = true;
-    capabilities_.least_rate_Hz = 500.0;
+    capabilities_.min_rate_Hz = 500.0;
   }
   ~WrittenDevice() override { stop(); }
   const haptics::DeviceCapabilities& capabilities() const override { return capabilities_; }
@@ -53,7 +53,7 @@ class Pusher final : public haptics::DeviceLoop {
   ~Pusher() override { stop(); }
 
  private:
-  Answer answer(const haptics::HandleState&, const haptics::Beat&) noexcept override {
+  Answer answer(const haptics::HandleState&, const haptics::TickTiming&) noexcept override {
     if (ticks() == 100 && end_ == "segv-in-tick") std::raise(SIGSEGV);
     if (ticks() == 100 && end_ == "hang-in-tick") std::this_thread::sleep_for(30s);
     if (crashing.load()) std::this_thread::sleep_for(20ms);
@@ -65,7 +65,7 @@ class Pusher final : public haptics::DeviceLoop {
 /// One thread crashes while another that has crashed still waits for the motors, which tick slowly.
 void crashTwice(const haptics::DeviceLoop& loop) {
   std::thread second([&] {
-    while (!loop.isForbidden()) {
+    while (!loop.isForceDisabled()) {
     }
     std::raise(SIGSEGV);
   });
@@ -111,7 +111,7 @@ int main(int argc, char** argv) {
   if (end == "throw") throw std::runtime_error("nobody catches this");
   if (end == "kill-without-guard") std::raise(SIGKILL);
   if (end == "hang-in-tick")
-    while (loop.silences() == 0) std::this_thread::sleep_for(1ms);
+    while (loop.watchdogTrips() == 0) std::this_thread::sleep_for(1ms);
   else
     std::this_thread::sleep_for(60s);
   std::_Exit(4);

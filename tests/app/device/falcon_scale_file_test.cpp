@@ -39,7 +39,7 @@ TEST_F(FalconScaleFile, ComesBackAsItWasWritten) {
     writeFalconScale(path, scale, true);
     const haptics::FalconForceScale read = readFalconScale(path);
     EXPECT_NEAR(read.words_per_Nmm, scale.words_per_Nmm, 1e-7);
-    EXPECT_DOUBLE_EQ(read.heaviest_N, scale.heaviest_N);
+    EXPECT_DOUBLE_EQ(read.max_weighed_N, scale.max_weighed_N);
     EXPECT_EQ(read.serial, scale.serial);
     EXPECT_TRUE(read.isWeighed());
   }
@@ -53,10 +53,10 @@ TEST_F(FalconScaleFile, IsNotReplacedWithoutLeave) {
 
 TEST_F(FalconScaleFile, LiesWhereTheUserKeepsSettings) {
   setenv("XDG_CONFIG_HOME", "/settings", 1);
-  EXPECT_EQ(usualFalconScaleFile(), "/settings/molar/falcon.toml");
+  EXPECT_EQ(defaultFalconScaleFile(), "/settings/molar/falcon.toml");
   unsetenv("XDG_CONFIG_HOME");
   setenv("HOME", "/her", 1);
-  EXPECT_EQ(usualFalconScaleFile(), "/her/.config/molar/falcon.toml");
+  EXPECT_EQ(defaultFalconScaleFile(), "/her/.config/molar/falcon.toml");
 }
 
 TEST_F(FalconScaleFile, RefusesWhatNobodyCouldHaveWeighed) {
@@ -73,7 +73,7 @@ TEST_F(FalconScaleFile, RefusesWhatNobodyCouldHaveWeighed) {
 TEST_F(FalconScaleFile, ASerialNumberThatCouldBreakTheFileIsLeftOut) {
   writeFalconScale(path, {10.0, 1.0, "A\"\nheaviest_N = 9"}, false);
   EXPECT_EQ(readFalconScale(path).serial, "");
-  EXPECT_EQ(readFalconScale(path).heaviest_N, 1.0);
+  EXPECT_EQ(readFalconScale(path).max_weighed_N, 1.0);
 }
 
 }  // namespace

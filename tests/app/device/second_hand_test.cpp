@@ -23,7 +23,7 @@ assets::Patient patient(bool right_side) {
 calibration::Rig rigAround(const assets::Patient& patient) {
   calibration::Rig rig = calibration::desktopRig({640, 400});
   rig.X_WP = {glm::angleAxis(0.8, glm::normalize(glm::dvec3(1, 2, -1))), {5, 4, 3}};
-  rig.X_WP.translation_mm -= (rig.X_WP * Point<Patient>{patient.workplace_P_mm()}).mm;
+  rig.X_WP.translation_mm -= (rig.X_WP * Point<Patient>{patient.focus_P_mm()}).mm;
   return rig;
 }
 
@@ -58,7 +58,7 @@ TEST(SecondHand, HoldsItsInstrumentBesideTheToothWhereverThePatientLies) {
   for (const bool right_side : {true, false}) {
     const assets::Patient jaw = patient(right_side);
     const calibration::Rig rig = rigAround(jaw);
-    SecondHand hand({"scripted", SecondTool::mirror}, {}, jaw, rig, Ticking::by_hand);
+    SecondHand hand({"scripted", SecondTool::mirror}, {}, jaw, rig, Ticking::stepped);
     EXPECT_EQ(hand.name(), "mirror, scripted still hand");
     render::Frame frame;
     hand.place(frame);

@@ -233,11 +233,11 @@ TEST(DoctorDisk, MustTakeRecordingsAndHaveRoom) {
   EXPECT_EQ(checkDisk("here", {90'000.0, 2.0, true}).health, Health::warn);
   EXPECT_EQ(checkDisk("here", {90'000.0, 300.0, true}).sentence, "here: 90.0 GB free, written at 300 MB/s.");
   const PaperMachine paper("disk");
-  const DiskFacts facts = lookAtDisk(paper.machine().sessions);
+  const DiskFacts facts = probeDisk(paper.machine().sessions);
   EXPECT_TRUE(facts.is_writable);
   EXPECT_GT(facts.free_MB, 0.0);
   EXPECT_TRUE(std::filesystem::is_empty(paper.machine().sessions)) << "nothing is left behind";
-  EXPECT_FALSE(lookAtDisk(paper.at("nowhere")).is_writable);
+  EXPECT_FALSE(probeDisk(paper.at("nowhere")).is_writable);
 }
 
 TEST(DoctorChecks, SayOneSentenceEachOnAnEmptyMachine) {

@@ -7,7 +7,7 @@
 
 #include "app/options/command_settings.h"
 #include "app/text/usage_error.h"
-#include "assets/toml_keys.h"
+#include "assets/toml_reader.h"
 
 namespace app {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 using namespace std::chrono_literals;
 
 haptics::Command read(const std::string& text, const haptics::Command& base = {}) {
-  assets::TomlKeys keys(text, "feel.toml");
+  assets::TomlReader keys(text, "feel.toml");
   return commandFromToml(keys, base);
 }
 
@@ -76,20 +76,20 @@ TEST(Settings, SayWhatChangedWithUnits) {
 
 TEST(Settings, RefuseWhatADeviceCanNotHoldAndSayWhatItCan) {
   haptics::Command command;
-  EXPECT_NO_THROW(refuseUnlessHeld(command, 0.002, 1000.0));
+  EXPECT_NO_THROW(refuseUnlessStable(command, 0.002, 1000.0));
   command.law.agus.stiffness_N_per_mm = 10.0;
   try {
-    refuseUnlessHeld(command, 0.002, 1000.0);
+    refuseUnlessStable(command, 0.002, 1000.0);
     FAIL();
   } catch (const std::runtime_error& error) {
     EXPECT_NE(std::string(error.what()).find("2b/T"), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("stiffness_N_per_mm to "), std::string::npos) << error.what();
   }
-  EXPECT_NO_THROW(refuseUnlessHeld(command, 0.002, 10000.0)) << "ten times the rate holds ten times the stiffness";
+  EXPECT_NO_THROW(refuseUnlessStable(command, 0.002, 10000.0)) << "ten times the rate holds ten times the stiffness";
   command = {};
   command.law.kind = haptics::LawKind::harmonic;
   command.tool.head = {haptics::ShapeKind::cone, 1.0, 2.0};
-  EXPECT_THROW(refuseUnlessHeld(command, 0.002, 1000.0), UsageError);
+  EXPECT_THROW(refuseUnlessStable(command, 0.002, 1000.0), UsageError);
 }
 
 TEST(Settings, LowerALawUntilTheDeviceHoldsIt) {
@@ -98,11 +98,11 @@ TEST(Settings, LowerALawUntilTheDeviceHoldsIt) {
       haptics::Command command;
       command.law.kind = law.kind;
       command.tool.head.radius_mm = radius_mm;
-      EXPECT_NO_THROW(refuseUnlessHeld(loweredUntilHeld(command, 0.002, 1000.0), 0.002, 1000.0)) << law.key;
+      EXPECT_NO_THROW(refuseUnlessStable(loweredUntilStable(command, 0.002, 1000.0), 0.002, 1000.0)) << law.key;
     }
   haptics::Command soft;
   soft.law.agus.stiffness_N_per_mm = 0.3;
-  EXPECT_EQ(loweredUntilHeld(soft, 0.002, 1000.0).law.agus.stiffness_N_per_mm, 0.3) << "what is held is left alone";
+  EXPECT_EQ(loweredUntilStable(soft, 0.002, 1000.0).law.agus.stiffness_N_per_mm, 0.3) << "what is held is left alone";
 }
 
 class LiveFile : public testing::Test {
@@ -120,7 +120,7 @@ class LiveFile : public testing::Test {
 
 TEST_F(LiveFile, IsReadAgainWhenItChangesAndKeepsTheOldWhenItIsBad) {
   write("[law]\nstiffness_N_per_mm = 0.5\n");
-  LiveParameters live(path_, {}, [](const haptics::Command& c) { refuseUnlessHeld(c, 0.002, 1000.0); });
+  LiveParameters live(path_, {}, [](const haptics::Command& c) { refuseUnlessStable(c, 0.002, 1000.0); });
   EXPECT_EQ(live.first().law.agus.stiffness_N_per_mm, 0.5);
   auto now = LiveParameters::Clock::now() + 1s;
   EXPECT_FALSE(live.look(now)) << "nothing changed";

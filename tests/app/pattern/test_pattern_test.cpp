@@ -9,9 +9,9 @@ namespace {
 
 using render::DisplayMode;
 using render::Eye;
-using render::Picture;
+using render::Image;
 
-glm::ivec3 pixelAt(const Picture& picture, int x, int y) {
+glm::ivec3 pixelAt(const Image& picture, int x, int y) {
   const std::uint8_t* c = picture.rgba.data() + 4 * (y * picture.w + x);
   return {c[0], c[1], c[2]};
 }
@@ -35,7 +35,7 @@ TEST(TestPattern, EveryNameIsFoundAndEveryPatternDrawsInEveryMode) {
     EXPECT_EQ(testPatternNamed(one.name), one.pattern);
     for (const render::DisplayModeName& mode : render::kDisplayModes) {
       const render::StereoLayout layout{.mode = mode.mode, .screen_px = {96, 72}};
-      const Picture all = patternOutput(one.pattern, desk(), layout);
+      const Image all = patternOutput(one.pattern, desk(), layout);
       EXPECT_EQ(glm::ivec2(all.w, all.h), render::outputSize(mode.mode, {96, 72}));
       EXPECT_EQ(all.rgba.size(), 4u * static_cast<std::size_t>(all.w * all.h));
     }
@@ -54,16 +54,16 @@ TEST(TestPattern, EveryPixelIsOfTheEyeTheLayoutSays) {
     if (render::isAnaglyph(mode.mode) || mode.mode == DisplayMode::mono) continue;
     render::StereoLayout layout{.mode = mode.mode, .screen_px = {96, 72}, .at_px = {1, 2}};
     for (layout.output = 0; layout.output < render::outputCount(mode.mode); ++layout.output) {
-      const Picture all = patternOutput(TestPattern::eyes, desk(), layout);
+      const Image all = patternOutput(TestPattern::eyes, desk(), layout);
       int wrong = 0;
       for (int y = 0; y < all.h; ++y)
         for (int x = 0; x < all.w; ++x) {
           const glm::ivec3 c = pixelAt(all, x, y);
-          const render::Shown shown = render::shownAt(layout, {x, y}).eye;
+          const render::PixelSource shown = render::sourcePixelAt(layout, {x, y}).eye;
           // White letters are in both; what has a hue must have the eye's own.
-          if (c.r > c.b + 60) wrong += shown != render::Shown::left;
-          if (c.b > c.r + 60) wrong += shown != render::Shown::right;
-          if (shown == render::Shown::black) wrong += c != glm::ivec3(0);
+          if (c.r > c.b + 60) wrong += shown != render::PixelSource::left;
+          if (c.b > c.r + 60) wrong += shown != render::PixelSource::right;
+          if (shown == render::PixelSource::black) wrong += c != glm::ivec3(0);
         }
       EXPECT_EQ(wrong, 0) << mode.name;
     }
@@ -72,17 +72,17 @@ TEST(TestPattern, EveryPixelIsOfTheEyeTheLayoutSays) {
 
 TEST(TestPattern, ASquareOfTheGridMeasuresWhatItSays) {
   // A millimetre a pixel: lines of the 10 mm grid through the middle and every ten pixels.
-  const Picture grid = patternFor(TestPattern::grid, desk(), Eye::left, {320, 200});
+  const Image grid = patternFor(TestPattern::grid, desk(), Eye::left, {320, 200});
   for (const int x : {110, 120, 130, 140, 150, 170, 180, 190})
     EXPECT_GT(pixelAt(grid, x, 75).r + pixelAt(grid, x - 1, 75).r, pixelAt(grid, x + 4, 75).r + 40) << x;
   // The same lines in half as many columns: pixels twice as wide change no size.
-  const Picture half = patternFor(TestPattern::grid, desk(), Eye::left, {160, 200});
+  const Image half = patternFor(TestPattern::grid, desk(), Eye::left, {160, 200});
   EXPECT_GT(pixelAt(half, 60, 75).r, pixelAt(half, 62, 75).r + 20);
 }
 
 TEST(TestPattern, ThroughAMirrorThePanelShowsItTurnedSoThatItReadsRight) {
-  const Picture straight = patternFor(TestPattern::text, desk(), Eye::left, {320, 200});
-  const Picture panel = patternFor(TestPattern::text, throughMirror(), Eye::left, {320, 200});
+  const Image straight = patternFor(TestPattern::text, desk(), Eye::left, {320, 200});
+  const Image panel = patternFor(TestPattern::text, throughMirror(), Eye::left, {320, 200});
   long difference = 0, to_itself = 0;
   for (int y = 0; y < 150; ++y)  // the words; lines of pixels are put on pixels' edges
     for (int x = 0; x < 320; ++x) {

@@ -73,14 +73,14 @@ TEST(TrialOrder, MixesTracksUntilEachIsOver) {
   protocol.levels = {1.3, 1.2, 0.9};
   protocol.staircase.low = 0.0, protocol.staircase.high = 5.0;
   TrialOrder order(protocol, 2);
-  calibration::Chance chance(1);
+  calibration::RandomGenerator rng(1);
   int trials = 0, first = 0, switches = 0;
   std::size_t last = 0;
   while (const auto trial = order.next()) {
     first += trial->comparison_first;
     switches += trial->track != last;
     last = trial->track;
-    order.answer(chance.coin(0.7));
+    order.answer(rng.coin(0.7));
     if (++trials % 8 == 0) {
       EXPECT_EQ(2 * first, trials);
     }
@@ -89,19 +89,19 @@ TEST(TrialOrder, MixesTracksUntilEachIsOver) {
   EXPECT_GT(switches, trials / 3);
 }
 
-TEST(Felt, StiffnessIsTheSlopeAndWorkTheArea) {
+TEST(ProbeMeasures, StiffnessIsTheSlopeAndWorkTheArea) {
   // In and out along F = 0.8 h, 1 mm deep; nothing above the surface.
-  std::vector<FeltSample> samples;
+  std::vector<ProbeSample> samples;
   for (int i = -100; i <= 100; ++i) {
     const double depth_mm = 1.0 - std::abs(i) * 0.015;
     samples.push_back({depth_mm, 0.8 * std::max(0.0, depth_mm)});
   }
-  const Felt felt = feltIn(samples);
+  const ProbeMeasures felt = measuresOf(samples);
   EXPECT_NEAR(felt.stiffness_N_per_mm, 0.8, 1e-12);
   EXPECT_NEAR(felt.peak_force_N, 0.8, 1e-12);
   EXPECT_NEAR(felt.depth_mm, 1.0, 1e-12);
   EXPECT_NEAR(felt.work_Nmm, 0.0, 1e-12) << "what goes in comes out";
-  EXPECT_EQ(feltIn({}).stiffness_N_per_mm, 0.0);
+  EXPECT_EQ(measuresOf({}).stiffness_N_per_mm, 0.0);
 }
 
 TEST(Probe, FeelsTheStiffnessOfTheLawOnFlatBone) {
@@ -116,8 +116,8 @@ TEST(Probe, FeelsTheStiffnessOfTheLawOnFlatBone) {
     haptics::Command command;
     command.tool = protocol.tool;
     command.law = protocol.comparisonAt(0.6);
-    calibration::Chance hand(5);
-    const Felt felt = feltIn(probe(live, bone.site, command, protocol.probe, hand));
+    calibration::RandomGenerator hand(5);
+    const ProbeMeasures felt = measuresOf(probe(live, bone.site, command, protocol.probe, hand));
     EXPECT_NEAR(felt.stiffness_N_per_mm, 0.6, 0.015) << static_cast<int>(motion);
     EXPECT_GT(felt.depth_mm, 0.2);
     EXPECT_EQ(live.digest(), before) << "probing does not drill";
@@ -130,12 +130,12 @@ TEST(Observer, HasTheWeberFractionItIsGiven) {
   SimulatedObserver observer(settings, 1);
   constexpr int kTrials = 40000;
   int harder = 0;
-  Felt standard, comparison;
+  ProbeMeasures standard, comparison;
   standard.stiffness_N_per_mm = 1.0, comparison.stiffness_N_per_mm = 1.0 + settings.weber_fraction;
   for (int n = 0; n < kTrials; ++n) harder += observer.secondHarder(standard, comparison);
   // Both intervals are noisy in proportion, so the larger is a little noisier than the standard: 73.5 %, not 75 %.
   const double nu = noiseShare(settings), d = settings.weber_fraction;
-  const double expected = normalBelow(d / (nu * std::sqrt(1.0 + (1.0 + d) * (1.0 + d))));
+  const double expected = normalCdf(d / (nu * std::sqrt(1.0 + (1.0 + d) * (1.0 + d))));
   EXPECT_NEAR(expected, 0.735, 0.002);
   EXPECT_NEAR(static_cast<double>(harder) / kTrials, expected, 0.009);
 }
@@ -145,7 +145,7 @@ TEST(Observer, LapsesAreCoinsAndShiftNothing) {
   settings.weber_fraction = 0.0;
   settings.lapse_rate = 0.2;
   SimulatedObserver observer(settings, 1);
-  Felt soft, hard;
+  ProbeMeasures soft, hard;
   soft.stiffness_N_per_mm = 0.5, hard.stiffness_N_per_mm = 1.0;
   int wrong = 0;
   for (int n = 0; n < 20000; ++n) wrong += observer.secondHarder(hard, soft);

@@ -4,8 +4,8 @@
 
 #include "app/text/usage_error.h"
 #include "assets/load_error.h"
-#include "assets/toml_keys.h"
-#include "calibration/chance.h"
+#include "assets/toml_reader.h"
+#include "calibration/random.h"
 
 namespace app {
 namespace {
@@ -121,15 +121,15 @@ TEST(Protocol, RefusesEachBadKeyByName) {
 
 /// Whatever the bytes: a protocol or one line of refusal, never a crash and never a value out of range.
 TEST(Protocol, SurvivesAnyBytes) {
-  calibration::Chance chance(7);
+  calibration::RandomGenerator rng(7);
   const std::string pieces = "[]=\"'#.,\n 0123456789-+einfa\\{}\xff\x01\t";
   int accepted = 0;
   for (int n = 0; n < 3000; ++n) {
     std::string text = kGood;
-    for (std::size_t changes = 1 + chance.below(4); changes > 0; --changes) {
-      const std::size_t at = chance.below(text.size());
-      const char c = pieces[chance.below(pieces.size())];
-      switch (chance.below(3)) {
+    for (std::size_t changes = 1 + rng.below(4); changes > 0; --changes) {
+      const std::size_t at = rng.below(text.size());
+      const char c = pieces[rng.below(pieces.size())];
+      switch (rng.below(3)) {
         case 0:
           text[at] = c;
           break;
@@ -137,7 +137,7 @@ TEST(Protocol, SurvivesAnyBytes) {
           text.insert(at, 1, c);
           break;
         default:
-          text.erase(at, 1 + chance.below(6));
+          text.erase(at, 1 + rng.below(6));
           break;
       }
     }

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "app/psychophysics/psychometric_fit.h"
-#include "calibration/chance.h"
+#include "calibration/random.h"
 
 namespace app {
 namespace {
@@ -62,14 +62,14 @@ TEST(Staircase, FindsTheLevelOf70PercentOfAKnownObserver) {
   const Psychometric known{1.0, 0.15, 0.0};
   StaircaseRule r = rule(1, 2);
   r.steps = {0.1, 0.03};
-  r.reversals = 44, r.discarded = 4, r.most_trials = 2000;
+  r.reversals = 44, r.discarded = 4, r.max_trials = 2000;
   const double expected = known.pse + known.sigma * normalQuantile(targetProbability(r));
-  calibration::Chance chance(11);
+  calibration::RandomGenerator rng(11);
   constexpr int kTracks = 400;
   double sum = 0.0, squares = 0.0, said = 0.0;
   for (int n = 0; n < kTracks; ++n) {
     Staircase track(r, 1.5);
-    while (!track.over()) track.answer(chance.coin(known.probability(track.level())));
+    while (!track.over()) track.answer(rng.coin(known.probability(track.level())));
     sum += track.threshold(), squares += track.threshold() * track.threshold();
     said += track.standardError() / kTracks;
   }

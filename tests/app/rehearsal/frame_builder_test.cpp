@@ -95,12 +95,12 @@ TEST(FrameBuilder, HidesAToolThatHasWithdrawnFromTheLastPicture) {
 
 TEST(FrameBuilder, ShowsAndFadesAsAskedAndNothingElse) {
   const render::Layers before;
-  render::Layers after = layersAfter(before, wishFrom("layer:slices"));
+  render::Layers after = layersAfter(before, requestFrom("layer:slices"));
   EXPECT_TRUE(after.slices);
-  EXPECT_FALSE(layersAfter(after, wishFrom("layer:slices")).slices) << "again: the other way";
-  EXPECT_FALSE(layersAfter(before, wishFrom("layer:gum")).gum);
-  EXPECT_FLOAT_EQ(layersAfter(before, wishFrom("face:30")).face_opacity, 0.3f);
-  after = layersAfter(before, wishFrom("undo"));
+  EXPECT_FALSE(layersAfter(after, requestFrom("layer:slices")).slices) << "again: the other way";
+  EXPECT_FALSE(layersAfter(before, requestFrom("layer:gum")).gingiva);
+  EXPECT_FLOAT_EQ(layersAfter(before, requestFrom("face:30")).face_opacity, 0.3f);
+  after = layersAfter(before, requestFrom("undo"));
   EXPECT_EQ(after.face_opacity, before.face_opacity);
   EXPECT_EQ(after.slices, before.slices);
 }

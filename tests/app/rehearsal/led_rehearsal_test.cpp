@@ -12,8 +12,8 @@ namespace {
 /// Keeps every control and writes down every tick it is shown.
 class Witness final : public Procedure {
  public:
-  bool take(const ControlWish& wish) override {
-    taken.push_back(wish.control);
+  bool take(const ControlRequest& request) override {
+    taken.push_back(request.control);
     return true;
   }
   std::optional<haptics::Command> follow(std::span<const haptics::Tick> ticks) override {
@@ -24,7 +24,7 @@ class Witness final : public Procedure {
     }
     return std::nullopt;
   }
-  ProcedureWords words() const override { return {}; }
+  ProcedureMessages words() const override { return {}; }
   bool isOver() const override { return false; }
 
   std::vector<std::uint64_t> indices;
@@ -45,7 +45,7 @@ TEST(LedRehearsal, ShowsEveryTickOnceAndEndsThoughTheProcedureKeepsEveryControl)
   plan.rig = calibration::desktopRig({64, 48});
   plan.device = "poses:" + poses;
   plan.headless = true;
-  plan.ticking = Ticking::by_hand;
+  plan.ticking = Ticking::stepped;
   plan.procedure = &witness;
   EXPECT_EQ(rehearse(std::move(plan)), 0);
   EXPECT_EQ(witness.taken, std::vector<Control>({Control::undo}));

@@ -7,13 +7,13 @@ namespace {
 
 TEST(RehearsalOutputs, AnswerNoWhereARecordingIsNotWhole) {
   RehearsalFigures figures;
-  EXPECT_EQ(answerOf(figures), 0) << "none was asked for";
+  EXPECT_EQ(exitStatus(figures), 0) << "none was asked for";
   figures.recording = RecordingSummary{1000, 0, std::nullopt};
-  EXPECT_EQ(answerOf(figures), 0);
+  EXPECT_EQ(exitStatus(figures), 0);
   figures.recording->lost = 1;
-  EXPECT_EQ(answerOf(figures), 1);
+  EXPECT_EQ(exitStatus(figures), 1);
   figures.recording = RecordingSummary{1000, 0, "the disk is full"};
-  EXPECT_EQ(answerOf(figures), 1);
+  EXPECT_EQ(exitStatus(figures), 1);
 }
 
 TEST(RehearsalOutputs, SummaryIsOfTheLastMoment) {

@@ -27,8 +27,8 @@ TEST(CommandKeys, BringACommandBackBitForBit) {
   command.erosion.time.removal_rate_per_s = 3.5;
   command.erosion.tissue_factor[4] = 0.123;
   command.safety = {2.9, 250.0, 60.0, 4000.0, 7.0, 0.004, 0.9, {1.0, 2.0, 3.0}, 2000.0, 90.0, true, {}};
-  command.safety.thresholds.let_go_s = 0.06;
-  command.safety.thresholds.share_of_hottest = 0.2;
+  command.safety.thresholds.release_s = 0.06;
+  command.safety.thresholds.share_at_hottest = 0.2;
   command.rearm = 5;
   EXPECT_EQ(commandText(again(command)), commandText(command));
   const haptics::Command back = again(command);
@@ -42,12 +42,12 @@ TEST(CommandKeys, BringACommandBackBitForBit) {
   EXPECT_EQ(back.safety.slew_N_per_s, 250.0);
   EXPECT_EQ(back.safety.peak_torque_Nmm, 60.0);
   EXPECT_EQ(back.safety.slew_Nmm_per_s, 4000.0);
-  EXPECT_EQ(back.safety.most_stiffness_N_per_mm, 7.0);
+  EXPECT_EQ(back.safety.max_stiffness_N_per_mm, 7.0);
   EXPECT_EQ(back.safety.continuous_force_N, 0.9);
   EXPECT_EQ(back.safety.peak_joint_torque_Nmm, glm::dvec3(1.0, 2.0, 3.0));
   EXPECT_TRUE(back.safety.must_be_armed);
-  EXPECT_EQ(back.safety.thresholds.let_go_s, 0.06);
-  EXPECT_EQ(back.safety.thresholds.share_of_hottest, 0.2);
+  EXPECT_EQ(back.safety.thresholds.release_s, 0.06);
+  EXPECT_EQ(back.safety.thresholds.share_at_hottest, 0.2);
   EXPECT_EQ(back.rearm, 5u);
 }
 
@@ -118,7 +118,7 @@ TEST(Compressed, RefusesAnythingButTheExpectedBytes) {
 TEST(Compressed, AllocatesNothingForAFrameThatIsTooShortForWhatItPromises) {
   // A frame of one block that says it holds 2 GiB.
   const std::vector<std::uint8_t> lying = {0x28, 0xb5, 0x2f, 0xfd, 0xa0, 0, 0, 0, 0x80, 1, 0, 0};
-  EXPECT_THROW(refuseUnlessHolds(lying, 0x80000000u), SessionError);
+  EXPECT_THROW(refuseUnlessContentSize(lying, 0x80000000u), SessionError);
 }
 
 }  // namespace

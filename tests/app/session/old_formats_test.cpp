@@ -38,7 +38,7 @@ TEST_P(OldFormats, AreReadAsTheyWereRecorded) {
   EXPECT_EQ(ticks[150].command_serial, 2u);
   EXPECT_EQ(ticks[150].contact_tissue, 1);
   EXPECT_EQ(ticks[10].state, haptics::SafetyState::active);
-  EXPECT_FALSE(session.boneLeft(start).has_value());
+  EXPECT_FALSE(session.finalBone(start).has_value());
 }
 
 TEST_P(OldFormats, HaveTheirCommands) {
@@ -58,8 +58,8 @@ TEST_P(OldFormats, HaveTheirCommands) {
   EXPECT_EQ(second.erosion.tissue_factor[2], 3.25);
   EXPECT_FALSE(second.irrigating);
   EXPECT_EQ(second.spindle.commanded_rpm, 30000.0);
-  EXPECT_EQ(second.safety.thresholds.let_go_s, 0.06);
-  EXPECT_EQ(second.safety.thresholds.share_of_hottest, 0.25);
+  EXPECT_EQ(second.safety.thresholds.release_s, 0.06);
+  EXPECT_EQ(second.safety.thresholds.share_at_hottest, 0.25);
   EXPECT_EQ(second.safety.peak_joint_torque_Nmm, glm::dvec3(100.0, 200.0, 300.0));
   EXPECT_EQ(commands[2].command.rearm, 7u);
   // All that nobody changed is as it was.
@@ -93,7 +93,7 @@ INSTANTIATE_TEST_SUITE_P(Recorded, OldFormats, testing::Values("schema_3.molar",
 TEST(OldFormat, OfSchema4HasItsCalibration) {
   const auto calibration = SessionReader(recorded("schema_4.molar")).start().calibration;
   ASSERT_TRUE(calibration.has_value());
-  EXPECT_EQ(calibrationWords(*calibration),
+  EXPECT_EQ(calibrationText(*calibration),
             "red, 1.24 mm RMS of 16, 3 days old, used despite that: demonstration without a patient");
   EXPECT_FALSE(SessionReader(recorded("schema_3.molar")).start().calibration.has_value());
 }

@@ -19,7 +19,7 @@ int main(int, char** argv) {
   haptics::CarvedBone bone(block.grid, block.solid, block.label);
   haptics::Servo servo(bone);
   haptics::TickLog log;
-  app::Recorder recorder(argv[1], false, block.start(), log, app::Draining::by_hand);
+  app::Recorder recorder(argv[1], false, block.start(), log, app::DrainMode::by_hand);
   haptics::Command command = block.start().command;
 
   for (std::uint64_t index = 0;; ++index) {

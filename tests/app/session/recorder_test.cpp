@@ -42,7 +42,7 @@ struct ByHand {
   std::uint64_t made = 0;
 
   explicit ByHand(std::size_t room = 10'000, bool overwrite = false)
-      : log(room), recorder(path, overwrite, bone.start(), log, Draining::by_hand) {}
+      : log(room), recorder(path, overwrite, bone.start(), log, DrainMode::by_hand) {}
   void push(std::uint64_t count, std::uint64_t serial = 1) {
     for (std::uint64_t n = 0; n < count; ++n) log.push(imaginedTick(made++, serial));
   }
@@ -118,13 +118,13 @@ TEST(Recorder, TakesCommandsAndEventsWhileItsThreadDrains) {
 
 TEST(Recorder, SaysHowItsFileIsCalled) {
   ByHand at;
-  EXPECT_EQ(at.recorder.recordedBeside(), std::nullopt);
+  EXPECT_EQ(at.recorder.temporaryFile(), std::nullopt);
   at.push(10);
   EXPECT_EQ(at.recorder.stop().file, at.path);
   const test::SmallBone bone;
   haptics::TickLog log;
-  Recorder second(at.path, true, bone.start(), log, Draining::by_hand);
-  EXPECT_EQ(second.recordedBeside(), at.path + ".new");
+  Recorder second(at.path, true, bone.start(), log, DrainMode::by_hand);
+  EXPECT_EQ(second.temporaryFile(), at.path + ".new");
   log.push(imaginedTick(0));
   second.drain();
   std::filesystem::remove(at.path + ".new");
@@ -141,8 +141,8 @@ TEST(Recorder, IsBegunBesideWhereALogAloneIsToGo) {
   test::writeBytes(folder.file("s.molar.new"), "somebody's");
   const test::SmallBone bone;
   haptics::TickLog log;
-  Recorder recorder(folder.file("s.molar"), true, bone.start(), log, Draining::by_hand);
-  EXPECT_EQ(recorder.recordedBeside(), folder.file("s.molar.new2"));
+  Recorder recorder(folder.file("s.molar"), true, bone.start(), log, DrainMode::by_hand);
+  EXPECT_EQ(recorder.temporaryFile(), folder.file("s.molar.new2"));
 }
 
 TEST(Recorder, NotesTheTickFromWhichACommandIsInForce) {
@@ -256,7 +256,7 @@ TEST(Recorder, LeavesAFileThatCanBeReadOnAFullDisk) {
     const test::SmallBone bone;
     haptics::TickLog log(100'000);
     const FullDisk full(400'000);
-    Recorder recorder(path, false, bone.start(), log, Draining::by_hand);
+    Recorder recorder(path, false, bone.start(), log, DrainMode::by_hand);
     for (std::uint64_t i = 0; i < 20'000; ++i) {
       log.push(imaginedTick(i));
       if (i % 200 == 199) recorder.drain();

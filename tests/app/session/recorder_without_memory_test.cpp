@@ -16,7 +16,7 @@ struct Recorded {
   std::string path = folder.file("s.molar");
   test::SmallBone bone;
   haptics::TickLog log;
-  Recorder recorder{path, false, bone.start(), log, Draining::by_hand};
+  Recorder recorder{path, false, bone.start(), log, DrainMode::by_hand};
   std::uint64_t made = 0;
 
   void push(std::uint64_t count) {
@@ -61,7 +61,7 @@ TEST(RecorderWithoutMemory, LeavesWhatWasWrittenReadable) {
   {
     const test::SmallBone bone;
     haptics::TickLog log;
-    Recorder recorder(folder.file("s.molar"), false, bone.start(), log, Draining::by_hand);
+    Recorder recorder(folder.file("s.molar"), false, bone.start(), log, DrainMode::by_hand);
     for (std::uint64_t n = 0; n < 100; ++n) log.push(test::imaginedTick(n));
     recorder.drain();
     log.push(test::imaginedTick(100));

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kTicks = 900, kChange = 500;
 
-ReplayedMoment momentOf(const std::string& path, double t_s) {
+ReplayedState momentOf(const std::string& path, double t_s) {
   SessionReader session(path);
   refuseDamaged(session, path);
   return replayTo(session, t_s);
@@ -80,7 +80,7 @@ TEST(Replay, FindsARehearsalOfEveryLawHeadAndShaftIdentical) {
       hand.arm_P_mm.xyz = hand.X_PT.rotation * glm::dvec3(0.0, 0.0, 40.0);
       const haptics::Command& obeyed = part == 0 ? block.start().command : command;
       ticks.push_back(servo.step(hand, obeyed, 0.001));
-      with_torque += glm::length(ticks.back().served_torque_P_Nmm.xyz) > 1.0 ? 1 : 0;
+      with_torque += glm::length(ticks.back().commanded_torque_P_Nmm.xyz) > 1.0 ? 1 : 0;
     }
     if (part == 0)
       writer.write({{}, ticks, {}});
@@ -149,7 +149,7 @@ TEST(Metrics, TellWhatWasDrilledDryAndWhatWasTakenBack) {
   EXPECT_NEAR(metrics.returned_mm3, session.returned_mm3, 1e-9);
   EXPECT_NEAR(metrics.removed_mm3, session.cut_mm3 - session.returned_mm3, 1e-9);
   EXPECT_NEAR(metrics.removed_mm3_by_label->at("cortical"), metrics.removed_mm3, 1e-6);
-  const std::string json = metricsJson(metrics), words = metricsWords(metrics);
+  const std::string json = metricsJson(metrics), words = metricsText(metrics);
   EXPECT_NE(json.find("\"dry_drilling_s\": 0."), std::string::npos) << json;
   EXPECT_NE(words.find("without irrigation"), std::string::npos) << words;
   EXPECT_NE(words.find("more taken back"), std::string::npos) << words;
@@ -185,7 +185,7 @@ TEST(Replay, TripsAsTheRehearsalDid) {
       hand.held = part != 1 || n < 950;
       if (part == 2 && n == 900) hand.X_PT.translation_mm.x = std::nan("");
       if (part == 2 && n == 1100) hand.gap_s = 0.5;
-      if (part == 3 && n > 1100) hand.stop_asked = true;
+      if (part == 3 && n > 1100) hand.stop_requested = true;
       ticks.push_back(servo.step(hand, command, 0.001));
       seen = seen | ticks.back().faults;
     }
@@ -206,7 +206,7 @@ TEST(Replay, TripsAsTheRehearsalDid) {
 
 TEST(Replay, NamesTheFirstTickWhoseForceDiffersByOneBit) {
   Recorded session;
-  double& force_N = session.ticks[321].served_force_P_N.xyz.z;
+  double& force_N = session.ticks[321].commanded_force_P_N.xyz.z;
   force_N = std::nextafter(force_N, 10.0);
   session.ticks[400].depth_mm += 1.0;
   session.write();
@@ -232,7 +232,7 @@ TEST(Replay, NoticesEveryQuantityOfATick) {
   EXPECT_EQ(changed([](Tick& t) { t.work_us += 1.0f; }), kTicks) << "CPU time is not replayed";
   EXPECT_EQ(changed([](Tick& t) { t.t_s += 1e-15; }), 10u);
   EXPECT_EQ(changed([](Tick& t) { t.law_torque_P_Nmm.xyz.x += 1e-12; }), 10u);
-  EXPECT_EQ(changed([](Tick& t) { t.served_torque_P_Nmm.xyz.z += 1e-12; }), 10u);
+  EXPECT_EQ(changed([](Tick& t) { t.commanded_torque_P_Nmm.xyz.z += 1e-12; }), 10u);
   EXPECT_EQ(changed([](Tick& t) { t.energy_Nmm += 1e-12; }), 10u);
   EXPECT_EQ(changed([](Tick& t) { t.spindle_rad_per_s += 1e-9; }), 10u);
   EXPECT_EQ(changed([](Tick& t) { t.hand.X_PT.translation_mm.z -= 1e-9; }), 10u);
@@ -244,7 +244,7 @@ TEST(Replay, NoticesEveryQuantityOfATick) {
   EXPECT_EQ(changed([](Tick& t) { t.bone_digest ^= 1; }), 10u);
   EXPECT_EQ(changed([](Tick& t) { t.contact_tissue ^= 1; }), 10u);
   EXPECT_EQ(changed([](Tick& t) { t.drilling = !t.drilling; }), 10u);
-  EXPECT_EQ(changed([](Tick& t) { t.rest = haptics::Rest::caught; }), 10u);
+  EXPECT_EQ(changed([](Tick& t) { t.drill_inhibit = haptics::DrillInhibit::tool_embedded; }), 10u);
   EXPECT_EQ(changed([](Tick& t) { ++t.strokes; }), 10u);
   EXPECT_EQ(changed([](Tick& t) { t.faults = t.faults | haptics::Fault::device; }), 10u);
   EXPECT_EQ(changed([](Tick& t) { t.state = haptics::SafetyState::ready; }), 10u);
@@ -267,10 +267,10 @@ TEST(Replay, SaysWhereTicksWereLost) {
   EXPECT_FALSE(report.verified());
   EXPECT_EQ(report.difference->tick, 207u);
   EXPECT_EQ(report.difference->what, "7 ticks before it were lost");
-  EXPECT_EQ(momentOf(session.path, 0.150).departure, std::nullopt);
-  const ReplayedMoment after = momentOf(session.path, 0.3);
-  ASSERT_TRUE(after.departure.has_value());
-  EXPECT_EQ(after.departure->tick, 207u);
+  EXPECT_EQ(momentOf(session.path, 0.150).divergence, std::nullopt);
+  const ReplayedState after = momentOf(session.path, 0.3);
+  ASSERT_TRUE(after.divergence.has_value());
+  EXPECT_EQ(after.divergence->tick, 207u);
 }
 
 TEST(Replay, DoesNotVerifyASessionWhoseLastTicksWereLost) {
@@ -335,19 +335,19 @@ TEST(Replay, BringsBackTheBoneOfAnyMoment) {
   for (const std::size_t ticks : {1u, 50u, 437u, 500u, 501u}) {
     haptics::CarvedBone bone(session.block.grid, session.block.solid, session.block.label);
     test::rehearse(bone, session.block.start().command, ticks, kChange);
-    const ReplayedMoment moment = momentOf(session.path, (static_cast<double>(ticks) - 0.5) * 0.001);
+    const ReplayedState moment = momentOf(session.path, (static_cast<double>(ticks) - 0.5) * 0.001);
     EXPECT_TRUE(std::ranges::equal(moment.bone.solidInGridOrder(), bone.solidInGridOrder())) << ticks;
     EXPECT_EQ(moment.tick.index, ticks - 1);
     EXPECT_EQ(moment.command.serial, ticks <= kChange ? 1u : 2u);
   }
-  const ReplayedMoment end = momentOf(session.path, std::numeric_limits<double>::infinity());
+  const ReplayedState end = momentOf(session.path, std::numeric_limits<double>::infinity());
   EXPECT_EQ(end.bone.digest(), session.bone.digest());
 }
 
 TEST(Replay, ReadsTheNumbersOfAnotherVersionAndComparesNothing) {
   Recorded session;
   session.servo.revision = 99;
-  session.ticks[321].served_force_P_N.xyz.z += 1.0;
+  session.ticks[321].commanded_force_P_N.xyz.z += 1.0;
   session.write();
   const ReplayReport report = verify(session.path);
   EXPECT_TRUE(report.verified()) << report.line();
@@ -369,7 +369,7 @@ TEST(Replay, ReadsTheNumbersOfAnotherVersionAndComparesNothing) {
 TEST(Replay, ComparesNothingThatAnotherKindOfProcessorSummed) {
   Recorded session;
   session.servo.instruction_set = thisServo().instruction_set == "portable" ? "avx2" : "portable";
-  session.ticks[321].served_force_P_N.xyz.z += 1e-7;
+  session.ticks[321].commanded_force_P_N.xyz.z += 1e-7;
   session.write();
   const ReplayReport report = verify(session.path);
   EXPECT_TRUE(report.verified()) << report.line();
@@ -378,9 +378,9 @@ TEST(Replay, ComparesNothingThatAnotherKindOfProcessorSummed) {
 
 TEST(Replay, ComparesWhatWasSummedWithVectorsOfAnyWidth) {
   const ServoBuild avx2{1, "avx2"}, avx512{1, "avx512"}, portable{1, "portable"};
-  EXPECT_TRUE(avx2.sumsAsDoes(avx512));
-  EXPECT_TRUE(portable.sumsAsDoes(portable));
-  EXPECT_FALSE(avx512.sumsAsDoes(portable));
+  EXPECT_TRUE(avx2.sumsIdentically(avx512));
+  EXPECT_TRUE(portable.sumsIdentically(portable));
+  EXPECT_FALSE(avx512.sumsIdentically(portable));
 }
 
 TEST(Replay, TakesASessionThatDoesNotTellItsServoForAnOlderOne) {
@@ -424,44 +424,44 @@ TEST(Metrics, OfAKilledRecordingComeFromItsTicks) {
   EXPECT_NEAR(metrics.removed_mm3_by_label->at("cortical"), session.bone.removedByTissue_mm3()[1], 1e-12);
 }
 
-TEST(BoneThen, IsTheOneThatWasLeftWhateverARerunWouldSay) {
+TEST(BoneAtTime, IsTheOneThatWasLeftWhateverARerunWouldSay) {
   Recorded session;
   session.servo.revision = 99;
   for (haptics::Tick& tick : session.ticks) tick.hand.X_PT.translation_mm.z += 5.0;
   session.write();
-  const BoneThen bone = boneThen(session.path, std::nullopt);
+  const BoneAtTime bone = boneAtTime(session.path, std::nullopt);
   EXPECT_EQ(bone.solid, session.bone.solidInGridOrder());
   EXPECT_NEAR(bone.t_s, 0.9, 1e-9);
   EXPECT_TRUE(bone.remarks.empty());
-  EXPECT_EQ(boneThen(session.path, 77.0).solid, bone.solid) << "past the end";
+  EXPECT_EQ(boneAtTime(session.path, 77.0).solid, bone.solid) << "past the end";
 }
 
-TEST(BoneThen, OfAKilledRecordingIsRunAgainAndSaysSo) {
+TEST(BoneAtTime, OfAKilledRecordingIsRunAgainAndSaysSo) {
   Recorded session;
   session.write(false);
-  const BoneThen bone = boneThen(session.path, std::nullopt);
+  const BoneAtTime bone = boneAtTime(session.path, std::nullopt);
   EXPECT_EQ(bone.solid, session.bone.solidInGridOrder());
   ASSERT_EQ(bone.remarks.size(), 1u);
   EXPECT_NE(bone.remarks[0].find("run again"), std::string::npos) << bone.remarks[0];
 }
 
-TEST(BoneThen, OfARerunThatDepartsSaysByHowMuch) {
+TEST(BoneAtTime, OfARerunThatDepartsSaysByHowMuch) {
   Recorded session;
   // The bur is lifted out of the bone where the recording has it in.
   for (std::size_t n = 300; n < kTicks; ++n) session.ticks[n].hand.X_PT.translation_mm.z += 5.0;
   session.write(false);
-  const BoneThen bone = boneThen(session.path, std::nullopt);
+  const BoneAtTime bone = boneAtTime(session.path, std::nullopt);
   ASSERT_EQ(bone.remarks.size(), 2u);
   EXPECT_NE(bone.remarks[1].find("departs from the recording at tick 300"), std::string::npos) << bone.remarks[1];
   EXPECT_NE(bone.remarks[1].find("less than the recorded one"), std::string::npos) << bone.remarks[1];
 }
 
-TEST(BoneThen, IsTheRecordedOneWhereForcesAloneDiffer) {
+TEST(BoneAtTime, IsTheRecordedOneWhereForcesAloneDiffer) {
   Recorded session;
-  session.ticks[300].served_force_P_N.xyz.z = std::nextafter(session.ticks[300].served_force_P_N.xyz.z, 9.0);
+  session.ticks[300].commanded_force_P_N.xyz.z = std::nextafter(session.ticks[300].commanded_force_P_N.xyz.z, 9.0);
   session.write();
   EXPECT_FALSE(verify(session.path).verified());
-  EXPECT_TRUE(boneThen(session.path, 0.5).remarks.empty()) << "its digest says that it is the same bone";
+  EXPECT_TRUE(boneAtTime(session.path, 0.5).remarks.empty()) << "its digest says that it is the same bone";
 }
 
 TEST(Replay, ComparesTheBoneThatWasLeftAndWhatWasRemovedByTissue) {
@@ -473,7 +473,7 @@ TEST(Replay, ComparesTheBoneThatWasLeftAndWhatWasRemovedByTissue) {
     writer.seal(0, &untouched);
   }
   EXPECT_EQ(verify(session.path).difference->what, "the bone that was left differs");
-  session.ticks[449].removed_so_far_mm3[2] += 0.5;  // the last of a block
+  session.ticks[449].removed_total_mm3[2] += 0.5;  // the last of a block
   session.write();
   EXPECT_EQ(verify(session.path).difference->what, "the removed volume by tissue differs");
 }
@@ -495,7 +495,7 @@ TEST(Metrics, AddUpWhatTheTicksSay) {
     const haptics::Tick& tick = session.ticks[n];
     if (n > 0) path_mm += glm::distance(tick.hand.X_PT.translation_mm, session.ticks[n - 1].hand.X_PT.translation_mm);
     removed_mm3 += tick.removed_mm3;
-    max_force_N = std::max(max_force_N, glm::length(tick.served_force_P_N.xyz));
+    max_force_N = std::max(max_force_N, glm::length(tick.commanded_force_P_N.xyz));
   }
   EXPECT_NEAR(metrics.path_mm, path_mm, 1e-9);
   EXPECT_NEAR(metrics.removed_mm3, removed_mm3, 1e-9);

@@ -67,7 +67,7 @@ TEST(SessionFile, GivesBackWhatWasWritten) {
   EXPECT_EQ(start.solid, bone.solid);
   EXPECT_EQ(start.label, bone.label);
   ASSERT_TRUE(start.calibration);
-  EXPECT_EQ(calibrationWords(*start.calibration),
+  EXPECT_EQ(calibrationText(*start.calibration),
             "red, 1.24 mm RMS of 16, 3 days old, used despite that: demonstration without a patient");
   EXPECT_EQ(start.calibration->rig, "5d41");
   EXPECT_EQ(start.calibration->rig_id, "rig-02");
@@ -90,17 +90,17 @@ TEST(SessionFile, GivesBackWhatWasWritten) {
 
 TEST(SessionCalibration, IsSaidInOneLine) {
   SessionCalibration c;
-  EXPECT_EQ(calibrationWords(c), "none");
+  EXPECT_EQ(calibrationText(c), "none");
   c.rig = "default";
-  EXPECT_EQ(calibrationWords(c), "a default rig, not measured");
+  EXPECT_EQ(calibrationText(c), "a default rig, not measured");
   c = {"5d41", "rig-02", "60623", "green", 16, 0.24, 0.41, 0.55, "2026-11-19T08:20:00Z", 1.9, ""};
-  EXPECT_EQ(calibrationWords(c), "green, 0.24 mm RMS of 16, 1 day old");
+  EXPECT_EQ(calibrationText(c), "green, 0.24 mm RMS of 16, 1 day old");
   c.age_days = 0.5;
-  EXPECT_EQ(calibrationWords(c), "green, 0.24 mm RMS of 16, of today");
+  EXPECT_EQ(calibrationText(c), "green, 0.24 mm RMS of 16, of today");
   c.age_days = -2.0;
-  EXPECT_EQ(calibrationWords(c), "green, 0.24 mm RMS of 16, dated in the future");
+  EXPECT_EQ(calibrationText(c), "green, 0.24 mm RMS of 16, dated in the future");
   c.verdict.clear(), c.age_days.reset();
-  EXPECT_EQ(calibrationWords(c), "never proved");
+  EXPECT_EQ(calibrationText(c), "never proved");
 }
 
 TEST(SessionFile, IsOneSingleFileOnceClosed) {
@@ -225,7 +225,7 @@ TEST(SessionFile, SplitsABoneLargerThanARowMayHold) {
   const StoredStart stored = session.start();
   EXPECT_EQ(stored.solid, solid);
   EXPECT_EQ(stored.label, std::vector<std::uint8_t>(solid.size())) << "unlabelled";
-  const auto left = session.boneLeft(stored);
+  const auto left = session.finalBone(stored);
   ASSERT_TRUE(left.has_value());
   EXPECT_EQ(left->solid, bone.solidInGridOrder());
   EXPECT_EQ(left->digest, bone.digest());

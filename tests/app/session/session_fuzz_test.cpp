@@ -39,7 +39,7 @@ void readToTheEnd(SessionReader& session) {
   const StoredStart start = session.start();
   session.commands();
   session.events();
-  session.boneLeft(start);
+  session.finalBone(start);
   while (!session.nextBlock().ticks.empty()) {
   }
 }
@@ -105,7 +105,7 @@ TEST(SessionMutants, OfTextsAndBlocksAreReadOrRefused) {
   mutants::forEachMutant(good, 10 * kUsual, [&](const std::string& mutant, std::size_t which, std::uint64_t) {
     try {
       if (which == 0) commandText(commandFromText(mutant));
-      if (which == 1) refuseUnlessUsable(aboutFromText(mutant).start.grid);
+      if (which == 1) refuseInvalidGrid(aboutFromText(mutant).start.grid);
       if (which == 2) removedText(removedFromText(mutant));
       if (which == 3) sealText(sealFromText(mutant));
       if (which == 4) TickUnpacker(tickColumns()).unpack(std::vector<std::uint8_t>(mutant.begin(), mutant.end()));

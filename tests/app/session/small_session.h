@@ -85,10 +85,10 @@ inline haptics::Tick imaginedTick(std::uint64_t index, std::uint64_t serial = 1)
   tick.hand.drill_pedal = index % 3 != 0;
   tick.proxy_P.mm = {s + 0.1, 2.0 - s, 3.1 * s};
   tick.law_force_P_N.xyz = {0.5 * s, -0.25 * s, 1.0 / 3.0};
-  tick.served_force_P_N.xyz = {0.4 * s, -0.2 * s, 0.3};
+  tick.commanded_force_P_N.xyz = {0.4 * s, -0.2 * s, 0.3};
   tick.hand.arm_P_mm.xyz = {s, 0.5, -40.0};
   tick.law_torque_P_Nmm.xyz = {3.0 * s, 0.125, -s};
-  tick.served_torque_P_Nmm.xyz = {2.5 * s, 0.0625, -s};
+  tick.commanded_torque_P_Nmm.xyz = {2.5 * s, 0.0625, -s};
   tick.energy_Nmm = 0.01 * s;
   tick.spindle_rad_per_s = 4000.0 + s;
   tick.overlap_mm3 = 0.75 + s;

@@ -20,13 +20,13 @@ TEST(TickColumns, BringsEveryFieldOfATickBackBitForBit) {
   tick.faults = haptics::Fault::device | haptics::Fault::bad_force;
   tick.state = haptics::SafetyState::armed;
   tick.hand.device_healthy = false;
-  tick.rest = haptics::Rest::caught;
+  tick.drill_inhibit = haptics::DrillInhibit::tool_embedded;
   tick.strokes = 31;
   tick.hand.jacobian_P_mm = glm::dmat3(1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0);
   tick.hand.handle_velocity_P_mm_per_s.xyz = {1.5, -2.5, 3.5};
   tick.hand.motor_heat = 0.7;
   tick.hand.gap_s = 0.021;
-  tick.hand.docked = tick.hand.stop_asked = true;
+  tick.hand.docked = tick.hand.stop_requested = true;
   tick.hand.fresh = tick.hand.held = tick.hand.calibrated = false;
   tick.hand.X_PT.translation_mm = {-0.0, std::numeric_limits<double>::denorm_min(), INFINITY};
   const auto back = TickUnpacker(tickColumns()).unpack(packTicks(std::vector{tick, test::imaginedTick(7)}));
@@ -46,14 +46,14 @@ TEST(TickColumns, BringsEveryFieldOfATickBackBitForBit) {
   EXPECT_EQ(b.hand.handle_velocity_P_mm_per_s.xyz, glm::dvec3(1.5, -2.5, 3.5));
   EXPECT_EQ(b.hand.motor_heat, 0.7);
   EXPECT_EQ(b.hand.gap_s, 0.021);
-  EXPECT_TRUE(b.hand.docked && b.hand.stop_asked);
+  EXPECT_TRUE(b.hand.docked && b.hand.stop_requested);
   EXPECT_FALSE(b.hand.fresh || b.hand.held || b.hand.calibrated);
   EXPECT_EQ(b.proxy_P.mm, tick.proxy_P.mm);
   EXPECT_EQ(b.law_force_P_N.xyz, tick.law_force_P_N.xyz);
-  EXPECT_EQ(b.served_force_P_N.xyz, tick.served_force_P_N.xyz);
+  EXPECT_EQ(b.commanded_force_P_N.xyz, tick.commanded_force_P_N.xyz);
   EXPECT_EQ(b.hand.arm_P_mm.xyz, tick.hand.arm_P_mm.xyz);
   EXPECT_EQ(b.law_torque_P_Nmm.xyz, tick.law_torque_P_Nmm.xyz);
-  EXPECT_EQ(b.served_torque_P_Nmm.xyz, tick.served_torque_P_Nmm.xyz);
+  EXPECT_EQ(b.commanded_torque_P_Nmm.xyz, tick.commanded_torque_P_Nmm.xyz);
   EXPECT_EQ(b.energy_Nmm, tick.energy_Nmm);
   EXPECT_EQ(b.spindle_rad_per_s, tick.spindle_rad_per_s);
   EXPECT_EQ(b.overlap_mm3, tick.overlap_mm3);
@@ -62,7 +62,7 @@ TEST(TickColumns, BringsEveryFieldOfATickBackBitForBit) {
   EXPECT_EQ(b.bone_digest, tick.bone_digest);
   EXPECT_EQ(b.contact_tissue, tick.contact_tissue);
   EXPECT_EQ(b.drilling, tick.drilling);
-  EXPECT_EQ(b.rest, tick.rest);
+  EXPECT_EQ(b.drill_inhibit, tick.drill_inhibit);
   EXPECT_EQ(b.strokes, tick.strokes);
   EXPECT_EQ(b.state, haptics::SafetyState::armed);
   EXPECT_EQ(b.faults, tick.faults);
@@ -124,7 +124,7 @@ TEST(TickColumns, OfAnotherProgramAreReadByNamePassedByOrDefaulted) {
   EXPECT_EQ(ticks[0].depth_mm, 0.25);
   EXPECT_EQ(ticks[0].index, 513u);
   EXPECT_EQ(ticks[0].strokes, 7);
-  EXPECT_EQ(ticks[0].served_force_P_N.xyz.z, -1.5);
+  EXPECT_EQ(ticks[0].commanded_force_P_N.xyz.z, -1.5);
   EXPECT_TRUE(ticks[0].hand.fresh) << "a column that is not there has the default of its member";
   EXPECT_EQ(ticks[0].state, haptics::SafetyState::off);
 }

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "app/device/hand_at_work.h"
+#include "app/device/pose_source.h"
 #include "calibration/arm/phantom_models.h"
 
 namespace app {

@@ -18,7 +18,7 @@
 namespace app {
 namespace {
 
-using calibration::RigPlace;
+using calibration::RigLocation;
 using calibration::RigRecord;
 using calibration::RigStore;
 using calibration::Verdict;
@@ -37,12 +37,12 @@ RigRecord measured(const std::string& rig_id, const std::string& created_utc,
   record.provenance.created_utc = created_utc;
   record.provenance.mirror_kind = "front_surface";
   if (verdict) {
-    record.proof = calibration::RigProof{};
-    record.proof->verdict = *verdict;
-    record.proof->errors.n = 16;
-    record.proof->errors.rms_mm = 0.24, record.proof->errors.mean_mm = 0.2;
-    record.proof->errors.p95_mm = 0.41, record.proof->errors.max_mm = 0.55;
-    record.proof->checked_utc = created_utc;
+    record.verification = calibration::RigVerification{};
+    record.verification->verdict = *verdict;
+    record.verification->errors.n = 16;
+    record.verification->errors.rms_mm = 0.24, record.verification->errors.mean_mm = 0.2;
+    record.verification->errors.p95_mm = 0.41, record.verification->errors.max_mm = 0.55;
+    record.verification->checked_utc = created_utc;
   }
   return record;
 }
@@ -58,24 +58,24 @@ class RigChoice : public Test {
     return folder_.file("rig.yaml");
   }
   /// As typed; the store is this test's.
-  std::optional<ChosenRig> choose(const std::string& arguments, const DeviceAtHand& device) const {
+  std::optional<ChosenRig> choose(const std::string& arguments, const DeviceIdentity& device) const {
     RigOption option;
     tests::type("--rig-store " + folder_.file("store") + " " + arguments,
                 [&](CommandLine& command) { option.addTo(command, true); });
     return option.choose(device, kNow);
   }
-  std::string refusal(const std::string& arguments, const DeviceAtHand& device) const {
+  std::string refusal(const std::string& arguments, const DeviceIdentity& device) const {
     return tests::refusalOf<UsageError>([&] { choose(arguments, device); });
   }
   const test::ScratchFolder folder_;
-  const DeviceAtHand practice_ = deviceAtHand("practice:D:7", nullptr), mouse_ = deviceAtHand("mouse", nullptr);
+  const DeviceIdentity practice_ = deviceIdentity("practice:D:7", nullptr), mouse_ = deviceIdentity("mouse", nullptr);
 };
 
 TEST_F(RigChoice, SaysThatTheCurrentOneHasGoneBetweenTwoLooks) {
   const RigRecord record = measured("rig-02", "2026-11-19T08:00:00Z");
   keep(record);
   const RigStore store(folder_.file("store"));
-  const RigPlace place{"rig-02", record.rig.device->serial, "right"};
+  const RigLocation place{"rig-02", record.rig.device->serial, "right"};
   const std::string name = *store.currentName(place);
   const std::filesystem::path pointer = store.pathOf(place, name).parent_path() / "current";
   // A pointer that can be read once.
@@ -98,14 +98,14 @@ TEST_F(RigChoice, TakesTheOnlyCurrentOneOfTheDeviceAndSaysHowGoodItIs) {
   EXPECT_EQ(chosen->source, "current rig rig-02");
   EXPECT_TRUE(chosen->record.rig.arm);
   EXPECT_TRUE(chosen->remarks.empty());
-  EXPECT_EQ(calibrationWords(chosen->calibration), "green, 0.24 mm RMS of 16, 3 days old");
+  EXPECT_EQ(calibrationText(chosen->calibration), "green, 0.24 mm RMS of 16, 3 days old");
   EXPECT_EQ(chosen->calibration.rig, chosen->record.hash);
   EXPECT_EQ(chosen->calibration.rig_id, "rig-02");
   EXPECT_EQ(chosen->calibration.device_serial, practice_.serial);
   EXPECT_FALSE(chosen->calibration.rig.empty());
 
   // Another unit has none, and without hardware nothing is asked of the store.
-  EXPECT_FALSE(choose("", deviceAtHand("practice:D:8", nullptr)));
+  EXPECT_FALSE(choose("", deviceIdentity("practice:D:8", nullptr)));
   EXPECT_FALSE(choose("", mouse_));
 }
 
@@ -122,12 +122,12 @@ TEST_F(RigChoice, AsksWhichWhenSeveralSuit) {
 TEST_F(RigChoice, RefusesTheRigOfAnotherDevice) {
   const std::string file = fileOf(measured("rig-02", "2026-11-19T08:00:00Z"));
   EXPECT_TRUE(choose("--rig " + file, practice_));
-  const std::string other = refusal("--rig " + file, deviceAtHand("practice:D:8", nullptr));
+  const std::string other = refusal("--rig " + file, deviceIdentity("practice:D:8", nullptr));
   EXPECT_NE(other.find("serial"), std::string::npos) << other;
   EXPECT_NE(refusal("--mount left --rig " + file, practice_).find("mount"), std::string::npos);
   haptics::DeviceCapabilities falcon;
   falcon.model = "Novint Falcon";
-  EXPECT_NE(refusal("--rig " + file, deviceAtHand("falcon", &falcon)).find("Falcon"), std::string::npos);
+  EXPECT_NE(refusal("--rig " + file, deviceIdentity("falcon", &falcon)).find("Falcon"), std::string::npos);
 }
 
 TEST_F(RigChoice, LeavesTheArmAsideForAHandWithoutHardware) {
@@ -149,7 +149,7 @@ TEST_F(RigChoice, IsLockedWhenRedUntilAWordIsGiven) {
   const auto chosen = choose(file + " --despite-calibration 'demonstration only'", practice_);
   ASSERT_TRUE(chosen);
   EXPECT_EQ(chosen->calibration.despite, "demonstration only");
-  EXPECT_NE(calibrationWords(chosen->calibration).find("used despite that: demonstration only"), std::string::npos);
+  EXPECT_NE(calibrationText(chosen->calibration).find("used despite that: demonstration only"), std::string::npos);
   // The word of a rig that is not red is not kept.
   const std::string good = "--rig " + fileOf(measured("rig-02", "2026-11-19T08:00:00Z"));
   EXPECT_EQ(choose(good + " --despite-calibration why", practice_)->calibration.despite, "");

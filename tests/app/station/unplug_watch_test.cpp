@@ -59,7 +59,7 @@ TEST(UnplugWatch, StopsAgainWhateverLeavesNext) {
 TEST(UnplugWatch, SaysWhenItCanNotWatchOrNoLongerCan) {
   UnplugWatch none([] {},
                    [](haptics::PresenceListener) -> std::unique_ptr<haptics::PresenceMonitor> {
-                     throw haptics::DeviceError("USB: nobody tells", haptics::DeviceTrouble::no_means);
+                     throw haptics::DeviceError("USB: nobody tells", haptics::DeviceTrouble::no_resources);
                    });
   EXPECT_EQ(none.takeNews(), "USB: nobody tells; an unplugged unit is noticed by its library only");
   EXPECT_EQ(none.takeNews(), std::nullopt);

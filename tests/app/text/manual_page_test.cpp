@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "tests/app/text/surgery_words.h"
+#include "tests/app/text/sample_program.h"
 
 namespace app {
 namespace {
@@ -15,8 +15,8 @@ namespace {
 using testing::HasSubstr;
 
 TEST(ManualPage, SaysWhatTheCommandLineSays) {
-  const SurgeryWords surgery;
-  const CommandWords words = surgery.program.words();
+  const SampleProgram surgery;
+  const CommandHelp words = surgery.program.words();
   ASSERT_EQ(words.commands.size(), 2u);
   const std::string page = manualPage("molar cut", words.commands[0], "Molar 1.2");
   EXPECT_THAT(page, HasSubstr(".TH \"MOLAR-CUT\" 1 \"\" \"Molar 1.2\" \"Molar\"\n"));
@@ -30,7 +30,7 @@ TEST(ManualPage, SaysWhatTheCommandLineSays) {
 }
 
 TEST(ManualPage, TakesNoTextForARequest) {
-  const SurgeryWords surgery;
+  const SampleProgram surgery;
   const std::string page = manualPage("molar cut", surgery.program.words().commands[0], "Molar 1.2");
   EXPECT_THAT(page, HasSubstr("Cuts \\- .what is there\\e\n"));
   EXPECT_THAT(page, HasSubstr("\\&.a line\n\\&'another\n"));
@@ -39,7 +39,7 @@ TEST(ManualPage, TakesNoTextForARequest) {
 TEST(ManualPage, IsReadByGroffWithoutAWord) {
   if (std::system("command -v groff >/dev/null") != 0)
     GTEST_SKIP() << "groff is not installed (apt-get install groff-base)";
-  const SurgeryWords surgery;
+  const SampleProgram surgery;
   const auto file = std::filesystem::path(testing::TempDir()) / "molar-cut.1";
   std::ofstream(file) << manualPage("molar cut", surgery.program.words().commands[0], "Molar 1.2");
   const std::string said = file.string() + ".said";

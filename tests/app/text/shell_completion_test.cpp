@@ -6,14 +6,14 @@
 #include <filesystem>
 #include <fstream>
 
-#include "tests/app/text/surgery_words.h"
+#include "tests/app/text/sample_program.h"
 
 namespace app {
 namespace {
 
 /// What bash offers for these words, the last of which is being typed.
 std::string offered(const std::string& words) {
-  const SurgeryWords surgery;
+  const SampleProgram surgery;
   const auto script = std::filesystem::path(testing::TempDir()) / "completion.bash";
   std::ofstream(script) << bashCompletion("surgery", surgery.program.words());
   const std::string ask = ". '" + script.string() + "'; COMP_WORDS=(" + words +

@@ -69,7 +69,7 @@ TEST(BrickUpload, ShowsWhatOneTickCutToBothEyesInTheNextFrame) {
 
   // After a reset of the graphics card: made from the bone of the start, then all that was ever brought.
   render::FrameRenderer anew(kGrid, solid, {});
-  upload.bringAgain(bone, anew);
+  upload.uploadAllAgain(bone, anew);
   anew.renderEye(frame, render::Eye::left);
   shown.renderEye(frame, render::Eye::left);
   EXPECT_EQ(anew.readEye(render::Eye::left).rgba, shown.readEye(render::Eye::left).rgba);

@@ -26,7 +26,7 @@ TEST(ContextRecovery, DrawsTheLostPictureAgainAfterMakingEverythingAnew) {
   drawOn(card, recovery);
   EXPECT_EQ(card.drawn, 2);
   EXPECT_EQ(card.made_anew, 1);
-  EXPECT_EQ(recovery.timesLost(), 1);
+  EXPECT_EQ(recovery.contextLosses(), 1);
 }
 
 TEST(ContextRecovery, SurvivesALossWhileItDrawsAgain) {

@@ -8,7 +8,7 @@ namespace {
 TEST(MotionToPhoton, AddsWhatIsNotMeasured) {
   MotionToPhoton latency(50.0, 1000.0);
   latency.add(0.012);
-  const PhotonEstimate e = latency.now();
+  const LatencyEstimate e = latency.now();
   EXPECT_DOUBLE_EQ(e.pose_to_swap_ms, 12.0);
   EXPECT_DOUBLE_EQ(e.servo_ms, 0.5);
   EXPECT_DOUBLE_EQ(e.blank_ms, 10.0) << "half a refresh of 20 ms";
@@ -30,7 +30,7 @@ TEST(MotionToPhoton, SurvivesNothingAndTheAbsurd) {
   latency.add(-1.0);
   latency.add(1e6);
   EXPECT_GE(latency.slow().pose_to_swap_ms, 1999.0);
-  EXPECT_EQ(photonText(latency.median()).find('\n'), std::string::npos);
+  EXPECT_EQ(latencyText(latency.median()).find('\n'), std::string::npos);
 }
 
 }  // namespace

@@ -45,14 +45,14 @@ TEST(SurgeonDisplay, ComesBackWithTheSamePictureAfterEverythingWasLost) {
                                                        render::RenderOptions{.backend = backend});
       },
       [](const std::string&) {});
-  display.beforeMakingAnew([&] { told_first = renderers; });
+  display.beforeRecreation([&] { told_first = renderers; });
   display.show(frameAbove());
-  const std::vector<std::uint8_t> before = display.renderer().readPicture().rgba;
-  display.makeAnew();
+  const std::vector<std::uint8_t> before = display.renderer().readImage().rgba;
+  display.recreate();
   EXPECT_EQ(told_first, 1) << "what shares with the windows goes before them";
   display.show(frameAbove());
   EXPECT_EQ(renderers, 2);
-  EXPECT_EQ(display.renderer().readPicture().rgba, before);
+  EXPECT_EQ(display.renderer().readImage().rgba, before);
   EXPECT_GT(std::count(before.begin(), before.end(), 0xff), 0) << "the control: something is drawn";
 }
 
@@ -71,12 +71,12 @@ TEST(SurgeonDisplay, BringsTheCutBoneBackThroughALossWhileItIsShown) {
         if (++renderers == 2) throw render::ContextLost("the graphics card was reset");
         auto renderer = std::make_unique<render::FrameRenderer>(kGrid, solid, std::vector<std::uint8_t>{},
                                                                 render::RenderOptions{.backend = backend});
-        upload.bringAgain(bone, *renderer);
+        upload.uploadAllAgain(bone, *renderer);
         return renderer;
       },
       [](const std::string&) {});
   display.show(frameAbove());
-  const std::vector<std::uint8_t> whole = display.renderer().readPicture().rgba;
+  const std::vector<std::uint8_t> whole = display.renderer().readImage().rgba;
 
   haptics::Servo servo(bone);
   haptics::Command command;
@@ -90,15 +90,15 @@ TEST(SurgeonDisplay, BringsTheCutBoneBackThroughALossWhileItIsShown) {
   ASSERT_GT(servo.step(hand, command, 0.001).removed_mm3, 0.5);
   ASSERT_GT(upload.bring(bone, display.renderer()), 0u);
   display.show(frameAbove());
-  const std::vector<std::uint8_t> cut = display.renderer().readPicture().rgba;
+  const std::vector<std::uint8_t> cut = display.renderer().readImage().rgba;
   ASSERT_NE(cut, whole);
 
-  display.makeAnew();
+  display.recreate();
   display.show(frameAbove());
-  EXPECT_EQ(display.timesLost(), 1);
+  EXPECT_EQ(display.contextLosses(), 1);
   EXPECT_EQ(renderers, 3);
   EXPECT_EQ(display.backend(), render::Backend::cpu);
-  EXPECT_EQ(display.renderer().readPicture().rgba, cut);
+  EXPECT_EQ(display.renderer().readImage().rgba, cut);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace {
 
 using assets::CtVolume;
-using assets::lowerJaw_P_mm;
+using assets::lowerJawCentre_P_mm;
 
 const assets::VolumeGrid kHead{{80, 100, 90}, 2.0, {-80, 0, 0}};
 
@@ -41,7 +41,7 @@ bool skull(const glm::dvec3& p) {
 }
 
 TEST(LowerJaw, IsTheLowestArchOfTheFace) {
-  const auto found = lowerJaw_P_mm(volumeOf(kHead, [](auto& p) { return spine(p) || jaw(p) || skull(p); }), {});
+  const auto found = lowerJawCentre_P_mm(volumeOf(kHead, [](auto& p) { return spine(p) || jaw(p) || skull(p); }), {});
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->x, 0.0, 4.0);
   EXPECT_GT(found->y, 18.0);
@@ -51,19 +51,19 @@ TEST(LowerJaw, IsTheLowestArchOfTheFace) {
 }
 
 TEST(LowerJaw, IsNoneInASkullWithoutIt) {
-  EXPECT_FALSE(lowerJaw_P_mm(volumeOf(kHead, [](auto& p) { return spine(p) || skull(p); }), {}));
-  EXPECT_FALSE(lowerJaw_P_mm(volumeOf(kHead, [](auto&) { return false; }), {}));
-  EXPECT_FALSE(lowerJaw_P_mm(volumeOf(kHead, [](auto& p) { return jaw(p) && p.x > 0.0; }), {})) << "one side of one";
+  EXPECT_FALSE(lowerJawCentre_P_mm(volumeOf(kHead, [](auto& p) { return spine(p) || skull(p); }), {}));
+  EXPECT_FALSE(lowerJawCentre_P_mm(volumeOf(kHead, [](auto&) { return false; }), {}));
+  EXPECT_FALSE(lowerJawCentre_P_mm(volumeOf(kHead, [](auto& p) { return jaw(p) && p.x > 0.0; }), {})) << "one side of one";
 }
 
 TEST(LowerJaw, IsTakenFromLabelsWhereThereAre) {
   CtVolume ct = volumeOf(kHead, skull);
   const std::vector<glm::dvec3> canal{{-30, 60, 40}, {-32, 70, 42}, {-35, 80, 50}};
-  EXPECT_EQ(lowerJaw_P_mm(ct, canal), canal[1]);
+  EXPECT_EQ(lowerJawCentre_P_mm(ct, canal), canal[1]);
   ct.tooth.assign(ct.solid.size(), 0);
   ct.tooth[kHead.index({30, 20, 30})] = 44;
   ct.tooth[kHead.index({30, 20, 50})] = 14;
-  EXPECT_EQ(lowerJaw_P_mm(ct, canal), kHead.centre_P_mm({30, 20, 30})) << "upper teeth do not count";
+  EXPECT_EQ(lowerJawCentre_P_mm(ct, canal), kHead.centre_P_mm({30, 20, 30})) << "upper teeth do not count";
 }
 
 /// A real skull from its segmentation, with and without its mandible (2).
@@ -83,13 +83,13 @@ TEST(LowerJawRealData, IsFoundInARealHeadAndNotMadeUp) {
         low = glm::min(low, ct.grid.centre_P_mm({i, j, k}));
         high = glm::max(high, ct.grid.centre_P_mm({i, j, k}));
       }
-  const auto found = lowerJaw_P_mm(ct, {});
+  const auto found = lowerJawCentre_P_mm(ct, {});
   ASSERT_TRUE(found);
   EXPECT_TRUE(glm::all(glm::greaterThan(*found, low)) && glm::all(glm::lessThan(*found, high)));
   EXPECT_LT(found->y, low.y + 40.0) << "its front";
   for (std::size_t n = 0; n < ct.solid.size(); ++n)
     if (labels.values[n] == 2 || labels.values[n] >= 4) ct.solid[n] = 0;
-  EXPECT_FALSE(lowerJaw_P_mm(ct, {}));
+  EXPECT_FALSE(lowerJawCentre_P_mm(ct, {}));
 }
 
 }  // namespace

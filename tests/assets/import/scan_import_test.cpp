@@ -28,7 +28,7 @@ using assets::VolumeGrid;
 using testing::HasSubstr;
 using testing::Not;
 
-std::string refusalOf(const std::string& source, const assets::ScanChoices& choices = {}) {
+std::string refusalOf(const std::string& source, const assets::ScanImportOptions& choices = {}) {
   return tests::refusalOf<assets::LoadError>([&] { importScan(source, choices); });
 }
 
@@ -75,7 +75,7 @@ TEST_F(ScanImportRealData, IsReadWithoutLabelsToo) {
   EXPECT_TRUE(patient.mandibular_canal_P_mm.empty());
   EXPECT_EQ(patient.ct.label, assets::labelsFromGrey(patient.ct.grid, patient.ct.hounsfield));
   EXPECT_EQ(patient.ct.solid, assets::classify(patient.ct.grid, patient.ct.hounsfield, {}));
-  const glm::dvec3 index = patient.ct.grid.indexFromPoint(patient.workplace_P_mm());
+  const glm::dvec3 index = patient.ct.grid.indexFromPoint(patient.focus_P_mm());
   EXPECT_TRUE(glm::all(glm::greaterThan(index, glm::dvec3(0.0)))) << "in the volume";
   EXPECT_TRUE(glm::all(glm::lessThan(index, glm::dvec3(patient.ct.grid.size))));
 }
@@ -188,7 +188,7 @@ TEST(ScanImport, TakesTheToothAskedForAsTheSite) {
   const auto none = importScan(folder.at(""), {});
   EXPECT_FALSE(none.patient.site);
   EXPECT_THAT(none.remarks, testing::Contains(HasSubstr("no third molar labelled here; these teeth are: 36, 37")));
-  EXPECT_NEAR(none.patient.workplace_P_mm().y, 9.75, 0.3);
+  EXPECT_NEAR(none.patient.focus_P_mm().y, 9.75, 0.3);
 
   scan.tooth[0] = 17;
   scan.tooth[1] = 9;
@@ -220,7 +220,7 @@ struct OneTooth {
         }
   }
 
-  assets::ImportedScan imported(const on_disk::Folder& folder, const assets::ScanChoices& choices = {}) const {
+  assets::ImportedScan imported(const on_disk::Folder& folder, const assets::ScanImportOptions& choices = {}) const {
     auto file = assets::nrrdOutput(folder.at("ct.nrrd"), true);
     assets::writeHounsfield(grid, hounsfield, file);
     return importScan(folder.at(""), choices);

@@ -64,14 +64,14 @@ TEST(ScanScale, TakesTheGreatestValuesThereAre) {
 TEST(GreyWindow, IsNeededForEightBits) {
   std::vector<std::int16_t> greys{0, 51, 255};
   try {
-    assets::scaleGreys(greys, std::nullopt, "scan.nrrd");
+    assets::applyGreyWindow(greys, std::nullopt, "scan.nrrd");
     FAIL();
   } catch (const assets::LoadError& error) {
     EXPECT_THAT(error.what(), HasSubstr("--window"));
   }
-  assets::scaleGreys(greys, assets::GreyWindow{-1000.0, 3000.0}, "scan.nrrd");
+  assets::applyGreyWindow(greys, assets::GreyWindow{-1000.0, 3000.0}, "scan.nrrd");
   EXPECT_THAT(greys, ElementsAre(-1000, -200, 3000));
-  EXPECT_THROW(assets::scaleGreys(greys, assets::GreyWindow{}, "scan.nrrd"), assets::LoadError) << "no 8 bits";
+  EXPECT_THROW(assets::applyGreyWindow(greys, assets::GreyWindow{}, "scan.nrrd"), assets::LoadError) << "no 8 bits";
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ Volume noise(std::mt19937& random, glm::ivec3 size) {
 const std::vector<glm::ivec3> kSizes{{1, 1, 1}, {8, 8, 8}, {9, 8, 7}, {16, 17, 15}, {25, 3, 18}};
 
 TEST(BoneSurface, IsASphereAroundABall) {
-  const MeshPart mesh = BoneSurface(ball(0.4, 4.0).voxels()).welded("ball");
+  const MeshPart mesh = BoneSurface(ball(0.4, 4.0).voxels()).mergedMesh("ball");
   EXPECT_EQ(test::opennessOf(mesh.triangles), "");
   EXPECT_EQ(test::eulerCharacteristic(mesh.triangles), 2);
   EXPECT_EQ(mesh.name, "ball");
@@ -56,7 +56,7 @@ TEST(BoneSurface, HasOneHoleAroundATorus) {
   const Volume torus = bodyOf({{40, 41, 20}, 0.3, {-6.0, -6.0, -3.0}}, [](glm::dvec3 p) {
     return glm::length(glm::dvec2(glm::length(glm::dvec2(p)) - 3.5, p.z)) - 1.5;
   });
-  const MeshPart mesh = BoneSurface(torus.voxels()).welded("");
+  const MeshPart mesh = BoneSurface(torus.voxels()).mergedMesh("");
   EXPECT_EQ(test::opennessOf(mesh.triangles), "");
   EXPECT_EQ(test::eulerCharacteristic(mesh.triangles), 0);
 }
@@ -64,7 +64,7 @@ TEST(BoneSurface, HasOneHoleAroundATorus) {
 TEST(BoneSurface, MeasuresABallWithinTheSquareOfTheSpacing) {
   constexpr double kRadius_mm = 3.0, kPi = 3.14159265358979323846;
   for (const double spacing_mm : {0.4, 0.2}) {
-    const MeshPart mesh = BoneSurface(ball(spacing_mm, kRadius_mm).voxels()).welded("");
+    const MeshPart mesh = BoneSurface(ball(spacing_mm, kRadius_mm).voxels()).mergedMesh("");
     // A chord of length h leaves h^2 / 8R between it and the sphere.
     const double gap_mm = spacing_mm * spacing_mm / (4.0 * kRadius_mm);
     EXPECT_NEAR(test::volume(mesh), 4.0 / 3.0 * kPi * std::pow(kRadius_mm, 3),
@@ -75,7 +75,7 @@ TEST(BoneSurface, MeasuresABallWithinTheSquareOfTheSpacing) {
 }
 
 TEST(BoneSurface, HasNormalsThatPointIntoTheAir) {
-  const MeshPart mesh = BoneSurface(ball(0.3, 3.0).voxels()).welded("");
+  const MeshPart mesh = BoneSurface(ball(0.3, 3.0).voxels()).mergedMesh("");
   ASSERT_EQ(mesh.normal.size(), mesh.position_mm.size());
   for (std::size_t v = 0; v < mesh.normal.size(); ++v)
     ASSERT_GT(glm::dot(mesh.normal[v], glm::normalize(mesh.position_mm[v])), 0.99f);
@@ -115,10 +115,10 @@ TEST(BoneSurface, IsClosedWhateverTheVolumeHoldsUpToItsBorder) {
   for (int round = 0; round < 4; ++round)
     for (const glm::ivec3& size : kSizes) {
       const Volume volume = noise(random, size);
-      ASSERT_EQ(test::opennessOf(BoneSurface(volume.voxels()).welded("").triangles), "") << size.x << " " << round;
+      ASSERT_EQ(test::opennessOf(BoneSurface(volume.voxels()).mergedMesh("").triangles), "") << size.x << " " << round;
     }
   const Volume full{{{9, 16, 8}, 0.3, {}}, std::vector<std::uint8_t>(9 * 16 * 8, 255)};
-  const MeshPart box = BoneSurface(full.voxels()).welded("");
+  const MeshPart box = BoneSurface(full.voxels()).mergedMesh("");
   EXPECT_EQ(test::opennessOf(box.triangles), "");
   EXPECT_EQ(test::eulerCharacteristic(box.triangles), 2);
 }
@@ -127,7 +127,7 @@ TEST(BoneSurface, IsEmptyWithoutBone) {
   const Volume air{{{12, 9, 8}, 0.3, {}}, std::vector<std::uint8_t>(12 * 9 * 8, 127)};
   const BoneSurface surface(air.voxels());
   EXPECT_EQ(surface.triangleCount(), 0u);
-  EXPECT_TRUE(surface.welded("").triangles.empty());
+  EXPECT_TRUE(surface.mergedMesh("").triangles.empty());
 }
 
 TEST(BoneSurface, HasBitEqualVerticesWherePatchesMeet) {

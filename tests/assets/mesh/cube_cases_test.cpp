@@ -35,7 +35,7 @@ TEST(CubeCases, PartsSolidFromAirInEveryCase) {
       for (int corner = 0; corner < 8; ++corner)
         values[grid.index(1 + glm::ivec3(corner & 1, corner >> 1 & 1, corner >> 2))] =
             static_cast<std::uint8_t>(isSolid(solid_corners, corner) ? 140 + 14 * corner : 10 * corner);
-      const MeshPart mesh = BoneSurface(SolidVoxels::inGridOrder(grid, values)).welded("");
+      const MeshPart mesh = BoneSurface(SolidVoxels::inGridOrder(grid, values)).mergedMesh("");
       ASSERT_EQ(test::opennessOf(mesh.triangles), "") << solid_corners;
       for (int k = 0; k < 4; ++k)
         for (int j = 0; j < 4; ++j)

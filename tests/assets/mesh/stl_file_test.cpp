@@ -27,7 +27,7 @@ MeshPart ball(const std::string& name) {
         const double inside = 0.5 - (glm::length(grid.centre_P_mm({i, j, k})) - 3.3) / 1.0;
         solid[grid.index({i, j, k})] = static_cast<std::uint8_t>(255.0 * glm::clamp(inside, 0.0, 1.0));
       }
-  return BoneSurface(SolidVoxels::inGridOrder(grid, solid)).welded(name);
+  return BoneSurface(SolidVoxels::inGridOrder(grid, solid)).mergedMesh(name);
 }
 
 TEST_F(StlFile, HoldsTheTrianglesAndTheirNormals) {

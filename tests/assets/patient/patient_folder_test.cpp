@@ -42,7 +42,7 @@ Patient somebody() {
   patient.site = {38, {45.0 + 1.0 / 3.0, 42.1, 24.0}, glm::normalize(glm::dvec3(1, -2, 3))};
   patient.mandibular_canal_P_mm = {{1.0 / 3.0, 2, 3}, {4, 5e-7, -6}};
   patient.mandibular_canal_radius_mm = 1.1;
-  patient.gum.parts = {triangle("Gum lower")};
+  patient.gingiva.parts = {triangle("Gum lower")};
   patient.face.parts = {triangle("Skin"), triangle("Lips")};
   return patient;
 }
@@ -68,17 +68,17 @@ TEST(PatientFolder, GivesBackThePatient) {
   EXPECT_EQ(loaded.mandibular_canal_radius_mm, 1.1);
 }
 
-TEST(PatientFolder, KeepsGumAndFaceApartAndInPlace) {
+TEST(PatientFolder, KeepsGingivaAndFaceApartAndInPosition) {
   const on_disk::Folder folder;
   Patient saved = somebody();
-  saved.gum.parts.push_back(triangle("flap"));
+  saved.gingiva.parts.push_back(triangle("flap"));
   saved.face.parts.push_back(triangle("Gums and tongue"));
   assets::savePatient(saved, folder.at("p"), false);
   const Patient loaded = assets::loadPatient(folder.at("p"));
-  ASSERT_EQ(loaded.gum.parts.size(), 2u);
+  ASSERT_EQ(loaded.gingiva.parts.size(), 2u);
   ASSERT_EQ(loaded.face.parts.size(), 3u);
-  EXPECT_EQ(loaded.gum.parts[0].name, "Gum lower");
-  EXPECT_EQ(loaded.gum.parts[1].name, "Gum flap");
+  EXPECT_EQ(loaded.gingiva.parts[0].name, "Gum lower");
+  EXPECT_EQ(loaded.gingiva.parts[1].name, "Gum flap");
   EXPECT_EQ(loaded.face.parts[2].name, "Face Gums and tongue");
   for (std::size_t v = 0; v < 3; ++v) {
     EXPECT_LT(glm::distance(loaded.face.parts[0].position_mm[v], saved.face.parts[0].position_mm[v]), 1e-4F);
@@ -89,7 +89,7 @@ TEST(PatientFolder, KeepsGumAndFaceApartAndInPlace) {
 TEST(PatientFolder, GoesWithoutMeshes) {
   const on_disk::Folder folder;
   Patient saved = somebody();
-  saved.gum.parts.clear();
+  saved.gingiva.parts.clear();
   saved.face.parts.clear();
   assets::savePatient(saved, folder.at("p"), false);
   EXPECT_FALSE(std::filesystem::exists(folder.at("p/face.glb")));
@@ -171,7 +171,7 @@ TEST(PatientToml, ReadsTheFormerSchema) {
   EXPECT_EQ(with_site.mandibular_canal_radius_mm, 1.3);
   const Patient without = assets::patientFromToml(former("false"), "patient.toml");
   EXPECT_FALSE(without.site);
-  EXPECT_EQ(without.workplace_P_mm(), glm::dvec3(1.5, 2.0, -3.0));
+  EXPECT_EQ(without.focus_P_mm(), glm::dvec3(1.5, 2.0, -3.0));
 }
 
 TEST(PatientFolder, NumbersTheToothAtTheSiteOfAFolderThatTellsNoneApart) {
@@ -195,7 +195,7 @@ TEST(PatientFolder, HoldsAPatientWithoutASite) {
   assets::savePatient(saved, folder.at("p"), false);
   const Patient loaded = assets::loadPatient(folder.at("p"));
   EXPECT_FALSE(loaded.site);
-  EXPECT_EQ(loaded.workplace_P_mm(), saved.jaw_P_mm);
+  EXPECT_EQ(loaded.focus_P_mm(), saved.jaw_P_mm);
 }
 
 TEST(FaceFrame, TurnsUpIntoSuperiorAndForwardIntoAnterior) {

@@ -33,7 +33,7 @@ struct ToothInBone {
   std::vector<std::uint8_t> of(HardTissue tissue) const { return solidOf(tissue, grid, solid, label); }
   MeshPart surfaceOf(HardTissue tissue) const {
     const auto field = of(tissue);
-    return BoneSurface(SolidVoxels::inGridOrder(grid, field)).welded("");
+    return BoneSurface(SolidVoxels::inGridOrder(grid, field)).mergedMesh("");
   }
 };
 

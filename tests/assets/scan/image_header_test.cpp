@@ -160,17 +160,17 @@ TEST_F(NrrdReading, TakesAFileForAListOnlyIfItIsOne) {
 }
 
 TEST_F(ScanReading, SaysWhetherSidesAreStated) {
-  const auto states_sides = [&](const std::string& name, const std::string& bytes) {
+  const auto orientation_known = [&](const std::string& name, const std::string& bytes) {
     put(name, bytes + kRaw);
-    return assets::readHounsfield(folder_.at(name)).states_sides;
+    return assets::readHounsfield(folder_.at(name)).orientation_known;
   };
   const std::string end = "endian: little\nencoding: raw\n\n";
-  EXPECT_TRUE(states_sides("a.nrrd", nrrd_));
-  EXPECT_FALSE(states_sides("a.nrrd", "NRRD0001\ntype: short\ndimension: 3\nsizes: 3 4 5\nspacings: 1 1 1\n" + end));
-  EXPECT_FALSE(states_sides("a.nrrd", replaced(nrrd_, "space: left-posterior-superior", "space dimension: 3")));
-  EXPECT_TRUE(states_sides("a.mha", meta_));
-  EXPECT_FALSE(states_sides("a.mha", replaced(meta_, "TransformMatrix", "AnotherMatrix")));
-  EXPECT_TRUE(states_sides("a.nii", nifti_.substr(0, 352)));
+  EXPECT_TRUE(orientation_known("a.nrrd", nrrd_));
+  EXPECT_FALSE(orientation_known("a.nrrd", "NRRD0001\ntype: short\ndimension: 3\nsizes: 3 4 5\nspacings: 1 1 1\n" + end));
+  EXPECT_FALSE(orientation_known("a.nrrd", replaced(nrrd_, "space: left-posterior-superior", "space dimension: 3")));
+  EXPECT_TRUE(orientation_known("a.mha", meta_));
+  EXPECT_FALSE(orientation_known("a.mha", replaced(meta_, "TransformMatrix", "AnotherMatrix")));
+  EXPECT_TRUE(orientation_known("a.nii", nifti_.substr(0, 352)));
 }
 
 TEST_F(NrrdReading, DropsAxesOfOneVoxelThatAreNoneOfSpace) {

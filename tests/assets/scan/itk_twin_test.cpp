@@ -63,7 +63,7 @@ void expectAsItk(const std::string& path, itk::ImageIOBase& itk_reader) {
   std::string theirs(itk_reader.GetImageSizeInBytes(), '\0'), ours;
   itk_reader.SetIORegion(whole);
   itk_reader.Read(theirs.data());
-  assets::forVoxelBytes(header, [&](std::span<const char> bytes) { ours.append(bytes.begin(), bytes.end()); });
+  assets::forEachVoxelBlock(header, [&](std::span<const char> bytes) { ours.append(bytes.begin(), bytes.end()); });
   EXPECT_EQ(ours, theirs) << path;
 }
 

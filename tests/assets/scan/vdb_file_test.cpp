@@ -9,7 +9,7 @@
 #include <functional>
 
 #include "assets/load_error.h"
-#include "assets/scan/file_seal.h"
+#include "assets/scan/file_checksum.h"
 #include "tests/assets/scan_on_disk.h"
 #include "tests/refusal.h"
 #include "tests/shared_data.h"
@@ -101,7 +101,7 @@ std::string refusalWith(const std::function<void(openvdb::GridPtrVec&, openvdb::
   openvdb::io::File spoilt(folder.at("spoilt.vdb"));
   spoilt.write(grids, metadata);
   spoilt.close();
-  assets::seal(folder.at("spoilt.vdb"));
+  assets::appendChecksum(folder.at("spoilt.vdb"));
   return refusalOf(folder.at("spoilt.vdb"));
 }
 
@@ -189,7 +189,7 @@ TEST(VdbFile, ReadsTilesThatOtherToolsMake) {
   openvdb::io::File pruned(folder.at("pruned.vdb"));
   pruned.write(*grids, *metadata);
   pruned.close();
-  assets::seal(folder.at("pruned.vdb"));
+  assets::appendChecksum(folder.at("pruned.vdb"));
   expectEqual(assets::readVdb(folder.at("pruned.vdb")), volume);
 }
 

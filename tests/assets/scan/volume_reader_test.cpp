@@ -35,7 +35,7 @@ std::string refusalOfAnswer(const std::string& bytes, const std::function<void()
   }
   int status = 0;
   ::waitpid(child, &status, 0);
-  const std::string refusal = refusalToRead([&] { assets::volumeAnswered(answer, status, "p/volume.vdb"); });
+  const std::string refusal = refusalToRead([&] { assets::volumeFromAnswer(answer, status, "p/volume.vdb"); });
   ::close(answer);
   return refusal;
 }
@@ -62,7 +62,7 @@ TEST(VolumeReader, AnswersAsTheFileStands) {
   const on_disk::Folder folder;
   const assets::CtVolume volume = oneLeaf();
   assets::writeVdb(volume, folder.at("v.vdb"));
-  const assets::CtVolume read = assets::readVolumeApart(folder.at("v.vdb"));
+  const assets::CtVolume read = assets::readVolumeInChild(folder.at("v.vdb"));
   EXPECT_EQ(read.grid, volume.grid);
   EXPECT_EQ(read.hounsfield, volume.hounsfield);
   EXPECT_EQ(read.label, volume.label);
@@ -74,7 +74,7 @@ TEST(VolumeReader, ReadsThoughTheCallerHadChildrenForgotten) {
   const on_disk::Folder folder;
   assets::writeVdb(oneLeaf(), folder.at("v.vdb"));
   const auto before = ::signal(SIGCHLD, SIG_IGN);
-  EXPECT_EQ(refusalToRead([&] { assets::readVolumeApart(folder.at("v.vdb")); }), "accepted");
+  EXPECT_EQ(refusalToRead([&] { assets::readVolumeInChild(folder.at("v.vdb")); }), "accepted");
   EXPECT_EQ(::signal(SIGCHLD, before), SIG_IGN) << "as it was";
 }
 
@@ -88,11 +88,11 @@ TEST(VolumeReader, SaysWhenMemoryIsWhatIsMissing) {
   assets::writeVdb(large, folder.at("v.vdb"));
   const int answer = ::memfd_create("answer", MFD_CLOEXEC);
   const pid_t child = ::fork();
-  if (child == 0) assets::serveVolume(folder.at("v.vdb"), {60'000'000, 60'000, 60'000}, answer);
+  if (child == 0) assets::runVolumeReader(folder.at("v.vdb"), {60'000'000, 60'000, 60'000}, answer);
   int status = 0;
   ::waitpid(child, &status, 0);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // memory can not be limited there
-  EXPECT_THAT(refusalToRead([&] { assets::volumeAnswered(answer, status, "p/volume.vdb"); }),
+  EXPECT_THAT(refusalToRead([&] { assets::volumeFromAnswer(answer, status, "p/volume.vdb"); }),
               HasSubstr("not enough memory"));
 #endif
   ::close(answer);
@@ -101,7 +101,7 @@ TEST(VolumeReader, SaysWhenMemoryIsWhatIsMissing) {
 TEST(VolumeReader, RefusesWithTheReadersWords) {
   const on_disk::Folder folder;
   on_disk::write(folder.at("v.vdb"), std::string(2000, 'x'));
-  EXPECT_THAT(refusalToRead([&] { assets::readVolumeApart(folder.at("v.vdb")); }),
+  EXPECT_THAT(refusalToRead([&] { assets::readVolumeInChild(folder.at("v.vdb")); }),
               HasSubstr("it can not be read as OpenVDB"));
 }
 
@@ -142,7 +142,7 @@ TEST(VolumeReader, StopsAtItsLimitOfProcessorTime) {
   assets::writeVdb(large, folder.at("v.vdb"));
   const int answer = ::memfd_create("answer", MFD_CLOEXEC);
   const pid_t child = ::fork();
-  if (child == 0) assets::serveVolume(folder.at("v.vdb"), {4'000'000'000, 1, 60'000}, answer);
+  if (child == 0) assets::runVolumeReader(folder.at("v.vdb"), {4'000'000'000, 1, 60'000}, answer);
   int status = 0;
   ::waitpid(child, &status, 0);
   ::close(answer);

@@ -65,7 +65,7 @@ TEST(Face, HidesTheMolarBehindTheFreeCheek) {
 
 TEST(Face, KeepsOutOfTheSpaceOfTheScannedJaw) {
   for (const MeshPart& part : leftFace().parts) {
-    for (const glm::vec3& p : part.position_mm) ASSERT_GT(jawBed_mm(glm::dvec3(p)), -1.5) << part.name;
+    for (const glm::vec3& p : part.position_mm) ASSERT_GT(jawSegmentSpace_mm(glm::dvec3(p)), -1.5) << part.name;
   }
 }
 

@@ -4,14 +4,14 @@
 #include <cmath>
 #include <cstdio>
 
-#include "calibration/chance.h"
+#include "calibration/random.h"
 #include "calibration/fit/arm_fit.h"
 #include "calibration/fit/rezero.h"
 #include "calibration/synthetic/synthetic_rig.h"
 #include "calibration/webcam/webcam_fit.h"
 #include "tests/bench/cpu_time.h"
 #include "tests/calibration/synthetic/seen_error.h"
-#include "tests/calibration/synthetic/webcam_sights.h"
+#include "tests/calibration/synthetic/synthetic_observations.h"
 
 namespace bench {
 namespace {
@@ -67,21 +67,21 @@ Figure none(std::string what, int found, int of) {
 }
 
 /// Each use of a rig has its own luck, the same whatever else is measured.
-std::mt19937 chanceOf(std::uint32_t seed, std::uint32_t use) {
-  std::mt19937 chance(seed * 1009u + use);
-  chance.discard(1000);
-  return chance;
+std::mt19937 rngOf(std::uint32_t seed, std::uint32_t use) {
+  std::mt19937 rng(seed * 1009u + use);
+  rng.discard(1000);
+  return rng;
 }
 
 TouchSet touches(const SyntheticRig& rig, const char* method, std::uint32_t use) {
-  std::mt19937 chance = chanceOf(rig.seed, use);
-  return touchedAll(rig, targetPlan(method).value(), chance);
+  std::mt19937 rng = rngOf(rig.seed, use);
+  return simulatedTouches(rig, targetPlan(method).value(), rng);
 }
 
 double tre_mm(const MeasuredArm& arm, const SyntheticRig& rig, const glm::dvec3& half_mm = kRegion_mm) {
-  std::mt19937 chance = chanceOf(rig.seed, 77);
+  std::mt19937 rng = rngOf(rig.seed, 77);
   double sum = 0.0;
-  for (const Touch& touch : heldOut(rig, kJudges, half_mm, chance))
+  for (const Touch& touch : heldOutTouches(rig, kJudges, half_mm, rng))
     sum += std::pow(glm::length((arm.tip_W(touch.joints_rad) - touch.target_W).xyz), 2);
   return std::sqrt(sum / kJudges);
 }
@@ -156,12 +156,12 @@ Figures outlierFigures(int rigs) {
   OverRigs change, without;
   int named = 0;
   forRigs(Scenario::d, rigs, [&](SyntheticRig rig) {
-    rig.habits.outlier_share = 0.0;
+    rig.technician.outlier_share = 0.0;
     const TouchSet clean = touches(rig, "jig27", 1);
     TouchSet slipped = clean, left_out = clean;
-    std::mt19937 chance = chanceOf(rig.seed, 3);
-    const std::size_t which = chance() % clean.touches.size();
-    slipped.touches[which].target_W.mm += 15.0 * glm::normalize(gaussianVector(chance, 1.0));
+    std::mt19937 rng = rngOf(rig.seed, 3);
+    const std::size_t which = rng() % clean.touches.size();
+    slipped.touches[which].target_W.mm += 15.0 * glm::normalize(gaussianVector(rng, 1.0));
     left_out.touches[which].used = false;
     const double clean_mm = tre_mm(fitArm(clean).arm, rig);
     const ArmFit fit = fitArm(slipped);
@@ -192,8 +192,8 @@ Figures rezeroFigures(int rigs) {
   OverRigs drift, back, took_ms;
   forRigs(Scenario::d, rigs, [&](const SyntheticRig& rig) {
     const MeasuredArm arm = fitArm(touches(rig, "jig27", 1)).arm;
-    std::mt19937 chance = chanceOf(rig.seed, 4);
-    const SyntheticRig now = drifted(rig, 0.3, 1.0, chance);
+    std::mt19937 rng = rngOf(rig.seed, 4);
+    const SyntheticRig now = drifted(rig, 0.3, 1.0, rng);
     drift.add(tre_mm(arm, now));
     const TouchSet five = touches(now, "rezero5", 5);
     const double began_ms = cpu_ms();
@@ -236,8 +236,8 @@ Figures seenFigures(int rigs) {
   OverRigs mean, most, loose_most, rms2;
   forRigs(Scenario::d, rigs, [&](const SyntheticRig& rig) {
     const MeasuredArm arm = fitArm(touches(rig, "jig27", 1)).arm;
-    std::mt19937 chance = chanceOf(rig.seed, 6), again = chance;
-    const SeenError seen = seenError(rig, arm, kSeenBox_mm, {}, kJudges, chance);
+    std::mt19937 rng = rngOf(rig.seed, 6), again = rng;
+    const SeenError seen = seenError(rig, arm, kSeenBox_mm, {}, kJudges, rng);
     mean.add(seen.mean_mm);
     most.add(seen.max_mm);
     rms2.add(seen.rms_mm * seen.rms_mm);
@@ -260,8 +260,8 @@ Figures webcamFigures(int rigs) {
        {Resolution{"1080p, 0.5 px", fineWebcam(), 0.35}, {"720p, 1 px", coarseWebcam(), 0.5}}) {
     OverRigs tre, single, ratio, took_ms;
     forRigs(Scenario::d, rigs, [&](const SyntheticRig& rig) {
-      std::mt19937 chance = chanceOf(rig.seed, 8);
-      const WebcamSights sights = webcamSights(rig, targetPlan("webcam27").value(), resolution.care, chance);
+      std::mt19937 rng = rngOf(rig.seed, 8);
+      const WebcamObservations sights = syntheticObservations(rig, targetPlan("webcam27").value(), resolution.care, rng);
       const double began_ms = cpu_ms();
       const WebcamFit fit = fitWebcam(sights);
       took_ms.add(cpu_ms() - began_ms);

@@ -80,25 +80,25 @@ void CpuView::draw(const render::Camera& camera, render::Eye eye, render::ViewMo
       thread_local render::RayBatch rays;
       thread_local render::VolumePoints points;
       thread_local render::RaySums sums;
-      alignas(64) std::array<float, render::RayBatch::kMost> place_x, place_y, limit_mm, r{}, g{}, b{};
+      alignas(64) std::array<float, render::RayBatch::kMaxRays> uv_x, uv_y, limit_mm, r{}, g{}, b{};
       const int left = tile % across * kTile, low = tile / across * kTile;
       for (std::size_t n = 0; n < kOrder.size(); ++n) {
-        place_x[n] = (static_cast<float>(left + kOrder[n].x) + 0.5f) / static_cast<float>(image.px.x);
-        place_y[n] = (static_cast<float>(low + kOrder[n].y) + 0.5f) / static_cast<float>(image.px.y);
+        uv_x[n] = (static_cast<float>(left + kOrder[n].x) + 0.5f) / static_cast<float>(image.px.x);
+        uv_y[n] = (static_cast<float>(low + kOrder[n].y) + 0.5f) / static_cast<float>(image.px.y);
       }
       limit_mm.fill(1e9f);
       rays.origin_P = glm::vec3(block.eye_P);
-      rays.count = render::RayBatch::kMost;
-      kernels.aim(block, place_x.data(), place_y.data(), rays);
+      rays.count = render::RayBatch::kMaxRays;
+      kernels.aim(block, uv_x.data(), uv_y.data(), rays);
 
       points.clear();
       if (mode == render::ViewMode::iso)
         render::castSurface(cells_, settings, rays, limit_mm.data(), points, set);
       else
-        render::castThrough(cells_, settings, fields_.label(), opacity, rays, limit_mm.data(), points, sums, set);
+        render::castTranslucent(cells_, settings, fields_.label(), opacity, rays, limit_mm.data(), points, sums, set);
       HeadlightJob job{};
       job.smooth = smooth.at(glm::ivec3(-1));
-      job.look = fields_.look().at(glm::ivec3(-1));
+      job.appearance = fields_.appearance().at(glm::ivec3(-1));
       job.row = static_cast<std::int32_t>(smooth.layout().row);
       job.slice = static_cast<std::int32_t>(smooth.layout().slice);
       for (int a = 0; a < 3; ++a) job.eye[a] = settings.eye_index[a];

@@ -1,4 +1,4 @@
-// The product's CPU ray caster with the bench's plain look: fields, cells, rays, casting; everything of
+// The product's CPU ray caster with the bench's plain appearance: fields, cells, rays, casting; everything of
 // CpuSceneRenderer but meshes, theatre light and display. One thread per core but one, as there.
 #pragma once
 

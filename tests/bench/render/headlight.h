@@ -1,4 +1,4 @@
-// The plain look that the bench compares with VTK's: a lamp at the eye, diffuse and a highlight, the normal by central
+// The plain appearance that the bench compares with VTK's: a lamp at the eye, diffuse and a highlight, the normal by central
 // differences of the smoothed field, the colour of the nearest voxel. What VTK computes per sample, and no more.
 // Written in lanes and compiled for the machine's instruction sets like the product's kernels.
 #pragma once
@@ -11,7 +11,7 @@ namespace bench {
 
 struct HeadlightJob {
   const std::uint16_t* smooth;  ///< voxel (-1,-1,-1), and the strides of both fields
-  const std::uint32_t* look;
+  const std::uint32_t* appearance;
   std::int32_t row, slice;
   float eye[3];             ///< continuous index
   const float *x, *y, *z;   ///< of the rays

@@ -60,9 +60,9 @@ void headlightOf(const bench::HeadlightJob& job) {
 
     // The nearest voxel's colour, kept as its square root.
     const Int nearest = toInt(x + 0.5f) + toInt(y + 0.5f) * job.row + toInt(z + 0.5f) * job.slice;
-    const Int look = gather(job.look, nearest, real);
+    const Int appearance = gather(job.appearance, nearest, real);
     const auto channel = [&](int shift) {
-      const Float root = toFloat(shiftRightLogical(look, shift) & 255) * (1.0f / 255.0f);
+      const Float root = toFloat(shiftRightLogical(appearance, shift) & 255) * (1.0f / 255.0f);
       return multiplyAdd(root * root, diffuse, shine);
     };
     float r[kLanes], g[kLanes], b[kLanes];

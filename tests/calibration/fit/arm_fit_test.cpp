@@ -19,50 +19,50 @@ using Kind = FitWarning::Kind;
 
 constexpr glm::dvec3 kHalf_mm{65.0, 45.0, 32.5};
 
-/// Touches of a synthetic workstation and others to judge the fit by.
+/// Touches of a synthetic workstation and others to assess the fit by.
 struct Trial {
   TouchSet set;
   std::vector<Touch> held_out;
 
   Trial(Scenario scenario, std::uint32_t seed, const char* method, double outlier_share = 0.0) {
     SyntheticRig rig = syntheticRig(scenario, seed);
-    rig.habits.outlier_share = outlier_share;
-    std::mt19937 chance(seed + 100);
-    set = touchedAll(rig, targetPlan(method).value(), chance);
-    held_out = heldOut(rig, 100, kHalf_mm, chance);
+    rig.technician.outlier_share = outlier_share;
+    std::mt19937 rng(seed + 100);
+    set = simulatedTouches(rig, targetPlan(method).value(), rng);
+    held_out = heldOutTouches(rig, 100, kHalf_mm, rng);
   }
 };
 
 /// A unit of any model whose errors a correction can express, standing anywhere, turned round too.
 struct ExactUnit {
-  UntrueArm arm;
+  PerturbedArm arm;
   Pose<World, Device> X_WD;
-  std::mt19937 chance;
+  std::mt19937 rng;
   std::normal_distribution<double> normal;
 
-  ExactUnit(const PhantomModel& model, std::uint32_t seed) : chance(seed) {
+  ExactUnit(const PhantomModel& model, std::uint32_t seed) : rng(seed) {
     arm.geometry = model.geometry;
     for (std::size_t i = 0; i < 6; ++i) {
-      arm.truth.offset_rad[i] = radFromDegrees(i < 3 ? 0.5 : 1.0) * normal(chance);
-      arm.truth.gain[i] = (i < 3 ? 0.004 : 0.01) * normal(chance);
+      arm.truth.offset_rad[i] = radFromDegrees(i < 3 ? 0.5 : 1.0) * normal(rng);
+      arm.truth.gain[i] = (i < 3 ? 0.004 : 0.01) * normal(rng);
     }
-    arm.truth.thigh_more_mm = 0.4 * normal(chance);
-    arm.truth.tip_H_mm += 0.4 * glm::dvec3(normal(chance), normal(chance), normal(chance));
-    X_WD = {glm::angleAxis(kPi - 0.3 + 0.1 * normal(chance), glm::dvec3(0, 1, 0)), {20.0, -110.0, -35.0}};
+    arm.truth.thigh_delta_mm = 0.4 * normal(rng);
+    arm.truth.tip_H_mm += 0.4 * glm::dvec3(normal(rng), normal(rng), normal(rng));
+    X_WD = {glm::angleAxis(kPi - 0.3 + 0.1 * normal(rng), glm::dvec3(0, 1, 0)), {20.0, -110.0, -35.0}};
   }
 
   std::vector<Touch> touches(int n, double noise_mm) {
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
     std::vector<Touch> touches;
-    const glm::dvec3 middle = wristPlace(arm.geometry, {0.0, 0.5, -0.2}).mm;
+    const glm::dvec3 middle = wristPosition(arm.geometry, {0.0, 0.5, -0.2}).mm;
     while (static_cast<int>(touches.size()) < n) {
-      const auto reached = armReaching(
-          arm.geometry, {middle + glm::dvec3(60.0 * unit(chance), 40.0 * unit(chance), 30.0 * unit(chance))});
+      const auto reached = armAnglesFor(
+          arm.geometry, {middle + glm::dvec3(60.0 * unit(rng), 40.0 * unit(rng), 30.0 * unit(rng))});
       if (!reached) continue;
       const RawJoints raw{reached->x,         reached->y,         reached->z,
-                          0.5 * unit(chance), 0.5 * unit(chance), 0.5 * unit(chance)};
+                          0.5 * unit(rng), 0.5 * unit(rng), 0.5 * unit(rng)};
       Touch touch{static_cast<int>(touches.size()) + 1, raw, X_WD * arm.tip_D(raw), true};
-      touch.target_W.mm += noise_mm * glm::dvec3(normal(chance), normal(chance), normal(chance));
+      touch.target_W.mm += noise_mm * glm::dvec3(normal(rng), normal(rng), normal(rng));
       touches.push_back(touch);
     }
     return touches;
@@ -180,7 +180,7 @@ TEST(ArmFit, ReportsEveryModelItTried) {
   ASSERT_EQ(fit.scores.size(), 4u);
   EXPECT_EQ(fit.scores[0].name, "rigid");
   EXPECT_EQ(fit.scores[2].name, "full");
-  EXPECT_EQ(fit.scores[2].numbers, 28);
+  EXPECT_EQ(fit.scores[2].parameters, 28);
   EXPECT_EQ(fit.scores[3].name, "affine");
   EXPECT_LT(fit.scores[2].fre_rms_mm, fit.scores[0].fre_rms_mm);
   EXPECT_GT(fit.scores[3].cv_rms_mm, fit.scores[2].cv_rms_mm);

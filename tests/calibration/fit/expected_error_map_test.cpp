@@ -25,7 +25,7 @@ TEST(ExpectedErrorMap, IsSmallestInTheMiddle) {
 }
 
 TEST(ExpectedErrorMap, IsWhatRigidFitsOfNoisyTouchesDo) {
-  std::mt19937 chance(9);
+  std::mt19937 rng(9);
   std::normal_distribution<double> noise(0.0, 0.3);
   std::vector<glm::dvec3> from, to(8);
   for (const auto& corner : corners()) from.push_back(corner.mm);
@@ -35,7 +35,7 @@ TEST(ExpectedErrorMap, IsWhatRigidFitsOfNoisyTouchesDo) {
   constexpr int kTrials = 4000;
   for (int trial = 0; trial < kTrials; ++trial) {
     for (std::size_t i = 0; i < 8; ++i)
-      pairs[i] = {from[i] + glm::dvec3(noise(chance), noise(chance), noise(chance)), from[i]};
+      pairs[i] = {from[i] + glm::dvec3(noise(rng), noise(rng), noise(rng)), from[i]};
     const glm::dvec3 error = (*rigidFit(pairs))(place)-place;
     sum += glm::dot(error, error);
   }

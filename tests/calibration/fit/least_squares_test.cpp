@@ -44,9 +44,9 @@ LeastSquares rosenbrock() {
 struct Decays {
   std::vector<double> y;
   Decays() {
-    std::mt19937 chance(3);
+    std::mt19937 rng(3);
     std::normal_distribution<double> noise(0.0, 0.01);
-    for (int i = 0; i < 60; ++i) y.push_back(at({1.0, 0.5, 2.0, 0.05, 0.3}, i) + noise(chance));
+    for (int i = 0; i < 60; ++i) y.push_back(at({1.0, 0.5, 2.0, 0.05, 0.3}, i) + noise(rng));
   }
   static double at(const std::array<double, 5>& x, int i) {
     return x[0] * std::exp(-x[1] * i) + x[2] * std::exp(-x[3] * i) + x[4];
@@ -85,24 +85,24 @@ TEST(LeastSquares, FindsALineAndHowSureItIs) {
   const Line line;
   const LeastSquaresResult found = solved(line.problem());
   EXPECT_TRUE(found.converged);
-  EXPECT_NEAR(found.numbers[0], 2.0, 1e-9);
-  EXPECT_NEAR(found.numbers[1], 0.5, 1e-9);
+  EXPECT_NEAR(found.parameters[0], 2.0, 1e-9);
+  EXPECT_NEAR(found.parameters[1], 0.5, 1e-9);
   // Textbook: var b = sigma^2 / sum (t - mean)^2, var a = sigma^2 (1/n + mean^2 / sum).
   ASSERT_EQ(found.covariance.size(), 4u);
   EXPECT_NEAR(found.covariance[3], 0.01 / 82.5, 1e-9);
   EXPECT_NEAR(found.covariance[0], 0.01 * (0.1 + 4.5 * 4.5 / 82.5), 1e-9);
-  EXPECT_NEAR(found.effective_numbers, 2.0, 1e-6);
+  EXPECT_NEAR(found.effective_parameters, 2.0, 1e-6);
 }
 
 TEST(LeastSquares, TakesTheSayFromAWildResidual) {
   Line line;
   line.y[7] += 15.0;
   LeastSquares problem = line.problem();
-  EXPECT_GT(std::abs(solved(problem).numbers[0] - 2.0), 0.1);
+  EXPECT_GT(std::abs(solved(problem).parameters[0] - 2.0), 0.1);
   problem.groups.assign(10, {1, 2.0});
   const LeastSquaresResult found = solved(problem);
-  EXPECT_NEAR(found.numbers[0], 2.0, 0.005);
-  EXPECT_NEAR(found.numbers[1], 0.5, 0.005);
+  EXPECT_NEAR(found.parameters[0], 2.0, 0.005);
+  EXPECT_NEAR(found.parameters[1], 0.5, 0.005);
   EXPECT_LT(found.weights[7], 1e-3);
   EXPECT_GT(found.weights[2], 0.9);
 }
@@ -116,15 +116,15 @@ TEST(LeastSquares, WeighsAGroupAsOne) {
   const LeastSquaresResult found = solved(problem);
   ASSERT_EQ(found.weights.size(), 5u);
   EXPECT_LT(found.weights[3], 1e-3);
-  EXPECT_NEAR(found.numbers[1], 0.5, 0.005);
+  EXPECT_NEAR(found.parameters[1], 0.5, 0.005);
 }
 
 TEST(LeastSquares, CrossesRosenbrocksValley) {
   const LeastSquaresResult found = solved(rosenbrock());
   EXPECT_TRUE(found.converged);
   EXPECT_LT(found.iterations, 40);
-  EXPECT_NEAR(found.numbers[0], 1.0, 1e-6);
-  EXPECT_NEAR(found.numbers[1], 1.0, 1e-6);
+  EXPECT_NEAR(found.parameters[0], 1.0, 1e-6);
+  EXPECT_NEAR(found.parameters[1], 1.0, 1e-6);
 }
 
 TEST(LeastSquares, IsTheSameWithTheJacobianGiven) {
@@ -134,7 +134,7 @@ TEST(LeastSquares, IsTheSameWithTheJacobianGiven) {
     J[2] = -1.0;
   };
   const LeastSquaresResult found = solved(given), by_differences = solved(rosenbrock());
-  EXPECT_NEAR(found.numbers[0], 1.0, 1e-9);
+  EXPECT_NEAR(found.parameters[0], 1.0, 1e-9);
   EXPECT_EQ(found.iterations, by_differences.iterations);
 }
 
@@ -146,9 +146,9 @@ TEST(LeastSquares, PutsANumberBetweenPriorAndMeasurementByTheirSigmas) {
   one.residuals_at = [](std::span<const double> x, std::span<double> r) { r[0] = (x[0] - 1.0) / 0.5; };
   one.priors = {{0.0, 0.25}};
   const LeastSquaresResult found = solved(one);
-  EXPECT_NEAR(found.numbers[0], 0.2, 1e-9);
+  EXPECT_NEAR(found.parameters[0], 0.2, 1e-9);
   EXPECT_NEAR(found.covariance[0], 1.0 / 20.0, 1e-9);
-  EXPECT_NEAR(found.effective_numbers, 0.2, 1e-9);
+  EXPECT_NEAR(found.effective_parameters, 0.2, 1e-9);
 }
 
 TEST(LeastSquares, LeavesANumberThatNothingTellsOfAtItsPriorAndSaysWhenThereIsNone) {
@@ -157,12 +157,12 @@ TEST(LeastSquares, LeavesANumberThatNothingTellsOfAtItsPriorAndSaysWhenThereIsNo
   two.residuals = 1;
   two.residuals_at = [](std::span<const double> x, std::span<double> r) { r[0] = x[0] - 3.0; };
   EXPECT_TRUE(solved(two).covariance.empty());
-  EXPECT_NEAR(solved(two).numbers[0], 3.0, 1e-6);
+  EXPECT_NEAR(solved(two).parameters[0], 3.0, 1e-6);
   two.priors = {{0.0, 0.0}, {7.0, 1.0}};
   const LeastSquaresResult found = solved(two);
   ASSERT_FALSE(found.covariance.empty());
-  EXPECT_NEAR(found.numbers[0], 3.0, 1e-9);
-  EXPECT_NEAR(found.numbers[1], 7.0, 1e-9);
+  EXPECT_NEAR(found.parameters[0], 3.0, 1e-9);
+  EXPECT_NEAR(found.parameters[1], 7.0, 1e-9);
 }
 
 TEST(LeastSquares, ShortensAStepThatLeavesWhereItCanBeEvaluated) {
@@ -172,7 +172,7 @@ TEST(LeastSquares, ShortensAStepThatLeavesWhereItCanBeEvaluated) {
   root.residuals_at = [](std::span<const double> x, std::span<double> r) {
     r[0] = x[0] > 0.0 ? std::log(x[0]) : std::numeric_limits<double>::quiet_NaN();
   };
-  EXPECT_NEAR(solved(root).numbers[0], 1.0, 1e-6);
+  EXPECT_NEAR(solved(root).parameters[0], 1.0, 1e-6);
   root.start = {-1.0};
   EXPECT_FALSE(solved(root).converged);
 }
@@ -188,7 +188,7 @@ TEST(LeastSquares, AgreesWithOpenCvsSolver) {
 
   cv::Mat x = (cv::Mat_<double>(5, 1) << 0.9, 0.6, 1.9, 0.06, 0.25);
   cv::LMSolver::create(cv::makePtr<DecaysForOpenCv>(decays), 200, 1e-12)->run(x);
-  for (int k = 0; k < 5; ++k) EXPECT_NEAR(found.numbers[static_cast<std::size_t>(k)], x.at<double>(k), 1e-5);
+  for (int k = 0; k < 5; ++k) EXPECT_NEAR(found.parameters[static_cast<std::size_t>(k)], x.at<double>(k), 1e-5);
 }
 
 }  // namespace

@@ -18,14 +18,14 @@ constexpr glm::dvec3 kBur_H_mm{1.5, -2.0, -57.0};
 
 /// The bur's end in a pit, the handle swung to both sides by so much; the arm finds itself what its angles are.
 std::vector<RawJoints> swung(double side_rad, double up_rad, int n = 20, double slip_mm = 0.0) {
-  std::mt19937 chance(6);
+  std::mt19937 rng(6);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   std::vector<RawJoints> holds;
   while (static_cast<int>(holds.size()) < n) {
-    const glm::dquat turn = glm::angleAxis(side_rad * unit(chance), glm::dvec3(0, 1, 0)) *
-                            glm::angleAxis(up_rad * unit(chance), glm::dvec3(1, 0, 0));
+    const glm::dquat turn = glm::angleAxis(side_rad * unit(rng), glm::dvec3(0, 1, 0)) *
+                            glm::angleAxis(up_rad * unit(rng), glm::dvec3(1, 0, 0));
     const glm::dvec3 pit =
-        glm::dvec3(0.0, -60.0, -60.0) + slip_mm * glm::dvec3(unit(chance), unit(chance), unit(chance));
+        glm::dvec3(0.0, -60.0, -60.0) + slip_mm * glm::dvec3(unit(rng), unit(rng), unit(rng));
     const auto joints = jointsReaching(kOmniGeometry, {turn, pit - turn * kBur_H_mm});
     if (joints)
       holds.push_back({joints->arm_rad.x, joints->arm_rad.y, joints->arm_rad.z, joints->wrist_rad.x,
@@ -35,11 +35,11 @@ std::vector<RawJoints> swung(double side_rad, double up_rad, int n = 20, double 
 }
 
 std::string refusal(const std::vector<RawJoints>& holds) {
-  return tests::refusalOf<CalibrationError>([&] { pivoted(kOmniGeometry, {}, holds); });
+  return tests::refusalOf<CalibrationError>([&] { fitPivot(kOmniGeometry, {}, holds); });
 }
 
 TEST(Pivot, FindsTheEndOfABur) {
-  const Pivot pivot = pivoted(kOmniGeometry, {}, swung(0.6, 0.5));
+  const Pivot pivot = fitPivot(kOmniGeometry, {}, swung(0.6, 0.5));
   EXPECT_LT(glm::distance(pivot.tip_H_mm, kBur_H_mm), 1e-6);
   EXPECT_LT(glm::distance(pivot.pit_D.mm, glm::dvec3(0.0, -60.0, -60.0)), 1e-6);
   EXPECT_LT(pivot.rms_mm, 1e-6);
@@ -47,7 +47,7 @@ TEST(Pivot, FindsTheEndOfABur) {
 }
 
 TEST(Pivot, IsAsSureAsItSays) {
-  const Pivot pivot = pivoted(kOmniGeometry, {}, swung(0.6, 0.5, 40, 0.2));
+  const Pivot pivot = fitPivot(kOmniGeometry, {}, swung(0.6, 0.5, 40, 0.2));
   EXPECT_GT(pivot.rms_mm, 0.1);
   EXPECT_LT(glm::distance(pivot.tip_H_mm, kBur_H_mm), 4.0 * pivot.sigma_mm);
   EXPECT_LT(pivot.sigma_mm, 0.15);

@@ -17,18 +17,18 @@ MeasuredArm believed(const SyntheticRig& rig) { return {kOmniGeometry, {}, rig.n
 
 TouchSet touchesOf(Scenario scenario, std::uint32_t seed, const char* method = "jig27") {
   SyntheticRig rig = syntheticRig(scenario, seed);
-  rig.habits.outlier_share = 0.0;
-  std::mt19937 chance(seed);
-  return touchedAll(rig, *targetPlan(method), chance);
+  rig.technician.outlier_share = 0.0;
+  std::mt19937 rng(seed);
+  return simulatedTouches(rig, *targetPlan(method), rng);
 }
 
 TEST(QuickFit, BringsATypicalArmWithinTwoMillimetresWithEightTouches) {
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
     const SyntheticRig rig = syntheticRig(Scenario::d, seed);
     const QuickFit quick = quickFit(believed(rig), touchesOf(Scenario::d, seed, "jig8"));
-    std::mt19937 chance(seed + 100);
+    std::mt19937 rng(seed + 100);
     double sum_mm2 = 0.0;
-    for (const Touch& touch : heldOut(rig, 100, glm::dvec3(30.0), chance)) {
+    for (const Touch& touch : heldOutTouches(rig, 100, glm::dvec3(30.0), rng)) {
       const double off_mm = glm::length(quick.arm.tip_W(touch.joints_rad).mm - touch.target_W.mm);
       sum_mm2 += off_mm * off_mm / 100.0;
     }

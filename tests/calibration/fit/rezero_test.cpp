@@ -16,9 +16,9 @@ constexpr glm::dvec3 kRegion_mm{70.0, 50.0, 35.0};
 MeasuredArm perfectly(const SyntheticRig& rig) { return {rig.arm.geometry, rig.arm.truth, rig.X_WD}; }
 
 double tre_mm(const MeasuredArm& arm, const SyntheticRig& rig, std::uint32_t seed) {
-  std::mt19937 chance(seed);
+  std::mt19937 rng(seed);
   double sum = 0.0;
-  const std::vector<Touch> judges = heldOut(rig, 100, kRegion_mm, chance);
+  const std::vector<Touch> judges = heldOutTouches(rig, 100, kRegion_mm, rng);
   for (const Touch& touch : judges) sum += std::pow(glm::length((arm.tip_W(touch.joints_rad) - touch.target_W).xyz), 2);
   return std::sqrt(sum / static_cast<double>(judges.size()));
 }
@@ -27,19 +27,19 @@ double tre_mm(const MeasuredArm& arm, const SyntheticRig& rig, std::uint32_t see
 SyntheticRig exact(std::uint32_t seed) {
   SyntheticRig rig = syntheticRig(Scenario::b, seed);
   rig.arm.ripple = {};
-  rig.habits.precision = {0.0, 0.0};
-  rig.habits.arm_noise_rad = rig.habits.gimbal_noise_rad = rig.habits.outlier_share = 0.0;
+  rig.technician.precision = {0.0, 0.0};
+  rig.technician.arm_noise_rad = rig.technician.gimbal_noise_rad = rig.technician.outlier_share = 0.0;
   return rig;
 }
 
 TouchSet fiveTouches(const SyntheticRig& rig, std::uint32_t seed) {
-  std::mt19937 chance(seed);
-  return touchedAll(rig, targetPlan("rezero5").value(), chance);
+  std::mt19937 rng(seed);
+  return simulatedTouches(rig, targetPlan("rezero5").value(), rng);
 }
 
 SyntheticRig nightLater(const SyntheticRig& rig, std::uint32_t seed) {
-  std::mt19937 chance(seed);
-  return drifted(rig, 0.3, 1.0, chance);
+  std::mt19937 rng(seed);
+  return drifted(rig, 0.3, 1.0, rng);
 }
 
 TEST(Rezero, LeavesAnArmAloneThatHasNotMoved) {
@@ -99,15 +99,15 @@ TEST(Rezero, BringsATypicalArmBackAfterANight) {
 TEST(Rezero, NamesATouchThatSlipped) {
   for (std::uint32_t seed = 1; seed <= 60; ++seed) {
     SyntheticRig rig = syntheticRig(Scenario::d, seed);
-    rig.habits.outlier_share = 0.0;
+    rig.technician.outlier_share = 0.0;
     const SyntheticRig now = nightLater(rig, seed);
     TouchSet set = fiveTouches(now, seed);
     const Rezero clean = rezeroed(perfectly(rig), set);
     EXPECT_EQ(clean.outliers, 0) << seed;
 
     const std::size_t slipped = seed % 5;
-    std::mt19937 chance(seed);
-    const glm::dvec3 way = glm::normalize(glm::dvec3(static_cast<double>(chance() % 9) - 4.0, 1.0, 2.5));
+    std::mt19937 rng(seed);
+    const glm::dvec3 way = glm::normalize(glm::dvec3(static_cast<double>(rng() % 9) - 4.0, 1.0, 2.5));
     set.touches[slipped].target_W.mm += 12.0 * way;
     const Rezero result = rezeroed(perfectly(rig), set);
     EXPECT_EQ(result.outliers, 1) << seed;
@@ -119,7 +119,7 @@ TEST(Rezero, NamesATouchThatSlipped) {
 TEST(Rezero, SaysByWhatIsLeftThatTwoSlipped) {
   for (std::uint32_t seed = 1; seed <= 40; ++seed) {
     SyntheticRig rig = syntheticRig(Scenario::d, seed);
-    rig.habits.outlier_share = 0.0;
+    rig.technician.outlier_share = 0.0;
     const SyntheticRig now = nightLater(rig, seed);
     TouchSet set = fiveTouches(now, seed);
     EXPECT_LT(rezeroed(perfectly(rig), set).after_rms_mm, 0.6) << seed;

@@ -15,12 +15,12 @@ struct Laid {
   std::vector<std::size_t> all;
   glm::dquat turn{glm::angleAxis(2.9, glm::normalize(glm::dvec3(1.0, 3.0, -2.0)))};
   glm::dvec3 shift{12.0, -30.0, 7.0};
-  std::mt19937 chance{8};
+  std::mt19937 rng{8};
 
   explicit Laid(std::size_t n, bool mirrored = false) {
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
     for (std::size_t i = 0; i < n; ++i) {
-      from.push_back({65.0 * unit(chance), 45.0 * unit(chance), 30.0 * unit(chance)});
+      from.push_back({65.0 * unit(rng), 45.0 * unit(rng), 30.0 * unit(rng)});
       to.push_back(turn * (from[i] * glm::dvec3(mirrored ? -1.0 : 1.0, 1.0, 1.0)) + shift);
       all.push_back(i);
     }
@@ -105,7 +105,7 @@ TEST(RigidAgreement, FindsWhoAgrees) {
 
 TEST(RigidAgreement, IsNoneWhereNothingFits) {
   Laid laid(27);
-  std::shuffle(laid.to.begin(), laid.to.end(), laid.chance);
+  std::shuffle(laid.to.begin(), laid.to.end(), laid.rng);
   EXPECT_FALSE(rigidAgreement(laid.from, laid.to, Handedness::kept, 2.5, 13.0));
   const Laid mirrored(27, true);
   EXPECT_FALSE(rigidAgreement(mirrored.from, mirrored.to, Handedness::kept, 2.5, 13.0));
@@ -115,7 +115,7 @@ TEST(RigidAgreement, IsNoneWhereNothingFits) {
 TEST(RigidAgreement, WidensItsLimitForAnUntrueArm) {
   Laid laid(27);
   std::normal_distribution<double> bent(0.0, 2.5);
-  for (glm::dvec3& p : laid.to) p += glm::dvec3(bent(laid.chance), bent(laid.chance), bent(laid.chance));
+  for (glm::dvec3& p : laid.to) p += glm::dvec3(bent(laid.rng), bent(laid.rng), bent(laid.rng));
   const auto agreement = rigidAgreement(laid.from, laid.to, Handedness::kept, 2.5, 13.0);
   ASSERT_TRUE(agreement);
   EXPECT_GT(agreement->limit_mm, 5.0);

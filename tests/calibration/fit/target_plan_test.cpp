@@ -57,7 +57,7 @@ TEST(TargetPlan, GoesShortWays) {
   for (const char* method : {"jig27", "visual15", "visual25", "webcam27"}) {
     const TargetPlan plan = planned(method);
     for (std::size_t i = 1; i < plan.targets.size(); ++i)
-      EXPECT_LT(glm::length((plan.targets[i].place_W - plan.targets[i - 1].place_W).xyz), 66.0) << method << " " << i;
+      EXPECT_LT(glm::length((plan.targets[i].position_W - plan.targets[i - 1].position_W).xyz), 66.0) << method << " " << i;
   }
 }
 
@@ -67,17 +67,17 @@ TEST(TargetPlan, TiltsAlikeInEveryPartOfTheJig) {
   glm::dmat3 tied(0.0);
   for (const Target& target : plan.targets)
     for (int axis = 0; axis < 3; ++axis)
-      tied[axis] += target.place_W.mm[axis] * (target.stylus_W.xyz - kRestingStylus_W.xyz);
+      tied[axis] += target.position_W.mm[axis] * (target.stylus_W.xyz - kRestingStylus_W.xyz);
   for (int axis = 0; axis < 2; ++axis)
     for (int along = 0; along < 3; ++along) EXPECT_NEAR(tied[along][axis], 0.0, 20.0);
 }
 
 TEST(TargetPlan, ProvesAtPlacesAndTiltsThatTheFitHasNotSeen) {
-  const auto fit = targetPlan("jig27"), proof = targetPlan("verify8");
-  for (const Target& seen : proof->targets)
+  const auto fit = targetPlan("jig27"), verification = targetPlan("verify8");
+  for (const Target& seen : verification->targets)
     for (const Target& used : fit->targets) {
       EXPECT_NE(seen.id, used.id);
-      EXPECT_GT(glm::length((seen.place_W - used.place_W).xyz), 20.0);
+      EXPECT_GT(glm::length((seen.position_W - used.position_W).xyz), 20.0);
       EXPECT_GT(between_deg(seen.stylus_W, used.stylus_W), 3.0);
     }
 }
@@ -95,18 +95,18 @@ TEST(TargetPlan, StandsOnTheJigWhereverThatIs) {
   const JigPose jig{{glm::angleAxis(0.4, glm::normalize(glm::dvec3(1, 2, 3))), {10.0, -20.0, 5.0}}};
   const auto plain = targetPlan("jig27"), moved = targetPlan("jig27", jig);
   for (std::size_t i = 0; i < plain->targets.size(); ++i) {
-    EXPECT_LT(glm::distance((jig.X_WB * Point<Board>{plain->targets[i].place_W.mm}).mm, moved->targets[i].place_W.mm),
+    EXPECT_LT(glm::distance((jig.X_WB * Point<Board>{plain->targets[i].position_W.mm}).mm, moved->targets[i].position_W.mm),
               1e-12);
     EXPECT_EQ(plain->targets[i].stylus_W.xyz, moved->targets[i].stylus_W.xyz) << "the hand stays where it is";
   }
-  EXPECT_EQ(targetPlan("visual25", jig)->targets[0].place_W.mm, targetPlan("visual25")->targets[0].place_W.mm);
+  EXPECT_EQ(targetPlan("visual25", jig)->targets[0].position_W.mm, targetPlan("visual25")->targets[0].position_W.mm);
 }
 
 TEST(TargetPlan, HoldsTheHandleWithItsTipAtTheTarget) {
   Target target{1, {{3.0, -4.0, 5.0}}, {glm::normalize(glm::dvec3(0.3, -0.2, 0.9))}};
   for (const glm::dvec3 tip_H_mm : {kNominalTip_H_mm, glm::dvec3(1.0, -2.0, -38.0)}) {
     const auto X_WH = handleHolding(target, tip_H_mm);
-    EXPECT_LT(glm::distance((X_WH * Point<Handle>{tip_H_mm}).mm, target.place_W.mm), 1e-12);
+    EXPECT_LT(glm::distance((X_WH * Point<Handle>{tip_H_mm}).mm, target.position_W.mm), 1e-12);
     EXPECT_LT(glm::distance((X_WH * Vector<Handle>{{0, 0, 1}}).xyz, target.stylus_W.xyz), 1e-12);
   }
   target.stylus_W = {{0.0, 0.0, -1.0}};

@@ -48,25 +48,25 @@ TEST(TouchChecks, NameTheTouchThatWasTakenTwice) {
 }
 
 TEST(TouchChecks, RefuseAProofByTouchesOfTheFitOrOfAnotherDevice) {
-  const auto refusalOf = [](const TouchSet& proof) -> std::string {
+  const auto refusalOf = [](const TouchSet& verification) -> std::string {
     TouchSet fitted = fiveTouches();
     fitted.serial = "7";
     try {
-      checkUnseen(fitted, proof);
+      checkUnseen(fitted, verification);
     } catch (const CalibrationError& error) {
       return error.what();
     }
     return "accepted";
   };
-  TouchSet proof = fiveTouches();
-  for (Touch& touch : proof.touches) touch.joints_rad[3] += 0.2;
-  EXPECT_EQ(refusalOf(proof), "accepted") << "the same places, touched anew";
-  proof.touches[3].joints_rad = fiveTouches().touches[1].joints_rad;
-  EXPECT_THAT(refusalOf(proof), HasSubstr("touch 4 of the proof is touch 2 of the fit"));
-  proof.touches[3].used = false;
-  EXPECT_EQ(refusalOf(proof), "accepted");
-  proof.serial = "8";
-  EXPECT_THAT(refusalOf(proof), HasSubstr("serial '7', those to prove them by with '8'"));
+  TouchSet verification = fiveTouches();
+  for (Touch& touch : verification.touches) touch.joints_rad[3] += 0.2;
+  EXPECT_EQ(refusalOf(verification), "accepted") << "the same places, touched anew";
+  verification.touches[3].joints_rad = fiveTouches().touches[1].joints_rad;
+  EXPECT_THAT(refusalOf(verification), HasSubstr("touch 4 of the proof is touch 2 of the fit"));
+  verification.touches[3].used = false;
+  EXPECT_EQ(refusalOf(verification), "accepted");
+  verification.serial = "8";
+  EXPECT_THAT(refusalOf(verification), HasSubstr("serial '7', those to prove them by with '8'"));
 }
 
 TEST(TouchChecks, RefuseTooFewALineAndOnePlace) {
@@ -90,15 +90,15 @@ TEST(TouchChecks, RefuseAModelOrPrecisionThatIsNone) {
 }
 
 TEST(TiltSpread, IsTheSmallerOfThatInTheRoomAndThatOfTheGimbal) {
-  std::mt19937 chance(2);
+  std::mt19937 rng(2);
   std::uniform_real_distribution<double> wide(-0.5, 0.5), narrow(-0.02, 0.02);
   std::vector<Touch> varied, stiff_gimbal, one_direction;
   std::vector<std::size_t> all;
   for (std::size_t i = 0; i < 30; ++i) {
-    const glm::dvec3 arm(wide(chance), 0.7 + wide(chance), wide(chance));
-    varied.push_back({1, {arm.x, arm.y, arm.z, wide(chance), wide(chance), 0}, {}, true});
-    stiff_gimbal.push_back({1, {arm.x, arm.y, arm.z, narrow(chance), narrow(chance), 0}, {}, true});
-    const glm::dvec3 g = wristTurnedTo(arm, glm::dquat(1.0, 0.0, 0.0, 0.0));
+    const glm::dvec3 arm(wide(rng), 0.7 + wide(rng), wide(rng));
+    varied.push_back({1, {arm.x, arm.y, arm.z, wide(rng), wide(rng), 0}, {}, true});
+    stiff_gimbal.push_back({1, {arm.x, arm.y, arm.z, narrow(rng), narrow(rng), 0}, {}, true});
+    const glm::dvec3 g = wristAnglesFor(arm, glm::dquat(1.0, 0.0, 0.0, 0.0));
     one_direction.push_back({1, {arm.x, arm.y, arm.z, g.x, g.y, g.z}, {}, true});
     all.push_back(i);
   }
@@ -119,11 +119,11 @@ TEST(HullVolume, IsThatOfABlockWhateverLiesInside) {
 }
 
 TEST(HullVolume, IsThatOfABallNearly) {
-  std::mt19937 chance(3);
+  std::mt19937 rng(3);
   std::normal_distribution<double> normal;
   std::vector<glm::dvec3> places;
   for (int i = 0; i < 2000; ++i)
-    places.push_back(10.0 * glm::normalize(glm::dvec3(normal(chance), normal(chance), normal(chance))));
+    places.push_back(10.0 * glm::normalize(glm::dvec3(normal(rng), normal(rng), normal(rng))));
   EXPECT_NEAR(hullVolume_mm3(places) / (4.0 / 3.0 * kPi * 1000.0), 1.0, 0.01);
 }
 

@@ -51,12 +51,12 @@ class TouchesFile : public testing::Test {
 };
 
 TouchSet anySet(std::uint32_t seed) {
-  std::mt19937 chance(seed);
+  std::mt19937 rng(seed);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   TouchSet set{"premium", "60623200012", "right", "visual25", {0.1 + 1e-17, 1.0 / 3.0}, {}};
   for (int i = 0; i < 40; ++i) {
-    Touch touch{i * 7, {}, {{150.0 * unit(chance), 1e-9 * unit(chance), unit(chance) / 3.0}}, unit(chance) > 0.0};
-    for (double& angle_rad : touch.joints_rad) angle_rad = 12.0 * unit(chance);
+    Touch touch{i * 7, {}, {{150.0 * unit(rng), 1e-9 * unit(rng), unit(rng) / 3.0}}, unit(rng) > 0.0};
+    for (double& angle_rad : touch.joints_rad) angle_rad = 12.0 * unit(rng);
     set.touches.push_back(touch);
   }
   return set;

@@ -34,10 +34,10 @@ TEST(ControlLimits, AreNeverFinerThanTheInstrument) {
 }
 
 TEST(ControlLimits, FindTheSigmaOfNormalValues) {
-  std::mt19937 chance(1);
+  std::mt19937 rng(1);
   std::normal_distribution<double> normal(5.0, 0.7);
   std::vector<double> values(20000);
-  for (double& v : values) v = normal(chance);
+  for (double& v : values) v = normal(rng);
   EXPECT_NEAR(controlLimits(values, 8, 0.0)->sigma, 0.7, 0.01);
 }
 
@@ -74,10 +74,10 @@ TEST(ControlAlarms, NameTheRuleThatTellsMost) {
 }
 
 TEST(ControlAlarms, AreSeldomWhereNothingChanges) {
-  std::mt19937 chance(2);
+  std::mt19937 rng(2);
   std::normal_distribution<double> normal;
   std::vector<double> sigmas(20000);
-  for (double& v : sigmas) v = normal(chance);
+  for (double& v : sigmas) v = normal(rng);
   // All four rules together: a false alarm in 91.75 values (Champ and Woodall 1987), runs counted once.
   std::size_t runs = 0;
   std::vector<double> since;

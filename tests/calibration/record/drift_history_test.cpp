@@ -98,7 +98,7 @@ TEST_F(History, TakesNoEntryThatItCouldNotRead) {
 }
 
 TEST_F(History, LosesNoLineWheneverItIsKilled) {
-  std::mt19937 chance(5);
+  std::mt19937 rng(5);
   std::size_t known = 0;
   for (int round = 0; round < 20; ++round) {
     int pipe_ends[2];
@@ -113,7 +113,7 @@ TEST_F(History, LosesNoLineWheneverItIsKilled) {
     ::close(pipe_ends[1]);
     char told[4096];
     if (round % 2 == 1 && ::read(pipe_ends[0], told, 1) == 1) ++known;
-    std::this_thread::sleep_for(std::chrono::microseconds(200 + chance() % 8000));
+    std::this_thread::sleep_for(std::chrono::microseconds(200 + rng() % 8000));
     ::kill(child, SIGKILL);
     ::waitpid(child, nullptr, 0);
     for (ssize_t n = 0; (n = ::read(pipe_ends[0], told, sizeof told)) > 0;) known += static_cast<std::size_t>(n);

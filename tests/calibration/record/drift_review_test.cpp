@@ -39,7 +39,7 @@ TEST(DriftReview, IsSteadyWhereNothingChanges) {
   EXPECT_TRUE(review.alarms.empty());
   EXPECT_THAT(review.sentence, HasSubstr("Steady"));
   EXPECT_NEAR(review.limits[0]->centre, 0.3, 1e-12);
-  EXPECT_EQ(review.limits[0]->n, kMostBaseline);
+  EXPECT_EQ(review.limits[0]->n, kMaxBaseline);
 }
 
 TEST(DriftReview, TellsAPushWithItsNumbersAndWhatToDo) {
@@ -80,7 +80,7 @@ TEST(DriftReview, BeginsAnewWithACalibration) {
   history.back().rms_mm = 1.42;
   history.push_back({"2027-01-01T00:00:00Z", DriftKind::calibration, 16, 0.25, {}});
   const DriftReview review = reviewOf(history);
-  EXPECT_TRUE(review.judged.empty());
+  EXPECT_TRUE(review.charted.empty());
   EXPECT_TRUE(review.alarms.empty());
   EXPECT_THAT(review.sentence, HasSubstr("since the last calibration"));
 }

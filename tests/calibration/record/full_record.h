@@ -8,8 +8,8 @@
 namespace calibration {
 
 inline RigRecord fullRecord(std::uint32_t seed = 1) {
-  std::mt19937 chance(seed);
-  const auto number = [&](double size) { return std::uniform_real_distribution<double>(-size, size)(chance); };
+  std::mt19937 rng(seed);
+  const auto number = [&](double size) { return std::uniform_real_distribution<double>(-size, size)(rng); };
   const auto vector = [&](double size) { return glm::dvec3(number(size), number(size), number(size)); };
   const auto turn = [&] { return glm::angleAxis(number(3.0), glm::normalize(vector(1.0))); };
 
@@ -29,8 +29,8 @@ inline RigRecord fullRecord(std::uint32_t seed = 1) {
   for (double& v : arm.offset_rad) v = number(0.01);
   for (double& v : arm.gain) v = number(0.004);
   for (double& v : arm.quadratic_per_rad) v = number(0.001);
-  arm.thigh_more_mm = number(0.4), arm.shin_more_mm = number(0.4);
-  arm.tilt_rad = number(0.002), arm.reach_more_mm = number(0.5);
+  arm.thigh_delta_mm = number(0.4), arm.shin_delta_mm = number(0.4);
+  arm.tilt_rad = number(0.002), arm.reach_delta_mm = number(0.5);
   arm.tip_H_mm += vector(0.4);
   rig.arm = arm;
 
@@ -38,12 +38,12 @@ inline RigRecord fullRecord(std::uint32_t seed = 1) {
                        "tech-07", "half_silvered",        2.0,     std::string(64, 'a')};
   record.eye_sd_mm = 4.7;
   record.procedure = RigProcedure{"jig27", ArmModel::full, 26, 1, 41.3, 168.4, 0.18, 0.24, {0.05, 0.06}};
-  record.proof = RigProof{{16, 0.21, 0.24, 0.41, 0.55, {{0.03, -0.05, 0.1}}, 0.2, 0.13},
-                          ProofKind::full,
+  record.verification = RigVerification{{16, 0.21, 0.24, 0.41, 0.55, {{0.03, -0.05, 0.1}}, 0.2, 0.13},
+                          VerificationKind::full,
                           Verdict::green,
                           "2026-11-21T08:23:00Z",
                           "worst: back left low, 0.6 mm"};
-  for (int id = 0; id < 16; ++id) record.proof->residuals.push_back({100 + id, {vector(60.0)}, {vector(0.25)}, true});
+  for (int id = 0; id < 16; ++id) record.verification->residuals.push_back({100 + id, {vector(60.0)}, {vector(0.25)}, true});
   for (int id = 0; id < 27; ++id) record.residuals.push_back({id, {vector(60.0)}, {vector(0.3)}, id != 13});
   record.rest = RestRegistration{turn(), vector(80.0), 0.2, 0.4};
   for (int i = 0; i < 28; ++i) record.sigma.push_back(std::abs(number(0.1)));

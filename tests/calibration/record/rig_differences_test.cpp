@@ -25,8 +25,8 @@ TEST(Differences, SayWhatWentWhereInItsUnit) {
   after.rig.X_WD.rotation = after.rig.X_WD.rotation * glm::angleAxis(radFromDegrees(0.25), glm::dvec3(0, 1, 0));
   after.rig.arm->offset_rad[1] = 0.0;
   after.rig.arm->offset_rad[1] = radFromDegrees(1.5);
-  after.proof->verdict = Verdict::amber;
-  after.proof->errors.rms_mm = 0.61;
+  after.verification->verdict = Verdict::amber;
+  after.verification->errors.rms_mm = 0.61;
   const auto lines = differences(before, after);
   ASSERT_EQ(lines.size(), 5u);
   EXPECT_EQ(lines[0], "verdict: green \u2192 amber");

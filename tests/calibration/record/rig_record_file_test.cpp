@@ -65,10 +65,10 @@ TEST_F(RigRecordFile, GivesBackEveryBitOfEveryBlock) {
     EXPECT_EQ(back.rig.arm->offset_rad, record.rig.arm->offset_rad);
     EXPECT_EQ(back.rig.arm->gain, record.rig.arm->gain);
     EXPECT_EQ(back.rig.arm->quadratic_per_rad, record.rig.arm->quadratic_per_rad);
-    EXPECT_EQ(back.rig.arm->thigh_more_mm, record.rig.arm->thigh_more_mm);
-    EXPECT_EQ(back.rig.arm->shin_more_mm, record.rig.arm->shin_more_mm);
+    EXPECT_EQ(back.rig.arm->thigh_delta_mm, record.rig.arm->thigh_delta_mm);
+    EXPECT_EQ(back.rig.arm->shin_delta_mm, record.rig.arm->shin_delta_mm);
     EXPECT_EQ(back.rig.arm->tilt_rad, record.rig.arm->tilt_rad);
-    EXPECT_EQ(back.rig.arm->reach_more_mm, record.rig.arm->reach_more_mm);
+    EXPECT_EQ(back.rig.arm->reach_delta_mm, record.rig.arm->reach_delta_mm);
     EXPECT_EQ(back.rig.arm->tip_H_mm, record.rig.arm->tip_H_mm);
     EXPECT_EQ(back.sigma, record.sigma);
     EXPECT_EQ(back.rest->rotation, record.rest->rotation);
@@ -101,12 +101,12 @@ TEST_F(RigRecordFile, SaysHowARigIsKnown) {
   EXPECT_EQ(back.procedure->model, ArmModel::full);
   EXPECT_EQ(back.procedure->outliers, 1);
   EXPECT_EQ(back.procedure->cv_rms_mm, 0.24);
-  EXPECT_EQ(back.proof->verdict, Verdict::green);
-  EXPECT_EQ(back.proof->errors.max_mm, 0.55);
-  EXPECT_EQ(back.proof->errors.bias_mm.xyz.y, -0.05);
-  EXPECT_EQ(back.proof->checked_utc, "2026-11-21T08:23:00Z");
-  EXPECT_EQ(back.proof->worst, "worst: back left low, 0.6 mm");
-  EXPECT_EQ(back.proof->residuals.size(), 16u);
+  EXPECT_EQ(back.verification->verdict, Verdict::green);
+  EXPECT_EQ(back.verification->errors.max_mm, 0.55);
+  EXPECT_EQ(back.verification->errors.bias_mm.xyz.y, -0.05);
+  EXPECT_EQ(back.verification->checked_utc, "2026-11-21T08:23:00Z");
+  EXPECT_EQ(back.verification->worst, "worst: back left low, 0.6 mm");
+  EXPECT_EQ(back.verification->residuals.size(), 16u);
 }
 
 TEST_F(RigRecordFile, RefusesAFileThatWasEdited) {
@@ -125,11 +125,11 @@ TEST_F(RigRecordFile, ReadsAFileTypedByHandWithTheBlocksItHas) {
                             "some_day: { a: 1 }\n";
   const RigRecord record = read(typed);
   EXPECT_TRUE(record.hash.empty());
-  EXPECT_NEAR(record.rig.arm->thigh_more_mm, 0.15, 1e-12);
+  EXPECT_NEAR(record.rig.arm->thigh_delta_mm, 0.15, 1e-12);
   EXPECT_NEAR(record.rig.arm->gain[0], 0.01, 1e-12);
   EXPECT_EQ(record.rig.arm->offset_rad[2], 0.01);
   EXPECT_EQ(record.rig.arm->tip_H_mm.z, -41.0);
-  EXPECT_FALSE(record.proof);
+  EXPECT_FALSE(record.verification);
 }
 
 TEST_F(RigRecordFile, RefusesANewerSchemaByItsNumber) {
@@ -233,11 +233,11 @@ TEST_F(RigRecordFile, IsRefusedOrEqualHoweverItIsDamaged) {
 TEST_F(RigRecordFile, SurvivesDamageUnderAFittingHash) {
   // The hash finds nearly all; the blocks behind it must hold on their own.
   const std::string good = rigRecordText(fullRecord());
-  std::mt19937 chance(8);
+  std::mt19937 rng(8);
   for (int i = 0; i < 300; ++i) {
     std::string bad = good;
     const std::size_t body = bad.rfind("sha256:");
-    for (int k = 0; k < 1 + i % 3; ++k) bad[chance() % body] = static_cast<char>(chance() % 256);
+    for (int k = 0; k < 1 + i % 3; ++k) bad[rng() % body] = static_cast<char>(rng() % 256);
     bad = resealed(bad);
     try {
       const RigRecord record = read(bad);

@@ -31,7 +31,7 @@ class Store : public testing::Test {
  protected:
   fs::path root_ = fs::path(testing::TempDir()) /
                    (std::string("store_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-  RigPlace place_{"rig-02", "60623200012", "right"};
+  RigLocation place_{"rig-02", "60623200012", "right"};
   RigStore store_{root_};
   fs::path folder_ = root_ / "rig-02" / "60623200012" / "right";
 
@@ -64,8 +64,8 @@ TEST_F(Store, KeepsARigUnderItsTimeAndMakesItCurrent) {
   std::string touches;
   std::getline(std::ifstream(folder_ / "2026-11-21T08-20-00Z.touches.yaml"), touches);
   EXPECT_EQ(touches, "touches");
-  ASSERT_EQ(store_.places().size(), 1u);
-  EXPECT_EQ(store_.places()[0].serial, "60623200012");
+  ASSERT_EQ(store_.locations().size(), 1u);
+  EXPECT_EQ(store_.locations()[0].serial, "60623200012");
 }
 
 TEST_F(Store, NeverOverwrites) {
@@ -93,7 +93,7 @@ TEST_F(Store, DoesNotSeeWhatIsNotItsOwn) {
   fs::create_directory(folder_ / "2026-11-22T08-20-00Z.yaml");
   fs::create_directories(root_ / "rig-02" / "empty" / "left");
   EXPECT_EQ(store_.names(place_).size(), 1u);
-  EXPECT_EQ(store_.places().size(), 1u);
+  EXPECT_EQ(store_.locations().size(), 1u);
 }
 
 TEST_F(Store, RollsBackStepByStep) {
@@ -168,7 +168,7 @@ TEST_F(Store, KeepsNothingThatCanNotBeReadAgain) {
 
 TEST_F(Store, TakesNoWayOutOfItsFolder) {
   for (const char* name : {"", "..", ".", "a/b", "../x", "a b", ".hidden", "a\nb"}) {
-    RigPlace away = place_;
+    RigLocation away = place_;
     away.rig_id = name;
     EXPECT_THAT(refusal([&] { store_.names(away); }), HasSubstr("is no name")) << name;
     away = place_;
@@ -181,7 +181,7 @@ TEST_F(Store, TakesNoWayOutOfItsFolder) {
 TEST_F(Store, KeepsAnySerialAndKeepsThemApart) {
   for (const char* serial : {"", "../../x", "a b", "a_b", "a/b", "...", "\u00e5\u00e4\u00f6",
                              "0123456789012345678901234567890123456789012345678901234567890123456789"}) {
-    const RigPlace place{"rig-02", serial, "right"};
+    const RigLocation place{"rig-02", serial, "right"};
     RigRecord mine = record(0);
     mine.rig.device->serial = serial;
     const fs::path path = store_.keep(place, mine, "", true);
@@ -189,8 +189,8 @@ TEST_F(Store, KeepsAnySerialAndKeepsThemApart) {
     EXPECT_EQ(store_.names(place).size(), 1u) << serial;
     EXPECT_EQ(store_.current(place)->rig.device->serial, serial);
   }
-  EXPECT_EQ(store_.places().size(), 8u);
-  for (const RigPlace& place : store_.places()) EXPECT_TRUE(store_.current(place));
+  EXPECT_EQ(store_.locations().size(), 8u);
+  for (const RigLocation& place : store_.locations()) EXPECT_TRUE(store_.current(place));
 }
 
 TEST_F(Store, RefusesASecondWriter) {
@@ -214,7 +214,7 @@ TEST_F(Store, ClearsAwayWhatAKilledWriterLeft) {
 }
 
 TEST_F(Store, HasAWholeRigInForceWheneverItIsKilled) {
-  std::mt19937 chance(3);
+  std::mt19937 rng(3);
   keep(0);
   std::int64_t next_s = 60;
   int confirmed_in_all = 0;
@@ -233,7 +233,7 @@ TEST_F(Store, HasAWholeRigInForceWheneverItIsKilled) {
     // Every other round only once it has kept one, however busy the machine.
     std::int64_t told = 0, confirmed = 0;
     if (round % 2 == 1 && ::read(pipe_ends[0], &told, sizeof told) == sizeof told) confirmed = told, ++confirmed_in_all;
-    std::this_thread::sleep_for(std::chrono::microseconds(500 + chance() % 30000));
+    std::this_thread::sleep_for(std::chrono::microseconds(500 + rng() % 30000));
     ::kill(child, SIGKILL);
     ::waitpid(child, nullptr, 0);
     while (::read(pipe_ends[0], &told, sizeof told) == sizeof told) confirmed = told, ++confirmed_in_all;
@@ -266,13 +266,13 @@ TEST_F(Store, LiesWhereItIsTold) {
 
 TEST(WhyNotFor, NamesWhatDiffers) {
   const RigRecord record = fullRecord();
-  EXPECT_EQ(whyNotFor(record, "omni", "60623200012", "right"), "");
-  EXPECT_EQ(whyNotFor(record, "omni", "", "right"), "");
-  EXPECT_THAT(whyNotFor(record, "touch", "60623200012", "right"), HasSubstr("touch"));
-  EXPECT_THAT(whyNotFor(record, "omni", "4711", "right"), HasSubstr("4711"));
-  EXPECT_THAT(whyNotFor(record, "omni", "60623200012", "left"), HasSubstr("left"));
+  EXPECT_EQ(mismatchWith(record, "omni", "60623200012", "right"), "");
+  EXPECT_EQ(mismatchWith(record, "omni", "", "right"), "");
+  EXPECT_THAT(mismatchWith(record, "touch", "60623200012", "right"), HasSubstr("touch"));
+  EXPECT_THAT(mismatchWith(record, "omni", "4711", "right"), HasSubstr("4711"));
+  EXPECT_THAT(mismatchWith(record, "omni", "60623200012", "left"), HasSubstr("left"));
   RigRecord plain;
-  EXPECT_EQ(whyNotFor(plain, "omni", "4711", "left"), "");
+  EXPECT_EQ(mismatchWith(plain, "omni", "4711", "left"), "");
 }
 
 TEST(AgeDays, CountsFromTheMeasurement) {

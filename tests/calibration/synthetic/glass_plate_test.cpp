@@ -21,15 +21,15 @@ TEST(GlassPlate, ShiftsALineByTheTextbooksFigures) {
 }
 
 TEST(GlassPlate, MovesALineOfSightAsTheFormulaSaysAndTurnsItNot) {
-  std::mt19937 chance(5);
+  std::mt19937 rng(5);
   std::normal_distribution<double> any;
   for (int i = 0; i < 1000; ++i) {
-    const GlassPlate plate{{glm::normalize(glm::dvec3(any(chance), any(chance), any(chance))), 20.0 * any(chance)},
-                           1.0 + std::abs(any(chance)),
-                           1.3 + 0.1 * std::abs(any(chance))};
-    const Sight sight{{{any(chance), any(chance), any(chance)}},
-                      {glm::normalize(glm::dvec3(any(chance), any(chance), any(chance)))}};
-    const Sight out = seenThrough(plate, sight);
+    const GlassPlate plate{{glm::normalize(glm::dvec3(any(rng), any(rng), any(rng))), 20.0 * any(rng)},
+                           1.0 + std::abs(any(rng)),
+                           1.3 + 0.1 * std::abs(any(rng))};
+    const Ray sight{{{any(rng), any(rng), any(rng)}},
+                      {glm::normalize(glm::dvec3(any(rng), any(rng), any(rng)))}};
+    const Ray out = seenThrough(plate, sight);
     EXPECT_EQ(out.along_W.xyz, sight.along_W.xyz);
     const double moved_mm = glm::length(glm::cross(out.from_W.mm - sight.from_W.mm, sight.along_W.xyz));
     const double angle = std::acos(std::min(1.0, std::abs(glm::dot(sight.along_W.xyz, plate.face.normal))));
@@ -38,14 +38,14 @@ TEST(GlassPlate, MovesALineOfSightAsTheFormulaSaysAndTurnsItNot) {
 }
 
 TEST(GlassPlate, MovesNothingThatMeetsItSquarely) {
-  const Sight sight{{{1, 2, 300}}, {{0, 0, -1}}};
+  const Ray sight{{{1, 2, 300}}, {{0, 0, -1}}};
   EXPECT_EQ(seenThrough({{{0, 0, 1}, 100.0}, 5.0}, sight).from_W.mm, sight.from_W.mm);
 }
 
 TEST(GlassPlate, MirrorsAsThePlaneReflects) {
   const Plane<World> face{kSlanted, 141.4};
-  const Sight sight{{{10, 20, 450}}, {glm::normalize(glm::dvec3(0.1, -0.05, -1))}};
-  const Sight out = mirrored(face, sight);
+  const Ray sight{{{10, 20, 450}}, {glm::normalize(glm::dvec3(0.1, -0.05, -1))}};
+  const Ray out = mirrored(face, sight);
   EXPECT_NEAR(face.distance_mm(out.from_W), 0.0, 1e-9);
   const glm::dvec3 farther = sight.from_W.mm + 900.0 * sight.along_W.xyz;
   const glm::dvec3 along_out = face.reflect({farther}).mm - out.from_W.mm;
@@ -54,8 +54,8 @@ TEST(GlassPlate, MirrorsAsThePlaneReflects) {
 
 TEST(GlassPlate, ItsFarFaceMirrorsAGhostBesideThePicture) {
   const GlassPlate plate{{kSlanted, 141.4}, 3.0};
-  const Sight sight{{{0, 0, 450}}, {{0, 0, -1}}};
-  const Sight first = mirrored(plate.face, sight), ghost = mirroredByFarFace(plate, sight);
+  const Ray sight{{{0, 0, 450}}, {{0, 0, -1}}};
+  const Ray first = mirrored(plate.face, sight), ghost = mirroredByFarFace(plate, sight);
   EXPECT_EQ(first.along_W.xyz, ghost.along_W.xyz);
   EXPECT_NEAR(glm::length(glm::cross(ghost.from_W.mm - first.from_W.mm, first.along_W.xyz)),
               ghostSpacing_mm(plate, radFromDegrees(45.0)), 1e-9);

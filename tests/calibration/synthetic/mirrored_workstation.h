@@ -1,17 +1,17 @@
-// A workstation for pictures in tests: the virtual screen in the plane z = 0, a mirror at 45 degrees 200 mm before it,
-// the panel face down above the hand as monitors hang, a webcam at the eye. And a picture of every kind as PNG, to be
+// A workstation for images in tests: the virtual screen in the plane z = 0, a mirror at 45 degrees 200 mm before it,
+// the panel face down above the hand as monitors hang, a webcam at the eye. And a image of every kind as PNG, to be
 // looked at, where MOLAR_PICTURES names a folder.
 #pragma once
 
 #include <cstdlib>
 #include <string>
 
-#include "calibration/picture_file.h"
-#include "calibration/synthetic/webcam_picture.h"
+#include "calibration/png_file.h"
+#include "calibration/synthetic/webcam_image.h"
 
 namespace calibration {
 
-/// Corners of the framebuffer's picture on the virtual screen, or any arrangement of it.
+/// Corners of the framebuffer's image on the virtual screen, or any arrangement of it.
 inline ScreenCorners uprightScreen(glm::ivec2 px = {1920, 1080}, double width_mm = 531.0) {
   return desktopRig(px, width_mm).screen;
 }
@@ -47,12 +47,12 @@ inline Webcam perfect(Webcam webcam) {
   return webcam;
 }
 
-inline void keepPicture(const std::string& name, const GreyPicture& picture) {
+inline void keepPicture(const std::string& name, const GreyImage& image) {
   const char* const folder = std::getenv("MOLAR_PICTURES");
   if (folder == nullptr || *folder == '\0') return;
   std::vector<std::uint8_t> rgba;
-  for (const std::uint8_t grey : picture.grey) rgba.insert(rgba.end(), {grey, grey, grey, 255});
-  writePng(std::string(folder) + "/" + name + ".png", picture.size_px, rgba);
+  for (const std::uint8_t grey : image.grey) rgba.insert(rgba.end(), {grey, grey, grey, 255});
+  writePng(std::string(folder) + "/" + name + ".png", image.size_px, rgba);
 }
 
 }  // namespace calibration

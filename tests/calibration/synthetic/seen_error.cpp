@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibration/chance.h"
-#include "calibration/geometry/turn.h"
+#include "calibration/random.h"
+#include "calibration/geometry/rotation.h"
 #include "calibration/virtual_screen.h"
 
 namespace calibration {
 namespace {
 
 /// Where the line of sight to a place meets the screen, in I.
-Point<ScreenImage> drawnOnScreen(const Viewing& viewing, const Point<World>& eye_W, const Point<World>& place_W) {
+Point<ScreenImage> drawnOnScreen(const Viewing& viewing, const Point<World>& eye_W, const Point<World>& position_W) {
   const auto X_IW = viewing.X_WI.inverse();
-  const glm::dvec3 eye = (X_IW * eye_W).mm, place = (X_IW * place_W).mm;
+  const glm::dvec3 eye = (X_IW * eye_W).mm, place = (X_IW * position_W).mm;
   return {eye + eye.z / (eye.z - place.z) * (place - eye)};
 }
 
@@ -39,27 +39,27 @@ Point<World> seenPlace(const Viewing& drawn_for, const Viewing& seen_by, const P
   return {0.5 * (seen_by.left_eye.mm + s * a + seen_by.right_eye.mm + t * b)};
 }
 
-Viewing actualViewing(const Viewing& believed, const ViewingCare& care, std::mt19937& chance) {
+Viewing actualViewing(const Viewing& believed, const ViewingCare& care, std::mt19937& rng) {
   Viewing actual = believed;
-  const glm::dvec3 head_mm = gaussianVector(chance, care.head_sd_mm);
+  const glm::dvec3 head_mm = gaussianVector(rng, care.head_sd_mm);
   const glm::dvec3 across = glm::normalize((believed.right_eye - believed.left_eye).xyz);
-  const glm::dvec3 wider_mm = 0.5 * evenly(chance, -care.pupils_mm, care.pupils_mm) * across;
+  const glm::dvec3 wider_mm = 0.5 * uniform(rng, -care.pupils_mm, care.pupils_mm) * across;
   actual.left_eye.mm += head_mm - wider_mm;
   actual.right_eye.mm += head_mm + wider_mm;
 
   // The screen turns about the origin of W, where the case is.
-  const glm::dquat turn = turnBy(gaussianVector(chance, radFromDegrees(care.screen_turn_sd_deg)));
+  const glm::dquat turn = rotationFromVector(gaussianVector(rng, radFromDegrees(care.screen_turn_sd_deg)));
   actual.X_WI = {turn * believed.X_WI.rotation,
-                 turn * believed.X_WI.translation_mm + gaussianVector(chance, care.screen_shift_sd_mm)};
+                 turn * believed.X_WI.translation_mm + gaussianVector(rng, care.screen_shift_sd_mm)};
   return actual;
 }
 
 SeenError seenError(const SyntheticRig& rig, const MeasuredArm& calibrated, const glm::dvec3& half_mm,
-                    const ViewingCare& care, int places, std::mt19937& chance) {
+                    const ViewingCare& care, int places, std::mt19937& rng) {
   const Viewing believed = believedViewing(rig.nominal);
-  const Viewing actual = actualViewing(believed, care, chance);
+  const Viewing actual = actualViewing(believed, care, rng);
   SeenError error{.places = places};
-  for (const Touch& touch : heldOut(rig, places, half_mm, chance)) {
+  for (const Touch& touch : heldOutTouches(rig, places, half_mm, rng)) {
     const Point<World> seen_W = seenPlace(believed, actual, calibrated.tip_W(touch.joints_rad));
     const double off_mm = glm::length((seen_W - touch.target_W).xyz);
     error.mean_mm += off_mm / places;

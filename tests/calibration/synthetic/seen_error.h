@@ -1,5 +1,5 @@
 // How far from the true tip of the stylus a surgeon sees the drawn one: the arm's error after calibration, the screen
-// that is not quite where it was measured, eyes that are not quite where the picture was drawn for, by the true
+// that is not quite where it was measured, eyes that are not quite where the image was drawn for, by the true
 // geometry of two lines of sight. Frame W, mm. Pure functions of the generator; any thread but the servo's.
 //   One seating: eyes, pupils' distance and screen drawn once, then kept; errors over places of the box.
 //   mean, RMS: over its places. max: its worst place. Over many rigs, one seating each: the mean of the means, and the
@@ -11,7 +11,7 @@
 
 namespace calibration {
 
-/// Eyes and virtual screen: as the picture was drawn for, or as they are.
+/// Eyes and virtual screen: as the image was drawn for, or as they are.
 struct Viewing {
   Point<World> left_eye, right_eye;
   Pose<World, ScreenImage> X_WI;  ///< the screen is the plane z = 0 of I, x along its rows
@@ -29,7 +29,7 @@ struct ViewingCare {
   double screen_shift_sd_mm = 0.1;   ///< an axis
   double screen_turn_sd_deg = 0.05;  ///< an axis
 };
-Viewing actualViewing(const Viewing& believed, const ViewingCare& care, std::mt19937& chance);
+Viewing actualViewing(const Viewing& believed, const ViewingCare& care, std::mt19937& rng);
 
 struct SeenError {
   int places = 0;
@@ -38,6 +38,6 @@ struct SeenError {
 /// Of one rig with this calibration and one seating: at `places` anywhere in ±`half_mm`, tilts as held out touches
 /// have.
 SeenError seenError(const SyntheticRig& rig, const MeasuredArm& calibrated, const glm::dvec3& half_mm,
-                    const ViewingCare& care, int places, std::mt19937& chance);
+                    const ViewingCare& care, int places, std::mt19937& rng);
 
 }  // namespace calibration

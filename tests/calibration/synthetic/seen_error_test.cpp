@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "calibration/chance.h"
+#include "calibration/random.h"
 
 namespace calibration {
 namespace {
@@ -20,33 +20,33 @@ Viewing headMoved(const glm::dvec3& by_mm) {
 }
 
 TEST(SeenError, IsNoneWhenEyesAndScreenAreWhereTheyWereMeasured) {
-  std::mt19937 chance(1);
+  std::mt19937 rng(1);
   for (const Rig& rig : {desktopRig({1920, 1080}), mirroredWorkstationRig()})
     for (int n = 0; n < 200; ++n) {
       const Viewing viewing = believedViewing(rig);
-      const Point<World> place_W{evenVector(chance, {70.0, 50.0, 60.0})};
-      EXPECT_LT(glm::length((seenPlace(viewing, viewing, place_W) - place_W).xyz), 1e-9);
+      const Point<World> position_W{uniformVector(rng, {70.0, 50.0, 60.0})};
+      EXPECT_LT(glm::length((seenPlace(viewing, viewing, position_W) - position_W).xyz), 1e-9);
     }
 }
 
 TEST(SeenError, IsNoneOnTheScreenWhereverTheHeadIs) {
-  std::mt19937 chance(2);
+  std::mt19937 rng(2);
   for (int n = 0; n < 200; ++n) {
-    const Point<World> place_W{evenVector(chance, {70.0, 50.0, 0.0})};
-    EXPECT_LT(glm::length((seenPlace(desk(), headMoved(evenVector(chance, glm::dvec3(40.0))), place_W) - place_W).xyz),
+    const Point<World> position_W{uniformVector(rng, {70.0, 50.0, 0.0})};
+    EXPECT_LT(glm::length((seenPlace(desk(), headMoved(uniformVector(rng, glm::dvec3(40.0))), position_W) - position_W).xyz),
               1e-9);
   }
 }
 
 TEST(SeenError, MovesAPointWithTheHeadByItsShareOfTheWay) {
   for (const double z : {-100.0, -50.0, -30.0, -10.0, 10.0, 30.0, 50.0, 100.0}) {
-    const Point<World> place_W{{15.0, 10.0, z}};
+    const Point<World> position_W{{15.0, 10.0, z}};
     const double share = 10.0 * z / kEye_mm;  // e z / D
-    const glm::dvec3 sideways = (seenPlace(desk(), headMoved({10.0, 0.0, 0.0}), place_W) - place_W).xyz;
+    const glm::dvec3 sideways = (seenPlace(desk(), headMoved({10.0, 0.0, 0.0}), position_W) - position_W).xyz;
     EXPECT_LT(glm::distance(sideways, glm::dvec3(share, 0.0, 0.0)), 1e-9);
-    const glm::dvec3 up = (seenPlace(desk(), headMoved({0.0, 10.0, 0.0}), place_W) - place_W).xyz;
+    const glm::dvec3 up = (seenPlace(desk(), headMoved({0.0, 10.0, 0.0}), position_W) - position_W).xyz;
     EXPECT_LT(glm::distance(up, glm::dvec3(0.0, share, 0.0)), 1e-9);
-    const glm::dvec3 nearer = (seenPlace(desk(), headMoved({0.0, 0.0, 10.0}), place_W) - place_W).xyz;
+    const glm::dvec3 nearer = (seenPlace(desk(), headMoved({0.0, 0.0, 10.0}), position_W) - position_W).xyz;
     EXPECT_LT(glm::distance(nearer, glm::dvec3(0.0, 0.0, share)), 1e-9);
   }
 }
@@ -76,13 +76,13 @@ TEST(SeenError, AgreesWithTheTableOfHeadAndPupils) {
   const ViewingCare care{
       .head_sd_mm = 5.0, .pupils_mm = std::sqrt(3.0), .screen_shift_sd_mm = 0.0, .screen_turn_sd_deg = 0.0};
   for (const auto& [reach_mm, rms_mm] : {std::pair{10.0, 0.14}, {30.0, 0.40}, {50.0, 0.70}}) {
-    std::mt19937 chance(4);
+    std::mt19937 rng(4);
     double sum = 0.0;
     constexpr int kSeatings = 8000;
     for (int n = 0; n < kSeatings; ++n) {
-      const Point<World> place_W{evenVector(chance, {60.0, 40.0, reach_mm})};
-      const Viewing actual = actualViewing(desk(), care, chance);
-      sum += std::pow(glm::length((seenPlace(desk(), actual, place_W) - place_W).xyz), 2);
+      const Point<World> position_W{uniformVector(rng, {60.0, 40.0, reach_mm})};
+      const Viewing actual = actualViewing(desk(), care, rng);
+      sum += std::pow(glm::length((seenPlace(desk(), actual, position_W) - position_W).xyz), 2);
     }
     EXPECT_NEAR(std::sqrt(sum / kSeatings) / rms_mm, 1.0, 0.06) << reach_mm;
   }
@@ -92,11 +92,11 @@ TEST(SeenError, IsTheArmsOwnWhereNothingElseIsWrong) {
   const SyntheticRig rig = syntheticRig(Scenario::d, 3);
   const MeasuredArm model{rig.arm.geometry, {}, rig.X_WD};
   const ViewingCare none{0.0, 0.0, 0.0, 0.0};
-  std::mt19937 chance(5), again(5);
-  const SeenError error = seenError(rig, model, {65.0, 45.0, 30.0}, none, 50, chance);
+  std::mt19937 rng(5), again(5);
+  const SeenError error = seenError(rig, model, {65.0, 45.0, 30.0}, none, 50, rng);
   actualViewing(believedViewing(rig.nominal), none, again);
   double worst_mm = 0.0, sum_mm = 0.0;
-  for (const Touch& touch : heldOut(rig, 50, {65.0, 45.0, 30.0}, again)) {
+  for (const Touch& touch : heldOutTouches(rig, 50, {65.0, 45.0, 30.0}, again)) {
     const double off_mm = glm::length((model.tip_W(touch.joints_rad) - touch.target_W).xyz);
     worst_mm = std::max(worst_mm, off_mm);
     sum_mm += off_mm;

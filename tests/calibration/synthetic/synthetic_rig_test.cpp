@@ -36,9 +36,9 @@ TEST(SyntheticRig, TouchesWhereItsTipIs) {
   for (const Scenario scenario : kScenarios)
     for (std::uint32_t seed = 1; seed <= 40; ++seed) {
       SyntheticRig rig = syntheticRig(scenario, seed);
-      rig.habits = {.precision = {0.0, 0.0}, .arm_noise_rad = 0.0, .gimbal_noise_rad = 0.0};
-      std::mt19937 chance(seed);
-      for (const Touch& touch : touchedAll(rig, *targetPlan("jig27"), chance).touches)
+      rig.technician = {.precision = {0.0, 0.0}, .arm_noise_rad = 0.0, .gimbal_noise_rad = 0.0};
+      std::mt19937 rng(seed);
+      for (const Touch& touch : simulatedTouches(rig, *targetPlan("jig27"), rng).touches)
         ASSERT_LT(glm::length((rig.tip_W(touch.joints_rad) - touch.target_W).xyz), 1e-6)
             << static_cast<char>(scenario) << seed << " " << touch.id;
     }
@@ -48,9 +48,9 @@ TEST(SyntheticRig, IsTheSameForTheSameSeed) {
   const SyntheticRig one = syntheticRig(Scenario::d, 7), again = syntheticRig(Scenario::d, 7);
   const SyntheticRig other = syntheticRig(Scenario::d, 8);
   std::mt19937 a(5), b(5), c(5);
-  const auto touches = touchedAll(one, *targetPlan("jig27"), a).touches;
-  const auto same = touchedAll(again, *targetPlan("jig27"), b).touches;
-  const auto others = touchedAll(other, *targetPlan("jig27"), c).touches;
+  const auto touches = simulatedTouches(one, *targetPlan("jig27"), a).touches;
+  const auto same = simulatedTouches(again, *targetPlan("jig27"), b).touches;
+  const auto others = simulatedTouches(other, *targetPlan("jig27"), c).touches;
   for (std::size_t i = 0; i < touches.size(); ++i) {
     EXPECT_EQ(touches[i].joints_rad, same[i].joints_rad);
     EXPECT_NE(touches[i].joints_rad, others[i].joints_rad);
@@ -60,7 +60,7 @@ TEST(SyntheticRig, IsTheSameForTheSameSeed) {
 
 TEST(SyntheticRig, DrawsTheSameNumbersOnEveryMachine) {
   const SyntheticRig rig = syntheticRig(Scenario::d, 1);
-  EXPECT_NEAR(rig.arm.truth.thigh_more_mm, -0.735549153783, 1e-9);
+  EXPECT_NEAR(rig.arm.truth.thigh_delta_mm, -0.735549153783, 1e-9);
   EXPECT_NEAR(rig.X_WD.translation_mm.x, 4.139276222326, 1e-9);
 }
 
@@ -76,7 +76,7 @@ TEST(SyntheticRig, IsAsWrongAsItsScenarioSays) {
     std::vector<double> link, offset, gimbal, tip;
     for (std::uint32_t seed = 1; seed <= 400; ++seed) {
       const ArmCorrection truth = syntheticRig(sizes.scenario, seed).arm.truth;
-      link.insert(link.end(), {truth.thigh_more_mm, truth.shin_more_mm});
+      link.insert(link.end(), {truth.thigh_delta_mm, truth.shin_delta_mm});
       for (std::size_t i = 0; i < 3; ++i) {
         offset.push_back(degreesFromRad(truth.offset_rad[i]));
         gimbal.push_back(degreesFromRad(truth.offset_rad[i + 3]));
@@ -96,10 +96,10 @@ TEST(SyntheticRig, BendsAsItsScenarioSays) {
     std::vector<double> bent;
     for (std::uint32_t seed = 1; seed <= 200; ++seed) {
       const SyntheticRig rig = syntheticRig(scenario, seed);
-      UntrueArm straight = rig.arm;
+      PerturbedArm straight = rig.arm;
       straight.warp = {};
-      std::mt19937 chance(seed);
-      for (const Touch& touch : heldOut(rig, 20, kRegion_mm, chance))
+      std::mt19937 rng(seed);
+      for (const Touch& touch : heldOutTouches(rig, 20, kRegion_mm, rng))
         bent.push_back(glm::length((rig.arm.tip_D(touch.joints_rad) - straight.tip_D(touch.joints_rad)).xyz));
     }
     return rms(bent);
@@ -114,9 +114,9 @@ TEST(SyntheticRig, IsAsFarOffWithoutCalibrationAsWasSimulatedBefore) {
   std::vector<double> of_rigs;
   for (std::uint32_t seed = 1; seed <= 60; ++seed) {
     const SyntheticRig rig = syntheticRig(Scenario::d, seed);
-    std::mt19937 chance(seed);
+    std::mt19937 rng(seed);
     std::vector<double> off;
-    for (const Touch& touch : heldOut(rig, 100, kRegion_mm, chance)) {
+    for (const Touch& touch : heldOutTouches(rig, 100, kRegion_mm, rng)) {
       const MeasuredArm model{rig.arm.geometry, {}, rig.X_WD};
       off.push_back(glm::length((model.tip_W(touch.joints_rad) - touch.target_W).xyz));
     }
@@ -131,12 +131,12 @@ TEST(SyntheticRig, ReachesItsTargetsAsTheyAre) {
   for (const char* method : {"jig27", "jig8", "visual25", "webcam27", "rezero5", "check4", "verify8", "pivot12"})
     for (std::uint32_t seed = 1; seed <= 60; ++seed) {
       const SyntheticRig rig = syntheticRig(Scenario::d, seed);
-      std::mt19937 chance(seed);
+      std::mt19937 rng(seed);
       const auto plan = targetPlan(method);
-      const auto touches = touchedAll(rig, *plan, chance).touches;
+      const auto touches = simulatedTouches(rig, *plan, rng).touches;
       ASSERT_EQ(touches.size(), plan->targets.size()) << method << seed;
       for (std::size_t i = 0; i < touches.size(); ++i)
-        moved += touches[i].target_W.mm != plan->targets[i].place_W.mm ? 1 : 0;
+        moved += touches[i].target_W.mm != plan->targets[i].position_W.mm ? 1 : 0;
       all += static_cast<int>(touches.size());
     }
   EXPECT_LE(moved, all / 100) << "of " << all;
@@ -146,23 +146,23 @@ TEST(SyntheticRig, TiltsTheStylusAsTheCueAsksUnlessItIsHeldOneWay) {
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
     const SyntheticRig many = syntheticRig(Scenario::d, seed), one = syntheticRig(Scenario::e, seed);
     std::mt19937 a(seed), b(seed);
-    EXPECT_GE(tiltSpread_deg(many, touchedAll(many, *targetPlan("jig27"), a).touches), 45.0);
-    EXPECT_LT(tiltSpread_deg(one, touchedAll(one, *targetPlan("jig27"), b).touches), 20.0);
+    EXPECT_GE(tiltSpread_deg(many, simulatedTouches(many, *targetPlan("jig27"), a).touches), 45.0);
+    EXPECT_LT(tiltSpread_deg(one, simulatedTouches(one, *targetPlan("jig27"), b).touches), 20.0);
     std::mt19937 c(seed);
-    EXPECT_GE(tiltSpread_deg(one, heldOut(one, 100, kRegion_mm, c)), 45.0) << "judged by all tilts all the same";
+    EXPECT_GE(tiltSpread_deg(one, heldOutTouches(one, 100, kRegion_mm, c)), 45.0) << "judged by all tilts all the same";
   }
 }
 
 TEST(SyntheticRig, IsTouchedAsExactlyAsPeopleCan) {
   const SyntheticRig rig = [] {
     SyntheticRig it = syntheticRig(Scenario::f, 3);
-    it.habits.outlier_share = it.habits.arm_noise_rad = it.habits.gimbal_noise_rad = 0.0;
+    it.technician.outlier_share = it.technician.arm_noise_rad = it.technician.gimbal_noise_rad = 0.0;
     return it;
   }();
-  std::mt19937 chance(1);
+  std::mt19937 rng(1);
   std::vector<double> across, along;
   for (int n = 0; n < 40; ++n)
-    for (const Touch& touch : touchedAll(rig, *targetPlan("visual25"), chance).touches) {
+    for (const Touch& touch : simulatedTouches(rig, *targetPlan("visual25"), rng).touches) {
       const glm::dvec3 off = (rig.tip_W(touch.joints_rad) - touch.target_W).xyz;
       across.insert(across.end(), {off.x, off.y});
       along.push_back(off.z);
@@ -175,8 +175,8 @@ TEST(SyntheticRig, SlipsNowAndThen) {
   int slipped = 0, all = 0;
   for (std::uint32_t seed = 1; seed <= 60; ++seed) {
     const SyntheticRig rig = syntheticRig(Scenario::d, seed);
-    std::mt19937 chance(seed);
-    for (const Touch& touch : touchedAll(rig, *targetPlan("jig27"), chance).touches) {
+    std::mt19937 rng(seed);
+    for (const Touch& touch : simulatedTouches(rig, *targetPlan("jig27"), rng).touches) {
       const double off_mm = glm::length((rig.tip_W(touch.joints_rad) - touch.target_W).xyz);
       EXPECT_LT(off_mm, 21.0);
       slipped += off_mm > 4.0 ? 1 : 0;
@@ -188,10 +188,10 @@ TEST(SyntheticRig, SlipsNowAndThen) {
 
 TEST(SyntheticRig, DriftsAsMuchAsItIsTold) {
   std::vector<double> turned, shifted;
-  std::mt19937 chance(9);
+  std::mt19937 rng(9);
   const SyntheticRig rig = syntheticRig(Scenario::d, 1);
   for (int n = 0; n < 300; ++n) {
-    const SyntheticRig moved = drifted(rig, 0.3, 1.0, chance);
+    const SyntheticRig moved = drifted(rig, 0.3, 1.0, rng);
     for (std::size_t i = 0; i < 3; ++i) {
       turned.push_back(degreesFromRad(moved.arm.truth.offset_rad[i] - rig.arm.truth.offset_rad[i]));
       shifted.push_back((moved.X_WD.translation_mm - rig.X_WD.translation_mm)[static_cast<int>(i)]);

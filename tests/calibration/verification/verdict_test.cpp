@@ -46,51 +46,51 @@ TEST(TargetErrors, AreTheTextbooks) {
 
 TEST(Verdict, AllowsForHowSureSoFewTouchesCanBe) {
   // 16 touches: 1 + 1.65 / sqrt(96) = 1.168; 4 touches: 1.337.
-  EXPECT_NEAR(judge(evenErrors(0.4), ProofKind::full).sure_rms_mm, 0.4 * 1.1684, 1e-4);
-  EXPECT_EQ(judge(evenErrors(0.42), ProofKind::full).verdict, Verdict::green);
-  EXPECT_EQ(judge(evenErrors(0.44), ProofKind::full).verdict, Verdict::amber);
-  EXPECT_EQ(judge(evenErrors(0.84), ProofKind::full).verdict, Verdict::amber);
-  EXPECT_EQ(judge(evenErrors(0.87), ProofKind::full).verdict, Verdict::red);
+  EXPECT_NEAR(assess(evenErrors(0.4), VerificationKind::full).rms_upper_bound_mm, 0.4 * 1.1684, 1e-4);
+  EXPECT_EQ(assess(evenErrors(0.42), VerificationKind::full).verdict, Verdict::green);
+  EXPECT_EQ(assess(evenErrors(0.44), VerificationKind::full).verdict, Verdict::amber);
+  EXPECT_EQ(assess(evenErrors(0.84), VerificationKind::full).verdict, Verdict::amber);
+  EXPECT_EQ(assess(evenErrors(0.87), VerificationKind::full).verdict, Verdict::red);
 }
 
 TEST(Verdict, IsGentlerToEyesAndToTheCheckOfASession) {
-  EXPECT_EQ(judge(evenErrors(0.66), ProofKind::by_eyes).verdict, Verdict::green);
-  EXPECT_EQ(judge(evenErrors(1.3), ProofKind::by_eyes).verdict, Verdict::red);
+  EXPECT_EQ(assess(evenErrors(0.66), VerificationKind::by_eyes).verdict, Verdict::green);
+  EXPECT_EQ(assess(evenErrors(1.3), VerificationKind::by_eyes).verdict, Verdict::red);
   // Opposite pairs: no bias.
-  EXPECT_EQ(judge(evenErrors(0.44, 4), ProofKind::session_check).verdict, Verdict::green);
-  EXPECT_EQ(judge(evenErrors(0.5, 4), ProofKind::session_check).verdict, Verdict::amber);
-  EXPECT_EQ(judge(evenErrors(1.0, 4), ProofKind::session_check).verdict, Verdict::red);
+  EXPECT_EQ(assess(evenErrors(0.44, 4), VerificationKind::session_check).verdict, Verdict::green);
+  EXPECT_EQ(assess(evenErrors(0.5, 4), VerificationKind::session_check).verdict, Verdict::amber);
+  EXPECT_EQ(assess(evenErrors(1.0, 4), VerificationKind::session_check).verdict, Verdict::red);
 }
 
 TEST(Verdict, IsDecidedByTheWorstOfAllAndSaysWhich) {
   TargetErrors errors = evenErrors(0.2);
-  EXPECT_EQ(judge(errors, ProofKind::full).verdict, Verdict::green);
+  EXPECT_EQ(assess(errors, VerificationKind::full).verdict, Verdict::green);
   errors.max_mm = 1.3;
-  EXPECT_EQ(judge(errors, ProofKind::full).verdict, Verdict::amber);
-  EXPECT_THAT(judge(errors, ProofKind::full).reason, HasSubstr("worst touch 1.30 mm off, more than 1.20 mm"));
+  EXPECT_EQ(assess(errors, VerificationKind::full).verdict, Verdict::amber);
+  EXPECT_THAT(assess(errors, VerificationKind::full).reason, HasSubstr("worst touch 1.30 mm off, more than 1.20 mm"));
   errors.p95_mm = 1.9;
-  EXPECT_EQ(judge(errors, ProofKind::full).verdict, Verdict::red);
-  EXPECT_THAT(judge(errors, ProofKind::full).reason, HasSubstr("within 1.90 mm, more than 1.80 mm"));
+  EXPECT_EQ(assess(errors, VerificationKind::full).verdict, Verdict::red);
+  EXPECT_THAT(assess(errors, VerificationKind::full).reason, HasSubstr("within 1.90 mm, more than 1.80 mm"));
   errors = evenErrors(0.2);
   errors.bias_mm.xyz.y = -0.4;
-  EXPECT_EQ(judge(errors, ProofKind::full).verdict, Verdict::amber);
-  EXPECT_THAT(judge(errors, ProofKind::full).reason, HasSubstr("one way by 0.40 mm"));
+  EXPECT_EQ(assess(errors, VerificationKind::full).verdict, Verdict::amber);
+  EXPECT_THAT(assess(errors, VerificationKind::full).reason, HasSubstr("one way by 0.40 mm"));
 }
 
 TEST(Verdict, IsNeverGreenOfLessThanFourTouches) {
-  EXPECT_EQ(judge(evenErrors(0.01, 3), ProofKind::full).verdict, Verdict::amber);
-  EXPECT_EQ(judge(evenErrors(0.01, 4), ProofKind::full).verdict, Verdict::green);
-  EXPECT_EQ(judge(evenErrors(5.0, 3), ProofKind::full).verdict, Verdict::red);
-  EXPECT_EQ(judge({}, ProofKind::full).verdict, Verdict::red);
+  EXPECT_EQ(assess(evenErrors(0.01, 3), VerificationKind::full).verdict, Verdict::amber);
+  EXPECT_EQ(assess(evenErrors(0.01, 4), VerificationKind::full).verdict, Verdict::green);
+  EXPECT_EQ(assess(evenErrors(5.0, 3), VerificationKind::full).verdict, Verdict::red);
+  EXPECT_EQ(assess({}, VerificationKind::full).verdict, Verdict::red);
 }
 
 TEST(Verdict, IsRedOfWhatIsNoNumber) {
   TargetErrors errors = evenErrors(0.1);
   errors.rms_mm = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(judge(errors, ProofKind::full).verdict, Verdict::red);
+  EXPECT_EQ(assess(errors, VerificationKind::full).verdict, Verdict::red);
   errors = evenErrors(0.1);
   errors.bias_mm.xyz.z = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(judge(errors, ProofKind::full).verdict, Verdict::red);
+  EXPECT_EQ(assess(errors, VerificationKind::full).verdict, Verdict::red);
 }
 
 TEST(WorstPlace, IsSaidAsTheSurgeonSeesIt) {
@@ -102,20 +102,20 @@ TEST(WorstPlace, IsSaidAsTheSurgeonSeesIt) {
     auto copy = residuals;
     for (Residual& r : copy)
       if (glm::distance(r.target_W.mm, place) < 1.0) r.error_mm = {{0.0, size, 0.0}};
-    return worstPlaceSentence(copy, {});
+    return worstErrorSentence(copy, {});
   };
   EXPECT_EQ(with({-60, -40, -30}, 0.92), "worst: back left low, 0.9 mm");
   EXPECT_EQ(with({60, 40, 30}, 1.5), "worst: front right high, 1.5 mm");
   EXPECT_EQ(with({0, 40, 0}, 0.5), "worst: high, 0.5 mm");
   EXPECT_EQ(with({0, 0, 0}, 0.5), "worst: in the middle, 0.5 mm");
-  EXPECT_EQ(worstPlaceSentence({}, {}), "no touches");
+  EXPECT_EQ(worstErrorSentence({}, {}), "no touches");
 }
 
 TEST(WorstPlace, LeavesOutTouchesSetAsideAndAxesThatAreNotSpanned) {
   std::vector<Residual> flat = {{1, {{-50, 10, 0}}, {{9, 0, 0}}, false},
                                 {2, {{50, 30, 0.1}}, {{0.3, 0, 0}}, true},
                                 {3, {{-50, -30, -0.1}}, {{0.2, 0, 0}}, true}};
-  EXPECT_EQ(worstPlaceSentence(flat, {}), "worst: right high, 0.3 mm");
+  EXPECT_EQ(worstErrorSentence(flat, {}), "worst: right high, 0.3 mm");
 }
 
 }  // namespace

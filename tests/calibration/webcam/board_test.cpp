@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "calibration/calibration_error.h"
-#include "calibration/webcam/picture_reader.h"
+#include "calibration/webcam/image_reader.h"
 #include "tests/calibration/webcam/seen_screen.h"
 
 namespace calibration {
@@ -12,12 +12,12 @@ namespace {
 const ShownScreen kScreen{{960, 540}, {531.0, 298.7}};
 const CameraModel kWebcam{{960, 540}, {700.0, 700.0}, {481.0, 268.0}, 0.05, -0.1, 0.0005, -0.0004};
 
-GreyPicture seenFrom(const glm::dvec3& eye_W, double roll_rad = 0.0, const glm::dvec3& at_W = {0, 0, 0}) {
-  return SeenScreen(kScreen, kWebcam, cameraTowards(eye_W, at_W, roll_rad)).of(pictureOf(boardFor(kScreen.size_px)));
+GreyImage seenFrom(const glm::dvec3& eye_W, double roll_rad = 0.0, const glm::dvec3& at_W = {0, 0, 0}) {
+  return SeenScreen(kScreen, kWebcam, cameraTowards(eye_W, at_W, roll_rad)).of(boardImage(boardFor(kScreen.size_px)));
 }
 
-std::optional<BoardTrouble> troubleWith(const GreyPicture& picture) {
-  const BoardSighting sighting = findBoard(picture, boardFor(kScreen.size_px));
+std::optional<BoardTrouble> troubleWith(const GreyImage& image) {
+  const BoardDetection sighting = findBoard(image, boardFor(kScreen.size_px));
   EXPECT_EQ(sighting.trouble.has_value(), sighting.corners_px.empty());
   EXPECT_EQ(sighting.trouble.has_value(), !sighting.line.empty());
   return sighting.trouble;
@@ -28,14 +28,14 @@ TEST(Board, IsFoundWithEveryCornerWhereTheLensPutsIt) {
   const glm::dvec3 eyes[] = {{0, 0, 520}, {200, 60, 480}, {-220, -40, 470}, {30, 220, 500}};
   for (const glm::dvec3& eye : eyes) {
     const Pose<World, Camera> X_WC = cameraTowards(eye, {5, -4, 0}, 0.1);
-    const BoardSighting sighting =
-        findBoard(noisy(SeenScreen(kScreen, kWebcam, X_WC).of(pictureOf(board)), 2.0, 7), board);
+    const BoardDetection sighting =
+        findBoard(noisy(SeenScreen(kScreen, kWebcam, X_WC).of(boardImage(board)), 2.0, 7), board);
     ASSERT_FALSE(sighting.trouble) << sighting.line;
-    const auto places = board.cornerPlaces_px();
+    const auto places = board.cornerPositions_px();
     ASSERT_EQ(sighting.corners_px.size(), places.size());
     double sum = 0.0;
     for (std::size_t i = 0; i < places.size(); ++i) {
-      const glm::dvec2 true_px = kWebcam.pixelOf(X_WC.inverse() * kScreen.place_W(places[i]));
+      const glm::dvec2 true_px = kWebcam.pixelOf(X_WC.inverse() * kScreen.position_W(places[i]));
       EXPECT_LT(glm::distance(sighting.corners_px[i], true_px), 0.35) << i;
       sum += glm::dot(sighting.corners_px[i] - true_px, sighting.corners_px[i] - true_px);
     }
@@ -47,19 +47,19 @@ TEST(Board, ReadsRightWhicheverWayTheCameraIsTurned) {
   const ShownBoard board = boardFor(kScreen.size_px);
   for (const double roll : {0.0, 3.14159, 1.5708 * 0.3, -2.9}) {
     const Pose<World, Camera> X_WC = cameraTowards({40, 30, 640}, {0, 0, 0}, roll);
-    const BoardSighting sighting = findBoard(SeenScreen(kScreen, kWebcam, X_WC).of(pictureOf(board)), board);
+    const BoardDetection sighting = findBoard(SeenScreen(kScreen, kWebcam, X_WC).of(boardImage(board)), board);
     ASSERT_FALSE(sighting.trouble) << sighting.line;
-    const glm::dvec2 first_px = kWebcam.pixelOf(X_WC.inverse() * kScreen.place_W(board.cornerPlaces_px().front()));
+    const glm::dvec2 first_px = kWebcam.pixelOf(X_WC.inverse() * kScreen.position_W(board.cornerPositions_px().front()));
     EXPECT_LT(glm::distance(sighting.corners_px.front(), first_px), 0.5) << roll;
   }
 }
 
 TEST(Board, KnowsAMirroredPictureEveryTime) {
-  std::mt19937 chance(3);
+  std::mt19937 rng(3);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   for (int i = 0; i < 4; ++i) {
-    const GreyPicture seen = noisy(
-        seenFrom({200 * any(chance), 120 * any(chance), 540 + 40 * any(chance)}, 0.3 * any(chance) + (i % 2) * 3.14),
+    const GreyImage seen = noisy(
+        seenFrom({200 * any(rng), 120 * any(rng), 540 + 40 * any(rng)}, 0.3 * any(rng) + (i % 2) * 3.14),
         2.0, static_cast<unsigned>(i));
     EXPECT_NE(troubleWith(seen), BoardTrouble::mirrored);
     EXPECT_EQ(troubleWith(flipped(seen, true, false)), BoardTrouble::mirrored) << i;
@@ -68,7 +68,7 @@ TEST(Board, KnowsAMirroredPictureEveryTime) {
 }
 
 TEST(Board, RefusesABlurredPicture) {
-  const GreyPicture sharp = seenFrom({30, 20, 520});
+  const GreyImage sharp = seenFrom({30, 20, 520});
   EXPECT_EQ(troubleWith(sharp), std::nullopt);
   EXPECT_EQ(troubleWith(blurred(sharp, 9, 9)), BoardTrouble::blurred);
   EXPECT_EQ(troubleWith(blurred(sharp, 11, 1)), BoardTrouble::blurred) << "the camera was moved";
@@ -94,7 +94,7 @@ TEST(Board, RefusesAPictureWithoutIt) {
 
 TEST(Board, RefusesAChessboardWithoutTheF) {
   const ShownBoard board = boardFor(kScreen.size_px);
-  GreyPicture plain = pictureOf(board);
+  GreyImage plain = boardImage(board);
   for (int y = 0; y < board.squares.y * board.square_px; ++y)
     for (int x = 0; x < board.squares.x * board.square_px; ++x) {
       const glm::ivec2 px = board.upper_left_px + glm::ivec2(x, y);
@@ -123,8 +123,8 @@ TEST(Board, IsDrawnWithOddByEvenSquaresAndAnFThatReadsOneWayOnly) {
 }
 
 TEST(BoardPicture, RefusesWhatIsNoPicture) {
-  EXPECT_THROW(readGreyPicture("/nowhere/left01.jpg"), CalibrationError);
-  EXPECT_THROW(readGreyPicture(__FILE__), CalibrationError);
+  EXPECT_THROW(readGreyImage("/nowhere/left01.jpg"), CalibrationError);
+  EXPECT_THROW(readGreyImage(__FILE__), CalibrationError);
 }
 
 }  // namespace

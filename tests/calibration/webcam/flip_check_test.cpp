@@ -13,52 +13,52 @@ namespace {
 
 constexpr glm::ivec2 kScreen_px{960, 540};
 
-GreyPicture numbered(glm::ivec2 size) {
-  GreyPicture picture{size, {}};
-  for (int i = 0; i < size.x * size.y; ++i) picture.grey.push_back(static_cast<std::uint8_t>(i));
-  return picture;
+GreyImage numbered(glm::ivec2 size) {
+  GreyImage image{size, {}};
+  for (int i = 0; i < size.x * size.y; ++i) image.grey.push_back(static_cast<std::uint8_t>(i));
+  return image;
 }
 
 /// A webcam somewhere before the screen, as level as people clamp one, blurred and noisy as cheap ones are.
-Webcam someWebcam(std::mt19937& chance) {
+Webcam someWebcam(std::mt19937& rng) {
   std::uniform_real_distribution<double> any(-1.0, 1.0);
-  const double roll = 0.5 * any(chance);
+  const double roll = 0.5 * any(rng);
   Webcam webcam = webcamAtEye({640, 360});
-  webcam.X_WC = lookingAt({{200 * any(chance), 150 * any(chance), 470 + 80 * any(chance)}},
-                          {{30 * any(chance), 20 * any(chance), 0}}, {std::sin(roll), std::cos(roll), 0});
-  webcam.defocus_px = 1.5 + 1.5 * any(chance);
-  webcam.noise_grey = 6.0 + 6.0 * any(chance);
+  webcam.X_WC = lookingAt({{200 * any(rng), 150 * any(rng), 470 + 80 * any(rng)}},
+                          {{30 * any(rng), 20 * any(rng), 0}}, {std::sin(roll), std::cos(roll), 0});
+  webcam.defocus_px = 1.5 + 1.5 * any(rng);
+  webcam.noise_grey = 6.0 + 6.0 * any(rng);
   return webcam;
 }
 
 TEST(FlipCheck, WhatReachesTheEyeIsUndoneByTheOpposite) {
-  const GreyPicture picture = numbered({5, 3});
-  for (const Reading& reading : kReadings) {
-    const GreyPicture back = reaching(opposite(reading), reaching(reading, picture));
-    EXPECT_EQ(back.size_px, picture.size_px) << nameOf(reading);
-    EXPECT_EQ(back.grey, picture.grey) << nameOf(reading);
+  const GreyImage image = numbered({5, 3});
+  for (const ImageOrientation& reading : kImageOrientations) {
+    const GreyImage back = oriented(inverseOf(reading), oriented(reading, image));
+    EXPECT_EQ(back.size_px, image.size_px) << nameOf(reading);
+    EXPECT_EQ(back.grey, image.grey) << nameOf(reading);
   }
 }
 
 TEST(FlipCheck, AQuarterTurnPutsTheUpperLeftToTheUpperRight) {
-  const GreyPicture seen = reaching({false, 1}, numbered({3, 2}));
+  const GreyImage seen = oriented({false, 1}, numbered({3, 2}));
   EXPECT_EQ(seen.size_px, glm::ivec2(2, 3));
   EXPECT_THAT(seen.grey, testing::ElementsAre(3, 0, 4, 1, 5, 2));
-  EXPECT_THAT(reaching({true, 0}, numbered({3, 2})).grey, testing::ElementsAre(2, 1, 0, 5, 4, 3));
+  EXPECT_THAT(oriented({true, 0}, numbered({3, 2})).grey, testing::ElementsAre(2, 1, 0, 5, 4, 3));
 }
 
 TEST(FlipCheck, EveryReadingOfAnFIsToldEveryTime) {
-  std::mt19937 chance(41);
+  std::mt19937 rng(41);
   int told = 0;
   for (int pose = 0; pose < 20; ++pose) {
-    const WebcamView view({.panel = uprightScreen(kScreen_px)}, someWebcam(chance));
-    for (const Reading& reading : kReadings) {
-      // A turned picture is drawn so that it fits the screen again.
+    const WebcamRenderer view({.panel = uprightScreen(kScreen_px)}, someWebcam(rng));
+    for (const ImageOrientation& reading : kImageOrientations) {
+      // A turned image is drawn so that it fits the screen again.
       const bool on_its_side = reading.quarters % 2 == 1;
-      const GreyPicture letter = letterF(on_its_side ? glm::ivec2(kScreen_px.y, kScreen_px.x) : kScreen_px);
-      const GreyPicture shown = reaching(reading, letter);
-      const GreyPicture seen = view.picture(&shown, {}, static_cast<std::uint64_t>(pose));
-      const auto read = readF(seen);
+      const GreyImage letter = letterF(on_its_side ? glm::ivec2(kScreen_px.y, kScreen_px.x) : kScreen_px);
+      const GreyImage shown = oriented(reading, letter);
+      const GreyImage seen = view.image(&shown, {}, static_cast<std::uint64_t>(pose));
+      const auto read = orientationOfF(seen);
       EXPECT_TRUE(read == reading) << "pose " << pose << ": " << nameOf(reading) << " read as "
                                    << (read ? nameOf(*read) : "nothing");
       told += read == reading;
@@ -76,27 +76,27 @@ TEST(FlipCheck, AMonitorInTheMirrorReadsRightOnceTheRigTurnsIt) {
       inTheMirror(seen), hangingMonitor(kScreen_px),
       inTheMirror({kScreen_px, upper_right, seen.upper_left, seen.lower_right}),
       inTheMirror({kScreen_px, seen.upper_left, upper_right, seen.lower_left})};
-  std::mt19937 chance(2);
+  std::mt19937 rng(2);
   for (const ScreenCorners& corners : arrangements) {
     rig.screen = corners;
-    const GreyPicture shown = framebufferFor(rig, letterF(seenSize_px(rig)));
+    const GreyImage shown = framebufferFor(rig, letterF(seenSize_px(rig)));
     EXPECT_EQ(shown.size_px, kScreen_px);
     EXPECT_LT(glm::distance(seenScreen(rig).lower_left.mm, seen.lower_left.mm), 1e-9);
     EXPECT_LT(glm::distance(seenScreen(rig).upper_left.mm, seen.upper_left.mm), 1e-9);
-    const WebcamView view({.panel = corners, .mirror = rig.mirror}, someWebcam(chance));
-    const GreyPicture picture = view.picture(&shown, {}, 1);
-    keepPicture("f_in_the_mirror", picture);
-    EXPECT_TRUE(readF(picture) == Reading{}) << "as the rig turns it";
-    const GreyPicture plain = letterF(kScreen_px);
-    EXPECT_TRUE(readF(view.picture(&plain, {}, 1)) == framebufferReading(rig)) << "as the framebuffer has it";
+    const WebcamRenderer view({.panel = corners, .mirror = rig.mirror}, someWebcam(rng));
+    const GreyImage image = view.image(&shown, {}, 1);
+    keepPicture("f_in_the_mirror", image);
+    EXPECT_TRUE(orientationOfF(image) == ImageOrientation{}) << "as the rig turns it";
+    const GreyImage plain = letterF(kScreen_px);
+    EXPECT_TRUE(orientationOfF(view.image(&plain, {}, 1)) == framebufferOrientation(rig)) << "as the framebuffer has it";
   }
 }
 
 TEST(FlipCheck, APixelAsSeenHasItsPlaceOnTheVirtualScreen) {
   const ScreenCorners seen = seenScreen(desktopRig({1000, 500}, 500.0));
-  EXPECT_LT(glm::distance(placeOn(seen, {499.5, 249.5}).mm, glm::dvec3(0.0)), 1e-9);
-  EXPECT_LT(glm::distance(placeOn(seen, {-0.5, -0.5}).mm, glm::dvec3(-250, 125, 0)), 1e-9);
-  EXPECT_LT(glm::distance(placeOn(seen, {999.5, 249.5}).mm, glm::dvec3(250, 0, 0)), 1e-9);
+  EXPECT_LT(glm::distance(positionOn(seen, {499.5, 249.5}).mm, glm::dvec3(0.0)), 1e-9);
+  EXPECT_LT(glm::distance(positionOn(seen, {-0.5, -0.5}).mm, glm::dvec3(-250, 125, 0)), 1e-9);
+  EXPECT_LT(glm::distance(positionOn(seen, {999.5, 249.5}).mm, glm::dvec3(250, 0, 0)), 1e-9);
 }
 
 TEST(FlipCheck, AWrongCornerInTheRigFileIsFound) {
@@ -105,34 +105,34 @@ TEST(FlipCheck, AWrongCornerInTheRigFileIsFound) {
   rig.mirror = slantedMirror();
   const ScreenCorners truth = hangingMonitor(kScreen_px);
   rig.screen = inTheMirror(uprightScreen(kScreen_px));
-  const WebcamView view({.panel = truth, .mirror = rig.mirror}, webcamAtEye({640, 360}));
-  const GreyPicture shown = framebufferFor(rig, letterF(seenSize_px(rig)));
-  const auto read = readF(view.picture(&shown, {}, 1));
+  const WebcamRenderer view({.panel = truth, .mirror = rig.mirror}, webcamAtEye({640, 360}));
+  const GreyImage shown = framebufferFor(rig, letterF(seenSize_px(rig)));
+  const auto read = orientationOfF(view.image(&shown, {}, 1));
   ASSERT_TRUE(read.has_value());
   EXPECT_EQ(nameOf(*read), "mirrored");
   EXPECT_THAT(remedyFor(*read), testing::HasSubstr("flip"));
 }
 
 TEST(FlipCheck, WhereThereIsNoFItSaysNothing) {
-  const WebcamView view({.panel = uprightScreen(kScreen_px)}, webcamAtEye({640, 360}));
-  GreyPicture white = letterF(kScreen_px);
+  const WebcamRenderer view({.panel = uprightScreen(kScreen_px)}, webcamAtEye({640, 360}));
+  GreyImage white = letterF(kScreen_px);
   for (std::uint8_t& grey : white.grey) grey = grey > 0 || &grey - white.grey.data() > 300000 ? 255 : 0;
-  EXPECT_FALSE(readF(view.picture(nullptr, {}, 1)).has_value()) << "dark";
-  EXPECT_FALSE(readF(view.picture(&white, {}, 1)).has_value()) << "another shape";
-  std::mt19937 chance(1);
-  for (std::uint8_t& grey : white.grey) grey = static_cast<std::uint8_t>(chance());
-  EXPECT_FALSE(readF(view.picture(&white, {}, 1)).has_value()) << "noise";
-  EXPECT_FALSE(readF(GreyPicture{{8, 8}, std::vector<std::uint8_t>(64)}).has_value()) << "hardly a picture";
+  EXPECT_FALSE(orientationOfF(view.image(nullptr, {}, 1)).has_value()) << "dark";
+  EXPECT_FALSE(orientationOfF(view.image(&white, {}, 1)).has_value()) << "another shape";
+  std::mt19937 rng(1);
+  for (std::uint8_t& grey : white.grey) grey = static_cast<std::uint8_t>(rng());
+  EXPECT_FALSE(orientationOfF(view.image(&white, {}, 1)).has_value()) << "noise";
+  EXPECT_FALSE(orientationOfF(GreyImage{{8, 8}, std::vector<std::uint8_t>(64)}).has_value()) << "hardly a picture";
 
   Webcam blurred = webcamAtEye({640, 360});
   blurred.defocus_px = 40.0;
-  const GreyPicture shown = letterF(kScreen_px);
-  EXPECT_FALSE(readF(WebcamView({.panel = uprightScreen(kScreen_px)}, blurred).picture(&shown, {}, 1)).has_value());
+  const GreyImage shown = letterF(kScreen_px);
+  EXPECT_FALSE(orientationOfF(WebcamRenderer({.panel = uprightScreen(kScreen_px)}, blurred).image(&shown, {}, 1)).has_value());
   Webcam aside = webcamAtEye({640, 360});
   aside.X_WC = lookingAt({{0, 0, 450}}, {{270, 0, 0}}, {0, 1, 0});
-  const GreyPicture cropped = WebcamView({.panel = uprightScreen(kScreen_px)}, aside).picture(&shown, {}, 1);
+  const GreyImage cropped = WebcamRenderer({.panel = uprightScreen(kScreen_px)}, aside).image(&shown, {}, 1);
   keepPicture("f_cropped", cropped);
-  EXPECT_FALSE(readF(cropped).has_value()) << "half of it is beside the picture";
+  EXPECT_FALSE(orientationOfF(cropped).has_value()) << "half of it is beside the picture";
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include <opencv2/core.hpp>
 
 #include "calibration/webcam/board.h"
-#include "calibration/webcam/picture_reader.h"
+#include "calibration/webcam/image_reader.h"
 #include "tests/calibration/webcam/seen_screen.h"
 #include "tests/refusal.h"
 
@@ -23,28 +23,28 @@ const CameraModel kWebcam{{1280, 720}, {930.0, 931.5}, {644.0, 355.0}, 0.05, -0.
 
 /// 12 x 7 corners, 30 mm apart, about the origin.
 std::vector<glm::dvec2> boardPlaces() {
-  std::vector<glm::dvec2> places_mm;
+  std::vector<glm::dvec2> positions_mm;
   for (int y = 0; y < 7; ++y)
-    for (int x = 0; x < 12; ++x) places_mm.emplace_back(30.0 * (x - 5.5), 30.0 * (y - 3.0));
-  return places_mm;
+    for (int x = 0; x < 12; ++x) positions_mm.emplace_back(30.0 * (x - 5.5), 30.0 * (y - 3.0));
+  return positions_mm;
 }
 
 /// `n` views from all sides, each slanted up to `slant` (tangent).
 std::vector<BoardView> views(std::size_t n, double slant, double noise_px, double aside_mm = 70.0) {
-  std::mt19937 chance(11);
+  std::mt19937 rng(11);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   std::normal_distribution<double> noise(0.0, noise_px);
   std::vector<BoardView> all;
   while (all.size() < n) {
-    const double away_mm = 520.0 + 60.0 * any(chance);
-    const glm::dvec3 eye(slant * away_mm * any(chance), slant * away_mm * any(chance), away_mm);
-    const glm::dvec3 at(aside_mm * any(chance), aside_mm * any(chance), 0.0);
+    const double away_mm = 520.0 + 60.0 * any(rng);
+    const glm::dvec3 eye(slant * away_mm * any(rng), slant * away_mm * any(rng), away_mm);
+    const glm::dvec3 at(aside_mm * any(rng), aside_mm * any(rng), 0.0);
     const Pose<World, Camera> X_WC =
-        cameraTowards(slant == 0.0 ? at + glm::dvec3(0, 0, away_mm) : eye, at, 0.3 * any(chance));
+        cameraTowards(slant == 0.0 ? at + glm::dvec3(0, 0, away_mm) : eye, at, 0.3 * any(rng));
     BoardView view{"view " + std::to_string(all.size() + 1), {}};
     for (const glm::dvec2& mm : boardPlaces())
       view.corners_px.push_back(kWebcam.pixelOf(X_WC.inverse() * Point<World>{{mm.x, -mm.y, 0.0}}) +
-                                glm::dvec2(noise(chance), noise(chance)));
+                                glm::dvec2(noise(rng), noise(rng)));
     all.push_back(view);
   }
   return all;
@@ -60,7 +60,7 @@ TEST(Intrinsics, FindTheLensThatTookTheViews) {
   EXPECT_TRUE(found.left_out.empty());
   EXPECT_LT(glm::distance(found.camera.focal_px, kWebcam.focal_px), 2.5);
   EXPECT_LT(glm::distance(found.camera.centre_px, kWebcam.centre_px), 2.0);
-  // What counts: where points fall, over the whole picture.
+  // What counts: where points fall, over the whole image.
   for (const double x : {-0.55, 0.0, 0.55})
     for (const double y : {-0.3, 0.0, 0.3})
       EXPECT_LT(
@@ -88,10 +88,10 @@ TEST(Intrinsics, RefuseSetsThatLookGoodAndAreWrong) {
   given[2].corners_px[5].x = std::nan("");
   EXPECT_THAT(refusal(given), HasSubstr("not finite"));
   given = views(12, 0.6, 0.15);
-  std::mt19937 chance(2);
+  std::mt19937 rng(2);
   std::normal_distribution<double> wild(0.0, 12.0);
   for (std::size_t i = 0; i < 6; ++i)
-    for (glm::dvec2& px : given[i].corners_px) px += glm::dvec2(wild(chance), wild(chance));
+    for (glm::dvec2& px : given[i].corners_px) px += glm::dvec2(wild(rng), wild(rng));
   EXPECT_THAT(refusal(given), HasSubstr("fit together"));
 }
 
@@ -109,7 +109,7 @@ TEST(Intrinsics, RefuseViewsInOnePartOfThePicture) {
   EXPECT_THAT(refusal(given), HasSubstr("cover"));
 }
 
-/// Real pictures: a 9 x 6 chessboard before two cameras, 640 x 480, as Debian's opencv-doc brings them.
+/// Real images: a 9 x 6 chessboard before two cameras, 640 x 480, as Debian's opencv-doc brings them.
 class OpenCvChessboards : public testing::Test {
  protected:
   static std::vector<BoardView> sightings(const std::string& side) {
@@ -117,7 +117,7 @@ class OpenCvChessboards : public testing::Test {
     for (int i = 1; i <= 14; ++i) {
       if (i == 10) continue;  // there is none
       const std::string name = side + (i < 10 ? "0" : "") + std::to_string(i) + ".jpg";
-      const BoardSighting sighting = findChessboard(readGreyPicture(kFolder + name), {9, 6});
+      const BoardDetection sighting = findChessboard(readGreyImage(kFolder + name), {9, 6});
       EXPECT_FALSE(sighting.trouble) << name << ": " << sighting.line;
       found.push_back({name, sighting.corners_px});
     }
@@ -127,7 +127,7 @@ class OpenCvChessboards : public testing::Test {
 };
 
 /// What the two lenses as they are leave over, their cameras standing still to each other.
-double stereoRms_px(const Intrinsics& left, const Intrinsics& right, const std::vector<glm::dvec2>& places_mm,
+double stereoRms_px(const Intrinsics& left, const Intrinsics& right, const std::vector<glm::dvec2>& positions_mm,
                     const std::vector<BoardView>& left_views, const std::vector<BoardView>& right_views) {
   const auto pixels = [](const std::vector<BoardView>& views) {
     std::vector<std::vector<cv::Point2f>> all;
@@ -145,7 +145,7 @@ double stereoRms_px(const Intrinsics& left, const Intrinsics& right, const std::
     return cv::Mat(cv::Vec4d(camera.k1, camera.k2, camera.p1, camera.p2), true);
   };
   std::vector<cv::Point3f> places;
-  for (const glm::dvec2& mm : places_mm) places.emplace_back(mm.x, mm.y, 0.0);
+  for (const glm::dvec2& mm : positions_mm) places.emplace_back(mm.x, mm.y, 0.0);
   cv::Mat left_K = matrix(left.camera), left_D = bent(left.camera), right_K = matrix(right.camera),
           right_D = bent(right.camera), R, t, E, F;
   return cv::stereoCalibrate(std::vector(left_views.size(), places), pixels(left_views), pixels(right_views), left_K,
@@ -156,14 +156,14 @@ double stereoRms_px(const Intrinsics& left, const Intrinsics& right, const std::
 TEST_F(OpenCvChessboards, AreAllFoundAndMakeGoodLenses) {
   if (!std::filesystem::exists(kFolder + "left01.jpg"))
     GTEST_SKIP() << "NO REAL PICTURES WERE TESTED: " << kFolder << " is missing (apt-get install opencv-doc)";
-  std::vector<glm::dvec2> places_mm;
+  std::vector<glm::dvec2> positions_mm;
   for (int y = 0; y < 6; ++y)
-    for (int x = 0; x < 9; ++x) places_mm.emplace_back(25.0 * x, 25.0 * y);
+    for (int x = 0; x < 9; ++x) positions_mm.emplace_back(25.0 * x, 25.0 * y);
   const auto left_views = sightings("left"), right_views = sightings("right");
   ASSERT_FALSE(HasFailure());
-  const Intrinsics left = fitIntrinsics({640, 480}, places_mm, left_views);
-  const Intrinsics right = fitIntrinsics({640, 480}, places_mm, right_views);
-  const double stereo_rms_px = stereoRms_px(left, right, places_mm, left_views, right_views);
+  const Intrinsics left = fitIntrinsics({640, 480}, positions_mm, left_views);
+  const Intrinsics right = fitIntrinsics({640, 480}, positions_mm, right_views);
+  const double stereo_rms_px = stereoRms_px(left, right, positions_mm, left_views, right_views);
   std::cout << "13 pairs: left " << left.rms_px << ", right " << right.rms_px << ", stereo " << stereo_rms_px
             << " px RMS\n";
   EXPECT_TRUE(left.left_out.empty() && right.left_out.empty());

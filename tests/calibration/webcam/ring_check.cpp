@@ -9,7 +9,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "calibration/webcam/picture_matrix.h"
+#include "calibration/webcam/image_matrix.h"
 
 namespace calibration {
 namespace {
@@ -21,7 +21,7 @@ constexpr int kSectors = 72;
 constexpr double kWholeRing = 0.9;  ///< of the sectors that must hold some of it
 
 /// What is brighter than before.
-cv::Mat1f brighter(const GreyPicture& dark, const GreyPicture& bright) {
+cv::Mat1f brighter(const GreyImage& dark, const GreyImage& bright) {
   cv::Mat1f difference;
   cv::subtract(matrixOf(bright), matrixOf(dark), difference, cv::noArray(), CV_32F);
   cv::GaussianBlur(difference, difference, {3, 3}, 0.0);
@@ -95,7 +95,7 @@ std::optional<std::pair<glm::dvec2, double>> ringIn(const Blob& blob, const cv::
 
 }  // namespace
 
-RingSighting sightRing(const GreyPicture& dark, const GreyPicture& with_both) {
+RingDetection detectRing(const GreyImage& dark, const GreyImage& with_both) {
   if (dark.size_px != with_both.size_px || !isWhole(dark) || !isWhole(with_both))
     throw CalibrationError("ring check: the pictures are not of one size, take both with one camera");
   const cv::Mat1f light = brighter(dark, with_both);
@@ -107,7 +107,7 @@ RingSighting sightRing(const GreyPicture& dark, const GreyPicture& with_both) {
   cv::Mat1i labels;
   std::vector<Blob> blobs = blobsOf(light, least, labels);
   std::ranges::sort(blobs, std::ranges::greater(), [](const Blob& b) { return b.box.area(); });
-  RingSighting sighting;
+  RingDetection sighting;
   if (blobs.empty()) {
     sighting.line = "neither ring nor tip is seen: look whether the webcam faces the mirror and the tip is lit";
     return sighting;
@@ -134,7 +134,7 @@ RingSighting sightRing(const GreyPicture& dark, const GreyPicture& with_both) {
   return sighting;
 }
 
-Vector<Camera> ringOffset_mm(const CameraModel& camera, const RingSighting& sighting, double tip_ahead_mm) {
+Vector<Camera> ringOffset_mm(const CameraModel& camera, const RingDetection& sighting, double tip_ahead_mm) {
   const glm::dvec2 off = camera.undistorted(sighting.tip_px) - camera.undistorted(sighting.ring_px);
   return {{tip_ahead_mm * off.x, tip_ahead_mm * off.y, 0.0}};
 }

@@ -1,4 +1,4 @@
-// The proof that is seen: the screen shows a thin ring at the place where the calibrated arm says its tip is, a webcam
+// The verification that is seen: the screen shows a thin ring at the place where the calibrated arm says its tip is, a webcam
 // at the eye sees ring and lit tip, and how far apart they are, at the tip's depth, is the error of the whole chain:
 // arm, mirror, screen, glass. Frames W and C, mm, px. It sees no error along its own line of sight. Source:
 // reference/calibration 4.4.
@@ -14,18 +14,18 @@ namespace calibration {
 
 inline constexpr int kRingPlaces = 8;
 inline constexpr double kRingLimit_mm = 1.0;  ///< of the mean; reference/calibration 4.4
-struct RingSighting {
+struct RingDetection {
   std::string line;  ///< why nothing can be said, and what to do; empty: both were found
   glm::dvec2 ring_px{0.0}, tip_px{0.0};
   double ring_radius_px = 0.0;
 };
 
-/// Ring and tip in one picture, against one with the screen dark and no tip. Throws CalibrationError for pictures of
+/// Ring and tip in one image, against one with the screen dark and no tip. Throws CalibrationError for images of
 /// different sizes.
-RingSighting sightRing(const GreyPicture& dark, const GreyPicture& with_both);
+RingDetection detectRing(const GreyImage& dark, const GreyImage& with_both);
 
 /// From the ring's middle to the tip, across the line of sight, where the tip is so far ahead of the camera.
-Vector<Camera> ringOffset_mm(const CameraModel& camera, const RingSighting& sighting, double tip_ahead_mm);
+Vector<Camera> ringOffset_mm(const CameraModel& camera, const RingDetection& sighting, double tip_ahead_mm);
 
 struct RingCheck {
   double mean_mm = 0.0, max_mm = 0.0;

@@ -1,5 +1,5 @@
 // Pictures of a lit screen as a camera in front of it takes them: rays through the lens to the plane z = 0 of W.
-// For tests of what finds patterns in pictures; slow and obvious.
+// For tests of what finds patterns in images; slow and obvious.
 #pragma once
 
 #include <algorithm>
@@ -11,17 +11,17 @@
 
 namespace calibration {
 
-/// The virtual screen: its picture's middle is the origin of W, x right, y up.
+/// The virtual screen: its image's middle is the origin of W, x right, y up.
 struct ShownScreen {
   glm::ivec2 size_px{1920, 1080};
   glm::dvec2 size_mm{531.0, 298.7};
 
-  Point<World> place_W(const glm::dvec2& px) const {
+  Point<World> position_W(const glm::dvec2& px) const {
     return {{((px.x + 0.5) / size_px.x - 0.5) * size_mm.x, (0.5 - (px.y + 0.5) / size_px.y) * size_mm.y, 0.0}};
   }
 };
 
-/// From `eye_W`, towards `at_W`, its picture turned by `roll_rad`.
+/// From `eye_W`, towards `at_W`, its image turned by `roll_rad`.
 inline Pose<World, Camera> cameraTowards(const glm::dvec3& eye_W, const glm::dvec3& at_W, double roll_rad = 0.0) {
   const glm::dvec3 ahead = glm::normalize(at_W - eye_W);
   const glm::dvec3 right = glm::normalize(glm::cross(ahead, glm::dvec3(0, 1, 0)));
@@ -41,8 +41,8 @@ class SeenScreen {
   }
 
   /// `around`: grey of what is not the screen.
-  GreyPicture of(const GreyPicture& shown, int around = 8) const {
-    GreyPicture seen{size_px_, {}};
+  GreyImage of(const GreyImage& shown, int around = 8) const {
+    GreyImage seen{size_px_, {}};
     for (std::size_t i = 0; i < places_.size(); i += kRays) {
       double sum = 0.0;
       for (std::size_t ray = 0; ray < kRays; ++ray) sum += greyAt(shown, places_[i + ray], around);
@@ -64,7 +64,7 @@ class SeenScreen {
             (0.5 - p_W.y / screen_.size_mm.y) * screen_.size_px.y - 0.5};
   }
 
-  static double greyAt(const GreyPicture& shown, const glm::vec2& px, int around) {
+  static double greyAt(const GreyImage& shown, const glm::vec2& px, int around) {
     const glm::vec2 corner = glm::floor(px), part = px - corner;
     double sum = 0.0;
     for (int k = 0; k < 4; ++k) {
@@ -81,32 +81,32 @@ class SeenScreen {
   std::vector<glm::vec2> places_;
 };
 
-inline GreyPicture flipped(const GreyPicture& picture, bool left_right, bool top_bottom) {
-  GreyPicture out = picture;
-  const glm::ivec2 size = picture.size_px;
+inline GreyImage flipped(const GreyImage& image, bool left_right, bool top_bottom) {
+  GreyImage out = image;
+  const glm::ivec2 size = image.size_px;
   for (int y = 0; y < size.y; ++y)
     for (int x = 0; x < size.x; ++x)
-      out.grey[static_cast<std::size_t>(y * size.x + x)] = picture.grey[static_cast<std::size_t>(
+      out.grey[static_cast<std::size_t>(y * size.x + x)] = image.grey[static_cast<std::size_t>(
           (top_bottom ? size.y - 1 - y : y) * size.x + (left_right ? size.x - 1 - x : x))];
   return out;
 }
 
-inline GreyPicture noisy(const GreyPicture& picture, double sigma, unsigned seed) {
-  std::mt19937 chance(seed);
+inline GreyImage noisy(const GreyImage& image, double sigma, unsigned seed) {
+  std::mt19937 rng(seed);
   std::normal_distribution<double> noise(0.0, sigma);
-  GreyPicture out = picture;
+  GreyImage out = image;
   for (std::uint8_t& grey : out.grey)
-    grey = static_cast<std::uint8_t>(std::clamp(std::lround(grey + noise(chance)), 0L, 255L));
+    grey = static_cast<std::uint8_t>(std::clamp(std::lround(grey + noise(rng)), 0L, 255L));
   return out;
 }
 
 /// Three passes of a mean over `width` (odd) px across and down: nearly a Gaussian; `down` 1: moved sideways alone.
-inline GreyPicture blurred(const GreyPicture& picture, int across, int down) {
-  GreyPicture out = picture;
-  const glm::ivec2 size = picture.size_px;
+inline GreyImage blurred(const GreyImage& image, int across, int down) {
+  GreyImage out = image;
+  const glm::ivec2 size = image.size_px;
   for (int pass = 0; pass < 6; ++pass) {
     const int width = pass % 2 == 0 ? across : down;
-    const GreyPicture in = out;
+    const GreyImage in = out;
     for (int y = 0; y < size.y; ++y)
       for (int x = 0; x < size.x; ++x) {
         int sum = 0;

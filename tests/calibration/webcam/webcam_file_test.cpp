@@ -15,21 +15,21 @@ namespace {
 
 using testing::HasSubstr;
 
-WebcamObservations someObservations() {
-  std::mt19937 chance(9);
+WebcamObservationFile someObservations() {
+  std::mt19937 rng(9);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
-  WebcamObservations all;
+  WebcamObservationFile all;
   all.serial = "60623200012", all.mount = "left";
   all.sights.camera = {{1280, 720}, {931.25, 930.5}, {640.125, 361.0}, 0.05, -0.1, 0.001, -0.002};
   all.sights.tip_noise_px = 0.75;
   for (int p = 0; p < 3; ++p) {
     CameraPosition position;
     for (int i = 0; i < 12; ++i)
-      position.screen.push_back({{{200 * any(chance), 100 * any(chance), 0}}, {640 + 600 * any(chance), 300}});
+      position.screen.push_back({{{200 * any(rng), 100 * any(rng), 0}}, {640 + 600 * any(rng), 300}});
     for (int i = 0; i < 5; ++i)
       position.tips.push_back({i,
-                               {any(chance), any(chance), any(chance), any(chance), any(chance), any(chance)},
-                               {640 + 300 * any(chance), 360 + 300 * any(chance)}});
+                               {any(rng), any(rng), any(rng), any(rng), any(rng), any(rng)},
+                               {640 + 300 * any(rng), 360 + 300 * any(rng)}});
     all.sights.positions.push_back(position);
   }
   return all;
@@ -53,12 +53,12 @@ class WebcamFile : public testing::Test {
 
   std::string path_ =
       testing::TempDir() + "webcam_file_" + testing::UnitTest::GetInstance()->current_test_info()->name() + ".yaml";
-  const WebcamObservations all_ = someObservations();
+  const WebcamObservationFile all_ = someObservations();
   const std::string text_ = webcamFileText(all_);
 };
 
 TEST_F(WebcamFile, ReadsBackEveryBitOfWhatItWrites) {
-  const WebcamObservations back = readWebcamFile(write(text_));
+  const WebcamObservationFile back = readWebcamFile(write(text_));
   EXPECT_EQ(back.serial, all_.serial);
   EXPECT_EQ(back.mount, all_.mount);
   EXPECT_EQ(back.sights.device_model, "omni");
@@ -71,7 +71,7 @@ TEST_F(WebcamFile, ReadsBackEveryBitOfWhatItWrites) {
     const CameraPosition &was = all_.sights.positions[p], &is = back.sights.positions[p];
     ASSERT_EQ(is.screen.size(), was.screen.size());
     for (std::size_t i = 0; i < was.screen.size(); ++i) {
-      EXPECT_EQ(is.screen[i].place_W.mm, was.screen[i].place_W.mm);
+      EXPECT_EQ(is.screen[i].position_W.mm, was.screen[i].position_W.mm);
       EXPECT_EQ(is.screen[i].camera_px, was.screen[i].camera_px);
     }
     ASSERT_EQ(is.tips.size(), was.tips.size());
@@ -104,7 +104,7 @@ TEST_F(WebcamFile, RefusesWithTheReason) {
   EXPECT_THAT(refusal(""), HasSubstr("size"));
   EXPECT_THROW(readWebcamFile("/nonexistent.yaml"), CalibrationError);
 
-  WebcamObservations crowd = all_;
+  WebcamObservationFile crowd = all_;
   crowd.sights.positions.resize(13);
   EXPECT_THAT(refusal(webcamFileText(crowd)), HasSubstr("more than 12"));
 }
@@ -113,7 +113,7 @@ TEST_F(WebcamFile, SpoiltTextIsRefusedOrReadAsNumbers) {
   mutants::forEachMutant({text_}, 600, [&](const std::string& spoilt, std::size_t, std::uint64_t) {
     try {
       for (const CameraPosition& position : readWebcamFile(write(spoilt)).sights.positions)
-        for (const TipSight& tip : position.tips)
+        for (const TipObservation& tip : position.tips)
           for (const double angle : tip.joints_rad) EXPECT_TRUE(std::isfinite(angle));
     } catch (const CalibrationError&) {
     }

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "calibration/fit/target_plan.h"
-#include "tests/calibration/synthetic/webcam_sights.h"
+#include "tests/calibration/synthetic/synthetic_observations.h"
 #include "tests/refusal.h"
 
 namespace calibration {
@@ -19,14 +19,14 @@ using testing::HasSubstr;
 
 struct Judged {
   SyntheticRig rig;
-  WebcamSights sights;
+  WebcamObservations sights;
   std::vector<Touch> held_out;
 
   Judged(std::uint32_t seed, const WebcamCare& care, Scenario scenario = Scenario::d)
       : rig(syntheticRig(scenario, seed)) {
-    std::mt19937 chance(seed);
-    sights = webcamSights(rig, targetPlan("webcam27").value(), care, chance);
-    held_out = heldOut(rig, 200, {60, 40, 30}, chance);
+    std::mt19937 rng(seed);
+    sights = syntheticObservations(rig, targetPlan("webcam27").value(), care, rng);
+    held_out = heldOutTouches(rig, 200, {60, 40, 30}, rng);
   }
   double error_mm(const MeasuredArm& arm) const {
     double sum = 0.0;
@@ -49,8 +49,8 @@ Figures figures(std::vector<double> errors_mm) {
 Figures heldOutOf(const WebcamCare& care, ArmModel model) {
   std::vector<double> errors_mm;
   for (std::uint32_t seed = 1; seed <= 12; ++seed) {
-    const Judged judged(seed, care);
-    errors_mm.push_back(judged.error_mm(fitWebcam(judged.sights, model).arm));
+    const Judged charted(seed, care);
+    errors_mm.push_back(charted.error_mm(fitWebcam(charted.sights, model).arm));
   }
   return figures(errors_mm);
 }
@@ -74,11 +74,11 @@ TEST(WebcamFit, FindsTheTruthWhereNothingIsUncertain) {
   exact.screen_noise_px = exact.tip_noise_px = 1e-3;
   exact.focal_error = exact.centre_error_px = exact.outlier_share = 0.0;
   SyntheticRig rig = syntheticRig(Scenario::b, 5);
-  rig.habits.arm_noise_rad = rig.habits.gimbal_noise_rad = 0.0;
+  rig.technician.arm_noise_rad = rig.technician.gimbal_noise_rad = 0.0;
   rig.arm.ripple = {};
-  std::mt19937 chance(5);
-  const WebcamFit fit = fitWebcam(webcamSights(rig, targetPlan("webcam27").value(), exact, chance));
-  for (const Touch& touch : heldOut(rig, 50, {60, 40, 30}, chance))
+  std::mt19937 rng(5);
+  const WebcamFit fit = fitWebcam(syntheticObservations(rig, targetPlan("webcam27").value(), exact, rng));
+  for (const Touch& touch : heldOutTouches(rig, 50, {60, 40, 30}, rng))
     EXPECT_LT(glm::distance(fit.arm.tip_W(touch.joints_rad).mm, touch.target_W.mm), 0.03);
   EXPECT_LT(fit.tip_rms_px, 0.1);
   EXPECT_LT(fit.fre_rms_mm, 0.03);
@@ -88,28 +88,28 @@ TEST(WebcamFit, FindsTheTruthWhereNothingIsUncertain) {
 TEST(WebcamFit, IsNotMovedByTipsThatAreTakenForSomethingElse) {
   WebcamCare care = fineWebcam();
   care.outlier_share = 0.0;
-  Judged judged(4, care);
-  const WebcamFit clean = fitWebcam(judged.sights);
-  judged.sights.positions[0].tips[3].camera_px += glm::dvec2(40, -25);
-  judged.sights.positions[1].tips[20].camera_px += glm::dvec2(-300, 100);
-  judged.sights.positions[2].tips[11].camera_px += glm::dvec2(9, 12);
-  const WebcamFit wild = fitWebcam(judged.sights);
+  Judged charted(4, care);
+  const WebcamFit clean = fitWebcam(charted.sights);
+  charted.sights.positions[0].tips[3].camera_px += glm::dvec2(40, -25);
+  charted.sights.positions[1].tips[20].camera_px += glm::dvec2(-300, 100);
+  charted.sights.positions[2].tips[11].camera_px += glm::dvec2(9, 12);
+  const WebcamFit wild = fitWebcam(charted.sights);
   EXPECT_EQ(wild.outliers, clean.outliers + 3);
   EXPECT_FALSE(wild.residuals[3].used);
   EXPECT_FALSE(wild.residuals[27 + 20].used);
   EXPECT_FALSE(wild.residuals[54 + 11].used);
-  for (const Touch& touch : judged.held_out)
+  for (const Touch& touch : charted.held_out)
     EXPECT_LT(glm::distance(wild.arm.tip_W(touch.joints_rad).mm, clean.arm.tip_W(touch.joints_rad).mm), 0.3);
-  EXPECT_LT(std::abs(judged.error_mm(wild.arm) - judged.error_mm(clean.arm)), 0.05);
+  EXPECT_LT(std::abs(charted.error_mm(wild.arm) - charted.error_mm(clean.arm)), 0.05);
 }
 
 TEST(WebcamFit, SaysHowWellItForetellsPlacesNotTouched) {
   for (const WebcamCare& care : {fineWebcam(), coarseWebcam()}) {
     std::vector<double> ratios;
     for (std::uint32_t seed = 1; seed <= 9; ++seed) {
-      const Judged judged(seed, care);
-      const WebcamFit fit = fitWebcam(judged.sights);
-      ratios.push_back(fit.cv_rms_mm / judged.error_mm(fit.arm));
+      const Judged charted(seed, care);
+      const WebcamFit fit = fitWebcam(charted.sights);
+      ratios.push_back(fit.cv_rms_mm / charted.error_mm(fit.arm));
     }
     EXPECT_GT(figures(ratios).median_mm, 0.9);
     EXPECT_LT(figures(ratios).median_mm, 1.4);
@@ -118,10 +118,10 @@ TEST(WebcamFit, SaysHowWellItForetellsPlacesNotTouched) {
 }
 
 TEST(WebcamFit, FindsWhereTheCameraStood) {
-  const Judged judged(2, fineWebcam());
-  const WebcamFit fit = fitWebcam(judged.sights);
+  const Judged charted(2, fineWebcam());
+  const WebcamFit fit = fitWebcam(charted.sights);
   ASSERT_EQ(fit.X_WC.size(), 3U);
-  EXPECT_NEAR(fit.base_deg, 50.0, 8.0);
+  EXPECT_NEAR(fit.baseline_deg, 50.0, 8.0);
   EXPECT_LT(fit.screen_rms_px, 0.5);
   EXPECT_LT(fit.tip_rms_px, 2.0);
   EXPECT_EQ(fit.used + fit.outliers, 81);
@@ -138,24 +138,24 @@ TEST(WebcamFit, FindsWhereTheCameraStood) {
 TEST(WebcamFit, IsFarBetterThanOnePositionAlone) {
   std::vector<double> alone, together;
   for (std::uint32_t seed = 1; seed <= 9; ++seed) {
-    const Judged judged(seed, fineWebcam());
-    alone.push_back(judged.error_mm(armFromOnePosition(judged.sights, 0)));
-    together.push_back(judged.error_mm(fitWebcam(judged.sights).arm));
+    const Judged charted(seed, fineWebcam());
+    alone.push_back(charted.error_mm(armFromOnePosition(charted.sights, 0)));
+    together.push_back(charted.error_mm(fitWebcam(charted.sights).arm));
   }
   std::cout << "one position alone, arm as its model: " << figures(alone).median_mm << " mm RMS\n";
   EXPECT_GT(figures(alone).median_mm, 1.0);
   EXPECT_LT(figures(together).median_mm, 0.25 * figures(alone).median_mm);
 }
 
-std::string refusal(const WebcamSights& sights) {
+std::string refusal(const WebcamObservations& sights) {
   return tests::refusalOf<CalibrationError>([&] { fitWebcam(sights); });
 }
 
 TEST(WebcamFit, RefusesWhatWouldLookGoodAndBeWrong) {
-  const WebcamSights good = Judged(3, fineWebcam()).sights;
+  const WebcamObservations good = Judged(3, fineWebcam()).sights;
   EXPECT_EQ(refusal(good), "accepted");
 
-  WebcamSights sights = good;
+  WebcamObservations sights = good;
   sights.positions.resize(1);
   EXPECT_THAT(refusal(sights), HasSubstr("one camera position"));
 
@@ -182,17 +182,17 @@ TEST(WebcamFit, RefusesWhatWouldLookGoodAndBeWrong) {
 
 TEST(WebcamFit, RefusesAMirroredScreen) {
   for (std::uint32_t seed = 1; seed <= 6; ++seed) {
-    WebcamSights sights = Judged(seed, fineWebcam()).sights;
+    WebcamObservations sights = Judged(seed, fineWebcam()).sights;
     for (CameraPosition& position : sights.positions)
-      for (PlaceSight& sight : position.screen) sight.place_W.mm.x = -sight.place_W.mm.x;
+      for (ScreenObservation& sight : position.screen) sight.position_W.mm.x = -sight.position_W.mm.x;
     EXPECT_THAT(refusal(sights), HasSubstr("mirrored"));
   }
 }
 
 TEST(WebcamFit, RefusesTouchesThatBelongToOtherPictures) {
-  WebcamSights sights = Judged(6, fineWebcam()).sights;
+  WebcamObservations sights = Judged(6, fineWebcam()).sights;
   for (CameraPosition& position : sights.positions) {
-    std::vector<TipSight>& tips = position.tips;
+    std::vector<TipObservation>& tips = position.tips;
     for (std::size_t i = 0; i + 1 < tips.size(); ++i)
       std::swap(tips[i].camera_px, tips[(i * 7 + 3) % tips.size()].camera_px);
   }
@@ -200,14 +200,14 @@ TEST(WebcamFit, RefusesTouchesThatBelongToOtherPictures) {
 }
 
 TEST(WebcamFit, WarnsOfFewTipsOneTiltAndNarrowViews) {
-  const auto kinds = [](const WebcamSights& sights) {
+  const auto kinds = [](const WebcamObservations& sights) {
     std::vector<FitWarning::Kind> found;
     for (const FitWarning& warning : fitWebcam(sights).warnings) found.push_back(warning.kind);
     return found;
   };
-  WebcamSights sights = Judged(3, fineWebcam()).sights;
+  WebcamObservations sights = Judged(3, fineWebcam()).sights;
   for (CameraPosition& position : sights.positions) {
-    std::vector<TipSight> some;
+    std::vector<TipObservation> some;
     for (std::size_t i = 0; i < position.tips.size(); i += 3) some.push_back(position.tips[i]);
     position.tips = some;
   }

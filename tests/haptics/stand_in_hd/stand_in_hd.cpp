@@ -23,7 +23,7 @@ void copyOut(const std::array<std::atomic<double>, 3>& from, double* to) {
 void transformOut(double* to) {
   const auto& door = machine().door();
   for (std::size_t i = 0; i < 16; ++i) to[i] = door.script.turn[i];
-  for (std::size_t i = 0; i < 3; ++i) to[12 + i] = door.seen.place_mm[i];
+  for (std::size_t i = 0; i < 3; ++i) to[12 + i] = door.seen.position_mm[i];
 }
 
 }  // namespace
@@ -92,7 +92,7 @@ void hdGetDoublev(hd::Enum property, double* value) {
   constexpr double kWorkspace_mm[] = {-160.0, -70.0, -58.0, 160.0, 200.0, 90.0};
   switch (property) {
     case hd::kCurrentPosition:
-      copyOut(door.seen.place_mm, value);
+      copyOut(door.seen.position_mm, value);
       if (door.script.garbage) value[1] = std::numeric_limits<double>::quiet_NaN();
       break;
     case hd::kCurrentVelocity:

@@ -41,7 +41,7 @@ struct Seen {
   std::atomic<bool> motors_on{false}, hanging{false};
   std::array<std::atomic<double>, 3> force_N{};      ///< of the last frame
   std::array<std::atomic<double>, 3> strongest_N{};  ///< of all frames, by length
-  std::array<std::atomic<double>, 3> place_mm{};
+  std::array<std::atomic<double>, 3> position_mm{};
   std::vector<std::string> events;      ///< calls in their order; frames only where the force begins and ends
   std::vector<std::string> violations;  ///< of the rules of the interface
 };

@@ -40,7 +40,7 @@ void Machine::reset() {
   s.heat = 0.1;
   const std::array<double, 3> inkwell_mm{0.0, -65.5, -88.1};
   for (std::size_t i = 0; i < 3; ++i) {
-    s.hand_mm[i] = door_.seen.place_mm[i] = hand_mm_[i] = inkwell_mm[i];
+    s.hand_mm[i] = door_.seen.position_mm[i] = hand_mm_[i] = inkwell_mm[i];
     s.joints_rad[i] = s.gimbal_rad[i] = door_.seen.force_N[i] = door_.seen.strongest_N[i] = 0.0;
     force_N_[i] = velocity_mm_per_s_[i] = 0.0;
   }
@@ -260,10 +260,10 @@ void Machine::move() {
   for (std::size_t i = 0; i < 3; ++i) {
     hand_mm_[i] += std::clamp(s.hand_mm[i] - hand_mm_[i], -kHandStep_mm, kHandStep_mm);
     const double force_N = seen.motors_on ? seen.force_N[i].load() : 0.0;
-    const double pull_N = kGrip_N_per_mm * (hand_mm_[i] - seen.place_mm[i]);
+    const double pull_N = kGrip_N_per_mm * (hand_mm_[i] - seen.position_mm[i]);
     const double momentum = mass_t * velocity_mm_per_s_[i] + dt_s * (force_N + pull_N);
     velocity_mm_per_s_[i] = momentum / (mass_t + dt_s * kFriction_Ns_per_mm);
-    seen.place_mm[i] = seen.place_mm[i] + dt_s * velocity_mm_per_s_[i];
+    seen.position_mm[i] = seen.position_mm[i] + dt_s * velocity_mm_per_s_[i];
   }
 }
 

@@ -20,7 +20,7 @@ std::vector<FalconWeighing> readings(double gain) {
 TEST(FalconForceScale, IsAGuessHeldToATenthOfTheMotorsUntilWeighed) {
   const FalconForceScale guess;
   EXPECT_FALSE(guess.isWeighed());
-  EXPECT_EQ(falconMostWord(guess), 409);
+  EXPECT_EQ(falconMaxWord(guess), 409);
   EXPECT_DOUBLE_EQ(falconPeakForce_N(guess), 1.0);
   EXPECT_DOUBLE_EQ(falconPeakTorque_Nmm(guess), 40.9);
   EXPECT_THAT(falconForceAdvice(guess), testing::HasSubstr("weigh it"));
@@ -30,7 +30,7 @@ TEST(FalconForceScale, AWeighingMakesAskedAndShownTheSame) {
   // It showed 0.8 of what was asked, so every torque needs 1/0.8 of the words.
   const FalconForceScale scale = weighed({}, readings(0.8));
   EXPECT_NEAR(scale.words_per_Nmm, 12.5, 1e-12);
-  EXPECT_DOUBLE_EQ(scale.heaviest_N, 0.8);
+  EXPECT_DOUBLE_EQ(scale.max_weighed_N, 0.8);
   EXPECT_DOUBLE_EQ(falconPeakForce_N(scale), 2.4);
   EXPECT_EQ(falconForceAdvice(scale), "");
   // Weighed again with it, nothing changes.
@@ -39,7 +39,7 @@ TEST(FalconForceScale, AWeighingMakesAskedAndShownTheSame) {
 
 TEST(FalconForceScale, NeverAllowsMoreThanItsMakerDoes) {
   FalconForceScale scale;
-  scale.heaviest_N = 5.0;
+  scale.max_weighed_N = 5.0;
   EXPECT_DOUBLE_EQ(falconPeakForce_N(scale), 8.0);
 }
 

@@ -42,7 +42,7 @@ class SteadyHand final : public DeviceServo {
  public:
   explicit SteadyHand(const DeviceCapabilities& can) : gate_(can) {}
 
-  MotorCommand tick(const HandleState& state, const Beat&) noexcept override {
+  MotorCommand tick(const HandleState& state, const TickTiming&) noexcept override {
     states_.publish(state);
     allocations.store(allocation_count::onThisThread());
     ticks.fetch_add(1);
@@ -246,7 +246,7 @@ TEST_F(FalconOnTheBus, HoldsASpringTowardsAPlaceInAClosedLoop) {
   class Spring final : public DeviceServo {
    public:
     explicit Spring(const DeviceCapabilities& can) : gate_(can) {}
-    MotorCommand tick(const HandleState& state, const Beat&) noexcept override {
+    MotorCommand tick(const HandleState& state, const TickTiming&) noexcept override {
       const glm::dvec3 away = state.X_DH.translation_mm - glm::dvec3(10.0, 5.0, 130.0);
       off_mm.store(glm::length(away));
       return gate_.admit({{-0.3 * away}, {}}, state.jacobian_D_mm, true);
@@ -463,7 +463,7 @@ TEST_F(FalconOnTheBus, MotorsOffLetsGoAtOnceAndALaterCommandIsObeyed) {
 class HangingServo final : public DeviceServo {
  public:
   explicit HangingServo(const DeviceCapabilities& can) : gate_(can) {}
-  MotorCommand tick(const HandleState& state, const Beat&) noexcept override {
+  MotorCommand tick(const HandleState& state, const TickTiming&) noexcept override {
     while (hangs.load()) std::this_thread::sleep_for(1ms);
     return gate_.admit({{{0.0, 0.0, 0.3}}, {}}, state.jacobian_D_mm, true);
   }

@@ -29,7 +29,7 @@ Description SimulatedWooden::description() {
 
 void SimulatedWooden::holdAtHome() { hold({0.0, 0.0, 0.5 * kPi}); }
 
-glm::dvec3 SimulatedWooden::place_mm() const {
+glm::dvec3 SimulatedWooden::position_mm() const {
   const double a = joints_rad_.x, b = joints_rad_.y, c = joints_rad_.z;
   return {std::cos(a) * (205.0 * std::sin(b) + 245.0 * std::sin(c)) - 220.0,
           std::sin(a) * (205.0 * std::sin(b) + 245.0 * std::sin(c)),

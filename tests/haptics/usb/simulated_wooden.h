@@ -29,7 +29,7 @@ class SimulatedWooden : public Device {
   void swing(double rad_per_s) { swing_rad_per_s_ = rad_per_s; }
   void letGo() { held_ = false; }
   void pressSwitch() { switch_pressed_ = true; }
-  glm::dvec3 place_mm() const;
+  glm::dvec3 position_mm() const;
 
   // How it is built and behaves. The powers-up offset: what its counters think of where the arm was.
   glm::dvec3 motor_Nmm_per_A{321.0, 60.3, 60.3};

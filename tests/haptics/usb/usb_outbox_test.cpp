@@ -50,10 +50,10 @@ TEST(UsbOutbox, NoPushGoesOutAfterARestNorAfterTheLastReport) {
       if (dice(25) == 0) box.rest(), owes_rest = true;
       if (dice(700) == 0 && !asked_last) {
         last_deadline_ns = now_ns + 5'000'000;
-        box.askLast(written({kLast}), last_deadline_ns);
+        box.requestLast(written({kLast}), last_deadline_ns);
         asked_last = true;
       }
-      if (asked_last) box.askLast(written({kPush}), now_ns + 1'000'000'000);  // who asks later is not heard
+      if (asked_last) box.requestLast(written({kPush}), now_ns + 1'000'000'000);  // who asks later is not heard
       const bool was_over = box.isOver();
       const auto report = box.next(now_ns);
       if (!report) continue;
@@ -96,7 +96,7 @@ TEST(UsbOutbox, ASilenceEndsInARestThatIsSentUntilTaken) {
   ASSERT_EQ(read(*box.next(2'000)).kind, kPush);
   box.taken();
   EXPECT_FALSE(box.next(kPatience_ns + 999));
-  EXPECT_EQ(box.nextLook_ns(-1), kPatience_ns + 1'000);
+  EXPECT_EQ(box.nextCheck_ns(-1), kPatience_ns + 1'000);
   for (int refused = 0; refused < 3; ++refused) {
     ASSERT_EQ(read(*box.next(kPatience_ns + 1'000)).kind, kRest);
     box.notTaken();
@@ -104,7 +104,7 @@ TEST(UsbOutbox, ASilenceEndsInARestThatIsSentUntilTaken) {
   ASSERT_EQ(read(*box.next(kPatience_ns + 1'000)).kind, kRest);
   box.taken();
   EXPECT_FALSE(box.next(10 * kPatience_ns));
-  EXPECT_EQ(box.nextLook_ns(-1), -1);
+  EXPECT_EQ(box.nextCheck_ns(-1), -1);
 }
 
 TEST(UsbOutbox, HoldsWithThreads) {
@@ -136,8 +136,8 @@ TEST(UsbOutbox, HoldsWithThreads) {
   EXPECT_EQ(stale, 0u);
   EXPECT_GT(pushes, 0u);
   // Two ask at once; one of them is heard, and nothing after it.
-  std::thread asks([&] { box.askLast(written({kLast}), 1); });
-  box.askLast(written({kLast}), 1);
+  std::thread asks([&] { box.requestLast(written({kLast}), 1); });
+  box.requestLast(written({kLast}), 1);
   asks.join();
   std::vector<Note> after;
   for (int i = 0; i < 100'000; ++i)

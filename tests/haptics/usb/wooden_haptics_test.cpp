@@ -48,7 +48,7 @@ class Pusher final : public DeviceServo {
     device_.stop();
   }
 
-  MotorCommand tick(const HandleState& state, const Beat&) noexcept override {
+  MotorCommand tick(const HandleState& state, const TickTiming&) noexcept override {
     for (hangs.store(false); hang.load(); std::this_thread::sleep_for(1ms)) hangs.store(true);
     seen.publish(state);
     ticks.fetch_add(1);
@@ -85,7 +85,7 @@ class WoodenOnTheBus : public testing::Test {
   WoodenSettings obedient() {
     WoodenSettings settings;
     settings.tell = [this](const std::string& words) {
-      EXPECT_EQ(words, kWoodenHomingWords);
+      EXPECT_EQ(words, kWoodenHomingPrompt);
       bus->locked([&] {
         unit.holdAtHome();
         unit.pressSwitch();
@@ -156,7 +156,7 @@ TEST_F(WoodenOnTheBus, IsWokenHomedAndThenKnowsWhereItIs) {
   for (const glm::dvec3& joints :
        {glm::dvec3(0.0, 0.35, 0.65), glm::dvec3(0.4, 0.2, 0.9), glm::dvec3(-0.3, 0.6, 0.5)}) {
     bus->locked([&] { unit.hold(joints); });
-    const glm::dvec3 there_mm = now([&] { return unit.place_mm(); });
+    const glm::dvec3 there_mm = now([&] { return unit.position_mm(); });
     EXPECT_TRUE(soon([&] {
       const HandleState& state = idle.seen.read();
       // A count of each encoder is at most 0.08 mm.
@@ -200,14 +200,14 @@ TEST_F(WoodenOnTheBus, PushesTheWayItIsTold) {
       wish.publish(glm::dvec3(0.0));
       ASSERT_TRUE(soon([&] { return !pushes(); }));
       holdInTheMiddle();
-      const glm::dvec3 from_mm = now([&] { return unit.place_mm(); });
+      const glm::dvec3 from_mm = now([&] { return unit.position_mm(); });
       ASSERT_TRUE(soon([&] { return glm::distance(pusher.seen.read().X_DH.translation_mm, from_mm) < 0.1; }));
       wish.publish(force_N);
       bus->locked([&] { unit.letGo(); });
       // By the straight way: an arm pushed wrongly may fold until it arrives after all.
       double farthest_back_mm = 0.0;
       EXPECT_TRUE(soon([&] {
-        const double moved_mm = glm::dot(now([&] { return unit.place_mm(); }) - from_mm, force_N);
+        const double moved_mm = glm::dot(now([&] { return unit.position_mm(); }) - from_mm, force_N);
         farthest_back_mm = std::min(farthest_back_mm, moved_mm);
         return moved_mm > 5.0;
       }));
@@ -218,11 +218,11 @@ TEST_F(WoodenOnTheBus, PushesTheWayItIsTold) {
 TEST_F(WoodenOnTheBus, ASpringBringsTheHandleToItsEnd) {
   WoodenHaptics wooden(obedient());
   holdInTheMiddle();
-  const glm::dvec3 target_mm = now([&] { return unit.place_mm(); }) + glm::dvec3(15.0, -20.0, 25.0);
+  const glm::dvec3 target_mm = now([&] { return unit.position_mm(); }) + glm::dvec3(15.0, -20.0, 25.0);
   Pusher spring(wooden, [&](const HandleState& state) { return 0.05 * (target_mm - state.X_DH.translation_mm); });
   wooden.start(spring, 1000.0);
   bus->locked([&] { unit.letGo(); });
-  EXPECT_TRUE(soon([&] { return glm::distance(now([&] { return unit.place_mm(); }), target_mm) < 0.5; }));
+  EXPECT_TRUE(soon([&] { return glm::distance(now([&] { return unit.position_mm(); }), target_mm) < 0.5; }));
 }
 
 TEST_F(WoodenOnTheBus, ATickAllocatesNothing) {
@@ -296,7 +296,7 @@ TEST_F(WoodenOnTheBus, SaysWhyItCanNotBegin) {
     time.pass(30s);
     return HomingAnswer::wait;
   };
-  EXPECT_THAT(reasonOf([&] { WoodenHaptics wooden(impatient); }), testing::HasSubstr(kWoodenHomingWords));
+  EXPECT_THAT(reasonOf([&] { WoodenHaptics wooden(impatient); }), testing::HasSubstr(kWoodenHomingPrompt));
   EXPECT_EQ(told, 2);
   EXPECT_EQ(now([&] { return unit.largest_mA; }), 0);
 }
@@ -417,7 +417,7 @@ TEST_F(WoodenOnTheBus, OutlivesHaltsShortReportsAndGarbage) {
   ASSERT_TRUE(soon([&] { return pusher.ticks.load() > then + 300 && wooden.counters().short_reports > 10; }));
   EXPECT_LE(now([&] { return unit.largest_mA; }), 2000);
   bus->locked([&] { unit.spoil = {}; });
-  const glm::dvec3 there_mm = now([&] { return unit.place_mm(); });
+  const glm::dvec3 there_mm = now([&] { return unit.position_mm(); });
   EXPECT_TRUE(soon([&] {
     const HandleState& state = pusher.seen.read();
     return state.healthy && glm::distance(state.X_DH.translation_mm, there_mm) < 0.1;

@@ -5,7 +5,7 @@
 
 #include <cstdio>
 
-#include "assets/instrument/instrument.h"
+#include "assets/instrument/handpiece.h"
 #include "render/display/stereo_layout.h"
 #include "render/gpu/offscreen_context.h"
 #include "tests/render/drawn_scene.h"
@@ -50,8 +50,8 @@ struct Difference {
 Difference between(FrameRenderer& a, FrameRenderer& b, const Frame& frame, Eye eye) {
   a.renderEye(frame, eye);
   b.renderEye(frame, eye);
-  const Picture p = a.readEye(eye), q = b.readEye(eye);
-  const DistancePicture s = a.readDistance(eye), t = b.readDistance(eye);
+  const Image p = a.readEye(eye), q = b.readEye(eye);
+  const DistanceImage s = a.readDistance(eye), t = b.readDistance(eye);
   EXPECT_EQ(p.w, q.w);
   EXPECT_EQ(p.h, q.h);
   Difference d;
@@ -104,7 +104,7 @@ TEST_F(CpuScene, DrawsMeshesAndTheirMeetingWithTheVolumeAsTheShadersDo) {
   open();
   both([](FrameRenderer& r) {
     r.setFace({{ballMesh({-8, -6, 6}, 8.0f, {0.8f, 0.6f, 0.5f, 1.0f})}});
-    r.setGum({{ballMesh({6, -6, -4}, 5.0f, {0.7f, 0.3f, 0.3f, 1.0f})}});
+    r.setGingiva({{ballMesh({6, -6, -4}, 5.0f, {0.7f, 0.3f, 0.3f, 1.0f})}});
     r.setInstrument(assets::surgicalHandpiece({}));
   });
   Frame f = frame();
@@ -139,7 +139,7 @@ TEST_F(CpuScene, DrawsTranslucentBoneAsTheShaderDoes) {
 
 TEST_F(CpuScene, LeavesOutShadeAndShadowAsTheShadersDo) {
   open();
-  both([](FrameRenderer& r) { r.setGum({{ballMesh({6, -6, -4}, 5.0f, {0.7f, 0.3f, 0.3f, 1.0f})}}); });
+  both([](FrameRenderer& r) { r.setGingiva({{ballMesh({6, -6, -4}, 5.0f, {0.7f, 0.3f, 0.3f, 1.0f})}}); });
   Frame f = frame();
   f.quality.ambient_occlusion = false;
   EXPECT_LE(between(*gl_, *cpu_, f, Eye::cyclopean).worst, 2);
@@ -153,7 +153,7 @@ TEST_F(CpuScene, DrawsTheSamePixelsAgainAtEdges) {
   both([](FrameRenderer& r) { r.setFace({{ballMesh({-8, -6, 6}, 8.0f, {0.8f, 0.6f, 0.5f, 1.0f})}}); });
   Frame f = frame();
   both([&](FrameRenderer& r) { r.renderEye(f, Eye::cyclopean); });
-  const Picture plain = cpu_->readEye(Eye::cyclopean);
+  const Image plain = cpu_->readEye(Eye::cyclopean);
   f.quality.antialias = Antialias::edges;
   const Difference d = between(*gl_, *cpu_, f, Eye::cyclopean);
   EXPECT_LE(d.beyond, 4) << "a sample on a silhouette may hit here and miss there";
@@ -170,7 +170,7 @@ TEST_F(CpuScene, ShowsGuidesAsTheShadersDo) {
   both([&](FrameRenderer& r) {
     r.setGuides(guides);
     r.setFace({{ballMesh({-12, -9, 0}, 4.0f, {0.8f, 0.6f, 0.5f, 1.0f})}});
-    r.setGum({{ballMesh({6, -6, -4}, 5.0f, {0.7f, 0.3f, 0.3f, 1.0f})}});
+    r.setGingiva({{ballMesh({6, -6, -4}, 5.0f, {0.7f, 0.3f, 0.3f, 1.0f})}});
     r.setInstrument(assets::surgicalHandpiece({}));
   });
   Frame f = frame();
@@ -190,7 +190,7 @@ TEST_F(CpuScene, KeepsWhatAStillEyeMeetsAndForgetsItWhenAnythingStillChanges) {
   open();
   const auto dress = [](FrameRenderer& r) {
     r.setFace({{ballMesh({-8, -6, 6}, 8.0f, {0.8f, 0.6f, 0.5f, 1.0f})}});
-    r.setGum({{ballMesh({6, -6, -4}, 5.0f, {0.7f, 0.3f, 0.3f, 1.0f})}});
+    r.setGingiva({{ballMesh({6, -6, -4}, 5.0f, {0.7f, 0.3f, 0.3f, 1.0f})}});
     r.setInstrument(assets::surgicalHandpiece({}));
   };
   dress(*cpu_);
@@ -212,7 +212,7 @@ TEST_F(CpuScene, KeepsWhatAStillEyeMeetsAndForgetsItWhenAnythingStillChanges) {
   expectFresh("window opened");
   f.site_P = {{-6, 0, 2}};
   expectFresh("window moved");
-  f.layers.gum = false;
+  f.layers.gingiva = false;
   expectFresh("gum away");
   f.layers.face_opacity = 0.5f;
   expectFresh("face faded");
@@ -225,7 +225,7 @@ TEST_F(CpuScene, KeepsWhatAStillEyeMeetsAndForgetsItWhenAnythingStillChanges) {
 }
 
 TEST_F(CpuScene, DrawsTheSameBitsWithAnyNumberOfThreads) {
-  Picture one;
+  Image one;
   for (const std::size_t threads : {1u, 2u}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     FrameRenderer renderer(ct_.grid, ct_.solid, ct_.label, {.backend = Backend::cpu});
@@ -233,9 +233,9 @@ TEST_F(CpuScene, DrawsTheSameBitsWithAnyNumberOfThreads) {
     Frame f = frame();
     f.quality.antialias = Antialias::edges;
     renderer.renderEye(f, Eye::left);
-    const Picture picture = renderer.readEye(Eye::left);
-    if (threads == 1) one = picture;
-    EXPECT_EQ(pixelsThatDiffer(one, picture), 0u) << threads;
+    const Image image = renderer.readEye(Eye::left);
+    if (threads == 1) one = image;
+    EXPECT_EQ(pixelsThatDiffer(one, image), 0u) << threads;
   }
 }
 
@@ -244,13 +244,13 @@ TEST_F(CpuScene, MeshAndVolumeMeetAlongTheAnalyticCircle) {
   const Ball bone{{-4, 0, 0}, 8.0}, mesh{{2, -4, 3}, 7.0};
   ct_ = ballVolume(smallGrid(glm::ivec3(96), 0.35), {bone});
   open();
-  cpu_->setGum({{ballMesh(glm::vec3(mesh.centre_P_mm), 7.0f, {0.1f, 0.9f, 0.1f, 1.0f}, 200)}});
+  cpu_->setGingiva({{ballMesh(glm::vec3(mesh.centre_P_mm), 7.0f, {0.1f, 0.9f, 0.1f, 1.0f}, 200)}});
   const Frame f = frame();
   cpu_->renderEye(f, Eye::cyclopean);
-  const Picture picture = cpu_->readEye(Eye::cyclopean);
+  const Image image = cpu_->readEye(Eye::cyclopean);
   const EyeView view = eyeView(f.rig, Eye::cyclopean);
   const glm::dvec3 eye = eye_P_mm(f.rig, view);
-  // Which is nearer, 1 mesh, 2 bone, 0 neither; wherever a pixel and its eight neighbours agree, the picture must too.
+  // Which is nearer, 1 mesh, 2 bone, 0 neither; wherever a pixel and its eight neighbours agree, the image must too.
   const auto expected = [&](int x, int y) {
     const glm::dvec3 d = rayDirection_P(f.rig, view, x, y);
     const auto m = distanceToBall_mm(eye, d, mesh), b = distanceToBall_mm(eye, d, bone);
@@ -264,7 +264,7 @@ TEST_F(CpuScene, MeshAndVolumeMeetAlongTheAnalyticCircle) {
       for (int n = 0; n < 9; ++n) inner = inner && expected(x + n % 3 - 1, y + n / 3 - 1) == kind;
       if (!inner) continue;
       const std::size_t p = 4 * static_cast<std::size_t>(y * kPx.x + x);
-      const bool green = picture.rgba[p + 1] > picture.rgba[p] + 30;
+      const bool green = image.rgba[p + 1] > image.rgba[p] + 30;
       EXPECT_EQ(green, kind == 1) << x << ", " << y;
       ++checked;
       ++kinds[kind];
@@ -278,7 +278,7 @@ TEST_F(CpuScene, LaysTranslucentGumOverBoneAsTheShadersDo) {
   // A closed ball around bone and a faded face through it: up to four layers a ray, in any order of triangles.
   open();
   both([](FrameRenderer& r) {
-    r.setGum({{ballMesh({-4, 0, 0}, 9.0f, {0.7f, 0.3f, 0.3f, 0.5f})}});
+    r.setGingiva({{ballMesh({-4, 0, 0}, 9.0f, {0.7f, 0.3f, 0.3f, 0.5f})}});
     r.setFace({{ballMesh({2, -4, 2}, 7.0f, {0.8f, 0.6f, 0.5f, 1.0f})}});
   });
   Frame f = frame();
@@ -318,7 +318,7 @@ TEST_F(CpuScene, ComposesEveryDisplayAsTheOutputPassDoes) {
     f.eyes_swapped = mode == DisplayMode::checkerboard;
     both([&](FrameRenderer& r) { r.render(f); });
     for (int output = 0; output < outputCount(mode); ++output) {
-      const Picture a = gl_->readPicture(output), b = cpu_->readPicture(output);
+      const Image a = gl_->readImage(output), b = cpu_->readImage(output);
       ASSERT_EQ(a.w, b.w);
       ASSERT_EQ(a.h, b.h);
       EXPECT_LE(pixelsThatDiffer(a, b, 2), 12u) << static_cast<int>(mode);
@@ -329,7 +329,7 @@ TEST_F(CpuScene, ComposesEveryDisplayAsTheOutputPassDoes) {
 TEST_F(CpuScene, ShowsACarvedBrickInTheNextFrame) {
   open();
   cpu_->renderEye(frame(), Eye::cyclopean);
-  const Picture before = cpu_->readEye(Eye::cyclopean);
+  const Image before = cpu_->readEye(Eye::cyclopean);
   // A bite out of the middle of the nearer ball.
   assets::CtVolume carved = ct_;
   const glm::ivec3 brick(3, 2, 4);

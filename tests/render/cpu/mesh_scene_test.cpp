@@ -49,8 +49,8 @@ struct Met {
 };
 
 void findFirst(const MeshScene& scene, const RayBatch& batch, MeshHits& hits) {
-  scene.stillHits(batch, hits);
-  scene.addMovingHits(batch, hits);
+  scene.staticHits(batch, hits);
+  scene.addDynamicHits(batch, hits);
 }
 
 Met first(const MeshScene& scene, const RayBatch& batch) {
@@ -64,7 +64,7 @@ Met first(const MeshScene& scene, const RayBatch& batch) {
 
 MeshPoints layersOf(const MeshScene& scene, const RayBatch& batch, float limit_mm = 1e6f) {
   MeshPoints points;
-  const std::vector<float> limit(RayBatch::kMost, limit_mm);
+  const std::vector<float> limit(RayBatch::kMaxRays, limit_mm);
   scene.layers(batch, limit.data(), points);
   return points;
 }
@@ -89,12 +89,12 @@ TEST(MeshScene, MeetsNothingWhenItIsEmpty) {
 
 TEST(MeshScene, GivesDistanceColourAndWhichSideIsSeen) {
   MeshScene scene;
-  scene.setModel(Model::gum, {{sheet(0.0f)}});
+  scene.setModel(Model::gingiva, {{sheet(0.0f)}});
   const Met front = first(scene, rays({0, 1, 50}, {{0, 0, -1}}));
   ASSERT_EQ(front.points.count, 1);
   EXPECT_FLOAT_EQ(front.distance_mm[0], 50.0f);
   EXPECT_EQ(front.points.faces_eye[0], 1);
-  EXPECT_EQ(front.points.finish[0], FINISH_GUM);
+  EXPECT_EQ(front.points.finish[0], FINISH_GINGIVA);
   EXPECT_FLOAT_EQ(front.points.g[0], 0.25f);
   const Met back = first(scene, rays({0, 1, -30}, {{0, 0, 1}}));
   ASSERT_EQ(back.points.count, 1);
@@ -128,7 +128,7 @@ TEST(MeshScene, FindsTheFirstOfManyTrianglesAsAnExhaustiveSearchDoes) {
                                    a + glm::vec3(small(engine), small(engine), small(engine))));
   }
   MeshScene scene;
-  scene.setModel(Model::gum, model);
+  scene.setModel(Model::gingiva, model);
   int hits = 0;
   std::vector<glm::vec3> directions;
   const glm::vec3 from{3, 2, 60};
@@ -211,11 +211,11 @@ TEST(MeshScene, MovesTheInstrumentAndTurnsItsBur) {
 
 TEST(MeshScene, MovesTheSecondInstrumentWithoutForgettingWhatIsStill) {
   MeshScene scene;
-  scene.setModel(Model::gum, {{sheet(0.0f)}});
+  scene.setModel(Model::gingiva, {{sheet(0.0f)}});
   scene.setModel(Model::instrument, {{sheet(10.0f)}});
   scene.setModel(Model::second_instrument, {{sheet(20.0f)}});
   Frame frame;
-  const std::uint64_t revision = scene.stillRevision();
+  const std::uint64_t revision = scene.staticRevision();
   const auto distance = [&] {
     scene.place(placementsIn(frame));
     return first(scene, rays({0, 1, 50}, {{0, 0, -1}})).distance_mm[0];
@@ -231,7 +231,7 @@ TEST(MeshScene, MovesTheSecondInstrumentWithoutForgettingWhatIsStill) {
   EXPECT_FLOAT_EQ(distance(), 45.0f);
   frame.X_PO.translation_mm = {40, 0, 0};
   EXPECT_FLOAT_EQ(distance(), 50.0f) << "aside";
-  EXPECT_EQ(scene.stillRevision(), revision);
+  EXPECT_EQ(scene.staticRevision(), revision);
   scene.setModel(Model::second_instrument, {});
   EXPECT_EQ(first(scene, rays({40, 1, 50}, {{0, 0, -1}})).points.count, 0);
 }
@@ -247,7 +247,7 @@ TEST(MeshScene, CollectsLayersFromBackToFrontAsASlowSortDoes) {
     ++expected[-(100.0f - z)];
   }
   MeshScene scene;
-  scene.setModel(Model::gum, model);
+  scene.setModel(Model::gingiva, model);
   ASSERT_TRUE(scene.hasTransparent());
   const MeshPoints met = layersOf(scene, rays({0, 1, 100}, {{0, 0, -1}, {0, 1, 0}, {0, 0, -1}}));
   ASSERT_EQ(met.count, 80);
@@ -296,7 +296,7 @@ TEST(MeshScene, LooksUpOnlyWhatNothingHides) {
 TEST(MeshScene, ReplacesAndRemovesModels) {
   MeshScene scene;
   scene.setModel(Model::face, {{sheet(0.0f)}});
-  scene.setModel(Model::gum, {{sheet(5.0f)}});
+  scene.setModel(Model::gingiva, {{sheet(5.0f)}});
   scene.setModel(Model::face, {{sheet(20.0f), sheet(10.0f, 0.5f)}});
   const RayBatch batch = rays({0, 1, 100}, {{0, 0, -1}});
   EXPECT_FLOAT_EQ(first(scene, batch).distance_mm[0], 80.0f);

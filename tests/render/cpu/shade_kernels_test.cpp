@@ -102,10 +102,10 @@ TEST(ShadeKernels, LightCreepsRoundSkinAndNotRoundSteel) {
 
 TEST(ShadeKernels, TurnTheNormalOfAnInsideAndDimIt) {
   for (const InstructionSet set : sets()) {
-    MeshPoints inside = place(glm::vec3(0.5f), 0.8f, FINISH_GUM, {0, 0, -1});
+    MeshPoints inside = place(glm::vec3(0.5f), 0.8f, FINISH_GINGIVA, {0, 0, -1});
     inside.faces_eye[0] = 0;
     const glm::dvec3 dim = ofTheLamp({0, 0, 1}, inside, set);
-    const glm::dvec3 bright = ofTheLamp({0, 0, 1}, place(glm::vec3(0.5f), 0.8f, FINISH_GUM), set);
+    const glm::dvec3 bright = ofTheLamp({0, 0, 1}, place(glm::vec3(0.5f), 0.8f, FINISH_GINGIVA), set);
     EXPECT_NEAR(dim.g, INSIDE_LAMP * bright.g, 1e-5);
   }
 }

@@ -48,14 +48,14 @@ Scene lumps(unsigned seed, glm::ivec3 size = {53, 41, 46}) {
   return scene;
 }
 
-/// A picture's tile of rays, 16 x 16, from an eye towards a place.
+/// A image's tile of rays, 16 x 16, from an eye towards a place.
 RayBatch tile(glm::dvec3 eye, glm::dvec3 look_at, double spread) {
   RayBatch rays;
   const glm::dvec3 forward = glm::normalize(look_at - eye);
   const glm::dvec3 right =
       glm::normalize(glm::cross(forward, std::abs(forward.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0)));
   const glm::dvec3 up = glm::cross(right, forward);
-  for (int n = 0; n < RayBatch::kMost; ++n) {
+  for (int n = 0; n < RayBatch::kMaxRays; ++n) {
     const double x = (n % 16 - 7.5) / 8.0 * spread, y = (n / 16 - 7.5) / 8.0 * spread;
     const glm::vec3 d = glm::vec3(glm::normalize(forward + x * right + y * up));
     const auto ray = static_cast<std::size_t>(n);
@@ -63,14 +63,14 @@ RayBatch tile(glm::dvec3 eye, glm::dvec3 look_at, double spread) {
     rays.y[ray] = d.y;
     rays.z[ray] = d.z;
   }
-  rays.count = RayBatch::kMost;
+  rays.count = RayBatch::kMaxRays;
   return rays;
 }
 
 struct View {
   CastSettings settings;
   RayBatch rays;
-  std::array<float, RayBatch::kMost> limit_mm{};
+  std::array<float, RayBatch::kMaxRays> limit_mm{};
 };
 
 /// From anywhere, inside too; some along an axis, some past the volume.
@@ -129,7 +129,7 @@ VolumePoints throughOf(const SolidCells& cells, const Scene& scene, const View& 
   VolumePoints points;
   CastSettings settings = view.settings;
   settings.skip_empty_space = skip;
-  castThrough(cells, settings, scene.label, opacityTable(0.5f, 0.9f, kPerMm, settings.step * settings.spacing_mm),
+  castTranslucent(cells, settings, scene.label, opacityTable(0.5f, 0.9f, kPerMm, settings.step * settings.spacing_mm),
               view.rays, view.limit_mm.data(), points, sums, set);
   return points;
 }
@@ -263,7 +263,7 @@ TEST(VolumeCast, AgreesWithTheSlowTwinInDouble) {
     for (int n = 0; n < 8; ++n) {
       const View view = randomView(random, scene.solid.layout().size);
       for (const InstructionSet set : setsHere()) {
-        std::array<double, RayBatch::kMost> length;
+        std::array<double, RayBatch::kMaxRays> length;
         length.fill(-1.0);
         const VolumePoints points = surfaceOf(cells, view, true, set);
         for (std::size_t p = 0; p < static_cast<std::size_t>(points.count); ++p)
@@ -290,7 +290,7 @@ TEST(VolumeCast, GathersTheOpacityOfTheSlowTwin) {
     for (const InstructionSet set : setsHere()) {
       RaySums sums;
       throughOf(cells, scene, view, sums, true, set);
-      for (std::size_t r = 0; r < RayBatch::kMost; ++r, ++rays) {
+      for (std::size_t r = 0; r < RayBatch::kMaxRays; ++r, ++rays) {
         const double exact = twin.opacity(view, r), ours = static_cast<double>(sums.opacity[r]);
         seen += exact > 0.1 ? 1 : 0;
         // A sample halfway between two labels may take either.
@@ -313,7 +313,7 @@ TEST(VolumeCast, InstructionSetsAgreeWithinRounding) {
     const VolumePoints plain = surfaceOf(cells, view, true, InstructionSet::portable);
     for (const InstructionSet set : setsHere()) {
       const VolumePoints fast = surfaceOf(cells, view, true, set);
-      std::array<float, RayBatch::kMost> length{};
+      std::array<float, RayBatch::kMaxRays> length{};
       for (std::size_t p = 0; p < static_cast<std::size_t>(plain.count); ++p)
         length[static_cast<std::size_t>(plain.ray[p])] = plain.length[p];
       apart += std::abs(fast.count - plain.count);
@@ -440,7 +440,7 @@ TEST(VolumeCast, WeightsOfARayAddUpToItsOpacity) {
     const View view = randomView(random, scene.solid.layout().size);
     RaySums sums;
     const VolumePoints points = throughOf(cells, scene, view, sums);
-    std::array<double, RayBatch::kMost> total{}, last{};
+    std::array<double, RayBatch::kMaxRays> total{}, last{};
     for (std::size_t p = 0; p < static_cast<std::size_t>(points.count); ++p) {
       const auto ray = static_cast<std::size_t>(points.ray[p]);
       total[ray] += static_cast<double>(points.weight[p]);

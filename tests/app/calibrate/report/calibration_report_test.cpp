@@ -29,23 +29,23 @@ std::string wordsIn(std::string html) {
 
 TEST(CalibrationReport, BeginsWithVerdictAndTheOneSentence) {
   RigRecord record = exampleRecord();
-  record.proof->worst = "worst: back left low, 0.9 mm";
+  record.verification->worst = "worst: back left low, 0.9 mm";
   const std::string html = page(record);
   EXPECT_LT(html.find("Green: use it."), html.find("<table"));
   EXPECT_LT(html.find("Worst: back left low, 0.9 mm."), html.find("<table"));
-  record.proof->verdict = Verdict::amber;
+  record.verification->verdict = Verdict::amber;
   EXPECT_THAT(page(record), HasSubstr("Amber: usable"));
-  record.proof->verdict = Verdict::red;
+  record.verification->verdict = Verdict::red;
   EXPECT_THAT(page(record), HasSubstr("Red: locked"));
-  record.proof.reset();
+  record.verification.reset();
   EXPECT_THAT(page(record), HasSubstr("Not proven"));
 }
 
 TEST(CalibrationReport, HoldsTheRecordsFigures) {
   const RigRecord record = exampleRecord();
   const std::string html = page(record);
-  for (const double mm : {record.proof->errors.mean_mm, record.proof->errors.rms_mm, record.proof->errors.p95_mm,
-                          record.proof->errors.max_mm, record.procedure->cv_rms_mm, record.procedure->fre_rms_mm})
+  for (const double mm : {record.verification->errors.mean_mm, record.verification->errors.rms_mm, record.verification->errors.p95_mm,
+                          record.verification->errors.max_mm, record.procedure->cv_rms_mm, record.procedure->fre_rms_mm})
     EXPECT_THAT(html, HasSubstr(">" + fixedText(mm, 2) + " mm<"));
   EXPECT_THAT(html, HasSubstr("plausibility, no accuracy"));
   EXPECT_THAT(html, HasSubstr("\u2264 0.50 mm"));  // the limit it was judged by
@@ -57,9 +57,9 @@ TEST(CalibrationReport, HoldsTheRecordsFigures) {
 
 TEST(CalibrationReport, SaysOfEachFigureHowItStands) {
   RigRecord record = exampleRecord();
-  const calibration::ProofLimit limit = calibration::limitsOf(record.proof->kind).max;
+  const calibration::VerificationLimit limit = calibration::limitsOf(record.verification->kind).max;
   const auto largestIs = [&](double mm) {
-    record.proof->errors.max_mm = mm;
+    record.verification->errors.max_mm = mm;
     const std::string html = page(record);
     const std::size_t row = html.find("&emsp;largest");
     return html.substr(row, html.find("</tr>", row) - row);
@@ -97,7 +97,7 @@ TEST(CalibrationReport, ReadsTextAsText) {
   record.provenance = {evil, evil, evil, evil, evil, evil, 0.0, evil};
   record.rig.device = calibration::RigDevice{evil, evil, evil, evil};
   record.procedure->method = evil;
-  record.proof->checked_utc = record.proof->worst = record.hash = evil;
+  record.verification->checked_utc = record.verification->worst = record.hash = evil;
   const std::string html = reportHtml(record, {}, evil);
   EXPECT_EQ(html.find("<script"), std::string::npos);
   EXPECT_EQ(whatIsWrongWith(html), "");
@@ -106,7 +106,7 @@ TEST(CalibrationReport, ReadsTextAsText) {
 TEST(CalibrationReport, IsWholeWhateverIsMissing) {
   EXPECT_EQ(whatIsWrongWith(reportHtml({}, {}, "")), "");
   RigRecord record = exampleRecord();
-  record.proof->residuals.clear();
+  record.verification->residuals.clear();
   record.residuals.clear();
   EXPECT_EQ(whatIsWrongWith(page(record)), "");
   record = exampleRecord();
@@ -114,7 +114,7 @@ TEST(CalibrationReport, IsWholeWhateverIsMissing) {
   EXPECT_EQ(whatIsWrongWith(page(record)), "");
   record = exampleRecord();
   for (auto& one : record.residuals) one.used = false;
-  for (auto& one : record.proof->residuals) one.used = false;
+  for (auto& one : record.verification->residuals) one.used = false;
   EXPECT_EQ(whatIsWrongWith(page(record)), "");
   for (std::size_t n = 0; n < 12; ++n) {
     auto history = exampleHistory();

@@ -1,0 +1,167 @@
+#include "app/controls/active_command.h"
+
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "app/options/command_settings.h"
+#include "app/text/message.h"
+#include "app/text/usage_error.h"
+
+namespace app {
+namespace {
+
+void refuse(const std::string& where, const std::string& why) { printMessage(where.empty() ? why : where + ": " + why); }
+
+/// What hand, foot and operator decide, neither file nor procedure.
+void keepSwitches(const haptics::Command& from, haptics::Command& to) {
+  to.irrigating = from.irrigating;
+  to.undo_serial = from.undo_serial;
+  to.rearm = from.rearm;
+}
+
+}  // namespace
+
+ActiveCommand::ActiveCommand(const haptics::Command& first, std::vector<haptics::Tool> other_tools,
+                         const std::string& settings_file, double device_damping_Ns_per_mm, double rate_Hz)
+    : command_(first),
+      tray_(std::move(other_tools)),
+      device_damping_Ns_per_mm_(device_damping_Ns_per_mm),
+      rate_Hz_(rate_Hz) {
+  tray_.insert(tray_.begin(), first.tool);
+  if (!settings_file.empty()) {
+    file_.emplace(settings_file, first, [this](const haptics::Command& c) { check(c); });
+    command_ = file_->first();
+  }
+  check(command_);
+}
+
+/// Refuses what the servo or the device would execute only in part.
+void ActiveCommand::check(const haptics::Command& command) const {
+  refuseBeyondServoLimits(command);
+  refuseUnlessStable(command, device_damping_Ns_per_mm_, rate_Hz_);
+}
+
+bool ActiveCommand::execute(const ControlRequest& request, const std::string& where) {
+  switch (request.control) {
+    case Control::law:
+      return switchLaw(haptics::kLaws[static_cast<std::size_t>(request.value)].kind, where), true;
+    case Control::drill:
+      return switchDrill(request.value), true;
+    case Control::tool:
+      return changeTool(request.value, where), true;
+    case Control::irrigation:
+      return switchIrrigation(request.value), true;
+    case Control::undo:
+      return undoStroke(where), true;
+    case Control::arm:
+      return rearm(where), true;
+    default:
+      return false;
+  }
+}
+
+void ActiveCommand::switchDrill(int on) {
+  const bool wanted = on != kNoValue ? on != 0 : !command_.drill_enabled;
+  if (wanted == command_.drill_enabled) return;
+  command_.drill_enabled = wanted;
+  workstation_->change(command_);
+  report("drill", wanted ? "drill unlocked" : "drill locked");
+}
+
+void ActiveCommand::switchIrrigation(int on) {
+  const bool wanted = on != kNoValue ? on != 0 : !command_.irrigating;
+  if (wanted == command_.irrigating) return;
+  command_.irrigating = wanted;
+  workstation_->change(command_);
+  report("irrigation", command_.irrigating ? "irrigation on" : "irrigation off: the bur turns dry");
+}
+
+void ActiveCommand::undoStroke(const std::string& where) {
+  const unsigned strokes = workstation_->newestTick().strokes;
+  if (strokes == 0) return refuse(where, "there is no stroke to take back");
+  ++command_.undo_serial;
+  workstation_->change(command_);
+  report("undo", "the newest of " + std::to_string(strokes) + (strokes == 1 ? " stroke" : " strokes") + " is taken back");
+}
+
+void ActiveCommand::rearm(const std::string& where) {
+  if (const haptics::Tick tick = workstation_->newestTick(); tick.dt_s > 0.0 && tick.state == haptics::SafetyState::off)
+    return refuse(where, "the motors are off for good, end the rehearsal and start it again");
+  ++command_.rearm;
+  workstation_->change(command_);
+  report("armed again", "the fault is lifted, if its cause is over");
+}
+
+void ActiveCommand::switchLaw(haptics::LawKind law, const std::string& where) {
+  haptics::Command wanted = command_;
+  wanted.law.kind = law;
+  try {
+    change(loweredUntilStable(wanted, device_damping_Ns_per_mm_, rate_Hz_));
+  } catch (const UsageError& error) {
+    refuse(where, std::string(error.what()) + "; the old law stays");
+  }
+}
+
+void ActiveCommand::changeTool(int to, const std::string& where) {
+  if (tray_.size() < 2 && to == kNoValue)
+    return refuse(where, "there is one tool only, name more with --tool to change between them");
+  const std::size_t next = to != kNoValue ? static_cast<std::size_t>(to) : (in_hand_ + 1) % tray_.size();
+  if (next >= tray_.size())
+    return refuse(where, "there is no tool " + std::to_string(next + 1) + ", the tray holds " +
+                             std::to_string(tray_.size()) + ", name more with --tool");
+  haptics::Command wanted = command_;
+  wanted.tool = tray_[next];
+  try {
+    refuseUnlessAdmitted(wanted);
+    change(loweredUntilStable(wanted, device_damping_Ns_per_mm_, rate_Hz_));
+    in_hand_ = next;
+  } catch (const UsageError& error) {
+    refuse(where, std::string(error.what()) + "; the old tool stays in the hand");
+  }
+}
+
+void ActiveCommand::pollSettingsFile(LiveParameters::Clock::time_point now) {
+  if (!file_) return;
+  const auto reading = file_->look(now);
+  if (!reading) return;
+  if (reading->command) {
+    haptics::Command wanted = *reading->command;
+    wanted.drill_enabled = command_.drill_enabled;
+    keepSwitches(command_, wanted);
+    change(wanted);
+  } else {
+    printMessage(reading->trouble);
+    workstation_->note("parameters", reading->trouble);
+  }
+}
+
+void ActiveCommand::follow(const haptics::Command& command) {
+  haptics::Command wanted = command;
+  keepSwitches(command_, wanted);
+  put(wanted);
+}
+
+/// In force and recorded.
+void ActiveCommand::put(const haptics::Command& wanted) {
+  tool_changed_ = tool_changed_ || !(command_.tool == wanted.tool);
+  command_ = wanted;
+  workstation_->change(command_);
+}
+
+/// The same, and every difference logged.
+void ActiveCommand::change(const haptics::Command& wanted) {
+  const std::vector<std::string> changes = changesBetween(command_, wanted);
+  if (changes.empty()) return;
+  put(wanted);
+  for (const std::string& line : changes) report("parameters", line);
+}
+
+void ActiveCommand::report(const std::string& kind, const std::string& line) {
+  printMessage(fmt::format("at {:.3f} s {}", workstation_->newestTick().t_s, line));
+  workstation_->note(kind, line);
+}
+
+bool ActiveCommand::takeToolChange() { return std::exchange(tool_changed_, false); }
+
+}  // namespace app

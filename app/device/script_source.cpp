@@ -1,0 +1,61 @@
+#include "app/device/pose_sources.h"
+#include "app/device/phantom_work_cycle.h"
+#include "app/device/practice_device.h"
+#include "app/text/usage_error.h"
+#include "haptics/device/simulated/scripted_device.h"
+
+namespace app {
+namespace {
+
+/// What a hand in numbers cuts on this patient.
+const assets::PlannedCut& cutFor(const PoseSourceContext& at) {
+  if (!at.cut)
+    throw UsageError("--device: no bone of this patient can be reached by a script, use --device replay:SESSION");
+  return *at.cut;
+}
+
+/// So that the handpiece does not hide the site.
+haptics::CuttingMotion mannerFor(const PoseSourceContext& at) {
+  return {.shaft_P = glm::conjugate(at.rig.X_WP.rotation) * shaftDirection_W()};
+}
+
+}  // namespace
+
+PoseSource openScript(const std::string&, const PoseSourceContext& at) {
+  PoseSource hand;
+  auto scripted = std::make_unique<haptics::ScriptedDevice>(cutFor(at), mannerFor(at));
+  hand.duration_s = scripted->duration_s();
+  hand.device = std::move(scripted);
+  hand.name = "scripted hand";
+  return hand;
+}
+
+PoseSource openSimulated(const std::string& model, const PoseSourceContext& at) {
+  PoseSource hand;
+  const haptics::PhantomMechanics& mechanics = *haptics::findSimulatedPhantom(model.empty() ? "omni" : model);
+  const haptics::WorkCycle round = workCycleFor(mechanics, cutFor(at), mannerFor(at), at.rig);
+  hand.duration_s = round.duration_s();
+  hand.X_PD = at.rig.X_WP.inverse() * at.rig.X_WD;
+  hand.device = std::make_unique<haptics::SimulatedPhantom>(mechanics, [round](double t_s) { return round.at(t_s); });
+  hand.name = "simulated " + std::string(mechanics.name);
+  return hand;
+}
+
+PoseSource openPractice(const std::string& unit, const PoseSourceContext& at) {
+  PoseSource hand;
+  const calibration::SyntheticRig truth = practiceRig("practice:" + unit).value();
+  const haptics::PhantomMechanics& mechanics = *haptics::findSimulatedPhantom(truth.nominal.device->model);
+  calibration::Rig true_rig = at.rig;
+  true_rig.X_WD = truth.X_WD;
+  const glm::dvec3 tip_H_mm = truth.arm.truth.tip_H_mm;
+  const haptics::WorkCycle round = workCycleFor(mechanics, cutFor(at), mannerFor(at), true_rig, tip_H_mm);
+  hand.duration_s = round.duration_s();
+  hand.device =
+      std::make_unique<haptics::SimulatedPhantom>(mechanics, handleScript(round, tip_H_mm), haptics::Grip{}, 1,
+                                                  haptics::PhantomUnit{truth.nominal.device->serial, truth.arm});
+  hand.name = "practice " + std::string(mechanics.name) + ", " + truth.nominal.device->serial;
+  standAsMeasured(hand, at.rig);
+  return hand;
+}
+
+}  // namespace app

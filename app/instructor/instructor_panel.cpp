@@ -1,0 +1,335 @@
+#include "app/instructor/instructor_panel.h"
+
+#include <fmt/core.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+#include "app/device/trip_reporter.h"
+#include "app/options/picture_layers.h"
+#include "assets/tissue.h"
+#include "haptics/contact/law_parameters.h"
+#include "render/quality_ladder.h"
+
+namespace app {
+namespace {
+
+using Requests = std::vector<ControlRequest>;
+
+constexpr int kPanel_px = 420, kMargin_px = 16, kHeader_px = 52, kKeys_px = 118;
+constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+constexpr const char* kBoldFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf";
+constexpr float kText_px = 16.0f, kSmall_px = 13.0f, kLarge_px = 26.0f;
+
+const ImVec4 kInk{0.91f, 0.92f, 0.94f, 1.0f}, kQuiet{0.60f, 0.64f, 0.70f, 1.0f}, kGood{0.42f, 0.80f, 0.55f, 1.0f},
+    kWarn{0.98f, 0.73f, 0.28f, 1.0f}, kBad{0.95f, 0.38f, 0.35f, 1.0f}, kAccent{0.36f, 0.66f, 0.95f, 1.0f};
+
+// In the order they are loaded.
+enum FontAt { text_font, small_font, large_font, heading_font };
+
+/// The built-in font stands in for all where the file is missing.
+ImFont* font(FontAt at) {
+  const ImVector<ImFont*>& fonts = ImGui::GetIO().Fonts->Fonts;
+  return fonts[std::min(static_cast<int>(at), fonts.Size - 1)];
+}
+
+void textIn(FontAt at, const ImVec4& colour, const std::string& text) {
+  ImGui::PushFont(font(at));
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopStyleColor();
+  ImGui::PopFont();
+}
+
+void heading(const char* text) {
+  ImGui::Dummy({0.0f, 5.0f});
+  textIn(heading_font, kAccent, text);
+  ImGui::Separator();
+}
+
+/// A name on the left, its value on the right.
+void row(const char* name, const std::string& value, const ImVec4& colour = kInk) {
+  textIn(text_font, kQuiet, name);
+  ImGui::SameLine();
+  const float width = ImGui::CalcTextSize(value.c_str()).x;
+  ImGui::SetCursorPosX(std::max(ImGui::GetCursorPosX(), ImGui::GetWindowContentRegionMax().x - width));
+  textIn(text_font, colour, value);
+}
+
+void bar(double share, const ImVec4& colour) {
+  ImGui::PushStyleColor(ImGuiCol_PlotHistogram, colour);
+  ImGui::ProgressBar(static_cast<float>(std::clamp(share, 0.0, 1.0)), {-1.0f, 6.0f}, "");
+  ImGui::PopStyleColor();
+}
+
+void drawState(const RehearsalStatus& s) {
+  const bool locked = !s.command.drill_enabled;
+  textIn(large_font,
+         s.tick.drilling ? kWarn
+         : locked        ? kQuiet
+                         : kInk,
+         s.tick.drilling         ? "Drilling"
+         : locked                ? "Drill locked"
+         : s.tick.depth_mm > 0.0 ? "Touching"
+                                 : "Free");
+  const int t_s = static_cast<int>(s.tick.t_s);
+  ImGui::SameLine();
+  const std::string time = fmt::format("{}:{:02}", t_s / 60, t_s % 60);
+  ImGui::PushFont(font(large_font));
+  const float width = ImGui::CalcTextSize(time.c_str()).x;
+  ImGui::PopFont();
+  ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - width);
+  textIn(large_font, kInk, time);
+  if (s.recording == RecordingState::running)
+    textIn(text_font, kBad, "● recording " + std::filesystem::path(s.recording_path).filename().string());
+  else if (s.recording == RecordingState::ended_early)
+    textIn(text_font, kWarn, "recording ended early");
+  else
+    textIn(text_font, kQuiet, "not recorded");
+  if (!s.to_instructor.empty()) textIn(text_font, kAccent, s.to_instructor);
+  if (haptics::has(s.tick.faults, haptics::Fault::bad_pose | haptics::Fault::device | haptics::Fault::bad_force))
+    textIn(text_font, kBad, "hand not believed: force is let down");
+}
+
+void drawTool(const RehearsalStatus& s) {
+  heading("Tool");
+  const double force_N = glm::length(s.tick.commanded_force_P_N.xyz), peak_N = s.command.safety.peak_force_N;
+  row("Bur", s.bur + " mm");
+  row("Force on the hand", fmt::format("{:.2f} of {:.1f} N", force_N, peak_N), force_N > 0.95 * peak_N ? kWarn : kInk);
+  bar(force_N / peak_N, force_N > 0.95 * peak_N ? kWarn : kAccent);
+  row("Depth in the surface", fmt::format("{:.2f} mm", s.tick.depth_mm));
+  row("Touches", s.tick.depth_mm > 0.0 ? std::string(assets::kTissues[s.tick.contact_tissue].name) : "–");
+}
+
+void drawLaw(const RehearsalStatus& s, Requests& requests) {
+  heading("Force law");
+  const haptics::LawName& now = haptics::kLaws[static_cast<std::size_t>(s.command.law.kind)];
+  ImGui::SetNextItemWidth(-1.0f);
+  if (ImGui::BeginCombo("##law", fmt::format("{}     {}", now.key.data(), now.formula.data()).c_str())) {
+    for (const haptics::LawName& one : haptics::kLaws) {
+      const bool admitted = haptics::supports(one.kind, s.command.tool.head.kind);
+      const std::string label = fmt::format("{}     {}", one.key.data(), one.formula.data());
+      if (ImGui::Selectable(label.c_str(), one.kind == now.kind, admitted ? 0 : ImGuiSelectableFlags_Disabled))
+        requests.push_back({Control::law, static_cast<int>(one.kind)});
+    }
+    ImGui::EndCombo();
+  }
+  // Tissues are many and seldom looked at: folded.
+  const auto draw_parameters = [&](bool of_tissues) {
+    for (const haptics::LawParameter& p : haptics::lawParameters()) {
+      if (p.law && *p.law != s.command.law.kind) continue;
+      if ((p.unit.empty() && p.key.starts_with("stiffness_")) != of_tissues) continue;
+      row(std::string(p.key).c_str(), fmt::format("{:.4g} {}", p.of(s.command.law), p.unit));
+      if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(p.meaning).c_str());
+    }
+  };
+  draw_parameters(false);
+  if (ImGui::TreeNode("Stiffness of tissues")) {
+    draw_parameters(true);
+    ImGui::TreePop();
+  }
+}
+
+void drawPictureFigures(const RehearsalStatus& s) {
+  heading("Picture");
+  const bool late = s.drawing_ms > s.budget_ms;
+  row("Display", s.display + fmt::format(", {:.0f} Hz", s.refresh_Hz));
+  row("Drawn in", fmt::format("{:.1f} of {:.1f} ms", s.drawing_ms, s.budget_ms), late ? kWarn : kGood);
+  bar(s.drawing_ms / s.budget_ms, late ? kWarn : kGood);
+  row("Pictures", fmt::format("{:.0f} a second", s.pictures_per_s));
+  row("Motion to photon", fmt::format("{:.0f} ms", s.latency.total_ms()));
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip(
+        "pose to swap %.1f ms, measured\nservo %.1f + blank %.1f + scan-out %.1f ms, added\n"
+        "without the device's transport and the panel's response",
+        s.latency.pose_to_swap_ms, s.latency.servo_ms, s.latency.blank_ms, s.latency.scan_out_ms);
+  row("Quality", s.quality + (s.quality_is_held ? ", held" : ""), s.quality_step > 3 ? kWarn : kInk);
+}
+
+void drawServo(const RehearsalStatus& s) {
+  heading("Servo");
+  const double budget_us = 1e6 / s.servo_rate_Hz;
+  const ImVec4 health = s.servo.work_p99_us > 0.8 * budget_us   ? kBad
+                        : s.servo.work_p99_us > 0.5 * budget_us ? kWarn
+                                                                : kGood;
+  row("Work, 99 % below", fmt::format("{:.0f} of {:.0f} µs", s.servo.work_p99_us, budget_us), health);
+  bar(s.servo.work_p99_us / budget_us, health);
+  const double missed_share =
+      static_cast<double>(s.servo.missed) / static_cast<double>(std::max<std::uint64_t>(1, s.servo.ticks));
+  row("Deadlines missed", fmt::format("{} of {}", s.servo.missed, s.servo.ticks), missed_share > 0.01 ? kWarn : kInk);
+  row("Wakes late by", fmt::format("{:.0f} µs, 99 % below {:.0f}", s.servo.late_p50_us, s.servo.late_p99_us));
+  row("Real-time priority", s.servo.grants.priority ? "granted" : "not granted",
+      s.servo.grants.priority ? kGood : kWarn);
+}
+
+void drawCalibration(const RehearsalStatus& s) {
+  const std::string& verdict = s.calibration.verdict;
+  row("Calibration",
+      verdict.empty() ? calibrationText(s.calibration) : fmt::format("{}, {:.2f} mm", verdict, s.calibration.rms_mm),
+      verdict == "green"            ? kGood
+      : verdict == "red"            ? kBad
+      : s.calibration.rig == "none" ? kQuiet
+                                    : kWarn);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", calibrationText(s.calibration).c_str());
+  // The first says which rig it is; what follows wants somebody to do something.
+  ImGui::PushFont(font(small_font));
+  ImGui::PushStyleColor(ImGuiCol_Text, kWarn);
+  for (const std::string& remark : s.remarks)
+    if (!remark.ends_with(calibrationText(s.calibration))) ImGui::TextWrapped("%s", remark.c_str());
+  ImGui::PopStyleColor();
+  ImGui::PopFont();
+}
+
+void drawHand(const RehearsalStatus& s, Requests& requests) {
+  heading("Hand");
+  using haptics::SafetyState;
+  const SafetyState state = s.tick.state;
+  const haptics::StateText& words = haptics::textOf(state);
+  row("Device", s.device);
+  drawCalibration(s);
+  row("State", std::string(words.key),
+      state == SafetyState::active                               ? kGood
+      : state == SafetyState::fault || state == SafetyState::off ? kBad
+                                                                 : kWarn);
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip("%s\n%s", std::string(words.what).c_str(), std::string(words.next).c_str());
+  if (s.tick.hand.motor_heat > 0.0) {
+    const ImVec4 warmth = s.tick.hand.motor_heat > 0.8 ? kBad : s.tick.hand.motor_heat > 0.5 ? kWarn : kGood;
+    row("Motors", fmt::format("{:.0f} % of their heat", 100.0 * s.tick.hand.motor_heat), warmth);
+  }
+  row("Safety", tripsText(s.trips));
+  const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
+  if (ImGui::Button("Stop motors", {width, 30.0f})) requests.push_back({Control::stop});
+  ImGui::SameLine();
+  ImGui::BeginDisabled(state != SafetyState::fault);
+  if (ImGui::Button("Arm again", {width, 30.0f})) requests.push_back({Control::arm});
+  ImGui::EndDisabled();
+}
+
+void drawLayers(const RehearsalStatus& s, Requests& requests) {
+  heading("Shown");
+  for (std::size_t i = 0; i < kPictureLayers.size(); ++i) {
+    if (i % 2 == 1) ImGui::SameLine(0.5f * ImGui::GetWindowContentRegionMax().x);
+    bool on = s.layers.*kPictureLayers[i].on;
+    if (ImGui::Checkbox(kPictureLayers[i].label.data(), &on)) requests.push_back({Control::layer, static_cast<int>(i)});
+  }
+  ImGui::SetNextItemWidth(-1.0f);
+  int face_percent = static_cast<int>(std::lround(100.0f * s.layers.face_opacity));
+  if (ImGui::SliderInt("##face", &face_percent, 0, 100, "Face %d %%", ImGuiSliderFlags_AlwaysClamp))
+    requests.push_back({Control::face, face_percent});
+}
+
+void drawButtons(const RehearsalStatus& s, Requests& requests) {
+  ImGui::Dummy({0.0f, 8.0f});
+  const float width = (ImGui::GetContentRegionAvail().x - 2.0f * ImGui::GetStyle().ItemSpacing.x) / 3.0f;
+  const bool locked = !s.command.drill_enabled;
+  if (ImGui::Button(locked ? "Unlock drill" : "Lock drill", {width, 34.0f}))
+    requests.push_back({Control::drill, locked ? 1 : 0});
+  ImGui::SameLine();
+  if (ImGui::Button("Snapshot", {width, 34.0f})) requests.push_back({Control::snapshot});
+  ImGui::SameLine();
+  if (ImGui::Button("End", {width, 34.0f})) requests.push_back({Control::end});
+}
+
+constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+void drawHeader(const RehearsalStatus& s, float width_px) {
+  ImGui::SetNextWindowPos({0.0f, 0.0f});
+  ImGui::SetNextWindowSize({width_px, static_cast<float>(kHeader_px)});
+  ImGui::Begin("##header", nullptr, kFixed | ImGuiWindowFlags_NoBackground);
+  textIn(heading_font, kInk, s.patient_title);
+  ImGui::SameLine();
+  textIn(text_font, kQuiet, "   what the surgeon sees");
+  ImGui::End();
+}
+
+void drawKeys(float top_px, float width_px) {
+  ImGui::SetNextWindowPos({0.0f, top_px});
+  ImGui::SetNextWindowSize({width_px, static_cast<float>(kKeys_px)});
+  ImGui::Begin("##keys", nullptr, kFixed | ImGuiWindowFlags_NoBackground);
+  ImGui::PushFont(font(small_font));
+  if (ImGui::BeginTable("keys", 3)) {
+    for (const KeyMeaning& key : keyMeanings()) {
+      ImGui::TableNextColumn();
+      ImGui::TextColored(kInk, "%s", key.key.data());
+      ImGui::SameLine(96.0f);
+      ImGui::TextColored(kQuiet, "%s", key.does.data());
+    }
+    ImGui::EndTable();
+  }
+  ImGui::PopFont();
+  ImGui::End();
+}
+
+void stylePanel() {
+  ImFontAtlas* const fonts = ImGui::GetIO().Fonts;
+  // Latin-1, dashes, and the dot of a recording.
+  static constexpr ImWchar kGlyphs[] = {0x20, 0xff, 0x2013, 0x2014, 0x25cf, 0x25cf, 0};
+  if (std::filesystem::exists(kFont) && std::filesystem::exists(kBoldFont)) {
+    fonts->AddFontFromFileTTF(kFont, kText_px, nullptr, kGlyphs);
+    fonts->AddFontFromFileTTF(kFont, kSmall_px, nullptr, kGlyphs);
+    fonts->AddFontFromFileTTF(kBoldFont, kLarge_px, nullptr, kGlyphs);
+    fonts->AddFontFromFileTTF(kBoldFont, kText_px, nullptr, kGlyphs);
+  } else {
+    fonts->AddFontDefault();
+  }
+  ImGui::StyleColorsDark();
+  ImGuiStyle& style = ImGui::GetStyle();
+  style.WindowPadding = {static_cast<float>(kMargin_px), 12.0f};
+  style.ItemSpacing = {8.0f, 5.0f};
+  style.FrameRounding = 4.0f;
+  style.WindowBorderSize = 0.0f;
+  style.Colors[ImGuiCol_WindowBg] = {0.105f, 0.115f, 0.135f, 1.0f};
+  style.Colors[ImGuiCol_FrameBg] = {0.17f, 0.185f, 0.215f, 1.0f};
+  style.Colors[ImGuiCol_Button] = {0.20f, 0.24f, 0.30f, 1.0f};
+  style.Colors[ImGuiCol_Separator] = {0.23f, 0.25f, 0.29f, 1.0f};
+  style.Colors[ImGuiCol_CheckMark] = kAccent;
+  style.Colors[ImGuiCol_SliderGrab] = kAccent;
+}
+
+}  // namespace
+
+PanelContext::PanelContext() {
+  IMGUI_CHECKVERSION();
+  ImGui::CreateContext();
+  ImGui::GetIO().IniFilename = nullptr;
+  stylePanel();
+}
+
+PanelContext::~PanelContext() { ImGui::DestroyContext(); }
+
+ImageArea imageArea(glm::ivec2 window_px, glm::ivec2 picture_px) {
+  const glm::ivec2 free =
+      glm::max(window_px - glm::ivec2(kPanel_px + 2 * kMargin_px, kHeader_px + kKeys_px), glm::ivec2(1));
+  const double scale = std::min(static_cast<double>(free.x) / std::max(1, picture_px.x),
+                                static_cast<double>(free.y) / std::max(1, picture_px.y));
+  const glm::ivec2 size = glm::max(glm::ivec2(scale * glm::dvec2(picture_px)), glm::ivec2(1));
+  return {glm::ivec2(kMargin_px, kHeader_px) + glm::ivec2((free.x - size.x) / 2, 0), size};
+}
+
+std::vector<ControlRequest> drawInstructorPanel(const RehearsalStatus& status, glm::ivec2 window_px, glm::ivec2 picture_px) {
+  Requests requests;
+  const auto left_px = static_cast<float>(window_px.x - kPanel_px), height_px = static_cast<float>(window_px.y);
+  drawHeader(status, left_px);
+  const ImageArea place = imageArea(window_px, picture_px);
+  drawKeys(static_cast<float>(place.corner_px.y + place.size_px.y + 4), left_px);
+  ImGui::SetNextWindowPos({left_px, 0.0f});
+  ImGui::SetNextWindowSize({static_cast<float>(kPanel_px), height_px});
+  ImGui::Begin("##panel", nullptr, (kFixed & ~ImGuiWindowFlags_NoScrollbar));
+  drawState(status);
+  drawButtons(status, requests);
+  drawHand(status, requests);
+  drawTool(status);
+  drawLaw(status, requests);
+  drawPictureFigures(status);
+  drawServo(status);
+  drawLayers(status, requests);
+  ImGui::End();
+  return requests;
+}
+
+}  // namespace app

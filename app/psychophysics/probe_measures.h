@@ -1,0 +1,26 @@
+// What a hand felt while it probed a bone once, and what can be judged by: stiffness, peak force, work.
+// Depth is the hand's own way below the place where the bur first touches, along the outward direction; force is that
+// on the hand, outward. mm, N. Pure; any thread; linear in the samples.
+#pragma once
+
+#include <span>
+
+namespace app {
+
+struct ProbeSample {
+  double depth_mm = 0.0;
+  double force_N = 0.0;
+};
+
+struct ProbeMeasures {
+  double stiffness_N_per_mm = 0.0;  ///< least-squares slope of force over depth while in contact
+  double peak_force_N = 0.0;
+  double depth_mm = 0.0;  ///< largest
+  double work_Nmm = 0.0;  ///< put into the bone by the hand: the sum of F dx over the whole way
+  double contact_share = 0.0;
+};
+
+/// In contact: more than a twentieth of the peak force. All zero for a hand that never touched.
+ProbeMeasures measuresOf(std::span<const ProbeSample> samples);
+
+}  // namespace app

@@ -1,0 +1,128 @@
+#include "app/rehearsal/live_view.h"
+
+#include <utility>
+
+#include "app/view/patient_renderer.h"
+#include "haptics/bone/carved_bone.h"
+
+namespace app {
+namespace {
+
+constexpr int kSnapshotSamples = 2;
+constexpr double kUsualRefresh_Hz = 60.0;
+
+double secondsBetween(LiveView::Clock::time_point from, LiveView::Clock::time_point to) {
+  return std::chrono::duration<double>(to - from).count();
+}
+
+SurgeonDisplay::Options displayOf(const RehearsalPlan& plan) {
+  return {.windows = {.mode = plan.display,
+                      .screen_px = plan.rig.screen.px,
+                      .full_screen = plan.full_screen,
+                      .monitor = plan.monitor},
+          .eyes_swapped = plan.eyes_swapped,
+          .backend = plan.backend,
+          .headless = plan.headless,
+          .needs_window = plan.device == "mouse"};
+}
+
+}  // namespace
+
+LiveView::LiveView(const RehearsalPlan& plan, const haptics::Command& in_force, const SecondHand* second_hand,
+                         double servo_rate_Hz, ReportLine report)
+    : plan_(plan),
+      in_force_(in_force),
+      second_hand_(second_hand),
+      servo_rate_Hz_(servo_rate_Hz),
+      report_(std::move(report)),
+      latency_(kUsualRefresh_Hz, servo_rate_Hz) {
+  if (plan.ticking == Ticking::realtime) open();
+}
+
+void LiveView::open() {
+  display_.emplace(
+      displayOf(plan_), [this](render::Backend backend) { return newRenderer(backend); }, report_);
+  quality_.emplace(*display_, plan_.quality_step);
+  latency_ = MotionToPhoton(display_->refresh_Hz(), servo_rate_Hz_);
+}
+
+SurgeonDisplay& LiveView::display() {
+  if (!display_) open();
+  return *display_;
+}
+
+/// In the current context, from the bone as it is.
+std::unique_ptr<render::FrameRenderer> LiveView::newRenderer(render::Backend backend) {
+  auto renderer =
+      patientRenderer(plan_.patient, in_force_.tool, plan_.cut, plan_.patient.ct.solid, {.backend = backend});
+  if (second_hand_ != nullptr) second_hand_->dress(*renderer);
+  if (bone_ != nullptr) upload_.uploadAllAgain(*bone_, *renderer);
+  return renderer;
+}
+
+void LiveView::settle(const render::Frame& frame) {
+  quality_->settle([&] { show(frame); });
+}
+
+void LiveView::show(const render::Frame& frame) {
+  display();
+  render::Frame drawn = frame;
+  if (quality_->rules()) drawn.quality = quality_->quality();
+  display_->show(drawn);
+  ++pictures_;
+}
+
+void LiveView::waitUntilShown() {
+  display_->waitUntilShown();
+  if (display_->window() != nullptr && pose_read_) latency_.add(secondsBetween(*pose_read_, display_->presentedAt()));
+  pose_read_ = Clock::now();
+}
+
+void LiveView::uploadBone() {
+  if (display_) upload_.bring(*bone_, display_->renderer());
+}
+
+void LiveView::showInstrument() {
+  if (display_) app::showInstrument(display_->renderer(), in_force_.tool);
+}
+
+void LiveView::take(StereoSnapshot& pictures, render::Frame frame, std::span<const std::uint8_t> solid) {
+  const auto renderer = display().newRenderer([&](render::Backend backend) {
+    return patientRenderer(plan_.patient, in_force_.tool, plan_.cut, solid,
+                           {.backend = backend, .samples = kSnapshotSamples});
+  });
+  if (second_hand_ != nullptr) second_hand_->dress(*renderer);
+  frame.quality = {};
+  frame.rig.screen.px = plan_.snapshot_px;
+  pictures.take(*renderer, frame);
+}
+
+void LiveView::measureRate(Clock::time_point now) {
+  const double since_s = secondsBetween(rate_measured_, now);
+  if (since_s <= 0.0) return;
+  pictures_per_s_ = static_cast<double>(pictures_ - pictures_measured_) / since_s;
+  pictures_measured_ = pictures_;
+  rate_measured_ = now;
+}
+
+void LiveView::describe(RehearsalStatus& status) {
+  status.quality = qualityText();
+  if (!display_) return;
+  status.display = std::string(render::nameOf(display_->mode()));
+  status.drawing_ms = 1000.0 * display_->drawing_s();
+  status.pictures_per_s = pictures_per_s_;
+  status.refresh_Hz = display_->refresh_Hz();
+  status.budget_ms = 1000.0 * quality_->budget_s();
+  status.latency = latency_.now();
+  status.quality_step = quality_->step();
+  status.quality_is_held = quality_->isHeld();
+}
+
+void LiveView::describe(RehearsalFigures& figures) const {
+  figures.frames = pictures_;
+  if (latency_.pictures() == 0) return;
+  figures.latency = latency_.median();
+  figures.slow_latency = latency_.slow();
+}
+
+}  // namespace app

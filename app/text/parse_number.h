@@ -1,0 +1,24 @@
+// The number that a text is, whole: 1.5, -3, 1e4, whatever the locale. Any thread.
+#pragma once
+
+#include <charconv>
+#include <cmath>
+#include <concepts>
+#include <optional>
+#include <string_view>
+
+namespace app {
+
+/// None for anything else, also for what is not finite or does not fit. `how`: base of a whole number.
+template <class Number>
+std::optional<Number> parseNumber(std::string_view text, auto... how) {
+  Number number{};
+  const char* const behind = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), behind, number, how...);
+  if (error != std::errc{} || end != behind) return std::nullopt;
+  if constexpr (std::floating_point<Number>)
+    if (!std::isfinite(number)) return std::nullopt;
+  return number;
+}
+
+}  // namespace app

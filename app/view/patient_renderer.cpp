@@ -1,0 +1,39 @@
+#include "app/view/patient_renderer.h"
+
+#include "app/case/patient_guides.h"
+#include "assets/instrument/handpiece.h"
+
+namespace app {
+namespace {
+
+assets::HandpieceParameters drawnAs(const haptics::Tool& tool) {
+  assets::HandpieceParameters drawn;
+  drawn.form = static_cast<assets::BurForm>(tool.head.kind);
+  drawn.bur_radius_mm = tool.head.radius_mm;
+  drawn.bur_length_mm = tool.head.length_mm;
+  drawn.neck_radius_mm = tool.shaft.radius_mm;
+  return drawn;
+}
+static_assert(static_cast<int>(assets::BurForm::cone) == static_cast<int>(haptics::ShapeKind::cone));
+
+}  // namespace
+
+std::unique_ptr<render::FrameRenderer> patientRenderer(const assets::Patient& patient, const haptics::Tool& tool,
+                                                       const std::optional<assets::PlannedCut>& cut,
+                                                       std::span<const std::uint8_t> solid,
+                                                       const render::RenderOptions& options) {
+  auto renderer = std::make_unique<render::FrameRenderer>(patient.ct.grid, solid, patient.ct.label, options);
+  renderer->setFace(patient.face);
+  renderer->setGingiva(patient.gingiva);
+  renderer->setGuides(guidesFor(patient, cut));
+  renderer->setScan(
+      {patient.ct.hounsfield, patient.ct.solid, patient.mandibular_canal_P_mm, patient.mandibular_canal_radius_mm});
+  showInstrument(*renderer, tool);
+  return renderer;
+}
+
+void showInstrument(render::FrameRenderer& renderer, const haptics::Tool& tool) {
+  renderer.setInstrument(assets::surgicalHandpiece(drawnAs(tool)));
+}
+
+}  // namespace app

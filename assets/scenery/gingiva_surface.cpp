@@ -1,0 +1,130 @@
+#include "assets/scenery/gingiva_surface.h"
+
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/Interpolation.h>
+#include <openvdb/tools/TopologyToLevelSet.h>
+#include <openvdb/tools/VolumeToMesh.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "assets/load_error.h"
+#include "assets/tooth.h"
+#include "assets/vertex_normals.h"
+
+namespace assets {
+namespace {
+
+constexpr double kFlapRadius_mm = 12.5;
+constexpr double kFlapLift_mm = 2.0;
+constexpr double kEdgeRound_mm = 1.6;
+constexpr int kBandVoxels = 5;
+constexpr int kSmoothingSteps = 3;
+
+bool carriesGingiva(std::uint8_t label) { return isHard(label) || Tissue{label} == Tissue::ligament; }
+
+// Gingiva voxels, and the bone or tooth just below them, so that the underside is out of sight.
+openvdb::MaskGrid::Ptr gingivaVoxels(const CtVolume& ct) {
+  constexpr int kUnder = 2;
+  auto grid = openvdb::MaskGrid::create();
+  auto accessor = grid->getAccessor();
+  const auto label_at = [&](glm::ivec3 at) {
+    return ct.grid.contains(at) ? ct.label[ct.grid.index(at)] : std::uint8_t{0};
+  };
+  glm::ivec3 at;
+  for (at.z = 0; at.z < ct.grid.size.z; ++at.z) {
+    for (at.y = 0; at.y < ct.grid.size.y; ++at.y) {
+      for (at.x = 0; at.x < ct.grid.size.x; ++at.x) {
+        if (label_at(at) != static_cast<std::uint8_t>(Tissue::gingiva)) continue;
+        accessor.setValueOn({at.x, at.y, at.z});
+        for (int axis = 0; axis < 3; ++axis) {
+          for (const int step : {-1, 1}) {
+            glm::ivec3 below = at;
+            for (int depth = 0; depth < kUnder; ++depth) {
+              below[axis] += step;
+              if (!carriesGingiva(label_at(below))) break;
+              accessor.setValueOn({below.x, below.y, below.z});
+            }
+          }
+        }
+      }
+    }
+  }
+  return grid;
+}
+
+// Takes the flap out of the level set, the edge rounded (polynomial smooth maximum, Quilez 2013). Every voxel near the
+// wound is visited, those deep inside the gingiva too.
+void raiseFlap(openvdb::FloatGrid& grid, const VolumeGrid& voxels, const OperativeSite& site) {
+  const double round = kEdgeRound_mm / voxels.spacing_mm;
+  const double reach_mm = kFlapRadius_mm + kFlapLift_mm + 2.0 * kEdgeRound_mm;
+  const glm::ivec3 low(glm::floor(voxels.indexFromPoint(site.centre_P_mm - reach_mm)));
+  const glm::ivec3 high(glm::ceil(voxels.indexFromPoint(site.centre_P_mm + reach_mm)));
+  auto accessor = grid.getAccessor();
+  for (int z = low.z; z <= high.z; ++z) {
+    for (int y = low.y; y <= high.y; ++y) {
+      for (int x = low.x; x <= high.x; ++x) {
+        const double flap = -flapDistance_mm(site, voxels.centre_P_mm({x, y, z})) / voxels.spacing_mm;
+        const double gingiva = accessor.getValue({x, y, z});
+        const double overlap = std::max(round - std::abs(gingiva - flap), 0.0) / round;
+        const double left = std::max(gingiva, flap) + 0.25 * overlap * overlap * round;
+        if (left > gingiva) accessor.setValue({x, y, z}, static_cast<float>(std::min<double>(left, kBandVoxels)));
+      }
+    }
+  }
+}
+
+// Wet pink, paler away from the wound, deep red along its edge.
+glm::vec4 colourAt(const std::optional<OperativeSite>& site, const glm::dvec3& p_P) {
+  const glm::vec3 pink(0.56f, 0.205f, 0.185f);
+  const glm::vec3 wound(0.30f, 0.035f, 0.03f);
+  const double speckle = 0.05 * std::sin(2.1 * p_P.x + 1.3 * std::sin(1.7 * p_P.y)) * std::sin(1.9 * p_P.z + p_P.y);
+  const double near = site ? std::exp(-std::pow(std::max(0.0, flapDistance_mm(*site, p_P)) / 1.5, 2.0)) : 0.0;
+  return {glm::mix(pink * static_cast<float>(1.0 + speckle), wound, static_cast<float>(0.85 * near)), 1.0f};
+}
+
+}  // namespace
+
+double flapDistance_mm(const OperativeSite& site, const glm::dvec3& p_P) {
+  const glm::dvec3 q = p_P - site.centre_P_mm;
+  // A ball about the crown, cut off toward the tongue by a plane that leans over the ridge.
+  const double ball = glm::length(q - kFlapLift_mm * glm::normalize(site.axis_P)) - kFlapRadius_mm;
+  const double tongue =
+      -2.5 - glm::dot(q, glm::normalize(buccalDirection_P(site.fdi) + 0.45 * occlusalDirection_P(site.fdi)));
+  const double blend = 3.0;
+  const double overlap = std::max(blend - std::abs(ball - tongue), 0.0) / blend;
+  return std::max(ball, tongue) + 0.25 * overlap * overlap * blend;
+}
+
+MeshModel gingivaSurface(const CtVolume& ct, const std::optional<OperativeSite>& site) {
+  if (ct.label.size() != ct.grid.voxelCount() || !(ct.grid.spacing_mm > 0.0)) {
+    throw LoadError("gum: labels and grid do not fit, import the patient again");
+  }
+  const openvdb::MaskGrid::Ptr voxels = gingivaVoxels(ct);
+  if (voxels->activeVoxelCount() == 0) return {};
+  const openvdb::FloatGrid::Ptr surface =
+      openvdb::tools::topologyToLevelSet(*voxels, kBandVoxels, 1, 0, kSmoothingSteps);
+  if (site) raiseFlap(*surface, ct.grid, *site);
+
+  std::vector<openvdb::Vec3s> points;
+  std::vector<openvdb::Vec3I> triangles;
+  std::vector<openvdb::Vec4I> quads;
+  openvdb::tools::volumeToMesh(*surface, points, triangles, quads, 0.0, 0.0);
+  if (points.empty()) return {};
+
+  // OpenVDB winds clockwise; turn each triangle round.
+  MeshPart gingiva;
+  gingiva.name = "Gum";
+  gingiva.material = {glm::vec4(1.0f), 0.28f, 0.0f};
+  for (const auto& t : triangles) gingiva.triangles.insert(gingiva.triangles.end(), {t[0], t[2], t[1]});
+  for (const auto& q : quads) gingiva.triangles.insert(gingiva.triangles.end(), {q[0], q[2], q[1], q[0], q[3], q[2]});
+  for (const auto& p : points) {
+    const glm::dvec3 p_P = ct.grid.origin_P_mm + ct.grid.spacing_mm * glm::dvec3(p.x(), p.y(), p.z());
+    gingiva.position_mm.emplace_back(p_P);
+    gingiva.colour.push_back(colourAt(site, p_P));
+  }
+  gingiva.normal = vertexNormals(gingiva.position_mm, gingiva.triangles);
+  return {{std::move(gingiva)}};
+}
+
+}  // namespace assets

@@ -1,0 +1,252 @@
+#include "assets/toml_reader.h"
+
+#include <toml++/toml.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "assets/load_error.h"
+
+namespace assets {
+namespace {
+
+constexpr std::size_t kLargestFile_bytes = 64 * 1024;
+constexpr std::size_t kLongestText = 300;
+
+std::string nameOf(const std::string& table, const std::string& key) {
+  if (table.empty()) return key;
+  return key.empty() ? "[" + table + "]" : "[" + table + "] " + key;
+}
+
+bool isPrintable(std::string_view text) {
+  for (const char c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) return false;
+  return true;
+}
+
+/// What a refusal may repeat of a file: short, one line.
+std::string shown(std::string_view name) {
+  std::string text;
+  for (const char c : name.substr(0, 40)) text += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
+  return text;
+}
+
+std::string rangeText(const NumberRange& range) {
+  const std::string unit = range.unit.empty() ? "" : " " + std::string(range.unit);
+  return numberText(range.low) + " to " + numberText(range.high) + unit;
+}
+
+/// None unless it is a list, and of numbers in the range alone.
+std::optional<std::vector<double>> numbersIn(const toml::node& node, const NumberRange& range) {
+  const toml::array* list = node.as_array();
+  if (!list) return std::nullopt;
+  std::vector<double> values;
+  for (const toml::node& one : *list) {
+    const std::optional<double> value = one.is_number() ? one.value<double>() : std::nullopt;
+    if (!value || !(*value >= range.low && *value <= range.high)) return std::nullopt;
+    values.push_back(*value);
+  }
+  return values;
+}
+
+}  // namespace
+
+std::string quotedToml(const std::string& text) {
+  std::ostringstream quoted;
+  quoted << toml::value<std::string>(text);
+  return quoted.str();
+}
+
+std::string numberText(double value) {
+  std::array<char, 40> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 9).ptr;
+  return {text.data(), end};
+}
+
+std::string readSmallFile(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error))
+    throw LoadError(path + ": there is no such plain file, check the name");
+  std::ifstream file(path, std::ios::binary);
+  std::string text(kLargestFile_bytes + 1, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (file.bad() || !(file || file.eof()) || file.gcount() < 0)
+    throw LoadError(path + ": it can not be read, check its permissions");
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  if (text.size() > kLargestFile_bytes) throw LoadError(path + ": it is larger than 64 kB, this is no settings file");
+  return text;
+}
+
+struct TomlReader::Document {
+  std::string where;
+  toml::table root;
+  std::set<std::pair<std::string, std::string>> asked;
+
+  const toml::table* tableOf(const std::string& name) const { return name.empty() ? &root : root[name].as_table(); }
+  const toml::node* find(const std::string& table, const std::string& key) const {
+    const toml::table* at = tableOf(table);
+    return at ? at->get(key) : nullptr;
+  }
+  const toml::node* take(const std::string& table, const std::string& key) {
+    asked.emplace(table, key);
+    return find(table, key);
+  }
+};
+
+TomlReader::TomlReader(std::string_view text, std::string where) : document_(std::make_unique<Document>()) {
+  document_->where = std::move(where);
+  try {
+    document_->root = toml::parse(text);
+  } catch (const toml::parse_error& error) {
+    throw LoadError(document_->where + ": line " + std::to_string(error.source().begin.line) + ": no TOML (" +
+                    shown(error.description()) + "), correct it");
+  }
+}
+
+TomlReader::~TomlReader() = default;
+TomlReader::TomlReader(TomlReader&&) noexcept = default;
+TomlReader& TomlReader::operator=(TomlReader&&) noexcept = default;
+
+TomlReader TomlReader::fromFile(const std::string& path) { return {readSmallFile(path), path}; }
+
+bool TomlReader::has(const std::string& table) const { return document_->tableOf(table) != nullptr; }
+
+bool TomlReader::has(const std::string& table, const std::string& key) const {
+  return document_->find(table, key) != nullptr;
+}
+
+std::vector<std::string> TomlReader::keysOf(const std::string& table) const {
+  std::vector<std::string> keys;
+  if (const toml::table* at = document_->tableOf(table))
+    for (const auto& [key, node] : *at)
+      if (!node.is_table()) keys.emplace_back(key.str());
+  return keys;
+}
+
+int TomlReader::lineOf(const std::string& table, const std::string& key) const {
+  const toml::node* node = document_->find(table, key);
+  if (!node) node = document_->tableOf(table);
+  return node ? static_cast<int>(node->source().begin.line) : 0;
+}
+
+void TomlReader::refuse(const std::string& table, const std::string& key, const std::string& reason) const {
+  const int line = lineOf(table, key);
+  throw LoadError(document_->where + ": " + (line > 0 ? "line " + std::to_string(line) + ": " : "") +
+                  nameOf(shown(table), shown(key)) + ": " + reason);
+}
+
+double TomlReader::number(const std::string& table, const std::string& key, const NumberRange& range,
+                        std::optional<double> fallback) {
+  const toml::node* node = document_->take(table, key);
+  if (!node && fallback) return *fallback;
+  if (!node) refuse(table, key, "it is missing, give " + rangeText(range));
+  const std::optional<double> value = node->is_number() ? node->value<double>() : std::nullopt;
+  if (!value) refuse(table, key, "it is not a number, give " + rangeText(range));
+  if (!(*value >= range.low && *value <= range.high))
+    refuse(table, key, numberText(*value) + " is out of range, give " + rangeText(range));
+  return *value;
+}
+
+std::int64_t TomlReader::integer(const std::string& table, const std::string& key, std::int64_t low, std::int64_t high,
+                             std::optional<std::int64_t> fallback) {
+  const toml::node* node = document_->take(table, key);
+  if (!node && fallback) return *fallback;
+  const std::string range = "give a whole number from " + std::to_string(low) + " to " + std::to_string(high);
+  if (!node) refuse(table, key, "it is missing, " + range);
+  const std::optional<std::int64_t> value = node->is_integer() ? node->value<std::int64_t>() : std::nullopt;
+  if (!value || *value < low || *value > high) refuse(table, key, range);
+  return *value;
+}
+
+bool TomlReader::boolean(const std::string& table, const std::string& key, std::optional<bool> fallback) {
+  const toml::node* node = document_->take(table, key);
+  if (!node && fallback) return *fallback;
+  if (!node || !node->is_boolean()) refuse(table, key, "give true or false");
+  return *node->value<bool>();
+}
+
+std::string TomlReader::text(const std::string& table, const std::string& key, std::optional<std::string> fallback) {
+  const toml::node* node = document_->take(table, key);
+  if (!node && fallback) return *fallback;
+  if (!node) refuse(table, key, "it is missing, give a text in quotes");
+  const std::optional<std::string> value = node->is_string() ? node->value<std::string>() : std::nullopt;
+  if (!value || value->size() > kLongestText || !isPrintable(*value))
+    refuse(table, key, "give one line of text in quotes, at most 300 bytes");
+  return *value;
+}
+
+std::size_t TomlReader::choice(const std::string& table, const std::string& key,
+                             std::initializer_list<std::string_view> choices, std::optional<std::size_t> fallback) {
+  const toml::node* node = document_->take(table, key);
+  if (!node && fallback) return *fallback;
+  const std::string given = node && node->is_string() ? *node->value<std::string>() : std::string();
+  std::string words;
+  std::size_t index = 0;
+  for (const std::string_view one : choices) {
+    if (node && node->is_string() && one == given) return index;
+    words += (index++ == 0 ? "\"" : ", \"") + std::string(one) + "\"";
+  }
+  refuse(table, key, (node ? "no such choice, give one of " : "it is missing, give one of ") + words);
+}
+
+std::vector<double> TomlReader::numbers(const std::string& table, const std::string& key, const NumberRange& range,
+                                      std::size_t least, std::size_t most) {
+  const toml::node* node = document_->take(table, key);
+  const std::string want =
+      "give a list of " + std::to_string(least) + " to " + std::to_string(most) + " numbers from " + rangeText(range);
+  if (!node) refuse(table, key, "it is missing, " + want);
+  if (least <= 1 && node->is_number()) return {number(table, key, range)};
+  const auto values = numbersIn(*node, range);
+  if (!values || values->size() < least || values->size() > most) refuse(table, key, want);
+  return *values;
+}
+
+glm::dvec3 TomlReader::vector(const std::string& table, const std::string& key, double largest) {
+  const std::vector<double> v = numbers(table, key, {-largest, largest, ""}, 3, 3);
+  return {v[0], v[1], v[2]};
+}
+
+std::vector<glm::dvec3> TomlReader::vectors(const std::string& table, const std::string& key, double largest,
+                                          std::size_t most) {
+  const toml::node* node = document_->take(table, key);
+  const NumberRange range{-largest, largest, ""};
+  const toml::array* list = node ? node->as_array() : nullptr;
+  std::vector<glm::dvec3> points;
+  for (std::size_t i = 0; list && i < list->size() && i <= most; ++i)
+    if (const auto v = numbersIn((*list)[i], range); v && v->size() == 3)
+      points.emplace_back((*v)[0], (*v)[1], (*v)[2]);
+  if (!list || points.size() != list->size() || points.size() > most)
+    refuse(table, key,
+           "give a list of at most " + std::to_string(most) + " points of three numbers from " + rangeText(range));
+  return points;
+}
+
+void TomlReader::refuseUnknownKeys() const {
+  const auto check_level = [&](const std::string& table, const toml::table& level) {
+    for (const auto& [key, node] : level) {
+      const std::string name(key.str());
+      if (document_->asked.contains({table, name})) continue;
+      if (table.empty() && node.is_table()) continue;
+      refuse(table, name, "no such key here, remove it or correct its spelling");
+    }
+  };
+  check_level("", document_->root);
+  for (const auto& [key, node] : document_->root) {
+    if (!node.is_table()) continue;
+    const std::string table(key.str());
+    const bool known = [&] {
+      for (const auto& [asked_table, asked_key] : document_->asked)
+        if (asked_table == table) return true;
+      return false;
+    }();
+    if (!known) refuse(table, "", "no such table here, remove it or correct its spelling");
+    check_level(table, *node.as_table());
+  }
+}
+
+}  // namespace assets

@@ -1,0 +1,46 @@
+#include "haptics/device/simulated/pose_list_device.h"
+
+#include <cmath>
+#include <utility>
+
+namespace haptics {
+
+PoseListDevice::PoseListDevice(std::vector<TimedHandlePose> holds) : holds_(std::move(holds)) {
+  if (holds_.empty()) throw DeviceError("posed hand: it has no poses, give some");
+  double last_s = -1.0;
+  for (const TimedHandlePose& hold : holds_) {
+    const double norm = glm::dot(hold.X_DH.rotation, hold.X_DH.rotation);
+    if (!(std::abs(norm - 1.0) < 1e-6) || !std::isfinite(glm::length(hold.X_DH.translation_mm)))
+      throw DeviceError("posed hand: a pose is not finite and rigid, correct it");
+    if (!(hold.t_s >= 0.0 && hold.t_s > last_s) || !std::isfinite(hold.t_s))
+      throw DeviceError("posed hand: its times do not rise from 0 or later, order them");
+    last_s = hold.t_s;
+  }
+  last_mm_ = holds_.front().X_DH.translation_mm;
+  capabilities_.model = "posed hand";
+}
+
+HandleState PoseListDevice::stateAt(double t_s) noexcept {
+  while (next_ < holds_.size() && holds_[next_].t_s <= t_s) ++next_;
+  HandleState state;
+  const TimedHandlePose& from = holds_[next_ == 0 ? 0 : next_ - 1];
+  state.X_DH = from.X_DH;
+  if (next_ == 0 || next_ == holds_.size()) return state;
+  const TimedHandlePose& to = holds_[next_];
+  const double part = (t_s - from.t_s) / (to.t_s - from.t_s);
+  state.X_DH = {glm::slerp(from.X_DH.rotation, to.X_DH.rotation, part),
+                glm::mix(from.X_DH.translation_mm, to.X_DH.translation_mm, part)};
+  state.pedal = from.pedal;
+  return state;
+}
+
+HandleState PoseListDevice::exchange(const Wrench<calibration::Device>&, double dt_s) noexcept {
+  // Divided, not summed: a tick at the time of a pose is exactly there.
+  const double t_s = dt_s > 0.0 ? static_cast<double>(ticks_++) / (1.0 / dt_s) : 0.0;
+  HandleState state = stateAt(t_s);
+  if (dt_s > 0.0) state.velocity_D_mm_per_s.xyz = (state.X_DH.translation_mm - last_mm_) / dt_s;
+  last_mm_ = state.X_DH.translation_mm;
+  return state;
+}
+
+}  // namespace haptics

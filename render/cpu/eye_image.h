@@ -1,0 +1,28 @@
+// An eye's image on the CPU: linear light within 0..1, as the display will show it, and distance, in planes; rows top
+// first. Plain data; threads may write different pixels.
+#pragma once
+
+#include <cstddef>
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace render {
+
+struct EyeImage {
+  glm::ivec2 px{0};
+  std::vector<float> r, g, b;
+  std::vector<float> distance_mm;  ///< along the ray through the pixel's centre, 0 where nothing is met
+
+  void resize(glm::ivec2 size) {
+    if (size == px) return;
+    px = size;
+    const auto count = static_cast<std::size_t>(px.x) * static_cast<std::size_t>(px.y);
+    // Kernels may read beyond the last value.
+    for (std::vector<float>* plane : {&r, &g, &b, &distance_mm}) plane->assign(count + 16, 0.0f);
+  }
+  std::size_t at(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(px.x) + static_cast<std::size_t>(x);
+  }
+};
+
+}  // namespace render

@@ -1,0 +1,113 @@
+#include "render/cpu/ray_tracer.h"
+
+#include <algorithm>
+
+namespace render {
+namespace {
+
+constexpr float kEndless_mm = 1e9f;
+
+}  // namespace
+
+RayTracer::RayTracer() { light_.resize(3 * static_cast<std::size_t>(kMaxRays + 2 * kLanePadding)); }
+
+Light RayTracer::roomFor(int count) {
+  const std::size_t stride = (static_cast<std::size_t>(count) + 2 * kLanePadding) & ~std::size_t{kLanePadding - 1};
+  if (light_.size() < 3 * stride) light_.resize(3 * stride);
+  return {light_.data(), light_.data() + stride, light_.data() + 2 * stride};
+}
+
+void RayTracer::trace(const TraceScene& scene, int count, MeshHits* still, bool static_hits_valid) {
+  rays_.count = count;
+  scene.kernels->aim(scene.shade.eye, uv_x, uv_y, rays_);
+  if (!static_hits_valid) scene.meshes->staticHits(rays_, still != nullptr ? *still : hits_);
+  if (still != nullptr) hits_ = *still;
+  scene.meshes->addDynamicHits(rays_, hits_);
+  for (int i = 0; i < count; ++i) {
+    distance_mm[i] = hits_.distance_mm[i];
+    limit_mm_[i] = distance_mm[i] > 0.0f ? distance_mm[i] : kEndless_mm;
+  }
+  volume_.clear();
+  if (scene.opacity == nullptr)
+    traceSurface(scene);
+  else
+    traceTranslucent(scene);
+  layers(scene);
+  scene.kernels->shoulder({r, g, b}, count);
+}
+
+// The surface hides what lies behind it, so only what is seen is shaded.
+void RayTracer::traceSurface(const TraceScene& scene) {
+  castSurface(*scene.cells, scene.cast, rays_, limit_mm_, volume_);
+  for (int n = 0; n < volume_.count; ++n) {
+    const auto at = static_cast<std::size_t>(n);
+    distance_mm[volume_.ray[at]] = volume_.length[at] * scene.cast.spacing_mm;
+  }
+  background(scene);
+  meshes(scene, distance_mm);
+  if (volume_.count == 0) return;
+  const Light light = roomFor(volume_.count);
+  scene.kernels->surface(scene.shade, rays_, volume_.ray.data(), volume_.length.data(), volume_.count, light);
+  for (int n = 0; n < volume_.count; ++n) {
+    const int ray = volume_.ray[static_cast<std::size_t>(n)];
+    r[ray] = light.r[n], g[ray] = light.g[n], b[ray] = light.b[n];
+  }
+}
+
+// Translucent matter lies over everything behind it; it counts as met where it stops half of the light.
+void RayTracer::traceTranslucent(const TraceScene& scene) {
+  background(scene);
+  meshes(scene, hits_.distance_mm);
+  castTranslucent(*scene.cells, scene.cast, *scene.label, *scene.opacity, rays_, limit_mm_, volume_, sums_);
+  for (int i = 0; i < rays_.count; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const float left = 1.0f - sums_.opacity[at];
+    r[i] *= left, g[i] *= left, b[i] *= left;
+    if (sums_.reach[at] >= 0.0f) distance_mm[i] = sums_.reach[at] * scene.cast.spacing_mm;
+  }
+  if (volume_.count == 0) return;
+  const Light light = roomFor(volume_.count);
+  scene.kernels->matter(scene.shade, rays_, volume_.ray.data(), volume_.length.data(), volume_.count, light);
+  for (int n = 0; n < volume_.count; ++n) {
+    const int ray = volume_.ray[static_cast<std::size_t>(n)];
+    const float weight = volume_.weight[static_cast<std::size_t>(n)];
+    r[ray] += weight * light.r[n], g[ray] += weight * light.g[n], b[ray] += weight * light.b[n];
+  }
+}
+
+void RayTracer::background(const TraceScene& scene) {
+  if (std::find(distance_mm, distance_mm + rays_.count, 0.0f) != distance_mm + rays_.count)
+    scene.kernels->background(scene.shade.eye, rays_, uv_x, uv_y, {r, g, b});
+}
+
+void RayTracer::meshes(const TraceScene& scene, const float* seen_mm) {
+  seen_.clear();
+  scene.meshes->addSeen(rays_, hits_, seen_mm, seen_);
+  if (seen_.count == 0) return;
+  const Light light = roomFor(seen_.count);
+  scene.kernels->meshes(scene.shade, rays_, seen_, light);
+  for (int n = 0; n < seen_.count; ++n) {
+    const int ray = seen_.ray[n];
+    r[ray] = light.r[n], g[ray] = light.g[n], b[ray] = light.b[n];
+  }
+}
+
+// Each ray's layers come from back to front.
+void RayTracer::layers(const TraceScene& scene) {
+  if (!scene.meshes->hasTransparent()) return;
+  for (int i = 0; i < rays_.count; ++i) limit_mm_[i] = distance_mm[i] > 0.0f ? distance_mm[i] : kEndless_mm;
+  transparent_parts_.clear();
+  scene.meshes->layers(rays_, limit_mm_, transparent_parts_);
+  if (transparent_parts_.count == 0) return;
+  const Light light = roomFor(transparent_parts_.count);
+  scene.kernels->meshes(scene.shade, rays_, transparent_parts_, light);
+  for (int n = 0; n < transparent_parts_.count; ++n) {
+    const int ray = transparent_parts_.ray[n];
+    const float a = transparent_parts_.a[n];
+    r[ray] += a * (light.r[n] - r[ray]);
+    g[ray] += a * (light.g[n] - g[ray]);
+    b[ray] += a * (light.b[n] - b[ray]);
+  }
+}
+
+}  // namespace render

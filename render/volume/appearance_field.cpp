@@ -1,0 +1,85 @@
+#include "render/volume/appearance_field.h"
+
+#include <tbb/parallel_for.h>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "assets/volume_grid.h"
+#include "render/volume/tissue_appearance.h"
+
+namespace render {
+namespace {
+
+constexpr int kCore = assets::kBrickVoxels, kWide = kCore + 2;
+
+// Colour and finish times weight, and the weight.
+using Share = std::array<float, 5>;
+using Block = std::array<Share, static_cast<std::size_t>(kWide) * kWide * kWide>;
+
+constexpr std::size_t at(int i, int j, int k) { return static_cast<std::size_t>((k * kWide + j) * kWide + i); }
+
+std::uint32_t packed(const glm::vec3& colour, float finish) {
+  const auto byte = [](float x) { return static_cast<std::uint32_t>(std::lround(255.0f * glm::clamp(x, 0.0f, 1.0f))); };
+  const glm::vec3 root = glm::sqrt(colour);
+  return byte(root.r) | byte(root.g) << 8 | byte(root.b) << 16 | byte(finish) << 24;
+}
+
+// Weights 1/8, 3/4, 1/8 of the quadratic B-spline at a voxel's centre, in place: only the inner voxels stay whole.
+void smoothAxis(Block& block, std::size_t step) {
+  const Block before = block;
+  for (int k = 0; k < kWide; ++k)
+    for (int j = 0; j < kWide; ++j)
+      for (int i = 0; i < kWide; ++i) {
+        const std::size_t here = at(i, j, k);
+        if (here < step || here + step >= block.size()) continue;
+        for (std::size_t c = 0; c < 5; ++c)
+          block[here][c] = 0.75f * before[here][c] + 0.125f * (before[here - step][c] + before[here + step][c]);
+      }
+}
+
+}  // namespace
+
+BorderedField<std::uint32_t> appearanceField(const BorderedField<std::uint8_t>& solid, std::span<const std::uint8_t> label) {
+  const glm::ivec3 size = solid.layout().size, bricks = (size + (kCore - 1)) / kCore;
+  const TissueAppearance& plain = kTissueAppearance[0];
+  BorderedField<std::uint32_t> field(size, packed(plain.albedo, plain.finish));
+  const auto tissue_at = [&](glm::ivec3 v) -> const TissueAppearance& {
+    if (label.empty()) return plain;
+    const std::uint8_t tissue = label[indexIn(size, v)];
+    return kTissueAppearance[tissue < kTissueAppearance.size() ? tissue : 0];
+  };
+  const auto blend_brick = [&](glm::ivec3 brick) {
+    // What the brick and its border hold; air without a label needs no colour.
+    const glm::ivec3 first = kCore * brick;
+    bool any = false;
+    Block block{};
+    for (int k = 0; k < kWide; ++k)
+      for (int j = 0; j < kWide; ++j)
+        for (int i = 0; i < kWide; ++i) {
+          const glm::ivec3 v = first + glm::ivec3(i, j, k) - 1;
+          if (glm::any(glm::lessThan(v, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(v, size))) continue;
+          const float filled = static_cast<float>(*solid.at(v)) / 255.0f;
+          const TissueAppearance& appearance = tissue_at(v);
+          any = any || filled > 0.0f || &appearance != &plain;
+          const float weight = (filled * filled + 1e-4f) * appearance.colour_weight;
+          block[at(i, j, k)] = {weight * appearance.albedo.r, weight * appearance.albedo.g, weight * appearance.albedo.b,
+                                weight * appearance.finish, weight};
+        }
+    if (!any) return;
+
+    smoothAxis(block, at(1, 0, 0));
+    smoothAxis(block, at(0, 1, 0));
+    smoothAxis(block, at(0, 0, 1));
+    const glm::ivec3 extent = glm::min(glm::ivec3(kCore), size - first);
+    forEachIn({glm::ivec3(0), extent}, [&](glm::ivec3 v) {
+      const Share& share = block[at(v.x + 1, v.y + 1, v.z + 1)];
+      *field.at(first + v) = packed(glm::vec3(share[0], share[1], share[2]) / share[4], share[3] / share[4]);
+    });
+  };
+  tbb::parallel_for(0, bricks.z, [&](int k) { forEachIn({{0, 0, k}, {bricks.x, bricks.y, 1}}, blend_brick); });
+  return field;
+}
+
+}  // namespace render

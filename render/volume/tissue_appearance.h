@@ -1,0 +1,35 @@
+// How each tissue looks in linear light: colour, how it shines, how much of it shows through. Starting values judged by
+// eye on CT surfaces under the operating lamp. Plain data; any thread. What the shine of a finish means is in
+// shaders/finish.glsl. Not what the tissue is (assets/tissue.h).
+#pragma once
+
+#include <array>
+
+#include <glm/glm.hpp>
+
+#include "assets/tissue.h"
+
+namespace render {
+
+struct TissueAppearance {
+  glm::vec3 albedo;  ///< linear sRGB
+  float finish;      ///< 0 open marrow, 0.5 dull bone and dentine, 1 enamel
+  float colour_weight;    ///< how much a voxel counts for the colour of a hard surface beside it: soft tissue hardly does
+};
+
+inline constexpr float kMarrow = 0.0f, kDull = 0.5f, kEnamel = 1.0f;
+
+inline constexpr std::array<TissueAppearance, assets::kTissueCount> kTissueAppearance = {{
+    {{0.72f, 0.615f, 0.46f}, kDull, 0.02f},  // unlabelled: a scan without segmentation reads as bone
+    {{0.74f, 0.63f, 0.47f}, kDull, 1.0f},    // cortical
+    {{0.58f, 0.30f, 0.21f}, kMarrow, 1.0f},  // trabecular, only seen freshly cut: marrow and blood
+    {{0.70f, 0.655f, 0.54f}, 0.85f, 1.0f},   // other teeth
+    {{0.75f, 0.73f, 0.66f}, kEnamel, 1.0f},  // enamel
+    {{0.78f, 0.64f, 0.38f}, kDull, 1.0f},    // dentine
+    {{0.45f, 0.06f, 0.06f}, 0.35f, 0.5f},    // pulp
+    {{0.90f, 0.80f, 0.30f}, 0.65f, 0.5f},    // canal
+    {{0.66f, 0.36f, 0.30f}, 0.6f, 0.05f},    // ligament
+    {{0.60f, 0.22f, 0.22f}, 0.7f, 0.02f},    // gingiva
+}};
+
+}  // namespace render

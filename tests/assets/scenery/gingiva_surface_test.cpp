@@ -1,0 +1,99 @@
+#include "assets/scenery/gingiva_surface.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "assets/load_error.h"
+
+namespace assets {
+namespace {
+
+// A ridge of bone under 2 mm of gingiva, 40 mm long; a left third molar in its middle.
+constexpr double kGingivaTop_mm = 2.0;
+
+CtVolume ridge() {
+  CtVolume ct;
+  ct.grid = {{120, 160, 48}, 0.3, {2.0, -24.0, -10.0}};
+  ct.label.assign(ct.grid.voxelCount(), 0);
+  for (int k = 4; k < ct.grid.size.z; ++k) {
+    for (int j = 4; j < ct.grid.size.y - 4; ++j) {
+      for (int i = 4; i < ct.grid.size.x - 4; ++i) {
+        const double z = ct.grid.centre_P_mm({i, j, k}).z;
+        const Tissue tissue = z < 0.0 ? Tissue::cortical : z < kGingivaTop_mm ? Tissue::gingiva : Tissue::unlabelled;
+        ct.label[ct.grid.index({i, j, k})] = static_cast<std::uint8_t>(tissue);
+      }
+    }
+  }
+  return ct;
+}
+
+OperativeSite siteAt(const glm::dvec3& centre_P) { return {38, centre_P, {0, 0, 1}}; }
+
+const glm::dvec3 kSite{20.0, 0.0, -4.0};
+
+TEST(GingivaSurface, LiesOnTheTopOfTheLabelledGingiva) {
+  const MeshModel model = gingivaSurface(ridge(), std::nullopt);
+  ASSERT_EQ(model.parts.size(), 1u);
+  EXPECT_EQ(model.parts[0].name, "Gum");
+  int tops = 0;
+  for (std::size_t n = 0; n < model.parts[0].position_mm.size(); ++n) {
+    const glm::vec3& p = model.parts[0].position_mm[n];
+    if (model.parts[0].normal[n].z < 0.9f || p.x < 6 || p.x > 34 || std::abs(p.y) > 20) continue;
+    EXPECT_NEAR(p.z, kGingivaTop_mm, 0.3);
+    ++tops;
+  }
+  EXPECT_GT(tops, 1000);
+}
+
+TEST(GingivaSurface, KeepsItsUndersideInsideTheBone) {
+  const MeshModel model = gingivaSurface(ridge(), std::nullopt);
+  for (std::size_t n = 0; n < model.parts[0].position_mm.size(); ++n) {
+    const glm::vec3& p = model.parts[0].position_mm[n];
+    if (model.parts[0].normal[n].z > -0.9f || p.x < 6 || p.x > 34) continue;
+    EXPECT_LT(p.z, -0.2);
+  }
+}
+
+TEST(GingivaSurface, LaysTheThirdMolarBareOnTheCheekSide) {
+  const MeshModel model = gingivaSurface(ridge(), siteAt(kSite));
+  double nearest_mm = 1e9;
+  int tongue_side = 0;
+  for (const glm::vec3& p : model.parts.at(0).position_mm) {
+    EXPECT_GT(flapDistance_mm(siteAt(kSite), glm::dvec3(p)), -0.7);
+    if (p.x > kSite.x - 1.0) nearest_mm = std::min<double>(nearest_mm, glm::distance(glm::dvec3(p), kSite));
+    tongue_side += p.x < kSite.x - 7.0 && std::abs(p.y) < 8.0 ? 1 : 0;
+  }
+  EXPECT_GT(nearest_mm, 9.0);
+  EXPECT_LT(nearest_mm, 14.0);
+  EXPECT_GT(tongue_side, 500);
+}
+
+TEST(GingivaSurface, IsDarkerAtTheWoundsEdge) {
+  const MeshModel model = gingivaSurface(ridge(), siteAt(kSite));
+  double edge = 0.0, far = 0.0;
+  int edges = 0, fars = 0;
+  for (std::size_t n = 0; n < model.parts[0].position_mm.size(); ++n) {
+    const double d = flapDistance_mm(siteAt(kSite), glm::dvec3(model.parts[0].position_mm[n]));
+    if (d < 0.5) edge += model.parts[0].colour[n].r, ++edges;
+    if (d > 6.0) far += model.parts[0].colour[n].r, ++fars;
+  }
+  ASSERT_GT(edges, 50);
+  ASSERT_GT(fars, 50);
+  EXPECT_LT(edge / edges, 0.75 * far / fars);
+}
+
+TEST(GingivaSurface, IsEmptyWithoutGingiva) {
+  CtVolume ct = ridge();
+  for (std::uint8_t& label : ct.label) label = label == 9 ? 0 : label;
+  EXPECT_TRUE(gingivaSurface(ct, siteAt(kSite)).parts.empty());
+}
+
+TEST(GingivaSurface, RefusesLabelsThatDoNotFitTheirGrid) {
+  CtVolume ct = ridge();
+  ct.label.pop_back();
+  EXPECT_THROW(gingivaSurface(ct, {}), LoadError);
+}
+
+}  // namespace
+}  // namespace assets

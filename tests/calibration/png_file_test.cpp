@@ -1,0 +1,29 @@
+#include "calibration/png_file.h"
+
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace calibration {
+namespace {
+
+TEST(PictureFile, WritesAPngOfTheSizeAsked) {
+  const std::string path = testing::TempDir() + "picture_file_test.tmp";
+  writePng(path, {3, 2}, std::vector<std::uint8_t>(24, 200));
+  std::ifstream file(path, std::ios::binary);
+  std::vector<unsigned char> head(24);
+  file.read(reinterpret_cast<char*>(head.data()), 24);
+  EXPECT_EQ(head[1], 'P');
+  EXPECT_EQ(head[19], 3);
+  EXPECT_EQ(head[23], 2);
+  std::filesystem::remove(path);
+}
+
+TEST(PictureFile, SaysWhereItCanNotWrite) {
+  EXPECT_THROW(writePng("/nonexistent/a.png", {1, 1}, std::vector<std::uint8_t>(4)), CalibrationError);
+}
+
+}  // namespace
+}  // namespace calibration

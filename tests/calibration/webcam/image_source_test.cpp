@@ -1,0 +1,44 @@
+#include <filesystem>
+#include <fstream>
+#include <functional>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "calibration/png_file.h"
+#include "calibration/webcam/webcam_source.h"
+#include "tests/refusal.h"
+
+namespace calibration {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(PictureFolder, GivesItsPicturesByTheirNumbers) {
+  const std::string folder = testing::TempDir() + "picture_folder_test";
+  std::filesystem::create_directories(folder);
+  for (const int number : {10, 2, 1, 33})
+    writePng(folder + "/view" + std::to_string(number) + ".png", {16, 16},
+             std::vector<std::uint8_t>(16 * 16 * 4, static_cast<std::uint8_t>(number)));
+  std::ofstream(folder + "/notes3.txt") << "not a picture";
+  const auto source = openImageSource({.device = folder, .exposure_ms = {}, .focus = {}}).images;
+  for (const int number : {1, 2, 10, 33}) EXPECT_EQ(source->take().grey[0], number);
+  EXPECT_THAT(tests::refusalOf<CalibrationError>([&] { source->take(); }), HasSubstr("used up"));
+  std::filesystem::remove_all(folder);
+  EXPECT_THAT(tests::refusalOf<CalibrationError>([&] { imageFolder(folder); }), HasSubstr("can not be read"));
+  std::filesystem::create_directories(folder);
+  EXPECT_THAT(tests::refusalOf<CalibrationError>([&] { imageFolder(folder); }), HasSubstr("no PNG or JPEG"));
+  std::filesystem::remove_all(folder);
+}
+
+TEST(WebcamSource, SaysInOneLineThatThereIsNoCamera) {
+  EXPECT_THAT(
+      tests::refusalOf<CalibrationError>([] { openImageSource({.device = "97", .exposure_ms = {}, .focus = {}}); }),
+      testing::AllOf(HasSubstr("webcam /dev/video97"), HasSubstr("not there")));
+  EXPECT_THAT(
+      tests::refusalOf<CalibrationError>([] { openImageSource({.device = "/dev/null", .exposure_ms = {}, .focus = {}}); }),
+      HasSubstr("no camera"));
+}
+
+}  // namespace
+}  // namespace calibration

@@ -1,0 +1,161 @@
+#include "haptics/safety/safety_state.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace haptics {
+namespace {
+
+/// One with motors, that has come to the state asked for the way it should.
+struct Bench {
+  SafetyLimits limits = strict({});
+  SafetyStateMachine readiness;
+  SafetyStateMachine::Inputs seen;
+
+  Bench() { seen.touches = false; }
+  SafetyState tick(int times = 1) {
+    SafetyState state{};
+    for (int i = 0; i < times; ++i) state = readiness.follow(seen, limits, 1e-3);
+    return state;
+  }
+};
+
+TEST(SafetyStateMachine, GoesFromOffThroughReadyAndArmedToActive) {
+  Bench bench;
+  EXPECT_EQ(bench.readiness.state(), SafetyState::off);
+  bench.seen.calibrated = false;
+  EXPECT_EQ(bench.tick(3), SafetyState::calibrate);
+  bench.seen.calibrated = true;
+  EXPECT_EQ(bench.tick(), SafetyState::ready);
+  EXPECT_EQ(bench.tick(), SafetyState::armed);
+  EXPECT_EQ(bench.tick(), SafetyState::active);
+}
+
+TEST(SafetyStateMachine, ArmsOnlyOutsideTissueAtRestAndOutOfTheInkwell) {
+  const auto after = [](auto&& change) {
+    Bench bench;
+    change(bench.seen);
+    return bench.tick(100);
+  };
+  EXPECT_EQ(after([](SafetyStateMachine::Inputs& s) { s.touches = true; }), SafetyState::ready);
+  EXPECT_EQ(after([](SafetyStateMachine::Inputs& s) { s.docked = true; }), SafetyState::ready);
+  EXPECT_EQ(after([](SafetyStateMachine::Inputs& s) { s.speed_mm_per_s = 50.1; }), SafetyState::ready);
+  EXPECT_EQ(after([](SafetyStateMachine::Inputs& s) { s.speed_mm_per_s = 49.9; }), SafetyState::active);
+  EXPECT_EQ(after([](SafetyStateMachine::Inputs& s) { s.held = false; }), SafetyState::armed);
+}
+
+TEST(SafetyStateMachine, IsArmedNoLongerOnceTheToolIsInTissue) {
+  Bench bench;
+  bench.seen.held = false;
+  EXPECT_EQ(bench.tick(3), SafetyState::armed);
+  bench.seen.touches = true;
+  EXPECT_EQ(bench.tick(), SafetyState::ready);
+  bench.seen.held = true;
+  EXPECT_EQ(bench.tick(100), SafetyState::ready) << "in tissue nothing begins";
+}
+
+TEST(SafetyStateMachine, GoesBackToReadyAtOnceWhenDockedOrAfterAPause) {
+  for (bool pause : {false, true}) {
+    Bench bench;
+    ASSERT_EQ(bench.tick(5), SafetyState::active);
+    (pause ? bench.seen.resumed : bench.seen.docked) = true;
+    EXPECT_EQ(bench.tick(), SafetyState::ready);
+  }
+}
+
+TEST(SafetyStateMachine, LetsGoInFiftyMillisecondsWhenTheDeadmanFeelsNoHand) {
+  for (double dt_s : {2e-3, 1e-3, 1e-4}) {
+    Bench bench;
+    ASSERT_EQ(bench.tick(5), SafetyState::active);
+    bench.seen.held = false;
+    double s = 0.0;
+    while (bench.readiness.follow(bench.seen, bench.limits, dt_s) == SafetyState::active && s < 1.0) {
+      EXPECT_TRUE(bench.readiness.isReleasing());
+      s += dt_s;
+    }
+    EXPECT_NEAR(s, 0.05, 1.01 * dt_s);
+    EXPECT_FALSE(bench.readiness.isReleasing());
+  }
+  Bench taken_again;
+  ASSERT_EQ(taken_again.tick(5), SafetyState::active);
+  taken_again.seen.held = false;
+  taken_again.tick(30);
+  taken_again.seen.held = true;
+  EXPECT_EQ(taken_again.tick(200), SafetyState::active);
+}
+
+TEST(SafetyStateMachine, LatchesAFaultUntilAnOperatorLiftsItAndItsCauseIsOver) {
+  Bench bench;
+  ASSERT_EQ(bench.tick(5), SafetyState::active);
+  bench.seen.trouble = true;
+  EXPECT_EQ(bench.tick(), SafetyState::fault);
+  bench.seen.rearm = 1;
+  EXPECT_EQ(bench.tick(), SafetyState::fault) << "the cause is still there";
+  bench.seen.trouble = false;
+  EXPECT_EQ(bench.tick(1000), SafetyState::fault) << "that word is spent";
+  bench.seen.rearm = 2;
+  EXPECT_EQ(bench.tick(), SafetyState::ready);
+}
+
+TEST(SafetyStateMachine, IsOffForGoodAfterAStop) {
+  for (bool motors : {false, true}) {
+    Bench bench;
+    bench.limits.must_be_armed = motors;
+    ASSERT_EQ(bench.tick(5), SafetyState::active);
+    bench.seen.stop_requested = true;
+    EXPECT_EQ(bench.tick(), SafetyState::off);
+    bench.seen = {};
+    bench.seen.rearm = 9;
+    EXPECT_EQ(bench.tick(1000), SafetyState::off);
+  }
+}
+
+TEST(SafetyStateMachine, IsActiveAtOnceWhereNobodyCanBePushed) {
+  Bench bench;
+  bench.limits = {};
+  bench.seen.touches = true;
+  bench.seen.speed_mm_per_s = 900.0;
+  EXPECT_EQ(bench.tick(), SafetyState::active);
+  bench.seen.trouble = true;
+  EXPECT_EQ(bench.tick(), SafetyState::fault);
+  bench.seen.trouble = false;
+  EXPECT_EQ(bench.tick(), SafetyState::active);
+}
+
+TEST(SafetyStateMachine, IsNeverActiveWithoutHavingBeenArmedWhateverIsSeen) {
+  std::mt19937 random(8);
+  const auto chance = [&](unsigned percent) { return random() % 100 < percent; };
+  Bench bench;
+  SafetyState last = SafetyState::off;
+  int active = 0, faults = 0;
+  for (int tick = 0; tick < 1'000'000; ++tick) {
+    SafetyStateMachine::Inputs& s = bench.seen;
+    s.trouble = tick % 997 < 3;
+    s.calibrated = !(tick % 4001 < 50);
+    if (chance(2)) s.docked = chance(10);
+    if (chance(2)) s.held = chance(80);
+    s.resumed = chance(0) || tick % 1501 == 0;
+    if (chance(2)) s.touches = chance(40);
+    if (chance(5)) s.speed_mm_per_s = chance(50) ? 10.0 : 200.0;
+    if (chance(1)) s.rearm += chance(50);
+    const SafetyState now = bench.tick();
+    if (now == SafetyState::active && last != SafetyState::active) {
+      ASSERT_EQ(last, SafetyState::armed);
+    }
+    if (now == SafetyState::armed && last != SafetyState::armed) {
+      ASSERT_FALSE(s.touches || s.docked || s.speed_mm_per_s >= 50.0);
+    }
+    if (now == SafetyState::active || now == SafetyState::armed) {
+      ASSERT_FALSE(s.docked || s.trouble || s.resumed || !s.calibrated);
+    }
+    active += now == SafetyState::active;
+    faults += now == SafetyState::fault;
+    last = now;
+  }
+  EXPECT_GT(active, 10'000);
+  EXPECT_GT(faults, 10'000);
+}
+
+}  // namespace
+}  // namespace haptics
