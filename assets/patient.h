@@ -28,8 +28,8 @@ struct Patient {
   glm::dvec3 jaw_P_mm{0.0};                       ///< where to look without a site: the lower jaw, or what there is
   std::vector<glm::dvec3> mandibular_canal_P_mm;  ///< centre line of the mandibular canal, empty if unknown
   double mandibular_canal_radius_mm = 1.4;
-  MeshModel gingiva;   ///< gingiva as a surface, with the flap raised around the site; may be empty
-  MeshModel face;  ///< context only; may be empty
+  MeshModel gingiva;  ///< gingiva as a surface, with the flap raised around the site; may be empty
+  MeshModel face;     ///< context only; may be empty
 
   glm::dvec3 focus_P_mm() const { return site ? site->centre_P_mm : jaw_P_mm; }
   /// The tooth whose side and jaw decide how the patient lies; the usual one where none is known.

@@ -141,7 +141,7 @@ void TomlReader::refuse(const std::string& table, const std::string& key, const 
 }
 
 double TomlReader::number(const std::string& table, const std::string& key, const NumberRange& range,
-                        std::optional<double> fallback) {
+                          std::optional<double> fallback) {
   const toml::node* node = document_->take(table, key);
   if (!node && fallback) return *fallback;
   if (!node) refuse(table, key, "it is missing, give " + rangeText(range));
@@ -153,7 +153,7 @@ double TomlReader::number(const std::string& table, const std::string& key, cons
 }
 
 std::int64_t TomlReader::integer(const std::string& table, const std::string& key, std::int64_t low, std::int64_t high,
-                             std::optional<std::int64_t> fallback) {
+                                 std::optional<std::int64_t> fallback) {
   const toml::node* node = document_->take(table, key);
   if (!node && fallback) return *fallback;
   const std::string range = "give a whole number from " + std::to_string(low) + " to " + std::to_string(high);
@@ -181,7 +181,7 @@ std::string TomlReader::text(const std::string& table, const std::string& key, s
 }
 
 std::size_t TomlReader::choice(const std::string& table, const std::string& key,
-                             std::initializer_list<std::string_view> choices, std::optional<std::size_t> fallback) {
+                               std::initializer_list<std::string_view> choices, std::optional<std::size_t> fallback) {
   const toml::node* node = document_->take(table, key);
   if (!node && fallback) return *fallback;
   const std::string given = node && node->is_string() ? *node->value<std::string>() : std::string();
@@ -195,7 +195,7 @@ std::size_t TomlReader::choice(const std::string& table, const std::string& key,
 }
 
 std::vector<double> TomlReader::numbers(const std::string& table, const std::string& key, const NumberRange& range,
-                                      std::size_t least, std::size_t most) {
+                                        std::size_t least, std::size_t most) {
   const toml::node* node = document_->take(table, key);
   const std::string want =
       "give a list of " + std::to_string(least) + " to " + std::to_string(most) + " numbers from " + rangeText(range);
@@ -212,7 +212,7 @@ glm::dvec3 TomlReader::vector(const std::string& table, const std::string& key, 
 }
 
 std::vector<glm::dvec3> TomlReader::vectors(const std::string& table, const std::string& key, double largest,
-                                          std::size_t most) {
+                                            std::size_t most) {
   const toml::node* node = document_->take(table, key);
   const NumberRange range{-largest, largest, ""};
   const toml::array* list = node ? node->as_array() : nullptr;

@@ -1,7 +1,7 @@
 // A small TOML file as typed answers: table by table, key by key, with the range each number must keep. Every refusal
-// is one line (LoadError) that names file, line and key; what nobody asked for is refused too (refuseUnknownKeys), so that a
-// misspelt key is never silently a default. Start-up and, for files read anew while running, the frame loop; never the
-// servo. Files up to 64 kB. The one home of toml++.
+// is one line (LoadError) that names file, line and key; what nobody asked for is refused too (refuseUnknownKeys), so
+// that a misspelt key is never silently a default. Start-up and, for files read anew while running, the frame loop;
+// never the servo. Files up to 64 kB. The one home of toml++.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -40,7 +40,7 @@ class TomlReader {
   double number(const std::string& table, const std::string& key, const NumberRange& range,
                 std::optional<double> fallback = {});
   std::int64_t integer(const std::string& table, const std::string& key, std::int64_t low, std::int64_t high,
-                     std::optional<std::int64_t> fallback = {});
+                       std::optional<std::int64_t> fallback = {});
   bool boolean(const std::string& table, const std::string& key, std::optional<bool> fallback = {});
   std::string text(const std::string& table, const std::string& key, std::optional<std::string> fallback = {});
   /// One of `choices`; the index into them.

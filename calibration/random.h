@@ -1,7 +1,7 @@
-// RandomGenerator that is the same on every machine, spelled out because the standard library's distributions differ: draws from
-// std::mt19937, which is the same everywhere; and SplitMix64 (Steele, Lea, Flood, OOPSLA 2014), a number for a number
-// and a small generator. The two keep apart: what was recorded came from the one or the other. Any thread, a generator
-// per thread. Not for secrets.
+// RandomGenerator that is the same on every machine, spelled out because the standard library's distributions differ:
+// draws from std::mt19937, which is the same everywhere; and SplitMix64 (Steele, Lea, Flood, OOPSLA 2014), a number for
+// a number and a small generator. The two keep apart: what was recorded came from the one or the other. Any thread, a
+// generator per thread. Not for secrets.
 #pragma once
 
 #include <cmath>
@@ -50,7 +50,8 @@ constexpr std::uint64_t mixedBits(std::uint64_t x) noexcept {
 class RandomGenerator {
  public:
   /// `stream` separates the uses of one seed: hand, order, observer.
-  explicit RandomGenerator(std::uint64_t seed, std::uint64_t stream = 0) : state_(mixedBits(seed) ^ mixedBits(~stream)) {}
+  explicit RandomGenerator(std::uint64_t seed, std::uint64_t stream = 0)
+      : state_(mixedBits(seed) ^ mixedBits(~stream)) {}
 
   std::uint64_t bits() { return mixedBits(state_ += kSplitMixStep); }
   /// 0 <= u < 1.

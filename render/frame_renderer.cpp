@@ -39,8 +39,8 @@ FrameRenderer::FrameRenderer(const assets::VolumeGrid& grid, std::span<const std
     return;
   }
   upload_ = std::make_unique<WindowUpload>();
-  scene_ = cpuSceneRenderer(
-      fields_, options, [this](const Image& image, const WindowTarget& place) { upload_->show(image, place); });
+  scene_ = cpuSceneRenderer(fields_, options,
+                            [this](const Image& image, const WindowTarget& place) { upload_->show(image, place); });
 }
 
 FrameRenderer::~FrameRenderer() = default;

@@ -11,8 +11,8 @@
 #include "render/gpu/framebuffer.h"
 #include "render/gpu/gl_error.h"
 #include "render/gpu/window_image.h"
-#include "render/scene/fragment_lists.h"
 #include "render/scene/edge_pass.h"
+#include "render/scene/fragment_lists.h"
 #include "render/scene/inset_pass.h"
 #include "render/scene/mesh_pass.h"
 #include "render/shaders/shared_numbers.glsl"
@@ -137,8 +137,8 @@ void GlSceneRenderer::drawScene(const Frame& frame, Eye eye, glm::ivec2 size, Sc
     any_transparent = any_transparent || MeshPass::hasTransparent(models_[m], placements[m].opacity);
   if (any_transparent) canvas.clear.begin(target.size());
 
-  // Opaque meshes, and before the depth of bone and gingiva is known, what is seen through these; the volume between the
-  // meshes; then what lets it shine through.
+  // Opaque meshes, and before the depth of bone and gingiva is known, what is seen through these; the volume between
+  // the meshes; then what lets it shine through.
   draw(kOutside, MeshPass::Parts::opaque);
   draw(kOverlay, MeshPass::Parts::transparent);
   draw(kInside, MeshPass::Parts::opaque);

@@ -186,8 +186,8 @@ std::string recordLine(const RigRecord& record) {
             fmt::format(", foretells {:.2f} mm", record.procedure->cv_rms_mm);
   if (record.verification)
     line += "  " + std::string(nameOf(record.verification->verdict)) +
-            fmt::format(", {:.2f} mm RMS of {}, largest {:.2f} mm", record.verification->errors.rms_mm, record.verification->errors.n,
-                        record.verification->errors.max_mm);
+            fmt::format(", {:.2f} mm RMS of {}, largest {:.2f} mm", record.verification->errors.rms_mm,
+                        record.verification->errors.n, record.verification->errors.max_mm);
   else
     line += "  not proved";
   return line;

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "calibration/random.h"
 #include "calibration/geometry/units.h"
+#include "calibration/random.h"
 
 namespace app {
 namespace {

@@ -6,11 +6,11 @@
 
 #include "app/calibrate/page_scene.h"
 #include "calibration/synthetic/synthetic_rig.h"
-#include "haptics/device/simulated_device.h"
 #include "haptics/device/simulated/phantom_mechanics.h"
 #include "haptics/device/simulated/phantom_sensors.h"
 #include "haptics/device/simulated/tremor.h"
 #include "haptics/device/simulated/virtual_hand.h"
+#include "haptics/device/simulated_device.h"
 #include "haptics/latest.h"
 
 namespace app {

@@ -118,7 +118,8 @@ std::optional<std::size_t> RobotTechnician::wanted(const WizardView& view) const
     return choice("leave");
   }
   // "measure the eyes again" would find the same.
-  if (const auto i = choice("go on")) return settings_.repeats_doubtful && view.marked == 1 && choice("touch the worst") ? 1 : *i;
+  if (const auto i = choice("go on"))
+    return settings_.repeats_doubtful && view.marked == 1 && choice("touch the worst") ? 1 : *i;
   return view.marked ? std::optional<std::size_t>(0) : std::nullopt;
 }
 
@@ -138,7 +139,8 @@ void RobotTechnician::goTo(const calibration::RawJoints& raw_rad, double t_s) {
 }
 
 void RobotTechnician::goToTarget(const WizardView& view, std::size_t target, double t_s) {
-  calibration::Target wish{static_cast<int>(target) + 1, view.targets[target].position_W, view.targets[target].stylus_W};
+  calibration::Target wish{static_cast<int>(target) + 1, view.targets[target].position_W,
+                           view.targets[target].stylus_W};
   // Out of reach as asked: a little nearer to how the hand likes it, until it is reached.
   for (int n = 0; n < kHolds; ++n) {
     if (const auto touch = calibration::simulatedTouch(rig_, wish, rng_)) return goTo(touch->joints_rad, t_s);

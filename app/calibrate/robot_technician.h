@@ -17,11 +17,11 @@ namespace app {
 struct TechnicianSettings {
   bool presses = true;                                        ///< takes touches by the button; false: by holding still
   double tremor_mm = 0.03;                                    ///< at the wrist, one axis, 9 Hz
-  double move_s = 0.6;                                         ///< from one target to the next
+  double move_s = 0.6;                                        ///< from one target to the next
   std::string flip = "yes";                                   ///< how the F reads to them: the beginning of a choice
   double bar_mm = 100.0, ipd_mm = 63.0, distance_mm = 450.0;  ///< what ruler and tape say
   bool reversed = false;                                      ///< touches the targets in the opposite order
-  bool repeats_doubtful = true;                                         ///< touches a doubtful one again, as the page offers
+  bool repeats_doubtful = true;                               ///< touches a doubtful one again, as the page offers
   std::string final_choice = "take it";  ///< the beginning of what is chosen at the end; else what is marked
 };
 

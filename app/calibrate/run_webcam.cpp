@@ -21,7 +21,10 @@ constexpr double kMedian_s = 0.2;
 class WebcamShow : GuidedProcedure {
  public:
   explicit WebcamShow(const WebcamRun& run)
-      : GuidedProcedure(run, run.plan.rig.screen.px, run.robot), run_(run), procedure_(run.plan), pages_(run.plan.rig.mirror) {
+      : GuidedProcedure(run, run.plan.rig.screen.px, run.robot),
+        run_(run),
+        procedure_(run.plan),
+        pages_(run.plan.rig.mirror) {
     if (run.device != nullptr && run.images == nullptr)
       throw UsageError("calibrate: the webcam procedure needs a webcam, give --camera");
     if (run.practice) technician_.emplace(*run.practice, run.practice_px, run.practice->seed);
@@ -83,8 +86,8 @@ class WebcamShow : GuidedProcedure {
     const auto seen = source_->seen();
     const bool lit = procedure_.step() == WebcamStep::tips && seen;
     const GreyImage image = run_.images != nullptr
-                                    ? run_.images->take()
-                                    : technician_->image(procedure_, lit ? std::optional(seen->tip_W) : std::nullopt);
+                                ? run_.images->take()
+                                : technician_->image(procedure_, lit ? std::optional(seen->tip_W) : std::nullopt);
     procedure_.see(image, joints());
   }
 

@@ -14,8 +14,8 @@ namespace app {
 struct WebcamRun : GuidedRun {
   WebcamPlan plan;
   calibration::ImageSource* images = nullptr;  ///< the webcam; null: a rendered one of the practice workstation
-  glm::ivec2 practice_px{1920, 1080};              ///< of the rendered webcam
-  bool robot = false;                              ///< does all by itself, on the practice workstation
+  glm::ivec2 practice_px{1920, 1080};          ///< of the rendered webcam
+  bool robot = false;                          ///< does all by itself, on the practice workstation
 };
 
 /// None where somebody left. Throws as runWizard, and CalibrationError where the webcam falls silent.

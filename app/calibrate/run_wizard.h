@@ -21,8 +21,8 @@ namespace app {
 struct WizardRun : GuidedRun {
   WizardPlan plan;
   std::optional<TechnicianSettings> robot;  ///< holds the practice stylus instead of mouse and keys
-  bool hurried = false;                   ///< the robot takes no more time than it needs to think
-  std::filesystem::path pages;            ///< a folder for a picture of each page; empty: none
+  bool hurried = false;                     ///< the robot takes no more time than it needs to think
+  std::filesystem::path pages;              ///< a folder for a picture of each page; empty: none
 };
 
 /// Throws CalibrationError and UsageError for what can not be run, haptics::DeviceError for a device that can not be

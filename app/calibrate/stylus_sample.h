@@ -11,7 +11,7 @@ struct StylusSample {
   calibration::RawJoints raw_rad{};
   calibration::Pose<calibration::Device, calibration::Handle> X_DH;  ///< by the device's own model
   bool button = false;                                               ///< the first
-  bool valid = false;                                           ///< healthy, calibrated, its pose a pose
+  bool valid = false;                                                ///< healthy, calibrated, its pose a pose
   bool docked = false;                                               ///< in its inkwell
 };
 

@@ -31,7 +31,7 @@ StylusSample sampleOf(const haptics::TimedHandle& handle) {
   sample.button = (state.buttons & 1U) != 0;
   sample.docked = state.docked;
   sample.valid = state.healthy && state.calibrated && std::isfinite(norm) && std::abs(norm - 1.0) < 1e-6 &&
-                      std::isfinite(glm::length(state.X_DH.translation_mm));
+                 std::isfinite(glm::length(state.X_DH.translation_mm));
   for (const double angle : state.joints_rad) sample.valid = sample.valid && std::isfinite(angle);
   return sample;
 }

@@ -18,7 +18,7 @@ double angleBetween_deg(const glm::dvec3& a, const glm::dvec3& b) {
 }
 
 std::string tiltText(const calibration::Vector<calibration::World>& present_W,
-                      const calibration::Vector<calibration::World>& wanted_W) {
+                     const calibration::Vector<calibration::World>& wanted_W) {
   const auto side_deg = [](const glm::dvec3& v) { return calibration::degreesFromRad(std::atan2(v.x, v.z)); };
   const auto up_deg = [](const glm::dvec3& v) {
     return calibration::degreesFromRad(std::asin(std::clamp(v.y, -1.0, 1.0)));

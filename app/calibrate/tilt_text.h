@@ -13,6 +13,6 @@ double angleBetween_deg(const glm::dvec3& a, const glm::dvec3& b);
 
 /// "lean the handle 20° to the left and 12° up"; empty below 5° each way.
 std::string tiltText(const calibration::Vector<calibration::World>& present_W,
-                      const calibration::Vector<calibration::World>& wanted_W);
+                     const calibration::Vector<calibration::World>& wanted_W);
 
 }  // namespace app

@@ -55,7 +55,8 @@ TouchRound::TouchEvent TouchRound::update(const StylusSample& sample, Press pres
 
   if (press == Press::long_press) return undo();
   if (isComplete()) return TouchEvent::nothing;
-  if (press == Press::short_press && dwelt_at_s_ && pressed_s - *dwelt_at_s_ < kSameBreath_s) return TouchEvent::nothing;
+  if (press == Press::short_press && dwelt_at_s_ && pressed_s - *dwelt_at_s_ < kSameBreath_s)
+    return TouchEvent::nothing;
   if (press == Press::short_press) {
     std::string why;
     const auto taken = still_.before(pressed_s, why);
@@ -94,8 +95,8 @@ TouchRound::TouchEvent TouchRound::take(const StillReading& take, bool pressed) 
   intervals_s_.push_back(busy_s_ - taken_at_s_);
   taken_at_s_ = busy_s_;
   announcements_.praise("Taken: " + std::string(nounOf(plan_)) + " " + std::to_string(index + 1) +
-                    (tilt_is_wrong ? ", though not held as asked." : "."),
-                isComplete() ? WizardSound::next : WizardSound::ok);
+                            (tilt_is_wrong ? ", though not held as asked." : "."),
+                        isComplete() ? WizardSound::next : WizardSound::ok);
   return TouchEvent::taken;
 }
 
@@ -146,7 +147,7 @@ TouchRound::TouchEvent TouchRound::confirm(const StillReading& take) {
   }
   retakeAll();
   announcements_.refuse("The device counts otherwise since it was silent (" + mmText(glm::length(apart_mm)) +
-                " apart): these touches start again.");
+                        " apart): these touches start again.");
   return TouchEvent::started_again;
 }
 

@@ -80,7 +80,7 @@ class TouchRound {
   StillCapture still_;
   std::vector<std::optional<Taken>> taken_;  ///< one a target
   std::vector<std::size_t> order_;           ///< in which they were taken
-  std::optional<std::size_t> confirming_;       ///< was taken before the silence
+  std::optional<std::size_t> confirming_;    ///< was taken before the silence
   std::optional<std::size_t> objected_;      ///< a press that follows, once it was heard, takes it
   double objected_at_s_ = 0.0;
   std::optional<double> dwelt_at_s_;  ///< a press in the same breath means the same touch

@@ -188,7 +188,8 @@ void WebcamProcedure::checkLens(const GreyImage& image) {
   if (views_.size() < static_cast<std::size_t>(plan_.lens_views)) return turnTo(WebcamStep::lens);
 
   std::vector<glm::dvec2> positions_mm;
-  for (const glm::dvec2& px : board_.cornerPositions_px()) positions_mm.emplace_back(calibration::positionOn(screen_, px).mm);
+  for (const glm::dvec2& px : board_.cornerPositions_px())
+    positions_mm.emplace_back(calibration::positionOn(screen_, px).mm);
   try {
     lens_ = calibration::fitIntrinsics(image.size_px, positions_mm, views_);
   } catch (const calibration::CalibrationError& error) {

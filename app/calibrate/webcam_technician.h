@@ -33,7 +33,7 @@ class WebcamTechnician {
   void placeWebcamFor(const WebcamProcedure& procedure);
   /// What the webcam sees of what the procedure shows, with the tip lit, if any.
   calibration::GreyImage image(const WebcamProcedure& procedure,
-                                   const std::optional<calibration::Point<calibration::World>>& tip_W);
+                               const std::optional<calibration::Point<calibration::World>>& tip_W);
   /// From where the webcam stands now; no framebuffer: the screen is dark.
   calibration::GreyImage taken(const calibration::GreyImage* shown, const std::optional<calibration::LitTip>& tip);
 

@@ -48,7 +48,8 @@ Wizard::Wizard(WizardPlan plan) {
                                         "\": use one of jig27, jig8, visual15, visual25");
   context_.plan = std::move(plan);
   context_.arm = armOf(context_.plan);
-  context_.arm_is_measured = context_.plan.procedure != CalibrationProcedure::full && context_.plan.record.rig.arm.has_value();
+  context_.arm_is_measured =
+      context_.plan.procedure != CalibrationProcedure::full && context_.plan.record.rig.arm.has_value();
   for (const StepName name : pagesOf(context_.plan.procedure))
     steps_.emplace_back(name, kSteps[static_cast<std::size_t>(name)](context_));
   turnTo(0);
@@ -94,7 +95,8 @@ void Wizard::apply(const StepResult& answer) {
   context_.outcome.end = answer.end;
   context_.outcome.reason = answer.reason;
   context_.announcements.message = {};
-  context_.announcements.sounds.push_back(answer.end == WizardOutcome::End::accepted ? WizardSound::done : WizardSound::reject);
+  context_.announcements.sounds.push_back(answer.end == WizardOutcome::End::accepted ? WizardSound::done
+                                                                                     : WizardSound::reject);
 }
 
 WizardView Wizard::takeView() {

@@ -24,14 +24,14 @@ struct WizardOutcome {
   End end = End::running;
   std::string reason;  ///< one sentence, what to do with it
 
-  std::optional<calibration::ImageOrientation> flip;       ///< how the drawn F read
-  std::optional<calibration::MeasuredBars> bars;  ///< by a ruler
+  std::optional<calibration::ImageOrientation> flip;  ///< how the drawn F read
+  std::optional<calibration::MeasuredBars> bars;      ///< by a ruler
   std::optional<double> ipd_mm, eye_distance_mm;
   std::optional<calibration::ScreenCorners> screen;  ///< corrected by the bars; none: as it was
 
-  calibration::TouchSet touches;  ///< of the calibration; empty: none was made
-  calibration::TouchSet verification;    ///< held out, or of the last check
-  calibration::TouchSet zeroing;  ///< of the re-zero
+  calibration::TouchSet touches;       ///< of the calibration; empty: none was made
+  calibration::TouchSet verification;  ///< held out, or of the last check
+  calibration::TouchSet zeroing;       ///< of the re-zero
   calibration::TouchSet eye_check;
   std::optional<calibration::ArmFit> fit;
   std::optional<calibration::Rezero> rezero;

@@ -49,7 +49,7 @@ void WizardPages::prepare(const WizardView& view, glm::ivec2 px) {
 }
 
 Image WizardPages::page(const WizardView& view, const std::optional<TrueStylus>& stylus, Eye eye, glm::ivec2 px,
-                          double t_s) {
+                        double t_s) {
   prepare(view, px);
   eye_->copy(*words_);
   const double glow = 0.5 - 0.5 * std::cos(2.0 * calibration::kPi * t_s / kPulse_s);
@@ -58,7 +58,7 @@ Image WizardPages::page(const WizardView& view, const std::optional<TrueStylus>&
 }
 
 Image WizardPages::output(const WizardView& view, const std::optional<TrueStylus>& stylus,
-                            const render::StereoLayout& layout, double t_s) {
+                          const render::StereoLayout& layout, double t_s) {
   const glm::ivec2 px = render::eyeImageSize(layout.mode, layout.screen_px);
   if (layout.mode == render::DisplayMode::mono) return page(view, stylus, Eye::cyclopean, px, t_s);
   if (render::outputCount(layout.mode) > 1)

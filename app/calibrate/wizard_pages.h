@@ -27,10 +27,10 @@ class WizardPages {
 
   /// What an output of the layout shows. `t_s`: time, for what glows.
   render::Image output(const WizardView& view, const std::optional<TrueStylus>& stylus,
-                         const render::StereoLayout& layout, double t_s);
+                       const render::StereoLayout& layout, double t_s);
   /// What an eye is shown, `px` pixels over the whole screen.
   render::Image page(const WizardView& view, const std::optional<TrueStylus>& stylus, render::Eye eye, glm::ivec2 px,
-                       double t_s);
+                     double t_s);
 
   /// The rig that a view is drawn through.
   calibration::Rig rigOf(const WizardView& view) const;

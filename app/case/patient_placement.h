@@ -21,7 +21,7 @@ calibration::Pose<calibration::World, calibration::Patient> placePatient(
 /// The tooth at the site at the origin of W, or where to look without one, every head looked into along the surgeon's
 /// line. `X_PF`: how the head stands around the jaw; a placed face opens its mouth, which turns it against the scan.
 calibration::Pose<calibration::World, calibration::Patient> placePatientAtSite(const assets::Patient& patient,
-                                                                        const assets::FacePose& X_PF);
+                                                                               const assets::FacePose& X_PF);
 
 /// Whether a rig leaves it to the program how the patient stands: X_WP is the identity.
 bool hasNoPatientPose(const calibration::Rig& rig);

@@ -205,8 +205,7 @@ std::optional<assets::PlannedCut> planOnNearestBone(const assets::Patient& patie
   std::ranges::stable_sort(places, {}, [](const glm::ivec2& p) { return p.x * p.x + p.y * p.y; });
   std::vector<glm::dvec3> best;
   for (const glm::ivec2& place : places) {
-    const glm::dvec3 seen =
-        patient.focus_P_mm() + kSearchStep_mm * (double(place.x) * side + double(place.y) * across);
+    const glm::dvec3 seen = patient.focus_P_mm() + kSearchStep_mm * (double(place.x) * side + double(place.y) * across);
     const auto hit = firstSolid(patient.ct, seen + kSearch_mm * outward, -outward, 2.0 * kSearch_mm);
     if (!hit || !hit->bone) continue;
     std::vector<glm::dvec3> found =

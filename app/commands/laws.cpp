@@ -45,8 +45,12 @@ std::vector<const haptics::LawName*> chosenLaws(const LawsOptions& options) {
 }
 
 nlohmann::json jsonOf(const LawParameter& one) {
-  return {{"key", one.key},         {"unit", one.unit},          {"lowest", one.lowest},
-          {"highest", one.highest}, {"default", one.defaultValue()}, {"meaning", one.meaning},
+  return {{"key", one.key},
+          {"unit", one.unit},
+          {"lowest", one.lowest},
+          {"highest", one.highest},
+          {"default", one.defaultValue()},
+          {"meaning", one.meaning},
           {"source", one.source}};
 }
 
@@ -72,9 +76,9 @@ void printJson(const std::vector<const haptics::LawName*>& laws) {
 }
 
 std::string rowsOf(const LawParameter& one) {
-  return fmt::format("    {:26} {:>9.9g}  {:14} {:7} {}\n    {:26} {:9}  {:14} {:7}   {}\n", one.key, one.defaultValue(),
-                     fmt::format("{:.9g} .. {:.9g}", one.lowest, one.highest), one.unit, one.meaning, "", "", "", "",
-                     one.source);
+  return fmt::format("    {:26} {:>9.9g}  {:14} {:7} {}\n    {:26} {:9}  {:14} {:7}   {}\n", one.key,
+                     one.defaultValue(), fmt::format("{:.9g} .. {:.9g}", one.lowest, one.highest), one.unit,
+                     one.meaning, "", "", "", "", one.source);
 }
 
 void printTable(const std::vector<const haptics::LawName*>& laws) {

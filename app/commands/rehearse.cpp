@@ -5,8 +5,8 @@
 #include <memory>
 #include <thread>
 
-#include "app/case/patient_source.h"
 #include "app/case/patient_placement.h"
+#include "app/case/patient_source.h"
 #include "app/case/trough_plan.h"
 #include "app/commands/command.h"
 #include "app/controls/control.h"

@@ -11,7 +11,9 @@
 namespace app {
 namespace {
 
-void refuse(const std::string& where, const std::string& why) { printMessage(where.empty() ? why : where + ": " + why); }
+void refuse(const std::string& where, const std::string& why) {
+  printMessage(where.empty() ? why : where + ": " + why);
+}
 
 /// What hand, foot and operator decide, neither file nor procedure.
 void keepSwitches(const haptics::Command& from, haptics::Command& to) {
@@ -23,7 +25,7 @@ void keepSwitches(const haptics::Command& from, haptics::Command& to) {
 }  // namespace
 
 ActiveCommand::ActiveCommand(const haptics::Command& first, std::vector<haptics::Tool> other_tools,
-                         const std::string& settings_file, double device_damping_Ns_per_mm, double rate_Hz)
+                             const std::string& settings_file, double device_damping_Ns_per_mm, double rate_Hz)
     : command_(first),
       tray_(std::move(other_tools)),
       device_damping_Ns_per_mm_(device_damping_Ns_per_mm),
@@ -82,7 +84,8 @@ void ActiveCommand::undoStroke(const std::string& where) {
   if (strokes == 0) return refuse(where, "there is no stroke to take back");
   ++command_.undo_serial;
   workstation_->change(command_);
-  report("undo", "the newest of " + std::to_string(strokes) + (strokes == 1 ? " stroke" : " strokes") + " is taken back");
+  report("undo",
+         "the newest of " + std::to_string(strokes) + (strokes == 1 ? " stroke" : " strokes") + " is taken back");
 }
 
 void ActiveCommand::rearm(const std::string& where) {

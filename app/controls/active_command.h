@@ -1,7 +1,7 @@
 // The command in force during a rehearsal and all who may change it: a control (control.h), a settings file that is
-// obeyed while it changes, a procedure. What servo and device would execute only in part is refused or, at a key, lowered
-// and said. Every change is recorded before it is in force, and said. Main thread; a file is looked at four times a
-// second.
+// obeyed while it changes, a procedure. What servo and device would execute only in part is refused or, at a key,
+// lowered and said. Every change is recorded before it is in force, and said. Main thread; a file is looked at four
+// times a second.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,7 @@ class ActiveCommand {
   /// `settings_file` rules over `first`; empty: none. `other_tools`: what a change of tool goes through after the
   /// first. Throws UsageError for what can not be obeyed.
   ActiveCommand(const haptics::Command& first, std::vector<haptics::Tool> other_tools, const std::string& settings_file,
-              double device_damping_Ns_per_mm, double rate_Hz);
+                double device_damping_Ns_per_mm, double rate_Hz);
 
   const haptics::Command& inForce() const { return command_; }
   /// From now on changes go there. Borrowed.

@@ -49,7 +49,7 @@ ControlScript::ControlScript(const std::vector<TimedRequest>& asked, const std::
       ask(request);
       if (request.control != Control::tool) continue;
       held = request.value != kNoValue ? onTray(tray, request.value, std::to_string(request.value + 1))
-                                    : (held + 1) % static_cast<int>(tray.size());
+                                       : (held + 1) % static_cast<int>(tray.size());
     } catch (const UsageError& error) {
       throw UsageError(row.where + ": " + error.what());
     }

@@ -23,8 +23,8 @@ haptics::HandScript handleScript(const haptics::WorkCycle& round, const glm::dve
 }
 
 haptics::WorkCycle workCycleFor(const haptics::PhantomMechanics& mechanics, const assets::PlannedCut& cut,
-                               const haptics::CuttingMotion& manner, const calibration::Rig& rig,
-                               const glm::dvec3& tip_H_mm) {
+                                const haptics::CuttingMotion& manner, const calibration::Rig& rig,
+                                const glm::dvec3& tip_H_mm) {
   const haptics::TroughPath trough(cut, manner, rig.X_WD.inverse() * rig.X_WP);
   const auto rest_DH = mechanics.rest_DH();
   const haptics::HandTarget rest{rest_DH.translation_mm + rest_DH.rotation * tip_H_mm, rest_DH.rotation, false, 0,

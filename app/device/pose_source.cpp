@@ -35,8 +35,8 @@ void standAsMeasured(PoseSource& hand, const calibration::Rig& rig) {
 }
 
 PoseSource openPoseSource(const std::string& address, const DeviceOptions& options, const assets::Patient& patient,
-                      const calibration::Rig& rig, const std::optional<assets::PlannedCut>& cut,
-                      std::optional<OpenedDevice> opened) {
+                          const calibration::Rig& rig, const std::optional<assets::PlannedCut>& cut,
+                          std::optional<OpenedDevice> opened) {
   refuseUnlessPoseSource(address);
   const PoseSourceKind* const kind = poseSourceKindOf(address);
   PoseSource hand = kind     ? kind->begin(restOf(address), {patient, rig, cut})

@@ -35,7 +35,7 @@ struct PoseSource {
   calibration::Pose<calibration::Handle, calibration::Tool> X_HT;
   std::optional<calibration::MeasuredArm> arm;  ///< by which its sensors are read; none: as its driver has it
   std::optional<double> duration_s, rate_Hz;    ///< where the hand has its own
-  std::vector<TimedRequest> asks;                   ///< in the order of their times
+  std::vector<TimedRequest> asks;               ///< in the order of their times
 };
 
 /// Where the mouse's tool begins: in front of the site.
@@ -46,7 +46,7 @@ calibration::Pose<calibration::World, calibration::Tool> restingTool();
 /// already. Throws UsageError for no device at all, where there is no cut for a scripted hand, or a simulated arm does
 /// not reach it; haptics::DeviceError when a real one can not be had; SessionError for no recording.
 PoseSource openPoseSource(const std::string& address, const DeviceOptions& options, const assets::Patient& patient,
-                      const calibration::Rig& rig, const std::optional<assets::PlannedCut>& cut,
-                      std::optional<OpenedDevice> opened = std::nullopt);
+                          const calibration::Rig& rig, const std::optional<assets::PlannedCut>& cut,
+                          std::optional<OpenedDevice> opened = std::nullopt);
 
 }  // namespace app

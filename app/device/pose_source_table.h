@@ -14,9 +14,9 @@ namespace app {
 struct PoseSourceKind {
   std::string_view scheme;                 ///< of its address, up to the colon
   std::string_view help;                   ///< how the address goes on, and what it is
-  bool simulated;                         ///< it works by itself: no window, no clock of its own
+  bool simulated;                          ///< it works by itself: no window, no clock of its own
   bool holds_any_tool;                     ///< as the other hand too
-  bool follows_plan;                      ///< it takes the cut that is planned
+  bool follows_plan;                       ///< it takes the cut that is planned
   bool (*takes)(const std::string& rest);  ///< whether an address may go on so; may throw UsageError to say more
   PoseSource (*begin)(const std::string& rest, const PoseSourceContext& at);
 };

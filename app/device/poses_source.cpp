@@ -1,7 +1,7 @@
 // `poses:FILE`: a hand that is exactly where a pose file has it and asks for what the file asks for.
 
-#include "app/device/pose_sources.h"
 #include "app/device/pose_csv.h"
+#include "app/device/pose_sources.h"
 #include "app/text/usage_error.h"
 #include "haptics/device/simulated/pose_list_device.h"
 

@@ -1,5 +1,5 @@
-#include "app/device/pose_sources.h"
 #include "app/device/phantom_work_cycle.h"
+#include "app/device/pose_sources.h"
 #include "app/device/practice_device.h"
 #include "app/text/usage_error.h"
 #include "haptics/device/simulated/scripted_device.h"

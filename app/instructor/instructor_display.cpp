@@ -9,7 +9,7 @@
 namespace app {
 
 InstructorDisplay::InstructorDisplay(SurgeonDisplay& display, const calibration::Rig& rig, int after_monitor,
-                           std::function<void(const std::string&)> report)
+                                     std::function<void(const std::string&)> report)
     : display_(display), rig_(rig), after_monitor_(after_monitor), report_(std::move(report)) {
   open();
   // It shares with the surgeon's windows, so it goes before them.
@@ -36,7 +36,7 @@ InstructorDisplay::Input InstructorDisplay::serve(const RehearsalStatus& status)
   const render::EyeView view = render::eyeView(rig_, render::Eye::cyclopean);
   const glm::dvec3 to_the_right = rig_.right_eye.mm - rig_.left_eye.mm;
   const InstructorWindow::SurgeonImage seen{rig_.screen.px, glm::dot(view.right_edge_W.xyz, to_the_right) < 0.0,
-                                  view.up_edge_W.xyz.y < 0.0};
+                                            view.up_edge_W.xyz.y < 0.0};
   display_.renderer().composeForBystander();
   render::FrameFence composed;
   composed.mark();

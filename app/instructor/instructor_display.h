@@ -17,7 +17,7 @@ class InstructorDisplay {
  public:
   /// `after_monitor`: index of the surgeon's. Borrows both; `report` says why it can not be had.
   InstructorDisplay(SurgeonDisplay& display, const calibration::Rig& rig, int after_monitor,
-               std::function<void(const std::string&)> report);
+                    std::function<void(const std::string&)> report);
 
   bool isDue() const { return window_ && window_->isDue(); }
   /// What the operator requests now; `keys` are pressed in this window and mean what they mean in the surgeon's.

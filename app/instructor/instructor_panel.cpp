@@ -311,7 +311,8 @@ ImageArea imageArea(glm::ivec2 window_px, glm::ivec2 picture_px) {
   return {glm::ivec2(kMargin_px, kHeader_px) + glm::ivec2((free.x - size.x) / 2, 0), size};
 }
 
-std::vector<ControlRequest> drawInstructorPanel(const RehearsalStatus& status, glm::ivec2 window_px, glm::ivec2 picture_px) {
+std::vector<ControlRequest> drawInstructorPanel(const RehearsalStatus& status, glm::ivec2 window_px,
+                                                glm::ivec2 picture_px) {
   Requests requests;
   const auto left_px = static_cast<float>(window_px.x - kPanel_px), height_px = static_cast<float>(window_px.y);
   drawHeader(status, left_px);

@@ -29,6 +29,7 @@ struct ImageArea {
 ImageArea imageArea(glm::ivec2 window_px, glm::ivec2 picture_px);
 
 /// What was asked for since the last drawing. Between ImGui's NewFrame and Render.
-std::vector<ControlRequest> drawInstructorPanel(const RehearsalStatus& status, glm::ivec2 window_px, glm::ivec2 picture_px);
+std::vector<ControlRequest> drawInstructorPanel(const RehearsalStatus& status, glm::ivec2 window_px,
+                                                glm::ivec2 picture_px);
 
 }  // namespace app

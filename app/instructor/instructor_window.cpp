@@ -83,7 +83,7 @@ InstructorWindow::~InstructorWindow() = default;
 bool InstructorWindow::isDue() const { return Clock::now() - impl_->drawn >= kBetweenDrawings; }
 
 std::vector<ControlRequest> InstructorWindow::draw(const RehearsalStatus& status, render::FrameRenderer& renderer,
-                                              const render::FrameFence& composed, const SurgeonImage& seen) {
+                                                   const render::FrameFence& composed, const SurgeonImage& seen) {
   Impl& self = *impl_;
   self.feedPending();
   const Clock::time_point now = Clock::now();

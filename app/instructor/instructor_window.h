@@ -30,7 +30,7 @@ class InstructorWindow {
     bool flipped_x = false, flipped_y = false;
   };
   std::vector<ControlRequest> draw(const RehearsalStatus& status, render::FrameRenderer& renderer,
-                                const render::FrameFence& composed, const SurgeonImage& seen);
+                                   const render::FrameFence& composed, const SurgeonImage& seen);
   /// Keys pressed in this window mean what they mean in the surgeon's. Closing it is asked by CloseRequested.
   std::vector<render::WindowEvent> takeKeys();
 

@@ -32,7 +32,8 @@ class Experiment {
   /// What is felt in the first (0) or second (1) interval of this trial.
   haptics::Command commandOf(int interval) const;
   /// The answer to this trial.
-  TrialRecord answer(bool second_harder, const ProbeMeasures& first, const ProbeMeasures& second, std::optional<double> response_s = {});
+  TrialRecord answer(bool second_harder, const ProbeMeasures& first, const ProbeMeasures& second,
+                     std::optional<double> response_s = {});
 
   int trial() const { return trial_; }
   int most() const { return order_.most(); }

@@ -63,7 +63,7 @@ double minimumJerkRate(double s) { return 30.0 * s * s * (1.0 - s) * (1.0 - s); 
 }  // namespace
 
 std::vector<ProbeSample> probe(haptics::CarvedBone& bone, const ProbeSite& site, const haptics::Command& command,
-                              const ProbePlan& plan, calibration::RandomGenerator& hand) {
+                               const ProbePlan& plan, calibration::RandomGenerator& hand) {
   const std::vector<Leg> way = legsOf(plan, hand);
   const glm::dvec3 z = site.outward_P.xyz;
   const glm::dvec3 x = glm::normalize(glm::cross(glm::abs(z.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0), z));

@@ -37,6 +37,6 @@ struct ProbeSite {
 
 /// One interval. `bone` is borrowed and not changed.
 std::vector<ProbeSample> probe(haptics::CarvedBone& bone, const ProbeSite& site, const haptics::Command& command,
-                              const ProbePlan& plan, calibration::RandomGenerator& hand);
+                               const ProbePlan& plan, calibration::RandomGenerator& hand);
 
 }  // namespace app

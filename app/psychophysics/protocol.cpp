@@ -178,7 +178,8 @@ Protocol protocolFromToml(const std::string& text, const std::string& where) {
   protocol.peak_force_N = keys.number("safety", "peak_force_N", {0.1, 40.0, "N"}, protocol.peak_force_N);
   if (protocol.method == Method::constant) readConstant(keys, protocol);
   if (protocol.method == Method::staircase) readStaircase(keys, protocol);
-  if (protocol.method == Method::pair) protocol.trials = static_cast<int>(keys.integer("", "trials", 1, kMostTrials, 40));
+  if (protocol.method == Method::pair)
+    protocol.trials = static_cast<int>(keys.integer("", "trials", 1, kMostTrials, 40));
   protocol.between_trials_s = keys.number("timing", "between_trials_s", {0.0, 600.0, "s"}, 1.0);
   protocol.observer.cue = static_cast<Cue>(keys.choice("observer", "cue", {"stiffness", "peak_force"}, 0));
   protocol.observer.weber_fraction = keys.number("observer", "weber_fraction", {0.0, 1.0, ""}, 0.15);

@@ -34,12 +34,13 @@ struct PsychometricFit {
   Psychometric function;
   double log_likelihood = 0.0;
   double deviance = 0.0;
-  Interval pse_95, jnd_95;      ///< of the bootstrap
-  double deviance_p_value = 1.0;  ///< of the draws that fit worse than the answers did; below 0.05 the model is doubtful
+  Interval pse_95, jnd_95;  ///< of the bootstrap
+  double deviance_p_value =
+      1.0;  ///< of the draws that fit worse than the answers did; below 0.05 the model is doubtful
   int draws = 0;
 };
 
-double normalCdf(double z);     ///< Phi
+double normalCdf(double z);       ///< Phi
 double normalQuantile(double p);  ///< Phi^-1, 0 < p < 1
 
 /// None where the answers know no slope: fewer than two levels, all answers alike, or not rising with the level.

@@ -15,8 +15,8 @@ double width_mm(const calibration::ScreenCorners& screen) {
 
 }  // namespace
 
-ControlRouter::ControlRouter(const RehearsalPlan& plan, Equipment& equipment, ActiveCommand& active_command, RunMonitor& monitor,
-                       LiveView& picture, EventLog& event_log)
+ControlRouter::ControlRouter(const RehearsalPlan& plan, Equipment& equipment, ActiveCommand& active_command,
+                             RunMonitor& monitor, LiveView& picture, EventLog& event_log)
     : plan_(plan),
       equipment_(equipment),
       active_command_(active_command),

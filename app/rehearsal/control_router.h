@@ -1,6 +1,6 @@
 // Everybody in the room may ask for something: the hand at mouse and keys, the device's buttons, the pedal, a script,
-// the operator. Each request goes to the one who obeys it: stop and end at once, then the procedure, the command in force,
-// the layers of the picture. Main thread, once a frame; microseconds, a snapshot as long as its file takes.
+// the operator. Each request goes to the one who obeys it: stop and end at once, then the procedure, the command in
+// force, the layers of the picture. Main thread, once a frame; microseconds, a snapshot as long as its file takes.
 #pragma once
 
 #include <string>
@@ -21,7 +21,7 @@ class ControlRouter {
  public:
   /// Borrows them all. Throws UsageError that names the row of a script that asks for what there is not.
   ControlRouter(const RehearsalPlan& plan, Equipment& equipment, ActiveCommand& active_command, RunMonitor& monitor,
-             LiveView& picture, EventLog& event_log);
+                LiveView& picture, EventLog& event_log);
 
   const ControlScript& script() const { return script_; }
 

@@ -1,5 +1,5 @@
-// Time as fast as the machine can make it: a frame is so many ticks, made on this thread, fewer up to the next request of
-// the script and up to the end; what time it is follows from them alone. Nobody looks at the frames on the way, and
+// Time as fast as the machine can make it: a frame is so many ticks, made on this thread, fewer up to the next request
+// of the script and up to the end; what time it is follows from them alone. Nobody looks at the frames on the way, and
 // only snapshots are drawn. Main thread.
 #pragma once
 

@@ -29,7 +29,7 @@ SurgeonDisplay::Options displayOf(const RehearsalPlan& plan) {
 }  // namespace
 
 LiveView::LiveView(const RehearsalPlan& plan, const haptics::Command& in_force, const SecondHand* second_hand,
-                         double servo_rate_Hz, ReportLine report)
+                   double servo_rate_Hz, ReportLine report)
     : plan_(plan),
       in_force_(in_force),
       second_hand_(second_hand),

@@ -28,7 +28,7 @@ class LiveView {
 
   /// Borrows the plan, the command in force (whose tool is drawn) and the other hand, if there is one. Throws GpuError.
   LiveView(const RehearsalPlan& plan, const haptics::Command& in_force, const SecondHand* second_hand,
-              double servo_rate_Hz, ReportLine report);
+           double servo_rate_Hz, ReportLine report);
 
   /// From now on what is carved of this bone is brought over. Borrowed.
   void follow(haptics::CarvedBone& bone) { bone_ = &bone; }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/controls/active_command.h"
+#include "app/rehearsal/control_router.h"
 #include "app/rehearsal/equipment.h"
 #include "app/rehearsal/fast_pace.h"
 #include "app/rehearsal/frame_builder.h"
@@ -13,7 +14,6 @@
 #include "app/rehearsal/rehearsal_outputs.h"
 #include "app/rehearsal/run_monitor.h"
 #include "app/rehearsal/status_reporter.h"
-#include "app/rehearsal/control_router.h"
 #include "app/text/message.h"
 
 namespace app {
@@ -25,14 +25,15 @@ class Rehearsal {
   explicit Rehearsal(RehearsalPlan plan)
       : plan_(std::move(plan)),
         equipment_(plan_),
-        active_command_(plan_.command, plan_.other_tools, plan_.parameters, equipment_.damping_Ns_per_mm(), equipment_.rate_Hz()),
+        active_command_(plan_.command, plan_.other_tools, plan_.parameters, equipment_.damping_Ns_per_mm(),
+                        equipment_.rate_Hz()),
         duration_s_(plan_.seconds ? plan_.seconds : equipment_.duration_s()),
         monitor_(duration_s_),
         router_(plan_, equipment_, active_command_, monitor_, view_, event_log_),
         view_(plan_, active_command_.inForce(), equipment_.secondHand(), equipment_.rate_Hz(),
-                 [this](const std::string& line) {
-                   event_log_.report({"display", line});
-                 }),
+              [this](const std::string& line) {
+                event_log_.report({"display", line});
+              }),
         frame_(openingFrame(plan_)) {
     // Pictures with a name are claimed before the work.
     if (!plan_.snapshot.empty()) last_.emplace(plan_.snapshot, plan_.overwrite);
@@ -134,7 +135,7 @@ class Rehearsal {
     followServo();
     if (last_)
       view_.take(*last_, closingFrame(frame_, newest_, equipment_.mouse() != nullptr),
-                    station().bone().solidInGridOrder());
+                 station().bone().solidInGridOrder());
     RehearsalFigures figures = status_reporter_->figures(moment());
     if (plan_.recording) figures.recording = recorded;
     return figures;

@@ -49,7 +49,7 @@ struct RehearsalPlan {
   Ticking ticking = Ticking::realtime;  ///< by hand: as fast as the machine can, nobody watches
   bool headless = false, full_screen = false, overwrite = false;
   std::optional<int> monitor;       ///< index of render::monitors()
-  bool instructor_window = false;    ///< on the next monitor, or beside the picture on the same
+  bool instructor_window = false;   ///< on the next monitor, or beside the picture on the same
   std::optional<int> quality_step;  ///< held; none: by measured frame times
   std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();  ///< when the user asked for it
 };

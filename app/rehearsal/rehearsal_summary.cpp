@@ -69,8 +69,8 @@ std::string summaryText(const RehearsalFigures& f) {
   text += f.ticking == Ticking::realtime ? timeText(f.last) : steppedText(f.last);
   text += fmt::format("  safety           {}\n", tripsText(f.last.trips));
   if (f.last.servo.watchdog_trips > 0)
-    text +=
-        fmt::format("  supervisor       switched the motors off {} times: no tick for 50 ms\n", f.last.servo.watchdog_trips);
+    text += fmt::format("  supervisor       switched the motors off {} times: no tick for 50 ms\n",
+                        f.last.servo.watchdog_trips);
   if (f.ticking == Ticking::realtime) {
     text += fmt::format("  pictures         {}, one every {:.0f} ms, the first after {:.1f} s\n", f.frames, f.frame_ms,
                         f.first_picture_s);

@@ -19,7 +19,7 @@ struct RehearsalFigures {
   std::array<double, assets::kTissueCount> removed_mm3{};
   Ticking ticking = Ticking::realtime;  ///< by hand there is nothing to say of a clock
   std::uint64_t frames = 0;
-  double frame_ms = 0.0;                                ///< mean time between pictures
+  double frame_ms = 0.0;                                 ///< mean time between pictures
   std::optional<LatencyEstimate> latency, slow_latency;  ///< median and 95th percentile; none without a window
   double first_picture_s = 0.0;  ///< from the user's asking to the first picture, loading included
   std::optional<RecordingSummary> recording;

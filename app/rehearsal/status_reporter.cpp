@@ -11,7 +11,7 @@ constexpr std::chrono::seconds kLatencyNotedEvery{5};
 }  // namespace
 
 StatusReporter::StatusReporter(const RehearsalPlan& plan, Equipment& equipment, LiveView& picture, RunMonitor& monitor,
-                         EventLog& event_log)
+                               EventLog& event_log)
     : plan_(plan), equipment_(equipment), view_(picture), monitor_(monitor), event_log_(event_log) {
   if (plan.instructor_window)
     instructor_.emplace(picture.display(), plan.rig, plan.monitor.value_or(0), [&event_log](const std::string& line) {
@@ -58,7 +58,8 @@ InstructorDisplay::Input StatusReporter::updateInstructor(const FrameState& mome
 
 void StatusReporter::reportEnd(Ending ending) {
   if (ending == Ending::silent)
-    event_log_.report({"device", "the device has not ticked for 10 s, so the rehearsal ends; check its cable and driver"});
+    event_log_.report(
+        {"device", "the device has not ticked for 10 s, so the rehearsal ends; check its cable and driver"});
   if (view_.latency().pictures() > 0) event_log_.note("latency", "median " + latencyText(view_.latency().median()));
   Workstation& station = equipment_.workstation();
   event_log_.note("end", textOf(ending));

@@ -22,7 +22,7 @@ class StatusReporter {
   /// Borrows them all; goes before the picture, whose window the operator's shares with. Opens the operator's window
   /// where the plan has one.
   StatusReporter(const RehearsalPlan& plan, Equipment& equipment, LiveView& picture, RunMonitor& monitor,
-              EventLog& event_log);
+                 EventLog& event_log);
 
   struct FrameState {
     const haptics::Tick& newest;

@@ -8,7 +8,6 @@
 namespace app {
 
 /// `left`, `right`: eyeImageSize() of the layout; mono shows `left`.
-render::Image stereoPicture(const render::Image& left, const render::Image& right,
-                              const render::StereoLayout& layout);
+render::Image stereoPicture(const render::Image& left, const render::Image& right, const render::StereoLayout& layout);
 
 }  // namespace app

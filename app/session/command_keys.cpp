@@ -141,7 +141,8 @@ void visitSafety(auto& safety, Visit&& visit) {
   visit("safety.peak_joint_torque_Nmm.joint_1", peak_joint_torque_Nmm.x);
   visit("safety.peak_joint_torque_Nmm.joint_2", peak_joint_torque_Nmm.y);
   visit("safety.peak_joint_torque_Nmm.joint_3", peak_joint_torque_Nmm.z);
-  visit("safety.fastest_mm_per_s", max_speed_mm_per_s), visit("safety.fastest_turn_rad_per_s", max_angular_speed_rad_per_s);
+  visit("safety.fastest_mm_per_s", max_speed_mm_per_s),
+      visit("safety.fastest_turn_rad_per_s", max_angular_speed_rad_per_s);
   visit("safety.must_be_armed", must_be_armed);
   visitThresholds(thresholds, visit);
 }

@@ -79,7 +79,7 @@ std::optional<std::string> blockDifference(const TickBlock& block, const haptics
 }
 
 std::optional<std::string> finalBoneDifference(SessionReader& session, const StoredStart& start,
-                                          const haptics::CarvedBone& bone) {
+                                               const haptics::CarvedBone& bone) {
   const auto left = session.finalBone(start);
   if (left && (left->digest != bone.digest() || left->solid != bone.solidInGridOrder()))
     return "the bone that was left differs";

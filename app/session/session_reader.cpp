@@ -69,8 +69,8 @@ SessionErrorKind errorKindOf(const SQLite::Exception& exception) {
 SessionError notRead(const std::string& path, const SQLite::Exception& exception) {
   const SessionErrorKind trouble = errorKindOf(exception);
   const std::string what = path + ": can not be read (" + exception.what() + "): ";
-  return SessionError(what + (trouble == SessionErrorKind::damaged ? "the session is damaged" : "check disk and rights"),
-                      trouble);
+  return SessionError(
+      what + (trouble == SessionErrorKind::damaged ? "the session is damaged" : "check disk and rights"), trouble);
 }
 
 }  // namespace

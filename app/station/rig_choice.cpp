@@ -38,7 +38,9 @@ std::string nameOf(const DeviceIdentity& device) {
   return device.model + (device.serial.empty() ? "" : " " + device.serial);
 }
 
-std::string nameOf(const RigLocation& location) { return location.rig_id + " " + location.serial + " " + location.mount; }
+std::string nameOf(const RigLocation& location) {
+  return location.rig_id + " " + location.serial + " " + location.mount;
+}
 
 std::string ofTouches(const calibration::RigVerification& verification) {
   return fmt::format("{:.2f} mm RMS of {}", verification.errors.rms_mm, verification.errors.n);
@@ -83,7 +85,8 @@ std::optional<RigRecord> RigOption::currentFor(const DeviceIdentity& device, con
   std::vector<RigLocation> suiting;
   for (const RigLocation& location : store.locations()) {
     const bool its_serial = !device.isCalibrated() || location.serial == device.serial;
-    const bool its_rig = rig_id.empty() || location.rig_id == rig_id, its_mount = mount_.empty() || location.mount == mount_;
+    const bool its_rig = rig_id.empty() || location.rig_id == rig_id,
+               its_mount = mount_.empty() || location.mount == mount_;
     if (its_serial && its_rig && its_mount && store.currentName(location)) suiting.push_back(location);
   }
   const std::string whose = device.isCalibrated() ? " of " + nameOf(device) : "";
@@ -165,7 +168,8 @@ void RigOption::judge(ChosenRig& chosen, const DeviceIdentity& device, const std
     return;
   }
   const Verdict verdict = record.verification->verdict;
-  if (verdict == Verdict::amber) remark("its calibration is amber, " + ofTouches(*record.verification) + ": usable, not good");
+  if (verdict == Verdict::amber)
+    remark("its calibration is amber, " + ofTouches(*record.verification) + ": usable, not good");
   if (verdict != Verdict::red) return;
   const bool is_word = std::ranges::any_of(despite_, [](unsigned char c) { return std::isgraph(c) != 0; }) &&
                        std::ranges::none_of(despite_, [](unsigned char c) { return std::iscntrl(c) != 0; });

@@ -32,8 +32,7 @@ class Workstation {
   /// `keeps_ticks`: for takeTicks(). Throws SessionError or haptics::DeviceError.
   Workstation(const assets::Patient& patient, std::unique_ptr<haptics::HapticDevice> device,
               const haptics::LoopSettings& settings, const haptics::Command& command,
-              const std::optional<Recording>& recording, Ticking ticking = Ticking::realtime,
-              bool keeps_ticks = false);
+              const std::optional<Recording>& recording, Ticking ticking = Ticking::realtime, bool keeps_ticks = false);
 
   ~Workstation() { loop_.stop(); }
 

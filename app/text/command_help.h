@@ -8,8 +8,8 @@
 namespace app {
 
 struct OptionHelp {
-  std::string names;  ///< "--out", "-h,--help", or of a word that stands by its place its name
-  std::string value;  ///< "FILE", "UINT"; empty: it takes none
+  std::string names;          ///< "--out", "-h,--help", or of a word that stands by its place its name
+  std::string value;          ///< "FILE", "UINT"; empty: it takes none
   std::string default_value;  ///< its value where it is not given; empty: none, or told in `about`
   std::string about;
   std::vector<std::string> choices;  ///< empty: any

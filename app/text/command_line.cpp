@@ -44,7 +44,8 @@ OptionHelp wordsOf(const CLI::Option& option) {
   words.value = type.substr(0, type.find(':'));
   words.default_value = option.get_default_str();
   // A list of one is told as that one.
-  if (words.default_value.starts_with('[')) words.default_value = words.default_value.substr(1, words.default_value.size() - 2);
+  if (words.default_value.starts_with('['))
+    words.default_value = words.default_value.substr(1, words.default_value.size() - 2);
   return words;
 }
 

@@ -24,9 +24,9 @@ DisplayWindows::DisplayWindows(const Options& options, const ReportLine& report)
   const glm::ivec2 output_px = render::outputSize(mode_, options.screen_px);
   if (mode_ == DisplayMode::frame_packing && options.full_screen && wanted < here.size() &&
       here[wanted].px != output_px)
-    fallBack(
-        DisplayMode::top_bottom,
-        "the monitor is set to " + sizeText(here[wanted].px) + ", not to the packed mode " + sizeText(output_px), report);
+    fallBack(DisplayMode::top_bottom,
+             "the monitor is set to " + sizeText(here[wanted].px) + ", not to the packed mode " + sizeText(output_px),
+             report);
 
   render::Window::Options first;
   first.full_screen = options.full_screen;

@@ -136,7 +136,7 @@ void layAnew(Points& line, const Gap& gap, double radius_mm, const VolumeGrid& g
 }  // namespace
 
 void routeAroundTeeth(std::vector<glm::dvec3>& line_P_mm, const std::vector<bool>& is_bridge, double radius_mm,
-                       const VolumeGrid& grid, const std::vector<std::uint8_t>& label) {
+                      const VolumeGrid& grid, const std::vector<std::uint8_t>& label) {
   for (const Gap& gap : gapsOf(is_bridge)) layAnew(line_P_mm, gap, radius_mm, grid, label);
 }
 

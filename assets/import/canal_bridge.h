@@ -14,6 +14,6 @@ namespace assets {
 
 /// Moves the points of `line` that bridge a gap; the first and the last two of the line stay. `radius_mm`: the canal's.
 void routeAroundTeeth(std::vector<glm::dvec3>& line_P_mm, const std::vector<bool>& is_bridge, double radius_mm,
-                       const VolumeGrid& grid, const std::vector<std::uint8_t>& label);
+                      const VolumeGrid& grid, const std::vector<std::uint8_t>& label);
 
 }  // namespace assets

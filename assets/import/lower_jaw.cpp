@@ -119,7 +119,8 @@ std::optional<glm::dvec3> middleOfLowerTeeth(const CtVolume& ct) {
 
 }  // namespace
 
-std::optional<glm::dvec3> lowerJawCentre_P_mm(const CtVolume& ct, const std::vector<glm::dvec3>& mandibular_canal_P_mm) {
+std::optional<glm::dvec3> lowerJawCentre_P_mm(const CtVolume& ct,
+                                              const std::vector<glm::dvec3>& mandibular_canal_P_mm) {
   if (const auto teeth = middleOfLowerTeeth(ct)) return teeth;
   if (!mandibular_canal_P_mm.empty()) return mandibular_canal_P_mm[mandibular_canal_P_mm.size() / 2];
   return archOf(ct);

@@ -193,8 +193,7 @@ std::vector<std::size_t> canalMeant(const std::vector<Cell>& cells, const std::o
     double distance = -static_cast<double>(voxels);
     if (near_P_mm) {
       distance = std::numeric_limits<double>::infinity();
-      for (const std::size_t c : canal)
-        distance = std::min(distance, glm::distance(cells[c].mean_P_mm(), *near_P_mm));
+      for (const std::size_t c : canal) distance = std::min(distance, glm::distance(cells[c].mean_P_mm(), *near_P_mm));
     }
     if (distance >= best) continue;
     best = distance;

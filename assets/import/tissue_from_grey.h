@@ -32,8 +32,8 @@ std::vector<std::uint8_t> labelsFromGrey(const VolumeGrid& grid, const std::vect
 /// scan too; else dentine.
 void labelNumberedTeeth(CtVolume& ct);
 
-/// Gives what is drawn (solid at least half) but labelled as nothing or as gingiva the label of the densest hard neighbour,
-/// and the number of its tooth: labels end in voxel steps, often inside of where the grey values end.
+/// Gives what is drawn (solid at least half) but labelled as nothing or as gingiva the label of the densest hard
+/// neighbour, and the number of its tooth: labels end in voxel steps, often inside of where the grey values end.
 void labelPartialVoxels(CtVolume& ct);
 
 }  // namespace assets

@@ -51,7 +51,8 @@ MeshModel joined(const MeshModel& gingiva, const MeshModel& face) {
 }
 
 void divide(MeshModel both, MeshModel& gingiva, MeshModel& face) {
-  for (MeshPart& one : both.parts) (one.name.starts_with(kGingivaPrefix) ? gingiva : face).parts.push_back(std::move(one));
+  for (MeshPart& one : both.parts)
+    (one.name.starts_with(kGingivaPrefix) ? gingiva : face).parts.push_back(std::move(one));
 }
 
 bool isInside(const glm::dvec3& p_P_mm, const VolumeGrid& grid) {

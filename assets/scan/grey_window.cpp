@@ -7,7 +7,8 @@
 
 namespace assets {
 
-void applyGreyWindow(std::vector<std::int16_t>& values, const std::optional<GreyWindow>& window, const std::string& path) {
+void applyGreyWindow(std::vector<std::int16_t>& values, const std::optional<GreyWindow>& window,
+                     const std::string& path) {
   constexpr int kBrightest = 255;
   const auto [least, most] = std::ranges::minmax(values);
   const bool is_8_bit = least >= 0 && most <= kBrightest;

@@ -16,6 +16,7 @@ struct GreyWindow {
 };
 
 /// Applies the window. Throws LoadError: 8-bit greys without a window, or a window for other values.
-void applyGreyWindow(std::vector<std::int16_t>& values, const std::optional<GreyWindow>& window, const std::string& path);
+void applyGreyWindow(std::vector<std::int16_t>& values, const std::optional<GreyWindow>& window,
+                     const std::string& path);
 
 }  // namespace assets

@@ -1,8 +1,8 @@
 // Volumes as image files. Reads NRRD (.nrrd .nhdr), NIfTI (.nii .nii.gz) and MetaImage (.mha .mhd), any axis order,
-// flips, oblique axes, RAS or LPS space, non-cubic voxels: what comes out is a VolumeGrid in P (LPS mm), see resampling.h.
-// Any integer or float scalar type whose values fit, rescaled if the file says so. Writes gzip NRRD, LPS, i fastest
-// (design: "Volume"). Every refusal is a LoadError of one line: what image_header.h and voxel_bytes.h refuse, values
-// that are not finite or out of range, no or absurd geometry, too many voxels (kMaxVoxels). The header is judged
+// flips, oblique axes, RAS or LPS space, non-cubic voxels: what comes out is a VolumeGrid in P (LPS mm), see
+// resampling.h. Any integer or float scalar type whose values fit, rescaled if the file says so. Writes gzip NRRD, LPS,
+// i fastest (design: "Volume"). Every refusal is a LoadError of one line: what image_header.h and voxel_bytes.h refuse,
+// values that are not finite or out of range, no or absurd geometry, too many voxels (kMaxVoxels). The header is judged
 // first, then the files' lengths, then the voxels are read; no library sees a stranger's bytes but zlib. Any thread.
 // Cost: about a second per 10^8 voxels, mostly unpacking. Not DICOM (a folder of slices has its own import).
 #pragma once

@@ -11,8 +11,8 @@
 #include <optional>
 #include <set>
 
-#include "assets/scan/header_text.h"
 #include "assets/scan/compressed_bytes.h"
+#include "assets/scan/header_text.h"
 
 namespace assets {
 

@@ -120,7 +120,8 @@ class NrrdAxes {
     std::erase(word, '"');
     const auto mm = millimetresPer(trimmed(word));
     if (!mm)
-      refuseScan(fields_.path(), "its unit " + printableExcerpt(word) + " is no length that is understood; export it in mm");
+      refuseScan(fields_.path(),
+                 "its unit " + printableExcerpt(word) + " is no length that is understood; export it in mm");
     return *mm;
   }
 

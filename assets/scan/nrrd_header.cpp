@@ -39,7 +39,8 @@ VoxelType typeNamed(const std::string& name, const std::string& path) {
   }();
   const auto found = kTypes.find(lowerCase(name));
   if (found == kTypes.end())
-    refuseScan(path, "its voxels are of type " + printableExcerpt(name) + ", which can not be read; store integers or floats");
+    refuseScan(
+        path, "its voxels are of type " + printableExcerpt(name) + ", which can not be read; store integers or floats");
   return found->second;
 }
 
@@ -95,7 +96,7 @@ std::vector<VoxelFile> filesOf(const NrrdFields& fields) {
   if (isList(name)) {
     if (words.size() > 2 || (words.size() == 2 && !axes_word(1))) fields.refuseField("datafile");
     return listedDataFiles(fields.path(), fields.listedFiles(),
-                             filesNeeded(fields, axes_word(1), fields.listedFiles().size()));
+                           filesNeeded(fields, axes_word(1), fields.listedFiles().size()));
   }
   if (words[0].find('%') == std::string::npos) return {dataFile(fields.path(), name)};
 

@@ -89,7 +89,8 @@ class TextSource : public ByteSource {
   }
 
   [[noreturn]] void refuseWord(std::string_view word) const {
-    refuseScan(path_, "its voxel " + printableExcerpt(word) + " is no number of the type it states; export the volume again");
+    refuseScan(path_,
+               "its voxel " + printableExcerpt(word) + " is no number of the type it states; export the volume again");
   }
 
   CharacterReader characters_;

@@ -4,8 +4,8 @@
 //   "tooth" int32, FDI number of the tooth a voxel belongs to, background 0; left out if no tooth is told apart
 //   "solid" float, fraction 0..1 (a fog volume), background 0; the byte is round(255 fraction)
 // One linear transform for all, index to P in mm (LPS). File metadata: molar_volume_schema = 1, frame, size_ijk (how
-// far the volume reaches; the grids are sparse). The file ends in a seal (file_checksum.h), so a foreign or damaged file is
-// refused at once; as a seal can be forged and OpenVDB trusts its input, a process of its own reads it
+// far the volume reaches; the grids are sparse). The file ends in a seal (file_checksum.h), so a foreign or damaged
+// file is refused at once; as a seal can be forged and OpenVDB trusts its input, a process of its own reads it
 // (volume_reader.h). Any thread; about 10 ns a voxel and grid; a dense copy in memory.
 #pragma once
 

@@ -49,7 +49,7 @@ std::vector<Value> dense(const Grid& source, const VolumeGrid& grid, const std::
     if (!is_inside) refuse(path, "grid '" + source.getName() + "' reaches out of its volume");
     const auto* buffer = leaf->buffer().data();
     forEachLeafVoxel({box.min().x(), box.min().y(), box.min().z()}, grid,
-                [&](std::uint32_t offset, std::size_t v) { values[v] = convert(buffer[offset]); });
+                     [&](std::uint32_t offset, std::size_t v) { values[v] = convert(buffer[offset]); });
   }
   return values;
 }

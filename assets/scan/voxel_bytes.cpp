@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "assets/scan/byte_source.h"
-#include "assets/scan/header_text.h"
 #include "assets/scan/compressed_bytes.h"
+#include "assets/scan/header_text.h"
 #include "assets/scan/regular_file.h"
 #include "assets/scan/text_voxels.h"
 

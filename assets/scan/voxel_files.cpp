@@ -90,7 +90,7 @@ VoxelFile dataFile(const std::string& header_path, const std::string& name) {
 }
 
 std::vector<VoxelFile> listedDataFiles(const std::string& header_path, const std::vector<std::string>& names,
-                                         std::uint64_t expected) {
+                                       std::uint64_t expected) {
   if (names.size() != expected)
     refuseScan(header_path, "it lists " + std::to_string(names.size()) + " data files where it needs " +
                                 std::to_string(expected) + kExportAgain);
@@ -106,7 +106,7 @@ std::uint64_t NumberedNames::count() const {
 }
 
 std::vector<VoxelFile> numberedDataFiles(const std::string& header_path, const NumberedNames& names,
-                                           std::uint64_t expected) {
+                                         std::uint64_t expected) {
   const Pattern pattern = patternIn(header_path, names.pattern);
   const std::uint64_t count = names.count();
   if (count < 1 || count != expected)

@@ -18,7 +18,7 @@ VoxelFile dataFile(const std::string& header_path, const std::string& name);
 
 /// All of those names, which must be as many as expected.
 std::vector<VoxelFile> listedDataFiles(const std::string& header_path, const std::vector<std::string>& names,
-                                         std::uint64_t expected);
+                                       std::uint64_t expected);
 
 /// All the files of "NAME%03d.raw", numbered from `first` to `last` by `step`. Exactly one number in the name (%d, %i,
 /// %u with an optional width); no other conversion.
@@ -32,6 +32,6 @@ struct NumberedNames {
   std::uint64_t count() const;
 };
 std::vector<VoxelFile> numberedDataFiles(const std::string& header_path, const NumberedNames& names,
-                                           std::uint64_t expected);
+                                         std::uint64_t expected);
 
 }  // namespace assets

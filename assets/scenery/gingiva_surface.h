@@ -1,5 +1,5 @@
-// The gingiva as a surface, with the mucoperiosteal flap raised: bone and tooth lie bare on the cheek and chewing side of
-// the tooth at the site, within about 12 mm of it; the wound's edge is rounded and darker. Frame P, mm. Any thread;
+// The gingiva as a surface, with the mucoperiosteal flap raised: bone and tooth lie bare on the cheek and chewing side
+// of the tooth at the site, within about 12 mm of it; the wound's edge is rounded and darker. Frame P, mm. Any thread;
 // about 1 s per 10^6 labelled voxels. Drawn context: the bur does not cut it, and it hides nothing within the flap. Its
 // underside lies a little inside the bone, so that the two surfaces never fight. Flap: envelope flap with buccal
 // reflection (Koerner 2006); extent is our own choice.

@@ -1,7 +1,7 @@
 // The whole synthetic jaw as nested signed distances, tissue by tissue, at any point.
 // Frame J (dental_arch.h), mm, negative inside. Immutable; any thread reads. A query costs 0.1-1 us, less where
-// `NearbyStructures` says that structures are out of reach. No grey values here (scanner.h), no voxels (jaw.h). Periodontal
-// ligament 0.25 mm, follicle 0.8 mm round the crown, lamina dura 0.45 mm (textbook means).
+// `NearbyStructures` says that structures are out of reach. No grey values here (scanner.h), no voxels (jaw.h).
+// Periodontal ligament 0.25 mm, follicle 0.8 mm round the crown, lamina dura 0.45 mm (textbook means).
 #pragma once
 
 #include <cstdint>

@@ -44,8 +44,7 @@ double toothCrownHeight_mm(int position) { return kCrownHeight_mm[static_cast<st
 PlacedTooth eruptedTooth(const DentalArch& arch, int position) {
   const ArchStation station = arch.stationAt(arcLengthAtTooth_mm(position));
   const double lean_deg = kLingualLean_deg[static_cast<std::size_t>(position)];
-  PlacedTooth tooth{position, lowerToothShape(position),
-                    glm::dvec3(station.centre_mm, -toothCrownHeight_mm(position)),
+  PlacedTooth tooth{position, lowerToothShape(position), glm::dvec3(station.centre_mm, -toothCrownHeight_mm(position)),
                     toothAxes(station, lean_deg, 0.0, 0.0)};
   // The lean swings the crown to the tongue: seat the middle of the crown back on the arch, the cusps on the plane.
   tooth.cervix_J_mm += 0.35 * std::sin(calibration::radFromDegrees(lean_deg)) * toothCrownHeight_mm(position) *

@@ -25,7 +25,7 @@ struct ArmCorrection {
   std::array<double, 6> gain{};  ///< relative
   std::array<double, 3> quadratic_per_rad{};
   double thigh_delta_mm = 0.0, shin_delta_mm = 0.0;
-  double tilt_rad = 0.0;       ///< of the shoulder's axis against the turret's
+  double tilt_rad = 0.0;        ///< of the shoulder's axis against the turret's
   double reach_delta_mm = 0.0;  ///< from the turret's axis to the shoulder's
   glm::dvec3 tip_H_mm = kNominalTip_H_mm;
 };

@@ -45,7 +45,8 @@ Point<Device> wristPosition(const PhantomGeometry& geometry, const glm::dvec3& a
 
 Pose<Device, Handle> handlePose(const PhantomGeometry& geometry, const PhantomJoints& joints) {
   const glm::dvec3& g = joints.wrist_rad;
-  return {armTurn(joints.arm_rad) * aboutY(g.x) * aboutX(-g.y) * aboutZ(-g.z), wristPosition(geometry, joints.arm_rad).mm};
+  return {armTurn(joints.arm_rad) * aboutY(g.x) * aboutX(-g.y) * aboutZ(-g.z),
+          wristPosition(geometry, joints.arm_rad).mm};
 }
 
 glm::dmat3 armJacobian_mm(const PhantomGeometry& geometry, const glm::dvec3& arm_rad) {

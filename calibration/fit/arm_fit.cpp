@@ -63,7 +63,8 @@ double unseenTilts_mm(const TouchAgreement& agreement, const TouchSet& set, cons
       const TipJacobian slopes = tipJacobian(agreement.start, fit.parameters, raw);
       for (std::size_t a = 0; a < n; ++a)
         for (std::size_t b = 0; b < n; ++b)
-          sum += fit.covariance[a * n + b] * glm::dot(slopes.by_parameter[fit.fitted[a]], slopes.by_parameter[fit.fitted[b]]);
+          sum += fit.covariance[a * n + b] *
+                 glm::dot(slopes.by_parameter[fit.fitted[a]], slopes.by_parameter[fit.fitted[b]]);
       ++count;
     }
   return std::sqrt(sum / count);

@@ -1,8 +1,8 @@
 // From touches to a measured arm: where the device stands (X_WD) and how its arm differs from its model, as the most
-// probable values under priors of what such units are like. Outliers are found and named first. Models from few parameters
-// to many: rigid 6, joint gains and offsets with the tip 15, full 28; affine 12 for comparison alone, for the
-// workstation is 1:1. Frame W, mm, rad. Any thread but the servo's; about 10 ms for 27 touches, cross-validation of all
-// models included. Sources: reference/calibration 2.1, 3.1, 4.1.
+// probable values under priors of what such units are like. Outliers are found and named first. Models from few
+// parameters to many: rigid 6, joint gains and offsets with the tip 15, full 28; affine 12 for comparison alone, for
+// the workstation is 1:1. Frame W, mm, rad. Any thread but the servo's; about 10 ms for 27 touches, cross-validation of
+// all models included. Sources: reference/calibration 2.1, 3.1, 4.1.
 #pragma once
 
 #include <optional>
@@ -22,7 +22,7 @@ std::optional<ArmModel> armModelNamed(std::string_view name);
 /// One model, how well it foretells touches it has not seen.
 struct ModelScore {
   std::string name;         ///< also "affine"
-  int parameters = 0;          ///< fitted
+  int parameters = 0;       ///< fitted
   double fre_rms_mm = 0.0;  ///< on the touches it was fitted to: plausibility, no accuracy
   double cv_rms_mm = 0.0;   ///< of touches left out: 5-fold, below 20 places each place in turn
 };
@@ -57,9 +57,9 @@ struct FitOptions {
   double region_mm3 = 0.0;        ///< volume of the case's region; 0: not known. Less than 60 % of it is warned of
 };
 
-/// Throws CalibrationError for fewer than 4 touches, all on a line or in one place, the same touch twice, parameters that
-/// are not finite, an unknown model, touches that are mirrored (a flip of the display is wrong), or that no pose of the
-/// arm explains (wrong order, wrong device). A full model is chosen by itself from 8 touches whose tilts vary.
+/// Throws CalibrationError for fewer than 4 touches, all on a line or in one place, the same touch twice, parameters
+/// that are not finite, an unknown model, touches that are mirrored (a flip of the display is wrong), or that no pose
+/// of the arm explains (wrong order, wrong device). A full model is chosen by itself from 8 touches whose tilts vary.
 ArmFit fitArm(const TouchSet& touches, const FitOptions& options = {});
 
 /// Of a touch set against an arm that is already there.

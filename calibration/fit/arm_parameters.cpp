@@ -93,10 +93,10 @@ std::vector<std::size_t> parametersOf(ArmModel model) {
 MeasuredArm armOf(const ArmStart& start, const ArmParameters& parameters) {
   const glm::dquat turn = rotationFromVector(three(parameters, kTurn));
   const glm::dvec3 from_middle_mm = start.X_WD.translation_mm - start.middle_W.mm;
-  return {
-      start.geometry,
-      corrected(start.correction, parameters),
-      {glm::normalize(turn * start.X_WD.rotation), start.middle_W.mm + turn * from_middle_mm + three(parameters, kShift)}};
+  return {start.geometry,
+          corrected(start.correction, parameters),
+          {glm::normalize(turn * start.X_WD.rotation),
+           start.middle_W.mm + turn * from_middle_mm + three(parameters, kShift)}};
 }
 
 TipJacobian tipJacobian(const ArmStart& start, const ArmParameters& parameters, const RawJoints& raw_rad) {

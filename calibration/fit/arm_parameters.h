@@ -1,8 +1,8 @@
-// The 28 parameters of a measured arm: six of where it stands, 22 of how it differs from its model, with what is believed
-// of each before any touch; and how the tip moves with each of them. Pose parameters are a turn about, and a shift of, the
-// middle of the targets from a start that is already near: so they hardly pull at each other. Frames W and D; mm, rad.
-// Pure; any thread; a tip with its slopes about 0.5 us. Prior sigmas: reference/calibration 2.1, 3.1, 1.6 to 2.5 times
-// what is assumed of typical units.
+// The 28 parameters of a measured arm: six of where it stands, 22 of how it differs from its model, with what is
+// believed of each before any touch; and how the tip moves with each of them. Pose parameters are a turn about, and a
+// shift of, the middle of the targets from a start that is already near: so they hardly pull at each other. Frames W
+// and D; mm, rad. Pure; any thread; a tip with its slopes about 0.5 us. Prior sigmas:
+// reference/calibration 2.1, 3.1, 1.6 to 2.5 times what is assumed of typical units.
 #pragma once
 
 #include <array>

@@ -82,7 +82,8 @@ CrossValidation crossValidated(const ArmStart& start, const std::vector<Touch>& 
                                std::span<const std::size_t> which, const TouchPrecision& precision,
                                const KinematicFit& whole) {
   const glm::dvec3 squares = overFolds_mm2(touches, which, [&](const Indices& seen, const Indices& asked) {
-    const MeasuredArm arm = armOf(start, kinematicFit(start, touches, seen, precision, whole.fitted, &whole).parameters);
+    const MeasuredArm arm =
+        armOf(start, kinematicFit(start, touches, seen, precision, whole.fitted, &whole).parameters);
     glm::dvec3 sum{0.0};
     for (const std::size_t i : asked) {
       const glm::dvec3 error = arm.tip_W(touches[i].joints_rad).mm - touches[i].target_W.mm;

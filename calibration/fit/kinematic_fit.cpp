@@ -51,7 +51,8 @@ glm::dvec3 touchSigma_mm(const TouchPrecision& precision, double mismatch_mm) {
 }
 
 KinematicFit kinematicFit(const ArmStart& start, const std::vector<Touch>& touches, std::span<const std::size_t> which,
-                          const TouchPrecision& precision, std::vector<std::size_t> parameters, const KinematicFit* near) {
+                          const TouchPrecision& precision, std::vector<std::size_t> parameters,
+                          const KinematicFit* near) {
   KinematicFit fit;
   fit.fitted = std::move(parameters);
   if (near) fit.parameters = near->parameters;

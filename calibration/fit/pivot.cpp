@@ -28,7 +28,7 @@ void check(const std::vector<RawJoints>& holds_rad) {
 }  // namespace
 
 Pivot fitPivot(const PhantomGeometry& geometry, const ArmCorrection& correction,
-              const std::vector<RawJoints>& holds_rad) {
+               const std::vector<RawJoints>& holds_rad) {
   check(holds_rad);
   std::vector<Pose<Device, Handle>> holds;
   std::vector<glm::dvec3> directions;

@@ -26,6 +26,6 @@ inline constexpr double kMinSwing_deg = 40.0, kMaxPivotRms_mm = 0.3;
 /// swung less than 40 degrees or in one plane only, more than 0.3 mm root mean square (it slipped, or the gimbal is
 /// off).
 Pivot fitPivot(const PhantomGeometry& geometry, const ArmCorrection& correction,
-              const std::vector<RawJoints>& holds_rad);
+               const std::vector<RawJoints>& holds_rad);
 
 }  // namespace calibration

@@ -29,9 +29,9 @@ glm::dvec3 leftOut(const TipJacobian& tip, const std::vector<double>& covariance
   glm::dmat3 remains(1.0);
   for (std::size_t a = 0; a < kQuickNumbers.size(); ++a)
     for (std::size_t b = 0; b < kQuickNumbers.size(); ++b)
-      remains -=
-          weight * covariance[a * kQuickNumbers.size() + b] *
-          glm::outerProduct(tip.by_parameter[kQuickNumbers[a]] / sigma_mm, tip.by_parameter[kQuickNumbers[b]] / sigma_mm);
+      remains -= weight * covariance[a * kQuickNumbers.size() + b] *
+                 glm::outerProduct(tip.by_parameter[kQuickNumbers[a]] / sigma_mm,
+                                   tip.by_parameter[kQuickNumbers[b]] / sigma_mm);
   return glm::determinant(remains) > 1e-9 ? glm::inverse(remains) * left : left;
 }
 

@@ -1,6 +1,6 @@
 // A calibration brought up to date after the arm was homed anew or its base was moved: three joint offsets and six
-// parameters of the pose, as the most probable values given few touches (nine parameters, five touches, 30 s). Everything
-// else stays. Frame W; mm, rad. Any thread but the servo's; milliseconds. Source: reference/calibration 4.3.
+// parameters of the pose, as the most probable values given few touches (nine parameters, five touches, 30 s).
+// Everything else stays. Frame W; mm, rad. Any thread but the servo's; milliseconds. Source: reference/calibration 4.3.
 #pragma once
 
 #include "calibration/fit/arm_fit.h"

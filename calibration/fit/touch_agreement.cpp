@@ -80,7 +80,8 @@ RigidAgreement rightHanded(const Places& places, bool& doubtful) {
 
 /// Of an arm fitted to those that agree: everybody it foretells.
 Indices foretold(const TouchAgreement& agreement, const TouchSet& set, const Places& places, ArmModel model) {
-  const KinematicFit fit = kinematicFit(agreement.start, set.touches, agreement.which, set.precision, parametersOf(model));
+  const KinematicFit fit =
+      kinematicFit(agreement.start, set.touches, agreement.which, set.precision, parametersOf(model));
   const MeasuredArm arm = armOf(agreement.start, fit.parameters);
   const glm::dvec3 sigma_mm = touchSigma_mm(set.precision, fit.mismatch_mm);
   Indices which;

@@ -1,7 +1,7 @@
 // What the history of a place says: whether the arm still stands where its calibration found it. Four charts, RMS and
-// the bias along each axis of W, over the checks and re-zeros since the last calibration; each value is charted by those
-// before it, by the first twenty at most. A small RMS is no alarm. mm. Pure; any thread.
-// Source of the rules: control_chart.h; that they be used: reference/calibration 4.3.
+// the bias along each axis of W, over the checks and re-zeros since the last calibration; each value is charted by
+// those before it, by the first twenty at most. A small RMS is no alarm. mm. Pure; any thread. Source of the rules:
+// control_chart.h; that they be used: reference/calibration 4.3.
 #pragma once
 
 #include <array>
@@ -32,7 +32,7 @@ struct DriftAlarm {
 };
 
 struct DriftReview {
-  std::vector<std::size_t> charted;                     ///< entries on the charts, oldest first
+  std::vector<std::size_t> charted;                    ///< entries on the charts, oldest first
   std::array<std::optional<ControlLimits>, 4> limits;  ///< by DriftQuantity; as the next check will be charted
   std::vector<DriftAlarm> alarms;                      ///< oldest first
   std::string sentence;                                ///< how it stands now, and what to do

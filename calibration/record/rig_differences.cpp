@@ -135,9 +135,10 @@ void compareKnowledge(Lines& lines, const RigRecord& before, const RigRecord& af
   };
   lines.text("verdict", verdict(before), verdict(after));
   if (before.verification && after.verification) {
-    lines.number("error on held-out touches, RMS", before.verification->errors.rms_mm, after.verification->errors.rms_mm, 2, "mm");
-    lines.number("error on held-out touches, largest", before.verification->errors.max_mm, after.verification->errors.max_mm, 2,
-                 "mm");
+    lines.number("error on held-out touches, RMS", before.verification->errors.rms_mm,
+                 after.verification->errors.rms_mm, 2, "mm");
+    lines.number("error on held-out touches, largest", before.verification->errors.max_mm,
+                 after.verification->errors.max_mm, 2, "mm");
   }
 }
 

@@ -1,6 +1,6 @@
 // The rig file: OpenCV FileStorage YAML, `schema: 1`, `kind: "molar_rig"`; blocks screen, mirror, eyes, X_WP, X_WD, and
-// beside them whatever is known: provenance, device, kinematics, procedure, verification, residuals, rest, and last the hash
-// of all that stands before it. mm, frame W. Start-up only; not the servo. Keys that are not known are left alone.
+// beside them whatever is known: provenance, device, kinematics, procedure, verification, residuals, rest, and last the
+// hash of all that stands before it. mm, frame W. Start-up only; not the servo. Keys that are not known are left alone.
 #pragma once
 
 #include <string>

@@ -135,7 +135,8 @@ fs::path RigStore::usualRoot() {
 }
 
 fs::path RigStore::folderOf(const RigLocation& location) const {
-  return root_ / checkedName(location.rig_id, "rig") / serialFolder(location.serial) / checkedName(location.mount, "mount");
+  return root_ / checkedName(location.rig_id, "rig") / serialFolder(location.serial) /
+         checkedName(location.mount, "mount");
 }
 
 std::vector<RigLocation> RigStore::locations() const {
@@ -275,7 +276,7 @@ std::string RigStore::rollBack(const RigLocation& location) {
 }
 
 std::string mismatchWith(const RigRecord& record, const std::string& device_model, const std::string& serial,
-                      const std::string& mount) {
+                         const std::string& mount) {
   if (!record.rig.device) return "";
   const RigDevice& measured = *record.rig.device;
   const auto differ = [](const std::string& a, const std::string& b) { return !a.empty() && !b.empty() && a != b; };

@@ -55,7 +55,7 @@ class RigStore {
 /// Why a rig must not be used with this device: another model, serial, mount; empty: it may. What is not known of one
 /// or the other (empty) is not compared; a rig without a device says nothing against any.
 std::string mismatchWith(const RigRecord& record, const std::string& device_model, const std::string& serial,
-                      const std::string& mount);
+                         const std::string& mount);
 
 /// Days since it was measured; none without a time.
 std::optional<double> age_days(const RigRecord& record, const std::string& now_utc);

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "calibration/arm/phantom_models.h"
-#include "calibration/random.h"
 #include "calibration/geometry/rotation.h"
+#include "calibration/random.h"
 
 namespace calibration {
 namespace {
@@ -74,8 +74,7 @@ PerturbedArm drawnArm(const ErrorSizes& sizes, std::mt19937& rng) {
 
   // Six waves about 250 mm long: a third of the size in each axis makes the whole of it.
   for (Warp& one : arm.warp)
-    one = {gaussianVector(rng, sizes.warp_mm / 3.0), gaussianVector(rng, 1.0 / 40.0),
-           uniform(rng, 0.0, 2.0 * kPi)};
+    one = {gaussianVector(rng, sizes.warp_mm / 3.0), gaussianVector(rng, 1.0 / 40.0), uniform(rng, 0.0, 2.0 * kPi)};
   return arm;
 }
 

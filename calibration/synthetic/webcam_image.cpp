@@ -148,7 +148,7 @@ WebcamRenderer::PanelMap WebcamRenderer::panelMap(const SightOf& sight_of) const
 }
 
 void WebcamRenderer::addPanel(const PanelMap& map, const GreyImage& shown, double share,
-                          std::vector<float>& light) const {
+                              std::vector<float>& light) const {
   const LightTable table(shown);
   const glm::dvec2 panel_px(shown.size_px);
   const glm::ivec2 size = webcam_.model.size_px;

@@ -107,8 +107,8 @@ Assessment assess(const TargetErrors& errors, VerificationKind kind) {
   assessment.verdict = against(deciding.value_mm, deciding.limit);
   const double limit_mm = assessment.verdict == Verdict::red ? deciding.limit.amber_mm : deciding.limit.green_mm;
   assessment.reason = fmt::format(fmt::runtime(deciding.what), deciding.value_mm) +
-                     (assessment.verdict == Verdict::green ? fmt::format(", {:.2f} mm are allowed", limit_mm)
-                                                          : fmt::format(", more than {:.2f} mm", limit_mm));
+                      (assessment.verdict == Verdict::green ? fmt::format(", {:.2f} mm are allowed", limit_mm)
+                                                            : fmt::format(", more than {:.2f} mm", limit_mm));
   if (errors.n < kFewestForGreen && assessment.verdict == Verdict::green) {
     assessment.verdict = Verdict::amber;
     assessment.reason = std::to_string(errors.n) + " touches are too few to be sure, 4 are needed";

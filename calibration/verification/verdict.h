@@ -39,7 +39,7 @@ const VerificationLimits& limitsOf(VerificationKind kind);
 struct Assessment {
   Verdict verdict = Verdict::red;
   double rms_upper_bound_mm = 0.0;  ///< rms times (1 + 1.65 / sqrt(6 n)): 95 % sure it is no more
-  std::string reason;        ///< which limit decided it, one clause with its numbers
+  std::string reason;               ///< which limit decided it, one clause with its numbers
 };
 /// Fewer than 4 touches are never green.
 Assessment assess(const TargetErrors& errors, VerificationKind kind);

@@ -19,7 +19,7 @@ double spotOf(const GreyImage& image, const std::array<glm::dvec2, 4>& corners_p
     const int x = std::clamp(static_cast<int>(std::lround(px.x)), 0, image.size_px.x - 1);
     const int y = std::clamp(static_cast<int>(std::lround(px.y)), 0, image.size_px.y - 1);
     return double(image.grey[static_cast<std::size_t>(y) * static_cast<std::size_t>(image.size_px.x) +
-                               static_cast<std::size_t>(x)]);
+                             static_cast<std::size_t>(x)]);
   };
   double inside = 2.0 * grey_at(middle), outside = 0.0;
   for (const glm::dvec2& corner : corners_px) {

@@ -40,8 +40,7 @@ void checkPictures(const GrayCode& code, const std::vector<GreyImage>& images) {
 }
 
 /// The bits from `first` on, of one pixel; -1 where one of them can not be told.
-int codeAt(const std::vector<GreyImage>& images, std::size_t first, int bits, std::size_t pixel,
-           int white_to_black) {
+int codeAt(const std::vector<GreyImage>& images, std::size_t first, int bits, std::size_t pixel, int white_to_black) {
   unsigned gray = 0;
   for (int bit = 0; bit < bits; ++bit) {
     const std::size_t shown = first + 2 * static_cast<std::size_t>(bit);
@@ -142,7 +141,7 @@ std::vector<GreyImage> patternImages(const GrayCode& code) {
     throw CalibrationError("Gray code: a screen under 64 px or stripes under 2 px, use a larger window");
   const std::size_t pixels = static_cast<std::size_t>(code.screen_px.x) * static_cast<std::size_t>(code.screen_px.y);
   std::vector<GreyImage> images{{code.screen_px, std::vector<std::uint8_t>(pixels, kShownWhite)},
-                                    {code.screen_px, std::vector<std::uint8_t>(pixels, kShownBlack)}};
+                                {code.screen_px, std::vector<std::uint8_t>(pixels, kShownBlack)}};
   for (int axis = 0; axis < 2; ++axis)
     for (int bit = code.bits()[axis] - 1; bit >= 0; --bit) {
       GreyImage pattern{code.screen_px, {}}, inverse{code.screen_px, {}};

@@ -35,9 +35,10 @@ enum class CodeTrouble { not_seen, mirrored, upside_down, mixed_up };
 struct CodeDetection {
   std::optional<CodeTrouble> trouble;  ///< none: the sights may be used
   std::string line;                    ///< for people; empty without trouble
-  std::vector<ScreenCorrespondence> sights;  ///< one for each cell that is seen whole, its centre; empty where there is trouble
-  GreyImage mask;                 ///< 255 where a pixel was decoded
-  double seen_share = 0.0;          ///< of the screen's cells
+  std::vector<ScreenCorrespondence>
+      sights;               ///< one for each cell that is seen whole, its centre; empty where there is trouble
+  GreyImage mask;           ///< 255 where a pixel was decoded
+  double seen_share = 0.0;  ///< of the screen's cells
 };
 
 /// Throws CalibrationError for a wrong number of images or sizes that differ.

@@ -32,7 +32,8 @@ std::unique_ptr<ImageSource> imageFolder(const std::string& path);
 /// Whatever makes images.
 class SyntheticImageSource final : public ImageSource {
  public:
-  SyntheticImageSource(std::string name, std::function<GreyImage()> make) : name_(std::move(name)), make_(std::move(make)) {}
+  SyntheticImageSource(std::string name, std::function<GreyImage()> make)
+      : name_(std::move(name)), make_(std::move(make)) {}
   GreyImage take() override { return make_(); }
   std::string name() const override { return name_; }
 

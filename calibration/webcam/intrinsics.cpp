@@ -30,7 +30,8 @@ using Pixels = std::vector<cv::Point2f>;
 
 Places placesOf(const std::vector<glm::dvec2>& positions_mm) {
   Places places;
-  for (const glm::dvec2& mm : positions_mm) places.emplace_back(static_cast<float>(mm.x), static_cast<float>(mm.y), 0.0F);
+  for (const glm::dvec2& mm : positions_mm)
+    places.emplace_back(static_cast<float>(mm.x), static_cast<float>(mm.y), 0.0F);
   return places;
 }
 

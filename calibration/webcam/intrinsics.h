@@ -26,7 +26,7 @@ struct Intrinsics {
   std::vector<double> view_rms_px;    ///< of every view given
   std::vector<std::string> left_out;  ///< names of views that do not fit the others
   double covered_share = 0.0;         ///< of the image's 6 x 4 fields, those that hold a corner
-  double max_slant_deg = 0.0;        ///< of the boards
+  double max_slant_deg = 0.0;         ///< of the boards
 };
 
 /// `positions_mm`: of the board's corners, on its plane. Throws CalibrationError with the remedy: fewer than 8 views,

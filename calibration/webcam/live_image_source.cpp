@@ -9,7 +9,7 @@ constexpr int kFramesAhead = 2;
 }  // namespace
 
 LiveImageSource::LiveImageSource(std::string name, const std::function<std::unique_ptr<FrameGrabber>()>& open,
-                           const Timeouts& timeouts)
+                                 const Timeouts& timeouts)
     : name_(std::move(name)), timeouts_(timeouts), thread_([this, open] { run(open); }) {
   std::unique_lock lock(mutex_);
   changed_.wait_for(lock, timeouts_.open, [&] { return opened_ || ended_; });

@@ -22,7 +22,7 @@ class FrameGrabber {
  public:
   virtual ~FrameGrabber() = default;
   virtual bool next() = 0;            ///< waits for the next frame; false: it gives none any more
-  virtual GreyImage decoded() = 0;  ///< the frame that next() came back with
+  virtual GreyImage decoded() = 0;    ///< the frame that next() came back with
   virtual std::string remarks() = 0;  ///< what it would not do, one line; empty: all as asked
 };
 
@@ -33,7 +33,8 @@ class LiveImageSource final : public ImageSource {
   };
 
   /// `open` runs on the new thread and may throw CalibrationError, which comes out here.
-  LiveImageSource(std::string name, const std::function<std::unique_ptr<FrameGrabber>()>& open, const Timeouts& timeouts);
+  LiveImageSource(std::string name, const std::function<std::unique_ptr<FrameGrabber>()>& open,
+                  const Timeouts& timeouts);
   ~LiveImageSource() override;
 
   GreyImage take() override;

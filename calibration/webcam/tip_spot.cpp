@@ -150,8 +150,8 @@ TipSpot findTipSpot(const GreyImage& before, const GreyImage& with_tip) {
   const cv::Mat around = smooth(window & image);
   const auto area_above = [&](double share) { return double(cv::countNonZero(around > share * peak)); };
   spot.across_px = diameterOf(area_above(0.5));
-  const bool touches_edge = patch.box.x < 3 || patch.box.y < 3 || patch.box.br().x > image.width - 3 ||
-                            patch.box.br().y > image.height - 3;
+  const bool touches_edge =
+      patch.box.x < 3 || patch.box.y < 3 || patch.box.br().x > image.width - 3 || patch.box.br().y > image.height - 3;
   if (touches_edge)
     return refused(SpotTrouble::at_the_edge, "the tip is at the picture's edge: bring it further in", spot);
   if (spot.across_px > most_px)

@@ -101,7 +101,8 @@ WebcamBundle firstGuess(const WebcamObservations& sights) {
   // The pose's numbers turn about the middle of the tips.
   const MeasuredArm arm{guess.start.geometry, {}, guess.start.X_WD};
   glm::dvec3 sum{0.0};
-  eachTip(sights, [&](std::size_t, std::size_t, const TipObservation& sight) { sum += arm.tip_W(sight.joints_rad).mm; });
+  eachTip(sights,
+          [&](std::size_t, std::size_t, const TipObservation& sight) { sum += arm.tip_W(sight.joints_rad).mm; });
   guess.start.middle_W = {sum / double(tipsOf(sights))};
   return guess;
 }
@@ -221,7 +222,8 @@ void warn(const WebcamObservations& sights, WebcamFit& fit) {
     add(FitWarning::Kind::few_touches,
         std::to_string(tipsOf(sights)) + " tips are few: touch 27 places from each of three camera positions");
   if (fit.baseline_deg < kNarrowBase_deg)
-    add(FitWarning::Kind::narrow_view, "the camera positions are only " + std::to_string(std::lround(fit.baseline_deg)) +
+    add(FitWarning::Kind::narrow_view, "the camera positions are only " +
+                                           std::to_string(std::lround(fit.baseline_deg)) +
                                            "° apart: move the camera by 25° to each side");
   if (fit.tilt_spread_deg < kMinTilt_deg)
     add(FitWarning::Kind::little_tilt, "the stylus was held one way: what its gimbal gets wrong is not seen, tilt it");

@@ -16,8 +16,8 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
-#include "calibration/webcam/live_image_source.h"
 #include "calibration/webcam/image_matrix.h"
+#include "calibration/webcam/live_image_source.h"
 
 namespace calibration {
 namespace {
@@ -121,7 +121,8 @@ OpenedImageSource openImageSource(const WebcamSettings& wanted) {
   const std::string path = isIndex(wanted.device) ? "/dev/video" + wanted.device : wanted.device;
   checkDevice(path);
   auto live = std::make_unique<LiveImageSource>(
-      "webcam " + path, [path, wanted] { return std::make_unique<V4lFrames>(path, wanted); }, LiveImageSource::Timeouts{});
+      "webcam " + path, [path, wanted] { return std::make_unique<V4lFrames>(path, wanted); },
+      LiveImageSource::Timeouts{});
   std::string remarks = live->remarks();
   return {std::move(live), std::move(remarks)};
 }

@@ -72,7 +72,8 @@ Pose<Camera, World> cameraSeeing(const WebcamObservations& sights, std::size_t p
   return X_CW;
 }
 
-Pose<World, Device> deviceSeen(const WebcamObservations& sights, std::size_t position, const Pose<Camera, World>& X_CW) {
+Pose<World, Device> deviceSeen(const WebcamObservations& sights, std::size_t position,
+                               const Pose<Camera, World>& X_CW) {
   const Lens lens(sights.camera);
   MeasuredArm nominal;
   nominal.geometry = findPhantomModel(sights.device_model)->geometry;

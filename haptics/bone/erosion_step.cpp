@@ -55,7 +55,8 @@ double lossPerRate(const CutConditions& moment, const ErosionState& memory) {
 
 }  // namespace
 
-ErosionStep erosionStep(const ErosionSettings& settings, const CutConditions& moment, const ErosionState& memory) noexcept {
+ErosionStep erosionStep(const ErosionSettings& settings, const CutConditions& moment,
+                        const ErosionState& memory) noexcept {
   ErosionStep step;
   step.axis_P = moment.axis_P;
   const auto& factor = settings.tissue_factor;
@@ -77,7 +78,7 @@ ErosionStep erosionStep(const ErosionSettings& settings, const CutConditions& mo
 }
 
 ErosionState updatedErosion(const ErosionSettings& settings, const CutConditions& moment, const ErosionState& memory,
-                     const std::array<double, assets::kTissueCount>& removed_mm3) noexcept {
+                            const std::array<double, assets::kTissueCount>& removed_mm3) noexcept {
   const double reference_mm3_per_s = rate_mm3_per_s(settings, moment, kReference);
   if (settings.kind == ErosionKind::time || !(finite(moment.overlap_mm3) > 0.0)) return {};
   if (!(reference_mm3_per_s > 0.0)) return {memory.yield, 0.0};

@@ -48,15 +48,16 @@ struct CutConditions {
 
 /// From step to step, part of the servo's state. Forget it when the bur leaves the bone.
 struct ErosionState {
-  double yield = 1.0;     ///< what a step took, relative to its loss of the overlap
+  double yield = 1.0;        ///< what a step took, relative to its loss of the overlap
   double deficit_mm3 = 0.0;  ///< of reference tissue, granted and not yet gone
 };
 
 /// Nothing for a spindle that stands, or a moment that is not a number.
-ErosionStep erosionStep(const ErosionSettings& settings, const CutConditions& moment, const ErosionState& memory) noexcept;
+ErosionStep erosionStep(const ErosionSettings& settings, const CutConditions& moment,
+                        const ErosionState& memory) noexcept;
 
 /// The memory after the step of this moment took `removed_mm3` of each tissue.
 ErosionState updatedErosion(const ErosionSettings& settings, const CutConditions& moment, const ErosionState& memory,
-                     const std::array<double, assets::kTissueCount>& removed_mm3) noexcept;
+                            const std::array<double, assets::kTissueCount>& removed_mm3) noexcept;
 
 }  // namespace haptics

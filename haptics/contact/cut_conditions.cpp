@@ -9,7 +9,7 @@
 namespace haptics {
 
 CutConditions cutConditions(const ErosionSettings& erosion, const SpindleSettings& spindle, const ToolInBone& at,
-                    const Contact& contact, double normal_force_N) noexcept {
+                            const Contact& contact, double normal_force_N) noexcept {
   CutConditions moment;
   moment.dt_s = at.motion.dt_s;
   moment.spindle_rad_per_s = at.motion.spindle_rad_per_s;

@@ -11,7 +11,7 @@ namespace haptics {
 
 /// `contact` of the head at `at`; `at.motion.velocity` is the feed. `normal_force_N` is what presses the bur on.
 CutConditions cutConditions(const ErosionSettings& erosion, const SpindleSettings& spindle, const ToolInBone& at,
-                    const Contact& contact, double normal_force_N) noexcept;
+                            const Contact& contact, double normal_force_N) noexcept;
 
 /// What holds the spindle back, N mm: friction mu F_n times the sliding arm, or what the force law knows of it
 /// (contact/machining) if that is more.

@@ -26,7 +26,7 @@ Contact forssimContact(const ForssimParameters& parameters, const ToolInBone& at
 }
 
 void updateForssimState(const ForssimParameters& parameters, const ToolInBone& at, const Contact& contact,
-                     LawState& state) noexcept {
+                        LawState& state) noexcept {
   const double immersed = contact.volume_mm3 / volume_mm3(at.head);
   if (parameters.hold_N_per_mm <= 0.0 || contact.depth_mm <= 0.0) {
     state.holding = false;

@@ -22,6 +22,6 @@ Contact forssimContact(const ForssimParameters& parameters, const ToolInBone& at
 
 /// Starts or ends the hold, by the last look of a tick.
 void updateForssimState(const ForssimParameters& parameters, const ToolInBone& at, const Contact& contact,
-                     LawState& state) noexcept;
+                        LawState& state) noexcept;
 
 }  // namespace haptics

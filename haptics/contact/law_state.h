@@ -1,6 +1,7 @@
 // What a force law remembers from tick to tick: the densities it met (points) and the place it holds to (forssim). The
-// servo owns one and passes it in; contactOf only reads it, however often a proxy looks in a tick, and `updateLawState` takes
-// in the last look of the tick. Start anew when law or tool changes. Trivially copyable, fixed size; servo thread.
+// servo owns one and passes it in; contactOf only reads it, however often a proxy looks in a tick, and `updateLawState`
+// takes in the last look of the tick. Start anew when law or tool changes. Trivially copyable, fixed size; servo
+// thread.
 #pragma once
 
 #include <array>

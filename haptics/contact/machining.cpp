@@ -169,8 +169,8 @@ Contact machiningContact(const MachiningParameters& parameters, const ToolInBone
   // What turns with the spindle, no more than the hand and the device can take.
   const double share = std::clamp(parameters.vibration_share, 0.0, kMostVibrationShare);
   const double amplitude = cutting * std::min(kMostVibration_N, share * glm::length(mean.force));
-  contact.vibration_P_N.xyz =
-      at.X_PT.rotation * (amplitude * glm::dvec3(std::cos(at.motion.vibration_phase_rad), std::sin(at.motion.vibration_phase_rad), 0.0));
+  contact.vibration_P_N.xyz = at.X_PT.rotation * (amplitude * glm::dvec3(std::cos(at.motion.vibration_phase_rad),
+                                                                         std::sin(at.motion.vibration_phase_rad), 0.0));
   return contact;
 }
 

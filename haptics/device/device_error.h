@@ -9,14 +9,14 @@
 namespace haptics {
 
 enum class DeviceTrouble : std::uint8_t {
-  not_there,   ///< no such device is plugged in, or it has gone again
-  no_rights,   ///< this user may not open it
-  no_driver,   ///< what drives it is missing, incomplete or too old: library, firmware
-  busy,        ///< another program or another part of this one has it
-  not_ready,   ///< its owner has not homed it, or has given up
-  faulty,      ///< it does not answer as it should
-  no_resources,    ///< the system has no memory, descriptor or service left
-  bad_setting  ///< a rate, pose, mapping or number with which it can not be served
+  not_there,     ///< no such device is plugged in, or it has gone again
+  no_rights,     ///< this user may not open it
+  no_driver,     ///< what drives it is missing, incomplete or too old: library, firmware
+  busy,          ///< another program or another part of this one has it
+  not_ready,     ///< its owner has not homed it, or has given up
+  faulty,        ///< it does not answer as it should
+  no_resources,  ///< the system has no memory, descriptor or service left
+  bad_setting    ///< a rate, pose, mapping or number with which it can not be served
 };
 
 struct DeviceError : std::runtime_error {

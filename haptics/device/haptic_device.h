@@ -51,8 +51,8 @@ struct DeviceCapabilities {
   double peak_force_N = 3.3, continuous_force_N = 0.88;
   double peak_torque_Nmm = 0.0;           ///< about the handle; 0: the device has none
   glm::dvec3 peak_joint_torque_Nmm{0.0};  ///< of the motor-driven joints; 0: not known
-  double max_stiffness_N_per_mm = 20.0;  ///< that its maker or users recommend
-  double max_damping_Ns_per_mm = 0.005;  ///< the same
+  double max_stiffness_N_per_mm = 20.0;   ///< that its maker or users recommend
+  double max_damping_Ns_per_mm = 0.005;   ///< the same
   double damping_Ns_per_mm = 0.002;       ///< physical, of device and hand: takes the energy that sampling leaks
   double min_rate_Hz = 500.0, max_rate_Hz = 10'000.0;
   WorkspaceBox workspace;

@@ -16,9 +16,9 @@ struct LoopFigures {
   std::uint64_t missed = 0;    ///< deadlines passed over because a tick began or ended too late
   std::uint64_t overruns = 0;  ///< ticks whose own work took longer than a period: the part of it that is our doing
   double work_p50_us = 0.0, work_p99_us = 0.0, work_p999_us = 0.0,
-         work_max_us = 0.0;                                      ///< percentiles to 1 µs below 4 ms
+         work_max_us = 0.0;                                        ///< percentiles to 1 µs below 4 ms
   double late_p50_us = 0.0, late_p99_us = 0.0, late_max_us = 0.0;  ///< how long after its deadline a tick woke
-  std::uint64_t watchdog_trips = 0;                                    ///< times the supervisor found no ticks for 50 ms
+  std::uint64_t watchdog_trips = 0;                                ///< times the supervisor found no ticks for 50 ms
   RealtimeGrants grants;
 };
 

@@ -17,7 +17,7 @@ bool BuzzDetector::buzzes(const glm::dvec3& velocity_mm_per_s, double least_mm_p
 }
 
 BuzzDetector::Output BuzzDetector::follow(const glm::dvec3& velocity_mm_per_s, const SafetyThresholds& thresholds,
-                                           double dt_s) noexcept {
+                                          double dt_s) noexcept {
   now_s_ += dt_s;
   calm_s_ += dt_s;
   if (buzzes(velocity_mm_per_s, thresholds.buzz_mm_per_s)) {

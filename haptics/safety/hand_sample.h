@@ -17,12 +17,12 @@ struct HandSample {
   double motor_heat = 0.0;        ///< of the warmest motor, 0 cold to 1 as warm as allowed
   double gap_s = 0.0;             ///< by the clock since the tick before, where longer than a tick should take; else 0
   bool drill_pedal = false;
-  bool fresh = true;           ///< measured since the last tick
-  bool docked = false;         ///< in its inkwell
-  bool held = true;            ///< the deadman feels a hand; true where there is none
-  bool calibrated = true;      ///< the pose can be believed
-  bool stop_requested = false;     ///< emergency stop: no force from now on, for good
-  bool device_healthy = true;  ///< false: the device reports trouble, or is gone
+  bool fresh = true;            ///< measured since the last tick
+  bool docked = false;          ///< in its inkwell
+  bool held = true;             ///< the deadman feels a hand; true where there is none
+  bool calibrated = true;       ///< the pose can be believed
+  bool stop_requested = false;  ///< emergency stop: no force from now on, for good
+  bool device_healthy = true;   ///< false: the device reports trouble, or is gone
 };
 
 }  // namespace haptics

@@ -29,7 +29,7 @@ double largestForce_N(double way_mm, double hold_mm_per_N, double budget_Nmm) {
 }  // namespace
 
 Wrench<Patient> PassivityController::allow(const Wrench<Patient>& wanted, const Motion& motion, double slew_N_per_s,
-                                 double dt_s) const noexcept {
+                                           double dt_s) const noexcept {
   const glm::dvec3 travel = motion.travel_P_mm.xyz, turn = kLever_mm * motion.turn_P_rad.xyz;
   const double way = way_mm(motion);
   if (!(way > 1e-12)) return wanted;
@@ -52,9 +52,10 @@ double PassivityController::maxForce_N(const Motion& motion, double dt_s) const 
 }
 
 void PassivityController::enter(const Wrench<Patient>& given, const Motion& motion, double max_stored_Nmm,
-                      double dt_s) noexcept {
+                                double dt_s) noexcept {
   energy_Nmm_ -= 0.5 * (work_Nmm(last_, motion) + work_Nmm(given, motion));
-  if (energy_Nmm_ < -kRetainedDebt_Nmm) energy_Nmm_ -= (energy_Nmm_ + kRetainedDebt_Nmm) * std::min(1.0, dt_s / kForget_s);
+  if (energy_Nmm_ < -kRetainedDebt_Nmm)
+    energy_Nmm_ -= (energy_Nmm_ + kRetainedDebt_Nmm) * std::min(1.0, dt_s / kForget_s);
   energy_Nmm_ = std::clamp(energy_Nmm_, -kMaxDebt_Nmm, std::max(0.0, max_stored_Nmm));
   last_ = given;
 }

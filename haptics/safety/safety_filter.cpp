@@ -33,7 +33,7 @@ glm::dvec3 limited(glm::dvec3 target, glm::dvec3 last, double peak, double longe
 }  // namespace
 
 SafetyFilter::Delivered SafetyFilter::serve(const Wrench<calibration::Patient>& wanted_P, const SafetyLimits& limits,
-                                         Fall fall, double dt_s, const glm::dmat3& jacobian_P_mm) noexcept {
+                                            Fall fall, double dt_s, const glm::dmat3& jacobian_P_mm) noexcept {
   Delivered served;
   Wrench<calibration::Patient> target = wanted_P;
   if (!isFinite(target.force_N.xyz) || !isFinite(target.torque_Nmm.xyz)) {

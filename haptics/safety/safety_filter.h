@@ -23,7 +23,7 @@ class SafetyFilter {
 
   /// What the hand may feel of `wanted`, which goes to zero when it is not finite. `jacobian_P_mm` as in HandSample.
   Delivered serve(const Wrench<calibration::Patient>& wanted_P, const SafetyLimits& limits, Fall fall, double dt_s,
-               const glm::dmat3& jacobian_P_mm = glm::dmat3(0.0)) noexcept;
+                  const glm::dmat3& jacobian_P_mm = glm::dmat3(0.0)) noexcept;
 
  private:
   Wrench<calibration::Patient> last_P_;

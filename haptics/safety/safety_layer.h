@@ -1,7 +1,8 @@
 // Everything between a wish and the motors, in the order of reference/devices 6; pure, so a replay trips alike.
 //   admit(), before anybody touches bone: 1 HandGuard, 9 Staleness, 10 stop, 2 SafetyStateMachine
-//   serve(), after the law: 3 SoftStart, 6 brake, 5 PassivityController, 6 VelocityGuard and BuzzDetector, 7 ThermalBudget and
-//   peaks, joints, 8 slew: SafetyFilter, which is last, so that its limits hold whatever the others do
+//   serve(), after the law: 3 SoftStart, 6 brake, 5 PassivityController, 6 VelocityGuard and BuzzDetector, 7
+//   ThermalBudget and peaks, joints, 8 slew: SafetyFilter, which is last, so that its limits hold whatever the others
+//   do
 // The brake stands before the books of energy, so that a wrong velocity can not push; what comes after the books only
 // ever lowers. Once each a tick. Frame P, about the handle. Servo thread; a few hundred flops, no clock, no allocation.
 // Not the contact's stability (contact/law_limits), not the motor gate, which no state can talk to.
@@ -10,8 +11,8 @@
 #include "haptics/safety/buzz_detector.h"
 #include "haptics/safety/hand_guard.h"
 #include "haptics/safety/passivity_controller.h"
-#include "haptics/safety/safety_state.h"
 #include "haptics/safety/safety_filter.h"
+#include "haptics/safety/safety_state.h"
 #include "haptics/safety/soft_start.h"
 #include "haptics/safety/staleness.h"
 #include "haptics/safety/thermal_budget.h"
@@ -34,11 +35,11 @@ class SafetyLayer {
   Admitted admit(const HandSample& hand, const SafetyLimits& limits, std::uint64_t rearm, double dt_s) noexcept;
 
   struct Request {
-    Wrench<calibration::Patient> wrench_P;                  ///< about the handle
+    Wrench<calibration::Patient> wrench_P;                    ///< about the handle
     calibration::Vector<calibration::Patient> vibration_P_N;  ///< active by nature: not in the books
-    PassivityController::Motion motion;                               ///< of the handle since the last tick
-    double max_stored_Nmm = 0.0;                           ///< what the contact could hold; 0 in air
-    bool touches = false;                                   ///< the tool is in tissue
+    PassivityController::Motion motion;                       ///< of the handle since the last tick
+    double max_stored_Nmm = 0.0;                              ///< what the contact could hold; 0 in air
+    bool touches = false;                                     ///< the tool is in tissue
   };
   /// What the hand gets of it, after admit() of the same tick.
   SafetyFilter::Delivered serve(const Request& wanted, const SafetyLimits& limits, double dt_s) noexcept;

@@ -40,9 +40,9 @@ SafetyLimits sanitised(const SafetyLimits& limits) {
     safe.thresholds.*one = positive(safe.thresholds.*one, defaults.thresholds.*one);
   };
   using T = SafetyThresholds;
-  for (double T::*one : {&T::max_pause_s, &T::arming_mm_per_s, &T::release_s, &T::soft_start_s,
-                         &T::soft_start_N_per_s, &T::brake_mm_per_s, &T::cutoff_mm_per_s, &T::cutoff_s, &T::buzz_mm_per_s,
-                         &T::stale_s, &T::stale_fade_s, &T::max_stale_s, &T::warm_motor, &T::share_at_hottest})
+  for (double T::*one : {&T::max_pause_s, &T::arming_mm_per_s, &T::release_s, &T::soft_start_s, &T::soft_start_N_per_s,
+                         &T::brake_mm_per_s, &T::cutoff_mm_per_s, &T::cutoff_s, &T::buzz_mm_per_s, &T::stale_s,
+                         &T::stale_fade_s, &T::max_stale_s, &T::warm_motor, &T::share_at_hottest})
     tidy(one);
   return safe;
 }

@@ -29,8 +29,8 @@ class Cutting {
   /// Takes from the bone what the law grants with the spindle as it turns; nothing with `allowed` false. What it
   /// changes is saved to `strokes`.
   CarveResult cut(CarvedBone& bone, StrokeHistory& strokes, const ErosionSettings& erosion,
-                  const SpindleSettings& spindle, const LawSettings& law, const Engagement& held, bool allowed, double dt_s,
-                  std::uint64_t tick) noexcept;
+                  const SpindleSettings& spindle, const LawSettings& law, const Engagement& held, bool allowed,
+                  double dt_s, std::uint64_t tick) noexcept;
 
   const SpindleState& spindle() const { return spindle_; }
   double load_Nmm() const { return load_Nmm_; }

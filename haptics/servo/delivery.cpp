@@ -29,7 +29,7 @@ PassivityController::Motion Delivery::motionTo(const HandSample& hand, bool with
 }
 
 SafetyFilter::Delivered Delivery::deliver(const Request& wanted, const HandSample& hand, SafetyLayer& safety,
-                                    const SafetyLimits& limits, double dt_s) noexcept {
+                                          const SafetyLimits& limits, double dt_s) noexcept {
   const bool with_torque = limits.peak_torque_Nmm > 0.0;
   SafetyLayer::Request wish;
   if (!wanted.relocated) wish.motion = motionTo(hand, with_torque, dt_s);

@@ -118,15 +118,17 @@ double Proxy::State::maxStored_Nmm() const {
 }
 
 Proxy::State Proxy::follow(const SolidField& field, const LawSettings& law, const Tool& tool,
-                          const calibration::Pose<Patient, calibration::Tool>& X_PT, const ToolMotion& motion,
-                          double max_stiffness_N_per_mm) noexcept {
-  // A step is short enough that no plate fits between two evaluations; a miss of a micrometre is not worth another look.
+                           const calibration::Pose<Patient, calibration::Tool>& X_PT, const ToolMotion& motion,
+                           double max_stiffness_N_per_mm) noexcept {
+  // A step is short enough that no plate fits between two evaluations; a miss of a micrometre is not worth another
+  // look.
   const bool with_shaft = tool.shaft.length_mm > 0.0 && tool.shaft.radius_mm > 0.0;
   double longest_mm = 0.5 * thinnestRadius_mm(tool.head);
   if (with_shaft) longest_mm = std::min(longest_mm, 0.5 * tool.shaft.radius_mm);
   const double enough_mm = 1e-3;
   // Where one look is dear there are fewer: the proxy goes on in the next tick.
-  const int max_evaluations = tool.head.radius_mm > 25.0 * field.grid.spacing_mm ? kMaxEvaluations / 2 : kMaxEvaluations;
+  const int max_evaluations =
+      tool.head.radius_mm > 25.0 * field.grid.spacing_mm ? kMaxEvaluations / 2 : kMaxEvaluations;
   const double deepest_mm = maxLawDepth_mm(tool.head);
   const double shaft_deepest_mm = with_shaft ? kShaftDepth * tool.shaft.radius_mm : 1.0;
 
@@ -192,8 +194,8 @@ Proxy::State Proxy::follow(const SolidField& field, const LawSettings& law, cons
 }
 
 Proxy::State Proxy::passThrough(const SolidField& field, const LawSettings& law, const Tool& tool,
-                              const calibration::Pose<Patient, calibration::Tool>& X_PT,
-                              const ToolMotion& motion) noexcept {
+                                const calibration::Pose<Patient, calibration::Tool>& X_PT,
+                                const ToolMotion& motion) noexcept {
   release();
   law_state_ = {};
   const Contact head = contactOf(law, {field, tool.head, X_PT, law.tissue, motion}, law_state_);

@@ -5,8 +5,9 @@
 //   deeper:  the proxy q waits at depth h_max, sliding to the place nearest the hand p, and
 //            F = law(q) + k (q - p),  k the law's own slope at q: over flat bone force goes on with it at every depth.
 // The two meet without a step, whichever way the hand goes and while the bone is carved away. Between walls that face
-// each other the force fades instead of flipping. Frame P. Servo thread. At most kMaxEvaluations evaluations an update, one in
-// steady sliding; a look is one contact sum for the head and one for a shaft. Not damping, not passivity, not limits.
+// each other the force fades instead of flipping. Frame P. Servo thread. At most kMaxEvaluations evaluations an update,
+// one in steady sliding; a look is one contact sum for the head and one for a shaft. Not damping, not passivity, not
+// limits.
 #pragma once
 
 #include "haptics/contact/law.h"
@@ -23,11 +24,11 @@ class Proxy {
   static constexpr int kMaxEvaluations = 6;
 
   struct State {
-    calibration::Point<calibration::Patient> proxy_P;     ///< of T's origin
-    Contact head, shaft;                                  ///< at the proxy, faded between facing walls
+    calibration::Point<calibration::Patient> proxy_P;        ///< of T's origin
+    Contact head, shaft;                                     ///< at the proxy, faded between facing walls
     calibration::Vector<calibration::Patient> stretch_P_mm;  ///< q - p: the spring between hand and proxy
-    double spring_N_per_mm = 0.0;                         ///< k of that spring
-    int evaluations = 0;                                        ///< how often the bone was asked
+    double spring_N_per_mm = 0.0;                            ///< k of that spring
+    int evaluations = 0;                                     ///< how often the bone was asked
 
     bool touches() const { return head.depth_mm > 0.0 || shaft.depth_mm > 0.0; }
     /// The head where it touches, or else the shaft.
@@ -43,14 +44,14 @@ class Proxy {
 
   /// Moves the proxy towards the hand as far as the bone lets it. A law steeper than the limit is scaled down to it.
   State follow(const SolidField& field, const LawSettings& law, const Tool& tool,
-              const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT, const ToolMotion& motion,
-              double max_stiffness_N_per_mm) noexcept;
+               const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT, const ToolMotion& motion,
+               double max_stiffness_N_per_mm) noexcept;
 
   /// Lets the hand go through bone as if there were none: one look at it where the hand is, which tells depth and
   /// volume and holds nothing. Afterwards as after release().
   State passThrough(const SolidField& field, const LawSettings& law, const Tool& tool,
-                  const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT,
-                  const ToolMotion& motion) noexcept;
+                    const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT,
+                    const ToolMotion& motion) noexcept;
 
   /// Forgets where it was: the next follow() starts at the hand, wherever that is.
   void release() { placed_ = false; }

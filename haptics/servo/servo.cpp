@@ -57,9 +57,10 @@ Tick Servo::step(const HandSample& hand, const Command& wanted, double dt_s) noe
 
   // Contact at the place where the surface holds the tool.
   const ToolMotion motion = cutting_.motion(believed.velocity_P_mm_per_s, tick.dt_s);
-  const Proxy::State held = embedded ? proxy_.passThrough(bone_.field(), command.law, command.tool, believed.X_PT, motion)
-                                  : proxy_.follow(bone_.field(), command.law, command.tool, believed.X_PT, motion,
-                                                  command.safety.max_stiffness_N_per_mm);
+  const Proxy::State held = embedded
+                                ? proxy_.passThrough(bone_.field(), command.law, command.tool, believed.X_PT, motion)
+                                : proxy_.follow(bone_.field(), command.law, command.tool, believed.X_PT, motion,
+                                                command.safety.max_stiffness_N_per_mm);
   if (embedded && !held.touches()) undo_.release();
   X_PQ_ = {believed.X_PT.rotation, held.proxy_P.mm};
   tick.proxy_P = held.proxy_P;

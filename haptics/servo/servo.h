@@ -9,8 +9,8 @@
 #include "haptics/servo/cutting.h"
 #include "haptics/servo/delivery.h"
 #include "haptics/servo/proxy.h"
-#include "haptics/servo/tick.h"
 #include "haptics/servo/stroke_undo.h"
+#include "haptics/servo/tick.h"
 
 namespace haptics {
 

@@ -22,7 +22,7 @@ double shared_mm3(const SolidField& field, const Tool& tool,
 }  // namespace
 
 double StrokeUndo::restore(CarvedBone& bone, std::uint64_t undo_serial, const Tool& tool,
-                         const calibration::Pose<calibration::Patient, calibration::Tool>& X_PQ) noexcept {
+                           const calibration::Pose<calibration::Patient, calibration::Tool>& X_PQ) noexcept {
   // No more than there are: who asks for nothing gets nothing later.
   const std::uint64_t more = undo_serial > last_serial_ ? undo_serial - last_serial_ : 0;
   last_serial_ = undo_serial;
@@ -47,7 +47,10 @@ double StrokeUndo::restore(CarvedBone& bone, std::uint64_t undo_serial, const To
 DrillInhibit StrokeUndo::inhibitFor(bool foot) noexcept {
   // Pressed while it is embedded counts for nothing.
   foot_must_leave_ = foot && (foot_must_leave_ || embedded_ || asked_ > 0);
-  return asked_ > 0 ? DrillInhibit::undo_running : embedded_ ? DrillInhibit::tool_embedded : foot_must_leave_ ? DrillInhibit::pedal_held : DrillInhibit::none;
+  return asked_ > 0         ? DrillInhibit::undo_running
+         : embedded_        ? DrillInhibit::tool_embedded
+         : foot_must_leave_ ? DrillInhibit::pedal_held
+                            : DrillInhibit::none;
 }
 
 void StrokeUndo::follow(bool at_work, double dt_s) noexcept {

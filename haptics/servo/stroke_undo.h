@@ -2,9 +2,9 @@
 // when the drill first meets bone and ends when it has been out of it, or not turning, for 0.3 s. At most
 // kBlocksPerTick blocks come back in a tick, so the largest stroke takes 0.24 s at 1 kHz.
 // The bur rests meanwhile, and until the foot has left the pedal once: what came back is not cut again by mistake. A
-// tool that the returning bone meets is embedded: the servo lets its force fade and gives none until it is out, so a hand
-// is never thrown. A tool elsewhere feels nothing of it.
-// Frame P. Servo thread; no allocation, no throw. Cost: bone/stroke_history, and two overlaps in ticks that give back.
+// tool that the returning bone meets is embedded: the servo lets its force fade and gives none until it is out, so a
+// hand is never thrown. A tool elsewhere feels nothing of it. Frame P. Servo thread; no allocation, no throw. Cost:
+// bone/stroke_history, and two overlaps in ticks that give back.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ class StrokeUndo {
   /// First in a tick: mm3 that come back. Each rise of the serial by one asks for a stroke; a fall asks for nothing.
   /// The tool is where the last tick held it.
   double restore(CarvedBone& bone, std::uint64_t undo_serial, const Tool& tool,
-                  const calibration::Pose<calibration::Patient, calibration::Tool>& X_PQ) noexcept;
+                 const calibration::Pose<calibration::Patient, calibration::Tool>& X_PQ) noexcept;
 
   bool isToolEmbedded() const { return embedded_; }
   /// The tool is out of the bone.

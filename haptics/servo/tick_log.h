@@ -2,8 +2,8 @@
 // what happens to a late reader: hand_over_log.
 #pragma once
 
-#include "haptics/spsc_ring.h"
 #include "haptics/servo/tick.h"
+#include "haptics/spsc_ring.h"
 
 namespace haptics {
 

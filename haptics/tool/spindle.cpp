@@ -118,7 +118,7 @@ double radPerSecond(double rpm) noexcept { return rpm * (2.0 * kPi / 60.0); }
 double rpmOf(double rad_per_s) noexcept { return rad_per_s * (60.0 / (2.0 * kPi)); }
 
 SpindleState advanced(const SpindleSettings& settings, const SpindleState& state, bool on, double load_Nmm,
-                    double dt_s) noexcept {
+                      double dt_s) noexcept {
   const double against = settings.bearing_torque_Nmm + (load_Nmm > 0.0 ? load_Nmm : 0.0);
   const double wanted_way = settings.commanded_rpm < 0.0 ? -1.0 : 1.0;
   double way = state.rad_per_s == 0.0 ? wanted_way : std::copysign(1.0, state.rad_per_s);

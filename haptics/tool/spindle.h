@@ -24,14 +24,14 @@ struct SpindleSettings {
 };
 
 struct SpindleState {
-  double rad_per_s = 0.0;   ///< about +z of T
-  double angle_rad = 0.0;  ///< angle of the shaft, 0..2 pi
-  double vibration_phase_rad = 0.0;    ///< phase of the tone the hand feels, 0..2 pi; runs on when its frequency changes
+  double rad_per_s = 0.0;            ///< about +z of T
+  double angle_rad = 0.0;            ///< angle of the shaft, 0..2 pi
+  double vibration_phase_rad = 0.0;  ///< phase of the tone the hand feels, 0..2 pi; runs on when its frequency changes
 };
 
 /// The state `dt_s` later with the pedal down (`on`) or up, under a load torque of at least 0.
 SpindleState advanced(const SpindleSettings& settings, const SpindleState& state, bool on, double load_Nmm,
-                    double dt_s) noexcept;
+                      double dt_s) noexcept;
 
 /// The speed that lasts under a load, signed; 0: stalled.
 double steadySpeed_rad_per_s(const SpindleSettings& settings, double load_Nmm) noexcept;

@@ -66,8 +66,7 @@ void blendOver(const Inset& inset, EyeImage& canvas) {
     for (int x = inset.first_px.x; x < end.x; ++x) {
       const int column = (2 * (x - inset.first_px.x) + 1) * inset.image.w / (2 * inset.size_px.x);
       const int row = (2 * (y - inset.first_px.y) + 1) * inset.image.h / (2 * inset.size_px.y);
-      const std::uint8_t* const from =
-          &inset.image.rgba[4 * static_cast<std::size_t>(row * inset.image.w + column)];
+      const std::uint8_t* const from = &inset.image.rgba[4 * static_cast<std::size_t>(row * inset.image.w + column)];
       const std::size_t at = canvas.at(x, y);
       canvas.r[at] = kLight[from[0]], canvas.g[at] = kLight[from[1]], canvas.b[at] = kLight[from[2]];
     }
@@ -162,9 +161,9 @@ TraceScene CpuSceneRenderer::sceneFor(const Frame& frame, Eye eye) {
   shade.ambient = viewOf(fields_.ambient());
   shade.appearance = viewOf(fields_.appearance());
   shade.matter_distance = {.border = matter_.emptiness().data(),
-                   .row = matter_.bricks().x,
-                   .slice = matter_.bricks().x * matter_.bricks().y,
-                   .size = matter_.bricks()};
+                           .row = matter_.bricks().x,
+                           .slice = matter_.bricks().x * matter_.bricks().y,
+                           .size = matter_.bricks()};
   if (guides_) {
     shade.guides = viewOf(*guides_);
     shade.visible_guides = visibleGuides(frame);
@@ -201,8 +200,8 @@ void CpuSceneRenderer::draw(const TraceScene& scene, int samples, EyeImage& canv
   if (still != nullptr) {
     const EyeBlock& eye = scene.shade.eye;
     static_hits_valid = still->revision == meshes_.staticRevision() && still->px == canvas.px &&
-                     still->eye.eye_P == eye.eye_P && still->eye.lower_left_P == eye.lower_left_P &&
-                     still->eye.right_edge_P == eye.right_edge_P && still->eye.up_edge_P == eye.up_edge_P;
+                        still->eye.eye_P == eye.eye_P && still->eye.lower_left_P == eye.lower_left_P &&
+                        still->eye.right_edge_P == eye.right_edge_P && still->eye.up_edge_P == eye.up_edge_P;
     still->eye = eye;
     still->px = canvas.px;
     still->revision = meshes_.staticRevision();

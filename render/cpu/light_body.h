@@ -90,7 +90,8 @@ inline Float3 lit(const ShadeScene& scene, const Surface& s, const Float3& p_P, 
                        bouncedAmbient(visibility.ambient, s.albedo.z)};
   light = light + s.albedo * (mix(vec3(FLOOR_LIGHT), vec3(SKY_LIGHT), sky) * bounced);
   const Float3 mirrored = (2.0f * dot(normal, to_eye)) * normal - to_eye;
-  return light + visibility.ambient * (ambientSpecular(s.f0, s.roughness, n_v) * surroundings(scene, mirrored, s.roughness));
+  return light +
+         visibility.ambient * (ambientSpecular(s.f0, s.roughness, n_v) * surroundings(scene, mirrored, s.roughness));
 }
 
 }  // namespace

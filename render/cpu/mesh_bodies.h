@@ -79,7 +79,8 @@ class MeshBodies {
   void throwIfFailed() const;
 
   RTCDeviceTy* device_;
-  RTCSceneTy *static_ = nullptr, *dynamic_ = nullptr, *transparent_ = nullptr, *overlay_ = nullptr, *occluders_ = nullptr;
+  RTCSceneTy *static_ = nullptr, *dynamic_ = nullptr, *transparent_ = nullptr, *overlay_ = nullptr,
+             *occluders_ = nullptr;
   std::vector<MeshBody> bodies_;
   Placements placements_ = placementsIn(Frame{});
   FaceWindow window_;

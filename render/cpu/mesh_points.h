@@ -18,13 +18,13 @@ struct RayBatch {
   glm::vec3 origin_P{0.0f};
   int count = 0;
   alignas(64) float x[kMaxRays] = {}, y[kMaxRays] = {}, z[kMaxRays] = {};  ///< unit directions
-  alignas(64) float near_mm[kMaxRays] = {}, far_mm[kMaxRays] = {};      ///< between which a mesh can be met
+  alignas(64) float near_mm[kMaxRays] = {}, far_mm[kMaxRays] = {};         ///< between which a mesh can be met
 };
 
 /// The first mesh along every ray of a batch, as it is found: attributes are looked up only where it is seen.
 struct MeshHits {
   alignas(64) float distance_mm[RayBatch::kMaxRays + kLanePadding] = {};  ///< 0: none
-  float u[RayBatch::kMaxRays] = {}, v[RayBatch::kMaxRays] = {};              ///< barycentric
+  float u[RayBatch::kMaxRays] = {}, v[RayBatch::kMaxRays] = {};           ///< barycentric
   unsigned body[RayBatch::kMaxRays] = {}, part[RayBatch::kMaxRays] = {}, triangle[RayBatch::kMaxRays] = {};
   bool faces_eye[RayBatch::kMaxRays] = {};
 };

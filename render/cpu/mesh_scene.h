@@ -1,9 +1,9 @@
-// Face, gingiva and instruments for rays on the CPU: a scene of two levels in Embree, the models below, above them their
-// instances - what a hand holds moved with each frame, the bur turning besides. Frame P, mm.
-// Opaque parts are met first hit by first hit; transparent ones are all met along a ray, and come back to front. The
-// window in the face opens it as shaders/mesh.frag does. Both sides of a triangle are met, in mirrored views too.
-// Setting a model builds its tree (20 ms for 35,000 triangles); placing costs some microseconds. setModel and place on
-// one thread, then any number of threads may trace. A ray costs about 30 ns.
+// Face, gingiva and instruments for rays on the CPU: a scene of two levels in Embree, the models below, above them
+// their instances - what a hand holds moved with each frame, the bur turning besides. Frame P, mm. Opaque parts are met
+// first hit by first hit; transparent ones are all met along a ray, and come back to front. The window in the face
+// opens it as shaders/mesh.frag does. Both sides of a triangle are met, in mirrored views too. Setting a model builds
+// its tree (20 ms for 35,000 triangles); placing costs some microseconds. setModel and place on one thread, then any
+// number of threads may trace. A ray costs about 30 ns.
 #pragma once
 
 #include <cstdint>
@@ -43,8 +43,8 @@ class MeshScene {
   std::uint64_t staticRevision() const;
   /// Adds those hits that are what the ray sees: nothing at `seen_mm[i]` before them.
   void addSeen(const RayBatch& rays, const MeshHits& hits, const float* seen_mm, MeshPoints& to) const;
-  /// Every transparent place before `limit_mm[i]`, and of what is seen through bone and gingiva all that lies before the
-  /// opaque face and instruments; ray by ray, each ray's from back to front.
+  /// Every transparent place before `limit_mm[i]`, and of what is seen through bone and gingiva all that lies before
+  /// the opaque face and instruments; ray by ray, each ray's from back to front.
   void layers(const RayBatch& rays, const float* limit_mm, MeshPoints& to) const;
 
  private:

@@ -57,7 +57,8 @@ inline Float freeVoxels(const ShadeScene& scene, const Float3& index, Mask mask)
   constexpr float kBrick = 1.0f / BRICK_VOXELS;
   const Int i = clamp(toInt(kBrick * index.x), 0, size.x - 1), j = clamp(toInt(kBrick * index.y), 0, size.y - 1);
   const Int k = clamp(toInt(kBrick * index.z), 0, size.z - 1);
-  const Int bricks = gather(scene.matter_distance.border, k * scene.matter_distance.slice + j * scene.matter_distance.row + i, mask);
+  const Int bricks =
+      gather(scene.matter_distance.border, k * scene.matter_distance.slice + j * scene.matter_distance.row + i, mask);
   return static_cast<float>(BRICK_VOXELS) * toFloat(bricks - 1);
 }
 

@@ -59,8 +59,7 @@ void aim(const EyeBlock& eye, const float* uv_x, const float* uv_y, RayBatch& ra
   rays.origin_P.x = eye.eye_P.x, rays.origin_P.y = eye.eye_P.y, rays.origin_P.z = eye.eye_P.z;
   const Float3 corner = splat(eye.lower_left_P) - splat(eye.eye_P);
   for (int i = 0; i < rays.count; i += kLanes) {
-    const Float3 to_screen =
-        corner + load(uv_x + i) * splat(eye.right_edge_P) + load(uv_y + i) * splat(eye.up_edge_P);
+    const Float3 to_screen = corner + load(uv_x + i) * splat(eye.right_edge_P) + load(uv_y + i) * splat(eye.up_edge_P);
     const Float reach = length(to_screen), inverse = 1.0f / reach;
     store(rays.x + i, inverse * to_screen.x);
     store(rays.y + i, inverse * to_screen.y);
@@ -125,7 +124,8 @@ void meshes(const ShadeScene& scene, const RayBatch& rays, const MeshPoints& poi
     const auto at_least = [&](float least, Float value) {
       return select(steel, least + (1.0f - least) * value, value);
     };
-    visibility.ambient = at_least(STEEL_MIN_AMBIENT, visibility.ambient) * select(outside, splat(1.0f), splat(INSIDE_AMBIENT));
+    visibility.ambient =
+        at_least(STEEL_MIN_AMBIENT, visibility.ambient) * select(outside, splat(1.0f), splat(INSIDE_AMBIENT));
     visibility.lamp = at_least(STEEL_MIN_LAMP, visibility.lamp) * select(outside, splat(1.0f), splat(INSIDE_LAMP));
     const Float3 shown = lit(scene, s, p_P, normal, -direction, visibility);
     // A guide is lit from everywhere: it is no part of the patient and shows inside the bone.

@@ -32,8 +32,8 @@ struct ShadeScene {
   FieldView<std::uint16_t> smooth, ambient;
   FieldView<std::uint32_t> appearance;
   FieldView<std::uint8_t> matter_distance;  ///< per brick, without border: bricks to the next with anything in it
-  FieldView<glm::u16vec2> guides;   ///< guide_field.h on the cells of the ambient map
-  int visible_guides = 0;             ///< GUIDE_CLEARANCE, GUIDE_PLAN
+  FieldView<glm::u16vec2> guides;           ///< guide_field.h on the cells of the ambient map
+  int visible_guides = 0;                   ///< GUIDE_CLEARANCE, GUIDE_PLAN
   bool ambient_occlusion = true, lamp_shadow = true;
 };
 
@@ -46,8 +46,7 @@ struct ShadeKernels {
   /// Unit directions through places of the image, 0..1 from its lower left, and where near and far plane lie along
   /// them. rays.count of them.
   void (*aim)(const EyeBlock& eye, const float* uv_x, const float* uv_y, RayBatch& rays);
-  void (*background)(const EyeBlock& eye, const RayBatch& rays, const float* uv_x, const float* uv_y,
-                     Light light);
+  void (*background)(const EyeBlock& eye, const RayBatch& rays, const float* uv_x, const float* uv_y, Light light);
   void (*meshes)(const ShadeScene& scene, const RayBatch& rays, const MeshPoints& points, Light light);
   /// Tooth and bone: `count` rays of the batch by number, and how far along each the surface is, in voxels.
   void (*surface)(const ShadeScene& scene, const RayBatch& rays, const std::int32_t* ray, const float* length_voxels,

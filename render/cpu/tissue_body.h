@@ -41,7 +41,7 @@ inline Float3 appearanceAt(const ShadeScene& scene, const Float3& index, Mask ma
                   clamp(index.z, 0.0f, static_cast<float>(field.size.z - 1)) + 1.0f};
   const auto unpacked = [](Int rgba) {
     return Appearance{{toFloat(rgba & 0xff), toFloat((rgba >> 8) & 0xff), toFloat((rgba >> 16) & 0xff)},
-                toFloat(shiftRightLogical(rgba, 24))};
+                      toFloat(shiftRightLogical(rgba, 24))};
   };
   const Appearance appearance = mixedAround(field, at, mask, [&](const std::uint32_t* from, Int offset, Float part) {
     const IntPair both = gather64<4>(from, offset);

@@ -81,8 +81,8 @@ void castSurface(const SolidCells& cells, const CastSettings& settings, const Ra
 }
 
 void castTranslucent(const SolidCells& cells, const CastSettings& settings, const BorderedField<std::uint8_t>& label,
-                 const OpacityTable& opacity, const RayBatch& rays, const float* limit_mm, VolumePoints& to,
-                 RaySums& sums, assets::InstructionSet set) {
+                     const OpacityTable& opacity, const RayBatch& rays, const float* limit_mm, VolumePoints& to,
+                     RaySums& sums, assets::InstructionSet set) {
   CastJob job = jobOf(cells, settings, rays, limit_mm, to);
   job.label = label.at(glm::ivec3(-1));
   job.opacity = opacity.of_step.data();

@@ -1,8 +1,8 @@
 // Where the rays of a batch meet the volume, on the CPU: the surface (castSurface) or all that shows of it when it is
-// translucent (castTranslucent). The twin of shaders/ray_cast.glsl: samples at t = k · step from the entry, six bisections.
-// Empty space is passed in three ways that never pass a sample that would count: a beam around up to 64 rays at once,
-// then every ray by itself, by the distances of SolidCells. Tests compare with `skip_empty_space` off, bit for bit.
-// Compiled for each instruction set (volume_cast_body.h); the machine's best is chosen. Lengths in voxels.
+// translucent (castTranslucent). The twin of shaders/ray_cast.glsl: samples at t = k · step from the entry, six
+// bisections. Empty space is passed in three ways that never pass a sample that would count: a beam around up to 64
+// rays at once, then every ray by itself, by the distances of SolidCells. Tests compare with `skip_empty_space` off,
+// bit for bit. Compiled for each instruction set (volume_cast_body.h); the machine's best is chosen. Lengths in voxels.
 // Any thread, many at once; no allocation once the output has grown. About 0.1 us per ray.
 #pragma once
 
@@ -19,8 +19,8 @@
 namespace render {
 
 /// Places on the rays of a batch, to be shaded. castSurface: at most one per ray, in the order of the rays.
-/// castTranslucent: of each ray from front to back, rays in no order; the light of a ray is the sum of weight · light of
-/// its places.
+/// castTranslucent: of each ray from front to back, rays in no order; the light of a ray is the sum of weight · light
+/// of its places.
 struct VolumePoints {
   int count = 0;
   std::vector<std::int32_t> ray;  ///< which of the batch
@@ -69,7 +69,7 @@ void castSurface(const SolidCells& cells, const CastSettings& settings, const Ra
 
 /// Rays end where their opacity reaches 0.98. `label`: of the same grid.
 void castTranslucent(const SolidCells& cells, const CastSettings& settings, const BorderedField<std::uint8_t>& label,
-                 const OpacityTable& opacity, const RayBatch& rays, const float* limit_mm, VolumePoints& to,
-                 RaySums& sums, assets::InstructionSet set = assets::chosenInstructionSet());
+                     const OpacityTable& opacity, const RayBatch& rays, const float* limit_mm, VolumePoints& to,
+                     RaySums& sums, assets::InstructionSet set = assets::chosenInstructionSet());
 
 }  // namespace render

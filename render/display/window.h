@@ -82,8 +82,8 @@ class Window {
         std::nullopt;              ///< to be on, index of monitors(); full screen without it: the primary one
     bool wait_for_refresh = true;  ///< vsync
     bool visible = true;
-    bool focused = true;             ///< takes the keyboard when it opens
-    bool quad_buffer = false;        ///< left and right back buffers
+    bool focused = true;                 ///< takes the keyboard when it opens
+    bool quad_buffer = false;            ///< left and right back buffers
     const Window* share_with = nullptr;  ///< shares textures with it
   };
 

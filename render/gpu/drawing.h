@@ -15,10 +15,10 @@ struct DrawState {
   bool depth_test = true;
   bool depth_write = true;
   bool allow_equal_depth = false;  ///< what lies at the very depth that is there already is drawn too
-  bool blend = false;       ///< premultiplied, over the first colour attachment
-  bool mirrored = false;       ///< the view is left-handed: front faces turn clockwise
-  bool write_colour = true;    ///< first colour attachment
-  bool write_distance = true;  ///< second colour attachment
+  bool blend = false;              ///< premultiplied, over the first colour attachment
+  bool mirrored = false;           ///< the view is left-handed: front faces turn clockwise
+  bool write_colour = true;        ///< first colour attachment
+  bool write_distance = true;      ///< second colour attachment
 };
 
 void apply(const DrawState& state);

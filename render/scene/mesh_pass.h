@@ -1,7 +1,7 @@
 // Draws triangle meshes: face, gingiva, instrument. Frame P by a rigid pose given per draw. Render thread.
-// Opaque parts write depth and distance and come before the volume; transparent parts come after it, into FragmentLists.
-// Parts of the face, but for metal (a retractor), open around the line from the eyes to the operating site (EyeBlock).
-// Nothing here is felt.
+// Opaque parts write depth and distance and come before the volume; transparent parts come after it, into
+// FragmentLists. Parts of the face, but for metal (a retractor), open around the line from the eyes to the operating
+// site (EyeBlock). Nothing here is felt.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -9,17 +9,22 @@
 
 namespace render {
 
-/// `mandibular_canal` where it lies open and, `_through`, through bone and gingiva; `ghost`: the instrument at the hand,
-/// likewise.
+/// `mandibular_canal` where it lies open and, `_through`, through bone and gingiva; `ghost`: the instrument at the
+/// hand, likewise.
 enum class Model { face, gingiva, instrument, second_instrument, mandibular_canal, mandibular_canal_overlay, ghost };
 inline constexpr std::size_t kModels = 7;
 
 /// How the surface of a mesh is shaded. The numbers are those of the shaders.
-enum class Finish { skin = FINISH_SKIN, gingiva = FINISH_GINGIVA, instrument = FINISH_INSTRUMENT, guide = FINISH_GUIDE };
+enum class Finish {
+  skin = FINISH_SKIN,
+  gingiva = FINISH_GINGIVA,
+  instrument = FINISH_INSTRUMENT,
+  guide = FINISH_GUIDE
+};
 
 constexpr Finish finishOf(Model model) {
-  constexpr std::array<Finish, kModels> kFinish{Finish::skin,  Finish::gingiva,   Finish::instrument, Finish::instrument,
-                                                Finish::guide, Finish::guide, Finish::instrument};
+  constexpr std::array<Finish, kModels> kFinish{Finish::skin,  Finish::gingiva, Finish::instrument, Finish::instrument,
+                                                Finish::guide, Finish::guide,   Finish::instrument};
   return kFinish[static_cast<std::size_t>(model)];
 }
 

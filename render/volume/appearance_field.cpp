@@ -41,7 +41,8 @@ void smoothAxis(Block& block, std::size_t step) {
 
 }  // namespace
 
-BorderedField<std::uint32_t> appearanceField(const BorderedField<std::uint8_t>& solid, std::span<const std::uint8_t> label) {
+BorderedField<std::uint32_t> appearanceField(const BorderedField<std::uint8_t>& solid,
+                                             std::span<const std::uint8_t> label) {
   const glm::ivec3 size = solid.layout().size, bricks = (size + (kCore - 1)) / kCore;
   const TissueAppearance& plain = kTissueAppearance[0];
   BorderedField<std::uint32_t> field(size, packed(plain.albedo, plain.finish));
@@ -64,8 +65,8 @@ BorderedField<std::uint32_t> appearanceField(const BorderedField<std::uint8_t>& 
           const TissueAppearance& appearance = tissue_at(v);
           any = any || filled > 0.0f || &appearance != &plain;
           const float weight = (filled * filled + 1e-4f) * appearance.colour_weight;
-          block[at(i, j, k)] = {weight * appearance.albedo.r, weight * appearance.albedo.g, weight * appearance.albedo.b,
-                                weight * appearance.finish, weight};
+          block[at(i, j, k)] = {weight * appearance.albedo.r, weight * appearance.albedo.g,
+                                weight * appearance.albedo.b, weight * appearance.finish, weight};
         }
     if (!any) return;
 

@@ -1,6 +1,6 @@
-// Tooth and bone drawn as triangles: the surface of assets/bone_surface on the GPU, brick by brick, with the very appearance
-// and light of the ray-cast surface. Carved bricks are noted in every view and become triangles when a frame asks.
-// Frame P. Render thread. First frame: all bricks (50 ms for 4 million voxels); then about 80 us a carved brick.
+// Tooth and bone drawn as triangles: the surface of assets/bone_surface on the GPU, brick by brick, with the very
+// appearance and light of the ray-cast surface. Carved bricks are noted in every view and become triangles when a frame
+// asks. Frame P. Render thread. First frame: all bricks (50 ms for 4 million voxels); then about 80 us a carved brick.
 // The caster's volume must be bound while drawing. Not the ray caster's surface to the last pixel: triangles are flat
 // within a voxel, where the trilinear field is curved.
 #pragma once

@@ -265,7 +265,7 @@ CtSlices::CtSlices(const assets::VolumeGrid& grid, CtScan scan) : grid_(grid), s
 }
 
 Image CtSlices::image(SlicePlane plane, const Frame& frame, const BorderedField<std::uint8_t>& live,
-                          int edge_px) const {
+                      int edge_px) const {
   const Layout layout = layoutOf(plane);
   const glm::dvec3 middle = frame.X_PT.translation_mm;
   SliceImage slice(layout, middle, edge_px);

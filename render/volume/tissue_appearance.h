@@ -12,9 +12,9 @@
 namespace render {
 
 struct TissueAppearance {
-  glm::vec3 albedo;  ///< linear sRGB
-  float finish;      ///< 0 open marrow, 0.5 dull bone and dentine, 1 enamel
-  float colour_weight;    ///< how much a voxel counts for the colour of a hard surface beside it: soft tissue hardly does
+  glm::vec3 albedo;     ///< linear sRGB
+  float finish;         ///< 0 open marrow, 0.5 dull bone and dentine, 1 enamel
+  float colour_weight;  ///< how much a voxel counts for the colour of a hard surface beside it: soft tissue hardly does
 };
 
 inline constexpr float kMarrow = 0.0f, kDull = 0.5f, kEnamel = 1.0f;

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "app/case/patient_source.h"
 #include "app/case/patient_placement.h"
+#include "app/case/patient_source.h"
 #include "app/view/patient_renderer.h"
 #include "assets/instrument/dental_mirror.h"
 #include "assets/patient/patient_folder.h"

@@ -6,7 +6,8 @@
 
 namespace haptics {
 
-inline double grantedRate_mm3_per_s(const ErosionSettings& settings, const CutConditions& moment, assets::Tissue tissue) {
+inline double grantedRate_mm3_per_s(const ErosionSettings& settings, const CutConditions& moment,
+                                    assets::Tissue tissue) {
   return erosionStep(settings, moment, {}).loss[static_cast<std::size_t>(tissue)] * moment.overlap_mm3 / moment.dt_s;
 }
 

@@ -9,9 +9,9 @@
 #include <mutex>
 #include <vector>
 
-#include "haptics/device/simulated_device.h"
 #include "haptics/device/simulated/mouse_device.h"
 #include "haptics/device/simulated/replay_device.h"
+#include "haptics/device/simulated_device.h"
 #include "tests/haptics/phantom.h"
 
 namespace haptics {
@@ -94,7 +94,8 @@ struct Bench {
 
   /// Started; ticks when it is stepped.
   std::unique_ptr<HapticLoop> byHand(SimulatedDevice& device) {
-    auto loop = std::make_unique<HapticLoop>(servo, ServedDevice::steppedManually(device), commands, log, newest, settings);
+    auto loop =
+        std::make_unique<HapticLoop>(servo, ServedDevice::steppedManually(device), commands, log, newest, settings);
     loop->start();
     return loop;
   }
@@ -223,8 +224,8 @@ TEST(HapticLoop, ByHandEndsWhereTheDeviceRefusesItsRateOrIsGone) {
   bench.settings.rate_Hz = 2000.0;
   ReplayDevice recorded_at_1_kHz({HandleState{}}, 0.001);
   {
-    HapticLoop loop(bench.servo, ServedDevice::steppedManually(recorded_at_1_kHz), bench.commands, bench.log, bench.newest,
-                    bench.settings);
+    HapticLoop loop(bench.servo, ServedDevice::steppedManually(recorded_at_1_kHz), bench.commands, bench.log,
+                    bench.newest, bench.settings);
     EXPECT_THROW(loop.start(), DeviceError);
     loop.stop();
   }

@@ -6,8 +6,8 @@
 #include <mutex>
 #include <random>
 
-#include "haptics/device/simulated_device.h"
 #include "haptics/device/simulated/simulated_phantom.h"
+#include "haptics/device/simulated_device.h"
 #include "haptics/servo/haptic_loop.h"
 #include "tests/haptics/phantom.h"
 #include "tests/haptics/untrue_omni.h"
@@ -19,9 +19,9 @@ using namespace phantom;
 using calibration::Device;
 using calibration::Handle;
 using calibration::MeasuredArm;
+using calibration::PerturbedArm;
 using calibration::Point;
 using calibration::Pose;
-using calibration::PerturbedArm;
 using calibration::World;
 
 MeasuredArm perfectlyMeasured(const PerturbedArm& arm, const Pose<World, Device>& X_WD = {}) {

@@ -44,7 +44,8 @@ TEST(Proxy, SpendsOneLookAtTheHandInSlowMotion) {
   const Phantom phantom = halfSpace(4.0, 0.2);
   Proxy proxy;
   int evaluations = 0;
-  for (int tick = 0; tick < 100; ++tick) evaluations += held(proxy, phantom.field(), {0.01 * tick, 0.0, 1.6}).evaluations;
+  for (int tick = 0; tick < 100; ++tick)
+    evaluations += held(proxy, phantom.field(), {0.01 * tick, 0.0, 1.6}).evaluations;
   EXPECT_EQ(evaluations, 100);
 }
 

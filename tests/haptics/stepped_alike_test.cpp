@@ -102,9 +102,10 @@ std::vector<Tick> ticking(SimulatedDevice& device, std::uint64_t ticks) {
 auto columns(const Tick& t) {
   return std::tuple(t.index, t.t_s, t.dt_s, t.command_serial, t.hand.X_PT.translation_mm, t.hand.X_PT.rotation,
                     t.hand.velocity_P_mm_per_s.xyz, t.hand.drill_pedal, t.hand.gap_s, t.hand.motor_heat, t.proxy_P.mm,
-                    t.law_force_P_N.xyz, t.law_torque_P_Nmm.xyz, t.commanded_force_P_N.xyz, t.commanded_torque_P_Nmm.xyz,
-                    t.energy_Nmm, t.spindle_rad_per_s, t.overlap_mm3, t.depth_mm, t.removed_mm3, t.bone_digest,
-                    t.contact_tissue, t.drilling, t.drill_inhibit, t.strokes, t.state, t.faults);
+                    t.law_force_P_N.xyz, t.law_torque_P_Nmm.xyz, t.commanded_force_P_N.xyz,
+                    t.commanded_torque_P_Nmm.xyz, t.energy_Nmm, t.spindle_rad_per_s, t.overlap_mm3, t.depth_mm,
+                    t.removed_mm3, t.bone_digest, t.contact_tissue, t.drilling, t.drill_inhibit, t.strokes, t.state,
+                    t.faults);
 }
 
 TEST(SteppedHand, MakesTheSameTicksTwiceHoweverManyAtOnce) {

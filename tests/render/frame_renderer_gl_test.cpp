@@ -201,7 +201,7 @@ TEST(FrameRenderer, EveryDisplayModePutsTheRightEyeInTheRightPixel) {
       StereoLayout layout{.mode = one.mode, .screen_px = frame.rig.screen.px};
       const bool mono = one.mode == DisplayMode::mono;
       const Image left = renderer.readEye(mono ? Eye::cyclopean : Eye::left),
-                    right = renderer.readEye(mono ? Eye::cyclopean : Eye::right);
+                  right = renderer.readEye(mono ? Eye::cyclopean : Eye::right);
       EXPECT_EQ(mono, pixelsThatDiffer(left, right, 4) <= 50u) << "control: the eyes must differ";
       int wrong = 0;
       for (layout.output = 0; layout.output < outputCount(one.mode); ++layout.output) {
@@ -212,8 +212,9 @@ TEST(FrameRenderer, EveryDisplayModePutsTheRightEyeInTheRightPixel) {
             const SourcePixel shown = sourcePixelAt(layout, {x, y});
             const std::array<std::uint8_t, 3> black{};
             const std::uint8_t* expected =
-                shown.eye == PixelSource::black ? black.data()
-                                          : pixelAt(shown.eye == PixelSource::right ? right : left, shown.px.x, shown.px.y);
+                shown.eye == PixelSource::black
+                    ? black.data()
+                    : pixelAt(shown.eye == PixelSource::right ? right : left, shown.px.x, shown.px.y);
             for (int c = 0; c < 3; ++c) wrong += pixelAt(all, x, y)[c] != expected[c];
           }
       }
@@ -491,7 +492,8 @@ TEST(FrameRenderer, AntialiasingDrawsSilhouettesAgainAndNothingElse) {
   for (const Backend backend : {Backend::gl_fragment, Backend::gl_compute}) {
     FrameRenderer renderer(ct.grid, ct.solid, ct.label, {.backend = backend}),
         everywhere(ct.grid, ct.solid, ct.label, {.backend = backend, .samples = 2});
-    for (FrameRenderer* r : {&renderer, &everywhere}) r->setGingiva(sphereMesh({{7, 3, 3}, 5.0}, {0.2f, 0.4f, 0.8f, 1.0f}));
+    for (FrameRenderer* r : {&renderer, &everywhere})
+      r->setGingiva(sphereMesh({{7, 3, 3}, 5.0}, {0.2f, 0.4f, 0.8f, 1.0f}));
     Frame frame = frameFor(cameraRig({.eye_P_mm = {0, -250, 0}, .fov_y_rad = 0.17}, {160, 120}));
     renderer.renderEye(frame, Eye::left);
     const Image plain = renderer.readEye(Eye::left);

@@ -63,7 +63,9 @@ TEST(StereoLayout, SplitModesShowEveryPixelOfBothEyesOnce) {
 }
 
 TEST(StereoLayout, TheLeftEyeIsLeftAboveOrFirst) {
-  const auto eyeAt = [](DisplayMode mode, glm::ivec2 px) { return sourcePixelAt({.mode = mode, .screen_px = kScreen}, px); };
+  const auto eyeAt = [](DisplayMode mode, glm::ivec2 px) {
+    return sourcePixelAt({.mode = mode, .screen_px = kScreen}, px);
+  };
   EXPECT_EQ(eyeAt(DisplayMode::side_by_side, {5, 3}), (SourcePixel{PixelSource::left, {5, 3}}));
   EXPECT_EQ(eyeAt(DisplayMode::side_by_side, {6, 3}), (SourcePixel{PixelSource::right, {0, 3}}));
   EXPECT_EQ(eyeAt(DisplayMode::side_by_side_full, {11, 3}), (SourcePixel{PixelSource::left, {11, 3}}));
@@ -93,9 +95,10 @@ TEST(StereoLayout, PackedFramesHaveTheSizesAndGapsOfHdmi) {
     EXPECT_TRUE(isPackable(c.screen));
     EXPECT_EQ(outputSize(layout.mode, c.screen), c.output);
     for (int y = 0; y < c.output.y; ++y) {
-      const SourcePixel expected = y < c.screen.y           ? SourcePixel{PixelSource::left, {100, y}}
-                                  : y < c.screen.y + c.gap ? SourcePixel{}
-                                                           : SourcePixel{PixelSource::right, {100, y - c.screen.y - c.gap}};
+      const SourcePixel expected = y < c.screen.y ? SourcePixel{PixelSource::left, {100, y}}
+                                   : y < c.screen.y + c.gap
+                                       ? SourcePixel{}
+                                       : SourcePixel{PixelSource::right, {100, y - c.screen.y - c.gap}};
       ASSERT_EQ(sourcePixelAt(layout, {100, y}), expected) << y;
     }
   }

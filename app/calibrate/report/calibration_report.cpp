@@ -158,7 +158,8 @@ std::string verdictBox(const RigRecord& record) {
                     ".</b><br>" + escaped(worstOf(record));
   if (record.verification)
     box += "<br><span class=\"quiet\">" +
-           escaped(sentence(calibration::assess(record.verification->errors, record.verification->kind).reason)) + "</span>";
+           escaped(sentence(calibration::assess(record.verification->errors, record.verification->kind).reason)) +
+           "</span>";
   return box + "</div>\n</div>\n";
 }
 

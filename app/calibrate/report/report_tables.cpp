@@ -11,8 +11,8 @@
 namespace app {
 namespace {
 
-using calibration::VerificationLimit;
 using calibration::RigRecord;
+using calibration::VerificationLimit;
 
 std::string mm(double value_mm) { return fixedText(value_mm, 2) + " mm"; }
 
@@ -53,7 +53,8 @@ std::string proofRows(const calibration::RigVerification& verification) {
   std::string rows = plain("Touches held out (never fitted)", std::to_string(errors.n));
   rows += plain("Error there (TRE), mean", mm(errors.mean_mm));
   rows += plain("&emsp;RMS", mm(errors.rms_mm));
-  rows += limited("&emsp;RMS, 95 % sure it is no more", mm(judged.rms_upper_bound_mm), judged.rms_upper_bound_mm, limits.rms);
+  rows += limited("&emsp;RMS, 95 % sure it is no more", mm(judged.rms_upper_bound_mm), judged.rms_upper_bound_mm,
+                  limits.rms);
   rows += limited("&emsp;95 of 100 are within", mm(errors.p95_mm), errors.p95_mm, limits.p95);
   rows += limited("&emsp;largest", mm(errors.max_mm), errors.max_mm, limits.max);
   rows += limited("Bias: right, up, towards the viewer",
@@ -77,9 +78,9 @@ std::string figuresTable(const RigRecord& record) {
     table += plain("Residual of the fit (FRE), RMS", mm(procedure.fre_rms_mm), "plausibility, no accuracy");
     table +=
         plain("Touches used, set aside", std::to_string(procedure.used) + ", " + std::to_string(procedure.outliers));
-    table += plain(
-        "Spread of the stylus's tilt", fixedText(procedure.tilt_spread_deg, 0) + "\u00b0",
-        procedure.tilt_spread_deg < calibration::kMinTilt_deg ? "too little: it hides errors of the gimbal" : "");
+    table +=
+        plain("Spread of the stylus's tilt", fixedText(procedure.tilt_spread_deg, 0) + "\u00b0",
+              procedure.tilt_spread_deg < calibration::kMinTilt_deg ? "too little: it hides errors of the gimbal" : "");
     table += plain("Time taken", fixedText(procedure.duration_s / 60.0, 1) + " min");
   }
   if (record.rest)

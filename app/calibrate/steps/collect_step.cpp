@@ -102,7 +102,8 @@ class CollectStep final : public WizardStep {
     }
     const bool doubtful = worst_ && round_->isDoubtful(*worst_);
     const std::string redo =
-        worst_ ? "touch the worst again: " + round_->nameOf(*worst_) + ", " + mmText(worst_mm_) + " off" : "start again";
+        worst_ ? "touch the worst again: " + round_->nameOf(*worst_) + ", " + mmText(worst_mm_) + " off"
+               : "start again";
     end_ = ChoiceMenu({"go on with these touches", redo, "leave; the old calibration stays"}, doubtful ? 1 : 0);
   }
 

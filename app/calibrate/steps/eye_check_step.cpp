@@ -49,7 +49,8 @@ class EyeCheckStep final : public WizardStep {
     // Nearer before the plane and further behind it: pupils or distance; all to one side: the head's place.
     glm::dvec3 bias_mm(0.0);
     double stretch_mm = 0.0;
-    for (const calibration::Residual& seen : calibration::residualsOf(context_.arm, context_.outcome.eye_check.touches)) {
+    for (const calibration::Residual& seen :
+         calibration::residualsOf(context_.arm, context_.outcome.eye_check.touches)) {
       bias_mm += 0.25 * seen.error_mm.xyz;
       stretch_mm += 0.25 * seen.error_mm.xyz.z * (seen.target_W.mm.z > 0.0 ? 1.0 : -1.0);
     }

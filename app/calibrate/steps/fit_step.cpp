@@ -1,5 +1,5 @@
-// The arm is worked out from its touches; what makes the result less than it seems is said. One thread; update() takes up
-// to a second once.
+// The arm is worked out from its touches; what makes the result less than it seems is said. One thread; update() takes
+// up to a second once.
 
 #include "app/calibrate/choice_menu.h"
 #include "app/calibrate/number_text.h"

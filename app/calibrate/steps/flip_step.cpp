@@ -10,7 +10,8 @@ namespace {
 
 ChoiceMenu whether() { return ChoiceMenu({"yes, it reads right", "no"}); }
 /// In the order of the choices.
-constexpr std::array<calibration::ImageOrientation, 5> kWays{{{true, 0}, {true, 2}, {false, 2}, {false, 1}, {false, 3}}};
+constexpr std::array<calibration::ImageOrientation, 5> kWays{
+    {{true, 0}, {true, 2}, {false, 2}, {false, 1}, {false, 3}}};
 
 ChoiceMenu which() {
   return ChoiceMenu({"mirrored left to right", "mirrored top to bottom", "turned by half a turn", "turned to the right",

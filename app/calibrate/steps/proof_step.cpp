@@ -25,14 +25,16 @@ class ProofStep final : public WizardStep {
   ProofStep(WizardContext& context, const char* method) : WizardStep(context), method_(method) {}
   void begin() override {
     const bool by_eyes = !isCheck() && context_.byEyes();
-    calibration::TargetPlan plan = *calibration::targetPlan(method_, by_eyes ? calibration::JigPose{} : context_.plan.jig);
+    calibration::TargetPlan plan =
+        *calibration::targetPlan(method_, by_eyes ? calibration::JigPose{} : context_.plan.jig);
     if (by_eyes) ontoTheScreen(plan);
     context_.outcome.verification = emptySet(context_, plan);
     context_.outcome.verification_kind = isCheck() ? calibration::VerificationKind::session_check
-                               : by_eyes ? calibration::VerificationKind::by_eyes
-                                         : calibration::VerificationKind::full;
+                                         : by_eyes ? calibration::VerificationKind::by_eyes
+                                                   : calibration::VerificationKind::full;
     // After a night the base may stand elsewhere by some millimetres.
-    round_.emplace(std::move(plan), context_.arm, isCheck() ? 12.0 : context_.max_distance_mm(), context_.announcements);
+    round_.emplace(std::move(plan), context_.arm, isCheck() ? 12.0 : context_.max_distance_mm(),
+                   context_.announcements);
   }
 
   StepResult update(const StylusSample& sample, Press press, double pressed_s) override {
@@ -46,7 +48,8 @@ class ProofStep final : public WizardStep {
     outcome.assessment = calibration::assess(*outcome.errors, outcome.verification_kind);
     const bool good = outcome.assessment->verdict == calibration::Verdict::green;
     if (isCheck() && !good && !outcome.rezero) {
-      context_.announcements.refuse("The arm is " + mmText(outcome.errors->rms_mm) + " off: five touches bring it up to date.");
+      context_.announcements.refuse("The arm is " + mmText(outcome.errors->rms_mm) +
+                                    " off: five touches bring it up to date.");
       return StepResult::goTo(StepName::rezero);
     }
     return StepResult::goTo(StepName::sign_off);
@@ -69,7 +72,9 @@ class ProofStep final : public WizardStep {
 
 }  // namespace
 
-std::unique_ptr<WizardStep> verifyStep(WizardContext& context) { return std::make_unique<ProofStep>(context, "verify8"); }
+std::unique_ptr<WizardStep> verifyStep(WizardContext& context) {
+  return std::make_unique<ProofStep>(context, "verify8");
+}
 std::unique_ptr<WizardStep> checkStep(WizardContext& context) { return std::make_unique<ProofStep>(context, "check4"); }
 
 }  // namespace app

@@ -26,7 +26,8 @@ class RestStep final : public WizardStep {
     made_of_.clear();
     context_.outcome.rest.reset();
     const auto believed = context_.plan.record.rest.value_or(calibration::RestRegistration{});
-    round_.emplace(marksPlan("rest3", believed, context_.plan.rest_marks_mm, 0), context_.arm, kFarRest_mm, context_.announcements);
+    round_.emplace(marksPlan("rest3", believed, context_.plan.rest_marks_mm, 0), context_.arm, kFarRest_mm,
+                   context_.announcements);
     round_->ignoreTilt();
   }
 

@@ -29,14 +29,15 @@ class RezeroStep final : public WizardStep {
       const calibration::Rezero rezero = calibration::rezeroed(context_.arm, context_.outcome.zeroing);
       if (rezero.after_rms_mm > kMostLeft_mm) {
         context_.announcements.refuse("The touches do not fit together (" + mmText(rezero.after_rms_mm) +
-                           "): touch the pits in the order they glow.");
+                                      "): touch the pits in the order they glow.");
         begin();
         return {};
       }
       context_.outcome.rezero = rezero;
       context_.outcome.arm = rezero.arm;
       context_.arm = rezero.arm;
-      context_.announcements.praise("Up to date: the base had moved by " + mmText(rezero.moved_mm) + ".", WizardSound::next);
+      context_.announcements.praise("Up to date: the base had moved by " + mmText(rezero.moved_mm) + ".",
+                                    WizardSound::next);
       return StepResult::goTo(StepName::check);
     } catch (const calibration::CalibrationError& error) {
       context_.announcements.refuse(error.what());

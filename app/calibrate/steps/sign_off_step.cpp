@@ -53,7 +53,7 @@ class SignOffStep final : public WizardStep {
         return {};
       case Choice::repeat:
         return StepResult::goTo(context_.plan.procedure == CalibrationProcedure::rest ? StepName::rest
-                                                                                   : StepName::collect);
+                                                                                      : StepName::collect);
       case Choice::leave:
         return verdict() == calibration::Verdict::red ? StepResult::refused(sentence()) : StepResult::declined();
     }
@@ -122,8 +122,10 @@ class SignOffStep final : public WizardStep {
       numbers.push_back({"directions of the stylus", numberText(fit->tilt_spread_deg, 0) + "° apart"});
     }
     if (const auto& rezero = outcome.rezero)
-      numbers.push_back({"base moved, turned", mmText(rezero->moved_mm) + ", " + numberText(rezero->turned_deg, 2) + "°"});
-    if (const auto& verification = context_.plan.record.verification) numbers.push_back({"error before", mmText(verification->errors.rms_mm)});
+      numbers.push_back(
+          {"base moved, turned", mmText(rezero->moved_mm) + ", " + numberText(rezero->turned_deg, 2) + "°"});
+    if (const auto& verification = context_.plan.record.verification)
+      numbers.push_back({"error before", mmText(verification->errors.rms_mm)});
     if (outcome.duration_s > 0.0) numbers.push_back({"time for the touches", numberText(outcome.duration_s, 0) + " s"});
     return numbers;
   }

@@ -19,7 +19,9 @@ using namespace calibration;
 
 namespace {
 
-bool becomesCurrent(const RigRecord& record) { return record.verification && record.verification->verdict != Verdict::red; }
+bool becomesCurrent(const RigRecord& record) {
+  return record.verification && record.verification->verdict != Verdict::red;
+}
 
 }  // namespace
 
@@ -67,10 +69,11 @@ void KeepOption::keep(const RigRecord& record, const std::string& touches_text) 
   const bool passes = becomesCurrent(record);
   const auto path = rigs().keep(placeOf(record), record, touches_text, passes);
   std::fprintf(stderr, "molar: kept as %s; %s\n", path.c_str(),
-               passes         ? "in force from now on"
-               : record.verification ? "red, so the one before stays in force"
-                              : "not proved yet, so the one before stays in force: prove it with molar calibrate "
-                                "verify --keep");
+               passes ? "in force from now on"
+               : record.verification
+                   ? "red, so the one before stays in force"
+                   : "not proved yet, so the one before stays in force: prove it with molar calibrate "
+                     "verify --keep");
 }
 
 void addMeasurementInfo(CommandLine& command, MeasurementInfo& info) {
@@ -109,15 +112,17 @@ int conclude(const WizardOption::GuidedOutcome& led, const KeepOption& keep) {
   return outcome.assessment ? statusOf(outcome.assessment->verdict) : 0;
 }
 
-int conclude(const WebcamObservationFile& seen, const WebcamFit& fit, const RigRecord& before, const MeasurementInfo& info,
-              const KeepOption& keep, const std::vector<Residual>& verification) {
+int conclude(const WebcamObservationFile& seen, const WebcamFit& fit, const RigRecord& before,
+             const MeasurementInfo& info, const KeepOption& keep, const std::vector<Residual>& verification) {
   RigRecord record = before;
   record.rig.device = RigDevice{seen.sights.device_model, info.serial, info.mount, info.stylus_tip};
   putWebcamFit(record, fit);
   if (!verification.empty()) putProof(record, verification, VerificationKind::full);
   stamp(record, before, info);
   std::fputs(webcamFitText(fit).c_str(), stderr);
-  std::fputs(proofText(record.verification->errors, assess(record.verification->errors, VerificationKind::full)).c_str(), stderr);
+  std::fputs(
+      proofText(record.verification->errors, assess(record.verification->errors, VerificationKind::full)).c_str(),
+      stderr);
   keep.keep(record, webcamFileText(seen));
   keep.note(record, DriftKind::calibration, record.verification->errors);
   return statusOf(record.verification->verdict);

@@ -37,7 +37,8 @@ class KeepOption {
   calibration::RigLocation placeOf(const calibration::RigRecord& record) const;
   /// Claims the output before any work. Throws LoadError.
   void refuseUnlessWritable() const;
-  /// Into the file and, if asked, the store, where it comes into force unless its verification is missing or red. Says so.
+  /// Into the file and, if asked, the store, where it comes into force unless its verification is missing or red. Says
+  /// so.
   void keep(const calibration::RigRecord& record, const std::string& touches_text) const;
 
   /// What was found, into the history of the place; only with --keep. Calibrations and re-zeros make up for what checks
@@ -54,10 +55,11 @@ void addMeasurementInfo(CommandLine& command, MeasurementInfo& info);
 
 /// What a technician was led to, told and kept; the exit status.
 int conclude(const WizardOption::GuidedOutcome& led, const KeepOption& keep);
-/// The same of a rig fitted to what a webcam saw; `before`: what it comes after, `verification`: touches held out, if any.
+/// The same of a rig fitted to what a webcam saw; `before`: what it comes after, `verification`: touches held out, if
+/// any.
 int conclude(const calibration::WebcamObservationFile& seen, const calibration::WebcamFit& fit,
-              const calibration::RigRecord& before, const MeasurementInfo& info, const KeepOption& keep,
-              const std::vector<calibration::Residual>& verification = {});
+             const calibration::RigRecord& before, const MeasurementInfo& info, const KeepOption& keep,
+             const std::vector<calibration::Residual>& verification = {});
 
 /// Exit status of a verdict.
 int statusOf(calibration::Verdict verdict);

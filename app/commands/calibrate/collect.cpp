@@ -61,7 +61,7 @@ int collect(const CollectOptions& asked) {
   if (webcam) return collectByWebcam(options, observations.get());
   const WizardOption::GuidedOutcome led =
       options.wizard.guide(rest ? CalibrationProcedure::rest : CalibrationProcedure::full, options.method, options.rig,
-                          options.keep.rigs(), options.info);
+                           options.keep.rigs(), options.info);
   if (observations && !led.outcome.touches.touches.empty()) observations->commit(touchesText(led.outcome.touches));
   return conclude(led, options.keep);
 }

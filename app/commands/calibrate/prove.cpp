@@ -47,8 +47,8 @@ int prove(const ProveOptions& options) {
   const TouchSet touches = readTouches(options.observations);
   const MeasuredArm arm = armOf(record, touches, options.rig);
   const VerificationKind kind = options.session_check ? VerificationKind::session_check
-                         : record.procedure    ? proofKindOf(record.procedure->method)
-                                               : VerificationKind::full;
+                                : record.procedure    ? proofKindOf(record.procedure->method)
+                                                      : VerificationKind::full;
   const auto residuals = residualsOf(arm, touches.touches);
   refuseSeen(record, residuals, options.observations);
   const TargetErrors errors = targetErrors(residuals);

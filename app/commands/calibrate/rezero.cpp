@@ -23,9 +23,9 @@ struct RezeroOptions {
 
 int rezero(const RezeroOptions& options) {
   if (options.wizard.isGiven())
-    return conclude(options.wizard.guide(CalibrationProcedure::rezero, "rezero5", options.rig, options.keep.rigs(),
-                                         options.info),
-                     options.keep);
+    return conclude(
+        options.wizard.guide(CalibrationProcedure::rezero, "rezero5", options.rig, options.keep.rigs(), options.info),
+        options.keep);
   if (options.rig.empty() || options.observations.empty())
     throw UsageError("calibrate rezero: it needs a rig and touches, or a device (--device)");
   options.keep.refuseUnlessWritable();
@@ -41,7 +41,10 @@ int rezero(const RezeroOptions& options) {
     const TouchSet others = readTouches(options.held_out);
     armOf(base, others, options.rig);
     putProof(record, residualsOf(done.arm, others.touches), VerificationKind::session_check);
-    std::fputs(proofText(record.verification->errors, assess(record.verification->errors, VerificationKind::session_check)).c_str(), stderr);
+    std::fputs(
+        proofText(record.verification->errors, assess(record.verification->errors, VerificationKind::session_check))
+            .c_str(),
+        stderr);
   }
   MeasurementInfo info = options.info;
   if (!base.provenance.rig_id.empty()) info.rig_id = base.provenance.rig_id;
@@ -50,7 +53,7 @@ int rezero(const RezeroOptions& options) {
   options.keep.note(record, DriftKind::rezero, targetErrors(residualsOf(before, touches.touches)));
   // Until others are touched, what is left at its own touches is all there is to say.
   return statusOf(record.verification ? record.verification->verdict
-                               : assess(targetErrors(done.residuals), VerificationKind::session_check).verdict);
+                                      : assess(targetErrors(done.residuals), VerificationKind::session_check).verdict);
 }
 
 }  // namespace

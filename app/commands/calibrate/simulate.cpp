@@ -39,8 +39,7 @@ int simulate(const SimulateOptions& options) {
   SyntheticRig rig = syntheticRig(*scenarioNamed(options.scenario), options.seed);
   rig.technician.outlier_share = options.outliers;
   std::mt19937 rng(options.seed);
-  if (options.drift_deg > 0.0 || options.drift_mm > 0.0)
-    rig = drifted(rig, options.drift_deg, options.drift_mm, rng);
+  if (options.drift_deg > 0.0 || options.drift_mm > 0.0) rig = drifted(rig, options.drift_deg, options.drift_mm, rng);
   rig.arm.truth.tip_H_mm += glm::dvec3(options.bur_mm[0], options.bur_mm[1], options.bur_mm[2]);
   TouchSet touches = simulatedTouches(rig, *plan, rng);
   touches.serial = rig.nominal.device->serial;

@@ -22,14 +22,17 @@ struct StoreOptions {
   RigStore rigs() const { return storeAt(store); }
 };
 
-std::string textOf(const RigLocation& location) { return location.rig_id + " / " + location.serial + " / " + location.mount; }
+std::string textOf(const RigLocation& location) {
+  return location.rig_id + " / " + location.serial + " / " + location.mount;
+}
 
 /// The one location that is meant.
 RigLocation placeMeant(const StoreOptions& options) {
   std::vector<RigLocation> fits;
   for (const RigLocation& location : options.rigs().locations())
     if (options.rig_id.value_or(location.rig_id) == location.rig_id &&
-        options.serial.value_or(location.serial) == location.serial && options.mount.value_or(location.mount) == location.mount)
+        options.serial.value_or(location.serial) == location.serial &&
+        options.mount.value_or(location.mount) == location.mount)
       fits.push_back(location);
   if (fits.empty()) throw UsageError("calibrate: the store has no such rig, see molar calibrate list");
   if (fits.size() > 1)

@@ -105,8 +105,9 @@ void WizardOption::prepare(GuidedRun& run, const Stylus& held) const {
   run.given_up = [] { return interrupted != 0; };
 }
 
-WizardOption::GuidedOutcome WizardOption::guide(CalibrationProcedure procedure, const std::string& method, const std::string& rig,
-                                     const RigStore& store, MeasurementInfo info) const {
+WizardOption::GuidedOutcome WizardOption::guide(CalibrationProcedure procedure, const std::string& method,
+                                                const std::string& rig, const RigStore& store,
+                                                MeasurementInfo info) const {
   const Stylus held = stylus(info);
   WizardRun run;
   run.plan.procedure = procedure;
@@ -129,7 +130,8 @@ WizardOption::GuidedOutcome WizardOption::guide(CalibrationProcedure procedure, 
   return led;
 }
 
-WizardOption::Seen WizardOption::guideWebcam(const std::string& rig, const RigStore& store, MeasurementInfo info) const {
+WizardOption::Seen WizardOption::guideWebcam(const std::string& rig, const RigStore& store,
+                                             MeasurementInfo info) const {
   const Stylus held = stylus(info);
   Seen seen;
   seen.before = before(held, rig, store, info);

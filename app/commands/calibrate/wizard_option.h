@@ -37,7 +37,7 @@ class WizardOption {
   /// Leads through touches. `rig`: named by the user, or empty: the current one of this device in the store, else the
   /// mirrored workstation. Throws as runWizard, readRigRecord.
   GuidedOutcome guide(CalibrationProcedure procedure, const std::string& method, const std::string& rig,
-           const calibration::RigStore& store, MeasurementInfo info) const;
+                      const calibration::RigStore& store, MeasurementInfo info) const;
 
   struct Seen {
     calibration::RigRecord before;

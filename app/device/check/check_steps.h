@@ -3,10 +3,10 @@
 #pragma once
 
 #include "app/device/check/check_report.h"
+#include "app/device/check/constant_force_loop.h"
 #include "app/device/check/dialogue.h"
 #include "app/device/check/force_scale_fit.h"
 #include "app/device/check/owner.h"
-#include "app/device/check/constant_force_loop.h"
 
 namespace app {
 

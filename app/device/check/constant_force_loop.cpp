@@ -39,7 +39,8 @@ void ConstantForceLoop::wait(std::chrono::milliseconds time) {
     std::this_thread::sleep_for(time);
 }
 
-ConstantForceLoop::Answer ConstantForceLoop::answer(const haptics::HandleState& state, const haptics::TickTiming& timing) noexcept {
+ConstantForceLoop::Answer ConstantForceLoop::answer(const haptics::HandleState& state,
+                                                    const haptics::TickTiming& timing) noexcept {
   const double dt_s = 1.0 / rate_Hz();
   haptics::HandSample sample = sampleOf(state);
   sample.stop_requested = isForceDisabled();

@@ -1,5 +1,5 @@
-// Who holds the device while it is checked. A person needs no more than the words they read; a simulated hand is perform
-// here what to do.
+// Who holds the device while it is checked. A person needs no more than the words they read; a simulated hand is
+// perform here what to do.
 #pragma once
 
 namespace app {

@@ -1,6 +1,6 @@
 // The vendor's errors in plain words with what to do, and the drain that empties the library's error stack once a frame
-// (reference/devices 2, Errors). drain(): the thread that owns the device, at most kMaxPerDrain calls of the library, no
-// allocation, no lock; everything else: any thread. Not a log: it counts, and keeps the first error that ended the
+// (reference/devices 2, Errors). drain(): the thread that owns the device, at most kMaxPerDrain calls of the library,
+// no allocation, no lock; everything else: any thread. Not a log: it counts, and keeps the first error that ended the
 // work.
 #pragma once
 

@@ -3,8 +3,8 @@
 // Latest. No allocation after construction. Not a force display: nobody feels it but the picture shows it.
 #pragma once
 
-#include "haptics/device/simulated_device.h"
 #include "haptics/device/simulated/virtual_hand.h"
+#include "haptics/device/simulated_device.h"
 #include "haptics/latest.h"
 
 namespace haptics {

@@ -2,9 +2,9 @@
 // of the steps it is given: no clock, no randomness. Frame D, mm, s. Not a machine (simulated_phantom).
 #pragma once
 
-#include "haptics/device/simulated_device.h"
 #include "haptics/device/simulated/trough_path.h"
 #include "haptics/device/simulated/virtual_hand.h"
+#include "haptics/device/simulated_device.h"
 
 namespace haptics {
 

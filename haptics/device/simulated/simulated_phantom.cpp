@@ -123,7 +123,8 @@ void SimulatedPhantom::move(const HandTarget& from, const HandTarget& to, double
   handle_.stiffness_N_per_mm = grip.stiffness_N_per_mm;
   handle_.damping_Ns_per_mm = grip.damping_Ns_per_mm;
   const glm::dvec3 before_mm = handle_.position_mm;
-  const glm::dvec3 goes_mm_per_s = to.grips && from.grips ? (to.position_mm - from.position_mm) / dt_s : glm::dvec3(0.0);
+  const glm::dvec3 goes_mm_per_s =
+      to.grips && from.grips ? (to.position_mm - from.position_mm) / dt_s : glm::dvec3(0.0);
   advanceWithDryFriction(handle_, mechanics_.dry_N, from.position_mm, goes_mm_per_s, pushed_N_, dt_s);
 
   // At its stops the arm stands where it last was.

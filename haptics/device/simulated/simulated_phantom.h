@@ -9,12 +9,12 @@
 #include <optional>
 #include <string>
 
-#include "haptics/device/simulated_device.h"
 #include "haptics/device/simulated/motor_heat.h"
 #include "haptics/device/simulated/phantom_mechanics.h"
 #include "haptics/device/simulated/phantom_sensors.h"
 #include "haptics/device/simulated/simulated_hand.h"
 #include "haptics/device/simulated/virtual_hand.h"
+#include "haptics/device/simulated_device.h"
 
 namespace haptics {
 

@@ -30,7 +30,7 @@ struct FalconSettings {
   std::string path;               ///< bus and ports, "1-2.3"; empty: the first
   std::filesystem::path program;  ///< Novint's firmware; needed after every power-up
   FalconForceScale scale;
-  FalconProgress tell;                           ///< progress and what the owner shall do
+  FalconProgress tell;                       ///< progress and what the owner shall do
   std::chrono::seconds homing_patience{60};  ///< 0: does not wait, ticks uncalibrated until it is homed
   int greetings = 100;                       ///< of the boot loader
   int servo_priority = kServoPriority;       ///< the thread that reads its USB lies next to it

@@ -15,7 +15,7 @@ namespace haptics {
 
 struct FalconForceScale {
   double words_per_Nmm = 10.0;  ///< positive; public code's guess
-  double max_weighed_N = 0.0;      ///< the largest force that a scale has confirmed; 0: never weighed
+  double max_weighed_N = 0.0;   ///< the largest force that a scale has confirmed; 0: never weighed
   std::string serial;           ///< of the unit that was weighed; empty: not known
 
   bool isWeighed() const { return max_weighed_N > 0.0; }

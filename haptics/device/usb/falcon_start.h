@@ -18,6 +18,7 @@ using FalconProgress = std::function<bool(const std::string& words, double share
 bool falconRuns(UsbTransport& usb);
 
 /// Throws DeviceError when the unit does not take the program, is unplugged, or `tell` gives up.
-void loadFalcon(UsbTransport& usb, std::span<const std::uint8_t> program, const FalconProgress& tell, int greetings = 100);
+void loadFalcon(UsbTransport& usb, std::span<const std::uint8_t> program, const FalconProgress& tell,
+                int greetings = 100);
 
 }  // namespace haptics

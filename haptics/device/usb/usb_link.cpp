@@ -129,7 +129,8 @@ void UsbLink::claim() {
 void UsbLink::watchDescriptors() {
   const libusb_pollfd** list = libusb_get_pollfds(context_);
   if (!list)
-    throw DeviceError(name_ + ": libusb gives nothing to wait for, replug it and start again", DeviceTrouble::no_resources);
+    throw DeviceError(name_ + ": libusb gives nothing to wait for, replug it and start again",
+                      DeviceTrouble::no_resources);
   for (const libusb_pollfd** each = list; *each && descriptors_.size() + 1 < kMostDescriptors; ++each) {
     descriptors_.push_back((*each)->fd);
     descriptor_events_.push_back((*each)->events);

@@ -1,8 +1,8 @@
 // What goes out over the USB next: the newest report of the servo, the rest report that lets the motors go, or the last
 // report of all. In this order: nothing after the last; the last before all; a rest until it is taken; the newest,
 // unless a rest or too long a wait made it void; a rest by itself after a silence. send(): the servo thread. rest(),
-// requestLast(): any thread, also a signal handler. The others: the event thread. Lock-free, no allocation, no clock of its
-// own: times are given, ns of CLOCK_MONOTONIC.
+// requestLast(): any thread, also a signal handler. The others: the event thread. Lock-free, no allocation, no clock of
+// its own: times are given, ns of CLOCK_MONOTONIC.
 #pragma once
 
 #include <atomic>

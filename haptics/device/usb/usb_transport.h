@@ -48,7 +48,7 @@ struct UsbStream {
   std::chrono::milliseconds in_deadline{100};   ///< an IN transfer that heard nothing is taken back and sent again
   std::chrono::milliseconds out_deadline{20};   ///< an OUT transfer nobody took is taken back and dropped
   std::chrono::milliseconds dead_after{2'000};  ///< a transfer that can not be taken back: the handle is dead, `gone`
-  int max_clearings = 3;                       ///< of a halted endpoint in a row, then it stays `stalled`
+  int max_clearings = 3;                        ///< of a halted endpoint in a row, then it stays `stalled`
   int priority = usbPriority(kServoPriority);   ///< SCHED_FIFO's that the event thread asks for
 };
 

@@ -24,7 +24,7 @@ struct WoodenModel {
   /// What the encoders read at the home position: turret ahead, upper arm upright, forearm level.
   std::array<std::int16_t, 6> home_counts{0, 0, 6000, 0, 0, 0};
   double full_scale_mA = 3000.0;  ///< at full pulse width (firmware/main.cpp; there is a build for 6000)
-  double max_mA = 2000.0;        ///< what an Escon 24/4 gives for longer than 4 s, and the public driver's clamp
+  double max_mA = 2000.0;         ///< what an Escon 24/4 gives for longer than 4 s, and the public driver's clamp
   double peak_force_N = 5.0, max_stiffness_N_per_mm = 1.0, max_damping_Ns_per_mm = 0.008;
 
   bool hasGimbal() const { return glm::all(glm::greaterThan(gimbal_counts_per_turn, glm::dvec3(0.0))); }

@@ -1,5 +1,5 @@
-// A whole calibration by the robot technician: ticks at a rate, a takeView thirty times a second, until it is over or the
-// patience ends.
+// A whole calibration by the robot technician: ticks at a rate, a takeView thirty times a second, until it is over or
+// the patience ends.
 #pragma once
 
 #include <functional>

@@ -138,7 +138,8 @@ TEST(StillCapture, SaysWhyAPressWasNotTaken) {
 
   StillCapture swaying;
   for (int i = 0; i < 600; ++i)
-    swaying.update(Hand{[](double t_s) { return glm::dvec3(0.15 * std::sin(kFullTurn * 2.0 * t_s), 0, 0); }}.at(i / 1e3));
+    swaying.update(
+        Hand{[](double t_s) { return glm::dvec3(0.15 * std::sin(kFullTurn * 2.0 * t_s), 0, 0); }}.at(i / 1e3));
   EXPECT_FALSE(swaying.before(0.599, why));
   EXPECT_NE(why.find("moving"), std::string::npos) << why;
 

@@ -12,7 +12,7 @@ class CalibrateCommand : public ProgramTest {
   /// A unit with its touches, and others to judge by.
   void simulate(const std::string& options = "--seed 7", const std::string& name = "obs") const {
     const ProgramOutput said = molar("calibrate simulate --scenario D " + options + " --out " + at(name + ".yaml") +
-                            " --held-out " + at(name + "_held.yaml"));
+                                     " --held-out " + at(name + "_held.yaml"));
     ASSERT_EQ(said.status, 0) << said.err;
   }
   nlohmann::json proof(const std::string& rig, const std::string& touches) const {
@@ -61,7 +61,8 @@ TEST_F(CalibrateCommand, RezeroBringsAPushedUnitBack) {
   molar(drift + at("five.yaml") + " --method rezero5");
   molar(drift + at("four.yaml") + " --method check4");
   EXPECT_EQ(molar("calibrate check " + at("rig.yaml") + " " + at("four.yaml")).status, 1);
-  const ProgramOutput said = molar("calibrate rezero " + at("rig.yaml") + " " + at("five.yaml") + " --out " + at("new.yaml"));
+  const ProgramOutput said =
+      molar("calibrate rezero " + at("rig.yaml") + " " + at("five.yaml") + " --out " + at("new.yaml"));
   EXPECT_EQ(said.status, 0) << said.err;
   EXPECT_EQ(molar("calibrate check " + at("new.yaml") + " " + at("four.yaml")).status, 0);
   EXPECT_LT(proof("new.yaml", "later_held.yaml")["tre_rms_mm"], 0.45);

@@ -70,8 +70,8 @@ class CalibratePivot : public ProgramTest {
 };
 
 TEST_F(CalibratePivot, FindsAnotherBur) {
-  const ProgramOutput said = molar("calibrate pivot " + at("pit.yaml") + " --rig " + at("rig.yaml") + " --tip bur-7 --out " +
-                          at("new.yaml") + " --json");
+  const ProgramOutput said = molar("calibrate pivot " + at("pit.yaml") + " --rig " + at("rig.yaml") +
+                                   " --tip bur-7 --out " + at("new.yaml") + " --json");
   ASSERT_EQ(said.status, 0) << said.err;
   const auto json = nlohmann::json::parse(said.out);
   EXPECT_LT(json["rms_mm"], 0.3);

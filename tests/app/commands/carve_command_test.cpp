@@ -67,8 +67,8 @@ TEST_F(CarveCommand, WritesWhatIsLeft) {
 TEST_F(CarveCommand, TakesNothingWithThePedalUp) {
   writeHalfSpace(at("v.nrrd"), 0.2, {0, 0, 1}, 0.0);
   write("p.csv", "t_s,px_mm,py_mm,pz_mm,qw,qx,qy,qz,drill\n0,0,0,1,1,0,0,0,0\n1,0,0,1,1,0,0,0,0\n");
-  const ProgramOutput said = molar("carve --volume " + at("v.nrrd") + " --field solid --tool sphere:2 --poses " + at("p.csv") +
-                          " --out " + at("c.nrrd"));
+  const ProgramOutput said = molar("carve --volume " + at("v.nrrd") + " --field solid --tool sphere:2 --poses " +
+                                   at("p.csv") + " --out " + at("c.nrrd"));
   EXPECT_EQ(nlohmann::json::parse(said.out).at("removed_mm3").get<double>(), 0.0);
 }
 
@@ -78,8 +78,8 @@ class CarveByLaw : public CarveCommand {
   nlohmann::json answer(const std::string& options, const std::string& poses = kDwell) {
     writeHalfSpace(at("v.nrrd"), 0.2, {0, 0, 1}, 0.0);
     write("p.csv", "t_s,px_mm,py_mm,pz_mm,qw,qx,qy,qz,drill\n" + poses);
-    const ProgramOutput said = molar("carve --volume " + at("v.nrrd") + " --field solid --tool sphere:2 --poses " + at("p.csv") +
-                            " --out " + at("c.nrrd") + " --force " + options);
+    const ProgramOutput said = molar("carve --volume " + at("v.nrrd") + " --field solid --tool sphere:2 --poses " +
+                                     at("p.csv") + " --out " + at("c.nrrd") + " --force " + options);
     EXPECT_EQ(said.status, 0) << said.err;
     return nlohmann::json::parse(said.out);
   }
@@ -144,8 +144,8 @@ TEST_F(CarveByLaw, RefusesWhatIsNoSettingOfTheLawOrOutOfItsRange) {
   writeHalfSpace(at("v.nrrd"), 0.4, {0, 0, 1}, 0.0);
   write("p.csv", std::string("t_s,px_mm,py_mm,pz_mm,qw,qx,qy,qz,drill\n") + kDwell);
   const auto refused = [&](const std::string& options) {
-    const ProgramOutput said = molar("carve --volume " + at("v.nrrd") + " --field solid --tool sphere:2 --poses " + at("p.csv") +
-                            " --out " + at("c.nrrd") + " --force " + options);
+    const ProgramOutput said = molar("carve --volume " + at("v.nrrd") + " --field solid --tool sphere:2 --poses " +
+                                     at("p.csv") + " --out " + at("c.nrrd") + " --force " + options);
     EXPECT_EQ(said.status, 2) << options;
     return said.err;
   };

@@ -51,8 +51,9 @@ class FeelCommand : public ProgramTest {
         rows.emplace_back(rows.size(), p);
       }
     write("p.csv", poseCsv(rows));
-    const ProgramOutput said = molar("feel --volume " + at("v.nrrd") + " --field solid --tool sphere:2 --law agus --poses " +
-                            at("p.csv") + " --out " + at("f.csv") + " --force");
+    const ProgramOutput said =
+        molar("feel --volume " + at("v.nrrd") + " --field solid --tool sphere:2 --law agus --poses " + at("p.csv") +
+              " --out " + at("f.csv") + " --force");
     EXPECT_EQ(said.status, 0) << said.err;
     const auto felt = feltIn(read("f.csv"));
     EXPECT_EQ(felt.size(), rows.size());

@@ -31,8 +31,9 @@ TEST_F(HeadCommand, EveryHeadIsFeltAsDeepAsItStandsInBone) {
   writeHalfSpace(at("v.nrrd"), 0.1, {0, 0, 1}, 0.02, 6.0);
   for (const HeadOverBone& head : kHeads) {
     write("p.csv", poseCsv({{0.0, 0.013, 0.027, 0.02 + head.half_mm - 0.5}}));
-    const ProgramOutput said = molar("feel --volume " + at("v.nrrd") + " --field solid --tool " + head.tool + " --poses " +
-                            at("p.csv") + " --set stiffness_N_per_mm=1 --out " + at("f.csv") + " --force");
+    const ProgramOutput said =
+        molar("feel --volume " + at("v.nrrd") + " --field solid --tool " + head.tool + " --poses " + at("p.csv") +
+              " --set stiffness_N_per_mm=1 --out " + at("f.csv") + " --force");
     ASSERT_EQ(said.status, 0) << said.err;
     std::istringstream rows(read("f.csv"));
     std::string line;
@@ -50,8 +51,9 @@ TEST_F(HeadCommand, EveryHeadTakesItsOwnVolume) {
   writeHalfSpace(at("v.nrrd"), 0.1, {0, 0, 1}, 2.5, 6.0);
   write("p.csv", poseCsv({{0.0, 0.013, 0.027, 0.0}, {0.2, 0.013, 0.027, 0.0}}));
   for (const HeadOverBone& head : kHeads) {
-    const ProgramOutput said = molar("carve --volume " + at("v.nrrd") + " --field solid --tool " + head.tool + " --poses " +
-                            at("p.csv") + " --set removal_rate_per_s=100 --out " + at("c.nrrd") + " --force");
+    const ProgramOutput said =
+        molar("carve --volume " + at("v.nrrd") + " --field solid --tool " + head.tool + " --poses " + at("p.csv") +
+              " --set removal_rate_per_s=100 --out " + at("c.nrrd") + " --force");
     ASSERT_EQ(said.status, 0) << said.err;
     const double removed_mm3 = nlohmann::json::parse(said.out).at("removed_mm3").get<double>();
     EXPECT_NEAR(removed_mm3, head.whole_mm3, 0.01 * head.whole_mm3) << head.tool;
@@ -63,8 +65,8 @@ TEST_F(HeadCommand, AHeadThatIsNoneIsRefusedWithWhatMayBe) {
   write("p.csv", poseCsv({{0.0, 0.0, 0.0, 1.0}, {0.1, 0.0, 0.0, 1.0}}));
   for (const char* tool : {"cone:1", "cylinder:0,2", "capsule:1,x", "disc:1,2"})
     for (const char* command : {"feel", "carve"}) {
-      const ProgramOutput said = molar(std::string(command) + " --volume " + at("v.nrrd") + " --field solid --tool " + tool +
-                              " --poses " + at("p.csv") + " --out " + at("o.nrrd"));
+      const ProgramOutput said = molar(std::string(command) + " --volume " + at("v.nrrd") + " --field solid --tool " +
+                                       tool + " --poses " + at("p.csv") + " --out " + at("o.nrrd"));
       EXPECT_EQ(said.status, 2) << tool;
       EXPECT_NE(said.err.find("give "), std::string::npos) << said.err;
     }

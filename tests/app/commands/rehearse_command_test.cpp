@@ -43,9 +43,10 @@ auto columns(const haptics::Tick& t) {
   return std::tuple(t.index, t.t_s, t.dt_s, t.command_serial, h.X_PT.translation_mm, h.X_PT.rotation,
                     h.velocity_P_mm_per_s.xyz, h.handle_velocity_P_mm_per_s.xyz, h.arm_P_mm.xyz, h.jacobian_P_mm,
                     h.motor_heat, h.gap_s, h.drill_pedal, h.fresh, h.docked, h.held, h.calibrated, t.proxy_P.mm,
-                    t.law_force_P_N.xyz, t.law_torque_P_Nmm.xyz, t.commanded_force_P_N.xyz, t.commanded_torque_P_Nmm.xyz,
-                    t.energy_Nmm, t.spindle_rad_per_s, t.overlap_mm3, t.depth_mm, t.removed_mm3, t.bone_digest,
-                    t.contact_tissue, t.drilling, t.drill_inhibit, t.strokes, t.state, t.faults, t.work_us);
+                    t.law_force_P_N.xyz, t.law_torque_P_Nmm.xyz, t.commanded_force_P_N.xyz,
+                    t.commanded_torque_P_Nmm.xyz, t.energy_Nmm, t.spindle_rad_per_s, t.overlap_mm3, t.depth_mm,
+                    t.removed_mm3, t.bone_digest, t.contact_tissue, t.drilling, t.drill_inhibit, t.strokes, t.state,
+                    t.faults, t.work_us);
 }
 
 TEST_F(RehearseCommand, RecordsWhatReplaysBitForBit) {
@@ -199,7 +200,8 @@ TEST_F(RehearseCommand, ArmsASimulatedPhantomAndReplaysItsHand) {
   EXPECT_NE(said.err.find("There is no force yet."), std::string::npos) << said.err;
   EXPECT_NE(said.err.find("The hand feels the tissue."), std::string::npos) << said.err;
   EXPECT_EQ(molar("replay " + at("s.molar") + " --verify").status, 0);
-  const ProgramOutput again = molar(quiet + "--device replay:" + at("s.molar") + " --seconds 2 --record " + at("t.molar"));
+  const ProgramOutput again =
+      molar(quiet + "--device replay:" + at("s.molar") + " --seconds 2 --record " + at("t.molar"));
   ASSERT_EQ(again.status, 0) << again.err;
   EXPECT_EQ(molar("replay " + at("t.molar") + " --verify").status, 0);
   EXPECT_EQ(molar(quiet + "--device replay:" + at("none.molar")).status, 2);
@@ -291,7 +293,8 @@ TEST_F(RehearseCommand, SaysInOneLineWhyADeviceCanNotBeHad) {
 }
 
 TEST_F(RehearseCommand, LeavesPicturesOfBothEyes) {
-  const ProgramOutput said = molar(kCoarse + std::string("--seconds 0.2 --snapshot-size 160x100 --snapshot ") + at("end.png"));
+  const ProgramOutput said =
+      molar(kCoarse + std::string("--seconds 0.2 --snapshot-size 160x100 --snapshot ") + at("end.png"));
   ASSERT_EQ(said.status, 0) << said.err;
   EXPECT_EQ(read("end_left.png").substr(1, 3), "PNG");
   EXPECT_NE(read("end_left.png"), read("end_right.png"));
@@ -337,8 +340,9 @@ TEST_F(RehearseCommand, RefusesABadSettingsFileAtTheStart) {
 
 TEST_F(RehearseCommand, ShowsWhatTheOtherHandHolds) {
   const auto end = [&](const std::string& options, const std::string& name) {
-    const ProgramOutput said = molar(kCoarse + std::string("--seconds 0.3 --renderer cpu --snapshot-size 160x100 --force ") +
-                            options + " --snapshot " + at(name + ".png"));
+    const ProgramOutput said =
+        molar(kCoarse + std::string("--seconds 0.3 --renderer cpu --snapshot-size 160x100 --force ") + options +
+              " --snapshot " + at(name + ".png"));
     EXPECT_EQ(said.status, 0) << said.err;
     return read(name + "_left.png");
   };

@@ -97,8 +97,8 @@ TEST_F(SeeCommand, ShowsWhatWasCarved) {
 TEST_F(SeeCommand, ShowsEveryGuideWithoutAGraphicsCard) {
   assets::savePatient(assets::syntheticJaw({.spacing_mm = 0.6}), at("p"), false);
   const auto pictureWith = [&](const std::string& layers) {
-    const ProgramOutput said = molar("see --patient " + at("p") + " --size 160x120 --samples 1 --renderer cpu" + layers +
-                            " --force --out " + at("a.png"));
+    const ProgramOutput said = molar("see --patient " + at("p") + " --size 160x120 --samples 1 --renderer cpu" +
+                                     layers + " --force --out " + at("a.png"));
     EXPECT_EQ(said.status, 0) << said.err;
     return read("a.png");
   };

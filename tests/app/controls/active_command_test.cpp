@@ -35,7 +35,8 @@ struct Desk {
     active.emplace(block.start().command, other_tools, settings_file, 0.002, 1000.0);
     haptics::LoopSettings settings;
     settings.priority = std::nullopt;
-    workstation.emplace(patient, std::move(device), settings, active->inForce(), Recording{path, true}, Ticking::stepped);
+    workstation.emplace(patient, std::move(device), settings, active->inForce(), Recording{path, true},
+                        Ticking::stepped);
     active->serve(*workstation);
     workstation->start();
   }

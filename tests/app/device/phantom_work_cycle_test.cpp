@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "app/case/patient_source.h"
 #include "app/case/patient_placement.h"
+#include "app/case/patient_source.h"
 #include "app/case/trough_plan.h"
 #include "app/device/pose_source.h"
 #include "app/text/usage_error.h"

@@ -53,7 +53,8 @@ TEST(LowerJaw, IsTheLowestArchOfTheFace) {
 TEST(LowerJaw, IsNoneInASkullWithoutIt) {
   EXPECT_FALSE(lowerJawCentre_P_mm(volumeOf(kHead, [](auto& p) { return spine(p) || skull(p); }), {}));
   EXPECT_FALSE(lowerJawCentre_P_mm(volumeOf(kHead, [](auto&) { return false; }), {}));
-  EXPECT_FALSE(lowerJawCentre_P_mm(volumeOf(kHead, [](auto& p) { return jaw(p) && p.x > 0.0; }), {})) << "one side of one";
+  EXPECT_FALSE(lowerJawCentre_P_mm(volumeOf(kHead, [](auto& p) { return jaw(p) && p.x > 0.0; }), {}))
+      << "one side of one";
 }
 
 TEST(LowerJaw, IsTakenFromLabelsWhereThereAre) {

@@ -166,7 +166,8 @@ TEST_F(ScanReading, SaysWhetherSidesAreStated) {
   };
   const std::string end = "endian: little\nencoding: raw\n\n";
   EXPECT_TRUE(orientation_known("a.nrrd", nrrd_));
-  EXPECT_FALSE(orientation_known("a.nrrd", "NRRD0001\ntype: short\ndimension: 3\nsizes: 3 4 5\nspacings: 1 1 1\n" + end));
+  EXPECT_FALSE(
+      orientation_known("a.nrrd", "NRRD0001\ntype: short\ndimension: 3\nsizes: 3 4 5\nspacings: 1 1 1\n" + end));
   EXPECT_FALSE(orientation_known("a.nrrd", replaced(nrrd_, "space: left-posterior-superior", "space dimension: 3")));
   EXPECT_TRUE(orientation_known("a.mha", meta_));
   EXPECT_FALSE(orientation_known("a.mha", replaced(meta_, "TransformMatrix", "AnotherMatrix")));

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "calibration/random.h"
 #include "calibration/fit/arm_fit.h"
 #include "calibration/fit/rezero.h"
+#include "calibration/random.h"
 #include "calibration/synthetic/synthetic_rig.h"
 #include "calibration/webcam/webcam_fit.h"
 #include "tests/bench/cpu_time.h"
@@ -261,7 +261,8 @@ Figures webcamFigures(int rigs) {
     OverRigs tre, single, ratio, took_ms;
     forRigs(Scenario::d, rigs, [&](const SyntheticRig& rig) {
       std::mt19937 rng = rngOf(rig.seed, 8);
-      const WebcamObservations sights = syntheticObservations(rig, targetPlan("webcam27").value(), resolution.care, rng);
+      const WebcamObservations sights =
+          syntheticObservations(rig, targetPlan("webcam27").value(), resolution.care, rng);
       const double began_ms = cpu_ms();
       const WebcamFit fit = fitWebcam(sights);
       took_ms.add(cpu_ms() - began_ms);

@@ -1,6 +1,6 @@
-// The plain appearance that the bench compares with VTK's: a lamp at the eye, diffuse and a highlight, the normal by central
-// differences of the smoothed field, the colour of the nearest voxel. What VTK computes per sample, and no more.
-// Written in lanes and compiled for the machine's instruction sets like the product's kernels.
+// The plain appearance that the bench compares with VTK's: a lamp at the eye, diffuse and a highlight, the normal by
+// central differences of the smoothed field, the colour of the nearest voxel. What VTK computes per sample, and no
+// more. Written in lanes and compiled for the machine's instruction sets like the product's kernels.
 #pragma once
 
 #include <cstdint>

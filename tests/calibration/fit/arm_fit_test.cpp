@@ -56,11 +56,10 @@ struct ExactUnit {
     std::vector<Touch> touches;
     const glm::dvec3 middle = wristPosition(arm.geometry, {0.0, 0.5, -0.2}).mm;
     while (static_cast<int>(touches.size()) < n) {
-      const auto reached = armAnglesFor(
-          arm.geometry, {middle + glm::dvec3(60.0 * unit(rng), 40.0 * unit(rng), 30.0 * unit(rng))});
+      const auto reached =
+          armAnglesFor(arm.geometry, {middle + glm::dvec3(60.0 * unit(rng), 40.0 * unit(rng), 30.0 * unit(rng))});
       if (!reached) continue;
-      const RawJoints raw{reached->x,         reached->y,         reached->z,
-                          0.5 * unit(rng), 0.5 * unit(rng), 0.5 * unit(rng)};
+      const RawJoints raw{reached->x, reached->y, reached->z, 0.5 * unit(rng), 0.5 * unit(rng), 0.5 * unit(rng)};
       Touch touch{static_cast<int>(touches.size()) + 1, raw, X_WD * arm.tip_D(raw), true};
       touch.target_W.mm += noise_mm * glm::dvec3(normal(rng), normal(rng), normal(rng));
       touches.push_back(touch);

@@ -34,8 +34,7 @@ TEST(ExpectedErrorMap, IsWhatRigidFitsOfNoisyTouchesDo) {
   double sum = 0.0;
   constexpr int kTrials = 4000;
   for (int trial = 0; trial < kTrials; ++trial) {
-    for (std::size_t i = 0; i < 8; ++i)
-      pairs[i] = {from[i] + glm::dvec3(noise(rng), noise(rng), noise(rng)), from[i]};
+    for (std::size_t i = 0; i < 8; ++i) pairs[i] = {from[i] + glm::dvec3(noise(rng), noise(rng), noise(rng)), from[i]};
     const glm::dvec3 error = (*rigidFit(pairs))(place)-place;
     sum += glm::dot(error, error);
   }

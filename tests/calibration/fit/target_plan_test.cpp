@@ -57,7 +57,8 @@ TEST(TargetPlan, GoesShortWays) {
   for (const char* method : {"jig27", "visual15", "visual25", "webcam27"}) {
     const TargetPlan plan = planned(method);
     for (std::size_t i = 1; i < plan.targets.size(); ++i)
-      EXPECT_LT(glm::length((plan.targets[i].position_W - plan.targets[i - 1].position_W).xyz), 66.0) << method << " " << i;
+      EXPECT_LT(glm::length((plan.targets[i].position_W - plan.targets[i - 1].position_W).xyz), 66.0)
+          << method << " " << i;
   }
 }
 
@@ -95,8 +96,9 @@ TEST(TargetPlan, StandsOnTheJigWhereverThatIs) {
   const JigPose jig{{glm::angleAxis(0.4, glm::normalize(glm::dvec3(1, 2, 3))), {10.0, -20.0, 5.0}}};
   const auto plain = targetPlan("jig27"), moved = targetPlan("jig27", jig);
   for (std::size_t i = 0; i < plain->targets.size(); ++i) {
-    EXPECT_LT(glm::distance((jig.X_WB * Point<Board>{plain->targets[i].position_W.mm}).mm, moved->targets[i].position_W.mm),
-              1e-12);
+    EXPECT_LT(
+        glm::distance((jig.X_WB * Point<Board>{plain->targets[i].position_W.mm}).mm, moved->targets[i].position_W.mm),
+        1e-12);
     EXPECT_EQ(plain->targets[i].stylus_W.xyz, moved->targets[i].stylus_W.xyz) << "the hand stays where it is";
   }
   EXPECT_EQ(targetPlan("visual25", jig)->targets[0].position_W.mm, targetPlan("visual25")->targets[0].position_W.mm);

@@ -39,11 +39,12 @@ inline RigRecord fullRecord(std::uint32_t seed = 1) {
   record.eye_sd_mm = 4.7;
   record.procedure = RigProcedure{"jig27", ArmModel::full, 26, 1, 41.3, 168.4, 0.18, 0.24, {0.05, 0.06}};
   record.verification = RigVerification{{16, 0.21, 0.24, 0.41, 0.55, {{0.03, -0.05, 0.1}}, 0.2, 0.13},
-                          VerificationKind::full,
-                          Verdict::green,
-                          "2026-11-21T08:23:00Z",
-                          "worst: back left low, 0.6 mm"};
-  for (int id = 0; id < 16; ++id) record.verification->residuals.push_back({100 + id, {vector(60.0)}, {vector(0.25)}, true});
+                                        VerificationKind::full,
+                                        Verdict::green,
+                                        "2026-11-21T08:23:00Z",
+                                        "worst: back left low, 0.6 mm"};
+  for (int id = 0; id < 16; ++id)
+    record.verification->residuals.push_back({100 + id, {vector(60.0)}, {vector(0.25)}, true});
   for (int id = 0; id < 27; ++id) record.residuals.push_back({id, {vector(60.0)}, {vector(0.3)}, id != 13});
   record.rest = RestRegistration{turn(), vector(80.0), 0.2, 0.4};
   for (int i = 0; i < 28; ++i) record.sigma.push_back(std::abs(number(0.1)));

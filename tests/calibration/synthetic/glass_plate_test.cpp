@@ -27,8 +27,7 @@ TEST(GlassPlate, MovesALineOfSightAsTheFormulaSaysAndTurnsItNot) {
     const GlassPlate plate{{glm::normalize(glm::dvec3(any(rng), any(rng), any(rng))), 20.0 * any(rng)},
                            1.0 + std::abs(any(rng)),
                            1.3 + 0.1 * std::abs(any(rng))};
-    const Ray sight{{{any(rng), any(rng), any(rng)}},
-                      {glm::normalize(glm::dvec3(any(rng), any(rng), any(rng)))}};
+    const Ray sight{{{any(rng), any(rng), any(rng)}}, {glm::normalize(glm::dvec3(any(rng), any(rng), any(rng)))}};
     const Ray out = seenThrough(plate, sight);
     EXPECT_EQ(out.along_W.xyz, sight.along_W.xyz);
     const double moved_mm = glm::length(glm::cross(out.from_W.mm - sight.from_W.mm, sight.along_W.xyz));

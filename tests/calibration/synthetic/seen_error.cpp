@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibration/random.h"
 #include "calibration/geometry/rotation.h"
+#include "calibration/random.h"
 #include "calibration/virtual_screen.h"
 
 namespace calibration {

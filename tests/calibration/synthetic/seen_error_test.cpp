@@ -33,8 +33,9 @@ TEST(SeenError, IsNoneOnTheScreenWhereverTheHeadIs) {
   std::mt19937 rng(2);
   for (int n = 0; n < 200; ++n) {
     const Point<World> position_W{uniformVector(rng, {70.0, 50.0, 0.0})};
-    EXPECT_LT(glm::length((seenPlace(desk(), headMoved(uniformVector(rng, glm::dvec3(40.0))), position_W) - position_W).xyz),
-              1e-9);
+    EXPECT_LT(
+        glm::length((seenPlace(desk(), headMoved(uniformVector(rng, glm::dvec3(40.0))), position_W) - position_W).xyz),
+        1e-9);
   }
 }
 

@@ -42,7 +42,7 @@ WebcamCare coarseWebcam() {
 }
 
 WebcamObservations syntheticObservations(const SyntheticRig& rig, const TargetPlan& plan, const WebcamCare& care,
-                          std::mt19937& rng) {
+                                         std::mt19937& rng) {
   // The camera says where the tip is: how exactly a place is held is of no importance.
   SyntheticRig held = rig;
   held.technician.precision = {0.0, 0.0};
@@ -50,10 +50,10 @@ WebcamObservations syntheticObservations(const SyntheticRig& rig, const TargetPl
   TargetPlan about = plan;
 
   WebcamObservations sights{.camera = believed(care, rng),
-                      .device_model = rig.nominal.device->model,
-                      .screen_noise_px = care.screen_noise_px,
-                      .tip_noise_px = care.tip_noise_px,
-                      .positions = {}};
+                            .device_model = rig.nominal.device->model,
+                            .screen_noise_px = care.screen_noise_px,
+                            .tip_noise_px = care.tip_noise_px,
+                            .positions = {}};
   for (const double aside_deg : kCameraAside_deg) {
     const Pose<Camera, World> X_CW = roughlyPlacedCamera(rig.nominal, aside_deg, rng).inverse();
     CameraPosition& position = sights.positions.emplace_back();

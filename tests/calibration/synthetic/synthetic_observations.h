@@ -22,6 +22,6 @@ WebcamCare coarseWebcam();
 
 /// Three camera positions, the plan's places touched anew at each.
 WebcamObservations syntheticObservations(const SyntheticRig& rig, const TargetPlan& plan, const WebcamCare& care,
-                          std::mt19937& rng);
+                                         std::mt19937& rng);
 
 }  // namespace calibration

@@ -49,7 +49,8 @@ TEST(Board, ReadsRightWhicheverWayTheCameraIsTurned) {
     const Pose<World, Camera> X_WC = cameraTowards({40, 30, 640}, {0, 0, 0}, roll);
     const BoardDetection sighting = findBoard(SeenScreen(kScreen, kWebcam, X_WC).of(boardImage(board)), board);
     ASSERT_FALSE(sighting.trouble) << sighting.line;
-    const glm::dvec2 first_px = kWebcam.pixelOf(X_WC.inverse() * kScreen.position_W(board.cornerPositions_px().front()));
+    const glm::dvec2 first_px =
+        kWebcam.pixelOf(X_WC.inverse() * kScreen.position_W(board.cornerPositions_px().front()));
     EXPECT_LT(glm::distance(sighting.corners_px.front(), first_px), 0.5) << roll;
   }
 }
@@ -58,9 +59,9 @@ TEST(Board, KnowsAMirroredPictureEveryTime) {
   std::mt19937 rng(3);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   for (int i = 0; i < 4; ++i) {
-    const GreyImage seen = noisy(
-        seenFrom({200 * any(rng), 120 * any(rng), 540 + 40 * any(rng)}, 0.3 * any(rng) + (i % 2) * 3.14),
-        2.0, static_cast<unsigned>(i));
+    const GreyImage seen =
+        noisy(seenFrom({200 * any(rng), 120 * any(rng), 540 + 40 * any(rng)}, 0.3 * any(rng) + (i % 2) * 3.14), 2.0,
+              static_cast<unsigned>(i));
     EXPECT_NE(troubleWith(seen), BoardTrouble::mirrored);
     EXPECT_EQ(troubleWith(flipped(seen, true, false)), BoardTrouble::mirrored) << i;
     EXPECT_EQ(troubleWith(flipped(seen, false, true)), BoardTrouble::mirrored) << i;

@@ -24,8 +24,8 @@ Webcam someWebcam(std::mt19937& rng) {
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   const double roll = 0.5 * any(rng);
   Webcam webcam = webcamAtEye({640, 360});
-  webcam.X_WC = lookingAt({{200 * any(rng), 150 * any(rng), 470 + 80 * any(rng)}},
-                          {{30 * any(rng), 20 * any(rng), 0}}, {std::sin(roll), std::cos(roll), 0});
+  webcam.X_WC = lookingAt({{200 * any(rng), 150 * any(rng), 470 + 80 * any(rng)}}, {{30 * any(rng), 20 * any(rng), 0}},
+                          {std::sin(roll), std::cos(roll), 0});
   webcam.defocus_px = 1.5 + 1.5 * any(rng);
   webcam.noise_grey = 6.0 + 6.0 * any(rng);
   return webcam;
@@ -88,7 +88,8 @@ TEST(FlipCheck, AMonitorInTheMirrorReadsRightOnceTheRigTurnsIt) {
     keepPicture("f_in_the_mirror", image);
     EXPECT_TRUE(orientationOfF(image) == ImageOrientation{}) << "as the rig turns it";
     const GreyImage plain = letterF(kScreen_px);
-    EXPECT_TRUE(orientationOfF(view.image(&plain, {}, 1)) == framebufferOrientation(rig)) << "as the framebuffer has it";
+    EXPECT_TRUE(orientationOfF(view.image(&plain, {}, 1)) == framebufferOrientation(rig))
+        << "as the framebuffer has it";
   }
 }
 
@@ -127,7 +128,8 @@ TEST(FlipCheck, WhereThereIsNoFItSaysNothing) {
   Webcam blurred = webcamAtEye({640, 360});
   blurred.defocus_px = 40.0;
   const GreyImage shown = letterF(kScreen_px);
-  EXPECT_FALSE(orientationOfF(WebcamRenderer({.panel = uprightScreen(kScreen_px)}, blurred).image(&shown, {}, 1)).has_value());
+  EXPECT_FALSE(
+      orientationOfF(WebcamRenderer({.panel = uprightScreen(kScreen_px)}, blurred).image(&shown, {}, 1)).has_value());
   Webcam aside = webcamAtEye({640, 360});
   aside.X_WC = lookingAt({{0, 0, 450}}, {{270, 0, 0}}, {0, 1, 0});
   const GreyImage cropped = WebcamRenderer({.panel = uprightScreen(kScreen_px)}, aside).image(&shown, {}, 1);

@@ -71,7 +71,7 @@ TEST(GrayCode, MasksWhatDoesNotFollowTheScreen) {
 
 TEST(GrayCode, RefusesASweepThatShowsNothingOrWasMixedUp) {
   const std::vector<GreyImage> dark(static_cast<std::size_t>(kCode.images()),
-                                      {{640, 360}, std::vector<std::uint8_t>(640 * 360, 20)});
+                                    {{640, 360}, std::vector<std::uint8_t>(640 * 360, 20)});
   EXPECT_EQ(decoded(kCode, dark).trouble, CodeTrouble::not_seen);
   auto images = sweep(cameraTowards({0, 0, 560}, {0, 0, 0}));
   std::swap(images[4], images[5]);

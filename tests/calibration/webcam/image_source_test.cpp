@@ -35,9 +35,9 @@ TEST(WebcamSource, SaysInOneLineThatThereIsNoCamera) {
   EXPECT_THAT(
       tests::refusalOf<CalibrationError>([] { openImageSource({.device = "97", .exposure_ms = {}, .focus = {}}); }),
       testing::AllOf(HasSubstr("webcam /dev/video97"), HasSubstr("not there")));
-  EXPECT_THAT(
-      tests::refusalOf<CalibrationError>([] { openImageSource({.device = "/dev/null", .exposure_ms = {}, .focus = {}}); }),
-      HasSubstr("no camera"));
+  EXPECT_THAT(tests::refusalOf<CalibrationError>(
+                  [] { openImageSource({.device = "/dev/null", .exposure_ms = {}, .focus = {}}); }),
+              HasSubstr("no camera"));
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
-// The verification that is seen: the screen shows a thin ring at the place where the calibrated arm says its tip is, a webcam
-// at the eye sees ring and lit tip, and how far apart they are, at the tip's depth, is the error of the whole chain:
-// arm, mirror, screen, glass. Frames W and C, mm, px. It sees no error along its own line of sight. Source:
+// The verification that is seen: the screen shows a thin ring at the place where the calibrated arm says its tip is, a
+// webcam at the eye sees ring and lit tip, and how far apart they are, at the tip's depth, is the error of the whole
+// chain: arm, mirror, screen, glass. Frames W and C, mm, px. It sees no error along its own line of sight. Source:
 // reference/calibration 4.4.
 #pragma once
 

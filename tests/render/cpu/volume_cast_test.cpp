@@ -130,7 +130,7 @@ VolumePoints throughOf(const SolidCells& cells, const Scene& scene, const View& 
   CastSettings settings = view.settings;
   settings.skip_empty_space = skip;
   castTranslucent(cells, settings, scene.label, opacityTable(0.5f, 0.9f, kPerMm, settings.step * settings.spacing_mm),
-              view.rays, view.limit_mm.data(), points, sums, set);
+                  view.rays, view.limit_mm.data(), points, sums, set);
   return points;
 }
 

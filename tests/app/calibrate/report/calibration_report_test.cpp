@@ -44,8 +44,9 @@ TEST(CalibrationReport, BeginsWithVerdictAndTheOneSentence) {
 TEST(CalibrationReport, HoldsTheRecordsFigures) {
   const RigRecord record = exampleRecord();
   const std::string html = page(record);
-  for (const double mm : {record.verification->errors.mean_mm, record.verification->errors.rms_mm, record.verification->errors.p95_mm,
-                          record.verification->errors.max_mm, record.procedure->cv_rms_mm, record.procedure->fre_rms_mm})
+  for (const double mm :
+       {record.verification->errors.mean_mm, record.verification->errors.rms_mm, record.verification->errors.p95_mm,
+        record.verification->errors.max_mm, record.procedure->cv_rms_mm, record.procedure->fre_rms_mm})
     EXPECT_THAT(html, HasSubstr(">" + fixedText(mm, 2) + " mm<"));
   EXPECT_THAT(html, HasSubstr("plausibility, no accuracy"));
   EXPECT_THAT(html, HasSubstr("\u2264 0.50 mm"));  // the limit it was judged by

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "app/device/check/simulated_owner.h"
-#include "haptics/device/simulated_device.h"
 #include "haptics/device/simulated/simulated_phantom.h"
+#include "haptics/device/simulated_device.h"
 
 namespace app {
 namespace {
