@@ -35,7 +35,7 @@ if(NOT DEFINED ROOTS)
     "^_ZN7haptics5Servo4stepE"
     "^_ZN7haptics10DeviceLoop4tickE" "^_ZNK7haptics9MotorGate5admitE"
     "^_ZN7haptics10HapticLoop6answerE" "^_ZN7haptics10HapticLoop8answeredE" "^_ZN7haptics17InstrumentTracker6answerE"
-    "^_ZN7haptics14HandleRecorder6answerE" "^_ZN3app11PushingHand6answerE" "^_ZN3app14PracticeStylus8exchangeE"
+    "^_ZN7haptics14HandleRecorder6answerE" "^_ZN3app17ConstantForceLoop6answerE" "^_ZN3app14PracticeStylus8exchangeE"
     "^_ZN7haptics11PacedDevice3runE" "^_ZN7haptics11PacedDevice5awaitE"
     "^_ZN7haptics[A-Za-z0-9]+(Hand|Device)8exchangeE"
     "^_ZN7haptics16SimulatedPhantom4moveE" "^_ZN7haptics16SimulatedPhantom4turnE"
