@@ -116,7 +116,7 @@ std::string metricsText(const SessionMetrics& metrics) {
 
 namespace {
 
-nlohmann::ordered_json calibrationJson(const SessionCalibration& c) {
+nlohmann::ordered_json calibrationMetrics(const SessionCalibration& c) {
   nlohmann::ordered_json json = {{"rig", c.rig},        {"rig_id", c.rig_id},   {"device_serial", c.device_serial},
                                  {"verdict", nullptr},  {"touches", c.touches}, {"checked_utc", nullptr},
                                  {"age_days", nullptr}, {"despite", nullptr}};
@@ -143,7 +143,7 @@ std::string metricsJson(const SessionMetrics& metrics) {
   const nlohmann::ordered_json json = {
       {"patient", metrics.patient_title},
       {"program_version", metrics.program_version},
-      {"calibration", metrics.calibration ? calibrationJson(*metrics.calibration) : nlohmann::ordered_json()},
+      {"calibration", metrics.calibration ? calibrationMetrics(*metrics.calibration) : nlohmann::ordered_json()},
       {"closed", metrics.closed},
       {"log_missing", metrics.missing_log.has_value()},
       {"ticks", metrics.ticks},
