@@ -133,8 +133,9 @@ void addPsychophysics(CommandLine& molar) {
   command.option("--seed", options->seed, "Of order, hand and observer").showsDefault();
   command.option("--rig", options->rig, "keyboard: rig file, 1:1").valueNamed("FILE");
   command.option("--record", options->record, "keyboard: session file to write").valueNamed("FILE");
-  command.flag("--operator", options->instructor_window,
-               "keyboard: a window for the operator, on the next monitor where there is one");
+  command.flag("--instructor", options->instructor_window,
+               "keyboard: open the instructor's window, on the next monitor if any");
+  command.flag("--operator", options->instructor_window, "Former name of --instructor").hidden();
   command.flag("--force", options->force, "Replace outputs that exist");
   command.does([options] { return run(*options); });
 }

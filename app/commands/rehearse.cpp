@@ -113,7 +113,7 @@ void refuseUnlessSteppable(const RehearseOptions& options) {
     throw UsageError("--pace fast: --second-hand " + options.plan.second_hand.device +
                      " is no hand in numbers, choose scripted or replay:SESSION");
   if (options.plan.instructor_window)
-    throw UsageError("--pace fast: a window has the clock's time, leave --operator out");
+    throw UsageError("--pace fast: a window has the clock's time, leave --instructor out");
   if (options.pedal != "auto" && options.pedal != "none")
     throw UsageError("--pace fast: a pedal has the clock's time, leave --pedal out");
 }
@@ -209,8 +209,8 @@ void addRehearse(CommandLine& molar) {
   o->picture.addTo(command);
   command.option("--monitor", o->monitor, "Monitor of the picture, from 1; two windows take the next one as well")
       .wholeFrom(1, 16);
-  command.flag("--operator", o->plan.instructor_window,
-               "A window for the operator, on the next monitor where there is one");
+  command.flag("--instructor", o->plan.instructor_window, "Open the instructor's window, on the next monitor if any");
+  command.flag("--operator", o->plan.instructor_window, "Former name of --instructor").hidden();
   command.option("--quality", o->plan.quality_step, "Hold this quality, 0 best to 6 fastest [by measured frame times]")
       .wholeFrom(0, static_cast<int>(render::kQualitySteps.size()) - 1);
   command.option("--size", o->size, "Picture size").valueNamed("WxH");

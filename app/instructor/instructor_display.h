@@ -1,4 +1,4 @@
-// The place beside the surgeon: opens the operator's window on the next monitor, or beside the picture on the same,
+// The place beside the surgeon: opens the instructor's window on the next monitor, or beside the picture on the same,
 // draws it ten times a second while the surgeon's picture is on its way, opens it again after the graphics card was
 // reset. Empty where there is no window. Main thread; afterwards the surgeon's context is current.
 #pragma once
@@ -20,7 +20,7 @@ class InstructorDisplay {
                     std::function<void(const std::string&)> report);
 
   bool isDue() const { return window_ && window_->isDue(); }
-  /// What the operator requests now; `keys` are pressed in this window and mean what they mean in the surgeon's.
+  /// What the instructor requests now; `keys` are pressed in this window and mean what they mean in the surgeon's.
   struct Input {
     std::vector<ControlRequest> requests;
     std::vector<render::WindowEvent> keys;

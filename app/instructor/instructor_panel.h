@@ -1,4 +1,4 @@
-// What the operator's window says and asks, drawn with Dear ImGui (inside): the state of drill and recording first,
+// What the instructor's window says and asks, drawn with Dear ImGui (inside): the state of drill and recording first,
 // then tool, law, picture, servo, layers, keys. Leaves a place free for what the surgeon sees. Knows no window and no
 // OpenGL. Main thread; well under a millisecond.
 #pragma once

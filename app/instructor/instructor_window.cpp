@@ -19,7 +19,7 @@ constexpr auto kBetweenDrawings = std::chrono::milliseconds(100);
 
 render::Window::Options optionsFor(const render::Window& surgeons, std::optional<int> monitor) {
   render::Window::Options options;
-  options.title = "Molar, operator";
+  options.title = "Molar, instructor";
   options.size_px = {1360, 900};
   options.monitor = monitor;
   options.wait_for_refresh = false;
@@ -33,7 +33,7 @@ render::Window::Options optionsFor(const render::Window& surgeons, std::optional
 struct InstructorWindow::Impl {
   Impl(const render::Window& surgeons, std::optional<int> monitor) : window(optionsFor(surgeons, monitor)) {
     if (!ImGui_ImplOpenGL3_Init("#version 450"))
-      throw render::GpuError("operator's window, OpenGL: its panel can not be drawn; go on without --operator");
+      throw render::GpuError("instructor's window: OpenGL can not draw its panel, continue without --instructor");
   }
   ~Impl() {
     window.makeCurrent();

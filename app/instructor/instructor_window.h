@@ -1,4 +1,4 @@
-// The operator's window, on a second monitor where there is one: what the surgeon sees, without drawing it a second
+// The instructor's window, on a second monitor where there is one: what the surgeon sees, without drawing it a second
 // time, and the panel beside it. Nothing of it is in the surgeon's view. At most ten times a second and never waiting
 // for its monitor, so the surgeon's pictures are not held up. Dear ImGui draws it, fed from the window's events. Main
 // thread; after draw() this window's context is current.

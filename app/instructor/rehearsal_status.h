@@ -1,5 +1,5 @@
-// How a rehearsal stands, as plain values: for the status line, the operator's window and nobody else. Made twice a
-// second or, with an operator, ten times. Pure; any thread.
+// How a rehearsal stands, as plain values: for the status line, the instructor's window and nobody else. Made twice a
+// second or, with an instructor, ten times. Pure; any thread.
 #pragma once
 
 #include <string>

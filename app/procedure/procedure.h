@@ -15,7 +15,7 @@
 namespace app {
 
 /// One line each; empty: nothing to say. The surgeon reads it in the window's title, unless the safety layer has to say
-/// something; the instructor in the operator's window, where there is one (--operator).
+/// something; the instructor in the instructor's window, where there is one (--instructor).
 struct ProcedureMessages {
   std::string to_surgeon, to_instructor;
   bool operator==(const ProcedureMessages&) const = default;

@@ -1,5 +1,5 @@
 // Everybody in the room may ask for something: the hand at mouse and keys, the device's buttons, the pedal, a script,
-// the operator. Each request goes to the one who obeys it: stop and end at once, then the procedure, the command in
+// the instructor. Each request goes to the one who obeys it: stop and end at once, then the procedure, the command in
 // force, the layers of the picture. Main thread, once a frame; microseconds, a snapshot as long as its file takes.
 #pragma once
 
@@ -25,7 +25,7 @@ class ControlRouter {
 
   const ControlScript& script() const { return script_; }
 
-  /// What was asked for since the last call, but by the operator; a mouse that is the hand is moved. `newest` has a dt
+  /// What was asked for since the last call, but by the instructor; a mouse that is the hand is moved. `newest` has a dt
   /// of 0 before the first tick. Layers are switched in `frame`, of which a snapshot is taken.
   void handleInput(const haptics::Tick& newest, render::Frame& frame);
   void handleInstructorInput(const InstructorDisplay::Input& input, render::Frame& frame);

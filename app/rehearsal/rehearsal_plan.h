@@ -33,7 +33,7 @@ struct RehearsalPlan {
   DeviceOptions device_options;
   std::optional<OpenedDevice> opened;  ///< the real one of the address, where it is open already
   SessionCalibration calibration;      ///< of hand and eye, as the session keeps it
-  std::vector<std::string> remarks;    ///< on calibration and case: said, shown to the operator, recorded
+  std::vector<std::string> remarks;    ///< on calibration and case: said, shown to the instructor, recorded
   SecondHandPlan second_hand;
   haptics::Command command;
   std::vector<haptics::Tool> other_tools;  ///< for changes of tool, after the command's

@@ -46,7 +46,7 @@ class RunMonitor {
   /// What is new of it and has to be told.
   std::vector<Notice> look(const StationHealth& health, const haptics::Tick& newest);
 
-  /// What of it the operator sees.
+  /// What of it the instructor sees.
   void describe(RehearsalStatus& status) const;
 
  private:

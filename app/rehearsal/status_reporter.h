@@ -1,5 +1,5 @@
 // Who is told how a rehearsal stands, and how often: the surgeon by the window's title, the event_log of what is new of
-// safety, device, recording and latency, both twice a second; the operator ten times a second; all of them at the end.
+// safety, device, recording and latency, both twice a second; the instructor ten times a second; all of them at the end.
 // Main thread, once a frame; microseconds until something is due.
 #pragma once
 
@@ -19,7 +19,7 @@ class StatusReporter {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// Borrows them all; goes before the picture, whose window the operator's shares with. Opens the operator's window
+  /// Borrows them all; goes before the picture, whose window the instructor's shares with. Opens the instructor's window
   /// where the plan has one.
   StatusReporter(const RehearsalPlan& plan, Equipment& equipment, LiveView& picture, RunMonitor& monitor,
                  EventLog& event_log);
@@ -31,7 +31,7 @@ class StatusReporter {
   };
   RehearsalStatus status(const FrameState& moment);
   void show(Time now, const FrameState& moment);
-  /// While the surgeon's picture is on its way. What the operator requests now.
+  /// While the surgeon's picture is on its way. What the instructor requests now.
   InstructorDisplay::Input updateInstructor(const FrameState& moment);
   /// Why it ended and how punctual it was, before the station stops.
   void reportEnd(Ending ending);

@@ -101,6 +101,11 @@ Option& Option::repeated() {
   return *this;
 }
 
+Option& Option::hidden() {
+  option_->group("");
+  return *this;
+}
+
 Option& Option::needs(const Option& other) {
   option_->needs(other.option_);
   return *this;
@@ -158,7 +163,8 @@ void CommandLine::footer(const std::string& text) { app_.footer(text); }
 
 CommandHelp CommandLine::words() const {
   CommandHelp words{app_.get_name(), app_.get_description(), app_.get_footer(), {}, {}};
-  for (const CLI::Option* option : app_.get_options()) words.options.push_back(wordsOf(*option));
+  for (const CLI::Option* option : app_.get_options())
+    if (!option->get_group().empty()) words.options.push_back(wordsOf(*option));
   for (const auto& command : commands_) words.commands.push_back(command->words());
   return words;
 }

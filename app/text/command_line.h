@@ -36,6 +36,8 @@ class Option {
   Option& separatedByCommas();
   /// Given once for each value.
   Option& repeated();
+  /// Accepted, but absent from help, manual and completion.
+  Option& hidden();
   Option& needs(const Option& other);
   Option& excludes(const Option& other);
 

@@ -23,7 +23,7 @@ enum class Fault : std::uint32_t {
   buzz = 2048,       ///< it shook
   overdrawn = 4096,  ///< the hand got more energy than can be let down gently
   let_go = 8192,     ///< the deadman felt no hand
-  latched = 16384,   ///< no force until an operator says so
+  latched = 16384,   ///< no force until the instructor lifts it
   stopped = 32768,   ///< emergency stop
 };
 constexpr Fault operator|(Fault a, Fault b) {

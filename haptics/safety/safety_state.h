@@ -1,6 +1,6 @@
 // Whether the hand may be pushed at all (reference/devices 6.2): off, calibrate, ready, armed, active, fault. There is
 // force in `active` alone. Ready becomes armed only outside tissue, at rest and out of the inkwell, and active when a
-// hand is felt; docking and a pause go back to ready; a fault stays until the operator says otherwise; after a stop it
+// hand is felt; docking and a pause go back to ready; a fault stays until the instructor lifts it; after a stop it
 // is off for good. Where nobody can be pushed (`must_be_armed` false) it is active at once and nothing is latched.
 // State: a few numbers; servo thread, no clock.
 #pragma once

@@ -44,7 +44,7 @@ const std::array<TripText, kTripKinds> kTrips = {{
      "If it comes again with this law, lower its stiffness."},
     {Fault::let_go, "let_go", "The handle was let go of, so the force was let down.",
      "Take hold of it outside the tissue."},
-    {Fault::latched, "latched", "The force stays off until an operator has seen to it.",
+    {Fault::latched, "latched", "The force stays off until the instructor lifts the fault.",
      "See to the cause, then lift the fault at the desk."},
     {Fault::stopped, "stopped", "An emergency stop took the force away for good.",
      "End the rehearsal and start it again."},

@@ -22,7 +22,7 @@ struct Command {
   ErosionSettings erosion;
   SpindleSettings spindle;
   SafetyLimits safety;
-  std::uint64_t rearm = 0;  ///< another number than before: the operator lifts a latched fault
+  std::uint64_t rearm = 0;  ///< another number than before: the instructor lifts a latched fault
 };
 
 }  // namespace haptics

@@ -1,5 +1,5 @@
 // Letters of 5x7 dots for the few words on a CT slice: capitals, digits, space. Any thread; pure.
-// Not a font for running text: that is drawn by the operator's window.
+// Not a font for running text: that is drawn by the instructor's window.
 #pragma once
 
 #include <array>

@@ -116,7 +116,7 @@ TEST(SafetyLayer, HoldsTheForceOfAStaleHandForFiveMillisecondsAndHasLetGoAfterTw
   }
 }
 
-TEST(SafetyLayer, LatchesThreeBadSamplesUntilTheOperatorSaysOtherwise) {
+TEST(SafetyLayer, LatchesThreeBadSamplesUntilTheInstructorLiftsThem) {
   Bench bench;
   bench.arm();
   HandSample bad;

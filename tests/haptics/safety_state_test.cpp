@@ -85,7 +85,7 @@ TEST(SafetyStateMachine, LetsGoInFiftyMillisecondsWhenTheDeadmanFeelsNoHand) {
   EXPECT_EQ(taken_again.tick(200), SafetyState::active);
 }
 
-TEST(SafetyStateMachine, LatchesAFaultUntilAnOperatorLiftsItAndItsCauseIsOver) {
+TEST(SafetyStateMachine, LatchesAFaultUntilTheInstructorLiftsItAndItsCauseIsOver) {
   Bench bench;
   ASSERT_EQ(bench.tick(5), SafetyState::active);
   bench.seen.trouble = true;

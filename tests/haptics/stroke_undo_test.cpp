@@ -347,7 +347,7 @@ TEST(StrokeUndo, GivesBackNoMoreThanSixtyFourBlocksInATick) {
   EXPECT_EQ(room.tick.strokes, 0);
 }
 
-/// A hand and an operator without sense: drills, leaves, undoes, jumps.
+/// A hand and an instructor without sense: drills, leaves, undoes, jumps.
 void wander(Room& room, unsigned seed, int steps) {
   std::mt19937 random(seed);
   std::normal_distribution<double> move(0.0, 0.04);

@@ -1,6 +1,6 @@
 // A calibration as one HTML page, for the technician's binder and whoever asks how good the rig is: verdict and the one
 // sentence first, then figures against their limits, where the error is, how it went over the weeks, and where all this
-// comes from. No other file, no script, readable in print and without colours. Names no person: an operator is a code.
+// comes from. No other file, no script, readable in print and without colours. Names no person: who measured is a code.
 // mm, frame W. Pure; any thread but the servo's; milliseconds.
 #pragma once
 

@@ -103,7 +103,7 @@ TEST(ActiveCommand, SwitchesTheWaterOffAndOn) {
   at.active->follow(guided);
   EXPECT_FALSE(at.active->inForce().irrigating);
   EXPECT_EQ(at.active->inForce().undo_serial, 0u);
-  EXPECT_EQ(at.active->inForce().rearm, 0u) << "only the operator lifts a fault";
+  EXPECT_EQ(at.active->inForce().rearm, 0u) << "only the instructor lifts a fault";
   at.active->execute({Control::irrigation});
   EXPECT_TRUE(at.active->inForce().irrigating);
   ASSERT_TRUE(at.waitFor([](const haptics::Tick& tick) { return tick.command_serial == 4; }));
