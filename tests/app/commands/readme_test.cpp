@@ -63,6 +63,7 @@ class ReadmeTest : public ProgramTest {
     for (const auto& entry : fs::directory_iterator(root_)) files_.push_back(entry.path());
     for (const fs::path& file : files_)
       if (file.filename() == "README.md") readmes_.emplace_back(file);
+    for (const auto& entry : fs::directory_iterator(root_ / ".github")) readmes_.emplace_back(entry.path());
     for (const fs::path& file : files_)
       if (fs::is_directory(file) && file.filename() != "build") folders_.insert(file.filename().string());
 
