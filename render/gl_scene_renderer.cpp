@@ -15,7 +15,7 @@
 #include "render/scene/fragment_lists.h"
 #include "render/scene/inset_pass.h"
 #include "render/scene/mesh_pass.h"
-#include "render/shaders/shared_numbers.glsl"
+#include "render/shaders/shared_constants.glsl"
 #include "render/volume/bone_mesh.h"
 #include "render/volume/ray_caster.h"
 

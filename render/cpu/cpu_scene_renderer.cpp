@@ -15,7 +15,7 @@
 #include "render/cpu/eye_image.h"
 #include "render/cpu/ray_tracer.h"
 #include "render/eye_block.h"
-#include "render/shaders/shared_numbers.glsl"
+#include "render/shaders/shared_constants.glsl"
 #include "render/volume/transfer_function.h"
 #include "render/volume/volume_fields.h"
 

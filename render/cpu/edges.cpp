@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/shaders/light_numbers.glsl"
+#include "render/shaders/light_constants.glsl"
 
 namespace render {
 namespace {

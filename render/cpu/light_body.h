@@ -4,7 +4,7 @@
 
 #include "render/cpu/float3.h"
 #include "render/cpu/shade_kernels.h"
-#include "render/shaders/light_numbers.glsl"
+#include "render/shaders/light_constants.glsl"
 
 namespace render::cpu {
 namespace {

@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "render/cpu/mesh_bodies.h"
-#include "render/shaders/light_numbers.glsl"
+#include "render/shaders/light_constants.glsl"
 
 namespace render {
 namespace {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "render/cpu/light_body.h"
-#include "render/shaders/shared_numbers.glsl"
+#include "render/shaders/shared_constants.glsl"
 
 namespace render::cpu {
 namespace {

@@ -12,7 +12,7 @@
 namespace render::cpu {
 namespace {
 
-// ---- ray_through.glsl
+// ---- ray_translucent.glsl
 
 // Middle of a ray's way through the volume and its border of air, P.
 inline Float3 middleOfWay(const ShadeScene& scene, const RayBatch& rays, const Float3& direction) {

@@ -1,10 +1,10 @@
-// The twin of tissue_look.glsl, guides.glsl and of surfaceNormal in ray_cast.glsl, in lanes. Part of the kernels of
+// The twin of tissue_appearance.glsl, guides.glsl and of surfaceNormal in ray_cast.glsl, in lanes. Part of the kernels of
 // shade_kernel_body.h: included by them alone, internal linkage throughout.
 #pragma once
 
 #include "render/cpu/occlusion_body.h"
 #include "render/shaders/finish.glsl"
-#include "render/shaders/guide_numbers.glsl"
+#include "render/shaders/guide_constants.glsl"
 
 namespace render::cpu {
 namespace {

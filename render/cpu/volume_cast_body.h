@@ -1,6 +1,6 @@
 // The body of the casting kernels: included once by each instruction set's source. Internal linkage throughout, and no
 // header but these, so that nothing of it is shared between instruction sets. Formula by formula
-// shaders/ray_march.glsl, ray_cast.glsl and ray_through.glsl; only how empty space is passed is its own. Places count
+// shaders/ray_march.glsl, ray_cast.glsl and ray_translucent.glsl; only how empty space is passed is its own. Places count
 // from the corner of the border of SolidCells, so they are never negative where a ray is in the volume; lengths in
 // voxels.
 #pragma once

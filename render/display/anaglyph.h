@@ -1,11 +1,11 @@
 // Both eyes in one image for red-cyan glasses, the red filter before the left eye. Linear light in 0..1 in and out;
-// the twin of shaders/stereo_layout.glsl's. Any thread; pure. Source of the numbers: shaders/anaglyph_numbers.glsl.
+// the twin of shaders/stereo_layout.glsl's. Any thread; pure. Source of the numbers: shaders/anaglyph_constants.glsl.
 #pragma once
 
 #include <glm/glm.hpp>
 
 #include "render/display/display_mode.h"
-#include "render/shaders/anaglyph_numbers.glsl"
+#include "render/shaders/anaglyph_constants.glsl"
 
 namespace render {
 

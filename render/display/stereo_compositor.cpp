@@ -1,7 +1,7 @@
 #include "render/display/stereo_compositor.h"
 
 #include "render/gpu/drawing.h"
-#include "render/shaders/shared_numbers.glsl"
+#include "render/shaders/shared_constants.glsl"
 
 namespace render {
 namespace {

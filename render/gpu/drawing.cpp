@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "render/shaders/shared_numbers.glsl"
+#include "render/shaders/shared_constants.glsl"
 
 namespace render {
 namespace {

@@ -1,5 +1,5 @@
 // Linked shaders from the shader library: a vertex and a fragment shader, or a compute shader. Everything it reads
-// comes by uniform blocks and texture units with fixed bindings (shared_numbers.glsl), so it has no settable state.
+// comes by uniform blocks and texture units with fixed bindings (shared_constants.glsl), so it has no settable state.
 // Move-only. Thread: the context's. Cost: compiling, 0.1 to 0.5 s on a software rasteriser.
 #pragma once
 

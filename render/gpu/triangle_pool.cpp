@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "render/shaders/shared_numbers.glsl"
+#include "render/shaders/shared_constants.glsl"
 
 namespace render {
 namespace {

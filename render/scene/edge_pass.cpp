@@ -3,7 +3,7 @@
 #include <array>
 
 #include "render/gpu/drawing.h"
-#include "render/shaders/shared_numbers.glsl"
+#include "render/shaders/shared_constants.glsl"
 
 namespace render {
 namespace {

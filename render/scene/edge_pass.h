@@ -20,7 +20,7 @@ class EdgePass {
 
  private:
   Framebuffer mask_;
-  Program find_{"screen.vert", "edge_mask.frag"}, reject_{"screen.vert", "edge_wall.frag"},
+  Program find_{"screen.vert", "edge_mask.frag"}, reject_{"screen.vert", "edge_reject.frag"},
       average_{"screen.vert", "edge_mean.frag"};
 };
 

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "render/gpu/drawing.h"
-#include "render/shaders/shared_numbers.glsl"
+#include "render/shaders/shared_constants.glsl"
 
 namespace render {
 namespace {
@@ -14,7 +14,7 @@ constexpr std::size_t kHeader_bytes = 8, kPlace_bytes = 16, kPlacesPerPixel = 4,
 }  // namespace
 
 void FragmentLists::begin(glm::ivec2 size) {
-  if (!over_) over_ = Program{"screen.vert", "clear_over.frag"};
+  if (!over_) over_ = Program{"screen.vert", "fragment_blend.frag"};
   if (heads_.size() != glm::ivec3(size, 1)) {
     heads_ = Texture::image(size, TexelFormat::r32ui);
     const std::size_t pixels = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);

@@ -13,7 +13,7 @@ namespace render {
 
 class FragmentLists {
  public:
-  /// Empty lists for a image of that size, bound for mesh_clear.frag.
+  /// Empty lists for a image of that size, bound for mesh_transparent.frag.
   void begin(glm::ivec2 size);
   /// Lays them over the image's colour.
   void blendOver(const Framebuffer& image);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "render/shaders/shared_numbers.glsl"
+#include "render/shaders/shared_constants.glsl"
 
 namespace render {
 namespace {
@@ -39,7 +39,7 @@ void MeshPass::draw(const SceneMesh& mesh, Parts parts, const Placement& placeme
          .mirrored = view_is_mirrored,
          .write_colour = !transparent,
          .write_distance = !transparent});
-  if (transparent && !transparent_parts_) transparent_parts_ = Program{"mesh.vert", "mesh_clear.frag"};
+  if (transparent && !transparent_parts_) transparent_parts_ = Program{"mesh.vert", "mesh_transparent.frag"};
   (transparent ? *transparent_parts_ : opaque_).use();
   const glm::dmat4 turned =
       placement.P_from_mesh * glm::rotate(glm::dmat4(1.0), placement.bur_angle_rad, glm::dvec3(0.0, 0.0, 1.0));

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "render/frame.h"
-#include "render/shaders/shared_numbers.glsl"
+#include "render/shaders/shared_constants.glsl"
 
 namespace render {
 

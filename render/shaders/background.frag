@@ -1,7 +1,7 @@
 #version 450
 // The dark theatre behind everything: a neutral gradient fixed to the room, not to the screen.
 #include "eye_block.glsl"
-#include "light_numbers.glsl"
+#include "light_constants.glsl"
 
 layout(location = 0) in vec2 uv;
 layout(location = COLOUR_TARGET) out vec4 colour;

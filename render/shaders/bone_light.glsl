@@ -1,7 +1,7 @@
 // The light that a place on the surface of tooth and bone sends back against a direction: the same for rays and
 // triangles.
 #include "ray_cast.glsl"
-#include "tissue_look.glsl"
+#include "tissue_appearance.glsl"
 #include "occlusion.glsl"
 
 vec3 boneLight(vec3 index, vec3 p_P, vec3 direction) {

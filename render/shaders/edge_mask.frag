@@ -1,6 +1,6 @@
 #version 450
 // 1 where antialiasing draws the pixel again. At the border of the image the missing neighbour counts as straight on.
-#include "shared_numbers.glsl"
+#include "shared_constants.glsl"
 #include "edge_rule.glsl"
 
 layout(binding = SCENE_DISTANCE_UNIT) uniform sampler2D scene_distance;

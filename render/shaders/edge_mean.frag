@@ -1,6 +1,6 @@
 #version 450
 // Gives edge pixels the mean of their samples as the display will show them: taken after the shoulder, put back before it.
-#include "shared_numbers.glsl"
+#include "shared_constants.glsl"
 #include "shoulder.glsl"
 
 layout(binding = EDGE_MASK_UNIT) uniform usampler2D edge_mask;

@@ -1,6 +1,6 @@
 // Which pixels lie at an edge and are drawn again with 2x2 samples. A plane's inverse distance runs straight through the
 // image, so what a surface's slope explains leaves no bend; a step does. Twin: render/cpu/edges.h.
-#include "light_numbers.glsl"
+#include "light_constants.glsl"
 
 // Of a pixel and two neighbours on opposite sides, mm along their rays, 0 where nothing is met.
 bool bends(float before, float here, float after) {

@@ -1,5 +1,5 @@
 // What a pass knows of the eye it draws for. Frame P, mm; C++ twin: render::EyeBlock.
-#include "shared_numbers.glsl"
+#include "shared_constants.glsl"
 
 layout(std140, binding = EYE_BLOCK) uniform EyeBlock {
   mat4 clip_from_P;      // reverse-Z, 0..1

@@ -1,7 +1,7 @@
 // Guides on the bone: bands of clearance to the canal and what is planned to go. Told apart by value and pattern as well
 // as by hue, for eyes that do not tell red from green (hues of Okabe and Ito, "Color universal design", 2008).
 #include "volume_block.glsl"
-#include "guide_numbers.glsl"
+#include "guide_constants.glsl"
 
 // mm to the canal's wall and to the planned cut.
 vec2 guideDistances(vec3 index) {

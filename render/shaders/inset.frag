@@ -1,6 +1,6 @@
 #version 450
 // A small image laid over the scene: the light that the output pass will turn back into these very values.
-#include "shared_numbers.glsl"
+#include "shared_constants.glsl"
 #include "shoulder.glsl"
 
 layout(binding = INSET_UNIT) uniform sampler2D inset;  // rows top first

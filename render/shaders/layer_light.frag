@@ -1,6 +1,6 @@
 #version 450
 // The volume's layer over what lies behind it.
-#include "shared_numbers.glsl"
+#include "shared_constants.glsl"
 
 layout(binding = LAYER_LIGHT_UNIT) uniform sampler2D layer_light;
 layout(location = COLOUR_TARGET) out vec4 colour;

@@ -2,7 +2,7 @@
 // Specular: GGX (Walter et al. 2007) with the height-correlated Smith term (Heitz 2014) and Schlick's Fresnel (1994).
 // Ambient specular: the fit of Lazarov, "Getting more physical in Call of Duty: Black Ops II" (SIGGRAPH 2013).
 #include "eye_block.glsl"
-#include "light_numbers.glsl"
+#include "light_constants.glsl"
 
 struct Surface {
   vec3 albedo;

@@ -1,7 +1,7 @@
 // Skin, gingiva and steel under the light. Both sides are drawn; the face opens around the line from the eye to the operating
 // site.
 #include "part_block.glsl"
-#include "guide_numbers.glsl"
+#include "guide_constants.glsl"
 #include "occlusion.glsl"
 
 layout(location = 0) in vec3 p_P;

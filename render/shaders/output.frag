@@ -1,7 +1,7 @@
 #version 450
 // The last pass: averages the samples of each pixel in linear light, gives every pixel of the display the eye it is
 // for, and encodes sRGB, once. An eye's image with fewer pixels than its place is stretched bilinearly.
-#include "shared_numbers.glsl"
+#include "shared_constants.glsl"
 #include "shoulder.glsl"
 #include "stereo_layout.glsl"
 

@@ -1,5 +1,5 @@
 // One part of a mesh. C++ twin: render::PartBlock.
-#include "shared_numbers.glsl"
+#include "shared_constants.glsl"
 
 layout(std140, binding = PART_BLOCK) uniform PartBlock {
   mat4 P_from_mesh;      // rigid

@@ -1,5 +1,5 @@
 // Bright values roll off towards white instead of clipping: identity to the knee, then an even approach to 1.
-#include "light_numbers.glsl"
+#include "light_constants.glsl"
 
 vec3 shoulder(vec3 x) {
   vec3 over = max(x - SHOULDER_KNEE, 0.0) / (1.0 - SHOULDER_KNEE);

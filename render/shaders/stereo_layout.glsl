@@ -1,6 +1,6 @@
 // What a pixel of the output shows: which eye, which pixel of it, or black. Twin of display/stereo_layout.h; pixels
 // count from the top left.
-#include "anaglyph_numbers.glsl"
+#include "anaglyph_constants.glsl"
 
 struct SourcePixel {
   int eye;   // SHOWN_…

@@ -1,5 +1,5 @@
 // How translucent matter is in the translucent view. C++ twin: render::TransferBlock.
-#include "shared_numbers.glsl"
+#include "shared_constants.glsl"
 
 layout(std140, binding = TRANSFER_BLOCK) uniform TransferBlock {
   vec4 ramp;                          // x: solid fraction where matter begins to show, y: 1 over the length of the ramp

@@ -1,5 +1,5 @@
 // The volume as the shaders see it. Places are continuous voxel indices: integer at voxel centres. C++ twin: VolumeBlock.
-#include "shared_numbers.glsl"
+#include "shared_constants.glsl"
 
 layout(std140, binding = VOLUME_BLOCK) uniform VolumeBlock {
   vec4 origin_P;         // centre of voxel (0,0,0); w: spacing, mm

@@ -1,7 +1,7 @@
 // What one pixel shows of tooth and bone, as far as the meshes before them allow: the whole of both the fragment and the
 // compute caster.
 #include "bone_light.glsl"
-#include "ray_through.glsl"
+#include "ray_translucent.glsl"
 
 layout(binding = SCENE_DISTANCE_UNIT) uniform sampler2D scene_distance;  // of the meshes, 0 where there are none
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/shaders/shared_numbers.glsl"
+#include "render/shaders/shared_constants.glsl"
 
 namespace render {
 namespace {

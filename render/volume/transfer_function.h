@@ -8,7 +8,7 @@
 #include <glm/glm.hpp>
 
 #include "assets/tissue.h"
-#include "render/shaders/shared_numbers.glsl"
+#include "render/shaders/shared_constants.glsl"
 
 namespace render {
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "render/gpu/gpu_error.h"
-#include "render/shaders/shared_numbers.glsl"
+#include "render/shaders/shared_constants.glsl"
 #include "render/volume/appearance_field.h"
 
 namespace render {

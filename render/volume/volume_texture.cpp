@@ -1,7 +1,7 @@
 #include "render/volume/volume_texture.h"
 
 #include "assets/ct_volume.h"
-#include "render/shaders/shared_numbers.glsl"
+#include "render/shaders/shared_constants.glsl"
 
 namespace render {
 namespace {

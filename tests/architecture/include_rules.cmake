@@ -69,8 +69,8 @@ set(haptics/tool ${assets} haptics/bone/ haptics/tool/)
 set(haptics/contact ${assets} haptics/bone/ haptics/tool/ haptics/contact/)
 set(haptics/servo ${haptics})
 set(render ${assets} render/)
-set(render_words ${assets} render/frame.h render/image.h render/shaders/shared_numbers.glsl
-    render/shaders/anaglyph_numbers.glsl)
+set(render_words ${assets} render/frame.h render/image.h render/shaders/shared_constants.glsl
+    render/shaders/anaglyph_constants.glsl)
 set(render/gpu ${render_words} render/gpu/)
 foreach(part volume scene display)
   set(render/${part} ${render_words} render/gpu/ render/${part}/)

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "render/scene/mandibular_canal_tube.h"
-#include "render/shaders/shared_numbers.glsl"
+#include "render/shaders/shared_constants.glsl"
 
 namespace render {
 namespace {

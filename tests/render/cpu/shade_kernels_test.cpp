@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "render/shaders/light_numbers.glsl"
-#include "render/shaders/shared_numbers.glsl"
+#include "render/shaders/light_constants.glsl"
+#include "render/shaders/shared_constants.glsl"
 
 namespace render {
 namespace {

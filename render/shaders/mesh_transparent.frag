@@ -1,6 +1,6 @@
 #version 450
 // Transparent parts of meshes, into the list of their pixel. What no longer fits the lists is left out.
-#include "clear_list.glsl"
+#include "fragment_list.glsl"
 #include "mesh_colour.glsl"
 
 layout(early_fragment_tests) in;

@@ -1,7 +1,7 @@
 #version 450
 // In a image of 2x2 samples per pixel: a wall before the eye wherever the pixel is no edge, so that nothing is drawn
 // there again and no ray sets out.
-#include "shared_numbers.glsl"
+#include "shared_constants.glsl"
 
 layout(binding = EDGE_MASK_UNIT) uniform usampler2D edge_mask;
 layout(location = DISTANCE_TARGET) out float distance_mm;

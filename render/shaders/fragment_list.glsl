@@ -1,6 +1,6 @@
 // What is transparent before each pixel, as lists that are sorted when all of it is known. Yang et al., "Real-time
 // concurrent linked list construction on the GPU" (EGSR 2010).
-#include "shared_numbers.glsl"
+#include "shared_constants.glsl"
 
 const uint kEnd = 0xffffffffu;
 

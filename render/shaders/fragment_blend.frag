@@ -1,6 +1,6 @@
 #version 450
 // The transparent places before a pixel, nearest first, as one premultiplied colour to lay over it.
-#include "clear_list.glsl"
+#include "fragment_list.glsl"
 
 layout(location = COLOUR_TARGET) out vec4 colour;
 
