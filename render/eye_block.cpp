@@ -23,7 +23,7 @@ glm::vec4 packed(const glm::dvec3& xyz, double w = 0.0) { return {glm::vec3(xyz)
 EyeBlock eyeBlock(const Frame& frame, const EyeView& view) {
   const calibration::Pose<Patient, World> X_PW = frame.rig.X_WP.inverse();
 
-  // The lamp, a little nearer than the head's distance to the middle of the virtual screen.
+  // The lamp is a little nearer than the head is to the middle of the virtual screen.
   const Point<World> middle_W = view.lower_left_W + 0.5 * view.right_edge_W + 0.5 * view.up_edge_W;
   const Point<World> head_W = frame.rig.cyclopeanEye();
   const double reach_mm = glm::length((head_W - middle_W).xyz);

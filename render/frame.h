@@ -1,5 +1,5 @@
-// One frame as plain values: what to draw, from where, onto which rig. Built by app once per frame from one scene time,
-// so both eyes see the same instant. Frame W unless named. Render thread.
+// One frame as plain values: what to draw, from which eyes, on which rig. Built once per frame by app for one instant,
+// which both eyes show. Frame W unless named. Render thread.
 #pragma once
 
 #include "assets/instrument/handpiece.h"
@@ -13,43 +13,43 @@ namespace render {
 /// How tooth and bone are drawn: the surface solid = 0.5, the translucent volume, or the surface as triangles.
 enum class ViewMode { iso, dvr, mesh };
 
-/// What may be shown besides, and how much of the face.
+/// Optional layers, and the opacity of the face.
 struct Layers {
   float face_opacity = 1.0f;  ///< 0: no face
   bool gingiva = true;
-  bool mandibular_canal = false;  ///< the mandibular canal …
-  bool clearance = false;         ///< … and bands of distance to it on the bone
-  bool planned_cut = false;       ///< bone that is planned to go
-  bool ghost_tool = false;        ///< the tool where the hand is, while the drawn one is held by the surface
+  bool mandibular_canal = false;
+  bool clearance = false;         ///< bands of distance to the canal on the bone
+  bool planned_cut = false;       ///< bone planned for removal
+  bool ghost_tool = false;        ///< the tool at the hand, while the drawn tool is held by the surface
   bool slices = false;            ///< CT slices through the bur
 };
 
 enum class Antialias { none, edges };
 
-/// What a slower machine can leave out. The surface stays where it is but for `step_voxels` beyond one half.
+/// What a slower machine can leave out. The drawn surface moves only for `step_voxels` above one half.
 struct Quality {
   Antialias antialias = Antialias::none;
   bool ambient_occlusion = true, lamp_shadow = true;
   double step_voxels = 0.5;  ///< between samples along a ray
-  int pixel_edge = 1;        ///< pixels of the display along the edge of one that is computed
+  int pixel_edge = 1;        ///< display pixels along the edge of a computed pixel
 };
 
 struct Frame {
   calibration::Rig rig;  ///< screen, mirror, eyes, X_WP
   DisplayMode display = DisplayMode::mono;
   glm::ivec2 output_at_px{0};  ///< top left of the output on the panel, for interleaved displays
-  bool eyes_swapped = false;   ///< the display shows the left eye what is meant for the right one
+  bool eyes_swapped = false;   ///< the display shows the left image to the right eye
   ViewMode mode = ViewMode::iso;
   Layers layers;
   Quality quality;
   calibration::Pose<calibration::Patient, calibration::Tool> X_PT;          ///< the tool as drawn
-  calibration::Pose<calibration::Patient, calibration::Tool> X_PT_at_hand;  ///< where the hand is, for the ghost
+  calibration::Pose<calibration::Patient, calibration::Tool> X_PT_at_hand;  ///< the tool at the hand, for the ghost
   double bur_radius_mm = 2.0;
   assets::BurForm bur_form = assets::BurForm::round;  ///< for the outlines in the slices
   double bur_length_mm = 0.0;
-  double bur_angle_rad = 0.0;  ///< the bur turns while it drills
+  double bur_angle_rad = 0.0;  ///< rotation of the bur
   bool tool_visible = true;
-  calibration::Pose<calibration::Patient, calibration::OtherTool> X_PO;  ///< what the other hand holds
+  calibration::Pose<calibration::Patient, calibration::OtherTool> X_PO;  ///< the second instrument
   bool second_visible = false;
   double face_window_mm = 0.0;  ///< the face is cut away within this distance of the line eye-to-site; 0: never
   calibration::Point<calibration::Patient> site_P;

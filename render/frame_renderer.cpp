@@ -4,9 +4,7 @@
 #include <cassert>
 #include <string>
 
-#include "render/cpu/cpu_scene_renderer.h"
 #include "render/display/stereo_layout.h"
-#include "render/gl_scene_renderer.h"
 #include "render/gpu/gpu_error.h"
 #include "render/gpu/window_upload.h"
 #include "render/scene/mandibular_canal_tube.h"
@@ -15,7 +13,7 @@
 namespace render {
 namespace {
 
-Image turned(Image image, bool flip_x, bool flip_y) {
+Image flipped(Image image, bool flip_x, bool flip_y) {
   if (!flip_x && !flip_y) return image;
   Image result = image;
   for (int y = 0; y < image.h; ++y)
@@ -39,8 +37,8 @@ FrameRenderer::FrameRenderer(const assets::VolumeGrid& grid, std::span<const std
     return;
   }
   upload_ = std::make_unique<WindowUpload>();
-  scene_ = cpuSceneRenderer(fields_, options,
-                            [this](const Image& image, const WindowTarget& place) { upload_->show(image, place); });
+  scene_ = cpuSceneRenderer(
+      fields_, options, [this](const Image& image, const WindowTarget& target) { upload_->show(image, target); });
 }
 
 FrameRenderer::~FrameRenderer() = default;
@@ -67,11 +65,11 @@ Image FrameRenderer::slice(SlicePlane plane, const Frame& frame, int edge_px) co
   return slices_->image(plane, frame, fields_.solid(), edge_px);
 }
 
-// A column at the viewer's left, upright for the viewer however the panel hangs.
+// A column at the viewer's left, upright for the viewer however the panel is mounted.
 void FrameRenderer::updateInsets(const Frame& frame, glm::ivec2 eye_px) {
   std::vector<Inset> insets;
   if (frame.layers.slices && slices_) {
-    constexpr double kHeight = 0.3, kGap = 0.025;  // of the image's
+    constexpr double kHeight = 0.3, kGap = 0.025;  // of the image height
     const glm::dvec2 screen_px = frame.rig.screen.px;
     const glm::dvec2 per_height{eye_px.x * screen_px.y / screen_px.x, eye_px.y};
     const EyeView view = eyeView(frame.rig, Eye::cyclopean);
@@ -84,7 +82,7 @@ void FrameRenderer::updateInsets(const Frame& frame, glm::ivec2 eye_px) {
       inset.first_px.y += static_cast<int>(n) * inset.size_px.y;
       if (flip_x) inset.first_px.x = eye_px.x - inset.first_px.x - inset.size_px.x;
       if (flip_y) inset.first_px.y = eye_px.y - inset.first_px.y - inset.size_px.y;
-      inset.image = turned(slice(kSlicePlanes[n], frame, inset.size_px.y), flip_x, flip_y);
+      inset.image = flipped(slice(kSlicePlanes[n], frame, inset.size_px.y), flip_x, flip_y);
       insets.push_back(std::move(inset));
     }
   }
@@ -105,8 +103,8 @@ void FrameRenderer::render(const Frame& frame) {
                       .screen_px = frame.rig.screen.px,
                       .at_px = frame.output_at_px,
                       .swapped = frame.eyes_swapped};
-  const glm::ivec2 place_px = eyeImageSize(layout.mode, layout.screen_px);
-  const glm::ivec2 eye_px = glm::max((place_px + frame.quality.pixel_edge - 1) / frame.quality.pixel_edge, 1);
+  const glm::ivec2 full_px = eyeImageSize(layout.mode, layout.screen_px);
+  const glm::ivec2 eye_px = glm::max((full_px + frame.quality.pixel_edge - 1) / frame.quality.pixel_edge, 1);
   const bool mono = frame.display == DisplayMode::mono;
   const Eye left = mono ? Eye::cyclopean : Eye::left, right = mono ? Eye::cyclopean : Eye::right;
   scene_->prepare(frame, fields_.prepare());
@@ -128,8 +126,8 @@ void FrameRenderer::composeForBystander() {
                   kBystanderOutput);
 }
 
-void FrameRenderer::showOnWindow(const WindowTarget& place, int output) { scene_->showOnWindow(place, output); }
-void FrameRenderer::showBystander(const WindowTarget& place) { scene_->showOnWindow(place, kBystanderOutput); }
+void FrameRenderer::showOnWindow(const WindowTarget& target, int output) { scene_->showOnWindow(target, output); }
+void FrameRenderer::showBystander(const WindowTarget& target) { scene_->showOnWindow(target, kBystanderOutput); }
 Image FrameRenderer::readImage(int output) { return scene_->readImage(output); }
 Image FrameRenderer::readEye(Eye eye) {
   assert(drawn(eye).px.x > 0);

@@ -1,7 +1,7 @@
-// Draws frames: jaw, face, gingiva and instruments for each eye, then the image for the display. The one door to this
-// folder. But for Backend::cpu it needs a current OpenGL 4.5 context (OffscreenContext or Window) that outlives it.
-// Render thread only. Linear light throughout, sRGB once, when the display's image is composed.
-// Bricks given before render() are in both eyes of that very frame. Reading back waits for the GPU.
+// Draws frames: jaw, face, gingiva and instruments for each eye, then the image for the display. The public interface of
+// this folder. Needs a current OpenGL 4.5 context (OffscreenContext or Window) that outlives it, except for Backend::cpu.
+// Render thread only. Linear light throughout, encoded to sRGB once, when the output is composed.
+// Bricks given before render() are in both eyes of that frame. Reading back waits for the GPU.
 #pragma once
 
 #include <array>
@@ -32,12 +32,12 @@ class FrameRenderer {
                 std::span<const std::uint8_t> label, RenderOptions options = {});
   ~FrameRenderer();
 
-  /// Empty models remove what was drawn. Face and gingiva in P; the instrument in T, what the other hand holds in O.
+  /// An empty model removes the previous one. Face and gingiva in P, the instrument in T, the second instrument in O.
   void setFace(const assets::MeshModel& face_P);
   void setGingiva(const assets::MeshModel& gum_P);
   void setInstrument(const assets::MeshModel& instrument_T);
   void setSecondInstrument(const assets::MeshModel& instrument_O);
-  /// Canal and planned cut, shown as Frame::layers says.
+  /// Canal and planned cut, shown by Frame::layers.
   void setGuides(const Guides& guides);
   /// Grey values and canal for the CT slices, as scanned. Throws GpuError if they do not fit the volume.
   void setScan(CtScan scan);
@@ -47,20 +47,20 @@ class FrameRenderer {
   /// Draws the eyes that frame.display needs (mono: the cyclopean eye) and composes them, each output
   /// outputSize(frame.display, frame.rig.screen.px) large.
   void render(const Frame& frame);
-  /// Draws one eye alone at the full screen size, for readEye and readDistance.
+  /// Draws one eye at the full screen size, for readEye and readDistance.
   void renderEye(const Frame& frame, Eye eye);
 
-  /// A CT slice through the bur of `frame` and the bone as it is now; after setScan().
+  /// A CT slice through the bur of `frame` and the current bone; after setScan().
   Image slice(SlicePlane plane, const Frame& frame, int edge_px) const;
 
-  /// What was rendered last, from one eye, for showBystander: no second drawing, one pass over its pixels.
+  /// Composes one eye of the last rendered frame for showBystander, without drawing the scene again.
   void composeForBystander();
 
-  /// Scales an output into the current window: that of the renderer's context or of one that shares with it.
-  void showOnWindow(const WindowTarget& place, int output = 0);
-  void showBystander(const WindowTarget& place);
+  /// Scales an output into the current window, of the renderer's context or of one that shares with it.
+  void showOnWindow(const WindowTarget& target, int output = 0);
+  void showBystander(const WindowTarget& target);
   Image readImage(int output = 0);
-  /// The eye as last drawn; it must have been drawn.
+  /// The eye as last drawn; requires that it was drawn.
   Image readEye(Eye eye);
   DistanceImage readDistance(Eye eye);
 
@@ -70,21 +70,21 @@ class FrameRenderer {
  private:
   struct RenderedEye {
     Frame frame;
-    glm::ivec2 px{0};  ///< 0: it was not drawn
+    glm::ivec2 px{0};  ///< 0: not drawn yet
   };
   RenderedEye& drawn(Eye eye) { return eyes_[static_cast<std::size_t>(eye)]; }
   void updateInsets(const Frame& frame, glm::ivec2 eye_px);
   void drawEye(const Frame& frame, Eye eye, glm::ivec2 px);
 
   VolumeFields fields_;
-  std::unique_ptr<WindowUpload> upload_;  ///< of a back-end without OpenGL
+  std::unique_ptr<WindowUpload> upload_;  ///< for the CPU back-end
   std::unique_ptr<SceneRenderer> scene_;
   std::optional<CtSlices> slices_;
   std::array<RenderedEye, 3> eyes_;
   Eye composed_from_ = Eye::cyclopean;
 };
 
-/// OpenGL clip space from frame P, for those who want to know where a point of the patient lands in the image.
+/// OpenGL clip space from frame P, to project points of the patient into the image.
 glm::dmat4 clipFromPatient(const calibration::Rig& rig, const EyeView& view);
 
 }  // namespace render

@@ -1,4 +1,4 @@
-#include "render/gl_scene_renderer.h"
+#include "render/scene_renderer.h"
 
 #include <algorithm>
 #include <array>
@@ -25,7 +25,7 @@ namespace {
 constexpr std::array kSceneTargets{TexelFormat::rgba16f, TexelFormat::r32f};
 constexpr std::array kOutputTargets{TexelFormat::rgba8};
 
-// Rows from bottom first to top first.
+// Reverses the order of the rows.
 template <class T>
 std::vector<T> flipped(std::vector<T> rows, std::size_t row_length) {
   for (auto low = rows.begin(), high = rows.end(); high - low > static_cast<std::ptrdiff_t>(row_length);
@@ -36,9 +36,8 @@ std::vector<T> flipped(std::vector<T> rows, std::size_t row_length) {
   return rows;
 }
 
-// What a scene is drawn into.
 struct SceneTarget {
-  Framebuffer target, layer;  ///< layer: what the rays saw of the volume
+  Framebuffer target, layer;  ///< layer: the ray-cast volume
   FragmentLists clear;
 };
 
@@ -70,8 +69,8 @@ class GlSceneRenderer final : public SceneRenderer {
   void drawEye(const Frame& frame, Eye eye, glm::ivec2 px) override;
   void compose(const StereoLayout& layout, Eye left, Eye right, int output) override;
 
-  void showOnWindow(const WindowTarget& place, int output) override {
-    showImageOnWindow(outputs_[static_cast<std::size_t>(output)].colour(0), place);
+  void showOnWindow(const WindowTarget& target, int output) override {
+    showImageOnWindow(outputs_[static_cast<std::size_t>(output)].colour(0), target);
   }
   Image readImage(int output) override;
   DistanceImage readDistance(const Frame& frame, Eye eye) override;
@@ -86,7 +85,7 @@ class GlSceneRenderer final : public SceneRenderer {
   const VolumeFields& fields_;
   VolumeTexture volume_;
   RayCaster caster_;
-  std::optional<BoneMesh> bone_mesh_;  ///< from the first frame that shows it
+  std::optional<BoneMesh> bone_mesh_;  ///< from the first frame in ViewMode::mesh
   MeshPass meshes_;
   Program background_{"screen.vert", "background.frag"};
   UniformBlock<EyeBlock> eye_block_;
@@ -105,7 +104,7 @@ void GlSceneRenderer::drawEye(const Frame& frame, Eye eye, glm::ivec2 px) {
   const glm::ivec2 size = samples_ * px;
   drawScene(frame, eye, size, canvas);
   if (samples_ == 1 && frame.quality.antialias == Antialias::edges) {
-    // Silhouettes once more, finer.
+    // Silhouettes again, at 2x2 samples.
     edges_.find(canvas.target);
     drawScene(frame, eye, EDGE_SAMPLES * size, edge_samples_, Where::edges);
     edges_.average(edge_samples_.target, canvas.target);
@@ -137,8 +136,7 @@ void GlSceneRenderer::drawScene(const Frame& frame, Eye eye, glm::ivec2 size, Sc
     any_transparent = any_transparent || MeshPass::hasTransparent(models_[m], placements[m].opacity);
   if (any_transparent) canvas.clear.begin(target.size());
 
-  // Opaque meshes, and before the depth of bone and gingiva is known, what is seen through these; the volume between
-  // the meshes; then what lets it shine through.
+  // Opaque meshes; the overlays before the depth of bone and gingiva is written; the volume; transparent meshes.
   draw(kOutside, MeshPass::Parts::opaque);
   draw(kOverlay, MeshPass::Parts::transparent);
   draw(kInside, MeshPass::Parts::opaque);
@@ -170,7 +168,7 @@ DistanceImage GlSceneRenderer::readDistance(const Frame& frame, Eye eye) {
   const glm::ivec2 px = target->size() / samples_;
   SceneTarget centred;
   if (samples_ > 1) {
-    // Samples lie beside the pixel's centre, where the distance is asked for: draw it there.
+    // Samples do not lie at the pixel centre, where the distance is wanted: draw once more with one sample.
     drawScene(frame, eye, px, centred);
     target = &centred.target;
   }

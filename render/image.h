@@ -1,4 +1,4 @@
-// Pictures on the CPU: plain values, rows top first. Any thread.
+// Images on the CPU: plain values, rows top first. Any thread.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ struct Image {
   std::vector<std::uint8_t> rgba;  ///< sRGB, 4 bytes a pixel
 };
 
-/// Distance along the ray to what is seen, mm; 0 where nothing is hit.
+/// Distance along the ray to the drawn surface, mm; 0 where the ray hits nothing.
 struct DistanceImage {
   int w = 0, h = 0;
   std::vector<float> mm;

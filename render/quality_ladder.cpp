@@ -6,14 +6,14 @@
 namespace render {
 namespace {
 
-constexpr std::size_t kWindow = 9;            ///< frames whose median is believed: one hiccup changes nothing
-constexpr std::size_t kFarTooLateWindow = 3;  ///< are enough, if frames come that late
-constexpr double kFarTooLate = 2.5;           ///< of the budget: down at once, several steps
+constexpr std::size_t kWindow = 9;            ///< frames of the median, so that one slow frame changes nothing
+constexpr std::size_t kFarTooLateWindow = 3;  ///< frames of the median if they are far too late
+constexpr double kFarTooLate = 2.5;           ///< of the budget: down several steps
 constexpr double kLate = 1.05;                ///< of the budget: down
-constexpr double kEasy = 0.85;                ///< of the budget, expected of the better step: up
+constexpr double kEasy = 0.85;                ///< of the budget, predicted for the better step: up
 constexpr double kFirstClimbAfter_s = 2.0;
 constexpr double kLongestClimbAfter_s = 64.0;
-constexpr double kClimbProved_s = 10.0;  ///< a climb that lasted so long was right
+constexpr double kClimbProved_s = 10.0;  ///< a climb that lasted this long succeeded
 
 constexpr int kWorst = static_cast<int>(kQualitySteps.size()) - 1;
 
@@ -49,7 +49,7 @@ std::optional<int> QualityLadder::add(double frame_s, bool may_change) {
   if (!may_change) return std::nullopt;
 
   if (typical > kLate * budget_s_ && step_ < kWorst) {
-    // Down again soon after a climb: that climb was a mistake.
+    // Down again soon after a climb: the climb failed.
     if (since_climb_s_ < kClimbProved_s) climb_after_s_ = std::min(2.0 * climb_after_s_, kLongestClimbAfter_s);
     since_climb_s_ = 1e9;
     int to = step_ + 1;

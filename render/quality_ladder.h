@@ -1,8 +1,8 @@
-// Which quality a machine can keep up with: a ladder of steps, climbed and descended by measured frame times. Down soon
-// when frames come late, up slowly and only where the better step should still be in time; a climb that fails makes the
-// next one wait twice as long. Never changes while it must not (`may_change`): a image that turns in the middle of a
-// stroke distracts the hand. Fed with times, so it has no clock. Any one thread; a sort of a dozen numbers a frame.
-// Costs of steps relative to each other: reference/rendering 6 (shading) and 2a (step, size); what is measured decides.
+// Adapts the rendering quality to the machine: a ladder of steps, changed by measured frame times. Down quickly when
+// frames are late, up slowly and only if the better step is predicted to be in time; each failed climb doubles the wait
+// for the next. Does not change while `may_change` is false, since a change during a stroke distracts the user.
+// Has no clock: frame times are passed in. Any one thread; sorts nine numbers a frame.
+// Relative costs of the steps: reference/rendering 6 (shading) and 2a (step, size).
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ namespace render {
 struct QualityStep {
   std::string_view description;  ///< for the status line
   Quality quality;
-  double climb_cost;  ///< how many times the time the next better step takes
+  double climb_cost;  ///< frame time of the next better step relative to this one
 };
 
 /// Best first.
@@ -33,10 +33,10 @@ inline constexpr std::array<QualityStep, 7> kQualitySteps = {{
 
 class QualityLadder {
  public:
-  /// `budget_s`: how long a frame may take to draw. Starts at `first_step`.
+  /// `budget_s`: longest drawing time of a frame. Starts at `first_step`.
   explicit QualityLadder(double budget_s, int first_step = 0);
 
-  /// After each frame: how long it took to draw, and whether the quality may change now. The new step, if it did.
+  /// After each frame: its drawing time, and whether the quality may change now. Returns the new step if it changed.
   std::optional<int> add(double frame_s, bool may_change);
 
   int step() const { return step_; }
@@ -50,8 +50,8 @@ class QualityLadder {
   double budget_s_;
   int step_;
   std::deque<double> recent_s_;
-  double calm_s_ = 0.0;   ///< since when a better step would have been in time
-  double climb_after_s_;  ///< so much calm is asked for
+  double calm_s_ = 0.0;   ///< how long a better step would have been in time
+  double climb_after_s_;  ///< calm_s_ required for the next climb
   double since_climb_s_ = 1e9;
 };
 

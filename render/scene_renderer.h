@@ -1,8 +1,10 @@
-// What stands behind FrameRenderer: one way of drawing the scene, in OpenGL (gl_scene_renderer) or on the CPU
-// (cpu_scene_renderer). Both draw the same image from the same values; the GLSL in render/shaders is the
-// specification. The fields of the volume are borrowed from FrameRenderer. Render thread. Errors: GpuError.
+// Interface of a back-end that draws the scene for FrameRenderer: OpenGL 4.5 (gl_scene_renderer.cpp) or CPU
+// (cpu/cpu_scene_renderer.cpp). Both produce the same image; the GLSL in render/shaders is the specification.
+// The volume fields are borrowed from FrameRenderer. Render thread. Errors: GpuError.
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <vector>
 
 #include "assets/mesh.h"
@@ -11,19 +13,20 @@
 #include "render/frame.h"
 #include "render/gpu/window_target.h"
 #include "render/image.h"
+#include "render/render_options.h"
 #include "render/scene/models.h"
 #include "render/volume/guide_field.h"
 #include "render/volume/volume_fields.h"
 
 namespace render {
 
-/// Besides the one or two of the display: what those see who stand by, and an eye that is read alone.
+/// Outputs after the one or two of the display: the bystanders' view, and an eye that is read back alone.
 inline constexpr int kBystanderOutput = 2, kEyeOutput = 3, kOutputs = 4;
 
-/// A small image laid over every eye at one place, so that it lies on the screen itself.
+/// A small image blended over every eye at the same position, so that it lies in the screen plane.
 struct Inset {
   Image image;
-  glm::ivec2 first_px{0}, size_px{0};  ///< of the eye's image, from its top left
+  glm::ivec2 first_px{0}, size_px{0};  ///< in the eye's image, from its top left
 };
 
 class SceneRenderer {
@@ -33,26 +36,37 @@ class SceneRenderer {
   SceneRenderer& operator=(const SceneRenderer&) = delete;
   virtual ~SceneRenderer() = default;
 
-  /// An empty mesh removes what was drawn.
+  /// An empty mesh removes the model.
   virtual void setModel(Model model, const assets::MeshModel& mesh) = 0;
   virtual void setGuides(GuideField guides) = 0;
-  /// Laid over the eyes that are drawn from now on.
+  /// For the eyes drawn from now on.
   virtual void setInsets(std::vector<Inset> insets) = 0;
 
-  /// Once per frame, before its eyes: what was carved since becomes drawable.
+  /// Once per frame, before its eyes: takes over the changes of the fields.
   virtual void prepare(const Frame& frame, const FieldChanges& changes) = 0;
   /// One eye, in linear light, `px` large; kept until it is drawn again.
   virtual void drawEye(const Frame& frame, Eye eye, glm::ivec2 px) = 0;
-  /// Two drawn eyes become an output, sRGB (display/stereo_layout.h); mono shows `left`. Eyes drawn smaller than
-  /// eyeImageSize() are stretched bilinearly.
+  /// Composes two drawn eyes into an sRGB output (display/stereo_layout.h); mono shows `left`. Eyes smaller than
+  /// eyeImageSize() are scaled bilinearly.
   virtual void compose(const StereoLayout& layout, Eye left, Eye right, int output) = 0;
 
-  /// Scales an output into the current window; the context may be one that shares with the renderer's.
-  virtual void showOnWindow(const WindowTarget& place, int output) = 0;
+  /// Scales an output into the current window; its context may be one that shares with the renderer's.
+  virtual void showOnWindow(const WindowTarget& target, int output) = 0;
   virtual Image readImage(int output) = 0;
-  /// `frame`: as the eye was drawn last.
+  /// `frame`: the one the eye was last drawn with.
   virtual DistanceImage readDistance(const Frame& frame, Eye eye) = 0;
   virtual void throwIfError() = 0;
 };
+
+/// Needs a current OpenGL 4.5 context that outlives it. Throws GpuError.
+std::unique_ptr<SceneRenderer> glSceneRenderer(const VolumeFields& fields, const RenderOptions& options);
+
+/// Copies an image into the current window.
+using ShowImage = std::function<void(const Image& image, const WindowTarget& target)>;
+
+/// Without OpenGL: rays in tiles of 16x16 pixels over threads; within 2/255 of the OpenGL back-end except at edges, and
+/// bit-identical for any number of threads. `show` is supplied by the owner of OpenGL. Throws GpuError.
+std::unique_ptr<SceneRenderer> cpuSceneRenderer(const VolumeFields& fields, const RenderOptions& options,
+                                                ShowImage show);
 
 }  // namespace render

@@ -1,4 +1,4 @@
-#include "render/cpu/cpu_scene_renderer.h"
+#include "render/scene_renderer.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
