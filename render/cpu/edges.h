@@ -1,5 +1,5 @@
 // Finds the pixels that antialiasing draws again: where the distance differs from a neighbour's by more than the slope
-// of a surface explains. Twin of shaders/edge_rule.glsl; at the border of the image the missing neighbour goes
+// of a surface explains. Twin of shaders/edge_mask.frag; at the border of the image the missing neighbour goes
 // straight on. Any thread; about 2 ns a pixel.
 #pragma once
 

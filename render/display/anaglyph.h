@@ -1,5 +1,5 @@
-// Both eyes in one image for red-cyan glasses, the red filter before the left eye. Linear light in 0..1 in and out;
-// the twin of shaders/stereo_layout.glsl's. Any thread; pure. Source of the numbers: shaders/anaglyph_constants.glsl.
+// Both eyes in one image for red-cyan glasses, the red filter on the left eye. Linear light in 0..1 in and out; twin of
+// shaders/stereo_layout.glsl. Any thread; pure. Source of the coefficients: shaders/anaglyph_constants.glsl.
 #pragma once
 
 #include <glm/glm.hpp>

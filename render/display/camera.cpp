@@ -16,8 +16,7 @@ calibration::Rig cameraRig(const Camera& camera, glm::ivec2 px) {
       !std::isfinite(distance_mm) || px.x < 1 || px.y < 1)
     throw GpuError(
         "camera without a view, eye_mm/look_at_mm/up/fov_y_deg: eye and target must differ, up must not point along "
-        "the "
-        "view, the angle must lie between 0 and 180 degrees");
+        "the view, the angle must lie between 0 and 180 degrees");
 
   // Axes of W in P.
   const glm::dvec3 z = back / distance_mm, x = glm::normalize(side), y = glm::cross(z, x);

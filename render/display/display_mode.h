@@ -1,4 +1,4 @@
-// How the two eyes' images reach the two eyes: what kind of display it is, and the words people type for it.
+// The display modes: how the two eyes' images reach the two eyes, and the names of the modes on the command line.
 // Plain values; any thread.
 #pragma once
 
@@ -6,27 +6,29 @@
 #include <optional>
 #include <string_view>
 
+#include "render/shaders/shared_constants.glsl"
+
 namespace render {
 
 enum class DisplayMode {
-  mono,               ///< one image, from between the eyes
-  quad_buffer,        ///< left and right back buffer of one window; the driver and the glasses do the rest
-  two_windows,        ///< a window an eye, on two monitors or projectors
-  side_by_side,       ///< half: both eyes share the width, the display stretches each
-  side_by_side_full,  ///< each eye at full size, the output is twice as wide
-  top_bottom,         ///< half: both eyes share the height
-  top_bottom_full,    ///< each eye at full size, the output is twice as high
-  frame_packing,      ///< HDMI 1.4a: left above right, blank lines between
-  row_interleaved,
-  column_interleaved,
-  checkerboard,
-  anaglyph,           ///< red-cyan glasses, least-squares colours (anaglyph.h)
-  anaglyph_red_cyan,  ///< red-cyan glasses, plain channels: full colour, more rivalry
+  mono = DISPLAY_MONO,                            ///< one image, from between the eyes
+  quad_buffer = DISPLAY_QUAD_BUFFER,              ///< left and right back buffer of one window, shown by the driver
+  two_windows = DISPLAY_TWO_WINDOWS,              ///< a window per eye, on two monitors or projectors
+  side_by_side = DISPLAY_SIDE_BY_SIDE,            ///< half: both eyes share the width, the display stretches each
+  side_by_side_full = DISPLAY_SIDE_BY_SIDE_FULL,  ///< each eye at full size, the output is twice as wide
+  top_bottom = DISPLAY_TOP_BOTTOM,                ///< half: both eyes share the height
+  top_bottom_full = DISPLAY_TOP_BOTTOM_FULL,      ///< each eye at full size, the output is twice as high
+  frame_packing = DISPLAY_FRAME_PACKING,          ///< HDMI 1.4a: left above right, blank lines between
+  row_interleaved = DISPLAY_ROW_INTERLEAVED,
+  column_interleaved = DISPLAY_COLUMN_INTERLEAVED,
+  checkerboard = DISPLAY_CHECKERBOARD,
+  anaglyph = DISPLAY_ANAGLYPH,                    ///< red-cyan glasses, least-squares colours (anaglyph.h)
+  anaglyph_red_cyan = DISPLAY_ANAGLYPH_RED_CYAN,  ///< red-cyan glasses, plain channels: full colour, more rivalry
 };
 
 struct DisplayModeName {
   DisplayMode mode;
-  std::string_view name;  ///< as people type it
+  std::string_view name;  ///< on the command line
 };
 
 inline constexpr std::array<DisplayModeName, 13> kDisplayModes = {{

@@ -1,8 +1,8 @@
-// What one eye sees through the screen: generalised off-axis projection with the panel reflected in the mirror.
-// With a mirror the basis of the virtual screen is left-handed; that is the whole flip, whichever way the panel hangs.
+// View of one eye through the screen: generalised off-axis projection, with the panel reflected in the mirror.
+// With a mirror the basis of the virtual screen is left-handed; nothing else is flipped, however the panel is mounted.
 // Eyes are never reflected, so the left eye stays the left eye. Frame W, mm. Any thread; pure.
-// Formula: Kooima, "Generalized Perspective Projection" (2009), with the reflected corners and the screen's normal
-// taken towards the eye.
+// Formula: Kooima, "Generalized Perspective Projection" (2009), with the reflected corners and the screen normal
+// towards the eye.
 #pragma once
 
 #include "calibration/geometry/pose.h"
@@ -16,12 +16,12 @@ struct EyeView {
   glm::dmat4 clip_from_W{1.0};  ///< OpenGL clip space, z from -1 (near) to 1 (far)
   calibration::Point<calibration::World> eye_W;
   calibration::Point<calibration::World> lower_left_W;   ///< of the image on the virtual screen
-  calibration::Vector<calibration::World> right_edge_W;  ///< along a row of the image, its full width
-  calibration::Vector<calibration::World> up_edge_W;     ///< along a column, its full height
-  bool mirrored = false;                                 ///< left-handed: front faces turn clockwise in the image
+  calibration::Vector<calibration::World> right_edge_W;  ///< along a row of the image, full width
+  calibration::Vector<calibration::World> up_edge_W;     ///< along a column, full height
+  bool mirrored = false;                                 ///< left-handed: front faces are clockwise in the image
 };
 
-/// Near and far plane, in distances from the eye to the screen.
+/// Near and far plane, in eye-to-screen distances.
 inline constexpr double kNearOfScreen = 0.1, kFarOfScreen = 20.0;
 
 EyeView eyeView(const calibration::Rig& rig, Eye eye);

@@ -1,5 +1,5 @@
-// The output pass: the eyes' linear images become what the display is given, sRGB-encoded once. Which eye a pixel
-// shows: stereo_layout.h. Render thread.
+// The output pass: the eyes' linear images become the display's image, sRGB-encoded once. Which eye a pixel shows:
+// stereo_layout.h. Render thread.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -13,7 +13,7 @@ namespace render {
 
 /// std140 twin of output.frag's block.
 struct OutputBlock {
-  glm::ivec4 mode{0}, place{0}, eye{0};
+  glm::ivec4 mode{0}, output_px{0}, eye{0};
 };
 
 class StereoCompositor {

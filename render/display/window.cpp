@@ -30,8 +30,8 @@ MouseButton heldButton(GLFWwindow* window) {
   return MouseButton::none;
 }
 
-// Last complaint of GLFW, as one line.
-std::string complaint() {
+// Last error message of GLFW, one line.
+std::string lastError() {
   const char* text = nullptr;
   glfwGetError(&text);
   return text != nullptr ? text : "no reason given";
@@ -39,10 +39,10 @@ std::string complaint() {
 
 void startLibrary() {
   if (glfwInit() != GLFW_TRUE)
-    throw GpuError("no window, display: " + complaint() + "; start a desktop session or use --headless");
+    throw GpuError("no window, display: " + lastError() + "; start a desktop session or use --headless");
 }
 
-// The monitor asked for, or the primary one for a full screen; none: the window system chooses.
+// The requested monitor, or the primary one for a full screen; null: the window system chooses.
 GLFWmonitor* monitorFor(const Window::Options& options) {
   int count = 0;
   GLFWmonitor** const all = glfwGetMonitors(&count);
@@ -62,20 +62,20 @@ struct Window::Impl {
   GLFWmonitor* panel() const;
 
   GLFWwindow* window = nullptr;
-  bool owns_library = true;  ///< the first window, which the others are share_with
+  bool owns_library = true;  ///< the first window, with which the others share
   std::vector<WindowEvent> events;
   glm::dvec2 pointer_px{0.0};
 };
 
 Window::Impl::Impl(const Options& options) : owns_library(options.share_with == nullptr) {
   startLibrary();
-  // The library stays started: the next best window is opened with it.
+  // GLFW stays initialised on failure: the caller tries another window.
   const auto refuse = [&](const std::string& what, const std::string& to_do) {
-    throw GpuError(what + ", display: " + complaint() + "; " + to_do);
+    throw GpuError(what + ", display: " + lastError() + "; " + to_do);
   };
   GLFWmonitor* const monitor = monitorFor(options);
   if (options.monitor && monitor == nullptr)
-    refuse("monitor " + std::to_string(*options.monitor + 1) + " is not there", "connect it or choose another");
+    refuse("monitor " + std::to_string(*options.monitor + 1) + " is not connected", "connect it or choose another");
   const GLFWvidmode* const desktop = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
   glm::ivec2 size = options.size_px;
   if (options.full_screen && desktop != nullptr) size = {desktop->width, desktop->height};
@@ -88,14 +88,14 @@ Window::Impl::Impl(const Options& options) : owns_library(options.share_with == 
   glfwWindowHint(GLFW_VISIBLE, options.visible ? GLFW_TRUE : GLFW_FALSE);
   glfwWindowHint(GLFW_FOCUSED, options.focused ? GLFW_TRUE : GLFW_FALSE);
   glfwWindowHint(GLFW_FOCUS_ON_SHOW, options.focused ? GLFW_TRUE : GLFW_FALSE);
-  glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);  // two full screens: the one without the keyboard stays
+  glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);   // with two full screens, the one without focus stays
   glfwWindowHint(GLFW_STEREO, options.quad_buffer ? GLFW_TRUE : GLFW_FALSE);
   GLFWwindow* const shared = options.share_with != nullptr ? options.share_with->impl_->window : nullptr;
   window = glfwCreateWindow(size.x, size.y, options.title.c_str(), options.full_screen ? monitor : nullptr, shared);
   if (window == nullptr && options.quad_buffer)
     refuse("no quad-buffered stereo", "it needs GLX and a professional graphics card with stereo enabled");
   if (window == nullptr) {
-    // Not every driver can tell when it was reset.
+    // Not every driver supports reset notification.
     glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_NO_ROBUSTNESS);
     window = glfwCreateWindow(size.x, size.y, options.title.c_str(), options.full_screen ? monitor : nullptr, shared);
   }
@@ -145,7 +145,7 @@ glm::dvec2 Window::Impl::framebufferScale() const {
   return glm::dvec2(pixels) / glm::dvec2(glm::max(inside, glm::ivec2(1)));
 }
 
-// GLFW's callbacks become events in the order they come.
+// Queues GLFW's callbacks as events.
 void Window::Impl::listen() {
   glfwSetWindowUserPointer(window, this);
   glfwGetCursorPos(window, &pointer_px.x, &pointer_px.y);

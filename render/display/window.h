@@ -1,8 +1,8 @@
-// A window with an OpenGL 4.5 core context, and what the user does in it as plain values. GLFW inside.
+// A window with an OpenGL 4.5 core context, and its input as plain values. GLFW inside. Main thread only.
 // Its context is current on the constructing thread from construction on, or after makeCurrent(). A second window may
-// share textures with a first one, which must outlive it; framebuffers are never shared. Main thread only.
+// share textures with a first one, which must outlive it; framebuffers are never shared.
 // Positions in px of the framebuffer from its top left.
-// Quad-buffered stereo is asked of GLX; drivers without it refuse the window (GLFW error 0x10009), which is thrown.
+// Quad-buffered stereo is requested from GLX; drivers without it refuse the window (GLFW error 0x10009), which is thrown.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -14,7 +14,7 @@
 
 namespace render {
 
-/// Printable keys are their upper-case ASCII letter; the rest are named here.
+/// Printable keys have the value of their upper-case ASCII letter.
 enum class Key : int {
   unknown = -1,
   space = 32,
@@ -40,7 +40,7 @@ constexpr Key keyOf(char upper_case) { return static_cast<Key>(upper_case); }
 
 enum class MouseButton { none, left, right, middle };
 
-/// The pointer moved; `button` is the one held down, for dragging.
+/// `button` is the one held down, for dragging.
 struct PointerMoved {
   glm::dvec2 to_px{0.0}, by_px{0.0};
   MouseButton button = MouseButton::none;
@@ -49,7 +49,7 @@ struct ButtonPressed {
   MouseButton button = MouseButton::none;
   bool down = false;
 };
-/// Notches away from the user.
+/// Notches, positive away from the user.
 struct WheelTurned {
   double notches = 0.0;
 };
@@ -78,32 +78,31 @@ class Window {
     std::string title = "Molar";
     glm::ivec2 size_px{1280, 800};
     bool full_screen = false;
-    std::optional<int> monitor =
-        std::nullopt;              ///< to be on, index of monitors(); full screen without it: the primary one
+    std::optional<int> monitor = {};  ///< index of monitors(); full screen without it: the primary one
     bool wait_for_refresh = true;  ///< vsync
     bool visible = true;
-    bool focused = true;                 ///< takes the keyboard when it opens
-    bool quad_buffer = false;            ///< left and right back buffers
+    bool focused = true;             ///< takes the keyboard focus when it opens
+    bool quad_buffer = false;        ///< left and right back buffers
     const Window* share_with = nullptr;  ///< shares textures with it
   };
 
-  /// Throws GpuError without display, without OpenGL 4.5, without the stereo asked for or the monitor.
+  /// Throws GpuError without a display, without OpenGL 4.5, without the requested stereo or monitor.
   explicit Window(const Options& options);
   ~Window();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
-  /// Drawing goes to this window from now on.
+  /// Makes its context current.
   void makeCurrent();
-  /// What happened since the last call, in order.
+  /// Events since the last call, in order.
   std::vector<WindowEvent> takeEvents();
-  /// Shows what was drawn into the window's framebuffer. Its context must be current.
+  /// Swaps buffers. Its context must be current.
   void present();
   void setTitle(const std::string& title);
   glm::ivec2 framebufferSize_px() const;
-  /// Top left of the framebuffer on the panel that shows most of it, px of the panel.
+  /// Top left of the framebuffer on the panel that shows most of it, px from the panel's top left.
   glm::ivec2 positionOnPanel_px() const;
-  /// Of that panel.
+  /// Refresh rate of that panel.
   double refresh_Hz() const;
 
  private:

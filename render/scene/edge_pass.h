@@ -1,7 +1,6 @@
-// Antialiasing where it shows: finds the pixels at silhouettes by the image's distances (edge_rule.glsl), lets the
-// scene be drawn again with 2x2 samples there and nowhere else, and gives those pixels the mean as the display shows
-// it. All other pixels stay as they are, bit for bit. Render thread. Cost: three passes without rays, and the rays and
-// triangles of the edges (render/README.md).
+// Antialiasing of silhouettes: marks edge pixels by the image's distances (edge_mask.frag), lets the scene be drawn again
+// with 2x2 samples in those pixels only, and writes their means back. All other pixels keep their bits. Render thread.
+// Cost: three passes without rays, plus the rays and triangles of the edges.
 #pragma once
 
 #include "render/gpu/framebuffer.h"
@@ -11,11 +10,11 @@ namespace render {
 
 class EdgePass {
  public:
-  /// Of a image whose distances are drawn.
+  /// Marks the edges of an image whose distances are drawn.
   void find(const Framebuffer& image);
-  /// After find(): bars everything but the edges in the cleared `samples`, 2x2 samples to a pixel.
+  /// After find(): rejects by depth all but the edges in the cleared `samples`, 2x2 samples to a pixel.
   void rejectInterior(const Framebuffer& samples);
-  /// Once the scene is drawn into `samples`: brings their means to the image.
+  /// After drawing the scene into `samples`: writes their means to the edge pixels of the image.
   void average(const Framebuffer& samples, const Framebuffer& image);
 
  private:

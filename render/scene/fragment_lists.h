@@ -1,6 +1,6 @@
-// Transparent parts of meshes in the exact order of every pixel: each draws into the list of its pixel, then all lists
-// are sorted and laid over the image at once. The sixteen nearest of a pixel count. Render thread. Memory: 64 bytes a
-// pixel from the first transparent part on, at most 128 MiB; what does not fit is left out.
+// Transparent parts of meshes in exact order per pixel: each fragment is added to the linked list of its pixel, then all
+// lists are sorted and blended over the image at once. The sixteen nearest fragments of a pixel count. Render thread.
+// Memory: 64 bytes a pixel from the first transparent part on, at most 128 MiB; fragments beyond that are dropped.
 #pragma once
 
 #include <optional>
@@ -13,9 +13,9 @@ namespace render {
 
 class FragmentLists {
  public:
-  /// Empty lists for a image of that size, bound for mesh_transparent.frag.
+  /// Empties the lists, for images of `size`, and binds them for mesh_transparent.frag.
   void begin(glm::ivec2 size);
-  /// Lays them over the image's colour.
+  /// Blends them over the colour of the image.
   void blendOver(const Framebuffer& image);
 
  private:

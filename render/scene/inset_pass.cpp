@@ -7,7 +7,7 @@ namespace render {
 
 Texture InsetPass::uploaded(const Image& image) {
   Texture texture = Texture::image({image.w, image.h}, TexelFormat::rgba8);
-  texture.uploadImage(std::as_bytes(std::span(image.rgba)));  // top first: the shader is_bur it over
+  texture.uploadImage(std::as_bytes(std::span(image.rgba)));  // top row first: the shader flips it
   return texture;
 }
 

@@ -1,5 +1,5 @@
-// Lays small images over an eye's light, so that the display shows them as they are: their sRGB goes back to light,
-// and through the shoulder. Render thread; a textured rectangle each. Distances stay those of the scene.
+// Draws small images over an eye's linear light so that the output pass reproduces them exactly: their sRGB is decoded and
+// passed through the inverse shoulder. Render thread; a textured rectangle each. Distances stay those of the scene.
 #pragma once
 
 #include <span>
@@ -14,11 +14,11 @@ class InsetPass {
  public:
   struct GpuInset {
     Texture image;
-    glm::ivec2 first_px{0}, size_px{0};  ///< of the eye's image, from its top left
+    glm::ivec2 first_px{0}, size_px{0};  ///< in the eye's image, from its top left
   };
 
   static Texture uploaded(const Image& image);
-  /// `samples`: of the target along each edge of the eye's pixels.
+  /// `samples`: samples of the target along each edge of the eye's pixels.
   void draw(std::span<const GpuInset> insets, const Framebuffer& target, int samples);
 
  private:

@@ -7,9 +7,9 @@ namespace render {
 namespace {
 
 constexpr std::uint32_t kSides = 24;
-constexpr glm::vec4 kColour{0.90f, 0.36f, 0.05f, 1.0f};  // of the nerve in planning images
+constexpr glm::vec4 kColour{0.90f, 0.36f, 0.05f, 1.0f};  // customary for the nerve in planning software
 
-glm::dvec3 squareTo(const glm::dvec3& along) {
+glm::dvec3 perpendicularTo(const glm::dvec3& along) {
   const glm::dvec3 other = std::abs(along.z) < 0.8 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
   return glm::normalize(glm::cross(along, other));
 }
@@ -17,7 +17,7 @@ glm::dvec3 squareTo(const glm::dvec3& along) {
 }  // namespace
 
 assets::MeshModel mandibularCanalTube(std::span<const glm::dvec3> line_P_mm, double radius_mm) {
-  // Places that do not stand on each other.
+  // Points that do not coincide.
   std::vector<glm::dvec3> line;
   for (const glm::dvec3& p : line_P_mm)
     if (line.empty() || glm::distance(p, line.back()) > 1e-6) line.push_back(p);
@@ -26,14 +26,14 @@ assets::MeshModel mandibularCanalTube(std::span<const glm::dvec3> line_P_mm, dou
   assets::MeshPart part;
   part.name = "Mandibular canal";
   part.material = {.base_colour = kColour, .roughness = 0.45f};
-  glm::dvec3 side = squareTo(glm::normalize(line[1] - line[0]));
+  glm::dvec3 side = perpendicularTo(glm::normalize(line[1] - line[0]));
   const auto ring = [&](const glm::dvec3& centre, const glm::dvec3& along, double radius, double lean) {
-    // The side is carried along without turning about the line.
+    // The side is transported along the line without rotating about it.
     side = glm::normalize(side - glm::dot(side, along) * along);
     const glm::dvec3 other = glm::cross(along, side);
     for (std::uint32_t s = 0; s < kSides; ++s) {
-      const double turn = 2.0 * M_PI * s / kSides;
-      const glm::dvec3 out = std::cos(turn) * side + std::sin(turn) * other;
+      const double angle = 2.0 * M_PI * s / kSides;
+      const glm::dvec3 out = std::cos(angle) * side + std::sin(angle) * other;
       part.position_mm.emplace_back(centre + radius * out);
       part.normal.emplace_back(glm::normalize((1.0 - std::abs(lean)) * out + lean * along));
     }

@@ -8,7 +8,7 @@
 
 namespace render {
 
-/// Empty for fewer than two places.
+/// Empty for fewer than two distinct points.
 assets::MeshModel mandibularCanalTube(std::span<const glm::dvec3> line_P_mm, double radius_mm);
 
 }  // namespace render

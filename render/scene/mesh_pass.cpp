@@ -41,7 +41,7 @@ void MeshPass::draw(const SceneMesh& mesh, Parts parts, const Placement& placeme
          .write_distance = !transparent});
   if (transparent && !transparent_parts_) transparent_parts_ = Program{"mesh.vert", "mesh_transparent.frag"};
   (transparent ? *transparent_parts_ : opaque_).use();
-  const glm::dmat4 turned =
+  const glm::dmat4 rotated =
       placement.P_from_mesh * glm::rotate(glm::dmat4(1.0), placement.bur_angle_rad, glm::dvec3(0.0, 0.0, 1.0));
   for (const SceneMesh::Part& part : mesh.parts_) {
     glm::vec4 colour = part.material.base_colour;
@@ -49,7 +49,7 @@ void MeshPass::draw(const SceneMesh& mesh, Parts parts, const Placement& placeme
     if ((colour.a < 1.0f) != transparent) continue;
     const float is_cut = mesh.finish_ == Finish::skin && part.material.metallic < 0.5f ? 1.0f : 0.0f;
     block_.set(PART_BLOCK,
-               {.P_from_mesh = glm::mat4(part.is_bur ? turned : placement.P_from_mesh),
+               {.P_from_mesh = glm::mat4(part.is_bur ? rotated : placement.P_from_mesh),
                 .base_colour = colour,
                 .finish = {part.material.roughness, part.material.metallic, static_cast<float>(mesh.finish_), is_cut}});
     part.triangles.draw();

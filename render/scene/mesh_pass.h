@@ -1,7 +1,6 @@
-// Draws triangle meshes: face, gingiva, instrument. Frame P by a rigid pose given per draw. Render thread.
-// Opaque parts write depth and distance and come before the volume; transparent parts come after it, into
-// FragmentLists. Parts of the face, but for metal (a retractor), open around the line from the eyes to the operating
-// site (EyeBlock). Nothing here is felt.
+// Draws triangle meshes: face, gingiva, instruments. Each draw has a rigid pose into frame P. Render thread.
+// Opaque parts write depth and distance and come before the volume; transparent parts come after it, into FragmentLists.
+// Parts of the face, except metal (a retractor), are cut away around the line from the eyes to the site (EyeBlock).
 #pragma once
 
 #include <glm/glm.hpp>
@@ -23,7 +22,7 @@ struct PartBlock {
 };
 static_assert(sizeof(PartBlock) == 96);
 
-/// A model on the GPU. A part named "Bur" is_bur about the mesh's z axis.
+/// A model on the GPU. A part named "Bur" rotates about the mesh's z axis.
 class SceneMesh {
  public:
   SceneMesh() = default;

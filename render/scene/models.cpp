@@ -3,9 +3,9 @@
 namespace render {
 namespace {
 
-constexpr float kMandibularCanalThrough = 0.45f;  // the canal through what covers it
+constexpr float kMandibularCanalOverlay = 0.45f;  // opacity of the canal seen through bone
 
-// The tool at the hand: comes up as the hand leaves the tool that the bone holds, from 0.1 to 0.5 mm.
+// The ghost tool fades in as the hand moves 0.1 to 0.5 mm away from the tool held by the bone.
 float ghostOpacity(const Frame& frame) {
   constexpr double kMost = 0.4, kFrom_mm = 0.1, kFull_mm = 0.5;
   if (!frame.tool_visible || !frame.layers.ghost_tool) return 0.0f;
@@ -23,7 +23,7 @@ Placements placementsIn(const Frame& frame) {
             {frame.X_PT.matrix(), frame.bur_angle_rad, shown(frame.tool_visible)},
             {.P_from_mesh = frame.X_PO.matrix(), .opacity = shown(frame.second_visible)},
             {.opacity = shown(layers.mandibular_canal)},
-            {.opacity = layers.mandibular_canal ? kMandibularCanalThrough : 0.0f},
+            {.opacity = layers.mandibular_canal ? kMandibularCanalOverlay : 0.0f},
             {frame.X_PT_at_hand.matrix(), frame.bur_angle_rad, ghostOpacity(frame)}}}};
 }
 

@@ -1,5 +1,5 @@
-// The meshes of a scene: how each is shaded, and for every frame where it is and how much of it is seen. The one answer
-// for all back-ends. Frame P, mm. Any thread; pure.
+// The meshes of a scene: how each is shaded, and its pose and opacity in a frame. Shared by all back-ends.
+// Frame P, mm. Any thread; pure.
 #pragma once
 
 #include <array>
@@ -9,18 +9,13 @@
 
 namespace render {
 
-/// `mandibular_canal` where it lies open and, `_through`, through bone and gingiva; `ghost`: the instrument at the
-/// hand, likewise.
+/// `mandibular_canal`: where it is visible. `mandibular_canal_overlay`: seen through bone and gingiva. `ghost`: the
+/// instrument at the hand, seen through them too.
 enum class Model { face, gingiva, instrument, second_instrument, mandibular_canal, mandibular_canal_overlay, ghost };
 inline constexpr std::size_t kModels = 7;
 
-/// How the surface of a mesh is shaded. The numbers are those of the shaders.
-enum class Finish {
-  skin = FINISH_SKIN,
-  gingiva = FINISH_GINGIVA,
-  instrument = FINISH_INSTRUMENT,
-  guide = FINISH_GUIDE
-};
+/// How the surface of a mesh is shaded. The values are those of the shaders.
+enum class Finish { skin = FINISH_SKIN, gingiva = FINISH_GINGIVA, instrument = FINISH_INSTRUMENT, guide = FINISH_GUIDE };
 
 constexpr Finish finishOf(Model model) {
   constexpr std::array<Finish, kModels> kFinish{Finish::skin,  Finish::gingiva, Finish::instrument, Finish::instrument,
@@ -31,7 +26,7 @@ constexpr Finish finishOf(Model model) {
 struct Placement {
   glm::dmat4 P_from_mesh{1.0};
   double bur_angle_rad = 0.0;  ///< of the part "Bur", about the mesh's z axis
-  float opacity = 1.0f;        ///< of the whole model, besides that of its parts; 0: not seen
+  float opacity = 1.0f;        ///< of the whole model, multiplied with that of its parts; 0: hidden
 };
 
 struct Placements : std::array<Placement, kModels> {

@@ -1,5 +1,5 @@
 #version 450
-// The dark theatre behind everything: a neutral gradient fixed to the room, not to the screen.
+// The dark operating theatre: a neutral gradient fixed to the room, not to the screen.
 #include "eye_block.glsl"
 #include "light_constants.glsl"
 

@@ -1,3 +1,3 @@
 #version 450
-// Depth alone: which triangles are seen, before any of them is lit.
+// Depth only, so that each visible triangle is lit once.
 void main() {}

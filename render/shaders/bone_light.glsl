@@ -1,5 +1,4 @@
-// The light that a place on the surface of tooth and bone sends back against a direction: the same for rays and
-// triangles.
+// Light reflected by a point of the bone surface against a ray direction, for rays and triangles.
 #include "ray_cast.glsl"
 #include "tissue_appearance.glsl"
 #include "occlusion.glsl"

@@ -1,5 +1,5 @@
 #version 450
-// Tooth and bone as triangles: where they lie, the appearance and light of the ray-cast surface.
+// Tooth and bone as triangles, shaded as the ray-cast surface at the same points.
 #include "bone_light.glsl"
 
 layout(location = 0) in vec3 p_P;

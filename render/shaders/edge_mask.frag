@@ -1,12 +1,20 @@
 #version 450
-// 1 where antialiasing draws the pixel again. At the border of the image the missing neighbour counts as straight on.
+// 1 where antialiasing draws the pixel again with 2x2 samples. The inverse distance of a plane is linear in the image, so
+// the second difference is zero for any slope and large at a step; at the image border it is taken as zero.
+// Twin: render/cpu/edges.h.
 #include "shared_constants.glsl"
-#include "edge_rule.glsl"
+#include "light_constants.glsl"
 
 layout(binding = SCENE_DISTANCE_UNIT) uniform sampler2D scene_distance;
 layout(location = 0) out uint is_edge;
 
 float distanceAt(ivec2 pixel) { return texelFetch(scene_distance, pixel, 0).r; }
+
+// For a pixel and two opposite neighbours, mm along their rays, 0 where nothing is hit.
+bool bends(float before, float here, float after) {
+  float a = before > 0.0 ? 1.0 / before : 0.0, c = here > 0.0 ? 1.0 / here : 0.0, b = after > 0.0 ? 1.0 / after : 0.0;
+  return abs(a - 2.0 * c + b) > EDGE_BEND * max(max(a, b), max(c, 1e-9));
+}
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy), last = textureSize(scene_distance, 0) - 1;

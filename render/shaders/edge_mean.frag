@@ -1,5 +1,5 @@
 #version 450
-// Gives edge pixels the mean of their samples as the display will show them: taken after the shoulder, put back before it.
+// Writes the mean of the samples to edge pixels: averaged after the shoulder, as displayed, then mapped back.
 #include "shared_constants.glsl"
 #include "shoulder.glsl"
 

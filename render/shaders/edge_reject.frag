@@ -1,6 +1,6 @@
 #version 450
-// In a image of 2x2 samples per pixel: a wall before the eye wherever the pixel is no edge, so that nothing is drawn
-// there again and no ray sets out.
+// In an image of 2x2 samples per pixel: nearest depth and distance wherever the pixel is no edge, so that nothing is
+// drawn there and no ray is cast.
 #include "shared_constants.glsl"
 
 layout(binding = EDGE_MASK_UNIT) uniform usampler2D edge_mask;

@@ -1,22 +1,22 @@
-// What a pass knows of the eye it draws for. Frame P, mm; C++ twin: render::EyeBlock.
+// Uniforms of an eye. Frame P, mm; C++ twin: render::EyeBlock.
 #include "shared_constants.glsl"
 
 layout(std140, binding = EYE_BLOCK) uniform EyeBlock {
   mat4 clip_from_P;      // reverse-Z, 0..1
   vec4 eye_P;
   vec4 lower_left_P;     // corner of the virtual screen
-  vec4 right_edge_P;     // from there along the image's rows …
-  vec4 up_edge_P;        // … and up its columns
+  vec4 right_edge_P;     // from there along the rows of the image
+  vec4 up_edge_P;        // from there along its columns
   vec4 lamp_P;           // w: distance at which the lamp gives its nominal light
   vec4 lamp_axis_P;      // unit, from the lamp
   vec4 up_P;             // unit, away from the floor
-  vec4 window_eye_P;     // the window in the face: around the line from here …
-  vec4 window_site_P;    // … to here; w: its radius, 0 for none
+  vec4 window_eye_P;     // the face window is around the line from here
+  vec4 window_site_P;    // to here; w: its radius, 0 for none
 } eye;
 
-// Unit direction from the eye through a place on the image, 0..1 from its lower left.
-vec3 rayDirection(vec2 place) {
-  return normalize(eye.lower_left_P.xyz - eye.eye_P.xyz + place.x * eye.right_edge_P.xyz + place.y * eye.up_edge_P.xyz);
+// Unit direction from the eye through a point of the image, 0..1 from its lower left.
+vec3 rayDirection(vec2 uv) {
+  return normalize(eye.lower_left_P.xyz - eye.eye_P.xyz + uv.x * eye.right_edge_P.xyz + uv.y * eye.up_edge_P.xyz);
 }
 
 // Reverse-Z depth of a point, the same for rays and triangles.

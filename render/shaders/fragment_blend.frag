@@ -1,15 +1,15 @@
 #version 450
-// The transparent places before a pixel, nearest first, as one premultiplied colour to lay over it.
+// Blends the transparent fragments of a pixel, nearest first, into one premultiplied colour.
 #include "fragment_list.glsl"
 
 layout(location = COLOUR_TARGET) out vec4 colour;
 
-const int kMost = 16;  // the nearest that count
-// Of a list. Where a triangle covers part of a block of pixels, llvmpipe runs the others too, reads zeros for them and
-// would follow them in a circle until it gives up, for all pixels of the block.
+const int kMaxFragments = 16;  // the nearest ones
+// Longest list. Where a triangle covers part of a block of pixels, llvmpipe also runs the other pixels, reads zeros for
+// them and would loop.
 const int kLongest = 128;
 
-// A strict order of places; two of the same light at the same distance count once.
+// Strict order; two fragments of the same light at the same distance count once.
 bool liesBefore(uvec3 a, uvec3 b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; }
 
 void main() {
@@ -17,15 +17,15 @@ void main() {
   if (first == kEnd) discard;
   colour = vec4(0.0);
 
-  // The nearest of the list, then the nearest behind it, and so on: short lists need no memory to be sorted in.
+  // The nearest of the list, then the nearest behind it, and so on, without memory for sorting.
   uvec3 last = uvec3(0u);
-  for (int n = 0; n < kMost; ++n) {
+  for (int n = 0; n < kMaxFragments; ++n) {
     uvec3 nearest = uvec3(kEnd);
     uint at = first;
-    for (int i = 0; i < kLongest && at != kEnd; ++i, at = fragment_list.place[at].next) {
-      // Floats above zero are ordered as their bits.
-      uvec3 place = uvec3(floatBitsToUint(fragment_list.place[at].distance_mm), fragment_list.place[at].light);
-      if (liesBefore(last, place) && liesBefore(place, nearest)) nearest = place;
+    for (int i = 0; i < kLongest && at != kEnd; ++i, at = fragment_list.fragment[at].next) {
+      // Positive floats are ordered as their bits.
+      uvec3 here = uvec3(floatBitsToUint(fragment_list.fragment[at].distance_mm), fragment_list.fragment[at].light);
+      if (liesBefore(last, here) && liesBefore(here, nearest)) nearest = here;
     }
     if (nearest.x == kEnd) break;
     vec2 red_green = unpackHalf2x16(nearest.y), blue_opacity = unpackHalf2x16(nearest.z);

@@ -1,11 +1,11 @@
-// What is transparent before each pixel, as lists that are sorted when all of it is known. Yang et al., "Real-time
-// concurrent linked list construction on the GPU" (EGSR 2010).
+// Linked lists of transparent fragments, one per pixel. Yang et al., "Real-time concurrent linked list construction on the
+// GPU" (EGSR 2010).
 #include "shared_constants.glsl"
 
 const uint kEnd = 0xffffffffu;
 
 struct Fragment {
-  uvec2 light;         // four halves: colour, not premultiplied, and opacity
+  uvec2 light;         // four halves: colour (not premultiplied) and opacity
   float distance_mm;
   uint next;
 };
@@ -13,7 +13,7 @@ struct Fragment {
 layout(std430, binding = FRAGMENT_LIST) buffer FragmentList {
   uint count;
   uint capacity;
-  Fragment place[];
+  Fragment fragment[];
 } fragment_list;
 
 layout(binding = FRAGMENT_HEADS_IMAGE, r32ui) uniform uimage2D fragment_heads;

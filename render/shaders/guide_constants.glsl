@@ -1,5 +1,5 @@
-// Colours and patterns of the guides on the bone, for the shaders and the kernels of the CPU. Only #defines: both
-// languages include this file. Linear light; mm.
+// Colours and patterns of the guides on the bone, for shaders and CPU kernels. Only #defines: C++ includes this file too.
+// Linear light; mm.
 
 #define GUIDE_NEAR_COLOUR 0.66f, 0.11f, 0.0f     // hues of Okabe and Ito, "Color universal design" (2008)
 #define GUIDE_MIDDLE_COLOUR 0.79f, 0.35f, 0.0f
@@ -17,4 +17,4 @@
 #define GUIDE_PLAN_COVER 0.42f
 #define GUIDE_PLAN_RIM 0.14f
 #define GUIDE_PLAN_RIM_COVER 0.9f
-#define GUIDE_DARKEST 0.25f         // of the canal's tube, where it is seen along its wall
+#define GUIDE_DARKEST 0.25f         // canal tube seen along its wall

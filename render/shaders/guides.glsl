@@ -1,5 +1,5 @@
-// Guides on the bone: bands of clearance to the canal and what is planned to go. Told apart by value and pattern as well
-// as by hue, for eyes that do not tell red from green (hues of Okabe and Ito, "Color universal design", 2008).
+// Guides on the bone: bands of clearance to the canal, and the planned cut. They differ in value and pattern as well as
+// hue, for red-green colour blindness (hues of Okabe and Ito, "Color universal design", 2008).
 #include "volume_block.glsl"
 #include "guide_constants.glsl"
 
@@ -36,12 +36,12 @@ vec3 withPlan(vec3 albedo, float mm) {
   return mix(albedo, vec3(GUIDE_RIM_COLOUR), GUIDE_PLAN_RIM_COVER * lineAt(mm, GUIDE_PLAN_RIM));
 }
 
-// Inside translucent matter the plan alone colours: bands of clearance are for surfaces.
+// Translucent matter shows the plan only; clearance bands are drawn on surfaces.
 vec3 planned(vec3 albedo, vec3 index) {
   return (int(volume.march.w) & GUIDE_PLAN) == 0 ? albedo : withPlan(albedo, guideDistances(index).y);
 }
 
-// What the guides that are switched on make of a colour at a place on the surface.
+// Applies the visible guides to the colour of a surface point.
 vec3 guided(vec3 albedo, vec3 index, vec3 p_P) {
   if (volume.march.w == 0.0) return albedo;
   int shown = int(volume.march.w);

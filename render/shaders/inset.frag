@@ -1,9 +1,9 @@
 #version 450
-// A small image laid over the scene: the light that the output pass will turn back into these very values.
+// A small image over the scene: linear light that the output pass encodes back to the same values.
 #include "shared_constants.glsl"
 #include "shoulder.glsl"
 
-layout(binding = INSET_UNIT) uniform sampler2D inset;  // rows top first
+layout(binding = INSET_UNIT) uniform sampler2D inset;   // top row first
 layout(location = 0) in vec2 uv;
 layout(location = COLOUR_TARGET) out vec4 colour;
 

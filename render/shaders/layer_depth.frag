@@ -1,5 +1,5 @@
 #version 450
-// Depth and distance of the volume's layer where it is solid, as triangles would have them there.
+// Depth and distance of the volume layer where it is solid, the same as for triangles.
 #include "eye_block.glsl"
 
 layout(binding = LAYER_DISTANCE_UNIT) uniform sampler2D layer_distance;

@@ -1,5 +1,5 @@
 #version 450
-// The volume's layer over what lies behind it.
+// Blends the volume layer over what is behind it.
 #include "shared_constants.glsl"
 
 layout(binding = LAYER_LIGHT_UNIT) uniform sampler2D layer_light;

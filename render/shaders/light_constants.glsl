@@ -1,18 +1,18 @@
-// Numbers of the light, the surfaces of the meshes, the background and the output, for the shaders and for the kernels
-// of the CPU. Only #defines: both languages include this file. Linear light; lengths in mm where they say so.
+// Constants of light, mesh materials, background and output, for shaders and CPU kernels. Only #defines: C++ includes
+// this file too. Linear light; lengths in mm where stated.
 
 #define LAMP_LIGHT 2.75f, 2.62f, 2.40f
 #define SKY_LIGHT 0.300f, 0.315f, 0.33f
 #define FLOOR_LIGHT 0.105f, 0.092f, 0.085f
-#define LAMP_CONE_INNER 0.985f      // cosines between which the beam fades …
+#define LAMP_CONE_INNER 0.985f      // cosines between which the beam fades
 #define LAMP_CONE_OUTER 0.86f
-#define LAMP_CONE_DARK 0.25f        // … to this
+#define LAMP_CONE_DARK 0.25f        // to this share
 
-// What is mirrored: walls from floor to sky, a panel overhead, a strip of windows on either side.
+// Reflected surroundings: walls from floor to sky, a panel overhead, a strip of windows on either side.
 #define WALL_FLOOR_SHARE 0.6f
 #define WALL_LOW -0.5f
 #define WALL_HIGH 0.7f
-#define MIRROR_SOFT 0.04f           // softness of the edges, for a mirror and more for a rough surface
+#define MIRROR_SOFT 0.04f           // softness of the edges, increasing with roughness
 #define MIRROR_SOFT_ROUGH 0.7f
 #define PANEL_EDGE 0.72f
 #define PANEL_LIGHT 2.2f, 2.25f, 2.3f
@@ -32,26 +32,26 @@
 #define BOUNCE_B -4.7951f, 0.6417f
 #define BOUNCE_C 2.7552f, 0.6903f
 
-// Soft visibility from the map of crowding.
-#define CONE_FIRST_CELLS 1.5f       // the first place along a cone, at least, in cells …
-#define CONE_FIRST_MM 1.2f          // … and in mm
-#define CONE_SECOND 2.2f            // the next, in lengths to the first
+// Ambient occlusion and lamp shadow from the ambient map.
+#define CONE_FIRST_CELLS 1.5f       // first sample along a cone: at least this many cells
+#define CONE_FIRST_MM 1.2f          // and mm
+#define CONE_SECOND 2.2f            // further samples, in distances to the first
 #define CONE_THIRD 4.5f
 #define CONE_SECOND_SHADE 0.85f
 #define CONE_THIRD_SHADE 0.6f
 #define CONE_TILT 0.70710678f
 #define LAMP_SAMPLES 9
 #define LAMP_STEP_GROWTH 1.4f
-#define LAMP_LIFT 0.8f              // off the surface, in lengths to the first place
+#define LAMP_LIFT 0.8f              // off the surface, in distances to the first sample
 #define LAMP_CLEAR 0.15f
 #define LAMP_BLOCKED 0.85f
-#define LAMP_MIN 0.06f             // what reaches the darkest place
+#define LAMP_MIN 0.06f              // least share of the lamp in full shadow
 
 // Meshes.
 #define MIN_ROUGHNESS 0.06f
 #define MESH_F0 0.04f
-#define MESH_LIFT 0.5f              // mm off the surface, where its visibility is looked up
-#define RIM_BEHIND 2.0f             // mm before the site where the window in the face ends
+#define MESH_LIFT 0.5f              // mm off the surface, where its occlusion is sampled
+#define RIM_BEHIND 2.0f             // mm in front of the site where the face window ends
 #define RIM_WIDTH 2.5f              // mm of darker, redder cut edge around it
 #define RIM_TINT 0.45f, 0.14f, 0.11f
 #define SKIN_WRAP 0.35f
@@ -59,12 +59,12 @@
 #define GINGIVA_WRAP 0.30f
 #define GINGIVA_F0 0.030f
 #define GINGIVA_SCATTER 1.0f, 0.35f, 0.30f
-#define STEEL_MIN_AMBIENT 0.45f   // steel in a cavity still mirrors its bright mouth
+#define STEEL_MIN_AMBIENT 0.45f     // steel in a cavity still reflects the opening
 #define STEEL_MIN_LAMP 0.35f
-#define INSIDE_AMBIENT 0.45f        // of a mesh seen from behind
+#define INSIDE_AMBIENT 0.45f        // back faces
 #define INSIDE_LAMP 0.35f
 
-// The dark theatre behind everything.
+// Background.
 #define BACKGROUND_FLOOR 0.010f, 0.0115f, 0.013f
 #define BACKGROUND_SKY 0.040f, 0.044f, 0.048f
 #define BACKGROUND_GLOW 0.022f
@@ -72,11 +72,11 @@
 #define BACKGROUND_GLOW_TINT 0.9f, 1.0f, 1.08f
 
 // Translucent tooth and bone.
-#define DVR_OPAQUE 0.98f            // what lies behind is not looked for
-#define DVR_SOLID 0.5f              // where so much light is stopped lies the distance of the image
-#define DVR_FULL_GRADIENT 0.25f         // fall of the smoothed field over two voxels that counts as a surface
-#define DVR_INNER_LAMBERT 0.45f     // how matter without a surface takes the lamp's light
+#define DVR_OPAQUE 0.98f            // rays end at this opacity
+#define DVR_SOLID 0.5f              // opacity at which the distance of the pixel is taken
+#define DVR_FULL_GRADIENT 0.25f     // drop of the smoothed field over two voxels that counts as a surface
+#define DVR_INNER_LAMBERT 0.45f     // Lambert factor of matter without a surface
 
-#define SHOULDER_KNEE 0.70f         // up to here light is shown as it is; above it rolls off towards white
+#define SHOULDER_KNEE 0.70f         // linear up to here; above it rolls off towards white
 
-#define EDGE_BEND 0.002f            // bend of the inverse distance over three pixels that is an edge: 1 mm at half a metre
+#define EDGE_BEND 0.002f            // relative second difference of the inverse distance at an edge: 1 mm at 0.5 m

@@ -1,4 +1,4 @@
-// Light of the theatre: an operating lamp with a soft cone and a hemisphere of ambient light. Linear light, frame P.
+// Lighting: an operating lamp with a soft cone and a hemisphere of ambient light. Linear light, frame P.
 // Specular: GGX (Walter et al. 2007) with the height-correlated Smith term (Heitz 2014) and Schlick's Fresnel (1994).
 // Ambient specular: the fit of Lazarov, "Getting more physical in Call of Duty: Black Ops II" (SIGGRAPH 2013).
 #include "eye_block.glsl"
@@ -8,20 +8,20 @@ struct Surface {
   vec3 albedo;
   vec3 f0;              // reflectance at normal incidence
   float roughness;
-  float wrap;           // 0: Lambert; more lets light creep round, as in skin and enamel
-  vec3 scatter;         // colour of the light that creeps
+  float wrap;           // 0: Lambert; more for light scattered beyond the terminator, as in skin and enamel
+  vec3 scatter;         // colour of that light
 };
 
 struct Visibility {
-  float ambient;        // 1: nothing around it
-  float lamp;           // 1: nothing between it and the lamp
+  float ambient;        // 1: unoccluded
+  float lamp;           // 1: unshadowed
 };
 
 const vec3 kLampLight = vec3(LAMP_LIGHT);
 const vec3 kSkyLight = vec3(SKY_LIGHT);
 const vec3 kFloorLight = vec3(FLOOR_LIGHT);
 
-// What shines from a direction besides the lamp: walls, floor, a bright panel overhead and a window strip on each side.
+// Light from a direction without the lamp: walls, floor, a bright panel overhead and a window strip on each side.
 vec3 surroundings(vec3 direction, float roughness) {
   float height = dot(direction, eye.up_P.xyz);
   float aside = abs(dot(direction, normalize(eye.right_edge_P.xyz)));
@@ -47,8 +47,8 @@ vec3 ambientSpecular(vec3 f0, float roughness, float n_v) {
   return f0 * scale_bias.x + scale_bias.y;
 }
 
-// Light that bounces within a cavity takes its colour: Jimenez et al., "Practical real-time strategies for accurate
-// indirect occlusion" (SIGGRAPH 2016), equation 8.
+// Multi-bounce ambient light: Jimenez et al., "Practical real-time strategies for accurate indirect occlusion" (SIGGRAPH
+// 2016), equation 8.
 vec3 bouncedAmbient(float open, vec3 albedo) {
   const vec2 kA = vec2(BOUNCE_A), kB = vec2(BOUNCE_B), kC = vec2(BOUNCE_C);
   vec3 a = kA.x * albedo + kA.y, b = kB.x * albedo + kB.y, c = kC.x * albedo + kC.y;

@@ -1,5 +1,5 @@
 #version 450
-// A part of a mesh, carried from its own frame to P.
+// A vertex of a mesh part, transformed to P.
 #include "eye_block.glsl"
 #include "part_block.glsl"
 

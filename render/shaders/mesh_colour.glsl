@@ -1,5 +1,4 @@
-// Skin, gingiva and steel under the light. Both sides are drawn; the face opens around the line from the eye to the operating
-// site.
+// Shading of skin, gingiva and steel. Both sides are drawn; the face is cut away around the line from the eyes to the site.
 #include "part_block.glsl"
 #include "guide_constants.glsl"
 #include "occlusion.glsl"
@@ -8,7 +7,7 @@ layout(location = 0) in vec3 p_P;
 layout(location = 1) in vec3 normal_P;
 layout(location = 2) in vec4 vertex_tint;
 
-// mm from the rim of the window in the face: negative inside, where nothing is drawn. Behind the site nothing is cut.
+// mm from the rim of the face window, negative inside, where nothing is drawn. Behind the site nothing is cut.
 float rimDistance(vec3 p) {
   vec3 line = eye.window_site_P.xyz - eye.window_eye_P.xyz;
   float reach = length(line);
@@ -20,7 +19,7 @@ float rimDistance(vec3 p) {
   return max(across, beyond);
 }
 
-// Colour not premultiplied, with opacity; discards what the window cuts away.
+// Colour (not premultiplied) and opacity; discards fragments inside the window.
 vec4 meshColour() {
   vec3 to_eye = normalize(eye.eye_P.xyz - p_P);
   vec3 normal = normalize(normal_P);
@@ -29,7 +28,7 @@ vec4 meshColour() {
   int finish = int(part.finish.z);
   if (finish == FINISH_GUIDE && !gl_FrontFacing) discard;
 
-  // The rim of the window is a cut edge: darker and redder within a millimetre or two.
+  // The rim of the window is drawn as a cut edge, darker and redder.
   float rim = 1.0;
   if (part.finish.w > 0.5 && eye.window_site_P.w > 0.0) {
     float away = rimDistance(p_P);
@@ -56,13 +55,13 @@ vec4 meshColour() {
     s.scatter = vec3(GINGIVA_SCATTER);
   }
   if (finish == FINISH_GUIDE) {
-    // Lit from everywhere: it is no part of the patient and shows inside the bone.
+    // Unlit: it is not part of the patient and is visible inside the bone.
     float facing = abs(dot(normal, to_eye));
     return vec4(base.rgb * mix(GUIDE_DARKEST, 1.0, facing), base.a);
   }
   Visibility visibility = visibilityFromVolume(p_P + MESH_LIFT * normal, normal);
   if (finish == FINISH_INSTRUMENT) {
-    // Steel in a cavity still mirrors its bright mouth.
+    // Steel in a cavity still reflects the opening.
     visibility.ambient = mix(STEEL_MIN_AMBIENT, 1.0, visibility.ambient);
     visibility.lamp = mix(STEEL_MIN_LAMP, 1.0, visibility.lamp);
   }

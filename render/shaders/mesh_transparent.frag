@@ -1,5 +1,5 @@
 #version 450
-// Transparent parts of meshes, into the list of their pixel. What no longer fits the lists is left out.
+// Transparent parts of meshes, into the list of their pixel. Fragments that do not fit are dropped.
 #include "fragment_list.glsl"
 #include "mesh_colour.glsl"
 
@@ -11,5 +11,5 @@ void main() {
   uint at = atomicAdd(fragment_list.count, 1u);
   if (at >= fragment_list.capacity) return;
   uint next = imageAtomicExchange(fragment_heads, ivec2(gl_FragCoord.xy), at);
-  fragment_list.place[at] = Fragment(uvec2(packHalf2x16(colour.rg), packHalf2x16(colour.ba)), distance(p_P, eye.eye_P.xyz), next);
+  fragment_list.fragment[at] = Fragment(uvec2(packHalf2x16(colour.rg), packHalf2x16(colour.ba)), distance(p_P, eye.eye_P.xyz), next);
 }

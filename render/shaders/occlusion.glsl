@@ -1,9 +1,9 @@
-// Soft visibility from the coarse ambient map of the volume, so that a carved hole reads as a hole: five cones for the room
-// (after Crassin et al. 2011, voxel cone tracing), one march towards the lamp.
+// Ambient occlusion and lamp shadow from the coarse ambient map: five cones for the room (after Crassin et al. 2011, voxel
+// cone tracing), one march towards the lamp.
 #include "volume_block.glsl"
 #include "lighting.glsl"
 
-// Share of a cone of about 45 degrees that is open, by the crowding of three places along it.
+// Open share of a cone of about 45 degrees, from the density of three points along it.
 float coneOpenness(vec3 index, vec3 direction, float first) {
   float near = densityAt(index + first * direction);
   float middle = densityAt(index + CONE_SECOND * first * direction);
@@ -11,8 +11,8 @@ float coneOpenness(vec3 index, vec3 direction, float first) {
   return (1.0 - near) * (1.0 - CONE_SECOND_SHADE * middle) * (1.0 - CONE_THIRD_SHADE * far);
 }
 
-// Share of the room that is open: four cones at 45 degrees and one upright. `first`: voxels to the first place, beyond the
-// blur of the surface's own cells.
+// Open share of the room: four cones at 45 degrees and one upright. `first`: voxels to the first sample, beyond the blur
+// of the surface's own cells.
 float openness(vec3 index, vec3 normal, float first) {
   vec3 side = normalize(abs(normal.x) < 0.7 ? cross(normal, vec3(1, 0, 0)) : cross(normal, vec3(0, 1, 0)));
   vec3 other = cross(normal, side);
@@ -24,7 +24,7 @@ float openness(vec3 index, vec3 normal, float first) {
   return open * sqrt(open);
 }
 
-// Share of the lamp's light that arrives, with growing steps towards it.
+// Share of the lamp's light that arrives, sampled with growing steps.
 float lampThrough(vec3 index, vec3 normal, vec3 to_lamp, float first) {
   float through = 1.0;
   float t = first;

@@ -1,22 +1,22 @@
 #version 450
-// The last pass: averages the samples of each pixel in linear light, gives every pixel of the display the eye it is
-// for, and encodes sRGB, once. An eye's image with fewer pixels than its place is stretched bilinearly.
+// The last pass: averages the samples of each pixel in linear light, selects the eye of every output pixel, and encodes
+// sRGB, once. Eye images smaller than their area of the output are scaled bilinearly.
 #include "shared_constants.glsl"
 #include "shoulder.glsl"
 #include "stereo_layout.glsl"
 
 layout(std140, binding = OUTPUT_BLOCK) uniform OutputBlock {
-  ivec4 mode;     // x: DISPLAY_…, y: samples along each edge of a pixel, z: second output, w: eyes swapped
-  ivec4 place;    // xy: the output's place on the panel, zw: size of the output, px
-  ivec4 eye;      // xy: size of an eye's image, z: blank lines of a packed frame
+  ivec4 mode;       // x: DISPLAY_…, y: samples along each edge of a pixel, z: second output, w: eyes swapped
+  ivec4 output_px;  // xy: position of the output on the panel, zw: size of the output, px
+  ivec4 eye;        // xy: size of an eye's image, z: blank lines of a packed frame
 } job;
 
 layout(binding = LEFT_EYE_UNIT) uniform sampler2D left_eye;
 layout(binding = RIGHT_EYE_UNIT) uniform sampler2D right_eye;
-layout(location = 0) in vec2 place;
+layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 colour;
 
-// A drawn pixel, from the lower left; beyond the edge the edge.
+// A drawn pixel, counted from the lower left, clamped to the edge.
 vec3 resolved(sampler2D image, ivec2 size, ivec2 pixel) {
   pixel = clamp(pixel, ivec2(0), size - 1);
   vec3 sum = vec3(0.0);
@@ -26,7 +26,7 @@ vec3 resolved(sampler2D image, ivec2 size, ivec2 pixel) {
   return sum / float(job.mode.y * job.mode.y);
 }
 
-// The eye's image at a pixel of its place, from the top left.
+// The eye's image at a pixel of its area, counted from the top left.
 vec3 seen(sampler2D image, ivec2 px) {
   ivec2 size = textureSize(image, 0) / job.mode.y;
   px.y = job.eye.y - 1 - px.y;
@@ -45,8 +45,8 @@ vec3 srgb(vec3 x) {
 }
 
 vec3 light() {
-  ivec2 px = ivec2(int(gl_FragCoord.x), job.place.w - 1 - int(gl_FragCoord.y));
-  SourcePixel shown = sourcePixelAt(job.mode.x, px, job.place.xy, job.eye.xy, job.eye.z, job.mode.z != 0, job.mode.w != 0);
+  ivec2 px = ivec2(int(gl_FragCoord.x), job.output_px.w - 1 - int(gl_FragCoord.y));
+  SourcePixel shown = sourcePixelAt(job.mode.x, px, job.output_px.xy, job.eye.xy, job.eye.z, job.mode.z != 0, job.mode.w != 0);
   if (shown.eye == SOURCE_BLACK) return vec3(0.0);
   if (shown.eye == SOURCE_RIGHT) return seen(right_eye, shown.px);
   if (shown.eye != SOURCE_BOTH) return seen(left_eye, shown.px);

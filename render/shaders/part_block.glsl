@@ -1,4 +1,4 @@
-// One part of a mesh. C++ twin: render::PartBlock.
+// Uniforms of a mesh part. C++ twin: render::PartBlock.
 #include "shared_constants.glsl"
 
 layout(std140, binding = PART_BLOCK) uniform PartBlock {

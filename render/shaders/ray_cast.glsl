@@ -1,10 +1,10 @@
-// Where a ray first meets the surface solid = 0.5. Length unit here: voxels.
+// First hit of a ray with the surface solid = 0.5. Lengths in voxels.
 #include "ray_march.glsl"
 
 const float kIso = 0.5;
 const int kBisections = 6;
 
-// Length along the unit direction to the surface, negative where there is none before `limit`.
+// Length along the unit direction to the surface, negative if there is none before `limit`.
 float castRay(vec3 origin, vec3 direction, float limit) {
   vec2 span = spanInVolume(origin, direction);
   span.y = min(span.y, limit);
@@ -28,7 +28,7 @@ float castRay(vec3 origin, vec3 direction, float limit) {
   if (!found) return -1.0;
   if (k == 0) return span.x;
 
-  // Close in on the surface between the last two samples.
+  // Bisect between the last two samples.
   float low = float(k - 1) * step, high = float(k) * step;
   for (int i = 0; i < kBisections; ++i) {
     float middle = 0.5 * (low + high);

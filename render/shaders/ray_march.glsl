@@ -1,8 +1,8 @@
-// The way of a ray through the volume, shared by surface and translucent view: samples lie at fixed places
-// t = k * step from the entry, whether empty space is skipped or not, so that both see the very same. Unit: voxels.
+// Sampling of a ray through the volume, shared by surface and translucent view: samples lie at t = k * step from the entry,
+// with or without skipping of empty space, so that both give the same image. Lengths in voxels.
 #include "volume_block.glsl"
 
-const float kGuard = 1e-3;  // a skip ends this much early, so that rounding never carries it past an occupied brick
+const float kGuard = 1e-3;  // a skip ends this much early, so that rounding cannot carry it past an occupied brick
 
 // The part of the ray inside the volume and its border of air one voxel wide; empty when near > far.
 vec2 spanInVolume(vec3 origin, vec3 direction) {
@@ -24,7 +24,7 @@ float emptyLength(vec3 position, vec3 entry, vec3 direction) {
   return min(leave.x, min(leave.y, leave.z)) - kGuard;
 }
 
-// Whether the sample numbered k, at `position`, lies in empty bricks; k goes on to the first sample behind them.
+// Whether sample k, at `position`, lies in empty bricks; if so k advances to the first sample behind them.
 bool skips(inout int k, vec3 position, vec3 entry, vec3 direction) {
   if (volume.size.w == 0) return false;
   float leave = emptyLength(position, entry, direction);
@@ -33,7 +33,7 @@ bool skips(inout int k, vec3 position, vec3 entry, vec3 direction) {
   return true;
 }
 
-// Towards air, as long as the smoothed field falls over two voxels: central differences, so that no voxel is a terrace.
+// Negative gradient of the smoothed field over two voxels, by central differences; points towards air.
 vec3 outwardGradientAt(vec3 position) {
   const vec2 h = vec2(1.0, 0.0);
   return vec3(smoothAt(position - h.xyy) - smoothAt(position + h.xyy), smoothAt(position - h.yxy) - smoothAt(position + h.yxy),

@@ -1,5 +1,5 @@
-// What a ray gathers of translucent matter, front to back, at the same places as the surface view.
-// Opacity is per mm and corrected for the step: alpha = 1 - (1 - a)^(step in mm). Length unit: voxels.
+// Light and opacity of translucent matter along a ray, front to back, at the samples of ray_march.glsl.
+// Opacity is per mm and corrected for the step: alpha = 1 - (1 - a)^(step in mm). Lengths in voxels.
 #include "ray_march.glsl"
 #include "transfer_block.glsl"
 #include "lighting.glsl"
@@ -7,7 +7,7 @@
 
 struct Gathered {
   vec4 light;       // premultiplied
-  float reach;      // where half of the light is stopped; negative where that never happens
+  float reach;      // length at which the opacity reaches one half; negative: never
 };
 
 float opacityPerMm(vec3 position) {
@@ -15,7 +15,7 @@ float opacityPerMm(vec3 position) {
   return share > 0.0 ? share * transfer.opacity_per_mm[labelAt(position)].x : 0.0;
 }
 
-// Light of the lamp, taken once per ray, and of the room on matter; where there is no surface all sides count alike.
+// Light scattered by matter: lamp (evaluated once per ray) and room; without a surface all directions count alike.
 vec3 scattered(vec3 position, vec3 to_lamp, vec3 lamp_light) {
   vec3 gradient = outwardGradientAt(position);
   float steep = length(gradient);

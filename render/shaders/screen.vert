@@ -1,5 +1,5 @@
 #version 450
-// One triangle that covers the image; uv runs 0..1 from the lower left.
+// One triangle that covers the image; uv is 0..1 from the lower left.
 layout(location = 0) out vec2 uv;
 
 void main() {

@@ -1,4 +1,4 @@
-// Numbers that the shaders and C++ must agree on. Only #defines: both languages include this file.
+// Constants shared by shaders and C++. Only #defines: both include this file.
 
 #define BRICK_VOXELS 8           // edge of a brick in voxels, assets::kBrickVoxels
 #define AMBIENT_CELL_VOXELS 2    // edge of a cell of the ambient map in voxels
@@ -9,8 +9,8 @@
 #define OUTPUT_BLOCK 3
 #define TRANSFER_BLOCK 4
 
-#define FRAGMENT_LIST 0             // storage buffers
-#define FRAGMENT_HEADS_IMAGE 2      // images, beside the targets
+#define FRAGMENT_LIST 0          // storage buffers
+#define FRAGMENT_HEADS_IMAGE 2   // images, after the targets
 
 #define SOLID_UNIT 0             // texture units
 #define LABEL_UNIT 1
@@ -53,7 +53,7 @@
 #define DISPLAY_ANAGLYPH 11
 #define DISPLAY_ANAGLYPH_RED_CYAN 12
 
-#define SOURCE_BLACK 0            // what a pixel of the output shows, render::Shown
+#define SOURCE_BLACK 0           // what a pixel of the output shows, render::PixelSource
 #define SOURCE_LEFT 1
 #define SOURCE_RIGHT 2
 #define SOURCE_CYCLOPEAN 3
@@ -64,9 +64,9 @@
 #define TISSUE_COUNT 10          // assets::kTissueCount
 #define CAST_GROUP 8             // edge of a work group of the compute caster, px
 
-#define EDGE_SAMPLES 2           // of a pixel that antialiasing draws again, along each edge
+#define EDGE_SAMPLES 2           // along each edge of a pixel that antialiasing draws again
 
 #define GUIDE_CLEARANCE 1        // guides on the bone, as bits
 #define GUIDE_PLAN 2
-#define GUIDE_LOW_MM -4.0f       // what the field of guides holds
+#define GUIDE_LOW_MM -4.0f       // range of the guide field
 #define GUIDE_HIGH_MM 12.0f

@@ -1,4 +1,4 @@
-// Bright values roll off towards white instead of clipping: identity to the knee, then an even approach to 1.
+// Tone mapping: bright values roll off towards white instead of clipping. Identity up to the knee.
 #include "light_constants.glsl"
 
 vec3 shoulder(vec3 x) {
@@ -6,7 +6,7 @@ vec3 shoulder(vec3 x) {
   return min(x, SHOULDER_KNEE) + (1.0 - SHOULDER_KNEE) * (over / (1.0 + over));
 }
 
-// The light that the shoulder brings to y < 1.
+// Inverse of shoulder() for y < 1.
 vec3 inverseShoulder(vec3 y) {
   vec3 risen = clamp((y - SHOULDER_KNEE) / (1.0 - SHOULDER_KNEE), 0.0, 0.999);
   return min(y, SHOULDER_KNEE) + (1.0 - SHOULDER_KNEE) * (risen / (1.0 - risen));

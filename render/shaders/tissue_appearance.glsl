@@ -1,5 +1,5 @@
-// The surface of tooth and bone: its appearance from the appearance field (C++: appearance_field.h), how a finish shines, and the fine
-// unevenness no scan resolves. Shine values judged by eye; enamel is translucent (wrap, high F0).
+// Surface of tooth and bone: colour and finish from the appearance field (C++: appearance_field.h), reflectance of the
+// finish, and fine detail that no scan resolves. Values chosen by eye; enamel is translucent (wrap, high F0).
 #include "volume_block.glsl"
 #include "lighting.glsl"
 #include "finish.glsl"
@@ -25,14 +25,14 @@ float noise(vec3 x) {
   return sum;
 }
 
-// The appearance of the matter just below a surface place, where the scan has it pure.
+// Material of the matter just below a surface point, where the scan has no partial volume.
 Surface tissueSurface(vec3 index, vec3 normal, vec3 p_P) {
   vec4 appearance = appearanceAt(index - COLOUR_DEPTH_VOXELS * normal);
   vec3 albedo = appearance.rgb;
   float enamel = clamp(2.0 * appearance.a - 1.0, 0.0, 1.0), marrow = clamp(1.0 - 2.0 * appearance.a, 0.0, 1.0);
   vec3 shine = mix(mix(FINISH_DULL, FINISH_MARROW, marrow), FINISH_ENAMEL, enamel);
 
-  // Bone is never even: faint mottling, and pores full of blood where the marrow lies open.
+  // Faint mottling, and blood-filled pores in open marrow.
   float mottle = noise(p_P * 0.9) * 0.6 + noise(p_P * 3.1) * 0.4 - 0.5;
   albedo *= 1.0 + 0.14 * mottle * shine.x;
   float pore = smoothstep(0.42, 0.68, noise(p_P * 2.3) * 0.7 + noise(p_P * 5.7) * 0.3);

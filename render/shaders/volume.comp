@@ -1,5 +1,5 @@
 #version 450
-// Tooth and bone, one ray per invocation, into a layer of their own. Twin: volume.frag.
+// Tooth and bone, one ray per invocation, into the volume layer. Twin: volume.frag.
 #include "volume_pixel.glsl"
 
 layout(local_size_x = CAST_GROUP, local_size_y = CAST_GROUP) in;

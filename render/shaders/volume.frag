@@ -1,5 +1,5 @@
 #version 450
-// Tooth and bone, one ray per pixel, into a layer of their own. Twin: volume.comp.
+// Tooth and bone, one ray per pixel, into the volume layer. Twin: volume.comp.
 #include "volume_pixel.glsl"
 
 layout(location = COLOUR_TARGET) out vec4 light;

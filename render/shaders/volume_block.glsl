@@ -1,4 +1,4 @@
-// The volume as the shaders see it. Places are continuous voxel indices: integer at voxel centres. C++ twin: VolumeBlock.
+// The volume. Positions are continuous voxel indices, integer at voxel centres. C++ twin: VolumeBlock.
 #include "shared_constants.glsl"
 
 layout(std140, binding = VOLUME_BLOCK) uniform VolumeBlock {
@@ -6,7 +6,7 @@ layout(std140, binding = VOLUME_BLOCK) uniform VolumeBlock {
   ivec4 size;            // voxels; w: 1 to skip empty space
   ivec4 bricks;          // w: VIEW_…
   ivec4 ambient_size;    // cells of the ambient map; x is 0 when there is no volume
-  vec4 march;            // x: voxels between samples along a ray; y, z: 1 for ambient visibility, for the lamp's shadow; w: GUIDE_…
+  vec4 march;            // x: voxels between samples; y, z: 1 for ambient occlusion, for the lamp shadow; w: GUIDE_… bits
 } volume;
 
 layout(binding = SOLID_UNIT) uniform sampler3D solid_field;
@@ -25,19 +25,19 @@ float solidAt(vec3 index) { return textureLod(solid_field, (index + 0.5) / vec3(
 // The same smoothed, for normals.
 float smoothAt(vec3 index) { return textureLod(smooth_field, (index + 0.5) / vec3(volume.size.xyz), 0.0).r; }
 
-// Colour (linear) and finish of the matter at a place, trilinear in the stored roots, the edge repeated.
+// Colour (linear) and finish, trilinear in the stored roots, clamped to the edge.
 vec4 appearanceAt(vec3 index) {
   vec3 inside = clamp(index, vec3(0.0), vec3(volume.size.xyz - 1));
   vec4 appearance = textureLod(appearance_field, (inside + 0.5) / vec3(volume.size.xyz), 0.0);
   return vec4(appearance.rgb * appearance.rgb, appearance.a);
 }
 
-// Mean solid fraction of the cells around a place, 0..1, trilinear, air outside.
+// Mean solid fraction of the surrounding cells, 0..1, trilinear, air outside.
 float densityAt(vec3 index) {
   return textureLod(ambient_map, (index + 0.5) / (float(AMBIENT_CELL_VOXELS) * vec3(volume.ambient_size.xyz)), 0.0).r;
 }
 
-// Tissue of the voxel nearest to a place.
+// Tissue of the nearest voxel.
 uint labelAt(vec3 index) {
   ivec3 voxel = clamp(ivec3(floor(index + 0.5)), ivec3(0), volume.size.xyz - 1);
   return min(texelFetch(label_field, voxel, 0).r, uint(TISSUE_COUNT - 1));

@@ -1,13 +1,12 @@
-// What one pixel shows of tooth and bone, as far as the meshes before them allow: the whole of both the fragment and the
-// compute caster.
+// Tooth and bone in one pixel, up to the meshes in front: the body of the fragment and of the compute caster.
 #include "bone_light.glsl"
 #include "ray_translucent.glsl"
 
-layout(binding = SCENE_DISTANCE_UNIT) uniform sampler2D scene_distance;  // of the meshes, 0 where there are none
+layout(binding = SCENE_DISTANCE_UNIT) uniform sampler2D scene_distance;  // of the meshes, 0: none
 
 struct VolumePixel {
-  vec4 light;         // premultiplied; 0 where the volume does not show
-  float distance_mm;  // along the ray; 0 where nothing solid is met
+  vec4 light;         // premultiplied; 0 outside the volume
+  float distance_mm;  // along the ray; 0: nothing solid
 };
 
 VolumePixel surfacePixel(vec3 eye_index, vec3 direction, float limit) {
