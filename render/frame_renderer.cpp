@@ -6,7 +6,7 @@
 
 #include "render/display/stereo_layout.h"
 #include "render/gpu/gpu_error.h"
-#include "render/gpu/window_upload.h"
+#include "render/gpu/window_image.h"
 #include "render/scene/mandibular_canal_tube.h"
 #include "render/scene_renderer.h"
 
@@ -37,8 +37,8 @@ FrameRenderer::FrameRenderer(const assets::VolumeGrid& grid, std::span<const std
     return;
   }
   upload_ = std::make_unique<WindowUpload>();
-  scene_ = cpuSceneRenderer(
-      fields_, options, [this](const Image& image, const WindowTarget& target) { upload_->show(image, target); });
+  scene_ = cpuSceneRenderer(fields_, options,
+                            [this](const Image& image, const WindowTarget& target) { upload_->show(image, target); });
 }
 
 FrameRenderer::~FrameRenderer() = default;

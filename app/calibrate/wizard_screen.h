@@ -8,7 +8,7 @@
 
 #include "app/view/display_windows.h"
 #include "render/display/stereo_layout.h"
-#include "render/gpu/window_upload.h"
+#include "render/gpu/window_image.h"
 #include "render/image.h"
 
 namespace app {

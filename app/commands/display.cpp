@@ -22,7 +22,7 @@
 #include "app/view/snapshot.h"
 #include "calibration/output_file.h"
 #include "calibration/record/utc.h"
-#include "render/gpu/window_upload.h"
+#include "render/gpu/window_image.h"
 
 namespace app {
 namespace {

@@ -1,4 +1,4 @@
-// A buffer of bytes on the GPU: uniform block, vertices or indices. Move-only. Thread: the context's.
+// A buffer on the GPU: uniform block, storage, vertices or indices. Move-only. Thread: the context's.
 #pragma once
 
 #include <cstddef>
@@ -13,13 +13,12 @@ class Buffer {
   Buffer() = default;
   /// Fixed content.
   explicit Buffer(std::span<const std::byte> content);
-  /// Room for `bytes` to be rewritten with update().
+  /// Uninitialised, to be filled with update().
   static Buffer ofSize(std::size_t bytes);
 
   void update(std::span<const std::byte> content, std::size_t first_byte = 0);
-  /// Binds it as the uniform block with that binding.
+  /// `block`: the binding of the block.
   void bindUniform(int block) const;
-  /// Binds it as the storage block with that binding.
   void bindStorage(int block) const;
   unsigned name() const { return name_.get(); }
 

@@ -1,4 +1,4 @@
-// The draw calls and the state they need, stated in full for every pass so that no pass depends on the one before.
+// Draw calls and their state, set in full for every pass so that no pass depends on the one before.
 // Depth is reverse-Z in 0..1. Thread: the context's.
 #pragma once
 
@@ -14,9 +14,9 @@ namespace render {
 struct DrawState {
   bool depth_test = true;
   bool depth_write = true;
-  bool allow_equal_depth = false;  ///< what lies at the very depth that is there already is drawn too
+  bool allow_equal_depth = false;  ///< depth test passes at equal depth
   bool blend = false;              ///< premultiplied, over the first colour attachment
-  bool mirrored = false;           ///< the view is left-handed: front faces turn clockwise
+  bool mirrored = false;           ///< the view is left-handed: front faces are clockwise
   bool write_colour = true;        ///< first colour attachment
   bool write_distance = true;      ///< second colour attachment
 };
@@ -26,14 +26,14 @@ void apply(const DrawState& state);
 /// Restricts the following draws to a rectangle of the bound framebuffer, px from its lower left.
 void setViewport(glm::ivec2 corner, glm::ivec2 size);
 
-/// Makes what shaders stored in buffers and images so far readable by the next draw.
+/// Makes shader writes to buffers and images visible to the next draw.
 void finishStorageWrites();
 
 /// The triangle of screen.vert over all of the bound framebuffer, or of its viewport.
 void drawScreen(const Program& program, const DrawState& state);
 
-/// Runs the compute program in use over `size` invocations in square groups, and makes the images it wrote readable as
-/// textures.
+/// Runs the current compute program over `size` invocations in square groups; its image writes are then visible to
+/// texture reads.
 void dispatch(glm::ivec2 size, int group);
 
 /// One vertex as the mesh shaders read it.

@@ -1,5 +1,5 @@
-// Keeps the graphics card at most one image behind: marked after a image was handed over, waited for before the
-// hand is asked for the next. Thread: the context's. Cost: the wait itself; none where the card is ahead.
+// Limits the graphics card to one frame of latency: mark() after submitting a frame, wait() before sampling the pose
+// for the next. Thread: the context's. Cost: the wait.
 #pragma once
 
 namespace render {
@@ -11,11 +11,11 @@ class FrameFence {
   FrameFence(const FrameFence&) = delete;
   FrameFence& operator=(const FrameFence&) = delete;
 
-  /// All that was asked of the graphics card so far; an older mark is forgotten.
+  /// Marks the commands submitted so far; replaces an older mark.
   void mark();
-  /// Until the mark is reached. At most a second: a lost context never gets there.
+  /// Waits for the mark, at most a second: a lost context never reaches it.
   void wait();
-  /// Drawing asked for in the current context from now on comes after the mark, which another context may have set.
+  /// Later commands of the current context run after the mark, which another context may have set.
   void waitOnGpu() const;
 
  private:

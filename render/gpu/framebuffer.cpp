@@ -24,8 +24,8 @@ Framebuffer::Framebuffer(glm::ivec2 size, std::span<const TexelFormat> colours, 
   }
   glNamedFramebufferDrawBuffers(name_.get(), static_cast<GLsizei>(buffers.size()), buffers.data());
   if (glCheckNamedFramebufferStatus(name_.get(), GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-    throw GpuError("picture of " + std::to_string(size.x) + "x" + std::to_string(size.y) +
-                   " px, graphics driver: it can not be drawn into; choose a smaller one");
+    throw GpuError("image of " + std::to_string(size.x) + "x" + std::to_string(size.y) +
+                   " px, graphics driver: it cannot be rendered to; choose a smaller one");
 }
 
 void Framebuffer::fit(glm::ivec2 size, std::span<const TexelFormat> colours, bool depth) {

@@ -1,4 +1,4 @@
-// Something to draw into: colour attachments and depth that it owns. Move-only. Thread: the context's.
+// A render target that owns its colour attachments and depth. Move-only. Thread: the context's.
 // Reading back waits for the GPU: for snapshots, recordings and tests, not for every frame.
 #pragma once
 
@@ -13,9 +13,9 @@ namespace render {
 class Framebuffer {
  public:
   Framebuffer() = default;
-  /// Colour attachments 0, 1, … in the order of `colours`; with `depth` a 32-bit float depth as well.
+  /// Colour attachments 0, 1, … in the order of `colours`; `depth`: a 32-bit float depth as well.
   Framebuffer(glm::ivec2 size, std::span<const TexelFormat> colours, bool depth);
-  /// Makes it anew unless it has that size.
+  /// Recreates it unless it has that size.
   void fit(glm::ivec2 size, std::span<const TexelFormat> colours, bool depth);
 
   void bind() const;
@@ -24,7 +24,7 @@ class Framebuffer {
   const Texture& colour(int attachment) const { return colours_[static_cast<std::size_t>(attachment)]; }
   glm::ivec2 size() const { return size_; }
 
-  /// Rows bottom first, as OpenGL keeps them.
+  /// Bottom row first.
   std::vector<std::uint8_t> readRgba8(int attachment) const;
   std::vector<float> readFloat(int attachment) const;
 

@@ -6,10 +6,8 @@
 
 #include "render/gpu/gpu_error.h"
 
-#include "render/gpu/gpu_error.h"
-
 #if defined(__SANITIZE_ADDRESS__)
-// Graphics drivers keep memory for the life of the process and unload what pointed to it: not for the leak checker.
+// Graphics drivers keep memory for the life of the process and unload the code that referenced it.
 // NOLINTNEXTLINE: the name is the sanitizer's.
 extern "C" const char* __asan_default_options() { return "detect_leaks=0"; }
 #endif
@@ -17,9 +15,9 @@ extern "C" const char* __asan_default_options() { return "detect_leaks=0"; }
 namespace render {
 
 void throwIfGlError(std::string_view where) {
-  // Core since OpenGL 4.5; contexts that can not be lost say so by never reporting it.
+  // Core since OpenGL 4.5; never set in contexts without reset notification.
   if (glGetGraphicsResetStatus() != GL_NO_ERROR)
-    throw ContextLost("the graphics card was reset, " + std::string(where) + ": its driver gave up; draw anew");
+    throw ContextLost("the graphics card was reset, " + std::string(where) + "; create the renderer again");
   if (const GLenum code = glGetError(); code != GL_NO_ERROR)
     throw GpuError("OpenGL error " + std::to_string(code) + ", " + std::string(where) +
                    ": see the driver's log; update the graphics driver");

@@ -1,5 +1,5 @@
-// Owner of one OpenGL object name: deletes it when it goes. Move-only, 16 bytes.
-// Thread: that of the context which made the object, and the context must be current when the owner dies.
+// Owner of one OpenGL object name, deleted in the destructor. Move-only, 16 bytes. Thread: the context's, which must be
+// current when the owner is destroyed.
 #pragma once
 
 #include <utility>
@@ -29,12 +29,11 @@ class GlName {
   Delete remove_ = nullptr;
 };
 
-// New objects, without content yet.
+// New objects, without storage.
 GlName newBuffer();
 GlName newFramebuffer();
 /// `target`: GL_TEXTURE_2D or GL_TEXTURE_3D.
 GlName newTexture(unsigned target);
-/// How the vertices of a drawing lie in their buffers.
 GlName newVertexArray();
 
 }  // namespace render

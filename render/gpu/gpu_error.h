@@ -1,5 +1,5 @@
-// The one exception of this folder: no display, no driver, a shader that does not build, a camera that can not be
-// drawn. The text is one line: what, where, what to do.
+// Exceptions of render: no display, no driver, a shader that does not build, an invalid camera. The text is one line:
+// what, where, what to do.
 #pragma once
 
 #include <stdexcept>
@@ -10,7 +10,7 @@ struct GpuError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The graphics card was reset: context and all in it are gone; windows and renderers must be made anew.
+/// The graphics card was reset: the context is lost; windows and renderers must be created again.
 struct ContextLost : GpuError {
   using GpuError::GpuError;
 };

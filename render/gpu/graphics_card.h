@@ -1,5 +1,5 @@
-// What draws in the current OpenGL context: its own name and version, and whether it is a program on the CPU (Mesa's
-// llvmpipe and softpipe, SwiftShader). Thread: the context's; a driver call.
+// The renderer of the current OpenGL context: name, version, and whether it runs on the CPU (Mesa's llvmpipe and
+// softpipe, SwiftShader). Thread: the context's; a driver call.
 #pragma once
 
 #include <string>

@@ -22,7 +22,7 @@ bool isSoftware(EGLDeviceEXT device) {
   return all != nullptr && std::string(all).find("EGL_MESA_device_software") != std::string::npos;
 }
 
-// Displays worth trying, best first: graphics cards, then Mesa without one, then whatever is there.
+// Displays to try: graphics cards, then Mesa's surfaceless platform, software devices, the default display.
 std::vector<EGLDisplay> candidateDisplays() {
   std::vector<EGLDisplay> cards, others;
   if (hasClientExtension("EGL_MESA_platform_surfaceless"))
@@ -46,10 +46,10 @@ std::vector<EGLDisplay> candidateDisplays() {
 EGLContext contextOn(EGLDisplay display) {
   if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) return EGL_NO_CONTEXT;
   if (!eglBindAPI(EGL_OPENGL_API)) return EGL_NO_CONTEXT;
-  const std::array<EGLint, 5> wish{EGL_SURFACE_TYPE, EGL_DONT_CARE, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
+  const std::array<EGLint, 5> requested{EGL_SURFACE_TYPE, EGL_DONT_CARE, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
   EGLConfig config = nullptr;
   EGLint count = 0;
-  if (!eglChooseConfig(display, wish.data(), &config, 1, &count) || count == 0) return EGL_NO_CONTEXT;
+  if (!eglChooseConfig(display, requested.data(), &config, 1, &count) || count == 0) return EGL_NO_CONTEXT;
   const std::array<EGLint, 7> attributes{
       EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
       EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
@@ -72,7 +72,7 @@ OffscreenContext::OffscreenContext() {
     throw GpuError("no OpenGL 4.5 core context, EGL without display: install libegl-mesa0 and libgl1-mesa-dri");
 }
 
-// Terminating ends the driver's threads here and not after main, where leak checkers trip over them.
+// Terminates the driver's threads here rather than after main, where leak checkers report them.
 OffscreenContext::~OffscreenContext() {
   makeCurrent();
   eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);

@@ -1,20 +1,19 @@
-// An OpenGL 4.5 core context without window or X: EGL on the first graphics card it can be had on, else on Mesa's
+// An OpenGL 4.5 core context without window or X: EGL on the first graphics card that provides one, else on Mesa's
 // surfaceless platform, else on the default display. Current on the constructing thread from construction to
-// destruction. Cost: some ten ms.
-// Not for quad-buffered stereo.
+// destruction. Cost: some ten ms. No quad-buffered stereo.
 #pragma once
 
 namespace render {
 
 class OffscreenContext {
  public:
-  /// Throws GpuError when no OpenGL 4.5 can be had.
+  /// Throws GpuError if no OpenGL 4.5 is available.
   OffscreenContext();
   ~OffscreenContext();
   OffscreenContext(const OffscreenContext&) = delete;
   OffscreenContext& operator=(const OffscreenContext&) = delete;
 
-  /// Makes it current on the calling thread, after it was current on no other or a window was opened.
+  /// Makes it current on the calling thread; it must not be current on another.
   void makeCurrent();
 
  private:

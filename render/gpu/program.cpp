@@ -12,17 +12,17 @@
 namespace render {
 namespace {
 
-/// `ask` and `read`: OpenGL's questions for the state and the log of a shader or of a program.
-template <class Ask, class Read>
-void throwUnlessGood(GLuint name, GLenum state, Ask ask, Read read, const std::string& what) {
+/// `get` and `read`: OpenGL's functions for the state and the log of a shader or of a program.
+template <class Get, class Read>
+void throwUnlessGood(GLuint name, GLenum state, Get get, Read read, const std::string& what) {
   GLint good = GL_FALSE;
-  ask(name, state, &good);
+  get(name, state, &good);
   if (good == GL_TRUE) return;
-  constexpr std::size_t kWords = 240;  // the driver's first complaint; the rest follows from it
+  constexpr std::size_t kLongestMessage = 240;  // of the driver's first error; the rest follows from it
   std::string log(2000, '\0');
   GLsizei used = 0;
   read(name, static_cast<GLsizei>(log.size()), &used, log.data());
-  log.resize(std::min({log.find('\n'), static_cast<std::size_t>(used), kWords}));
+  log.resize(std::min({log.find('\n'), static_cast<std::size_t>(used), kLongestMessage}));
   throw GpuError(what + ", graphics driver: " + log);
 }
 

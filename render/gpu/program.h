@@ -1,6 +1,6 @@
-// Linked shaders from the shader library: a vertex and a fragment shader, or a compute shader. Everything it reads
-// comes by uniform blocks and texture units with fixed bindings (shared_constants.glsl), so it has no settable state.
-// Move-only. Thread: the context's. Cost: compiling, 0.1 to 0.5 s on a software rasteriser.
+// A linked program from the shader library: vertex and fragment shader, or a compute shader. All inputs are uniform
+// blocks and texture units with fixed bindings (shared_constants.glsl). Move-only. Thread: the context's. Cost:
+// compiling, 0.1 to 0.5 s on a software rasteriser.
 #pragma once
 
 #include <initializer_list>
@@ -12,8 +12,7 @@ namespace render {
 
 class Program {
  public:
-  /// Names of shaders, which end in .vert, .frag or .comp. Throws GpuError with the driver's words if they do not
-  /// build.
+  /// File names ending in .vert, .frag or .comp. Throws GpuError with the driver's message if they do not build.
   Program(std::initializer_list<std::string_view> files);
 
   void use() const;

@@ -1,11 +1,11 @@
-// The shaders of render/shaders, embedded at build with their includes resolved. Any thread; a look-up in a short list.
+// The shaders of render/shaders, embedded at build with their includes resolved. Any thread; searches a short list.
 #pragma once
 
 #include <string_view>
 
 namespace render {
 
-/// GLSL text of a shader by file name ("volume.frag"); throws GpuError for a name that was not built in.
+/// GLSL text of a shader by file name ("volume.frag"); throws GpuError for an unknown name.
 std::string_view shaderSource(std::string_view name);
 
 }  // namespace render

@@ -11,22 +11,22 @@
 namespace render {
 namespace {
 
-struct FormatFacts {
+struct FormatInfo {
   GLenum internal, external, type;
   std::size_t bytes;
 };
 
 // In the order of TexelFormat.
-constexpr std::array<FormatFacts, 8> kFacts{{{GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, 1},
-                                             {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4},
-                                             {GL_RG16, GL_RG, GL_UNSIGNED_SHORT, 4},
-                                             {GL_R16, GL_RED, GL_UNSIGNED_SHORT, 2},
-                                             {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4},
-                                             {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8},
-                                             {GL_R32F, GL_RED, GL_FLOAT, 4},
-                                             {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4}}};
+constexpr std::array<FormatInfo, 8> kInfo{{{GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, 1},
+                                           {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4},
+                                           {GL_RG16, GL_RG, GL_UNSIGNED_SHORT, 4},
+                                           {GL_R16, GL_RED, GL_UNSIGNED_SHORT, 2},
+                                           {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4},
+                                           {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8},
+                                           {GL_R32F, GL_RED, GL_FLOAT, 4},
+                                           {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4}}};
 
-const FormatFacts& factsOf(TexelFormat format) { return kFacts[static_cast<std::size_t>(format)]; }
+const FormatInfo& infoOf(TexelFormat format) { return kInfo[static_cast<std::size_t>(format)]; }
 
 }  // namespace
 
@@ -39,11 +39,11 @@ Texture Texture::image(glm::ivec2 size, TexelFormat format) {
   GLint largest = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
   if (size.x > largest || size.y > largest)
-    throw GpuError("picture of " + std::to_string(size.x) + "x" + std::to_string(size.y) +
-                   " px, graphics driver: it takes " + std::to_string(largest) +
-                   " along an edge; choose a smaller size or fewer samples");
+    throw GpuError("image of " + std::to_string(size.x) + "x" + std::to_string(size.y) +
+                   " px, graphics driver: the largest edge is " + std::to_string(largest) +
+                   "; choose a smaller size or fewer samples");
   Texture texture(GL_TEXTURE_2D, glm::ivec3(size, 1), format);
-  glTextureStorage2D(texture.name(), 1, factsOf(format).internal, size.x, size.y);
+  glTextureStorage2D(texture.name(), 1, infoOf(format).internal, size.x, size.y);
   glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   glTextureParameteri(texture.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -56,9 +56,10 @@ Texture Texture::volume(glm::ivec3 size, TexelFormat format) {
   glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &largest);
   if (size.x > largest || size.y > largest || size.z > largest)
     throw GpuError("volume of " + std::to_string(glm::max(size.x, glm::max(size.y, size.z))) +
-                   " voxels along an edge, graphics driver: it takes " + std::to_string(largest) + "; crop the scan");
+                   " voxels along an edge, graphics driver: the largest edge is " + std::to_string(largest) +
+                   "; crop the scan");
   Texture texture(GL_TEXTURE_3D, size, format);
-  glTextureStorage3D(texture.name(), 1, factsOf(format).internal, size.x, size.y, size.z);
+  glTextureStorage3D(texture.name(), 1, infoOf(format).internal, size.x, size.y, size.z);
   const GLint filter = format == TexelFormat::r8ui ? GL_NEAREST : GL_LINEAR;
   glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, filter);
   glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, filter);
@@ -68,37 +69,37 @@ Texture Texture::volume(glm::ivec3 size, TexelFormat format) {
 }
 
 void Texture::upload(glm::ivec3 offset, glm::ivec3 extent, std::span<const std::byte> texels) {
-  assert(texels.size() == factsOf(format_).bytes * static_cast<std::size_t>(extent.x) *
+  assert(texels.size() == infoOf(format_).bytes * static_cast<std::size_t>(extent.x) *
                               static_cast<std::size_t>(extent.y) * static_cast<std::size_t>(extent.z));
   upload(offset, extent, texels.data(), extent.x, extent.y);
 }
 
 void Texture::upload(glm::ivec3 offset, glm::ivec3 extent, const std::byte* first, int row_texels, int slice_rows) {
-  const FormatFacts facts = factsOf(format_);
+  const FormatInfo info = infoOf(format_);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glPixelStorei(GL_UNPACK_ROW_LENGTH, row_texels);
   glPixelStorei(GL_UNPACK_IMAGE_HEIGHT, slice_rows);
-  glTextureSubImage3D(name(), 0, offset.x, offset.y, offset.z, extent.x, extent.y, extent.z, facts.external, facts.type,
+  glTextureSubImage3D(name(), 0, offset.x, offset.y, offset.z, extent.x, extent.y, extent.z, info.external, info.type,
                       first);
   glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
   glPixelStorei(GL_UNPACK_IMAGE_HEIGHT, 0);
 }
 
 void Texture::uploadImage(std::span<const std::byte> texels) {
-  const FormatFacts facts = factsOf(format_);
-  assert(texels.size() == facts.bytes * static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y));
+  const FormatInfo info = infoOf(format_);
+  assert(texels.size() == info.bytes * static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y));
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTextureSubImage2D(name(), 0, 0, 0, size_.x, size_.y, facts.external, facts.type, texels.data());
+  glTextureSubImage2D(name(), 0, 0, 0, size_.x, size_.y, info.external, info.type, texels.data());
 }
 
 void Texture::bind(int unit) const { glBindTextureUnit(static_cast<GLuint>(unit), name()); }
 
 void Texture::bindForWriting(int image_unit) const {
-  glBindImageTexture(static_cast<GLuint>(image_unit), name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, factsOf(format_).internal);
+  glBindImageTexture(static_cast<GLuint>(image_unit), name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, infoOf(format_).internal);
 }
 
 void Texture::bindForReadingAndWriting(int image_unit) const {
-  glBindImageTexture(static_cast<GLuint>(image_unit), name(), 0, GL_FALSE, 0, GL_READ_WRITE, factsOf(format_).internal);
+  glBindImageTexture(static_cast<GLuint>(image_unit), name(), 0, GL_FALSE, 0, GL_READ_WRITE, infoOf(format_).internal);
 }
 
 void Texture::fill(std::uint32_t value) {

@@ -1,5 +1,5 @@
 // An immutable-storage texture, 2-D or 3-D, one level. Move-only. Thread: the context's.
-// Outside a volume texture lies 0 (border colour); 2-D textures repeat their edge.
+// Volume textures are 0 outside (border colour); 2-D textures clamp to the edge.
 #pragma once
 
 #include <cstdint>
@@ -19,17 +19,17 @@ class Texture {
   /// Filtered linearly, except integers.
   static Texture volume(glm::ivec3 size, TexelFormat format);
 
-  /// Copies texels into a box; `texels` tightly packed, x fastest, of the format's own type (r8ui: u8, r16: u16).
+  /// Copies texels into a box; `texels` tightly packed, x fastest, of the format's type (r8ui: u8, r16: u16).
   void upload(glm::ivec3 offset, glm::ivec3 extent, std::span<const std::byte> texels);
-  /// The same out of a larger array: `row_texels` from one row to the next, `slice_rows` from one slice to the next.
+  /// From a larger array: `row_texels` from one row to the next, `slice_rows` from one slice to the next.
   void upload(glm::ivec3 offset, glm::ivec3 extent, const std::byte* first, int row_texels, int slice_rows);
-  /// A whole image, rows bottom first, tightly packed.
+  /// A whole image, bottom row first, tightly packed.
   void uploadImage(std::span<const std::byte> texels);
   void bind(int unit) const;
-  /// As an image that a compute program writes.
+  /// As an image of a shader.
   void bindForWriting(int image_unit) const;
   void bindForReadingAndWriting(int image_unit) const;
-  /// Every texel of an r32ui texture.
+  /// Sets every texel; r32ui only.
   void fill(std::uint32_t value);
 
   glm::ivec3 size() const { return size_; }

@@ -28,7 +28,7 @@ void copy(const Buffer& from, std::size_t from_byte, const Buffer& to, std::size
                            static_cast<GLsizeiptr>(bytes));
 }
 
-/// A quarter more than asked: a patch that is carved changes its size a little every time.
+/// A quarter more than needed, since every cut changes the size of a patch a little.
 std::size_t withSlack(std::size_t count) { return count + count / 4 + 24; }
 
 }  // namespace
@@ -57,7 +57,7 @@ void TrianglePool::set(std::size_t patch, std::span<const glm::vec3> positions,
 }
 
 void TrianglePool::makeRoom(Slot& slot, std::size_t vertices, std::size_t indices) {
-  slot.vertex_room = slot.index_room = 0;  // what it had is left as a gap
+  slot.vertex_room = slot.index_room = 0;  // its old part becomes a gap
   const std::size_t vertex_room = withSlack(vertices), index_room = withSlack(indices);
   if (vertices_used_ + vertex_room > vertex_room_ || indices_used_ + index_room > index_room_)
     grow(vertex_room, index_room);
@@ -69,7 +69,7 @@ void TrianglePool::makeRoom(Slot& slot, std::size_t vertices, std::size_t indice
   indices_used_ += index_room;
 }
 
-// Into larger buffers, without the gaps.
+// Copies into larger buffers and closes the gaps.
 void TrianglePool::grow(std::size_t vertices, std::size_t indices) {
   std::size_t kept_vertices = 0, kept_indices = 0;
   for (const Slot& slot : slots_) {

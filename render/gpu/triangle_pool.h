@@ -1,6 +1,6 @@
-// Many small patches of triangles in one pair of buffers, drawn by one call, each patch replaceable by itself.
-// Positions alone, in one frame; what a patch of another size leaves behind is closed up when the buffers have to grow.
-// Move-only. Thread: the context's. Replacing a patch: two uploads; growing: one copy on the GPU, now and then.
+// Many small patches of triangles in one pair of buffers, drawn by one call; each patch can be replaced. Positions
+// only, all in one frame; gaps left by resized patches are closed when the buffers grow. Move-only. Thread: the
+// context's. Cost: replacing a patch, two uploads; growing, one copy on the GPU, occasionally.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +14,10 @@ namespace render {
 
 class TrianglePool {
  public:
-  /// Room for that many vertices and indices in all; more is made when needed.
+  /// Initial capacity for all patches; grows when needed.
   TrianglePool(std::size_t patches, std::size_t vertices, std::size_t indices);
 
-  /// Three indices a triangle, into `positions` (at most 65536). Empty: the patch goes.
+  /// Three indices a triangle, into `positions` (at most 65536). Empty: removes the patch.
   void set(std::size_t patch, std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices);
   void draw();
 
@@ -30,12 +30,12 @@ class TrianglePool {
   void grow(std::size_t vertices, std::size_t indices);
 
   std::vector<Slot> slots_;
-  std::size_t vertex_room_, index_room_;              ///< of the buffers
-  std::size_t vertices_used_ = 0, indices_used_ = 0;  ///< from their beginning, gaps and all
+  std::size_t vertex_room_, index_room_;              ///< capacity of the buffers
+  std::size_t vertices_used_ = 0, indices_used_ = 0;  ///< from their beginning, including gaps
   Buffer vertices_, indices_;
   GlName layout_;
   std::vector<std::uint16_t> narrow_;
-  // What draw() hands over, by patch that is not empty.
+  // Arguments of the draw call, one per non-empty patch.
   bool listed_ = false;
   std::vector<int> counts_, first_vertices_;
   std::vector<const void*> first_indices_;

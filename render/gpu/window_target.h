@@ -1,4 +1,4 @@
-// Where in the current window something is shown. A stereo window has two buffers for the next image. Plain values.
+// Area of the current window in which an image is shown. A stereo window has two back buffers. Plain values.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -8,10 +8,10 @@ namespace render {
 enum class WindowBuffer { back, back_left, back_right };
 
 struct WindowTarget {
-  glm::ivec2 size_px{0};    ///< what is shown is scaled to it
+  glm::ivec2 size_px{0};    ///< the image is scaled to it
   glm::ivec2 corner_px{0};  ///< from the window's lower left
   WindowBuffer buffer = WindowBuffer::back;
-  bool flipped_x = false, flipped_y = false;  ///< as someone sees it who looks at the panel by a mirror
+  bool flipped_x = false, flipped_y = false;  ///< for a viewer who sees the panel in a mirror
 };
 
 }  // namespace render

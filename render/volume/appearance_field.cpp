@@ -26,7 +26,7 @@ std::uint32_t packed(const glm::vec3& colour, float finish) {
   return byte(root.r) | byte(root.g) << 8 | byte(root.b) << 16 | byte(finish) << 24;
 }
 
-// Weights 1/8, 3/4, 1/8 of the quadratic B-spline at a voxel's centre, in place: only the inner voxels stay whole.
+// Weights 1/8, 3/4, 1/8 of the quadratic B-spline at a voxel centre, in place; valid for the inner voxels only.
 void smoothAxis(Block& block, std::size_t step) {
   const Block before = block;
   for (int k = 0; k < kWide; ++k)
@@ -52,7 +52,7 @@ BorderedField<std::uint32_t> appearanceField(const BorderedField<std::uint8_t>& 
     return kTissueAppearance[tissue < kTissueAppearance.size() ? tissue : 0];
   };
   const auto blend_brick = [&](glm::ivec3 brick) {
-    // What the brick and its border hold; air without a label needs no colour.
+    // The brick and its border; unlabelled air needs no colour.
     const glm::ivec3 first = kCore * brick;
     bool any = false;
     Block block{};

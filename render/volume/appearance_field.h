@@ -1,8 +1,6 @@
-// The colour and finish of the matter in every voxel, melted over its neighbours so that neither voxel edges nor the
-// air beside a surface show: a quadratic B-spline over 27 voxels, weighted by what each holds (solid squared) and by
-// the colour_weight of its tissue. Made once from the scan; carving uncovers it and never changes it. RGBA8: red,
-// green, blue as the square root of linear light, alpha the finish (tissue_look.h). Start-up, all cores; about 0.1 s
-// for a jaw of 256^3 voxels.
+// Colour and finish of every voxel, blended across tissue boundaries once at load; carving uncovers it and does not
+// change it. RGBA8: red, green, blue as the square root of linear light, alpha the finish (tissue_appearance.h).
+// Start-up, all cores; about 0.1 s for a jaw of 256^3 voxels.
 #pragma once
 
 #include <cstdint>

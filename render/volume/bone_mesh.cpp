@@ -51,7 +51,7 @@ void BoneMesh::upload(glm::ivec3 brick) {
 }
 
 void BoneMesh::draw(bool view_is_mirrored) {
-  // Depth first: spongy bone lies in many layers, and light is dear.
+  // Depth first, since cancellous bone has many layers and shading is expensive.
   apply({.mirrored = view_is_mirrored, .write_colour = false, .write_distance = false});
   depth_.use();
   pool_->draw();

@@ -1,7 +1,6 @@
-// Tooth and bone drawn as triangles: the surface of assets/bone_surface on the GPU, brick by brick, with the very
-// appearance and light of the ray-cast surface. Carved bricks are noted in every view and become triangles when a frame
-// asks. Frame P. Render thread. First frame: all bricks (50 ms for 4 million voxels); then about 80 us a carved brick.
-// The caster's volume must be bound while drawing. Not the ray caster's surface to the last pixel: triangles are flat
+// Tooth and bone as triangles: the surface of assets/bone_surface on the GPU, by brick, shaded as the ray-cast surface.
+// Frame P. Render thread. First frame: all bricks (50 ms for 4 million voxels); then about 80 us a carved brick.
+// The caster's volume must be bound while drawing. Differs slightly from the ray-cast surface: triangles are flat
 // within a voxel, where the trilinear field is curved.
 #pragma once
 
@@ -18,9 +17,9 @@ namespace render {
 
 class BoneMesh {
  public:
-  /// What became of the volume since the last call, whether or not triangles are drawn.
+  /// Records the changes of the volume; required in every view mode.
   void markChanged(const FieldChanges& changes);
-  /// Before drawing: triangles for all that was noted.
+  /// Before drawing: updates the triangles of all changed bricks.
   void prepare(const VolumeFields& fields);
   void draw(bool view_is_mirrored);
 
@@ -30,7 +29,7 @@ class BoneMesh {
   Program depth_{"bone_mesh.vert", "bone_depth.frag"}, light_{"bone_mesh.vert", "bone_mesh.frag"};
   std::optional<assets::BoneSurface> surface_;
   std::optional<TrianglePool> pool_;
-  std::vector<glm::ivec3> changed_;  ///< bricks, some of them twice
+  std::vector<glm::ivec3> changed_;  ///< bricks, possibly repeated
 };
 
 }  // namespace render

@@ -1,7 +1,6 @@
-// One value per voxel with a border of one voxel of air around the volume, so that a sample anywhere from -1 to the
-// size needs no case of its own. Fields of one grid share their strides: an offset found once serves all of them. i
-// fastest; voxel (0,0,0) lies one row and one slice in. Behind the last value there is room for a wide load. Plain
-// data; memory: one T a voxel.
+// One value per voxel, with a border of one voxel of air around the volume, so that samples from -1 to size need no
+// special case. Fields of one grid share their strides. i fastest; voxel (0,0,0) is one row and one slice in. Padded
+// behind the last value for wide loads. Plain data; memory: one T a voxel.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +9,7 @@
 
 namespace render {
 
-/// Where voxels lie in memory, counted in values.
+/// Memory layout, counted in values.
 struct FieldLayout {
   glm::ivec3 size{0};         ///< voxels without the border
   std::ptrdiff_t row = 0;     ///< from one j to the next
@@ -23,7 +22,7 @@ struct FieldLayout {
 
   /// ijk from -1 to size.
   std::ptrdiff_t offset(glm::ivec3 ijk) const { return origin + ijk.z * slice + ijk.y * row + ijk.x; }
-  /// Values to allocate: a sample at the far border reads one slice, row and word beyond, with weight 0.
+  /// Values to allocate: a sample at the far border reads one slice, row and word further, with weight 0.
   std::size_t count() const { return static_cast<std::size_t>(slice * (size.z + 3) + row + 16); }
 };
 
@@ -43,7 +42,7 @@ class BorderedField {
   std::vector<T> values_;
 };
 
-/// Places of an array of that size without a border, i fastest.
+/// Size and index of an array without border, i fastest.
 inline std::size_t countIn(glm::ivec3 size) {
   return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);
 }
@@ -69,7 +68,7 @@ inline VoxelBox boxAround(const VoxelBox& a, const VoxelBox& b) {
   return {low, glm::max(a.first + a.extent, b.first + b.extent) - low};
 }
 
-/// Grown by `by` voxels on every side, within a volume of `size`.
+/// Grown by `by` voxels on every side, clipped to a volume of `size`.
 inline VoxelBox grown(const VoxelBox& box, int by, glm::ivec3 size) {
   const glm::ivec3 low = glm::max(box.first - by, glm::ivec3(0));
   return {low, glm::min(box.first + box.extent + by, size) - low};

@@ -18,10 +18,10 @@ constexpr double kScale_mm = 5.0;
 constexpr float kFar_mm = 1e3f;
 
 // sRGB 0..255.
-const glm::vec3 kGone{70.0f, 12.0f, 16.0f}, kCanal{250.0f, 205.0f, 60.0f}, kBur{90.0f, 225.0f, 255.0f},
-    kCross{110.0f, 150.0f, 165.0f}, kWords{225.0f, 232.0f, 235.0f}, kRim{14.0f, 16.0f, 18.0f};
+const glm::vec3 kCarved{70.0f, 12.0f, 16.0f}, kCanal{250.0f, 205.0f, 60.0f}, kBur{90.0f, 225.0f, 255.0f},
+    kCross{110.0f, 150.0f, 165.0f}, kText{225.0f, 232.0f, 235.0f}, kRim{14.0f, 16.0f, 18.0f};
 
-/// How a plane lies in the volume: its two axes as voxel axes, the sign of each along the image, and the words.
+/// A plane in the volume: its axes as voxel axes, the sign of the vertical one in the image, and the labels.
 struct Layout {
   int right_axis, down_axis, normal_axis;
   int down_sign;  // right is always towards larger voxel indices: left, or posterior
@@ -40,18 +40,18 @@ Layout layoutOf(SlicePlane plane) {
   return {};
 }
 
-/// A image being painted: rows of RGBA, and where its pixels are in P.
+/// The image of a slice, and the positions of its pixels in P.
 class SliceImage {
  public:
   SliceImage(const Layout& layout, const glm::dvec3& middle_P_mm, int edge_px)
       : edge_px_(edge_px), mm_per_px_(CtSlices::kWidth_mm / edge_px), middle_(middle_P_mm), layout_(layout) {
-    picture_.w = picture_.h = edge_px;
-    picture_.rgba.assign(static_cast<std::size_t>(edge_px) * static_cast<std::size_t>(edge_px) * 4, 255);
+    image_.w = image_.h = edge_px;
+    image_.rgba.assign(static_cast<std::size_t>(edge_px) * static_cast<std::size_t>(edge_px) * 4, 255);
   }
 
   int edge_px() const { return edge_px_; }
   double mm_per_px() const { return mm_per_px_; }
-  /// Offset of a column or row from the middle, mm: to the right, and downwards.
+  /// Offset of a column or row from the centre, mm: to the right, and downwards.
   double offset_mm(int pixel) const { return (pixel + 0.5 - 0.5 * edge_px_) * mm_per_px_; }
   double columnOf(double p_P_mm) const { return (p_P_mm - middle_[layout_.right_axis]) / mm_per_px_ + 0.5 * edge_px_; }
   double rowOf(double p_P_mm) const {
@@ -79,22 +79,22 @@ class SliceImage {
     for (int y = top; y < top + height; ++y)
       for (int x = left; x < left + width; ++x) set(x, y, colour);
   }
-  Image take() { return std::move(picture_); }
+  Image take() { return std::move(image_); }
 
  private:
   std::uint8_t* at(int x, int y) {
-    return &picture_.rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(edge_px_) +
-                               static_cast<std::size_t>(x))];
+    return &image_.rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(edge_px_) +
+                             static_cast<std::size_t>(x))];
   }
 
   int edge_px_;
   double mm_per_px_;
   glm::dvec3 middle_;
   Layout layout_;
-  Image picture_;
+  Image image_;
 };
 
-/// Two neighbours along an axis and how much of the second; none outside the volume.
+/// The lower of two neighbouring voxels along an axis, and the weight of the upper.
 struct Between {
   int low;
   float part;
@@ -104,7 +104,7 @@ Between between(double index) {
   return {static_cast<int>(low), static_cast<float>(index - low)};
 }
 
-/// A field of voxels in memory, and what lies outside.
+/// A field of voxels in memory, and the value outside.
 template <class T>
 struct Voxels {
   const T* first;
@@ -117,7 +117,7 @@ Voxels<T> inGridOrder(const assets::VolumeGrid& grid, const std::vector<T>& valu
   return {values.data(), {1, grid.size.x, std::int64_t{grid.size.x} * grid.size.y}, outside};
 }
 
-/// One row of a slice: a volume's values along an axis from `first` on, mixed from the four rows of voxels around it.
+/// One row of a slice: values along an axis from voxel `first` on, interpolated from the four surrounding voxel rows.
 template <class T>
 void mixRow(const assets::VolumeGrid& grid, const Voxels<T>& voxels, const Layout& layout, Between down, Between normal,
             int first, std::vector<float>& row) {
@@ -146,10 +146,10 @@ float along(const std::vector<float>& row, Between at) {
   return glm::mix(row[low], row[low + 1], at.part);
 }
 
-/// How much of a pixel a line of 1.6 px covers whose middle is that far away.
+/// Coverage of a pixel by a line 1.6 px wide at that distance from its centre.
 float lineCover(double distance_px) { return static_cast<float>(std::clamp(1.3 - std::abs(distance_px), 0.0, 1.0)); }
 
-/// Where a field of distances (mm, one a pixel) crosses zero, as a line.
+/// Draws the zero line of a distance field (mm, one value a pixel).
 void drawOutline(SliceImage& slice, const std::vector<float>& distance_mm, const glm::vec3& colour) {
   const int edge = slice.edge_px();
   const auto near_mm = static_cast<float>(6.0 * slice.mm_per_px());
@@ -160,7 +160,7 @@ void drawOutline(SliceImage& slice, const std::vector<float>& distance_mm, const
   for (int y = 0; y < edge; ++y)
     for (int x = 0; x < edge; ++x) {
       if (std::abs(distance_mm[static_cast<std::size_t>(y * edge + x)]) > near_mm) continue;
-      // A plane that meets the shape at a slant sees its distance rise slowly.
+      // Normalise by the gradient: a slice oblique to the shape has a small one.
       const int x0 = std::max(x - 1, 0), x1 = std::min(x + 1, edge - 1), y0 = std::max(y - 1, 0),
                 y1 = std::min(y + 1, edge - 1);
       const double rise = std::hypot((at(x1, y) - at(x0, y)) / (x1 - x0), (at(x, y1) - at(x, y0)) / (y1 - y0));
@@ -193,7 +193,7 @@ void drawCanal(SliceImage& slice, const Layout& layout, const glm::dvec3& middle
 }
 
 void drawBur(SliceImage& slice, const Frame& frame) {
-  // In T, pixels lie on an even grid around its origin.
+  // In T, pixels lie on a regular grid around the origin.
   const auto X_TP = frame.X_PT.inverse();
   const auto place_T = [&](int x, int y) {
     return (X_TP * calibration::Point<calibration::Patient>{slice.position_P_mm(x, y)}).mm;
@@ -210,18 +210,18 @@ void drawBur(SliceImage& slice, const Frame& frame) {
   drawOutline(slice, distance_mm, kBur);
 }
 
-/// Thin lines through the middle that leave the bur free.
-void drawCross(SliceImage& slice, double free_mm) {
+/// Thin lines through the centre, interrupted at the bur.
+void drawCross(SliceImage& slice, double gap_mm) {
   const int middle = slice.edge_px() / 2;
   for (int n = 0; n < slice.edge_px(); ++n) {
-    if (std::abs(slice.offset_mm(n)) < free_mm) continue;
+    if (std::abs(slice.offset_mm(n)) < gap_mm) continue;
     slice.blend(n, middle, kCross, 0.4f);
     slice.blend(middle, n, kCross, 0.4f);
   }
 }
 
-// On a dark rim, so that it reads on bone too.
-void drawWord(SliceImage& slice, std::string_view word, int left, int top, int dot_px) {
+// With a dark outline, legible on bone too.
+void drawText(SliceImage& slice, std::string_view word, int left, int top, int dot_px) {
   for (const bool rim : {true, false})
     for (std::size_t n = 0; n < word.size(); ++n) {
       const GlyphRows dots = glyphRows(word[n]);
@@ -232,28 +232,28 @@ void drawWord(SliceImage& slice, std::string_view word, int left, int top, int d
           if (rim)
             slice.fill(from + x - 1, top + y - 1, 3, 3, kRim);
           else
-            slice.set(from + x, top + y, kWords);
+            slice.set(from + x, top + y, kText);
         }
     }
 }
 
-void drawWords(SliceImage& slice, const Layout& layout) {
+void drawLabels(SliceImage& slice, const Layout& layout) {
   const int edge = slice.edge_px(), dot = std::max(1, edge / 200), gap = 3 * dot + 1;
   const int high = kLetterHeight * dot, wide = (kLetterWidth + 1) * dot;
-  drawWord(slice, layout.name, gap, gap, dot);
-  drawWord(slice, layout.left_side, gap, edge / 2 - high / 2, dot);
-  drawWord(slice, layout.right_side, edge - gap - wide + dot, edge / 2 - high / 2, dot);
+  drawText(slice, layout.name, gap, gap, dot);
+  drawText(slice, layout.left_side, gap, edge / 2 - high / 2, dot);
+  drawText(slice, layout.right_side, edge - gap - wide + dot, edge / 2 - high / 2, dot);
 
   // The scale, with ends.
   const int length = static_cast<int>(std::lround(kScale_mm / slice.mm_per_px()));
   const int left = edge - gap - length, base = edge - gap - 1;
   for (const int rim : {1, 0}) {
-    const glm::vec3& colour = rim ? kRim : kWords;
+    const glm::vec3& colour = rim ? kRim : kText;
     slice.fill(left - rim, base - dot + 1 - rim, length + 1 + 2 * rim, dot + 2 * rim, colour);
     for (const int x : {left, left + length})
       slice.fill(x - rim, base - 3 * dot + 1 - rim, 1 + 2 * rim, 3 * dot + 2 * rim, colour);
   }
-  drawWord(slice, "5 MM", left - 4 * wide - gap + dot, edge - gap - high, dot);
+  drawText(slice, "5 MM", left - 4 * wide - gap + dot, edge - gap - high, dot);
 }
 
 }  // namespace
@@ -271,7 +271,7 @@ Image CtSlices::image(SlicePlane plane, const Frame& frame, const BorderedField<
   SliceImage slice(layout, middle, edge_px);
   const Between normal = between(grid_.indexFromPoint(middle)[layout.normal_axis]);
 
-  // Grey values, and what is gone of them.
+  // Grey values, and the carved share.
   const Voxels<std::int16_t> grey = inGridOrder(grid_, scan_.hounsfield, kAir_HU);
   const Voxels<std::uint8_t> before = inGridOrder(grid_, scan_.solid, 0.0f);
   const Voxels<std::uint8_t> now{live.at({0, 0, 0}), {1, live.layout().row, live.layout().slice}, 0.0f};
@@ -292,15 +292,15 @@ Image CtSlices::image(SlicePlane plane, const Frame& frame, const BorderedField<
       const Between right = columns[static_cast<std::size_t>(x)];
       const float shown = (along(grey_row, right) - kLevel_HU) / kWindow_HU + 0.5f;
       slice.setGrey(x, y, static_cast<std::uint8_t>(255.0f * std::clamp(shown, 0.0f, 1.0f) + 0.5f));
-      const float solid = along(before_row, right), gone = solid - along(now_row, right);
-      if (gone > 0.0f) slice.blend(x, y, kGone, gone / std::max(solid, 64.0f));
+      const float solid = along(before_row, right), carved = solid - along(now_row, right);
+      if (carved > 0.0f) slice.blend(x, y, kCarved, carved / std::max(solid, 64.0f));
     }
   }
 
   drawCanal(slice, layout, middle, scan_);
   drawCross(slice, frame.bur_radius_mm + 1.0);
   drawBur(slice, frame);
-  drawWords(slice, layout);
+  drawLabels(slice, layout);
   return slice.take();
 }
 

@@ -1,10 +1,9 @@
-// CT slices through the bur in three planes, as a radiologist sees them: grey values in a bone window, what has been
-// carved shown as gone, the canal's outline, the bur's exact outline, a cross through its middle, the plane's name, the
-// sides and a scale of 5 mm. Axial: seen from below; coronal: from in front; sagittal: from the patient's left.
-// Frame P (LPS), mm. Plain CPU code; one thread at a time. Cost: below 1 ms a plane of 160 px (two or three rows of
-// voxels are mixed once per row of pixels). Memory: 3 bytes a voxel.
-// Grey value: level 500, width 2500 HU, the usual window of bone. Gone: by how much less of the voxel is solid.
-// Not a measuring tool: the scan is read trilinearly, nothing is resampled first.
+// CT slices through the bur in three planes: grey values in a bone window, carved material marked, outlines of canal
+// and bur, a cross at its centre, plane, sides and a scale of 5 mm. Radiological views: axial from below, coronal from
+// in front, sagittal from the patient's left. Frame P (LPS), mm. Plain CPU code; one thread at a time. Cost: below 1 ms
+// a plane of 160 px (two or three voxel rows are mixed once per pixel row). Memory: 3 bytes a voxel. Grey value: level
+// 500, width 2500 HU, the usual bone window. Carved: the loss of solid fraction. Not for measuring: the scan is sampled
+// trilinearly.
 #pragma once
 
 #include <array>
@@ -21,22 +20,22 @@ namespace render {
 enum class SlicePlane { axial, coronal, sagittal };
 inline constexpr std::array kSlicePlanes{SlicePlane::axial, SlicePlane::coronal, SlicePlane::sagittal};
 
-/// What the scan adds to the bone that is drawn anyway.
+/// The scan, as far as the slices need it.
 struct CtScan {
   std::vector<std::int16_t> hounsfield;           ///< in the order of the grid
-  std::vector<std::uint8_t> solid;                ///< the same, before anything was carved
+  std::vector<std::uint8_t> solid;                ///< solid fraction before carving
   std::vector<glm::dvec3> mandibular_canal_P_mm;  ///< centre line of the mandibular canal, or empty
   double mandibular_canal_radius_mm = 1.4;
 };
 
 class CtSlices {
  public:
-  static constexpr double kWidth_mm = 24.0;  ///< of what a image shows
+  static constexpr double kWidth_mm = 24.0;  ///< of the region that an image shows
 
   /// Throws GpuError if the scan does not fit the grid.
   CtSlices(const assets::VolumeGrid& grid, CtScan scan);
 
-  /// A square image of `edge_px` around the middle of the bur; `live`: the bone as it is now.
+  /// A square image of `edge_px` around the centre of the bur; `live`: the current bone.
   Image image(SlicePlane plane, const Frame& frame, const BorderedField<std::uint8_t>& live, int edge_px) const;
 
  private:

@@ -8,7 +8,7 @@
 namespace render {
 namespace {
 
-constexpr double kReach_mm = 4.5;  // distances beyond it show nothing
+constexpr double kReach_mm = 4.5;  // larger distances are not drawn
 
 std::uint16_t packed(double mm) {
   const double share = (mm - GUIDE_LOW_MM) / (GUIDE_HIGH_MM - GUIDE_LOW_MM);
@@ -36,7 +36,7 @@ GuideField guideField(const assets::VolumeGrid& grid, const Guides& guides) {
   const double cell_mm = AMBIENT_CELL_VOXELS * grid.spacing_mm;
   const glm::dvec3 first_P_mm = grid.origin_P_mm + 0.5 * (AMBIENT_CELL_VOXELS - 1) * grid.spacing_mm;
 
-  // Each shape writes the cells around it, the least distance wins.
+  // Each shape writes the cells around it; the smallest distance is kept.
   const auto write = [&](const glm::dvec3& low_P_mm, const glm::dvec3& high_P_mm, int channel,
                          const auto& distance_mm) {
     const glm::ivec3 low = glm::max(glm::ivec3(glm::floor((low_P_mm - first_P_mm) / cell_mm)), glm::ivec3(0));

@@ -1,6 +1,6 @@
-// What guides the surgeon, as distances in the volume: to the mandibular canal and to the bone that is planned to go.
-// One coarse field on the cells of the ambient map (AMBIENT_CELL_VOXELS), trilinear, for every back-end to read.
-// Frame P, mm. Made once, start-up; some ten milliseconds. Plain values; any thread.
+// Guides as distances in the volume: to the mandibular canal and to the planned cut. One coarse field on the cells of
+// the ambient map (AMBIENT_CELL_VOXELS), sampled trilinearly by every back-end. Frame P, mm. Built once at start-up,
+// some ten ms. Plain values; any thread.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -13,10 +13,10 @@
 
 namespace render {
 
-/// A cut planned as the sweep of a ball over a rectangle: all that lies nearer to it than the radius.
+/// A planned cut: all points nearer to a rectangle than the radius.
 struct PlannedCut {
   glm::dvec3 middle_P_mm{0.0};                      ///< of the rectangle
-  glm::dvec3 along_P{1, 0, 0}, outward_P{0, 0, 1};  ///< its edges, unit, square to each other
+  glm::dvec3 along_P{1, 0, 0}, outward_P{0, 0, 1};  ///< its edges, orthonormal
   double half_length_mm = 0.0, half_height_mm = 0.0, radius_mm = 0.0;
 };
 
@@ -26,7 +26,7 @@ struct Guides {
   std::optional<PlannedCut> cut;
 };
 
-/// From a place to the line between two others, in two dimensions or three.
+/// From point `p` to segment ab, in two or three dimensions.
 template <class Vector>
 double distanceToSegment(const Vector& p, const Vector& a, const Vector& b) {
   const Vector along = b - a;
@@ -35,15 +35,15 @@ double distanceToSegment(const Vector& p, const Vector& a, const Vector& b) {
   return glm::distance(p, a + t * along);
 }
 
-/// Outside the cut: above zero.
+/// Signed distance, positive outside.
 double distanceToCut_mm(const PlannedCut& cut, const glm::dvec3& p_P_mm);
 
-/// Per cell: to the canal's wall, to the planned cut; 0 is GUIDE_LOW_MM, 65535 GUIDE_HIGH_MM or beyond.
+/// Per cell: distance to the canal wall and to the planned cut; 0 is GUIDE_LOW_MM, 65535 GUIDE_HIGH_MM or more.
 using GuideField = BorderedField<glm::u16vec2>;
 
 GuideField guideField(const assets::VolumeGrid& grid, const Guides& guides);
 
-/// GUIDE_CLEARANCE, GUIDE_PLAN: what a frame shows of them.
+/// The guides that a frame shows, as GUIDE_ bits.
 int visibleGuides(const Frame& frame);
 
 }  // namespace render

@@ -56,7 +56,7 @@ bool Occupancy::rebuildIfStale() {
   return true;
 }
 
-// Along one axis after the other: the least over the bricks of a line of how far each is or knows the next to be.
+// Chebyshev distance transform, axis by axis: the minimum along a line of max(offset, distance so far).
 void Occupancy::rebuild() {
   stale_ = false;
   std::ranges::transform(marks_, emptiness_.begin(), [](std::uint8_t mark) { return mark != 0 ? 0 : kFarthest; });

@@ -1,8 +1,7 @@
-// Which bricks of a field a ray can pass without looking, and from them, per brick, how far the next other one is by
-// the chessboard's (Chebyshev) distance. A sample touches the values of its brick and one around them. Values only
-// become less where bone is carved, so distances left as they are stay safe; a brick that fills up again makes them
-// new. Plain CPU data, one thread; borrows the field. Update: at most 27 bricks of 1000 voxels (about 10 us); the
-// distances: 0.3 ms for the 32^3 bricks of 256^3 voxels.
+// Which bricks of a field a ray may skip, and per brick the Chebyshev distance to the next occupied one. A sample reads
+// the values of its brick and one around them. Carving only lowers values, so stale distances are safe; they are
+// recomputed when a brick fills up again. Plain CPU data, one thread; the field is borrowed. Cost: update of 27 bricks
+// of 1000 values at most, 10 us; distances 0.3 ms for the 32^3 bricks of 256^3 voxels.
 #pragma once
 
 #include <algorithm>
@@ -21,12 +20,12 @@ class Occupancy {
  public:
   static constexpr int kBrickValues = assets::kBrickVoxels * assets::kBrickVoxels * assets::kBrickVoxels;
   static constexpr std::uint8_t kFarthest = 31;
-  /// What holds a ray up in a brick, in bits of the caller's choice; 0: nothing.
+  /// Non-zero if the brick is occupied; the bits are the caller's.
   using MarkOf = std::function<std::uint8_t(glm::ivec3 brick)>;
 
-  /// `edge`: values along a brick. `mark_of` is asked for all bricks at once, on all cores.
+  /// `edge`: values along a brick. `mark_of` is called for all bricks, on all cores.
   Occupancy(glm::ivec3 bricks, int edge, MarkOf mark_of);
-  /// Occupied: where a sample can touch a value of `least` or more.
+  /// Occupied: where a sample can read a value of `least` or more.
   template <class T>
   Occupancy(const BorderedField<T>& field, int edge, T least)
       : Occupancy((field.layout().size + (edge - 1)) / edge, edge, [&field, edge, least](glm::ivec3 brick) {
@@ -41,17 +40,17 @@ class Occupancy {
 
   /// The values of this box changed.
   void touch(const VoxelBox& box);
-  /// Since refresh().
+  /// Bricks touched since refresh().
   const std::vector<glm::ivec3>& touched() const { return touched_; }
 
-  /// Brings the emptiness up to date where skipping would otherwise miss something; where bricks only became empty it
-  /// may stay too small, which costs time but shows the same image. True if emptiness() changed.
+  /// Updates the distances as far as skipping would otherwise miss something; where bricks only became empty they may
+  /// stay too small, which costs time but gives the same image. True if emptiness() changed.
   bool refresh();
-  /// Makes the emptiness exact; true if it was not.
+  /// Makes the distances exact; true if they were not.
   bool rebuildIfStale();
 
   glm::ivec3 bricks() const { return bricks_; }
-  /// i fastest, as `mark_of` says.
+  /// Results of `mark_of`, i fastest.
   std::span<const std::uint8_t> marks() const { return marks_; }
   /// Per brick: Chebyshev distance in bricks to the next occupied one, at most kFarthest; 0: occupied itself.
   std::span<const std::uint8_t> emptiness() const { return emptiness_; }

@@ -48,7 +48,7 @@ void RayCaster::draw(Framebuffer& layer, const Framebuffer& image) {
   layer.fit(image.size(), kLayerTargets, false);
   cast(layer, image.colour(DISTANCE_TARGET));
 
-  // Light first, wherever there is some; then depth where it is solid.
+  // Light first; then depth where it is solid.
   layer.colour(COLOUR_TARGET).bind(LAYER_LIGHT_UNIT);
   layer.colour(DISTANCE_TARGET).bind(LAYER_DISTANCE_UNIT);
   image.bind();

@@ -1,8 +1,8 @@
-// Casts one ray per pixel into a volume and lays what it meets over an eye's image, with depth and distance, as a
-// fragment or as a compute program built from one body (volume_pixel.glsl). Surface solid = 0.5 or translucent.
-// Rays end at what the image's distance already holds, so meshes drawn before are respected. Frame P. Render thread.
-// Sampling places do not depend on empty-space skipping: with and without it the image is the same, bit for bit.
-// Cost: figures in render/README.md; on a software rasteriser about 0.2 s CPU at 640x480.
+// Casts one ray per pixel into the volume, surface (solid = 0.5) or translucent, and blends the result over an eye's
+// image with depth and distance. Fragment or compute program, built from one body (volume_pixel.glsl). Rays end at the
+// distance already in the image, so meshes drawn before are respected. Frame P. Render thread. Sample positions do not
+// depend on empty-space skipping: the image is bit-identical with and without. Cost: on a software rasteriser about 0.2
+// s CPU at 640x480.
 #pragma once
 
 #include <optional>
@@ -30,9 +30,9 @@ class RayCaster {
 
   RayCaster(Stage stage, bool skip_empty_space);
 
-  /// Binds volume, block and transfer function. Passes that ask the volume for shade need this before drawing.
+  /// Binds volume, block and transfer function. Required by every pass that reads the volume.
   void bind(const VolumeFields& fields, const VolumeTexture& volume, const Frame& frame);
-  /// After bind(): casts into `layer`, made as large as it must be, and lays it over `image` (colour, distance,
+  /// After bind(): casts into `layer`, resized to fit, and blends it over `image` (colour, distance,
   /// depth).
   void draw(Framebuffer& layer, const Framebuffer& image);
 

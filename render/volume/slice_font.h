@@ -1,5 +1,4 @@
-// Letters of 5x7 dots for the few words on a CT slice: capitals, digits, space. Any thread; pure.
-// Not a font for running text: that is drawn by the instructor's window.
+// 5x7 dot glyphs for the labels of a CT slice: some capitals, digit 5, space. Any thread; pure.
 #pragma once
 
 #include <array>
@@ -35,7 +34,7 @@ inline constexpr std::array<Glyph, 14> kGlyphs = {{
     {'5', {0b11111, 0b10000, 0b11110, 0b00001, 0b00001, 0b10001, 0b01110}},
 }};
 
-/// None for letters that no slice has.
+/// Empty for other characters.
 constexpr GlyphRows glyphRows(char letter) {
   for (const Glyph& known : kGlyphs)
     if (known.letter == letter) return known.dots;

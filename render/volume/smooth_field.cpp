@@ -6,10 +6,6 @@
 namespace render {
 namespace {
 
-std::size_t product(int a, int b, int c) {
-  return static_cast<std::size_t>(a) * static_cast<std::size_t>(b) * static_cast<std::size_t>(c);
-}
-
 // Five rows weighted 1 4 6 4 1; `step` values lie between them.
 template <class Out, class In>
 void weigh(const In* from, std::size_t step, std::size_t n, Out* to) {
@@ -25,21 +21,21 @@ void Smoother::smooth(const BorderedField<std::uint8_t>& solid, const VoxelBox& 
   const glm::ivec3 size = solid.layout().size, extent = box.extent, wide = extent + 2 * kSmoothReach;
   assert(!box.empty() && grown(box, 0, size) == box);
 
-  // The box with its border.
-  taken_.assign(product(wide.x, wide.y, wide.z), 0);
+  // The box and its border.
+  taken_.assign(countIn(wide), 0);
   const VoxelBox reach = grown(box, kSmoothReach, size);
   const glm::ivec3 shift = reach.first - box.first + kSmoothReach;
   for (int k = 0; k < reach.extent.z; ++k)
     for (int j = 0; j < reach.extent.y; ++j)
       std::copy_n(solid.at(reach.first + glm::ivec3(0, j, k)), reach.extent.x,
-                  &taken_[product(wide.x, wide.y, k + shift.z) + product(wide.x, j + shift.y, 1)] + shift.x);
+                  &taken_[indexIn(wide, glm::ivec3(shift.x, j + shift.y, k + shift.z))]);
 
   // z, then y: at most 255 * 16^2, which 16 bits hold.
   const std::size_t row = static_cast<std::size_t>(wide.x), slice = row * static_cast<std::size_t>(wide.y);
   along_z_.resize(slice * static_cast<std::size_t>(extent.z));
   for (std::size_t k = 0; k < static_cast<std::size_t>(extent.z); ++k)
     weigh(&taken_[k * slice], slice, slice, &along_z_[k * slice]);
-  along_y_.resize(product(wide.x, extent.y, extent.z));
+  along_y_.resize(countIn({wide.x, extent.y, extent.z}));
   for (std::size_t k = 0; k < static_cast<std::size_t>(extent.z); ++k)
     for (std::size_t j = 0; j < static_cast<std::size_t>(extent.y); ++j)
       weigh(&along_z_[k * slice + j * row], row, row, &along_y_[(k * static_cast<std::size_t>(extent.y) + j) * row]);
@@ -47,7 +43,7 @@ void Smoother::smooth(const BorderedField<std::uint8_t>& solid, const VoxelBox& 
   // x; then 255 * 16^3 becomes 65535.
   for (int k = 0; k < extent.z; ++k)
     for (int j = 0; j < extent.y; ++j) {
-      const std::uint16_t* const a = &along_y_[product(wide.x, extent.y, k) + product(wide.x, j, 1)];
+      const std::uint16_t* const a = &along_y_[indexIn({wide.x, extent.y, 0}, {0, j, k})];
       std::uint16_t* const to = smooth.at(box.first + glm::ivec3(0, j, k));
       for (int i = 0; i < extent.x; ++i) {
         const std::uint32_t sum =

@@ -1,6 +1,5 @@
-// How each tissue looks in linear light: colour, how it shines, how much of it shows through. Starting values judged by
-// eye on CT surfaces under the operating lamp. Plain data; any thread. What the shine of a finish means is in
-// shaders/finish.glsl. Not what the tissue is (assets/tissue.h).
+// Appearance of each tissue in linear light. Values chosen by eye on CT surfaces under the operating lamp. Plain data;
+// any thread. The reflectance of a finish is in shaders/finish.glsl.
 #pragma once
 
 #include <array>
@@ -14,15 +13,15 @@ namespace render {
 struct TissueAppearance {
   glm::vec3 albedo;     ///< linear sRGB
   float finish;         ///< 0 open marrow, 0.5 dull bone and dentine, 1 enamel
-  float colour_weight;  ///< how much a voxel counts for the colour of a hard surface beside it: soft tissue hardly does
+  float colour_weight;  ///< of a voxel for the colour of a hard surface next to it; small for soft tissue
 };
 
 inline constexpr float kMarrow = 0.0f, kDull = 0.5f, kEnamel = 1.0f;
 
 inline constexpr std::array<TissueAppearance, assets::kTissueCount> kTissueAppearance = {{
-    {{0.72f, 0.615f, 0.46f}, kDull, 0.02f},  // unlabelled: a scan without segmentation reads as bone
+    {{0.72f, 0.615f, 0.46f}, kDull, 0.02f},  // unlabelled: shown as bone
     {{0.74f, 0.63f, 0.47f}, kDull, 1.0f},    // cortical
-    {{0.58f, 0.30f, 0.21f}, kMarrow, 1.0f},  // trabecular, only seen freshly cut: marrow and blood
+    {{0.58f, 0.30f, 0.21f}, kMarrow, 1.0f},  // trabecular, visible only when cut: marrow and blood
     {{0.70f, 0.655f, 0.54f}, 0.85f, 1.0f},   // other teeth
     {{0.75f, 0.73f, 0.66f}, kEnamel, 1.0f},  // enamel
     {{0.78f, 0.64f, 0.38f}, kDull, 1.0f},    // dentine

@@ -1,7 +1,6 @@
-// How much of each tissue the translucent view (ViewMode::dvr) shows: opacity per mm = ramp(solid fraction) x the
-// tissue's own. Read by every back-end. Plain values; starting values judged by eye on the built-in patient and a CT
-// jaw: cortex like frosted glass, roots and crown standing within. The ramp begins at the drawn surface, so both views
-// pass the same empty bricks.
+// Transfer function of the translucent view (ViewMode::dvr), for every back-end: opacity per mm = ramp(solid fraction)
+// times the opacity of the tissue. Values chosen by eye on the built-in patient and a CT jaw: cortex like frosted
+// glass, roots and crown visible within. The ramp starts at the drawn surface, so both views skip the same bricks.
 #pragma once
 
 #include <array>
@@ -12,7 +11,7 @@
 
 namespace render {
 
-/// Solid fractions where matter begins to show, never below 0.5, where bricks count as empty, and where it shows fully.
+/// Solid fractions where opacity begins (at least 0.5, below which bricks count as empty) and where it is full.
 inline constexpr float kRampStart = 0.5f, kRampFull = 0.9f;
 /// 0 … <1, in the order of assets::Tissue.
 inline constexpr std::array<float, assets::kTissueCount> kOpacityPerMm{0.30f, 0.24f, 0.05f, 0.80f, 0.92f,

@@ -33,7 +33,7 @@ BorderedField<std::uint8_t> bordered(const assets::VolumeGrid& grid, std::span<c
   return field;
 }
 
-// Boxes that lie together are worked on together.
+// Merges boxes that are close together.
 std::vector<VoxelBox> gathered(const std::vector<VoxelBox>& boxes) {
   VoxelBox all;
   std::size_t sum = 0;
@@ -55,7 +55,7 @@ VolumeFields::VolumeFields(const assets::VolumeGrid& grid, std::span<const std::
       ambient_(grid.bricks() * (kB / kEdge)),
       appearance_(appearanceField(solid_, label)),
       label_(bordered(grid, label)) {
-  // In slabs of a brick's height to keep the working memory small.
+  // In slabs of a brick's height, to limit the working memory.
   tbb::parallel_for(0, grid.bricks().z, [&](int slab) {
     Smoother smoother;
     smoother.smooth(solid_, {{0, 0, kB * slab}, {grid.size.x, grid.size.y, std::min(kB, grid.size.z - kB * slab)}},

@@ -1,8 +1,7 @@
-// Everything the image needs to know of the live bone, on the CPU: the solid fraction, a smoothed copy for normals, a
-// coarse mean for soft shade, and the appearance and label of every voxel. The CPU back-end reads it,
-// VolumeTexture uploads what changed. Not the bone that is carved (its owner sends bricks here) and not the scan.
-// Frame P by the grid. Render thread. Memory: 8 bytes a voxel. Cost of a carved frame: about 2 ns per voxel of the
-// changed box and its reach (40 us for a bur of 2 mm at 0.2 mm).
+// The live bone and the fields derived from it, on the CPU: solid fraction, a smoothed copy for normals, a coarse mean
+// for ambient occlusion, appearance and label of every voxel. The CPU back-end reads them, VolumeTexture uploads what
+// changed. The owner of the carved bone sends bricks. Frame P by the grid. Render thread. Memory: 8 bytes a voxel.
+// Cost of a carved frame: about 2 ns a voxel of the changed box and its border (40 us for a bur of 2 mm at 0.2 mm).
 #pragma once
 
 #include <cstdint>
@@ -16,7 +15,7 @@
 
 namespace render {
 
-/// What prepare() wrote, for those who keep copies.
+/// The boxes that prepare() wrote, for copies of the fields.
 struct FieldChanges {
   std::vector<VoxelBox> solid, smooth;  ///< voxels
   std::vector<VoxelBox> ambient;        ///< cells
@@ -31,7 +30,7 @@ class VolumeFields {
 
   /// New content of one brick, i fastest; values outside the volume are ignored.
   void updateBrick(glm::ivec3 brick, std::span<const std::uint8_t, Occupancy::kBrickValues> values);
-  /// Before drawing: brings everything up to date with the bricks. The answer is valid until the next call.
+  /// Before drawing: updates all fields after updateBrick(). The result is valid until the next call.
   const FieldChanges& prepare();
 
   const assets::VolumeGrid& grid() const { return grid_; }
@@ -41,7 +40,7 @@ class VolumeFields {
   const BorderedField<std::uint16_t>& smooth() const { return smooth_; }
   /// Means of 2x2x2 voxels, one value per cell, four cells along a brick; 65535 for solid, 0 in the border.
   const BorderedField<std::uint16_t>& ambient() const { return ambient_; }
-  /// As appearance_field.h.
+  /// appearance_field.h.
   const BorderedField<std::uint32_t>& appearance() const { return appearance_; }
   /// assets::Tissue of every voxel.
   const BorderedField<std::uint8_t>& label() const { return label_; }

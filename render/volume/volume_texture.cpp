@@ -29,7 +29,7 @@ VolumeTexture::VolumeTexture(const VolumeFields& fields)
       emptiness_(Texture::volume(fields.grid().bricks(), TexelFormat::r8ui)),
       ambient_(Texture::volume(fields.ambient().layout().size, TexelFormat::r16)),
       occupancy_(fields.solid(), assets::kBrickVoxels, assets::kHalfSolid) {
-  // Slice by slice, to keep the working memory small.
+  // Slice by slice, to limit the working memory.
   for (int k = 0; k < fields.grid().size.z; ++k)
     uploadSolid(fields, {{0, 0, k}, {fields.grid().size.x, fields.grid().size.y, 1}});
   upload(smooth_, fields.smooth(), whole(fields.smooth()));
@@ -50,8 +50,8 @@ void VolumeTexture::uploadSolid(const VolumeFields& fields, const VoxelBox& box)
   solid_.upload(box.first, box.extent, std::as_bytes(std::span(wide_)));
 }
 
-// Carving only empties bricks, so the old emptiness stays safe; the exact one is made in a quiet frame, or now and
-// then.
+// Carving only empties bricks, so stale emptiness is safe; it is recomputed in a frame without changes, or every
+// kFramesBetweenRebuilds.
 void VolumeTexture::update(const VolumeFields& fields, const FieldChanges& changes) {
   for (const VoxelBox& box : changes.solid) uploadSolid(fields, box);
   for (const VoxelBox& box : changes.smooth) upload(smooth_, fields.smooth(), box);

@@ -1,6 +1,6 @@
-// The fields of the live bone as textures: solid fraction, smoothed copy and ambient map in 16 bits, so that filtering
-// is not quantised; appearance, label and emptiness (which bricks a ray may pass) in bytes. Uploads only the boxes that
-// changed. Render thread. Cost: a microsecond or two a brick on a software rasteriser (reference/rendering 1).
+// The volume fields as textures: solid fraction, smoothed copy and ambient map in 16 bits, so that filtering is not
+// quantised; appearance, label and emptiness in bytes. Uploads only the boxes that changed. Render thread.
+// Cost: 1 to 2 us a brick on a software rasteriser (reference/rendering 1).
 #pragma once
 
 #include <cstdint>
