@@ -1,11 +1,10 @@
-// Numbers side by side: kLanes floats or integers that one instruction works on. A kernel is written once with these
-// and compiled once per instruction set (render/cpu/*_portable.cpp, *_avx2.cpp, *_avx512.cpp with the flags of
-// render/CMakeLists.txt): 4 lanes portable, 8 with AVX2, 16 with AVX-512. Internal linkage throughout, so that nothing
-// of one instruction set is ever linked into another: include only from kernel bodies, never from a public header.
-// Float and Int are GCC vectors: + - * / & | ^ ~ << >> and comparisons work, also with one plain number on a side.
-// A Mask is an Int of -1 (yes) and 0 (no), as comparisons give; `mask & mask`, `~mask` and select() combine them.
-// No rounding trick anywhere: squareRoot and the quotient are IEEE, so lanes agree over instruction sets wherever no
-// multiplyAdd is involved (fused where the machine can). Gathers never read where their mask says no.
+// SIMD vocabulary of the CPU kernels: kLanes floats or integers per instruction. A kernel source is written once and
+// compiled for each instruction set with the flags of render/CMakeLists.txt: 4 lanes portable, 8 AVX2, 16 AVX-512.
+// Internal linkage throughout, so that no code of one set is linked into another: include only in kernel sources.
+// Float and Int are GCC vectors: + - * / & | ^ ~ << >> and comparisons work, also with a scalar on one side.
+// A Mask is an Int of -1 (yes) and 0 (no), the result of comparisons; combined with &, ~ and select().
+// squareRoot and division are IEEE, so the sets agree bit for bit except for multiplyAdd (fused where available).
+// Gathers read only the lanes of their mask.
 #pragma once
 
 #include <cstddef>
@@ -16,10 +15,13 @@ namespace render::cpu {
 namespace {
 
 #if defined(__AVX512F__) && defined(__AVX512BW__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
+#define KERNEL_SET avx512
 constexpr int kLanes = 16;
 #elif defined(__AVX2__) && defined(__FMA__)
+#define KERNEL_SET avx2
 constexpr int kLanes = 8;
 #else
+#define KERNEL_SET portable
 constexpr int kLanes = 4;
 #endif
 
@@ -64,6 +66,13 @@ inline Int laneNumbers() {
   for (int n = 0; n < kLanes; ++n) number[n] = n;
   return number;
 }
+/// An element of an array of bytes, however aligned.
+template <class T, int kScale>
+inline T element(const void* base, std::int32_t index) {
+  T value;
+  std::memcpy(&value, static_cast<const char*>(base) + static_cast<std::ptrdiff_t>(index) * kScale, sizeof value);
+  return value;
+}
 inline Mask everyLane() { return ~Int{}; }
 /// The first `count` lanes.
 inline Mask firstLanes(int count) { return laneNumbers() < count; }
@@ -71,7 +80,7 @@ inline Mask firstLanes(int count) { return laneNumbers() < count; }
 }  // namespace
 }  // namespace render::cpu
 
-// minimum, maximum, floor, ceiling, squareRoot, multiplyAdd, select, bits, pairSums and gathers.
+// minimum, maximum, floor, ceiling, squareRoot, multiplyAdd, select, bits, pairSums, compress and gathers.
 #if defined(__AVX512F__) && defined(__AVX512BW__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
 #include "render/cpu/lanes_avx512.h"
 #elif defined(__AVX2__) && defined(__FMA__)
@@ -83,6 +92,9 @@ inline Mask firstLanes(int count) { return laneNumbers() < count; }
 namespace render::cpu {
 namespace {
 
+inline int compress(float* to, Float value, Mask mask) {
+  return compress(reinterpret_cast<std::int32_t*>(to), bitsOf(value), mask);
+}
 inline bool any(Mask mask) { return bits(mask) != 0; }
 inline bool none(Mask mask) { return bits(mask) == 0; }
 
@@ -115,8 +127,8 @@ inline Float exp2(Float value) {
 
 /// Element `index` of an array, in lanes of the mask; zero elsewhere. Indices count elements, so arrays may be larger
 /// than 2 GB.
-inline Int gather(const std::uint8_t* array, Int index, Mask mask) { return gatherBytes(array, index & mask) & mask; }
-inline Int gather(const std::uint16_t* array, Int index, Mask mask) { return gatherHalves(array, index & mask) & mask; }
+inline Int gather(const std::uint8_t* array, Int index, Mask mask) { return gatherNarrow(array, index & mask) & mask; }
+inline Int gather(const std::uint16_t* array, Int index, Mask mask) { return gatherNarrow(array, index & mask) & mask; }
 inline Int gather(const std::int32_t* array, Int index, Mask mask) { return gather32<4>(array, index & mask) & mask; }
 inline Int gather(const std::uint32_t* array, Int index, Mask mask) { return gather32<4>(array, index & mask) & mask; }
 inline Float gather(const float* array, Int index, Mask mask) {

@@ -1,4 +1,4 @@
-// What GCC's vectors lack, with AVX2 and FMA. Included by lanes.h alone.
+// Operations that GCC's vectors lack, with AVX2 and FMA. Included by lanes.h only.
 // Gathers are loads and inserts: on AMD's Zen 2 and 3 (39 micro-operations for one vpgatherdd) and on Intel's machines
 // with the 2023 microcode against gather data sampling the instruction itself is slower than eight loads.
 #pragma once
@@ -26,19 +26,19 @@ inline unsigned bits(Mask mask) { return static_cast<unsigned>(_mm256_movemask_p
 /// Lanes as pairs of signed 16 bits: low · low + high · high.
 inline Int pairSums(Int a, Int b) { return Int(_mm256_madd_epi16(__m256i(a), __m256i(b))); }
 
-/// For every mask the lanes it names, first to last, a nibble each.
+/// For every mask its lanes in order, a nibble each.
 struct LaneOrders {
   std::uint32_t order[256];
   constexpr LaneOrders() : order() {
     for (unsigned mask = 0; mask < 256; ++mask) {
-      unsigned place = 0;
+      unsigned position = 0;
       for (unsigned lane = 0; lane < 8; ++lane)
-        if ((mask >> lane & 1u) != 0) order[mask] |= lane << (4 * place++);
+        if ((mask >> lane & 1u) != 0) order[mask] |= lane << (4 * position++);
     }
   }
 };
 constexpr LaneOrders kLaneOrders;
-/// Writes the values of the mask's lanes one after the other, and anything behind them up to kLanes; how many.
+/// Writes the values of the mask's lanes contiguously, followed by undefined ones up to kLanes; returns their number.
 inline int compress(std::int32_t* to, Int value, Mask mask) {
   const unsigned chosen = bits(mask);
   const __m256i nibbles = _mm256_set1_epi32(static_cast<int>(kLaneOrders.order[chosen]));
@@ -46,48 +46,37 @@ inline int compress(std::int32_t* to, Int value, Mask mask) {
   store(to, Int(_mm256_permutevar8x32_epi32(__m256i(value), order)));
   return __builtin_popcount(chosen);
 }
-inline int compress(float* to, Float value, Mask mask) {
-  const unsigned chosen = bits(mask);
-  const __m256i nibbles = _mm256_set1_epi32(static_cast<int>(kLaneOrders.order[chosen]));
-  const __m256i order = _mm256_srlv_epi32(nibbles, _mm256_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28));
-  store(to, Float(_mm256_permutevar8x32_ps(value, order)));
-  return __builtin_popcount(chosen);
-}
 
-/// Through memory: eight loads cost less than the extractions that the compiler would make of a store it sees through.
+/// Stores opaquely to the compiler: eight loads cost less than the extractions it would generate instead.
 inline void spill(std::int32_t (&to)[kLanes], Int value) {
   store(to, value);
   asm("" : "+m"(to));
 }
 template <class T, int kScale>
-inline int element(const void* base, std::int32_t index) {
-  T value;
-  std::memcpy(&value, static_cast<const char*>(base) + static_cast<std::ptrdiff_t>(index) * kScale, sizeof value);
-  return static_cast<int>(value);
-}
-template <class T, int kScale>
 inline Int gatherAs(const void* base, Int index) {
   alignas(32) std::int32_t i[kLanes];
   spill(i, index);
-  return Int{element<T, kScale>(base, i[0]), element<T, kScale>(base, i[1]), element<T, kScale>(base, i[2]),
-             element<T, kScale>(base, i[3]), element<T, kScale>(base, i[4]), element<T, kScale>(base, i[5]),
-             element<T, kScale>(base, i[6]), element<T, kScale>(base, i[7])};
+  const auto at = [&](int n) { return static_cast<int>(element<T, kScale>(base, i[n])); };
+  return Int{at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7)};
 }
-inline Int gatherBytes(const std::uint8_t* base, Int index) { return gatherAs<std::uint8_t, 1>(base, index); }
-inline Int gatherHalves(const std::uint16_t* base, Int index) { return gatherAs<std::uint16_t, 2>(base, index); }
+/// 8 or 16 bits each.
+template <class T>
+inline Int gatherNarrow(const T* base, Int index) {
+  return gatherAs<T, sizeof(T)>(base, index);
+}
 /// 32 bits at `index` times kScale bytes from the base, however aligned.
 template <int kScale>
 inline Int gather32(const void* base, Int index) {
   return gatherAs<std::int32_t, kScale>(base, index);
 }
-/// 64 bits there.
+/// 64 bits, likewise.
 template <int kScale>
 inline IntPair gather64(const void* base, Int index) {
   alignas(32) std::int32_t i[kLanes];
   spill(i, index);
   const auto at = [&](int n) {
-    const void* const place = static_cast<const char*>(base) + static_cast<std::ptrdiff_t>(i[n]) * kScale;
-    return static_cast<const double*>(place);
+    const void* const address = static_cast<const char*>(base) + static_cast<std::ptrdiff_t>(i[n]) * kScale;
+    return static_cast<const double*>(address);
   };
   const auto two = [&](int n) { return _mm_loadh_pd(_mm_load_sd(at(n)), at(n + 1)); };
   const __m256 outer = _mm256_castpd_ps(_mm256_set_m128d(two(4), two(0)));

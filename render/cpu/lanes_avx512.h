@@ -1,4 +1,4 @@
-// What GCC's vectors lack, with AVX-512 F, BW, DQ and VL. Included by lanes.h alone.
+// Operations that GCC's vectors lack, with AVX-512 F, BW, DQ and VL. Included by lanes.h only.
 #pragma once
 
 #include <immintrin.h>
@@ -25,12 +25,7 @@ inline Int select(Mask mask, Int yes, Int no) {
 /// Lanes as pairs of signed 16 bits: low · low + high · high.
 inline Int pairSums(Int a, Int b) { return Int(_mm512_madd_epi16(__m512i(a), __m512i(b))); }
 
-/// Writes the values of the mask's lanes one after the other, and anything behind them up to kLanes; how many.
-inline int compress(float* to, Float value, Mask mask) {
-  const unsigned chosen = bits(mask);
-  _mm512_storeu_ps(to, _mm512_maskz_compress_ps(static_cast<__mmask16>(chosen), value));
-  return __builtin_popcount(chosen);
-}
+/// Writes the values of the mask's lanes contiguously, followed by undefined ones up to kLanes; returns their number.
 inline int compress(std::int32_t* to, Int value, Mask mask) {
   const unsigned chosen = bits(mask);
   _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(chosen), __m512i(value)));
@@ -42,7 +37,7 @@ template <int kScale>
 inline Int gather32(const void* base, Int index) {
   return Int(_mm512_i32gather_epi32(__m512i(index), base, kScale));
 }
-/// 64 bits there.
+/// 64 bits, likewise.
 template <int kScale>
 inline IntPair gather64(const void* base, Int index) {
   const __m512i low = _mm512_i32gather_epi64(_mm512_castsi512_si256(__m512i(index)), base, kScale);
@@ -51,16 +46,14 @@ inline IntPair gather64(const void* base, Int index) {
   const __m512i odd = _mm512_set_epi32(31, 29, 27, 25, 23, 21, 19, 17, 15, 13, 11, 9, 7, 5, 3, 1);
   return {Int(_mm512_permutex2var_epi32(low, even, high)), Int(_mm512_permutex2var_epi32(low, odd, high))};
 }
-// One by one: a 32-bit gather would read beyond the end of the array.
+/// 8 or 16 bits each, one by one: a 32-bit gather would read beyond the end of the array.
 template <class T>
-inline Int gatherAs(const T* base, Int index) {
+inline Int gatherNarrow(const T* base, Int index) {
   alignas(64) std::int32_t i[kLanes], value[kLanes];
   store(i, index);
   for (int n = 0; n < kLanes; ++n) value[n] = base[i[n]];
   return load(value);
 }
-inline Int gatherBytes(const std::uint8_t* base, Int index) { return gatherAs(base, index); }
-inline Int gatherHalves(const std::uint16_t* base, Int index) { return gatherAs(base, index); }
 
 }  // namespace
 }  // namespace render::cpu

@@ -1,5 +1,4 @@
-// What GCC's vectors lack, in plain C++: whatever the compiler makes of it on the machine at hand (SSE2, NEON).
-// Included by lanes.h alone.
+// Operations that GCC's vectors lack, in plain C++ (SSE2, NEON by the compiler). Included by lanes.h only.
 #pragma once
 
 namespace render::cpu {
@@ -33,30 +32,19 @@ inline unsigned bits(Mask mask) {
 /// Lanes as pairs of signed 16 bits: low · low + high · high.
 inline Int pairSums(Int a, Int b) { return ((a << 16) >> 16) * ((b << 16) >> 16) + (a >> 16) * (b >> 16); }
 
-/// Writes the values of the mask's lanes one after the other, and anything behind them up to kLanes; how many.
-inline int compress(float* to, Float value, Mask mask) {
-  int count = 0;
-  for (int n = 0; n < kLanes; ++n)
-    if (mask[n] != 0) to[count++] = value[n];
-  return count;
-}
+/// Writes the values of the mask's lanes contiguously, followed by undefined ones up to kLanes; returns their number.
 inline int compress(std::int32_t* to, Int value, Mask mask) {
   int count = 0;
-  for (int n = 0; n < kLanes; ++n)
-    if (mask[n] != 0) to[count++] = value[n];
+  for (int n = 0; n < kLanes; ++n) {
+    const std::int32_t lane = value[n];  // copied as bytes, since `to` may point to floats
+    if (mask[n] != 0) std::memcpy(to + count++, &lane, sizeof lane);
+  }
   return count;
 }
 
-template <class T, int kScale>
-inline T element(const void* base, std::int32_t index) {
-  T value;
-  std::memcpy(&value, static_cast<const char*>(base) + static_cast<std::ptrdiff_t>(index) * kScale, sizeof value);
-  return value;
-}
-inline Int gatherBytes(const std::uint8_t* base, Int index) {
-  return Int{base[index[0]], base[index[1]], base[index[2]], base[index[3]]};
-}
-inline Int gatherHalves(const std::uint16_t* base, Int index) {
+/// 8 or 16 bits each.
+template <class T>
+inline Int gatherNarrow(const T* base, Int index) {
   return Int{base[index[0]], base[index[1]], base[index[2]], base[index[3]]};
 }
 /// 32 bits at `index` times kScale bytes from the base, however aligned.
@@ -66,7 +54,7 @@ inline Int gather32(const void* base, Int index) {
   for (int n = 0; n < kLanes; ++n) value[n] = element<std::int32_t, kScale>(base, index[n]);
   return value;
 }
-/// 64 bits there.
+/// 64 bits, likewise.
 template <int kScale>
 inline IntPair gather64(const void* base, Int index) {
   IntPair pair{};

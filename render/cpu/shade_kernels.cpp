@@ -1,8 +1,8 @@
 #include "render/cpu/shade_kernels.h"
 
+#include <array>
 #include <cmath>
 
-#include "render/cpu/shade_kernel_tables.h"
 #include "render/cpu/srgb_pieces.h"
 
 namespace render {
@@ -26,17 +26,25 @@ SrgbPieces pieces() {
 
 const SrgbPieces kSrgbTable = pieces();
 
-const ShadeKernels& shadeKernels(assets::InstructionSet set) {
-  switch (set) {
+// Defined by shade_kernel.cpp.
+namespace portable {
+extern const ShadeKernels kShadeKernels;
+}
 #if defined(__x86_64__)
-    case assets::InstructionSet::avx512:
-      return kShadeKernelsAvx512;
-    case assets::InstructionSet::avx2:
-      return kShadeKernelsAvx2;
+namespace avx2 {
+extern const ShadeKernels kShadeKernels;
+}
+namespace avx512 {
+extern const ShadeKernels kShadeKernels;
+}
+#else
+namespace avx2 = portable;
+namespace avx512 = portable;
 #endif
-    default:
-      return kShadeKernelsPortable;
-  }
+
+const ShadeKernels& shadeKernels(assets::InstructionSet set) {
+  static constexpr std::array kKernels{&portable::kShadeKernels, &avx2::kShadeKernels, &avx512::kShadeKernels};
+  return *kKernels[static_cast<std::size_t>(set)];
 }
 
 const ShadeKernels& shadeKernels() { return shadeKernels(assets::chosenInstructionSet()); }

@@ -48,16 +48,13 @@ CastJob jobOf(const SolidCells& cells, const CastSettings& settings, const RayBa
   return job;
 }
 
+const CastKernels& kernels(assets::InstructionSet set) {
+  assert(assets::available(set));
+  static constexpr std::array kKernels{&portable::kCastKernels, &avx2::kCastKernels, &avx512::kCastKernels};
+  return *kKernels[static_cast<std::size_t>(set)];
+}
+
 }  // namespace
-
-#if !defined(__x86_64__)
-namespace avx2 = portable;
-namespace avx512 = portable;
-#endif
-
-// In the order of assets::InstructionSet.
-constexpr std::array kCastSurface{portable::castSurface, avx2::castSurface, avx512::castSurface};
-constexpr std::array kCastThrough{portable::castTranslucent, avx2::castTranslucent, avx512::castTranslucent};
 
 OpacityTable opacityTable(float ramp_start, float ramp_full, std::span<const float> per_mm, float step_mm) {
   OpacityTable table;
@@ -75,8 +72,7 @@ OpacityTable opacityTable(float ramp_start, float ramp_full, std::span<const flo
 void castSurface(const SolidCells& cells, const CastSettings& settings, const RayBatch& rays, const float* limit_mm,
                  VolumePoints& to, assets::InstructionSet set) {
   CastJob job = jobOf(cells, settings, rays, limit_mm, to);
-  assert(assets::available(set));
-  kCastSurface[static_cast<std::size_t>(set)](job);
+  kernels(set).surface(job);
   to.count = job.points;
 }
 
@@ -91,8 +87,7 @@ void castTranslucent(const SolidCells& cells, const CastSettings& settings, cons
   job.ramp_per_solid = opacity.ramp_per_solid;
   job.sum = sums.opacity.data();
   job.reach = sums.reach.data();
-  assert(assets::available(set));
-  kCastThrough[static_cast<std::size_t>(set)](job);
+  kernels(set).translucent(job);
   to.count = job.points;
 }
 

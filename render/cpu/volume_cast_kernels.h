@@ -33,19 +33,24 @@ struct CastJob {
   float *sum, *reach;
 };
 
+struct CastKernels {
+  void (*surface)(CastJob& job);
+  void (*translucent)(CastJob& job);
+};
+
 namespace portable {
-void castSurface(CastJob& job) noexcept;
-void castTranslucent(CastJob& job) noexcept;
-}  // namespace portable
+extern const CastKernels kCastKernels;
+}
 #if defined(__x86_64__)
 namespace avx2 {
-void castSurface(CastJob& job) noexcept;
-void castTranslucent(CastJob& job) noexcept;
-}  // namespace avx2
+extern const CastKernels kCastKernels;
+}
 namespace avx512 {
-void castSurface(CastJob& job) noexcept;
-void castTranslucent(CastJob& job) noexcept;
-}  // namespace avx512
+extern const CastKernels kCastKernels;
+}
+#else
+namespace avx2 = portable;
+namespace avx512 = portable;
 #endif
 
 }  // namespace render

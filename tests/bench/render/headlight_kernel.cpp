@@ -1,5 +1,4 @@
-// Included once by each instruction set's source.
-#pragma once
+// Compiled once for each instruction set (kernel_sources in render/CMakeLists.txt).
 
 #include "render/cpu/lanes.h"
 #include "tests/bench/render/headlight.h"
@@ -81,3 +80,9 @@ void headlightOf(const bench::HeadlightJob& job) {
 
 }  // namespace
 }  // namespace render::cpu
+
+namespace bench::KERNEL_SET {
+
+void headlight(const HeadlightJob& job) noexcept { render::cpu::headlightOf(job); }
+
+}  // namespace bench::KERNEL_SET

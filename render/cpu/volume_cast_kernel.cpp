@@ -1,10 +1,6 @@
-// The body of the casting kernels: included once by each instruction set's source. Internal linkage throughout, and no
-// header but these, so that nothing of it is shared between instruction sets. Formula by formula
-// shaders/ray_march.glsl, ray_cast.glsl and ray_translucent.glsl; only how empty space is passed is its own. Places count
-// from the corner of the border of SolidCells, so they are never negative where a ray is in the volume; lengths in
-// voxels.
-#pragma once
-
+// The kernels of volume_cast.h, compiled once for each instruction set; internal linkage but for the table. They follow
+// shaders/ray_march.glsl, ray_cast.glsl and ray_translucent.glsl, except for the skipping of empty space. Positions count
+// from the corner of the border of SolidCells, so they are not negative inside the volume; lengths in voxels.
 #include "render/cpu/lanes.h"
 #include "render/cpu/volume_cast_kernels.h"
 
@@ -307,7 +303,7 @@ inline void surfaceBy(CastJob& job) {
 }
 
 template <bool kSkip>
-inline void throughBy(CastJob& job) {
+inline void translucentBy(CastJob& job) {
   for (int n = 0; n < job.count; n += kLanes) {
     store(job.sum + n, splat(0.0f));
     store(job.reach + n, splat(-1.0f));
@@ -355,12 +351,18 @@ void surface(CastJob& job) {
   else
     surfaceBy<false>(job);
 }
-void through(CastJob& job) {
+void translucent(CastJob& job) {
   if (job.skip)
-    throughBy<true>(job);
+    translucentBy<true>(job);
   else
-    throughBy<false>(job);
+    translucentBy<false>(job);
 }
 
 }  // namespace
 }  // namespace render::cpu
+
+namespace render::KERNEL_SET {
+
+const CastKernels kCastKernels{cpu::surface, cpu::translucent};
+
+}  // namespace render::KERNEL_SET

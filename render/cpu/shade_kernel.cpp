@@ -1,8 +1,5 @@
-// The kernels of shade_kernels.h, written once in lanes, on the twins of the shaders in
-// {light,occlusion,tissue}_body.h. Included by shade_kernels_<set>.cpp, each compiled for its instruction set;
-// everything but the table has internal linkage.
-#pragma once
-
+// The kernels of shade_kernels.h, compiled once for each instruction set. The shaders' formulas are in light_body.h,
+// occlusion_body.h and tissue_body.h. Everything but the table has internal linkage.
 #include <cmath>
 
 #include "render/cpu/srgb_pieces.h"
@@ -200,7 +197,13 @@ void encode(const float* r, const float* g, const float* b, int count, std::uint
   }
 }
 
-constexpr ShadeKernels kShadeKernels{aim, background, meshes, surface, matter, shoulder, encode};
-
 }  // namespace
 }  // namespace render::cpu
+
+namespace render::KERNEL_SET {
+
+extern const ShadeKernels kShadeKernels;
+const ShadeKernels kShadeKernels{cpu::aim,    cpu::background, cpu::meshes, cpu::surface,
+                                 cpu::matter, cpu::shoulder,   cpu::encode};
+
+}  // namespace render::KERNEL_SET

@@ -1,8 +1,0 @@
-#include "render/cpu/shade_kernel_body.h"
-#include "render/cpu/shade_kernel_tables.h"
-
-namespace render {
-
-const ShadeKernels kShadeKernelsPortable = cpu::kShadeKernels;
-
-}  // namespace render

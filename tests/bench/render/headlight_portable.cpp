@@ -1,8 +1,0 @@
-// See CMakeLists.txt for its flags.
-#include "tests/bench/render/headlight_body.h"
-
-namespace bench::portable {
-
-void headlight(const HeadlightJob& job) noexcept { render::cpu::headlightOf(job); }
-
-}  // namespace bench::portable
