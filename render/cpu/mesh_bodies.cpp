@@ -32,19 +32,20 @@ MeshBodyPart keptPart(const assets::MeshPart& part, Model model) {
 
 MeshBodies::MeshBodies() : device_(rtcNewDevice(nullptr)) {
   if (device_ == nullptr)
-    throw GpuError("no ray tracing of meshes, Embree: this processor or its memory will not do; use --renderer gl");
-  for (RTCScene* scene : {&static_, &dynamic_, &transparent_, &overlay_, &occluders_}) {
-    *scene = rtcNewScene(device_);
-    rtcSetSceneFlags(*scene, RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
-    rtcSetSceneBuildQuality(*scene, RTC_BUILD_QUALITY_LOW);
-    rtcCommitScene(*scene);
+    throw GpuError(
+        "no ray tracing of meshes, Embree: this processor or its memory is not sufficient; use --renderer gl");
+  for (RTCScene& scene : scenes_) {
+    scene = rtcNewScene(device_);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+    rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_LOW);
+    rtcCommitScene(scene);
   }
   throwIfFailed();
 }
 
 MeshBodies::~MeshBodies() {
   for (std::size_t i = 0; i < bodies_.size(); ++i) remove(i);
-  for (RTCScene scene : {static_, dynamic_, transparent_, overlay_, occluders_}) rtcReleaseScene(scene);
+  for (RTCScene scene : scenes_) rtcReleaseScene(scene);
   rtcReleaseDevice(device_);
 }
 
@@ -54,40 +55,40 @@ void MeshBodies::throwIfFailed() const {
                    (error == RTC_ERROR_OUT_OF_MEMORY ? ", out of memory; use a smaller model" : "; use --renderer gl"));
 }
 
-void MeshBodies::show(std::size_t index, RTCScene in) {
+void MeshBodies::attach(std::size_t index, std::optional<MeshGroup> group) {
   MeshBody& body = bodies_[index];
-  if (body.attached_to == in) return;
-  if (body.attached_to == static_ || in == static_) ++static_revision_;
-  if (body.attached_to != nullptr) rtcDetachGeometry(body.attached_to, static_cast<unsigned>(index));
-  if (in != nullptr) rtcAttachGeometryByID(in, body.instance, static_cast<unsigned>(index));
-  body.attached_to = in;
+  if (body.group == group) return;
+  if (body.group == MeshGroup::fixed || group == MeshGroup::fixed) ++static_revision_;
+  if (body.group) rtcDetachGeometry(scene(*body.group), static_cast<unsigned>(index));
+  if (group) rtcAttachGeometryByID(scene(*group), body.instance, static_cast<unsigned>(index));
+  body.group = group;
 }
 
-void MeshBodies::cover(std::size_t index, bool covers_guides) {
+void MeshBodies::setOccluder(std::size_t index, bool is_occluder) {
   MeshBody& body = bodies_[index];
-  if (body.occluders == covers_guides) return;
-  if (covers_guides)
-    rtcAttachGeometryByID(occluders_, body.instance, static_cast<unsigned>(index));
+  if (body.is_occluder == is_occluder) return;
+  if (is_occluder)
+    rtcAttachGeometryByID(scene(MeshGroup::occluders), body.instance, static_cast<unsigned>(index));
   else
-    rtcDetachGeometry(occluders_, static_cast<unsigned>(index));
-  body.occluders = covers_guides;
+    rtcDetachGeometry(scene(MeshGroup::occluders), static_cast<unsigned>(index));
+  body.is_occluder = is_occluder;
 }
 
 void MeshBodies::move(MeshBody& body, const glm::dmat4& P_from_mesh) {
   const glm::mat4 pose(P_from_mesh);
-  body.is_held = true;
+  body.has_pose = true;
   body.P_from_mesh = glm::mat3(pose);
   body.pose = glm::mat4x3(pose);
   rtcSetGeometryTransform(body.instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &body.pose);
   rtcCommitGeometry(body.instance);
 }
 
-// Bodies keep their places in the list, which are their numbers in the upper scenes; an emptied one is used again.
+// A body keeps its slot, since the index is its instance ID; free slots are reused.
 void MeshBodies::remove(std::size_t index) {
   MeshBody& body = bodies_[index];
   if (body.scene == nullptr) return;
-  show(index, nullptr);
-  cover(index, false);
+  attach(index, std::nullopt);
+  setOccluder(index, false);
   rtcReleaseGeometry(body.instance);
   rtcReleaseScene(body.scene);
   body = MeshBody{};
@@ -98,12 +99,12 @@ RTCScene MeshBodies::sceneOf(const std::vector<const assets::MeshPart*>& from, M
   rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
   for (const assets::MeshPart* part : from) {
     RTCGeometry triangles = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* const place = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
+    auto* const position = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
         triangles, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), part->position_mm.size()));
     auto* const index = static_cast<glm::uvec3*>(rtcSetNewGeometryBuffer(
         triangles, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), part->triangles.size() / 3));
     throwIfFailed();
-    std::ranges::copy(part->position_mm, place);
+    std::ranges::copy(part->position_mm, position);
     const MeshBodyPart& kept = body.parts.emplace_back(keptPart(*part, body.model));
     std::ranges::copy(kept.triangles, index);
 
@@ -128,7 +129,7 @@ void MeshBodies::setModel(Model model, const assets::MeshModel& mesh) {
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     if (bodies_[i].model == model) remove(i);
 
-  // Parts that move and are seen alike share a body.
+  // Parts with the same pose and visibility share a body.
   for (const bool is_bur : {false, true})
     for (const bool transparent : {false, true}) {
       std::vector<const assets::MeshPart*> alike;
@@ -156,25 +157,27 @@ void MeshBodies::place(const Placements& placements, const FaceWindow& window) {
   if (window != window_) ++static_revision_;
   window_ = window;
   placements_ = placements;
-  has_static_ = has_dynamic_ = has_transparent_ = has_overlay_ = false;
+  has_ = {};
   const bool guided = opacityOf(Model::mandibular_canal) > 0.0f || opacityOf(Model::ghost) > 0.0f;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     MeshBody& body = bodies_[i];
     if (body.scene == nullptr) continue;
-    const bool is_overlay = isOverlay(body.model), is_in_hand = isInHand(body.model);
+    const bool is_in_hand = isInHand(body.model);
     const Placement& at = placements_[body.model];
     const bool visible = at.opacity > 0.0f, is_transparent = body.transparent || at.opacity < 1.0f;
-    RTCScene in = is_overlay ? overlay_ : is_transparent ? transparent_ : is_in_hand ? dynamic_ : static_;
-    show(i, visible ? in : nullptr);
-    cover(i, guided && visible && !is_transparent && (is_in_hand || body.model == Model::face));
-    if (visible)
-      (is_overlay ? has_overlay_ : is_transparent ? has_transparent_ : is_in_hand ? has_dynamic_ : has_static_) = true;
+    const MeshGroup group = isOverlay(body.model) ? MeshGroup::overlay
+                            : is_transparent      ? MeshGroup::transparent
+                            : is_in_hand          ? MeshGroup::moving
+                                                  : MeshGroup::fixed;
+    attach(i, visible ? std::optional(group) : std::nullopt);
+    setOccluder(i, guided && visible && !is_transparent && (is_in_hand || body.model == Model::face));
+    if (visible) has_[static_cast<std::size_t>(group)] = true;
 
     if (!is_in_hand && body.model != Model::ghost) continue;
-    const glm::dmat4 turned = glm::rotate(glm::dmat4(1.0), at.bur_angle_rad, glm::dvec3(0.0, 0.0, 1.0));
-    move(body, body.is_bur ? at.P_from_mesh * turned : at.P_from_mesh);
+    const glm::dmat4 rotated = glm::rotate(glm::dmat4(1.0), at.bur_angle_rad, glm::dvec3(0.0, 0.0, 1.0));
+    move(body, body.is_bur ? at.P_from_mesh * rotated : at.P_from_mesh);
   }
-  for (RTCScene scene : {static_, dynamic_, transparent_, overlay_, occluders_}) rtcCommitScene(scene);
+  for (RTCScene scene : scenes_) rtcCommitScene(scene);
   throwIfFailed();
 }
 

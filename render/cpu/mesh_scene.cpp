@@ -88,7 +88,7 @@ void add(MeshPoints& to, const MeshBody& body, const MeshBodyPart& part, unsigne
   const float w = 1.0f - u - v;
   const auto mixed = [&](const std::vector<glm::vec4>& of) { return w * of[abc.x] + u * of[abc.y] + v * of[abc.z]; };
   glm::vec3 normal(mixed(part.normals));
-  if (body.is_held) normal = body.P_from_mesh * normal;
+  if (body.has_pose) normal = body.P_from_mesh * normal;
   glm::vec4 colour = part.material.base_colour;
   if (!part.colours.empty()) colour *= mixed(part.colours);
   const auto n = static_cast<std::size_t>(to.count++);
@@ -152,19 +152,21 @@ void MeshScene::place(const Placements& placements, const FaceWindow& window) {
   impl_->bodies.place(placements, window);
 }
 
-bool MeshScene::hasTransparent() const { return impl_->bodies.hasTransparent() || impl_->bodies.hasOverlay(); }
+bool MeshScene::hasTransparent() const {
+  return impl_->bodies.has(MeshGroup::transparent) || impl_->bodies.has(MeshGroup::overlay);
+}
 std::uint64_t MeshScene::staticRevision() const { return impl_->bodies.staticRevision(); }
 
 void MeshScene::staticHits(const RayBatch& rays, MeshHits& hits) const {
   std::fill_n(hits.distance_mm, rays.count, 0.0f);
-  if (impl_->bodies.hasStatic()) impl_->trace(impl_->bodies.still(), rays, rays.far_mm, hits);
+  if (impl_->bodies.has(MeshGroup::fixed)) impl_->trace(impl_->bodies.scene(MeshGroup::fixed), rays, rays.far_mm, hits);
 }
 
 void MeshScene::addDynamicHits(const RayBatch& rays, MeshHits& hits) const {
-  if (!impl_->bodies.hasDynamic()) return;
+  if (!impl_->bodies.has(MeshGroup::moving)) return;
   alignas(64) float limit_mm[RayBatch::kMaxRays];
   if (!impl_->mayMeetDynamic(rays, limit_mm, hits)) return;
-  impl_->trace(impl_->bodies.moving(), rays, limit_mm, hits);
+  impl_->trace(impl_->bodies.scene(MeshGroup::moving), rays, limit_mm, hits);
 }
 
 // Rays against the boxes of what moves, in its own frame, where they lie close around a long thin instrument.
@@ -172,7 +174,7 @@ bool MeshScene::Impl::mayMeetDynamic(const RayBatch& rays, float* limit_mm, cons
   std::fill_n(limit_mm, rays.count, 0.0f);
   bool any = false;
   for (const MeshBody& body : bodies.all()) {
-    if (body.scene == nullptr || body.attached_to != bodies.moving()) continue;
+    if (body.scene == nullptr || body.group != MeshGroup::moving) continue;
     const glm::mat3 mesh_from_P = glm::transpose(body.P_from_mesh);
     const glm::vec3 from = mesh_from_P * (rays.origin_P - glm::vec3(body.pose[3]));
     const glm::vec3 low = body.low - 0.01f - from;
@@ -202,9 +204,9 @@ void MeshScene::Impl::removeOccluded(const RayBatch& rays, std::vector<Layer>& l
   std::fill_n(cover_hits.distance_mm, rays.count, 0.0f);
   for (std::size_t n = first; n < layers.size(); ++n)
     limit_mm[layers[n].ray] = std::max(limit_mm[layers[n].ray], layers[n].distance_mm);
-  trace(bodies.occluders(), rays, limit_mm, cover_hits);
+  trace(bodies.scene(MeshGroup::occluders), rays, limit_mm, cover_hits);
   std::erase_if(layers, [&](const Layer& layer) {
-    const bool is_guide = bodies.all()[layer.body].attached_to == bodies.through();
+    const bool is_guide = bodies.all()[layer.body].group == MeshGroup::overlay;
     const float cover_mm = cover_hits.distance_mm[layer.ray];
     return is_guide && cover_mm > 0.0f && cover_mm < layer.distance_mm;
   });
@@ -259,9 +261,9 @@ void MeshScene::layers(const RayBatch& rays, const float* limit_mm, MeshPoints& 
       rtcIntersect8(valid, in, &query.context, &packet);
     }
   };
-  if (bodies.hasTransparent()) collect(bodies.transparent(), limit_mm);
+  if (bodies.has(MeshGroup::transparent)) collect(bodies.scene(MeshGroup::transparent), limit_mm);
   const std::size_t covered_from = met.size();
-  if (bodies.hasOverlay()) collect(bodies.through(), rays.far_mm);
+  if (bodies.has(MeshGroup::overlay)) collect(bodies.scene(MeshGroup::overlay), rays.far_mm);
   impl_->removeOccluded(rays, met, covered_from);
   if (met.empty()) return;
 
