@@ -18,10 +18,10 @@ struct Layers {
   float face_opacity = 1.0f;  ///< 0: no face
   bool gingiva = true;
   bool mandibular_canal = false;
-  bool clearance = false;         ///< bands of distance to the canal on the bone
-  bool planned_cut = false;       ///< bone planned for removal
-  bool ghost_tool = false;        ///< the tool at the hand, while the drawn tool is held by the surface
-  bool slices = false;            ///< CT slices through the bur
+  bool clearance = false;    ///< bands of distance to the canal on the bone
+  bool planned_cut = false;  ///< bone planned for removal
+  bool ghost_tool = false;   ///< the tool at the hand, while the drawn tool is held by the surface
+  bool slices = false;       ///< CT slices through the bur
 };
 
 enum class Antialias { none, edges };

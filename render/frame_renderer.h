@@ -1,7 +1,7 @@
-// Draws frames: jaw, face, gingiva and instruments for each eye, then the image for the display. The public interface of
-// this folder. Needs a current OpenGL 4.5 context (OffscreenContext or Window) that outlives it, except for Backend::cpu.
-// Render thread only. Linear light throughout, encoded to sRGB once, when the output is composed.
-// Bricks given before render() are in both eyes of that frame. Reading back waits for the GPU.
+// Draws frames: jaw, face, gingiva and instruments for each eye, then the image for the display. The public interface
+// of this folder. Needs a current OpenGL 4.5 context (OffscreenContext or Window) that outlives it, except for
+// Backend::cpu. Render thread only. Linear light throughout, encoded to sRGB once, when the output is composed. Bricks
+// given before render() are in both eyes of that frame. Reading back waits for the GPU.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // Light on what rays meet, many places at once: the twin, formula by formula, of the shaders lighting.glsl,
-// occlusion.glsl, tissue_appearance.glsl, ray_translucent.glsl, mesh.frag, background.frag and output.frag, whose numbers it
-// shares (light_constants.glsl, finish.glsl). Compiled once for each instruction set. Frame P, mm; linear light. Any
-// thread; no allocation. Cost: about 0.1 us a place with soft shade, 5 ns without.
+// occlusion.glsl, tissue_appearance.glsl, ray_translucent.glsl, mesh.frag, background.frag and output.frag, whose
+// numbers it shares (light_constants.glsl, finish.glsl). Compiled once for each instruction set. Frame P, mm; linear
+// light. Any thread; no allocation. Cost: about 0.1 us a place with soft shade, 5 ns without.
 #pragma once
 
 #include <cstdint>

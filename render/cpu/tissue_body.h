@@ -1,5 +1,5 @@
-// The twin of tissue_appearance.glsl, guides.glsl and of surfaceNormal in ray_cast.glsl, in lanes. Part of the kernels of
-// shade_kernel_body.h: included by them alone, internal linkage throughout.
+// The twin of tissue_appearance.glsl, guides.glsl and of surfaceNormal in ray_cast.glsl, in lanes. Part of the kernels
+// of shade_kernel_body.h: included by them alone, internal linkage throughout.
 #pragma once
 
 #include "render/cpu/occlusion_body.h"

@@ -1,6 +1,6 @@
 // The kernels of volume_cast.h, compiled once for each instruction set; internal linkage but for the table. They follow
-// shaders/ray_march.glsl, ray_cast.glsl and ray_translucent.glsl, except for the skipping of empty space. Positions count
-// from the corner of the border of SolidCells, so they are not negative inside the volume; lengths in voxels.
+// shaders/ray_march.glsl, ray_cast.glsl and ray_translucent.glsl, except for the skipping of empty space. Positions
+// count from the corner of the border of SolidCells, so they are not negative inside the volume; lengths in voxels.
 #include "render/cpu/lanes.h"
 #include "render/cpu/volume_cast_kernels.h"
 

@@ -1,9 +1,9 @@
 // What a pixel of the output shows: which eye, which pixel of it, or black, for every display mode. The CPU compositor
-// calls it; shaders/stereo_layout.glsl is its GLSL twin, and tests compare them pixel by pixel. Pixels count from the top
-// left of the output, rows downwards. Interleaved modes take the parity of rows and columns from the position on the
-// panel, so that it stays when a window moves. Any thread; a few additions.
-// Frame packing: HDMI 1.4a, 3D structure "frame packing": 1080p is 1920x2205 with 45 blank lines, 720p 1280x1470 with
-// 30, that is a 24th of the image height; other heights use the same fraction.
+// calls it; shaders/stereo_layout.glsl is its GLSL twin, and tests compare them pixel by pixel. Pixels count from the
+// top left of the output, rows downwards. Interleaved modes take the parity of rows and columns from the position on
+// the panel, so that it stays when a window moves. Any thread; a few additions. Frame packing: HDMI 1.4a, 3D structure
+// "frame packing": 1080p is 1920x2205 with 45 blank lines, 720p 1280x1470 with 30, that is a 24th of the image height;
+// other heights use the same fraction.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -88,7 +88,7 @@ Window::Impl::Impl(const Options& options) : owns_library(options.share_with == 
   glfwWindowHint(GLFW_VISIBLE, options.visible ? GLFW_TRUE : GLFW_FALSE);
   glfwWindowHint(GLFW_FOCUSED, options.focused ? GLFW_TRUE : GLFW_FALSE);
   glfwWindowHint(GLFW_FOCUS_ON_SHOW, options.focused ? GLFW_TRUE : GLFW_FALSE);
-  glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);   // with two full screens, the one without focus stays
+  glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);  // with two full screens, the one without focus stays
   glfwWindowHint(GLFW_STEREO, options.quad_buffer ? GLFW_TRUE : GLFW_FALSE);
   GLFWwindow* const shared = options.share_with != nullptr ? options.share_with->impl_->window : nullptr;
   window = glfwCreateWindow(size.x, size.y, options.title.c_str(), options.full_screen ? monitor : nullptr, shared);

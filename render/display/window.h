@@ -2,7 +2,8 @@
 // Its context is current on the constructing thread from construction on, or after makeCurrent(). A second window may
 // share textures with a first one, which must outlive it; framebuffers are never shared.
 // Positions in px of the framebuffer from its top left.
-// Quad-buffered stereo is requested from GLX; drivers without it refuse the window (GLFW error 0x10009), which is thrown.
+// Quad-buffered stereo is requested from GLX; drivers without it refuse the window (GLFW error 0x10009), which is
+// thrown.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -79,10 +80,10 @@ class Window {
     glm::ivec2 size_px{1280, 800};
     bool full_screen = false;
     std::optional<int> monitor = {};  ///< index of monitors(); full screen without it: the primary one
-    bool wait_for_refresh = true;  ///< vsync
+    bool wait_for_refresh = true;     ///< vsync
     bool visible = true;
-    bool focused = true;             ///< takes the keyboard focus when it opens
-    bool quad_buffer = false;        ///< left and right back buffers
+    bool focused = true;                 ///< takes the keyboard focus when it opens
+    bool quad_buffer = false;            ///< left and right back buffers
     const Window* share_with = nullptr;  ///< shares textures with it
   };
 

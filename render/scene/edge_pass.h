@@ -1,6 +1,6 @@
-// Antialiasing of silhouettes: marks edge pixels by the image's distances (edge_mask.frag), lets the scene be drawn again
-// with 2x2 samples in those pixels only, and writes their means back. All other pixels keep their bits. Render thread.
-// Cost: three passes without rays, plus the rays and triangles of the edges.
+// Antialiasing of silhouettes: marks edge pixels by the image's distances (edge_mask.frag), lets the scene be drawn
+// again with 2x2 samples in those pixels only, and writes their means back. All other pixels keep their bits. Render
+// thread. Cost: three passes without rays, plus the rays and triangles of the edges.
 #pragma once
 
 #include "render/gpu/framebuffer.h"

@@ -1,6 +1,7 @@
-// Transparent parts of meshes in exact order per pixel: each fragment is added to the linked list of its pixel, then all
-// lists are sorted and blended over the image at once. The sixteen nearest fragments of a pixel count. Render thread.
-// Memory: 64 bytes a pixel from the first transparent part on, at most 128 MiB; fragments beyond that are dropped.
+// Transparent parts of meshes in exact order per pixel: each fragment is added to the linked list of its pixel, then
+// all lists are sorted and blended over the image at once. The sixteen nearest fragments of a pixel count. Render
+// thread. Memory: 64 bytes a pixel from the first transparent part on, at most 128 MiB; fragments beyond that are
+// dropped.
 #pragma once
 
 #include <optional>

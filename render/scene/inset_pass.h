@@ -1,5 +1,5 @@
-// Draws small images over an eye's linear light so that the output pass reproduces them exactly: their sRGB is decoded and
-// passed through the inverse shoulder. Render thread; a textured rectangle each. Distances stay those of the scene.
+// Draws small images over an eye's linear light so that the output pass reproduces them exactly: their sRGB is decoded
+// and passed through the inverse shoulder. Render thread; a textured rectangle each. Distances stay those of the scene.
 #pragma once
 
 #include <span>

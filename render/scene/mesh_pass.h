@@ -1,6 +1,7 @@
 // Draws triangle meshes: face, gingiva, instruments. Each draw has a rigid pose into frame P. Render thread.
-// Opaque parts write depth and distance and come before the volume; transparent parts come after it, into FragmentLists.
-// Parts of the face, except metal (a retractor), are cut away around the line from the eyes to the site (EyeBlock).
+// Opaque parts write depth and distance and come before the volume; transparent parts come after it, into
+// FragmentLists. Parts of the face, except metal (a retractor), are cut away around the line from the eyes to the site
+// (EyeBlock).
 #pragma once
 
 #include <glm/glm.hpp>

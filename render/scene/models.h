@@ -15,7 +15,12 @@ enum class Model { face, gingiva, instrument, second_instrument, mandibular_cana
 inline constexpr std::size_t kModels = 7;
 
 /// How the surface of a mesh is shaded. The values are those of the shaders.
-enum class Finish { skin = FINISH_SKIN, gingiva = FINISH_GINGIVA, instrument = FINISH_INSTRUMENT, guide = FINISH_GUIDE };
+enum class Finish {
+  skin = FINISH_SKIN,
+  gingiva = FINISH_GINGIVA,
+  instrument = FINISH_INSTRUMENT,
+  guide = FINISH_GUIDE
+};
 
 constexpr Finish finishOf(Model model) {
   constexpr std::array<Finish, kModels> kFinish{Finish::skin,  Finish::gingiva, Finish::instrument, Finish::instrument,
