@@ -1,6 +1,6 @@
-// The eyes' canvases become the outputs of a display, sRGB-encoded once: the twin of output.frag without OpenGL. Which
-// eye a pixel shows is said by display/stereo_layout.h alone. Any thread; about 1 ms for 640x480 on one core, rows are
-// shared out over the threads of the caller's arena.
+// Composes the eye images into the outputs of a display, sRGB-encoded once: twin of output.frag without OpenGL. Which
+// eye a pixel shows: display/stereo_layout.h. Any thread; about 1 ms for 640x480 on one core, rows in parallel in the
+// caller's arena.
 #pragma once
 
 #include "render/cpu/eye_image.h"

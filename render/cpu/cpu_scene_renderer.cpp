@@ -23,9 +23,9 @@ namespace render {
 namespace {
 
 constexpr int kTile = 16;  // pixels along the edge of a tile
-constexpr int kBlock = 4;  // rays of a 4x4 block follow one another, so that packets are compact
+constexpr int kBlock = 4;  // rays are ordered by blocks of 4x4 pixels, so that packets are compact
 
-// The servo keeps a core where there is more than a pair; on two it takes what it needs by its priority.
+// Leaves a core to the servo if there are more than two; on two the servo has the higher priority.
 int threads() {
   const int cores = static_cast<int>(std::thread::hardware_concurrency());
   return cores > 2 ? cores - 1 : std::max(cores, 1);
@@ -40,7 +40,7 @@ FieldView<T> viewOf(const BorderedField<T>& field) {
           .size = layout.size};
 }
 
-// What the rays of a still eye meet of the still meshes, tile by tile: the same from image to image.
+// Hits on face and gingiva by tile, kept while the eye does not move.
 struct StaticHits {
   EyeBlock eye{};
   glm::ivec2 px{0};
@@ -58,24 +58,24 @@ std::array<float, 256> lightOfSrgb() {
   return light;
 }
 
-// The canvas holds light as the display will show it.
-void blendOver(const Inset& inset, EyeImage& canvas) {
+// The image holds linear light after the shoulder, as displayed.
+void blendOver(const Inset& inset, EyeImage& image) {
   static const std::array<float, 256> kLight = lightOfSrgb();
-  const glm::ivec2 end = glm::min(inset.first_px + inset.size_px, canvas.px);
+  const glm::ivec2 end = glm::min(inset.first_px + inset.size_px, image.px);
   for (int y = inset.first_px.y; y < end.y; ++y)
     for (int x = inset.first_px.x; x < end.x; ++x) {
       const int column = (2 * (x - inset.first_px.x) + 1) * inset.image.w / (2 * inset.size_px.x);
       const int row = (2 * (y - inset.first_px.y) + 1) * inset.image.h / (2 * inset.size_px.y);
       const std::uint8_t* const from = &inset.image.rgba[4 * static_cast<std::size_t>(row * inset.image.w + column)];
-      const std::size_t at = canvas.at(x, y);
-      canvas.r[at] = kLight[from[0]], canvas.g[at] = kLight[from[1]], canvas.b[at] = kLight[from[2]];
+      const std::size_t at = image.at(x, y);
+      image.r[at] = kLight[from[0]], image.g[at] = kLight[from[1]], image.b[at] = kLight[from[2]];
     }
 }
 
-// An eye as last drawn.
+// The last drawn state of an eye.
 struct RenderedEye {
-  StaticHits still;
-  EyeImage canvas;
+  StaticHits static_hits;
+  EyeImage image;
 };
 
 class CpuSceneRenderer final : public SceneRenderer {
@@ -97,8 +97,8 @@ class CpuSceneRenderer final : public SceneRenderer {
   void drawEye(const Frame& frame, Eye eye, glm::ivec2 px) override;
   void compose(const StereoLayout& layout, Eye left, Eye right, int output) override;
 
-  void showOnWindow(const WindowTarget& place, int output) override {
-    show_(outputs_[static_cast<std::size_t>(output)], place);
+  void showOnWindow(const WindowTarget& target, int output) override {
+    show_(outputs_[static_cast<std::size_t>(output)], target);
   }
   Image readImage(int output) override { return outputs_[static_cast<std::size_t>(output)]; }
   DistanceImage readDistance(const Frame& frame, Eye eye) override;
@@ -107,10 +107,10 @@ class CpuSceneRenderer final : public SceneRenderer {
  private:
   RenderedEye& drawn(Eye eye) { return eyes_[static_cast<std::size_t>(eye)]; }
   TraceScene sceneFor(const Frame& frame, Eye eye);
-  void draw(const TraceScene& scene, int samples, EyeImage& canvas, StaticHits* still);
+  void draw(const TraceScene& scene, int samples, EyeImage& image, StaticHits* static_hits);
   void drawTile(const TraceScene& scene, int samples, glm::ivec2 first, glm::ivec2 end, RayTracer& tracer,
-                EyeImage& canvas, MeshHits* still, bool static_hits_valid);
-  void drawEdgesAgain(const TraceScene& scene, EyeImage& canvas);
+                EyeImage& image, MeshHits* static_hits, bool static_hits_valid);
+  void drawEdgesAgain(const TraceScene& scene, EyeImage& image);
 
   RenderOptions options_;
   ShowImage show_;
@@ -118,7 +118,7 @@ class CpuSceneRenderer final : public SceneRenderer {
   tbb::task_arena arena_;
   const VolumeFields& fields_;
   SolidCells cells_;
-  Occupancy matter_;  ///< how far soft shade can be felt
+  Occupancy matter_;  ///< where ambient occlusion can occur
   OpacityTable opacity_;
   std::optional<GuideField> guides_;
   MeshScene meshes_;
@@ -131,7 +131,7 @@ class CpuSceneRenderer final : public SceneRenderer {
 void CpuSceneRenderer::prepare(const Frame& frame, const FieldChanges& changes) {
   const EyeBlock any_eye = eyeBlock(frame, eyeView(frame.rig, Eye::cyclopean));
   arena_.execute([&] {
-    // Both views pass the same empty bricks, for the ramp begins at the surface or above.
+    // Both views skip the same bricks, since the ramp begins at the surface or above.
     for (const VoxelBox& cells : changes.ambient) matter_.touch(cells);
     matter_.refresh();
     for (const VoxelBox& box : changes.solid) cells_.touch(box);
@@ -184,41 +184,42 @@ TraceScene CpuSceneRenderer::sceneFor(const Frame& frame, Eye eye) {
 
 void CpuSceneRenderer::drawEye(const Frame& frame, Eye eye, glm::ivec2 px) {
   RenderedEye& to = drawn(eye);
-  to.canvas.resize(px);
+  to.image.resize(px);
   const TraceScene scene = sceneFor(frame, eye);
   arena_.execute([&] {
-    draw(scene, options_.samples, to.canvas, options_.samples == 1 ? &to.still : nullptr);
-    if (options_.samples == 1 && frame.quality.antialias == Antialias::edges) drawEdgesAgain(scene, to.canvas);
+    draw(scene, options_.samples, to.image, options_.samples == 1 ? &to.static_hits : nullptr);
+    if (options_.samples == 1 && frame.quality.antialias == Antialias::edges) drawEdgesAgain(scene, to.image);
   });
-  for (const Inset& inset : insets_) blendOver(inset, to.canvas);
+  for (const Inset& inset : insets_) blendOver(inset, to.image);
 }
 
-void CpuSceneRenderer::draw(const TraceScene& scene, int samples, EyeImage& canvas, StaticHits* still) {
+void CpuSceneRenderer::draw(const TraceScene& scene, int samples, EyeImage& image, StaticHits* static_hits) {
   const int edge = kTile / samples;
-  const glm::ivec2 tiles = (canvas.px + edge - 1) / edge;
+  const glm::ivec2 tiles = (image.px + edge - 1) / edge;
   bool static_hits_valid = false;
-  if (still != nullptr) {
+  if (static_hits != nullptr) {
     const EyeBlock& eye = scene.shade.eye;
-    static_hits_valid = still->revision == meshes_.staticRevision() && still->px == canvas.px &&
-                        still->eye.eye_P == eye.eye_P && still->eye.lower_left_P == eye.lower_left_P &&
-                        still->eye.right_edge_P == eye.right_edge_P && still->eye.up_edge_P == eye.up_edge_P;
-    still->eye = eye;
-    still->px = canvas.px;
-    still->revision = meshes_.staticRevision();
-    still->tiles.resize(static_cast<std::size_t>(tiles.x) * static_cast<std::size_t>(tiles.y));
+    static_hits_valid = static_hits->revision == meshes_.staticRevision() && static_hits->px == image.px &&
+                        static_hits->eye.eye_P == eye.eye_P && static_hits->eye.lower_left_P == eye.lower_left_P &&
+                        static_hits->eye.right_edge_P == eye.right_edge_P &&
+                        static_hits->eye.up_edge_P == eye.up_edge_P;
+    static_hits->eye = eye;
+    static_hits->px = image.px;
+    static_hits->revision = meshes_.staticRevision();
+    static_hits->tiles.resize(static_cast<std::size_t>(tiles.x) * static_cast<std::size_t>(tiles.y));
   }
   tbb::parallel_for(0, tiles.x * tiles.y, [&](int tile) {
     const glm::ivec2 first = edge * glm::ivec2(tile % tiles.x, tile / tiles.x);
-    MeshHits* const hits = still != nullptr ? &still->tiles[static_cast<std::size_t>(tile)] : nullptr;
-    drawTile(scene, samples, first, glm::min(first + edge, canvas.px), *tracers_.local(), canvas, hits,
+    MeshHits* const hits = static_hits != nullptr ? &static_hits->tiles[static_cast<std::size_t>(tile)] : nullptr;
+    drawTile(scene, samples, first, glm::min(first + edge, image.px), *tracers_.local(), image, hits,
              static_hits_valid);
   });
 }
 
-// Pixels `first` to before `end`; each the mean of samples x samples rays on an even grid.
+// Pixels in [first, end), each the mean of samples x samples rays on a regular grid.
 void CpuSceneRenderer::drawTile(const TraceScene& scene, int samples, glm::ivec2 first, glm::ivec2 end,
-                                RayTracer& tracer, EyeImage& canvas, MeshHits* still, bool static_hits_valid) {
-  const glm::ivec2 rays = samples * (end - first), from = samples * first, all = samples * canvas.px;
+                                RayTracer& tracer, EyeImage& image, MeshHits* static_hits, bool static_hits_valid) {
+  const glm::ivec2 rays = samples * (end - first), from = samples * first, all = samples * image.px;
   std::array<float, kTile> uv_x, uv_y;
   for (int x = 0; x < rays.x; ++x)
     uv_x[static_cast<std::size_t>(x)] = (static_cast<float>(from.x + x) + 0.5f) / static_cast<float>(all.x);
@@ -235,37 +236,37 @@ void CpuSceneRenderer::drawTile(const TraceScene& scene, int samples, glm::ivec2
           tracer.uv_y[n] = uv_y[static_cast<std::size_t>(y)];
           pixel[static_cast<std::size_t>(n)] = static_cast<std::uint16_t>((y / samples) * kTile + x / samples);
         }
-  tracer.trace(scene, n, still, static_hits_valid);
+  tracer.trace(scene, n, static_hits, static_hits_valid);
 
   if (samples > 1)
     for (int y = first.y; y < end.y; ++y)
       for (int x = first.x; x < end.x; ++x) {
-        const std::size_t at = canvas.at(x, y);
-        canvas.r[at] = canvas.g[at] = canvas.b[at] = 0.0f;
+        const std::size_t at = image.at(x, y);
+        image.r[at] = image.g[at] = image.b[at] = 0.0f;
       }
   const float share = 1.0f / static_cast<float>(samples * samples);
   for (int i = 0; i < n; ++i) {
     const int p = pixel[static_cast<std::size_t>(i)];
-    const std::size_t at = canvas.at(first.x + p % kTile, first.y + p / kTile);
+    const std::size_t at = image.at(first.x + p % kTile, first.y + p / kTile);
     if (samples == 1) {
-      canvas.r[at] = tracer.r[i], canvas.g[at] = tracer.g[i], canvas.b[at] = tracer.b[i];
-      canvas.distance_mm[at] = tracer.distance_mm[i];
+      image.r[at] = tracer.r[i], image.g[at] = tracer.g[i], image.b[at] = tracer.b[i];
+      image.distance_mm[at] = tracer.distance_mm[i];
     } else {
-      canvas.r[at] += share * tracer.r[i];
-      canvas.g[at] += share * tracer.g[i];
-      canvas.b[at] += share * tracer.b[i];
+      image.r[at] += share * tracer.r[i];
+      image.g[at] += share * tracer.g[i];
+      image.b[at] += share * tracer.b[i];
     }
   }
 }
 
-// Bands of rows find their edges and draw them again in batches.
-void CpuSceneRenderer::drawEdgesAgain(const TraceScene& scene, EyeImage& canvas) {
+// Finds the edges in bands of rows and draws them again in batches.
+void CpuSceneRenderer::drawEdgesAgain(const TraceScene& scene, EyeImage& image) {
   constexpr int kSamples = EDGE_SAMPLES * EDGE_SAMPLES;
   constexpr std::size_t kPixels = RayTracer::kMaxRays / kSamples;
-  const int bands = (canvas.px.y + kTile - 1) / kTile;
+  const int bands = (image.px.y + kTile - 1) / kTile;
   tbb::parallel_for(0, bands, [&](int band) {
     std::vector<std::uint32_t> edges;
-    findEdges(canvas, band * kTile, std::min((band + 1) * kTile, canvas.px.y), edges);
+    findEdges(image, band * kTile, std::min((band + 1) * kTile, image.px.y), edges);
     RayTracer& tracer = *tracers_.local();
     for (std::size_t first = 0; first < edges.size(); first += kPixels) {
       const std::size_t count = std::min(kPixels, edges.size() - first);
@@ -275,19 +276,19 @@ void CpuSceneRenderer::drawEdgesAgain(const TraceScene& scene, EyeImage& canvas)
           const glm::ivec2 px = edgePixel(edges[e]);
           const float x = static_cast<float>(px.x) + 0.25f + 0.5f * static_cast<float>(s % EDGE_SAMPLES);
           const float y =
-              static_cast<float>(canvas.px.y - 1 - px.y) + 0.25f + 0.5f * static_cast<float>(s / EDGE_SAMPLES);
-          tracer.uv_x[n] = x / static_cast<float>(canvas.px.x);
-          tracer.uv_y[n] = y / static_cast<float>(canvas.px.y);
+              static_cast<float>(image.px.y - 1 - px.y) + 0.25f + 0.5f * static_cast<float>(s / EDGE_SAMPLES);
+          tracer.uv_x[n] = x / static_cast<float>(image.px.x);
+          tracer.uv_y[n] = y / static_cast<float>(image.px.y);
         }
       tracer.trace(scene, n);
       for (std::size_t e = 0; e < count; ++e) {
         const glm::ivec2 px = edgePixel(edges[first + e]);
-        const std::size_t at = canvas.at(px.x, px.y);
+        const std::size_t at = image.at(px.x, px.y);
         const auto mean = [&](const float* of) {
           const float* const from = of + kSamples * e;
           return 0.25f * (from[0] + from[1] + from[2] + from[3]);
         };
-        canvas.r[at] = mean(tracer.r), canvas.g[at] = mean(tracer.g), canvas.b[at] = mean(tracer.b);
+        image.r[at] = mean(tracer.r), image.g[at] = mean(tracer.g), image.b[at] = mean(tracer.b);
       }
     }
   });
@@ -295,23 +296,23 @@ void CpuSceneRenderer::drawEdgesAgain(const TraceScene& scene, EyeImage& canvas)
 
 void CpuSceneRenderer::compose(const StereoLayout& layout, Eye left, Eye right, int output) {
   arena_.execute([&] {
-    render::compose(layout, drawn(left).canvas, drawn(right).canvas, kernels_,
+    render::compose(layout, drawn(left).image, drawn(right).image, kernels_,
                     outputs_[static_cast<std::size_t>(output)]);
   });
 }
 
 DistanceImage CpuSceneRenderer::readDistance(const Frame& frame, Eye eye) {
-  const EyeImage* canvas = &drawn(eye).canvas;
+  const EyeImage* image = &drawn(eye).image;
   EyeImage centred;
   if (options_.samples > 1) {
-    // Samples lie beside the pixel's centre, where the distance is asked for: draw it there.
-    centred.resize(canvas->px);
+    // Samples do not lie at the pixel centre, where the distance is wanted: draw once more with one sample.
+    centred.resize(image->px);
     const TraceScene scene = sceneFor(frame, eye);
     arena_.execute([&] { draw(scene, 1, centred, nullptr); });
-    canvas = &centred;
+    image = &centred;
   }
-  const auto count = static_cast<std::ptrdiff_t>(canvas->px.x) * canvas->px.y;
-  return {canvas->px.x, canvas->px.y, {canvas->distance_mm.begin(), canvas->distance_mm.begin() + count}};
+  const auto count = static_cast<std::ptrdiff_t>(image->px.x) * image->px.y;
+  return {image->px.x, image->px.y, {image->distance_mm.begin(), image->distance_mm.begin() + count}};
 }
 
 }  // namespace

@@ -16,13 +16,13 @@ bool bends(float a, float here, float b) {
 
 }  // namespace
 
-void findEdges(const EyeImage& canvas, int first_row, int end_row, std::vector<std::uint32_t>& to) {
-  const int w = canvas.px.x, h = canvas.px.y;
-  // Inverse distances of three rows, each with a straight-on value at both ends.
+void findEdges(const EyeImage& image, int first_row, int end_row, std::vector<std::uint32_t>& to) {
+  const int w = image.px.x, h = image.px.y;
+  // Inverse distances of three rows, each extrapolated linearly by one value at both ends.
   std::vector<float> rows[3];
   for (std::vector<float>& row : rows) row.resize(static_cast<std::size_t>(w) + 2);
   const auto load = [&](std::vector<float>& row, int y) {
-    const float* const from = &canvas.distance_mm[canvas.at(0, y)];
+    const float* const from = &image.distance_mm[image.at(0, y)];
     for (int x = 0; x < w; ++x) row[static_cast<std::size_t>(x) + 1] = inverse(from[x]);
     row[0] = w > 1 ? 2.0f * row[1] - row[2] : row[1];
     row[static_cast<std::size_t>(w) + 1] =

@@ -1,5 +1,5 @@
-// An eye's image on the CPU: linear light within 0..1, as the display will show it, and distance, in planes; rows top
-// first. Plain data; threads may write different pixels.
+// An eye's image on the CPU, in planes, rows top first: linear light in 0..1, after the tone-mapping shoulder, and
+// distance. Plain data; threads may write different pixels.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@ namespace render {
 struct EyeImage {
   glm::ivec2 px{0};
   std::vector<float> r, g, b;
-  std::vector<float> distance_mm;  ///< along the ray through the pixel's centre, 0 where nothing is met
+  std::vector<float> distance_mm;  ///< along the ray through the pixel centre, 0: nothing hit
 
   void resize(glm::ivec2 size) {
     if (size == px) return;

@@ -1,5 +1,4 @@
-// Three Floats: vectors and colours of kLanes rays at once, with GLSL's words for what is done to them. Include only
-// from kernel bodies, as lanes.h.
+// Three Floats: vectors and colours of kLanes rays, with GLSL's names. Include only in kernel sources, as lanes.h.
 #pragma once
 
 #include "render/cpu/lanes.h"
@@ -11,7 +10,7 @@ struct Float3 {
   Float x, y, z;
 };
 
-/// For the triples of numbers that the shaders share.
+/// For the constants shared with the shaders.
 inline Float3 vec3(double x, double y, double z) {
   return {splat(static_cast<float>(x)), splat(static_cast<float>(y)), splat(static_cast<float>(z))};
 }
@@ -39,7 +38,7 @@ inline Float3 select(Mask mask, const Float3& yes, const Float3& no) {
   return {select(mask, yes.x, no.x), select(mask, yes.y, no.y), select(mask, yes.z, no.z)};
 }
 
-/// Between edges that differ from lane to lane.
+/// With edges per lane.
 inline Float smoothStep(Float low, Float high, Float value) {
   const Float t = clamp((value - low) / (high - low), 0.0f, 1.0f);
   return t * t * (3.0f - 2.0f * t);

@@ -30,7 +30,7 @@ using Int = std::int32_t __attribute__((vector_size(4 * kLanes)));
 using Word = std::uint32_t __attribute__((vector_size(4 * kLanes)));
 using Mask = Int;
 
-/// 64 bits per lane, as two halves.
+/// 64 bits per lane, in two halves.
 struct IntPair {
   Int low, high;
 };
@@ -51,7 +51,7 @@ inline Int load(const std::int32_t* from) {
 inline void store(float* to, Float value) { std::memcpy(to, &value, sizeof value); }
 inline void store(std::int32_t* to, Int value) { std::memcpy(to, &value, sizeof value); }
 
-/// The same bits read as the other kind.
+/// The same bits as the other type.
 inline Int bitsOf(Float value) { return reinterpret_cast<Int>(value); }
 inline Float floatOfBits(Int bits) { return reinterpret_cast<Float>(bits); }
 
@@ -114,8 +114,8 @@ inline Float smoothStep(float low, float high, Float value) {
   return t * t * (3.0f - 2.0f * t);
 }
 
-/// 2^value within 2e-7 of itself; -126 … 126, beyond which it stays at the end. Taylor's series about the nearest
-/// integer, which ln(2)/2 to the eighth over 8! makes good to 5e-9.
+/// 2^value, relative error 2e-7; clamped to -126 … 126. Taylor series about the nearest integer, truncation error
+/// (ln(2)/2)^8 / 8! = 5e-9.
 inline Float exp2(Float value) {
   const Float x = clamp(value, -126.0f, 126.0f), whole = floor(x + 0.5f), f = x - whole;
   constexpr float kTerms[] = {
@@ -125,8 +125,7 @@ inline Float exp2(Float value) {
   return sum * floatOfBits((toInt(whole) + 127) << 23);
 }
 
-/// Element `index` of an array, in lanes of the mask; zero elsewhere. Indices count elements, so arrays may be larger
-/// than 2 GB.
+/// Element `index` of an array in lanes of the mask, zero elsewhere. Indices count elements, so arrays may exceed 2 GB.
 inline Int gather(const std::uint8_t* array, Int index, Mask mask) { return gatherNarrow(array, index & mask) & mask; }
 inline Int gather(const std::uint16_t* array, Int index, Mask mask) { return gatherNarrow(array, index & mask) & mask; }
 inline Int gather(const std::int32_t* array, Int index, Mask mask) { return gather32<4>(array, index & mask) & mask; }

@@ -1,5 +1,5 @@
 // Operations that GCC's vectors lack, with AVX2 and FMA. Included by lanes.h only.
-// Gathers are loads and inserts: on AMD's Zen 2 and 3 (39 micro-operations for one vpgatherdd) and on Intel's machines
+// Gathers are loads and inserts: on AMD's Zen 2 and 3 (39 micro-operations for one vpgatherdd) and on Intel processors
 // with the 2023 microcode against gather data sampling the instruction itself is slower than eight loads.
 #pragma once
 

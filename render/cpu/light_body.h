@@ -1,5 +1,4 @@
-// The twin of lighting.glsl in lanes. Part of the kernels of shade_kernel_body.h:
-// included by them alone, internal linkage throughout.
+// lighting.glsl in lanes. Included only by the kernels (shade_kernel.cpp); internal linkage.
 #pragma once
 
 #include "render/cpu/float3.h"

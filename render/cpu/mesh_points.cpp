@@ -6,16 +6,16 @@
 namespace render {
 namespace {
 
-// Gives every array its part of a new memory, with what it held.
+// Moves the arrays into a larger allocation.
 template <class T, std::size_t kArrays>
 void move(T** const (&arrays)[kArrays], std::size_t used, std::size_t room, std::vector<T>& memory) {
-  std::vector<T> roomier(kArrays * room);
-  T* to = roomier.data();
+  std::vector<T> larger(kArrays * room);
+  T* to = larger.data();
   for (T** array : arrays) {
     if (used > 0) std::copy_n(*array, used, to);
     *array = std::exchange(to, to + room);
   }
-  memory = std::move(roomier);
+  memory = std::move(larger);
 }
 
 }  // namespace
@@ -26,7 +26,7 @@ void MeshPoints::makeRoom(int more) {
   room_ = wanted + wanted / 2;
   const auto used = static_cast<std::size_t>(count);
   move({&distance_mm, &nx, &ny, &nz, &r, &g, &b, &a, &roughness, &metallic}, used, room_, values_);
-  move({&ray, &finish, &is_cut, &faces_eye}, used, room_, numbers_);
+  move({&ray, &finish, &is_cut, &faces_eye}, used, room_, integers_);
 }
 
 }  // namespace render

@@ -1,5 +1,5 @@
-// Rays of one eye and the places where they meet meshes, as structures of arrays that the shading kernels read many at
-// a time. Frame P, mm. Plain data; one thread at a time. Nothing here allocates once it has grown to its working size.
+// Rays of one eye, and their hits on meshes as structures of arrays for the shading kernels. Frame P, mm. Plain data;
+// one thread at a time. Allocates only until the working size is reached.
 #pragma once
 
 #include <cstddef>
@@ -12,16 +12,16 @@ namespace render {
 /// Kernels may read this many values beyond `count`.
 inline constexpr int kLanePadding = 16;
 
-/// Rays from one place. Neighbours in the image should be neighbours here: packets of 8 are traced together.
+/// Rays from one origin. Packets of 8 are traced together, so neighbours in the image should be neighbours here.
 struct RayBatch {
   static constexpr int kMaxRays = 256;
   glm::vec3 origin_P{0.0f};
   int count = 0;
   alignas(64) float x[kMaxRays] = {}, y[kMaxRays] = {}, z[kMaxRays] = {};  ///< unit directions
-  alignas(64) float near_mm[kMaxRays] = {}, far_mm[kMaxRays] = {};         ///< between which a mesh can be met
+  alignas(64) float near_mm[kMaxRays] = {}, far_mm[kMaxRays] = {};         ///< range in which a mesh can be hit
 };
 
-/// The first mesh along every ray of a batch, as it is found: attributes are looked up only where it is seen.
+/// The first mesh along every ray; attributes are looked up later, only where the hit is visible.
 struct MeshHits {
   alignas(64) float distance_mm[RayBatch::kMaxRays + kLanePadding] = {};  ///< 0: none
   float u[RayBatch::kMaxRays] = {}, v[RayBatch::kMaxRays] = {};           ///< barycentric
@@ -29,29 +29,29 @@ struct MeshHits {
   bool faces_eye[RayBatch::kMaxRays] = {};
 };
 
-/// Places on meshes with what is needed to shade them. Plain pointers, for the kernels.
+/// Hits on meshes with the inputs of shading. Plain pointers, for the kernels.
 struct MeshPoints {
   int count = 0;
-  std::int32_t* ray = nullptr;                        ///< which of the batch
-  float* distance_mm = nullptr;                       ///< from the eye
-  float *nx = nullptr, *ny = nullptr, *nz = nullptr;  ///< interpolated normal as the mesh has it, not of unit length
+  std::int32_t* ray = nullptr;                                   ///< index in the batch
+  float* distance_mm = nullptr;                                  ///< from the eye
+  float *nx = nullptr, *ny = nullptr, *nz = nullptr;             ///< interpolated, not normalised
   float *r = nullptr, *g = nullptr, *b = nullptr, *a = nullptr;  ///< material times vertex colour, linear; opacity
   float *roughness = nullptr, *metallic = nullptr;
   std::int32_t* finish = nullptr;     ///< FINISH_…
-  std::int32_t* is_cut = nullptr;     ///< 1 where the window in the face cuts
-  std::int32_t* faces_eye = nullptr;  ///< 1 where the outside is seen
+  std::int32_t* is_cut = nullptr;     ///< 1: cut by the face window
+  std::int32_t* faces_eye = nullptr;  ///< 1: front face
 
   MeshPoints() = default;
   MeshPoints(MeshPoints&&) = default;
   MeshPoints& operator=(MeshPoints&&) = default;
 
   void clear() { count = 0; }
-  /// Makes every array long enough for `more` further points and the kernels' padding.
+  /// Reserves `more` further points and the kernels' padding.
   void makeRoom(int more);
 
  private:
   std::vector<float> values_;
-  std::vector<std::int32_t> numbers_;
+  std::vector<std::int32_t> integers_;
   std::size_t room_ = 0;
 };
 

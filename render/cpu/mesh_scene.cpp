@@ -23,9 +23,9 @@ struct Layer {
   bool faces_eye;
 };
 
-/// What the filter of a query is told.
+/// Context of a query, passed to the filter.
 struct Query {
-  RTCIntersectContext context;  // first: Embree hands back its address
+  RTCIntersectContext context;  // must be first: Embree passes its address
   const FaceWindow* window;
   std::vector<Layer>* layers;  ///< null: looking for the first hit
 };
@@ -40,7 +40,7 @@ float rimDistance(const FaceWindow& window, const glm::vec3& p) {
   return std::max(glm::length(offset - along * axis) - window.radius_mm, along - (reach - RIM_BEHIND));
 }
 
-// Embree asks before it takes a hit: the window lets rays through, a guide's inside too, layers are noted and passed.
+// Filter of Embree's hits: rejects hits in the face window and back faces of guides; records layers and continues.
 void filter(const RTCFilterFunctionNArguments* args) {
   const Query& query = *reinterpret_cast<const Query*>(args->context);
   const auto trait = static_cast<MeshTrait>(reinterpret_cast<std::uintptr_t>(args->geometryUserPtr));
@@ -81,7 +81,7 @@ void filter(const RTCFilterFunctionNArguments* args) {
   }
 }
 
-// Linear in barycentric coordinates on the triangle in space, which is what OpenGL's perspective-correct varyings are.
+// Interpolation in barycentric coordinates, equal to OpenGL's perspective-correct varyings.
 void add(MeshPoints& to, const MeshBody& body, const MeshBodyPart& part, unsigned triangle, float u, float v, int ray,
          float t, bool faces_eye, float opacity) {
   const glm::uvec3 abc = part.triangles[triangle];
@@ -103,7 +103,7 @@ void add(MeshPoints& to, const MeshBody& body, const MeshBodyPart& part, unsigne
   to.faces_eye[n] = faces_eye ? 1 : 0;
 }
 
-// A packet of the batch from ray `first` on; `valid` becomes -1 where there is one.
+// A packet of the batch from ray `first` on; `valid`: -1 for its rays, 0 for the rest.
 void fill(RTCRayHit8& packet, int* valid, const RayBatch& rays, int first, const float* limit_mm) {
   for (int i = 0; i < kPacket; ++i) {
     const auto r = static_cast<std::size_t>(std::min(first + i, rays.count - 1));
@@ -124,11 +124,10 @@ void fill(RTCRayHit8& packet, int* valid, const RayBatch& rays, int first, const
 }  // namespace
 
 struct MeshScene::Impl {
-  /// Takes away the layers from `first` on that the face or what a hand holds hides.
+  /// Removes the layers from `first` on that the face or an instrument hides.
   void removeOccluded(const RayBatch& rays, std::vector<Layer>& layers, std::size_t first) const;
   Query queryFor(std::vector<Layer>* layers) const;
-  /// False where no ray comes near what is in a hand; else the limits become those of the still hits, or zero for such
-  /// rays.
+  /// False if no ray hits the bounding box of an instrument; else sets the limits of rays that do, and zero for others.
   bool mayMeetDynamic(const RayBatch& rays, float* limit_mm, const MeshHits& hits) const;
   void trace(RTCScene in, const RayBatch& rays, const float* limit_mm, MeshHits& hits) const;
 
@@ -169,7 +168,7 @@ void MeshScene::addDynamicHits(const RayBatch& rays, MeshHits& hits) const {
   impl_->trace(impl_->bodies.scene(MeshGroup::moving), rays, limit_mm, hits);
 }
 
-// Rays against the boxes of what moves, in its own frame, where they lie close around a long thin instrument.
+// Tests rays against the instruments' boxes in their own frames, where these fit tightly.
 bool MeshScene::Impl::mayMeetDynamic(const RayBatch& rays, float* limit_mm, const MeshHits& hits) const {
   std::fill_n(limit_mm, rays.count, 0.0f);
   bool any = false;
@@ -212,7 +211,7 @@ void MeshScene::Impl::removeOccluded(const RayBatch& rays, std::vector<Layer>& l
   });
 }
 
-// Writes what is met before the limits and leaves the rest as it is.
+// Writes the hits before the limits and leaves other entries unchanged.
 void MeshScene::Impl::trace(RTCScene in, const RayBatch& rays, const float* limit_mm, MeshHits& hits) const {
   Query query = queryFor(nullptr);
   alignas(32) RTCRayHit8 packet;
@@ -267,7 +266,7 @@ void MeshScene::layers(const RayBatch& rays, const float* limit_mm, MeshPoints& 
   impl_->removeOccluded(rays, met, covered_from);
   if (met.empty()) return;
 
-  // Ray by ray from back to front; of two at one place the later in the models' order lies in front.
+  // Ray by ray from back to front; at equal distance the later body is in front.
   std::ranges::sort(met, [](const Layer& a, const Layer& b) {
     return std::tuple(a.ray, -a.distance_mm, a.body, a.part, a.triangle) <
            std::tuple(b.ray, -b.distance_mm, b.body, b.part, b.triangle);

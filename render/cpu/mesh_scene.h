@@ -1,9 +1,8 @@
-// Face, gingiva and instruments for rays on the CPU: a scene of two levels in Embree, the models below, above them
-// their instances - what a hand holds moved with each frame, the bur turning besides. Frame P, mm. Opaque parts are met
-// first hit by first hit; transparent ones are all met along a ray, and come back to front. The window in the face
-// opens it as shaders/mesh.frag does. Both sides of a triangle are met, in mirrored views too. Setting a model builds
-// its tree (20 ms for 35,000 triangles); placing costs some microseconds. setModel and place on one thread, then any
-// number of threads may trace. A ray costs about 30 ns.
+// Face, gingiva and instruments for rays on the CPU: a two-level Embree scene, with the instruments posed in each
+// frame. Frame P, mm. Opaque parts yield the first hit, transparent ones all hits along a ray, back to front. The face
+// window cuts as in shaders/mesh_colour.glsl. Both sides of a triangle are hit, in mirrored views too. Cost: setModel
+// builds a tree (20 ms for 35,000 triangles); place some microseconds; a ray about 30 ns. Thread: setModel and place on
+// one thread; then any number of threads may trace.
 #pragma once
 
 #include <cstdint>
@@ -16,35 +15,35 @@
 
 namespace render {
 
-/// The hole in the face, around the line from the eyes to the site.
+/// The hole in the face around the line from the eyes to the site.
 struct FaceWindow {
   glm::vec3 eye_P{0.0f}, site_P{0.0f};
-  float radius_mm = 0.0f;  ///< 0: the face is whole
+  float radius_mm = 0.0f;  ///< 0: none
   bool operator==(const FaceWindow&) const = default;
 };
 
 class MeshScene {
  public:
-  /// Throws GpuError if Embree can not be had.
+  /// Throws GpuError if Embree is not available.
   MeshScene();
   ~MeshScene();
 
-  /// An empty model removes what was there. The instrument's part "Bur" is_bur about its z axis.
+  /// An empty model removes the previous one. The instrument's part "Bur" rotates about its z axis.
   void setModel(Model model, const assets::MeshModel& mesh);
-  /// At first as in a frame of default values.
+  /// Initially as for a default Frame.
   void place(const Placements& placements, const FaceWindow& window = {});
 
   bool hasTransparent() const;
 
-  /// The first opaque place along every ray, 0 mm where there is none, in two halves: face and gingiva, which stay what
-  /// they are for the same rays until staticRevision() changes; then the instruments, where they lie before them.
+  /// The first opaque hit of every ray, 0 mm if there is none, in two steps: face and gingiva, which stay valid for the
+  /// same rays until staticRevision() changes; then the instruments, where they are nearer.
   void staticHits(const RayBatch& rays, MeshHits& hits) const;
   void addDynamicHits(const RayBatch& rays, MeshHits& hits) const;
   std::uint64_t staticRevision() const;
-  /// Adds those hits that are what the ray sees: nothing at `seen_mm[i]` before them.
+  /// Appends the hits that are visible: not behind `seen_mm[i]`.
   void addSeen(const RayBatch& rays, const MeshHits& hits, const float* seen_mm, MeshPoints& to) const;
-  /// Every transparent place before `limit_mm[i]`, and of what is seen through bone and gingiva all that lies before
-  /// the opaque face and instruments; ray by ray, each ray's from back to front.
+  /// Appends every transparent hit before `limit_mm[i]`, and the overlay hits not hidden by the opaque face and
+  /// instruments; ray by ray, each ray's from back to front.
   void layers(const RayBatch& rays, const float* limit_mm, MeshPoints& to) const;
 
  private:

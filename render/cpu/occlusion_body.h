@@ -1,5 +1,4 @@
-// The twin of occlusion.glsl in lanes. Part of the kernels of shade_kernel_body.h:
-// included by them alone, internal linkage throughout.
+// occlusion.glsl in lanes. Included only by the kernels (shade_kernel.cpp); internal linkage.
 #pragma once
 
 #include "render/cpu/light_body.h"
@@ -12,7 +11,7 @@ inline Float3 indexOf(const ShadeScene& scene, const Float3& p_P) {
   return (1.0f / scene.spacing_mm) * (p_P - splat(scene.origin_P));
 }
 
-// The four rows around a place, mixed; `x`, `y`, `z`: 0 at the first border value. `pair` mixes two neighbours along i.
+// Trilinear interpolation at `at`, 0 at the first border value; `pair` interpolates two neighbours along i.
 template <class T, class Pair>
 inline auto mixedAround(const FieldView<T>& field, const Float3& at, Mask mask, Pair pair) {
   const Int i = toInt(at.x), j = toInt(at.y), k = toInt(at.z);
@@ -29,7 +28,7 @@ inline Float trilinear(const FieldView<std::uint16_t>& field, const Float3& at, 
   });
 }
 
-// Where a place lies within a field and its border, in values from the first of the border.
+// Whether a position, counted from the first border value, is inside the field and its border.
 inline Mask insideBorder(const Float3& at, glm::ivec3 size) {
   return (at.x > 0.0f) & (at.y > 0.0f) & (at.z > 0.0f) & (at.x < static_cast<float>(size.x + 1)) &
          (at.y < static_cast<float>(size.y + 1)) & (at.z < static_cast<float>(size.z + 1));
@@ -51,7 +50,7 @@ inline Float coneOpenness(const ShadeScene& scene, const Float3& index, const Fl
   return (1.0f - close) * (1.0f - CONE_SECOND_SHADE * middle) * (1.0f - CONE_THIRD_SHADE * far);
 }
 
-// Voxels that a place may be moved along every axis before it can feel a matter_distance brick.
+// Voxels along any axis from a position to the nearest brick with matter.
 inline Float freeVoxels(const ShadeScene& scene, const Float3& index, Mask mask) {
   const glm::ivec3& size = scene.matter_distance.size;
   constexpr float kBrick = 1.0f / BRICK_VOXELS;
@@ -69,7 +68,7 @@ inline Visibility visibilityFromVolume(const ShadeScene& scene, const Float3& p_
   const float first = std::fmax(CONE_FIRST_CELLS * AMBIENT_CELL_VOXELS, CONE_FIRST_MM / scene.spacing_mm);
   const Float free = freeVoxels(scene, index, mask);
 
-  // Five cones, where anything is within their reach.
+  // Five cones, where matter is within their length.
   const Mask near = mask & (free < CONE_THIRD * first);
   if (scene.ambient_occlusion && any(near)) {
     const Float zero = splat(0.0f);
@@ -86,16 +85,16 @@ inline Visibility visibilityFromVolume(const ShadeScene& scene, const Float3& p_
     visibility.ambient = select(near, open * squareRoot(open), 1.0f);
   }
 
-  // Towards the lamp, with growing steps. A place looked at is `reach` from the point at most.
+  // Towards the lamp, with growing steps.
   if (scene.lamp_shadow) {
     const Float3 to_lamp = normalised(splat(scene.eye.lamp_P) - p_P);
     const Float3 lifted = index + (LAMP_LIFT * first) * normal;
     Float through = splat(1.0f);
     float t = first;
     for (int i = 0; i < LAMP_SAMPLES; ++i, t *= LAMP_STEP_GROWTH) {
-      const Mask felt = mask & (free < t + LAMP_LIFT * first) & (through > 0.0f);
-      if (none(felt)) continue;
-      through *= 1.0f - smoothStep(LAMP_CLEAR, LAMP_BLOCKED, densityAt(scene, lifted + t * to_lamp, felt));
+      const Mask near_matter = mask & (free < t + LAMP_LIFT * first) & (through > 0.0f);
+      if (none(near_matter)) continue;
+      through *= 1.0f - smoothStep(LAMP_CLEAR, LAMP_BLOCKED, densityAt(scene, lifted + t * to_lamp, near_matter));
     }
     visibility.lamp = LAMP_MIN + (1.0f - LAMP_MIN) * through;
   }

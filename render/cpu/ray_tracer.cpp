@@ -17,11 +17,11 @@ Light RayTracer::roomFor(int count) {
   return {light_.data(), light_.data() + stride, light_.data() + 2 * stride};
 }
 
-void RayTracer::trace(const TraceScene& scene, int count, MeshHits* still, bool static_hits_valid) {
+void RayTracer::trace(const TraceScene& scene, int count, MeshHits* static_hits, bool static_hits_valid) {
   rays_.count = count;
   scene.kernels->aim(scene.shade.eye, uv_x, uv_y, rays_);
-  if (!static_hits_valid) scene.meshes->staticHits(rays_, still != nullptr ? *still : hits_);
-  if (still != nullptr) hits_ = *still;
+  if (!static_hits_valid) scene.meshes->staticHits(rays_, static_hits != nullptr ? *static_hits : hits_);
+  if (static_hits != nullptr) hits_ = *static_hits;
   scene.meshes->addDynamicHits(rays_, hits_);
   for (int i = 0; i < count; ++i) {
     distance_mm[i] = hits_.distance_mm[i];
@@ -36,7 +36,7 @@ void RayTracer::trace(const TraceScene& scene, int count, MeshHits* still, bool 
   scene.kernels->shoulder({r, g, b}, count);
 }
 
-// The surface hides what lies behind it, so only what is seen is shaded.
+// The surface is opaque: only visible points are shaded.
 void RayTracer::traceSurface(const TraceScene& scene) {
   castSurface(*scene.cells, scene.cast, rays_, limit_mm_, volume_);
   for (int n = 0; n < volume_.count; ++n) {
@@ -54,7 +54,7 @@ void RayTracer::traceSurface(const TraceScene& scene) {
   }
 }
 
-// Translucent matter lies over everything behind it; it counts as met where it stops half of the light.
+// Translucent matter is blended over everything behind it; its distance is where the opacity reaches one half.
 void RayTracer::traceTranslucent(const TraceScene& scene) {
   background(scene);
   meshes(scene, hits_.distance_mm);
@@ -92,7 +92,7 @@ void RayTracer::meshes(const TraceScene& scene, const float* seen_mm) {
   }
 }
 
-// Each ray's layers come from back to front.
+// The layers of each ray are sorted back to front.
 void RayTracer::layers(const TraceScene& scene) {
   if (!scene.meshes->hasTransparent()) return;
   for (int i = 0; i < rays_.count; ++i) limit_mm_[i] = distance_mm[i] > 0.0f ? distance_mm[i] : kEndless_mm;

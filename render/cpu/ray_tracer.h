@@ -1,6 +1,6 @@
-// What the rays of a batch see, in light that the display can show: meshes, tooth and bone, what is translucent before
-// them, the dark room behind. Opaque meshes first, so that the caster ends at them; only what is seen is shaded; layers
-// are laid over it from back to front. The scene is shared by all threads, a tracer belongs to one. Frame P, mm.
+// Traces and shades a batch of rays: meshes, tooth and bone, transparent layers, background; tone-mapped. Opaque meshes
+// first, so that the caster ends at them; only visible hits are shaded; layers are blended from back to front.
+// The scene is shared by all threads, a tracer belongs to one. Frame P, mm.
 #pragma once
 
 #include <vector>
@@ -13,13 +13,13 @@
 
 namespace render {
 
-/// An eye's scene; everything is borrowed.
+/// The scene of an eye; everything is borrowed.
 struct TraceScene {
   const MeshScene* meshes = nullptr;
   const SolidCells* cells = nullptr;
   CastSettings cast;
-  const OpacityTable* opacity = nullptr;               ///< set where tooth and bone are translucent …
-  const BorderedField<std::uint8_t>* label = nullptr;  ///< … by tissue
+  const OpacityTable* opacity = nullptr;  ///< for the translucent view, with `label`
+  const BorderedField<std::uint8_t>* label = nullptr;
   ShadeScene shade;
   const ShadeKernels* kernels = nullptr;
 };
@@ -30,14 +30,15 @@ class RayTracer {
 
   RayTracer();
 
-  /// Rays through `count` places of the image, 0..1 from its lower left. `still`: what they meet of face and gingiva,
-  /// filled in unless `static_hits_valid` from an earlier image through the same places; null: not kept.
-  void trace(const TraceScene& scene, int count, MeshHits* still = nullptr, bool static_hits_valid = false);
+  /// Rays through the first `count` points of uv. `static_hits`: cache of the hits on face and gingiva, valid from an
+  /// earlier frame if `static_hits_valid`, else filled in; null: not cached.
+  void trace(const TraceScene& scene, int count, MeshHits* static_hits = nullptr, bool static_hits_valid = false);
 
-  alignas(64) float uv_x[kMaxRays + kLanePadding] = {}, uv_y[kMaxRays + kLanePadding] = {};  ///< to be filled in
-  // Answers.
+  alignas(64) float uv_x[kMaxRays + kLanePadding] = {}, uv_y[kMaxRays + kLanePadding] =
+                                                            {};  ///< input: image points, 0..1 from the lower left
+  // Results.
   alignas(64) float r[kMaxRays + kLanePadding] = {}, g[kMaxRays + kLanePadding] = {}, b[kMaxRays + kLanePadding] = {};
-  alignas(64) float distance_mm[kMaxRays + kLanePadding] = {};  ///< to what is seen, 0: nothing
+  alignas(64) float distance_mm[kMaxRays + kLanePadding] = {};  ///< 0: nothing hit
 
  private:
   Light roomFor(int count);

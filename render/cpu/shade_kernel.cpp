@@ -11,8 +11,8 @@ namespace {
 
 // ---- ray_translucent.glsl
 
-// Middle of a ray's way through the volume and its border of air, P.
-inline Float3 middleOfWay(const ShadeScene& scene, const RayBatch& rays, const Float3& direction) {
+// Centre of a ray's span through the volume and its border of air, P.
+inline Float3 spanCentre(const ShadeScene& scene, const RayBatch& rays, const Float3& direction) {
   const Float3 origin = indexOf(scene, splat(rays.origin_P));
   Float near = splat(0.0f), far = splat(1e9f);
   const auto narrow = [&](Float from, Float along, int size) {
@@ -125,40 +125,44 @@ void meshes(const ShadeScene& scene, const RayBatch& rays, const MeshPoints& poi
         at_least(STEEL_MIN_AMBIENT, visibility.ambient) * select(outside, splat(1.0f), splat(INSIDE_AMBIENT));
     visibility.lamp = at_least(STEEL_MIN_LAMP, visibility.lamp) * select(outside, splat(1.0f), splat(INSIDE_LAMP));
     const Float3 shown = lit(scene, s, p_P, normal, -direction, visibility);
-    // A guide is lit from everywhere: it is no part of the patient and shows inside the bone.
+    // Guides are unlit: they are not part of the patient and are visible inside the bone.
     const Float facing = absolute(dot(normal, direction));
     put(light, i, select(finish == FINISH_GUIDE, (GUIDE_DARKEST + (1.0f - GUIDE_DARKEST) * facing) * base, shown));
+  }
+}
+
+/// Calls shade(direction, t, mask) for kLanes points at a time and stores the light that it returns.
+template <class Shade>
+inline void shadePoints(const RayBatch& rays, const std::int32_t* ray, const float* length_voxels, int count,
+                        Light light, Shade shade) {
+  for (int i = 0; i < count; i += kLanes) {
+    const Mask mask = firstLanes(count - i);
+    const Float3 direction = directionsOf(rays, load(ray + i) & mask, mask);
+    put(light, i, shade(direction, select(mask, load(length_voxels + i), 0.0f), mask));
   }
 }
 
 void surface(const ShadeScene& scene, const RayBatch& rays, const std::int32_t* ray, const float* length_voxels,
              int count, Light light) {
   const Float3 eye_index = indexOf(scene, splat(rays.origin_P));
-  for (int i = 0; i < count; i += kLanes) {
-    const Mask mask = firstLanes(count - i);
-    const Float3 direction = directionsOf(rays, load(ray + i) & mask, mask);
-    const Float t = select(mask, load(length_voxels + i), 0.0f);
+  shadePoints(rays, ray, length_voxels, count, light, [&](const Float3& direction, Float t, Mask mask) {
     const Float3 index = eye_index + t * direction;
     const Float3 p_P = splat(rays.origin_P) + (t * scene.spacing_mm) * direction;
     const Float3 normal = surfaceNormal(scene, index, mask);
     const Surface s = tissueSurface(scene, index, normal, p_P, mask);
-    put(light, i, lit(scene, s, p_P, normal, -direction, visibilityFromVolume(scene, p_P, normal, mask)));
-  }
+    return lit(scene, s, p_P, normal, -direction, visibilityFromVolume(scene, p_P, normal, mask));
+  });
 }
 
 void matter(const ShadeScene& scene, const RayBatch& rays, const std::int32_t* ray, const float* length_voxels,
             int count, Light light) {
   const Float3 eye_index = indexOf(scene, splat(rays.origin_P));
-  for (int i = 0; i < count; i += kLanes) {
-    const Mask mask = firstLanes(count - i);
-    const Float3 direction = directionsOf(rays, load(ray + i) & mask, mask);
-    const Float t = select(mask, load(length_voxels + i), 0.0f);
-    const Float3 lamp_offset = splat(scene.eye.lamp_P) - middleOfWay(scene, rays, direction);
+  shadePoints(rays, ray, length_voxels, count, light, [&](const Float3& direction, Float t, Mask mask) {
+    const Float3 lamp_offset = splat(scene.eye.lamp_P) - spanCentre(scene, rays, direction);
     const Float lamp_distance = length(lamp_offset);
     const Float3 to_lamp = (1.0f / lamp_distance) * lamp_offset;
-    put(light, i,
-        scattered(scene, eye_index + t * direction, to_lamp, lampRadiance(scene.eye, to_lamp, lamp_distance), mask));
-  }
+    return scattered(scene, eye_index + t * direction, to_lamp, lampRadiance(scene.eye, to_lamp, lamp_distance), mask);
+  });
 }
 
 // ---- output.frag

@@ -14,7 +14,7 @@ SrgbPieces pieces() {
   SrgbPieces table{};
   for (int p = 0; p < kSrgbPieces; ++p) {
     const double octave = std::ldexp(1.0, p / 8 - 9), from = octave * (1.0 + (p % 8) / 8.0), to = from + octave / 8.0;
-    // A line through both ends runs below the curve, the most about the middle: lift it by half of that.
+    // The chord is below the curve: raise it by half of the largest difference.
     const double lift = 0.5 * (exact(0.5 * (from + to)) - 0.5 * (exact(from) + exact(to)));
     table.low[p] = static_cast<float>(exact(from) + lift);
     table.rise[p] = static_cast<float>(exact(to) - exact(from));

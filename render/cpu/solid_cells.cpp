@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kEdge = SolidCells::kEdge, kSide = kEdge + 1;
 
-/// The voxels that a brick's cells touch, air outside the volume.
+/// The voxels of a brick's cells, air outside the volume.
 struct Block {
   std::uint8_t value[kSide][kSide][kSide];
 };
@@ -29,7 +29,7 @@ Block voxelsOf(const BorderedField<std::uint8_t>& solid, glm::ivec3 brick) {
   return block;
 }
 
-/// A bit for each eighth of the cells with a corner that is solid.
+/// A bit for each eighth of the cells with a solid corner.
 std::uint8_t solidEighths(const Block& block) {
   static_assert(assets::kHalfSolid == 1 << 7);
   constexpr int kHalf = kEdge / 2;
@@ -78,7 +78,7 @@ std::size_t SolidCells::bytes() const {
   return words_.size() * sizeof(std::uint32_t) + slot_.size() * 2 * (1 + sizeof(std::int32_t));
 }
 
-// Cells reach one voxel up, and the table has a border of one brick.
+// Cells extend one voxel upwards, and the table has a border of one brick.
 void SolidCells::touch(const VoxelBox& voxels) { occupancy_.touch({voxels.first + kEdge, voxels.extent - 1}); }
 
 void SolidCells::refresh() {
@@ -92,7 +92,7 @@ void SolidCells::refresh() {
       words_.resize(words_.size() + kBrickWords);
     }
     if (slot_[b] >= 0) fill(voxelsOf(*solid_, brick), wordsOf(slot_[b]));
-    // An emptied brick may be passed at once; how far beyond is seen when the distances are rebuilt.
+    // An emptied brick can be skipped now; its exact distance follows when the distances are rebuilt.
     table_[b] = eighths != 0 ? slot_[b] * 256 + eighths : std::min(table_[b], -1);
   }
   if (is_fuller) writeTable();

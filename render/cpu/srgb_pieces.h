@@ -1,5 +1,5 @@
-// The sRGB curve (IEC 61966-2-1) as straight lines over eighths of octaves, from 2^-9 to 1; below lies its own straight
-// part. Each line runs through the middle of the bulge it cuts off: 0.06/255 at most. Plain numbers, any thread.
+// The sRGB curve (IEC 61966-2-1) as line segments over eighths of octaves, from 2^-9 to 1, and its linear part below.
+// Error at most 0.06/255. Plain numbers, any thread.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ inline constexpr int kSrgbPieces = 9 * 8;
 inline constexpr std::int32_t kSrgbLastBits = (kSrgbPieces << kSrgbPieceShift) - 1;
 inline constexpr float kSrgbLinearEnd = 0.0031308f;
 
-/// 0..255 at the start of each piece, and how much more at its end.
+/// 0..255 at the start of each piece, and the rise to its end.
 struct SrgbPieces {
   float low[kSrgbPieces], rise[kSrgbPieces];
 };

@@ -1,5 +1,5 @@
-// The twin of tissue_appearance.glsl, guides.glsl and of surfaceNormal in ray_cast.glsl, in lanes. Part of the kernels
-// of shade_kernel_body.h: included by them alone, internal linkage throughout.
+// tissue_appearance.glsl, guides.glsl and the normals of ray_march.glsl in lanes. Included only by the kernels
+// (shade_kernel.cpp); internal linkage.
 #pragma once
 
 #include "render/cpu/occlusion_body.h"
@@ -33,7 +33,7 @@ inline Appearance mix(const Appearance& from, const Appearance& to, Float part) 
   return {mix(from.root, to.root, part), mix(from.finish, to.finish, part)};
 }
 
-// Colour and finish just below a surface place: eight corners, mixed in the stored roots.
+// Colour and finish, trilinear in the stored roots.
 inline Float3 appearanceAt(const ShadeScene& scene, const Float3& index, Mask mask, Float& finish) {
   const FieldView<std::uint32_t>& field = scene.appearance;
   const Float3 at{clamp(index.x, 0.0f, static_cast<float>(field.size.x - 1)) + 1.0f,
@@ -54,7 +54,7 @@ inline Float3 appearanceAt(const ShadeScene& scene, const Float3& index, Mask ma
 
 inline Float fract(Float x) { return x - floor(x); }
 
-// mm to the canal's wall and to the planned cut.
+// mm to the canal wall and to the planned cut.
 struct GuideDistances {
   Float mandibular_canal, cut;
 };
@@ -128,7 +128,7 @@ inline Surface tissueSurface(const ShadeScene& scene, const Float3& index, const
   const Float enamel = clamp(2.0f * finish - 1.0f, 0.0f, 1.0f), marrow = clamp(1.0f - 2.0f * finish, 0.0f, 1.0f);
   const Float3 shine = mix(mix(FINISH_DULL, FINISH_MARROW, marrow), FINISH_ENAMEL, enamel);
 
-  // Faint mottling, and pores full of blood where the marrow lies open.
+  // Faint mottling, and blood-filled pores in open marrow.
   const Float mottle = noise(0.9f * p_P) * 0.6f + noise(3.1f * p_P) * 0.4f - 0.5f;
   albedo = (1.0f + 0.14f * mottle * shine.x) * albedo;
   if (any(mask & (marrow > 0.0f))) {
@@ -139,18 +139,18 @@ inline Surface tissueSurface(const ShadeScene& scene, const Float3& index, const
   return {albedo, vec3(shine.y), shine.x, shine.z, albedo};
 }
 
-// Central differences of the smoothed field over two voxels, towards air.
+// Negative gradient of the smoothed field over two voxels, by central differences.
 inline Float3 outwardGradientAt(const ShadeScene& scene, const Float3& index, Mask mask) {
   const FieldView<std::uint16_t>& field = scene.smooth;
   const Float3 at = index + 1.0f;
-  const auto beside = [&](float dx, float dy, float dz) {
+  const auto neighbour = [&](float dx, float dy, float dz) {
     const Float3 moved{clamp(at.x + dx, 0.0f, static_cast<float>(field.size.x + 1)),
                        clamp(at.y + dy, 0.0f, static_cast<float>(field.size.y + 1)),
                        clamp(at.z + dz, 0.0f, static_cast<float>(field.size.z + 1))};
     return trilinear(field, moved, mask);
   };
-  return (1.0f / 65535.0f) * Float3{beside(-1, 0, 0) - beside(1, 0, 0), beside(0, -1, 0) - beside(0, 1, 0),
-                                    beside(0, 0, -1) - beside(0, 0, 1)};
+  return (1.0f / 65535.0f) * Float3{neighbour(-1, 0, 0) - neighbour(1, 0, 0), neighbour(0, -1, 0) - neighbour(0, 1, 0),
+                                    neighbour(0, 0, -1) - neighbour(0, 0, 1)};
 }
 
 inline Float3 surfaceNormal(const ShadeScene& scene, const Float3& index, Mask mask) {

@@ -1,9 +1,8 @@
-// Where the rays of a batch meet the volume, on the CPU: the surface (castSurface) or all that shows of it when it is
-// translucent (castTranslucent). The twin of shaders/ray_cast.glsl: samples at t = k · step from the entry, six
-// bisections. Empty space is passed in three ways that never pass a sample that would count: a beam around up to 64
-// rays at once, then every ray by itself, by the distances of SolidCells. Tests compare with `skip_empty_space` off,
-// bit for bit. Compiled for each instruction set (volume_cast_body.h); the machine's best is chosen. Lengths in voxels.
-// Any thread, many at once; no allocation once the output has grown. About 0.1 us per ray.
+// Casts the rays of a batch into the volume on the CPU: the surface (castSurface) or all translucent matter
+// (castTranslucent). Twin of shaders/ray_cast.glsl: samples at t = k · step from the entry, six bisections.
+// Empty space is skipped by beams of up to 64 rays, then by single rays, with the distances of SolidCells; never past a
+// sample that would count, so the result equals `skip_empty_space` off bit for bit. Compiled per instruction set; the
+// best available is chosen. Lengths in voxels. Any thread; allocates only while the output grows. About 0.1 us per ray.
 #pragma once
 
 #include <array>
@@ -18,17 +17,16 @@
 
 namespace render {
 
-/// Places on the rays of a batch, to be shaded. castSurface: at most one per ray, in the order of the rays.
-/// castTranslucent: of each ray from front to back, rays in no order; the light of a ray is the sum of weight · light
-/// of its places.
+/// Points on the rays of a batch, to be shaded. castSurface: at most one per ray, in the order of the rays.
+/// castTranslucent: front to back for each ray, rays in no order; the light of a ray is the sum of weight · light.
 struct VolumePoints {
   int count = 0;
-  std::vector<std::int32_t> ray;  ///< which of the batch
+  std::vector<std::int32_t> ray;  ///< index in the batch
   std::vector<float> length;      ///< from the eye, voxels
   std::vector<float> weight;      ///< 1 for a surface
 
   void clear() { count = 0; }
-  /// Makes every array long enough for `more` further points and the kernels' padding.
+  /// Reserves `more` further points and the kernels' padding.
   void makeRoom(int more) {
     const auto wanted = static_cast<std::size_t>(count + more + kLanePadding);
     if (ray.size() >= wanted) return;
@@ -38,13 +36,13 @@ struct VolumePoints {
   }
 };
 
-/// Of each ray of a batch.
+/// Per ray of a batch.
 struct RaySums {
-  alignas(64) std::array<float, RayBatch::kMaxRays> opacity{};  ///< the weights' sum
-  alignas(64) std::array<float, RayBatch::kMaxRays> reach{};    ///< voxels to where it passes one half; negative: never
+  alignas(64) std::array<float, RayBatch::kMaxRays> opacity{};  ///< sum of the weights
+  alignas(64) std::array<float, RayBatch::kMaxRays> reach{};  ///< voxels to where it exceeds one half; negative: never
 };
 
-/// The opacity of one step for every tissue and share of the ramp, as castTranslucent reads it.
+/// The opacity of one step for every tissue and ramp value.
 struct OpacityTable {
   static constexpr int kIntervals = 256;
   int labels = 0;
@@ -53,7 +51,7 @@ struct OpacityTable {
   std::vector<float> of_step;  ///< kIntervals + 1 for every label
 };
 
-/// alpha = 1 - (1 - a)^step of a = ramp(solid) · `per_mm` of the label; within 1e-4 by 256 intervals for a below 0.95.
+/// alpha = 1 - (1 - a)^step of a = ramp(solid) · `per_mm` of the label; error below 1e-4 for a below 0.95.
 OpacityTable opacityTable(float ramp_start, float ramp_full, std::span<const float> per_mm, float step_mm);
 
 struct CastSettings {
@@ -63,11 +61,11 @@ struct CastSettings {
   bool skip_empty_space = true;
 };
 
-/// `limit_mm`: where each ray ends at the latest; as long as the count rounded up to kLanePadding.
+/// `limit_mm`: largest distance per ray; as long as the count rounded up to kLanePadding.
 void castSurface(const SolidCells& cells, const CastSettings& settings, const RayBatch& rays, const float* limit_mm,
                  VolumePoints& to, assets::InstructionSet set = assets::chosenInstructionSet());
 
-/// Rays end where their opacity reaches 0.98. `label`: of the same grid.
+/// Rays end where their opacity reaches 0.98. `label`: on the same grid.
 void castTranslucent(const SolidCells& cells, const CastSettings& settings, const BorderedField<std::uint8_t>& label,
                      const OpacityTable& opacity, const RayBatch& rays, const float* limit_mm, VolumePoints& to,
                      RaySums& sums, assets::InstructionSet set = assets::chosenInstructionSet());

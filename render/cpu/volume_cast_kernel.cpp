@@ -9,9 +9,9 @@ namespace {
 
 constexpr int kMaxRays = 256, kBeamRays = 64;
 constexpr int kEdge = 8, kRowWords = 9, kLayerWords = 72, kBrickWords = 576;  // SolidCells
-constexpr float kGuard = 1e-3f;  // a skip ends this much early, so that rounding never carries it past something solid
+constexpr float kGuard = 1e-3f;  // a skip ends this much early, so that rounding cannot carry it past something solid
 constexpr float kFar = 1e9f;
-constexpr float kFull = 255.0f * 32767.0f;  // what a sample in solid matter amounts to
+constexpr float kFull = 255.0f * 32767.0f;  // value of a sample in solid matter
 constexpr float kIso = 0.5f * kFull;
 constexpr int kBisections = 6;
 constexpr float kOpaque = 0.98f;
@@ -20,7 +20,7 @@ struct Position {
   Float x, y, z;
 };
 
-/// kLanes rays: unit direction, its inverse, entry, and the first and last sample's number (first > last: none).
+/// kLanes rays: unit direction, its inverse, entry, length to it, and index of the last sample (negative: none).
 struct Rays {
   Position direction, inverse, entry;
   Float near, last;
@@ -33,7 +33,7 @@ inline Position positionAt(const Rays& rays, Float t) {
           multiplyAdd(t, rays.direction.z, rays.entry.z)};
 }
 
-/// Rays by their directions and limits in mm.
+/// Rays from directions and limits in mm.
 inline Rays aimed(const CastJob& job, Float x, Float y, Float z, Float limit_mm) {
   Rays rays;
   rays.direction = {x, y, z};
@@ -52,7 +52,7 @@ inline Rays aimed(const CastJob& job, Float x, Float y, Float z, Float limit_mm)
   return rays;
 }
 
-/// A cone that holds rays from the eye: after t each of them is within t · spread of t · axis, along each axis.
+/// A cone around rays from the eye: at length t each of them is within t · spread of t · axis, per coordinate.
 struct Cone {
   float axis[3], spread[3];
 };
@@ -79,9 +79,9 @@ inline Cone coneOf(const CastJob& job, int first, int count) {
   return cone;
 }
 
-/// How far all rays of the cone run through nothing solid; kFar where they meet nothing at all.
+/// Length over which all rays of the cone meet nothing solid; kFar if they never do.
 float emptyLength(const CastJob& job, const Cone& cone) {
-  // Where they can be in the volume at all.
+  // Range in which they can be in the volume.
   float from = 0.0f, to = kFar, low_slope[3], high_slope[3];
   for (int a = 0; a < 3; ++a) {
     low_slope[a] = cone.axis[a] - cone.spread[a];
@@ -101,7 +101,7 @@ float emptyLength(const CastJob& job, const Cone& cone) {
     }
   }
 
-  // From empty box to empty box; outside the table everything is empty.
+  // From empty box to empty box; everything outside the table is empty.
   float t = from - kGuard > 0.0f ? from - kGuard : 0.0f;
   while (t < to) {
     int brick[3], index = 0;
@@ -132,7 +132,7 @@ float emptyLength(const CastJob& job, const Cone& cone) {
   return kFar;
 }
 
-/// Where a position's cell lies: its brick's entry in the table, and itself.
+/// The cell of a position.
 struct Cell {
   Int i, j, k;
 };
@@ -141,7 +141,7 @@ inline Int brickIndex(const CastJob& job, const Cell& cell) {
   return (cell.i >> 3) + ((cell.j >> 3) + (cell.k >> 3) * job.bricks[1]) * job.bricks[0];
 }
 
-/// The eight corners, by their words.
+/// Trilinear from the words of the eight corners.
 inline Float interpolated(IntPair corners, const Position& position, const Cell& cell) {
   const Float x = position.x - toFloat(cell.i), y = position.y - toFloat(cell.j), z = position.z - toFloat(cell.k);
   const Int high = toInt(multiplyAdd(z, splat(32767.0f), splat(0.5f))), parts = (high << 16) | (32767 - high);
@@ -153,15 +153,15 @@ inline Float interpolated(IntPair corners, const Position& position, const Cell&
   return mix(mix(low_j, high_j, y), mix(low_j_next, high_j_next, y), x);
 }
 
-/// `where`: the brick's entry in the table.
+/// `where`: the table entry of the brick.
 inline Float sampleCells(const CastJob& job, Int where, const Position& position, const Cell& cell) {
   const Int word = (where >> 8) * kBrickWords + (cell.i & 7) + (cell.j & 7) * kRowWords + (cell.k & 7) * kLayerWords;
   return interpolated(gather64<4>(job.words, word), position, cell);
 }
 
-/// The same from the field, corner by corner, in lanes of the mask.
+/// The same from the field, in lanes of the mask.
 inline Float sampleField(const CastJob& job, Mask wanted, const Position& position, const Cell& outer) {
-  // Rounding may put a ray's entry a hair before the border, where there is nothing to read.
+  // Rounding may put the entry of a ray just outside the border.
   const Int border = splat(kEdge - 1);
   const Cell cell{maximum(outer.i, border), maximum(outer.j, border), maximum(outer.k, border)};
   const Int at = (cell.i - (kEdge - 1)) + (cell.j - (kEdge - 1)) * job.row + (cell.k - (kEdge - 1)) * job.slice;
@@ -173,7 +173,7 @@ inline Float sampleField(const CastJob& job, Mask wanted, const Position& positi
   return interpolated({corners(at), corners(at + 1)}, position, cell);
 }
 
-/// Samples in lanes of the mask; where there are no cells, less than solid.
+/// Samples in lanes of the mask; 0 where there are no cells.
 template <bool kSkip>
 inline Float sample(const CastJob& job, Mask wanted, const Position& position) {
   const Cell cell = cellAt(position);
@@ -182,14 +182,13 @@ inline Float sample(const CastJob& job, Mask wanted, const Position& position) {
   return select(where >= 0, sampleCells(job, maximum(where, splat(0)), position, cell), 0.0f);
 }
 
-/// Which lanes' cells lie in an eighth of a brick that holds something solid; `where` is not negative.
+/// Lanes whose cell is in an eighth of a brick that has something solid; `where` is not negative.
 inline Mask isSolidEighth(Int where, const Cell& cell) {
   const Int bit = ((cell.i >> 2) & 1) | ((cell.j >> 1) & 2) | (cell.k & 4);
   return ((where >> bit) & 1) != 0;
 }
 
-/// Number of the sample where a skip ends, out of the empty bricks around a cell or, where the brick has cells, out of
-/// its eighth.
+/// Index of the first sample behind the empty bricks around a cell or, if the brick has cells, behind its eighth.
 inline Float skipped(const CastJob& job, const Rays& rays, const Cell& cell, Int where, Float k) {
   const Mask is_brick = where < 0;
   const Int edge = select(is_brick, splat(8), splat(4)), above = select(is_brick, where * -8, splat(4));
@@ -205,12 +204,12 @@ inline Float skipped(const CastJob& job, const Rays& rays, const Cell& cell, Int
   return maximum(k + 1.0f, ceiling(length / job.step));
 }
 
-/// Number of the first sample that may count.
+/// Index of the first sample that can be solid.
 inline Float firstSample(const CastJob& job, const Rays& rays, float from) {
   return maximum(ceiling((from - kGuard - rays.near) / job.step), 0.0f);
 }
 
-/// Walks along kLanes rays; visit(samples wanted, their values, position, k) answers which rays end there.
+/// Marches along kLanes rays; visit(lanes, values, position, k) returns the rays that end there.
 template <bool kSkip, class Visit>
 inline void march(const CastJob& job, const Rays& rays, Mask active, Float k, Visit visit) {
   active &= k <= rays.last;
@@ -221,7 +220,7 @@ inline void march(const CastJob& job, const Rays& rays, Mask active, Float k, Vi
     Mask wanted = active;
     Float value;
     if constexpr (kSkip) {
-      // Not only for active lanes: the next step then need not wait for what this one finds.
+      // For all lanes, so that the next step does not depend on the result of this one.
       const Int where = gather32<4>(job.table, clamp(brickIndex(job, cell), 0, last_brick));
       const Mask empty = (where < 0) | ~isSolidEighth(where, cell);
       wanted &= ~empty;
@@ -241,14 +240,13 @@ inline void march(const CastJob& job, const Rays& rays, Mask active, Float k, Vi
   }
 }
 
-/// Rays of the batch by number.
+/// Rays of the batch by index.
 inline Rays chosen(const CastJob& job, Int number, Mask wanted) {
   return aimed(job, gather(job.x, number, wanted), gather(job.y, number, wanted), gather(job.z, number, wanted),
                gather(job.limit_mm, number, wanted));
 }
 
-/// Calls cast(first, from) for every kLanes rays that may meet something, where they are known to be empty up to
-/// `from`.
+/// Calls cast(first, from) for every kLanes rays that can hit something; they are empty up to `from`.
 template <class Cast>
 inline void forPackets(const CastJob& job, Cast cast) {
   for (int beam = 0; beam < job.count; beam += kBeamRays) {
@@ -261,7 +259,7 @@ inline void forPackets(const CastJob& job, Cast cast) {
 
 template <bool kSkip>
 inline void surfaceBy(CastJob& job) {
-  // Along every ray to its first solid sample; those that have one, one after the other.
+  // March to the first solid sample; rays that have one are stored contiguously.
   alignas(64) std::int32_t ray[kMaxRays + kLanes];
   alignas(64) float number[kMaxRays + kLanes];
   int hits = 0;
@@ -281,7 +279,7 @@ inline void surfaceBy(CastJob& job) {
     hits += compress(number + hits, at, found);
   });
 
-  // Close in on the surface between the last two samples.
+  // Bisect between the last two samples.
   for (int n = 0; n < hits; n += kLanes) {
     const Mask real = firstLanes(hits - n);
     const Int which = load(ray + n) & real;
@@ -329,7 +327,7 @@ inline void translucentBy(CastJob& job) {
                    const Float alpha = mix(floatOfBits(ends.low), floatOfBits(ends.high), share - toFloat(interval));
                    shows &= alpha > 0.0f;
 
-                   // Its part in the ray, if anything is left of it.
+                   // Its share of the ray.
                    const Float weight = select(shows, (1.0f - sum) * alpha, 0.0f),
                                length = multiplyAdd(k, splat(job.step), rays.near);
                    sum = sum + weight;
