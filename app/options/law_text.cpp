@@ -60,7 +60,7 @@ std::map<std::string, Setting> parametersOf(haptics::ErosionSettings& erosion) {
 std::map<std::string, Setting> parametersOf(haptics::SpindleSettings& spindle) {
   std::map<std::string, Setting> settings;
   for (const haptics::SpindleParameter& one : haptics::spindleParameters())
-    settings[std::string(one.key)] = {&(spindle.*one.value), one.lowest, one.highest, one.unit};
+    settings[std::string(one.key)] = {&one.in(spindle), one.lowest, one.highest, one.unit};
   return settings;
 }
 

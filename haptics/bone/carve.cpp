@@ -17,7 +17,7 @@ using calibration::Point;
 /// From the centre of a block to that of its farthest voxel.
 const double kBlockReach = std::sqrt(3.0) * 1.5;
 
-/// How much of each voxel of a block a round bur covers, and how hard it cuts there. Voxel units.
+/// Coverage and exposure of each voxel of a block under a round bur. Voxel units.
 class RoundCoverage {
  public:
   RoundCoverage(const glm::dvec3& centre, double radius, double spacing_mm, const ErosionStep& step)
@@ -35,7 +35,7 @@ class RoundCoverage {
 
   double outer() const { return radius_ + kVoxelSphereRadius; }
 
-  /// False: none of any.
+  /// False: no voxel is covered.
   bool of(glm::ivec3 block, BlockCut& cut) {
     const glm::dvec3 first = glm::dvec3(block * kBlockEdge) - centre_;
     if (glm::length(first + 1.5) - kBlockReach >= outer()) return false;
@@ -46,7 +46,7 @@ class RoundCoverage {
   }
 
  private:
-  /// The curve does not hold for a bur of a few voxels.
+  /// The curve is not valid for a bur of a few voxels.
   void coverByClosedForm(const glm::dvec3& first, BlockCut& cut) const {
     for (int n = 0; n < kBlockVoxels; ++n) {
       const auto at = static_cast<std::size_t>(n);
@@ -63,7 +63,7 @@ class RoundCoverage {
   BlockUnderBur at_{};
 };
 
-/// The same for a head of any shape, as it is felt (bone/bur_coverage).
+/// The same for a head of any shape (bone/bur_coverage).
 class HeadCoverage {
  public:
   HeadCoverage(const BurCoverage& bur, double spacing_mm, const ErosionStep& step)
@@ -98,7 +98,7 @@ class HeadCoverage {
   }
 
  private:
-  /// Where the bur's surface slides faster it takes more.
+  /// Exposure grows with the sliding speed of the bur's surface.
   void exposeByArm(const glm::dvec3& first, BlockCut& cut) const {
     for (int n = 0; n < kBlockVoxels; ++n) {
       const glm::dvec3 place = first + glm::dvec3(n & 3, n >> 2 & 3, n >> 4);
@@ -115,19 +115,19 @@ class HeadCoverage {
   HeadShape head_;
 };
 
-/// Carries a step out, block by block, for whatever shape says how much of a voxel it covers.
+/// Applies a step block by block; Coverage gives the coverage of a block.
 class Cutter {
  public:
-  Cutter(CarvedBone& bone, const ErosionStep& step, std::uint64_t tick, int turns, StrokeHistory* strokes)
+  Cutter(CarvedBone& bone, const ErosionStep& step, std::uint64_t tick, int interleave, StrokeHistory* strokes)
       : bone_(bone),
         strokes_(strokes),
-        turns_(turns),
-        turn_(static_cast<int>(tick % static_cast<std::uint64_t>(turns))) {
+        interleave_(interleave),
+        phase_(static_cast<int>(tick % static_cast<std::uint64_t>(interleave))) {
     cut_.tick = tick;
     for (std::size_t label = 0; label < step.loss.size(); ++label) {
-      const double wanted = step.loss[label] * turns;
-      // Also when it is not a number.
-      const double loss = wanted > 0.0 ? std::min(wanted, 1.0) : 0.0;
+      const double requested = step.loss[label] * interleave;
+      // Zero for NaN.
+      const double loss = requested > 0.0 ? std::min(requested, 1.0) : 0.0;
       cut_.loss_q32[label] = static_cast<std::uint32_t>(loss * 4294967295.0);
     }
   }
@@ -137,9 +137,9 @@ class Cutter {
     const SolidField field = bone_.field();
     for (int z = first.z; z <= last.z; ++z)
       for (int y = first.y; y <= last.y; ++y) {
-        const int ahead = (turn_ + turns_ - (first.x + y + z) % turns_) % turns_;
+        const int ahead = (phase_ + interleave_ - (first.x + y + z) % interleave_) % interleave_;
         const std::size_t row = field.blockAt({0, y, z});
-        for (int x = first.x + ahead; x <= last.x; x += turns_) {
+        for (int x = first.x + ahead; x <= last.x; x += interleave_) {
           if (field.weight[row + static_cast<std::size_t>(x)] == 0 || !shape.of({x, y, z}, cut_)) continue;
           bone_.cutBlock({x, y, z}, cut_, steps_, strokes_);
         }
@@ -161,12 +161,12 @@ class Cutter {
  private:
   CarvedBone& bone_;
   StrokeHistory* strokes_;
-  int turns_, turn_;
+  int interleave_, phase_;
   BlockCut cut_;
   std::array<std::int64_t, assets::kTissueCount> steps_{};
 };
 
-/// The blocks a box of voxels reaches into, clipped as doubles: a wild pose must not overflow an index.
+/// Blocks of a box of voxels, clipped as doubles: an extreme pose must not overflow an index.
 bool blocksOf(const SolidField& field, const glm::dvec3& low, const glm::dvec3& high, glm::ivec3& first,
               glm::ivec3& last) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -188,44 +188,40 @@ CarveResult& CarveResult::operator+=(const CarveResult& part) noexcept {
   return *this;
 }
 
-int carveInterleave(const CarvedBone& bone, double radius_mm, const ErosionStep& step) noexcept {
-  const double radius = radius_mm / bone.grid().spacing_mm;
-  const double most_loss = *std::max_element(step.loss.begin(), step.loss.end());
-  int turns = radius > 32.0 ? 8 : radius > 16.0 ? 4 : radius > 8.0 ? 2 : 1;
-  while (turns > 1 && !(most_loss * turns <= 0.75)) turns /= 2;
-  return turns;
-}
-
 int carveInterleave(const CarvedBone& bone, const BurShape& head, const ErosionStep& step) noexcept {
   const double R = head.radius_mm, L = head.length_mm;
   const double surface_per_pi = head.kind == ShapeKind::sphere     ? 4.0 * R * R
                                 : head.kind == ShapeKind::capsule  ? 4.0 * R * R + 2.0 * R * L
                                 : head.kind == ShapeKind::cylinder ? 2.0 * R * R + 2.0 * R * L
                                                                    : R * R + R * std::hypot(R, L);
-  return carveInterleave(bone, 0.5 * std::sqrt(surface_per_pi), step);
+  const double radius = 0.5 * std::sqrt(surface_per_pi) / bone.grid().spacing_mm;  // of the ball of this surface
+  const double max_loss = *std::max_element(step.loss.begin(), step.loss.end());
+  int interleave = radius > 32.0 ? 8 : radius > 16.0 ? 4 : radius > 8.0 ? 2 : 1;
+  while (interleave > 1 && !(max_loss * interleave <= 0.75)) interleave /= 2;
+  return interleave;
 }
 
 CarveResult carveSphere(CarvedBone& bone, const Point<Patient>& centre_P, double radius_mm, const ErosionStep& step,
-                        std::uint64_t tick, int turns, StrokeHistory* strokes) noexcept {
+                        std::uint64_t tick, int interleave, StrokeHistory* strokes) noexcept {
   const double radius = radius_mm / bone.grid().spacing_mm;
   const glm::dvec3 centre = bone.grid().indexFromPoint(centre_P.mm);
   if (!(radius > 0.0) || !std::isfinite(radius) || !std::isfinite(glm::length(centre))) return {};
   RoundCoverage shape(centre, radius, bone.grid().spacing_mm, step);
   glm::ivec3 first, last;
   if (!blocksOf(bone.field(), centre - shape.outer(), centre + shape.outer(), first, last)) return {};
-  Cutter cutter(bone, step, tick, std::max(turns, 1), strokes);
+  Cutter cutter(bone, step, tick, std::max(interleave, 1), strokes);
   cutter.cut(shape, first, last);
   return cutter.result();
 }
 
 CarveResult carveTool(CarvedBone& bone, const BurShape& head, const calibration::Pose<Patient, calibration::Tool>& X_PT,
-                      const ErosionStep& step, std::uint64_t tick, int turns, StrokeHistory* strokes) noexcept {
+                      const ErosionStep& step, std::uint64_t tick, int interleave, StrokeHistory* strokes) noexcept {
   if (head.kind == ShapeKind::sphere)
-    return carveSphere(bone, {X_PT.translation_mm}, head.radius_mm, step, tick, turns, strokes);
+    return carveSphere(bone, {X_PT.translation_mm}, head.radius_mm, step, tick, interleave, strokes);
   const BurCoverage bur(bone.grid(), head, X_PT);
   if (bur.empty()) return {};
   HeadCoverage shape(bur, bone.grid().spacing_mm, step);
-  Cutter cutter(bone, step, tick, std::max(turns, 1), strokes);
+  Cutter cutter(bone, step, tick, std::max(interleave, 1), strokes);
   cutter.cut(shape, bur.first / kBlockEdge, bur.last / kBlockEdge);
   return cutter.result();
 }
@@ -236,16 +232,16 @@ CarveResult carveSweep(CarvedBone& bone, const BurShape& head,
                        std::uint64_t tick) noexcept {
   const double length_mm = glm::length(to_X_PT.translation_mm - from_X_PT.translation_mm);
   const double turn = 2.0 * std::acos(std::min(1.0, std::abs(glm::dot(from_X_PT.rotation, to_X_PT.rotation))));
-  // The tip goes with the turn.
+  // The tip moves with the rotation.
   const double way_mm = length_mm + turn * (halfHeight_mm(head) + head.radius_mm);
   if (!std::isfinite(way_mm)) return {};
-  const double wanted = 1.0 + std::ceil(way_mm / (0.5 * bone.grid().spacing_mm));
-  const int steps = static_cast<int>(std::clamp(wanted, 1.0, static_cast<double>(kMaxSweepSteps)));
+  const double requested = 1.0 + std::ceil(way_mm / (0.5 * bone.grid().spacing_mm));
+  const int steps = static_cast<int>(std::clamp(requested, 1.0, static_cast<double>(kMaxSweepSteps)));
   ErosionStep part = step;
   for (double& loss : part.loss) loss /= steps;
   CarveResult total;
   for (int n = 0; n < steps; ++n) {
-    const double along = steps == 1 ? 1.0 : static_cast<double>(n) / (steps - 1);  // both ends are reached
+    const double along = steps == 1 ? 1.0 : static_cast<double>(n) / (steps - 1);  // includes both ends
     const calibration::Pose<Patient, calibration::Tool> X_PT{
         glm::slerp(from_X_PT.rotation, to_X_PT.rotation, along),
         glm::mix(from_X_PT.translation_mm, to_X_PT.translation_mm, along)};

@@ -1,8 +1,8 @@
-// Cutting: what a turning bur takes from the bone in one step. mm³ per second, whatever the voxel size, the tick rate
-// and the order of the voxels. Frame P, mm, s. Servo thread (or any one thread that owns the bone). A voxel covered by
-// the fraction g loses g * loss of what it held at first, until its dose reaches the largest g it has seen: linear in
-// dose, and never more than the swept volume however long the bur stays. `loss` is per tissue and step, from the
-// erosion law (bone/erosion_step). Cost: some 4 ns per solid voxel touched. Not the force (contact).
+// Cutting: what a turning bur removes from the bone in one step, in mm³ per second independent of voxel size, tick rate
+// and order of the voxels. Frame P, mm, s. The thread that owns the bone. A voxel covered by the fraction g loses
+// g * loss of its first content until its dose reaches the largest g so far: linear in dose, and never more than the
+// swept volume. `loss` is per tissue and step, from the erosion law (bone/erosion_step). About 4 ns per solid voxel
+// touched; no allocation, no throw. Forces: contact.
 #pragma once
 
 #include <array>
@@ -24,28 +24,24 @@ struct CarveResult {
   CarveResult& operator+=(const CarveResult& part) noexcept;
 };
 
-/// One step with the bur at rest at `centre`. `tick` numbers the steps: it steers rounding and, if `turns` is not 1,
-/// which blocks have their turn: every block in one of `turns` steps, and then with `turns` times the loss, which is
-/// the same mm³ per second for 1/turns of the work. `strokes` may be null: what is cut cannot be taken back then.
-/// Non-finite or negative input removes nothing. Never throws or allocates.
+/// One step with the bur at rest at `centre`. `tick` numbers the steps: it seeds the rounding and, if `interleave` is
+/// not 1, selects the blocks: each is cut in one of `interleave` steps with `interleave` times the loss, the same mm³
+/// per second for a fraction of the work. `strokes` may be null: no undo. Non-finite or negative input removes nothing.
 CarveResult carveSphere(CarvedBone& bone, const calibration::Point<calibration::Patient>& centre_P, double radius_mm,
-                        const ErosionStep& step, std::uint64_t tick, int turns = 1,
+                        const ErosionStep& step, std::uint64_t tick, int interleave = 1,
                         StrokeHistory* strokes = nullptr) noexcept;
 
-/// The same with a head of any shape, as it stands.
+/// The same with a head of any shape at rest.
 CarveResult carveTool(CarvedBone& bone, const BurShape& head,
                       const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT, const ErosionStep& step,
-                      std::uint64_t tick, int turns = 1, StrokeHistory* strokes = nullptr) noexcept;
+                      std::uint64_t tick, int interleave = 1, StrokeHistory* strokes = nullptr) noexcept;
 
-/// As many turns as keep a tick with this bur short, while no tissue loses more than three quarters of a voxel in a
-/// turn.
-int carveInterleave(const CarvedBone& bone, double radius_mm, const ErosionStep& step) noexcept;
-/// The same for a head of any shape: of a ball with its surface.
+/// `interleave` that keeps a tick with this head short: by the surface of the head, while no tissue loses more than
+/// three quarters of a voxel in a step.
 int carveInterleave(const CarvedBone& bone, const BurShape& head, const ErosionStep& step) noexcept;
 
-/// One step for a head that moves straight from `from` to `to` during it and turns evenly on its way: in equal parts in
-/// which no point of it moves more than half a voxel, at most `kMaxSweepSteps` of them. For poses too far apart to be
-/// taken as steps of their own.
+/// One step for a head that moves straight from `from` to `to` and turns evenly: in equal parts in which no point moves
+/// more than half a voxel, at most `kMaxSweepSteps`. For poses too far apart to be steps of their own.
 CarveResult carveSweep(CarvedBone& bone, const BurShape& head,
                        const calibration::Pose<calibration::Patient, calibration::Tool>& from_X_PT,
                        const calibration::Pose<calibration::Patient, calibration::Tool>& to_X_PT,

@@ -10,8 +10,8 @@
 namespace haptics {
 namespace {
 
-constexpr double kHistoryShare = 0.42;           // of the blocks: 4 bytes a voxel in all
-constexpr std::size_t kFewestHistories = 16384;  // 4 MB: a small bone is remembered whole
+constexpr double kHistoryShare = 0.42;        // of the blocks: 4 bytes a voxel in all
+constexpr std::size_t kMinHistories = 16384;  // 4 MB: a small bone has a history for every block
 
 std::size_t tissueOf(const SolidField& field, std::size_t place) {
   const std::size_t label = field.label == nullptr ? 0 : field.label[place];
@@ -35,7 +35,7 @@ CarvedBone::CarvedBone(const assets::VolumeGrid& grid, std::span<const std::uint
   }
   history_of_.assign(blocks, 0);
   const auto share = static_cast<std::size_t>(kHistoryShare * static_cast<double>(blocks));
-  histories_most_ = std::min(with_bone, std::max(share, kFewestHistories));
+  histories_most_ = std::min(with_bone, std::max(share, kMinHistories));
   histories_.resize(histories_most_);
 }
 
@@ -123,7 +123,7 @@ std::int64_t CarvedBone::restoreBlock(std::size_t block, const BlockState& state
   const BlockDigest from = blockDigest(now.solid.data(), now.reach.data(), now.dose.data());
   const BlockDigest to = blockDigest(state.solid.data(), state.reach.data(), state.dose.data());
   addToDigest(calibration::mixedBits(block + 1), {to.low - from.low, to.high - from.high});
-  // A past that has begun since began with what comes back: `first` stays true.
+  // A history that began later began with the restored content: `first` stays valid.
   if (history_of_[block] != 0) {
     History& history = histories_[history_of_[block] - 1];
     history.reach = state.reach;

@@ -1,12 +1,8 @@
-// The bone while it is carved: what is left of every voxel. One writer, the servo; everyone else copies dirty bricks.
-// Frame P, mm, grid of the scan. `solid` 0..255 is the fraction of the voxel that is solid now. What a bur has done to
-// a block of voxels is kept from its first cut on: `first`, what it held; `dose` 0..65535, how much of that has gone;
-// `reach` 0..255, the largest part of it a bur has covered so far.
-// Memory: 2.3 bytes a voxel and 4 more for every voxel of a block that was cut; room for that is set aside for 42 % of
-// the blocks, so it never exceeds 4 bytes a voxel. In blocks cut beyond that the surface is the nearest voxel's: only
-// voxels covered by half or more lose, at the same rate.
-// Constructing allocates; every other call is bounded and never allocates, locks or throws.
-// Not the scan (assets::CtVolume, const): reset is a copy from it. Not the shape of a cut (bone/carve).
+// The bone while it is carved: the solid fraction of every voxel and the history of every block that was cut. Frame P,
+// mm, grid of the scan. One writer, the servo; other threads copy dirty bricks.
+// Construction allocates; every other call is bounded and never allocates, locks or throws. At most 4 bytes a voxel.
+// In blocks cut after the histories are used up only voxels covered by half or more lose, at the same rate.
+// Reset is a copy of the scan (assets::CtVolume). Shape of a cut: bone/carve.
 #pragma once
 
 #include <array>
@@ -23,15 +19,15 @@ namespace haptics {
 struct BlockDigest;
 class StrokeHistory;
 
-/// What one step takes from the 64 voxels of a block. Units of 1/65535 of a voxel.
+/// What one step removes from the 64 voxels of a block. Units of 1/65535 of a voxel.
 struct BlockCut {
-  std::array<std::uint16_t, kBlockVoxels> coverage{};          ///< how much of it the bur covers
-  std::array<std::uint32_t, kBlockVoxels> exposure{};          ///< coverage, times how hard the bur cuts just there
-  std::array<std::uint32_t, assets::kTissueCount> loss_q32{};  ///< part of the exposure that goes, in 2^-32
-  std::uint64_t tick = 0;                                      ///< steers rounding
+  std::array<std::uint16_t, kBlockVoxels> coverage{};          ///< part of the voxel the bur covers
+  std::array<std::uint32_t, kBlockVoxels> exposure{};          ///< coverage times relative cutting speed there
+  std::array<std::uint32_t, assets::kTissueCount> loss_q32{};  ///< part of the exposure removed, in 2^-32
+  std::uint64_t tick = 0;                                      ///< seed of the rounding
 };
 
-/// All that cutting changes of a block: what is left, how far it was reached, how much of it has gone.
+/// All that cutting changes in a block. 256 bytes.
 struct BlockState {
   std::array<std::uint8_t, kBlockVoxels> solid{}, reach{};
   std::array<std::uint16_t, kBlockVoxels> dose{};
@@ -39,46 +35,58 @@ struct BlockState {
   bool operator==(const BlockState&) const = default;
 };
 
+/// Memory layout, next to the arrays of bone/cubelets; b = block number (SolidField::blockAt), v = voxel within:
+///
+///   history_of_  u32 per block, at 4 b: 0 = never cut, else 1 + index h into histories_
+///   histories_   256 bytes per cut block, at 256 h; capacity min(blocks with bone, max(42 % of blocks, 16384)):
+///
+///     offset  0 ............ 63 | 64 ........... 127 | 128 .................... 255
+///             first  u8 [64]    | reach  u8 [64]     | dose  u16 [64]
+///             solid before the  | largest coverage   | part of `first` removed,
+///             first cut         | so far, 0..255     | 0..65535
+///
+///   digest_      u64: low and high 32 bits are sums modulo 2^32 over all blocks with bone,
+///                (half of mixedBits(b + 1) | 1) x sum over v of weight(v) x (solid << 24 | reach << 16 | dose),
+///                so a cut updates it by the difference of one block and order does not matter
+///   dirty_       one bit per brick of 8x8x8 voxels (2x2x2 blocks)
 class CarvedBone {
  public:
   /// `solid` and `label` in the order of `grid`; label may be empty (all unlabelled). Copies both.
-  /// Spans that do not fit the grid are a bug of the caller (assert).
+  /// Spans must fit the grid (assert).
   CarvedBone(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid, std::span<const std::uint8_t> label);
 
   const assets::VolumeGrid& grid() const { return grid_; }
   SolidField field() const { return cubelets_.field(); }
 
-  /// Takes from a block what `cut` says. Of a voxel with dose D, covered by the fraction g:
-  /// D <- min(D + exposure loss, max g so far), of what it held at first: a bur that stays for ever takes its own
-  /// volume and no more. The dose rounds by a low-discrepancy sequence over `tick`, the solid fraction by a fixed
-  /// threshold per voxel: slow cutting loses nothing to rounding, and a replay repeats it bit for bit. Adds the solid
-  /// steps of 1/255 removed to `steps`, by tissue; true if there were any. Marks the brick. Saves the block to
-  /// `strokes` first, if there is one and it has to. Writer only.
+  /// Cuts a block. A voxel with dose D, covered by the fraction g: D <- min(D + exposure loss, max g so far), of its
+  /// first content, so a dwelling bur removes its own volume and no more. The dose rounds by a low-discrepancy sequence
+  /// over `tick`, the solid fraction by a fixed threshold per voxel: slow cutting loses nothing to rounding. Adds the
+  /// solid steps of 1/255 removed to `steps`, by tissue; true if there were any. Marks the brick. Saves the block to
+  /// `strokes` first where needed. Writer only.
   bool cutBlock(glm::ivec3 block, const BlockCut& cut, std::array<std::int64_t, assets::kTissueCount>& steps,
                 StrokeHistory* strokes = nullptr);
 
-  /// Of the block at that place of SolidField::blockAt.
   BlockState stateOf(std::size_t block) const;
-  /// Makes the block what it was, sums, digest and removed volume too; the solid steps of 1/255 that came back. Marks
-  /// the brick. A state that is not one of this block's past is a bug of the caller. Writer only.
+  /// Restores an earlier state of this block with its sums, digest and removed volume. Returns the solid steps of 1/255
+  /// restored. Marks the brick. Writer only.
   std::int64_t restoreBlock(std::size_t block, const BlockState& state);
 
-  /// Order-independent digest of every voxel's (solid, reach, dose), kept up to date: equal bones, equal digests.
+  /// Order-independent digest of every voxel's (solid, reach, dose).
   std::uint64_t digest() const { return digest_; }
 
   DirtyBricks& dirtyBricks() { return dirty_; }
 
-  /// What is gone since construction, by assets::Tissue; a label that is none counts as 0. Writing thread, or while
-  /// nobody writes.
+  /// Volume removed since construction, by assets::Tissue; unknown labels count as 0. Writing thread, or without a
+  /// writer.
   std::array<double, assets::kTissueCount> removedByTissue_mm3() const noexcept;
 
-  /// The solid fraction in the order of the grid. O(voxels), allocates; for the writing thread or while nobody writes.
+  /// The solid fraction in the order of the grid. O(voxels), allocates; writing thread, or without a writer.
   std::vector<std::uint8_t> solidInGridOrder() const;
 
-  /// Reader's side, any one thread: copies the 8x8x8 voxels of a brick (i fastest; outside the volume: 0).
+  /// Copies the 8x8x8 voxels of a brick (i fastest; outside the volume: 0). One reading thread.
   void copyBrick(glm::ivec3 brick, std::span<std::uint8_t, 512> solid_out) const;
 
-  /// All that this holds, and the blocks that may still be cut with full precision.
+  /// Memory used, and the number of histories left.
   std::size_t bytes() const;
   std::size_t blocksLeft() const { return histories_most_ - histories_used_; }
 
@@ -92,7 +100,7 @@ class CarvedBone {
 
   assets::VolumeGrid grid_;
   Cubelets cubelets_;
-  std::vector<std::uint32_t> history_of_;  ///< by block: its place in histories_ plus 1, 0: none yet
+  std::vector<std::uint32_t> history_of_;
   std::size_t histories_most_ = 0, histories_used_ = 0;
   std::vector<History> histories_;
   std::array<std::int64_t, assets::kTissueCount> removed_steps_{};

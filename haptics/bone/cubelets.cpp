@@ -4,20 +4,13 @@
 #include <cstring>
 
 namespace haptics {
-namespace {
-
-std::size_t blockCount(glm::ivec3 blocks) {
-  return static_cast<std::size_t>(blocks.x) * static_cast<std::size_t>(blocks.y) * static_cast<std::size_t>(blocks.z);
-}
-
-}  // namespace
 
 Cubelets::Cubelets(const assets::VolumeGrid& grid, std::span<const std::uint8_t> solid,
                    std::span<const std::uint8_t> label)
     : grid_(grid), blocks_((grid.size + (kBlockEdge - 1)) / kBlockEdge) {
   assert(solid.size() == grid.voxelCount());
   assert(label.empty() || label.size() == grid.voxelCount());
-  const std::size_t count = blockCount(blocks_);
+  const std::size_t count = field().blockAt({0, 0, blocks_.z});
   solid_.assign(count * kBlockVoxels, 0);
   if (!label.empty()) label_.assign(count * kBlockVoxels, 0);
   only_label_.assign(count, 0);
@@ -29,19 +22,15 @@ Cubelets::Cubelets(const assets::VolumeGrid& grid, std::span<const std::uint8_t>
   for (int k = 0; k < grid.size.z; ++k)
     for (int j = 0; j < grid.size.y; ++j)
       for (int i = 0; i < grid.size.x; ++i) {
-        const std::size_t from = grid.index({i, j, k}), place = at.offsetOf({i, j, k}), block = place / kBlockVoxels;
-        const std::uint32_t w = solid_[place] = solid[from];
-        weight_[block] = static_cast<std::uint16_t>(weight_[block] + w);
-        weight_x_[block] = static_cast<std::uint16_t>(weight_x_[block] + w * static_cast<std::uint32_t>(i & 3));
-        weight_y_[block] = static_cast<std::uint16_t>(weight_y_[block] + w * static_cast<std::uint32_t>(j & 3));
-        weight_z_[block] = static_cast<std::uint16_t>(weight_z_[block] + w * static_cast<std::uint32_t>(k & 3));
-        grey_[block] += w * (255 - w);
+        const std::size_t from = grid.index({i, j, k}), to = at.offsetOf({i, j, k}), block = to / kBlockVoxels;
+        solid_[to] = solid[from];
         if (label.empty()) continue;
-        label_[place] = label[from];
+        label_[to] = label[from];
         const bool first = ((i | j | k) & 3) == 0;
         if (first) only_label_[block] = label[from];
         if (only_label_[block] != label[from]) only_label_[block] = kMixedLabels;
       }
+  for (std::size_t block = 0; block < count; ++block) sumBlock(block, solid_.data() + block * kBlockVoxels);
 }
 
 SolidField Cubelets::field() const {
@@ -50,7 +39,7 @@ SolidField Cubelets::field() const {
           grey_.data(),   only_label_.data()};
 }
 
-void Cubelets::setBlock(std::size_t block, const std::array<std::uint8_t, kBlockVoxels>& solid) {
+void Cubelets::sumBlock(std::size_t block, const std::uint8_t* solid) {
   std::uint32_t weight = 0, x = 0, y = 0, z = 0, grey = 0;
   for (std::uint32_t n = 0; n < kBlockVoxels; ++n) {
     const std::uint32_t w = solid[n];
@@ -65,7 +54,11 @@ void Cubelets::setBlock(std::size_t block, const std::array<std::uint8_t, kBlock
   weight_y_[block] = static_cast<std::uint16_t>(y);
   weight_z_[block] = static_cast<std::uint16_t>(z);
   grey_[block] = grey;
-  // Whole words, relaxed: a reader sees the old or the new of every byte.
+}
+
+void Cubelets::setBlock(std::size_t block, const std::array<std::uint8_t, kBlockVoxels>& solid) {
+  sumBlock(block, solid.data());
+  // Whole words, relaxed: a reader sees the old or the new value of every byte.
   using Word __attribute__((may_alias)) = std::uint64_t;
   auto* const words = static_cast<Word*>(static_cast<void*>(solid_.data() + block * kBlockVoxels));
   for (std::size_t n = 0; n < kBlockVoxels / sizeof(Word); ++n) {

@@ -1,5 +1,5 @@
-// Which bricks changed since they were last taken: one atomic bit each. One of the three things that cross threads.
-// The writer marks after storing voxels (release); one reader takes and clears (acquire), then copies the bricks.
+// Bricks changed since the last call of takeInto(), one atomic bit each: brick (x, y, z) is bit n = (z ny + y) nx + x,
+// in word n / 64. The writer marks after storing voxels (release); one reader takes and clears (acquire), then copies.
 // mark(): wait-free. takeInto(): O(bricks / 64). No allocation after construction.
 #pragma once
 

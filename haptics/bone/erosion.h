@@ -1,6 +1,6 @@
-// How fast tissue goes under a turning bur: which law, and the parameters of all of them side by side. Trivially
-// copyable, part of a Command; may change from tick to tick. What each does in a tick: bone/erosion_step.
-// The tissue factors come from hardness, see assets::kTissues. Plain data and one static table; any thread.
+// Erosion laws: how fast a turning bur removes tissue; the selected law and the parameters of all of them. Trivially
+// copyable, part of a Command; may change every tick. What a law removes in a tick: bone/erosion_step. Tissue factors
+// come from hardness, see assets::kTissues. Plain data and one static table; any thread.
 #pragma once
 
 #include <array>
@@ -10,12 +10,13 @@
 #include <string_view>
 
 #include "assets/tissue.h"
+#include "haptics/tool/parameter_table.h"
 
 namespace haptics {
 
 enum class ErosionKind : std::uint8_t { time, dose, machining };
 
-/// Intersection time (forssim; reference/physics 1.2): a covered voxel loses at one rate, whatever the hand presses.
+/// Intersection time (forssim; reference/physics 1.2): a covered voxel loses at one rate, independent of the force.
 struct TimeErosion {
   double removal_rate_per_s = 4.0;  ///< fraction of a fully covered voxel of reference tissue, at `rated_rpm`
   double rated_rpm = 40000.0;       ///< in proportion to the spindle's speed
@@ -27,7 +28,7 @@ struct DoseErosion {
   double removal_mm3_per_J = 0.5;
 };
 
-/// Chip volume (Arbabtafti; reference/physics 1.5): what the feed sweeps, as far as the spindle's power goes.
+/// Chip volume (Arbabtafti; reference/physics 1.5): the volume swept by the feed, limited by the spindle's power.
 struct MachiningErosion {
   double cutting_energy_J_per_mm3 = 0.1;  ///< u = K_tc
 };
@@ -37,8 +38,8 @@ struct ErosionSettings {
   TimeErosion time;
   DoseErosion dose;
   MachiningErosion machining;
-  double friction = 0.3;  ///< mu of bur on bone, 0.2-0.5 (reference/physics 1.1): pays for `dose`, loads the spindle
-  double worn = 0.0;      ///< 0 a new bur .. 1 one that takes nothing
+  double friction = 0.3;  ///< mu of bur on bone, 0.2-0.5 (reference/physics 1.1): drives `dose`, loads the spindle
+  double worn = 0.0;      ///< 0 a new bur .. 1 one that removes nothing
   std::array<double, assets::kTissueCount> tissue_factor = [] {
     std::array<double, assets::kTissueCount> factor{};
     for (std::size_t i = 0; i < factor.size(); ++i) factor[i] = assets::kTissues[i].removal_factor;
@@ -59,17 +60,10 @@ inline constexpr std::array<ErosionName, 3> kErosions = {{
 }};
 std::optional<ErosionKind> erosionOfKey(std::string_view key);
 
-struct ErosionParameter {
-  std::optional<ErosionKind> law;  ///< none: every law obeys it
-  std::string_view key;            ///< unique over all laws
-  std::string_view unit;           ///< "" for a ratio
-  double lowest, highest;
-  std::string_view meaning;
-  double& (*in)(ErosionSettings&);
-};
+using ErosionParameter = Parameter<ErosionSettings, ErosionKind>;
 std::span<const ErosionParameter> erosionParameters();
 
-/// Every parameter within its range, its default where it is no number; the default law for one that does not exist.
+/// Every parameter clamped to its range, defaults for NaN and infinity; the default law for an unknown one.
 ErosionSettings sanitised(const ErosionSettings& settings);
 
 }  // namespace haptics

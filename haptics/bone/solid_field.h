@@ -1,7 +1,6 @@
-// A look at a solid-fraction field without owning it: the live bone, or any volume that `feel` is asked about.
-// Frame P, mm. What it points to (bone/cubelets) must outlive it. Outside the grid is air. Trivially copyable.
-// Voxels lie in blocks of 4x4x4; within a block i runs fastest. Per block: sum of w, of w times each local index 0..3,
-// of w (255 - w), for w = 0..255 the solid byte; and the label all its voxels share.
+// A view of a solid-fraction field: the live bone, or any volume passed to `molar feel`. Frame P, mm. The arrays belong
+// to bone/cubelets, whose header draws their layout, and must outlive the view. Outside the grid is air. Trivially
+// copyable.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +10,7 @@
 namespace haptics {
 
 inline constexpr int kBlockEdge = 4, kBlockVoxels = 64;
-/// In SolidField::only_label: the voxels of this block do not all have one label.
+/// In SolidField::only_label: the voxels of this block have several labels.
 inline constexpr std::uint8_t kMixedLabels = 255;
 
 struct SolidField {
@@ -29,7 +28,7 @@ struct SolidField {
                static_cast<std::size_t>(blocks.x) +
            static_cast<std::size_t>(block.x);
   }
-  /// Of a voxel of the grid, in the order of memory.
+  /// Index of a voxel of the grid in `solid` and `label`.
   std::size_t offsetOf(glm::ivec3 ijk) const {
     const int within = (ijk.z & 3) * 16 + (ijk.y & 3) * 4 + (ijk.x & 3);
     return blockAt({ijk.x >> 2, ijk.y >> 2, ijk.z >> 2}) * kBlockVoxels + static_cast<std::size_t>(within);

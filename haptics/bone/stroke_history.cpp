@@ -5,8 +5,8 @@
 namespace haptics {
 namespace {
 
-/// Of the room, that one stroke may take: the others still have theirs while it grows.
-constexpr std::size_t kLargestShare = 4;
+/// One stroke may use 1/4 of the capacity, so that older ones survive while it grows.
+constexpr std::size_t kMaxStrokeShare = 4;
 
 }  // namespace
 
@@ -14,13 +14,13 @@ StrokeHistory::StrokeHistory(const CarvedBone& bone, std::size_t max_blocks) {
   const glm::ivec3 blocks = bone.field().blocks;
   const std::size_t all = bone.field().blockAt({0, 0, blocks.z});
   saved_in_.assign(all, 0);
-  saved_.resize(std::max(kLargestShare, std::min(kLargestShare * all, max_blocks)));
+  saved_.resize(std::max(kMaxStrokeShare, std::min(kMaxStrokeShare * all, max_blocks)));
 }
 
 void StrokeHistory::save(std::size_t block, const BlockState& state) noexcept {
-  if (on_ && newest().blocks == saved_.size() / kLargestShare) endStroke();
-  if (!on_) beginStroke();
-  while (saved_count_ == saved_.size()) forgetOldest();
+  if (open_ && newest().blocks == saved_.size() / kMaxStrokeShare) endStroke();
+  if (!open_) beginStroke();
+  while (saved_count_ == saved_.size()) dropOldest();
   Stroke& stroke = newest();
   Saved& saved = saved_[(stroke.first + stroke.blocks) % saved_.size()];
   saved.state = state;
@@ -31,20 +31,20 @@ void StrokeHistory::save(std::size_t block, const BlockState& state) noexcept {
 }
 
 void StrokeHistory::beginStroke() noexcept {
-  if (count_ == kMaxStrokes) forgetOldest();
+  if (count_ == kMaxStrokes) dropOldest();
   const std::size_t first = count_ == 0 ? 0 : (newest().first + newest().blocks) % saved_.size();
   ++count_;
   newest() = {first, 0};
-  on_ = true;
+  open_ = true;
 }
 
 void StrokeHistory::endStroke() noexcept {
-  if (!on_) return;
-  on_ = false;
+  if (!open_) return;
+  open_ = false;
   ++stroke_;
 }
 
-void StrokeHistory::forgetOldest() noexcept {
+void StrokeHistory::dropOldest() noexcept {
   saved_count_ -= strokes_[oldest_].blocks;
   oldest_ = (oldest_ + 1) % kMaxStrokes;
   --count_;
@@ -52,18 +52,18 @@ void StrokeHistory::forgetOldest() noexcept {
 
 StrokeHistory::Restored StrokeHistory::restore(CarvedBone& bone, std::size_t max_blocks) noexcept {
   endStroke();
-  Restored given;
-  if (count_ == 0) return given;
+  Restored restored;
+  if (count_ == 0) return restored;
   Stroke& stroke = newest();
   std::int64_t steps = 0;
-  for (; given.blocks < max_blocks && stroke.blocks > 0; ++given.blocks) {
+  for (; restored.blocks < max_blocks && stroke.blocks > 0; ++restored.blocks) {
     const Saved& saved = saved_[(stroke.first + --stroke.blocks) % saved_.size()];
     steps += bone.restoreBlock(saved.block, saved.state);
     --saved_count_;
   }
   if (stroke.blocks == 0) --count_;
-  given.volume_mm3 = static_cast<double>(steps) * bone.grid().voxelVolume_mm3() / 255.0;
-  return given;
+  restored.volume_mm3 = static_cast<double>(steps) * bone.grid().voxelVolume_mm3() / 255.0;
+  return restored;
 }
 
 }  // namespace haptics

@@ -97,19 +97,50 @@ double wrapped(double angle_rad) {
   return (turns - std::floor(turns)) * 2.0 * kPi;
 }
 
+using Row = SpindleParameter;
 constexpr std::array kParameters = {
-    SpindleParameter{"spindle_rpm", "rpm", -400000.0, 400000.0, "commanded speed; below 0 the other way round",
-                     &SpindleSettings::commanded_rpm},
-    SpindleParameter{"stall_torque_Nmm", "N mm", 0.01, 1000.0, "torque that stops the motor",
-                     &SpindleSettings::stall_torque_Nmm},
-    SpindleParameter{"free_rpm", "rpm", 100.0, 500000.0, "speed at which the motor has no torque left",
-                     &SpindleSettings::free_rpm},
-    SpindleParameter{"droop", "", 0.001, 0.9, "part of the commanded speed the governor gives up for its full torque",
-                     &SpindleSettings::droop},
-    SpindleParameter{"inertia_g_cm2", "g cm2", 0.001, 1000.0, "rotor, handpiece and bur",
-                     &SpindleSettings::inertia_g_cm2},
-    SpindleParameter{"bearing_torque_Nmm", "N mm", 0.0, 100.0, "friction that stops an idle bur",
-                     &SpindleSettings::bearing_torque_Nmm},
+    Row{{},
+        "spindle_rpm",
+        "rpm",
+        -400000.0,
+        400000.0,
+        "commanded speed; below 0 the other way round",
+        valueIn<&SpindleSettings::commanded_rpm>},
+    Row{{},
+        "stall_torque_Nmm",
+        "N mm",
+        0.01,
+        1000.0,
+        "torque that stops the motor",
+        valueIn<&SpindleSettings::stall_torque_Nmm>},
+    Row{{},
+        "free_rpm",
+        "rpm",
+        100.0,
+        500000.0,
+        "speed at which the motor has no torque left",
+        valueIn<&SpindleSettings::free_rpm>},
+    Row{{},
+        "droop",
+        "",
+        0.001,
+        0.9,
+        "part of the commanded speed the governor gives up for its full torque",
+        valueIn<&SpindleSettings::droop>},
+    Row{{},
+        "inertia_g_cm2",
+        "g cm2",
+        0.001,
+        1000.0,
+        "rotor, handpiece and bur",
+        valueIn<&SpindleSettings::inertia_g_cm2>},
+    Row{{},
+        "bearing_torque_Nmm",
+        "N mm",
+        0.0,
+        100.0,
+        "friction that stops an idle bur",
+        valueIn<&SpindleSettings::bearing_torque_Nmm>},
 };
 
 }  // namespace
@@ -171,12 +202,8 @@ double vibrationFrequency_Hz(double rad_per_s) noexcept {
 std::span<const SpindleParameter> spindleParameters() { return kParameters; }
 
 SpindleSettings sanitised(const SpindleSettings& settings) {
-  const SpindleSettings standard;
   SpindleSettings safe = settings;
-  for (const SpindleParameter& parameter : kParameters) {
-    double& value = safe.*parameter.value;
-    value = std::isfinite(value) ? std::clamp(value, parameter.lowest, parameter.highest) : standard.*parameter.value;
-  }
+  clampToTable<kParameters>(safe);
   return safe;
 }
 

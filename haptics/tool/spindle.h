@@ -8,7 +8,8 @@
 #pragma once
 
 #include <span>
-#include <string_view>
+
+#include "haptics/tool/parameter_table.h"
 
 namespace haptics {
 
@@ -46,16 +47,10 @@ double vibrationFrequency_Hz(double rad_per_s) noexcept;
 double radPerSecond(double rpm) noexcept;
 double rpmOf(double rad_per_s) noexcept;
 
-/// Every setting: what it is called, its unit, range, meaning and where it lives.
-struct SpindleParameter {
-  std::string_view key, unit;
-  double lowest, highest;
-  std::string_view meaning;
-  double SpindleSettings::*value;
-};
+using SpindleParameter = Parameter<SpindleSettings>;
 std::span<const SpindleParameter> spindleParameters();
 
-/// Every setting within its range, its default where it is no number.
+/// Every setting clamped to its range, defaults for NaN and infinity.
 SpindleSettings sanitised(const SpindleSettings& settings);
 
 }  // namespace haptics

@@ -145,9 +145,9 @@ TEST(Carve, TakesTheSameInTurnsAsAllAtOnce) {
 
 TEST(Carve, TakesTurnsOnlyWhereItIsDearAndNoStepGrowsLarge) {
   const CarvedBone fine = block(1.0, 0.1).bone(), coarse = block(1.0, 0.25).bone();
-  EXPECT_EQ(carveInterleave(coarse, 1.5, timeErosion(rate(4.0), 1e-3)), 1);
-  EXPECT_EQ(carveInterleave(fine, 4.0, timeErosion(rate(4.0), 1e-3)), 8);
-  EXPECT_EQ(carveInterleave(fine, 4.0, timeErosion(rate(4.0), 0.2)), 1);
+  EXPECT_EQ(carveInterleave(coarse, {ShapeKind::sphere, 1.5, 0.0}, timeErosion(rate(4.0), 1e-3)), 1);
+  EXPECT_EQ(carveInterleave(fine, {ShapeKind::sphere, 4.0, 0.0}, timeErosion(rate(4.0), 1e-3)), 8);
+  EXPECT_EQ(carveInterleave(fine, {ShapeKind::sphere, 4.0, 0.0}, timeErosion(rate(4.0), 0.2)), 1);
 }
 
 TEST(Carve, CutsAlikeWhenAVoxelIsPartlyUsedUp) {
