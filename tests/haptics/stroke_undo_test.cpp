@@ -374,7 +374,7 @@ TEST(StrokeUndo, ReplaysBitForBit) {
       ASSERT_EQ(std::memcmp(&a.proxy_P, &b.proxy_P, sizeof a.proxy_P), 0);
       ASSERT_EQ(a.bone_digest, b.bone_digest);
       ASSERT_EQ(a.removed_mm3, b.removed_mm3);
-      ASSERT_EQ(a.rest, b.rest);
+      ASSERT_EQ(a.drill_inhibit, b.drill_inhibit);
       ASSERT_EQ(a.strokes, b.strokes);
       returned += a.removed_mm3 < 0.0 ? 1 : 0;
     }
