@@ -2,7 +2,7 @@
 
 namespace app {
 
-WizardScreen::WizardScreen(const WizardDisplay& display, glm::ivec2 screen_px, const DisplayWindows::ReportLine& tell)
+WizardScreen::WizardScreen(const WizardDisplay& display, glm::ivec2 screen_px, const ReportLine& tell)
     : display_(display),
       screen_px_(screen_px),
       windows_({.mode = display.mode,

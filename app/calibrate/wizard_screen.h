@@ -23,7 +23,7 @@ struct WizardDisplay {
 class WizardScreen {
  public:
   /// `screen_px`: the rig's. `tell`: what could not be had and what is shown instead.
-  WizardScreen(const WizardDisplay& display, glm::ivec2 screen_px, const DisplayWindows::ReportLine& tell);
+  WizardScreen(const WizardDisplay& display, glm::ivec2 screen_px, const ReportLine& tell);
 
   std::vector<render::WindowEvent> takeEvents() { return windows_.takeEvents(); }
   glm::ivec2 window_px() { return windows_.first().framebufferSize_px(); }

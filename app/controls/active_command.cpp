@@ -15,7 +15,7 @@ void refuse(const std::string& where, const std::string& why) {
   printMessage(where.empty() ? why : where + ": " + why);
 }
 
-/// What hand, foot and operator decide, neither file nor procedure.
+/// Set by controls only, neither by file nor procedure.
 void keepSwitches(const haptics::Command& from, haptics::Command& to) {
   to.irrigating = from.irrigating;
   to.undo_serial = from.undo_serial;
@@ -38,7 +38,6 @@ ActiveCommand::ActiveCommand(const haptics::Command& first, std::vector<haptics:
   check(command_);
 }
 
-/// Refuses what the servo or the device would execute only in part.
 void ActiveCommand::check(const haptics::Command& command) const {
   refuseBeyondServoLimits(command);
   refuseUnlessStable(command, device_damping_Ns_per_mm_, rate_Hz_);
@@ -139,7 +138,7 @@ void ActiveCommand::pollSettingsFile(LiveParameters::Clock::time_point now) {
   }
 }
 
-void ActiveCommand::follow(const haptics::Command& command) {
+void ActiveCommand::adopt(const haptics::Command& command) {
   haptics::Command wanted = command;
   keepSwitches(command_, wanted);
   put(wanted);

@@ -1,7 +1,6 @@
-// The command in force during a rehearsal and all who may change it: a control (control.h), a settings file that is
-// obeyed while it changes, a procedure. What servo and device would execute only in part is refused or, at a key,
-// lowered and said. Every change is recorded before it is in force, and said. Main thread; a file is looked at four
-// times a second.
+// The command in force during a rehearsal, changed by controls (control.h), a settings file that is polled, or a
+// procedure. Commands beyond the limits of servo or device are refused; a law chosen by key is lowered to them instead.
+// Every change is recorded before it is in force, and reported. Main thread; the file is polled four times a second.
 #pragma once
 
 #include <optional>
@@ -17,27 +16,27 @@ namespace app {
 
 class ActiveCommand {
  public:
-  /// `settings_file` rules over `first`; empty: none. `other_tools`: what a change of tool goes through after the
-  /// first. Throws UsageError for what can not be obeyed.
+  /// `settings_file` overrides `first`; empty: none. `other_tools`: the rest of the tray, after the first's tool.
+  /// Throws UsageError for a command beyond the limits.
   ActiveCommand(const haptics::Command& first, std::vector<haptics::Tool> other_tools, const std::string& settings_file,
                 double device_damping_Ns_per_mm, double rate_Hz);
 
   const haptics::Command& inForce() const { return command_; }
-  /// From now on changes go there. Borrowed.
-  void serve(Workstation& workstation) { workstation_ = &workstation; }
+  /// The receiver of changes. Borrowed.
+  void attach(Workstation& workstation) { workstation_ = &workstation; }
 
-  /// What the command has a word for: law, drill, tool (the next of the tray, after the last the first), irrigation,
-  /// undo (of the newest stroke; again, of the one before), arm (lifts a latched fault whose cause is over). False: the
-  /// request is somebody else's. `where`: it is written, named where it can not be obeyed.
+  /// Executes law, drill, tool (the next of the tray, cyclic), irrigation, undo (of the newest stroke left) and arm
+  /// (lifts a latched fault whose cause is over); returns false for all others. `where`: file and row of a script, for
+  /// refusals.
   bool execute(const ControlRequest& request, const std::string& where = {});
   void pollSettingsFile(LiveParameters::Clock::time_point now);
-  /// As it is, unsaid: the procedure knows why.
-  void follow(const haptics::Command& command);
+  /// A procedure's command, unchecked and unreported; irrigation, undo and rearm stay as they are.
+  void adopt(const haptics::Command& command);
 
-  /// What may be in the hand, the first one first.
+  /// Tools to change between, in order.
   const std::vector<haptics::Tool>& tray() const { return tray_; }
 
-  /// True once after the tool became another.
+  /// True once after each change of tool.
   bool takeToolChange();
 
  private:

@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <deque>
 #include <utility>
+#include <variant>
 
+#include "app/instructor/instructor_panel.h"
+#include "render/display/eye_projection.h"
 #include "render/gpu/gpu_error.h"
 #include "render/gpu/window_image.h"
 
@@ -15,7 +18,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr auto kBetweenDrawings = std::chrono::milliseconds(100);
+constexpr auto kInterval = std::chrono::milliseconds(100);
 
 render::Window::Options optionsFor(const render::Window& surgeons, std::optional<int> monitor) {
   render::Window::Options options;
@@ -30,12 +33,13 @@ render::Window::Options optionsFor(const render::Window& surgeons, std::optional
 
 }  // namespace
 
-struct InstructorWindow::Impl {
-  Impl(const render::Window& surgeons, std::optional<int> monitor) : window(optionsFor(surgeons, monitor)) {
+/// The window with its panel, while it is open.
+struct InstructorWindow::Open {
+  Open(const render::Window& surgeons, std::optional<int> monitor) : window(optionsFor(surgeons, monitor)) {
     if (!ImGui_ImplOpenGL3_Init("#version 450"))
       throw render::GpuError("instructor's window: OpenGL can not draw its panel, continue without --instructor");
   }
-  ~Impl() {
+  ~Open() {
     window.makeCurrent();
     ImGui_ImplOpenGL3_Shutdown();
   }
@@ -44,13 +48,14 @@ struct InstructorWindow::Impl {
   void feedPending();
 
   render::Window window;
-  PanelContext context;  // goes as well where OpenGL refuses the panel
+  PanelContext context;
   std::deque<render::WindowEvent> pending;
   std::vector<render::WindowEvent> keys;
+  bool close_requested = false;
   Clock::time_point drawn{};
 };
 
-void InstructorWindow::Impl::feed(const render::WindowEvent& event) {
+void InstructorWindow::Open::feed(const render::WindowEvent& event) {
   ImGuiIO& io = ImGui::GetIO();
   if (const auto* moved = std::get_if<render::PointerMoved>(&event))
     io.MousePos = {static_cast<float>(moved->to_px.x), static_cast<float>(moved->to_px.y)};
@@ -58,12 +63,14 @@ void InstructorWindow::Impl::feed(const render::WindowEvent& event) {
     io.MouseDown[button->button == render::MouseButton::right ? 1 : 0] = button->down;
   else if (const auto* wheel = std::get_if<render::WheelTurned>(&event))
     io.MouseWheel += static_cast<float>(wheel->notches);
+  else if (std::holds_alternative<render::CloseRequested>(event))
+    close_requested = true;
   else
     keys.push_back(event);
 }
 
-/// A click shorter than the time between drawings is still a click: its release waits for the next one.
-void InstructorWindow::Impl::feedPending() {
+/// A click shorter than the interval still counts: its release waits for the next drawing.
+void InstructorWindow::Open::feedPending() {
   for (const render::WindowEvent& event : window.takeEvents()) pending.push_back(event);
   bool pressed = false;
   while (!pending.empty()) {
@@ -75,42 +82,70 @@ void InstructorWindow::Impl::feedPending() {
   }
 }
 
-InstructorWindow::InstructorWindow(const render::Window& surgeons, std::optional<int> monitor)
-    : impl_(std::make_unique<Impl>(surgeons, monitor)) {}
+InstructorWindow::InstructorWindow(SurgeonDisplay& display, const calibration::Rig& rig, int after_monitor,
+                                   ReportLine report)
+    : display_(display), rig_(rig), after_monitor_(after_monitor), report_(std::move(report)) {
+  open();
+  // It shares with the surgeon's windows and must be closed before them.
+  display_.beforeRecreation([this] { open_.reset(); });
+}
 
 InstructorWindow::~InstructorWindow() = default;
 
-bool InstructorWindow::isDue() const { return Clock::now() - impl_->drawn >= kBetweenDrawings; }
+void InstructorWindow::open() {
+  if (display_.window() == nullptr) return;
+  const int next = after_monitor_ + (display_.mode() == render::DisplayMode::two_windows ? 2 : 1);
+  const bool exists = next < static_cast<int>(render::monitors().size());
+  try {
+    open_ = std::make_unique<Open>(*display_.window(), exists ? std::optional(next) : std::nullopt);
+  } catch (const render::GpuError& error) {
+    report_(error.what());
+  }
+  display_.makeCurrent();
+}
 
-std::vector<ControlRequest> InstructorWindow::draw(const RehearsalStatus& status, render::FrameRenderer& renderer,
-                                                   const render::FrameFence& composed, const SurgeonImage& seen) {
-  Impl& self = *impl_;
+void InstructorWindow::reopenAfterReset() {
+  if (std::exchange(context_losses_, display_.contextLosses()) != display_.contextLosses()) open();
+}
+
+bool InstructorWindow::isDue() const { return open_ && Clock::now() - open_->drawn >= kInterval; }
+
+InstructorWindow::Input InstructorWindow::draw(const RehearsalStatus& status) {
+  Open& self = *open_;
   self.feedPending();
   const Clock::time_point now = Clock::now();
   ImGuiIO& io = ImGui::GetIO();
   io.DeltaTime = std::max(1e-3f, std::chrono::duration<float>(now - self.drawn).count());
   self.drawn = now;
+  Input input{{}, std::exchange(self.keys, {})};
   const glm::ivec2 px = self.window.framebufferSize_px();
-  if (px.x <= 0 || px.y <= 0) return {};
-  io.DisplaySize = {static_cast<float>(px.x), static_cast<float>(px.y)};
-
-  self.window.makeCurrent();
-  composed.waitOnGpu();
-  render::clearWindow();
-  const ImageArea place = imageArea(px, seen.px);
-  renderer.showBystander({.size_px = place.size_px,
-                          .corner_px = {place.corner_px.x, px.y - place.corner_px.y - place.size_px.y},
-                          .flipped_x = seen.flipped_x,
-                          .flipped_y = seen.flipped_y});
-  ImGui_ImplOpenGL3_NewFrame();
-  ImGui::NewFrame();
-  std::vector<ControlRequest> requests = drawInstructorPanel(status, px, seen.px);
-  ImGui::Render();
-  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-  self.window.present();
-  return requests;
+  if (px.x > 0 && px.y > 0) {
+    io.DisplaySize = {static_cast<float>(px.x), static_cast<float>(px.y)};
+    render::FrameRenderer& renderer = display_.renderer();
+    renderer.composeForBystander();
+    render::FrameFence composed;
+    composed.mark();
+    self.window.makeCurrent();
+    composed.waitOnGpu();
+    render::clearWindow();
+    const ImageArea area = imageArea(px, rig_.screen.px);
+    // Through a mirror the surgeon's image is flipped; the instructor's is not.
+    const render::EyeView view = render::eyeView(rig_, render::Eye::cyclopean);
+    const glm::dvec3 to_the_right = rig_.right_eye.mm - rig_.left_eye.mm;
+    renderer.showBystander({.size_px = area.size_px,
+                            .corner_px = {area.corner_px.x, px.y - area.corner_px.y - area.size_px.y},
+                            .flipped_x = glm::dot(view.right_edge_W.xyz, to_the_right) < 0.0,
+                            .flipped_y = view.up_edge_W.xyz.y < 0.0});
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui::NewFrame();
+    input.requests = drawInstructorPanel(status, px, rig_.screen.px);
+    ImGui::Render();
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    self.window.present();
+  }
+  if (self.close_requested) open_.reset();
+  display_.makeCurrent();
+  return input;
 }
-
-std::vector<render::WindowEvent> InstructorWindow::takeKeys() { return std::exchange(impl_->keys, {}); }
 
 }  // namespace app

@@ -1,42 +1,48 @@
-// The instructor's window, on a second monitor where there is one: what the surgeon sees, without drawing it a second
-// time, and the panel beside it. Nothing of it is in the surgeon's view. At most ten times a second and never waiting
-// for its monitor, so the surgeon's pictures are not held up. Dear ImGui draws it, fed from the window's events. Main
-// thread; after draw() this window's context is current.
+// The instructor's window, on the monitor after the surgeon's, or next to the view on the same one: the surgeon's
+// image, composed once more, and the panel. Redrawn at most ten times a second without waiting for its monitor's
+// refresh, so the surgeon's frames are not delayed. Shares the surgeon's OpenGL context and is reopened after a reset
+// of the graphics card. Empty where the surgeon has no window. Main thread; after every call the surgeon's context is
+// current.
 #pragma once
 
-#include <chrono>
 #include <memory>
-#include <optional>
 #include <vector>
 
-#include "app/instructor/instructor_panel.h"
-#include "render/display/window.h"
-#include "render/frame_renderer.h"
-#include "render/gpu/frame_fence.h"
+#include "app/controls/control.h"
+#include "app/instructor/rehearsal_status.h"
+#include "app/text/message.h"
+#include "app/view/surgeon_display.h"
+#include "calibration/rig.h"
 
 namespace app {
 
 class InstructorWindow {
  public:
-  /// Shares pictures with the surgeon's window, which must outlive it. Throws GpuError.
-  InstructorWindow(const render::Window& surgeons, std::optional<int> monitor);
+  /// `after_monitor`: index of the surgeon's. Borrows display and rig; `report` receives why it cannot be opened.
+  InstructorWindow(SurgeonDisplay& display, const calibration::Rig& rig, int after_monitor, ReportLine report);
   ~InstructorWindow();
 
   bool isDue() const;
-  /// The renderer's picture for bystanders must be composed; `composed` marks when. `seen`: its size, and whether a
-  /// mirror turns it.
-  struct SurgeonImage {
-    glm::ivec2 px{0};
-    bool flipped_x = false, flipped_y = false;
+  /// Keys have the same meaning as in the surgeon's window.
+  struct Input {
+    std::vector<ControlRequest> requests;
+    std::vector<render::WindowEvent> keys;
   };
-  std::vector<ControlRequest> draw(const RehearsalStatus& status, render::FrameRenderer& renderer,
-                                   const render::FrameFence& composed, const SurgeonImage& seen);
-  /// Keys pressed in this window mean what they mean in the surgeon's. Closing it is asked by CloseRequested.
-  std::vector<render::WindowEvent> takeKeys();
+  /// Draws image and panel. Returns the input since the last drawing.
+  Input draw(const RehearsalStatus& status);
+  void reopenAfterReset();
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  struct Open;
+
+  void open();
+
+  SurgeonDisplay& display_;
+  const calibration::Rig& rig_;
+  int after_monitor_;
+  ReportLine report_;
+  std::unique_ptr<Open> open_;
+  int context_losses_ = 0;
 };
 
 }  // namespace app

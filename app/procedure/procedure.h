@@ -2,7 +2,9 @@
 // before anybody else obeys them, stop and end aside, which are always obeyed; speaks to surgeon and instructor, knows
 // when it is over. For experiments (psychophysics/trial_desk) and for operations step by step. Main thread, once a
 // frame.
-#pragma once
+// A procedure leads a rehearsal: it receives every tick, may replace the command, handles keys and requests before
+// anything else (except stop and end, which are always executed), sends messages to surgeon and instructor, and decides
+// when it is over. For experiments (psychophysics/trial_runner) and operations step by step. Main thread, once a frame.
 
 #include <optional>
 #include <span>
@@ -14,8 +16,8 @@
 
 namespace app {
 
-/// One line each; empty: nothing to say. The surgeon reads it in the window's title, unless the safety layer has to say
-/// something; the instructor in the instructor's window, where there is one (--instructor).
+/// One line each; empty: none. The surgeon's is shown in the window title, unless the safety layer has a message; the
+/// instructor's in the instructor's window.
 struct ProcedureMessages {
   std::string to_surgeon, to_instructor;
   bool operator==(const ProcedureMessages&) const = default;
@@ -24,14 +26,14 @@ struct ProcedureMessages {
 class Procedure {
  public:
   virtual ~Procedure() = default;
-  /// A key as its upper-case letter, in either window. True: it was the procedure's, nobody else gets it.
+  /// A key as its upper-case letter, from either window. True: handled, nothing else receives it.
   virtual bool takeKey(char /*key*/) { return false; }
-  /// Neither stop nor end. True: nobody else obeys. By itself a procedure keeps what is felt.
+  /// Any request but stop and end. True: handled. By default all requests that change what is felt.
   virtual bool take(const ControlRequest& request) { return meaningOf(request.control).is_felt; }
-  /// Every tick since the last call, each once, oldest first, at least one. What is to be felt from now on, under a
-  /// higher command_serial than that of the newest of them; none: as it is.
+  /// Every tick since the last call, each once, oldest first, at least one. Returns the new command, with a
+  /// command_serial above that of the newest tick, or none.
   virtual std::optional<haptics::Command> follow(std::span<const haptics::Tick> ticks) = 0;
-  virtual ProcedureMessages words() const = 0;
+  virtual ProcedureMessages messages() const = 0;
   virtual bool isOver() const = 0;
 };
 

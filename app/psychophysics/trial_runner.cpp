@@ -88,7 +88,7 @@ std::string TrialRunner::participantText() const {
 }
 
 /// Whoever watches knows as little of what is felt: blind for both.
-ProcedureMessages TrialRunner::words() const {
+ProcedureMessages TrialRunner::messages() const {
   if (is_over_) return {participantText(), "all trials answered"};
   const char* const felt = touched(felt_[0]) ? (touched(felt_[1]) ? "A and B" : "A") : touched(felt_[1]) ? "B" : "none";
   return {participantText(),

@@ -22,7 +22,7 @@ class TrialRunner final : public Procedure {
 
   bool takeKey(char key) override;
   std::optional<haptics::Command> follow(std::span<const haptics::Tick> ticks) override;
-  ProcedureMessages words() const override;
+  ProcedureMessages messages() const override;
   bool isOver() const override { return is_over_; }
 
  private:

@@ -1,30 +1,23 @@
 #include "app/rehearsal/control_router.h"
 
 #include <algorithm>
+#include <exception>
 
 #include "app/rehearsal/frame_builder.h"
-#include "app/rehearsal/rehearsal_outputs.h"
 #include "app/text/message.h"
 
 namespace app {
-namespace {
-
-double width_mm(const calibration::ScreenCorners& screen) {
-  return glm::distance(screen.lower_left.mm, screen.lower_right.mm);
-}
-
-}  // namespace
 
 ControlRouter::ControlRouter(const RehearsalPlan& plan, Equipment& equipment, ActiveCommand& active_command,
-                             RunMonitor& monitor, LiveView& picture, EventLog& event_log)
+                             RunMonitor& monitor, LiveView& view, EventLog& event_log)
     : plan_(plan),
       equipment_(equipment),
       active_command_(active_command),
       monitor_(monitor),
-      view_(picture),
+      view_(view),
       event_log_(event_log),
       input_(restingTool()),
-      script_(equipment.asks(), active_command.tray(), equipment.rate_Hz()) {}
+      script_(equipment.scriptedRequests(), active_command.tray(), equipment.rate_Hz()) {}
 
 void ControlRouter::handleInput(const haptics::Tick& newest, render::Frame& frame) {
   readWindow();
@@ -33,7 +26,7 @@ void ControlRouter::handleInput(const haptics::Tick& newest, render::Frame& fram
   for (const ControlRequest& request : input_.takeRequests()) execute(request, frame);
 }
 
-void ControlRouter::handleInstructorInput(const InstructorDisplay::Input& input, render::Frame& frame) {
+void ControlRouter::handleInstructorInput(const InstructorWindow::Input& input, render::Frame& frame) {
   for (const render::WindowEvent& event : input.keys)
     if (!isTakenByProcedure(event)) input_.take(event, 0.0);
   for (const ControlRequest& request : input.requests) execute(request, frame);
@@ -41,7 +34,9 @@ void ControlRouter::handleInstructorInput(const InstructorDisplay::Input& input,
 
 void ControlRouter::readWindow() {
   if (const render::Window* const window = view_.window()) {
-    const double mm_per_px = width_mm(plan_.rig.screen) / std::max(1, window->framebufferSize_px().x);
+    const calibration::ScreenCorners& screen = plan_.rig.screen;
+    const double width_mm = glm::distance(screen.lower_left.mm, screen.lower_right.mm);
+    const double mm_per_px = width_mm / std::max(1, window->framebufferSize_px().x);
     for (const render::WindowEvent& event : view_.display().takeEvents())
       if (!isTakenByProcedure(event)) input_.take(event, mm_per_px);
   }
@@ -49,20 +44,20 @@ void ControlRouter::readWindow() {
     mouse->setTarget({{input_.X_WT().rotation, input_.X_WT().translation_mm}, input_.pedal()});
 }
 
-/// What is due at the tick that comes next; after the last one, what was due until then.
+/// Requests due at the next tick; after the last tick, those due until then.
 void ControlRouter::executeScript(const haptics::Tick& newest, render::Frame& frame) {
   const std::uint64_t made = newest.dt_s > 0.0 ? newest.index + 1 : 0;
   const std::uint64_t due = made > 0 && monitor_.isTimeOver(newest) ? made - 1 : made;
   for (const ScriptedRequest& scripted : script_.takeDue(due)) execute(scripted.request, frame, scripted.where);
 }
 
-/// `where`: it is written, if it is.
+/// `where`: file and row of a scripted request, for messages.
 void ControlRouter::execute(const ControlRequest& request, render::Frame& frame, const std::string& where) {
   if (request.control == Control::stop) return stopMotors();
   if (request.control == Control::end) return monitor_.endByUser();
   if ((plan_.procedure && plan_.procedure->take(request)) || active_command_.execute(request, where)) return;
   frame.layers = layersAfter(frame.layers, request);
-  if (request.control == Control::snapshot) takeSnapshot(view_, frame, plan_.ticking == Ticking::realtime, event_log_);
+  if (request.control == Control::snapshot) takeSnapshot(frame);
   if (request.control == Control::home) equipment_.workstation().setHome();
 }
 
@@ -70,6 +65,23 @@ void ControlRouter::stopMotors() {
   equipment_.workstation().emergencyStop();
   event_log_.note("emergency stop", "motors off for good");
   printMessage("emergency stop: the motors are off; end and start again to feel");
+}
+
+/// Of the frame shown last; a stepped rehearsal draws the current one for it.
+void ControlRouter::takeSnapshot(const render::Frame& frame) {
+  if (plan_.ticking == Ticking::stepped) {
+    view_.display().renderer();
+    view_.uploadBone();
+    view_.showInstrument();
+    view_.show(frame);
+  }
+  try {
+    const std::string path = saveNextSnapshot(view_.readImage());
+    event_log_.note("snapshot", path);
+    printMessage("snapshot " + path);
+  } catch (const std::exception& error) {
+    printMessage(error.what());
+  }
 }
 
 bool ControlRouter::isTakenByProcedure(const render::WindowEvent& event) const {

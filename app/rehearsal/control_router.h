@@ -1,6 +1,6 @@
-// Everybody in the room may ask for something: the hand at mouse and keys, the device's buttons, the pedal, a script,
-// the instructor. Each request goes to the one who obeys it: stop and end at once, then the procedure, the command in
-// force, the layers of the picture. Main thread, once a frame; microseconds, a snapshot as long as its file takes.
+// Routes control requests (control.h) from mouse, keys, device buttons, pedal, script and instructor. Stop and end are
+// executed at once; the others go to the procedure first, then to the command in force, then to layers, snapshot and
+// homing. Main thread, once a frame; microseconds, for a snapshot the time of writing its file.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 #include "app/controls/active_command.h"
 #include "app/controls/control_script.h"
 #include "app/controls/hand_input.h"
-#include "app/instructor/instructor_display.h"
+#include "app/instructor/instructor_window.h"
 #include "app/rehearsal/equipment.h"
 #include "app/rehearsal/event_log.h"
 #include "app/rehearsal/live_view.h"
@@ -19,22 +19,23 @@ namespace app {
 
 class ControlRouter {
  public:
-  /// Borrows them all. Throws UsageError that names the row of a script that asks for what there is not.
+  /// Borrows all. Throws UsageError naming the row of a script whose request is not possible.
   ControlRouter(const RehearsalPlan& plan, Equipment& equipment, ActiveCommand& active_command, RunMonitor& monitor,
-                LiveView& picture, EventLog& event_log);
+                LiveView& view, EventLog& event_log);
 
   const ControlScript& script() const { return script_; }
 
-  /// What was asked for since the last call, but by the instructor; a mouse that is the hand is moved. `newest` has a dt
-  /// of 0 before the first tick. Layers are switched in `frame`, of which a snapshot is taken.
+  /// Executes all requests since the last call except the instructor's, and moves the mouse device. `newest` has a dt
+  /// of 0 before the first tick. Layers are switched in `frame`, and snapshots are taken of it.
   void handleInput(const haptics::Tick& newest, render::Frame& frame);
-  void handleInstructorInput(const InstructorDisplay::Input& input, render::Frame& frame);
+  void handleInstructorInput(const InstructorWindow::Input& input, render::Frame& frame);
 
  private:
   void readWindow();
   void executeScript(const haptics::Tick& newest, render::Frame& frame);
   void execute(const ControlRequest& request, render::Frame& frame, const std::string& where = {});
   void stopMotors();
+  void takeSnapshot(const render::Frame& frame);
   bool isTakenByProcedure(const render::WindowEvent& event) const;
 
   const RehearsalPlan& plan_;

@@ -5,20 +5,21 @@
 namespace app {
 
 Equipment::Equipment(RehearsalPlan& plan)
-    : hand_(openPoseSource(plan.device, plan.device_options, plan.patient, plan.rig, plan.cut, std::move(plan.opened))),
-      rate_Hz_(plan.rate_Hz.value_or(hand_.rate_Hz.value_or(1000.0))),
-      damping_Ns_per_mm_(hand_.device->capabilities().damping_Ns_per_mm) {
+    : source_(
+          openPoseSource(plan.device, plan.device_options, plan.patient, plan.rig, plan.cut, std::move(plan.opened))),
+      rate_Hz_(plan.rate_Hz.value_or(source_.rate_Hz.value_or(1000.0))),
+      damping_Ns_per_mm_(source_.device->capabilities().damping_Ns_per_mm) {
   if (!plan.second_hand.device.empty())
     second_hand_.emplace(plan.second_hand, plan.device_options, plan.patient, plan.rig, plan.ticking);
   if (plan.pedal) pedal_.emplace(*plan.pedal);
 }
 
-void Equipment::join(const RehearsalPlan& plan, const haptics::Command& in_force) {
-  workstation_.emplace(plan.patient, std::move(hand_.device),
+void Equipment::connect(const RehearsalPlan& plan, const haptics::Command& in_force) {
+  workstation_.emplace(plan.patient, std::move(source_.device),
                        haptics::LoopSettings{.rate_Hz = rate_Hz_,
-                                             .X_PD = hand_.X_PD,
-                                             .X_HT = hand_.X_HT,
-                                             .arm = hand_.arm,
+                                             .X_PD = source_.X_PD,
+                                             .X_HT = source_.X_HT,
+                                             .arm = source_.arm,
                                              .priority = plan.device_options.servo_priority,
                                              .buttons = {},
                                              .pedal = pedal_ ? &*pedal_ : nullptr},
@@ -27,8 +28,8 @@ void Equipment::join(const RehearsalPlan& plan, const haptics::Command& in_force
 
 void Equipment::start() {
   workstation_->start();
-  if (hand_.library) unplug_watch_.emplace(*workstation_);
-  workstation_->note("start", hand_.name);
+  if (source_.library) unplug_watch_.emplace(*workstation_);
+  workstation_->note("start", source_.name);
   if (!second_hand_) return;
   second_hand_->start();
   workstation_->note("second hand", second_hand_->name());
@@ -52,7 +53,7 @@ StationHealth Equipment::health() {
 }
 
 void Equipment::describe(RehearsalStatus& status) const {
-  status.device = hand_.name;
+  status.device = source_.name;
   status.servo = workstation_->figures();
   status.servo_rate_Hz = rate_Hz_;
 }

@@ -1,6 +1,6 @@
-// All that is plugged in for one rehearsal: the hand, the other hand, the pedal, and the workstation that joins them
-// with the bone. Opened when constructed; join() makes the workstation, once it is known which command is in force.
-// Main thread; devices and servo have threads of their own.
+// Devices of one rehearsal: pose source, second hand, pedal, and the workstation that connects them with the bone.
+// Devices open on construction; connect() makes the workstation once the first command is known. Main thread; devices
+// and servo have threads of their own.
 #pragma once
 
 #include <optional>
@@ -20,27 +20,27 @@ class Equipment {
   explicit Equipment(RehearsalPlan& plan);
 
   double rate_Hz() const { return rate_Hz_; }
-  /// Of a hand that ends by itself.
-  std::optional<double> duration_s() const { return hand_.duration_s; }
-  /// What the hand asks for beside moving.
-  const std::vector<TimedRequest>& asks() const { return hand_.asks; }
+  /// Of a pose source with an end.
+  std::optional<double> duration_s() const { return source_.duration_s; }
+  /// Of a scripted pose source.
+  const std::vector<TimedRequest>& scriptedRequests() const { return source_.asks; }
   double damping_Ns_per_mm() const { return damping_Ns_per_mm_; }
-  /// Where the window moves the hand, else nullptr.
-  haptics::MouseDevice* mouse() { return hand_.mouse; }
+  /// Null unless the mouse is the pose source.
+  haptics::MouseDevice* mouse() { return source_.mouse; }
   SecondHand* secondHand() { return second_hand_ ? &*second_hand_ : nullptr; }
 
   /// Opens the recording. Throws SessionError or haptics::DeviceError.
-  void join(const RehearsalPlan& plan, const haptics::Command& in_force);
+  void connect(const RehearsalPlan& plan, const haptics::Command& in_force);
   Workstation& workstation() { return *workstation_; }
   void start();
 
-  /// What buttons and pedal have asked for since the last call.
+  /// From buttons and pedal, since the last call.
   std::vector<ControlRequest> takeRequests();
   StationHealth health();
   void describe(RehearsalStatus& status) const;
 
  private:
-  PoseSource hand_;
+  PoseSource source_;
   double rate_Hz_, damping_Ns_per_mm_;
   std::optional<SecondHand> second_hand_;
   std::optional<haptics::FootPedal> pedal_;

@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "app/text/message.h"
-
 namespace app {
 
 void EventLog::recordInto(Workstation& workstation) {

@@ -1,28 +1,32 @@
-// What is said to the person at the terminal and kept in the recording. Said before there is a recording, it is kept as
-// soon as there is one. Main thread.
+// Events of a rehearsal, one line each, for the terminal and the recording. Main thread.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "app/station/workstation.h"
+#include "app/text/message.h"
 
 namespace app {
 
-/// A line of some kind: "display", "device", "safety", …
 struct Notice {
-  std::string kind, line;
+  std::string kind, line;  ///< kind: "display", "device", "safety", …
   bool operator==(const Notice&) const = default;
 };
 
 class EventLog {
  public:
-  /// From now on kept there, what was told before included. Borrowed.
+  /// From now on lines go to this recording, earlier ones now. Borrowed.
   void recordInto(Workstation& workstation);
 
+  /// To the recording only.
   void note(const std::string& kind, const std::string& line);
-  /// Says and notes.
+  /// To terminal and recording.
   void report(const Notice& notice);
+  /// Reports lines of one kind; borrows this log.
+  ReportLine reporter(const std::string& kind) {
+    return [this, kind](const std::string& line) { report({kind, line}); };
+  }
 
  private:
   Workstation* workstation_ = nullptr;

@@ -1,5 +1,5 @@
-// From what the servo says to what is drawn: each frame is made of the one before, the newest tick and the command in
-// force. Frames P and W as in render::Frame. Pure; any thread, under a microsecond.
+// The frame to draw, made from the previous one, the newest tick and the command in force. Frames P and W as in
+// render::Frame. Pure; any thread, under a microsecond.
 #pragma once
 
 #include "app/controls/control.h"
@@ -13,14 +13,14 @@ namespace app {
 /// Before the first tick: the site, no tool.
 render::Frame openingFrame(const RehearsalPlan& plan);
 
-/// The tool as the servo holds it, the ghost where the hand is, the bur turning while it drills. A pose that is not
-/// believed turns nothing: the tool stays as it was last believed.
+/// The tool at the servo's proxy, the ghost tool at the measured pose, the bur rotating while it drills. A pose flagged
+/// bad_pose leaves the rotation unchanged.
 render::Frame nextFrame(const render::Frame& before, const haptics::Tick& tick, const haptics::Command& command);
 
-/// The last one: a scripted hand that has withdrawn only hides its work.
+/// The last frame: a scripted tool that was withdrawn is hidden, as it would cover its work.
 render::Frame closingFrame(const render::Frame& last, const haptics::Tick& tick, bool is_moved_by_a_person);
 
-/// As the request has it: `layer` switches one over, `face` fades it; others change nothing.
+/// After a request: `layer` toggles one, `face` sets its opacity; others change nothing.
 render::Layers layersAfter(const render::Layers& before, const ControlRequest& request);
 
 }  // namespace app

@@ -1,5 +1,5 @@
-// Ctrl-C, SIGTERM and SIGHUP end a rehearsal in order. The second time at the latest something hangs: then the force
-// goes without it. Main thread; from installInterruptHandlers() on.
+// Ctrl-C, SIGTERM and SIGHUP end a rehearsal in order. At the second signal the force goes to zero at once. Main
+// thread.
 #pragma once
 
 namespace app {

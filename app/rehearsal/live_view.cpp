@@ -56,20 +56,16 @@ std::unique_ptr<render::FrameRenderer> LiveView::newRenderer(render::Backend bac
   auto renderer =
       patientRenderer(plan_.patient, in_force_.tool, plan_.cut, plan_.patient.ct.solid, {.backend = backend});
   if (second_hand_ != nullptr) second_hand_->dress(*renderer);
-  if (bone_ != nullptr) upload_.uploadAllAgain(*bone_, *renderer);
+  if (bone_ != nullptr) uploader_.uploadAllAgain(*bone_, *renderer);
   return renderer;
-}
-
-void LiveView::settle(const render::Frame& frame) {
-  quality_->settle([&] { show(frame); });
 }
 
 void LiveView::show(const render::Frame& frame) {
   display();
   render::Frame drawn = frame;
-  if (quality_->rules()) drawn.quality = quality_->quality();
+  if (quality_->overridesFrame()) drawn.quality = quality_->quality();
   display_->show(drawn);
-  ++pictures_;
+  ++frames_;
 }
 
 void LiveView::waitUntilShown() {
@@ -79,14 +75,14 @@ void LiveView::waitUntilShown() {
 }
 
 void LiveView::uploadBone() {
-  if (display_) upload_.bring(*bone_, display_->renderer());
+  if (display_) uploader_.upload(*bone_, display_->renderer());
 }
 
 void LiveView::showInstrument() {
   if (display_) app::showInstrument(display_->renderer(), in_force_.tool);
 }
 
-void LiveView::take(StereoSnapshot& pictures, render::Frame frame, std::span<const std::uint8_t> solid) {
+void LiveView::takeSnapshot(StereoSnapshot& snapshot, render::Frame frame, std::span<const std::uint8_t> solid) {
   const auto renderer = display().newRenderer([&](render::Backend backend) {
     return patientRenderer(plan_.patient, in_force_.tool, plan_.cut, solid,
                            {.backend = backend, .samples = kSnapshotSamples});
@@ -94,14 +90,14 @@ void LiveView::take(StereoSnapshot& pictures, render::Frame frame, std::span<con
   if (second_hand_ != nullptr) second_hand_->dress(*renderer);
   frame.quality = {};
   frame.rig.screen.px = plan_.snapshot_px;
-  pictures.take(*renderer, frame);
+  snapshot.take(*renderer, frame);
 }
 
 void LiveView::measureRate(Clock::time_point now) {
   const double since_s = secondsBetween(rate_measured_, now);
   if (since_s <= 0.0) return;
-  pictures_per_s_ = static_cast<double>(pictures_ - pictures_measured_) / since_s;
-  pictures_measured_ = pictures_;
+  pictures_per_s_ = static_cast<double>(frames_ - frames_measured_) / since_s;
+  frames_measured_ = frames_;
   rate_measured_ = now;
 }
 
@@ -119,8 +115,8 @@ void LiveView::describe(RehearsalStatus& status) {
 }
 
 void LiveView::describe(RehearsalFigures& figures) const {
-  figures.frames = pictures_;
-  if (latency_.pictures() == 0) return;
+  figures.frames = frames_;
+  if (latency_.frames() == 0) return;
   figures.latency = latency_.median();
   figures.slow_latency = latency_.slow();
 }

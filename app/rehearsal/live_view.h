@@ -1,9 +1,7 @@
-// What the surgeon sees of a rehearsal: the display, a renderer dressed with patient, instrument and other hand, the
-// bone as it is carved, at the quality that this machine holds, and how late it is. Where nobody watches it is opened
-// by the first picture that is asked for. Main thread; a frame costs what drawing it costs.
+// The surgeon's view: display, renderer of patient and instruments, upload of carved bone, quality selection and
+// latency estimate. A stepped rehearsal opens it at the first snapshot. Main thread; the cost is that of drawing.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -24,40 +22,41 @@ namespace app {
 class LiveView {
  public:
   using Clock = SurgeonDisplay::Clock;
-  using ReportLine = SurgeonDisplay::ReportLine;
 
-  /// Borrows the plan, the command in force (whose tool is drawn) and the other hand, if there is one. Throws GpuError.
+  /// Borrows the plan, the command in force (whose tool is drawn) and the second hand, if any. Throws GpuError.
   LiveView(const RehearsalPlan& plan, const haptics::Command& in_force, const SecondHand* second_hand,
            double servo_rate_Hz, ReportLine report);
 
-  /// From now on what is carved of this bone is brought over. Borrowed.
-  void follow(haptics::CarvedBone& bone) { bone_ = &bone; }
+  /// The bone to upload bricks from. Borrowed.
+  void attach(haptics::CarvedBone& bone) { bone_ = &bone; }
 
-  /// Draws so many pictures as report what this machine can.
-  void settle(const render::Frame& frame);
+  /// Draws the frame until the quality for this machine is found, a few seconds at most.
+  void settleQuality(const render::Frame& frame) {
+    quality_->settle([&] { show(frame); });
+  }
   void show(const render::Frame& frame);
-  /// Until nothing is on its way any more; the pose read next is the newest that can be seen.
+  /// Until no frame is queued; the pose read next is the newest that can be displayed.
   void waitUntilShown();
-  /// What was carved until now, for the next frame; the pose was read just before.
+  /// Bricks carved until now, for the next frame.
   void uploadBone();
-  /// The instrument in the hand is another.
+  /// After a change of tool.
   void showInstrument();
-  /// True: the quality is another from now on. Never during a stroke.
-  bool adaptQuality(bool stroke) { return quality_ && quality_->follow(stroke); }
+  /// True if the quality changed. Never during a stroke.
+  bool adaptQuality(bool in_stroke) { return quality_ && quality_->update(in_stroke); }
 
-  /// Both eyes at full quality, of the bone as given in the order of the patient's grid.
-  void take(StereoSnapshot& pictures, render::Frame frame, std::span<const std::uint8_t> solid);
-  /// The one that was shown last.
-  render::Image newest() { return display().renderer().readImage(); }
+  /// Both eyes at full quality. `solid`: the bone, in the order of the patient's grid.
+  void takeSnapshot(StereoSnapshot& snapshot, render::Frame frame, std::span<const std::uint8_t> solid);
+  /// The frame shown last.
+  render::Image readImage() { return display().renderer().readImage(); }
 
   SurgeonDisplay& display();
-  /// Null: none, and none is wanted.
+  /// Null: headless.
   render::Window* window() { return display_ ? display_->window() : nullptr; }
-  std::string qualityText() { return quality_ ? quality_->text() : "no pictures on the way"; }
+  std::string qualityText() { return quality_ ? quality_->text() : "no frames displayed"; }
   const MotionToPhoton& latency() const { return latency_; }
-  /// Since the last call.
+  /// Frames per second since the last call.
   void measureRate(Clock::time_point now);
-  std::uint64_t pictures() const { return pictures_; }
+  std::uint64_t frames() const { return frames_; }
   void describe(RehearsalStatus& status);
   void describe(RehearsalFigures& figures) const;
 
@@ -71,13 +70,13 @@ class LiveView {
   haptics::CarvedBone* bone_ = nullptr;
   double servo_rate_Hz_;
   ReportLine report_;
-  BrickUpload upload_;
+  BrickUploader uploader_;
   std::optional<SurgeonDisplay> display_;
   std::optional<QualityChoice> quality_;
   MotionToPhoton latency_;
   std::optional<Clock::time_point> pose_read_;
   Clock::time_point rate_measured_ = Clock::now();
-  std::uint64_t pictures_ = 0, pictures_measured_ = 0;
+  std::uint64_t frames_ = 0, frames_measured_ = 0;
   double pictures_per_s_ = 0.0;
 };
 

@@ -1,5 +1,5 @@
-// Whether a name may be recorded under, asked before a patient is made or a device opened; what comes up later the
-// recorder refuses (session/recording_place). Main thread, start-up only; a few looks at the disk.
+// Checks the name of a recording before a patient is generated or a device opened; the recorder checks again when it
+// opens the file. Main thread, start-up only; a few file-system calls.
 #pragma once
 
 #include <initializer_list>

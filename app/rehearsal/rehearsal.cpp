@@ -1,25 +1,19 @@
 #include "app/rehearsal/rehearsal.h"
 
 #include <algorithm>
-#include <memory>
 #include <utility>
 
 #include "app/controls/active_command.h"
 #include "app/rehearsal/control_router.h"
 #include "app/rehearsal/equipment.h"
-#include "app/rehearsal/fast_pace.h"
 #include "app/rehearsal/frame_builder.h"
 #include "app/rehearsal/interrupt.h"
 #include "app/rehearsal/pace.h"
-#include "app/rehearsal/rehearsal_outputs.h"
-#include "app/rehearsal/run_monitor.h"
 #include "app/rehearsal/status_reporter.h"
-#include "app/text/message.h"
 
 namespace app {
 namespace {
 
-/// One rehearsal from the first frame on.
 class Rehearsal {
  public:
   explicit Rehearsal(RehearsalPlan plan)
@@ -31,112 +25,112 @@ class Rehearsal {
         monitor_(duration_s_),
         router_(plan_, equipment_, active_command_, monitor_, view_, event_log_),
         view_(plan_, active_command_.inForce(), equipment_.secondHand(), equipment_.rate_Hz(),
-              [this](const std::string& line) {
-                event_log_.report({"display", line});
-              }),
+              event_log_.reporter("display")),
+        pace_(plan_.ticking, equipment_, view_, router_.script(), duration_s_),
         frame_(openingFrame(plan_)) {
-    // Pictures with a name are claimed before the work.
+    // Output files are claimed before the work.
     if (!plan_.snapshot.empty()) last_.emplace(plan_.snapshot, plan_.overwrite);
     if (!plan_.first_snapshot.empty()) first_.emplace(plan_.first_snapshot, plan_.overwrite);
     if (plan_.recording) plan_.recording->calibration = plan_.calibration;
-    equipment_.join(plan_, active_command_.inForce());
-    active_command_.serve(station());
-    pace_ = paceOf();
-    view_.follow(station().bone());
+    equipment_.connect(plan_, active_command_.inForce());
+    active_command_.attach(station());
+    view_.attach(station().bone());
     status_reporter_.emplace(plan_, equipment_, view_, monitor_, event_log_);
   }
 
-  /// However it ends: the force goes first, then windows.
+  /// The force goes to zero before the windows close, also after an exception.
   ~Rehearsal() { station().stop(); }
   Rehearsal(const Rehearsal&) = delete;
   Rehearsal& operator=(const Rehearsal&) = delete;
 
   int run() {
-    for (const std::string& remark : plan_.remarks) printMessage(remark);
-    if (const auto beside = station().temporaryFile())
-      printMessage("recording into " + *beside + " until it is closed, then in the place of " + plan_.recording->path);
-    double first_picture_s = 0.0;
-    if (pace_->isRealTime()) {
-      view_.show(frame_);
-      first_picture_s = secondsSince(plan_.begun);
-      // Before the hand is there.
-      view_.settle(frame_);
-    }
-    if (first_) view_.take(*first_, frame_, plan_.patient.ct.solid);
+    const double first_frame_s = showFirstFrame();
     start();
-    const Pace::Time looping_since = pace_->now();
-    const std::uint64_t settled = view_.pictures();
-    std::optional<Ending> ending;
-    while (router_.handleInput(newest_, frame_), !(ending = endingNow())) {
-      // When a file was changed is the wall's time.
-      if (pace_->isRealTime()) active_command_.pollSettingsFile(pace_->now());
-      followProcedure();
-      if (active_command_.takeToolChange() && pace_->isRealTime()) view_.showInstrument();
-      pace_->toNextFrame();
-      followServo();
-      if (pace_->isRealTime()) view_.show(frame_);
-      if (view_.adaptQuality(newest_.drilling || newest_.depth_mm > 0.0)) noteQuality();
-      status_reporter_->show(pace_->now(), moment());
-      router_.handleInstructorInput(status_reporter_->updateInstructor(moment()), frame_);
+    const Pace::Time loop_start = pace_.now();
+    const std::uint64_t frames_before = view_.frames();
+    for (;;) {
+      router_.handleInput(newest_, frame_);
+      if (const std::optional<Ending> ending = endingNow()) {
+        const double loop_s = secondsSince(loop_start);
+        RehearsalFigures figures = finish(*ending);
+        figures.first_frame_s = first_frame_s;
+        figures.frame_ms =
+            1000.0 * loop_s / static_cast<double>(std::max<std::uint64_t>(1, figures.frames - frames_before));
+        std::fputs(summaryText(figures).c_str(), plan_.procedure ? stderr : stdout);
+        return exitStatus(figures);
+      }
+      updateCommand();
+      pace_.toNextFrame();
+      readServo();
+      draw();
+      status_reporter_->update(pace_.now(), state());
+      router_.handleInstructorInput(status_reporter_->updateInstructor(state()), frame_);
     }
-    const double loop_s = secondsSince(looping_since);
-    RehearsalFigures figures = finish(*ending);
-    figures.first_picture_s = first_picture_s;
-    figures.frame_ms = 1000.0 * loop_s / static_cast<double>(std::max<std::uint64_t>(1, figures.frames - settled));
-    std::fputs(summaryText(figures).c_str(), plan_.procedure ? stderr : stdout);
-    return exitStatus(figures);
   }
 
  private:
-  std::unique_ptr<Pace> paceOf() {
-    if (plan_.ticking == Ticking::realtime) return std::make_unique<RealPace>(view_);
-    return std::make_unique<FastPace>(station(), equipment_.secondHand(), router_.script(), equipment_.rate_Hz(),
-                                      duration_s_);
-  }
-
   Workstation& station() { return equipment_.workstation(); }
-  double secondsSince(Pace::Time start) const { return std::chrono::duration<double>(pace_->now() - start).count(); }
+  double secondsSince(Pace::Time start) const { return std::chrono::duration<double>(pace_.now() - start).count(); }
+  StatusReporter::FrameState state() const { return {newest_, active_command_.inForce(), frame_.layers}; }
+
+  /// Before the servo starts. Returns the seconds from the user's command to the first frame.
+  double showFirstFrame() {
+    for (const std::string& remark : plan_.remarks) printMessage(remark);
+    if (const auto temporary = station().temporaryFile())
+      printMessage("recording to " + *temporary + " until it is closed, then replacing " + plan_.recording->path);
+    double first_frame_s = 0.0;
+    if (pace_.isRealTime()) {
+      view_.show(frame_);
+      first_frame_s = secondsSince(plan_.begun);
+      view_.settleQuality(frame_);
+    }
+    if (first_) view_.takeSnapshot(*first_, frame_, plan_.patient.ct.solid);
+    return first_frame_s;
+  }
 
   void start() {
     equipment_.start();
     for (const std::string& remark : plan_.remarks) station().note("calibration", remark);
     event_log_.recordInto(station());
-    noteQuality();
+    event_log_.note("quality", view_.qualityText());
   }
 
   std::optional<Ending> endingNow() {
-    return monitor_.ending(newest_, pace_->now(), isInterrupted(), plan_.procedure && plan_.procedure->isOver(),
+    return monitor_.ending(newest_, pace_.now(), isInterrupted(), plan_.procedure && plan_.procedure->isOver(),
                            !station().isApplied(newest_));
   }
 
-  void followProcedure() {
-    if (!plan_.procedure) return;
-    const std::vector<haptics::Tick> ticks = station().takeTicks();
-    if (ticks.empty()) return;
-    if (const auto wanted = plan_.procedure->follow(ticks)) active_command_.follow(*wanted);
+  void updateCommand() {
+    // A stepped rehearsal has no wall clock by which a file could change.
+    if (pace_.isRealTime()) active_command_.pollSettingsFile(pace_.now());
+    if (plan_.procedure)
+      if (const std::vector<haptics::Tick> ticks = station().takeTicks(); !ticks.empty())
+        if (const auto wanted = plan_.procedure->follow(ticks)) active_command_.adopt(*wanted);
+    if (active_command_.takeToolChange() && pace_.isRealTime()) view_.showInstrument();
   }
 
-  /// The tick first, then the bricks: what that tick cut is in this very frame.
-  void followServo() {
+  /// The tick before the bricks: bone that a tick removed is in the same frame as its pose.
+  void readServo() {
     newest_ = station().newestTick();
     frame_ = nextFrame(frame_, newest_, active_command_.inForce());
     if (equipment_.secondHand()) equipment_.secondHand()->place(frame_);
-    if (pace_->isRealTime()) view_.uploadBone();
+    if (pace_.isRealTime()) view_.uploadBone();
   }
 
-  void noteQuality() { event_log_.note("quality", view_.qualityText()); }
-
-  StatusReporter::FrameState moment() const { return {newest_, active_command_.inForce(), frame_.layers}; }
+  void draw() {
+    if (pace_.isRealTime()) view_.show(frame_);
+    const bool in_stroke = newest_.drilling || newest_.depth_mm > 0.0;
+    if (view_.adaptQuality(in_stroke)) event_log_.note("quality", view_.qualityText());
+  }
 
   RehearsalFigures finish(Ending ending) {
     status_reporter_->reportEnd(ending);
     const RecordingSummary recorded = station().stop();
-    // One more picture of what the bone has become.
-    followServo();
+    readServo();
     if (last_)
-      view_.take(*last_, closingFrame(frame_, newest_, equipment_.mouse() != nullptr),
-                 station().bone().solidInGridOrder());
-    RehearsalFigures figures = status_reporter_->figures(moment());
+      view_.takeSnapshot(*last_, closingFrame(frame_, newest_, equipment_.mouse() != nullptr),
+                         station().bone().solidInGridOrder());
+    RehearsalFigures figures = status_reporter_->figures(state());
     if (plan_.recording) figures.recording = recorded;
     return figures;
   }
@@ -150,8 +144,8 @@ class Rehearsal {
   ControlRouter router_;
   std::optional<StereoSnapshot> first_, last_;
   LiveView view_;
-  std::unique_ptr<Pace> pace_;
-  std::optional<StatusReporter> status_reporter_;  // goes before the picture
+  Pace pace_;
+  std::optional<StatusReporter> status_reporter_;  // destroyed before view_
   render::Frame frame_;
   haptics::Tick newest_;
 };

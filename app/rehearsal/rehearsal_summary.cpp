@@ -35,7 +35,6 @@ std::string punctualityText(const haptics::LoopFigures& servo) {
 
 namespace {
 
-/// How well the servo kept time.
 std::string timeText(const RehearsalStatus& last) {
   std::string text = fmt::format("  servo            {} ticks at {:.0f} Hz, {} deadlines missed, {} by its own work\n",
                                  last.servo.ticks, last.servo_rate_Hz, last.servo.missed, last.servo.overruns);
@@ -47,7 +46,6 @@ std::string timeText(const RehearsalStatus& last) {
   return text;
 }
 
-/// There was no time to keep.
 std::string steppedText(const RehearsalStatus& last) {
   return fmt::format("  servo            {} ticks at {:.0f} Hz, stepped as fast as the machine can\n", last.servo.ticks,
                      last.servo_rate_Hz);
@@ -73,7 +71,7 @@ std::string summaryText(const RehearsalFigures& f) {
                         f.last.servo.watchdog_trips);
   if (f.ticking == Ticking::realtime) {
     text += fmt::format("  pictures         {}, one every {:.0f} ms, the first after {:.1f} s\n", f.frames, f.frame_ms,
-                        f.first_picture_s);
+                        f.first_frame_s);
     text += fmt::format("  display          {}, quality: {}\n", f.last.display, f.last.quality);
   }
   if (f.latency && f.slow_latency)

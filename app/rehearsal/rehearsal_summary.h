@@ -1,4 +1,4 @@
-// What a rehearsal came to, as one screen of text with units. Carries the case's title, never a person's data. Pure.
+// Results of a rehearsal, as one screen of text with units. Carries the case's title, no personal data. Pure.
 #pragma once
 
 #include <array>
@@ -15,17 +15,17 @@
 namespace app {
 
 struct RehearsalFigures {
-  RehearsalStatus last;  ///< how it stood at the end
+  RehearsalStatus last;  ///< at the end
   std::array<double, assets::kTissueCount> removed_mm3{};
-  Ticking ticking = Ticking::realtime;  ///< by hand there is nothing to say of a clock
+  Ticking ticking = Ticking::realtime;
   std::uint64_t frames = 0;
-  double frame_ms = 0.0;                                 ///< mean time between pictures
+  double frame_ms = 0.0;                                 ///< mean time between frames
   std::optional<LatencyEstimate> latency, slow_latency;  ///< median and 95th percentile; none without a window
-  double first_picture_s = 0.0;  ///< from the user's asking to the first picture, loading included
+  double first_frame_s = 0.0;  ///< from the user's command to the first frame, loading included
   std::optional<RecordingSummary> recording;
 };
 
-/// What of a status the plan knows.
+/// The part of the status that follows from the plan.
 RehearsalStatus statusOf(const RehearsalPlan& plan);
 
 /// "real-time priority, core 3, memory locked".
@@ -35,5 +35,10 @@ std::string grantsText(const haptics::RealtimeGrants& grants);
 std::string punctualityText(const haptics::LoopFigures& servo);
 
 std::string summaryText(const RehearsalFigures& figures);
+
+/// 1 if a recording was requested and is not whole.
+inline int exitStatus(const RehearsalFigures& figures) {
+  return figures.recording && !figures.recording->isWhole() ? 1 : 0;
+}
 
 }  // namespace app

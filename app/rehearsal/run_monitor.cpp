@@ -31,7 +31,7 @@ std::optional<Ending> RunMonitor::ending(const haptics::Tick& newest, Time now, 
   return now - *ticked_at_ >= kLongestSilence ? std::optional(Ending::silent) : std::nullopt;
 }
 
-std::vector<Notice> RunMonitor::look(const StationHealth& health, const haptics::Tick& newest) {
+std::vector<Notice> RunMonitor::takeNotices(const StationHealth& health, const haptics::Tick& newest) {
   std::vector<Notice> notices;
   for (const std::string& line : health.news) notices.push_back({"device", line});
   if (health.recording_trouble && !std::exchange(recording_ended_, true))

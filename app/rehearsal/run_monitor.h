@@ -1,6 +1,5 @@
-// Watches a rehearsal while it runs: whether it is over and why, and what has to be told, each once. Every time it is
-// told what is so and what time it is; it asks nobody, so a test plays years in milliseconds. Main thread, once a
-// frame; microseconds.
+// Decides when a rehearsal is over and why, and which news has to be reported, each once. State and time are passed in.
+// Main thread, once a frame; microseconds.
 #pragma once
 
 #include <chrono>
@@ -20,12 +19,11 @@ enum class Ending { interrupted, by_user, procedure, time_over, silent };
 /// "interrupted", "by the user", … as a session keeps it.
 const char* textOf(Ending ending);
 
-/// What the station says of itself.
 struct StationHealth {
   haptics::TripCounter trips;
-  std::string device_trouble;                    ///< while there is any
+  std::string device_trouble;                    ///< empty: none
   std::optional<std::string> recording_trouble;  ///< from the moment it ended early
-  std::vector<std::string> news;                 ///< of units unplugged and the other hand: each given once
+  std::vector<std::string> news;                 ///< units unplugged, second hand; each passed once
 };
 
 class RunMonitor {
@@ -38,15 +36,14 @@ class RunMonitor {
   void endByUser() { ended_by_user_ = true; }
   /// Whether this tick is the last of its time.
   bool isTimeOver(const haptics::Tick& newest) const;
-  /// None while it goes on. `awaits_tick`: something asked for is not in force yet, the time is over only once it was.
-  /// A device that does not tick any more ends nothing by itself, so 10 s of silence do.
+  /// None while it goes on. `awaits_tick`: the newest command is not in force yet; the time is over only after that.
+  /// 10 s without a tick end the rehearsal.
   std::optional<Ending> ending(const haptics::Tick& newest, Time now, bool interrupted, bool procedure_is_over,
                                bool awaits_tick = false);
 
-  /// What is new of it and has to be told.
-  std::vector<Notice> look(const StationHealth& health, const haptics::Tick& newest);
+  /// News to report.
+  std::vector<Notice> takeNotices(const StationHealth& health, const haptics::Tick& newest);
 
-  /// What of it the instructor sees.
   void describe(RehearsalStatus& status) const;
 
  private:

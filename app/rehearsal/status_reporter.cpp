@@ -5,30 +5,28 @@
 namespace app {
 namespace {
 
-constexpr std::chrono::milliseconds kShownEvery{500};
-constexpr std::chrono::seconds kLatencyNotedEvery{5};
+constexpr std::chrono::milliseconds kUpdateInterval{500};
+constexpr std::chrono::seconds kLatencyInterval{5};
 
 }  // namespace
 
-StatusReporter::StatusReporter(const RehearsalPlan& plan, Equipment& equipment, LiveView& picture, RunMonitor& monitor,
+StatusReporter::StatusReporter(const RehearsalPlan& plan, Equipment& equipment, LiveView& view, RunMonitor& monitor,
                                EventLog& event_log)
-    : plan_(plan), equipment_(equipment), view_(picture), monitor_(monitor), event_log_(event_log) {
+    : plan_(plan), equipment_(equipment), view_(view), monitor_(monitor), event_log_(event_log) {
   if (plan.instructor_window)
-    instructor_.emplace(picture.display(), plan.rig, plan.monitor.value_or(0), [&event_log](const std::string& line) {
-      event_log.report({"display", line});
-    });
+    instructor_.emplace(view.display(), plan.rig, plan.monitor.value_or(0), event_log.reporter("display"));
 }
 
-RehearsalStatus StatusReporter::status(const FrameState& moment) {
+RehearsalStatus StatusReporter::status(const FrameState& state) {
   RehearsalStatus s = statusOf(plan_);
-  s.bur = textOf(moment.in_force.tool.head);
-  s.tick = moment.newest;
-  s.command = moment.in_force;
-  s.layers = moment.layers;
+  s.bur = textOf(state.in_force.tool.head);
+  s.tick = state.newest;
+  s.command = state.in_force;
+  s.layers = state.layers;
   if (plan_.procedure) {
-    const ProcedureMessages words = plan_.procedure->words();
-    s.to_surgeon = words.to_surgeon;
-    s.to_instructor = words.to_instructor;
+    const ProcedureMessages messages = plan_.procedure->messages();
+    s.to_surgeon = messages.to_surgeon;
+    s.to_instructor = messages.to_instructor;
   }
   equipment_.describe(s);
   view_.describe(s);
@@ -36,41 +34,41 @@ RehearsalStatus StatusReporter::status(const FrameState& moment) {
   return s;
 }
 
-void StatusReporter::show(Time now, const FrameState& moment) {
-  if (now - shown_ < kShownEvery) return;
-  shown_ = now;
+void StatusReporter::update(Time now, const FrameState& state) {
+  if (now - updated_ < kUpdateInterval) return;
+  updated_ = now;
   view_.measureRate(now);
-  for (const Notice& notice : monitor_.look(equipment_.health(), moment.newest)) event_log_.report(notice);
+  for (const Notice& notice : monitor_.takeNotices(equipment_.health(), state.newest)) event_log_.report(notice);
   render::Window* const window = view_.window();
   if (window == nullptr) return;
-  if (now - latency_noted_ > kLatencyNotedEvery && view_.latency().pictures() > 0) {
+  if (now - latency_noted_ > kLatencyInterval && view_.latency().frames() > 0) {
     latency_noted_ = now;
     event_log_.note("latency", latencyText(view_.latency().now()));
   }
-  window->setTitle(statusLine(status(moment)));
+  window->setTitle(statusLine(status(state)));
 }
 
-InstructorDisplay::Input StatusReporter::updateInstructor(const FrameState& moment) {
+InstructorWindow::Input StatusReporter::updateInstructor(const FrameState& state) {
   if (!instructor_) return {};
   instructor_->reopenAfterReset();
-  return instructor_->isDue() ? instructor_->serve(status(moment)) : InstructorDisplay::Input{};
+  return instructor_->isDue() ? instructor_->draw(status(state)) : InstructorWindow::Input{};
 }
 
 void StatusReporter::reportEnd(Ending ending) {
   if (ending == Ending::silent)
     event_log_.report(
         {"device", "the device has not ticked for 10 s, so the rehearsal ends; check its cable and driver"});
-  if (view_.latency().pictures() > 0) event_log_.note("latency", "median " + latencyText(view_.latency().median()));
+  if (view_.latency().frames() > 0) event_log_.note("latency", "median " + latencyText(view_.latency().median()));
   Workstation& station = equipment_.workstation();
   event_log_.note("end", textOf(ending));
   event_log_.note("servo", punctualityText(station.figures()));
   event_log_.note("safety", "trips: " + tripsText(station.trips()));
 }
 
-RehearsalFigures StatusReporter::figures(const FrameState& moment) {
+RehearsalFigures StatusReporter::figures(const FrameState& state) {
   RehearsalFigures figures;
   figures.ticking = plan_.ticking;
-  figures.last = status(moment);
+  figures.last = status(state);
   figures.last.trips = equipment_.workstation().trips();
   figures.removed_mm3 = equipment_.workstation().bone().removedByTissue_mm3();
   view_.describe(figures);

@@ -1,11 +1,11 @@
-// Who is told how a rehearsal stands, and how often: the surgeon by the window's title, the event_log of what is new of
-// safety, device, recording and latency, both twice a second; the instructor ten times a second; all of them at the end.
-// Main thread, once a frame; microseconds until something is due.
+// Reports the state of a rehearsal: to the surgeon by the window's title and to the event log (news of safety, device,
+// recording and latency) twice a second, to the instructor ten times a second, to all at the end. Main thread, once a
+// frame; microseconds while nothing is due.
 #pragma once
 
 #include <optional>
 
-#include "app/instructor/instructor_display.h"
+#include "app/instructor/instructor_window.h"
 #include "app/rehearsal/equipment.h"
 #include "app/rehearsal/event_log.h"
 #include "app/rehearsal/live_view.h"
@@ -19,9 +19,9 @@ class StatusReporter {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// Borrows them all; goes before the picture, whose window the instructor's shares with. Opens the instructor's window
-  /// where the plan has one.
-  StatusReporter(const RehearsalPlan& plan, Equipment& equipment, LiveView& picture, RunMonitor& monitor,
+  /// Borrows all; must be destroyed before the view, whose window shares with the instructor's. Opens the instructor's
+  /// window if the plan has one.
+  StatusReporter(const RehearsalPlan& plan, Equipment& equipment, LiveView& view, RunMonitor& monitor,
                  EventLog& event_log);
 
   struct FrameState {
@@ -29,14 +29,14 @@ class StatusReporter {
     const haptics::Command& in_force;
     const render::Layers& layers;
   };
-  RehearsalStatus status(const FrameState& moment);
-  void show(Time now, const FrameState& moment);
-  /// While the surgeon's picture is on its way. What the instructor requests now.
-  InstructorDisplay::Input updateInstructor(const FrameState& moment);
-  /// Why it ended and how punctual it was, before the station stops.
+  RehearsalStatus status(const FrameState& state);
+  void update(Time now, const FrameState& state);
+  /// Called while the surgeon's frame is queued. Returns the instructor's input.
+  InstructorWindow::Input updateInstructor(const FrameState& state);
+  /// Reason of the end, latency, timing and trips; before the station stops.
   void reportEnd(Ending ending);
-  /// How it stands after that; times and recording are left out.
-  RehearsalFigures figures(const FrameState& moment);
+  /// After the end, without times and recording.
+  RehearsalFigures figures(const FrameState& state);
 
  private:
   const RehearsalPlan& plan_;
@@ -44,8 +44,8 @@ class StatusReporter {
   LiveView& view_;
   RunMonitor& monitor_;
   EventLog& event_log_;
-  std::optional<InstructorDisplay> instructor_;
-  Time shown_ = {}, latency_noted_ = {};
+  std::optional<InstructorWindow> instructor_;
+  Time updated_ = {}, latency_noted_ = {};
 };
 
 }  // namespace app

@@ -9,7 +9,7 @@ namespace app {
 
 namespace {
 
-void bringBrick(const haptics::CarvedBone& from, glm::ivec3 brick, render::FrameRenderer& to) {
+void uploadBrick(const haptics::CarvedBone& from, glm::ivec3 brick, render::FrameRenderer& to) {
   std::array<std::uint8_t, 512> solid{};
   from.copyBrick(brick, solid);
   to.updateBrick(brick, solid);
@@ -17,18 +17,18 @@ void bringBrick(const haptics::CarvedBone& from, glm::ivec3 brick, render::Frame
 
 }  // namespace
 
-std::size_t BrickUpload::bring(haptics::CarvedBone& from, render::FrameRenderer& to) {
+std::size_t BrickUploader::upload(haptics::CarvedBone& from, render::FrameRenderer& to) {
   bricks_.clear();
   from.dirtyBricks().takeInto(bricks_);
   for (const glm::ivec3 brick : bricks_) {
-    bringBrick(from, brick, to);
-    ever_.insert(brick);
+    uploadBrick(from, brick, to);
+    uploaded_.insert(brick);
   }
   return bricks_.size();
 }
 
-void BrickUpload::uploadAllAgain(const haptics::CarvedBone& from, render::FrameRenderer& to) const {
-  for (const glm::ivec3 brick : ever_) bringBrick(from, brick, to);
+void BrickUploader::uploadAllAgain(const haptics::CarvedBone& from, render::FrameRenderer& to) const {
+  for (const glm::ivec3 brick : uploaded_) uploadBrick(from, brick, to);
 }
 
 }  // namespace app

@@ -1,5 +1,5 @@
-// Where haptics and render meet: what the servo carved since the last frame goes to the picture.
-// Render thread, once a frame, before drawing. Cost: a 512-byte copy and a small upload per dirty brick.
+// Copies bricks that the servo has carved to the renderer: the one place where haptics meets render. Render thread,
+// once a frame, before drawing. Cost: a 512-byte copy and a small upload per dirty brick.
 #pragma once
 
 #include <cstddef>
@@ -18,11 +18,11 @@ class FrameRenderer;
 
 namespace app {
 
-class BrickUpload {
+class BrickUploader {
  public:
-  /// Returns how many bricks were brought over.
-  std::size_t bring(haptics::CarvedBone& from, render::FrameRenderer& to);
-  /// All that was ever brought, to a renderer that was made from the bone of the start.
+  /// Bricks changed since the last call. Returns their number.
+  std::size_t upload(haptics::CarvedBone& from, render::FrameRenderer& to);
+  /// All bricks ever uploaded, to a new renderer of the initial bone.
   void uploadAllAgain(const haptics::CarvedBone& from, render::FrameRenderer& to) const;
 
  private:
@@ -33,7 +33,7 @@ class BrickUpload {
   };
 
   std::vector<glm::ivec3> bricks_;
-  std::set<glm::ivec3, InOrder> ever_;
+  std::set<glm::ivec3, InOrder> uploaded_;
 };
 
 }  // namespace app

@@ -1,6 +1,5 @@
-// Draws again when the graphics card was reset meanwhile and all that lived on it is gone: everything is made anew
-// first. A driver that gives up again and again is not worth another try. Render thread; costs nothing while all is
-// well.
+// Repeats a drawing after a reset of the graphics card, in which all its objects were lost. Render thread; no cost
+// without a reset.
 #pragma once
 
 #include "render/gpu/gpu_error.h"
@@ -9,7 +8,7 @@ namespace app {
 
 class ContextRecovery {
  public:
-  /// `recreate` is told what was lost. Throws ContextLost after the third time.
+  /// `recreate` makes all objects again and receives the error. Throws ContextLost at the fourth reset.
   template <class Draw, class MakeAnew>
   void draw(Draw draw, MakeAnew recreate) {
     for (;;) {

@@ -1,5 +1,5 @@
-// The window or windows of a display mode, or the next best where that mode can not be had, said in one line. Knows how
-// outputs go into them: one window, the two buffers of a stereo window, two windows on two monitors. Main thread.
+// The windows of a display mode, or of a fallback mode if that one is not available, which is reported in one line.
+// Outputs go into one window, the two buffers of a stereo window, or two windows on two monitors. Main thread.
 #pragma once
 
 #include <functional>
@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "app/text/message.h"
 #include "render/display/display_mode.h"
 #include "render/display/window.h"
 #include "render/gpu/frame_fence.h"
@@ -16,7 +17,6 @@ namespace app {
 
 class DisplayWindows {
  public:
-  using ReportLine = std::function<void(const std::string& line)>;
   /// Puts an output into the current window.
   using ShowOutput = std::function<void(const render::WindowTarget& place, int output)>;
 
@@ -27,7 +27,7 @@ class DisplayWindows {
     std::optional<int> monitor = std::nullopt;  ///< index; two windows take this one and the next
   };
 
-  /// Throws GpuError where no window can be had at all.
+  /// Throws GpuError if no window can be opened.
   DisplayWindows(const Options& options, const ReportLine& report);
   ~DisplayWindows();
 
@@ -36,7 +36,7 @@ class DisplayWindows {
   /// Of all windows.
   std::vector<render::WindowEvent> takeEvents();
 
-  /// All outputs into the windows; the right eye's own window is handed over. The first one's context is current then.
+  /// Draws all outputs and presents the right eye's window; afterwards the first window's context is current.
   void fill(const ShowOutput& show);
 
  private:

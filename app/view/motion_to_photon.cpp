@@ -8,7 +8,7 @@
 namespace app {
 namespace {
 
-constexpr double kNewest = 0.1;  ///< weight of the newest picture in the smoothed value
+constexpr double kNewest = 0.1;  ///< weight of the newest frame in the smoothed value
 
 }  // namespace
 

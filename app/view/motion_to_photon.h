@@ -1,8 +1,8 @@
-// How long a movement of the hand takes to reach the eye. Measured: from the moment the newest pose is read until the
-// picture with it is handed to the display (buffers swapped, the graphics card done). Added, not measured: half a servo
-// period, which the pose was old when read; half a refresh until the next one begins; half a refresh to scan the panel
-// out down to its middle, where the site is. Not included: the device's own sampling and transport, and what the panel
-// does with the signal. Milliseconds. Main thread; constant time, bounded memory.
+// Latency from a movement of the hand to the light of the display. Measured: from reading the newest pose until its
+// frame is presented (buffers swapped, GPU done). Added: half a servo period, the mean age of the pose; half a refresh
+// until the next one begins; half a refresh of scan-out down to the middle of the panel, where the site is. Not
+// included: sampling and transport of the device, response of the panel. Milliseconds. Main thread; constant time and
+// memory.
 #pragma once
 
 #include <array>
@@ -23,10 +23,10 @@ class MotionToPhoton {
 
   void add(double pose_to_swap_s);
 
-  std::uint64_t pictures() const { return count_; }
-  /// Of the newest pictures, smoothed.
+  std::uint64_t frames() const { return count_; }
+  /// Of the newest frames, smoothed.
   LatencyEstimate now() const;
-  /// Of all so far: half, or all but a twentieth of the pictures were faster.
+  /// 50th and 95th percentile of all frames.
   LatencyEstimate median() const { return percentile(0.5); }
   LatencyEstimate slow() const { return percentile(0.95); }
 

@@ -1,5 +1,5 @@
-// A renderer with all that is seen of a patient: bone, face, gum and the instrument in the hand. Render thread; needs
-// the context the renderer needs. Cost: deriving the fields of the bone, some tenths of a second.
+// A renderer with bone, face, gingiva, guides and instrument of a patient. Render thread, with the renderer's context
+// current. Cost: some tenths of a second for the fields of the bone.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +14,13 @@
 
 namespace app {
 
-/// `cut`: as it is planned, if one is. `solid`: the bone as it is now, in the order of the patient's grid.
+/// `solid`: the current bone, in the order of the patient's grid.
 std::unique_ptr<render::FrameRenderer> patientRenderer(const assets::Patient& patient, const haptics::Tool& tool,
                                                        const std::optional<assets::PlannedCut>& cut,
                                                        std::span<const std::uint8_t> solid,
                                                        const render::RenderOptions& options);
 
-/// What is felt and cuts is what is drawn.
+/// The drawn instrument has the shape of the tool that is felt and cuts.
 void showInstrument(render::FrameRenderer& renderer, const haptics::Tool& tool);
 
 }  // namespace app

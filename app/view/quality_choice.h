@@ -1,5 +1,5 @@
-// Which quality a rehearsal is drawn with: by measured frame times on the quality ladder where there is a window, held
-// where somebody chose a step, and as asked where nobody watches. Never changes during a stroke. Main thread.
+// The quality a rehearsal is drawn with: by measured frame times on the quality ladder in a window, fixed if a step was
+// chosen, and as the frame requests without a window. Never changes during a stroke. Main thread.
 #pragma once
 
 #include <optional>
@@ -12,34 +12,36 @@ namespace app {
 
 class QualityChoice {
  public:
-  /// `held`: the step, 0 best. Borrows the display.
+  /// `held`: fixed step, 0 best. Borrows the display.
   QualityChoice(SurgeonDisplay& display, std::optional<int> held);
 
-  /// True where the ladder rules over what a frame asked for.
-  bool rules() { return isChoosing() || held_; }
+  /// Whether the ladder overrides the frame's own quality.
+  bool overridesFrame() { return isChoosing() || held_; }
   render::Quality quality() const { return ladder_.quality(); }
 
-  /// Draws until this machine's step is found, at most three seconds. `draw` draws a frame of the quality in force.
+  /// Draws until the step for this machine is found, at most three seconds. `draw` draws a frame at the current
+  /// quality.
   template <class Draw>
   void settle(Draw draw) {
     const auto begun = SurgeonDisplay::Clock::now();
-    for (int unchanged = 0; isChoosing() && unchanged < kSettled && SurgeonDisplay::Clock::now() - begun < kLongest;) {
+    for (int unchanged = 0;
+         isChoosing() && unchanged < kSettled && SurgeonDisplay::Clock::now() - begun < kMaxSettling;) {
       draw();
       unchanged = ladder_.add(display_.drawing_s(), true) ? 0 : unchanged + 1;
     }
   }
-  /// Takes in the newest frame's time. True: the quality is another from now on.
-  bool follow(bool stroke) { return isChoosing() && ladder_.add(display_.drawing_s(), !stroke); }
+  /// Adds the newest frame's time. True if the quality changed.
+  bool update(bool in_stroke) { return isChoosing() && ladder_.add(display_.drawing_s(), !in_stroke); }
 
-  /// For drawing a frame: with a graphics card every refresh of the display; without one, what still looks like motion.
+  /// Time for drawing a frame: one refresh of the display, without a graphics card at least 1/30 s.
   double budget_s() const { return budget_s_; }
   int step() const { return ladder_.step(); }
   bool isHeld() const { return held_; }
-  std::string text() { return rules() ? std::string(ladder_.description()) : "as asked"; }
+  std::string text() { return overridesFrame() ? std::string(ladder_.description()) : "as asked"; }
 
  private:
-  static constexpr int kSettled = 4;  ///< pictures without a change of quality
-  static constexpr std::chrono::seconds kLongest{3};
+  static constexpr int kSettled = 4;  ///< frames without a change
+  static constexpr std::chrono::seconds kMaxSettling{3};
 
   bool isChoosing() { return display_.window() != nullptr && !held_; }
 

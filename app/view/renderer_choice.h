@@ -1,20 +1,17 @@
-// What draws the pictures: as asked, or by itself OpenGL where there is a graphics card and the CPU where OpenGL would
-// be a program on the CPU too. Tells in a line what it chose. Start-up only.
+// Selects the renderer: as requested, else OpenGL with a graphics card, and the CPU where OpenGL is a software
+// rasteriser. Reports an automatic choice in one line. Start-up only.
 #pragma once
 
-#include <functional>
 #include <optional>
-#include <string>
 
+#include "app/text/message.h"
 #include "render/gpu/offscreen_context.h"
 #include "render/render_options.h"
 
 namespace app {
 
-using ReportLine = std::function<void(const std::string& line)>;
-
-/// `asked`: empty for the choice. Makes the context that the answer needs; GpuError if there is none though it was
-/// asked for.
+/// `asked`: empty for automatic choice. Makes the context the renderer needs. Throws GpuError if OpenGL was requested
+/// but is not available.
 render::Backend rendererWithoutWindow(std::optional<render::Backend> asked,
                                       std::optional<render::OffscreenContext>& context, const ReportLine& report);
 

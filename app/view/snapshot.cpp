@@ -12,23 +12,23 @@ namespace {
 std::string withWord(const std::string& path, const std::string& word) {
   const std::filesystem::path p(path);
   if (p.has_extension() && p.extension() != ".png")
-    throw assets::LoadError("picture " + path + ": pictures are PNG, let the name end in .png");
+    throw assets::LoadError("image " + path + ": images are PNG, end the name in .png");
   return (p.parent_path() / (p.stem().string() + "_" + word + ".png")).string();
 }
 
 }  // namespace
 
-void savePng(const render::Image& picture, calibration::OutputFile& file) {
-  calibration::writePng(file.temporaryPath(), {picture.w, picture.h}, picture.rgba);
+void savePng(const render::Image& image, calibration::OutputFile& file) {
+  calibration::writePng(file.temporaryPath(), {image.w, image.h}, image.rgba);
   file.commit();
 }
 
-std::string saveNextSnapshot(const render::Image& picture) {
+std::string saveNextSnapshot(const render::Image& image) {
   std::string path;
   for (int n = 1; path.empty() || std::filesystem::exists(path); ++n)
     path = "molar-snapshot-" + std::to_string(n) + ".png";
   calibration::OutputFile file(path, false);
-  savePng(picture, file);
+  savePng(image, file);
   return path;
 }
 

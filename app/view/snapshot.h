@@ -1,5 +1,5 @@
-// Pictures of both eyes as files, `name_left.png` and `name_right.png`: claimed before the work, whole or not there.
-// Any thread; milliseconds.
+// PNG files of the view: both eyes (`name_left.png`, `name_right.png`), claimed before the work and written whole or
+// not at all, or the next free snapshot name. Any thread; milliseconds.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@
 
 namespace app {
 
-/// Under the first free of `molar-snapshot-1.png`, …; its name.
-std::string saveNextSnapshot(const render::Image& picture);
+/// Saves as the first free name of `molar-snapshot-1.png`, …; returns it.
+std::string saveNextSnapshot(const render::Image& image);
 
-void savePng(const render::Image& picture, calibration::OutputFile& file);
+void savePng(const render::Image& image, calibration::OutputFile& file);
 
 class StereoSnapshot {
  public:
-  /// Refuses (CalibrationError) what is there already, unless `overwrite`.
+  /// Throws CalibrationError if a file exists, unless `overwrite`.
   StereoSnapshot(const std::string& path, bool overwrite);
   void save(const render::Image& left, const render::Image& right);
   /// Draws both eyes of the frame and saves them.

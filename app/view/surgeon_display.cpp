@@ -102,7 +102,7 @@ void SurgeonDisplay::show(render::Frame frame) {
   }
   recovery_.draw([&] { drawAndPresent(frame); },
                  [&](const render::ContextLost& lost) {
-                   report_(std::string(lost.what()) + "; everything is drawn anew");
+                   report_(std::string(lost.what()) + "; all is created again");
                    recreate();
                  });
 }

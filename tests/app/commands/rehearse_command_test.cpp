@@ -357,7 +357,7 @@ TEST_F(RehearseCommand, SaysWhereItRecordsWhatReplacesAnother) {
   write("s.molar.new", "somebody's");
   const ProgramOutput said = molar(line + " --force");
   EXPECT_EQ(said.status, 0) << said.err;
-  EXPECT_NE(said.err.find("recording into " + at("s.molar.new2") + " until it is closed"), std::string::npos)
+  EXPECT_NE(said.err.find("recording to " + at("s.molar.new2") + " until it is closed"), std::string::npos)
       << said.err;
   EXPECT_NE(said.out.find("0 lost, in " + at("s.molar") + "\n"), std::string::npos) << said.out;
 }

@@ -37,7 +37,7 @@ struct Desk {
     settings.priority = std::nullopt;
     workstation.emplace(patient, std::move(device), settings, active->inForce(), Recording{path, true},
                         Ticking::stepped);
-    active->serve(*workstation);
+    active->attach(*workstation);
     workstation->start();
   }
 
@@ -100,7 +100,7 @@ TEST(ActiveCommand, SwitchesTheWaterOffAndOn) {
   guided.irrigating = true;
   guided.undo_serial = 7;
   guided.rearm = 7;
-  at.active->follow(guided);
+  at.active->adopt(guided);
   EXPECT_FALSE(at.active->inForce().irrigating);
   EXPECT_EQ(at.active->inForce().undo_serial, 0u);
   EXPECT_EQ(at.active->inForce().rearm, 0u) << "only the instructor lifts a fault";
@@ -123,7 +123,7 @@ TEST(ActiveCommand, NeitherFileNorGuideLiftsAFault) {
   at.active->execute({Control::arm});
   const std::uint64_t armed = at.active->inForce().rearm;
   ASSERT_NE(armed, before.rearm);
-  at.active->follow(before);
+  at.active->adopt(before);
   EXPECT_EQ(at.active->inForce().rearm, armed) << "a guide's command is another number only for who arms";
   write("# longer, so that it is read again\n[law]\nname = \"forssim\"\n");
   const LiveParameters::Clock::time_point start;
@@ -168,13 +168,13 @@ TEST(ActiveCommand, SaysWhereItIsWrittenWhatItCanNotObey) {
 TEST(ActiveCommand, DrawsWhatAGuidePutsIntoTheHand) {
   Desk at;
   haptics::Command guided = at.active->inForce();
-  at.active->follow(guided);
+  at.active->adopt(guided);
   EXPECT_FALSE(at.active->takeToolChange());
   guided.tool.head.radius_mm = 0.7;
-  at.active->follow(guided);
+  at.active->adopt(guided);
   EXPECT_TRUE(at.active->takeToolChange());
   guided.tool.shaft.radius_mm = 0.4;
-  at.active->follow(guided);
+  at.active->adopt(guided);
   EXPECT_TRUE(at.active->takeToolChange()) << "the neck is drawn too";
 }
 

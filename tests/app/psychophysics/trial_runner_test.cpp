@@ -54,7 +54,7 @@ TEST_F(AtTheDesk, TakesAnAnswerOnlyOnceBothWereFelt) {
   feel(0.1, 0.5);
   EXPECT_TRUE(desk_->takeKey('A'));
   EXPECT_TRUE(records_.empty());
-  EXPECT_NE(desk_->words().to_surgeon.find("feel both first"), std::string::npos);
+  EXPECT_NE(desk_->messages().to_surgeon.find("feel both first"), std::string::npos);
   desk_->takeKey('2');
   at(0.4);
   feel(0.5, 1.0);
@@ -102,9 +102,9 @@ TEST_F(AtTheDesk, MissesNoTickOfThoseItIsShown) {
     ticks[n].command_serial = serial_;
     ticks[n].commanded_force_P_N = {{0.0, 0.0, n == 4 ? 1.0 : 0.0}};
   }
-  EXPECT_EQ(desk_->words().to_instructor, "trial 1, felt: none");
+  EXPECT_EQ(desk_->messages().to_instructor, "trial 1, felt: none");
   EXPECT_FALSE(desk_->follow(ticks));
-  EXPECT_EQ(desk_->words().to_instructor, "trial 1, felt: A") << "touched in between only";
+  EXPECT_EQ(desk_->messages().to_instructor, "trial 1, felt: A") << "touched in between only";
 }
 
 TEST_F(AtTheDesk, CountsNothingFeltUnderTheCommandBefore) {
@@ -113,14 +113,14 @@ TEST_F(AtTheDesk, CountsNothingFeltUnderTheCommandBefore) {
   const std::vector<haptics::Tick> before(5, late);
   ASSERT_TRUE(desk_->follow(before));
   EXPECT_FALSE(desk_->follow(before));
-  EXPECT_EQ(desk_->words().to_instructor, "trial 1, felt: none");
+  EXPECT_EQ(desk_->messages().to_instructor, "trial 1, felt: none");
 }
 
 TEST_F(AtTheDesk, TellsNothingOfWhatIsFelt) {
   at(0.0);
   feel(0.1, 1.0);
   for (const char* telling : {"agus", "0.8", "0.5", "1.2", "N", "standard", "comparison"})
-    for (const std::string& line : {desk_->words().to_surgeon, desk_->words().to_instructor})
+    for (const std::string& line : {desk_->messages().to_surgeon, desk_->messages().to_instructor})
       EXPECT_EQ(line.find(telling), std::string::npos) << line;
 }
 

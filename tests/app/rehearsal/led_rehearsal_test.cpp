@@ -24,7 +24,7 @@ class Witness final : public Procedure {
     }
     return std::nullopt;
   }
-  ProcedureMessages words() const override { return {}; }
+  ProcedureMessages messages() const override { return {}; }
   bool isOver() const override { return false; }
 
   std::vector<std::uint64_t> indices;

@@ -28,7 +28,7 @@ TEST(RunMonitor, EndsWhenTheSimulatedTimeIsOver) {
   EXPECT_FALSE(endless.ending(tick(86400'000), at(0.0), false, false));
 }
 
-TEST(RunMonitor, EndsAsSomebodyAsks) {
+TEST(RunMonitor, EndsOnRequest) {
   RunMonitor monitor(std::nullopt);
   EXPECT_FALSE(monitor.ending(tick(1), at(0.0), false, false));
   EXPECT_EQ(monitor.ending(tick(1), at(0.0), false, true), Ending::procedure);
@@ -46,21 +46,21 @@ TEST(RunMonitor, EndsAfterTenSecondsWithoutATick) {
   EXPECT_EQ(monitor.ending(tick(7), at(69.95), false, false), Ending::silent);
 }
 
-TEST(RunMonitor, TellsATroubleOnceEachTimeItBegins) {
+TEST(RunMonitor, ReportsATroubleOnceEachTimeItBegins) {
   RunMonitor monitor(std::nullopt);
   StationHealth health;
-  EXPECT_TRUE(monitor.look(health, tick(1)).empty());
+  EXPECT_TRUE(monitor.takeNotices(health, tick(1)).empty());
   health.device_trouble = "put the stylus into its inkwell";
-  const std::vector<Notice> told = {{"device", "put the stylus into its inkwell"}};
-  EXPECT_EQ(monitor.look(health, tick(2)), told);
-  EXPECT_TRUE(monitor.look(health, tick(3)).empty());
+  const std::vector<Notice> expected = {{"device", "put the stylus into its inkwell"}};
+  EXPECT_EQ(monitor.takeNotices(health, tick(2)), expected);
+  EXPECT_TRUE(monitor.takeNotices(health, tick(3)).empty());
   health.device_trouble.clear();
-  EXPECT_TRUE(monitor.look(health, tick(4)).empty()) << "that it is over is seen";
+  EXPECT_TRUE(monitor.takeNotices(health, tick(4)).empty()) << "that it is over is seen";
   health.device_trouble = "put the stylus into its inkwell";
-  EXPECT_EQ(monitor.look(health, tick(5)), told);
+  EXPECT_EQ(monitor.takeNotices(health, tick(5)), expected);
 }
 
-TEST(RunMonitor, TellsOnceThatTheRecordingEndedAndShowsIt) {
+TEST(RunMonitor, ReportsOnceThatTheRecordingEndedAndShowsIt) {
   RunMonitor monitor(std::nullopt);
   RehearsalStatus status;
   status.recording = RecordingState::running;
@@ -68,8 +68,8 @@ TEST(RunMonitor, TellsOnceThatTheRecordingEndedAndShowsIt) {
   EXPECT_EQ(status.recording, RecordingState::running);
   StationHealth health;
   health.recording_trouble = "the disk is full";
-  EXPECT_EQ(monitor.look(health, tick(1)), (std::vector<Notice>{{"recording", "recording ended: the disk is full"}}));
-  EXPECT_TRUE(monitor.look(health, tick(2)).empty());
+  EXPECT_EQ(monitor.takeNotices(health, tick(1)), (std::vector<Notice>{{"recording", "recording ended: the disk is full"}}));
+  EXPECT_TRUE(monitor.takeNotices(health, tick(2)).empty());
   monitor.describe(status);
   EXPECT_EQ(status.recording, RecordingState::ended_early);
   RehearsalStatus unrecorded;
@@ -77,15 +77,15 @@ TEST(RunMonitor, TellsOnceThatTheRecordingEndedAndShowsIt) {
   EXPECT_EQ(unrecorded.recording, RecordingState::none);
 }
 
-TEST(RunMonitor, TellsEveryTripOfTheSafetyLayerWithTheFirstTickNotBefore) {
+TEST(RunMonitor, ReportsEveryTripOfTheSafetyLayerWithTheFirstTickNotBefore) {
   RunMonitor monitor(std::nullopt);
   StationHealth health;
   health.trips.add(10, haptics::Fault::buzz);
-  EXPECT_TRUE(monitor.look(health, {}).empty()) << "no tick yet";
-  const std::vector<Notice> told = monitor.look(health, tick(11));
-  ASSERT_EQ(told.size(), 1u);
-  EXPECT_EQ(told[0].kind, "safety");
-  EXPECT_TRUE(monitor.look(health, tick(12)).empty());
+  EXPECT_TRUE(monitor.takeNotices(health, {}).empty()) << "no tick yet";
+  const std::vector<Notice> expected = monitor.takeNotices(health, tick(11));
+  ASSERT_EQ(expected.size(), 1u);
+  EXPECT_EQ(expected[0].kind, "safety");
+  EXPECT_TRUE(monitor.takeNotices(health, tick(12)).empty());
   RehearsalStatus status;
   monitor.describe(status);
   EXPECT_EQ(status.trips.of(haptics::Fault::buzz).times, 1u);
@@ -95,7 +95,7 @@ TEST(RunMonitor, PassesNewsOn) {
   RunMonitor monitor(std::nullopt);
   StationHealth health;
   health.news = {"the unit was unplugged", "the mirror is lost"};
-  EXPECT_EQ(monitor.look(health, tick(1)),
+  EXPECT_EQ(monitor.takeNotices(health, tick(1)),
             (std::vector<Notice>{{"device", "the unit was unplugged"}, {"device", "the mirror is lost"}}));
 }
 

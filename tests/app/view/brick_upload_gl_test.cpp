@@ -28,7 +28,7 @@ render::Frame frameAbove() {
   return frame;
 }
 
-TEST(BrickUpload, ShowsWhatOneTickCutToBothEyesInTheNextFrame) {
+TEST(BrickUploader, ShowsWhatOneTickCutToBothEyesInTheNextFrame) {
   const render::OffscreenContext context;
   const std::vector<std::uint8_t> solid = block();
   haptics::CarvedBone bone(kGrid, solid, {});
@@ -55,9 +55,9 @@ TEST(BrickUpload, ShowsWhatOneTickCutToBothEyesInTheNextFrame) {
     shown.renderEye(frame, kEyes[e]);
     uncut[e] = shown.readEye(kEyes[e]).rgba;
   }
-  BrickUpload upload;
-  EXPECT_GT(upload.bring(bone, shown), 0u);
-  EXPECT_EQ(BrickUpload().bring(bone, shown), 0u) << "nothing is brought twice";
+  BrickUploader uploader;
+  EXPECT_GT(uploader.upload(bone, shown), 0u);
+  EXPECT_EQ(BrickUploader().upload(bone, shown), 0u) << "nothing is brought twice";
   render::FrameRenderer fresh(kGrid, bone.solidInGridOrder(), {});
   for (int e = 0; e < 2; ++e) {
     shown.renderEye(frame, kEyes[e]);
@@ -69,7 +69,7 @@ TEST(BrickUpload, ShowsWhatOneTickCutToBothEyesInTheNextFrame) {
 
   // After a reset of the graphics card: made from the bone of the start, then all that was ever brought.
   render::FrameRenderer anew(kGrid, solid, {});
-  upload.uploadAllAgain(bone, anew);
+  uploader.uploadAllAgain(bone, anew);
   anew.renderEye(frame, render::Eye::left);
   shown.renderEye(frame, render::Eye::left);
   EXPECT_EQ(anew.readEye(render::Eye::left).rgba, shown.readEye(render::Eye::left).rgba);

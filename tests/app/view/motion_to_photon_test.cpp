@@ -19,7 +19,7 @@ TEST(MotionToPhoton, AddsWhatIsNotMeasured) {
 TEST(MotionToPhoton, TellsTheUsualFromTheSlow) {
   MotionToPhoton latency(60.0, 1000.0);
   for (int i = 0; i < 100; ++i) latency.add(i < 90 ? 0.010 : 0.040);
-  EXPECT_EQ(latency.pictures(), 100u);
+  EXPECT_EQ(latency.frames(), 100u);
   EXPECT_NEAR(latency.median().pose_to_swap_ms, 10.0, 0.25);
   EXPECT_NEAR(latency.slow().pose_to_swap_ms, 40.0, 0.25);
 }

@@ -63,7 +63,7 @@ TEST(SurgeonDisplay, BringsTheCutBoneBackThroughALossWhileItIsShown) {
     for (int j = 8; j < 24; ++j)
       for (int i = 8; i < 24; ++i) solid[kGrid.index({i, j, k})] = 255;
   haptics::CarvedBone bone(kGrid, solid, {});
-  BrickUpload upload;
+  BrickUploader uploader;
   int renderers = 0;
   SurgeonDisplay display(
       onTheProcessor(),
@@ -71,7 +71,7 @@ TEST(SurgeonDisplay, BringsTheCutBoneBackThroughALossWhileItIsShown) {
         if (++renderers == 2) throw render::ContextLost("the graphics card was reset");
         auto renderer = std::make_unique<render::FrameRenderer>(kGrid, solid, std::vector<std::uint8_t>{},
                                                                 render::RenderOptions{.backend = backend});
-        upload.uploadAllAgain(bone, *renderer);
+        uploader.uploadAllAgain(bone, *renderer);
         return renderer;
       },
       [](const std::string&) {});
@@ -88,7 +88,7 @@ TEST(SurgeonDisplay, BringsTheCutBoneBackThroughALossWhileItIsShown) {
   for (int spin_up = 0; spin_up < 2000; ++spin_up) servo.step(hand, command, 0.001);
   hand.X_PT.translation_mm = {0.0, 0.0, 2.4};
   ASSERT_GT(servo.step(hand, command, 0.001).removed_mm3, 0.5);
-  ASSERT_GT(upload.bring(bone, display.renderer()), 0u);
+  ASSERT_GT(uploader.upload(bone, display.renderer()), 0u);
   display.show(frameAbove());
   const std::vector<std::uint8_t> cut = display.renderer().readImage().rgba;
   ASSERT_NE(cut, whole);

@@ -1,11 +1,11 @@
-#include "app/rehearsal/rehearsal_outputs.h"
+#include "app/rehearsal/rehearsal_summary.h"
 
 #include <gtest/gtest.h>
 
 namespace app {
 namespace {
 
-TEST(RehearsalOutputs, AnswerNoWhereARecordingIsNotWhole) {
+TEST(RehearsalSummary, ExitsWithOneWhereARecordingIsNotWhole) {
   RehearsalFigures figures;
   EXPECT_EQ(exitStatus(figures), 0) << "none was asked for";
   figures.recording = RecordingSummary{1000, 0, std::nullopt};
@@ -16,7 +16,7 @@ TEST(RehearsalOutputs, AnswerNoWhereARecordingIsNotWhole) {
   EXPECT_EQ(exitStatus(figures), 1);
 }
 
-TEST(RehearsalOutputs, SummaryIsOfTheLastMoment) {
+TEST(RehearsalSummary, ShowsTheStateAtTheEnd) {
   RehearsalPlan plan;
   plan.patient.title = "block of bone";
   plan.recording = Recording{"s.molar"};
