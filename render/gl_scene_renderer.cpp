@@ -9,7 +9,7 @@
 #include "render/eye_block.h"
 #include "render/gpu/drawing.h"
 #include "render/gpu/framebuffer.h"
-#include "render/gpu/gl_error.h"
+#include "render/gpu/gpu_error.h"
 #include "render/gpu/window_image.h"
 #include "render/scene/edge_pass.h"
 #include "render/scene/fragment_lists.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "assets/mesh.h"
-#include "render/cpu/mesh_scene.h"
+#include "render/scene/models.h"
 
 // Embree's, whose own header stays in .cpp files.
 struct RTCDeviceTy;
@@ -17,6 +17,13 @@ struct RTCSceneTy;
 struct RTCGeometryTy;
 
 namespace render {
+
+/// The hole in the face around the line from the eyes to the site.
+struct FaceWindow {
+  glm::vec3 eye_P{0.0f}, site_P{0.0f};
+  float radius_mm = 0.0f;  ///< 0: none
+  bool operator==(const FaceWindow&) const = default;
+};
 
 /// The top-level scenes. `overlay`: guides seen through bone; `occluders`: copies of what hides these.
 enum class MeshGroup { fixed, moving, transparent, overlay, occluders };
@@ -55,8 +62,10 @@ class MeshBodies {
   MeshBodies(const MeshBodies&) = delete;
   MeshBodies& operator=(const MeshBodies&) = delete;
 
+  /// An empty model removes the previous one. The instrument's part "Bur" rotates about its z axis.
   void setModel(Model model, const assets::MeshModel& mesh);
-  void place(const Placements& placements, const FaceWindow& window);
+  /// Initially as for a default Frame.
+  void place(const Placements& placements, const FaceWindow& window = {});
 
   /// By instance ID; some slots may be free.
   const std::vector<MeshBody>& all() const { return bodies_; }

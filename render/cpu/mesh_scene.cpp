@@ -121,20 +121,7 @@ void fill(RTCRayHit8& packet, int* valid, const RayBatch& rays, int first, const
   }
 }
 
-}  // namespace
-
-struct MeshScene::Impl {
-  /// Removes the layers from `first` on that the face or an instrument hides.
-  void removeOccluded(const RayBatch& rays, std::vector<Layer>& layers, std::size_t first) const;
-  Query queryFor(std::vector<Layer>* layers) const;
-  /// False if no ray hits the bounding box of an instrument; else sets the limits of rays that do, and zero for others.
-  bool mayMeetDynamic(const RayBatch& rays, float* limit_mm, const MeshHits& hits) const;
-  void trace(RTCScene in, const RayBatch& rays, const float* limit_mm, MeshHits& hits) const;
-
-  MeshBodies bodies;
-};
-
-Query MeshScene::Impl::queryFor(std::vector<Layer>* layers) const {
+Query queryFor(const MeshBodies& bodies, std::vector<Layer>* layers) {
   Query query{.context = {}, .window = &bodies.window(), .layers = layers};
   rtcInitIntersectContext(&query.context);
   query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
@@ -143,33 +130,34 @@ Query MeshScene::Impl::queryFor(std::vector<Layer>* layers) const {
   return query;
 }
 
-MeshScene::MeshScene() : impl_(std::make_unique<Impl>()) {}
-MeshScene::~MeshScene() = default;
-
-void MeshScene::setModel(Model model, const assets::MeshModel& mesh) { impl_->bodies.setModel(model, mesh); }
-void MeshScene::place(const Placements& placements, const FaceWindow& window) {
-  impl_->bodies.place(placements, window);
+// Writes the hits before the limits and leaves other entries unchanged.
+void trace(const MeshBodies& bodies, RTCScene in, const RayBatch& rays, const float* limit_mm, MeshHits& hits) {
+  Query query = queryFor(bodies, nullptr);
+  alignas(32) RTCRayHit8 packet;
+  alignas(32) int valid[kPacket];
+  for (int first = 0; first < rays.count; first += kPacket) {
+    const int last = std::min(first + kPacket, rays.count);
+    if (std::all_of(limit_mm + first, limit_mm + last, [](float limit) { return limit <= 0.0f; })) continue;
+    fill(packet, valid, rays, first, limit_mm);
+    rtcIntersect8(valid, in, &query.context, &packet);
+    for (int i = 0; i < kPacket && first + i < rays.count; ++i) {
+      if (packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+      const int r = first + i;
+      hits.distance_mm[r] = packet.ray.tfar[i];
+      hits.u[r] = packet.hit.u[i], hits.v[r] = packet.hit.v[i];
+      hits.body[r] = packet.hit.instID[0][i];
+      hits.part[r] = packet.hit.geomID[i];
+      hits.triangle[r] = packet.hit.primID[i];
+      const glm::vec3 outward = bodies.all()[hits.body[r]].P_from_mesh *
+                                glm::vec3(packet.hit.Ng_x[i], packet.hit.Ng_y[i], packet.hit.Ng_z[i]);
+      hits.faces_eye[r] = glm::dot(outward, glm::vec3(rays.x[r], rays.y[r], rays.z[r])) < 0.0f;
+    }
+  }
 }
 
-bool MeshScene::hasTransparent() const {
-  return impl_->bodies.has(MeshGroup::transparent) || impl_->bodies.has(MeshGroup::overlay);
-}
-std::uint64_t MeshScene::staticRevision() const { return impl_->bodies.staticRevision(); }
-
-void MeshScene::staticHits(const RayBatch& rays, MeshHits& hits) const {
-  std::fill_n(hits.distance_mm, rays.count, 0.0f);
-  if (impl_->bodies.has(MeshGroup::fixed)) impl_->trace(impl_->bodies.scene(MeshGroup::fixed), rays, rays.far_mm, hits);
-}
-
-void MeshScene::addDynamicHits(const RayBatch& rays, MeshHits& hits) const {
-  if (!impl_->bodies.has(MeshGroup::moving)) return;
-  alignas(64) float limit_mm[RayBatch::kMaxRays];
-  if (!impl_->mayMeetDynamic(rays, limit_mm, hits)) return;
-  impl_->trace(impl_->bodies.scene(MeshGroup::moving), rays, limit_mm, hits);
-}
-
-// Tests rays against the instruments' boxes in their own frames, where these fit tightly.
-bool MeshScene::Impl::mayMeetDynamic(const RayBatch& rays, float* limit_mm, const MeshHits& hits) const {
+// False if no ray hits the bounding box of an instrument in its own frame, where it fits tightly; else sets the limits
+// of the rays that do, and zero for others.
+bool mayMeetDynamic(const MeshBodies& bodies, const RayBatch& rays, float* limit_mm, const MeshHits& hits) {
   std::fill_n(limit_mm, rays.count, 0.0f);
   bool any = false;
   for (const MeshBody& body : bodies.all()) {
@@ -195,63 +183,50 @@ bool MeshScene::Impl::mayMeetDynamic(const RayBatch& rays, float* limit_mm, cons
   return any;
 }
 
-void MeshScene::Impl::removeOccluded(const RayBatch& rays, std::vector<Layer>& layers, std::size_t first) const {
+// Removes the layers from `first` on that the face or an instrument hides.
+void removeOccluded(const MeshBodies& bodies, const RayBatch& rays, std::vector<Layer>& layers, std::size_t first) {
   if (layers.size() == first) return;
-  static thread_local MeshHits cover_hits;
+  static thread_local MeshHits occluder_hits;
   alignas(64) float limit_mm[RayBatch::kMaxRays];
   std::fill_n(limit_mm, rays.count, 0.0f);
-  std::fill_n(cover_hits.distance_mm, rays.count, 0.0f);
+  std::fill_n(occluder_hits.distance_mm, rays.count, 0.0f);
   for (std::size_t n = first; n < layers.size(); ++n)
     limit_mm[layers[n].ray] = std::max(limit_mm[layers[n].ray], layers[n].distance_mm);
-  trace(bodies.scene(MeshGroup::occluders), rays, limit_mm, cover_hits);
+  trace(bodies, bodies.scene(MeshGroup::occluders), rays, limit_mm, occluder_hits);
   std::erase_if(layers, [&](const Layer& layer) {
     const bool is_guide = bodies.all()[layer.body].group == MeshGroup::overlay;
-    const float cover_mm = cover_hits.distance_mm[layer.ray];
-    return is_guide && cover_mm > 0.0f && cover_mm < layer.distance_mm;
+    const float occluder_mm = occluder_hits.distance_mm[layer.ray];
+    return is_guide && occluder_mm > 0.0f && occluder_mm < layer.distance_mm;
   });
 }
 
-// Writes the hits before the limits and leaves other entries unchanged.
-void MeshScene::Impl::trace(RTCScene in, const RayBatch& rays, const float* limit_mm, MeshHits& hits) const {
-  Query query = queryFor(nullptr);
-  alignas(32) RTCRayHit8 packet;
-  alignas(32) int valid[kPacket];
-  for (int first = 0; first < rays.count; first += kPacket) {
-    const int last = std::min(first + kPacket, rays.count);
-    if (std::all_of(limit_mm + first, limit_mm + last, [](float limit) { return limit <= 0.0f; })) continue;
-    fill(packet, valid, rays, first, limit_mm);
-    rtcIntersect8(valid, in, &query.context, &packet);
-    for (int i = 0; i < kPacket && first + i < rays.count; ++i) {
-      if (packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
-      const int r = first + i;
-      hits.distance_mm[r] = packet.ray.tfar[i];
-      hits.u[r] = packet.hit.u[i], hits.v[r] = packet.hit.v[i];
-      hits.body[r] = packet.hit.instID[0][i];
-      hits.part[r] = packet.hit.geomID[i];
-      hits.triangle[r] = packet.hit.primID[i];
-      const glm::vec3 outward = bodies.all()[hits.body[r]].P_from_mesh *
-                                glm::vec3(packet.hit.Ng_x[i], packet.hit.Ng_y[i], packet.hit.Ng_z[i]);
-      hits.faces_eye[r] = glm::dot(outward, glm::vec3(rays.x[r], rays.y[r], rays.z[r])) < 0.0f;
-    }
-  }
+}  // namespace
+
+void MeshScene::staticHits(const RayBatch& rays, MeshHits& hits) const {
+  std::fill_n(hits.distance_mm, rays.count, 0.0f);
+  if (has(MeshGroup::fixed)) trace(*this, scene(MeshGroup::fixed), rays, rays.far_mm, hits);
+}
+
+void MeshScene::addDynamicHits(const RayBatch& rays, MeshHits& hits) const {
+  if (!has(MeshGroup::moving)) return;
+  alignas(64) float limit_mm[RayBatch::kMaxRays];
+  if (mayMeetDynamic(*this, rays, limit_mm, hits)) trace(*this, scene(MeshGroup::moving), rays, limit_mm, hits);
 }
 
 void MeshScene::addSeen(const RayBatch& rays, const MeshHits& hits, const float* seen_mm, MeshPoints& to) const {
-  const MeshBodies& bodies = impl_->bodies;
   to.makeRoom(rays.count);
   for (int r = 0; r < rays.count; ++r) {
     if (hits.distance_mm[r] == 0.0f || seen_mm[r] < hits.distance_mm[r]) continue;
-    const MeshBody& body = bodies.all()[hits.body[r]];
+    const MeshBody& body = all()[hits.body[r]];
     add(to, body, body.parts[hits.part[r]], hits.triangle[r], hits.u[r], hits.v[r], r, hits.distance_mm[r],
         hits.faces_eye[r], 1.0f);
   }
 }
 
 void MeshScene::layers(const RayBatch& rays, const float* limit_mm, MeshPoints& to) const {
-  const MeshBodies& bodies = impl_->bodies;
   static thread_local std::vector<Layer> met;
   met.clear();
-  Query query = impl_->queryFor(&met);
+  Query query = queryFor(*this, &met);
   alignas(32) RTCRayHit8 packet;
   alignas(32) int valid[kPacket];
   const auto collect = [&](RTCScene in, const float* before_mm) {
@@ -260,10 +235,10 @@ void MeshScene::layers(const RayBatch& rays, const float* limit_mm, MeshPoints& 
       rtcIntersect8(valid, in, &query.context, &packet);
     }
   };
-  if (bodies.has(MeshGroup::transparent)) collect(bodies.scene(MeshGroup::transparent), limit_mm);
-  const std::size_t covered_from = met.size();
-  if (bodies.has(MeshGroup::overlay)) collect(bodies.scene(MeshGroup::overlay), rays.far_mm);
-  impl_->removeOccluded(rays, met, covered_from);
+  if (has(MeshGroup::transparent)) collect(scene(MeshGroup::transparent), limit_mm);
+  const std::size_t first_overlay = met.size();
+  if (has(MeshGroup::overlay)) collect(scene(MeshGroup::overlay), rays.far_mm);
+  removeOccluded(*this, rays, met, first_overlay);
   if (met.empty()) return;
 
   // Ray by ray from back to front; at equal distance the later body is in front.
@@ -273,9 +248,9 @@ void MeshScene::layers(const RayBatch& rays, const float* limit_mm, MeshPoints& 
   });
   to.makeRoom(static_cast<int>(met.size()));
   for (const Layer& layer : met) {
-    const MeshBody& body = bodies.all()[layer.body];
+    const MeshBody& body = all()[layer.body];
     add(to, body, body.parts[layer.part], layer.triangle, layer.u, layer.v, layer.ray, layer.distance_mm,
-        layer.faces_eye, bodies.opacityOf(body.model));
+        layer.faces_eye, opacityOf(body.model));
   }
 }
 

@@ -17,6 +17,10 @@ Light RayTracer::roomFor(int count) {
   return {light_.data(), light_.data() + stride, light_.data() + 2 * stride};
 }
 
+void RayTracer::scatter(const Light& light, const std::int32_t* ray, int count) {
+  for (int n = 0; n < count; ++n) r[ray[n]] = light.r[n], g[ray[n]] = light.g[n], b[ray[n]] = light.b[n];
+}
+
 void RayTracer::trace(const TraceScene& scene, int count, MeshHits* static_hits, bool static_hits_valid) {
   rays_.count = count;
   scene.kernels->aim(scene.shade.eye, uv_x, uv_y, rays_);
@@ -48,10 +52,7 @@ void RayTracer::traceSurface(const TraceScene& scene) {
   if (volume_.count == 0) return;
   const Light light = roomFor(volume_.count);
   scene.kernels->surface(scene.shade, rays_, volume_.ray.data(), volume_.length.data(), volume_.count, light);
-  for (int n = 0; n < volume_.count; ++n) {
-    const int ray = volume_.ray[static_cast<std::size_t>(n)];
-    r[ray] = light.r[n], g[ray] = light.g[n], b[ray] = light.b[n];
-  }
+  scatter(light, volume_.ray.data(), volume_.count);
 }
 
 // Translucent matter is blended over everything behind it; its distance is where the opacity reaches one half.
@@ -86,10 +87,7 @@ void RayTracer::meshes(const TraceScene& scene, const float* seen_mm) {
   if (seen_.count == 0) return;
   const Light light = roomFor(seen_.count);
   scene.kernels->meshes(scene.shade, rays_, seen_, light);
-  for (int n = 0; n < seen_.count; ++n) {
-    const int ray = seen_.ray[n];
-    r[ray] = light.r[n], g[ray] = light.g[n], b[ray] = light.b[n];
-  }
+  scatter(light, seen_.ray, seen_.count);
 }
 
 // The layers of each ray are sorted back to front.

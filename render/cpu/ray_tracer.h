@@ -42,6 +42,7 @@ class RayTracer {
 
  private:
   Light roomFor(int count);
+  void scatter(const Light& light, const std::int32_t* ray, int count);
   void traceSurface(const TraceScene& scene);
   void traceTranslucent(const TraceScene& scene);
   void background(const TraceScene& scene);

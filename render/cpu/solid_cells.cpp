@@ -74,10 +74,6 @@ SolidCells::SolidCells(const BorderedField<std::uint8_t>& solid)
   writeTable();
 }
 
-std::size_t SolidCells::bytes() const {
-  return words_.size() * sizeof(std::uint32_t) + slot_.size() * 2 * (1 + sizeof(std::int32_t));
-}
-
 // Cells extend one voxel upwards, and the table has a border of one brick.
 void SolidCells::touch(const VoxelBox& voxels) { occupancy_.touch({voxels.first + kEdge, voxels.extent - 1}); }
 

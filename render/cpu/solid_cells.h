@@ -38,7 +38,6 @@ class SolidCells {
   /// i fastest: the slot of the brick in words() times 256, plus a bit for each 4x4x4 cells with a value of 128 or more
   /// (bit i + 2 j + 4 k); or minus the distance in bricks.
   const std::int32_t* table() const { return table_.data(); }
-  std::size_t bytes() const;
 
  private:
   std::uint32_t* wordsOf(std::int32_t slot) { return &words_[static_cast<std::size_t>(slot) * kBrickWords]; }

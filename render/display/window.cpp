@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -42,11 +43,18 @@ void startLibrary() {
     throw GpuError("no window, display: " + lastError() + "; start a desktop session or use --headless");
 }
 
-// The requested monitor, or the primary one for a full screen; null: the window system chooses.
-GLFWmonitor* monitorFor(const Window::Options& options) {
+std::span<GLFWmonitor*> connectedMonitors() {
   int count = 0;
   GLFWmonitor** const all = glfwGetMonitors(&count);
-  if (options.monitor) return *options.monitor >= 0 && *options.monitor < count ? all[*options.monitor] : nullptr;
+  return {all, static_cast<std::size_t>(count)};
+}
+
+// The requested monitor, or the primary one for a full screen; null: the window system chooses.
+GLFWmonitor* monitorFor(const Window::Options& options) {
+  if (options.monitor) {
+    const auto index = static_cast<std::size_t>(*options.monitor);
+    return index < connectedMonitors().size() ? connectedMonitors()[index] : nullptr;
+  }
   return options.full_screen ? glfwGetPrimaryMonitor() : nullptr;
 }
 
@@ -123,17 +131,15 @@ GLFWmonitor* Window::Impl::panel() const {
   glfwGetWindowSize(window, &size.x, &size.y);
   GLFWmonitor* best = nullptr;
   int most = std::numeric_limits<int>::min();
-  int count = 0;
-  GLFWmonitor** const all = glfwGetMonitors(&count);
-  for (int m = 0; m < count; ++m) {
-    const GLFWvidmode* mode = glfwGetVideoMode(all[m]);
+  for (GLFWmonitor* monitor : connectedMonitors()) {
+    const GLFWvidmode* mode = glfwGetVideoMode(monitor);
     if (mode == nullptr) continue;
     glm::ivec2 corner{0};
-    glfwGetMonitorPos(all[m], &corner.x, &corner.y);
+    glfwGetMonitorPos(monitor, &corner.x, &corner.y);
     const glm::ivec2 shared =
         glm::min(at + size, corner + glm::ivec2(mode->width, mode->height)) - glm::max(at, corner);
     const int area = shared.x > 0 && shared.y > 0 ? shared.x * shared.y : 0;
-    if (area > most) most = area, best = all[m];
+    if (area > most) most = area, best = monitor;
   }
   return best;
 }
@@ -205,13 +211,11 @@ double Window::refresh_Hz() const {
 std::vector<Monitor> monitors() {
   startLibrary();
   std::vector<Monitor> found;
-  int count = 0;
-  GLFWmonitor** const all = glfwGetMonitors(&count);
-  for (int m = 0; m < count; ++m) {
+  for (GLFWmonitor* one : connectedMonitors()) {
     Monitor monitor;
-    monitor.name = glfwGetMonitorName(all[m]);
-    glfwGetMonitorPos(all[m], &monitor.at_px.x, &monitor.at_px.y);
-    if (const GLFWvidmode* mode = glfwGetVideoMode(all[m])) {
+    monitor.name = glfwGetMonitorName(one);
+    glfwGetMonitorPos(one, &monitor.at_px.x, &monitor.at_px.y);
+    if (const GLFWvidmode* mode = glfwGetVideoMode(one)) {
       monitor.px = {mode->width, mode->height};
       if (mode->refreshRate > 0) monitor.refresh_Hz = mode->refreshRate;
     }

@@ -8,6 +8,18 @@
 #include "render/gpu/gpu_error.h"
 
 namespace render {
+namespace {
+
+template <class T>
+std::vector<T> texels(const Texture& texture, GLenum format, GLenum type, std::size_t channels) {
+  const glm::ivec3 size = texture.size();
+  std::vector<T> values(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * channels);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glGetTextureImage(texture.name(), 0, format, type, static_cast<GLsizei>(values.size() * sizeof(T)), values.data());
+  return values;
+}
+
+}  // namespace
 
 Framebuffer::Framebuffer(glm::ivec2 size, std::span<const TexelFormat> colours, bool depth)
     : name_(newFramebuffer()), size_(size) {
@@ -50,19 +62,11 @@ void Framebuffer::clear() {
 }
 
 std::vector<std::uint8_t> Framebuffer::readRgba8(int attachment) const {
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) * 4);
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glGetTextureImage(colour(attachment).name(), 0, GL_RGBA, GL_UNSIGNED_BYTE, static_cast<GLsizei>(bytes.size()),
-                    bytes.data());
-  return bytes;
+  return texels<std::uint8_t>(colour(attachment), GL_RGBA, GL_UNSIGNED_BYTE, 4);
 }
 
 std::vector<float> Framebuffer::readFloat(int attachment) const {
-  std::vector<float> values(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y));
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glGetTextureImage(colour(attachment).name(), 0, GL_RED, GL_FLOAT, static_cast<GLsizei>(values.size() * sizeof(float)),
-                    values.data());
-  return values;
+  return texels<float>(colour(attachment), GL_RED, GL_FLOAT, 1);
 }
 
 }  // namespace render

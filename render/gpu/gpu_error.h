@@ -3,6 +3,7 @@
 #pragma once
 
 #include <stdexcept>
+#include <string_view>
 
 namespace render {
 
@@ -14,5 +15,9 @@ struct GpuError : std::runtime_error {
 struct ContextLost : GpuError {
   using GpuError::GpuError;
 };
+
+/// Throws GpuError naming `where` if an OpenGL error occurred since the last call, ContextLost after a reset. Thread:
+/// the context's; two driver calls.
+void throwIfGlError(std::string_view where);
 
 }  // namespace render

@@ -12,28 +12,24 @@
 namespace render {
 namespace {
 
-bool hasClientExtension(const std::string& name) {
-  const char* all = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
-  return all != nullptr && std::string(all).find(name) != std::string::npos;
-}
-
-bool isSoftware(EGLDeviceEXT device) {
-  const char* all = eglQueryDeviceStringEXT(device, EGL_EXTENSIONS);
-  return all != nullptr && std::string(all).find("EGL_MESA_device_software") != std::string::npos;
+bool contains(const char* extensions, const char* name) {
+  return extensions != nullptr && std::string(extensions).find(name) != std::string::npos;
 }
 
 // Displays to try: graphics cards, then Mesa's surfaceless platform, software devices, the default display.
 std::vector<EGLDisplay> candidateDisplays() {
   std::vector<EGLDisplay> cards, others;
-  if (hasClientExtension("EGL_MESA_platform_surfaceless"))
+  const char* const client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+  if (contains(client, "EGL_MESA_platform_surfaceless"))
     others.push_back(eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
-  if (hasClientExtension("EGL_EXT_platform_device") && hasClientExtension("EGL_EXT_device_enumeration")) {
+  if (contains(client, "EGL_EXT_platform_device") && contains(client, "EGL_EXT_device_enumeration")) {
     std::array<EGLDeviceEXT, 8> devices{};
     EGLint count = 0;
     if (eglQueryDevicesEXT(static_cast<EGLint>(devices.size()), devices.data(), &count))
       for (EGLint i = 0; i < count; ++i) {
         const EGLDeviceEXT device = devices[static_cast<std::size_t>(i)];
-        (isSoftware(device) ? others : cards)
+        const char* const extensions = eglQueryDeviceStringEXT(device, EGL_EXTENSIONS);
+        (contains(extensions, "EGL_MESA_device_software") ? others : cards)
             .push_back(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr));
       }
   }

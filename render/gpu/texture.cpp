@@ -28,6 +28,14 @@ constexpr std::array<FormatInfo, 8> kInfo{{{GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED
 
 const FormatInfo& infoOf(TexelFormat format) { return kInfo[static_cast<std::size_t>(format)]; }
 
+void checkEdge(GLenum limit, int edge, const char* what, const char* unit, const char* to_do) {
+  GLint largest = 0;
+  glGetIntegerv(limit, &largest);
+  if (edge > largest)
+    throw GpuError(std::string(what) + " of " + std::to_string(edge) + " " + unit +
+                   " along an edge, graphics driver: the largest is " + std::to_string(largest) + "; " + to_do);
+}
+
 }  // namespace
 
 Texture::Texture(unsigned target, glm::ivec3 size, TexelFormat format)
@@ -36,36 +44,25 @@ Texture::Texture(unsigned target, glm::ivec3 size, TexelFormat format)
 }
 
 Texture Texture::image(glm::ivec2 size, TexelFormat format) {
-  GLint largest = 0;
-  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
-  if (size.x > largest || size.y > largest)
-    throw GpuError("image of " + std::to_string(size.x) + "x" + std::to_string(size.y) +
-                   " px, graphics driver: the largest edge is " + std::to_string(largest) +
-                   "; choose a smaller size or fewer samples");
+  checkEdge(GL_MAX_TEXTURE_SIZE, glm::max(size.x, size.y), "image", "px", "choose a smaller size or fewer samples");
   Texture texture(GL_TEXTURE_2D, glm::ivec3(size, 1), format);
   glTextureStorage2D(texture.name(), 1, infoOf(format).internal, size.x, size.y);
-  glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-  glTextureParameteri(texture.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glTextureParameteri(texture.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  texture.setSampling(GL_NEAREST, GL_CLAMP_TO_EDGE);
   return texture;
 }
 
 Texture Texture::volume(glm::ivec3 size, TexelFormat format) {
-  GLint largest = 0;
-  glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &largest);
-  if (size.x > largest || size.y > largest || size.z > largest)
-    throw GpuError("volume of " + std::to_string(glm::max(size.x, glm::max(size.y, size.z))) +
-                   " voxels along an edge, graphics driver: the largest edge is " + std::to_string(largest) +
-                   "; crop the scan");
+  checkEdge(GL_MAX_3D_TEXTURE_SIZE, glm::max(size.x, glm::max(size.y, size.z)), "volume", "voxels", "crop the scan");
   Texture texture(GL_TEXTURE_3D, size, format);
   glTextureStorage3D(texture.name(), 1, infoOf(format).internal, size.x, size.y, size.z);
-  const GLint filter = format == TexelFormat::r8ui ? GL_NEAREST : GL_LINEAR;
-  glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, filter);
-  glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, filter);
-  for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
-    glTextureParameteri(texture.name(), axis, GL_CLAMP_TO_BORDER);
+  texture.setSampling(format == TexelFormat::r8ui ? GL_NEAREST : GL_LINEAR, GL_CLAMP_TO_BORDER);
   return texture;
+}
+
+void Texture::setSampling(int filter, int wrap) {
+  for (const GLenum side : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) glTextureParameteri(name(), side, filter);
+  for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+    glTextureParameteri(name(), axis, wrap);
 }
 
 void Texture::upload(glm::ivec3 offset, glm::ivec3 extent, std::span<const std::byte> texels) {

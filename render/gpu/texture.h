@@ -37,6 +37,7 @@ class Texture {
 
  private:
   Texture(unsigned target, glm::ivec3 size, TexelFormat format);
+  void setSampling(int filter, int wrap);
 
   GlName name_;
   glm::ivec3 size_{0};

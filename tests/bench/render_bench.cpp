@@ -206,6 +206,13 @@ double orbit_ms(const Head& head, const Case& c, int frames = 10) {
   return median(all);
 }
 
+double megabytesOf(const render::SolidCells& cells) {
+  const auto bricks = static_cast<std::size_t>(cells.bricks().x * cells.bricks().y * cells.bricks().z);
+  const auto stored =
+      std::count_if(cells.table(), cells.table() + bricks, [](std::int32_t entry) { return entry > 0; });
+  return 1e-6 * static_cast<double>(4 * render::SolidCells::kBrickWords * stored) + 1e-5 * static_cast<double>(bricks);
+}
+
 void growth() {
   std::printf("\ncost against voxels, 640x480\n%8s %10s %10s %12s %12s\n", "voxels", "iso ms", "DVR ms", "edit us",
               "cells MB");
@@ -227,8 +234,7 @@ void growth() {
     }
     double edit_us = 0.0;
     for (const double us : edits) edit_us += us / static_cast<double>(edits.size());
-    std::printf("%7d^3 %10.1f %10.1f %12.0f %12.1f\n", voxels, iso, dvr, edit_us,
-                static_cast<double>(head.view.cells().bytes()) * 1e-6);
+    std::printf("%7d^3 %10.1f %10.1f %12.0f %12.1f\n", voxels, iso, dvr, edit_us, megabytesOf(head.view.cells()));
     std::fflush(stdout);
   }
 }

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "render/gpu/framebuffer.h"
-#include "render/gpu/gl_error.h"
+#include "render/gpu/gpu_error.h"
 #include "render/gpu/gpu_error.h"
 #include "render/gpu/offscreen_context.h"
 #include "render/gpu/program.h"

@@ -1,10 +1,8 @@
-#include "render/gpu/gl_error.h"
+#include "render/gpu/gpu_error.h"
 
 #include <epoxy/gl.h>
 
 #include <string>
-
-#include "render/gpu/gpu_error.h"
 
 #if defined(__SANITIZE_ADDRESS__)
 // Graphics drivers keep memory for the life of the process and unload the code that referenced it.
