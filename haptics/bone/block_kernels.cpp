@@ -5,25 +5,25 @@
 namespace haptics {
 
 #if defined(__x86_64__)
-namespace chosen = avx2;
+namespace fastest = avx2;
 #else
-namespace chosen = portable;
+namespace fastest = portable;
 #endif
 
-// Not by pointers: what the servo can reach must be plain to see.
+// Direct calls, so that tests/architecture/servo_symbols.cmake can follow them.
 namespace {
-bool fast() { return assets::chosenInstructionSet() != assets::InstructionSet::portable; }
+bool isFast() { return assets::chosenInstructionSet() != assets::InstructionSet::portable; }
 }  // namespace
 
 void coverBlock(const BlockUnderBur& at, std::uint16_t* coverage, std::uint32_t* exposure) noexcept {
-  fast() ? chosen::coverBlock(at, coverage, exposure) : portable::coverBlock(at, coverage, exposure);
+  isFast() ? fastest::coverBlock(at, coverage, exposure) : portable::coverBlock(at, coverage, exposure);
 }
 bool meetsBlock(const std::uint8_t* solid, const std::uint16_t* coverage) noexcept {
-  return fast() ? chosen::meetsBlock(solid, coverage) : portable::meetsBlock(solid, coverage);
+  return isFast() ? fastest::meetsBlock(solid, coverage) : portable::meetsBlock(solid, coverage);
 }
-void stepBlock(BlockStep& block) noexcept { fast() ? chosen::stepBlock(block) : portable::stepBlock(block); }
+void stepBlock(BlockStep& block) noexcept { isFast() ? fastest::stepBlock(block) : portable::stepBlock(block); }
 BlockDigest blockDigest(const std::uint8_t* solid, const std::uint8_t* reach, const std::uint16_t* dose) noexcept {
-  return fast() ? chosen::blockDigest(solid, reach, dose) : portable::blockDigest(solid, reach, dose);
+  return isFast() ? fastest::blockDigest(solid, reach, dose) : portable::blockDigest(solid, reach, dose);
 }
 
 }  // namespace haptics

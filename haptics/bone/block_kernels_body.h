@@ -1,6 +1,6 @@
-// The body of the block kernels: included once by each instruction set's source. Internal linkage throughout and no
-// header but the one below, so that nothing of it is shared between instruction sets. Written for the compiler's
-// vectoriser: every voxel is treated alike, those that nothing happens to come out as they were.
+// The block kernels, included once by each instruction set's source, which defines MOLAR_KERNEL_SET. Helpers have
+// internal linkage and there is no other header, so that the sets share no code. Written for the compiler's vectoriser:
+// every voxel is treated alike; untouched ones keep their values.
 #pragma once
 
 #include "haptics/bone/block_kernels.h"
@@ -13,7 +13,7 @@ constexpr std::uint32_t kFullDose = 65535;
 constexpr std::uint32_t kDosePerReach = kFullDose / 255;  // 257 exactly
 constexpr std::uint32_t kGoldenStep = 0x9E3779B9u;        // 2^32 over the golden ratio
 
-/// A number of each voxel's own, from that of its block. Wellons' triple-less integer hash (2018).
+/// A hash of each voxel from that of its block: Wellons' integer hash with two multiplications (2018).
 constexpr std::uint32_t voxelKey(std::uint32_t block_key, std::uint32_t within) {
   std::uint32_t x = block_key + within * kGoldenStep;
   x = (x ^ (x >> 16)) * 0x21F0AAADu;
@@ -21,7 +21,80 @@ constexpr std::uint32_t voxelKey(std::uint32_t block_key, std::uint32_t within) 
   return x ^ (x >> 15);
 }
 
-void cover(const BlockUnderBur& at, std::uint16_t* coverage, std::uint32_t* exposure) noexcept {
+struct DigestWeights {
+  std::uint32_t low[kVoxels], high[kVoxels];
+};
+/// Weights of a voxel's state in the two halves of the digest: odd, different for each voxel.
+constexpr DigestWeights digestWeights() {
+  DigestWeights weights{};
+  for (std::uint32_t n = 0; n < kVoxels; ++n) {
+    weights.low[n] = voxelKey(0x5EEDu, n) | 1u;
+    weights.high[n] = voxelKey(0xB17E5u, n) | 1u;
+  }
+  return weights;
+}
+constexpr DigestWeights kDigest = digestWeights();
+
+constexpr std::uint32_t stateOf(std::uint32_t solid, std::uint32_t reach, std::uint32_t dose) {
+  return solid << 24 | reach << 16 | dose;
+}
+
+/// Dose units lost: golden-ratio steps from a start of each voxel keep the rounded sum within a few steps of the exact
+/// one.
+inline std::uint32_t lost(std::uint32_t key, std::uint32_t phase, std::uint32_t whole, std::uint32_t loss_q32) {
+  return static_cast<std::uint32_t>((static_cast<std::uint64_t>(whole) * loss_q32 + (key + phase)) >> 32);
+}
+
+void stepWithHistory(BlockStep& block) {
+  alignas(64) std::uint32_t key[kVoxels], loss[kVoxels], change[kVoxels], after[kVoxels];
+  alignas(64) std::uint32_t new_reach[kVoxels], new_dose[kVoxels];
+  for (std::uint32_t n = 0; n < kVoxels; ++n) key[n] = voxelKey(block.block_key, n);
+  for (int n = 0; n < kVoxels; ++n) loss[n] = lost(key[n], block.phase, block.exposure[n], block.loss_q32[n]);
+  for (int n = 0; n < kVoxels; ++n) {
+    // Reach is the largest coverage so far, (coverage + 128) / 257.
+    const std::uint32_t covered = (block.coverage[n] + 128u) * 65281u >> 24, old_reach = block.reach[n];
+    const std::uint32_t reach = old_reach > covered ? old_reach : covered, old_dose = block.dose[n];
+    const std::uint32_t limit = reach * kDosePerReach, cap = old_dose > limit ? old_dose : limit;
+    const std::uint32_t requested = old_dose + loss[n], dose = requested < cap ? requested : cap;
+    // The rest of its first content, over 65535, rounded at the voxel's own threshold: it never rises, and is unbiased
+    // over voxels.
+    const std::uint32_t high = key[n] >> 16, threshold = high < kFullDose ? high : kFullDose - 1;
+    const std::uint32_t left = block.first[n] * (kFullDose - dose) + threshold;
+    after[n] = (left + 1u + (left >> 16)) >> 16;
+    new_reach[n] = reach;
+    new_dose[n] = dose;
+    change[n] = stateOf(after[n], reach, dose) - stateOf(block.solid[n], old_reach, old_dose);
+  }
+  BlockDigest digest{0, 0};
+  for (int n = 0; n < kVoxels; ++n) {
+    digest.low += kDigest.low[n] * change[n];
+    digest.high += kDigest.high[n] * change[n];
+  }
+  block.digest_change = digest;
+  for (int n = 0; n < kVoxels; ++n) block.reach[n] = static_cast<std::uint8_t>(new_reach[n]);
+  for (int n = 0; n < kVoxels; ++n) block.dose[n] = static_cast<std::uint16_t>(new_dose[n]);
+  for (int n = 0; n < kVoxels; ++n) block.after[n] = static_cast<std::uint8_t>(after[n]);
+}
+
+/// Without a history: voxels covered by half or more lose steps of 1/255.
+void stepWithoutHistory(BlockStep& block) {
+  BlockDigest digest{0, 0};
+  for (std::uint32_t n = 0; n < kVoxels; ++n) {
+    const std::uint32_t before = block.solid[n], whole = block.coverage[n] * 2u >= kFullDose ? 255u : 0u;
+    const std::uint32_t less = lost(voxelKey(block.block_key, n), block.phase, whole, block.loss_q32[n]);
+    const std::uint32_t after = before > less ? before - less : 0u;
+    digest.low += kDigest.low[n] * (stateOf(after, 0, 0) - stateOf(before, 0, 0));
+    digest.high += kDigest.high[n] * (stateOf(after, 0, 0) - stateOf(before, 0, 0));
+    block.after[n] = static_cast<std::uint8_t>(after);
+  }
+  block.digest_change = digest;
+}
+
+}  // namespace
+
+namespace MOLAR_KERNEL_SET {
+
+void coverBlock(const BlockUnderBur& at, std::uint16_t* coverage, std::uint32_t* exposure) noexcept {
   float x[4], y[4], z[4];
   for (int n = 0; n < 4; ++n) {
     x[n] = static_cast<float>(at.scale * (at.first[0] + n) * (at.first[0] + n));
@@ -60,26 +133,25 @@ void cover(const BlockUnderBur& at, std::uint16_t* coverage, std::uint32_t* expo
   }
 }
 
-struct DigestWeights {
-  std::uint32_t low[kVoxels], high[kVoxels];
-};
-/// What a voxel's state weighs in the two halves of the digest: odd, different for each.
-constexpr DigestWeights digestWeights() {
-  DigestWeights weights{};
-  for (std::uint32_t n = 0; n < kVoxels; ++n) {
-    weights.low[n] = voxelKey(0x5EEDu, n) | 1u;
-    weights.high[n] = voxelKey(0xB17E5u, n) | 1u;
-  }
-  return weights;
-}
-constexpr DigestWeights kDigest = digestWeights();
-
-constexpr std::uint32_t stateOf(std::uint32_t solid, std::uint32_t reach, std::uint32_t dose) {
-  return solid << 24 | reach << 16 | dose;
+bool meetsBlock(const std::uint8_t* solid, const std::uint16_t* coverage) noexcept {
+  std::uint16_t met = 0;
+  for (int n = 0; n < kVoxels; ++n)
+    met = static_cast<std::uint16_t>(met | static_cast<std::uint16_t>((coverage[n] >> 8) * solid[n]));
+  return met != 0;
 }
 
-/// Linear in the voxels' states, modulo 2^32 in either half, so that it can be brought up to date by differences.
-BlockDigest digestOf(const std::uint8_t* solid, const std::uint8_t* reach, const std::uint16_t* dose) noexcept {
+void stepBlock(BlockStep& block) noexcept {
+  if (block.first != nullptr)
+    stepWithHistory(block);
+  else
+    stepWithoutHistory(block);
+  std::uint32_t removed = 0;
+  for (int n = 0; n < kVoxels; ++n) removed += static_cast<std::uint32_t>(block.solid[n] - block.after[n]);
+  block.removed = removed;
+}
+
+/// Linear in the voxels' states modulo 2^32, so that it can be updated by differences.
+BlockDigest blockDigest(const std::uint8_t* solid, const std::uint8_t* reach, const std::uint16_t* dose) noexcept {
   BlockDigest digest{0, 0};
   for (int n = 0; n < kVoxels; ++n) {
     const std::uint32_t state = stateOf(solid[n], reach[n], dose[n]);
@@ -89,74 +161,5 @@ BlockDigest digestOf(const std::uint8_t* solid, const std::uint8_t* reach, const
   return digest;
 }
 
-/// Dose units lost: golden-ratio steps from a start of the voxel's own keep the rounded sum within a few steps of the
-/// true one.
-inline std::uint32_t lost(std::uint32_t key, std::uint32_t turn, std::uint32_t whole, std::uint32_t loss_q32) {
-  return static_cast<std::uint32_t>((static_cast<std::uint64_t>(whole) * loss_q32 + (key + turn)) >> 32);
-}
-
-void stepWithPast(BlockStep& block) {
-  alignas(64) std::uint32_t key[kVoxels], loss[kVoxels], change[kVoxels], after[kVoxels];
-  alignas(64) std::uint32_t new_reach[kVoxels], new_dose[kVoxels];
-  for (std::uint32_t n = 0; n < kVoxels; ++n) key[n] = voxelKey(block.block_key, n);
-  for (int n = 0; n < kVoxels; ++n) loss[n] = lost(key[n], block.turn, block.exposure[n], block.loss_q32[n]);
-  for (int n = 0; n < kVoxels; ++n) {
-    // A bur reaches no further into a voxel than it has ever covered of it: (coverage + 128) / 257.
-    const std::uint32_t covered = (block.coverage[n] + 128u) * 65281u >> 24, old_reach = block.reach[n];
-    const std::uint32_t reach = old_reach > covered ? old_reach : covered, old_dose = block.dose[n];
-    const std::uint32_t most = reach * kDosePerReach, cap = old_dose > most ? old_dose : most;
-    const std::uint32_t wanted = old_dose + loss[n], dose = wanted < cap ? wanted : cap;
-    // What is left of its first content, over 65535, rounded at the voxel's own threshold: never rises again, and right
-    // on average over voxels.
-    const std::uint32_t high = key[n] >> 16, threshold = high < kFullDose ? high : kFullDose - 1;
-    const std::uint32_t left = block.first[n] * (kFullDose - dose) + threshold;
-    after[n] = (left + 1u + (left >> 16)) >> 16;
-    new_reach[n] = reach;
-    new_dose[n] = dose;
-    change[n] = stateOf(after[n], reach, dose) - stateOf(block.solid[n], old_reach, old_dose);
-  }
-  BlockDigest digest{0, 0};
-  for (int n = 0; n < kVoxels; ++n) {
-    digest.low += kDigest.low[n] * change[n];
-    digest.high += kDigest.high[n] * change[n];
-  }
-  block.digest_change = digest;
-  for (int n = 0; n < kVoxels; ++n) block.reach[n] = static_cast<std::uint8_t>(new_reach[n]);
-  for (int n = 0; n < kVoxels; ++n) block.dose[n] = static_cast<std::uint16_t>(new_dose[n]);
-  for (int n = 0; n < kVoxels; ++n) block.after[n] = static_cast<std::uint8_t>(after[n]);
-}
-
-/// No room to remember: of what the bur covers by half, its content goes by steps of 1/255.
-void stepWithoutPast(BlockStep& block) {
-  BlockDigest digest{0, 0};
-  for (std::uint32_t n = 0; n < kVoxels; ++n) {
-    const std::uint32_t before = block.solid[n], whole = block.coverage[n] * 2u >= kFullDose ? 255u : 0u;
-    const std::uint32_t less = lost(voxelKey(block.block_key, n), block.turn, whole, block.loss_q32[n]);
-    const std::uint32_t after = before > less ? before - less : 0u;
-    digest.low += kDigest.low[n] * (stateOf(after, 0, 0) - stateOf(before, 0, 0));
-    digest.high += kDigest.high[n] * (stateOf(after, 0, 0) - stateOf(before, 0, 0));
-    block.after[n] = static_cast<std::uint8_t>(after);
-  }
-  block.digest_change = digest;
-}
-
-bool meets(const std::uint8_t* solid, const std::uint16_t* coverage) noexcept {
-  // Less than 1/256 of a voxel is not worth a step.
-  std::uint16_t met = 0;
-  for (int n = 0; n < kVoxels; ++n)
-    met = static_cast<std::uint16_t>(met | static_cast<std::uint16_t>((coverage[n] >> 8) * solid[n]));
-  return met != 0;
-}
-
-void step(BlockStep& block) noexcept {
-  if (block.first != nullptr)
-    stepWithPast(block);
-  else
-    stepWithoutPast(block);
-  std::uint32_t removed = 0;
-  for (int n = 0; n < kVoxels; ++n) removed += static_cast<std::uint32_t>(block.solid[n] - block.after[n]);
-  block.removed = removed;
-}
-
-}  // namespace
+}  // namespace MOLAR_KERNEL_SET
 }  // namespace haptics

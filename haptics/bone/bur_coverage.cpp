@@ -13,79 +13,43 @@ namespace {
 using calibration::isFinite;
 using calibration::kPi;
 
-/// What a voxel at (x, y, z) in T shares with the bur. Its first moment is (radial x, radial y, axial).
-struct AxialShare {
-  double fraction, radial, axial;
-};
-
-template <ShapeKind kKind>
-inline AxialShare shareOf(const BurCoverage& bur, double x, double y, double z) {
-  const double eta = bur.eta, per_eta = 1.0 / eta, R = bur.radius, half = bur.half;
-  if constexpr (kKind == ShapeKind::sphere) {
-    // The lens of voxel_sphere.h for a bur larger than the voxel; clamped, it is the whole ball or nothing.
-    const double outer = R + eta, inner = R - eta, away = std::sqrt(x * x + y * y + z * z);
-    const double least = away < inner ? inner : away, d = least > outer ? outer : least;
-    const double gap = outer - d, per_2d = 0.5 / d, height = eta - (d * d - R * R + eta * eta) * per_2d;
-    const double per_ball = 3.0 / (4.0 * kPi * eta * eta * eta);
-    const double lens = per_ball * kPi / 6.0 * per_2d * gap * gap * (d * (d + 2.0 * outer) - 3.0 * inner * inner);
-    const double cap = per_ball * kPi / 3.0 * height * height * (3.0 * eta - height);
-    return {lens, cap, cap * z};
-  }
-  const double high = z < 0.0 ? -z : z, up = z < 0.0 ? -1.0 : 1.0;
-  if constexpr (kKind == ShapeKind::capsule) {
-    const double over = high - half, dz = over > 0.0 ? over * up : 0.0;
-    const double away = std::sqrt(x * x + y * y + dz * dz);
-    // Round one way on the rod, both ways on its ends; a ball on the seam sees some of each.
-    const double raw = 0.5 + 0.5 * over * per_eta, low = raw < 0.0 ? 0.0 : raw, end = low > 1.0 ? 1.0 : low;
-    const FaceShare face = behindFace(away - R, bendOf((1.0 + end) / R, eta), eta, per_eta);
-    const double shift = face.shift / atLeast(away, 1e-12);
-    return {face.fraction, face.fraction - shift, face.fraction * z - shift * dz};
-  }
-  const double rho = std::sqrt(x * x + y * y), per_rho = 1.0 / atLeast(rho, 1e-12);
-  const FaceShare end = behindFace(high - half, 0.0, eta, per_eta);
-  if constexpr (kKind == ShapeKind::cylinder) {
-    const FaceShare side = behindFace(rho - R, bendOf(1.0 / R, eta), eta, per_eta);
-    const double fraction = side.fraction * end.fraction;
-    return {fraction, fraction - side.shift * end.fraction * per_rho, fraction * z - side.fraction * end.shift * up};
-  }
-  // Cone: the slanted side, and two ends, of which the lower one rounds off the tip.
-  const double distance = rho * bur.side_cos - (z + half) * bur.side_sin;
-  const double foot = atLeast(rho - distance * bur.side_cos, 1e-12);
-  const FaceShare side = behindFace(distance, bendOf(bur.side_cos / foot, eta), eta, per_eta);
-  const double fraction = side.fraction * end.fraction, shift = side.shift * end.fraction;
-  return {fraction, fraction - shift * bur.side_cos * per_rho,
-          fraction * z - side.fraction * end.shift * up + shift * bur.side_sin};
+/// The lens of voxel_sphere.h for a bur larger than the voxel; clamped, it is the whole ball or nothing.
+AxialShare<double> largeSphere(double R, double eta, const glm::dvec3& p) {
+  const double outer = R + eta, inner = R - eta, away = std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z);
+  const double least = away < inner ? inner : away, d = least > outer ? outer : least;
+  const double gap = outer - d, per_2d = 0.5 / d, height = eta - (d * d - R * R + eta * eta) * per_2d;
+  const double per_ball = 3.0 / (4.0 * kPi * eta * eta * eta);
+  const double lens = per_ball * kPi / 6.0 * per_2d * gap * gap * (d * (d + 2.0 * outer) - 3.0 * inner * inner);
+  const double cap = per_ball * kPi / 3.0 * height * height * (3.0 * eta - height);
+  return {lens, cap, cap * p.z};
 }
 
-/// A sphere no larger than a voxel or two: the lens with all its branches.
-AxialShare smallSphere(double R, double eta, const glm::dvec3& p) {
+/// A sphere of a voxel or two: the lens with all its branches.
+AxialShare<double> smallSphere(double R, double eta, const glm::dvec3& p) {
   const double d = glm::length(p), per_ball = 3.0 / (4.0 * kPi * eta * eta * eta);
   const Lens lens = lensOfSpheres(R, eta, d);
   const double radial = d > 0.0 ? per_ball * lens.moment / d : 0.0;
   return {per_ball * lens.volume, radial, radial * p.z};
 }
 
-bool isSmallSphere(const BurCoverage& bur) { return bur.kind == ShapeKind::sphere && bur.radius < 2.0; }
-
 VoxelShare shareOfPart(const BurCoverage& bur, const glm::dvec3& p) {
-  const AxialShare share = [&] {
+  const AxialShare<double> share = [&] {
     switch (bur.kind) {
       case ShapeKind::sphere:
-        return isSmallSphere(bur) ? smallSphere(bur.radius, bur.eta, p)
-                                  : shareOf<ShapeKind::sphere>(bur, p.x, p.y, p.z);
+        return bur.radius < 2.0 ? smallSphere(bur.radius, bur.eta, p) : largeSphere(bur.radius, bur.eta, p);
       case ShapeKind::capsule:
-        return shareOf<ShapeKind::capsule>(bur, p.x, p.y, p.z);
+        return shareOfFaces<kCapsuleFaces>(bur, p.x, p.y, p.z, 1e-12);
       case ShapeKind::cylinder:
-        return shareOf<ShapeKind::cylinder>(bur, p.x, p.y, p.z);
+        return shareOfFaces<kCylinderFaces>(bur, p.x, p.y, p.z, 1e-12);
       case ShapeKind::cone:
-        return shareOf<ShapeKind::cone>(bur, p.x, p.y, p.z);
+        return shareOfFaces<kConeFaces>(bur, p.x, p.y, p.z, 1e-12);
     }
-    return AxialShare{};
+    return AxialShare<double>{};
   }();
   return {share.fraction, {share.radial * p.x, share.radial * p.y, share.axial}};
 }
 
-/// How far along a direction a voxel may lie that is within reach of every face.
+/// Largest extent of the touched voxels along a direction.
 double touchedReach(const BurCoverage& bur, double cos_axis) {
   const double more = bur.voxel_reach, high = bur.half + more, c = std::clamp(cos_axis, -1.0, 1.0),
                s = std::sqrt(1.0 - c * c);
@@ -122,14 +86,14 @@ BurCoverage::BurCoverage(const assets::VolumeGrid& grid, const BurShape& shape,
   side_sin = radius / slant;
   side_cos = 2.0 * half / slant;
 
-  // A ball that is not small against the head sees more of it than one face: smaller balls, then.
+  // A ball that is not small against the head meets more than one face: use smaller balls.
   const double thinnest = flat ? std::min(radius, half) : radius;
   if (kind != ShapeKind::sphere)
     parts = static_cast<int>(std::clamp(std::ceil(3.0 * kVoxelSphereRadius / thinnest), 1.0, 4.0));
   eta = kVoxelSphereRadius / parts;
   voxel_reach = eta + 0.5 * std::sqrt(3.0) * (1.0 - 1.0 / parts);
 
-  // Clipped as doubles: a wild pose must not overflow an index.
+  // Clipped as doubles: an extreme pose must not overflow an index.
   for (int axis = 0; axis < 3; ++axis) {
     const double cos = to_P[2][axis];
     const double low = std::max(static_cast<double>(-margin), centre[axis] - touchedReach(*this, -cos));

@@ -1,10 +1,9 @@
-// From an erosion law to what a bur takes in one step, and the bookkeeping that keeps the two equal. mm, N, s. Servo
-// thread; under 0.1 us. Plain numbers in and out: it knows neither contact nor voxels (bone/carve carries the step
-// out).
+// From an erosion law to the loss of one step (applied by bone/carve), with feedback from the volume removed. mm, N, s.
+// Servo thread; under 0.1 us. Plain values, without contact or voxels.
 //   time:       part of the first content lost = k f (1 - worn) |w| / w_rated dt: open loop, linear in time.
-//   dose:       mm3/s = alpha f (1 - worn) mu F_n v_c, v_c = |w| sliding_arm; the loss goes with |r x axis|.
+//   dose:       mm3/s = alpha f (1 - worn) mu F_n v_c, v_c = |w| sliding_arm; the loss grows with |r x axis|.
 //   machining:  mm3/s = (1 - worn) min(swept, f P / u).
-// f is the tissue's factor. A law in mm3/s is met by what really goes: a voxel half used up yields more than it shows,
+// f is the tissue's factor. A half-used voxel yields more than its visible part,
 // one used up nothing. ErosionState learns that yield and carries the difference on, so that over tissues t
 //   sum removed_t / rate_t = time spent cutting   (Agus: the work of friction is the work of removal).
 // Nothing is owed out of contact, and no more than 5 % of the bur's overlap at any time.

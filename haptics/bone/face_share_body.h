@@ -1,12 +1,18 @@
-// A voxel's ball against one face of a head, in double for the slow way (bone/bur_coverage) and in float for the
-// kernels. Included once by each source, with internal linkage and no header, so that nothing of it is shared between
-// instruction sets. Written for the compiler's vectoriser.
+// Overlap of a voxel's ball with a head: in double for bone/bur_coverage, in float for the kernels (bone/head_kernels).
+// Included once by each source, with internal linkage and no other header, so that the instruction sets share no code.
+// Written for the compiler's vectoriser. Formulae: bone/bur_coverage.
 #pragma once
 
 namespace haptics {
 namespace {
 
-/// How much of the ball is behind the face, and how far its middle shifts inwards times that.
+/// Covered fraction of a voxel and its first moment: (radial x, radial y, axial).
+template <class Real>
+struct AxialShare {
+  Real fraction, radial, axial;
+};
+
+/// Fraction of the ball behind a face, and the inward shift of its middle times that.
 template <class Real>
 struct FaceShare {
   Real fraction, shift;
@@ -19,7 +25,7 @@ inline FaceShare<Real> behindFace(Real distance, Real bend, Real eta, Real per_e
   return {Real(0.25) * (Real(2) + Real(3) * t - t * t * t) - bend * rim * rim, Real(0.1875) * eta * rim * rim};
 }
 
-/// 3/32 of the curvature times eta; a face rounder than the ball is taken for one as round.
+/// 3/32 of the curvature times eta; curvature is limited to that of the ball.
 template <class Real>
 inline Real bendOf(Real curvature, Real eta) {
   const Real round = curvature * eta;
@@ -29,6 +35,42 @@ inline Real bendOf(Real curvature, Real eta) {
 template <class Real>
 inline Real atLeast(Real value, Real least) {
   return value > least ? value : least;
+}
+
+inline float rootOf(float x) { return __builtin_sqrtf(x); }
+inline double rootOf(double x) { return __builtin_sqrt(x); }
+
+inline constexpr int kCapsuleFaces = 1, kCylinderFaces = 2, kConeFaces = 3;  // ShapeKind
+
+/// A voxel at (x, y, z) in T under a capsule, cylinder or cone with radius, half, side_sin, side_cos and eta.
+template <int kKind, class Head, class Real>
+inline AxialShare<Real> shareOfFaces(const Head& head, Real x, Real y, Real z, Real tiny) {
+  constexpr Real kZero = 0, kOne = 1, kHalf = Real(0.5);
+  const Real eta = head.eta, per_eta = kOne / eta, R = head.radius, half = head.half;
+  const Real high = z < kZero ? -z : z, up = z < kZero ? -kOne : kOne;
+  if constexpr (kKind == kCapsuleFaces) {
+    const Real over = high - half, dz = over > kZero ? over * up : kZero;
+    const Real away = rootOf(x * x + y * y + dz * dz);
+    // One curvature on the rod, two on its ends; a ball on the seam has some of each.
+    const Real raw = kHalf + kHalf * over * per_eta, low = raw < kZero ? kZero : raw, end = low > kOne ? kOne : low;
+    const FaceShare<Real> face = behindFace(away - R, bendOf((kOne + end) / R, eta), eta, per_eta);
+    const Real shift = face.shift / atLeast(away, tiny);
+    return {face.fraction, face.fraction - shift, face.fraction * z - shift * dz};
+  }
+  const Real rho = rootOf(x * x + y * y), per_rho = kOne / atLeast(rho, tiny);
+  const FaceShare<Real> end = behindFace(high - half, kZero, eta, per_eta);
+  if constexpr (kKind == kCylinderFaces) {
+    const FaceShare<Real> side = behindFace(rho - R, bendOf(kOne / R, eta), eta, per_eta);
+    const Real fraction = side.fraction * end.fraction;
+    return {fraction, fraction - side.shift * end.fraction * per_rho, fraction * z - side.fraction * end.shift * up};
+  }
+  // Cone: the slanted side, and two ends, of which the lower one rounds off the tip.
+  const Real distance = rho * head.side_cos - (z + half) * head.side_sin;
+  const Real foot = atLeast(rho - distance * head.side_cos, tiny);
+  const FaceShare<Real> side = behindFace(distance, bendOf(head.side_cos / foot, eta), eta, per_eta);
+  const Real fraction = side.fraction * end.fraction, shift = side.shift * end.fraction;
+  return {fraction, fraction - shift * head.side_cos * per_rho,
+          fraction * z - side.fraction * end.shift * up + shift * head.side_sin};
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 namespace haptics {
 
-// Not by pointers: what the servo can reach must be plain to see.
+// Direct calls, so that tests/architecture/servo_symbols.cmake can follow them.
 void coverUnderHead(const HeadShape& head, const float first[3], float* fraction) noexcept {
 #if defined(__x86_64__)
   if (assets::chosenInstructionSet() == assets::InstructionSet::avx512)

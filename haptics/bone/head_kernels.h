@@ -1,7 +1,7 @@
-// A head of any shape over one block of 4x4x4 voxels, as the kernels see it: plain numbers, one set of functions per
-// instruction set and the same bits from all of them (floats without fused multiply-add, sums in sixteen lanes of fixed
-// order). Equal to bone/bur_coverage, whose formulas these are, to 1e-6. Voxel units, places in T.
-// Servo thread; no allocation; some 0.1 µs a block with AVX2. Private to bone/ and contact/.
+// A head of any shape over one block of 4x4x4 voxels: plain values, one set of functions per instruction set and the
+// same bits from all of them (floats without fused multiply-add, sums in sixteen lanes of fixed order). Equal to
+// bone/bur_coverage to 1e-6. Voxel units, positions in T. Servo thread; no allocation; about 0.1 µs a block with AVX2.
+// Private to bone/ and contact/.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +15,9 @@ struct HeadShape {
 };
 
 struct HeadBlock {
-  float first[3];               ///< place of its first voxel
+  float first[3];               ///< position of its first voxel
   const std::uint8_t* solid;    ///< 64
-  const std::int16_t* rise[3];  ///< 64 each: difference of a voxel's neighbours along i, j, k; all null: none rises
+  const std::int16_t* rise[3];  ///< 64 each: difference of a voxel's neighbours along i, j, k; all null: no differences
   const float* factor;          ///< 64, of stiffness; null: `only_factor` of all
   float only_factor;
 };
@@ -27,7 +27,7 @@ struct HeadSums {
   float volume, stiff, grey, moment[3], rise[3];
 };
 
-/// `fraction`: 64, the part of each voxel that is covered, -1e-6..1+1e-6.
+/// `fraction`: 64, the covered part of each voxel, -1e-6..1+1e-6.
 void coverUnderHead(const HeadShape& head, const float first[3], float* fraction) noexcept;
 HeadSums sumUnderHead(const HeadShape& head, const HeadBlock& block) noexcept;
 

@@ -1,11 +1,3 @@
 // Compiled for AVX2; see CMakeLists.txt.
+#define MOLAR_KERNEL_SET avx2
 #include "haptics/bone/head_kernels_body.h"
-
-namespace haptics::avx2 {
-
-void coverUnderHead(const HeadShape& head, const float first[3], float* fraction) noexcept {
-  cover(head, first, fraction);
-}
-HeadSums sumUnderHead(const HeadShape& head, const HeadBlock& block) noexcept { return sum(head, block); }
-
-}  // namespace haptics::avx2

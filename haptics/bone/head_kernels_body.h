@@ -1,6 +1,6 @@
-// The body of the head kernels: included once by each instruction set's source. Internal linkage throughout and no
-// header but those below, so that nothing of it is shared between instruction sets. Written for the compiler's
-// vectoriser. The formulas and their reasons: bone/bur_coverage.
+// The head kernels, included once by each instruction set's source, which defines MOLAR_KERNEL_SET. Helpers have
+// internal linkage and there is no header but those below, so that the sets share no code. Written for the compiler's
+// vectoriser.
 #pragma once
 
 #include "haptics/bone/face_share_body.h"
@@ -10,19 +10,16 @@ namespace haptics {
 namespace {
 
 constexpr float kPi = 3.14159265358979323846f;
-constexpr int kSphere = 0, kCapsule = 1, kCylinder = 2, kCone = 3;  // ShapeKind
+constexpr int kSphere = 0, kCapsule = kCapsuleFaces, kCylinder = kCylinderFaces, kCone = kConeFaces;  // ShapeKind
 constexpr int kLanes = 16, kRows = 4;
 
-/// The first moment is (radial x, radial y, axial).
-struct Share {
-  float fraction, radial, axial;
-};
-
 template <int kKind>
-inline Share shareAt(const HeadShape& head, float x, float y, float z) {
-  const float eta = head.eta, per_eta = 1.0f / eta, R = head.radius, half = head.half;
-  if constexpr (kKind == kSphere) {
-    // By how much farther than where the ball is wholly in: in a form in which large numbers do not cancel.
+inline AxialShare<float> shareAt(const HeadShape& head, float x, float y, float z) {
+  if constexpr (kKind != kSphere) {
+    return shareOfFaces<kKind>(head, x, y, z, 1e-6f);
+  } else {
+    // `out` is the distance beyond where the ball is wholly inside: no cancellation of large numbers.
+    const float eta = head.eta, R = head.radius;
     const float inner = R - eta, away = __builtin_sqrtf(x * x + y * y + z * z), raw = away - inner;
     const float low = raw < 0.0f ? 0.0f : raw, out = low > 2.0f * eta ? 2.0f * eta : low, d = inner + out;
     const float gap = 2.0f * eta - out, per_2d = 0.5f / d, height = eta - ((out - eta) * (d + R) + eta * eta) * per_2d;
@@ -31,28 +28,6 @@ inline Share shareAt(const HeadShape& head, float x, float y, float z) {
     const float cap = per_ball * kPi / 3.0f * height * height * (3.0f * eta - height);
     return {lens, cap, cap * z};
   }
-  const float high = z < 0.0f ? -z : z, up = z < 0.0f ? -1.0f : 1.0f;
-  if constexpr (kKind == kCapsule) {
-    const float over = high - half, dz = over > 0.0f ? over * up : 0.0f;
-    const float away = __builtin_sqrtf(x * x + y * y + dz * dz);
-    const float raw = 0.5f + 0.5f * over * per_eta, low = raw < 0.0f ? 0.0f : raw, end = low > 1.0f ? 1.0f : low;
-    const FaceShare face = behindFace(away - R, bendOf((1.0f + end) / R, eta), eta, per_eta);
-    const float shift = face.shift / atLeast(away, 1e-6f);
-    return {face.fraction, face.fraction - shift, face.fraction * z - shift * dz};
-  }
-  const float rho = __builtin_sqrtf(x * x + y * y), per_rho = 1.0f / atLeast(rho, 1e-6f);
-  const FaceShare end = behindFace(high - half, 0.0f, eta, per_eta);
-  if constexpr (kKind == kCylinder) {
-    const FaceShare side = behindFace(rho - R, bendOf(1.0f / R, eta), eta, per_eta);
-    const float fraction = side.fraction * end.fraction;
-    return {fraction, fraction - side.shift * end.fraction * per_rho, fraction * z - side.fraction * end.shift * up};
-  }
-  const float distance = rho * head.side_cos - (z + half) * head.side_sin;
-  const float foot = atLeast(rho - distance * head.side_cos, 1e-6f);
-  const FaceShare side = behindFace(distance, bendOf(head.side_cos / foot, eta), eta, per_eta);
-  const float fraction = side.fraction * end.fraction, shift = side.shift * end.fraction;
-  return {fraction, fraction - shift * head.side_cos * per_rho,
-          fraction * z - side.fraction * end.shift * up + shift * head.side_sin};
 }
 
 template <int kKind>
@@ -60,19 +35,6 @@ void coverAs(const HeadShape& head, const float* first, float* fraction) {
   const float fx = first[0], fy = first[1], fz = first[2];
   for (int n = 0; n < kLanes * kRows; ++n)
     fraction[n] = shareAt<kKind>(head, fx + head.x[n], fy + head.y[n], fz + head.z[n]).fraction;
-}
-
-void cover(const HeadShape& head, const float* first, float* fraction) {
-  switch (head.kind) {
-    case kSphere:
-      return coverAs<kSphere>(head, first, fraction);
-    case kCapsule:
-      return coverAs<kCapsule>(head, first, fraction);
-    case kCylinder:
-      return coverAs<kCylinder>(head, first, fraction);
-    default:
-      return coverAs<kCone>(head, first, fraction);
-  }
 }
 
 float allOf(const float* lane) {
@@ -89,7 +51,7 @@ HeadSums sumAs(const HeadShape& head, const HeadBlock& block) {
   alignas(64) float fraction[kVoxels], moment[3][kVoxels], w[kVoxels];
   for (int n = 0; n < kVoxels; ++n) {
     const float x = fx + head.x[n], y = fy + head.y[n], z = fz + head.z[n];
-    const Share share = shareAt<kKind>(head, x, y, z);
+    const AxialShare<float> share = shareAt<kKind>(head, x, y, z);
     fraction[n] = share.fraction;
     moment[0][n] = share.radial * x;
     moment[1][n] = share.radial * y;
@@ -131,7 +93,24 @@ HeadSums sumAs(const HeadShape& head, const HeadBlock& block) {
   return sums;
 }
 
-HeadSums sum(const HeadShape& head, const HeadBlock& block) {
+}  // namespace
+
+namespace MOLAR_KERNEL_SET {
+
+void coverUnderHead(const HeadShape& head, const float first[3], float* fraction) noexcept {
+  switch (head.kind) {
+    case kSphere:
+      return coverAs<kSphere>(head, first, fraction);
+    case kCapsule:
+      return coverAs<kCapsule>(head, first, fraction);
+    case kCylinder:
+      return coverAs<kCylinder>(head, first, fraction);
+    default:
+      return coverAs<kCone>(head, first, fraction);
+  }
+}
+
+HeadSums sumUnderHead(const HeadShape& head, const HeadBlock& block) noexcept {
   switch (head.kind) {
     case kSphere:
       return sumAs<kSphere>(head, block);
@@ -144,5 +123,5 @@ HeadSums sum(const HeadShape& head, const HeadBlock& block) {
   }
 }
 
-}  // namespace
+}  // namespace MOLAR_KERNEL_SET
 }  // namespace haptics

@@ -1,7 +1,6 @@
-// A voxel met by a spherical bur, as Agus et al. 2002 treat it: a sphere of the voxel's volume, so that the overlap has
-// a closed form and hardly depends on how the lattice lies. Any one unit of length; double. Any thread; some 30 flops.
-// Sources: lens volume and first moment of two spheres, reference/physics 2.3; lattice error 9x below point
-// sampling, 2.6. Not the summation over a volume (contact/overlap, bone/carve).
+// A voxel as a sphere of its volume (Agus et al. 2002): its overlap with a spherical bur has a closed form and hardly
+// depends on the lattice. Any unit of length; double. Any thread; about 30 flops. Sources: lens volume and first moment
+// of two spheres, reference/physics 2.3; lattice error 9x below point sampling, 2.6.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +10,7 @@
 
 namespace haptics {
 
-/// Radius of the sphere as large as a voxel of edge 1: (3 / 4 pi)^(1/3).
+/// Radius of the sphere with the volume of a voxel of edge 1: (3 / 4 pi)^(1/3).
 inline constexpr double kVoxelSphereRadius = 0.62035049089940001667;
 
 struct Lens {
@@ -19,7 +18,7 @@ struct Lens {
   double moment = 0.0;  ///< of the lens about the bur's centre, along the line to the other centre
 };
 
-/// What a bur of radius `bur` shares with a sphere of radius `ball` whose centre is `d` away.
+/// Overlap of a bur of radius `bur` and a sphere of radius `ball` at distance `d`.
 inline Lens lensOfSpheres(double bur, double ball, double d) {
   const double outer = bur + ball, inner = bur - ball;
   if (d >= outer) return {};
@@ -28,7 +27,7 @@ inline Lens lensOfSpheres(double bur, double ball, double d) {
     const double volume = 4.0 / 3.0 * calibration::kPi * smaller * smaller * smaller;
     return {volume, inner >= 0.0 ? d * volume : 0.0};
   }
-  // The moments of the two caps about the radical plane cancel: what remains is d times the ball's cap on our side.
+  // The moments of the two caps about the radical plane cancel; d times the ball's cap on the bur's side remains.
   const double gap = outer - d;
   const double volume = calibration::kPi * gap * gap * (d * d + 2.0 * d * outer - 3.0 * inner * inner) / (12.0 * d);
   const double height = ball - (d * d - bur * bur + ball * ball) / (2.0 * d);
