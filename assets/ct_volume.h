@@ -1,8 +1,8 @@
-// A scanned jaw as loaded: Hounsfield units, tissue labels, teeth by number and the solid fraction, voxel for voxel on
-// one grid. Immutable after loading; any thread may read. 5 bytes a voxel. Not the bone while it is carved
-// (haptics::CarvedBone).
+// CT volume of a jaw: Hounsfield values, tissue labels, tooth numbers and solid fraction, one value per voxel of one
+// grid. Immutable after loading; any thread may read. 5 bytes a voxel. The carved bone is haptics::CarvedBone.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -11,15 +11,22 @@
 
 namespace assets {
 
-/// Of CtVolume::solid: from here on a voxel is more solid than not.
+/// Smallest value of CtVolume::solid that counts as solid.
 inline constexpr std::uint8_t kHalfSolid = 128;
 
 struct CtVolume {
   VolumeGrid grid;
   std::vector<std::int16_t> hounsfield;  ///< grid.voxelCount() values, i fastest
-  std::vector<std::uint8_t> label;       ///< Tissue, same order
-  std::vector<std::uint8_t> solid;       ///< 0..255 = fraction of the voxel that is solid: what is felt and seen
-  std::vector<std::uint8_t> tooth;  ///< FDI number of the tooth a voxel belongs to, 0 none; empty: no tooth told apart
+  std::vector<std::uint8_t> label;       ///< Tissue, in the same order
+  std::vector<std::uint8_t> solid;       ///< solid fraction, 0..255
+  std::vector<std::uint8_t> tooth;       ///< FDI number of the voxel's tooth, 0 none; empty: no tooth is numbered
 };
+
+/// Gives the number `fdi` to every voxel of enamel, dentine and pulp, and 0 to all others.
+inline void numberSingleTooth(CtVolume& ct, int fdi) {
+  ct.tooth.resize(ct.label.size());
+  std::ranges::transform(ct.label, ct.tooth.begin(),
+                         [fdi](std::uint8_t label) { return static_cast<std::uint8_t>(isToothPart(label) ? fdi : 0); });
+}
 
 }  // namespace assets

@@ -1,5 +1,5 @@
-// Which vector instructions the machine has, asked once before main. The kernels of haptics and of render/cpu are
-// compiled once for each and choose by this: no asset, but what both may include. Any thread; a load.
+// Vector instruction set of this machine, determined once before main. The kernels of haptics and render/cpu are
+// compiled once per set and select by it; it stands here because both folders may include it. Any thread; one load.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ constexpr std::string_view nameOf(InstructionSet set) noexcept {
 /// AVX2 with FMA; AVX-512 F, BW, DQ, VL.
 bool available(InstructionSet set) noexcept;
 
-/// The best available, or what the environment variable MOLAR_INSTRUCTIONS (portable, avx2) asks for, if available.
+/// The best available set, or a lower one named by the environment variable MOLAR_INSTRUCTIONS (portable, avx2).
 InstructionSet chosenInstructionSet() noexcept;
 
 }  // namespace assets

@@ -1,12 +1,12 @@
-// How deep a text of JSON is nested, judged before it is parsed: what walks lists in lists by calling itself ends the
-// program where a stranger's text goes deep enough. Any thread; O(text).
+// Nesting depth of a JSON text, checked before parsing: recursive parsers overflow the stack on deeply nested input.
+// Any thread; O(text).
 #pragma once
 
 #include <string_view>
 
 namespace assets {
 
-/// Deeper than 128, which no file is that this program reads.
+/// Deeper than 128; no file this program reads is.
 inline bool isNestedTooDeep(std::string_view json) {
   constexpr int kDeepest = 128;
   int depth = 0;

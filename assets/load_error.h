@@ -1,5 +1,5 @@
-// The one exception of this folder: bad input or a file that can not be written.
-// The text is one line: what, where, what to do. Never carries patient identifiers.
+// The exception of this folder: invalid input, or a file that cannot be written.
+// The text is one line: what, where, what to do. It never contains patient identifiers.
 #pragma once
 
 #include <stdexcept>

@@ -1,6 +1,6 @@
-// Triangle meshes as drawn context: a model is a list of named parts, each one material.
-// Positions in mm, frame given by whoever holds the model (face and gingiva: P; instrument: T). Normals unit length.
-// Winding counter-clockwise seen from outside. Plain data; any thread. Nothing here is ever touched by the bur.
+// Triangle meshes: a model is a list of named parts, each with one material.
+// mm; the owner defines the frame (face and gingiva: P; instruments: T). Unit normals; counter-clockwise seen from
+// outside. Plain data; any thread. Drawn only: the bur never cuts a mesh.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Where the operation happens: one tooth, whichever it is. Frame P (LPS mm). Plain data; any thread.
+// The tooth that is operated on. Frame P (LPS mm). Plain data; any thread.
 #pragma once
 
 #include <glm/glm.hpp>

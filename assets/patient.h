@@ -1,6 +1,6 @@
-// The patient of a rehearsal: CT, mandibular canal, operative site and the scenery around it, all in frame P (LPS mm).
-// Carries no name, date or identifier of a person: the folder's name is the case's name.
-// Immutable after loading; any thread may read.
+// The patient of a rehearsal: CT, mandibular canal, operative site, gingiva and face, all in frame P (LPS mm).
+// Contains no name, date or identifier of a person; the folder's name names the case. Immutable after loading; any
+// thread.
 #pragma once
 
 #include <optional>
@@ -13,26 +13,26 @@
 
 namespace assets {
 
-/// How grey values become solid fraction: solid = cdf((HU - iso) / sigma), sigma at least what makes the
-/// transition a voxel wide (see solid_fraction.h).
+/// Solid fraction from grey values: solid = cdf((HU - iso) / sigma), see solid_fraction.h.
 struct Classification {
   double iso_hu = 300.0;
   double sigma_hu = 75.0;
 };
 
 struct Patient {
-  std::string title;  ///< one line for people: "built-in patient, right, mesio-angular 45 deg", never a person's name
+  std::string title;  ///< one line, e.g. "built-in patient, right, mesio-angular 45 deg"
   CtVolume ct;
   Classification classification;
-  std::optional<OperativeSite> site;              ///< none: no tooth is labelled that could be it
-  glm::dvec3 jaw_P_mm{0.0};                       ///< where to look without a site: the lower jaw, or what there is
+  std::optional<OperativeSite> site;              ///< none: no suitable tooth is labelled
+  glm::dvec3 jaw_P_mm{0.0};                       ///< centre of the lower jaw, or of all solid
   std::vector<glm::dvec3> mandibular_canal_P_mm;  ///< centre line of the mandibular canal, empty if unknown
   double mandibular_canal_radius_mm = 1.4;
-  MeshModel gingiva;  ///< gingiva as a surface, with the flap raised around the site; may be empty
-  MeshModel face;     ///< context only; may be empty
+  MeshModel gingiva;  ///< surface with the flap raised around the site; may be empty
+  MeshModel face;     ///< may be empty
 
+  /// Centre of the view.
   glm::dvec3 focus_P_mm() const { return site ? site->centre_P_mm : jaw_P_mm; }
-  /// The tooth whose side and jaw decide how the patient lies; the usual one where none is known.
+  /// Decides the patient's position; the default site where none is known.
   int operatedTooth() const { return site ? site->fdi : OperativeSite{}.fdi; }
 };
 

@@ -1,17 +1,16 @@
-// The solid fraction between voxels: the field that is felt and drawn, as a function of place. Frame P, mm. Any thread;
-// eight reads.
+// Solid fraction at any point: trilinear between voxel centres, air outside. Frame P, mm. Any thread; eight reads.
 #pragma once
 
 #include "assets/ct_volume.h"
 
 namespace assets {
 
-/// Solid fraction 0..1 at a place: trilinear, air outside.
+/// 0..1.
 inline double solidAt(const CtVolume& ct, const glm::dvec3& p_P_mm) {
   const glm::dvec3 at = ct.grid.indexFromPoint(p_P_mm), low = glm::floor(at), f = at - low;
   double sum = 0.0;
   for (int corner = 0; corner < 8; ++corner) {
-    const glm::ivec3 step{corner & 1, (corner >> 1) & 1, corner >> 2};
+    const glm::ivec3 step = cornerOffset(corner);
     const glm::ivec3 ijk = glm::ivec3(low) + step;
     if (!ct.grid.contains(ijk)) continue;
     const glm::dvec3 w = glm::mix(1.0 - f, f, glm::dvec3(step));

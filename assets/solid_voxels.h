@@ -1,5 +1,5 @@
-// Solid fractions of a grid wherever they lie in memory: in the grid's own order, or inside a larger array with a
-// border. A view, 0..255 per voxel; air outside. Any thread, while whoever owns the values lets them be.
+// View of the solid fractions of a grid, 0..255 per voxel, in grid order or inside a larger array with a border.
+// Air outside. Any thread, as long as the values are not changed.
 #pragma once
 
 #include <cassert>
@@ -13,16 +13,16 @@ namespace assets {
 struct SolidVoxels {
   VolumeGrid grid;
   std::span<const std::uint8_t> values;
-  std::size_t first = 0, row = 0, slab = 0;  ///< place of voxel (0,0,0), and steps along j and k
+  std::size_t first = 0, row = 0, slab = 0;  ///< offset of voxel (0,0,0), strides along j and k
 
-  /// Values in the order of the grid, nothing else.
+  /// Values in grid order, without a border.
   static SolidVoxels inGridOrder(const VolumeGrid& grid, std::span<const std::uint8_t> values) {
     assert(values.size() == grid.voxelCount());
     const auto row = static_cast<std::size_t>(grid.size.x);
     return {grid, values, 0, row, row * static_cast<std::size_t>(grid.size.y)};
   }
 
-  /// The voxels from (i, j, k) on along i; the voxel must be inside.
+  /// Pointer to voxel (i, j, k), which must be inside; its row continues along i.
   const std::uint8_t* from(glm::ivec3 ijk) const {
     return values.data() + first + static_cast<std::size_t>(ijk.x) + row * static_cast<std::size_t>(ijk.y) +
            slab * static_cast<std::size_t>(ijk.z);

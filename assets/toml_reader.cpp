@@ -2,6 +2,7 @@
 
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -15,8 +16,7 @@
 namespace assets {
 namespace {
 
-constexpr std::size_t kLargestFile_bytes = 64 * 1024;
-constexpr std::size_t kLongestText = 300;
+constexpr std::size_t kMaxText = 300;
 
 std::string nameOf(const std::string& table, const std::string& key) {
   if (table.empty()) return key;
@@ -29,7 +29,7 @@ bool isPrintable(std::string_view text) {
   return true;
 }
 
-/// What a refusal may repeat of a file: short, one line.
+/// A name from the file as shown in a message: short, one line.
 std::string shown(std::string_view name) {
   std::string text;
   for (const char c : name.substr(0, 40)) text += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
@@ -41,7 +41,7 @@ std::string rangeText(const NumberRange& range) {
   return numberText(range.low) + " to " + numberText(range.high) + unit;
 }
 
-/// None unless it is a list, and of numbers in the range alone.
+/// None unless it is a list of numbers within the range.
 std::optional<std::vector<double>> numbersIn(const toml::node& node, const NumberRange& range) {
   const toml::array* list = node.as_array();
   if (!list) return std::nullopt;
@@ -68,32 +68,38 @@ std::string numberText(double value) {
   return {text.data(), end};
 }
 
-std::string readSmallFile(const std::string& path) {
+std::string exactText(double value) {
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
+
+std::string readSmallFile(const std::string& path, std::size_t max_bytes, const std::string& if_missing) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error))
-    throw LoadError(path + ": there is no such plain file, check the name");
+    throw LoadError(path + ": there is no such regular file; " + if_missing);
   std::ifstream file(path, std::ios::binary);
-  std::string text(kLargestFile_bytes + 1, '\0');
+  std::string text(max_bytes + 1, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (file.bad() || !(file || file.eof()) || file.gcount() < 0)
-    throw LoadError(path + ": it can not be read, check its permissions");
+    throw LoadError(path + ": it cannot be read, check its permissions");
   text.resize(static_cast<std::size_t>(file.gcount()));
-  if (text.size() > kLargestFile_bytes) throw LoadError(path + ": it is larger than 64 kB, this is no settings file");
+  if (text.size() > max_bytes)
+    throw LoadError(path + ": it is larger than " + std::to_string(max_bytes / 1024) + " kB, check the file");
   return text;
 }
 
 struct TomlReader::Document {
   std::string where;
   toml::table root;
-  std::set<std::pair<std::string, std::string>> asked;
+  std::set<std::pair<std::string, std::string>> used;
 
   const toml::table* tableOf(const std::string& name) const { return name.empty() ? &root : root[name].as_table(); }
   const toml::node* find(const std::string& table, const std::string& key) const {
     const toml::table* at = tableOf(table);
     return at ? at->get(key) : nullptr;
   }
-  const toml::node* take(const std::string& table, const std::string& key) {
-    asked.emplace(table, key);
+  const toml::node* use(const std::string& table, const std::string& key) {
+    used.emplace(table, key);
     return find(table, key);
   }
 };
@@ -103,7 +109,7 @@ TomlReader::TomlReader(std::string_view text, std::string where) : document_(std
   try {
     document_->root = toml::parse(text);
   } catch (const toml::parse_error& error) {
-    throw LoadError(document_->where + ": line " + std::to_string(error.source().begin.line) + ": no TOML (" +
+    throw LoadError(document_->where + ": line " + std::to_string(error.source().begin.line) + ": not valid TOML (" +
                     shown(error.description()) + "), correct it");
   }
 }
@@ -142,7 +148,7 @@ void TomlReader::refuse(const std::string& table, const std::string& key, const 
 
 double TomlReader::number(const std::string& table, const std::string& key, const NumberRange& range,
                           std::optional<double> fallback) {
-  const toml::node* node = document_->take(table, key);
+  const toml::node* node = document_->use(table, key);
   if (!node && fallback) return *fallback;
   if (!node) refuse(table, key, "it is missing, give " + rangeText(range));
   const std::optional<double> value = node->is_number() ? node->value<double>() : std::nullopt;
@@ -154,7 +160,7 @@ double TomlReader::number(const std::string& table, const std::string& key, cons
 
 std::int64_t TomlReader::integer(const std::string& table, const std::string& key, std::int64_t low, std::int64_t high,
                                  std::optional<std::int64_t> fallback) {
-  const toml::node* node = document_->take(table, key);
+  const toml::node* node = document_->use(table, key);
   if (!node && fallback) return *fallback;
   const std::string range = "give a whole number from " + std::to_string(low) + " to " + std::to_string(high);
   if (!node) refuse(table, key, "it is missing, " + range);
@@ -164,25 +170,25 @@ std::int64_t TomlReader::integer(const std::string& table, const std::string& ke
 }
 
 bool TomlReader::boolean(const std::string& table, const std::string& key, std::optional<bool> fallback) {
-  const toml::node* node = document_->take(table, key);
+  const toml::node* node = document_->use(table, key);
   if (!node && fallback) return *fallback;
   if (!node || !node->is_boolean()) refuse(table, key, "give true or false");
   return *node->value<bool>();
 }
 
 std::string TomlReader::text(const std::string& table, const std::string& key, std::optional<std::string> fallback) {
-  const toml::node* node = document_->take(table, key);
+  const toml::node* node = document_->use(table, key);
   if (!node && fallback) return *fallback;
   if (!node) refuse(table, key, "it is missing, give a text in quotes");
   const std::optional<std::string> value = node->is_string() ? node->value<std::string>() : std::nullopt;
-  if (!value || value->size() > kLongestText || !isPrintable(*value))
+  if (!value || value->size() > kMaxText || !isPrintable(*value))
     refuse(table, key, "give one line of text in quotes, at most 300 bytes");
   return *value;
 }
 
 std::size_t TomlReader::choice(const std::string& table, const std::string& key,
                                std::initializer_list<std::string_view> choices, std::optional<std::size_t> fallback) {
-  const toml::node* node = document_->take(table, key);
+  const toml::node* node = document_->use(table, key);
   if (!node && fallback) return *fallback;
   const std::string given = node && node->is_string() ? *node->value<std::string>() : std::string();
   std::string words;
@@ -195,57 +201,53 @@ std::size_t TomlReader::choice(const std::string& table, const std::string& key,
 }
 
 std::vector<double> TomlReader::numbers(const std::string& table, const std::string& key, const NumberRange& range,
-                                        std::size_t least, std::size_t most) {
-  const toml::node* node = document_->take(table, key);
-  const std::string want =
-      "give a list of " + std::to_string(least) + " to " + std::to_string(most) + " numbers from " + rangeText(range);
+                                        std::size_t min_count, std::size_t max_count) {
+  const toml::node* node = document_->use(table, key);
+  const std::string want = "give a list of " + std::to_string(min_count) + " to " + std::to_string(max_count) +
+                           " numbers from " + rangeText(range);
   if (!node) refuse(table, key, "it is missing, " + want);
-  if (least <= 1 && node->is_number()) return {number(table, key, range)};
+  if (min_count <= 1 && node->is_number()) return {number(table, key, range)};
   const auto values = numbersIn(*node, range);
-  if (!values || values->size() < least || values->size() > most) refuse(table, key, want);
+  if (!values || values->size() < min_count || values->size() > max_count) refuse(table, key, want);
   return *values;
 }
 
-glm::dvec3 TomlReader::vector(const std::string& table, const std::string& key, double largest) {
-  const std::vector<double> v = numbers(table, key, {-largest, largest, ""}, 3, 3);
+glm::dvec3 TomlReader::vector(const std::string& table, const std::string& key, double limit) {
+  const std::vector<double> v = numbers(table, key, {-limit, limit, ""}, 3, 3);
   return {v[0], v[1], v[2]};
 }
 
-std::vector<glm::dvec3> TomlReader::vectors(const std::string& table, const std::string& key, double largest,
-                                            std::size_t most) {
-  const toml::node* node = document_->take(table, key);
-  const NumberRange range{-largest, largest, ""};
+std::vector<glm::dvec3> TomlReader::vectors(const std::string& table, const std::string& key, double limit,
+                                            std::size_t max_count) {
+  const toml::node* node = document_->use(table, key);
+  const NumberRange range{-limit, limit, ""};
   const toml::array* list = node ? node->as_array() : nullptr;
   std::vector<glm::dvec3> points;
-  for (std::size_t i = 0; list && i < list->size() && i <= most; ++i)
+  for (std::size_t i = 0; list && i < list->size() && i <= max_count; ++i)
     if (const auto v = numbersIn((*list)[i], range); v && v->size() == 3)
       points.emplace_back((*v)[0], (*v)[1], (*v)[2]);
-  if (!list || points.size() != list->size() || points.size() > most)
+  if (!list || points.size() != list->size() || points.size() > max_count)
     refuse(table, key,
-           "give a list of at most " + std::to_string(most) + " points of three numbers from " + rangeText(range));
+           "give a list of at most " + std::to_string(max_count) + " points of three numbers from " + rangeText(range));
   return points;
 }
 
 void TomlReader::refuseUnknownKeys() const {
-  const auto check_level = [&](const std::string& table, const toml::table& level) {
+  const auto check = [&](const std::string& table, const toml::table& level) {
     for (const auto& [key, node] : level) {
       const std::string name(key.str());
-      if (document_->asked.contains({table, name})) continue;
+      if (document_->used.contains({table, name})) continue;
       if (table.empty() && node.is_table()) continue;
       refuse(table, name, "no such key here, remove it or correct its spelling");
     }
   };
-  check_level("", document_->root);
+  check("", document_->root);
   for (const auto& [key, node] : document_->root) {
     if (!node.is_table()) continue;
     const std::string table(key.str());
-    const bool known = [&] {
-      for (const auto& [asked_table, asked_key] : document_->asked)
-        if (asked_table == table) return true;
-      return false;
-    }();
-    if (!known) refuse(table, "", "no such table here, remove it or correct its spelling");
-    check_level(table, *node.as_table());
+    if (std::ranges::find(document_->used, table, &std::pair<std::string, std::string>::first) == document_->used.end())
+      refuse(table, "", "no such table here, remove it or correct its spelling");
+    check(table, *node.as_table());
   }
 }
 

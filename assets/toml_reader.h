@@ -1,7 +1,7 @@
-// A small TOML file as typed answers: table by table, key by key, with the range each number must keep. Every refusal
-// is one line (LoadError) that names file, line and key; what nobody asked for is refused too (refuseUnknownKeys), so
-// that a misspelt key is never silently a default. Start-up and, for files read anew while running, the frame loop;
-// never the servo. Files up to 64 kB. The one home of toml++.
+// Typed access to a small TOML file, table by table and key by key, with a range for every number. Every error is one
+// line (LoadError) with file, line and key. Keys that were never read are errors too (refuseUnknownKeys), so a misspelt
+// key does not silently leave a default. Start-up, or the frame loop for files re-read while running; never the servo.
+// Files up to 64 kB unless stated. The only user of toml++.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -21,7 +21,7 @@ struct NumberRange {
 
 class TomlReader {
  public:
-  /// `where` names the file in refusals.
+  /// `where` names the file in messages.
   TomlReader(std::string_view text, std::string where);
   ~TomlReader();
   TomlReader(TomlReader&&) noexcept;
@@ -29,31 +29,31 @@ class TomlReader {
 
   static TomlReader fromFile(const std::string& path);
 
-  /// The empty name is the file's own level, above every [table].
+  /// The empty name is the top level of the file.
   bool has(const std::string& table) const;
   bool has(const std::string& table, const std::string& key) const;
   std::vector<std::string> keysOf(const std::string& table) const;
-  /// Where a value stands, for logs.
   int lineOf(const std::string& table, const std::string& key) const;
 
-  // Without `fallback` the key must be there.
+  // Without `fallback` the key is required.
   double number(const std::string& table, const std::string& key, const NumberRange& range,
                 std::optional<double> fallback = {});
   std::int64_t integer(const std::string& table, const std::string& key, std::int64_t low, std::int64_t high,
                        std::optional<std::int64_t> fallback = {});
   bool boolean(const std::string& table, const std::string& key, std::optional<bool> fallback = {});
   std::string text(const std::string& table, const std::string& key, std::optional<std::string> fallback = {});
-  /// One of `choices`; the index into them.
+  /// Index into `choices`.
   std::size_t choice(const std::string& table, const std::string& key, std::initializer_list<std::string_view> choices,
                      std::optional<std::size_t> fallback = {});
-  /// One number counts as a list of one.
+  /// A single number is read as a list of one.
   std::vector<double> numbers(const std::string& table, const std::string& key, const NumberRange& range,
-                              std::size_t least, std::size_t most);
-  glm::dvec3 vector(const std::string& table, const std::string& key, double largest);
-  /// A list of points, none among them.
-  std::vector<glm::dvec3> vectors(const std::string& table, const std::string& key, double largest, std::size_t most);
+                              std::size_t min_count, std::size_t max_count);
+  glm::dvec3 vector(const std::string& table, const std::string& key, double limit);
+  /// A list of points, possibly empty; each coordinate within -limit..limit.
+  std::vector<glm::dvec3> vectors(const std::string& table, const std::string& key, double limit,
+                                  std::size_t max_count);
 
-  /// Refuses the first key or table that was not asked for.
+  /// Throws for the first key or table that was not read.
   void refuseUnknownKeys() const;
   [[noreturn]] void refuse(const std::string& table, const std::string& key, const std::string& reason) const;
 
@@ -62,13 +62,17 @@ class TomlReader {
   std::unique_ptr<Document> document_;
 };
 
-/// Whole file, at most 64 kB; throws LoadError.
-std::string readSmallFile(const std::string& path);
+/// Content of a regular file of at most `max_bytes`. Throws LoadError; `if_missing` says what to do without the file.
+std::string readSmallFile(const std::string& path, std::size_t max_bytes = 64 * 1024,
+                          const std::string& if_missing = "check the name");
 
 /// The text as a TOML value, in quotes.
 std::string quotedToml(const std::string& text);
 
-/// 0.8, not 0.800000: a number as a person writes it.
+/// Up to 9 digits, without trailing zeros: 0.8.
 std::string numberText(double value);
+
+/// The shortest text that reads back as the same number.
+std::string exactText(double value);
 
 }  // namespace assets

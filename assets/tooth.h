@@ -1,6 +1,7 @@
-// Teeth by their FDI numbers (ISO 3950): quadrant, then place from the midline. Permanent teeth 11..18, 21..28, 31..38,
-// 41..48; primary teeth 51..55, 61..65, 71..75, 81..85. Right and left are the patient's. Directions in frame P (LPS),
-// unit, of a normal arch: mean tangents, good for "which way is the cheek", no measurement. Pure; any thread.
+// FDI tooth numbers (ISO 3950): quadrant, then position from the midline. Permanent
+// teeth 11..18, 21..28, 31..38, 41..48; primary teeth 51..55, 61..65, 71..75, 81..85. Right and left are the patient's.
+// Directions in frame P (LPS), unit, are the mean tangents of a normal arch, not measurements. Pure functions; any
+// thread.
 #pragma once
 
 #include <array>
@@ -12,7 +13,7 @@
 namespace assets {
 
 constexpr int quadrantOf(int fdi) { return fdi / 10; }
-/// 1 next to the midline.
+/// From the midline, 1 is the central incisor.
 constexpr int positionOf(int fdi) { return fdi % 10; }
 constexpr bool isPrimaryTooth(int fdi) { return quadrantOf(fdi) >= 5; }
 constexpr bool isToothNumber(int fdi) {
@@ -36,9 +37,9 @@ inline std::string toothName(int fdi) {
   constexpr std::array<std::string_view, 6> kPrimary{"",       "central incisor", "lateral incisor",
                                                      "canine", "first molar",     "second molar"};
   if (!isToothNumber(fdi)) return "no tooth";
-  const auto place = static_cast<std::size_t>(positionOf(fdi));
+  const auto position = static_cast<std::size_t>(positionOf(fdi));
   return std::string(isUpper(fdi) ? "upper " : "lower ") + (isRight(fdi) ? "right " : "left ") +
-         (isPrimaryTooth(fdi) ? "primary " + std::string(kPrimary[place]) : std::string(kPermanent[place]));
+         (isPrimaryTooth(fdi) ? "primary " + std::string(kPrimary[position]) : std::string(kPermanent[position]));
 }
 
 /// Towards the other jaw.

@@ -1,6 +1,5 @@
-// Smooth vertex normals from triangles: the area-weighted sum of the faces around each vertex, unit length.
-// A vertex of no or only zero-area triangles gets (0, 0, 1). Frame of the input; any thread; one pass.
-// Not for surfaces that know their gradient (synthetic/face), which is better.
+// Smooth vertex normals: area-weighted sum of the adjacent faces, unit length; (0, 0, 1) for a vertex without area.
+// Frame of the input; any thread; one pass. Surfaces with a known gradient (synthetic/face) use that instead.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,5 @@
-// Where the voxels of a volume lie: a box of cubic voxels, axes along P (LPS), i fastest.
-// Index (0,0,0) is the voxel whose centre is `origin_P_mm`. Integer indices are voxels, never a frame.
-// Plain data, trivially copyable; any thread.
+// Geometry of a volume: a box of cubic voxels with axes along P (LPS), i fastest. Integer indices denote voxels.
+// Index (0,0,0) is the voxel whose centre is `origin_P_mm`. Plain data, trivially copyable; any thread.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +8,21 @@
 
 namespace assets {
 
-/// Edge of a brick in voxels: the unit of carving hand-over, empty-space skipping and upload.
+/// Edge of a brick in voxels: the unit of transfer of carved bone, of empty-space skipping and of upload.
 inline constexpr int kBrickVoxels = 8;
+
+/// Elements of a box, and the index of one of them, i fastest.
+inline std::size_t countIn(glm::ivec3 size) {
+  return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);
+}
+inline std::size_t indexIn(glm::ivec3 size, glm::ivec3 ijk) {
+  return (static_cast<std::size_t>(ijk.z) * static_cast<std::size_t>(size.y) + static_cast<std::size_t>(ijk.y)) *
+             static_cast<std::size_t>(size.x) +
+         static_cast<std::size_t>(ijk.x);
+}
+
+/// Offset of corner 0..7 of a cell, i fastest.
+inline glm::ivec3 cornerOffset(int corner) { return {corner & 1, corner >> 1 & 1, corner >> 2}; }
 
 struct VolumeGrid {
   glm::ivec3 size{0};           ///< voxels along i, j, k
@@ -19,14 +31,8 @@ struct VolumeGrid {
 
   bool operator==(const VolumeGrid&) const = default;
 
-  std::size_t voxelCount() const {
-    return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);
-  }
-  std::size_t index(glm::ivec3 ijk) const {
-    return (static_cast<std::size_t>(ijk.z) * static_cast<std::size_t>(size.y) + static_cast<std::size_t>(ijk.y)) *
-               static_cast<std::size_t>(size.x) +
-           static_cast<std::size_t>(ijk.x);
-  }
+  std::size_t voxelCount() const { return countIn(size); }
+  std::size_t index(glm::ivec3 ijk) const { return indexIn(size, ijk); }
   bool contains(glm::ivec3 ijk) const {
     return ijk.x >= 0 && ijk.y >= 0 && ijk.z >= 0 && ijk.x < size.x && ijk.y < size.y && ijk.z < size.z;
   }
@@ -54,13 +60,13 @@ void forVoxels(const VolumeGrid& grid, const Visit& visit) {
   forVoxels(glm::ivec3(0), grid.size, [&](glm::ivec3 ijk) { visit(ijk, v++); });
 }
 
-/// How many voxels, and the sum of their indices: exact, whatever the order.
+/// Number of voxels and sum of their indices; exact for any order.
 struct VoxelSum {
   double count = 0.0;
   glm::dvec3 sum{0.0};
 };
 
-/// Over the voxels whose number belongs.
+/// Sum over the voxels v for which belongs(v).
 template <class Belongs>
 VoxelSum voxelSum(const VolumeGrid& grid, const Belongs& belongs) {
   VoxelSum found;

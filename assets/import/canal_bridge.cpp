@@ -11,18 +11,12 @@ namespace assets {
 namespace {
 
 constexpr int kSides = 8, kRelaxations = 150;
-constexpr double kAside_mm = 4.0;  ///< where a way begins before it is let go, beyond any root
-/// Of the canal's radius: where a tooth comes nearer to what is labelled than this, its label covers the canal itself
-/// and says nothing of a way round. From one jaw, whose truth runs straight on (0.51 of the radius).
-constexpr double kLeastRoom = 0.6;
+constexpr double kAside_mm = 4.0;  ///< initial deflection of a path, more than a root
+/// Fraction of the canal's radius: where a tooth is nearer to the labelled canal, its label covers the canal itself and
+/// the gap stays straight. From one jaw with a straight canal (0.51).
+constexpr double kMinClearance = 0.6;
 
 using Points = std::vector<glm::dvec3>;
-
-bool isTooth(std::uint8_t label) {
-  const Tissue tissue{label};
-  return tissue == Tissue::other_teeth || tissue == Tissue::enamel || tissue == Tissue::dentine ||
-         tissue == Tissue::pulp;
-}
 
 /// Centres of the teeth's outermost voxels in a box.
 Points toothSurface(const VolumeGrid& grid, const std::vector<std::uint8_t>& label, const glm::dvec3& low_P_mm,
@@ -45,7 +39,7 @@ Points toothSurface(const VolumeGrid& grid, const std::vector<std::uint8_t>& lab
   return surface;
 }
 
-/// A stretch of the line to be laid anew, end one past its last point.
+/// Points of the line to move, [begin, end).
 struct Gap {
   std::size_t begin, end;
 };
@@ -61,12 +55,12 @@ std::vector<Gap> gapsOf(const std::vector<bool>& is_bridge) {
 }
 
 double distanceTo(const Points& tooth, const glm::dvec3& p) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const glm::dvec3& q : tooth) least = std::min(least, glm::distance(p, q));
-  return least;
+  double min_mm = std::numeric_limits<double>::infinity();
+  for (const glm::dvec3& q : tooth) min_mm = std::min(min_mm, glm::distance(p, q));
+  return min_mm;
 }
 
-/// Out of reach of the nearest point of a tooth.
+/// Moves p out to the clearance from the nearest point of the tooth.
 void keepOff(glm::dvec3& p, const Points& tooth, double clearance_mm) {
   const glm::dvec3* nearest = nullptr;
   double least = clearance_mm * clearance_mm;
@@ -77,7 +71,7 @@ void keepOff(glm::dvec3& p, const Points& tooth, double clearance_mm) {
   if (nearest && least > 0.0) p = *nearest + clearance_mm / std::sqrt(least) * (p - *nearest);
 }
 
-/// Towards the least bending between what stays on either side.
+/// Relaxes the gap towards least bending, its neighbours fixed.
 void relax(Points& line, const Gap& gap, const Points& tooth, double clearance_mm) {
   for (int pass = 0; pass < kRelaxations; ++pass)
     for (std::size_t p = gap.begin; p < gap.end; ++p) {
@@ -95,19 +89,19 @@ double bendingOf(const Points& line, const Gap& gap) {
   return sum;
 }
 
-void layAnew(Points& line, const Gap& gap, double radius_mm, const VolumeGrid& grid,
-             const std::vector<std::uint8_t>& label) {
+void bridge(Points& line, const Gap& gap, double radius_mm, const VolumeGrid& grid,
+            const std::vector<std::uint8_t>& label) {
   glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
   for (std::size_t p = gap.begin - 1; p <= gap.end; ++p) low = glm::min(low, line[p]), high = glm::max(high, line[p]);
-  // From the centre of a voxel at the surface to the wall is half a voxel more. Where the tooth lies nearer than that
-  // to what is labelled at the gap's ends, it has taken some of the canal: no more room than there.
+  // Surface voxels' centres lie half a voxel inside. A tooth nearer to the labelled ends of the gap than that covers
+  // part of the canal: the clearance is no larger than there.
   const double free_mm = radius_mm + 0.5 * grid.spacing_mm, reach_mm = kAside_mm + free_mm;
   const Points tooth = toothSurface(grid, label, low - reach_mm, high + reach_mm);
   const double clearance_mm =
       std::min({free_mm, distanceTo(tooth, line[gap.begin - 1]), distanceTo(tooth, line[gap.end])});
-  if (tooth.empty() || clearance_mm < kLeastRoom * radius_mm) return;
+  if (tooth.empty() || clearance_mm < kMinClearance * radius_mm) return;
 
-  // First as if nothing stood there.
+  // First without the tooth.
   relax(line, gap, {}, 0.0);
   Points touched = line;
   for (std::size_t p = gap.begin; p < gap.end; ++p) keepOff(touched[p], tooth, clearance_mm);
@@ -118,7 +112,7 @@ void layAnew(Points& line, const Gap& gap, double radius_mm, const VolumeGrid& g
       glm::normalize(glm::cross(along, std::abs(along.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0)));
   const glm::dvec3 v = glm::cross(along, u);
   Points best = touched;
-  double least = std::numeric_limits<double>::infinity();
+  double least_bending = std::numeric_limits<double>::infinity();
   for (int side = 0; side < kSides; ++side) {
     const double turn = 2.0 * std::numbers::pi * side / kSides;
     Points way = line;
@@ -128,7 +122,7 @@ void layAnew(Points& line, const Gap& gap, double radius_mm, const VolumeGrid& g
     }
     relax(way, gap, tooth, clearance_mm);
     const double bending = bendingOf(way, gap);
-    if (bending < least) least = bending, best = way;
+    if (bending < least_bending) least_bending = bending, best = way;
   }
   line = best;
 }
@@ -137,7 +131,7 @@ void layAnew(Points& line, const Gap& gap, double radius_mm, const VolumeGrid& g
 
 void routeAroundTeeth(std::vector<glm::dvec3>& line_P_mm, const std::vector<bool>& is_bridge, double radius_mm,
                       const VolumeGrid& grid, const std::vector<std::uint8_t>& label) {
-  for (const Gap& gap : gapsOf(is_bridge)) layAnew(line_P_mm, gap, radius_mm, grid, label);
+  for (const Gap& gap : gapsOf(is_bridge)) bridge(line_P_mm, gap, radius_mm, grid, label);
 }
 
 }  // namespace assets

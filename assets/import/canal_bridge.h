@@ -1,8 +1,7 @@
-// How the mandibular canal goes on where a tooth's root hides it from its labels: the least bent way on from both sides
-// that keeps its wall out of the tooth. Of eight sides to pass by the one that bends least is taken; straight across,
-// the line ran through the root, 1.8 mm off. A tooth that stands in the middle of what is labelled leaves no way to
-// pass: then straight across. Frame P, mm. Any thread; some milliseconds a gap. A guess, made for a surgeon's distance
-// to the nerve: no segmentation.
+// Continues the mandibular canal where a tooth's root covers its labels: the least bent path between both ends of the
+// gap whose wall stays outside the tooth, the best of eight directions of passing. A tooth in the middle of the
+// labelled canal leaves no way round; the gap is then straight. Frame P, mm. Any thread; some ms a gap. An estimate for
+// the surgeon's distance to the nerve, no segmentation.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +11,7 @@
 
 namespace assets {
 
-/// Moves the points of `line` that bridge a gap; the first and the last two of the line stay. `radius_mm`: the canal's.
+/// Moves the points of the line that bridge a gap; its first and last two stay. `radius_mm`: of the canal.
 void routeAroundTeeth(std::vector<glm::dvec3>& line_P_mm, const std::vector<bool>& is_bridge, double radius_mm,
                       const VolumeGrid& grid, const std::vector<std::uint8_t>& label);
 

@@ -12,9 +12,9 @@ namespace {
 constexpr double kCell_mm = 2.0;
 constexpr double kFace_mm = 25.0, kBeside_mm = 18.0, kHollowFrom_mm = 22.0, kHollowTo_mm = 40.0, kHollowHalf_mm = 6.0;
 constexpr double kArchHeight_mm = 26.0, kChin_mm = 16.0, kFront_mm = 20.0, kWall_mm = 60.0;
-constexpr int kLeastFront = 3;  ///< cells of bone in the front row of a slice
+constexpr int kMinFront = 3;  ///< cells of bone in the front row of a slice
 
-/// Solid in cells of 2 mm: i to the left, j to the back, k up.
+/// Solid cells of 2 mm: i to the left, j to the back, k up.
 struct Coarse {
   glm::ivec3 size{0};
   double cell_mm = kCell_mm;
@@ -22,7 +22,7 @@ struct Coarse {
 
   bool at(int i, int j, int k) const {
     if (i < 0 || j < 0 || k < 0 || i >= size.x || j >= size.y || k >= size.z) return false;
-    return solid[static_cast<std::size_t>((k * size.y + j) * size.x + i)];
+    return solid[indexIn(size, {i, j, k})];
   }
 };
 
@@ -31,19 +31,16 @@ Coarse coarseOf(const CtVolume& ct) {
   Coarse coarse;
   coarse.cell_mm = step * ct.grid.spacing_mm;
   coarse.size = (ct.grid.size + step - 1) / step;
-  std::vector<std::uint32_t> count(static_cast<std::size_t>(coarse.size.x) * static_cast<std::size_t>(coarse.size.y) *
-                                   static_cast<std::size_t>(coarse.size.z));
+  std::vector<std::uint32_t> count(countIn(coarse.size));
   forVoxels(ct.grid, [&](glm::ivec3 ijk, std::size_t v) {
-    const glm::ivec3 cell = ijk / step;
-    if (ct.solid[v] >= kHalfSolid)
-      ++count[static_cast<std::size_t>((cell.z * coarse.size.y + cell.y) * coarse.size.x + cell.x)];
+    if (ct.solid[v] >= kHalfSolid) ++count[indexIn(coarse.size, ijk / step)];
   });
   const double half = 0.3 * step * step * step;
   for (const std::uint32_t solid : count) coarse.solid.push_back(solid >= half);
   return coarse;
 }
 
-/// The foremost row of a slice with bone, and the middle of its bone.
+/// Foremost row of a slice with bone, and the middle of its bone.
 struct Front {
   int row = std::numeric_limits<int>::max();
   double middle = 0.0;
@@ -55,12 +52,12 @@ Front frontOf(const Coarse& coarse, int k) {
     int count = 0;
     for (int i = 0; i < coarse.size.x; ++i)
       if (coarse.at(i, j, k) && coarse.at(i, j + 1, k)) sum += i, ++count;
-    if (count >= kLeastFront) return {j, sum / count};
+    if (count >= kMinFront) return {j, sum / count};
   }
   return {};
 }
 
-/// Bone on both sides of the middle behind the front, none in the middle behind the chin.
+/// Bone on both sides behind the front, none in the middle behind the chin.
 bool isArch(const Coarse& coarse, int k, const Front& front) {
   const auto cells = [&](double mm) { return static_cast<int>(std::lround(mm / coarse.cell_mm)); };
   const int middle = static_cast<int>(std::lround(front.middle)), beside = cells(kBeside_mm);
@@ -87,7 +84,7 @@ std::optional<glm::dvec3> archOf(const CtVolume& ct) {
   }
   if (foremost == std::numeric_limits<int>::max()) return std::nullopt;
 
-  // The lowest slices of the face are the chin; the arch begins with them or soon.
+  // The lowest slices of the face are the chin; the arch begins there or slightly above.
   const auto cells = [&](double mm) { return static_cast<int>(std::ceil(mm / coarse.cell_mm)); };
   const int height = cells(kArchHeight_mm), face = foremost + cells(kFace_mm);
   const auto is_face = [&](int k) { return fronts[static_cast<std::size_t>(k)].row <= face; };
@@ -110,7 +107,7 @@ std::optional<glm::dvec3> archOf(const CtVolume& ct) {
   return ct.grid.origin_P_mm + coarse.cell_mm * (sum / count + 0.5) - 0.5 * ct.grid.spacing_mm;
 }
 
-std::optional<glm::dvec3> middleOfLowerTeeth(const CtVolume& ct) {
+std::optional<glm::dvec3> centroidOfLowerTeeth(const CtVolume& ct) {
   if (ct.tooth.empty()) return std::nullopt;
   const auto [count, sum] = voxelSum(ct.grid, [&](std::size_t v) { return ct.tooth[v] != 0 && !isUpper(ct.tooth[v]); });
   if (count == 0.0) return std::nullopt;
@@ -121,7 +118,7 @@ std::optional<glm::dvec3> middleOfLowerTeeth(const CtVolume& ct) {
 
 std::optional<glm::dvec3> lowerJawCentre_P_mm(const CtVolume& ct,
                                               const std::vector<glm::dvec3>& mandibular_canal_P_mm) {
-  if (const auto teeth = middleOfLowerTeeth(ct)) return teeth;
+  if (const auto teeth = centroidOfLowerTeeth(ct)) return teeth;
   if (!mandibular_canal_P_mm.empty()) return mandibular_canal_P_mm[mandibular_canal_P_mm.size() / 2];
   return archOf(ct);
 }

@@ -24,7 +24,7 @@ double lengthOf(const Points& line) {
   return length_mm;
 }
 
-/// A line's segments as every point asks for them.
+/// Segment of a line with precomputed terms.
 struct Segment {
   glm::dvec3 start{0.0}, along{0.0};
   double length_mm = 0.0, per_squared = 0.0, before_mm = 0.0;
@@ -42,7 +42,7 @@ std::vector<Segment> segmentsOf(const Points& line) {
   return segments;
 }
 
-/// Where along the line its nearest point to p lies; the end segments go on beyond the ends.
+/// Arc length of the line's point nearest to p; the end segments are extended.
 double alongLine(const std::vector<Segment>& line, const glm::dvec3& p_P_mm) {
   double along_mm = 0.0;
   double nearest_mm2 = std::numeric_limits<double>::infinity();
@@ -60,17 +60,16 @@ double alongLine(const std::vector<Segment>& line, const glm::dvec3& p_P_mm) {
   return along_mm;
 }
 
-/// Means of the points over equal steps of their place along the canal, in order; straight across steps without any.
+/// Means of the points over equal steps along the canal, in order; interpolated over empty steps.
 struct Means {
   Points line;
-  std::vector<bool> is_bridge;  ///< per point: laid across a step without any
-  double before_mm = 0.0;       ///< length of canal before the first mean
+  std::vector<bool> is_bridge;  ///< per point: interpolated
+  double before_mm = 0.0;       ///< canal before the first mean
   double after_mm = 0.0;        ///< and after the last
-  double labelled_mm = 0.0;     ///< length of the steps that hold points
+  double labelled_mm = 0.0;     ///< length of the filled steps
 };
 
-/// Beside a gap or an end a step may hold a sliver of the section, whose mean lies to one side: it does not count as a
-/// mean.
+/// Steps next to a gap or an end that hold only part of the section, whose mean lies to one side; they are ignored.
 std::vector<bool> isSliver(const std::vector<double>& count, double usual) {
   std::vector<bool> sliver(count.size(), false);
   for (std::size_t s = 0; s < count.size(); ++s) {
@@ -111,7 +110,7 @@ Means meansAlong(const Points& points, const std::vector<double>& along_mm) {
     result.after_mm += filled_mm;
     if (count[s] == 0.0 || sliver[s]) continue;
 
-    // A mean; straight on from the one before if steps lie between.
+    // A mean; interpolate from the previous one over empty steps.
     const glm::dvec3 mean = sum[s] / count[s];
     for (std::size_t gap = before.value_or(s) + 1; gap < s; ++gap) {
       result.line.push_back(
@@ -128,7 +127,7 @@ Means meansAlong(const Points& points, const std::vector<double>& along_mm) {
   return result;
 }
 
-/// Binomial weights 1 4 6 4 1 (sigma 1 step), shorter towards the ends, which stay.
+/// Binomial weights 1 4 6 4 1 (sigma 1 step), shorter towards the ends, which are fixed.
 Points smoothed(const Points& line) {
   Points result = line;
   for (int pass = 0; pass < 2; ++pass) {
@@ -139,21 +138,21 @@ Points smoothed(const Points& line) {
   return result;
 }
 
-/// Without the ends, whose direction is the least certain: projection goes on straight beyond them.
+/// Without the ends, whose direction is uncertain; projection extends the line straight.
 Points trimmed(const Points& line) {
   constexpr std::size_t kTrim = 3;
   if (line.size() < 4 * kTrim) return line;
   return {line.begin() + kTrim, line.end() - kTrim};
 }
 
-/// The end points are means of a step: the canal goes on a little beyond.
+/// The end points are means of a step; the canal extends beyond them.
 void extendEnds(Points& line, double before_mm, double after_mm) {
   const glm::dvec3 front = line.front() + before_mm * glm::normalize(line.front() - line[1]);
   line.back() += after_mm * glm::normalize(line.back() - line[line.size() - 2]);
   line.front() = front;
 }
 
-/// Points every kStep_mm or a little less along the line, both ends kept.
+/// Points at most kStep_mm apart along the line, with both ends.
 Points evenlySpaced(const Points& line) {
   const double length_mm = lengthOf(line);
   const auto steps = static_cast<std::size_t>(std::ceil(length_mm / kStep_mm - 1.0e-9));

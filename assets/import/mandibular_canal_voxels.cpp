@@ -14,11 +14,11 @@ namespace assets {
 
 namespace {
 
-constexpr double kFinestCell_mm = 0.8;
-constexpr std::size_t kMostParts = 64;  ///< of a canal; the rest are speckles
-constexpr double kLargestGap_mm = 8.0;  // segmentations lose the canal where a root lies on it
+constexpr double kMinCell_mm = 0.8;
+constexpr std::size_t kMaxParts = 64;  ///< largest parts of a canal that are joined; the rest is noise
+constexpr double kMaxGap_mm = 8.0;     // segmentations lose the canal where a root lies on it
 
-/// Voxels gathered in coarse cells: a small graph whatever the voxel size.
+/// A node of the graph: the voxels of a coarse cell.
 struct Cell {
   glm::ivec3 at{0};
   glm::dvec3 sum_P_mm{0.0};
@@ -30,7 +30,7 @@ struct Cell {
 
 std::vector<Cell> cellsOf(const VolumeGrid& grid, const std::vector<std::uint8_t>& label) {
   std::vector<Cell> cells;
-  const double cell_mm = std::max(kFinestCell_mm, grid.spacing_mm);
+  const double cell_mm = std::max(kMinCell_mm, grid.spacing_mm);
   const auto cell_of = [&](glm::ivec3 ijk) {
     return glm::ivec3(glm::floor(glm::dvec3(ijk) * grid.spacing_mm / cell_mm + 1.0e-9));
   };
@@ -60,39 +60,39 @@ std::vector<Cell> cellsOf(const VolumeGrid& grid, const std::vector<std::uint8_t
   return cells;
 }
 
-/// Length of the shortest way from `start` to every cell; infinite where there is none.
-std::vector<double> wayFrom(std::size_t start, const std::vector<Cell>& cells) {
-  std::vector<double> way_mm(cells.size(), std::numeric_limits<double>::infinity());
+/// Length of the shortest path from `start` to every cell; infinite if unreachable.
+std::vector<double> pathsFrom(std::size_t start, const std::vector<Cell>& cells) {
+  std::vector<double> path_mm(cells.size(), std::numeric_limits<double>::infinity());
   using Reached = std::pair<double, std::size_t>;
   std::priority_queue<Reached, std::vector<Reached>, std::greater<>> front;
-  way_mm[start] = 0.0;
+  path_mm[start] = 0.0;
   front.emplace(0.0, start);
   while (!front.empty()) {
     const auto [length_mm, cell] = front.top();
     front.pop();
-    if (length_mm > way_mm[cell]) continue;
+    if (length_mm > path_mm[cell]) continue;
     for (const std::size_t next : cells[cell].neighbours) {
       const double longer_mm = length_mm + glm::distance(cells[cell].mean_P_mm(), cells[next].mean_P_mm());
-      if (longer_mm >= way_mm[next]) continue;
-      way_mm[next] = longer_mm;
+      if (longer_mm >= path_mm[next]) continue;
+      path_mm[next] = longer_mm;
       front.emplace(longer_mm, next);
     }
   }
-  return way_mm;
+  return path_mm;
 }
 
-std::size_t farthest(const std::vector<double>& way_mm) {
+std::size_t farthest(const std::vector<double>& path_mm) {
   std::size_t best = 0;
   double longest_mm = -1.0;
-  for (std::size_t c = 0; c < way_mm.size(); ++c)
-    if (std::isfinite(way_mm[c]) && way_mm[c] > longest_mm) {
-      longest_mm = way_mm[c];
+  for (std::size_t c = 0; c < path_mm.size(); ++c)
+    if (std::isfinite(path_mm[c]) && path_mm[c] > longest_mm) {
+      longest_mm = path_mm[c];
       best = c;
     }
   return best;
 }
 
-/// Splits into connected canals.
+/// Connected components.
 std::vector<std::vector<std::size_t>> canalsOf(const std::vector<Cell>& cells) {
   std::vector<std::vector<std::size_t>> canals;
   std::vector<bool> seen(cells.size(), false);
@@ -119,17 +119,17 @@ std::size_t voxelsOf(const std::vector<std::size_t>& canal, const std::vector<Ce
 
 struct Join {
   std::size_t from = 0, to = 0;
-  double gap_mm = kLargestGap_mm;
+  double gap_mm = kMaxGap_mm;
 };
 
-/// A part's cells by the cube of the largest gap's edge that they lie in.
+/// A part's cells binned in cubes of the largest gap's edge.
 class Cubes {
  public:
   Cubes(const std::vector<std::size_t>& part, const std::vector<Cell>& cells) {
     for (const std::size_t c : part) cells_[cubeAt(cells[c].mean_P_mm())].push_back(c);
   }
 
-  /// Visits the cells that can lie within the largest gap of `p_P_mm`.
+  /// Visits all cells within the largest gap of `p_P_mm`, and some others.
   template <class Visit>
   void forCellsAround(const glm::dvec3& p_P_mm, const Visit& visit) const {
     const Cube middle = cubeAt(p_P_mm);
@@ -143,14 +143,14 @@ class Cubes {
  private:
   using Cube = std::array<std::int64_t, 3>;
   static Cube cubeAt(const glm::dvec3& p_P_mm) {
-    const glm::dvec3 at = glm::floor(p_P_mm / kLargestGap_mm);
+    const glm::dvec3 at = glm::floor(p_P_mm / kMaxGap_mm);
     return {static_cast<std::int64_t>(at.x), static_cast<std::int64_t>(at.y), static_cast<std::int64_t>(at.z)};
   }
 
   std::map<Cube, std::vector<std::size_t>> cells_;
 };
 
-/// The nearest two cells of two parts, if they are near enough.
+/// Nearest two cells of two parts, if within the largest gap.
 Join nearestOf(const std::vector<std::size_t>& a, const Cubes& b, const std::vector<Cell>& cells) {
   Join nearest;
   for (const std::size_t from : a) {
@@ -163,12 +163,12 @@ Join nearestOf(const std::vector<std::size_t>& a, const Cubes& b, const std::vec
   return nearest;
 }
 
-/// Joins parts of one canal: their nearest cells become neighbours. The largest parts alone, and from the smaller of
-/// two, so that speckled labels cost no more than a canal's.
+/// Joins parts of one canal: their nearest cells become neighbours. Limited to the largest parts, which bounds the cost
+/// of noisy labels.
 void joinAcrossGaps(std::vector<Cell>& cells) {
   auto parts = canalsOf(cells);
   std::ranges::stable_sort(parts, std::greater{}, [&](const auto& part) { return voxelsOf(part, cells); });
-  parts.resize(std::min(parts.size(), kMostParts));
+  parts.resize(std::min(parts.size(), kMaxParts));
   for (std::size_t larger = 0; larger + 1 < parts.size(); ++larger) {
     const Cubes cubes(parts[larger], cells);
     for (std::size_t smaller = larger + 1; smaller < parts.size(); ++smaller) {
@@ -180,12 +180,12 @@ void joinAcrossGaps(std::vector<Cell>& cells) {
   }
 }
 
-/// The canal meant: nearest to the place given, crumbs of less than a tenth of the largest left aside; or the largest.
-std::vector<std::size_t> canalMeant(const std::vector<Cell>& cells, const std::optional<glm::dvec3>& near_P_mm) {
+/// The canal nearest to a point, ignoring those below a tenth of the largest; without a point the largest.
+std::vector<std::size_t> selectedCanal(const std::vector<Cell>& cells, const std::optional<glm::dvec3>& near_P_mm) {
   const auto canals = canalsOf(cells);
   std::size_t largest = 0;
   for (const auto& canal : canals) largest = std::max(largest, voxelsOf(canal, cells));
-  std::vector<std::size_t> meant;
+  std::vector<std::size_t> selected;
   double best = std::numeric_limits<double>::infinity();
   for (const auto& canal : canals) {
     const std::size_t voxels = voxelsOf(canal, cells);
@@ -197,9 +197,9 @@ std::vector<std::size_t> canalMeant(const std::vector<Cell>& cells, const std::o
     }
     if (distance >= best) continue;
     best = distance;
-    meant = canal;
+    selected = canal;
   }
-  return meant;
+  return selected;
 }
 
 }  // namespace
@@ -208,17 +208,17 @@ OrderedVoxels orderedMandibularCanal(const VolumeGrid& grid, const std::vector<s
                                      const std::optional<glm::dvec3>& near_P_mm) {
   std::vector<Cell> cells = cellsOf(grid, label);
   joinAcrossGaps(cells);
-  const std::vector<std::size_t> canal = canalMeant(cells, near_P_mm);
+  const std::vector<std::size_t> canal = selectedCanal(cells, near_P_mm);
   if (canal.empty()) return {};
 
-  // From any cell the farthest is an end; the way from there orders all others.
-  const std::size_t end = farthest(wayFrom(canal.front(), cells));
-  const std::vector<double> way_mm = wayFrom(end, cells);
+  // The cell farthest from any other is an end; path lengths from there order all cells.
+  const std::size_t end = farthest(pathsFrom(canal.front(), cells));
+  const std::vector<double> path_mm = pathsFrom(end, cells);
   OrderedVoxels voxels;
   for (const std::size_t c : canal)
     for (const glm::dvec3& p_P_mm : cells[c].points_P_mm) {
       voxels.centre_P_mm.push_back(p_P_mm);
-      voxels.along_mm.push_back(way_mm[c]);
+      voxels.along_mm.push_back(path_mm[c]);
     }
   return voxels;
 }

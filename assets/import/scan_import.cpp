@@ -28,7 +28,7 @@ struct Sources {
   std::optional<std::string> labels, teeth;
 };
 
-/// The file of that name in any format we read; more than one is a question we do not guess at.
+/// The file of that name in any supported format; throws if there is more than one.
 std::optional<std::string> volumeNamed(const fs::path& folder, const std::string& name) {
   std::optional<std::string> found;
   for (const char* extension : {".nrrd", ".nhdr", ".nii.gz", ".nii", ".mha", ".mhd"}) {
@@ -69,12 +69,11 @@ Sources sourcesAt(const std::string& source) {
                   ": it holds no ct.nrrd (or .nii.gz, .nii, .mha); name the volume so, or give the file itself");
 }
 
-/// Middle of what is drawn; refuses a scan of which nothing would be seen.
-glm::dvec3 middleOfSolid(const CtVolume& ct, const std::string& path, double iso_hu) {
-  constexpr std::uint8_t kHalf = 128;
-  constexpr double kLeast_mm3 = 10.0;
-  const auto [count, sum] = voxelSum(ct.grid, [&](std::size_t v) { return ct.solid[v] >= kHalf; });
-  if (count * ct.grid.voxelVolume_mm3() < kLeast_mm3)
+/// Centroid of solid; throws for a scan without any.
+glm::dvec3 centroidOfSolid(const CtVolume& ct, const std::string& path, double iso_hu) {
+  constexpr double kMin_mm3 = 10.0;
+  const auto [count, sum] = voxelSum(ct.grid, [&](std::size_t v) { return ct.solid[v] >= kHalfSolid; });
+  if (count * ct.grid.voxelVolume_mm3() < kMin_mm3)
     throw LoadError(path + ": less than 10 mm3 of it is above " + std::to_string(static_cast<int>(iso_hu)) +
                     " HU; give a CT in Hounsfield, or another --iso");
   return ct.grid.origin_P_mm + ct.grid.spacing_mm * sum / count;
@@ -84,17 +83,11 @@ glm::dvec3 middleOfSolid(const CtVolume& ct, const std::string& path, double iso
 std::vector<std::uint8_t> valuesOn(const VolumeGrid& grid, const std::string& path, const std::string& ct) {
   ByteImage image = readLabels(path);
   if (!isSameGrid(image.grid, grid))
-    throw LoadError(path + ": its voxels do not lie where those of " + ct + " do; export both on the same grid");
+    throw LoadError(path + ": its grid differs from that of " + ct + "; export both on the same grid");
   return std::move(image.values);
 }
 
-std::array<std::size_t, 256> countsOf(const std::vector<std::uint8_t>& values) {
-  std::array<std::size_t, 256> count{};
-  for (const std::uint8_t value : values) ++count[value];
-  return count;
-}
-
-/// "4, 17", or none.
+/// "4, 17"; empty without numbers.
 template <class Numbers>
 std::string listOf(const Numbers& numbers) {
   std::string list;
@@ -102,9 +95,9 @@ std::string listOf(const Numbers& numbers) {
   return list;
 }
 
-enum class Tissues { labelled, guessed };
+enum class Tissues { labelled, estimated };
 
-/// Labels as they stand in the file if they are ours, else guessed from grey values.
+/// Labels of the file, or estimated from grey values.
 Tissues readTissues(const std::optional<std::string>& labels, const std::string& ct_path, CtVolume& ct,
                     std::vector<std::string>& remarks) {
   if (labels) {
@@ -113,52 +106,52 @@ Tissues readTissues(const std::optional<std::string>& labels, const std::string&
     std::vector<std::size_t> foreign;
     for (std::size_t value = kTissueCount; value < count.size(); ++value)
       if (count[value] > 0) foreign.push_back(value);
-    if (!foreign.empty())
-      throw LoadError(*labels + ": its value" +
-                      (foreign.size() > 1 ? "s " + listOf(foreign) + " are" : " " + listOf(foreign) + " is") +
-                      " none of ours; give 1 cortical, 2 trabecular, 3 undivided teeth, 4 enamel, 5 dentine, 6 pulp, 7 "
-                      "mandibular canal, 8 ligament, 9 gingiva, and 0 for all else");
+    if (!foreign.empty()) {
+      std::string legend;
+      for (std::size_t value = 1; value < kTissueCount; ++value)
+        legend += std::to_string(value) + " " + std::string(kTissues[value].name) + ", ";
+      throw LoadError(*labels + ": unknown label " + listOf(foreign) + "; use " + legend + "and 0 for everything else");
+    }
     if (count[0] < ct.label.size()) return Tissues::labelled;
-    remarks.push_back("labels: all are 0; tissues are guessed from grey values");
+    remarks.push_back("labels: all are 0; tissues are estimated from grey values");
   }
   ct.label = labelsFromGrey(ct.grid, ct.hounsfield);
-  return Tissues::guessed;
+  return Tissues::estimated;
 }
 
-/// Which tooth each voxel belongs to, as the file has it.
+/// Tooth numbers of the file.
 void readTeeth(const std::string& teeth, const std::string& ct_path, CtVolume& ct, std::vector<std::string>& remarks) {
   ct.tooth = valuesOn(ct.grid, teeth, ct_path);
   const auto count = countsOf(ct.tooth);
   for (std::size_t value = 1; value < count.size(); ++value)
     if (count[value] > 0 && !isToothNumber(static_cast<int>(value)))
       throw LoadError(teeth + ": its value " + std::to_string(value) +
-                      " is no FDI number of a tooth; give 11 to 48, 51 to 85, and 0 where there is none");
-  if (count[0] == ct.tooth.size()) remarks.push_back("teeth: no tooth is told apart, all are 0");
+                      " is not an FDI number; use 11 to 48, 51 to 85, and 0 outside teeth");
+  if (count[0] == ct.tooth.size()) remarks.push_back("teeth: no tooth is numbered, all are 0");
   labelNumberedTeeth(ct);
 }
 
-/// Labels without numbers: one marked tooth is a third molar.
-void takeMarkedTooth(const std::optional<int>& asked_fdi, CtVolume& ct, std::vector<std::string>& remarks) {
-  const ThirdMolar molar = numberThirdMolar(ct, asked_fdi);
+/// Labels without numbers: a single labelled tooth is a third molar.
+void numberLabelledTooth(const std::optional<int>& requested_fdi, CtVolume& ct, std::vector<std::string>& remarks) {
+  const ThirdMolar molar = numberThirdMolar(ct, requested_fdi);
   if (molar == ThirdMolar::too_large)
     remarks.push_back("labels: enamel, dentine and pulp (4 to 6) fill " +
                       std::to_string(std::lround(labelledTeeth_mm3(ct))) +
-                      " mm3, more than one tooth; tell teeth apart in teeth.nrrd, or check the legend");
+                      " mm3, more than one tooth; number the teeth in teeth.nrrd, or check the label values");
   if (molar == ThirdMolar::of_unknown_side)
     remarks.push_back(
-        "labels: nothing in front of the tooth says whether it is a right or a left one; --tooth 48 or "
-        "--tooth 38 says it");
+        "labels: nothing in front of the tooth shows whether it is right or left; give --tooth 48 or --tooth 38");
 }
 
-/// The tooth asked for, or the third molar: lower ones first, as they are operated most.
-std::optional<OperativeSite> siteOf(const CtVolume& ct, const std::optional<int>& asked_fdi, const std::string& source,
-                                    std::vector<std::string>& remarks) {
+/// The requested tooth, or a third molar, lower ones first.
+std::optional<OperativeSite> siteOf(const CtVolume& ct, const std::optional<int>& requested_fdi,
+                                    const std::string& source, std::vector<std::string>& remarks) {
   const std::vector<int> teeth = siteCandidates(ct);
-  if (asked_fdi) {
-    if (const auto site = siteAtTooth(ct, *asked_fdi)) return site;
-    throw LoadError(source + ": tooth " + std::to_string(*asked_fdi) + " is not labelled in it, " +
+  if (requested_fdi) {
+    if (const auto site = siteAtTooth(ct, *requested_fdi)) return site;
+    throw LoadError(source + ": tooth " + std::to_string(*requested_fdi) + " is not labelled in it, " +
                     (teeth.empty() ? "nor is any other; give its number in teeth.nrrd"
-                                   : "these are: " + listOf(teeth) + "; name one with --tooth"));
+                                   : "these are: " + listOf(teeth) + "; choose one with --tooth"));
   }
   std::optional<OperativeSite> site;
   for (const int fdi : {48, 38, 28, 18}) {
@@ -167,38 +160,38 @@ std::optional<OperativeSite> siteOf(const CtVolume& ct, const std::optional<int>
       site = siteAtTooth(ct, fdi);
     else
       remarks.push_back("tooth " + std::to_string(fdi) + " is labelled too; --tooth " + std::to_string(fdi) +
-                        " makes it the site");
+                        " selects it as the site");
   }
   if (site) return site;
   remarks.push_back(
-      "no third molar labelled here" +
-      (teeth.empty() ? std::string() : "; these teeth are: " + listOf(teeth) + ", --tooth makes one of them the site"));
+      "no third molar is labelled" +
+      (teeth.empty() ? std::string() : "; these teeth are: " + listOf(teeth) + ", --tooth selects one as the site"));
   return std::nullopt;
 }
 
 }  // namespace
 
-ImportedScan importScan(const std::string& source, const ScanImportOptions& choices) {
+ImportedScan importScan(const std::string& source, const ScanImportOptions& options) {
   const Sources sources = sourcesAt(source);
-  HounsfieldImage image = readHounsfield(sources.ct, choices.window);
+  HounsfieldImage image = readHounsfield(sources.ct, options.window);
   ImportedScan imported;
   Patient& patient = imported.patient;
-  patient.classification = choices.classification;
+  patient.classification = options.classification;
   patient.ct.grid = image.grid;
   patient.ct.hounsfield = std::move(image.hounsfield);
-  if (!choices.window) imported.remarks = scaleRemarks(patient.ct.grid, patient.ct.hounsfield);
+  if (!options.window) imported.remarks = scaleRemarks(patient.ct.grid, patient.ct.hounsfield);
   if (!image.orientation_known)
-    imported.remarks.push_back("it does not say which side is right; taken as LPS (left-posterior-superior)");
-  patient.ct.solid = classify(patient.ct.grid, patient.ct.hounsfield, choices.classification);
-  const glm::dvec3 middle_P_mm = middleOfSolid(patient.ct, sources.ct, choices.classification.iso_hu);
+    imported.remarks.push_back("the file states no orientation; assumed LPS (left-posterior-superior)");
+  patient.ct.solid = classify(patient.ct.grid, patient.ct.hounsfield, options.classification);
+  const glm::dvec3 centroid_P_mm = centroidOfSolid(patient.ct, sources.ct, options.classification.iso_hu);
 
   const Tissues tissues = readTissues(sources.labels, sources.ct, patient.ct, imported.remarks);
   if (sources.teeth)
     readTeeth(*sources.teeth, sources.ct, patient.ct, imported.remarks);
   else if (tissues == Tissues::labelled)
-    takeMarkedTooth(choices.tooth_fdi, patient.ct, imported.remarks);
+    numberLabelledTooth(options.tooth_fdi, patient.ct, imported.remarks);
   if (tissues == Tissues::labelled) labelPartialVoxels(patient.ct);
-  patient.site = siteOf(patient.ct, choices.tooth_fdi, source, imported.remarks);
+  patient.site = siteOf(patient.ct, options.tooth_fdi, source, imported.remarks);
   const auto near_P_mm = patient.site ? std::optional(patient.site->centre_P_mm) : std::nullopt;
   if (auto canal = mandibularCanalLine(patient.ct.grid, patient.ct.label, near_P_mm)) {
     patient.mandibular_canal_P_mm = std::move(canal->line_P_mm);
@@ -210,9 +203,9 @@ ImportedScan importScan(const std::string& source, const ScanImportOptions& choi
     return imported;
   }
   const auto jaw_P_mm = lowerJawCentre_P_mm(patient.ct, patient.mandibular_canal_P_mm);
-  imported.remarks.push_back(jaw_P_mm ? "the view goes to the lower jaw"
-                                      : "no lower jaw found, the view goes to the middle of what is solid");
-  patient.jaw_P_mm = jaw_P_mm.value_or(middle_P_mm);
+  imported.remarks.push_back(jaw_P_mm ? "the view is centred on the lower jaw"
+                                      : "no lower jaw found, the view is centred on all solid");
+  patient.jaw_P_mm = jaw_P_mm.value_or(centroid_P_mm);
   patient.title = "imported scan, site unknown";
   return imported;
 }

@@ -1,10 +1,10 @@
-// A patient from a scan: a folder with ct.nrrd, and beside it labels.nrrd (our Tissue values) and teeth.nrrd (the FDI
-// number of the tooth each voxel belongs to), or a lone volume file in Hounsfield. .nrrd, .nhdr, .nii, .nii.gz, .mha
-// and .mhd; any orientation (image_file.h). The site is the tooth asked for, or a third molar: one numbered in
-// teeth.nrrd, or without that the only tooth whose enamel and dentine are labelled, if the scan shows its side. Labels
-// give the mandibular canal's line; without them tissues are guessed from grey values and no tooth is. Nothing of the
-// file but voxels and geometry is kept: no name, date or identifier, not even the file's own name. Any thread, at
-// start-up (see image_file.h); about 2 s per 10^7 voxels. Gingiva and face are made elsewhere. No DICOM yet.
+// A patient from a scan: a folder with ct.nrrd and, next to it, labels.nrrd (Tissue values) and teeth.nrrd (FDI
+// numbers), or a single volume file in Hounsfield; .nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd in any orientation
+// (image_file.h). The site is the requested tooth, or a third molar: one numbered in teeth.nrrd, or the only tooth with
+// labelled enamel and dentine if the scan shows its side. The canal's line comes from labels; without labels tissues
+// are estimated from grey values and no tooth is. Only voxels and geometry are kept: no name, date or identifier, not
+// even the file name. Gingiva and face are made elsewhere. No DICOM. Any thread, at start-up; about 2 s per 10^7
+// voxels.
 #pragma once
 
 #include <optional>
@@ -18,16 +18,16 @@ namespace assets {
 
 struct ScanImportOptions {
   Classification classification{};
-  std::optional<int> tooth_fdi{};      ///< the site; none: a third molar
-  std::optional<GreyWindow> window{};  ///< of an 8-bit volume
+  std::optional<int> tooth_fdi{};      ///< the site; default: a third molar
+  std::optional<GreyWindow> window{};  ///< for an 8-bit volume
 };
 
 struct ImportedScan {
   Patient patient;
-  std::vector<std::string> remarks;  ///< what people should know of this scan, a line each
+  std::vector<std::string> remarks;  ///< notes and warnings for the user, a line each
 };
 
 /// Throws LoadError of one line.
-ImportedScan importScan(const std::string& source, const ScanImportOptions& choices);
+ImportedScan importScan(const std::string& source, const ScanImportOptions& options);
 
 }  // namespace assets

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kBone_hu = 700, kMetal_hu = 3000;     // enamel ends at 2955 (Reshetnikov 2024)
 constexpr int kNoAirBelow_hu = -300, kBin_hu = 16;  // fat lies at -100, air at -1000
-constexpr double kMostBone = 0.3, kLeastMetal_mm3 = 10.0;
+constexpr double kMaxBone = 0.3, kMinMetal_mm3 = 10.0;
 
 class Histogram {
  public:
@@ -26,7 +26,7 @@ class Histogram {
       sum += static_cast<double>(count_[std::size_t(value + kShift)]);
     return sum / all_;
   }
-  /// The value that a share of the voxels does not exceed.
+  /// Value that a share of the voxels does not exceed.
   int percentile(double share) const {
     double sum = 0.0;
     for (std::size_t n = 0; n < count_.size(); ++n)
@@ -51,14 +51,14 @@ class Histogram {
   double all_;
 };
 
-/// Where the darkest of the scan lies if that can not be air in Hounsfield and the rest can not be a head.
+/// Grey value of air, if it and the other tissues cannot be Hounsfield.
 std::optional<int> offsetAir_hu(const Histogram& greys) {
   const int darkest = greys.percentile(0.001);
   if (darkest < kNoAirBelow_hu) return std::nullopt;
   const int air = greys.mode(darkest, std::max(darkest, greys.percentile(0.4)));
   const double bone = greys.above(kBone_hu), between = greys.between(air + 200, kBone_hu);
-  // Nothing of a head lies between bone and what is dark, but everything does between air and soft tissue.
-  const bool is_offset = bone > kMostBone || (bone > 0.05 && between < 0.35 * bone);
+  // A head has soft tissue between air and bone; on an offset scale there is little.
+  const bool is_offset = bone > kMaxBone || (bone > 0.05 && between < 0.35 * bone);
   return is_offset ? std::optional(air) : std::nullopt;
 }
 
@@ -67,10 +67,10 @@ std::optional<int> offsetAir_hu(const Histogram& greys) {
 std::vector<std::string> scaleRemarks(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield) {
   const Histogram greys(hounsfield);
   if (const auto air = offsetAir_hu(greys))
-    return {"its air seems to lie at " + std::to_string(*air) +
-            " HU instead of -1000, so everything is taken for bone; export it in Hounsfield (often 1024 lower)"};
+    return {"its air seems to be at " + std::to_string(*air) +
+            " HU instead of -1000, so everything counts as bone; export it in Hounsfield (often 1024 lower)"};
   const double metal_mm3 = greys.above(kMetal_hu - 1) * static_cast<double>(hounsfield.size()) * grid.voxelVolume_mm3();
-  if (metal_mm3 < kLeastMetal_mm3) return {};
+  if (metal_mm3 < kMinMetal_mm3) return {};
   return {"about " + std::to_string(std::lround(metal_mm3)) +
           " mm3 are denser than enamel (3000 HU): metal, whose streaks look like spikes of bone"};
 }

@@ -1,6 +1,6 @@
-// Whether a scan's grey values can be Hounsfield, by what every head has: air at -1000, far less bone than soft tissue,
-// no tissue denser than enamel. What is doubtful is said in a line each, for people; nothing is changed. Greys that are
-// surely none: assets/scan/grey_window.h. Any thread; a pass over the voxels.
+// Checks whether grey values can be Hounsfield, by properties of every head: air at -1000, far less bone than soft
+// tissue, no tissue denser than enamel. Returns warnings for the user; changes nothing. 8-bit grey values:
+// scan/grey_window.h. Any thread; one pass.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace assets {
 
-/// An offset scale; metal and its streaks.
+/// An offset scale; metal with its streaks.
 std::vector<std::string> scaleRemarks(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield);
 
 }  // namespace assets

@@ -7,10 +7,10 @@
 namespace assets {
 namespace {
 
-constexpr double kReach_mm = 0.6;      ///< half width of a surface in a scan, at least two voxels
-constexpr double kVoidDepth_mm = 1.0;  ///< of outside; marrow spaces are smaller
+constexpr double kReach_mm = 0.6;      ///< half width of a blurred surface, at least two voxels
+constexpr double kVoidDepth_mm = 1.0;  ///< minimum; marrow spaces are smaller
 
-/// Grey values at any place, the border's beyond it.
+/// Grey values, extended beyond the border.
 class Greys {
  public:
   Greys(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield) : grid_(grid), hounsfield_(hounsfield) {}
@@ -18,7 +18,7 @@ class Greys {
   int at(glm::ivec3 ijk) const { return hounsfield_[grid_.index(glm::clamp(ijk, glm::ivec3(0), grid_.size - 1))]; }
   int near(const glm::dvec3& index) const { return at(glm::ivec3(glm::round(index))); }
 
-  /// Up, unit; zero where it is even.
+  /// Unit, or zero.
   glm::dvec3 gradient(glm::ivec3 ijk) const {
     glm::dvec3 up(0.0);
     for (int axis = 0; axis < 3; ++axis) {
@@ -37,8 +37,7 @@ class Greys {
 
 bool isNearVoid(const Greys& greys, glm::ivec3 ijk, int reach) {
   for (int corner = 0; corner < 8; ++corner)
-    if (greys.at(ijk + reach * (2 * glm::ivec3(corner & 1, corner >> 1 & 1, corner >> 2) - 1)) <= kSoftBelow_hu)
-      return true;
+    if (greys.at(ijk + reach * (2 * cornerOffset(corner) - 1)) <= kSoftBelow_hu) return true;
   for (int axis = 0; axis < 3; ++axis)
     for (const int side : {-reach, reach}) {
       glm::ivec3 next = ijk;
@@ -48,7 +47,7 @@ bool isNearVoid(const Greys& greys, glm::ivec3 ijk, int reach) {
   return false;
 }
 
-/// The tissue behind a voxel at a surface, or its own.
+/// Tissue behind a voxel at a surface, else its own.
 Tissue tissueAt(const Greys& greys, glm::ivec3 ijk, int hounsfield, int reach, int void_depth) {
   const Tissue own = tissueFromGrey(hounsfield);
   if (own == Tissue::unlabelled || own == Tissue::enamel || !isNearVoid(greys, ijk, reach)) return own;
@@ -64,7 +63,7 @@ Tissue tissueAt(const Greys& greys, glm::ivec3 ijk, int hounsfield, int reach, i
   return behind == Tissue::trabecular ? Tissue::cortical : behind;
 }
 
-/// The 26 around a voxel that lie in the grid.
+/// The 26 neighbours inside the grid.
 template <class Visit>
 void forNeighbours(const VolumeGrid& grid, glm::ivec3 ijk, const Visit& visit) {
   for (int n = 0; n < 27; ++n) {
@@ -73,16 +72,16 @@ void forNeighbours(const VolumeGrid& grid, glm::ivec3 ijk, const Visit& visit) {
   }
 }
 
-/// Whether a tooth's number outweighs such a label.
-bool canBeToothsOwn(Tissue label) {
+/// Whether a tooth number overrides the label.
+bool isOverridable(Tissue label) {
   return label == Tissue::unlabelled || label == Tissue::cortical || label == Tissue::trabecular ||
          label == Tissue::gingiva;
 }
 
-bool isInsideItsTooth(const CtVolume& ct, glm::ivec3 ijk) {
+bool isInsideTooth(const CtVolume& ct, glm::ivec3 ijk) {
   const std::uint8_t fdi = ct.tooth[ct.grid.index(ijk)];
   bool is_inside = true;
-  forNeighbours(ct.grid, ijk, [&](std::size_t beside) { is_inside = is_inside && ct.tooth[beside] == fdi; });
+  forNeighbours(ct.grid, ijk, [&](std::size_t neighbour) { is_inside = is_inside && ct.tooth[neighbour] == fdi; });
   return is_inside;
 }
 
@@ -101,11 +100,11 @@ std::vector<std::uint8_t> labelsFromGrey(const VolumeGrid& grid, const std::vect
 
 void labelNumberedTeeth(CtVolume& ct) {
   forVoxels(ct.grid, [&](glm::ivec3 ijk, std::size_t v) {
-    if (ct.tooth[v] == 0 || !canBeToothsOwn(Tissue{ct.label[v]})) return;
+    if (ct.tooth[v] == 0 || !isOverridable(Tissue{ct.label[v]})) return;
     const Tissue grey = tissueFromGrey(ct.hounsfield[v]);
     const bool is_soft = grey == Tissue::unlabelled || grey == Tissue::trabecular;
     Tissue tissue = grey == Tissue::enamel ? grey : Tissue::dentine;
-    if (is_soft && isInsideItsTooth(ct, ijk)) tissue = Tissue::pulp;
+    if (is_soft && isInsideTooth(ct, ijk)) tissue = Tissue::pulp;
     ct.label[v] = static_cast<std::uint8_t>(tissue);
   });
 }
@@ -116,11 +115,11 @@ void labelPartialVoxels(CtVolume& ct) {
     const Tissue own{label[v]};
     if (ct.solid[v] < kHalfSolid || (own != Tissue::unlabelled && own != Tissue::gingiva)) return;
     int densest = std::numeric_limits<int>::min();
-    forNeighbours(ct.grid, ijk, [&](std::size_t beside) {
-      if (!isHard(label[beside]) || ct.hounsfield[beside] <= densest) return;
-      densest = ct.hounsfield[beside];
-      ct.label[v] = label[beside];
-      if (!tooth.empty()) ct.tooth[v] = tooth[beside];
+    forNeighbours(ct.grid, ijk, [&](std::size_t neighbour) {
+      if (!isHard(label[neighbour]) || ct.hounsfield[neighbour] <= densest) return;
+      densest = ct.hounsfield[neighbour];
+      ct.label[v] = label[neighbour];
+      if (!tooth.empty()) ct.tooth[v] = tooth[neighbour];
     });
   });
 }

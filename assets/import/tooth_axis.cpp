@@ -10,11 +10,11 @@
 namespace assets {
 namespace {
 
-constexpr double kLeastCap_mm2 = 6.0;  ///< vector area below which there is no cap of enamel to go by
+constexpr double kMinCap_mm2 = 6.0;  ///< vector area; below it there is no usable enamel
 
 enum class Part { none, core, enamel };
 
-/// Enamel and what it covers, of one tooth.
+/// Enamel and core (dentine, pulp) of one tooth.
 class ToothParts {
  public:
   ToothParts(const CtVolume& ct, int fdi) : ct_(ct), fdi_(static_cast<std::uint8_t>(fdi)) {}
@@ -53,7 +53,7 @@ Box boxOf(const CtVolume& ct, int fdi) {
   return box;
 }
 
-/// From dentine to enamel, in faces of a voxel.
+/// Of the interface from dentine to enamel, in voxel faces.
 glm::dvec3 vectorAreaOfCap(const ToothParts& tooth, const Box& box) {
   glm::dvec3 area(0.0);
   forVoxels(box.low, box.high + 1, [&](glm::ivec3 p) {
@@ -70,7 +70,7 @@ glm::dvec3 vectorAreaOfCap(const ToothParts& tooth, const Box& box) {
   return area;
 }
 
-/// The enamel's last voxels before the root, away from the volume's border where a scan ends within the crown.
+/// Enamel voxels next to the root, away from the volume's border.
 std::vector<glm::dvec3> cervicalLine(const VolumeGrid& grid, const ToothParts& tooth, const Box& box) {
   constexpr int kMargin = 2;
   std::vector<glm::dvec3> line;
@@ -91,8 +91,7 @@ std::vector<glm::dvec3> cervicalLine(const VolumeGrid& grid, const ToothParts& t
   return line;
 }
 
-/// Normal of the plane through points, towards `side`: of the spread the axis that power iteration on its inverse
-/// finds.
+/// Normal of the plane through points, towards `side`: smallest principal axis, by power iteration on the inverse.
 glm::dvec3 planeNormal(const std::vector<glm::dvec3>& points, const glm::dvec3& side) {
   glm::dvec3 mean(0.0);
   for (const glm::dvec3& p : points) mean += p / static_cast<double>(points.size());
@@ -137,12 +136,12 @@ glm::dvec3 principalAxis(const ToothParts& tooth, const Box& box, int fdi) {
 }  // namespace
 
 glm::dvec3 toothAxis_P(const CtVolume& ct, int fdi) {
-  constexpr std::size_t kFewest = 20;
+  constexpr std::size_t kMinPoints = 20;
   const ToothParts tooth(ct, fdi);
   const Box box = boxOf(ct, fdi);
   const glm::dvec3 area = vectorAreaOfCap(tooth, box);
   const double face_mm2 = ct.grid.spacing_mm * ct.grid.spacing_mm;
-  if (glm::length(area) * face_mm2 < kLeastCap_mm2) return principalAxis(tooth, box, fdi);
+  if (glm::length(area) * face_mm2 < kMinCap_mm2) return principalAxis(tooth, box, fdi);
   bool is_cut = false;
   forVoxels(box.low, box.high + 1, [&](glm::ivec3 p) {
     is_cut |= (glm::any(glm::equal(p, glm::ivec3(0))) || glm::any(glm::equal(p, ct.grid.size - 1))) &&
@@ -150,7 +149,7 @@ glm::dvec3 toothAxis_P(const CtVolume& ct, int fdi) {
   });
   if (!is_cut) return glm::normalize(area);
   const std::vector<glm::dvec3> line = cervicalLine(ct.grid, tooth, box);
-  return line.size() < kFewest ? glm::normalize(area) : planeNormal(line, area);
+  return line.size() < kMinPoints ? glm::normalize(area) : planeNormal(line, area);
 }
 
 }  // namespace assets

@@ -9,26 +9,18 @@
 namespace assets {
 namespace {
 
-constexpr double kSmallest_mm3 = 10.0, kLargest_mm3 = 3000.0;  // a large molar has 1,200 (Wheeler)
+constexpr double kMin_mm3 = 10.0, kMax_mm3 = 3000.0;  // a large molar has 1,200 (Wheeler)
 constexpr double kFrontSlab_mm = 5.0;
 
-bool isPartOfMarkedTooth(std::uint8_t label) {
-  const Tissue tissue{label};
-  return tissue == Tissue::enamel || tissue == Tissue::dentine || tissue == Tissue::pulp;
-}
+bool isHardTooth(std::uint8_t label) { return isTooth(label) && isHard(label); }
 
-bool isHardOfTooth(std::uint8_t label) {
-  const Tissue tissue{label};
-  return tissue == Tissue::enamel || tissue == Tissue::dentine || tissue == Tissue::other_teeth;
-}
-
-/// From the grid's middle, so that it keeps its digits.
+/// Relative to the grid's centre, for precision.
 glm::dvec3 centroid_P_mm(const VolumeGrid& grid, const VoxelSum& voxels) {
   const glm::dvec3 middle = 0.5 * glm::dvec3(grid.size);
   return grid.origin_P_mm + grid.spacing_mm * ((voxels.sum - voxels.count * middle) / voxels.count + middle);
 }
 
-/// Mean of the most anterior 5 mm of a tissue.
+/// Centroid of the most anterior 5 mm of a tissue.
 std::optional<glm::dvec3> frontOf_P_mm(const CtVolume& ct, Tissue tissue) {
   const VolumeGrid& grid = ct.grid;
   const auto value = static_cast<std::uint8_t>(tissue);
@@ -46,7 +38,7 @@ std::optional<glm::dvec3> frontOf_P_mm(const CtVolume& ct, Tissue tissue) {
   return front.count > 0.0 ? std::optional(centroid_P_mm(grid, front)) : std::nullopt;
 }
 
-/// 48 or 38, by what lies in front of the tooth.
+/// 48 or 38, by the teeth or bone in front of the tooth.
 std::optional<int> thirdMolarAt(const CtVolume& ct, const glm::dvec3& tooth_P_mm) {
   for (const Tissue tissue : {Tissue::other_teeth, Tissue::cortical})
     if (const auto front_P_mm = frontOf_P_mm(ct, tissue); front_P_mm && front_P_mm->y < tooth_P_mm.y - kFrontSlab_mm)
@@ -56,29 +48,31 @@ std::optional<int> thirdMolarAt(const CtVolume& ct, const glm::dvec3& tooth_P_mm
 
 }  // namespace
 
-double labelledTeeth_mm3(const CtVolume& ct) {
-  return static_cast<double>(std::ranges::count_if(ct.label, isPartOfMarkedTooth)) * ct.grid.voxelVolume_mm3();
+std::array<std::size_t, 256> countsOf(std::span<const std::uint8_t> values) {
+  std::array<std::size_t, 256> count{};
+  for (const std::uint8_t value : values) ++count[value];
+  return count;
 }
 
-ThirdMolar numberThirdMolar(CtVolume& ct, const std::optional<int>& asked_fdi) {
-  const VoxelSum hard = voxelSum(
-      ct.grid, [&](std::size_t v) { return isPartOfMarkedTooth(ct.label[v]) && Tissue{ct.label[v]} != Tissue::pulp; });
-  if (hard.count * ct.grid.voxelVolume_mm3() < kSmallest_mm3) return ThirdMolar::none;
-  if (labelledTeeth_mm3(ct) > kLargest_mm3) return ThirdMolar::too_large;
+double labelledTeeth_mm3(const CtVolume& ct) {
+  return static_cast<double>(std::ranges::count_if(ct.label, isToothPart)) * ct.grid.voxelVolume_mm3();
+}
+
+ThirdMolar numberThirdMolar(CtVolume& ct, const std::optional<int>& requested_fdi) {
+  const VoxelSum hard =
+      voxelSum(ct.grid, [&](std::size_t v) { return isToothPart(ct.label[v]) && isHard(ct.label[v]); });
+  if (hard.count * ct.grid.voxelVolume_mm3() < kMin_mm3) return ThirdMolar::none;
+  if (labelledTeeth_mm3(ct) > kMax_mm3) return ThirdMolar::too_large;
   std::optional<int> fdi = thirdMolarAt(ct, centroid_P_mm(ct.grid, hard));
-  if (!fdi && (asked_fdi == 48 || asked_fdi == 38)) fdi = asked_fdi;
+  if (!fdi && (requested_fdi == 48 || requested_fdi == 38)) fdi = requested_fdi;
   if (!fdi) return ThirdMolar::of_unknown_side;
 
-  ct.tooth.resize(ct.label.size());
-  std::ranges::transform(ct.label, ct.tooth.begin(), [&](std::uint8_t label) {
-    return static_cast<std::uint8_t>(isPartOfMarkedTooth(label) ? *fdi : 0);
-  });
+  numberSingleTooth(ct, *fdi);
   return ThirdMolar::numbered;
 }
 
 std::map<int, double> toothVolumes_mm3(const CtVolume& ct) {
-  std::array<std::size_t, 256> voxels{};
-  for (const std::uint8_t fdi : ct.tooth) ++voxels[fdi];
+  const std::array<std::size_t, 256> voxels = countsOf(ct.tooth);
   std::map<int, double> volumes;
   for (std::size_t fdi = 1; fdi < voxels.size(); ++fdi)
     if (voxels[fdi] > 0) volumes[static_cast<int>(fdi)] = static_cast<double>(voxels[fdi]) * ct.grid.voxelVolume_mm3();
@@ -88,10 +82,10 @@ std::map<int, double> toothVolumes_mm3(const CtVolume& ct) {
 std::vector<int> siteCandidates(const CtVolume& ct) {
   std::array<std::size_t, 256> hard_voxels{};
   for (std::size_t v = 0; v < ct.tooth.size(); ++v)
-    if (isHardOfTooth(ct.label[v])) ++hard_voxels[ct.tooth[v]];
+    if (isHardTooth(ct.label[v])) ++hard_voxels[ct.tooth[v]];
   std::vector<int> teeth;
   for (std::size_t fdi = 1; fdi < hard_voxels.size(); ++fdi)
-    if (static_cast<double>(hard_voxels[fdi]) * ct.grid.voxelVolume_mm3() >= kSmallest_mm3)
+    if (static_cast<double>(hard_voxels[fdi]) * ct.grid.voxelVolume_mm3() >= kMin_mm3)
       teeth.push_back(static_cast<int>(fdi));
   return teeth;
 }
@@ -99,8 +93,8 @@ std::vector<int> siteCandidates(const CtVolume& ct) {
 std::optional<OperativeSite> siteAtTooth(const CtVolume& ct, int fdi) {
   if (ct.tooth.empty()) return std::nullopt;
   const VoxelSum hard =
-      voxelSum(ct.grid, [&](std::size_t v) { return ct.tooth[v] == fdi && isHardOfTooth(ct.label[v]); });
-  if (hard.count * ct.grid.voxelVolume_mm3() < kSmallest_mm3) return std::nullopt;
+      voxelSum(ct.grid, [&](std::size_t v) { return ct.tooth[v] == fdi && isHardTooth(ct.label[v]); });
+  if (hard.count * ct.grid.voxelVolume_mm3() < kMin_mm3) return std::nullopt;
   return OperativeSite{fdi, centroid_P_mm(ct.grid, hard), toothAxis_P(ct, fdi)};
 }
 

@@ -23,17 +23,17 @@ constexpr std::size_t kAroundHead = 96, kAroundStem = 24, kAroundHandle = 40;
 const Material kSteel{{0.60f, 0.61f, 0.63f, 1.0f}, 0.30f, 1.0f};
 const Material kSilvered{{0.93f, 0.94f, 0.95f, 1.0f}, 0.05f, 1.0f};
 
-/// Out of the glass, and from its centre to the stem.
-dvec3 outOfGlass() { return dvec3(0.0, -std::sqrt(0.5), std::sqrt(0.5)); }
+/// Normal of the glass, and direction from its centre to the stem.
+dvec3 glassNormal() { return dvec3(0.0, -std::sqrt(0.5), std::sqrt(0.5)); }
 dvec3 towardsStem() { return dvec3(0.0, std::sqrt(0.5), std::sqrt(0.5)); }
 
-struct Turn {
+struct OutlinePoint {
   double along_mm, radius_mm;
 };
 
-/// A quarter of a circle from one corner of the outline to the next, `steps` of it besides the first point.
-void roundTo(std::vector<Turn>& outline, const Turn& to, bool along_first, int steps = 6) {
-  const Turn from = outline.back();
+/// Quarter of an ellipse from the last point of the outline to the next, in `steps` points.
+void roundTo(std::vector<OutlinePoint>& outline, const OutlinePoint& to, bool along_first, int steps = 6) {
+  const OutlinePoint from = outline.back();
   for (int n = 1; n <= steps; ++n) {
     const double turn = 0.5 * kPi * n / steps;
     const double early = std::sin(turn), late = 1.0 - std::cos(turn);
@@ -42,9 +42,11 @@ void roundTo(std::vector<Turn>& outline, const Turn& to, bool along_first, int s
   }
 }
 
-MeshPart turned(const std::vector<Turn>& outline, const dvec3& origin_mm, const dvec3& along, std::size_t around) {
+MeshPart revolved(const std::vector<OutlinePoint>& outline, const dvec3& origin_mm, const dvec3& along,
+                  std::size_t around) {
   std::vector<Ring> rings;
-  for (const Turn& t : outline) rings.push_back(circle(origin_mm + t.along_mm * along, along, t.radius_mm, around));
+  for (const OutlinePoint& t : outline)
+    rings.push_back(circle(origin_mm + t.along_mm * along, along, t.radius_mm, around));
   return closedSweep(rings);
 }
 
@@ -55,42 +57,42 @@ MeshPart named(MeshPart part, const char* name, const Material& material) {
 }
 
 MeshPart glass() {
-  // Its front is flat to the very edge: the rim covers that.
-  std::vector<Turn> outline{{-kGlassThickness_mm, 0.5 * kGlassRadius_mm},
-                            {-kGlassThickness_mm, kGlassRadius_mm - kEdge_mm}};
+  // Flat up to the edge, which the rim covers.
+  std::vector<OutlinePoint> outline{{-kGlassThickness_mm, 0.5 * kGlassRadius_mm},
+                                    {-kGlassThickness_mm, kGlassRadius_mm - kEdge_mm}};
   roundTo(outline, {-kGlassThickness_mm + kEdge_mm, kGlassRadius_mm}, false);
   outline.push_back({-0.05, kGlassRadius_mm});
   outline.push_back({0.0, kGlassRadius_mm - 0.05});
   outline.push_back({0.0, 0.97 * kGlassRadius_mm});
   outline.push_back({0.0, 0.5 * kGlassRadius_mm});
-  return turned(outline, dvec3(0.0), outOfGlass(), kAroundHead);
+  return revolved(outline, dvec3(0.0), glassNormal(), kAroundHead);
 }
 
 MeshPart casing() {
   const double R = kMirrorCasingRadius_mm, back = kRimHeight_mm - kCasingDepth_mm;
-  std::vector<Turn> outline{{back, 0.5 * R}, {back, R - 1.2}};
+  std::vector<OutlinePoint> outline{{back, 0.5 * R}, {back, R - 1.2}};
   roundTo(outline, {back + 1.2, R}, false, 10);
   outline.push_back({kRimHeight_mm - kEdge_mm, R});
   roundTo(outline, {kRimHeight_mm, R - kEdge_mm}, true);
-  // Over the rim and down to below the glass.
+  // Over the rim, down below the glass.
   outline.push_back({kRimHeight_mm, kGlassRadius_mm - 0.1 + kEdge_mm});
   roundTo(outline, {kRimHeight_mm - kEdge_mm, kGlassRadius_mm - 0.1}, false);
   roundTo(outline, {-0.5 * kGlassThickness_mm, kGlassRadius_mm - 0.5}, true);
   outline.push_back({-0.5 * kGlassThickness_mm, 0.5 * R});
-  return turned(outline, dvec3(0.0), outOfGlass(), kAroundHead);
+  return revolved(outline, dvec3(0.0), glassNormal(), kAroundHead);
 }
 
-/// Out of the casing's edge, round the bend, along z into the handle.
+/// From the casing's edge through the bend, then along z into the handle.
 MeshPart stem() {
   std::vector<Ring> rings;
-  const dvec3 level = (kRimHeight_mm - 0.5 * kCasingDepth_mm) * outOfGlass();
+  const dvec3 level = (kRimHeight_mm - 0.5 * kCasingDepth_mm) * glassNormal();
   const double leaves_mm = kMirrorCasingRadius_mm + kStemStraight_mm;
   const auto add = [&](const dvec3& centre_mm, const dvec3& along, double radius_mm) {
     rings.push_back(circle(centre_mm, along, radius_mm, kAroundStem));
   };
   add(level + (kMirrorCasingRadius_mm - 0.7) * towardsStem(), towardsStem(), kStemThinnest_mm);
 
-  const dvec3 begins = level + leaves_mm * towardsStem(), inwards = outOfGlass();
+  const dvec3 begins = level + leaves_mm * towardsStem(), inwards = glassNormal();
   const dvec3 pivot = begins + kBend_mm * inwards;
   dvec3 ends = begins;
   for (int n = 0; n <= 16; ++n) {
@@ -105,18 +107,18 @@ MeshPart stem() {
   return closedSweep(rings);
 }
 
-/// Where the handle's axis lies beside the glass.
+/// y of the handle's axis.
 double handle_y_mm() {
   const double level_mm = kRimHeight_mm - 0.5 * kCasingDepth_mm;
-  const dvec3 ends = level_mm * outOfGlass() + (kMirrorCasingRadius_mm + kStemStraight_mm) * towardsStem() +
-                     kBend_mm * outOfGlass() +
-                     kBend_mm * (std::sqrt(0.5) * towardsStem() - std::sqrt(0.5) * outOfGlass());
+  const dvec3 ends = level_mm * glassNormal() + (kMirrorCasingRadius_mm + kStemStraight_mm) * towardsStem() +
+                     kBend_mm * glassNormal() +
+                     kBend_mm * (std::sqrt(0.5) * towardsStem() - std::sqrt(0.5) * glassNormal());
   return ends.y;
 }
 
 MeshPart handle() {
   const double R = kHandleRadius_mm;
-  std::vector<Turn> outline{{kHandleFrom_mm, 0.5 * kStemThickest_mm}, {kHandleFrom_mm, 1.5}};
+  std::vector<OutlinePoint> outline{{kHandleFrom_mm, 0.5 * kStemThickest_mm}, {kHandleFrom_mm, 1.5}};
   roundTo(outline, {kHandleFrom_mm + 0.5, 2.0}, false);
   outline.push_back({kHandleFrom_mm + 5.0, 2.4});
   outline.push_back({kHandleFrom_mm + 9.0, R - 0.2});
@@ -127,7 +129,7 @@ MeshPart handle() {
   for (double z = kHandleFrom_mm + 55.0; z < kHandleTo_mm - 2.0; z += 8.0) outline.push_back({z, R});
   outline.push_back({kHandleTo_mm - 1.5, R});
   roundTo(outline, {kHandleTo_mm, R - 1.5}, true);
-  return turned(outline, {0.0, handle_y_mm(), 0.0}, {0.0, 0.0, 1.0}, kAroundHandle);
+  return revolved(outline, {0.0, handle_y_mm(), 0.0}, {0.0, 0.0, 1.0}, kAroundHandle);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "assets/load_error.h"
+#include "assets/mesh/closed_sweep.h"
 #include "assets/vertex_normals.h"
 #include "calibration/geometry/units.h"
 
@@ -15,14 +16,14 @@ using calibration::kPi;
 
 constexpr double kShankRadius_mm = 2.35 / 2.0;
 
-// A point of the outline that turns about z. A crease keeps the edge between two sections sharp.
+// Outline of a surface of revolution about z. A crease keeps its edge sharp.
 struct Section {
   double z_mm;
   double radius_mm;
   bool crease = false;
 };
 
-// A closed surface of `rings` times `around` vertices; `point(ring, turn)` with turn in radians.
+// `rings` times `around` vertices; point(ring, angle_rad).
 MeshPart sweep(std::size_t rings, std::size_t around, const std::function<glm::dvec3(std::size_t, double)>& point) {
   MeshPart part;
   for (std::size_t ring = 0; ring < rings; ++ring) {
@@ -30,15 +31,7 @@ MeshPart sweep(std::size_t rings, std::size_t around, const std::function<glm::d
       part.position_mm.emplace_back(point(ring, 2.0 * kPi * static_cast<double>(a) / static_cast<double>(around)));
     }
   }
-  const auto vertex = [&](std::size_t ring, std::size_t a) {
-    return static_cast<std::uint32_t>(ring * around + a % around);
-  };
-  for (std::size_t ring = 0; ring + 1 < rings; ++ring) {
-    for (std::size_t a = 0; a < around; ++a) {
-      part.triangles.insert(part.triangles.end(), {vertex(ring, a), vertex(ring, a + 1), vertex(ring + 1, a + 1)});
-      part.triangles.insert(part.triangles.end(), {vertex(ring, a), vertex(ring + 1, a + 1), vertex(ring + 1, a)});
-    }
-  }
+  appendSweepTriangles(part.triangles, rings, around);
   return part;
 }
 
@@ -49,8 +42,8 @@ void append(MeshPart& to, const MeshPart& from) {
   for (const std::uint32_t vertex : from.triangles) to.triangles.push_back(first + vertex);
 }
 
-// A turned body: the outline from the lowest z up, split at creases so that their edges stay sharp.
-MeshPart turned(const std::vector<Section>& outline, const glm::vec4& colour) {
+// Surface of revolution from the lowest z up, split at creases.
+MeshPart revolved(const std::vector<Section>& outline, const glm::vec4& colour) {
   MeshPart body;
   std::size_t begin = 0;
   for (std::size_t end = 1; end < outline.size(); ++end) {
@@ -65,8 +58,18 @@ MeshPart turned(const std::vector<Section>& outline, const glm::vec4& colour) {
   return body;
 }
 
-// The head: blades on the sphere, gullets between them, each blade leaning back and winding round the head, nicked by a
-// cross-cut. Depth of the gullets fades toward the tip and the neck.
+// Depth of a gullet 0..1 at a fraction of the pitch: a narrow land, a steep cutting face, a gullet that rises slowly.
+double gulletDepth(double fraction) {
+  return fraction < 0.12 ? 0.0 : std::sin(kPi * std::pow((fraction - 0.12) / 0.88, 1.6));
+}
+
+// Gullets receive less light.
+glm::vec4 gulletShade(float depth) {
+  const float shade = 1.0f - 0.6f * depth;
+  return {shade, shade, shade, 1.0f};
+}
+
+// Round head: blades that lean back and wind around the sphere with cross-cuts; gullets fade towards tip and neck.
 MeshPart burHead(const HandpieceParameters& parameters) {
   const double radius = parameters.bur_radius_mm;
   const std::size_t rings = 65;
@@ -77,8 +80,7 @@ MeshPart burHead(const HandpieceParameters& parameters) {
     const double winding = 0.9 * (polar - kPi / 2.0);
     const double phase = std::fmod(turn + winding + 8.0 * kPi, 2.0 * kPi) * parameters.flutes / (2.0 * kPi);
     const double across = phase - std::floor(phase);
-    // A steep cutting face, a narrow land on the sphere, a gullet that falls away behind it.
-    const double groove = across < 0.12 ? 0.0 : std::sin(kPi * std::pow((across - 0.12) / 0.88, 1.6));
+    const double groove = gulletDepth(across);
     const double nick = std::fmod(polar * 9.0 + std::floor(phase) * 0.5, 1.0) < 0.16 ? 0.25 : 0.0;
     const double fade = std::pow(std::sin(polar), 0.7);
     return fade * std::min(1.0, std::max(groove, nick));
@@ -88,16 +90,14 @@ MeshPart burHead(const HandpieceParameters& parameters) {
     return radius * (1.0 - 0.2 * gullet(kPi - polar, turn)) *
            glm::dvec3(std::sin(kPi - polar) * std::cos(turn), std::sin(kPi - polar) * std::sin(turn), std::cos(polar));
   });
-  // Gullets are darker: the light does not reach in.
   for (const glm::vec3& p : head.position_mm) {
     const auto depth = static_cast<float>((radius - glm::length(glm::dvec3(p))) / (0.2 * radius));
-    const float shade = 1.0f - 0.6f * std::clamp(depth, 0.0f, 1.0f);
-    head.colour.emplace_back(shade, shade, shade, 1.0f);
+    head.colour.push_back(gulletShade(std::clamp(depth, 0.0f, 1.0f)));
   }
   return head;
 }
 
-// The outline of a long head in smooth stretches, from the tip to the neck: each a list of (radius, z).
+// Outline of a long head from tip to neck in smooth stretches of (radius, z).
 using Stretch = std::vector<glm::dvec2>;
 std::vector<Stretch> outlineOf(const HandpieceParameters& parameters, double neck) {
   const double radius = parameters.bur_radius_mm, half = 0.5 * parameters.bur_length_mm;
@@ -112,7 +112,7 @@ std::vector<Stretch> outlineOf(const HandpieceParameters& parameters, double nec
             straight({radius, half}, {neck, half})};
   if (parameters.form == BurForm::cone)
     return {straight({0.0, -half}, {radius, half}), straight({radius, half}, {neck, half})};
-  // Round ends, the upper one as far as the neck.
+  // Round ends, the upper one up to the neck.
   Stretch stretch;
   for (int n = 0; n <= kSteps; ++n) {
     const double turn = 0.5 * kPi * n / kSteps;
@@ -127,15 +127,15 @@ std::vector<Stretch> outlineOf(const HandpieceParameters& parameters, double nec
   return {stretch};
 }
 
-// A long head: blades that wind round it, their edges on the outline, and gullets cut towards the axis.
+// Long head: winding blades with their edges on the outline, gullets towards the axis.
 MeshPart longHead(const HandpieceParameters& parameters, double neck) {
   const double radius = parameters.bur_radius_mm;
   const std::size_t around = static_cast<std::size_t>(parameters.flutes) * 24;
   const auto gullet = [&](double z, double turn) {
     const double phase = std::fmod(turn + 0.35 * z / radius + 16.0 * kPi, 2.0 * kPi) * parameters.flutes / (2.0 * kPi);
     const double across = phase - std::floor(phase);
-    const double groove = across < 0.12 ? 0.0 : std::sin(kPi * std::pow((across - 0.12) / 0.88, 1.6));
-    // Cross-cuts, staggered from blade to blade.
+    const double groove = gulletDepth(across);
+    // Staggered cross-cuts.
     const double nick = std::fmod(z / radius * 1.6 + std::floor(phase) * 0.5 + 64.0, 1.0) < 0.14 ? 0.3 : 0.0;
     return std::min(1.0, std::max(groove, nick));
   };
@@ -145,12 +145,10 @@ MeshPart longHead(const HandpieceParameters& parameters, double neck) {
       const double rho = stretch[ring].x * (1.0 - 0.2 * gullet(stretch[ring].y, turn));
       return glm::dvec3(rho * std::cos(turn), rho * std::sin(turn), stretch[ring].y);
     });
-    // Gullets are darker: the light does not reach in.
     for (std::size_t ring = 0; ring < stretch.size(); ++ring)
       for (std::size_t a = 0; a < around; ++a) {
-        const double depth = gullet(stretch[ring].y, 2.0 * kPi * static_cast<double>(a) / static_cast<double>(around));
-        const float shade = 1.0f - 0.6f * static_cast<float>(depth);
-        part.colour.emplace_back(shade, shade, shade, 1.0f);
+        const double angle = 2.0 * kPi * static_cast<double>(a) / static_cast<double>(around);
+        part.colour.push_back(gulletShade(static_cast<float>(gullet(stretch[ring].y, angle))));
       }
     append(head, part);
   }
@@ -161,37 +159,37 @@ MeshPart bur(const HandpieceParameters& parameters) {
   const double radius = parameters.bur_radius_mm, half = 0.5 * parameters.bur_length_mm;
   const double fitting = std::min(0.55 * radius, 0.75 * kShankRadius_mm);
   const double neck = parameters.neck_radius_mm > 0.0 ? std::min(parameters.neck_radius_mm, radius) : fitting;
-  // Where the head is no wider than the neck.
+  // z at which the round end has the neck's radius.
   const double shoulder = std::sqrt(std::max(0.0, 0.98 * radius * radius - neck * neck));
   const bool round = parameters.form == BurForm::round, capsule = parameters.form == BurForm::capsule;
   const double start = round ? shoulder : capsule ? half + shoulder : half;
   MeshPart part = round ? burHead(parameters) : longHead(parameters, neck);
-  append(part, turned({{start - (round || capsule ? 0.15 * radius : 0.0), neck},
-                       {start + 0.6, neck * 0.92},
-                       {start + 4.0, neck * 0.95},
-                       {start + 9.0, kShankRadius_mm, false},
-                       {26.0, kShankRadius_mm},
-                       {27.0, kShankRadius_mm}},
-                      glm::vec4(0.95f, 0.95f, 0.95f, 1.0f)));
+  append(part, revolved({{start - (round || capsule ? 0.15 * radius : 0.0), neck},
+                         {start + 0.6, neck * 0.92},
+                         {start + 4.0, neck * 0.95},
+                         {start + 9.0, kShankRadius_mm, false},
+                         {26.0, kShankRadius_mm},
+                         {27.0, kShankRadius_mm}},
+                        glm::vec4(0.95f, 0.95f, 0.95f, 1.0f)));
   part.name = "Bur";
   part.material = {{0.56f, 0.57f, 0.58f, 1.0f}, 0.28f, 1.0f};
   part.normal = vertexNormals(part.position_mm, part.triangles);
   return part;
 }
 
-// Nose cone, collet ring, a waisted grip with rings, the body and the coupling.
+// Nose cone, collet ring, waisted grip with rings, body and coupling.
 MeshPart handpiece() {
   const glm::vec4 steel(0.92f, 0.93f, 0.95f, 1.0f);
   const glm::vec4 dark(0.42f, 0.43f, 0.45f, 1.0f);
-  MeshPart part = turned({{20.0, kShankRadius_mm + 0.02, true},
-                          {20.0, 1.9, true},
-                          {20.6, 2.3, true},
-                          {30.0, 3.6},
-                          {38.0, 4.6},
-                          {40.0, 4.8, true}},
-                         steel);
-  append(part, turned({{40.0, 4.8, true}, {40.0, 4.45, true}, {41.6, 4.45, true}, {41.6, 5.1, true}}, dark));
-  // Grip: shallow rounded rings the fingers find.
+  MeshPart part = revolved({{20.0, kShankRadius_mm + 0.02, true},
+                            {20.0, 1.9, true},
+                            {20.6, 2.3, true},
+                            {30.0, 3.6},
+                            {38.0, 4.6},
+                            {40.0, 4.8, true}},
+                           steel);
+  append(part, revolved({{40.0, 4.8, true}, {40.0, 4.45, true}, {41.6, 4.45, true}, {41.6, 5.1, true}}, dark));
+  // Grip: shallow rounded rings.
   std::vector<Section> grip = {{41.6, 5.1, true}};
   for (double z = 42.6; z < 66.0; z += 0.35) {
     const double wave = std::pow(std::abs(std::sin(kPi * (z - 42.6) / 2.8)), 0.5);
@@ -199,20 +197,20 @@ MeshPart handpiece() {
     grip.push_back({z, waist - 0.35 + 0.35 * wave, false});
   }
   grip.push_back({66.3, 6.6, true});
-  append(part, turned(grip, glm::vec4(0.80f, 0.81f, 0.83f, 1.0f)));
-  append(part, turned({{66.3, 6.6, true},
-                       {68.0, 7.6},
-                       {72.0, 8.2},
-                       {98.0, 8.6},
-                       {100.5, 8.6, true},
-                       {100.5, 8.1, true},
-                       {102.5, 8.1, true},
-                       {102.5, 8.8, true},
-                       {108.0, 8.8},
-                       {109.4, 8.4},
-                       {110.0, 7.4, true},
-                       {110.0, 0.0, true}},
-                      steel));
+  append(part, revolved(grip, glm::vec4(0.80f, 0.81f, 0.83f, 1.0f)));
+  append(part, revolved({{66.3, 6.6, true},
+                         {68.0, 7.6},
+                         {72.0, 8.2},
+                         {98.0, 8.6},
+                         {100.5, 8.6, true},
+                         {100.5, 8.1, true},
+                         {102.5, 8.1, true},
+                         {102.5, 8.8, true},
+                         {108.0, 8.8},
+                         {109.4, 8.4},
+                         {110.0, 7.4, true},
+                         {110.0, 0.0, true}},
+                        steel));
   part.name = "Handpiece";
   part.material = {{0.60f, 0.61f, 0.63f, 1.0f}, 0.32f, 1.0f};
   part.normal = vertexNormals(part.position_mm, part.triangles);
@@ -223,15 +221,15 @@ MeshPart handpiece() {
 
 MeshModel surgicalHandpiece(const HandpieceParameters& parameters) {
   if (!(parameters.bur_radius_mm >= 0.25 && parameters.bur_radius_mm <= 5.0)) {
-    throw LoadError("instrument: bur radius is outside 0.25..5 mm, choose a bur of that size");
+    throw LoadError("instrument: bur radius is outside 0.25..5 mm, choose another bur");
   }
   const bool round = parameters.form == BurForm::round;
   if (!(parameters.bur_length_mm >= (round || parameters.form == BurForm::capsule ? 0.0 : 0.1) &&
         parameters.bur_length_mm <= 20.0)) {
-    throw LoadError("instrument: bur length is outside 0.1..20 mm, choose a bur of that size");
+    throw LoadError("instrument: bur length is outside 0.1..20 mm, choose another bur");
   }
   if (!(parameters.neck_radius_mm >= 0.0)) {
-    throw LoadError("instrument: neck radius is not a size, give 0 for one that fits");
+    throw LoadError("instrument: neck radius is negative, give 0 for the default");
   }
   if (parameters.flutes < 8 || parameters.flutes > 40) {
     throw LoadError("instrument: a bur has 8..40 flutes, choose a number in between");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "assets/mesh/catmull_rom.h"
 #include "assets/mesh/closed_sweep.h"
 #include "calibration/geometry/units.h"
 
@@ -13,7 +14,7 @@ using calibration::kPi;
 using glm::dvec2;
 using glm::dvec3;
 
-// The ribbon's middle line from the tip of the blade to the end of the handle, in the plane x = 0, and half its width.
+// Centre line from the tip of the blade to the end of the handle, in the plane x = 0, and half the width.
 struct Bend {
   dvec2 yz_mm;
   double half_width_mm;
@@ -22,7 +23,7 @@ constexpr Bend kCourse[] = {{{0, 0}, 5.5},   {{5, -1}, 6.5},   {{12, 2}, 7.0},  
                             {{27, 15}, 6.6}, {{31, 24}, 6.2},  {{32, 36}, 6.0},  {{31, 55}, 6.6},
                             {{30, 80}, 7.2}, {{30, 105}, 7.2}, {{32, 125}, 6.8}, {{37, 138}, 6.0}};
 constexpr double kHalfThickness_mm = 0.5 * kRetractorThickness_mm;
-constexpr double kDish_mm = 0.5;  ///< how far the edges stand over the middle
+constexpr double kDish_mm = 0.5;  ///< height of the edges above the middle
 constexpr int kPerSpan = 12, kAtEdge = 6, kAcross = 8;
 
 struct Station {
@@ -30,27 +31,19 @@ struct Station {
   double half_width_mm, from_tip_mm;
 };
 
-/// Catmull & Rom 1974 through the bends.
 std::vector<Station> stations() {
   std::vector<Station> all;
-  const auto bend = [](std::size_t n) -> const Bend& { return kCourse[std::min(n, std::size(kCourse) - 1)]; };
-  for (std::size_t span = 0; span + 1 < std::size(kCourse); ++span) {
-    const Bend &a = bend(span == 0 ? 0 : span - 1), &b = bend(span), &c = bend(span + 1), &d = bend(span + 2);
+  for (std::size_t span = 0; span + 1 < std::size(kCourse); ++span)
     for (int n = span == 0 ? 0 : 1; n <= kPerSpan; ++n) {
       const double t = static_cast<double>(n) / kPerSpan;
-      const auto curve = [&](const auto& p0, const auto& p1, const auto& p2, const auto& p3) {
-        return 0.5 * (2.0 * p1 + t * (p2 - p0) + t * t * (2.0 * p0 - 5.0 * p1 + 4.0 * p2 - p3) +
-                      t * t * t * (3.0 * p1 - p0 - 3.0 * p2 + p3));
-      };
-      const dvec2 place = curve(a.yz_mm, b.yz_mm, c.yz_mm, d.yz_mm);
-      const double so_far = all.empty() ? 0.0 : all.back().from_tip_mm + glm::distance(place, all.back().yz_mm);
-      all.push_back({place, curve(a.half_width_mm, b.half_width_mm, c.half_width_mm, d.half_width_mm), so_far});
+      const dvec2 yz_mm = catmullRomAt(kCourse, span, t, &Bend::yz_mm);
+      const double from_tip_mm = all.empty() ? 0.0 : all.back().from_tip_mm + glm::distance(yz_mm, all.back().yz_mm);
+      all.push_back({yz_mm, catmullRomAt(kCourse, span, t, &Bend::half_width_mm), from_tip_mm});
     }
-  }
   return all;
 }
 
-/// Where the course is `mm` from its tip, between the stations.
+/// The station `mm` from the tip, interpolated.
 Station at(const std::vector<Station>& all, double mm) {
   const auto next = std::ranges::lower_bound(all, mm, {}, &Station::from_tip_mm);
   if (next == all.begin()) return all.front();
@@ -60,7 +53,7 @@ Station at(const std::vector<Station>& all, double mm) {
   return {glm::mix(a.yz_mm, b.yz_mm, share), glm::mix(a.half_width_mm, b.half_width_mm, share), mm};
 }
 
-/// Flat, a little dished, half circles at its edges. `half_mm` is to where the half circles begin.
+/// Flat, slightly dished section with semicircular edges, which begin at `half_mm`.
 Ring section(const dvec3& centre_mm, const dvec3& along, double half_mm, double radius_mm, double dish_mm) {
   const dvec3 across(1, 0, 0), up = glm::cross(along, across);
   Ring ring;
@@ -84,19 +77,19 @@ MeshModel retractor() {
   const std::vector<Station> course = stations();
   const double length_mm = course.back().from_tip_mm, r = kHalfThickness_mm;
 
-  // Denser towards the round ends.
-  std::vector<double> places_mm;
-  for (int n = 0; n <= 8; ++n) places_mm.push_back(r * (1.0 - std::cos(0.5 * kPi * (n + 0.3) / 8.3)));
-  for (int n = 1; n <= 14; ++n) places_mm.push_back(r + 7.0 * std::pow(n / 14.0, 2.0));
-  for (double mm = 8.6; mm < 0.5 * length_mm; mm += 1.0) places_mm.push_back(mm);
-  const std::size_t half = places_mm.size();
-  for (std::size_t n = half; n-- > 0;) places_mm.push_back(length_mm - places_mm[n]);
+  // Ring positions, denser at the round ends.
+  std::vector<double> positions_mm;
+  for (int n = 0; n <= 8; ++n) positions_mm.push_back(r * (1.0 - std::cos(0.5 * kPi * (n + 0.3) / 8.3)));
+  for (int n = 1; n <= 14; ++n) positions_mm.push_back(r + 7.0 * std::pow(n / 14.0, 2.0));
+  for (double mm = 8.6; mm < 0.5 * length_mm; mm += 1.0) positions_mm.push_back(mm);
+  const std::size_t half = positions_mm.size();
+  for (std::size_t n = half; n-- > 0;) positions_mm.push_back(length_mm - positions_mm[n]);
 
   std::vector<Ring> rings;
-  for (const double mm : places_mm) {
+  for (const double mm : positions_mm) {
     const Station here = at(course, mm);
     const dvec2 along = glm::normalize(at(course, mm + 0.2).yz_mm - at(course, mm - 0.2).yz_mm);
-    // Ends round in plan like half circles, and over their thickness.
+    // Ends rounded in plan and in thickness.
     const double from_end_mm = std::min(mm, length_mm - mm);
     const double flat_mm = here.half_width_mm - r;
     const double open = std::clamp(from_end_mm / flat_mm, 0.0, 1.0);

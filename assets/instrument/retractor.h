@@ -1,7 +1,6 @@
-// A retractor of the Minnesota kind as it is drawn, in its own frame: a bent steel ribbon, origin at the tip of the
-// blade, +z along the handle, the blade in between towards +y; x across. mm. One part, "Retractor", a closed surface
-// with round edges. Sizes as usual ones have, 150 mm long and 14 mm wide with a blade bent by about 60 degrees; no
-// standard says. Any thread; some ms. It holds no tissue: it is seen, not felt.
+// Minnesota retractor. Own frame: a bent steel ribbon, origin at the tip of the blade, +z along the handle, the blade
+// towards +y; x across. mm. One part, "Retractor", closed, with round edges. 150 mm long and 14 mm wide, blade bent by
+// about 60 degrees, as usual ones; there is no standard. Any thread; some ms. Drawn only: it holds no tissue.
 #pragma once
 
 #include "assets/mesh.h"

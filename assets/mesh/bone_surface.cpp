@@ -12,7 +12,7 @@
 namespace assets {
 namespace {
 
-constexpr std::size_t kBricksATask = 16;  // fewer are not worth waking another core
+constexpr std::size_t kBricksATask = 16;  // minimum worth another core
 
 template <class Work>
 void forEachIndex(std::size_t count, const Work& work) {
@@ -26,9 +26,7 @@ void forEachIndex(std::size_t count, const Work& work) {
 std::size_t BoneSurface::brickIndex(glm::ivec3 brick) const {
   const glm::ivec3 bricks = grid_.bricks();
   assert(glm::all(glm::greaterThanEqual(brick, glm::ivec3(0))) && glm::all(glm::lessThan(brick, bricks)));
-  return (static_cast<std::size_t>(brick.z) * static_cast<std::size_t>(bricks.y) + static_cast<std::size_t>(brick.y)) *
-             static_cast<std::size_t>(bricks.x) +
-         static_cast<std::size_t>(brick.x);
+  return indexIn(bricks, brick);
 }
 
 glm::ivec3 BoneSurface::brickOf(std::size_t index) const {
@@ -38,19 +36,17 @@ glm::ivec3 BoneSurface::brickOf(std::size_t index) const {
 }
 
 BoneSurface::BoneSurface(const SolidVoxels& solid) : grid_(solid.grid) {
-  const glm::ivec3 bricks = grid_.bricks();
-  patches_.resize(static_cast<std::size_t>(bricks.x) * static_cast<std::size_t>(bricks.y) *
-                  static_cast<std::size_t>(bricks.z));
+  patches_.resize(countIn(grid_.bricks()));
   forEachIndex(patches_.size(), [&](std::size_t n) { patches_[n] = surfacePatch(solid, brickOf(n)); });
 }
 
 std::vector<glm::ivec3> BoneSurface::update(const SolidVoxels& solid, std::span<const glm::ivec3> changed) {
   assert(solid.grid == grid_);
-  // A voxel is a corner of the cells that begin at it or one before it along each axis.
+  // A voxel is a corner of the cells that begin at it or one before along each axis.
   std::vector<std::size_t> touched;
   for (const glm::ivec3& brick : changed)
     for (int corner = 0; corner < 8; ++corner) {
-      const glm::ivec3 before = brick - glm::ivec3(corner & 1, corner >> 1 & 1, corner >> 2);
+      const glm::ivec3 before = brick - cornerOffset(corner);
       if (glm::all(glm::greaterThanEqual(before, glm::ivec3(0)))) touched.push_back(brickIndex(before));
     }
   std::ranges::sort(touched);
@@ -63,10 +59,10 @@ std::vector<glm::ivec3> BoneSurface::update(const SolidVoxels& solid, std::span<
     patch = surfacePatch(solid, brickOf(touched[n]));
   });
 
-  std::vector<glm::ivec3> remade;
+  std::vector<glm::ivec3> rebuilt;
   for (std::size_t n = 0; n < touched.size(); ++n)
-    if (had_triangles[n] || !patches_[touched[n]].empty()) remade.push_back(brickOf(touched[n]));
-  return remade;
+    if (had_triangles[n] || !patches_[touched[n]].empty()) rebuilt.push_back(brickOf(touched[n]));
+  return rebuilt;
 }
 
 std::size_t BoneSurface::triangleCount() const {
@@ -79,7 +75,7 @@ MeshPart BoneSurface::mergedMesh(std::string name) const {
   MeshPart part;
   part.name = std::move(name);
 
-  // Every lattice edge that is crossed becomes a vertex, numbered in the order of the lattice.
+  // Each crossed lattice edge is one vertex, numbered in lattice order.
   std::vector<std::uint64_t> edges;
   for (const SurfacePatch& patch : patches_)
     edges.insert(edges.end(), patch.lattice_edge.begin(), patch.lattice_edge.end());

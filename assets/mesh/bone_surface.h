@@ -1,8 +1,7 @@
-// The surface of the bone as triangles, brick by brick, kept up to date while it is carved. Patches of bricks that did
-// not change stay as they are; the result is that of making all anew, bit for bit.
-// Frame P, mm. One thread at a time; parallel inside (TBB), the result does not depend on the number of threads.
-// Making all: about 3 us a brick and core. Update: a changed brick touches itself and the seven before it.
-// Closed: every edge has two triangles that walk it in opposite directions (cube_cases.h says why).
+// Triangle surface of the bone, updated brick by brick during carving. Patches of unchanged bricks are kept; the result
+// equals a full rebuild bit for bit. Closed: every edge has two triangles in opposite directions (cube_cases.h).
+// Frame P, mm. One thread at a time; parallel inside (TBB), independent of the number of threads. Rebuild: about 3 us a
+// brick and core. Update: a changed brick affects itself and the seven before it.
 #pragma once
 
 #include <span>
@@ -18,17 +17,17 @@ class BoneSurface {
  public:
   explicit BoneSurface(const SolidVoxels& solid);
 
-  /// `changed`: bricks of voxels that are no longer as they were. Returns the bricks whose patches were made anew, but
-  /// for those that had and have no triangles.
+  /// `changed`: bricks with changed voxels. Returns the bricks whose patches were rebuilt, without those that were and
+  /// remain empty.
   std::vector<glm::ivec3> update(const SolidVoxels& solid, std::span<const glm::ivec3> changed);
 
   const VolumeGrid& grid() const { return grid_; }
-  /// Bricks are numbered i fastest.
+  /// i fastest.
   std::size_t brickIndex(glm::ivec3 brick) const;
   const SurfacePatch& patch(glm::ivec3 brick) const { return patches_[brickIndex(brick)]; }
   std::size_t triangleCount() const;
 
-  /// All patches as one mesh, each vertex once, in the order of the lattice; normals weighted by area.
+  /// All patches as one mesh, each vertex once, in lattice order; area-weighted normals.
   MeshPart mergedMesh(std::string name) const;
 
  private:

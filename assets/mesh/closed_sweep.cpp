@@ -8,6 +8,17 @@
 
 namespace assets {
 
+void appendSweepTriangles(std::vector<std::uint32_t>& triangles, std::size_t rings, std::size_t around) {
+  const auto at = [&](std::size_t ring, std::size_t a) {
+    return static_cast<std::uint32_t>(ring * around + a % around);
+  };
+  for (std::size_t ring = 0; ring + 1 < rings; ++ring)
+    for (std::size_t a = 0; a < around; ++a) {
+      triangles.insert(triangles.end(), {at(ring, a), at(ring, a + 1), at(ring + 1, a + 1)});
+      triangles.insert(triangles.end(), {at(ring, a), at(ring + 1, a + 1), at(ring + 1, a)});
+    }
+}
+
 MeshPart closedSweep(std::span<const Ring> rings) {
   assert(rings.size() >= 2 && rings.front().size() >= 3);
   const std::size_t around = rings.front().size();
@@ -19,13 +30,8 @@ MeshPart closedSweep(std::span<const Ring> rings) {
   const auto at = [&](std::size_t ring, std::size_t a) {
     return static_cast<std::uint32_t>(ring * around + a % around);
   };
-  for (std::size_t ring = 0; ring + 1 < rings.size(); ++ring)
-    for (std::size_t a = 0; a < around; ++a) {
-      part.triangles.insert(part.triangles.end(), {at(ring, a), at(ring, a + 1), at(ring + 1, a + 1)});
-      part.triangles.insert(part.triangles.end(), {at(ring, a), at(ring + 1, a + 1), at(ring + 1, a)});
-    }
+  appendSweepTriangles(part.triangles, rings.size(), around);
 
-  // The ends.
   const auto close = [&](std::size_t ring, bool is_last) {
     glm::dvec3 middle(0.0);
     for (const glm::dvec3& p : rings[ring]) middle += p / static_cast<double>(around);

@@ -6,7 +6,7 @@
 namespace assets {
 namespace {
 
-/// For every edge where the surface crosses, the edge its line leads to; -1 elsewhere.
+/// For every crossed edge the edge its line leads to; -1 elsewhere.
 using Lines = std::array<int, kCubeEdges>;
 
 struct Loop {
@@ -23,7 +23,7 @@ constexpr int edgeBetween(int a, int b) {
   return 4 * axis + coordinate(a, (axis + 1) % 3) + 2 * coordinate(a, (axis + 2) % 3);
 }
 
-/// The side of the cube on which an edge lies, across an axis; -1 for an edge along it.
+/// Side of the cube along `across` on which an edge lies; -1 for an edge along that axis.
 constexpr int sideOf(int edge, int across) {
   const int axis = edge / 4;
   if (axis == across) return -1;
@@ -36,16 +36,16 @@ constexpr bool inOneFace(int e, int f) {
   return false;
 }
 
-/// Adds the lines of the face at a side across an axis.
+/// Adds the lines of one face.
 constexpr void addFace(Lines& lines, int solid_corners, int axis, int side) {
-  // Its corners, counter-clockwise from outside.
+  // Corners, counter-clockwise from outside.
   const int u = 1 << (axis + 1) % 3, v = 1 << (axis + 2) % 3, low = side << axis;
   const std::array<int, 4> ring = side == 1 ? std::array{low, low | u, low | u | v, low | v}  //
                                             : std::array{low, low | v, low | u | v, low | u};
   const auto corner = [&](int n) { return ring[static_cast<std::size_t>(n & 3)]; };
   const auto is_solid = [&](int n) { return (solid_corners >> corner(n) & 1) != 0; };
 
-  // Each run of solid corners is cut off, from where it begins to where it ends.
+  // One line per run of solid corners, from its begin to its end.
   for (int n = 0; n < 4; ++n) {
     if (is_solid(n) || !is_solid(n + 1)) continue;
     int last = n + 1;
@@ -55,14 +55,14 @@ constexpr void addFace(Lines& lines, int solid_corners, int axis, int side) {
   }
 }
 
-/// Where the fan of a loop begins: the first place from which none of its inner edges lies in a face.
+/// First vertex of a loop from which no inner edge of the fan lies in a face.
 constexpr int fanStart(const Loop& loop) {
   for (int start = 0; start < loop.length; ++start) {
     bool inside = true;
     for (int n = 2; n + 1 < loop.length; ++n) inside = inside && !inOneFace(loop.at(start), loop.at(start + n));
     if (inside) return start;
   }
-  throw std::logic_error("a loop without a fan");  // stops the compiler: the table is made at compile time
+  throw std::logic_error("a loop without a fan");  // a compile error: the table is made at compile time
 }
 
 constexpr void addFan(CubeCase& to, const Loop& loop) {
@@ -79,7 +79,7 @@ constexpr CubeCase caseOf(int solid_corners) {
   for (int axis = 0; axis < 3; ++axis)
     for (int side = 0; side < 2; ++side) addFace(lines, solid_corners, axis, side);
 
-  // Follow the lines until each has been walked.
+  // Follow the lines, each once.
   CubeCase result;
   for (int first = 0; first < kCubeEdges; ++first) {
     Loop loop;

@@ -1,11 +1,10 @@
-// The 256 ways in which a surface can pass through a cube of eight lattice points, as triangles between its edges.
-// Derived by the compiler, not listed: on each face of the cube directed lines part solid from air, solid to their
-// right seen from outside; the lines join into closed loops, each loop is filled by a fan (after Lorensen & Cline
-// 1987). Why the surface is closed: a face's lines follow from its four corners alone, by one rule, and the neighbour
-// across it walks them the other way; no fan lays an edge of its own into a face (asserted), so each edge has two
-// triangles. The rule where a face's corners alternate: solid corners stay apart, air passes between them. Corner c
-// lies at (c & 1, c >> 1 & 1, c >> 2). Edge 4 a + u + 2 v runs along axis a from the corner with coordinates u and v
-// along the axes (a + 1) % 3 and (a + 2) % 3. Plain data; any thread. Not the surface of a volume (bone_surface).
+// Marching cubes cases: for each of 256 corner states the surface in a cube as triangles between its edges (after
+// Lorensen & Cline 1987), derived at compile time. On each face directed lines separate solid from air, solid to their
+// right seen from outside; they join into closed loops, each filled by a fan. Closed surfaces follow: a face's lines
+// depend on its four corners only and the neighbour cube has them reversed; no fan puts an edge into a face (checked),
+// so each edge has two triangles. On faces with alternating corners solid corners stay separate. Corner c lies at (c &
+// 1, c >> 1 & 1, c >> 2). Edge 4 a + u + 2 v runs along axis a from the corner with coordinates u and v on axes (a + 1)
+// % 3 and (a + 2) % 3. Plain data.
 #pragma once
 
 #include <array>

@@ -30,7 +30,7 @@ double as(const unsigned char* at, bool normalise) {
   return static_cast<double>(value);
 }
 
-// How one number of an accessor is stored.
+// Storage of one number.
 struct Component {
   std::size_t bytes = 0;
   double (*read)(const unsigned char* at, bool normalise) = nullptr;
@@ -50,7 +50,7 @@ Component componentOf(int type) {
   return found->second;
 }
 
-// The bytes of `count` elements, or an error.
+// The bytes of `count` elements; throws if they exceed the data.
 Bytes elements(const tinygltf::Model& model, int view_index, std::size_t offset, std::size_t element_bytes,
                std::size_t stride, std::size_t count) {
   const auto fail = [] { throw LoadError("an accessor reaches past its data"); };
@@ -68,11 +68,11 @@ Bytes elements(const tinygltf::Model& model, int view_index, std::size_t offset,
 
 const tinygltf::Accessor& checked(const tinygltf::Model& model, int index) {
   if (index < 0 || static_cast<std::size_t>(index) >= model.accessors.size()) {
-    throw LoadError("a primitive names an accessor that is not there");
+    throw LoadError("a primitive names a missing accessor");
   }
   const tinygltf::Accessor& accessor = model.accessors[static_cast<std::size_t>(index)];
   if (accessor.count == 0 || accessor.count > kMaxGltfElements) {
-    throw LoadError("an accessor holds nothing or more than 20 million elements");
+    throw LoadError("an accessor is empty or has more than 20 million elements");
   }
   return accessor;
 }
@@ -118,7 +118,7 @@ void forEachComponent(const tinygltf::Model& model, const tinygltf::Accessor& ac
   for (std::size_t i = 0; i < count; ++i) {
     const double target = at_component.read(at.data() + i * at_component.bytes, false);
     if (!(target >= 0.0 && target < static_cast<double>(accessor.count))) {
-      throw LoadError("a sparse accessor changes an element that is not there");
+      throw LoadError("a sparse accessor changes a missing element");
     }
     read(values.data() + i * element_bytes, static_cast<std::size_t>(target));
   }
@@ -150,7 +150,7 @@ std::vector<std::uint32_t> readIndices(const tinygltf::Model& model, int index, 
   forEachComponent(model, accessor,
                    [&](std::size_t i, std::size_t, double value) { out[i] = static_cast<std::uint32_t>(value); });
   if (std::ranges::any_of(out, [&](std::uint32_t vertex) { return vertex >= vertex_count; })) {
-    throw LoadError("a triangle names a vertex that is not there");
+    throw LoadError("a triangle names a missing vertex");
   }
   return out;
 }

@@ -1,6 +1,6 @@
-// The numbers behind a glTF accessor: strides, component types, normalised integers and sparse overrides resolved.
-// Checks every count and offset against the bytes before it takes memory. Any thread; one pass.
-// Internal to the glTF reader. Conversion: glTF 2.0, section 3.6.2.
+// Values of a glTF accessor: strides, component types, normalised integers and sparse overrides resolved (glTF 2.0,
+// section 3.6.2). Counts and offsets are checked against the data before memory is allocated. Any thread; one pass.
+// Internal to the glTF reader.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@ namespace assets {
 
 inline constexpr std::size_t kMaxGltfElements = 20'000'000;
 
-/// Components a reader wants per element; missing ones are filled with 1 (alpha). Throws LoadError (text without the
-/// path) on anything out of range or not finite.
+/// Vectors of 3 or 4 components, the fourth 1 if missing (alpha). Throws LoadError (without the path) for anything out
+/// of range or not finite.
 std::vector<glm::vec4> readVectors(const tinygltf::Model& model, int accessor);
 
 /// Vertex indices, each below `vertex_count`.

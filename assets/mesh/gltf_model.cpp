@@ -18,13 +18,13 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxBytes = std::size_t{512} << 20;
 
-// The file's folder: nothing outside it is opened, and no more than the budget is read in all.
+// The file's folder: no file outside it is opened, and at most the budget is read in total.
 struct Folder {
   fs::path path;
   std::size_t budget_bytes = kMaxBytes;
 };
 
-// Where a relative name leads, empty if that is outside the folder (also by a symbolic link) or no file.
+// Target of a relative name; empty if outside the folder (also by a symbolic link) or not a regular file.
 fs::path inFolder(const Folder& folder, const std::string& name) {
   std::error_code error;
   if (name.find('\0') != std::string::npos || fs::path(name).is_absolute()) return {};
@@ -41,12 +41,12 @@ std::vector<unsigned char> wholeFile(const fs::path& path, std::size_t limit_byt
   std::vector<unsigned char> bytes(size);
   std::ifstream in(path, std::ios::binary);
   if (!in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size))) {
-    throw LoadError(path.string() + ": can not be read to its end, check the file");
+    throw LoadError(path.string() + ": cannot be read to its end, check the file");
   }
   return bytes;
 }
 
-// --- what tinygltf asks of its surroundings ---
+// --- callbacks of tinygltf ---
 
 bool isInFolder(const std::string& name, void* user) {
   return !inFolder(*static_cast<const Folder*>(user), name).empty();
@@ -64,10 +64,10 @@ bool readInFolder(std::vector<unsigned char>* out, std::string*, const std::stri
   return true;
 }
 
-// --- checks around it ---
+// --- checks ---
 
-// The JSON of a .glb of at least 20 bytes (glTF 2.0, section 4.4). The length of the second chunk is judged here, for
-// tinygltf lets it end 8 bytes past the file.
+// JSON chunk of a .glb of at least 20 bytes (glTF 2.0, section 4.4). Checks the second chunk's length, which tinygltf
+// lets end 8 bytes past the file.
 std::string_view glbJson(const std::string& path, std::string_view bytes) {
   const auto word = [&](std::size_t at) {
     std::uint32_t value = 0;
@@ -81,8 +81,8 @@ std::string_view glbJson(const std::string& path, std::string_view bytes) {
   return bytes.substr(20, word(12));
 }
 
-// Extensions that may be required: they change how the surface looks, or are read here.
-bool isUnderstood(const std::string& extension) {
+// Extensions that may be required: appearance only, or read here.
+bool isSupported(const std::string& extension) {
   return extension == "KHR_mesh_quantization" || extension == "KHR_texture_transform" ||
          extension == "KHR_texture_basisu" || extension == "EXT_texture_webp" ||
          extension.starts_with("KHR_materials_");
@@ -93,7 +93,7 @@ void checkAsset(const tinygltf::Model& model, const std::string& path) {
   if (!model.asset.minVersion.empty() && model.asset.minVersion != "2.0") {
     throw LoadError(path + ": needs a glTF version above 2.0, export as glTF 2.0");
   }
-  const auto foreign = std::ranges::find_if_not(model.extensionsRequired, isUnderstood);
+  const auto foreign = std::ranges::find_if_not(model.extensionsRequired, isSupported);
   if (foreign != model.extensionsRequired.end()) {
     throw LoadError(path + ": requires the extension '" + printable(*foreign) +
                     "', export without compression or custom extensions");
@@ -107,7 +107,7 @@ tinygltf::Model openGltfModel(const std::string& path) {
   const auto size = static_cast<unsigned int>(bytes.size());
   const char* text = reinterpret_cast<const char*>(bytes.data());
   const bool is_binary = size >= 20 && std::memcmp(text, "glTF", 4) == 0;
-  // tinygltf walks extensions and extras by recursion.
+  // tinygltf reads extensions and extras recursively.
   if (isNestedTooDeep(is_binary ? glbJson(path, {text, size}) : std::string_view(text, size))) {
     throw LoadError(path + ": JSON nested deeper than 128, not a glTF a modeller writes");
   }

@@ -1,7 +1,6 @@
-// A glTF file (.gltf, .glb) opened by tinygltf within bounds: files up to 512 MiB, all from the file's own folder, JSON
-// of bounded depth, no image decoded, version 2 and no extension that changes what a mesh is. What a reference or an
-// accessor leads to is judged where it is followed (gltf_accessor.h, gltf_read.cpp). One pass over the file; any
-// thread. Internal to the glTF reader, which alone sees tinygltf.
+// Opens a glTF file (.gltf, .glb) with tinygltf within bounds: at most 512 MiB, all from the file's own folder, bounded
+// JSON depth, no image decoding, version 2, no extension that changes geometry. References and accessors are checked
+// where they are followed (gltf_accessor.h, gltf_read.cpp). One pass; any thread. Internal to the glTF reader.
 #pragma once
 
 #include <string>
@@ -15,7 +14,7 @@ namespace assets {
 /// Throws LoadError (one line: what, where, what to do).
 tinygltf::Model openGltfModel(const std::string& path);
 
-/// A file's words on one line: at most 100 characters, none of them a control character.
+/// Text from a file on one line: at most 100 characters, no control characters.
 std::string printable(std::string text);
 
 }  // namespace assets

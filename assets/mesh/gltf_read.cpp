@@ -67,14 +67,14 @@ Material materialOf(const tinygltf::Model& model, int index) {
   return to;
 }
 
-// A mesh as it stands in the scene.
+// A mesh instance of the scene.
 struct Placement {
   std::string name;
   glm::dmat4 metres_from_mesh{1.0};
   const std::vector<double>* weights = nullptr;
 };
 
-std::vector<glm::vec3> placedPositions(const std::vector<glm::vec3>& local, const glm::dmat4& X) {
+std::vector<glm::vec3> transformedPositions(const std::vector<glm::vec3>& local, const glm::dmat4& X) {
   std::vector<glm::vec3> out;
   out.reserve(local.size());
   for (const glm::vec3& p : local) {
@@ -87,14 +87,14 @@ std::vector<glm::vec3> placedPositions(const std::vector<glm::vec3>& local, cons
   return out;
 }
 
-MeshPart placed(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const Placement& placement) {
+MeshPart instantiated(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const Placement& placement) {
   MeshPart part;
   part.name = placement.name;
   part.material = materialOf(model, primitive.material);
   const glm::dmat4& X = placement.metres_from_mesh;
-  part.position_mm = placedPositions(morphed(model, primitive, "POSITION", *placement.weights), X);
+  part.position_mm = transformedPositions(morphed(model, primitive, "POSITION", *placement.weights), X);
 
-  // Triangles; a mirroring transform turns the winding.
+  // A mirroring transform reverses the winding.
   std::vector<std::uint32_t> corners;
   if (primitive.indices >= 0) {
     corners = readIndices(model, primitive.indices, part.position_mm.size());
@@ -108,7 +108,7 @@ MeshPart placed(const tinygltf::Model& model, const tinygltf::Primitive& primiti
       std::swap(part.triangles[t + 1], part.triangles[t + 2]);
   }
 
-  // Normals go by the cofactors, which also serve a flattening transform.
+  // Normals transform by the cofactors, also valid for singular transforms.
   part.normal = vertexNormals(part.position_mm, part.triangles);
   if (primitive.attributes.contains("NORMAL")) {
     const std::vector<glm::vec3> local = morphed(model, primitive, "NORMAL", *placement.weights);
@@ -153,7 +153,7 @@ glm::dmat4 localTransform(const tinygltf::Node& node) {
 
 class Scene {
  public:
-  explicit Scene(const tinygltf::Model& model) : model_(model), met_(model.nodes.size()) {}
+  explicit Scene(const tinygltf::Model& model) : model_(model), visited_(model.nodes.size()) {}
 
   MeshModel collect() {
     for (const int root : roots()) visit(root);
@@ -165,7 +165,7 @@ class Scene {
   }
 
  private:
-  // Those of the scene; without one, the nodes that are nobody's child.
+  // Of the scene; without one, nodes without a parent.
   std::vector<int> roots() const {
     if (!model_.scenes.empty())
       return model_.scenes.at(static_cast<std::size_t>(std::max(model_.defaultScene, 0))).nodes;
@@ -187,8 +187,8 @@ class Scene {
       const auto [index, parent_transform] = open.back();
       open.pop_back();
       const tinygltf::Node& node = model_.nodes.at(static_cast<std::size_t>(index));
-      if (met_[static_cast<std::size_t>(index)]) throw LoadError("a node has two parents or is part of a cycle");
-      met_[static_cast<std::size_t>(index)] = true;
+      if (visited_[static_cast<std::size_t>(index)]) throw LoadError("a node has two parents or is part of a cycle");
+      visited_[static_cast<std::size_t>(index)] = true;
       const glm::dmat4 X = parent_transform * localTransform(node);
       if (node.mesh >= 0) {
         const tinygltf::Mesh& mesh = model_.meshes.at(static_cast<std::size_t>(node.mesh));
@@ -207,11 +207,11 @@ class Scene {
     for (const tinygltf::Primitive& primitive : mesh.primitives) {
       const auto position = primitive.attributes.find("POSITION");
       if (primitive.mode < TINYGLTF_MODE_TRIANGLES || position == primitive.attributes.end()) continue;
-      // The budget is checked before the memory is spent: one mesh may stand in many places.
+      // Checked before allocating: a mesh may have many instances.
       vertices_ += count(position->second);
       corners_ += 3 * count(primitive.indices >= 0 ? primitive.indices : position->second);
       if (vertices_ > kMaxGltfElements || corners_ > kMaxCorners) throw LoadError("more than 20 million vertices");
-      MeshPart part = placed(model_, primitive, placement);
+      MeshPart part = instantiated(model_, primitive, placement);
       if (!part.triangles.empty()) out_.parts.push_back(std::move(part));
     }
   }
@@ -219,7 +219,7 @@ class Scene {
   std::size_t count(int accessor) const { return model_.accessors.at(static_cast<std::size_t>(accessor)).count; }
 
   const tinygltf::Model& model_;
-  std::vector<bool> met_;  ///< node by node
+  std::vector<bool> visited_;  ///< node by node
   MeshModel out_;
   std::size_t vertices_ = 0;
   std::size_t corners_ = 0;
@@ -236,7 +236,7 @@ MeshModel readGltf(const std::string& path) {
   } catch (const LoadError& error) {
     throw LoadError(path + ": " + error.what() + ", check the file with a glTF validator");
   } catch (const std::out_of_range&) {
-    throw LoadError(path + ": a reference leads nowhere, check the file with a glTF validator");
+    throw LoadError(path + ": a reference is invalid, check the file with a glTF validator");
   }
 }
 

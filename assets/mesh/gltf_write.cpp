@@ -12,7 +12,7 @@
 namespace assets {
 namespace {
 
-// Appends values to the one buffer as an accessor with its own view; returns the accessor's number.
+// Appends values to the buffer as an accessor with its own view; returns the accessor's index.
 template <class Value>
 int append(tinygltf::Model& model, const std::vector<Value>& values, int component_type, int type, int target) {
   auto& bytes = model.buffers[0].data;
@@ -110,10 +110,11 @@ void writeGltf(const MeshModel& model_F, calibration::OutputFile& file) {
   model.scenes.resize(1);
   model.defaultScene = 0;
   for (const MeshPart& part : model_F.parts) {
-    const bool whole = !part.position_mm.empty() && !part.triangles.empty() &&
-                       part.normal.size() == part.position_mm.size() &&
-                       (part.colour.empty() || part.colour.size() == part.position_mm.size());
-    if (!whole) throw LoadError(file.path() + ": part '" + part.name + "' has no whole mesh, nothing was written");
+    const bool complete = !part.position_mm.empty() && !part.triangles.empty() &&
+                          part.normal.size() == part.position_mm.size() &&
+                          (part.colour.empty() || part.colour.size() == part.position_mm.size());
+    if (!complete)
+      throw LoadError(file.path() + ": part '" + part.name + "' has an incomplete mesh, nothing was written");
     appendPart(model, part);
   }
   if (model.nodes.empty()) throw LoadError(file.path() + ": an empty model is not written as glTF, give it a mesh");
@@ -122,7 +123,7 @@ void writeGltf(const MeshModel& model_F, calibration::OutputFile& file) {
   tinygltf::TinyGLTF writer;
   const bool written = writer.WriteGltfSceneToStream(&model, out, false, true);
   out.close();
-  if (!written || !out) throw LoadError(file.path() + ": can not be written, check the space on the disk");
+  if (!written || !out) throw LoadError(file.path() + ": cannot be written, check the space on the disk");
   file.commit();
 }
 

@@ -48,8 +48,7 @@ void putPart(std::ostream& out, const MeshPart& part) {
 void writeStl(const MeshModel& model_P, calibration::OutputFile& file) {
   std::size_t triangles = 0;
   for (const MeshPart& part : model_P.parts) triangles += part.triangles.size() / 3;
-  if (triangles == 0)
-    throw LoadError(file.path() + ": a surface without triangles is not written as STL, give it some");
+  if (triangles == 0) throw LoadError(file.path() + ": a surface without triangles cannot be written as STL");
   if (triangles > std::numeric_limits<std::uint32_t>::max())
     throw LoadError(file.path() + ": STL counts no more than 4294967295 triangles, use a coarser volume");
 
@@ -62,7 +61,7 @@ void writeStl(const MeshModel& model_P, calibration::OutputFile& file) {
   out.write(reinterpret_cast<const char*>(&count), sizeof count);
   for (const MeshPart& part : model_P.parts) putPart(out, part);
   out.close();
-  if (!out) throw LoadError(file.path() + ": it can not be written, check the space on the disk");
+  if (!out) throw LoadError(file.path() + ": it cannot be written, check the space on the disk");
   file.commit();
 }
 

@@ -9,25 +9,25 @@ namespace assets {
 namespace {
 
 constexpr double kIso = 127.5;              // solid = 0.5
-constexpr int kEdge = kBrickVoxels + 2;     // the brick, a voxel before and one behind it
-constexpr std::uint16_t kNoVertex = 65535;  // more than a block has edges
+constexpr int kEdge = kBrickVoxels + 2;     // the brick with one voxel on either side
+constexpr std::uint16_t kNoVertex = 65535;  // a block has fewer edges
 
-std::size_t place(glm::ivec3 at) { return static_cast<std::size_t>((at.z * kEdge + at.y) * kEdge + at.x); }
+std::size_t indexOf(glm::ivec3 at) { return static_cast<std::size_t>((at.z * kEdge + at.y) * kEdge + at.x); }
 
-/// The brick with its border. `first` is the voxel of place (0,0,0); outside the volume is air.
+/// The brick with its border; air outside the volume. `first` is the voxel at (0,0,0).
 struct Block {
   glm::ivec3 first;
   std::array<std::uint8_t, kEdge * kEdge * kEdge> value{};
-  std::array<std::uint32_t, kEdge * kEdge> solid_in_row{};  ///< bit i: place i of the row is solid
+  std::array<std::uint32_t, kEdge * kEdge> solid_in_row{};  ///< bit i: voxel i of the row
 
   Block(const SolidVoxels& solid, glm::ivec3 brick) : first(kBrickVoxels * brick - 1) {
     const glm::ivec3 low = glm::max(first, glm::ivec3(0)), high = glm::min(first + kEdge, solid.grid.size);
     for (int k = low.z; k < high.z; ++k)
       for (int j = low.y; j < high.y; ++j) {
         const glm::ivec3 at = glm::ivec3(low.x, j, k) - first;
-        std::uint8_t* const to = &value[place(at)];
+        std::uint8_t* const to = &value[indexOf(at)];
         std::copy_n(solid.from({low.x, j, k}), high.x - low.x, to);
-        std::uint32_t& bits = solid_in_row[place({0, at.y, at.z}) / kEdge];
+        std::uint32_t& bits = solid_in_row[indexOf({0, at.y, at.z}) / kEdge];
         for (int n = 0; n < high.x - low.x; ++n) bits |= std::uint32_t{to[n] > kIso} << (at.x + n);
       }
   }
@@ -35,7 +35,7 @@ struct Block {
   std::uint32_t row(int j, int k) const { return solid_in_row[static_cast<std::size_t>(k * kEdge + j)]; }
 };
 
-/// Numbers the vertices of a block as they are met.
+/// Builds the patch; each crossed edge becomes one vertex.
 class PatchMaker {
  public:
   PatchMaker(const VolumeGrid& grid, const Block& block) : grid_(grid), block_(block) { vertex_.fill(kNoVertex); }
@@ -49,8 +49,8 @@ class PatchMaker {
  private:
   std::uint32_t vertexOn(glm::ivec3 cell, int edge) {
     const int axis = edge / 4, corner = firstCorner(edge);
-    const glm::ivec3 from = cell + glm::ivec3(corner & 1, corner >> 1 & 1, corner >> 2);
-    std::uint16_t& vertex = vertex_[3 * place(from) + static_cast<std::size_t>(axis)];
+    const glm::ivec3 from = cell + cornerOffset(corner);
+    std::uint16_t& vertex = vertex_[3 * indexOf(from) + static_cast<std::size_t>(axis)];
     if (vertex == kNoVertex) {
       vertex = static_cast<std::uint16_t>(patch_.position_P_mm.size());
       addVertex(from, axis);
@@ -61,7 +61,7 @@ class PatchMaker {
   void addVertex(glm::ivec3 from, int axis) {
     glm::ivec3 to = from;
     ++to[axis];
-    const double a = block_.value[place(from)], b = block_.value[place(to)];
+    const double a = block_.value[indexOf(from)], b = block_.value[indexOf(to)];
     const glm::ivec3 voxel = block_.first + from;
     glm::dvec3 index(voxel);
     index[axis] += (kIso - a) / (b - a);
@@ -81,12 +81,12 @@ class PatchMaker {
 
 SurfacePatch surfacePatch(const SolidVoxels& solid, glm::ivec3 brick) {
   const Block block(solid, brick);
-  // The cells of the border belong to the brick before this one, if there is one.
+  // Border cells belong to the previous brick, if there is one.
   const glm::ivec3 first = glm::min(brick, glm::ivec3(1));
   PatchMaker maker(solid.grid, block);
   for (int k = first.z; k + 1 < kEdge; ++k)
     for (int j = first.y; j + 1 < kEdge; ++j) {
-      // Four rows bound a row of cells; all solid or all air holds no surface.
+      // A row of cells between four rows that are all solid or all air has no surface.
       const std::array<std::uint32_t, 4> rows{block.row(j, k), block.row(j + 1, k), block.row(j, k + 1),
                                               block.row(j + 1, k + 1)};
       constexpr std::uint32_t kAll = (1u << kEdge) - 1;

@@ -1,8 +1,7 @@
-// A patient on disk, a folder of three files: patient.toml (patient_toml.h), volume.vdb (vdb_file.h: HU, labels, teeth,
-// solid) and face.glb (gingiva and face, metres, frame F with P's origin: gingiva parts are those whose names begin
-// with "Gum"; left out if both are empty). Written whole or not at all; carries no name, date or identifier of a
-// person. Any thread; a second or so per 10^7 voxels, with the dense volume in memory. The folder's name is the case's
-// name.
+// A patient on disk: a folder with patient.toml (patient_toml.h), volume.vdb (vdb_file.h) and face.glb: gingiva and
+// face in metres, frame F with P's origin; gingiva parts are those whose names begin with "Gum"; left out if both are
+// empty. Written whole or not at all. Contains no name, date or identifier of a person; the folder's name names the
+// case. What is stable: README.md. Any thread; about 1 s per 10^7 voxels.
 #pragma once
 
 #include <string>
@@ -11,11 +10,11 @@
 
 namespace assets {
 
-/// Throws as OutputFolder: no parent folder, not writable, in place already without `overwrite`, or in place and
-/// holding anything else (which would be lost).
+/// Throws as OutputFolder: no parent folder, not writable, already present without `overwrite`, or present with other
+/// content, which would be lost.
 void savePatient(const Patient& patient, const std::string& folder, bool overwrite);
 
-/// Throws LoadError: no such folder, a file missing, damaged or of another program, a value out of range.
+/// Throws LoadError: no such folder, a file missing, damaged or foreign, a value out of range.
 Patient loadPatient(const std::string& folder);
 
 }  // namespace assets

@@ -1,7 +1,5 @@
 #include "assets/patient/patient_toml.h"
 
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -13,15 +11,12 @@ namespace assets {
 
 namespace {
 
-constexpr int kSchema = 2, kFormerSchema = 1;
-constexpr std::size_t kMostCanalPoints = 10000;
-constexpr double kFarthest_mm = 1.0e6;
+constexpr int kSchema = 2, kOldSchema = 1;
+constexpr std::size_t kMaxCanalPoints = 10000;
+constexpr double kMaxCoordinate_mm = 1.0e6;
 
-/// The shortest text that reads back as the same number.
 std::string exact(double value) {
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  std::string number(text.data(), end);
+  const std::string number = exactText(value);
   return number.find_first_of(".e") == std::string::npos ? number + ".0" : number;
 }
 
@@ -39,18 +34,18 @@ int toothNumber(TomlReader& keys, const char* key) {
   return fdi;
 }
 
-/// As schema 1 has it: a place and a direction even where no tooth is known.
-void readFormerSite(TomlReader& keys, Patient& patient) {
-  const OperativeSite site{toothNumber(keys, "tooth_fdi"), keys.vector("site", "third_molar_P_mm", kFarthest_mm),
+/// Schema 1 has a position and a direction even where no tooth is known.
+void readOldSite(TomlReader& keys, Patient& patient) {
+  const OperativeSite site{toothNumber(keys, "tooth_fdi"), keys.vector("site", "third_molar_P_mm", kMaxCoordinate_mm),
                            unitVector(keys, "crown_direction_P")};
   patient.jaw_P_mm = site.centre_P_mm;
   if (keys.boolean("site", "known")) patient.site = site;
 }
 
 void readSite(TomlReader& keys, Patient& patient) {
-  patient.jaw_P_mm = keys.vector("jaw", "place_P_mm", kFarthest_mm);
+  patient.jaw_P_mm = keys.vector("jaw", "place_P_mm", kMaxCoordinate_mm);
   if (keys.has("site"))
-    patient.site = {toothNumber(keys, "fdi"), keys.vector("site", "centre_P_mm", kFarthest_mm),
+    patient.site = {toothNumber(keys, "fdi"), keys.vector("site", "centre_P_mm", kMaxCoordinate_mm),
                     unitVector(keys, "axis_P")};
 }
 
@@ -73,21 +68,22 @@ std::string patientToml(const Patient& patient) {
 
 Patient patientFromToml(const std::string& text, const std::string& where) {
   TomlReader keys(text, where);
-  if (!keys.has("", "schema")) keys.refuse("", "schema", "it is missing, so this is no patient; import the scan again");
+  if (!keys.has("", "schema"))
+    keys.refuse("", "schema", "it is missing, so this is not a patient; import the scan again");
   const auto schema = keys.integer("", "schema", 0, std::numeric_limits<int>::max());
-  if (schema != kSchema && schema != kFormerSchema)
+  if (schema != kSchema && schema != kOldSchema)
     keys.refuse("", "schema",
                 "it is " + std::to_string(schema) + ", this program reads 1 and 2; import the scan again");
 
   Patient patient;
   patient.title = keys.text("", "title");
-  if (schema == kFormerSchema)
-    readFormerSite(keys, patient);
+  if (schema == kOldSchema)
+    readOldSite(keys, patient);
   else
     readSite(keys, patient);
-  const char* canal = keys.has("canal") ? "canal" : "mandibular_canal";  // as older folders call it
+  const char* canal = keys.has("canal") ? "canal" : "mandibular_canal";  // the name in older folders
   patient.mandibular_canal_radius_mm = keys.number(canal, "radius_mm", {0.01, 20.0, "mm"});
-  patient.mandibular_canal_P_mm = keys.vectors(canal, "line_P_mm", kFarthest_mm, kMostCanalPoints);
+  patient.mandibular_canal_P_mm = keys.vectors(canal, "line_P_mm", kMaxCoordinate_mm, kMaxCanalPoints);
   patient.classification.iso_hu = keys.number("classification", "iso_hu", {-32768.0, 32767.0, "HU"});
   patient.classification.sigma_hu = keys.number("classification", "sigma_hu", {1.0e-3, 32767.0, "HU"});
   return patient;

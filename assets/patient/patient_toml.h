@@ -1,7 +1,6 @@
-// The words and numbers of a patient folder, `patient.toml`: schema, title, jaw, site, canal, classification;
-// lengths in mm in frame P (LPS), units in the names. Any thread; microseconds. No voxels, no meshes, no name, date or
-// identifier of a person: the title says what the case is.
-// Schema 1 (one table for a site, known or not) is still read.
+// The file `patient.toml` of a patient folder: schema, title, jaw, site, mandibular canal, classification. Lengths in
+// mm in frame P (LPS), units in the key names. Schema 1 (a site table with `known`) is still read. Any thread;
+// microseconds.
 #pragma once
 
 #include <string>
@@ -10,11 +9,11 @@
 
 namespace assets {
 
-/// The text for everything of the patient but ct, gingiva and face.
+/// Everything of the patient but ct, gingiva and face.
 std::string patientToml(const Patient& patient);
 
-/// A Patient without ct, gingiva and face. `where` names the file in refusals. Throws LoadError of one line: not TOML,
-/// another schema, a missing key, a number that is not finite or out of its range.
+/// A Patient without ct, gingiva and face. `where` names the file in messages. Throws LoadError of one line: invalid
+/// TOML, unknown schema, a missing key, a number that is not finite or out of range.
 Patient patientFromToml(const std::string& text, const std::string& where);
 
 }  // namespace assets

@@ -1,5 +1,5 @@
-// Bytes of voxels in a row, whatever a file stores them as, and those that it stores as they are. A file that ends too
-// soon is a LoadError of one line. One thread each; the file must outlive it.
+// A stream of voxel bytes, and the source that passes a file's bytes on unchanged. Throws LoadError of one line where
+// the file ends too soon. One thread each; the file must outlive it.
 #pragma once
 
 #include <cstddef>
@@ -15,15 +15,13 @@ namespace assets {
 inline constexpr std::size_t kBlockBytes = 1 << 20;
 
 [[noreturn]] inline void refuseTruncated(const std::string& path) {
-  refuseScan(path,
-             "it is truncated or damaged: it holds fewer voxels than its header promises; export the volume again");
+  refuseScan(path, "it is truncated or damaged: it holds fewer voxels than its header states; export the volume again");
 }
 
-/// Bytes one after the other, as the voxels need them.
 class ByteSource {
  public:
   virtual ~ByteSource() = default;
-  /// How many were there: fewer than asked for at the end only.
+  /// Number of bytes read; fewer than requested only at the end.
   virtual std::size_t fill(std::span<char> bytes) = 0;
 };
 

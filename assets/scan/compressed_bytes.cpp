@@ -14,17 +14,16 @@ namespace assets {
 
 namespace {
 
-/// A gzip stream, of several members too, or a bare zlib stream.
-class UnpackedSource : public ByteSource {
+class DecompressedSource : public ByteSource {
  public:
-  UnpackedSource(const RegularFile& file, std::uint64_t from_byte)
-      : packed_(file, from_byte), path_(file.path()), block_(kBlockBytes / 4) {
-    constexpr int kEitherKind = 15 + 32;  // zlib.h: the largest window, gzip or zlib by its first bytes
-    if (inflateInit2(&stream_, kEitherKind) != Z_OK) throw std::bad_alloc();
+  DecompressedSource(const RegularFile& file, std::uint64_t from_byte)
+      : file_bytes_(file, from_byte), path_(file.path()), block_(kBlockBytes / 4) {
+    constexpr int kGzipOrZlib = 15 + 32;  // zlib.h: largest window, format by the first bytes
+    if (inflateInit2(&stream_, kGzipOrZlib) != Z_OK) throw std::bad_alloc();
   }
-  ~UnpackedSource() override { inflateEnd(&stream_); }
-  UnpackedSource(const UnpackedSource&) = delete;
-  UnpackedSource& operator=(const UnpackedSource&) = delete;
+  ~DecompressedSource() override { inflateEnd(&stream_); }
+  DecompressedSource(const DecompressedSource&) = delete;
+  DecompressedSource& operator=(const DecompressedSource&) = delete;
 
   std::size_t fill(std::span<char> bytes) override {
     stream_.next_out = reinterpret_cast<Bytef*>(bytes.data());
@@ -37,7 +36,7 @@ class UnpackedSource : public ByteSource {
       else if (state == Z_MEM_ERROR)
         throw std::bad_alloc();
       else if (state != Z_OK)
-        refuseScan(path_, "its packed voxels are damaged (the checksum does not fit); export the volume again");
+        refuseScan(path_, "its compressed voxels are damaged (wrong checksum); export the volume again");
     }
     return bytes.size() - stream_.avail_out;
   }
@@ -45,11 +44,11 @@ class UnpackedSource : public ByteSource {
  private:
   bool readMore() {
     stream_.next_in = reinterpret_cast<Bytef*>(block_.data());
-    stream_.avail_in = static_cast<uInt>(packed_.fill(block_));
+    stream_.avail_in = static_cast<uInt>(file_bytes_.fill(block_));
     return stream_.avail_in > 0;
   }
 
-  /// Behind a member another one begins, or the file ends.
+  /// After a member another one begins, or the file ends.
   void beginNextMember() {
     if (stream_.avail_in == 0 && !readMore()) {
       has_ended_ = true;
@@ -63,10 +62,10 @@ class UnpackedSource : public ByteSource {
     has_ended_ = true;
     constexpr uInt kLineEnd = 2;
     if (stream_.avail_in > kLineEnd)
-      refuseScan(path_, "more stands behind its packed voxels than belongs there; export the volume again");
+      refuseScan(path_, "it has extra bytes after its compressed voxels; export the volume again");
   }
 
-  RawSource packed_;
+  RawSource file_bytes_;
   std::string path_;
   std::vector<char> block_;
   z_stream stream_{};
@@ -76,7 +75,7 @@ class UnpackedSource : public ByteSource {
 }  // namespace
 
 std::unique_ptr<ByteSource> decompressedSource(const RegularFile& file, std::uint64_t from_byte) {
-  return std::make_unique<UnpackedSource>(file, from_byte);
+  return std::make_unique<DecompressedSource>(file, from_byte);
 }
 
 bool isGzip(const RegularFile& file) {
@@ -87,7 +86,7 @@ bool isGzip(const RegularFile& file) {
 std::string firstDecompressedBytes(const RegularFile& file, std::size_t count) {
   std::string bytes(count, '\0');
   try {
-    UnpackedSource source(file, 0);
+    DecompressedSource source(file, 0);
     bytes.resize(source.fill(bytes));
   } catch (const LoadError&) {
     bytes.clear();

@@ -1,6 +1,5 @@
-// What a gzip stream, of several members too, or a bare zlib stream unpacks to. A stream that is cut, whose checksum
-// does not fit, or behind which more stands than a line's end is a LoadError of one line. Any thread, a stream one
-// thread; 256 KB of memory; about 300 MB/s.
+// Decompressed bytes of a gzip stream, of several members too, or a bare zlib stream. Throws LoadError of one line for
+// a truncated stream, a wrong checksum, or more than a line end after it. One thread a stream; 256 KB; about 300 MB/s.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +15,7 @@ namespace assets {
 std::unique_ptr<ByteSource> decompressedSource(const RegularFile& file, std::uint64_t from_byte);
 
 bool isGzip(const RegularFile& file);
-/// Fewer if the stream ends before or is damaged.
+/// Fewer if the stream ends earlier or is damaged.
 std::string firstDecompressedBytes(const RegularFile& file, std::size_t count);
 
 }  // namespace assets

@@ -17,15 +17,15 @@ namespace assets {
 namespace {
 
 constexpr std::array<char, 8> kMark = {'M', 'O', 'L', 'A', 'R', 'S', 'E', 'A'};
-constexpr std::size_t kSealBytes = 24;
-using Seal = std::array<char, kSealBytes>;
+constexpr std::size_t kTrailerBytes = 24;
+using Trailer = std::array<char, kTrailerBytes>;
 
 void putLittle(char* at, std::uint64_t value, int bytes) {
   for (int b = 0; b < bytes; ++b) at[b] = static_cast<char>(value >> (8 * b) & 0xff);
 }
 
-/// The appendChecksum that fits the first `length` bytes of the file.
-Seal sealOf(std::istream& file, std::uint64_t length) {
+/// For the first `length` bytes of the file.
+Trailer trailerOf(std::istream& file, std::uint64_t length) {
   uLong crc = ::crc32(0, nullptr, 0);
   uLong adler = ::adler32(0, nullptr, 0);
   constexpr std::uint64_t kMegabyte = 1 << 20;
@@ -37,7 +37,7 @@ Seal sealOf(std::istream& file, std::uint64_t length) {
     adler = ::adler32(adler, reinterpret_cast<const Bytef*>(block.data()), got);
     left -= got;
   }
-  Seal result{};
+  Trailer result{};
   putLittle(result.data(), length, 8);
   putLittle(result.data() + 8, crc, 4);
   putLittle(result.data() + 12, adler, 4);
@@ -51,10 +51,10 @@ void appendChecksum(const std::string& path) {
   std::error_code error;
   const std::uint64_t length = std::filesystem::file_size(path, error);
   std::ifstream input(path, std::ios::binary);
-  if (error || !input) throw LoadError(path + ": it can not be read back; check the disk");
-  const Seal end = sealOf(input, length);
+  if (error || !input) throw LoadError(path + ": it cannot be read back; check the disk");
+  const Trailer end = trailerOf(input, length);
   std::ofstream output(path, std::ios::binary | std::ios::app);
-  output.write(end.data(), kSealBytes);
+  output.write(end.data(), kTrailerBytes);
   if (!output.flush()) throw LoadError(path + ": writing failed; make room on the disk");
 }
 
@@ -66,15 +66,15 @@ void requireChecksum(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (error || !file) throw LoadError(path + ": it may not be read; check its permissions");
 
-  Seal found{};
-  if (bytes > kSealBytes) {
-    file.seekg(static_cast<std::streamoff>(bytes - kSealBytes));
-    file.read(found.data(), kSealBytes);
+  Trailer found{};
+  if (bytes > kTrailerBytes) {
+    file.seekg(static_cast<std::streamoff>(bytes - kTrailerBytes));
+    file.read(found.data(), kTrailerBytes);
     file.seekg(0);
   }
   if (!std::equal(kMark.begin(), kMark.end(), found.begin() + 16))
     throw LoadError(path + ": it is cut short, or was not written by this program; import the scan again");
-  if (sealOf(file, bytes - kSealBytes) != found)
+  if (trailerOf(file, bytes - kTrailerBytes) != found)
     throw LoadError(path + ": it is damaged (its checksum does not fit); import the scan again");
 }
 

@@ -1,6 +1,5 @@
-// 8-bit greys, as pictures have them, are no Hounsfield: taken for it a whole jaw is soft tissue and nothing is seen or
-// felt. Told by the values (all within 0..255), whatever the type they are stored in. A window makes Hounsfield of
-// them. Any thread; a pass over the voxels.
+// 8-bit grey values are no Hounsfield values: read as such, a whole jaw would be soft tissue. Recognised by all values
+// lying in 0..255, whatever their type in the file; a window maps them to Hounsfield. Any thread; one pass.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +9,12 @@
 
 namespace assets {
 
-/// What the greys 0 and 255 mean; linear between.
+/// HU of the grey values 0 and 255; linear between.
 struct GreyWindow {
   double low_hu = -1000.0, high_hu = 3000.0;
 };
 
-/// Applies the window. Throws LoadError: 8-bit greys without a window, or a window for other values.
+/// Throws LoadError: 8-bit grey values without a window, or a window for other values.
 void applyGreyWindow(std::vector<std::int16_t>& values, const std::optional<GreyWindow>& window,
                      const std::string& path);
 

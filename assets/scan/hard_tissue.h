@@ -1,11 +1,10 @@
-// Bone and teeth as solid fields of their own, cut out of one: what a surface of either is made from.
-// Where a body borders on air or soft tissue it ends where the whole ends: its field is the whole's. Where tooth meets
-// bone the border is drawn by the labels, smoothed: a voxel belongs to a body by its share of the hard matter around,
-//   field = min(solid, 255 share), share = sum of w solid over the body's voxels / the same over all,
-// w binomial 1 4 6 4 1 along each axis (sigma one voxel), so that no voxel shows as a step; both bodies end there at
-// one surface. Solid without a hard tissue's label (partial voxels at a surface, ligament) counts a fiftieth: it goes
-// with its side. Any thread; parallel inside (TBB), about 30 ns a voxel and core; allocates 8 bytes a voxel. Not a
-// segmentation.
+// Bone and teeth as separate solid fields, for surfaces of either.
+// Against air or soft tissue a body ends where the whole field ends. Between tooth and bone the labels decide,
+// smoothed:
+//   field = min(solid, 255 share), share = sum of w solid over the body's voxels / the same over all voxels,
+// w binomial 1 4 6 4 1 along each axis (sigma one voxel); both bodies end there at one surface. Solid voxels without a
+// hard label (partial voxels, ligament) weigh 1/50. Any thread; parallel (TBB), about 30 ns a voxel and core; 8 bytes a
+// voxel. No segmentation.
 #pragma once
 
 #include <cstdint>
@@ -22,10 +21,10 @@ enum class HardTissue { bone, tooth };
 /// "Bone", "Teeth".
 std::string_view nameOf(HardTissue tissue);
 
-/// Whether a label (assets::Tissue) counts as that body.
+/// Whether a label (assets::Tissue) belongs to that body; everything that is no tooth belongs to bone.
 bool belongsTo(std::uint8_t label, HardTissue tissue);
 
-/// `solid` and `label` in the order of the grid; an empty label means that all is bone.
+/// `solid` and `label` in grid order; without labels everything is bone.
 std::vector<std::uint8_t> solidOf(HardTissue tissue, const VolumeGrid& grid, std::span<const std::uint8_t> solid,
                                   std::span<const std::uint8_t> label);
 

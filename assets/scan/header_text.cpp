@@ -4,6 +4,7 @@
 #include <cctype>
 #include <charconv>
 #include <map>
+#include <set>
 
 #include "assets/load_error.h"
 
@@ -11,7 +12,7 @@ namespace assets {
 
 namespace {
 
-constexpr std::size_t kLongestHeader = 1 << 20;
+constexpr std::size_t kMaxHeader = 1 << 20;
 constexpr std::string_view kWhite = " \t\r\n\v\f";
 
 std::string_view withoutPlus(std::string_view word) {
@@ -36,7 +37,7 @@ void refuseSeveralValues(const std::string& path) {
 }
 
 HeaderText::HeaderText(const RegularFile& file) : file_(file) {
-  text_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(file.size(), kLongestHeader)));
+  text_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(file.size(), kMaxHeader)));
   text_.resize(file.readAt(0, text_));
 }
 
@@ -78,11 +79,11 @@ std::vector<std::string> wordsOf(std::string_view text) {
 }
 
 std::string printableExcerpt(std::string_view text) {
-  constexpr std::size_t kMost = 40;
-  std::string shown(text.substr(0, kMost));
+  constexpr std::size_t kMax = 40;
+  std::string shown(text.substr(0, kMax));
   for (char& c : shown)
     if (c < ' ' || c > '~') c = '?';
-  return "'" + shown + (text.size() > kMost ? "...'" : "'");
+  return "'" + shown + (text.size() > kMax ? "...'" : "'");
 }
 
 std::optional<std::int64_t> parseInteger(std::string_view word) { return numberIn<std::int64_t>(word); }
@@ -100,33 +101,14 @@ std::optional<std::vector<double>> parseReals(std::string_view text, std::size_t
 }
 
 std::optional<double> millimetresPer(const std::string& unit) {
-  static const std::map<std::string, double> kUnits = {{"", 1.0},
-                                                       {"none", 1.0},
-                                                       {"???", 1.0},
-                                                       {"?", 1.0},
-                                                       {"mm", 1.0},
-                                                       {"millimeter", 1.0},
-                                                       {"millimeters", 1.0},
-                                                       {"millimetre", 1.0},
-                                                       {"millimetres", 1.0},
-                                                       {"m", 1.0e3},
-                                                       {"meter", 1.0e3},
-                                                       {"meters", 1.0e3},
-                                                       {"metre", 1.0e3},
-                                                       {"metres", 1.0e3},
-                                                       {"cm", 10.0},
-                                                       {"centimeter", 10.0},
-                                                       {"centimetre", 10.0},
-                                                       {"um", 1.0e-3},
-                                                       {"\xc2\xb5m", 1.0e-3},
-                                                       {"\xce\xbcm", 1.0e-3},
-                                                       {"micron", 1.0e-3},
-                                                       {"microns", 1.0e-3},
-                                                       {"micrometer", 1.0e-3},
-                                                       {"micrometers", 1.0e-3},
-                                                       {"micrometre", 1.0e-3}};
-  const auto found = kUnits.find(lowerCase(unit));
-  return found == kUnits.end() ? std::nullopt : std::optional(found->second);
+  static const std::map<double, std::set<std::string>> kSpellings = {
+      {1.0, {"", "none", "???", "?", "mm", "millimeter", "millimeters", "millimetre", "millimetres"}},
+      {1.0e3, {"m", "meter", "meters", "metre", "metres"}},
+      {10.0, {"cm", "centimeter", "centimetre"}},
+      {1.0e-3, {"um", "\xc2\xb5m", "\xce\xbcm", "micron", "microns", "micrometer", "micrometers", "micrometre"}}};
+  for (const auto& [mm, spellings] : kSpellings)
+    if (spellings.contains(lowerCase(unit))) return mm;
+  return std::nullopt;
 }
 
 }  // namespace assets

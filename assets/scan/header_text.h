@@ -1,5 +1,5 @@
-// A header made of lines, and the words in it: whole and real numbers, lists, units of length. Strict: a number is a
-// number to its end and fits, or there is none. Headers longer than 1 MB are refused. Any thread.
+// Lines of a header, and parsing of the words in them: integers, reals, lists, units of length. A word must be a number
+// as a whole and fit its type. Headers longer than 1 MB are rejected. Any thread.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@
 
 namespace assets {
 
-/// What to do about a header that contradicts itself.
+/// Advice for a header that contradicts itself.
 inline constexpr const char* kExportAgain = "; export the volume again";
 
-/// Throws LoadError: the file, why.
+/// Throws LoadError: path and reason.
 [[noreturn]] void refuseScan(const std::string& path, const std::string& reason);
 [[noreturn]] void refuseSeveralValues(const std::string& path);
 
@@ -27,7 +27,7 @@ class HeaderText {
   /// than 1 MB.
   std::optional<std::string> line();
   int lineNumber() const { return line_number_; }
-  /// Where the line after the last one begins.
+  /// Offset of the line after the last one read.
   std::uint64_t nextByte() const { return at_; }
 
  private:
@@ -39,18 +39,18 @@ class HeaderText {
 
 std::string lowerCase(std::string text);
 std::string trimmed(std::string_view text);
-/// Divided at white space.
+/// Split at white space.
 std::vector<std::string> wordsOf(std::string_view text);
-/// What a stranger's file says, fit for a message: at most 40 characters, all of them printable ASCII.
+/// Text from a file for a message: quoted, at most 40 characters, printable ASCII.
 std::string printableExcerpt(std::string_view text);
 
 std::optional<std::int64_t> parseInteger(std::string_view word);
-/// May be NaN or infinite if the word says so; none if it does not fit a double.
+/// May be NaN or infinite if written so.
 std::optional<double> parseReal(std::string_view word);
-/// None unless there are exactly `count` of them.
+/// None unless there are exactly `count`.
 std::optional<std::vector<double>> parseReals(std::string_view text, std::size_t count);
 
-/// mm per unit of a length: mm, m, cm, um in their usual spellings; 1 for no unit at all; none for any other word.
+/// mm per unit of length, in the usual spellings of mm, m, cm, um; 1 without a unit; none for any other word.
 std::optional<double> millimetresPer(const std::string& unit);
 
 }  // namespace assets

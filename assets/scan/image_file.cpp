@@ -22,7 +22,7 @@ namespace assets {
 
 namespace {
 
-/// The voxels of a file as whole numbers of type `Value`; stops at the first that does not fit.
+/// Voxels of a file as integers of type `Value`; throws for the first that does not fit.
 template <class Value>
 class IntegerVoxels {
  public:
@@ -47,18 +47,18 @@ class IntegerVoxels {
       std::memcpy(raw.data(), bytes.data() + at, raw.size());
       if (is_reversed) std::reverse(raw.begin(), raw.end());
       const auto stored = std::bit_cast<Stored>(raw);
-      values_.push_back(is_rescaled ? whole(header_.slope * static_cast<double>(stored) + header_.intercept)
-                                    : whole(stored));
+      values_.push_back(is_rescaled ? rounded(header_.slope * static_cast<double>(stored) + header_.intercept)
+                                    : rounded(stored));
     }
   }
 
   template <class Number>
-  Value whole(Number number) const {
+  Value rounded(Number number) const {
     if constexpr (std::is_floating_point_v<Number>) {
       if (!std::isfinite(number))
-        refuseScan(header_.path, "it holds values that are no finite numbers; export the volume again");
+        refuseScan(header_.path, "it holds values that are not finite; export the volume again");
       const Number nearest = std::round(number);
-      if (!(nearest >= static_cast<Number>(kLowest) && nearest <= static_cast<Number>(kHighest))) refuse(number);
+      if (!(nearest >= static_cast<Number>(kMin) && nearest <= static_cast<Number>(kMax))) refuse(number);
       return static_cast<Value>(nearest);
     } else {
       if (!std::in_range<Value>(number)) refuse(number);
@@ -68,18 +68,18 @@ class IntegerVoxels {
 
   template <class Number>
   [[noreturn]] void refuse(Number number) const {
-    refuseScan(header_.path, "the value " + std::to_string(number) + " lies outside " + std::to_string(kLowest) + ".." +
-                                 std::to_string(kHighest) + "; " + advice_);
+    refuseScan(header_.path, "the value " + std::to_string(number) + " lies outside " + std::to_string(kMin) + ".." +
+                                 std::to_string(kMax) + "; " + advice_);
   }
 
-  static constexpr Value kLowest = std::numeric_limits<Value>::min();
-  static constexpr Value kHighest = std::numeric_limits<Value>::max();
+  static constexpr Value kMin = std::numeric_limits<Value>::min();
+  static constexpr Value kMax = std::numeric_limits<Value>::max();
   const ImageHeader& header_;
   const char* advice_;
   std::vector<Value> values_;
 };
 
-/// A file opened as far as its header; nothing allocated for its voxels yet.
+/// A file with its header read; its voxels are not allocated yet.
 class Scan {
  public:
   explicit Scan(const std::string& path) : header_(readImageHeader(path)), resampling_(header_.geometry, path) {

@@ -11,19 +11,19 @@ namespace assets {
 
 namespace {
 
-ImageHeader headerAsStated(const RegularFile& file) {
+ImageHeader readByExtension(const RegularFile& file) {
   const std::string& path = file.path();
   const std::string name = lowerCase(path);
   if (name.ends_with(".nrrd") || name.ends_with(".nhdr")) return readNrrdHeader(file);
   if (name.ends_with(".nii") || name.ends_with(".nii.gz")) return readNiftiHeader(file);
   if (name.ends_with(".mha") || name.ends_with(".mhd")) return readMetaHeader(file);
-  throw LoadError(path + ": its name ends in nothing known; give a .nrrd, .nhdr, .nii, .nii.gz, .mha or .mhd file");
+  throw LoadError(path + ": its extension is not known; give a .nrrd, .nhdr, .nii, .nii.gz, .mha or .mhd file");
 }
 
 }  // namespace
 
 ImageHeader readImageHeader(const std::string& path) {
-  ImageHeader header = headerAsStated(RegularFile(path));
+  ImageHeader header = readByExtension(RegularFile(path));
   requireValidGeometry(header.geometry, path);
   return header;
 }

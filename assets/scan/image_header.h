@@ -1,9 +1,8 @@
-// What a volume file says of itself, judged before one of its voxels is read: NRRD, NIfTI-1 and MetaImage, by extension
-// (nrrd_header.h, nifti_header.h, meta_header.h). A header that comes back is complete: three axes, sizes, a type, a
-// place in P (LPS mm, units obeyed), and the files that hold the voxels, each a plain file in the header's folder or
-// below. Everything else is a LoadError of one line. No number is made up: where spacing or byte order matters and is
-// not stated, the file is refused; where NRRD or MetaImage do not state which way their axes lie, they are taken along
-// LPS, as their own readers do, and `orientation_known` says so. Any thread; reads at most 1 MB. Voxels: voxel_bytes.h.
+// Header of a volume file, validated before voxels are read: NRRD, NIfTI-1 and MetaImage, by extension. A returned
+// header is complete: three axes, sizes, type, geometry in P (LPS mm), and the data files, each a regular file in the
+// header's folder or below. Otherwise LoadError of one line. Nothing is assumed that matters: without spacing or byte
+// order the file is rejected; without axis directions NRRD and MetaImage are taken as LPS, as their own readers do, and
+// `orientation_known` is false. Any thread; reads at most 1 MB. Voxels: voxel_bytes.h.
 #pragma once
 
 #include <cstdint>
@@ -15,10 +14,10 @@
 
 namespace assets {
 
-/// gzip also stands for a bare zlib stream, as MetaImage has it; text and hex are for people to read.
+/// gzip includes a bare zlib stream (MetaImage).
 enum class VoxelCoding { raw, gzip, text, hex };
 
-/// A file with an equal share of the voxels, behind its first bytes as they are stored.
+/// A file with an equal share of the voxels, which begin at `from_byte`.
 struct VoxelFile {
   std::string path;
   std::uint64_t from_byte = 0;
@@ -27,7 +26,7 @@ struct VoxelFile {
 struct ImageHeader {
   std::string path;
   ScanGeometry geometry;
-  bool orientation_known = true;  ///< the file itself says which way its axes lie
+  bool orientation_known = true;  ///< stated in the file
   VoxelType type = VoxelType::int16;
   VoxelCoding coding = VoxelCoding::raw;
   bool is_big_endian = false;
@@ -35,18 +34,15 @@ struct ImageHeader {
   double intercept = 0.0;  ///< value = slope * stored + intercept
   std::vector<VoxelFile> files;
 
-  /// In each file, ahead of the voxels: lines, then bytes of what is unpacked. kVoxelsAtFileEnd: as many bytes as
-  /// there are ahead of the last voxels.
+  /// To skip in each file ahead of the voxels: lines, then bytes after decompression, or kVoxelsAtFileEnd.
   std::int64_t skipped_lines = 0;
   std::int64_t skipped_bytes = 0;
 
   bool isRescaled() const { return slope != 1.0 || intercept != 0.0; }
-  std::uint64_t voxelCount() const {
-    return static_cast<std::uint64_t>(geometry.size.x) * static_cast<std::uint64_t>(geometry.size.y) *
-           static_cast<std::uint64_t>(geometry.size.z);
-  }
+  std::uint64_t voxelCount() const { return countIn(geometry.size); }
 };
 
+/// The voxels are the last bytes of the file.
 inline constexpr std::int64_t kVoxelsAtFileEnd = -1;
 
 ImageHeader readImageHeader(const std::string& path);

@@ -29,7 +29,7 @@ class MetaHeader {
     header.coding = coding();
     header.is_big_endian = header.coding != VoxelCoding::text && bytesOf(header.type) > 1 && isBigEndian();
     header.files = files();
-    skipHeaderOf(header);
+    skipHeader(header);
     return header;
   }
 
@@ -41,8 +41,8 @@ class MetaHeader {
       const std::size_t sign = line->find_first_of("=:");
       const std::string name = lowerCase(trimmed(line->substr(0, sign)));
       if (sign == std::string::npos || !isName(name))
-        refuseScan(path_,
-                   "line " + std::to_string(text.lineNumber()) + " is no field of a MetaImage header" + kExportAgain);
+        refuseScan(path_, "line " + std::to_string(text.lineNumber()) + " is not a field of a MetaImage header" +
+                              kExportAgain);
       if (!value_.emplace(name, trimmed(line->substr(sign + 1))).second)
         refuseScan(path_, "its header has " + printableExcerpt(name) + " twice" + kExportAgain);
       if (name != "elementdatafile") continue;
@@ -52,13 +52,12 @@ class MetaHeader {
           if (const std::string each = trimmed(*listed); !each.empty()) listed_files_.push_back(each);
       return;
     }
-    refuseScan(path_,
-               std::string("it is no MetaImage file, or its header has no end (ElementDataFile)") + kExportAgain);
+    refuseScan(path_, std::string("it is not a MetaImage file, or its header has no ElementDataFile") + kExportAgain);
   }
 
   static bool isName(const std::string& name) {
-    constexpr std::size_t kLongest = 128;
-    return !name.empty() && name.size() <= kLongest &&
+    constexpr std::size_t kMaxName = 128;
+    return !name.empty() && name.size() <= kMaxName &&
            std::all_of(name.begin(), name.end(), [](char c) { return c > ' ' && c <= '~'; });
   }
 
@@ -67,7 +66,7 @@ class MetaHeader {
     const auto found = value_.find(name);
     return found == value_.end() ? std::string() : found->second;
   }
-  /// The value under the first of these names that is there.
+  /// Value of the first of these names that is present.
   std::string value(std::initializer_list<const char*> names) const {
     for (const char* name : names)
       if (has(name)) return value(name);
@@ -75,11 +74,11 @@ class MetaHeader {
   }
 
   [[noreturn]] void refuseField(const std::string& name) const {
-    refuseScan(path_, "its '" + name + "' " + printableExcerpt(value(name)) + " can not be understood" + kExportAgain);
+    refuseScan(path_, "its '" + name + "' " + printableExcerpt(value(name)) + " is not valid" + kExportAgain);
   }
 
-  bool yes(const std::string& name, bool otherwise) const {
-    if (!has(name)) return otherwise;
+  bool flag(const std::string& name, bool fallback) const {
+    if (!has(name)) return fallback;
     const std::string word = lowerCase(value(name));
     if (word == "true" || word == "t" || word == "1") return true;
     if (word != "false" && word != "f" && word != "0") refuseField(name);
@@ -89,8 +88,8 @@ class MetaHeader {
   void readSizes() {
     if (has("objecttype") && lowerCase(value("objecttype")) != "image") refuseField("objecttype");
     const auto axes = parseInteger(value("ndims"));
-    constexpr std::int64_t kMostAxes = 10;
-    if (!axes || *axes < 1 || *axes > kMostAxes) refuseField("ndims");
+    constexpr std::int64_t kMaxAxes = 10;
+    if (!axes || *axes < 1 || *axes > kMaxAxes) refuseField("ndims");
     const std::vector<std::string> words = wordsOf(value("dimsize"));
     if (words.size() != static_cast<std::size_t>(*axes)) refuseField("dimsize");
     for (const std::string& word : words) {
@@ -107,7 +106,7 @@ class MetaHeader {
   ScanGeometry geometry() const {
     const std::size_t axes = sizes_.size();
     if (!has("elementspacing") && !has("elementsize"))
-      refuseScan(path_, "it does not say how large its voxels are; export it with spacing");
+      refuseScan(path_, "it states no voxel size; export it with spacing");
     const auto numbers = [&](std::initializer_list<const char*> names, std::size_t count) {
       const std::string text = value(names);
       if (text.empty()) return std::optional(std::vector<double>());
@@ -128,7 +127,7 @@ class MetaHeader {
     for (std::size_t a = 0; a < 3; ++a) {
       const int i = static_cast<int>(a);
       if (!(spacing[a] > 0.0) || !std::isfinite(spacing[a]))
-        refuseScan(path_, std::string("its ElementSpacing is not all above 0 and finite") + kExportAgain);
+        refuseScan(path_, std::string("its ElementSpacing is not positive and finite") + kExportAgain);
       result.size[i] = static_cast<int>(sizes_[a]);
       if (!axis.empty()) result.step_P_mm[i] = {axis[a * axes], axis[a * axes + 1], axis[a * axes + 2]};
       constexpr double kUnit = 1.0e-3;
@@ -150,25 +149,25 @@ class MetaHeader {
     const auto found = kTypes.find(lowerCase(value("elementtype")));
     if (found == kTypes.end())
       refuseScan(path_, "its voxels are of type " + printableExcerpt(value("elementtype")) +
-                            ", which can not be read; store integers or floats");
+                            ", which is not supported; store integers or floats");
     return found->second;
   }
 
   VoxelCoding coding() const {
-    const bool is_packed = yes("compresseddata", false);
-    if (yes("binarydata", true)) return is_packed ? VoxelCoding::gzip : VoxelCoding::raw;
-    if (is_packed) refuseField("compresseddata");
+    const bool is_compressed = flag("compresseddata", false);
+    if (flag("binarydata", true)) return is_compressed ? VoxelCoding::gzip : VoxelCoding::raw;
+    if (is_compressed) refuseField("compresseddata");
     return VoxelCoding::text;
   }
 
   bool isBigEndian() const {
-    return yes(has("elementbyteordermsb") ? "elementbyteordermsb" : "binarydatabyteordermsb", false);
+    return flag(has("elementbyteordermsb") ? "elementbyteordermsb" : "binarydatabyteordermsb", false);
   }
 
   bool isLocal() const { return lowerCase(value("elementdatafile")) == "local"; }
 
-  /// HeaderSize is of the file as it is stored, packed or not.
-  void skipHeaderOf(ImageHeader& header) const {
+  /// HeaderSize counts bytes of the stored file, compressed or not.
+  void skipHeader(ImageHeader& header) const {
     if (!has("headersize")) return;
     const auto size = parseInteger(value("headersize"));
     if (!size || *size < kVoxelsAtFileEnd || (isLocal() && *size > 0)) refuseField("headersize");
@@ -178,7 +177,7 @@ class MetaHeader {
       for (VoxelFile& each : header.files) each.from_byte = static_cast<std::uint64_t>(*size);
   }
 
-  /// How many files there must be if each holds the first `file_axes` axes.
+  /// Number of files if each holds the first `file_axes` axes.
   std::uint64_t filesNeeded(std::int64_t file_axes) const {
     std::uint64_t files = 1;
     for (auto a = static_cast<std::size_t>(file_axes); a < sizes_.size(); ++a)
@@ -197,8 +196,8 @@ class MetaHeader {
     // "NAME%03d.raw first last step", each slice of the last axis in a file.
     const auto all = static_cast<std::int64_t>(sizes_.size());
     const std::uint64_t needed = filesNeeded(all - 1);
-    const auto number = [&](std::size_t w, std::int64_t otherwise) {
-      if (words.size() <= w) return otherwise;
+    const auto number = [&](std::size_t w, std::int64_t fallback) {
+      if (words.size() <= w) return fallback;
       const auto found = parseInteger(words[w]);
       if (!found) refuseField("elementdatafile");
       return *found;

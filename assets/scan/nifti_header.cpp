@@ -40,16 +40,16 @@ enum At : std::size_t {
 class NiftiHeader {
  public:
   explicit NiftiHeader(const RegularFile& file) : path_(file.path()) {
-    is_packed_ = isGzip(file);
-    bytes_ = is_packed_ ? firstDecompressedBytes(file, kHeaderBytes) : std::string(kHeaderBytes, '\0');
-    if (!is_packed_) bytes_.resize(file.readAt(0, bytes_));
-    judgeKind();
+    is_compressed_ = isGzip(file);
+    bytes_ = is_compressed_ ? firstDecompressedBytes(file, kHeaderBytes) : std::string(kHeaderBytes, '\0');
+    if (!is_compressed_) bytes_.resize(file.readAt(0, bytes_));
+    checkFormat();
   }
 
   ImageHeader header() const {
     ImageHeader header;
     header.path = path_;
-    header.coding = is_packed_ ? VoxelCoding::gzip : VoxelCoding::raw;
+    header.coding = is_compressed_ ? VoxelCoding::gzip : VoxelCoding::raw;
     header.is_big_endian = is_big_endian_;
     header.type = type();
     header.geometry = geometry();
@@ -67,11 +67,11 @@ class NiftiHeader {
     if (is_big_endian_ != (std::endian::native == std::endian::big)) std::reverse(raw.begin(), raw.end());
     return std::bit_cast<Number>(raw);
   }
-  int whole(std::size_t at) const { return number<std::int16_t>(at); }
+  int integer(std::size_t at) const { return number<std::int16_t>(at); }
   double real(std::size_t at) const { return number<float>(at); }
   double real(std::size_t at, int index) const { return real(at + 4 * static_cast<std::size_t>(index)); }
 
-  void judgeKind() {
+  void checkFormat() {
     const auto is_header_of = [&](std::int32_t size) {
       is_big_endian_ = false;
       if (bytes_.size() >= 4 && number<std::int32_t>(0) == size) return true;
@@ -81,10 +81,10 @@ class NiftiHeader {
     constexpr std::int32_t kNifti2 = 540;
     if (is_header_of(kNifti2)) refuseScan(path_, "it is a NIfTI-2 file; export it as NIfTI-1");
     if (!is_header_of(kHeaderBytes) || bytes_.size() < kHeaderBytes)
-      refuseScan(path_, "it is no NIfTI-1 file; export it as NIfTI-1");
+      refuseScan(path_, "it is not a NIfTI-1 file; export it as NIfTI-1");
     const std::string magic = bytes_.substr(at_magic, 4);
     if (magic == std::string("ni1\0", 4)) refuseScan(path_, "its voxels lie in an .img file; export it as one .nii");
-    if (magic != std::string("n+1\0", 4)) refuseScan(path_, "it is no NIfTI-1 file; export it as NIfTI-1");
+    if (magic != std::string("n+1\0", 4)) refuseScan(path_, "it is not a NIfTI-1 file; export it as NIfTI-1");
   }
 
   VoxelType type() const {
@@ -93,44 +93,43 @@ class NiftiHeader {
         {64, VoxelType::float64}, {256, VoxelType::int8},   {512, VoxelType::uint16}, {768, VoxelType::uint32},
         {1024, VoxelType::int64}, {1280, VoxelType::uint64}};
     static const std::set<int> kSeveralValues = {32, 128, 1792, 2048, 2304};
-    const int code = whole(at_datatype);
+    const int code = integer(at_datatype);
     if (kSeveralValues.contains(code)) refuseSeveralValues(path_);
     const auto found = kTypes.find(code);
-    if (found == kTypes.end())
-      refuseScan(path_, "its voxels are of a type that can not be read; store integers or floats");
+    if (found == kTypes.end()) refuseScan(path_, "its voxels are of an unsupported type; store integers or floats");
     return found->second;
   }
 
   double millimetresPerUnit() const {
     static const std::map<int, double> kUnits = {{0, 1.0}, {1, 1.0e3}, {2, 1.0}, {3, 1.0e-3}};
     const auto found = kUnits.find(bytes_[at_units] & 7);
-    if (found == kUnits.end()) refuseScan(path_, "its unit of length is not known; export it in mm");
+    if (found == kUnits.end()) refuseScan(path_, "its unit of length is unknown; export it in mm");
     return found->second;
   }
 
   ScanGeometry geometry() const {
     ScanGeometry result;
-    const int axes = whole(at_dim);
+    const int axes = integer(at_dim);
     bool is_volume = axes >= 3 && axes <= 7;
     for (int d = 1; is_volume && d <= axes; ++d) {
-      const int size = whole(at_dim + 2 * static_cast<std::size_t>(d));
+      const int size = integer(at_dim + 2 * static_cast<std::size_t>(d));
       is_volume = d <= 3 ? size >= 1 : size == 1;
       if (d <= 3) result.size[d - 1] = size;
     }
-    if (!is_volume) refuseScan(path_, "it is no volume of three axes; give one");
+    if (!is_volume) refuseScan(path_, "it has not three axes; give a volume");
 
     glm::dvec3 spacing;
     for (int a = 0; a < 3; ++a) {
       spacing[a] = real(at_pixdim, a + 1);
       if (!(spacing[a] > 0.0) || !std::isfinite(spacing[a]))
-        refuseScan(path_, std::string("its voxel sizes (pixdim) are not all above 0 and finite") + kExportAgain);
+        refuseScan(path_, std::string("its voxel sizes (pixdim) are not all positive and finite") + kExportAgain);
     }
-    if (whole(at_sform_code) > 0)
-      placeBySform(spacing, result);
-    else if (whole(at_qform_code) > 0)
-      placeByQform(spacing, result);
+    if (integer(at_sform_code) > 0)
+      geometryFromSform(spacing, result);
+    else if (integer(at_qform_code) > 0)
+      geometryFromQform(spacing, result);
     else
-      refuseScan(path_, "it does not say how it is oriented (qform and sform codes are 0); export it with orientation");
+      refuseScan(path_, "it states no orientation (qform and sform codes are 0); export it with orientation");
 
     // From RAS to LPS, from the file's unit to mm.
     const glm::dvec3 mm = millimetresPerUnit() * glm::dvec3(-1.0, -1.0, 1.0);
@@ -139,7 +138,7 @@ class NiftiHeader {
     return result;
   }
 
-  void placeBySform(const glm::dvec3& spacing, ScanGeometry& result) const {
+  void geometryFromSform(const glm::dvec3& spacing, ScanGeometry& result) const {
     for (int p = 0; p < 3; ++p) {
       for (int a = 0; a < 3; ++a) result.step_P_mm[a][p] = real(at_srow, 4 * p + a);
       result.origin_P_mm[p] = real(at_srow, 4 * p + 3);
@@ -149,7 +148,7 @@ class NiftiHeader {
     for (int a = 0; a < 3; ++a) {
       const double length = glm::length(result.step_P_mm[a]);
       if (!std::isfinite(length))
-        refuseScan(path_, std::string("its sform holds what is no finite number") + kExportAgain);
+        refuseScan(path_, std::string("its sform holds a value that is not finite") + kExportAgain);
       if (!(std::abs(length - spacing[a]) <= kAgree * spacing[a]))
         refuseScan(path_, std::string("its voxel sizes (pixdim) and its sform do not agree") + kExportAgain);
     }
@@ -161,14 +160,14 @@ class NiftiHeader {
     }
   }
 
-  /// The rotation of the quaternion (a, b, c, d) with a >= 0; the third axis turned over if pixdim[0] is below 0.
-  void placeByQform(const glm::dvec3& spacing, ScanGeometry& result) const {
+  /// The rotation of the quaternion (a, b, c, d) with a >= 0; the third axis reversed if pixdim[0] is below 0.
+  void geometryFromQform(const glm::dvec3& spacing, ScanGeometry& result) const {
     const glm::dvec3 bcd(real(at_quatern, 0), real(at_quatern, 1), real(at_quatern, 2));
     const double square = glm::dot(bcd, bcd);
     const double handed = real(at_pixdim);
     constexpr double kRounding = 1.0e-4;
     if (!(square <= 1.0 + kRounding) || !std::isfinite(handed))
-      refuseScan(path_, std::string("its qform is no rotation") + kExportAgain);
+      refuseScan(path_, std::string("its qform is not a rotation") + kExportAgain);
     const glm::dquat rotation = glm::normalize(glm::dquat(std::sqrt(std::max(1.0 - square, 0.0)), bcd.x, bcd.y, bcd.z));
     const glm::dmat3 axes = glm::mat3_cast(rotation);
     for (int a = 0; a < 3; ++a) {
@@ -178,12 +177,12 @@ class NiftiHeader {
     if (handed < 0.0) result.step_P_mm[2] *= -1.0;
   }
 
-  /// A slope of 0 means none; so does a NaN, which some writers leave there for want of a rescale.
+  /// No rescale: a slope of 0, or a NaN, which some writers store for it.
   void readRescale(ImageHeader& header) const {
     const double slope = real(at_slope), intercept = real(at_inter);
     if (slope == 0.0 || (std::isnan(slope) && (std::isnan(intercept) || intercept == 0.0))) return;
     if (!std::isfinite(slope) || !std::isfinite(intercept))
-      refuseScan(path_, std::string("its rescale (scl_slope, scl_inter) is no finite number") + kExportAgain);
+      refuseScan(path_, std::string("its rescale (scl_slope, scl_inter) is not finite") + kExportAgain);
     header.slope = slope;
     header.intercept = intercept;
   }
@@ -194,13 +193,13 @@ class NiftiHeader {
     const double offset = real(at_vox_offset);
     if (offset == 0.0) return static_cast<std::int64_t>(kFirst);
     if (!(offset >= kHeaderBytes && offset <= kLast) || offset != std::floor(offset))
-      refuseScan(path_, std::string("its voxels begin where they can not (vox_offset)") + kExportAgain);
+      refuseScan(path_, std::string("its voxel offset (vox_offset) is not valid") + kExportAgain);
     return static_cast<std::int64_t>(offset);
   }
 
   std::string path_;
   std::string bytes_;
-  bool is_packed_ = false;
+  bool is_compressed_ = false;
   bool is_big_endian_ = false;
 };
 

@@ -23,7 +23,7 @@ struct Axis {
   double spacing = std::numeric_limits<double>::quiet_NaN();  ///< in `unit`
   std::optional<glm::dvec3> step;                             ///< along the axes of the file's space
   double mm_per_unit = 1.0;
-  double first = 0.0;  ///< centre of the first voxel, without directions
+  double first = 0.0;  ///< centre of the first voxel, if there are no directions
 };
 
 class NrrdAxes {
@@ -45,28 +45,27 @@ class NrrdAxes {
         if (axis.mm_per_unit != 1.0)
           refuseScan(fields_.path(),
                      "its units " + printableExcerpt(fields_["units"]) +
-                         " stand at axes with directions, whose unit is that of the space; export it in mm");
+                         " belong to axes with directions, which are in the unit of the space; export it in mm");
         result.step_P_mm[a] = mm * *axis.step;
         continue;
       }
-      if (!fields_.has("spacings"))
-        refuseScan(fields_.path(), "it does not say how large its voxels are; export it with spacing");
+      if (!fields_.has("spacings")) refuseScan(fields_.path(), "it states no voxel size; export it with spacing");
       if (!(axis.spacing > 0.0) || !std::isfinite(axis.spacing))
-        fields_.refuse("its spacings " + printableExcerpt(fields_["spacings"]) + " are not all above 0");
+        fields_.refuse("its spacings " + printableExcerpt(fields_["spacings"]) + " are not all positive");
       if (signs != glm::dvec3(1.0))
-        refuseScan(fields_.path(), "it does not say how its axes lie in its space; export it with space directions");
+        refuseScan(fields_.path(), "it states no axis directions in its space; export it with space directions");
       result.step_P_mm[a] = glm::dvec3(0.0);
       result.step_P_mm[a][a] = axis.mm_per_unit * axis.spacing;
       result.origin_P_mm[a] = axis.mm_per_unit * axis.first;
     }
     if (fields_.has("spacedirections") && !fields_.has("space") && !fields_.has("spacedimension"))
-      refuseScan(fields_.path(), "it has directions but names no space; export it as left-posterior-superior");
+      refuseScan(fields_.path(), "it has directions but no space; export it as left-posterior-superior");
     if (fields_.has("spaceorigin")) result.origin_P_mm = mm * vector("spaceorigin", fields_["spaceorigin"]);
     return result;
   }
 
  private:
-  /// One item for each axis, or none at all.
+  /// One item per axis, or none.
   std::vector<std::string> perAxis(const std::string& name) const { return fields_.items(name, axes_.size()); }
 
   void readAxes() {
@@ -95,7 +94,7 @@ class NrrdAxes {
     readAxisMins();
   }
 
-  /// Without directions: where an axis begins, by its lowest edge, or by its first sample if it is centred on nodes.
+  /// Without directions: start of an axis, from its lowest edge, or its first sample if centred on nodes.
   void readAxisMins() {
     const std::vector<std::string> mins = perAxis("axismins");
     const std::vector<std::string> centers = perAxis(fields_.has("centers") ? "centers" : "centerings");
@@ -120,8 +119,7 @@ class NrrdAxes {
     std::erase(word, '"');
     const auto mm = millimetresPer(trimmed(word));
     if (!mm)
-      refuseScan(fields_.path(),
-                 "its unit " + printableExcerpt(word) + " is no length that is understood; export it in mm");
+      refuseScan(fields_.path(), "its unit " + printableExcerpt(word) + " is not a known length; export it in mm");
     return *mm;
   }
 
@@ -135,12 +133,12 @@ class NrrdAxes {
     return {(*numbers)[0], (*numbers)[1], (*numbers)[2]};
   }
 
-  /// Drops axes that are none of space, then others of size 1 from the end, until three are left.
+  /// Drops non-spatial axes, then axes of size 1 from the end, until three are left.
   void keepThreeAxes() {
     const std::string axes = "it has " + std::to_string(axes_.size()) + " axes; give a volume with three";
     for (const Axis& axis : axes_)
       if (!axis.is_spatial && axis.size > 1 && std::isnan(axis.spacing) && fields_.has("spacings"))
-        fields_.refuse("its spacings " + printableExcerpt(fields_["spacings"]) + " are no finite numbers");
+        fields_.refuse("its spacings " + printableExcerpt(fields_["spacings"]) + " are not finite numbers");
       else if (!axis.is_spatial && axis.size > 1)
         refuseSeveralValues(fields_.path());
     std::erase_if(axes_, [](const Axis& axis) { return !axis.is_spatial; });
@@ -152,7 +150,7 @@ class NrrdAxes {
     if (axes_.size() < 3) refuseScan(fields_.path(), axes);
   }
 
-  /// LPS from the file's space: the signs of x, y and z.
+  /// Signs of x, y and z from the file's space to LPS.
   glm::dvec3 signsOfSpace() const {
     const std::string space = lowerCase(fields_["space"]);
     if (fields_.has("spacedimension") && (!space.empty() || fields_["spacedimension"] != "3"))
@@ -160,7 +158,7 @@ class NrrdAxes {
     if (space.empty() || space == "left-posterior-superior" || space == "lps") return glm::dvec3(1.0);
     if (space == "right-anterior-superior" || space == "ras") return {-1.0, -1.0, 1.0};
     refuseScan(fields_.path(),
-               "its space " + printableExcerpt(space) + " is not understood; export it as left-posterior-superior");
+               "its space " + printableExcerpt(space) + " is not supported; export it as left-posterior-superior");
   }
 
   glm::dvec3 millimetresPerSpaceUnit() const {

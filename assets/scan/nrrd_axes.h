@@ -1,6 +1,5 @@
-// Where an NRRD file's voxels lie: its axes' sizes, spacings, kinds, units and directions, dropped to three, in P (LPS
-// mm). Axes that are none of space go, then others of size 1 from the end. Throws LoadError of one line: what is not
-// stated, is no length, or leaves other than three axes. Any thread.
+// Geometry of an NRRD file in P (LPS mm): sizes, spacings, kinds, units and directions of its axes, reduced to three.
+// Non- spatial axes are dropped, then axes of size 1 from the end. Throws LoadError of one line. Any thread.
 #pragma once
 
 #include "assets/scan/nrrd_fields.h"

@@ -1,7 +1,7 @@
 #include "assets/scan/nrrd_fields.h"
 
 #include <algorithm>
-#include <array>
+#include <set>
 #include <string_view>
 
 #include "assets/scan/header_text.h"
@@ -18,24 +18,24 @@ std::string fieldName(std::string_view text) {
 }
 
 bool isField(const std::string& name) {
-  static constexpr std::array<std::string_view, 29> kNames = {
-      "content",        "number",      "type",     "dimension", "space",       "spacedimension", "sizes",
-      "spacings",       "thicknesses", "axismins", "axismaxs",  "centers",     "centerings",     "kinds",
-      "labels",         "units",       "min",      "max",       "oldmin",      "oldmax",         "blocksize",
-      "endian",         "encoding",    "lineskip", "byteskip",  "sampleunits", "spaceunits",     "spaceorigin",
-      "spacedirections"};
-  return name == "datafile" || name == "measurementframe" ||
-         std::find(kNames.begin(), kNames.end(), name) != kNames.end();
+  static const std::set<std::string_view> kNames = {
+      "content",         "number",     "type",        "dimension",       "space",
+      "spacedimension",  "sizes",      "spacings",    "thicknesses",     "axismins",
+      "axismaxs",        "centers",    "centerings",  "kinds",           "labels",
+      "units",           "min",        "max",         "oldmin",          "oldmax",
+      "blocksize",       "endian",     "encoding",    "lineskip",        "byteskip",
+      "sampleunits",     "spaceunits", "spaceorigin", "spacedirections", "datafile",
+      "measurementframe"};
+  return kNames.contains(name);
 }
 
-std::vector<std::string> listBehind(HeaderText& text) {
+std::vector<std::string> remainingLines(HeaderText& text) {
   std::vector<std::string> files;
   while (const auto line = text.line())
     if (const std::string name = trimmed(*line); !name.empty()) files.push_back(name);
   return files;
 }
 
-/// A vector "(1,0,0)" or a quoted text is one word.
 std::vector<std::string> itemsOf(const std::string& text) {
   std::vector<std::string> items;
   for (std::size_t at = text.find_first_not_of(" \t"); at != std::string::npos;
@@ -56,7 +56,7 @@ NrrdFields::NrrdFields(const RegularFile& file) : path_(file.path()) {
   HeaderText text(file);
   const std::string magic = text.line().value_or("");
   if (magic.size() != 8 || !magic.starts_with("NRRD000") || magic[7] < '1' || magic[7] > '5')
-    refuseScan(path_, "it is no NRRD file; export it as NRRD");
+    refuseScan(path_, "it is not an NRRD file; export it as NRRD");
 
   while (const auto line = text.line()) {
     if (line->empty()) break;
@@ -66,11 +66,11 @@ NrrdFields::NrrdFields(const RegularFile& file) : path_(file.path()) {
     const std::string name = colon == std::string::npos ? "" : fieldName(line->substr(0, colon));
     if (!isField(name))
       refuse("line " + std::to_string(text.lineNumber()) +
-             " is no field of an NRRD header, or the blank line before the voxels is missing");
+             " is not a field of an NRRD header, or the blank line before the voxels is missing");
     const auto [field, is_new] = value_.emplace(name, trimmed(line->substr(colon + 2)));
     if (!is_new) refuse("its header has '" + name + "' twice");
     if (name == "datafile" && isList(field->second)) {
-      listed_files_ = listBehind(text);
+      listed_files_ = remainingLines(text);
       break;
     }
   }
@@ -96,7 +96,7 @@ std::vector<std::string> NrrdFields::items(const std::string& name, std::size_t 
 }
 
 void NrrdFields::refuseField(const std::string& name) const {
-  refuse("its '" + name + "' " + printableExcerpt((*this)[name]) + " can not be understood");
+  refuse("its '" + name + "' " + printableExcerpt((*this)[name]) + " is not valid");
 }
 
 void NrrdFields::refuse(const std::string& reason) const { refuseScan(path_, reason + "; export the volume again"); }

@@ -1,5 +1,5 @@
-// The lines of an NRRD header as fields by name, and the lines behind "data file: LIST". Knows which names the format
-// has, not what they mean. Throws LoadError of one line. Any thread.
+// Fields of an NRRD header by name, and the lines after "data file: LIST". Knows the valid names, not their meaning.
+// Throws LoadError of one line. Any thread.
 #pragma once
 
 #include <cstddef>
@@ -12,30 +12,30 @@
 
 namespace assets {
 
-/// Names are asked for in lower case and without spaces.
+/// Names in lower case and without spaces.
 class NrrdFields {
  public:
-  /// Throws if it is no NRRD file, or a field is unknown or stands twice.
+  /// Throws if it is no NRRD file, or a field is unknown or repeated.
   explicit NrrdFields(const RegularFile& file);
 
   const std::string& path() const { return path_; }
   bool has(const std::string& name) const { return value_.contains(name); }
-  /// Empty if there is none.
+  /// Empty if absent.
   std::string operator[](const std::string& name) const;
-  /// Throws if there is none.
+  /// Throws if absent.
   std::string required(const std::string& name) const;
 
-  /// Its words; a vector "(1,0,0)" or a quoted text is one word.
+  /// The words of a field; a vector "(1,0,0)" or a quoted text is one word.
   std::vector<std::string> items(const std::string& name) const;
-  /// Throws unless there are `count` of them, or the field is not there.
+  /// Throws unless there are `count`; none if the field is absent.
   std::vector<std::string> items(const std::string& name, std::size_t count) const;
 
   const std::vector<std::string>& listedFiles() const { return listed_files_; }
-  /// Where the voxels begin if they follow.
+  /// Offset of attached voxels.
   std::uint64_t endByte() const { return end_byte_; }
 
   [[noreturn]] void refuseField(const std::string& name) const;
-  /// With the advice to export the volume again.
+  /// Adds the advice to export the volume again.
   [[noreturn]] void refuse(const std::string& reason) const;
 
  private:

@@ -1,11 +1,9 @@
 #include "assets/scan/nrrd_header.h"
 
-#include <algorithm>
 #include <cstdint>
-#include <cstdlib>
-#include <initializer_list>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,29 +17,22 @@ namespace assets {
 namespace {
 
 VoxelType typeNamed(const std::string& name, const std::string& path) {
-  static const std::map<std::string, VoxelType> kTypes = [] {
-    std::map<std::string, VoxelType> types;
-    const auto add = [&](VoxelType type, std::initializer_list<const char*> names) {
-      for (const char* each : names) types[each] = type;
-    };
-    add(VoxelType::int8, {"signed char", "int8", "int8_t"});
-    add(VoxelType::uint8, {"uchar", "unsigned char", "uint8", "uint8_t"});
-    add(VoxelType::int16, {"short", "short int", "signed short", "signed short int", "int16", "int16_t"});
-    add(VoxelType::uint16, {"ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t"});
-    add(VoxelType::int32, {"int", "signed int", "int32", "int32_t"});
-    add(VoxelType::uint32, {"uint", "unsigned int", "uint32", "uint32_t"});
-    add(VoxelType::int64,
-        {"longlong", "long long", "long long int", "signed long long", "signed long long int", "int64", "int64_t"});
-    add(VoxelType::uint64, {"ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t"});
-    add(VoxelType::float32, {"float"});
-    add(VoxelType::float64, {"double"});
-    return types;
-  }();
-  const auto found = kTypes.find(lowerCase(name));
-  if (found == kTypes.end())
-    refuseScan(
-        path, "its voxels are of type " + printableExcerpt(name) + ", which can not be read; store integers or floats");
-  return found->second;
+  static const std::map<VoxelType, std::set<std::string>> kNames = {
+      {VoxelType::int8, {"signed char", "int8", "int8_t"}},
+      {VoxelType::uint8, {"uchar", "unsigned char", "uint8", "uint8_t"}},
+      {VoxelType::int16, {"short", "short int", "signed short", "signed short int", "int16", "int16_t"}},
+      {VoxelType::uint16, {"ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t"}},
+      {VoxelType::int32, {"int", "signed int", "int32", "int32_t"}},
+      {VoxelType::uint32, {"uint", "unsigned int", "uint32", "uint32_t"}},
+      {VoxelType::int64,
+       {"longlong", "long long", "long long int", "signed long long", "signed long long int", "int64", "int64_t"}},
+      {VoxelType::uint64, {"ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t"}},
+      {VoxelType::float32, {"float"}},
+      {VoxelType::float64, {"double"}}};
+  for (const auto& [type, names] : kNames)
+    if (names.contains(lowerCase(name))) return type;
+  refuseScan(path,
+             "its voxels are of type " + printableExcerpt(name) + ", which is not supported; store integers or floats");
 }
 
 VoxelCoding codingNamed(const std::string& name, const std::string& path) {
@@ -51,15 +42,15 @@ VoxelCoding codingNamed(const std::string& name, const std::string& path) {
   if (word == "ascii" || word == "text" || word == "txt") return VoxelCoding::text;
   if (word == "hex") return VoxelCoding::hex;
   if (word == "bzip2" || word == "bz2")
-    refuseScan(path, "its voxels are packed with bzip2, which is not read; export it with gzip or raw");
-  refuseScan(path, "its encoding " + printableExcerpt(name) + " is not known; export it with gzip or raw");
+    refuseScan(path, "its voxels are compressed with bzip2, which is not supported; export it with gzip or raw");
+  refuseScan(path, "its encoding " + printableExcerpt(name) + " is not supported; export it with gzip or raw");
 }
 
 bool isBigEndian(const NrrdFields& fields, const ImageHeader& header) {
   const std::string endian = lowerCase(fields["endian"]);
   if (fields.has("endian") && endian != "big" && endian != "little") fields.refuseField("endian");
   const bool matters = bytesOf(header.type) > 1 && header.coding != VoxelCoding::text;
-  if (matters && endian.empty()) fields.refuse("it does not say its byte order (endian)");
+  if (matters && endian.empty()) fields.refuse("it states no byte order (endian)");
   return matters && endian == "big";
 }
 
@@ -70,7 +61,7 @@ std::int64_t skip(const NrrdFields& fields, const std::string& field, std::int64
   return *number;
 }
 
-/// How many files hold the voxels if each holds `file_axes` of the axes that the header states.
+/// Number of files if each holds `file_axes` of the axes in the header.
 std::uint64_t filesNeeded(const NrrdFields& fields, std::optional<std::int64_t> file_axes, std::size_t given) {
   const std::vector<std::string> sizes = fields.items("sizes");
   const auto all = static_cast<std::int64_t>(sizes.size());
@@ -80,7 +71,7 @@ std::uint64_t filesNeeded(const NrrdFields& fields, std::optional<std::int64_t> 
     return static_cast<std::uint64_t>(parseInteger(sizes[static_cast<std::size_t>(a)]).value_or(0));
   };
 
-  // Files with all the axes are slabs of the last one.
+  // Files with all axes are slabs of the last one.
   if (axes == all) return given > 0 && size_of(all - 1) % given == 0 ? given : size_of(all - 1);
   std::uint64_t files = 1;
   for (std::int64_t a = axes; a < all; ++a) files *= size_of(a);

@@ -14,7 +14,7 @@ namespace assets {
 
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "voxels are written as they lie in memory");
+static_assert(std::endian::native == std::endian::little, "voxels are written in memory order");
 
 const char* nameOf(VoxelType type) {
   switch (type) {
@@ -61,12 +61,12 @@ std::string headerOf(const NrrdArray& array) {
          "\nendian: little\nencoding: gzip\nspace origin: " + vectorText(origin) + "\n\n";
 }
 
-/// The second level of nine packs within a tenth of the best, several times faster.
-void writePacked(std::span<const std::byte> voxels, std::ostream& file) {
+/// Level 2 compresses within 10 % of level 9, several times faster.
+void writeCompressed(std::span<const std::byte> voxels, std::ostream& file) {
   constexpr int kLevel = 2, kGzip = 15 + 16, kMemory = 8;
   z_stream stream{};
   if (deflateInit2(&stream, kLevel, Z_DEFLATED, kGzip, kMemory, Z_DEFAULT_STRATEGY) != Z_OK) throw std::bad_alloc();
-  std::vector<char> packed(1 << 18);
+  std::vector<char> compressed(1 << 18);
   constexpr std::size_t kBlock = 1 << 24;
   int state = Z_OK;
   while (state != Z_STREAM_END && file) {
@@ -76,10 +76,10 @@ void writePacked(std::span<const std::byte> voxels, std::ostream& file) {
       stream.avail_in = static_cast<uInt>(step);
       voxels = voxels.subspan(step);
     }
-    stream.next_out = reinterpret_cast<Bytef*>(packed.data());
-    stream.avail_out = static_cast<uInt>(packed.size());
+    stream.next_out = reinterpret_cast<Bytef*>(compressed.data());
+    stream.avail_out = static_cast<uInt>(compressed.size());
     state = deflate(&stream, voxels.empty() ? Z_FINISH : Z_NO_FLUSH);
-    file.write(packed.data(), static_cast<std::streamsize>(packed.size() - stream.avail_out));
+    file.write(compressed.data(), static_cast<std::streamsize>(compressed.size() - stream.avail_out));
   }
   deflateEnd(&stream);
 }
@@ -89,9 +89,9 @@ void writePacked(std::span<const std::byte> voxels, std::ostream& file) {
 void writeNrrd(const NrrdArray& array, calibration::OutputFile& file) {
   std::ofstream output(file.temporaryPath(), std::ios::binary | std::ios::trunc);
   output << headerOf(array);
-  writePacked(array.voxels, output);
+  writeCompressed(array.voxels, output);
   output.close();
-  if (!output) throw LoadError(file.path() + ": writing failed; make room on the disk or choose another place");
+  if (!output) throw LoadError(file.path() + ": writing failed; free some disk space or choose another folder");
   file.commit();
 }
 

@@ -1,5 +1,5 @@
-// Writes an array as NRRD 4, packed with gzip, little endian, i fastest, axes along P (LPS mm). The same array always
-// gives the same bytes. Throws LoadError if there is no room. Any thread; about 100 MB/s.
+// Writes an array as NRRD 4, gzip, little endian, i fastest, axes along P (LPS mm). Equal arrays give equal bytes.
+// Throws LoadError if there is no space. Any thread; about 100 MB/s.
 #pragma once
 
 #include <span>
@@ -21,7 +21,7 @@ struct NrrdArray {
   std::span<const std::byte> voxels;
 };
 
-/// Fills the file and commits it.
+/// Writes and commits the file.
 void writeNrrd(const NrrdArray& array, calibration::OutputFile& file);
 
 }  // namespace assets

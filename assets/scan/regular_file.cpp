@@ -18,7 +18,7 @@ RegularFile::RegularFile(const std::string& path) : path_(path) {
   descriptor_ = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
   if (descriptor_ < 0) throw LoadError(path + ": it may not be read; check its permissions");
 
-  // What is open now decides, not what was there a moment ago.
+  // The path may have been replaced since the first check.
   if (::fstat(descriptor_, &facts) != 0 || !S_ISREG(facts.st_mode)) {
     ::close(descriptor_);
     throw LoadError(path + ": it is not a file; give one volume file");
@@ -34,7 +34,7 @@ std::size_t RegularFile::readAt(std::uint64_t from_byte, std::span<char> bytes) 
     const ssize_t got =
         ::pread(descriptor_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(from_byte + done));
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0) throw LoadError(path_ + ": it can not be read; check the disk");
+    if (got < 0) throw LoadError(path_ + ": it cannot be read; check the disk");
     if (got == 0) break;
     done += static_cast<std::size_t>(got);
   }

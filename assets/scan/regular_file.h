@@ -1,5 +1,5 @@
-// A plain file, open for reading: never a folder, a device or a pipe, on which a reader could wait for ever. Throws
-// LoadError of one line. Any thread may read; a system call a read.
+// A regular file open for reading, never a folder, device or pipe, which could block. Throws LoadError of one line. Any
+// thread may read; one system call a read.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ class RegularFile {
   const std::string& path() const { return path_; }
   std::uint64_t size() const { return size_; }
 
-  /// How many bytes were there: fewer than asked for at the end of the file only.
+  /// Number of bytes read; fewer than requested only at the end of the file.
   std::size_t readAt(std::uint64_t from_byte, std::span<char> bytes) const;
 
  private:

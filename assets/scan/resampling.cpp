@@ -17,12 +17,11 @@ namespace {
 
 using calibration::isFinite;
 
-constexpr double kExactWithin_voxels = 0.02;
-constexpr double kSmallestSpacing_mm = 0.001;
-constexpr double kLargestSpacing_mm = 50.0;
-constexpr double kFarthest_mm = 1.0e6;
-constexpr double kFlattestBox =
-    0.02;  // volume of the unit axes' box; 1 when square, 0.87 for a gantry tilted by 30 deg
+constexpr double kMaxDrift_voxels = 0.02;
+constexpr double kMinSpacing_mm = 0.001;
+constexpr double kMaxSpacing_mm = 50.0;
+constexpr double kMaxCoordinate_mm = 1.0e6;
+constexpr double kMinAxesVolume = 0.02;  // determinant of the unit axes; 0.87 for a gantry tilted by 30 deg
 
 [[noreturn]] void refuse(const std::string& where, const std::string& reason) {
   throw LoadError(where + ": " + reason);
@@ -32,7 +31,7 @@ double largestOf(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs
 
 std::string limitText() { return std::to_string(kMaxVoxels) + " voxels (1024 x 1024 x 1024) are accepted; crop it"; }
 
-/// For each axis of P the file's axis that lies along it (to within the drift allowed over the extent), or -1.
+/// For each axis of P the file's axis along it within the allowed drift, or -1.
 glm::ivec3 axesAlongP(const ScanGeometry& scan, double spacing_mm) {
   glm::ivec3 axis_along_P(-1);
   for (int a = 0; a < 3; ++a) {
@@ -42,7 +41,7 @@ glm::ivec3 axesAlongP(const ScanGeometry& scan, double spacing_mm) {
       if (std::abs(step[p]) > std::abs(step[along])) along = p;
     glm::dvec3 drift = step;
     drift[along] = std::abs(step[along]) - 1.0;
-    if (largestOf(drift) * scan.size[a] <= kExactWithin_voxels) axis_along_P[along] = a;
+    if (largestOf(drift) * scan.size[a] <= kMaxDrift_voxels) axis_along_P[along] = a;
   }
   return axis_along_P;
 }
@@ -63,15 +62,16 @@ void requireValidGeometry(const ScanGeometry& scan, const std::string& where) {
   glm::dmat3 axes(1.0);
   for (int a = 0; a < 3; ++a) {
     if (!isFinite(scan.step_P_mm[a]) || !isFinite(scan.origin_P_mm))
-      refuse(where, "its spacing, directions or origin are no finite numbers; export the volume again");
+      refuse(where, "its spacing, directions or origin are not finite numbers; export the volume again");
     const double spacing_mm = glm::length(scan.step_P_mm[a]);
-    if (!(spacing_mm >= kSmallestSpacing_mm && spacing_mm <= kLargestSpacing_mm))
+    if (!(spacing_mm >= kMinSpacing_mm && spacing_mm <= kMaxSpacing_mm))
       refuse(where,
-             "a voxel spacing of " + std::to_string(spacing_mm) + " mm is absurd (0.001 to 50); check its units");
+             "a voxel spacing of " + std::to_string(spacing_mm) + " mm is outside 0.001 to 50 mm; check its units");
     axes[a] = scan.step_P_mm[a] / spacing_mm;
   }
-  if (largestOf(scan.origin_P_mm) > kFarthest_mm) refuse(where, "its origin is more than 1 km away; check its units");
-  if (!(std::abs(glm::determinant(axes)) >= kFlattestBox))
+  if (largestOf(scan.origin_P_mm) > kMaxCoordinate_mm)
+    refuse(where, "its origin is more than 1 km away; check its units");
+  if (!(std::abs(glm::determinant(axes)) >= kMinAxesVolume))
     refuse(where, "its axes lie in one plane (singular directions); export the volume again");
 }
 
@@ -97,7 +97,7 @@ void Resampling::alignExactly(const glm::ivec3& axis_along_P) {
     stride_[p] = scan_stride[a];
     if (scan_.step_P_mm[a][p] > 0.0) continue;
 
-    // A flipped axis is walked from its far end.
+    // A flipped axis starts at its far end.
     first_ += (scan_.size[a] - 1) * scan_stride[a];
     grid_.origin_P_mm[p] += (scan_.size[a] - 1) * scan_.step_P_mm[a][p];
     stride_[p] = -stride_[p];
@@ -105,18 +105,17 @@ void Resampling::alignExactly(const glm::ivec3& axis_along_P) {
 }
 
 void Resampling::coverBox(const std::string& where) {
-  // The box of the file's outer faces in P.
+  // Bounds in P of the file's outer faces.
   glm::dvec3 lowest(INFINITY);
   glm::dvec3 highest(-INFINITY);
   for (int corner = 0; corner < 8; ++corner) {
-    glm::dvec3 index;
-    for (int a = 0; a < 3; ++a) index[a] = (corner >> a & 1) != 0 ? scan_.size[a] - 0.5 : -0.5;
+    const glm::dvec3 index = glm::dvec3(cornerOffset(corner) * scan_.size) - 0.5;
     const glm::dvec3 p_P_mm = scan_.origin_P_mm + scan_.step_P_mm * index;
     lowest = glm::min(lowest, p_P_mm);
     highest = glm::max(highest, p_P_mm);
   }
 
-  // A sliver thinner than a thousandth of a voxel is rounding, not tissue.
+  // Ignore slivers below 0.001 voxel, which are rounding.
   const glm::dvec3 extent_voxels = (highest - lowest) / grid_.spacing_mm;
   const glm::dvec3 size = glm::max(glm::ceil(extent_voxels - 1.0e-3), glm::dvec3(1.0));
   if (size.x * size.y * size.z > static_cast<double>(kMaxVoxels))
@@ -146,7 +145,7 @@ std::vector<Value> filled(const VolumeGrid& grid, const At& value) {
   return result;
 }
 
-/// Index clamped to the file's voxels, or nothing when it lies beyond their outer faces.
+/// Clamps an index to the file's voxels; false if it lies beyond their outer faces.
 bool clampInside(glm::dvec3& index, const glm::ivec3& size) {
   constexpr double kRounding = 1.0e-6;
   for (int a = 0; a < 3; ++a) {
@@ -160,27 +159,20 @@ template <class Value>
 double trilinear(const std::vector<Value>& values, const glm::ivec3& size, const glm::dvec3& index) {
   const glm::ivec3 low = glm::min(glm::ivec3(index), glm::max(size - 2, glm::ivec3(0)));
   const glm::dvec3 above = index - glm::dvec3(low);
-  const std::size_t row = static_cast<std::size_t>(size.x);
-  const std::size_t slice = row * static_cast<std::size_t>(size.y);
   const std::size_t di = size.x > 1 ? 1 : 0;
-  const std::size_t dj = size.y > 1 ? row : 0;
-  const std::size_t dk = size.z > 1 ? slice : 0;
-  const Value* at = values.data() + static_cast<std::size_t>(low.z) * slice + static_cast<std::size_t>(low.y) * row +
-                    static_cast<std::size_t>(low.x);
+  const std::size_t dj = size.y > 1 ? indexIn(size, {0, 1, 0}) : 0;
+  const std::size_t dk = size.z > 1 ? indexIn(size, {0, 0, 1}) : 0;
+  const Value* at = values.data() + indexIn(size, low);
   const auto along_i = [&](std::size_t offset) { return (1.0 - above.x) * at[offset] + above.x * at[offset + di]; };
   const double below = (1.0 - above.y) * along_i(0) + above.y * along_i(dj);
   const double beyond = (1.0 - above.y) * along_i(dk) + above.y * along_i(dj + dk);
   return (1.0 - above.z) * below + above.z * beyond;
 }
 
-bool isIdentity(const glm::i64vec3& stride, const glm::ivec3& size) {
-  return stride == glm::i64vec3(1, size.x, std::int64_t{size.x} * size.y);
-}
-
 template <class Value>
 std::vector<Value> permuted(const VolumeGrid& grid, std::vector<Value> values, std::int64_t first,
                             const glm::i64vec3& stride) {
-  if (isIdentity(stride, grid.size)) return values;
+  if (stride == glm::i64vec3(1, grid.size.x, std::int64_t{grid.size.x} * grid.size.y)) return values;
   return filled<Value>(grid, [&](const glm::ivec3& ijk) {
     return values[static_cast<std::size_t>(first + ijk.x * stride.x + ijk.y * stride.y + ijk.z * stride.z)];
   });
@@ -213,10 +205,7 @@ std::vector<std::uint8_t> Resampling::nearest(std::vector<std::uint8_t> values, 
     glm::dvec3 index = scan_index_origin_ + scan_index_per_voxel_ * glm::dvec3(ijk);
     if (!clampInside(index, scan_.size)) return outside;
     const glm::ivec3 at(glm::round(index));
-    return values[(static_cast<std::size_t>(at.z) * static_cast<std::size_t>(scan_.size.y) +
-                   static_cast<std::size_t>(at.y)) *
-                      static_cast<std::size_t>(scan_.size.x) +
-                  static_cast<std::size_t>(at.x)];
+    return values[indexIn(scan_.size, at)];
   });
 }
 

@@ -1,9 +1,9 @@
-// From the voxels of a file to ours: any axis order, flips, oblique axes and non-cubic spacing become a VolumeGrid,
-// cubic voxels of the smallest spacing along P (LPS). A scan whose axes already lie along P and whose voxels are cubic
-// (both to a fiftieth of a voxel over the whole extent) is copied, permuted and flipped, exactly. Others are
-// interpolated; the new box covers the old one to its outer faces, within half a voxel of which the border value holds;
-// beyond it is `outside`. Any thread; runs on all cores (TBB). Copy about 2 ns a voxel, interpolation about 20. Throws
-// LoadError for a geometry that is no geometry (not finite, singular, absurd spacing) or gives more than kMaxVoxels.
+// Maps the voxels of a file to a VolumeGrid: cubic voxels of the smallest spacing along P (LPS), for any axis order,
+// flips, oblique axes and non-cubic spacing. A scan with cubic voxels whose axes lie along P (both within 0.02 voxel
+// over the whole extent) is copied, permuted and flipped exactly. Others are interpolated; the new box encloses the old
+// one's outer faces, the border value holds half a voxel outwards, beyond it is `outside`. Any thread; parallel (TBB).
+// 2 ns a voxel copied, 20 interpolated. Throws LoadError for invalid geometry (not finite, singular, spacing) or more
+// than kMaxVoxels.
 #pragma once
 
 #include <cstdint>
@@ -19,19 +19,19 @@ namespace assets {
 /// The largest volume accepted, in a file or resampled: 1024^3, 4 GB as a CtVolume.
 inline constexpr std::int64_t kMaxVoxels = std::int64_t{1} << 30;
 
-/// Where the voxels of a file lie.
+/// Voxel positions of a file.
 struct ScanGeometry {
   glm::ivec3 size{0};
   glm::dmat3 step_P_mm{1.0};    ///< column a: from a voxel to the next along the file's axis a
   glm::dvec3 origin_P_mm{0.0};  ///< centre of the first voxel
 };
 
-/// Throws LoadError for a geometry that is no geometry: not finite, singular, absurd spacing, no or too many voxels.
+/// Throws LoadError: not finite, singular, spacing outside 0.001 to 50 mm, no or too many voxels.
 void requireValidGeometry(const ScanGeometry& scan, const std::string& where);
 
 class Resampling {
  public:
-  /// `where` names the file in refusals.
+  /// `where` names the file in messages.
   Resampling(const ScanGeometry& scan, const std::string& where);
 
   const VolumeGrid& grid() const { return grid_; }
@@ -49,8 +49,8 @@ class Resampling {
   ScanGeometry scan_;
   VolumeGrid grid_;
   bool exact_ = false;
-  std::int64_t first_ = 0;              ///< exact: where voxel (0,0,0) of the grid lies in the file
-  glm::i64vec3 stride_{0};              ///< exact: steps in the file per voxel of the grid
+  std::int64_t first_ = 0;              ///< exact: index in the file of voxel (0,0,0)
+  glm::i64vec3 stride_{0};              ///< exact: index steps in the file per voxel
   glm::dmat3 scan_index_per_voxel_{1};  ///< interpolated: continuous file index = origin + matrix * ijk
   glm::dvec3 scan_index_origin_{0.0};
 };

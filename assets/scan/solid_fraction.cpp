@@ -17,7 +17,7 @@ namespace {
 constexpr int kGreyValues = 65536;
 constexpr int kLowestHu = -32768;
 
-void refuseWithoutWidth(const Classification& classification) {
+void requireWidth(const Classification& classification) {
   if (!std::isfinite(classification.iso_hu) || !std::isfinite(classification.sigma_hu) ||
       classification.sigma_hu <= 0.0)
     throw LoadError("classification: iso and sigma must be finite and sigma above 0 HU; give --iso and --sigma");
@@ -30,7 +30,7 @@ std::uint8_t solidAt(double sigmas_above_iso) {
   return static_cast<std::uint8_t>(std::lround(255.0 * fraction));
 }
 
-/// solid for every grey value there is.
+/// Solid fraction of every int16 value.
 std::vector<std::uint8_t> tableOf(const Classification& classification) {
   std::vector<std::uint8_t> table(kGreyValues);
   for (int i = 0; i < kGreyValues; ++i)
@@ -38,7 +38,7 @@ std::vector<std::uint8_t> tableOf(const Classification& classification) {
   return table;
 }
 
-/// Rise of HU per voxel along one axis: central inside, one-sided at the faces of the volume.
+/// HU difference per voxel along one axis: central inside, one-sided at the faces of the volume.
 double risePerVoxel(const std::int16_t* at, int i, int size, std::ptrdiff_t stride) {
   const int below = i > 0 ? 1 : 0;
   const int above = i + 1 < size ? 1 : 0;
@@ -50,7 +50,7 @@ double risePerVoxel(const std::int16_t* at, int i, int size, std::ptrdiff_t stri
 
 std::vector<std::uint8_t> solidFromHounsfield(const std::vector<std::int16_t>& hounsfield,
                                               const Classification& classification) {
-  refuseWithoutWidth(classification);
+  requireWidth(classification);
   const std::vector<std::uint8_t> table = tableOf(classification);
   std::vector<std::uint8_t> solid(hounsfield.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, solid.size(), 1 << 16), [&](const auto& range) {
@@ -62,7 +62,7 @@ std::vector<std::uint8_t> solidFromHounsfield(const std::vector<std::int16_t>& h
 
 std::vector<std::uint8_t> classify(const VolumeGrid& grid, const std::vector<std::int16_t>& hounsfield,
                                    const Classification& classification) {
-  refuseWithoutWidth(classification);
+  requireWidth(classification);
   assert(hounsfield.size() == grid.voxelCount());
   const std::vector<std::uint8_t> table = tableOf(classification);
   std::vector<std::uint8_t> solid(hounsfield.size());

@@ -14,9 +14,8 @@ namespace assets {
 
 namespace {
 
-bool isBetweenNumbers(char c) { return c == ' ' || c == ',' || (c >= '\t' && c <= '\r'); }
+bool isSeparator(char c) { return c == ' ' || c == ',' || (c >= '\t' && c <= '\r'); }
 
-/// Two hexadecimal digits a byte, white space anywhere.
 class HexSource : public ByteSource {
  public:
   HexSource(const RegularFile& file, std::uint64_t from_byte) : characters_(file, from_byte), path_(file.path()) {}
@@ -36,11 +35,11 @@ class HexSource : public ByteSource {
  private:
   std::optional<int> digit() {
     while (const auto c = characters_.next()) {
-      if (isBetweenNumbers(*c)) continue;
+      if (isSeparator(*c)) continue;
       if (*c >= '0' && *c <= '9') return *c - '0';
       if (*c >= 'a' && *c <= 'f') return *c - 'a' + 10;
       if (*c >= 'A' && *c <= 'F') return *c - 'A' + 10;
-      refuseScan(path_, "its voxels are not hexadecimal digits as its header says; export the volume again");
+      refuseScan(path_, "its voxels are not hexadecimal digits as its header states; export the volume again");
     }
     return std::nullopt;
   }
@@ -49,7 +48,6 @@ class HexSource : public ByteSource {
   std::string path_;
 };
 
-/// Numbers written out; each becomes the bytes of a `Stored`.
 template <class Stored>
 class TextSource : public ByteSource {
  public:
@@ -68,14 +66,14 @@ class TextSource : public ByteSource {
 
  private:
   std::string nextWord() {
-    constexpr std::size_t kLongest = 64;
+    constexpr std::size_t kMax = 64;
     std::string word;
     while (const auto c = characters_.next()) {
-      if (!isBetweenNumbers(*c))
+      if (!isSeparator(*c))
         word += *c;
       else if (!word.empty())
         break;
-      if (word.size() > kLongest) refuseWord(word);
+      if (word.size() > kMax) refuseWord(word);
     }
     return word;
   }
@@ -90,7 +88,7 @@ class TextSource : public ByteSource {
 
   [[noreturn]] void refuseWord(std::string_view word) const {
     refuseScan(path_,
-               "its voxel " + printableExcerpt(word) + " is no number of the type it states; export the volume again");
+               "its voxel " + printableExcerpt(word) + " is not a number of the stated type; export the volume again");
   }
 
   CharacterReader characters_;

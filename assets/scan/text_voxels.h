@@ -1,5 +1,5 @@
-// Voxels written out for people to read, as hexadecimal digits or as numbers between white space and commas. What is
-// neither is a LoadError of one line. Any thread, a source one thread; 256 KB of memory; about 40 MB/s.
+// Voxels written as hexadecimal digits, or as numbers separated by white space and commas. Throws LoadError of one line
+// for anything else. One thread a source; 256 KB of memory; about 40 MB/s.
 #pragma once
 
 #include <cstddef>
@@ -38,7 +38,7 @@ class CharacterReader {
 /// Two hexadecimal digits a byte, white space anywhere.
 std::unique_ptr<ByteSource> hexSource(const RegularFile& file, std::uint64_t from_byte);
 
-/// Each number becomes the bytes of a voxel of that type, in the machine's byte order.
+/// Each number becomes the bytes of a voxel of that type, in native byte order.
 std::unique_ptr<ByteSource> textSource(VoxelType type, const RegularFile& file, std::uint64_t from_byte);
 
 }  // namespace assets

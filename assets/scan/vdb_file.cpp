@@ -16,7 +16,7 @@ namespace {
 
 constexpr float kAir = -1000.0F;
 
-/// A sparse grid of what is not background.
+/// Sparse grid of the values that are not background.
 template <class Grid, class Value, class Convert>
 typename Grid::Ptr sparse(const char* name, const VolumeGrid& grid, const std::vector<Value>& values,
                           typename Grid::ValueType background, const Convert& convert) {
@@ -73,7 +73,7 @@ void writeVdb(const CtVolume& volume, const std::string& path) {
     file.write(grids, metadata);
     file.close();
   } catch (const std::exception&) {
-    throw LoadError(path + ": writing failed; make room on the disk or choose another place");
+    throw LoadError(path + ": writing failed; free some disk space or choose another folder");
   }
   appendChecksum(path);
 }

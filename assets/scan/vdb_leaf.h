@@ -1,4 +1,4 @@
-// Which voxels of an OpenVDB leaf (8 x 8 x 8, k fastest) lie in a volume (i fastest), and where. Any thread.
+// Maps the voxels of an OpenVDB leaf (8 x 8 x 8, k fastest) to a volume (i fastest). Any thread.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@ namespace assets {
 
 inline constexpr int kLeafVoxels = 8;
 
-/// Calls `voxel(offset in leaf, index in volume)` for the voxels of the leaf at `origin` that lie in the volume.
+/// Calls voxel(offset in leaf, index in volume) for each voxel of the leaf at `origin` inside the volume.
 template <class Voxel>
 void forEachLeafVoxel(const glm::ivec3& origin, const VolumeGrid& grid, const Voxel& voxel) {
   const glm::ivec3 first = glm::max(glm::ivec3(0), -origin);

@@ -20,13 +20,13 @@ namespace {
   throw LoadError(path + ": " + reason + "; import the scan again");
 }
 
-/// The dense values of a grid; `convert(value)` throws for what is out of range.
+/// Dense values of a grid; `convert(value)` throws if out of range.
 template <class Grid, class Value, class Convert>
 std::vector<Value> dense(const Grid& source, const VolumeGrid& grid, const std::string& path, const Convert& convert) {
   using Tree = typename Grid::TreeType;
   std::vector<Value> values(grid.voxelCount(), convert(source.background()));
 
-  // Tiles: boxes of one value above the leaves, which other tools make when they prune.
+  // Tiles: boxes of one value above the leaves, made by pruning.
   auto tile = source.tree().cbeginValueOn();
   tile.setMaxDepth(Tree::ValueOnCIter::LEAF_DEPTH - 1);
   for (; tile; ++tile) {
@@ -63,32 +63,32 @@ typename Grid::Ptr gridNamed(const openvdb::GridPtrVec& grids, const char* name,
   return typed;
 }
 
-/// Spacing and origin from a transform that is nothing but an even scale and a translation.
-void placeOf(const openvdb::math::Transform& transform, VolumeGrid& grid, const std::string& path) {
+/// Spacing and origin of a transform that must be a uniform scale and a translation.
+void readTransform(const openvdb::math::Transform& transform, VolumeGrid& grid, const std::string& path) {
   const openvdb::Vec3d origin = transform.indexToWorld(openvdb::Vec3d(0.0));
   const openvdb::Vec3d spacing = transform.indexToWorld(openvdb::Vec3d(1.0)) - origin;
   grid.origin_P_mm = {origin.x(), origin.y(), origin.z()};
   const openvdb::Vec3d voxel_mm = transform.voxelSize();
-  const bool is_even = transform.isLinear() && voxel_mm.x() == voxel_mm.y() && voxel_mm.x() == voxel_mm.z() &&
-                       openvdb::math::isApproxEqual(spacing, voxel_mm, openvdb::Vec3d(1.0e-9 * voxel_mm.x()));
+  const bool is_uniform = transform.isLinear() && voxel_mm.x() == voxel_mm.y() && voxel_mm.x() == voxel_mm.z() &&
+                          openvdb::math::isApproxEqual(spacing, voxel_mm, openvdb::Vec3d(1.0e-9 * voxel_mm.x()));
   grid.spacing_mm = voxel_mm.x();
-  if (!is_even) refuse(path, "its voxels are not cubes along the axes");
+  if (!is_uniform) refuse(path, "its voxels are not cubes along the axes");
 }
 
 VolumeGrid volumeGridOf(const openvdb::MetaMap& metadata, const openvdb::math::Transform& transform,
                         const std::string& path) {
   const auto schema = metadata.getMetadata<openvdb::Int32Metadata>(kVdbSchemaName);
-  if (!schema) refuse(path, "it is no volume of this program");
+  if (!schema) refuse(path, "it is not a volume of this program");
   if (schema->value() != kVdbSchema)
     refuse(path, "its schema is " + std::to_string(schema->value()) + ", this program reads 1");
   const auto size = metadata.getMetadata<openvdb::Vec3IMetadata>(kVdbSizeName);
-  if (!size) refuse(path, "it does not say how large it is");
+  if (!size) refuse(path, "it does not state its size");
   VolumeGrid grid;
   grid.size = {size->value().x(), size->value().y(), size->value().z()};
-  placeOf(transform, grid, path);
+  readTransform(transform, grid, path);
 
-  // The rules for a geometry are those for every scan.
-  return Resampling({grid.size, glm::dmat3(grid.spacing_mm), grid.origin_P_mm}, path).grid();
+  requireValidGeometry({grid.size, glm::dmat3(grid.spacing_mm), grid.origin_P_mm}, path);
+  return grid;
 }
 
 template <class Value>
@@ -100,7 +100,7 @@ Value inRange(double value, const std::string& path) {
 }
 
 std::uint8_t toothNumber(std::int32_t value, const std::string& path) {
-  if (value != 0 && !isToothNumber(value)) refuse(path, std::to_string(value) + " is the number of no tooth");
+  if (value != 0 && !isToothNumber(value)) refuse(path, std::to_string(value) + " is not a tooth number");
   return static_cast<std::uint8_t>(value);
 }
 
@@ -118,14 +118,14 @@ CtVolume parseVdb(const std::string& path) {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception&) {
-    refuse(path, "it can not be read as OpenVDB");
+    refuse(path, "it cannot be read as OpenVDB");
   }
 
   const auto hu = gridNamed<openvdb::FloatGrid>(*grids, "hu", path);
   const auto label = gridNamed<openvdb::Int32Grid>(*grids, "label", path);
   const auto solid = gridNamed<openvdb::FloatGrid>(*grids, "solid", path);
   if (label->transform() != hu->transform() || solid->transform() != hu->transform())
-    refuse(path, "its grids do not lie in one place");
+    refuse(path, "its grids have different transforms");
 
   CtVolume volume;
   volume.grid = volumeGridOf(*metadata, hu->transform(), path);
@@ -135,10 +135,10 @@ CtVolume parseVdb(const std::string& path) {
       *label, volume.grid, path, [&](std::int32_t value) { return inRange<std::uint8_t>(value, path); });
   volume.solid = dense<openvdb::FloatGrid, std::uint8_t>(
       *solid, volume.grid, path, [&](float fraction) { return inRange<std::uint8_t>(255.0 * fraction, path); });
-  // Volumes of before teeth were told apart have none.
+  // Volumes older than tooth numbers have none.
   if (openvdb::findGridByName(*grids, "tooth")) {
     const auto tooth = gridNamed<openvdb::Int32Grid>(*grids, "tooth", path);
-    if (tooth->transform() != hu->transform()) refuse(path, "its grids do not lie in one place");
+    if (tooth->transform() != hu->transform()) refuse(path, "its grids have different transforms");
     volume.tooth = dense<openvdb::Int32Grid, std::uint8_t>(
         *tooth, volume.grid, path, [&](std::int32_t value) { return toothNumber(value, path); });
   }

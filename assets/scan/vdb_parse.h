@@ -1,6 +1,6 @@
-// OpenVDB's bytes to a CtVolume, in this process: only for the process that is made for it (volume_reader.h), as
-// OpenVDB trusts its input and crashes, hangs or fills the memory on a file that was changed with intent. The grids and
-// what is asked of them: vdb_file.h. About 10 ns a voxel and grid. Throws LoadError, std::bad_alloc.
+// Reads a CtVolume from OpenVDB in this process. Only for the reading process (volume_reader.h): OpenVDB trusts its
+// input and crashes, hangs or exhausts memory on a manipulated file. Format: vdb_file.h. About 10 ns a voxel and grid.
+// Throws LoadError, std::bad_alloc.
 #pragma once
 
 #include <string>

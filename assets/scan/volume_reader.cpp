@@ -18,6 +18,7 @@
 #include <fstream>
 #include <new>
 #include <span>
+#include <utility>
 
 #include "assets/load_error.h"
 #include "assets/scan/resampling.h"
@@ -33,12 +34,12 @@ constexpr int kFailed = 4;
 constexpr int kOutOfMemory = 5;
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kMemoryCanBeLimited = false;  // the sanitizers take terabytes for themselves
+constexpr bool kMemoryCanBeLimited = false;  // sanitizers reserve terabytes
 #else
 constexpr bool kMemoryCanBeLimited = true;
 #endif
 
-/// The answer's head; behind it Hounsfield, labels, solid and, if there are any, teeth as in a CtVolume.
+/// Header of the answer, followed by Hounsfield, labels, solid and, if present, teeth.
 struct Head {
   std::array<std::int32_t, 3> size;
   double spacing_mm;
@@ -66,24 +67,19 @@ bool readAll(int descriptor, std::span<std::byte> bytes, std::uint64_t from_byte
   return true;
 }
 
-template <class Value>
-std::span<const std::byte> bytesOf(const std::vector<Value>& values) {
-  return std::as_bytes(std::span(values));
-}
-
-/// No handler of the program's, no file but the answer, nothing said anywhere.
+/// Default signal handling, no open file but the answer, no terminal.
 void detachFromParent(int answer_descriptor) {
   for (int number = 1; number < NSIG; ++number) ::signal(number, SIG_DFL);
   sigset_t none;
   sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
   ::dup2(answer_descriptor, kAnswerDescriptor);
-  const int nowhere = ::open("/dev/null", O_RDWR);
-  for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, standard);
+  const int null = ::open("/dev/null", O_RDWR);
+  for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(null, standard);
   ::close_range(kAnswerDescriptor + 1, ~0U, 0);
 }
 
-/// The program's own data, which the fork has too.
+/// Data segment of the program, which the fork inherits.
 std::uint64_t dataBytes() {
   std::ifstream file("/proc/self/statm");
   std::uint64_t total = 0, resident = 0, shared = 0, text = 0, library = 0, data = 0;
@@ -93,7 +89,7 @@ std::uint64_t dataBytes() {
 
 itimerval onceAfter(std::uint32_t ms) { return {{0, 0}, {ms / 1000, 1000 * (ms % 1000)}}; }
 
-void confine(const ReaderLimits& limits) {
+void applyLimits(const ReaderLimits& limits) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   ::prctl(PR_SET_DUMPABLE, 0);
   const itimerval processor = onceAfter(limits.processor_ms), wait = onceAfter(limits.wait_ms);
@@ -117,7 +113,7 @@ class Descriptor {
   int descriptor_;
 };
 
-/// As long as this lives children wait to be asked how they ended, whatever the program's caller had set.
+/// Default action of SIGCHLD in scope, so that waitpid reports the status of children.
 class DefaultChildSignal {
  public:
   DefaultChildSignal() {
@@ -143,24 +139,25 @@ ReaderLimits readerLimits(std::uint64_t file_bytes) {
   constexpr std::uint64_t kMegabyte = 1'000'000;
   const std::uint64_t sane_bytes = std::min<std::uint64_t>(file_bytes, 100'000 * kMegabyte);
   const auto processor_ms = static_cast<std::uint32_t>(4000 + 600 * (sane_bytes / kMegabyte));
-  constexpr std::uint32_t kLongestWait = 20;
-  return {600 * kMegabyte + 100 * sane_bytes, processor_ms, kLongestWait * processor_ms};
+  constexpr std::uint32_t kWaitFactor = 20;
+  return {600 * kMegabyte + 100 * sane_bytes, processor_ms, kWaitFactor * processor_ms};
 }
 
 void runVolumeReader(const std::string& path, const ReaderLimits& limits, int answer_descriptor) {
   detachFromParent(answer_descriptor);
   answer_descriptor = kAnswerDescriptor;
-  confine(limits);
+  applyLimits(limits);
   try {
     const CtVolume volume = parseVdb(path);
     const VolumeGrid& grid = volume.grid;
     const Head head{{grid.size.x, grid.size.y, grid.size.z},
                     grid.spacing_mm,
                     {grid.origin_P_mm.x, grid.origin_P_mm.y, grid.origin_P_mm.z}};
-    const bool is_written =
-        writeAll(answer_descriptor, std::as_bytes(std::span(&head, 1))) &&
-        writeAll(answer_descriptor, bytesOf(volume.hounsfield)) && writeAll(answer_descriptor, bytesOf(volume.label)) &&
-        writeAll(answer_descriptor, bytesOf(volume.solid)) && writeAll(answer_descriptor, bytesOf(volume.tooth));
+    const auto write = [&](const auto&... values) {
+      return (writeAll(answer_descriptor, std::as_bytes(std::span(values))) && ...);
+    };
+    const bool is_written = writeAll(answer_descriptor, std::as_bytes(std::span(&head, 1))) &&
+                            write(volume.hounsfield, volume.label, volume.solid, volume.tooth);
     ::_exit(is_written ? 0 : kFailed);
   } catch (const LoadError& refusal) {
     const std::string_view text = refusal.what();
@@ -199,15 +196,14 @@ CtVolume volumeFromAnswer(int answer_descriptor, int wait_status, const std::str
   constexpr std::uint64_t kVoxelBytes = 4;
   const bool has_teeth = bytes == sizeof head + (kVoxelBytes + 1) * voxels;
   if (!has_teeth && bytes != sizeof head + kVoxelBytes * voxels) refuseFailure(path);
-  volume.hounsfield.resize(voxels);
-  volume.label.resize(voxels);
-  volume.solid.resize(voxels);
-  volume.tooth.resize(has_teeth ? voxels : 0);
-  const bool is_read =
-      readAll(answer_descriptor, std::as_writable_bytes(std::span(volume.hounsfield)), sizeof head) &&
-      readAll(answer_descriptor, std::as_writable_bytes(std::span(volume.label)), sizeof head + 2 * voxels) &&
-      readAll(answer_descriptor, std::as_writable_bytes(std::span(volume.solid)), sizeof head + 3 * voxels) &&
-      readAll(answer_descriptor, std::as_writable_bytes(std::span(volume.tooth)), sizeof head + 4 * voxels);
+  std::uint64_t from_byte = sizeof head;
+  const auto read = [&](auto& values, std::size_t count) {
+    values.resize(count);
+    const auto array = std::as_writable_bytes(std::span(values));
+    return readAll(answer_descriptor, array, std::exchange(from_byte, from_byte + array.size()));
+  };
+  const bool is_read = read(volume.hounsfield, voxels) && read(volume.label, voxels) && read(volume.solid, voxels) &&
+                       read(volume.tooth, has_teeth ? voxels : 0);
   if (!is_read) refuseFailure(path);
   return volume;
 }

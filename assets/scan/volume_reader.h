@@ -1,9 +1,8 @@
-// Reads a volume.vdb in a process of its own, so that a file made to break OpenVDB breaks that process and not this
-// one. The process is a fork that keeps no file, handler or terminal of the program, may use memory, processor time and
-// time by the clock in proportion to the file, and hands back plain arrays in a file of memory, which are checked here
-// for length and geometry. Any thread, at start-up: what OpenVDB or the C library holds locked in another thread at the
-// fork would stop the reader until its time by the clock is over; SIGCHLD has its default meaning meanwhile. Costs a
-// fork and two copies, about 10 ms for a jaw.
+// Reads a volume.vdb in a child process, so that a file made to break OpenVDB breaks only that process. The child is a
+// fork without the program's open files, signal handlers and terminal, with limits on memory, processor time and wall
+// time in proportion to the file; it returns plain arrays through a memory file, whose length and geometry are checked
+// here. Any thread, at start-up: a lock held by another thread at the fork would stall the child until its wall time is
+// over; SIGCHLD has its default action meanwhile. Costs a fork and two copies, about 10 ms for a jaw.
 #pragma once
 
 #include <cstdint>
@@ -16,21 +15,20 @@ namespace assets {
 struct ReaderLimits {
   std::uint64_t memory_bytes;
   std::uint32_t processor_ms;
-  std::uint32_t wait_ms;  ///< by the clock: the disk is slow, other programs run
+  std::uint32_t wait_ms;  ///< wall time
 };
 
-/// What a file of that size may take: far above what files of ours do (40 times their size, 60 ms a megabyte); by the
-/// clock 20 times the processor time.
+/// Limits for a file of that size, far above the usual needs (40 times its size, 60 ms a megabyte).
 ReaderLimits readerLimits(std::uint64_t file_bytes);
 
-/// Throws LoadError: what the reader says of the file, or that it failed on it.
+/// Throws LoadError with the reader's message, or that it failed on the file.
 CtVolume readVolumeInChild(const std::string& path);
 
-/// All that the reading process does: leaves the program behind, reads `path` within the limits, answers into the open
-/// file, and never returns. Its exit status is 0 for a volume, 3 for a refusal in words, 5 for want of memory.
+/// The reading process: detaches from the program, reads `path` within the limits, writes the answer to the open file
+/// and exits: 0 for a volume, 3 for an error message, 5 for lack of memory.
 [[noreturn]] void runVolumeReader(const std::string& path, const ReaderLimits& limits, int answer_descriptor);
 
-/// The answer of a reading process that has ended with that status (waitpid).
+/// The volume from the answer of a reading process that ended with that status (waitpid).
 CtVolume volumeFromAnswer(int answer_descriptor, int wait_status, const std::string& path);
 
 }  // namespace assets

@@ -15,9 +15,9 @@ namespace assets {
 
 namespace {
 
-constexpr double kDeflateAtBest = 1040.0;  // deflate packs 1032:1 at most (RFC 1951: 258 bytes in 2 bits)
+constexpr double kMaxDeflateRatio = 1040.0;  // RFC 1951: at most 258 bytes in 2 bits
 
-/// Where the voxels of one data file begin, behind the lines to skip.
+/// Start of the voxels in one data file, after the lines to skip.
 std::uint64_t firstByte(const ImageHeader& header, const RegularFile& file, std::uint64_t from_byte) {
   if (header.skipped_lines == 0) return from_byte;
   CharacterReader characters(file, from_byte);
@@ -43,22 +43,22 @@ void skipBytes(ByteSource& source, std::int64_t count, const std::string& path) 
   }
 }
 
-/// The bytes of one data file, behind all that is skipped.
+/// Bytes of one data file, after everything that is skipped.
 std::unique_ptr<ByteSource> sourceOf(const ImageHeader& header, const RegularFile& file, std::uint64_t from_byte) {
   const std::uint64_t first = firstByte(header, file, from_byte);
   const std::uint64_t bytes = bytesInEachFile(header);
   if (header.skipped_bytes == kVoxelsAtFileEnd) {
     if (header.coding != VoxelCoding::raw)
-      refuseScan(file.path(), "its packed voxels have no stated place (a skip of -1); export the volume again");
+      refuseScan(file.path(), "a byte skip of -1 is not valid for compressed voxels; export the volume again");
     if (file.size() < first + bytes) refuseTruncated(file.path());
     return std::make_unique<RawSource>(file, file.size() - bytes);
   }
 
-  // A skip is of unpacked bytes where they are packed.
-  const bool is_packed = header.coding == VoxelCoding::gzip;
+  // In compressed files the skip counts decompressed bytes.
+  const bool is_compressed = header.coding == VoxelCoding::gzip;
   const auto skipped = static_cast<std::uint64_t>(header.skipped_bytes);
-  if (!is_packed && skipped > file.size()) refuseTruncated(file.path());
-  const std::uint64_t start = is_packed ? first : first + skipped;
+  if (!is_compressed && skipped > file.size()) refuseTruncated(file.path());
+  const std::uint64_t start = is_compressed ? first : first + skipped;
   switch (header.coding) {
     case VoxelCoding::raw:
       return std::make_unique<RawSource>(file, start);
@@ -69,20 +69,19 @@ std::unique_ptr<ByteSource> sourceOf(const ImageHeader& header, const RegularFil
     case VoxelCoding::gzip:
       break;
   }
-  auto unpacked = decompressedSource(file, start);
-  skipBytes(*unpacked, header.skipped_bytes, file.path());
-  return unpacked;
+  auto bytes_after = decompressedSource(file, start);
+  skipBytes(*bytes_after, header.skipped_bytes, file.path());
+  return bytes_after;
 }
 
-/// Nothing may follow the voxels but a line's end in a file of raw ones; reading on also checks the checksum at a
-/// packed stream's end.
-void refuseMore(ByteSource& source, VoxelCoding coding, const std::string& path) {
+/// Only raw voxels may be followed by a line end. Reading on also verifies the checksum of a compressed stream.
+void refuseExtraBytes(ByteSource& source, VoxelCoding coding, const std::string& path) {
   const std::size_t line_end = coding == VoxelCoding::raw ? 2 : 0;
   std::array<char, 8> more{};
   const std::size_t got = source.fill(more);
   const auto is_line_end = [](char c) { return c == '\n' || c == '\r'; };
   if (got > line_end || !std::all_of(more.begin(), more.begin() + static_cast<std::ptrdiff_t>(got), is_line_end))
-    refuseScan(path, "it holds more voxels than its header promises; export the volume again");
+    refuseScan(path, "it holds more voxels than its header states; export the volume again");
 }
 
 }  // namespace
@@ -93,7 +92,7 @@ void requireDataLength(const ImageHeader& header) {
     const RegularFile file(each.path);
     const auto held = static_cast<double>(file.size() - std::min(each.from_byte, file.size()));
     double needed = bytes;
-    if (header.coding == VoxelCoding::gzip) needed = bytes / kDeflateAtBest;
+    if (header.coding == VoxelCoding::gzip) needed = bytes / kMaxDeflateRatio;
     if (header.coding == VoxelCoding::hex) needed = 2.0 * bytes;
     if (header.coding == VoxelCoding::text) needed = 2.0 * bytes / static_cast<double>(bytesOf(header.type)) - 1.0;
     if (held < needed) refuseTruncated(each.path);
@@ -112,7 +111,7 @@ void forEachVoxelBlock(const ImageHeader& header, const std::function<void(std::
       take(next);
       left -= next.size();
     }
-    if (header.skipped_bytes != kVoxelsAtFileEnd) refuseMore(*source, header.coding, each.path);
+    if (header.skipped_bytes != kVoxelsAtFileEnd) refuseExtraBytes(*source, header.coding, each.path);
   }
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A name with one number in it, taken apart.
+/// A name with one number in it.
 struct Pattern {
   std::string before;
   std::string after;
@@ -83,9 +83,9 @@ VoxelFile dataFile(const std::string& header_path, const std::string& name) {
   fs::path folder = fs::path(header_path).parent_path();
   folder = fs::canonical(folder.empty() ? "." : folder, error);
   const fs::path file = error ? fs::path() : fs::canonical(folder / relative, error);
-  if (error) refuse("is not there; put it beside the header");
+  if (error) refuse("is not there; put it next to the header");
   if (file != folder && !isBelow(file, folder)) refuse("is outside its folder; put both into one folder");
-  if (!fs::is_regular_file(file, error)) refuse("is not a plain file; name the file with the voxels");
+  if (!fs::is_regular_file(file, error)) refuse("is not a regular file; name the file with the voxels");
   return {file.string(), 0};
 }
 

@@ -1,6 +1,5 @@
-// The names by which a header points at the files with its voxels. A header is a stranger's: what it names is looked up
-// in the header's own folder or below, never by an absolute path, through "..", or through a link that leads out.
-// Throws LoadError of one line. Any thread.
+// Data files named by a header. They must lie in the header's folder or below: no absolute path, no "..", no link that
+// leads out. Throws LoadError of one line. Any thread.
 #pragma once
 
 #include <string>
@@ -10,13 +9,13 @@
 
 namespace assets {
 
-/// Whether the entry says that a list of names follows ("LIST", "LIST 2"), and is no name itself.
+/// Whether the entry announces a list of names ("LIST", "LIST 2").
 bool isList(const std::string& entry);
 
-/// The file of that name beside the header.
+/// The file of that name, relative to the header.
 VoxelFile dataFile(const std::string& header_path, const std::string& name);
 
-/// All of those names, which must be as many as expected.
+/// All of these, which must be as many as expected.
 std::vector<VoxelFile> listedDataFiles(const std::string& header_path, const std::vector<std::string>& names,
                                        std::uint64_t expected);
 
@@ -28,7 +27,7 @@ struct NumberedNames {
   std::int64_t last = 1;
   std::int64_t step = 1;
 
-  /// 0 where the numbers make no sense.
+  /// 0 for an invalid range.
   std::uint64_t count() const;
 };
 std::vector<VoxelFile> numberedDataFiles(const std::string& header_path, const NumberedNames& names,

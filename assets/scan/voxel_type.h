@@ -1,4 +1,4 @@
-// The type a volume file stores its voxels as. The same for every format; each header names it its own way.
+// Scalar type of stored voxels; each file format names it in its own way.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@ namespace assets {
 
 enum class VoxelType { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
 
-/// f(Stored{}), where `Stored` is the C++ type of one voxel of that type.
+/// f(Stored{}), with the C++ type of one voxel.
 template <class Function>
 decltype(auto) withVoxelType(VoxelType type, const Function& f) {
   switch (type) {

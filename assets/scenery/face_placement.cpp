@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "assets/json_depth.h"
 #include "assets/load_error.h"
+#include "assets/toml_reader.h"
 #include "assets/tooth.h"
 #include "calibration/fit/rigid_fit.h"
 #include "calibration/geometry/units.h"
@@ -20,12 +18,11 @@ namespace {
 using calibration::PointPair;
 using Motion = calibration::Pose<calibration::Patient, calibration::Face>;
 
-constexpr std::size_t kMaxFileBytes = 1 << 20;
-constexpr double kToothHeight_mm = 24.0;  ///< root included: the centroids of the face's teeth are those of whole teeth
+constexpr double kToothHeight_mm = 24.0;  ///< with root, as in the centroids of the face
 constexpr double kNearTooth_mm = 9.0;
 constexpr int kIterations = 40;
 constexpr std::size_t kMaxPoints = 4000;
-constexpr double kSiteWeight = 0.3;  ///< often impacted: it counts less than its neighbours
+constexpr double kSiteWeight = 0.3;  ///< of the tooth at the site, often impacted
 constexpr double kHold_mm = 15.0;
 
 // "LR8": lower right, eighth from the midline, is FDI 48.
@@ -35,7 +32,7 @@ int fdiOf(const std::string& name) {
   return (name[1] == 'R' ? 40 : 30) + (name[2] - '0');
 }
 
-// A plane through the chewing surfaces, and what lies just below it.
+// Voxels of the lower teeth and the normal of their occlusal plane.
 struct LowerTeeth {
   std::vector<glm::dvec3> voxels_P_mm;
   glm::dvec3 up_P{0, 0, 1};
@@ -63,8 +60,8 @@ Slope slopeOf(const std::vector<glm::dvec3>& points) {
   return {mean.z - slope.x * mean.x - slope.y * mean.y, slope.x, slope.y};
 }
 
-// Voxels of the lower teeth but the one at the site: the chewing plane is fitted to the tops of their columns, each
-// time without those that lie well below it (cut roots), and the teeth hang from it.
+// Lower teeth without the one at the site. The occlusal plane is fitted to the tops of their columns, repeatedly
+// without those well below it (cut roots); the teeth extend down from it.
 LowerTeeth lowerTeethOf(const CtVolume& ct, int site_fdi) {
   const auto is_tooth = [&](glm::ivec3 at) {
     const std::size_t v = ct.grid.index(at);
@@ -112,19 +109,19 @@ glm::dvec3 meanOf(const std::vector<glm::dvec3>& points) {
   return sum / static_cast<double>(points.size());
 }
 
-// Columns: left along the chewing plane, up from it, and forward or back.
+// Columns: left along the occlusal plane, its normal, and their cross product.
 glm::dmat3 planeAxes(const glm::dvec3& up) {
   const glm::dvec3 left = glm::normalize(glm::dvec3(1, 0, 0) - up.x * up);
   return {left, up, glm::cross(left, up)};
 }
 
-// Sideways distance decides: heights of crowns differ between people.
-double squaredApart_mm2(const glm::dvec3& a, const glm::dvec3& b) {
+// Vertical distance has less weight: crown heights differ between people.
+double squaredDistance_mm2(const glm::dvec3& a, const glm::dvec3& b) {
   const glm::dvec3 d = (a - b) * glm::dvec3(1.0, 1.0, 0.3);
   return glm::dot(d, d);
 }
 
-// The voxels nearest to each tooth, as pairs of centroids; the tooth at the site is paired already.
+// Pairs of centroids: of the voxels nearest to each tooth, and of the tooth; without the one at the site.
 std::vector<PointPair> pairsFor(const Motion& X, const std::vector<glm::dvec3>& voxels,
                                 const std::vector<FaceTooth>& teeth, int site_fdi, double voxel_mm3) {
   std::vector<glm::dvec3> sum(teeth.size(), glm::dvec3(0.0));
@@ -135,7 +132,7 @@ std::vector<PointPair> pairsFor(const Motion& X, const std::vector<glm::dvec3>& 
     std::size_t nearest = 0;
     double best = 1e18;
     for (std::size_t n = 0; n < teeth.size(); ++n) {
-      const double squared = squaredApart_mm2(p, placed[n]);
+      const double squared = squaredDistance_mm2(p, placed[n]);
       if (squared < best) best = squared, nearest = n;
     }
     if (teeth[nearest].fdi == site_fdi || best > kNearTooth_mm * kNearTooth_mm) continue;
@@ -144,7 +141,7 @@ std::vector<PointPair> pairsFor(const Motion& X, const std::vector<glm::dvec3>& 
   }
   std::vector<PointPair> pairs;
   for (std::size_t n = 0; n < teeth.size(); ++n) {
-    // A sliver is no tooth.
+    // Ignore fragments.
     if (count[n] * voxel_mm3 < 40.0) continue;
     pairs.push_back({sum[n] / count[n], teeth[n].open_F_mm, 1.0});
   }
@@ -155,7 +152,7 @@ double residual_mm(const Motion& X, const PointPair& pair) {
   return glm::distance(X.rotation * pair.from_mm + X.translation_mm, pair.to_mm);
 }
 
-// The normal of the plane through the face's teeth.
+// Normal of the plane through the face's teeth.
 glm::dvec3 upOf(const std::vector<FaceTooth>& teeth) {
   std::vector<glm::dvec3> points;
   for (const FaceTooth& tooth : teeth) points.emplace_back(tooth.open_F_mm.x, tooth.open_F_mm.z, tooth.open_F_mm.y);
@@ -163,7 +160,7 @@ glm::dvec3 upOf(const std::vector<FaceTooth>& teeth) {
   return glm::normalize(glm::dvec3(-plane.along_u, 1.0, -plane.along_v));
 }
 
-// What both sides know before any tooth is assigned.
+// Input of the iteration.
 struct Arch {
   std::vector<glm::dvec3> voxels_P_mm;
   double voxel_mm3 = 0.0;
@@ -173,9 +170,9 @@ struct Arch {
   int site_fdi = 0;
 };
 
-// Assigns and fits in turn until it stands still; no teeth if too few agree. The chewing planes are kept together by
-// giving each tooth a second point above it.
-FacePlacement settled(Motion X, const Arch& arch, const std::vector<FaceTooth>& teeth) {
+// Iterative closest point; the result has no teeth if too few agree. A second point above each tooth keeps the occlusal
+// planes aligned.
+FacePlacement refined(Motion X, const Arch& arch, const std::vector<FaceTooth>& teeth) {
   std::vector<PointPair> kept;
   for (int n = 0; n < kIterations; ++n) {
     kept = pairsFor(X, arch.voxels_P_mm, teeth, arch.site_fdi, arch.voxel_mm3);
@@ -197,8 +194,7 @@ FacePlacement settled(Motion X, const Arch& arch, const std::vector<FaceTooth>& 
           static_cast<int>(kept.size())};
 }
 
-// How badly a placement explains the teeth: mean squared distance to the nearest tooth, far ones counted alike, and
-// the one's at the site.
+// Mean squared distance of the voxels to the nearest tooth, limited for far ones, plus the residual at the site.
 double misfit_mm2(const FacePlacement& placement, const Arch& arch, const std::vector<FaceTooth>& teeth) {
   const Motion& X = placement.X_PF;
   double sum = 0.0;
@@ -206,7 +202,7 @@ double misfit_mm2(const FacePlacement& placement, const Arch& arch, const std::v
     double best = kNearTooth_mm * kNearTooth_mm;
     for (const FaceTooth& tooth : teeth) {
       if (tooth.fdi == arch.site_fdi) continue;
-      best = std::min(best, squaredApart_mm2(p, X.rotation * tooth.open_F_mm + X.translation_mm));
+      best = std::min(best, squaredDistance_mm2(p, X.rotation * tooth.open_F_mm + X.translation_mm));
     }
     sum += best;
   }
@@ -214,17 +210,18 @@ double misfit_mm2(const FacePlacement& placement, const Arch& arch, const std::v
   return sum / static_cast<double>(arch.voxels_P_mm.size()) + 0.05 * at_site_mm * at_site_mm;
 }
 
-// Left stays left and up stays up, within 45 degrees: half an arch also fits upside down.
+// Within 45 degrees of upright: half an arch also fits upside down.
 bool isUpright(const FacePlacement& placement) {
-  const glm::dmat3 turn_PF = glm::mat3_cast(placement.X_PF.rotation);
-  return turn_PF[0].x > 0.7 && turn_PF[1].z > 0.5;
+  const glm::dmat3 rotation_PF = glm::mat3_cast(placement.X_PF.rotation);
+  return rotation_PF[0].x > 0.7 && rotation_PF[1].z > 0.5;
 }
 
-// Places of the teeth of one quadrant (3, 4) or of both (0).
+// Positions of the teeth of one quadrant (3, 4) or of both (0).
 std::vector<glm::dvec3> withoutThirdMolars(const std::vector<FaceTooth>& teeth, int quadrant) {
   std::vector<glm::dvec3> out;
   for (const FaceTooth& tooth : teeth) {
-    if (tooth.fdi % 10 != 8 && (quadrant == 0 || tooth.fdi / 10 == quadrant)) out.push_back(tooth.open_F_mm);
+    if (positionOf(tooth.fdi) != 8 && (quadrant == 0 || quadrantOf(tooth.fdi) == quadrant))
+      out.push_back(tooth.open_F_mm);
   }
   return out;
 }
@@ -232,14 +229,8 @@ std::vector<glm::dvec3> withoutThirdMolars(const std::vector<FaceTooth>& teeth, 
 }  // namespace
 
 std::vector<FaceTooth> readFaceTeeth(const std::string& path) {
-  std::error_code error;
-  const auto size = std::filesystem::file_size(path, error);
-  if (error || !std::filesystem::is_regular_file(path, error)) {
-    throw LoadError(path + ": no such file, a face to be placed needs the places of its teeth beside it");
-  }
-  if (size > kMaxFileBytes) throw LoadError(path + ": larger than 1 MiB, not a list of teeth");
-  std::ifstream in(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), {}};
+  constexpr std::size_t kMaxBytes = 1 << 20;
+  const std::string text = readSmallFile(path, kMaxBytes, "placing a face needs the positions of its teeth");
   if (isNestedTooDeep(text)) throw LoadError(path + ": nested too deep, not a list of teeth");
   const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
   if (!json.is_object()) throw LoadError(path + ": not a JSON object of teeth, check the file");
@@ -271,7 +262,7 @@ FacePlacement fitFace(const CtVolume& ct, const std::optional<OperativeSite>& si
   if (ct.label.size() != ct.grid.voxelCount()) throw LoadError("face placement: labels and grid do not fit");
   Arch arch;
   arch.site_fdi = site ? site->fdi : 0;
-  // An upper tooth is none of the lower teeth that are brought together, nor one the face has no place for.
+  // Only if the face has that lower tooth.
   if (const auto at = std::ranges::find(teeth, arch.site_fdi, &FaceTooth::fdi); at != teeth.end())
     arch.at_site = PointPair{site->centre_P_mm, at->open_F_mm, kSiteWeight};
   LowerTeeth scanned = lowerTeethOf(ct, arch.site_fdi);
@@ -288,8 +279,8 @@ FacePlacement fitFace(const CtVolume& ct, const std::optional<OperativeSite>& si
   arch.up_P = scanned.up_P;
   arch.up_F = upOf(teeth);
 
-  // The scan may show both sides of the arch or one, and an impacted molar says little about its direction: start from
-  // several, chewing plane on chewing plane, and keep what explains the teeth best.
+  // The scan may show one side of the arch or both, and an impacted molar does not determine its direction: try several
+  // starting poses with aligned occlusal planes and keep the best.
   const std::vector<glm::dvec3> same_side_F = withoutThirdMolars(teeth, site ? (isRight(site->fdi) ? 4 : 3) : 0);
   if (same_side_F.empty())
     throw LoadError("face placement: the face's teeth are all on the other side, add the others");
@@ -301,7 +292,7 @@ FacePlacement fitFace(const CtVolume& ct, const std::optional<OperativeSite>& si
       Motion X;
       X.rotation = glm::angleAxis(calibration::radFromDegrees(turn_deg), arch.up_P) * flat;
       X.translation_mm = meanOf(arch.voxels_P_mm) - X.rotation * meanOf(arch_F);
-      const FacePlacement found = settled(X, arch, teeth);
+      const FacePlacement found = refined(X, arch, teeth);
       if (found.teeth < 3 || !isUpright(found)) continue;
       const double misfit = misfit_mm2(found, arch, teeth);
       if (misfit < best_misfit) best = found, best_misfit = misfit;

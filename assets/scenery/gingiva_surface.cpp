@@ -21,9 +21,15 @@ constexpr double kEdgeRound_mm = 1.6;
 constexpr int kBandVoxels = 5;
 constexpr int kSmoothingSteps = 3;
 
+// Polynomial smooth maximum, Quilez 2013.
+double roundedMax(double a, double b, double blend) {
+  const double overlap = std::max(blend - std::abs(a - b), 0.0) / blend;
+  return std::max(a, b) + 0.25 * overlap * overlap * blend;
+}
+
 bool carriesGingiva(std::uint8_t label) { return isHard(label) || Tissue{label} == Tissue::ligament; }
 
-// Gingiva voxels, and the bone or tooth just below them, so that the underside is out of sight.
+// Gingiva voxels, and the bone or tooth just below them, which hides the underside.
 openvdb::MaskGrid::Ptr gingivaVoxels(const CtVolume& ct) {
   constexpr int kUnder = 2;
   auto grid = openvdb::MaskGrid::create();
@@ -53,8 +59,7 @@ openvdb::MaskGrid::Ptr gingivaVoxels(const CtVolume& ct) {
   return grid;
 }
 
-// Takes the flap out of the level set, the edge rounded (polynomial smooth maximum, Quilez 2013). Every voxel near the
-// wound is visited, those deep inside the gingiva too.
+// Subtracts the flap from the level set. Visits every voxel near the wound, also those deep inside the gingiva.
 void raiseFlap(openvdb::FloatGrid& grid, const VolumeGrid& voxels, const OperativeSite& site) {
   const double round = kEdgeRound_mm / voxels.spacing_mm;
   const double reach_mm = kFlapRadius_mm + kFlapLift_mm + 2.0 * kEdgeRound_mm;
@@ -66,9 +71,8 @@ void raiseFlap(openvdb::FloatGrid& grid, const VolumeGrid& voxels, const Operati
       for (int x = low.x; x <= high.x; ++x) {
         const double flap = -flapDistance_mm(site, voxels.centre_P_mm({x, y, z})) / voxels.spacing_mm;
         const double gingiva = accessor.getValue({x, y, z});
-        const double overlap = std::max(round - std::abs(gingiva - flap), 0.0) / round;
-        const double left = std::max(gingiva, flap) + 0.25 * overlap * overlap * round;
-        if (left > gingiva) accessor.setValue({x, y, z}, static_cast<float>(std::min<double>(left, kBandVoxels)));
+        const double cut = roundedMax(gingiva, flap, round);
+        if (cut > gingiva) accessor.setValue({x, y, z}, static_cast<float>(std::min<double>(cut, kBandVoxels)));
       }
     }
   }
@@ -87,18 +91,16 @@ glm::vec4 colourAt(const std::optional<OperativeSite>& site, const glm::dvec3& p
 
 double flapDistance_mm(const OperativeSite& site, const glm::dvec3& p_P) {
   const glm::dvec3 q = p_P - site.centre_P_mm;
-  // A ball about the crown, cut off toward the tongue by a plane that leans over the ridge.
+  // A ball around the crown, cut towards the tongue by a plane leaning over the ridge.
   const double ball = glm::length(q - kFlapLift_mm * glm::normalize(site.axis_P)) - kFlapRadius_mm;
   const double tongue =
       -2.5 - glm::dot(q, glm::normalize(buccalDirection_P(site.fdi) + 0.45 * occlusalDirection_P(site.fdi)));
-  const double blend = 3.0;
-  const double overlap = std::max(blend - std::abs(ball - tongue), 0.0) / blend;
-  return std::max(ball, tongue) + 0.25 * overlap * overlap * blend;
+  return roundedMax(ball, tongue, 3.0);
 }
 
 MeshModel gingivaSurface(const CtVolume& ct, const std::optional<OperativeSite>& site) {
   if (ct.label.size() != ct.grid.voxelCount() || !(ct.grid.spacing_mm > 0.0)) {
-    throw LoadError("gum: labels and grid do not fit, import the patient again");
+    throw LoadError("gingiva: labels and grid do not match, import the patient again");
   }
   const openvdb::MaskGrid::Ptr voxels = gingivaVoxels(ct);
   if (voxels->activeVoxelCount() == 0) return {};
@@ -112,7 +114,7 @@ MeshModel gingivaSurface(const CtVolume& ct, const std::optional<OperativeSite>&
   openvdb::tools::volumeToMesh(*surface, points, triangles, quads, 0.0, 0.0);
   if (points.empty()) return {};
 
-  // OpenVDB winds clockwise; turn each triangle round.
+  // OpenVDB winds clockwise; reverse each triangle.
   MeshPart gingiva;
   gingiva.name = "Gum";
   gingiva.material = {glm::vec4(1.0f), 0.28f, 0.0f};

@@ -1,7 +1,6 @@
-// Stationary random field whose wavelengths lie in a band: a sum of plane waves with seeded directions and phases.
-// Zero mean, unit variance, nearly Gaussian; isotropic, no lattice to be seen in it. mm in, no unit out.
-// Immutable; any thread; one cosine per wave and call. Deterministic from the seed. Not the scanner's noise
-// (scanner.h). Method: spectral synthesis of a Gaussian field (Shinozuka and Deodatis, 1991).
+// Stationary random field with wavelengths in a band: a sum of plane waves with seeded directions and phases (Shinozuka
+// and Deodatis 1991). Zero mean, unit variance, nearly Gaussian, isotropic. mm in, no unit out. Immutable; any thread;
+// one cosine per wave and call. Deterministic from the seed.
 #pragma once
 
 #include <cstdint>

@@ -1,17 +1,18 @@
 #include "assets/synthetic/cheek_retractor.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 
+#include "assets/mesh/catmull_rom.h"
 #include "assets/vertex_normals.h"
+#include "calibration/geometry/units.h"
 
 namespace assets {
 namespace {
 
 using glm::dvec3;
 
-// The ribbon's middle line from the tip inside the mouth to the end of the handle, from the retracted corner, and its
-// width.
+// Centre line relative to the retracted corner, from the tip inside the mouth to the end of the handle, and the width.
 struct Bend {
   dvec3 from_corner_mm;
   double width_mm;
@@ -30,21 +31,14 @@ MeshPart cheekRetractor(const MouthRim& rim) {
   const dvec3 corner = rim.retractedCorner_mm();
   std::vector<dvec3> line;
   std::vector<double> width;
-  for (std::size_t span = 0; span + 1 < std::size(kCourse); ++span) {
-    const auto bend = [&](std::size_t n) -> const Bend& { return kCourse[std::min(n, std::size(kCourse) - 1)]; };
-    const Bend &a = bend(span == 0 ? 0 : span - 1), &b = bend(span), &c = bend(span + 1), &d = bend(span + 2);
+  for (std::size_t span = 0; span + 1 < std::size(kCourse); ++span)
     for (int n = 0; n < kPerSpan; ++n) {
       const double t = static_cast<double>(n) / kPerSpan;
-      const auto curve = [&](const auto& p0, const auto& p1, const auto& p2, const auto& p3) {
-        return 0.5 * (2.0 * p1 + t * (p2 - p0) + t * t * (2.0 * p0 - 5.0 * p1 + 4.0 * p2 - p3) +
-                      t * t * t * (3.0 * p1 - p0 - 3.0 * p2 + p3));
-      };
-      line.push_back(corner + curve(a.from_corner_mm, b.from_corner_mm, c.from_corner_mm, d.from_corner_mm));
-      width.push_back(curve(a.width_mm, b.width_mm, c.width_mm, d.width_mm));
+      line.push_back(corner + catmullRomAt(kCourse, span, t, &Bend::from_corner_mm));
+      width.push_back(catmullRomAt(kCourse, span, t, &Bend::width_mm));
     }
-  }
 
-  // Rounded ends: the width closes like a half circle.
+  // Semicircular ends.
   MeshPart part;
   const std::size_t rings = line.size();
   for (std::size_t n = 0; n < rings; ++n) {
@@ -56,8 +50,8 @@ MeshPart cheekRetractor(const MouthRim& rim) {
     const double closing =
         from_end >= half ? 1.0 : std::sqrt(std::max(0.0, 1.0 - std::pow(1.0 - from_end / half, 2.0)));
     for (int a = 0; a < kAround; ++a) {
-      // A flat section with rounded edges, a little dished so that it catches the light.
-      const double turn = 2.0 * 3.14159265358979 * (a + 0.5) / kAround;
+      // A flat, slightly dished section with rounded edges.
+      const double turn = 2.0 * calibration::kPi * (a + 0.5) / kAround;
       const double u = std::copysign(std::pow(std::abs(std::cos(turn)), 0.35), std::cos(turn));
       const double v = std::copysign(std::pow(std::abs(std::sin(turn)), 0.7), std::sin(turn));
       const double dish = 0.9 * (u * u - 0.4);

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "assets/mesh/catmull_rom.h"
+
 namespace assets {
 namespace {
 
@@ -15,12 +17,10 @@ constexpr int kPointsPerSpan = 12;
 }  // namespace
 
 DentalArch::DentalArch() {
-  // Catmull-Rom through the form, resampled finely.
   for (std::size_t span = 1; span + 2 < std::size(kArchForm_mm); ++span)
     for (int step = 0; step < kPointsPerSpan; ++step) {
       const double t = static_cast<double>(step) / kPointsPerSpan;
-      points_mm_.push_back(
-          catmullRom(kArchForm_mm[span - 1], kArchForm_mm[span], kArchForm_mm[span + 1], kArchForm_mm[span + 2], t));
+      points_mm_.push_back(catmullRomAt(kArchForm_mm, span, t));
     }
   along_mm_.push_back(0.0);
   for (std::size_t n = 1; n < points_mm_.size(); ++n)
@@ -44,7 +44,7 @@ ArchStation DentalArch::stationAt(double along_mm) const {
 }
 
 ArchCoordinates DentalArch::coordinatesOf(const glm::dvec2& point_mm) const {
-  // Nearest point of the polyline; the ends continue straight.
+  // Nearest point of the polyline, its ends extended.
   double best = 1e30;
   ArchCoordinates coordinates;
   for (std::size_t n = 0; n + 1 < points_mm_.size(); ++n) {

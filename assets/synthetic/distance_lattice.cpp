@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "assets/volume_grid.h"
+
 namespace assets {
 namespace {
 
@@ -31,12 +33,11 @@ double eikonalUpdate(std::array<double, 3> neighbour_mm, double step_mm) {
 
 }  // namespace
 
-DistanceLattice::DistanceLattice(const LatticeBox& box, double spacing_mm, const Shape& shape)
+DistanceLattice::DistanceLattice(const BoundingBox& box, double spacing_mm, const Shape& shape)
     : box_(box), spacing_mm_(spacing_mm) {
   size_ = glm::ivec3(glm::ceil((box.high_mm - box.low_mm) / spacing_mm)) + 1;
   box_.high_mm = box_.low_mm + spacing_mm * glm::dvec3(size_ - 1);
-  value_.resize(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) *
-                static_cast<std::size_t>(size_.z));
+  value_.resize(countIn(size_));
   tbb::parallel_for(0, size_.z, [&](int k) {
     for (int j = 0; j < size_.y; ++j)
       for (int i = 0; i < size_.x; ++i)
@@ -44,18 +45,14 @@ DistanceLattice::DistanceLattice(const LatticeBox& box, double spacing_mm, const
   });
 }
 
-std::size_t DistanceLattice::index(int i, int j, int k) const {
-  return (static_cast<std::size_t>(k) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(j)) *
-             static_cast<std::size_t>(size_.x) +
-         static_cast<std::size_t>(i);
-}
+std::size_t DistanceLattice::index(int i, int j, int k) const { return indexIn(size_, {i, j, k}); }
 
 void DistanceLattice::redistance() {
   constexpr float kFar_mm = 1e6f;
   std::vector<float> distance(value_.size(), kFar_mm);
   std::vector<char> fixed(value_.size(), 0);
 
-  // Beside the surface: value over gradient, first order and sub-voxel.
+  // At the surface: value over gradient, first order and sub-voxel.
   tbb::parallel_for(0, size_.z, [&](int k) {
     for (int j = 0; j < size_.y; ++j)
       for (int i = 0; i < size_.x; ++i) {
@@ -81,7 +78,7 @@ void DistanceLattice::redistance() {
       }
   });
 
-  // Elsewhere: eight sweeping orders, once each, carry the distances outward and inward.
+  // Elsewhere: one sweep in each of eight orders.
   for (int sweep = 0; sweep < 8; ++sweep) {
     const auto order = [](bool up, int n, int count) { return up ? n : count - 1 - n; };
     for (int kk = 0; kk < size_.z; ++kk)

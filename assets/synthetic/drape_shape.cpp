@@ -9,7 +9,7 @@ namespace {
 
 using glm::dvec3;
 
-// Cloth laid over a body: a thickness, a rolled hem, folds; ends where `under_mm` turns negative.
+// Cloth over a body, with thickness, rolled hem and folds; ends where `under_mm` is negative.
 double cloth(double body_mm, double under_mm, double thickness_mm, double folds_mm) {
   const double roll = 2.2 * std::exp(-std::pow((under_mm - 3.2) / 2.6, 2.0));
   const double band = 0.9 * std::exp(-std::pow((under_mm - 14.0) / 1.6, 2.0));
@@ -53,7 +53,7 @@ double drape_mm(const HeadShape& head, const dvec3& p) {
   const double fold = 2.4 * std::sin(p.x * 0.085 + 1.4 * std::sin(p.z * 0.035) + 0.4) * smoothStep(-60.0, -110.0, p.z) +
                       1.3 * std::sin(p.z * 0.12 + 0.0009 * p.x * p.x + 0.5 * std::sin(p.x * 0.06)) +
                       0.7 * std::sin(p.x * 0.19 - p.z * 0.07);
-  // Ends outside the usual picture: over the shoulders, on the chest.
+  // Ends outside the usual view: over the shoulders, on the chest.
   const double end = std::max({q.x - 140.0, -140.0 - p.z, p.y - 170.0});
   return -smoothMin(-cloth(body, depthUnderDrape_mm(p), 2.6, fold + 2.0), -end, 12.0);
 }

@@ -20,12 +20,12 @@ namespace {
 
 using glm::dvec3;
 
-// Skin and mouth end under the cloth; what no one sees is not meshed.
+// Depth under the cloth at which skin and mouth end.
 constexpr double kTucked_mm = 9.0;
-constexpr MeshingBox kFaceBox{{-80, -60, -80}, {80, 120, 170}};
-constexpr MeshingBox kMouthBox{{-45, -16, -50}, {45, 100, 80}};
-constexpr MeshingBox kCapBox{{-100, -60, 0}, {100, 240, 240}};
-constexpr MeshingBox kDrapeBox{{-150, -40, -150}, {150, 190, 10}};
+constexpr BoundingBox kFaceBox{{-80, -60, -80}, {80, 120, 170}};
+constexpr BoundingBox kMouthBox{{-45, -16, -50}, {45, 100, 80}};
+constexpr BoundingBox kCapBox{{-100, -60, 0}, {100, 240, 240}};
+constexpr BoundingBox kDrapeBox{{-150, -40, -150}, {150, 190, 10}};
 
 MeshPart coloured(MeshPart part, const std::string& name, const Material& material,
                   const std::function<glm::vec3(const dvec3& p, const dvec3& n)>& colour_at) {
@@ -38,8 +38,8 @@ MeshPart coloured(MeshPart part, const std::string& name, const Material& materi
   return part;
 }
 
-// The triangles whose corners are all chosen, with only the vertices they use.
-MeshPart chosen(const MeshPart& from, const std::vector<bool>& wanted) {
+// The wanted triangles with the vertices they use.
+MeshPart selected(const MeshPart& from, const std::vector<bool>& wanted) {
   MeshPart to;
   to.name = from.name;
   to.material = from.material;
@@ -60,7 +60,7 @@ MeshPart chosen(const MeshPart& from, const std::vector<bool>& wanted) {
   return to;
 }
 
-// Skin and the wet lining of the mouth are one surface of two materials.
+// Skin and the lining of the mouth: one surface, two materials.
 void addFace(MeshModel& model, const HeadShape& head, const FaceColours& colours, double voxel_mm) {
   const auto visible = [&](const dvec3& p) {
     const double hidden = std::max({depthUnderCap_mm(p) - kTucked_mm, depthUnderDrape_mm(p) - kTucked_mm, p.y - 112.0});
@@ -70,11 +70,11 @@ void addFace(MeshModel& model, const HeadShape& head, const FaceColours& colours
                                   [&](const dvec3& p, const dvec3& n) { return colours.head(p, n); });
   std::vector<bool> wet(whole.triangles.size() / 3);
   for (std::size_t t = 0; t < wet.size(); ++t) wet[t] = colours.isWet(whole.position_mm[whole.triangles[3 * t]]);
-  model.parts.push_back(chosen(whole, wet));
+  model.parts.push_back(selected(whole, wet));
   model.parts.back().name = "Mouth";
   model.parts.back().material.roughness = 0.3f;
   wet.flip();
-  model.parts.push_back(chosen(whole, wet));
+  model.parts.push_back(selected(whole, wet));
 }
 
 MeshPart cloth(MeshPart part, const std::string& name) {

@@ -1,8 +1,8 @@
-// A face of our own making around the operated jaw: a draped head with open mouth, closed eyes and one cheek held away.
-// Frame P (LPS mm); origin between the lower incisal edges in their place with the mouth OPEN, so the jaw of the scan
-// stands in the mouth as it is. Context only: drawn, never touched, not a measured person.
-// Parts: Face, Mouth, Tongue, UpperTeeth, LowerTeeth, Hair, Cap, Drape, Retractor. Deterministic; any thread; some
-// seconds on two cores. The scanned side of the lower jaw from the first premolar back is left out of gums and teeth.
+// Synthetic face around the operated jaw: a draped head with open mouth, closed eyes and one cheek retracted. Frame P
+// (LPS mm), origin between the lower incisal edges with the mouth open, so the scanned jaw fits without a transform.
+// Drawn only. Parts: Face, Mouth, Tongue, UpperTeeth, LowerTeeth, Hair, Cap, Drape, Retractor. Deterministic; any
+// thread; some seconds on two cores. The scanned side of the lower jaw from the first premolar back is left out of
+// gingiva and teeth.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@
 namespace assets {
 
 struct FaceParameters {
-  int tooth_fdi = 48;         ///< 48: right cheek held away, 38: left
+  int tooth_fdi = 48;         ///< 48: right cheek retracted, 38: left
   double voxel_mm = 1.1;      ///< of the face; teeth and tongue are finer
-  std::uint32_t seed = 2026;  ///< hairs and the skin's mottling
+  std::uint32_t seed = 2026;  ///< of hairs and skin mottling
 };
 
 /// Throws LoadError if a parameter is out of range.

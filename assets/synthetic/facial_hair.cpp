@@ -5,6 +5,7 @@
 
 #include "assets/synthetic/face_frames.h"
 #include "assets/vertex_normals.h"
+#include "calibration/geometry/units.h"
 #include "calibration/random.h"
 
 namespace assets {
@@ -12,7 +13,7 @@ namespace {
 
 using glm::dvec3;
 
-// Where the skin lies behind a point of the frontal plane of the skull.
+// Skin behind a point of the frontal plane, in the skull's frame.
 dvec3 rootAt(const HeadShape& head, double x_K, double z_K) {
   dvec3 k(x_K, -45.0, z_K);
   for (int step = 0; step < 120; ++step) {
@@ -36,7 +37,7 @@ void addHair(MeshPart& part, const dvec3& root_K, const dvec3& direction, const 
     const dvec3 centre = root_K + length * (t * direction + t * t * droop);
     const double r = radius * (1.0 - 0.85 * t);
     for (int n = 0; n < kSides; ++n) {
-      const double turn = 2.0 * 3.14159265358979 * n / kSides;
+      const double turn = 2.0 * calibration::kPi * n / kSides;
       part.position_mm.emplace_back(mandibleFromSkull(centre + r * (std::cos(turn) * side + std::sin(turn) * other)));
     }
   }

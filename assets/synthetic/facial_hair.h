@@ -1,5 +1,5 @@
-// Eyebrows and lashes as single hairs: thin tapered tubes rooted in the skin.
-// Frame of the mandible with the operated side at +x (face_frames.h), mm. Seeded, so the same hairs each time. Some ms.
+// Eyebrows and lashes as single hairs: thin tapered tubes. Frame of the mandible with the operated side at +x
+// (face_frames.h), mm. Deterministic from the seed. Some ms.
 #pragma once
 
 #include <cstdint>

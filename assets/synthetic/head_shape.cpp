@@ -29,7 +29,7 @@ double lowerFace(const dvec3& q, const dvec3& m) {
   d = smoothMin(d, capsule(q, {26, 34, -10}, {37, 60, -6}, 17, 17), 16.0);
   const dvec3 angle = skullFromMandible({46, 76, -12});
   d = smoothMin(d, capsule(m, angle, {54, 60, 46}, 12, 9), 18.0);
-  // The tissue that spans between the jaws: lips' muscle, cheek.
+  // Tissue between the jaws: lip muscle, cheek.
   d = smoothMin(d, capsule(m, {0, 12, 14}, skullFromMandible({0, 12, -14}), 22, 18), 16.0);
   d = smoothMin(d, capsule(m, {28, 22, 28}, skullFromMandible({24, 26, -14}), 19, 17), 16.0);
   return smoothMin(d, capsule(m, {39, 36, 36}, skullFromMandible({38, 50, -10}), 18, 15), 20.0);
@@ -41,7 +41,7 @@ double neck(const dvec3& k) {
 }
 
 double eyes(double d, const dvec3& m) {
-  // Hollow of the orbit, then the ball under closed lids.
+  // Orbit, then the eyeball under closed lids.
   d = smoothMax(d, -ellipsoid(m, {29, -16, 73}, {17, 13.5, 11.5}), 14.0);
   const double ball_mm = ellipsoid(m, {31.5, 5.5, 71.5}, {14.0, 13.5, 12.6});
   d = smoothMin(d, ball_mm, 5.0);
@@ -86,7 +86,7 @@ double nose(double d, const dvec3& m) {
 
 HeadShape::HeadShape()
     : rim_([this](double x, double z) {
-        // March from the front onto the closed face.
+        // Sphere tracing from the front.
         dvec3 p(x, -70.0, z);
         for (int step = 0; step < 200; ++step) {
           const double d = closed_mm(p);
@@ -98,12 +98,12 @@ HeadShape::HeadShape()
 
 double HeadShape::closed_mm(const dvec3& p) const {
   const dvec3 k = skullFromMandible(p);
-  // Folded at the midline, the fold rounded so that no crease shows.
+  // Mirrored at the midline, rounded against a crease.
   const double folded = std::sqrt(p.x * p.x + 2.0);
   const dvec3 m(folded, k.y, k.z);
   const dvec3 q(folded, p.y, p.z);
   double d = smoothMin(skull(k, m), lowerFace(q, m), 16.0);
-  // The cheek held away stands out to the side.
+  // The retracted cheek.
   d = smoothMin(d, ellipsoid(p, {36, 27, 15}, {21, 24, 24}), 16.0);
   d = smoothMin(d, neck(k), 22.0);
   if (k.y < 60.0 && k.z > 10.0) d = nose(eyes(d, m), m);
@@ -127,7 +127,7 @@ double HeadShape::distance_mm(const dvec3& p) const {
   double d = closed_mm(p);
   const dvec3 from_mouth = p - dvec3(4, 24, 8);
   if (d > 20.0 || glm::dot(from_mouth, from_mouth) > 84.0 * 84.0) return d;
-  // Far behind the lips the opening plays no part.
+  // Far behind the lips the opening has no effect.
   const double behind = p.y - 36.0;
   const double opening = behind > 22.0 ? 1e3 : rim_.opening_mm(p.x, p.z);
   const double hole = behind > 22.0 ? behind : std::max(opening, behind);

@@ -16,8 +16,8 @@
 namespace assets {
 namespace {
 
-// The scanned box in J; the segment's bone keeps 3 mm of air all round.
-constexpr LatticeBox kScanBox{{4.0, 0.5, -43.25}, {49.3, 69.5, 12.75}};
+// Scanned box in J, with 3 mm of air around the bone.
+constexpr BoundingBox kScanBox{{4.0, 0.5, -43.25}, {49.3, 69.5, 12.75}};
 
 void require(bool fine, std::string_view what, double value, std::string_view range) {
   if (fine) return;
@@ -48,10 +48,6 @@ std::string titleOf(const JawParameters& p) {
   return title.str();
 }
 
-AnatomyParameters anatomyOf(const JawParameters& p) {
-  return {p.winter_angle_deg, p.depth_mm, p.mandibular_canal_distance_mm, p.seed};
-}
-
 /// J to P and back: the right side is mirrored.
 glm::dvec3 mirrored(const glm::dvec3& v, bool right_side) { return {right_side ? -v.x : v.x, v.y, v.z}; }
 
@@ -65,7 +61,7 @@ VolumeGrid gridOf(const JawParameters& p) {
   return grid;
 }
 
-/// Scans brick by brick; bricks that no tissue reaches get air and noise.
+/// Scans brick by brick; bricks without tissue get air and noise.
 void scan(const JawAnatomy& anatomy, const JawParameters& p, CtVolume& ct) {
   const glm::ivec3 size = ct.grid.size;
   const double edge_mm = edgeSpread_mm(p.spacing_mm);
@@ -81,8 +77,8 @@ void scan(const JawAnatomy& anatomy, const JawParameters& p, CtVolume& ct) {
     for (int k = low.z; k < high.z; ++k)
       for (int j = low.y; j < high.y; ++j)
         for (int i = low.x; i < high.x; ++i) {
-          // Noise belongs to the voxel's place in J, so that the sides mirror each other exactly.
-          const std::uint64_t place = (static_cast<std::uint64_t>(k) << 42) | (static_cast<std::uint64_t>(j) << 21) |
+          // Noise is a function of the index in J, so that both sides are exact mirror images.
+          const std::uint64_t index = (static_cast<std::uint64_t>(k) << 42) | (static_cast<std::uint64_t>(j) << 21) |
                                       static_cast<std::uint64_t>(i);
           double grey_hu = air_hu;
           const std::size_t voxel = ct.grid.index({p.right_side ? size.x - 1 - i : i, j, k});
@@ -95,7 +91,7 @@ void scan(const JawAnatomy& anatomy, const JawParameters& p, CtVolume& ct) {
               ct.tooth[voxel] = static_cast<std::uint8_t>((p.right_side ? 40 : 30) + position);
             grey_hu = greyValue_hu(distances, p_J, texture, edge_mm);
           }
-          ct.hounsfield[voxel] = static_cast<std::int16_t>(std::lround(grey_hu + scannerNoise_hu(p.seed, place)));
+          ct.hounsfield[voxel] = static_cast<std::int16_t>(std::lround(grey_hu + scannerNoise_hu(p.seed, index)));
         }
   };
 
@@ -107,7 +103,7 @@ void scan(const JawAnatomy& anatomy, const JawParameters& p, CtVolume& ct) {
   });
 }
 
-/// Nothing where the third molar has no voxel.
+/// None if the third molar has no voxel.
 std::optional<OperativeSite> siteOf(const CtVolume& ct, const JawAnatomy& anatomy, bool right_side) {
   const auto [count, sum] = voxelSum(ct.grid, [&](std::size_t voxel) {
     const auto tissue = static_cast<Tissue>(ct.label[voxel]);
@@ -122,7 +118,7 @@ std::optional<OperativeSite> siteOf(const CtVolume& ct, const JawAnatomy& anatom
 
 Patient syntheticJaw(const JawParameters& parameters) {
   validate(parameters);
-  const JawAnatomy anatomy(anatomyOf(parameters));
+  const JawAnatomy anatomy(parameters);
 
   Patient patient;
   patient.title = titleOf(parameters);
@@ -135,28 +131,11 @@ Patient syntheticJaw(const JawParameters& parameters) {
 
   patient.site = siteOf(patient.ct, anatomy, parameters.right_side);
   patient.mandibular_canal_radius_mm = MandibularCanalPath::kRadius_mm;
-  // The line ends with the bone: at the mental foramen in front, at the saw cut behind.
+  // The line ends with the bone: at the mental foramen and at the posterior cut.
   for (const glm::dvec3& p_J : anatomy.mandibularCanal().points_J_mm())
     if (anatomy.at(p_J, anatomy.nearby(p_J, 0.0)).mandibular_canal < -0.5)
       patient.mandibular_canal_P_mm.push_back(mirrored(p_J, parameters.right_side));
   return patient;
-}
-
-JawLandmarks syntheticLandmarks(const JawParameters& parameters) {
-  validate(parameters);
-  const DentalArch arch;
-  JawLandmarks landmarks;
-  for (int position = 1; position <= 7; ++position) {
-    const ArchStation station = arch.stationAt(arcLengthAtTooth_mm(position));
-    const glm::dvec3 crown_J(station.centre_mm, -0.5 * toothCrownHeight_mm(position));
-    landmarks.lower_teeth.push_back({40 + position, mirrored(crown_J, true)});
-    landmarks.lower_teeth.push_back({30 + position, crown_J});
-  }
-  const PlacedTooth third =
-      impactedThirdMolar(arch, eruptedTooth(arch, 7), parameters.winter_angle_deg, parameters.depth_mm);
-  const glm::dvec3 crown_J = third.inJaw({0.0, 0.0, 0.5 * third.shape.form().crownHeight_mm()});
-  landmarks.lower_teeth.push_back({parameters.right_side ? 48 : 38, mirrored(crown_J, parameters.right_side)});
-  return landmarks;
 }
 
 }  // namespace assets

@@ -16,16 +16,16 @@ constexpr double kLigament_mm = 0.25;
 constexpr double kLigamentAtCrest_mm = 0.5;
 constexpr double kFollicle_mm = 0.8;
 constexpr double kLaminaDura_mm = 0.45;
-constexpr double kSocketWall_mm = 0.85;  ///< bone over a root, at least
+constexpr double kSocketWall_mm = 0.85;  ///< minimum bone over a root
 constexpr double kMucosa_mm = 2.3;
-constexpr double kReach_mm = 4.4;  ///< no tooth or canal matters farther away than this
+constexpr double kReach_mm = 4.4;  ///< influence of teeth and canal
 
 /// Bone that follows a root outward where the jaw is thin: the juga and the lingual bulge.
 double socketWall_mm(double tooth_mm, double over_cervix_mm) {
   return smoothMax(tooth_mm - kLigament_mm - kSocketWall_mm, over_cervix_mm + 1.9, 1.0);
 }
 
-/// Cuff of attached gingiva round a neck, high between the teeth, thin at its edge.
+/// Cuff of attached gingiva around a neck, high between the teeth, thin at its edge.
 double gingivalCuff_mm(const glm::dvec3& q, double tooth_mm) {
   const double proximal = std::abs(q.x) / std::max(std::hypot(q.x, q.y), 0.1);
   const double margin_mm = 0.9 + 2.4 * smoothStep(0.75, 1.0, proximal);
@@ -42,7 +42,7 @@ double gingivalCuff_mm(const glm::dvec3& q, double tooth_mm) {
 
 }  // namespace
 
-JawAnatomy::JawAnatomy(const AnatomyParameters& parameters) : mandible_(arch_, parameters.seed) {
+JawAnatomy::JawAnatomy(const JawParameters& parameters) : mandible_(arch_, parameters.seed) {
   tbb::parallel_for(4, 9, [](int position) { lowerToothShape(position); });
   for (int position = 4; position <= 7; ++position) teeth_.push_back(eruptedTooth(arch_, position));
   PlacedTooth third = impactedThirdMolar(arch_, teeth_.back(), parameters.winter_angle_deg, parameters.depth_mm);
@@ -51,7 +51,7 @@ JawAnatomy::JawAnatomy(const AnatomyParameters& parameters) : mandible_(arch_, p
 }
 
 void JawAnatomy::placeMandibularCanal(double distance_mm) {
-  // Where the undisturbed course passes the tooth closest.
+  // The point where the mean course is closest to the tooth.
   std::vector<glm::dvec3> surface_J = thirdMolar().shape.surfacePoints_mm();
   const MandibularCanalPath mean_course(arch_, 0.0, 0.0);
   double closest_mm = 1e9, beside_mm = 0.0;
@@ -68,7 +68,7 @@ void JawAnatomy::placeMandibularCanal(double distance_mm) {
     return least_mm;
   };
 
-  // Lower the canal there until the wanted distance is left.
+  // Lower the canal there to the requested distance, by bisection.
   double high_mm = -14.0, low_mm = 12.0;
   for (int halving = 0; halving < 14; ++halving) {
     const double middle_mm = 0.5 * (high_mm + low_mm);
@@ -115,29 +115,28 @@ TissueDistances JawAnatomy::at(const glm::dvec3& p_J, const NearbyStructures& ne
     const double over_cervix_mm = tooth.shape.heightAboveCervix_mm(q);
     const bool third = tooth.position == 8;
     if (outer_mm < 1.0) {
-      if (!third && outer_mm < d.other_tooth) d.other_position = tooth.position;
-      (third ? d.third_molar : d.other_tooth) = std::min(outer_mm, third ? d.third_molar : d.other_tooth);
-      const double core_mm = tooth.shape.core_mm(q, outer_mm);
-      (third ? d.third_molar_core : d.other_core) = std::min(core_mm, third ? d.third_molar_core : d.other_core);
-      const double pulp_mm = std::max(tooth.shape.pulp_mm(q), outer_mm + 0.25);
-      (third ? d.third_molar_pulp : d.other_pulp) = std::min(pulp_mm, third ? d.third_molar_pulp : d.other_pulp);
+      ToothDistances& nearest = third ? d.third_molar : d.other_tooth;
+      if (!third && outer_mm < nearest.outer) d.other_position = tooth.position;
+      nearest.outer = std::min(outer_mm, nearest.outer);
+      nearest.core = std::min(tooth.shape.core_mm(q, outer_mm), nearest.core);
+      nearest.pulp = std::min(std::max(tooth.shape.pulp_mm(q), outer_mm + 0.25), nearest.pulp);
     }
     bone_mm = smoothMin(bone_mm, socketWall_mm(outer_mm, over_cervix_mm), 1.8);
     const double space_mm = third ? glm::mix(kLigament_mm, kFollicle_mm, smoothStep(-2.0, 1.5, over_cervix_mm))
                                   : glm::mix(kLigament_mm, kLigamentAtCrest_mm, smoothStep(-3.8, -2.0, over_cervix_mm));
     lining_mm = std::min(lining_mm, outer_mm - space_mm);
-    // The impacted crown lies under its mucosa; erupted necks wear a cuff.
+    // The impacted crown lies under mucosa; erupted teeth have a cuff.
     cuff_mm =
         smoothMin(cuff_mm, third ? smoothMax(outer_mm - 1.4, p_J.z + 1.2, 0.8) : gingivalCuff_mm(q, outer_mm), 1.2);
   }
 
-  // A canal close to the surface keeps a thin wall, except where it leaves through the mental foramen.
+  // A canal near the surface has a thin wall, except at the mental foramen.
   const double lumen_mm = nearby.mandibular_canal ? mandibular_canal_->lumen_mm(p_J) : TissueDistances::kFar_mm;
   if (p_J.y > 26.0) bone_mm = smoothMin(bone_mm, lumen_mm + 6.0 * smoothStep(32.0, 26.0, p_J.y) - 0.9, 1.5);
   d.bone = std::max(bone_mm, cut_mm);
   d.ligament = std::max(lining_mm, d.bone);
 
-  // Marrow begins under the cortex; where that is clearly so or clearly not, its thickness need not be known.
+  // Trabecular bone begins under the cortex, whose thickness is computed only near its inner surface.
   const bool in_question = bone_mm > -4.0 && bone_mm < 0.0;
   const double cortex_mm = in_question ? mandible_.cortex_mm(p_J, arch_.coordinatesOf({p_J.x, p_J.y})) : 1.5;
   double spongy_mm = std::max(bone_mm + cortex_mm, -(lining_mm - kLaminaDura_mm));

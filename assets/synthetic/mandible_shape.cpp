@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "assets/mesh/catmull_rom.h"
 #include "assets/synthetic/band_limited_noise.h"
 #include "assets/synthetic/implicit_shape.h"
 
@@ -13,14 +14,14 @@ namespace {
 constexpr double kAnteriorCutAlong_mm = 17.7;
 constexpr double kPosteriorCut_mm = 66.0;
 constexpr double kUpperCut_mm = 9.5;
-constexpr LatticeBox kBox{{3.0, 0.0, -43.0}, {50.0, 72.0, 16.0}};
+constexpr BoundingBox kBox{{3.0, 0.0, -43.0}, {50.0, 72.0, 16.0}};
 constexpr double kLattice_mm = 1.0;
 
 constexpr std::size_t kSectionPoints = 15;
 using Section =
     std::array<glm::dvec2, kSectionPoints>;  ///< (buccal, z) mm, from the lingual crest over the top and round
 
-/// Sections by y of the arch there: the buccal places of the points, then their z.
+/// Sections by y of the arch: buccal coordinates of the points, then their z.
 constexpr std::size_t kStations = 9;
 constexpr std::array<double, kStations> kPosterior_mm = {3.0, 16.0, 28.0, 38.0, 46.0, 52.0, 57.0, 62.0, 74.0};
 // Order: lingual crest, crest, buccal crest, valley, ridge medial, ridge, ridge lateral, upper buccal, mid buccal,
@@ -73,36 +74,24 @@ Contour contourOf(const Section& s) {
   return contour;
 }
 
-double signedDistance_mm(const Contour& contour, const glm::dvec2& p) {
-  double squared = 1e30;
-  bool inside = false;
-  for (std::size_t n = 0; n < contour.size(); ++n) {
-    const glm::dvec2 a = contour[n], b = contour[(n + 1) % contour.size()], edge = b - a;
-    const glm::dvec2 offset = p - a - std::clamp(glm::dot(p - a, edge) / glm::dot(edge, edge), 0.0, 1.0) * edge;
-    squared = std::min(squared, glm::dot(offset, offset));
-    if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * edge.x) inside = !inside;
-  }
-  return inside ? -std::sqrt(squared) : std::sqrt(squared);
-}
-
 DistanceLattice loft(const DentalArch& arch, std::uint64_t seed) {
-  // Contours every half millimetre, drawn once.
+  // Contours every half millimetre.
   constexpr double kStep_mm = 0.5;
   const double first_mm = arch.arcLengthAtPosterior(0.5), last_mm = arch.arcLengthAtPosterior(80.0);
   std::vector<Contour> contours;
   for (double along_mm = first_mm; along_mm < last_mm; along_mm += kStep_mm)
     contours.push_back(contourOf(sectionAt(arch, along_mm)));
 
-  // Bone is never smooth: faint swellings and pits.
+  // Surface roughness: swellings and pits.
   const BandLimitedNoise swelling(seed, 5.0, 11.0, 24), pitting(seed + 1, 2.2, 4.0, 32);
   DistanceLattice lattice(kBox, kLattice_mm, [&](const glm::dvec3& p) {
     const ArchCoordinates c = arch.coordinatesOf({p.x, p.y});
-    const double place =
+    const double position =
         std::clamp((c.along_mm - first_mm) / kStep_mm, 0.0, static_cast<double>(contours.size()) - 1.001);
-    const auto n = static_cast<std::size_t>(place);
+    const auto n = static_cast<std::size_t>(position);
     const glm::dvec2 q(c.buccal_mm, p.z);
-    const double distance_mm =
-        glm::mix(signedDistance_mm(contours[n], q), signedDistance_mm(contours[n + 1], q), place - std::floor(place));
+    const double distance_mm = glm::mix(polygonDistance_mm(contours[n], q), polygonDistance_mm(contours[n + 1], q),
+                                        position - std::floor(position));
     if (std::abs(distance_mm) > 4.0) return distance_mm;
     return distance_mm + 0.11 * swelling.at(p) + 0.07 * pitting.at(p);
   });
@@ -129,7 +118,7 @@ double MandibleShape::cortex_mm(const glm::dvec3& p_J, const ArchCoordinates& ar
   const double ramus = smoothStep(48.0, 58.0, p_J.y);
   thickness_mm = glm::mix(thickness_mm, 1.4, above * (1.0 - ramus));
 
-  // Thin lingual plate beside the third molar's roots.
+  // Thin lingual plate at the third molar's roots.
   const double third_molar = smoothStep(43.0, 48.0, p_J.y) * smoothStep(62.0, 57.0, p_J.y);
   const double lingual = (1.0 - cheek) * smoothStep(-27.0, -22.0, p_J.z);
   return glm::mix(thickness_mm, 1.05, third_molar * lingual);

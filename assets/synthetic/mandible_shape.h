@@ -1,8 +1,8 @@
-// The outer surface of one side of a lower jaw, first premolar to lower ramus, without teeth: signed distance, negative
-// inside. Frame J (dental_arch.h), mm. Immutable; any thread reads. Building costs about 0.3 s; a query about 60 ns. A
-// closed section (alveolar crest, oblique ridge, inferior border, submandibular hollow, mylohyoid ridge) is drawn at
-// stations along the arch and lofted between them. Measures: body height 27-31 mm, width 11-16 mm, mandibular plane
-// 8-10 deg to the occlusal plane; adult means after Gray's Anatomy and CBCT series, sections are our own modelling.
+// Outer surface of one side of the lower jaw without teeth, first premolar to lower ramus: signed distance, negative
+// inside. Frame J (dental_arch.h), mm. Immutable; any thread. Building takes about 0.3 s; a query about 60 ns. Closed
+// sections (alveolar crest, oblique ridge, inferior border, submandibular hollow, mylohyoid ridge) at stations along
+// the arch, lofted. Body height 27-31 mm, width 11-16 mm, mandibular plane 8-10 deg to the occlusal plane: adult means
+// after Gray's Anatomy and CBCT series; sections are our own modelling.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +17,12 @@ class MandibleShape {
   MandibleShape(const DentalArch& arch, std::uint64_t seed);
 
   double outer_mm(const glm::dvec3& p_J) const { return outer_.smoothAt(p_J); }
-  /// Where the segment is sawn off: positive beyond the anterior, posterior and upper cuts, exact near each plane.
+  /// Positive beyond the anterior, posterior and upper ends of the segment, exact near each plane.
   double cut_mm(const glm::dvec3& p_J) const;
-  /// Cortical thickness by place: thick below and on the cheek side, thin on the tongue side at the third molar.
+  /// Cortical thickness: large inferior and buccal, small lingual at the third molar.
   double cortex_mm(const glm::dvec3& p_J, const ArchCoordinates& arch) const;
 
-  const LatticeBox& box() const { return outer_.box(); }
+  const BoundingBox& box() const { return outer_.box(); }
 
  private:
   ArchStation anterior_cut_;

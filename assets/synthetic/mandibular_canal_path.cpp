@@ -1,9 +1,9 @@
 #include "assets/synthetic/mandibular_canal_path.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "assets/mesh/catmull_rom.h"
 #include "assets/synthetic/implicit_shape.h"
 
 namespace assets {
@@ -13,7 +13,7 @@ struct CourseKnot {
   double posterior_mm, buccal_mm, height_mm;
 };
 
-// From behind to the mental foramen between the premolars; the last two turn outward through the cheek-side cortex.
+// From posterior to the mental foramen between the premolars; the last two pass outward through the buccal cortex.
 constexpr CourseKnot kCourse[] = {{76.0, 4.6, -3.0},  {69.0, 4.3, -10.0}, {63.0, 4.5, -16.5}, {57.0, 4.3, -21.6},
                                   {51.0, 3.8, -24.4}, {44.0, 3.2, -25.8}, {36.0, 2.9, -26.8}, {28.0, 2.7, -26.9},
                                   {21.0, 3.2, -26.0}, {18.2, 4.3, -24.3}, {19.4, 7.2, -22.9}};
@@ -34,10 +34,7 @@ MandibularCanalPath::MandibularCanalPath(const DentalArch& arch, double third_mo
   for (std::size_t n = 0; n + 1 < knots.size(); ++n)
     for (int step = 0; step < kCanalPointsPerSpan; ++step) {
       const double t = static_cast<double>(step) / kCanalPointsPerSpan;
-      const glm::dvec3 a = knots[n == 0 ? 0 : n - 1], b = knots[n], c = knots[n + 1],
-                       d = knots[std::min(n + 2, knots.size() - 1)];
-      points_J_mm_.push_back(0.5 * (2.0 * b + t * (c - a) + t * t * (2.0 * a - 5.0 * b + 4.0 * c - d) +
-                                    t * t * t * (3.0 * b - a - 3.0 * c + d)));
+      points_J_mm_.push_back(catmullRomAt(knots, n, t));
     }
   points_J_mm_.push_back(knots.back());
 }
@@ -45,8 +42,8 @@ MandibularCanalPath::MandibularCanalPath(const DentalArch& arch, double third_mo
 double MandibularCanalPath::lumen_mm(const glm::dvec3& p_J) const {
   double squared = 1e30;
   for (std::size_t n = 0; n + 1 < points_J_mm_.size(); ++n) {
-    const glm::dvec3 edge = points_J_mm_[n + 1] - points_J_mm_[n], to = p_J - points_J_mm_[n];
-    const glm::dvec3 offset = to - std::clamp(glm::dot(to, edge) / glm::dot(edge, edge), 0.0, 1.0) * edge;
+    const glm::dvec3 &a = points_J_mm_[n], &b = points_J_mm_[n + 1];
+    const glm::dvec3 offset = p_J - a - nearestOnSegment(p_J, a, b) * (b - a);
     squared = std::min(squared, glm::dot(offset, offset));
   }
   return std::sqrt(squared) - kRadius_mm;

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "assets/synthetic/distance_shapes.h"
+#include "assets/synthetic/implicit_shape.h"
 
 namespace assets {
 namespace {
@@ -21,7 +21,7 @@ struct Crown {
   double width_mm;  ///< along the arch
   double depth_mm;  ///< across it
   double height_mm;
-  int cusps;  ///< 0 a cutting edge, 1 a point, 2 and more a chewing surface
+  int cusps;  ///< 0 incisal edge, 1 canine tip, 2 and more an occlusal surface
 };
 constexpr Crown kUpperCrowns[] = {{8.6, 7.0, 10.5, 0}, {6.6, 6.2, 9.2, 0},   {7.6, 8.0, 10.0, 1}, {7.1, 9.0, 8.5, 2},
                                   {6.8, 9.0, 8.3, 2},  {10.2, 11.0, 7.6, 4}, {9.6, 10.8, 7.2, 4}};
@@ -37,7 +37,7 @@ Station stationAt(std::span<const dvec2> arch, double along_mm) {
   for (std::size_t n = 0; n + 1 < arch.size(); ++n) {
     const double length = glm::distance(arch[n], arch[n + 1]);
     if (along_mm <= length || n + 2 == arch.size()) {
-      // Direction eased toward the neighbour's, so that the row of teeth bends evenly.
+      // Direction interpolated towards the neighbours'.
       const double t = along_mm / length;
       const dvec2 here = (arch[n + 1] - arch[n]) / length;
       const dvec2 before = n == 0 ? dvec2(1, 0) : glm::normalize(arch[n] - arch[n - 1]);
@@ -136,12 +136,12 @@ double upperTeeth_mm(const dvec3& k) {
 
 double lowerTeeth_mm(const dvec3& p) {
   const double free_side = row(kLowerArch, kLowerCrowns, {-p.x, p.y, p.z}, -1.0);
-  const double held_side = row(kLowerArch, std::span(kLowerCrowns).first(3), p, -1.0);
-  return std::min(free_side, std::max(held_side, -1.2 - jawSegmentSpace_mm(p)));
+  const double operated_side = row(kLowerArch, std::span(kLowerCrowns).first(3), p, -1.0);
+  return std::min(free_side, std::max(operated_side, -1.2 - jawSegmentSpace_mm(p)));
 }
 
 double tongue_mm(const dvec3& p) {
-  // Held away from the operated side.
+  // Displaced from the operated side.
   const dvec3 q(p.x + 6.5 - 0.05 * p.y, p.y, p.z);
   double d = ellipsoid(q, {0, 40, -9}, {19, 34, 15});
   d = smoothMin(d, ellipsoid(q, {0, 62, -4}, {18, 22, 17}), 14.0);
@@ -152,16 +152,14 @@ double tongue_mm(const dvec3& p) {
 }
 
 double jawSegmentSpace_mm(const dvec3& p) {
-  // The body follows the arch, its outer side swelling toward the ramus.
+  // The body follows the arch and widens towards the ramus.
   double d = 1e9;
   constexpr dvec3 kCourse[] = {{15.4, 10.0, 8.2},  {18.2, 16.5, 8.0},  {21.2, 24.0, 8.0}, {23.6, 32.0, 9.0},
                                {27.4, 41.5, 10.0}, {32.0, 52.0, 11.0}, {37.2, 68.0, 11.0}};
   const double upper = 3.0 + 8.0 * smoothStep(34.0, 58.0, p.y);
   for (std::size_t n = 0; n + 1 < std::size(kCourse); ++n) {
-    const dvec2 a(kCourse[n]);
-    const dvec2 b(kCourse[n + 1]);
-    const dvec2 at(p.x, p.y);
-    const double t = std::clamp(glm::dot(at - a, b - a) / glm::dot(b - a, b - a), 0.0, 1.0);
+    const dvec2 a(kCourse[n]), b(kCourse[n + 1]), at(p.x, p.y);
+    const double t = nearestOnSegment(at, a, b);
     const double half = glm::mix(kCourse[n].z, kCourse[n + 1].z, t);
     d = std::min(d, glm::length(at - glm::mix(a, b, t)) - half);
   }

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "assets/mesh/catmull_rom.h"
+#include "assets/synthetic/implicit_shape.h"
+
 namespace assets {
 namespace {
 
@@ -20,11 +23,6 @@ constexpr std::array<Knot, 20> kKnots = {
      {-12, -4.4, 5.3, -0.1},  {-20, -1.2, 4.5, 0.6},   {-25.5, 6.0, 3.7, 1.4}, {-27.5, 15.5, 3.2, 1.8},
      {-25.5, 25.0, 3.5, 1.4}, {-18.5, 34.8, 4.1, 0.6}, {-10, 40.6, 4.7, -0.2}, {-4.5, 41.6, 4.9, -0.4}}};
 
-double throughFour(double a, double b, double c, double d, double t) {
-  return 0.5 *
-         (2.0 * b + t * (c - a) + t * t * (2.0 * a - 5.0 * b + 4.0 * c - d) + t * t * t * (3.0 * b - a - 3.0 * c + d));
-}
-
 }  // namespace
 
 MouthRim::MouthRim(const std::function<double(double, double)>& depth_at) {
@@ -32,12 +30,10 @@ MouthRim::MouthRim(const std::function<double(double, double)>& depth_at) {
   constexpr std::size_t kPerSpan = kPoints / kKnots.size();
   std::array<double, kPoints> inward_mm{};
   for (std::size_t n = 0; n < kPoints; ++n) {
-    const auto knot = [&](std::size_t i) -> const Knot& {
-      return kKnots[(n / kPerSpan + kKnots.size() + i - 1) % kKnots.size()];
-    };
+    const auto knot = [&](std::size_t i) { return kKnots[(n / kPerSpan + kKnots.size() + i - 1) % kKnots.size()]; };
     const double t = static_cast<double>(n % kPerSpan) / kPerSpan;
     const auto value = [&](auto member) {
-      return throughFour(knot(0).*member, knot(1).*member, knot(2).*member, knot(3).*member, t);
+      return catmullRom(knot(0).*member, knot(1).*member, knot(2).*member, knot(3).*member, t);
     };
     edge_[n] = {value(&Knot::x_mm), value(&Knot::z_mm)};
     radius_mm_[n] = value(&Knot::lip_mm);
@@ -50,7 +46,7 @@ MouthRim::MouthRim(const std::function<double(double, double)>& depth_at) {
     const glm::dvec2 centre = edge_[n] + radius_mm_[n] * outward;
     lip_[n] = {centre.x, depth_at(centre.x, centre.y) + 0.9 + inward_mm[n], centre.y};
   }
-  // Depths of neighbours are evened out, so that the lip does not follow every dent of the skin.
+  // Smooth the depth along the rim.
   for (int pass = 0; pass < 6; ++pass) {
     const auto before = lip_;
     for (std::size_t n = 0; n < kPoints; ++n) {
@@ -63,26 +59,14 @@ MouthRim::LipPoint MouthRim::lip(const glm::dvec3& p) const {
   LipPoint best{1e9, 0.0};
   for (std::size_t n = 0; n < kPoints; ++n) {
     const std::size_t next = (n + 1) % kPoints;
-    const glm::dvec3 edge = lip_[next] - lip_[n];
-    const double t = std::clamp(glm::dot(p - lip_[n], edge) / glm::dot(edge, edge), 0.0, 1.0);
-    const double d = glm::length(p - lip_[n] - t * edge) - glm::mix(radius_mm_[n], radius_mm_[next], t);
+    const double t = nearestOnSegment(p, lip_[n], lip_[next]);
+    const double d =
+        glm::length(p - lip_[n] - t * (lip_[next] - lip_[n])) - glm::mix(radius_mm_[n], radius_mm_[next], t);
     if (d < best.distance_mm) best = {d, (static_cast<double>(n) + t) / static_cast<double>(kPoints)};
   }
   return best;
 }
 
-double MouthRim::opening_mm(double x_mm, double z_mm) const {
-  const glm::dvec2 p(x_mm, z_mm);
-  double squared = 1e18;
-  bool inside = false;
-  for (std::size_t n = 0; n < kPoints; ++n) {
-    const glm::dvec2 a = edge_[n];
-    const glm::dvec2 b = edge_[(n + 1) % kPoints];
-    const glm::dvec2 offset = p - a - std::clamp(glm::dot(p - a, b - a) / glm::dot(b - a, b - a), 0.0, 1.0) * (b - a);
-    squared = std::min(squared, glm::dot(offset, offset));
-    if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) inside = !inside;
-  }
-  return inside ? -std::sqrt(squared) : std::sqrt(squared);
-}
+double MouthRim::opening_mm(double x_mm, double z_mm) const { return polygonDistance_mm(edge_, {x_mm, z_mm}); }
 
 }  // namespace assets

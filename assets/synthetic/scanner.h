@@ -1,8 +1,7 @@
-// What a CT scanner makes of the synthetic anatomy: a grey value and a tissue label for a voxel.
-// Hounsfield, mm. Pure functions; any thread. Point spread: Gaussian of 0.3 mm full width at half maximum together with
-// the voxel's own box, applied in closed form at every interface (exact for flat ones, thin parallel layers included),
-// so edges are sub-voxel smooth. Labels are crisp: the tissue at the voxel's centre. Noise: Gaussian, sd 35 HU, a hash
-// of seed and voxel index, so it depends on no order of evaluation. No rings, no beam hardening.
+// CT scanner model: grey value and tissue label of a voxel of the synthetic anatomy. Hounsfield, mm. Pure functions;
+// any thread. Point spread: Gaussian of 0.3 mm FWHM convolved with the voxel's box, in closed form at every interface
+// (exact for flat ones, thin parallel layers included). Labels: tissue at the voxel's centre. Noise: Gaussian, sd 35
+// HU, a hash of seed and voxel index, independent of the order of evaluation. No rings, no beam hardening.
 #pragma once
 
 #include <cstdint>
@@ -13,16 +12,15 @@
 
 namespace assets {
 
-inline constexpr double kPointSpread_mm =
-    0.3 / 2.354820045;  ///< sd of the Gaussian of 0.3 mm full width at half maximum
+inline constexpr double kPointSpread_mm = 0.3 / 2.354820045;  ///< sd
 inline constexpr double kScannerNoise_hu = 35.0;
 
-/// Sd of point spread and voxel box together: what an edge shows.
+/// Sd of point spread and voxel box together.
 double edgeSpread_mm(double spacing_mm);
 
 Tissue tissueAt(const TissueDistances& distances);
 
-/// Place from the midline of the tooth that holds a voxel of that tissue; 0 for none.
+/// Position from the midline of the tooth around a voxel of that tissue; 0 for none.
 int toothAt(const TissueDistances& distances, Tissue tissue);
 
 /// Mean grey value of a voxel centred at p_J, before noise.

@@ -17,7 +17,7 @@ constexpr int kLeafVoxels = static_cast<int>(Leaf::DIM);
 constexpr double kBandVoxels = 3.0;
 constexpr double kSteepest = 1.3;
 
-// One leaf of the level set, or none where the surface is far.
+// One leaf of the level set, or none far from the surface.
 std::unique_ptr<Leaf> leafAt(const Distance& distance_mm, const openvdb::Coord& origin, double voxel_mm) {
   const double band_mm = kBandVoxels * voxel_mm;
   const auto point = [&](const openvdb::Coord& c) { return voxel_mm * glm::dvec3(c.x(), c.y(), c.z()); };
@@ -36,8 +36,8 @@ std::unique_ptr<Leaf> leafAt(const Distance& distance_mm, const openvdb::Coord& 
   return any ? std::move(leaf) : nullptr;
 }
 
-openvdb::FloatGrid::Ptr levelSet(const Distance& distance_mm, const MeshingBox& box, double voxel_mm) {
-  // Leaves are found in parallel, put in in order.
+openvdb::FloatGrid::Ptr levelSet(const Distance& distance_mm, const BoundingBox& box, double voxel_mm) {
+  // Leaves are made in parallel and added in order.
   const glm::ivec3 low(glm::floor(box.low_mm / (voxel_mm * kLeafVoxels)));
   const glm::ivec3 count = glm::ivec3(glm::ceil(box.high_mm / (voxel_mm * kLeafVoxels))) - low;
   std::vector<std::unique_ptr<Leaf>> leaves(static_cast<std::size_t>(count.x * count.y * count.z));
@@ -56,7 +56,7 @@ openvdb::FloatGrid::Ptr levelSet(const Distance& distance_mm, const MeshingBox& 
 }
 
 // Moves vertices onto the zero surface and takes the gradient there as normal.
-void settle(const Distance& distance_mm, double voxel_mm, MeshPart& part) {
+void projectVertices(const Distance& distance_mm, double voxel_mm, MeshPart& part) {
   const double h = 0.25 * voxel_mm;
   part.normal.resize(part.position_mm.size());
   tbb::parallel_for(std::size_t{0}, part.position_mm.size(), [&](std::size_t n) {
@@ -80,19 +80,19 @@ void settle(const Distance& distance_mm, double voxel_mm, MeshPart& part) {
 
 }  // namespace
 
-MeshPart meshOf(const Distance& distance_mm, const MeshingBox& box, double voxel_mm, double adaptivity) {
+MeshPart meshOf(const Distance& distance_mm, const BoundingBox& box, double voxel_mm, double adaptivity) {
   const openvdb::FloatGrid::Ptr grid = levelSet(distance_mm, box, voxel_mm);
   std::vector<openvdb::Vec3s> points;
   std::vector<openvdb::Vec3I> triangles;
   std::vector<openvdb::Vec4I> quads;
   openvdb::tools::volumeToMesh(*grid, points, triangles, quads, 0.0, adaptivity);
 
-  // OpenVDB winds clockwise; turn each triangle round.
+  // OpenVDB winds clockwise; reverse each triangle.
   MeshPart part;
   for (const auto& p : points) part.position_mm.emplace_back(p.x(), p.y(), p.z());
   for (const auto& t : triangles) part.triangles.insert(part.triangles.end(), {t[0], t[2], t[1]});
   for (const auto& q : quads) part.triangles.insert(part.triangles.end(), {q[0], q[2], q[1], q[0], q[3], q[2]});
-  settle(distance_mm, voxel_mm, part);
+  projectVertices(distance_mm, voxel_mm, part);
   return part;
 }
 

@@ -1,7 +1,6 @@
-// The measures from which a lower tooth is modelled: crown outline, cusps, grooves, roots, pulp.
-// Tooth frame, mm: x mesial, y buccal, z occlusal; origin in the middle of the cervix. Plain data; any thread.
-// Measures: means of Ash and Nelson, Wheeler's Dental Anatomy, 9th ed. (crown heights, diameters, root lengths); shapes
-// of cusps and grooves are our own modelling after its plates.
+// Dimensions of a lower tooth: crown outline, cusps, grooves, roots, pulp. Tooth frame, mm: x mesial, y buccal, z
+// occlusal; origin in the middle of the cervix. Plain data. Crown heights, diameters and root lengths: means of Ash and
+// Nelson, Wheeler's Dental Anatomy, 9th ed.; shapes of cusps and grooves are our own modelling after its plates.
 #pragma once
 
 #include <vector>
@@ -12,7 +11,7 @@
 
 namespace assets {
 
-/// A cusp is a rounded pyramid: gentle along its four ridges, steeper between them.
+/// A rounded pyramid with four ridges.
 struct CuspParameters {
   glm::dvec2 tip_mm{0.0};
   double height_mm = 7.0;
@@ -34,14 +33,14 @@ struct GrooveParameters {
   double width_rad = 0.2;
 };
 
-/// A root: ellipse swept from neck to apex along a bowed path.
+/// An ellipse swept from neck to apex along a curved path.
 struct RootParameters {
   glm::dvec2 neck_mm{0.0};
   glm::dvec2 apex_mm{0.0};
   double length_mm = 13.0;
   glm::dvec2 neck_half_mm{2.3, 4.2};
   glm::dvec2 apex_half_mm{0.8, 1.2};
-  double bow_mm = 0.6;  ///< mesial bulge half-way down
+  double bow_mm = 0.6;  ///< mesial curvature at half length
   double hollow = 0.0;  ///< depth of the long grooves on mesial and distal face, fraction of the half width
   int canals = 1;
 };
@@ -51,7 +50,7 @@ struct ToothParameters {
   std::vector<ProfileKnot> distal_mm;
   std::vector<ProfileKnot> buccal_mm;
   std::vector<ProfileKnot> lingual_mm;
-  double squareness = 2.6;  ///< exponent of the outline: 2 ellipse, larger squarer
+  double squareness = 2.6;  ///< exponent of the superellipse outline
   std::vector<CuspParameters> cusps;
   std::vector<RidgeParameters> ridges;
   std::vector<GrooveParameters> grooves;
@@ -62,7 +61,7 @@ struct ToothParameters {
   double rootLength_mm() const;
 };
 
-/// Form of the lower tooth at `position` 4..8 from the midline (first premolar .. third molar).
-ToothParameters lowerToothParameters(int position);
+/// The lower tooth at `position` 4..8 from the midline (first premolar .. third molar).
+const ToothParameters& lowerToothParameters(int position);
 
 }  // namespace assets

@@ -9,6 +9,7 @@
 namespace assets {
 namespace {
 
+// Per position: arc length at the centre of the tooth, crown height, lean.
 constexpr std::array<double, 8> kAlong_mm = {0.0, 2.7, 8.35, 14.75, 21.75, 28.85, 38.05, 48.95};
 constexpr std::array<double, 8> kCrownHeight_mm = {0.0, 9.0, 9.5, 11.0, 8.5, 8.0, 7.6, 7.2};
 constexpr std::array<double, 8> kLingualLean_deg = {0.0, 0.0, 0.0, 0.0, 4.0, 6.0, 9.0, 10.0};
@@ -17,7 +18,7 @@ constexpr double kThirdMolarBuccal_mm = 0.6;
 constexpr double kThirdMolarLean_deg = 5.0;
 constexpr double kThirdMolarRoll_deg = 7.0;
 
-/// Directions of a tooth leaning to the tongue and tipped to mesial, rolled about its own axis.
+/// Axes of a tooth leaning lingually, tipped mesially and rolled about its axis.
 glm::dmat3 toothAxes(const ArchStation& station, double lean_deg, double tip_deg, double roll_deg) {
   const glm::dvec3 mesial(-station.distal, 0.0), buccal(station.buccal, 0.0), up(0.0, 0.0, 1.0);
   const double tip = calibration::radFromDegrees(tip_deg), lean = calibration::radFromDegrees(lean_deg),
@@ -38,16 +39,13 @@ double highest_mm(const std::vector<glm::dvec3>& surface, const PlacedTooth& too
 
 }  // namespace
 
-double arcLengthAtTooth_mm(int position) { return kAlong_mm[static_cast<std::size_t>(position)]; }
-double toothCrownHeight_mm(int position) { return kCrownHeight_mm[static_cast<std::size_t>(position)]; }
-
 PlacedTooth eruptedTooth(const DentalArch& arch, int position) {
-  const ArchStation station = arch.stationAt(arcLengthAtTooth_mm(position));
-  const double lean_deg = kLingualLean_deg[static_cast<std::size_t>(position)];
-  PlacedTooth tooth{position, lowerToothShape(position), glm::dvec3(station.centre_mm, -toothCrownHeight_mm(position)),
-                    toothAxes(station, lean_deg, 0.0, 0.0)};
-  // The lean swings the crown to the tongue: seat the middle of the crown back on the arch, the cusps on the plane.
-  tooth.cervix_J_mm += 0.35 * std::sin(calibration::radFromDegrees(lean_deg)) * toothCrownHeight_mm(position) *
+  const auto n = static_cast<std::size_t>(position);
+  const ArchStation station = arch.stationAt(kAlong_mm[n]);
+  PlacedTooth tooth{position, lowerToothShape(position), glm::dvec3(station.centre_mm, -kCrownHeight_mm[n]),
+                    toothAxes(station, kLingualLean_deg[n], 0.0, 0.0)};
+  // The lean moves the crown lingually: move its middle back onto the arch, and the cusps onto the plane.
+  tooth.cervix_J_mm += 0.35 * std::sin(calibration::radFromDegrees(kLingualLean_deg[n])) * kCrownHeight_mm[n] *
                        glm::dvec3(station.buccal, 0.0);
   tooth.cervix_J_mm.z -= highest_mm(tooth.shape.surfacePoints_mm(), tooth);
   return tooth;
@@ -55,13 +53,13 @@ PlacedTooth eruptedTooth(const DentalArch& arch, int position) {
 
 PlacedTooth impactedThirdMolar(const DentalArch& arch, const PlacedTooth& second_molar, double winter_angle_deg,
                                double depth_mm) {
-  const ArchStation station = arch.stationAt(arcLengthAtTooth_mm(7) + 9.0);
+  const ArchStation station = arch.stationAt(kAlong_mm[7] + 9.0);
   PlacedTooth tooth{8, lowerToothShape(8), glm::dvec3(station.centre_mm + kThirdMolarBuccal_mm * station.buccal, 0.0),
                     toothAxes(station, kThirdMolarLean_deg, winter_angle_deg, kThirdMolarRoll_deg)};
   const std::vector<glm::dvec3> surface = tooth.shape.surfacePoints_mm();
   tooth.cervix_J_mm.z = -depth_mm - highest_mm(surface, tooth);
 
-  // Far behind there is air between the molars, far forward they overlap: halve the way between.
+  // Bisect the shift between overlap (forward) and a gap (backward).
   const glm::dvec3 start_mm = tooth.cervix_J_mm, back(station.distal, 0.0);
   const auto gap_at = [&](double shift_mm) {
     double gap_mm = 1e9;

@@ -1,6 +1,7 @@
 #include "assets/synthetic/tooth_shape.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "calibration/geometry/units.h"
@@ -12,13 +13,7 @@ constexpr double kToothLattice_mm = 0.2;
 constexpr double kPulpLattice_mm = 0.25;
 constexpr double kMargin_mm = 1.6;
 
-double distanceToSegment_mm(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
-  const glm::dvec2 edge = b - a;
-  const double t = std::clamp(glm::dot(p - a, edge) / glm::dot(edge, edge), 0.0, 1.0);
-  return glm::distance(p, a + t * edge);
-}
-
-/// Height of the chewing surface: the upper envelope of cusps and ridges; the valleys between them are the fissures.
+/// Height of the occlusal surface: upper envelope of cusps and ridges; the valleys are the fissures.
 double occlusalHeight_mm(const ToothParameters& form, const glm::dvec2& p) {
   constexpr double kRounding_mm = 0.45, kFissure_mm = 0.16;
   double height_mm = -100.0;
@@ -30,7 +25,8 @@ double occlusalHeight_mm(const ToothParameters& form, const glm::dvec2& p) {
     height_mm = smoothMax(height_mm, cusp.height_mm - slope * r, kFissure_mm);
   }
   for (const RidgeParameters& ridge : form.ridges) {
-    const double r = distanceToSegment_mm(p, ridge.from_mm, ridge.to_mm);
+    const double t = nearestOnSegment(p, ridge.from_mm, ridge.to_mm);
+    const double r = glm::distance(p, ridge.from_mm + t * (ridge.to_mm - ridge.from_mm));
     const double rounded = std::sqrt(r * r + 0.3 * 0.3) - 0.3;
     height_mm = smoothMax(height_mm, ridge.height_mm - 0.9 * rounded, kFissure_mm);
   }
@@ -54,7 +50,7 @@ double crown_mm(const ToothParameters& form, const glm::dvec3& p) {
   radius *= 1.0 + pinch * smoothStep(1.2, 4.6, p.z);
   const double side_mm = (radius - 1.0) * std::min(mesiodistal_mm, buccolingual_mm);
 
-  // Below every fissure the chewing surface is far.
+  // Below every fissure the occlusal surface is far.
   const double top_mm = p.z < 2.5 ? -2.0 : 0.82 * (p.z - occlusalHeight_mm(form, {p.x, p.y}));
   const double bottom_mm = -2.2 - p.z;
   return smoothMax(smoothMax(side_mm, top_mm, 0.8), bottom_mm, 0.5);
@@ -70,7 +66,7 @@ double root_mm(const RootParameters& root, const glm::dvec3& p) {
   const glm::dvec2 d = glm::dvec2(p.x, p.y) - rootCentre_mm(root, t);
   glm::dvec2 half_mm = glm::mix(root.neck_half_mm, root.apex_half_mm, std::pow(t, 1.15));
 
-  // A long hollow on the broad faces: the section becomes a figure of eight.
+  // A long hollow on the broad faces.
   const double waist = std::exp(-std::pow(d.y / (0.45 * half_mm.y), 2.0));
   half_mm.x *= 1.0 - root.hollow * waist * smoothStep(0.05, 0.3, t);
 
@@ -100,10 +96,9 @@ double pulpField_mm(const ToothParameters& form, const glm::dvec3& p) {
 
   for (const CuspParameters& cusp : form.cusps) {
     const glm::dvec3 from(0.3 * cusp.tip_mm, 0.6), to(0.66 * cusp.tip_mm, 0.42 * cusp.height_mm);
-    const glm::dvec3 edge = to - from;
-    const double t = std::clamp(glm::dot(p - from, edge) / glm::dot(edge, edge), 0.0, 1.0);
+    const double t = nearestOnSegment(p, from, to);
     const double radius_mm = form.pulp * (0.62 - 0.42 * t);
-    distance_mm = smoothMin(distance_mm, glm::distance(p, from + t * edge) - radius_mm, 0.6);
+    distance_mm = smoothMin(distance_mm, glm::distance(p, from + t * (to - from)) - radius_mm, 0.6);
   }
 
   for (const RootParameters& root : form.roots) {
@@ -124,7 +119,7 @@ double pulpField_mm(const ToothParameters& form, const glm::dvec3& p) {
   return distance_mm;
 }
 
-LatticeBox boxOf(const ToothParameters& form) {
+BoundingBox boxOf(const ToothParameters& form) {
   const auto widest = [](const std::vector<ProfileKnot>& knots) {
     double value = 0.0;
     for (const ProfileKnot& knot : knots) value = std::max(value, knot.value);
@@ -137,10 +132,12 @@ LatticeBox boxOf(const ToothParameters& form) {
 
 }  // namespace
 
-ToothShape::ToothShape(const ToothParameters& form)
-    : form_(form),
-      outer_(boxOf(form), kToothLattice_mm, [&form](const glm::dvec3& p) { return outerField_mm(form, p); }),
-      pulp_(boxOf(form), kPulpLattice_mm, [&form](const glm::dvec3& p) { return pulpField_mm(form, p); }) {
+ToothShape::ToothShape(const ToothParameters& parameters)
+    : parameters_(parameters),
+      outer_(boxOf(parameters), kToothLattice_mm,
+             [&parameters](const glm::dvec3& p) { return outerField_mm(parameters, p); }),
+      pulp_(boxOf(parameters), kPulpLattice_mm,
+            [&parameters](const glm::dvec3& p) { return pulpField_mm(parameters, p); }) {
   outer_.redistance();
 }
 
@@ -163,18 +160,8 @@ static const ToothShape& shapeOnce() {
 }
 
 const ToothShape& lowerToothShape(int position) {
-  switch (position) {
-    case 4:
-      return shapeOnce<4>();
-    case 5:
-      return shapeOnce<5>();
-    case 6:
-      return shapeOnce<6>();
-    case 7:
-      return shapeOnce<7>();
-    default:
-      return shapeOnce<8>();
-  }
+  constexpr std::array kShapes{shapeOnce<4>, shapeOnce<5>, shapeOnce<6>, shapeOnce<7>, shapeOnce<8>};
+  return kShapes[static_cast<std::size_t>(position - 4)]();
 }
 
 }  // namespace assets

@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kMarrow_hu = 10.0;
 constexpr double kStrut_hu = 1150.0;
-constexpr double kFieldSlope_per_mm =
-    2.6;  ///< rms gradient of a unit field with wavelengths 1.7-3 mm, one direction and a half
+// Rms gradient in one direction of a unit field with wavelengths 1.7-3 mm, times 1.5.
+constexpr double kFieldSlope_per_mm = 2.6;
 
 }  // namespace
 
@@ -22,7 +22,7 @@ TrabecularTexture::TrabecularTexture(std::uint64_t seed, double blur_mm)
       softness_(kFieldSlope_per_mm * blur_mm) {}
 
 double TrabecularTexture::hounsfield(const glm::dvec3& p_J) const {
-  // Denser and sparser regions; the second field turns plates into rods.
+  // Regions of different density; the second field makes rods of plates.
   const double density = density_.at(p_J);
   const double plate = plate_.at(p_J), rod = rod_.at(p_J);
   const double half_width = 0.64 + 0.11 * density;

@@ -1,8 +1,7 @@
-// Grey values of cancellous bone: a network of plates and rods between marrow spaces, band-limited, not white noise.
-// Frame J, mm; HU as a scanner of the given blur would show them. Immutable; any thread; about 0.5 us a point.
-// Struts 0.2-0.3 mm thick about 0.9 mm apart, bone fraction about a third, mean 420 HU: mandibular micro-CT (Moon 2004;
-// Tb.Th 0.2-0.3 mm, Tb.Sp 0.5-1 mm). Model: level sets of two Gaussian random fields; where one decides the strut is
-// a plate, where both do it is a rod.
+// Grey values of cancellous bone: plates and rods between marrow spaces, band-limited. Frame J, mm; HU as seen by a
+// scanner of the given blur. Immutable; any thread; about 0.5 us a point. Struts 0.2-0.3 mm thick about 0.9 mm apart,
+// bone fraction about 1/3, mean 420 HU: mandibular micro-CT (Moon 2004; Tb.Th 0.2-0.3 mm, Tb.Sp 0.5-1 mm). Level sets
+// of two Gaussian random fields: one alone gives a plate, both together a rod.
 #pragma once
 
 #include <cstdint>

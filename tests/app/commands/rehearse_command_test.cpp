@@ -324,7 +324,7 @@ name = "forssim"'
   const std::string words = read("said");
   EXPECT_EQ(status, 0) << words;
   EXPECT_NE(words.find("[law] name agus -> forssim"), std::string::npos) << words;
-  EXPECT_NE(words.find("line 1: no TOML"), std::string::npos) << words;
+  EXPECT_NE(words.find("line 1: not valid TOML"), std::string::npos) << words;
   EXPECT_NE(words.find("the old values stay"), std::string::npos) << words;
   const ProgramOutput replay = molar("replay " + at("s.molar") + " --verify");
   EXPECT_EQ(replay.status, 0) << replay.out << replay.err;

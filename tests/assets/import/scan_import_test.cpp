@@ -138,7 +138,7 @@ TEST(ScanImport, SaysWhenTheSidesAreNotStated) {
   on_disk::write(folder.at("a.nrrd"),
                  head + "endian: little\nencoding: raw\n\n" + on_disk::bytesOf(std::vector<std::int16_t>(1728, 1000)));
   EXPECT_THAT(importScan(folder.at("a.nrrd"), {}).remarks,
-              testing::Contains(HasSubstr("does not say which side is right; taken as LPS")));
+              testing::Contains(HasSubstr("states no orientation; assumed LPS")));
 }
 
 /// Two teeth, 8 mm high, of which the lower half is dentine.
@@ -182,18 +182,18 @@ TEST(ScanImport, TakesTheToothAskedForAsTheSite) {
   EXPECT_THAT(asked.patient.title, HasSubstr("lower left first molar (36)"));
   EXPECT_THAT(refusalOf(folder.at(""), {.tooth_fdi = 47}), HasSubstr("these are: 36, 38"));
 
-  // No third molar, no question: the view goes to the teeth there are.
+  // Without a third molar the view is centred on the teeth.
   std::ranges::replace(scan.tooth, std::uint8_t{38}, std::uint8_t{37});
   scan.writeTo(folder);
   const auto none = importScan(folder.at(""), {});
   EXPECT_FALSE(none.patient.site);
-  EXPECT_THAT(none.remarks, testing::Contains(HasSubstr("no third molar labelled here; these teeth are: 36, 37")));
+  EXPECT_THAT(none.remarks, testing::Contains(HasSubstr("no third molar is labelled; these teeth are: 36, 37")));
   EXPECT_NEAR(none.patient.focus_P_mm().y, 9.75, 0.3);
 
   scan.tooth[0] = 17;
   scan.tooth[1] = 9;
   scan.writeTo(folder);
-  EXPECT_THAT(refusalOf(folder.at("")), HasSubstr("its value 9 is no FDI number"));
+  EXPECT_THAT(refusalOf(folder.at("")), HasSubstr("its value 9 is not an FDI number"));
 }
 
 /// One tooth, 6 x 6 x 8 mm, enamel above dentine about a pulp; 12 mm in front of it bone, to its left.
@@ -288,9 +288,9 @@ TEST(ScanImport, RefusesLabelsOfAnotherLegend) {
     return refusalOf(folder.at(""));
   };
   EXPECT_THAT(refusalWith([](std::uint8_t l) { return static_cast<std::uint8_t>(l == 0 ? 0 : l + 100); }),
-              HasSubstr("labels.nrrd: its values 101, 104, 105, 106 are none of ours"));
+              HasSubstr("labels.nrrd: unknown label 101, 104, 105, 106; use 1 cortical bone"));
   EXPECT_THAT(refusalWith([](std::uint8_t l) { return static_cast<std::uint8_t>(l == 4 ? 44 : l); }),
-              HasSubstr("labels.nrrd: its value 44 is none of ours"));
+              HasSubstr("labels.nrrd: unknown label 44; use"));
 }
 
 /// Masks half a voxel tight, undivided teeth: the skin is the tooth's own.

@@ -137,7 +137,7 @@ TEST(VdbFile, ChecksWhatItReads) {
               }),
               HasSubstr("not cubes"));
   EXPECT_THAT(refusalWith([](Grids&, Meta& metadata) { metadata.removeMeta("molar_volume_schema"); }),
-              HasSubstr("no volume of this program"));
+              HasSubstr("not a volume of this program"));
   EXPECT_THAT(refusalWith([](Grids&, Meta& metadata) {
                 metadata.removeMeta("molar_volume_schema");
                 metadata.insertMeta("molar_volume_schema", openvdb::Int32Metadata(2));

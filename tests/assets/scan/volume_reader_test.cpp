@@ -102,7 +102,7 @@ TEST(VolumeReader, RefusesWithTheReadersWords) {
   const on_disk::Folder folder;
   on_disk::write(folder.at("v.vdb"), std::string(2000, 'x'));
   EXPECT_THAT(refusalToRead([&] { assets::readVolumeInChild(folder.at("v.vdb")); }),
-              HasSubstr("it can not be read as OpenVDB"));
+              HasSubstr("it cannot be read as OpenVDB"));
 }
 
 TEST(VolumeReader, OutlivesAReaderThatCrashesOrIsCutOff) {

@@ -7,7 +7,7 @@
 namespace assets {
 namespace {
 
-const LatticeBox kBox{{-6.0, -6.0, -6.0}, {6.0, 6.0, 6.0}};
+const BoundingBox kBox{{-6.0, -6.0, -6.0}, {6.0, 6.0, 6.0}};
 
 TEST(DistanceLattice, TurnsAnyFieldIntoDistances) {
   // An ellipsoid's equation is no distance; along its axes the distance is plain to see.

@@ -279,18 +279,5 @@ TEST(SyntheticJaw, NamesTheParameterThatIsOutOfRange) {
       std::string::npos);
 }
 
-TEST(SyntheticLandmarks, LieInTheCrowns) {
-  const JawLandmarks landmarks = syntheticLandmarks({});
-  const CtVolume& ct = standardJaw().ct;
-  EXPECT_EQ(landmarks.lower_teeth.size(), 15u);
-  for (const ToothLandmark& tooth : landmarks.lower_teeth) {
-    if (tooth.fdi < 44) continue;
-    const glm::ivec3 ijk(glm::round(ct.grid.indexFromPoint(tooth.centroid_P_mm)));
-    const std::uint8_t label = ct.label[ct.grid.index(ijk)];
-    EXPECT_TRUE(tooth.fdi == 48 ? isThirdMolar(label) : label == static_cast<std::uint8_t>(Tissue::other_teeth))
-        << tooth.fdi;
-  }
-}
-
 }  // namespace
 }  // namespace assets

@@ -45,7 +45,7 @@ TEST(Scanner, AveragesAThinLigamentInsteadOfLosingIt) {
   // A gap of 0.25 mm between dentine and bone: the grey value dips by the share of the gap in the blurred voxel.
   const TrabecularTexture texture(1, 0.15);
   TissueDistances middle;
-  middle.third_molar = middle.third_molar_core = 0.125;
+  middle.third_molar.outer = middle.third_molar.core = 0.125;
   middle.ligament = -0.125;
   middle.bone = middle.gingiva = -5.0;
   const double edge_mm = edgeSpread_mm(0.25);
@@ -66,7 +66,7 @@ TEST(Scanner, LabelsTheInnermostTissue) {
   EXPECT_EQ(tissueAt(d), Tissue::trabecular);
   d.mandibular_canal = -1.0;
   EXPECT_EQ(tissueAt(d), Tissue::mandibular_canal);
-  d.third_molar = -1.0;
+  d.third_molar.outer = -1.0;
   EXPECT_EQ(tissueAt(d), Tissue::enamel);
 }
 

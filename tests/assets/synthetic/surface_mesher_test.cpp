@@ -6,7 +6,7 @@
 #include <map>
 #include <numbers>
 
-#include "assets/synthetic/distance_shapes.h"
+#include "assets/synthetic/implicit_shape.h"
 
 namespace assets {
 namespace {
