@@ -77,7 +77,7 @@ Unit unitAt(const std::string& address, const CheckOptions& options, haptics::Fa
   haptics::DeviceOptions device;
   device.falcon_program = options.falcon_firmware;
   device.falcon_scale = [&] { return scale = savedFalconScale(options.falcon_scale); };
-  device.tell = printMessage;
+  device.report = printMessage;
   unit.opened = haptics::openDevice(address, device);
   unit.owner = std::make_unique<Owner>();
   return unit;

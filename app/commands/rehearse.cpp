@@ -81,6 +81,8 @@ void chooseRig(RehearsalPlan& plan, const RehearseOptions& options, const assets
     plan.opened = haptics::openDevice(options.plan.device, plan.device_options);
   const DeviceIdentity device =
       deviceIdentity(options.plan.device, plan.opened ? &plan.opened->device->capabilities() : nullptr);
+  if (plan.opened && !plan.opened->device->capabilities().has_orientation)
+    plan.remarks.push_back(device.model + ": it measures no orientation, the handpiece keeps a fixed one");
   const std::optional<ChosenRig> chosen = options.rig.choose(device, calibration::nowUtc());
   plan.rig = rigFor(options, chosen, plan.patient, X_PF);
   plan.full_screen = chosen.has_value();
@@ -108,10 +110,10 @@ void refuseUnlessSteppable(const RehearseOptions& options) {
   const PoseSourceKind* const hand = poseSourceKindOf(options.plan.device);
   if (!hand || !hand->simulated)
     throw UsageError("--pace fast: " + options.plan.device +
-                     " is no hand in numbers, choose --device scripted, simulated, practice, replay or poses");
+                     " is not simulated, choose --device scripted, simulated, practice, replay or poses");
   if (!options.plan.second_hand.device.empty() && haptics::isDeviceAddress(options.plan.second_hand.device))
     throw UsageError("--pace fast: --second-hand " + options.plan.second_hand.device +
-                     " is no hand in numbers, choose scripted or replay:SESSION");
+                     " is not simulated, choose scripted or replay:SESSION");
   if (options.plan.instructor_window)
     throw UsageError("--pace fast: a window has the clock's time, leave --instructor out");
   if (options.pedal != "auto" && options.pedal != "none")
@@ -164,7 +166,7 @@ int run(RehearseOptions& options) {
   refuseUnlessSecondHand(plan.second_hand, plan.device);
   plan.device_options.falcon_program = options.falcon_firmware;
   plan.device_options.falcon_scale = [] { return savedFalconScale(defaultFalconScaleFile()); };
-  plan.device_options.tell = printMessage;
+  plan.device_options.report = printMessage;
   plan.display = options.display.mode();
   plan.eyes_swapped = options.display.swapped();
   plan.backend = options.picture.backend();
@@ -240,7 +242,7 @@ void addRehearse(CommandLine& molar) {
       .showsDefault();
   command
       .option("--pace", o->pace,
-              "real, by the clock; fast, a hand in numbers without a window as fast as the machine can")
+              "real, by the clock; fast, a simulated hand without a window, as fast as the machine can")
       .oneOf({"real", "fast"})
       .showsDefault();
   command.option("--seconds", o->plan.seconds, "End after this time").from(0.1, 86400.0);

@@ -37,7 +37,7 @@ std::string here(const DeviceCatalogue& catalogue, const TerminalFormat& look) {
   std::string text;
   for (const FoundDevice& one : catalogue.devices) {
     text += fmt::format("  {:{}}  ", one.address, longest);
-    text += wrappedText(one.name + ", " + one.place + ", by " + one.driver, indent, look.width) + "\n";
+    text += wrappedText(one.name + ", " + one.location + ", by " + one.driver, indent, look.width) + "\n";
     if (!one.advice.empty())
       text += std::string(indent, ' ') + "→ " + wrappedText(one.advice, indent + 2, look.width) + "\n";
   }
@@ -86,7 +86,7 @@ std::string asJson(const DeviceCatalogue& catalogue) {
   for (const FoundDevice& one : catalogue.devices)
     devices.push_back({{"name", one.name},
                        {"address", one.address},
-                       {"place", one.place},
+                       {"place", one.location},
                        {"provenance", nameOf(one.provenance)},
                        {"driver", one.driver},
                        {"next_step", one.advice}});

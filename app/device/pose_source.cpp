@@ -11,15 +11,14 @@ using calibration::Pose;
 using calibration::Tool;
 using calibration::World;
 
-PoseSource deviceAtWork(OpenedDevice opened, const calibration::Rig& rig) {
-  PoseSource hand;
-  hand.library = std::move(opened.library);
-  hand.device = std::move(opened.device);
-  if (hand.library)
-    standAsMeasured(hand, rig);
-  else
-    hand.X_PD = rig.X_WP.inverse() * rig.X_WD;
-  return hand;
+PoseSource realDevice(OpenedDevice opened, const calibration::Rig& rig) {
+  PoseSource source;
+  source.library = std::move(opened.library);
+  source.device = std::move(opened.device);
+  source.X_PD = rig.X_WP.inverse() * rig.X_WD;
+  if (source.library) standAsMeasured(source, rig);
+  if (!source.device->capabilities().has_orientation) fixOrientation(source, rig, restingTool().rotation);
+  return source;
 }
 
 }  // namespace
@@ -28,10 +27,29 @@ glm::dvec3 shaftDirection_W() { return glm::normalize(glm::dvec3(0.12, -0.38, 0.
 
 Pose<World, Tool> restingTool() { return {glm::dquat(glm::dvec3(0, 0, 1), shaftDirection_W()), {0.0, 6.0, 12.0}}; }
 
-void standAsMeasured(PoseSource& hand, const calibration::Rig& rig) {
-  hand.X_PD = rig.X_WP.inverse() * rig.X_WD;
-  hand.arm = calibration::measuredArm(rig);
-  hand.X_HT.translation_mm = hand.arm ? hand.arm->correction.tip_H_mm : calibration::kNominalTip_H_mm;
+void standAsMeasured(PoseSource& source, const calibration::Rig& rig) {
+  source.X_PD = rig.X_WP.inverse() * rig.X_WD;
+  source.arm = calibration::measuredArm(rig);
+  source.X_HT.translation_mm = source.arm ? source.arm->correction.tip_H_mm : calibration::kNominalTip_H_mm;
+}
+
+void fixOrientation(PoseSource& source, const calibration::Rig& rig, const glm::dquat& R_WT) {
+  // Such a device reports R_DH = 1, and an offset of the tip would depend on a rotation that is not known.
+  source.X_HT = {glm::conjugate(rig.X_WD.rotation) * R_WT, glm::dvec3(0.0)};
+}
+
+PoseSource openMouse(const std::string&, const PoseSourceContext& at) {
+  PoseSource source;
+  const auto X_WT = restingTool();
+  auto mouse =
+      std::make_unique<haptics::MouseDevice>(haptics::MouseTarget{{X_WT.rotation, X_WT.translation_mm}, false});
+  source.mouse = mouse.get();
+  source.device = std::move(mouse);
+  source.name = "mouse";
+  // The mouse's frame D is W.
+  const auto X_PW = at.rig.X_WP.inverse();
+  source.X_PD = {X_PW.rotation, X_PW.translation_mm};
+  return source;
 }
 
 PoseSource openPoseSource(const std::string& address, const DeviceOptions& options, const assets::Patient& patient,
@@ -39,11 +57,11 @@ PoseSource openPoseSource(const std::string& address, const DeviceOptions& optio
                           std::optional<OpenedDevice> opened) {
   refuseUnlessPoseSource(address);
   const PoseSourceKind* const kind = poseSourceKindOf(address);
-  PoseSource hand = kind     ? kind->begin(restOf(address), {patient, rig, cut})
-                    : opened ? deviceAtWork(std::move(*opened), rig)
-                             : deviceAtWork(haptics::openDevice(address, options), rig);
-  if (hand.name.empty()) hand.name = hand.device->capabilities().model;
-  return hand;
+  PoseSource source = kind     ? kind->open(haptics::addressRest(address), {patient, rig, cut})
+                      : opened ? realDevice(std::move(*opened), rig)
+                               : realDevice(haptics::openDevice(address, options), rig);
+  if (source.name.empty()) source.name = source.device->capabilities().model;
+  return source;
 }
 
 }  // namespace app

@@ -18,43 +18,38 @@ bool isPractice(const std::string& rest) {
   return practiceRig(rest.empty() ? "practice" : "practice:" + rest).has_value();
 }
 
-constexpr std::array<PoseSourceKind, 6> kHands = {{
+constexpr std::array<PoseSourceKind, 6> kSources = {{
     {"mouse", "", false, false, false, isNothing, openMouse},
     {"scripted", "", true, false, true, isNothing, openScript},
-    {"simulated", "[:omni|touch|desktop|premium], the script holding a Phantom in numbers", true, false, true, isModel,
+    {"simulated", "[:omni|touch|desktop|premium], the script with a simulated Phantom", true, false, true, isModel,
      openSimulated},
-    {"practice", ":SCENARIO[:SEED], the same with an Omni as untrue as real ones, A to G", true, false, true,
+    {"practice", ":SCENARIO[:SEED], the same with an Omni that has the errors of a real one, A to G", true, false, true,
      isPractice, openPractice},
-    {"replay", ":SESSION, a recorded hand", true, true, false, isSomething, openReplay},
-    {"poses", ":FILE, a hand exactly where a pose CSV has it, that asks for its tools and actions", true, false, false,
-     isSomething, openPoses},
+    {"replay", ":SESSION, a recorded session", true, true, false, isSomething, openReplay},
+    {"poses", ":FILE, the poses of a CSV file exactly, with its tools and actions", true, false, false, isSomething,
+     openPoses},
 }};
 
 }  // namespace
 
-std::span<const PoseSourceKind> poseSourceKinds() { return kHands; }
-
-std::string restOf(const std::string& address) {
-  const std::size_t colon = address.find(':');
-  return colon == std::string::npos ? std::string() : address.substr(colon + 1);
-}
+std::span<const PoseSourceKind> poseSourceKinds() { return kSources; }
 
 const PoseSourceKind* poseSourceKindOf(const std::string& address) {
-  const auto kind = std::ranges::find(kHands, address.substr(0, address.find(':')), &PoseSourceKind::scheme);
-  if (kind == kHands.end() || address.ends_with(':')) return nullptr;
-  return kind->takes(restOf(address)) ? &*kind : nullptr;
+  const auto kind = std::ranges::find(kSources, address.substr(0, address.find(':')), &PoseSourceKind::scheme);
+  if (kind == kSources.end() || address.ends_with(':')) return nullptr;
+  return kind->accepts(haptics::addressRest(address)) ? &*kind : nullptr;
 }
 
 void refuseUnlessPoseSource(const std::string& address) {
   if (!poseSourceKindOf(address) && !haptics::isDeviceAddress(address))
-    throw UsageError("--device " + address + ": there is no such hand, see molar rehearse --help and molar devices");
+    throw UsageError("--device " + address + ": there is no such device, see molar rehearse --help and molar devices");
 }
 
 std::string poseSourceHelp() {
-  std::string help = "Hand: ";
-  for (const PoseSourceKind& kind : kHands) help += std::string(kind.scheme) + std::string(kind.help) + "; ";
+  std::string help = "Device or simulation: ";
+  for (const PoseSourceKind& kind : kSources) help += std::string(kind.scheme) + std::string(kind.help) + "; ";
   for (const haptics::DeviceKind& kind : haptics::deviceKinds())
-    if (kind.open) help += std::string(kind.key) + std::string(kind.place) + ", ";
+    if (kind.open) help += std::string(kind.key) + std::string(kind.suffix) + ", ";
   return help + "usb: see molar devices";
 }
 

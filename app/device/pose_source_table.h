@@ -1,6 +1,6 @@
-// The hands that need no hardware, one line each: the address, what it is, what it can serve, how it begins. Real
-// devices have theirs in haptics/device/device_catalogue. A new hand is a file, its name in hands.h and a line here.
-// Plain data; any thread.
+// The pose sources without hardware, one table line each: address, help, properties, how it is opened. Real devices
+// have theirs in haptics/device/device_catalogue. A new source is a file, its function in pose_sources.h and a line
+// here. Plain data; any thread.
 #pragma once
 
 #include <span>
@@ -12,25 +12,22 @@
 namespace app {
 
 struct PoseSourceKind {
-  std::string_view scheme;                 ///< of its address, up to the colon
-  std::string_view help;                   ///< how the address goes on, and what it is
-  bool simulated;                          ///< it works by itself: no window, no clock of its own
-  bool holds_any_tool;                     ///< as the other hand too
-  bool follows_plan;                       ///< it takes the cut that is planned
-  bool (*takes)(const std::string& rest);  ///< whether an address may go on so; may throw UsageError to say more
-  PoseSource (*begin)(const std::string& rest, const PoseSourceContext& at);
+  std::string_view scheme;                   ///< of its address, up to the colon
+  std::string_view help;                     ///< how the address continues, and what it is
+  bool simulated;                            ///< moves by itself: needs no window, and can be stepped without a clock
+  bool holds_any_tool;                       ///< also as the second hand
+  bool follows_plan;                         ///< cuts the planned cut
+  bool (*accepts)(const std::string& rest);  ///< the rest of an address; may throw UsageError to say more
+  PoseSource (*open)(const std::string& rest, const PoseSourceContext& at);
 };
 
 std::span<const PoseSourceKind> poseSourceKinds();
-/// Of this address; null for what is none, a real device too. Throws UsageError for one that goes on wrongly and says
-/// how.
+/// Null for any other address, also a real device's. Throws UsageError where the scheme is right and the rest is wrong.
 const PoseSourceKind* poseSourceKindOf(const std::string& address);
-/// Behind the scheme and its colon.
-std::string restOf(const std::string& address);
-
-/// Throws UsageError for what is neither a hand nor the address of a device.
+/// Throws UsageError for what is neither a pose source nor the address of a device.
 void refuseUnlessPoseSource(const std::string& address);
-/// The line of `--device`: every hand and every device.
+
+/// Help text of `--device`: every pose source and every device.
 std::string poseSourceHelp();
 
 }  // namespace app

@@ -29,7 +29,7 @@ PoseSource openPoses(const std::string& path, const PoseSourceContext&) {
     // The device's frame is the patient's, handle and tool are one.
     holds.push_back({pose.t_s, {pose.X_PT.rotation, pose.X_PT.translation_mm}, pose.drill});
     if (!pose.tool.empty() || !pose.action.empty())
-      hand.asks.push_back({pose.t_s, pose.tool, pose.action, lineOf(path, pose)});
+      hand.requests.push_back({pose.t_s, pose.tool, pose.action, lineOf(path, pose)});
   }
   auto posed = std::make_unique<haptics::PoseListDevice>(std::move(holds));
   hand.duration_s = posed->duration_s() + kLastTick_s;

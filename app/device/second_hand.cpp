@@ -10,13 +10,12 @@
 #include "assets/instrument/retractor.h"
 #include "assets/tooth.h"
 #include "haptics/device/device_catalogue.h"
-#include "haptics/device/simulated/fixed_device.h"
+#include "haptics/device/simulated/pose_list_device.h"
 
 namespace app {
 namespace {
 
 using calibration::Device;
-using calibration::Handle;
 using calibration::OtherTool;
 using calibration::Patient;
 using calibration::Pose;
@@ -56,13 +55,16 @@ PoseSource deviceOf(const SecondHandPlan& plan, const DeviceOptions& options, co
     calibration::Rig others = rig;
     others.device.reset(), others.arm.reset();  // they are of the first
     others.X_WD = rig.second_X_WD.value_or(Pose<World, Device>{{1.0, 0.0, 0.0, 0.0}, hold.translation_mm});
-    return openPoseSource(plan.device, options, patient, others, {});
+    PoseSource source = openPoseSource(plan.device, options, patient, others, {});
+    if (!source.device->capabilities().has_orientation) fixOrientation(source, others, hold.rotation);
+    return source;
   }
   const Pose<Patient, OtherTool> X_PO = rig.X_WP.inverse() * hold;
-  PoseSource hand;
-  hand.device = std::make_unique<haptics::FixedDevice>(Pose<Device, Handle>{X_PO.rotation, X_PO.translation_mm});
-  hand.name = hand.device->capabilities().model;
-  return hand;
+  PoseSource source;
+  source.device = std::make_unique<haptics::PoseListDevice>(
+      std::vector<haptics::TimedHandlePose>{{0.0, {X_PO.rotation, X_PO.translation_mm}}});
+  source.name = "scripted still hand";
+  return source;
 }
 
 }  // namespace

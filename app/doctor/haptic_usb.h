@@ -1,29 +1,30 @@
-// The haptic units on the USB as the system lists them, and the nodes a driver would open. Looks, opens nothing.
-// Identities: reference/devices 1, 3. Also the rules by which the person at the machine may use them.
+// The haptic units that sysfs lists on the USB, and the device nodes that a driver would open. Opens nothing. Also the
+// udev rules that let the person at the machine use them.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "app/doctor/machine.h"
+#include "haptics/device/usb/known_devices.h"
 
 namespace app {
 
-enum class UnitMaker { systems_3d, wooden_haptics, falcon };
-
 struct HapticUnit {
-  UnitMaker maker = UnitMaker::systems_3d;
+  haptics::KnownDevice kind = haptics::KnownDevice::touch_of_another_kind;
   std::string name;                          ///< "Novint Falcon (0403:cb48)"
   std::vector<std::filesystem::path> nodes;  ///< in /dev: the bus's own, ttyACM*, hidraw*
   bool is_serial = false;                    ///< has a ttyACM
+
+  bool isTouch() const { return haptics::isClosed(kind); }
 };
 
+/// Force Dimension's are left out: Molar has no way to drive them.
 std::vector<HapticUnit> hapticUnits(const Machine& machine);
 
-/// For /etc/udev/rules.d: whoever sits at the machine may use every unit Molar knows, and no modem program opens one.
+/// For /etc/udev/rules.d: the person at the machine may use every unit that Molar drives, and ModemManager opens none.
 std::string udevRules();
-
-/// The file that `udevRules` belongs into.
+/// The file that they belong in.
 inline constexpr const char* kUdevRulesFile = "/etc/udev/rules.d/70-molar.rules";
 
 }  // namespace app

@@ -23,7 +23,7 @@ class Equipment {
   /// Of a pose source with an end.
   std::optional<double> duration_s() const { return source_.duration_s; }
   /// Of a scripted pose source.
-  const std::vector<TimedRequest>& scriptedRequests() const { return source_.asks; }
+  const std::vector<TimedRequest>& scriptedRequests() const { return source_.requests; }
   double damping_Ns_per_mm() const { return damping_Ns_per_mm_; }
   /// Null unless the mouse is the pose source.
   haptics::MouseDevice* mouse() { return source_.mouse; }

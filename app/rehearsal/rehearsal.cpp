@@ -154,7 +154,7 @@ class Rehearsal {
 
 int rehearse(RehearsalPlan plan) {
   installInterruptHandlers();
-  plan.device_options.given_up = [] { return isInterrupted(); };
+  plan.device_options.is_cancelled = [] { return isInterrupted(); };
   return Rehearsal(std::move(plan)).run();
 }
 

@@ -1,6 +1,5 @@
-// When the ticks of a device are due: deadlines a period apart, and what of them was missed. After a long pre-emption
-// one tick happens and the next deadline of the old grid is taken. ns of whichever clock the times are of. Pure; any
-// one thread; a few flops.
+// The deadlines of a paced device, one period apart, and how many of them were missed. After a long pre-emption one
+// tick happens, and the next deadline of the old grid is taken. ns of the caller's clock. One thread; a few flops.
 #pragma once
 
 #include <algorithm>
@@ -18,8 +17,8 @@ class DeadlineGrid {
 
   std::int64_t next_ns() const { return deadline_ns_; }
 
-  /// How punctual the tick is that begins now. Early: the grid moves here, a period from now the next is due.
-  TickTiming woke(std::int64_t now_ns) {
+  /// Timing of the tick that begins now. Early: the grid moves, the next tick is due a period from now.
+  TickTiming beginTick(std::int64_t now_ns) {
     TickTiming timing;
     timing.late_us = std::max(0.0, 1e-3 * static_cast<double>(now_ns - deadline_ns_));
     timing.missed = missed_;
@@ -27,8 +26,8 @@ class DeadlineGrid {
     return timing;
   }
 
-  /// It is over: the next deadline that still lies ahead.
-  void ticked(std::int64_t now_ns) {
+  /// The tick is over: takes the next deadline that still lies ahead.
+  void endTick(std::int64_t now_ns) {
     deadline_ns_ += period_ns_;
     const std::int64_t behind_ns = now_ns - deadline_ns_;
     missed_ = behind_ns > 0 ? static_cast<std::uint64_t>(behind_ns / period_ns_ + 1) : 0;

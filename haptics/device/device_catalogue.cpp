@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 #include "haptics/device/openhaptics/find_open_haptics.h"
 #include "haptics/device/pedal/found_pedal.h"
 #include "haptics/device/simulated/phantom_mechanics.h"
-#include "haptics/device/usb/falcon.h"
 #include "haptics/device/usb/known_devices.h"
 #include "haptics/device/usb/wooden_haptics.h"
 
@@ -15,35 +15,24 @@ namespace {
 
 std::vector<FoundDevice> findSimulated() {
   std::vector<FoundDevice> found;
-  for (const PhantomMechanics& one : simulatedPhantoms()) {
-    FoundDevice simulated;
-    simulated.name = "simulated " + std::string(one.name);
-    simulated.address = "simulated:" + std::string(one.key);
-    simulated.place = "in numbers";
-    simulated.provenance = Provenance::simulated;
-    simulated.driver = "Molar";
-    found.push_back(simulated);
-  }
+  for (const PhantomMechanics& one : simulatedPhantoms())
+    found.push_back({"simulated " + std::string(one.name), "simulated:" + std::string(one.key), "simulated",
+                     Provenance::simulated, "Molar", ""});
   return found;
 }
 
 std::vector<FoundDevice> findFeet() {
   std::vector<FoundDevice> found;
-  for (const FoundPedal& one : findPedals()) {
-    FoundDevice pedal;
-    pedal.name = one.traits.name;
-    pedal.place = one.path.string();
-    pedal.driver = "libevdev";
-    pedal.address = "pedal:" + one.path.string();
-    if (!one.may_be_read) pedal.advice = "install the udev rule that `molar doctor --udev-rules` prints and replug it";
-    found.push_back(pedal);
-  }
+  for (const FoundPedal& one : findPedals())
+    found.push_back(
+        {one.traits.name, "pedal:" + one.path.string(), one.path.string(), Provenance::public_protocol, "libevdev",
+         one.may_be_read ? "" : "install the udev rule that `molar doctor --udev-rules` prints and replug it"});
   return found;
 }
 
 std::vector<FoundDevice> findPhantoms() { return findOpenHaptics(); }
 
-bool isWooden(const std::string& place) { return woodenAddressed("wooden:" + place).has_value(); }
+bool isWooden(const std::string& rest) { return woodenAddressed("wooden:" + rest).has_value(); }
 
 constexpr std::array<DeviceKind, 6> kKinds = {{
     {"openhaptics", "[:NAME]", "Phantom, Touch, Touch X by SensAble and 3D Systems", "OpenHaptics, the maker's library",
@@ -54,23 +43,16 @@ constexpr std::array<DeviceKind, 6> kKinds = {{
      findFalcon, openFalcon},
     {"pedal", ":PATH", "foot switches, joysticks, gamepads", "libevdev", "simulated devices behind the real libevdev",
      Bus::input, false, findFeet},
-    {"simulated", "[:MODEL]", "Phantom Omni, Touch, Desktop, Premium 1.5 in numbers", "Molar",
-     "their published numbers", Bus::none, false, findSimulated},
-    {"mouse", "", "the mouse, a place without force", "the window", "itself"},
+    {"simulated", "[:MODEL]", "simulated Phantom Omni, Touch, Desktop, Premium 1.5", "Molar", "their published data",
+     Bus::none, false, findSimulated},
+    {"mouse", "", "the mouse, a position without force", "the window", "itself"},
 }};
 
 constexpr std::string_view kFirstOnTheUsb = "usb";
 
-/// Behind the scheme and its colon.
-std::string placeIn(const std::string& address) {
-  const std::size_t colon = address.find(':');
-  return colon == std::string::npos ? std::string() : address.substr(colon + 1);
-}
-
 const DeviceKind* openedKindOf(const std::string& address) {
-  const std::string scheme = address.substr(0, address.find(':'));
-  const auto kind = std::ranges::find(kKinds, scheme, &DeviceKind::key);
-  if (kind == kKinds.end() || !kind->open || (kind->takes && !kind->takes(placeIn(address)))) return nullptr;
+  const auto kind = std::ranges::find(kKinds, address.substr(0, address.find(':')), &DeviceKind::key);
+  if (kind == kKinds.end() || !kind->open || (kind->accepts && !kind->accepts(addressRest(address)))) return nullptr;
   return &*kind;
 }
 
@@ -91,28 +73,33 @@ DeviceCatalogue findDevices() {
   DeviceCatalogue catalogue;
   const auto add = [&](std::vector<FoundDevice> (*find)()) {
     try {
-      for (FoundDevice& device : find()) catalogue.devices.push_back(std::move(device));
+      std::ranges::move(find(), std::back_inserter(catalogue.devices));
     } catch (const DeviceError& error) {
       catalogue.troubles.push_back(error);
     }
   };
-  add(findPresent);  // those that another driver than Molar's would drive
+  add(findClosed);
   for (const DeviceKind& kind : kKinds)
     if (kind.find) add(kind.find);
   return catalogue;
+}
+
+std::string addressRest(const std::string& address) {
+  const std::size_t colon = address.find(':');
+  return colon == std::string::npos ? std::string() : address.substr(colon + 1);
 }
 
 bool isDeviceAddress(const std::string& address) {
   return address == kFirstOnTheUsb || openedKindOf(address) != nullptr;
 }
 
-OpenedDevice openDevice(const std::string& asked, const DeviceOptions& options) {
-  const std::string address = asked == kFirstOnTheUsb ? firstOnTheUsb() : asked;
+OpenedDevice openDevice(const std::string& requested, const DeviceOptions& options) {
+  const std::string address = requested == kFirstOnTheUsb ? firstOnTheUsb() : requested;
   const DeviceKind* const kind = openedKindOf(address);
   if (!kind)
-    throw DeviceError("--device " + asked +
+    throw DeviceError("--device " + requested +
                       ": it is not the address of a device, see molar devices for those that are there");
-  OpenedDevice opened = kind->open(placeIn(address), options);
+  OpenedDevice opened = kind->open(addressRest(address), options);
   opened.address = address;
   return opened;
 }

@@ -1,7 +1,6 @@
-// Every device there is for a hand, a line each: its address, what drives it and what it was proved against, how it is
-// found and how it is opened. A new back-end is a folder, its open… in opened_device and a line here. Searches open no
-// device; they read files, ask libusb, and load the vendor's library to see whether it could be used. Any thread but
-// the servo's.
+// Every kind of device, one table line each: its address, its driver and what that was tested against, how it is found
+// and opened. A new back-end is a folder, its `open…` in opened_device.h and a line here. A search opens no device: it
+// reads files, asks libusb, and loads the vendor's library to see whether it can be used. Any thread but the servo's.
 #pragma once
 
 #include <span>
@@ -17,17 +16,17 @@ namespace haptics {
 enum class Bus : std::uint8_t { none, library, usb, input };
 
 struct DeviceKind {
-  std::string_view key;        ///< the address begins with it …
-  std::string_view place;      ///< … and may go on so, as help has it: "[:BUS-PORT]"
-  std::string_view name;       ///< for people
-  std::string_view driver;     ///< what drives it
-  std::string_view proof;      ///< what it was run against
-  Bus bus = Bus::none;         ///< none: there are no units of it in the world
-  bool ran_on_a_unit = false;  ///< one was driven by this program
+  std::string_view key;     ///< the address begins with it …
+  std::string_view suffix;  ///< … and may continue so, as the help shows it: "[:BUS-PORT]"
+  std::string_view name;
+  std::string_view driver;
+  std::string_view proof;      ///< what the driver was tested against
+  Bus bus = Bus::none;         ///< none: no hardware
+  bool ran_on_a_unit = false;  ///< this program has driven a real unit
   std::vector<FoundDevice> (*find)() = nullptr;
-  OpenedDevice (*open)(const std::string& place,
+  OpenedDevice (*open)(const std::string& rest,
                        const DeviceOptions& options) = nullptr;  ///< null: no device with motors
-  bool (*takes)(const std::string& place) = nullptr;             ///< whether an address may go on so; null: any way
+  bool (*accepts)(const std::string& rest) = nullptr;            ///< the rest of an address; null: any
 
   bool isHardware() const { return bus != Bus::none; }
 };
@@ -41,9 +40,12 @@ struct DeviceCatalogue {
 
 DeviceCatalogue findDevices();
 
-/// An address that `openDevice` takes: of a kind that is opened, or "usb", the first of these on the USB.
+/// What follows the first colon of an address.
+std::string addressRest(const std::string& address);
+
+/// Whether `openDevice` takes this address: of a kind that can be opened, or "usb", the first device on the USB.
 bool isDeviceAddress(const std::string& address);
-/// Throws DeviceError when it can not be had, for what is no such address too.
+/// Throws DeviceError when it cannot be opened, or for any other address.
 OpenedDevice openDevice(const std::string& address, const DeviceOptions& options);
 
 }  // namespace haptics

@@ -1,5 +1,4 @@
-// Why a device can not be had or served: a line for people, and its kind for programs. The line says what, where and
-// what to do; nobody reads it to find the kind.
+// Why a device cannot be opened or served: a line for people (what, where, what to do) and its kind for programs.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +10,12 @@ namespace haptics {
 enum class DeviceTrouble : std::uint8_t {
   not_there,     ///< no such device is plugged in, or it has gone again
   no_rights,     ///< this user may not open it
-  no_driver,     ///< what drives it is missing, incomplete or too old: library, firmware
-  busy,          ///< another program or another part of this one has it
-  not_ready,     ///< its owner has not homed it, or has given up
-  faulty,        ///< it does not answer as it should
-  no_resources,  ///< the system has no memory, descriptor or service left
-  bad_setting    ///< a rate, pose, mapping or number with which it can not be served
+  no_driver,     ///< its library or firmware is missing, incomplete or too old
+  busy,          ///< another program, or another part of this one, uses it
+  not_ready,     ///< not homed, or cancelled
+  faulty,        ///< wrong or missing answers
+  no_resources,  ///< the system is out of memory, descriptors or services
+  bad_setting    ///< a rate, pose, mapping or parameter out of range
 };
 
 struct DeviceError : std::runtime_error {

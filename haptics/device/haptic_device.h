@@ -1,7 +1,7 @@
-// A hand and its motors behind one interface: handle states out, motor commands in. The device drives: from start() to
-// stop() it calls its DeviceServo once a tick from one thread of its own. A device knows nothing of bone or servo.
-// Frame D, mm, N, rad. Construction may throw DeviceError; a constructed device is usable. start(), stop(): one thread.
-// motorsOff(): any thread, at any time, also beside a hanging servo. Facts of real devices: reference/devices.
+// A haptic device behind one interface: handle states out, motor commands in. The device drives: from start() to stop()
+// it calls its DeviceServo once a tick, on one thread of its own. It includes neither bone nor servo. Frame D, mm, N,
+// rad. Construction may throw DeviceError; a constructed device is usable. start(), stop(): one thread. motorsOff():
+// any thread, at any time, also while the servo hangs. Facts of real devices: reference/devices.
 #pragma once
 
 #include <cstdint>
@@ -15,23 +15,23 @@
 
 namespace haptics {
 
-/// What a device measures, once a tick.
+/// One measurement, once a tick.
 struct HandleState {
   calibration::Pose<calibration::Device, calibration::Handle> X_DH;
   calibration::Vector<calibration::Device> velocity_D_mm_per_s;
-  /// dx = J dq of the motor-driven joints, mm/rad, columns as joints; their torque is J^T F. Zero where not known.
+  /// dx = J dq of the motor-driven joints, mm/rad, columns as joints; their torque is J^T F. Zero: not known.
   glm::dmat3 jacobian_D_mm{0.0};
-  /// What the sensors of a Phantom's arm and gimbal read, before any model: what a calibration corrects.
+  /// Raw sensor angles of a Phantom's arm and gimbal; a calibration corrects them.
   calibration::RawJoints joints_rad{};
-  bool has_joints = false;    ///< false: the device has none, or does not tell them all
-  std::uint32_t buttons = 0;  ///< bit 0: the first
-  bool pedal = false;         ///< a pedal, or what stands for one on the device
-  bool fresh = true;          ///< measured since the last tick
+  bool has_joints = false;    ///< all six are measured
+  std::uint32_t buttons = 0;  ///< bit 0: the first button
+  bool pedal = false;         ///< a pedal, or the button that replaces it
+  bool fresh = true;          ///< new since the last tick
   bool docked = false;        ///< in its inkwell
-  bool held = true;           ///< the deadman feels a hand; true where there is none
-  bool calibrated = true;     ///< the pose can be believed
-  bool healthy = true;        ///< false: the device reports trouble, or is gone
-  double motor_heat = 0.0;    ///< of the warmest motor, 0 cold to 1 as warm as allowed
+  bool held = true;           ///< the deadman senses a hand; true without a deadman
+  bool calibrated = true;     ///< the pose is valid
+  bool healthy = true;        ///< false: the device reports a fault, or is gone
+  double motor_heat = 0.0;    ///< warmest motor, 0 cold to 1 the limit
 };
 
 enum class Provenance : std::uint8_t { simulated, replay, public_protocol, vendor_library };
@@ -40,35 +40,36 @@ struct WorkspaceBox {
   glm::dvec3 min_D_mm{-1e3}, max_D_mm{1e3};
 };
 
-/// Defaults: a Touch-class device in a light grip (reference/devices 4.3, physics 2.5), simulated and without motors.
+/// Defaults: a Touch-class device in a light grip (reference/devices 4.3, physics 2.5), simulated, without motors.
 struct DeviceCapabilities {
   std::string model = "simulated", serial;
-  std::string arm_model;  ///< key of calibration/arm/phantom_models; empty: no arm whose model is known
+  std::string arm_model;  ///< key of calibration/arm/phantom_models; empty: no known arm
   Provenance provenance = Provenance::simulated;
-  bool has_motors = false;  ///< somebody can be pushed: the hand must be armed first (safety/readiness)
-  bool has_orientation = true, has_inkwell = false, has_deadman = false;
-  bool force_is_calibrated = true;  ///< false: its newtons are a guess until a scale has weighed them
+  bool has_motors = false;      ///< can exert force: has to be armed first (haptics/safety)
+  bool has_orientation = true;  ///< false: X_DH never rotates, the rehearsal keeps the tool at a fixed orientation
+  bool has_inkwell = false, has_deadman = false;
+  bool force_is_calibrated = true;  ///< false: the force scale has not been measured
   double peak_force_N = 3.3, continuous_force_N = 0.88;
-  double peak_torque_Nmm = 0.0;           ///< about the handle; 0: the device has none
+  double peak_torque_Nmm = 0.0;           ///< about the handle; 0: none
   glm::dvec3 peak_joint_torque_Nmm{0.0};  ///< of the motor-driven joints; 0: not known
-  double max_stiffness_N_per_mm = 20.0;   ///< that its maker or users recommend
-  double max_damping_Ns_per_mm = 0.005;   ///< the same
-  double damping_Ns_per_mm = 0.002;       ///< physical, of device and hand: takes the energy that sampling leaks
+  double max_stiffness_N_per_mm = 20.0;   ///< recommended by its maker or users
+  double max_damping_Ns_per_mm = 0.005;   ///< likewise
+  double damping_Ns_per_mm = 0.002;       ///< physical, of device and hand; absorbs the energy that sampling adds
   double min_rate_Hz = 500.0, max_rate_Hz = 10'000.0;
   WorkspaceBox workspace;
 
   bool hasTorque() const { return peak_torque_Nmm > 0.0; }
 };
 
-/// How punctual a tick is.
+/// When a tick happened.
 struct TickTiming {
-  double late_us = 0.0;      ///< from when it was due to when the device's thread woke
-  std::uint64_t missed = 0;  ///< ticks that were due since the last one and did not happen
-  std::int64_t at_ns = 0;    ///< when the state was sensed, by the clock that the ticks go by
-  double gap_s = 0.0;        ///< since the tick before, where that is late; the loop's
+  double late_us = 0.0;      ///< from its deadline to the wake-up of the device's thread
+  std::uint64_t missed = 0;  ///< deadlines without a tick since the last one
+  std::int64_t at_ns = 0;    ///< when the state was sensed, by the clock of the ticks
+  double gap_s = 0.0;        ///< since the tick before, if that was late; set by the loop
 };
 
-/// Whom a device serves. Called from the device's own thread only; must not allocate, lock, block or throw.
+/// What a device calls, on its own thread only; must not allocate, lock, block or throw.
 class DeviceServo {
  public:
   virtual ~DeviceServo() = default;
@@ -81,20 +82,19 @@ class HapticDevice {
  public:
   virtual ~HapticDevice() = default;
   virtual const DeviceCapabilities& capabilities() const = 0;
-  /// Begins to tick at `rate_Hz`, motors off until a command says otherwise. Once in its life. Throws DeviceError when
-  /// the device has gone or can not be served at this rate.
+  /// Begins to tick at `rate_Hz`, motors off until a command with motors on. Once only. Throws DeviceError when the
+  /// device is gone or does not support this rate.
   virtual void start(DeviceServo& servo, double rate_Hz) = 0;
-  /// No call of the servo after it; the last thing the motors were told is no force, then off. Also after a start that
-  /// threw, and twice.
+  /// No call of the servo after it; the last command to the motors is zero force, then off. Allowed after a start that
+  /// threw, and repeatedly.
   virtual void stop() noexcept = 0;
-  /// Motors off at once, the ticks go on. A command made before is not obeyed any more, one of a later tick is. Must
-  /// not wait for the servo.
+  /// Motors off at once, the ticks go on. A command made before is dropped, one of a later tick is executed. Must not
+  /// wait for the servo.
   virtual void motorsOff() noexcept = 0;
 
-  /// What is wrong with the device, or what a person has to do now, in one sentence; empty: all is well. Any thread but
-  /// the device's.
+  /// What is wrong, or what the user has to do now, in one sentence; empty: nothing. Any thread but the device's.
   virtual std::string trouble() const { return {}; }
-  /// The handle stands at its home or reset position now; for devices that must be told. Any thread.
+  /// The handle is at its home or reset position now, for devices that are homed so. Any thread.
   virtual void setHome() noexcept {}
 };
 

@@ -1,7 +1,10 @@
-// Now, in nanoseconds of CLOCK_MONOTONIC: the clock that paced devices and USB deadlines are counted on. Any thread, no
-// system call on Linux.
+// CLOCK_MONOTONIC in nanoseconds, on which paced devices and USB deadlines are counted, and a sleep until a time of it.
+// Any thread; monotonic_ns() makes no system call on Linux.
 #pragma once
 
+#include <time.h>
+
+#include <cerrno>
 #include <chrono>
 #include <cstdint>
 
@@ -10,6 +13,17 @@ namespace haptics {
 inline std::int64_t monotonic_ns() {
   using std::chrono::duration_cast, std::chrono::nanoseconds;
   return duration_cast<nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+inline timespec timespecOf(std::int64_t time_ns) {
+  constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  return {static_cast<time_t>(time_ns / kSecond_ns), static_cast<long>(time_ns % kSecond_ns)};
+}
+
+inline void sleepUntil(std::int64_t deadline_ns) {
+  const timespec deadline = timespecOf(deadline_ns);
+  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &deadline, nullptr) == EINTR) {
+  }
 }
 
 }  // namespace haptics

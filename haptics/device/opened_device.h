@@ -1,5 +1,6 @@
-// Opening a real device: what may be said about how, what one gets, and one function a back-end, in its own folder;
-// device_catalogue has a line for each. Start-up only: a Falcon loads its program and waits to be homed, half a minute.
+// Opening a real device: its options, the result, and one function a back-end, defined with its driver;
+// device_catalogue has a line for each. Start-up only: a Falcon loads its firmware and waits to be homed, half a
+// minute.
 #pragma once
 
 #include <filesystem>
@@ -17,27 +18,34 @@ namespace haptics {
 
 struct DeviceOptions {
   std::filesystem::path falcon_program;  ///< its maker's firmware
-  /// What a balance showed of this user's Falcon; asked when there is one to open.
+  /// The measured force scale of this user's Falcon; called only when one is opened.
   std::function<FalconForceScale()> falcon_scale = [] { return FalconForceScale(); };
-  int servo_priority = kServoPriority;  ///< the thread that reads its USB lies next to it
-  std::optional<bool> docked_value;  ///< OpenHaptics: what the inkwell's switch shows of a docked stylus; none: learned
-  std::function<void(const std::string&)> tell = [](const std::string&) {};  ///< progress, and what a person shall do
-  std::function<bool()> given_up = [] { return false; };                     ///< asked while it waits for a person
+  int servo_priority = kServoPriority;
+  std::optional<bool> docked_value;  ///< OpenHaptics: what the inkwell switch reads when docked; none: learned
+  std::function<void(const std::string&)> report = [](const std::string&) {};  ///< progress, and what the user must do
+  std::function<bool()> is_cancelled = [] { return false; };                   ///< polled while it waits for the user
 };
 
-/// A device with what it rests on.
+/// A device with the library it needs.
 struct OpenedDevice {
   std::unique_ptr<HdLibrary> library;
   std::unique_ptr<HapticDevice> device;
   std::string address;
 };
 
-/// What the back-ends call while they wait for a person: says the same thing once; false: given up.
-std::function<bool(const std::string& words)> waitPrompt(const DeviceOptions& options);
+/// What a back-end calls while it waits for the user: reports repeated words once; false: cancelled.
+inline std::function<bool(const std::string& words)> waitPrompt(const DeviceOptions& options) {
+  return [report = options.report, is_cancelled = options.is_cancelled,
+          last = std::string()](const std::string& words) mutable {
+    if (words != last) report(words);
+    last = words;
+    return !is_cancelled();
+  };
+}
 
-/// `place`: the address behind its scheme and colon. Throw DeviceError.
-OpenedDevice openPhantom(const std::string& place, const DeviceOptions& options);
-OpenedDevice openWooden(const std::string& place, const DeviceOptions& options);
-OpenedDevice openFalcon(const std::string& place, const DeviceOptions& options);
+/// `rest`: the address after its scheme and colon. Throw DeviceError.
+OpenedDevice openPhantom(const std::string& rest, const DeviceOptions& options);
+OpenedDevice openWooden(const std::string& rest, const DeviceOptions& options);
+OpenedDevice openFalcon(const std::string& rest, const DeviceOptions& options);
 
 }  // namespace haptics

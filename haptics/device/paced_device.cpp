@@ -1,20 +1,12 @@
 #include "haptics/device/paced_device.h"
 
-#include <time.h>
-
 #include <algorithm>
 #include <cassert>
-#include <cerrno>
 #include <cmath>
 
 #include "haptics/device/monotonic_clock.h"
 
 namespace haptics {
-namespace {
-
-constexpr std::int64_t kNsPerSecond = 1'000'000'000;
-
-}  // namespace
 
 PacedDevice::~PacedDevice() { assert(!thread_.joinable()); }
 
@@ -38,52 +30,48 @@ void PacedDevice::start(DeviceServo& servo, double rate_Hz) {
 
 void PacedDevice::startStepped(DeviceServo& servo, double rate_Hz) {
   prepare(servo, rate_Hz);
-  by_hand_ = true;
+  is_stepped_ = true;
   servo.begin();
-  grid_.emplace(rate_Hz, by_hand_ns_);
+  grid_.emplace(rate_Hz, stepped_ns_);
 }
 
 void PacedDevice::stop() noexcept {
   const bool was_running = running_.exchange(false);
   if (thread_.joinable()) thread_.join();
-  if (by_hand_ && was_running) drive(MotorCommand{});
+  if (is_stepped_ && was_running) drive(MotorCommand{});
 }
 
-std::int64_t PacedDevice::now_ns() const noexcept { return by_hand_ ? by_hand_ns_ : monotonic_ns(); }
+std::int64_t PacedDevice::now_ns() const noexcept { return is_stepped_ ? stepped_ns_ : monotonic_ns(); }
 
-void PacedDevice::await(std::int64_t deadline_ns) noexcept {
-  const timespec t{static_cast<time_t>(deadline_ns / kNsPerSecond), static_cast<long>(deadline_ns % kNsPerSecond)};
-  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr) == EINTR) {
-  }
-}
+void PacedDevice::await(std::int64_t deadline_ns) noexcept { sleepUntil(deadline_ns); }
 
 void PacedDevice::run() noexcept {
   servo_->begin();
   grid_.emplace(rate_Hz_, monotonic_ns());
   while (running_.load(std::memory_order_relaxed)) {
     await(grid_->next_ns());
-    turn();
+    tick();
   }
   drive(MotorCommand{});
 }
 
 void PacedDevice::step(std::uint64_t ticks) noexcept {
-  assert(by_hand_);
+  assert(is_stepped_);
   for (; ticks > 0 && running_.load(std::memory_order_relaxed); --ticks) {
-    by_hand_ns_ = std::max(by_hand_ns_, grid_->next_ns());
-    turn();
+    stepped_ns_ = std::max(stepped_ns_, grid_->next_ns());
+    tick();
   }
 }
 
-void PacedDevice::turn() noexcept {
-  TickTiming timing = grid_->woke(now_ns());
-  // Switched off while it was made, a command is void.
-  const std::uint32_t times_off = off_requests_.load();
+void PacedDevice::tick() noexcept {
+  TickTiming timing = grid_->beginTick(now_ns());
+  // A command is void if the motors were switched off while it was made.
+  const std::uint32_t off_requests = off_requests_.load();
   const HandleState state = sense(1.0 / rate_Hz_);
   timing.at_ns = now_ns();
   const MotorCommand command = servo_->tick(state, timing);
-  drive(off_requests_.load() == times_off ? command : MotorCommand{});
-  grid_->ticked(now_ns());
+  drive(off_requests_.load() == off_requests ? command : MotorCommand{});
+  grid_->endTick(now_ns());
 }
 
 }  // namespace haptics

@@ -1,6 +1,6 @@
-// A device that exists in numbers only: what its motors were told last acts while the next state is made. exchange() is
-// the device's thread's, or whoever steps it without one; bounded, no allocation. Started by hand it needs neither
-// thread nor clock: its time is the ticks it is told to make.
+// Base of the devices without hardware: the motor command of one tick acts while the next state is computed. Ticks come
+// from the device's own thread, or from step() on the caller's, without thread and clock. exchange(): the thread of the
+// ticks; bounded, no allocation. A subclass calls stop() in its own destructor.
 #pragma once
 
 #include "haptics/device/paced_device.h"
@@ -9,7 +9,8 @@ namespace haptics {
 
 class SimulatedDevice : public PacedDevice {
  public:
-  /// Serves a wrench on the hand for `dt_s`, torque about the origin of H, and returns where the hand then is.
+  const DeviceCapabilities& capabilities() const override { return capabilities_; }
+  /// Applies a wrench to the hand for `dt_s`, torque about the origin of H, and returns the state after it.
   virtual HandleState exchange(const Wrench<calibration::Device>& wrench_D, double dt_s) noexcept = 0;
 
   using PacedDevice::pass;
@@ -20,6 +21,8 @@ class SimulatedDevice : public PacedDevice {
  protected:
   HandleState sense(double dt_s) noexcept override { return exchange(command_.wrench_D(), dt_s); }
   void drive(const MotorCommand& command) noexcept override { command_ = command; }
+
+  DeviceCapabilities capabilities_;
 
  private:
   MotorCommand command_;

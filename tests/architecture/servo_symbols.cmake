@@ -20,8 +20,8 @@ set(admitted
   # The tick asks whoever derives from the loop: all their answers are roots themselves.
   "^_ZN7haptics10DeviceLoop4tickE.*>indirect$"
   # The thread of a paced device sleeps until its tick, then asks servo, sensors and motors, roots all of them.
-  "^_ZN7haptics11PacedDevice(3run|4turn|4step)E.*>indirect$"
-  "^_ZN7haptics11PacedDevice(3run|4turn|5await)E.*>clock_nanosleep$"
+  "^_ZN7haptics11PacedDevice(3run|4tick|4step)E.*>indirect$"
+  "^_ZN7haptics(11PacedDevice(3run|4tick|5await)|10sleepUntil)E.*>clock_nanosleep$"
   # The wait for a report has a deadline; raising and lowering are one write to, one read from an eventfd that never
   # blocks.
   "^_ZN7haptics10WakeSignal10awaitUntilE.*>ppoll$"
@@ -38,8 +38,8 @@ if(NOT DEFINED ROOTS)
     "^_ZN7haptics14HandleRecorder6answerE" "^_ZN3app17ConstantForceLoop6answerE" "^_ZN3app14PracticeStylus8exchangeE"
     "^_ZN7haptics11PacedDevice3runE" "^_ZN7haptics11PacedDevice5awaitE"
     "^_ZN7haptics[A-Za-z0-9]+(Hand|Device)8exchangeE"
-    "^_ZN7haptics16SimulatedPhantom4moveE" "^_ZN7haptics16SimulatedPhantom4turnE"
-    "^_ZN7haptics16SimulatedPhantom15forceOfMotors_NE" "^_ZN7haptics14PhantomSensors4readE"
+    "^_ZN7haptics16SimulatedPhantom4moveE" "^_ZN7haptics16SimulatedPhantom6rotateE"
+    "^_ZN7haptics16SimulatedPhantom12motorForce_NE" "^_ZN7haptics14PhantomSensors4readE"
     "^_ZN7haptics6Falcon5senseE" "^_ZN7haptics6Falcon5driveE" "^_ZN7haptics6Falcon5awaitE"
     "^_ZN7haptics13WoodenHaptics5senseE" "^_ZN7haptics13WoodenHaptics5driveE" "^_ZN7haptics13WoodenHaptics5awaitE"
     "^_ZN7haptics11OpenHaptics5serveE")

@@ -106,8 +106,8 @@ TEST(FindOpenHaptics, ReadsTheConfigurationsAndSaysWhyTheyCanNotBeOpened) {
   const auto found = findOpenHaptics("/nowhere/libHD.so");
   ASSERT_EQ(found.size(), 2u);
   EXPECT_EQ(found[0].name, "Phantom or Touch \"Default Device\"");
-  EXPECT_THAT(found[0].place, HasSubstr("Default Device.config, channel 3"));
-  EXPECT_THAT(found[1].place, testing::EndsWith("Left.config"));
+  EXPECT_THAT(found[0].location, HasSubstr("Default Device.config, channel 3"));
+  EXPECT_THAT(found[1].location, testing::EndsWith("Left.config"));
   for (const FoundDevice& device : found) {
     EXPECT_EQ(device.address, "");
     EXPECT_EQ(device.provenance, Provenance::vendor_library);

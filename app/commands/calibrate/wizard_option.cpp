@@ -61,8 +61,8 @@ WizardOption::Stylus WizardOption::stylus(MeasurementInfo& info) const {
     throw UsageError("--robot: it holds a practice stylus only, use --device practice:D");
   } else if (haptics::isDeviceAddress(device_)) {
     haptics::DeviceOptions options;
-    options.tell = tell;
-    options.given_up = [] { return interrupted != 0; };
+    options.report = tell;
+    options.is_cancelled = [] { return interrupted != 0; };
     stylus.opened = haptics::openDevice(device_, options);
     hand = deviceIdentity(device_, &stylus.opened.device->capabilities());
     if (stylus.opened.device->capabilities().arm_model.empty())

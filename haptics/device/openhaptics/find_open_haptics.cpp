@@ -58,8 +58,8 @@ FoundDevice configured(const fs::path& file) {
   const std::string name = file.stem().string();
   found.name = "Phantom or Touch \"" + name + "\"";
   found.address = name == kDefaultName ? "openhaptics" : "openhaptics:" + name;
-  found.place = "OpenHaptics, " + file.string();
-  if (const auto channel = channelIn(file)) found.place += ", channel " + std::to_string(*channel);
+  found.location = "OpenHaptics, " + file.string();
+  if (const auto channel = channelIn(file)) found.location += ", channel " + std::to_string(*channel);
   return found;
 }
 
@@ -77,7 +77,7 @@ std::vector<FoundDevice> findOpenHaptics(const std::string& library) {
       FoundDevice unnamed;
       unnamed.name = "Phantom or Touch, default device";
       unnamed.address = "openhaptics";
-      unnamed.place = "OpenHaptics, no configuration of that name found";
+      unnamed.location = "OpenHaptics, no configuration of that name found";
       unnamed.advice = "If one is plugged in, run Touch_Setup once, the program that came with its driver.";
       found.insert(found.begin(), unnamed);
     }

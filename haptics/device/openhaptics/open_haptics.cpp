@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "haptics/device/monotonic_clock.h"
+#include "haptics/device/opened_device.h"
 
 namespace haptics {
 namespace {
@@ -161,6 +162,14 @@ std::string OpenHaptics::trouble() const {
   if (phase_.load() != Phase::serving) return {};
   const std::string need = calibration_.requiredAction();
   return need.empty() ? need : session_.name() + ", " + capabilities().model + ": " + need;
+}
+
+OpenedDevice openPhantom(const std::string& rest, const DeviceOptions& options) {
+  OpenedDevice opened;
+  opened.library = std::make_unique<HdLibrary>();
+  opened.device = std::make_unique<OpenHaptics>(
+      *opened.library, OpenHapticsSettings{.configuration = rest, .docked_value = options.docked_value});
+  return opened;
 }
 
 }  // namespace haptics

@@ -1,6 +1,6 @@
 // A virtual hand on a device with dry (Coulomb) friction: the same force against the motion at every speed, and at rest
-// as much as it takes to stay at rest. Exact pieces between the events, which are found in time: no creep while it
-// sticks, no chatter, for any stiffness and dt. mm, N, s. Any one thread; at most 24 steps of VirtualHand, under 3 us.
+// as much as keeps it at rest. Exact between events (stick, slide), whose times are found by bisection: no creep, no
+// chatter, for any stiffness and dt. mm, N, s. One thread; at most 24 steps of VirtualHand, under 3 us.
 #pragma once
 
 #include "haptics/device/simulated/virtual_hand.h"

@@ -1,5 +1,5 @@
-// What a simulated hand wants at a time: a pose of the handle in D, pedal and buttons, and whether it holds on at all.
-// mm, s. A script is a pure function of time that the device's thread calls twice a tick: no allocation, no lock.
+// The target of a simulated hand over time: pose of the handle in D, pedal and buttons, and whether it grips. mm, s. A
+// script is a pure function of time that the device's thread calls twice a tick: no allocation, no lock.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ struct HandTarget {
   glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
   bool pedal = false;
   std::uint32_t buttons = 0;  ///< of the handle; bit 0: the first
-  bool grips = true;          ///< false: the handle is left where it is
+  bool grips = true;          ///< false: the hand has let go of the handle
 };
 
 using HandScript = std::function<HandTarget(double t_s)>;

@@ -1,6 +1,6 @@
-// How warm the motors of an arm are: heat comes with the torque squared and goes with a time constant. 1 is where
-// continuous torque ends up, as warm as allowed; 0 the cold motor. One body per motor: windings and housing are not
-// told apart. N mm, s. Any one thread; a few flops.
+// Thermal model of an arm's motors: heat grows with the torque squared and decays with a time constant. 1 is the steady
+// state of the continuous torque, the limit; 0 a cold motor. One thermal mass per motor. N mm, s. One thread; a few
+// flops.
 #pragma once
 
 #include <algorithm>

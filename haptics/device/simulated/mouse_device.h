@@ -1,6 +1,6 @@
-// The mouse as a haptic device: the window says where the hand wants to be, a virtual hand goes there smoothly, and the
-// force pushes it softly back. Frame D. setTarget(): one UI thread; exchange(): the servo thread; they meet in a
-// Latest. No allocation after construction. Not a force display: nobody feels it but the picture shows it.
+// The mouse as a haptic device: the window sets a target pose, a virtual hand moves there smoothly, and the contact
+// force displaces it visibly. Frame D, mm. setTarget(): one UI thread; exchange(): the thread of the ticks; they share
+// a Latest. No allocation after construction. The smallest complete device: the one to copy for a new driver.
 #pragma once
 
 #include "haptics/device/simulated/virtual_hand.h"
@@ -22,14 +22,12 @@ class MouseDevice final : public SimulatedDevice {
   /// UI thread. A target that is not finite is ignored.
   void setTarget(const MouseTarget& target);
 
-  const DeviceCapabilities& capabilities() const override { return capabilities_; }
   HandleState exchange(const Wrench<calibration::Device>& wrench_D, double dt_s) noexcept override;
 
  private:
   Latest<MouseTarget> target_;
   VirtualHand hand_;
   glm::dquat rotation_;
-  DeviceCapabilities capabilities_;
 };
 
 }  // namespace haptics

@@ -1,5 +1,5 @@
-// The numbers of a Phantom as a machine: geometry, sensors, weight, friction, motors, inkwell. Reference/devices 4.3
-// unless said otherwise there; (assumed) where nothing is published. mm, N, N mm, s, kg. Plain data; any thread.
+// The parameters of a Phantom as a machine: geometry, sensors, mass, friction, motors, inkwell. Source:
+// reference/devices 4.3 unless noted; (assumed) where nothing is published. mm, N, N mm, s, kg. Plain data; any thread.
 #pragma once
 
 #include <array>
@@ -18,21 +18,21 @@ struct PhantomMechanics {
   PhantomSensing sensing;
 
   double mass_kg = 0.0;             ///< apparent, at the handle, in every direction
-  double viscous_Ns_per_mm = 0.0;   ///< (assumed) 0.5 N s/m: buys what CHAI3D recommends, K < 2 b / T
-  double dry_N = 0.0;               ///< to move it backwards
-  int latency_ticks = 0;            ///< from command to force; (assumed) 1 where a bus lies between
+  double viscous_Ns_per_mm = 0.0;   ///< (assumed) 0.5 N s/m: allows the stiffness CHAI3D recommends, K < 2 b / T
+  double dry_N = 0.0;               ///< backdrive friction
+  int latency_ticks = 0;            ///< from command to force; (assumed) 1 with a bus
   double peak_force_N = 0.0;        ///< of the motors, in every direction …
   double peak_joint_Nmm = 0.0;      ///< … and of each of them
-  double continuous_force_N = 0.0;  ///< of the motors, for ever; their torques by the same share
+  double continuous_force_N = 0.0;  ///< without a time limit; joint torques in the same proportion
   double heat_time_s = 30.0;        ///< (assumed)
 
-  calibration::Point<calibration::Device> rest_D;  ///< where its handle lies before anybody takes it …
-  bool has_inkwell = false;                        ///< … and this is there
-  bool has_deadman = false;                        ///< feels whether a hand is on the handle
+  calibration::Point<calibration::Device> rest_D;  ///< where its handle lies when not in use …
+  bool has_inkwell = false;                        ///< … in an inkwell
+  bool has_deadman = false;                        ///< senses a hand on the handle
   double max_stiffness_N_per_mm = 0.0, max_damping_Ns_per_mm = 0.0;
   WorkspaceBox workspace;
 
-  /// Its handle at rest, straight in its gimbal.
+  /// The handle at rest, its gimbal at zero.
   calibration::Pose<calibration::Device, calibration::Handle> rest_DH() const;
 };
 

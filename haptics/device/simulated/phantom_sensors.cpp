@@ -17,7 +17,7 @@ glm::dvec3 counted(const glm::dvec3& angles_rad, double counts_per_turn) {
 
 }  // namespace
 
-/// Beyond the arm's limits they stand where they were.
+/// Beyond the limits of the arm the last angles stand.
 calibration::PhantomJoints PhantomSensors::sensed(const calibration::PhantomJoints& truth) noexcept {
   if (!untrue_) return truth;
   const auto raw_rad = untrue_->rawAt(handlePose(geometry_, truth));

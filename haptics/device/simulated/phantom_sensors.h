@@ -1,7 +1,7 @@
-// What the electronics of a Phantom know of its handle: encoders at the arm's joints, potentiometers in the gimbal, and
-// the velocity a driver makes of them, differenced and smoothed. Of an untrue arm they read what they would, and the
-// driver, which believes its model, makes of that what it can. Frame D, mm, rad, s. The device's thread; no
-// allocation. The same seed gives the same noise.
+// The sensors of a Phantom: encoders at the arm's joints, potentiometers in the gimbal, and the velocity that a driver
+// derives from them, differenced and low-passed. An untrue arm (wrong lengths and zeros) reads its own angles, which
+// the driver evaluates with the nominal model. Frame D, mm, rad, s. The device's thread; no allocation. The same seed
+// gives the same noise.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,11 @@
 
 namespace haptics {
 
-/// Each 0: perfect.
+/// 0 in any of them: ideal.
 struct PhantomSensing {
   double counts_per_turn = 0.0;     ///< of each arm encoder, at the joint
-  double levels_per_turn = 0.0;     ///< of each potentiometer, whose noise is one level wide
-  double velocity_cutoff_Hz = 0.0;  ///< of the first-order smoothing; perfect: the true velocity
+  double levels_per_turn = 0.0;     ///< of each potentiometer, with noise one level wide
+  double velocity_cutoff_Hz = 0.0;  ///< of the first-order low-pass; ideal: the true velocity
 };
 
 class PhantomSensors {
@@ -32,7 +32,7 @@ class PhantomSensors {
                  const std::optional<calibration::PerturbedArm>& untrue = std::nullopt)
       : geometry_(geometry), sensing_(sensing), untrue_(untrue), noise_(seed) {}
 
-  /// `truth`: the angles at which an arm as its model would hold the handle where it truly is.
+  /// `truth`: the angles at which the nominal arm would hold the handle at its true pose.
   Reading read(const calibration::PhantomJoints& truth, const glm::dvec3& true_velocity_mm_per_s, double dt_s) noexcept;
 
  private:

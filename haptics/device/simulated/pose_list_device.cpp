@@ -5,28 +5,28 @@
 
 namespace haptics {
 
-PoseListDevice::PoseListDevice(std::vector<TimedHandlePose> holds) : holds_(std::move(holds)) {
-  if (holds_.empty()) throw DeviceError("posed hand: it has no poses, give some");
+PoseListDevice::PoseListDevice(std::vector<TimedHandlePose> poses) : poses_(std::move(poses)) {
+  if (poses_.empty()) throw DeviceError("posed hand: it has no poses, give some");
   double last_s = -1.0;
-  for (const TimedHandlePose& hold : holds_) {
-    const double norm = glm::dot(hold.X_DH.rotation, hold.X_DH.rotation);
-    if (!(std::abs(norm - 1.0) < 1e-6) || !std::isfinite(glm::length(hold.X_DH.translation_mm)))
+  for (const TimedHandlePose& pose : poses_) {
+    const double norm = glm::dot(pose.X_DH.rotation, pose.X_DH.rotation);
+    if (!(std::abs(norm - 1.0) < 1e-6) || !std::isfinite(glm::length(pose.X_DH.translation_mm)))
       throw DeviceError("posed hand: a pose is not finite and rigid, correct it");
-    if (!(hold.t_s >= 0.0 && hold.t_s > last_s) || !std::isfinite(hold.t_s))
+    if (!(pose.t_s >= 0.0 && pose.t_s > last_s) || !std::isfinite(pose.t_s))
       throw DeviceError("posed hand: its times do not rise from 0 or later, order them");
-    last_s = hold.t_s;
+    last_s = pose.t_s;
   }
-  last_mm_ = holds_.front().X_DH.translation_mm;
+  last_mm_ = poses_.front().X_DH.translation_mm;
   capabilities_.model = "posed hand";
 }
 
 HandleState PoseListDevice::stateAt(double t_s) noexcept {
-  while (next_ < holds_.size() && holds_[next_].t_s <= t_s) ++next_;
+  while (next_ < poses_.size() && poses_[next_].t_s <= t_s) ++next_;
   HandleState state;
-  const TimedHandlePose& from = holds_[next_ == 0 ? 0 : next_ - 1];
+  const TimedHandlePose& from = poses_[next_ == 0 ? 0 : next_ - 1];
   state.X_DH = from.X_DH;
-  if (next_ == 0 || next_ == holds_.size()) return state;
-  const TimedHandlePose& to = holds_[next_];
+  if (next_ == 0 || next_ == poses_.size()) return state;
+  const TimedHandlePose& to = poses_[next_];
   const double part = (t_s - from.t_s) / (to.t_s - from.t_s);
   state.X_DH = {glm::slerp(from.X_DH.rotation, to.X_DH.rotation, part),
                 glm::mix(from.X_DH.translation_mm, to.X_DH.translation_mm, part)};

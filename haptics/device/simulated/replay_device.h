@@ -1,6 +1,6 @@
-// A hand that was recorded, moving again: state by state, whatever force it is given, then still with the pedal up
-// where it ended. The states are what a device said, at the rate they were recorded at. Frame D, mm. No allocation
-// after construction. What a session came to is not asked of it: that is `molar replay`.
+// Plays recorded handle states at their recorded rate, whatever force is applied, then holds the last with the pedal
+// up. Frame D, mm. No allocation after construction. It moves the hand of a new session; `molar replay` recomputes an
+// old one.
 #pragma once
 
 #include <vector>
@@ -18,14 +18,12 @@ class ReplayDevice final : public SimulatedDevice {
   double rate_Hz() const { return 1.0 / dt_s_; }
   double duration_s() const { return static_cast<double>(states_.size()) * dt_s_; }
 
-  const DeviceCapabilities& capabilities() const override { return capabilities_; }
   HandleState exchange(const Wrench<calibration::Device>& wrench_D, double dt_s) noexcept override;
 
  private:
   std::vector<HandleState> states_;
   double dt_s_;
   std::size_t next_ = 0;
-  DeviceCapabilities capabilities_;
 };
 
 }  // namespace haptics

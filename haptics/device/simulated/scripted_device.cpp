@@ -2,7 +2,7 @@
 
 namespace haptics {
 
-ScriptedDevice::ScriptedDevice(const assets::PlannedCut& cut, const CuttingMotion& manner) : path_(cut, manner) {
+ScriptedDevice::ScriptedDevice(const assets::PlannedCut& cut, const CuttingMotion& motion) : path_(cut, motion) {
   hand_.position_mm = path_.at(0.0).position_mm;
   capabilities_.model = "scripted hand";
   capabilities_.damping_Ns_per_mm = hand_.totalDamping_Ns_per_mm();

@@ -1,6 +1,5 @@
-// A human hand that carries out a script: where it wants to be at a time, tremor included, and how it holds on, a
-// spring and a damper with the weight of the fingers behind the handle. Frame D; mm, N, s, kg. Pure; the device's
-// thread.
+// A human hand that follows a script: its target over time, tremor included, and its grip, a spring and a damper with
+// the mass of the fingers behind the handle. Frame D; mm, N, s, kg. Pure; the device's thread.
 #pragma once
 
 #include <utility>

@@ -57,15 +57,15 @@ SimulatedPhantom::SimulatedPhantom(const PhantomMechanics& mechanics, HandScript
       hand_(std::move(script), grip, seed),
       sensors_(mechanics.geometry, mechanics.sensing, seed + 1, unit.untrue),
       heat_(glm::dvec3(mechanics.peak_joint_Nmm * mechanics.continuous_force_N / mechanics.peak_force_N),
-            mechanics.heat_time_s),
-      capabilities_(capabilitiesOf(mechanics, grip, unit)) {
+            mechanics.heat_time_s) {
+  capabilities_ = capabilitiesOf(mechanics, grip, unit);
   const HandTarget start = hand_.at(0.0);
   const auto arm_rad = armAnglesFor(mechanics_.geometry, {start.position_mm});
   if (!arm_rad)
     throw DeviceError(capabilities_.model + ", its arm does not reach where the hand starts, move it nearer");
   joints_.arm_rad = *arm_rad;
   joints_.wrist_rad = calibration::wristAnglesFor(*arm_rad, start.rotation);
-  turn(start);
+  rotate(start);
   rest_rad_ = armAnglesFor(mechanics_.geometry, mechanics_.rest_D).value_or(*arm_rad);
   handle_.position_mm = start.position_mm;
   handle_.friction_Ns_per_mm = mechanics_.viscous_Ns_per_mm;
@@ -77,9 +77,9 @@ HandleState SimulatedPhantom::exchange(const Wrench<Device>& wrench_D, double dt
   const HandTarget from = hand_.at(t_s_);
   t_s_ += dt_s;
   const HandTarget to = hand_.at(t_s_);
-  pushed_N_ = forceOfMotors_N(wrench_D.force_N.xyz, dt_s);
+  pushed_N_ = motorForce_N(wrench_D.force_N.xyz, dt_s);
   move(from, to, dt_s);
-  turn(to);
+  rotate(to);
   dock(to);
 
   const PhantomSensors::Reading read = sensors_.read(joints_, handle_.velocity_mm_per_s, dt_s);
@@ -98,14 +98,14 @@ HandleState SimulatedPhantom::exchange(const Wrench<Device>& wrench_D, double dt
   return state;
 }
 
-glm::dvec3 SimulatedPhantom::forceOfMotors_N(const glm::dvec3& asked_N, double dt_s) noexcept {
-  // What was asked some ticks ago; nothing when that is no force.
-  delayed_N_[tick_ % delayed_N_.size()] = std::isfinite(glm::length(asked_N)) ? asked_N : glm::dvec3(0.0);
+glm::dvec3 SimulatedPhantom::motorForce_N(const glm::dvec3& requested_N, double dt_s) noexcept {
+  // The request of some ticks ago; 0 if it was not finite.
+  delayed_N_[tick_ % delayed_N_.size()] = std::isfinite(glm::length(requested_N)) ? requested_N : glm::dvec3(0.0);
   const std::size_t arrived = tick_ + delayed_N_.size() - static_cast<std::size_t>(mechanics_.latency_ticks);
   glm::dvec3 force_N = delayed_N_[arrived % delayed_N_.size()];
   ++tick_;
 
-  // Too warm, they give no more than they can for ever.
+  // Above the heat limit, only the continuous force.
   const double share = heat_.warmest() < 1.0 ? 1.0 : mechanics_.continuous_force_N / mechanics_.peak_force_N;
   const double strong_N = glm::length(force_N);
   if (strong_N > share * mechanics_.peak_force_N) force_N *= share * mechanics_.peak_force_N / strong_N;
@@ -127,7 +127,7 @@ void SimulatedPhantom::move(const HandTarget& from, const HandTarget& to, double
       to.grips && from.grips ? (to.position_mm - from.position_mm) / dt_s : glm::dvec3(0.0);
   advanceWithDryFriction(handle_, mechanics_.dry_N, from.position_mm, goes_mm_per_s, pushed_N_, dt_s);
 
-  // At its stops the arm stands where it last was.
+  // At its stops the arm stays.
   if (const auto arm_rad = armAnglesFor(mechanics_.geometry, {handle_.position_mm})) {
     joints_.arm_rad = *arm_rad;
   } else {
@@ -136,7 +136,7 @@ void SimulatedPhantom::move(const HandTarget& from, const HandTarget& to, double
   }
 }
 
-void SimulatedPhantom::turn(const HandTarget& to) noexcept {
+void SimulatedPhantom::rotate(const HandTarget& to) noexcept {
   if (!to.grips) return;
   const glm::dvec3 wanted_rad = calibration::wristAnglesFor(joints_.arm_rad, to.rotation);
   for (int axis = 0; axis < 3; ++axis) {
@@ -150,7 +150,7 @@ void SimulatedPhantom::dock(const HandTarget& to) noexcept {
   const double away_mm = glm::distance(handle_.position_mm, mechanics_.rest_D.mm);
   docked_ = away_mm < (docked_ ? kUndocks_mm : kDocks_mm);
   calibrated_ = calibrated_ || docked_;
-  // The well takes what is left in it.
+  // A stylus that is let go in the inkwell stays there.
   if (!docked_ || to.grips) return;
   handle_.position_mm = mechanics_.rest_D.mm;
   handle_.velocity_mm_per_s = glm::dvec3(0.0);

@@ -1,9 +1,8 @@
-// A Phantom that exists in numbers only, in the hand of somebody who follows a script and whom its forces really push:
-// the arm's kinematics, weight and friction, motors with their limits, delay and warmth, stops, inkwell, encoders,
-// gimbal noise. What servo and safety have to be right with. Frame D; mm, N, s. The device's thread; a pure function of
-// the steps and the seed; about 1.5 us a tick, no allocation after construction. Its weight is the same in every
-// direction; no gravity, no bending of the links, no torque on the handle. An untrue arm shows in what its sensors
-// read; its motors push as they are asked.
+// A simulated Phantom in the hand of somebody who follows a script and is moved by its forces: the arm's kinematics,
+// mass and friction, motors with limits, delay and heat, stops, inkwell, encoders, gimbal noise. Servo and safety are
+// tested with it. Frame D; mm, N, s. The device's thread; a pure function of the steps and the seed; about 1.5 us a
+// tick, no allocation after construction. Its mass is the same in every direction; no gravity, no bending of the links,
+// no torque on the handle. An untrue arm affects its sensors only, not the direction of its motor forces.
 #pragma once
 
 #include <optional>
@@ -18,34 +17,33 @@
 
 namespace haptics {
 
-/// What one unit has of its own.
+/// Properties of one unit.
 struct PhantomUnit {
   std::string serial;
-  std::optional<calibration::PerturbedArm> untrue;  ///< none: as its model
+  std::optional<calibration::PerturbedArm> untrue;  ///< none: exactly its model
 };
 
 class SimulatedPhantom final : public SimulatedDevice {
  public:
   static constexpr int kMaxLatency_ticks = 15;
 
-  /// Throws DeviceError when a number can not be, or the script starts where the arm does not reach.
+  /// Throws DeviceError when a parameter is out of range, or the script starts beyond the arm's reach.
   SimulatedPhantom(const PhantomMechanics& mechanics, HandScript script, const Grip& grip = {}, std::uint32_t seed = 1,
                    const PhantomUnit& unit = {});
   ~SimulatedPhantom() override { stop(); }
 
-  const DeviceCapabilities& capabilities() const override { return capabilities_; }
   HandleState exchange(const Wrench<calibration::Device>& wrench_D, double dt_s) noexcept override;
 
-  /// As it is, not as its sensors have it.
+  /// The true angles, not those of the sensors.
   const calibration::PhantomJoints& joints() const { return joints_; }
   calibration::Vector<calibration::Device> velocity_D_mm_per_s() const { return {handle_.velocity_mm_per_s}; }
   /// Of the motors on the hand in the last step.
   calibration::Vector<calibration::Device> pushed_D_N() const { return {pushed_N_}; }
 
  private:
-  glm::dvec3 forceOfMotors_N(const glm::dvec3& asked_N, double dt_s) noexcept;
+  glm::dvec3 motorForce_N(const glm::dvec3& requested_N, double dt_s) noexcept;
   void move(const HandTarget& from, const HandTarget& to, double dt_s) noexcept;
-  void turn(const HandTarget& to) noexcept;
+  void rotate(const HandTarget& to) noexcept;
   void dock(const HandTarget& to) noexcept;
 
   PhantomMechanics mechanics_;
@@ -53,7 +51,6 @@ class SimulatedPhantom final : public SimulatedDevice {
   VirtualHand handle_;
   PhantomSensors sensors_;
   MotorHeat heat_;
-  DeviceCapabilities capabilities_;
   calibration::PhantomJoints joints_;
   glm::dvec3 rest_rad_{0.0};
   std::array<glm::dvec3, kMaxLatency_ticks + 1> delayed_N_{};

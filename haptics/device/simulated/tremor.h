@@ -1,7 +1,6 @@
-// The tremor of a hand that holds an instrument: a few steady waves between 8 and 12 Hz in each direction, their
-// frequencies and phases drawn from a seed. mm, s. 0.05 mm rms in all is what eye surgeons were measured to have who
-// held an instrument still (Riviere, Rader, Khosla 1997: 49 um); elsewhere 0.05 to 0.2 mm at 8 to 12 Hz. A pure
-// function of time; any thread.
+// Tremor of a hand that holds an instrument: four steady waves between 8 and 12 Hz in each direction, frequencies and
+// phases drawn from a seed. mm, s. 0.05 mm rms in all was measured of eye surgeons holding an instrument still
+// (Riviere, Rader, Khosla 1997: 49 um); elsewhere 0.05 to 0.2 mm at 8 to 12 Hz. A pure function of time; any thread.
 #pragma once
 
 #include <array>

@@ -1,7 +1,6 @@
-// The way of a surgeon's hand that takes a planned cut: comes down from above, sweeps back and forth along its line,
-// R/8 deeper every pass, pedal down, and withdraws. Frame D, mm, s; handle and tool are one (X_HT = identity). Line
-// 6-10 mm at 10-15 mm/s: starting values from the surgery itself (buccal gutter along the crown), not measured. Not the
-// hand itself (device/simulated).
+// The path of a surgeon's hand that makes a planned cut: approach from above, strokes back and forth along its line,
+// R/8 deeper each pass, pedal down, then retreat. Frame D, mm, s; handle and tool coincide (X_HT = identity). Line 6-10
+// mm at 10-15 mm/s: starting values from the surgery (buccal gutter along the crown), not measured.
 #pragma once
 
 #include "assets/planned_cut.h"
@@ -11,17 +10,16 @@
 
 namespace haptics {
 
-/// How the hand goes about it.
 struct CuttingMotion {
   glm::dvec3 shaft_P{0.0};       ///< from bur to handle; zero: outward, tilted to the cheek
   double speed_mm_per_s = 12.0;  ///< along the line
-  double clearance_mm = 15.0;    ///< height of the bur above the bone before and after
+  double clearance_mm = 15.0;    ///< of the bur above the bone, before and after
 };
 
 class TroughPath {
  public:
   /// Throws DeviceError when the cut is not finite, has no direction, or has sizes that are not positive.
-  explicit TroughPath(const assets::PlannedCut& cut, const CuttingMotion& manner = {},
+  explicit TroughPath(const assets::PlannedCut& cut, const CuttingMotion& motion = {},
                       const calibration::Pose<calibration::Device, calibration::Patient>& X_DP = {});
 
   HandTarget at(double t_s) const;
@@ -30,7 +28,7 @@ class TroughPath {
 
  private:
   assets::PlannedCut cut_;
-  CuttingMotion manner_;
+  CuttingMotion motion_;
   glm::dvec3 middle_D_mm_, outward_, along_;
   glm::dquat rotation_;
   int deepening_passes_ = 0, passes_ = 0;

@@ -5,9 +5,9 @@
 namespace haptics {
 namespace {
 
-/// How place and velocity answer, after a time, to a unit of each: x'' = -2 a x' - w2 x.
+/// Response of position and velocity, after a time, to a unit of each: x'' = -2 a x' - w2 x.
 struct Response {
-  double place_of_place = 1.0, place_of_velocity = 0.0, velocity_of_place = 0.0, velocity_of_velocity = 1.0;
+  double x_of_x = 1.0, x_of_v = 0.0, v_of_x = 0.0, v_of_v = 1.0;
 };
 
 Response responseAfter(double a, double w2, double dt_s) {
@@ -38,14 +38,14 @@ void VirtualHand::advance(const glm::dvec3& target_mm, const glm::dvec3& target_
   const glm::dvec3 drift = velocity_mm_per_s - target_velocity_mm_per_s;
 
   if (stiffness_N_per_mm > 0.0) {
-    // About where target and force balance.
+    // About the position where target and force balance.
     const Response to = responseAfter(a, w2, dt_s);
     const glm::dvec3 rest_mm = target_mm + push_N / stiffness_N_per_mm, away = position_mm - rest_mm;
-    position_mm = rest_mm + target_velocity_mm_per_s * dt_s + to.place_of_place * away + to.place_of_velocity * drift;
-    velocity_mm_per_s = target_velocity_mm_per_s + to.velocity_of_place * away + to.velocity_of_velocity * drift;
+    position_mm = rest_mm + target_velocity_mm_per_s * dt_s + to.x_of_x * away + to.x_of_v * drift;
+    velocity_mm_per_s = target_velocity_mm_per_s + to.v_of_x * away + to.v_of_v * drift;
     return;
   }
-  // Let go of: only friction and force, towards the speed at which they balance.
+  // Not gripped: only friction and force, towards the speed at which they balance.
   const glm::dvec3 thrust = per_kg * push_N;
   const double d = 2.0 * a, fallen = d > 0.0 ? -std::expm1(-d * dt_s) / d : dt_s;
   const double left = d > 0.0 ? (dt_s - fallen) / d : 0.5 * dt_s * dt_s;

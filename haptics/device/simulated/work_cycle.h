@@ -1,6 +1,6 @@
-// The script of a whole session at a device: the handle lies where the device rests; the hand takes it, goes by the way
-// given to above the work, waits there so that the device can be armed, works, and puts it back. Frame D, mm, s. A pure
-// function of time; any thread. Pedal only at work.
+// The script of a whole session at a device: the handle lies at rest; the hand takes it, moves along given points to
+// above the work, waits there so that the device can be armed, works, and puts it back. Frame D, mm, s. A pure function
+// of time; any thread. The pedal is down at work only.
 #pragma once
 
 #include <vector>
@@ -12,14 +12,14 @@ namespace haptics {
 
 class WorkCycle {
  public:
-  /// `rest`: place and rotation of the handle in the device; `way`: places to go by, from there to the work.
+  /// `rest`: pose of the handle in the device; `way`: points to pass on the way from there to the work.
   WorkCycle(const TroughPath& work, const HandTarget& rest, const std::vector<glm::dvec3>& way);
 
   HandTarget at(double t_s) const;
   double duration_s() const { return duration_s_; }
 
  private:
-  /// Between two places, eased at both.
+  /// Between two points, at rest at both.
   struct Leg {
     glm::dvec3 from_mm, to_mm;
     double begins_s, takes_s;

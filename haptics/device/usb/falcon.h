@@ -1,76 +1,51 @@
-// The Novint Falcon over libusb: three degrees of freedom, three forces, four buttons, no orientation. Opened, its
-// program loaded where it has lost it (the user's file), homed by its owner's hand; then one packet out and one in a
-// tick, and never a second question before the first is answered, but for one that lets go. The force is a guess until
-// a FalconForceScale says otherwise, and is then held down. Frame D as falcon_kinematics; the handle never turns in it.
-// Threads as HapticDevice. Lights: red not homed, green homed, blue motors on. What the unit does when packets stop is
-// not published: after 20 ms of silence the USB's own thread lets go. Never run on a real unit. Protocol:
-// falcon_protocol.
+// The Novint Falcon over libusb: position of 3 axes, 3 forces, 4 buttons, no orientation. Construction opens it, loads
+// its firmware if it has lost it (the user's file) and waits until its user has homed it; then one packet out and one
+// in a tick, and no second packet before the answer to the first, except the one that ends a force. The force scale is
+// a guess, with the force kept low, until a FalconForceScale is given. Frame D as falcon_kinematics, mm. Threads as
+// HapticDevice. Lights: red not homed, green homed, blue motors on. After 20 ms without a packet the USB event thread
+// sends zero force: what the unit does by itself is not published. Never run on a real unit. Protocol: falcon_protocol.
 #pragma once
 
 #include <array>
-#include <chrono>
 #include <filesystem>
-#include <memory>
-#include <string>
-#include <vector>
 
-#include "haptics/device/found_device.h"
-#include "haptics/device/paced_device.h"
-#include "haptics/device/thread_priority.h"
 #include "haptics/device/usb/falcon_force_scale.h"
-#include "haptics/device/usb/falcon_start.h"
-#include "haptics/device/usb/usb_clock.h"
+#include "haptics/device/usb/usb_haptic_device.h"
 
 namespace haptics {
 
-class UsbTransport;
 struct FalconReport;
 
-struct FalconSettings {
-  std::string path;               ///< bus and ports, "1-2.3"; empty: the first
+struct FalconSettings : UsbDeviceSettings {
   std::filesystem::path program;  ///< Novint's firmware; needed after every power-up
   FalconForceScale scale;
-  FalconProgress tell;                       ///< progress and what the owner shall do
-  std::chrono::seconds homing_patience{60};  ///< 0: does not wait, ticks uncalibrated until it is homed
-  int greetings = 100;                       ///< of the boot loader
-  int servo_priority = kServoPriority;       ///< the thread that reads its USB lies next to it
-  UsbClock clock = {};
+  int greetings = 100;  ///< attempts to reach the boot loader
 };
 
-class Falcon final : public PacedDevice {
+class Falcon final : public UsbHapticDevice {
  public:
   /// Opens, loads, homes. Throws DeviceError with the next step when one of them fails.
   explicit Falcon(const FalconSettings& settings);
-  ~Falcon() override;
+  ~Falcon() override { stop(); }
 
-  const DeviceCapabilities& capabilities() const override { return capabilities_; }
   void start(DeviceServo& servo, double rate_Hz) override;
-  void stop() noexcept override;
-  void motorsOff() noexcept override;
 
  private:
   HandleState sense(double dt_s) noexcept override;
   void drive(const MotorCommand& command) noexcept override;
   void await(std::int64_t deadline_ns) noexcept override;
 
-  void awaitHoming(const FalconSettings& settings);
+  void loadProgram(const FalconSettings& settings);
+  bool pollHoming();
   void take(const FalconReport& report, double since_s) noexcept;
-  std::array<int, 3> wordsFor(const MotorCommand& command) const noexcept;
+  std::array<int, 3> motorWords(const MotorCommand& command) const noexcept;
 
-  std::unique_ptr<UsbTransport> usb_;
   FalconForceScale scale_;
-  DeviceCapabilities capabilities_;
   std::int64_t longest_wait_ns_ = 0;  ///< past a deadline, for an answer
 
   // Of the device's thread.
-  HandleState state_;
-  std::uint64_t serial_ = 0;
   double silent_s_ = 0.0, since_report_s_ = 0.0, since_question_s_ = 0.0;
-  bool question_open_ = false, pushed_ = false, homed_ = false, has_place_ = false;
-  std::uint32_t rests_ = 0;
+  bool question_open_ = false, pushed_ = false, homed_ = false;
 };
-
-/// Without opening anything. Throws DeviceError when USB can not be looked at.
-std::vector<FoundDevice> findFalcon();
 
 }  // namespace haptics

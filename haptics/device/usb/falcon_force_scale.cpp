@@ -9,10 +9,10 @@
 namespace haptics {
 namespace {
 
-constexpr double kUnweighedPeak_N = 1.0, kMakersPeak_N = 8.0;
-constexpr double kUnweighedShare = 0.1;  ///< of the motors' range
-constexpr double kBeyondWeighed = 3.0;   ///< a motor is linear; a mistake on the scale is not
-constexpr double kMostMisfit = 0.15;
+constexpr double kUnmeasuredPeak_N = 1.0, kMakersPeak_N = 8.0;
+constexpr double kUnmeasuredShare = 0.1;  ///< of the motors' range
+constexpr double kBeyondMeasured = 3.0;   ///< extrapolation of a linear motor
+constexpr double kMaxMisfit = 0.15;
 
 [[noreturn]] void refuse(const std::string& what) {
   throw DeviceError("Falcon's force scale, " + what + ", weigh it again");
@@ -35,7 +35,7 @@ FalconForceScale weighed(const FalconForceScale& used, std::span<const FalconWei
   if (gain < 0.0) refuse("it pulls where it should push");
   if (!(gain > 0.0)) refuse("the scale showed no force");
   for (const FalconWeighing& reading : readings)
-    if (std::abs(reading.shown_N - gain * reading.asked_N) > kMostMisfit * max_weighed_N)
+    if (std::abs(reading.shown_N - gain * reading.asked_N) > kMaxMisfit * max_weighed_N)
       refuse("the readings do not lie on one line");
 
   FalconForceScale scale = used;
@@ -53,11 +53,11 @@ void check(const FalconForceScale& scale) {
 }
 
 double falconPeakForce_N(const FalconForceScale& scale) {
-  return scale.isWeighed() ? std::min(kBeyondWeighed * scale.max_weighed_N, kMakersPeak_N) : kUnweighedPeak_N;
+  return scale.isWeighed() ? std::min(kBeyondMeasured * scale.max_weighed_N, kMakersPeak_N) : kUnmeasuredPeak_N;
 }
 
 int falconMaxWord(const FalconForceScale& scale) {
-  return static_cast<int>(kMaxFalconMotorWord * (scale.isWeighed() ? 1.0 : kUnweighedShare));
+  return static_cast<int>(kMaxFalconMotorWord * (scale.isWeighed() ? 1.0 : kUnmeasuredShare));
 }
 
 double falconPeakTorque_Nmm(const FalconForceScale& scale) { return falconMaxWord(scale) / scale.words_per_Nmm; }

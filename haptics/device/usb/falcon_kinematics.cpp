@@ -21,7 +21,7 @@ constexpr double kRadAtZero = calibration::radFromDegrees(35.0);
 constexpr std::array kTurn_rad{calibration::radFromDegrees(105.0), calibration::radFromDegrees(-15.0),
                                calibration::radFromDegrees(-135.0)};
 
-constexpr int kMostSteps = 15;
+constexpr int kMaxSteps = 15;
 constexpr double kLongestStep_mm = 20.0, kCloseEnough_mm = 1e-10;
 
 /// The shin's end in the frame of a leg, and that frame's axes.
@@ -40,7 +40,7 @@ struct Shin {
   double reach() const { return kDandE + flat(); }
 };
 
-/// What Newton brings to zero: how much too far a knee is from the grip, mm; and how it changes with the grip.
+/// What Newton brings to zero: excess distance of each knee from the grip, mm, and its gradient.
 struct Misfit {
   glm::dvec3 mm{0.0};
   glm::dmat3 rows{0.0};  ///< transposed: column i belongs to leg i
@@ -74,7 +74,7 @@ std::optional<FalconLegs> falconLegsAt_rad(const Point<Device>& grip_D) {
   FalconLegs legs_rad;
   for (std::size_t leg = 0; leg < 3; ++leg) {
     const Shin shin(leg, grip_D.mm);
-    // The law of cosines at the base; of its two knees the outer one.
+    // The law of cosines at the base; of the two solutions the outer knee.
     const double far = std::hypot(shin.X, shin.Z), reach = shin.reach();
     const double cosine = (far * far + kA * kA - reach * reach) / (2.0 * kA * far);
     if (!(std::abs(cosine) <= 1.0)) return std::nullopt;
@@ -88,7 +88,7 @@ std::optional<Point<Device>> falconGrip(const FalconLegs& legs_rad, const Point<
   Misfit misfit(legs_rad, grip_mm);
   if (!std::isfinite(misfit.size)) return std::nullopt;
   double damping = 1.0;
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     if (!(std::abs(glm::determinant(misfit.rows)) > 1e-9)) return std::nullopt;
     glm::dvec3 move_mm = -(glm::inverse(glm::transpose(misfit.rows)) * misfit.mm);
     const double far_mm = glm::length(move_mm);
@@ -96,7 +96,7 @@ std::optional<Point<Device>> falconGrip(const FalconLegs& legs_rad, const Point<
     const glm::dvec3 next_mm = grip_mm + damping * move_mm;
     const Misfit next(legs_rad, next_mm);
 
-    // Where a step does not help, half of it may.
+    // Halve a step that does not reduce the misfit.
     if (next.size < misfit.size || far_mm < kCloseEnough_mm) {
       grip_mm = next_mm;
       misfit = next;
@@ -111,7 +111,7 @@ std::optional<Point<Device>> falconGrip(const FalconLegs& legs_rad, const Point<
 }
 
 glm::dmat3 falconJacobian_mm(const FalconLegs& legs_rad, const Point<Device>& grip_D) {
-  // The constraint of a leg, differentiated: n . dp = a (Z cos t - X sin t) dt with n along its shin.
+  // The constraint of a leg, differentiated: n . dp = a (Z cos t - X sin t) dt, n along its shin.
   glm::dmat3 shins(0.0);
   glm::dvec3 levers_mm(0.0);
   for (std::size_t leg = 0; leg < 3; ++leg) {

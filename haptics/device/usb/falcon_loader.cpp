@@ -24,7 +24,7 @@ constexpr std::array kRun{FtdiRequest{kLatency, 1}, FtdiRequest{kBaud, 2}, kPurg
 
 constexpr std::array<std::uint8_t, 3> kGreeting{0x0A, 0x43, 0x0D};
 constexpr std::array<std::uint8_t, 4> kAnswer{0x0A, 0x44, 0x2C, 0x0D};
-constexpr std::array<std::uint8_t, 1> kKnock{0x41};
+constexpr std::array<std::uint8_t, 1> kProbe{0x41};
 constexpr std::size_t kPiece = 62;
 
 std::string hex(std::uint8_t byte) {
@@ -36,26 +36,26 @@ std::string hex(std::uint8_t byte) {
 
 std::span<const FtdiRequest> falconRunRequests() { return kRun; }
 
-FalconLoader::Ask FalconLoader::ask() const {
+FalconLoader::Action FalconLoader::next() const {
   switch (stage_) {
     case Stage::prepare:
     case Stage::speed_up:
     case Stage::run:
-      return Ask::request;
+      return Action::request;
     case Stage::greet:
-    case Stage::knock:
+    case Stage::probe:
     case Stage::stream:
-      return Ask::send;
+      return Action::send;
     case Stage::await_greeting:
-    case Stage::await_knock:
+    case Stage::await_probe:
     case Stage::await_echo:
-      return Ask::listen;
+      return Action::listen;
     case Stage::over:
-      return Ask::done;
+      return Action::done;
     case Stage::broken:
       break;
   }
-  return Ask::failed;
+  return Action::failed;
 }
 
 std::span<const FtdiRequest> FalconLoader::requests() const {
@@ -72,17 +72,13 @@ std::span<const std::uint8_t> FalconLoader::piece() const {
 
 std::span<const std::uint8_t> FalconLoader::send() const {
   if (stage_ == Stage::greet) return kGreeting;
-  if (stage_ == Stage::knock) return kKnock;
+  if (stage_ == Stage::probe) return kProbe;
   return piece();
 }
 
-int FalconLoader::patience_ms() const {
-  // The bridge hands over what it has every 16 ms; 62 bytes at 140 kbaud take 5 ms.
+int FalconLoader::timeout_ms() const {
+  // The bridge delivers what it has every 16 ms; 62 bytes at 140 kbaud take 5 ms.
   return stage_ == Stage::await_greeting ? 50 : 1000;
-}
-
-double FalconLoader::share() const {
-  return program_.empty() ? 0.0 : static_cast<double>(echoed_) / static_cast<double>(program_.size());
 }
 
 void FalconLoader::done() {
@@ -92,16 +88,16 @@ void FalconLoader::done() {
     case Stage::run:
       if (++step_ < requests().size()) return;
       step_ = 0;
-      stage_ = stage_ == Stage::prepare ? Stage::greet : stage_ == Stage::speed_up ? Stage::knock : Stage::over;
+      stage_ = stage_ == Stage::prepare ? Stage::greet : stage_ == Stage::speed_up ? Stage::probe : Stage::over;
       return;
     case Stage::greet:
       --greetings_left_;
       matched_ = 0;
-      answer_spoilt_ = false;
+      answer_wrong_ = false;
       stage_ = Stage::await_greeting;
       return;
-    case Stage::knock:
-      stage_ = Stage::await_knock;
+    case Stage::probe:
+      stage_ = Stage::await_probe;
       return;
     case Stage::stream:
       sent_ += piece().size();
@@ -112,18 +108,18 @@ void FalconLoader::done() {
   }
 }
 
-void FalconLoader::heard(std::span<const std::uint8_t> payload) {
+void FalconLoader::received(std::span<const std::uint8_t> payload) {
   for (std::uint8_t byte : payload) take(byte);
 }
 
 void FalconLoader::take(std::uint8_t byte) {
   if (stage_ == Stage::await_greeting) {
-    // A zero may come before the answer; anything else spoils this try.
+    // A zero may come before the answer; anything else fails this attempt.
     if (matched_ == 0 && byte == 0) return;
-    answer_spoilt_ = answer_spoilt_ || byte != kAnswer[matched_];
-    if (!answer_spoilt_ && ++matched_ == kAnswer.size()) stage_ = Stage::speed_up;
-  } else if (stage_ == Stage::await_knock) {
-    if (byte != kKnock[0]) return fail("it answered " + hex(byte) + " where 0x41 was due");
+    answer_wrong_ = answer_wrong_ || byte != kAnswer[matched_];
+    if (!answer_wrong_ && ++matched_ == kAnswer.size()) stage_ = Stage::speed_up;
+  } else if (stage_ == Stage::await_probe) {
+    if (byte != kProbe[0]) return fail("it answered " + hex(byte) + " where 0x41 was due");
     stage_ = Stage::stream;
     if (program_.empty()) fail("the program is empty");
   } else if (stage_ == Stage::await_echo) {
@@ -134,13 +130,13 @@ void FalconLoader::take(std::uint8_t byte) {
   }
 }
 
-void FalconLoader::silence() {
+void FalconLoader::timedOut() {
   if (stage_ == Stage::await_greeting) {
     if (greetings_left_ > 0)
       stage_ = Stage::greet;
     else
       fail("it does not answer the greeting");
-  } else if (stage_ == Stage::await_knock) {
+  } else if (stage_ == Stage::await_probe) {
     fail("it does not answer at 140 kbaud");
   } else if (stage_ == Stage::await_echo) {
     fail("it fell silent after " + std::to_string(echoed_) + " of " + std::to_string(program_.size()) + " bytes");

@@ -1,8 +1,8 @@
-// The conversation that brings the Falcon's program into it after every power-up, as a state machine over bytes: it
-// says what to do next and is told what happened, and knows no USB and no clock. Greeting at 9600 baud, then 140 kbaud,
-// one letter, the program in pieces of at most 62 bytes of which every byte must come back as it went, then 1.5 Mbaud.
-// One thread; no allocation until it fails. Source: libnifalcon/libnifalcon, FalconCommLibUSB.cpp, FalconFirmware.cpp
-// (facts; reference/devices 3.2). The program is Novint's: it is the user's file, never part of Molar.
+// Loads the Falcon's firmware after every power-up, as a state machine over bytes: next() says what the caller does,
+// done(), received() and timedOut() report the result. It uses neither USB nor a clock. Greeting at 9600 baud, then 140
+// kbaud, one letter, the program in pieces of at most 62 bytes that must all be echoed, then 1.5 Mbaud. One thread; no
+// allocation until it fails. Source: libnifalcon/libnifalcon, FalconCommLibUSB.cpp, FalconFirmware.cpp (facts;
+// reference/devices 3.2).
 #pragma once
 
 #include <array>
@@ -21,22 +21,21 @@ struct FtdiRequest {
 
 class FalconLoader {
  public:
-  enum class Ask { request, send, listen, done, failed };
+  enum class Action { request, send, listen, done, failed };
 
-  /// `program` must stay while it runs.
+  /// `program` must outlive the loader.
   explicit FalconLoader(std::span<const std::uint8_t> program, int greetings = 100)
       : program_(program), greetings_left_(greetings) {}
 
-  Ask ask() const;
-  FtdiRequest request() const;                 ///< while it asks for a request
-  std::span<const std::uint8_t> send() const;  ///< while it asks to send
-  int patience_ms() const;                     ///< how long to listen before silence()
+  Action next() const;
+  FtdiRequest request() const;                 ///< for Action::request
+  std::span<const std::uint8_t> send() const;  ///< for Action::send
+  int timeout_ms() const;                      ///< for Action::listen
 
-  void done();                                             ///< the request was taken, the bytes were sent
-  void heard(std::span<const std::uint8_t> payload);       ///< without modem bytes
-  void silence();                                          ///< nothing more came within the patience
-  double share() const;                                    ///< of the program that has come back, 0..1
-  const std::string& trouble() const { return trouble_; }  ///< what failed
+  void done();                                             ///< the request was accepted, the bytes were sent
+  void received(std::span<const std::uint8_t> payload);    ///< without modem bytes
+  void timedOut();                                         ///< nothing more came within timeout_ms()
+  const std::string& trouble() const { return trouble_; }  ///< why it failed
 
  private:
   enum class Stage {
@@ -44,8 +43,8 @@ class FalconLoader {
     greet,
     await_greeting,
     speed_up,
-    knock,
-    await_knock,
+    probe,
+    await_probe,
     stream,
     await_echo,
     run,
@@ -63,12 +62,12 @@ class FalconLoader {
   Stage stage_ = Stage::prepare;
   std::size_t step_ = 0;     ///< within the requests of a stage
   std::size_t matched_ = 0;  ///< of the greeting's answer
-  bool answer_spoilt_ = false;
+  bool answer_wrong_ = false;
   std::size_t sent_ = 0, echoed_ = 0;
   std::string trouble_;
 };
 
-/// What brings a Falcon whose program runs to the speed of its run packets.
+/// Set the bridge to the speed of run packets, for a Falcon whose program runs.
 std::span<const FtdiRequest> falconRunRequests();
 
 }  // namespace haptics

@@ -1,24 +1,26 @@
-// What a Falcon needs before its run packets: is its program there, and if not, the conversation that brings it. Over
-// an opened transport that does not run yet; the thread that opened it. Blocks for seconds; every wait has an end.
+// What a Falcon needs before its run packets: its firmware file, the test whether it runs, and the loading. Novint's
+// driver brings the file; Molar never does. Over an open transport that does not stream yet; the thread that opened it.
+// Blocks for seconds; every wait has a limit.
 #pragma once
 
 #include <cstdint>
-#include <functional>
+#include <filesystem>
 #include <span>
-#include <string>
+#include <vector>
+
+#include "haptics/device/usb/usb_haptic_device.h"
 
 namespace haptics {
 
-class UsbTransport;
-
-/// Progress for a person, and the share done, 0..1. False: give up.
-using FalconProgress = std::function<bool(const std::string& words, double share)>;
+/// Throws DeviceError: no such file, not readable, or not the unit's firmware, which has 16-bit words and 1 to 64 KiB
+/// (published image: 8492 bytes).
+std::vector<std::uint8_t> readFalconProgram(const std::filesystem::path& file);
 
 /// True when run packets are answered. Sends packets without force only.
 bool falconRuns(UsbTransport& usb);
 
-/// Throws DeviceError when the unit does not take the program, is unplugged, or `tell` gives up.
-void loadFalcon(UsbTransport& usb, std::span<const std::uint8_t> program, const FalconProgress& tell,
+/// Throws DeviceError when the unit does not take the program, is unplugged, or `prompt` cancels.
+void loadFalcon(UsbTransport& usb, std::span<const std::uint8_t> program, const DevicePrompt& prompt,
                 int greetings = 100);
 
 }  // namespace haptics

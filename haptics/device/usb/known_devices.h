@@ -1,10 +1,12 @@
-// Haptic devices by what the USB says of them, whoever drives them: which one, of which kind, what its owner does next.
-// Touch units by 3D Systems are 2988:*, early ones 0301:2988 with their two ids swapped; classes 2 and 10 are the
-// serial kind, class 3 the HID kind. Nobody has published how they are spoken to, so Molar does not speak to them over
-// USB. Plain functions, any thread. Sources: reference/devices 1, 3.
+// Haptic devices by their USB identity: which device, of which kind, what its owner has to do next. One table of
+// identities for searches, the presence monitor, the doctor and the udev rules. Touch units by 3D Systems are 2988:*,
+// early ones 0301:2988 with the two ids swapped; USB classes 2 and 10 are the serial kind, class 3 the HID kind. Their
+// protocol is not published, so Molar does not drive them over USB. Plain functions, any thread. Sources:
+// reference/devices 1, 3.
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "haptics/device/found_device.h"
 #include "haptics/device/usb/usb_devices.h"
@@ -13,15 +15,21 @@ namespace haptics {
 
 enum class KnownDevice { touch_serial, touch_hid, touch_of_another_kind, force_dimension, falcon, wooden_haptics };
 
+struct UsbIdentity {
+  KnownDevice kind;  ///< which kind of Touch, its interface classes decide
+  const char* name;
+  std::uint16_t vendor, product;  ///< product 0: any
+};
+std::span<const UsbIdentity> usbIdentities();
+
 std::optional<KnownDevice> knownAs(const UsbDevice& device);
-
-/// Its maker's library would have to drive it.
+/// Driven by its maker's library or not at all.
 bool isClosed(KnownDevice kind);
-
 FoundDevice described(KnownDevice kind, const UsbDevice& device);
 
-/// The closed ones that are plugged in; the open ones have searches of their own. Opens nothing. Throws DeviceError
-/// when USB can not be looked at.
-std::vector<FoundDevice> findPresent();
+/// What is plugged in, without opening anything. Throw DeviceError when the USB can not be searched.
+std::vector<FoundDevice> findClosed();  ///< those that another driver would drive
+std::vector<FoundDevice> findFalcon();
+std::vector<FoundDevice> findWoodenHaptics();
 
 }  // namespace haptics

@@ -9,20 +9,20 @@
 #include <utility>
 
 #include "haptics/device/haptic_device.h"
-#include "haptics/device/usb/usb_paths.h"
+#include "haptics/device/usb/usb_devices.h"
 
 namespace haptics {
 namespace {
 
-/// The longest sleep; and the sleep while a newcomer is not on the list yet.
-constexpr timeval kCalm{1, 0}, kExpecting{0, 20'000};
-/// How often a newcomer is looked for: it may have gone again.
-constexpr int kMostLooks = 50;
+/// The longest sleep, and the sleep while an arrived device is not listed yet.
+constexpr timeval kIdle{1, 0}, kExpecting{0, 20'000};
+/// How often an arrived device is searched for: it may have left again.
+constexpr int kMaxSearches = 50;
 
 }  // namespace
 
 struct PresenceMonitor::Watch {
-  explicit Watch(PresenceListener heard);
+  explicit Watch(PresenceListener new_listener);
   ~Watch();
 
   static int onHotplug(libusb_context*, libusb_device* device, libusb_hotplug_event event, void* user);
@@ -37,14 +37,14 @@ struct PresenceMonitor::Watch {
   std::atomic<bool> quit{false}, starved{false};
 
   // Of the watching thread.
-  std::map<std::string, int> expected;  ///< path, and how often it was looked for
+  std::map<std::string, int> expected;  ///< path, and how often it was searched for
   std::map<std::string, PresentDevice> present;
   std::thread thread;
 };
 
 int PresenceMonitor::Watch::onHotplug(libusb_context*, libusb_device* device, libusb_hotplug_event event, void* user) {
   auto& watch = *static_cast<Watch*>(user);
-  // libusb knows no exceptions.
+  // No exception may pass through libusb.
   try {
     const std::string path = usbPath(device);
     if (event == LIBUSB_HOTPLUG_EVENT_DEVICE_LEFT)
@@ -57,7 +57,7 @@ int PresenceMonitor::Watch::onHotplug(libusb_context*, libusb_device* device, li
   return 0;
 }
 
-PresenceMonitor::Watch::Watch(PresenceListener heard) : listener(std::move(heard)) {
+PresenceMonitor::Watch::Watch(PresenceListener new_listener) : listener(std::move(new_listener)) {
   if (libusb_init(&context) != 0)
     throw DeviceError("USB: libusb does not start, look whether this user may read /dev/bus/usb",
                       DeviceTrouble::no_resources);
@@ -67,9 +67,8 @@ PresenceMonitor::Watch::Watch(PresenceListener heard) : listener(std::move(heard
                                        LIBUSB_HOTPLUG_MATCH_ANY, LIBUSB_HOTPLUG_MATCH_ANY, onHotplug, this, nullptr);
   if (error != 0) {
     libusb_exit(context);
-    throw DeviceError(
-        std::string("USB: nobody tells of devices that come and go, ") + libusb_strerror(error) + ", start udev",
-        DeviceTrouble::no_resources);
+    throw DeviceError(std::string("USB: no hotplug events, ") + libusb_strerror(error) + ", start udev",
+                      DeviceTrouble::no_resources);
   }
   thread = std::thread([this] { run(); });
 }
@@ -93,7 +92,7 @@ void PresenceMonitor::Watch::run() noexcept {
 void PresenceMonitor::Watch::watch() {
   while (!quit.load() && !starved.load()) {
     noticeArrived();
-    timeval sleep = expected.empty() ? kCalm : kExpecting;
+    timeval sleep = expected.empty() ? kIdle : kExpecting;
     libusb_handle_events_timeout_completed(context, &sleep, nullptr);
   }
 }
@@ -111,12 +110,12 @@ void PresenceMonitor::Watch::noticeArrived() {
     const auto& path = each->first;
     const auto found = std::find_if(devices.begin(), devices.end(), [&](const UsbDevice& d) { return d.path == path; });
     if (found == devices.end()) {
-      each = ++each->second < kMostLooks ? std::next(each) : expected.erase(each);
+      each = ++each->second < kMaxSearches ? std::next(each) : expected.erase(each);
       continue;
     }
     if (const auto kind = knownAs(*found)) {
-      const PresentDevice& newcomer = present[path] = {*kind, described(*kind, *found)};
-      if (listener.arrived) listener.arrived(newcomer);
+      const PresentDevice& arrival = present[path] = {*kind, described(*kind, *found)};
+      if (listener.arrived) listener.arrived(arrival);
     }
     each = expected.erase(each);
   }

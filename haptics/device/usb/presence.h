@@ -1,8 +1,7 @@
-// Watches haptic devices come and go on the USB, those that Molar drives and those that only their maker's library can:
-// so that somebody is told which driver to install, and so that a unit that is pulled out of its socket stops the
-// motors at once, whatever its library says. Only looks: it opens no device, claims none and writes to none. A thread
-// of its own, which sleeps until libusb's hotplug wakes it; both calls come from there, for what is plugged in already
-// too.
+// Reports haptic devices that come and go on the USB, both those that Molar drives and those that need their maker's
+// library: to name the missing driver, and to stop the motors of an unplugged unit at once. It opens no device and
+// writes to none. A thread of its own sleeps until libusb's hotplug wakes it and calls the listener, also for what is
+// plugged in at the start.
 #pragma once
 
 #include <functional>
@@ -17,15 +16,15 @@ struct PresentDevice {
   FoundDevice found;
 };
 
-/// Must not throw, nor end the monitor. Each may be empty.
+/// Must not throw, nor destroy the monitor. Each may be empty.
 struct PresenceListener {
   std::function<void(const PresentDevice&)> arrived, left;
-  std::function<void()> ended = {};  ///< once, as the last: memory ran out, nothing is noticed any more
+  std::function<void()> ended = {};  ///< once, last: out of memory, monitoring has ended
 };
 
 class PresenceMonitor {
  public:
-  /// Throws DeviceError when libusb does not start or knows no hotplug.
+  /// Throws DeviceError when libusb does not start or has no hotplug.
   explicit PresenceMonitor(PresenceListener listener);
   /// No call after it.
   ~PresenceMonitor();

@@ -1,6 +1,6 @@
-// What is on the USB, without opening anything: ids, place, classes, strings as the kernel read them. For searches and
-// for watching what comes and goes: one UsbBus may be asked again and again, which costs well under a millisecond, the
-// first time some. One thread at a time; not the servo's.
+// What is on the USB, read without opening a device: ids, location, classes, strings as the kernel read them. One
+// UsbBus may be asked repeatedly, well under a millisecond each time after the first. One thread at a time; not the
+// servo's.
 #pragma once
 
 #include <cstdint>
@@ -8,20 +8,28 @@
 #include <string>
 #include <vector>
 
+struct libusb_device;
+
 namespace haptics {
+
+/// As the kernel writes it: "bus-port.port…", "1-2.3"; of a root hub "usb1".
+std::string usbPath(libusb_device* device);
+/// "1234:0006".
+std::string usbId(std::uint16_t vendor, std::uint16_t product);
+/// First line of a sysfs attribute, "serial" or "product"; empty where there is none.
+std::string usbAttribute(const std::string& path, const std::string& attribute);
 
 struct UsbDevice {
   std::uint16_t vendor = 0, product = 0;
   std::string path;  ///< bus and ports, "1-2.3", as UsbAddress takes it
-  std::string maker, name, serial;
+  std::string name, serial;
   std::uint8_t device_class = 0;
   std::vector<std::uint8_t> interface_classes;  ///< of the active configuration, in its order
   bool may_open = false;                        ///< this user may read and write it
 
-  /// "1234:0006".
-  std::string id() const;
+  std::string id() const { return usbId(vendor, product); }
   /// "USB 1-2, 1234:0006".
-  std::string place() const;
+  std::string location() const { return "USB " + path + ", " + id(); }
 };
 
 class UsbBus {

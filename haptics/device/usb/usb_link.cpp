@@ -8,13 +8,13 @@
 #include <utility>
 
 #include "haptics/device/haptic_device.h"
-#include "haptics/device/usb/usb_paths.h"
+#include "haptics/device/usb/usb_devices.h"
 
 namespace haptics {
 namespace {
 
-constexpr std::size_t kMostDescriptors = 16;
-/// The largest packet of full speed is 64, of high speed 1024 bytes; bits above are not its size.
+constexpr std::size_t kMaxDescriptors = 16;
+/// Packets have at most 64 bytes at full speed, 1024 at high speed; higher bits are not size.
 constexpr std::size_t kPacketMask = 0x7ff;
 
 std::string errorText(int error) {
@@ -95,7 +95,7 @@ void UsbLink::open(const UsbAddress& address) {
 void UsbLink::findPipes() {
   libusb_config_descriptor* config = nullptr;
   if (const int error = libusb_get_active_config_descriptor(libusb_get_device(handle_), &config); error != 0)
-    throw DeviceError(name_ + ": its descriptors can not be read, " + errorText(error), troubleOf(error));
+    throw DeviceError(name_ + ": its descriptors cannot be read, " + errorText(error), troubleOf(error));
   for (int i = 0; i < config->bNumInterfaces; ++i) {
     const libusb_interface& candidate = config->interface[i];
     if (candidate.num_altsetting < 1 || candidate.altsetting[0].bInterfaceNumber != interface_) continue;
@@ -116,22 +116,22 @@ void UsbLink::findPipes() {
 }
 
 void UsbLink::claim() {
-  // Where detaching is not served at all, the claim alone may still succeed.
+  // Where detaching is not supported, the claim alone may succeed.
   libusb_set_auto_detach_kernel_driver(handle_, 1);
   int error = libusb_claim_interface(handle_, interface_);
   if (error != 0 && error != LIBUSB_ERROR_NO_DEVICE) {
     libusb_set_auto_detach_kernel_driver(handle_, 0);
     error = libusb_claim_interface(handle_, interface_);
   }
-  if (error != 0) throw DeviceError(name_ + ": it can not be claimed, " + errorText(error), troubleOf(error));
+  if (error != 0) throw DeviceError(name_ + ": it cannot be claimed, " + errorText(error), troubleOf(error));
 }
 
 void UsbLink::watchDescriptors() {
   const libusb_pollfd** list = libusb_get_pollfds(context_);
   if (!list)
-    throw DeviceError(name_ + ": libusb gives nothing to wait for, replug it and start again",
+    throw DeviceError(name_ + ": libusb gives no descriptor to wait for, replug it and start again",
                       DeviceTrouble::no_resources);
-  for (const libusb_pollfd** each = list; *each && descriptors_.size() + 1 < kMostDescriptors; ++each) {
+  for (const libusb_pollfd** each = list; *each && descriptors_.size() + 1 < kMaxDescriptors; ++each) {
     descriptors_.push_back((*each)->fd);
     descriptor_events_.push_back((*each)->events);
   }
@@ -139,15 +139,14 @@ void UsbLink::watchDescriptors() {
 }
 
 bool UsbLink::pump(std::int64_t deadline_ns, int wake_descriptor) noexcept {
-  constexpr std::int64_t kSecond_ns = 1'000'000'000;
-  std::array<pollfd, kMostDescriptors> polled{};
+  std::array<pollfd, kMaxDescriptors> polled{};
   nfds_t count = 0;
   for (; count < descriptors_.size(); ++count) polled[count] = {descriptors_[count], descriptor_events_[count], 0};
   if (wake_descriptor >= 0) polled[count++] = {wake_descriptor, POLLIN, 0};
 
-  const std::int64_t left_ns =
-      std::clamp<std::int64_t>(deadline_ns - clock_.now_ns(), 0, std::min(kSecond_ns, clock_.maxSleep_ns()));
-  const timespec left{static_cast<time_t>(left_ns / kSecond_ns), static_cast<long>(left_ns % kSecond_ns)};
+  const std::int64_t left_ns = std::clamp<std::int64_t>(deadline_ns - clock_.now_ns(), 0,
+                                                        std::min<std::int64_t>(1'000'000'000, clock_.maxSleep_ns()));
+  const timespec left = timespecOf(left_ns);
   ppoll(polled.data(), count, &left, nullptr);
 
   timeval at_once{0, 0};

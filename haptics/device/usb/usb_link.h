@@ -1,4 +1,4 @@
-// An opened and claimed USB interface with its pair of pipes, and the pumping of libusb's events. Internal to the
+// An open and claimed USB interface with its IN and OUT pipes, and the handling of libusb's events. Internal to the
 // transport. pump(): one thread at a time.
 #pragma once
 
@@ -17,7 +17,7 @@ namespace haptics {
 
 struct UsbPipe {
   std::uint8_t endpoint = 0;
-  std::uint8_t transfer_type = 0;  ///< as libusb numbers them
+  std::uint8_t transfer_type = 0;  ///< libusb_transfer_type
   std::size_t packet_bytes = 0;
 };
 
@@ -35,17 +35,17 @@ class UsbLink {
   const std::string& path() const { return path_; }
   const std::string& serialNumber() const { return serial_number_; }
 
-  /// Sleeps until libusb has something, `wake_descriptor` (or -1) is readable or the deadline has come, then lets
-  /// libusb call back. False: libusb failed, the handle is dead.
+  /// Sleeps until libusb has an event, `wake_descriptor` (or -1) is readable or the deadline, then runs libusb's
+  /// callbacks. False: libusb failed, the handle is dead.
   bool pump(std::int64_t deadline_ns, int wake_descriptor) noexcept;
 
-  /// Blocks as long as the kernel does. False when the device refused or is gone.
+  /// Blocks as long as the kernel does. False: refused, or the device is gone.
   bool clearHalt(const UsbPipe& pipe) noexcept;
 
-  /// A number for a transfer that came back, in their order.
+  /// Serial number of a completed transfer.
   std::uint64_t numberDone() noexcept { return ++done_; }
 
-  /// A transfer the handle did not give back: it and its buffer live until the handle is closed.
+  /// Keeps a transfer that did not complete, with its buffer, until the handle is closed.
   void abandon(libusb_transfer* transfer, std::vector<std::uint8_t> buffer);
 
  private:

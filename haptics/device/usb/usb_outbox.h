@@ -1,8 +1,8 @@
-// What goes out over the USB next: the newest report of the servo, the rest report that lets the motors go, or the last
-// report of all. In this order: nothing after the last; the last before all; a rest until it is taken; the newest,
-// unless a rest or too long a wait made it void; a rest by itself after a silence. send(): the servo thread. rest(),
-// requestLast(): any thread, also a signal handler. The others: the event thread. Lock-free, no allocation, no clock of
-// its own: times are given, ns of CLOCK_MONOTONIC.
+// Selects what goes out over the USB next: the newest report of the servo, the rest report (zero force), or the last
+// report of all. Order: nothing after the last; the last before all others; a rest until it is sent; the newest, unless
+// a rest or too long a wait voided it; a rest by itself after a silence. send(): the servo thread. rest(),
+// requestLast(): any thread, also a signal handler. The others: the event thread. Lock-free, no allocation; times are
+// parameters, ns of CLOCK_MONOTONIC.
 #pragma once
 
 #include <atomic>
@@ -23,18 +23,18 @@ class UsbOutbox {
 
   std::uint32_t rests() const noexcept { return rests_.load(); }
   void rest() noexcept { rests_.fetch_add(1); }
-  /// The first who asks is heard. After the deadline it is given up, one attempt made.
+  /// The first request wins. After the deadline it is given up, with one attempt made.
   void requestLast(const UsbReport& report, std::int64_t deadline_ns) noexcept;
   bool isOver() const noexcept { return phase_.load() == Phase::over; }
   bool lastWasTaken() const noexcept { return last_taken_.load(); }
   std::uint64_t replaced() const noexcept { return replaced_.load(std::memory_order_relaxed); }
   std::uint64_t silences() const noexcept { return silences_.load(std::memory_order_relaxed); }
 
-  /// What shall be submitted now. Each one is answered by taken() or notTaken() before the next is asked for.
+  /// The report to submit now; taken() or notTaken() has to follow before the next call.
   std::optional<UsbReport> next(std::int64_t now_ns) noexcept;
   void taken() noexcept;
   void notTaken() noexcept;
-  /// When to ask again though nobody sent anything; `never_ns` if not.
+  /// When to call next() again without a new report; `never_ns` if not.
   std::int64_t nextCheck_ns(std::int64_t never_ns) const noexcept;
   /// Nothing more goes out.
   void close() noexcept { end(false); }
@@ -64,7 +64,7 @@ class UsbOutbox {
   std::uint64_t sent_number_ = 0;  ///< of the servo thread
 
   // Of the event thread.
-  bool resting_ = true;  ///< the device is known to have let the motors go, or never held them
+  bool resting_ = true;  ///< the device has zero force, or never had any
   bool last_under_way_ = false, last_tried_ = false;
   std::uint32_t rests_sent_ = 0, rests_under_way_ = 0;
   std::uint64_t number_taken_ = 0;

@@ -11,18 +11,18 @@ namespace haptics {
 namespace {
 
 constexpr std::int64_t kMillisecond_ns = 1'000'000;
-/// Failures in a row, each waited for longer than the last up to 64 ms: about a second, then the handle is dead.
-constexpr int kMostFailures = 20;
-constexpr int kLongestPause_ms = 64;
+/// Failures in a row, with pauses growing to 64 ms: about a second, then the handle is dead.
+constexpr int kMaxFailures = 20;
+constexpr int kMaxPause_ms = 64;
 /// The longest sleep when nothing is due.
-constexpr std::int64_t kLook_ns = 100 * kMillisecond_ns;
-/// Between the looks of somebody who waits for the last report.
+constexpr std::int64_t kMaxSleep_ns = 100 * kMillisecond_ns;
+/// Between two checks while sendLast() waits.
 constexpr std::int64_t kWait_ns = kMillisecond_ns / 2;
 
 std::int64_t ns(std::chrono::milliseconds time) { return std::chrono::nanoseconds(time).count(); }
 
 /// Best effort.
-void hurry(int priority) noexcept {
+void requestPriority(int priority) noexcept {
   sched_param param{};
   param.sched_priority = priority;
   pthread_setschedparam(pthread_self(), SCHED_FIFO, &param);
@@ -53,14 +53,14 @@ void UsbPump::stop() noexcept {
 // ---- the servo thread
 
 const UsbReport& UsbPump::newestReport() noexcept {
-  const UsbReport& report = heard_.read();
+  const UsbReport& report = received_.read();
   serial_seen_ = report.serial;
   return report;
 }
 
 bool UsbPump::awaitReport(std::int64_t deadline_ns) noexcept {
-  while (heard_.read().serial == serial_seen_)
-    if (!heard_signal_.awaitUntil(deadline_ns)) return heard_.read().serial != serial_seen_;
+  while (received_.read().serial == serial_seen_)
+    if (!received_signal_.awaitUntil(deadline_ns)) return received_.read().serial != serial_seen_;
   return true;
 }
 
@@ -105,12 +105,12 @@ UsbCounters UsbPump::counters() const noexcept {
 // ---- the event thread
 
 void UsbPump::run() noexcept {
-  hurry(stream_.priority);
+  requestPriority(stream_.priority);
   while (!quit_.load()) {
     std::int64_t now_ns = link_.clock().now_ns();
     if (gone_) {
       outbox_.close();
-      wake_.awaitUntil(monotonic_ns() + kLook_ns);
+      wake_.awaitUntil(monotonic_ns() + kMaxSleep_ns);
       continue;
     }
     clearHalt(link_.in(), in_health_);
@@ -122,9 +122,9 @@ void UsbPump::run() noexcept {
     now_ns = link_.clock().now_ns();
     settleIn(now_ns);
     settleOut(now_ns);
-    judge(now_ns);
+    updateState(now_ns);
   }
-  windDown();
+  cancelAll();
 }
 
 void UsbPump::submitIn(std::int64_t now_ns) noexcept {
@@ -155,18 +155,18 @@ void UsbPump::settleIn(std::int64_t now_ns) noexcept {
       count(counted_.overlong_reports);
     } else if (first->outcome() == UsbOutcome::done) {
       in_health_ = {};
-      hear(first->moved(), now_ns);
+      receive(first->moved(), now_ns);
     } else if (first->outcome() == UsbOutcome::late) {
       if (!in_health_.halted) count(counted_.in_timeouts);
     } else {
       settleTrouble(first->outcome(), in_health_, now_ns);
-      // A halted pipe is cleared when nothing is on its way through it.
+      // A halted pipe can be cleared only without transfers in flight.
       for (UsbTransfer& in : ins_) in.cancel();
     }
   }
 }
 
-void UsbPump::hear(std::span<const std::uint8_t> bytes, std::int64_t now_ns) noexcept {
+void UsbPump::receive(std::span<const std::uint8_t> bytes, std::int64_t now_ns) noexcept {
   std::optional<UsbReport> report;
   if (stream_.reader) {
     report = stream_.reader(bytes);
@@ -179,11 +179,11 @@ void UsbPump::hear(std::span<const std::uint8_t> bytes, std::int64_t now_ns) noe
   }
   if (!report) return;
   count(counted_.reports_in);
-  heard_at_ns_ = now_ns;
+  received_at_ns_ = now_ns;
   report->serial = ++serial_;
   report->received_ns = now_ns;
-  heard_.publish(*report);
-  heard_signal_.raise();
+  received_.publish(*report);
+  received_signal_.raise();
 }
 
 void UsbPump::settleOut(std::int64_t now_ns) noexcept {
@@ -214,9 +214,9 @@ void UsbPump::settleTrouble(UsbOutcome outcome, Health& health, std::int64_t now
     health.halted = true;
   } else {
     count(counted_.errors);
-    const int pause_ms = std::min(kLongestPause_ms, 1 << std::min(health.failures, 6));
+    const int pause_ms = std::min(kMaxPause_ms, 1 << std::min(health.failures, 6));
     health.again_at_ns = now_ns + pause_ms * kMillisecond_ns;
-    gone_ |= ++health.failures > kMostFailures;
+    gone_ |= ++health.failures > kMaxFailures;
   }
 }
 
@@ -230,8 +230,8 @@ void UsbPump::clearHalt(const UsbPipe& pipe, Health& health) noexcept {
   health.halted = !link_.clearHalt(pipe);
 }
 
-void UsbPump::judge(std::int64_t now_ns) noexcept {
-  const bool silent = serial_ == 0 || now_ns - heard_at_ns_ > ns(stream_.late_after);
+void UsbPump::updateState(std::int64_t now_ns) noexcept {
+  const bool silent = serial_ == 0 || now_ns - received_at_ns_ > ns(stream_.late_after);
   state_.store(gone_                                     ? UsbState::gone
                : in_health_.halted || out_health_.halted ? UsbState::stalled
                : silent || out_late_                     ? UsbState::late
@@ -239,28 +239,28 @@ void UsbPump::judge(std::int64_t now_ns) noexcept {
 }
 
 std::int64_t UsbPump::nextCheck_ns(std::int64_t now_ns) const noexcept {
-  std::int64_t look_ns = now_ns + kLook_ns;
+  std::int64_t next_ns = now_ns + kMaxSleep_ns;
   const auto by = [&](std::int64_t at_ns) {
-    if (at_ns > now_ns) look_ns = std::min(look_ns, at_ns);
+    if (at_ns > now_ns) next_ns = std::min(next_ns, at_ns);
   };
   for (const UsbTransfer& in : ins_)
     if (in.inFlight()) by(in.deadline_ns());
   if (out_.inFlight()) by(out_.deadline_ns());
-  by(heard_at_ns_ + ns(stream_.late_after) + 1);
-  by(outbox_.nextCheck_ns(look_ns));
+  by(received_at_ns_ + ns(stream_.late_after) + 1);
+  by(outbox_.nextCheck_ns(next_ns));
   by(in_health_.again_at_ns);
   by(out_health_.again_at_ns);
-  // What finished while it was submitted, and a pipe that can be cleared now, do not wait.
+  // A transfer that finished during submission does not wait.
   if (out_.finished() || std::any_of(ins_.begin(), ins_.end(), [](const UsbTransfer& in) { return in.finished(); }))
     return now_ns;
-  return look_ns;
+  return next_ns;
 }
 
 bool UsbPump::anyInFlight() const noexcept {
   return out_.inFlight() || std::any_of(ins_.begin(), ins_.end(), [](const UsbTransfer& in) { return in.inFlight(); });
 }
 
-void UsbPump::windDown() noexcept {
+void UsbPump::cancelAll() noexcept {
   outbox_.close();
   for (UsbTransfer& in : ins_) in.cancel();
   out_.cancel();

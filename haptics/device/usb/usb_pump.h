@@ -1,6 +1,6 @@
-// The event thread of a transport: keeps IN transfers in flight, publishes what they bring, sends the newest report
-// out, takes back what is past its deadline, clears halted endpoints, and knows when the device is gone. Internal to
-// the transport, whose words on threads hold; run() is the event thread itself.
+// The event thread of a transport: keeps IN transfers in flight, publishes what they bring, sends the newest report,
+// cancels transfers past their deadline, clears halted endpoints, detects that the device is gone. Internal to the
+// transport, whose thread rules hold; run() is the event thread itself.
 #pragma once
 
 #include <atomic>
@@ -44,7 +44,7 @@ class UsbPump {
     std::atomic<std::uint64_t> reports_in{0}, reports_out{0}, in_timeouts{0}, out_timeouts{0}, stalls{0},
         short_reports{0}, overlong_reports{0}, errors{0};
   };
-  /// One direction: how often in a row it was found halted or failed, and when to try again.
+  /// One direction: halts and failures in a row, and when to try again.
   struct Health {
     bool halted = false;
     int clearings = 0, failures = 0;
@@ -57,17 +57,17 @@ class UsbPump {
   void settleIn(std::int64_t now_ns) noexcept;
   void settleOut(std::int64_t now_ns) noexcept;
   void settleTrouble(UsbOutcome outcome, Health& health, std::int64_t now_ns) noexcept;
-  void hear(std::span<const std::uint8_t> bytes, std::int64_t now_ns) noexcept;
+  void receive(std::span<const std::uint8_t> bytes, std::int64_t now_ns) noexcept;
   void clearHalt(const UsbPipe& pipe, Health& health) noexcept;
-  void judge(std::int64_t now_ns) noexcept;
+  void updateState(std::int64_t now_ns) noexcept;
   std::int64_t nextCheck_ns(std::int64_t now_ns) const noexcept;
-  void windDown() noexcept;
+  void cancelAll() noexcept;
   bool anyInFlight() const noexcept;
 
   UsbLink& link_;
   UsbStream stream_;
-  WakeSignal wake_, heard_signal_;
-  Latest<UsbReport> heard_;
+  WakeSignal wake_, received_signal_;
+  Latest<UsbReport> received_;
   UsbOutbox outbox_;
   std::atomic<UsbState> state_{UsbState::late};
   std::atomic<bool> quit_{false};
@@ -82,7 +82,7 @@ class UsbPump {
   Health in_health_, out_health_;
   bool gone_ = false, out_late_ = false;
   std::uint64_t serial_ = 0;
-  std::int64_t heard_at_ns_ = 0;
+  std::int64_t received_at_ns_ = 0;
   std::thread thread_;
 };
 

@@ -1,4 +1,4 @@
-// What goes over a USB endpoint, and how the line fares: plain data, trivially copyable, any thread.
+// A report on a USB endpoint, the state of the line and its counters: plain data, trivially copyable, any thread.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ struct UsbReport {
 
   std::array<std::uint8_t, kMaxBytes> bytes{};
   std::uint16_t size = 0;
-  std::uint64_t serial = 0;      ///< of reports that came in, from 1; 0: none came yet
+  std::uint64_t serial = 0;      ///< of received reports, from 1; 0: none yet
   std::int64_t received_ns = 0;  ///< CLOCK_MONOTONIC
 
   UsbReport() = default;
@@ -26,21 +26,21 @@ struct UsbReport {
   std::span<const std::uint8_t> content() const { return {bytes.data(), size}; }
 };
 
-/// How the line is now. `gone` is for good; so is `stalled` once clearing it was of no use.
+/// State of the line. `gone` is final; so is `stalled` once clearing has failed.
 enum class UsbState : std::uint8_t { ok, late, stalled, gone };
 
 /// Since the stream began.
 struct UsbCounters {
   std::uint64_t reports_in = 0, reports_out = 0;
-  std::uint64_t replaced_out = 0;  ///< reports a newer one came before
-  std::uint64_t silences = 0;      ///< rests that went out because nobody sent anything
+  std::uint64_t replaced_out = 0;  ///< replaced by a newer one before they were sent
+  std::uint64_t silences = 0;      ///< rests sent for lack of reports
   std::uint64_t in_timeouts = 0, out_timeouts = 0;
   std::uint64_t stalls = 0;  ///< endpoints found halted
   std::uint64_t short_reports = 0, overlong_reports = 0;
-  std::uint64_t errors = 0;  ///< transfers the bus or the kernel failed
+  std::uint64_t errors = 0;  ///< failed transfers
 };
 
-/// How one request went before the stream began.
+/// Result of one request before the stream.
 enum class UsbOutcome : std::uint8_t { done, late, stalled, gone, failed };
 
 struct UsbExchange {

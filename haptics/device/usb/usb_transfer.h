@@ -1,5 +1,5 @@
-// One asynchronous transfer that is used again and again, with a deadline of our own: libusb's timers are not used, for
-// a dead handle can starve them. Internal to the transport; the thread that pumps its link.
+// One asynchronous transfer, reused, with a deadline of our own: libusb's timers are not used, because a dead handle
+// can starve them. Internal to the transport; the thread that pumps its link.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ class UsbTransfer {
  public:
   static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 
-  /// Throws DeviceError without memory.
+  /// Throws DeviceError when out of memory.
   UsbTransfer(UsbLink& link, const UsbPipe& pipe, std::size_t capacity);
   ~UsbTransfer();
   UsbTransfer(const UsbTransfer&) = delete;
@@ -28,27 +28,27 @@ class UsbTransfer {
 
   std::span<std::uint8_t> buffer() { return buffer_; }
 
-  /// The first `size` bytes of the buffer, or room for as many. False: refused, and finished with that outcome.
+  /// Sends or receives `size` bytes of the buffer. False: refused, and finished with that outcome.
   bool submit(std::size_t size, std::int64_t deadline_ns) noexcept;
   void cancel() noexcept;
   /// Cancels when the deadline is past.
   void expire(std::int64_t now_ns) noexcept;
 
   bool inFlight() const { return in_flight_; }
-  /// Of one in flight: when it must be looked at next.
+  /// In flight: when to call expire().
   std::int64_t deadline_ns() const { return cancelled_at_ns_ == kNever ? deadline_ns_ : kNever; }
-  /// Of one in flight: it was cancelled and has not come back for that long.
+  /// In flight: cancelled, and not completed for so long.
   bool isDead(std::int64_t now_ns, std::int64_t after_ns) const {
     return in_flight_ && cancelled_at_ns_ != kNever && now_ns - cancelled_at_ns_ > after_ns;
   }
-  /// True once after each submit, when it has come back.
+  /// True once after each submit, when it has completed.
   bool takeFinished() noexcept;
   UsbOutcome outcome() const { return outcome_; }
   bool overflowed() const { return overflowed_; }
-  /// Of its link's transfers, which came back first: in order of numbers.
+  /// Order of completion among its link's transfers.
   std::uint64_t order() const { return order_; }
   bool finished() const { return finished_; }
-  /// Of the last one that came back.
+  /// Bytes of the last completed transfer.
   std::span<const std::uint8_t> moved() const { return {buffer_.data(), moved_}; }
 
   void onDone() noexcept;  ///< called back by libusb

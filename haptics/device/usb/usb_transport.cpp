@@ -15,7 +15,7 @@
 namespace haptics {
 namespace {
 
-/// A transfer that can not be taken back before the stream began; then the handle is dead.
+/// Before the stream: a cancelled transfer not completed for so long means a dead handle.
 constexpr std::int64_t kDead_ns = 1'000'000'000;
 
 }  // namespace
@@ -23,12 +23,12 @@ constexpr std::int64_t kDead_ns = 1'000'000'000;
 struct UsbTransport::Parts {
   Parts(const UsbAddress& address, UsbClock clock) : link(address, clock) {}
 
-  /// Submits, pumps, takes back at the deadline.
+  /// Submits, pumps, cancels at the deadline.
   UsbExchange exchange(UsbTransfer& transfer, std::size_t size, std::chrono::milliseconds within);
 
   UsbLink link;
   std::unique_ptr<UsbPump> pump;
-  std::atomic<UsbPump*> running{nullptr};  ///< for those who may ask before it runs
+  std::atomic<UsbPump*> running{nullptr};  ///< null before run()
   bool dead = false;
 };
 
@@ -39,8 +39,8 @@ UsbExchange UsbTransport::Parts::exchange(UsbTransfer& transfer, std::size_t siz
   transfer.submit(size, deadline_ns);
   while (transfer.inFlight()) {
     transfer.expire(link.clock().now_ns());
-    const std::int64_t look_ns = std::min(transfer.deadline_ns(), link.clock().now_ns() + 10'000'000);
-    dead |= !link.pump(look_ns, -1) || transfer.isDead(link.clock().now_ns(), kDead_ns);
+    const std::int64_t next_ns = std::min(transfer.deadline_ns(), link.clock().now_ns() + 10'000'000);
+    dead |= !link.pump(next_ns, -1) || transfer.isDead(link.clock().now_ns(), kDead_ns);
     if (dead) return {UsbOutcome::gone, 0};
   }
   dead |= transfer.outcome() == UsbOutcome::gone;

@@ -27,11 +27,10 @@ void WakeSignal::lower() noexcept {
 }
 
 bool WakeSignal::awaitUntil(std::int64_t deadline_ns) noexcept {
-  constexpr std::int64_t kSecond_ns = 1'000'000'000;
   for (;;) {
     const std::int64_t left_ns = deadline_ns - monotonic_ns();
     if (left_ns <= 0) return false;
-    const timespec left{static_cast<time_t>(left_ns / kSecond_ns), static_cast<long>(left_ns % kSecond_ns)};
+    const timespec left = timespecOf(left_ns);
     pollfd raised{descriptor_, POLLIN, 0};
     if (ppoll(&raised, 1, &left, nullptr) > 0) {
       lower();

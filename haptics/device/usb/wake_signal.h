@@ -1,5 +1,5 @@
-// A signal from any thread to one that sleeps until it or a deadline: an eventfd. raise() is one system call that does
-// not block, lock or allocate, and may be called from a signal handler. Raised twice before anybody looked, it is one.
+// An eventfd that wakes one thread before its deadline. raise(), from any thread or a signal handler, is one system
+// call that neither blocks nor allocates. Raised repeatedly before it is read, it counts once.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +15,9 @@ class WakeSignal {
   WakeSignal& operator=(const WakeSignal&) = delete;
 
   void raise() noexcept;
-  /// The sleeper: true when raised before `deadline_ns` of CLOCK_MONOTONIC.
+  /// The waiting thread: true when raised before `deadline_ns` of CLOCK_MONOTONIC.
   bool awaitUntil(std::int64_t deadline_ns) noexcept;
-  /// The sleeper: forget that it was raised.
+  /// The waiting thread: clears it.
   void lower() noexcept;
   int descriptor() const { return descriptor_; }
 

@@ -5,9 +5,9 @@
 namespace haptics {
 namespace {
 
-/// How far a hand that holds still may have moved an encoder since it was preset.
+/// How far a hand holding still may move an encoder after the preset.
 constexpr int kNear_counts = 100;
-/// A press stays until the host presets; a report spoilt on its way does not come so often in a row.
+/// A press stays latched until the host presets; a corrupt report does not repeat so often.
 constexpr int kSteady_readings = 5;
 
 }  // namespace
@@ -25,7 +25,7 @@ bool WoodenHoming::pressBegan(bool pressed, bool motors_on) noexcept {
     pressed_for_ = 0;
     return false;
   }
-  // In mid-stroke it says nothing of where the arm is when the motors go off.
+  // A press with the motors on does not say where the arm is later.
   if (motors_on) released_ = false;
   if (!released_ || ++pressed_for_ < kSteady_readings) return false;
   released_ = false;
@@ -41,7 +41,7 @@ void WoodenHoming::take(const WoodenReading& reading, bool motors_on) noexcept {
   }
   switch (phase_) {
     case Phase::away:
-      // Pressed before anybody looked: at what place is not known. A preset forgets it.
+      // Pressed before the start, at an unknown position. A preset clears it.
       if (reading.switch_pressed && !released_) phase_ = Phase::clearing;
       break;
     case Phase::clearing:

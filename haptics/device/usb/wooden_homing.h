@@ -1,7 +1,7 @@
-// When a WoodenHaptics' encoders may be believed. They count from wherever the arm was when the power came; at the home
-// position the owner presses the calibration switch (or says so to the program), the host presets the encoders, and
-// once they read so the arm is home. Only a press that is seen to begin counts, and only with the motors off. One
-// thread but for ask(); no allocation.
+// Decides when the encoders of a WoodenHaptics are valid. They count from wherever the arm was at power-up. At the home
+// position the user presses the calibration switch (or the program calls ask()), the host presets the encoders, and
+// once they read back so the arm is home. Only a press that is seen to begin counts, with the motors off. One thread,
+// except ask(); no allocation.
 #pragma once
 
 #include <array>
@@ -15,14 +15,14 @@ namespace haptics {
 
 class WoodenHoming {
  public:
-  /// Without a gimbal d, e, f are not looked at.
+  /// Without a gimbal d, e, f are ignored.
   WoodenHoming(const std::array<std::int16_t, 6>& home_counts, bool has_gimbal)
       : home_counts_(home_counts), encoders_(has_gimbal ? 6 : 3) {}
 
-  /// The arm stands at home now. Any thread; forgotten when the motors are on.
+  /// The arm is at home now. Any thread; ignored while the motors are on.
   void ask() noexcept { asked_.store(true); }
 
-  /// A new reading came.
+  /// Takes a new reading.
   void take(const WoodenReading& reading, bool motors_on) noexcept;
 
   bool isHome() const { return phase_ == Phase::home; }
@@ -33,14 +33,14 @@ class WoodenHoming {
  private:
   enum class Phase { away, clearing, setting, home };
   bool readsHome(const WoodenReading& reading) const noexcept;
-  /// Pressed steadily, having been seen released before, with the motors off.
+  /// Pressed for some readings after it was seen released, with the motors off.
   bool pressBegan(bool pressed, bool motors_on) noexcept;
 
   std::array<std::int16_t, 6> home_counts_;
   std::size_t encoders_;
   std::atomic<bool> asked_{false};
   Phase phase_ = Phase::away;
-  bool released_ = false;  ///< seen so since it last counted for anything
+  bool released_ = false;  ///< seen released since the last press that counted
   int pressed_for_ = 0;    ///< readings in a row
 };
 

@@ -1,9 +1,9 @@
-// Where a WoodenHaptics' handle is from its encoders, and what its motors must do for a force there. With the reach
+// Kinematics of a WoodenHaptics: handle pose from its encoders, motor currents for a force. With the reach
 // R = Lb sin b + Lc sin c:  x = R cos a - ox,  y = R sin a - oy,  z = La + Lb cos b - Lc cos c - oz;
 // rotation Rz(a) Ry(pi/2 - c) Rx(d) Ry(e) Rx(f). Forearm and upper arm are both driven from the base: b, c absolute.
 // Frame D: x out of the base towards the user, z up, origin in the middle of the workspace; mm, rad, N, N mm, mA. Any
 // thread; a few dozen flops, no allocation. Facts of forsslund/haptikfabrikenapi, src/kinematics.cpp (reference/devices
-// 3.1); the inverse is the planar two-link chain's.
+// 3.1).
 #pragma once
 
 #include <array>
@@ -36,11 +36,11 @@ class WoodenKinematics {
 
   /// mm/rad, columns as joints a, b, c.
   glm::dmat3 jacobian_mm(const glm::dvec3& arm_rad) const;
-  /// For the force on the hand: torque J^T F of the joints, through the capstans. As the clamp lets it: all three
-  /// scaled alike, so that a weaker force has the same direction.
+  /// For a force on the hand: joint torques J^T F, through the capstans. Beyond the clamp all three are scaled alike,
+  /// so that the force keeps its direction.
   std::array<double, 3> currents_mA(const glm::dvec3& arm_rad,
                                     const calibration::Vector<calibration::Device>& force_D_N) const;
-  /// Of the joints, at the clamp.
+  /// Joint torques at the clamp current.
   glm::dvec3 peakTorque_Nmm() const;
 
  private:

@@ -1,6 +1,6 @@
-// A WoodenHaptics as it was built: geometry, capstans, encoders, motors. The numbers of the two published builds are
-// facts of forsslund/haptikfabrikenapi, haptikfabrikenapi.h (reference/devices 3.1); a builder changes what differs.
-// Joints a, b, c: turret, upper arm, forearm; mm, rad, N mm, mA. Plain data; any thread.
+// Dimensions of a WoodenHaptics: links, capstans, encoders, motors. The two published builds are facts of
+// forsslund/haptikfabrikenapi, haptikfabrikenapi.h (reference/devices 3.1). Joints a, b, c: turret, upper arm, forearm;
+// mm, rad, N mm, mA. Plain data; any thread.
 #pragma once
 
 #include <array>
@@ -14,14 +14,14 @@ namespace haptics {
 
 struct WoodenModel {
   std::string name;
-  glm::dvec3 capstan_mm{10.0}, body_mm{160.0, 120.0, 120.0};  ///< diameters: of the motor's side, of the body's
+  glm::dvec3 capstan_mm{10.0}, body_mm{160.0, 120.0, 120.0};  ///< diameters: motor side, body side
   glm::dvec3 length_mm{80.0, 205.0, 245.0};                   ///< shoulder above the base, upper arm, forearm
-  glm::dvec3 origin_mm{220.0, 0.0, 80.0};                     ///< of frame D, seen from the foot of the turret
+  glm::dvec3 origin_mm{220.0, 0.0, 80.0};                     ///< of frame D, from the foot of the turret
   double workspace_radius_mm = 100.0;
   glm::dvec3 motor_Nmm_per_A{25.9};
-  glm::dvec3 counts_per_turn{2000.0}, direction{1.0};  ///< of the motors' encoders, all four edges counted; +1 or -1
-  glm::dvec3 gimbal_counts_per_turn{0.0}, gimbal_direction{-1.0};  ///< d, e, f; 0: it has none, it is a 3-DoF device
-  /// What the encoders read at the home position: turret ahead, upper arm upright, forearm level.
+  glm::dvec3 counts_per_turn{2000.0}, direction{1.0};              ///< motor encoders, four edges counted; +1 or -1
+  glm::dvec3 gimbal_counts_per_turn{0.0}, gimbal_direction{-1.0};  ///< d, e, f; 0: no gimbal
+  /// At the home position: turret ahead, upper arm upright, forearm level.
   std::array<std::int16_t, 6> home_counts{0, 0, 6000, 0, 0, 0};
   double full_scale_mA = 3000.0;  ///< at full pulse width (firmware/main.cpp; there is a build for 6000)
   double max_mA = 2000.0;         ///< what an Escon 24/4 gives for longer than 4 s, and the public driver's clamp

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t kWords = kWoodenReportBytes / 2;
 constexpr std::int16_t kPreset = 1;
-/// A handle does not turn five times round: what reads more is the button.
+/// More counts than the handle's range: the button.
 constexpr int kButtonFrom = 5000, kButton = 10'000;
 
 using Words = std::array<std::int16_t, kWords>;
@@ -48,7 +48,7 @@ UsbReport encodeWoodenCurrents(const std::array<double, 3>& currents_mA) {
 }
 
 UsbReport encodeWoodenPreset(const std::array<std::int16_t, 6>& encoders) {
-  // a, b, c in the attributes, d, e, f where the currents stand.
+  // a, b, c in the attributes, d, e, f in place of the currents.
   return reportOf({encoders[3], encoders[4], encoders[5], kPreset, encoders[0], encoders[1], encoders[2]});
 }
 

@@ -185,7 +185,7 @@ TEST_F(RehearseCommand, RecordsOverRecordingsAlone) {
 TEST_F(RehearseCommand, GoesFastWithHandsInNumbersAlone) {
   expectRefusal("rehearse --pace fast --device scripted", "--headless");
   for (const char* device : {"openhaptics", "wooden", "falcon", "usb"})
-    expectRefusal("rehearse --headless --pace fast --device " + std::string(device), "no hand in numbers");
+    expectRefusal("rehearse --headless --pace fast --device " + std::string(device), "is not simulated");
   expectRefusal(kCoarse + std::string("--instructor"), "--instructor");
   expectRefusal(kCoarse + std::string("--second-hand wooden"), "--second-hand");
   expectRefusal(kCoarse + std::string("--pedal pedal"), "--pedal");

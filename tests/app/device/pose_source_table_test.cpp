@@ -16,7 +16,7 @@ std::string schemeOf(const std::string& address) {
   return kind ? std::string(kind->scheme) : "";
 }
 
-TEST(HandTable, KnowsEveryHandByItsAddress) {
+TEST(PoseSourceTable, KnowsEverySourceByItsAddress) {
   EXPECT_EQ(schemeOf("mouse"), "mouse");
   EXPECT_EQ(schemeOf("scripted"), "scripted");
   for (const char* address : {"simulated", "simulated:omni", "simulated:touch", "simulated:premium"})
@@ -24,10 +24,10 @@ TEST(HandTable, KnowsEveryHandByItsAddress) {
   EXPECT_EQ(schemeOf("practice:D:7"), "practice");
   EXPECT_EQ(schemeOf("replay:a:b.molar"), "replay");
   EXPECT_EQ(schemeOf("poses:a.csv"), "poses");
-  EXPECT_EQ(restOf("replay:a:b.molar"), "a:b.molar");
+  EXPECT_EQ(haptics::addressRest("replay:a:b.molar"), "a:b.molar");
 }
 
-TEST(HandTable, RefusesWhatIsNoHandBeforeAnythingIsLoaded) {
+TEST(PoseSourceTable, RefusesOtherAddressesBeforeAnythingIsLoaded) {
   for (const char* address : {"", "mice", "mouse:", "mouse:2", "scripted:x", "simulated:", "simulated:nano", "replay",
                               "replay:", "poses", "poses:", "wooden:1-2,v3", "openhaptic"})
     EXPECT_THROW(refuseUnlessPoseSource(address), UsageError) << address;
@@ -38,17 +38,17 @@ TEST(HandTable, RefusesWhatIsNoHandBeforeAnythingIsLoaded) {
     EXPECT_NO_THROW(refuseUnlessPoseSource(address)) << address;
 }
 
-TEST(HandTable, IsTheHelpOfEveryHandAndEveryDevice) {
+TEST(PoseSourceTable, HelpNamesEverySourceAndEveryDevice) {
   const std::string help = poseSourceHelp();
   for (const PoseSourceKind& kind : poseSourceKinds())
     EXPECT_THAT(help, HasSubstr(std::string(kind.scheme) + std::string(kind.help)));
   for (const haptics::DeviceKind& kind : haptics::deviceKinds()) {
-    const std::string address = std::string(kind.key) + std::string(kind.place);
+    const std::string address = std::string(kind.key) + std::string(kind.suffix);
     EXPECT_TRUE(!kind.open || help.find(address) != std::string::npos) << address;
   }
 }
 
-TEST(HandTable, HandsInNumbersNeedNoWindow) {
+TEST(PoseSourceTable, SimulatedSourcesNeedNoWindow) {
   for (const PoseSourceKind& kind : poseSourceKinds()) EXPECT_EQ(kind.simulated, kind.scheme != "mouse") << kind.scheme;
 }
 
@@ -59,7 +59,7 @@ TEST(DeviceCatalogue, OpensOnlyWhatItFinds) {
     EXPECT_FALSE(haptics::isDeviceAddress(address)) << address;
 }
 
-TEST(DeviceCatalogue, SaysWhyADeviceCanNotBeOpenedAsAKindAndAsALine) {
+TEST(DeviceCatalogue, ReportsWhyADeviceCannotBeOpenedAsAKindAndAsALine) {
   try {
     haptics::openDevice("wooden:9-9", {});
     FAIL();

@@ -222,8 +222,7 @@ TEST(DoctorProcessors, WantMoreThanOneCoreAndAllAwake) {
   paper.write("sys/devices/system/cpu/cpu1/cpufreq/scaling_governor", "performance");
   paper.write("sys/devices/system/cpu/isolated", "1");
   paper.write("sys/kernel/realtime", "1");
-  EXPECT_EQ(checkProcessors(paper.machine()).sentence,
-            "2 cores, governor performance, set apart: 1, real-time kernel.");
+  EXPECT_EQ(checkProcessors(paper.machine()).sentence, "2 cores, governor performance, isolated: 1, real-time kernel.");
 }
 
 TEST(DoctorDisk, MustTakeRecordingsAndHaveRoom) {

@@ -9,7 +9,7 @@
 namespace haptics {
 namespace {
 
-using Ask = FalconLoader::Ask;
+using Action = FalconLoader::Action;
 using Bytes = std::vector<std::uint8_t>;
 
 Bytes program(std::size_t size) {
@@ -28,16 +28,16 @@ struct Conversation {
   std::size_t wrong_echo_at = SIZE_MAX, silent_from = SIZE_MAX, echoed = 0;
 
   void hold(FalconLoader& loader, int most_steps = 100'000) {
-    for (; most_steps > 0; --most_steps) switch (loader.ask()) {
-        case Ask::request:
+    for (; most_steps > 0; --most_steps) switch (loader.next()) {
+        case Action::request:
           requests.push_back(loader.request());
           loader.done();
           break;
-        case Ask::send:
+        case Action::send:
           sent.emplace_back(loader.send().begin(), loader.send().end());
           loader.done();
           break;
-        case Ask::listen:
+        case Action::listen:
           listen(loader);
           break;
         default:
@@ -49,15 +49,15 @@ struct Conversation {
   void listen(FalconLoader& loader) {
     const Bytes& last = sent.back();
     if (last == Bytes{0x0A, 0x43, 0x0D}) {
-      if (++greetings > deaf_greetings) loader.heard(answer);
-      if (loader.ask() == Ask::listen) loader.silence();
+      if (++greetings > deaf_greetings) loader.received(answer);
+      if (loader.next() == Action::listen) loader.timedOut();
     } else if (last == Bytes{0x41}) {
-      loader.heard(knock_answer);
-      if (loader.ask() == Ask::listen) loader.silence();
+      loader.received(knock_answer);
+      if (loader.next() == Action::listen) loader.timedOut();
     } else {
       for (std::uint8_t byte : last) {
-        if (echoed >= silent_from) return loader.silence();
-        loader.heard(Bytes{static_cast<std::uint8_t>(echoed == wrong_echo_at ? byte ^ 1 : byte)});
+        if (echoed >= silent_from) return loader.timedOut();
+        loader.received(Bytes{static_cast<std::uint8_t>(echoed == wrong_echo_at ? byte ^ 1 : byte)});
         ++echoed;
       }
     }
@@ -70,8 +70,7 @@ TEST(FalconLoader, BringsTheWholeProgramOverInPiecesThatFitAPacket) {
     FalconLoader loader(wanted);
     Conversation talk;
     talk.hold(loader);
-    ASSERT_EQ(loader.ask(), Ask::done) << loader.trouble();
-    EXPECT_EQ(loader.share(), 1.0);
+    ASSERT_EQ(loader.next(), Action::done) << loader.trouble();
     Bytes arrived;
     for (std::size_t i = 2; i < talk.sent.size(); ++i) {
       EXPECT_LE(talk.sent[i].size(), 62u);
@@ -105,7 +104,7 @@ TEST(FalconLoader, GreetsAgainUntilItIsAnsweredAndTakesAZeroBeforeTheAnswer) {
   talk.deaf_greetings = 99;
   talk.answer = {0x00, 0x0A, 0x44, 0x2C, 0x0D};
   talk.hold(loader);
-  EXPECT_EQ(loader.ask(), Ask::done) << loader.trouble();
+  EXPECT_EQ(loader.next(), Action::done) << loader.trouble();
   EXPECT_EQ(talk.greetings, 100);
 }
 
@@ -117,7 +116,7 @@ TEST(FalconLoader, GivesUpAGreetingThatNobodyAnswersAndSendsNothingMore) {
     Conversation talk;
     talk.answer = answer;
     talk.hold(loader);
-    EXPECT_EQ(loader.ask(), Ask::failed);
+    EXPECT_EQ(loader.next(), Action::failed);
     EXPECT_EQ(loader.trouble(), "it does not answer the greeting");
     EXPECT_EQ(talk.greetings, 100);
     for (const Bytes& bytes : talk.sent) EXPECT_EQ(bytes, (Bytes{0x0A, 0x43, 0x0D}));
@@ -130,13 +129,12 @@ TEST(FalconLoader, AByteThatComesBackWrongStopsIt) {
   Conversation talk;
   talk.wrong_echo_at = 200;
   talk.hold(loader);
-  ASSERT_EQ(loader.ask(), Ask::failed);
+  ASSERT_EQ(loader.next(), Action::failed);
   EXPECT_THAT(loader.trouble(), testing::StartsWith("byte 200 of 500 came back as 0x"));
   // The piece with byte 200 was the last.
   std::size_t sent = 0;
   for (std::size_t i = 2; i < talk.sent.size(); ++i) sent += talk.sent[i].size();
   EXPECT_EQ(sent, 248u);
-  EXPECT_EQ(loader.share(), 0.4);
 }
 
 TEST(FalconLoader, SilenceInTheMiddleStopsIt) {
@@ -145,7 +143,7 @@ TEST(FalconLoader, SilenceInTheMiddleStopsIt) {
   Conversation talk;
   talk.silent_from = 100;
   talk.hold(loader);
-  EXPECT_EQ(loader.ask(), Ask::failed);
+  EXPECT_EQ(loader.next(), Action::failed);
   EXPECT_EQ(loader.trouble(), "it fell silent after 100 of 500 bytes");
 }
 
@@ -156,7 +154,7 @@ TEST(FalconLoader, AWrongAnswerToTheKnockStopsItBeforeTheProgram) {
     Conversation talk;
     talk.knock_answer = answer;
     talk.hold(loader);
-    EXPECT_EQ(loader.ask(), Ask::failed);
+    EXPECT_EQ(loader.next(), Action::failed);
     EXPECT_EQ(talk.sent.back(), Bytes{0x41});
   }
 }
@@ -172,9 +170,9 @@ TEST(FalconLoader, ComesToAnEndWhateverTheDeviceSays) {
     FalconLoader loader(wanted, 5);
     Bytes sent;
     const bool friendly = run % 2 == 0;
-    for (int step = 0; step < 5000 && loader.ask() != Ask::done && loader.ask() != Ask::failed; ++step) {
-      if (loader.ask() == Ask::send) sent.assign(loader.send().begin(), loader.send().end());
-      if (loader.ask() != Ask::listen) {
+    for (int step = 0; step < 5000 && loader.next() != Action::done && loader.next() != Action::failed; ++step) {
+      if (loader.next() == Action::send) sent.assign(loader.send().begin(), loader.send().end());
+      if (loader.next() != Action::listen) {
         loader.done();
         continue;
       }
@@ -183,15 +181,14 @@ TEST(FalconLoader, ComesToAnEndWhateverTheDeviceSays) {
       if (friendly && random() % 50 != 0)
         heard = sent == Bytes{0x0A, 0x43, 0x0D} ? Bytes{0, 0x0A, 0x44, 0x2C, 0x0D} : sent;
       bytes += heard.size() + 1;
-      loader.heard(heard);
-      if (random() % 3 == 0) loader.silence();
+      loader.received(heard);
+      if (random() % 3 == 0) loader.timedOut();
     }
-    ASSERT_TRUE(loader.ask() == Ask::done || loader.ask() == Ask::failed);
-    ASSERT_EQ(loader.ask() == Ask::failed, !loader.trouble().empty());
-    if (loader.ask() == Ask::done) {
-      ASSERT_EQ(loader.share(), 1.0);
+    ASSERT_TRUE(loader.next() == Action::done || loader.next() == Action::failed);
+    ASSERT_EQ(loader.next() == Action::failed, !loader.trouble().empty());
+    if (loader.next() == Action::done) {
     }
-    ended += loader.ask() == Ask::done;
+    ended += loader.next() == Action::done;
   }
   EXPECT_GT(ended, 100);
 }

@@ -42,7 +42,7 @@ TEST(KnownDevices, KnowsAnEarlyTouchWithSwappedIds) {
   const UsbDevice early = usb(0x0301, 0x2988, 2, {2, 10});
   ASSERT_EQ(knownAs(early), KnownDevice::touch_serial);
   const FoundDevice found = described(KnownDevice::touch_serial, early);
-  EXPECT_EQ(found.place, "USB 1-3, 0301:2988 (ids swapped)");
+  EXPECT_EQ(found.location, "USB 1-3, 0301:2988 (ids swapped)");
   EXPECT_FALSE(knownAs(usb(0x0301, 0x0302)));
   EXPECT_FALSE(knownAs(usb(0x0302, 0x2988)));
 }
@@ -125,7 +125,7 @@ class Heard {
  private:
   void add(const std::string& sign, const PresentDevice& device) {
     const std::lock_guard lock(mutex_);
-    said_.push_back(sign + device.found.place);
+    said_.push_back(sign + device.found.location);
     devices_.push_back(device);
   }
   std::mutex mutex_;
@@ -214,7 +214,7 @@ TEST_F(PresenceOnTheBus, TheSearchListsTheClosedOnesWithTheNextStep) {
   falcon.vendor = 0x0403;
   falcon.product = 0xCB48;
   bus->plug(falcon, inside);
-  const auto found = findPresent();
+  const auto found = findClosed();
   ASSERT_EQ(found.size(), 2u);
   EXPECT_EQ(found[0].name, "3D Systems Touch (USB serial)");
   EXPECT_EQ(found[0].driver, "OpenHaptics by 3D Systems");

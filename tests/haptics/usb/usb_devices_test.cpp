@@ -43,8 +43,7 @@ TEST(UsbBus, ListsWhatIsPluggedInAndWhatComesAndGoes) {
   ASSERT_TRUE(sees(1));
   const UsbDevice found = bus.devices().front();
   EXPECT_EQ(found.id(), "2988:0302");
-  EXPECT_EQ(found.place(), "USB 1-4, 2988:0302");
-  EXPECT_EQ(found.maker, "3D Systems");
+  EXPECT_EQ(found.location(), "USB 1-4, 2988:0302");
   EXPECT_EQ(found.name, "Touch");
   EXPECT_EQ(found.serial, "0123456789ab");
   EXPECT_EQ(found.device_class, 2);

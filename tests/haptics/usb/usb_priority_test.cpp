@@ -41,7 +41,7 @@ std::vector<int> seenWhileOpening(OpenedDevice (*open)(const std::string&, const
   std::vector<int> seen;
   DeviceOptions options;
   options.servo_priority = 20;
-  options.given_up = [&] {
+  options.is_cancelled = [&] {
     seen.push_back(usbThreadsPriority());
     return true;
   };

@@ -11,6 +11,7 @@
 #include <random>
 #include <thread>
 
+#include "haptics/device/usb/known_devices.h"
 #include "haptics/device/usb/usb_report.h"
 #include "haptics/latest.h"
 #include "haptics/safety/motor_gate.h"
@@ -84,13 +85,13 @@ class WoodenOnTheBus : public testing::Test {
   /// Its owner does as told.
   WoodenSettings obedient() {
     WoodenSettings settings;
-    settings.tell = [this](const std::string& words) {
+    settings.prompt = [this](const std::string& words) {
       EXPECT_EQ(words, kWoodenHomingPrompt);
       bus->locked([&] {
         unit.holdAtHome();
         unit.pressSwitch();
       });
-      return HomingAnswer::wait;
+      return true;
     };
     return settings;
   }
@@ -129,7 +130,7 @@ TEST_F(WoodenOnTheBus, IsFoundWithItsPlace) {
   const auto found = findWoodenHaptics();
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].address, "wooden:1-1");
-  EXPECT_EQ(found[0].place, "USB 1-1, 1234:0006");
+  EXPECT_EQ(found[0].location, "USB 1-1, 1234:0006");
   EXPECT_EQ(found[0].advice, "");
   bus->unplug();
   EXPECT_TRUE(soon([] { return findWoodenHaptics().empty(); }));
@@ -287,14 +288,14 @@ TEST_F(WoodenOnTheBus, ASwitchPressedLongAgoIsNotBelieved) {
 
 TEST_F(WoodenOnTheBus, SaysWhyItCanNotBegin) {
   WoodenSettings impatient;
-  impatient.tell = [](const std::string&) { return HomingAnswer::give_up; };
+  impatient.prompt = [](const std::string&) { return false; };
   EXPECT_THAT(reasonOf([&] { WoodenHaptics wooden(impatient); }), testing::HasSubstr("not homed, given up"));
   impatient.clock = time.clock();
   int told = 0;
-  impatient.tell = [&](const std::string&) {
+  impatient.prompt = [&](const std::string&) {
     ++told;
     time.pass(30s);
-    return HomingAnswer::wait;
+    return true;
   };
   EXPECT_THAT(reasonOf([&] { WoodenHaptics wooden(impatient); }), testing::HasSubstr(kWoodenHomingPrompt));
   EXPECT_EQ(told, 2);
