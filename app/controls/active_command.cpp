@@ -48,11 +48,14 @@ bool ActiveCommand::execute(const ControlRequest& request, const std::string& wh
     case Control::law:
       return switchLaw(haptics::kLaws[static_cast<std::size_t>(request.value)].kind, where), true;
     case Control::drill:
-      return switchDrill(request.value), true;
+      setSwitch(&haptics::Command::drill_enabled, request.value, "drill", "drill unlocked", "drill locked");
+      return true;
     case Control::tool:
       return changeTool(request.value, where), true;
     case Control::irrigation:
-      return switchIrrigation(request.value), true;
+      setSwitch(&haptics::Command::irrigating, request.value, "irrigation", "irrigation on",
+                "irrigation off: the bur cuts dry");
+      return true;
     case Control::undo:
       return undoStroke(where), true;
     case Control::arm:
@@ -62,29 +65,21 @@ bool ActiveCommand::execute(const ControlRequest& request, const std::string& wh
   }
 }
 
-void ActiveCommand::switchDrill(int on) {
-  const bool wanted = on != kNoValue ? on != 0 : !command_.drill_enabled;
-  if (wanted == command_.drill_enabled) return;
-  command_.drill_enabled = wanted;
+void ActiveCommand::setSwitch(bool haptics::Command::*which, int value, const std::string& kind,
+                              const std::string& when_on, const std::string& when_off) {
+  const bool wanted = value != kNoValue ? value != 0 : !(command_.*which);
+  if (wanted == command_.*which) return;
+  command_.*which = wanted;
   workstation_->change(command_);
-  report("drill", wanted ? "drill unlocked" : "drill locked");
-}
-
-void ActiveCommand::switchIrrigation(int on) {
-  const bool wanted = on != kNoValue ? on != 0 : !command_.irrigating;
-  if (wanted == command_.irrigating) return;
-  command_.irrigating = wanted;
-  workstation_->change(command_);
-  report("irrigation", command_.irrigating ? "irrigation on" : "irrigation off: the bur turns dry");
+  report(kind, wanted ? when_on : when_off);
 }
 
 void ActiveCommand::undoStroke(const std::string& where) {
   const unsigned strokes = workstation_->newestTick().strokes;
-  if (strokes == 0) return refuse(where, "there is no stroke to take back");
+  if (strokes == 0) return refuse(where, "there is no stroke to undo");
   ++command_.undo_serial;
   workstation_->change(command_);
-  report("undo",
-         "the newest of " + std::to_string(strokes) + (strokes == 1 ? " stroke" : " strokes") + " is taken back");
+  report("undo", fmt::format("the newest of {} stroke{} is undone", strokes, strokes == 1 ? "" : "s"));
 }
 
 void ActiveCommand::rearm(const std::string& where) {
@@ -98,11 +93,7 @@ void ActiveCommand::rearm(const std::string& where) {
 void ActiveCommand::switchLaw(haptics::LawKind law, const std::string& where) {
   haptics::Command wanted = command_;
   wanted.law.kind = law;
-  try {
-    change(loweredUntilStable(wanted, device_damping_Ns_per_mm_, rate_Hz_));
-  } catch (const UsageError& error) {
-    refuse(where, std::string(error.what()) + "; the old law stays");
-  }
+  changeLowered(wanted, where, "the old law stays");
 }
 
 void ActiveCommand::changeTool(int to, const std::string& where) {
@@ -110,31 +101,37 @@ void ActiveCommand::changeTool(int to, const std::string& where) {
     return refuse(where, "there is one tool only, name more with --tool to change between them");
   const std::size_t next = to != kNoValue ? static_cast<std::size_t>(to) : (in_hand_ + 1) % tray_.size();
   if (next >= tray_.size())
-    return refuse(where, "there is no tool " + std::to_string(next + 1) + ", the tray holds " +
-                             std::to_string(tray_.size()) + ", name more with --tool");
+    return refuse(where,
+                  fmt::format("there is no tool {}, the tray holds {}, name more with --tool", next + 1, tray_.size()));
   haptics::Command wanted = command_;
   wanted.tool = tray_[next];
+  if (changeLowered(wanted, where, "the old tool stays in the hand")) in_hand_ = next;
+}
+
+/// With gains that the device holds. False: refused.
+bool ActiveCommand::changeLowered(const haptics::Command& wanted, const std::string& where, const char* otherwise) {
   try {
     refuseUnlessAdmitted(wanted);
-    change(loweredUntilStable(wanted, device_damping_Ns_per_mm_, rate_Hz_));
-    in_hand_ = next;
+    apply(loweredUntilStable(wanted, device_damping_Ns_per_mm_, rate_Hz_));
+    return true;
   } catch (const UsageError& error) {
-    refuse(where, std::string(error.what()) + "; the old tool stays in the hand");
+    refuse(where, std::string(error.what()) + "; " + otherwise);
+    return false;
   }
 }
 
 void ActiveCommand::pollSettingsFile(LiveParameters::Clock::time_point now) {
   if (!file_) return;
-  const auto reading = file_->look(now);
+  const auto reading = file_->poll(now);
   if (!reading) return;
   if (reading->command) {
     haptics::Command wanted = *reading->command;
     wanted.drill_enabled = command_.drill_enabled;
     keepSwitches(command_, wanted);
-    change(wanted);
+    apply(wanted);
   } else {
-    printMessage(reading->trouble);
-    workstation_->note("parameters", reading->trouble);
+    printMessage(reading->error);
+    workstation_->note("parameters", reading->error);
   }
 }
 
@@ -144,15 +141,14 @@ void ActiveCommand::adopt(const haptics::Command& command) {
   put(wanted);
 }
 
-/// In force and recorded.
 void ActiveCommand::put(const haptics::Command& wanted) {
   tool_changed_ = tool_changed_ || !(command_.tool == wanted.tool);
   command_ = wanted;
   workstation_->change(command_);
 }
 
-/// The same, and every difference logged.
-void ActiveCommand::change(const haptics::Command& wanted) {
+/// Reports every difference.
+void ActiveCommand::apply(const haptics::Command& wanted) {
   const std::vector<std::string> changes = changesBetween(command_, wanted);
   if (changes.empty()) return;
   put(wanted);

@@ -43,9 +43,10 @@ class ActiveCommand {
   void check(const haptics::Command& command) const;
   void report(const std::string& kind, const std::string& line);
   void put(const haptics::Command& wanted);
-  void change(const haptics::Command& wanted);
-  void switchDrill(int on);
-  void switchIrrigation(int on);
+  void apply(const haptics::Command& wanted);
+  bool changeLowered(const haptics::Command& wanted, const std::string& where, const char* otherwise);
+  void setSwitch(bool haptics::Command::*which, int value, const std::string& kind, const std::string& when_on,
+                 const std::string& when_off);
   void undoStroke(const std::string& where);
   void rearm(const std::string& where);
   void switchLaw(haptics::LawKind law, const std::string& where);

@@ -29,48 +29,45 @@ constexpr bool isInOrder() {
 }
 static_assert(isInOrder());
 
-constexpr int kMostTools = 64;
+constexpr int kMaxTools = 64;
 
 template <class Table, class Name = std::identity>
-std::optional<int> indexIn(const Table& table, std::string_view text, Name name = {}) {
+std::optional<int> indexOf(std::string_view text, const Table& table, Name name = {}) {
   const auto found = std::ranges::find(table, text, name);
   return found == table.end() ? std::nullopt : std::optional(static_cast<int>(found - table.begin()));
 }
 
-std::optional<int> within(std::optional<int> number, int least, int most) {
-  return number && *number >= least && *number <= most ? number : std::nullopt;
+/// Of a whole number from `first` to `last`, counted from 0.
+std::optional<int> indexBetween(std::string_view text, int first, int last) {
+  const std::optional<int> number = parseNumber<int>(text);
+  return number && *number >= first && *number <= last ? std::optional(*number - first) : std::nullopt;
 }
 
-/// Tools and laws are counted from 1 by people, from 0 inside.
 std::optional<int> valueIn(ControlValue kind, std::string_view text) {
-  static constexpr std::array<std::string_view, 2> kSwitch = {"off", "on"};
-  const std::optional<int> number = parseNumber<int>(text);
-  const auto from_one = [&](int most) { return within(number, 1, most) ? std::optional(*number - 1) : std::nullopt; };
   switch (kind) {
     case ControlValue::on_or_off:
-      return indexIn(kSwitch, text);
+      return indexOf(text, std::array<std::string_view, 2>{"off", "on"});
     case ControlValue::tool:
-      return from_one(kMostTools);
-    case ControlValue::law: {
-      const auto named = indexIn(haptics::kLaws, text, &haptics::LawName::key);
-      return named ? named : from_one(static_cast<int>(haptics::kLaws.size()));
-    }
+      return indexBetween(text, 1, kMaxTools);
+    case ControlValue::law:
+      if (const auto named = indexOf(text, haptics::kLaws, &haptics::LawName::key)) return named;
+      return indexBetween(text, 1, static_cast<int>(haptics::kLaws.size()));
     case ControlValue::layer:
-      return indexIn(kPictureLayers, text, &PictureLayer::name);
+      return indexOf(text, kPictureLayers, &PictureLayer::name);
     case ControlValue::percent:
-      return within(number, 0, 100);
+      return indexBetween(text, 0, 100);
     case ControlValue::none:
       break;
   }
   return {};
 }
 
-std::string whatMayFollow(ControlValue kind) {
+std::string acceptedValues(ControlValue kind) {
   switch (kind) {
     case ControlValue::on_or_off:
-      return ":on, :off or nothing";
+      return ":on, :off or no value";
     case ControlValue::tool:
-      return "the tool's number from 1, or nothing for the next";
+      return "the tool's number from 1, or no value for the next";
     case ControlValue::law:
       return "one of " + lawNames();
     case ControlValue::layer:
@@ -80,7 +77,7 @@ std::string whatMayFollow(ControlValue kind) {
     case ControlValue::none:
       break;
   }
-  return "nothing";
+  return "no value";
 }
 
 }  // namespace
@@ -88,15 +85,13 @@ std::string whatMayFollow(ControlValue kind) {
 ControlRequest requestFrom(const std::string& text) {
   const std::size_t colon = text.find(':');
   const auto control = controlNamed(std::string_view(text).substr(0, colon));
-  if (!control)
-    throw UsageError("\"" + text + "\": there is no such control, write " + joined(kControls, &ControlMeaning::name));
+  if (!control) throw UsageError("\"" + text + "\": no such control, give " + joined(kControls, &ControlMeaning::name));
   const ControlMeaning& meaning = meaningOf(*control);
   ControlRequest request{*control};
   if (colon != std::string::npos)
     request.value = valueIn(meaning.value, std::string_view(text).substr(colon + 1)).value_or(kNoValue);
   if ((colon != std::string::npos || isNeeded(meaning.value)) && request.value == kNoValue)
-    throw UsageError("\"" + text + "\": after " + std::string(meaning.name) + " stands " +
-                     whatMayFollow(meaning.value));
+    throw UsageError("\"" + text + "\": " + std::string(meaning.name) + " takes " + acceptedValues(meaning.value));
   return request;
 }
 

@@ -1,6 +1,5 @@
-// What may be asked for in a rehearsal besides moving the hand: one vocabulary for keys, the buttons of handle and
-// pedal, the instructor's window and scripts. The table is the one source of names, keys and help. Pure values; any
-// thread.
+// Controls of a rehearsal, requested by keys, buttons of handle and pedal, the instructor's window and scripts. The
+// table is the only source of their names, keys and help. Pure values; any thread.
 #pragma once
 
 #include <array>
@@ -16,27 +15,26 @@ namespace app {
 
 enum class Control : std::uint8_t { law, drill, tool, irrigation, undo, snapshot, stop, arm, home, end, layer, face };
 
-inline constexpr int kNoValue = -1;  ///< of a switch the other way, of the tools the next one
+inline constexpr int kNoValue = -1;  ///< toggles a switch, selects the next tool
 
-/// One thing asked for, once. Its value: of a law, tool or layer the index from 0; of a switch 1 on, 0 off; of the face
-/// percent.
+/// Value: index from 0 of a law, tool or layer; 1 on, 0 off; the face's opacity in percent.
 struct ControlRequest {
   Control control = Control::end;
   int value = kNoValue;
   bool operator==(const ControlRequest&) const = default;
 };
 
-/// What may follow a name: a switch's :on or :off and a tool's number may be left out, the others not.
+/// Kind of the value after a name. It is optional for a switch and a tool, required for law, layer and percent.
 enum class ControlValue : std::uint8_t { none, on_or_off, tool, law, layer, percent };
 constexpr bool isNeeded(ControlValue value) { return value >= ControlValue::law; }
 
 struct ControlMeaning {
   Control control;
-  std::string_view name;  ///< as a script writes it
+  std::string_view name;  ///< in scripts
   std::string_view key;   ///< empty: none
   std::string_view does;
   ControlValue value;
-  bool is_felt;  ///< changes what is felt, cut or watered: a procedure may keep it for itself
+  bool is_felt;  ///< changes force, cutting or irrigation: a procedure may reserve it
 };
 
 inline constexpr std::array<ControlMeaning, 12> kControls = {{
@@ -62,12 +60,11 @@ constexpr std::optional<Control> controlNamed(std::string_view name) {
   return {};
 }
 
-/// As a script writes it: `undo`, `irrigation`, `irrigation:off`, `tool:2`, `law:agus`, `layer:canal`, `face:30`.
-/// Throws UsageError that says what may stand there.
+/// From a script: `undo`, `irrigation`, `irrigation:off`, `tool:2`, `law:agus`, `layer:canal`, `face:30`. Throws
+/// UsageError with the accepted values.
 ControlRequest requestFrom(const std::string& text);
 
-/// By its name, for a pedal calls what it asks for as everybody else does. None for drilling, which is held and no
-/// request.
+/// Of a button or pedal action, which has the control's name. None for drilling, which is held.
 constexpr std::optional<ControlRequest> requestOf(haptics::HandAction action) {
   const std::optional<Control> control = controlNamed(haptics::nameOf(action));
   return control && action != haptics::HandAction::drill ? std::optional(ControlRequest{*control}) : std::nullopt;
@@ -75,12 +72,12 @@ constexpr std::optional<ControlRequest> requestOf(haptics::HandAction action) {
 static_assert(requestOf(haptics::HandAction::irrigation) && requestOf(haptics::HandAction::undo) &&
               requestOf(haptics::HandAction::tool_change));
 
-/// What keys and mouse do in a window, the hand's movements first.
+/// Keys and mouse in a window, movements first.
 struct KeyMeaning {
   std::string_view key, does;
 };
 std::vector<KeyMeaning> keyMeanings();
-/// The same as lines for a terminal.
+/// The same as lines of text.
 std::string keyHelp();
 
 }  // namespace app

@@ -18,7 +18,7 @@ std::uint64_t tickAt(double t_s, double rate_Hz) {
   return tick;
 }
 
-/// The index itself, where the tray has it.
+/// The index, checked.
 int onTray(const std::vector<haptics::Tool>& tray, int index, const std::string& written) {
   if (index >= 0 && index < static_cast<int>(tray.size())) return index;
   throw UsageError("tool " + written + ": the tray holds " + std::to_string(tray.size()) +
@@ -35,18 +35,18 @@ int toolIn(const std::vector<haptics::Tool>& tray, const std::string& text) {
 
 }  // namespace
 
-ControlScript::ControlScript(const std::vector<TimedRequest>& asked, const std::vector<haptics::Tool>& tray,
+ControlScript::ControlScript(const std::vector<TimedRequest>& rows, const std::vector<haptics::Tool>& tray,
                              double rate_Hz) {
   int held = 0;
-  for (const TimedRequest& row : asked) try {
+  for (const TimedRequest& row : rows) try {
       const std::uint64_t tick = tickAt(row.t_s, rate_Hz);
-      const auto ask = [&](const ControlRequest& request) { requests_.push_back({tick, {request, row.where}}); };
+      const auto add = [&](const ControlRequest& request) { requests_.push_back({tick, {request, row.where}}); };
       if (!row.tool.empty())
         if (const int wanted = toolIn(tray, row.tool); std::exchange(held, wanted) != wanted)
-          ask({Control::tool, wanted});
+          add({Control::tool, wanted});
       if (row.action.empty()) continue;
       const ControlRequest request = requestFrom(row.action);
-      ask(request);
+      add(request);
       if (request.control != Control::tool) continue;
       held = request.value != kNoValue ? onTray(tray, request.value, std::to_string(request.value + 1))
                                        : (held + 1) % static_cast<int>(tray.size());

@@ -1,6 +1,5 @@
-// What a script asks for beside moving the hand, and at which tick: tools of the tray by number or by their text,
-// actions by the names of the controls. Of a row's time the tick is the first that does not begin before it; there the
-// request is in force. Main thread.
+// Requests of a scripted pose source, by tick: tools of the tray by number or by their text, controls by name. A
+// request is in force at the first tick that does not begin before the row's time. Main thread.
 #pragma once
 
 #include <cstdint>
@@ -16,20 +15,20 @@ namespace app {
 
 struct ScriptedRequest {
   ControlRequest request;
-  std::string where;  ///< it is written, for people
+  std::string where;  ///< file and row, for messages
   bool operator==(const ScriptedRequest&) const = default;
 };
 
 class ControlScript {
  public:
-  /// Asks for nothing.
+  /// No requests.
   ControlScript() = default;
-  /// `tray`: as the command desk has it, the first one in the hand. Throws UsageError that names the row.
-  ControlScript(const std::vector<TimedRequest>& asked, const std::vector<haptics::Tool>& tray, double rate_Hz);
+  /// `tray`: of ActiveCommand, its first tool in the hand. Throws UsageError naming the row.
+  ControlScript(const std::vector<TimedRequest>& rows, const std::vector<haptics::Tool>& tray, double rate_Hz);
 
-  /// What is due at the tick that comes next, or was already; each once.
+  /// Due at the next tick or before; each once.
   std::vector<ScriptedRequest> takeDue(std::uint64_t next_tick);
-  /// Of the next request; none: nothing more is asked for.
+  /// Of the next request, if there is one.
   std::optional<std::uint64_t> nextTick() const;
 
  private:

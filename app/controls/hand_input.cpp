@@ -9,9 +9,9 @@ namespace app {
 namespace {
 
 constexpr double kWheelNotch_mm = 0.5;
-constexpr double kTurn_rad = calibration::radFromDegrees(3.0);
+constexpr double kRotation_rad = calibration::radFromDegrees(3.0);
 
-/// By the table of controls; laws have the digits.
+/// By the table of controls; digits choose laws.
 std::optional<ControlRequest> requestOf(render::Key key) {
   if (key == render::Key::escape) return ControlRequest{Control::end};
   for (std::size_t law = 0; law < haptics::kLaws.size(); ++law)
@@ -39,20 +39,20 @@ void HandInput::take(const render::WindowEvent& event, double mm_per_px) {
 
 void HandInput::press(const render::KeyPressed& key) {
   using render::Key;
-  // The pedal is held, everything else is a press.
+  // The pedal is held; other keys act when pressed.
   if (key.key == Key::space) pedal_ = key.down;
   if (!key.down) return;
-  if (key.key == Key::left) turn({0, 1, 0}, -kTurn_rad);
-  if (key.key == Key::right) turn({0, 1, 0}, kTurn_rad);
-  if (key.key == Key::up) turn({1, 0, 0}, -kTurn_rad);
-  if (key.key == Key::down) turn({1, 0, 0}, kTurn_rad);
-  if (key.key == render::keyOf('Q')) turn({0, 0, 1}, kTurn_rad);
-  if (key.key == render::keyOf('E')) turn({0, 0, 1}, -kTurn_rad);
+  if (key.key == Key::left) rotate({0, 1, 0}, -kRotation_rad);
+  if (key.key == Key::right) rotate({0, 1, 0}, kRotation_rad);
+  if (key.key == Key::up) rotate({1, 0, 0}, -kRotation_rad);
+  if (key.key == Key::down) rotate({1, 0, 0}, kRotation_rad);
+  if (key.key == render::keyOf('Q')) rotate({0, 0, 1}, kRotation_rad);
+  if (key.key == render::keyOf('E')) rotate({0, 0, 1}, -kRotation_rad);
   if (key.repeated) return;
   if (const auto request = requestOf(key.key)) requests_.push_back(*request);
 }
 
-void HandInput::turn(const glm::dvec3& axis_W, double angle_rad) {
+void HandInput::rotate(const glm::dvec3& axis_W, double angle_rad) {
   X_WT_.rotation = glm::normalize(glm::angleAxis(angle_rad, axis_W) * X_WT_.rotation);
 }
 

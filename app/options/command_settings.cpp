@@ -10,6 +10,7 @@
 #include "app/text/usage_error.h"
 #include "assets/toml_reader.h"
 #include "haptics/contact/law_limits.h"
+#include "haptics/servo/servo.h"
 
 namespace app {
 namespace {
@@ -29,14 +30,14 @@ void readNumbers(assets::TomlReader& keys, const std::string& table, const std::
   }
 }
 
-/// A law's parameters but for the wear, which the erosion's stands for.
+/// Without `worn`, which is the erosion's.
 std::map<std::string, Setting> lawParametersOf(haptics::LawSettings& law) {
   auto settings = parametersOf(law);
   settings.erase("worn");
   return settings;
 }
 
-/// What `make` makes of the text; its refusal is one of the file.
+/// `make(text)`; a UsageError becomes an error of the file at this key.
 template <class Make>
 auto madeOf(assets::TomlReader& keys, const std::string& table, const std::string& key, const std::string& text,
             const std::string& otherwise, Make make) {
@@ -47,7 +48,7 @@ auto madeOf(assets::TomlReader& keys, const std::string& table, const std::strin
   }
 }
 
-/// Two maps of the same keys over two settings: what differs, in words.
+/// A line per difference.
 void compare(const std::string& table, const std::map<std::string, Setting>& before,
              const std::map<std::string, Setting>& after, std::vector<std::string>& lines) {
   for (const auto& [key, setting] : after) {
@@ -100,6 +101,19 @@ haptics::Command commandFromToml(assets::TomlReader& keys, const haptics::Comman
   return command;
 }
 
+void refuseBeyondServoLimits(const haptics::Command& command) {
+  const haptics::Command limited = haptics::sanitised(command);
+  const auto check = [](const char* what, double requested, double accepted, const char* unit) {
+    if (requested != accepted)
+      throw UsageError(fmt::format("{} {:.9g} {}: beyond the limit of the servo, give {:.9g} {}", what, requested, unit,
+                                   accepted, unit));
+  };
+  check("bur radius", command.tool.head.radius_mm, limited.tool.head.radius_mm, "mm");
+  check("bur length", command.tool.head.length_mm, limited.tool.head.length_mm, "mm");
+  check("stiffness", command.law.agus.stiffness_N_per_mm, limited.law.agus.stiffness_N_per_mm, "N/mm");
+  check("damping", command.law.damping_Ns_per_mm, limited.law.damping_Ns_per_mm, "Ns/mm");
+}
+
 void refuseUnlessAdmitted(const haptics::Command& command) {
   if (!haptics::supports(command.law.kind, command.tool.head.kind))
     throw UsageError("law " + lawName(command.law.kind) + ": it does not admit " + textOf(command.tool.head) +
@@ -112,7 +126,7 @@ void refuseUnlessStable(const haptics::Command& command, double device_damping_N
       haptics::passiveStiffness_N_per_mm(device_damping_Ns_per_mm, command.law.damping_Ns_per_mm, 1.0 / rate_Hz);
   const haptics::Admission admission = haptics::admissible(command.law, command.tool.head, most);
   if (admission.answer != haptics::Admission::Answer::too_stiff) return;
-  // Rounded down, so that what is advised is allowed.
+  // Rounded down, so that the advised value is admissible.
   const double nearest = std::floor(1000.0 * admission.nearest) / 1000.0;
   throw UsageError(fmt::format(
       "law {}: with {} it is up to {:.3g} N/mm stiff, at {:g} Hz the device holds {:.3g} N/mm (2b/T): "
@@ -124,7 +138,7 @@ void refuseUnlessStable(const haptics::Command& command, double device_damping_N
 haptics::Command loweredUntilStable(haptics::Command command, double device_damping_Ns_per_mm, double rate_Hz) {
   const double most =
       haptics::passiveStiffness_N_per_mm(device_damping_Ns_per_mm, command.law.damping_Ns_per_mm, 1.0 / rate_Hz);
-  // A law has at most a few gains that make it stiff.
+  // A law has only a few gains that make it stiff.
   for (int gain = 0; gain < 4; ++gain) {
     const haptics::Admission admission = haptics::admissible(command.law, command.tool.head, most);
     if (admission.answer != haptics::Admission::Answer::too_stiff || !admission.lower) break;
@@ -138,7 +152,7 @@ std::vector<std::string> changesBetween(const haptics::Command& before, const ha
   std::vector<std::string> lines;
   haptics::Command a = before, b = after;
   if (a.law.kind != b.law.kind) lines.push_back("[law] name " + lawName(a.law.kind) + " -> " + lawName(b.law.kind));
-  // Both as settings of the law that is now in force.
+  // Both with the parameters of the new law.
   a.law.kind = b.law.kind;
   compare("law", lawParametersOf(a.law), lawParametersOf(b.law), lines);
   if (a.erosion.kind != b.erosion.kind)

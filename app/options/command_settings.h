@@ -1,6 +1,6 @@
-// Everything people may set of a Command, by one name each: `--set key=value` on the command line, tables of a TOML
-// file, and what changed between two of them in words. Ranges are those of the servo's own tables. Start-up and, for
-// files read anew while running, the frame loop; a look at what a device holds costs up to a millisecond.
+// Settings of a Command by key: from `--set key=value`, from the tables of a TOML file, and the differences of two
+// commands as text. Ranges come from the tables of haptics. Main thread: start-up, and the frame loop for files read
+// again; a stability check costs up to a millisecond.
 #pragma once
 
 #include <map>
@@ -16,32 +16,34 @@ class TomlReader;
 
 namespace app {
 
-/// Of the laws in force: law, erosion, spindle, limits.
+/// Of the command's force law, erosion law, spindle and safety limits.
 std::map<std::string, Setting> settingsOf(haptics::Command& command);
 
-/// Applies `key=value` texts. One bur is as dull to the hand as to the bone: `worn` is one setting.
+/// Applies `key=value` texts. `worn` sets force law and erosion alike, as both describe the same bur.
 void applyTo(haptics::Command& command, const std::vector<std::string>& texts);
 
-/// [law] name and its parameters, [erosion] name and its, [spindle], [tool] head and shaft, [safety]; what the file
-/// leaves out is as in `base`. Throws LoadError with file, line and key.
+/// Tables: [law] and [erosion] with name and parameters, [spindle], [tool] head and shaft, [safety]; missing keys keep
+/// the value of `base`. Throws LoadError with file, line and key.
 haptics::Command commandFromToml(assets::TomlReader& keys, const haptics::Command& base);
+
+/// Refuses values beyond the servo's limits, which it would clamp.
+void refuseBeyondServoLimits(const haptics::Command& command);
 
 /// Refuses a law that does not admit the head.
 void refuseUnlessAdmitted(const haptics::Command& command);
 
-/// The same, and refuses a law that is stiffer than a device of this damping holds at this rate
-/// (passivity, haptics/contact/law_limits): with the reason and the nearest value that is allowed.
+/// The same, and refuses a law stiffer than a device of this damping renders passively at this rate
+/// (haptics/contact/law_limits), naming the nearest admissible value.
 void refuseUnlessStable(const haptics::Command& command, double device_damping_Ns_per_mm, double rate_Hz);
 
-/// The command with the law's gains lowered until that device holds it; for switching laws in the middle of work.
-/// Throws UsageError where lowering does not help.
+/// The command with the law's gains lowered until it passes that check, for changing laws while running. Throws
+/// UsageError if that is not possible.
 haptics::Command loweredUntilStable(haptics::Command command, double device_damping_Ns_per_mm, double rate_Hz);
 
-/// "[law] stiffness_N_per_mm 0.8 -> 1 N/mm", a line for everything that differs; serial, drill lock, irrigation and
-/// undo aside.
+/// "[law] stiffness_N_per_mm 0.8 -> 1 N/mm": a line per difference, except serial, drill lock, irrigation and undo.
 std::vector<std::string> changesBetween(const haptics::Command& before, const haptics::Command& after);
 
-/// Damping of a Touch-class device in a light grip (reference/physics 2.5): where no device is known.
+/// Damping of a Touch-class device in a light grip (reference/physics 2.5), for use without a device.
 inline constexpr double kUsualDeviceDamping_Ns_per_mm = 0.002;
 
 }  // namespace app

@@ -1,4 +1,4 @@
-// What kind of stereo display the picture is for, as people name it: `--display MODE`, `--swap-eyes`. Start-up only.
+// Options of the stereo display: `--display MODE`, `--swap-eyes`. Start-up only.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ class DisplayOption {
   void addTo(CommandLine& command);
   render::DisplayMode mode() const { return mode_; }
   bool swapped() const { return swapped_; }
-  /// Throws UsageError where the mode can not be sent from a screen like this.
+  /// Throws UsageError if the mode does not fit the rig's screen.
   void refuseUnlessFits(const calibration::Rig& rig) const;
 
  private:

@@ -17,7 +17,7 @@ std::string nameIn(const Table& table, Kind kind) {
   return one == table.end() ? "unknown" : std::string(one->key);
 }
 
-/// Those of the law in force, of a table whose parameters may be of one law.
+/// Parameters of the current law and of every law.
 template <class Parameters, class Settings>
 std::map<std::string, Setting> inForce(const Parameters& parameters, Settings& settings) {
   std::map<std::string, Setting> found;

@@ -11,14 +11,14 @@
 namespace app {
 namespace {
 
-constexpr std::chrono::milliseconds kBetweenLooks{250};
+constexpr std::chrono::milliseconds kInterval{250};
 
 }  // namespace
 
 LiveParameters::LiveParameters(std::string path, const haptics::Command& base, Check check)
     : path_(std::move(path)), base_(base), check_(std::move(check)) {}
 
-LiveParameters::Mark LiveParameters::markOf() const {
+LiveParameters::Version LiveParameters::currentVersion() const {
   struct stat status {};
   if (::stat(path_.c_str(), &status) != 0) return {};
   return {status.st_mtim.tv_sec, status.st_mtim.tv_nsec, status.st_size, status.st_ino};
@@ -36,17 +36,17 @@ haptics::Command LiveParameters::read() const {
 }
 
 haptics::Command LiveParameters::first() {
-  seen_ = markOf();
+  read_version_ = currentVersion();
   return read();
 }
 
-std::optional<LiveParameters::Reading> LiveParameters::look(Clock::time_point now) {
-  if (now - looked_ < kBetweenLooks) return std::nullopt;
-  looked_ = now;
-  const Mark mark = markOf();
-  if (mark == seen_) return std::nullopt;
-  // Marked before it is read: what is written meanwhile is a change again.
-  seen_ = mark;
+std::optional<LiveParameters::Reading> LiveParameters::poll(Clock::time_point now) {
+  if (now - polled_ < kInterval) return std::nullopt;
+  polled_ = now;
+  const Version version = currentVersion();
+  if (version == read_version_) return std::nullopt;
+  // Before reading: a write in between counts as another change.
+  read_version_ = version;
   try {
     return Reading{read(), {}};
   } catch (const std::runtime_error& error) {

@@ -1,7 +1,6 @@
-// A settings file that is obeyed while the rehearsal runs: looked at four times a second, read again when it changed.
-// A file that can not be used changes nothing and is named once, in one line; one that can becomes the new command.
-// Polled by the frame loop, never by the servo; a look is one stat(2), a reading under a millisecond.
-// Not the recording of changes (Workstation::change) and not the log (changesBetween).
+// A settings file applied while the rehearsal runs: polled four times a second, read again when it changed. A valid
+// file becomes the new command; an invalid one changes nothing and is reported once, in one line. Frame loop; a poll is
+// one stat(2), reading takes under a millisecond.
 #pragma once
 
 #include <chrono>
@@ -19,34 +18,34 @@ class LiveParameters {
   using Clock = std::chrono::steady_clock;
   using Check = std::function<void(const haptics::Command&)>;
 
-  /// `base` holds what the file leaves out; `check` throws UsageError for a command that must not be obeyed.
+  /// `base`: values of keys that the file leaves out. `check` throws UsageError for a command that must not be applied.
   LiveParameters(std::string path, const haptics::Command& base, Check check);
 
-  /// The file as it is at the start; throws UsageError.
+  /// At the start. Throws LoadError or UsageError.
   haptics::Command first();
 
   struct Reading {
-    std::optional<haptics::Command> command;  ///< obey this
-    std::string trouble;                      ///< or say this line
+    std::optional<haptics::Command> command;  ///< to apply
+    std::string error;                        ///< or one line to report
   };
-  /// None while there is nothing new.
-  std::optional<Reading> look(Clock::time_point now);
+  /// None while the file is unchanged.
+  std::optional<Reading> poll(Clock::time_point now);
 
  private:
-  /// What a change of the file changes: time, size and which file it is.
-  struct Mark {
+  /// Differs after every change of the file.
+  struct Version {
     std::int64_t s = 0, ns = 0, bytes = -1;
     std::uint64_t file = 0;
-    bool operator==(const Mark&) const = default;
+    bool operator==(const Version&) const = default;
   };
-  Mark markOf() const;
+  Version currentVersion() const;
   haptics::Command read() const;
 
   std::string path_;
   haptics::Command base_;
   Check check_;
-  Mark seen_;
-  Clock::time_point looked_;
+  Version read_version_;
+  Clock::time_point polled_;
 };
 
 }  // namespace app

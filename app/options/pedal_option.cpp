@@ -10,7 +10,7 @@
 namespace app {
 namespace {
 
-constexpr std::size_t kMostBindings = 64;
+constexpr std::size_t kMaxBindings = 64;
 
 [[noreturn]] void refuse(const std::string& text, const std::string& reason) {
   throw UsageError("--pedal " + text.substr(0, 60) + ": " + reason);
@@ -54,7 +54,7 @@ std::optional<haptics::PedalChoice> pedalFrom(const std::string& text) {
   if (text == "none") return {};
   haptics::PedalChoice choice = text.ends_with(".toml") ? fromFile(text) : fromWords(text);
   if (choice.wanted.empty()) refuse(text, "name a pedal, or auto, before the first comma");
-  if (choice.mapping.size() > kMostBindings) refuse(text, "no pedal has so many switches, give at most 64");
+  if (choice.mapping.size() > kMaxBindings) refuse(text, "no pedal has so many switches, give at most 64");
   try {
     for (const haptics::PedalBinding& binding : choice.mapping) haptics::switchOf(binding);
   } catch (const haptics::DeviceError& error) {

@@ -1,5 +1,5 @@
-// What may be shown besides tooth and bone, by the names people type (`--layers`, a script) and read (the instructor's
-// window). One table. Any thread.
+// Layers that can be shown besides tooth and bone: one table for `--layers`, scripts and the instructor's window. Any
+// thread.
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@
 namespace app {
 
 struct PictureLayer {
-  std::string_view name;   ///< as people type it
-  std::string_view label;  ///< as they read it
+  std::string_view name;   ///< on the command line and in scripts
+  std::string_view label;  ///< in the instructor's window
   bool render::Layers::*on;
 };
 

@@ -22,14 +22,14 @@ const std::map<std::string, std::optional<Backend>> kBackends{{"auto", std::null
 const std::map<std::string, ViewMode> kModes{{"iso", ViewMode::iso}, {"dvr", ViewMode::dvr}, {"mesh", ViewMode::mesh}};
 const std::map<std::string, Antialias> kAntialias{{"none", Antialias::none}, {"edges", Antialias::edges}};
 
-/// What is not shown anyway.
-std::map<std::string, bool Layers::*> layersBesides() {
+/// Layers that are off by default.
+std::map<std::string, bool Layers::*> optionalLayers() {
   std::map<std::string, bool Layers::*> named;
   for (const PictureLayer& layer : kPictureLayers)
     if (!(Layers{}.*layer.on)) named.emplace(layer.name, layer.on);
   return named;
 }
-const std::map<std::string, bool Layers::*> kLayers = layersBesides();
+const std::map<std::string, bool Layers::*> kLayers = optionalLayers();
 
 template <class T>
 std::vector<std::string> namesOf(const std::map<std::string, T>& named) {

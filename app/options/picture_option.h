@@ -1,6 +1,5 @@
-// How a picture is drawn, as people name it: `--renderer auto/gl-fragment/gl-compute/cpu`, `--mode iso/dvr/mesh`,
-// `--layers canal,clearance,plan,ghost`, `--face-opacity`, `--antialias none/edges`. The same words for `see` and
-// `rehearse`. Start-up only.
+// Options of drawing, the same for `see` and `rehearse`: `--renderer`, `--mode`, `--layers`, `--face-opacity`,
+// `--antialias`. Start-up only.
 #pragma once
 
 #include <optional>
@@ -19,9 +18,9 @@ class PictureOption {
   explicit PictureOption(render::Antialias antialias = render::Antialias::none);
 
   void addTo(CommandLine& command);
-  /// Empty: what suits the machine.
+  /// Empty: automatic.
   std::optional<render::Backend> backend() const;
-  /// View mode, layers and quality. Throws UsageError.
+  /// Sets view mode, layers and quality. Throws UsageError.
   void apply(render::Frame& frame) const;
 
  private:

@@ -9,12 +9,11 @@
 #include "app/text/list.h"
 #include "app/text/parse_number.h"
 #include "app/text/usage_error.h"
-#include "haptics/servo/servo.h"
 
 namespace app {
 namespace {
 
-/// The setting of a key, or of the key it was called before.
+/// By key or by its former name.
 std::map<std::string, Setting>::const_iterator settingOf(const std::string& key,
                                                          const std::map<std::string, Setting>& settings) {
   const auto found = settings.find(key);
@@ -39,28 +38,15 @@ void applySettings(const std::vector<std::string>& texts, const std::map<std::st
       throw UsageError("--set " + text + ": no such setting, use key=value with one of " +
                        joined(settings, [](const auto& one) { return one.first; }));
     const std::string& key = found->first;
-    if (!seen.insert(key).second) throw UsageError("--set " + key + ": it is given twice, give it once");
+    if (!seen.insert(key).second) throw UsageError("--set " + key + ": given twice, give it once");
     const auto value = parseNumber<double>(std::string_view(text).substr(equals + 1));
     const Setting& setting = found->second;
-    if (!value) throw UsageError("--set " + text + ": the value is not a number, correct it");
+    if (!value) throw UsageError("--set " + text + ": the value is not a number");
     if (*value < setting.low || *value > setting.high)
       throw UsageError(fmt::format("--set {}: the value is out of range, give {:.9g} to {:.9g}{}{}", text, setting.low,
                                    setting.high, setting.unit.empty() ? "" : " ", setting.unit));
     *setting.value = *value;
   }
-}
-
-void refuseBeyondServoLimits(const haptics::Command& command) {
-  const haptics::Command obeyed = haptics::sanitised(command);
-  const auto check = [](const char* what, double asked, double taken, const char* unit) {
-    if (asked != taken)
-      throw UsageError(fmt::format("{} {:.9g} {}: the servo goes no further than {:.9g} {}, ask for that", what, asked,
-                                   unit, taken, unit));
-  };
-  check("bur radius", command.tool.head.radius_mm, obeyed.tool.head.radius_mm, "mm");
-  check("bur length", command.tool.head.length_mm, obeyed.tool.head.length_mm, "mm");
-  check("stiffness", command.law.agus.stiffness_N_per_mm, obeyed.law.agus.stiffness_N_per_mm, "N/mm");
-  check("damping", command.law.damping_Ns_per_mm, obeyed.law.damping_Ns_per_mm, "Ns/mm");
 }
 
 void refuseSameFile(const std::string& output, std::initializer_list<std::string> inputs) {

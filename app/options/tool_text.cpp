@@ -15,10 +15,9 @@ namespace {
 using haptics::BurShape;
 using haptics::ShapeKind;
 
-/// A number a tool is made of.
 struct Measure {
   const char* name;
-  double least_mm, most_mm;
+  double min_mm, max_mm;
 };
 
 struct Form {
@@ -39,7 +38,7 @@ const std::vector<Form>& forms() {
   return kKnown;
 }
 
-/// Reads `1.5,4` as the measures ask; `asked` begins every complaint, `pattern` says what may be.
+/// Reads `1.5,4`. Errors begin with `asked` and name `pattern`.
 std::vector<double> measuresIn(std::string_view text, const std::vector<Measure>& measures, const std::string& asked,
                                const std::string& pattern) {
   const std::string give = ", give " + pattern + " in mm";
@@ -49,9 +48,9 @@ std::vector<double> measuresIn(std::string_view text, const std::vector<Measure>
     const Measure& measure = measures[values.size()];
     const auto value = parseNumber<double>(part);
     if (!value) throw UsageError(asked + ": the " + measure.name + " is not a number" + give);
-    if (*value < measure.least_mm || *value > measure.most_mm)
-      throw UsageError(fmt::format("{}: the {} is out of range, give {} to {} mm", asked, measure.name,
-                                   measure.least_mm, measure.most_mm));
+    if (*value < measure.min_mm || *value > measure.max_mm)
+      throw UsageError(fmt::format("{}: the {} is out of range, give {} to {} mm", asked, measure.name, measure.min_mm,
+                                   measure.max_mm));
     values.push_back(*value);
   }
   if (values.size() < measures.size())

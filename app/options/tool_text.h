@@ -1,5 +1,5 @@
-// Tools as people type them: heads `sphere:R`, `capsule:R,L` (L the cylindrical part), `cylinder:R,L`, `cone:R,L`
-// (R at the base, L high) and shafts `R,L`, all in mm. Start-up only. UsageError says what is wrong and what may be.
+// Tools as text: heads `sphere:R`, `capsule:R,L` (L the cylindrical part), `cylinder:R,L`, `cone:R,L` (R at the base, L
+// high) and shafts `R,L`, all in mm. Start-up only. Throws UsageError with the accepted forms.
 #pragma once
 
 #include <map>
@@ -25,7 +25,7 @@ haptics::BurShape headFrom(const std::string& text);
 /// `none` or radius 0.1..5 and length 0.1..100 mm, counted from the head's centre.
 haptics::Shaft shaftFrom(const std::string& text);
 
-/// As `headFrom` reads it, for people and records.
+/// In the form that `headFrom` reads.
 std::string textOf(const haptics::BurShape& head);
 
 }  // namespace app

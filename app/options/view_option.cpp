@@ -22,8 +22,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kLongestCamera_bytes = 1u << 16;
-constexpr double kLargestCoordinate_mm = 1e5;
+constexpr std::size_t kMaxCamera_bytes = 1u << 16;
+constexpr double kMaxCoordinate_mm = 1e5;
 
 glm::dvec3 vectorIn(const json& camera, const char* key) {
   if (!camera.contains(key)) throw UsageError(std::string("--camera: '") + key + "' is missing, give three numbers");
@@ -33,21 +33,21 @@ glm::dvec3 vectorIn(const json& camera, const char* key) {
   glm::dvec3 out{0.0};
   for (int a = 0; a < 3; ++a) {
     const json& number = v.at(static_cast<std::size_t>(a));
-    if (!number.is_number() || !(std::abs(number.get<double>()) < kLargestCoordinate_mm))
+    if (!number.is_number() || !(std::abs(number.get<double>()) < kMaxCoordinate_mm))
       throw UsageError(std::string("--camera: '") + key + "' is not three finite numbers, correct it");
     out[a] = number.get<double>();
   }
   return out;
 }
 
-/// The option holds the JSON itself or names a file of it.
+/// The option is the JSON text or the name of a file.
 std::string cameraText(const std::string& option) {
   if (option.find('{') != std::string::npos) return option;
   std::error_code error;
   const auto bytes = std::filesystem::file_size(option, error);
   std::ifstream file(option);
   if (error || !file) throw UsageError("--camera " + option + ": it can not be read, give JSON or a file of it");
-  if (bytes > kLongestCamera_bytes)
+  if (bytes > kMaxCamera_bytes)
     throw UsageError("--camera " + option + ": it is too long for a camera, check the path");
   std::ostringstream text;
   text << file.rdbuf();

@@ -1,6 +1,5 @@
-// From where a picture is taken, as people name it: `--rig RIG --eye left/right/cyclopean`, or `--camera JSON`
-// (text or file; design §3), and `--size WxH`. Without either: a camera looking at the middle of the volume.
-// Start-up only.
+// Options of the point of view: `--rig RIG --eye left/right/cyclopean`, or `--camera JSON` (text or file), and
+// `--size WxH`. Default: a camera looking at the middle of the volume. Start-up only.
 #pragma once
 
 #include <string>
@@ -20,9 +19,9 @@ glm::ivec2 imageSize(const std::string& text);
 class ViewOption {
  public:
   void addTo(CommandLine& command);
-  /// A rig by name, not by file: it says nothing of the patient.
+  /// A rig by name, not by file, has no patient pose.
   bool namesRig() const { return rig_.isName(); }
-  /// Fills `rig`, its screen in pixels of the picture, and says which eye is asked for.
+  /// Sets `rig`, with the image as its screen, and returns the eye.
   render::Eye apply(calibration::Rig& rig, const assets::VolumeGrid& grid) const;
 
  private:

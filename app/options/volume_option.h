@@ -1,6 +1,6 @@
-// The volume a command works on, as people name it: `--volume F.nrrd [--field hu/solid] [--iso HU --sigma HU]
-// [--labels L.nrrd]`. Start-up only. Solid fraction: as stored, or Phi((HU - iso) / sigma); without --sigma the
-// transition is widened to at least a voxel, as patients are (assets::classify).
+// The input volume: `--volume F.nrrd [--field hu/solid] [--iso HU --sigma HU] [--labels L.nrrd]`. Solid fraction: as
+// stored, or Phi((HU - iso) / sigma); without --sigma the transition is widened to at least a voxel, as for patients
+// (assets::classify). Start-up only.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,6 @@ struct SolidVolume {
 
 class VolumeOption {
  public:
-  /// Adds the options to `command`.
   void addTo(CommandLine& command);
   bool given() const { return !path_.empty(); }
   const std::string& path() const { return path_; }

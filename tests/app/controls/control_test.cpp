@@ -41,20 +41,20 @@ TEST(Control, SaysWhatMayStandThere) {
     }
     return "taken";
   };
-  EXPECT_NE(refusal("dril").find("\"dril\": there is no such control, write law, drill, tool"), std::string::npos);
+  EXPECT_NE(refusal("dril").find("\"dril\": no such control, give law, drill, tool"), std::string::npos);
   EXPECT_NE(refusal("").find("no such control"), std::string::npos);
-  EXPECT_NE(refusal("law").find("after law stands one of agus, "), std::string::npos);
+  EXPECT_NE(refusal("law").find("law takes one of agus, "), std::string::npos);
   EXPECT_NE(refusal("law:0").find("one of agus"), std::string::npos);
   EXPECT_NE(refusal("law:8").find("one of agus"), std::string::npos);
   EXPECT_NE(refusal("tool:0").find("number from 1"), std::string::npos);
   EXPECT_NE(refusal("tool:2x").find("number from 1"), std::string::npos);
-  EXPECT_NE(refusal("undo:2").find("after undo stands nothing"), std::string::npos);
+  EXPECT_NE(refusal("undo:2").find("undo takes no value"), std::string::npos);
   EXPECT_NE(refusal("drill:").find(":on, :off"), std::string::npos);
   EXPECT_NE(refusal("layer:nerve").find("canal"), std::string::npos);
   EXPECT_NE(refusal("face:101").find("0 to 100"), std::string::npos);
 }
 
-TEST(Control, OfAPedalIsNoWishWhileItDrills) {
+TEST(Control, DrillActionOfAPedalIsNoRequest) {
   EXPECT_FALSE(requestOf(haptics::HandAction::drill)) << "that is held";
   for (const auto action :
        {haptics::HandAction::irrigation, haptics::HandAction::undo, haptics::HandAction::tool_change}) {

@@ -123,30 +123,30 @@ TEST_F(LiveFile, IsReadAgainWhenItChangesAndKeepsTheOldWhenItIsBad) {
   LiveParameters live(path_, {}, [](const haptics::Command& c) { refuseUnlessStable(c, 0.002, 1000.0); });
   EXPECT_EQ(live.first().law.agus.stiffness_N_per_mm, 0.5);
   auto now = LiveParameters::Clock::now() + 1s;
-  EXPECT_FALSE(live.look(now)) << "nothing changed";
+  EXPECT_FALSE(live.poll(now)) << "nothing changed";
 
   write("[law]\nstiffness_N_per_mm = 0.7\n");
-  EXPECT_FALSE(live.look(now + 100ms)) << "looked at a tenth of a second ago";
-  auto reading = live.look(now += 300ms);
+  EXPECT_FALSE(live.poll(now + 100ms)) << "looked at a tenth of a second ago";
+  auto reading = live.poll(now += 300ms);
   ASSERT_TRUE(reading && reading->command);
   EXPECT_EQ(reading->command->law.agus.stiffness_N_per_mm, 0.7);
 
   for (const std::string bad : {"[law]\nstiffness_N_per_mm = \"soft\"\n", "[law", "[law]\nstiffness_N_per_mm = 15\n"}) {
     write(bad);
-    reading = live.look(now += 300ms);
+    reading = live.poll(now += 300ms);
     ASSERT_TRUE(reading) << bad;
     EXPECT_FALSE(reading->command);
-    EXPECT_NE(reading->trouble.find(path_), std::string::npos) << reading->trouble;
-    EXPECT_NE(reading->trouble.find("the old values stay"), std::string::npos) << reading->trouble;
-    EXPECT_FALSE(live.look(now += 300ms)) << "said once";
+    EXPECT_NE(reading->error.find(path_), std::string::npos) << reading->error;
+    EXPECT_NE(reading->error.find("the old values stay"), std::string::npos) << reading->error;
+    EXPECT_FALSE(live.poll(now += 300ms)) << "said once";
   }
   std::filesystem::remove(path_);
-  reading = live.look(now += 300ms);
+  reading = live.poll(now += 300ms);
   ASSERT_TRUE(reading);
-  EXPECT_FALSE(reading->trouble.empty());
+  EXPECT_FALSE(reading->error.empty());
 
   write("");
-  reading = live.look(now += 300ms);
+  reading = live.poll(now += 300ms);
   ASSERT_TRUE(reading && reading->command);
   EXPECT_EQ(reading->command->law.agus.stiffness_N_per_mm, 0.8) << "what the file leaves out is as it was at the start";
 }
