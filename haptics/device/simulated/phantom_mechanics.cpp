@@ -13,7 +13,7 @@ constexpr Point<Device> kBelow_D = {{0.0, -70.0, -80.0}};  // in front of its fo
 
 /// Common to all. Gimbal: 2048 levels a turn, 11 bits without noise for its range (assumed). Velocity filter, 50 Hz,
 /// and viscous friction (assumed).
-PhantomMechanics arm(double counts_per_turn) {
+PhantomMechanics phantomArm(double counts_per_turn) {
   PhantomMechanics m;
   m.sensing = {counts_per_turn, 2048.0, 50.0};
   m.viscous_Ns_per_mm = 0.0005;
@@ -22,7 +22,7 @@ PhantomMechanics arm(double counts_per_turn) {
 }
 
 PhantomMechanics omni() {
-  PhantomMechanics m = arm(15'200.0);  // 0.055 mm at 133.35 mm
+  PhantomMechanics m = phantomArm(15'200.0);  // 0.055 mm at 133.35 mm
   m.key = "omni", m.name = "Phantom Omni", m.geometry = kOmniGeometry;
   m.mass_kg = 0.045, m.dry_N = 0.26, m.latency_ticks = 1;
   m.peak_force_N = 3.3, m.peak_joint_Nmm = 350.0, m.continuous_force_N = 0.88;
@@ -41,7 +41,7 @@ PhantomMechanics touch() {
 
 /// Calibrates itself while it moves; a switch in its handle. Joint torque (assumed): the Omni's, by their peak forces.
 PhantomMechanics desktop() {
-  PhantomMechanics m = arm(36'400.0);  // 0.023 mm at 133.35 mm
+  PhantomMechanics m = phantomArm(36'400.0);  // 0.023 mm at 133.35 mm
   m.key = "desktop", m.name = "Phantom Desktop", m.geometry = kDesktopGeometry;
   m.mass_kg = 0.045, m.dry_N = 0.06, m.latency_ticks = 1;
   m.peak_force_N = 7.9, m.peak_joint_Nmm = 350.0 * 7.9 / 3.3, m.continuous_force_N = 1.75;
@@ -53,7 +53,7 @@ PhantomMechanics desktop() {
 
 /// Joint torque (assumed): what gives its peak force there. On the computer's own bus, so no latency.
 PhantomMechanics premium() {
-  PhantomMechanics m = arm(43'900.0);  // 0.03 mm at 209.55 mm
+  PhantomMechanics m = phantomArm(43'900.0);  // 0.03 mm at 209.55 mm
   m.key = "premium", m.name = "Phantom Premium 1.5", m.geometry = kPremium15Geometry;
   m.mass_kg = 0.075, m.dry_N = 0.04;
   m.peak_force_N = 8.5, m.peak_joint_Nmm = 8.5 * 209.55, m.continuous_force_N = 1.4;

@@ -73,7 +73,7 @@ void Falcon::loadProgram(const FalconSettings& settings) {
 
 bool Falcon::pollHoming() {
   usb_->send(reportOf({{}, true, FalconLights::red}), usb_->rests());
-  usb_->awaitReport(monotonic_ns() + std::chrono::nanoseconds(20ms).count());
+  usb_->awaitReport(monotonic_ns() + toNs(20ms));
   const auto report = decodeFalconReport(usb_->newestReport().content());
   return report && report->isHomed();
 }

@@ -119,7 +119,7 @@ bool falconRuns(UsbTransport& usb) {
     const UsbExchange sent = usb.write(no_force, kSendTime);
     refuseIfGone(usb, sent.outcome);
     if (!sent.done()) return false;
-    const std::int64_t deadline_ns = usb.clock().now_ns() + std::chrono::nanoseconds(kAnswerTime).count();
+    const std::int64_t deadline_ns = usb.clock().now_ns() + toNs(kAnswerTime);
     while (leftUntil(deadline_ns, usb) > 0ms) {
       std::array<std::uint8_t, 64> payload;
       if (stream.take(listen(usb, payload, leftUntil(deadline_ns, usb)))) return true;

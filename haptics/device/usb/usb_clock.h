@@ -3,12 +3,15 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <limits>
 
 #include "haptics/device/monotonic_clock.h"
 
 namespace haptics {
+
+constexpr std::int64_t toNs(std::chrono::milliseconds time) { return std::chrono::nanoseconds(time).count(); }
 
 struct UsbClock {
   const std::atomic<std::int64_t>* held_ns = nullptr;  ///< must outlive the clock

@@ -37,7 +37,7 @@ void UsbHapticDevice::awaitHoming(const char* words, const std::function<bool()>
                                   const std::function<bool()>& user_acts) {
   if (settings_.homing_patience == 0s) return;
   const UsbClock clock = usb_->clock();
-  const std::int64_t deadline_ns = clock.now_ns() + std::chrono::nanoseconds(settings_.homing_patience).count();
+  const std::int64_t deadline_ns = clock.now_ns() + toNs(settings_.homing_patience);
   while (clock.now_ns() < deadline_ns) {
     if (is_homed()) return;
     if (usb_->state() == UsbState::gone)

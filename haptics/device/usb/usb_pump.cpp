@@ -19,8 +19,6 @@ constexpr std::int64_t kMaxSleep_ns = 100 * kMillisecond_ns;
 /// Between two checks while sendLast() waits.
 constexpr std::int64_t kWait_ns = kMillisecond_ns / 2;
 
-std::int64_t ns(std::chrono::milliseconds time) { return std::chrono::nanoseconds(time).count(); }
-
 /// Best effort.
 void requestPriority(int priority) noexcept {
   sched_param param{};
@@ -36,7 +34,7 @@ void count(std::atomic<std::uint64_t>& counter) noexcept { counter.fetch_add(1, 
 UsbPump::UsbPump(UsbLink& link, const UsbStream& stream)
     : link_(link),
       stream_(stream),
-      outbox_(stream.rest, ns(stream.rest_after)),
+      outbox_(stream.rest, toNs(stream.rest_after)),
       out_(link, link.out(), UsbReport::kMaxBytes) {
   for (int i = 0; i < std::max(1, stream_.in_flight); ++i) ins_.emplace_back(link, link.in(), link.in().packet_bytes);
   thread_ = std::thread([this] { run(); });
@@ -77,7 +75,7 @@ void UsbPump::rest() noexcept {
 }
 
 bool UsbPump::sendLast(const UsbReport& report, std::chrono::milliseconds within) noexcept {
-  const std::int64_t deadline_ns = link_.clock().now_ns() + ns(within);
+  const std::int64_t deadline_ns = link_.clock().now_ns() + toNs(within);
   outbox_.requestLast(report, deadline_ns);
   wake_.raise();
   const timespec pause{0, kWait_ns};
@@ -130,7 +128,7 @@ void UsbPump::run() noexcept {
 void UsbPump::submitIn(std::int64_t now_ns) noexcept {
   if (in_health_.halted || now_ns < in_health_.again_at_ns) return;
   for (UsbTransfer& in : ins_)
-    if (!in.inFlight() && !in.finished()) in.submit(in.buffer().size(), now_ns + ns(stream_.in_deadline));
+    if (!in.inFlight() && !in.finished()) in.submit(in.buffer().size(), now_ns + toNs(stream_.in_deadline));
 }
 
 void UsbPump::submitOut(std::int64_t now_ns) noexcept {
@@ -138,7 +136,7 @@ void UsbPump::submitOut(std::int64_t now_ns) noexcept {
   const std::optional<UsbReport> report = outbox_.next(now_ns);
   if (!report) return;
   std::copy_n(report->bytes.begin(), report->size, out_.buffer().begin());
-  out_.submit(report->size, now_ns + ns(stream_.out_deadline));
+  out_.submit(report->size, now_ns + toNs(stream_.out_deadline));
 }
 
 void UsbPump::settleIn(std::int64_t now_ns) noexcept {
@@ -146,7 +144,7 @@ void UsbPump::settleIn(std::int64_t now_ns) noexcept {
     UsbTransfer* first = nullptr;
     for (UsbTransfer& in : ins_) {
       in.expire(now_ns);
-      gone_ |= in.isDead(now_ns, ns(stream_.dead_after));
+      gone_ |= in.isDead(now_ns, toNs(stream_.dead_after));
       if (in.finished() && (!first || in.order() < first->order())) first = &in;
     }
     if (!first) return;
@@ -188,7 +186,7 @@ void UsbPump::receive(std::span<const std::uint8_t> bytes, std::int64_t now_ns) 
 
 void UsbPump::settleOut(std::int64_t now_ns) noexcept {
   out_.expire(now_ns);
-  gone_ |= out_.isDead(now_ns, ns(stream_.dead_after));
+  gone_ |= out_.isDead(now_ns, toNs(stream_.dead_after));
   if (!out_.takeFinished()) return;
   if (out_.outcome() == UsbOutcome::done) {
     out_health_ = {};
@@ -231,7 +229,7 @@ void UsbPump::clearHalt(const UsbPipe& pipe, Health& health) noexcept {
 }
 
 void UsbPump::updateState(std::int64_t now_ns) noexcept {
-  const bool silent = serial_ == 0 || now_ns - received_at_ns_ > ns(stream_.late_after);
+  const bool silent = serial_ == 0 || now_ns - received_at_ns_ > toNs(stream_.late_after);
   state_.store(gone_                                     ? UsbState::gone
                : in_health_.halted || out_health_.halted ? UsbState::stalled
                : silent || out_late_                     ? UsbState::late
@@ -246,7 +244,7 @@ std::int64_t UsbPump::nextCheck_ns(std::int64_t now_ns) const noexcept {
   for (const UsbTransfer& in : ins_)
     if (in.inFlight()) by(in.deadline_ns());
   if (out_.inFlight()) by(out_.deadline_ns());
-  by(received_at_ns_ + ns(stream_.late_after) + 1);
+  by(received_at_ns_ + toNs(stream_.late_after) + 1);
   by(outbox_.nextCheck_ns(next_ns));
   by(in_health_.again_at_ns);
   by(out_health_.again_at_ns);
@@ -264,7 +262,7 @@ void UsbPump::cancelAll() noexcept {
   outbox_.close();
   for (UsbTransfer& in : ins_) in.cancel();
   out_.cancel();
-  const std::int64_t until_ns = link_.clock().now_ns() + ns(stream_.dead_after);
+  const std::int64_t until_ns = link_.clock().now_ns() + toNs(stream_.dead_after);
   while (anyInFlight() && link_.clock().now_ns() < until_ns)
     if (!link_.pump(link_.clock().now_ns() + kMillisecond_ns, -1)) break;
   if (anyInFlight()) gone_ = true;

@@ -35,7 +35,7 @@ struct UsbTransport::Parts {
 UsbExchange UsbTransport::Parts::exchange(UsbTransfer& transfer, std::size_t size, std::chrono::milliseconds within) {
   assert(!pump);
   if (dead) return {UsbOutcome::gone, 0};
-  const std::int64_t deadline_ns = link.clock().now_ns() + std::chrono::nanoseconds(within).count();
+  const std::int64_t deadline_ns = link.clock().now_ns() + toNs(within);
   transfer.submit(size, deadline_ns);
   while (transfer.inFlight()) {
     transfer.expire(link.clock().now_ns());

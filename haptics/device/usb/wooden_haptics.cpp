@@ -17,8 +17,6 @@ constexpr std::chrono::milliseconds kWakeUp = 100ms, kAnswer = 1500ms;
 /// Continuous to peak force as of a Touch (reference/devices 4.3); of these motors it is not published.
 constexpr double kContinuousShare = 0.27;
 
-std::int64_t ns(std::chrono::milliseconds time) { return std::chrono::nanoseconds(time).count(); }
-
 }  // namespace
 
 std::optional<WoodenSettings> woodenAddressed(std::string_view address) {
@@ -65,17 +63,17 @@ WoodenHaptics::WoodenHaptics(const WoodenSettings& settings)
 
 void WoodenHaptics::wake() {
   const UsbClock clock = usb_->clock();
-  const std::int64_t deadline_ns = clock.now_ns() + ns(kAnswer);
+  const std::int64_t deadline_ns = clock.now_ns() + toNs(kAnswer);
   while (clock.now_ns() < deadline_ns) {
     usb_->send(woodenRest(), usb_->rests());
-    if (usb_->awaitReport(monotonic_ns() + ns(kWakeUp))) return;
+    if (usb_->awaitReport(monotonic_ns() + toNs(kWakeUp))) return;
   }
   throw DeviceError(where() + "it does not answer, switch it off and on and start again", DeviceTrouble::faulty);
 }
 
 bool WoodenHaptics::pollHoming() {
   rests_ = usb_->rests();
-  usb_->awaitReport(monotonic_ns() + ns(kWakeUp));
+  usb_->awaitReport(monotonic_ns() + toNs(kWakeUp));
   if (readReport() && homing_.isHome()) return true;
   drive({});
   return false;
