@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <string>
+#include <utility>
 
 #include "app/device/trip_reporter.h"
 #include "app/options/picture_layers.h"
@@ -27,10 +29,10 @@ constexpr float kText_px = 16.0f, kSmall_px = 13.0f, kLarge_px = 26.0f;
 const ImVec4 kInk{0.91f, 0.92f, 0.94f, 1.0f}, kQuiet{0.60f, 0.64f, 0.70f, 1.0f}, kGood{0.42f, 0.80f, 0.55f, 1.0f},
     kWarn{0.98f, 0.73f, 0.28f, 1.0f}, kBad{0.95f, 0.38f, 0.35f, 1.0f}, kAccent{0.36f, 0.66f, 0.95f, 1.0f};
 
-// In the order they are loaded.
+// In loading order.
 enum FontAt { text_font, small_font, large_font, heading_font };
 
-/// The built-in font stands in for all where the file is missing.
+/// Without the font files all are the built-in font.
 ImFont* font(FontAt at) {
   const ImVector<ImFont*>& fonts = ImGui::GetIO().Fonts->Fonts;
   return fonts[std::min(static_cast<int>(at), fonts.Size - 1)];
@@ -50,13 +52,24 @@ void heading(const char* text) {
   ImGui::Separator();
 }
 
+/// On the line of the previous item.
+void alignedRight(FontAt at, const ImVec4& colour, const std::string& text) {
+  ImGui::SameLine();
+  ImGui::PushFont(font(at));
+  const float width = ImGui::CalcTextSize(text.c_str()).x;
+  ImGui::PopFont();
+  ImGui::SetCursorPosX(std::max(ImGui::GetCursorPosX(), ImGui::GetWindowContentRegionMax().x - width));
+  textIn(at, colour, text);
+}
+
 /// A name on the left, its value on the right.
 void row(const char* name, const std::string& value, const ImVec4& colour = kInk) {
   textIn(text_font, kQuiet, name);
-  ImGui::SameLine();
-  const float width = ImGui::CalcTextSize(value.c_str()).x;
-  ImGui::SetCursorPosX(std::max(ImGui::GetCursorPosX(), ImGui::GetWindowContentRegionMax().x - width));
-  textIn(text_font, colour, value);
+  alignedRight(text_font, colour, value);
+}
+
+const ImVec4& grade(double value, double warn_above, double bad_above = std::numeric_limits<double>::infinity()) {
+  return value > bad_above ? kBad : value > warn_above ? kWarn : kGood;
 }
 
 void bar(double share, const ImVec4& colour) {
@@ -66,23 +79,13 @@ void bar(double share, const ImVec4& colour) {
 }
 
 void drawState(const RehearsalStatus& s) {
-  const bool locked = !s.command.drill_enabled;
-  textIn(large_font,
-         s.tick.drilling ? kWarn
-         : locked        ? kQuiet
-                         : kInk,
-         s.tick.drilling         ? "Drilling"
-         : locked                ? "Drill locked"
-         : s.tick.depth_mm > 0.0 ? "Touching"
-                                 : "Free");
+  const auto [word, colour] = s.tick.drilling            ? std::pair("Drilling", kWarn)
+                              : !s.command.drill_enabled ? std::pair("Drill locked", kQuiet)
+                              : s.tick.depth_mm > 0.0    ? std::pair("Touching", kInk)
+                                                         : std::pair("Free", kInk);
+  textIn(large_font, colour, word);
   const int t_s = static_cast<int>(s.tick.t_s);
-  ImGui::SameLine();
-  const std::string time = fmt::format("{}:{:02}", t_s / 60, t_s % 60);
-  ImGui::PushFont(font(large_font));
-  const float width = ImGui::CalcTextSize(time.c_str()).x;
-  ImGui::PopFont();
-  ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - width);
-  textIn(large_font, kInk, time);
+  alignedRight(large_font, kInk, fmt::format("{}:{:02}", t_s / 60, t_s % 60));
   if (s.recording == RecordingState::running)
     textIn(text_font, kBad, "● recording " + std::filesystem::path(s.recording_path).filename().string());
   else if (s.recording == RecordingState::ended_early)
@@ -91,7 +94,7 @@ void drawState(const RehearsalStatus& s) {
     textIn(text_font, kQuiet, "not recorded");
   if (!s.to_instructor.empty()) textIn(text_font, kAccent, s.to_instructor);
   if (haptics::has(s.tick.faults, haptics::Fault::bad_pose | haptics::Fault::device | haptics::Fault::bad_force))
-    textIn(text_font, kBad, "hand not believed: force is let down");
+    textIn(text_font, kBad, "pose or device fault: the force goes to zero");
 }
 
 void drawTool(const RehearsalStatus& s) {
@@ -117,7 +120,7 @@ void drawLaw(const RehearsalStatus& s, Requests& requests) {
     }
     ImGui::EndCombo();
   }
-  // Tissues are many and seldom looked at: folded.
+  // The many tissues are folded.
   const auto draw_parameters = [&](bool of_tissues) {
     for (const haptics::LawParameter& p : haptics::lawParameters()) {
       if (p.law && *p.law != s.command.law.kind) continue;
@@ -133,13 +136,13 @@ void drawLaw(const RehearsalStatus& s, Requests& requests) {
   }
 }
 
-void drawPictureFigures(const RehearsalStatus& s) {
-  heading("Picture");
-  const bool late = s.drawing_ms > s.budget_ms;
+void drawView(const RehearsalStatus& s) {
+  heading("View");
+  const ImVec4& drawing = grade(s.drawing_ms / s.budget_ms, 1.0);
   row("Display", s.display + fmt::format(", {:.0f} Hz", s.refresh_Hz));
-  row("Drawn in", fmt::format("{:.1f} of {:.1f} ms", s.drawing_ms, s.budget_ms), late ? kWarn : kGood);
-  bar(s.drawing_ms / s.budget_ms, late ? kWarn : kGood);
-  row("Pictures", fmt::format("{:.0f} a second", s.pictures_per_s));
+  row("Drawn in", fmt::format("{:.1f} of {:.1f} ms", s.drawing_ms, s.budget_ms), drawing);
+  bar(s.drawing_ms / s.budget_ms, drawing);
+  row("Frames", fmt::format("{:.0f} a second", s.frames_per_s));
   row("Motion to photon", fmt::format("{:.0f} ms", s.latency.total_ms()));
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip(
@@ -152,9 +155,7 @@ void drawPictureFigures(const RehearsalStatus& s) {
 void drawServo(const RehearsalStatus& s) {
   heading("Servo");
   const double budget_us = 1e6 / s.servo_rate_Hz;
-  const ImVec4 health = s.servo.work_p99_us > 0.8 * budget_us   ? kBad
-                        : s.servo.work_p99_us > 0.5 * budget_us ? kWarn
-                                                                : kGood;
+  const ImVec4& health = grade(s.servo.work_p99_us / budget_us, 0.5, 0.8);
   row("Work, 99 % below", fmt::format("{:.0f} of {:.0f} µs", s.servo.work_p99_us, budget_us), health);
   bar(s.servo.work_p99_us / budget_us, health);
   const double missed_share =
@@ -174,7 +175,7 @@ void drawCalibration(const RehearsalStatus& s) {
       : s.calibration.rig == "none" ? kQuiet
                                     : kWarn);
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", calibrationText(s.calibration).c_str());
-  // The first says which rig it is; what follows wants somebody to do something.
+  // The remark that only names the rig is left out.
   ImGui::PushFont(font(small_font));
   ImGui::PushStyleColor(ImGuiCol_Text, kWarn);
   for (const std::string& remark : s.remarks)
@@ -197,8 +198,8 @@ void drawHand(const RehearsalStatus& s, Requests& requests) {
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip("%s\n%s", std::string(words.what).c_str(), std::string(words.next).c_str());
   if (s.tick.hand.motor_heat > 0.0) {
-    const ImVec4 warmth = s.tick.hand.motor_heat > 0.8 ? kBad : s.tick.hand.motor_heat > 0.5 ? kWarn : kGood;
-    row("Motors", fmt::format("{:.0f} % of their heat", 100.0 * s.tick.hand.motor_heat), warmth);
+    const double heat = s.tick.hand.motor_heat;
+    row("Motors", fmt::format("{:.0f} % of their heat", 100.0 * heat), grade(heat, 0.5, 0.8));
   }
   row("Safety", tripsText(s.trips));
   const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
@@ -302,22 +303,22 @@ PanelContext::PanelContext() {
 
 PanelContext::~PanelContext() { ImGui::DestroyContext(); }
 
-ImageArea imageArea(glm::ivec2 window_px, glm::ivec2 picture_px) {
+ImageArea imageArea(glm::ivec2 window_px, glm::ivec2 surgeon_px) {
   const glm::ivec2 free =
       glm::max(window_px - glm::ivec2(kPanel_px + 2 * kMargin_px, kHeader_px + kKeys_px), glm::ivec2(1));
-  const double scale = std::min(static_cast<double>(free.x) / std::max(1, picture_px.x),
-                                static_cast<double>(free.y) / std::max(1, picture_px.y));
-  const glm::ivec2 size = glm::max(glm::ivec2(scale * glm::dvec2(picture_px)), glm::ivec2(1));
+  const double scale = std::min(static_cast<double>(free.x) / std::max(1, surgeon_px.x),
+                                static_cast<double>(free.y) / std::max(1, surgeon_px.y));
+  const glm::ivec2 size = glm::max(glm::ivec2(scale * glm::dvec2(surgeon_px)), glm::ivec2(1));
   return {glm::ivec2(kMargin_px, kHeader_px) + glm::ivec2((free.x - size.x) / 2, 0), size};
 }
 
 std::vector<ControlRequest> drawInstructorPanel(const RehearsalStatus& status, glm::ivec2 window_px,
-                                                glm::ivec2 picture_px) {
+                                                glm::ivec2 surgeon_px) {
   Requests requests;
   const auto left_px = static_cast<float>(window_px.x - kPanel_px), height_px = static_cast<float>(window_px.y);
   drawHeader(status, left_px);
-  const ImageArea place = imageArea(window_px, picture_px);
-  drawKeys(static_cast<float>(place.corner_px.y + place.size_px.y + 4), left_px);
+  const ImageArea area = imageArea(window_px, surgeon_px);
+  drawKeys(static_cast<float>(area.corner_px.y + area.size_px.y + 4), left_px);
   ImGui::SetNextWindowPos({left_px, 0.0f});
   ImGui::SetNextWindowSize({static_cast<float>(kPanel_px), height_px});
   ImGui::Begin("##panel", nullptr, (kFixed & ~ImGuiWindowFlags_NoScrollbar));
@@ -326,7 +327,7 @@ std::vector<ControlRequest> drawInstructorPanel(const RehearsalStatus& status, g
   drawHand(status, requests);
   drawTool(status);
   drawLaw(status, requests);
-  drawPictureFigures(status);
+  drawView(status);
   drawServo(status);
   drawLayers(status, requests);
   ImGui::End();

@@ -1,6 +1,6 @@
-// What the instructor's window says and asks, drawn with Dear ImGui (inside): the state of drill and recording first,
-// then tool, law, picture, servo, layers, keys. Leaves a place free for what the surgeon sees. Knows no window and no
-// OpenGL. Main thread; well under a millisecond.
+// The panel of the instructor's window, drawn with Dear ImGui: state of drill and recording, hand, tool, law, view,
+// servo, layers, keys. It leaves an area free for the surgeon's image. Independent of window and OpenGL. Main thread;
+// well under a millisecond.
 #pragma once
 
 #include <vector>
@@ -21,15 +21,15 @@ class PanelContext {
   PanelContext& operator=(const PanelContext&) = delete;
 };
 
-/// Where what the surgeon sees goes, in a window of this size: the largest place of its shape beside the panel. Px from
-/// the top left.
+/// Area of the surgeon's image in a window of this size: the largest of its shape next to the panel. Px from the top
+/// left.
 struct ImageArea {
   glm::ivec2 corner_px{0}, size_px{0};
 };
-ImageArea imageArea(glm::ivec2 window_px, glm::ivec2 picture_px);
+ImageArea imageArea(glm::ivec2 window_px, glm::ivec2 surgeon_px);
 
-/// What was asked for since the last drawing. Between ImGui's NewFrame and Render.
+/// Returns the requests since the last drawing. Between ImGui's NewFrame and Render.
 std::vector<ControlRequest> drawInstructorPanel(const RehearsalStatus& status, glm::ivec2 window_px,
-                                                glm::ivec2 picture_px);
+                                                glm::ivec2 surgeon_px);
 
 }  // namespace app

@@ -1,5 +1,5 @@
-// How a rehearsal stands, as plain values: for the status line, the instructor's window and nobody else. Made twice a
-// second or, with an instructor, ten times. Pure; any thread.
+// State of a rehearsal, as plain values, for the status line and the instructor's window. Made twice a second, with an
+// instructor ten times. Pure; any thread.
 #pragma once
 
 #include <string>
@@ -19,28 +19,28 @@ enum class RecordingState { none, running, ended_early };
 
 struct RehearsalStatus {
   std::string patient_title;
-  std::string bur;      ///< as people type it
-  std::string display;  ///< the same
+  std::string bur;      ///< as in --tool
+  std::string display;  ///< as in --display
   haptics::Tick tick;   ///< the newest
   haptics::Command command;
-  std::string device;  ///< as people read it
+  std::string device;
   SessionCalibration calibration;
   std::vector<std::string> remarks;  ///< on calibration and case
   haptics::TripCounter trips;
   haptics::LoopFigures servo;
   double servo_rate_Hz = 1000.0;
   double drawing_ms = 0.0;  ///< of the newest frame
-  double pictures_per_s = 0.0;
+  double frames_per_s = 0.0;
   double refresh_Hz = 60.0;
   double budget_ms = 16.7;  ///< for drawing a frame
   LatencyEstimate latency;
-  std::string quality;  ///< the step, in words
+  std::string quality;  ///< of the step, as text
   int quality_step = 0;
-  bool quality_is_held = false;  ///< chosen by hand
+  bool quality_is_held = false;  ///< chosen by the user
   render::Layers layers;
   RecordingState recording = RecordingState::none;
   std::string recording_path;
-  std::string to_surgeon, to_instructor;  ///< of the procedure that leads, if one does
+  std::string to_surgeon, to_instructor;  ///< messages of a procedure
 };
 
 /// "drilling", "drill off", "drill locked".

@@ -77,7 +77,7 @@ class LiveView {
   std::optional<Clock::time_point> pose_read_;
   Clock::time_point rate_measured_ = Clock::now();
   std::uint64_t frames_ = 0, frames_measured_ = 0;
-  double pictures_per_s_ = 0.0;
+  double frames_per_s_ = 0.0;
 };
 
 }  // namespace app

@@ -70,7 +70,7 @@ std::string summaryText(const RehearsalFigures& f) {
     text += fmt::format("  supervisor       switched the motors off {} times: no tick for 50 ms\n",
                         f.last.servo.watchdog_trips);
   if (f.ticking == Ticking::realtime) {
-    text += fmt::format("  pictures         {}, one every {:.0f} ms, the first after {:.1f} s\n", f.frames, f.frame_ms,
+    text += fmt::format("  frames           {}, one every {:.0f} ms, the first after {:.1f} s\n", f.frames, f.frame_ms,
                         f.first_frame_s);
     text += fmt::format("  display          {}, quality: {}\n", f.last.display, f.last.quality);
   }

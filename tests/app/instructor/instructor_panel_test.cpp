@@ -162,7 +162,7 @@ TEST_F(InstructorPanel, ShowsEveryNumber) {
   status_.servo.late_p99_us = 66.0;
   status_.drawing_ms = 9.5;
   status_.budget_ms = 16.7;
-  status_.pictures_per_s = 58.0;
+  status_.frames_per_s = 58.0;
   status_.refresh_Hz = 75.0;
   status_.latency = {14.2, 0.5, 8.3, 8.3};
   status_.calibration.rig = "desk";
