@@ -3,8 +3,6 @@
 #pragma once
 
 #include "render/cpu/occlusion_body.h"
-#include "render/shaders/finish.glsl"
-#include "render/shaders/guide_constants.glsl"
 
 namespace render::cpu {
 namespace {

@@ -22,17 +22,24 @@ class TrianglePool {
   void draw();
 
  private:
-  /// A patch's part of both buffers, counted in vertices and indices.
-  struct Slot {
-    std::size_t first_vertex = 0, vertex_room = 0, first_index = 0, index_room = 0, indices = 0;
+  /// A patch's part of a buffer, counted in elements.
+  struct Part {
+    std::size_t first = 0, room = 0;
   };
-  void makeRoom(Slot& slot, std::size_t vertices, std::size_t indices);
-  void grow(std::size_t vertices, std::size_t indices);
+  struct Slot {
+    Part vertices, indices;
+    std::size_t index_count = 0;
+  };
+  struct Store {
+    Buffer buffer;
+    std::size_t element_bytes, room, used = 0;  ///< used: from the beginning, including gaps
+  };
+  static Store storeOf(std::size_t element_bytes, std::size_t room);
+  void reserve(Store& store, Slot& slot, Part Slot::*part, std::size_t count);
+  void grow(Store& store, Part Slot::*part, std::size_t room);
 
   std::vector<Slot> slots_;
-  std::size_t vertex_room_, index_room_;              ///< capacity of the buffers
-  std::size_t vertices_used_ = 0, indices_used_ = 0;  ///< from their beginning, including gaps
-  Buffer vertices_, indices_;
+  Store vertices_, indices_;
   GlName layout_;
   std::vector<std::uint16_t> narrow_;
   // Arguments of the draw call, one per non-empty patch.

@@ -1,7 +1,7 @@
 // Guides on the bone: bands of clearance to the canal, and the planned cut. They differ in value and pattern as well as
 // hue, for red-green colour blindness (hues of Okabe and Ito, "Color universal design", 2008).
 #include "volume_block.glsl"
-#include "guide_constants.glsl"
+#include "light_constants.glsl"
 
 // mm to the canal's wall and to the planned cut.
 vec2 guideDistances(vec3 index) {

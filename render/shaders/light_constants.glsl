@@ -80,3 +80,28 @@
 #define SHOULDER_KNEE 0.70f         // linear up to here; above it rolls off towards white
 
 #define EDGE_BEND 0.002f            // relative second difference of the inverse distance at an edge: 1 mm at 0.5 m
+
+// Finishes of the appearance field: roughness, reflectance at normal incidence, wrap. C++ defines its own vec3.
+#define FINISH_MARROW vec3(0.42, 0.035, 0.15)
+#define FINISH_DULL vec3(0.49, 0.042, 0.11)
+#define FINISH_ENAMEL vec3(0.18, 0.055, 0.30)
+#define COLOUR_DEPTH_VOXELS 0.7    // depth below the surface where colour is read, since partial volume at the surface looks like bone
+
+// Guides on the bone: colours and patterns; mm.
+#define GUIDE_NEAR_COLOUR 0.66f, 0.11f, 0.0f     // hues of Okabe and Ito, "Color universal design" (2008)
+#define GUIDE_MIDDLE_COLOUR 0.79f, 0.35f, 0.0f
+#define GUIDE_FAR_COLOUR 0.87f, 0.77f, 0.06f
+#define GUIDE_PLANNED_COLOUR 0.09f, 0.46f, 0.81f
+#define GUIDE_RIM_COLOUR 0.0f, 0.08f, 0.30f
+#define GUIDE_SHOWN_TO 3.2f
+#define GUIDE_STRIPES_PER_MM 0.55f
+#define GUIDE_DOTS_PER_MM 1.1f
+#define GUIDE_FULL_COVER 0.85f
+#define GUIDE_STRIPE_GAP_COVER 0.45f
+#define GUIDE_DOT_COVER 0.80f
+#define GUIDE_DOT_GAP_COVER 0.25f
+#define GUIDE_BAND_END 0.07f        // half width of the dark line that ends a band
+#define GUIDE_PLAN_COVER 0.42f
+#define GUIDE_PLAN_RIM 0.14f
+#define GUIDE_PLAN_RIM_COVER 0.9f
+#define GUIDE_DARKEST 0.25f         // canal tube seen along its wall

@@ -1,6 +1,5 @@
 // Shading of skin, gingiva and steel. Both sides are drawn; the face is cut away around the line from the eyes to the site.
 #include "part_block.glsl"
-#include "guide_constants.glsl"
 #include "occlusion.glsl"
 
 layout(location = 0) in vec3 p_P;

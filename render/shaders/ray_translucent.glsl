@@ -1,9 +1,14 @@
 // Light and opacity of translucent matter along a ray, front to back, at the samples of ray_march.glsl.
 // Opacity is per mm and corrected for the step: alpha = 1 - (1 - a)^(step in mm). Lengths in voxels.
 #include "ray_march.glsl"
-#include "transfer_block.glsl"
 #include "lighting.glsl"
 #include "guides.glsl"
+
+// C++ twin: render::TransferBlock.
+layout(std140, binding = TRANSFER_BLOCK) uniform TransferBlock {
+  vec4 ramp;                          // x: solid fraction where opacity begins, y: 1 over the length of the ramp
+  vec4 opacity_per_mm[TISSUE_COUNT];  // x: of the full tissue
+} transfer;
 
 struct Gathered {
   vec4 light;       // premultiplied

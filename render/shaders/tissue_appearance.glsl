@@ -2,7 +2,6 @@
 // finish, and fine detail that no scan resolves. Values chosen by eye; enamel is translucent (wrap, high F0).
 #include "volume_block.glsl"
 #include "lighting.glsl"
-#include "finish.glsl"
 #include "guides.glsl"
 
 float hashed(ivec3 cell) {

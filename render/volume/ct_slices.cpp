@@ -28,17 +28,9 @@ struct Layout {
   std::string_view name, left_side, right_side;
 };
 
-Layout layoutOf(SlicePlane plane) {
-  switch (plane) {
-    case SlicePlane::axial:
-      return {0, 1, 2, 1, "AXIAL", "R", "L"};
-    case SlicePlane::coronal:
-      return {0, 2, 1, -1, "CORONAL", "R", "L"};
-    case SlicePlane::sagittal:
-      return {1, 2, 0, -1, "SAGITTAL", "A", "P"};
-  }
-  return {};
-}
+// In the order of SlicePlane.
+constexpr std::array<Layout, 3> kLayouts{
+    {{0, 1, 2, 1, "AXIAL", "R", "L"}, {0, 2, 1, -1, "CORONAL", "R", "L"}, {1, 2, 0, -1, "SAGITTAL", "A", "P"}}};
 
 /// The image of a slice, and the positions of its pixels in P.
 class SliceImage {
@@ -46,7 +38,7 @@ class SliceImage {
   SliceImage(const Layout& layout, const glm::dvec3& middle_P_mm, int edge_px)
       : edge_px_(edge_px), mm_per_px_(CtSlices::kWidth_mm / edge_px), middle_(middle_P_mm), layout_(layout) {
     image_.w = image_.h = edge_px;
-    image_.rgba.assign(static_cast<std::size_t>(edge_px) * static_cast<std::size_t>(edge_px) * 4, 255);
+    image_.rgba.assign(4 * static_cast<std::size_t>(edge_px * edge_px), 255);
   }
 
   int edge_px() const { return edge_px_; }
@@ -66,13 +58,9 @@ class SliceImage {
 
   void blend(int x, int y, const glm::vec3& colour, float alpha) {
     if (alpha <= 0.0f || x < 0 || y < 0 || x >= edge_px_ || y >= edge_px_) return;
-    std::uint8_t* const to = at(x, y);
+    std::uint8_t* const to = &image_.rgba[4 * static_cast<std::size_t>(y * edge_px_ + x)];
     for (int c = 0; c < 3; ++c)
       to[c] = static_cast<std::uint8_t>(glm::mix(static_cast<float>(to[c]), colour[c], std::min(alpha, 1.0f)) + 0.5f);
-  }
-  void setGrey(int x, int y, std::uint8_t grey) {
-    std::uint8_t* const to = at(x, y);
-    to[0] = to[1] = to[2] = grey;
   }
   void set(int x, int y, const glm::vec3& colour) { blend(x, y, colour, 1.0f); }
   void fill(int left, int top, int width, int height, const glm::vec3& colour) {
@@ -82,11 +70,6 @@ class SliceImage {
   Image take() { return std::move(image_); }
 
  private:
-  std::uint8_t* at(int x, int y) {
-    return &image_.rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(edge_px_) +
-                             static_cast<std::size_t>(x))];
-  }
-
   int edge_px_;
   double mm_per_px_;
   glm::dvec3 middle_;
@@ -149,17 +132,21 @@ float along(const std::vector<float>& row, Between at) {
 /// Coverage of a pixel by a line 1.6 px wide at that distance from its centre.
 float lineCover(double distance_px) { return static_cast<float>(std::clamp(1.3 - std::abs(distance_px), 0.0, 1.0)); }
 
-/// Draws the zero line of a distance field (mm, one value a pixel).
-void drawOutline(SliceImage& slice, const std::vector<float>& distance_mm, const glm::vec3& colour) {
-  const int edge = slice.edge_px();
+/// Signed distances to a shape, mm, one per pixel.
+struct DistanceField {
+  int edge;
+  std::vector<float> mm = std::vector<float>(static_cast<std::size_t>(edge * edge), kFar_mm);
+  float& at(int x, int y) { return mm[static_cast<std::size_t>(y * edge + x)]; }
+};
+
+/// Draws the zero line of a distance field.
+void drawOutline(SliceImage& slice, DistanceField& distance, const glm::vec3& colour) {
+  const int edge = distance.edge;
   const auto near_mm = static_cast<float>(6.0 * slice.mm_per_px());
-  const auto at = [&](int x, int y) {
-    return double{
-        distance_mm[static_cast<std::size_t>(y) * static_cast<std::size_t>(edge) + static_cast<std::size_t>(x)]};
-  };
+  const auto at = [&](int x, int y) { return double{distance.at(x, y)}; };
   for (int y = 0; y < edge; ++y)
     for (int x = 0; x < edge; ++x) {
-      if (std::abs(distance_mm[static_cast<std::size_t>(y * edge + x)]) > near_mm) continue;
+      if (std::abs(distance.at(x, y)) > near_mm) continue;
       // Normalise by the gradient: a slice oblique to the shape has a small one.
       const int x0 = std::max(x - 1, 0), x1 = std::min(x + 1, edge - 1), y0 = std::max(y - 1, 0),
                 y1 = std::min(y + 1, edge - 1);
@@ -171,7 +158,7 @@ void drawOutline(SliceImage& slice, const std::vector<float>& distance_mm, const
 void drawCanal(SliceImage& slice, const Layout& layout, const glm::dvec3& middle, const CtScan& scan) {
   const int edge = slice.edge_px();
   const double reach_mm = scan.mandibular_canal_radius_mm + 3.0 * slice.mm_per_px();
-  std::vector<float> distance_mm(static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge), kFar_mm);
+  DistanceField distance{edge};
   for (std::size_t n = 0; n + 1 < scan.mandibular_canal_P_mm.size(); ++n) {
     const glm::dvec3 a = scan.mandibular_canal_P_mm[n], b = scan.mandibular_canal_P_mm[n + 1];
     const glm::dvec3 low = glm::min(a, b) - reach_mm, high = glm::max(a, b) + reach_mm;
@@ -185,29 +172,27 @@ void drawCanal(SliceImage& slice, const Layout& layout, const glm::dvec3& middle
     for (int y = y0; y <= y1; ++y)
       for (int x = x0; x <= x1; ++x) {
         const double wall_mm = distanceToSegment(slice.position_P_mm(x, y), a, b) - scan.mandibular_canal_radius_mm;
-        float& nearest = distance_mm[static_cast<std::size_t>(y * edge + x)];
-        nearest = std::min(nearest, static_cast<float>(wall_mm));
+        distance.at(x, y) = std::min(distance.at(x, y), static_cast<float>(wall_mm));
       }
   }
-  drawOutline(slice, distance_mm, kCanal);
+  drawOutline(slice, distance, kCanal);
 }
 
 void drawBur(SliceImage& slice, const Frame& frame) {
   // In T, pixels lie on a regular grid around the origin.
   const auto X_TP = frame.X_PT.inverse();
-  const auto place_T = [&](int x, int y) {
+  const auto position_T = [&](int x, int y) {
     return (X_TP * calibration::Point<calibration::Patient>{slice.position_P_mm(x, y)}).mm;
   };
-  const glm::dvec3 corner = place_T(0, 0), right = place_T(1, 0) - corner, down = place_T(0, 1) - corner;
+  const glm::dvec3 corner = position_T(0, 0), right = position_T(1, 0) - corner, down = position_T(0, 1) - corner;
   const int edge = slice.edge_px();
   const double reach_mm = std::hypot(frame.bur_radius_mm, 0.5 * frame.bur_length_mm) + 8.0 * slice.mm_per_px();
   const int reach = static_cast<int>(std::min(0.5 * edge, reach_mm / slice.mm_per_px()));
-  std::vector<float> distance_mm(static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge), kFar_mm);
+  DistanceField distance{edge};
   for (int y = edge / 2 - reach; y < edge / 2 + reach; ++y)
     for (int x = edge / 2 - reach; x < edge / 2 + reach; ++x)
-      distance_mm[static_cast<std::size_t>(y * edge + x)] =
-          static_cast<float>(burDistance_mm(frame, corner + double(x) * right + double(y) * down));
-  drawOutline(slice, distance_mm, kBur);
+      distance.at(x, y) = static_cast<float>(burDistance_mm(frame, corner + double(x) * right + double(y) * down));
+  drawOutline(slice, distance, kBur);
 }
 
 /// Thin lines through the centre, interrupted at the bur.
@@ -266,7 +251,7 @@ CtSlices::CtSlices(const assets::VolumeGrid& grid, CtScan scan) : grid_(grid), s
 
 Image CtSlices::image(SlicePlane plane, const Frame& frame, const BorderedField<std::uint8_t>& live,
                       int edge_px) const {
-  const Layout layout = layoutOf(plane);
+  const Layout& layout = kLayouts[static_cast<std::size_t>(plane)];
   const glm::dvec3 middle = frame.X_PT.translation_mm;
   SliceImage slice(layout, middle, edge_px);
   const Between normal = between(grid_.indexFromPoint(middle)[layout.normal_axis]);
@@ -291,7 +276,7 @@ Image CtSlices::image(SlicePlane plane, const Frame& frame, const BorderedField<
     for (int x = 0; x < edge_px; ++x) {
       const Between right = columns[static_cast<std::size_t>(x)];
       const float shown = (along(grey_row, right) - kLevel_HU) / kWindow_HU + 0.5f;
-      slice.setGrey(x, y, static_cast<std::uint8_t>(255.0f * std::clamp(shown, 0.0f, 1.0f) + 0.5f));
+      slice.set(x, y, glm::vec3(255.0f * std::clamp(shown, 0.0f, 1.0f)));
       const float solid = along(before_row, right), carved = solid - along(now_row, right);
       if (carved > 0.0f) slice.blend(x, y, kCarved, carved / std::max(solid, 64.0f));
     }

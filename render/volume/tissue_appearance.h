@@ -1,5 +1,5 @@
 // Appearance of each tissue in linear light. Values chosen by eye on CT surfaces under the operating lamp. Plain data;
-// any thread. The reflectance of a finish is in shaders/finish.glsl.
+// any thread. The reflectance of a finish is in shaders/light_constants.glsl.
 #pragma once
 
 #include <array>

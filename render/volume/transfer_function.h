@@ -17,7 +17,7 @@ inline constexpr float kRampStart = 0.5f, kRampFull = 0.9f;
 inline constexpr std::array<float, assets::kTissueCount> kOpacityPerMm{0.30f, 0.24f, 0.05f, 0.80f, 0.92f,
                                                                        0.75f, 0.50f, 0.50f, 0.05f, 0.05f};
 
-/// std140 twin of transfer_block.glsl.
+/// std140 twin of ray_translucent.glsl.
 struct TransferBlock {
   glm::vec4 ramp{0.0f};
   std::array<glm::vec4, assets::kTissueCount> opacity_per_mm{};
