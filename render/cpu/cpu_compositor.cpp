@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstring>
 
 #include "render/display/anaglyph.h"
@@ -73,22 +72,12 @@ void compose(const StereoLayout& layout, const EyeImage& left, const EyeImage& r
     for (int x = 0; x < size.x; ++x) {
       const SourcePixel shown = sourcePixelAt(layout, {x, y});
       glm::vec3 value(0.0f);
-      switch (shown.eye) {
-        case PixelSource::black:
-          break;
-        case PixelSource::left:
-        case PixelSource::cyclopean:
-          value = seen(left, full_px, shown.px);
-          break;
-        case PixelSource::right:
-          value = seen(right, full_px, shown.px);
-          break;
-        case PixelSource::both: {
-          const EyeImage &red = layout.swapped ? right : left, &cyan = layout.swapped ? left : right;
-          value = glm::vec3(anaglyph(layout.mode, glm::dvec3(seen(red, full_px, shown.px)),
-                                     glm::dvec3(seen(cyan, full_px, shown.px))));
-          break;
-        }
+      if (shown.eye == PixelSource::both) {
+        const EyeImage &red = layout.swapped ? right : left, &cyan = layout.swapped ? left : right;
+        value = glm::vec3(
+            anaglyph(layout.mode, glm::dvec3(seen(red, full_px, shown.px)), glm::dvec3(seen(cyan, full_px, shown.px))));
+      } else if (shown.eye != PixelSource::black) {
+        value = seen(shown.eye == PixelSource::right ? right : left, full_px, shown.px);
       }
       r[x] = value.r, g[x] = value.g, b[x] = value.b;
     }

@@ -42,7 +42,7 @@ FieldView<T> viewOf(const BorderedField<T>& field) {
 
 // Hits on face and gingiva by tile, kept while the eye does not move.
 struct StaticHits {
-  EyeBlock eye{};
+  std::array<glm::vec4, 4> view{};  ///< of the EyeBlock
   glm::ivec2 px{0};
   std::uint64_t revision = ~std::uint64_t{0};
   std::vector<MeshHits> tiles;
@@ -199,11 +199,10 @@ void CpuSceneRenderer::draw(const TraceScene& scene, int samples, EyeImage& imag
   bool static_hits_valid = false;
   if (static_hits != nullptr) {
     const EyeBlock& eye = scene.shade.eye;
-    static_hits_valid = static_hits->revision == meshes_.staticRevision() && static_hits->px == image.px &&
-                        static_hits->eye.eye_P == eye.eye_P && static_hits->eye.lower_left_P == eye.lower_left_P &&
-                        static_hits->eye.right_edge_P == eye.right_edge_P &&
-                        static_hits->eye.up_edge_P == eye.up_edge_P;
-    static_hits->eye = eye;
+    const std::array view{eye.eye_P, eye.lower_left_P, eye.right_edge_P, eye.up_edge_P};
+    static_hits_valid =
+        static_hits->revision == meshes_.staticRevision() && static_hits->px == image.px && static_hits->view == view;
+    static_hits->view = view;
     static_hits->px = image.px;
     static_hits->revision = meshes_.staticRevision();
     static_hits->tiles.resize(static_cast<std::size_t>(tiles.x) * static_cast<std::size_t>(tiles.y));
@@ -220,42 +219,27 @@ void CpuSceneRenderer::draw(const TraceScene& scene, int samples, EyeImage& imag
 void CpuSceneRenderer::drawTile(const TraceScene& scene, int samples, glm::ivec2 first, glm::ivec2 end,
                                 RayTracer& tracer, EyeImage& image, MeshHits* static_hits, bool static_hits_valid) {
   const glm::ivec2 rays = samples * (end - first), from = samples * first, all = samples * image.px;
-  std::array<float, kTile> uv_x, uv_y;
-  for (int x = 0; x < rays.x; ++x)
-    uv_x[static_cast<std::size_t>(x)] = (static_cast<float>(from.x + x) + 0.5f) / static_cast<float>(all.x);
-  for (int y = 0; y < rays.y; ++y)
-    uv_y[static_cast<std::size_t>(y)] =
-        (static_cast<float>(all.y - 1 - (from.y + y)) + 0.5f) / static_cast<float>(all.y);
   int n = 0;
   std::array<std::uint16_t, RayTracer::kMaxRays> pixel;
   for (int by = 0; by < rays.y; by += kBlock)
     for (int bx = 0; bx < rays.x; bx += kBlock)
       for (int y = by; y < std::min(by + kBlock, rays.y); ++y)
         for (int x = bx; x < std::min(bx + kBlock, rays.x); ++x, ++n) {
-          tracer.uv_x[n] = uv_x[static_cast<std::size_t>(x)];
-          tracer.uv_y[n] = uv_y[static_cast<std::size_t>(y)];
+          tracer.uv_x[n] = (static_cast<float>(from.x + x) + 0.5f) / static_cast<float>(all.x);
+          tracer.uv_y[n] = (static_cast<float>(all.y - 1 - (from.y + y)) + 0.5f) / static_cast<float>(all.y);
           pixel[static_cast<std::size_t>(n)] = static_cast<std::uint16_t>((y / samples) * kTile + x / samples);
         }
   tracer.trace(scene, n, static_hits, static_hits_valid);
 
-  if (samples > 1)
-    for (int y = first.y; y < end.y; ++y)
-      for (int x = first.x; x < end.x; ++x) {
-        const std::size_t at = image.at(x, y);
-        image.r[at] = image.g[at] = image.b[at] = 0.0f;
-      }
+  for (int y = first.y; y < end.y; ++y)
+    for (std::vector<float>* plane : {&image.r, &image.g, &image.b})
+      std::fill_n(&(*plane)[image.at(first.x, y)], end.x - first.x, 0.0f);
   const float share = 1.0f / static_cast<float>(samples * samples);
   for (int i = 0; i < n; ++i) {
     const int p = pixel[static_cast<std::size_t>(i)];
     const std::size_t at = image.at(first.x + p % kTile, first.y + p / kTile);
-    if (samples == 1) {
-      image.r[at] = tracer.r[i], image.g[at] = tracer.g[i], image.b[at] = tracer.b[i];
-      image.distance_mm[at] = tracer.distance_mm[i];
-    } else {
-      image.r[at] += share * tracer.r[i];
-      image.g[at] += share * tracer.g[i];
-      image.b[at] += share * tracer.b[i];
-    }
+    image.r[at] += share * tracer.r[i], image.g[at] += share * tracer.g[i], image.b[at] += share * tracer.b[i];
+    image.distance_mm[at] = tracer.distance_mm[i];
   }
 }
 

@@ -3,12 +3,10 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <tuple>
 
-#include "render/cpu/mesh_bodies.h"
 #include "render/shaders/light_constants.glsl"
 
 namespace render {

@@ -94,14 +94,14 @@ void RayTracer::meshes(const TraceScene& scene, const float* seen_mm) {
 void RayTracer::layers(const TraceScene& scene) {
   if (!scene.meshes->hasTransparent()) return;
   for (int i = 0; i < rays_.count; ++i) limit_mm_[i] = distance_mm[i] > 0.0f ? distance_mm[i] : kEndless_mm;
-  transparent_parts_.clear();
-  scene.meshes->layers(rays_, limit_mm_, transparent_parts_);
-  if (transparent_parts_.count == 0) return;
-  const Light light = roomFor(transparent_parts_.count);
-  scene.kernels->meshes(scene.shade, rays_, transparent_parts_, light);
-  for (int n = 0; n < transparent_parts_.count; ++n) {
-    const int ray = transparent_parts_.ray[n];
-    const float a = transparent_parts_.a[n];
+  transparent_.clear();
+  scene.meshes->layers(rays_, limit_mm_, transparent_);
+  if (transparent_.count == 0) return;
+  const Light light = roomFor(transparent_.count);
+  scene.kernels->meshes(scene.shade, rays_, transparent_, light);
+  for (int n = 0; n < transparent_.count; ++n) {
+    const int ray = transparent_.ray[n];
+    const float a = transparent_.a[n];
     r[ray] += a * (light.r[n] - r[ray]);
     g[ray] += a * (light.g[n] - g[ray]);
     b[ray] += a * (light.b[n] - b[ray]);

@@ -51,7 +51,7 @@ class RayTracer {
 
   RayBatch rays_;
   MeshHits hits_;
-  MeshPoints seen_, transparent_parts_;
+  MeshPoints seen_, transparent_;
   VolumePoints volume_;
   RaySums sums_;
   std::vector<float> light_;

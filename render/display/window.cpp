@@ -3,10 +3,8 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#include <algorithm>
 #include <limits>
 #include <span>
-#include <string>
 #include <utility>
 
 #include "render/gpu/gpu_error.h"

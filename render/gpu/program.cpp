@@ -4,13 +4,24 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "render/gpu/gpu_error.h"
-#include "render/gpu/shader_library.h"
 
 namespace render {
 namespace {
+
+// Name and GLSL text of every shader, with its includes resolved.
+constexpr std::pair<std::string_view, std::string_view> kShaders[] = {
+#include "shader_sources.inc"
+};
+
+std::string_view sourceOf(std::string_view file) {
+  for (const auto& [name, text] : kShaders)
+    if (name == file) return text;
+  throw GpuError("unknown shader, " + std::string(file) + ": list it in render/CMakeLists.txt");
+}
 
 /// `get` and `read`: OpenGL's functions for the state and the log of a shader or of a program.
 template <class Get, class Read>
@@ -30,7 +41,7 @@ GlName compiled(std::string_view file) {
   const GLenum stage = file.ends_with(".vert")   ? GL_VERTEX_SHADER
                        : file.ends_with(".frag") ? GL_FRAGMENT_SHADER
                                                  : GL_COMPUTE_SHADER;
-  const std::string_view text = shaderSource(file);
+  const std::string_view text = sourceOf(file);
   GlName shader(glCreateShader(stage), [](unsigned name) { glDeleteShader(name); });
   const GLchar* start = text.data();
   const GLint length = static_cast<GLint>(text.size());

@@ -39,8 +39,8 @@ void MeshPass::draw(const SceneMesh& mesh, Parts parts, const Placement& placeme
          .mirrored = view_is_mirrored,
          .write_colour = !transparent,
          .write_distance = !transparent});
-  if (transparent && !transparent_parts_) transparent_parts_ = Program{"mesh.vert", "mesh_transparent.frag"};
-  (transparent ? *transparent_parts_ : opaque_).use();
+  if (transparent && !transparent_) transparent_ = Program{"mesh.vert", "mesh_transparent.frag"};
+  (transparent ? *transparent_ : opaque_).use();
   const glm::dmat4 rotated =
       placement.P_from_mesh * glm::rotate(glm::dmat4(1.0), placement.bur_angle_rad, glm::dvec3(0.0, 0.0, 1.0));
   for (const SceneMesh::Part& part : mesh.parts_) {

@@ -50,7 +50,7 @@ class MeshPass {
 
  private:
   Program opaque_{"mesh.vert", "mesh.frag"};
-  std::optional<Program> transparent_parts_;
+  std::optional<Program> transparent_;
   UniformBlock<PartBlock> block_;
 };
 

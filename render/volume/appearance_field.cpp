@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <vector>
 
 #include "assets/volume_grid.h"
 #include "render/volume/tissue_appearance.h"

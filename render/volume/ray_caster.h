@@ -5,8 +5,6 @@
 // s CPU at 640x480.
 #pragma once
 
-#include <optional>
-
 #include "render/frame.h"
 #include "render/gpu/buffer.h"
 #include "render/gpu/framebuffer.h"

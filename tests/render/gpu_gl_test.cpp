@@ -2,10 +2,8 @@
 
 #include "render/gpu/framebuffer.h"
 #include "render/gpu/gpu_error.h"
-#include "render/gpu/gpu_error.h"
 #include "render/gpu/offscreen_context.h"
 #include "render/gpu/program.h"
-#include "render/gpu/shader_library.h"
 
 namespace render {
 namespace {
@@ -24,16 +22,16 @@ TEST(OffscreenContext, CanBeMadeAgainAfterAnother) {
   }
 }
 
-TEST(GlError, IsOneLineAndToldOnce) {
+TEST(GlError, IsOneLineAndReportedOnce) {
   OffscreenContext context;
   Texture texture = Texture::volume(glm::ivec3(2), TexelFormat::r16);
   const std::vector<std::byte> texels(16);
   texture.upload({5, 5, 5}, {2, 2, 2}, texels);
   try {
-    throwIfGlError("uploading beside the texture");
+    throwIfGlError("uploading outside the texture");
     FAIL() << "no error seen";
   } catch (const GpuError& error) {
-    EXPECT_NE(std::string(error.what()).find("uploading beside the texture"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("uploading outside the texture"), std::string::npos);
     EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
   }
   EXPECT_NO_THROW(throwIfGlError("afterwards"));
@@ -45,8 +43,10 @@ TEST(Program, BuildsEveryPairOfShaders) {
     EXPECT_NO_THROW((Program{"screen.vert", fragment})) << fragment;
   EXPECT_NO_THROW((Program{"mesh.vert", "mesh.frag"}));
 }
-
-TEST(ShaderLibrary, RefusesAShaderThatWasNotBuiltIn) { EXPECT_THROW(shaderSource("fog.frag"), GpuError); }
+TEST(Program, RefusesAnUnknownShader) {
+  const OffscreenContext context;
+  EXPECT_THROW(Program{"fog.frag"}, GpuError);
+}
 
 TEST(Texture, RefusesAVolumeLargerThanTheDriverTakes) {
   const OffscreenContext context;
