@@ -84,6 +84,16 @@ double capHeight_mm(double radius_mm, double volume_mm3) {
   return radius_mm * (u <= 0.5 ? shallowHeight(u) : 2.0 - shallowHeight(1.0 - u));
 }
 
+double faceSmear_mm(double grey_per_area_mm, double layers, double spacing_mm) {
+  const double found = std::clamp(grey_per_area_mm, 0.0, 0.25 * spacing_mm);
+  // The softness is not known in a touch of less than a layer.
+  const double known = std::clamp(layers - 0.5, 0.0, 1.0);
+  const double softness = known * found + (1.0 - known) * spacing_mm / 6.0;
+  const double eta = kVoxelSphereRadius * spacing_mm;
+  const double variance = eta * eta / 5.0 - spacing_mm * spacing_mm / 12.0 + spacing_mm * softness;
+  return std::sqrt(std::max(variance, 1e-4 * spacing_mm * spacing_mm));
+}
+
 double equivalentDepth_mm(double radius_mm, double volume_mm3, double spacing_mm) {
   return depthOf(radius_mm, volume_mm3, [&](double) { return kUsualSigma * spacing_mm; });
 }
@@ -93,13 +103,7 @@ double equivalentDepth_mm(double radius_mm, double volume_mm3, double grey_mm3, 
     // The face's area, from its depth if it were one voxel soft.
     const double usual = kUsualSigma * spacing_mm;
     const double h = smearedDepth(radius_mm, volume, usual), area = smearedCap(radius_mm, h, usual).slope;
-    const double found = std::clamp(grey_mm3 / area, 0.0, 0.25 * spacing_mm);
-    // A touch of less than a layer says nothing of the face's softness yet.
-    const double known = std::clamp(h / spacing_mm - 0.5, 0.0, 1.0);
-    const double softness = known * found + (1.0 - known) * spacing_mm / 6.0;
-    const double eta = kVoxelSphereRadius * spacing_mm;
-    const double variance = eta * eta / 5.0 - spacing_mm * spacing_mm / 12.0 + spacing_mm * softness;
-    return std::sqrt(std::max(variance, 1e-4 * spacing_mm * spacing_mm));
+    return faceSmear_mm(grey_mm3 / area, h / spacing_mm, spacing_mm);
   });
 }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "haptics/contact/cap.h"
 #include "haptics/contact/immersion.h"
+#include "haptics/tool/flat_overlap.h"
 
 namespace haptics {
 namespace {
@@ -17,7 +19,12 @@ calibration::Point<calibration::Patient> originOf(const ToolInBone& at) { return
 Contact forssimContact(const ForssimParameters& parameters, const ToolInBone& at, const LawState& state) noexcept {
   const Immersion immersion = immersionOf(at);
   const double R = at.head.radius_mm, per_mm3 = parameters.force_constant_N / (R * R * R);
-  Contact contact = contactAlongNormal(immersion, per_mm3 * immersion.flat_volume_mm3, per_mm3 * immersion.face_mm2);
+  // The volume free of the voxels' bias.
+  const double flat_mm3 =
+      at.head.kind == ShapeKind::sphere
+          ? capVolume_mm3(R, immersion.depth_mm)
+          : flatOverlap(at.head, immersion.depth_mm, axisCosine(at, immersion.normal_P.xyz)).volume_mm3;
+  Contact contact = contactAlongNormal(immersion, per_mm3 * flat_mm3, per_mm3 * immersion.face_mm2);
   if (!state.holding || parameters.hold_N_per_mm <= 0.0) return contact;
   contact.force_P_N = parameters.hold_N_per_mm * (state.held_P - originOf(at));
   contact.torque_P_Nmm = {};

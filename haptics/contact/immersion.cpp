@@ -1,53 +1,86 @@
 #include "haptics/contact/immersion.h"
 
+#include <algorithm>
+
 #include "calibration/geometry/units.h"
-#include "haptics/contact/agus.h"
 #include "haptics/contact/cap.h"
-#include "haptics/contact/shape_contact.h"
+#include "haptics/contact/overlap.h"
+#include "haptics/contact/shape_overlap.h"
 #include "haptics/tool/flat_overlap.h"
 
 namespace haptics {
 namespace {
 
-Immersion ofBall(const ToolInBone& at) {
-  const double R = at.head.radius_mm;
-  const AgusContact ball = agusContact(at.field, {at.X_PT.translation_mm}, R, at.tissue);
-  Immersion immersion;
-  immersion.volume_mm3 = ball.volume_mm3;
-  immersion.depth_mm = ball.depth_mm;
-  if (ball.depth_mm <= 0.0) return immersion;
-  immersion.flat_volume_mm3 = capVolume_mm3(R, ball.depth_mm);
-  immersion.face_mm2 = calibration::kPi * ball.depth_mm * (2.0 * R - ball.depth_mm);
-  const double flat_mm4 = capMoment_mm4(R, ball.depth_mm);
-  immersion.one_sided = flat_mm4 > 0.0 ? ball.moment_mm4 / flat_mm4 : 0.0;
-  immersion.tissue_factor = ball.stiff_mm3 / ball.volume_mm3;
-  immersion.normal_P = ball.normal_P;
-  return immersion;
-}
+using calibration::kPi;
 
-Immersion ofShape(const ToolInBone& at) {
-  const ShapeContact shape = shapeContact(at);
-  Immersion immersion;
-  immersion.volume_mm3 = shape.volume_mm3;
-  immersion.depth_mm = shape.depth_mm;
-  if (shape.depth_mm <= 0.0) return immersion;
-  const glm::dvec3 axis_P = at.X_PT.rotation * glm::dvec3(0.0, 0.0, 1.0);
-  const double length = glm::length(shape.normal_P.xyz);
-  const double cos_axis = length > 0.0 ? glm::dot(axis_P, shape.normal_P.xyz) / length : 0.0;
-  immersion.flat_volume_mm3 = flatOverlap(at.head, shape.depth_mm, cos_axis).volume_mm3;
-  immersion.face_mm2 = shape.area_mm2;
-  immersion.one_sided = shape.one_sided;
-  immersion.tissue_factor = shape.stiffness_factor;
-  immersion.normal_P = shape.normal_P;
-  immersion.arm_P_mm = shape.centroid_P_mm;
-  return immersion;
+/// One percent of the largest moment a ball of this size, or a shell of this volume, can have: below it the direction
+/// fades instead of turning at random (reference/physics 2.5d). A shallow touch, |M1| ~ R V, is not faded.
+double largestMoment_mm4(double R, double volume_mm3) { return std::min(0.25 * kPi * R * R * R * R, R * volume_mm3); }
+
+/// `vector` as a direction, shorter than 1 where it is less than a hundredth of `largest`.
+calibration::Vector<calibration::Patient> direction(const glm::dvec3& vector, double largest) {
+  const double length = std::max(glm::length(vector), 0.01 * largest);
+  return {length > 0.0 ? vector / length : glm::dvec3(0.0)};
 }
 
 }  // namespace
 
+double axisCosine(const ToolInBone& at, const glm::dvec3& normal_P) noexcept {
+  const double length = glm::length(normal_P);
+  return length > 0.0 ? glm::dot(at.X_PT.rotation * glm::dvec3(0.0, 0.0, 1.0), normal_P) / length : 0.0;
+}
+
+Immersion sphereImmersion(const SolidField& field, const calibration::Point<calibration::Patient>& centre_P,
+                          double radius_mm, const TissueStiffness* tissue) noexcept {
+  const SphereOverlap overlap = sphereOverlap(field, centre_P, radius_mm, tissue);
+  Immersion immersion;
+  immersion.volume_mm3 = overlap.volume_mm3;
+  immersion.depth_mm = equivalentDepth_mm(radius_mm, overlap.volume_mm3, overlap.grey_mm3, field.grid.spacing_mm);
+  if (immersion.depth_mm <= 0.0) return immersion;
+  const glm::dvec3& moment_mm4 = overlap.first_moment_P_mm4.xyz;
+  const double found_mm4 = glm::length(moment_mm4), flat_mm4 = capMoment_mm4(radius_mm, immersion.depth_mm);
+  immersion.face_mm2 = kPi * immersion.depth_mm * (2.0 * radius_mm - immersion.depth_mm);
+  immersion.one_sided = flat_mm4 > 0.0 ? found_mm4 / flat_mm4 : 0.0;
+  immersion.tissue_factor = overlap.stiff_mm3 / overlap.volume_mm3;
+  immersion.normal_P.xyz = moment_mm4 / -std::max(found_mm4, 0.01 * largestMoment_mm4(radius_mm, overlap.volume_mm3));
+  return immersion;
+}
+
+Immersion shapeImmersion(const ToolInBone& at) noexcept {
+  const ShapeOverlap overlap = shapeOverlap(at.field, at.head, at.X_PT, at.tissue);
+  Immersion immersion;
+  immersion.volume_mm3 = overlap.volume_mm3;
+  if (!(overlap.volume_mm3 > 0.0)) return immersion;
+
+  // The direction first: the depth of a volume depends on the angle of the axis to the face.
+  const double s = at.field.grid.spacing_mm, found_mm2 = glm::length(overlap.area_P_mm2.xyz);
+  const double cos_axis = axisCosine(at, overlap.area_P_mm2.xyz);
+  // V/A is half the depth of a round head.
+  const double layers = found_mm2 > 0.0 ? 2.0 * overlap.volume_mm3 / (found_mm2 * s) : 0.0;
+  const double sigma_mm = faceSmear_mm(found_mm2 > 0.0 ? overlap.grey_mm3 / found_mm2 : s / 6.0, layers, s);
+  immersion.depth_mm = flatDepth_mm(at.head, overlap.volume_mm3, cos_axis, sigma_mm);
+  if (immersion.depth_mm <= 0.0) return immersion;
+  immersion.arm_P_mm.xyz = overlap.first_moment_P_mm4.xyz / overlap.volume_mm3;
+  immersion.tissue_factor = overlap.stiff_mm3 / overlap.volume_mm3;
+
+  // Nearly wholly immersed, the face of flat bone vanishes, and with it the reference.
+  const double half_way_mm = 0.5 * fullDepth_mm(at.head, cos_axis);
+  const double half_way_mm2 = flatOverlap(at.head, half_way_mm, cos_axis).area_mm2;
+  immersion.face_mm2 = flatOverlap(at.head, immersion.depth_mm, cos_axis).area_mm2;
+  const double least_mm2 = immersion.depth_mm > half_way_mm ? 0.05 * half_way_mm2 : 0.0;
+  immersion.one_sided = std::min(1.0, found_mm2 / std::max({immersion.face_mm2, least_mm2, 1e-9}));
+  immersion.normal_P =
+      at.head.kind == ShapeKind::sphere
+          ? direction(-overlap.first_moment_P_mm4.xyz, largestMoment_mm4(at.head.radius_mm, overlap.volume_mm3))
+          : direction(overlap.area_P_mm2.xyz, std::min(half_way_mm2, immersion.face_mm2 + 0.05 * half_way_mm2));
+  return immersion;
+}
+
 Immersion immersionOf(const ToolInBone& at) noexcept {
-  Immersion immersion = at.head.kind == ShapeKind::sphere ? ofBall(at) : ofShape(at);
-  // An unlabelled volume is all of one tissue.
+  Immersion immersion = at.head.kind == ShapeKind::sphere
+                            ? sphereImmersion(at.field, {at.X_PT.translation_mm}, at.head.radius_mm, &at.tissue)
+                            : shapeImmersion(at);
+  // An unlabelled volume has one tissue.
   if (at.field.label == nullptr) immersion.tissue_factor = at.tissue.factor[0];
   return immersion;
 }

@@ -10,7 +10,7 @@ Contact contactOf(const LawSettings& law, const ToolInBone& at, const LawState& 
   if (!supports(law.kind, at.head.kind)) return {};
   switch (law.kind) {
     case LawKind::agus:
-      return agusLaw(law.agus, at);
+      return agusContact(law.agus, at);
     case LawKind::forssim:
       return forssimContact(law.forssim, at, state);
     case LawKind::hertz:

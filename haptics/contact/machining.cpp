@@ -4,11 +4,9 @@
 #include <cmath>
 
 #include "calibration/geometry/units.h"
-#include "haptics/contact/agus.h"
-#include "haptics/contact/cap.h"
 #include "haptics/contact/field_sample.h"
 #include "haptics/contact/head_surface.h"
-#include "haptics/contact/shape_contact.h"
+#include "haptics/contact/immersion.h"
 #include "haptics/tool/spindle.h"
 
 namespace haptics {
@@ -117,22 +115,16 @@ double rimStiffness_N_per_mm(const MachiningParameters& parameters, const ToolIn
   return (1.0 - cutting) * wall + cutting * edge * parameters.flutes * height * turning;
 }
 
+/// Without tissue factors: those are weighted over the surface.
 Contact overlapContact(const ToolInBone& at) {
+  const bool ball = at.head.kind == ShapeKind::sphere;
+  const Immersion immersion =
+      ball ? sphereImmersion(at.field, {at.X_PT.translation_mm}, at.head.radius_mm) : shapeImmersion(at);
   Contact contact;
-  if (at.head.kind == ShapeKind::sphere) {
-    const AgusContact agus = agusContact(at.field, {at.X_PT.translation_mm}, at.head.radius_mm);
-    contact.normal_P = agus.normal_P;
-    contact.depth_mm = agus.depth_mm;
-    contact.volume_mm3 = agus.volume_mm3;
-    const double flat_mm4 = capMoment_mm4(at.head.radius_mm, agus.depth_mm);
-    contact.one_sided = flat_mm4 > 0.0 ? agus.moment_mm4 / flat_mm4 : 1.0;
-    return contact;
-  }
-  const ShapeContact shape = shapeContact(at);
-  contact.normal_P = shape.normal_P;
-  contact.depth_mm = shape.depth_mm;
-  contact.volume_mm3 = shape.volume_mm3;
-  contact.one_sided = shape.one_sided;
+  contact.normal_P = immersion.normal_P;
+  contact.depth_mm = immersion.depth_mm;
+  contact.volume_mm3 = immersion.volume_mm3;
+  contact.one_sided = ball && immersion.face_mm2 <= 0.0 ? 1.0 : immersion.one_sided;
   return contact;
 }
 

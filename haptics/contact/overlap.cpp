@@ -28,7 +28,7 @@ const auto kSpiral = [] {
   return directions;
 }();
 
-/// The voxels a ball may touch, clipped to the volume as doubles: a wild pose must not overflow an index.
+/// Voxels a ball may touch, clipped to the volume as doubles: an extreme pose must not overflow an index.
 struct Box {
   glm::ivec3 first{0}, last{-1};
   bool empty() const { return first.x > last.x || first.y > last.y || first.z > last.z; }
@@ -54,8 +54,8 @@ SphereOverlap scaled(double weight, const glm::dvec3& moment, double grey, doubl
 
 }  // namespace
 
-SphereOverlap sphereOverlapBy(assets::InstructionSet set, const SolidField& field, const Point<Patient>& centre_P,
-                              double radius_mm, const TissueStiffness* tissue) noexcept {
+SphereOverlap sphereOverlap(const SolidField& field, const Point<Patient>& centre_P, double radius_mm,
+                            const TissueStiffness* tissue, assets::InstructionSet set) noexcept {
   assert(assets::available(set));
   const double radius = radius_mm / field.grid.spacing_mm;
   if (!(radius >= LensCurve::kMinRadius && radius <= kMaxSumRadius))
@@ -105,21 +105,12 @@ SphereOverlap sphereOverlapBy(assets::InstructionSet set, const SolidField& fiel
   const double whole = static_cast<double>(sums.weight), weight = whole + sums.shell_weight;
   const glm::dvec3 inside{static_cast<double>(sums.x), static_cast<double>(sums.y), static_cast<double>(sums.z)};
   const glm::dvec3 shell{sums.shell_x, sums.shell_y, sums.shell_z};
-  // Without a table, or where the whole volume is unlabelled, one factor is all there is.
+  // Without a table, or in an unlabelled volume, there is one factor.
   const double one = tissue == nullptr ? 1.0 : tissue->factor[0];
   const double stiff =
       in.label == nullptr ? one * weight : static_cast<double>(sums.stiff_steps) / kFactorSteps + sums.shell_stiff;
   return scaled(weight, inside - whole * centre + shell, static_cast<double>(sums.grey) + sums.shell_grey, stiff,
                 field.grid.spacing_mm);
-}
-
-SphereOverlap sphereOverlap(const SolidField& field, const Point<Patient>& centre_P, double radius_mm) noexcept {
-  return sphereOverlapBy(assets::chosenInstructionSet(), field, centre_P, radius_mm, nullptr);
-}
-
-SphereOverlap sphereOverlap(const SolidField& field, const Point<Patient>& centre_P, double radius_mm,
-                            const TissueStiffness& tissue) noexcept {
-  return sphereOverlapBy(assets::chosenInstructionSet(), field, centre_P, radius_mm, &tissue);
 }
 
 SphereOverlap sphereOverlapVoxelByVoxel(const SolidField& field, const Point<Patient>& centre_P, double radius_mm,
@@ -150,14 +141,14 @@ std::uint8_t dominantLabel(const SolidField& field, const Point<Patient>& centre
   const glm::dvec3 centre = field.grid.indexFromPoint(centre_P.mm);
   const double radius = radius_mm / field.grid.spacing_mm;
   if (boxOf(field, centre, radius).empty()) return 0;
-  // Four balls within each other, closest where a shallow touch would be.
+  // Four concentric balls, closer together towards the surface.
   std::array<std::uint32_t, 256> weight{};
   for (const glm::dvec3& direction : kSpiral)
     for (const double part : {0.98, 0.88, 0.7, 0.4}) {
       const glm::ivec3 ijk(glm::floor(centre + part * radius * direction + 0.5));
       if (!field.grid.contains(ijk)) continue;
-      const std::size_t place = field.offsetOf(ijk);
-      weight[field.label[place]] += static_cast<std::uint32_t>(field.solid[place]);
+      const std::size_t offset = field.offsetOf(ijk);
+      weight[field.label[offset]] += static_cast<std::uint32_t>(field.solid[offset]);
     }
   const auto most = std::max_element(weight.begin(), weight.end());
   return *most == 0 ? std::uint8_t{0} : static_cast<std::uint8_t>(most - weight.begin());

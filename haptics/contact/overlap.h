@@ -1,9 +1,8 @@
-// What a spherical bur shares with the bone: volume and first moment, summed over voxels taken as spheres of equal
-// volume (Agus et al. 2002; reference/physics 1.1, 2.3, 2.6), each weighted by its solid fraction. Frame P, mm. Any
-// thread that may read the field. No allocation. A voxel wholly inside counts whole; outside the volume is air.
-// Cost ~ (R/s)^2: blocks inside by their sums, the shell sixteen voxels at a time (bone/cubelets, bone/lens_curve); see
-// README for figures. The fastest instruction set the machine has is taken: AVX-512 and AVX2 give the same bits, the
-// portable kind agrees to 1e-6. Not a force (contact/agus …).
+// Overlap of a spherical bur and the bone: volume and first moment, summed over voxels as spheres of equal volume (Agus
+// et al. 2002; reference/physics 1.1, 2.3, 2.6), each weighted by its solid fraction. Frame P, mm. Any thread that may
+// read the field; no allocation. Outside the volume is air. Cost ~ (R/s)^2 (haptics/README): blocks inside by their
+// sums, the shell sixteen voxels at a time (bone/cubelets, bone/lens_curve), by the fastest instruction set of the
+// machine: AVX-512 and AVX2 give the same bits, portable agrees to 1e-6. Forces: the laws of contact/law.
 #pragma once
 
 #include <cstdint>
@@ -19,27 +18,21 @@ namespace haptics {
 struct SphereOverlap {
   double volume_mm3 = 0.0;
   calibration::Vector<calibration::Patient> first_moment_P_mm4;  ///< about the bur's centre
-  double grey_mm3 = 0.0;   ///< sum of overlap times w (1 - w): how much of it is transition, see equivalentDepth_mm
+  double grey_mm3 = 0.0;   ///< sum of overlap times w (1 - w): softness of the face, see equivalentDepth_mm
   double stiff_mm3 = 0.0;  ///< sum of overlap times the stiffness factor of its tissue
 };
 
-/// Zero for a non-finite centre or radius. Without a tissue table every factor is 1.
+/// Zero for a non-finite centre or radius. Without `tissue` every factor is 1. `set` must be available (assert).
 SphereOverlap sphereOverlap(const SolidField& field, const calibration::Point<calibration::Patient>& centre_P,
-                            double radius_mm) noexcept;
-SphereOverlap sphereOverlap(const SolidField& field, const calibration::Point<calibration::Patient>& centre_P,
-                            double radius_mm, const TissueStiffness& tissue) noexcept;
-/// By one instruction set, which must be available (assert); null: no tissue table.
-SphereOverlap sphereOverlapBy(assets::InstructionSet set, const SolidField& field,
-                              const calibration::Point<calibration::Patient>& centre_P, double radius_mm,
-                              const TissueStiffness* tissue) noexcept;
+                            double radius_mm, const TissueStiffness* tissue = nullptr,
+                            assets::InstructionSet set = assets::chosenInstructionSet()) noexcept;
 
-/// The same sum, voxel by voxel in double: slow and obvious, the twin that tests and benchmarks compare with, and the
-/// way for burs of less than three voxels' radius.
+/// The same sum voxel by voxel in double: for burs of less than three voxels' radius, tests and benchmarks.
 SphereOverlap sphereOverlapVoxelByVoxel(const SolidField& field,
                                         const calibration::Point<calibration::Patient>& centre_P, double radius_mm,
                                         const TissueStiffness* tissue = nullptr) noexcept;
 
-/// The label that fills most of the bur, from some hundred samples; 0 where there is no bone.
+/// The label with the largest part of the bur, from 192 samples; 0 without bone.
 std::uint8_t dominantLabel(const SolidField& field, const calibration::Point<calibration::Patient>& centre_P,
                            double radius_mm) noexcept;
 

@@ -5,6 +5,7 @@
 
 #include "haptics/bone/carve.h"
 #include "haptics/contact/law_parameters.h"
+#include "haptics/contact/overlap.h"
 
 namespace haptics {
 namespace {

@@ -158,7 +158,7 @@ void instructionSets() {
       continue;
     }
     const auto one = [&](int i) {
-      return sphereOverlapBy(set, field, {centre.mm + glm::dvec3(0.0005 * i, 0.0, 0.0)}, 4.0, nullptr).volume_mm3;
+      return sphereOverlap(field, {centre.mm + glm::dvec3(0.0005 * i, 0.0, 0.0)}, 4.0, nullptr, set).volume_mm3;
     };
     const auto fast = measure(1000, [&](int i) { sink = one(i); });
     std::printf("%-24s p10 %7.1f us, volume off by %.1e of itself\n", nameOf(set).data(), fast.p10,

@@ -1,4 +1,4 @@
-#include "haptics/contact/agus.h"
+#include "haptics/contact/immersion.h"
 
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ Errors errorsOnFlatBone(double R, double h, double s, bool aligned) {
     const double even = (face + 0.5) / kFaces - 0.5;
     const glm::dvec3 shift = s * (aligned ? glm::dvec3(even) : glm::dvec3(phase(random), phase(random), phase(random)));
     const Phantom phantom = halfSpace(R + 0.6, s, normal, shift);
-    const AgusContact contact = agusContact(phantom.field(), {(R - h) * normal}, R);
+    const Immersion contact = sphereImmersion(phantom.field(), {(R - h) * normal}, R);
     errors.depth_rms += (contact.depth_mm / h - 1.0) * (contact.depth_mm / h - 1.0) / kFaces;
     const double cosine = glm::dot(glm::normalize(contact.normal_P.xyz), normal);
     errors.angle_deg_max =
@@ -68,8 +68,8 @@ TEST(Agus, FeelsTheSameForceAtBothVoxelSizes) {
     const glm::dvec3 normal = anyDirection(random);
     for (double h : {0.5, 1.0, 2.0}) {
       const Point<Patient> centre{(2.0 - h) * normal};
-      const double fine = agusContact(halfSpace(2.6, 0.1, normal).field(), centre, 2.0).depth_mm;
-      const double coarse = agusContact(halfSpace(2.6, 0.2, normal).field(), centre, 2.0).depth_mm;
+      const double fine = sphereImmersion(halfSpace(2.6, 0.1, normal).field(), centre, 2.0).depth_mm;
+      const double coarse = sphereImmersion(halfSpace(2.6, 0.2, normal).field(), centre, 2.0).depth_mm;
       EXPECT_NEAR(coarse, fine, 0.02 * fine);
     }
   }
@@ -81,7 +81,7 @@ TEST(Agus, IsSmoothAlongAFlatFace) {
   const Phantom phantom = halfSpace(4.0, 0.2, normal);
   double least = 1e9, most = 0.0;
   for (int i = 0; i <= 40; ++i) {
-    const double depth = agusContact(phantom.field(), {1.0 * normal + 0.025 * i * along}, 2.0).depth_mm;
+    const double depth = sphereImmersion(phantom.field(), {1.0 * normal + 0.025 * i * along}, 2.0).depth_mm;
     least = std::min(least, depth);
     most = std::max(most, depth);
   }
@@ -92,8 +92,8 @@ TEST(Agus, TouchesWhereTheSurfaceIs) {
   // No force a twentieth of a millimetre above the face, some a twentieth below.
   for (double s : {0.1, 0.2}) {
     const Phantom phantom = halfSpace(3.0, s, {0.0, 0.0, 1.0}, glm::dvec3(0.31 * s));
-    EXPECT_EQ(agusContact(phantom.field(), {{0.0, 0.0, 2.05}}, 2.0).depth_mm, 0.0);
-    EXPECT_GT(agusContact(phantom.field(), {{0.0, 0.0, 1.95}}, 2.0).depth_mm, 0.0);
+    EXPECT_EQ(sphereImmersion(phantom.field(), {{0.0, 0.0, 2.05}}, 2.0).depth_mm, 0.0);
+    EXPECT_GT(sphereImmersion(phantom.field(), {{0.0, 0.0, 1.95}}, 2.0).depth_mm, 0.0);
   }
 }
 
@@ -114,12 +114,12 @@ TEST(Agus, PushesOutWithStiffnessTimesDepthAndDampsOnlyInContact) {
 
 TEST(Agus, HasNoDirectionInTheMiddleOfBone) {
   const Phantom phantom = block(4.0, 0.1);
-  EXPECT_LT(glm::length(agusContact(phantom.field(), {{0.017, 0.031, -0.05}}, 2.0).normal_P.xyz), 0.1);
+  EXPECT_LT(glm::length(sphereImmersion(phantom.field(), {{0.017, 0.031, -0.05}}, 2.0).normal_P.xyz), 0.1);
 }
 
 TEST(Agus, KeepsItsFullLengthInAShallowTouch) {
   const Phantom phantom = halfSpace(3.0, 0.1, {0.0, 0.0, 1.0}, glm::dvec3(0.03));
-  const AgusContact contact = agusContact(phantom.field(), {{0.0, 0.0, 1.97}}, 2.0);
+  const Immersion contact = sphereImmersion(phantom.field(), {{0.0, 0.0, 1.97}}, 2.0);
   EXPECT_GT(contact.depth_mm, 0.0);
   EXPECT_NEAR(glm::length(contact.normal_P.xyz), 1.0, 1e-12);
 }

@@ -70,7 +70,7 @@ TEST(Overlap, IsTheSameByEveryInstructionSet) {
     for (assets::InstructionSet set :
          {assets::InstructionSet::portable, assets::InstructionSet::avx2, assets::InstructionSet::avx512}) {
       if (!assets::available(set)) continue;
-      const SphereOverlap fast = sphereOverlapBy(set, bone.field(), centre, R, &tissue);
+      const SphereOverlap fast = sphereOverlap(bone.field(), centre, R, &tissue, set);
       expectSame(fast, slow, scale);
       EXPECT_NEAR(fast.grey_mm3, slow.grey_mm3, 2e-6 * scale);
       EXPECT_NEAR(fast.stiff_mm3, slow.stiff_mm3, 2e-5 * slow.stiff_mm3 + 2e-6 * scale);
