@@ -2,7 +2,6 @@
 
 #include <signal.h>
 
-#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
@@ -48,11 +47,11 @@ std::string firstRealDevice() {
       "check itself with simulated:omni");
 }
 
-/// A unit with the hand on it.
+/// A unit, and who holds it.
 struct Unit {
   std::unique_ptr<Owner> owner;
   haptics::OpenedDevice opened;
-  haptics::SimulatedDevice* simulated = nullptr;  ///< it needs no clock: it is stepped
+  haptics::SimulatedDevice* simulated = nullptr;  ///< stepped, without a clock
 
   haptics::ServedDevice served() const {
     return simulated ? haptics::ServedDevice::steppedManually(*simulated) : haptics::ServedDevice(*opened.device);
@@ -91,12 +90,9 @@ std::string today() {
   return text;
 }
 
-/// What the balance said of a Falcon is kept for the next time.
+/// Keeps the measured force scale of a Falcon.
 void keepFalconScale(const CheckOptions& options, const haptics::FalconForceScale& used, const DeviceCheck& check) {
-  std::vector<haptics::FalconWeighing> weighings;
-  for (const ForceReading& one : check.readings)
-    weighings.push_back({std::abs(one.asked_N), one.asked_N < 0.0 ? -one.shown_N : one.shown_N});
-  haptics::FalconForceScale scale = haptics::weighed(used, weighings);
+  haptics::FalconForceScale scale = haptics::weighed(used, check.readings);
   scale.serial = check.report.device.serial;
   std::error_code none;
   std::filesystem::create_directories(std::filesystem::path(options.falcon_scale).parent_path(), none);
@@ -125,7 +121,7 @@ int check(const CheckOptions& options) {
                std::string(done.report.left_early ? "Left before the end."
                            : done.report.isGood() ? "All that was tried is as it should be."
                                                   : "Something is wrong: do not use this unit until it is "
-                                                    "mended.") +
+                                                    "repaired.") +
                " The report: " + options.report);
   return done.report.isGood() ? 0 : 1;
 }

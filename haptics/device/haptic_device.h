@@ -57,8 +57,6 @@ struct DeviceCapabilities {
   double damping_Ns_per_mm = 0.002;       ///< physical, of device and hand; absorbs the energy that sampling adds
   double min_rate_Hz = 500.0, max_rate_Hz = 10'000.0;
   WorkspaceBox workspace;
-
-  bool hasTorque() const { return peak_torque_Nmm > 0.0; }
 };
 
 /// When a tick happened.

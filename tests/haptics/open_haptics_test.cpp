@@ -20,7 +20,7 @@ TEST_F(OpenHapticsDevice, TellsWhatItIsAndWhatItCan) {
   EXPECT_EQ(can.serial, "50127600138");
   EXPECT_EQ(can.provenance, Provenance::vendor_library);
   EXPECT_TRUE(can.has_motors && can.has_orientation && can.has_inkwell);
-  EXPECT_FALSE(can.has_deadman || can.hasTorque());
+  EXPECT_FALSE(can.has_deadman || can.peak_torque_Nmm > 0.0);
   EXPECT_EQ(can.peak_force_N, 3.3);
   EXPECT_EQ(can.continuous_force_N, 0.88);
   EXPECT_EQ(can.peak_joint_torque_Nmm, glm::dvec3(350.0));
@@ -29,8 +29,6 @@ TEST_F(OpenHapticsDevice, TellsWhatItIsAndWhatItCan) {
   EXPECT_EQ(can.max_rate_Hz, 1000.0);
   EXPECT_EQ(can.workspace.min_D_mm, glm::dvec3(-160.0, -70.0, -58.0));
   EXPECT_EQ(can.workspace.max_D_mm, glm::dvec3(160.0, 200.0, 90.0));
-  EXPECT_EQ(device.description().driver_version, "2022.4.4");
-  EXPECT_EQ(device.description().firmware_version, "");
   EXPECT_FALSE(door.seen.motors_on);
 }
 
@@ -144,8 +142,6 @@ TEST_F(OpenHapticsDevice, KnowsTheJacobianOfThePhantomsWhoseGeometryIsPublic) {
     runFor(servo, 3);
     const glm::dmat3 expected = geometry ? calibration::armJacobian_mm(*geometry, arm_rad) : glm::dmat3(0.0);
     EXPECT_EQ(servo.state().jacobian_D_mm, expected) << model;
-    EXPECT_EQ(device.joints().arm_rad, arm_rad);
-    EXPECT_NEAR(device.joints().wrist_rad.z, 0.3, 1e-12);
     EXPECT_TRUE(servo.state().has_joints) << model;
     EXPECT_EQ(servo.state().joints_rad, (calibration::RawJoints{0.2, 0.5, -0.1, 0.1, 0.1 * 2.0, 0.1 * 3.0}));
     device.stop();
@@ -200,14 +196,26 @@ TEST_F(OpenHapticsDevice, BelievesTheInkwellThatWasSet) {
   device.stop();
 }
 
-TEST_F(OpenHapticsDevice, TellsTheHeatOfItsWarmestMotorAndItsRate) {
+TEST_F(OpenHapticsDevice, ADeviceOfThreeDegreesNeverRotatesItsHandle) {
+  door.script.input_dof = 3;
+  door.script.gimbal_rad[1] = 0.4;
+  Pusher servo;
+  OpenHaptics device(library);
+  EXPECT_FALSE(device.capabilities().has_orientation);
+  device.start(servo, 1000.0);
+  runFor(servo, 3);
+  EXPECT_EQ(servo.state().X_DH.rotation, glm::dquat(1.0, 0.0, 0.0, 0.0));
+  EXPECT_TRUE(servo.state().fresh);
+  device.stop();
+}
+
+TEST_F(OpenHapticsDevice, ReportsTheHeatOfItsWarmestMotor) {
   door.script.heat = 0.7;
   Pusher servo;
   OpenHaptics device(library);
   device.start(servo, 1000.0);
   runFor(servo, 3);
   EXPECT_EQ(servo.state().motor_heat, 0.7);
-  EXPECT_EQ(device.updateRate_Hz(), 1000);
   // The library's complaint counts as all the heat there may be, whatever its number says.
   door.script.error_code = 0x0200;
   until([&] { return servo.state().motor_heat == 1.0; });

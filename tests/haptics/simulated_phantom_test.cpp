@@ -68,7 +68,7 @@ TEST(SimulatedPhantom, HasTheFiguresOfItsModel) {
   for (const DeviceCapabilities* can : {&omni, &desktop, &premium}) {
     EXPECT_TRUE(can->has_motors);
     EXPECT_EQ(can->provenance, Provenance::simulated);
-    EXPECT_FALSE(can->hasTorque());
+    EXPECT_EQ(can->peak_torque_Nmm, 0.0);
   }
   EXPECT_EQ(omni.peak_force_N, 3.3);
   EXPECT_EQ(desktop.peak_force_N, 7.9);

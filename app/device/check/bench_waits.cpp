@@ -1,4 +1,4 @@
-#include "app/device/check/bench_waits.h"
+#include "app/device/check/check_steps.h"
 
 #include <chrono>
 #include <utility>
@@ -8,8 +8,8 @@
 namespace app {
 namespace {
 
-constexpr auto kBetweenLooks = std::chrono::milliseconds(10);
-constexpr int kMostLooks = 1000, kMostLooksAtRest = 300, kQuietLooks = 30;
+constexpr auto kPollInterval = std::chrono::milliseconds(10);
+constexpr int kMaxPolls = 1000, kMaxPollsAtRest = 300, kQuietPolls = 30;
 constexpr double kAtRest_mm_per_s = 20.0;
 constexpr double kSteady = 0.01;
 
@@ -19,24 +19,24 @@ bool pushUntilSteady(CheckBench& bench, const glm::dvec3& force_D_N) {
   bench.hand.rearm();
   bench.hand.push(force_D_N);
   const double asked_N = glm::length(force_D_N);
-  for (int i = 0; i < kMostLooks; ++i) {
+  for (int i = 0; i < kMaxPolls; ++i) {
     if (glm::length(bench.hand.newest().lately_D_N - force_D_N) <= kSteady * asked_N) return true;
-    bench.hand.wait(kBetweenLooks);
+    bench.hand.wait(kPollInterval);
   }
   return false;
 }
 
 void letGo(CheckBench& bench) {
   bench.hand.push(glm::dvec3(0.0));
-  for (int i = 0; i < kMostLooks && glm::length(bench.hand.newest().pushed_D_N) > 0.0; ++i)
-    bench.hand.wait(kBetweenLooks);
+  for (int i = 0; i < kMaxPolls && glm::length(bench.hand.newest().pushed_D_N) > 0.0; ++i)
+    bench.hand.wait(kPollInterval);
 }
 
-ConstantForceLoop::Seen lookAtRest(CheckBench& bench) {
+ConstantForceLoop::Seen stateAtRest(CheckBench& bench) {
   int quiet = 0;
   std::uint64_t ticks = bench.hand.newest().ticks;
-  for (int i = 0; i < kMostLooksAtRest && quiet < kQuietLooks; ++i) {
-    bench.hand.wait(kBetweenLooks);
+  for (int i = 0; i < kMaxPollsAtRest && quiet < kQuietPolls; ++i) {
+    bench.hand.wait(kPollInterval);
     const ConstantForceLoop::Seen& seen = bench.hand.newest();
     // A device that has not ticked since has not come to rest.
     if (std::exchange(ticks, seen.ticks) == seen.ticks) continue;

@@ -1,5 +1,5 @@
-// The steps of a device check, in the order they are safe in. Each asks, looks, adds lines to the report, and answers
-// false when the person wants to leave; the force is down between steps. Main thread.
+// The steps of a device check, in the order in which they are safe. Each asks the user, measures, adds lines to the
+// report, and returns false when the user wants to leave; the force is off between steps. Main thread.
 #pragma once
 
 #include "app/device/check/check_report.h"
@@ -10,12 +10,12 @@
 
 namespace app {
 
-/// Where a person who sits before the device finds its frame D.
+/// Directions in frame D, as seen by a user in front of the device.
 struct DeviceAxes {
   glm::dvec3 right_D{1.0, 0.0, 0.0}, up_D{0.0, 1.0, 0.0}, towards_D{0.0, 0.0, 1.0};
 };
 
-/// What every step works at.
+/// What every step works with.
 struct CheckBench {
   Dialogue& dialogue;
   ConstantForceLoop& hand;
@@ -24,12 +24,12 @@ struct CheckBench {
   DeviceAxes axes;
   CheckReport& report;
 
-  /// True once the owner did it.
+  /// True once the user did it.
   bool asked(OwnerTask task, const std::string& to_do) {
     owner.perform(task);
     return dialogue.asked(to_do);
   }
-  /// A line of the report, and what it proves where it is right.
+  /// Adds a line to the report, and what it proves if it is right.
   void saw(std::string what, std::string expected, std::string found, bool is_right, std::optional<Proof> proof = {}) {
     report.lines.push_back(
         {std::move(what), std::move(expected), std::move(found), is_right ? Verdict::ok : Verdict::wrong});
@@ -41,11 +41,21 @@ struct CheckBench {
 bool checkInkwell(CheckBench& bench);
 bool checkDeadman(CheckBench& bench);
 bool checkButtons(CheckBench& bench);
-/// Nothing else may push when this found a wrong sign.
+/// After a wrong sign no other step may push.
 bool checkForceSign(CheckBench& bench, bool& sign_is_right);
-/// What the balance showed of what was asked, down positive, is left in `readings`.
+/// Requested forces and the balance's answers, down positive, go to `readings`.
 bool checkForceScale(CheckBench& bench, std::vector<ForceReading>& readings);
 bool checkAxes(CheckBench& bench);
 bool checkRate(CheckBench& bench, double rate_Hz, double seconds);
+
+// Waits, polled a hundred times a second of the device's time, for ten seconds at most (bench_waits.cpp).
+
+/// Pushes until the delivered force is the requested one, or all that the device gives.
+bool pushUntilSteady(CheckBench& bench, const glm::dvec3& force_D_N);
+void letGo(CheckBench& bench);
+/// The state once the handle has come to rest, after three seconds at most.
+ConstantForceLoop::Seen stateAtRest(CheckBench& bench);
+/// "+0.50, 0.00, 0.00 N"
+std::string newtons(const glm::dvec3& force_N);
 
 }  // namespace app

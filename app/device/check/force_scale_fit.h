@@ -1,14 +1,14 @@
-// How strong a device really is, from a balance: shown = scale * asked + offset by least squares, with the standard
+// Fit of a device's real force from a balance: shown = scale * requested + offset by least squares, with the standard
 // error of the scale. N; any thread.
 #pragma once
 
 #include <span>
 
+#include "haptics/device/usb/falcon_force_scale.h"
+
 namespace app {
 
-struct ForceReading {
-  double asked_N = 0.0, shown_N = 0.0;
-};
+using haptics::ForceReading;
 
 struct ForceScaleFit {
   double scale = 1.0, scale_error = 0.0;  ///< standard error, 0 for two readings

@@ -5,7 +5,6 @@
 
 #include <fmt/core.h>
 
-#include "app/device/check/bench_waits.h"
 #include "app/device/check/check_steps.h"
 
 namespace app {

@@ -3,7 +3,6 @@
 
 #include <fmt/core.h>
 
-#include "app/device/check/bench_waits.h"
 #include "app/device/check/check_steps.h"
 
 namespace app {
@@ -23,9 +22,9 @@ bool checkInkwell(CheckBench& bench) {
     return bench.asked(OwnerTask::hold, "Take the handle into your hand.");
   }
   if (!bench.asked(OwnerTask::rest, "Put the stylus into its inkwell.")) return false;
-  const ConstantForceLoop::Seen inside = lookAtRest(bench);
+  const ConstantForceLoop::Seen inside = stateAtRest(bench);
   if (!bench.asked(OwnerTask::hold, "Take it out and hold it in the middle of its room.")) return false;
-  const ConstantForceLoop::Seen outside = lookAtRest(bench);
+  const ConstantForceLoop::Seen outside = stateAtRest(bench);
   bench.saw("inkwell says docked", "yes, then no", yesNo(inside.state.docked, outside.state.docked),
             inside.state.docked && !outside.state.docked, Proof::inkwell);
   const bool is_calibrated = outside.state.calibrated;
@@ -39,9 +38,9 @@ bool checkDeadman(CheckBench& bench) {
     return true;
   }
   if (!bench.asked(OwnerTask::hold, "Hold the stylus as you would at work.")) return false;
-  const bool held = lookAtRest(bench).state.held;
+  const bool held = stateAtRest(bench).state.held;
   if (!bench.asked(OwnerTask::let_go, "Let go of it.")) return false;
-  const bool left = lookAtRest(bench).state.held;
+  const bool left = stateAtRest(bench).state.held;
   if (!bench.asked(OwnerTask::hold, "Hold it again.")) return false;
   bench.saw("deadman feels a hand", "yes, then no", yesNo(held, left), held && !left, Proof::deadman);
   return true;
@@ -50,11 +49,11 @@ bool checkDeadman(CheckBench& bench) {
 bool checkButtons(CheckBench& bench) {
   const std::uint32_t before = bench.hand.newest().state.buttons;
   if (!bench.asked(OwnerTask::first_button, "Hold the first button down.")) return false;
-  const std::uint32_t first = lookAtRest(bench).state.buttons;
+  const std::uint32_t first = stateAtRest(bench).state.buttons;
   if (!bench.asked(OwnerTask::second_button,
                    "Hold the second button down, the first one not; if there is none, nothing."))
     return false;
-  const std::uint32_t second = lookAtRest(bench).state.buttons;
+  const std::uint32_t second = stateAtRest(bench).state.buttons;
   if (!bench.asked(OwnerTask::hold, "Let the buttons go.")) return false;
   const bool is_right = before == 0 && first == 1 && (second == 2 || second == 0);
   bench.saw("buttons: free, first, second", "none, bits 1, bits 2",
@@ -66,11 +65,11 @@ bool checkAxes(CheckBench& bench) {
   if (!bench.asked(OwnerTask::upper_corner,
                    "Bring the handle to the right, upward and towards you, as far as it goes easily."))
     return false;
-  const glm::dvec3 upper_mm = lookAtRest(bench).state.X_DH.translation_mm;
+  const glm::dvec3 upper_mm = stateAtRest(bench).state.X_DH.translation_mm;
   if (!bench.asked(OwnerTask::lower_corner, "Now to the left, downward and away from you.")) return false;
-  const glm::dvec3 lower_mm = lookAtRest(bench).state.X_DH.translation_mm;
+  const glm::dvec3 lower_mm = stateAtRest(bench).state.X_DH.translation_mm;
   if (!bench.asked(OwnerTask::hold, "Bring it back to the middle.")) return false;
-  lookAtRest(bench);
+  stateAtRest(bench);
 
   const glm::dvec3 way_mm = upper_mm - lower_mm;
   const glm::dvec3 found_mm(glm::dot(way_mm, bench.axes.right_D), glm::dot(way_mm, bench.axes.up_D),

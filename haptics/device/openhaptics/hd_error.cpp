@@ -94,7 +94,6 @@ HdDrained HdErrors::drain(const HdFunctions& hd) noexcept {
     drained.fatal = drained.fatal || fatal;
     drained.warm_motors = drained.warm_motors || error.code == hd::kWarmMotors;
     counts_[placeOf(error.code)].fetch_add(1, std::memory_order_relaxed);
-    all_.fetch_add(1, std::memory_order_relaxed);
   }
   if (drained.fatal) {
     const auto internal = static_cast<std::uint32_t>(drained.first.internal_code);

@@ -51,15 +51,13 @@ class HdErrors {
 
   /// What has happened since the beginning; any thread.
   std::uint32_t count(std::uint32_t code) const;
-  std::uint32_t countAll() const { return all_.load(std::memory_order_relaxed); }
   /// The first fatal one; code 0: none.
   hd::ErrorInfo firstFatal() const;
 
  private:
   static constexpr std::size_t kMaxCodes = 32;
   std::array<std::atomic<std::uint32_t>, kMaxCodes> counts_{};  ///< by place in hdErrorMeanings(), unknown ones last
-  std::atomic<std::uint32_t> all_{0};
-  std::atomic<std::uint64_t> first_fatal_{0};  ///< code and internal code, in one word
+  std::atomic<std::uint64_t> first_fatal_{0};                   ///< code and internal code, in one word
 };
 
 /// Throws DeviceError for the newest error on the stack, if there is one. Not for the scheduler's thread.

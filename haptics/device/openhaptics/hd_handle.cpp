@@ -8,7 +8,7 @@
 namespace haptics {
 namespace {
 
-constexpr double kSlowLooks_Hz = 10.0;
+constexpr double kHeatRate_Hz = 10.0;
 
 /// Large enough for any property, zero where the library wrote nothing.
 using Room = std::array<double, kHdBufferSize>;
@@ -34,9 +34,14 @@ HdModel modelNamed(std::string_view name) {
   return model;
 }
 
-HdHandle::HdHandle(const HdFunctions& hd, HdErrors& errors, const HdModel& model, std::optional<bool> docked_value,
-                   std::uint32_t pedal_buttons)
-    : hd_(hd), errors_(errors), model_(model), inkwell_(docked_value), pedal_buttons_(pedal_buttons) {
+HdHandle::HdHandle(const HdFunctions& hd, HdErrors& errors, const HdModel& model, bool has_orientation,
+                   std::optional<bool> docked_value, std::uint32_t pedal_buttons)
+    : hd_(hd),
+      errors_(errors),
+      model_(model),
+      has_orientation_(has_orientation),
+      inkwell_(docked_value),
+      pedal_buttons_(pedal_buttons) {
   has_.fill(true);
 }
 
@@ -58,7 +63,10 @@ void HdHandle::readPlace(HandleState& state) noexcept {
   const double volume = glm::determinant(R);
   const bool is_rotation = std::isfinite(volume) && std::abs(volume - 1.0) < 0.05;
   state.fresh = is_rotation && std::isfinite(glm::length(three(place)));
-  if (state.fresh) X_DH_ = {glm::normalize(glm::quat_cast(R)), three(place)};
+  if (state.fresh) {
+    X_DH_.translation_mm = three(place);
+    if (has_orientation_) X_DH_.rotation = glm::normalize(glm::quat_cast(R));
+  }
   state.X_DH = X_DH_;
 
   Room speed{};
@@ -80,13 +88,9 @@ void HdHandle::readSwitches(HandleState& state, bool sure) noexcept {
     state.docked = inkwell_.isDocked(on[0] != 0, state.X_DH.translation_mm, sure);
 }
 
-void HdHandle::readSlowParts(double rate_Hz) noexcept {
+void HdHandle::readHeat(double rate_Hz) noexcept {
   if (--ticks_to_check_ > 0) return;
-  ticks_to_check_ = static_cast<int>(rate_Hz / kSlowLooks_Hz);
-  std::array<int, kHdBufferSize> measured{};
-  if (readPart(rate, [&] { hd_.get_integerv(hd::kInstantaneousUpdateRate, measured.data()); }))
-    update_rate_Hz_.store(measured[0], std::memory_order_relaxed);
-
+  ticks_to_check_ = static_cast<int>(rate_Hz / kHeatRate_Hz);
   Room motors{};
   if (!readPart(heat, [&] { hd_.get_doublev(hd::kMotorTemperature, motors.data()); })) return;
   heat_ = 0.0;
@@ -102,17 +106,18 @@ HandleState HdHandle::read(bool calibrated, double rate_Hz) noexcept {
   Room arm_rad{}, wrist_rad{};
   const bool has_arm = readPart(arm, [&] { hd_.get_doublev(hd::kCurrentJointAngles, arm_rad.data()); });
   const bool has_wrist = readPart(wrist, [&] { hd_.get_doublev(hd::kCurrentGimbalAngles, wrist_rad.data()); });
-  joints_ = {has_arm ? three(arm_rad) : glm::dvec3(0.0), has_wrist ? three(wrist_rad) : glm::dvec3(0.0)};
-  if (has_arm && model_.geometry && std::isfinite(glm::length(joints_.arm_rad)))
-    state.jacobian_D_mm = calibration::armJacobian_mm(*model_.geometry, joints_.arm_rad);
+  const calibration::PhantomJoints joints{has_arm ? three(arm_rad) : glm::dvec3(0.0),
+                                          has_wrist ? three(wrist_rad) : glm::dvec3(0.0)};
+  if (has_arm && model_.geometry && std::isfinite(glm::length(joints.arm_rad)))
+    state.jacobian_D_mm = calibration::armJacobian_mm(*model_.geometry, joints.arm_rad);
   for (int i = 0; i < 3; ++i) {
-    state.joints_rad[static_cast<std::size_t>(i)] = joints_.arm_rad[i];
-    state.joints_rad[static_cast<std::size_t>(i + 3)] = joints_.wrist_rad[i];
+    state.joints_rad[static_cast<std::size_t>(i)] = joints.arm_rad[i];
+    state.joints_rad[static_cast<std::size_t>(i + 3)] = joints.wrist_rad[i];
   }
-  state.has_joints = has_arm && has_wrist && std::isfinite(glm::length(joints_.arm_rad + joints_.wrist_rad));
+  state.has_joints = has_arm && has_wrist && std::isfinite(glm::length(joints.arm_rad + joints.wrist_rad));
 
   readSwitches(state, calibrated && state.fresh);
-  readSlowParts(rate_Hz);
+  readHeat(rate_Hz);
   state.motor_heat = heat_;
   first_ = false;
   return state;

@@ -33,38 +33,33 @@ HdModel modelNamed(std::string_view name);
 
 class HdHandle {
  public:
-  HdHandle(const HdFunctions& hd, HdErrors& errors, const HdModel& model, std::optional<bool> docked_value,
-           std::uint32_t pedal_buttons);
+  HdHandle(const HdFunctions& hd, HdErrors& errors, const HdModel& model, bool has_orientation,
+           std::optional<bool> docked_value, std::uint32_t pedal_buttons);
 
   HandleState read(bool calibrated, double rate_Hz) noexcept;
-  /// Of the frame read last; unknown ones are zero.
-  const calibration::PhantomJoints& joints() const { return joints_; }
   const Inkwell& inkwell() const { return inkwell_; }
-  /// As the library measures it, ten times a second; 0: not known. Any thread.
-  int updateRate_Hz() const { return update_rate_Hz_.load(std::memory_order_relaxed); }
 
  private:
-  enum Part : unsigned { velocity, arm, wrist, buttons, safety_switch, inkwell_switch, heat, rate, part_count };
+  enum Part : unsigned { velocity, arm, wrist, buttons, safety_switch, inkwell_switch, heat, part_count };
 
   template <class Read>
   bool readPart(Part part, Read&& read) noexcept;
   void readPlace(HandleState& state) noexcept;
   void readSwitches(HandleState& state, bool sure) noexcept;
-  void readSlowParts(double rate_Hz) noexcept;
+  void readHeat(double rate_Hz) noexcept;
 
   const HdFunctions& hd_;
   HdErrors& errors_;
   HdModel model_;
+  bool has_orientation_;  ///< false: X_DH does not rotate
   Inkwell inkwell_;
   std::uint32_t pedal_buttons_;
 
   bool first_ = true;
   std::array<bool, part_count> has_{};
   calibration::Pose<calibration::Device, calibration::Handle> X_DH_;
-  calibration::PhantomJoints joints_;
   double heat_ = 0.0;
   int ticks_to_check_ = 0;
-  std::atomic<int> update_rate_Hz_{0};
 };
 
 }  // namespace haptics

@@ -75,9 +75,6 @@ void HdSession::close() noexcept {
 
 HdDescription describe(const HdFunctions& hd) {
   HdDescription description;
-  description.library_version = text(hd, hd::kVersion);
-  description.driver_version = text(hd, hd::kDriverVersion);
-  description.firmware_version = text(hd, hd::kFirmwareVersion);
   DeviceCapabilities& can = description.capabilities;
   can.model = text(hd, hd::kModel);
   can.serial = text(hd, hd::kSerialNumber);

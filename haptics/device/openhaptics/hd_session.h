@@ -35,7 +35,6 @@ class HdSession {
 
 struct HdDescription {
   DeviceCapabilities capabilities;
-  std::string library_version, driver_version, firmware_version;
   hd::Enum calibration_styles = 0;
 };
 

@@ -22,8 +22,8 @@ OpenHaptics::OpenHaptics(const HdLibrary& library, const OpenHapticsSettings& se
       session_(hd_, settings.configuration),
       description_(describe(hd_)),
       calibration_(description_.calibration_styles),
-      handle_(hd_, errors_, modelNamed(description_.capabilities.model), settings.docked_value,
-              settings.pedal_buttons) {}
+      handle_(hd_, errors_, modelNamed(description_.capabilities.model), capabilities().has_orientation,
+              settings.docked_value, settings.pedal_buttons) {}
 
 OpenHaptics::~OpenHaptics() { stop(); }
 
@@ -88,7 +88,6 @@ void OpenHaptics::stop() noexcept {
 HandleState OpenHaptics::sense() noexcept {
   const bool calibrated = calibration_.update(hd_, rate_Hz_);
   HandleState state = handle_.read(calibrated, rate_Hz_);
-  newest_joints_.publish(handle_.joints());
   if (warm_ticks_left_ > 0) {
     --warm_ticks_left_;
     state.motor_heat = 1.0;

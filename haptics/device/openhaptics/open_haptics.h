@@ -40,20 +40,14 @@ class OpenHaptics final : public HapticDevice {
   void stop() noexcept override;
   void motorsOff() noexcept override { off_requests_.fetch_add(1); }
 
-  /// Versions of library, driver and firmware.
-  const HdDescription& description() const { return description_; }
   /// What is wrong, or what a person has to do now, in one sentence; empty: all is well. Any thread.
   std::string trouble() const override;
   /// Errors of the library so far, those that passed by themselves too. Any thread.
   const HdErrors& errors() const { return errors_; }
   /// What the inkwell's switch shows of a docked stylus, once that is known. Any thread.
   std::optional<bool> dockedValue() const { return handle_.inkwell().dockedValue(); }
-  /// What the library measures of its scheduler; 0: not known. Any thread.
-  int updateRate_Hz() const { return handle_.updateRate_Hz(); }
   /// The arm is in its reset position now, for a device that is calibrated that way. Any thread.
   void setHome() noexcept override { calibration_.resetHere(); }
-  /// The newest joint angles as the library has them; one reader.
-  calibration::PhantomJoints joints() { return newest_joints_.read(); }
 
  private:
   enum class Phase { idle, serving, leaving, over };
@@ -88,7 +82,6 @@ class OpenHaptics final : public HapticDevice {
 
   std::atomic<Phase> phase_{Phase::idle};
   std::atomic<std::uint32_t> off_requests_{0};
-  Latest<calibration::PhantomJoints> newest_joints_;
 };
 
 }  // namespace haptics

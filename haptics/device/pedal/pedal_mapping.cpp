@@ -54,9 +54,4 @@ std::vector<PedalSwitch> usualSwitches(const FoundPedal& pedal) {
   return switches;
 }
 
-std::string controlName(const PedalSwitch& one) {
-  const char* name = libevdev_event_code_get_name(one.is_axis ? EV_ABS : EV_KEY, one.code);
-  return name != nullptr ? name : "code " + std::to_string(one.code);
-}
-
 }  // namespace haptics

@@ -27,7 +27,4 @@ PedalSwitch switchOf(const PedalBinding& binding);
 /// Ranges of axes are not known here.
 std::vector<PedalSwitch> usualSwitches(const FoundPedal& pedal);
 
-/// "BTN_TRIGGER", for people.
-std::string controlName(const PedalSwitch& one);
-
 }  // namespace haptics

@@ -20,10 +20,10 @@ constexpr double kMaxMisfit = 0.15;
 
 }  // namespace
 
-FalconForceScale weighed(const FalconForceScale& used, std::span<const FalconWeighing> readings) {
+FalconForceScale weighed(const FalconForceScale& used, std::span<const ForceReading> readings) {
   if (readings.size() < 3) refuse("fewer than three readings");
   double asked_asked = 0.0, asked_shown = 0.0, max_weighed_N = 0.0;
-  for (const FalconWeighing& reading : readings) {
+  for (const ForceReading& reading : readings) {
     if (!std::isfinite(reading.asked_N) || !std::isfinite(reading.shown_N)) refuse("a reading is not a number");
     asked_asked += reading.asked_N * reading.asked_N;
     asked_shown += reading.asked_N * reading.shown_N;
@@ -34,7 +34,7 @@ FalconForceScale weighed(const FalconForceScale& used, std::span<const FalconWei
   const double gain = asked_asked > 0.0 ? asked_shown / asked_asked : 0.0;
   if (gain < 0.0) refuse("it pulls where it should push");
   if (!(gain > 0.0)) refuse("the scale showed no force");
-  for (const FalconWeighing& reading : readings)
+  for (const ForceReading& reading : readings)
     if (std::abs(reading.shown_N - gain * reading.asked_N) > kMaxMisfit * max_weighed_N)
       refuse("the readings do not lie on one line");
 

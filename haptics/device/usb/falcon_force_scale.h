@@ -21,13 +21,13 @@ struct FalconForceScale {
 };
 
 /// One reading: the requested force, and what the balance showed along it.
-struct FalconWeighing {
+struct ForceReading {
   double asked_N = 0.0, shown_N = 0.0;
 };
 
 /// The scale with which the readings, taken with `used`, would have been right. Throws DeviceError for fewer than three
 /// readings, a wrong sign, or readings more than 15 % of the largest off one line.
-FalconForceScale weighed(const FalconForceScale& used, std::span<const FalconWeighing> readings);
+FalconForceScale weighed(const FalconForceScale& used, std::span<const ForceReading> readings);
 
 /// Throws DeviceError unless it has 2 to 50 words per N mm and 0.2 to 10 N measured.
 void check(const FalconForceScale& scale);

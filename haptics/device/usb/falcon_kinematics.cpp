@@ -70,19 +70,6 @@ FalconLegs falconLegs_rad(const std::array<std::int16_t, 3>& encoders) {
   return legs_rad;
 }
 
-std::optional<FalconLegs> falconLegsAt_rad(const Point<Device>& grip_D) {
-  FalconLegs legs_rad;
-  for (std::size_t leg = 0; leg < 3; ++leg) {
-    const Shin shin(leg, grip_D.mm);
-    // The law of cosines at the base; of the two solutions the outer knee.
-    const double far = std::hypot(shin.X, shin.Z), reach = shin.reach();
-    const double cosine = (far * far + kA * kA - reach * reach) / (2.0 * kA * far);
-    if (!(std::abs(cosine) <= 1.0)) return std::nullopt;
-    legs_rad[static_cast<glm::length_t>(leg)] = std::atan2(shin.Z, shin.X) - std::acos(cosine);
-  }
-  return legs_rad;
-}
-
 std::optional<Point<Device>> falconGrip(const FalconLegs& legs_rad, const Point<Device>& near_D) {
   glm::dvec3 grip_mm = near_D.mm;
   Misfit misfit(legs_rad, grip_mm);

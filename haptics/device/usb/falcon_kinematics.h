@@ -20,9 +20,6 @@ using FalconLegs = glm::dvec3;  ///< angles of the three thighs, rad
 
 FalconLegs falconLegs_rad(const std::array<std::int16_t, 3>& encoders);
 
-/// Inverse kinematics, closed form; none where a leg does not reach.
-std::optional<FalconLegs> falconLegsAt_rad(const calibration::Point<calibration::Device>& grip_D);
-
 /// Forward kinematics from a start near the grip, to 1e-10 mm; none when it does not converge.
 std::optional<calibration::Point<calibration::Device>> falconGrip(
     const FalconLegs& legs_rad, const calibration::Point<calibration::Device>& near_D);

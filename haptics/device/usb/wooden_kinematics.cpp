@@ -18,10 +18,6 @@ glm::dvec3 three(const std::array<std::int16_t, 6>& encoders, std::size_t first)
 /// The gimbal's encoders lie on the wire from the handle inwards (public driver, "reverse order").
 glm::dvec3 reversed(const glm::dvec3& v) { return {v.z, v.y, v.x}; }
 
-std::int16_t nearest(double counts) {
-  return static_cast<std::int16_t>(std::lround(std::clamp(counts, -32768.0, 32767.0)));
-}
-
 }  // namespace
 
 WoodenJoints WoodenKinematics::joints(const std::array<std::int16_t, 6>& encoders) const {
@@ -32,15 +28,6 @@ WoodenJoints WoodenKinematics::joints(const std::array<std::int16_t, 6>& encoder
     joints.gimbal_rad =
         2.0 * kPi * model_.gimbal_direction * reversed(three(encoders, 3)) / model_.gimbal_counts_per_turn;
   return joints;
-}
-
-std::array<std::int16_t, 6> WoodenKinematics::encoders(const WoodenJoints& joints) const {
-  const glm::dvec3 arm =
-      joints.arm_rad / (2.0 * kPi) * model_.direction * model_.counts_per_turn * model_.body_mm / model_.capstan_mm;
-  glm::dvec3 gimbal(0.0);
-  if (model_.hasGimbal())
-    gimbal = reversed(joints.gimbal_rad / (2.0 * kPi) * model_.gimbal_direction * model_.gimbal_counts_per_turn);
-  return {nearest(arm.x), nearest(arm.y), nearest(arm.z), nearest(gimbal.x), nearest(gimbal.y), nearest(gimbal.z)};
 }
 
 calibration::Point<Device> WoodenKinematics::position(const glm::dvec3& arm_rad) const {
@@ -60,18 +47,6 @@ calibration::Pose<Device, calibration::Handle> WoodenKinematics::handle(const Wo
                                  glm::angleAxis(joints.gimbal_rad.x, x) * glm::angleAxis(joints.gimbal_rad.y, y) *
                                  glm::angleAxis(joints.gimbal_rad.z, x));
   return X_DH;
-}
-
-std::optional<glm::dvec3> WoodenKinematics::armAt_rad(const calibration::Point<Device>& p_D) const {
-  const glm::dvec3 p_mm = p_D.mm + model_.origin_mm;
-  const double lb = model_.length_mm.y, lc = model_.length_mm.z;
-  const double reach_mm = std::hypot(p_mm.x, p_mm.y), height_mm = p_mm.z - model_.length_mm.x;
-  // Both links from the vertical: (R, h) = Lb (sin b, cos b) + Lc (sin e, cos e) with e = pi - c.
-  const double cosine = (reach_mm * reach_mm + height_mm * height_mm - lb * lb - lc * lc) / (2.0 * lb * lc);
-  if (!(std::abs(cosine) <= 1.0) || reach_mm == 0.0) return {};
-  const double elbow = std::acos(cosine);
-  const double b = std::atan2(reach_mm, height_mm) - std::atan2(lc * std::sin(elbow), lb + lc * std::cos(elbow));
-  return glm::dvec3(std::atan2(p_mm.y, p_mm.x), b, kPi - b - elbow);
 }
 
 glm::dmat3 WoodenKinematics::jacobian_mm(const glm::dvec3& arm_rad) const {

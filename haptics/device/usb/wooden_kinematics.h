@@ -8,7 +8,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 
 #include "calibration/geometry/frames.h"
 #include "calibration/geometry/pose.h"
@@ -26,13 +25,9 @@ class WoodenKinematics {
   explicit WoodenKinematics(const WoodenModel& model) : model_(model) {}
 
   WoodenJoints joints(const std::array<std::int16_t, 6>& encoders) const;
-  /// To the nearest count, as far as 16 bits go.
-  std::array<std::int16_t, 6> encoders(const WoodenJoints& joints) const;
 
   calibration::Pose<calibration::Device, calibration::Handle> handle(const WoodenJoints& joints) const;
   calibration::Point<calibration::Device> position(const glm::dvec3& arm_rad) const;
-  /// The arm that gets there with R > 0 and the elbow above (b + c < pi); none where it does not reach.
-  std::optional<glm::dvec3> armAt_rad(const calibration::Point<calibration::Device>& p_D) const;
 
   /// mm/rad, columns as joints a, b, c.
   glm::dmat3 jacobian_mm(const glm::dvec3& arm_rad) const;

@@ -11,8 +11,8 @@
 namespace haptics {
 namespace {
 
-std::vector<FalconWeighing> readings(double gain) {
-  std::vector<FalconWeighing> all;
+std::vector<ForceReading> readings(double gain) {
+  std::vector<ForceReading> all;
   for (double asked_N : {0.25, 0.5, 0.75, 1.0}) all.push_back({asked_N, gain * asked_N});
   return all;
 }
@@ -44,7 +44,7 @@ TEST(FalconForceScale, NeverAllowsMoreThanItsMakerDoes) {
 }
 
 TEST(FalconForceScale, RefusesReadingsThatMakeNoSense) {
-  EXPECT_THROW(weighed({}, std::vector<FalconWeighing>{{0.5, 0.5}, {1.0, 1.0}}), DeviceError);
+  EXPECT_THROW(weighed({}, std::vector<ForceReading>{{0.5, 0.5}, {1.0, 1.0}}), DeviceError);
   EXPECT_THROW(weighed({}, readings(-1.0)), DeviceError);
   EXPECT_THROW(weighed({}, readings(0.0)), DeviceError);
   EXPECT_THROW(weighed({}, readings(30.0)), DeviceError);

@@ -7,6 +7,8 @@
 
 #include "calibration/geometry/units.h"
 
+#include "tests/haptics/usb/falcon_inverse.h"
+
 namespace haptics {
 namespace {
 

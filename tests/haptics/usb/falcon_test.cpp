@@ -14,6 +14,7 @@
 #include "haptics/latest.h"
 #include "haptics/safety/motor_gate.h"
 #include "tests/haptics/allocation_count.h"
+#include "tests/haptics/usb/falcon_inverse.h"
 #include "tests/haptics/usb/held_clock.h"
 #include "tests/haptics/usb/simulated_falcon.h"
 #include "tests/refusal.h"

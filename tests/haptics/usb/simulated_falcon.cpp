@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/haptics/usb/falcon_inverse.h"
+
 namespace simulated_usb {
 namespace {
 

@@ -47,30 +47,6 @@ TEST(WoodenKinematics, KnowsItsHomePosition) {
   EXPECT_EQ(wooden.handle(home).rotation, glm::dquat(1.0, 0.0, 0.0, 0.0));
 }
 
-TEST(WoodenKinematics, GoesThereAndBack) {
-  const WoodenKinematics wooden(withGimbal());
-  RandomArm random;
-  for (int i = 0; i < 10'000; ++i) {
-    const glm::dvec3 arm = random();
-    const auto p_D = wooden.position(arm);
-    const auto back = wooden.armAt_rad(p_D);
-    ASSERT_TRUE(back);
-    EXPECT_LT(glm::distance(*back, arm), 1e-11);
-    EXPECT_LT(glm::distance(wooden.position(*back).mm, p_D.mm), 1e-9);
-  }
-}
-
-TEST(WoodenKinematics, SaysWhereItDoesNotReach) {
-  const WoodenModel model = woodenHaptics2015();
-  const WoodenKinematics wooden(model);
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(wooden.armAt_rad({glm::dvec3(451.0, 0.0, 80.0) - model.origin_mm}));
-  EXPECT_TRUE(wooden.armAt_rad({glm::dvec3(449.0, 0.0, 80.0) - model.origin_mm}));
-  EXPECT_FALSE(wooden.armAt_rad({glm::dvec3(39.0, 0.0, 80.0) - model.origin_mm}));
-  EXPECT_FALSE(wooden.armAt_rad({glm::dvec3(0.0, 0.0, 200.0) - model.origin_mm}));
-  EXPECT_FALSE(wooden.armAt_rad({glm::dvec3(nan, 0.0, 0.0)}));
-}
-
 TEST(WoodenKinematics, JacobianIsTheSlopeOfThePosition) {
   const WoodenKinematics wooden(woodenHaptics2015());
   RandomArm random;
@@ -111,18 +87,6 @@ TEST(WoodenKinematics, RotationIsTheProductOfItsFiveTurns) {
       EXPECT_LT(glm::distance(R[column], product[column]), 1e-12);
     }
   }
-}
-
-TEST(WoodenKinematics, EncodersRoundToTheNearestCount) {
-  const WoodenKinematics wooden(withGimbal());
-  std::mt19937 generator(3);
-  std::uniform_int_distribution<int> counts(-4000, 4000);
-  for (int i = 0; i < 2'000; ++i) {
-    std::array<std::int16_t, 6> encoders{};
-    for (std::int16_t& encoder : encoders) encoder = static_cast<std::int16_t>(counts(generator));
-    EXPECT_EQ(wooden.encoders(wooden.joints(encoders)), encoders);
-  }
-  EXPECT_EQ(wooden.encoders({glm::dvec3(1e6), {}})[0], 32767);
 }
 
 TEST(WoodenKinematics, AGimbalIsWiredFromTheHandleInwards) {
