@@ -33,35 +33,34 @@ struct CarveOptions {
   bool force = false;
 };
 
-/// Poses further apart in time are carved through in steps of this.
-constexpr double kLongestStep_s = 0.001;
+/// Longest step between two poses.
+constexpr double kMaxStep_s = 0.001;
 
-/// How the bur cuts: the erosion law, the motor, and what presses.
+/// How the bur cuts.
 struct Cut {
   haptics::BurShape head;
   haptics::ErosionSettings erosion;
   haptics::SpindleSettings spindle;
   haptics::LawSettings law;
-  double normal_force_N = std::numeric_limits<double>::quiet_NaN();  ///< not given: as the force law presses
+  double normal_force_N = std::numeric_limits<double>::quiet_NaN();  ///< NaN: as the force law computes
 };
 
-/// The spindle at its commanded speed, less what it gives up under this load.
+/// The spindle's speed under a load, from its commanded speed.
 double speedUnder(const haptics::SpindleSettings& spindle, double load_Nmm) {
   const double idle = haptics::steadySpeed_rad_per_s(spindle, 0.0);
   if (idle == 0.0) return 0.0;
   return haptics::radPerSecond(spindle.commanded_rpm) * haptics::steadySpeed_rad_per_s(spindle, load_Nmm) / idle;
 }
 
-/// Carves along the poses; what is kept from step to step.
 class Carving {
  public:
   Carving(haptics::CarvedBone& bone, const Cut& cut) : bone_(bone), cut_(cut) {}
 
-  /// From each row to the next, straight, in equal steps of at most a millisecond.
+  /// In straight lines from row to row, in equal steps of at most a millisecond.
   void along(const std::vector<TimedPose>& poses) {
     for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
       const double span_s = poses[i + 1].t_s - poses[i].t_s;
-      const auto steps = static_cast<std::uint64_t>(std::max(1.0, std::ceil(span_s / kLongestStep_s - 1e-6)));
+      const auto steps = static_cast<std::uint64_t>(std::max(1.0, std::ceil(span_s / kMaxStep_s - 1e-6)));
       if (!poses[i].drill) {
         tick_ += steps;
         memory_ = {};
@@ -103,7 +102,7 @@ class Carving {
     at.motion.velocity_P_mm_per_s.xyz = way_mm / dt_s;
     at.motion.dt_s = dt_s;
     at.motion.spindle_rad_per_s = speedUnder(cut_.spindle, 0.0);
-    // The law that is linear in time asks for no contact.
+    // The law `time` needs no contact.
     haptics::Contact contact;
     if (cut_.erosion.kind != haptics::ErosionKind::time) contact = haptics::contactOf(cut_.law, at);
     const double pressing_N =
@@ -171,14 +170,14 @@ void addCarve(CommandLine& molar) {
   command.option("--erosion", options->erosion, "Erosion law").oneOf(erosionNames()).showsDefault();
   command.option("--set", options->settings, "key=value, see below");
   command.option("--poses", options->poses, "t_s,px_mm,py_mm,pz_mm,qw,qx,qy,qz[,drill] (X_PT)").required();
-  command.option("--out", options->out, "Solid fraction that is left, .nrrd").required();
+  command.option("--out", options->out, "Remaining solid fraction, .nrrd").required();
   command.flag("--force", options->force, "Replace the output if it exists");
   command.footer(
       erosionHelp() +
-      "  dose and machining, besides: what presses the bur on,\n"
-      "    normal_force_N (N): pays for dose; loads the spindle\n"
-      "    stiffness_N_per_mm (N/mm): dose without normal_force_N takes k h of the law agus at each pose\n"
-      "The spindle turns at spindle_rpm while the pedal is down, slower under load; machining takes its feed from the "
+      "  dose and machining, in addition, the pressing force:\n"
+      "    normal_force_N (N): drives dose; loads the spindle\n"
+      "    stiffness_N_per_mm (N/mm): dose without normal_force_N uses k h of the law agus at each pose\n"
+      "The spindle runs at spindle_rpm while the pedal is down, slower under load; machining takes its feed from the "
       "poses.");
   command.does([options] { return carve(*options); });
 }

@@ -1,5 +1,5 @@
-// The commands of `molar`, each adding itself to the command line: its options and what it does. What it does returns
-// the exit status: 0 success, 1 the answer is "no". Bad input throws; main prints one line, exit 2.
+// The commands of `molar`. Each function adds options and action to the command line; the action returns the exit
+// status: 0 success, 1 the answer is "no". Bad input throws; main prints one line and exits with 2.
 #pragma once
 
 #include <initializer_list>
@@ -26,7 +26,7 @@ void addPsychophysics(CommandLine& molar);
 void addManual(CommandLine& molar);
 void addCompletion(CommandLine& molar);
 
-/// In the order of the help.
+/// In the order of --help.
 inline constexpr auto kCommands = {addRehearse, addImport,    addInspect,       addFeel,   addCarve,     addSee,
                                    addDisplay,  addCalibrate, addDevices,       addDoctor, addReplay,    addMetrics,
                                    addExport,   addLaws,      addPsychophysics, addManual, addCompletion};

@@ -1,4 +1,4 @@
-// `molar display`: test patterns for the technician, on the display itself or as a picture; monitors that are there.
+// `molar display`: test patterns for the technician, on the display or as an image; list of monitors.
 
 #include <chrono>
 #include <csignal>
@@ -27,7 +27,7 @@
 namespace app {
 namespace {
 
-constexpr auto kBetweenLooks = std::chrono::milliseconds(30);
+constexpr auto kInterval = std::chrono::milliseconds(30);
 
 volatile std::sig_atomic_t interrupted = 0;
 
@@ -62,7 +62,7 @@ calibration::Rig rigOf(const DisplayOptions& options) {
   return rig;
 }
 
-/// The pattern in the windows of a display, drawn again whenever it, the window's size or its place changes.
+/// The pattern in the windows of a display, drawn again when pattern, window size or window position changes.
 class PatternShow {
  public:
   PatternShow(const DisplayOptions& options, const calibration::Rig& rig)
@@ -85,7 +85,7 @@ class PatternShow {
         upload_[output].show(outputs_[static_cast<std::size_t>(output)], place);
       });
       windows_.first().present();
-      std::this_thread::sleep_for(kBetweenLooks);
+      std::this_thread::sleep_for(kInterval);
     }
   }
 
@@ -102,7 +102,7 @@ class PatternShow {
     pattern_ = kTestPatterns[static_cast<std::size_t>(now % count)].pattern;
   }
 
-  /// In the window's own pixels: lines of one pixel stay lines.
+  /// In window pixels, so that lines of one pixel stay sharp.
   void drawIfChanged() {
     const glm::ivec2 window_px = windows_.first().framebufferSize_px();
     if (window_px.x <= 0 || window_px.y <= 0) return;
@@ -126,7 +126,7 @@ class PatternShow {
   render::StereoLayout drawn_layout_;
   std::vector<render::Image> outputs_;
   DisplayWindows windows_;
-  render::WindowUpload upload_[2];  // textures: before the windows go
+  render::WindowUpload upload_[2];  // textures: destroyed before the windows
   bool over_ = false;
 };
 
@@ -143,7 +143,7 @@ int display(const DisplayOptions& options) {
   }
   if (render::outputCount(options.display.mode()) > 1)
     throw UsageError("--out: " + std::string(render::nameOf(options.display.mode())) +
-                     " is two pictures, choose a display that is one");
+                     " has two outputs, choose a display with one");
   calibration::OutputFile file(options.out, options.force);
   savePng(
       patternOutput(*testPatternNamed(options.pattern), rig,
@@ -156,18 +156,18 @@ int display(const DisplayOptions& options) {
 
 void addDisplay(CommandLine& molar) {
   auto o = std::make_shared<DisplayOptions>();
-  CommandLine& command = molar.command("display", "Test patterns on the display, until Esc; monitors that are there");
+  CommandLine& command = molar.command("display", "Test patterns on the display, until Esc; list of monitors");
   command
       .option("--pattern", o->pattern,
               joined(kTestPatterns, &TestPatternName::name) + "; right and left arrow change it")
       .showsDefault();
   o->rig.addTo(command, false);
   o->display.addTo(command);
-  command.option("--monitor", o->monitor, "Monitor, from 1; two windows take the next one as well").wholeFrom(1, 16);
+  command.option("--monitor", o->monitor, "Monitor, from 1; two windows use the next one as well").wholeFrom(1, 16);
   command.option("--size", o->size, "Pixels of the screen").valueNamed("WxH");
   command.flag("--windowed", o->windowed, "In a window instead of the full screen");
   command.option("--seconds", o->seconds, "End after this time").from(0.1, 86400.0);
-  command.option("--out", o->out, "The picture as a file instead, .png").valueNamed("FILE");
+  command.option("--out", o->out, "Write an image instead, .png").valueNamed("FILE");
   command.flag("--force", o->force, "Replace an output that exists");
   command.flag("--monitors", o->monitors, "List the monitors and do nothing else");
   command.does([o] { return display(*o); });

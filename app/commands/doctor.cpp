@@ -1,4 +1,4 @@
-// `molar doctor`: what this machine has and what it lacks for a rehearsal, each with the next step.
+// `molar doctor`: checks this machine for a rehearsal; every finding names the next step.
 
 #include <cstdio>
 #include <memory>

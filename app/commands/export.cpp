@@ -1,5 +1,5 @@
-// `molar export`: the bone as a surface for other programs, STL (mm, LPS) or glTF (metres, y up): as a session left it,
-// or as a patient or volume has it. What was written, as JSON on stdout.
+// `molar export`: bone and teeth as a surface for other programs, STL (mm, LPS) or glTF (metres, y up), from a session,
+// a patient or a volume. Prints the parts as JSON on stdout.
 
 #include <cstdio>
 #include <memory>
@@ -55,7 +55,7 @@ assets::MeshPart surfaceOf(const assets::VolumeGrid& grid, std::span<const std::
   return assets::BoneSurface(assets::SolidVoxels::inGridOrder(grid, solid)).mergedMesh(std::move(name));
 }
 
-/// One part for a body asked for. All: a part per body in glTF, and one skin round both in STL, which knows no parts.
+/// One part per requested body. STL has no parts: bone and teeth become one surface.
 assets::MeshModel modelOf(const ExportOptions& options, const SolidVolume& volume) {
   assets::MeshModel model_P;
   if (options.tissue == "all" && (options.isStl() || volume.label.empty())) {
@@ -71,11 +71,11 @@ assets::MeshModel modelOf(const ExportOptions& options, const SolidVolume& volum
   }
   std::erase_if(model_P.parts, [](const assets::MeshPart& part) { return part.triangles.empty(); });
   if (model_P.parts.empty())
-    throw UsageError("--tissue " + options.tissue + ": there is none in this volume, check its labels or use all");
+    throw UsageError("--tissue " + options.tissue + ": none in this volume, check its labels or use all");
   return model_P;
 }
 
-/// What the surface encloses, by the divergence theorem about its first vertex.
+/// Enclosed volume, by the divergence theorem about the first vertex.
 double enclosed_mm3(const assets::MeshPart& part) {
   const glm::dvec3 about = part.position_mm[part.triangles[0]];
   double six_fold_mm3 = 0.0;
@@ -88,14 +88,12 @@ double enclosed_mm3(const assets::MeshPart& part) {
 
 int exportSurface(const ExportOptions& options) {
   const int sources = !options.session.empty() + !options.patient.empty() + options.volume.given();
-  if (sources != 1)
-    throw UsageError("export: it needs one of SESSION, --patient DIR and --volume FILE, give exactly one");
-  if (options.to_s && options.session.empty()) throw UsageError("--to: only a session has moments, name one");
+  if (sources != 1) throw UsageError("export: give exactly one of SESSION, --patient DIR and --volume FILE");
+  if (options.to_s && options.session.empty()) throw UsageError("--to: only a session has a time, give one");
   if (!options.isStl() && !options.out.ends_with(".glb"))
-    throw UsageError("--out " + options.out +
-                     ": surfaces are written as STL or glTF, let the name end in .stl or .glb");
+    throw UsageError("--out " + options.out + ": surfaces are STL or glTF, end the name in .stl or .glb");
 
-  // The output is claimed before any work.
+  // The output is claimed before the work.
   calibration::OutputFile out(options.out, options.force);
   const assets::MeshModel model_P = modelOf(options, sourceOf(options));
   nlohmann::json parts = nlohmann::json::array();
@@ -117,8 +115,8 @@ int exportSurface(const ExportOptions& options) {
 void addExport(CommandLine& molar) {
   auto options = std::make_shared<ExportOptions>();
   CommandLine& command = molar.command("export", "Bone and teeth as a surface, .stl (mm, LPS) or .glb (metres)");
-  command.option("SESSION", options->session, "Session file: the bone as it was left");
-  command.option("--to", options->to_s, "As it was at this time, s").from(0.0, 1e9);
+  command.option("SESSION", options->session, "Session file: the bone at its end");
+  command.option("--to", options->to_s, "At this time, s").from(0.0, 1e9);
   command.option("--patient", options->patient, "Patient folder, instead of SESSION").valueNamed("DIR");
   options->volume.addTo(command);
   command.option("--tissue", options->tissue, "all, bone or tooth").oneOf({"all", "bone", "tooth"}).showsDefault();

@@ -16,7 +16,6 @@
 #include "app/text/command_line.h"
 #include "calibration/output_file.h"
 #include "haptics/bone/cubelets.h"
-#include "haptics/contact/agus.h"
 #include "haptics/servo/servo.h"
 
 namespace app {
@@ -46,7 +45,7 @@ Vector<Patient> velocityAt(const std::vector<TimedPose>& poses, std::size_t i) {
   return {(poses[i].X_PT.translation_mm - poses[i - 1].X_PT.translation_mm) / dt_s};
 }
 
-/// The law alone, the spindle at its commanded speed while the pedal is down.
+/// The law alone; the spindle at its commanded speed while the pedal is down.
 std::vector<FeltRow> feelRaw(const SolidVolume& volume, const haptics::Command& command,
                              const std::vector<TimedPose>& poses) {
   const haptics::Cubelets cubelets(volume.grid, volume.solid, volume.label);

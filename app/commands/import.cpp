@@ -2,7 +2,6 @@
 
 #include <cstdio>
 #include <memory>
-#include <numeric>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -126,7 +125,7 @@ assets::GreyWindow windowOf(const std::string& text) {
 
 int import(ImportOptions options) {
   if (const auto fdi = options.choices.tooth_fdi; fdi && !assets::isToothNumber(*fdi))
-    throw UsageError("--tooth " + std::to_string(*fdi) + ": it is no FDI number of a tooth, give 11 to 48 or 51 to 85");
+    throw UsageError("--tooth " + std::to_string(*fdi) + ": not an FDI number, give 11 to 48 or 51 to 85");
   if (!options.window.empty()) options.choices.window = windowOf(options.window);
   assets::ImportedScan imported = assets::importScan(options.source, options.choices);
   for (const std::string& remark : imported.remarks) printMessage(options.source + ": " + remark);
@@ -157,7 +156,7 @@ void addImport(CommandLine& molar) {
   command.option("--sigma", options->choices.classification.sigma_hu, "Width of the soft transition, HU")
       .from(1.0, 2000.0)
       .showsDefault();
-  command.option("--tooth", options->choices.tooth_fdi, "The tooth to operate on, FDI number; else the third molar");
+  command.option("--tooth", options->choices.tooth_fdi, "FDI number of the operated tooth [the third molar]");
   command.option("--window", options->window, "LOW:HIGH, the HU that 0 and 255 of an 8-bit volume mean");
   command.flag("--force", options->force, "Replace the patient folder if it exists");
   command.does([options] { return import(*options); });

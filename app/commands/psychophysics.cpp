@@ -1,5 +1,5 @@
-// `molar psychophysics PROTOCOL.toml --out results.csv`: two stimuli on one bone, blind, by a simulated participant or
-// by a person at the window. One CSV row a trial as they come; summary JSON and picture beside it at the end.
+// `molar psychophysics PROTOCOL.toml --out results.csv`: blind comparison of two stimuli on one bone, by a simulated
+// participant or a person at the window. A CSV row after each trial; summary JSON and figure at the end.
 
 #include <unistd.h>
 
@@ -40,7 +40,7 @@ std::string beside(const std::string& csv, const char* ending) {
 constexpr double kLoupes = 4.0;
 constexpr glm::ivec2 kWindow_px{1280, 800};
 
-/// The site in the middle of the screen, seen from where the bur comes, a little from the side so that depth shows.
+/// The site in the middle of the screen, seen along the bur, slightly from the side to show depth.
 calibration::Rig rigFor(const PsychophysicsOptions& options, const ProbeSite& site) {
   if (!options.rig.empty()) return calibration::readRig(options.rig);
   calibration::Rig rig = calibration::desktopRig(kWindow_px, calibration::kDeskMonitorWidth_mm / kLoupes);
@@ -63,7 +63,7 @@ AtTheWindow runAtTheWindow(const PsychophysicsOptions& options, const Protocol& 
   TrialRunner desk(experiment, bone.site, protocol.between_trials_s, on_trial);
   RehearsalPlan plan;
   plan.patient = bone.patient;
-  // What is looked at is the bone that is probed.
+  // The view is centred on the probed bone.
   plan.patient.jaw_P_mm = bone.site.surface_P.mm;
   if (plan.patient.site) plan.patient.site->centre_P_mm = bone.site.surface_P.mm;
   plan.rig = rigFor(options, bone.site);
@@ -80,7 +80,7 @@ AtTheWindow runAtTheWindow(const PsychophysicsOptions& options, const Protocol& 
 
 int run(const PsychophysicsOptions& options) {
   if (std::filesystem::path(options.out).extension() != ".csv")
-    throw UsageError("--out " + options.out + ": rows are CSV, give a name that ends in .csv");
+    throw UsageError("--out " + options.out + ": end the name in .csv");
   refuseSameFile(options.out, {options.protocol});
   if (!options.record.empty()) refuseUnlessRecordable(options.record, options.force);
   const Protocol protocol = protocolFromToml(assets::readSmallFile(options.protocol), options.protocol);

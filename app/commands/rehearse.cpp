@@ -1,6 +1,5 @@
-// `molar rehearse [PATIENT]`: the main job.
+// `molar rehearse [PATIENT]`: the rehearsal.
 
-#include <algorithm>
 #include <cstdlib>
 #include <memory>
 #include <thread>
@@ -17,7 +16,6 @@
 #include "app/options/law_text.h"
 #include "app/options/pedal_option.h"
 #include "app/options/picture_option.h"
-#include "app/options/settings_text.h"
 #include "app/options/tool_text.h"
 #include "app/options/view_option.h"
 #include "app/rehearsal/recording_check.h"
@@ -56,26 +54,25 @@ struct RehearseOptions {
   double loupes = 4.0;
 };
 
-/// On a desk the surgeon wears loupes: the same screen, its picture magnified. With a rig everything is 1:1, and the
-/// patient stands as it says, or else with the tooth at work at the origin of W.
+/// Without a rig: a desktop monitor, its image magnified (--loupes). With one everything is 1:1, and the patient's pose
+/// is the rig's, or else has the operated tooth at the origin of W.
 calibration::Rig rigFor(const RehearseOptions& options, const std::optional<ChosenRig>& chosen,
                         const assets::Patient& patient, const assets::FacePose& X_PF) {
+  calibration::Rig rig;
   if (chosen) {
-    calibration::Rig rig = chosen->record.rig;
+    rig = chosen->record.rig;
     if (!options.size.empty()) rig.screen.px = imageSize(options.size);
-    if (hasNoPatientPose(rig)) rig.X_WP = placePatientAtSite(patient, X_PF);
-    return rig;
+  } else {
+    const glm::ivec2 default_px = options.plan.headless ? glm::ivec2(640, 400) : glm::ivec2(1280, 800);
+    rig = calibration::desktopRig(options.size.empty() ? default_px : imageSize(options.size),
+                                  calibration::kDeskMonitorWidth_mm / options.loupes);
   }
-  const glm::ivec2 px = options.size.empty() ? (options.plan.headless ? glm::ivec2(640, 400) : glm::ivec2(1280, 800))
-                                             : imageSize(options.size);
-  calibration::Rig rig = calibration::desktopRig(px, calibration::kDeskMonitorWidth_mm / options.loupes);
-  // X_WD stays identity, so the tooth at work is at the origin of D too: the middle of every Phantom's workspace, its
-  // axes as the surgeon's.
-  rig.X_WP = placePatientAtSite(patient, X_PF);
+  // On the desktop X_WD is the identity: the tooth is at the origin of D, the middle of a Phantom's workspace.
+  if (hasNoPatientPose(rig)) rig.X_WP = placePatientAtSite(patient, X_PF);
   return rig;
 }
 
-/// The device is opened first: a rig is one device's, and only the device knows its serial.
+/// The device is opened first, as a rig belongs to one device and only the device knows its serial number.
 void chooseRig(RehearsalPlan& plan, const RehearseOptions& options, const assets::FacePose& X_PF) {
   if (haptics::isDeviceAddress(options.plan.device))
     plan.opened = haptics::openDevice(options.plan.device, plan.device_options);
@@ -104,9 +101,9 @@ void chooseRig(RehearsalPlan& plan, const RehearseOptions& options, const assets
                      " does not say where its base stands, add X_WD2");
 }
 
-/// As fast as the machine can: nothing that has a time of its own.
+/// Without windows, devices and pedals, which run in real time.
 void refuseUnlessSteppable(const RehearseOptions& options) {
-  if (!options.plan.headless) throw UsageError("--pace fast: a window has the clock's time, add --headless");
+  if (!options.plan.headless) throw UsageError("--pace fast: a window needs real time, add --headless");
   const PoseSourceKind* const hand = poseSourceKindOf(options.plan.device);
   if (!hand || !hand->simulated)
     throw UsageError("--pace fast: " + options.plan.device +
@@ -114,10 +111,9 @@ void refuseUnlessSteppable(const RehearseOptions& options) {
   if (!options.plan.second_hand.device.empty() && haptics::isDeviceAddress(options.plan.second_hand.device))
     throw UsageError("--pace fast: --second-hand " + options.plan.second_hand.device +
                      " is not simulated, choose scripted or replay:SESSION");
-  if (options.plan.instructor_window)
-    throw UsageError("--pace fast: a window has the clock's time, leave --instructor out");
+  if (options.plan.instructor_window) throw UsageError("--pace fast: a window needs real time, leave --instructor out");
   if (options.pedal != "auto" && options.pedal != "none")
-    throw UsageError("--pace fast: a pedal has the clock's time, leave --pedal out");
+    throw UsageError("--pace fast: a pedal needs real time, leave --pedal out");
 }
 
 void planCut(RehearsalPlan& plan) {
@@ -127,12 +123,12 @@ void planCut(RehearsalPlan& plan) {
   const PoseSourceKind* const hand = poseSourceKindOf(plan.device);
   if (planned->kind == CutKind::buccal_trough || !hand || !hand->follows_plan) return;
   const std::string why = plan.patient.site ? "no trough fits beside the " + assets::toothName(plan.patient.site->fdi)
-                                            : std::string("no tooth to work at is labelled here");
-  printMessage(why + ", the hand works at the nearest bone");
+                                            : std::string("no operated tooth is labelled");
+  printMessage(why + ", the scripted cut is on the nearest bone");
 }
 
-/// A software renderer would take every core; one is the servo's.
-void leaveACoreToTheServo() {
+/// Mesa's software renderer would use every core.
+void reserveCoreForServo() {
   const unsigned cores = std::thread::hardware_concurrency();
   const std::string threads = std::to_string(cores > 1 ? cores - 1 : 1);
   setenv("LP_NUM_THREADS", threads.c_str(), 0);
@@ -188,7 +184,7 @@ int run(RehearseOptions& options) {
   plan.face_window_mm = options.face_window_mm.value_or(options.face.empty() ? 0.0 : kForeignFaceWindow_mm);
   chooseRig(plan, options, X_PF);
   options.display.refuseUnlessFits(plan.rig);
-  leaveACoreToTheServo();
+  reserveCoreForServo();
   return rehearse(std::move(plan));
 }
 
@@ -202,34 +198,33 @@ void addRehearse(CommandLine& molar) {
   command.option("--device", o->plan.device, poseSourceHelp()).showsDefault();
   command.option("--falcon-firmware", o->falcon_firmware, "Novint's firmware for a Falcon").valueNamed("FILE");
   Option second = command.option("--second-hand", o->plan.second_hand.device, kSecondHandHelp);
-  command.option("--second-tool", o->second_tool, "What the other hand holds: mirror or retractor")
+  command.option("--second-tool", o->second_tool, "Instrument of the second hand: mirror or retractor")
       .oneOf({"mirror", "retractor"})
       .showsDefault()
       .needs(second);
   Option rig = o->rig.addTo(command, true);
   o->display.addTo(command);
   o->picture.addTo(command);
-  command.option("--monitor", o->monitor, "Monitor of the picture, from 1; two windows take the next one as well")
-      .wholeFrom(1, 16);
+  command.option("--monitor", o->monitor, "Monitor, from 1; two windows use the next one as well").wholeFrom(1, 16);
   command.flag("--instructor", o->plan.instructor_window, "Open the instructor's window, on the next monitor if any");
   command.flag("--operator", o->plan.instructor_window, "Former name of --instructor").hidden();
   command.option("--quality", o->plan.quality_step, "Hold this quality, 0 best to 6 fastest [by measured frame times]")
       .wholeFrom(0, static_cast<int>(render::kQualitySteps.size()) - 1);
-  command.option("--size", o->size, "Picture size").valueNamed("WxH");
+  command.option("--size", o->size, "Image size").valueNamed("WxH");
   command.option("--loupes", o->loupes, "Magnification on a desk (without --rig)")
       .from(1.0, 8.0)
       .showsDefault()
       .excludes(rig);
   command.option("--face", o->face, "Face model, glTF; teeth.json beside it places the jaw").valueNamed("FILE");
   command.option("--face-window", o->face_window_mm, "Face cut away around the line of sight, mm").from(0.0, 100.0);
-  command.option("--tool", o->tools, headHelp() + "; several are changed between, by key T or pedal")
+  command.option("--tool", o->tools, headHelp() + "; give several to change between them by key T or pedal")
       .repeated()
       .showsDefault();
-  command.option("--shaft", o->shaft, std::string(kShaftHelp) + " [a neck that fits, up to 2.35 mm thick]");
+  command.option("--shaft", o->shaft, std::string(kShaftHelp) + " [a neck of the head's size, up to 2.35 mm thick]");
   command.option("--law", o->law, "Force law: " + lawNames()).showsDefault();
   command
       .option("--parameters", o->plan.parameters,
-              "Settings file, TOML, obeyed while it changes (app/options/feel.toml); it rules over --law and --set")
+              "Settings file, TOML, applied whenever it changes (app/options/feel.toml); overrides --law and --set")
       .valueNamed("FILE");
   command.option("--erosion", o->erosion, "Erosion law").oneOf(erosionNames()).showsDefault();
   command.option("--set", o->settings,
@@ -237,42 +232,28 @@ void addRehearse(CommandLine& molar) {
   command.option("--rate", o->plan.rate_Hz, "Servo rate, Hz [1000, or as recorded]").from(500.0, 10'000.0);
   command
       .option("--priority", o->plan.device_options.servo_priority,
-              "Real-time priority of the servo, its USB thread has the next")
+              "Real-time priority of the servo; the USB thread has the next")
       .wholeFrom(haptics::kMinServoPriority, haptics::kMaxServoPriority)
       .showsDefault();
-  command
-      .option("--pace", o->pace,
-              "real, by the clock; fast, a simulated hand without a window, as fast as the machine can")
+  command.option("--pace", o->pace, "real; or fast: simulated input without a window, as fast as the machine can")
       .oneOf({"real", "fast"})
       .showsDefault();
   command.option("--seconds", o->plan.seconds, "End after this time").from(0.1, 86400.0);
   command.option("--record", o->record, "Session file to write").valueNamed("FILE");
-  command.option("--snapshot", o->plan.snapshot, "Pictures at the end: NAME_left.png, NAME_right.png");
+  command.option("--snapshot", o->plan.snapshot, "Images at the end: NAME_left.png, NAME_right.png");
   command.option("--first-snapshot", o->plan.first_snapshot, "The same before the first cut");
-  command.option("--snapshot-size", o->snapshot_size, "Size of those").valueNamed("WxH").showsDefault();
+  command.option("--snapshot-size", o->snapshot_size, "Their size").valueNamed("WxH").showsDefault();
   command.flag("--headless", o->plan.headless, "Without a window");
   command.flag("--force", o->plan.overwrite, "Replace outputs that exist");
-  command.option("--side", o->side, "Built-in patient: right or left")
-      .oneOf({"right", "left"})
-      .showsDefault()
-      .excludes(patient);
-  command.option("--winter-angle", o->jaw.winter_angle_deg, "Built-in patient: tilt, degrees")
-      .showsDefault()
-      .excludes(patient)
-      .from(-79.0, 100.0);
-  command.option("--depth", o->jaw.depth_mm, "Built-in patient: crown below the occlusal plane, mm")
-      .showsDefault()
-      .excludes(patient)
-      .from(0.0, 8.0);
-  command.option("--canal-distance", o->jaw.mandibular_canal_distance_mm, "Built-in patient: root to canal, mm")
-      .showsDefault()
-      .excludes(patient)
-      .from(0.3, 6.0);
-  command.option("--voxel", o->jaw.spacing_mm, "Built-in patient: voxel edge, mm")
-      .showsDefault()
-      .excludes(patient)
-      .from(0.15, 1.0);
-  command.option("--seed", o->jaw.seed, "Built-in patient: seed").showsDefault().excludes(patient);
+  const auto built_in = [&](const std::string& name, auto& value, const std::string& help) {
+    return command.option(name, value, "Built-in patient: " + help).showsDefault().excludes(patient);
+  };
+  built_in("--side", o->side, "right or left").oneOf({"right", "left"});
+  built_in("--winter-angle", o->jaw.winter_angle_deg, "tilt, degrees").from(-79.0, 100.0);
+  built_in("--depth", o->jaw.depth_mm, "crown below the occlusal plane, mm").from(0.0, 8.0);
+  built_in("--canal-distance", o->jaw.mandibular_canal_distance_mm, "root to canal, mm").from(0.3, 6.0);
+  built_in("--voxel", o->jaw.spacing_mm, "voxel edge, mm").from(0.15, 1.0);
+  built_in("--seed", o->jaw.seed, "seed");
   command.footer(keyHelp());
   command.does([o] { return run(*o); });
 }

@@ -1,6 +1,5 @@
-// `molar see`: one picture without a window. PNG, and on request the distances along the rays and the matrices.
+// `molar see`: one image without a window, as PNG; optionally the distances along the rays and the matrices.
 
-#include <cstdio>
 #include <memory>
 #include <optional>
 
@@ -27,7 +26,7 @@
 namespace app {
 namespace {
 
-constexpr double kUsualBur_mm = 1.5;  ///< radius of the bur a trough is planned for
+constexpr double kUsualBur_mm = 1.5;  ///< bur radius of the planned trough
 
 struct SeeOptions {
   VolumeOption volume;
@@ -48,13 +47,13 @@ std::string matricesText(const glm::dmat4& clip_from_P, glm::ivec2 px) {
 
 int see(const SeeOptions& options) {
   if (options.volume.given() == !options.patient.empty())
-    throw UsageError("see: it needs one of --volume FILE and --patient DIR, give exactly one");
+    throw UsageError("see: give exactly one of --volume FILE and --patient DIR");
   render::Frame frame;
   options.picture.apply(frame);
   if (frame.layers.slices && options.patient.empty())
-    throw UsageError("--layers slices: they show a patient's grey values, use --patient");
+    throw UsageError("--layers slices: they show a patient's CT, use --patient");
 
-  // Every output is claimed before any work.
+  // Outputs are claimed before the work.
   calibration::OutputFile out(options.out, options.force);
   std::unique_ptr<calibration::OutputFile> depth;
   std::optional<calibration::OutputFile> matrices;
@@ -100,7 +99,7 @@ int see(const SeeOptions& options) {
   const glm::dmat4 clip_from_P = render::clipFromPatient(frame.rig, render::eyeView(frame.rig, eye));
   renderer.throwIfError();
 
-  // Everything is written before anything is put in place.
+  // All files are written before any is committed.
   calibration::writePng(out.temporaryPath(), {picture.w, picture.h}, picture.rgba);
   if (matrices) matrices->write(matricesText(clip_from_P, frame.rig.screen.px));
   if (depth) {
@@ -116,7 +115,7 @@ int see(const SeeOptions& options) {
 
 void addSee(CommandLine& molar) {
   auto options = std::make_shared<SeeOptions>();
-  CommandLine& command = molar.command("see", "One picture without a window: PNG, depths, matrices");
+  CommandLine& command = molar.command("see", "One image without a window: PNG, depths, matrices");
   options->volume.addTo(command);
   command.option("--patient", options->patient, "Patient folder, instead of --volume").valueNamed("DIR");
   options->view.addTo(command);
@@ -125,11 +124,11 @@ void addSee(CommandLine& molar) {
       .wholeFrom(1, 4)
       .showsDefault();
   command
-      .option("--tool-at", options->tool_at_mm, "x,y,z: where slices are taken, mm in P (default: the tooth at work)")
+      .option("--tool-at", options->tool_at_mm, "x,y,z: position of the slices, mm in P (default: the operated tooth)")
       .numbers(3)
       .from(-1e4, 1e4);
   command.flag("--bone-only", options->bone_only, "Without face and gum");
-  command.option("--out", options->out, "Picture, .png").required();
+  command.option("--out", options->out, "Image, .png").required();
   command.option("--depth", options->depth, "Distances along the rays in mm, .nrrd");
   command.option("--matrices", options->matrices, "clip_from_P and size, .json");
   command.flag("--force", options->force, "Replace outputs that exist");

@@ -17,13 +17,16 @@ std::string nameIn(const Table& table, Kind kind) {
   return one == table.end() ? "unknown" : std::string(one->key);
 }
 
-/// Parameters of the current law and of every law.
-template <class Parameters, class Settings>
-std::map<std::string, Setting> inForce(const Parameters& parameters, Settings& settings) {
+/// Rows of the current law and of every law.
+template <class Settings, class Kind>
+std::map<std::string, Setting> settingsIn(std::span<const haptics::Parameter<Settings, Kind>> table,
+                                          Settings& settings) {
   std::map<std::string, Setting> found;
-  for (const auto& one : parameters)
-    if (one.law.value_or(settings.kind) == settings.kind)
-      found[std::string(one.key)] = {&one.in(settings), one.lowest, one.highest, one.unit};
+  for (const haptics::Parameter<Settings, Kind>& row : table) {
+    if constexpr (requires { settings.kind; })
+      if (row.law.value_or(settings.kind) != settings.kind) continue;
+    found[std::string(row.key)] = {&row.of(settings), row.lowest, row.highest, row.unit};
+  }
   return found;
 }
 
@@ -50,18 +53,15 @@ std::vector<std::string> erosionNames() {
 }
 
 std::map<std::string, Setting> parametersOf(haptics::LawSettings& law) {
-  return inForce(haptics::lawParameters(), law);
+  return settingsIn(haptics::lawParameters(), law);
 }
 
 std::map<std::string, Setting> parametersOf(haptics::ErosionSettings& erosion) {
-  return inForce(haptics::erosionParameters(), erosion);
+  return settingsIn(haptics::erosionParameters(), erosion);
 }
 
 std::map<std::string, Setting> parametersOf(haptics::SpindleSettings& spindle) {
-  std::map<std::string, Setting> settings;
-  for (const haptics::SpindleParameter& one : haptics::spindleParameters())
-    settings[std::string(one.key)] = {&one.in(spindle), one.lowest, one.highest, one.unit};
-  return settings;
+  return settingsIn(haptics::spindleParameters(), spindle);
 }
 
 std::string erosionHelp() {

@@ -93,20 +93,11 @@ void LiveView::takeSnapshot(StereoSnapshot& snapshot, render::Frame frame, std::
   snapshot.take(*renderer, frame);
 }
 
-void LiveView::measureRate(Clock::time_point now) {
-  const double since_s = secondsBetween(rate_measured_, now);
-  if (since_s <= 0.0) return;
-  frames_per_s_ = static_cast<double>(frames_ - frames_measured_) / since_s;
-  frames_measured_ = frames_;
-  rate_measured_ = now;
-}
-
 void LiveView::describe(RehearsalStatus& status) {
   status.quality = qualityText();
   if (!display_) return;
   status.display = std::string(render::nameOf(display_->mode()));
   status.drawing_ms = 1000.0 * display_->drawing_s();
-  status.frames_per_s = frames_per_s_;
   status.refresh_Hz = display_->refresh_Hz();
   status.budget_ms = 1000.0 * quality_->budget_s();
   status.latency = latency_.now();

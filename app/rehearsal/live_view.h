@@ -54,8 +54,6 @@ class LiveView {
   render::Window* window() { return display_ ? display_->window() : nullptr; }
   std::string qualityText() { return quality_ ? quality_->text() : "no frames displayed"; }
   const MotionToPhoton& latency() const { return latency_; }
-  /// Frames per second since the last call.
-  void measureRate(Clock::time_point now);
   std::uint64_t frames() const { return frames_; }
   void describe(RehearsalStatus& status);
   void describe(RehearsalFigures& figures) const;
@@ -75,9 +73,7 @@ class LiveView {
   std::optional<QualityChoice> quality_;
   MotionToPhoton latency_;
   std::optional<Clock::time_point> pose_read_;
-  Clock::time_point rate_measured_ = Clock::now();
-  std::uint64_t frames_ = 0, frames_measured_ = 0;
-  double frames_per_s_ = 0.0;
+  std::uint64_t frames_ = 0;
 };
 
 }  // namespace app

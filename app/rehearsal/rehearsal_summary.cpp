@@ -7,33 +7,14 @@
 #include "app/device/trip_reporter.h"
 
 namespace app {
+namespace {
 
-RehearsalStatus statusOf(const RehearsalPlan& plan) {
-  RehearsalStatus status;
-  status.patient_title = plan.patient.title;
-  status.calibration = plan.calibration;
-  status.remarks = plan.remarks;
-  if (!plan.recording) return status;
-  status.recording = RecordingState::running;
-  status.recording_path = plan.recording->path;
-  return status;
-}
-
+/// "real-time priority, core 3, memory locked".
 std::string grantsText(const haptics::RealtimeGrants& grants) {
   const std::string core = grants.core ? fmt::format(", core {}", *grants.core) : ", no core of its own";
   return std::string(grants.priority ? "real-time priority" : "no real-time priority") + core +
          (grants.memory_locked ? ", memory locked" : ", memory not locked");
 }
-
-std::string punctualityText(const haptics::LoopFigures& servo) {
-  return fmt::format(
-             "{} ticks, {} deadlines missed, {} by its own work; late by {:.0f} µs, 99 % below {:.0f}, at most "
-             "{:.0f}; ",
-             servo.ticks, servo.missed, servo.overruns, servo.late_p50_us, servo.late_p99_us, servo.late_max_us) +
-         grantsText(servo.grants);
-}
-
-namespace {
 
 std::string timeText(const RehearsalStatus& last) {
   std::string text = fmt::format("  servo            {} ticks at {:.0f} Hz, {} deadlines missed, {} by its own work\n",
@@ -52,6 +33,14 @@ std::string steppedText(const RehearsalStatus& last) {
 }
 
 }  // namespace
+
+std::string punctualityText(const haptics::LoopFigures& servo) {
+  return fmt::format(
+             "{} ticks, {} deadlines missed, {} by its own work; late by {:.0f} µs, 99 % below {:.0f}, at most "
+             "{:.0f}; ",
+             servo.ticks, servo.missed, servo.overruns, servo.late_p50_us, servo.late_p99_us, servo.late_max_us) +
+         grantsText(servo.grants);
+}
 
 std::string summaryText(const RehearsalFigures& f) {
   std::string text = "Rehearsal\n";

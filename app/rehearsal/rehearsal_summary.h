@@ -25,12 +25,6 @@ struct RehearsalFigures {
   std::optional<RecordingSummary> recording;
 };
 
-/// The part of the status that follows from the plan.
-RehearsalStatus statusOf(const RehearsalPlan& plan);
-
-/// "real-time priority, core 3, memory locked".
-std::string grantsText(const haptics::RealtimeGrants& grants);
-
 /// "60031 ticks, 11 deadlines missed, 0 by its own work; late by 32 µs, 99 % below 66, at most 4254; real-time …".
 std::string punctualityText(const haptics::LoopFigures& servo);
 

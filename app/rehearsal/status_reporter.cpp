@@ -1,5 +1,7 @@
 #include "app/rehearsal/status_reporter.h"
 
+#include <utility>
+
 #include "app/options/tool_text.h"
 
 namespace app {
@@ -18,7 +20,14 @@ StatusReporter::StatusReporter(const RehearsalPlan& plan, Equipment& equipment, 
 }
 
 RehearsalStatus StatusReporter::status(const FrameState& state) {
-  RehearsalStatus s = statusOf(plan_);
+  RehearsalStatus s;
+  s.patient_title = plan_.patient.title;
+  s.calibration = plan_.calibration;
+  s.remarks = plan_.remarks;
+  if (plan_.recording) {
+    s.recording = RecordingState::running;
+    s.recording_path = plan_.recording->path;
+  }
   s.bur = textOf(state.in_force.tool.head);
   s.tick = state.newest;
   s.command = state.in_force;
@@ -29,6 +38,7 @@ RehearsalStatus StatusReporter::status(const FrameState& state) {
     s.to_instructor = messages.to_instructor;
   }
   equipment_.describe(s);
+  s.frames_per_s = frames_per_s_;
   view_.describe(s);
   monitor_.describe(s);
   return s;
@@ -36,8 +46,9 @@ RehearsalStatus StatusReporter::status(const FrameState& state) {
 
 void StatusReporter::update(Time now, const FrameState& state) {
   if (now - updated_ < kUpdateInterval) return;
+  const double since_s = std::chrono::duration<double>(now - updated_).count();
+  frames_per_s_ = static_cast<double>(view_.frames() - std::exchange(frames_, view_.frames())) / since_s;
   updated_ = now;
-  view_.measureRate(now);
   for (const Notice& notice : monitor_.takeNotices(equipment_.health(), state.newest)) event_log_.report(notice);
   render::Window* const window = view_.window();
   if (window == nullptr) return;

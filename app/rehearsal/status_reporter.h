@@ -45,6 +45,8 @@ class StatusReporter {
   RunMonitor& monitor_;
   EventLog& event_log_;
   std::optional<InstructorWindow> instructor_;
+  std::uint64_t frames_ = 0;
+  double frames_per_s_ = 0.0;
   Time updated_ = {}, latency_noted_ = {};
 };
 

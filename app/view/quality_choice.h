@@ -2,6 +2,7 @@
 // chosen, and as the frame requests without a window. Never changes during a stroke. Main thread.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 
@@ -13,7 +14,12 @@ namespace app {
 class QualityChoice {
  public:
   /// `held`: fixed step, 0 best. Borrows the display.
-  QualityChoice(SurgeonDisplay& display, std::optional<int> held);
+  QualityChoice(SurgeonDisplay& display, std::optional<int> held)
+      : display_(display),
+        held_(held.has_value()),
+        budget_s_(display.backend() == render::Backend::cpu ? std::max(1.0 / display.refresh_Hz(), kSlowestSmooth_s)
+                                                            : 1.0 / display.refresh_Hz()),
+        ladder_(budget_s_, held.value_or(0)) {}
 
   /// Whether the ladder overrides the frame's own quality.
   bool overridesFrame() { return isChoosing() || held_; }
@@ -40,6 +46,7 @@ class QualityChoice {
   std::string text() { return overridesFrame() ? std::string(ladder_.description()) : "as asked"; }
 
  private:
+  static constexpr double kSlowestSmooth_s = 1.0 / 30.0;
   static constexpr int kSettled = 4;  ///< frames without a change
   static constexpr std::chrono::seconds kMaxSettling{3};
 

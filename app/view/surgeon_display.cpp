@@ -11,6 +11,8 @@ namespace {
 
 using render::Backend;
 
+constexpr int kMaxResets = 3;  ///< of the graphics card, in one rehearsal
+
 double secondsBetween(SurgeonDisplay::Clock::time_point from, SurgeonDisplay::Clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
 }
@@ -100,11 +102,16 @@ void SurgeonDisplay::show(render::Frame frame) {
       frame.output_at_px = window()->positionOnPanel_px();
     }
   }
-  recovery_.draw([&] { drawAndPresent(frame); },
-                 [&](const render::ContextLost& lost) {
-                   report_(std::string(lost.what()) + "; all is created again");
-                   recreate();
-                 });
+  for (;;) {
+    try {
+      return drawAndPresent(frame);
+    } catch (const render::ContextLost& lost) {
+      if (context_losses_ == kMaxResets) throw;
+      ++context_losses_;
+      report_(std::string(lost.what()) + "; all is created again");
+      recreate();
+    }
+  }
 }
 
 void SurgeonDisplay::drawAndPresent(render::Frame& frame) {

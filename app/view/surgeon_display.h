@@ -8,10 +8,8 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <string>
 #include <utility>
 
-#include "app/view/context_recovery.h"
 #include "app/view/display_windows.h"
 #include "render/frame_renderer.h"
 #include "render/gpu/frame_fence.h"
@@ -37,7 +35,8 @@ class SurgeonDisplay {
   SurgeonDisplay(const Options& options, MakeRenderer make_renderer, ReportLine report);
   ~SurgeonDisplay();
 
-  /// Draws and presents. Sets the frame's display mode, eye order and, on interleaved displays, size.
+  /// Draws and presents. Sets the frame's display mode, eye order and, on interleaved displays, size. Recreates
+  /// everything after a reset of the graphics card; throws ContextLost at the fourth.
   void show(render::Frame frame);
   /// Until the GPU has presented the newest frame.
   void waitUntilShown();
@@ -60,7 +59,7 @@ class SurgeonDisplay {
   std::unique_ptr<render::FrameRenderer> newRenderer(const MakeRenderer& make);
   double refresh_Hz() { return windows_ ? windows_->first().refresh_Hz() : 60.0; }
   /// Number of resets so far.
-  int contextLosses() const { return recovery_.contextLosses(); }
+  int contextLosses() const { return context_losses_; }
   /// Called before the windows are closed for a reset: objects sharing their context must be destroyed first.
   void beforeRecreation(std::function<void()> call) { before_recreation_ = std::move(call); }
   /// As after a reset of the graphics card.
@@ -84,7 +83,7 @@ class SurgeonDisplay {
   std::optional<render::FrameFence> fence_;
   Clock::time_point presented_at_{};
   double drawing_s_ = 0.0;
-  ContextRecovery recovery_;
+  int context_losses_ = 0;
 };
 
 }  // namespace app

@@ -56,6 +56,34 @@ TEST(SurgeonDisplay, ComesBackWithTheSamePictureAfterEverythingWasLost) {
   EXPECT_GT(std::count(before.begin(), before.end(), 0xff), 0) << "the control: something is drawn";
 }
 
+TEST(SurgeonDisplay, GivesUpAtTheFourthResetOfTheGraphicsCard) {
+  int renderers = 0;
+  SurgeonDisplay display(
+      onTheProcessor(),
+      [&](render::Backend) -> std::unique_ptr<render::FrameRenderer> {
+        ++renderers;
+        throw render::ContextLost("the graphics card was reset");
+      },
+      [](const std::string&) {});
+  EXPECT_THROW(display.show(frameAbove()), render::ContextLost);
+  EXPECT_EQ(renderers, 4);
+  EXPECT_EQ(display.contextLosses(), 3);
+}
+
+TEST(SurgeonDisplay, PassesOtherErrorsOn) {
+  int renderers = 0;
+  SurgeonDisplay display(
+      onTheProcessor(),
+      [&](render::Backend) -> std::unique_ptr<render::FrameRenderer> {
+        ++renderers;
+        throw render::GpuError("out of memory");
+      },
+      [](const std::string&) {});
+  EXPECT_THROW(display.show(frameAbove()), render::GpuError);
+  EXPECT_EQ(renderers, 1) << "created once, not again";
+  EXPECT_EQ(display.contextLosses(), 0);
+}
+
 /// The card goes again while what lived on it is made anew: show() brings back bone and cut all the same.
 TEST(SurgeonDisplay, BringsTheCutBoneBackThroughALossWhileItIsShown) {
   std::vector<std::uint8_t> solid(kGrid.voxelCount(), 0);
