@@ -25,7 +25,7 @@ inline constexpr std::array<QualityStep, 7> kQualitySteps = {{
     {"full", {Antialias::edges, true, true, 0.5, 1}, 1.0},
     {"no lamp shadow", {Antialias::edges, true, false, 0.5, 1}, 1.5},
     {"no smooth edges", {Antialias::none, true, false, 0.5, 1}, 1.4},
-    {"no shading of hollows", {Antialias::none, false, false, 0.5, 1}, 1.25},
+    {"no ambient occlusion", {Antialias::none, false, false, 0.5, 1}, 1.25},
     {"coarse steps", {Antialias::none, false, false, 1.0, 1}, 1.3},
     {"half resolution", {Antialias::none, false, false, 1.0, 2}, 4.0},
     {"third resolution", {Antialias::none, false, false, 1.0, 3}, 2.25},

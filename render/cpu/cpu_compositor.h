@@ -10,7 +10,7 @@
 
 namespace render {
 
-/// `left` is the cyclopean eye in mono. Canvases smaller than their place are stretched bilinearly.
+/// `left` is the cyclopean eye in mono. Images smaller than their area are scaled bilinearly.
 void compose(const StereoLayout& layout, const EyeImage& left, const EyeImage& right, const ShadeKernels& kernels,
              Image& output);
 

@@ -6,28 +6,11 @@
 #include "calibration/virtual_screen.h"
 
 namespace render {
-namespace {
 
-using calibration::Point;
-using calibration::Rig;
-using calibration::World;
-
-Point<World> positionOf(const Rig& rig, Eye eye) {
-  switch (eye) {
-    case Eye::left:
-      return rig.left_eye;
-    case Eye::right:
-      return rig.right_eye;
-    case Eye::cyclopean:
-      break;
-  }
-  return rig.cyclopeanEye();
-}
-
-}  // namespace
-
-EyeView eyeView(const Rig& rig, Eye eye) {
-  const Point<World> eye_W = positionOf(rig, eye);
+EyeView eyeView(const calibration::Rig& rig, Eye eye) {
+  const calibration::Point<calibration::World> eye_W = eye == Eye::left    ? rig.left_eye
+                                                       : eye == Eye::right ? rig.right_eye
+                                                                           : rig.cyclopeanEye();
   const glm::dvec3 e = eye_W.mm;
   const calibration::ScreenCorners seen = calibration::virtualScreen(rig);
   const glm::dvec3 pll = seen.lower_left.mm, plr = seen.lower_right.mm, pul = seen.upper_left.mm;

@@ -85,7 +85,7 @@
 #define FINISH_MARROW vec3(0.42, 0.035, 0.15)
 #define FINISH_DULL vec3(0.49, 0.042, 0.11)
 #define FINISH_ENAMEL vec3(0.18, 0.055, 0.30)
-#define COLOUR_DEPTH_VOXELS 0.7    // depth below the surface where colour is read, since partial volume at the surface looks like bone
+#define COLOUR_DEPTH_VOXELS 0.7    // colour is read this far below the surface, out of partial volume
 
 // Guides on the bone: colours and patterns; mm.
 #define GUIDE_NEAR_COLOUR 0.66f, 0.11f, 0.0f     // hues of Okabe and Ito, "Color universal design" (2008)

@@ -25,7 +25,7 @@ Occupancy::Occupancy(glm::ivec3 bricks, int edge, MarkOf mark_of)
 }
 
 void Occupancy::touch(const VoxelBox& box) {
-  // Every brick whose border of one value reaches in.
+  // Every brick that the box or its border of one value overlaps.
   const glm::ivec3 low = glm::max((box.first - 1) / edge_, glm::ivec3(0));
   const glm::ivec3 high = glm::min((box.first + box.extent) / edge_, bricks_ - 1);
   forEachIn({low, high - low + 1}, [this](glm::ivec3 brick) {

@@ -50,7 +50,7 @@ inline std::vector<std::uint8_t> brickOf(const assets::CtVolume& ct, glm::ivec3 
   return values;
 }
 
-/// The solid of `ct` as the fields keep it.
+/// The solid fraction of `ct` with a border.
 inline BorderedField<std::uint8_t> borderedSolid(const assets::CtVolume& ct) {
   BorderedField<std::uint8_t> field(ct.grid.size);
   for (int k = 0; k < ct.grid.size.z; ++k)
@@ -73,7 +73,7 @@ class Random {
   std::mt19937 engine_;
 };
 
-/// A workstation as it might stand: panel anywhere, mirror or none, both eyes in front of the virtual screen.
+/// A random workstation: panel anywhere, with or without mirror, both eyes in front of the virtual screen.
 inline calibration::Rig randomRig(Random& random, bool mirrored, glm::ivec2 px = {320, 240}) {
   calibration::Rig rig;
   const double width_mm = 200.0, height_mm = width_mm * px.y / px.x;

@@ -1,4 +1,4 @@
-// The mesh view: the triangles lie where the rays find the surface, look like it, and follow the bur exactly.
+// The mesh view: the triangles lie on the ray-cast surface, are shaded like it and follow carving exactly.
 #include <gtest/gtest.h>
 
 #include "render/gpu/offscreen_context.h"
@@ -79,23 +79,23 @@ TEST(BoneMesh, LiesWhereTheRaysFindTheSurface) {
   }
 }
 
-TEST(BoneMesh, LooksLikeTheRayCastSurface) {
+TEST(BoneMesh, IsShadedLikeTheRayCastSurface) {
   const OffscreenContext context;
   const assets::CtVolume ct = twoBalls();
   FrameRenderer renderer(ct.grid, ct.solid, ct.label);
   const Image rays = drawn(renderer, frameOf(ViewMode::iso)).image;
   const Image mesh = drawn(renderer, frameOf(ViewMode::mesh)).image;
-  // The same shading over a surface a hundredth of a voxel beside it; the rest is outline.
+  // The same shading of a surface a hundredth of a voxel away; larger differences are outline pixels.
   EXPECT_LT(pixelsThatDiffer(rays, mesh, 4), 250u);
-  EXPECT_GT(pixelsThatDiffer(rays, mesh, 0), 0u);  // it is another drawing
+  EXPECT_GT(pixelsThatDiffer(rays, mesh, 0), 0u);  // control: a different rendering
 }
 
-TEST(BoneMesh, AfterCarvingIsThatOfTheCarvedBone) {
+TEST(BoneMesh, AfterCarvingEqualsANewMeshOfTheCarvedBone) {
   const OffscreenContext context;
   assets::CtVolume ct = twoBalls();
   FrameRenderer renderer(ct.grid, ct.solid, ct.label);
   const Drawn uncarved = drawn(renderer, frameOf(ViewMode::mesh));
-  // A groove, cut by cut; some cuts while another view is shown.
+  // A groove in several cuts, some of them while another view is drawn.
   for (int cut = 0; cut < 8; ++cut) {
     bring(renderer, ct, carve(ct, {-3.0 + 0.8 * cut, -9.0, 1.0}, 2.0));
     drawn(renderer, frameOf(cut % 3 == 1 ? ViewMode::iso : ViewMode::mesh));
@@ -110,7 +110,7 @@ TEST(BoneMesh, AfterCarvingIsThatOfTheCarvedBone) {
 
 TEST(BoneMesh, KeepsEveryPatchWhenItsBuffersGrow) {
   const OffscreenContext context;
-  // From a small ball much more surface appears than the first buffers had room for.
+  // The surface grows far beyond the initial buffers.
   assets::CtVolume ct = ballVolume(smallGrid(), {{{0, 0, 0}, 3.0}});
   FrameRenderer renderer(ct.grid, ct.solid, ct.label);
   drawn(renderer, frameOf(ViewMode::mesh));

@@ -23,8 +23,8 @@ Rgb at(const Image& image, int x, int y) {
   return {p[0], p[1], p[2]};
 }
 
-/// The pixel of a place beside the middle of the image, mm to the right and downwards.
-Rgb beside(const Image& image, double right_mm, double down_mm) {
+/// The pixel at an offset from the centre of the image, mm to the right and downwards.
+Rgb pixelAt(const Image& image, double right_mm, double down_mm) {
   return at(image, static_cast<int>(0.5 * kEdge + right_mm / kMmPerPx),
             static_cast<int>(0.5 * kEdge + down_mm / kMmPerPx));
 }
@@ -34,7 +34,7 @@ struct Scene {
   CtScan scan;
   Frame frame;
 
-  /// Grey values by place; all of it solid where they reach 300 HU.
+  /// Grey values by position; solid at 300 HU and more.
   explicit Scene(const std::function<double(glm::dvec3)>& hounsfield, glm::ivec3 size = {150, 160, 170}) {
     const assets::VolumeGrid grid = testing::smallGrid(size, 0.25);
     ct = {grid, {}, {}, {}, {}};
@@ -59,34 +59,34 @@ TEST(CtSlices, ShowGreyValuesInABoneWindow) {
   for (const SlicePlane plane : {SlicePlane::axial, SlicePlane::coronal}) {
     const Image image = scene.image(plane);
     for (const double x_mm : {-7.0, -3.5, 4.0, 7.0}) {
-      const Rgb seen = beside(image, x_mm, 5.0);
+      const Rgb seen = pixelAt(image, x_mm, 5.0);
       EXPECT_NEAR(seen.r, 127.5 + 255.0 * 100.0 * x_mm / 2500.0, 1.5);
       EXPECT_EQ(seen.r, seen.g);
       EXPECT_EQ(seen.r, seen.b);
     }
   }
   const Image sagittal = scene.image(SlicePlane::sagittal);
-  for (const double y_mm : {-7.0, 7.0}) EXPECT_NEAR(beside(sagittal, y_mm, 5.0).r, 127, 2);
+  for (const double y_mm : {-7.0, 7.0}) EXPECT_NEAR(pixelAt(sagittal, y_mm, 5.0).r, 127, 2);
 }
 
-TEST(CtSlices, LieAsARadiologistSeesThem) {
-  // One dense block towards left, posterior, superior of the middle.
+TEST(CtSlices, HaveRadiologicalOrientation) {
+  // One dense block left, posterior and superior of the centre.
   Scene scene([](glm::dvec3 p) { return p.x > 3.0 && p.y > 4.0 && p.z > 5.0 ? 1750.0 : -1000.0; });
   scene.frame.X_PT.translation_mm = {0.0, 0.0, 8.0};
-  EXPECT_EQ(beside(scene.image(SlicePlane::axial), 6.0, 7.0).r, 255);  // left to the right, posterior down
-  EXPECT_EQ(beside(scene.image(SlicePlane::axial), 6.0, -7.0).r, 0);
+  EXPECT_EQ(pixelAt(scene.image(SlicePlane::axial), 6.0, 7.0).r, 255);  // left to the right, posterior down
+  EXPECT_EQ(pixelAt(scene.image(SlicePlane::axial), 6.0, -7.0).r, 0);
   scene.frame.X_PT.translation_mm = {0.0, 8.0, 0.0};
-  EXPECT_EQ(beside(scene.image(SlicePlane::coronal), 6.0, -8.0).r, 255);  // superior up
-  EXPECT_EQ(beside(scene.image(SlicePlane::coronal), -6.0, -8.0).r, 0);
+  EXPECT_EQ(pixelAt(scene.image(SlicePlane::coronal), 6.0, -8.0).r, 255);  // superior up
+  EXPECT_EQ(pixelAt(scene.image(SlicePlane::coronal), -6.0, -8.0).r, 0);
   scene.frame.X_PT.translation_mm = {8.0, 0.0, 0.0};
-  EXPECT_EQ(beside(scene.image(SlicePlane::sagittal), 7.0, -8.0).r, 255);  // posterior to the right
-  EXPECT_EQ(beside(scene.image(SlicePlane::sagittal), -7.0, -8.0).r, 0);
+  EXPECT_EQ(pixelAt(scene.image(SlicePlane::sagittal), 7.0, -8.0).r, 255);  // posterior to the right
+  EXPECT_EQ(pixelAt(scene.image(SlicePlane::sagittal), -7.0, -8.0).r, 0);
 }
 
-TEST(CtSlices, ShowWhatIsCarvedAsGone) {
+TEST(CtSlices, MarkCarvedMaterial) {
   Scene scene([](glm::dvec3) { return 1500.0; });
   const Image whole = scene.image(SlicePlane::axial);
-  // A pit of 3 mm beside the bur.
+  // A pit of 3 mm next to the bur.
   for (std::size_t n = 0; n < scene.ct.solid.size(); ++n) {
     const auto v = static_cast<int>(n);
     const glm::ivec3 size = scene.ct.grid.size;
@@ -94,15 +94,15 @@ TEST(CtSlices, ShowWhatIsCarvedAsGone) {
     if (glm::length(p - glm::dvec3(6.0, 6.0, 0.0)) < 3.0) scene.ct.solid[n] = 0;
   }
   const Image carved = scene.image(SlicePlane::axial);
-  EXPECT_LT(beside(carved, 6.0, 6.0).g, 20);
-  EXPECT_EQ(beside(whole, 6.0, 6.0).g, beside(whole, -6.0, 6.0).g);
-  EXPECT_EQ(beside(carved, -6.0, 6.0), beside(whole, -6.0, 6.0));
+  EXPECT_LT(pixelAt(carved, 6.0, 6.0).g, 20);
+  EXPECT_EQ(pixelAt(whole, 6.0, 6.0).g, pixelAt(whole, -6.0, 6.0).g);
+  EXPECT_EQ(pixelAt(carved, -6.0, 6.0), pixelAt(whole, -6.0, 6.0));
 }
 
-/// Whether the bur's colour stands within a pixel and a half of a place, and neither 0.5 mm further in nor out.
+/// Expects the bur's colour within 1.5 px of a point, and not 0.5 mm further in or out.
 void expectOutlineAt(const Image& image, glm::dvec2 at_mm, glm::dvec2 outward) {
   const auto is_bur = [&](double off_mm) {
-    const Rgb c = beside(image, at_mm.x + off_mm * outward.x, at_mm.y + off_mm * outward.y);
+    const Rgb c = pixelAt(image, at_mm.x + off_mm * outward.x, at_mm.y + off_mm * outward.y);
     return c.b > c.r + 60;
   };
   EXPECT_TRUE(is_bur(0.0)) << at_mm.x << " " << at_mm.y;
@@ -156,14 +156,14 @@ TEST(CtSlices, OutlineTheCanal) {
   scene.scan.mandibular_canal_P_mm = {{4.0, -20.0, 5.0}, {4.0, 0.0, 5.0}, {4.0, 20.0, 5.0}};
   scene.scan.mandibular_canal_radius_mm = 1.5;
   const Image coronal = scene.image(SlicePlane::coronal);  // across it: a circle, 4 mm to the right, 5 mm up
-  const auto is_canal = [&](double x, double y) { return beside(coronal, x, y).r > beside(coronal, x, y).b + 60; };
+  const auto is_canal = [&](double x, double y) { return pixelAt(coronal, x, y).r > pixelAt(coronal, x, y).b + 60; };
   for (const double turn : {0.5, 2.5, 4.5})
     EXPECT_TRUE(is_canal(4.0 + 1.5 * std::cos(turn), -5.0 + 1.5 * std::sin(turn))) << turn;
   EXPECT_FALSE(is_canal(4.0, -5.0));
   EXPECT_FALSE(is_canal(4.0 + 2.2, -5.0));
 }
 
-TEST(CtSlices, CarryNameSidesAndScale) {
+TEST(CtSlices, ShowNameSidesAndScale) {
   Scene scene([](glm::dvec3) { return -1000.0; }, {20, 20, 20});
   const Image image = scene.image(SlicePlane::axial);
   const auto bright = [&](int x0, int y0, int x1, int y1) {
@@ -173,8 +173,8 @@ TEST(CtSlices, CarryNameSidesAndScale) {
     return count;
   };
   EXPECT_GT(bright(0, 0, 60, 20), 50);              // the name
-  EXPECT_GT(bright(0, 70, 14, 90), 8);              // a side …
-  EXPECT_GT(bright(kEdge - 14, 70, kEdge, 90), 8);  // … and the other
+  EXPECT_GT(bright(0, 70, 14, 90), 8);              // one side
+  EXPECT_GT(bright(kEdge - 14, 70, kEdge, 90), 8);  // the other side
   // The scale: a line of 5 mm.
   int longest = 0;
   for (int y = kEdge - 20; y < kEdge; ++y)
@@ -189,7 +189,7 @@ TEST(CtSlices, ShowAirOutsideTheVolume) {
   Scene scene([](glm::dvec3) { return 1750.0; }, {20, 20, 20});
   for (const glm::dvec3& far : {glm::dvec3(500, 0, 0), glm::dvec3(-1e4, 3, 1e6)}) {
     scene.frame.X_PT.translation_mm = far;
-    EXPECT_EQ(beside(scene.image(SlicePlane::axial), -7.0, 5.0), (Rgb{0, 0, 0}));
+    EXPECT_EQ(pixelAt(scene.image(SlicePlane::axial), -7.0, 5.0), (Rgb{0, 0, 0}));
   }
 }
 

@@ -1,4 +1,4 @@
-// Reading drawn images: rays of pixels, the places they hit, comparisons.
+// Helpers for drawn images: rays of pixels, the points they hit, comparisons.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,7 @@ inline glm::dvec3 eye_P_mm(const calibration::Rig& rig, const EyeView& view) {
   return (rig.X_WP.inverse() * view.eye_W).mm;
 }
 
-/// Where a point of P lands, px from the top left; pixel centres at +0.5.
+/// Projection of a point of P, px from the top left; pixel centres at +0.5.
 inline glm::dvec2 pixelOf(const calibration::Rig& rig, const EyeView& view, const glm::dvec3& p_P_mm) {
   const glm::dvec4 clip = clipFromPatient(rig, view) * glm::dvec4(p_P_mm, 1.0);
   return {(0.5 + 0.5 * clip.x / clip.w) * rig.screen.px.x, (0.5 - 0.5 * clip.y / clip.w) * rig.screen.px.y};
@@ -52,7 +52,7 @@ inline Frame frameFor(const calibration::Rig& rig) {
   return frame;
 }
 
-/// The same virtual screen and eyes, made by a panel behind a mirror: images on the panel are flipped left to right.
+/// The same virtual screen and eyes with a panel behind a mirror: images on the panel are flipped left to right.
 inline calibration::Rig throughMirror(calibration::Rig rig) {
   const calibration::ScreenCorners seen = rig.screen;
   rig.mirror = calibration::Plane<calibration::World>{glm::normalize(glm::dvec3(0.2, 0.8, 0.5)), 30.0};

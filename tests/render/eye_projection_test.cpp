@@ -20,8 +20,8 @@ glm::dvec3 ndc(const EyeView& view, const Point<World>& p_W) {
   return glm::dvec3(clip) / clip.w;
 }
 
-// The light's own way: from the point by the mirror to the eye, so straight from the eye's image to the point's image,
-// through the physical panel.
+// The light path: from the panel by the mirror to the eye, that is, straight from the reflected eye to the reflected
+// point through the physical panel.
 glm::dvec2 tracedOntoPanel(const Rig& rig, const Point<World>& eye_W, const Point<World>& p_W) {
   const glm::dvec3 from = rig.mirror ? rig.mirror->reflect(eye_W).mm : eye_W.mm;
   const glm::dvec3 to = rig.mirror ? rig.mirror->reflect(p_W).mm : p_W.mm;
@@ -79,7 +79,7 @@ TEST(EyeProjection, IsLeftHandedExactlyWithAMirror) {
 }
 
 TEST(EyeProjection, MakesALetterReadRightInTheMirroredWorkstation) {
-  // What is drawn for a place goes to a pixel of the panel, and is seen in the mirror at that very place.
+  // A point is drawn at a pixel of the panel, which is seen in the mirror at the same point.
   const Rig rig = calibration::mirroredWorkstationRig();
   const EyeView view = eyeView(rig, Eye::cyclopean);
   EXPECT_TRUE(view.mirrored);
@@ -105,14 +105,14 @@ TEST(EyeProjection, GrowsInDepthAwayFromTheEye) {
   }
 }
 
-TEST(Camera, LooksAtItsTargetWithTheAngleAsked) {
+TEST(Camera, LooksAtItsTargetWithTheGivenAngle) {
   const Camera camera{.eye_P_mm = {10, -200, 40}, .look_at_P_mm = {5, 5, 5}, .up_P = {0, 0, 1}, .fov_y_rad = 0.6};
   const Rig rig = cameraRig(camera, {400, 300});
   const EyeView view = eyeView(rig, Eye::cyclopean);
   const auto seen = [&](const glm::dvec3& p_P) { return ndc(view, rig.X_WP * Point<calibration::Patient>{p_P}); };
   EXPECT_NEAR(glm::length(glm::dvec2(seen(camera.look_at_P_mm))), 0.0, 1e-9);
 
-  // A point half the angle above the axis lies on the upper edge, in the middle.
+  // A point half the angle above the axis is projected to the middle of the upper edge.
   const glm::dvec3 back = camera.eye_P_mm - camera.look_at_P_mm;
   const glm::dvec3 up = glm::normalize(camera.up_P - glm::dot(camera.up_P, back) / glm::dot(back, back) * back);
   const glm::dvec3 top = seen(camera.look_at_P_mm + std::tan(0.3) * glm::length(back) * up);
@@ -121,7 +121,7 @@ TEST(Camera, LooksAtItsTargetWithTheAngleAsked) {
   EXPECT_NEAR(glm::length(view.eye_W.mm - (rig.X_WP * Point<calibration::Patient>{camera.eye_P_mm}).mm), 0.0, 1e-9);
 }
 
-TEST(Camera, RefusesAViewThatIsNone) {
+TEST(Camera, RefusesAnInvalidView) {
   EXPECT_THROW(cameraRig({.eye_P_mm = {1, 2, 3}, .look_at_P_mm = {1, 2, 3}}, {64, 48}), GpuError);
   EXPECT_THROW(cameraRig({.eye_P_mm = {0, 0, 9}, .look_at_P_mm = {0, 0, 0}, .up_P = {0, 0, 2}}, {64, 48}), GpuError);
   EXPECT_THROW(cameraRig({.fov_y_rad = 3.2}, {64, 48}), GpuError);

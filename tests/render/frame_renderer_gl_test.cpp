@@ -49,7 +49,7 @@ const std::uint8_t* pixelAt(const Image& image, int x, int y) {
   return &image.rgba[4 * static_cast<std::size_t>(y * image.w + x)];
 }
 
-TEST(FrameRenderer, ThreeBallsLandWherePredictedInBothEyesOfAnyRig) {
+TEST(FrameRenderer, ThreeBallsProjectAsPredictedInBothEyesOfAnyRig) {
   const OffscreenContext context;
   const std::vector<Ball> balls{{{-21, 3, -9}, 4.5}, {{20, -6, -12}, 3.5}, {{1, 4, 21}, 4.0}};
   const assets::CtVolume ct = ballVolume(smallGrid(glm::ivec3(110), 0.5), balls);
@@ -63,7 +63,7 @@ TEST(FrameRenderer, ThreeBallsLandWherePredictedInBothEyesOfAnyRig) {
       renderer.renderEye(frameFor(rig), eye);
       const DistanceImage seen = renderer.readDistance(eye);
 
-      // Centroid of the pixels whose place lies on each ball; a ball hidden behind another does not count.
+      // Centroid of the pixels that hit each ball; hidden balls are skipped.
       std::array<glm::dvec2, 3> sum{};
       std::array<int, 3> count{}, expected{};
       for (int y = 0; y < seen.h; ++y)
@@ -91,14 +91,14 @@ TEST(FrameRenderer, ThreeBallsLandWherePredictedInBothEyesOfAnyRig) {
   EXPECT_NO_THROW(renderer.throwIfError());
 }
 
-TEST(FrameRenderer, AMirroredRigShowsTheTurnedOverPicture) {
+TEST(FrameRenderer, AMirroredRigShowsTheFlippedImage) {
   const OffscreenContext context;
   const assets::CtVolume ct = ballVolume(smallGrid(), {{{-5, 2, 3}, 5.0}, {{6, -3, -4}, 3.0}});
   FrameRenderer renderer(ct.grid, ct.solid, ct.label);
   renderer.setGingiva(sphereMesh({{3, -4, 6}, 4.0}, {0.3f, 0.5f, 0.8f, 1.0f}));
   Rig plain = cameraRig({.eye_P_mm = {80, -250, 60}, .fov_y_rad = 0.17}, {160, 120});
 
-  // The same virtual screen, reached by a mirror from a panel that shows its rows the other way round.
+  // The same virtual screen by a mirror, with a panel whose rows run the other way round.
   Rig mirrored = plain;
   const calibration::Plane<calibration::World> mirror{glm::normalize(glm::dvec3(0.1, 1.0, 1.0)), 40.0};
   const glm::dvec3 upper_right = plain.screen.upper_left.mm + plain.screen.lower_right.mm - plain.screen.lower_left.mm;
@@ -147,7 +147,7 @@ TEST(FrameRenderer, DistanceReprojectsIntoTheOtherEye) {
   }
 }
 
-TEST(FrameRenderer, MeshAndBoneMeetOnTheCircleWhereTheyCross) {
+TEST(FrameRenderer, MeshAndBoneIntersectOnTheExpectedCircle) {
   const OffscreenContext context;
   const Ball bone{{-3, 0, 0}, 8.0}, metal{{4, -2, 2}, 7.0};
   const assets::CtVolume ct = ballVolume(smallGrid(), {bone});
@@ -186,7 +186,7 @@ TEST(FrameRenderer, MeshAndBoneMeetOnTheCircleWhereTheyCross) {
   }
 }
 
-// Drawn images, straight and through a mirror; how light becomes an output is stereo_compositor_gl_test's.
+// Drawn images, direct and through a mirror; the output pass is tested in stereo_compositor_gl_test.cpp.
 TEST(FrameRenderer, EveryDisplayModePutsTheRightEyeInTheRightPixel) {
   const OffscreenContext context;
   const assets::CtVolume ct = ballVolume(smallGrid(), {{{-5, 2, 3}, 6.0}, {{6, -12, -4}, 4.0}});
@@ -223,7 +223,7 @@ TEST(FrameRenderer, EveryDisplayModePutsTheRightEyeInTheRightPixel) {
   }
 }
 
-TEST(FrameRenderer, ThroughTheMirrorTheSameIsSeenFlipped) {
+TEST(FrameRenderer, TheMirrorShowsTheSameImageFlipped) {
   const OffscreenContext context;
   const assets::CtVolume ct = ballVolume(smallGrid(), {{{-5, 2, 3}, 6.0}, {{6, -12, -4}, 4.0}});
   FrameRenderer renderer(ct.grid, ct.solid, ct.label);
@@ -240,13 +240,13 @@ TEST(FrameRenderer, ThroughTheMirrorTheSameIsSeenFlipped) {
       for (int x = 0; x < straight.w; ++x)
         for (int c = 0; c < 3; ++c)
           wrong += std::abs(pixelAt(straight, x, y)[c] - pixelAt(reflected, straight.w - 1 - x, y)[c]) > 1;
-    // Rays are the same but for rounding, which may move a silhouette by a pixel here and there.
+    // Rays differ by rounding only, which may move silhouettes by a pixel.
     EXPECT_LE(wrong, 6);
     EXPECT_NE(straight.rgba, reflected.rgba) << "control: the picture is not symmetric";
   }
 }
 
-TEST(FrameRenderer, TheFaceOpensAroundTheLineToTheSiteAndOnlyInFrontOfIt) {
+TEST(FrameRenderer, TheFaceIsCutAroundTheLineToTheSiteOnlyInFrontOfIt) {
   const OffscreenContext context;
   const assets::CtVolume ct = noBone();
   FrameRenderer renderer(ct.grid, ct.solid, ct.label);
@@ -264,7 +264,7 @@ TEST(FrameRenderer, TheFaceOpensAroundTheLineToTheSiteAndOnlyInFrontOfIt) {
   EXPECT_NEAR(centreDistance(), 238.0, 0.1) << "a site before the face opens nothing";
 }
 
-TEST(FrameRenderer, TheInstrumentStandsWhereTheToolIsAndHidesOnRequest) {
+TEST(FrameRenderer, TheInstrumentIsDrawnAtTheToolPoseAndCanBeHidden) {
   const OffscreenContext context;
   const assets::CtVolume ct = noBone();
   FrameRenderer renderer(ct.grid, ct.solid, ct.label);
@@ -285,7 +285,7 @@ TEST(FrameRenderer, TheInstrumentStandsWhereTheToolIsAndHidesOnRequest) {
   EXPECT_EQ(distanceAt(at), 0.0f);
 }
 
-TEST(FrameRenderer, TransparentPartsLetTheBoneThroughAndKeepItsDistance) {
+TEST(FrameRenderer, TransparentPartsShowTheBoneAndKeepItsDistance) {
   const OffscreenContext context;
   const Ball bone{{0, 0, 0}, 5.0};
   const assets::CtVolume ct = ballVolume(smallGrid(), {bone});
@@ -300,7 +300,7 @@ TEST(FrameRenderer, TransparentPartsLetTheBoneThroughAndKeepItsDistance) {
   EXPECT_EQ(renderer.readDistance(Eye::left).mm, bare_distance.mm);
 }
 
-// Two clear balls, one in the other's place from either side: what is nearer colours more, whichever was given first.
+// Two transparent balls behind each other: the nearer one contributes more, in either order of models.
 TEST(FrameRenderer, TransparentPartsAreOrderedByDistanceInEveryPixel) {
   const OffscreenContext context;
   const assets::CtVolume ct = noBone();
@@ -321,13 +321,13 @@ TEST(FrameRenderer, TransparentPartsAreOrderedByDistanceInEveryPixel) {
   const Image blue_near = seenWith(10, -10, true);
   c = pixelAt(blue_near, 40, 30);
   EXPECT_GT(c[2], c[0] + 40);
-  // Cutting through each other, each is in front on its own side.
+  // Intersecting balls: each is in front on its own side.
   EXPECT_EQ(pixelsThatDiffer(seenWith(-1, 1, true), seenWith(-1, 1, false)), 0u);
   EXPECT_EQ(pixelsThatDiffer(seenWith(-1, 1, true), seenWith(-1, 1, true)), 0u);
   EXPECT_NO_THROW(renderer.throwIfError());
 }
 
-TEST(FrameRenderer, TheFaceFadesAndTheGumCanBePutAway) {
+TEST(FrameRenderer, TheFaceFadesAndTheGingivaCanBeHidden) {
   const OffscreenContext context;
   const assets::CtVolume ct = ballVolume(smallGrid(), {{{0, 0, 0}, 5.0}});
   FrameRenderer renderer(ct.grid, ct.solid, ct.label);
@@ -361,14 +361,14 @@ TEST(FrameRenderer, TransparentPartsBehindTheBoneStayHidden) {
     renderer.renderEye(frame, Eye::cyclopean);
     return renderer.readEye(Eye::cyclopean);
   };
-  // At the same place in the image: a millimetre before the surface, a millimetre behind it, far behind it.
+  // At the same pixel: a millimetre in front of the surface, a millimetre behind it, far behind it.
   const Image before = seenWith(-12.0), just_behind = seenWith(-6.0), behind = seenWith(40.0);
   EXPECT_GT(pixelsThatDiffer(before, behind, 16), 100u);
   EXPECT_LT(pixelsThatDiffer(just_behind, behind, 16), 10u);
 }
 
-// Guides colour the bone near them and nothing else, and leave no trace when they are switched off.
-TEST(FrameRenderer, GuidesShowWhereTheyLieAndOnlyWhenAskedFor) {
+// Guides colour the bone near them and nothing else, and nothing when disabled.
+TEST(FrameRenderer, GuidesAreDrawnAtTheirPositionsOnlyWhenEnabled) {
   const OffscreenContext context;
   const assets::CtVolume ct = ballVolume(smallGrid(), {{{0, 0, 0}, 9.0}});
   for (const Backend backend : {Backend::gl_fragment, Backend::gl_compute, Backend::cpu}) {
@@ -412,7 +412,7 @@ TEST(FrameRenderer, GuidesShowWhereTheyLieAndOnlyWhenAskedFor) {
     EXPECT_GT(coloured, 500);
     EXPECT_NO_THROW(renderer.throwIfError());
 
-    // Translucent matter takes the plan's colour, and no bands.
+    // Translucent matter shows the plan and no bands.
     frame.mode = ViewMode::dvr;
     const Image through_bands = seen();
     frame.layers.clearance = false;
@@ -423,8 +423,8 @@ TEST(FrameRenderer, GuidesShowWhereTheyLieAndOnlyWhenAskedFor) {
   }
 }
 
-// The canal shines through bone and gingiva, but not through the face and the instrument, which lie outside.
-TEST(FrameRenderer, TheCanalHidesBehindFaceAndInstrumentAlone) {
+// The canal is visible through bone and gingiva, but not through face and instrument.
+TEST(FrameRenderer, TheCanalIsHiddenOnlyByFaceAndInstrument) {
   const OffscreenContext context;
   const assets::CtVolume ct = ballVolume(smallGrid(), {{{0, 0, 0}, 9.0}});
   const glm::vec4 grey(0.5f, 0.5f, 0.5f, 1.0f);
@@ -436,7 +436,7 @@ TEST(FrameRenderer, TheCanalHidesBehindFaceAndInstrumentAlone) {
     Frame frame = frameFor(cameraRig({.eye_P_mm = {0, -250, 0}, .fov_y_rad = 0.17}, {160, 120}));
     frame.X_PT = frame.X_PT_at_hand = {};
     frame.tool_visible = true;
-    // Pixels of the middle, all covered, that the canal changes.
+    // Central pixels, all covered, that the canal changes.
     const auto shining = [&] {
       std::array<Image, 2> images;
       for (const bool canal : {false, true}) {
@@ -464,7 +464,7 @@ TEST(FrameRenderer, TheCanalHidesBehindFaceAndInstrumentAlone) {
   }
 }
 
-// The hand inside the bone, while the drawn tool is held on its surface.
+// The hand is inside the bone, the drawn tool held on its surface.
 TEST(FrameRenderer, TheGhostShowsTheHandThroughTheBone) {
   const OffscreenContext context;
   const assets::CtVolume ct = ballVolume(smallGrid(), {{{0, 0, 0}, 9.0}});
@@ -485,8 +485,8 @@ TEST(FrameRenderer, TheGhostShowsTheHandThroughTheBone) {
   EXPECT_EQ(seen().rgba, without.rgba) << "a free hand has no ghost";
 }
 
-// Silhouettes are smoothed, and nothing else is touched: where the distance runs straight on, not a bit changes.
-TEST(FrameRenderer, AntialiasingDrawsSilhouettesAgainAndNothingElse) {
+// Silhouettes are smoothed; pixels without a step in distance keep every bit.
+TEST(FrameRenderer, AntialiasingChangesSilhouettesOnly) {
   const OffscreenContext context;
   const assets::CtVolume ct = ballVolume(smallGrid(), {{{-4, 0, 0}, 7.0}});
   for (const Backend backend : {Backend::gl_fragment, Backend::gl_compute}) {

@@ -8,12 +8,12 @@
 namespace render {
 namespace {
 
-TEST(OffscreenContext, ComesWithoutADisplayAndWithoutErrors) {
+TEST(OffscreenContext, NeedsNoDisplayAndReportsNoError) {
   OffscreenContext context;
   EXPECT_NO_THROW(throwIfGlError("start"));
 }
 
-TEST(OffscreenContext, CanBeMadeAgainAfterAnother) {
+TEST(OffscreenContext, CanBeCreatedAgain) {
   for (int n = 0; n < 3; ++n) {
     const OffscreenContext context;
     Framebuffer target(glm::ivec2(4, 4), std::array{TexelFormat::rgba8}, false);

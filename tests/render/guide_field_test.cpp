@@ -1,4 +1,4 @@
-// Distances to what guides the surgeon, against geometry; and the tube around the canal.
+// Distances to the guides, against geometry; and the tube around the canal.
 #include "render/volume/guide_field.h"
 
 #include <gtest/gtest.h>

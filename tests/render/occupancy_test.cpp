@@ -12,7 +12,7 @@ using testing::Random;
 
 Occupancy occupancyOf(const BorderedField<std::uint8_t>& solid) { return {solid, 8, assets::kHalfSolid}; }
 
-// Sparse random matter: a few boxes of random value in a volume whose edges are no multiples of a brick.
+// Sparse random matter: a few boxes of random value in a volume whose size is no multiple of a brick.
 assets::CtVolume randomMatter(Random& random, glm::ivec3 size) {
   const assets::VolumeGrid grid = testing::smallGrid(size);
   assets::CtVolume ct{grid, {}, {}, std::vector<std::uint8_t>(grid.voxelCount(), 0), {}};
@@ -31,7 +31,7 @@ std::size_t indexOf(glm::ivec3 brick, glm::ivec3 bricks) {
   return static_cast<std::size_t>((brick.z * bricks.y + brick.y) * bricks.x + brick.x);
 }
 
-/// Puts the values of a brick into a field; answers the box it covers.
+/// Writes the values of a brick to a field; returns its box.
 VoxelBox put(const std::vector<std::uint8_t>& values, glm::ivec3 brick, BorderedField<std::uint8_t>& field) {
   const VoxelBox box = grown({8 * brick, glm::ivec3(8)}, 0, field.layout().size);
   for (int k = 0; k < box.extent.z; ++k)
@@ -41,7 +41,7 @@ VoxelBox put(const std::vector<std::uint8_t>& values, glm::ivec3 brick, Bordered
   return box;
 }
 
-/// Whether a sample inside the brick touches a voxel that is solid, asked voxel by voxel.
+/// Whether a sample inside the brick reads a solid voxel, by brute force.
 bool touchesSolid(const assets::CtVolume& ct, glm::ivec3 brick) {
   for (int n = 0; n < 1000; ++n)
     if (const glm::ivec3 voxel = 8 * brick + glm::ivec3(n % 10, n / 10 % 10, n / 100) - 1;
@@ -50,7 +50,7 @@ bool touchesSolid(const assets::CtVolume& ct, glm::ivec3 brick) {
   return false;
 }
 
-TEST(Occupancy, NeverSkipsAPlaceWhoseTrilinearFootprintIsSolid) {
+TEST(Occupancy, NeverSkipsASampleWithASolidTrilinearFootprint) {
   Random random(11);
   for (int n = 0; n < 20; ++n) {
     const assets::CtVolume ct = randomMatter(random, {37, 43, 50});
@@ -60,7 +60,7 @@ TEST(Occupancy, NeverSkipsAPlaceWhoseTrilinearFootprintIsSolid) {
       for (int j = 0; j < ct.grid.size.y; ++j)
         for (int i = 0; i < ct.grid.size.x; ++i) {
           if (ct.solid[ct.grid.index({i, j, k})] < assets::kHalfSolid) continue;
-          // Samples that touch this voxel lie less than one voxel from it.
+          // Samples that read this voxel are less than one voxel away.
           for (int c = 0; c < 8; ++c) {
             const glm::ivec3 touching = glm::ivec3(i, j, k) + glm::ivec3(c & 1, c >> 1 & 1, c >> 2) * 2 - 1;
             const glm::ivec3 brick = glm::clamp(touching, glm::ivec3(0), ct.grid.size - 1) / 8;
@@ -70,7 +70,7 @@ TEST(Occupancy, NeverSkipsAPlaceWhoseTrilinearFootprintIsSolid) {
   }
 }
 
-TEST(Occupancy, DistanceIsTheChessboardDistanceToTheNextOccupiedBrick) {
+TEST(Occupancy, DistanceIsTheChebyshevDistanceToTheNextOccupiedBrick) {
   Random random(12);
   for (int n = 0; n < 20; ++n) {
     const assets::CtVolume ct = randomMatter(random, {70, 40, 90});
@@ -137,7 +137,7 @@ TEST(Occupancy, StaysConservativeWhileStale) {
   }
 }
 
-TEST(Occupancy, KeepsTheDistancesWhileBricksOnlyEmptyAndMendsThemOnRequest) {
+TEST(Occupancy, KeepsDistancesWhileBricksOnlyEmptyAndUpdatesThemOnRequest) {
   const assets::CtVolume ct = testing::ballVolume(testing::smallGrid(), {{{0, 0, 0}, 6.0}});
   BorderedField<std::uint8_t> solid = testing::borderedSolid(ct);
   Occupancy occupancy = occupancyOf(solid);

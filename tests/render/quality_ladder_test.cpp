@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kBudget_s = 1.0 / 60.0;
 
-// A machine that draws the worst step in `worst_s`, and each better one in as much more as the table says.
+// A machine that draws the worst step in `worst_s`, and better ones with the relative costs of the table.
 double machine_s(int step, double worst_s) {
   double time_s = worst_s;
   for (int s = static_cast<int>(kQualitySteps.size()) - 1; s > step; --s)
@@ -41,7 +41,7 @@ TEST(QualityLadder, AFastMachineStaysAtTheTop) {
   EXPECT_EQ(ladder.step(), 0);
 }
 
-TEST(QualityLadder, ASlowMachineEndsAtTheBestStepItKeepsUpWith) {
+TEST(QualityLadder, ASlowMachineEndsAtTheBestStepWithinItsBudget) {
   for (const double worst_s : {0.0004, 0.001, 0.002, 0.004, 0.008, 0.016, 0.1}) {
     QualityLadder ladder(kBudget_s);
     drive(ladder, 30.0, [&](int step) { return machine_s(step, worst_s); });
@@ -64,8 +64,8 @@ TEST(QualityLadder, GoesDownWithinAFewFramesAndClimbsAfterSeconds) {
   EXPECT_LT(waited_s, 4.0);
 }
 
-// Without a graphics card the first frames take a tenth of a second and more: nobody shall wait for nine of them.
-TEST(QualityLadder, FarTooSlowItGoesSeveralStepsAfterThreeFrames) {
+// Without a graphics card the first frames take 0.1 s and more: nine of them would be too long to wait.
+TEST(QualityLadder, GoesDownSeveralStepsAfterThreeVeryLateFrames) {
   QualityLadder ladder(kBudget_s);
   int frames = 1;
   while (!ladder.add(1.0, true)) ++frames;
@@ -73,32 +73,32 @@ TEST(QualityLadder, FarTooSlowItGoesSeveralStepsAfterThreeFrames) {
   EXPECT_EQ(ladder.step(), static_cast<int>(kQualitySteps.size()) - 1);
 }
 
-TEST(QualityLadder, OneHiccupChangesNothing) {
+TEST(QualityLadder, OneSlowFrameChangesNothing) {
   QualityLadder ladder(kBudget_s);
   int n = 0;
   EXPECT_EQ(drive(ladder, 30.0, [&](int) { return ++n % 20 == 0 ? 0.5 : 0.008; }).changes, 0);
 }
 
-// At the brink between two steps it must not flip to and fro: the waits double.
-TEST(QualityLadder, DoesNotFlipAtTheBrink) {
+// Between two steps it must not oscillate: the waits double.
+TEST(QualityLadder, DoesNotOscillateBetweenTwoSteps) {
   QualityLadder ladder(kBudget_s);
   std::mt19937 random(5);
   std::normal_distribution<double> noise(0.0, 0.1);
-  // The better step is dearer than the table knows: every climb fails.
+  // The better step costs more than the table says: every climb fails.
   const auto frame_s = [&](int step) { return (step == 0 ? 0.020 : 0.008) * (1.0 + noise(random)); };
   const int first_minute = drive(ladder, 60.0, frame_s).changes, later = drive(ladder, 240.0, frame_s).changes;
   EXPECT_LE(first_minute, 13);
   EXPECT_LE(later, 10);
 }
 
-TEST(QualityLadder, NeverChangesInTheMiddleOfAStrokeAndAtOnceAfterIt) {
+TEST(QualityLadder, NeverChangesDuringAStrokeAndChangesRightAfterIt) {
   QualityLadder ladder(kBudget_s);
   const Trace stroke = drive(
       ladder, 20.0, [](int) { return 0.050; }, [](double) { return false; });
   EXPECT_EQ(stroke.changes, 0);
   EXPECT_EQ(ladder.step(), 0);
   EXPECT_TRUE(ladder.add(0.050, true)) << "the stroke is over";
-  // Nor upwards.
+  // The same upwards.
   QualityLadder low(kBudget_s, 3);
   EXPECT_EQ(drive(
                 low, 20.0, [](int) { return 0.001; }, [](double) { return false; })

@@ -1,4 +1,4 @@
-// The volume as drawn: the surface is where it should be, skipping and carving change nothing but time and bone.
+// The drawn volume: position of the surface, identity with and without skipping, carving.
 #include <gtest/gtest.h>
 
 #include "render/gpu/gpu_error.h"
@@ -23,7 +23,7 @@ Rig closeUp(const glm::dvec3& from = {60, -200, 80}) {
   return cameraRig({.eye_P_mm = from, .look_at_P_mm = {0, 0, 0}, .fov_y_rad = 0.17}, kPx);
 }
 
-// One pass of a round bur over the outside of the ball; out of line, so that every caller rounds alike.
+// One pass of a round bur over the outside of the ball; not inlined, so that all callers round alike.
 [[gnu::noinline]] void carveGroove(assets::CtVolume& ct) {
   for (int step = 0; step < 12; ++step) {
     const glm::dvec3 bur{-3.0 + 0.5 * step, -9.0, 1.0};
@@ -91,9 +91,9 @@ TEST(RayCaster, SkippingEmptySpaceChangesNoBit) {
   }
 }
 
-// One body builds both. Drivers may contract or reorder its arithmetic differently in the two stages, so a rounding
-// step is allowed; more would be another image.
-TEST(RayCaster, FragmentAndComputeDrawOnePicture) {
+// Both are built from one body. Drivers may contract or reorder arithmetic differently in the two stages, so one
+// rounding step is allowed.
+TEST(RayCaster, FragmentAndComputeDrawTheSameImage) {
   const OffscreenContext context;
   const assets::CtVolume ct = ballVolume(smallGrid(), {{{-6, 0, 5}, 6.0}, {{7, 4, -6}, 4.0}});
   FrameRenderer fragment(ct.grid, ct.solid, ct.label),
@@ -110,7 +110,7 @@ TEST(RayCaster, FragmentAndComputeDrawOnePicture) {
   EXPECT_NO_THROW(compute.throwIfError());
 }
 
-// IEC 61966-2-1, back to light.
+// Inverse of IEC 61966-2-1.
 double lightOf(std::uint8_t srgb) {
   const double v = srgb / 255.0;
   return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
@@ -125,8 +125,8 @@ assets::MeshModel plate(double y_mm, float grey) {
   return {{part}};
 }
 
-// A slab has a closed form: of the light behind it, (1 - a)^thickness comes through, whatever the step.
-TEST(RayCaster, TranslucentMatterStopsLightByItsThickness) {
+// A slab has a closed form: it transmits (1 - a)^thickness, whatever the step.
+TEST(RayCaster, TranslucentMatterAttenuatesByThickness) {
   const OffscreenContext context;
   const assets::VolumeGrid grid = smallGrid(glm::ivec3(40), 0.5);
   std::vector<std::uint8_t> solid(grid.voxelCount(), 0);
@@ -137,7 +137,7 @@ TEST(RayCaster, TranslucentMatterStopsLightByItsThickness) {
   frame.mode = ViewMode::dvr;
   frame.quality.ambient_occlusion = frame.quality.lamp_shadow = false;
 
-  // What a plate behind the slab adds to the image, by being grey rather than black.
+  // Difference in the image between a grey and a black plate behind the slab.
   const auto plateLight = [&](std::span<const std::uint8_t> matter, double step) {
     FrameRenderer renderer(grid, matter, cortical);
     frame.quality.step_voxels = step;
@@ -163,7 +163,7 @@ TEST(RayCaster, TranslucentMatterStopsLightByItsThickness) {
     EXPECT_NEAR(plateLight(solid, step) / bare, std::exp(log_through), 0.03) << "step " << step;
 }
 
-TEST(RayCaster, CarvedBricksLookLikeAFreshUpload) {
+TEST(RayCaster, CarvedBricksEqualAFullUpload) {
   const OffscreenContext context;
   const assets::CtVolume before = ballVolume(smallGrid(), {{{0, 0, 0}, 9.0}});
   assets::CtVolume after = before;
@@ -172,7 +172,7 @@ TEST(RayCaster, CarvedBricksLookLikeAFreshUpload) {
   const Rig rig = closeUp({10, -200, 20});
   const Drawn control = drawn(carved, rig);
 
-  // Only bricks that changed are sent, in the frame that must show them.
+  // Only changed bricks are sent, in the frame that must show them.
   for (int n = 0; n < 512; ++n) {
     const glm::ivec3 brick{n % 8, n / 8 % 8, n / 64};
     const std::vector<std::uint8_t> values = brickOf(after, brick);
@@ -183,7 +183,7 @@ TEST(RayCaster, CarvedBricksLookLikeAFreshUpload) {
   EXPECT_EQ(updated.distance.mm, expected.distance.mm);
   EXPECT_GT(testing::pixelsThatDiffer(updated.image, control.image, 8), 300u);
 
-  // The next, quiet frame mends the stale distances and shows the same.
+  // The next frame, without changes, updates the stale distances and gives the same image.
   EXPECT_EQ(drawn(carved, rig).image.rgba, expected.image.rgba);
 }
 
@@ -211,7 +211,7 @@ TEST(RayCaster, ClosesTheBoneWhereTheScanEnds) {
   EXPECT_NEAR(seen.mm[static_cast<std::size_t>(60 * 160 + 80)], 200.0 - 10.0, 0.02);
 }
 
-TEST(RayCaster, LooksTheSameFromInsideTheEmptyPartOfTheVolume) {
+TEST(RayCaster, DrawsTheSameFromInsideTheEmptyPartOfTheVolume) {
   const OffscreenContext context;
   const Ball ball{{0, 10, 0}, 3.0};
   const assets::CtVolume ct = ballVolume(smallGrid(), {ball});

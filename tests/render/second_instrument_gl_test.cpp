@@ -1,4 +1,4 @@
-// What the other hand holds, in OpenGL and on the CPU.
+// The second instrument, in OpenGL and on the CPU.
 #include <gtest/gtest.h>
 
 #include "assets/instrument/dental_mirror.h"
@@ -14,9 +14,9 @@ using namespace render::testing;
 
 constexpr glm::ivec2 kPx{160, 120};
 
-/// The mirror's glass at `place_P`, square to the line to an eye at -y.
-calibration::Pose<calibration::Patient, calibration::OtherTool> facing(const glm::dvec3& place_P) {
-  return {glm::angleAxis(M_PI / 4.0, glm::dvec3(1, 0, 0)), place_P};
+/// The mirror's glass at `position_P`, facing an eye at -y.
+calibration::Pose<calibration::Patient, calibration::OtherTool> facing(const glm::dvec3& position_P) {
+  return {glm::angleAxis(M_PI / 4.0, glm::dvec3(1, 0, 0)), position_P};
 }
 
 class SecondInstrument : public ::testing::TestWithParam<Backend> {
@@ -34,7 +34,7 @@ class SecondInstrument : public ::testing::TestWithParam<Backend> {
   }
 };
 
-TEST_P(SecondInstrument, StandsWhereTheOtherHandHoldsItAndGoesOnRequest) {
+TEST_P(SecondInstrument, IsDrawnAtItsPoseAndCanBeHidden) {
   renderer_.setSecondInstrument(assets::dentalMirror());
   EXPECT_EQ(distanceAt({14, -20, 5}), 0.0f) << "not seen unless asked for";
   frame_.second_visible = true;
@@ -51,7 +51,7 @@ TEST_P(SecondInstrument, StandsWhereTheOtherHandHoldsItAndGoesOnRequest) {
   EXPECT_EQ(distanceAt({-14, -30, -5}), 0.0f);
 }
 
-TEST_P(SecondInstrument, IsHeldApartFromTheFirst) {
+TEST_P(SecondInstrument, MovesIndependentlyOfTheFirst) {
   renderer_.setInstrument(assets::surgicalHandpiece({}));
   renderer_.setSecondInstrument(assets::dentalMirror());
   frame_.tool_visible = frame_.second_visible = true;
@@ -71,7 +71,7 @@ TEST_P(SecondInstrument, IsHeldApartFromTheFirst) {
   EXPECT_EQ(distanceAt(bur), bur_mm);
   EXPECT_NE(distanceAt(mirror), mirror_mm);
 
-  // Whichever is nearer to the eye hides the other.
+  // The nearer one hides the other.
   frame_.X_PT.translation_mm = {0, -20, 0};
   frame_.X_PO = facing({0, -60, 0});
   EXPECT_NEAR(distanceAt({0, -20, 0}), 190.0, 0.5);
@@ -101,7 +101,7 @@ TEST_P(SecondInstrument, HidesTheCanalThatShowsThroughBone) {
 INSTANTIATE_TEST_SUITE_P(BackEnds, SecondInstrument, ::testing::Values(Backend::gl_fragment, Backend::cpu),
                          [](const auto& chosen) { return chosen.param == Backend::cpu ? "Cpu" : "OpenGl"; });
 
-TEST(SecondInstrumentTwin, LooksTheSameOnTheCpuAsInOpenGl) {
+TEST(SecondInstrumentTwin, IsTheSameOnTheCpuAsInOpenGl) {
   const OffscreenContext context;
   const assets::CtVolume ct = ballVolume(smallGrid(), {{{-4, 0, 0}, 8.0}, {{8, 3, 2}, 4.0}});
   FrameRenderer gl(ct.grid, ct.solid, ct.label), cpu(ct.grid, ct.solid, ct.label, {.backend = Backend::cpu});
@@ -122,7 +122,7 @@ TEST(SecondInstrumentTwin, LooksTheSameOnTheCpuAsInOpenGl) {
         images[n] = renderer->readEye(Eye::cyclopean);
         distances[n++] = renderer->readDistance(Eye::cyclopean);
       }
-      // But for pixels on a silhouette, where one meets what the other passes.
+      // Except for pixels on a silhouette, hit by one and missed by the other.
       std::size_t beyond = 0, elsewhere = 0;
       for (std::size_t i = 0; i < distances[0].mm.size(); ++i) {
         const bool is_other = std::abs(distances[0].mm[i] - distances[1].mm[i]) > 0.1f;
@@ -137,8 +137,8 @@ TEST(SecondInstrumentTwin, LooksTheSameOnTheCpuAsInOpenGl) {
     }
 }
 
-// The rays of a still eye meet still things where they met them before; what a hand holds is none of these.
-TEST(SecondInstrumentTwin, IsDrawnAnewWhereverItGoesForAnEyeThatStaysStill) {
+// Static hits of an unmoved eye are cached; instruments must not be.
+TEST(SecondInstrumentTwin, IsDrawnAtItsNewPoseForAnUnmovedEye) {
   const OffscreenContext context;
   const assets::CtVolume ct = ballVolume(smallGrid(), {{{0, 0, 0}, 6.0}});
   const auto dressed = [&] {

@@ -1,4 +1,5 @@
-// CT slices in the eye's image: the very pixels of the slice, at one place, on every back-end; nothing else changes.
+// CT slices in the eye's image: exactly the pixels of the slice, at the same position in every back-end; nothing else
+// changes.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -17,7 +18,7 @@ const glm::ivec2 kPx{200, 150};
 constexpr int kEdge = 45, kLeft = 3;  // 0.3 and 0.025 of the height
 constexpr std::array kTop{3, 52, 101};
 
-class SlicesInThePicture : public ::testing::TestWithParam<Backend> {
+class SlicesInTheImage : public ::testing::TestWithParam<Backend> {
  protected:
   const OffscreenContext context_;
   const assets::CtVolume ct_ = ballVolume(smallGrid(), {{{0.3, -0.2, 0.1}, 9.0}});
@@ -49,7 +50,7 @@ int worstBetween(const Image& shown, glm::ivec2 first, const Image& slice) {
   return worst;
 }
 
-TEST_P(SlicesInThePicture, AreThePixelsOfTheSlicesAndNothingElseChanges) {
+TEST_P(SlicesInTheImage, AreThePixelsOfTheSlicesAndNothingElseChanges) {
   for (const int samples : {1, 2}) {
     const auto drawing = renderer(samples);
     const Frame with = frame(true);
@@ -60,7 +61,7 @@ TEST_P(SlicesInThePicture, AreThePixelsOfTheSlicesAndNothingElseChanges) {
     const Image shown = drawing->readEye(Eye::left);
     EXPECT_EQ(drawing->readDistance(Eye::left).mm, plain_distance.mm);
     for (std::size_t n = 0; n < 3; ++n)
-      // Half floats near white hold no more.
+      // Resolution of half floats near white.
       EXPECT_LE(worstBetween(shown, {kLeft, kTop[n]}, drawing->slice(kSlicePlanes[n], with, kEdge)), 2) << n;
     for (int y = 0; y < kPx.y; ++y)
       for (int x = kLeft + kEdge; x < kPx.x; ++x)
@@ -69,11 +70,11 @@ TEST_P(SlicesInThePicture, AreThePixelsOfTheSlicesAndNothingElseChanges) {
           ASSERT_EQ(shown.rgba[at], plain.rgba[at]) << x << " " << y;
         }
     drawing->renderEye(frame(false), Eye::left);
-    EXPECT_EQ(drawing->readEye(Eye::left).rgba, plain.rgba);  // and they go again
+    EXPECT_EQ(drawing->readEye(Eye::left).rgba, plain.rgba);  // and they can be removed
   }
 }
 
-TEST_P(SlicesInThePicture, LieAtOnePlaceInBothEyes) {
+TEST_P(SlicesInTheImage, HaveTheSamePositionInBothEyes) {
   const auto drawing = renderer();
   Frame with = frame(true);
   with.rig.left_eye.mm.x -= 30.0;
@@ -84,7 +85,7 @@ TEST_P(SlicesInThePicture, LieAtOnePlaceInBothEyes) {
   }
 }
 
-TEST_P(SlicesInThePicture, AreUprightForTheViewerThroughAMirror) {
+TEST_P(SlicesInTheImage, AreUprightForTheViewerThroughAMirror) {
   const auto drawing = renderer();
   Frame direct = frame(true);
   direct.rig.left_eye.mm.x -= 30.0;
@@ -95,7 +96,7 @@ TEST_P(SlicesInThePicture, AreUprightForTheViewerThroughAMirror) {
   const Image seen = drawing->readEye(Eye::left);
   drawing->renderEye(mirrored, Eye::left);
   const Image on_panel = drawing->readEye(Eye::left);
-  // The panel's image, turned over by the mirror, is the direct one.
+  // The panel's image, flipped by the mirror, equals the direct one.
   int differ = 0;
   for (int y = 0; y < kPx.y; ++y)
     for (int x = 0; x < kEdge; ++x) {
@@ -107,7 +108,7 @@ TEST_P(SlicesInThePicture, AreUprightForTheViewerThroughAMirror) {
   EXPECT_LT(differ, 30);
 }
 
-INSTANTIATE_TEST_SUITE_P(Backends, SlicesInThePicture, ::testing::Values(Backend::gl_fragment, Backend::cpu),
+INSTANTIATE_TEST_SUITE_P(Backends, SlicesInTheImage, ::testing::Values(Backend::gl_fragment, Backend::cpu),
                          [](const auto& given) { return given.param == Backend::cpu ? "Cpu" : "Gl"; });
 
 }  // namespace

@@ -22,7 +22,7 @@ BorderedField<std::uint16_t> smoothed(const assets::CtVolume& ct, const std::vec
   return smooth;
 }
 
-TEST(SmoothField, EqualsTheTripleSumWrittenOut) {
+TEST(SmoothField, EqualsTheDirectTripleSum) {
   Random random(41);
   const assets::CtVolume ct = randomVolume(random, {9, 11, 7});
   const BorderedField<std::uint16_t> values = smoothed(ct, {{{0, 0, 0}, ct.grid.size}});
@@ -40,7 +40,7 @@ TEST(SmoothField, EqualsTheTripleSumWrittenOut) {
   }
 }
 
-TEST(SmoothField, IsTheSameInBoxesAsAtOnce) {
+TEST(SmoothField, IsTheSameByBoxesAsForTheWholeVolume) {
   Random random(42);
   const assets::CtVolume ct = randomVolume(random, {20, 17, 23});
   const BorderedField<std::uint16_t> whole = smoothed(ct, {{{0, 0, 0}, ct.grid.size}});

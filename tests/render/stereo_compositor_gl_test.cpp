@@ -12,12 +12,12 @@
 namespace render {
 namespace {
 
-// An eye's image of random light, rows from the top, with the texture that holds it.
+// An eye's image of random light, top row first, and its texture.
 struct RandomEye {
   RandomEye(glm::ivec2 size, unsigned seed) : px(size), texture(Texture::image(size, TexelFormat::rgba8)) {
     std::mt19937 random(seed);
     for (int i = 0; i < 4 * px.x * px.y; ++i) bytes.push_back(static_cast<std::uint8_t>(random() & 255u));
-    // OpenGL's rows run from the bottom.
+    // OpenGL's bottom row is first.
     std::vector<std::uint8_t> from_below;
     for (int y = px.y - 1; y >= 0; --y)
       from_below.insert(from_below.end(), bytes.begin() + 4 * y * px.x, bytes.begin() + 4 * (y + 1) * px.x);
@@ -35,7 +35,7 @@ struct RandomEye {
   Texture texture;
 };
 
-// What the output pass does to light, said slowly.
+// The output pass for one value, in double.
 glm::dvec3 shouldered(const glm::dvec3& x) {
   const glm::dvec3 over = glm::max(x - 0.7, 0.0) / 0.3;
   return glm::min(x, 0.7) + 0.3 * (over / (1.0 + over));
@@ -43,7 +43,7 @@ glm::dvec3 shouldered(const glm::dvec3& x) {
 
 double encoded(double x) { return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055; }
 
-// Light at a pixel of the eye's place, bilinearly where the image is smaller.
+// Light at a pixel of the eye's area, bilinear if the image is smaller.
 glm::dvec3 seen(const RandomEye& eye, glm::ivec2 place_px, glm::ivec2 px) {
   if (eye.px == place_px) return shouldered(eye.at(px));
   const glm::dvec2 at = (glm::dvec2(px) + 0.5) * glm::dvec2(eye.px) / glm::dvec2(place_px) - 0.5;
@@ -52,7 +52,7 @@ glm::dvec3 seen(const RandomEye& eye, glm::ivec2 place_px, glm::ivec2 px) {
   return glm::mix(glm::mix(tap(0, 0), tap(1, 0), part.x), glm::mix(tap(0, 1), tap(1, 1), part.x), part.y);
 }
 
-// The worst difference of any channel of any pixel, in steps of 255, between the shader and the layout in C++.
+// Largest channel difference, of 255, between the shader and the layout in C++.
 int worstDifference(StereoCompositor& compositor, StereoLayout layout, const RandomEye& left, const RandomEye& right) {
   const glm::ivec2 size = outputSize(layout.mode, layout.screen_px),
                    place = eyeImageSize(layout.mode, layout.screen_px);
@@ -86,12 +86,12 @@ TEST(StereoCompositor, EveryPixelOfEveryModeShowsWhatTheLayoutSays) {
       for (const glm::ivec2 at : {glm::ivec2(0, 0), glm::ivec2(3, 0), glm::ivec2(0, 5), glm::ivec2(-1, 1)}) {
         const StereoLayout layout{.mode = one.mode, .screen_px = {50, 48}, .at_px = at, .swapped = swapped};
         const glm::ivec2 eye_px = eyeImageSize(one.mode, layout.screen_px);
-        // A step of 255 for rounding in float.
+        // One step for rounding in float.
         EXPECT_LE(worstDifference(compositor, layout, RandomEye(eye_px, 1), RandomEye(eye_px, 2)), 1) << one.name;
       }
 }
 
-TEST(StereoCompositor, SmallerPicturesAreStretchedBilinearly) {
+TEST(StereoCompositor, SmallerImagesAreScaledBilinearly) {
   const OffscreenContext context;
   StereoCompositor compositor;
   for (const DisplayModeName& one : kDisplayModes) {
@@ -101,7 +101,7 @@ TEST(StereoCompositor, SmallerPicturesAreStretchedBilinearly) {
   }
 }
 
-TEST(StereoCompositor, AnotherLayoutIsAnotherPicture) {
+TEST(StereoCompositor, AnotherLayoutGivesAnotherImage) {
   const OffscreenContext context;
   const RandomEye left({50, 48}, 1), right({50, 48}, 2);
   StereoCompositor compositor;

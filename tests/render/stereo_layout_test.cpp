@@ -12,7 +12,7 @@ namespace {
 
 constexpr glm::ivec2 kScreen{12, 8};
 
-// How often every pixel of either eye is shown over all outputs of a mode, and how many output pixels are black.
+// Counts how often every pixel of either eye is shown over all outputs of a mode, and the black output pixels.
 struct Census {
   std::map<std::pair<int, int>, int> left, right;
   int black = 0, cyclopean = 0, both = 0;
@@ -105,7 +105,7 @@ TEST(StereoLayout, PackedFramesHaveTheSizesAndGapsOfHdmi) {
   EXPECT_FALSE(isPackable({1920, 1200}));
 }
 
-TEST(StereoLayout, InterleavedPixelsStayWhereTheyAreAndAlternate) {
+TEST(StereoLayout, InterleavedPixelsKeepTheirPositionsAndAlternate) {
   for (int y = 0; y < kScreen.y; ++y)
     for (int x = 0; x < kScreen.x; ++x) {
       const auto eyeIn = [&](DisplayMode mode) {
@@ -119,7 +119,7 @@ TEST(StereoLayout, InterleavedPixelsStayWhereTheyAreAndAlternate) {
     }
 }
 
-// The panel's polarisers do not move with the window: the same place on the panel is always the same eye's.
+// The panel's polarisers do not move with the window: a position on the panel always belongs to the same eye.
 TEST(StereoLayout, ParityFollowsThePanelWhereverTheWindowIs) {
   for (const DisplayMode mode :
        {DisplayMode::row_interleaved, DisplayMode::column_interleaved, DisplayMode::checkerboard})
@@ -164,7 +164,7 @@ TEST(Anaglyph, KeepsWhiteAndBlackAndGivesEachEyeItsChannels) {
     EXPECT_GT(anaglyph(mode, black, white).g, 0.99);
     EXPECT_GT(anaglyph(mode, black, white).b, 0.99);
   }
-  // Pure red is dark behind the cyan filter with plain channels; least squares spreads it over both eyes.
+  // With plain channels pure red is dark behind the cyan filter; least squares distributes it over both eyes.
   const glm::dvec3 red(1.0, 0.0, 0.0);
   EXPECT_EQ(anaglyph(DisplayMode::anaglyph_red_cyan, red, red), red);
   EXPECT_GT(anaglyph(DisplayMode::anaglyph, red, red).g, 0.3);

@@ -58,7 +58,7 @@ TEST(VolumeFields, CarvedBrickByBrickEqualTheFieldsOfWhatIsLeft) {
   }
 }
 
-TEST(VolumeFields, TellExactlyWhatTheyWrote) {
+TEST(VolumeFields, ReportExactlyTheBoxesTheyWrote) {
   Random random(72);
   const assets::VolumeGrid grid = testing::smallGrid({40, 33, 48});
   assets::CtVolume ct = testing::ballVolume(grid, {{{0, 0, 0}, 9.0}});
@@ -87,7 +87,7 @@ TEST(VolumeFields, TellExactlyWhatTheyWrote) {
   }
 }
 
-TEST(VolumeFields, SayNothingChangedWhenNothingDid) {
+TEST(VolumeFields, ReportNoChangeWhenNothingChanged) {
   const assets::CtVolume ct = testing::ballVolume(testing::smallGrid(), {{{0, 0, 0}, 6.0}});
   VolumeFields fields(ct.grid, ct.solid, ct.label);
   fields.updateBrick({3, 3, 3}, bricksOwn(ct, {3, 3, 3}));
@@ -102,7 +102,7 @@ TEST(VolumeFields, RefuseValuesThatAreNotOnePerVoxel) {
   EXPECT_NO_THROW(VolumeFields(ct.grid, ct.solid, {}));
 }
 
-TEST(LookField, IsTheTissuesOwnLookDeepInside) {
+TEST(AppearanceField, IsThatOfTheTissueDeepInside) {
   assets::CtVolume ct = testing::ballVolume(testing::smallGrid(glm::ivec3(20)), {});
   std::ranges::fill(ct.solid, std::uint8_t{255});
   std::ranges::fill(ct.label, static_cast<std::uint8_t>(assets::Tissue::enamel));
@@ -112,7 +112,7 @@ TEST(LookField, IsTheTissuesOwnLookDeepInside) {
   EXPECT_EQ(appearance.a, 1.0f);
 }
 
-TEST(LookField, MeltsHalfAndHalfAtABorderAndIgnoresTheAirBesideASurface) {
+TEST(AppearanceField, BlendsEquallyAtABoundaryAndIgnoresAirNextToASurface) {
   assets::CtVolume ct = testing::ballVolume(testing::smallGrid(glm::ivec3(24)), {});
   for (int n = 0; n < static_cast<int>(ct.solid.size()); ++n) {
     const int i = n % 24, k = n / (24 * 24);

@@ -1,4 +1,4 @@
-// Needs an X display for all but the refusal: run under xvfb-run where there is none.
+// Needs an X display except for the refusal: use xvfb-run where there is none.
 #include "render/display/window.h"
 
 #include <gtest/gtest.h>
@@ -59,7 +59,7 @@ TEST(Window, ASecondWindowShowsWhatTheFirstDrew) {
   Window second({.size_px = {160, 120}, .wait_for_refresh = false, .focused = false, .share_with = &first});
   drawn.waitOnGpu();
   renderer.showOnWindow({.size_px = {160, 120}}, 1);
-  // What the window got is what the renderer has for the right eye, not for the left.
+  // The window shows the right eye's output.
   EXPECT_EQ(testing::windowPixels({160, 120}), renderer.readImage(1).rgba);
   EXPECT_NE(renderer.readImage(0).rgba, renderer.readImage(1).rgba);
   renderer.showBystander({.size_px = {160, 120}});
@@ -78,11 +78,11 @@ TEST(Window, QuadBufferedStereoIsRefusedInOneLineWhereTheDriverHasNone) {
     EXPECT_NE(std::string(error.what()).find("quad-buffered"), std::string::npos);
     EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
   }
-  // The next best still opens.
+  // A window without stereo still opens.
   EXPECT_NO_THROW(Window({.size_px = {160, 120}}));
 }
 
-TEST(Window, KnowsItsPlaceOnThePanelAndRefusesAMonitorThatIsNotThere) {
+TEST(Window, KnowsItsPositionOnThePanelAndRefusesAMissingMonitor) {
   if (!hasDisplay()) GTEST_SKIP() << "no DISPLAY: run under xvfb-run";
   ASSERT_GE(monitors().size(), 1u);
   EXPECT_GT(monitors()[0].px.x, 0);

@@ -1,4 +1,4 @@
-// Reads the current window's back buffer: for tests of what was put there.
+// Reads the back buffer of the current window.
 #pragma once
 
 #include <epoxy/gl.h>

@@ -17,7 +17,7 @@ using namespace render::testing;
 
 constexpr glm::ivec2 kPx{160, 120};
 
-// A ball of triangles with soft normals.
+// A ball of triangles with smooth normals.
 assets::MeshPart ballMesh(glm::vec3 centre, float radius, glm::vec4 colour, int rings = 24) {
   assets::MeshPart part;
   part.name = "Ball";
@@ -41,12 +41,12 @@ assets::MeshPart ballMesh(glm::vec3 centre, float radius, glm::vec4 colour, int 
 }
 
 struct Difference {
-  int worst = 0, beyond = 0;  ///< of 255; pixels more than two apart
+  int worst = 0, beyond = 0;  ///< largest difference of 255; pixels that differ by more than two
   double worst_mm = 0.0;
   int other_mm = 0;  ///< pixels whose discrete hit differs
 };
 
-// Pixels at which the two found another thing, by distance, are counted apart.
+// Pixels with different hits, by distance, are counted separately.
 Difference between(FrameRenderer& a, FrameRenderer& b, const Frame& frame, Eye eye) {
   a.renderEye(frame, eye);
   b.renderEye(frame, eye);
@@ -100,7 +100,7 @@ TEST_F(CpuScene, DrawsToothAndBoneAsTheShaderDoes) {
   EXPECT_LE(d.other_mm, 4);
 }
 
-TEST_F(CpuScene, DrawsMeshesAndTheirMeetingWithTheVolumeAsTheShadersDo) {
+TEST_F(CpuScene, DrawsMeshesAndTheirIntersectionWithTheVolumeAsTheShadersDo) {
   open();
   both([](FrameRenderer& r) {
     r.setFace({{ballMesh({-8, -6, 6}, 8.0f, {0.8f, 0.6f, 0.5f, 1.0f})}});
@@ -137,7 +137,7 @@ TEST_F(CpuScene, DrawsTranslucentBoneAsTheShaderDoes) {
   EXPECT_LE(d.worst, 2);
 }
 
-TEST_F(CpuScene, LeavesOutShadeAndShadowAsTheShadersDo) {
+TEST_F(CpuScene, OmitsOcclusionAndShadowAsTheShadersDo) {
   open();
   both([](FrameRenderer& r) { r.setGingiva({{ballMesh({6, -6, -4}, 5.0f, {0.7f, 0.3f, 0.3f, 1.0f})}}); });
   Frame f = frame();
@@ -186,7 +186,7 @@ TEST_F(CpuScene, ShowsGuidesAsTheShadersDo) {
   EXPECT_LE(between(*gl_, *cpu_, f, Eye::cyclopean).beyond, 6) << "at the rims of the tube and the ghost";
 }
 
-TEST_F(CpuScene, KeepsWhatAStillEyeMeetsAndForgetsItWhenAnythingStillChanges) {
+TEST_F(CpuScene, CachesStaticHitsOfAnUnmovedEyeUntilStaticMeshesChange) {
   open();
   const auto dress = [](FrameRenderer& r) {
     r.setFace({{ballMesh({-8, -6, 6}, 8.0f, {0.8f, 0.6f, 0.5f, 1.0f})}});
@@ -196,7 +196,7 @@ TEST_F(CpuScene, KeepsWhatAStillEyeMeetsAndForgetsItWhenAnythingStillChanges) {
   dress(*cpu_);
   Frame f = frame();
   f.tool_visible = true;
-  // Each change against a renderer that has seen nothing before.
+  // Each change against a new renderer.
   const auto expectFresh = [&](const char* what) {
     cpu_->renderEye(f, Eye::left);
     FrameRenderer fresh(ct_.grid, ct_.solid, ct_.label, {.backend = Backend::cpu});
@@ -239,8 +239,8 @@ TEST_F(CpuScene, DrawsTheSameBitsWithAnyNumberOfThreads) {
   }
 }
 
-// Two spheres, one of triangles and one in the volume, meet in a circle that is known.
-TEST_F(CpuScene, MeshAndVolumeMeetAlongTheAnalyticCircle) {
+// Two spheres, one of triangles and one in the volume, intersect in a known circle.
+TEST_F(CpuScene, MeshAndVolumeIntersectOnTheAnalyticCircle) {
   const Ball bone{{-4, 0, 0}, 8.0}, mesh{{2, -4, 3}, 7.0};
   ct_ = ballVolume(smallGrid(glm::ivec3(96), 0.35), {bone});
   open();
@@ -250,7 +250,7 @@ TEST_F(CpuScene, MeshAndVolumeMeetAlongTheAnalyticCircle) {
   const Image image = cpu_->readEye(Eye::cyclopean);
   const EyeView view = eyeView(f.rig, Eye::cyclopean);
   const glm::dvec3 eye = eye_P_mm(f.rig, view);
-  // Which is nearer, 1 mesh, 2 bone, 0 neither; wherever a pixel and its eight neighbours agree, the image must too.
+  // The nearer one: 1 mesh, 2 bone, 0 neither; the image must agree where a pixel and its eight neighbours are equal.
   const auto expected = [&](int x, int y) {
     const glm::dvec3 d = rayDirection_P(f.rig, view, x, y);
     const auto m = distanceToBall_mm(eye, d, mesh), b = distanceToBall_mm(eye, d, bone);
@@ -274,8 +274,8 @@ TEST_F(CpuScene, MeshAndVolumeMeetAlongTheAnalyticCircle) {
   EXPECT_GT(kinds[2], 150);
 }
 
-TEST_F(CpuScene, LaysTranslucentGumOverBoneAsTheShadersDo) {
-  // A closed ball around bone and a faded face through it: up to four layers a ray, in any order of triangles.
+TEST_F(CpuScene, BlendsTranslucentGingivaOverBoneAsTheShadersDo) {
+  // A closed ball around bone and a faded face through it: up to four layers per ray.
   open();
   both([](FrameRenderer& r) {
     r.setGingiva({{ballMesh({-4, 0, 0}, 9.0f, {0.7f, 0.3f, 0.3f, 0.5f})}});
@@ -287,7 +287,7 @@ TEST_F(CpuScene, LaysTranslucentGumOverBoneAsTheShadersDo) {
   EXPECT_LE(d.beyond, 4) << "at the layers' rims, whose distance is not written";
 }
 
-TEST_F(CpuScene, SeesAMirroredRigAsTheShadersDo) {
+TEST_F(CpuScene, DrawsAMirroredRigAsTheShadersDo) {
   open();
   both([](FrameRenderer& r) { r.setFace({{ballMesh({-8, -6, 6}, 8.0f, {0.8f, 0.6f, 0.5f, 1.0f})}}); });
   Random random(11);

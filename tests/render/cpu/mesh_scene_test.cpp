@@ -69,7 +69,7 @@ MeshPoints layersOf(const MeshScene& scene, const RayBatch& batch, float limit_m
   return points;
 }
 
-// Moeller & Trumbore 1997, in double: the slow and obvious way.
+// Moeller & Trumbore 1997, in double.
 std::optional<double> distanceTo(const glm::dvec3& o, const glm::dvec3& d, const glm::dvec3& a, const glm::dvec3& b,
                                  const glm::dvec3& c) {
   const glm::dvec3 e = b - a, f = c - a, p = glm::cross(d, f);
@@ -80,14 +80,14 @@ std::optional<double> distanceTo(const glm::dvec3& o, const glm::dvec3& d, const
   return t;
 }
 
-TEST(MeshScene, MeetsNothingWhenItIsEmpty) {
+TEST(MeshScene, HasNoHitsWhenItIsEmpty) {
   MeshScene scene;
   const Met met = first(scene, rays({0, 0, 50}, {{0, 0, -1}}));
   EXPECT_EQ(met.points.count, 0);
   EXPECT_EQ(met.distance_mm[0], 0.0f);
 }
 
-TEST(MeshScene, GivesDistanceColourAndWhichSideIsSeen) {
+TEST(MeshScene, GivesDistanceColourAndVisibleSide) {
   MeshScene scene;
   scene.setModel(Model::gingiva, {{sheet(0.0f)}});
   const Met front = first(scene, rays({0, 1, 50}, {{0, 0, -1}}));
@@ -149,7 +149,7 @@ TEST(MeshScene, FindsTheFirstOfManyTrianglesAsAnExhaustiveSearchDoes) {
 }
 
 TEST(MeshScene, HasNoPinholesAlongSharedEdges) {
-  // A bumpy sheet of 40x40 squares: every ray through it must meet it.
+  // A bumpy sheet of 40x40 squares: every ray through it must hit it.
   assets::MeshPart part;
   part.name = "Sheet";
   for (int j = 0; j <= 40; ++j)
@@ -165,7 +165,7 @@ TEST(MeshScene, HasNoPinholesAlongSharedEdges) {
   MeshScene scene;
   scene.setModel(Model::face, {{part}});
   for (int j = -15; j <= 15; ++j) {
-    // Through the very corners, where three and more triangles meet.
+    // Exactly through vertices, where several triangles meet.
     std::vector<glm::vec3> directions;
     const glm::vec3 from{0.3f, 0.2f, 100.0f};
     for (int i = -15; i <= 15; ++i)
@@ -174,7 +174,7 @@ TEST(MeshScene, HasNoPinholesAlongSharedEdges) {
   }
 }
 
-TEST(MeshScene, CutsTheWindowIntoSkinBeforeTheSiteAlone) {
+TEST(MeshScene, CutsTheWindowOnlyIntoSkinInFrontOfTheSite) {
   assets::MeshPart steel = sheet(10.0f);
   steel.material.metallic = 1.0f;
   MeshScene scene;
@@ -189,7 +189,7 @@ TEST(MeshScene, CutsTheWindowIntoSkinBeforeTheSiteAlone) {
   EXPECT_FLOAT_EQ(met.distance_mm[0], 120.0f) << "behind the site nothing is cut";
 }
 
-TEST(MeshScene, MovesTheInstrumentAndTurnsItsBur) {
+TEST(MeshScene, MovesTheInstrumentAndRotatesItsBur) {
   assets::MeshPart bur = triangle({1, -1, 0}, {3, -1, 0}, {2, 2, 0});
   bur.name = "Bur";
   MeshScene scene;
@@ -198,7 +198,7 @@ TEST(MeshScene, MovesTheInstrumentAndTurnsItsBur) {
   frame.X_PT.translation_mm = {100, 0, 0};
   frame.bur_angle_rad = 1.5707963267948966;
   scene.place(placementsIn(frame));
-  // Turned a quarter, the corner (2, 0, 0) of the tool lies at (0, 2, 0).
+  // After a quarter turn the corner (2, 0, 0) of the tool is at (0, 2, 0).
   const Met turned = first(scene, rays({100, 2, 10}, {{0, 0, -1}}));
   ASSERT_EQ(turned.points.count, 1);
   EXPECT_NEAR(turned.distance_mm[0], 10.0, 1e-4);
@@ -209,7 +209,7 @@ TEST(MeshScene, MovesTheInstrumentAndTurnsItsBur) {
   EXPECT_EQ(first(scene, rays({100, 2, 10}, {{0, 0, -1}})).points.count, 0);
 }
 
-TEST(MeshScene, MovesTheSecondInstrumentWithoutForgettingWhatIsStill) {
+TEST(MeshScene, MovesTheSecondInstrumentAndKeepsStaticHits) {
   MeshScene scene;
   scene.setModel(Model::gingiva, {{sheet(0.0f)}});
   scene.setModel(Model::instrument, {{sheet(10.0f)}});
@@ -262,7 +262,7 @@ TEST(MeshScene, CollectsLayersFromBackToFrontAsASlowSortDoes) {
   EXPECT_EQ(layersOf(scene, rays({0, 1, 100}, {{0, 0, -1}}), 50.0f).count, 0) << "behind what is opaque";
 }
 
-TEST(MeshScene, MakesAFadedFaceALayerAndAHiddenOneNothing) {
+TEST(MeshScene, TreatsAFadedFaceAsALayerAndOmitsAHiddenOne) {
   MeshScene scene;
   scene.setModel(Model::face, {{sheet(0.0f)}});
   const RayBatch batch = rays({0, 1, 100}, {{0, 0, -1}});
@@ -280,7 +280,7 @@ TEST(MeshScene, MakesAFadedFaceALayerAndAHiddenOneNothing) {
   EXPECT_EQ(first(scene, batch).points.count, 1);
 }
 
-TEST(MeshScene, LooksUpOnlyWhatNothingHides) {
+TEST(MeshScene, LooksUpOnlyVisibleHits) {
   MeshScene scene;
   scene.setModel(Model::face, {{sheet(0.0f)}});
   const RayBatch batch = rays({0, 1, 100}, {{0, 0, -1}, {0, 0, -1}, {0, 1, 0}});

@@ -30,7 +30,7 @@ struct Lit {
   glm::dvec3 at(std::size_t n) const { return {r[n], g[n], b[n]}; }
 };
 
-// An eye at the origin looking down -z at a place 100 mm away, lit from `to_lamp` seen from there.
+// An eye at the origin looking along -z at a point 100 mm away, lit from direction `to_lamp`.
 ShadeScene theatre(glm::vec3 to_lamp) {
   const glm::vec3 place(0, 0, -100), lamp = place + 500.0f * to_lamp;
   ShadeScene scene;
@@ -64,14 +64,14 @@ glm::dvec3 lightOn(const ShadeScene& scene, const MeshPoints& points, Instructio
   return lit.at(0);
 }
 
-// What the lamp alone adds: the same place less one whose lamp stands behind it.
+// The lamp's contribution: the light minus that with the lamp behind the surface.
 glm::dvec3 ofTheLamp(glm::vec3 to_lamp, const MeshPoints& points, InstructionSet set) {
   return lightOn(theatre(to_lamp), points, set) - lightOn(theatre({0, 0, -1}), points, set);
 }
 
-TEST(ShadeKernels, FallByTheCosineOnADullWhiteSurface) {
+TEST(ShadeKernels, FollowTheCosineOnADullWhiteSurface) {
   for (const InstructionSet set : sets()) {
-    // Of two surfaces with the same highlight only the white one also scatters: albedo / pi * cosine.
+    // Of two surfaces with the same highlight only the white one scatters: albedo / pi * cosine.
     const glm::vec3 aslant(std::sqrt(0.75f), 0.0f, 0.5f);
     const glm::dvec3 white = ofTheLamp(aslant, place(glm::vec3(1.0f), 1.0f), set);
     const glm::dvec3 black = ofTheLamp(aslant, place(glm::vec3(0.0f), 1.0f), set);
@@ -81,7 +81,7 @@ TEST(ShadeKernels, FallByTheCosineOnADullWhiteSurface) {
   }
 }
 
-TEST(ShadeKernels, MirrorTheLampByGgxAtNormalIncidence) {
+TEST(ShadeKernels, ReflectTheLampByGgxAtNormalIncidence) {
   for (const InstructionSet set : sets()) {
     // n = l = v: Fresnel f0, D = 1 / (pi a^2), visibility 1/4.
     const double a2 = std::pow(0.5, 4.0), lamp[] = {LAMP_LIGHT};
@@ -90,9 +90,9 @@ TEST(ShadeKernels, MirrorTheLampByGgxAtNormalIncidence) {
   }
 }
 
-TEST(ShadeKernels, LightCreepsRoundSkinAndNotRoundSteel) {
+TEST(ShadeKernels, WrapLightAroundSkinAndNotAroundSteel) {
   for (const InstructionSet set : sets()) {
-    const glm::vec3 past(std::sqrt(1.0f - 0.01f), 0.0f, -0.1f);  // a little behind the edge
+    const glm::vec3 past(std::sqrt(1.0f - 0.01f), 0.0f, -0.1f);  // slightly behind the terminator
     EXPECT_NEAR(ofTheLamp(past, place(glm::vec3(0.8f), 0.6f), set).r, 0.0, 1e-6);
     const glm::dvec3 skin = ofTheLamp(past, place({0.8f, 0.5f, 0.4f}, 0.6f, FINISH_SKIN), set);
     EXPECT_GT(skin.r, 0.02);
@@ -100,7 +100,7 @@ TEST(ShadeKernels, LightCreepsRoundSkinAndNotRoundSteel) {
   }
 }
 
-TEST(ShadeKernels, TurnTheNormalOfAnInsideAndDimIt) {
+TEST(ShadeKernels, FlipTheNormalOfABackFaceAndDimIt) {
   for (const InstructionSet set : sets()) {
     MeshPoints inside = place(glm::vec3(0.5f), 0.8f, FINISH_GINGIVA, {0, 0, -1});
     inside.faces_eye[0] = 0;
@@ -110,7 +110,7 @@ TEST(ShadeKernels, TurnTheNormalOfAnInsideAndDimIt) {
   }
 }
 
-TEST(ShadeKernels, AimRaysThroughPlacesOfThePicture) {
+TEST(ShadeKernels, AimRaysThroughPointsOfTheImage) {
   for (const InstructionSet set : sets()) {
     EyeBlock eye{};
     eye.eye_P = {10, 20, 300, 0};
@@ -129,18 +129,18 @@ TEST(ShadeKernels, AimRaysThroughPlacesOfThePicture) {
   }
 }
 
-TEST(ShadeKernels, RollBrightLightOffAndLeaveTheRest) {
+TEST(ShadeKernels, RollOffBrightLightOnly) {
   for (const InstructionSet set : sets()) {
     Lit lit;
     lit.r[0] = 0.6f, lit.r[1] = 1.0f, lit.r[2] = 1000.0f;
     shadeKernels(set).shoulder(lit.light(), 3);
     EXPECT_FLOAT_EQ(lit.r[0], 0.6f);
-    EXPECT_FLOAT_EQ(lit.r[1], 0.85f);  // one knee's rest above the knee: half of it
+    EXPECT_FLOAT_EQ(lit.r[1], 0.85f);  // as far above the knee as 1 is: half of the rest
     EXPECT_NEAR(lit.r[2], 1.0f, 1e-3);
   }
 }
 
-TEST(ShadeKernels, EncodeSrgbLittleBeyondRounding) {
+TEST(ShadeKernels, EncodeSrgbWithinTheStatedError) {
   constexpr int kSteps = 1 << 16;
   std::vector<float> x(kSteps + 16);
   for (int i = 0; i <= kSteps; ++i) x[static_cast<std::size_t>(i)] = static_cast<float>(i) / kSteps;
@@ -159,7 +159,7 @@ TEST(ShadeKernels, EncodeSrgbLittleBeyondRounding) {
   }
 }
 
-TEST(ShadeKernels, EncodeWhatLiesOutsideAsTheNearestEnd) {
+TEST(ShadeKernels, ClampValuesOutsideTheRange) {
   const float odd[16] = {-3.0f, 1.0001f, 1e30f, -0.0f, 7.0f};
   for (const InstructionSet set : sets()) {
     std::uint32_t rgba[6] = {0, 0, 0, 0, 0, 42};

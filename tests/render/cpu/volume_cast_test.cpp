@@ -28,7 +28,7 @@ void forVoxels(glm::ivec3 size, Value visit) {
 
 std::uint8_t grey(double solid) { return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(solid, 0.0, 1.0))); }
 
-/// Balls, a plate and specks in a volume whose sides are no multiples of a brick.
+/// Balls, a plate and specks in a volume whose size is no multiple of a brick.
 Scene lumps(unsigned seed, glm::ivec3 size = {53, 41, 46}) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -48,7 +48,7 @@ Scene lumps(unsigned seed, glm::ivec3 size = {53, 41, 46}) {
   return scene;
 }
 
-/// A image's tile of rays, 16 x 16, from an eye towards a place.
+/// A tile of 16 x 16 rays from an eye towards a point.
 RayBatch tile(glm::dvec3 eye, glm::dvec3 look_at, double spread) {
   RayBatch rays;
   const glm::dvec3 forward = glm::normalize(look_at - eye);
@@ -73,7 +73,7 @@ struct View {
   std::array<float, RayBatch::kMaxRays> limit_mm{};
 };
 
-/// From anywhere, inside too; some along an axis, some past the volume.
+/// From random points, also inside; some along an axis, some missing the volume.
 View randomView(std::mt19937& random, glm::ivec3 size) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   View view;
@@ -97,7 +97,7 @@ std::vector<InstructionSet> setsHere() {
   return all;
 }
 
-/// Ray by ray, every bit of every number. Rays that are walked together may take turns: only each one's order counts.
+/// Ray by ray, bit by bit. Rays are interleaved in any order: only the order within a ray counts.
 std::string text(const VolumePoints& points) {
   std::vector<std::size_t> order(static_cast<std::size_t>(points.count));
   for (std::size_t n = 0; n < order.size(); ++n) order[n] = n;
@@ -134,7 +134,7 @@ VolumePoints throughOf(const SolidCells& cells, const Scene& scene, const View& 
   return points;
 }
 
-// Slow and obvious, in double, straight from the specification in shaders/ray_march.glsl.
+// Straightforward version in double, from the specification in shaders/ray_march.glsl.
 struct Twin {
   const Scene& scene;
 
@@ -202,7 +202,7 @@ struct Twin {
   }
 };
 
-TEST(VolumeCast, SkippingFindsTheSurfaceOfBruteForceToTheBit) {
+TEST(VolumeCast, SurfaceSkippingEqualsBruteForceToTheBit) {
   std::mt19937 random(11);
   int hits = 0;
   for (unsigned seed = 0; seed < 6; ++seed) {
@@ -220,7 +220,7 @@ TEST(VolumeCast, SkippingFindsTheSurfaceOfBruteForceToTheBit) {
   EXPECT_GT(hits, 5000);
 }
 
-TEST(VolumeCast, SkippingSeesThroughTheVolumeLikeBruteForceToTheBit) {
+TEST(VolumeCast, TranslucentSkippingEqualsBruteForceToTheBit) {
   std::mt19937 random(12);
   int shown = 0;
   for (unsigned seed = 10; seed < 14; ++seed) {
@@ -241,7 +241,7 @@ TEST(VolumeCast, SkippingSeesThroughTheVolumeLikeBruteForceToTheBit) {
   EXPECT_GT(shown, 20000);
 }
 
-TEST(VolumeCast, EveryStepKeepsSkippingExact) {
+TEST(VolumeCast, SkippingIsExactForEveryStep) {
   std::mt19937 random(13);
   const Scene scene = lumps(3);
   const SolidCells cells(scene.solid);
@@ -270,7 +270,7 @@ TEST(VolumeCast, AgreesWithTheSlowTwinInDouble) {
           length[static_cast<std::size_t>(points.ray[p])] = static_cast<double>(points.length[p]);
         for (std::size_t r = 0; r < length.size(); ++r, ++rays) {
           const double exact = twin.surface(view, r);
-          // A ray that only grazes 0.5 may fall either way; and bisection may end one of its 64 places off.
+          // A ray that grazes 0.5 may go either way, and bisection may end one of its 64 steps off.
           if (std::abs(length[r] - exact) > 0.5 / 64.0 + 1e-3) ++apart;
         }
       }
@@ -279,7 +279,7 @@ TEST(VolumeCast, AgreesWithTheSlowTwinInDouble) {
   EXPECT_LE(apart, rays / 500) << "of " << rays;
 }
 
-TEST(VolumeCast, GathersTheOpacityOfTheSlowTwin) {
+TEST(VolumeCast, AccumulatesTheOpacityOfTheSlowTwin) {
   std::mt19937 random(15);
   const Scene scene = lumps(31);
   const SolidCells cells(scene.solid);
@@ -325,7 +325,7 @@ TEST(VolumeCast, InstructionSetsAgreeWithinRounding) {
   EXPECT_LE(apart, together / 200);
 }
 
-TEST(VolumeCast, CarvingThenCastingIsCastingWhatWasCarved) {
+TEST(VolumeCast, CarvingThenCastingEqualsCastingTheCarvedVolume) {
   std::mt19937 random(17);
   for (unsigned seed = 40; seed < 43; ++seed) {
     Scene scene = lumps(seed);
@@ -333,7 +333,7 @@ TEST(VolumeCast, CarvingThenCastingIsCastingWhatWasCarved) {
     SolidCells cells(scene.solid);
     const SolidCells control(before.solid);
     const glm::ivec3 size = scene.solid.layout().size;
-    // A groove from a ball's surface inwards, in bites of a few voxels.
+    // A groove from a ball's surface inwards, in cuts of a few voxels.
     glm::ivec3 inside{0};
     forVoxels(size, [&](glm::ivec3 v) {
       if (scene.at(v) > 128) inside = v;
@@ -357,7 +357,7 @@ TEST(VolumeCast, CarvingThenCastingIsCastingWhatWasCarved) {
     }
     EXPECT_TRUE(differs) << "nobody looked at the groove";
 
-    // And back: what was carved is filled again.
+    // And back: fill what was carved.
     forVoxels(size, [&](glm::ivec3 v) { scene.at(v) = *before.solid.at(v); });
     cells.touch({glm::ivec3(0), size});
     cells.rebuildIfStale();
@@ -368,7 +368,7 @@ TEST(VolumeCast, CarvingThenCastingIsCastingWhatWasCarved) {
   }
 }
 
-TEST(VolumeCast, FillsWhatWasEmptyAtFirst) {
+TEST(VolumeCast, FillsBricksThatWereEmpty) {
   Scene scene{BorderedField<std::uint8_t>(glm::ivec3(40)), BorderedField<std::uint8_t>(glm::ivec3(40))};
   SolidCells cells(scene.solid);
   View view;
@@ -385,7 +385,7 @@ TEST(VolumeCast, FillsWhatWasEmptyAtFirst) {
   EXPECT_EQ(text(surfaceOf(cells, view)), text(surfaceOf(cells, view, false)));
 }
 
-TEST(VolumeCast, AlongTheAxesAFlatFaceIsMetWhereItIs) {
+TEST(VolumeCast, HitsAFlatFaceAlongTheAxesExactly) {
   // Solid from voxel 10 on, half at 9.5: the surface.
   const glm::ivec3 size(24);
   Scene scene{BorderedField<std::uint8_t>(size), BorderedField<std::uint8_t>(size)};
@@ -404,7 +404,7 @@ TEST(VolumeCast, AlongTheAxesAFlatFaceIsMetWhereItIs) {
       EXPECT_GE(points.length[0] + from, 9.5f - 1e-3f);
     }
   }
-  // From within the bone the ray ends where it begins, beyond it there is nothing, and a limit hides it.
+  // From inside the bone the ray ends at its start; behind it there is nothing; a limit hides it.
   view.settings.eye_index = {15.0f, 12.0f, 12.0f};
   EXPECT_EQ(surfaceOf(cells, view).length[0], 0.0f);
   view.settings.eye_index = {30.0f, 12.0f, 12.0f};
@@ -414,7 +414,7 @@ TEST(VolumeCast, AlongTheAxesAFlatFaceIsMetWhereItIs) {
   EXPECT_EQ(surfaceOf(cells, view).count, 0);
 }
 
-TEST(VolumeCast, NothingIsEverNotANumber) {
+TEST(VolumeCast, NeverGivesNaN) {
   std::mt19937 random(18);
   const Scene scene = lumps(6);
   const SolidCells cells(scene.solid);
