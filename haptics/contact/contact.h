@@ -1,5 +1,5 @@
-// What a force law is told and what it answers. One Contact is one look at the bone with the tool standing still at
-// X_PT; proxy, damping, limits come after (servo). Frame P; mm, N, N mm; forces act on the hand. Servo thread.
+// Input and output of a force law. One Contact is one evaluation with the tool at rest at X_PT; proxy, damping and
+// limits come later (servo, safety). Frame P; mm, N, N mm; forces act on the hand. Servo thread.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace haptics {
 
-/// How hard each tissue is to the hand, relative to cortical bone. Multiplies a law's stiffness, voxel by voxel.
+/// Stiffness of each tissue relative to cortical bone. Multiplies a law's stiffness, voxel by voxel.
 struct TissueStiffness {
   std::array<double, assets::kTissueCount> factor = [] {
     std::array<double, assets::kTissueCount> known{};
@@ -27,10 +27,10 @@ struct ToolMotion {
   calibration::Vector<calibration::Patient> velocity_P_mm_per_s;  ///< of T's origin
   double spindle_rad_per_s = 0.0;                                 ///< about +z of T; 0: not turning
   double dt_s = 1e-3;
-  double vibration_phase_rad = 0.0;  ///< phase of what is felt of the turning (tool/spindle)
+  double vibration_phase_rad = 0.0;  ///< phase of the vibration (tool/spindle)
 };
 
-/// The tool as it stands in the bone.
+/// Tool, pose and motion in a field.
 struct ToolInBone {
   const SolidField& field;
   BurShape head;
@@ -40,14 +40,14 @@ struct ToolInBone {
 };
 
 struct Contact {
-  calibration::Vector<calibration::Patient> force_P_N;      ///< the law at rest; zero out of contact
+  calibration::Vector<calibration::Patient> force_P_N;      ///< without damping; zero out of contact
   calibration::Vector<calibration::Patient> torque_P_Nmm;   ///< about T's origin
-  calibration::Vector<calibration::Patient> vibration_P_N;  ///< that averages to zero over a turn of the spindle
-  calibration::Vector<calibration::Patient> normal_P;  ///< out of the bone; shorter than 1 where bone is all around
-  double depth_mm = 0.0;                               ///< of flat bone with the same overlap; 0: no contact
-  double stiffness_N_per_mm = 0.0;  ///< dF/ddepth there, tissue included: what the proxy's spring goes on with
-  double volume_mm3 = 0.0;          ///< head and solid
-  double tissue_factor = 1.0;       ///< mean stiffness factor of the tissue met
+  calibration::Vector<calibration::Patient> vibration_P_N;  ///< averages to zero over a revolution
+  calibration::Vector<calibration::Patient> normal_P;       ///< out of the bone; shorter than 1 between walls
+  double depth_mm = 0.0;                                    ///< in flat bone with the same overlap; 0: none
+  double stiffness_N_per_mm = 0.0;                          ///< dF/ddepth, tissue included: the proxy's spring
+  double volume_mm3 = 0.0;                                  ///< shared by head and solid
+  double tissue_factor = 1.0;                               ///< mean stiffness factor of the tissue in contact
   double one_sided = 1.0;  ///< first moment, relative to flat bone of this depth: 1 flat, 2/3 in a socket, 0 in a slot
 };
 

@@ -1,6 +1,6 @@
-// What an erosion law and the motor are told of a bur in bone: contact and pose as the plain numbers of
-// bone/erosion_step. Servo thread; under a microsecond, but for the erosion `machining` an overlap sum and some 600
-// samples of the field. Frame P; mm, N, s.
+// Inputs of an erosion law and of the motor for a bur in bone: contact and pose as the plain values of
+// bone/erosion_step. Servo thread; under a microsecond, with erosion `machining` an overlap sum and about 600 samples
+// of the field more. Frame P; mm, N, s.
 #pragma once
 
 #include "haptics/bone/erosion_step.h"
@@ -9,12 +9,12 @@
 
 namespace haptics {
 
-/// `contact` of the head at `at`; `at.motion.velocity` is the feed. `normal_force_N` is what presses the bur on.
+/// `contact` of the head at `at`; `at.motion.velocity` is the feed; `normal_force_N` presses the bur on the bone.
 CutConditions cutConditions(const ErosionSettings& erosion, const SpindleSettings& spindle, const ToolInBone& at,
                             const Contact& contact, double normal_force_N) noexcept;
 
-/// What holds the spindle back, N mm: friction mu F_n times the sliding arm, or what the force law knows of it
-/// (contact/machining) if that is more.
-double spindleLoad_Nmm(const ErosionSettings& erosion, const CutConditions& moment, double law_torque_Nmm) noexcept;
+/// Load torque of the spindle, N mm: friction mu F_n times the sliding arm, or the force law's spindle torque
+/// (contact/machining) if larger.
+double spindleLoad_Nmm(const ErosionSettings& erosion, const CutConditions& conditions, double law_torque_Nmm) noexcept;
 
 }  // namespace haptics

@@ -3,15 +3,15 @@
 namespace haptics {
 namespace {
 
-/// Eight voxels by their places in memory, `dx` … beyond the lowest, interpolated in the order x, y, z.
+/// Eight voxels by their offsets in memory, `dx` … beyond the lowest, interpolated in the order x, y, z.
 double interpolated(const std::uint8_t* lowest, std::size_t dx, std::size_t dy, std::size_t dz,
                     const glm::dvec3& part) {
-  const auto along_x = [&](std::size_t place) {
-    const double a = lowest[place], b = lowest[place + dx];
+  const auto along_x = [&](std::size_t offset) {
+    const double a = lowest[offset], b = lowest[offset + dx];
     return a + part.x * (b - a);
   };
-  const auto along_y = [&](std::size_t place) {
-    const double a = along_x(place), b = along_x(place + dy);
+  const auto along_y = [&](std::size_t offset) {
+    const double a = along_x(offset), b = along_x(offset + dy);
     return a + part.y * (b - a);
   };
   const double a = along_y(0), b = along_y(dz);
@@ -37,11 +37,11 @@ std::size_t stepFrom(int index, std::size_t within, std::size_t block) {
 
 FieldSample sampleAt(const SolidField& field, const glm::dvec3& index) {
   const glm::ivec3 size = field.grid.size;
-  // Also false for what is no number.
+  // Also false for NaN.
   const bool near =
       index.x > -1.0 && index.y > -1.0 && index.z > -1.0 && index.x < size.x && index.y < size.y && index.z < size.z;
   if (!near) return {};
-  // Rounds down: nothing is below -1.
+  // Rounds down: every index is above -1.
   const glm::ivec3 low(static_cast<int>(index.x + 1.0) - 1, static_cast<int>(index.y + 1.0) - 1,
                        static_cast<int>(index.z + 1.0) - 1);
   const glm::dvec3 part(index.x - low.x, index.y - low.y, index.z - low.z);
@@ -64,18 +64,14 @@ FieldSample sampleAt(const SolidField& field, const glm::dvec3& index) {
 
 }  // namespace
 
-FieldSample sampleField(const SolidField& field, const glm::dvec3& at_P_mm) noexcept {
-  return sampleAt(field, field.grid.indexFromPoint(at_P_mm));
-}
-
 ToolSampler::ToolSampler(const SolidField& field,
                          const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT) noexcept
     : field_(field),
-      turn_(glm::mat3_cast(X_PT.rotation) / field.grid.spacing_mm),
+      to_index_(glm::mat3_cast(X_PT.rotation) / field.grid.spacing_mm),
       origin_(field.grid.indexFromPoint(X_PT.translation_mm)) {}
 
 FieldSample ToolSampler::at(const glm::dvec3& position_T_mm) const noexcept {
-  return sampleAt(field_, turn_ * position_T_mm + origin_);
+  return sampleAt(field_, to_index_ * position_T_mm + origin_);
 }
 
 }  // namespace haptics

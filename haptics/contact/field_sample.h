@@ -1,6 +1,6 @@
-// The solid field at a point between voxels: the solid fraction interpolated linearly along the three axes, and the
-// label of the nearest voxel. Frame P, mm. Outside the grid is air. Any thread that may read the field; some 10 ns.
-// Half a voxel of smear either way, without bias on flat bone. Not a volume (contact/overlap).
+// The solid field at points between voxels: the solid fraction interpolated linearly along the three axes, and the
+// label of the nearest voxel. Outside the grid is air. Any thread that may read the field; about 10 ns a point. Smears
+// by half a voxel either way, without bias on flat bone.
 #pragma once
 
 #include <array>
@@ -17,10 +17,7 @@ struct FieldSample {
   std::uint8_t label = 0;  ///< assets::Tissue
 };
 
-FieldSample sampleField(const SolidField& field, const glm::dvec3& at_P_mm) noexcept;
-
-/// The field as a tool at X_PT meets it: for many points of one head, three products a point instead of a turn and a
-/// division.
+/// The field around a tool at X_PT, for many points of one head.
 class ToolSampler {
  public:
   ToolSampler(const SolidField& field, const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT) noexcept;
@@ -28,8 +25,8 @@ class ToolSampler {
 
  private:
   const SolidField& field_;
-  glm::dmat3 turn_;    ///< mm in T to voxels
-  glm::dvec3 origin_;  ///< continuous index of T's origin
+  glm::dmat3 to_index_;  ///< mm in T to voxels
+  glm::dvec3 origin_;    ///< continuous index of T's origin
 };
 
 }  // namespace haptics

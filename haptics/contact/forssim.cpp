@@ -9,7 +9,7 @@
 namespace haptics {
 namespace {
 
-/// Farther than this from its place a hold never ends.
+/// A hold does not end farther than this from its end point.
 constexpr double kHoldReach_mm = 2.0;
 
 calibration::Point<calibration::Patient> originOf(const ToolInBone& at) { return {at.X_PT.translation_mm}; }

@@ -1,9 +1,9 @@
-// forssim's law: force with the volume that bur and bone share, F = P V / R^3 n (Forsslund et al. 2009;
-// reference/physics 1.2), as its equations say: the exact lens of every voxel, weighted by how solid it is and by its
-// tissue. Frame P; mm, N. R is the bur's largest radius, whatever its shape. Stiffest at h = R: pi P / R, so a small
-// bur needs a small P. Optional hold, as published: when more than `hold_from` of the bur is immersed, a spring to the
-// place x + F/k of that moment, until less than `hold_until` is immersed and the place is nearer than 2 mm. It sticks
-// to a point; the servo's proxy does that work without, and never lets the bur so deep. Servo thread; one overlap sum.
+// forssim's law: force proportional to the shared volume, F = P V / R^3 n (Forsslund et al. 2009;
+// reference/physics 1.2), with the exact lens of every voxel weighted by solid fraction and tissue. R is the bur's
+// largest radius, for any shape. Steepest at h = R: pi P / R, so a small bur needs a small P. Optional hold, as
+// published: when more than `hold_from` of the bur is immersed, a spring to the position x + F/k of that moment, until
+// less than `hold_until` is immersed and that position is nearer than 2 mm. With the servo's proxy the bur does not get
+// that deep. Frame P; mm, N. Servo thread; one overlap sum.
 #pragma once
 
 #include "haptics/contact/contact.h"
@@ -20,7 +20,7 @@ struct ForssimParameters {
 
 Contact forssimContact(const ForssimParameters& parameters, const ToolInBone& at, const LawState& state) noexcept;
 
-/// Starts or ends the hold, by the last look of a tick.
+/// Starts or ends the hold, from the last evaluation of a tick.
 void updateForssimState(const ForssimParameters& parameters, const ToolInBone& at, const Contact& contact,
                         LawState& state) noexcept;
 

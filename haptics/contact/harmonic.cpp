@@ -13,10 +13,10 @@ namespace {
 
 using calibration::kPi;
 
-/// Blocks whose middle is farther than this act from their centre of mass: error under 1e-3 of their part.
+/// Blocks with their middle beyond this act from their centre of mass: error under 1e-3 of their part.
 constexpr double kFar_voxels = 10.0;
 
-/// Where the voxels of a block lie in it.
+/// Positions of the voxels within a block.
 struct Within {
   alignas(64) std::array<float, kBlockVoxels> x{}, y{}, z{};
 };
@@ -56,7 +56,7 @@ Reach reachOf(const ToolInBone& at) {
   return reach;
 }
 
-/// The force law of one voxel's ball over its distance: what the vector from bur to voxel is multiplied with.
+/// Force of one voxel's ball over its distance: the factor of the vector from bur to voxel.
 class VoxelCharge {
  public:
   explicit VoxelCharge(double radius)
@@ -85,7 +85,7 @@ class VoxelCharge {
 
 using BlockWeights = std::array<float, kBlockVoxels>;
 
-/// In sixteen partial sums of one order: the same bits whatever the instruction set, as nothing is fused.
+/// Sixteen partial sums in fixed order, unfused: the same bits with every instruction set.
 [[gnu::always_inline]] inline float sumInOrder(const BlockWeights& part) {
   alignas(64) std::array<float, 16> lane{};
   for (std::size_t plane = 0; plane < 4; ++plane)
@@ -95,7 +95,7 @@ using BlockWeights = std::array<float, kBlockVoxels>;
   return sum;
 }
 
-/// The pull of a block whose voxel (0,0,0) lies at `low` from the centre; the weights are used up.
+/// Force of a block with voxel (0,0,0) at `low` from the centre; overwrites the weights.
 [[gnu::always_inline]] inline void pullOfBlock(const VoxelCharge& charge, const glm::vec3& low, BlockWeights& weight,
                                                std::array<float, 3>& pull) {
   alignas(64) BlockWeights dx, dy, dz;
@@ -171,7 +171,7 @@ class HarmonicSum {
         weight[n] = static_cast<float>(at_.tissue.of(label[n])) * static_cast<float>(solid[n]);
     }
     std::array<float, 3> pull;
-    // By name, so that what the servo reaches is plain to see.
+    // Direct calls, so that tests/architecture/servo_symbols.cmake can follow them.
 #if defined(__x86_64__)
     if (set_ == assets::InstructionSet::avx512)
       pullOfBlockAvx512(charge_, glm::vec3(low), weight, pull);
@@ -196,7 +196,7 @@ class HarmonicSum {
 double harmonicForceOfBall(double R, double B, double d) noexcept {
   if (d >= R + B || d <= 0.0) return 0.0;
   if (d + B <= R) return d >= B ? 2.0 / 3.0 * B * B * B / (d * d) : 2.0 / 3.0 * d;
-  // The bur inside the ball: bone is all around as far as the bur reaches.
+  // The bur inside the ball has bone on all sides.
   if (d + R <= B) return 0.0;
   if (d < B - R || d < R - B) return 0.0;
   return 0.5 * R - d / 3.0 + (-R * R * R / 6.0 + 0.5 * R * B * B + B * B * B / 3.0) / (d * d);

@@ -1,8 +1,8 @@
-// Quadrature over the surface of a cutting head: patches with a place, a normal out of the head and an area, in frame
-// T, mm. A sphere's patches crowd where the bone is: 16 rings over the cap that reaches `reach_mm` deep around
-// `towards` and 8 over the rest, 24 patches round each; the rings are equal in area, so a cap's area, area vector and
-// moments come out to 0.2 %. Other heads: rings along the profile, even in arc length. The patches sum to the head's
-// whole surface. Any thread; a few ns a patch. Calls `visit(const Patch&)`. Not the field (contact/field_sample).
+// Quadrature over the surface of a cutting head: patches with position, outward normal and area, in frame T, mm. A
+// sphere's patches are denser where the bone is: 16 rings over the cap `reach_mm` deep around `towards`, 8 over the
+// rest, 24 patches each; the rings are equal in area, so a cap's area, area vector and moments are right to 0.2 %.
+// Other heads: rings along the profile, even in arc length. The patches sum to the whole surface. Any thread; a few ns
+// a patch. Calls `visit(const Patch&)`.
 #pragma once
 
 #include <algorithm>
@@ -22,12 +22,12 @@ struct Patch {
 
 inline constexpr int kPatchesRound = 24;
 
-/// Cosine and sine of a step round a ring and of half of one.
+/// Cosine and sine of a step around a ring and of half a step.
 inline constexpr glm::dvec2 kStepRound{0.96592582628906829, 0.25881904510252076};
 inline constexpr glm::dvec2 kHalfStepRound{0.99144486137381041, 0.13052619222005159};
 static_assert(kPatchesRound == 24);
 
-/// Patches of a full ring; its first patch lies half or no step round, by turns.
+/// Patches of a full ring; odd rings are shifted by half a step.
 template <class Visit>
 void visitRing(const glm::dvec3& centre, const glm::dvec3& axis, double radius, const glm::dvec3& along_normal,
                double normal_out, double area, int ring, Visit&& visit) {
@@ -53,8 +53,7 @@ void visitZone(const glm::dvec3& centre, const glm::dvec3& axis, double ball_mm,
   }
 }
 
-/// Rings of a frustum from (radius, z) `from` to `to`; a disc where the heights are one. `out` is its normal (radial,
-/// z).
+/// Rings of a frustum from (radius, z) `from` to `to`; a disc for equal heights. `out` is its normal (radial, z).
 template <class Visit>
 void visitFrustum(const glm::dvec2& from, const glm::dvec2& to, const glm::dvec2& out, int rings, Visit&& visit) {
   const double length = glm::length(to - from) / rings;
@@ -65,7 +64,7 @@ void visitFrustum(const glm::dvec2& from, const glm::dvec2& to, const glm::dvec2
   }
 }
 
-/// `towards_T`, a unit vector, and `reach_mm` say where the bone is; only a sphere asks.
+/// `towards_T`, a unit vector towards the bone, and `reach_mm` matter for spheres only.
 template <class Visit>
 void visitHeadSurface(const BurShape& head, const glm::dvec3& towards_T, double reach_mm, Visit&& visit) {
   const double R = head.radius_mm, half = 0.5 * head.length_mm;

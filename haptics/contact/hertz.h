@@ -1,6 +1,7 @@
-// Hertz's law of a ball on flat bone: F = C1 R^1/2 h^3/2 n (the elastic force of Agus et al. 2002-3, reference/physics
-// 1.1), with h and n of Agus's overlap. Frame P; mm, N. C1 of real bone, some 2e4 N/mm^2, is four orders beyond what a
-// device can render: it is a gain. Soft at first touch, stiffens as h^1/2. Servo thread; one overlap sum.
+// Hertz's law of a ball on flat bone: F = C1 R^1/2 h^3/2 n (the elastic force of Agus et al. 2002-3,
+// reference/physics 1.1), with h and n of contact/immersion. Frame P; mm, N. C1 of real bone, about 2e4 N/mm^2, is four
+// orders beyond what a device can render: here it is a gain. Soft at first touch, stiffens as h^1/2. Servo thread; one
+// overlap sum.
 #pragma once
 
 #include "haptics/contact/contact.h"

@@ -1,8 +1,7 @@
-// Sixteen floats at once, in one, two or four registers, whichever the compiler was told the machine has. For kernels
-// that are compiled once per instruction set: everything here has internal linkage, so that no copy for a newer machine
-// can be linked where an older one runs. With AVX2 and AVX-512 every operation rounds alike, so the bits are the same;
-// the portable kind has no fused multiply-add and differs in the last place. Include in kernels alone, after
-// <immintrin.h> where there is AVX2.
+// Sixteen floats in one, two or four registers, by the instruction set the compiler targets. For kernels compiled once
+// per instruction set: internal linkage throughout, so that no copy for a newer machine is linked where an older one
+// runs. AVX2 and AVX-512 round alike, so the bits are the same; the portable version has no fused multiply-add and
+// differs in the last place. Include in kernels only, after <immintrin.h> where there is AVX2.
 #pragma once
 
 #include <cstdint>
@@ -54,7 +53,7 @@ inline Lanes clamped(Lanes a, Lanes low, Lanes high) {
 
 #else
 
-// The compiler's own four-float vectors: SSE2 here, whatever there is elsewhere.
+// The compiler's four-float vectors: SSE2 on x86-64.
 using Four = float __attribute__((vector_size(16)));
 struct Lanes {
   Four v[4];
@@ -97,7 +96,7 @@ inline Lanes clamped(const Lanes& a, const Lanes& low, const Lanes& high) {
 
 #endif
 
-/// In one order everywhere.
+/// In a fixed order.
 inline double sumOf(const Lanes& a) {
   float lane[16];
   store(lane, a);

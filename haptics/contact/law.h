@@ -1,6 +1,6 @@
-// The force laws of the field behind one call: which one, and with which parameters, is a value that may change from
-// tick to tick. Every law is a file of its own in contact/. Servo thread; costs as the laws say. No allocation, no
-// throw; a law answers a zero Contact where it does not admit the shape.
+// The force laws behind one call; law and parameters may change from tick to tick. Each law has its own file in
+// contact/. Servo thread; costs as in the README; no allocation, no throw. A law returns a zero Contact for a shape it
+// does not support.
 #pragma once
 
 #include "haptics/contact/law_settings.h"
@@ -8,15 +8,15 @@
 
 namespace haptics {
 
-/// As a law with this memory answers; it is only read, so a proxy may look as often as it likes.
+/// Reads `state` only, so that a proxy may evaluate several times a tick.
 Contact contactOf(const LawSettings& law, const ToolInBone& at, const LawState& state) noexcept;
-/// A law that remembers nothing.
+/// With a new state.
 Contact contactOf(const LawSettings& law, const ToolInBone& at) noexcept;
 
-/// Takes in the last look of a tick. Out of contact nothing is remembered but that a hold is over.
+/// From the last evaluation of a tick. Out of contact it only ends a hold.
 void updateLawState(const LawSettings& law, const ToolInBone& at, const Contact& contact, LawState& state) noexcept;
 
-/// The part of the force that takes energy from the moving hand: -b v while in contact, every law's.
+/// -b v while in contact, for every law.
 calibration::Vector<calibration::Patient> dampingForce_N(
     const LawSettings& law, const Contact& contact,
     const calibration::Vector<calibration::Patient>& velocity_P_mm_per_s) noexcept;

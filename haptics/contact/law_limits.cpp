@@ -13,7 +13,7 @@ using calibration::kPi;
 
 constexpr double kTransition_mm = 0.1;
 
-/// The pressure of a law that acts on the head's surface, F = k_s dV/dh; 0 for the others.
+/// Pressure of a law that acts on the head's surface, F = k_s dV/dh; 0 for other laws.
 double surfacePressure_N_per_mm3(const LawSettings& law, const BurShape& head) {
   if (law.kind == LawKind::shell) return law.shell.shell_N_per_mm3;
   if (law.kind == LawKind::machining)
@@ -29,7 +29,7 @@ FlatResponse surfaceResponse(double per_mm3, const BurShape& head, double depth_
   return {per_mm3 * area, per_mm3 * (area - before) / kTransition_mm};
 }
 
-/// Every law's force is proportional to one parameter.
+/// The parameter a law's force is proportional to.
 const LawParameter* gainOf(LawKind law) {
   switch (law) {
     case LawKind::forssim:
@@ -80,23 +80,23 @@ FlatResponse flatResponse(const LawSettings& law, const BurShape& head, double d
 }
 
 double stiffestSlope_N_per_mm(const LawSettings& law, const BurShape& head) noexcept {
-  // The proxy waits at half a radius or less; forssim's law is known by its steepest place, h = R.
+  // The proxy stays at half a radius or less; forssim's law is stated at its steepest depth, h = R.
   const double deepest_mm = law.kind == LawKind::forssim ? head.radius_mm : 0.5 * head.radius_mm;
   constexpr int kDepths = 32, kAngles = 8;
-  double stiffest = 0.0;
+  double steepest = 0.0;
   for (int angle = 0; angle <= kAngles; ++angle) {
     const double cos_axis = 1.0 - 2.0 * angle / kAngles;
     for (int n = 0; n <= kDepths; ++n) {
       const double depth_mm = std::max(1e-9, deepest_mm * n / kDepths);
-      stiffest = std::max(stiffest, flatResponse(law, head, depth_mm, cos_axis).slope_N_per_mm);
+      steepest = std::max(steepest, flatResponse(law, head, depth_mm, cos_axis).slope_N_per_mm);
     }
-    // A flat end has all its area at the end of the transition.
+    // A flat end reaches its full area at the end of the transition.
     if (head.kind != ShapeKind::sphere)
-      stiffest = std::max(stiffest, flatResponse(law, head, kTransition_mm, cos_axis).slope_N_per_mm);
+      steepest = std::max(steepest, flatResponse(law, head, kTransition_mm, cos_axis).slope_N_per_mm);
     if (head.kind == ShapeKind::sphere) break;
   }
-  stiffest *= *std::max_element(law.tissue.factor.begin(), law.tissue.factor.end());
-  return law.kind == LawKind::forssim ? std::max(stiffest, law.forssim.hold_N_per_mm) : stiffest;
+  steepest *= *std::max_element(law.tissue.factor.begin(), law.tissue.factor.end());
+  return law.kind == LawKind::forssim ? std::max(steepest, law.forssim.hold_N_per_mm) : steepest;
 }
 
 double passiveStiffness_N_per_mm(double device_damping_Ns_per_mm, double law_damping_Ns_per_mm,
@@ -104,19 +104,19 @@ double passiveStiffness_N_per_mm(double device_damping_Ns_per_mm, double law_dam
   return std::max(0.0, 2.0 * (device_damping_Ns_per_mm - std::abs(law_damping_Ns_per_mm)) / period_s);
 }
 
-Admission admissible(const LawSettings& law, const BurShape& head, double most_N_per_mm) noexcept {
+Admission admissible(const LawSettings& law, const BurShape& head, double max_N_per_mm) noexcept {
   if (!supports(law.kind, head.kind)) return {Admission::Answer::no_such_head, 0.0, nullptr, 0.0};
   Admission admission;
   admission.slope_N_per_mm = stiffestSlope_N_per_mm(law, head);
-  if (admission.slope_N_per_mm <= most_N_per_mm) return admission;
+  if (admission.slope_N_per_mm <= max_N_per_mm) return admission;
   admission.answer = Admission::Answer::too_stiff;
-  if (law.kind == LawKind::forssim && law.forssim.hold_N_per_mm > most_N_per_mm) {
+  if (law.kind == LawKind::forssim && law.forssim.hold_N_per_mm > max_N_per_mm) {
     admission.lower = findLawParameter(law.kind, "hold_N_per_mm");
-    admission.nearest = most_N_per_mm;
+    admission.nearest = max_N_per_mm;
     return admission;
   }
   admission.lower = gainOf(law.kind);
-  admission.nearest = admission.lower->of(law) * most_N_per_mm / admission.slope_N_per_mm;
+  admission.nearest = admission.lower->of(law) * max_N_per_mm / admission.slope_N_per_mm;
   return admission;
 }
 

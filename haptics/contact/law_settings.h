@@ -1,5 +1,5 @@
-// Which force law, and the parameters of all of them side by side, so that switching back finds them as they were.
-// Trivially copyable, part of a Command; may change from tick to tick. Ranges, units and sources: law_parameters.
+// The selected force law and the parameters of all laws, so that switching back restores them. Trivially copyable, part
+// of a Command; may change every tick. Ranges, units and sources: law_parameters.
 #pragma once
 
 #include <array>
@@ -50,7 +50,7 @@ inline constexpr std::array<LawName, 7> kLaws = {{
     {LawKind::harmonic, "harmonic", "F = k h, U = sum rho k / (2 pi r)", "linear, unbiased and exactly conservative"},
 }};
 
-/// Whether the law has an answer for heads of this shape; where not, contactOf is zero.
+/// Whether the law is defined for this shape; otherwise contactOf is zero.
 constexpr bool supports(LawKind law, ShapeKind shape) { return law != LawKind::harmonic || shape == ShapeKind::sphere; }
 
 }  // namespace haptics

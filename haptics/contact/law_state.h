@@ -1,7 +1,6 @@
-// What a force law remembers from tick to tick: the densities it met (points) and the place it holds to (forssim). The
-// servo owns one and passes it in; contactOf only reads it, however often a proxy looks in a tick, and `updateLawState`
-// takes in the last look of the tick. Start anew when law or tool changes. Trivially copyable, fixed size; servo
-// thread.
+// State of a force law from tick to tick: mean density (points) and the hold's end point (forssim). The servo owns one
+// and passes it in; contactOf only reads it, updateLawState takes the last evaluation of a tick. Reset when law or tool
+// changes. Trivially copyable, fixed size; servo thread.
 #pragma once
 
 #include <array>
@@ -12,7 +11,7 @@
 
 namespace haptics {
 
-/// Mean of the last hundred values. A hundred ticks are as Gajananan has it, at 1 kHz a tenth of a second.
+/// Mean of the last hundred values: a tenth of a second at 1 kHz (Gajananan).
 class MovingMean {
  public:
   static constexpr std::size_t kLength = 100;
@@ -22,7 +21,7 @@ class MovingMean {
     next_ = (next_ + 1) % kLength;
     if (count_ < kLength) ++count_;
   }
-  /// None yet: the value itself.
+  /// The mean; `value` itself before the first.
   double with(double value) const {
     if (count_ == 0) return value;
     double sum = 0.0;
@@ -36,9 +35,9 @@ class MovingMean {
 };
 
 struct LawState {
-  MovingMean density;  ///< points: of what was met, one value a tick in contact
+  MovingMean density;  ///< points: one value a tick in contact
   bool holding = false;
-  calibration::Point<calibration::Patient> held_P;  ///< forssim: where the spring of the hold ends
+  calibration::Point<calibration::Patient> held_P;  ///< forssim: end of the hold's spring
 };
 
 }  // namespace haptics

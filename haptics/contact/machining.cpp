@@ -14,11 +14,11 @@ namespace {
 
 using calibration::kPi;
 
-/// A worn bur's edges are this much harder to drag and press than a new one's.
+/// Factor of the edge forces of a fully worn bur.
 constexpr double kWornEdge = 3.0;
-constexpr double kMostVibration_N = 0.3, kMostVibrationShare = 0.1;
+constexpr double kMaxVibration_N = 0.3, kMaxVibrationShare = 0.1;
 
-/// Where the bone is, seen from the head; a sphere's quadrature goes by it.
+/// Direction and extent of the bone as seen from the head, for a sphere's quadrature.
 struct Engagement {
   glm::dvec3 towards_T{0.0, 0.0, -1.0};
   double reach_mm = 0.0;
@@ -43,9 +43,9 @@ void visitEngaged(const ToolInBone& at, const Engagement& where, Visit&& visit) 
 /// A force and its torque about T's origin, in T.
 struct Wrench {
   glm::dvec3 force{0.0}, torque{0.0};
-  void add(const glm::dvec3& place, const glm::dvec3& part) {
+  void add(const glm::dvec3& position, const glm::dvec3& part) {
     force += part;
-    torque += glm::cross(place, part);
+    torque += glm::cross(position, part);
   }
   Wrench scaled(double s) const { return {s * force, s * torque}; }
   Wrench& operator+=(const Wrench& other) {
@@ -55,7 +55,7 @@ struct Wrench {
   }
 };
 
-/// Part of the law that cuts; the rest is the wall.
+/// Weight of the cutting part; the rest is the wall.
 double cuttingShare(const MachiningParameters& parameters, double spindle_rad_per_s) {
   const double rpm = rpmOf(std::abs(spindle_rad_per_s));
   const double share = parameters.slowest_cut_rpm > 0.0 ? std::clamp(rpm / parameters.slowest_cut_rpm, 0.0, 1.0)
@@ -67,13 +67,13 @@ double wallPressure_N_per_mm2(const MachiningParameters& parameters, const BurSh
   return parameters.flutes * parameters.edge_radial_N_per_mm / (2.0 * kPi * head.radius_mm);
 }
 
-/// The elements of one place of the surface, averaged over a turn, per area.
+/// Flute forces of a patch, averaged over a revolution.
 class Flutes {
  public:
   Flutes(const MachiningParameters& parameters, const ToolInBone& at)
       : parameters_(parameters),
         edge_(1.0 + (kWornEdge - 1.0) * parameters.worn),
-        way_(at.motion.spindle_rad_per_s < 0.0 ? -1.0 : 1.0),
+        sense_(at.motion.spindle_rad_per_s < 0.0 ? -1.0 : 1.0),
         per_turn_(parameters.flutes / (2.0 * kPi)) {
     const glm::dvec3 feed_T = glm::conjugate(at.X_PT.rotation) * at.motion.velocity_P_mm_per_s.xyz;
     const double teeth_per_s = std::abs(at.motion.spindle_rad_per_s) * per_turn_;
@@ -83,12 +83,12 @@ class Flutes {
   glm::dvec3 force(const Patch& patch) const {
     const double chip =
         std::min(parameters_.thickest_chip_mm, std::max(0.0, glm::dot(feed_per_tooth_, patch.normal_T)));
-    // Within half a patch of the axis the flutes meet; there the patch's own size is the arm.
+    // Near the axis, where the flutes meet, the patch's size limits the arm.
     const double arm = std::sqrt(patch.position_T.x * patch.position_T.x + patch.position_T.y * patch.position_T.y);
     const double length = per_turn_ * patch.area_mm2 / std::max(arm, 0.3 * std::sqrt(patch.area_mm2));
     const glm::dvec3 motion =
-        arm > 0.0 ? way_ * glm::dvec3(-patch.position_T.y, patch.position_T.x, 0.0) / arm : glm::dvec3(0.0);
-    const glm::dvec3 up = glm::cross(patch.normal_T, way_ * motion);  // along the flute, away from the tip
+        arm > 0.0 ? sense_ * glm::dvec3(-patch.position_T.y, patch.position_T.x, 0.0) / arm : glm::dvec3(0.0);
+    const glm::dvec3 up = glm::cross(patch.normal_T, sense_ * motion);  // along the flute, away from the tip
     return length *
            (-(parameters_.chip_tangential_N_per_mm2 * chip + edge_ * parameters_.edge_tangential_N_per_mm) * motion -
             (parameters_.chip_radial_N_per_mm2 * chip + edge_ * parameters_.edge_radial_N_per_mm) * patch.normal_T +
@@ -97,11 +97,11 @@ class Flutes {
 
  private:
   const MachiningParameters& parameters_;
-  double edge_, way_, per_turn_;
+  double edge_, sense_, per_turn_;
   glm::dvec3 feed_per_tooth_;
 };
 
-/// dF/dh on flat bone: what the rim of the contact gains, all round. Without the chip, whose force goes with the feed.
+/// dF/dh on flat bone from the rim of the contact, without the chip, whose force depends on the feed.
 double rimStiffness_N_per_mm(const MachiningParameters& parameters, const ToolInBone& at, const glm::dvec3& towards_T,
                              double depth_mm, double cutting) {
   const double R = at.head.radius_mm, height = R - std::min(depth_mm, R), rim = std::sqrt(R * R - height * height);
@@ -134,7 +134,7 @@ Contact machiningContact(const MachiningParameters& parameters, const ToolInBone
   Contact contact = overlapContact(at);
   if (contact.depth_mm <= 0.0) return contact;
 
-  // Cutting and wall at once, each over the same patches.
+  // Cutting and wall over the same patches.
   const Engagement where = engagement(at, contact.normal_P.xyz, contact.depth_mm);
   const Flutes flutes(parameters, at);
   const double cutting = cuttingShare(parameters, at.motion.spindle_rad_per_s);
@@ -158,9 +158,9 @@ Contact machiningContact(const MachiningParameters& parameters, const ToolInBone
     contact.stiffness_N_per_mm =
         hardness / area * rimStiffness_N_per_mm(parameters, at, where.towards_T, contact.depth_mm, cutting);
 
-  // What turns with the spindle, no more than the hand and the device can take.
-  const double share = std::clamp(parameters.vibration_share, 0.0, kMostVibrationShare);
-  const double amplitude = cutting * std::min(kMostVibration_N, share * glm::length(mean.force));
+  // The rotating part, limited for hand and device.
+  const double share = std::clamp(parameters.vibration_share, 0.0, kMaxVibrationShare);
+  const double amplitude = cutting * std::min(kMaxVibration_N, share * glm::length(mean.force));
   contact.vibration_P_N.xyz = at.X_PT.rotation * (amplitude * glm::dvec3(std::cos(at.motion.vibration_phase_rad),
                                                                          std::sin(at.motion.vibration_phase_rad), 0.0));
   return contact;

@@ -12,15 +12,15 @@ namespace {
 
 using calibration::kPi;
 
-/// What the points in bone add up to, each weighted by how solid it is there. Frame T, mm.
+/// Sums over the points in bone, weighted by the solid fraction. Frame T, mm.
 struct Cloud {
-  double all = 0.0;             ///< points of the head
-  double count = 0.0;           ///< of them in bone
+  double all = 0.0;             ///< number of points
+  double count = 0.0;           ///< in bone
   double dense = 0.0;           ///< count, weighted by tissue
-  double beside = 0.0;          ///< count, beside a capsule's axis and not beyond its ends
-  glm::dvec3 place{0.0};        ///< sum of places
-  glm::dvec3 from_axis{0.0};    ///< sum of what leads to each from the nearest place of the axis, or of its segment
-  glm::dvec3 out_of_axis{0.0};  ///< sum of that, each of length 1
+  double beside = 0.0;          ///< count, next to a capsule's rod, not at its ends
+  glm::dvec3 position{0.0};     ///< sum of positions
+  glm::dvec3 from_axis{0.0};    ///< sum of vectors from the nearest point of the axis or its segment
+  glm::dvec3 out_of_axis{0.0};  ///< the same, normalised
 };
 
 /// Points of Kronecker's lattice in the head's box (steps of powers of 1 / 1.2207, the root of x^4 = x + 1), those
@@ -57,7 +57,7 @@ Cloud cloudIn(const ToolInBone& at) {
     if (sample.solid <= 0.0) return;
     cloud.count += sample.solid;
     cloud.dense += sample.solid * at.tissue.factor[std::min<std::size_t>(sample.label, assets::kTissueCount - 1)];
-    cloud.place += sample.solid * position_T;
+    cloud.position += sample.solid * position_T;
     glm::dvec3 from_axis(position_T.x, position_T.y, 0.0);
     if (at.head.kind == ShapeKind::capsule) {
       from_axis.z = position_T.z - std::clamp(position_T.z, -half, half);
@@ -70,41 +70,40 @@ Cloud cloudIn(const ToolInBone& at) {
   return cloud;
 }
 
-/// How a cloud lies in flat bone, by the rule of its shape.
+/// Depth and direction of a cloud in flat bone, by the rule of its shape.
 struct Reading {
   double depth_mm = 0.0;
-  double slope = 1.0;     ///< of that depth with the true one
-  glm::dvec3 out_T{0.0};  ///< of length 1, or shorter where there is no way out
+  double slope = 1.0;     ///< d depth / d true depth
+  glm::dvec3 out_T{0.0};  ///< at most 1 long
   double one_sided = 1.0;
 };
 
-/// A vector over its length, or over a twentieth of `scale` where it is shorter than that.
+/// A vector over its length, at least over a twentieth of `scale`.
 glm::dvec3 directed(const glm::dvec3& v, double scale) { return v / std::max({glm::length(v), 0.05 * scale, 1e-12}); }
 
-/// Depth at which a round side of this length and radius shares a volume, shallow: V = (4/3) sqrt(2 R) h^3/2 L.
+/// Depth of a round side of this length and radius for a shallow volume: V = (4/3) sqrt(2 R) h^3/2 L.
 double sideDepth_mm(double volume_mm3, double R, double length_mm) {
   return std::pow(volume_mm3 / std::max(1e-9, 4.0 / 3.0 * std::sqrt(2.0 * R) * length_mm), 2.0 / 3.0);
 }
-/// The middle of a segment of a circle, h deep: 3/5 of the way in from the face of a parabola's.
+/// Centroid of a circle segment h deep, as a parabola's: 3/5 of the depth from its tip.
 double segmentCentre_mm(double R, double h) { return std::max(0.1 * R, R - 0.6 * h); }
 double capCentre_mm(double R, double h) {
   const double deep = std::min(h, 1.5 * R);
   return 0.75 * (2.0 * R - deep) * (2.0 * R - deep) / (3.0 * R - deep);
 }
-/// The share of a rule by which it is left by the shorter way.
+/// Weight of the shorter of two ways out.
 double shorterShare(double this_mm, double other_mm) {
   const double a = this_mm * this_mm, b = other_mm * other_mm;
   return b * b / std::max(1e-30, a * a + b * b);
 }
 
 Reading readBall(const BurShape& head, const Cloud& cloud, double volume, double spacing_mm) {
-  // A linear field between voxels of a face one voxel soft smears depth by half a voxel; a sum over voxel spheres,
-  // which the depth's correction is made for, by 0.4.
+  // Linear interpolation of a face one voxel soft smears depth by half a voxel, a sum over voxel spheres by 0.4.
   const double R = head.radius_mm, h = equivalentDepth_mm(R, volume, 0.5 / 0.4 * spacing_mm);
   if (h <= 0.0) return {};
-  const double flat = capMoment_mm4(R, h) / volume, found = glm::length(cloud.place) / cloud.count;
+  const double flat = capMoment_mm4(R, h) / volume, found = glm::length(cloud.position) / cloud.count;
   return {h * std::sqrt(1.0 - h / (3.0 * R)), (1.0 - 0.5 * h / R) / std::sqrt(1.0 - h / (3.0 * R)),
-          -directed(cloud.place, 0.2 * R * cloud.count), flat > 0.0 ? found / flat : 0.0};
+          -directed(cloud.position, 0.2 * R * cloud.count), flat > 0.0 ? found / flat : 0.0};
 }
 
 Reading readCapsule(const BurShape& head, const Cloud& cloud, double volume) {
@@ -119,8 +118,8 @@ Reading readCapsule(const BurShape& head, const Cloud& cloud, double volume) {
 Reading readCylinder(const BurShape& head, const Cloud& cloud, double volume) {
   const double R = head.radius_mm, L = head.length_mm;
   const double side = sideDepth_mm(volume, R, L), end = volume / (kPi * R * R);
-  // How far it has to go to be free, judged by where the middle of the cloud lies.
-  const double across = glm::length(cloud.from_axis) / cloud.count, along = cloud.place.z / cloud.count;
+  // Distance to free it along the axis and across, from the centroid of the cloud.
+  const double across = glm::length(cloud.from_axis) / cloud.count, along = cloud.position.z / cloud.count;
   const double share = shorterShare(L - 2.0 * std::abs(along), (R - across) / 0.6);
   const glm::dvec3 out =
       -(1.0 - share) * directed(cloud.from_axis, 0.2 * R * cloud.count) - share * directed({0.0, 0.0, along}, 0.2 * L);
@@ -132,10 +131,10 @@ Reading readCylinder(const BurShape& head, const Cloud& cloud, double volume) {
 Reading readCone(const BurShape& head, const Cloud& cloud, double volume) {
   const double R = head.radius_mm, L = head.length_mm, slant = std::hypot(R, L);
   const double cosine = L / slant, sine = R / slant, tangent = R / L;
-  // By its tip, by its side, or by its base: the tip's points lie round the axis, the side's to one side.
+  // By its tip, side or base: the tip's points surround the axis, the side's are on one side.
   const double tip = std::cbrt(3.0 * volume / (kPi * tangent * tangent));
   const double side = cosine / L * std::pow(9.0 * volume / (8.0 * std::sqrt(2.0 * tangent)), 2.0 / 3.0);
-  const double aside = glm::length(cloud.out_of_axis) / cloud.count, along = cloud.place.z / cloud.count;
+  const double aside = glm::length(cloud.out_of_axis) / cloud.count, along = cloud.position.z / cloud.count;
   const double by_side = std::min(1.0, 4.0 * aside * aside);
   const double cone = by_side * side + (1.0 - by_side) * tip, base = volume / (kPi * R * R);
   const double share = shorterShare(std::max(0.0, L - 2.0 * along), cone);
@@ -170,12 +169,12 @@ Contact pointsContact(const PointsParameters& parameters, const ToolInBone& at, 
   const Reading reading = readCloud(at.head, cloud, contact.volume_mm3, at.field.grid.spacing_mm);
   contact.depth_mm = reading.depth_mm;
   contact.normal_P.xyz = at.X_PT.rotation * reading.out_T;
-  // Wholly in bone there is no way out.
+  // No direction wholly inside bone.
   contact.one_sided = std::min(1.0, reading.one_sided) * std::clamp((1.0 - share) / 0.15, 0.0, 1.0);
   contact.tissue_factor = cloud.dense / cloud.count;
   const double stiffness_N_per_mm = parameters.stiffness_N_per_mm * state.density.with(contact.tissue_factor);
   contact.force_P_N = stiffness_N_per_mm * contact.depth_mm * contact.normal_P;
-  contact.torque_P_Nmm.xyz = glm::cross(at.X_PT.rotation * (cloud.place / cloud.count), contact.force_P_N.xyz);
+  contact.torque_P_Nmm.xyz = glm::cross(at.X_PT.rotation * (cloud.position / cloud.count), contact.force_P_N.xyz);
   if (at.head.kind == ShapeKind::sphere) contact.torque_P_Nmm = {};
   contact.stiffness_N_per_mm = stiffness_N_per_mm * reading.slope;
   return contact;

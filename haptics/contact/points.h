@@ -1,8 +1,8 @@
 // Volumetric sample points (Gajananan; Morris et al. 2006; reference/physics 1.4): the share u of points inside the bur
-// that lie in bone gives the depth, d = d0 u^(1/m) with m by shape and the way it meets the bone, so that flat bone
-// feels linear; the points' places give the direction, by a rule for each shape; the mean density of what they met,
-// over the last 100 ticks, gives the stiffness:  F = k rho d n.  The window is on the density alone: on the force it
-// would be a delay of 50 ms and unstable (reference/physics 0.4). Frame P; mm, N. Servo thread; fixed number of points.
+// that lie in bone gives the depth, d = d0 u^(1/m) with m by shape and attitude, so that flat bone feels linear; the
+// positions of the points give the direction, by a rule for each shape; the mean density over the last 100 ticks gives
+// the stiffness:  F = k rho d n.  The window is on the density alone: on the force it would be a delay of 50 ms and
+// unstable (reference/physics 0.4). Frame P; mm, N. Servo thread; fixed number of points.
 #pragma once
 
 #include "haptics/contact/contact.h"
@@ -18,7 +18,7 @@ inline constexpr int kSamplePoints = 2048;
 
 Contact pointsContact(const PointsParameters& parameters, const ToolInBone& at, const LawState& state) noexcept;
 
-/// Takes the density of the last look of a tick into the window.
+/// Adds the density of the last evaluation of a tick to the window.
 void updatePointsState(const Contact& contact, LawState& state) noexcept;
 
 }  // namespace haptics

@@ -8,13 +8,13 @@
 namespace haptics {
 namespace {
 
-/// Depth of a rod lying on bone, from the moment of what it shares about its own axis and the surface inside it.
-/// Between facing walls both cancel alike, so their quotient stays what one wall makes it.
+/// Depth of a rod on bone from the moment of the shared part about its axis and the surface inside it. Between facing
+/// walls both cancel alike, so the quotient is that of one wall.
 double lyingDepth_mm(double moment_mm4, double area_mm2, double radius_mm, double spacing_mm) {
   if (!(area_mm2 > 0.0)) return 0.0;
   const double q0 = 1.046 * 0.4 * spacing_mm;
   double h = 0.0;
-  // The arm of a shallow share is r - 0.4 h.
+  // The moment arm of a shallow segment is r - 0.4 h.
   for (int i = 0; i < 3; ++i) {
     const double q = 1.5 * moment_mm4 / (area_mm2 * (radius_mm - 0.4 * h)), part = q0 / q;
     if (q <= q0) return 0.0;
@@ -28,7 +28,7 @@ double lyingDepth_mm(double moment_mm4, double area_mm2, double radius_mm, doubl
 Contact shaftContact(const SolidField& field, const Tool& tool,
                      const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT,
                      const TissueStiffness& tissue, double stiffness_N_per_mm) noexcept {
-  // The rod: its round ends end where the head's top and the shaft do.
+  // The rod with its round ends reaches from the head's top to the shaft's end.
   const double r = tool.shaft.radius_mm, top = halfHeight_mm(tool.head);
   const double core = tool.shaft.length_mm - top - 2.0 * r;
   if (!(r > 0.0) || !(core >= 0.0)) return {};

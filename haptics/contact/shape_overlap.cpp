@@ -14,15 +14,15 @@ namespace {
 const double kBlockReach = 0.5 * (kBlockEdge - 1) * std::sqrt(3.0);
 constexpr int kFullBlock = 255 * kBlockVoxels;
 
-/// Sums in voxels and in steps of 1/255 (1/255² for the greyness).
+/// In voxels and steps of 1/255 (1/255² for grey).
 struct Sums {
   double volume = 0.0, stiff = 0.0, grey = 0.0;
-  glm::dvec3 moment_T{0.0};      ///< of voxels cut, along T
+  glm::dvec3 moment_T{0.0};      ///< of partly covered voxels, along T
   glm::dvec3 moment_index{0.0};  ///< of whole voxels, along i, j, k
-  glm::dvec3 rise_index{0.0};    ///< of each voxel's neighbours along i, j, k, by the part that is covered
+  glm::dvec3 rise_index{0.0};    ///< neighbour differences along i, j, k, weighted by coverage
 };
 
-/// A block and the six beside it; air beyond the volume.
+/// A block and its six neighbours; air beyond the volume.
 class Neighbourhood {
  public:
   Neighbourhood(const SolidField& field, glm::ivec3 block) : field_(field), block_(block) {
@@ -44,7 +44,7 @@ class Neighbourhood {
   }
 
   bool empty() const { return empty_; }
-  /// No voxel of the block has different neighbours.
+  /// Every voxel of the block has equal neighbours.
   bool even() const { return even_; }
   bool airInside() const { return weight_ == 0; }
   int weight() const { return weight_; }
@@ -84,7 +84,7 @@ class Neighbourhood {
   bool empty_ = true, even_ = true;
 };
 
-/// A stretch of the head's axis, voxels from its middle; of blocks along a row.
+/// Interval of the head's axis, voxels from its middle; interval of blocks along a row.
 struct Span {
   double from, to;
 };
@@ -92,18 +92,19 @@ struct Range {
   int first, last;
 };
 
-/// Which blocks may be near which part of the axis, so that a long thin head is not looked for in all of its box.
+/// Blocks near parts of the axis, so that a long thin head does not visit its whole box.
 class AxisSpans {
  public:
   explicit AxisSpans(const BurCoverage& bur) : centre_(bur.centre), axis_(bur.to_T[0].z, bur.to_T[1].z, bur.to_T[2].z) {
     const bool flat = bur.kind == ShapeKind::cylinder || bur.kind == ShapeKind::cone;
-    // Discs reach across the axis, balls all ways; a voxel within reach of two faces of an edge lies farther out.
+    // Discs reach across the axis, balls in all directions; a voxel within reach of two faces of an edge is farther
+    // out.
     reach_ = (flat ? glm::sqrt(glm::max(glm::dvec3(0.0), 1.0 - axis_ * axis_)) : glm::dvec3(1.0)) * bur.radius;
     const double at_an_edge = flat ? 1.0 / std::min(bur.side_cos, 0.7) : 1.0;
     reach_ += bur.voxel_reach * at_an_edge * (bur.kind == ShapeKind::cone ? 2.0 : 1.0);
   }
 
-  /// Of `span` what comes near the blocks with this number along an axis; empty: from > to.
+  /// The part of `span` near the blocks with this index along an axis; empty: from > to.
   Span within(const Span& span, int axis, int block) const {
     const double middle = kBlockEdge * block + 0.5 * (kBlockEdge - 1), off = middle - centre_[axis];
     const double room = reach_[axis] + 0.5 * (kBlockEdge - 1), slope = axis_[axis];
@@ -112,7 +113,7 @@ class AxisSpans {
     return {std::max(span.from, std::min(one, other)), std::min(span.to, std::max(one, other))};
   }
 
-  /// The blocks near a stretch, along an axis.
+  /// The blocks near an interval, along an axis.
   Range blocksOn(const Span& span, int axis, const Range& most) const {
     if (span.from > span.to) return {0, -1};
     const double one = centre_[axis] + span.from * axis_[axis], other = centre_[axis] + span.to * axis_[axis];
@@ -132,7 +133,7 @@ class BlockSums {
   BlockSums(const SolidField& field, const BurCoverage& bur, const TissueStiffness& tissue)
       : field_(field), bur_(bur), tissue_(tissue), head_(bur.kernelShape()), reach_(kBlockReach + bur.voxel_reach) {}
 
-  /// Most of a tool is in air: a row at a look.
+  /// Skips rows in air with one test.
   void addRow(const Range& row, int j, int k) {
     if (isAir(row, j, k) && isAir(row, j - 1, k) && isAir(row, j + 1, k) && isAir(row, j, k - 1) &&
         isAir(row, j, k + 1))
@@ -143,7 +144,7 @@ class BlockSums {
   const Sums& sums() const { return sums_; }
 
  private:
-  /// Of a stretch of blocks, and the one before and after it.
+  /// The blocks of a row, and the one before and after it.
   bool isAir(const Range& row, int j, int k) const {
     if (j < 0 || k < 0 || j >= field_.blocks.y || k >= field_.blocks.z) return true;
     const int first = std::max(row.first - 1, 0), last = std::min(row.last + 1, field_.blocks.x - 1);
@@ -156,16 +157,16 @@ class BlockSums {
   void add(glm::ivec3 block) {
     const Neighbourhood around(field_, block);
     if (around.empty()) return;
-    const glm::dvec3 corner(block * kBlockEdge), place = bur_.to_T * (corner - bur_.centre);
-    const double beyond = bur_.beyondFaces(place + to_middle_);
+    const glm::dvec3 corner(block * kBlockEdge), position = bur_.to_T * (corner - bur_.centre);
+    const double beyond = bur_.beyondFaces(position + to_middle_);
     if (beyond >= reach_) return;
     if (beyond <= -reach_)
       addWhole(around, corner);
     else
-      addCut(around, block * kBlockEdge, place);
+      addCut(around, block * kBlockEdge, position);
   }
 
-  /// Every voxel counts whole: the block's own sums will do (reference/physics 5).
+  /// Every voxel counts whole: uses the block's sums (reference/physics 5).
   void addWhole(const Neighbourhood& around, const glm::dvec3& corner) {
     const std::size_t at = around.index();
     if (!around.airInside()) {
@@ -185,8 +186,8 @@ class BlockSums {
     }
   }
 
-  void addCut(const Neighbourhood& around, glm::ivec3 corner, const glm::dvec3& place) {
-    HeadBlock block{{static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(place.z)},
+  void addCut(const Neighbourhood& around, glm::ivec3 corner, const glm::dvec3& position) {
+    HeadBlock block{{static_cast<float>(position.x), static_cast<float>(position.y), static_cast<float>(position.z)},
                     around.solid(),
                     {},
                     nullptr,
@@ -212,7 +213,7 @@ class BlockSums {
     }
   }
 
-  /// A head of a voxel or two: each voxel with care.
+  /// A head of a voxel or two: voxel by voxel in double.
   HeadSums sumInParts(const HeadBlock& block, glm::ivec3 corner) const {
     Sums sums;
     for (int n = 0; n < kBlockVoxels; ++n) {
@@ -236,7 +237,7 @@ class BlockSums {
             {rise.x, rise.y, rise.z}};
   }
 
-  /// Of a block whose voxels are one tissue.
+  /// Of a block with one tissue.
   std::optional<double> onlyFactor(const Neighbourhood& around) const {
     if (field_.label == nullptr || around.airInside()) return tissue_.factor[0];
     const std::uint8_t only = field_.only_label[around.index()];
@@ -271,7 +272,7 @@ ShapeOverlap scaled(const Sums& sums, const BurCoverage& bur, double s) {
           sums.grey * voxel / 255.0};
 }
 
-/// A surface at the volume's end has half its area in the voxels beyond.
+/// Half the area of a surface at the volume's boundary is in the voxels beyond.
 constexpr int kBeyond = 1;
 
 }  // namespace
@@ -293,34 +294,6 @@ ShapeOverlap shapeOverlap(const SolidField& field, const BurShape& shape,
     }
   }
   return scaled(blocks.sums(), bur, field.grid.spacing_mm);
-}
-
-ShapeOverlap shapeOverlapVoxelByVoxel(const SolidField& field, const BurShape& shape,
-                                      const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT,
-                                      const TissueStiffness& tissue) {
-  const BurCoverage bur(field.grid, shape, X_PT, kBeyond);
-  const auto solid_at = [&](glm::ivec3 ijk) {
-    return field.grid.contains(ijk) ? static_cast<double>(field.solidAt(ijk)) : 0.0;
-  };
-  Sums sums;
-  for (int k = bur.first.z; k <= bur.last.z; ++k)
-    for (int j = bur.first.y; j <= bur.last.y; ++j)
-      for (int i = bur.first.x; i <= bur.last.x; ++i) {
-        const glm::ivec3 ijk{i, j, k};
-        const VoxelShare share = bur.shareAt(ijk);
-        for (int axis = 0; axis < 3; ++axis) {
-          glm::ivec3 step{0};
-          step[axis] = 1;
-          sums.rise_index[axis] += share.fraction * (solid_at(ijk + step) - solid_at(ijk - step));
-        }
-        const double w = solid_at(ijk);
-        if (w == 0.0) continue;
-        sums.volume += w * share.fraction;
-        sums.stiff += w * share.fraction * tissue.of(field.labelAt(ijk));
-        sums.grey += w * (255.0 - w) * share.fraction;
-        sums.moment_T += w * share.moment;
-      }
-  return scaled(sums, bur, field.grid.spacing_mm);
 }
 
 }  // namespace haptics

@@ -10,7 +10,7 @@
 namespace haptics {
 namespace {
 
-/// Slope over flat bone. Only a ball has one at every depth; other heads go on as steeply as they came in.
+/// Slope in flat bone; for heads that are no balls the secant.
 double slope_N_per_mm(const ShellParameters& parameters, const ToolInBone& at, const Immersion& immersion,
                       double force_N) {
   if (at.head.kind == ShapeKind::sphere)
@@ -26,7 +26,7 @@ Contact shellContact(const ShellParameters& parameters, const ToolInBone& at) no
   Contact contact = contactAlongNormal(immersion, 0.0, 0.0);
   if (immersion.volume_mm3 <= 0.0) return contact;
 
-  // The pressure on each point's patch, in T: the shape turns, the lattice of points with it.
+  // The pressure on each point's patch, in T.
   const HeadProfile profile(at.head);
   const ToolSampler sampler(at.field, at.X_PT);
   glm::dvec3 force(0.0), torque(0.0);

@@ -1,8 +1,8 @@
 // Surface points (Petersik et al. 2002, in the limit of many: reference/physics 1.3): bone presses on every patch of
-// the bur's surface, F = k_s sum rho n_in dA = -k_s grad V, so it is conservative. Points spread evenly over the shape,
-// each weighted by the solid fraction where it lies (a ramp one voxel wide, no in-or-out test), times its tissue. Frame
-// P; mm, N. Flat bone: F = k_s pi h (2R - h), stiffest at first touch (2 pi k_s R), none at h = R. A flat end or a long
-// side meets flat bone with all its area at once. Servo thread; cost independent of bur and voxel size.
+// the bur's surface, F = k_s sum rho n_in dA = -k_s grad V, so it is conservative. Points spread evenly over the
+// surface, each weighted by the solid fraction there (a ramp one voxel wide) and its tissue. Flat bone: F = k_s pi h
+// (2R - h), steepest at first touch (2 pi k_s R), none at h = R. A flat end or a long side meets flat bone with its
+// whole area at once. Frame P; mm, N. Servo thread; cost independent of bur and voxel size.
 #pragma once
 
 #include "haptics/contact/contact.h"

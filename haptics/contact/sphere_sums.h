@@ -1,17 +1,17 @@
-// The sum over the voxels under a round bur, as the kernels see it: plain numbers in, plain numbers out, one function
-// per instruction set and a choice made once. Voxel units; weights are solid bytes 0..255.
-// Servo thread. No allocation. Cost ~ (R/s)^2, see haptics/README. Private to contact/overlap.
+// The sum over the voxels under a round bur: plain values in and out, one function per instruction set. Voxel units;
+// weights are solid bytes 0..255. Servo thread; no allocation. Cost ~ (R/s)^2, see haptics/README. Private to
+// contact/overlap.
 #pragma once
 
 #include <cstdint>
 
 namespace haptics {
 
-/// Blocks a bur may span along an axis.
+/// Limit of the blocks a bur spans along an axis.
 inline constexpr int kMaxBlocksAcross = 72;
 inline constexpr double kMaxSumRadius = 130.0;
 
-/// Stiffness factors are counted in steps of 2^-16, so that whole blocks add up exactly.
+/// Stiffness factors in steps of 2^-16, so that sums over whole blocks are exact.
 inline constexpr double kFactorSteps = 65536.0;
 
 struct SphereSumsInput {
@@ -30,10 +30,10 @@ struct SphereSumsInput {
 };
 
 struct SphereSums {
-  // Of blocks wholly inside, exact.
+  // Blocks wholly inside, exact.
   std::int64_t weight = 0, x = 0, y = 0, z = 0;  ///< first moments about voxel (0,0,0)
   std::int64_t grey = 0, stiff_steps = 0;
-  // Of the rest, first moments about the centre.
+  // Other blocks, first moments about the centre.
   double shell_weight = 0.0, shell_x = 0.0, shell_y = 0.0, shell_z = 0.0, shell_grey = 0.0, shell_stiff = 0.0;
 };
 

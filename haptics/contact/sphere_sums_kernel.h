@@ -1,7 +1,6 @@
-// The body of every sphereSums…: included once by each of them, compiled for its instruction set. Internal linkage
-// throughout, and no header but the three below, so that nothing of it is shared between instruction sets.
-// Blocks wholly inside add their sums; of the others every plane of 4x4 voxels is sixteen lanes of the lens curve
-// (bone/lens_curve), which is 0 outside and 1 inside by itself: no lane asks where it is.
+// The kernel of sphereSums…, included once by each instruction set's source. Internal linkage throughout, and no header
+// but the three below, so that the sets share no code. Blocks wholly inside add their sums; of the others every plane
+// of 4x4 voxels is sixteen lanes of the lens curve (bone/lens_curve), which is 0 outside and 1 inside: no branches.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +26,7 @@ inline int most(int a, int b) { return a > b ? a : b; }
 inline float mostOf(float a, float b) { return a > b ? a : b; }
 inline float magnitude(float x) { return x < 0.0f ? -x : x; }
 
-/// Where a block of four voxels from `first` on lies about the centre: its nearest and farthest voxel.
+/// Distance from the centre of the nearest and farthest of four voxels from `first` on.
 struct Reach {
   float near, far;
 };

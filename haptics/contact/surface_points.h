@@ -1,6 +1,6 @@
-// Points spread evenly over the surface of a cutting head, each with its normal and its share of the area: Fibonacci's
-// lattice, the golden angle from point to point and equal areas along the profile from tip to shaft. Frame T, mm.
-// Exactly even in area; the rotation is a recurrence, so no table and no trigonometry. Servo thread; some 5 ns a point.
+// Points spread evenly over the surface of a cutting head, each with its normal: Fibonacci's lattice, the golden angle
+// from point to point and equal areas along the profile from tip to shaft. Frame T, mm. Exactly even in area; the
+// rotation is a recurrence, without table or trigonometry. Servo thread; about 5 ns a point.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace haptics {
 /// cos and sin of the golden angle pi (3 - sqrt 5).
 inline constexpr double kGoldenCos = -0.73736887807831985597, kGoldenSin = 0.67549029426152362720;
 
-/// Height and radius of a place on a head's profile, and the outward normal there, as (out, up).
+/// A point of a head's profile with its outward normal (out, up).
 struct ProfilePoint {
   double radius_mm = 0.0, z_mm = 0.0, normal_out = 0.0, normal_up = 0.0;
 };
@@ -25,18 +25,18 @@ struct ProfilePoint {
 class HeadProfile {
  public:
   explicit HeadProfile(const BurShape& head) : head_(head), half_(0.5 * head.length_mm) {
-    const double R = head.radius_mm, slant = std::hypot(R, head.length_mm), turn = 2.0 * calibration::kPi * R;
+    const double R = head.radius_mm, slant = std::hypot(R, head.length_mm), girth = 2.0 * calibration::kPi * R;
     using enum ShapeKind;
     if (head.kind == sphere || head.kind == capsule) {
       if (head.kind == sphere) half_ = 0.0;
-      tip_ = end_ = turn * R;
-      side_ = turn * 2.0 * half_;
+      tip_ = end_ = girth * R;
+      side_ = girth * 2.0 * half_;
     } else if (head.kind == cylinder) {
-      tip_ = end_ = 0.5 * turn * R;
-      side_ = turn * head.length_mm;
+      tip_ = end_ = 0.5 * girth * R;
+      side_ = girth * head.length_mm;
     } else {
-      side_ = 0.5 * turn * slant;
-      end_ = 0.5 * turn * R;
+      side_ = 0.5 * girth * slant;
+      end_ = 0.5 * girth * R;
       cone_out_ = slant > 0.0 ? head.length_mm / slant : 1.0;
       cone_up_ = slant > 0.0 ? -R / slant : 0.0;
     }
@@ -44,7 +44,7 @@ class HeadProfile {
 
   double area_mm2() const { return tip_ + side_ + end_; }
 
-  /// The place with `below_mm2` of the area between it and the tip.
+  /// The point with `below_mm2` of the area between it and the tip.
   ProfilePoint at(double below_mm2) const {
     const double R = head_.radius_mm;
     if (below_mm2 < tip_) return tip(below_mm2 / tip_);
@@ -60,7 +60,7 @@ class HeadProfile {
   }
 
  private:
-  /// Of the end at -z, `part` of its area from the axis on: half a ball or a disc.
+  /// At the end at -z, with `part` of its area towards the axis: half a ball or a disc.
   ProfilePoint tip(double part) const {
     const double R = head_.radius_mm;
     if (head_.kind == ShapeKind::cylinder || head_.kind == ShapeKind::cone)
@@ -79,12 +79,12 @@ void visitSurfacePoints(const HeadProfile& profile, int count, Visit&& visit) {
   const double step_mm2 = profile.area_mm2() / count;
   double cosine = 1.0, sine = 0.0;
   for (int n = 0; n < count; ++n) {
-    const ProfilePoint place = profile.at((n + 0.5) * step_mm2);
-    visit(glm::dvec3(place.radius_mm * cosine, place.radius_mm * sine, place.z_mm),
-          glm::dvec3(place.normal_out * cosine, place.normal_out * sine, place.normal_up));
-    const double turned = cosine * kGoldenCos - sine * kGoldenSin;
+    const ProfilePoint point = profile.at((n + 0.5) * step_mm2);
+    visit(glm::dvec3(point.radius_mm * cosine, point.radius_mm * sine, point.z_mm),
+          glm::dvec3(point.normal_out * cosine, point.normal_out * sine, point.normal_up));
+    const double next = cosine * kGoldenCos - sine * kGoldenSin;
     sine = sine * kGoldenCos + cosine * kGoldenSin;
-    cosine = turned;
+    cosine = next;
   }
 }
 

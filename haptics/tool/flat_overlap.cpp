@@ -252,22 +252,14 @@ FlatOverlap flatOverlap(const BurShape& shape, double depth_mm, double cos_axis)
   return {sums.volume, sums.area, sums.across / sums.volume, sums.along / sums.volume};
 }
 
-double flatDepth_mm(const BurShape& shape, double shared_mm3, double cos_axis) noexcept {
-  const double whole = volume_mm3(shape);
-  if (!(shared_mm3 > 0.0)) return 0.0;
-  if (shared_mm3 >= whole) return fullDepth_mm(shape, cos_axis);
-  // More than half is less than half of the head seen from the other side.
-  if (shared_mm3 <= 0.5 * whole) return shallowDepth(shape, shared_mm3, whole, cos_axis, kExact);
-  return fullDepth_mm(shape, cos_axis) - shallowDepth(shape, whole - shared_mm3, whole, -cos_axis, kExact);
-}
-
 double flatDepth_mm(const BurShape& shape, double shared_mm3, double cos_axis, double sigma_mm) noexcept {
   const double whole = volume_mm3(shape);
   if (!(shared_mm3 > 0.0)) return 0.0;
   if (shared_mm3 >= whole) return fullDepth_mm(shape, cos_axis);
+  // More than half is less than half of the head seen from the other side.
   const bool beyond = shared_mm3 > 0.5 * whole;
   const double volume = beyond ? whole - shared_mm3 : shared_mm3, cos = beyond ? -cos_axis : cos_axis;
-  double h = shallowDepth(shape, volume, whole, cos, kClose);
+  double h = shallowDepth(shape, volume, whole, cos, sigma_mm > 0.0 ? kClose : kExact);
   if (sigma_mm > 0.0) {
     // Deep enough for the whole smear, three points of Gauss-Hermite stand for it.
     const double side = std::sqrt(3.0) * sigma_mm, deepest = fullDepth_mm(shape, cos);

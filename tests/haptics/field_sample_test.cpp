@@ -21,6 +21,7 @@ TEST(FieldSample, InterpolatesAlongAllThreeAxes) {
   const SolidField field = carved.field();
   const auto byteAt = [&](glm::ivec3 ijk) { return bone.grid.contains(ijk) ? bone.solid[bone.grid.index(ijk)] : 0; };
   std::uniform_real_distribution<double> place(-1.5, 1.5);
+  const ToolSampler sampler(field, {});
   for (int trial = 0; trial < 20000; ++trial) {
     const glm::dvec3 p(place(random), place(random), place(random)), index = bone.grid.indexFromPoint(p);
     const glm::dvec3 floor = glm::floor(index), part = index - floor;
@@ -30,7 +31,7 @@ TEST(FieldSample, InterpolatesAlongAllThreeAxes) {
       const glm::dvec3 weight = glm::mix(1.0 - part, part, glm::dvec3(corner));
       sum += weight.x * weight.y * weight.z * byteAt(glm::ivec3(floor) + corner) / 255.0;
     }
-    const FieldSample sample = sampleField(field, p);
+    const FieldSample sample = sampler.at(p);
     ASSERT_NEAR(sample.solid, sum, 1e-12) << index.x << " " << index.y << " " << index.z;
     if (sum > 0.0) {
       ASSERT_EQ(sample.label, 3);
@@ -42,9 +43,11 @@ TEST(FieldSample, IsAirBeyondTheGridAndWhereThereIsNoNumber) {
   const Phantom bone = block(1.0, 0.2);
   const CarvedBone carved = bone.bone(1);
   const double nan = std::numeric_limits<double>::quiet_NaN();
+  const SolidField field = carved.field();
+  const ToolSampler sampler(field, {});
   for (const glm::dvec3 p : {glm::dvec3(nan, 0, 0), glm::dvec3(0, 1e300, 0), glm::dvec3(0, 0, -1.2)})
-    EXPECT_EQ(sampleField(carved.field(), p).solid, 0.0);
-  EXPECT_EQ(sampleField(carved.field(), glm::dvec3(0.03, 0.01, -0.02)).solid, 1.0);
+    EXPECT_EQ(sampler.at(p).solid, 0.0);
+  EXPECT_EQ(sampler.at(glm::dvec3(0.03, 0.01, -0.02)).solid, 1.0);
 }
 
 }  // namespace
