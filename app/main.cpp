@@ -1,4 +1,4 @@
-// molar COMMAND [options]: exit 0 success, 1 the answer is "no", 2 bad input in one line `molar: what, where, what to
+// molar COMMAND [options]. Exit 0 success, 1 the answer is "no", 2 bad input, in one line `molar: what, where, what to
 // do`.
 
 #include <fcntl.h>
@@ -19,14 +19,14 @@
 
 namespace {
 
-constexpr std::size_t kLongestRefusal = 600;
+constexpr std::size_t kMaxRefusal = 600;
 
-/// Whatever a library said, people get one line.
+/// Error messages of libraries may have several.
 std::string oneLine(std::string text) {
   while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
   for (char& c : text)
     if (c == '\n' || c == '\r') c = ' ';
-  if (text.size() > kLongestRefusal) text.replace(kLongestRefusal / 2, text.size() - kLongestRefusal, " … ");
+  if (text.size() > kMaxRefusal) text.replace(kMaxRefusal / 2, text.size() - kMaxRefusal, " … ");
   return text;
 }
 
@@ -35,7 +35,7 @@ int refuse(const std::string& text) {
   return 2;
 }
 
-/// A closed standard stream would lend its number to the next file opened: give it to nowhere instead.
+/// A closed standard stream's descriptor would be reused by the next file: opens /dev/null in its place.
 void holdStandardStreams() {
   for (int fd = 0; fd <= 2; ++fd)
     if (fcntl(fd, F_GETFD) == -1 && open("/dev/null", O_RDWR) == -1) std::abort();
@@ -49,7 +49,7 @@ int run(int argc, char** argv) {
   for (const auto add : app::kCommands) add(molar);
   const int status = molar.run(argc, argv);
   if (std::fflush(stdout) != 0 || std::ferror(stdout))
-    return refuse("standard output: the answer can not be written, check where it goes");
+    return refuse("standard output: it can not be written, check its destination");
   return status;
 }
 

@@ -6,7 +6,7 @@ render::Guides guidesFor(const assets::Patient& patient, const std::optional<ass
   render::Guides guides{patient.mandibular_canal_P_mm, patient.mandibular_canal_radius_mm, {}};
   if (!cut) return guides;
 
-  // The bur's centre sweeps along the stroke, from where it rests on the bone down to the depth of the trough.
+  // The bur's centre moves along the stroke, from the surface down to the depth of the trough.
   const glm::dvec3 outward = glm::normalize(cut->outward_P);
   const double top_mm = cut->bur_radius_mm, bottom_mm = cut->bur_radius_mm - cut->depth_mm;
   guides.cut = {.middle_P_mm = cut->middle_P_mm + 0.5 * (top_mm + bottom_mm) * outward,

@@ -1,4 +1,4 @@
-// What may guide the surgeon on this patient: the mandibular canal, and the cut that is planned. Pure; any thread.
+// Guides drawn on a patient: mandibular canal and planned cut. Pure; any thread.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,6 @@
 
 namespace app {
 
-/// No cut: the canal alone.
 render::Guides guidesFor(const assets::Patient& patient, const std::optional<assets::PlannedCut>& cut);
 
 }  // namespace app

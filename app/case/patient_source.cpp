@@ -1,6 +1,5 @@
 #include "app/case/patient_source.h"
 
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 
@@ -49,20 +48,20 @@ assets::Patient builtInPatient(const assets::JawParameters& parameters) {
     try {
       return assets::loadPatient(folder.string());
     } catch (const assets::LoadError&) {
-      printMessage("the cached built-in patient can not be read, making it again");
+      printMessage("the cached built-in patient can not be read, generating it again");
     }
   } else {
-    printMessage("making the built-in patient (once, up to a minute)");
+    printMessage("generating the built-in patient (once, up to a minute)");
   }
   const assets::Patient made = generate(parameters);
   try {
     fs::create_directories(folder.parent_path(), ignored);
     assets::savePatient(made, folder.string(), true);
   } catch (const assets::LoadError& error) {
-    printMessage(fmt::format("the built-in patient is not kept for next time: {}", error.what()));
+    printMessage(fmt::format("the built-in patient is not cached: {}", error.what()));
     return made;
   }
-  // What is rehearsed is what the cache holds, so the first run and the next are the same.
+  // Read back from the cache, so that the first run equals the next.
   return assets::loadPatient(folder.string());
 }
 

@@ -1,5 +1,5 @@
-// Whom to rehearse on: a patient folder, or the built-in patient, generated once and kept in the user's cache.
-// Start-up only: a second to load, up to a minute to generate. Says what it does on stderr.
+// The built-in patient, generated once and kept in the user's cache, and face models. Start-up only: a second to load,
+// up to a minute to generate; reports on stderr.
 #pragma once
 
 #include <string>
@@ -10,11 +10,10 @@
 
 namespace app {
 
-/// The built-in patient from the cache, or generated and put there. A cache that can not be read is made anew; one
-/// that can not be written is done without.
+/// From the cache, or generated and cached. An unreadable cache is generated again; an unwritable one is ignored.
 assets::Patient builtInPatient(const assets::JawParameters& parameters);
 
-/// Replaces the patient's face by a glTF model, placed by the `teeth.json` beside it, 1:1. Returns where it stands.
+/// Replaces the patient's face by a glTF model, placed by the `teeth.json` next to it, 1:1. Returns its pose.
 assets::FacePose replaceFace(assets::Patient& patient, const std::string& face_path);
 
 }  // namespace app

@@ -17,14 +17,14 @@ using assets::isRight;
 using assets::solidAt;
 using assets::Tissue;
 
-constexpr double kHalfLength_mm = 4.0, kStation_mm = 0.5, kSteepest = 0.8, kRoughest_mm = 0.8;
-constexpr std::size_t kStations = 17, kFewestStations = 7;
+constexpr double kHalfLength_mm = 4.0, kStation_mm = 0.5, kMaxSlope = 0.8, kMaxRoughness_mm = 0.8;
+constexpr std::size_t kStations = 17, kMinStations = 7;
 constexpr double kRayStart_mm = 12.0, kRayLength_mm = 20.0, kRayStep_mm = 0.05;
 constexpr double kTroughDepth_mm = 4.0, kToothMargin_mm = 0.7;
 constexpr double kCrownFromCentroid_mm = 3.5;
 constexpr double kNearestBuccal_mm = 5.0, kFarthestBuccal_mm = 9.0, kFarthestMesial_mm = -5.0;
 constexpr double kNeighbourhood_mm = 22.0;
-constexpr double kNextTo_mm = 14.0, kLeastElongated = 2.0;
+constexpr double kNextTo_mm = 14.0, kMinElongation = 2.0;
 constexpr double kSearch_mm = 40.0, kSearchStep_mm = 4.0;
 
 struct Hit {
@@ -32,13 +32,13 @@ struct Hit {
   bool bone;
 };
 
-/// First solid point along a ray, and whether it is bone.
+/// First solid point along a ray.
 std::optional<Hit> firstSolid(const CtVolume& ct, const glm::dvec3& from_P_mm, const glm::dvec3& direction_P,
                               double length_mm) {
   for (double t = 0.0; t < length_mm; t += kRayStep_mm) {
     const glm::dvec3 p = from_P_mm + t * direction_P;
     if (solidAt(ct, p) < 0.5) continue;
-    // Labels are crisp and the surface soft: ask half a millimetre below it.
+    // The surface is soft and labels are not: sample the label half a millimetre below.
     const glm::ivec3 below = glm::ivec3(glm::round(ct.grid.indexFromPoint(p + 0.5 * direction_P)));
     const auto label = ct.grid.contains(below) ? Tissue{ct.label[ct.grid.index(below)]} : Tissue::unlabelled;
     return Hit{p, label == Tissue::cortical || label == Tissue::trabecular};
@@ -46,13 +46,13 @@ std::optional<Hit> firstSolid(const CtVolume& ct, const glm::dvec3& from_P_mm, c
   return std::nullopt;
 }
 
-/// A tooth that must not be touched: any but the one at the site.
+/// Any tooth but the operated one.
 bool isOtherTooth(const CtVolume& ct, std::size_t v, int site_fdi) {
   const int fdi = ct.tooth.empty() ? 0 : ct.tooth[v];
   return fdi != 0 ? fdi != site_fdi : Tissue{ct.label[v]} == Tissue::other_teeth;
 }
 
-/// Whether a tooth that must not be touched stands within `clearance_mm` of the way the bur takes down from a point.
+/// Whether another tooth lies within `clearance_mm` of the bur's path down from a point.
 bool toothBelow(const CtVolume& ct, int site_fdi, const glm::dvec3& surface_P_mm, const glm::dvec3& outward,
                 double clearance_mm) {
   const int reach = static_cast<int>(std::ceil(clearance_mm / ct.grid.spacing_mm));
@@ -71,8 +71,8 @@ bool toothBelow(const CtVolume& ct, int site_fdi, const glm::dvec3& surface_P_mm
   return false;
 }
 
-/// The bone's surface along a line over `middle`, from mesial to distal: the stations that lie on one straight slope,
-/// none if it climbs like the ramus.
+/// The bone's surface along a line over `middle`, from mesial to distal: the stations on one straight slope; none on a
+/// slope as steep as the ramus.
 std::vector<glm::dvec3> straightBone(const CtVolume& ct, int site_fdi, const glm::dvec3& middle,
                                      const glm::dvec3& distal, const glm::dvec3& outward, double clearance_mm) {
   std::vector<glm::dvec3> found;
@@ -88,7 +88,7 @@ std::vector<glm::dvec3> straightBone(const CtVolume& ct, int site_fdi, const glm
     way_and_height.emplace_back(s, glm::dot(hit->p_P_mm, outward));
     mean += way_and_height.back();
   }
-  if (found.size() < kFewestStations) return {};
+  if (found.size() < kMinStations) return {};
 
   // Least-squares line of height over way.
   mean /= static_cast<double>(found.size());
@@ -98,24 +98,23 @@ std::vector<glm::dvec3> straightBone(const CtVolume& ct, int site_fdi, const glm
     variance += (p.x - mean.x) * (p.x - mean.x);
   }
   const double slope = covariance / variance;
-  if (std::abs(slope) > kSteepest) return {};
+  if (std::abs(slope) > kMaxSlope) return {};
   std::vector<glm::dvec3> straight;
   for (std::size_t n = 0; n < found.size(); ++n)
-    if (std::abs(way_and_height[n].y - mean.y - slope * (way_and_height[n].x - mean.x)) < kRoughest_mm)
+    if (std::abs(way_and_height[n].y - mean.y - slope * (way_and_height[n].x - mean.x)) < kMaxRoughness_mm)
       straight.push_back(found[n]);
   return straight;
 }
 
-/// Where the voxels within `radius_mm` of a place lie: first and last index.
-std::pair<glm::ivec3, glm::ivec3> indexBox(const assets::VolumeGrid& grid, const glm::dvec3& place_P_mm,
+/// First and last index of the voxels within `radius_mm` of a point.
+std::pair<glm::ivec3, glm::ivec3> indexBox(const assets::VolumeGrid& grid, const glm::dvec3& point_P_mm,
                                            double radius_mm) {
-  const glm::ivec3 first(glm::floor(grid.indexFromPoint(place_P_mm - radius_mm)));
-  const glm::ivec3 last(glm::ceil(grid.indexFromPoint(place_P_mm + radius_mm)));
+  const glm::ivec3 first(glm::floor(grid.indexFromPoint(point_P_mm - radius_mm)));
+  const glm::ivec3 last(glm::ceil(grid.indexFromPoint(point_P_mm + radius_mm)));
   return {glm::max(first, glm::ivec3(0)), glm::min(last, grid.size - 1)};
 }
 
-/// A cut along the stations of a line on bone. The hand sweeps straight: along the line the surface takes, square to it
-/// outwards.
+/// A straight cut along stations on bone, from the first to the last.
 assets::PlannedCut cutAlong(const std::vector<glm::dvec3>& surface, const glm::dvec3& outward, const glm::dvec3& aside,
                             double bur_radius_mm) {
   const glm::dvec3 along = glm::normalize(surface.back() - surface.front());
@@ -129,10 +128,38 @@ assets::PlannedCut cutAlong(const std::vector<glm::dvec3>& surface, const glm::d
   return cut;
 }
 
+/// A practice cut.
+std::optional<assets::PlannedCut> planOnNearestBone(const assets::Patient& patient, double bur_radius_mm) {
+  const int fdi = patient.operatedTooth();
+  const glm::dvec3 outward = assets::surgeonEyeDirection(fdi);
+  const glm::dvec3 side = glm::normalize(glm::cross(outward, assets::occlusalDirection_P(fdi)));
+  const glm::dvec3 across = glm::cross(side, outward);
+
+  // The first solid on the surgeon's line of sight is reachable; nearest lines first.
+  const int steps = static_cast<int>(kSearch_mm / kSearchStep_mm);
+  std::vector<glm::ivec2> offsets;
+  for (int u = -steps; u <= steps; ++u)
+    for (int v = -steps; v <= steps; ++v) offsets.emplace_back(u, v);
+  std::ranges::stable_sort(offsets, {}, [](const glm::ivec2& p) { return p.x * p.x + p.y * p.y; });
+  std::vector<glm::dvec3> best;
+  for (const glm::ivec2& offset : offsets) {
+    const glm::dvec3 seen =
+        patient.focus_P_mm() + kSearchStep_mm * (double(offset.x) * side + double(offset.y) * across);
+    const auto hit = firstSolid(patient.ct, seen + kSearch_mm * outward, -outward, 2.0 * kSearch_mm);
+    if (!hit || !hit->bone) continue;
+    std::vector<glm::dvec3> found =
+        straightBone(patient.ct, 0, hit->p_P_mm, side, outward, bur_radius_mm + kToothMargin_mm);
+    if (found.size() > best.size()) best = std::move(found);
+    if (best.size() == kStations) break;
+  }
+  if (best.size() < kMinStations) return std::nullopt;
+  return cutAlong(best, outward, across, bur_radius_mm);
+}
+
 }  // namespace
 
 glm::dvec3 archDirection_P(const CtVolume& ct, const assets::OperativeSite& site) {
-  // Distal is away from the midline at the incisors, to the back at the molars: across from the cheek.
+  // Distal is perpendicular to buccal: lateral at the incisors, posterior at the molars.
   const glm::dvec3 buccal = assets::buccalDirection_P(site.fdi);
   const glm::dvec3 usual(isRight(site.fdi) ? glm::dvec2(buccal.y, -buccal.x) : glm::dvec2(-buccal.y, buccal.x), 0.0);
   glm::dvec3 sum{0.0};
@@ -158,10 +185,10 @@ glm::dvec3 archDirection_P(const CtVolume& ct, const assets::OperativeSite& site
     along.z = 0.0;
     return glm::length(along) > 1.0 ? glm::normalize(along) : usual;
   }
-  // Eigenvalues of the spread: middle +- half of their difference.
+  // Eigenvalues of the spread: middle ± half.
   const double middle = 0.5 * (spread[0][0] + spread[1][1]);
   const double half = glm::length(glm::dvec2(0.5 * (spread[0][0] - spread[1][1]), spread[0][1]));
-  if (middle + half < kLeastElongated * (middle - half)) return usual;
+  if (middle + half < kMinElongation * (middle - half)) return usual;
   const double turn = 0.5 * std::atan2(2.0 * spread[0][1], spread[0][0] - spread[1][1]);
   const glm::dvec3 row(std::cos(turn), std::sin(turn), 0.0);
   return glm::dot(row, usual) < 0.0 ? -row : row;
@@ -176,8 +203,7 @@ std::optional<assets::PlannedCut> planBuccalTrough(const assets::Patient& patien
   const glm::dvec3 outward = glm::normalize(0.45 * buccal + up);
   const glm::dvec3 crown = site.centre_P_mm + kCrownFromCentroid_mm * site.axis_P;
 
-  // Walk mesially along the crown and outwards from it until the line lies on bone all along and does not climb the
-  // ramus.
+  // Search mesially and outwards until the whole line lies on bone and below the ramus.
   std::vector<glm::dvec3> surface;
   for (double shift = 0.0; shift >= kFarthestMesial_mm; shift -= 1.0)
     for (double out = kNearestBuccal_mm; out <= kFarthestBuccal_mm; out += 0.5) {
@@ -187,34 +213,8 @@ std::optional<assets::PlannedCut> planBuccalTrough(const assets::Patient& patien
       if (found.size() > surface.size()) surface = std::move(found);
       if (surface.size() == kStations) break;
     }
-  if (surface.size() < kFewestStations) return std::nullopt;
+  if (surface.size() < kMinStations) return std::nullopt;
   return cutAlong(surface, outward, buccal, bur_radius_mm);
-}
-
-std::optional<assets::PlannedCut> planOnNearestBone(const assets::Patient& patient, double bur_radius_mm) {
-  const int fdi = patient.operatedTooth();
-  const glm::dvec3 outward = assets::surgeonEyeDirection(fdi);
-  const glm::dvec3 side = glm::normalize(glm::cross(outward, assets::occlusalDirection_P(fdi)));
-  const glm::dvec3 across = glm::cross(side, outward);
-
-  // Seen by the surgeon's eye the first solid that lies behind a place is reachable; the nearest place first.
-  const int steps = static_cast<int>(kSearch_mm / kSearchStep_mm);
-  std::vector<glm::ivec2> places;
-  for (int u = -steps; u <= steps; ++u)
-    for (int v = -steps; v <= steps; ++v) places.emplace_back(u, v);
-  std::ranges::stable_sort(places, {}, [](const glm::ivec2& p) { return p.x * p.x + p.y * p.y; });
-  std::vector<glm::dvec3> best;
-  for (const glm::ivec2& place : places) {
-    const glm::dvec3 seen = patient.focus_P_mm() + kSearchStep_mm * (double(place.x) * side + double(place.y) * across);
-    const auto hit = firstSolid(patient.ct, seen + kSearch_mm * outward, -outward, 2.0 * kSearch_mm);
-    if (!hit || !hit->bone) continue;
-    std::vector<glm::dvec3> found =
-        straightBone(patient.ct, 0, hit->p_P_mm, side, outward, bur_radius_mm + kToothMargin_mm);
-    if (found.size() > best.size()) best = std::move(found);
-    if (best.size() == kStations) break;
-  }
-  if (best.size() < kFewestStations) return std::nullopt;
-  return cutAlong(best, outward, across, bur_radius_mm);
 }
 
 std::optional<CutPlan> plannedCut(const assets::Patient& patient, double bur_radius_mm) {

@@ -1,7 +1,6 @@
-// What is planned to be cut on this patient: a line on the bone's surface and the direction the bur comes from, found
-// by casting rays onto the solid. Beside the crown of the tooth at the site, on the cheek's side, from mesial to
-// distal; for a patient without one, on the bone nearest to where one looks that the surgeon's eye sees. Frame P.
-// Start-up only; milliseconds.
+// The planned cut of a patient: a line on the bone's surface and the direction of the bur, found by casting rays onto
+// the solid. It lies buccally of the operated tooth's crown, from mesial to distal; without a tooth, on the nearest
+// bone that the surgeon sees. Frame P. Start-up only; milliseconds.
 #pragma once
 
 #include <optional>
@@ -11,16 +10,12 @@
 
 namespace app {
 
-/// Direction of the dental arch at a tooth, mesial to distal, horizontal, unit: of a third molar, which ends the row,
-/// from the middle of its neighbours; of any other the principal axis of where those next to it stand. As a normal arch
-/// has it where they do not tell.
+/// Direction of the dental arch at a tooth, mesial to distal, horizontal, unit. Of a third molar: from the centroid of
+/// its neighbours; of other teeth: the principal axis of their neighbours. That of a normal arch if these give none.
 glm::dvec3 archDirection_P(const assets::CtVolume& ct, const assets::OperativeSite& site);
 
-/// The buccal trough that bares the tooth. None where no bone lies beside the crown, or the patient has no site.
+/// The buccal trough that exposes the tooth. None without bone next to the crown, or without a site.
 std::optional<assets::PlannedCut> planBuccalTrough(const assets::Patient& patient, double bur_radius_mm);
-
-/// A cut to practise with. None where no bone is seen within 40 mm.
-std::optional<assets::PlannedCut> planOnNearestBone(const assets::Patient& patient, double bur_radius_mm);
 
 enum class CutKind { buccal_trough, nearest_bone };
 
@@ -29,7 +24,7 @@ struct CutPlan {
   CutKind kind = CutKind::buccal_trough;
 };
 
-/// The trough, or else the cut to practise with: what a hand in numbers works at and what guides show.
+/// The trough, or else a practice cut on visible bone within 40 mm: followed by scripted input and shown as guide.
 std::optional<CutPlan> plannedCut(const assets::Patient& patient, double bur_radius_mm);
 
 }  // namespace app

@@ -6,7 +6,7 @@
 #include <fmt/core.h>
 
 #include "app/options/law_text.h"
-#include "app/options/picture_layers.h"
+#include "app/options/picture_option.h"
 #include "app/text/list.h"
 #include "app/text/parse_number.h"
 #include "app/text/usage_error.h"

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "app/device/trip_reporter.h"
-#include "app/options/picture_layers.h"
+#include "app/options/picture_option.h"
 #include "assets/tissue.h"
 #include "haptics/contact/law_parameters.h"
 #include "render/quality_ladder.h"

@@ -7,18 +7,17 @@
 
 namespace app {
 
-std::string displayNames() { return joined(render::kDisplayModes, &render::DisplayModeName::name); }
-
 void DisplayOption::addTo(CommandLine& command) {
+  const std::string names = joined(render::kDisplayModes, &render::DisplayModeName::name);
   command
       .option(
           "--display",
-          [this](const std::string& name) {
+          [this, names](const std::string& name) {
             const auto mode = render::displayModeNamed(name);
-            if (!mode) throw UsageError("--display " + name + ": not a display, choose one of " + displayNames());
+            if (!mode) throw UsageError("--display " + name + ": not a display, choose one of " + names);
             mode_ = *mode;
           },
-          "Stereo display: " + displayNames() + " [mono]")
+          "Stereo display: " + names + " [mono]")
       .valueNamed("MODE");
   command.flag("--swap-eyes", swapped_, "The display shows left for right: exchange them");
 }

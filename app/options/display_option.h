@@ -10,9 +10,6 @@ namespace app {
 
 class CommandLine;
 
-/// "mono, quad-buffer, …"
-std::string displayNames();
-
 class DisplayOption {
  public:
   void addTo(CommandLine& command);

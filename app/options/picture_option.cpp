@@ -2,7 +2,6 @@
 
 #include <map>
 
-#include "app/options/picture_layers.h"
 #include "app/text/command_line.h"
 #include "app/text/usage_error.h"
 

@@ -2,8 +2,10 @@
 // `--antialias`. Start-up only.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "render/frame.h"
@@ -12,6 +14,22 @@
 namespace app {
 
 class CommandLine;
+
+/// Layers besides tooth and bone: one table for `--layers`, scripts and the instructor's window.
+struct PictureLayer {
+  std::string_view name;   ///< on the command line and in scripts
+  std::string_view label;  ///< in the instructor's window
+  bool render::Layers::*on;
+};
+
+inline constexpr std::array<PictureLayer, 6> kPictureLayers = {{
+    {"gum", "Gum", &render::Layers::gingiva},
+    {"canal", "Mandibular canal", &render::Layers::mandibular_canal},
+    {"clearance", "Clearance bands", &render::Layers::clearance},
+    {"plan", "Planned cut", &render::Layers::planned_cut},
+    {"ghost", "Ghost tool", &render::Layers::ghost_tool},
+    {"slices", "CT slices", &render::Layers::slices},
+}};
 
 class PictureOption {
  public:

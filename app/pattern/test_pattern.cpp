@@ -1,7 +1,6 @@
 #include "app/pattern/test_pattern.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/core.h>
 
@@ -16,7 +15,6 @@ using render::Eye;
 constexpr double kRingDepth_mm = 20.0;  ///< of the rings before and behind the screen
 
 const Ink kBlack{0, 0, 0}, kWhite{1, 1, 1}, kGrey{0.45, 0.45, 0.45}, kFaint{0.28, 0.28, 0.28}, kSoft{0.75, 0.75, 0.75};
-/// Red and blue of equal weight, each with words that say which it is.
 const Ink kLeftInk{0.80, 0.10, 0.10}, kRightInk{0.10, 0.25, 0.90};
 
 void drawEyes(const ScreenPage& page, Eye eye) {
@@ -25,7 +23,7 @@ void drawEyes(const ScreenPage& page, Eye eye) {
   const double unit = std::min(half.x, half.y);
   page.fill(eye == Eye::cyclopean ? kFaint : left ? kLeftInk : kRightInk);
   const char* const word = eye == Eye::cyclopean ? "ONE PICTURE" : left ? "LEFT" : "RIGHT";
-  // Each eye has its own half, so that both words are read at once where both eyes see.
+  // Each word has its own half, so that both can be read together.
   const double y = eye == Eye::cyclopean ? 0.0 : left ? -0.42 * unit : 0.42 * unit;
   page.text(word, {0.0, y}, 0.42 * unit, kWhite);
   if (eye != Eye::cyclopean)
@@ -47,7 +45,7 @@ void drawCrosstalk(const ScreenPage& page, Eye eye) {
             on_white);
   page.text("A ghost of the word is crosstalk", {(left ? -0.5 : 0.5) * half.x, -0.25 * half.y}, 0.06 * half.y,
             on_white);
-  // Steps of grey in both eyes: the ghost is as bright as the step it can not be told from.
+  // The ghost is as bright as the grey step that looks the same.
   constexpr std::array kSteps{0.0, 0.5, 1.0, 2.0, 3.0, 5.0, 7.0, 10.0, 15.0, 20.0};
   const double width = 2.0 * half.x / static_cast<double>(kSteps.size());
   for (std::size_t s = 0; s < kSteps.size(); ++s) {
@@ -112,7 +110,7 @@ void drawText(const ScreenPage& page) {
               kWhite);
     y += 1.5 * height + 1.0;
   }
-  // Pairs of lines, from one device pixel up: they must be told apart, not be grey.
+  // Pairs of lines, from one device pixel up, must not merge to grey.
   const double pixel = page.pixel_mm();
   double x = -0.9 * half.x;
   for (const int pixels : {1, 2, 3, 4, 6, 8}) {

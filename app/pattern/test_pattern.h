@@ -1,12 +1,11 @@
-// Pictures for the technician, one per eye, laid out in millimetres on the (virtual) screen as the person before it
-// sees it: through a mirror or not, words read from left to right and a square of 10 mm measures 10 mm. No patient, no
-// OpenGL.
-//   eyes       which eye is which: a word and a colour each
-//   crosstalk  white in one eye, black in the other, in fields and steps of grey: what leaks through is seen
+// Display test patterns, one image per eye, laid out in millimetres on the (virtual) screen as the viewer sees it: with
+// or without a mirror, text reads from left to right and a square of 10 mm measures 10 mm. No OpenGL.
+//   eyes       a word and a colour for each eye
+//   crosstalk  white in one eye, black in the other, and grey steps to compare the leakage with
 //   grid       squares of a stated size, a circle, the middle: scale, shape, mirror
-//   cross      a cross on the screen, rings before and behind it: depth
-//   text       words of stated heights and pairs of lines: sharpness
-// Cairo and Pango draw, inside. Any one thread; a tenth of a second.
+//   cross      a cross on the screen, rings in front of and behind it: depth
+//   text       text of stated heights and pairs of lines: sharpness
+// Any one thread; a tenth of a second.
 #pragma once
 
 #include <array>
@@ -37,10 +36,10 @@ inline constexpr std::array<TestPatternName, 5> kTestPatterns = {{
 
 std::optional<TestPattern> testPatternNamed(std::string_view name);
 
-/// One eye's picture, `px` large, over the whole of the rig's screen.
+/// One eye's image of `px`, covering the rig's screen.
 render::Image patternFor(TestPattern pattern, const calibration::Rig& rig, render::Eye eye, glm::ivec2 px);
 
-/// What the display is given: every pixel from the eye the layout says, mixed in linear light for anaglyphs.
+/// The display's output: both eyes in the given layout, anaglyphs mixed in linear light.
 render::Image patternOutput(TestPattern pattern, const calibration::Rig& rig, const render::StereoLayout& layout);
 
 }  // namespace app

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/station/workstation.h"
@@ -17,12 +18,23 @@ struct Notice {
 class EventLog {
  public:
   /// From now on lines go to this recording, earlier ones now. Borrowed.
-  void recordInto(Workstation& workstation);
+  void recordInto(Workstation& workstation) {
+    workstation_ = &workstation;
+    for (const Notice& notice : std::exchange(waiting_, {})) workstation.note(notice.kind, notice.line);
+  }
 
   /// To the recording only.
-  void note(const std::string& kind, const std::string& line);
+  void note(const std::string& kind, const std::string& line) {
+    if (workstation_ != nullptr)
+      workstation_->note(kind, line);
+    else
+      waiting_.push_back({kind, line});
+  }
   /// To terminal and recording.
-  void report(const Notice& notice);
+  void report(const Notice& notice) {
+    printMessage(notice.line);
+    note(notice.kind, notice.line);
+  }
   /// Reports lines of one kind; borrows this log.
   ReportLine reporter(const std::string& kind) {
     return [this, kind](const std::string& line) { report({kind, line}); };

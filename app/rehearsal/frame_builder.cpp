@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "app/options/picture_layers.h"
+#include "app/options/picture_option.h"
 #include "calibration/geometry/units.h"
 
 namespace app {

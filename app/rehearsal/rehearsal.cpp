@@ -1,18 +1,30 @@
 #include "app/rehearsal/rehearsal.h"
 
 #include <algorithm>
+#include <csignal>
 #include <utility>
 
 #include "app/controls/active_command.h"
+#include "app/device/emergency_exit.h"
 #include "app/rehearsal/control_router.h"
 #include "app/rehearsal/equipment.h"
 #include "app/rehearsal/frame_builder.h"
-#include "app/rehearsal/interrupt.h"
 #include "app/rehearsal/pace.h"
 #include "app/rehearsal/status_reporter.h"
 
 namespace app {
 namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+
+/// They end a rehearsal in order; at the second signal the force goes to zero at once.
+void installInterruptHandlers() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    std::signal(signal, [](int) {
+      if (interrupted) forbidForceNow();
+      interrupted = 1;
+    });
+}
 
 class Rehearsal {
  public:
@@ -96,7 +108,7 @@ class Rehearsal {
   }
 
   std::optional<Ending> endingNow() {
-    return monitor_.ending(newest_, pace_.now(), isInterrupted(), plan_.procedure && plan_.procedure->isOver(),
+    return monitor_.ending(newest_, pace_.now(), interrupted != 0, plan_.procedure && plan_.procedure->isOver(),
                            !station().isApplied(newest_));
   }
 
@@ -154,7 +166,7 @@ class Rehearsal {
 
 int rehearse(RehearsalPlan plan) {
   installInterruptHandlers();
-  plan.device_options.is_cancelled = [] { return isInterrupted(); };
+  plan.device_options.is_cancelled = [] { return interrupted != 0; };
   return Rehearsal(std::move(plan)).run();
 }
 

@@ -1,5 +1,4 @@
-// What may be typed, as people are told of it: what the help, the manual and the shell's completion say is made from
-// it.
+// Commands and options as data, from which manual pages and shell completion are generated.
 #pragma once
 
 #include <string>
@@ -8,9 +7,9 @@
 namespace app {
 
 struct OptionHelp {
-  std::string names;          ///< "--out", "-h,--help", or of a word that stands by its place its name
-  std::string value;          ///< "FILE", "UINT"; empty: it takes none
-  std::string default_value;  ///< its value where it is not given; empty: none, or told in `about`
+  std::string names;          ///< "--out", "-h,--help", or the name of a positional argument
+  std::string value;          ///< "FILE", "UINT"; empty: no value
+  std::string default_value;  ///< empty: none, or described in `about`
   std::string about;
   std::vector<std::string> choices;  ///< empty: any
   bool is_required = false;

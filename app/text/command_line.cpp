@@ -13,7 +13,7 @@
 namespace app {
 namespace {
 
-/// Unlike the library's own it refuses what is not a number.
+/// Unlike CLI::Range it refuses text that is not a number.
 CLI::Validator numberRange(double low, double high) {
   const std::string words = fmt::format("{:.9g} to {:.9g}", low, high);
   return {[=](const std::string& given) {
@@ -24,7 +24,7 @@ CLI::Validator numberRange(double low, double high) {
           words, "numberRange"};
 }
 
-/// CLI11 has them as a piece of its help alone: "TEXT:{iso,dvr}".
+/// CLI11 has them only as text of its help: "TEXT:{iso,dvr}".
 std::vector<std::string> choicesIn(const std::string& type) {
   const std::size_t from = type.find('{'), end = type.rfind('}');
   if (from == std::string::npos || end == std::string::npos || end < from) return {};
@@ -32,21 +32,21 @@ std::vector<std::string> choicesIn(const std::string& type) {
   return {choices.begin(), choices.end()};
 }
 
-OptionHelp wordsOf(const CLI::Option& option) {
-  OptionHelp words;
-  words.names = option.get_name(false, true);
-  words.about = option.get_description();
-  words.is_required = option.get_required();
-  words.is_positional = option.get_positional();
-  if (option.get_items_expected_max() == 0) return words;
+OptionHelp helpOn(const CLI::Option& option) {
+  OptionHelp help;
+  help.names = option.get_name(false, true);
+  help.about = option.get_description();
+  help.is_required = option.get_required();
+  help.is_positional = option.get_positional();
+  if (option.get_items_expected_max() == 0) return help;
   const std::string type = option.get_type_name();
-  words.choices = choicesIn(type);
-  words.value = type.substr(0, type.find(':'));
-  words.default_value = option.get_default_str();
-  // A list of one is told as that one.
-  if (words.default_value.starts_with('['))
-    words.default_value = words.default_value.substr(1, words.default_value.size() - 2);
-  return words;
+  help.choices = choicesIn(type);
+  help.value = type.substr(0, type.find(':'));
+  help.default_value = option.get_default_str();
+  // A list is shown as its values.
+  if (help.default_value.starts_with('['))
+    help.default_value = help.default_value.substr(1, help.default_value.size() - 2);
+  return help;
 }
 
 }  // namespace
@@ -162,22 +162,22 @@ Option CommandLine::flag(const std::string& name, bool& value, const std::string
 void CommandLine::footer(const std::string& text) { app_.footer(text); }
 
 CommandHelp CommandLine::words() const {
-  CommandHelp words{app_.get_name(), app_.get_description(), app_.get_footer(), {}, {}};
+  CommandHelp help{app_.get_name(), app_.get_description(), app_.get_footer(), {}, {}};
   for (const CLI::Option* option : app_.get_options())
-    if (!option->get_group().empty()) words.options.push_back(wordsOf(*option));
-  for (const auto& command : commands_) words.commands.push_back(command->words());
-  return words;
+    if (!option->get_group().empty()) help.options.push_back(helpOn(*option));
+  for (const auto& command : commands_) help.commands.push_back(command->words());
+  return help;
 }
 
 int CommandLine::run(int argc, const char* const* argv) {
   try {
     app_.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    // Help and version are answers, everything else is a refusal.
+    // Help and version exit with 0.
     if (error.get_exit_code() == 0) return app_.exit(error);
     throw UsageError("command line: " + std::string(error.what()) + ", see molar --help or molar COMMAND --help");
   }
-  // The innermost one that was named.
+  // The innermost command that was given.
   const CommandLine* chosen = this;
   for (const CommandLine* next = this; next != nullptr;) {
     chosen = next;

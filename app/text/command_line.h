@@ -1,5 +1,5 @@
-// What may stand on the command line: commands, their options, what each does. The one place that reads CLI11, which
-// is slow to compile. Names: "--long", or a word that stands by its place. Main thread, start-up only.
+// The command line: commands, options, actions. Wraps CLI11, which is slow to compile, for all other sources. Names:
+// "--long", or a plain word for a positional argument. Main thread, start-up only.
 #pragma once
 
 #include <functional>
@@ -16,25 +16,25 @@ class Option;
 
 namespace app {
 
-/// One option, borrowed from its command; each call says more of it.
+/// An option of a command; each call adds a property.
 class Option {
  public:
   explicit Option(CLI::Option& option) : option_(&option) {}
 
   Option& required();
-  /// What the help calls its value: FILE, WxH, …
+  /// Placeholder of the value in the help: FILE, WxH, …
   Option& valueNamed(const std::string& name);
-  /// The help shows what holds where it is not given: the variable as it is now.
+  /// The help shows the variable's current value as default.
   Option& showsDefault();
   Option& oneOf(const std::vector<std::string>& values);
-  /// Both included; what is no number is refused, too.
+  /// Both included.
   Option& from(double low, double high);
   Option& wholeFrom(int low, int high);
   Option& existingFolder();
-  /// So many numbers, as in "1,2,3".
+  /// Exactly `count` numbers, as in "1,2,3".
   Option& numbers(int count);
   Option& separatedByCommas();
-  /// Given once for each value.
+  /// One value each time the option is given.
   Option& repeated();
   /// Accepted, but absent from help, manual and completion.
   Option& hidden();
@@ -47,7 +47,7 @@ class Option {
 
 class CommandLine {
  public:
-  /// The program itself, which wants one of its commands.
+  /// The program, which requires one of its commands.
   CommandLine(const std::string& about, const std::string& version);
   ~CommandLine();
   CommandLine(const CommandLine&) = delete;
@@ -57,8 +57,7 @@ class CommandLine {
   CommandLine& command(const std::string& name, const std::string& about);
   void requireCommand();
 
-  /// The variable outlives run(); it is set where the option is given.
-  /// Of text, number or list, optional or not.
+  /// `value` must outlive run() and is set if the option is given. Text, number or list, also as std::optional.
   template <class Value>
   Option option(const std::string& name, Value& value, const std::string& help);
   /// `take` may throw UsageError.
@@ -67,14 +66,14 @@ class CommandLine {
   /// Below the options.
   void footer(const std::string& text);
 
-  /// All that was added so far.
+  /// Help of all commands and options added so far.
   CommandHelp words() const;
 
-  /// Its answer is the program's exit status.
+  /// `action` returns the exit status.
   void does(std::function<int()> action) { action_ = std::move(action); }
 
-  /// Does what is asked for; help and version are answers, too. Throws UsageError for what it does not take, and what
-  /// the command throws.
+  /// Runs the chosen command, or prints help or version. Throws UsageError for invalid options, and what the action
+  /// throws.
   int run(int argc, const char* const* argv);
 
  private:

@@ -1,4 +1,4 @@
-// Lists on one line: "agus, forssim, hertz" out of a table, and what stands between the commas of one. Any thread.
+// Joining a table to "agus, forssim, hertz", and splitting such a list. Any thread.
 #pragma once
 
 #include <functional>
@@ -8,7 +8,7 @@
 
 namespace app {
 
-/// `name`: a member or a function of each entry.
+/// `name`: member or function of an entry.
 template <class Table, class Name = std::identity>
 std::string joined(const Table& table, Name name = {}, std::string_view between = ", ") {
   std::string list;
@@ -19,7 +19,7 @@ std::string joined(const Table& table, Name name = {}, std::string_view between 
   return list;
 }
 
-/// At least one, empty ones too; parts of `text`.
+/// Views into `text`; at least one, empty parts included.
 inline std::vector<std::string_view> split(std::string_view text, char between = ',') {
   std::vector<std::string_view> parts;
   for (std::size_t end; (end = text.find(between)) != std::string_view::npos; text.remove_prefix(end + 1))

@@ -1,4 +1,4 @@
-// The number that a text is, whole: 1.5, -3, 1e4, whatever the locale. Any thread.
+// Text to number, independent of the locale: 1.5, -3, 1e4. Any thread.
 #pragma once
 
 #include <charconv>
@@ -9,7 +9,7 @@
 
 namespace app {
 
-/// None for anything else, also for what is not finite or does not fit. `how`: base of a whole number.
+/// None unless the whole text is a finite number that fits. `how`: base of an integer.
 template <class Number>
 std::optional<Number> parseNumber(std::string_view text, auto... how) {
   Number number{};

@@ -1,5 +1,4 @@
-// How wide and how colourful a page of words may be where it is read: a terminal, or a file. NO_COLOR (no-color.org)
-// is obeyed. Any thread.
+// Width and colour of text on standard output: a terminal or a file. Follows NO_COLOR (no-color.org). Any thread.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +10,6 @@ struct TerminalFormat {
   bool coloured = false;
 };
 
-/// Of standard output.
 TerminalFormat terminalFormat();
 
 }  // namespace app

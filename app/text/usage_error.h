@@ -1,5 +1,5 @@
-// The one exception of this folder: a command line, pose file or answer that can not be used.
-// The text is one line: what, where, what to do. Caught once, in main: exit 2.
+// The exception of app: invalid command line, pose file or answer. One line: what, where, what to do. Caught in main,
+// exit 2.
 #pragma once
 
 #include <stdexcept>

@@ -1,5 +1,5 @@
-// Text broken at blanks into lines of at most so many columns, the second and later ones indented. A word that is
-// longer than a line stays whole, so that a command can be copied. Counts UTF-8 characters, not bytes. Any thread.
+// Text wrapped at blanks, later lines indented. Words longer than a line stay whole, so that commands can be copied.
+// Columns are UTF-8 characters. Any thread.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace app {
 
-/// The first line begins at column `indent` already.
+/// The first line begins at column `indent`.
 std::string wrappedText(std::string_view text, std::size_t indent, std::size_t width);
 
 }  // namespace app

@@ -70,7 +70,7 @@ class ProgramTest : public testing::Test {
     EXPECT_EQ(said.status, 2) << arguments << "\n" << said.err;
     EXPECT_EQ(said.out, "") << arguments;
     // Whichever test comes first has the built-in patient made.
-    const std::string made = "molar: making the built-in patient (once, up to a minute)\n";
+    const std::string made = "molar: generating the built-in patient (once, up to a minute)\n";
     const std::string refusal = said.err.substr(said.err.starts_with(made) ? made.size() : 0);
     EXPECT_TRUE(refusal.starts_with("molar: ")) << arguments << "\n" << said.err;
     EXPECT_EQ(std::count(refusal.begin(), refusal.end(), '\n'), 1) << arguments << "\n" << said.err;
