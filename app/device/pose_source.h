@@ -13,6 +13,7 @@
 #include "haptics/device/haptic_device.h"
 #include "haptics/device/opened_device.h"
 #include "haptics/device/simulated/mouse_device.h"
+#include "haptics/loop/served_device.h"
 
 namespace app {
 
@@ -51,5 +52,11 @@ void fixOrientation(PoseSource& source, const calibration::Rig& rig, const glm::
 PoseSource openPoseSource(const std::string& address, const DeviceOptions& options, const assets::Patient& patient,
                           const calibration::Rig& rig, const std::optional<assets::PlannedCut>& cut,
                           std::optional<OpenedDevice> opened = std::nullopt);
+
+/// Whether a device ticks on its own thread, by the clock, or is stepped: its time is then the ticks it is made to
+/// make.
+enum class Ticking { realtime, stepped };
+/// Throws haptics::DeviceError for a device that cannot be stepped: a real one.
+haptics::ServedDevice servedAs(haptics::HapticDevice& device, Ticking ticking);
 
 }  // namespace app

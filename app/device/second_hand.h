@@ -8,7 +8,6 @@
 #include <string>
 
 #include "app/device/pose_source.h"
-#include "app/device/ticking.h"
 #include "haptics/loop/instrument_tracker.h"
 #include "render/frame_renderer.h"
 

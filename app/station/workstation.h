@@ -1,7 +1,7 @@
 // The room while a rehearsal runs: the live bone, the servo on its thread, the hand, the recorder. The one place that
 // starts and stops threads. What the frame loop needs of it are values: the newest tick, the dirty bricks, figures. By
-// hand (app/device/ticking) there is no servo thread: step() makes the ticks. Main thread. Construction copies the bone
-// and opens the recording (0.1 s); nothing runs before start().
+// hand (app/device/pose_source) there is no servo thread: step() makes the ticks. Main thread. Construction copies the
+// bone and opens the recording (0.1 s); nothing runs before start().
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "app/device/emergency_exit.h"
-#include "app/device/ticking.h"
+#include "app/device/pose_source.h"
 #include "app/session/recorder.h"
 #include "assets/patient.h"
 #include "haptics/bone/carved_bone.h"

@@ -13,7 +13,7 @@ constexpr HandActions kDrill = HandActions{}.with(HandAction::drill);
 
 PedalSwitches axisPedal(AxisRest rest = AxisRest::unknown, int least = 0, int most = 100) {
   return PedalSwitches(std::vector<PedalSwitch>{
-      {.is_axis = true, .code = ABS_Z, .threshold = 0.5, .rest = rest, .least = least, .most = most}});
+      {.is_axis = true, .code = ABS_Z, .threshold = 0.5, .rest = rest, .min = least, .max = most}});
 }
 
 TEST(PedalSwitches, AreHeldFromDownToUpAndDeafToOtherKeys) {

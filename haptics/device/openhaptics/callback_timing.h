@@ -1,6 +1,6 @@
-// How punctual a scheduler is that calls back instead of being waited for: the interval since the last call against the
-// period. µs, ns of monotonic_ns(); the scheduler's thread; a few flops. It can not know when a tick was due by the
-// scheduler's own grid, so a single late call counts once and is not paid back by an early one.
+// Timing of ticks that a scheduler calls: the interval since the last call against the period. The deadlines of the
+// scheduler's own grid are not known, so a late call counts once and an early one does not compensate it. µs, ns of
+// monotonic_ns(); the scheduler's thread; a few flops.
 #pragma once
 
 #include <algorithm>

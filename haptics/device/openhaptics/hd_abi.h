@@ -1,6 +1,5 @@
-// The calling interface of 3D Systems' OpenHaptics HDAPI as Molar uses it: sizes, numbers, shapes of functions. Facts
-// of the interface from reference/devices 2, no text of the vendor. SysV x86-64, plain C calls. Units as there: mm,
-// mm/s, rad, N. Not every property of HDAPI; the functions themselves are found by HdLibrary.
+// The calling interface of 3D Systems' OpenHaptics HDAPI as far as Molar uses it: sizes, constants, function types.
+// Facts of the interface (reference/devices 2), no text of the vendor. SysV x86-64, plain C calls; mm, mm/s, rad, N.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +10,10 @@ using DeviceId = std::uint32_t;
 using Enum = std::uint32_t;
 using Boolean = std::uint8_t;
 using ScheduleId = unsigned long;
-/// Runs on the vendor's scheduler; answers whether it wants to run again.
+/// Runs on the vendor's scheduler; returns whether it is called again.
 using Callback = unsigned (*)(void* data);
 
-/// One error of the library's stack; comes by value in two registers.
+/// One error of the library's stack; returned by value in two registers.
 struct ErrorInfo {
   std::uint32_t code;
   std::int32_t internal_code;
@@ -30,7 +29,7 @@ inline constexpr unsigned short kFirstOfATick = 65535;  ///< the highest priorit
 // Properties of a frame.
 inline constexpr Enum kCurrentButtons = 0x2000;        ///< int; bits 1, 2, 4, 8
 inline constexpr Enum kCurrentSafetySwitch = 0x2001;   ///< boolean
-inline constexpr Enum kCurrentInkwellSwitch = 0x2002;  ///< boolean; which way round, the device decides
+inline constexpr Enum kCurrentInkwellSwitch = 0x2002;  ///< boolean; its polarity depends on the device
 inline constexpr Enum kCurrentPosition = 0x2050;       ///< 3 doubles, mm
 inline constexpr Enum kCurrentVelocity = 0x2051;       ///< 3 doubles, mm/s
 inline constexpr Enum kCurrentTransform = 0x2052;      ///< 16 doubles, column-major, translation in mm at 12..14
@@ -66,7 +65,7 @@ inline constexpr Enum kSoftwareVelocityLimit = 0x2606, kSoftwareForceImpulseLimi
 inline constexpr Enum kCalibrationOk = 0x5000, kCalibrationNeedsUpdate = 0x5001, kCalibrationNeedsManualInput = 0x5002;
 inline constexpr Enum kEncoderReset = 1, kAutoCalibration = 2, kInkwellCalibration = 4;
 
-// Errors; what each means is told in hd_error.
+// Errors; hd_error has their meaning.
 inline constexpr std::uint32_t kSuccess = 0x0000;
 inline constexpr std::uint32_t kWarmMotors = 0x0200;
 inline constexpr std::uint32_t kCommunicationError = 0x0302;

@@ -3,31 +3,31 @@
 namespace haptics {
 namespace {
 
-constexpr double kLooks_Hz = 10.0;
+constexpr double kChecks_Hz = 10.0;
 
 }  // namespace
 
 /// The style to update with now; 0: none.
 hd::Enum HdCalibration::updateStyle() noexcept {
-  if ((styles_ & hd::kEncoderReset) && reset_asked_.exchange(false)) return hd::kEncoderReset;
+  if ((styles_ & hd::kEncoderReset) && reset_requested_.exchange(false)) return hd::kEncoderReset;
   if (state_.load(std::memory_order_relaxed) != hd::kCalibrationNeedsUpdate) return 0;
   if (styles_ & hd::kAutoCalibration) return hd::kAutoCalibration;
   return styles_ & hd::kInkwellCalibration;
 }
 
 bool HdCalibration::update(const HdFunctions& hd, double rate_Hz) noexcept {
-  const bool reset_asked = reset_asked_.load(std::memory_order_relaxed);
-  if (--ticks_to_check_ > 0 && !reset_asked) return true;
+  const bool reset_requested = reset_requested_.load(std::memory_order_relaxed);
+  if (--ticks_to_check_ > 0 && !reset_requested) return true;
   state_.store(hd.check_calibration(), std::memory_order_relaxed);
 
-  // The pose jumps with the update, so this frame's is not believed.
+  // The pose jumps with the update, so this frame's is not valid.
   ticks_to_check_ = 0;
   if (const hd::Enum style = updateStyle()) {
     hd.update_calibration(style);
     return false;
   }
   if (state_.load(std::memory_order_relaxed) != hd::kCalibrationOk) return false;
-  ticks_to_check_ = static_cast<int>(rate_Hz / kLooks_Hz);
+  ticks_to_check_ = static_cast<int>(rate_Hz / kChecks_Hz);
   return true;
 }
 

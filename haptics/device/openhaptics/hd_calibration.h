@@ -1,7 +1,7 @@
-// Keeps a device calibrated as its style asks (reference/devices 2): automatically, by its inkwell, or by a reset of
-// its encoders in a known position that only a person can see. update(): inside a frame, on the scheduler's thread, one
-// or two calls of the library ten times a second, every tick while the pose can not be believed. Everything else: any
-// thread. Not the calibration of the rig.
+// Keeps a device calibrated by its style (reference/devices 2): automatically, by its inkwell, or by a reset of its
+// encoders in a known position, which only a person can see. update(): inside a frame, on the scheduler's thread, one
+// or two library calls ten times a second, every tick while the pose is not valid. The others: any thread. Not the
+// calibration of the rig.
 #pragma once
 
 #include <atomic>
@@ -16,13 +16,13 @@ class HdCalibration {
   /// `styles`: the bits of the device's style.
   explicit HdCalibration(hd::Enum styles) : styles_(styles) {}
 
-  /// Whether the pose of this frame can be believed.
+  /// Whether the pose of this frame is valid.
   bool update(const HdFunctions& hd, double rate_Hz) noexcept;
 
-  /// The arm is in its reset position now, somebody says; for a device that is calibrated that way.
-  void resetHere() { reset_asked_.store(true); }
+  /// The arm is in its reset position now; for a device that is calibrated that way.
+  void resetHere() { reset_requested_.store(true); }
 
-  /// What a person has to do, one sentence; empty: nothing.
+  /// What the user has to do, one sentence; empty: nothing.
   std::string requiredAction() const;
 
  private:
@@ -30,7 +30,7 @@ class HdCalibration {
 
   hd::Enum styles_;
   std::atomic<hd::Enum> state_{hd::kCalibrationNeedsUpdate};
-  std::atomic<bool> reset_asked_{false};
+  std::atomic<bool> reset_requested_{false};
   int ticks_to_check_ = 0;
 };
 

@@ -18,7 +18,8 @@ constexpr std::array<HdErrorMeaning, 21> kMeanings{{
     {0x0101, kPassing, "the library refused a value that Molar set", kReport},
     {0x0102, kPassing, "the library does not allow at this moment what Molar asked for", kReport},
     {0x0103, kPassing, "a property has another type than Molar asked for", kReport},
-    {0x0104, kFatal, "the library does not know the device any more", "plug it in and start again"},
+    {0x0104, kFatal, "the library does not know the device any more", "plug it in and start again",
+     DeviceTrouble::not_there},
     {0x0200, kPassing, "the motors are too warm", "rest the arm for some minutes and press less"},
     {0x0201, kPassing, "the force was larger than the device can give", "lower the stiffness or the peak force"},
     {0x0202, kPassing, "the force changed too fast", "lower the stiffness or the slew limit"},
@@ -26,13 +27,16 @@ constexpr std::array<HdErrorMeaning, 21> kMeanings{{
     {0x0204, kFatal, "the device can not give the force it was asked for",
      "switch it off for ten seconds, then start again; if it stays, have it serviced"},
     {0x0300, kFatal, "the device reports a fault", "switch it off for ten seconds, check its cables, start again"},
-    {0x0301, kFatal, "the device is in use already", "end the other program that uses it, then start again"},
-    {0x0302, kFatal, "the connection to the device broke", "check its cable and power, plug it in and start again"},
+    {0x0301, kFatal, "the device is in use already", "end the other program that uses it, then start again",
+     DeviceTrouble::busy},
+    {0x0302, kFatal, "the connection to the device broke", "check its cable and power, plug it in and start again",
+     DeviceTrouble::not_there},
     {0x0303, kFatal,
      "the device refuses the connection, as one does that a program left without closing it, or whose serial port "
      "another program holds",
      "unplug it for ten seconds and plug it in again; stop ModemManager if it runs; run Touch_Setup once so that the "
-     "port in its configuration is right"},
+     "port in its configuration is right",
+     DeviceTrouble::busy},
     {0x0304, kFatal, "the library's timer failed", "start again; if it stays, restart the computer"},
     {0x0400, kPassing, "a frame was begun inside another", kReport},
     {0x0401, kPassing, "a frame was ended that had not begun", kReport},
@@ -40,13 +44,14 @@ constexpr std::array<HdErrorMeaning, 21> kMeanings{{
     {0x0500, kFatal, "the scheduler refused the servo's priority", kReport},
     {0x0501, kFatal, "the scheduler is full", "end other work that uses OpenHaptics in this program"},
     {0x0600, kFatal, "OpenHaptics has no valid licence",
-     "install the licence that came with it, or OpenHaptics 3.5 Developer Edition, which needs none"},
+     "install the licence that came with it, or OpenHaptics 3.5 Developer Edition, which needs none",
+     DeviceTrouble::no_driver},
 }};
 
 constexpr HdErrorMeaning kUnknown{0xFFFFFFFF, kFatal, "the library reports an error that Molar does not know", kReport};
 
-/// Place among the meanings; behind the last for an unknown code.
-std::size_t placeOf(std::uint32_t code) {
+/// Index of its meaning; one past the last for an unknown code.
+std::size_t indexOf(std::uint32_t code) {
   const auto found = std::ranges::find(kMeanings, code, &HdErrorMeaning::code);
   return static_cast<std::size_t>(found - kMeanings.begin());
 }
@@ -56,23 +61,8 @@ std::size_t placeOf(std::uint32_t code) {
 std::span<const HdErrorMeaning> hdErrorMeanings() { return kMeanings; }
 
 const HdErrorMeaning& meaningOf(std::uint32_t code) {
-  const std::size_t place = placeOf(code);
-  return place < kMeanings.size() ? kMeanings[place] : kUnknown;
-}
-
-DeviceTrouble troubleOf(std::uint32_t code) {
-  switch (code) {
-    case 0x0104:
-    case 0x0302:
-      return DeviceTrouble::not_there;
-    case 0x0301:
-    case 0x0303:
-      return DeviceTrouble::busy;
-    case 0x0600:
-      return DeviceTrouble::no_driver;
-    default:
-      return DeviceTrouble::faulty;
-  }
+  const std::size_t index = indexOf(code);
+  return index < kMeanings.size() ? kMeanings[index] : kUnknown;
 }
 
 std::string errorText(const hd::ErrorInfo& error) {
@@ -93,7 +83,7 @@ HdDrained HdErrors::drain(const HdFunctions& hd) noexcept {
     ++drained.count;
     drained.fatal = drained.fatal || fatal;
     drained.warm_motors = drained.warm_motors || error.code == hd::kWarmMotors;
-    counts_[placeOf(error.code)].fetch_add(1, std::memory_order_relaxed);
+    counts_[indexOf(error.code)].fetch_add(1, std::memory_order_relaxed);
   }
   if (drained.fatal) {
     const auto internal = static_cast<std::uint32_t>(drained.first.internal_code);
@@ -104,7 +94,7 @@ HdDrained HdErrors::drain(const HdFunctions& hd) noexcept {
 }
 
 std::uint32_t HdErrors::count(std::uint32_t code) const {
-  return counts_[placeOf(code)].load(std::memory_order_relaxed);
+  return counts_[indexOf(code)].load(std::memory_order_relaxed);
 }
 
 hd::ErrorInfo HdErrors::firstFatal() const {
@@ -115,7 +105,8 @@ hd::ErrorInfo HdErrors::firstFatal() const {
 void throwOnHdError(const HdFunctions& hd, const std::string& what) {
   HdErrors errors;
   const HdDrained drained = errors.drain(hd);
-  if (drained.count > 0) throw DeviceError(what + ", " + errorText(drained.first), troubleOf(drained.first.code));
+  if (drained.count > 0)
+    throw DeviceError(what + ", " + errorText(drained.first), meaningOf(drained.first.code).trouble);
 }
 
 }  // namespace haptics

@@ -10,10 +10,10 @@ namespace {
 
 constexpr double kHeatRate_Hz = 10.0;
 
-/// Large enough for any property, zero where the library wrote nothing.
-using Room = std::array<double, kHdBufferSize>;
+/// Large enough for any property, zero if the library wrote nothing.
+using Buffer = std::array<double, kHdBufferSize>;
 
-glm::dvec3 three(const Room& room) { return {room[0], room[1], room[2]}; }
+glm::dvec3 three(const Buffer& values) { return {values[0], values[1], values[2]}; }
 
 bool contains(std::string_view name, std::string_view word) { return name.find(word) != std::string_view::npos; }
 
@@ -45,7 +45,7 @@ HdHandle::HdHandle(const HdFunctions& hd, HdErrors& errors, const HdModel& model
   has_.fill(true);
 }
 
-/// In the first frame it is found out whether the device has this part: the library complains of what it has not.
+/// The first frame finds out whether the device has this part: if not, the library reports an error.
 template <class Read>
 bool HdHandle::readPart(Part part, Read&& read) noexcept {
   if (!has_[part]) return false;
@@ -55,21 +55,22 @@ bool HdHandle::readPart(Part part, Read&& read) noexcept {
   return has_[part];
 }
 
-void HdHandle::readPlace(HandleState& state) noexcept {
-  Room place{}, turn{};
-  hd_.get_doublev(hd::kCurrentPosition, place.data());
-  hd_.get_doublev(hd::kCurrentTransform, turn.data());
-  const glm::dmat3 R(turn[0], turn[1], turn[2], turn[4], turn[5], turn[6], turn[8], turn[9], turn[10]);
+void HdHandle::readPose(HandleState& state) noexcept {
+  Buffer position{}, transform{};
+  hd_.get_doublev(hd::kCurrentPosition, position.data());
+  hd_.get_doublev(hd::kCurrentTransform, transform.data());
+  const glm::dmat3 R(transform[0], transform[1], transform[2], transform[4], transform[5], transform[6], transform[8],
+                     transform[9], transform[10]);
   const double volume = glm::determinant(R);
   const bool is_rotation = std::isfinite(volume) && std::abs(volume - 1.0) < 0.05;
-  state.fresh = is_rotation && std::isfinite(glm::length(three(place)));
+  state.fresh = is_rotation && std::isfinite(glm::length(three(position)));
   if (state.fresh) {
-    X_DH_.translation_mm = three(place);
+    X_DH_.translation_mm = three(position);
     if (has_orientation_) X_DH_.rotation = glm::normalize(glm::quat_cast(R));
   }
   state.X_DH = X_DH_;
 
-  Room speed{};
+  Buffer speed{};
   const bool moves = readPart(velocity, [&] { hd_.get_doublev(hd::kCurrentVelocity, speed.data()); });
   if (moves && std::isfinite(glm::length(three(speed)))) state.velocity_D_mm_per_s.xyz = three(speed);
 }
@@ -91,7 +92,7 @@ void HdHandle::readSwitches(HandleState& state, bool sure) noexcept {
 void HdHandle::readHeat(double rate_Hz) noexcept {
   if (--ticks_to_check_ > 0) return;
   ticks_to_check_ = static_cast<int>(rate_Hz / kHeatRate_Hz);
-  Room motors{};
+  Buffer motors{};
   if (!readPart(heat, [&] { hd_.get_doublev(hd::kMotorTemperature, motors.data()); })) return;
   heat_ = 0.0;
   for (std::size_t motor = 0; motor < 6; ++motor)
@@ -101,9 +102,9 @@ void HdHandle::readHeat(double rate_Hz) noexcept {
 HandleState HdHandle::read(bool calibrated, double rate_Hz) noexcept {
   HandleState state;
   state.calibrated = calibrated;
-  readPlace(state);
+  readPose(state);
 
-  Room arm_rad{}, wrist_rad{};
+  Buffer arm_rad{}, wrist_rad{};
   const bool has_arm = readPart(arm, [&] { hd_.get_doublev(hd::kCurrentJointAngles, arm_rad.data()); });
   const bool has_wrist = readPart(wrist, [&] { hd_.get_doublev(hd::kCurrentGimbalAngles, wrist_rad.data()); });
   const calibration::PhantomJoints joints{has_arm ? three(arm_rad) : glm::dvec3(0.0),

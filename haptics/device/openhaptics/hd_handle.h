@@ -1,9 +1,8 @@
-// Reads a handle through the vendor's library: place, turn, velocity, angles, buttons, switches, heat. Frame D is
-// HDAPI's: x right, y up, z to the user; mm, rad. Its joint angles are the raw ones of calibration/arm as they come:
-// turret left +, thigh up +, shin up + against the horizontal, not the thigh (reference/devices 4.1). What a device
-// does not have is found out in the first frame and not asked for again. Inside a frame, on the scheduler's thread:
-// seven to nine calls of the library, no allocation. A reading that is not finite or no rotation is not passed on: the
-// last one stands, not fresh.
+// Reads a handle through the vendor's library: pose, velocity, angles, buttons, switches, heat. Frame D is HDAPI's: x
+// right, y up, z to the user; mm, rad. Joint angles are the raw ones of calibration/arm: turret left +, thigh up +,
+// shin up + against the horizontal, not the thigh (reference/devices 4.1). Properties that a device lacks are detected
+// in the first frame and not read again. Inside a frame, on the scheduler's thread: six to eight library calls, no
+// allocation. A reading that is not finite or no rotation is dropped: the last pose stands, not fresh.
 #pragma once
 
 #include <array>
@@ -18,15 +17,15 @@
 
 namespace haptics {
 
-/// What is given to the library to write into: no property of HDAPI is longer.
+/// Elements of a buffer that the library writes into: no property of HDAPI is longer.
 inline constexpr std::size_t kHdBufferSize = 32;
 
-/// What a model's name tells that the library does not.
+/// Facts that only the model's name gives.
 struct HdModel {
   bool is_omni = false;  ///< Omni, or Touch, its successor
   bool has_inkwell = false, has_deadman = false;
   const calibration::PhantomGeometry* geometry = nullptr;  ///< null: not public
-  std::string_view arm_model;  ///< key of phantom_models, which takes some for others; empty: unlike any
+  std::string_view arm_model;                              ///< key of phantom_models, the nearest of them; empty: none
 };
 
 HdModel modelNamed(std::string_view name);
@@ -44,7 +43,7 @@ class HdHandle {
 
   template <class Read>
   bool readPart(Part part, Read&& read) noexcept;
-  void readPlace(HandleState& state) noexcept;
+  void readPose(HandleState& state) noexcept;
   void readSwitches(HandleState& state, bool sure) noexcept;
   void readHeat(double rate_Hz) noexcept;
 

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// As the library, so its scheduler: one a process, whatever objects stand for it.
+/// One scheduler in a process, whatever the number of objects.
 std::atomic<bool> scheduler_is_taken{false};
 
 constexpr std::array<const char*, 4> kNames{"libHD.so.3.5", "libHD.so.3.4", "libHD.so.3.0", "libHD.so"};
@@ -32,8 +32,8 @@ void addNamesIn(const fs::path& folder, std::vector<std::string>& files) {
   for (const char* name : kNames) files.push_back((folder / name).string());
 }
 
-/// The file or folder somebody chose; empty: nobody did.
-std::string chosenPlace(const std::string& path) { return path.empty() ? fromEnvironment("MOLAR_OPENHAPTICS") : path; }
+/// The file or folder that the user chose; empty: none.
+std::string chosenPath(const std::string& path) { return path.empty() ? fromEnvironment("MOLAR_OPENHAPTICS") : path; }
 
 std::vector<std::string> candidates(const std::string& chosen) {
   std::vector<std::string> files;
@@ -50,15 +50,15 @@ std::vector<std::string> candidates(const std::string& chosen) {
   return files;
 }
 
-/// The copy that this process has loaded already, whoever asked for it.
+/// The copy that this process has loaded already.
 std::string loadedAlready() {
   std::string found;
-  const auto look = [](dl_phdr_info* object, std::size_t, void* into) {
+  const auto visit = [](dl_phdr_info* object, std::size_t, void* into) {
     const std::string name = object->dlpi_name ? object->dlpi_name : "";
     if (fs::path(name).filename().string().starts_with("libHD.so")) *static_cast<std::string*>(into) = name;
     return 0;
   };
-  dl_iterate_phdr(look, &found);
+  dl_iterate_phdr(visit, &found);
   return found;
 }
 
@@ -77,7 +77,7 @@ std::string fileOf(void* library, const std::string& asked) {
 Opened openFirstOf(const std::vector<std::string>& files) {
   Opened opened;
   for (const std::string& file : files) {
-    // Never closed again: the driver behind it does not survive being loaded twice.
+    // Never closed: the driver fails when it is loaded twice.
     opened.library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (opened.library) {
       opened.path = fileOf(opened.library, file);
@@ -91,7 +91,7 @@ Opened openFirstOf(const std::vector<std::string>& files) {
   return opened;
 }
 
-std::string absenceInWords(const std::string& chosen) {
+std::string absenceText(const std::string& chosen) {
   if (chosen.empty())
     return "OpenHaptics, libHD.so is not installed: install OpenHaptics for Linux and the device driver from 3D "
            "Systems, or name the file in MOLAR_OPENHAPTICS";
@@ -99,7 +99,7 @@ std::string absenceInWords(const std::string& chosen) {
 }
 
 Opened openLibrary(const std::string& path) {
-  const std::string chosen = chosenPlace(path);
+  const std::string chosen = chosenPath(path);
   const std::vector<std::string> files = candidates(chosen);
   const std::string loaded = loadedAlready();
   std::error_code ignored;
@@ -111,7 +111,7 @@ Opened openLibrary(const std::string& path) {
             "OpenHaptics, " + chosen + ": another copy is loaded already, " + loaded +
                 ", and its driver allows one; start the program again with the one you want"};
   Opened opened = openFirstOf(files);
-  if (!opened.library && opened.why_not.empty()) opened.why_not = absenceInWords(chosen);
+  if (!opened.library && opened.why_not.empty()) opened.why_not = absenceText(chosen);
   return opened;
 }
 
@@ -161,7 +161,7 @@ std::string loadFailureText(const std::string& file, const std::string& linker_t
   const std::string name = linker_text.substr(0, linker_text.find(": "));
   const bool is_part = linker_text.find(": cannot open shared object file") != std::string::npos && name != file;
   if (is_part) return "OpenHaptics, " + file + " needs " + name + ", which is not there: " + nextStepFor(name);
-  return "OpenHaptics, " + file + " can not be loaded, the linker says \"" + linker_text +
+  return "OpenHaptics, " + file + " cannot be loaded, the linker says \"" + linker_text +
          "\": install OpenHaptics 3.4 or newer for 64-bit Linux";
 }
 

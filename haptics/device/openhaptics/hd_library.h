@@ -1,8 +1,7 @@
-// The vendor's HDAPI library, found and loaded while the program runs; nothing of it is needed to build. Loaded at most
-// once in a process and never unloaded, for its driver fails the second time (reference/devices 2). Looked for by the
-// path given, else by MOLAR_OPENHAPTICS (either a file or its folder, and then nowhere else), else as libHD.so.3.5,
-// .3.4, .3.0 and libHD.so where the system's linker looks and in $OH_SDK_BASE/lib/lin-x86_64. Any thread but the
-// servo's. Knows no device.
+// The vendor's HDAPI library, found and loaded at run time; the build needs nothing of it. Loaded at most once in a
+// process and never unloaded, because its driver fails the second time (reference/devices 2). Searched for: the path
+// given, else MOLAR_OPENHAPTICS (a file or its folder, and then nowhere else), else libHD.so.3.5, .3.4, .3.0 and
+// libHD.so on the linker's path and in $OH_SDK_BASE/lib/lin-x86_64. Any thread but the servo's. No device.
 #pragma once
 
 #include <string>
@@ -11,8 +10,7 @@
 
 namespace haptics {
 
-/// Every function that Molar calls. All of one device are for one thread: the scheduler's while it runs, else its
-/// owner's.
+/// The functions that Molar calls: on the scheduler's thread while it runs, else on the owner's.
 struct HdFunctions {
   hd::DeviceId (*init_device)(const char* configuration);
   void (*disable_device)(hd::DeviceId);
@@ -41,14 +39,14 @@ class HdLibrary {
   /// Throws DeviceError: not there, another copy is loaded, a part of it is missing, functions are missing (all named).
   explicit HdLibrary(const std::string& path = {});
 
-  /// Why it can not be used, with the next step, in one line; empty when it can. Loads it.
+  /// Why it cannot be used, with the next step, in one line; empty when it can. Loads it.
   static std::string whyUnavailable(const std::string& path = {});
 
   const HdFunctions& functions() const { return functions_; }
   /// The file that was loaded.
   const std::string& path() const { return path_; }
 
-  /// The vendor's scheduler is one for the whole process: false when somebody has it already.
+  /// The process has one vendor's scheduler: false when it is in use.
   static bool claimScheduler();
   static void releaseScheduler();
 
@@ -57,7 +55,7 @@ class HdLibrary {
   HdFunctions functions_{};
 };
 
-/// What the system's linker said of a file that it could not load, in plain words with the next step.
+/// The linker's message for a file that it could not load, in plain words with the next step.
 std::string loadFailureText(const std::string& file, const std::string& linker_text);
 
 }  // namespace haptics

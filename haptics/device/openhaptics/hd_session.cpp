@@ -10,17 +10,17 @@
 namespace haptics {
 namespace {
 
-constexpr double kMostBelievableForce_N = 50.0;  ///< more is no reading
-constexpr double kMostStiffness_N_per_mm = 1.0;  ///< chai3d, Desktop; Omni 0.7, Touch 0.4
-constexpr double kMostDamping_Ns_per_mm = 0.005;
+constexpr double kMaxPlausibleForce_N = 50.0;   ///< more is an error
+constexpr double kMaxStiffness_N_per_mm = 1.0;  ///< chai3d, Desktop; Omni 0.7, Touch 0.4
+constexpr double kMaxDamping_Ns_per_mm = 0.005;
 constexpr double kJointTorqueInUse_Nmm = 350.0;  ///< of an Omni, in practice (reference/devices 4.3)
 
 std::string text(const HdFunctions& hd, hd::Enum property) {
-  const char* told = hd.get_string(property);
-  return told ? told : "";
+  const char* value = hd.get_string(property);
+  return value ? value : "";
 }
 
-/// What the library says, or `otherwise` where it does not know.
+/// The property, or `otherwise` if the library does not have it.
 double number(const HdFunctions& hd, hd::Enum property, double otherwise) {
   std::array<double, kHdBufferSize> values{};
   hd.get_doublev(property, values.data());
@@ -63,7 +63,7 @@ HdSession::HdSession(const HdFunctions& hd, const std::string& configuration)
           (drained.count > 0 ? errorText(drained.first)
                              : std::string("it does not start and the library gives no reason; check cable, "
                                            "power and the configuration's name")),
-      drained.count > 0 ? troubleOf(drained.first.code) : DeviceTrouble::not_there);
+      drained.count > 0 ? meaningOf(drained.first.code).trouble : DeviceTrouble::not_there);
 }
 
 void HdSession::close() noexcept {
@@ -78,7 +78,7 @@ HdDescription describe(const HdFunctions& hd) {
   DeviceCapabilities& can = description.capabilities;
   can.model = text(hd, hd::kModel);
   can.serial = text(hd, hd::kSerialNumber);
-  HdErrors().drain(hd);  // a string it does not know is no trouble
+  HdErrors().drain(hd);  // a missing string is no error
   if (can.model.empty()) can.model = "unnamed Phantom";
   can.provenance = Provenance::vendor_library;
   can.has_motors = true;
@@ -91,15 +91,14 @@ HdDescription describe(const HdFunctions& hd) {
   can.has_deadman = model.has_deadman;
 
   can.peak_force_N = number(hd, hd::kNominalMaxForce, 0.0);
-  if (!(can.peak_force_N > 0.0 && can.peak_force_N < kMostBelievableForce_N))
-    throw DeviceError(
-        "OpenHaptics, " + can.model + ": it does not tell how strong its motors are; update its driver from 3D Systems",
-        DeviceTrouble::no_driver);
+  if (!(can.peak_force_N > 0.0 && can.peak_force_N < kMaxPlausibleForce_N))
+    throw DeviceError("OpenHaptics, " + can.model + ": it does not report its force; update its driver from 3D Systems",
+                      DeviceTrouble::no_driver);
   can.continuous_force_N =
       std::min(number(hd, hd::kNominalMaxContinuousForce, 0.25 * can.peak_force_N), can.peak_force_N);
   if (model.geometry) can.peak_joint_torque_Nmm = glm::dvec3(model.is_omni ? kJointTorqueInUse_Nmm : 0.0);
-  can.max_stiffness_N_per_mm = std::min(number(hd, hd::kNominalMaxStiffness, 0.4), kMostStiffness_N_per_mm);
-  can.max_damping_Ns_per_mm = std::min(number(hd, hd::kNominalMaxDamping, 0.004), kMostDamping_Ns_per_mm);
+  can.max_stiffness_N_per_mm = std::min(number(hd, hd::kNominalMaxStiffness, 0.4), kMaxStiffness_N_per_mm);
+  can.max_damping_Ns_per_mm = std::min(number(hd, hd::kNominalMaxDamping, 0.004), kMaxDamping_Ns_per_mm);
   can.min_rate_Hz = 500.0;
   can.max_rate_Hz = std::max(1000.0, static_cast<double>(integer(hd, hd::kUpdateRate, 1000)));
   if (!readWorkspace(hd, hd::kUsableWorkspace, can.workspace)) readWorkspace(hd, hd::kMaxWorkspace, can.workspace);

@@ -1,8 +1,8 @@
-// A device opened by the vendor's library, from initialisation to disabling, which happens exactly once however it
-// ends, and what it tells of itself. Capabilities in N, mm, frame D; the library's stiffness is documented as "0 to 1"
-// and used by its guide as N/mm, damping accordingly as N s/mm, so both are taken so and cut to what users of these
-// devices recommend (reference/devices 2, 4.3). Torque is not driven: the unit of its property is documented both as
-// N m and mN m. The owner's thread, while the scheduler does not run.
+// A device opened by the vendor's library, from initialisation to disabling, which happens exactly once, and its
+// capabilities in N, mm, frame D. The library's stiffness is documented as "0 to 1" and used by its guide as N/mm,
+// damping accordingly as N s/mm; both are limited to what users of these devices recommend (reference/devices 2, 4.3).
+// Torque is not driven: the unit of its property is documented both as N m and mN m. The owner's thread, while the
+// scheduler does not run.
 #pragma once
 
 #include <string>
@@ -14,13 +14,13 @@ namespace haptics {
 
 class HdSession {
  public:
-  /// Empty configuration: the default device. Throws DeviceError in the words of the library's error.
+  /// Empty configuration: the default device. Throws DeviceError with the library's error.
   HdSession(const HdFunctions& hd, const std::string& configuration);
   ~HdSession() { close(); }
   HdSession(const HdSession&) = delete;
   HdSession& operator=(const HdSession&) = delete;
 
-  /// The device is disabled; the second time nothing.
+  /// Disables the device, once.
   void close() noexcept;
 
   hd::DeviceId id() const { return id_; }
@@ -38,7 +38,7 @@ struct HdDescription {
   hd::Enum calibration_styles = 0;
 };
 
-/// Of the current device. Throws DeviceError when it does not tell how strong it is.
+/// Of the current device. Throws DeviceError when it does not report its force.
 HdDescription describe(const HdFunctions& hd);
 
 }  // namespace haptics

@@ -13,7 +13,7 @@ namespace {
 
 /// Longest wait for the last frame; a scheduler that does not call is stopped without.
 constexpr auto kMaxShutdown = std::chrono::milliseconds(500);
-constexpr double kWarmFor_s = 1.0;  ///< how long one complaint of warm motors counts
+constexpr double kWarmFor_s = 1.0;  ///< how long one warning of warm motors counts
 
 }  // namespace
 
@@ -27,7 +27,7 @@ OpenHaptics::OpenHaptics(const HdLibrary& library, const OpenHapticsSettings& se
 
 OpenHaptics::~OpenHaptics() { stop(); }
 
-/// A guard that this device or driver does not know is no trouble.
+/// A guard that the device or driver lacks is no error.
 void OpenHaptics::switchGuardsOn() {
   for (hd::Enum guard : {hd::kMaxForceClamping, hd::kForceRamping, hd::kSoftwareForceLimit, hd::kSoftwareVelocityLimit,
                          hd::kSoftwareForceImpulseLimit})
@@ -75,7 +75,7 @@ void OpenHaptics::stop() noexcept {
   if (scheduler_runs_) {
     awaitLastFrame();
     hd_.stop_scheduler();
-    // Now that its thread rests this one may speak for it.
+    // Its thread has ended, so this one may call the library.
     if (phase_.exchange(Phase::over) != Phase::over) letGo();
   }
   if (schedule_) hd_.unschedule(*schedule_);
@@ -103,7 +103,7 @@ void OpenHaptics::drive(const MotorCommand& command) noexcept {
   if (on && !motors_on_) hd_.enable(hd::kForceOutput);
   hd_.set_doublev(hd::kCurrentForce, served_N.data());
   hd_.end_frame(session_.id());
-  // First the frame of no force goes out, then the motors go off.
+  // The frame without force is sent first, then the motors go off.
   if (!on && motors_on_) hd_.disable(hd::kForceOutput);
   motors_on_ = on;
 }
@@ -141,15 +141,15 @@ unsigned OpenHaptics::serve() noexcept {
   begun_ = true;
 
   TickTiming timing = timing_.next(monotonic_ns());
-  const std::uint32_t times_off = off_requests_.load();
+  const std::uint32_t off_requests = off_requests_.load();
   hd_.begin_frame(session_.id());
   const HandleState state = sense();
   timing.at_ns = monotonic_ns();
   const MotorCommand command = servo_->tick(state, timing);
-  // Switched off since the last tick or while it was made, a command is void; so is one for a place not believed.
+  // A command is void if the motors were switched off since the last tick or while it was made, or the pose is invalid.
   const bool is_void =
-      times_off != off_requests_applied_ || off_requests_.load() != times_off || !state.calibrated || isDead();
-  off_requests_applied_ = times_off;
+      off_requests != off_requests_applied_ || off_requests_.load() != off_requests || !state.calibrated || isDead();
+  off_requests_applied_ = off_requests;
   drive(is_void ? MotorCommand{} : command);
   absorbErrors();
   return hd::kCallbackContinues;

@@ -1,10 +1,10 @@
-// Every Phantom and Touch that 3D Systems' library drives. The vendor's scheduler calls, and each call is one tick: a
-// frame in which the handle is read, the servo answers, the force is set in N along HDAPI's axes (frame D), and the
-// errors are drained. Bounded, no allocation, lock or throw of ours; the library's own cost is its own. The vendor's
-// guards (force clamping, ramping, limits of force, impulse and velocity) stay on. Trouble that is fatal takes the
-// motors off for good and shows as an unhealthy device; the ticks go on. While the vendor's scheduler itself hangs, no
-// other thread may speak to the device (reference/devices 2), so motorsOff() waits for its next call and the last force
-// stands until the device's own watchdog, if it has one: that is not documented. Never run on a real unit.
+// Every Phantom and Touch through 3D Systems' library. The vendor's scheduler calls, and each call is one tick: a frame
+// in which the handle is read, the servo is called, the force is set in N along HDAPI's axes (frame D), and errors are
+// drained. No allocation, lock or throw of ours; the library's own cost is not bounded by us. The vendor's guards
+// (force clamping, ramping, limits of force, impulse and velocity) stay on. A fatal error switches the motors off for
+// good and shows as an unhealthy device; the ticks go on. While the vendor's scheduler hangs, no other thread may call
+// the library (reference/devices 2), so motorsOff() waits for its next call and the last force stands until the
+// device's own watchdog, if it has one: that is not documented. Never run on a real unit.
 #pragma once
 
 #include <array>
@@ -21,9 +21,9 @@
 namespace haptics {
 
 struct OpenHapticsSettings {
-  std::string configuration{};         ///< the name the vendor's set-up gave the device; empty: the default device
-  std::optional<bool> docked_value{};  ///< what the inkwell's switch shows of a docked stylus; none: learned
-  std::uint32_t pedal_buttons = 0b01;  ///< these buttons of the stylus stand for a pedal
+  std::string configuration{};         ///< name in the vendor's set-up; empty: the default device
+  std::optional<bool> docked_value{};  ///< of the inkwell's switch with a docked stylus; none: learned
+  std::uint32_t pedal_buttons = 0b01;  ///< these buttons of the stylus act as the pedal
 };
 
 class OpenHaptics final : public HapticDevice {
@@ -35,18 +35,16 @@ class OpenHaptics final : public HapticDevice {
   OpenHaptics& operator=(const OpenHaptics&) = delete;
 
   const DeviceCapabilities& capabilities() const override { return description_.capabilities; }
-  /// Throws DeviceError too when another device of OpenHaptics runs: the vendor's scheduler is one.
+  /// Also throws DeviceError while another OpenHaptics device runs: there is one scheduler.
   void start(DeviceServo& servo, double rate_Hz) override;
   void stop() noexcept override;
   void motorsOff() noexcept override { off_requests_.fetch_add(1); }
 
-  /// What is wrong, or what a person has to do now, in one sentence; empty: all is well. Any thread.
   std::string trouble() const override;
-  /// Errors of the library so far, those that passed by themselves too. Any thread.
+  /// Errors of the library so far, passing ones included. Any thread.
   const HdErrors& errors() const { return errors_; }
-  /// What the inkwell's switch shows of a docked stylus, once that is known. Any thread.
+  /// Of the inkwell's switch with a docked stylus, once known. Any thread.
   std::optional<bool> dockedValue() const { return handle_.inkwell().dockedValue(); }
-  /// The arm is in its reset position now, for a device that is calibrated that way. Any thread.
   void setHome() noexcept override { calibration_.resetHere(); }
 
  private:
@@ -68,7 +66,7 @@ class OpenHaptics final : public HapticDevice {
   HdCalibration calibration_;
   HdHandle handle_;
 
-  // Of the thread that starts and stops.
+  // Of the thread of start() and stop().
   bool started_ = false, has_scheduler_ = false, scheduler_runs_ = false;
   std::optional<hd::ScheduleId> schedule_;
 

@@ -18,20 +18,20 @@
 namespace haptics {
 namespace {
 
-constexpr int kBetweenLooks_ms = 500;
-/// Said where nothing can be allocated: there is room for it from the beginning.
-constexpr std::string_view kLastWords =
+constexpr int kSearchInterval_ms = 500;
+/// Reported when nothing can be allocated: its memory is reserved at construction.
+constexpr std::string_view kOutOfMemory =
     "the pedal is read no more, memory or handles ran out: close other programs and start again";
 
-/// With the ranges of its axes; what the device does not have is left out.
+/// With the ranges of its axes; without those that the device lacks.
 std::vector<PedalSwitch> switchesOn(const libevdev* device, std::vector<PedalSwitch> switches) {
   std::erase_if(switches, [&](const PedalSwitch& one) {
     return !libevdev_has_event_code(device, one.is_axis ? EV_ABS : EV_KEY, one.code);
   });
   for (PedalSwitch& one : switches)
     if (one.is_axis) {
-      one.least = libevdev_get_abs_minimum(device, one.code);
-      one.most = libevdev_get_abs_maximum(device, one.code);
+      one.min = libevdev_get_abs_minimum(device, one.code);
+      one.max = libevdev_get_abs_maximum(device, one.code);
     }
   return switches;
 }
@@ -62,7 +62,7 @@ class FootPedal::Reading {
   HandActions held() const { return switches_.held(); }
   bool hasSwitches() const { return has_switches_; }
 
-  /// All that waits to be read; false when the device is gone.
+  /// Reads all pending events; false when the device is gone.
   bool read() {
     input_event event{};
     unsigned mode = LIBEVDEV_READ_FLAG_NORMAL;
@@ -73,7 +73,7 @@ class FootPedal::Reading {
         continue;
       }
       if (status < 0) return status == -EAGAIN;
-      // Events were lost: libevdev tells what changed meanwhile.
+      // Events were lost: libevdev reports the changes since.
       if (status == LIBEVDEV_READ_STATUS_SYNC) mode = LIBEVDEV_READ_FLAG_SYNC;
       if (event.type == EV_KEY) switches_.takeKey(event.code, event.value != 0);
       if (event.type == EV_ABS) switches_.takeAxis(event.code, event.value);
@@ -106,7 +106,7 @@ FootPedal::FootPedal(const PedalChoice& choice, InputFolders folders) : choice_(
   wake_fd_ = eventfd(0, EFD_CLOEXEC);
   if (wake_fd_ < 0)
     throw DeviceError("pedal: the system has no file handles left, close other programs", DeviceTrouble::no_resources);
-  described_.reserve(kLastWords.size());
+  described_.reserve(kOutOfMemory.size());
   describe("no pedal found yet");
   thread_ = std::thread([this] { run(); });
 }
@@ -136,7 +136,7 @@ void FootPedal::publish(HandActions held) {
   held_.store(held.bits, std::memory_order_relaxed);
 }
 
-/// Nothing that is not handled leaves the thread: what can not go on ends with a word.
+/// No exception leaves the thread: a failure ends it with a description.
 void FootPedal::run() try {
   std::unique_ptr<Reading> reading;
   for (;;) {
@@ -147,13 +147,13 @@ void FootPedal::run() try {
         const std::string name = pedal.traits.name + ", " + pedal.path.string();
         describe(reading             ? name
                  : pedal.may_be_read ? name + ": it has none of the switches that are mapped"
-                                     : name + ": it may not be read, molar doctor --udev-rules mends that");
+                                     : name + ": it may not be read, see molar doctor --udev-rules");
         if (reading) break;
       }
       there_.store(reading != nullptr);
     }
     std::array<pollfd, 2> waits{{{wake_fd_, POLLIN, 0}, {reading ? reading->fd() : -1, POLLIN, 0}}};
-    if (poll(waits.data(), waits.size(), reading ? -1 : kBetweenLooks_ms) < 0 && errno != EINTR)
+    if (poll(waits.data(), waits.size(), reading ? -1 : kSearchInterval_ms) < 0 && errno != EINTR)
       throw std::system_error(errno, std::generic_category());
     if (waits[0].revents != 0) return;
     if (!reading || waits[1].revents == 0) continue;
@@ -167,7 +167,7 @@ void FootPedal::run() try {
   publish({});
   there_.store(false);
   const std::lock_guard lock(mutex_);
-  described_.assign(kLastWords);
+  described_.assign(kOutOfMemory);
 }
 
 }  // namespace haptics

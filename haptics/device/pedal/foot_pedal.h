@@ -1,7 +1,7 @@
-// A foot pedal or joystick, read by a thread of its own through libevdev: which actions are held and how often each
-// began, as atomics for any thread. Unplugged, nothing is held; it is looked for every half second, so plugging it in
-// later, or again, is enough. A foot switch that types letters is grabbed, so that it types into no window; nothing
-// else ever is. Which device that is: found_pedal. Construction opens nothing and throws for a bad mapping only.
+// A foot pedal or joystick, read through libevdev by a thread of its own: which actions are held and how often each
+// began, as atomics for any thread. Unplugged, nothing is held; it is searched for every half second. A foot switch
+// that types letters is grabbed, so that it types into no window; no other device is. Selection: found_pedal.
+// Construction opens nothing and throws for a bad mapping only.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ struct PedalChoice {
 
 class FootPedal {
  public:
-  /// Throws DeviceError when the mapping names what is no switch.
+  /// Throws DeviceError when the mapping names no switch.
   explicit FootPedal(const PedalChoice& choice, InputFolders folders = {});
   ~FootPedal();
   FootPedal(const FootPedal&) = delete;
@@ -33,7 +33,7 @@ class FootPedal {
   std::uint32_t presses(HandAction action) const noexcept {
     return presses_[static_cast<std::size_t>(action)].load(std::memory_order_relaxed);
   }
-  /// "PCsensor FootSwitch, /dev/input/event7", or why there is none. Not for a thread that must not wait.
+  /// "PCsensor FootSwitch, /dev/input/event7", or why there is none. Locks.
   std::string described() const;
 
  private:

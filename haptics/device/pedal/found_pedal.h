@@ -1,7 +1,7 @@
-// Which input devices are pedals. One is taken by itself only when it says so: a foot switch by name or identity, or a
-// joystick or gamepad. A keyboard, a mouse, a touch pad is never taken by itself; named by its owner it is read beside
-// whoever else reads it, and never grabbed. Looks at /sys, opens nothing. Any thread; reads some files.
-// Identities of foot switches: rgerganov/footswitch (PCsensor and its kin), the USB ID list (VEC Infinity).
+// Which input devices are pedals. Automatically only a foot switch, by name or identity, a joystick or a gamepad; a
+// keyboard, mouse or touch pad only when its owner names it, and then it is read but never grabbed. Reads /sys, opens
+// nothing. Any thread. Identities of foot switches: rgerganov/footswitch (PCsensor and its kin), the USB ID list (VEC
+// Infinity).
 #pragma once
 
 #include <filesystem>
@@ -16,7 +16,7 @@ enum class InputKind { foot_switch, joystick, keyboard, other };
 
 InputKind kindOf(const InputTraits& traits);
 
-/// Where input devices are.
+/// Folders of the input devices.
 struct InputFolders {
   std::filesystem::path classes = "/sys/class/input", nodes = "/dev/input";
 };
@@ -27,15 +27,15 @@ struct FoundPedal {
   std::filesystem::path path;
   bool may_be_read = false;
 
-  /// It sends letters as a keyboard would, which nobody else should see. Only a foot switch is ever kept to ourselves.
+  /// Sends letters like a keyboard, so it is grabbed. Only a foot switch ever is.
   bool sendsLetters() const { return kind == InputKind::foot_switch && traits.letters() > 0; }
 };
 
 /// Foot switches first, then joysticks.
 std::vector<FoundPedal> findPedals(const InputFolders& folders = {});
 
-/// Those that `wanted` may mean, best first: "auto" what findPedals finds, else a path or a part of a name in either
-/// case, and then any kind of device.
+/// Candidates for `wanted`, best first: "auto" as findPedals, else a path or a part of a name in either case, of any
+/// kind of device.
 std::vector<FoundPedal> pedalsMeant(const std::string& wanted, const InputFolders& folders = {});
 
 }  // namespace haptics

@@ -1,6 +1,5 @@
-// What a foot or a finger may ask for besides moving the hand, and how switches become it: held actions as a set of
-// bits, presses as counts, so that a reader who comes late misses none. Pure values; any thread, no allocation.
-// Not who obeys: that is the application's.
+// The actions of pedals and buttons, and how switches become them: held actions as a set of bits, presses as counts, so
+// that a late reader misses none. Pure values; any thread, no allocation. The application executes them.
 #pragma once
 
 #include <array>
@@ -18,7 +17,7 @@ inline constexpr std::array<std::string_view, kHandActions> kHandActionNames = {
 
 constexpr std::string_view nameOf(HandAction action) { return kHandActionNames[static_cast<std::size_t>(action)]; }
 
-/// "tool-change" is how a change of tool was written before.
+/// "tool-change" is an older name of tool.
 constexpr std::optional<HandAction> handActionNamed(std::string_view name) {
   if (name == "tool-change") return HandAction::tool_change;
   for (std::size_t i = 0; i < kHandActions; ++i)
@@ -38,7 +37,7 @@ struct HandActions {
   bool operator==(const HandActions&) const = default;
 };
 
-/// What each button on the handle means, bit 0 first. One button drills; a second one changes the tool.
+/// The action of each button on the handle, bit 0 first: the first drills, the second changes the tool.
 struct ButtonMeanings {
   std::array<std::optional<HandAction>, 32> of_bit = {HandAction::drill, HandAction::tool_change};
 
@@ -53,7 +52,7 @@ struct ButtonMeanings {
 /// Counts how often each action began.
 class PressCount {
  public:
-  /// The actions that began with this look; what was held at the last one is not a new press.
+  /// The actions that began since the last call.
   constexpr HandActions look(HandActions held) {
     const HandActions begun{static_cast<std::uint8_t>(held.bits & ~held_.bits)};
     held_ = held;

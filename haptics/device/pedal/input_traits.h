@@ -1,6 +1,6 @@
-// What the kernel tells of an input device to everybody: name, identity, which keys and axes it has, from
-// /sys/class/input. The device itself is not opened, so a keyboard is looked at without being listened to. Reading
-// files; any thread. Layout: the kernel's Documentation/ABI and include/linux/mod_devicetable (EV, KEY, ABS, REL bits).
+// What sysfs shows of an input device to every user: name, identity, keys and axes, from /sys/class/input. The device
+// is not opened, so a keyboard is not read. Reads files; any thread. Layout: the kernel's Documentation/ABI and
+// include/linux/mod_devicetable (EV, KEY, ABS, REL bits).
 #pragma once
 
 #include <cstdint>
@@ -21,11 +21,10 @@ struct InputTraits {
   int letters() const;
 };
 
-/// Numbers of set bits in the kernel's text for a bit map: words of 64 in hexadecimal, highest first.
+/// Indices of the set bits in the kernel's text of a bit map: 64-bit hexadecimal words, highest first.
 std::vector<std::uint16_t> bitsInText(const std::string& text);
 
-/// Every device that reports events, by number of its node; none where the folder is missing. What can not be read
-/// stays empty.
+/// Every device with an event node, by its number; none if the folder is missing. Unreadable fields stay empty.
 std::vector<InputTraits> inputDevices(const std::filesystem::path& class_folder);
 
 }  // namespace haptics

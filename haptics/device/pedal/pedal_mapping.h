@@ -1,7 +1,7 @@
-// Which switch of a pedal means what, by the kernel's names (KEY_B, BTN_TRIGGER, ABS_GAS; `evtest` shows them), and
-// what is usual where nobody said: a foot switch that types letters drills with any of them; other switches and the
-// axes of a foot switch mean drill, irrigation, undo, tool change in order; of a joystick the first four buttons,
-// accelerator and brake. Start-up only.
+// Which switch of a pedal triggers which action, by the kernel's names (KEY_B, BTN_TRIGGER, ABS_GAS; see `evtest`), and
+// the defaults: a foot switch that types letters drills with any of them; other switches and the axes of a foot switch
+// are drill, irrigation, undo, tool change in order; of a joystick the first four buttons, accelerator and brake.
+// Start-up only.
 #pragma once
 
 #include <string>
@@ -18,13 +18,13 @@ struct PedalBinding {
   double threshold = 0.5;  ///< axes: of the travel, 0.15 to 0.95
 };
 
-/// Empty: what is usual for the pedal that is found.
+/// Empty: the defaults for the pedal.
 using PedalMapping = std::vector<PedalBinding>;
 
-/// Throws DeviceError for a name the kernel does not have or a threshold outside its range.
+/// Throws DeviceError for an unknown name or a threshold outside its range.
 PedalSwitch switchOf(const PedalBinding& binding);
 
-/// Ranges of axes are not known here.
+/// Without the ranges of axes.
 std::vector<PedalSwitch> usualSwitches(const FoundPedal& pedal);
 
 }  // namespace haptics

@@ -6,12 +6,12 @@ namespace haptics {
 namespace {
 
 constexpr double kHysteresis = 0.1;  ///< of the travel, below the threshold
-constexpr double kNearAnEnd = 0.2;   ///< of the travel; nearer than a foot that presses
+constexpr double kNearAnEnd = 0.2;   ///< of the travel, around the rest position
 
 }  // namespace
 
 PedalSwitches::PedalSwitches(const std::vector<PedalSwitch>& switches) {
-  // An axis must be seen up before it may be down, whatever it says first.
+  // An axis must be up before it can be down.
   for (const PedalSwitch& one : switches) states_.push_back({one, false, one.is_axis});
 }
 
@@ -30,12 +30,12 @@ void PedalSwitches::takeKey(std::uint16_t key, bool down) {
 
 void PedalSwitches::takeAxis(std::uint16_t axis, int value) {
   for (State& state : states_)
-    if (state.is.is_axis && state.is.code == axis && state.is.most > state.is.least) move(state, value);
+    if (state.is.is_axis && state.is.code == axis && state.is.max > state.is.min) move(state, value);
 }
 
 void PedalSwitches::move(State& axis, int value) {
-  const double range = static_cast<double>(axis.is.most) - axis.is.least;
-  const double from_low = std::clamp((static_cast<double>(value) - axis.is.least) / range, 0.0, 1.0);
+  const double range = static_cast<double>(axis.is.max) - axis.is.min;
+  const double from_low = std::clamp((static_cast<double>(value) - axis.is.min) / range, 0.0, 1.0);
   if (axis.is.rest == AxisRest::unknown) {
     if (from_low <= kNearAnEnd) axis.is.rest = AxisRest::low;
     if (from_low >= 1.0 - kNearAnEnd) axis.is.rest = AxisRest::high;

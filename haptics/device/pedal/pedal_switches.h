@@ -1,6 +1,6 @@
-// The switches of a pedal and what they hold: keys, and axes that count as pressed beyond a part of their travel, with
-// hysteresis. What is down when the pedal is found counts only after it has been up; an axis rests at the end near
-// which it is first heard of, unless its owner said which. Pure; the pedal's thread.
+// State of a pedal's switches: keys, and axes that count as pressed beyond a threshold, with hysteresis. A switch that
+// is down at the start counts only after it has been up; an axis rests at the end near its first value, unless its
+// owner named the end. Pure; the pedal's thread.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct PedalSwitch {
   HandAction action = HandAction::drill;
   double threshold = 0.5;  ///< of the travel
   AxisRest rest = AxisRest::unknown;
-  int least = 0, most = 1;  ///< an axis's range
+  int min = 0, max = 1;  ///< range of an axis
 };
 
 class PedalSwitches {

@@ -5,7 +5,6 @@
 
 #include "calibration/geometry/units.h"
 #include "haptics/device/haptic_device.h"
-#include "haptics/device/simulated/eased.h"
 
 namespace haptics {
 namespace {

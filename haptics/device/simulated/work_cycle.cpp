@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "haptics/device/simulated/eased.h"
-
 namespace haptics {
 namespace {
 

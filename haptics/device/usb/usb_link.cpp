@@ -17,32 +17,15 @@ constexpr std::size_t kMaxDescriptors = 16;
 /// Packets have at most 64 bytes at full speed, 1024 at high speed; higher bits are not size.
 constexpr std::size_t kPacketMask = 0x7ff;
 
-std::string errorText(int error) {
-  switch (error) {
-    case LIBUSB_ERROR_ACCESS:
-      return "permission denied, install the udev rules that `molar doctor --udev-rules` prints and replug it";
-    case LIBUSB_ERROR_BUSY:
-      return "in use by another program or driver, close it";
-    case LIBUSB_ERROR_NO_DEVICE:
-      return "it was unplugged, plug it in and start again";
-    default:
-      return std::string(libusb_strerror(error)) + ", replug it and start again";
-  }
-}
-
-DeviceTrouble troubleOf(int error) {
-  switch (error) {
-    case LIBUSB_ERROR_ACCESS:
-      return DeviceTrouble::no_rights;
-    case LIBUSB_ERROR_BUSY:
-      return DeviceTrouble::busy;
-    case LIBUSB_ERROR_NO_DEVICE:
-      return DeviceTrouble::not_there;
-    case LIBUSB_ERROR_NO_MEM:
-      return DeviceTrouble::no_resources;
-    default:
-      return DeviceTrouble::faulty;
-  }
+[[noreturn]] void refuse(const std::string& name, const std::string& what, int error) {
+  const auto fail = [&](const char* text, DeviceTrouble trouble) { throw DeviceError(name + what + text, trouble); };
+  if (error == LIBUSB_ERROR_ACCESS)
+    fail("permission denied, install the udev rules that `molar doctor --udev-rules` prints and replug it",
+         DeviceTrouble::no_rights);
+  if (error == LIBUSB_ERROR_BUSY) fail("in use by another program or driver, close it", DeviceTrouble::busy);
+  if (error == LIBUSB_ERROR_NO_DEVICE) fail("it was unplugged, plug it in and start again", DeviceTrouble::not_there);
+  throw DeviceError(name + what + libusb_strerror(error) + ", replug it and start again",
+                    error == LIBUSB_ERROR_NO_MEM ? DeviceTrouble::no_resources : DeviceTrouble::faulty);
 }
 
 }  // namespace
@@ -52,7 +35,8 @@ UsbLink::UsbLink(const UsbAddress& address, UsbClock clock) : clock_(clock), int
           (address.path.empty() ? "" : address.path + ", ") + usbId(address.vendor, address.product);
   try {
     if (const int error = libusb_init(&context_); error != 0)
-      throw DeviceError(name_ + ": libusb, " + errorText(error), DeviceTrouble::no_resources);
+      throw DeviceError(name_ + ": libusb, " + libusb_strerror(error) + ", replug it and start again",
+                        DeviceTrouble::no_resources);
     open(address);
     findPipes();
     claim();
@@ -89,13 +73,13 @@ void UsbLink::open(const UsbAddress& address) {
   if (count >= 0) libusb_free_device_list(list, 1);
   if (!handle_ && error == LIBUSB_ERROR_NOT_FOUND)
     throw DeviceError(name_ + ": not on the bus, plug it in and switch it on", DeviceTrouble::not_there);
-  if (!handle_) throw DeviceError(name_ + ": " + errorText(error), troubleOf(error));
+  if (!handle_) refuse(name_, ": ", error);
 }
 
 void UsbLink::findPipes() {
   libusb_config_descriptor* config = nullptr;
   if (const int error = libusb_get_active_config_descriptor(libusb_get_device(handle_), &config); error != 0)
-    throw DeviceError(name_ + ": its descriptors cannot be read, " + errorText(error), troubleOf(error));
+    refuse(name_, ": its descriptors cannot be read, ", error);
   for (int i = 0; i < config->bNumInterfaces; ++i) {
     const libusb_interface& candidate = config->interface[i];
     if (candidate.num_altsetting < 1 || candidate.altsetting[0].bInterfaceNumber != interface_) continue;
@@ -123,7 +107,7 @@ void UsbLink::claim() {
     libusb_set_auto_detach_kernel_driver(handle_, 0);
     error = libusb_claim_interface(handle_, interface_);
   }
-  if (error != 0) throw DeviceError(name_ + ": it cannot be claimed, " + errorText(error), troubleOf(error));
+  if (error != 0) refuse(name_, ": it cannot be claimed, ", error);
 }
 
 void UsbLink::watchDescriptors() {
