@@ -9,7 +9,6 @@
 #include "assets/load_error.h"
 #include "assets/mesh/gltf_file.h"
 #include "assets/patient/patient_folder.h"
-#include "assets/scenery/face_frame.h"
 #include "assets/scenery/face_placement.h"
 #include "assets/scenery/gingiva_surface.h"
 #include "assets/synthetic/face.h"

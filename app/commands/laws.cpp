@@ -1,6 +1,7 @@
-// `molar laws`: every force law with its parameters, units, ranges, defaults and sources, for people or as JSON; and
-// what each feels like in flat bone, F(h) and K(h), as a picture.
+// `molar laws`: every force law with its parameters, units, ranges, defaults and sources, as text or JSON; and its
+// curves F(h) and K(h) in flat bone, as a figure.
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -34,13 +35,12 @@ struct LawsOptions {
 };
 
 std::vector<const haptics::LawName*> chosenLaws(const LawsOptions& options) {
-  std::vector<const haptics::LawName*> chosen;
-  const bool all = std::find(options.laws.begin(), options.laws.end(), "all") != options.laws.end();
+  const auto is_chosen = [&](std::string_view name) { return std::ranges::count(options.laws, name) > 0; };
   for (const std::string& name : options.laws)
     if (name != "all") lawNamed(name);
+  std::vector<const haptics::LawName*> chosen;
   for (const haptics::LawName& law : haptics::kLaws)
-    if (all || std::find(options.laws.begin(), options.laws.end(), law.key) != options.laws.end())
-      chosen.push_back(&law);
+    if (is_chosen("all") || is_chosen(law.key)) chosen.push_back(&law);
   return chosen;
 }
 
@@ -124,7 +124,7 @@ void plot(const LawsOptions& options, const std::vector<const haptics::LawName*>
     Curve curve;
     curve.label = std::string(law->key);
     curve.colour = static_cast<int>(law->kind);
-    // Agus, points and harmonic lie on one another by design: dashes let the lower one show.
+    // Dashes show both curves where agus, points and harmonic coincide.
     curve.dashed = law->kind == haptics::LawKind::points || law->kind == haptics::LawKind::harmonic;
     curve.points = found.force_N;
     for (const glm::dvec2& p : found.force_N) strongest = std::max(strongest, p.y);
@@ -134,15 +134,15 @@ void plot(const LawsOptions& options, const std::vector<const haptics::LawName*>
       stiffest = std::max(stiffest, p.y), softest = std::min(softest, p.y);
     stiffness.curves.push_back(curve);
   }
-  // Limits are drawn where they are near enough to matter.
+  // A limit far above all curves is not drawn.
   const double peak_N = haptics::SafetyLimits{}.peak_force_N;
-  const double most_N_per_mm = 2.0 * options.device_damping_Ns_per_mm * options.rate_Hz;
+  const double max_N_per_mm = 2.0 * options.device_damping_Ns_per_mm * options.rate_Hz;
   if (peak_N < 4.0 * strongest) force.lines.push_back({"device, " + numberOf(peak_N) + " N", peak_N, true});
-  stiffness.lines.push_back({"Kmax = 2b/T = " + numberOf(most_N_per_mm) + " N/mm", most_N_per_mm, true});
-  // What lies far beyond every device leaves the picture at its top.
+  stiffness.lines.push_back({"Kmax = 2b/T = " + numberOf(max_N_per_mm) + " N/mm", max_N_per_mm, true});
+  // Values far beyond every device are cut off at the top.
   force.x_range = stiffness.x_range = glm::dvec2(0.0, press.deepest_mm);
   if (strongest > 3.0 * peak_N) force.y_range = glm::dvec2(0.0, 3.0 * peak_N);
-  const double top = std::min(1.05 * std::max(stiffest, 1.2 * most_N_per_mm), 2.5 * most_N_per_mm);
+  const double top = std::min(1.05 * std::max(stiffest, 1.2 * max_N_per_mm), 2.5 * max_N_per_mm);
   stiffness.y_range = glm::dvec2(softest < -0.05 * top ? std::max(softest, -0.5 * top) : 0.0, top);
   chart.panels = {force, stiffness};
   drawChart(chart, file);
@@ -175,7 +175,7 @@ void addLaws(CommandLine& molar) {
   command.option("--device-damping", o->device_damping_Ns_per_mm, "--plot: damping of device and hand, Ns/mm")
       .from(0.0, 0.1)
       .showsDefault();
-  command.flag("--force", o->force, "Replace the picture if it exists");
+  command.flag("--force", o->force, "Replace the figure if it exists");
   command.does([o] { return laws(*o); });
 }
 

@@ -5,7 +5,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/case/patient_guides.h"
 #include "app/case/patient_placement.h"
 #include "app/case/trough_plan.h"
 #include "app/commands/command.h"
@@ -15,6 +14,7 @@
 #include "app/text/command_line.h"
 #include "app/text/message.h"
 #include "app/text/usage_error.h"
+#include "app/view/patient_renderer.h"
 #include "app/view/renderer_choice.h"
 #include "assets/patient/patient_folder.h"
 #include "assets/scan/image_file.h"

@@ -1,6 +1,5 @@
 #include "app/options/tool_text.h"
 
-#include <string_view>
 #include <vector>
 
 #include <fmt/core.h>

@@ -11,8 +11,12 @@
 #include "assets/planned_cut.h"
 #include "haptics/tool/tool.h"
 #include "render/frame_renderer.h"
+#include "render/volume/guide_field.h"
 
 namespace app {
+
+/// Mandibular canal and, if there is one, the planned cut.
+render::Guides guidesFor(const assets::Patient& patient, const std::optional<assets::PlannedCut>& cut);
 
 /// `solid`: the current bone, in the order of the patient's grid.
 std::unique_ptr<render::FrameRenderer> patientRenderer(const assets::Patient& patient, const haptics::Tool& tool,

@@ -1,7 +1,5 @@
 #include "app/view/surgeon_display.h"
 
-#include <utility>
-
 #include "app/view/renderer_choice.h"
 #include "render/display/stereo_layout.h"
 #include "render/gpu/gpu_error.h"
