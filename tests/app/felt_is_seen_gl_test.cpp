@@ -1,5 +1,5 @@
-// What is felt is what is seen: the surface in the depth picture and the place where the default law's force begins are
-// one, on the built-in patient, before and after carving, whatever draws.
+// The surface that is seen is the surface that is felt: the depth image and the onset of the default law's force agree
+// on the built-in patient, before and after carving, for every renderer.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,8 +19,8 @@ namespace {
 
 constexpr glm::ivec2 kPx{160, 120};
 constexpr double kBur_mm = 1.0, kPressed_mm = 0.3;
-/// The disc in which the bur's cap meets flat bone, and how far the surface in it may be from flat: more, and the cap
-/// holds another volume than in flat bone of the same depth, which is not an error of the place.
+/// The disc in which the bur's cap meets the bone, and the largest deviation from flat in it: beyond, the cap's volume
+/// differs from that in flat bone at the same depth, which is no error of the surface's position.
 constexpr double kDisc_mm = 0.71, kFlat_mm = 0.08;
 
 const assets::Patient& patient() {
@@ -38,7 +38,7 @@ render::Frame fromTheCheek() {
   return frame;
 }
 
-/// The places in P that a depth picture shows, and whether each is hit.
+/// Points in P of a depth image, and whether each was hit.
 class SeenPlaces {
  public:
   SeenPlaces(const render::Frame& frame, const render::DistanceImage& distance) : mm_(distance.mm) {
@@ -94,7 +94,7 @@ struct Agreement {
   double rms_mm = 0.0, worst_mm = 0.0;
 };
 
-/// Presses the bur into every seen place and compares how deep it is felt to be.
+/// Presses the bur into every visible point and compares the depth.
 Agreement agreementOf(const SeenPlaces& seen, const haptics::CarvedBone& bone) {
   Agreement found;
   const haptics::SolidField field = bone.field();
@@ -161,7 +161,7 @@ TEST_P(FeltIsSeen, WithinATwentiethOfAMillimetreBeforeAndAfterCarving) {
   EXPECT_GT(floor.places, 50);
   EXPECT_LT(floor.rms_mm, 0.05) << "worst " << floor.worst_mm;
   // The control.
-  EXPECT_GT(agreementOf(seen, bone).rms_mm, 0.05) << "the uncarved picture no longer fits the carved bone";
+  EXPECT_GT(agreementOf(seen, bone).rms_mm, 0.05) << "the uncarved depth image no longer fits the carved bone";
   for (const auto& [name, found] : {std::pair{"before", untouched}, {"after", carved}, {"floor", floor}})
     std::printf("%s: %d places, %.4f mm rms, worst %.3f\n", name, found.places, found.rms_mm, found.worst_mm);
 }

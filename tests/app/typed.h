@@ -1,4 +1,4 @@
-// Words typed on a command line that has one command.
+// A command line with one command, for tests of options.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace tests {
 
-/// `add` says what may be given; single quotes hold words together. Throws UsageError.
+/// `add` adds the options; single quotes group words. Throws UsageError.
 inline void type(const std::string& words, const std::function<void(app::CommandLine&)>& add) {
   app::CommandLine program("", "0");
   app::CommandLine& command = program.command("do", "");

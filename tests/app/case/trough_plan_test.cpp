@@ -36,7 +36,7 @@ assets::Patient blockWithMolar() {
   return patient;
 }
 
-TEST(TroughPlan, LiesOnTheBoneBesideTheCrown) {
+TEST(TroughPlan, LiesOnTheBoneNextToTheCrown) {
   const auto plan = planBuccalTrough(blockWithMolar(), 2.0);
   ASSERT_TRUE(plan.has_value());
   EXPECT_NEAR(plan->middle_P_mm.z, 0.0, 0.5) << "on the surface";
@@ -48,7 +48,7 @@ TEST(TroughPlan, LiesOnTheBoneBesideTheCrown) {
   EXPECT_NEAR(glm::dot(plan->outward_P, plan->lateral_P), 0.0, 1e-9);
 }
 
-TEST(TroughPlan, KeepsOffTheNeighbouringTooth) {
+TEST(TroughPlan, AvoidsTheNeighbouringTooth) {
   const auto plan = planBuccalTrough(blockWithMolar(), 2.0);
   ASSERT_TRUE(plan.has_value());
   const glm::dvec2 neighbour{-20.0, 28.0};
@@ -68,8 +68,8 @@ TEST(TroughPlan, IsNoneWithoutBoneOrMolar) {
   EXPECT_FALSE(planBuccalTrough(no_bone, 2.0).has_value());
 }
 
-/// The same for any tooth: a first molar on the left between two others, told apart by number alone.
-TEST(TroughPlan, LiesBesideAToothInTheMiddleOfTheRow) {
+/// A first molar on the left between two others, distinguished by number only.
+TEST(TroughPlan, LiesNextToAToothInTheMiddleOfTheRow) {
   assets::Patient patient = blockWithMolar();
   assets::CtVolume& ct = patient.ct;
   ct.grid.origin_P_mm.x = 0.0;
@@ -97,7 +97,7 @@ TEST(TroughPlan, LiesBesideAToothInTheMiddleOfTheRow) {
   EXPECT_GT(std::abs(along.y), 0.95) << "along the row";
 }
 
-/// Where the teeth of a lower arch stand, a parabola, by the usual widths of crowns; y to the back, from the incisors.
+/// Teeth of a lower arch on a parabola, by typical crown widths; y from the incisors to the back.
 glm::dvec3 inArch_P_mm(int fdi) {
   constexpr double kWidth_mm[] = {5.3, 5.9, 6.9, 7.0, 7.1, 11.0, 10.5, 10.0}, kBend_per_mm = 0.06, kStep_mm = 0.001;
   double to_centre_mm = 0.5 * kWidth_mm[assets::positionOf(fdi) - 1], x_mm = 0.0;
@@ -115,7 +115,7 @@ glm::dvec3 distalInArch_P(int fdi) {
 enum class Standing { all, its_quadrant, alone };
 constexpr double kWithin25Degrees = 0.906;  ///< cosine
 
-TEST(ArchDirection, FollowsTheRowAtEveryToothHoweverManyStandInIt) {
+TEST(ArchDirection, FollowsTheArchAtEveryToothWhateverTeethAreMissing) {
   assets::CtVolume ct;
   ct.grid = {{160, 140, 8}, 0.5, {-40.0, -10.0, -2.0}};
   ct.label.assign(ct.grid.voxelCount(), 0);

@@ -71,7 +71,7 @@ TEST_F(BadInput, OptionsHaveRanges) {
   expectRefusal(see + " --mode solid", "iso");
 }
 
-TEST_F(BadInput, NothingIsOverwrittenOrLeftHalfWritten) {
+TEST_F(BadInput, OutputsAreNeverOverwrittenOrPartial) {
   write("f.csv", "precious");
   expectRefusal(feel("v.nrrd", "p.csv"), "f.csv");
   EXPECT_EQ(read("f.csv"), "precious");
@@ -82,7 +82,7 @@ TEST_F(BadInput, NothingIsOverwrittenOrLeftHalfWritten) {
   EXPECT_EQ(read("p.csv"), poses);
   const std::size_t before = fileCount();
   expectRefusal(feel("missing.nrrd", "p.csv", "--force"));
-  EXPECT_EQ(read("f.csv"), "precious") << "a failing command keeps what was there";
+  EXPECT_EQ(read("f.csv"), "precious") << "a failing command keeps the old file";
   expectRefusal("carve --volume " + at("missing.nrrd") + " --tool sphere:2 --poses " + at("p.csv") + " --out " +
                 at("c.nrrd"));
   expectRefusal("see --volume " + at("missing.nrrd") + " --out " + at("a.png") + " --depth " + at("d.nrrd"));

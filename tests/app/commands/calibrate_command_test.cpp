@@ -30,7 +30,7 @@ class CalibrateCommand : public ProgramTest {
   }
 };
 
-TEST_F(CalibrateCommand, FitsAndProvesAJig) {
+TEST_F(CalibrateCommand, FitsAndVerifiesAJig) {
   simulate("--seed 7 --outliers 0.03");
   const ProgramOutput said = molar("calibrate fit " + at("obs.yaml") + " --out " + at("rig.yaml") + " --json");
   EXPECT_EQ(said.status, 0) << said.err;
@@ -42,7 +42,7 @@ TEST_F(CalibrateCommand, FitsAndProvesAJig) {
   EXPECT_EQ(molar("calibrate verify " + at("rig.yaml") + " " + at("obs_held.yaml")).status, 0);
 }
 
-TEST_F(CalibrateCommand, FullBeatsRigidOnTouchesNeitherHasSeen) {
+TEST_F(CalibrateCommand, FullBeatsRigidOnHeldOutTouches) {
   simulate();
   for (const char* model : {"rigid", "full"}) {
     const std::string name = std::string(model) + ".yaml";
@@ -53,7 +53,7 @@ TEST_F(CalibrateCommand, FullBeatsRigidOnTouchesNeitherHasSeen) {
             proof("rigid.yaml", "obs_held.yaml")["tre_rms_mm"].get<double>());
 }
 
-TEST_F(CalibrateCommand, RezeroBringsAPushedUnitBack) {
+TEST_F(CalibrateCommand, RezeroCorrectsAMovedUnit) {
   simulate();
   simulate("--seed 7 --drift-deg 0.3 --drift-mm 1", "later");
   ASSERT_EQ(molar("calibrate fit " + at("obs.yaml") + " --out " + at("rig.yaml")).status, 0);
@@ -68,7 +68,7 @@ TEST_F(CalibrateCommand, RezeroBringsAPushedUnitBack) {
   EXPECT_LT(proof("new.yaml", "later_held.yaml")["tre_rms_mm"], 0.45);
 }
 
-TEST_F(CalibrateCommand, KeepsWhatIsProvedAndGoesBack) {
+TEST_F(CalibrateCommand, StoresVerifiedRigsAndRollsBack) {
   simulate();
   simulate("--seed 7 --method jig8", "few");
   const std::string store = " --keep --store " + at("store");
@@ -92,7 +92,7 @@ TEST_F(CalibrateCommand, KeepsWhatIsProvedAndGoesBack) {
   EXPECT_EQ(current("store"), before);
 }
 
-TEST_F(CalibrateCommand, SaysWhatDiffersAndReportsOnOnePage) {
+TEST_F(CalibrateCommand, ShowsDifferencesAndWritesOnePage) {
   simulate();
   ASSERT_EQ(molar("calibrate fit " + at("obs.yaml") + " --held-out " + at("obs_held.yaml") + " --out " + at("rig.yaml"))
                 .status,
@@ -108,7 +108,7 @@ TEST_F(CalibrateCommand, SaysWhatDiffersAndReportsOnOnePage) {
   EXPECT_FALSE(std::regex_search(page, std::regex("(src|href)=\"http"))) << "it must stand alone";
 }
 
-TEST_F(CalibrateCommand, LeadsThroughAllOfItAndTheRehearsalWorksWithIt) {
+TEST_F(CalibrateCommand, CollectsACalibrationThatTheRehearsalUses) {
   const std::string store = " --store " + at("store");
   const std::string robot = " --device practice:D:7 --robot --hurried --headless --keep" + store;
   const ProgramOutput said = molar("calibrate collect" + robot + " --observations " + at("touches.yaml"));
@@ -131,7 +131,7 @@ TEST_F(CalibrateCommand, LeadsThroughAllOfItAndTheRehearsalWorksWithIt) {
   expectRefusal("rehearse --headless --device practice:D:8 --rig current --rig-store " + at("store"), "SIM-D8");
 }
 
-TEST_F(CalibrateCommand, ARedCheckLocksWhatWasGreen) {
+TEST_F(CalibrateCommand, ARedCheckLocksAGreenRig) {
   const std::string robot = " --device practice:D:7 --robot --hurried --headless --keep --store " + at("store");
   ASSERT_EQ(molar("calibrate collect" + robot).status, 0);
   const std::string rig = at("store") + "/rig/SIM-D7/right/" + current("store");
@@ -156,7 +156,7 @@ TEST_F(CalibrateCommand, ARedCheckLocksWhatWasGreen) {
   EXPECT_EQ(opened.status, 0) << opened.err;
 }
 
-TEST_F(CalibrateCommand, LeadsNobodyWithoutAStylusOrWithANonsense) {
+TEST_F(CalibrateCommand, RefusesToCollectWithoutAStylusOrWithInvalidOptions) {
   for (const char* wrong :
        {"collect --device mouse", "collect --device practice:Z", "collect --device simulated:omni",
         "collect --device practice:D --headless", "collect --device practice:D --robot --headless --method jig9",
@@ -164,7 +164,7 @@ TEST_F(CalibrateCommand, LeadsNobodyWithoutAStylusOrWithANonsense) {
     expectRefusal(std::string("calibrate ") + wrong);
 }
 
-TEST_F(CalibrateCommand, RefusesBadInputAndLeavesWhatIsInForce) {
+TEST_F(CalibrateCommand, RefusesBadInputAndKeepsTheCurrentRig) {
   simulate();
   const std::string good = read("obs.yaml");
   const std::string store = " --held-out " + at("obs_held.yaml") + " --keep --store " + at("store");
@@ -202,7 +202,7 @@ TEST_F(CalibrateCommand, RefusesBadInputAndLeavesWhatIsInForce) {
   EXPECT_EQ(current("store"), in_force);
 }
 
-TEST_F(CalibrateCommand, ListsWhatIsKeptThoughItIsNotKnownWhatIsInForce) {
+TEST_F(CalibrateCommand, ListsStoredRigsDespiteAnInvalidCurrentFile) {
   simulate();
   const std::string store = " --store " + at("store");
   ASSERT_EQ(molar("calibrate fit " + at("obs.yaml") + " --held-out " + at("obs_held.yaml") + " --keep" + store).status,

@@ -24,7 +24,7 @@ class CalibrateLens : public ProgramTest {
   std::string lens() const { return "calibrate lens " + at("left") + " --board 9x6 --square-mm 25"; }
 };
 
-TEST_F(CalibrateLens, IsMeasuredOnRealPictures) {
+TEST_F(CalibrateLens, IsMeasuredOnRealImages) {
   const ProgramOutput said = molar(lens() + " --out " + at("camera.yaml") + " --name desk --json");
   const auto json = nlohmann::json::parse(said.out);
   EXPECT_EQ(said.status, json["verdict"] == "green" ? 0 : 1) << said.err;
@@ -36,7 +36,7 @@ TEST_F(CalibrateLens, IsMeasuredOnRealPictures) {
   expectRefusal(lens() + " --out " + at("camera.yaml"), "--force");
 }
 
-TEST_F(CalibrateLens, NamesThePicturesItCanNotUse) {
+TEST_F(CalibrateLens, NamesUnusableImages) {
   // A board that is not there is looked for long: two pictures are enough.
   for (int i = 3; i <= 14; ++i)
     fs::remove(at("left/left" + std::string(i < 10 ? "0" : "") + std::to_string(i) + ".jpg"));
@@ -82,7 +82,7 @@ TEST_F(CalibratePivot, FindsAnotherBur) {
   EXPECT_LT(error_mm("new.yaml"), 0.6);
 }
 
-TEST_F(CalibratePivot, IsRefusedWithTheReason) {
+TEST_F(CalibratePivot, IsRefusedWithAReason) {
   expectRefusal("calibrate pivot " + at("jig.yaml") + " --rig " + at("rig.yaml"), "wandered");
   expectRefusal("calibrate pivot " + at("pit.yaml") + " --out " + at("new.yaml"), "--rig");
   ASSERT_EQ(molar(unit() + " --method check4 --out " + at("four.yaml")).status, 0);

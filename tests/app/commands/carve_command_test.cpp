@@ -29,20 +29,20 @@ class CarveCommand : public ProgramTest {
 
 constexpr double kPi = std::numbers::pi;
 
-TEST_F(CarveCommand, DwellingTakesTheCapAndNoMore) {
+TEST_F(CarveCommand, DwellingRemovesTheCapOnly) {
   const double cap_mm3 = kPi * (2.0 - 1.0 / 3.0);
   for (const double spacing_mm : {0.1, 0.2})
     EXPECT_NEAR(removed_mm3(spacing_mm, 1000, {0.03, 0.02, 1.0}, {0.03, 0.02, 1.0}, 1.0, 20.0) / cap_mm3, 1.0, 0.02);
 }
 
-TEST_F(CarveCommand, SweepingTakesTheSweptVolume) {
+TEST_F(CarveCommand, SweepingRemovesTheSweptVolume) {
   const double h = 1.5, R = 2.0;
   const double section = R * R * std::acos(1 - h / R) - (R - h) * std::sqrt(2 * R * h - h * h);
   const double swept_mm3 = kPi * h * h * (R - h / 3.0) + 3.0 * section;
   EXPECT_NEAR(removed_mm3(0.2, 1000, {-1.5, 0, 0.5}, {1.5, 0, 0.5}, 3.0, 20.0) / swept_mm3, 1.0, 0.02);
 }
 
-TEST_F(CarveCommand, TakesTheSameEverySecondWhateverVoxelsAndTicks) {
+TEST_F(CarveCommand, RemovalRateIsIndependentOfVoxelsAndTicks) {
   const double h = 0.8, cap_mm3 = kPi * h * h * (2.0 - h / 3.0), linear_mm3 = cap_mm3 * 4.0 * 0.05;
   for (const double spacing_mm : {0.1, 0.2})
     for (const double rate_Hz : {500.0, 1000.0, 2000.0})
@@ -51,7 +51,7 @@ TEST_F(CarveCommand, TakesTheSameEverySecondWhateverVoxelsAndTicks) {
           << spacing_mm << " mm, " << rate_Hz << " Hz";
 }
 
-TEST_F(CarveCommand, WritesWhatIsLeft) {
+TEST_F(CarveCommand, WritesTheRemainingSolid) {
   const double removed = removed_mm3(0.2, 1000, {0, 0, 1}, {0, 0, 1}, 0.5, 4.0);
   const auto before = assets::readSolid(at("v.nrrd")), after = assets::readSolid(at("c.nrrd"));
   ASSERT_EQ(before.grid, after.grid);
@@ -64,7 +64,7 @@ TEST_F(CarveCommand, WritesWhatIsLeft) {
   EXPECT_GT(removed, 1.0);
 }
 
-TEST_F(CarveCommand, TakesNothingWithThePedalUp) {
+TEST_F(CarveCommand, RemovesNothingWithThePedalUp) {
   writeHalfSpace(at("v.nrrd"), 0.2, {0, 0, 1}, 0.0);
   write("p.csv", "t_s,px_mm,py_mm,pz_mm,qw,qx,qy,qz,drill\n0,0,0,1,1,0,0,0,0\n1,0,0,1,1,0,0,0,0\n");
   const ProgramOutput said = molar("carve --volume " + at("v.nrrd") + " --field solid --tool sphere:2 --poses " +
@@ -72,7 +72,7 @@ TEST_F(CarveCommand, TakesNothingWithThePedalUp) {
   EXPECT_EQ(nlohmann::json::parse(said.out).at("removed_mm3").get<double>(), 0.0);
 }
 
-/// The answer of a second's dwelling 0.4 mm deep under the side of a 2 mm bur, spindle along +x.
+/// The result of dwelling one second 0.4 mm deep under the side of a 2 mm bur, spindle along +x.
 class CarveByLaw : public CarveCommand {
  protected:
   nlohmann::json answer(const std::string& options, const std::string& poses = kDwell) {
@@ -92,7 +92,7 @@ class CarveByLaw : public CarveCommand {
   static constexpr double k40krpm = 40000.0 * 2.0 * kPi / 60.0;
 };
 
-TEST_F(CarveByLaw, DosesByTheForceThatPresses) {
+TEST_F(CarveByLaw, DoseFollowsTheGivenForce) {
   // alpha mu F w R t; the arm is a little shorter than R at 0.4 mm.
   const double paid_mm3 = 0.2e-3 * 0.3 * 1.0 * k40krpm * 2.0 * 0.4;
   const double one = taken_mm3("--erosion dose --set removal_mm3_per_J=0.2 normal_force_N=1");
@@ -104,7 +104,7 @@ TEST_F(CarveByLaw, DosesByTheForceThatPresses) {
   EXPECT_NEAR(taken_mm3("--erosion dose --set removal_mm3_per_J=0.2 normal_force_N=1 friction=0.15") / one, 0.5, 0.02);
 }
 
-TEST_F(CarveByLaw, DosesByTheForceLawWhereNoForceIsGiven) {
+TEST_F(CarveByLaw, DoseFollowsTheForceLawWithoutAGivenForce) {
   // Little is cut, so k h = 2.5 * 0.4 = 1 N stays.
   const std::string slow = " removal_mm3_per_J=0.05";
   EXPECT_NEAR(taken_mm3("--erosion dose --set stiffness_N_per_mm=2.5" + slow) /
@@ -112,13 +112,13 @@ TEST_F(CarveByLaw, DosesByTheForceLawWhereNoForceIsGiven) {
               1.0, 0.05);
 }
 
-TEST_F(CarveByLaw, StallsUnderMoreThanTheMotorHas) {
+TEST_F(CarveByLaw, StallsUnderOverload) {
   // mu F R = 0.3 * 4 * 2 = 2.4 N mm.
   EXPECT_EQ(taken_mm3("--erosion dose --set normal_force_N=4 stall_torque_Nmm=2"), 0.0);
   EXPECT_GT(taken_mm3("--erosion dose --set normal_force_N=4 stall_torque_Nmm=20"), 0.5);
 }
 
-TEST_F(CarveByLaw, MachinesWhatTheFeedSweeps) {
+TEST_F(CarveByLaw, MachiningRemovesTheFeedVolume) {
   const double R = 2.0, h = 0.6, way_mm = 3.0;
   const double section = R * R * std::acos(1 - h / R) - (R - h) * std::sqrt(2 * R * h - h * h);
   const std::string along = "0,-1.5,0,1.4,1,0,0,0,1\n0.5,1.5,0,1.4,1,0,0,0,1\n";
@@ -134,13 +134,13 @@ TEST_F(CarveByLaw, MachinesWhatTheFeedSweeps) {
   EXPECT_EQ(taken_mm3("--erosion machining"), 0.0);
 }
 
-TEST_F(CarveByLaw, TakesByTheClockInProportionToTheSpeed) {
+TEST_F(CarveByLaw, TimeLawIsProportionalToTheSpeed) {
   const double full = taken_mm3("--set removal_rate_per_s=0.5");
   EXPECT_NEAR(taken_mm3("--set removal_rate_per_s=0.5 spindle_rpm=10000") / full, 0.25, 0.01);
   EXPECT_EQ(taken_mm3("--set removal_rate_per_s=0.5 spindle_rpm=0"), 0.0);
 }
 
-TEST_F(CarveByLaw, RefusesWhatIsNoSettingOfTheLawOrOutOfItsRange) {
+TEST_F(CarveByLaw, RefusesSettingsOfOtherLawsAndOutOfRange) {
   writeHalfSpace(at("v.nrrd"), 0.4, {0, 0, 1}, 0.0);
   write("p.csv", std::string("t_s,px_mm,py_mm,pz_mm,qw,qx,qy,qz,drill\n") + kDwell);
   const auto refused = [&](const std::string& options) {

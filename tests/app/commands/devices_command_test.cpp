@@ -14,12 +14,12 @@ class DevicesCommand : public ProgramTest {
   }
 };
 
-/// As somebody answers whose Omni is as it should be: 6 for switches and corners, then the way it pushes, then grams.
+/// Answers of a user with a good Omni: 6 for switches and corners, then the push direction, then grams.
 std::string goodAnswers(const std::string& ways, const std::string& grams) {
   return "\n\n\n\n\n\n\n\n\n" + ways + grams;
 }
 
-TEST_F(DevicesCommand, ListsWhatIsHereAndSaysWhatNoUnitHasProved) {
+TEST_F(DevicesCommand, ListsDevicesAndMarksUntestedDrivers) {
   const ProgramOutput said = molar("devices");
   EXPECT_EQ(said.status, 0) << said.err;
   for (const char* words :
@@ -32,7 +32,7 @@ TEST_F(DevicesCommand, ListsWhatIsHereAndSaysWhatNoUnitHasProved) {
   for (const auto& kind : all["kinds"]) EXPECT_EQ(kind["ran_on_a_real_unit"], false) << kind;
 }
 
-TEST_F(DevicesCommand, CheckTakesAGoodUnitToTheEnd) {
+TEST_F(DevicesCommand, CheckPassesAGoodUnit) {
   const ProgramOutput said = check(goodAnswers("r\nu\nt\n", "0\n30.6\n61.2\n102\n-30.6\n-61.2\n-102\n"));
   const std::string page = read("report.md");
   EXPECT_EQ(said.status, 0) << said.err << page;
@@ -46,7 +46,7 @@ TEST_F(DevicesCommand, CheckTakesAGoodUnitToTheEnd) {
   EXPECT_EQ(page.find("left before the end"), std::string::npos) << page;
 }
 
-TEST_F(DevicesCommand, CheckFindsAForceThatPushesTheWrongWayAndPushesNoMore) {
+TEST_F(DevicesCommand, CheckDetectsAReversedForceAndStopsPushing) {
   const ProgramOutput said = check(goodAnswers("l\nu\nt\n", ""));
   EXPECT_EQ(said.status, 1) << said.err;
   const std::string page = read("report.md");
@@ -55,7 +55,7 @@ TEST_F(DevicesCommand, CheckFindsAForceThatPushesTheWrongWayAndPushesNoMore) {
   EXPECT_NE(page.find("| scale of the force | 1.00 ± 0.10 |  | not tried |"), std::string::npos) << page;
 }
 
-TEST_F(DevicesCommand, CheckLeavesAtAnyQuestion) {
+TEST_F(DevicesCommand, CheckCanBeLeftAtAnyQuestion) {
   for (const int lines : {0, 3, 10}) {
     std::filesystem::remove(at("report.md"));
     std::string answers = goodAnswers("r\nu\nt\n", "0\n30.6\n");
@@ -67,7 +67,7 @@ TEST_F(DevicesCommand, CheckLeavesAtAnyQuestion) {
   }
 }
 
-TEST_F(DevicesCommand, CheckRefusesWhatIsNotThere) {
+TEST_F(DevicesCommand, CheckRefusesMissingDevices) {
   write("report.md", "mine");
   expectRefusal("devices check simulated:omni --report " + at("report.md"), "report.md");
   EXPECT_EQ(read("report.md"), "mine");

@@ -7,7 +7,7 @@ namespace {
 
 class DisplayCommand : public ProgramTest {};
 
-TEST_F(DisplayCommand, WritesEveryPatternAsAPicture) {
+TEST_F(DisplayCommand, WritesEveryPatternAsAnImage) {
   for (const char* pattern : {"eyes", "crosstalk", "grid", "cross", "text"}) {
     const std::string name = std::string(pattern) + ".png";
     const ProgramOutput said =
@@ -18,7 +18,7 @@ TEST_F(DisplayCommand, WritesEveryPatternAsAPicture) {
   expectRefusal("display --pattern eyes --size 320x200 --out " + at("eyes.png"), "eyes.png");
 }
 
-TEST_F(DisplayCommand, RefusesWhatCanNotBe) {
+TEST_F(DisplayCommand, RefusesInvalidOptions) {
   expectRefusal("display --pattern snow --out " + at("a.png"), "crosstalk");
   expectRefusal("display --display hologram --out " + at("a.png"), "row-interleaved");
   expectRefusal("display --display frame-packing --size 640x480 --out " + at("a.png"), "1280x720");
@@ -27,7 +27,7 @@ TEST_F(DisplayCommand, RefusesWhatCanNotBe) {
   expectRefusal("display --rig " + at("none.yaml") + " --out " + at("a.png"), "none.yaml");
 }
 
-TEST_F(DisplayCommand, ShowsItselfAndTheNextBestWhereADisplayHasNoStereo) {
+TEST_F(DisplayCommand, OpensAndFallsBackWithoutStereo) {
   if (std::getenv("DISPLAY") == nullptr) GTEST_SKIP() << "no DISPLAY: run under xvfb-run";
   for (const char* mode : {"mono", "row-interleaved", "two-windows", "anaglyph"}) {
     const ProgramOutput said = molar("display --windowed --size 160x100 --seconds 0.3 --display " + std::string(mode));

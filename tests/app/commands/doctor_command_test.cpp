@@ -7,11 +7,11 @@ namespace {
 
 class DoctorCommand : public ProgramTest {};
 
-TEST_F(DoctorCommand, AnswersForPeopleAndForProgramsAlike) {
+TEST_F(DoctorCommand, TextAndJsonAgree) {
   const ProgramOutput json = molar("doctor --json --sessions " + folder_.string());
   EXPECT_EQ(json.err, "");
   const auto all = nlohmann::json::parse(json.out);
-  EXPECT_EQ(json.status, all["missing"] > 0 ? 1 : 0) << "1 when something needed is missing";
+  EXPECT_EQ(json.status, all["missing"] > 0 ? 1 : 0) << "1 if something required is missing";
   const ProgramOutput said = molar("doctor --sessions " + folder_.string());
   for (const auto& check : all["checks"]) {
     EXPECT_NE(said.out.find("  " + check["id"].get<std::string>() + " "), std::string::npos) << said.out;
@@ -23,7 +23,7 @@ TEST_F(DoctorCommand, AnswersForPeopleAndForProgramsAlike) {
   EXPECT_EQ(fileCount(), 0u) << "it leaves nothing behind";
 }
 
-TEST_F(DoctorCommand, PrintsRulesReadyToBePutInPlace) {
+TEST_F(DoctorCommand, PrintsInstallableRules) {
   const ProgramOutput said = molar("doctor --udev-rules");
   EXPECT_EQ(said.status, 0);
   EXPECT_EQ(said.err, "");
@@ -31,7 +31,7 @@ TEST_F(DoctorCommand, PrintsRulesReadyToBePutInPlace) {
     EXPECT_NE(said.out.find(identity), std::string::npos) << identity;
 }
 
-TEST_F(DoctorCommand, RefusesWhatItDoesNotKnow) {
+TEST_F(DoctorCommand, RefusesUnknownNames) {
   expectRefusal("doctor --sessions " + at("nowhere"), "nowhere");
   expectRefusal("doctor --json --udev-rules", "udev-rules");
   expectRefusal("doctor everything");

@@ -34,7 +34,7 @@ class ExportCommand : public ProgramTest {
   }
 };
 
-TEST_F(ExportCommand, WritesTheBoneASessionLeftAsAClosedSurface) {
+TEST_F(ExportCommand, WritesTheBoneOfASessionAsAClosedSurface) {
   const auto said = parts(session() + " --out " + at("a.stl"));
   const assets::test::StlFile after = assets::test::readStl(at("a.stl"));
   EXPECT_EQ(assets::test::opennessOf(after.mesh.triangles), "");
@@ -64,7 +64,7 @@ TEST_F(ExportCommand, WritesBoneAndTeethAsPartsOfOneGltf) {
   for (const glm::vec3& p : model_P.parts[1].position_mm) ASSERT_LT(p.z, -1.7f);
 }
 
-TEST_F(ExportCommand, WritesOneTissueAlone) {
+TEST_F(ExportCommand, WritesASingleTissue) {
   const auto tooth = parts(session() + " --tissue tooth --out " + at("t.stl"));
   const auto bone = parts(session() + " --tissue bone --out " + at("b.stl"));
   const auto all = parts(session() + " --out " + at("a.stl"));
@@ -79,7 +79,7 @@ TEST_F(ExportCommand, WritesAVolume) {
   EXPECT_NEAR(said.at(0).at("enclosed_mm3").get<double>(), 500.0, 5.0);  // its edges are bevelled
 }
 
-TEST_F(ExportCommand, NamesNobodyInItsFiles) {
+TEST_F(ExportCommand, WritesNoPersonalData) {
   const std::string path = session();
   parts(path + " --out " + at("a.stl"));
   parts(path + " --out " + at("a.glb"));

@@ -27,7 +27,7 @@ std::vector<Felt> feltIn(const std::string& csv) {
   return rows;
 }
 
-/// How a bur of 2 mm was felt at one depth, over random places of a face.
+/// Forces on a 2 mm bur at one depth, at random points of a face.
 struct Felt16 {
   double depth_rms = 0.0;      ///< relative error
   double angle_rms_deg = 0.0;  ///< of the force against the face's normal
@@ -71,7 +71,7 @@ class FeelCommand : public ProgramTest {
   }
 };
 
-TEST_F(FeelCommand, KnowsDepthAndDirectionOfAFaceOfAnyOrientation) {
+TEST_F(FeelCommand, GivesDepthAndDirectionForAnyOrientation) {
   const std::vector<glm::dvec3> normals{{0, 0, 1},
                                         {1, 0, 0},
                                         glm::normalize(glm::dvec3(0.3, 0.5, 0.81)),
@@ -91,7 +91,7 @@ TEST_F(FeelCommand, KnowsDepthAndDirectionOfAFaceOfAnyOrientation) {
     }
 }
 
-TEST_F(FeelCommand, FeelsTheSameInFineAndCoarseVoxels) {
+TEST_F(FeelCommand, ForceIsIndependentOfVoxelSize) {
   const glm::dvec3 normal = glm::normalize(glm::dvec3(0.3, 0.5, 0.81));
   const double fine_N = press(0.1, normal, 0.0, {1.0})[0].mean_force_N;
   const double coarse_N = press(0.2, normal, 0.0, {1.0})[0].mean_force_N;
@@ -99,7 +99,7 @@ TEST_F(FeelCommand, FeelsTheSameInFineAndCoarseVoxels) {
   EXPECT_NEAR(coarse_N / fine_N, 1.0, 0.02);
 }
 
-TEST_F(FeelCommand, TakesItsStiffnessFromTheCommandLine) {
+TEST_F(FeelCommand, StiffnessIsSetByOption) {
   writeHalfSpace(at("v.nrrd"), 0.2, {0, 0, 1}, 0.0);
   write("p.csv", poseCsv({{0, 0, 0, 1}}));
   const std::string feel = "feel --volume " + at("v.nrrd") + " --field solid --tool sphere:2 --poses " + at("p.csv");
@@ -108,7 +108,7 @@ TEST_F(FeelCommand, TakesItsStiffnessFromTheCommandLine) {
   EXPECT_NEAR(feltIn(read("b.csv"))[0].fz, 2.0 * feltIn(read("a.csv"))[0].fz, 1e-6);
 }
 
-TEST_F(FeelCommand, ServesNoMoreThanTheLimits) {
+TEST_F(FeelCommand, ServedForceKeepsTheLimits) {
   writeHalfSpace(at("v.nrrd"), 0.2, {0, 0, 1}, 0.0);
   std::vector<glm::dvec4> rows;
   for (int i = 0; i < 400; ++i) rows.emplace_back(0.001 * i, 0.0, 0.0, 2.2 - 0.02 * i);

@@ -1,5 +1,5 @@
-// The built-in patient as a surgeon sees it, against stored pictures of 240x150 pixels. The program runs as its user
-// runs it; the CPU draws, so that no driver's rounding counts. After a change of the look that was looked at:
+// The built-in patient against stored images of 240x150 pixels, drawn by the program on the CPU, so independent of
+// drivers. After an intended change, inspected by eye:
 //   MOLAR_WRITE_GOLDEN=1 build/release/tests/app/app_golden_test
 #include <opencv2/imgcodecs.hpp>
 
@@ -8,14 +8,13 @@
 namespace app {
 namespace {
 
-/// How far a picture may be from its golden one.
+/// Largest accepted difference from the golden image.
 struct Tolerance {
   double mean;       ///< of all channels, of 255
   double far_share;  ///< of the pixels whose worst channel is more than 8 of 255 away
 };
 
-/// At fast pace every run makes the same ticks: what remains are ten pixels on edges that another processor's rounding
-/// may shift.
+/// At fast pace every run makes the same ticks; up to ten edge pixels differ by the rounding of other processors.
 constexpr Tolerance kStill{0.01, 0.0003};
 class GoldenPicture : public ProgramTest {
  protected:
@@ -54,7 +53,7 @@ class GoldenPicture : public ProgramTest {
 constexpr char kRun[] =
     "rehearse --headless --pace fast --device scripted --voxel 0.5 --renderer cpu --snapshot-size 240x150 ";
 
-TEST_F(GoldenPicture, ThePatientBeforeAndAfterTheTrough) {
+TEST_F(GoldenPicture, PatientBeforeAndAfterTheTrough) {
   const ProgramOutput said =
       molar(kRun + std::string("--first-snapshot ") + at("before.png") + " --snapshot " + at("after.png"));
   ASSERT_EQ(said.status, 0) << said.err;

@@ -1,4 +1,4 @@
-// Every head through the program: felt over flat bone and cut out of it, against closed forms.
+// Force and removed volume of every head on flat bone, against closed forms.
 #include <numbers>
 #include <sstream>
 
@@ -27,7 +27,7 @@ const std::vector<HeadOverBone> kHeads = {
 
 class HeadCommand : public ProgramTest {};
 
-TEST_F(HeadCommand, EveryHeadIsFeltAsDeepAsItStandsInBone) {
+TEST_F(HeadCommand, EveryHeadGivesItsDepth) {
   writeHalfSpace(at("v.nrrd"), 0.1, {0, 0, 1}, 0.02, 6.0);
   for (const HeadOverBone& head : kHeads) {
     write("p.csv", poseCsv({{0.0, 0.013, 0.027, 0.02 + head.half_mm - 0.5}}));
@@ -47,7 +47,7 @@ TEST_F(HeadCommand, EveryHeadIsFeltAsDeepAsItStandsInBone) {
   }
 }
 
-TEST_F(HeadCommand, EveryHeadTakesItsOwnVolume) {
+TEST_F(HeadCommand, EveryHeadRemovesItsVolume) {
   writeHalfSpace(at("v.nrrd"), 0.1, {0, 0, 1}, 2.5, 6.0);
   write("p.csv", poseCsv({{0.0, 0.013, 0.027, 0.0}, {0.2, 0.013, 0.027, 0.0}}));
   for (const HeadOverBone& head : kHeads) {
@@ -60,7 +60,7 @@ TEST_F(HeadCommand, EveryHeadTakesItsOwnVolume) {
   }
 }
 
-TEST_F(HeadCommand, AHeadThatIsNoneIsRefusedWithWhatMayBe) {
+TEST_F(HeadCommand, InvalidHeadsAreRefusedWithTheAcceptedForms) {
   writeHalfSpace(at("v.nrrd"), 0.2, {0, 0, 1}, 0.0, 4.0);
   write("p.csv", poseCsv({{0.0, 0.0, 0.0, 1.0}, {0.1, 0.0, 0.0, 1.0}}));
   for (const char* tool : {"cone:1", "cylinder:0,2", "capsule:1,x", "disc:1,2"})

@@ -23,7 +23,7 @@ TEST_F(LawsCommand, ListsEveryParameterWithUnitRangeDefaultAndSource) {
   }
   const ProgramOutput table = molar("laws --law hertz");
   EXPECT_NE(table.out.find("hertz_N_per_mm2"), std::string::npos) << table.out;
-  EXPECT_EQ(table.out.find("force_constant_N"), std::string::npos) << "only the law that was asked for";
+  EXPECT_EQ(table.out.find("force_constant_N"), std::string::npos) << "only the requested law";
 }
 
 TEST_F(LawsCommand, DrawsForceAndStiffness) {
@@ -35,7 +35,7 @@ TEST_F(LawsCommand, DrawsForceAndStiffness) {
   expectRefusal("laws --plot " + at("laws.png"), "laws.png");
 }
 
-TEST_F(LawsCommand, RefusesWhatItDoesNotKnow) {
+TEST_F(LawsCommand, RefusesUnknownNames) {
   expectRefusal("laws --law spring", "agus");
   expectRefusal("laws --plot " + at("a.png") + " --tool hammer:1", "hammer");
   expectRefusal("laws --plot " + at("a.png") + " --law agus --set colour=1", "stiffness_N_per_mm");

@@ -1,4 +1,4 @@
-// Runs the built `molar` as its user does and keeps what it said. For tests of the command line.
+// Runs the built `molar` and keeps its output. For tests of the command line.
 #pragma once
 
 #include <cstdlib>
@@ -19,7 +19,7 @@ struct ProgramOutput {
   std::string out, err;
 };
 
-/// A folder of its own for every test, removed afterwards.
+/// A temporary folder for each test.
 class ProgramTest : public testing::Test {
  protected:
   void SetUp() override {

@@ -43,7 +43,7 @@ TEST_F(PsychophysicsCommand, WritesARowATrialAndASummary) {
   EXPECT_NEAR(summary["fit"]["pse"].get<double>(), 0.8, 0.2);
 }
 
-TEST_F(PsychophysicsCommand, RepeatsItselfFromItsSeed) {
+TEST_F(PsychophysicsCommand, IsReproducibleBySeed) {
   const std::string run = "psychophysics " + write("p.toml", kQuickProtocol) + " --out ";
   ASSERT_EQ(molar(run + at("a.csv") + " --seed 5").status, 0);
   ASSERT_EQ(molar(run + at("b.csv") + " --seed 5").status, 0);
@@ -53,7 +53,7 @@ TEST_F(PsychophysicsCommand, RepeatsItselfFromItsSeed) {
   EXPECT_NE(read("a.csv"), read("c.csv"));
 }
 
-TEST_F(PsychophysicsCommand, OverwritesNothingUnasked) {
+TEST_F(PsychophysicsCommand, OverwritesNothingWithoutForce) {
   const std::string protocol = write("p.toml", kQuickProtocol);
   write("r.csv", "precious");
   expectRefusal("psychophysics " + protocol + " --out " + at("r.csv"), "r.csv");
@@ -65,11 +65,11 @@ TEST_F(PsychophysicsCommand, OverwritesNothingUnasked) {
   expectRefusal("psychophysics " + at("none.toml") + " --out " + at("q.csv"), "none.toml");
   write("bad.toml", kQuickProtocol + "colour = 1\n");
   expectRefusal("psychophysics " + at("bad.toml") + " --out " + at("r.csv") + " --force", "line 17: [vary] colour");
-  EXPECT_EQ(read("r.csv"), "precious") << "a bad protocol costs nothing";
+  EXPECT_EQ(read("r.csv"), "precious") << "a bad protocol changes no file";
   EXPECT_EQ(molar("psychophysics " + protocol + " --out " + at("r.csv") + " --force").status, 0);
 }
 
-TEST_F(PsychophysicsCommand, AnswersNoWhereItsRecordingIsLost) {
+TEST_F(PsychophysicsCommand, ExitsWithOneIfTheRecordingIsLost) {
   if (std::getenv("DISPLAY") == nullptr) GTEST_SKIP() << "no DISPLAY: run under xvfb-run";
   // The disk is full after 200 kB, a second of ticks; once that was said, it is ended.
   const int status =

@@ -1,5 +1,5 @@
-// What the READMEs say can be typed is what the program takes, and every file that they name is there. Commands and
-// options are asked of `molar completion`.
+// Commands, options and files quoted in the READMEs exist. Commands and options are taken from `molar completion`, keys
+// from the help of `rehearse`.
 
 #include <algorithm>
 #include <filesystem>
@@ -30,7 +30,7 @@ std::string textOf(const fs::path& path) {
   return text.str();
 }
 
-/// What stands in a README to be typed or looked for: code in backticks, lines of a shell.
+/// Quotes in a README: code in backticks, lines of shell blocks.
 struct Readme {
   fs::path path;
   std::vector<std::string> spans, lines;
@@ -92,7 +92,7 @@ class ReadmeTest : public ProgramTest {
       } else if (names_command && takes_.contains(command.empty() ? word : command + " " + word)) {
         command += (command.empty() ? "" : " ") + word;
       } else {
-        // What a person puts in is written in capitals, or has a dot.
+        // Placeholders are in capitals or have a dot.
         EXPECT_TRUE(!command.empty() || std::isupper(static_cast<unsigned char>(word[0])))
             << place << ": no command " << word;
         names_command = false;
@@ -117,7 +117,7 @@ class ReadmeTest : public ProgramTest {
   std::map<std::string, std::set<std::string>> takes_;
 };
 
-TEST_F(ReadmeTest, NamesCommandsAndOptionsThatThereAre) {
+TEST_F(ReadmeTest, QuotesExistingCommandsAndOptions) {
   ASSERT_FALSE(takes_.empty());
   std::size_t looked_at = 0;
   for (const Readme& readme : readmes_) {
@@ -137,11 +137,11 @@ TEST_F(ReadmeTest, NamesCommandsAndOptionsThatThereAre) {
   EXPECT_GT(looked_at, 50u);
 }
 
-TEST_F(ReadmeTest, NamesFilesThatAreThere) {
+TEST_F(ReadmeTest, QuotesExistingFiles) {
   std::size_t looked_at = 0;
   for (const Readme& readme : readmes_)
     for (const std::string& span : readme.spans) {
-      // A place in the tree, or a source's name; a person's own files are neither.
+      // A path in the tree or the name of a source, not a user's file.
       static const std::regex kPlace("[A-Za-z0-9_.]+(/[A-Za-z0-9_.]+)+/?"),
           kSource("[a-z0-9_]+\\.(cpp|h|glsl|cmake|sh|md)");
       const bool is_place = std::regex_match(span, kPlace) && folders_.contains(span.substr(0, span.find('/')));
@@ -151,6 +151,25 @@ TEST_F(ReadmeTest, NamesFilesThatAreThere) {
       ++looked_at;
     }
   EXPECT_GT(looked_at, 100u);
+}
+
+TEST_F(ReadmeTest, QuotesEveryKeyOfARehearsalAndNoOther) {
+  const std::string help = molar("rehearse --help").out;
+  std::istringstream lines(help.substr(help.find("Keys:\n") + 6));
+  std::set<std::string> keys;
+  for (std::string line; std::getline(lines, line) && line.starts_with("  ");) {
+    std::istringstream names(line.substr(2, 8));  // "1 - 7", "Q, E", "Esc"
+    for (std::string name; std::getline(names, name, ' ');)
+      if (std::erase(name, ','); !name.empty() && name != "-") keys.insert(name);
+  }
+  ASSERT_TRUE(keys.contains("Esc"));
+  const std::string text = textOf(root_ / "README.md");
+  for (const std::string& key : keys)
+    EXPECT_TRUE(text.find("`" + key + "`") != std::string::npos || text.find("| " + key) != std::string::npos) << key;
+  for (const Readme& readme : readmes_)
+    if (readme.path == root_ / "README.md")
+      for (const std::string& span : readme.spans)
+        if (span.size() == 1) EXPECT_TRUE(keys.contains(span)) << span << " is no key";
 }
 
 }  // namespace

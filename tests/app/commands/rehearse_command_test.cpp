@@ -15,7 +15,7 @@
 namespace app {
 namespace {
 
-/// A coarse patient keeps these quick; the cache is this build's own.
+/// A coarse patient for speed; with the build's own cache.
 class RehearseCommand : public ProgramTest {
  protected:
   void SetUp() override {
@@ -49,7 +49,7 @@ auto columns(const haptics::Tick& t) {
                     t.faults, t.work_us);
 }
 
-TEST_F(RehearseCommand, RecordsWhatReplaysBitForBit) {
+TEST_F(RehearseCommand, RecordingReplaysBitForBit) {
   const ProgramOutput said = molar(kCoarse + std::string("--seconds 4 --record ") + at("s.molar"));
   ASSERT_EQ(said.status, 0) << said.err;
   EXPECT_NE(said.out.find("removed"), std::string::npos);
@@ -60,7 +60,7 @@ TEST_F(RehearseCommand, RecordsWhatReplaysBitForBit) {
   const auto json = nlohmann::json::parse(metrics.out);
   EXPECT_NEAR(json.at("duration_s").get<double>(), 4.0, 1e-6);
   EXPECT_EQ(json.at("ticks").get<int>(), 4000);
-  EXPECT_GT(json.at("removed_mm3").get<double>(), 1.0) << "the scripted hand carves";
+  EXPECT_GT(json.at("removed_mm3").get<double>(), 1.0) << "the scripted tool carves";
   EXPECT_LE(json.at("max_force_N").get<double>(), 3.3 + 1e-9);
 
   // Any changed byte is found.
@@ -85,7 +85,7 @@ TEST_F(RehearseCommand, MakesTheSameTicksTwiceAtFastPace) {
     ASSERT_EQ(runs[1].size(), 3000u) << device;
     for (std::size_t i = 0; i < runs[0].size(); ++i) {
       ASSERT_EQ(columns(runs[0][i]), columns(runs[1][i])) << device << " tick " << i;
-      ASSERT_EQ(runs[0][i].work_us, 0.0f) << "no clock in it";
+      ASSERT_EQ(runs[0][i].work_us, 0.0f) << "independent of the clock";
     }
   }
 }
@@ -96,7 +96,7 @@ TEST_F(RehearseCommand, LosesNoTickOfALongRunAtFastPace) {
   EXPECT_NE(said.out.find("120000 ticks, 0 lost"), std::string::npos) << said.out;
 }
 
-TEST_F(RehearseCommand, IsWhereThePosesHaveItAndAsksAtTheirTicks) {
+TEST_F(RehearseCommand, FollowsPosesAndRequestsAtTheirTicks) {
   // Far from the tissue: what it asks for shows in the commands alone.
   std::string rows = kPoseHeader;
   rows += "0,100,0,200,1,0,0,0,0,,irrigation:off\n";
@@ -128,7 +128,7 @@ TEST_F(RehearseCommand, IsWhereThePosesHaveItAndAsksAtTheirTicks) {
   EXPECT_EQ(molar("replay " + at("s.molar") + " --verify").status, 0);
 }
 
-TEST_F(RehearseCommand, SaysWhichRowOfThePosesCanNotBeObeyed) {
+TEST_F(RehearseCommand, NamesTheRowOfAnInvalidRequest) {
   const auto refused = [&](const std::string& row, const std::string& word) {
     write("p.csv", std::string(kPoseHeader) + "0,0,0,9,1,0,0,0,0,,\n" + row + "\n");
     expectRefusal(kQuick + ("--device poses:" + at("p.csv")), word);
@@ -143,7 +143,7 @@ TEST_F(RehearseCommand, SaysWhichRowOfThePosesCanNotBeObeyed) {
   expectRefusal(kQuick + ("--device poses:" + at("none.csv")), "none.csv");
 }
 
-TEST_F(RehearseCommand, ObeysTheLastRowAtRealPaceToo) {
+TEST_F(RehearseCommand, ExecutesTheLastRowInRealTimeToo) {
   write("p.csv", std::string(kPoseHeader) + "0,100,0,200,1,0,0,0,0,,\n0.3,100,0,200,1,0,0,0,0,2,snapshot\n");
   const std::string line = "cd " + folder_.string() + " && " + MOLAR_PROGRAM +
                            " rehearse --headless --voxel 0.6 --size 96x64 --renderer cpu --tool sphere:1.5 --tool "
@@ -156,7 +156,7 @@ TEST_F(RehearseCommand, ObeysTheLastRowAtRealPaceToo) {
   EXPECT_EQ(ticksOf(at("s.molar")).back().command_serial, commands.back().command.serial) << "in force for a tick";
 }
 
-TEST_F(RehearseCommand, EndsAtTheTickOfTheRowThatSaysSo) {
+TEST_F(RehearseCommand, EndsAtTheTickOfAnEndRequest) {
   write("p.csv",
         std::string(kPoseHeader) + "0,100,0,200,1,0,0,0,0,,\n0.3,100,0,200,1,0,0,0,0,,end\n1,100,0,200,1,0,0,0,0,,\n");
   const ProgramOutput said = molar(kQuick + ("--device poses:" + at("p.csv") + " --record " + at("s.molar")));
@@ -164,13 +164,13 @@ TEST_F(RehearseCommand, EndsAtTheTickOfTheRowThatSaysSo) {
   EXPECT_EQ(ticksOf(at("s.molar")).size(), 300u);
 }
 
-TEST_F(RehearseCommand, RefusesARateThatTheRecordedHandDoesNotHave) {
+TEST_F(RehearseCommand, RefusesARateOtherThanTheRecorded) {
   ASSERT_EQ(molar(kCoarse + std::string("--seconds 0.2 --record ") + at("s.molar")).status, 0);
   expectRefusal(kQuick + ("--device replay:" + at("s.molar") + " --rate 2000 --record " + at("t.molar")), "2000 Hz");
-  EXPECT_FALSE(std::filesystem::exists(at("t.molar.new"))) << "what was begun is closed";
+  EXPECT_FALSE(std::filesystem::exists(at("t.molar.new"))) << "the begun recording is closed";
 }
 
-TEST_F(RehearseCommand, RecordsOverRecordingsAlone) {
+TEST_F(RehearseCommand, ForceReplacesRecordingsOnly) {
   const std::string poses = std::string(kPoseHeader) + "0,100,0,200,1,0,0,0,0,,\n0.3,100,0,200,1,0,0,0,0,,\n";
   write("p.csv", poses);
   write("feel.toml", "[law]\n");
@@ -182,7 +182,7 @@ TEST_F(RehearseCommand, RecordsOverRecordingsAlone) {
   EXPECT_EQ(molar(recorded).status, 0);
 }
 
-TEST_F(RehearseCommand, GoesFastWithHandsInNumbersAlone) {
+TEST_F(RehearseCommand, FastPaceNeedsSimulatedInput) {
   expectRefusal("rehearse --pace fast --device scripted", "--headless");
   for (const char* device : {"openhaptics", "wooden", "falcon", "usb"})
     expectRefusal("rehearse --headless --pace fast --device " + std::string(device), "is not simulated");
@@ -192,8 +192,8 @@ TEST_F(RehearseCommand, GoesFastWithHandsInNumbersAlone) {
   expectRefusal("rehearse --headless --pace quick --device scripted", "--pace");
 }
 
-/// A simulated Phantom is armed and carves; what it recorded moves again as a hand of its own.
-TEST_F(RehearseCommand, ArmsASimulatedPhantomAndReplaysItsHand) {
+/// A simulated Phantom arms and carves; its recording replays as a pose source.
+TEST_F(RehearseCommand, ArmsASimulatedPhantomAndReplaysIt) {
   const std::string quiet = kQuick;
   const ProgramOutput said = molar(quiet + "--device simulated:omni --seconds 7 --record " + at("s.molar"));
   ASSERT_EQ(said.status, 0) << said.err;
@@ -207,7 +207,7 @@ TEST_F(RehearseCommand, ArmsASimulatedPhantomAndReplaysItsHand) {
   EXPECT_EQ(molar(quiet + "--device replay:" + at("none.molar")).status, 2);
 }
 
-/// The rig of one untrue arm, known as it truly is.
+/// The true rig of an arm with errors.
 calibration::RigRecord rigOf(const calibration::SyntheticRig& truth, calibration::Verdict verdict) {
   calibration::RigRecord record;
   record.rig = truth.nominal;
@@ -225,8 +225,8 @@ calibration::RigRecord rigOf(const calibration::SyntheticRig& truth, calibration
   return record;
 }
 
-/// Sure arms, so that the work is the same on every machine: an untrue arm under its rig, and under the default one.
-TEST_F(RehearseCommand, WorksOnAPracticeDeviceWhereItsRigHasIt) {
+/// An arm with errors, under its own rig and under the default one; stepped, so that it is the same on every machine.
+TEST_F(RehearseCommand, UsesTheRigOfAPracticeDevice) {
   const auto truth = *practiceRig("practice:B:3");
   const calibration::RigRecord green = rigOf(truth, calibration::Verdict::green),
                                red = rigOf(truth, calibration::Verdict::red);
@@ -263,7 +263,7 @@ TEST_F(RehearseCommand, WorksOnAPracticeDeviceWhereItsRigHasIt) {
 }
 
 /// Through the whole program, with our stand-in for the vendor's library.
-TEST_F(RehearseCommand, ServesAPhantomThroughTheVendorsLibrary) {
+TEST_F(RehearseCommand, RunsAPhantomThroughTheVendorsLibrary) {
   setenv("MOLAR_OPENHAPTICS", MOLAR_STAND_IN_HD, 1);
   const std::string line = "rehearse --headless --voxel 0.6 --size 96x64 --device openhaptics --seconds 2 ";
   const ProgramOutput said = molar(line + "--record " + at("s.molar"));
@@ -281,7 +281,7 @@ TEST_F(RehearseCommand, ServesAPhantomThroughTheVendorsLibrary) {
   EXPECT_EQ(molar("replay " + at("s.molar") + " --verify").status, 0);
 }
 
-TEST_F(RehearseCommand, SaysInOneLineWhyADeviceCanNotBeHad) {
+TEST_F(RehearseCommand, ReportsAnUnavailableDeviceInOneLine) {
   setenv("MOLAR_OPENHAPTICS", at("libHD.so").c_str(), 1);
   for (const char* address :
        {"openhaptics", "wooden", "falcon", "usb", "wooden:9-9", "spoon", "replay:", "simulated:x"}) {
@@ -292,7 +292,7 @@ TEST_F(RehearseCommand, SaysInOneLineWhyADeviceCanNotBeHad) {
   unsetenv("MOLAR_OPENHAPTICS");
 }
 
-TEST_F(RehearseCommand, LeavesPicturesOfBothEyes) {
+TEST_F(RehearseCommand, WritesImagesOfBothEyes) {
   const ProgramOutput said =
       molar(kCoarse + std::string("--seconds 0.2 --snapshot-size 160x100 --snapshot ") + at("end.png"));
   ASSERT_EQ(said.status, 0) << said.err;
@@ -300,8 +300,8 @@ TEST_F(RehearseCommand, LeavesPicturesOfBothEyes) {
   EXPECT_NE(read("end_left.png"), read("end_right.png"));
 }
 
-/// Law and gains change while it runs, every change is said and recorded, and the recording still replays bit for bit.
-TEST_F(RehearseCommand, ObeysASettingsFileWhileItChanges) {
+/// Law and gains change while running; every change is reported and recorded, and the recording replays bit for bit.
+TEST_F(RehearseCommand, AppliesChangesOfASettingsFile) {
   const std::string file = write("feel.toml", "[law]\nstiffness_N_per_mm = 0.6\n");
   const std::string said = at("said");
   // The next step once the one before was seen, however long the machine takes: `seen WORDS` in what it says.
@@ -338,7 +338,7 @@ TEST_F(RehearseCommand, RefusesABadSettingsFileAtTheStart) {
   expectRefusal(kCoarse + std::string("--law spring"), "forssim");
 }
 
-TEST_F(RehearseCommand, ShowsWhatTheOtherHandHolds) {
+TEST_F(RehearseCommand, DrawsTheSecondInstrument) {
   const auto end = [&](const std::string& options, const std::string& name) {
     const ProgramOutput said =
         molar(kCoarse + std::string("--seconds 0.3 --renderer cpu --snapshot-size 160x100 --force ") + options +
@@ -351,14 +351,13 @@ TEST_F(RehearseCommand, ShowsWhatTheOtherHandHolds) {
   expectRefusal(kCoarse + std::string("--second-hand mouse"), "--second-hand mouse");
 }
 
-TEST_F(RehearseCommand, SaysWhereItRecordsWhatReplacesAnother) {
+TEST_F(RehearseCommand, ReportsTheTemporaryFileOfAReplacedRecording) {
   const std::string line = kCoarse + std::string("--seconds 0.2 --record ") + at("s.molar");
   ASSERT_EQ(molar(line).status, 0);
   write("s.molar.new", "somebody's");
   const ProgramOutput said = molar(line + " --force");
   EXPECT_EQ(said.status, 0) << said.err;
-  EXPECT_NE(said.err.find("recording to " + at("s.molar.new2") + " until it is closed"), std::string::npos)
-      << said.err;
+  EXPECT_NE(said.err.find("recording to " + at("s.molar.new2") + " until it is closed"), std::string::npos) << said.err;
   EXPECT_NE(said.out.find("0 lost, in " + at("s.molar") + "\n"), std::string::npos) << said.out;
 }
 

@@ -32,7 +32,7 @@ std::vector<float> floatsOf(const std::string& nrrd) {
   return values;
 }
 
-TEST_F(SeeCommand, MeasuresTheFaceAlongTheRays) {
+TEST_F(SeeCommand, MeasuresDistancesToAFace) {
   writeHalfSpace(at("v.nrrd"), 0.2, {0, 0, 1}, 0.0);
   const ProgramOutput said =
       molar("see --volume " + at("v.nrrd") + " --field solid --size 96x64 --samples 1 --camera " + kCamera + " --out " +
@@ -65,7 +65,7 @@ TEST_F(SeeCommand, MeasuresTheFaceAlongTheRays) {
   EXPECT_GT(hits, 500);
 }
 
-TEST_F(SeeCommand, DrawsTheSamePictureTwice) {
+TEST_F(SeeCommand, IsDeterministic) {
   writeHalfSpace(at("v.nrrd"), 0.2, {0, 0, 1}, 0.0);
   for (const char* name : {"a.png", "b.png"})
     ASSERT_EQ(molar("see --volume " + at("v.nrrd") + " --field solid --size 64x48 --samples 1 --camera " +
@@ -75,7 +75,7 @@ TEST_F(SeeCommand, DrawsTheSamePictureTwice) {
   EXPECT_EQ(read("a.png"), read("b.png"));
 }
 
-TEST_F(SeeCommand, ShowsWhatWasCarved) {
+TEST_F(SeeCommand, ShowsCarvedBone) {
   writeHalfSpace(at("v.nrrd"), 0.2, {0, 0, 1}, 0.0);
   write("p.csv", poseCsv({{0, 0, 0, 0.5}, {1, 0, 0, 0.5}}));
   ASSERT_EQ(

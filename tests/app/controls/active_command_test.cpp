@@ -15,7 +15,7 @@
 namespace app {
 namespace {
 
-/// A rehearsal under a mouse, recorded, without a picture, stepped by hand.
+/// A recorded rehearsal with the mouse device, without a view, stepped.
 struct Desk {
   test::ScratchFolder folder;
   std::string path = folder.file("s.molar");
@@ -64,7 +64,7 @@ bool hasEvent(const std::string& path, const std::string& kind, const std::strin
   return false;
 }
 
-TEST(ActiveCommand, TakesAStrokeBackAndRecordsSoThatItReplays) {
+TEST(ActiveCommand, UndoesAStrokeAndRecordsItForReplay) {
   Desk at;
   std::uint64_t whole = 0, cut = 0;
   ASSERT_TRUE(at.waitFor([&](const haptics::Tick& tick) { return (whole = tick.bone_digest) != 0; }));
@@ -88,7 +88,7 @@ TEST(ActiveCommand, TakesAStrokeBackAndRecordsSoThatItReplays) {
   EXPECT_GT(metricsOf(at.path).returned_mm3, 0.0);
 }
 
-TEST(ActiveCommand, SwitchesTheWaterOffAndOn) {
+TEST(ActiveCommand, SwitchesIrrigation) {
   Desk at;
   EXPECT_TRUE(at.active->inForce().irrigating);
   at.active->execute({Control::irrigation});
@@ -113,7 +113,7 @@ TEST(ActiveCommand, SwitchesTheWaterOffAndOn) {
   EXPECT_TRUE(hasEvent(at.path, "irrigation", "on"));
 }
 
-TEST(ActiveCommand, NeitherFileNorGuideLiftsAFault) {
+TEST(ActiveCommand, NeitherFileNorProcedureLiftsAFault) {
   test::ScratchFolder folder;
   const std::string settings = folder.file("feel.toml");
   const auto write = [&](const char* text) { std::ofstream(settings) << text; };
@@ -124,7 +124,7 @@ TEST(ActiveCommand, NeitherFileNorGuideLiftsAFault) {
   const std::uint64_t armed = at.active->inForce().rearm;
   ASSERT_NE(armed, before.rearm);
   at.active->adopt(before);
-  EXPECT_EQ(at.active->inForce().rearm, armed) << "a guide's command is another number only for who arms";
+  EXPECT_EQ(at.active->inForce().rearm, armed) << "a procedure's command keeps the rearm count";
   write("# longer, so that it is read again\n[law]\nname = \"forssim\"\n");
   const LiveParameters::Clock::time_point start;
   at.active->pollSettingsFile(start + std::chrono::seconds(1));
@@ -133,7 +133,7 @@ TEST(ActiveCommand, NeitherFileNorGuideLiftsAFault) {
   at.workstation->stop();
 }
 
-TEST(ActiveCommand, TakesTheToolThatIsNamedOrTheNext) {
+TEST(ActiveCommand, ChangesToTheGivenToolOrTheNext) {
   std::vector<haptics::Tool> others(2);
   others[0].head.radius_mm = 0.5;
   others[1].head.radius_mm = 0.8;
@@ -144,13 +144,13 @@ TEST(ActiveCommand, TakesTheToolThatIsNamedOrTheNext) {
   };
   EXPECT_EQ(radiusAfter({Control::tool, 2}), 0.8);
   EXPECT_TRUE(at.active->takeToolChange());
-  EXPECT_EQ(radiusAfter({Control::tool}), 1.0) << "after the last the first";
+  EXPECT_EQ(radiusAfter({Control::tool}), 1.0) << "after the last one the first";
   EXPECT_EQ(radiusAfter({Control::tool}), 0.5);
   EXPECT_EQ(radiusAfter({Control::tool, 3}), 0.5) << "there is no fourth";
-  EXPECT_EQ(radiusAfter({Control::tool}), 0.8) << "the next of the one in the hand";
+  EXPECT_EQ(radiusAfter({Control::tool}), 0.8) << "the one after the current tool";
 }
 
-TEST(ActiveCommand, SaysWhereItIsWrittenWhatItCanNotObey) {
+TEST(ActiveCommand, NamesTheRowOfARefusedRequest) {
   std::vector<haptics::Tool> others(1);
   others[0].head = {haptics::ShapeKind::cone, 1.0, 2.0};
   Desk at({}, others);
@@ -165,7 +165,7 @@ TEST(ActiveCommand, SaysWhereItIsWrittenWhatItCanNotObey) {
     EXPECT_EQ(saidOf(request).find("molar: pose file a.csv line 7: "), 0u) << saidOf(request);
 }
 
-TEST(ActiveCommand, DrawsWhatAGuidePutsIntoTheHand) {
+TEST(ActiveCommand, DrawsAToolSetByAProcedure) {
   Desk at;
   haptics::Command guided = at.active->inForce();
   at.active->adopt(guided);
@@ -178,7 +178,7 @@ TEST(ActiveCommand, DrawsWhatAGuidePutsIntoTheHand) {
   EXPECT_TRUE(at.active->takeToolChange()) << "the neck is drawn too";
 }
 
-TEST(ActiveCommand, SwitchesToWhatWasSaidOrTheOtherWay) {
+TEST(ActiveCommand, SetsASwitchOrTogglesIt) {
   Desk at;
   ASSERT_TRUE(at.waitFor([](const haptics::Tick& tick) { return tick.dt_s > 0.0; }));
   for (const bool on : {false, false, true, true}) {
@@ -198,7 +198,7 @@ TEST(ActiveCommand, SwitchesToWhatWasSaidOrTheOtherWay) {
     EXPECT_FALSE(at.active->execute({others, 0})) << meaningOf(others).name;
 }
 
-TEST(ActiveCommand, LiftsNoEmergencyStop) {
+TEST(ActiveCommand, DoesNotLiftAnEmergencyStop) {
   Desk at;
   ASSERT_TRUE(at.waitFor([](const haptics::Tick& tick) { return tick.dt_s > 0.0; }));
   at.workstation->emergencyStop();

@@ -22,7 +22,7 @@ TimedRequest row(double t_s, const std::string& tool, const std::string& action)
   return {t_s, tool, action, "pose file a.csv line 7"};
 }
 
-/// What is due, without the places it is written at.
+/// Requests due, without their rows.
 std::vector<ControlRequest> due(ControlScript& script, std::uint64_t next_tick) {
   std::vector<ControlRequest> requests;
   for (const ScriptedRequest& one : script.takeDue(next_tick)) {
@@ -36,7 +36,7 @@ std::string refusal(const TimedRequest& asked) {
   return tests::refusalOf<UsageError>([&] { ControlScript({asked}, tray(), 1000.0); });
 }
 
-TEST(ControlScript, AsksAtTheFirstTickThatDoesNotBeginBeforeTheRow) {
+TEST(ControlScript, RequestsAtTheFirstTickNotBeforeTheRow) {
   ControlScript script(
       {row(0.0, "", "irrigation:off"), row(0.1, "", "undo"), row(0.1004, "", "arm"), row(0.3, "", "end")}, tray(),
       1000.0);
@@ -51,14 +51,14 @@ TEST(ControlScript, AsksAtTheFirstTickThatDoesNotBeginBeforeTheRow) {
   EXPECT_TRUE(due(script, 900).empty());
 }
 
-TEST(ControlScript, MeetsEveryMillisecondAtItsOwnTick) {
+TEST(ControlScript, HitsTheTickOfEveryMillisecond) {
   std::vector<TimedRequest> rows;
   for (int ms = 0; ms < 5000; ++ms) rows.push_back(row(std::stod(std::to_string(ms) + "e-3"), "", "snapshot"));
   ControlScript script(rows, tray(), 1000.0);
   for (std::uint64_t ms = 0; ms < 5000; ++ms) ASSERT_EQ(due(script, ms).size(), 1u) << ms;
 }
 
-TEST(ControlScript, TakesAToolByItsNumberOrItsTextAndOnceWhileItStays) {
+TEST(ControlScript, SelectsAToolByNumberOrTextOnce) {
   ControlScript script({row(0.0, "2", ""), row(0.001, "2", ""), row(0.002, "sphere:1", ""), row(0.003, "1", "undo")},
                        tray(), 1000.0);
   EXPECT_EQ(due(script, 0), std::vector<ControlRequest>({{Control::tool, 1}}));
@@ -67,7 +67,7 @@ TEST(ControlScript, TakesAToolByItsNumberOrItsTextAndOnceWhileItStays) {
   EXPECT_EQ(due(script, 3), std::vector<ControlRequest>({{Control::tool, 0}, {Control::undo}}));
 }
 
-TEST(ControlScript, AsksForNoToolThatIsInTheHandAlready) {
+TEST(ControlScript, SkipsAToolThatIsInTheHand) {
   const std::vector<haptics::Tool> one_tool{tray().front()};
   ControlScript names_it_twice({row(0.0, "1", ""), row(0.1, "sphere:1.5", "")}, one_tool, 1000.0);
   EXPECT_FALSE(names_it_twice.nextTick());
@@ -79,7 +79,7 @@ TEST(ControlScript, AsksForNoToolThatIsInTheHandAlready) {
             std::vector<ControlRequest>({{Control::tool, 1}, {Control::tool}, {Control::tool, 0}, {Control::tool, 2}}));
 }
 
-TEST(ControlScript, SaysWhichRowAsksForWhatIsNotThere) {
+TEST(ControlScript, NamesTheRowOfAnInvalidRequest) {
   for (const TimedRequest& asked :
        {row(0, "4", ""), row(0, "0", ""), row(0, "sphere:2", ""), row(0, "spoon", ""), row(0, "", "jump"),
         row(0, "", "tool:two"), row(0, "", "tool:4"), row(0, "", "face:300")})

@@ -21,18 +21,18 @@ TEST(Control, HasOneNameAndOneKeyEach) {
   EXPECT_FALSE(controlNamed(""));
 }
 
-TEST(Control, IsReadAsItIsWritten) {
+TEST(Control, IsParsedFromText) {
   EXPECT_EQ(requestFrom("undo"), (ControlRequest{Control::undo}));
-  EXPECT_EQ(requestFrom("irrigation"), (ControlRequest{Control::irrigation})) << "the other way";
+  EXPECT_EQ(requestFrom("irrigation"), (ControlRequest{Control::irrigation})) << "toggles";
   EXPECT_EQ(requestFrom("irrigation:off"), (ControlRequest{Control::irrigation, 0}));
   EXPECT_EQ(requestFrom("drill:on"), (ControlRequest{Control::drill, 1}));
   EXPECT_EQ(requestFrom("tool"), (ControlRequest{Control::tool})) << "the next one";
   EXPECT_EQ(requestFrom("face:30"), (ControlRequest{Control::face, 30}));
-  EXPECT_EQ(requestFrom("tool:1").value, 0) << "people count from 1";
+  EXPECT_EQ(requestFrom("tool:1").value, 0) << "counted from 1";
   EXPECT_EQ(requestFrom("law:3"), requestFrom("law:hertz")) << "by its key as well";
 }
 
-TEST(Control, SaysWhatMayStandThere) {
+TEST(Control, NamesTheAcceptedValues) {
   const auto refusal = [](const char* text) -> std::string {
     try {
       requestFrom(text);
@@ -55,16 +55,16 @@ TEST(Control, SaysWhatMayStandThere) {
 }
 
 TEST(Control, DrillActionOfAPedalIsNoRequest) {
-  EXPECT_FALSE(requestOf(haptics::HandAction::drill)) << "that is held";
+  EXPECT_FALSE(requestOf(haptics::HandAction::drill)) << "it is held";
   for (const auto action :
        {haptics::HandAction::irrigation, haptics::HandAction::undo, haptics::HandAction::tool_change}) {
     const auto request = requestOf(action);
     ASSERT_TRUE(request);
-    EXPECT_EQ(request->value, kNoValue) << "the next, or the other way";
+    EXPECT_EQ(request->value, kNoValue) << "next or toggle";
   }
 }
 
-TEST(Control, EveryKeyStandsInTheHelp) {
+TEST(Control, EveryKeyIsInTheHelp) {
   const std::string help = keyHelp();
   for (const ControlMeaning& one : kControls)
     if (!one.key.empty()) {

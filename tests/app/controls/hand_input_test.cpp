@@ -13,10 +13,10 @@ TEST(HandInput, DragsInThePlaneOfTheScreenOneToOne) {
   hand.take(render::PointerMoved{{0, 0}, {8, 4}, render::MouseButton::left}, 0.25);
   EXPECT_EQ(hand.X_WT().translation_mm, glm::dvec3(2.0, -1.0, 0.0));
   hand.take(render::PointerMoved{{0, 0}, {8, 4}, render::MouseButton::none}, 0.25);
-  EXPECT_EQ(hand.X_WT().translation_mm, glm::dvec3(2.0, -1.0, 0.0)) << "moving is not dragging";
+  EXPECT_EQ(hand.X_WT().translation_mm, glm::dvec3(2.0, -1.0, 0.0)) << "motion without the button has no effect";
 }
 
-TEST(HandInput, WheelGoesAway) {
+TEST(HandInput, WheelMovesInDepth) {
   HandInput hand({});
   hand.take(render::WheelTurned{2.0}, 0.25);
   EXPECT_EQ(hand.X_WT().translation_mm.z, -1.0);
@@ -30,14 +30,14 @@ TEST(HandInput, PedalIsHeldWithSpace) {
   EXPECT_FALSE(hand.pedal());
 }
 
-TEST(HandInput, KeysTurnAboutTheBur) {
+TEST(HandInput, KeysRotateAboutTheBur) {
   HandInput hand({{1, 0, 0, 0}, {1, 2, 3}});
   for (int i = 0; i < 30; ++i) hand.take(KeyPressed{render::keyOf('Q'), true, false, false}, 0.25);
   EXPECT_LT(glm::distance(hand.X_WT().rotation * glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0)), 1e-9);
   EXPECT_EQ(hand.X_WT().translation_mm, glm::dvec3(1, 2, 3));
 }
 
-TEST(HandInput, WishesComeOnceInTheOrderOfTheKeys) {
+TEST(HandInput, RequestsComeOnceInTheOrderOfTheKeys) {
   HandInput hand({});
   EXPECT_TRUE(hand.takeRequests().empty());
   for (char letter : {'P', '3', 'D', 'X', 'R', 'T', 'U', 'I'})

@@ -98,7 +98,7 @@ class InstructorPanel : public testing::Test {
   bool list_is_open_ = false;
 };
 
-TEST_F(InstructorPanel, YieldsEveryControlThatIsItsOwnAndNoOther) {
+TEST_F(InstructorPanel, RequestsEveryControlOfItsOwnAndNoOther) {
   status_.tick.state = haptics::SafetyState::fault;
   const auto found = allRequests();
   for (const char* wanted : {"drill:off", "snapshot", "end", "stop", "arm", "layer:gum", "layer:canal",
@@ -107,7 +107,7 @@ TEST_F(InstructorPanel, YieldsEveryControlThatIsItsOwnAndNoOther) {
   for (const auto& [request, at] : found)
     EXPECT_FALSE(
         std::ranges::count(std::array{Control::tool, Control::irrigation, Control::undo, Control::home}, request.first))
-        << meaningOf(request.first).name << ": hand and foot have them";
+        << meaningOf(request.first).name << ": only hand and pedal have them";
   // Laws are in a list that opens below.
   ASSERT_GT(list_at_.y, 0.0f);
   click(list_at_);
@@ -119,7 +119,7 @@ TEST_F(InstructorPanel, YieldsEveryControlThatIsItsOwnAndNoOther) {
   EXPECT_EQ(chosen[0].control, Control::law);
 }
 
-TEST_F(InstructorPanel, AClickAsksOnce) {
+TEST_F(InstructorPanel, AClickIsOneRequest) {
   const auto found = allRequests();
   ASSERT_TRUE(found.contains(asked("snapshot")));
   EXPECT_EQ(click(found.at(asked("snapshot"))), (std::vector<ControlRequest>{{Control::snapshot}}));
@@ -135,14 +135,14 @@ TEST_F(InstructorPanel, UnlocksALockedDrill) {
   EXPECT_NE(text().find("Unlockdrill"), std::string::npos);
 }
 
-TEST_F(InstructorPanel, FadesTheFaceToWhatIsDragged) {
+TEST_F(InstructorPanel, FadesTheFaceByDragging) {
   const auto found = allRequests();
   const bool faded =
       std::any_of(found.begin(), found.end(), [](const auto& one) { return one.first.first == Control::face; });
   EXPECT_TRUE(faded);
 }
 
-TEST_F(InstructorPanel, ShowsEveryNumber) {
+TEST_F(InstructorPanel, ShowsEveryFigure) {
   status_.bur = "sphere:1.5";
   status_.device = "scripted hand";
   status_.display = "mono";
@@ -210,7 +210,7 @@ TEST_F(InstructorPanel, ExplainsTheKeys) {
     EXPECT_NE(seen.find(withoutBlanks(key.does)), std::string::npos) << key.does;
 }
 
-TEST(PanelContext, GoesWithItsOwner) {
+TEST(PanelContext, IsDestroyedWithItsOwner) {
   {
     const PanelContext context;
     EXPECT_NE(ImGui::GetCurrentContext(), nullptr);

@@ -36,7 +36,7 @@ TEST(CommandFromToml, ReadsTheExample) {
   EXPECT_EQ(command.spindle.commanded_rpm, 40000.0);
 }
 
-TEST(CommandFromToml, ChangesWhatItNamesAndNothingElse) {
+TEST(CommandFromToml, ChangesOnlyTheKeysInTheFile) {
   haptics::Command base;
   base.safety.peak_force_N = 2.0;
   const haptics::Command command =
@@ -47,7 +47,7 @@ TEST(CommandFromToml, ChangesWhatItNamesAndNothingElse) {
   EXPECT_EQ(command.safety.peak_force_N, 2.0);
 }
 
-TEST(CommandFromToml, SaysFileLineAndKeyOfWhatItRefuses) {
+TEST(CommandFromToml, RefusesWithFileLineAndKey) {
   expectRefused("[law]\nname = \"agus\"\nstiffness_N_per_mm = -1\n", "feel.toml: line 3: [law] stiffness_N_per_mm");
   expectRefused("[law]\nforce_constant_N = 0.5\n", "line 2: [law] force_constant_N");
   expectRefused("[law]\nname = \"spring\"\n", "forssim");
@@ -57,7 +57,7 @@ TEST(CommandFromToml, SaysFileLineAndKeyOfWhatItRefuses) {
   expectRefused("[law\n", "line 1");
 }
 
-TEST(Settings, AWornBurIsAsDullToTheHandAsToTheBone) {
+TEST(Settings, WornAppliesToForceAndErosion) {
   haptics::Command command;
   command.law.kind = haptics::LawKind::machining;
   applyTo(command, {"worn=0.5"});
@@ -65,7 +65,7 @@ TEST(Settings, AWornBurIsAsDullToTheHandAsToTheBone) {
   EXPECT_EQ(command.law.machining.worn, 0.5);
 }
 
-TEST(Settings, SayWhatChangedWithUnits) {
+TEST(Settings, ListChangesWithUnits) {
   haptics::Command before, after;
   after.law.agus.stiffness_N_per_mm = 1.2;
   after.safety.peak_force_N = 3.0;
@@ -74,7 +74,7 @@ TEST(Settings, SayWhatChangedWithUnits) {
   EXPECT_TRUE(changesBetween(before, before).empty());
 }
 
-TEST(Settings, RefuseWhatADeviceCanNotHoldAndSayWhatItCan) {
+TEST(Settings, RefuseWhatADeviceCanNotRenderAndNameTheLimit) {
   haptics::Command command;
   EXPECT_NO_THROW(refuseUnlessStable(command, 0.002, 1000.0));
   command.law.agus.stiffness_N_per_mm = 10.0;
@@ -85,14 +85,14 @@ TEST(Settings, RefuseWhatADeviceCanNotHoldAndSayWhatItCan) {
     EXPECT_NE(std::string(error.what()).find("2b/T"), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("stiffness_N_per_mm to "), std::string::npos) << error.what();
   }
-  EXPECT_NO_THROW(refuseUnlessStable(command, 0.002, 10000.0)) << "ten times the rate holds ten times the stiffness";
+  EXPECT_NO_THROW(refuseUnlessStable(command, 0.002, 10000.0)) << "ten times the rate allows ten times the stiffness";
   command = {};
   command.law.kind = haptics::LawKind::harmonic;
   command.tool.head = {haptics::ShapeKind::cone, 1.0, 2.0};
   EXPECT_THROW(refuseUnlessStable(command, 0.002, 1000.0), UsageError);
 }
 
-TEST(Settings, LowerALawUntilTheDeviceHoldsIt) {
+TEST(Settings, LowerALawToTheLimitOfTheDevice) {
   for (const haptics::LawName& law : haptics::kLaws)
     for (const double radius_mm : {0.5, 1.5, 4.0}) {
       haptics::Command command;
@@ -102,7 +102,8 @@ TEST(Settings, LowerALawUntilTheDeviceHoldsIt) {
     }
   haptics::Command soft;
   soft.law.agus.stiffness_N_per_mm = 0.3;
-  EXPECT_EQ(loweredUntilStable(soft, 0.002, 1000.0).law.agus.stiffness_N_per_mm, 0.3) << "what is held is left alone";
+  EXPECT_EQ(loweredUntilStable(soft, 0.002, 1000.0).law.agus.stiffness_N_per_mm, 0.3)
+      << "an admissible gain is unchanged";
 }
 
 class LiveFile : public testing::Test {
@@ -118,7 +119,7 @@ class LiveFile : public testing::Test {
   int n_ = 0;
 };
 
-TEST_F(LiveFile, IsReadAgainWhenItChangesAndKeepsTheOldWhenItIsBad) {
+TEST_F(LiveFile, IsReadAgainAfterAChangeAndIgnoredWhenInvalid) {
   write("[law]\nstiffness_N_per_mm = 0.5\n");
   LiveParameters live(path_, {}, [](const haptics::Command& c) { refuseUnlessStable(c, 0.002, 1000.0); });
   EXPECT_EQ(live.first().law.agus.stiffness_N_per_mm, 0.5);
@@ -126,7 +127,7 @@ TEST_F(LiveFile, IsReadAgainWhenItChangesAndKeepsTheOldWhenItIsBad) {
   EXPECT_FALSE(live.poll(now)) << "nothing changed";
 
   write("[law]\nstiffness_N_per_mm = 0.7\n");
-  EXPECT_FALSE(live.poll(now + 100ms)) << "looked at a tenth of a second ago";
+  EXPECT_FALSE(live.poll(now + 100ms)) << "polled a tenth of a second ago";
   auto reading = live.poll(now += 300ms);
   ASSERT_TRUE(reading && reading->command);
   EXPECT_EQ(reading->command->law.agus.stiffness_N_per_mm, 0.7);
@@ -138,7 +139,7 @@ TEST_F(LiveFile, IsReadAgainWhenItChangesAndKeepsTheOldWhenItIsBad) {
     EXPECT_FALSE(reading->command);
     EXPECT_NE(reading->error.find(path_), std::string::npos) << reading->error;
     EXPECT_NE(reading->error.find("the old values stay"), std::string::npos) << reading->error;
-    EXPECT_FALSE(live.poll(now += 300ms)) << "said once";
+    EXPECT_FALSE(live.poll(now += 300ms)) << "reported once";
   }
   std::filesystem::remove(path_);
   reading = live.poll(now += 300ms);
@@ -148,7 +149,7 @@ TEST_F(LiveFile, IsReadAgainWhenItChangesAndKeepsTheOldWhenItIsBad) {
   write("");
   reading = live.poll(now += 300ms);
   ASSERT_TRUE(reading && reading->command);
-  EXPECT_EQ(reading->command->law.agus.stiffness_N_per_mm, 0.8) << "what the file leaves out is as it was at the start";
+  EXPECT_EQ(reading->command->law.agus.stiffness_N_per_mm, 0.8) << "missing keys keep their initial value";
 }
 
 }  // namespace

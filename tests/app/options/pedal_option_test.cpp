@@ -12,7 +12,7 @@ namespace {
 
 using haptics::HandAction;
 
-TEST(PedalOption, ReadsWhichPedalAndWhatItsSwitchesMean) {
+TEST(PedalOption, ReadsThePedalAndItsSwitches) {
   EXPECT_FALSE(pedalFrom("none"));
   EXPECT_EQ(pedalFrom("auto")->wanted, "auto");
   EXPECT_TRUE(pedalFrom("auto")->mapping.empty());
@@ -25,12 +25,12 @@ TEST(PedalOption, ReadsWhichPedalAndWhatItsSwitchesMean) {
   EXPECT_EQ(choice->mapping[1].control, "-ABS_Z");
 }
 
-TEST(PedalOption, CallsAChangeOfToolAsTheControlsDoAndAsBefore) {
+TEST(PedalOption, AcceptsTheCurrentAndTheFormerNameOfAToolChange) {
   for (const char* text : {"auto,KEY_B=tool", "auto,KEY_B=tool-change"})
     EXPECT_EQ(pedalFrom(text)->mapping.at(0).action, HandAction::tool_change) << text;
 }
 
-TEST(PedalOption, RefusesWhatCanNotBe) {
+TEST(PedalOption, RefusesInvalidText) {
   for (const char* text : {"", ",KEY_B=drill", "auto,KEY_B", "auto,", "auto,KEY_B=dril", "auto,KEY_NONE=drill",
                            "auto,=", "auto,KEY_B=drill,", "/no/such/file.toml"})
     EXPECT_THROW(pedalFrom(text), std::runtime_error) << text;

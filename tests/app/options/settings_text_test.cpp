@@ -7,7 +7,7 @@
 namespace app {
 namespace {
 
-TEST(SettingsText, SetsWhatIsNamed) {
+TEST(SettingsText, SetsTheGivenKeys) {
   double stiffness = 0.8, damping = 0.0;
   applySettings({"stiffness_N_per_mm=1.25"}, {{"stiffness_N_per_mm", {&stiffness, 0, 10, "N/mm"}},
                                               {"damping_Ns_per_mm", {&damping, 0, 1, "Ns/mm"}}});
@@ -15,7 +15,7 @@ TEST(SettingsText, SetsWhatIsNamed) {
   EXPECT_EQ(damping, 0.0);
 }
 
-TEST(SettingsText, RefusesUnknownDoubledAndOutOfRange) {
+TEST(SettingsText, RefusesUnknownDuplicateAndOutOfRange) {
   double k = 1.0;
   const std::map<std::string, Setting> settings{{"k", {&k, 0, 10, "N/mm"}}};
   for (const std::vector<std::string>& bad : std::vector<std::vector<std::string>>{
@@ -23,7 +23,7 @@ TEST(SettingsText, RefusesUnknownDoubledAndOutOfRange) {
     EXPECT_THROW(applySettings(bad, settings), UsageError);
 }
 
-TEST(SettingsText, StillTakesAFormerKeyButNotBesideItsNewName) {
+TEST(SettingsText, AcceptsAFormerKeyButNotTogetherWithTheNewOne) {
   double factor = 0.1;
   const std::map<std::string, Setting> settings{{"factor_mandibular_canal", {&factor, 0, 10}}};
   applySettings({"factor_canal=2"}, settings);
@@ -31,7 +31,7 @@ TEST(SettingsText, StillTakesAFormerKeyButNotBesideItsNewName) {
   EXPECT_THROW(applySettings({"factor_canal=2", "factor_mandibular_canal=3"}, settings), UsageError);
 }
 
-TEST(SettingsText, SaysTheRangeWithItsUnit) {
+TEST(SettingsText, NamesTheRangeWithItsUnit) {
   double k = 1.0;
   try {
     applySettings({"k=11"}, {{"k", {&k, 0, 10, "N/mm"}}});

@@ -19,12 +19,12 @@ TEST(ToolText, ReadsEveryHead) {
   EXPECT_EQ(headFrom("cone:1,3"), (BurShape{ShapeKind::cone, 1.0, 3.0}));
 }
 
-TEST(ToolText, WritesWhatItReads) {
+TEST(ToolText, WritesTheFormItReads) {
   for (const char* text : {"sphere:2", "capsule:0.8,4", "cylinder:0.6,4.5", "cone:1,3"})
     EXPECT_EQ(textOf(headFrom(text)), text);
 }
 
-TEST(ToolText, RefusesWhatIsNoHead) {
+TEST(ToolText, RefusesInvalidHeads) {
   for (const char* bad : {"",           "sphere",      "sphere:",      "sphere:0",      "sphere:-1",      "sphere:nan",
                           "sphere:99",  "sphere:2,3",  "sphere:2,",    "cone:1",        "cone:1,",        "cone:1,0",
                           "cone:1,2,3", "cylinder:,4", "cylinder:1;4", "capsule:1,-2",  "capsule:1,inf",  "disc:1,2",
@@ -36,7 +36,7 @@ std::string complaint(const std::string& text) {
   return tests::refusalOf<UsageError>([&] { headFrom(text); });
 }
 
-TEST(ToolText, SaysWhatIsWrongAndWhatMayBe) {
+TEST(ToolText, NamesTheErrorAndTheAcceptedForms) {
   EXPECT_NE(complaint("cone:1").find("the length is missing, give cone:R,L in mm"), std::string::npos);
   EXPECT_NE(complaint("cylinder:99,2").find("the radius is out of range, give 0.1 to 20 mm"), std::string::npos);
   EXPECT_NE(complaint("capsule:1,99").find("the length is out of range, give 0 to 40 mm"), std::string::npos);

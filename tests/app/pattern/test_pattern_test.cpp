@@ -49,7 +49,7 @@ TEST(TestPattern, TheLeftEyeIsRedAndTheRightEyeBlue) {
   EXPECT_GT(right.b, 2 * right.r);
 }
 
-TEST(TestPattern, EveryPixelIsOfTheEyeTheLayoutSays) {
+TEST(TestPattern, EveryPixelBelongsToTheEyeOfTheLayout) {
   for (const render::DisplayModeName& mode : render::kDisplayModes) {
     if (render::isAnaglyph(mode.mode) || mode.mode == DisplayMode::mono) continue;
     render::StereoLayout layout{.mode = mode.mode, .screen_px = {96, 72}, .at_px = {1, 2}};
@@ -70,7 +70,7 @@ TEST(TestPattern, EveryPixelIsOfTheEyeTheLayoutSays) {
   }
 }
 
-TEST(TestPattern, ASquareOfTheGridMeasuresWhatItSays) {
+TEST(TestPattern, AGridSquareHasTheStatedSize) {
   // A millimetre a pixel: lines of the 10 mm grid through the middle and every ten pixels.
   const Image grid = patternFor(TestPattern::grid, desk(), Eye::left, {320, 200});
   for (const int x : {110, 120, 130, 140, 150, 170, 180, 190})
@@ -80,7 +80,7 @@ TEST(TestPattern, ASquareOfTheGridMeasuresWhatItSays) {
   EXPECT_GT(pixelAt(half, 60, 75).r, pixelAt(half, 62, 75).r + 20);
 }
 
-TEST(TestPattern, ThroughAMirrorThePanelShowsItTurnedSoThatItReadsRight) {
+TEST(TestPattern, ThePanelImageIsFlippedForAMirror) {
   const Image straight = patternFor(TestPattern::text, desk(), Eye::left, {320, 200});
   const Image panel = patternFor(TestPattern::text, throughMirror(), Eye::left, {320, 200});
   long difference = 0, to_itself = 0;
@@ -92,7 +92,7 @@ TEST(TestPattern, ThroughAMirrorThePanelShowsItTurnedSoThatItReadsRight) {
   EXPECT_LT(difference, to_itself / 10);
 }
 
-TEST(ScreenPage, WordsAreAsWideWhateverShapeThePixelsHave) {
+TEST(ScreenPage, TextWidthIsIndependentOfPixelShape) {
   const ScreenPage square(desk(), {320, 200}), halved(desk(), {160, 200}), fine(desk(), {1920, 1200});
   const double width = square.textWidth("lean the handle to the left", 13.5);
   EXPECT_NEAR(halved.textWidth("lean the handle to the left", 13.5), width, 0.01);
@@ -101,7 +101,7 @@ TEST(ScreenPage, WordsAreAsWideWhateverShapeThePixelsHave) {
 }
 
 // reference/rendering 5a: a point z before the screen, seen from D: disparity ipd z / (D - z); on the screen none.
-TEST(TestPattern, TheCrossHasNoDisparityAndTheRingsTheirs) {
+TEST(TestPattern, DisparityOfCrossAndRingsIsCorrect) {
   const calibration::Rig rig = desk();
   const ScreenPage page(rig, {320, 200});
   const auto disparity = [&](double before_mm) {

@@ -49,7 +49,7 @@ TEST(FrameBuilder, DrawsTheToolAtTheSurfaceAndItsGhostAtTheHand) {
   EXPECT_EQ(frame.X_PT_at_hand.rotation, tick.hand.X_PT.rotation);
 }
 
-TEST(FrameBuilder, TurnsToNoPoseThatIsNotBelieved) {
+TEST(FrameBuilder, KeepsTheRotationAtABadPose) {
   const render::Frame believed = nextFrame(openingFrame(plan()), tickAt(0.5), plan().command);
   haptics::Tick doubtful = tickAt(0.6);
   doubtful.hand.X_PT.rotation = glm::angleAxis(2.0, glm::dvec3(1, 0, 0));
@@ -59,16 +59,16 @@ TEST(FrameBuilder, TurnsToNoPoseThatIsNotBelieved) {
   EXPECT_EQ(frame.X_PT_at_hand.rotation, believed.X_PT.rotation);
 }
 
-TEST(FrameBuilder, TurnsTheBurSevenTimesASecondWhileItDrills) {
+TEST(FrameBuilder, RotatesTheBurSevenTimesASecondWhileDrilling) {
   haptics::Tick tick = tickAt(1.0 / 28.0);
   tick.drilling = true;
   const render::Frame drilling = nextFrame(openingFrame(plan()), tick, plan().command);
   EXPECT_NEAR(drilling.bur_angle_rad, 0.5 * calibration::kPi, 1e-9);
   const render::Frame resting = nextFrame(drilling, tickAt(3.0), plan().command);
-  EXPECT_EQ(resting.bur_angle_rad, drilling.bur_angle_rad) << "it stops as it stands";
+  EXPECT_EQ(resting.bur_angle_rad, drilling.bur_angle_rad) << "it keeps its angle";
 }
 
-TEST(FrameBuilder, OutlinesTheBurInForce) {
+TEST(FrameBuilder, OutlinesTheBurOfTheCommand) {
   haptics::Command other = plan().command;
   other.tool.head = {haptics::ShapeKind::cylinder, 0.8, 4.0};
   const render::Frame frame = nextFrame(openingFrame(plan()), tickAt(0.5), other);
@@ -77,27 +77,27 @@ TEST(FrameBuilder, OutlinesTheBurInForce) {
   EXPECT_EQ(frame.bur_form, static_cast<assets::BurForm>(haptics::ShapeKind::cylinder));
 }
 
-TEST(FrameBuilder, KeepsTheLastPlaceWhereNoTickCameYet) {
+TEST(FrameBuilder, KeepsTheLastPositionBeforeATick) {
   const render::Frame before = nextFrame(openingFrame(plan()), tickAt(0.5), plan().command);
   const render::Frame frame = nextFrame(before, {}, plan().command);
   EXPECT_FALSE(frame.tool_visible);
   EXPECT_EQ(frame.X_PT.translation_mm, before.X_PT.translation_mm);
 }
 
-TEST(FrameBuilder, HidesAToolThatHasWithdrawnFromTheLastPicture) {
+TEST(FrameBuilder, HidesAWithdrawnToolInTheLastFrame) {
   haptics::Tick tick = tickAt(0.5);
   const render::Frame last = nextFrame(openingFrame(plan()), tick, plan().command);
   EXPECT_FALSE(closingFrame(last, tick, false).tool_visible);
-  EXPECT_TRUE(closingFrame(last, tick, true).tool_visible) << "a person's hand is where it is";
+  EXPECT_TRUE(closingFrame(last, tick, true).tool_visible) << "a person's hand stays visible";
   tick.depth_mm = 0.2;
   EXPECT_TRUE(closingFrame(last, tick, false).tool_visible) << "still at work";
 }
 
-TEST(FrameBuilder, ShowsAndFadesAsAskedAndNothingElse) {
+TEST(FrameBuilder, ChangesOnlyTheRequestedLayer) {
   const render::Layers before;
   render::Layers after = layersAfter(before, requestFrom("layer:slices"));
   EXPECT_TRUE(after.slices);
-  EXPECT_FALSE(layersAfter(after, requestFrom("layer:slices")).slices) << "again: the other way";
+  EXPECT_FALSE(layersAfter(after, requestFrom("layer:slices")).slices) << "toggled again";
   EXPECT_FALSE(layersAfter(before, requestFrom("layer:gum")).gingiva);
   EXPECT_FLOAT_EQ(layersAfter(before, requestFrom("face:30")).face_opacity, 0.3f);
   after = layersAfter(before, requestFrom("undo"));

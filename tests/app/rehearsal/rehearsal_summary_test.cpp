@@ -7,7 +7,7 @@ namespace {
 
 TEST(RehearsalSummary, ExitsWithOneWhereARecordingIsNotWhole) {
   RehearsalFigures figures;
-  EXPECT_EQ(exitStatus(figures), 0) << "none was asked for";
+  EXPECT_EQ(exitStatus(figures), 0) << "none was requested";
   figures.recording = RecordingSummary{1000, 0, std::nullopt};
   EXPECT_EQ(exitStatus(figures), 0);
   figures.recording->lost = 1;

@@ -34,19 +34,19 @@ TEST(RunMonitor, EndsOnRequest) {
   EXPECT_EQ(monitor.ending(tick(1), at(0.0), false, true), Ending::procedure);
   monitor.endByUser();
   EXPECT_EQ(monitor.ending(tick(1), at(0.0), false, true), Ending::by_user);
-  EXPECT_EQ(monitor.ending(tick(1), at(0.0), true, true), Ending::interrupted) << "the most pressing one";
+  EXPECT_EQ(monitor.ending(tick(1), at(0.0), true, true), Ending::interrupted) << "highest priority";
 }
 
 TEST(RunMonitor, EndsAfterTenSecondsWithoutATick) {
   RunMonitor monitor(std::nullopt);
-  EXPECT_FALSE(monitor.ending(tick(0), at(50.0), false, false)) << "silence begins with the first look";
+  EXPECT_FALSE(monitor.ending(tick(0), at(50.0), false, false)) << "silence starts at the first call";
   EXPECT_FALSE(monitor.ending(tick(0), at(59.9), false, false));
   EXPECT_FALSE(monitor.ending(tick(7), at(59.95), false, false));
   EXPECT_FALSE(monitor.ending(tick(7), at(69.9), false, false));
   EXPECT_EQ(monitor.ending(tick(7), at(69.95), false, false), Ending::silent);
 }
 
-TEST(RunMonitor, ReportsATroubleOnceEachTimeItBegins) {
+TEST(RunMonitor, ReportsAProblemOnceEachTimeItBegins) {
   RunMonitor monitor(std::nullopt);
   StationHealth health;
   EXPECT_TRUE(monitor.takeNotices(health, tick(1)).empty());
@@ -55,7 +55,7 @@ TEST(RunMonitor, ReportsATroubleOnceEachTimeItBegins) {
   EXPECT_EQ(monitor.takeNotices(health, tick(2)), expected);
   EXPECT_TRUE(monitor.takeNotices(health, tick(3)).empty());
   health.device_trouble.clear();
-  EXPECT_TRUE(monitor.takeNotices(health, tick(4)).empty()) << "that it is over is seen";
+  EXPECT_TRUE(monitor.takeNotices(health, tick(4)).empty()) << "the end is not reported";
   health.device_trouble = "put the stylus into its inkwell";
   EXPECT_EQ(monitor.takeNotices(health, tick(5)), expected);
 }
@@ -68,7 +68,8 @@ TEST(RunMonitor, ReportsOnceThatTheRecordingEndedAndShowsIt) {
   EXPECT_EQ(status.recording, RecordingState::running);
   StationHealth health;
   health.recording_trouble = "the disk is full";
-  EXPECT_EQ(monitor.takeNotices(health, tick(1)), (std::vector<Notice>{{"recording", "recording ended: the disk is full"}}));
+  EXPECT_EQ(monitor.takeNotices(health, tick(1)),
+            (std::vector<Notice>{{"recording", "recording ended: the disk is full"}}));
   EXPECT_TRUE(monitor.takeNotices(health, tick(2)).empty());
   monitor.describe(status);
   EXPECT_EQ(status.recording, RecordingState::ended_early);

@@ -1,4 +1,4 @@
-// A program with two commands, for what is made from their words.
+// A program with two commands, to test what is generated from its help.
 #pragma once
 
 #include <memory>

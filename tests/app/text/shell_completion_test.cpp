@@ -11,7 +11,7 @@
 namespace app {
 namespace {
 
-/// What bash offers for these words, the last of which is being typed.
+/// Completions of bash for a line whose last word is being typed.
 std::string offered(const std::string& words) {
   const SampleProgram surgery;
   const auto script = std::filesystem::path(testing::TempDir()) / "completion.bash";

@@ -28,7 +28,7 @@ render::Frame frameAbove() {
   return frame;
 }
 
-TEST(BrickUploader, ShowsWhatOneTickCutToBothEyesInTheNextFrame) {
+TEST(BrickUploader, ShowsTheCutOfOneTickToBothEyesInTheNextFrame) {
   const render::OffscreenContext context;
   const std::vector<std::uint8_t> solid = block();
   haptics::CarvedBone bone(kGrid, solid, {});
@@ -57,7 +57,7 @@ TEST(BrickUploader, ShowsWhatOneTickCutToBothEyesInTheNextFrame) {
   }
   BrickUploader uploader;
   EXPECT_GT(uploader.upload(bone, shown), 0u);
-  EXPECT_EQ(BrickUploader().upload(bone, shown), 0u) << "nothing is brought twice";
+  EXPECT_EQ(BrickUploader().upload(bone, shown), 0u) << "nothing is uploaded twice";
   render::FrameRenderer fresh(kGrid, bone.solidInGridOrder(), {});
   for (int e = 0; e < 2; ++e) {
     shown.renderEye(frame, kEyes[e]);

@@ -5,7 +5,7 @@
 namespace app {
 namespace {
 
-TEST(MotionToPhoton, AddsWhatIsNotMeasured) {
+TEST(MotionToPhoton, AddsTheUnmeasuredParts) {
   MotionToPhoton latency(50.0, 1000.0);
   latency.add(0.012);
   const LatencyEstimate e = latency.now();
@@ -16,7 +16,7 @@ TEST(MotionToPhoton, AddsWhatIsNotMeasured) {
   EXPECT_DOUBLE_EQ(e.total_ms(), 32.5);
 }
 
-TEST(MotionToPhoton, TellsTheUsualFromTheSlow) {
+TEST(MotionToPhoton, SeparatesMedianAndSlowFrames) {
   MotionToPhoton latency(60.0, 1000.0);
   for (int i = 0; i < 100; ++i) latency.add(i < 90 ? 0.010 : 0.040);
   EXPECT_EQ(latency.frames(), 100u);
@@ -24,7 +24,7 @@ TEST(MotionToPhoton, TellsTheUsualFromTheSlow) {
   EXPECT_NEAR(latency.slow().pose_to_swap_ms, 40.0, 0.25);
 }
 
-TEST(MotionToPhoton, SurvivesNothingAndTheAbsurd) {
+TEST(MotionToPhoton, HandlesNoFramesAndExtremeValues) {
   MotionToPhoton latency(60.0, 1000.0);
   EXPECT_EQ(latency.median().pose_to_swap_ms, 0.0);
   latency.add(-1.0);

@@ -31,7 +31,7 @@ render::Frame frameAbove() {
   return frame;
 }
 
-TEST(SurgeonDisplay, ComesBackWithTheSamePictureAfterEverythingWasLost) {
+TEST(SurgeonDisplay, ShowsTheSameImageAfterRecreation) {
   std::vector<std::uint8_t> solid(kGrid.voxelCount(), 0);
   for (int k = 8; k < 24; ++k)
     for (int j = 8; j < 24; ++j)
@@ -49,7 +49,7 @@ TEST(SurgeonDisplay, ComesBackWithTheSamePictureAfterEverythingWasLost) {
   display.show(frameAbove());
   const std::vector<std::uint8_t> before = display.renderer().readImage().rgba;
   display.recreate();
-  EXPECT_EQ(told_first, 1) << "what shares with the windows goes before them";
+  EXPECT_EQ(told_first, 1) << "objects sharing the context are destroyed first";
   display.show(frameAbove());
   EXPECT_EQ(renderers, 2);
   EXPECT_EQ(display.renderer().readImage().rgba, before);
@@ -84,8 +84,8 @@ TEST(SurgeonDisplay, PassesOtherErrorsOn) {
   EXPECT_EQ(display.contextLosses(), 0);
 }
 
-/// The card goes again while what lived on it is made anew: show() brings back bone and cut all the same.
-TEST(SurgeonDisplay, BringsTheCutBoneBackThroughALossWhileItIsShown) {
+/// A second reset during recreation: show() still restores bone and cut.
+TEST(SurgeonDisplay, ShowsTheCutBoneAfterAResetDuringShow) {
   std::vector<std::uint8_t> solid(kGrid.voxelCount(), 0);
   for (int k = 8; k < 24; ++k)
     for (int j = 8; j < 24; ++j)

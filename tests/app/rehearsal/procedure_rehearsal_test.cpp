@@ -9,7 +9,7 @@
 namespace app {
 namespace {
 
-/// Keeps every control and writes down every tick it is shown.
+/// Handles every request and records every tick.
 class Witness final : public Procedure {
  public:
   bool take(const ControlRequest& request) override {
@@ -19,7 +19,7 @@ class Witness final : public Procedure {
   std::optional<haptics::Command> follow(std::span<const haptics::Tick> ticks) override {
     EXPECT_FALSE(ticks.empty());
     for (const haptics::Tick& tick : ticks) {
-      EXPECT_GT(tick.dt_s, 0.0) << "a tick that was made";
+      EXPECT_GT(tick.dt_s, 0.0) << "a real tick";
       indices.push_back(tick.index);
     }
     return std::nullopt;
@@ -31,7 +31,7 @@ class Witness final : public Procedure {
   std::vector<Control> taken;
 };
 
-TEST(LedRehearsal, ShowsEveryTickOnceAndEndsThoughTheProcedureKeepsEveryControl) {
+TEST(ProcedureRehearsal, PassesEveryTickOnceAndEndsOnRequestDespiteTheProcedure) {
   const test::ScratchFolder folder;
   const std::string poses = folder.file("p.csv");
   std::ofstream(poses) << "t_s,px_mm,py_mm,pz_mm,qw,qx,qy,qz,drill,action\n0,0,0,9,1,0,0,0,0,\n"
