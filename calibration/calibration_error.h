@@ -1,5 +1,5 @@
-// The one exception of this folder: a rig, image or measurement that can not be used.
-// The text is one line: what, where, what to do.
+// The exception of this folder: a rig, image or measurement that cannot be used. The text is one line: what, where,
+// what to do.
 #pragma once
 
 #include <stdexcept>

@@ -14,16 +14,15 @@ namespace calibration {
 namespace {
 
 constexpr std::uintmax_t kLargestFile_bytes = 4 << 20;
-constexpr double kLargestNumber = 1e5;
 constexpr std::size_t kLongestText_bytes = 200;
-constexpr int kDeepest = 64;
+constexpr int kDeepest = 64, kSchema = 1;
 
 void keepOpenCvQuiet() {
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   cv::redirectError([](int, const char*, const char*, const char*, int, void*) { return 0; });
 }
 
-/// Brackets within brackets and dashes after dashes, as deep as they go; what is quoted or a comment aside.
+/// Nesting depth of brackets and of dashes, outside quotes and comments.
 int depthOf(const std::string& bytes) {
   int brackets = 0, dashes = 0, deepest = 0;
   char quote = 0, before = '\n';
@@ -46,7 +45,7 @@ int depthOf(const std::string& bytes) {
   return deepest;
 }
 
-/// OpenCV looks for ever for what follows a zero byte.
+/// OpenCV hangs on a zero byte.
 bool isText(const std::string& bytes) {
   return std::ranges::none_of(
       bytes, [](unsigned char c) { return c == 0x7f || (c < ' ' && c != '\n' && c != '\r' && c != '\t'); });
@@ -67,17 +66,17 @@ CheckedYaml::CheckedYaml(std::string kind, std::string path)
   std::error_code error;
   const auto size = std::filesystem::file_size(path_, error);
   if (error || !std::filesystem::is_regular_file(path_))
-    refuse("it can not be read", "check the path and its permissions");
+    refuse("it cannot be read", "check the path and its permissions");
   if (size == 0 || size > kLargestFile_bytes) refuse("its size is not that of such a file", "check the path");
   std::ifstream in(path_, std::ios::binary);
   std::ostringstream bytes;
   bytes << in.rdbuf();
-  if (!in) refuse("it can not be read", "check its permissions and the disk");
+  if (!in) refuse("it cannot be read", "check its permissions and the disk");
   storage_->bytes = bytes.str();
-  if (!isText(storage_->bytes)) refuse("it holds bytes that are no text", "give the file that calibration wrote");
+  if (!isText(storage_->bytes)) refuse("it holds bytes that are not text", "give the file that calibration wrote");
   if (depthOf(storage_->bytes) > kDeepest)
-    refuse("its lists lie in one another more than 64 deep", "give the file that calibration wrote");
-  // OpenCV throws its own exceptions and, of spoilt text, the standard library's.
+    refuse("its lists are nested more than 64 deep", "give the file that calibration wrote");
+  // Damaged text makes OpenCV throw its own or the standard library's exceptions.
   bool opened = false;
   try {
     constexpr int kFromMemory = cv::FileStorage::READ | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_YAML;
@@ -85,7 +84,7 @@ CheckedYaml::CheckedYaml(std::string kind, std::string path)
   } catch (const std::exception&) {
   }
   if (!opened) refuse("it is not OpenCV FileStorage YAML, or truncated", "give the file that calibration wrote");
-  // OpenCV throws where a key is asked of a list or a number.
+  // OpenCV throws when a key is looked up in a list or a number.
   if (!root().isMap()) refuse("it holds no keys", "give the file that calibration wrote");
 }
 
@@ -95,13 +94,29 @@ void CheckedYaml::refuse(const std::string& what, const std::string& mend) const
   throw CalibrationError(kind_ + " " + path_ + ": " + what + ", " + mend);
 }
 
+bool CheckedYaml::isKind(std::string_view kind) const {
+  const cv::FileNode node = root()["kind"];
+  return node.isString() && node.string() == kind;
+}
+
+void CheckedYaml::checkKind(std::string_view kind) const {
+  if (!isKind(kind))
+    refuse("it is not a " + kind_ + " (kind: \"" + std::string(kind) + "\" missing)",
+           "give the file that calibration wrote");
+  const cv::FileNode schema = root()["schema"];
+  if (schema.isInt() && static_cast<int>(schema) > kSchema)
+    refuse("its schema " + std::to_string(static_cast<int>(schema)) + " is newer than this program's 1",
+           "update the program");
+  if (!schema.isInt() || static_cast<int>(schema) != kSchema) refuse("its schema is not 1", "write 'schema: 1'");
+}
+
 const std::string& CheckedYaml::bytes() const { return storage_->bytes; }
 
 cv::FileNode CheckedYaml::root() const { return storage_->file.root(); }
 
 cv::FileNode CheckedYaml::map(const cv::FileNode& parent, const std::string& key) const {
   const cv::FileNode node = parent[key];
-  if (!node.isMap()) refuse("block '" + key + "' is missing", "add it (calibration/README.md)");
+  if (!node.isMap()) refuse("block '" + key + "' is missing", "add it (calibration/record/README.md)");
   return node;
 }
 
@@ -111,23 +126,24 @@ double CheckedYaml::number(const cv::FileNode& parent, const std::string& key) c
   const cv::FileNode node = parent[key];
   if (!isNumber(node)) refuse("'" + key + "' is missing or not a number", "correct it");
   const double value = node.real();
-  if (!std::isfinite(value) || std::abs(value) > kLargestNumber)
-    refuse("'" + key + "' is not finite or beyond 100 m", "give mm in frame W");
+  if (!(std::abs(value) <= kLargest.most))
+    refuse("'" + key + "' is not finite or beyond " + kLargest.name, kLargest.mend);
   return value;
 }
 
-std::vector<double> CheckedYaml::numbers(const cv::FileNode& list, const std::string& key, std::size_t count) const {
-  if (list.empty()) refuse("'" + key + "' is missing", "add it (calibration/README.md)");
+std::vector<double> CheckedYaml::numbers(const cv::FileNode& list, const std::string& key, std::size_t count,
+                                         const Limit& limit) const {
+  if (list.empty()) refuse("'" + key + "' is missing", "add it (calibration/record/README.md)");
   if (!list.isSeq() || list.size() != count)
     refuse("'" + key + "' is not a list of " + std::to_string(count) + " numbers", "correct it");
   std::vector<double> values;
   for (const cv::FileNode& item : list) {
-    if (!isNumber(item)) refuse("'" + key + "' holds something not a number", "correct it");
+    if (!isNumber(item)) refuse("'" + key + "' holds an entry that is not a number", "correct it");
     values.push_back(item.real());
   }
   for (const double v : values)
-    if (!std::isfinite(v) || std::abs(v) > kLargestNumber)
-      refuse("'" + key + "' holds a number that is not finite or beyond 100 m", "give mm in frame W");
+    if (!(std::abs(v) <= limit.most))
+      refuse("'" + key + "' holds a number that is not finite or beyond " + limit.name, limit.mend);
   return values;
 }
 
@@ -136,11 +152,12 @@ glm::dvec3 CheckedYaml::vector(const cv::FileNode& parent, const std::string& ke
   return {v[0], v[1], v[2]};
 }
 
-int CheckedYaml::integer(const cv::FileNode& parent, const std::string& key, int least, int most) const {
+int CheckedYaml::integer(const cv::FileNode& parent, const std::string& key, int least, int most,
+                         const std::string& where) const {
   const cv::FileNode node = parent[key];
   const int value = node.isInt() ? static_cast<int>(node) : 0;
   if (!node.isInt() || value < least || value > most)
-    refuse("'" + key + "' is not a whole number from " + std::to_string(least) + " to " + std::to_string(most),
+    refuse(where + "'" + key + "' is not a whole number from " + std::to_string(least) + " to " + std::to_string(most),
            "correct it");
   return value;
 }
@@ -167,7 +184,6 @@ std::vector<double> CheckedYaml::sixteenNumbers(const cv::FileNode& node, const 
 }
 
 CheckedYaml::Rigid CheckedYaml::rigid(const cv::FileNode& parent, const std::string& key, double tolerance) const {
-  // Row-major m[4 r + c].
   const std::vector<double> m = sixteenNumbers(parent[key], key);
   glm::dmat3 R{1.0};
   glm::dvec3 p{0.0};
@@ -175,7 +191,6 @@ CheckedYaml::Rigid CheckedYaml::rigid(const cv::FileNode& parent, const std::str
     for (int c = 0; c < 3; ++c) R[c][r] = m[static_cast<std::size_t>(4 * r + c)];
     p[r] = m[static_cast<std::size_t>(4 * r + 3)];
   }
-  // A pose is rigid: orthonormal, determinant +1, last row 0 0 0 1.
   const glm::dmat3 gram = glm::transpose(R) * R;
   double error = std::abs(m[15] - 1.0);
   for (int c = 0; c < 3; ++c) {

@@ -1,4 +1,4 @@
-// The middle of some values, the upper one of an even number. Any thread; linear time.
+// Median, the upper one of an even number of values. Any thread; linear time.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace calibration {
 
-/// Of one value or more.
+/// At least one value.
 template <class Value>
 Value medianOf(std::vector<Value> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

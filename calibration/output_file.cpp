@@ -22,14 +22,14 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void refuse(const std::string& path, const std::string& reason) {
-  throw CalibrationError("can not write " + path + ": " + reason);
+  throw CalibrationError("cannot write " + path + ": " + reason);
 }
 
 [[noreturn]] void refuseForSystem(const std::string& path, int error) {
-  refuse(path, std::string(std::strerror(error)) + "; choose another place or make room there");
+  refuse(path, std::string(std::strerror(error)) + "; choose another folder or free some space");
 }
 
-/// The place a name stands for: links followed, no slash at the end.
+/// Symbolic links followed, no trailing slash.
 std::string resolved(std::string path) {
   if (path.empty()) refuse("''", "the name is empty; name a file or folder");
   while (path.size() > 1 && path.back() == '/') path.pop_back();
@@ -49,21 +49,21 @@ void refuseWithoutParent(const std::string& path) {
   const fs::path parent = parentOf(path);
   if (!fs::is_directory(parent, error)) refuse(path, "there is no folder " + parent.string() + "; create it first");
   const std::string name = fs::path(path).filename().string();
-  if (name.empty() || name == "." || name == "..") refuse(path, "that is no name for something new; give it one");
+  if (name.empty() || name == "." || name == "..") refuse(path, "that is not a file or folder name; give one");
 }
 
 constexpr std::string_view kMarkBegin = ".part-", kKeptBegin = ".kept-",
                            kMarkDigits = "0123456789abcdefghijklmnopqrstuvwxyz";
 constexpr std::size_t kMarkLength = kMarkBegin.size() + 8 + 1;  // .part-k3x80qzd-
 
-/// Whether the mark of a temporary name begins there.
+/// Whether the prefix of a temporary name starts at this position.
 bool isMarkAt(std::string_view text, std::size_t at) {
   const std::string_view mark = text.substr(at, kMarkLength);
   return mark.size() == kMarkLength && mark.starts_with(kMarkBegin) && mark.back() == '-' &&
          mark.substr(kMarkBegin.size(), 8).find_first_not_of(kMarkDigits) == std::string_view::npos;
 }
 
-/// A hidden name in the target's folder; the target's name stays at the end, extension and all.
+/// A hidden name in the target's folder that ends with the target's name, extension included.
 std::string temporaryNameFor(const std::string& path) {
   std::random_device source;
   std::uniform_int_distribution<std::size_t> digit(0, kMarkDigits.size() - 1);
@@ -72,12 +72,12 @@ std::string temporaryNameFor(const std::string& path) {
   return (parentOf(path) / (mark + "-" + fs::path(path).filename().string())).string();
 }
 
-/// Where the folder in place waits while another takes its place, on file systems that exchange none.
+/// Where the existing folder is kept while it is replaced, on file systems without exchange.
 std::string keptNameFor(const std::string& path) {
   return (parentOf(path) / (std::string(kKeptBegin) + fs::path(path).filename().string())).string();
 }
 
-/// Locks a temporary for as long as the descriptor is open, a killed program's included.
+/// Locks a temporary while the descriptor is open; the lock of a killed program is released.
 int claimed(const std::string& temporary_path, int flags) {
   const int descriptor = ::open(temporary_path.c_str(), flags | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0 || ::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
@@ -85,8 +85,8 @@ int claimed(const std::string& temporary_path, int flags) {
   return -1;
 }
 
-/// Removes what nobody finishes any more: temporaries of this target that are unlocked and older than a minute, so that
-/// none is taken between its making and its lock.
+/// Removes abandoned temporaries of this target: unlocked and older than a minute, so that none is removed between its
+/// creation and its lock.
 void clearAbandoned(const std::string& path) {
   const std::string name = fs::path(path).filename().string();
   std::error_code ignored;
@@ -107,8 +107,8 @@ bool exists(const std::string& path) {
   return ::lstat(path.c_str(), &status) == 0;
 }
 
-/// A program killed within an exchange leaves the folder that was in place under another name, alone or beside its
-/// successor.
+/// After a program was killed during an exchange: the previous folder still has its temporary name, with or without its
+/// successor in place.
 void restoreKept(const std::string& path) {
   const std::string kept = keptNameFor(path);
   std::error_code ignored;
@@ -119,8 +119,7 @@ void restoreKept(const std::string& path) {
     ::rename(kept.c_str(), path.c_str());
 }
 
-/// Puts our folder where theirs is, which then is at our name or gone; a file system that exchanges none falls back to
-/// two renames, undone if the second fails.
+/// Swaps the two folders; on file systems without exchange two renames, undone if the second fails.
 int exchange(const std::string& ours, const std::string& theirs) {
   if (::renameat2(AT_FDCWD, ours.c_str(), AT_FDCWD, theirs.c_str(), RENAME_EXCHANGE) == 0) return 0;
   if (errno != EINVAL && errno != ENOSYS) return errno;
@@ -134,6 +133,13 @@ int exchange(const std::string& ours, const std::string& theirs) {
   std::error_code ignored;
   fs::remove_all(aside, ignored);
   return 0;
+}
+
+/// After the rename: reports its error, or flushes the parent folder.
+void finish(const std::string& path, int error) {
+  if (error == EEXIST) refuse(path, "it exists; use --force to replace it");
+  if (error != 0) refuseForSystem(path, error);
+  syncToDisk(parentOf(path).string());
 }
 
 }  // namespace
@@ -173,7 +179,7 @@ OutputFile::OutputFile(std::string path, bool overwrite) : path_(resolved(std::m
     if (!overwrite_) refuse(path_, "it exists; use --force to replace it");
   }
 
-  // Claim the temporary now, so that an unwritable folder is known before the work is done.
+  // Create the temporary now, so that an unwritable folder is found before any work.
   clearAbandoned(path_);
   temporary_path_ = temporaryNameFor(path_);
   claim_ = ::open(temporary_path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -190,7 +196,7 @@ void OutputFile::write(const std::string& text) {
   std::ofstream out(temporary_path_, std::ios::binary);
   out << text;
   out.close();
-  if (!out) refuse(path_, "the disk is full or fails; make room there");
+  if (!out) refuse(path_, "the disk is full or fails; free some space");
 }
 
 void OutputFile::commit(const std::string& text) {
@@ -202,10 +208,8 @@ void OutputFile::commit() {
   int error = syncToDisk(temporary_path_);
   if (error == 0 && overwrite_) error = ::rename(temporary_path_.c_str(), path_.c_str()) == 0 ? 0 : errno;
   if (error == 0 && !overwrite_) error = renameNoReplace(temporary_path_, path_);
-  if (error == EEXIST) refuse(path_, "it exists; use --force to replace it");
-  if (error != 0) refuseForSystem(path_, error);
+  finish(path_, error);
   committed_ = true;
-  syncToDisk(parentOf(path_).string());
 }
 
 OutputFolder::OutputFolder(std::string path, bool overwrite, std::vector<std::string> contents)
@@ -228,7 +232,7 @@ OutputFolder::~OutputFolder() {
 void OutputFolder::refuseUnlessReplaceable() const {
   if (!exists(path_)) return;
   std::error_code error;
-  if (!fs::is_directory(path_, error)) refuse(path_, "it exists and is no folder; choose another name");
+  if (!fs::is_directory(path_, error)) refuse(path_, "it exists and is not a folder; choose another name");
   if (fs::is_empty(path_, error) && !error) return;
   if (!overwrite_) refuse(path_, "it exists; use --force to replace it");
   fs::directory_iterator entry(path_, error);
@@ -241,7 +245,7 @@ void OutputFolder::refuseUnlessReplaceable() const {
 }
 
 void OutputFolder::commit() {
-  // Files first, then the folder that names them.
+  // Files first, then the folder that lists them.
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(temporary_path_, ignored)) syncToDisk(entry.path().string());
   syncToDisk(temporary_path_);
@@ -254,12 +258,10 @@ void OutputFolder::commit() {
     error = ::rename(temporary_path_.c_str(), path_.c_str()) == 0 ? 0 : errno;
   } else {
     error = exchange(temporary_path_, path_);
-    if (error == 0) fs::remove_all(temporary_path_, ignored);  // now the one that was there before
+    if (error == 0) fs::remove_all(temporary_path_, ignored);  // the previous one
   }
-  if (error == EEXIST) refuse(path_, "it exists; use --force to replace it");
-  if (error != 0) refuseForSystem(path_, error);
+  finish(path_, error);
   committed_ = true;
-  syncToDisk(parentOf(path_).string());
 }
 
 }  // namespace calibration

@@ -1,10 +1,9 @@
-// What we write to disk, whole or not at all: built under a temporary name beside the target, renamed onto it at
-// commit. A killed or failing program leaves the target as it was; the destructor removes what was not committed.
-// Refused with one line (CalibrationError) at construction, before any work: no such parent folder, not writable,
-// target there and no leave to replace it, target not a plain file (a device, a folder). What a killed program left
-// unfinished goes when the same target is next written, a minute later at the earliest; a folder that it had set aside
-// is put back then. Any thread, one thread per object. A few system calls; commit waits until the bytes are on the
-// disk. Whoever holds one writes a text by it, or to `temporaryPath()` by any means.
+// Output files and folders written completely or not at all: built under a temporary name next to the target and
+// renamed onto it at commit. A killed or failing program leaves the target unchanged; the destructor removes what was
+// not committed. The constructor throws CalibrationError before any work: parent folder missing or not writable, target
+// exists without permission to overwrite, target not a regular file. Leftovers of a killed program are removed, and a
+// folder it had set aside is restored, when the same target is next written, after at least a minute. Any thread, one
+// thread per object. commit() waits until the bytes are on the disk.
 #pragma once
 
 #include <string>
@@ -14,13 +13,13 @@
 
 namespace calibration {
 
-/// rename(2) that does not replace; a file system without that flag falls back to look-then-rename. The error, or 0.
+/// rename(2) without replacing; where the file system lacks that flag, check and rename. Returns the error, or 0.
 int renameNoReplace(const std::string& from, const std::string& to);
 
-/// Waits until a file or folder (the working one without a name) is on the disk, as far as can be had. The error, or 0.
+/// fsync of a file or folder (empty: the working folder). Returns the error, or 0.
 int syncToDisk(const std::string& path);
 
-/// The text without the marks of temporary names: for messages of writers, which know no other name.
+/// Removes the prefixes of temporary names, for messages of writers that know only the temporary name.
 std::string withoutTemporaryNames(std::string text);
 
 class OutputFile {
@@ -31,12 +30,12 @@ class OutputFile {
   OutputFile& operator=(const OutputFile&) = delete;
 
   const std::string& path() const { return path_; }
-  /// An empty file in the target's folder, whose name ends as the target's does.
+  /// An empty file in the target's folder, with the target's extension.
   const std::string& temporaryPath() const { return temporary_path_; }
 
-  /// The text into the temporary file. Throws CalibrationError: no room, or the disk fails.
+  /// Throws CalibrationError: no space, or a disk error.
   void write(const std::string& text);
-  /// Puts the file in place. Throws CalibrationError, leaving the target as it was.
+  /// Throws CalibrationError, leaving the target as it was.
   void commit();
   void commit(const std::string& text);
   bool isCommitted() const { return committed_; }
@@ -46,12 +45,12 @@ class OutputFile {
   std::string temporary_path_;
   bool overwrite_;
   bool committed_ = false;
-  int claim_ = -1;  ///< locked while this lives: the temporary is not abandoned
+  int claim_ = -1;  ///< lock that marks the temporary as in use
 };
 
-/// A folder built beside its target. A folder in place is replaced only with `overwrite`, and only if it holds nothing
-/// but `contents` (so that --force on the wrong folder destroys nothing); the two are exchanged, so one is always in
-/// place. An empty folder in place is filled without asking.
+/// A folder built next to its target. An existing folder is replaced only with `overwrite`, and only if it holds
+/// nothing but `contents`, so that --force on the wrong folder destroys nothing; the two are exchanged atomically. An
+/// empty existing folder is always replaced.
 class OutputFolder {
  public:
   OutputFolder(std::string path, bool overwrite, std::vector<std::string> contents);
@@ -59,10 +58,10 @@ class OutputFolder {
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
 
-  /// An empty folder beside the target.
+  /// An empty folder next to the target.
   const std::string& temporaryPath() const { return temporary_path_; }
 
-  /// Puts the folder in place. Throws CalibrationError, leaving the target as it was.
+  /// Throws CalibrationError, leaving the target as it was.
   void commit();
 
  private:

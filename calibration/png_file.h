@@ -1,5 +1,4 @@
-// Pictures as PNG files: snapshots, board photographs, reports. 8-bit RGBA, rows from the top.
-// Any thread; milliseconds. Not the renderer's images in memory, not video.
+// PNG files of 8-bit RGBA, rows from the top: snapshots, board photographs, reports. Any thread; milliseconds.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +11,8 @@
 
 namespace calibration {
 
-/// `rgba`: size_px.x * size_px.y * 4 bytes, top row first. Writes exactly to `path`, whatever its ending; the caller
-/// renames it into place. Throws CalibrationError when it can not be written.
+/// `rgba`: size_px.x * size_px.y * 4 bytes. Writes to exactly `path`, whatever its extension. Throws CalibrationError
+/// when it cannot be written.
 void writePng(const std::string& path, glm::ivec2 size_px, std::span<const std::uint8_t> rgba);
 
 }  // namespace calibration

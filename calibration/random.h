@@ -1,7 +1,6 @@
-// RandomGenerator that is the same on every machine, spelled out because the standard library's distributions differ:
-// draws from std::mt19937, which is the same everywhere; and SplitMix64 (Steele, Lea, Flood, OOPSLA 2014), a number for
-// a number and a small generator. The two keep apart: what was recorded came from the one or the other. Any thread, a
-// generator per thread. Not for secrets.
+// Random numbers that are the same on every machine, which the standard distributions are not: uniform and normal draws
+// from std::mt19937, and SplitMix64 (Steele, Lea, Flood, OOPSLA 2014) as a hash and a small generator. Do not exchange
+// one for the other: recorded results depend on them. Any thread, one generator per thread. Not for secrets.
 #pragma once
 
 #include <cmath>
@@ -16,12 +15,12 @@
 
 namespace calibration {
 
-/// Evenly from `least` to `most`.
+/// Uniform from `least` to `most`.
 inline double uniform(std::mt19937& rng, double least, double most) {
   return least + (most - least) * (static_cast<double>(rng()) + 0.5) / 4294967296.0;
 }
 
-/// Normal, of this sigma (Box, Muller 1958).
+/// Normal with this sigma (Box, Muller 1958).
 inline double gaussian(std::mt19937& rng, double sigma) {
   const double radius = std::sqrt(-2.0 * std::log(uniform(rng, 0.0, 1.0)));
   return sigma * radius * std::cos(uniform(rng, 0.0, 2.0 * kPi));
@@ -37,10 +36,10 @@ inline glm::dvec3 uniformVector(std::mt19937& rng, const glm::dvec3& half) {
   return {x, y, uniform(rng, -half.z, half.z)};
 }
 
-/// What each step of SplitMix64's sequence adds.
+/// Increment of SplitMix64's sequence.
 inline constexpr std::uint64_t kSplitMixStep = 0x9e3779b97f4a7c15ull;
 
-/// Its finaliser: a bijection that spreads every bit.
+/// SplitMix64's finaliser: a bijection that mixes all bits.
 constexpr std::uint64_t mixedBits(std::uint64_t x) noexcept {
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
   x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
@@ -49,7 +48,7 @@ constexpr std::uint64_t mixedBits(std::uint64_t x) noexcept {
 
 class RandomGenerator {
  public:
-  /// `stream` separates the uses of one seed: hand, order, observer.
+  /// `stream` separates the uses of one seed.
   explicit RandomGenerator(std::uint64_t seed, std::uint64_t stream = 0)
       : state_(mixedBits(seed) ^ mixedBits(~stream)) {}
 

@@ -7,10 +7,10 @@
 namespace calibration {
 namespace {
 
-/// Where the line of sight meets the mirror, from the virtual screen: the case and the hand fit under it.
+/// From the virtual screen to the mirror along the line of sight: case and hand fit under it.
 constexpr double kMirrorAbove_mm = 200.0;
 
-/// Of a published workstation with an Omni (reference/calibration 1.1).
+/// A published workstation with an Omni (reference/calibration 1.1).
 constexpr double kDeviceTilt_deg = 41.61;
 constexpr glm::dvec3 kDevicePlace_W_mm{0.0, -55.5, -36.0};
 
@@ -19,7 +19,7 @@ constexpr glm::dvec3 kDevicePlace_W_mm{0.0, -55.5, -36.0};
 Rig desktopRig(glm::ivec2 px, double width_mm, double eye_distance_mm) {
   const double x = 0.5 * width_mm, y = x * px.y / px.x;
   Rig rig;
-  rig.screen = {px, {{-x, -y, 0.0}}, {{x, -y, 0.0}}, {{-x, y, 0.0}}};
+  rig.screen = screenAround({}, {2.0 * x, 0.0, 0.0}, {0.0, 2.0 * y, 0.0}, px);
   rig.left_eye = {{-0.5 * kInterpupillary_mm, 0.0, eye_distance_mm}};
   rig.right_eye = {{0.5 * kInterpupillary_mm, 0.0, eye_distance_mm}};
   return rig;
@@ -30,7 +30,7 @@ Rig mirroredWorkstationRig(glm::ivec2 px, double width_mm, double eye_distance_m
   const double half_right = std::sqrt(0.5);
   rig.mirror = Plane<World>{{0.0, half_right, half_right}, half_right * kMirrorAbove_mm};
 
-  // Tipped forward, the panel's upper edge is the nearer one: in the mirror it is the lower one.
+  // The panel is tipped forward: its upper edge is nearer and appears as the lower one in the mirror.
   const double x = rig.screen.lower_right.mm.x, y = rig.screen.upper_left.mm.y;
   rig.screen.lower_left = rig.mirror->reflect({{-x, y, 0.0}});
   rig.screen.lower_right = rig.mirror->reflect({{x, y, 0.0}});

@@ -30,7 +30,7 @@ class WebcamShow : GuidedProcedure {
     if (run.practice) technician_.emplace(*run.practice, run.practice_px, run.practice->seed);
   }
 
-  std::optional<WebcamObservationFile> run() {
+  std::optional<WebcamObservations> run() {
     while (procedure_.expects() != WebcamInput::nothing) {
       takeEvents(run_.plan.rig);
       if (left_) return std::nullopt;
@@ -134,6 +134,6 @@ class WebcamShow : GuidedProcedure {
 
 }  // namespace
 
-std::optional<WebcamObservationFile> runWebcam(const WebcamRun& run) { return WebcamShow(run).run(); }
+std::optional<WebcamObservations> runWebcam(const WebcamRun& run) { return WebcamShow(run).run(); }
 
 }  // namespace app

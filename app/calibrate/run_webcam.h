@@ -19,6 +19,6 @@ struct WebcamRun : GuidedRun {
 };
 
 /// None where somebody left. Throws as runWizard, and CalibrationError where the webcam falls silent.
-std::optional<calibration::WebcamObservationFile> runWebcam(const WebcamRun& run);
+std::optional<calibration::WebcamObservations> runWebcam(const WebcamRun& run);
 
 }  // namespace app

@@ -23,11 +23,11 @@ constexpr double kNewView = 0.06;
 constexpr double kTipNoise_px = 0.3, kBoardNoise_px = 0.25;
 constexpr double kFlat_mm = 0.01;  ///< of the virtual screen: W lies in it
 
-bool isNew(const BoardDetection& sighting, const std::vector<BoardView>& views, double width_px) {
+bool isNew(const BoardDetection& detection, const std::vector<BoardView>& views, double width_px) {
   return std::ranges::all_of(views, [&](const BoardView& view) {
     double farthest = 0.0;
     for (std::size_t i = 0; i < view.corners_px.size(); ++i)
-      farthest = std::max(farthest, glm::distance(view.corners_px[i], sighting.corners_px[i]));
+      farthest = std::max(farthest, glm::distance(view.corners_px[i], detection.corners_px[i]));
     return farthest > kNewView * width_px;
   });
 }
@@ -61,10 +61,9 @@ WebcamProcedure::WebcamProcedure(const WebcamPlan& plan)
   }
   dark_.size_px = screen_.px;
   dark_.grey.assign(static_cast<std::size_t>(screen_.px.x) * static_cast<std::size_t>(screen_.px.y), 0);
-  calibration::WebcamObservations& sights = observations_.sights;
-  sights.device_model = plan_.device_model;
-  sights.screen_noise_px = kBoardNoise_px;
-  sights.tip_noise_px = kTipNoise_px;
+  observations_.device_model = plan_.device_model;
+  observations_.screen_noise_px = kBoardNoise_px;
+  observations_.tip_noise_px = kTipNoise_px;
   observations_.serial = plan_.serial;
   observations_.mount = plan_.mount;
   turnTo(WebcamStep::letter);
@@ -77,7 +76,7 @@ WebcamInput WebcamProcedure::expects() const {
 
 std::optional<calibration::Target> WebcamProcedure::target() const {
   if (step_ != WebcamStep::tips) return std::nullopt;
-  return plan_.places.targets[observations_.sights.positions.back().tips.size()];
+  return plan_.places.targets[observations_.positions.back().tips.size()];
 }
 
 double WebcamProcedure::progress() const {
@@ -85,7 +84,7 @@ double WebcamProcedure::progress() const {
   const double a_position = 1.0 + static_cast<double>(plan_.places.targets.size());
   const double lens = plan_.lens ? 0.0 : plan_.lens_views;
   double done = lens_ ? lens : static_cast<double>(views_.size());
-  for (const calibration::CameraPosition& position : observations_.sights.positions)
+  for (const calibration::CameraPosition& position : observations_.positions)
     done += (position.screen.empty() ? 0.0 : 1.0) + static_cast<double>(position.tips.size());
   return std::min(1.0, done / (lens + plan_.positions * a_position));
 }
@@ -120,7 +119,7 @@ void WebcamProcedure::turnTo(WebcamStep step) {
       // The place where the tip is wanted, flat: for those who do not draw it in stereo.
       shown_ = calibration::ringImage(plan_.rig, plan_.rig.cyclopeanEye(), target()->position_W);
       sentence_ = "Light the tip, hold it at the ring, then press: " +
-                  std::to_string(observations_.sights.positions.back().tips.size() + 1) + " of " +
+                  std::to_string(observations_.positions.back().tips.size() + 1) + " of " +
                   std::to_string(plan_.places.targets.size()) + ".";
       return;
     case WebcamStep::done:
@@ -171,19 +170,19 @@ void WebcamProcedure::checkLetter(const GreyImage& image) {
     return turnTo(WebcamStep::letter);
   }
   if (!plan_.lens) return turnTo(WebcamStep::lens);
-  observations_.sights.camera = *plan_.lens;
-  observations_.sights.positions.emplace_back();
+  observations_.camera = *plan_.lens;
+  observations_.positions.emplace_back();
   turnTo(WebcamStep::pattern);
 }
 
 void WebcamProcedure::checkLens(const GreyImage& image) {
-  const BoardDetection sighting = calibration::findBoard(image, board_);
-  if (sighting.trouble) {
-    answer_ = sighting.line;
-  } else if (!isNew(sighting, views_, image.size_px.x)) {
+  const BoardDetection detection = calibration::findBoard(image, board_);
+  if (detection.trouble) {
+    answer_ = detection.line;
+  } else if (!isNew(detection, views_, image.size_px.x)) {
     answer_ = "This view is like one before: move or tilt the webcam.";
   } else {
-    views_.push_back({"view " + std::to_string(views_.size() + 1), sighting.corners_px});
+    views_.push_back({"view " + std::to_string(views_.size() + 1), detection.corners_px});
   }
   if (views_.size() < static_cast<std::size_t>(plan_.lens_views)) return turnTo(WebcamStep::lens);
 
@@ -198,8 +197,8 @@ void WebcamProcedure::checkLens(const GreyImage& image) {
     return turnTo(WebcamStep::lens);
   }
   plan_.lens = lens_->camera;
-  observations_.sights.camera = lens_->camera;
-  observations_.sights.positions.emplace_back();
+  observations_.camera = lens_->camera;
+  observations_.positions.emplace_back();
   turnTo(WebcamStep::pattern);
 }
 
@@ -210,20 +209,20 @@ void WebcamProcedure::checkPattern(const GreyImage& image) {
 
   std::vector<glm::dvec2> screen_px, camera_px;
   if (plan_.gray_code) {
-    const CodeDetection sighting = calibration::decoded(code_, seen_patterns_);
-    answer_ = sighting.line;
-    for (const calibration::ScreenCorrespondence& sight : sighting.sights) {
-      screen_px.push_back(sight.screen_px);
-      camera_px.push_back(sight.camera_px);
+    const CodeDetection detection = calibration::decoded(code_, seen_patterns_);
+    answer_ = detection.line;
+    for (const calibration::ScreenCorrespondence& one : detection.correspondences) {
+      screen_px.push_back(one.screen_px);
+      camera_px.push_back(one.camera_px);
     }
   } else {
-    const BoardDetection sighting = calibration::findBoard(image, board_);
-    answer_ = sighting.line;
-    camera_px = sighting.corners_px;
+    const BoardDetection detection = calibration::findBoard(image, board_);
+    answer_ = detection.line;
+    camera_px = detection.corners_px;
     if (!camera_px.empty()) screen_px = board_.cornerPositions_px();
   }
   if (camera_px.empty()) return turnTo(WebcamStep::pattern);
-  calibration::CameraPosition& position = observations_.sights.positions.back();
+  calibration::CameraPosition& position = observations_.positions.back();
   for (std::size_t i = 0; i < screen_px.size(); ++i)
     position.screen.push_back({{{glm::dvec2(calibration::positionOn(screen_, screen_px[i]).mm), 0.0}}, camera_px[i]});
   turnTo(WebcamStep::without_tip);
@@ -231,22 +230,21 @@ void WebcamProcedure::checkPattern(const GreyImage& image) {
 
 void WebcamProcedure::checkTip(const GreyImage& image, const calibration::RawJoints& joints_rad) {
   const calibration::TipSpot spot = calibration::findTipSpot(without_tip_, image);
-  calibration::CameraPosition& position = observations_.sights.positions.back();
+  calibration::CameraPosition& position = observations_.positions.back();
   if (spot.trouble) {
     answer_ = spot.line;
     return turnTo(WebcamStep::tips);
   }
   position.tips.push_back({target()->id, joints_rad, spot.centre_px});
   if (position.tips.size() < plan_.places.targets.size()) return turnTo(WebcamStep::tips);
-  if (observations_.sights.positions.size() == static_cast<std::size_t>(plan_.positions))
-    return turnTo(WebcamStep::done);
-  observations_.sights.positions.emplace_back();
+  if (observations_.positions.size() == static_cast<std::size_t>(plan_.positions)) return turnTo(WebcamStep::done);
+  observations_.positions.emplace_back();
   turnTo(WebcamStep::pattern);
 }
 
 void WebcamProcedure::undo() {
-  if (step_ != WebcamStep::tips || observations_.sights.positions.back().tips.empty()) return;
-  observations_.sights.positions.back().tips.pop_back();
+  if (step_ != WebcamStep::tips || observations_.positions.back().tips.empty()) return;
+  observations_.positions.back().tips.pop_back();
   turnTo(WebcamStep::tips);
 }
 

@@ -45,8 +45,8 @@ class WebcamProcedure {
   const calibration::GreyImage& shown() const { return shown_; }
   /// Where the tip is wanted now.
   std::optional<calibration::Target> target() const;
-  int position() const { return static_cast<int>(observations_.sights.positions.size()); }  ///< from 1
-  double progress() const;                                                                  ///< 0 to 1
+  int position() const { return static_cast<int>(observations_.positions.size()); }  ///< from 1
+  double progress() const;                                                           ///< 0 to 1
 
   /// The technician is ready: the camera stands, the tip is in its place.
   void press();
@@ -58,7 +58,7 @@ class WebcamProcedure {
   /// Of the lens, once measured here.
   const std::optional<calibration::Intrinsics>& lens() const { return lens_; }
   /// All that was gathered; complete once expects() nothing.
-  const calibration::WebcamObservationFile& observations() const { return observations_; }
+  const calibration::WebcamObservations& observations() const { return observations_; }
 
  private:
   void turnTo(WebcamStep step);
@@ -76,7 +76,7 @@ class WebcamProcedure {
   calibration::GreyImage dark_, without_tip_;
   std::vector<calibration::BoardView> views_;
   std::optional<calibration::Intrinsics> lens_;
-  calibration::WebcamObservationFile observations_;
+  calibration::WebcamObservations observations_;
 
   WebcamStep step_ = WebcamStep::letter;
   bool pressed_ = false;

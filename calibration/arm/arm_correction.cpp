@@ -23,7 +23,7 @@ Pose<Device, Handle> handlePose(const PhantomGeometry& geometry, const ArmCorrec
   measured.shin_mm += correction.shin_delta_mm;
   Pose<Device, Handle> X_DH = handlePose(measured, joints);
 
-  // Only the wrist's place knows reach and tilt: it is turned back out of the turret, moved, and turned in again.
+  // Reach and tilt affect the wrist's position only: rotate it out of the turret, move it, rotate it back.
   if (correction.reach_delta_mm == 0.0 && correction.tilt_rad == 0.0) return X_DH;
   const double s1 = std::sin(joints.arm_rad.x), c1 = std::cos(joints.arm_rad.x);
   const glm::dvec3 from_shoulder = X_DH.translation_mm - geometry.shoulder_D.mm;

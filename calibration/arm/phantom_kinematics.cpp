@@ -8,7 +8,7 @@
 namespace calibration {
 namespace {
 
-/// Sines and cosines of the arm, and how far the wrist is from the turret's axis.
+/// Sines and cosines of the arm, and the wrist's distance from the turret axis.
 struct Arm {
   double s1, c1, s2, c2, s3, c3, out_mm;
 
@@ -28,7 +28,7 @@ glm::dquat aboutZ(double angle_rad) { return {std::cos(0.5 * angle_rad), 0.0, 0.
 
 glm::dquat armTurn(const glm::dvec3& arm_rad) { return aboutY(-arm_rad.x) * aboutX(-arm_rad.z); }
 
-/// By whole turns to where the limits have it, if anywhere.
+/// Shifted by whole turns into the range, if possible.
 double turnedInto(const AngleRange& range, double angle_rad) {
   for (double turns : {0.0, -2.0 * kPi, 2.0 * kPi})
     if (range.contains(angle_rad + turns)) return angle_rad + turns;
@@ -73,7 +73,7 @@ std::optional<glm::dvec3> armAnglesFor(const PhantomGeometry& geometry, const Po
   if (!(std::abs(cos_bend) <= 1.0)) return std::nullopt;
   const double turret = std::atan2(-away.x, away.z);
 
-  // The shin's angle counts from hanging down, the plane's from straight out.
+  // The shin's angle is measured from hanging down, the bend's from straight out.
   for (double side : {1.0, -1.0})
     for (double bend : {-std::acos(cos_bend), std::acos(cos_bend)}) {
       const double thigh = std::atan2(up_mm, side * out_mm) - std::atan2(l2 * std::sin(bend), l1 + l2 * cos_bend);
@@ -86,7 +86,7 @@ std::optional<glm::dvec3> armAnglesFor(const PhantomGeometry& geometry, const Po
 }
 
 glm::dvec3 wristAnglesFor(const glm::dvec3& arm_rad, const glm::dquat& R_DH) {
-  // Ry(a) Rx(b) Rz(c), read off its matrix; GLM counts columns first.
+  // Ry(a) Rx(b) Rz(c), from its matrix; GLM is column-major.
   const glm::dmat3 m = glm::mat3_cast(glm::conjugate(armTurn(arm_rad)) * R_DH);
   return {std::atan2(m[2][0], m[2][2]), std::asin(std::clamp(m[2][1], -1.0, 1.0)), -std::atan2(m[0][1], m[1][1])};
 }

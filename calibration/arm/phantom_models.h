@@ -1,14 +1,15 @@
-// The Phantoms whose geometry is public: link lengths, where D stands, limits. Sources, reference/devices 4.1:
+// Phantoms with published geometry: link lengths, origin of D, limits. Sources (reference/devices 4.1):
 //   Omni/Touch   l1 = l2 = 133.35 mm (5.25 in) from the literature; shoulder (0, 23.35, -168.35) unverified, but with
-//                it all angles 0 are at (0, -110, -35), and the logged inkwell is within the limits. These: JHU's
+//                it all angles 0 are at (0, -110, -35), and the logged inkwell is within the limits. Limits: JHU's
 //                URDF, from CAD.
 //   Desktop/X    taken as the Omni's: nothing is published.
 //   Premium 1.5  l1 = 209.55 (8.25 in), l2 = 169.545 mm (6.675 in); all angles 0 at D's origin. Limits: Cavusoglu,
-//                Feygin, Tendick, Presence 2002. Its gimbal's limits are not published: the Omni's.
+//                Feygin, Tendick, Presence 2002. Gimbal limits are not published: the Omni's.
 // None was measured on a unit here. Constants; any thread.
 #pragma once
 
 #include <array>
+#include <string>
 #include <string_view>
 
 #include "calibration/arm/phantom_kinematics.h"
@@ -16,8 +17,8 @@
 
 namespace calibration {
 
-/// Of the URDF (yaw 3.92..8.83, pitch -0.5..1.75, roll +-2.58) by the published ROS drivers' convention, taken round to
-/// the gimbal's neutral at zero: g1 and g3 by half a turn, g2 mirrored.
+/// The URDF's limits (yaw 3.92..8.83, pitch -0.5..1.75, roll +-2.58) in the published ROS drivers' convention, shifted
+/// to the gimbal's neutral at zero: g1 and g3 by half a turn, g2 mirrored.
 inline constexpr std::array<AngleRange, 3> kOmniWrist = {{{-2.55, 2.36}, {-1.29, 0.96}, {-2.58, 2.58}}};
 
 inline constexpr PhantomGeometry kOmniGeometry = {
@@ -34,7 +35,7 @@ inline constexpr PhantomGeometry kPremium15Geometry = {209.55,
                                                        {radFromDegrees(-65.0), radFromDegrees(55.0)},
                                                        kOmniWrist};
 
-/// As observations and rig files name them: "omni", "touch", "desktop", "premium".
+/// Keys in observations and rig files.
 struct PhantomModel {
   std::string_view key;
   PhantomGeometry geometry;
@@ -44,14 +45,21 @@ inline constexpr std::array<PhantomModel, 4> kPhantomModels = {{{"omni", kOmniGe
                                                                 {"desktop", kDesktopGeometry},
                                                                 {"premium", kPremium15Geometry}}};
 
-/// Null: no model of this name.
+/// Null: unknown model.
 constexpr const PhantomModel* findPhantomModel(std::string_view key) {
   for (const PhantomModel& model : kPhantomModels)
     if (model.key == key) return &model;
   return nullptr;
 }
 
-/// Where an Omni in its inkwell says it is, logged by others with the vendor's library.
+/// "omni, touch, desktop, premium", for messages.
+inline std::string phantomModelKeys() {
+  std::string keys;
+  for (const PhantomModel& model : kPhantomModels) keys += (keys.empty() ? "" : ", ") + std::string(model.key);
+  return keys;
+}
+
+/// Position of an Omni in its inkwell, logged by others with the vendor's library.
 inline constexpr Point<Device> kOmniInkwell_D = {{0.0, -65.51071, -88.11420}};
 
 }  // namespace calibration

@@ -17,7 +17,7 @@ using Indices = std::vector<std::size_t>;
 
 constexpr std::array kModels = {ArmModel::rigid, ArmModel::joint_gains, ArmModel::full};
 constexpr std::size_t kAffineNumbers = 12;
-constexpr double kSimplerIsPreferred = 1.1;  ///< within this ratio of mean squares
+constexpr double kSimplerIsPreferred = 1.1;  ///< ratio of mean squares
 constexpr double kOtherTilt_rad = radFromDegrees(25.0);
 
 struct Candidate {
@@ -38,7 +38,7 @@ Candidate candidate(ArmModel model, const TouchAgreement& agreement, const Touch
   return c;
 }
 
-/// The best at touches it has not seen; of two nearly as good the simpler.
+/// The best on touches it was not fitted to; of two nearly equal ones the simpler.
 const Candidate& chosen(const std::vector<Candidate>& candidates, int used, double tilt_spread_deg) {
   std::size_t best = 0;
   for (std::size_t k = 1; k < candidates.size(); ++k) {
@@ -48,7 +48,7 @@ const Candidate& chosen(const std::vector<Candidate>& candidates, int used, doub
   return candidates[best];
 }
 
-/// What the parameters' uncertainty leaves of the tip if at the same places the stylus were held otherwise.
+/// Predicted tip error at the same positions with other stylus tilts, from the covariance of the parameters.
 double unseenTilts_mm(const TouchAgreement& agreement, const TouchSet& set, const KinematicFit& fit) {
   const std::size_t n = fit.fitted.size();
   if (fit.covariance.empty()) return 0.0;
@@ -70,7 +70,7 @@ double unseenTilts_mm(const TouchAgreement& agreement, const TouchSet& set, cons
   return std::sqrt(sum / count);
 }
 
-/// Root mean square of the residuals that the touches' precision alone would leave after so many parameters.
+/// Expected RMS of the residuals from the touches' precision alone.
 double expectedFre_mm(const TouchPrecision& precision, double effective_parameters, std::size_t n) {
   const glm::dvec3 sigma = touchSigma_mm(precision, 0.0);
   return std::sqrt(glm::dot(sigma, sigma) * std::max(0.0, 1.0 - effective_parameters / static_cast<double>(3 * n)));

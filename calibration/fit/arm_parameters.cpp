@@ -14,13 +14,12 @@ glm::dvec3 three(const ArmParameters& parameters, std::size_t first) {
   return {parameters[first], parameters[first + 1], parameters[first + 2]};
 }
 
-/// d exp(turn) p / d turn = -[exp(turn) p]x this: the left Jacobian of rotations.
+/// d exp(r) p / dr = -[exp(r) p]x times this: the left Jacobian of rotations.
 glm::dmat3 leftJacobian(const glm::dvec3& turn_rad) {
   const double a = glm::length(turn_rad);
   if (a < 1e-8) return glm::dmat3(1.0);
   const glm::dvec3 u = turn_rad / a;
-  const glm::dmat3 cross(0.0, u.z, -u.y, -u.z, 0.0, u.x, u.y, -u.x, 0.0);
-  return std::sin(a) / a * glm::dmat3(1.0) + (1.0 - std::cos(a)) / a * cross +
+  return std::sin(a) / a * glm::dmat3(1.0) + (1.0 - std::cos(a)) / a * crossMatrix(u) +
          (1.0 - std::sin(a) / a) * glm::outerProduct(u, u);
 }
 
@@ -40,7 +39,7 @@ ArmCorrection corrected(ArmCorrection correction, const ArmParameters& parameter
   return correction;
 }
 
-/// How the tip moves in D with each of the arm's six angles, and with lengths, tilt and reach.
+/// Derivatives of the tip in D by the six angles, the lengths, tilt and reach.
 struct DeviceSlopes {
   glm::dvec3 tip_D;
   std::array<glm::dvec3, 6> by_angle;
@@ -68,7 +67,7 @@ struct DeviceSlopes {
     by_tilt = out_of_turret(-up_mm * ct, -up_mm * st, 0.0);
     by_reach = in_arm_plane(0.0, 1.0);
 
-    // The turret turns all, the thigh moves the wrist, the shin moves it and turns the handle, the gimbal turns it.
+    // Turret: everything; thigh: the wrist; shin: the wrist and the handle's rotation; gimbal: the handle's rotation.
     const double sg = std::sin(joints.wrist_rad.x), cg = std::cos(joints.wrist_rad.x);
     const glm::dvec3 shin_axis(-c1, 0.0, -s1), yaw_axis(s1 * s3, c3, -c1 * s3);
     const glm::dvec3 forward = glm::cross(-shin_axis, yaw_axis);
@@ -106,7 +105,7 @@ TipJacobian tipJacobian(const ArmStart& start, const ArmParameters& parameters, 
   TipJacobian slopes;
   slopes.tip_W_mm = R_WD * in_D.tip_D + arm.X_WD.translation_mm;
 
-  // The turn's lever reaches from the middle to the tip before the shift.
+  // The rotation's lever: from the centre to the tip before the translation.
   const glm::dvec3 from_middle_mm = slopes.tip_W_mm - three(parameters, kShift) - start.middle_W.mm;
   const glm::dmat3 left = leftJacobian(three(parameters, kTurn));
   for (std::size_t i = 0; i < 3; ++i) {

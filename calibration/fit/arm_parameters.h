@@ -1,13 +1,11 @@
-// The 28 parameters of a measured arm: six of where it stands, 22 of how it differs from its model, with what is
-// believed of each before any touch; and how the tip moves with each of them. Pose parameters are a turn about, and a
-// shift of, the middle of the targets from a start that is already near: so they hardly pull at each other. Frames W
-// and D; mm, rad. Pure; any thread; a tip with its slopes about 0.5 us. Prior sigmas:
-// reference/calibration 2.1, 3.1, 1.6 to 2.5 times what is assumed of typical units.
+// The 28 parameters of a measured arm: 6 of the base's pose, 22 of the arm's correction, with their priors; and the
+// Jacobian of the tip. The pose parameters are a rotation about, and a translation of, the centre of the targets from a
+// near start, so that they are nearly uncorrelated. Frames W and D; mm, rad. Pure; any thread; about 0.5 us for a tip
+// and its Jacobian. Prior sigmas: reference/calibration 2.1, 3.1, 1.6 to 2.5 times the sizes assumed for typical units.
 #pragma once
 
 #include <array>
 #include <cstddef>
-#include <string_view>
 #include <vector>
 
 #include "calibration/arm/arm_correction.h"
@@ -17,51 +15,25 @@ namespace calibration {
 
 enum class ArmModel { rigid, joint_gains, full };
 
-struct ArmParameter {
-  std::string_view name;
-  double prior_sigma = 0.0;  ///< 0: nothing is believed
-};
+inline constexpr double kDegree = radFromDegrees(1.0);
 
-inline constexpr std::array<ArmParameter, 28> kArmParameters = {{
-    {"turn_x_rad", 0.0},
-    {"turn_y_rad", 0.0},
-    {"turn_z_rad", 0.0},
-    {"shift_x_mm", 0.0},
-    {"shift_y_mm", 0.0},
-    {"shift_z_mm", 0.0},
-    {"tip_x_mm", 1.0},
-    {"tip_y_mm", 1.0},
-    {"tip_z_mm", 1.0},
-    {"turret_offset_rad", radFromDegrees(1.0)},
-    {"thigh_offset_rad", radFromDegrees(1.0)},
-    {"shin_offset_rad", radFromDegrees(1.0)},
-    {"turret_gain", 0.01},
-    {"thigh_gain", 0.01},
-    {"shin_gain", 0.01},
-    {"turret_quadratic_per_rad", 0.01},
-    {"thigh_quadratic_per_rad", 0.01},
-    {"shin_quadratic_per_rad", 0.01},
-    {"thigh_more_mm", 0.7},
-    {"shin_more_mm", 0.7},
-    {"gimbal_1_offset_rad", radFromDegrees(2.0)},
-    {"gimbal_2_offset_rad", radFromDegrees(2.0)},
-    {"gimbal_3_offset_rad", radFromDegrees(2.0)},
-    {"gimbal_1_gain", 0.03},
-    {"gimbal_2_gain", 0.03},
-    {"gimbal_3_gain", 0.03},
-    {"shoulder_tilt_rad", radFromDegrees(0.3)},
-    {"reach_more_mm", 0.5},
-}};
-using ArmParameters = std::array<double, kArmParameters.size()>;
+/// One sigma of the prior of each parameter; 0: no prior. In order: rotation about x, y, z (rad) and translation (mm)
+/// of the base; tip in H (mm); offsets (rad), gains and quadratic terms (1/rad) of turret, thigh and shin; lengths of
+/// thigh and shin (mm); offsets (rad) and gains of the gimbal; shoulder tilt (rad); reach (mm).
+inline constexpr std::array<double, 28> kArmPriorSigma = {
+    0.0,           0.0,           0.0,           0.0,  0.0,  0.0,  1.0,           1.0,  1.0, kDegree,
+    kDegree,       kDegree,       0.01,          0.01, 0.01, 0.01, 0.01,          0.01, 0.7, 0.7,
+    2.0 * kDegree, 2.0 * kDegree, 2.0 * kDegree, 0.03, 0.03, 0.03, 0.3 * kDegree, 0.5};
+using ArmParameters = std::array<double, kArmPriorSigma.size()>;
 
-/// Which of them a model fits: rigid 6, joint gains and offsets with the tip 15, full 28.
+/// Parameters fitted by a model: rigid 6, joint gains and offsets with the tip 15, full 28.
 std::vector<std::size_t> parametersOf(ArmModel model);
 
-/// Where all parameters are zero: the arm as its model, or as it is believed to differ from it, standing here.
+/// The arm for which all parameters are zero.
 struct ArmStart {
   PhantomGeometry geometry;
   Pose<World, Device> X_WD;
-  Point<World> middle_W;  ///< what the pose parameters turn about
+  Point<World> middle_W;  ///< centre of the pose parameters' rotation
   ArmCorrection correction{};
 };
 
@@ -69,7 +41,7 @@ MeasuredArm armOf(const ArmStart& start, const ArmParameters& parameters);
 
 struct TipJacobian {
   glm::dvec3 tip_W_mm{0.0};
-  std::array<glm::dvec3, kArmParameters.size()> by_parameter{};  ///< d tip / d number
+  std::array<glm::dvec3, kArmPriorSigma.size()> by_parameter{};  ///< d tip / d parameter
 };
 TipJacobian tipJacobian(const ArmStart& start, const ArmParameters& parameters, const RawJoints& raw_rad);
 

@@ -7,18 +7,18 @@ namespace calibration {
 ArmProblem::ArmProblem(const ArmStart& start, const std::vector<Touch>& touches, std::span<const std::size_t> which,
                        std::span<const std::size_t> parameters, double cauchy)
     : start_(start), touches_(touches), which_(which), parameters_(parameters) {
-  least_squares.residuals = 3 * which.size();
-  least_squares.groups.assign(which.size(), {3, cauchy});
-  for (const std::size_t k : parameters) least_squares.priors.push_back({0.0, kArmParameters[k].prior_sigma});
-  least_squares.residuals_at = [this](std::span<const double> x, std::span<double> r) { residuals(x, r); };
-  least_squares.jacobian_at = [this](std::span<const double> x, std::span<double> J) { jacobian(x, J); };
+  min_squares.residuals = 3 * which.size();
+  min_squares.groups.assign(which.size(), {3, cauchy});
+  for (const std::size_t k : parameters) min_squares.priors.push_back({0.0, kArmPriorSigma[k]});
+  min_squares.residuals_at = [this](std::span<const double> x, std::span<double> r) { residuals(x, r); };
+  min_squares.jacobian_at = [this](std::span<const double> x, std::span<double> J) { jacobian(x, J); };
 }
 
 LeastSquaresResult ArmProblem::solvedFrom(const ArmParameters& parameters, const glm::dvec3& sigma_mm) {
   sigma_mm_ = sigma_mm;
-  least_squares.start.clear();
-  for (const std::size_t k : parameters_) least_squares.start.push_back(parameters[k]);
-  return solved(least_squares);
+  min_squares.start.clear();
+  for (const std::size_t k : parameters_) min_squares.start.push_back(parameters[k]);
+  return solved(min_squares);
 }
 
 ArmParameters ArmProblem::all(std::span<const double> x) const {

@@ -1,5 +1,5 @@
-// The touches' least squares of some of an arm's parameters: where the arm has the tip, less where it was. Frame W, mm,
-// rad. Any thread but the servo's. Touches, start and parameters are borrowed.
+// Least squares of touches over some of an arm's parameters: tip by the arm minus target. Frame W, mm, rad. Any thread
+// but the servo's. Touches, start and parameters are borrowed.
 #pragma once
 
 #include <span>
@@ -13,7 +13,7 @@ namespace calibration {
 
 class ArmProblem {
  public:
-  /// Touches at these indices; the parameters (of kArmParameters) under their priors. `cauchy` of a touch, in sigmas.
+  /// Touches and parameters by index, the parameters under their priors. `cauchy`: of a touch, in sigmas.
   ArmProblem(const ArmStart& start, const std::vector<Touch>& touches, std::span<const std::size_t> which,
              std::span<const std::size_t> parameters, double cauchy);
   ArmProblem(const ArmProblem&) = delete;
@@ -21,10 +21,10 @@ class ArmProblem {
 
   /// `sigma_mm`: of a touch, an axis of W.
   LeastSquaresResult solvedFrom(const ArmParameters& parameters, const glm::dvec3& sigma_mm);
-  /// Zero those that are not fitted.
+  /// All parameters from those fitted, 0 for the others.
   ArmParameters all(std::span<const double> x) const;
 
-  LeastSquares least_squares;  ///< priors and limits may be changed before it is solved
+  LeastSquares min_squares;  ///< priors and limits may be changed before solving
 
  private:
   void residuals(std::span<const double> x, std::span<double> r) const;
@@ -36,7 +36,7 @@ class ArmProblem {
   glm::dvec3 sigma_mm_{1.0};
 };
 
-/// Root mean square distance of the arm's tips from where they were, over the touches at these indices.
+/// Root mean square tip error over the touches at these indices.
 double rms_mm(const MeasuredArm& arm, const std::vector<Touch>& touches, std::span<const std::size_t> which);
 
 }  // namespace calibration

@@ -14,27 +14,27 @@ using Indices = std::vector<std::size_t>;
 constexpr std::size_t kFolds = 5, kFewPlaces = 20;
 constexpr double kSamePlace_mm = 1.0;
 
-/// The fold of each touch: places are dealt in the order they were touched in, those of touches that do not count too,
-/// so that one wild touch does not deal the others anew.
+/// The fold of each touch. Positions are dealt in touching order, rejected touches included, so that one outlier does
+/// not change the folds of the others.
 struct Folds {
   Indices of_touch;
   std::size_t count = kFolds;
 
   explicit Folds(const std::vector<Touch>& touches) {
-    std::vector<glm::dvec3> places;
+    std::vector<glm::dvec3> positions;
     for (const Touch& touch : touches) {
       const glm::dvec3& here = touch.target_W.mm;
       const auto known =
-          std::ranges::find_if(places, [&](const glm::dvec3& p) { return glm::distance(p, here) < kSamePlace_mm; });
-      of_touch.push_back(static_cast<std::size_t>(known - places.begin()));
-      if (known == places.end()) places.push_back(here);
+          std::ranges::find_if(positions, [&](const glm::dvec3& p) { return glm::distance(p, here) < kSamePlace_mm; });
+      of_touch.push_back(static_cast<std::size_t>(known - positions.begin()));
+      if (known == positions.end()) positions.push_back(here);
     }
-    if (places.size() < kFewPlaces) count = places.size();
+    if (positions.size() < kFewPlaces) count = positions.size();
     for (std::size_t& fold : of_touch) fold %= count;
   }
 };
 
-/// The mean over all touches of `errors_mm2(seen, asked)`: sums of squares, an axis, over those asked by what was seen.
+/// Mean over all touches of `errors_mm2(seen, asked)`: sums of squares per axis over `asked`, predicted from `seen`.
 template <class Errors>
 glm::dvec3 overFolds_mm2(const std::vector<Touch>& touches, std::span<const std::size_t> which, Errors errors_mm2) {
   const Folds folds(touches);
@@ -49,12 +49,12 @@ glm::dvec3 overFolds_mm2(const std::vector<Touch>& touches, std::span<const std:
 
 double rootOfSum(const glm::dvec3& squares) { return std::sqrt(squares.x + squares.y + squares.z); }
 
-/// Nominal tips, in W by the start so that the parameters are of one size.
+/// Nominal tips in W about the centre, so that the parameters have similar scale.
 glm::dvec3 nominalTip_mm(const ArmStart& start, const Touch& touch) {
   return armOf(start, {}).tip_W(touch.joints_rad).mm - start.middle_W.mm;
 }
 
-/// p_W of a nominal tip and a constant 1.
+/// Maps a homogeneous nominal tip to p_W.
 std::optional<glm::dmat4x3> affineFit(const ArmStart& start, const std::vector<Touch>& touches,
                                       std::span<const std::size_t> which) {
   if (which.size() < 5) return std::nullopt;
@@ -65,7 +65,7 @@ std::optional<glm::dmat4x3> affineFit(const ArmStart& start, const std::vector<T
     normal += glm::outerProduct(h, h);
     right += glm::outerProduct(touches[i].target_W.mm, h);
   }
-  // Flat to within half a millimetre: nothing is known across.
+  // Flat within half a millimetre: undetermined across the plane.
   const Eigen::LLT<Eigen::Matrix4d> factor(Eigen::Matrix4d::Map(glm::value_ptr(normal)));
   const double least = 0.5 * std::sqrt(static_cast<double>(which.size()));
   if (factor.info() != Eigen::Success || factor.matrixLLT().diagonal().head<3>().minCoeff() < least)

@@ -1,7 +1,6 @@
-// How well a model foretells touches it has not seen: fitted to four fifths, asked of the rest, five times; touches of
-// one place stay together. Of few touches each place is left out alone: a fifth of eight is missed more than its worth.
-// Also the affine map of nominal tips, for comparison alone. Frame W, mm. Any thread but the servo's; about 1 ms for 27
-// touches.
+// Cross-validation of an arm model: fitted to four fifths of the touches, tested on the rest, five times; touches of
+// one position stay together. Below 20 positions, one position is left out at a time. Also the affine map of nominal
+// tips, for comparison only. Frame W, mm. Any thread but the servo's; about 1 ms for 27 touches.
 #pragma once
 
 #include <optional>
@@ -12,12 +11,12 @@ namespace calibration {
 
 struct CrossValidation {
   double rms_mm = 0.0;
-  /// Over what touches of this precision and a usual mismatch would be off, an axis: what models are compared by, for
-  /// along the line of sight touches by eye tell little.
+  /// In sigmas of a touch of this precision and usual mismatch, per axis: models are compared by this, because touches
+  /// by eye say little along the line of sight.
   double relative = 0.0;
 };
 
-/// Over the touches at these indices, each foretold without its fifth. `whole`: the fit of all of them.
+/// Over the touches at these indices. `whole`: the fit of all of them.
 CrossValidation crossValidated(const ArmStart& start, const std::vector<Touch>& touches,
                                std::span<const std::size_t> which, const TouchPrecision& precision,
                                const KinematicFit& whole);

@@ -1,7 +1,7 @@
-// Where the tip's error is expected, at a place, after a rigid fit of touches: small in their middle, growing outside;
-// it shows where to touch more. TRE^2 = FLE^2 / N (1 + 1/3 sum_k d_k^2 / f_k^2), d_k the place's and f_k the targets'
-// distance from their k-th main axis. Frame W, mm. Any thread; a few flops a place. Not a measured error: only touches
-// that were not fitted tell that. Source: Fitzpatrick, West, Maurer, IEEE TMI 17, 1998, eq. 46.
+// Expected tip error at a point after a rigid fit: small amid the targets, growing outside; shows where more touches
+// are needed. TRE^2 = FLE^2 / N (1 + 1/3 sum_k d_k^2 / f_k^2), d_k and f_k the distances of the point and of the
+// targets from their k-th principal axis. Frame W, mm. Any thread; a few flops. Not a measured error. Source:
+// Fitzpatrick, West, Maurer, IEEE TMI 17, 1998, eq. 46.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@ namespace calibration {
 
 class ExpectedErrorMap {
  public:
-  /// `fle_mm`: root mean square distance of one touch from where it should be.
+  /// `fle_mm`: RMS fiducial localisation error of one touch.
   ExpectedErrorMap(const std::vector<Point<World>>& targets_W, double fle_mm);
   double at_mm(const Point<World>& position_W) const;
 

@@ -9,9 +9,9 @@ namespace {
 
 constexpr double kEnoughOfRegion = 0.6;
 constexpr double kManyOutliers = 0.1;
-constexpr double kOptimistic = 2.0;  ///< foretold error at unseen tilts over the cross-validated
-constexpr double kMatters_mm = 0.3;  ///< an error below this is nothing to warn of
-constexpr double kOverFitted = 3.0;  ///< cross-validated error over that of the touches fitted
+constexpr double kOptimistic = 2.0;  ///< predicted error at unseen tilts over the cross-validated one
+constexpr double kMatters_mm = 0.3;  ///< smaller errors give no warning
+constexpr double kOverFitted = 3.0;  ///< cross-validated error over that of the fitted touches
 
 }  // namespace
 
@@ -20,7 +20,7 @@ std::vector<FitWarning> fitWarnings(const FitEvidence& e) {
   std::vector<FitWarning> warnings;
   if (e.may_be_mirrored)
     warnings.push_back({Kind::mirrored,
-                        "the touches fit a mirrored picture better, by which way the stylus points or by themselves: "
+                        "the touches fit a mirrored image better, by the stylus direction or by themselves: "
                         "check that the drawn F reads right, or that the device does stand behind the screen"});
   if (e.used < kGoodCount)
     warnings.push_back(
@@ -43,12 +43,12 @@ std::vector<FitWarning> fitWarnings(const FitEvidence& e) {
                      e.cv_rms_mm, e.unseen_tilts_rms_mm)});
   if (e.outliers > kManyOutliers * (e.used + e.outliers))
     warnings.push_back({Kind::many_outliers,
-                        fmt::format("{} of {} touches fit no common arm: check that the jig is fast and the order of "
+                        fmt::format("{} of {} touches fit no common arm: check that the jig is fixed and the order of "
                                     "the targets kept",
                                     e.outliers, e.used + e.outliers)});
   if (e.cv_rms_mm > std::max(kMatters_mm, kOverFitted * e.fre_rms_mm))
     warnings.push_back(
-        {Kind::over_fitted, fmt::format("{:.2f} mm at the touches fitted say nothing: touches left out were off "
+        {Kind::over_fitted, fmt::format("{:.2f} mm at the fitted touches are not reliable: held-out touches were off "
                                         "by {:.2f} mm; take more touches",
                                         e.fre_rms_mm, e.cv_rms_mm)});
   return warnings;

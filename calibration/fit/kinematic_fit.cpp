@@ -8,17 +8,17 @@
 namespace calibration {
 namespace {
 
-constexpr double kCauchy = 5.0;  ///< of a touch, in sigmas: its weight is halved there
-/// What those weights leave of the mean square of three normal errors.
+constexpr double kCauchy = 5.0;  ///< of a touch, in sigmas: half weight there
+/// Fraction of the mean square of three normal errors that these weights leave.
 constexpr double kWeightsLeave = 0.842;
 constexpr int kRounds = 12;
-constexpr double kSettled = 0.02;  ///< of the mismatch
-// What mismatch is expected: 0.15 mm, give or take a factor of three; looked for within these.
+constexpr double kSettled = 0.02;  ///< relative change of the mismatch
+// Prior of the mismatch: 0.15 mm within a factor of three; search range.
 constexpr double kMismatchFactor = 3.0;
-constexpr double kLeastMismatch_mm = 1e-3, kMostMismatch_mm = 10.0;
+constexpr double kMinMismatch_mm = 1e-3, kMaxMismatch_mm = 10.0;
 
-/// The most probable mismatch under these errors, of which the fit has taken up a share. On a logarithmic scale, by
-/// golden section: the sum has one valley.
+/// Most probable mismatch for these residuals, corrected for the fitted parameters. Golden section on a logarithmic
+/// scale; the objective is unimodal.
 double probableMismatch_mm(const std::vector<glm::dvec3>& errors_mm, const TouchPrecision& precision,
                            double effective_parameters) {
   const double left =
@@ -31,7 +31,7 @@ double probableMismatch_mm(const std::vector<glm::dvec3>& errors_mm, const Touch
     return sum;
   };
   const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
-  double low = std::log(kLeastMismatch_mm), high = std::log(kMostMismatch_mm);
+  double low = std::log(kMinMismatch_mm), high = std::log(kMaxMismatch_mm);
   double a = high - golden * (high - low), b = low + golden * (high - low);
   double at_a = unlikely(a), at_b = unlikely(b);
   while (high - low > 0.005) {
@@ -59,7 +59,7 @@ KinematicFit kinematicFit(const ArmStart& start, const std::vector<Touch>& touch
   fit.mismatch_mm = near ? near->mismatch_mm : 2.0 * kUsualMismatch_mm;
   ArmProblem problem(start, touches, which, fit.fitted, kCauchy);
   LeastSquaresResult result;
-  // The parameters at a mismatch, the mismatch from what they leave.
+  // Alternate: parameters at a mismatch, mismatch from their residuals.
   for (int round = 0; round < kRounds; ++round) {
     result = problem.solvedFrom(fit.parameters, touchSigma_mm(precision, fit.mismatch_mm));
     fit.parameters = problem.all(result.parameters);

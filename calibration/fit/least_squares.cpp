@@ -13,13 +13,12 @@ namespace {
 using Eigen::Index, Eigen::VectorXd, Eigen::MatrixXd;
 
 constexpr double kFirstDamping = 1e-4, kLargestDamping = 1e16;
-constexpr double kDifference = 1e-6;
 constexpr double kNothing = 1e-28;  ///< a cost below this share of a residual is zero
 
 std::span<double> spanOf(VectorXd& v) { return {v.data(), static_cast<std::size_t>(v.size())}; }
 std::span<const double> spanOf(const VectorXd& v) { return {v.data(), static_cast<std::size_t>(v.size())}; }
 
-/// None: not positive definite. A pivot that rounding alone could have left is none.
+/// None: not positive definite, up to rounding.
 std::optional<Eigen::LLT<MatrixXd>> factored(const MatrixXd& matrix) {
   Eigen::LLT<MatrixXd> factor(matrix);
   const Eigen::ArrayXd pivots = factor.matrixLLT().diagonal().array().square();
@@ -28,7 +27,7 @@ std::optional<Eigen::LLT<MatrixXd>> factored(const MatrixXd& matrix) {
   return definite ? std::optional(std::move(factor)) : std::nullopt;
 }
 
-/// The problem at one place: residuals, weights, cost; and its normal equations.
+/// Residuals, weights, cost and normal equations at one point.
 class Linearised {
  public:
   explicit Linearised(const LeastSquares& problem)
@@ -38,6 +37,7 @@ class Linearised {
         jacobian_(r_.size(), static_cast<Index>(problem.start.size())),
         prior_middle_(VectorXd::Zero(jacobian_.cols())),
         prior_information_(prior_middle_) {
+    assert(problem.jacobian_at);
     assert(problem.priors.empty() || problem.priors.size() == problem.start.size());
     Index k = 0;
     for (const LeastSquares::Prior& prior : problem.priors) {
@@ -46,7 +46,7 @@ class Linearised {
     }
   }
 
-  /// Half the sum of kernels; NaN where the place can not be evaluated.
+  /// Half the sum of kernels; NaN where the residuals are undefined.
   double costAt(const VectorXd& x) {
     problem_.residuals_at(spanOf(x), spanOf(r_));
     double twice = prior_information_.dot((x - prior_middle_).cwiseAbs2());
@@ -62,9 +62,10 @@ class Linearised {
     return 0.5 * twice;
   }
 
-  /// At the place last asked the cost of.
+  /// At the point of the last costAt().
   void linearise(const VectorXd& x) {
-    fillJacobian(x);
+    jacobian_.setZero();
+    problem_.jacobian_at(spanOf(x), {jacobian_.data(), static_cast<std::size_t>(jacobian_.size())});
     const MatrixXd weighed = row_weight_.asDiagonal() * jacobian_;
     information_.noalias() = jacobian_.transpose() * weighed;
     slope_ = weighed.transpose() * r_ + prior_information_.cwiseProduct(x - prior_middle_);
@@ -73,27 +74,11 @@ class Linearised {
   }
 
   const MatrixXd& information() const { return information_; }  ///< J^T W J
-  const MatrixXd& curvature() const { return curvature_; }      ///< with the priors
-  const VectorXd& slope() const { return slope_; }              ///< with the priors
+  const MatrixXd& curvature() const { return curvature_; }      ///< with priors
+  const VectorXd& slope() const { return slope_; }              ///< with priors
   const VectorXd& rowWeights() const { return row_weight_; }
 
  private:
-  void fillJacobian(const VectorXd& x) {
-    jacobian_.setZero();
-    if (problem_.jacobian_at)
-      return problem_.jacobian_at(spanOf(x), {jacobian_.data(), static_cast<std::size_t>(jacobian_.size())});
-    VectorXd moved = x, above(r_.size()), below(r_.size());
-    for (Index k = 0; k < x.size(); ++k) {
-      const double step = kDifference / (prior_information_[k] > 0.0 ? std::sqrt(prior_information_[k]) : 1.0);
-      moved[k] = x[k] + step;
-      problem_.residuals_at(spanOf(moved), spanOf(above));
-      moved[k] = x[k] - step;
-      problem_.residuals_at(spanOf(moved), spanOf(below));
-      moved[k] = x[k];
-      jacobian_.col(k) = (above - below) / (2.0 * step);
-    }
-  }
-
   const LeastSquares& problem_;
   VectorXd r_, row_weight_;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> jacobian_;
@@ -101,7 +86,7 @@ class Linearised {
   MatrixXd information_, curvature_;
 };
 
-/// The step -(curvature + damping of its diagonal)^-1 slope. None: not positive definite.
+/// -(curvature + damping of its diagonal)^-1 slope. None: not positive definite.
 std::optional<VectorXd> dampedStep(const Linearised& at, double damping) {
   MatrixXd matrix = at.curvature();
   const VectorXd own = matrix.diagonal();
@@ -111,7 +96,7 @@ std::optional<VectorXd> dampedStep(const Linearised& at, double damping) {
   return VectorXd(-factor->solve(at.slope()));
 }
 
-/// What the quadratic model promises.
+/// Decrease predicted by the quadratic model.
 double promised(const Linearised& at, const VectorXd& step) {
   return -step.dot(at.slope() + 0.5 * (at.curvature() * step));
 }
@@ -144,7 +129,7 @@ LeastSquaresResult solved(const LeastSquares& problem) {
   while (result.iterations < problem.max_iterations && !result.converged) {
     at.linearise(parameters);
     ++result.iterations;
-    // Damping grows until a step is better than where it starts.
+    // Increase damping until a step lowers the cost.
     for (bool better = false; !better && !result.converged;) {
       const auto step = dampedStep(at, damping);
       const double gain_promised = step ? promised(at, *step) : 0.0;
@@ -159,7 +144,7 @@ LeastSquaresResult solved(const LeastSquares& problem) {
         parameters += *step;
         result.cost = cost;
       } else {
-        // Nothing left to gain, or no step that is any use.
+        // No decrease possible, or no usable step.
         result.converged = step && gain_promised <= std::max(problem.relative_tolerance * result.cost, zero_cost);
         damping *= growth;
         growth *= 2.0;

@@ -12,16 +12,16 @@
 namespace calibration {
 namespace {
 
-// A turn and a shift of the base, the tip, offsets of six joints.
+// Rotation and translation of the base, the tip, offsets of six joints.
 constexpr std::array<std::size_t, 15> kQuickNumbers = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 20, 21, 22};
 constexpr std::array<double, 15> kSigma = {0.1, 0.1,   0.1,   30.0,  30.0, 30.0, 1.0, 1.0,
                                            1.0, 0.015, 0.015, 0.015, 0.02, 0.02, 0.02};
-constexpr double kMismatch_mm = 0.3;  ///< what so few parameters can not say of an arm, an axis
+constexpr double kMismatch_mm = 0.3;  ///< model error of so few parameters, an axis
 constexpr double kCauchy = 3.0;
-constexpr std::size_t kLeastTouches = 4;
-constexpr double kDoubt = 3.0, kLeastDoubt = 4.5;  ///< robust sigmas; and sigmas of a touch, of which it is never less
+constexpr std::size_t kMinTouches = 4;
+constexpr double kDoubt = 3.0, kMinDoubt = 4.5;  ///< robust sigmas; lower limit in sigmas of a touch
 
-/// What is left at a touch when it had no say: (I - w J C J^T)^-1 r; each axis over its sigma.
+/// Leave-one-out residual of a touch: (I - w J C J^T)^-1 r; each axis in sigmas.
 glm::dvec3 leftOut(const TipJacobian& tip, const std::vector<double>& covariance, const Touch& touch, double weight,
                    const glm::dvec3& sigma_mm) {
   const glm::dvec3 left = (tip.tip_W_mm - touch.target_W.mm) / sigma_mm;
@@ -42,21 +42,21 @@ QuickFit quickFit(const MeasuredArm& start, const TouchSet& set) {
   const std::vector<Touch>& touches = set.touches;
   const glm::dvec3 sigma_mm = touchSigma_mm(set.precision, kMismatch_mm);
   quick.left_out_mm.assign(touches.size(), {});
-  if (touches.size() < kLeastTouches) return quick;
+  if (touches.size() < kMinTouches) return quick;
 
-  // The base turns about its own origin.
+  // Rotate the base about its own origin.
   const ArmStart from{start.geometry, start.X_WD, {start.X_WD.translation_mm}, start.correction};
   std::vector<std::size_t> all(touches.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   ArmProblem problem(from, touches, all, kQuickNumbers, kCauchy);
-  problem.least_squares.priors.clear();
-  for (const double sigma : kSigma) problem.least_squares.priors.push_back({0.0, sigma});
-  problem.least_squares.max_iterations = 20;
+  problem.min_squares.priors.clear();
+  for (const double sigma : kSigma) problem.min_squares.priors.push_back({0.0, sigma});
+  problem.min_squares.max_iterations = 20;
   const LeastSquaresResult fit = problem.solvedFrom({}, sigma_mm);
   const ArmParameters parameters = problem.all(fit.parameters);
   quick.arm = armOf(from, parameters);
 
-  // How far each is from where the others foretell it.
+  // Leave-one-out errors.
   std::vector<double> errors;
   std::vector<double> left_mm;
   for (std::size_t i = 0; i < touches.size(); ++i) {
@@ -72,7 +72,7 @@ QuickFit quickFit(const MeasuredArm& start, const TouchSet& set) {
   const double middle = medianOf(errors);
   std::vector<double> spread;
   for (const double error : errors) spread.push_back(std::abs(error - middle));
-  const double limit = std::max(kLeastDoubt, middle + kDoubt * 1.4826 * medianOf(spread));
+  const double limit = std::max(kMinDoubt, middle + kDoubt * 1.4826 * medianOf(spread));
   for (std::size_t i = 0; i < errors.size(); ++i) quick.doubtful[i] = errors[i] > limit;
   return quick;
 }

@@ -1,6 +1,5 @@
-// Where the hand rest stands: three touches of marks whose places on it are known give its pose, three more prove it.
-// A rest that is drawn more than 2 mm off its place misleads the hand (reference/calibration 5). Frame W and the
-// rest's own; mm. Any thread; microseconds.
+// Registration of the hand rest: three touches of known marks give its pose, three more verify it. A rest drawn more
+// than 2 mm off misleads the hand (reference/calibration 5). Frame W and the rest's own; mm. Any thread; microseconds.
 #pragma once
 
 #include <vector>
@@ -19,15 +18,15 @@ struct MarkTouch {
 struct RestRegistration {
   glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  ///< X_W,rest
   glm::dvec3 translation_mm{0.0};
-  double fre_rms_mm = 0.0;  ///< over the marks it was made of
-  double worst_mm = 0.0;    ///< over those that prove it
+  double fre_rms_mm = 0.0;  ///< over the fitted marks
+  double worst_mm = 0.0;    ///< over the verifying marks
 
   Point<World> position_W(const glm::dvec3& mark_mm) const { return {rotation * mark_mm + translation_mm}; }
 };
 inline constexpr double kMaxRestError_mm = 2.0;
 
-/// Throws CalibrationError for fewer than three marks, marks on a line, numbers not finite, or touches that lie unlike
-/// their marks by more than 3 mm: another order, another rest.
+/// Throws CalibrationError for fewer than three marks, marks on a line, numbers not finite, or distances that differ
+/// from the marks' by more than 3 mm (wrong order, another rest).
 RestRegistration registerRest(const std::vector<MarkTouch>& made_of, const std::vector<MarkTouch>& proved_by);
 
 }  // namespace calibration

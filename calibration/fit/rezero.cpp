@@ -14,15 +14,15 @@
 namespace calibration {
 namespace {
 
-/// What a good calibration leaves at a touch, an axis: no touch is trusted further than that.
+/// Model error left by a good calibration, an axis.
 constexpr double kLeft_mm = 0.15;
-/// A touch that the others contradict by more than this, and by so many times what they differ among themselves.
+/// An outlier: this far from the prediction of the others, and so many times their own RMS.
 constexpr double kStrayPit_mm = 1.8, kStrayPitTimes = 4.0;
-constexpr std::size_t kFewestPits = 3;
-constexpr double kNarrowPits_mm = 5.0;  ///< targets this near to a line say nothing of the turn about it
+constexpr std::size_t kMinPits = 3;
+constexpr double kNarrowPits_mm = 5.0;  ///< targets nearer to a line leave the rotation about it undetermined
 
-/// Turn about the targets' middle, shift, offsets of the three joints; by their priors a homing is rarely off by more
-/// than a degree, and of the pose nothing is believed beforehand.
+/// Rotation about the targets' centre, translation, offsets of the three joints, under their priors: homing is rarely
+/// off by more than a degree; the pose has no prior.
 constexpr std::array<std::size_t, 9> kRezeroNumbers = {0, 1, 2, 3, 4, 5, 9, 10, 11};
 
 using Touches = std::vector<Touch>;
@@ -30,7 +30,7 @@ using Indices = std::vector<std::size_t>;
 
 [[noreturn]] void refuseRezero(const std::string& what) { throw CalibrationError("re-zero: " + what); }
 
-/// How far the targets reach to the sides of the line through the two that are farthest apart.
+/// Largest distance of a target from the line through the two farthest targets.
 double width_mm(const Touches& touches) {
   glm::dvec3 from{0.0}, line{0.0};
   for (const Touch& a : touches)
@@ -47,11 +47,11 @@ double width_mm(const Touches& touches) {
 }
 
 void check(const Touches& touches) {
-  if (touches.size() < kFewestPits)
+  if (touches.size() < kMinPits)
     refuseRezero(std::to_string(touches.size()) + " touches, at least 3 are needed: touch the 5 pits shown");
   for (std::size_t i = 0; i < touches.size(); ++i) {
     const std::string name = "touch " + std::to_string(touches[i].id);
-    if (!isFinite(touches[i])) refuseRezero(name + " has a number that is none: touch that pit again");
+    if (!isFinite(touches[i])) refuseRezero(name + " has a value that is not finite: touch that pit again");
     for (std::size_t k = 0; k < i; ++k)
       if (touches[k].joints_rad == touches[i].joints_rad)
         refuseRezero(name + " is the same as touch " + std::to_string(touches[k].id) + ": touch each pit once");
@@ -66,7 +66,6 @@ glm::dvec3 middleOf_mm(const Touches& touches) {
   return sum / static_cast<double>(touches.size());
 }
 
-/// The most probable arm given the touches at these indices.
 MeasuredArm fitted(const MeasuredArm& arm, const Touches& touches, const Indices& which,
                    const TouchPrecision& precision) {
   const ArmStart start{arm.geometry, arm.X_WD, {middleOf_mm(touches)}, arm.correction};
@@ -74,14 +73,14 @@ MeasuredArm fitted(const MeasuredArm& arm, const Touches& touches, const Indices
   return armOf(start, problem.all(problem.solvedFrom({}, touchSigma_mm(precision, kLeft_mm)).parameters));
 }
 
-/// All but touches that the others contradict, the worst first: so few points forgive a wild one by turning the base,
-/// so each is foretold from the others alone.
+/// The touches that agree; outliers are removed one by one, the worst first. Each is predicted from the others alone,
+/// because so few points can absorb an outlier by turning the base.
 Indices agreeing(const MeasuredArm& arm, const Touches& touches, const TouchPrecision& precision) {
   Indices which(touches.size());
   std::iota(which.begin(), which.end(), std::size_t{0});
-  const double least_mm = std::hypot(kStrayPit_mm, 3.0 * std::hypot(precision.in_plane_mm, precision.along_sight_mm));
-  // Four touches or more must agree on who is wrong.
-  for (std::size_t rounds = (touches.size() - kFewestPits) / 2; rounds > 0; --rounds) {
+  const double min_mm = std::hypot(kStrayPit_mm, 3.0 * std::hypot(precision.in_plane_mm, precision.along_sight_mm));
+  // At least four touches must agree.
+  for (std::size_t rounds = (touches.size() - kMinPits) / 2; rounds > 0; --rounds) {
     Indices best = which;
     double best_rms_mm = rms_mm(fitted(arm, touches, which, precision), touches, which);
     for (const std::size_t i : which) {
@@ -90,7 +89,7 @@ Indices agreeing(const MeasuredArm& arm, const Touches& touches, const TouchPrec
       const MeasuredArm by_others = fitted(arm, touches, others, precision);
       const double rest_mm = rms_mm(by_others, touches, others);
       const double off_mm = rms_mm(by_others, touches, std::array{i});
-      if (rest_mm < best_rms_mm && off_mm > std::max(least_mm, kStrayPitTimes * rest_mm)) {
+      if (rest_mm < best_rms_mm && off_mm > std::max(min_mm, kStrayPitTimes * rest_mm)) {
         best_rms_mm = rest_mm;
         best = std::move(others);
       }
@@ -116,11 +115,10 @@ Rezero rezeroed(const MeasuredArm& arm, const TouchSet& set) {
   result.after_rms_mm = rms_mm(result.arm, touches, which);
   result.outliers = static_cast<int>(touches.size() - which.size());
 
-  // Of every touch that was given, those set aside too.
+  result.residuals = residualsOf(result.arm, set.touches);
   std::size_t next = 0;
-  for (const Touch& touch : set.touches)
-    result.residuals.push_back({touch.id, touch.target_W, result.arm.tip_W(touch.joints_rad) - touch.target_W,
-                                touch.used && std::ranges::binary_search(which, next++)});
+  for (Residual& residual : result.residuals)
+    residual.used = residual.used && std::ranges::binary_search(which, next++);
 
   result.turned_deg = degreesFromRad(angleBetween_rad(arm.X_WD.rotation, result.arm.X_WD.rotation));
   result.moved_mm = glm::distance(result.arm.X_WD.translation_mm, arm.X_WD.translation_mm);

@@ -1,6 +1,6 @@
-// A calibration brought up to date after the arm was homed anew or its base was moved: three joint offsets and six
-// parameters of the pose, as the most probable values given few touches (nine parameters, five touches, 30 s).
-// Everything else stays. Frame W; mm, rad. Any thread but the servo's; milliseconds. Source: reference/calibration 4.3.
+// Updates a calibration after the arm was homed again or its base moved: three joint offsets and six pose parameters,
+// maximum a posteriori, from about five touches (30 s). Everything else stays. Frame W; mm, rad. Any thread but the
+// servo's; milliseconds. Source: reference/calibration 4.3.
 #pragma once
 
 #include "calibration/fit/arm_fit.h"
@@ -16,8 +16,8 @@ struct Rezero {
   int outliers = 0;
 };
 
-/// Of five touches one may slip; where more than one did, after_rms_mm says so: above 0.6 mm touch them again.
-/// Throws CalibrationError for fewer than 3 touches, all on a line, the same touch twice, or parameters not finite.
+/// One outlier of five touches is rejected; with more, after_rms_mm exceeds 0.6 mm: touch again. Throws
+/// CalibrationError for fewer than 3 touches, all on a line, the same touch twice, or numbers not finite.
 Rezero rezeroed(const MeasuredArm& arm, const TouchSet& touches);
 
 }  // namespace calibration

@@ -15,11 +15,11 @@ using Indices = std::vector<std::size_t>;
 
 constexpr std::size_t kOfFour = 4;
 constexpr int kTries = 400;
-constexpr std::size_t kAllAreTried = 12;  ///< places, of which every four can be tried
+constexpr std::size_t kAllAreTried = 12;  ///< points up to which all sets of four are tried
 constexpr double kLimitGrowth = 1.5;
-constexpr double kOnALine = 1e-3;  ///< of the longest extent
+constexpr double kOnALine = 1e-3;  ///< relative to the longest extent
 
-/// Every four of a few, or the same four hundred of many.
+/// All sets of four, or the same four hundred random ones.
 std::vector<std::array<std::size_t, kOfFour>> foursOf(std::size_t n) {
   std::vector<std::array<std::size_t, kOfFour>> fours;
   if (n <= kAllAreTried) {
@@ -46,13 +46,13 @@ class Agreement {
   Agreement(std::span<const glm::dvec3> from, std::span<const glm::dvec3> to, Handedness handedness)
       : from_(from), to_(to), handedness_(handedness), fours_(foursOf(from.size())) {}
 
-  /// The largest set within the limit; of two as large the closer.
+  /// The largest agreeing set; of two equally large ones the closer.
   RigidAgreement largest(double limit_mm) const {
     RigidAgreement best;
     for (const auto& four : fours_) {
       const auto rough = fit(four);
       if (!rough) continue;
-      // A map of four is rough far from them: what is twice as near has its say before the count.
+      // A map of four points is rough far from them: accept twice the limit before refitting.
       RigidAgreement candidate;
       candidate.agreeing = within(*rough, 2.0 * limit_mm);
       if (candidate.agreeing.size() < std::max(kOfFour, best.agreeing.size())) continue;
@@ -64,7 +64,7 @@ class Agreement {
     return best;
   }
 
-  /// Map and RMS of its set, then the set within the limit of that map, until it stays.
+  /// Refit and reselect until the set is stable.
   void refit(RigidAgreement& agreement, double limit_mm) const {
     for (int round = 0; round < 4; ++round) {
       const auto map = fit(agreement.agreeing);
@@ -133,13 +133,13 @@ std::optional<RigidMap> rigidFit(std::span<const PointPair> pairs, Handedness ha
 }
 
 std::optional<RigidAgreement> rigidAgreement(std::span<const glm::dvec3> from_mm, std::span<const glm::dvec3> to_mm,
-                                             Handedness handedness, double least_limit_mm, double most_limit_mm) {
+                                             Handedness handedness, double min_limit_mm, double max_limit_mm) {
   const std::size_t n = from_mm.size(), needed = std::max(kOfFour, (2 * n + 2) / 3);
   const Agreement agreement(from_mm, to_mm, handedness);
-  for (double limit_mm = least_limit_mm; limit_mm <= most_limit_mm; limit_mm *= kLimitGrowth) {
+  for (double limit_mm = min_limit_mm; limit_mm <= max_limit_mm; limit_mm *= kLimitGrowth) {
     RigidAgreement best = agreement.largest(limit_mm);
     if (best.agreeing.size() < needed) continue;
-    // The limit follows the spread of those who agree, so that an perturbed arm is no crowd of outliers.
+    // The limit follows the spread, so that an arm far from its model does not turn into outliers.
     for (int round = 0; round < 3; ++round) agreement.refit(best, std::max(limit_mm, 3.0 * best.rms_mm));
     if (best.agreeing.size() >= needed) return best;
   }

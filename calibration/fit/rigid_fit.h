@@ -1,7 +1,7 @@
-// One set of places laid onto another, turned and moved but not scaled, and the same in a mirror; and which of them
-// agree on one such lay: the first look at touches, before any arm is fitted. Deterministic: where not every four can
-// be tried, the same four hundred are. Plain places, mm. Any thread but the servo's; about 2 ms for 64 places. Sources:
-// Umeyama 1991; reference/calibration 3.1, 3.3 (OpenCV's robust fit does not refit on what agrees).
+// Rigid registration of point sets, optionally mirrored, and its robust version: the largest set that agrees on one
+// map. The first outlier test on touches, before any arm is fitted. Deterministic: all sets of four, or the same four
+// hundred. mm. Any thread but the servo's; about 2 ms for 64 points. Sources: Umeyama 1991; reference/calibration 3.1,
+// 3.3 (OpenCV's robust fit does not refit its inliers).
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace calibration {
 
-/// p -> turn p + shift. Determinant -1: a mirror.
+/// p -> turn p + shift. Determinant -1: mirrored.
 struct RigidMap {
   glm::dmat3 turn{1.0};
   glm::dvec3 shift_mm{0.0};
@@ -28,19 +28,19 @@ struct PointPair {
   double weight = 1.0;
 };
 
-/// Least squares, each pair by its weight. None: fewer than three, or all on a line.
+/// Weighted least squares. None: fewer than three, or all on a line.
 std::optional<RigidMap> rigidFit(std::span<const PointPair> pairs, Handedness handedness = Handedness::kept);
 
 struct RigidAgreement {
   RigidMap map;
-  std::vector<std::size_t> agreeing;  ///< rising
-  double limit_mm = 0.0;              ///< within which they agree
-  double rms_mm = 0.0;                ///< of those agreeing
+  std::vector<std::size_t> agreeing;  ///< ascending
+  double limit_mm = 0.0;              ///< of agreement
+  double rms_mm = 0.0;                ///< of the agreeing ones
 };
 
-/// The most that lie within a limit of one map: the limit grows from `least_limit_mm` until two thirds agree, and is
-/// at last at least three times their RMS. None: not by `most_limit_mm`.
+/// The largest set within a limit of one map: the limit grows from `min_limit_mm` until two thirds agree, and is
+/// finally at least three times their RMS. None: not up to `max_limit_mm`.
 std::optional<RigidAgreement> rigidAgreement(std::span<const glm::dvec3> from_mm, std::span<const glm::dvec3> to_mm,
-                                             Handedness handedness, double least_limit_mm, double most_limit_mm);
+                                             Handedness handedness, double min_limit_mm, double max_limit_mm);
 
 }  // namespace calibration

@@ -9,23 +9,23 @@
 namespace calibration {
 namespace {
 
-/// Of the block with pits, and of what the screen shows of crosses.
+/// The jig block, and the crosses on the screen.
 constexpr glm::dvec3 kJigHalf_mm{65.0, 45.0, 32.5};
 constexpr glm::dvec2 kCrossesHalf_mm{65.0, 45.0};
 constexpr glm::dvec3 kPlacesHalf_mm{60.0, 42.0, 30.0};
 
-constexpr double kMostTilt_deg = 25.0;  ///< an axis
+constexpr double kMaxTilt_deg = 25.0;  ///< an axis
 constexpr int kFirstProofId = 101;
 constexpr int kSwings = 12;
 
-/// The shortest turn that takes z there.
+/// The smallest rotation that takes z to `there`.
 glm::dquat turnOfZ(const glm::dvec3& there) {
   const double cosine = there.z;
   if (cosine < -1.0 + 1e-12) return {0.0, 1.0, 0.0, 0.0};
   return glm::normalize(glm::dquat(1.0 + cosine, -there.y, there.x, 0.0));
 }
 
-/// Out of the rest, sideways and upwards.
+/// Tilted from the resting direction, sideways and upwards.
 Vector<World> tilted(double side_deg, double up_deg) {
   const double side = radFromDegrees(side_deg), up = radFromDegrees(up_deg);
   const glm::dvec3 from_rest(std::sin(side) * std::cos(up), std::sin(up), std::cos(side) * std::cos(up));
@@ -35,8 +35,8 @@ Vector<World> tilted(double side_deg, double up_deg) {
 /// From -1 to 1 in `count` steps.
 double level(int index, int count) { return 2.0 * index / (count - 1) - 1.0; }
 
-/// A grid through the box, there and back along its rows. Every tilt goes with every column, row and layer alike
-/// (Latin squares), so that no error of the gimbal looks like one of the arm.
+/// A grid in serpentine order. Every tilt goes with every column, row and layer alike (Latin squares), so that gimbal
+/// errors are not confounded with arm errors.
 std::vector<Target> grid(const glm::ivec3& count, const glm::dvec3& half_mm, const Pose<World, Board>& X_WB) {
   std::vector<Target> targets;
   const int tilts = std::max(count.x, count.y);
@@ -48,12 +48,12 @@ std::vector<Target> grid(const glm::ivec3& count, const glm::dvec3& half_mm, con
         const glm::dvec3 at(level(i, count.x), level(j, count.y), count.z > 1 ? level(k, count.z) : 0.0);
         const double side = level((i + j + k) % tilts, tilts), up = level((i + 2 * j + 2 * k + 1) % tilts, tilts);
         targets.push_back({static_cast<int>(targets.size()) + 1, X_WB * Point<Board>{at * half_mm},
-                           tilted(kMostTilt_deg * side, kMostTilt_deg * up)});
+                           tilted(kMaxTilt_deg * side, kMaxTilt_deg * up)});
       }
   return targets;
 }
 
-/// A place of the block, in halves of it, and how the stylus is held there.
+/// A position in the block, in halves of it, and a tilt.
 struct Hold {
   glm::dvec3 at{0.0};
   double side_deg = 0.0, up_deg = 0.0;
@@ -68,7 +68,7 @@ std::vector<Target> held(const std::array<Hold, n>& holds, int first_id, const P
   return targets;
 }
 
-/// The corners alone.
+/// The corners.
 constexpr std::array<Hold, 8> kCorners = {{{{-1, -1, -1}, -25, 20},
                                            {{1, -1, -1}, 5, -25},
                                            {{1, 1, -1}, -20, -15},
@@ -78,7 +78,7 @@ constexpr std::array<Hold, 8> kCorners = {{{{-1, -1, -1}, -25, 20},
                                            {{1, -1, 1}, -25, 5},
                                            {{-1, -1, 1}, 10, 25}}};
 
-/// Between the pits of the fit, each held in two ways that the fit has not seen.
+/// Between the fit's pits, each with two tilts that the fit has not seen.
 constexpr std::array<Hold, 16> kBetween = {{{{-0.5, -0.5, -0.5}, -14, 22},
                                             {{-0.5, -0.5, -0.5}, 18, -10},
                                             {{0.5, -0.5, -0.5}, -20, -12},
@@ -96,21 +96,21 @@ constexpr std::array<Hold, 16> kBetween = {{{{-0.5, -0.5, -0.5}, -14, 22},
                                             {{-0.5, -0.5, 0.5}, -10, -20},
                                             {{-0.5, -0.5, 0.5}, 22, 6}}};
 
-/// One pit, the handle swung about it: all around in steps of 150 degrees, at the most tilt, every third at half of it.
+/// One pit, the handle swung about it in steps of 150 degrees at the largest tilt, every third at half of it.
 std::vector<Target> swung(const Pose<World, Board>& X_WB) {
   std::vector<Target> targets;
   for (int i = 0; i < kSwings; ++i) {
-    const double round = 2.0 * kPi * 5 * i / kSwings, most_deg = i % 3 == 2 ? 0.5 * kMostTilt_deg : kMostTilt_deg;
-    targets.push_back({i + 1, X_WB * Point<Board>{}, tilted(most_deg * std::cos(round), most_deg * std::sin(round))});
+    const double round = 2.0 * kPi * 5 * i / kSwings, max_deg = i % 3 == 2 ? 0.5 * kMaxTilt_deg : kMaxTilt_deg;
+    targets.push_back({i + 1, X_WB * Point<Board>{}, tilted(max_deg * std::cos(round), max_deg * std::sin(round))});
   }
   return targets;
 }
 
-/// Four corners that are no neighbours, and the middle.
+/// Four corners that are not neighbours, and the centre.
 constexpr std::array<Hold, 5> kRezero = {
     {{{-1, -1, -1}, -20, 10}, {{1, 1, -1}, 15, -20}, {{0, 0, 0}, 0, 0}, {{-1, 1, 1}, 20, 20}, {{1, -1, 1}, -15, -15}}};
 
-/// The other four.
+/// The other four corners.
 constexpr std::array<Hold, 4> kCheck = {
     {{{1, -1, -1}, -15, 15}, {{-1, 1, -1}, 20, -10}, {{1, 1, 1}, -20, -15}, {{-1, -1, 1}, 15, 20}}};
 
@@ -150,7 +150,6 @@ std::optional<TargetPlan> targetPlan(std::string_view method, const JigPose& jig
 }
 
 Pose<World, Handle> handleHolding(const Target& target, const glm::dvec3& tip_H_mm) {
-  // H's z runs from the tip to the handle.
   const glm::dquat turn = turnOfZ(target.stylus_W.xyz);
   return {turn, target.position_W.mm - turn * tip_H_mm};
 }

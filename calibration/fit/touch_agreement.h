@@ -1,8 +1,7 @@
-// Which touches tell of the same arm: those that slipped, or are of another target, are named before anything counts.
-// First by a rigid lay that two thirds agree on, then by what an arm fitted to those foretells of each, and it may take
-// back what the first look left out. A image that is mirrored is found here: the touches then fit their own mirror
-// image and no pose. Frame W, mm. Deterministic. Any thread but the servo's; some milliseconds.
-// Source: reference/calibration 3.1 (without a first look, a fit of few touches chases the wild one), 3.3.
+// Outlier rejection: the touches that agree on one arm. First by a rigid registration of two thirds, then by the
+// prediction of an arm fitted to those, which can also restore touches. Detects mirrored images, where the touches fit
+// their mirror image and no pose. Frame W, mm. Deterministic. Any thread but the servo's; some milliseconds. Source:
+// reference/calibration 3.1 (a direct fit of few touches follows the outlier), 3.3.
 #pragma once
 
 #include <vector>
@@ -14,15 +13,15 @@
 namespace calibration {
 
 struct TouchAgreement {
-  ArmStart start;                  ///< from the rigid lay
-  std::vector<std::size_t> which;  ///< indices of the touches that agree, rising
-  int asked = 0;                   ///< touches marked used: the rest of them are outliers
-  /// The targets lie in a plane and the stylus would come from behind the screen, or so few touches fit their mirror
-  /// image a little better: a mirrored image would look just so.
+  ArmStart start;                  ///< from the rigid registration
+  std::vector<std::size_t> which;  ///< indices of the agreeing touches, ascending
+  int asked = 0;                   ///< touches marked used; the others of them are outliers
+  /// The targets lie in a plane and the stylus would come from behind the screen, or a few touches fit their mirror
+  /// image slightly better.
   bool may_be_mirrored = false;
 };
 
-/// Throws CalibrationError: mirrored, or no pose of the arm explains two thirds of them. They have passed checkTouches.
+/// Throws CalibrationError: mirrored, or no pose of the arm explains two thirds. Requires checkTouches.
 TouchAgreement touchAgreement(const TouchSet& set);
 
 }  // namespace calibration

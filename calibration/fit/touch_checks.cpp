@@ -14,9 +14,9 @@
 namespace calibration {
 namespace {
 
-constexpr std::size_t kFewestTouches = 4;
+constexpr std::size_t kMinTouches = 4;
 constexpr double kSameAngle_rad = 1e-7;
-constexpr double kNarrow_mm = 3.0;  ///< a line of targets is no broader, root mean square
+constexpr double kNarrow_mm = 3.0;  ///< RMS extent across a line of targets
 constexpr double kFlatHull_mm = 0.02;
 constexpr std::size_t kDirections = 400;
 
@@ -48,31 +48,31 @@ void checkTouches(const TouchSet& set) {
   if (!findPhantomModel(set.device_model))
     refuseTouches("device model '" + set.device_model + "' is not known, correct it");
   std::vector<const Touch*> used;
-  std::vector<glm::dvec3> places;
+  std::vector<glm::dvec3> positions;
   for (const Touch& touch : set.touches) {
     if (!isFinite(touch))
-      refuseTouches("touch " + std::to_string(touch.id) + " holds a number that is none, touch it again");
+      refuseTouches("touch " + std::to_string(touch.id) + " holds a value that is not finite, touch it again");
     if (!touch.used) continue;
     used.push_back(&touch);
-    places.push_back(touch.target_W.mm);
+    positions.push_back(touch.target_W.mm);
   }
   if (!(set.precision.in_plane_mm >= 0.0) || !(set.precision.along_sight_mm >= 0.0) ||
       !std::isfinite(set.precision.in_plane_mm + set.precision.along_sight_mm))
-    refuseTouches("their precision is none, give one sigma in mm");
-  if (used.size() < kFewestTouches)
+    refuseTouches("their precision is not valid, give one sigma in mm");
+  if (used.size() < kMinTouches)
     refuseTouches(std::to_string(used.size()) +
                   " are used, at least 4 are needed, touch more (16 for a good calibration)");
   checkTwice(used);
-  const Extent extent = extentOf(places);
+  const Extent extent = extentOf(positions);
   if (extent.spread_mm[0] < kNarrow_mm)
-    refuseTouches("all targets are in one place, touch targets that are spread out");
+    refuseTouches("all targets are at one position, touch targets that are spread out");
   if (extent.spread_mm[1] < kNarrow_mm) refuseTouches("all targets lie on a line, touch some to the sides of it");
 }
 
 void checkUnseen(const TouchSet& fitted, const TouchSet& verification) {
   const auto must_agree = [](const std::string& what, const std::string& a, const std::string& b) {
     if (!a.empty() && !b.empty() && a != b)
-      refuseTouches("they were made with " + what + " '" + a + "', those to prove them by with '" + b +
+      refuseTouches("they were made with " + what + " '" + a + "', the verification touches with '" + b +
                     "', give touches of one device");
   };
   must_agree("device model", fitted.device_model, verification.device_model);
@@ -81,8 +81,8 @@ void checkUnseen(const TouchSet& fitted, const TouchSet& verification) {
   for (const Touch& one : verification.touches)
     for (const Touch& seen : fitted.touches)
       if (one.used && seen.used && sameAngles(one.joints_rad, seen.joints_rad))
-        refuseTouches("touch " + std::to_string(one.id) + " of the proof is touch " + std::to_string(seen.id) +
-                      " of the fit, which proves nothing, touch other places");
+        refuseTouches("touch " + std::to_string(one.id) + " of the verification is touch " + std::to_string(seen.id) +
+                      " of the fit, touch other positions");
 }
 
 double pairSpread_deg(const std::vector<glm::dvec3>& directions) {
@@ -110,14 +110,14 @@ double tiltSpread_deg(const PhantomGeometry& geometry, const std::vector<Touch>&
 }
 
 double hullVolume_mm3(const std::vector<glm::dvec3>& positions_mm) {
-  if (positions_mm.size() < kFewestTouches) return 0.0;
+  if (positions_mm.size() < kMinTouches) return 0.0;
   if (extentOf(positions_mm).spread_mm[2] < kFlatHull_mm) return 0.0;
-  std::vector<glm::dvec3> places = positions_mm;
+  std::vector<glm::dvec3> positions = positions_mm;
   char options[] = "qhull";
   qhT hull;
   qh_zero(&hull, nullptr);
-  if (qh_new_qhull(&hull, 3, static_cast<int>(places.size()), glm::value_ptr(places.front()), False, options, nullptr,
-                   nullptr) == qh_ERRnone)
+  if (qh_new_qhull(&hull, 3, static_cast<int>(positions.size()), glm::value_ptr(positions.front()), False, options,
+                   nullptr, nullptr) == qh_ERRnone)
     qh_getarea(&hull, hull.facet_list);
   const double volume_mm3 = hull.totvol;
   qh_freeqhull(&hull, qh_ALL);
@@ -132,7 +132,7 @@ Extent extentOf(const std::vector<glm::dvec3>& positions_mm) {
   glm::dmat3 about_middle(0.0);
   for (const glm::dvec3& p : positions_mm)
     about_middle += share * glm::outerProduct(p - extent.middle_mm, p - extent.middle_mm);
-  // Eigen has the least first.
+  // Eigen sorts ascending.
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> main(Eigen::Matrix3d::Map(glm::value_ptr(about_middle)));
   for (int k = 0; k < 3; ++k) {
     extent.spread_mm[k] = std::sqrt(std::max(0.0, main.eigenvalues()[2 - k]));

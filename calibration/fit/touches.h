@@ -1,5 +1,5 @@
-// What a calibration is made of: at each touch what the device's sensors read and where, in the surgeon's space, its
-// tip truly was. Frame W, mm, rad. Plain data; any thread. touches_file reads and writes it.
+// Touches: the device's raw joints with the tip at a known target. Frame W, mm, rad. Plain data; any thread.
+// touches_file reads and writes them.
 #pragma once
 
 #include <string>
@@ -12,12 +12,12 @@ namespace calibration {
 struct Touch {
   int id = 0;  ///< of the target
   RawJoints joints_rad{};
-  Point<World> target_W;  ///< where the tip was
-  bool used = true;       ///< false: set aside by a person
+  Point<World> target_W;  ///< true tip position
+  bool used = true;       ///< false: set aside by the technician
 };
 
-/// How exactly a touch says where the tip was, one sigma. A pit holds the tip from all sides; crosses on the screen are
-/// aimed at by eye, less exactly along the line of sight (reference/calibration 2.2, 2.4).
+/// One sigma of the tip at a touch. A pit holds the tip from all sides; crosses on the screen are aimed at by eye, less
+/// accurately along the line of sight (reference/calibration 2.2, 2.4).
 struct TouchPrecision {
   double in_plane_mm = 0.05, along_sight_mm = 0.05;  ///< along W's x and y; along its z
 };

@@ -1,4 +1,4 @@
-// Whether all of a vector is a number, neither infinite nor none. Any thread.
+// Whether all components are finite. Any thread.
 #pragma once
 
 #include <cmath>

@@ -8,7 +8,7 @@ struct World {};        ///< W: display frame; centre of the virtual screen, x r
 struct Device {};       ///< D: base of the haptic device
 struct Handle {};       ///< H: the stylus in the hand
 struct Tool {};         ///< T: centre of the cutting head, +z along the shaft away from the tip
-struct OtherTool {};    ///< O: what the other hand holds, as its mesh has it; +z along its handle
+struct OtherTool {};    ///< O: the second hand's instrument, in its mesh's axes; +z along its handle
 struct Patient {};      ///< P: LPS as the scan; x to the patient's left, y posterior, z superior
 struct Screen {};       ///< S: the physical panel
 struct ScreenImage {};  ///< I: the panel's mirror image, the virtual screen

@@ -1,7 +1,6 @@
-// Rigid poses, points and free vectors that carry their frame in the type: `X_WT * p_T` is a Point<World>,
-// and a product of frames that do not meet does not compile.
-// mm and unit quaternions, double. Trivially copyable; every operation is a few flops, no allocation; any thread.
-// Not for scale or shear: the workstation is 1:1.
+// Rigid poses, points and free vectors with their frame in the type: `X_WT * p_T` is a Point<World>; a product of
+// frames that do not match does not compile. mm and unit quaternions, double. Trivially copyable; a few flops, no
+// allocation; any thread. No scale or shear: the workstation is 1:1.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -15,7 +14,7 @@ struct Point {
   glm::dvec3 mm{0.0};
 };
 
-/// A direction, velocity or force in frame A; the unit is in the name of the variable.
+/// A direction, velocity or force in frame A; the variable's name has the unit.
 template <class A>
 struct Vector {
   glm::dvec3 xyz{0.0};

@@ -1,5 +1,4 @@
-// Rotations as vectors along their axis, as long as their angle: what fits and random draws count them in. rad. Pure;
-// any thread.
+// Rotation vectors: axis times angle, rad. Pure; any thread.
 #pragma once
 
 #include <cmath>
@@ -14,7 +13,10 @@ inline glm::dquat rotationFromVector(const glm::dvec3& turn_rad) {
   return angle_rad > 0.0 ? glm::angleAxis(angle_rad, turn_rad / angle_rad) : glm::dquat(1.0, 0.0, 0.0, 0.0);
 }
 
-/// From one to the other, 0 to pi; exact where they are nearly the same.
+/// [v]x: crossMatrix(v) * w = v x w.
+inline glm::dmat3 crossMatrix(const glm::dvec3& v) { return {0.0, v.z, -v.y, -v.z, 0.0, v.x, v.y, -v.x, 0.0}; }
+
+/// 0 to pi, accurate for small angles.
 inline double angleBetween_rad(const glm::dquat& a, const glm::dquat& b) {
   const glm::dquat turn = glm::conjugate(a) * b;
   return 2.0 * std::atan2(glm::length(glm::dvec3(turn.x, turn.y, turn.z)), std::abs(turn.w));

@@ -1,5 +1,5 @@
-// Units: mm, N, N/mm, s, rad, Hounsfield. Foreign units are converted on the line where they enter.
-// Any thread. Not a unit library: the suffix in a name (`radius_mm`) is the contract.
+// Units: mm, N, N/mm, s, rad, Hounsfield. Foreign units are converted on the line where they enter. Any thread. Not a
+// unit library: the suffix of a name (`radius_mm`) states the unit.
 #pragma once
 
 #include <numbers>

@@ -29,13 +29,13 @@ bool completes(const RuleNumbers& rule, std::span<const double> sigmas, std::siz
 
 }  // namespace
 
-std::optional<ControlLimits> controlLimits(std::span<const double> values, std::size_t least_n, double least_sigma) {
-  if (values.size() < std::max<std::size_t>(least_n, 2)) return std::nullopt;
+std::optional<ControlLimits> controlLimits(std::span<const double> values, std::size_t min_n, double min_sigma) {
+  if (values.size() < std::max<std::size_t>(min_n, 2)) return std::nullopt;
   double sum = 0.0, moved = 0.0;
   for (const double v : values) sum += v;
   for (std::size_t i = 1; i < values.size(); ++i) moved += std::abs(values[i] - values[i - 1]);
   const auto n = static_cast<double>(values.size());
-  return ControlLimits{sum / n, std::max(moved / (n - 1.0) / kD2, least_sigma), values.size()};
+  return ControlLimits{sum / n, std::max(moved / (n - 1.0) / kD2, min_sigma), values.size()};
 }
 
 std::string_view nameOf(ControlRule rule) {

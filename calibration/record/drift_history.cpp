@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 constexpr std::string_view kHeader = "utc,kind,n,rms_mm,bias_x_mm,bias_y_mm,bias_z_mm";
 constexpr std::uintmax_t kLargestFile_bytes = 16 << 20;
 constexpr std::array kKinds = {DriftKind::check, DriftKind::rezero, DriftKind::calibration};
-constexpr double kMostEntryError_mm = 1000.0;
-constexpr int kMostEntryTouches = 10000;
+constexpr double kMaxEntryError_mm = 1000.0;
+constexpr int kMaxEntryTouches = 10000;
 
 template <class Number>
 std::optional<Number> numberIn(std::string_view text) {
@@ -51,11 +51,11 @@ std::optional<DriftEntry> entryIn(std::string_view line) {
   }
   const auto kind = kindIn(cells[1]);
   const auto n = numberIn<int>(cells[2]);
-  if (!secondsOfUtc(cells[0]) || !kind || !n || *n < 1 || *n > kMostEntryTouches) return std::nullopt;
+  if (!secondsOfUtc(cells[0]) || !kind || !n || *n < 1 || *n > kMaxEntryTouches) return std::nullopt;
   std::array<double, 4> mm{};
   for (std::size_t i = 0; i < mm.size(); ++i) {
     const auto value = numberIn<double>(cells[i + 3]);
-    if (!value || !(std::abs(*value) <= kMostEntryError_mm)) return std::nullopt;
+    if (!value || !(std::abs(*value) <= kMaxEntryError_mm)) return std::nullopt;
     mm[i] = *value;
   }
   if (mm[0] < 0.0) return std::nullopt;
@@ -83,25 +83,25 @@ std::vector<DriftEntry> readHistory(const fs::path& path) {
   std::error_code error;
   if (!fs::exists(path, error)) return {};
   if (!fs::is_regular_file(path, error) || fs::file_size(path, error) > kLargestFile_bytes)
-    refuseHistory(path, "it is no history", "move it away");
+    refuseHistory(path, "it is not a history file", "move it away");
   std::ifstream in(path, std::ios::binary);
   std::ostringstream bytes;
   bytes << in.rdbuf();
-  if (!in) refuseHistory(path, "it can not be read", "check its permissions");
+  if (!in) refuseHistory(path, "it cannot be read", "check its permissions");
   std::string_view rest = bytes.view();
 
-  // What has no end of line was torn while it was written.
+  // A last line without end is incomplete.
   std::vector<DriftEntry> history;
   int line_number = 0;
   for (std::size_t end = rest.find('\n'); end != std::string_view::npos; end = rest.find('\n')) {
     const std::string_view line = rest.substr(0, end);
     rest.remove_prefix(end + 1);
     if (++line_number == 1) {
-      if (line != kHeader) refuseHistory(path, "its first line is not a history's", "move it away");
+      if (line != kHeader) refuseHistory(path, "its first line is not a history header", "move it away");
       continue;
     }
     const auto entry = entryIn(line);
-    if (!entry) refuseHistory(path, "line " + std::to_string(line_number) + " can not be read", "remove that line");
+    if (!entry) refuseHistory(path, "line " + std::to_string(line_number) + " cannot be read", "remove that line");
     history.push_back(*entry);
   }
   return history;
@@ -109,11 +109,11 @@ std::vector<DriftEntry> readHistory(const fs::path& path) {
 
 void appendHistory(const fs::path& path, const DriftEntry& entry) {
   const std::string line = lineOf(entry);
-  if (!entryIn(line)) refuseHistory(path, "this can not be an entry: " + line, "check where it comes from");
+  if (!entryIn(line)) refuseHistory(path, "invalid entry: " + line, "check where it comes from");
   makeFolder(path.parent_path());
   const FolderLock lock(path.parent_path());
-  readHistory(path);  // to what is no history nothing is added
-  // A new file, and one whose first line is torn, begin with the header.
+  readHistory(path);  // refuses a file that is not a history
+  // A new file, or one with an incomplete first line, gets the header.
   std::string first;
   std::ifstream in(path, std::ios::binary);
   std::getline(in, first);

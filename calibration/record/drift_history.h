@@ -1,6 +1,7 @@
-// What checks, re-zeros and calibrations have found at one place, in the order they were made: a CSV file that only
-// grows, `utc,kind,n,rms_mm,bias_x_mm,bias_y_mm,bias_z_mm`. Errors as they were found, before anything was put right;
-// of a calibration those of its held-out touches. Frame W, mm. A line that a kill has torn is none. Not the servo.
+// History of checks, re-zeros and calibrations of one rig location: an append-only CSV file,
+// `utc,kind,n,rms_mm,bias_x_mm,bias_y_mm,bias_z_mm`, in order. Errors are as found, before any correction; of a
+// calibration those of its held-out touches. Frame W, mm. An incomplete last line is ignored. Never on the servo
+// thread.
 #pragma once
 
 #include <filesystem>
@@ -22,13 +23,13 @@ struct DriftEntry {
   DriftKind kind = DriftKind::check;
   int n = 0;  ///< touches
   double rms_mm = 0.0;
-  Vector<World> bias_mm;  ///< where the tip is seen, less where it is: signed mean
+  Vector<World> bias_mm;  ///< seen minus true tip, mean
 };
 
-/// Empty where there is no file. Throws CalibrationError naming the line that can not be read.
+/// Empty: no file. Throws CalibrationError naming an unreadable line.
 std::vector<DriftEntry> readHistory(const std::filesystem::path& path);
 
-/// Makes file and folder where there are none. Throws CalibrationError; the file is then as it was.
+/// Creates file and folder if needed. Throws CalibrationError, leaving the file as it was.
 void appendHistory(const std::filesystem::path& path, const DriftEntry& entry);
 
 }  // namespace calibration

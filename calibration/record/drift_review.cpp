@@ -7,7 +7,7 @@
 namespace calibration {
 namespace {
 
-/// Limits for the value that follows these.
+/// Limits for the next value.
 std::optional<ControlLimits> limitsAfter(std::span<const double> before) {
   return controlLimits(before.first(std::min(before.size(), kMaxBaseline)), kMinBaseline, kMinSigma_mm);
 }
@@ -40,12 +40,12 @@ void review(const std::vector<DriftEntry>& history, DriftQuantity quantity, Drif
 
 std::string standing(const std::vector<DriftEntry>& history, const DriftReview& found) {
   if (found.charted.empty())
-    return history.empty() ? "No check was made yet: make one after every homing."
-                           : "No check was made since the last calibration: make one after every homing.";
+    return history.empty() ? "No check yet: make one after every homing."
+                           : "No check since the last calibration: make one after every homing.";
   if (!found.limits[0])
     return std::to_string(found.charted.size()) + " of the " + std::to_string(kMinBaseline) +
-           " checks that limits are made of.";
-  if (!found.alarmed) return "Steady: the newest check is as those before it.";
+           " checks needed for control limits.";
+  if (!found.alarmed) return "Steady: the newest check agrees with the earlier ones.";
   return "Not steady: " + found.alarms.back().sentence +
          ". Re-zero; if the next check is the same, look whether base, mirror or stylus is loose, and calibrate.";
 }
@@ -65,7 +65,6 @@ double valueOf_mm(const DriftEntry& entry, DriftQuantity quantity) {
 
 DriftReview reviewOf(const std::vector<DriftEntry>& history) {
   DriftReview found;
-  // A calibration begins anew.
   for (std::size_t i = 0; i < history.size(); ++i) {
     if (history[i].kind == DriftKind::calibration)
       found.charted.clear();

@@ -1,7 +1,6 @@
-// What the history of a place says: whether the arm still stands where its calibration found it. Four charts, RMS and
-// the bias along each axis of W, over the checks and re-zeros since the last calibration; each value is charted by
-// those before it, by the first twenty at most. A small RMS is no alarm. mm. Pure; any thread. Source of the rules:
-// control_chart.h; that they be used: reference/calibration 4.3.
+// Whether the arm still is where its calibration found it. Four charts, RMS and the bias along each axis of W, over the
+// checks and re-zeros since the last calibration; the limits for a value come from those before it, the first twenty at
+// most. A low RMS raises no alarm. mm. Pure; any thread. Sources: control_chart.h; reference/calibration 4.3.
 #pragma once
 
 #include <array>
@@ -15,7 +14,7 @@
 namespace calibration {
 
 inline constexpr std::size_t kMinBaseline = 8, kMaxBaseline = 20;
-/// An encoder's step at the tip (reference/calibration 1.2): no check repeats more finely.
+/// An encoder step at the tip (reference/calibration 1.2): the resolution of a check.
 inline constexpr double kMinSigma_mm = 0.055;
 
 enum class DriftQuantity { rms, right, up, nearer };
@@ -25,7 +24,7 @@ std::string_view nameOf(DriftQuantity quantity);  ///< "RMS", "bias to the right
 double valueOf_mm(const DriftEntry& entry, DriftQuantity quantity);
 
 struct DriftAlarm {
-  std::size_t entry = 0;  ///< in the history
+  std::size_t entry = 0;  ///< index in the history
   DriftQuantity quantity = DriftQuantity::rms;
   ControlRule rule = ControlRule::one_beyond_3;
   std::string sentence;  ///< "2026-11-20: RMS 1.42 mm, beyond 3 sigma (mean 0.31 mm, sigma 0.06 mm)"
@@ -33,9 +32,9 @@ struct DriftAlarm {
 
 struct DriftReview {
   std::vector<std::size_t> charted;                    ///< entries on the charts, oldest first
-  std::array<std::optional<ControlLimits>, 4> limits;  ///< by DriftQuantity; as the next check will be charted
+  std::array<std::optional<ControlLimits>, 4> limits;  ///< by DriftQuantity; for the next check
   std::vector<DriftAlarm> alarms;                      ///< oldest first
-  std::string sentence;                                ///< how it stands now, and what to do
+  std::string sentence;                                ///< the present state, and what to do
   bool alarmed = false;                                ///< the newest entry has an alarm
 };
 DriftReview reviewOf(const std::vector<DriftEntry>& history);

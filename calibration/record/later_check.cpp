@@ -5,7 +5,7 @@
 namespace calibration {
 
 RigRecord withLaterCheck(RigRecord record, const std::vector<DriftEntry>& history) {
-  // A re-zero or a calibration noted after it puts right what a check found.
+  // A later re-zero or calibration corrects what a check found.
   std::optional<DriftEntry> last;
   for (const DriftEntry& entry : history) {
     if (entry.utc < record.provenance.created_utc) continue;

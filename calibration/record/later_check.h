@@ -1,5 +1,5 @@
-// What checks have found of a rig since it was measured. A check that is worse than the rig's own verification stands
-// in its place: a base that was pushed is not green because it once was. mm. Pure; any thread.
+// A check made after the calibration overrides its verification if it was worse: a base that was pushed later is not
+// green. mm. Pure; any thread.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace calibration {
 
-/// `record` with the newest check since then as its verification, where that is worse. A history knows mean square and
-/// bias of a check alone: its 95 % and its largest error are put as large as its RMS, which they are at least.
+/// `record` with the latest check as its verification, if worse. The history has RMS and bias only: the 95 % and
+/// largest errors are set to the RMS, their lower bound.
 RigRecord withLaterCheck(RigRecord record, const std::vector<DriftEntry>& history);
 
 }  // namespace calibration

@@ -6,6 +6,10 @@
 
 #include <cerrno>
 #include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "calibration/output_file.h"
 
 namespace calibration {
 namespace {
@@ -13,43 +17,24 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void refuseWriting(const fs::path& path, const std::string& what, const std::string& mend) {
-  throw CalibrationError("can not write " + path.string() + ": " + what + ", " + mend);
+  throw CalibrationError("cannot write " + path.string() + ": " + what + ", " + mend);
 }
 
 [[noreturn]] void refuseWritingForSystem(const fs::path& path, int error) {
-  refuseWriting(path, std::strerror(error), "make room there or choose another place");
+  refuseWriting(path, std::strerror(error), "free some space or choose another folder");
 }
 
-/// Closed whatever happens.
-class Descriptor {
- public:
-  Descriptor(const fs::path& path, int flags) : path_(path), number_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {
-    if (number_ < 0) refuseWritingForSystem(path, errno);
-  }
-  ~Descriptor() { ::close(number_); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
+void sync(const fs::path& path) {
+  if (const int error = syncToDisk(path.string()); error != 0) refuseWritingForSystem(path, error);
+}
 
-  int number() const { return number_; }
-  void write(const std::string& text) const {
-    std::size_t done = 0;
-    while (done < text.size()) {
-      const ssize_t written = ::write(number_, text.data() + done, text.size() - done);
-      if (written < 0 && errno == EINTR) continue;
-      if (written < 0) refuseWritingForSystem(path_, errno);
-      done += static_cast<std::size_t>(written);
-    }
-  }
-  void force() const {
-    if (::fsync(number_) != 0) refuseWritingForSystem(path_, errno);
-  }
-
- private:
-  fs::path path_;
-  int number_;
-};
-
-void forceFolder(const fs::path& folder) { Descriptor(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY).force(); }
+/// Length up to the end of the last complete line.
+std::uintmax_t completeBytes(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << in.rdbuf();
+  return bytes.view().rfind('\n') + 1;
+}
 
 }  // namespace
 
@@ -58,7 +43,7 @@ void makeFolder(const fs::path& folder) {
   if (folder.empty() || fs::is_directory(folder, error)) return;
   makeFolder(folder.parent_path());
   if (!fs::create_directory(folder, error) && error) refuseWritingForSystem(folder, error.value());
-  forceFolder(folder.parent_path());
+  sync(folder.parent_path());
 }
 
 FolderLock::FolderLock(const fs::path& folder)
@@ -80,16 +65,14 @@ void removeLeftovers(const fs::path& folder) {
 void appendLine(const fs::path& path, const std::string& line) {
   std::error_code error;
   const bool is_new = !fs::exists(path, error);
-  const Descriptor file(path, O_RDWR | O_CREAT | O_APPEND);
-  // Back to the end of the last whole line.
-  off_t end = ::lseek(file.number(), 0, SEEK_END);
-  char last = '\n';
-  off_t whole = end;
-  while (whole > 0 && ::pread(file.number(), &last, 1, whole - 1) == 1 && last != '\n') --whole;
-  if (whole != end && ::ftruncate(file.number(), whole) != 0) refuseWritingForSystem(path, errno);
-  file.write(line + "\n");
-  file.force();
-  if (is_new) forceFolder(path.parent_path());
+  if (!is_new) fs::resize_file(path, completeBytes(path), error);
+  if (error) refuseWritingForSystem(path, error.value());
+  std::ofstream out(path, std::ios::binary | std::ios::app);
+  out << line << '\n';
+  out.close();
+  if (!out) refuseWritingForSystem(path, errno);
+  sync(path);
+  if (is_new) sync(path.parent_path());
 }
 
 }  // namespace calibration

@@ -1,6 +1,5 @@
-// A folder of records: made, held by one writer at a time, cleared of what a killed one left (output_file.h), and a
-// file that grows by whole lines. Throws CalibrationError with path and remedy. A part of rig_store and drift_history;
-// not the servo, for it waits for the disk.
+// A folder of records: creation, lock for one writer, removal of leftovers (output_file.h), appending complete lines.
+// Throws CalibrationError with path and remedy. Part of rig_store and drift_history; waits for the disk.
 #pragma once
 
 #include <filesystem>
@@ -10,10 +9,10 @@
 
 namespace calibration {
 
-/// With all that is above it.
+/// With its parents.
 void makeFolder(const std::filesystem::path& folder);
 
-/// Held while this object lives, and let go when the program dies. Throws where another program holds it.
+/// Exclusive lock while this object lives; released when the program dies. Throws if another program holds it.
 class FolderLock {
  public:
   explicit FolderLock(const std::filesystem::path& folder);
@@ -25,10 +24,10 @@ class FolderLock {
   int descriptor_ = -1;
 };
 
-/// What a killed program left in a folder, gone. Only under the folder's lock.
+/// Removes what killed programs left. Requires the folder's lock.
 void removeLeftovers(const std::filesystem::path& folder);
 
-/// One line more at the end of a file, whole or not there; a line that a kill has torn is taken away before.
+/// Appends one line completely or not at all; removes an incomplete last line first.
 void appendLine(const std::filesystem::path& path, const std::string& line);
 
 }  // namespace calibration

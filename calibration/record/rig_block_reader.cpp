@@ -7,17 +7,17 @@
 
 #include "calibration/arm/phantom_models.h"
 #include "calibration/geometry/units.h"
-#include "calibration/virtual_screen.h"
+#include "calibration/rig.h"
 
 namespace calibration {
 namespace {
 
 constexpr int kLargestScreen_px = 16384;
-constexpr double kSameWritten = 1e-9;  ///< one number, written in two ways
+constexpr double kSameWritten = 1e-9;  ///< tolerance of a value written twice
 
-// What no arm that works is beyond.
-constexpr double kMostGain = 0.10, kMostOffset_rad = radFromDegrees(30.0), kMostLength_mm = 20.0;
-constexpr double kMostQuadratic_per_rad = 0.10, kMostTilt_rad = radFromDegrees(10.0), kMostTip_mm = 250.0;
+// Beyond any working arm.
+constexpr double kMaxGain = 0.10, kMaxOffset_rad = radFromDegrees(30.0), kMaxLength_mm = 20.0;
+constexpr double kMaxQuadratic_per_rad = 0.10, kMaxTilt_rad = radFromDegrees(10.0), kMaxTip_mm = 250.0;
 
 template <class A, class B>
 Pose<A, B> poseIn(const CheckedYaml& yaml, const char* key, double tolerance) {
@@ -35,8 +35,7 @@ ScreenCorners screenIn(const CheckedYaml& yaml) {
                        {yaml.vector(node, "lower_left_mm")},
                        {yaml.vector(node, "lower_right_mm")},
                        {yaml.vector(node, "upper_left_mm")}};
-  const glm::dvec3 across = screen.lower_right.mm - screen.lower_left.mm;
-  const glm::dvec3 up = screen.upper_left.mm - screen.lower_left.mm;
+  const glm::dvec3 across = screen.across_mm(), up = screen.up_mm();
   const double area = glm::length(glm::cross(across, up));
   if (area < 1.0 || area < 0.99 * glm::length(across) * glm::length(up))
     yaml.refuse("the three screen corners do not span a rectangle", "measure them again");
@@ -51,7 +50,7 @@ std::optional<Plane<World>> mirrorIn(const CheckedYaml& yaml) {
   const glm::dvec3 n = yaml.vector(node, "normal");
   const double length = glm::length(n), offset_mm = yaml.number(node, "offset_mm");
   if (length < 1e-6) yaml.refuse("'mirror.normal' is zero", "give the mirror's normal in W");
-  // A unit normal stays as it is, to the bit; else n.x = offset as written: scale both.
+  // A unit normal is kept to the last bit; otherwise scale normal and offset.
   if (std::abs(length - 1.0) < 1e-12) return Plane<World>{n, offset_mm};
   return Plane<World>{n / length, offset_mm / length};
 }
@@ -65,8 +64,7 @@ void readEyes(const CheckedYaml& yaml, Rig& rig) {
     yaml.refuse("'eyes.ipd_mm' is not the distance from left_mm to right_mm", "correct one of them");
 
   const ScreenCorners seen = virtualScreen(rig);
-  const glm::dvec3 corner = seen.lower_left.mm;
-  const glm::dvec3 n = glm::normalize(glm::cross(seen.lower_right.mm - corner, seen.upper_left.mm - corner));
+  const glm::dvec3 corner = seen.lower_left.mm, n = glm::normalize(glm::cross(seen.across_mm(), seen.up_mm()));
   const double left = glm::dot(n, rig.left_eye.mm - corner), right = glm::dot(n, rig.right_eye.mm - corner);
   if (std::abs(left) < 10.0 || std::abs(right) < 10.0 || left * right < 0.0)
     yaml.refuse("an eye lies on the (virtual) screen or the eyes are on both sides of it", "measure them again");
@@ -77,14 +75,13 @@ RigDevice deviceIn(const CheckedYaml& yaml) {
   RigDevice device;
   device.model = yaml.text(node, "model");
   if (findPhantomModel(device.model) == nullptr)
-    yaml.refuse("'device.model' names no known Phantom", "give omni, touch, desktop or premium");
+    yaml.refuse("'device.model' names no known Phantom", "give one of " + phantomModelKeys());
   if (yaml.has(node, "serial")) device.serial = yaml.text(node, "serial");
   if (yaml.has(node, "mount")) device.mount = yaml.text(node, "mount");
   if (yaml.has(node, "stylus_tip")) device.stylus_tip = yaml.text(node, "stylus_tip");
   return device;
 }
 
-/// Of every arm that works a number is near zero.
 void checkSmall(const CheckedYaml& yaml, const char* key, double value, double most, const char* unit) {
   if (std::abs(value) > most)
     yaml.refuse(std::string("'kinematics.") + key + "' is beyond what an arm can be off (" + unit + ")",
@@ -106,7 +103,7 @@ double smallNumber(const CheckedYaml& yaml, const cv::FileNode& node, const char
   return value;
 }
 
-/// `total_key` holds base + x for readers elsewhere, `exact_key` the x itself; either will do, both must agree.
+/// `total_key` holds base + x for other readers, `exact_key` x itself; one is enough, both must agree.
 template <std::size_t n>
 std::array<double, n> overBase(const CheckedYaml& yaml, const cv::FileNode& node, const char* total_key,
                                const char* exact_key, const std::array<double, n>& base, double most,
@@ -130,17 +127,17 @@ ArmCorrection correctionIn(const CheckedYaml& yaml, const PhantomGeometry& geome
   if (yaml.text(node, "model") != kKinematicsKind)
     yaml.refuse("'kinematics.model' is not phantom6_v1", "update the program or calibrate again");
   ArmCorrection correction;
-  correction.offset_rad = smallNumbers<6>(yaml, node, "m", kMostOffset_rad, "30 degrees");
-  correction.gain = overBase<6>(yaml, node, "k", "gain", {1.0, 1.0, 1.0, 1.0, 1.0, 1.0}, kMostGain, "10 %");
-  correction.quadratic_per_rad = smallNumbers<3>(yaml, node, "q", kMostQuadratic_per_rad, "0.1 a radian");
+  correction.offset_rad = smallNumbers<6>(yaml, node, "m", kMaxOffset_rad, "30 degrees");
+  correction.gain = overBase<6>(yaml, node, "k", "gain", {1.0, 1.0, 1.0, 1.0, 1.0, 1.0}, kMaxGain, "10 %");
+  correction.quadratic_per_rad = smallNumbers<3>(yaml, node, "q", kMaxQuadratic_per_rad, "0.1 a radian");
   const auto more_mm =
-      overBase<2>(yaml, node, "l", "more_mm", {geometry.thigh_mm, geometry.shin_mm}, kMostLength_mm, "20 mm");
+      overBase<2>(yaml, node, "l", "more_mm", {geometry.thigh_mm, geometry.shin_mm}, kMaxLength_mm, "20 mm");
   correction.thigh_delta_mm = more_mm[0];
   correction.shin_delta_mm = more_mm[1];
-  correction.tilt_rad = smallNumber(yaml, node, "tilt", kMostTilt_rad, "10 degrees");
-  correction.reach_delta_mm = smallNumber(yaml, node, "a1", kMostLength_mm, "20 mm");
+  correction.tilt_rad = smallNumber(yaml, node, "tilt", kMaxTilt_rad, "10 degrees");
+  correction.reach_delta_mm = smallNumber(yaml, node, "a1", kMaxLength_mm, "20 mm");
   correction.tip_H_mm = yaml.vector(node, "tip");
-  if (glm::length(correction.tip_H_mm) > kMostTip_mm)
+  if (glm::length(correction.tip_H_mm) > kMaxTip_mm)
     yaml.refuse("'kinematics.tip' is more than 250 mm from the gimbal", "give the tip in H, in mm");
   return correction;
 }
@@ -154,7 +151,7 @@ CheckedYaml::Rigid exactPose(const CheckedYaml& yaml, const cv::FileNode& parent
   if (!yaml.has(parent, exact_key)) return pose;
   const std::vector<double> q = yaml.numbers(parent[exact_key], exact_key, 4);
   const glm::dquat exact(q[0], q[1], q[2], q[3]);
-  // q and -q are one rotation.
+  // q and -q are the same rotation.
   if (std::abs(glm::dot(exact, exact) - 1.0) > kSameWritten ||
       std::abs(std::abs(glm::dot(exact, pose.rotation)) - 1.0) > kSameWritten)
     yaml.refuse("'" + exact_key + "' is not the rotation of '" + key + "'", "remove '" + exact_key + "'");
@@ -172,7 +169,7 @@ Rig rigIn(const CheckedYaml& yaml, double rotation_tolerance) {
   if (yaml.has(yaml.root(), "X_WD2")) rig.second_X_WD = poseIn<World, Device>(yaml, "X_WD2", rotation_tolerance);
   if (yaml.has(yaml.root(), "device")) rig.device = deviceIn(yaml);
   if (yaml.has(yaml.root(), "kinematics")) {
-    if (!rig.device) yaml.refuse("'kinematics' stands there without 'device'", "say whose arm it is");
+    if (!rig.device) yaml.refuse("'kinematics' without 'device'", "say whose arm it is");
     rig.arm = correctionIn(yaml, findPhantomModel(rig.device->model)->geometry);
   }
   return rig;

@@ -1,24 +1,27 @@
-// The blocks that make up the rig itself, out of a YAML file that is being read: screen, mirror, eyes, poses, device,
-// kinematics. mm, rad, frame W. A part of rig_file; start-up only. Throws CalibrationError naming key and remedy.
+// Parts of reading a rig file: the rig itself (screen, mirror, eyes, poses, device, kinematics) and its metadata. mm,
+// rad, frame W. Start-up only. Throws CalibrationError naming key and remedy.
 #pragma once
 
 #include <string_view>
 
 #include "calibration/checked_yaml.h"
-#include "calibration/rig.h"
+#include "calibration/record/rig_record.h"
 
 namespace calibration {
 
-/// How the arm is computed from its numbers; a file of another kind of arm has another word.
+/// The kinematic model of `kinematics`; another kind of arm would have another name.
 inline constexpr std::string_view kKinematicsKind = "phantom6_v1";
 
-/// Hand-typed matrices are rounded; measured ones are not.
+/// Matrices typed by hand are rounded.
 inline constexpr double kTypedRotationTolerance = 1e-3, kMeasuredRotationTolerance = 1e-6;
 
 Rig rigIn(const CheckedYaml& yaml, double rotation_tolerance);
 
-/// A pose and, if it is there, the very quaternion that its matrix was written from (`KEY_wxyz`).
+/// A pose, from its exact quaternion (`KEY_wxyz`) if present.
 CheckedYaml::Rigid exactPose(const CheckedYaml& yaml, const cv::FileNode& parent, const std::string& key,
                              double rotation_tolerance);
+
+/// How the rig was measured: provenance, procedure, fit, verification, residuals, rest; all optional.
+void readMetadata(const CheckedYaml& yaml, double rotation_tolerance, RigRecord& record);
 
 }  // namespace calibration

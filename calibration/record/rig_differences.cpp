@@ -15,7 +15,7 @@ const char* const kJoints[] = {"turret", "thigh", "shin", "gimbal 1", "gimbal 2"
 
 std::string written(double value, int digits) {
   const std::string text = fmt::format("{:.{}f}", value, digits);
-  // No minus before nothing.
+  // No minus sign before zero.
   return text[0] == '-' && text.find_first_not_of("-0.") == std::string::npos ? text.substr(1) : text;
 }
 
@@ -23,7 +23,7 @@ std::string written(const glm::dvec3& v, int digits) {
   return fmt::format("({}, {}, {})", written(v.x, digits), written(v.y, digits), written(v.z, digits));
 }
 
-/// Lines for what differs in what is written of it.
+/// Collects one line per difference in the printed values.
 class Lines {
  public:
   void text(const std::string& what, const std::string& before, const std::string& after) {
@@ -35,7 +35,7 @@ class Lines {
     const std::string from = written(before, digits), to = written(after, digits);
     if (from != to) lines_.push_back(what + ": " + from + " \u2192 " + to + " " + unit);
   }
-  void place(const std::string& what, const glm::dvec3& before, const glm::dvec3& after) {
+  void position(const std::string& what, const glm::dvec3& before, const glm::dvec3& after) {
     const std::string from = written(before, 2), to = written(after, 2);
     if (from != to)
       lines_.push_back(what + ": " + from + " \u2192 " + to + " mm, " + written(glm::distance(before, after), 2) +
@@ -53,7 +53,7 @@ class Lines {
 
 template <class A, class B>
 void comparePose(Lines& lines, const std::string& what, const Pose<A, B>& before, const Pose<A, B>& after) {
-  lines.place(what, before.translation_mm, after.translation_mm);
+  lines.position(what, before.translation_mm, after.translation_mm);
   lines.turn(what, before.rotation, after.rotation);
 }
 
@@ -61,9 +61,9 @@ void compareSurroundings(Lines& lines, const RigRecord& before, const RigRecord&
   const Rig &a = before.rig, &b = after.rig;
   const auto size = [](const glm::ivec2& px) { return std::to_string(px.x) + " x " + std::to_string(px.y) + " px"; };
   lines.text("screen", size(a.screen.px), size(b.screen.px));
-  lines.place("screen, lower left", a.screen.lower_left.mm, b.screen.lower_left.mm);
-  lines.place("screen, lower right", a.screen.lower_right.mm, b.screen.lower_right.mm);
-  lines.place("screen, upper left", a.screen.upper_left.mm, b.screen.upper_left.mm);
+  lines.position("screen, lower left", a.screen.lower_left.mm, b.screen.lower_left.mm);
+  lines.position("screen, lower right", a.screen.lower_right.mm, b.screen.lower_right.mm);
+  lines.position("screen, upper left", a.screen.upper_left.mm, b.screen.upper_left.mm);
   lines.text("mirror", a.mirror ? "present" : "", b.mirror ? "present" : "");
   if (a.mirror && b.mirror) {
     const double angle_rad = std::acos(std::clamp(glm::dot(a.mirror->normal, b.mirror->normal), -1.0, 1.0));
@@ -71,15 +71,15 @@ void compareSurroundings(Lines& lines, const RigRecord& before, const RigRecord&
       lines.number("mirror, tilt against before", 0.0, degreesFromRad(angle_rad), 2, "\u00b0");
     lines.number("mirror, offset", a.mirror->offset_mm, b.mirror->offset_mm, 2, "mm");
   }
-  lines.place("left eye", a.left_eye.mm, b.left_eye.mm);
-  lines.place("right eye", a.right_eye.mm, b.right_eye.mm);
+  lines.position("left eye", a.left_eye.mm, b.left_eye.mm);
+  lines.position("right eye", a.right_eye.mm, b.right_eye.mm);
   lines.number("distance of the pupils", glm::distance(a.left_eye.mm, a.right_eye.mm),
                glm::distance(b.left_eye.mm, b.right_eye.mm), 1, "mm");
-  lines.number("head wanders, 1 sigma", before.eye_sd_mm, after.eye_sd_mm, 1, "mm");
+  lines.number("head motion, 1 sigma", before.eye_sd_mm, after.eye_sd_mm, 1, "mm");
   comparePose(lines, "patient", a.X_WP, b.X_WP);
   lines.text("hand rest", before.rest ? "registered" : "", after.rest ? "registered" : "");
   if (before.rest && after.rest) {
-    lines.place("hand rest", before.rest->translation_mm, after.rest->translation_mm);
+    lines.position("hand rest", before.rest->translation_mm, after.rest->translation_mm);
     lines.turn("hand rest", before.rest->rotation, after.rest->rotation);
   }
 }
@@ -110,7 +110,7 @@ void compareArm(Lines& lines, const Rig& before, const Rig& after) {
   lines.number("shin, longer by", a.shin_delta_mm, b.shin_delta_mm, 3, "mm");
   lines.number("tilt of the shoulder", degreesFromRad(a.tilt_rad), degreesFromRad(b.tilt_rad), 3, "\u00b0");
   lines.number("reach, longer by", a.reach_delta_mm, b.reach_delta_mm, 3, "mm");
-  lines.place("tip in the handle", a.tip_H_mm, b.tip_H_mm);
+  lines.position("tip in the handle", a.tip_H_mm, b.tip_H_mm);
 }
 
 void compareKnowledge(Lines& lines, const RigRecord& before, const RigRecord& after) {

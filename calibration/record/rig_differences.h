@@ -1,5 +1,4 @@
-// What differs between two rigs, for people: a line each, with both values and their unit. mm, degrees. Pure; any
-// thread.
+// Differences between two rigs, one line each with both values and unit. mm, degrees. Pure; any thread.
 #pragma once
 
 #include <string>
@@ -9,7 +8,7 @@
 
 namespace calibration {
 
-/// In the order of who, arm, surroundings; empty: what is written of them is the same.
+/// Order: metadata, arm, surroundings. Empty: no difference as printed.
 std::vector<std::string> differences(const RigRecord& before, const RigRecord& after);
 
 }  // namespace calibration

@@ -4,26 +4,12 @@
 
 #include "calibration/checked_yaml.h"
 #include "calibration/record/rig_block_reader.h"
-#include "calibration/record/rig_metadata_reader.h"
 #include "calibration/record/sha256.h"
 
 namespace calibration {
 namespace {
 
-constexpr int kSchema = 1;
-
-void checkKind(const CheckedYaml& yaml) {
-  const cv::FileNode kind = yaml.root()["kind"];
-  if (!kind.isString() || kind.string() != "molar_rig")
-    yaml.refuse("it is not a rig file (kind: \"molar_rig\" missing)", "give the file that calibration wrote");
-  const cv::FileNode schema = yaml.root()["schema"];
-  if (schema.isInt() && static_cast<int>(schema) > kSchema)
-    yaml.refuse("its schema " + std::to_string(static_cast<int>(schema)) + " is newer than this program's 1",
-                "update the program");
-  if (!schema.isInt() || static_cast<int>(schema) != kSchema) yaml.refuse("its schema is not 1", "write 'schema: 1'");
-}
-
-/// The hash at its end; empty for a file typed by hand. One that was sealed must still have its seal, unbroken.
+/// The hash; empty for a file typed by hand. Throws for a broken or missing seal.
 std::string sealOf(const CheckedYaml& yaml) {
   const cv::FileNode root = yaml.root();
   if (!yaml.has(root, "sha256")) {
@@ -42,7 +28,7 @@ std::string sealOf(const CheckedYaml& yaml) {
 
 RigRecord readRigRecord(const std::string& path) {
   const CheckedYaml yaml("rig file", path);
-  checkKind(yaml);
+  yaml.checkKind("molar_rig");
   RigRecord record;
   record.hash = sealOf(yaml);
   const double tolerance = record.hash.empty() ? kTypedRotationTolerance : kMeasuredRotationTolerance;

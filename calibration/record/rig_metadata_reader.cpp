@@ -1,5 +1,3 @@
-#include "calibration/record/rig_metadata_reader.h"
-
 #include <algorithm>
 #include <array>
 
@@ -11,14 +9,15 @@
 namespace calibration {
 namespace {
 
-constexpr int kMostTouches = 10000, kMostNumbers = 64;
+constexpr int kMaxTouches = 10000, kMaxNumbers = 64;
 constexpr std::array kModels = {ArmModel::rigid, ArmModel::joint_gains, ArmModel::full};
 constexpr std::array kVerdicts = {Verdict::green, Verdict::amber, Verdict::red};
-constexpr std::array kProofKinds = {VerificationKind::full, VerificationKind::by_eyes, VerificationKind::session_check};
+constexpr std::array kVerificationKinds = {VerificationKind::full, VerificationKind::by_eyes,
+                                           VerificationKind::session_check};
 constexpr std::size_t kLongestCode = 32;
-constexpr double kMostError_mm = 1000.0, kMostDuration_s = 1e5;
+constexpr double kMaxError_mm = 1000.0, kMaxDuration_s = 1e5;
 
-/// Letters, digits, dot, - and _: nothing that could be a person's name with a space in it.
+/// Letters, digits, dot, - and _: excludes a personal name with a space.
 bool isCode(const std::string& text) {
   return text.size() <= kLongestCode && std::ranges::all_of(text, [](char c) {
            return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '.' || c == '-' ||
@@ -51,19 +50,19 @@ std::string utcIf(const CheckedYaml& yaml, const cv::FileNode& parent, const cha
 
 double within(const CheckedYaml& yaml, const cv::FileNode& parent, const char* key, double least, double most) {
   const double value = yaml.number(parent, key);
-  if (value < least || value > most) yaml.refuse(std::string("'") + key + "' can not be", "correct it");
+  if (value < least || value > most) yaml.refuse(std::string("'") + key + "' is out of range", "correct it");
   return value;
 }
 
 double error_mm(const CheckedYaml& yaml, const cv::FileNode& parent, const char* key) {
-  return within(yaml, parent, key, 0.0, kMostError_mm);
+  return within(yaml, parent, key, 0.0, kMaxError_mm);
 }
 
 double errorIf_mm(const CheckedYaml& yaml, const cv::FileNode& parent, const char* key) {
   return yaml.has(parent, key) ? error_mm(yaml, parent, key) : 0.0;
 }
 
-/// That of them whose name stands there.
+/// The enumerator whose name is the text.
 template <class Value, std::size_t n>
 Value named(const CheckedYaml& yaml, const cv::FileNode& parent, const char* key, const std::array<Value, n>& values) {
   const std::string text = yaml.text(parent, key);
@@ -72,7 +71,7 @@ Value named(const CheckedYaml& yaml, const cv::FileNode& parent, const char* key
     if (text == nameOf(value)) return value;
     known += (known.empty() ? "" : ", ") + std::string(nameOf(value));
   }
-  yaml.refuse(std::string("'") + key + "' is a word that is not known", "give one of " + known);
+  yaml.refuse(std::string("'") + key + "' is not known", "give one of " + known);
 }
 
 RigProvenance provenanceIn(const CheckedYaml& yaml) {
@@ -101,14 +100,14 @@ RigProcedure procedureIn(const CheckedYaml& yaml) {
   const cv::FileNode node = yaml.map(yaml.root(), "procedure");
   RigProcedure procedure;
   procedure.method = codeIf(yaml, node, "method");
-  procedure.used = yaml.integer(node, "n_used", 0, kMostTouches);
-  procedure.outliers = yaml.integer(node, "n_rejected", 0, kMostTouches);
+  procedure.used = yaml.integer(node, "n_used", 0, kMaxTouches);
+  procedure.outliers = yaml.integer(node, "n_rejected", 0, kMaxTouches);
   procedure.tilt_spread_deg = within(yaml, node, "tilt_spread_deg", 0.0, 180.0);
-  procedure.duration_s = within(yaml, node, "duration_s", 0.0, kMostDuration_s);
+  procedure.duration_s = within(yaml, node, "duration_s", 0.0, kMaxDuration_s);
   if (yaml.has(node, "precision_mm")) {
     const auto precision = yaml.numbers(node["precision_mm"], "precision_mm", 2);
     if (std::ranges::any_of(precision, [](double v) { return v <= 0.0 || v > 100.0; }))
-      yaml.refuse("'precision_mm' can not be", "give mm in the plane and along the sight");
+      yaml.refuse("'precision_mm' is out of range", "give mm in the plane and along the sight");
     procedure.precision = {precision[0], precision[1]};
   }
   if (yaml.has(yaml.root(), "fit")) {
@@ -122,11 +121,11 @@ RigProcedure procedureIn(const CheckedYaml& yaml) {
 
 std::vector<Residual> residualsIn(const CheckedYaml& yaml, const cv::FileNode& parent) {
   const cv::FileNode list = parent["residuals"];
-  if (!list.isSeq() || list.size() > kMostTouches)
+  if (!list.isSeq() || list.size() > kMaxTouches)
     yaml.refuse("'residuals' is not a list of touches", "remove it or calibrate again");
   std::vector<Residual> residuals;
   for (const cv::FileNode& node : list) {
-    if (!node.isMap()) yaml.refuse("'residuals' holds something that is no touch", "remove it or calibrate again");
+    if (!node.isMap()) yaml.refuse("'residuals' holds an entry that is not a touch", "remove it or calibrate again");
     residuals.push_back({yaml.integer(node, "id", -1000000, 1000000),
                          {yaml.vector(node, "p_W")},
                          {yaml.vector(node, "e")},
@@ -138,7 +137,7 @@ std::vector<Residual> residualsIn(const CheckedYaml& yaml, const cv::FileNode& p
 RigVerification proofIn(const CheckedYaml& yaml) {
   const cv::FileNode node = yaml.map(yaml.root(), "verify");
   RigVerification verification;
-  verification.errors.n = yaml.integer(node, "n", 0, kMostTouches);
+  verification.errors.n = yaml.integer(node, "n", 0, kMaxTouches);
   verification.errors.mean_mm = error_mm(yaml, node, "tre_mean");
   verification.errors.rms_mm = error_mm(yaml, node, "tre_rms");
   verification.errors.p95_mm = error_mm(yaml, node, "tre_p95");
@@ -146,7 +145,7 @@ RigVerification proofIn(const CheckedYaml& yaml) {
   verification.errors.bias_mm = {yaml.vector(node, "bias")};
   verification.errors.in_plane_rms_mm = errorIf_mm(yaml, node, "in_plane_rms");
   verification.errors.along_sight_rms_mm = errorIf_mm(yaml, node, "along_sight_rms");
-  if (yaml.has(node, "kind")) verification.kind = named(yaml, node, "kind", kProofKinds);
+  if (yaml.has(node, "kind")) verification.kind = named(yaml, node, "kind", kVerificationKinds);
   verification.verdict = named(yaml, node, "verdict", kVerdicts);
   verification.checked_utc = utcIf(yaml, node, "checked_utc");
   verification.worst = textIf(yaml, node, "worst");
@@ -163,7 +162,7 @@ RestRegistration restIn(const CheckedYaml& yaml, double rotation_tolerance) {
 
 std::vector<double> sigmaIn(const CheckedYaml& yaml, const cv::FileNode& kinematics) {
   const cv::FileNode list = kinematics["sigma"];
-  if (!list.isSeq() || list.size() > kMostNumbers)
+  if (!list.isSeq() || list.size() > kMaxNumbers)
     yaml.refuse("'kinematics.sigma' is not a list of at most 64 numbers", "remove it");
   const auto sigma = yaml.numbers(list, "sigma", list.size());
   if (std::ranges::any_of(sigma, [](double v) { return v < 0.0; }))

@@ -1,6 +1,6 @@
-// Everything a rig file holds: the rig, and how it is known. Blocks are independent: a re-zero changes kinematics and
-// device pose and leaves the rest. Frame W, mm. Plain data; any thread. rig_file reads and writes it, rig_store keeps
-// it. Nothing here may name a person: an operator is a code.
+// Contents of a rig file: the rig and how it was measured. Blocks are independent: a re-zero changes kinematics and
+// device pose only. Frame W, mm. Plain data; any thread. rig_file reads and writes it, rig_store keeps it. No personal
+// names: the operator is a code.
 #pragma once
 
 #include <optional>
@@ -20,8 +20,8 @@ struct RigProvenance {
   std::string program, opencv;  ///< versions
   std::string operator_code;
   std::string mirror_kind;  ///< "half_silvered", "front_surface", "none"
-  double plate_mm = 0.0;    ///< thickness of a plate that is seen through
-  std::string parent;       ///< hash of the file that was in force before; empty: none
+  double plate_mm = 0.0;    ///< thickness of a plate in the optical path
+  std::string parent;       ///< hash of the previously current file; empty: none
 };
 
 /// How it was measured.
@@ -34,26 +34,26 @@ struct RigProcedure {
   TouchPrecision precision;
 };
 
-/// How good it is, on touches it has not seen.
+/// How good it is, on held-out touches.
 struct RigVerification {
   TargetErrors errors;
   VerificationKind kind = VerificationKind::full;
   Verdict verdict = Verdict::red;
   std::string checked_utc{};
-  std::string worst{};                ///< where it is worst, as worstErrorSentence says it
-  std::vector<Residual> residuals{};  ///< of the touches that were held out
+  std::string worst{};                ///< as worstErrorSentence
+  std::vector<Residual> residuals{};  ///< of the held-out touches
 };
 
 struct RigRecord {
   Rig rig;
   RigProvenance provenance;
-  double eye_sd_mm = 5.0;  ///< how far the head wanders, one sigma an axis: tracked 2, chin rest 5, seated 15
+  double eye_sd_mm = 5.0;  ///< head motion, one sigma an axis: tracked 2, chin rest 5, seated 15
   std::optional<RigProcedure> procedure;
   std::optional<RigVerification> verification;
   std::vector<Residual> residuals;  ///< of the fit
   std::optional<RestRegistration> rest;
-  std::vector<double> sigma;  ///< of the fit's numbers, as ArmFit has them; empty: not known
-  std::string hash;           ///< of the file it was read from; empty: that has none
+  std::vector<double> sigma;  ///< of the fitted parameters, as in ArmFit; empty: not known
+  std::string hash;           ///< of the file it was read from; empty: none
 };
 
 }  // namespace calibration

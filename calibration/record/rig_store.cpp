@@ -20,13 +20,13 @@ constexpr const char* kEnding = ".yaml";
 constexpr const char* kTouchesEnding = ".touches.yaml";
 constexpr const char* kUnknownSerial = "unknown";
 constexpr std::size_t kLongestName = 64;
-constexpr int kMostInASecond = 99;
+constexpr int kMaxInASecond = 99;
 
 bool isPlain(char c) {
   return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '.' || c == '-' || c == '_';
 }
 
-/// Of a folder: nothing that leads elsewhere, nothing hidden.
+/// No path separators, nothing hidden.
 bool isPlainName(const std::string& name) {
   return !name.empty() && name.size() <= kLongestName && name[0] != '.' && std::ranges::all_of(name, isPlain);
 }
@@ -41,11 +41,11 @@ std::string shown(std::string text) {
 const std::string& checkedName(const std::string& name, const char* what) {
   if (!isPlainName(name))
     throw CalibrationError(std::string("rig store: ") + what + " " + shown(name) +
-                           " is no name, give up to 64 letters, digits, dot, - and _");
+                           " is not a valid name, use up to 64 letters, digits, dot, - and _");
   return name;
 }
 
-/// As a folder. Serials come from devices and may hold anything; two that differ stay apart.
+/// Folder name of a serial. Devices report arbitrary serials; different ones get different names.
 std::string serialFolder(const std::string& serial) {
   if (serial.empty()) return kUnknownSerial;
   if (isPlainName(serial)) return serial;
@@ -55,7 +55,7 @@ std::string serialFolder(const std::string& serial) {
   return plain + "-" + sha256Of(serial).substr(0, 8);
 }
 
-/// "2026-11-21T08-20-00Z.yaml", and "2026-11-21T08-20-00Z-02.yaml" for a second one of the same second.
+/// "2026-11-21T08-20-00Z.yaml", "2026-11-21T08-20-00Z-02.yaml" for a second one in the same second.
 struct FileName {
   std::int64_t seconds = 0;
   int number = 1;
@@ -76,20 +76,20 @@ std::optional<FileName> fileNameIn(const std::string& text) {
   time[13] = time[16] = ':';
   const auto seconds = secondsOfUtc(time);
   if (!seconds) return std::nullopt;
-  // Whatever else is possible is not one of ours.
-  for (int number = 1; number <= kMostInASecond; ++number)
+  // Accept canonical names only.
+  for (int number = 1; number <= kMaxInASecond; ++number)
     if (const FileName name{*seconds, number}; name.stem() + kEnding == text) return name;
   return std::nullopt;
 }
 
 const std::string& checkedFileName(const std::string& name) {
   if (!fileNameIn(name))
-    throw CalibrationError("rig store: " + shown(name) + " is no rig of the store, give a name like " +
+    throw CalibrationError("rig store: " + shown(name) + " is not a rig of the store, give a name like " +
                            FileName{1795249200, 1}.stem() + kEnding);
   return name;
 }
 
-/// Empty: it is of this location.
+/// Empty: it belongs to this location.
 std::string whyNotOf(const RigRecord& record, const RigLocation& location) {
   if (!record.rig.device) return "it was measured with no device";
   if (record.rig.device->serial != location.serial)
@@ -127,11 +127,11 @@ const char* environment(const char* name) {
 
 fs::path RigStore::usualRoot() {
   if (const char* const chosen = environment("MOLAR_CALIBRATION")) return chosen;
-  // A relative one is to be ignored (XDG Base Directory Specification).
+  // Relative paths are ignored (XDG Base Directory Specification).
   if (const char* const data = environment("XDG_DATA_HOME"); data != nullptr && data[0] == '/')
     return fs::path(data) / "molar" / "calibration";
   if (const char* const own = environment("HOME")) return fs::path(own) / ".local" / "share" / "molar" / "calibration";
-  throw CalibrationError("rig store: no place for calibrations is known, set MOLAR_CALIBRATION to a folder");
+  throw CalibrationError("rig store: no folder for calibrations is known, set MOLAR_CALIBRATION to a folder");
 }
 
 fs::path RigStore::folderOf(const RigLocation& location) const {
@@ -148,7 +148,7 @@ std::vector<RigLocation> RigStore::locations() const {
         if (location.serial == kUnknownSerial) location.serial.clear();
         const std::vector<std::string> files = names(location);
         if (files.empty()) continue;
-        // A folder's name can not hold every serial: the files know it.
+        // The folder name may not hold the serial; the file does.
         if (const auto record = readable(mount / files.back()); record && record->rig.device)
           location.serial = record->rig.device->serial;
         found.push_back(location);
@@ -199,24 +199,24 @@ fs::path RigStore::keep(const RigLocation& location, const RigRecord& record, co
                         bool make_current) {
   const fs::path folder = folderOf(location);
   const auto seconds = secondsOfUtc(record.provenance.created_utc);
-  if (!seconds) throw CalibrationError("rig store: a rig without its time (created_utc) can not be kept, give it");
+  if (!seconds) throw CalibrationError("rig store: a rig without created_utc cannot be stored, add it");
   if (const std::string why = whyNotOf(record, location); !why.empty())
     throw CalibrationError("rig store: " + why + ", keep it where it belongs");
   makeFolder(folder);
   const FolderLock lock(folder);
   removeLeftovers(folder);
 
-  // What it follows upon, so that rolling back finds the way whatever the clock did.
+  // The parent's hash makes roll-back independent of the clock.
   RigRecord kept = record;
   if (const auto before = nameInForce(location); before && kept.provenance.parent.empty())
     if (const auto old = readable(folder / *before)) kept.provenance.parent = old->hash;
 
   FileName name{*seconds, 1};
   while (fs::exists(folder / (name.stem() + kEnding)) || fs::exists(folder / (name.stem() + kTouchesEnding)))
-    if (++name.number > kMostInASecond)
+    if (++name.number > kMaxInASecond)
       throw CalibrationError("rig store: " + folder.string() + " holds 99 rigs of this second, set the clock");
 
-  // Only what can be read again is kept; touches before what names them, and the pointer last.
+  // Keep only what can be read back; touches before the file that refers to them, the pointer last.
   OutputFile rig(folder / (name.stem() + kEnding), false);
   rig.write(rigRecordText(kept));
   readRigRecord(rig.temporaryPath());
@@ -228,7 +228,7 @@ fs::path RigStore::keep(const RigLocation& location, const RigRecord& record, co
     rig.commit();
     if (pointer) pointer->commit();
   } catch (const CalibrationError&) {
-    // Not what somebody else had put there.
+    // Remove only our own files.
     std::error_code ignored;
     if (rig.isCommitted()) fs::remove(rig.path(), ignored);
     if (touches && touches->isCommitted()) fs::remove(touches->path(), ignored);
@@ -242,7 +242,7 @@ std::optional<std::string> RigStore::nameInForce(const RigLocation& location) co
     const auto name = currentName(location);
     if (name && fs::exists(pathOf(location, *name))) return name;
   } catch (const CalibrationError&) {
-    // A spoilt pointer is none.
+    // A damaged pointer counts as none.
   }
   return std::nullopt;
 }
@@ -255,7 +255,7 @@ std::string RigStore::rollBack(const RigLocation& location) {
   removeLeftovers(folder);
   const std::vector<std::string> files = names(location);
 
-  // The one it was made after, by hash; else by time; and where nothing is in force, the newest.
+  // By the parent's hash, else by time; without a current one, the newest.
   std::string before = files.back();
   if (const auto now = nameInForce(location)) {
     const auto at = std::ranges::find(files, *now);

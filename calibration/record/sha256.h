@@ -1,5 +1,4 @@
-// SHA-256 (FIPS 180-4), by OpenSSL. Any thread, an object per thread. Finds changed bytes; proves no author: whoever
-// can rewrite a whole file can compute its digests again.
+// SHA-256 (FIPS 180-4) by OpenSSL. Any thread, one object per thread. Detects changed bytes; does not prove an author.
 #pragma once
 
 #include <array>
@@ -16,14 +15,14 @@ using Digest = std::array<std::uint8_t, 32>;
 
 class Sha256 {
  public:
-  /// Throws CalibrationError where OpenSSL does not offer it.
+  /// Throws CalibrationError: not available in OpenSSL.
   Sha256();
   ~Sha256();
   Sha256(const Sha256&) = delete;
   Sha256& operator=(const Sha256&) = delete;
 
   void add(std::span<const std::uint8_t> bytes);
-  /// The digest of everything added; the object is used up.
+  /// Call once.
   Digest finish();
 
  private:

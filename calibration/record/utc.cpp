@@ -8,7 +8,7 @@
 namespace calibration {
 namespace {
 
-constexpr std::string_view kShape = "0000-00-00T00:00:00Z";
+constexpr std::size_t kLength = std::string_view("0000-00-00T00:00:00Z").size();
 
 int numberIn(std::string_view text, std::size_t at, std::size_t digits) {
   int value = 0;
@@ -16,24 +16,18 @@ int numberIn(std::string_view text, std::size_t at, std::size_t digits) {
   return value;
 }
 
-bool hasShape(std::string_view text) {
-  if (text.size() != kShape.size()) return false;
-  for (std::size_t i = 0; i < kShape.size(); ++i)
-    if (kShape[i] == '0' ? text[i] < '0' || text[i] > '9' : text[i] != kShape[i]) return false;
-  return true;
-}
-
 }  // namespace
 
 std::optional<std::int64_t> secondsOfUtc(std::string_view text) {
-  if (!hasShape(text)) return std::nullopt;
+  if (text.size() != kLength) return std::nullopt;
   const std::chrono::year_month_day day{std::chrono::year(numberIn(text, 0, 4)),
                                         std::chrono::month(static_cast<unsigned>(numberIn(text, 5, 2))),
                                         std::chrono::day(static_cast<unsigned>(numberIn(text, 8, 2)))};
   const int hour = numberIn(text, 11, 2), minute = numberIn(text, 14, 2), second = numberIn(text, 17, 2);
-  if (!day.ok() || hour > 23 || minute > 59 || second > 59) return std::nullopt;
+  if (!day.ok()) return std::nullopt;
   const std::int64_t days = std::chrono::sys_days(day).time_since_epoch().count();
-  return ((days * 24 + hour) * 60 + minute) * 60 + second;
+  const std::int64_t seconds = ((days * 24 + hour) * 60 + minute) * 60 + second;
+  return utcOf(seconds) == text ? std::optional(seconds) : std::nullopt;  // refuses any other spelling
 }
 
 std::string utcOf(std::int64_t seconds) {

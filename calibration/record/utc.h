@@ -1,5 +1,4 @@
-// Times as records have them: "2026-11-21T08:20:00Z", whole seconds, UTC, the Gregorian calendar. Pure, nowUtc aside;
-// any thread.
+// UTC times of records: "2026-11-21T08:20:00Z", whole seconds. Pure except nowUtc; any thread.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +8,10 @@
 
 namespace calibration {
 
-/// Since 1970; none for what is no time.
+/// Since 1970; none: not a time.
 std::optional<std::int64_t> secondsOfUtc(std::string_view text);
 std::string utcOf(std::int64_t seconds);
 
-std::string nowUtc();  ///< by the system's clock
+std::string nowUtc();  ///< by the system clock
 
 }  // namespace calibration

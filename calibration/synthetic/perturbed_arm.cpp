@@ -5,7 +5,7 @@
 namespace calibration {
 namespace {
 
-constexpr int kSteps = 9;  ///< each leaves a tenth to a hundredth of the error before it
+constexpr int kSteps = 9;  ///< each reduces the error by a factor of 10 to 100
 
 }  // namespace
 
@@ -23,7 +23,7 @@ Pose<Device, Handle> PerturbedArm::X_DH(const RawJoints& raw_rad) const {
 }
 
 std::optional<RawJoints> PerturbedArm::rawAt(const Pose<Device, Handle>& wanted_DH) const {
-  // The model's inverse of a goal that is moved by what is still missing.
+  // Fixed-point iteration on the model's inverse kinematics.
   Pose<Device, Handle> goal = wanted_DH;
   RawJoints raw{};
   for (int step = 0; step < kSteps; ++step) {

@@ -10,12 +10,12 @@
 namespace calibration {
 namespace {
 
-/// One sigma of each; what is fixed is so in every rig.
+/// One sigma of each; fixed ones are the same in every rig.
 struct ErrorSizes {
   double link_mm, offset_deg, gain, axes_deg, reach_mm;
   double gimbal_deg, gimbal_gain, tip_mm;
   double cyclic_deg;                              ///< fixed
-  double warp_mm = 0.0, gimbal_ripple_deg = 0.0;  ///< root mean square of the place; fixed
+  double warp_mm = 0.0, gimbal_ripple_deg = 0.0;  ///< RMS in position; fixed
 };
 constexpr ErrorSizes kGood{0.15, 0.15, 0.001, 0.05, 0.1, 0.3, 0.003, 0.1, 0.005};
 constexpr ErrorSizes kTypical{0.4, 0.5, 0.004, 0.15, 0.3, 1.0, 0.01, 0.4, 0.02};
@@ -41,14 +41,14 @@ const ErrorSizes& sizesOf(Scenario scenario) {
   return kMismatched;
 }
 
-/// A stand is put down by eye.
-constexpr double kStandTurn_deg = 3.0, kStandShift_mm = 12.0;  ///< at most, an axis
-/// Touches that slip or are of another pit.
-constexpr double kOutlierShare = 0.02, kLeastOutlier_mm = 5.0, kMostOutlier_mm = 20.0;
-/// Held one way, a hand still trembles and turns with the arm.
+/// A stand placed by eye.
+constexpr double kStandTurn_deg = 3.0, kStandShift_mm = 12.0;  ///< maximum, an axis
+/// Slipped touches, or touches of another pit.
+constexpr double kOutlierShare = 0.02, kMinOutlier_mm = 5.0, kMaxOutlier_mm = 20.0;
+/// Residual tilt of a hand that holds one way.
 constexpr double kOneTiltNoise_rad = 0.03;
 constexpr double kHeldOutTilt_rad = 0.5;
-/// How far a technician moves a target that is out of reach, one sigma for each try.
+/// Shift of a target that is out of reach, one sigma per try.
 constexpr double kOtherHold_mm = 5.0;
 constexpr int kTries = 60;
 
@@ -72,7 +72,7 @@ PerturbedArm drawnArm(const ErrorSizes& sizes, std::mt19937& rng) {
   truth.reach_delta_mm = gaussian(rng, sizes.reach_mm);
   truth.tip_H_mm += gaussianVector(rng, sizes.tip_mm);
 
-  // Six waves about 250 mm long: a third of the size in each axis makes the whole of it.
+  // Six waves about 250 mm long; a third of the size per axis gives the whole size.
   for (Warp& one : arm.warp)
     one = {gaussianVector(rng, sizes.warp_mm / 3.0), gaussianVector(rng, 1.0 / 40.0), uniform(rng, 0.0, 2.0 * kPi)};
   return arm;
@@ -84,7 +84,7 @@ Pose<World, Device> putDown(const Pose<World, Device>& nominal, std::mt19937& rn
   return {rotationFromVector(turn_rad) * nominal.rotation, nominal.translation_mm + shift_mm};
 }
 
-/// What the sensors read while the handle is there; none beyond the stops of arm or gimbal.
+/// Sensor readings with noise; none: beyond the stops of arm or gimbal.
 std::optional<RawJoints> readAt(const SyntheticRig& rig, const Pose<World, Handle>& X_WH, std::mt19937& rng) {
   auto raw = rig.arm.rawAt(rig.X_WD.inverse() * X_WH);
   if (!raw) return std::nullopt;
@@ -95,7 +95,7 @@ std::optional<RawJoints> readAt(const SyntheticRig& rig, const Pose<World, Handl
   return raw;
 }
 
-/// Turned about the handle's own axes, the tip where it is.
+/// Rotated about the handle's own axes with the tip fixed.
 Pose<World, Handle> turnedAboutTip(const Pose<World, Handle>& X_WH, const glm::dvec3& tip_H_mm,
                                    const glm::dvec3& turn_rad) {
   const glm::dquat turn = X_WH.rotation * glm::angleAxis(turn_rad.y, glm::dvec3(0.0, 1.0, 0.0)) *
@@ -112,7 +112,7 @@ std::optional<Scenario> scenarioNamed(std::string_view letter) {
 }
 
 SyntheticRig syntheticRig(Scenario scenario, std::uint32_t seed) {
-  // Neighbouring seeds of a Mersenne twister begin alike: the first draws are left.
+  // Neighbouring seeds of a Mersenne twister start alike: skip the first draws.
   std::mt19937 rng(seed);
   rng.discard(1000);
 
@@ -137,13 +137,13 @@ SyntheticRig syntheticRig(Scenario scenario, std::uint32_t seed) {
 
 std::optional<Touch> simulatedTouch(const SyntheticRig& rig, const Target& target, std::mt19937& rng) {
   const TechnicianModel& technician = rig.technician;
-  // Where the tip truly is: never quite at the target, now and then elsewhere.
+  // True tip position: near the target, or an outlier.
   Target hold = target;
   hold.position_W.mm +=
       glm::dvec3(gaussian(rng, technician.precision.in_plane_mm), gaussian(rng, technician.precision.in_plane_mm),
                  gaussian(rng, technician.precision.along_sight_mm));
   if (uniform(rng, 0.0, 1.0) < technician.outlier_share)
-    hold.position_W.mm += uniform(rng, kLeastOutlier_mm, kMostOutlier_mm) * glm::normalize(gaussianVector(rng, 1.0));
+    hold.position_W.mm += uniform(rng, kMinOutlier_mm, kMaxOutlier_mm) * glm::normalize(gaussianVector(rng, 1.0));
 
   if (technician.one_tilt) hold.stylus_W = kRestingStylus_W;
   const glm::dvec3 turn_rad(gaussian(rng, technician.tilt_noise_rad), gaussian(rng, technician.tilt_noise_rad),

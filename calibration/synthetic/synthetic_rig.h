@@ -1,7 +1,7 @@
-// A workstation whose truth is known: an arm with seeded errors somewhere under a mirror, a technician whose touches
-// are as exact as people's are, a screen, eyes. What solvers, wizard and commands are proved with, and what a
-// technician practises on. Frame W, mm, rad. Pure functions of the seed: the same on every machine. Any thread but the
-// servo's. Error sizes: reference/calibration 3.1, assumptions until a unit has been measured.
+// A synthetic workstation with known truth: an arm with seeded errors under a mirror, a technician of realistic
+// accuracy, a screen, eyes. For testing solvers, wizard and commands, and for practice. Frame W, mm, rad. Pure
+// functions of the seed, the same on every machine. Any thread but the servo's. Error sizes: reference/calibration 3.1,
+// assumptions until a unit has been measured.
 #pragma once
 
 #include <cstdint>
@@ -16,19 +16,19 @@
 
 namespace calibration {
 
-/// A good unit · B typical Omni or Touch · C bad, worn, not homed · D typical with what no correction can express ·
-/// E = D, stylus held one way while it is calibrated · F = D, simulatedTouch by eye · G = D with large mismatch.
+/// A good unit · B typical Omni or Touch · C worn, not homed · D typical with errors that no correction can express · E
+/// = D, stylus held one way during calibration · F = D, touched by eye · G = D with large model error.
 enum class Scenario : char { a = 'A', b = 'B', c = 'C', d = 'D', e = 'E', f = 'F', g = 'G' };
 std::optional<Scenario> scenarioNamed(std::string_view letter);
 
 struct TechnicianModel {
-  TouchPrecision precision;     ///< of the place
-  double arm_noise_rad = 8e-5;  ///< left of the encoders' steps after averaging
+  TouchPrecision precision;     ///< of the tip position
+  double arm_noise_rad = 8e-5;  ///< encoder quantisation after averaging
   double gimbal_noise_rad = 2e-3;
-  double tilt_noise_rad = 0.05;  ///< how closely the cue's tilt is held, one sigma an axis
-  double roll_rad = 0.5;         ///< the stylus is turned about itself as it comes, at most so far
+  double tilt_noise_rad = 0.05;  ///< deviation from the requested tilt, one sigma an axis
+  double roll_rad = 0.5;         ///< maximum rotation about the stylus axis
   double outlier_share = 0.0;    ///< of touches that are off by 5 to 20 mm
-  bool one_tilt = false;         ///< scenario E: whatever the cue asks
+  bool one_tilt = false;         ///< scenario E: ignores the requested tilt
 };
 
 struct SyntheticRig {
@@ -36,7 +36,7 @@ struct SyntheticRig {
   std::uint32_t seed = 1;
   PerturbedArm arm;
   Pose<World, Device> X_WD;  ///< the truth
-  Rig nominal;  ///< what is believed before any calibration: mirrored workstation, device where it should be
+  Rig nominal;               ///< before any calibration: mirrored workstation, device at its nominal pose
   TechnicianModel technician;
 
   Point<World> tip_W(const RawJoints& raw_rad) const { return X_WD * arm.tip_D(raw_rad); }
@@ -44,16 +44,15 @@ struct SyntheticRig {
 
 SyntheticRig syntheticRig(Scenario scenario, std::uint32_t seed);
 
-/// One touch of a target; none where the arm does not reach it so.
+/// One touch of a target; none: out of reach.
 std::optional<Touch> simulatedTouch(const SyntheticRig& rig, const Target& target, std::mt19937& rng);
-/// A whole procedure; targets out of reach are moved a little, as a technician would find another hold, a pit that
-/// stays where it is excepted.
+/// All touches of a plan; targets out of reach are moved a little, except a single fixed pit.
 TouchSet simulatedTouches(const SyntheticRig& rig, const TargetPlan& plan, std::mt19937& rng);
-/// `n` touches without noise of place, anywhere in ±`half_mm` about the origin, stylus tilted at random up to 29°
-/// about each axis: what a calibration is charted by.
+/// `n` touches without position noise, uniform in ±`half_mm` about the origin, random tilt up to 29° about each axis:
+/// for verification.
 std::vector<Touch> heldOutTouches(const SyntheticRig& rig, int n, const glm::dvec3& half_mm, std::mt19937& rng);
 
-/// What a night does: joint offsets after another homing, a base that was pushed; one sigma each, an axis.
+/// Overnight drift: joint offsets after another homing, a pushed base; one sigma an axis.
 SyntheticRig drifted(const SyntheticRig& rig, double offset_deg, double shift_mm, std::mt19937& rng);
 
 }  // namespace calibration

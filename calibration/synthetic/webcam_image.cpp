@@ -11,15 +11,13 @@ namespace calibration {
 namespace {
 
 constexpr double kPanelGamma = 2.2;
-constexpr int kTipRays = 6;           ///< a side of a pixel
-constexpr double kPutDown_mm = 10.0;  ///< a clamp is set by eye, one sigma
+constexpr int kTipRays = 6;           ///< per side of a pixel
+constexpr double kPutDown_mm = 10.0;  ///< placement error, one sigma
 
-std::size_t area(const glm::ivec2& size) { return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y); }
-
-/// Light of the framebuffer, summed over rectangles from its top left corner: the mean over any rectangle is exact.
+/// Summed-area table of the framebuffer's light: exact mean over any rectangle.
 class LightTable {
  public:
-  explicit LightTable(const GreyImage& shown) : size_(shown.size_px), sum_(area(size_ + 1), 0.0) {
+  explicit LightTable(const GreyImage& shown) : size_(shown.size_px), sum_(GreyImage::pixels(size_ + 1), 0.0) {
     std::array<double, 256> light{};
     for (std::size_t v = 0; v < 256; ++v) light[v] = std::pow(static_cast<double>(v) / 255.0, kPanelGamma);
     const std::size_t row = static_cast<std::size_t>(size_.x) + 1;
@@ -33,7 +31,7 @@ class LightTable {
     }
   }
 
-  /// Over a rectangle in pixels; what lies beside the image is dark.
+  /// Over a rectangle in pixels; dark outside the image.
   double mean(const glm::dvec2& middle, const glm::dvec2& half) const {
     const glm::dvec2 most(size_), low = glm::clamp(middle - half, glm::dvec2(0.0), most),
                                   high = glm::clamp(middle + half, glm::dvec2(0.0), most);
@@ -54,7 +52,7 @@ class LightTable {
   std::vector<double> sum_;
 };
 
-/// Normal, mean 0, variance 1, from a number that says which pixel of which image: four halves of a scrambled word.
+/// Approximately normal, mean 0, variance 1, hashed from a pixel's number: sum of four 16-bit parts.
 double chanceOf(std::uint64_t which) {
   const std::uint64_t z = mixedBits(which + kSplitMixStep);
   const double sum = static_cast<double>((z & 0xffff) + ((z >> 16) & 0xffff) + ((z >> 32) & 0xffff) + (z >> 48));
@@ -72,7 +70,7 @@ void blur(std::vector<float>& light, const glm::ivec2& size, double sigma) {
   }
   for (float& w : weight) w /= static_cast<float>(sum);
 
-  // Rows into a second image, then its columns back; the border goes on as it is.
+  // Rows, then columns; edge pixels are repeated.
   std::vector<float> rows(light.size());
   const std::ptrdiff_t step = size.x;
   for (int y = 0; y < size.y; ++y) {
@@ -113,12 +111,11 @@ Pose<World, Camera> roughlyPlacedCamera(const Rig& rig, double aside_deg, std::m
 WebcamRenderer::WebcamRenderer(const WebcamScene& scene, const Webcam& webcam) : scene_(scene), webcam_(webcam) {
   if (scene.mirror && scene.plate_mm > 0.0) plate_ = {*scene.mirror, scene.plate_mm, scene.refractive_index};
   if (!scene.mirror) {
-    seen_ = panelMap([](const Ray& sight) { return sight; });
+    seen_ = panelMap([](const Ray& ray) { return ray; });
     return;
   }
-  seen_ = panelMap([&](const Ray& sight) { return mirrored(*scene.mirror, sight); });
-  if (plate_ && scene.ghost > 0.0)
-    ghost_ = panelMap([&](const Ray& sight) { return mirroredByFarFace(*plate_, sight); });
+  seen_ = panelMap([&](const Ray& ray) { return mirrored(*scene.mirror, ray); });
+  if (plate_ && scene.ghost > 0.0) ghost_ = panelMap([&](const Ray& ray) { return mirroredByFarFace(*plate_, ray); });
 }
 
 Ray WebcamRenderer::rayOf(const glm::dvec2& pixel) const {
@@ -127,22 +124,23 @@ Ray WebcamRenderer::rayOf(const glm::dvec2& pixel) const {
 }
 
 template <class SightOf>
-WebcamRenderer::PanelMap WebcamRenderer::panelMap(const SightOf& sight_of) const {
+WebcamRenderer::PanelMap WebcamRenderer::panelMap(const SightOf& ray_of) const {
   const ScreenCorners& panel = scene_.panel;
-  const glm::dvec3 across = panel.lower_right.mm - panel.lower_left.mm, up = panel.upper_left.mm - panel.lower_left.mm;
+  const glm::dvec3 across = panel.across_mm(), up = panel.up_mm();
   const glm::dvec3 normal = glm::normalize(glm::cross(across, up));
   const glm::ivec2 size = webcam_.model.size_px;
   PanelMap map;
-  map.reserve(area(size + 1));
+  map.reserve(GreyImage::pixels(size + 1));
   for (int y = 0; y <= size.y; ++y)
     for (int x = 0; x <= size.x; ++x) {
-      const Ray sight = sight_of(rayOf({x - 0.5, y - 0.5}));
-      const double into = glm::dot(sight.along_W.xyz, normal);
-      const double way_mm = glm::dot(panel.lower_left.mm - sight.from_W.mm, normal) / into;
-      const glm::dvec3 at = sight.from_W.mm + way_mm * sight.along_W.xyz - panel.lower_left.mm;
-      const glm::vec2 place(glm::dot(at, across) / glm::dot(across, across), 1.0 - glm::dot(at, up) / glm::dot(up, up));
+      const Ray ray = ray_of(rayOf({x - 0.5, y - 0.5}));
+      const double into = glm::dot(ray.along_W.xyz, normal);
+      const double way_mm = glm::dot(panel.lower_left.mm - ray.from_W.mm, normal) / into;
+      const glm::dvec3 at = ray.from_W.mm + way_mm * ray.along_W.xyz - panel.lower_left.mm;
+      const glm::vec2 position(glm::dot(at, across) / glm::dot(across, across),
+                               1.0 - glm::dot(at, up) / glm::dot(up, up));
       const bool ahead = std::abs(into) > 1e-9 && way_mm > 0.0;
-      map.push_back(ahead ? place : glm::vec2(std::numeric_limits<float>::quiet_NaN()));
+      map.push_back(ahead ? position : glm::vec2(std::numeric_limits<float>::quiet_NaN()));
     }
   return map;
 }
@@ -161,7 +159,7 @@ void WebcamRenderer::addPanel(const PanelMap& map, const GreyImage& shown, doubl
       const glm::dvec2 beside = glm::abs(middle - 0.5) - 0.5 - reach;
       if (!(beside.x < 0.0 && beside.y < 0.0)) continue;
 
-      // The pixel's area on the panel: four rectangles that each stand for a quarter of it.
+      // The pixel's area on the panel as four rectangles.
       double mean = 0.0;
       for (const double i : {-0.25, 0.25})
         for (const double j : {-0.25, 0.25})
@@ -173,7 +171,7 @@ void WebcamRenderer::addPanel(const PanelMap& map, const GreyImage& shown, doubl
 void WebcamRenderer::addTip(const LitTip& tip, std::vector<float>& light) const {
   const Point<Camera> tip_C = webcam_.X_WC.inverse() * tip.middle_W;
   if (tip_C.mm.z < 10.0 * tip.radius_mm) return;
-  // Where it may be in the image: the glass moves it by less than its thickness.
+  // Bounding box in the image; the glass moves the tip by less than its thickness.
   const double px_per_mm = std::max(webcam_.model.focal_px.x, webcam_.model.focal_px.y) / tip_C.mm.z;
   const double smear_mm = glm::length(tip.smear_mm.xyz);
   const double reach_px = 3.0 + px_per_mm * (1.2 * tip.radius_mm + 0.5 * smear_mm + scene_.plate_mm);
@@ -185,15 +183,15 @@ void WebcamRenderer::addTip(const LitTip& tip, std::vector<float>& light) const 
   const glm::dvec3 to_lamp = glm::normalize(tip.to_lamp_W.xyz);
   const bool behind =
       plate_ && plate_->face.distance_mm(tip.middle_W) * plate_->face.distance_mm({webcam_.X_WC.translation_mm}) < 0.0;
-  const auto light_along = [&](const Ray& sight) {
+  const auto light_along = [&](const Ray& ray) {
     double sum = 0.0;
     for (int m = 0; m < moments; ++m) {
       const glm::dvec3 middle = tip.middle_W.mm + ((m + 0.5) / moments - 0.5) * tip.smear_mm.xyz;
-      const glm::dvec3 to_middle = middle - sight.from_W.mm;
-      const double nearest = glm::dot(to_middle, sight.along_W.xyz);
+      const glm::dvec3 to_middle = middle - ray.from_W.mm;
+      const double nearest = glm::dot(to_middle, ray.along_W.xyz);
       const double inside = tip.radius_mm * tip.radius_mm - glm::dot(to_middle, to_middle) + nearest * nearest;
       if (inside < 0.0) continue;
-      const glm::dvec3 hit = sight.from_W.mm + (nearest - std::sqrt(inside)) * sight.along_W.xyz;
+      const glm::dvec3 hit = ray.from_W.mm + (nearest - std::sqrt(inside)) * ray.along_W.xyz;
       const double lit = std::max(0.0, glm::dot(hit - middle, to_lamp) / tip.radius_mm);
       sum += tip.light * (1.0 - tip.lamp_share + tip.lamp_share * lit);
     }
@@ -204,8 +202,8 @@ void WebcamRenderer::addTip(const LitTip& tip, std::vector<float>& light) const 
       double mean = 0.0;
       for (int i = 0; i < kTipRays; ++i)
         for (int j = 0; j < kTipRays; ++j) {
-          const Ray sight = rayOf({x + (i + 0.5) / kTipRays - 0.5, y + (j + 0.5) / kTipRays - 0.5});
-          mean += light_along(behind ? seenThrough(*plate_, sight) : sight);
+          const Ray ray = rayOf({x + (i + 0.5) / kTipRays - 0.5, y + (j + 0.5) / kTipRays - 0.5});
+          mean += light_along(behind ? seenThrough(*plate_, ray) : ray);
         }
       light[static_cast<std::size_t>(y * webcam_.model.size_px.x + x)] +=
           static_cast<float>(mean / (kTipRays * kTipRays));
@@ -214,7 +212,7 @@ void WebcamRenderer::addTip(const LitTip& tip, std::vector<float>& light) const 
 
 GreyImage WebcamRenderer::image(const GreyImage* shown, const std::optional<LitTip>& tip, std::uint64_t seed) const {
   const glm::ivec2 size = webcam_.model.size_px;
-  std::vector<float> light(area(size), 0.0F);
+  std::vector<float> light(GreyImage::pixels(size), 0.0F);
   if (shown != nullptr) {
     addPanel(seen_, *shown, 1.0, light);
     if (!ghost_.empty()) addPanel(ghost_, *shown, scene_.ghost, light);
@@ -222,13 +220,13 @@ GreyImage WebcamRenderer::image(const GreyImage* shown, const std::optional<LitT
   if (tip) addTip(*tip, light);
   blur(light, size, webcam_.defocus_px);
 
-  // To its corners it dims with the square of the distance; then its encoding, noise and steps.
+  // Vignetting, encoding, noise, quantisation.
   constexpr std::size_t kSteps = 4096;
   std::vector<float> encoded(kSteps + 1);
   for (std::size_t i = 0; i <= kSteps; ++i)
     encoded[i] = static_cast<float>(255.0 * std::pow(static_cast<double>(i) / kSteps, 1.0 / webcam_.gamma));
   const glm::dvec2 middle = 0.5 * glm::dvec2(size);
-  GreyImage image{size, std::vector<std::uint8_t>(light.size())};
+  GreyImage image = GreyImage::filled(size, 0);
   std::size_t at = 0;
   for (int y = 0; y < size.y; ++y)
     for (int x = 0; x < size.x; ++x, ++at) {

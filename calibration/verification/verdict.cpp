@@ -10,17 +10,17 @@ namespace calibration {
 namespace {
 
 constexpr VerificationLimits kFull{{0.5, 1.0}, {0.8, 1.8}, {1.2, 2.5}, {0.3, 0.6}};
-// By eye only the root mean square has a limit of its own: the others stand to it as they do above.
+// By eye the RMS has limits of its own; the others keep their ratio to it.
 constexpr VerificationLimits kByEyes{{0.8, 1.5}, {1.3, 2.7}, {1.9, 3.75}, {0.5, 0.9}};
-// Of four touches, all of which a shift may explain: bias has the limits of the root mean square.
+// Of four touches, which one translation may explain: the bias has the RMS's limits.
 constexpr VerificationLimits kSessionCheck{{0.6, 1.2}, {1.0, 2.0}, {1.0, 2.0}, {0.6, 1.2}};
 
-constexpr int kFewestForGreen = 4;
+constexpr int kMinForGreen = 4;
 constexpr double kOneSided95 = 1.65;
 
 double length(const Vector<World>& v) { return glm::length(v.xyz); }
 
-/// Between the two nearest, as spreadsheets and numpy have it.
+/// Linear interpolation, as in spreadsheets and numpy.
 double percentile(std::vector<double> sorted, double share) {
   std::ranges::sort(sorted);
   const double at = share * static_cast<double>(sorted.size() - 1);
@@ -29,12 +29,12 @@ double percentile(std::vector<double> sorted, double share) {
   return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
 }
 
-/// Not a number is never within.
+/// NaN is red.
 Verdict against(double value_mm, const VerificationLimit& limit) {
   return value_mm <= limit.green_mm ? Verdict::green : value_mm <= limit.amber_mm ? Verdict::amber : Verdict::red;
 }
 
-/// Not a number if one of them is none.
+/// NaN if a component is.
 double largestOf(const glm::dvec3& v) {
   const glm::dvec3 size = glm::abs(v);
   return std::isfinite(size.x + size.y + size.z) ? std::max({size.x, size.y, size.z}) : size.x + size.y + size.z;
@@ -81,7 +81,7 @@ const VerificationLimits& limitsOf(VerificationKind kind) {
 Assessment assess(const TargetErrors& errors, VerificationKind kind) {
   Assessment assessment;
   if (errors.n == 0) {
-    assessment.reason = "no touch to judge by";
+    assessment.reason = "no touch to check against";
     return assessment;
   }
   const VerificationLimits& limits = limitsOf(kind);
@@ -95,9 +95,9 @@ Assessment assess(const TargetErrors& errors, VerificationKind kind) {
       Quantity{"root mean square at most {:.2f} mm (95 % sure)", assessment.rms_upper_bound_mm, limits.rms},
       Quantity{"95 of 100 touches within {:.2f} mm", errors.p95_mm, limits.p95},
       Quantity{"the worst touch {:.2f} mm off", errors.max_mm, limits.max},
-      Quantity{"all touches off one way by {:.2f} mm", largestOf(errors.bias_mm.xyz), limits.bias}};
+      Quantity{"all touches off in one direction by {:.2f} mm", largestOf(errors.bias_mm.xyz), limits.bias}};
 
-  // The worst colour decides; of one colour what is furthest beyond its limit.
+  // The worst colour decides; within a colour the largest ratio to its limit.
   const auto beyond = [](const Quantity& q) { return q.value_mm / q.limit.green_mm; };
   const auto worse = [&](const Quantity& a, const Quantity& b) {
     const Verdict va = against(a.value_mm, a.limit), vb = against(b.value_mm, b.limit);
@@ -109,7 +109,7 @@ Assessment assess(const TargetErrors& errors, VerificationKind kind) {
   assessment.reason = fmt::format(fmt::runtime(deciding.what), deciding.value_mm) +
                       (assessment.verdict == Verdict::green ? fmt::format(", {:.2f} mm are allowed", limit_mm)
                                                             : fmt::format(", more than {:.2f} mm", limit_mm));
-  if (errors.n < kFewestForGreen && assessment.verdict == Verdict::green) {
+  if (errors.n < kMinForGreen && assessment.verdict == Verdict::green) {
     assessment.verdict = Verdict::amber;
     assessment.reason = std::to_string(errors.n) + " touches are too few to be sure, 4 are needed";
   }
@@ -126,15 +126,15 @@ std::string worstErrorSentence(const std::vector<Residual>& residuals, const Poi
   }
   if (!worst) return "no touches";
   const glm::dvec3 from_middle = worst->target_W.mm - middle_W.mm;
-  std::string place;
+  std::string position;
   const auto say = [&](int axis, const char* negative, const char* positive) {
     if (std::abs(from_middle[axis]) <= reach_mm[axis] / 3.0 || reach_mm[axis] < 1.0) return;
-    place += (place.empty() ? "" : " ") + std::string(from_middle[axis] < 0.0 ? negative : positive);
+    position += (position.empty() ? "" : " ") + std::string(from_middle[axis] < 0.0 ? negative : positive);
   };
   say(2, "back", "front");
   say(0, "left", "right");
   say(1, "low", "high");
-  return fmt::format("worst: {}, {:.1f} mm", place.empty() ? "in the middle" : place, length(worst->error_mm));
+  return fmt::format("worst: {}, {:.1f} mm", position.empty() ? "in the middle" : position, length(worst->error_mm));
 }
 
 }  // namespace calibration

@@ -1,6 +1,6 @@
-// Whether a calibration may be used: errors on touches it has not seen, against limits, with how sure so few touches
-// can be. Green: use it. Amber: usable, and said. Red: locked on a real device. mm. Pure; any thread.
-// Limits and the factor for uncertainty: reference/calibration 4.1, 4.2.
+// Whether a calibration may be used: errors on held-out touches against limits, with the uncertainty of few touches.
+// Green: usable. Amber: usable with a warning. Red: locked on a real device. mm. Pure; any thread. Limits and
+// uncertainty factor: reference/calibration 4.1, 4.2.
 #pragma once
 
 #include <string>
@@ -12,21 +12,20 @@
 namespace calibration {
 
 enum class Verdict { green, amber, red };
-std::string_view nameOf(Verdict verdict);  ///< in rig files too: a word that is there keeps its meaning
+std::string_view nameOf(Verdict verdict);  ///< also in rig files
 
-/// Of touches that were not used for the fit.
 struct TargetErrors {
   int n = 0;
   double mean_mm = 0.0, rms_mm = 0.0, p95_mm = 0.0, max_mm = 0.0;
   Vector<World> bias_mm;                                   ///< signed mean
   double in_plane_rms_mm = 0.0, along_sight_rms_mm = 0.0;  ///< across and along W's z
 };
-/// Of the residuals marked used. Zero of all where there are none.
+/// Of the residuals marked used; all zero without any.
 TargetErrors targetErrors(const std::vector<Residual>& residuals);
 
-/// Against which limits: a full calibration by jig or webcam, by eyes alone, or the check at the start of a session.
+/// The set of limits: full calibration by jig or webcam, by eye only, or the check at the start of a session.
 enum class VerificationKind { full, by_eyes, session_check };
-std::string_view nameOf(VerificationKind kind);  ///< "full", …: in rig files
+std::string_view nameOf(VerificationKind kind);  ///< "full", …; also in rig files
 
 struct VerificationLimit {
   double green_mm, amber_mm;
@@ -38,15 +37,14 @@ const VerificationLimits& limitsOf(VerificationKind kind);
 
 struct Assessment {
   Verdict verdict = Verdict::red;
-  double rms_upper_bound_mm = 0.0;  ///< rms times (1 + 1.65 / sqrt(6 n)): 95 % sure it is no more
-  std::string reason;               ///< which limit decided it, one clause with its numbers
+  double rms_upper_bound_mm = 0.0;  ///< rms times (1 + 1.65 / sqrt(6 n)): one-sided 95 % bound
+  std::string reason;               ///< the deciding limit, one clause with its values
 };
 /// Fewer than 4 touches are never green.
 Assessment assess(const TargetErrors& errors, VerificationKind kind);
 
-/// The one sentence at the end: where the worst error is and how large, as the surgeon sees it: "worst: back left low,
-/// 0.9 mm". Places by W's axes through `middle_W`: left/right, low/high, back/front; the middle third of each is not
-/// said.
+/// Position and size of the worst error as the surgeon sees it: "worst: back left low, 0.9 mm". By W's axes through
+/// `middle_W`: left/right, low/high, back/front; the middle third of an axis is omitted.
 std::string worstErrorSentence(const std::vector<Residual>& residuals, const Point<World>& middle_W);
 
 }  // namespace calibration

@@ -12,14 +12,13 @@ namespace {
 
 constexpr double kSpotRadius = 0.22;  ///< of a square's side
 
-/// How much darker or brighter a square is in its middle than towards its corners, 0..255.
+/// Contrast of a square's centre against its outer parts, 0..255.
 double spotOf(const GreyImage& image, const std::array<glm::dvec2, 4>& corners_px) {
   const glm::dvec2 middle = 0.25 * (corners_px[0] + corners_px[1] + corners_px[2] + corners_px[3]);
   const auto grey_at = [&](const glm::dvec2& px) {
     const int x = std::clamp(static_cast<int>(std::lround(px.x)), 0, image.size_px.x - 1);
     const int y = std::clamp(static_cast<int>(std::lround(px.y)), 0, image.size_px.y - 1);
-    return double(image.grey[static_cast<std::size_t>(y) * static_cast<std::size_t>(image.size_px.x) +
-                             static_cast<std::size_t>(x)]);
+    return double(image.at(x, y));
   };
   double inside = 2.0 * grey_at(middle), outside = 0.0;
   for (const glm::dvec2& corner : corners_px) {
@@ -29,7 +28,7 @@ double spotOf(const GreyImage& image, const std::array<glm::dvec2, 4>& corners_p
   return std::abs(inside / 4.0 - outside);
 }
 
-/// The four orders in which a finder may name the corners of a rectangle.
+/// The four corner orders that a finder may return.
 struct Order {
   bool backwards_x = false, backwards_y = false;
 };
@@ -38,7 +37,7 @@ std::size_t indexIn(const Order& order, const glm::ivec2& count, int x, int y) {
                                   (order.backwards_x ? count.x - 1 - x : x));
 }
 
-/// Squares whose spot is not as this order has it, of those with four corners seen.
+/// Squares whose spot contradicts this order.
 int contradictions(const ShownBoard& board, const Order& order, const std::vector<double>& spots, double threshold) {
   const glm::ivec2 inner = board.corners() - 1;
   int wrong = 0;
@@ -48,21 +47,14 @@ int contradictions(const ShownBoard& board, const Order& order, const std::vecto
   return wrong;
 }
 
-BoardDetection refused(BoardTrouble trouble, const char* line, BoardDetection sighting) {
-  sighting.trouble = trouble;
-  sighting.line = line;
-  sighting.corners_px.clear();
-  return sighting;
-}
-
 }  // namespace
 
 std::vector<glm::dvec2> ShownBoard::cornerPositions_px() const {
-  std::vector<glm::dvec2> places;
+  std::vector<glm::dvec2> positions;
   for (int y = 1; y < squares.y; ++y)
     for (int x = 1; x < squares.x; ++x)
-      places.push_back(glm::dvec2(upper_left_px + square_px * glm::ivec2(x, y)) - 0.5);
-  return places;
+      positions.push_back(glm::dvec2(upper_left_px + square_px * glm::ivec2(x, y)) - 0.5);
+  return positions;
 }
 
 bool ShownBoard::hasSpot(const glm::ivec2& square) const {
@@ -85,8 +77,7 @@ ShownBoard boardFor(const glm::ivec2& screen_px) {
 }
 
 GreyImage boardImage(const ShownBoard& board) {
-  GreyImage image{board.screen_px, {}};
-  image.grey.reserve(static_cast<std::size_t>(board.screen_px.x) * static_cast<std::size_t>(board.screen_px.y));
+  GreyImage image = GreyImage::filled(board.screen_px, kShownWhite);
   for (int y = 0; y < board.screen_px.y; ++y)
     for (int x = 0; x < board.screen_px.x; ++x) {
       const glm::dvec2 at = (glm::dvec2(x, y) + 0.5 - glm::dvec2(board.upper_left_px)) / double(board.square_px);
@@ -96,46 +87,46 @@ GreyImage boardImage(const ShownBoard& board) {
       bool black = on_board && (square.x + square.y) % 2 == 0;
       if (on_board && board.hasSpot(square) && glm::distance(at, glm::dvec2(square) + 0.5) < kSpotRadius)
         black = !black;
-      image.grey.push_back(black ? kShownBlack : kShownWhite);
+      if (black) image.at(x, y) = kShownBlack;
     }
   return image;
 }
 
 BoardDetection findBoard(const GreyImage& image, const ShownBoard& board) {
   const glm::ivec2 count = board.corners(), inner = count - 1;
-  BoardDetection sighting = findChessboard(image, count);
-  if (sighting.trouble) return sighting;
+  BoardDetection detection = findChessboard(image, count);
+  if (detection.trouble) return detection;
 
-  // Which squares hold a spot, still in the finder's order.
+  // Spots per square, in the finder's order.
   std::vector<double> spots;
   for (int y = 0; y < inner.y; ++y)
     for (int x = 0; x < inner.x; ++x) {
-      const auto at = [&](int column, int row) { return sighting.corners_px[indexIn({}, count, column, row)]; };
+      const auto at = [&](int column, int row) { return detection.corners_px[indexIn({}, count, column, row)]; };
       spots.push_back(spotOf(image, {at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)}));
     }
   const double threshold = 0.5 * *std::ranges::max_element(spots);
 
-  // The order that reads the F.
+  // The order in which the F is readable.
   std::optional<Order> order;
   for (const Order candidate : {Order{false, false}, Order{true, true}, Order{true, false}, Order{false, true}})
     if (contradictions(board, candidate, spots, threshold) <= 1) order = candidate;
   if (!order)
-    return refused(BoardTrouble::not_found,
-                   "a board is seen, but not its F: show our own board, avoid reflections and uncover the screen",
-                   sighting);
+    return detection.rejected(
+        BoardTrouble::not_found,
+        "a board is seen, but not its F: show the program's board, avoid reflections and uncover the screen");
   std::vector<glm::dvec2> ordered;
   for (int y = 0; y < count.y; ++y)
-    for (int x = 0; x < count.x; ++x) ordered.push_back(sighting.corners_px[indexIn(*order, count, x, y)]);
+    for (int x = 0; x < count.x; ++x) ordered.push_back(detection.corners_px[indexIn(*order, count, x, y)]);
 
-  // Right-handed as on the screen, or seen in a mirror too many.
+  // Left-handed: seen in one mirror too many.
   const glm::dvec2 across = ordered[static_cast<std::size_t>(count.x - 1)] - ordered.front();
   const glm::dvec2 down = ordered[static_cast<std::size_t>((count.y - 1) * count.x)] - ordered.front();
   if (across.x * down.y - across.y * down.x < 0.0)
-    return refused(BoardTrouble::mirrored,
-                   "the F is mirrored: correct the screen's corners in the rig file, or the camera's mirror setting",
-                   sighting);
-  sighting.corners_px = std::move(ordered);
-  return sighting;
+    return detection.rejected(
+        BoardTrouble::mirrored,
+        "the F is mirrored: correct the screen's corners in the rig file, or the camera's mirror setting");
+  detection.corners_px = std::move(ordered);
+  return detection;
 }
 
 }  // namespace calibration

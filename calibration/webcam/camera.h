@@ -1,5 +1,5 @@
-// A camera as numbers: pinhole with two radial and two tangential terms, pixel centres at whole numbers (OpenCV's
-// convention), and images as it gives them. px, mm. Frame C: x right, y down, z ahead. Plain data; any thread.
+// Camera model: pinhole with two radial and two tangential terms, pixel centres at integers (OpenCV's convention); and
+// its grey images. px, mm. Frame C: x right, y down, z ahead. Plain data; any thread.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct CameraModel {
   glm::dvec2 focal_px{1400.0, 1400.0}, centre_px{959.5, 539.5};
   double k1 = 0.0, k2 = 0.0, p1 = 0.0, p2 = 0.0;
 
-  /// Where a point ahead of the camera falls.
+  /// Projection of a point in front of the camera.
   glm::dvec2 pixelOf(const Point<Camera>& p_C) const {
     const double x = p_C.mm.x / p_C.mm.z, y = p_C.mm.y / p_C.mm.z, r2 = x * x + y * y;
     const double radial = 1.0 + r2 * (k1 + r2 * k2);
@@ -23,8 +23,7 @@ struct CameraModel {
             focal_px.y * (y * radial + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y) + centre_px.y};
   }
 
-  /// Backwards, to 1e-12: x and y, at z = 1, of what falls on this pixel. For lenses whose distortion is small to what
-  /// they see.
+  /// Inverse to 1e-12: x and y at z = 1 of a pixel. For moderate distortion.
   glm::dvec2 undistorted(const glm::dvec2& pixel) const {
     const glm::dvec2 seen = (pixel - centre_px) / focal_px;
     glm::dvec2 at = seen;
@@ -40,13 +39,27 @@ struct CameraModel {
   }
 };
 
-/// Grey levels of what a screen shows a camera: short of glare, and of what a screen can not tell from black.
+/// Grey levels shown to a camera: below glare, and above the screen's black level.
 inline constexpr std::uint8_t kShownWhite = 235, kShownBlack = 16;
 
-/// 8 bits a pixel, rows from the top.
+/// 8 bits per pixel, rows from the top.
 struct GreyImage {
   glm::ivec2 size_px{0};
   std::vector<std::uint8_t> grey;
+
+  static GreyImage filled(const glm::ivec2& size_px, std::uint8_t value) {
+    return {size_px, std::vector<std::uint8_t>(pixels(size_px), value)};
+  }
+  static std::size_t pixels(const glm::ivec2& size_px) {
+    return static_cast<std::size_t>(size_px.x) * static_cast<std::size_t>(size_px.y);
+  }
+  /// Not empty, size and bytes agree.
+  bool isWhole() const { return size_px.x > 0 && size_px.y > 0 && grey.size() == pixels(size_px); }
+  std::uint8_t& at(int x, int y) { return grey[indexOf(x, y)]; }
+  std::uint8_t at(int x, int y) const { return grey[indexOf(x, y)]; }
+  std::size_t indexOf(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(size_px.x) + static_cast<std::size_t>(x);
+  }
 };
 
 }  // namespace calibration

@@ -17,19 +17,19 @@
 namespace calibration {
 namespace {
 
-constexpr double kLeastSide_px = 9.0, kMostSlant_deg = 60.0;
-constexpr double kMostEdge_px = 6.0, kMostEdgeOfSide = 0.3;
+constexpr double kMinSide_px = 9.0, kMaxSlant_deg = 60.0;
+constexpr double kMaxEdge_px = 6.0, kMaxEdgeOfSide = 0.3;
 constexpr int kLargePicture_px = 1280;
 constexpr double kWindowOfSide = 0.3;
-constexpr int kMostWindow_px = 11;
-constexpr std::array<int, 2> kCoarser = {3, 6};  ///< where a blurred board is looked for
+constexpr int kMaxWindow_px = 11;
+constexpr std::array<int, 2> kCoarser = {3, 6};  ///< downscaling to find a blurred board
 
 using Corners = std::vector<cv::Point2f>;
 
 std::optional<Corners> chessboardAsItIs(const cv::Mat& grey, const cv::Size& size) {
   Corners corners;
   try {
-    // Corners are refined afterwards: the finder's own, slower, accuracy is the second choice, for poor light.
+    // Corners are refined later; the finder's own accurate mode is slower and used for poor light.
     for (const int flags : {int{cv::CALIB_CB_EXHAUSTIVE}, cv::CALIB_CB_ACCURACY | cv::CALIB_CB_NORMALIZE_IMAGE})
       if (cv::findChessboardCornersSB(grey, size, corners, flags)) return corners;
   } catch (const cv::Exception&) {
@@ -44,7 +44,7 @@ cv::Mat coarser(const cv::Mat& grey, int factor) {
   return coarse;
 }
 
-/// A large image is looked through at half its size first: four times as fast, and corners are refined anyway.
+/// A large image is searched at half size first: four times as fast.
 std::optional<Corners> chessboardIn(const cv::Mat& grey, const cv::Size& size) {
   if (grey.cols > kLargePicture_px)
     if (auto corners = chessboardAsItIs(coarser(grey, 2), size)) {
@@ -54,7 +54,7 @@ std::optional<Corners> chessboardIn(const cv::Mat& grey, const cv::Size& size) {
   return chessboardAsItIs(grey, size);
 }
 
-/// Whether a part of a board is there that is too small to be all of it.
+/// Whether part of a board is visible.
 bool holdsAPart(const cv::Mat& grey) {
   Corners corners;
   try {
@@ -65,24 +65,19 @@ bool holdsAPart(const cv::Mat& grey) {
   }
 }
 
-BoardDetection refused(BoardTrouble trouble, std::string line, BoardDetection sighting = {}) {
-  sighting.trouble = trouble;
-  sighting.line = std::move(line);
-  sighting.corners_px.clear();
-  return sighting;
-}
-
 BoardDetection notFound(const cv::Mat& grey, const cv::Size& size) {
   for (const int factor : kCoarser) {
     const cv::Mat coarse = coarser(grey, factor);
     if (std::min(coarse.cols, coarse.rows) > 60 && chessboardAsItIs(coarse, size))
-      return refused(BoardTrouble::blurred, "the picture is blurred: hold the camera still and focus on the screen");
+      return BoardDetection{}.rejected(BoardTrouble::blurred,
+                                       "the image is blurred: hold the camera still and focus on the screen");
   }
   if (holdsAPart(grey))
-    return refused(BoardTrouble::cropped,
-                   "only part of the board is seen: take the camera back or turn it, and uncover the screen");
-  return refused(BoardTrouble::not_found,
-                 "no board is seen: point the camera at the screen, darken the room, avoid reflections");
+    return BoardDetection{}.rejected(
+        BoardTrouble::cropped,
+        "only part of the board is seen: take the camera back or turn it, and uncover the screen");
+  return BoardDetection{}.rejected(
+      BoardTrouble::not_found, "no board is seen: point the camera at the screen, darken the room, avoid reflections");
 }
 
 /// The shortest side of a square, px.
@@ -97,14 +92,14 @@ double leastSide_px(const Corners& corners, const cv::Size& size) {
   return least;
 }
 
-/// The finder leaves about 0.25 px, a saddle fitted to the grey about 0.05: in a window that holds no spot.
+/// From about 0.25 px (finder) to about 0.05 px (saddle fit), in a window without spots.
 void refine(const cv::Mat& grey, Corners& corners, const cv::Size& size) {
-  const int half = std::clamp(static_cast<int>(kWindowOfSide * leastSide_px(corners, size)), 2, kMostWindow_px);
+  const int half = std::clamp(static_cast<int>(kWindowOfSide * leastSide_px(corners, size)), 2, kMaxWindow_px);
   const cv::TermCriteria until(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 40, 0.005);
   cv::cornerSubPix(grey, corners, {half, half}, {-1, -1}, until);
 }
 
-/// From how much shorter the board's middle looks in one direction than in another.
+/// From the ratio of the homography's principal stretches at the centre.
 double slantOf_deg(const Corners& corners, const cv::Size& size) {
   Corners squares;
   for (int y = 0; y < size.height; ++y)
@@ -132,7 +127,7 @@ double greyAt(const cv::Mat& grey, const cv::Point2f& px) {
          below * ((1.0 - right) * at(x, y + 1) + right * at(x + 1, y + 1));
 }
 
-/// How far it is, along `across`, from a quarter to three quarters of the step between two squares; px.
+/// Distance, along `across`, between a quarter and three quarters of the step between two squares; px.
 double riseOf_px(const cv::Mat& grey, const cv::Point2f& middle, const cv::Point2f& across) {
   constexpr int kHalf = 24;
   std::array<double, 2 * kHalf + 1> profile{};
@@ -148,11 +143,11 @@ double riseOf_px(const cv::Mat& grey, const cv::Point2f& middle, const cv::Point
   return between * cv::norm(across) / kHalf;
 }
 
-/// Rise of the edges from 10 to 90 %, in the worse direction: a moved camera blurs one alone. Measured from a quarter
-/// to three quarters, where the faint ghost of a glass has no say, and taken for a Gaussian's.
+/// 10 to 90 % width of the edges in the worse direction (motion blurs one). Measured between a quarter and three
+/// quarters, where a faint ghost has no influence, assuming a Gaussian.
 double edgeOf_px(const cv::Mat& grey, const Corners& corners, const cv::Size& size) {
   constexpr double kWholeToHalf = 1.9;
-  constexpr float kReach = 0.25F;  ///< of a square: no spot is met
+  constexpr float kReach = 0.25F;  ///< of a square: avoids the spots
   const auto at = [&](int x, int y) { return corners[static_cast<std::size_t>(y * size.width + x)]; };
   std::vector<double> down, sideways;
   for (int y = 0; y + 1 < size.height; ++y)
@@ -163,41 +158,39 @@ double edgeOf_px(const cv::Mat& grey, const Corners& corners, const cv::Size& si
   return kWholeToHalf * std::max(medianOf(down), medianOf(sideways));
 }
 
-/// Found, and good enough to be used: corners still in the finder's order.
+/// Finds the board and checks its quality; corners in the finder's order.
 BoardDetection charted(const cv::Mat& grey, const glm::ivec2& count) {
   const cv::Size size(count.x, count.y);
   auto corners = chessboardIn(grey, size);
   if (!corners) return notFound(grey, size);
 
   refine(grey, *corners, size);
-  BoardDetection sighting;
-  for (const cv::Point2f& corner : *corners) sighting.corners_px.emplace_back(corner.x, corner.y);
-  sighting.slant_deg = slantOf_deg(*corners, size);
+  BoardDetection detection;
+  for (const cv::Point2f& corner : *corners) detection.corners_px.emplace_back(corner.x, corner.y);
+  detection.slant_deg = slantOf_deg(*corners, size);
   const double side_px = leastSide_px(*corners, size);
-  if (sighting.slant_deg > kMostSlant_deg)
-    return refused(
+  if (detection.slant_deg > kMaxSlant_deg)
+    return detection.rejected(
         BoardTrouble::too_oblique,
-        fmt::format("the board is seen too obliquely ({:.0f} degrees, at most 60): face it more", sighting.slant_deg),
-        sighting);
-  if (side_px < kLeastSide_px)
-    return refused(
+        fmt::format("the board is seen too obliquely ({:.0f} degrees, at most 60): face it more", detection.slant_deg));
+  if (side_px < kMinSide_px)
+    return detection.rejected(
         BoardTrouble::too_small,
-        fmt::format("the board is too small in the picture (a square is {:.0f} px, at least 9): go nearer", side_px),
-        sighting);
-  sighting.edge_px = edgeOf_px(grey, *corners, size);
-  if (sighting.edge_px > std::min(kMostEdge_px, kMostEdgeOfSide * side_px))
-    return refused(BoardTrouble::blurred,
-                   fmt::format("the picture is blurred (edges are {:.1f} px wide): hold the camera still and focus on "
-                               "the screen",
-                               sighting.edge_px),
-                   sighting);
-  return sighting;
+        fmt::format("the board is too small in the image (a square is {:.0f} px, at least 9): go nearer", side_px));
+  detection.edge_px = edgeOf_px(grey, *corners, size);
+  if (detection.edge_px > std::min(kMaxEdge_px, kMaxEdgeOfSide * side_px))
+    return detection.rejected(
+        BoardTrouble::blurred,
+        fmt::format("the image is blurred (edges are {:.1f} px wide): hold the camera still and focus on "
+                    "the screen",
+                    detection.edge_px));
+  return detection;
 }
 
 }  // namespace
 
 BoardDetection findChessboard(const GreyImage& image, const glm::ivec2& corners) {
-  if (!isWhole(image)) throw CalibrationError("camera picture: its size and its bytes disagree, take it again");
+  if (!image.isWhole()) throw CalibrationError("camera image: its size and its bytes disagree, take it again");
   return charted(matrixOf(image), corners);
 }
 

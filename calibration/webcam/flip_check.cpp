@@ -6,23 +6,22 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "calibration/virtual_screen.h"
+#include "calibration/rig.h"
 #include "calibration/webcam/image_matrix.h"
 
 namespace calibration {
 namespace {
 
 constexpr int kTemplate_px = 64;
-constexpr double kLeastLikeness = 0.55, kLeastLead = 0.12;
-constexpr double kLeastShare = 0.002;  ///< of the image, that the F's square must cover
+constexpr double kMinLikeness = 0.55, kMinLead = 0.12;
+constexpr double kMinShare = 0.002;  ///< of the image, covered by the F's square
 
-/// The square with the F in it, `side` px.
+/// The white square with the F, `side` px.
 GreyImage squareWithF(int side) {
-  GreyImage square{{side, side}, std::vector<std::uint8_t>(static_cast<std::size_t>(side * side), 255)};
+  GreyImage square = GreyImage::filled({side, side}, 255);
   const auto bar = [&](double left, double top, double right, double bottom) {
     for (int y = static_cast<int>(top * side); y < static_cast<int>(bottom * side); ++y)
-      for (int x = static_cast<int>(left * side); x < static_cast<int>(right * side); ++x)
-        square.grey[static_cast<std::size_t>(y * side + x)] = 0;
+      for (int x = static_cast<int>(left * side); x < static_cast<int>(right * side); ++x) square.at(x, y) = 0;
   };
   bar(0.27, 0.14, 0.43, 0.86);
   bar(0.43, 0.14, 0.77, 0.30);
@@ -30,7 +29,7 @@ GreyImage squareWithF(int side) {
   return square;
 }
 
-/// Corners of a convex quadrangle, clockwise in the image, the first so that the first edge runs most to the right.
+/// Corners of a convex quadrangle, clockwise, starting so that the first edge points right.
 std::optional<std::array<cv::Point2f, 4>> quadrangle(const std::vector<cv::Point>& outline) {
   std::vector<cv::Point> hull, corners;
   cv::convexHull(outline, hull);
@@ -51,14 +50,14 @@ std::optional<std::array<cv::Point2f, 4>> quadrangle(const std::vector<cv::Point
   return ordered;
 }
 
-/// Correlation of two images of one size, without regard to brightness.
+/// Normalised correlation of two images of one size.
 double likeness(const cv::Mat& a, const cv::Mat& b) {
   cv::Mat result;
   cv::matchTemplate(a, b, result, cv::TM_CCOEFF_NORMED);
   return static_cast<double>(result.at<float>(0, 0));
 }
 
-/// How alike the two best readings of this square are to what is seen.
+/// The orientation that fits best, and the scores of the best two.
 struct Likeness {
   ImageOrientation best;
   double first = -1.0, second = -1.0;
@@ -82,7 +81,7 @@ Likeness compared(const cv::Mat& square) {
 }  // namespace
 
 ImageOrientation inverseOf(const ImageOrientation& reading) {
-  // A mirrored image that is turned goes back by mirroring and the same turn again.
+  // A mirrored and rotated image is its own inverse.
   return reading.mirrored ? reading : ImageOrientation{false, (4 - reading.quarters) % 4};
 }
 
@@ -112,21 +111,21 @@ GreyImage oriented(const ImageOrientation& reading, const GreyImage& image) {
   std::size_t at = 0;
   for (int y = 0; y < out.y; ++y)
     for (int x = 0; x < out.x; ++x) {
-      // Back by the turn, then by the mirror.
+      // Undo the rotation, then the mirroring.
       glm::ivec2 from(x, y);
       if (reading.quarters == 1) from = {y, in.y - 1 - x};
       if (reading.quarters == 2) from = in - 1 - from;
       if (reading.quarters == 3) from = {in.x - 1 - y, x};
       if (reading.mirrored) from.x = in.x - 1 - from.x;
-      seen.grey[at++] = image.grey[static_cast<std::size_t>(from.y * in.x + from.x)];
+      seen.grey[at++] = image.at(from.x, from.y);
     }
   return seen;
 }
 
 ImageOrientation framebufferOrientation(const Rig& rig) {
   const ScreenCorners seen = virtualScreen(rig);
-  const glm::dvec3 across = seen.lower_right.mm - seen.lower_left.mm, up = seen.upper_left.mm - seen.lower_left.mm;
-  // x and y of W are right and up to the eye. Where the framebuffer's upward edge points, after any mirroring.
+  const glm::dvec3 across = seen.across_mm(), up = seen.up_mm();
+  // x and y of W are right and up for the eye. Direction of the framebuffer's up edge, after any mirroring.
   const bool mirrored = across.x * up.y - across.y * up.x < 0.0;
   const bool upright = std::abs(up.y) >= std::abs(up.x);
   if (upright) return {mirrored, up.y > 0.0 ? 0 : 2};
@@ -144,30 +143,24 @@ glm::ivec2 seenSize_px(const Rig& rig) {
 
 ScreenCorners seenScreen(const Rig& rig) {
   const ScreenCorners seen = virtualScreen(rig);
-  glm::dvec3 across = seen.lower_right.mm - seen.lower_left.mm, up = seen.upper_left.mm - seen.lower_left.mm;
-  const glm::dvec3 middle = seen.lower_left.mm + 0.5 * (across + up);
+  glm::dvec3 across = seen.across_mm(), up = seen.up_mm();
   if (framebufferOrientation(rig).quarters % 2 == 1) std::swap(across, up);
   if (across.x < 0.0) across = -across;
   if (up.y < 0.0) up = -up;
-  return {
-      seenSize_px(rig), {middle - 0.5 * (across + up)}, {middle + 0.5 * (across - up)}, {middle - 0.5 * (across - up)}};
+  return screenAround(seen.centre_mm(), across, up, seenSize_px(rig));
 }
 
 Point<World> positionOn(const ScreenCorners& seen_screen, const glm::dvec2& px) {
-  const glm::dvec3 across = seen_screen.lower_right.mm - seen_screen.lower_left.mm;
-  const glm::dvec3 down = seen_screen.lower_left.mm - seen_screen.upper_left.mm;
-  return {seen_screen.upper_left.mm + (px.x + 0.5) / seen_screen.px.x * across +
-          (px.y + 0.5) / seen_screen.px.y * down};
+  const glm::dvec2 share = (px + 0.5) / glm::dvec2(seen_screen.px);
+  return {seen_screen.upper_left.mm + share.x * seen_screen.across_mm() - share.y * seen_screen.up_mm()};
 }
 
 GreyImage letterF(const glm::ivec2& size_px) {
-  GreyImage page{size_px, std::vector<std::uint8_t>(static_cast<std::size_t>(size_px.x * size_px.y), 0)};
+  GreyImage page = GreyImage::filled(size_px, 0);
   const int side = 6 * std::min(size_px.x, size_px.y) / 10;
-  const GreyImage square = squareWithF(side);
+  GreyImage square = squareWithF(side);
   const glm::ivec2 low = (size_px - side) / 2;
-  for (int y = 0; y < side; ++y)
-    std::copy_n(&square.grey[static_cast<std::size_t>(y * side)], side,
-                &page.grey[static_cast<std::size_t>((low.y + y) * size_px.x + low.x)]);
+  for (int y = 0; y < side; ++y) std::copy_n(&square.at(0, y), side, &page.at(low.x, low.y + y));
   return page;
 }
 
@@ -180,10 +173,10 @@ std::optional<ImageOrientation> orientationOfF(const GreyImage& seen) {
   cv::findContours(bright, outlines, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
   std::ranges::sort(outlines, std::ranges::greater(), [](const auto& o) { return cv::contourArea(o); });
 
-  // The brightest fields, the largest first: that which is most like an F by far is it.
+  // The largest bright areas: the one most like an F, by a clear margin.
   Likeness best;
   for (std::size_t i = 0; i < std::min<std::size_t>(outlines.size(), 5); ++i) {
-    if (cv::contourArea(outlines[i]) < kLeastShare * static_cast<double>(smooth.total())) break;
+    if (cv::contourArea(outlines[i]) < kMinShare * static_cast<double>(smooth.total())) break;
     const auto corners = quadrangle(outlines[i]);
     if (!corners) continue;
     constexpr float kEnd = kTemplate_px;
@@ -196,7 +189,7 @@ std::optional<ImageOrientation> orientationOfF(const GreyImage& seen) {
     const Likeness found = compared(straight);
     if (found.first > best.first) best = found;
   }
-  if (best.first < kLeastLikeness || best.first - best.second < kLeastLead) return std::nullopt;
+  if (best.first < kMinLikeness || best.first - best.second < kMinLead) return std::nullopt;
   return best.best;
 }
 

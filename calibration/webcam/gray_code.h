@@ -1,8 +1,7 @@
-// Stripes of a Gray code on our own screen, and from the images of them which place of the screen a camera sees
-// where: thousands of correspondences, no order to guess, mirrored or turned images known as such. Shown are white,
-// black, and for every bit of columns, then rows, a pattern and its inverse. px have centres at whole numbers, rows
-// from the top. Any thread; decoding 1080p takes about 0.2 s. Not for surfaces other than the flat screen. Sources:
-// Posdamer, Altschuler 1982; inverse pairs as in reference/calibration 2.3.
+// Gray code stripes on the program's screen, and their decoding: dense correspondences between screen and camera, with
+// mirrored or rotated images detected. Shown are white, black, and for every bit of columns, then rows, a pattern and
+// its inverse. px with centres at integers, rows from the top. Any thread; decoding 1080p takes about 0.2 s. For flat
+// screens only. Sources: Posdamer, Altschuler 1982; inverse pairs as in reference/calibration 2.3.
 #pragma once
 
 #include <optional>
@@ -22,10 +21,10 @@ struct GrayCode {
   int images() const { return 2 + 2 * (bits().x + bits().y); }
 };
 
-/// In the order in which they are shown. Throws CalibrationError for a screen under 64 px or stripes under 2 px.
+/// In display order. Throws CalibrationError: a screen under 64 px or stripes under 2 px.
 std::vector<GreyImage> patternImages(const GrayCode& code);
 
-/// A place on the screen and where the camera sees it.
+/// A point of the screen and its image.
 struct ScreenCorrespondence {
   glm::dvec2 screen_px{0.0}, camera_px{0.0};
 };
@@ -33,15 +32,13 @@ struct ScreenCorrespondence {
 enum class CodeTrouble { not_seen, mirrored, upside_down, mixed_up };
 
 struct CodeDetection {
-  std::optional<CodeTrouble> trouble;  ///< none: the sights may be used
+  std::optional<CodeTrouble> trouble;  ///< none: the correspondences may be used
   std::string line;                    ///< for people; empty without trouble
-  std::vector<ScreenCorrespondence>
-      sights;               ///< one for each cell that is seen whole, its centre; empty where there is trouble
-  GreyImage mask;           ///< 255 where a pixel was decoded
-  double seen_share = 0.0;  ///< of the screen's cells
+  /// The centre of each completely visible cell; empty if there is trouble.
+  std::vector<ScreenCorrespondence> correspondences;
 };
 
-/// Throws CalibrationError for a wrong number of images or sizes that differ.
+/// Throws CalibrationError: wrong number of images, or differing sizes.
 CodeDetection decoded(const GrayCode& code, const std::vector<GreyImage>& images);
 
 }  // namespace calibration

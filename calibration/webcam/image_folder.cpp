@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostFiles = 10'000;
+constexpr std::size_t kMaxFiles = 10'000;
 
 bool isPicture(const fs::path& path) {
   std::string ending = path.extension().string();
@@ -20,7 +20,7 @@ bool isPicture(const fs::path& path) {
   return ending == ".png" || ending == ".jpg" || ending == ".jpeg";
 }
 
-/// The last digits of the name, without leading zeros: longer is larger, then as text.
+/// By the last number in the name, compared by length and digits, then by name.
 std::tuple<std::size_t, std::string, std::string> orderOf(const fs::path& path) {
   const std::string name = path.stem().string();
   const auto is_digit = [](unsigned char c) { return std::isdigit(c) != 0; };
@@ -37,8 +37,7 @@ class PictureFolder final : public ImageSource {
 
   GreyImage take() override {
     if (next_ == files_.size())
-      throw CalibrationError(name() + ": its " + std::to_string(next_) +
-                             " pictures are used up, add those that follow");
+      throw CalibrationError(name() + ": its " + std::to_string(next_) + " images are all used, add more");
     return readGreyImage(files_[next_++]);
   }
   std::string name() const override { return "folder " + path_; }
@@ -57,9 +56,9 @@ std::vector<std::string> imageFilesIn(const std::string& folder) {
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     if (isPicture(entry->path()) && entry->is_regular_file(error)) files.push_back(entry->path());
-    if (files.size() > kMostFiles) throw CalibrationError(name + ": more than 10,000 pictures, give another folder");
+    if (files.size() > kMaxFiles) throw CalibrationError(name + ": more than 10,000 images, give another folder");
   }
-  if (error) throw CalibrationError(name + ": it can not be read, check the path");
+  if (error) throw CalibrationError(name + ": it cannot be read, check the path");
   if (files.empty()) throw CalibrationError(name + ": no PNG or JPEG in it, check the path");
   std::ranges::sort(files, {}, orderOf);
   return {files.begin(), files.end()};

@@ -4,12 +4,6 @@
 
 namespace calibration {
 
-bool isWhole(const GreyImage& image) {
-  const glm::ivec2 size = image.size_px;
-  return size.x > 0 && size.y > 0 &&
-         image.grey.size() == static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
-}
-
 cv::Mat matrixOf(const GreyImage& image) {
   return {image.size_px.y, image.size_px.x, CV_8U, const_cast<std::uint8_t*>(image.grey.data())};
 }

@@ -1,4 +1,4 @@
-// A camera's image as OpenCV has it, and back. px. Any thread.
+// Conversion between GreyImage and OpenCV. px. Any thread.
 #pragma once
 
 #include "calibration/webcam/camera.h"
@@ -9,13 +9,10 @@ class Mat;
 
 namespace calibration {
 
-/// It has a size, and as many bytes as that asks for.
-bool isWhole(const GreyImage& image);
-
-/// The image's own bytes: to be read only, and while it lives.
+/// A read-only view of the image's bytes, valid while it lives.
 cv::Mat matrixOf(const GreyImage& image);
 
-/// A copy of 8 bits a pixel.
+/// A copy of an 8-bit image.
 GreyImage greyImageOf(const cv::Mat& grey);
 
 }  // namespace calibration

@@ -1,5 +1,5 @@
-// A camera's image from a file (JPEG or PNG) as grey. What the file says of its size is compared with limits before
-// anything is decoded; a file that ends too early is refused. Start-up and command line; milliseconds.
+// Reads a JPEG or PNG file as grey image. The declared size is checked before decoding; a truncated file is refused.
+// Start-up and command line; milliseconds.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace calibration {
 
-/// Throws CalibrationError: not there, beyond 32 MiB, neither PNG nor JPEG, damaged, cut off, a side under 16 or beyond
+/// Throws CalibrationError: missing, beyond 32 MiB, not PNG or JPEG, damaged, truncated, a side under 16 or beyond
 /// 16384 px, beyond 64 megapixels.
 GreyImage readGreyImage(const std::string& path);
 

@@ -11,35 +11,35 @@
 
 #include "calibration/geometry/units.h"
 #include "calibration/median.h"
-#include "calibration/webcam/camera_block.h"
+#include "calibration/webcam/camera_file.h"
 
 namespace calibration {
 namespace {
 
-constexpr std::size_t kLeastSlanted = 3;
-constexpr double kLeastSlant_deg = 15.0, kLeastCovered = 0.5, kMostRms_px = 1.5;
+constexpr std::size_t kMinSlanted = 3;
+constexpr double kMinSlant_deg = 15.0, kMinCovered = 0.5, kMaxRms_px = 1.5;
 constexpr glm::ivec2 kFields{6, 4};
-constexpr double kWildOfMedian = 2.5, kWild_px = 0.5;  ///< a view beyond both does not fit the others
+constexpr double kWildOfMedian = 2.5, kWild_px = 0.5;  ///< both exceeded: the view does not fit the others
 
-using Places = std::vector<cv::Point3f>;
+using Positions = std::vector<cv::Point3f>;
 using Pixels = std::vector<cv::Point2f>;
 
 [[noreturn]] void refuseLens(const std::string& what, const std::string& mend) {
   throw CalibrationError("lens: " + what + ", " + mend);
 }
 
-Places placesOf(const std::vector<glm::dvec2>& positions_mm) {
-  Places places;
+Positions pointsOf(const std::vector<glm::dvec2>& positions_mm) {
+  Positions positions;
   for (const glm::dvec2& mm : positions_mm)
-    places.emplace_back(static_cast<float>(mm.x), static_cast<float>(mm.y), 0.0F);
-  return places;
+    positions.emplace_back(static_cast<float>(mm.x), static_cast<float>(mm.y), 0.0F);
+  return positions;
 }
 
 std::vector<Pixels> pixelsOf(const std::vector<BoardView>& views, std::size_t corners) {
   std::vector<Pixels> pixels;
   for (const BoardView& view : views) {
     if (view.corners_px.size() != corners)
-      refuseLens("'" + view.name + "' has another number of corners than the board", "use pictures of one board");
+      refuseLens("'" + view.name + "' has another number of corners than the board", "use images of one board");
     Pixels& of_view = pixels.emplace_back();
     for (const glm::dvec2& px : view.corners_px) {
       if (!std::isfinite(px.x) || !std::isfinite(px.y))
@@ -59,30 +59,29 @@ double coveredShare(const glm::ivec2& size_px, const std::vector<Pixels>& views)
   return double(fields.size()) / (kFields.x * kFields.y);
 }
 
-/// One fit to some of the views.
 struct LensFit {
   cv::Matx33d K = cv::Matx33d::eye();
   cv::Mat distortion, view_rms_px;
   std::vector<cv::Mat> turns;
   double rms_px = 0.0;
 };
-LensFit fitted(const glm::ivec2& size_px, const Places& places, const std::vector<Pixels>& views) {
+LensFit fitted(const glm::ivec2& size_px, const Positions& positions, const std::vector<Pixels>& views) {
   LensFit fit;
   cv::Mat K;
   std::vector<cv::Mat> moves;
   cv::Mat unused_lens, unused_poses;
   try {
-    fit.rms_px =
-        cv::calibrateCamera(std::vector<Places>(views.size(), places), views, {size_px.x, size_px.y}, K, fit.distortion,
-                            fit.turns, moves, unused_lens, unused_poses, fit.view_rms_px, cv::CALIB_FIX_K3);
+    fit.rms_px = cv::calibrateCamera(std::vector<Positions>(views.size(), positions), views, {size_px.x, size_px.y}, K,
+                                     fit.distortion, fit.turns, moves, unused_lens, unused_poses, fit.view_rms_px,
+                                     cv::CALIB_FIX_K3);
   } catch (const cv::Exception&) {
-    refuseLens("the views make no lens", "take them again, the board flat, sharp and slanted");
+    refuseLens("no lens fits the views", "take them again, the board flat, sharp and slanted");
   }
   fit.K = K;
   return fit;
 }
 
-/// Between the board's normal and the line of sight's axis.
+/// Between board normal and optical axis.
 double slant_deg(const cv::Mat& turn) {
   cv::Matx33d R;
   cv::Rodrigues(turn, R);
@@ -94,17 +93,17 @@ CameraModel modelOf(const glm::ivec2& size_px, const LensFit& fit) {
   CameraModel camera{size_px, {fit.K(0, 0), fit.K(1, 1)}, {fit.K(0, 2), fit.K(1, 2)}, bent(0), bent(1), bent(2),
                      bent(3)};
   if (!std::isfinite(fit.rms_px) || !implausibleParameter(camera).empty())
-    refuseLens("the result is no webcam's lens", "slant the board more, and fill the picture with it");
+    refuseLens("the fitted lens is implausible", "slant the board more, and fill the image with it");
   return camera;
 }
 
 void checkVariety(const LensFit& fit, double covered_share) {
   std::size_t slanted = 0;
-  for (const cv::Mat& turn : fit.turns) slanted += slant_deg(turn) >= kLeastSlant_deg;
-  if (slanted < kLeastSlanted)
+  for (const cv::Mat& turn : fit.turns) slanted += slant_deg(turn) >= kMinSlant_deg;
+  if (slanted < kMinSlanted)
     refuseLens("the board was faced squarely in nearly all views", "slant it by 20 to 40 degrees, each way");
-  if (covered_share < kLeastCovered)
-    refuseLens("the views cover " + std::to_string(std::lround(100.0 * covered_share)) + " % of the picture",
+  if (covered_share < kMinCovered)
+    refuseLens("the views cover " + std::to_string(std::lround(100.0 * covered_share)) + " % of the image",
                "show the board in all its corners");
 }
 
@@ -112,13 +111,13 @@ void checkVariety(const LensFit& fit, double covered_share) {
 
 Intrinsics fitIntrinsics(const glm::ivec2& size_px, const std::vector<glm::dvec2>& positions_mm,
                          const std::vector<BoardView>& views) {
-  if (size_px.x < 16 || size_px.y < 16 || positions_mm.size() < 6) refuseLens("no board or no picture", "give both");
+  if (size_px.x < 16 || size_px.y < 16 || positions_mm.size() < 6) refuseLens("no board or no image", "give both");
   if (views.size() < kMinViews)
     refuseLens(std::to_string(views.size()) + " views are too few", "take 12 to 15, the board slanted each way");
-  const Places places = placesOf(positions_mm);
-  const std::vector<Pixels> all = pixelsOf(views, places.size());
+  const Positions positions = pointsOf(positions_mm);
+  const std::vector<Pixels> all = pixelsOf(views, positions.size());
 
-  // The worst view goes while it does not fit the others.
+  // Remove the worst view while it does not fit the others.
   std::vector<std::size_t> used(views.size());
   for (std::size_t i = 0; i < used.size(); ++i) used[i] = i;
   Intrinsics result;
@@ -126,7 +125,7 @@ Intrinsics fitIntrinsics(const glm::ivec2& size_px, const std::vector<glm::dvec2
   for (;;) {
     std::vector<Pixels> pixels;
     for (const std::size_t i : used) pixels.push_back(all[i]);
-    const LensFit fit = fitted(size_px, places, pixels);
+    const LensFit fit = fitted(size_px, positions, pixels);
     std::vector<double> rms_px;
     for (std::size_t k = 0; k < used.size(); ++k)
       rms_px.push_back(result.view_rms_px[used[k]] = fit.view_rms_px.at<double>(static_cast<int>(k)));
@@ -140,7 +139,7 @@ Intrinsics fitIntrinsics(const glm::ivec2& size_px, const std::vector<glm::dvec2
       used.erase(used.begin() + static_cast<std::ptrdiff_t>(worst));
       continue;
     }
-    if (!(fit.rms_px < kMostRms_px))
+    if (!(fit.rms_px < kMaxRms_px))
       refuseLens("the views do not fit together", "hold camera and board still, lock the focus, keep the board flat");
     result.covered_share = coveredShare(size_px, pixels);
     for (const cv::Mat& turn : fit.turns) result.max_slant_deg = std::max(result.max_slant_deg, slant_deg(turn));

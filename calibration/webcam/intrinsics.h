@@ -1,7 +1,7 @@
-// A camera's lens from views of a flat board: focal lengths, centre, k1, k2, p1, p2; k3 stays 0. Views that fit badly
-// are named and left out; too few, too frontal or too narrow sets are refused, for a lens fitted to them looks good and
-// is wrong. px, mm. Any thread; under 1 s for 15 views of 84 corners. Source: Zhang, PAMI 2000, as OpenCV's
-// calibrateCamera; reference/calibration 2.3, 3.3.
+// Fits a camera's lens to views of a flat board: focal lengths, centre, k1, k2, p1, p2; k3 is 0. Outlier views are
+// named and left out. Too few, too frontal or too similar views are refused, because a lens fitted to them has small
+// residuals and is wrong. px, mm. Any thread; under 1 s for 15 views of 84 corners. Source: Zhang, PAMI 2000, as
+// OpenCV's calibrateCamera; reference/calibration 2.3, 3.3.
 #pragma once
 
 #include <string>
@@ -12,9 +12,9 @@
 
 namespace calibration {
 
-/// Corners of one image, in the order of the board's places.
+/// Corners of one image, in the board's order.
 struct BoardView {
-  std::string name;  ///< for people: a file's name, "view 3"
+  std::string name;  ///< for messages: a file name, "view 3"
   std::vector<glm::dvec2> corners_px;
 };
 
@@ -24,14 +24,14 @@ struct Intrinsics {
   CameraModel camera;
   double rms_px = 0.0;                ///< over the views used
   std::vector<double> view_rms_px;    ///< of every view given
-  std::vector<std::string> left_out;  ///< names of views that do not fit the others
-  double covered_share = 0.0;         ///< of the image's 6 x 4 fields, those that hold a corner
+  std::vector<std::string> left_out;  ///< of outlier views
+  double covered_share = 0.0;         ///< fraction of the image's 6 x 4 fields that hold a corner
   double max_slant_deg = 0.0;         ///< of the boards
 };
 
-/// `positions_mm`: of the board's corners, on its plane. Throws CalibrationError with the remedy: fewer than 8 views,
-/// views that do not match the board, all slanted less than 15°, less than half of the image covered, more than a
-/// third of the views left out, or a result that is no lens.
+/// `positions_mm`: of the board's corners, in its plane. Throws CalibrationError with the remedy: fewer than 8 views,
+/// views that do not match the board, all slanted less than 15°, less than half of the image covered, more than a third
+/// of the views left out, or an implausible lens.
 Intrinsics fitIntrinsics(const glm::ivec2& size_px, const std::vector<glm::dvec2>& positions_mm,
                          const std::vector<BoardView>& views);
 

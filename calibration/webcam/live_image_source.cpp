@@ -3,7 +3,7 @@
 namespace calibration {
 namespace {
 
-// The frame that is being exposed at the call began before it.
+// The frame being exposed at the call started before it.
 constexpr int kFramesAhead = 2;
 
 }  // namespace
@@ -13,8 +13,8 @@ LiveImageSource::LiveImageSource(std::string name, const std::function<std::uniq
     : name_(std::move(name)), timeouts_(timeouts), thread_([this, open] { run(open); }) {
   std::unique_lock lock(mutex_);
   changed_.wait_for(lock, timeouts_.open, [&] { return opened_ || ended_; });
-  if (opened_) return;  // gone since then: take() says so
-  // A constructor that throws has no destructor.
+  if (opened_) return;  // disconnected since: take() reports it
+  // A throwing constructor runs no destructor.
   const std::string why = !trouble_.empty() ? trouble_ : name_ + ": it does not answer, unplug it and plug it in again";
   stop_ = true;
   lock.unlock();
@@ -38,7 +38,7 @@ GreyImage LiveImageSource::take() {
   const bool answered = changed_.wait_for(lock, timeouts_.frame, [&] { return taken_.has_value() || ended_; });
   wanted_in_ = 0;
   if (taken_) return *std::move(taken_);
-  throw CalibrationError(name_ + (answered ? ": it gives no more pictures" : ": no picture in time") +
+  throw CalibrationError(name_ + (answered ? ": it delivers no more images" : ": no image in time") +
                          ", check its cable, unplug it and plug it in again");
 }
 
@@ -50,7 +50,7 @@ void LiveImageSource::run(const std::function<std::unique_ptr<FrameGrabber>()>& 
   } catch (const CalibrationError& error) {
     trouble = error.what();
   } catch (const std::exception&) {
-    // Of a driver or of memory, in words for nobody: it does not answer.
+    // Errors of a driver or of memory count as no answer.
   }
   std::unique_lock lock(mutex_);
   opened_ = giver != nullptr;
@@ -69,7 +69,7 @@ void LiveImageSource::run(const std::function<std::unique_ptr<FrameGrabber>()>& 
       GreyImage image = giver->decoded();
       lock.lock();
       ended_ = image.grey.empty();
-      // Who asked for it may have gone; for who asks now it is too old.
+      // The caller may have given up; for a new caller the image is too old.
       if (call == call_) taken_ = std::move(image);
     }
     if (ended_ || taken_) changed_.notify_all();

@@ -1,6 +1,6 @@
-// The newest image of something that gives them at its own pace, on a thread of its own: it is emptied all the time,
-// so that no old image waits in it, and whoever takes one waits no longer than told. take(): one thread at a time.
-// The destructor waits for the giver's own call to end: a giver must not hang for ever.
+// The newest image of a camera that delivers at its own rate: a thread of its own drains it, so that no old image is
+// queued, and take() waits no longer than its timeout. take(): one thread at a time. The destructor waits for the
+// grabber's current call, which must not block for ever.
 #pragma once
 
 #include <chrono>
@@ -17,13 +17,13 @@
 
 namespace calibration {
 
-/// Of one thread.
+/// Used by one thread.
 class FrameGrabber {
  public:
   virtual ~FrameGrabber() = default;
-  virtual bool next() = 0;            ///< waits for the next frame; false: it gives none any more
-  virtual GreyImage decoded() = 0;    ///< the frame that next() came back with
-  virtual std::string remarks() = 0;  ///< what it would not do, one line; empty: all as asked
+  virtual bool next() = 0;            ///< waits for the next frame; false: the stream has ended
+  virtual GreyImage decoded() = 0;    ///< the frame of the last next()
+  virtual std::string remarks() = 0;  ///< settings it refused, one line; empty: none
 };
 
 class LiveImageSource final : public ImageSource {
@@ -32,7 +32,7 @@ class LiveImageSource final : public ImageSource {
     std::chrono::milliseconds open{8000}, frame{3000};
   };
 
-  /// `open` runs on the new thread and may throw CalibrationError, which comes out here.
+  /// `open` runs on the new thread; its CalibrationError is rethrown here.
   LiveImageSource(std::string name, const std::function<std::unique_ptr<FrameGrabber>()>& open,
                   const Timeouts& timeouts);
   ~LiveImageSource() override;
@@ -49,8 +49,8 @@ class LiveImageSource final : public ImageSource {
   std::mutex mutex_;
   std::condition_variable changed_;
   bool opened_ = false, stop_ = false, ended_ = false;
-  int wanted_in_ = 0;       ///< frames until the one that is wanted; 0: none is
-  std::uint64_t call_ = 0;  ///< which take() it is wanted by
+  int wanted_in_ = 0;       ///< frames until the requested one; 0: none requested
+  std::uint64_t call_ = 0;  ///< the take() that requested it
   std::string trouble_;
   std::optional<GreyImage> taken_;
   std::thread thread_;

@@ -3,32 +3,31 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibration/virtual_screen.h"
+#include "calibration/rig.h"
 
 namespace calibration {
 
 GreyImage ringImage(const Rig& rig, const Point<World>& eye_W, const Point<World>& tip_W) {
   const ScreenCorners seen = virtualScreen(rig);
   const glm::dvec3 corner = seen.upper_left.mm;
-  const glm::dvec3 down = seen.lower_left.mm - corner, across = seen.lower_right.mm - seen.lower_left.mm;
+  const glm::dvec3 down = -seen.up_mm(), across = seen.across_mm();
   const glm::ivec2 px = rig.screen.px;
   const glm::dvec3 sight = glm::normalize(tip_W.mm - eye_W.mm);
-  // One pixel of the screen, as large as it is at the tip's distance.
-  const glm::dvec3 middle = corner + 0.5 * (down + across);
+  // Size of a screen pixel at the tip's distance.
   const double pixel_mm =
-      glm::length(across) / px.x * glm::distance(tip_W.mm, eye_W.mm) / glm::distance(middle, eye_W.mm);
+      glm::length(across) / px.x * glm::distance(tip_W.mm, eye_W.mm) / glm::distance(seen.centre_mm(), eye_W.mm);
 
-  GreyImage image{px, std::vector<std::uint8_t>(static_cast<std::size_t>(px.x * px.y), 0)};
+  GreyImage image = GreyImage::filled(px, 0);
   std::size_t at = 0;
   for (int y = 0; y < px.y; ++y)
     for (int x = 0; x < px.x; ++x, ++at) {
-      const glm::dvec3 place = corner + (x + 0.5) / px.x * across + (y + 0.5) / px.y * down - eye_W.mm;
-      const double ahead = glm::dot(place, sight);
+      const glm::dvec3 position = corner + (x + 0.5) / px.x * across + (y + 0.5) / px.y * down - eye_W.mm;
+      const double ahead = glm::dot(position, sight);
       if (ahead <= 0.0) continue;
-      // How far this line of sight passes by the tip, in the plane across it.
-      const double off_mm = glm::length(place * (glm::distance(tip_W.mm, eye_W.mm) / ahead) - (tip_W.mm - eye_W.mm));
+      // Distance of this line of sight from the tip, in the plane across it.
+      const double off_mm = glm::length(position * (glm::distance(tip_W.mm, eye_W.mm) / ahead) - (tip_W.mm - eye_W.mm));
       const double covered = 0.5 + (0.5 * kRingLine_mm - std::abs(off_mm - kRingRadius_mm)) / pixel_mm;
-      // The share of the pixel is a share of light.
+      // Coverage is light; encode with gamma 2.2.
       image.grey[at] = static_cast<std::uint8_t>(255.0 * std::pow(std::clamp(covered, 0.0, 1.0), 1.0 / 2.2) + 0.5);
     }
   return image;

@@ -9,7 +9,7 @@ namespace calibration {
 namespace {
 
 constexpr double kRuler_mm = 0.3;
-constexpr double kShortestBar_mm = 50.0, kMostOff = 0.2, kMostStretched = 0.03;
+constexpr double kShortestBar_mm = 50.0, kMaxOff = 0.2, kMaxStretched = 0.03;
 
 void refuseScreenSize(const std::string& what, const std::string& mend) {
   throw CalibrationError("screen size: " + what + ", " + mend);
@@ -21,13 +21,13 @@ std::string percent(double ratio) { return fmt::format("{:+.1f} %", 100.0 * (rat
 
 SizeCheck checkedSize(const ScreenCorners& believed, const MeasuredBars& bars) {
   if (!std::isfinite(bars.drawn_mm + bars.across_mm + bars.up_mm))
-    refuseScreenSize("a length is no number", "type it again");
+    refuseScreenSize("a length is not finite", "type it again");
   if (bars.drawn_mm < kShortestBar_mm) refuseScreenSize("the bar is shorter than 50 mm", "draw one of 100 mm or more");
   const double across = bars.across_mm / bars.drawn_mm, up = bars.up_mm / bars.drawn_mm;
-  if (std::max(std::abs(across - 1.0), std::abs(up - 1.0)) > kMostOff)
+  if (std::max(std::abs(across - 1.0), std::abs(up - 1.0)) > kMaxOff)
     refuseScreenSize("a bar is more than 20 % off",
                      "measure in mm, check that the picture fills the monitor and its size in mm");
-  if (std::abs(across / up - 1.0) > kMostStretched)
+  if (std::abs(across / up - 1.0) > kMaxStretched)
     refuseScreenSize("the picture is stretched by " + percent(across / up),
                      "set the monitor to its own resolution, no overscan");
 
@@ -37,13 +37,7 @@ SizeCheck checkedSize(const ScreenCorners& believed, const MeasuredBars& bars) {
     check.line = "the screen's size is right within what a ruler reads (0.3 mm)";
     return check;
   }
-  // About the middle, each way by itself.
-  const glm::dvec3 right = believed.lower_right.mm - believed.lower_left.mm;
-  const glm::dvec3 upward = believed.upper_left.mm - believed.lower_left.mm;
-  const glm::dvec3 middle = believed.lower_left.mm + 0.5 * (right + upward);
-  check.corners.lower_left = {middle - 0.5 * (across * right + up * upward)};
-  check.corners.lower_right = {middle + 0.5 * (across * right - up * upward)};
-  check.corners.upper_left = {middle - 0.5 * (across * right - up * upward)};
+  check.corners = screenAround(believed.centre_mm(), across * believed.across_mm(), up * believed.up_mm(), believed.px);
   check.line = "the screen's size was corrected by " + percent(across) + " across and " + percent(up) + " up";
   return check;
 }

@@ -15,18 +15,18 @@
 namespace calibration {
 namespace {
 
-constexpr double kLeastOverNoise = 8.0, kLeastHeight = 14.0;  ///< grey levels
-constexpr double kRival = 0.4;     ///< of the brightest spot's height: another such is one too many
-constexpr double kPedestal = 0.2;  ///< of its height: less has no say in the centre
-constexpr int kLeastPixels = 4;
-constexpr int kSmallest_px = 16;      ///< of a image's side
-constexpr double kMostLength = 1.8;   ///< of a spot to its width
-constexpr double kSoftSpread = 3.2;   ///< area at a quarter of the height to that at three quarters
-constexpr double kMostSoft_px = 8.0;  ///< a soft spot narrower than this is a LED, not out of focus
+constexpr double kMinOverNoise = 8.0, kMinHeight = 14.0;  ///< grey levels
+constexpr double kRival = 0.4;     ///< a second spot this bright, relative to the brightest, is one too many
+constexpr double kPedestal = 0.2;  ///< relative to the peak: below, pixels do not count for the centre
+constexpr int kMinPixels = 4;
+constexpr int kSmallest_px = 16;     ///< of an image's side
+constexpr double kMaxLength = 1.8;   ///< length to width of a spot
+constexpr double kSoftSpread = 3.2;  ///< area at a quarter of the height to that at three quarters
+constexpr double kMaxSoft_px = 8.0;  ///< a soft spot narrower than this is an LED, not out of focus
 constexpr double kSaturated = 250.0;
-constexpr double kMostOfWidth = 1.0 / 48.0;  ///< of the image: a 3 mm ball is a quarter of that
+constexpr double kMaxOfWidth = 1.0 / 48.0;  ///< of the image width: a 3 mm ball covers a quarter of that
 
-/// One sigma of what is left between pixels near each other, wild ones aside.
+/// One sigma of pixel noise, from differences between near pixels without outliers.
 double noiseOf(const cv::Mat& difference) {
   std::vector<float> steps;
   for (int y = 0; y < difference.rows; y += 4)
@@ -39,7 +39,7 @@ double noiseOf(const cv::Mat& difference) {
   return std::max(0.3, std::sqrt(0.5 * sum / count));
 }
 
-/// What changed slowly over the image: the room's light, the inside of a shadow.
+/// Low-frequency change: room light, the inside of a shadow.
 cv::Mat slowChange(const cv::Mat& difference) {
   const int cell = std::max(8, difference.cols / 80);
   cv::Mat coarse, median, slow;
@@ -52,7 +52,7 @@ cv::Mat slowChange(const cv::Mat& difference) {
 
 double diameterOf(double area) { return 2.0 * std::sqrt(area / kPi); }
 
-/// A connected part of the image above a threshold.
+/// A connected region above a threshold.
 struct Patch {
   cv::Rect box;
   int pixels = 0, label = 0;
@@ -63,7 +63,7 @@ std::vector<Patch> patchesAbove(const cv::Mat& values, double threshold, cv::Mat
   std::vector<Patch> patches;
   for (int label = 1; label < count; ++label) {
     const int* row = stats.ptr<int>(label);
-    if (row[cv::CC_STAT_AREA] >= kLeastPixels)
+    if (row[cv::CC_STAT_AREA] >= kMinPixels)
       patches.push_back({{row[cv::CC_STAT_LEFT], row[cv::CC_STAT_TOP], row[cv::CC_STAT_WIDTH], row[cv::CC_STAT_HEIGHT]},
                          row[cv::CC_STAT_AREA],
                          label});
@@ -71,7 +71,7 @@ std::vector<Patch> patchesAbove(const cv::Mat& values, double threshold, cv::Mat
   return patches;
 }
 
-/// Weighted moments of what stands above the pedestal.
+/// Moments of the light above the pedestal.
 struct Shape {
   glm::dvec2 centre_px{0.0};
   double length_to_width = 1.0;
@@ -91,39 +91,38 @@ Shape shapeOf(const cv::Mat& height, const cv::Rect& window, double pedestal) {
     const glm::dvec2 d = px - shape.centre_px;
     xx += weight * d.x * d.x, xy += weight * d.x * d.y, yy += weight * d.y * d.y;
   });
-  // A pixel is itself 1/12 px^2 wide.
+  // 1/12 px^2 is the variance of a pixel.
   const double half = 0.5 * (xx + yy) / sum, apart = std::hypot(0.5 * (xx - yy), xy) / sum;
   shape.length_to_width = std::sqrt((half + apart + 0.08) / (std::max(0.0, half - apart) + 0.08));
   return shape;
 }
 
-TipSpot refused(SpotTrouble trouble, const char* line, TipSpot spot) {
-  spot.trouble = trouble;
-  spot.line = line;
-  return spot;
-}
-
 }  // namespace
 
 TipSpot findTipSpot(const GreyImage& before, const GreyImage& with_tip) {
-  const bool fit = before.size_px == with_tip.size_px && isWhole(before) && isWhole(with_tip);
+  const bool fit = before.size_px == with_tip.size_px && before.isWhole() && with_tip.isWhole();
   if (!fit || before.size_px.x < kSmallest_px || before.size_px.y < kSmallest_px)
-    throw CalibrationError("tip: the pictures with and without it differ in size, take both again");
+    throw CalibrationError("tip: the images with and without it differ in size, take both again");
   cv::Mat dark, lit;
   matrixOf(before).convertTo(dark, CV_32F);
   matrixOf(with_tip).convertTo(lit, CV_32F);
   const cv::Mat difference = lit - dark;
-  const double noise = noiseOf(difference), most_px = std::max(16.0, kMostOfWidth * difference.cols);
+  const double noise = noiseOf(difference), max_px = std::max(16.0, kMaxOfWidth * difference.cols);
   TipSpot spot;
+  const auto rejected = [&](SpotTrouble trouble, const char* line) {
+    spot.trouble = trouble;
+    spot.line = line;
+    return spot;
+  };
   cv::Mat labels;
 
-  // A glare: saturated, new, and larger than any tip.
+  // Glare: saturated, new, and larger than any tip.
   for (const Patch& patch : patchesAbove(cv::min(difference * 4.0, lit), kSaturated, labels))
-    if (diameterOf(patch.pixels) > most_px)
-      return refused(SpotTrouble::too_large, "the light is too large: dim it, shorten the exposure, avoid reflections",
-                     spot);
+    if (diameterOf(patch.pixels) > max_px)
+      return rejected(SpotTrouble::too_large,
+                      "the light is too large: dim it, shorten the exposure, avoid reflections");
 
-  // What is new and small.
+  // New and small.
   const cv::Mat height = difference - slowChange(difference);
   cv::Mat without_specks, smooth;
   cv::medianBlur(height, without_specks, 3);
@@ -131,14 +130,12 @@ TipSpot findTipSpot(const GreyImage& before, const GreyImage& with_tip) {
   double peak = 0.0;
   cv::minMaxLoc(smooth, nullptr, &peak);
   spot.above_noise = peak / noise;
-  if (peak < kLeastHeight || spot.above_noise < kLeastOverNoise)
-    return refused(SpotTrouble::nothing, "no lit tip is seen: light it, bring it into the picture, darken the room",
-                   spot);
+  if (peak < kMinHeight || spot.above_noise < kMinOverNoise)
+    return rejected(SpotTrouble::nothing, "no lit tip is seen: light it, bring it into the image, darken the room");
   const std::vector<Patch> patches = patchesAbove(smooth, kRival * peak, labels);
-  if (patches.empty())
-    return refused(SpotTrouble::nothing, "only specks are seen: light the tip, darken the room", spot);
+  if (patches.empty()) return rejected(SpotTrouble::nothing, "only specks are seen: light the tip, darken the room");
   if (patches.size() > 1)
-    return refused(SpotTrouble::several, "more than one light is seen: cover the others, avoid reflections", spot);
+    return rejected(SpotTrouble::several, "more than one light is seen: cover the others, avoid reflections");
   const Patch& patch = patches.front();
   const cv::Rect image(0, 0, height.cols, height.rows);
   const int margin = 2 + std::max(patch.box.width, patch.box.height) / 2;
@@ -152,15 +149,12 @@ TipSpot findTipSpot(const GreyImage& before, const GreyImage& with_tip) {
   spot.across_px = diameterOf(area_above(0.5));
   const bool touches_edge =
       patch.box.x < 3 || patch.box.y < 3 || patch.box.br().x > image.width - 3 || patch.box.br().y > image.height - 3;
-  if (touches_edge)
-    return refused(SpotTrouble::at_the_edge, "the tip is at the picture's edge: bring it further in", spot);
-  if (spot.across_px > most_px)
-    return refused(SpotTrouble::too_large, "the light is too large: dim it, shorten the exposure, avoid reflections",
-                   spot);
-  if (shape.length_to_width > kMostLength)
-    return refused(SpotTrouble::blurred, "the tip was moved: hold it still", spot);
-  if (spot.across_px > kMostSoft_px && area_above(0.25) > kSoftSpread * area_above(0.75))
-    return refused(SpotTrouble::blurred, "the tip is out of focus: focus the camera on it", spot);
+  if (touches_edge) return rejected(SpotTrouble::at_the_edge, "the tip is at the image's edge: bring it further in");
+  if (spot.across_px > max_px)
+    return rejected(SpotTrouble::too_large, "the light is too large: dim it, shorten the exposure, avoid reflections");
+  if (shape.length_to_width > kMaxLength) return rejected(SpotTrouble::blurred, "the tip was moved: hold it still");
+  if (spot.across_px > kMaxSoft_px && area_above(0.25) > kSoftSpread * area_above(0.75))
+    return rejected(SpotTrouble::blurred, "the tip is out of focus: focus the camera on it");
   return spot;
 }
 

@@ -1,5 +1,5 @@
-// What a webcam at the eye saw of the screen and of the lit tip, from each place where it stood. Frame W, px, rad.
-// Plain data; any thread.
+// Observations of a webcam at the eye: the screen and the lit tip from each camera position. Frame W, px, rad. Plain
+// data; any thread.
 #pragma once
 
 #include <string>
@@ -10,13 +10,13 @@
 
 namespace calibration {
 
-/// A place on the virtual screen (z = 0) and where it is seen.
+/// A point on the virtual screen (z = 0) and its pixel.
 struct ScreenObservation {
   Point<World> position_W;
   glm::dvec2 camera_px{0.0};
 };
 
-/// A touch as the camera sees it: what the sensors read and where the tip is in the image.
+/// A touch seen by the camera: raw joints and the tip's pixel.
 struct TipObservation {
   int id = 0;  ///< of the target
   RawJoints joints_rad{};
@@ -31,8 +31,9 @@ struct CameraPosition {
 struct WebcamObservations {
   CameraModel camera;
   std::string device_model = "omni";                  ///< key of phantom_models
+  std::string serial{}, mount{};                      ///< of the device; empty: not known
   double screen_noise_px = 0.25, tip_noise_px = 0.5;  ///< one sigma, an axis
-  std::vector<CameraPosition> positions;
+  std::vector<CameraPosition> positions{};
 };
 
 }  // namespace calibration

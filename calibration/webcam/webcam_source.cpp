@@ -23,7 +23,7 @@ namespace calibration {
 namespace {
 
 constexpr unsigned kVideoDevices = 81;  // major number, Linux devices.txt
-// V4L2: UVC cameras count exposure in 0.1 ms, and 1 is manual.
+// V4L2: UVC cameras count exposure in 0.1 ms; 1 is manual.
 constexpr double kStepsPerMs = 10.0, kManualExposure = 1.0;
 
 bool isIndex(const std::string& text) {
@@ -32,22 +32,22 @@ bool isIndex(const std::string& text) {
 }
 bool isWebcam(const std::string& text) { return isIndex(text) || text.starts_with("/dev/"); }
 
-/// Asks the kernel, without waiting, whether this is a camera at all.
+/// Asks the kernel, without blocking, whether this is a camera.
 void checkDevice(const std::string& path) {
   const auto refuse = [&](const std::string& what) { throw CalibrationError("webcam " + path + ": " + what); };
   struct stat file {};
   if (stat(path.c_str(), &file) != 0) refuse("it is not there, plug it in (ls /dev/video*)");
   if (!S_ISCHR(file.st_mode) || major(file.st_rdev) != kVideoDevices)
-    refuse("it is no camera, give one of /dev/video*");
+    refuse("it is not a camera, give one of /dev/video*");
   const int handle = open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
   if (handle < 0)
     refuse(errno == EACCES ? "no permission, add yourself to the group video and log in again"
-                           : std::string("it can not be opened (") + std::strerror(errno) + "), close other programs");
+                           : std::string("it cannot be opened (") + std::strerror(errno) + "), close other programs");
   v4l2_capability can{};
   const bool answered = ioctl(handle, VIDIOC_QUERYCAP, &can) == 0;
   close(handle);
   const unsigned what = (can.capabilities & V4L2_CAP_DEVICE_CAPS) != 0U ? can.device_caps : can.capabilities;
-  if (!answered || (what & V4L2_CAP_VIDEO_CAPTURE) == 0U) refuse("it gives no pictures, try the next of /dev/video*");
+  if (!answered || (what & V4L2_CAP_VIDEO_CAPTURE) == 0U) refuse("it delivers no images, try the next of /dev/video*");
 }
 
 class V4lFrames final : public FrameGrabber {
@@ -61,14 +61,14 @@ class V4lFrames final : public FrameGrabber {
       camera_.set(cv::CAP_PROP_FRAME_WIDTH, wanted.size_px.x);
       camera_.set(cv::CAP_PROP_FRAME_HEIGHT, wanted.size_px.y);
       camera_.set(cv::CAP_PROP_BUFFERSIZE, 1);
-      // By itself first: what it finds for this room is then held.
+      // Automatic first; the values found for this room are then fixed.
       cv::Mat frame;
-      if (!camera_.read(frame) || frame.empty()) refuse("it gives no picture, unplug it and plug it in again");
+      if (!camera_.read(frame) || frame.empty()) refuse("it delivers no image, unplug it and plug it in again");
       if (frame.cols != wanted.size_px.x || frame.rows != wanted.size_px.y)
         refuse("it gives " + std::to_string(frame.cols) + " x " + std::to_string(frame.rows) + ", ask for that size");
       hold(wanted);
     } catch (const cv::Exception&) {
-      refuse("it can not be used by OpenCV, try another camera");
+      refuse("it cannot be used by OpenCV, try another camera");
     }
   }
 
@@ -100,14 +100,14 @@ class V4lFrames final : public FrameGrabber {
     const auto ask = [&](int what, double value, const char* remark) {
       if (!camera_.set(what, value)) remarks_ += (remarks_.empty() ? "" : "; ") + std::string(remark);
     };
-    // The settings it has found for this room by itself.
+    // Values found automatically.
     const double found_exposure = camera_.get(cv::CAP_PROP_EXPOSURE), found_focus = camera_.get(cv::CAP_PROP_FOCUS);
-    ask(cv::CAP_PROP_AUTOFOCUS, 0.0, "focus can not be fixed: see that it has none to turn, or tape it");
+    ask(cv::CAP_PROP_AUTOFOCUS, 0.0, "focus cannot be fixed: use a fixed-focus lens or tape it");
     if (wanted.focus || found_focus > 0.0)
-      ask(cv::CAP_PROP_FOCUS, wanted.focus.value_or(found_focus), "focus can not be set");
-    ask(cv::CAP_PROP_AUTO_EXPOSURE, kManualExposure, "exposure can not be fixed: keep the room's light even");
+      ask(cv::CAP_PROP_FOCUS, wanted.focus.value_or(found_focus), "focus cannot be set");
+    ask(cv::CAP_PROP_AUTO_EXPOSURE, kManualExposure, "exposure cannot be fixed: keep the room's light even");
     const double exposure = wanted.exposure_ms ? *wanted.exposure_ms * kStepsPerMs : found_exposure;
-    if (exposure > 0.0) ask(cv::CAP_PROP_EXPOSURE, exposure, "exposure can not be set");
+    if (exposure > 0.0) ask(cv::CAP_PROP_EXPOSURE, exposure, "exposure cannot be set");
   }
 
   cv::VideoCapture camera_;

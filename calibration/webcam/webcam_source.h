@@ -1,6 +1,6 @@
-// Pictures of a real webcam on Linux (V4L2 through OpenCV): focus, zoom and exposure held still, for a lens that moves
-// is another lens. A missing camera, one that is busy, and one that falls silent are one line each, within seconds. Any
-// one thread. Not tried on a camera of every make: what one would not do is said.
+// Images of a webcam on Linux (V4L2 through OpenCV) with focus, zoom and exposure fixed, because each changes the lens.
+// A missing, busy or silent camera is reported in one line within seconds. Any one thread. Settings that a camera
+// refuses are reported.
 #pragma once
 
 #include <memory>
@@ -14,17 +14,17 @@ namespace calibration {
 struct WebcamSettings {
   std::string device = "0";  ///< index or path: "0", "/dev/video2"
   glm::ivec2 size_px{1920, 1080};
-  std::optional<double> exposure_ms;  ///< none: as bright as it chose by itself when it was opened
-  std::optional<double> focus;        ///< in the camera's own steps; none: where it stands
+  std::optional<double> exposure_ms;  ///< none: as found automatically when opened
+  std::optional<double> focus;        ///< in the camera's steps; none: unchanged
 };
 
 struct OpenedImageSource {
   std::unique_ptr<ImageSource> images;
-  std::string remarks;  ///< what it would not do: "focus can not be fixed"; empty: all as asked
+  std::string remarks;  ///< settings it refused: "focus cannot be fixed"; empty: none
 };
 
-/// "0" or "/dev/video2" for a webcam, else a folder's path. Throws CalibrationError: not there, no permission, no
-/// camera, busy, another size than asked for.
+/// "0" or "/dev/video2": a webcam; otherwise a folder. Throws CalibrationError: missing, no permission, not a camera,
+/// busy, another size than requested.
 OpenedImageSource openImageSource(const WebcamSettings& wanted);
 
 }  // namespace calibration

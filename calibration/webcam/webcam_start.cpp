@@ -12,8 +12,8 @@
 namespace calibration {
 namespace {
 
-constexpr double kMostScreenRms_px = 3.0;
-/// What an arm as its model says is off by, three sigma; looked for within up to four times that.
+constexpr double kMaxScreenRms_px = 3.0;
+/// Error of a nominal arm, three sigma; the search goes up to four times that.
 constexpr double kNominalArm_mm = 2.5;
 constexpr int kTries = 600;
 
@@ -33,7 +33,7 @@ struct Lens {
 cv::Point3d pointOf(const glm::dvec3& mm) { return {mm.x, mm.y, mm.z}; }
 cv::Point2d pixelOf(const glm::dvec2& px) { return {px.x, px.y}; }
 
-/// X_C?: OpenCV's turn and shift.
+/// X_C?: OpenCV's rotation and translation.
 template <class To>
 Pose<Camera, To> poseOf(const cv::Vec3d& turn, const cv::Vec3d& shift) {
   return {rotationFromVector({turn[0], turn[1], turn[2]}), {shift[0], shift[1], shift[2]}};
@@ -41,56 +41,55 @@ Pose<Camera, To> poseOf(const cv::Vec3d& turn, const cv::Vec3d& shift) {
 
 }  // namespace
 
-Pose<Camera, World> cameraSeeing(const WebcamObservations& sights, std::size_t position) {
-  const Lens lens(sights.camera);
-  std::vector<cv::Point3d> places;
+Pose<Camera, World> cameraSeeing(const WebcamObservations& observations, std::size_t position) {
+  const Lens lens(observations.camera);
+  std::vector<cv::Point3d> positions;
   std::vector<cv::Point2d> pixels;
-  for (const ScreenObservation& sight : sights.positions[position].screen) {
-    places.push_back(pointOf(sight.position_W.mm));
-    pixels.push_back(pixelOf(sight.camera_px));
+  for (const ScreenObservation& observation : observations.positions[position].screen) {
+    positions.push_back(pointOf(observation.position_W.mm));
+    pixels.push_back(pixelOf(observation.camera_px));
   }
   cv::Vec3d turn, shift;
   try {
-    if (!cv::solvePnP(places, pixels, lens.K, lens.bent, turn, shift, false, cv::SOLVEPNP_IPPE))
-      refusePosition(position, "no place of the camera explains the screen", "take the pictures again");
-    cv::solvePnPRefineLM(places, pixels, lens.K, lens.bent, turn, shift);
+    if (!cv::solvePnP(positions, pixels, lens.K, lens.bent, turn, shift, false, cv::SOLVEPNP_IPPE))
+      refusePosition(position, "no camera pose explains the screen", "take the images again");
+    cv::solvePnPRefineLM(positions, pixels, lens.K, lens.bent, turn, shift);
   } catch (const cv::Exception&) {
-    refusePosition(position, "the places of the screen are not flat or lie on a line", "show the whole board");
+    refusePosition(position, "the screen points are not flat or lie on a line", "show the whole board");
   }
   const auto X_CW = poseOf<World>(turn, shift);
   if (X_CW.inverse().translation_mm.z <= 0.0)
     refusePosition(position, "the screen is seen mirrored", "correct the screen's corners in the rig file");
 
   double sum = 0.0;
-  for (const ScreenObservation& sight : sights.positions[position].screen) {
-    const glm::dvec2 off = sights.camera.pixelOf(X_CW * sight.position_W) - sight.camera_px;
+  for (const ScreenObservation& observation : observations.positions[position].screen) {
+    const glm::dvec2 off = observations.camera.pixelOf(X_CW * observation.position_W) - observation.camera_px;
     sum += glm::dot(off, off);
   }
-  if (!(std::sqrt(sum / double(places.size())) < kMostScreenRms_px))
-    refusePosition(position, "no place of the camera explains the screen",
-                   "measure the lens again, keep the zoom locked");
+  if (!(std::sqrt(sum / double(positions.size())) < kMaxScreenRms_px))
+    refusePosition(position, "no camera pose explains the screen", "measure the lens again, keep the zoom locked");
   return X_CW;
 }
 
-Pose<World, Device> deviceSeen(const WebcamObservations& sights, std::size_t position,
+Pose<World, Device> deviceSeen(const WebcamObservations& observations, std::size_t position,
                                const Pose<Camera, World>& X_CW) {
-  const Lens lens(sights.camera);
+  const Lens lens(observations.camera);
   MeasuredArm nominal;
-  nominal.geometry = findPhantomModel(sights.device_model)->geometry;
+  nominal.geometry = findPhantomModel(observations.device_model)->geometry;
   std::vector<cv::Point3d> tips;
   std::vector<cv::Point2d> pixels;
-  for (const TipObservation& sight : sights.positions[position].tips) {
-    tips.push_back(pointOf(nominal.tip_W(sight.joints_rad).mm));  // X_WD is none yet: in D
-    pixels.push_back(pixelOf(sight.camera_px));
+  for (const TipObservation& observation : observations.positions[position].tips) {
+    tips.push_back(pointOf(nominal.tip_W(observation.joints_rad).mm));  // X_WD is identity: in D
+    pixels.push_back(pixelOf(observation.camera_px));
   }
 
-  // Within the errors of such arms if they agree on a pose, else within more.
-  const double px_per_mm = sights.camera.focal_px.x / glm::length(X_CW.translation_mm);
+  // Widen the limit until enough tips agree.
+  const double px_per_mm = observations.camera.focal_px.x / glm::length(X_CW.translation_mm);
   for (const double wider : {1.0, 2.0, 4.0}) {
     cv::Vec3d turn, shift;
     std::vector<int> agreeing;
     try {
-      const double limit_px = 3.0 * sights.tip_noise_px + wider * kNominalArm_mm * px_per_mm;
+      const double limit_px = 3.0 * observations.tip_noise_px + wider * kNominalArm_mm * px_per_mm;
       if (!cv::solvePnPRansac(tips, pixels, lens.K, lens.bent, turn, shift, false, kTries, static_cast<float>(limit_px),
                               0.999, agreeing, cv::SOLVEPNP_SQPNP))
         continue;
@@ -107,8 +106,8 @@ Pose<World, Device> deviceSeen(const WebcamObservations& sights, std::size_t pos
     }
     return X_CW.inverse() * poseOf<Device>(turn, shift);
   }
-  refusePosition(position, "no place of the device explains where the tip is seen",
-                 "check that touches and pictures belong together and that the device is the right one");
+  refusePosition(position, "no device pose explains where the tip is seen",
+                 "check that touches and images belong together and that the device is the right one");
 }
 
 }  // namespace calibration

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "calibration/virtual_screen.h"
+#include "calibration/rig.h"
 
 namespace render {
 

@@ -97,7 +97,7 @@ TEST_F(Output, RefusesWhatIsNoPlaceForAFile) {
   EXPECT_THAT(refusalOf([&] { OutputFile(folder_.string(), true); }), testing::HasSubstr("folder"));
   EXPECT_THAT(refusalOf([&] { OutputFile("/dev/null", true); }), testing::HasSubstr("not a plain file"));
   EXPECT_THAT(refusalOf([&] { OutputFile("", true); }), testing::HasSubstr("empty"));
-  EXPECT_THAT(refusalOf([&] { OutputFile("/proc/a", true); }), testing::HasSubstr("can not write"));
+  EXPECT_THAT(refusalOf([&] { OutputFile("/proc/a", true); }), testing::HasSubstr("cannot write"));
   write(at("file"), "");
   EXPECT_THAT(refusalOf([&] { OutputFile(at("file/a"), false); }), testing::HasSubstr("there is no folder"));
 }
@@ -175,8 +175,8 @@ TEST_F(Output, LeavesWhatIsBeingWrittenOrIsOfAnotherTarget) {
 }
 
 TEST(TemporaryMarks, AreTakenOutOfMessages) {
-  EXPECT_EQ(calibration::withoutTemporaryNames("picture out/.part-q2dm741g-o.png: no room, .part-00000000-x"),
-            "picture out/o.png: no room, x");
+  EXPECT_EQ(calibration::withoutTemporaryNames("image out/.part-q2dm741g-o.png: no room, .part-00000000-x"),
+            "image out/o.png: no room, x");
   EXPECT_EQ(calibration::withoutTemporaryNames(".part-q2dm741g"), ".part-q2dm741g");
   EXPECT_EQ(calibration::withoutTemporaryNames(".part-q2dm741G-o .part-"), ".part-q2dm741G-o .part-");
 }

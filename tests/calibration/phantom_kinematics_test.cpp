@@ -100,10 +100,10 @@ TEST(PhantomKinematics, BendsItsElbowTheWayItsStopsLetIt) {
   PhantomGeometry down = kOmniGeometry;
   down.arm = {};
   down.elbow = {radFromDegrees(91.0), radFromDegrees(269.0)};
-  for (const glm::dvec3& place : {glm::dvec3(0.0), glm::dvec3(40.0, 20.0, -20.0)}) {
-    const auto upwards = armAnglesFor(kOmniGeometry, {place}), downwards = armAnglesFor(down, {place});
+  for (const glm::dvec3& position : {glm::dvec3(0.0), glm::dvec3(40.0, 20.0, -20.0)}) {
+    const auto upwards = armAnglesFor(kOmniGeometry, {position}), downwards = armAnglesFor(down, {position});
     ASSERT_TRUE(upwards && downwards);
-    EXPECT_LT(glm::distance(wristPosition(down, *downwards).mm, place), 1e-9);
+    EXPECT_LT(glm::distance(wristPosition(down, *downwards).mm, position), 1e-9);
     EXPECT_GT(upwards->y, downwards->y + 0.5);
   }
 }

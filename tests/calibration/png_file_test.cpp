@@ -10,7 +10,7 @@ namespace calibration {
 namespace {
 
 TEST(PictureFile, WritesAPngOfTheSizeAsked) {
-  const std::string path = testing::TempDir() + "picture_file_test.tmp";
+  const std::string path = testing::TempDir() + "png_file_test.tmp";
   writePng(path, {3, 2}, std::vector<std::uint8_t>(24, 200));
   std::ifstream file(path, std::ios::binary);
   std::vector<unsigned char> head(24);

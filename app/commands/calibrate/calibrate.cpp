@@ -112,10 +112,10 @@ int conclude(const WizardOption::GuidedOutcome& led, const KeepOption& keep) {
   return outcome.assessment ? statusOf(outcome.assessment->verdict) : 0;
 }
 
-int conclude(const WebcamObservationFile& seen, const WebcamFit& fit, const RigRecord& before,
-             const MeasurementInfo& info, const KeepOption& keep, const std::vector<Residual>& verification) {
+int conclude(const WebcamObservations& seen, const WebcamFit& fit, const RigRecord& before, const MeasurementInfo& info,
+             const KeepOption& keep, const std::vector<Residual>& verification) {
   RigRecord record = before;
-  record.rig.device = RigDevice{seen.sights.device_model, info.serial, info.mount, info.stylus_tip};
+  record.rig.device = RigDevice{seen.device_model, info.serial, info.mount, info.stylus_tip};
   putWebcamFit(record, fit);
   if (!verification.empty()) putProof(record, verification, VerificationKind::full);
   stamp(record, before, info);

@@ -57,7 +57,7 @@ void addMeasurementInfo(CommandLine& command, MeasurementInfo& info);
 int conclude(const WizardOption::GuidedOutcome& led, const KeepOption& keep);
 /// The same of a rig fitted to what a webcam saw; `before`: what it comes after, `verification`: touches held out, if
 /// any.
-int conclude(const calibration::WebcamObservationFile& seen, const calibration::WebcamFit& fit,
+int conclude(const calibration::WebcamObservations& seen, const calibration::WebcamFit& fit,
              const calibration::RigRecord& before, const MeasurementInfo& info, const KeepOption& keep,
              const std::vector<calibration::Residual>& verification = {});
 

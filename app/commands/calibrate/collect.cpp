@@ -38,7 +38,7 @@ int collectByWebcam(const CollectOptions& options, calibration::OutputFile* obse
     return 1;
   }
   if (observations != nullptr) observations->commit(webcamFileText(*seen));
-  return conclude(*seen, fitWebcam(seen->sights), before, info, options.keep);
+  return conclude(*seen, fitWebcam(*seen), before, info, options.keep);
 }
 
 int collect(const CollectOptions& asked) {

@@ -65,16 +65,16 @@ std::vector<Residual> heldOut(const std::string& path, const MeasuredArm& arm, c
 
 /// What a webcam saw.
 int fitWebcamFile(const CalibrateFitOptions& options) {
-  const WebcamObservationFile observations = readWebcamFile(options.observations);
+  const WebcamObservations observations = readWebcamFile(options.observations);
   const RigRecord base = baseRig(options.rig);
   MeasurementInfo info = options.info;
   info.serial = serialOf(info.serial, observations.serial);
   if (!observations.mount.empty()) info.mount = observations.mount;
-  const WebcamFit fitted = fitWebcam(observations.sights, fitOptions(options).model.value_or(ArmModel::full));
+  const WebcamFit fitted = fitWebcam(observations, fitOptions(options).model.value_or(ArmModel::full));
   std::vector<Residual> verification;
   if (!options.held_out.empty()) {
     TouchSet device;
-    device.device_model = observations.sights.device_model;
+    device.device_model = observations.device_model;
     device.serial = info.serial;
     device.mount = info.mount;
     verification = heldOut(options.held_out, fitted.arm, device);

@@ -41,7 +41,7 @@ class WizardOption {
 
   struct Seen {
     calibration::RigRecord before;
-    std::optional<calibration::WebcamObservationFile> observations;  ///< none: somebody left
+    std::optional<calibration::WebcamObservations> observations;  ///< none: somebody left
     MeasurementInfo info;
   };
   /// The same through a webcam.

@@ -11,6 +11,7 @@
 #include "calibration/synthetic/synthetic_rig.h"
 #include "calibration/webcam/ring_image.h"
 #include "calibration/webcam/webcam_fit.h"
+#include "tests/calibration/synthetic/glass_formulas.h"
 #include "tests/calibration/webcam/ring_check.h"
 
 namespace app {
@@ -20,7 +21,7 @@ using namespace calibration;
 
 struct Outcome {
   WebcamFit fit;
-  WebcamObservationFile observations;
+  WebcamObservations observations;
   double held_out_rms_mm = 0.0, worst_mm = 0.0;
   Vector<World> mean_mm;
   RingCheck ring;
@@ -64,7 +65,7 @@ Outcome calibrated(glm::ivec2 camera_px, std::uint32_t seed, double plate_mm) {
   for (int i = 0; i < 1000 && procedure.expects() != WebcamInput::nothing; ++i) technician.act(procedure);
   EXPECT_EQ(procedure.expects(), WebcamInput::nothing) << procedure.sentence() << " " << procedure.answer();
 
-  Outcome outcome{.fit = fitWebcam(procedure.observations().sights),
+  Outcome outcome{.fit = fitWebcam(procedure.observations()),
                   .observations = procedure.observations(),
                   .held_out_rms_mm = 0.0,
                   .worst_mm = 0.0,

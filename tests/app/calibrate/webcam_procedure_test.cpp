@@ -52,11 +52,11 @@ TEST_F(WebcamProcedureAtAWorkstation, GathersBoardAndTipsFromThreePlaces) {
   follow(procedure, WebcamStep::done);
   EXPECT_EQ(procedure.expects(), WebcamInput::nothing);
   EXPECT_EQ(procedure.progress(), 1.0);
-  const calibration::WebcamObservationFile& all = procedure.observations();
+  const calibration::WebcamObservations& all = procedure.observations();
   EXPECT_EQ(all.serial, "17");
-  ASSERT_EQ(all.sights.positions.size(), 3u);
+  ASSERT_EQ(all.positions.size(), 3u);
   for (std::size_t p = 0; p < 3; ++p) {
-    const calibration::CameraPosition& position = all.sights.positions[p];
+    const calibration::CameraPosition& position = all.positions[p];
     EXPECT_EQ(position.screen.size(), 84u);
     ASSERT_EQ(position.tips.size(), 2u);
     // All lie where the truth has them.
@@ -83,7 +83,7 @@ TEST_F(WebcamProcedureAtAWorkstation, TakesAGrayCodeInOnePress) {
   with_code.gray_code = true;
   WebcamProcedure procedure(with_code);
   follow(procedure, WebcamStep::tips);
-  const calibration::CameraPosition& position = procedure.observations().sights.positions.front();
+  const calibration::CameraPosition& position = procedure.observations().positions.front();
   EXPECT_GT(position.screen.size(), 2000u);
   const auto X_CW = technician_.webcamPose(0).inverse();
   double worst_px = 0.0;

@@ -83,7 +83,7 @@ TEST_F(CalibratePivot, FindsAnotherBur) {
 }
 
 TEST_F(CalibratePivot, IsRefusedWithAReason) {
-  expectRefusal("calibrate pivot " + at("jig.yaml") + " --rig " + at("rig.yaml"), "wandered");
+  expectRefusal("calibrate pivot " + at("jig.yaml") + " --rig " + at("rig.yaml"), "the tip moved");
   expectRefusal("calibrate pivot " + at("pit.yaml") + " --out " + at("new.yaml"), "--rig");
   ASSERT_EQ(molar(unit() + " --method check4 --out " + at("four.yaml")).status, 0);
   expectRefusal("calibrate pivot " + at("four.yaml") + " --rig " + at("rig.yaml"), "too few");

@@ -118,7 +118,7 @@ TEST(ArmFit, EstimatesWhatTheModelCanNotExplain) {
                      .touches = unit.touches(200, 0.3)};
   const ArmFit fit = fitArm(set);
   EXPECT_NEAR(fit.mismatch_mm, std::sqrt(0.3 * 0.3 - 0.05 * 0.05), 0.03);
-  EXPECT_EQ(fit.sigma.size(), kArmParameters.size());
+  EXPECT_EQ(fit.sigma.size(), kArmPriorSigma.size());
   EXPECT_GT(fit.sigma[9], 0.0);
 }
 

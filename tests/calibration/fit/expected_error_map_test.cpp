@@ -30,16 +30,16 @@ TEST(ExpectedErrorMap, IsWhatRigidFitsOfNoisyTouchesDo) {
   std::vector<glm::dvec3> from, to(8);
   for (const auto& corner : corners()) from.push_back(corner.mm);
   std::vector<PointPair> pairs(8);
-  const glm::dvec3 place(90.0, 60.0, -40.0);
+  const glm::dvec3 position(90.0, 60.0, -40.0);
   double sum = 0.0;
   constexpr int kTrials = 4000;
   for (int trial = 0; trial < kTrials; ++trial) {
     for (std::size_t i = 0; i < 8; ++i) pairs[i] = {from[i] + glm::dvec3(noise(rng), noise(rng), noise(rng)), from[i]};
-    const glm::dvec3 error = (*rigidFit(pairs))(place)-place;
+    const glm::dvec3 error = (*rigidFit(pairs))(position)-position;
     sum += glm::dot(error, error);
   }
   const ExpectedErrorMap map(corners(), 0.3 * std::sqrt(3.0));
-  EXPECT_NEAR(map.at_mm({place}) / std::sqrt(sum / kTrials), 1.0, 0.05);
+  EXPECT_NEAR(map.at_mm({position}) / std::sqrt(sum / kTrials), 1.0, 0.05);
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ TEST(Pivot, IsRefusedWhereItCanNotBeKnown) {
   EXPECT_THAT(refusal(swung(0.6, 0.5, 11)), HasSubstr("too few"));
   EXPECT_THAT(refusal(swung(0.2, 0.2)), HasSubstr("swing it wider"));
   EXPECT_THAT(refusal(swung(0.7, 0.01)), HasSubstr("one plane only"));
-  EXPECT_THAT(refusal(swung(0.6, 0.5, 20, 1.0)), HasSubstr("wandered"));
+  EXPECT_THAT(refusal(swung(0.6, 0.5, 20, 1.0)), HasSubstr("the tip moved"));
   auto holds = swung(0.6, 0.5);
   holds[3][5] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(refusal(holds), HasSubstr("hold 4"));

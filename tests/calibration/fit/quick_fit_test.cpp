@@ -67,8 +67,8 @@ TEST(QuickFit, ForetellsWhatAFitWithoutTheTouchLeavesThere) {
   for (std::size_t i = 0; i < set.touches.size(); ++i) {
     TouchSet others = set;
     others.touches.erase(others.touches.begin() + static_cast<std::ptrdiff_t>(i));
-    const Point<World> foretold = quickFit(start, others).arm.tip_W(set.touches[i].joints_rad);
-    const glm::dvec3 left_out_mm = foretold.mm - set.touches[i].target_W.mm;
+    const Point<World> predicted = quickFit(start, others).arm.tip_W(set.touches[i].joints_rad);
+    const glm::dvec3 left_out_mm = predicted.mm - set.touches[i].target_W.mm;
     EXPECT_LT(glm::length(left_out_mm - quick.left_out_mm[i].xyz), 0.15 * glm::length(left_out_mm) + 0.05) << i;
   }
 }

@@ -35,13 +35,13 @@ TEST(TargetPlan, HasAsManyTargetsAsItsNameSays) {
 TEST(TargetPlan, HoldsTheStylusInManyWays) {
   for (const char* method : kMethods) {
     const TargetPlan plan = planned(method);
-    double most_deg = 0.0;
+    double max_deg = 0.0;
     for (const Target& a : plan.targets) {
       ASSERT_NEAR(glm::length(a.stylus_W.xyz), 1.0, 1e-12);
       EXPECT_LT(between_deg(a.stylus_W, kRestingStylus_W), 36.0) << method << " " << a.id;
-      for (const Target& b : plan.targets) most_deg = std::max(most_deg, between_deg(a.stylus_W, b.stylus_W));
+      for (const Target& b : plan.targets) max_deg = std::max(max_deg, between_deg(a.stylus_W, b.stylus_W));
     }
-    EXPECT_GE(most_deg, 40.0) << method;
+    EXPECT_GE(max_deg, 40.0) << method;
   }
 }
 

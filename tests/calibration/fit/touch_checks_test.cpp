@@ -17,9 +17,10 @@ using testing::HasSubstr;
 
 TouchSet fiveTouches() {
   TouchSet set;
-  const std::vector<glm::dvec3> places = {{0, 0, 0}, {50, 0, 0}, {0, 40, 0}, {0, 0, 30}, {50, 40, 30}};
-  for (std::size_t i = 0; i < places.size(); ++i)
-    set.touches.push_back({static_cast<int>(i) + 1, {0.1 * static_cast<double>(i), 0, 0, 0, 0, 0}, {places[i]}, true});
+  const std::vector<glm::dvec3> positions = {{0, 0, 0}, {50, 0, 0}, {0, 40, 0}, {0, 0, 30}, {50, 40, 30}};
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    set.touches.push_back(
+        {static_cast<int>(i) + 1, {0.1 * static_cast<double>(i), 0, 0, 0, 0, 0}, {positions[i]}, true});
   return set;
 }
 
@@ -32,7 +33,7 @@ TEST(TouchChecks, LetGoodTouchesPass) { EXPECT_EQ(refusalOfTouches(fiveTouches()
 TEST(TouchChecks, NameTheTouchThatIsNoNumber) {
   TouchSet set = fiveTouches();
   set.touches[2].joints_rad[4] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(refusalOfTouches(set), HasSubstr("touch 3 holds a number that is none"));
+  EXPECT_THAT(refusalOfTouches(set), HasSubstr("touch 3 holds a value that is not finite"));
   set = fiveTouches();
   set.touches[1].target_W.mm.y = std::numeric_limits<double>::infinity();
   EXPECT_THAT(refusalOfTouches(set), HasSubstr("touch 2"));
@@ -62,11 +63,11 @@ TEST(TouchChecks, RefuseAProofByTouchesOfTheFitOrOfAnotherDevice) {
   for (Touch& touch : verification.touches) touch.joints_rad[3] += 0.2;
   EXPECT_EQ(refusalOf(verification), "accepted") << "the same places, touched anew";
   verification.touches[3].joints_rad = fiveTouches().touches[1].joints_rad;
-  EXPECT_THAT(refusalOf(verification), HasSubstr("touch 4 of the proof is touch 2 of the fit"));
+  EXPECT_THAT(refusalOf(verification), HasSubstr("touch 4 of the verification is touch 2 of the fit"));
   verification.touches[3].used = false;
   EXPECT_EQ(refusalOf(verification), "accepted");
   verification.serial = "8";
-  EXPECT_THAT(refusalOf(verification), HasSubstr("serial '7', those to prove them by with '8'"));
+  EXPECT_THAT(refusalOf(verification), HasSubstr("serial '7', the verification touches with '8'"));
 }
 
 TEST(TouchChecks, RefuseTooFewALineAndOnePlace) {
@@ -77,7 +78,7 @@ TEST(TouchChecks, RefuseTooFewALineAndOnePlace) {
   for (Touch& touch : set.touches) touch.target_W.mm = {10.0 * touch.id, 5.0 * touch.id, 0.3 * (touch.id % 2)};
   EXPECT_THAT(refusalOfTouches(set), HasSubstr("lie on a line"));
   for (Touch& touch : set.touches) touch.target_W.mm = {1.0, 0.1 * touch.id, 0.0};
-  EXPECT_THAT(refusalOfTouches(set), HasSubstr("in one place"));
+  EXPECT_THAT(refusalOfTouches(set), HasSubstr("at one position"));
 }
 
 TEST(TouchChecks, RefuseAModelOrPrecisionThatIsNone) {
@@ -121,10 +122,10 @@ TEST(HullVolume, IsThatOfABlockWhateverLiesInside) {
 TEST(HullVolume, IsThatOfABallNearly) {
   std::mt19937 rng(3);
   std::normal_distribution<double> normal;
-  std::vector<glm::dvec3> places;
+  std::vector<glm::dvec3> positions;
   for (int i = 0; i < 2000; ++i)
-    places.push_back(10.0 * glm::normalize(glm::dvec3(normal(rng), normal(rng), normal(rng))));
-  EXPECT_NEAR(hullVolume_mm3(places) / (4.0 / 3.0 * kPi * 1000.0), 1.0, 0.01);
+    positions.push_back(10.0 * glm::normalize(glm::dvec3(normal(rng), normal(rng), normal(rng))));
+  EXPECT_NEAR(hullVolume_mm3(positions) / (4.0 / 3.0 * kPi * 1000.0), 1.0, 0.01);
 }
 
 TEST(TouchChecks, SayHowFarDirectionsAreApart) {

@@ -114,7 +114,7 @@ TEST_F(TouchesFile, SaysWhichTouchIsWrongAndHow) {
   EXPECT_THAT(refusalWith("p_W_mm: [10., 20., 30.]", "p_mm: [1, 2, 3]"),
               AllOf(HasSubstr("p_W_mm"), HasSubstr("missing")));
   EXPECT_THAT(refusalWith("{ id: 4, joints_rad: [0, 0, 0, 0, 0, 0], p_W_mm: [10., 20., 30.] }", "7"),
-              AllOf(HasSubstr("observation 2"), HasSubstr("no map")));
+              AllOf(HasSubstr("observation 2"), HasSubstr("not a map")));
 }
 
 TEST_F(TouchesFile, SaysWhatIsWrongWithTheWhole) {

@@ -181,16 +181,16 @@ TEST_F(Store, TakesNoWayOutOfItsFolder) {
 TEST_F(Store, KeepsAnySerialAndKeepsThemApart) {
   for (const char* serial : {"", "../../x", "a b", "a_b", "a/b", "...", "\u00e5\u00e4\u00f6",
                              "0123456789012345678901234567890123456789012345678901234567890123456789"}) {
-    const RigLocation place{"rig-02", serial, "right"};
+    const RigLocation position{"rig-02", serial, "right"};
     RigRecord mine = record(0);
     mine.rig.device->serial = serial;
-    const fs::path path = store_.keep(place, mine, "", true);
+    const fs::path path = store_.keep(position, mine, "", true);
     EXPECT_EQ(path.parent_path().parent_path().parent_path(), root_ / "rig-02") << serial;
-    EXPECT_EQ(store_.names(place).size(), 1u) << serial;
-    EXPECT_EQ(store_.current(place)->rig.device->serial, serial);
+    EXPECT_EQ(store_.names(position).size(), 1u) << serial;
+    EXPECT_EQ(store_.current(position)->rig.device->serial, serial);
   }
   EXPECT_EQ(store_.locations().size(), 8u);
-  for (const RigLocation& place : store_.locations()) EXPECT_TRUE(store_.current(place));
+  for (const RigLocation& position : store_.locations()) EXPECT_TRUE(store_.current(position));
 }
 
 TEST_F(Store, RefusesASecondWriter) {

@@ -5,7 +5,7 @@
 
 #include "calibration/geometry/rotation.h"
 #include "calibration/random.h"
-#include "calibration/virtual_screen.h"
+#include "calibration/rig.h"
 
 namespace calibration {
 namespace {
@@ -13,8 +13,8 @@ namespace {
 /// Where the line of sight to a place meets the screen, in I.
 Point<ScreenImage> drawnOnScreen(const Viewing& viewing, const Point<World>& eye_W, const Point<World>& position_W) {
   const auto X_IW = viewing.X_WI.inverse();
-  const glm::dvec3 eye = (X_IW * eye_W).mm, place = (X_IW * position_W).mm;
-  return {eye + eye.z / (eye.z - place.z) * (place - eye)};
+  const glm::dvec3 eye = (X_IW * eye_W).mm, position = (X_IW * position_W).mm;
+  return {eye + eye.z / (eye.z - position.z) * (position - eye)};
 }
 
 }  // namespace
@@ -55,15 +55,15 @@ Viewing actualViewing(const Viewing& believed, const ViewingCare& care, std::mt1
 }
 
 SeenError seenError(const SyntheticRig& rig, const MeasuredArm& calibrated, const glm::dvec3& half_mm,
-                    const ViewingCare& care, int places, std::mt19937& rng) {
+                    const ViewingCare& care, int positions, std::mt19937& rng) {
   const Viewing believed = believedViewing(rig.nominal);
   const Viewing actual = actualViewing(believed, care, rng);
-  SeenError error{.places = places};
-  for (const Touch& touch : heldOutTouches(rig, places, half_mm, rng)) {
+  SeenError error{.positions = positions};
+  for (const Touch& touch : heldOutTouches(rig, positions, half_mm, rng)) {
     const Point<World> seen_W = seenPlace(believed, actual, calibrated.tip_W(touch.joints_rad));
     const double off_mm = glm::length((seen_W - touch.target_W).xyz);
-    error.mean_mm += off_mm / places;
-    error.rms_mm += off_mm * off_mm / places;
+    error.mean_mm += off_mm / positions;
+    error.rms_mm += off_mm * off_mm / positions;
     error.max_mm = std::max(error.max_mm, off_mm);
   }
   error.rms_mm = std::sqrt(error.rms_mm);

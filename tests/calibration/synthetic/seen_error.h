@@ -32,12 +32,12 @@ struct ViewingCare {
 Viewing actualViewing(const Viewing& believed, const ViewingCare& care, std::mt19937& rng);
 
 struct SeenError {
-  int places = 0;
+  int positions = 0;
   double mean_mm = 0.0, rms_mm = 0.0, max_mm = 0.0;
 };
 /// Of one rig with this calibration and one seating: at `places` anywhere in ±`half_mm`, tilts as held out touches
 /// have.
 SeenError seenError(const SyntheticRig& rig, const MeasuredArm& calibrated, const glm::dvec3& half_mm,
-                    const ViewingCare& care, int places, std::mt19937& rng);
+                    const ViewingCare& care, int positions, std::mt19937& rng);
 
 }  // namespace calibration

@@ -49,14 +49,14 @@ WebcamObservations syntheticObservations(const SyntheticRig& rig, const TargetPl
   held.technician.outlier_share = 0.0;
   TargetPlan about = plan;
 
-  WebcamObservations sights{.camera = believed(care, rng),
-                            .device_model = rig.nominal.device->model,
-                            .screen_noise_px = care.screen_noise_px,
-                            .tip_noise_px = care.tip_noise_px,
-                            .positions = {}};
+  WebcamObservations observations{.camera = believed(care, rng),
+                                  .device_model = rig.nominal.device->model,
+                                  .screen_noise_px = care.screen_noise_px,
+                                  .tip_noise_px = care.tip_noise_px,
+                                  .positions = {}};
   for (const double aside_deg : kCameraAside_deg) {
     const Pose<Camera, World> X_CW = roughlyPlacedCamera(rig.nominal, aside_deg, rng).inverse();
-    CameraPosition& position = sights.positions.emplace_back();
+    CameraPosition& position = observations.positions.emplace_back();
     for (int row = 0; row < kCorners.y; ++row)
       for (int column = 0; column < kCorners.x; ++column) {
         const Point<World> corner_W{kSquare_mm *
@@ -75,7 +75,7 @@ WebcamObservations syntheticObservations(const SyntheticRig& rig, const TargetPl
       position.tips.push_back({touch.id, touch.joints_rad, tip_px});
     }
   }
-  return sights;
+  return observations;
 }
 
 }  // namespace calibration

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "calibration/geometry/units.h"
+#include "tests/calibration/synthetic/glass_formulas.h"
 #include "tests/calibration/synthetic/mirrored_workstation.h"
 
 namespace calibration {
@@ -72,8 +73,8 @@ TEST(WebcamPicture, APlaceOnThePanelFallsWhereTheCameraModelSays) {
     const WebcamRenderer direct({.panel = panel, .room_light = 0.0}, webcam);
     for (const glm::ivec2 middle : {glm::ivec2(500, 300), glm::ivec2(960, 540), glm::ivec2(1500, 800)}) {
       const GreyImage shown = squareAt(panel.px, middle);
-      const glm::dvec3 place((middle.x / 1920.0 - 0.5) * 531.0, (0.5 - middle.y / 1080.0) * 531.0 * 9.0 / 16.0, 0.0);
-      EXPECT_LT(glm::distance(middleOfLight(direct.image(&shown, {}, 1)), seenPlace(webcam, place)), 0.05);
+      const glm::dvec3 position((middle.x / 1920.0 - 0.5) * 531.0, (0.5 - middle.y / 1080.0) * 531.0 * 9.0 / 16.0, 0.0);
+      EXPECT_LT(glm::distance(middleOfLight(direct.image(&shown, {}, 1)), seenPlace(webcam, position)), 0.05);
     }
   }
 }
@@ -82,8 +83,8 @@ TEST(WebcamPicture, AMonitorInTheMirrorShowsItsLeftOnTheRight) {
   const Webcam webcam = perfect(webcamAtEye());
   const WebcamRenderer view(mirroredScene(), webcam);
   const GreyImage shown = squareAt({1920, 1080}, {500, 300});
-  const glm::dvec3 place(-(500 / 1920.0 - 0.5) * 531.0, (0.5 - 300 / 1080.0) * 531.0 * 9.0 / 16.0, 0.0);
-  EXPECT_LT(glm::distance(middleOfLight(view.image(&shown, {}, 1)), seenPlace(webcam, place)), 0.05);
+  const glm::dvec3 position(-(500 / 1920.0 - 0.5) * 531.0, (0.5 - 300 / 1080.0) * 531.0 * 9.0 / 16.0, 0.0);
+  EXPECT_LT(glm::distance(middleOfLight(view.image(&shown, {}, 1)), seenPlace(webcam, position)), 0.05);
 }
 
 TEST(WebcamPicture, APixelHasTheMeanLightOfItsArea) {

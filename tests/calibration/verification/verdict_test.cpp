@@ -74,7 +74,7 @@ TEST(Verdict, IsDecidedByTheWorstOfAllAndSaysWhich) {
   errors = evenErrors(0.2);
   errors.bias_mm.xyz.y = -0.4;
   EXPECT_EQ(assess(errors, VerificationKind::full).verdict, Verdict::amber);
-  EXPECT_THAT(assess(errors, VerificationKind::full).reason, HasSubstr("one way by 0.40 mm"));
+  EXPECT_THAT(assess(errors, VerificationKind::full).reason, HasSubstr("in one direction by 0.40 mm"));
 }
 
 TEST(Verdict, IsNeverGreenOfLessThanFourTouches) {
@@ -98,10 +98,10 @@ TEST(WorstPlace, IsSaidAsTheSurgeonSeesIt) {
   for (const double x : {-60.0, 0.0, 60.0})
     for (const double y : {-40.0, 0.0, 40.0})
       for (const double z : {-30.0, 0.0, 30.0}) residuals.push_back({1, {{x, y, z}}, {{0.1, 0, 0}}, true});
-  const auto with = [&](const glm::dvec3& place, double size) {
+  const auto with = [&](const glm::dvec3& position, double size) {
     auto copy = residuals;
     for (Residual& r : copy)
-      if (glm::distance(r.target_W.mm, place) < 1.0) r.error_mm = {{0.0, size, 0.0}};
+      if (glm::distance(r.target_W.mm, position) < 1.0) r.error_mm = {{0.0, size, 0.0}};
     return worstErrorSentence(copy, {});
   };
   EXPECT_EQ(with({-60, -40, -30}, 0.92), "worst: back left low, 0.9 mm");

@@ -17,10 +17,10 @@ GreyImage seenFrom(const glm::dvec3& eye_W, double roll_rad = 0.0, const glm::dv
 }
 
 std::optional<BoardTrouble> troubleWith(const GreyImage& image) {
-  const BoardDetection sighting = findBoard(image, boardFor(kScreen.size_px));
-  EXPECT_EQ(sighting.trouble.has_value(), sighting.corners_px.empty());
-  EXPECT_EQ(sighting.trouble.has_value(), !sighting.line.empty());
-  return sighting.trouble;
+  const BoardDetection detection = findBoard(image, boardFor(kScreen.size_px));
+  EXPECT_EQ(detection.trouble.has_value(), detection.corners_px.empty());
+  EXPECT_EQ(detection.trouble.has_value(), !detection.line.empty());
+  return detection.trouble;
 }
 
 TEST(Board, IsFoundWithEveryCornerWhereTheLensPutsIt) {
@@ -28,18 +28,18 @@ TEST(Board, IsFoundWithEveryCornerWhereTheLensPutsIt) {
   const glm::dvec3 eyes[] = {{0, 0, 520}, {200, 60, 480}, {-220, -40, 470}, {30, 220, 500}};
   for (const glm::dvec3& eye : eyes) {
     const Pose<World, Camera> X_WC = cameraTowards(eye, {5, -4, 0}, 0.1);
-    const BoardDetection sighting =
+    const BoardDetection detection =
         findBoard(noisy(SeenScreen(kScreen, kWebcam, X_WC).of(boardImage(board)), 2.0, 7), board);
-    ASSERT_FALSE(sighting.trouble) << sighting.line;
-    const auto places = board.cornerPositions_px();
-    ASSERT_EQ(sighting.corners_px.size(), places.size());
+    ASSERT_FALSE(detection.trouble) << detection.line;
+    const auto positions = board.cornerPositions_px();
+    ASSERT_EQ(detection.corners_px.size(), positions.size());
     double sum = 0.0;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      const glm::dvec2 true_px = kWebcam.pixelOf(X_WC.inverse() * kScreen.position_W(places[i]));
-      EXPECT_LT(glm::distance(sighting.corners_px[i], true_px), 0.35) << i;
-      sum += glm::dot(sighting.corners_px[i] - true_px, sighting.corners_px[i] - true_px);
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      const glm::dvec2 true_px = kWebcam.pixelOf(X_WC.inverse() * kScreen.position_W(positions[i]));
+      EXPECT_LT(glm::distance(detection.corners_px[i], true_px), 0.35) << i;
+      sum += glm::dot(detection.corners_px[i] - true_px, detection.corners_px[i] - true_px);
     }
-    EXPECT_LT(std::sqrt(sum / double(places.size())), 0.12);
+    EXPECT_LT(std::sqrt(sum / double(positions.size())), 0.12);
   }
 }
 
@@ -47,11 +47,11 @@ TEST(Board, ReadsRightWhicheverWayTheCameraIsTurned) {
   const ShownBoard board = boardFor(kScreen.size_px);
   for (const double roll : {0.0, 3.14159, 1.5708 * 0.3, -2.9}) {
     const Pose<World, Camera> X_WC = cameraTowards({40, 30, 640}, {0, 0, 0}, roll);
-    const BoardDetection sighting = findBoard(SeenScreen(kScreen, kWebcam, X_WC).of(boardImage(board)), board);
-    ASSERT_FALSE(sighting.trouble) << sighting.line;
+    const BoardDetection detection = findBoard(SeenScreen(kScreen, kWebcam, X_WC).of(boardImage(board)), board);
+    ASSERT_FALSE(detection.trouble) << detection.line;
     const glm::dvec2 first_px =
         kWebcam.pixelOf(X_WC.inverse() * kScreen.position_W(board.cornerPositions_px().front()));
-    EXPECT_LT(glm::distance(sighting.corners_px.front(), first_px), 0.5) << roll;
+    EXPECT_LT(glm::distance(detection.corners_px.front(), first_px), 0.5) << roll;
   }
 }
 

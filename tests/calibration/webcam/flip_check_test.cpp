@@ -123,7 +123,7 @@ TEST(FlipCheck, WhereThereIsNoFItSaysNothing) {
   std::mt19937 rng(1);
   for (std::uint8_t& grey : white.grey) grey = static_cast<std::uint8_t>(rng());
   EXPECT_FALSE(orientationOfF(view.image(&white, {}, 1)).has_value()) << "noise";
-  EXPECT_FALSE(orientationOfF(GreyImage{{8, 8}, std::vector<std::uint8_t>(64)}).has_value()) << "hardly a picture";
+  EXPECT_FALSE(orientationOfF(GreyImage{{8, 8}, std::vector<std::uint8_t>(64)}).has_value()) << "hardly an image";
 
   Webcam blurred = webcamAtEye({640, 360});
   blurred.defocus_px = 40.0;
@@ -134,7 +134,7 @@ TEST(FlipCheck, WhereThereIsNoFItSaysNothing) {
   aside.X_WC = lookingAt({{0, 0, 450}}, {{270, 0, 0}}, {0, 1, 0});
   const GreyImage cropped = WebcamRenderer({.panel = uprightScreen(kScreen_px)}, aside).image(&shown, {}, 1);
   keepPicture("f_cropped", cropped);
-  EXPECT_FALSE(orientationOfF(cropped).has_value()) << "half of it is beside the picture";
+  EXPECT_FALSE(orientationOfF(cropped).has_value()) << "half of it is outside the image";
 }
 
 }  // namespace

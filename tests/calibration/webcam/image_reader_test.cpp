@@ -40,7 +40,7 @@ class PictureReader : public testing::Test {
   }
 
   std::string path_ =
-      testing::TempDir() + "picture_reader_" + testing::UnitTest::GetInstance()->current_test_info()->name() + ".bin";
+      testing::TempDir() + "image_reader_" + testing::UnitTest::GetInstance()->current_test_info()->name() + ".bin";
   cv::Mat grey_ = cv::Mat(48, 64, CV_8U);
 };
 
@@ -61,7 +61,7 @@ TEST_F(PictureReader, RefusesEveryFileThatIsCutOff) {
     const Bytes whole = encoded(ending);
     for (std::size_t length = 0; length < whole.size(); length += 7)
       EXPECT_THAT(refusal(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length))),
-                  testing::StartsWith("picture "))
+                  testing::StartsWith("image "))
           << ending << " " << length << " of " << whole.size();
   }
 }

@@ -15,17 +15,17 @@ namespace {
 using testing::HasSubstr;
 
 TEST(PictureFolder, GivesItsPicturesByTheirNumbers) {
-  const std::string folder = testing::TempDir() + "picture_folder_test";
+  const std::string folder = testing::TempDir() + "image_folder_test";
   std::filesystem::create_directories(folder);
   for (const int number : {10, 2, 1, 33})
     writePng(folder + "/view" + std::to_string(number) + ".png", {16, 16},
              std::vector<std::uint8_t>(16 * 16 * 4, static_cast<std::uint8_t>(number)));
-  std::ofstream(folder + "/notes3.txt") << "not a picture";
+  std::ofstream(folder + "/notes3.txt") << "not an image";
   const auto source = openImageSource({.device = folder, .exposure_ms = {}, .focus = {}}).images;
   for (const int number : {1, 2, 10, 33}) EXPECT_EQ(source->take().grey[0], number);
   EXPECT_THAT(tests::refusalOf<CalibrationError>([&] { source->take(); }), HasSubstr("used up"));
   std::filesystem::remove_all(folder);
-  EXPECT_THAT(tests::refusalOf<CalibrationError>([&] { imageFolder(folder); }), HasSubstr("can not be read"));
+  EXPECT_THAT(tests::refusalOf<CalibrationError>([&] { imageFolder(folder); }), HasSubstr("cannot be read"));
   std::filesystem::create_directories(folder);
   EXPECT_THAT(tests::refusalOf<CalibrationError>([&] { imageFolder(folder); }), HasSubstr("no PNG or JPEG"));
   std::filesystem::remove_all(folder);
@@ -37,7 +37,7 @@ TEST(WebcamSource, SaysInOneLineThatThereIsNoCamera) {
       testing::AllOf(HasSubstr("webcam /dev/video97"), HasSubstr("not there")));
   EXPECT_THAT(tests::refusalOf<CalibrationError>(
                   [] { openImageSource({.device = "/dev/null", .exposure_ms = {}, .focus = {}}); }),
-              HasSubstr("no camera"));
+              HasSubstr("not a camera"));
 }
 
 }  // namespace

@@ -117,9 +117,9 @@ class OpenCvChessboards : public testing::Test {
     for (int i = 1; i <= 14; ++i) {
       if (i == 10) continue;  // there is none
       const std::string name = side + (i < 10 ? "0" : "") + std::to_string(i) + ".jpg";
-      const BoardDetection sighting = findChessboard(readGreyImage(kFolder + name), {9, 6});
-      EXPECT_FALSE(sighting.trouble) << name << ": " << sighting.line;
-      found.push_back({name, sighting.corners_px});
+      const BoardDetection detection = findChessboard(readGreyImage(kFolder + name), {9, 6});
+      EXPECT_FALSE(detection.trouble) << name << ": " << detection.line;
+      found.push_back({name, detection.corners_px});
     }
     return found;
   }
@@ -144,11 +144,11 @@ double stereoRms_px(const Intrinsics& left, const Intrinsics& right, const std::
   const auto bent = [](const CameraModel& camera) {
     return cv::Mat(cv::Vec4d(camera.k1, camera.k2, camera.p1, camera.p2), true);
   };
-  std::vector<cv::Point3f> places;
-  for (const glm::dvec2& mm : positions_mm) places.emplace_back(mm.x, mm.y, 0.0);
+  std::vector<cv::Point3f> positions;
+  for (const glm::dvec2& mm : positions_mm) positions.emplace_back(mm.x, mm.y, 0.0);
   cv::Mat left_K = matrix(left.camera), left_D = bent(left.camera), right_K = matrix(right.camera),
           right_D = bent(right.camera), R, t, E, F;
-  return cv::stereoCalibrate(std::vector(left_views.size(), places), pixels(left_views), pixels(right_views), left_K,
+  return cv::stereoCalibrate(std::vector(left_views.size(), positions), pixels(left_views), pixels(right_views), left_K,
                              left_D, right_K, right_D, {left.camera.size_px.x, left.camera.size_px.y}, R, t, E, F,
                              cv::CALIB_FIX_INTRINSIC);
 }

@@ -75,7 +75,7 @@ TEST(LiveImageSource, SayThatTheCameraIsGone) {
   PlayedCamera camera;
   camera.last = 1;
   LiveImageSource live = patternImages(camera);
-  for (int i = 0; i < 2; ++i) EXPECT_THAT(refusal([&] { live.take(); }), HasSubstr("no more pictures"));
+  for (int i = 0; i < 2; ++i) EXPECT_THAT(refusal([&] { live.take(); }), HasSubstr("no more images"));
 }
 
 TEST(LiveImageSource, SayWhyTheCameraDoesNotOpen) {

@@ -14,7 +14,7 @@
 namespace calibration {
 namespace {
 
-constexpr double kOverNoise = 6.0, kLeastGrey = 12.0;
+constexpr double kOverNoise = 6.0, kMinGrey = 12.0;
 constexpr double kOfBrightest =
     0.4;  ///< below it lies the glass's ghost: a twentieth of the light is a quarter of the grey
 constexpr int kSectors = 72;
@@ -96,28 +96,28 @@ std::optional<std::pair<glm::dvec2, double>> ringIn(const Blob& blob, const cv::
 }  // namespace
 
 RingDetection detectRing(const GreyImage& dark, const GreyImage& with_both) {
-  if (dark.size_px != with_both.size_px || !isWhole(dark) || !isWhole(with_both))
-    throw CalibrationError("ring check: the pictures are not of one size, take both with one camera");
+  if (dark.size_px != with_both.size_px || !dark.isWhole() || !with_both.isWhole())
+    throw CalibrationError("ring check: the images are not of one size, take both with one camera");
   const cv::Mat1f light = brighter(dark, with_both);
   double brightest = 0.0;
   cv::minMaxLoc(light, nullptr, &brightest);
   const double noise = cv::mean(cv::abs(light))[0] / 0.8;
-  const double least = std::max({kOverNoise * noise, kLeastGrey, kOfBrightest * brightest});
+  const double least = std::max({kOverNoise * noise, kMinGrey, kOfBrightest * brightest});
 
   cv::Mat1i labels;
   std::vector<Blob> blobs = blobsOf(light, least, labels);
   std::ranges::sort(blobs, std::ranges::greater(), [](const Blob& b) { return b.box.area(); });
-  RingDetection sighting;
+  RingDetection detection;
   if (blobs.empty()) {
-    sighting.line = "neither ring nor tip is seen: look whether the webcam faces the mirror and the tip is lit";
-    return sighting;
+    detection.line = "neither ring nor tip is seen: look whether the webcam faces the mirror and the tip is lit";
+    return detection;
   }
   const auto ring = ringIn(blobs.front(), light, labels, least);
   if (!ring) {
-    sighting.line = "no whole ring is seen: hold the tip away from the edge of the picture, nothing before the ring";
-    return sighting;
+    detection.line = "no whole ring is seen: hold the tip away from the edge of the image, nothing before the ring";
+    return detection;
   }
-  std::tie(sighting.ring_px, sighting.ring_radius_px) = *ring;
+  std::tie(detection.ring_px, detection.ring_radius_px) = *ring;
 
   // The tip is the largest of the rest, and compact.
   const auto compact = [](const Blob& b) {
@@ -127,15 +127,15 @@ RingDetection detectRing(const GreyImage& dark, const GreyImage& with_both) {
   blobs.erase(blobs.begin());
   const auto tip = std::ranges::find_if(blobs, compact);
   if (tip == blobs.end()) {
-    sighting.line = "the ring is seen, the tip is not: light it, and calibrate again where it touches the ring";
-    return sighting;
+    detection.line = "the ring is seen, the tip is not: light it, and calibrate again where it touches the ring";
+    return detection;
   }
-  sighting.tip_px = tip->middle_px;
-  return sighting;
+  detection.tip_px = tip->middle_px;
+  return detection;
 }
 
-Vector<Camera> ringOffset_mm(const CameraModel& camera, const RingDetection& sighting, double tip_ahead_mm) {
-  const glm::dvec2 off = camera.undistorted(sighting.tip_px) - camera.undistorted(sighting.ring_px);
+Vector<Camera> ringOffset_mm(const CameraModel& camera, const RingDetection& detection, double tip_ahead_mm) {
+  const glm::dvec2 off = camera.undistorted(detection.tip_px) - camera.undistorted(detection.ring_px);
   return {{tip_ahead_mm * off.x, tip_ahead_mm * off.y, 0.0}};
 }
 

@@ -25,7 +25,7 @@ struct RingDetection {
 RingDetection detectRing(const GreyImage& dark, const GreyImage& with_both);
 
 /// From the ring's middle to the tip, across the line of sight, where the tip is so far ahead of the camera.
-Vector<Camera> ringOffset_mm(const CameraModel& camera, const RingDetection& sighting, double tip_ahead_mm);
+Vector<Camera> ringOffset_mm(const CameraModel& camera, const RingDetection& detection, double tip_ahead_mm);
 
 struct RingCheck {
   double mean_mm = 0.0, max_mm = 0.0;

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/calibration/synthetic/glass_formulas.h"
 #include "tests/calibration/synthetic/mirrored_workstation.h"
 #include "tests/calibration/webcam/ring_check.h"
 
@@ -27,14 +28,14 @@ class RingCheckAtAWebcam : public testing::Test {
     view_.emplace(WebcamScene{.panel = rig_.screen, .mirror = rig_.mirror, .plate_mm = plate_mm, .ghost = 0.05},
                   webcam_);
   }
-  RingDetection sighting(const glm::dvec3& believed_W, const LitTip& tip, std::uint64_t seed = 1) {
+  RingDetection detection(const glm::dvec3& believed_W, const LitTip& tip, std::uint64_t seed = 1) {
     const GreyImage ring = ringImage(rig_, {webcam_.X_WC.translation_mm}, {believed_W});
     const GreyImage seen = view_->image(&ring, tip, seed);
     keepPicture("ring", seen);
     return detectRing(view_->image(nullptr, {}, seed + 1000), seen);
   }
-  Vector<Camera> offset_mm(const RingDetection& sighting, const glm::dvec3& tip_W) const {
-    return ringOffset_mm(webcam_.model, sighting, (webcam_.X_WC.inverse() * Point<World>{tip_W}).mm.z);
+  Vector<Camera> offset_mm(const RingDetection& detection, const glm::dvec3& tip_W) const {
+    return ringOffset_mm(webcam_.model, detection, (webcam_.X_WC.inverse() * Point<World>{tip_W}).mm.z);
   }
 
   Rig rig_ = desktopRig({1920, 1080});
@@ -44,7 +45,7 @@ class RingCheckAtAWebcam : public testing::Test {
 
 TEST_F(RingCheckAtAWebcam, FindsATipInItsRing) {
   for (const glm::dvec3 tip : {glm::dvec3(0, 0, 0), glm::dvec3(50, 30, 25), glm::dvec3(-55, -35, -30)}) {
-    const RingDetection both = sighting(tip, {.middle_W = {tip}});
+    const RingDetection both = detection(tip, {.middle_W = {tip}});
     EXPECT_EQ(both.line, "");
     EXPECT_LT(glm::length(offset_mm(both, tip).xyz), 0.05);
   }
@@ -58,7 +59,7 @@ TEST_F(RingCheckAtAWebcam, MeasuresHowFarTheyAreApart) {
   for (int i = 0; i < kRingPlaces; ++i) {
     const glm::dvec3 believed(50 * any(rng), 30 * any(rng), 25 * any(rng));
     const glm::dvec3 tip = believed + glm::dvec3(2.0 * any(rng), 2.0 * any(rng), 0.0);
-    offsets.push_back(offset_mm(sighting(believed, {.middle_W = {tip}}, 10u + static_cast<unsigned>(i)), tip));
+    offsets.push_back(offset_mm(detection(believed, {.middle_W = {tip}}, 10u + static_cast<unsigned>(i)), tip));
     // C has x as W, y and z against it.
     EXPECT_NEAR(offsets.back().xyz.x, tip.x - believed.x, 0.06);
     EXPECT_NEAR(offsets.back().xyz.y, believed.y - tip.y, 0.06);
@@ -71,7 +72,7 @@ TEST_F(RingCheckAtAWebcam, SeesWhatTheGlassShifts) {
   look(3.0);
   const glm::dvec3 tip(0, 0, 0);
   const double shift_mm = plateShift_mm({*rig_.mirror, 3.0}, std::acos(std::sqrt(0.5)));
-  EXPECT_NEAR(glm::length(offset_mm(sighting(tip, {.middle_W = {tip}}), tip).xyz), shift_mm, 0.05);
+  EXPECT_NEAR(glm::length(offset_mm(detection(tip, {.middle_W = {tip}}), tip).xyz), shift_mm, 0.05);
 }
 
 TEST_F(RingCheckAtAWebcam, SaysWhatIsMissing) {
@@ -81,7 +82,7 @@ TEST_F(RingCheckAtAWebcam, SaysWhatIsMissing) {
   EXPECT_THAT(detectRing(dark, dark).line, HasSubstr("neither"));
   EXPECT_THAT(detectRing(dark, view_->image(nullptr, LitTip{.middle_W = {tip}}, 2)).line, HasSubstr("no whole ring"));
   EXPECT_THAT(detectRing(dark, view_->image(&ring, {}, 2)).line, HasSubstr("tip is not"));
-  EXPECT_THAT(sighting({262, 0, 0}, {.middle_W = {{255, 0, 0}}}).line, testing::Not(testing::IsEmpty()));
+  EXPECT_THAT(detection({262, 0, 0}, {.middle_W = {{255, 0, 0}}}).line, testing::Not(testing::IsEmpty()));
   EXPECT_THROW(detectRing(dark, GreyImage{{2, 2}, std::vector<std::uint8_t>(4)}), CalibrationError);
 }
 

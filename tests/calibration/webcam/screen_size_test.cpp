@@ -37,7 +37,7 @@ TEST(ScreenSize, RefusesWhatIsNoMeasurement) {
   EXPECT_THAT(refusal({100.0, 10.2, 10.2}), HasSubstr("20 %"));
   EXPECT_THAT(refusal({100.0, 105.0, 100.0}), HasSubstr("stretched"));
   EXPECT_THAT(refusal({20.0, 20.0, 20.0}), HasSubstr("50 mm"));
-  EXPECT_THAT(refusal({100.0, std::nan(""), 100.0}), HasSubstr("no number"));
+  EXPECT_THAT(refusal({100.0, std::nan(""), 100.0}), HasSubstr("not finite"));
 }
 
 }  // namespace

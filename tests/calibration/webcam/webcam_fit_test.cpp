@@ -19,13 +19,13 @@ using testing::HasSubstr;
 
 struct Judged {
   SyntheticRig rig;
-  WebcamObservations sights;
+  WebcamObservations observations;
   std::vector<Touch> held_out;
 
   Judged(std::uint32_t seed, const WebcamCare& care, Scenario scenario = Scenario::d)
       : rig(syntheticRig(scenario, seed)) {
     std::mt19937 rng(seed);
-    sights = syntheticObservations(rig, targetPlan("webcam27").value(), care, rng);
+    observations = syntheticObservations(rig, targetPlan("webcam27").value(), care, rng);
     held_out = heldOutTouches(rig, 200, {60, 40, 30}, rng);
   }
   double error_mm(const MeasuredArm& arm) const {
@@ -50,7 +50,7 @@ Figures heldOutOf(const WebcamCare& care, ArmModel model) {
   std::vector<double> errors_mm;
   for (std::uint32_t seed = 1; seed <= 12; ++seed) {
     const Judged charted(seed, care);
-    errors_mm.push_back(charted.error_mm(fitWebcam(charted.sights, model).arm));
+    errors_mm.push_back(charted.error_mm(fitWebcam(charted.observations, model).arm));
   }
   return figures(errors_mm);
 }
@@ -89,11 +89,11 @@ TEST(WebcamFit, IsNotMovedByTipsThatAreTakenForSomethingElse) {
   WebcamCare care = fineWebcam();
   care.outlier_share = 0.0;
   Judged charted(4, care);
-  const WebcamFit clean = fitWebcam(charted.sights);
-  charted.sights.positions[0].tips[3].camera_px += glm::dvec2(40, -25);
-  charted.sights.positions[1].tips[20].camera_px += glm::dvec2(-300, 100);
-  charted.sights.positions[2].tips[11].camera_px += glm::dvec2(9, 12);
-  const WebcamFit wild = fitWebcam(charted.sights);
+  const WebcamFit clean = fitWebcam(charted.observations);
+  charted.observations.positions[0].tips[3].camera_px += glm::dvec2(40, -25);
+  charted.observations.positions[1].tips[20].camera_px += glm::dvec2(-300, 100);
+  charted.observations.positions[2].tips[11].camera_px += glm::dvec2(9, 12);
+  const WebcamFit wild = fitWebcam(charted.observations);
   EXPECT_EQ(wild.outliers, clean.outliers + 3);
   EXPECT_FALSE(wild.residuals[3].used);
   EXPECT_FALSE(wild.residuals[27 + 20].used);
@@ -108,7 +108,7 @@ TEST(WebcamFit, SaysHowWellItForetellsPlacesNotTouched) {
     std::vector<double> ratios;
     for (std::uint32_t seed = 1; seed <= 9; ++seed) {
       const Judged charted(seed, care);
-      const WebcamFit fit = fitWebcam(charted.sights);
+      const WebcamFit fit = fitWebcam(charted.observations);
       ratios.push_back(fit.cv_rms_mm / charted.error_mm(fit.arm));
     }
     EXPECT_GT(figures(ratios).median_mm, 0.9);
@@ -119,7 +119,7 @@ TEST(WebcamFit, SaysHowWellItForetellsPlacesNotTouched) {
 
 TEST(WebcamFit, FindsWhereTheCameraStood) {
   const Judged charted(2, fineWebcam());
-  const WebcamFit fit = fitWebcam(charted.sights);
+  const WebcamFit fit = fitWebcam(charted.observations);
   ASSERT_EQ(fit.X_WC.size(), 3U);
   EXPECT_NEAR(fit.baseline_deg, 50.0, 8.0);
   EXPECT_LT(fit.screen_rms_px, 0.5);
@@ -139,80 +139,81 @@ TEST(WebcamFit, IsFarBetterThanOnePositionAlone) {
   std::vector<double> alone, together;
   for (std::uint32_t seed = 1; seed <= 9; ++seed) {
     const Judged charted(seed, fineWebcam());
-    alone.push_back(charted.error_mm(armFromOnePosition(charted.sights, 0)));
-    together.push_back(charted.error_mm(fitWebcam(charted.sights).arm));
+    alone.push_back(charted.error_mm(armFromOnePosition(charted.observations, 0)));
+    together.push_back(charted.error_mm(fitWebcam(charted.observations).arm));
   }
   std::cout << "one position alone, arm as its model: " << figures(alone).median_mm << " mm RMS\n";
   EXPECT_GT(figures(alone).median_mm, 1.0);
   EXPECT_LT(figures(together).median_mm, 0.25 * figures(alone).median_mm);
 }
 
-std::string refusal(const WebcamObservations& sights) {
-  return tests::refusalOf<CalibrationError>([&] { fitWebcam(sights); });
+std::string refusal(const WebcamObservations& observations) {
+  return tests::refusalOf<CalibrationError>([&] { fitWebcam(observations); });
 }
 
 TEST(WebcamFit, RefusesWhatWouldLookGoodAndBeWrong) {
-  const WebcamObservations good = Judged(3, fineWebcam()).sights;
+  const WebcamObservations good = Judged(3, fineWebcam()).observations;
   EXPECT_EQ(refusal(good), "accepted");
 
-  WebcamObservations sights = good;
-  sights.positions.resize(1);
-  EXPECT_THAT(refusal(sights), HasSubstr("one camera position"));
+  WebcamObservations observations = good;
+  observations.positions.resize(1);
+  EXPECT_THAT(refusal(observations), HasSubstr("one camera position"));
 
-  sights = good;
-  for (CameraPosition& position : sights.positions) position.tips.resize(5);
-  EXPECT_THAT(refusal(sights), HasSubstr("15 tips are too few"));
+  observations = good;
+  for (CameraPosition& position : observations.positions) position.tips.resize(5);
+  EXPECT_THAT(refusal(observations), HasSubstr("15 tips are too few"));
 
-  sights = good;
-  sights.positions = {good.positions[0], good.positions[0]};
-  EXPECT_THAT(refusal(sights), HasSubstr("one place"));
+  observations = good;
+  observations.positions = {good.positions[0], good.positions[0]};
+  EXPECT_THAT(refusal(observations), HasSubstr("one place"));
 
-  sights = good;
-  sights.positions[1].tips[4].camera_px.x = std::nan("");
-  EXPECT_THAT(refusal(sights), HasSubstr("not finite"));
+  observations = good;
+  observations.positions[1].tips[4].camera_px.x = std::nan("");
+  EXPECT_THAT(refusal(observations), HasSubstr("not finite"));
 
-  sights = good;
-  sights.positions[0].screen.resize(3);
-  EXPECT_THAT(refusal(sights), HasSubstr("screen"));
+  observations = good;
+  observations.positions[0].screen.resize(3);
+  EXPECT_THAT(refusal(observations), HasSubstr("screen"));
 
-  sights = good;
-  sights.device_model = "novint";
-  EXPECT_THAT(refusal(sights), HasSubstr("novint"));
+  observations = good;
+  observations.device_model = "novint";
+  EXPECT_THAT(refusal(observations), HasSubstr("novint"));
 }
 
 TEST(WebcamFit, RefusesAMirroredScreen) {
   for (std::uint32_t seed = 1; seed <= 6; ++seed) {
-    WebcamObservations sights = Judged(seed, fineWebcam()).sights;
-    for (CameraPosition& position : sights.positions)
-      for (ScreenObservation& sight : position.screen) sight.position_W.mm.x = -sight.position_W.mm.x;
-    EXPECT_THAT(refusal(sights), HasSubstr("mirrored"));
+    WebcamObservations observations = Judged(seed, fineWebcam()).observations;
+    for (CameraPosition& position : observations.positions)
+      for (ScreenObservation& observation : position.screen) observation.position_W.mm.x = -observation.position_W.mm.x;
+    EXPECT_THAT(refusal(observations), HasSubstr("mirrored"));
   }
 }
 
 TEST(WebcamFit, RefusesTouchesThatBelongToOtherPictures) {
-  WebcamObservations sights = Judged(6, fineWebcam()).sights;
-  for (CameraPosition& position : sights.positions) {
+  WebcamObservations observations = Judged(6, fineWebcam()).observations;
+  for (CameraPosition& position : observations.positions) {
     std::vector<TipObservation>& tips = position.tips;
     for (std::size_t i = 0; i + 1 < tips.size(); ++i)
       std::swap(tips[i].camera_px, tips[(i * 7 + 3) % tips.size()].camera_px);
   }
-  EXPECT_THAT(refusal(sights), HasSubstr("belong together"));
+  EXPECT_THAT(refusal(observations), HasSubstr("belong together"));
 }
 
 TEST(WebcamFit, WarnsOfFewTipsOneTiltAndNarrowViews) {
-  const auto kinds = [](const WebcamObservations& sights) {
+  const auto kinds = [](const WebcamObservations& observations) {
     std::vector<FitWarning::Kind> found;
-    for (const FitWarning& warning : fitWebcam(sights).warnings) found.push_back(warning.kind);
+    for (const FitWarning& warning : fitWebcam(observations).warnings) found.push_back(warning.kind);
     return found;
   };
-  WebcamObservations sights = Judged(3, fineWebcam()).sights;
-  for (CameraPosition& position : sights.positions) {
+  WebcamObservations observations = Judged(3, fineWebcam()).observations;
+  for (CameraPosition& position : observations.positions) {
     std::vector<TipObservation> some;
     for (std::size_t i = 0; i < position.tips.size(); i += 3) some.push_back(position.tips[i]);
     position.tips = some;
   }
-  EXPECT_THAT(kinds(sights), testing::Contains(FitWarning::Kind::few_touches));
-  EXPECT_THAT(kinds(Judged(3, fineWebcam(), Scenario::e).sights), testing::Contains(FitWarning::Kind::little_tilt));
+  EXPECT_THAT(kinds(observations), testing::Contains(FitWarning::Kind::few_touches));
+  EXPECT_THAT(kinds(Judged(3, fineWebcam(), Scenario::e).observations),
+              testing::Contains(FitWarning::Kind::little_tilt));
 }
 
 }  // namespace

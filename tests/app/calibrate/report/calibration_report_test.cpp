@@ -84,7 +84,7 @@ TEST(CalibrationReport, TellsTheAlarmsOfTheHistory) {
   const std::string words = wordsIn(page(exampleRecord()));
   EXPECT_THAT(words, HasSubstr("Not steady: 2027-01-04"));
   EXPECT_THAT(words, HasSubstr("bias upwards 0.42 mm, beyond 3 sigma"));
-  EXPECT_THAT(wordsIn(reportHtml(exampleRecord(), {}, kNow)), HasSubstr("No check was made yet"));
+  EXPECT_THAT(wordsIn(reportHtml(exampleRecord(), {}, kNow)), HasSubstr("No check yet"));
 }
 
 TEST(CalibrationReport, SaysThatItIsOld) {
