@@ -1,6 +1,5 @@
-// What the safety layer can do in a tick, as bits: each a trip that is counted, recorded with its tick and said in
-// words (safety/trips). From `clamped` to `hot` the force is held within limits; everything else lowers it or takes it
-// away.
+// Actions of the safety layer in a tick, as bits: each is a trip that is counted, recorded with its tick and has a text
+// (safety/trips). From `clamped` to `hot` the force is held within limits; all others lower it or switch it off.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +14,14 @@ enum class Fault : std::uint32_t {
   slewed = 8,        ///< rate limit reached
   device = 16,       ///< the device reported trouble
   joints = 32,       ///< a joint's torque limit reached
-  hot = 64,          ///< the motors' heat allows no more
-  stale = 128,       ///< nothing measured for 3 ms or longer
+  hot = 64,          ///< limited by the motors' heat
+  stale = 128,       ///< no measurement for 3 ms or longer
   resumed = 256,     ///< the ticks had paused
-  braked = 512,      ///< the hand was fast
-  too_fast = 1024,   ///< the hand was so fast that there is no force for a while
-  buzz = 2048,       ///< it shook
-  overdrawn = 4096,  ///< the hand got more energy than can be let down gently
-  let_go = 8192,     ///< the deadman felt no hand
+  braked = 512,      ///< damped: the hand was fast
+  too_fast = 1024,   ///< no force for 0.1 s: the hand was too fast
+  buzz = 2048,       ///< the contact oscillated
+  overdrawn = 4096,  ///< the hand got more energy than can be taken back gently
+  let_go = 8192,     ///< the deadman detected no hand
   latched = 16384,   ///< no force until the instructor lifts it
   stopped = 32768,   ///< emergency stop
 };

@@ -10,12 +10,12 @@ namespace {
 
 using calibration::isFinite;
 
-/// Beyond the one a number is absurd; beyond the other the hand was put there.
+/// Limit of a plausible position; limit of a move that is no relocation.
 constexpr double kFarthest_mm = 10'000.0, kLongestMove_mm = 1'000.0;
 
 glm::dvec3 handle_mm(const HandSample& hand) { return hand.X_PT.translation_mm + hand.arm_P_mm.xyz; }
 
-/// Finite, near, and with a rotation that can be made unit.
+/// Finite, near, and with a rotation that can be normalised.
 bool usable(const HandSample& hand) {
   const double norm = glm::dot(hand.X_PT.rotation, hand.X_PT.rotation);
   const glm::dvec3& p = hand.X_PT.translation_mm;
@@ -31,24 +31,20 @@ HandSample withUnitRotation(const HandSample& hand) {
   return unit;
 }
 
-/// What is held of the past and what is new: all that can only take force away.
-HandSample held(const HandSample& good, const HandSample& now) {
-  HandSample hand = good;
-  hand.motor_heat = now.motor_heat;
-  hand.gap_s = now.gap_s;
-  hand.drill_pedal = now.drill_pedal;
-  hand.fresh = now.fresh;
-  hand.docked = now.docked;
-  hand.held = now.held;
-  hand.calibrated = now.calibrated;
-  hand.stop_requested = now.stop_requested;
-  hand.device_healthy = now.device_healthy;
+/// `now` at the pose of `good`.
+HandSample heldAt(const HandSample& good, const HandSample& now) {
+  HandSample hand = now;
+  hand.X_PT = good.X_PT;
+  hand.velocity_P_mm_per_s = good.velocity_P_mm_per_s;
+  hand.arm_P_mm = good.arm_P_mm;
+  hand.handle_velocity_P_mm_per_s = good.handle_velocity_P_mm_per_s;
+  hand.jacobian_P_mm = good.jacobian_P_mm;
   return hand;
 }
 
 }  // namespace
 
-/// No further since the last good sample than a hand can.
+/// Within a hand's speed since the last valid sample.
 bool HandGuard::moved(const HandSample& hand, const SafetyLimits& limits) const noexcept {
   if (glm::length(handle_mm(hand) - handle_mm(good_)) > limits.max_speed_mm_per_s * since_good_s_) return false;
   const double half_turn_rad = 0.5 * limits.max_angular_speed_rad_per_s * since_good_s_;
@@ -61,13 +57,13 @@ HandGuard::Checked HandGuard::check(const HandSample& hand, const SafetyLimits& 
   since_good_s_ += elapsed_s;
   Checked checked;
   checked.resumed = elapsed_s > limits.thresholds.max_pause_s;
-  const bool anew = limits.must_be_armed && (checked.resumed || bad_ >= kBadInARow);
+  const bool restarts = limits.must_be_armed && (checked.resumed || bad_ >= kMaxBadInARow);
 
   if (!hand.fresh) {
     checked.refused = !started_;
-    checked.hand = held(good_, hand);
+    checked.hand = heldAt(good_, hand);
   } else if (usable(hand) && (!started_ || (limits.must_be_armed && checked.resumed) || moved(hand, limits))) {
-    checked.relocated = !started_ || anew || glm::length(handle_mm(hand) - handle_mm(good_)) > kLongestMove_mm;
+    checked.relocated = !started_ || restarts || glm::length(handle_mm(hand) - handle_mm(good_)) > kLongestMove_mm;
     good_ = withUnitRotation(hand);
     started_ = true;
     since_good_s_ = 0.0;
@@ -75,17 +71,17 @@ HandGuard::Checked HandGuard::check(const HandSample& hand, const SafetyLimits& 
     checked.hand = good_;
     return checked;
   } else {
-    bad_ = std::min(bad_ + 1, kBadInARow);
+    bad_ = std::min(bad_ + 1, kMaxBadInARow);
     checked.refused = true;
-    checked.hand = held(good_, hand);
+    checked.hand = heldAt(good_, hand);
   }
   if (bad_ > 0 || !started_) {
     checked.hand.velocity_P_mm_per_s = {};
     checked.hand.handle_velocity_P_mm_per_s = {};
     checked.hand.drill_pedal = false;
   }
-  checked.lost = bad_ >= kBadInARow;
-  checked.share = checked.lost || !started_ ? 0.0 : std::ldexp(1.0, -bad_);
+  checked.lost = bad_ >= kMaxBadInARow;
+  checked.confidence = checked.lost || !started_ ? 0.0 : std::ldexp(1.0, -bad_);
   return checked;
 }
 

@@ -1,8 +1,8 @@
-// Keeps the hand believable (reference/devices 6.1). A sample that is not finite, or whose handle moved or turned
-// faster than a hand can since the last good one, is refused: the last good pose is held at rest, pedal up, and the
-// force halved; three in a row are a fault. A sample that is not fresh keeps the pose and says nothing new. After a
-// pause of the ticks any finite pose is a new beginning where somebody can be pushed. Goes by seconds, so it is the
-// same at every rate. Frame P. Servo thread; a few dozen flops. Not smoothing.
+// Validates hand samples (reference/devices 6.1). A sample that is not finite, or whose handle moved or rotated faster
+// than a hand can since the last valid one, is refused: the last valid pose is held at rest, pedal up, and the force
+// halved; three in a row are a fault. A sample that is not fresh keeps the pose. After a pause of the ticks any finite
+// pose is a new start where the device can push. Works in seconds, so it is the same at every rate. Frame P. Servo
+// thread; a few dozen flops. Not smoothing.
 #pragma once
 
 #include "haptics/safety/hand_sample.h"
@@ -12,15 +12,15 @@ namespace haptics {
 
 class HandGuard {
  public:
-  static constexpr int kBadInARow = 3;
+  static constexpr int kMaxBadInARow = 3;
 
   struct Checked {
-    HandSample hand;         ///< what to work with
-    bool refused = false;    ///< it is not the sample given
-    bool relocated = false;  ///< the hand did not move here: first good sample, or believed after a jump
-    bool resumed = false;    ///< the ticks had paused
-    bool lost = false;       ///< three in a row were bad
-    double share = 1.0;      ///< of the force that may be given while in doubt
+    HandSample hand;          ///< the sample to use
+    bool refused = false;     ///< the sample was not used
+    bool relocated = false;   ///< not reached by motion: first valid sample, or after a jump
+    bool resumed = false;     ///< the ticks had paused
+    bool lost = false;        ///< three in a row were bad
+    double confidence = 1.0;  ///< share of the force allowed
   };
   Checked check(const HandSample& hand, const SafetyLimits& limits, double dt_s) noexcept;
 

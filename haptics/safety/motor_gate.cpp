@@ -21,21 +21,21 @@ MotorGate::MotorGate(const DeviceCapabilities& device)
                              sanitisedJointPeak_Nmm(device.peak_joint_torque_Nmm.y),
                              sanitisedJointPeak_Nmm(device.peak_joint_torque_Nmm.z)) {}
 
-MotorCommand MotorGate::admit(const Wrench<calibration::Device>& wanted_D, const glm::dmat3& jacobian_D_mm,
+MotorCommand MotorGate::admit(const Wrench<calibration::Device>& requested_D, const glm::dmat3& jacobian_D_mm,
                               bool motors_on) const noexcept {
   if (!motors_on || isShut()) return {};
-  glm::dvec3 force_N = wanted_D.force_N.xyz, torque_Nmm = wanted_D.torque_Nmm.xyz;
-  const double asked_N = glm::length(force_N), asked_Nmm = glm::length(torque_Nmm);
+  glm::dvec3 force_N = requested_D.force_N.xyz, torque_Nmm = requested_D.torque_Nmm.xyz;
+  const double length_N = glm::length(force_N), length_Nmm = glm::length(torque_Nmm);
   const glm::dvec3 joints_Nmm = glm::abs(glm::transpose(jacobian_D_mm) * force_N);
-  if (!std::isfinite(asked_N) || !std::isfinite(asked_Nmm) || !std::isfinite(glm::length(joints_Nmm))) return {};
+  if (!std::isfinite(length_N) || !std::isfinite(length_Nmm) || !std::isfinite(glm::length(joints_Nmm))) return {};
 
   // The whole force is scaled, so that its direction stays.
-  double share = shareWithin(peak_force_N_, asked_N);
+  double share = shareWithin(peak_force_N_, length_N);
   for (int joint = 0; joint < 3; ++joint)
     if (peak_joint_torque_Nmm_[joint] > 0.0)
       share = glm::min(share, shareWithin(peak_joint_torque_Nmm_[joint], joints_Nmm[joint]));
   force_N *= share;
-  torque_Nmm *= shareWithin(peak_torque_Nmm_, asked_Nmm);
+  torque_Nmm *= shareWithin(peak_torque_Nmm_, length_Nmm);
   return {{{force_N}, {torque_Nmm}}, true};
 }
 

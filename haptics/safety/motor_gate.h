@@ -1,7 +1,6 @@
-// The last gate before the motors, and the only maker of a MotorCommand that pushes: finite, within the device's peak
-// force, torque and joint torques, and nothing at all once shut. Frame D, about the handle; N, N mm. admit(): the
-// servo's thread, a few dozen flops; shut(): any thread, for good. Not the safety layer, which decides with time and
-// state what may be felt; this one holds whatever that one does.
+// The last gate before the motors and the only source of a MotorCommand with force: finite, within the device's peak
+// force, torque and joint torques, and zero once shut. Frame D, about the handle; N, N mm. admit(): servo thread, a few
+// dozen flops; shut(): any thread, final. Stateless apart from that, unlike the safety layer.
 #pragma once
 
 #include <atomic>
@@ -15,7 +14,7 @@ class MotorGate {
   explicit MotorGate(const DeviceCapabilities& device);
 
   /// `jacobian_D_mm` as in HandleState. Motors off, and no force, when the wrench or the Jacobian is not finite.
-  MotorCommand admit(const Wrench<calibration::Device>& wanted_D, const glm::dmat3& jacobian_D_mm,
+  MotorCommand admit(const Wrench<calibration::Device>& requested_D, const glm::dmat3& jacobian_D_mm,
                      bool motors_on) const noexcept;
 
   void shut() noexcept { shut_.store(true); }

@@ -18,7 +18,7 @@ bool shorten(glm::dvec3& v, double most) {
   return true;
 }
 
-/// One of the two vectors on its way from `last`: within its peak, then no further from the last than the slew lets it.
+/// `target` within its peak and within the slew limit of `last`.
 glm::dvec3 limited(glm::dvec3 target, glm::dvec3 last, double peak, double longest_step, bool at_once, Fault& faults) {
   if (shorten(target, peak)) faults = faults | Fault::clamped;
   if (at_once) shorten(last, glm::length(target));
@@ -32,32 +32,32 @@ glm::dvec3 limited(glm::dvec3 target, glm::dvec3 last, double peak, double longe
 
 }  // namespace
 
-SafetyFilter::Delivered SafetyFilter::serve(const Wrench<calibration::Patient>& wanted_P, const SafetyLimits& limits,
+SafetyFilter::Delivered SafetyFilter::serve(const Wrench<calibration::Patient>& requested_P, const SafetyLimits& limits,
                                             Fall fall, double dt_s, const glm::dmat3& jacobian_P_mm) noexcept {
-  Delivered served;
-  Wrench<calibration::Patient> target = wanted_P;
+  Delivered delivered;
+  Wrench<calibration::Patient> target = requested_P;
   if (!isFinite(target.force_N.xyz) || !isFinite(target.torque_Nmm.xyz)) {
-    served.faults = Fault::bad_force;
+    delivered.faults = Fault::bad_force;
     target = {};
   }
 
   const auto bear = [&](glm::dvec3& force_N) {
     const double share = shareForJoints(jacobian_P_mm, force_N, limits.peak_joint_torque_Nmm);
     if (!(share < 1.0)) return;
-    served.faults = served.faults | Fault::joints;
+    delivered.faults = delivered.faults | Fault::joints;
     force_N *= share;
   };
   bear(target.force_N.xyz);
 
   const bool at_once = fall == Fall::at_once;
   last_P_.force_N.xyz = limited(target.force_N.xyz, last_P_.force_N.xyz, limits.peak_force_N,
-                                limits.slew_N_per_s * dt_s, at_once, served.faults);
+                                limits.slew_N_per_s * dt_s, at_once, delivered.faults);
   last_P_.torque_Nmm.xyz = limited(target.torque_Nmm.xyz, last_P_.torque_Nmm.xyz, limits.peak_torque_Nmm,
-                                   limits.slew_Nmm_per_s * dt_s, at_once, served.faults);
-  // The joints stand otherwise now than when the last force was within their limits.
+                                   limits.slew_Nmm_per_s * dt_s, at_once, delivered.faults);
+  // The joints have moved since the last force was within their limits.
   bear(last_P_.force_N.xyz);
-  served.wrench_P = last_P_;
-  return served;
+  delivered.wrench_P = last_P_;
+  return delivered;
 }
 
 }  // namespace haptics

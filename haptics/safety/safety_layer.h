@@ -1,11 +1,10 @@
-// Everything between a wish and the motors, in the order of reference/devices 6; pure, so a replay trips alike.
-//   admit(), before anybody touches bone: 1 HandGuard, 9 Staleness, 10 stop, 2 SafetyStateMachine
-//   serve(), after the law: 3 SoftStart, 6 brake, 5 PassivityController, 6 VelocityGuard and BuzzDetector, 7
-//   ThermalBudget and peaks, joints, 8 slew: SafetyFilter, which is last, so that its limits hold whatever the others
-//   do
-// The brake stands before the books of energy, so that a wrong velocity can not push; what comes after the books only
-// ever lowers. Once each a tick. Frame P, about the handle. Servo thread; a few hundred flops, no clock, no allocation.
-// Not the contact's stability (contact/law_limits), not the motor gate, which no state can talk to.
+// All stages between the requested and the commanded force, in the order of reference/devices 6; pure, so a replay
+// trips alike.
+//   admit(), before contact: 1 HandGuard, 9 Staleness, 10 stop, 2 SafetyStateMachine
+//   serve(), after the law:  3 SoftStart, 6 brake, 5 PassivityController, 6 VelocityGuard and BuzzDetector,
+//                            7 ThermalBudget, peaks, joints, 8 slew: SafetyFilter, last, so that its limits always hold
+// The brake is before the passivity controller, so that a wrong velocity cannot push; later stages only lower the
+// force. Once each per tick. Frame P, about the handle. Servo thread; a few hundred flops, no clock, no allocation.
 #pragma once
 
 #include "haptics/safety/buzz_detector.h"
@@ -23,12 +22,12 @@ namespace haptics {
 class SafetyLayer {
  public:
   struct Admitted {
-    HandSample hand;         ///< what to work with
-    bool relocated = false;  ///< the hand did not move here
+    HandSample hand;         ///< the sample to use
+    bool relocated = false;  ///< not reached by motion
     SafetyState state = SafetyState::off;
     Fault faults = Fault::none;
 
-    /// Nothing is cut that can not be felt.
+    /// Nothing is cut that is not felt.
     bool mayDrill() const;
   };
   /// `limits` sanitised; `rearm` is Command::rearm.
@@ -36,21 +35,21 @@ class SafetyLayer {
 
   struct Request {
     Wrench<calibration::Patient> wrench_P;                    ///< about the handle
-    calibration::Vector<calibration::Patient> vibration_P_N;  ///< active by nature: not in the books
+    calibration::Vector<calibration::Patient> vibration_P_N;  ///< active: not in the energy balance
     PassivityController::Motion motion;                       ///< of the handle since the last tick
-    double max_stored_Nmm = 0.0;                              ///< what the contact could hold; 0 in air
+    double max_stored_Nmm = 0.0;                              ///< what the contact could store; 0 in air
     bool touches = false;                                     ///< the tool is in tissue
   };
-  /// What the hand gets of it, after admit() of the same tick.
-  SafetyFilter::Delivered serve(const Request& wanted, const SafetyLimits& limits, double dt_s) noexcept;
+  /// The commanded wrench, after admit() of the same tick.
+  SafetyFilter::Delivered serve(const Request& request, const SafetyLimits& limits, double dt_s) noexcept;
 
   double energy_Nmm() const { return passivity_.energy_Nmm(); }
 
  private:
-  Wrench<calibration::Patient> paidFor(const Request& wanted, const SafetyLimits& limits, double soft,
+  Wrench<calibration::Patient> passive(const Request& request, const SafetyLimits& limits, double soft,
                                        const glm::dvec3& brake_N, double dt_s) const noexcept;
-  void account(const Wrench<calibration::Patient>& given, const Wrench<calibration::Patient>& vibration, double through,
-               const Request& wanted, const SafetyLimits& limits, double dt_s) noexcept;
+  void observe(const Wrench<calibration::Patient>& commanded, const Wrench<calibration::Patient>& vibration,
+               double through, const Request& request, const SafetyLimits& limits, double dt_s) noexcept;
 
   HandGuard guard_;
   Staleness staleness_;
@@ -62,11 +61,11 @@ class SafetyLayer {
   PassivityController passivity_;
   SafetyFilter filter_;
 
-  // From one call to the next.
+  // From admit() to serve(), and to the next tick.
   Admitted admitted_;
   Staleness::Output staleness_now_;
-  double doubt_ = 1.0;                   ///< share of the force the guard leaves
-  Wrench<calibration::Patient> held_P_;  ///< while nothing new is measured
+  double confidence_ = 1.0;              ///< share of the force the guard allows
+  Wrench<calibration::Patient> held_P_;  ///< the last wrench on a fresh sample
   bool touches_ = true, buzzed_off_ = false;
 };
 

@@ -36,14 +36,14 @@ SafetyLimits sanitised(const SafetyLimits& limits) {
   safe.max_speed_mm_per_s = positive(safe.max_speed_mm_per_s, defaults.max_speed_mm_per_s);
   safe.max_angular_speed_rad_per_s = positive(safe.max_angular_speed_rad_per_s, defaults.max_angular_speed_rad_per_s);
 
-  const auto tidy = [&](double SafetyThresholds::*one) {
+  const auto sanitise = [&](double SafetyThresholds::*one) {
     safe.thresholds.*one = positive(safe.thresholds.*one, defaults.thresholds.*one);
   };
   using T = SafetyThresholds;
   for (double T::*one : {&T::max_pause_s, &T::arming_mm_per_s, &T::release_s, &T::soft_start_s, &T::soft_start_N_per_s,
                          &T::brake_mm_per_s, &T::cutoff_mm_per_s, &T::cutoff_s, &T::buzz_mm_per_s, &T::stale_s,
                          &T::stale_fade_s, &T::max_stale_s, &T::warm_motor, &T::share_at_hottest})
-    tidy(one);
+    sanitise(one);
   return safe;
 }
 

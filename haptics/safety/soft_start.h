@@ -1,7 +1,6 @@
-// The share of the force that is let through (reference/devices 6.2, 6.3): from 0 to 1 in half a second once the hand
-// is active, no faster than 5 N/s at the peak, and down to 0 in 50 ms while the deadman feels no hand. Where nobody can
-// be pushed all of it at once. Before the books of energy: a share that rises while the hand presses feeds it energy.
-// A state of one number; servo thread, flops.
+// The share of the force that passes (reference/devices 6.2, 6.3): from 0 to 1 in half a second once the hand is
+// active, at most 5 N/s at the peak, and to 0 in 50 ms while the deadman detects no hand. Without motors 1 at once.
+// Before the passivity controller: a share that rises while the hand presses feeds it energy. Servo thread, flops.
 #pragma once
 
 #include <algorithm>
@@ -12,11 +11,11 @@ namespace haptics {
 
 class SoftStart {
  public:
-  double follow(bool active, bool letting_go, const SafetyLimits& limits, double dt_s) noexcept {
+  double update(bool active, bool releasing, const SafetyLimits& limits, double dt_s) noexcept {
     const SafetyThresholds& t = limits.thresholds;
     if (!active)
       share_ = 0.0;
-    else if (letting_go)
+    else if (releasing)
       share_ = std::max(0.0, share_ - dt_s / t.release_s);
     else if (!limits.must_be_armed)
       share_ = 1.0;

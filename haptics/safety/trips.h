@@ -1,6 +1,6 @@
-// Every trip of the safety layer in words for people, and a ledger of them. The ledger is fed with the faults of tick
-// after tick by one thread that is not the servo's (a drained TickLog, a session read again); its memory is fixed. A
-// trip begins with the tick that has a fault its predecessor has not.
+// Texts of every trip of the safety layer, and a counter of them. The counter takes the faults tick by tick on one
+// thread that is not the servo's (a drained TickLog, a session read again); fixed memory. A trip begins with a tick
+// whose predecessor lacks the fault.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ namespace haptics {
 struct TripText {
   Fault fault;
   std::string_view key;   ///< for files
-  std::string_view what;  ///< one plain sentence
+  std::string_view what;  ///< one sentence
   std::string_view next;  ///< what to do
 };
 
@@ -33,12 +33,12 @@ class TripCounter {
  public:
   struct Entry {
     std::uint64_t times = 0;
-    std::uint64_t first_tick = 0, last_tick = 0;  ///< of all ticks that had it; 0 where there was none
+    std::uint64_t first_tick = 0, last_tick = 0;  ///< of the ticks with it; 0 without any
   };
 
   void add(std::uint64_t tick, Fault faults) noexcept;
 
-  /// Of one fault; where several are given, of the one with the lowest bit.
+  /// Of one fault; of several the lowest bit.
   const Entry& of(Fault one) const noexcept;
 
  private:

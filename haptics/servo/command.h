@@ -1,4 +1,4 @@
-// What the session tells the servo: tool, law, erosion and limits, as one value that flows through Latest<Command>.
+// Input of the servo besides the hand: tool, law, erosion and limits as one value that passes through Latest<Command>.
 // Trivially copyable. Recorded with each change, so a replay needs nothing else. Units in the names.
 #pragma once
 
@@ -13,16 +13,16 @@
 namespace haptics {
 
 struct Command {
-  std::uint64_t serial = 0;   ///< rises by one with every change
-  Tool tool;                  ///< felt, cut and drawn
-  bool drill_enabled = true;  ///< false: the pedal does nothing
-  bool irrigating = true;     ///< water on the bur while it turns, as a handpiece does by itself; recorded, not felt
-  std::uint64_t undo_serial = 0;  ///< rises by one for every stroke to be taken back
+  std::uint64_t serial = 0;       ///< rises by one with every change
+  Tool tool;                      ///< for force, cutting and display
+  bool drill_enabled = true;      ///< false: the pedal has no effect
+  bool irrigating = true;         ///< water on the bur while it turns; recorded and drawn, not felt
+  std::uint64_t undo_serial = 0;  ///< rises by one for every stroke to undo
   LawSettings law;
   ErosionSettings erosion;
   SpindleSettings spindle;
   SafetyLimits safety;
-  std::uint64_t rearm = 0;  ///< another number than before: the instructor lifts a latched fault
+  std::uint64_t rearm = 0;  ///< a change lifts a latched fault
 };
 
 }  // namespace haptics

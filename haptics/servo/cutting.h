@@ -1,6 +1,6 @@
-// The bur at work, tick by tick: the motor turns it, the bone holds it back, and the erosion law of the moment takes
-// its share. State: the spindle, what the last cut yielded, where the bur was. Frame P. Servo thread, one turn() before
-// the contact of a tick and one cut() after it. Cost: bone/carve and contact/cut_moment. No allocation, no throw.
+// The bur at work tick by tick: the motor turns it, the bone loads it, and the erosion law removes bone. State: the
+// spindle, the yield of the last cut, the bur's last position. Frame P. Servo thread: per tick one turn() before the
+// contact and one cut() after it. Cost: bone/carve and contact/cut_conditions. No allocation, no throw.
 #pragma once
 
 #include "haptics/bone/carve.h"
@@ -12,24 +12,23 @@ namespace haptics {
 
 class Cutting {
  public:
-  /// Where and how hard the head is held this tick.
+  /// The head at the proxy this tick.
   struct Engagement {
-    calibration::Pose<calibration::Patient, calibration::Tool> X_PQ;  ///< the tool at the proxy
+    calibration::Pose<calibration::Patient, calibration::Tool> X_PQ;
     BurShape head;
     Contact contact;
-    calibration::Vector<calibration::Patient> force_P_N;  ///< all that holds the hand
+    calibration::Vector<calibration::Patient> force_P_N;  ///< of head, shaft and spring
   };
 
-  /// Turns the spindle on by a tick, under what held it back in the last.
+  /// Advances the spindle by a tick under the load of the last.
   void turn(const SpindleSettings& spindle, bool pedal, double dt_s) noexcept;
 
-  /// The hand's motion with the spindle's, for the force laws.
+  /// Motion of hand and spindle for the force laws.
   ToolMotion motion(const calibration::Vector<calibration::Patient>& velocity_P_mm_per_s, double dt_s) const noexcept;
 
-  /// Takes from the bone what the law grants with the spindle as it turns; nothing with `allowed` false. What it
-  /// changes is saved to `strokes`.
+  /// Removes bone by the erosion law; nothing with `allowed` false. Changed blocks are saved to `strokes`.
   CarveResult cut(CarvedBone& bone, StrokeHistory& strokes, const ErosionSettings& erosion,
-                  const SpindleSettings& spindle, const LawSettings& law, const Engagement& held, bool allowed,
+                  const SpindleSettings& spindle, const LawSettings& law, const Engagement& engaged, bool allowed,
                   double dt_s, std::uint64_t tick) noexcept;
 
   const SpindleState& spindle() const { return spindle_; }
@@ -37,7 +36,7 @@ class Cutting {
 
  private:
   SpindleState spindle_;
-  ErosionState memory_;
+  ErosionState erosion_state_;
   calibration::Point<calibration::Patient> last_P_;
   bool was_in_bone_ = false;
   double load_Nmm_ = 0.0;

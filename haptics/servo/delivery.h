@@ -1,6 +1,5 @@
-// From what the law wants to what the hand gets: the wrench about the handle, carried over where something was switched
-// (transition), then what the safety layer leaves of it. Frame P. Servo thread; a few hundred flops, no look at the
-// bone.
+// From the law's wrench to the commanded one: about the handle, faded over where something was switched (transition),
+// then limited by the safety layer. Frame P. Servo thread; a few hundred flops, no evaluation of the bone.
 #pragma once
 
 #include "haptics/safety/safety_layer.h"
@@ -10,22 +9,18 @@ namespace haptics {
 
 class Delivery {
  public:
-  struct Request {
-    Wrench<calibration::Patient> wrench_P;  ///< of the law and its proxy, about T's origin
-    calibration::Vector<calibration::Patient>
-        vibration_P_N;            ///< the tool's vibration: active by nature, not in the books
-    double max_stored_Nmm = 0.0;  ///< what the contact could hold; 0 in air
-    bool switched = false;        ///< law, tool or limits are not those of the last tick
-    bool relocated = false;       ///< the hand did not move here
-    bool touches = false;         ///< the tool is in tissue
+  /// What is new in a tick.
+  struct Changes {
+    bool switched = false;   ///< law, tool or limits differ from the last tick
+    bool relocated = false;  ///< the hand did not move here
   };
 
-  /// `hand` as the layer admitted it this tick, `limits` sanitised.
-  SafetyFilter::Delivered deliver(const Request& wanted, const HandSample& hand, SafetyLayer& safety,
-                                  const SafetyLimits& limits, double dt_s) noexcept;
+  /// `law`: wrench about T's origin; its motion is filled in here. `hand` as admitted this tick, `limits` sanitised.
+  SafetyFilter::Delivered deliver(const SafetyLayer::Request& law, Changes changes, const HandSample& hand,
+                                  SafetyLayer& safety, const SafetyLimits& limits, double dt_s) noexcept;
 
  private:
-  PassivityController::Motion motionTo(const HandSample& hand, bool with_turn, double dt_s) const noexcept;
+  PassivityController::Motion motionTo(const HandSample& hand, bool with_rotation, double dt_s) const noexcept;
 
   Transition transition_;
   HandSample last_hand_;

@@ -1,4 +1,4 @@
-// Why the bur does not turn although nothing is wrong, for those who have to say so to the hand.
+// Why the bur does not turn in a valid state with the pedal down; shown to the surgeon.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +7,9 @@ namespace haptics {
 
 enum class DrillInhibit : std::uint8_t {
   none = 0,
-  undo_running = 1,   ///< bone is coming back
-  tool_embedded = 2,  ///< the tool is inside bone that came back: nothing holds it until it is out
-  pedal_held = 3,     ///< a stroke was taken back under the foot, which has to leave the pedal_held once
+  undo_running = 1,   ///< bone is being restored
+  tool_embedded = 2,  ///< the tool is inside restored bone: no force until it is out
+  pedal_held = 3,     ///< a stroke was undone with the pedal down; it must be released once
 };
 
 }  // namespace haptics

@@ -39,7 +39,7 @@ Command limitedTo(const DeviceCapabilities& device, double rate_Hz, const Comman
     }
   if (!device.has_motors) return limited;
 
-  // A tenth is left to the maker's own limit, which would switch the motors off.
+  // Nine tenths, for the maker's own limit switches the motors off.
   safety = strict(safety);
   safety.peak_force_N = at_most(safety.peak_force_N, 0.9 * device.peak_force_N);
   safety.continuous_force_N = at_most(safety.continuous_force_N, device.continuous_force_N);
@@ -77,7 +77,7 @@ HandSample HapticLoop::handFrom(const HandleState& measured, const TickTiming& t
   hand.stop_requested = isForceDisabled();
   hand.device_healthy = state.healthy;
 
-  // The device measures the handle's velocity; turning moves the tool's tip too, differenced and smoothed at 100 Hz.
+  // The device measures the handle's velocity; rotation moves the tool too: differenced and smoothed at 100 Hz.
   const glm::dvec3 arm_P_mm = X_PH.rotation * settings_.X_HT.translation_mm;
   const double blend = 1.0 - std::exp(-2.0 * calibration::kPi * 100.0 / settings_.rate_Hz);
   const glm::dvec3 difference = has_arm_ ? (arm_P_mm - last_arm_P_mm_) * settings_.rate_Hz : glm::dvec3(0.0);

@@ -1,7 +1,6 @@
-// The haptic loop: device and servo joined. Every tick the handle becomes the hand's sample and Servo::step answers.
-// Owns nothing it serves; everything it borrows must outlive it and must not be restructured while it runs. Values
-// cross by Latest and TickLog alone. Simulated time is the sum of the ticks' dt whatever the clock does, so a replay
-// needs no clock. Threads: as DeviceLoop.
+// Device and servo joined: every tick the handle state becomes a hand sample and Servo::step gives the force. Borrows
+// everything; it must outlive the loop and must not be restructured while it runs. Values cross threads by Latest and
+// TickLog alone. Simulated time is the sum of the ticks' dt, so a replay needs no clock. Threads: as DeviceLoop.
 #pragma once
 
 #include <array>
@@ -21,19 +20,18 @@ namespace haptics {
 
 struct LoopSettings {
   double rate_Hz = 1000.0;                                            ///< 500..10000
-  calibration::Pose<calibration::Patient, calibration::Device> X_PD;  ///< where the device stands
-  calibration::Pose<calibration::Handle, calibration::Tool> X_HT;     ///< how the handle holds the tool
-  std::optional<calibration::MeasuredArm> arm = std::nullopt;         ///< none: as the device's driver has it
+  calibration::Pose<calibration::Patient, calibration::Device> X_PD;  ///< pose of the device
+  calibration::Pose<calibration::Handle, calibration::Tool> X_HT;     ///< pose of the tool in the handle
+  std::optional<calibration::MeasuredArm> arm = std::nullopt;         ///< none: the driver's poses
   std::optional<int> priority = kServoPriority;                       ///< as DeviceLoop's
-  ButtonMeanings buttons;                                             ///< of those on the handle
-  const FootPedal* pedal = nullptr;                                   ///< drills beside them; borrowed
-  TickLog* second_log = nullptr;                                      ///< another reader's of every tick; borrowed
+  ButtonMeanings buttons;                                             ///< of the handle's buttons
+  const FootPedal* pedal = nullptr;                                   ///< another drill pedal; borrowed
+  TickLog* second_log = nullptr;                                      ///< for a second reader; borrowed
 };
 
-/// The command with its limits cut down to what the device can give and hold at this rate: peak force, torque and joint
-/// torques, the stiffness and damping that its maker or users recommend, and slopes no steeper than nine tenths of the
-/// stiffest wall. For a device with motors also `strict`, its continuous force, and nine tenths of its peak. Record
-/// this one: a replay has no device.
+/// The command with its limits reduced to those of the device at this rate: peak force, torque and joint torques,
+/// recommended stiffness and damping, and nine tenths of the stiffest passive wall. With motors also `strict`, its
+/// continuous force, and nine tenths of its peak. This one is recorded: a replay has no device.
 Command limitedTo(const DeviceCapabilities& device, double rate_Hz, const Command& command);
 
 class HapticLoop final : public DeviceLoop {
@@ -43,9 +41,9 @@ class HapticLoop final : public DeviceLoop {
              const LoopSettings& settings);
   ~HapticLoop() override { stop(); }
 
-  /// What the safety layer did so far; one reader.
+  /// Trips of the safety layer so far; one reader.
   const TripCounter& trips() { return trips_.read(); }
-  /// How often a button of the handle asked for it. Any thread.
+  /// Number of presses of the handle's buttons with this action. Any thread.
   std::uint32_t presses(HandAction action) const noexcept {
     return presses_[static_cast<std::size_t>(action)].load(std::memory_order_relaxed);
   }
@@ -63,7 +61,7 @@ class HapticLoop final : public DeviceLoop {
   LoopSettings settings_;
   calibration::Pose<calibration::Device, calibration::Patient> X_DP_;
 
-  // Of the device's thread: the arm, the newest tick, and what turning adds to the tool's velocity.
+  // Device thread: the arm, the newest tick, and the velocity of the tool relative to the handle.
   MeasuredHandle handle_;
   Tick tick_;
   glm::dvec3 last_arm_P_mm_{0.0}, arm_velocity_P_mm_per_s_{0.0};

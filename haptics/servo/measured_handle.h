@@ -1,8 +1,7 @@
-// Where the handle is by the arm as it was measured, not as its driver believes it: the sensors' angles corrected, the
-// place and turn of the handle from them. Velocity and Jacobian stay the driver's: the correction changes them by 1 to
-// 2 % (reference/calibration 6.1), and the Jacobian is the one by which the driver makes its motors' torques. Without
-// an arm, or of a device that tells no angles, everything is the driver's. Frame D of the measured X_WD; mm, rad.
-// The servo's thread; no allocation, about 0.3 us a call. The arm is fixed for life: to change it, stop and make anew.
+// The handle's pose by the measured arm: the sensors' angles corrected, the pose from them. Velocity and Jacobian stay
+// the driver's: the correction changes them by 1 to 2 % (reference/calibration 6.1), and the driver makes its motor
+// torques with its own Jacobian. Without an arm, or for a device without angles, everything is the driver's. Frame D of
+// the measured X_WD; mm, rad. Servo thread; no allocation, about 0.3 us a call. The arm is fixed for life.
 #pragma once
 
 #include <optional>
@@ -14,11 +13,10 @@ namespace haptics {
 
 class MeasuredHandle {
  public:
-  /// Throws DeviceError when the arm's numbers are not finite.
+  /// Throws DeviceError if the arm is not finite.
   explicit MeasuredHandle(const std::optional<calibration::MeasuredArm>& arm);
 
-  /// A state that lacks the angles that were there before leaves the handle where it was, and is not fresh: between the
-  /// driver's place and the corrected one lie millimetres.
+  /// A state that lost its angles keeps the last pose and is not fresh: the driver's pose is millimetres off.
   HandleState corrected(HandleState state) noexcept;
 
  private:

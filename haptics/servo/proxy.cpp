@@ -13,16 +13,12 @@ using calibration::Patient;
 using calibration::Vector;
 
 constexpr double kThinnestPlate_mm = 0.6, kShareOfPlate = 0.85;
-constexpr double kShaftDepth = 0.25;  // of its radius: as deep as its contact knows its depth well
-constexpr double kMemoryStep_s = 1e-3;
-
-bool same(const BurShape& a, const BurShape& b) {
-  return a.kind == b.kind && a.radius_mm == b.radius_mm && a.length_mm == b.length_mm;
-}
+constexpr double kShaftDepth = 0.25;  // of its radius: where its depth is still accurate
+constexpr double kLawStateStep_s = 1e-3;
 
 /// A law's contact, faded where bone on opposite sides cancels out: in a slot narrower than the head a volume law
-/// turns its full force round within a hundredth of a millimetre. Flat bone is one-sided by 1, a conforming socket by
-/// 2/3; below 0.6 the contact is worth only its share. (A shaft's comes faded already.)
+/// reverses its force within 0.01 mm. Flat bone is one-sided by 1, a conforming socket by 2/3; below 0.6 the contact
+/// counts only its share. (shaftContact fades by itself.)
 Contact faded(Contact contact) {
   const double share = std::clamp(contact.one_sided / 0.6, 0.0, 1.0);
   contact.force_P_N.xyz *= share;
@@ -32,8 +28,8 @@ Contact faded(Contact contact) {
   return contact;
 }
 
-/// Steeper than the device can hold: the whole contact is scaled down to what it can.
-Contact held(Contact contact, double max_stiffness_N_per_mm) {
+/// Scaled down to the stiffness the device can render.
+Contact softened(Contact contact, double max_stiffness_N_per_mm) {
   if (!(contact.stiffness_N_per_mm > max_stiffness_N_per_mm)) return contact;
   const double scale = max_stiffness_N_per_mm / contact.stiffness_N_per_mm;
   contact.stiffness_N_per_mm = max_stiffness_N_per_mm;
@@ -42,8 +38,8 @@ Contact held(Contact contact, double max_stiffness_N_per_mm) {
   return contact;
 }
 
-/// What a contact asks of a move: at least `least_mm` along the unit normal, so that it ends no deeper than where the
-/// proxy waits. Asks nothing out of contact or without a direction.
+/// A move goes at least `least_mm` along the unit normal, so that it ends no deeper than h_max. No constraint out of
+/// contact or without a direction.
 struct Constraint {
   glm::dvec3 normal{0.0};
   double least_mm = -1e300;
@@ -57,22 +53,20 @@ Constraint constraintOf(const Contact& contact, double deepest_mm) {
   return {contact.normal_P.xyz / length, (contact.depth_mm - deepest_mm) * length};
 }
 
-/// The part of the way to the hand that both contacts allow: all of it along the surfaces, inwards only down to the
-/// depth where the proxy waits, outwards at least until it is no deeper. The nearest such place, by trying which of the
-/// two constraints hold it.
+/// The move nearest to `to_hand` that both constraints allow, by trying which of them are active.
 glm::dvec3 allowed(const glm::dvec3& to_hand, const Constraint& a, const Constraint& b) {
   const double of_a = a.missing_mm(to_hand), of_b = b.missing_mm(to_hand);
   if (of_a <= 0.0 && of_b <= 0.0) return to_hand;
   const glm::dvec3 by_a = to_hand + std::max(0.0, of_a) * a.normal, by_b = to_hand + std::max(0.0, of_b) * b.normal;
   if (of_a > 0.0 && b.missing_mm(by_a) <= 0.0) return by_a;
   if (of_b > 0.0 && a.missing_mm(by_b) <= 0.0) return by_b;
-  // Into the corner between them; facing walls leave none, and are both met half-way.
+  // Into the corner between them; facing walls are both met half-way.
   const double g = glm::dot(a.normal, b.normal), det = std::max(1.0 - g * g, 0.01);
   const double along_a = std::max(0.0, (of_a - g * of_b) / det), along_b = std::max(0.0, (of_b - g * of_a) / det);
   return to_hand + along_a * a.normal + along_b * b.normal;
 }
 
-/// The radius of the largest ball that fits into the head.
+/// Radius of the largest ball inside the head.
 double thinnestRadius_mm(const BurShape& head) {
   if (head.kind == ShapeKind::cone) {
     const double slant_mm = std::hypot(head.radius_mm, head.length_mm);
@@ -88,11 +82,11 @@ double maxLawDepth_mm(const BurShape& head) {
   const double plate_mm3 =
       calibration::kPi * kThinnestPlate_mm * (r * r - kThinnestPlate_mm * kThinnestPlate_mm / 12.0);
   double deepest_mm = std::min(0.5 * r, capHeight_mm(r, kShareOfPlate * std::max(0.0, plate_mm3)));
-  // Lying on its side a long head shares segments of the height h: (4/3) sqrt(2 r) h^1.5 is never less than they are.
+  // On its side a long head shares segments of height h: at most (4/3) sqrt(2 r) h^1.5.
   if (head.kind != ShapeKind::sphere)
     deepest_mm =
         std::min(deepest_mm, std::pow(1.5 * kShareOfPlate * kThinnestPlate_mm * std::sqrt(0.5 * r), 2.0 / 3.0));
-  // A flat end shares what it is deep.
+  // A flat end shares its depth times its area.
   if (head.kind == ShapeKind::cylinder || head.kind == ShapeKind::cone)
     deepest_mm = std::min(deepest_mm, kShareOfPlate * kThinnestPlate_mm);
   return deepest_mm;
@@ -117,16 +111,15 @@ double Proxy::State::maxStored_Nmm() const {
   return stored_Nmm + (spring_N_per_mm * pull_mm + all_N) * pull_mm;
 }
 
-Proxy::State Proxy::follow(const SolidField& field, const LawSettings& law, const Tool& tool,
+Proxy::State Proxy::update(const SolidField& field, const LawSettings& law, const Tool& tool,
                            const calibration::Pose<Patient, calibration::Tool>& X_PT, const ToolMotion& motion,
                            double max_stiffness_N_per_mm) noexcept {
-  // A step is short enough that no plate fits between two evaluations; a miss of a micrometre is not worth another
-  // look.
+  // Steps are so short that no plate fits between two evaluations; a micrometre is not worth another.
   const bool with_shaft = tool.shaft.length_mm > 0.0 && tool.shaft.radius_mm > 0.0;
   double longest_mm = 0.5 * thinnestRadius_mm(tool.head);
   if (with_shaft) longest_mm = std::min(longest_mm, 0.5 * tool.shaft.radius_mm);
   const double enough_mm = 1e-3;
-  // Where one look is dear there are fewer: the proxy goes on in the next tick.
+  // Fewer evaluations where they are expensive: the proxy continues in the next tick.
   const int max_evaluations =
       tool.head.radius_mm > 25.0 * field.grid.spacing_mm ? kMaxEvaluations / 2 : kMaxEvaluations;
   const double deepest_mm = maxLawDepth_mm(tool.head);
@@ -137,15 +130,15 @@ Proxy::State Proxy::follow(const SolidField& field, const LawSettings& law, cons
     proxy_P_.mm = hand_mm;
     head_ = {};
     shaft_ = {};
-    trust_ = 1.0;
+    step_scale_ = 1.0;
     placed_ = true;
   }
-  if (law.kind != last_law_ || !same(tool.head, last_head_)) law_state_ = {};
+  if (law.kind != last_law_ || tool.head != last_head_) law_state_ = {};
   last_law_ = law.kind;
   last_head_ = tool.head;
   if (!with_shaft) shaft_ = {};
 
-  // The first step trusts what the last tick saw; every later one, and the force, what is there now.
+  // The first step uses the contact of the last tick, later ones and the force the current one.
   State now;
   Contact bare;
   glm::dvec3 last_move(0.0);
@@ -153,39 +146,40 @@ Proxy::State Proxy::follow(const SolidField& field, const LawSettings& law, cons
   while (now.evaluations < max_evaluations) {
     const glm::dvec3 to_hand = hand_mm - proxy_P_.mm;
     glm::dvec3 move = allowed(to_hand, constraintOf(head_, deepest_mm), constraintOf(shaft_, shaft_deepest_mm));
-    // In a corner every wall seen alone turns the way to the other: who swings to and fro goes in shorter steps.
+    // In a corner each wall alone sends the move towards the other: oscillating moves are shortened.
     const bool free = move == to_hand, swings = now.evaluations > 0 && glm::dot(move, last_move) < 0.0;
     if (free)
-      trust_ = 1.0;
+      step_scale_ = 1.0;
     else if (swings && glm::length(move) > 10.0 * enough_mm)
-      trust_ = std::max(0.5 * trust_, 1.0 / 32.0);
+      step_scale_ = std::max(0.5 * step_scale_, 1.0 / 32.0);
     else
-      trust_ = std::min(1.1 * trust_, 1.0);
+      step_scale_ = std::min(1.1 * step_scale_, 1.0);
     last_move = move;
-    if (!free) move *= trust_;
+    if (!free) move *= step_scale_;
     const double length = glm::length(move);
     if (now.evaluations > 0 && length <= enough_mm) break;
     if (length > longest_mm) move *= longest_mm / length;
     proxy_P_.mm += move;
     bare = contactOf(law, at(), law_state_);
-    head_ = held(faded(bare), max_stiffness_N_per_mm);
-    // The shaft is a plain wall under every law, as stiff as Agus's.
+    head_ = softened(faded(bare), max_stiffness_N_per_mm);
+    // The shaft is a wall with Agus's stiffness under every law.
     if (with_shaft)
-      shaft_ = held(shaftContact(field, tool, {X_PT.rotation, proxy_P_.mm}, law.tissue, law.agus.stiffness_N_per_mm),
-                    max_stiffness_N_per_mm);
+      shaft_ =
+          softened(shaftContact(field, tool, {X_PT.rotation, proxy_P_.mm}, law.tissue, law.agus.stiffness_N_per_mm),
+                   max_stiffness_N_per_mm);
     ++now.evaluations;
   }
-  // A law's memory goes by the millisecond, whatever the rate.
-  unremembered_s_ += motion.dt_s;
-  if (unremembered_s_ > kMemoryStep_s * (1.0 - 1e-6)) {
+  // The law's state advances by the millisecond at every rate.
+  law_state_age_s_ += motion.dt_s;
+  if (law_state_age_s_ > kLawStateStep_s * (1.0 - 1e-6)) {
     updateLawState(law, at(), bare, law_state_);
-    unremembered_s_ = std::min(unremembered_s_ - kMemoryStep_s, kMemoryStep_s);
+    law_state_age_s_ = std::min(law_state_age_s_ - kLawStateStep_s, kLawStateStep_s);
   }
   now.head = head_;
   now.shaft = shaft_;
   now.proxy_P = proxy_P_;
   now.stretch_P_mm.xyz = proxy_P_.mm - hand_mm;
-  // The slope of whichever holds it; of both by how near they are to holding, so that neither comes in with a step.
+  // The slopes weighted by depth relative to h_max, so that neither enters with a step.
   const double by_head = head_.depth_mm / deepest_mm, by_shaft = shaft_.depth_mm / shaft_deepest_mm;
   if (by_head + by_shaft > 0.0)
     now.spring_N_per_mm =

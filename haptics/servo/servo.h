@@ -1,6 +1,6 @@
 // The servo step: bone, hand and command in, force out, bone carved. A pure function of its state: no clock, I/O,
-// allocation, lock, throw or log, so a session replays bit for bit. Frame P. Servo thread only.
-// Per step: what an undo gives back, proxy and law (at most 6 looks at the bone), delivery, carving; costs in README.
+// allocation, lock, throw or log, so a session replays bit for bit. Frame P. Servo thread only. Per step: undo, proxy
+// and law (at most 6 evaluations), delivery, carving; costs in haptics/README.
 #pragma once
 
 #include "haptics/bone/carved_bone.h"
@@ -14,16 +14,15 @@
 
 namespace haptics {
 
-/// The command as the servo obeys it: radius 0.1..6 mm, the law as its table has it, and the defaults where a number
-/// is not finite.
+/// The command with every value in its range, and defaults for values that are not finite.
 Command sanitised(const Command& command);
 
 class Servo {
  public:
-  /// Borrows the bone, which must outlive this; becomes its one writer. Allocates room for what undo gives back.
+  /// Borrows the bone, which must outlive this; becomes its one writer. Allocates the undo history.
   explicit Servo(CarvedBone& bone) : bone_(bone), undo_(bone) {}
 
-  /// One tick of length `dt_s`. Never throws whatever the input; trouble is a Fault in the Tick.
+  /// One tick of length `dt_s`. Invalid input is a Fault in the Tick.
   Tick step(const HandSample& hand, const Command& command, double dt_s) noexcept;
 
  private:
@@ -33,7 +32,7 @@ class Servo {
   Cutting cutting_;
   Delivery delivery_;
   StrokeUndo undo_;
-  calibration::Pose<calibration::Patient, calibration::Tool> X_PQ_;  ///< the tool as the last tick held it
+  calibration::Pose<calibration::Patient, calibration::Tool> X_PQ_;  ///< the tool at the last proxy
   bool was_embedded_ = false;
   std::uint64_t last_serial_ = 0;
   std::uint64_t next_index_ = 0;

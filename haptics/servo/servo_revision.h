@@ -1,10 +1,10 @@
-// Which servo made the ticks of a session. Its own header, so that raising it builds little anew.
+// Revision of the servo that made a session's ticks. Its own header, so that raising it rebuilds little.
 #pragma once
 
 namespace haptics {
 
-/// Raised with every change after which the same bone, hand and commands may give other bits in a Tick, as a digest or
-/// figure recorded in a test shows: sessions of other revisions are read, not run again and compared.
+/// Raised with every change that may alter a bit of a Tick for the same bone, hand and commands (recorded digests in
+/// the tests show it): sessions of other revisions are read, but not verified by a replay.
 inline constexpr int kServoRevision = 1;
 
 }  // namespace haptics

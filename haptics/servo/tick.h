@@ -1,5 +1,5 @@
-// The record of one servo tick: everything that went in and came out. Trivially copyable, fixed size; the tick log, the
-// session file, the status line and the renderer all read this. Frame P; forces act on the hand.
+// The record of one servo tick: all inputs and outputs. Trivially copyable, fixed size; for the tick log, the session
+// file, the status line and the renderer. Frame P; forces act on the hand.
 #pragma once
 
 #include <array>
@@ -19,24 +19,24 @@ struct Tick {
   double dt_s = 0.0;
   std::uint64_t command_serial = 0;                                  ///< the Command in force
   HandSample hand;                                                   ///< input
-  calibration::Point<calibration::Patient> proxy_P;                  ///< where the bur is held by the surface
-  calibration::Vector<calibration::Patient> law_force_P_N;           ///< the law with its proxy, before what follows
+  calibration::Point<calibration::Patient> proxy_P;                  ///< position of the bur at the surface
+  calibration::Vector<calibration::Patient> law_force_P_N;           ///< law and proxy, before the safety layer
   calibration::Vector<calibration::Patient> law_torque_P_Nmm;        ///< the same, about T's origin
-  calibration::Vector<calibration::Patient> commanded_force_P_N;     ///< what the device is told
+  calibration::Vector<calibration::Patient> commanded_force_P_N;     ///< sent to the device
   calibration::Vector<calibration::Patient> commanded_torque_P_Nmm;  ///< the same, about the handle
-  double energy_Nmm = 0.0;                                           ///< what the hand has put in and may have back
+  double energy_Nmm = 0.0;                                           ///< the hand has put in and may get back
   double spindle_rad_per_s = 0.0;                                    ///< about +z of T
   double overlap_mm3 = 0.0;                                          ///< of the bur at the proxy
   double depth_mm = 0.0;                                             ///< equivalent depth of the law at the proxy
-  double removed_mm3 = 0.0;                                          ///< this tick; below 0 while bone comes back
+  double removed_mm3 = 0.0;                                          ///< this tick; below 0 during undo
   std::uint64_t bone_digest = 0;                                     ///< after this tick
-  /// Since the start, by assets::Tissue, less what came back: a late reader misses no part of it.
+  /// Since the start, by assets::Tissue, less what was restored.
   std::array<double, assets::kTissueCount> removed_total_mm3{};
   std::uint8_t contact_tissue = 0;  ///< label with the largest overlap
   bool drilling = false;
-  DrillInhibit drill_inhibit = DrillInhibit::none;  ///< why not
-  std::uint8_t strokes = 0;                         ///< that can be taken back
-  SafetyState state = SafetyState::off;             ///< there is force in `active` alone
+  DrillInhibit drill_inhibit = DrillInhibit::none;  ///< why not drilling
+  std::uint8_t strokes = 0;                         ///< that can be undone
+  SafetyState state = SafetyState::off;             ///< force in `active` alone
   Fault faults = Fault::none;
   float work_us = 0.0f;  ///< CPU time of the step, for statistics; not replayed
 };

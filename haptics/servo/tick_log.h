@@ -1,5 +1,4 @@
-// The tick log: the last ticks from the servo to the recorder. One of the three things that cross threads; how, and
-// what happens to a late reader: hand_over_log.
+// The tick log: every tick from the servo to the recorder, through a ring (spsc_ring).
 #pragma once
 
 #include "haptics/servo/tick.h"
@@ -9,7 +8,7 @@ namespace haptics {
 
 class TickLog : public SpscRing<Tick> {
  public:
-  /// Room for `capacity` ticks; 10 s at 1 kHz by default.
+  /// 10 s at 1 kHz by default.
   explicit TickLog(std::size_t capacity = 10'000) : SpscRing(capacity) {}
 };
 

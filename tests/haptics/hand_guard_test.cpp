@@ -44,14 +44,14 @@ TEST(HandGuard, HoldsTheLastPoseAtRestAndHalvesTheForceOnABadSample) {
     HandGuard::Checked checked = guard.check(bad, strict({}), 1e-3);
     EXPECT_TRUE(checked.refused);
     EXPECT_FALSE(checked.lost);
-    EXPECT_EQ(checked.share, 0.5);
+    EXPECT_EQ(checked.confidence, 0.5);
     EXPECT_EQ(checked.hand.X_PT.translation_mm, glm::dvec3(1.0, 0.0, 0.0));
     EXPECT_EQ(checked.hand.velocity_P_mm_per_s.xyz, glm::dvec3(0.0));
     EXPECT_EQ(checked.hand.handle_velocity_P_mm_per_s.xyz, glm::dvec3(0.0));
     EXPECT_FALSE(checked.hand.drill_pedal);
     checked = guard.check(at(1.0), strict({}), 1e-3);
     EXPECT_FALSE(checked.refused);
-    EXPECT_EQ(checked.share, 1.0);
+    EXPECT_EQ(checked.confidence, 1.0);
   }
 }
 
@@ -59,10 +59,10 @@ TEST(HandGuard, GivesUpAfterThreeInARowAndBeginsAnewWithTheNextGoodOne) {
   HandGuard guard;
   guard.check(at(0.0), strict({}), 1e-3);
   EXPECT_FALSE(guard.check(at(kNan), strict({}), 1e-3).lost);
-  EXPECT_EQ(guard.check(at(kNan), strict({}), 1e-3).share, 0.25);
+  EXPECT_EQ(guard.check(at(kNan), strict({}), 1e-3).confidence, 0.25);
   HandGuard::Checked checked = guard.check(at(kNan), strict({}), 1e-3);
   EXPECT_TRUE(checked.lost);
-  EXPECT_EQ(checked.share, 0.0);
+  EXPECT_EQ(checked.confidence, 0.0);
   checked = guard.check(at(3.0), strict({}), 1e-3);
   EXPECT_FALSE(checked.lost || checked.refused);
   EXPECT_TRUE(checked.relocated);

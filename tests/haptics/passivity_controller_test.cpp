@@ -29,9 +29,9 @@ TEST(PassivityController, LeavesASpringExactlyAloneHoweverTheHandGoes) {
     const glm::dvec3 travel = 0.05 * velocity;
     place += travel;
     const Wrench<Patient> wanted = force(-0.8 * place);
-    const auto given = passivity.allow(wanted, by(travel), 300.0, 1e-3);
+    const auto given = passivity.limit(wanted, by(travel), 300.0, 1e-3);
     ASSERT_EQ(given.force_N.xyz, wanted.force_N.xyz) << tick;
-    passivity.enter(given, by(travel), kPlenty, 1e-3);
+    passivity.observe(given, by(travel), kPlenty, 1e-3);
     ASSERT_NEAR(passivity.energy_Nmm(), 0.4 * glm::dot(place, place), 1e-9);
   }
 }
@@ -44,14 +44,14 @@ TEST(PassivityController, WithholdsOnlyAlongTheMotionAndNeverPushesBack) {
     const auto vector = [&] { return glm::dvec3(any(random), any(random), any(random)); };
     const glm::dvec3 travel = 0.03 * vector();
     const Wrench<Patient> wanted = force(vector());
-    const auto given = passivity.allow(wanted, by(travel), 300.0, 1e-3);
+    const auto given = passivity.limit(wanted, by(travel), 300.0, 1e-3);
     const glm::dvec3 along = glm::normalize(travel), withheld = wanted.force_N.xyz - given.force_N.xyz;
     ASSERT_LT(glm::length(glm::cross(withheld, along)), 1e-12);
     ASSERT_GE(glm::dot(withheld, along), -1e-12);
     if (glm::length(withheld) > 0.0) {
       ASSERT_GE(glm::dot(given.force_N.xyz, along), -1e-12);
     }
-    passivity.enter(given, by(travel), 0.3, 1e-3);
+    passivity.observe(given, by(travel), 0.3, 1e-3);
   }
 }
 
@@ -62,8 +62,8 @@ TEST(PassivityController, StopsAForceThatOnlyEverGives) {
     double out_Nmm = 0.0, last_N = 0.0;
     for (int tick = 0; tick < 4000; ++tick) {
       const PassivityController::Motion motion = by({speed_mm_per_s * 1e-3, 0.0, 0.0});
-      const auto given = passivity.allow(force({1.0, 0.0, 0.0}), motion, 300.0, 1e-3);
-      passivity.enter(given, motion, kPlenty, 1e-3);
+      const auto given = passivity.limit(force({1.0, 0.0, 0.0}), motion, 300.0, 1e-3);
+      passivity.observe(given, motion, kPlenty, 1e-3);
       out_Nmm += 0.5 * (last_N + given.force_N.xyz.x) * motion.travel_P_mm.xyz.x;
       last_N = given.force_N.xyz.x;
     }
@@ -79,11 +79,11 @@ TEST(PassivityController, ComesDownAtTheSlewLimitAndInTime) {
     const double dt_s = 1.0 / rate_Hz, step_mm = 50.0 * dt_s;
     double h = 0.0, last_N = 0.0;
     const auto move = [&](double travel, double wanted_N) {
-      const auto given = passivity.allow(force({wanted_N, 0.0, 0.0}), by({travel, 0.0, 0.0}), 300.0, dt_s);
+      const auto given = passivity.limit(force({wanted_N, 0.0, 0.0}), by({travel, 0.0, 0.0}), 300.0, dt_s);
       if (last_N > given.force_N.xyz.x) {
         EXPECT_LE(last_N - given.force_N.xyz.x, 300.0 * dt_s * 1.01 + 0.8 * step_mm);
       }
-      passivity.enter(given, by({travel, 0.0, 0.0}), kPlenty, dt_s);
+      passivity.observe(given, by({travel, 0.0, 0.0}), kPlenty, dt_s);
       last_N = given.force_N.xyz.x;
     };
     for (; h < 1.0; h += step_mm) move(-step_mm, 0.5 * h);
@@ -94,9 +94,9 @@ TEST(PassivityController, ComesDownAtTheSlewLimitAndInTime) {
 
 TEST(PassivityController, GivesNoCreditForWhatWasDissipated) {
   PassivityController passivity;
-  for (int tick = 0; tick < 1000; ++tick) passivity.enter(force({-1.0, 0.0, 0.0}), by({0.05, 0.0, 0.0}), 0.2, 1e-3);
+  for (int tick = 0; tick < 1000; ++tick) passivity.observe(force({-1.0, 0.0, 0.0}), by({0.05, 0.0, 0.0}), 0.2, 1e-3);
   EXPECT_NEAR(passivity.energy_Nmm(), 0.2, 1e-12);
-  passivity.enter(force({0.0, 0.0, 0.0}), by({0.0, 0.0, 0.0}), 0.0, 1e-3);
+  passivity.observe(force({0.0, 0.0, 0.0}), by({0.0, 0.0, 0.0}), 0.0, 1e-3);
   EXPECT_EQ(passivity.energy_Nmm(), 0.0);
 }
 
@@ -106,8 +106,8 @@ TEST(PassivityController, CountsTurningToo) {
   const PassivityController::Motion turn{{}, {{0.0, 0.001, 0.0}}};
   double last_Nmm = 0.0;
   for (int tick = 0; tick < 2000; ++tick) {
-    const auto given = engine.allow({{}, {{0.0, 30.0, 0.0}}}, turn, 300.0, 1e-3);
-    engine.enter(given, turn, kPlenty, 1e-3);
+    const auto given = engine.limit({{}, {{0.0, 30.0, 0.0}}}, turn, 300.0, 1e-3);
+    engine.observe(given, turn, kPlenty, 1e-3);
     last_Nmm = given.torque_Nmm.xyz.y;
   }
   EXPECT_LT(last_Nmm, 0.5);
@@ -115,9 +115,9 @@ TEST(PassivityController, CountsTurningToo) {
     const double angle = std::sin(0.01 * tick), before = std::sin(0.01 * (tick - 1));
     const PassivityController::Motion motion{{}, {{0.0, angle - before, 0.0}}};
     const Wrench<Patient> wanted{{}, {{0.0, -50.0 * angle, 0.0}}};
-    const auto given = spring.allow(wanted, motion, 300.0, 1e-3);
+    const auto given = spring.limit(wanted, motion, 300.0, 1e-3);
     ASSERT_EQ(given.torque_Nmm.xyz, wanted.torque_Nmm.xyz);
-    spring.enter(given, motion, kPlenty, 1e-3);
+    spring.observe(given, motion, kPlenty, 1e-3);
   }
 }
 

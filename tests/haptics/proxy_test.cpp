@@ -18,7 +18,7 @@ const LawSettings kLaw;
 Proxy::State held(Proxy& proxy, const SolidField& field, const glm::dvec3& hand, double R = kRadius_mm) {
   Tool tool;
   tool.head.radius_mm = R;
-  const Proxy::State now = proxy.follow(field, kLaw, tool, {glm::dquat(1, 0, 0, 0), hand}, {}, 20.0);
+  const Proxy::State now = proxy.update(field, kLaw, tool, {glm::dquat(1, 0, 0, 0), hand}, {}, 20.0);
   EXPECT_LE(now.evaluations, Proxy::kMaxEvaluations);
   return now;
 }
@@ -72,7 +72,7 @@ TEST(Proxy, GoesOnWithTheSlopeOfEveryLaw) {
     for (int step = 0; step <= 400; ++step) {
       const double depth = 0.01 * step;
       const calibration::Pose<Patient, calibration::Tool> X_PT{glm::dquat(1, 0, 0, 0), {0.0, 0.0, kRadius_mm - depth}};
-      const Proxy::State now = proxy.follow(phantom.field(), settings, {}, X_PT, {}, 20.0);
+      const Proxy::State now = proxy.update(phantom.field(), settings, {}, X_PT, {}, 20.0);
       const double force_N = now.force_P_N().xyz.z;
       if (step == 90) before_N = force_N;
       if (step == 100) at_N = force_N, slope_N_per_mm = now.spring_N_per_mm;
@@ -191,7 +191,7 @@ TEST(Proxy, StaysFiniteAndContinuousInARandomWalkThroughRandomBone) {
 /// A slender bur with its shaft along x, lying with it.
 Proxy::State lying(Proxy& proxy, const SolidField& field, const glm::dvec3& hand, const Tool& tool) {
   const glm::dquat along_x = glm::angleAxis(0.5 * calibration::kPi, glm::dvec3(0, 1, 0));
-  return proxy.follow(field, kLaw, tool, {along_x, hand}, {}, 20.0);
+  return proxy.update(field, kLaw, tool, {along_x, hand}, {}, 20.0);
 }
 
 TEST(Proxy, IsHeldByTheShaftWhereOnlyTheShaftTouches) {
@@ -237,7 +237,7 @@ TEST(Proxy, ScalesALawDownToWhatTheDeviceHolds) {
   const Phantom phantom = halfSpace(4.0, 0.2);
   Proxy proxy;
   const Proxy::State now =
-      proxy.follow(phantom.field(), kLaw, {}, {glm::dquat(1, 0, 0, 0), {0.0, 0.0, kRadius_mm - 1.5}}, {}, 0.4);
+      proxy.update(phantom.field(), kLaw, {}, {glm::dquat(1, 0, 0, 0), {0.0, 0.0, kRadius_mm - 1.5}}, {}, 0.4);
   EXPECT_NEAR(now.force_P_N().xyz.z, 0.4 * 1.5, 0.01);
 }
 

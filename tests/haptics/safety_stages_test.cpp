@@ -29,48 +29,48 @@ TEST(SoftStart, TakesHalfASecondAndNeverMoreThanFiveNewtonsASecond) {
       const int ticks = static_cast<int>(std::lround(rate_Hz * whole_s));
       double last = 0.0;
       for (int tick = 1; tick <= ticks; ++tick) {
-        const double share = start.follow(true, false, limits, 1.0 / rate_Hz);
+        const double share = start.update(true, false, limits, 1.0 / rate_Hz);
         ASSERT_NEAR(share, tick / (rate_Hz * whole_s), 1e-9);
         ASSERT_LE((share - last) * peak_N * rate_Hz, 5.0 + 1e-6);
         last = share;
       }
       EXPECT_NEAR(last, 1.0, 1e-9);
       for (int tick = 1; tick <= static_cast<int>(0.05 * rate_Hz + 0.5); ++tick)
-        last = start.follow(true, true, limits, 1.0 / rate_Hz);
+        last = start.update(true, true, limits, 1.0 / rate_Hz);
       EXPECT_NEAR(last, 0.0, 1e-9) << "the deadman: 50 ms";
-      start.follow(true, false, limits, 0.3);
-      EXPECT_EQ(start.follow(false, false, limits, 1e-3), 0.0);
+      start.update(true, false, limits, 0.3);
+      EXPECT_EQ(start.update(false, false, limits, 1e-3), 0.0);
     }
-  EXPECT_EQ(SoftStart().follow(true, false, {}, 1e-3), 1.0) << "nobody to be pushed";
+  EXPECT_EQ(SoftStart().update(true, false, {}, 1e-3), 1.0) << "nobody to be pushed";
 }
 
 TEST(Staleness, HoldsForFiveMillisecondsAndIsOverAfterTwenty) {
   for (double rate_Hz : kRates_Hz) {
     Staleness staleness;
     const double dt_s = 1.0 / rate_Hz;
-    EXPECT_EQ(staleness.follow(true, {}, dt_s).share, 1.0);
+    EXPECT_EQ(staleness.update(true, {}, dt_s).share, 1.0);
     for (int tick = 1; tick * dt_s < 0.03; ++tick) {
       const double age_s = tick * dt_s;
-      const Staleness::Output verdict = staleness.follow(false, {}, dt_s);
-      EXPECT_EQ(verdict.holds, age_s > 0.003 + 1e-9) << age_s;
-      EXPECT_NEAR(verdict.share, std::clamp((0.02 - age_s) / 0.015, 0.0, 1.0), 1e-9) << age_s;
-      EXPECT_EQ(verdict.overdue, age_s > 0.02 - 1e-9) << age_s;
+      const Staleness::Output output = staleness.update(false, {}, dt_s);
+      EXPECT_EQ(output.holds, age_s > 0.003 + 1e-9) << age_s;
+      EXPECT_NEAR(output.share, std::clamp((0.02 - age_s) / 0.015, 0.0, 1.0), 1e-9) << age_s;
+      EXPECT_EQ(output.overdue, age_s > 0.02 - 1e-9) << age_s;
     }
-    EXPECT_EQ(staleness.follow(true, {}, dt_s).share, 1.0);
+    EXPECT_EQ(staleness.update(true, {}, dt_s).share, 1.0);
   }
-  EXPECT_TRUE(Staleness().follow(false, {}, 0.05).overdue) << "one long pause";
+  EXPECT_TRUE(Staleness().update(false, {}, 0.05).overdue) << "one long pause";
 }
 
 TEST(VelocityGuard, DampsBeyond600AndLetsGoFor100MillisecondsBeyond1000) {
   for (double rate_Hz : kRates_Hz) {
     VelocityGuard guard;
     const double dt_s = 1.0 / rate_Hz;
-    const auto at = [&](double mm_per_s) { return guard.follow({0.0, -mm_per_s, 0.0}, {}, dt_s); };
+    const auto at = [&](double mm_per_s) { return guard.update({0.0, -mm_per_s, 0.0}, {}, dt_s); };
     EXPECT_EQ(at(599.0).brake_N, glm::dvec3(0.0));
     EXPECT_NEAR(at(800.0).brake_N.y, 200.0 * 0.005, 1e-12);
     EXPECT_FALSE(at(999.0).cuts);
     EXPECT_TRUE(at(1001.0).cuts);
-    EXPECT_EQ(guard.follow({0.0, 0.0, 1001.0}, {}, dt_s).brake_N, glm::dvec3(0.0));
+    EXPECT_EQ(guard.update({0.0, 0.0, 1001.0}, {}, dt_s).brake_N, glm::dvec3(0.0));
     double s = 0.0;
     while (at(10.0).cuts && s < 1.0) s += dt_s;
     EXPECT_NEAR(s, 0.1, 1.01 * dt_s);
@@ -87,9 +87,9 @@ Shaken shaken(double swings_Hz, double amplitude_mm_per_s, double rate_Hz, doubl
   Shaken shaken;
   for (int tick = 0; tick < static_cast<int>(seconds * rate_Hz); ++tick) {
     const double t = (tick + 0.25) / rate_Hz, v = amplitude_mm_per_s * std::sin(6.283185307 * swings_Hz * t);
-    const auto verdict = buzz.follow({0.6 * v, 0.0, 0.8 * v}, {}, 1.0 / rate_Hz);
-    shaken.halved = shaken.halved || verdict.share <= 0.5;
-    shaken.off = shaken.off || verdict.off;
+    const auto output = buzz.update({0.6 * v, 0.0, 0.8 * v}, {}, 1.0 / rate_Hz);
+    shaken.halved = shaken.halved || output.share <= 0.5;
+    shaken.off = shaken.off || output.off;
   }
   return shaken;
 }
@@ -108,25 +108,25 @@ TEST(BuzzDetector, HearsWhatTurnsMoreThanTwentyTimesInATenthOfASecond) {
 
 TEST(BuzzDetector, ComesBackByStepsAfterASecondOfCalm) {
   BuzzDetector buzz;
-  for (int tick = 0; tick < 300; ++tick) buzz.follow({tick % 4 < 2 ? 50.0 : -50.0, 0.0, 0.0}, {}, 1e-3);
-  BuzzDetector::Output verdict = buzz.follow({}, {}, 1e-3);
-  EXPECT_TRUE(verdict.off);
-  EXPECT_EQ(verdict.share, 0.0);
+  for (int tick = 0; tick < 300; ++tick) buzz.update({tick % 4 < 2 ? 50.0 : -50.0, 0.0, 0.0}, {}, 1e-3);
+  BuzzDetector::Output output = buzz.update({}, {}, 1e-3);
+  EXPECT_TRUE(output.off);
+  EXPECT_EQ(output.share, 0.0);
   double last = 0.0;
   const auto calm = [&](int ms) {
     for (int tick = 0; tick < ms; ++tick) {
-      verdict = buzz.follow({0.0, 30.0, 0.0}, {}, 1e-3);
-      EXPECT_LE(verdict.share - last, 1e-3 + 1e-12);
-      last = verdict.share;
+      output = buzz.update({0.0, 30.0, 0.0}, {}, 1e-3);
+      EXPECT_LE(output.share - last, 1e-3 + 1e-12);
+      last = output.share;
     }
   };
   calm(900);
-  EXPECT_TRUE(verdict.off);
+  EXPECT_TRUE(output.off);
   calm(900);
-  EXPECT_FALSE(verdict.off);
-  EXPECT_EQ(verdict.share, 0.5);
+  EXPECT_FALSE(output.off);
+  EXPECT_EQ(output.share, 0.5);
   calm(2000);
-  EXPECT_EQ(verdict.share, 1.0);
+  EXPECT_EQ(output.share, 1.0);
 }
 
 TEST(ThermalBudget, KeepsTheMeanSquareOfAnyTenSecondsWithinTheContinuousForce) {

@@ -10,23 +10,23 @@ namespace {
 /// One with motors, that has come to the state asked for the way it should.
 struct Bench {
   SafetyLimits limits = strict({});
-  SafetyStateMachine readiness;
-  SafetyStateMachine::Inputs seen;
+  SafetyStateMachine machine;
+  SafetyStateMachine::Inputs inputs;
 
-  Bench() { seen.touches = false; }
+  Bench() { inputs.touches = false; }
   SafetyState tick(int times = 1) {
     SafetyState state{};
-    for (int i = 0; i < times; ++i) state = readiness.follow(seen, limits, 1e-3);
+    for (int i = 0; i < times; ++i) state = machine.update(inputs, limits, 1e-3);
     return state;
   }
 };
 
 TEST(SafetyStateMachine, GoesFromOffThroughReadyAndArmedToActive) {
   Bench bench;
-  EXPECT_EQ(bench.readiness.state(), SafetyState::off);
-  bench.seen.calibrated = false;
+  EXPECT_EQ(bench.machine.state(), SafetyState::off);
+  bench.inputs.calibrated = false;
   EXPECT_EQ(bench.tick(3), SafetyState::calibrate);
-  bench.seen.calibrated = true;
+  bench.inputs.calibrated = true;
   EXPECT_EQ(bench.tick(), SafetyState::ready);
   EXPECT_EQ(bench.tick(), SafetyState::armed);
   EXPECT_EQ(bench.tick(), SafetyState::active);
@@ -35,7 +35,7 @@ TEST(SafetyStateMachine, GoesFromOffThroughReadyAndArmedToActive) {
 TEST(SafetyStateMachine, ArmsOnlyOutsideTissueAtRestAndOutOfTheInkwell) {
   const auto after = [](auto&& change) {
     Bench bench;
-    change(bench.seen);
+    change(bench.inputs);
     return bench.tick(100);
   };
   EXPECT_EQ(after([](SafetyStateMachine::Inputs& s) { s.touches = true; }), SafetyState::ready);
@@ -47,11 +47,11 @@ TEST(SafetyStateMachine, ArmsOnlyOutsideTissueAtRestAndOutOfTheInkwell) {
 
 TEST(SafetyStateMachine, IsArmedNoLongerOnceTheToolIsInTissue) {
   Bench bench;
-  bench.seen.held = false;
+  bench.inputs.held = false;
   EXPECT_EQ(bench.tick(3), SafetyState::armed);
-  bench.seen.touches = true;
+  bench.inputs.touches = true;
   EXPECT_EQ(bench.tick(), SafetyState::ready);
-  bench.seen.held = true;
+  bench.inputs.held = true;
   EXPECT_EQ(bench.tick(100), SafetyState::ready) << "in tissue nothing begins";
 }
 
@@ -59,7 +59,7 @@ TEST(SafetyStateMachine, GoesBackToReadyAtOnceWhenDockedOrAfterAPause) {
   for (bool pause : {false, true}) {
     Bench bench;
     ASSERT_EQ(bench.tick(5), SafetyState::active);
-    (pause ? bench.seen.resumed : bench.seen.docked) = true;
+    (pause ? bench.inputs.resumed : bench.inputs.docked) = true;
     EXPECT_EQ(bench.tick(), SafetyState::ready);
   }
 }
@@ -68,33 +68,33 @@ TEST(SafetyStateMachine, LetsGoInFiftyMillisecondsWhenTheDeadmanFeelsNoHand) {
   for (double dt_s : {2e-3, 1e-3, 1e-4}) {
     Bench bench;
     ASSERT_EQ(bench.tick(5), SafetyState::active);
-    bench.seen.held = false;
+    bench.inputs.held = false;
     double s = 0.0;
-    while (bench.readiness.follow(bench.seen, bench.limits, dt_s) == SafetyState::active && s < 1.0) {
-      EXPECT_TRUE(bench.readiness.isReleasing());
+    while (bench.machine.update(bench.inputs, bench.limits, dt_s) == SafetyState::active && s < 1.0) {
+      EXPECT_TRUE(bench.machine.isReleasing());
       s += dt_s;
     }
     EXPECT_NEAR(s, 0.05, 1.01 * dt_s);
-    EXPECT_FALSE(bench.readiness.isReleasing());
+    EXPECT_FALSE(bench.machine.isReleasing());
   }
   Bench taken_again;
   ASSERT_EQ(taken_again.tick(5), SafetyState::active);
-  taken_again.seen.held = false;
+  taken_again.inputs.held = false;
   taken_again.tick(30);
-  taken_again.seen.held = true;
+  taken_again.inputs.held = true;
   EXPECT_EQ(taken_again.tick(200), SafetyState::active);
 }
 
 TEST(SafetyStateMachine, LatchesAFaultUntilTheInstructorLiftsItAndItsCauseIsOver) {
   Bench bench;
   ASSERT_EQ(bench.tick(5), SafetyState::active);
-  bench.seen.trouble = true;
+  bench.inputs.trouble = true;
   EXPECT_EQ(bench.tick(), SafetyState::fault);
-  bench.seen.rearm = 1;
+  bench.inputs.rearm = 1;
   EXPECT_EQ(bench.tick(), SafetyState::fault) << "the cause is still there";
-  bench.seen.trouble = false;
+  bench.inputs.trouble = false;
   EXPECT_EQ(bench.tick(1000), SafetyState::fault) << "that word is spent";
-  bench.seen.rearm = 2;
+  bench.inputs.rearm = 2;
   EXPECT_EQ(bench.tick(), SafetyState::ready);
 }
 
@@ -103,10 +103,10 @@ TEST(SafetyStateMachine, IsOffForGoodAfterAStop) {
     Bench bench;
     bench.limits.must_be_armed = motors;
     ASSERT_EQ(bench.tick(5), SafetyState::active);
-    bench.seen.stop_requested = true;
+    bench.inputs.stop_requested = true;
     EXPECT_EQ(bench.tick(), SafetyState::off);
-    bench.seen = {};
-    bench.seen.rearm = 9;
+    bench.inputs = {};
+    bench.inputs.rearm = 9;
     EXPECT_EQ(bench.tick(1000), SafetyState::off);
   }
 }
@@ -114,12 +114,12 @@ TEST(SafetyStateMachine, IsOffForGoodAfterAStop) {
 TEST(SafetyStateMachine, IsActiveAtOnceWhereNobodyCanBePushed) {
   Bench bench;
   bench.limits = {};
-  bench.seen.touches = true;
-  bench.seen.speed_mm_per_s = 900.0;
+  bench.inputs.touches = true;
+  bench.inputs.speed_mm_per_s = 900.0;
   EXPECT_EQ(bench.tick(), SafetyState::active);
-  bench.seen.trouble = true;
+  bench.inputs.trouble = true;
   EXPECT_EQ(bench.tick(), SafetyState::fault);
-  bench.seen.trouble = false;
+  bench.inputs.trouble = false;
   EXPECT_EQ(bench.tick(), SafetyState::active);
 }
 
@@ -130,7 +130,7 @@ TEST(SafetyStateMachine, IsNeverActiveWithoutHavingBeenArmedWhateverIsSeen) {
   SafetyState last = SafetyState::off;
   int active = 0, faults = 0;
   for (int tick = 0; tick < 1'000'000; ++tick) {
-    SafetyStateMachine::Inputs& s = bench.seen;
+    SafetyStateMachine::Inputs& s = bench.inputs;
     s.trouble = tick % 997 < 3;
     s.calibrated = !(tick % 4001 < 50);
     if (chance(2)) s.docked = chance(10);
