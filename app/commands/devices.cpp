@@ -119,7 +119,7 @@ int check(const CheckOptions& options) {
   report.commit(pageOf(done.report));
   dialogue.say("\n" +
                std::string(done.report.left_early ? "Left before the end."
-                           : done.report.isGood() ? "All that was tried is as it should be."
+                           : done.report.isGood() ? "Everything tried is as it should be."
                                                   : "Something is wrong: do not use this unit until it is "
                                                     "repaired.") +
                " The report: " + options.report);

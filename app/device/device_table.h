@@ -1,5 +1,5 @@
-// The devices there are as people read them, and as programs do: what is here, what drives it, the next step, and what
-// no real unit has proved yet.
+// The devices that are present and the kinds that Molar drives, as text and as JSON: driver, next step, and what no
+// real unit has proved yet.
 #pragma once
 
 #include <string>

@@ -11,21 +11,21 @@
 namespace app {
 namespace {
 
-/// Whatever ends a program unless it is caught; interrupts and SIGPIPE are the program's own affair.
+/// Fatal signals, without interrupts and SIGPIPE, which the program handles.
 constexpr std::array kEnds = {SIGSEGV, SIGBUS,  SIGILL,  SIGFPE,  SIGABRT,   SIGQUIT, SIGTRAP, SIGSYS, SIGXCPU,
                               SIGXFSZ, SIGUSR1, SIGUSR2, SIGALRM, SIGVTALRM, SIGPROF, SIGIO,   SIGPWR, SIGSTKFLT};
 
 std::atomic<haptics::DeviceLoop*> guarded{nullptr};
-/// False from when one is guarded until its motors were let go of.
+/// False from the begin of guarding until the motors are off.
 std::atomic<bool> is_quiet{true};
 std::atomic<bool> exit_is_watched{false};
 std::atomic<std::int64_t> longest_wait_ms{0};
 
-/// How each signal was met before.
+/// Previous handlers.
 std::array<struct sigaction, kEnds.size()> former;
 stack_t former_stack;
 
-/// A stack of its own, for a crash may be one of the stack.
+/// A separate stack, because the crash may be a stack overflow.
 alignas(16) std::array<char, 64 * 1024> handler_stack;
 
 template <class Condition>
@@ -34,8 +34,7 @@ void awaitUpTo(std::int64_t most_ms, const Condition& condition) {
   for (std::int64_t ms = 0; ms < most_ms && !condition(); ++ms) nanosleep(&one_ms, nullptr);
 }
 
-/// The first to come lets the motors go; whoever comes meanwhile waits, for what ends the program must not end it
-/// before.
+/// The first caller switches the motors off; others wait, so that the program does not end before.
 void letGo(bool stops_device) {
   haptics::DeviceLoop* const loop = guarded.exchange(nullptr);
   if (loop == nullptr) {
@@ -49,7 +48,7 @@ void letGo(bool stops_device) {
   is_quiet.store(true);
 }
 
-/// The program goes on to end as it would have.
+/// The program then ends as usual.
 extern "C" void onEnd(int signal_number) {
   letGo(false);
   for (std::size_t i = 0; i < kEnds.size(); ++i)

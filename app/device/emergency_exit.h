@@ -1,11 +1,9 @@
-// Whatever ends the program, the motors hear of it first. While one of these lives, a crash (SIGSEGV, SIGBUS, SIGILL,
-// SIGFPE, SIGABRT and with it an uncaught exception), any other signal that would end the program (SIGQUIT, SIGUSR1,
-// a limit of time or file size …), and exit() from anywhere, such as by the X library when the display is lost, forbid
-// all force, wait until the device has ticked twice without any or the supervisor has switched off one that hangs, and
-// only then go on to end the program as they would have. What a handler does is safe in one:
-// atomics and nanosleep. SIGKILL and power cuts are the device's own business. One at a time (assert); made and
-// destroyed by one thread. Interrupts (SIGINT, SIGTERM) end a rehearsal in order. Only the thread that makes it has a
-// stack of its own for the handler.
+// Switches the motors off before anything ends the program. While an object lives, a crash (SIGSEGV, SIGBUS, SIGILL,
+// SIGFPE, SIGABRT, an uncaught exception), any other fatal signal (SIGQUIT, SIGUSR1, resource limits …) and exit(),
+// such as from the X library when the display is lost, forbid all force, wait until the device has ticked twice without
+// force or the supervisor has switched off one that hangs, and then end the program as usual. Handlers use only atomics
+// and nanosleep. SIGKILL and power loss are left to the device; SIGINT and SIGTERM end a rehearsal in order. One object
+// at a time (assert), made and destroyed by one thread; only that thread has a stack of its own for the handler.
 #pragma once
 
 #include <chrono>
@@ -19,14 +17,14 @@ class EmergencyExit {
   /// Two ticks without force are enough; the supervisor needs 60 ms where none come.
   static constexpr std::chrono::milliseconds kMaxShutdown{120};
 
-  /// Borrows the loop. `longest`: that the program's end is held up.
+  /// Borrows the loop. `longest`: delay of the program's end.
   explicit EmergencyExit(haptics::DeviceLoop& loop, std::chrono::milliseconds longest = kMaxShutdown);
   ~EmergencyExit();
   EmergencyExit(const EmergencyExit&) = delete;
   EmergencyExit& operator=(const EmergencyExit&) = delete;
 };
 
-/// On the device that such a one guards, if there is one. A signal handler may call it.
+/// For the guarded device, if any. A signal handler may call it.
 void forbidForceNow() noexcept;
 
 }  // namespace app

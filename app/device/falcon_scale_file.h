@@ -1,6 +1,6 @@
-// The file that keeps what a spring scale showed of one Novint Falcon: a few TOML lines with their version, written
-// when it has been weighed, read before it is opened. Start-up. Throws UsageError when the file can not be read, is of
-// another version or holds what nobody could have weighed, assets::LoadError when it can not be written.
+// The measured force scale of a Novint Falcon as a TOML file with a version: written after `molar devices check`, read
+// before the device is opened. Start-up. Throws UsageError when the file cannot be read, has another version or
+// impossible values, assets::LoadError when it cannot be written.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace app {
 
-/// Where it is looked for: molar/falcon.toml beneath XDG_CONFIG_HOME or ~/.config.
+/// molar/falcon.toml in XDG_CONFIG_HOME or ~/.config.
 std::string defaultFalconScaleFile();
 
-/// As weighed where the file is there, else as guessed.
+/// From the file if it exists, else the default.
 haptics::FalconForceScale savedFalconScale(const std::string& path);
 haptics::FalconForceScale readFalconScale(const std::string& path);
 void writeFalconScale(const std::string& path, const haptics::FalconForceScale& scale, bool overwrite);

@@ -8,44 +8,44 @@
 namespace app {
 namespace {
 
-constexpr double kLooksEvery_s = 0.01;
-/// In front of everything the hand has to go round.
+constexpr double kCheckInterval_s = 0.01;
+/// In front of everything on the way.
 constexpr double kClear_mm = 27.0;
 
 }  // namespace
 
-haptics::HandScript handleScript(const haptics::WorkCycle& round, const glm::dvec3& tip_H_mm) {
-  return [round, tip_H_mm](double t_s) {
-    haptics::HandTarget target = round.at(t_s);
+haptics::HandScript handleScript(const haptics::WorkCycle& cycle, const glm::dvec3& tip_H_mm) {
+  return [cycle, tip_H_mm](double t_s) {
+    haptics::HandTarget target = cycle.at(t_s);
     target.position_mm -= target.rotation * tip_H_mm;
     return target;
   };
 }
 
 haptics::WorkCycle workCycleFor(const haptics::PhantomMechanics& mechanics, const assets::PlannedCut& cut,
-                                const haptics::CuttingMotion& manner, const calibration::Rig& rig,
+                                const haptics::CuttingMotion& motion, const calibration::Rig& rig,
                                 const glm::dvec3& tip_H_mm) {
-  const haptics::TroughPath trough(cut, manner, rig.X_WD.inverse() * rig.X_WP);
+  const haptics::TroughPath trough(cut, motion, rig.X_WD.inverse() * rig.X_WP);
   const auto rest_DH = mechanics.rest_DH();
   const haptics::HandTarget rest{rest_DH.translation_mm + rest_DH.rotation * tip_H_mm, rest_DH.rotation, false, 0,
                                  true};
 
-  // The surgeon's eye is clear of everything that lies on the way: towards it, across, and back.
+  // Nothing lies between the site and the viewer: towards the viewer, across, and back.
   const glm::dvec3 to_viewer_D = glm::conjugate(rig.X_WD.rotation) * glm::dvec3(0.0, 0.0, 1.0);
   const glm::dvec3 above_mm = trough.at(0.0).position_mm + kClear_mm * to_viewer_D;
   const double lower_mm = glm::dot(above_mm - rest.position_mm, to_viewer_D);
-  const haptics::WorkCycle round(trough, rest, {rest.position_mm + lower_mm * to_viewer_D, above_mm});
+  const haptics::WorkCycle cycle(trough, rest, {rest.position_mm + lower_mm * to_viewer_D, above_mm});
 
-  const haptics::HandScript handle = handleScript(round, tip_H_mm);
-  for (double t_s = 0.0; t_s < round.duration_s(); t_s += kLooksEvery_s) {
+  const haptics::HandScript handle = handleScript(cycle, tip_H_mm);
+  for (double t_s = 0.0; t_s < cycle.duration_s(); t_s += kCheckInterval_s) {
     const haptics::HandTarget target = handle(t_s);
     if (jointsReaching(mechanics.geometry, {target.rotation, target.position_mm})) continue;
     const auto mm = [&](int axis) { return std::to_string(std::lround(target.position_mm[axis])); };
     throw UsageError("--device, simulated " + std::string(mechanics.name) + ": its arm does not reach (" + mm(0) +
                      ", " + mm(1) + ", " + mm(2) +
-                     ") mm of its own frame, where the work leads: change X_WD of the rig");
+                     ") mm of its own frame, on the way to the site: change X_WD of the rig");
   }
-  return round;
+  return cycle;
 }
 
 }  // namespace app

@@ -1,5 +1,5 @@
-// A simulated Phantom in the hand of a surgeon who cuts the trough: taken from where it rests, brought to the site,
-// armed, put back. X_WD as the rig has it. Start-up only.
+// A simulated Phantom in the hand of a surgeon who cuts the trough: taken from rest, brought to the site, armed, put
+// back. X_WD as in the rig. Start-up only.
 #pragma once
 
 #include <memory>
@@ -11,13 +11,13 @@
 
 namespace app {
 
-/// Of the tool, which stands at `tip_H_mm` of the handle, turned as it is. Throws UsageError
-/// where the arm does not reach all of it.
+/// The path of the tool, at `tip_H_mm` of the handle with the same rotation. Throws UsageError where the arm does not
+/// reach.
 haptics::WorkCycle workCycleFor(const haptics::PhantomMechanics& mechanics, const assets::PlannedCut& cut,
-                                const haptics::CuttingMotion& manner, const calibration::Rig& rig,
+                                const haptics::CuttingMotion& motion, const calibration::Rig& rig,
                                 const glm::dvec3& tip_H_mm = glm::dvec3(0.0));
 
-/// The handle's way for the tool's.
-haptics::HandScript handleScript(const haptics::WorkCycle& round, const glm::dvec3& tip_H_mm);
+/// The path of the handle for that of the tool.
+haptics::HandScript handleScript(const haptics::WorkCycle& cycle, const glm::dvec3& tip_H_mm);
 
 }  // namespace app

@@ -16,15 +16,16 @@ namespace {
 constexpr std::string_view kHeader = "t_s,px_mm,py_mm,pz_mm,qw,qx,qy,qz";
 constexpr std::size_t kRequired = 8;  ///< columns of it
 constexpr std::size_t kLargestFile_bytes = 1u << 30, kLongestLine = 4096;
-constexpr std::size_t kMostRows = 4'000'000;  ///< an hour at 1 kHz
+constexpr std::size_t kMaxRows = 4'000'000;  ///< an hour at 1 kHz
 constexpr double kLargestCoordinate_mm = 1e5;
 
-std::string place(const std::string& path, std::size_t line) {
+std::string location(const std::string& path, std::size_t line) {
   return "pose file " + path + " line " + std::to_string(line);
 }
 
-[[noreturn]] void refuse(const std::string& path, std::size_t line, const std::string& what, const std::string& mend) {
-  throw UsageError(place(path, line) + ": " + what + ", " + mend);
+[[noreturn]] void refuse(const std::string& path, std::size_t line, const std::string& what,
+                         const std::string& next_step) {
+  throw UsageError(location(path, line) + ": " + what + ", " + next_step);
 }
 
 std::vector<std::string_view> cells(std::string_view row) {
@@ -36,7 +37,7 @@ std::vector<std::string_view> cells(std::string_view row) {
   return out;
 }
 
-/// Where the columns are that a file may leave out.
+/// Positions of the optional columns.
 struct Columns {
   std::size_t count = kRequired;
   std::optional<std::size_t> drill, tool, action;
@@ -99,12 +100,12 @@ TimedPose poseFrom(const Row& row, const Columns& columns) {
 
 }  // namespace
 
-std::string lineOf(const std::string& path, const TimedPose& pose) { return place(path, pose.line); }
+std::string lineOf(const std::string& path, const TimedPose& pose) { return location(path, pose.line); }
 
 void refuseControls(const std::vector<TimedPose>& poses, const std::string& path) {
   for (const TimedPose& pose : poses)
     if (!pose.tool.empty() || !pose.action.empty())
-      refuse(path, pose.line, "it asks for a tool or an action",
+      refuse(path, pose.line, "it requests a tool or an action",
              "leave the column out; rehearse --device poses:FILE obeys it");
 }
 
@@ -135,8 +136,8 @@ std::vector<TimedPose> readPoses(const std::string& path) {
     }
     if (text.empty()) continue;
     if (text.size() > kLongestLine) refuse(path, line, "it is longer than any row", "correct it");
-    if (poses.size() == kMostRows)
-      refuse(path, line, "there are more than " + std::to_string(kMostRows) + " rows", "split the file");
+    if (poses.size() == kMaxRows)
+      refuse(path, line, "there are more than " + std::to_string(kMaxRows) + " rows", "split the file");
     const Row row{path, line, cells(text)};
     if (row.cell.size() != columns.count)
       refuse(path, line,

@@ -1,4 +1,4 @@
-// `poses:FILE`: a hand that is exactly where a pose file has it and asks for what the file asks for.
+// `poses:FILE`: the poses of a file exactly, with the tools and actions that it requests.
 
 #include "app/device/pose_csv.h"
 #include "app/device/pose_sources.h"
@@ -8,7 +8,7 @@
 namespace app {
 namespace {
 
-/// Beyond the last row's time, so that its tick is made as well.
+/// After the last row's time, so that its tick happens too.
 constexpr double kLastTick_s = 1e-6;
 
 void refuseUnlessARehearsal(const std::vector<TimedPose>& poses, const std::string& path) {
@@ -23,18 +23,18 @@ void refuseUnlessARehearsal(const std::vector<TimedPose>& poses, const std::stri
 PoseSource openPoses(const std::string& path, const PoseSourceContext&) {
   const std::vector<TimedPose> poses = readPoses(path);
   refuseUnlessARehearsal(poses, path);
-  PoseSource hand;
-  std::vector<haptics::TimedHandlePose> holds;
+  PoseSource source;
+  std::vector<haptics::TimedHandlePose> handle_poses;
   for (const TimedPose& pose : poses) {
-    // The device's frame is the patient's, handle and tool are one.
-    holds.push_back({pose.t_s, {pose.X_PT.rotation, pose.X_PT.translation_mm}, pose.drill});
+    // The device's frame is the patient's, handle and tool coincide.
+    handle_poses.push_back({pose.t_s, {pose.X_PT.rotation, pose.X_PT.translation_mm}, pose.drill});
     if (!pose.tool.empty() || !pose.action.empty())
-      hand.requests.push_back({pose.t_s, pose.tool, pose.action, lineOf(path, pose)});
+      source.requests.push_back({pose.t_s, pose.tool, pose.action, lineOf(path, pose)});
   }
-  auto posed = std::make_unique<haptics::PoseListDevice>(std::move(holds));
-  hand.duration_s = posed->duration_s() + kLastTick_s;
-  hand.device = std::move(posed);
-  return hand;
+  auto posed = std::make_unique<haptics::PoseListDevice>(std::move(handle_poses));
+  source.duration_s = posed->duration_s() + kLastTick_s;
+  source.device = std::move(posed);
+  return source;
 }
 
 }  // namespace app

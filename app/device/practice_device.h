@@ -1,6 +1,5 @@
-// The device a technician practises on: `practice:SCENARIO[:SEED]`, an Omni in numbers whose arm is as untrue as real
-// ones are and stands where nobody has measured it. Scenarios A to G: calibration/synthetic/synthetic_rig. Start-up
-// only.
+// The device for practising a calibration: `practice:SCENARIO[:SEED]`, a simulated Omni with the errors of a real arm,
+// at an unmeasured position. Scenarios A to G: calibration/synthetic/synthetic_rig. Start-up only.
 #pragma once
 
 #include <optional>
@@ -10,7 +9,7 @@
 
 namespace app {
 
-/// Its truth, from its address; none for another address. Throws UsageError for a scenario or seed that is none.
+/// Its true rig, from its address; none for another address. Throws UsageError for a wrong scenario or seed.
 std::optional<calibration::SyntheticRig> practiceRig(const std::string& address);
 
 }  // namespace app

@@ -1,4 +1,4 @@
-// `replay:SESSION`: the hand of a recorded session. X_DH is its X_PT, so the frame of the device is the patient's.
+// `replay:SESSION`: the hand of a recorded session. X_DH is its X_PT: the frame of the device is the patient's.
 
 #include "app/device/pose_sources.h"
 #include "app/session/session_reader.h"

@@ -7,7 +7,7 @@
 namespace app {
 namespace {
 
-/// What a hand in numbers cuts on this patient.
+/// The cut of a simulated hand on this patient.
 const assets::PlannedCut& cutFor(const PoseSourceContext& at) {
   if (!at.cut)
     throw UsageError("--device: no bone of this patient can be reached by a script, use --device replay:SESSION");
@@ -15,7 +15,7 @@ const assets::PlannedCut& cutFor(const PoseSourceContext& at) {
 }
 
 /// So that the handpiece does not hide the site.
-haptics::CuttingMotion mannerFor(const PoseSourceContext& at) {
+haptics::CuttingMotion motionFor(const PoseSourceContext& at) {
   return {.shaft_P = glm::conjugate(at.rig.X_WP.rotation) * shaftDirection_W()};
 }
 
@@ -23,7 +23,7 @@ haptics::CuttingMotion mannerFor(const PoseSourceContext& at) {
 
 PoseSource openScript(const std::string&, const PoseSourceContext& at) {
   PoseSource hand;
-  auto scripted = std::make_unique<haptics::ScriptedDevice>(cutFor(at), mannerFor(at));
+  auto scripted = std::make_unique<haptics::ScriptedDevice>(cutFor(at), motionFor(at));
   hand.duration_s = scripted->duration_s();
   hand.device = std::move(scripted);
   hand.name = "scripted hand";
@@ -33,7 +33,7 @@ PoseSource openScript(const std::string&, const PoseSourceContext& at) {
 PoseSource openSimulated(const std::string& model, const PoseSourceContext& at) {
   PoseSource hand;
   const haptics::PhantomMechanics& mechanics = *haptics::findSimulatedPhantom(model.empty() ? "omni" : model);
-  const haptics::WorkCycle round = workCycleFor(mechanics, cutFor(at), mannerFor(at), at.rig);
+  const haptics::WorkCycle round = workCycleFor(mechanics, cutFor(at), motionFor(at), at.rig);
   hand.duration_s = round.duration_s();
   hand.X_PD = at.rig.X_WP.inverse() * at.rig.X_WD;
   hand.device = std::make_unique<haptics::SimulatedPhantom>(mechanics, [round](double t_s) { return round.at(t_s); });
@@ -48,7 +48,7 @@ PoseSource openPractice(const std::string& unit, const PoseSourceContext& at) {
   calibration::Rig true_rig = at.rig;
   true_rig.X_WD = truth.X_WD;
   const glm::dvec3 tip_H_mm = truth.arm.truth.tip_H_mm;
-  const haptics::WorkCycle round = workCycleFor(mechanics, cutFor(at), mannerFor(at), true_rig, tip_H_mm);
+  const haptics::WorkCycle round = workCycleFor(mechanics, cutFor(at), motionFor(at), true_rig, tip_H_mm);
   hand.duration_s = round.duration_s();
   hand.device =
       std::make_unique<haptics::SimulatedPhantom>(mechanics, handleScript(round, tip_H_mm), haptics::Grip{}, 1,

@@ -21,28 +21,27 @@ using calibration::Patient;
 using calibration::Pose;
 using calibration::World;
 
-/// Fast enough for any display, and the least that devices are served at.
+/// Enough for any display, and the lowest rate of the devices.
 constexpr double kRate_Hz = 500.0;
 
 const char* nameOf(SecondTool tool) { return tool == SecondTool::mirror ? "mirror" : "retractor"; }
 
-/// The handle along `z_W`, the plane x = 0 of the instrument, which halves it, through `y_W`.
-Pose<World, OtherTool> held(const glm::dvec3& y_W, const glm::dvec3& z_W, const glm::dvec3& place_W) {
+/// The handle along `z_W`; the instrument's plane of symmetry, x = 0, through `y_W`.
+Pose<World, OtherTool> held(const glm::dvec3& y_W, const glm::dvec3& z_W, const glm::dvec3& position_W) {
   const glm::dvec3 z = glm::normalize(z_W), y = glm::normalize(y_W - glm::dot(y_W, z) * z);
-  return {glm::normalize(glm::quat_cast(glm::dmat3(glm::cross(y, z), y, z))), place_W};
+  return {glm::normalize(glm::quat_cast(glm::dmat3(glm::cross(y, z), y, z))), position_W};
 }
 
-/// The glass shows an eye in front of it the origin; the handle leads away half a right angle from there, towards
-/// `handle_W`.
-Pose<World, OtherTool> mirrorHeld(const glm::dvec3& handle_W, const glm::dvec3& place_W) {
+/// The mirror shows the origin to an eye in front of it; the handle leads away at 45 degrees, towards `handle_W`.
+Pose<World, OtherTool> mirrorHeld(const glm::dvec3& handle_W, const glm::dvec3& position_W) {
   const glm::dvec3 eye_W(0.0, 0.0, 500.0);
-  const glm::dvec3 out = glm::normalize(glm::normalize(eye_W - place_W) - glm::normalize(place_W));
+  const glm::dvec3 out = glm::normalize(glm::normalize(eye_W - position_W) - glm::normalize(position_W));
   const glm::dvec3 aside = glm::normalize(handle_W - glm::dot(handle_W, out) * out);
-  return held(aside - out, out + aside, place_W);
+  return held(aside - out, out + aside, position_W);
 }
 
-/// The script's place for the instrument, beside the tooth wherever the rig has it.
-Pose<World, OtherTool> holdBeside(const assets::Patient& patient, const calibration::Rig& rig, SecondTool tool) {
+/// The scripted pose, next to the tooth wherever the rig has it.
+Pose<World, OtherTool> holdNextTo(const assets::Patient& patient, const calibration::Rig& rig, SecondTool tool) {
   Pose<World, OtherTool> hold = scriptedHold(tool, assets::isRight(patient.operatedTooth()));
   hold.translation_mm += (rig.X_WP * calibration::Point<Patient>{patient.focus_P_mm()}).mm;
   return hold;
@@ -50,10 +49,10 @@ Pose<World, OtherTool> holdBeside(const assets::Patient& patient, const calibrat
 
 PoseSource deviceOf(const SecondHandPlan& plan, const DeviceOptions& options, const assets::Patient& patient,
                     const calibration::Rig& rig) {
-  const Pose<World, OtherTool> hold = holdBeside(patient, rig, plan.tool);
+  const Pose<World, OtherTool> hold = holdNextTo(patient, rig, plan.tool);
   if (plan.device != "scripted") {
     calibration::Rig others = rig;
-    others.device.reset(), others.arm.reset();  // they are of the first
+    others.device.reset(), others.arm.reset();  // of the first device
     others.X_WD = rig.second_X_WD.value_or(Pose<World, Device>{{1.0, 0.0, 0.0, 0.0}, hold.translation_mm});
     PoseSource source = openPoseSource(plan.device, options, patient, others, {});
     if (!source.device->capabilities().has_orientation) fixOrientation(source, others, hold.rotation);
@@ -70,7 +69,7 @@ PoseSource deviceOf(const SecondHandPlan& plan, const DeviceOptions& options, co
 }  // namespace
 
 Pose<World, OtherTool> scriptedHold(SecondTool tool, bool right_side) {
-  // As the surgeon sees a tooth on the right; on the left it is the mirror image of that.
+  // For a tooth on the right, as the surgeon sees it; on the left mirrored.
   const double s = right_side ? 1.0 : -1.0;
   if (tool == SecondTool::mirror) return mirrorHeld({0.9 * s, -0.1, 0.6}, {17.0 * s, 10.0, 23.0});
   return held({-0.46 * s, 0.07, 0.79}, {0.85 * s, -0.05, 0.5}, {15.5 * s, 6.5, 6.0});
@@ -81,7 +80,7 @@ void refuseUnlessSecondHand(const SecondHandPlan& plan, const std::string& first
   const bool is_device = haptics::isDeviceAddress(plan.device);
   const PoseSourceKind* const kind = poseSourceKindOf(plan.device);
   if (plan.device != "scripted" && !(kind && kind->holds_any_tool) && !is_device)
-    throw UsageError("--second-hand " + plan.device + ": it can not hold a " + nameOf(plan.tool) +
+    throw UsageError("--second-hand " + plan.device + ": it cannot hold a " + nameOf(plan.tool) +
                      ", choose scripted, replay:SESSION or a device of molar devices");
   if (plan.device == first_device && is_device)
     throw UsageError("--second-hand " + plan.device + ": the first hand holds this device, name another");
@@ -117,7 +116,7 @@ std::optional<std::string> SecondHand::takeNews() {
   if (is_seen_ == was_seen_) return std::nullopt;
   was_seen_ = is_seen_;
   if (std::exchange(was_lost_, !is_seen_) == is_seen_)
-    return name_ + (is_seen_ ? ": followed again" : ": it can not be followed any more and is not drawn");
+    return name_ + (is_seen_ ? ": tracked again" : ": it cannot be tracked any more and is not drawn");
   return std::nullopt;
 }
 

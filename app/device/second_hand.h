@@ -1,6 +1,6 @@
-// What the other hand holds, a mirror or a retractor, and the device that follows it. It is seen, never felt: the
-// device is told no force, its motors stay off, and the instrument touches nothing and cuts nothing. Main thread; the
-// device has its own. Construction opens the device (start-up only), start() begins to follow it.
+// The second hand: a mirror or a retractor, and the device that moves it. It is seen, not felt: its device gets no
+// force, its motors stay off, the instrument neither touches nor cuts. Main thread; the device has its own.
+// Construction opens the device (start-up only), start() begins to track it.
 #pragma once
 
 #include <memory>
@@ -16,38 +16,38 @@ namespace app {
 enum class SecondTool { mirror, retractor };
 
 struct SecondHandPlan {
-  std::string device;  ///< its address; empty: the other hand holds nothing
+  std::string device;  ///< its address; empty: no second hand
   SecondTool tool = SecondTool::mirror;
 };
 inline constexpr const char* kSecondHandHelp =
-    "The other hand, seen but not felt: scripted, holding still beside the site; replay:SESSION; or a device as "
+    "The second hand, seen but not felt: scripted, holding still at the site; replay:SESSION; or a device as "
     "--device takes it";
 
-/// How the other hand holds its instrument by script: beside the tooth at work, on the side of the tongue. The glass of
-/// a mirror looks half towards the eye and half towards the tooth; a retractor holds the tongue away from it.
+/// The scripted pose of the instrument: next to the tooth at work, on the side of the tongue. The mirror reflects the
+/// tooth towards the eye; the retractor holds the tongue away.
 calibration::Pose<calibration::World, calibration::OtherTool> scriptedHold(SecondTool tool, bool right_side);
 
-/// Throws UsageError for what is no second hand.
+/// Throws UsageError for an address that cannot be a second hand.
 void refuseUnlessSecondHand(const SecondHandPlan& plan, const std::string& first_device);
 
 class SecondHand {
  public:
-  /// Throws as openPoseSource does. A device's base stands where the rig says (X_WD2), else so that the middle of its
-  /// workspace is where the script would hold the instrument.
+  /// Throws as openPoseSource. The device's base stands where the rig says (X_WD2), else so that the middle of its
+  /// workspace is at the scripted pose. Without orientation the instrument keeps the scripted one.
   SecondHand(const SecondHandPlan& plan, const DeviceOptions& options, const assets::Patient& patient,
              const calibration::Rig& rig, Ticking ticking = Ticking::realtime);
 
-  /// As people read it: "mirror, scripted still hand".
+  /// "mirror, scripted still hand".
   const std::string& name() const { return name_; }
   void start() { hand_->start(); }
-  /// By hand alone: all its ticks up to this time of the rehearsal.
+  /// Stepped only: all its ticks up to this time of the rehearsal.
   void stepTo(double t_s);
 
-  /// The renderer then has the instrument.
+  /// Gives the renderer the instrument.
   void dress(render::FrameRenderer& renderer) const;
-  /// Where the instrument is now; not seen while the device brings nothing to believe.
+  /// The pose of the instrument; invisible while the device has no valid pose.
   void place(render::Frame& frame);
-  /// Once, when it can no longer be followed, and when it can again.
+  /// A message when tracking is lost, and when it is back.
   std::optional<std::string> takeNews();
 
  private:

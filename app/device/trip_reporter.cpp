@@ -5,12 +5,12 @@
 namespace app {
 namespace {
 
-/// Nothing was taken away.
+/// The force was limited, not withdrawn.
 bool onlyLimits(haptics::Fault fault) { return fault == haptics::Fault::clamped || fault == haptics::Fault::slewed; }
 
 }  // namespace
 
-std::vector<std::string> TripReporter::look(const haptics::TripCounter& trips, haptics::SafetyState state) {
+std::vector<std::string> TripReporter::update(const haptics::TripCounter& trips, haptics::SafetyState state) {
   std::vector<std::string> lines;
   for (const haptics::TripText& trip : haptics::kTrips) {
     const auto &now = trips.of(trip.fault), &before = seen_.of(trip.fault);

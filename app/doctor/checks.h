@@ -1,5 +1,5 @@
-// The doctor's checks, a source each: what is looked at (look…) apart from what is said of it, so that every answer can
-// be had on any machine. Those that measure or ask a driver say how long they take; the others read a few files.
+// The doctor's checks. Measuring (probe…) is separate from evaluating (check…), so that tests reach every finding. A
+// check that measures or asks a driver says how long it takes; the others read a few files.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace app {
 
-/// What draws. Some ten ms, without a window.
+/// OpenGL. Some ten ms, without a window.
 struct GraphicsFacts {
   std::string version, card;
   bool is_software = false;
@@ -20,7 +20,7 @@ struct GraphicsFacts {
 std::optional<GraphicsFacts> probeGraphics();
 Finding checkGraphics(const std::optional<GraphicsFacts>& facts);
 
-/// What can be seen on. Opens an invisible window.
+/// Monitors. Opens an invisible window.
 struct ScreenFacts {
   struct Screen {
     std::string name;
@@ -39,26 +39,26 @@ Finding checkPedal(const Machine& machine);
 Finding checkPermissions(const Machine& machine);
 Finding checkModemManager(const Machine& machine);
 
-/// Why OpenHaptics can not be used, empty when it can.
+/// `why_unavailable`: of OpenHaptics; empty when it can be used.
 Finding checkVendorLibrary(const Machine& machine, const std::string& why_unavailable);
 
 /// `resolution_ns` of the clock the servo sleeps by.
 double clockResolution_ns();
 Finding checkClock(const Machine& machine, double resolution_ns);
 
-/// How late a thread of the servo's kind wakes, 500 times a millisecond: half a second.
+/// Wake-up latency of a thread like the servo's, 500 times at 1 kHz: half a second.
 struct WakeUps {
   double median_us = 0.0, p99_us = 0.0, worst_us = 0.0;
 };
 WakeUps measureWakeUps(int servo_priority = haptics::kServoPriority);
 Finding checkWakeUps(const WakeUps& measured);
 
-/// Both prescribe all that a servo of this priority needs: their lines go into one file.
+/// Both print all lines that a servo of this priority needs, for one file.
 Finding checkPriorityLimit(const Machine& machine, int servo_priority = haptics::kServoPriority);
 Finding checkMemoryLimit(const Machine& machine, int servo_priority = haptics::kServoPriority);
 Finding checkProcessors(const Machine& machine);
 
-/// Where recordings go: writes 16 MB and takes them away again.
+/// The folder of recordings: writes 16 MB and removes them.
 struct DiskFacts {
   double free_MB = 0.0, written_MB_per_s = 0.0;
   bool is_writable = false;

@@ -1,5 +1,5 @@
-// What one check of the doctor found: an id that stays the same from version to version, how it stands, one plain
-// sentence, and the next step where there is one to take. Plain data.
+// The result of one check of the doctor: an id that is stable across versions, its health, one plain sentence, and the
+// next step if there is one. Plain data.
 #pragma once
 
 #include <string>

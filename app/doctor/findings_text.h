@@ -1,4 +1,4 @@
-// The doctor's findings as people read them, aligned and wrapped, and as programs do.
+// The doctor's findings as aligned text and as JSON.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace app {
 
-/// How many of them say that something needed is missing.
+/// How many report something missing.
 int missingCount(const std::vector<Finding>& findings);
 
 std::string asText(const std::vector<Finding>& findings, const TerminalFormat& look);

@@ -10,9 +10,9 @@ namespace {
 
 constexpr unsigned kSysNice = 23, kIpcLock = 14;  // linux/capability.h
 
-/// The lines themselves, ready to be put there.
-std::string limitsFor(const std::string& user, int most_needed) {
-  return fmt::format("printf '{} - rtprio {}\\n", user, most_needed) + user +
+/// The command that installs the limits.
+std::string limitsText(const std::string& user, int needed) {
+  return fmt::format("printf '{} - rtprio {}\\n", user, needed) + user +
          " - memlock unlimited\\n' | sudo tee /etc/security/limits.d/70-molar.conf, then sign in again.";
 }
 
@@ -49,20 +49,20 @@ std::optional<InterruptThread> lowestInterruptThread(const Machine& machine) {
 }  // namespace
 
 Finding checkPriorityLimit(const Machine& machine, int servo_priority) {
-  const int most_needed = haptics::usbPriority(servo_priority);
+  const int needed = haptics::usbPriority(servo_priority);
   const bool may_anything = hasCapability(machine, kSysNice).value_or(false);
   const double most = softLimit(machine, "Max realtime priority").value_or(0.0);
-  if (!may_anything && most >= 0.0 && most < most_needed)
+  if (!may_anything && most >= 0.0 && most < needed)
     return {"priority-limit", Health::warn,
-            fmt::format("The servo may not have real-time priority: {:.0f} of {} is allowed.", most, most_needed),
-            limitsFor(machine.user, most_needed)};
+            fmt::format("The servo may not have real-time priority: {:.0f} of {} is allowed.", most, needed),
+            limitsText(machine.user, needed)};
   const auto lowest = lowestInterruptThread(machine);
-  if (lowest && lowest->priority <= most_needed) {
+  if (lowest && lowest->priority <= needed) {
     constexpr int kInterrupts = haptics::kInterruptPriority;
     return {"priority-limit", Health::warn,
             fmt::format("{} has real-time priority {}, the servo that may wait for it {}.", lowest->name,
                         lowest->priority, servo_priority),
-            most_needed < kInterrupts
+            needed < kInterrupts
                 ? fmt::format("sudo chrt -f -p {} {} puts it back where the kernel starts it.", kInterrupts,
                               lowest->process)
                 : fmt::format("Give rehearse a --priority of {} or less: the kernel starts them at {}.",
@@ -77,11 +77,11 @@ Finding checkMemoryLimit(const Machine& machine, int servo_priority) {
     return {"memory-limit", Health::ok, "The servo's memory may be kept from being swapped out."};
   const double most_MB = softLimit(machine, "Max locked memory").value_or(0.0) / (1024.0 * 1024.0);
   if (most_MB < 0.0) return {"memory-limit", Health::ok, "The servo's memory may be kept from being swapped out."};
-  // Whatever the number: all of a program that grows can be locked only without one.
+  // A growing program can be locked as a whole only without a limit.
   return {"memory-limit", Health::warn,
           fmt::format("Only {:.0f} MB may be kept from being swapped out: the servo keeps its stack, the bone may go.",
                       most_MB),
-          limitsFor(machine.user, haptics::usbPriority(servo_priority))};
+          limitsText(machine.user, haptics::usbPriority(servo_priority))};
 }
 
 }  // namespace app

@@ -1,6 +1,5 @@
-// The machine as its file systems describe it, wherever they are mounted: what the doctor reads. The roots can be any
-// folders, so that a machine can be laid out by hand. Reading small files; any thread. Not for what must be asked of a
-// driver (OpenGL, monitors, clocks).
+// The machine as its file systems describe it: what the doctor reads. The roots may be any folders, so that tests can
+// lay out a machine. Reads small files; any thread.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +12,14 @@
 
 namespace app {
 
-/// Whether the person who runs this may read and write a device node.
+/// Whether this user may read and write a device node.
 bool mayUse(const std::filesystem::path& node);
 
 struct Machine {
   std::filesystem::path proc = "/proc", sys = "/sys", dev = "/dev", etc = "/etc";
-  std::filesystem::path runtime;   ///< of the session: where sound servers have their sockets; may be empty
-  std::filesystem::path home;      ///< of the person
-  std::filesystem::path sessions;  ///< where recordings go
+  std::filesystem::path runtime;   ///< of the session, with the sockets of sound servers; may be empty
+  std::filesystem::path home;      ///< of the user
+  std::filesystem::path sessions;  ///< folder of recordings
   std::string user = "YOU";
   std::function<bool(const std::filesystem::path&)> may_use = mayUse;
 
@@ -28,10 +27,10 @@ struct Machine {
   static Machine here(const std::filesystem::path& sessions);
 };
 
-/// The first line without blanks around it; none when the file can not be read.
+/// The trimmed first line; none when the file cannot be read.
 std::optional<std::string> firstLine(const std::filesystem::path& file);
 std::vector<std::string> linesOf(const std::filesystem::path& file);
-/// What is in a folder, by name; none when there is no such folder.
+/// The entries of a folder, sorted; empty when there is none.
 std::vector<std::filesystem::path> entriesOf(const std::filesystem::path& folder);
 
 /// Whether this process holds a capability (linux/capability.h); none when the kernel does not say.

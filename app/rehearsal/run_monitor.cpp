@@ -40,7 +40,7 @@ std::vector<Notice> RunMonitor::takeNotices(const StationHealth& health, const h
     notices.push_back({"device", health.device_trouble});
   if (newest.dt_s <= 0.0) return notices;  // not a tick yet
   trips_ = health.trips;
-  for (const std::string& line : trip_teller_.look(trips_, newest.state)) notices.push_back({"safety", line});
+  for (const std::string& line : trip_reporter_.update(trips_, newest.state)) notices.push_back({"safety", line});
   return notices;
 }
 

@@ -51,7 +51,7 @@ class RunMonitor {
   std::optional<Time> ticked_at_;
   std::uint64_t index_seen_ = 0;
   std::string device_trouble_;
-  TripReporter trip_teller_;
+  TripReporter trip_reporter_;
   haptics::TripCounter trips_;
   bool ended_by_user_ = false, recording_ended_ = false;
 };

@@ -22,7 +22,7 @@ using calibration::World;
 
 constexpr glm::dvec3 kRegionHalf_P_mm{30.0, 25.0, 20.0};
 constexpr double kFarOffScreen_mm = 40.0, kTrackedEye_mm = 2.0;
-constexpr double kMargin_mm = 5.0, kMostGimbal_rad = calibration::radFromDegrees(60.0);
+constexpr double kMargin_mm = 5.0, kMaxGimbal_rad = calibration::radFromDegrees(60.0);
 constexpr double kStep_mm = 5.0, kTurnStep_deg = 10.0;
 constexpr int kSteps = 3, kTurnSteps = 2;
 
@@ -44,7 +44,7 @@ struct Arm {
   glm::dvec3 tip_H_mm;
 };
 
-/// The tool there, held as at work; also a margin to every side.
+/// The tool at this position, held as at work, with a margin on every side.
 bool isReached(const Arm& arm, const glm::dvec3& tip_W_mm) {
   const Pose<Device, World> X_DW = arm.X_WD.inverse();
   const glm::dquat R_WH = restingTool().rotation;
@@ -52,8 +52,7 @@ bool isReached(const Arm& arm, const glm::dvec3& tip_W_mm) {
   return std::ranges::all_of(kSides, [&](const glm::dvec3& side) {
     const Pose<World, Handle> X_WH{R_WH, tip_W_mm + kMargin_mm * side - R_WH * arm.tip_H_mm};
     const auto joints = calibration::jointsReaching(arm.geometry, X_DW * X_WH);
-    return joints && std::abs(joints->wrist_rad.x) <= kMostGimbal_rad &&
-           std::abs(joints->wrist_rad.y) <= kMostGimbal_rad;
+    return joints && std::abs(joints->wrist_rad.x) <= kMaxGimbal_rad && std::abs(joints->wrist_rad.y) <= kMaxGimbal_rad;
   });
 }
 
@@ -62,11 +61,11 @@ int cornersOut(const Arm& arm, const std::array<glm::dvec3, 8>& corners_W_mm) {
       std::ranges::count_if(corners_W_mm, [&](const glm::dvec3& corner) { return !isReached(arm, corner); }));
 }
 
-std::string shiftWords(const Reach::Shift& shift) {
+std::string shiftText(const Reach::Shift& shift) {
   std::string words;
-  const auto add = [&](double mm, const char* more, const char* less) {
+  const auto add = [&](double mm, const char* positive, const char* negative) {
     if (mm != 0.0)
-      words += (words.empty() ? "" : ", ") + fmt::format("{:.0f} mm {}", std::abs(mm), mm > 0.0 ? more : less);
+      words += (words.empty() ? "" : ", ") + fmt::format("{:.0f} mm {}", std::abs(mm), mm > 0.0 ? positive : negative);
   };
   add(shift.by_W_mm.x, "right", "left"), add(shift.by_W_mm.y, "up", "down"), add(shift.by_W_mm.z, "nearer", "back");
   if (shift.turn_deg != 0.0)
@@ -93,7 +92,7 @@ Reach reachOf(const calibration::Rig& rig, const assets::Patient& patient, const
   reach.corners_out = cornersOut(arm, corners_W_mm);
   if (reach.corners_out == 0) return reach;
 
-  // The smallest change first: a degree counts as a millimetre.
+  // The smallest change first; a degree counts as a millimetre.
   std::vector<Reach::Shift> tries;
   for (int turn = -kTurnSteps; turn <= kTurnSteps; ++turn)
     for (int x = -kSteps; x <= kSteps; ++x)
@@ -106,7 +105,7 @@ Reach reachOf(const calibration::Rig& rig, const assets::Patient& patient, const
     auto moved = corners_W_mm;
     for (glm::dvec3& corner : moved) corner = site_W_mm + shift.by_W_mm + turn * (corner - site_W_mm);
     if (cornersOut(arm, moved) > 0) continue;
-    reach.helps = shift;
+    reach.suggestion = shift;
     break;
   }
   return reach;
@@ -133,8 +132,8 @@ std::vector<std::string> caseRemarks(const calibration::Rig& rig, const assets::
             "case: {} of 8 corners of the region about the tooth are beyond the arm's reach or nearer than {:.0f} mm "
             "to its limits: ",
             reach.corners_out, kMargin_mm) +
-        (reach.helps ? "stand the patient " + shiftWords(*reach.helps) + " (X_WP)"
-                     : "no shift of 15 mm or turn of 20 degrees helps, move the device's base"));
+        (reach.suggestion ? "stand the patient " + shiftText(*reach.suggestion) + " (X_WP)"
+                          : "no shift of 15 mm or turn of 20 degrees helps, move the device's base"));
   return remarks;
 }
 

@@ -25,7 +25,7 @@ using calibration::Verdict;
 using Kind = DeviceIdentity::Kind;
 
 constexpr std::string_view kCurrent = "current";
-constexpr std::size_t kLongestWord = 120;
+constexpr std::size_t kMaxReasonLength = 120;
 
 /// "current" as "", "current:rig-02" as "rig-02"; none for anything else.
 std::optional<std::string> currentAsked(const std::string& rig) {
@@ -127,11 +127,11 @@ std::optional<ChosenRig> RigOption::choose(const DeviceIdentity& device, const s
     chosen.record = calibration::readRigRecord(rig_);
     chosen.source = "rig file " + rig_;
   }
-  judge(chosen, device, now_utc);
+  check(chosen, device, now_utc);
   return chosen;
 }
 
-void RigOption::judge(ChosenRig& chosen, const DeviceIdentity& device, const std::string& now_utc) const {
+void RigOption::check(ChosenRig& chosen, const DeviceIdentity& device, const std::string& now_utc) const {
   const bool is_default = isGiven() && calibration::defaultRig(rig_).has_value();
   RigRecord& record = chosen.record;
   SessionCalibration& kept = chosen.calibration;
@@ -151,9 +151,9 @@ void RigOption::judge(ChosenRig& chosen, const DeviceIdentity& device, const std
     remark(fmt::format("it was measured {:.0f} days ago, more than {:.0f}: calibrate again", *kept.age_days,
                        calibration::kOldRig_days));
 
-  // An arm is of one device; eyes, screen and patient serve every hand.
+  // An arm belongs to one device; eyes, screen and patient apply to any.
   if (!device.isCalibrated()) {
-    if (record.rig.arm) remark("its arm is left aside, this hand has none");
+    if (record.rig.arm) remark("its arm is ignored, this device has none");
     record.rig.arm.reset();
     return;
   }
@@ -177,7 +177,7 @@ void RigOption::judge(ChosenRig& chosen, const DeviceIdentity& device, const std
     throw UsageError(
         "--device " + device.address + ": " + chosen.source + " is red, " + ofTouches(*record.verification) +
         ": calibrate again (molar calibrate) or say with --despite-calibration \"WORD\" why it is used all the same");
-  if (despite_.size() > kLongestWord)
+  if (despite_.size() > kMaxReasonLength)
     throw UsageError("--despite-calibration: the word is too long, 120 bytes at most");
   kept.despite = despite_;
   remark("its calibration is red, " + ofTouches(*record.verification) + ", used despite that: " + despite_);

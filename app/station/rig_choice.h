@@ -1,6 +1,6 @@
-// Which rig a command works with: a file, the current one of the store, or one that comes with the program; whether it
-// is this device's, how good and how old it is. A rig that is proved red is locked for a device with an arm until a
-// word says why it is used all the same. Start-up only; mm.
+// Selects the rig of a command: a file, the current one of the store, or a default; checks that it is this device's,
+// how good and how old it is. A red rig is refused for a device with an arm unless a reason is given. Start-up only;
+// mm.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ namespace app {
 class CommandLine;
 class Option;
 
-/// For whom a rig is chosen.
+/// The device that a rig is chosen for.
 struct DeviceIdentity {
   enum class Kind { without_hardware, practice, real };
   Kind kind = Kind::without_hardware;
@@ -26,15 +26,14 @@ struct DeviceIdentity {
   bool isCalibrated() const { return kind != Kind::without_hardware; }
 };
 
-/// `real`: what the real device of the address can; null for hands without hardware. Throws UsageError for an address
-/// of a practice device that is none.
+/// `real`: capabilities of the real device; null without hardware. Throws UsageError for a wrong practice address.
 DeviceIdentity deviceIdentity(const std::string& address, const haptics::DeviceCapabilities* real);
 
 struct ChosenRig {
-  calibration::RigRecord record;     ///< without its arm where that is another hand's
+  calibration::RigRecord record;     ///< without its arm if that is another device's
   std::string source;                ///< "rig file rig.yaml", "current rig rig-02", "default rig mirrored"
-  SessionCalibration calibration;    ///< as a session keeps it
-  std::vector<std::string> remarks;  ///< a line each, for the person
+  SessionCalibration calibration;    ///< as recorded in a session
+  std::vector<std::string> remarks;  ///< for the user, a line each
 };
 
 class RigOption {
@@ -45,16 +44,16 @@ class RigOption {
   bool isGiven() const { return !rig_.empty(); }
   /// "current…", "mirrored", "desktop": not a file.
   bool isName() const;
-  /// A rig file that is spoilt is said before anything is waited for. Throws CalibrationError.
+  /// Throws CalibrationError for an invalid rig file, before anything slow.
   void refuseUnlessReadable() const;
 
-  /// None: nothing was asked for, and no current rig is this device's alone. Throws UsageError: not this device's, no
-  /// such current one, several, or red; CalibrationError where a file can not be read. `now_utc` as in records.
+  /// None: nothing requested, and no unique current rig of this device. Throws UsageError: not this device's, no such
+  /// current one, several, or red; CalibrationError for an unreadable file. `now_utc` as in records.
   std::optional<ChosenRig> choose(const DeviceIdentity& device, const std::string& now_utc) const;
 
  private:
   std::optional<calibration::RigRecord> currentFor(const DeviceIdentity& device, const std::string& rig_id) const;
-  void judge(ChosenRig& chosen, const DeviceIdentity& device, const std::string& now_utc) const;
+  void check(ChosenRig& chosen, const DeviceIdentity& device, const std::string& now_utc) const;
 
   std::string rig_, store_, mount_, despite_;
 };

@@ -1,6 +1,6 @@
-// Stops the motors when the unit that the vendor's library drives is pulled out of its socket, whatever the library
-// says of it. Devices that Molar drives over USB itself notice by themselves. Where the USB can not be watched, or can
-// no longer be, it says so once. Main thread; the stop comes from the monitor's own.
+// Stops the motors when a unit that the vendor's library drives is unplugged, whatever the library reports. Devices
+// that Molar drives over USB detect it themselves. If the USB cannot be monitored, it reports that once. Main thread;
+// the stop comes from the monitor's.
 #pragma once
 
 #include <atomic>
@@ -20,7 +20,7 @@ namespace app {
 
 class UnplugWatch {
  public:
-  /// Who tells the listener of what comes and goes, from now until its end.
+  /// Creates the monitor that calls the listener.
   using Monitoring = std::function<std::unique_ptr<haptics::PresenceMonitor>(haptics::PresenceListener)>;
 
   /// Borrows the workstation.
@@ -29,7 +29,7 @@ class UnplugWatch {
   UnplugWatch(std::function<void()> stop, const Monitoring& monitoring);
   ~UnplugWatch();
 
-  /// One line for people when there is something new.
+  /// A new message, if any.
   std::optional<std::string> takeNews();
 
  private:

@@ -81,7 +81,7 @@ TEST(HdLibrary, NamesThePartThatItNeedsAndThatIsNotThere) {
 TEST(HdLibrary, TellsABrokenFileFromAMissingOne) {
   Surroundings place;
   place.write("libHD.so.3.4", "this is no library");
-  EXPECT_THAT(HdLibrary::whyUnavailable(place.folder().string()), HasSubstr("can not be loaded, the linker says \""));
+  EXPECT_THAT(HdLibrary::whyUnavailable(place.folder().string()), HasSubstr("cannot be loaded, the linker says \""));
   EXPECT_EQ(HdLibrary::whyUnavailable(place.folder().string()).find('\n'), std::string::npos);
 }
 

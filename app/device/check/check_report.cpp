@@ -32,7 +32,7 @@ const char* wordOf(Verdict verdict) {
   return kWords[static_cast<int>(verdict)];
 }
 
-/// A cell of a table may hold anything but its border.
+/// Without the characters that would end a cell.
 std::string cell(std::string text) {
   for (char& c : text)
     if (c == '|' || c == '\n' || c == '\r') c = ' ';
@@ -58,15 +58,15 @@ std::string pageOf(const CheckReport& report) {
   page += "- " + report.date + ", Molar " + report.program + "\n";
   page += std::string("- ") +
           (report.left_early ? "left before the end"
-           : report.isGood() ? "all that was tried is as it should be"
-                             : "something is wrong: do not use this unit until it is mended") +
+           : report.isGood() ? "everything tried is as it should be"
+                             : "something is wrong: do not use this unit until it is repaired") +
           "\n\n";
   page += "| what | expected | found | |\n|---|---|---|---|\n";
   for (const CheckLine& one : report.lines)
     page += "| " + cell(one.what) + " | " + cell(one.expected) + " | " + cell(one.found) + " | " + wordOf(one.verdict) +
             " |\n";
   page += "\n## What only a real unit can prove\n\n";
-  if (is_simulated) page += "This unit is simulated: it proves nothing of the kind.\n\n";
+  if (is_simulated) page += "This unit is simulated and proves none of it.\n\n";
   for (const OpenQuestion& one : kOpenQuestions) {
     const bool proved = one.can_be_checked && !is_simulated && std::ranges::count(report.proved, one.proof) != 0;
     page += std::string("- [") + (proved ? "x" : " ") + "] " + one.text + "\n";

@@ -1,5 +1,5 @@
-// What a check found, line by line, and the page that is sent to whoever wants to know: a table, and what no machine
-// without the unit could prove, ticked off. No patient's data; of the serial number only the end.
+// The result of a device check, line by line, and its page in Markdown: a table, and a checklist of what only a real
+// unit can prove. No patient data; of the serial number only the end.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ struct CheckLine {
   Verdict verdict = Verdict::ok;
 };
 
-/// One of the things that only a unit can prove (reference/devices 7.3).
+/// What only a real unit can prove (reference/devices 7.3).
 enum class Proof { moves, force_sign, force_scale, inkwell, deadman, calibration, axes, rate };
 
 struct CheckReport {
@@ -26,7 +26,7 @@ struct CheckReport {
   std::vector<Proof> proved;
   bool left_early = false;
 
-  /// Everything that was tried is as it should be, to the end.
+  /// Complete, and nothing tried was wrong.
   bool isGood() const;
 };
 

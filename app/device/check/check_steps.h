@@ -25,9 +25,9 @@ struct CheckBench {
   CheckReport& report;
 
   /// True once the user did it.
-  bool asked(OwnerTask task, const std::string& to_do) {
+  bool confirm(OwnerTask task, const std::string& to_do) {
     owner.perform(task);
-    return dialogue.asked(to_do);
+    return dialogue.confirm(to_do);
   }
   /// Adds a line to the report, and what it proves if it is right.
   void saw(std::string what, std::string expected, std::string found, bool is_right, std::optional<Proof> proof = {}) {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kMean_s = 0.25;
 
-/// Frame P is D here: nobody lies on the table.
+/// Frame P is D here: there is no patient.
 haptics::HandSample sampleOf(const haptics::HandleState& state) {
   haptics::HandSample hand;
   hand.X_PT = {state.X_DH.rotation, state.X_DH.translation_mm};
@@ -29,11 +29,11 @@ haptics::HandSample sampleOf(const haptics::HandleState& state) {
 
 ConstantForceLoop::ConstantForceLoop(haptics::ServedDevice served, double rate_Hz)
     : DeviceLoop(served, rate_Hz, haptics::kServoPriority),
-      by_hand_(served.stepped != nullptr),
+      is_stepped_(served.stepped != nullptr),
       limits_(haptics::limitedTo(served.device.capabilities(), rate_Hz, haptics::Command{}).safety) {}
 
 void ConstantForceLoop::wait(std::chrono::milliseconds time) {
-  if (by_hand_)
+  if (is_stepped_)
     step(static_cast<std::uint64_t>(rate_Hz() * std::chrono::duration<double>(time).count()));
   else
     std::this_thread::sleep_for(time);
@@ -49,7 +49,7 @@ ConstantForceLoop::Answer ConstantForceLoop::answer(const haptics::HandleState& 
       safety_.admit(sample, limits_, rearm_.load(std::memory_order_relaxed), dt_s);
 
   haptics::SafetyLayer::Request wanted;
-  wanted.vibration_P_N = {wish_D_N_.read()};
+  wanted.vibration_P_N = {requested_D_N_.read()};
   const glm::dvec3 position_mm = admitted.hand.X_PT.translation_mm;
   if (has_last_ && !admitted.relocated) wanted.motion.travel_P_mm = {position_mm - last_mm_};
   last_mm_ = position_mm;

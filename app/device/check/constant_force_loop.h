@@ -1,6 +1,6 @@
-// A device at work whose only wish is one constant force, for checking it: through the whole safety layer and the motor
-// gate, as every other force. Frame D; N. push(), rearm(), newest(): one other thread. The force counts as active by
-// nature, so that the books of energy do not withhold it; every other limit holds.
+// A device under one constant force, for checking it: through the whole safety layer and the motor gate, like any other
+// force. Frame D; N. push(), rearm(), newest(): one other thread. The force counts as active by nature, so the
+// passivity controller does not withhold it; every other limit holds.
 #pragma once
 
 #include <atomic>
@@ -18,33 +18,33 @@ class ConstantForceLoop final : public haptics::DeviceLoop {
   struct Seen {
     haptics::HandleState state;
     haptics::SafetyState safety = haptics::SafetyState::off;
-    glm::dvec3 pushed_D_N{0.0};  ///< what was let through …
+    glm::dvec3 pushed_D_N{0.0};  ///< delivered force …
     glm::dvec3 lately_D_N{0.0};  ///< … and its mean over the last quarter of a second
     std::uint32_t tripped = 0;   ///< faults ever, as bits
     std::uint64_t ticks = 0;
   };
 
-  /// Borrows the device. Throws DeviceError when it can not be served at the rate.
+  /// Borrows the device. Throws DeviceError when it does not support the rate.
   ConstantForceLoop(haptics::ServedDevice served, double rate_Hz);
   ~ConstantForceLoop() override { stop(); }
 
-  void push(const glm::dvec3& force_D_N) { wish_D_N_.publish(force_D_N); }
-  /// Lifts what was latched, if its cause is over.
+  void push(const glm::dvec3& force_D_N) { requested_D_N_.publish(force_D_N); }
+  /// Clears latched faults whose cause is over.
   void rearm() { rearm_.fetch_add(1); }
   const Seen& newest() { return newest_.read(); }
 
   const haptics::SafetyLimits& limits() const { return limits_; }
 
-  /// While the device works: by hand that time is stepped, else it passes.
+  /// Lets the device tick for this time: stepped, or by waiting.
   void wait(std::chrono::milliseconds time);
   using DeviceLoop::now_ns;
 
  private:
   Answer answer(const haptics::HandleState& state, const haptics::TickTiming& timing) noexcept override;
 
-  const bool by_hand_;
+  const bool is_stepped_;
   const haptics::SafetyLimits limits_;
-  haptics::Latest<glm::dvec3> wish_D_N_{glm::dvec3(0.0)};
+  haptics::Latest<glm::dvec3> requested_D_N_{glm::dvec3(0.0)};
   haptics::Latest<Seen> newest_;
   std::atomic<std::uint64_t> rearm_{0};
 

@@ -12,13 +12,13 @@ namespace {
 
 void addFacts(CheckReport& report) {
   const haptics::DeviceCapabilities& can = report.device;
-  report.lines.push_back({"peak and lasting force", "as its maker says",
+  report.lines.push_back({"peak and lasting force", "as its maker states",
                           fmt::format("{:.1f} N, {:.2f} N{}", can.peak_force_N, can.continuous_force_N,
-                                      can.force_is_calibrated ? "" : ", never weighed"),
+                                      can.force_is_calibrated ? "" : ", never measured"),
                           Verdict::ok});
 }
 
-/// Until somebody leaves: the steps, in the order in which each may rely on the ones before.
+/// The steps, each relying on the ones before; false: the user left.
 bool runSteps(CheckBench& bench, const DeviceCheckPlan& plan, std::vector<ForceReading>& readings) {
   int number = 0;
   const auto begin = [&](const char* title) { bench.dialogue.say(fmt::format("\n{}. {}", ++number, title)); };
@@ -38,7 +38,7 @@ bool runSteps(CheckBench& bench, const DeviceCheckPlan& plan, std::vector<ForceR
     if (!checkForceSign(bench, sign_is_right)) return false;
     begin("How strong it is");
     if (!sign_is_right) {
-      bench.dialogue.say("  It pushed the wrong way: it shall not push again before that is mended.");
+      bench.dialogue.say("  It pushed the wrong way: it must not push again before that is repaired.");
       bench.report.lines.push_back({"scale of the force", "1.00 ± 0.10", "", Verdict::not_tried});
     } else if (!checkForceScale(bench, readings)) {
       return false;

@@ -1,6 +1,6 @@
-// The whole check of one unit, by whoever owns it: inkwell, deadman, buttons, axes, sign and scale of the force, rate.
-// Ten minutes with a person; every force through safety layer and motor gate; motors off at the end, whatever ends it.
-// Main thread.
+// The whole check of one unit by its owner: inkwell, deadman, buttons, axes, sign and scale of the force, rate. Ten
+// minutes with a person; every force passes the safety layer and the motor gate; motors off at the end, however it
+// ends. Main thread.
 #pragma once
 
 #include "app/device/check/check_report.h"
@@ -22,7 +22,7 @@ struct DeviceCheck {
   std::vector<ForceReading> readings;  ///< of the balance, down positive
 };
 
-/// By hand it takes no time but a person's. Throws DeviceError when the device can not be started.
+/// A stepped device takes no time of its own. Throws DeviceError when the device cannot be started.
 DeviceCheck checkDevice(haptics::ServedDevice served, const DeviceCheckPlan& plan, Owner& owner, Dialogue& dialogue);
 
 /// Of a device of this address.

@@ -26,7 +26,7 @@ std::optional<std::string> Dialogue::line(const std::string& prompt) {
   return text;
 }
 
-bool Dialogue::asked(const std::string& to_do) { return line("  " + to_do + " [Enter] ").has_value(); }
+bool Dialogue::confirm(const std::string& to_do) { return line("  " + to_do + " [Enter] ").has_value(); }
 
 std::optional<char> Dialogue::choice(const std::string& question, std::string_view letters) {
   while (const auto text = line("  " + question + " ")) {
@@ -36,11 +36,11 @@ std::optional<char> Dialogue::choice(const std::string& question, std::string_vi
   return {};
 }
 
-std::optional<double> Dialogue::number(const std::string& question, double least, double most) {
+std::optional<double> Dialogue::number(const std::string& question, double min, double max) {
   while (auto text = line("  " + question + " ")) {
     std::ranges::replace(*text, ',', '.');
-    if (const auto value = parseNumber<double>(*text); value && *value >= least && *value <= most) return value;
-    say(fmt::format("  Give a number from {:g} to {:g}; q leaves.", least, most));
+    if (const auto value = parseNumber<double>(*text); value && *value >= min && *value <= max) return value;
+    say(fmt::format("  Give a number from {:g} to {:g}; q leaves.", min, max));
   }
   return {};
 }

@@ -1,5 +1,5 @@
-// Questions to a person, answered line by line. `q` or the end of the input ends every question with none: the caller
-// lets go and leaves. What is no answer is asked again. One thread.
+// Questions to a person, answered line by line. `q` or the end of the input ends every question without an answer: the
+// caller then lets go and leaves. An invalid answer is asked again. One thread.
 #pragma once
 
 #include <iosfwd>
@@ -14,14 +14,14 @@ class Dialogue {
   Dialogue(std::istream& answers, std::ostream& words) : answers_(answers), words_(words) {}
 
   void say(const std::string& text);
-  /// True once they did it.
-  bool asked(const std::string& to_do);
+  /// True once the user did it.
+  bool confirm(const std::string& to_do);
   /// The first letter of the answer, one of `letters`.
   std::optional<char> choice(const std::string& question, std::string_view letters);
   /// 30.6 or 30,6.
-  std::optional<double> number(const std::string& question, double least, double most);
+  std::optional<double> number(const std::string& question, double min, double max);
 
-  /// They want to leave.
+  /// The user wants to leave.
   bool isOver() const { return over_; }
 
  private:

@@ -10,17 +10,17 @@
 namespace app {
 namespace {
 
-constexpr double kSign_N = 0.5, kLeastForce_N = 0.05;
+constexpr double kSign_N = 0.5, kMinForce_N = 0.05;
 constexpr std::array<double, 3> kSteps_N = {0.3, 0.6, 1.0};
-constexpr double kMostGrams = 2000.0;
-constexpr double kScaleTolerance = 0.1;  ///< of the scale; a kitchen balance and a hand are no better than 5 %
+constexpr double kMaxGrams = 2000.0;
+constexpr double kScaleTolerance = 0.1;  ///< a kitchen balance and a hand have 5 %
 
-/// No more than four fifths of what may be given.
+/// At most four fifths of the force limit.
 double within(const CheckBench& bench, double force_N) {
   return std::min(force_N, 0.8 * bench.hand.limits().peak_force_N);
 }
 
-/// What a person may answer; the first three are the ways it pushes.
+/// Possible answers; the first three are the directions pushed.
 struct Way {
   char answer;
   const char* name;
@@ -39,7 +39,7 @@ struct Step {
   const char* way = "";
 };
 
-/// Down first: a balance is made for that.
+/// Down first, as a balance measures.
 std::vector<Step> stepsOf(const CheckBench& bench) {
   std::vector<Step> steps;
   for (const double force_N : kSteps_N) steps.push_back({-within(bench, force_N), "down"});
@@ -51,7 +51,7 @@ std::vector<Step> stepsOf(const CheckBench& bench) {
 
 bool checkForceSign(CheckBench& bench, bool& sign_is_right) {
   sign_is_right = true;
-  if (!bench.asked(
+  if (!bench.confirm(
           OwnerTask::hold,
           fmt::format("It will push with {:.1f} N, as much as 50 g weigh. Hold the handle loosely in the middle.",
                       within(bench, kSign_N))))
@@ -70,7 +70,7 @@ bool checkForceSign(CheckBench& bench, bool& sign_is_right) {
     sign_is_right = sign_is_right && is_right;
     bench.saw(std::string("pushes ") + side.name, side.name,
               fmt::format("{}, moved {:+.1f} mm", std::ranges::find(kWays, *answer, &Way::answer)->name, moved_mm) +
-                  (steady ? "" : ", the safety layer let only " + newtons(pushed.lately_D_N)),
+                  (steady ? "" : ", the safety layer delivered only " + newtons(pushed.lately_D_N)),
               is_right);
     if (*answer != 'n' && std::ranges::count(bench.report.proved, Proof::moves) == 0)
       bench.report.proved.push_back(Proof::moves);
@@ -83,17 +83,17 @@ bool checkForceScale(CheckBench& bench, std::vector<ForceReading>& readings) {
   Dialogue& dialogue = bench.dialogue;
   dialogue.say("  Stand a cup with 200 g of water on a kitchen balance, and tape the handle to it from above, so that");
   dialogue.say("  it can press and lift. Minus where the balance shows less than at first.");
-  const auto nothing_g = dialogue.number("No force yet. What does the balance show, in g?", -kMostGrams, kMostGrams);
+  const auto nothing_g = dialogue.number("No force yet. What does the balance show, in g?", -kMaxGrams, kMaxGrams);
   if (!nothing_g) return false;
   for (const Step& step : stepsOf(bench)) {
     pushUntilSteady(bench, step.up_N * bench.axes.up_D);
     const auto shown_g = dialogue.number(
-        fmt::format("It pushes {} with {:.1f} N. What does it show, in g?", step.way, std::abs(step.up_N)), -kMostGrams,
-        kMostGrams);
+        fmt::format("It pushes {} with {:.1f} N. What does it show, in g?", step.way, std::abs(step.up_N)), -kMaxGrams,
+        kMaxGrams);
     const double given_N = -glm::dot(bench.hand.newest().lately_D_N, bench.axes.up_D);
     letGo(bench);
     if (!shown_g) return false;
-    if (std::abs(given_N) < kLeastForce_N) {
+    if (std::abs(given_N) < kMinForce_N) {
       bench.saw(fmt::format("{} with {:.1f} N", step.way, std::abs(step.up_N)), "a force",
                 "the safety layer let none through", false);
       continue;

@@ -1,5 +1,5 @@
-// Who holds the device while it is checked. A person needs no more than the words they read; a simulated hand is
-// perform here what to do.
+// The person who holds the device while it is checked. A person follows the displayed text; a simulated owner is called
+// here.
 #pragma once
 
 namespace app {

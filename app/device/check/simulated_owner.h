@@ -1,5 +1,5 @@
-// A simulated hand that does at once what the check asks of its owner: goes there no faster than 250 mm/s, presses,
-// lets go. Frame D, mm. perform(): one thread; the script: the device's, which must not outlive this.
+// A simulated owner that does at once what the check asks: moves there at up to 250 mm/s, presses, lets go. Frame D,
+// mm. perform(): one thread; the script: the device's, which must not outlive this object.
 #pragma once
 
 #include <atomic>

@@ -19,11 +19,11 @@ std::string bitsOf(std::uint32_t buttons) { return buttons == 0 ? "none" : fmt::
 bool checkInkwell(CheckBench& bench) {
   if (!bench.device.has_inkwell) {
     bench.sawNone("inkwell");
-    return bench.asked(OwnerTask::hold, "Take the handle into your hand.");
+    return bench.confirm(OwnerTask::hold, "Take the handle into your hand.");
   }
-  if (!bench.asked(OwnerTask::rest, "Put the stylus into its inkwell.")) return false;
+  if (!bench.confirm(OwnerTask::rest, "Put the stylus into its inkwell.")) return false;
   const ConstantForceLoop::Seen inside = stateAtRest(bench);
-  if (!bench.asked(OwnerTask::hold, "Take it out and hold it in the middle of its room.")) return false;
+  if (!bench.confirm(OwnerTask::hold, "Take it out and hold it in the middle of its room.")) return false;
   const ConstantForceLoop::Seen outside = stateAtRest(bench);
   bench.saw("inkwell says docked", "yes, then no", yesNo(inside.state.docked, outside.state.docked),
             inside.state.docked && !outside.state.docked, Proof::inkwell);
@@ -37,24 +37,24 @@ bool checkDeadman(CheckBench& bench) {
     bench.sawNone("deadman");
     return true;
   }
-  if (!bench.asked(OwnerTask::hold, "Hold the stylus as you would at work.")) return false;
+  if (!bench.confirm(OwnerTask::hold, "Hold the stylus as you would at work.")) return false;
   const bool held = stateAtRest(bench).state.held;
-  if (!bench.asked(OwnerTask::let_go, "Let go of it.")) return false;
+  if (!bench.confirm(OwnerTask::let_go, "Let go of it.")) return false;
   const bool left = stateAtRest(bench).state.held;
-  if (!bench.asked(OwnerTask::hold, "Hold it again.")) return false;
+  if (!bench.confirm(OwnerTask::hold, "Hold it again.")) return false;
   bench.saw("deadman feels a hand", "yes, then no", yesNo(held, left), held && !left, Proof::deadman);
   return true;
 }
 
 bool checkButtons(CheckBench& bench) {
   const std::uint32_t before = bench.hand.newest().state.buttons;
-  if (!bench.asked(OwnerTask::first_button, "Hold the first button down.")) return false;
+  if (!bench.confirm(OwnerTask::first_button, "Hold the first button down.")) return false;
   const std::uint32_t first = stateAtRest(bench).state.buttons;
-  if (!bench.asked(OwnerTask::second_button,
+  if (!bench.confirm(OwnerTask::second_button,
                    "Hold the second button down, the first one not; if there is none, nothing."))
     return false;
   const std::uint32_t second = stateAtRest(bench).state.buttons;
-  if (!bench.asked(OwnerTask::hold, "Let the buttons go.")) return false;
+  if (!bench.confirm(OwnerTask::hold, "Let the buttons go.")) return false;
   const bool is_right = before == 0 && first == 1 && (second == 2 || second == 0);
   bench.saw("buttons: free, first, second", "none, bits 1, bits 2",
             bitsOf(before) + ", " + bitsOf(first) + ", " + bitsOf(second), is_right);
@@ -62,20 +62,20 @@ bool checkButtons(CheckBench& bench) {
 }
 
 bool checkAxes(CheckBench& bench) {
-  if (!bench.asked(OwnerTask::upper_corner,
+  if (!bench.confirm(OwnerTask::upper_corner,
                    "Bring the handle to the right, upward and towards you, as far as it goes easily."))
     return false;
   const glm::dvec3 upper_mm = stateAtRest(bench).state.X_DH.translation_mm;
-  if (!bench.asked(OwnerTask::lower_corner, "Now to the left, downward and away from you.")) return false;
+  if (!bench.confirm(OwnerTask::lower_corner, "Now to the left, downward and away from you.")) return false;
   const glm::dvec3 lower_mm = stateAtRest(bench).state.X_DH.translation_mm;
-  if (!bench.asked(OwnerTask::hold, "Bring it back to the middle.")) return false;
+  if (!bench.confirm(OwnerTask::hold, "Bring it back to the middle.")) return false;
   stateAtRest(bench);
 
   const glm::dvec3 way_mm = upper_mm - lower_mm;
   const glm::dvec3 found_mm(glm::dot(way_mm, bench.axes.right_D), glm::dot(way_mm, bench.axes.up_D),
                             glm::dot(way_mm, bench.axes.towards_D));
-  constexpr double kLeast_mm = 20.0;
-  const bool is_right = found_mm.x > kLeast_mm && found_mm.y > kLeast_mm && found_mm.z > kLeast_mm;
+  constexpr double kMin_mm = 20.0;
+  const bool is_right = found_mm.x > kMin_mm && found_mm.y > kMin_mm && found_mm.z > kMin_mm;
   bench.saw("from corner to corner: right, up, towards you", "more than 20 mm each",
             fmt::format("{:.0f}, {:.0f}, {:.0f} mm", found_mm.x, found_mm.y, found_mm.z), is_right, Proof::axes);
   return true;

@@ -9,38 +9,38 @@ using haptics::Fault;
 using haptics::SafetyState;
 using haptics::TripCounter;
 
-TEST(TripReporter, SaysATripOnceEachTimeItHappens) {
-  TripReporter teller;
+TEST(TripReporter, ReportsATripOnceEachTimeItHappens) {
+  TripReporter reporter;
   TripCounter trips;
-  EXPECT_TRUE(teller.look(trips, SafetyState::active).empty());
+  EXPECT_TRUE(reporter.update(trips, SafetyState::active).empty());
   trips.add(7, Fault::buzz);
-  const auto first = teller.look(trips, SafetyState::active);
+  const auto first = reporter.update(trips, SafetyState::active);
   ASSERT_EQ(first.size(), 1u);
   EXPECT_NE(first[0].find("shook"), std::string::npos);
   EXPECT_NE(first[0].find("(tick 7)"), std::string::npos);
   trips.add(8, Fault::buzz);
-  EXPECT_TRUE(teller.look(trips, SafetyState::active).empty()) << "it goes on";
+  EXPECT_TRUE(reporter.update(trips, SafetyState::active).empty()) << "it goes on";
   trips.add(9, Fault::none);
   trips.add(10, Fault::buzz);
-  const auto second = teller.look(trips, SafetyState::active);
+  const auto second = reporter.update(trips, SafetyState::active);
   ASSERT_EQ(second.size(), 1u);
   EXPECT_NE(second[0].find("2 times"), std::string::npos);
 }
 
-TEST(TripReporter, CountsLimitsWithoutAWord) {
-  TripReporter teller;
+TEST(TripReporter, CountsLimitsWithoutReportingThem) {
+  TripReporter reporter;
   TripCounter trips;
   trips.add(1, Fault::clamped | Fault::slewed);
-  EXPECT_TRUE(teller.look(trips, SafetyState::active).empty());
+  EXPECT_TRUE(reporter.update(trips, SafetyState::active).empty());
   EXPECT_EQ(tripsText(trips), "clamped 1, slewed 1");
   EXPECT_EQ(tripsText({}), "none");
 }
 
-TEST(TripReporter, SaysWhatAnotherStateMeans) {
-  TripReporter teller;
-  EXPECT_EQ(teller.look({}, SafetyState::ready).size(), 1u);
-  EXPECT_TRUE(teller.look({}, SafetyState::ready).empty());
-  EXPECT_EQ(teller.look({}, SafetyState::active).size(), 1u);
+TEST(TripReporter, ReportsWhatAnotherStateMeans) {
+  TripReporter reporter;
+  EXPECT_EQ(reporter.update({}, SafetyState::ready).size(), 1u);
+  EXPECT_TRUE(reporter.update({}, SafetyState::ready).empty());
+  EXPECT_EQ(reporter.update({}, SafetyState::active).size(), 1u);
 }
 
 }  // namespace

@@ -63,11 +63,11 @@ TEST(CaseReach, FindsCornersOutOfReachAndTheSmallestShiftThatHelps) {
   // Moved until it just fails, less than the next step brings it back; far away nothing does.
   while (reachOf(rig, patient, kOmniGeometry).corners_out == 0) rig.X_WP.translation_mm.z += 2.0;
   const Reach reach = reachOf(rig, patient, kOmniGeometry);
-  ASSERT_TRUE(reach.helps);
-  EXPECT_EQ(reach.helps->turn_deg, 0.0);
-  EXPECT_LE(glm::length(reach.helps->by_W_mm), 5.0 + 1e-9);
+  ASSERT_TRUE(reach.suggestion);
+  EXPECT_EQ(reach.suggestion->turn_deg, 0.0);
+  EXPECT_LE(glm::length(reach.suggestion->by_W_mm), 5.0 + 1e-9);
   EXPECT_TRUE(has(caseRemarks(rig, patient, 2.0, "omni"), "stand the patient 5 mm"));
-  rig.X_WP.translation_mm += reach.helps->by_W_mm;
+  rig.X_WP.translation_mm += reach.suggestion->by_W_mm;
   EXPECT_EQ(reachOf(rig, patient, kOmniGeometry).corners_out, 0);
 
   rig.X_WP.translation_mm = {0.0, 0.0, 300.0};

@@ -23,8 +23,8 @@ TEST(Dialogue, IsOverWithQAndStaysOver) {
   std::istringstream answers("\nq\n5\n5\n");
   std::ostringstream words;
   Dialogue dialogue(answers, words);
-  EXPECT_TRUE(dialogue.asked("Do it."));
-  EXPECT_FALSE(dialogue.asked("Do it."));
+  EXPECT_TRUE(dialogue.confirm("Do it."));
+  EXPECT_FALSE(dialogue.confirm("Do it."));
   EXPECT_TRUE(dialogue.isOver());
   EXPECT_FALSE(dialogue.number("How much?", 0.0, 10.0));
   EXPECT_FALSE(dialogue.choice("Which?", "5"));
