@@ -15,7 +15,7 @@ namespace render {
 void throwIfGlError(std::string_view where) {
   // Core since OpenGL 4.5; never set in contexts without reset notification.
   if (glGetGraphicsResetStatus() != GL_NO_ERROR)
-    throw ContextLost("the graphics card was reset, " + std::string(where) + "; create the renderer again");
+    throw ContextLost("the graphics card was reset, " + std::string(where) + "; restart the program");
   if (const GLenum code = glGetError(); code != GL_NO_ERROR)
     throw GpuError("OpenGL error " + std::to_string(code) + ", " + std::string(where) +
                    ": see the driver's log; update the graphics driver");

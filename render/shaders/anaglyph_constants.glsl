@@ -1,6 +1,7 @@
-// Anaglyph colours: rows of the matrices from linear light of each eye to linear light of the screen. Only #defines: C++
-// includes this file too. Least-squares projection for an LCD and ordinary red-cyan filters: Dubois, "Conversion of a
-// Stereo Pair to Anaglyph with the Least-Squares Projection Method" (2009). Rows of left and right sum to 1: white stays white.
+// Anaglyph colours: rows of the matrices from linear light of each eye to linear light of the screen. Only #defines:
+// C++ includes this file too. Least-squares projection for an LCD and ordinary red-cyan filters: Dubois, "Conversion of
+// a Stereo Pair to Anaglyph with the Least-Squares Projection Method" (2009). Rows of left and right sum to 1: white
+// stays white.
 
 #define DUBOIS_LEFT_RED    0.437,  0.449,  0.164
 #define DUBOIS_LEFT_GREEN -0.062, -0.062, -0.024

@@ -1,7 +1,7 @@
 #version 450
-// 1 where antialiasing draws the pixel again with 2x2 samples. The inverse distance of a plane is linear in the image, so
-// the second difference is zero for any slope and large at a step; at the image border it is taken as zero.
-// Twin: render/cpu/edges.h.
+// 1 where antialiasing draws the pixel again with 2x2 samples. The inverse distance of a plane is linear in the image,
+// so the second difference is zero for any slope and large at a step; at the image border it is taken as zero. Twin:
+// render/cpu/edges.h.
 #include "shared_constants.glsl"
 #include "light_constants.glsl"
 

@@ -1,5 +1,5 @@
-// Linked lists of transparent fragments, one per pixel. Yang et al., "Real-time concurrent linked list construction on the
-// GPU" (EGSR 2010).
+// Linked lists of transparent fragments, one per pixel. Yang et al., "Real-time concurrent linked list construction on
+// the GPU" (EGSR 2010).
 #include "shared_constants.glsl"
 
 const uint kEnd = 0xffffffffu;

@@ -47,8 +47,8 @@ vec3 ambientSpecular(vec3 f0, float roughness, float n_v) {
   return f0 * scale_bias.x + scale_bias.y;
 }
 
-// Multi-bounce ambient light: Jimenez et al., "Practical real-time strategies for accurate indirect occlusion" (SIGGRAPH
-// 2016), equation 8.
+// Multi-bounce ambient light: Jimenez et al., "Practical real-time strategies for accurate indirect occlusion"
+// (SIGGRAPH 2016), equation 8.
 vec3 bouncedAmbient(float open, vec3 albedo) {
   const vec2 kA = vec2(BOUNCE_A), kB = vec2(BOUNCE_B), kC = vec2(BOUNCE_C);
   vec3 a = kA.x * albedo + kA.y, b = kB.x * albedo + kB.y, c = kC.x * albedo + kC.y;

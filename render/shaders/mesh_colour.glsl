@@ -1,4 +1,5 @@
-// Shading of skin, gingiva and steel. Both sides are drawn; the face is cut away around the line from the eyes to the site.
+// Shading of skin, gingiva and steel. Both sides are drawn; the face is cut away around the line from the eyes to the
+// site.
 #include "part_block.glsl"
 #include "occlusion.glsl"
 

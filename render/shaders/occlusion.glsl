@@ -1,5 +1,5 @@
-// Ambient occlusion and lamp shadow from the coarse ambient map: five cones for the room (after Crassin et al. 2011, voxel
-// cone tracing), one march towards the lamp.
+// Ambient occlusion and lamp shadow from the coarse ambient map: five cones for the room (after Crassin et al. 2011,
+// voxel cone tracing), one march towards the lamp.
 #include "volume_block.glsl"
 #include "lighting.glsl"
 
@@ -11,8 +11,8 @@ float coneOpenness(vec3 index, vec3 direction, float first) {
   return (1.0 - near) * (1.0 - CONE_SECOND_SHADE * middle) * (1.0 - CONE_THIRD_SHADE * far);
 }
 
-// Open share of the room: four cones at 45 degrees and one upright. `first`: voxels to the first sample, beyond the blur
-// of the surface's own cells.
+// Open share of the room: four cones at 45 degrees and one upright. `first`: voxels to the first sample, beyond the
+// blur of the surface's own cells.
 float openness(vec3 index, vec3 normal, float first) {
   vec3 side = normalize(abs(normal.x) < 0.7 ? cross(normal, vec3(1, 0, 0)) : cross(normal, vec3(0, 1, 0)));
   vec3 other = cross(normal, side);

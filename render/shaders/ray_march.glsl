@@ -1,5 +1,5 @@
-// Sampling of a ray through the volume, shared by surface and translucent view: samples lie at t = k * step from the entry,
-// with or without skipping of empty space, so that both give the same image. Lengths in voxels.
+// Sampling of a ray through the volume, shared by surface and translucent view: samples lie at t = k * step from the
+// entry, with or without skipping of empty space, so that both give the same image. Lengths in voxels.
 #include "volume_block.glsl"
 
 const float kGuard = 1e-3;  // a skip ends this much early, so that rounding cannot carry it past an occupied brick

@@ -1,5 +1,5 @@
-// What a pixel of the output shows: which eye, which pixel of it, or black. Twin of display/stereo_layout.h. Pixels count
-// from the top left.
+// What a pixel of the output shows: which eye, which pixel of it, or black. Twin of display/stereo_layout.h. Pixels
+// count from the top left.
 #include "anaglyph_constants.glsl"
 
 struct SourcePixel {
