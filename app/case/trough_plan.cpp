@@ -175,8 +175,8 @@ glm::dvec3 archDirection_P(const CtVolume& ct, const assets::OperativeSite& site
         if (!isOtherTooth(ct, ct.grid.index({i, j, k}), site.fdi) || glm::distance(p, site.centre_P_mm) > reach_mm)
           continue;
         sum += p;
-        const glm::dvec2 beside(p - site.centre_P_mm);
-        spread += glm::outerProduct(beside, beside);
+        const glm::dvec2 offset(p - site.centre_P_mm);
+        spread += glm::outerProduct(offset, offset);
         count += 1.0;
       }
   if (count == 0.0) return usual;
@@ -189,8 +189,8 @@ glm::dvec3 archDirection_P(const CtVolume& ct, const assets::OperativeSite& site
   const double middle = 0.5 * (spread[0][0] + spread[1][1]);
   const double half = glm::length(glm::dvec2(0.5 * (spread[0][0] - spread[1][1]), spread[0][1]));
   if (middle + half < kMinElongation * (middle - half)) return usual;
-  const double turn = 0.5 * std::atan2(2.0 * spread[0][1], spread[0][0] - spread[1][1]);
-  const glm::dvec3 row(std::cos(turn), std::sin(turn), 0.0);
+  const double angle = 0.5 * std::atan2(2.0 * spread[0][1], spread[0][0] - spread[1][1]);
+  const glm::dvec3 row(std::cos(angle), std::sin(angle), 0.0);
   return glm::dot(row, usual) < 0.0 ? -row : row;
 }
 

@@ -102,9 +102,8 @@ void keepFalconScale(const CheckOptions& options, const haptics::FalconForceScal
 
 int check(const CheckOptions& options) {
   calibration::OutputFile report(options.report, options.force);
-  const std::string asked = options.address.empty() ? firstRealDevice() : options.address;
   haptics::FalconForceScale scale;
-  const Unit unit = unitAt(asked, options, scale);
+  const Unit unit = unitAt(options.address.empty() ? firstRealDevice() : options.address, options, scale);
   const std::string address = unit.opened.address;
   endQuestionsOnInterrupt();
   Dialogue dialogue(std::cin, std::cerr);

@@ -96,22 +96,22 @@ nlohmann::json jsonOf(const assets::Patient& patient) {
 
 std::string wordsOn(const assets::Patient& patient) {
   const assets::VolumeGrid& grid = patient.ct.grid;
-  std::string words = fmt::format("patient      {}\nvolume       {} x {} x {} voxels of {:.3f} mm\n", patient.title,
-                                  grid.size.x, grid.size.y, grid.size.z, grid.spacing_mm);
+  std::string text = fmt::format("patient      {}\nvolume       {} x {} x {} voxels of {:.3f} mm\n", patient.title,
+                                 grid.size.x, grid.size.y, grid.size.z, grid.spacing_mm);
   if (const auto& site = patient.site)
-    words += fmt::format("site         FDI {}, {}, at ({:.1f}, {:.1f}, {:.1f}) mm\n", site->fdi,
-                         assets::toothName(site->fdi), site->centre_P_mm.x, site->centre_P_mm.y, site->centre_P_mm.z);
+    text += fmt::format("site         FDI {}, {}, at ({:.1f}, {:.1f}, {:.1f}) mm\n", site->fdi,
+                        assets::toothName(site->fdi), site->centre_P_mm.x, site->centre_P_mm.y, site->centre_P_mm.z);
   else
-    words += "site         no third molar labelled here\n";
+    text += "site         no third molar labelled here\n";
   for (const auto& [fdi, volume_mm3] : assets::toothVolumes_mm3(patient.ct))
-    words += fmt::format("  tooth {}         {:9.1f} mm³\n", fdi, volume_mm3);
+    text += fmt::format("  tooth {}         {:9.1f} mm³\n", fdi, volume_mm3);
   const Volumes_mm3 volumes = tissueVolumes(patient.ct);
   for (std::size_t l = 1; l < volumes.size(); ++l)
-    if (volumes[l] > 0.0) words += fmt::format("  {:16} {:9.1f} mm³\n", assets::kTissues[l].name, volumes[l]);
+    if (volumes[l] > 0.0) text += fmt::format("  {:16} {:9.1f} mm³\n", assets::kTissues[l].name, volumes[l]);
   if (!patient.mandibular_canal_P_mm.empty())
-    words += fmt::format("canal        {:.1f} mm long, radius {:.1f} mm\n", mandibularCanalLength_mm(patient),
-                         patient.mandibular_canal_radius_mm);
-  return words;
+    text += fmt::format("canal        {:.1f} mm long, radius {:.1f} mm\n", mandibularCanalLength_mm(patient),
+                        patient.mandibular_canal_radius_mm);
+  return text;
 }
 
 /// LOW:HIGH in HU.

@@ -32,7 +32,7 @@ void writePages(const std::string& name, const CommandHelp& command, const Manua
 }
 
 int manual(const CommandLine& molar, const ManualOptions& options) {
-  CommandHelp words = molar.words();
+  CommandHelp words = molar.help();
   std::string name = "molar";
   if (!options.into.empty()) {
     writePages(name, words, options);
@@ -66,7 +66,7 @@ void addManual(CommandLine& molar) {
 void addCompletion(CommandLine& molar) {
   CommandLine& command = molar.command("completion", "Completion script for bash: source <(molar completion)");
   command.does([&molar] {
-    std::fputs(bashCompletion("molar", molar.words()).c_str(), stdout);
+    std::fputs(bashCompletion("molar", molar.help()).c_str(), stdout);
     return 0;
   });
 }

@@ -33,7 +33,7 @@ struct PsychophysicsOptions {
 };
 
 /// results.csv and results.json.
-std::string beside(const std::string& csv, const char* ending) {
+std::string withEnding(const std::string& csv, const char* ending) {
   return std::filesystem::path(csv).replace_extension(ending).string();
 }
 
@@ -54,7 +54,7 @@ calibration::Rig rigFor(const PsychophysicsOptions& options, const ProbeSite& si
 
 struct AtTheWindow {
   bool complete = false;  ///< every trial was answered
-  int answer = 0;         ///< the program's: 1 where a recording was asked for and is not whole
+  int answer = 0;         ///< 1 if a recording was requested and is not whole
 };
 
 /// At the window, blind, until the last trial or Esc.
@@ -85,8 +85,8 @@ int run(const PsychophysicsOptions& options) {
   if (!options.record.empty()) refuseUnlessRecordable(options.record, options.force);
   const Protocol protocol = protocolFromToml(assets::readSmallFile(options.protocol), options.protocol);
   if (protocol.bone.kind == BoneChoice::Kind::volume) refuseSameFile(options.out, {protocol.bone.path});
-  calibration::OutputFile summary(beside(options.out, ".json"), options.force);
-  calibration::OutputFile picture(beside(options.out, ".png"), options.force);
+  calibration::OutputFile summary(withEnding(options.out, ".json"), options.force);
+  calibration::OutputFile figure(withEnding(options.out, ".png"), options.force);
   const ProbedBone bone = probedBone(protocol);
   TrialTable table(options.out, options.force, protocol);
 
@@ -113,7 +113,7 @@ int run(const PsychophysicsOptions& options) {
   }
   const Outcome outcome = outcomeOf(protocol, *experiment, std::move(trials), ended.complete, options.seed);
   summary.commit(summaryJson(protocol, outcome, options.seed, options.observer));
-  if (!outcome.trials.empty()) drawChart(chartOf(protocol, outcome), picture);
+  if (!outcome.trials.empty()) drawChart(chartOf(protocol, outcome), figure);
   std::fputs(outcomeText(protocol, outcome).c_str(), stderr);
   return ended.answer;
 }
@@ -125,8 +125,7 @@ void addPsychophysics(CommandLine& molar) {
   CommandLine& command =
       molar.command("psychophysics", "Which of two feels harder? Blind comparisons by protocol: CSV, JSON");
   command.option("PROTOCOL", options->protocol, "Experiment, TOML (app/psychophysics/example.toml)").required();
-  command.option("--out", options->out, "A row a trial, .csv; summary and picture go beside it as .json, .png")
-      .required();
+  command.option("--out", options->out, "A row a trial, .csv; summary and figure next to it as .json, .png").required();
   command.option("--observer", options->observer, "Who answers: simulated, or a person at the window by keyboard")
       .oneOf({"simulated", "keyboard"})
       .showsDefault();

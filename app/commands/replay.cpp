@@ -58,7 +58,7 @@ void addMetrics(CommandLine& molar) {
   auto json_only = std::make_shared<bool>(false);
   CommandLine& command = molar.command("metrics", "Numbers of a recorded session, JSON");
   command.option("SESSION", *session, "Session file").required();
-  command.flag("--json", *json_only, "JSON alone, without the words for people on stderr");
+  command.flag("--json", *json_only, "JSON only, without the text on stderr");
   command.does([session, json_only] {
     const SessionMetrics metrics = metricsOf(*session);
     std::printf("%s\n", metricsJson(metrics).c_str());

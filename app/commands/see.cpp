@@ -95,12 +95,12 @@ int see(const SeeOptions& options) {
     renderer.setScan({std::move(patient.ct.hounsfield), volume.solid, std::move(patient.mandibular_canal_P_mm),
                       patient.mandibular_canal_radius_mm});
   renderer.renderEye(frame, eye);
-  const render::Image picture = renderer.readEye(eye);
+  const render::Image image = renderer.readEye(eye);
   const glm::dmat4 clip_from_P = render::clipFromPatient(frame.rig, render::eyeView(frame.rig, eye));
   renderer.throwIfError();
 
   // All files are written before any is committed.
-  calibration::writePng(out.temporaryPath(), {picture.w, picture.h}, picture.rgba);
+  calibration::writePng(out.temporaryPath(), {image.w, image.h}, image.rgba);
   if (matrices) matrices->write(matricesText(clip_from_P, frame.rig.screen.px));
   if (depth) {
     const render::DistanceImage distance = renderer.readDistance(eye);
@@ -127,7 +127,7 @@ void addSee(CommandLine& molar) {
       .option("--tool-at", options->tool_at_mm, "x,y,z: position of the slices, mm in P (default: the operated tooth)")
       .numbers(3)
       .from(-1e4, 1e4);
-  command.flag("--bone-only", options->bone_only, "Without face and gum");
+  command.flag("--bone-only", options->bone_only, "Without face and gingiva");
   command.option("--out", options->out, "Image, .png").required();
   command.option("--depth", options->depth, "Distances along the rays in mm, .nrrd");
   command.option("--matrices", options->matrices, "clip_from_P and size, .json");

@@ -19,7 +19,7 @@ constexpr std::array<KeyMeaning, 5> kMovements = {{
     {"Drag", "move in the screen's plane"},
     {"Wheel", "move nearer or farther"},
     {"Arrows", "tilt the handpiece"},
-    {"Q, E", "turn the handpiece"},
+    {"Q, E", "rotate the handpiece"},
 }};
 
 constexpr bool isInOrder() {

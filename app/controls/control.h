@@ -46,7 +46,7 @@ inline constexpr std::array<ControlMeaning, 12> kControls = {{
     {Control::snapshot, "snapshot", "P", "snapshot", ControlValue::none, false},
     {Control::stop, "stop", "X", "emergency stop: motors off", ControlValue::none, false},
     {Control::arm, "arm", "R", "arm again after a fault", ControlValue::none, false},
-    {Control::home, "home", "H", "the handle stands at home", ControlValue::none, false},
+    {Control::home, "home", "H", "the handle is at home", ControlValue::none, false},
     {Control::end, "end", "Esc", "end", ControlValue::none, false},
     {Control::layer, "layer", "", "show or hide a layer", ControlValue::layer, false},
     {Control::face, "face", "", "how much of the face is seen", ControlValue::percent, false},

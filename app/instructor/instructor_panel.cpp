@@ -188,15 +188,15 @@ void drawHand(const RehearsalStatus& s, Requests& requests) {
   heading("Hand");
   using haptics::SafetyState;
   const SafetyState state = s.tick.state;
-  const haptics::StateText& words = haptics::textOf(state);
+  const haptics::StateText& text = haptics::textOf(state);
   row("Device", s.device);
   drawCalibration(s);
-  row("State", std::string(words.key),
+  row("State", std::string(text.key),
       state == SafetyState::active                               ? kGood
       : state == SafetyState::fault || state == SafetyState::off ? kBad
                                                                  : kWarn);
   if (ImGui::IsItemHovered())
-    ImGui::SetTooltip("%s\n%s", std::string(words.what).c_str(), std::string(words.next).c_str());
+    ImGui::SetTooltip("%s\n%s", std::string(text.what).c_str(), std::string(text.next).c_str());
   if (s.tick.hand.motor_heat > 0.0) {
     const double heat = s.tick.hand.motor_heat;
     row("Motors", fmt::format("{:.0f} % of their heat", 100.0 * heat), grade(heat, 0.5, 0.8));

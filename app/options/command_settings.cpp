@@ -122,25 +122,25 @@ void refuseUnlessAdmitted(const haptics::Command& command) {
 
 void refuseUnlessStable(const haptics::Command& command, double device_damping_Ns_per_mm, double rate_Hz) {
   refuseUnlessAdmitted(command);
-  const double most =
+  const double max_N_per_mm =
       haptics::passiveStiffness_N_per_mm(device_damping_Ns_per_mm, command.law.damping_Ns_per_mm, 1.0 / rate_Hz);
-  const haptics::Admission admission = haptics::admissible(command.law, command.tool.head, most);
+  const haptics::Admission admission = haptics::admissible(command.law, command.tool.head, max_N_per_mm);
   if (admission.answer != haptics::Admission::Answer::too_stiff) return;
   // Rounded down, so that the advised value is admissible.
   const double nearest = std::floor(1000.0 * admission.nearest) / 1000.0;
   throw UsageError(fmt::format(
       "law {}: with {} it is up to {:.3g} N/mm stiff, at {:g} Hz the device holds {:.3g} N/mm (2b/T): "
       "lower {} to {:g} {} or raise --rate",
-      lawName(command.law.kind), textOf(command.tool.head), admission.slope_N_per_mm, rate_Hz, most,
+      lawName(command.law.kind), textOf(command.tool.head), admission.slope_N_per_mm, rate_Hz, max_N_per_mm,
       admission.lower ? admission.lower->key : "its gain", nearest, admission.lower ? admission.lower->unit : ""));
 }
 
 haptics::Command loweredUntilStable(haptics::Command command, double device_damping_Ns_per_mm, double rate_Hz) {
-  const double most =
+  const double max_N_per_mm =
       haptics::passiveStiffness_N_per_mm(device_damping_Ns_per_mm, command.law.damping_Ns_per_mm, 1.0 / rate_Hz);
   // A law has only a few gains that make it stiff.
   for (int gain = 0; gain < 4; ++gain) {
-    const haptics::Admission admission = haptics::admissible(command.law, command.tool.head, most);
+    const haptics::Admission admission = haptics::admissible(command.law, command.tool.head, max_N_per_mm);
     if (admission.answer != haptics::Admission::Answer::too_stiff || !admission.lower) break;
     admission.lower->of(command.law) = std::floor(1000.0 * admission.nearest) / 1000.0;
   }

@@ -60,9 +60,9 @@ void PictureOption::addTo(CommandLine& command) {
 }
 
 std::optional<Backend> PictureOption::backend() const {
-  const std::optional<Backend> asked = kBackends.at(renderer_);
+  const std::optional<Backend> requested = kBackends.at(renderer_);
   // Triangles of bone are OpenGL's.
-  return !asked && kModes.at(mode_) == ViewMode::mesh ? Backend::gl_fragment : asked;
+  return !requested && kModes.at(mode_) == ViewMode::mesh ? Backend::gl_fragment : requested;
 }
 
 void PictureOption::apply(render::Frame& frame) const {

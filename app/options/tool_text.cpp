@@ -37,23 +37,23 @@ const std::vector<Form>& forms() {
   return kKnown;
 }
 
-/// Reads `1.5,4`. Errors begin with `asked` and name `pattern`.
-std::vector<double> measuresIn(std::string_view text, const std::vector<Measure>& measures, const std::string& asked,
+/// Reads `1.5,4`. Errors begin with `option` and name `pattern`.
+std::vector<double> measuresIn(std::string_view text, const std::vector<Measure>& measures, const std::string& option,
                                const std::string& pattern) {
   const std::string give = ", give " + pattern + " in mm";
   std::vector<double> values;
   for (const std::string_view part : split(text)) {
-    if (values.size() == measures.size()) throw UsageError(asked + ": there are too many numbers" + give);
+    if (values.size() == measures.size()) throw UsageError(option + ": there are too many numbers" + give);
     const Measure& measure = measures[values.size()];
     const auto value = parseNumber<double>(part);
-    if (!value) throw UsageError(asked + ": the " + measure.name + " is not a number" + give);
+    if (!value) throw UsageError(option + ": the " + measure.name + " is not a number" + give);
     if (*value < measure.min_mm || *value > measure.max_mm)
-      throw UsageError(fmt::format("{}: the {} is out of range, give {} to {} mm", asked, measure.name, measure.min_mm,
+      throw UsageError(fmt::format("{}: the {} is out of range, give {} to {} mm", option, measure.name, measure.min_mm,
                                    measure.max_mm));
     values.push_back(*value);
   }
   if (values.size() < measures.size())
-    throw UsageError(asked + ": the " + measures[values.size()].name + " is missing" + give);
+    throw UsageError(option + ": the " + measures[values.size()].name + " is missing" + give);
   return values;
 }
 

@@ -90,7 +90,7 @@ glm::ivec2 imageSize(const std::string& text) {
   glm::ivec2 px{0};
   if (edges.size() == 2) px = {parseNumber<int>(edges[0]).value_or(0), parseNumber<int>(edges[1]).value_or(0)};
   if (px.x < 16 || px.y < 16 || px.x > 16384 || px.y > 16384)
-    throw UsageError("--size " + text + ": not a picture size, give WIDTHxHEIGHT, each 16 to 16384");
+    throw UsageError("--size " + text + ": not an image size, give WIDTHxHEIGHT, each 16 to 16384");
   return px;
 }
 

@@ -31,9 +31,9 @@ SolidVolume VolumeOption::load() const {
     const assets::Classification standard;
     const assets::HounsfieldImage image = assets::readHounsfield(path_);
     volume.grid = image.grid;
-    const assets::Classification asked{iso_hu_.value_or(standard.iso_hu), sigma_hu_.value_or(standard.sigma_hu)};
-    volume.solid = sigma_hu_ ? assets::solidFromHounsfield(image.hounsfield, asked)
-                             : assets::classify(image.grid, image.hounsfield, asked);
+    const assets::Classification requested{iso_hu_.value_or(standard.iso_hu), sigma_hu_.value_or(standard.sigma_hu)};
+    volume.solid = sigma_hu_ ? assets::solidFromHounsfield(image.hounsfield, requested)
+                             : assets::classify(image.grid, image.hounsfield, requested);
   }
   if (!labels_.empty()) {
     assets::ByteImage labels = assets::readLabels(labels_);

@@ -88,10 +88,10 @@ void drawCross(const ScreenPage& page, const calibration::Rig& rig, Eye eye) {
   page.fill(kBlack);
   page.line({-0.35 * unit, 0.0}, {0.35 * unit, 0.0}, 0.012 * unit, kWhite);
   page.line({0.0, -0.35 * unit}, {0.0, 0.35 * unit}, 0.012 * unit, kWhite);
-  const auto ring_at = [&](double height_mm, double x, const Ink& ink, const std::string& words) {
+  const auto ring_at = [&](double height_mm, double x, const Ink& ink, const std::string& label) {
     const glm::dvec2 seen = page.seenAt(rig, eye, {x, 0.0}, height_mm);
     page.circle(seen, 0.24 * unit, 0.016 * unit, ink);
-    page.text(words, seen + glm::dvec2(0.0, 0.40 * unit), 0.065 * unit, ink);
+    page.text(label, seen + glm::dvec2(0.0, 0.40 * unit), 0.065 * unit, ink);
   };
   ring_at(kRingDepth_mm, -0.68 * unit, {0.95, 0.75, 0.25}, fmt::format("{:.0f} mm before", kRingDepth_mm));
   ring_at(-kRingDepth_mm, 0.68 * unit, {0.35, 0.75, 0.95}, fmt::format("{:.0f} mm behind", kRingDepth_mm));

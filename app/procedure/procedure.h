@@ -1,10 +1,7 @@
-// Who leads a rehearsal instead of its plan: sees every tick, may say what is to be felt, takes keys and controls
-// before anybody else obeys them, stop and end aside, which are always obeyed; speaks to surgeon and instructor, knows
-// when it is over. For experiments (psychophysics/trial_desk) and for operations step by step. Main thread, once a
-// frame.
-// A procedure leads a rehearsal: it receives every tick, may replace the command, handles keys and requests before
-// anything else (except stop and end, which are always executed), sends messages to surgeon and instructor, and decides
-// when it is over. For experiments (psychophysics/trial_runner) and operations step by step. Main thread, once a frame.
+// A procedure leads a rehearsal: it receives every tick, may replace the command, handles keys and requests first
+// (except stop and end, which are always executed), sends messages to surgeon and instructor, and decides when it is
+// over. For experiments (psychophysics/trial_runner) and stepwise operations. Main thread, once a frame.
+#pragma once
 
 #include <optional>
 #include <span>

@@ -8,7 +8,7 @@
 namespace app {
 namespace {
 
-constexpr double kBurTurnsPerSecond = 7.0;  ///< as drawn: a real bur turns too fast for any display to show
+constexpr double kDrawnBurRevolutions_per_s = 7.0;  ///< as drawn; a real bur is too fast to display
 
 }  // namespace
 
@@ -32,7 +32,8 @@ render::Frame nextFrame(const render::Frame& before, const haptics::Tick& tick, 
   if (!haptics::has(tick.faults, haptics::Fault::bad_pose)) frame.X_PT.rotation = tick.hand.X_PT.rotation;
   frame.X_PT.translation_mm = tick.proxy_P.mm;
   frame.X_PT_at_hand = {frame.X_PT.rotation, tick.hand.X_PT.translation_mm};
-  if (tick.drilling) frame.bur_angle_rad = std::fmod(tick.t_s * kBurTurnsPerSecond, 1.0) * 2.0 * calibration::kPi;
+  if (tick.drilling)
+    frame.bur_angle_rad = std::fmod(tick.t_s * kDrawnBurRevolutions_per_s, 1.0) * 2.0 * calibration::kPi;
   return frame;
 }
 

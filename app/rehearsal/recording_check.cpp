@@ -8,7 +8,7 @@
 
 namespace app {
 
-void refuseUnlessRecordable(const std::string& path, bool force, std::initializer_list<std::string> hands) {
+void refuseUnlessRecordable(const std::string& path, bool force, std::initializer_list<std::string> devices) {
   namespace fs = std::filesystem;
   std::error_code failed;
   if (!fs::exists(path, failed)) return;
@@ -17,11 +17,11 @@ void refuseUnlessRecordable(const std::string& path, bool force, std::initialize
   };
   if (!fs::is_regular_file(path, failed)) refuse("it is not a plain file");
   if (isBeingRecorded(path)) refuse("another program is recording to it");
-  for (const std::string& hand : hands)
-    if (hand.starts_with("replay:") && fs::equivalent(hand.substr(7), path, failed))
+  for (const std::string& device : devices)
+    if (device.starts_with("replay:") && fs::equivalent(device.substr(7), path, failed))
       refuse("it is the session that is replayed");
   if (!force) throw UsageError(path + ": exists already: choose another name for the recording or use --force");
-  // Poses, settings, rigs, models: whatever is no recording is somebody's work.
+  // Never replaces poses, settings, rigs or models.
   if (fs::file_size(path, failed) > 0 && !hasSessionMark(path))
     refuse("it is no recording, --force replaces nothing else");
 }

@@ -7,8 +7,8 @@
 
 namespace app {
 
-/// Throws UsageError for what stands there and is not to be replaced: without `force` anything, with it all but a
-/// recording, one that is being made, and the session of a `hand` that replays one.
-void refuseUnlessRecordable(const std::string& path, bool force, std::initializer_list<std::string> hands = {});
+/// Throws UsageError if the file exists and must not be replaced: without `force` always, with it unless it is a
+/// complete recording that none of the `devices` replays.
+void refuseUnlessRecordable(const std::string& path, bool force, std::initializer_list<std::string> devices = {});
 
 }  // namespace app

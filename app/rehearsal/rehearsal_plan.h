@@ -1,5 +1,4 @@
-// What is rehearsed, as plain values: whose jaw, with which hand and instruments, shown where, kept where. Made by a
-// command before anything runs.
+// A rehearsal as plain values: patient, devices, tools, display, recording. Made by a command before anything runs.
 #pragma once
 
 #include <chrono>
@@ -23,21 +22,21 @@ namespace app {
 
 struct RehearsalPlan {
   assets::Patient patient;
-  std::optional<assets::PlannedCut> cut;  ///< what a hand in numbers takes, and what the layer of plans shows
+  std::optional<assets::PlannedCut> cut;  ///< followed by scripted input, shown as layer "plan"
   calibration::Rig rig;
   render::DisplayMode display = render::DisplayMode::mono;
   bool eyes_swapped = false;
-  std::optional<render::Backend> backend;  ///< empty: what suits the machine
+  std::optional<render::Backend> backend;  ///< empty: automatic
   render::Frame first_frame;               ///< view mode, layers and quality to begin with; the rest is the rehearsal's
   std::string device = "mouse";            ///< its address
   DeviceOptions device_options;
   std::optional<OpenedDevice> opened;  ///< the real one of the address, where it is open already
   SessionCalibration calibration;      ///< of hand and eye, as the session keeps it
-  std::vector<std::string> remarks;    ///< on calibration and case: said, shown to the instructor, recorded
+  std::vector<std::string> remarks;    ///< on calibration and case: printed, shown to the instructor, recorded
   SecondHandPlan second_hand;
   haptics::Command command;
   std::vector<haptics::Tool> other_tools;  ///< for changes of tool, after the command's
-  std::string parameters;  ///< settings file that is obeyed while it changes; `command` holds what it leaves out
+  std::string parameters;  ///< settings file, applied whenever it changes; `command` holds the keys it leaves out
   Procedure* procedure = nullptr;             ///< leads where there is one
   std::optional<haptics::PedalChoice> pedal;  ///< none: it is not looked for
   std::optional<double> rate_Hz;              ///< none: what the hand was recorded at, else 1 kHz
@@ -46,12 +45,12 @@ struct RehearsalPlan {
   std::string snapshot, first_snapshot;  ///< PNG paths; `_left` and `_right` are put before the ending
   glm::ivec2 snapshot_px{1280, 800};
   double face_window_mm = 0.0;
-  Ticking ticking = Ticking::realtime;  ///< by hand: as fast as the machine can, nobody watches
+  Ticking ticking = Ticking::realtime;  ///< stepped: as fast as the machine can, not displayed
   bool headless = false, full_screen = false, overwrite = false;
   std::optional<int> monitor;       ///< index of render::monitors()
-  bool instructor_window = false;   ///< on the next monitor, or beside the picture on the same
+  bool instructor_window = false;   ///< on the next monitor, or next to the view
   std::optional<int> quality_step;  ///< held; none: by measured frame times
-  std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();  ///< when the user asked for it
+  std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();  ///< start of the program
 };
 
 }  // namespace app

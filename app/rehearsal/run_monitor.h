@@ -30,7 +30,7 @@ class RunMonitor {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// `duration_s`: simulated time; none: until somebody ends it.
+  /// `duration_s`: simulated time; none: until ended by request.
   explicit RunMonitor(std::optional<double> duration_s) : duration_s_(duration_s) {}
 
   void endByUser() { ended_by_user_ = true; }

@@ -161,11 +161,11 @@ Option CommandLine::flag(const std::string& name, bool& value, const std::string
 
 void CommandLine::footer(const std::string& text) { app_.footer(text); }
 
-CommandHelp CommandLine::words() const {
+CommandHelp CommandLine::help() const {
   CommandHelp help{app_.get_name(), app_.get_description(), app_.get_footer(), {}, {}};
   for (const CLI::Option* option : app_.get_options())
     if (!option->get_group().empty()) help.options.push_back(helpOn(*option));
-  for (const auto& command : commands_) help.commands.push_back(command->words());
+  for (const auto& command : commands_) help.commands.push_back(command->help());
   return help;
 }
 

@@ -67,7 +67,7 @@ class CommandLine {
   void footer(const std::string& text);
 
   /// Help of all commands and options added so far.
-  CommandHelp words() const;
+  CommandHelp help() const;
 
   /// `action` returns the exit status.
   void does(std::function<int()> action) { action_ = std::move(action); }

@@ -43,7 +43,7 @@ class QualityChoice {
   double budget_s() const { return budget_s_; }
   int step() const { return ladder_.step(); }
   bool isHeld() const { return held_; }
-  std::string text() { return overridesFrame() ? std::string(ladder_.description()) : "as asked"; }
+  std::string text() { return overridesFrame() ? std::string(ladder_.description()) : "as requested"; }
 
  private:
   static constexpr double kSlowestSmooth_s = 1.0 / 30.0;

@@ -10,12 +10,12 @@
 
 namespace app {
 
-/// `asked`: empty for automatic choice. Makes the context the renderer needs. Throws GpuError if OpenGL was requested
-/// but is not available.
-render::Backend rendererWithoutWindow(std::optional<render::Backend> asked,
+/// `requested`: empty for automatic choice. Makes the context the renderer needs. Throws GpuError if OpenGL was
+/// requested but is not available.
+render::Backend rendererWithoutWindow(std::optional<render::Backend> requested,
                                       std::optional<render::OffscreenContext>& context, const ReportLine& report);
 
 /// With the window's context current.
-render::Backend rendererForWindow(std::optional<render::Backend> asked, const ReportLine& report);
+render::Backend rendererForWindow(std::optional<render::Backend> requested, const ReportLine& report);
 
 }  // namespace app

@@ -16,7 +16,7 @@ using testing::HasSubstr;
 
 TEST(ManualPage, SaysWhatTheCommandLineSays) {
   const SampleProgram surgery;
-  const CommandHelp words = surgery.program.words();
+  const CommandHelp words = surgery.program.help();
   ASSERT_EQ(words.commands.size(), 2u);
   const std::string page = manualPage("molar cut", words.commands[0], "Molar 1.2");
   EXPECT_THAT(page, HasSubstr(".TH \"MOLAR-CUT\" 1 \"\" \"Molar 1.2\" \"Molar\"\n"));
@@ -31,7 +31,7 @@ TEST(ManualPage, SaysWhatTheCommandLineSays) {
 
 TEST(ManualPage, TakesNoTextForARequest) {
   const SampleProgram surgery;
-  const std::string page = manualPage("molar cut", surgery.program.words().commands[0], "Molar 1.2");
+  const std::string page = manualPage("molar cut", surgery.program.help().commands[0], "Molar 1.2");
   EXPECT_THAT(page, HasSubstr("Cuts \\- .what is there\\e\n"));
   EXPECT_THAT(page, HasSubstr("\\&.a line\n\\&'another\n"));
 }
@@ -41,7 +41,7 @@ TEST(ManualPage, IsReadByGroffWithoutAWord) {
     GTEST_SKIP() << "groff is not installed (apt-get install groff-base)";
   const SampleProgram surgery;
   const auto file = std::filesystem::path(testing::TempDir()) / "molar-cut.1";
-  std::ofstream(file) << manualPage("molar cut", surgery.program.words().commands[0], "Molar 1.2");
+  std::ofstream(file) << manualPage("molar cut", surgery.program.help().commands[0], "Molar 1.2");
   const std::string said = file.string() + ".said";
   ASSERT_EQ(std::system(("groff -K utf8 -man -Tutf8 -ww '" + file.string() + "' >/dev/null 2>'" + said + "'").c_str()),
             0);

@@ -15,7 +15,7 @@ namespace {
 std::string offered(const std::string& words) {
   const SampleProgram surgery;
   const auto script = std::filesystem::path(testing::TempDir()) / "completion.bash";
-  std::ofstream(script) << bashCompletion("surgery", surgery.program.words());
+  std::ofstream(script) << bashCompletion("surgery", surgery.program.help());
   const std::string ask = ". '" + script.string() + "'; COMP_WORDS=(" + words +
                           "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _surgery; echo \"${COMPREPLY[*]}\"";
   std::FILE* const shell = ::popen(("bash -c '" + ask + "' 2>&1").c_str(), "r");
