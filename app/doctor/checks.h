@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/doctor/finding.h"
+#include "app/doctor/findings_text.h"
 #include "app/doctor/machine.h"
 #include "haptics/device/thread_priority.h"
 

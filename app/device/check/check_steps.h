@@ -6,7 +6,6 @@
 #include "app/device/check/constant_force_loop.h"
 #include "app/device/check/dialogue.h"
 #include "app/device/check/force_scale_fit.h"
-#include "app/device/check/owner.h"
 
 namespace app {
 

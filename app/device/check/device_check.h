@@ -6,7 +6,6 @@
 #include "app/device/check/check_report.h"
 #include "app/device/check/check_steps.h"
 #include "app/device/check/dialogue.h"
-#include "app/device/check/owner.h"
 #include "haptics/loop/served_device.h"
 
 namespace app {

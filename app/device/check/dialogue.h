@@ -32,4 +32,13 @@ class Dialogue {
   bool over_ = false;
 };
 
+enum class OwnerTask { rest, hold, first_button, second_button, let_go, upper_corner, lower_corner };
+
+/// Who holds the device while it is checked. A person follows the dialogue; a simulated owner is called here.
+class Owner {
+ public:
+  virtual ~Owner() = default;
+  virtual void perform(OwnerTask /*task*/) {}
+};
+
 }  // namespace app

@@ -4,7 +4,7 @@
 
 #include <atomic>
 
-#include "app/device/check/owner.h"
+#include "app/device/check/dialogue.h"
 #include "haptics/device/simulated/hand_script.h"
 #include "haptics/device/simulated/phantom_mechanics.h"
 

@@ -27,7 +27,6 @@ struct PresenceMonitor::Watch {
 
   static int onHotplug(libusb_context*, libusb_device* device, libusb_hotplug_event event, void* user);
   void run() noexcept;
-  void watch();
   void noticeLeft(const std::string& path);
   void noticeArrived();
 
@@ -82,19 +81,15 @@ PresenceMonitor::Watch::~Watch() {
 
 void PresenceMonitor::Watch::run() noexcept {
   try {
-    watch();
+    while (!quit.load() && !starved.load()) {
+      noticeArrived();
+      timeval sleep = expected.empty() ? kIdle : kExpecting;
+      libusb_handle_events_timeout_completed(context, &sleep, nullptr);
+    }
   } catch (...) {
     starved.store(true);
   }
   if (starved.load() && listener.ended) listener.ended();
-}
-
-void PresenceMonitor::Watch::watch() {
-  while (!quit.load() && !starved.load()) {
-    noticeArrived();
-    timeval sleep = expected.empty() ? kIdle : kExpecting;
-    libusb_handle_events_timeout_completed(context, &sleep, nullptr);
-  }
 }
 
 void PresenceMonitor::Watch::noticeLeft(const std::string& path) {

@@ -220,10 +220,8 @@ void UsbPump::settleTrouble(UsbOutcome outcome, Health& health, std::int64_t now
 
 void UsbPump::clearHalt(const UsbPipe& pipe, Health& health) noexcept {
   if (!health.halted || health.clearings >= stream_.max_clearings) return;
-  const bool busy = &health == &out_health_
-                        ? out_.inFlight()
-                        : std::any_of(ins_.begin(), ins_.end(), [](const UsbTransfer& in) { return in.inFlight(); });
-  if (busy) return;
+  const bool is_out = &health == &out_health_;
+  if (is_out ? out_.inFlight() : std::ranges::any_of(ins_, &UsbTransfer::inFlight)) return;
   ++health.clearings;
   health.halted = !link_.clearHalt(pipe);
 }
@@ -249,13 +247,12 @@ std::int64_t UsbPump::nextCheck_ns(std::int64_t now_ns) const noexcept {
   by(in_health_.again_at_ns);
   by(out_health_.again_at_ns);
   // A transfer that finished during submission does not wait.
-  if (out_.finished() || std::any_of(ins_.begin(), ins_.end(), [](const UsbTransfer& in) { return in.finished(); }))
-    return now_ns;
+  if (out_.finished() || std::ranges::any_of(ins_, &UsbTransfer::finished)) return now_ns;
   return next_ns;
 }
 
 bool UsbPump::anyInFlight() const noexcept {
-  return out_.inFlight() || std::any_of(ins_.begin(), ins_.end(), [](const UsbTransfer& in) { return in.inFlight(); });
+  return out_.inFlight() || std::ranges::any_of(ins_, &UsbTransfer::inFlight);
 }
 
 void UsbPump::cancelAll() noexcept {

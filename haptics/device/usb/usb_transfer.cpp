@@ -81,12 +81,6 @@ void UsbTransfer::expire(std::int64_t now_ns) noexcept {
   if (in_flight_ && now_ns >= deadline_ns_) cancel();
 }
 
-bool UsbTransfer::takeFinished() noexcept {
-  const bool was_finished = finished_;
-  finished_ = false;
-  return was_finished;
-}
-
 void UsbTransfer::onDone() noexcept {
   in_flight_ = false;
   finished_ = true;

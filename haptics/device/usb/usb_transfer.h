@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "haptics/device/usb/usb_report.h"
@@ -42,7 +43,7 @@ class UsbTransfer {
     return in_flight_ && cancelled_at_ns_ != kNever && now_ns - cancelled_at_ns_ > after_ns;
   }
   /// True once after each submit, when it has completed.
-  bool takeFinished() noexcept;
+  bool takeFinished() noexcept { return std::exchange(finished_, false); }
   UsbOutcome outcome() const { return outcome_; }
   bool overflowed() const { return overflowed_; }
   /// Order of completion among its link's transfers.

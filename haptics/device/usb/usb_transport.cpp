@@ -20,47 +20,35 @@ constexpr std::int64_t kDead_ns = 1'000'000'000;
 
 }  // namespace
 
-struct UsbTransport::Parts {
-  Parts(const UsbAddress& address, UsbClock clock) : link(address, clock) {}
-
-  /// Submits, pumps, cancels at the deadline.
-  UsbExchange exchange(UsbTransfer& transfer, std::size_t size, std::chrono::milliseconds within);
-
-  UsbLink link;
-  std::unique_ptr<UsbPump> pump;
-  std::atomic<UsbPump*> running{nullptr};  ///< null before run()
-  bool dead = false;
-};
-
-UsbExchange UsbTransport::Parts::exchange(UsbTransfer& transfer, std::size_t size, std::chrono::milliseconds within) {
-  assert(!pump);
-  if (dead) return {UsbOutcome::gone, 0};
-  const std::int64_t deadline_ns = link.clock().now_ns() + toNs(within);
+UsbExchange UsbTransport::exchange(UsbTransfer& transfer, std::size_t size, std::chrono::milliseconds within) {
+  assert(!pump_);
+  if (is_dead_) return {UsbOutcome::gone, 0};
+  const std::int64_t deadline_ns = link_->clock().now_ns() + toNs(within);
   transfer.submit(size, deadline_ns);
   while (transfer.inFlight()) {
-    transfer.expire(link.clock().now_ns());
-    const std::int64_t next_ns = std::min(transfer.deadline_ns(), link.clock().now_ns() + 10'000'000);
-    dead |= !link.pump(next_ns, -1) || transfer.isDead(link.clock().now_ns(), kDead_ns);
-    if (dead) return {UsbOutcome::gone, 0};
+    transfer.expire(link_->clock().now_ns());
+    const std::int64_t next_ns = std::min(transfer.deadline_ns(), link_->clock().now_ns() + 10'000'000);
+    is_dead_ |= !link_->pump(next_ns, -1) || transfer.isDead(link_->clock().now_ns(), kDead_ns);
+    if (is_dead_) return {UsbOutcome::gone, 0};
   }
-  dead |= transfer.outcome() == UsbOutcome::gone;
+  is_dead_ |= transfer.outcome() == UsbOutcome::gone;
   return {transfer.outcome(), transfer.moved().size()};
 }
 
 UsbTransport::UsbTransport(const UsbAddress& address, UsbClock clock)
-    : parts_(std::make_unique<Parts>(address, clock)) {}
+    : link_(std::make_unique<UsbLink>(address, clock)) {}
 UsbTransport::~UsbTransport() { stop(); }
 
-std::size_t UsbTransport::inPacketBytes() const { return parts_->link.in().packet_bytes; }
-std::size_t UsbTransport::outPacketBytes() const { return parts_->link.out().packet_bytes; }
-const std::string& UsbTransport::path() const { return parts_->link.path(); }
-UsbClock UsbTransport::clock() const { return parts_->link.clock(); }
-const std::string& UsbTransport::serialNumber() const { return parts_->link.serialNumber(); }
+std::size_t UsbTransport::inPacketBytes() const { return link_->in().packet_bytes; }
+std::size_t UsbTransport::outPacketBytes() const { return link_->out().packet_bytes; }
+const std::string& UsbTransport::path() const { return link_->path(); }
+UsbClock UsbTransport::clock() const { return link_->clock(); }
+const std::string& UsbTransport::serialNumber() const { return link_->serialNumber(); }
 
 UsbExchange UsbTransport::control(const UsbSetup& setup, std::span<std::uint8_t> data,
                                   std::chrono::milliseconds within) {
   const UsbPipe pipe{0, LIBUSB_TRANSFER_TYPE_CONTROL, LIBUSB_CONTROL_SETUP_SIZE};
-  UsbTransfer transfer(parts_->link, pipe, LIBUSB_CONTROL_SETUP_SIZE + data.size());
+  UsbTransfer transfer(*link_, pipe, LIBUSB_CONTROL_SETUP_SIZE + data.size());
   const auto low = [](std::size_t word) { return static_cast<std::uint8_t>(word & 0xff); };
   const auto high = [](std::size_t word) { return static_cast<std::uint8_t>(word >> 8 & 0xff); };
   const std::array<std::uint8_t, LIBUSB_CONTROL_SETUP_SIZE> head{setup.type,        setup.request,    low(setup.value),
@@ -69,62 +57,62 @@ UsbExchange UsbTransport::control(const UsbSetup& setup, std::span<std::uint8_t>
   std::copy(head.begin(), head.end(), transfer.buffer().begin());
   const bool comes_in = (setup.type & LIBUSB_ENDPOINT_IN) != 0;
   if (!comes_in) std::copy(data.begin(), data.end(), transfer.buffer().begin() + head.size());
-  UsbExchange result = parts_->exchange(transfer, transfer.buffer().size(), within);
+  UsbExchange result = exchange(transfer, transfer.buffer().size(), within);
   result.bytes -= std::min(result.bytes, head.size());
   if (comes_in) std::copy_n(transfer.buffer().begin() + head.size(), std::min(result.bytes, data.size()), data.begin());
   return result;
 }
 
 UsbExchange UsbTransport::write(std::span<const std::uint8_t> bytes, std::chrono::milliseconds within) {
-  UsbTransfer transfer(parts_->link, parts_->link.out(), std::max<std::size_t>(1, bytes.size()));
+  UsbTransfer transfer(*link_, link_->out(), std::max<std::size_t>(1, bytes.size()));
   std::copy(bytes.begin(), bytes.end(), transfer.buffer().begin());
-  return parts_->exchange(transfer, bytes.size(), within);
+  return exchange(transfer, bytes.size(), within);
 }
 
 UsbExchange UsbTransport::read(std::span<std::uint8_t> bytes, std::chrono::milliseconds within) {
-  UsbTransfer transfer(parts_->link, parts_->link.in(), inPacketBytes());
-  UsbExchange result = parts_->exchange(transfer, inPacketBytes(), within);
+  UsbTransfer transfer(*link_, link_->in(), inPacketBytes());
+  UsbExchange result = exchange(transfer, inPacketBytes(), within);
   result.bytes = std::min(result.bytes, bytes.size());
   std::copy_n(transfer.buffer().begin(), result.bytes, bytes.begin());
   return result;
 }
 
 void UsbTransport::run(const UsbStream& stream) {
-  assert(!parts_->pump);
-  parts_->pump = std::make_unique<UsbPump>(parts_->link, stream);
-  parts_->running.store(parts_->pump.get());
+  assert(!pump_);
+  pump_ = std::make_unique<UsbPump>(*link_, stream);
+  running_.store(pump_.get());
 }
 
-const UsbReport& UsbTransport::newestReport() noexcept { return parts_->pump->newestReport(); }
-bool UsbTransport::awaitReport(std::int64_t deadline_ns) noexcept { return parts_->pump->awaitReport(deadline_ns); }
-void UsbTransport::send(const UsbReport& report, std::uint32_t rests) noexcept { parts_->pump->send(report, rests); }
+const UsbReport& UsbTransport::newestReport() noexcept { return pump_->newestReport(); }
+bool UsbTransport::awaitReport(std::int64_t deadline_ns) noexcept { return pump_->awaitReport(deadline_ns); }
+void UsbTransport::send(const UsbReport& report, std::uint32_t rests) noexcept { pump_->send(report, rests); }
 
 std::uint32_t UsbTransport::rests() const noexcept {
-  const UsbPump* pump = parts_->running.load();
+  const UsbPump* pump = running_.load();
   return pump ? pump->rests() : 0;
 }
 
 void UsbTransport::rest() noexcept {
-  if (UsbPump* pump = parts_->running.load()) pump->rest();
+  if (UsbPump* pump = running_.load()) pump->rest();
 }
 
 bool UsbTransport::sendLast(const UsbReport& report, std::chrono::milliseconds within) noexcept {
-  UsbPump* pump = parts_->running.load();
+  UsbPump* pump = running_.load();
   return pump && pump->sendLast(report, within);
 }
 
 UsbState UsbTransport::state() const noexcept {
-  const UsbPump* pump = parts_->running.load();
+  const UsbPump* pump = running_.load();
   return pump ? pump->state() : UsbState::late;
 }
 
 UsbCounters UsbTransport::counters() const noexcept {
-  const UsbPump* pump = parts_->running.load();
+  const UsbPump* pump = running_.load();
   return pump ? pump->counters() : UsbCounters{};
 }
 
 void UsbTransport::stop() noexcept {
-  if (UsbPump* pump = parts_->running.load()) pump->stop();
+  if (UsbPump* pump = running_.load()) pump->stop();
 }
 
 }  // namespace haptics

@@ -6,6 +6,7 @@
 // Linux (usbfs); clearing a halt can block the event thread for long.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -19,6 +20,10 @@
 #include "haptics/device/usb/usb_report.h"
 
 namespace haptics {
+
+class UsbLink;
+class UsbPump;
+class UsbTransfer;
 
 struct UsbAddress {
   std::uint16_t vendor = 0, product = 0;
@@ -98,8 +103,13 @@ class UsbTransport {
   void stop() noexcept;
 
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  /// Submits, pumps, cancels at the deadline.
+  UsbExchange exchange(UsbTransfer& transfer, std::size_t size, std::chrono::milliseconds within);
+
+  std::unique_ptr<UsbLink> link_;
+  std::unique_ptr<UsbPump> pump_;
+  std::atomic<UsbPump*> running_{nullptr};  ///< null before run()
+  bool is_dead_ = false;
 };
 
 }  // namespace haptics
