@@ -1,6 +1,6 @@
-// Newest wins: one writer hands values to one reader through three slots and one atomic. One of the three things that
-// cross threads. Both sides wait-free, no allocation; the reader never sees a torn value and never goes back in time.
-// T must own nothing (trivially destructible). Not a queue: values in between are lost.
+// Triple buffer, newest wins: one writer passes values to one reader through three slots and one atomic. Both sides
+// wait-free, no allocation; the reader never sees a torn or an older value. T must own nothing (trivially
+// destructible). Values in between are lost.
 #pragma once
 
 #include <array>

@@ -1,7 +1,6 @@
-// What the motors of a device shall do until the next one: the only thing a backend takes. Force and torque on the
-// hand, frame D, torque about the origin of H; N, N mm. Only the motor gate (safety/motor_gate) makes one that pushes,
-// so no force reaches a motor around it; anybody may make one that lets go or pushes less. Trivially copyable; any
-// thread.
+// What the motors of a device do until the next command: force and torque on the hand, frame D, torque about the origin
+// of H; N, N mm. Only the motor gate (safety/motor_gate) makes one with force; anyone may make one without, or scale
+// one down. Trivially copyable; any thread.
 #pragma once
 
 #include "calibration/geometry/frames.h"
@@ -17,7 +16,7 @@ class MotorCommand {
   const Wrench<calibration::Device>& wrench_D() const { return wrench_D_; }
   bool motorsOn() const { return motors_on_; }
 
-  /// The same with `share` of its force; 0 to 1, anything else counts as 0.
+  /// Scaled by `share`, 0 to 1; anything else counts as 0.
   MotorCommand scaled(double share) const {
     return {(share >= 0.0 && share <= 1.0 ? share : 0.0) * wrench_D_, motors_on_};
   }

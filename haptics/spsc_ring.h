@@ -1,6 +1,6 @@
-// Every value, from one writer to one reader, through a ring: what one of the things that cross threads is made of.
-// Wait-free, no allocation after construction. When the reader is late the newest are dropped and counted, never the
-// writer held up. Not for values of which the newest is enough: Latest.
+// Single-producer, single-consumer ring: every value from one writer to one reader. Wait-free, no allocation after
+// construction. When it is full the newest values are dropped and counted; the writer never waits. For the newest value
+// alone: Latest.
 #pragma once
 
 #include <atomic>
@@ -26,7 +26,7 @@ class SpscRing {
     head_.store(next, std::memory_order_release);
   }
 
-  /// Reader only: appends everything logged so far to `out`.
+  /// Reader only: appends everything so far to `out`.
   void drainInto(std::vector<Entry>& out) {
     std::size_t tail = tail_.load(std::memory_order_relaxed);
     const std::size_t head = head_.load(std::memory_order_acquire);
@@ -34,14 +34,14 @@ class SpscRing {
     tail_.store(tail, std::memory_order_release);
   }
 
-  /// Reader only: drops everything logged so far and says how much that was; no allocation.
+  /// Reader only: discards everything so far and returns its number; no allocation.
   std::size_t discard() noexcept {
     const std::size_t tail = tail_.load(std::memory_order_relaxed), head = head_.load(std::memory_order_acquire);
     tail_.store(head, std::memory_order_release);
     return (head + ring_.size() - tail) % ring_.size();
   }
 
-  /// Writer only: how many more fit before the newest are dropped.
+  /// Writer only: free entries.
   std::size_t room() const noexcept {
     const std::size_t head = head_.load(std::memory_order_relaxed), tail = tail_.load(std::memory_order_acquire);
     return (tail + ring_.size() - head - 1) % ring_.size();

@@ -1,5 +1,5 @@
-// A force and a torque that belong together, on the hand, in one frame. N, N mm; the torque's point is said where a
-// wrench is handed over. Trivially copyable; any thread.
+// Force and torque on the hand in one frame. N, N mm; the torque's reference point is stated where a wrench is passed.
+// Trivially copyable; any thread.
 #pragma once
 
 #include "calibration/geometry/pose.h"

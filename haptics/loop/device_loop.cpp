@@ -15,13 +15,13 @@
 namespace haptics {
 namespace {
 
-/// As fast as force and torque ever change (safety/safety_limits).
-constexpr double kLetDown_N_per_s = 300.0, kLetDown_Nmm_per_s = 15'000.0;
-/// Longest wait for a device that lets go; one that does not tick is stopped without.
-constexpr auto kLongestGoodbye = std::chrono::milliseconds(200);
+/// The largest rates of force and torque (safety/safety_limits).
+constexpr double kRampDown_N_per_s = 300.0, kRampDown_Nmm_per_s = 15'000.0;
+/// Limit of the wait for the ramp; a device without ticks is stopped without.
+constexpr auto kMaxRampDown = std::chrono::milliseconds(200);
 
-/// Periods between two ticks that are no gap.
-constexpr double kLongestPunctual = 1.5;
+/// Periods between two ticks that are not a gap.
+constexpr double kMaxPunctual = 1.5;
 
 double threadTime_us() {
   timespec t{};
@@ -42,7 +42,7 @@ DeviceLoop::DeviceLoop(ServedDevice served, double rate_Hz, std::optional<int> p
     throw DeviceError("servo rate, " + std::to_string(std::lround(rate_Hz)) + " Hz, choose one from 500 to 10000 Hz");
 }
 
-DeviceLoop::~DeviceLoop() { assert(!started_ || phase_.load() != Phase::serving); }
+DeviceLoop::~DeviceLoop() { assert(!started_ || phase_.load() != Phase::running); }
 
 void DeviceLoop::start() {
   assert(!started_);
@@ -50,28 +50,28 @@ void DeviceLoop::start() {
     stepped_->startStepped(*this, rate_Hz_);
   else
     device_.start(*this, rate_Hz_);
-  // One that refuses to be started has nothing to let go of.
+  // Not set if start() throws: there is no force to ramp down.
   started_ = true;
   if (stepped_ == nullptr) supervisor_.emplace(device_, ticks_);
 }
 
 void DeviceLoop::stop() noexcept {
-  Phase serving = Phase::serving;
-  if (started_ && phase_.compare_exchange_strong(serving, Phase::letting_go)) awaitGoodbye();
+  Phase running = Phase::running;
+  if (started_ && phase_.compare_exchange_strong(running, Phase::ramping_down)) awaitRampDown();
   if (supervisor_) supervisor_->end();
   device_.stop();
 }
 
-void DeviceLoop::awaitGoodbye() noexcept {
+void DeviceLoop::awaitRampDown() noexcept {
   if (stepped_ != nullptr) {
-    // Counted: of a device that was stopped before, neither ticks nor time come.
-    auto steps =
-        static_cast<std::int64_t>(std::ceil(std::chrono::duration<double>(kLongestGoodbye).count() * rate_Hz_));
-    for (; steps > 0 && phase_.load() != Phase::over; --steps) stepped_->step(1);
+    // Counted in steps: a stopped device has neither ticks nor time.
+    auto steps = static_cast<std::int64_t>(std::ceil(std::chrono::duration<double>(kMaxRampDown).count() * rate_Hz_));
+    for (; steps > 0 && phase_.load() != Phase::stopped; --steps) stepped_->step(1);
     return;
   }
-  const std::int64_t until_ns = now_ns() + std::chrono::nanoseconds(kLongestGoodbye).count();
-  while (phase_.load() != Phase::over && now_ns() < until_ns) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  const std::int64_t until_ns = now_ns() + std::chrono::nanoseconds(kMaxRampDown).count();
+  while (phase_.load() != Phase::stopped && now_ns() < until_ns)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
 std::int64_t DeviceLoop::now_ns() const noexcept {
@@ -95,14 +95,14 @@ void DeviceLoop::begin() noexcept {
 
 MotorCommand DeviceLoop::tick(const HandleState& state, const TickTiming& timing) noexcept {
   ticks_.fetch_add(1, std::memory_order_relaxed);
-  if (phase_.load(std::memory_order_relaxed) != Phase::serving) return letGo(state, timing);
+  if (phase_.load(std::memory_order_relaxed) != Phase::running) return rampDown(state, timing);
 
   const double began_us = stepped_ != nullptr ? 0.0 : threadTime_us();
   TickTiming timed = timing;
   const double since_s = gap_s(timing);
-  timed.gap_s = since_s * rate_Hz_ > kLongestPunctual ? since_s : 0.0;
-  const Answer wanted = answer(state, timed);
-  last_ = gate_.admit(wanted.wrench_D, state.jacobian_D_mm, wanted.motors_on);
+  timed.gap_s = since_s * rate_Hz_ > kMaxPunctual ? since_s : 0.0;
+  const Answer request = answer(state, timed);
+  last_ = gate_.admit(request.wrench_D, state.jacobian_D_mm, request.motors_on);
   const double work_us = stepped_ != nullptr ? 0.0 : threadTime_us() - began_us;
   answered(work_us);
   statistics_.add(work_us, 1e6 / rate_Hz_, timing.late_us);
@@ -115,16 +115,16 @@ double DeviceLoop::gap_s(const TickTiming& timing) noexcept {
   return 1e-9 * static_cast<double>(timing.at_ns - last_ns);
 }
 
-MotorCommand DeviceLoop::letGo(const HandleState& state, const TickTiming& timing) noexcept {
-  // A force that a pause or the supervisor has ended does not come back to be let down.
-  if (gap_s(timing) > SafetyThresholds{}.max_pause_s || !state.healthy) share_left_ = 0.0;
-  // Force and torque go down together, the one that needs longer at its limit.
+MotorCommand DeviceLoop::rampDown(const HandleState& state, const TickTiming& timing) noexcept {
+  // A force ended by a pause or the supervisor is not ramped.
+  if (gap_s(timing) > SafetyThresholds{}.max_pause_s || !state.healthy) ramp_share_ = 0.0;
+  // Force and torque fall together, the slower one at its limit.
   const Wrench<calibration::Device>& wrench = last_.wrench_D();
-  const double seconds = std::max(glm::length(wrench.force_N.xyz) / kLetDown_N_per_s,
-                                  glm::length(wrench.torque_Nmm.xyz) / kLetDown_Nmm_per_s);
-  share_left_ = seconds > 0.0 ? std::max(0.0, share_left_ - 1.0 / (rate_Hz_ * seconds)) : 0.0;
-  if (share_left_ > 0.0 && !gate_.isShut()) return last_.scaled(share_left_);
-  phase_.store(Phase::over, std::memory_order_relaxed);
+  const double seconds = std::max(glm::length(wrench.force_N.xyz) / kRampDown_N_per_s,
+                                  glm::length(wrench.torque_Nmm.xyz) / kRampDown_Nmm_per_s);
+  ramp_share_ = seconds > 0.0 ? std::max(0.0, ramp_share_ - 1.0 / (rate_Hz_ * seconds)) : 0.0;
+  if (ramp_share_ > 0.0 && !gate_.isShut()) return last_.scaled(ramp_share_);
+  phase_.store(Phase::stopped, std::memory_order_relaxed);
   return {};
 }
 

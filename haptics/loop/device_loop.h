@@ -1,9 +1,9 @@
-// A device at work: it ticks on its own thread, every tick asks for a wrench, and what the motor gate admits of it goes
-// back. Watches that ticks come, measures how punctual they are, lets the force down gently at the end. Who derives
-// says what is wanted. start() and stop() from one thread, emergencyStop() from any. Real-time priority, a core and
-// locked memory are asked for and reported; they are not required. Runs once: start, stop, and no second start. By hand
-// (served_device) there is no thread, no supervisor and no clock: step() makes the ticks. What derives must stop() in
-// its own destructor. Not the safety layer: that is the business of who answers.
+// Runs a device: it ticks on its own thread, every tick computes a wrench, and the motor gate passes it on. Watches
+// that ticks come, measures their timing, ramps the force down at the end. A derived class gives the wrench and must
+// stop() in its destructor. start() and stop() from one thread, emergencyStop() from any. Real-time priority, a core
+// and locked memory are requested and reported, not required. One start and one stop. A stepped device (served_device)
+// has no thread, supervisor or clock: step() makes the ticks. Without the safety layer: that is part of the derived
+// class.
 #pragma once
 
 #include <atomic>
@@ -20,32 +20,32 @@ namespace haptics {
 
 class DeviceLoop : private DeviceServo {
  public:
-  /// Borrows the device. `priority`: SCHED_FIFO's that its thread asks for, with a core and locked memory; none: for
-  /// none of them. Throws DeviceError when the rate is outside 500..10000 Hz.
+  /// Borrows the device. `priority`: SCHED_FIFO priority of its thread, requested with a core and locked memory; none:
+  /// no request. Throws DeviceError if the rate is outside 500..10000 Hz.
   DeviceLoop(ServedDevice served, double rate_Hz, std::optional<int> priority);
   ~DeviceLoop() override;
   DeviceLoop(const DeviceLoop&) = delete;
   DeviceLoop& operator=(const DeviceLoop&) = delete;
 
-  /// Once in its life (assert). Throws DeviceError when the device has gone or can not be served at the rate.
+  /// Once (assert). Throws DeviceError if the device has gone or cannot run at the rate.
   void start();
-  /// Lets the force down to zero within 0.02 s, at once after a pause or under a device in trouble; then stops the
-  /// device: a frame of no force, then motors off.
+  /// Ramps the force to zero within 0.02 s, at once after a pause or for an unhealthy device; then stops the device: a
+  /// frame of zero force, then motors off.
   void stop() noexcept;
 
-  /// By hand alone, between start() and stop(), on their thread: so many ticks; and time in which none comes.
+  /// Stepped devices, between start() and stop(), on their thread: make ticks; let time pass without ticks.
   void step(std::uint64_t ticks) noexcept { stepped_->step(ticks); }
   void pass(std::chrono::nanoseconds time) noexcept { stepped_->pass(time); }
 
-  /// No force from this moment on, for good; the ticks go on. Only atomics: a signal handler may call it.
+  /// No force from now on; ticks continue. Only atomics: a signal handler may call it.
   void disableForce() noexcept { gate_.shut(); }
-  /// That, and motors off at once. Any thread.
+  /// The same, and motors off at once. Any thread.
   void emergencyStop() noexcept;
   bool isForceDisabled() const noexcept { return gate_.isShut(); }
 
   /// So far. Any thread, signal handlers too.
   std::uint64_t ticks() const noexcept { return ticks_.load(std::memory_order_relaxed); }
-  /// How often the supervisor has switched the motors off, for want of ticks.
+  /// How often the supervisor switched the motors off because no tick came.
   std::uint64_t watchdogTrips() const noexcept { return supervisor_ ? supervisor_->trips() : 0; }
   LoopFigures figures() const;
 
@@ -54,23 +54,23 @@ class DeviceLoop : private DeviceServo {
     Wrench<calibration::Device> wrench_D;
     bool motors_on = true;
   };
-  /// The device's thread, once a tick; bounded.
+  /// Device thread, once a tick; bounded.
   virtual Answer answer(const HandleState& state, const TickTiming& timing) noexcept = 0;
-  /// After each answer, with the CPU time it took; by hand none is measured.
+  /// After each answer, with its CPU time; 0 for a stepped device.
   virtual void answered(double /*work_us*/) noexcept {}
 
   const DeviceCapabilities& device() const { return capabilities_; }
   double rate_Hz() const { return rate_Hz_; }
-  /// Of the clock that the ticks go by. By hand: of the thread that steps.
+  /// The clock of the ticks. Stepped devices: the stepping thread alone.
   std::int64_t now_ns() const noexcept;
 
  private:
-  enum class Phase { serving, letting_go, over };
+  enum class Phase { running, ramping_down, stopped };
 
   void begin() noexcept override;
   MotorCommand tick(const HandleState& state, const TickTiming& timing) noexcept override;
-  MotorCommand letGo(const HandleState& state, const TickTiming& timing) noexcept;
-  void awaitGoodbye() noexcept;
+  MotorCommand rampDown(const HandleState& state, const TickTiming& timing) noexcept;
+  void awaitRampDown() noexcept;
   double gap_s(const TickTiming& timing) noexcept;
 
   HapticDevice& device_;
@@ -82,12 +82,12 @@ class DeviceLoop : private DeviceServo {
   LoopStatistics statistics_;
   std::atomic<std::uint64_t> ticks_{0};
   std::optional<Supervisor> supervisor_;
-  bool started_ = false;  ///< of the thread that starts and stops
-  std::atomic<Phase> phase_{Phase::serving};
+  bool started_ = false;  ///< of the starting thread
+  std::atomic<Phase> phase_{Phase::running};
 
-  // Of the device's thread.
+  // Device thread.
   MotorCommand last_;
-  double share_left_ = 1.0;
+  double ramp_share_ = 1.0;
   std::optional<std::int64_t> last_tick_ns_;
 };
 

@@ -5,7 +5,6 @@
 namespace haptics {
 namespace {
 
-/// Longer, and what is drawn would be a lie.
 constexpr double kMaxInvalid_s = 0.5;
 
 bool isValid(const HandleState& state) {
@@ -16,19 +15,14 @@ bool isValid(const HandleState& state) {
 
 }  // namespace
 
-InstrumentTracker::InstrumentTracker(ServedDevice served, double rate_Hz) : DeviceLoop(served, rate_Hz, std::nullopt) {
+InstrumentTracker::InstrumentTracker(ServedDevice served, double rate_Hz)
+    : DeviceLoop(served, rate_Hz, std::nullopt), watchdog_(static_cast<std::int64_t>(1e9 * kMaxInvalid_s)) {
   disableForce();
 }
 
 std::optional<HandleState> InstrumentTracker::newest() {
-  // A device that hangs brings nothing at all.
-  const std::int64_t now = now_ns();
-  if (const std::uint64_t ticks = this->ticks(); ticks != ticks_read_) {
-    ticks_read_ = ticks;
-    last_tick_ns_ = now;
-  }
+  const bool hangs = watchdog_.hasExpired(ticks(), now_ns());
   const Seen& seen = newest_.read();
-  const bool hangs = 1e-9 * static_cast<double>(now - last_tick_ns_) > kMaxInvalid_s;
   if (!seen.any || hangs || seen.invalid_s > kMaxInvalid_s) return std::nullopt;
   return seen.state;
 }

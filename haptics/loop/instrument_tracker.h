@@ -1,7 +1,7 @@
-// A device that is only looked at: it says where a hand holds an instrument - mirror, retractor - and is never told a
-// force, its motors stay off. It touches nothing and cuts nothing. The device's thread brings the newest state, one
-// other thread reads it. Frame D, mm. Without real-time priority: that and its core belong to the hand that feels.
-// start(), stop() and step() as DeviceLoop's.
+// A device used as a tracker: reports the pose of an instrument - mirror, retractor - in the other hand; its motors
+// stay off, and it touches and cuts nothing. The device's thread brings the newest state, one other thread reads it.
+// Frame D, mm. Without real-time priority: that and a core belong to the haptic loop. start(), stop() and step() as
+// DeviceLoop's.
 #pragma once
 
 #include <atomic>
@@ -9,38 +9,36 @@
 
 #include "haptics/latest.h"
 #include "haptics/loop/device_loop.h"
+#include "haptics/loop/tick_watchdog.h"
 
 namespace haptics {
 
 class InstrumentTracker final : public DeviceLoop {
  public:
-  /// Borrows the device. Throws DeviceError when the rate is outside 500..10000 Hz.
+  /// Borrows the device. Throws DeviceError if the rate is outside 500..10000 Hz.
   InstrumentTracker(ServedDevice served, double rate_Hz);
   ~InstrumentTracker() override { stop(); }
 
-  /// The last state that could be believed: healthy, calibrated, its pose a pose. None before there is one, and none
-  /// once the device has for half a second brought nothing to believe. Always the same thread.
+  /// The last valid state: healthy, calibrated, a rigid pose. None before the first, and none after half a second
+  /// without one. Always the same thread.
   std::optional<HandleState> newest();
 
-  /// How often the device began to bring what can not be believed. Any thread.
+  /// How often the states became invalid. Any thread.
   std::uint64_t dropouts() const noexcept { return dropouts_.load(std::memory_order_relaxed); }
 
  private:
   struct Seen {
     HandleState state;
     bool any = false;
-    double invalid_s = 0.0;  ///< since it could last be believed
+    double invalid_s = 0.0;  ///< since the last valid state
   };
 
   Answer answer(const HandleState& state, const TickTiming& timing) noexcept override;
 
   Latest<Seen> newest_;
   std::atomic<std::uint64_t> dropouts_{0};
-  Seen seen_;  ///< of the device's thread
-
-  // Of the reader.
-  std::uint64_t ticks_read_ = 0;
-  std::int64_t last_tick_ns_ = 0;
+  Seen seen_;              ///< device thread
+  TickWatchdog watchdog_;  ///< reading thread
 };
 
 }  // namespace haptics

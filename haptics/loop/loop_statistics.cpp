@@ -12,7 +12,7 @@ constexpr auto kRelaxed = std::memory_order_relaxed;
 void MicrosecondHistogram::add(double us) {
   const auto bin = static_cast<std::size_t>(std::clamp(us, 0.0, static_cast<double>(kBins - 1)));
   bins_[bin].store(bins_[bin].load(kRelaxed) + 1, kRelaxed);
-  most_us_.store(std::max(most_us_.load(kRelaxed), us), kRelaxed);
+  max_us_.store(std::max(max_us_.load(kRelaxed), us), kRelaxed);
 }
 
 double MicrosecondHistogram::percentile_us(double share) const {
@@ -24,7 +24,7 @@ double MicrosecondHistogram::percentile_us(double share) const {
     below += bins_[bin].load(kRelaxed);
     if (static_cast<double>(below) >= share * static_cast<double>(counted)) return static_cast<double>(bin) + 0.5;
   }
-  return most_us();
+  return max_us();
 }
 
 void LoopStatistics::add(double work_us, double period_us, double late_us) {
@@ -50,10 +50,10 @@ LoopFigures LoopStatistics::figures() const {
   figures.work_p50_us = work_.percentile_us(0.50);
   figures.work_p99_us = work_.percentile_us(0.99);
   figures.work_p999_us = work_.percentile_us(0.999);
-  figures.work_max_us = work_.most_us();
+  figures.work_max_us = work_.max_us();
   figures.late_p50_us = late_.percentile_us(0.50);
   figures.late_p99_us = late_.percentile_us(0.99);
-  figures.late_max_us = late_.most_us();
+  figures.late_max_us = late_.max_us();
   figures.grants.priority = realtime_.load(kRelaxed);
   figures.grants.memory_locked = memory_locked_.load(kRelaxed);
   if (const int core = core_.load(kRelaxed); core >= 0) figures.grants.core = core;

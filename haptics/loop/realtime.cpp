@@ -15,7 +15,7 @@ namespace haptics {
 namespace {
 
 /// More than any tick uses.
-constexpr std::size_t kStack_bytes = 256 * 1024, kLeastStack_bytes = 4096;
+constexpr std::size_t kStack_bytes = 256 * 1024, kMinStack_bytes = 4096;
 
 std::optional<int> lastAllowedCore() {
   cpu_set_t allowed;
@@ -37,7 +37,7 @@ bool isMemoryUnlimited() {
   return (getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY) || mayPassMemoryLimits();
 }
 
-/// Brings in what lies below the caller of this thread's stack, as much as a limit leaves, and keeps it there.
+/// Locks the free part of this thread's stack, as much as the limit allows.
 void lockOwnStack() {
   pthread_attr_t attributes;
   if (pthread_getattr_np(pthread_self(), &attributes) != 0) return;
@@ -47,7 +47,7 @@ void lockOwnStack() {
     auto* const here = static_cast<std::byte*>(__builtin_frame_address(0));
     const auto below = static_cast<std::size_t>(here - (static_cast<std::byte*>(lowest) + guard));
     std::size_t bytes = std::min(below, kStack_bytes);
-    while (bytes > kLeastStack_bytes && mlock(here - bytes, bytes) != 0) bytes /= 2;
+    while (bytes > kMinStack_bytes && mlock(here - bytes, bytes) != 0) bytes /= 2;
   }
   pthread_attr_destroy(&attributes);
 }
@@ -61,7 +61,7 @@ RealtimeGrants requestRealtime(int priority) noexcept {
   grants.priority = pthread_setschedparam(pthread_self(), SCHED_FIFO, &param) == 0;
   grants.memory_locked = isMemoryUnlimited() && mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
   if (!grants.memory_locked) lockOwnStack();
-  // Without priority a single core is a prison: whoever runs there is waited for.
+  // Without priority a single core would wait for other threads on it.
   if (const auto core = lastAllowedCore(); core && grants.priority) {
     cpu_set_t only;
     CPU_ZERO(&only);

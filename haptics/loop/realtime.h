@@ -1,6 +1,6 @@
-// What a thread that must not be late asks of the system: SCHED_FIFO, a core of its own, memory that stays. Nothing is
-// required: what was granted is reported. The core is the last one the process may run on, for interrupts and most
-// programs begin at the first; a machine with one core gives none away. Start-up only.
+// Real-time settings of a thread: SCHED_FIFO, a core of its own, locked memory. Nothing is required; the result is
+// reported. The core is the last one of the process, for interrupts and most programs start at the first; a machine
+// with one core gives none. Start-up only.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@ namespace haptics {
 struct RealtimeGrants {
   bool priority = false;       ///< SCHED_FIFO
   bool memory_locked = false;  ///< mlockall, now and in future
-  std::optional<int> core;     ///< the thread runs there and nowhere else
+  std::optional<int> core;     ///< the thread's only core
 };
 
 /// For the calling thread; `priority` is SCHED_FIFO's (device/thread_priority).

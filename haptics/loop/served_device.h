@@ -1,5 +1,5 @@
-// A device, and who makes it tick: itself, on its own thread and by the machine's clock; or, by hand, whoever steps the
-// loop that serves it. Borrows; any thread.
+// A device and the source of its ticks: its own thread and the machine's clock, or the caller of the loop's step().
+// Borrows; any thread.
 #pragma once
 
 #include "haptics/device/simulated_device.h"
@@ -10,7 +10,6 @@ struct ServedDevice {
   HapticDevice& device;
   SimulatedDevice* stepped = nullptr;
 
-  // A device ticks by itself unless somebody says otherwise.
   ServedDevice(HapticDevice& ticking) : device(ticking) {}  // NOLINT(google-explicit-constructor)
 
   static ServedDevice steppedManually(SimulatedDevice& stepped) {

@@ -8,7 +8,7 @@
 namespace haptics {
 namespace {
 
-constexpr auto kLook = std::chrono::milliseconds(10);
+constexpr auto kPeriod = std::chrono::milliseconds(10);
 
 }  // namespace
 
@@ -21,22 +21,22 @@ void Supervisor::end() noexcept {
   if (!thread_.joinable()) return;
   {
     const std::lock_guard lock(mutex_);
-    is_over_ = true;
+    is_ended_ = true;
   }
-  over_.notify_one();
+  ended_.notify_one();
   thread_.join();
 }
 
 void Supervisor::watch() noexcept {
   TickWatchdog watch;
-  bool was_silent = false;
+  bool was_expired = false;
   std::unique_lock lock(mutex_);
-  while (!over_.wait_for(lock, kLook, [this] { return is_over_; })) {
-    const bool silent = watch.hasExpired(ticks_.load(std::memory_order_relaxed), monotonic_ns());
-    // Again at every look: what a late tick may still have told the motors does not last.
-    if (silent) device_.motorsOff();
-    if (silent && !was_silent) trips_.fetch_add(1, std::memory_order_relaxed);
-    was_silent = silent;
+  while (!ended_.wait_for(lock, kPeriod, [this] { return is_ended_; })) {
+    const bool expired = watch.hasExpired(ticks_.load(std::memory_order_relaxed), monotonic_ns());
+    // At every check, so that the command of a late tick does not last.
+    if (expired) device_.motorsOff();
+    if (expired && !was_expired) trips_.fetch_add(1, std::memory_order_relaxed);
+    was_expired = expired;
   }
 }
 

@@ -1,6 +1,5 @@
-// Watches from a thread of its own that ticks come, and switches the motors off while they do not (silence_watch).
-// Looks every 10 ms by the machine's clock. Says how often it had to. One other thread constructs, ends and destroys
-// it.
+// Switches the motors off from a thread of its own while no ticks come (tick_watchdog). Checks every 10 ms on the
+// machine's clock and counts. One other thread constructs, ends and destroys it.
 #pragma once
 
 #include <atomic>
@@ -15,13 +14,13 @@ namespace haptics {
 
 class Supervisor {
  public:
-  /// Watches from now on. Borrows both.
+  /// Starts watching. Borrows both.
   Supervisor(HapticDevice& device, const std::atomic<std::uint64_t>& ticks);
   ~Supervisor();
   Supervisor(const Supervisor&) = delete;
   Supervisor& operator=(const Supervisor&) = delete;
 
-  /// Watches no longer; what it counted stays. Also twice.
+  /// Stops watching; the count stays. May be called twice.
   void end() noexcept;
 
   /// Any thread.
@@ -34,8 +33,8 @@ class Supervisor {
   const std::atomic<std::uint64_t>& ticks_;
   std::atomic<std::uint64_t> trips_{0};
   std::mutex mutex_;
-  std::condition_variable over_;
-  bool is_over_ = false;
+  std::condition_variable ended_;
+  bool is_ended_ = false;
   std::thread thread_;
 };
 

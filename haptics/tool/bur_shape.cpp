@@ -10,8 +10,8 @@ namespace {
 
 using calibration::kPi;
 
-double within(double value, double least, double most, double otherwise) {
-  return std::isfinite(value) ? std::clamp(value, least, most) : otherwise;
+double within(double value, double min, double max, double fallback) {
+  return std::isfinite(value) ? std::clamp(value, min, max) : fallback;
 }
 
 }  // namespace
@@ -21,8 +21,8 @@ BurShape sanitised(const BurShape& shape) noexcept {
   BurShape safe;
   safe.kind = shape.kind <= ShapeKind::cone ? shape.kind : defaults.kind;
   safe.radius_mm = within(shape.radius_mm, kMinBurRadius_mm, kMaxBurRadius_mm, defaults.radius_mm);
-  const double least = safe.kind == ShapeKind::capsule ? 0.0 : kMinHeadLength_mm;
-  safe.length_mm = safe.kind == ShapeKind::sphere ? 0.0 : within(shape.length_mm, least, kMaxHeadLength_mm, least);
+  const double min = safe.kind == ShapeKind::capsule ? 0.0 : kMinHeadLength_mm;
+  safe.length_mm = safe.kind == ShapeKind::sphere ? 0.0 : within(shape.length_mm, min, kMaxHeadLength_mm, min);
   return safe;
 }
 

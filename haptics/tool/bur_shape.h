@@ -1,7 +1,6 @@
-// The cutting head of a bur: a body of revolution in frame T, origin at its centre, +z along the shaft away from the
-// tip, mm. Plain values and closed forms: volume, reach. Trivially copyable; any thread; under 50 ns a call, no
-// allocation, no throw. Not the shaft (tool/tool), not what it shares with bone (contact/shape_overlap), not the
-// picture (assets/instrument).
+// The cutting head of a bur: a solid of revolution in frame T, origin at its centre, +z along the shaft away from the
+// tip, mm. Plain values and closed forms. Trivially copyable; any thread; under 50 ns a call, no allocation, no throw.
+// Shaft: tool/tool; overlap with bone: contact/shape_overlap; mesh: assets/instrument.
 #pragma once
 
 #include <cstdint>
@@ -18,19 +17,19 @@ struct BurShape {
   bool operator==(const BurShape&) const = default;
 };
 
-/// What the servo takes. Dental burs lie well inside (ISO 2157: diameters 0.5..5 mm; heads up to 12 mm long).
+/// Limits of the servo. Dental burs are well inside (ISO 2157: diameters 0.5..5 mm; heads up to 12 mm long).
 inline constexpr double kMinBurRadius_mm = 0.1, kMaxBurRadius_mm = 6.0;
 inline constexpr double kMinHeadLength_mm = 0.1, kMaxHeadLength_mm = 20.0;
 
-/// The nearest shape in range; a number that is none becomes the default's. A sphere's length is 0, a capsule's may be.
+/// The nearest shape in range, defaults for values that are not finite. A sphere's length is 0, a capsule's may be 0.
 BurShape sanitised(const BurShape& shape) noexcept;
 
 double volume_mm3(const BurShape& shape) noexcept;
 
-/// Half the height along z: every head reaches from -this to +this.
+/// Half the extent along z, from T's origin to either end.
 double halfHeight_mm(const BurShape& shape) noexcept;
 
-/// How far the head reaches from T's origin in a direction whose cosine with +z is `cos_axis` (support function).
+/// Support function: extent from T's origin in a direction whose cosine with +z is `cos_axis`.
 double reach_mm(const BurShape& shape, double cos_axis) noexcept;
 
 }  // namespace haptics

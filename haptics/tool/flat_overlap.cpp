@@ -20,23 +20,23 @@ constexpr std::array<double, kHalf> kWeight = {0.1894506104550684963, 0.18260341
                                                0.1495959888165767321, 0.1246289712555338720, 0.0951585116824927848,
                                                0.0622535239386478929, 0.0271524594117540949};
 
-/// Places and weights on -1..1 drawn together towards both ends by (3 x - x^3)/2: the square roots with which a slice
-/// begins and ends become polynomials.
+/// Nodes and weights on -1..1, condensed towards both ends by (3 x - x^3)/2: the square roots at the ends of a slice
+/// become polynomials.
 struct Rule {
-  std::array<double, kPoints> place{}, weight{};
+  std::array<double, kPoints> node{}, weight{};
 };
 constexpr Rule kRule = [] {
   Rule rule;
   for (std::size_t i = 0; i < kPoints; ++i) {
     const std::size_t n = i < kHalf ? kHalf - 1 - i : i - kHalf;
     const double x = i < kHalf ? -kNode[n] : kNode[n];
-    rule.place[i] = 0.5 * x * (3.0 - x * x);
+    rule.node[i] = 0.5 * x * (3.0 - x * x);
     rule.weight[i] = kWeight[n] * 1.5 * (1.0 - x * x);
   }
   return rule;
 }();
 
-/// A stretch of the axis on which the squared radius is a + b z + c z^2.
+/// An interval of the axis with squared radius a + b z + c z^2.
 struct Piece {
   double from, to, a, b, c;
   double radius2(double z) const { return std::max(0.0, a + z * (b + z * c)); }
@@ -67,7 +67,7 @@ Pieces piecesOf(const BurShape& shape) {
   return {};
 }
 
-/// The face n.p = level, n = (sin, 0, cos) in T turned so that the normal has no y.
+/// The face n.p = level, n = (sin, 0, cos) in T rotated so that the normal has no y.
 struct Face {
   double sin, cos, level;
 };
@@ -85,8 +85,7 @@ void addWhole(const Piece& piece, double z0, double z1, Sums& sums) {
   sums.along += part * (low * z0 + 4.0 * mid * middle + high * z1);
 }
 
-/// acos(x) / sqrt(1 - x) on 0..1: interpolated at Chebyshev's places, good to 2e-12. In place of the library's, so that
-/// the compiler can take several slices at a time.
+/// acos(x) / sqrt(1 - x) on 0..1: interpolated at Chebyshev nodes, to 2e-12. Unlike the library's it vectorises.
 constexpr std::array<double, 13> kArcCosine = {
     1.570796326793054,    -0.21460183596171,      0.08904858539088645,  -0.05079196176251237, 0.03367101688942853,
     -0.02429970723204065, 0.01831736906376591,    -0.01372154322025381, 0.009480517917836551, -0.005483192960673478,
@@ -98,7 +97,7 @@ void addCut(const Piece& piece, double z0, double z1, const Face& face, Sums& su
   const double middle = 0.5 * (z0 + z1), half = 0.5 * (z1 - z0), per_sin = 1.0 / face.sin;
   std::array<double, kPoints> chord, segment;
   for (std::size_t i = 0; i < kPoints; ++i) {
-    const double z = middle + half * kRule.place[i], u = (face.level - z * face.cos) * per_sin;
+    const double z = middle + half * kRule.node[i], u = (face.level - z * face.cos) * per_sin;
     const double r2 = piece.a + z * (piece.b + z * piece.c), room = r2 - u * u;
     chord[i] = std::sqrt(room > 0.0 ? room : 0.0);
     if constexpr (kAreaOnly) continue;
@@ -116,11 +115,11 @@ void addCut(const Piece& piece, double z0, double z1, const Face& face, Sums& su
     if constexpr (kAreaOnly) continue;
     sums.volume += weight * segment[i];
     sums.across -= weight * 2.0 / 3.0 * chord[i] * chord[i] * chord[i];
-    sums.along += weight * segment[i] * (middle + half * kRule.place[i]);
+    sums.along += weight * segment[i] * (middle + half * kRule.node[i]);
   }
 }
 
-/// Where the face meets the outline within a piece: sin^2 r^2 = (level - z cos)^2, a quadratic in z.
+/// Where the face crosses the profile within a piece: sin^2 r^2 = (level - z cos)^2, a quadratic in z.
 std::array<double, 2> crossings(const Piece& piece, const Face& face) {
   const double s2 = face.sin * face.sin;
   const double a = s2 * piece.c - face.cos * face.cos, b = 0.5 * (s2 * piece.b) + face.level * face.cos;
@@ -139,7 +138,7 @@ void addPiece(const Piece& piece, const Face& face, Sums& sums) {
   const std::array<double, 4> end = {piece.from, cross[0], cross[1], piece.to};
   for (std::size_t i = 0; i + 1 < end.size(); ++i) {
     if (!(end[i + 1] > end[i])) continue;
-    // Between two crossings a slice is cut, whole or missing, as the one in the middle is.
+    // Between two crossings all slices are cut, whole or missing like the middle one.
     const double z = 0.5 * (end[i] + end[i + 1]), below = face.level - z * face.cos;
     const double edge = face.sin * std::sqrt(piece.radius2(z));
     if (std::abs(below) < edge)
@@ -149,7 +148,7 @@ void addPiece(const Piece& piece, const Face& face, Sums& sums) {
   }
 }
 
-/// A face straight across the axis: whole discs up to one place.
+/// A face across the axis: whole discs up to one height.
 void addAcross(const Piece& piece, const Face& face, Sums& sums) {
   const double at = face.level / face.cos, z = std::clamp(at, piece.from, piece.to);
   if (face.cos > 0.0 ? z > piece.from : z < piece.to)
@@ -157,8 +156,8 @@ void addAcross(const Piece& piece, const Face& face, Sums& sums) {
   if (at > piece.from && at <= piece.to) sums.area += kPi * piece.radius2(z);
 }
 
-/// A face less than this from straight across is straight across: 1e-7 of the volume.
-constexpr double kLeastSin = 1e-7;
+/// Below it a face counts as across the axis: error 1e-7 of the volume.
+constexpr double kMinSin = 1e-7;
 
 template <bool kAreaOnly>
 Sums sumsAt(const BurShape& shape, double depth_mm, double cos_axis) {
@@ -167,13 +166,13 @@ Sums sumsAt(const BurShape& shape, double depth_mm, double cos_axis) {
   const Pieces pieces = piecesOf(shape);
   Sums sums;
   for (std::size_t i = 0; i < pieces.count; ++i)
-    sin > kLeastSin ? addPiece<kAreaOnly>(pieces.piece[i], face, sums) : addAcross(pieces.piece[i], face, sums);
+    sin > kMinSin ? addPiece<kAreaOnly>(pieces.piece[i], face, sums) : addAcross(pieces.piece[i], face, sums);
   return sums;
 }
 
 double sphereVolume_mm3(double R, double h) { return kPi * h * h * (R - h / 3.0); }
 
-/// Volume and area at a depth in 0..wholeDepth.
+/// Volume and area at a depth in 0..fullDepth.
 struct Immersed {
   double volume, area;
 };
@@ -184,9 +183,9 @@ Immersed immersed(const BurShape& shape, double depth_mm, double cos_axis) {
   return {sums.volume, sums.area};
 }
 
-/// Depth of at most half the head. Steps as if V were a power of h through the last place, which it nearly is: h times
-/// (wanted / V)^(V / (A h)); a step that leaves the bracket is halved instead. The steps shrink by squares: one as
-/// short as `accuracy` leaves its square to go.
+/// Depth of at most half the head. Steps as if V were a power of h, which it nearly is: h (volume / V)^(V / (A h)); a
+/// step outside the bracket is replaced by bisection. Converges quadratically: after a step of `accuracy` its square
+/// remains.
 double shallowDepth(const BurShape& shape, double volume, double whole_volume, double cos_axis, double accuracy) {
   double low = 0.0, high = fullDepth_mm(shape, cos_axis), h = high * std::sqrt(volume / whole_volume);
   for (int i = 0; i < 40; ++i) {
@@ -207,7 +206,7 @@ constexpr double kExact = 1e-6, kClose = 1e-2;
 double normalDensity(double z) { return std::exp(-0.5 * z * z) / std::sqrt(2.0 * kPi); }
 double normalBelow(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
 
-/// Near the first touch: V smeared = integral of A(x) P(x < h + sigma xi) dx, with the areas taken once, at x = H t^2.
+/// Near first touch: smeared V = integral of A(x) P(x < h + sigma xi) dx, with the areas evaluated once, at x = H t^2.
 double touchingDepth(const BurShape& shape, double volume, double unsmeared, double cos_axis, double sigma) {
   const double reach = unsmeared + 4.0 * sigma;
   std::array<double, kPoints> x, area;
@@ -261,7 +260,7 @@ double flatDepth_mm(const BurShape& shape, double shared_mm3, double cos_axis, d
   const double volume = beyond ? whole - shared_mm3 : shared_mm3, cos = beyond ? -cos_axis : cos_axis;
   double h = shallowDepth(shape, volume, whole, cos, sigma_mm > 0.0 ? kClose : kExact);
   if (sigma_mm > 0.0) {
-    // Deep enough for the whole smear, three points of Gauss-Hermite stand for it.
+    // Deep enough for the whole smear: three points of Gauss-Hermite.
     const double side = std::sqrt(3.0) * sigma_mm, deepest = fullDepth_mm(shape, cos);
     if (h < 4.0 * sigma_mm || h + side > deepest) {
       h = touchingDepth(shape, volume, h, cos, sigma_mm);
@@ -269,7 +268,7 @@ double flatDepth_mm(const BurShape& shape, double shared_mm3, double cos_axis, d
       const Immersed less = immersed(shape, h - side, cos), more = immersed(shape, h + side, cos);
       const Immersed here = immersed(shape, h, cos);
       const double smeared = 2.0 / 3.0 * here.volume + (less.volume + more.volume) / 6.0;
-      // Again as a power of h: a cone's tip would want a second step of Newton's.
+      // As a power of h: a cone's tip would need a second Newton step.
       const double slope = 2.0 / 3.0 * here.area + (less.area + more.area) / 6.0;
       h *= std::pow(volume / smeared, smeared / (slope * h));
     }

@@ -14,21 +14,21 @@ using calibration::kPi;
 /// 1 g cm2 = 1e-7 kg m2, and 1 kg m2 = 1000 N mm s2.
 constexpr double kNmms2PerGramCm2 = 1e-4;
 
-/// The motor in one direction of turning, speeds from 0.
+/// The motor in one direction of rotation, speeds from 0.
 struct Motor {
-  double wanted, free_speed, stall_torque, governor, inertia;
+  double commanded, free_speed, stall_torque, governor, inertia;
   double crossing;   ///< speed below which the line is the lesser of the two
   double idle_from;  ///< speed from which nothing drives
 
   Motor(const SpindleSettings& settings, bool on)
-      : wanted(on ? radPerSecond(std::abs(settings.commanded_rpm)) : 0.0),
+      : commanded(on ? radPerSecond(std::abs(settings.commanded_rpm)) : 0.0),
         free_speed(radPerSecond(settings.free_rpm)),
         stall_torque(settings.stall_torque_Nmm),
-        governor(wanted > 0.0 ? stall_torque / (settings.droop * wanted) : 0.0),
+        governor(commanded > 0.0 ? stall_torque / (settings.droop * commanded) : 0.0),
         inertia(settings.inertia_g_cm2 * kNmms2PerGramCm2),
-        idle_from(std::min(wanted, free_speed)) {
-    // Where T (1 - w / free) = T (wanted - w) / (droop wanted); under a slacker governor the line rules throughout.
-    const double steeper = wanted > 0.0 ? 1.0 / (settings.droop * wanted) - 1.0 / free_speed : 0.0;
+        idle_from(std::min(commanded, free_speed)) {
+    // Where T (1 - w / free) = T (commanded - w) / (droop commanded); a weaker governor than the line is never active.
+    const double steeper = commanded > 0.0 ? 1.0 / (settings.droop * commanded) - 1.0 / free_speed : 0.0;
     crossing = steeper > 0.0 ? std::clamp((1.0 / settings.droop - 1.0) / steeper, 0.0, idle_from) : idle_from;
   }
 
@@ -36,11 +36,11 @@ struct Motor {
   struct Piece {
     double strength, slope, from, to;
   };
-  /// The piece that holds w; of two that meet there the one it is leaving into.
+  /// The piece with w; at a boundary the one it moves into.
   Piece pieceAt(double w, bool rising) const {
     const auto below = [&](double bound) { return rising ? w < bound : w <= bound; };
     if (below(crossing) && crossing > 0.0) return {stall_torque, stall_torque / free_speed, 0.0, crossing};
-    if (below(idle_from) && idle_from > 0.0) return {governor * wanted, governor, crossing, idle_from};
+    if (below(idle_from) && idle_from > 0.0) return {governor * commanded, governor, crossing, idle_from};
     return {0.0, 0.0, idle_from, HUGE_VAL};
   }
   double drive(double w) const {
@@ -49,7 +49,7 @@ struct Motor {
   }
 };
 
-/// Speed and angle after turning freely under constant torques within one piece.
+/// Speed and angle after a time within one piece.
 struct Turning {
   double speed, angle;
 };
@@ -59,7 +59,7 @@ Turning after(double w, double acceleration, double slope, double inertia, doubl
   return {w + change * done, (w + change) * t - change * done / rate};
 }
 
-/// When a speed is reached that lies ahead within this piece; never: infinity.
+/// Time to reach a speed ahead within this piece; infinity if never.
 double timeTo(double bound, double w, double acceleration, double slope, double inertia) {
   const double way = bound - w;
   if (slope <= 0.0) return acceleration == 0.0 ? HUGE_VAL : way / acceleration;
@@ -67,10 +67,10 @@ double timeTo(double bound, double w, double acceleration, double slope, double 
   return part < 1.0 ? -std::log1p(-part) / rate : HUGE_VAL;
 }
 
-/// Turns for `t` or until it stands still; takes the time it used from `t`.
-Turning turnedFor(const Motor& motor, double w, double against, double& t) {
+/// Advances by `t` or until standstill; subtracts the time used from `t`.
+Turning advancedFor(const Motor& motor, double w, double against, double& t) {
   double angle = 0.0;
-  // The drive falls with the speed, so the speed never turns back within a step: at most a piece after the other.
+  // The drive falls with the speed, so the speed is monotonic within a step: each piece at most once.
   for (int piece_count = 0; piece_count < 4 && t > 0.0; ++piece_count) {
     const double net = motor.drive(w) - against;
     if (net == 0.0 || (w <= 0.0 && net <= 0.0)) {
@@ -151,26 +151,26 @@ double rpmOf(double rad_per_s) noexcept { return rad_per_s * (60.0 / (2.0 * kPi)
 SpindleState advanced(const SpindleSettings& settings, const SpindleState& state, bool on, double load_Nmm,
                       double dt_s) noexcept {
   const double against = settings.bearing_torque_Nmm + (load_Nmm > 0.0 ? load_Nmm : 0.0);
-  const double wanted_way = settings.commanded_rpm < 0.0 ? -1.0 : 1.0;
-  double way = state.rad_per_s == 0.0 ? wanted_way : std::copysign(1.0, state.rad_per_s);
+  const double commanded_sense = settings.commanded_rpm < 0.0 ? -1.0 : 1.0;
+  double sense = state.rad_per_s == 0.0 ? commanded_sense : std::copysign(1.0, state.rad_per_s);
   double left_s = std::isfinite(dt_s) ? std::max(0.0, dt_s) : 0.0, angle = 0.0, speed = std::abs(state.rad_per_s);
   if (!std::isfinite(speed) || !std::isfinite(against)) return {};
 
-  // A motor told to turn the other way first runs down.
-  if (way != wanted_way) {
-    const Turning down = turnedFor(Motor(settings, false), speed, against, left_s);
+  // A reversed motor first runs down.
+  if (sense != commanded_sense) {
+    const Turning down = advancedFor(Motor(settings, false), speed, against, left_s);
     speed = down.speed;
-    angle = way * down.angle;
-    if (speed <= 0.0) way = wanted_way;
+    angle = sense * down.angle;
+    if (speed <= 0.0) sense = commanded_sense;
   }
-  if (way == wanted_way && left_s > 0.0) {
-    const Turning driven = turnedFor(Motor(settings, on), speed, against, left_s);
+  if (sense == commanded_sense && left_s > 0.0) {
+    const Turning driven = advancedFor(Motor(settings, on), speed, against, left_s);
     speed = driven.speed;
-    angle += way * driven.angle;
+    angle += sense * driven.angle;
   }
 
   SpindleState next;
-  next.rad_per_s = way * speed;
+  next.rad_per_s = sense * speed;
   next.angle_rad = wrapped(state.angle_rad + angle);
   const double buzz_Hz = 0.5 * (vibrationFrequency_Hz(state.rad_per_s) + vibrationFrequency_Hz(next.rad_per_s));
   next.vibration_phase_rad = wrapped(state.vibration_phase_rad + 2.0 * kPi * buzz_Hz * std::max(0.0, dt_s));
@@ -180,10 +180,10 @@ SpindleState advanced(const SpindleSettings& settings, const SpindleState& state
 double steadySpeed_rad_per_s(const SpindleSettings& settings, double load_Nmm) noexcept {
   const Motor motor(settings, true);
   const double against = settings.bearing_torque_Nmm + std::max(0.0, load_Nmm);
-  if (motor.wanted <= 0.0 || against >= motor.drive(0.0)) return 0.0;
-  // The lesser of what line and governor would settle at.
+  if (motor.commanded <= 0.0 || against >= motor.drive(0.0)) return 0.0;
+  // The lower of the steady speeds of line and governor.
   const double by_line = motor.free_speed * (1.0 - against / motor.stall_torque);
-  const double by_governor = motor.wanted - against / motor.governor;
+  const double by_governor = motor.commanded - against / motor.governor;
   return std::copysign(std::max(0.0, std::min(by_line, by_governor)), settings.commanded_rpm);
 }
 

@@ -1,12 +1,12 @@
-// What the hand holds: a head that cuts and is felt, and a shaft that is felt and never cuts. Frame T, mm.
-// Trivially copyable, part of a Command; any thread. Not the handpiece behind it.
+// The tool in the hand: a head that cuts and is felt, and a shaft that is felt and never cuts. Frame T, mm. Trivially
+// copyable, part of a Command; any thread. Without the handpiece behind it.
 #pragma once
 
 #include "haptics/tool/bur_shape.h"
 
 namespace haptics {
 
-/// A round rod along +z, from the origin of T to `length_mm`; its part inside the head counts as head. Length 0: none.
+/// A round rod along +z from the origin of T to `length_mm`; its part inside the head counts as head. Length 0: none.
 struct Shaft {
   double radius_mm = 0.0;
   double length_mm = 0.0;
@@ -19,11 +19,11 @@ struct Tool {
   bool operator==(const Tool&) const = default;
 };
 
-/// What the servo takes: head and shaft drawn back into their ranges, no shaft if it is none.
+/// Head and shaft within their ranges; no shaft if it is invalid.
 Tool sanitised(const Tool& tool) noexcept;
 
-/// The shaft of a bur as it is made: a shank of 2.35 mm (ISO 1797, type 2), or a neck as much narrower than the head
-/// as lets chips out; felt over the 25 mm that stand out of a handpiece.
+/// The usual shaft of a bur: a shank of 2.35 mm (ISO 1797, type 2), or a neck narrower than the head that lets chips
+/// out; 25 mm long, as far as it stands out of a handpiece.
 Shaft standardShaft(const BurShape& head) noexcept;
 
 }  // namespace haptics

@@ -31,8 +31,8 @@ class CountingDevice final : public SimulatedDevice {
   DeviceCapabilities capabilities_;
 };
 
-TEST(HandleLog, KeepsTheOrderAndDropsTheNewestWhenItIsFull) {
-  HandleLog log(3);
+TEST(SpscRing, KeepsTheOrderAndDropsTheNewestWhenFull) {
+  SpscRing<TimedHandle> log(3);
   for (int n = 0; n < 5; ++n) log.push({.t_s = 1.0 * n, .state = {}});
   std::vector<TimedHandle> taken;
   log.drainInto(taken);
