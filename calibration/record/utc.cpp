@@ -19,7 +19,7 @@ int numberIn(std::string_view text, std::size_t at, std::size_t digits) {
 }  // namespace
 
 std::optional<std::int64_t> secondsOfUtc(std::string_view text) {
-  if (text.size() != kLength) return std::nullopt;
+  if (text.size() != kLength || text[0] == '-') return std::nullopt;
   const std::chrono::year_month_day day{std::chrono::year(numberIn(text, 0, 4)),
                                         std::chrono::month(static_cast<unsigned>(numberIn(text, 5, 2))),
                                         std::chrono::day(static_cast<unsigned>(numberIn(text, 8, 2)))};

@@ -5,7 +5,7 @@
 namespace bench {
 namespace {
 
-/// The benchmark's figures over few of its rigs: the same seeds, the same limits.
+/// The benchmark's figures over fewer rigs: the same seeds, the same limits.
 constexpr int kRigs = 12;
 
 void expectAll(const Figures& figures) {
@@ -14,12 +14,12 @@ void expectAll(const Figures& figures) {
 }
 
 TEST(CalibrationFigures, HoldForTheJig) { expectAll(jigFigures(kRigs)); }
-TEST(CalibrationFigures, AreForetoldByCrossValidation) { expectAll(crossValidationFigures(kRigs)); }
-TEST(CalibrationFigures, AreNotChangedByASlip) { expectAll(outlierFigures(kRigs)); }
+TEST(CalibrationFigures, ArePredictedByCrossValidation) { expectAll(crossValidationFigures(kRigs)); }
+TEST(CalibrationFigures, AreNotChangedByAnOutlier) { expectAll(outlierFigures(kRigs)); }
 TEST(CalibrationFigures, HoldForCrossesAimedAtByEye) { expectAll(visualFigures(kRigs)); }
-TEST(CalibrationFigures, ComeBackWithFiveTouches) { expectAll(rezeroFigures(kRigs)); }
-TEST(CalibrationFigures, AreNotReachedUnnoticedByAFlipOrOneTilt) { expectAll(guardFigures(kRigs)); }
-TEST(CalibrationFigures, HoldForWhatIsSeen) { expectAll(seenFigures(kRigs)); }
+TEST(CalibrationFigures, AreRestoredByFiveTouches) { expectAll(rezeroFigures(kRigs)); }
+TEST(CalibrationFigures, DetectAFlipAndASingleTilt) { expectAll(guardFigures(kRigs)); }
+TEST(CalibrationFigures, HoldForTheSeenError) { expectAll(seenFigures(kRigs)); }
 TEST(CalibrationFigures, HoldForTheWebcam) { expectAll(webcamFigures(kRigs)); }
 
 }  // namespace

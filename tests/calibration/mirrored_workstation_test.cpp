@@ -25,7 +25,7 @@ TEST(MirroredWorkstation, ShowsItsScreenUprightAboutTheOrigin) {
   EXPECT_NEAR(glm::length((seen.upper_left - seen.lower_left).xyz), 531.0 * 1080 / 1920, 1e-9);
 }
 
-TEST(MirroredWorkstation, HangsItsPanelAsAMonitorTippedForward) {
+TEST(MirroredWorkstation, HasItsPanelTippedForward) {
   const Rig rig = mirroredWorkstationRig();
   const glm::dvec3 right = (rig.screen.lower_right - rig.screen.lower_left).xyz;
   const glm::dvec3 up = (rig.screen.upper_left - rig.screen.lower_left).xyz;
@@ -34,7 +34,7 @@ TEST(MirroredWorkstation, HangsItsPanelAsAMonitorTippedForward) {
   EXPECT_GT(right.x, 0.0) << "its right stays right";
   EXPECT_GT(up.z, 0.0) << "its upper edge is the nearer";
 
-  // A panel shines at the mirror, so what is seen is left-handed: that is the whole flip.
+  // The panel faces the mirror, so the seen screen is left-handed: the whole flip.
   const VirtualScreen seen = seenInMirror(rig);
   EXPECT_LT(glm::cross((seen.lower_right - seen.lower_left).xyz, (seen.upper_left - seen.lower_left).xyz).z, 0.0);
 }
@@ -55,7 +55,7 @@ TEST(MirroredWorkstation, HasTheMirrorBetweenEyesAndScreenAndTheWorkUnderIt) {
   EXPECT_NEAR(rig.cyclopeanEye().mm.z, 450.0, 1e-12);
 }
 
-TEST(MirroredWorkstation, HasADeviceWhereAPublishedOneStands) {
+TEST(MirroredWorkstation, HasThePublishedDevicePose) {
   const Rig rig = mirroredWorkstationRig();
   EXPECT_NEAR(degreesFromRad(glm::angle(rig.X_WD.rotation)), 41.61, 1e-9);
   EXPECT_EQ(rig.X_WD.translation_mm, glm::dvec3(0.0, -55.5, -36.0));

@@ -41,7 +41,7 @@ std::string refusalOf(const auto& act) {
   return tests::refusalOf<CalibrationError>([&] { act(); });
 }
 
-TEST_F(Output, AppearsWholeAtCommitAndNotBefore) {
+TEST_F(Output, AppearsCompleteAtCommitAndNotBefore) {
   OutputFile file(at("a.nrrd"), false);
   write(file.temporaryPath(), "voxels");
   EXPECT_FALSE(fs::exists(at("a.nrrd")));
@@ -60,12 +60,12 @@ TEST_F(Output, LeavesNothingWhenNotCommitted) {
   EXPECT_EQ(entries(), 0);
 }
 
-TEST_F(Output, TemporaryEndsAsTheTargetDoes) {
+TEST_F(Output, TemporaryHasTheTargetsExtension) {
   OutputFile file(at("a.nii.gz"), false);
   EXPECT_THAT(file.temporaryPath(), testing::EndsWith("a.nii.gz"));
 }
 
-TEST_F(Output, ReplacesOnlyWithLeave) {
+TEST_F(Output, ReplacesOnlyWithPermission) {
   write(at("a"), "old");
   EXPECT_THAT(refusalOf([&] { OutputFile(at("a"), false); }), testing::HasSubstr("--force"));
   OutputFile file(at("a"), true);
@@ -75,7 +75,7 @@ TEST_F(Output, ReplacesOnlyWithLeave) {
   EXPECT_EQ(read(at("a")), "new");
 }
 
-TEST_F(Output, DoesNotReplaceWhatCameMeanwhile) {
+TEST_F(Output, DoesNotReplaceAFileCreatedMeanwhile) {
   OutputFile file(at("a"), false);
   write(at("a"), "someone else's");
   EXPECT_THROW(file.commit(), CalibrationError);
@@ -92,7 +92,7 @@ TEST_F(Output, WritesThroughALink) {
   EXPECT_EQ(read(at("real")), "new");
 }
 
-TEST_F(Output, RefusesWhatIsNoPlaceForAFile) {
+TEST_F(Output, RefusesInvalidTargets) {
   EXPECT_THAT(refusalOf([&] { OutputFile(at("no/such/a"), false); }), testing::HasSubstr("there is no folder"));
   EXPECT_THAT(refusalOf([&] { OutputFile(folder_.string(), true); }), testing::HasSubstr("folder"));
   EXPECT_THAT(refusalOf([&] { OutputFile("/dev/null", true); }), testing::HasSubstr("not a plain file"));
@@ -102,7 +102,7 @@ TEST_F(Output, RefusesWhatIsNoPlaceForAFile) {
   EXPECT_THAT(refusalOf([&] { OutputFile(at("file/a"), false); }), testing::HasSubstr("there is no folder"));
 }
 
-TEST_F(Output, FolderAppearsWholeAndReplacesWhole) {
+TEST_F(Output, FolderAppearsAndIsReplacedCompletely) {
   for (const std::string text : {"first", "second"}) {
     OutputFolder folder(at("p/"), true, {"x", "y"});
     write(folder.temporaryPath() + "/x", text);
@@ -114,7 +114,7 @@ TEST_F(Output, FolderAppearsWholeAndReplacesWhole) {
   EXPECT_EQ(entries(), 1);
 }
 
-TEST_F(Output, FolderInPlaceNeedsLeaveUnlessEmpty) {
+TEST_F(Output, ExistingFolderNeedsPermissionUnlessEmpty) {
   fs::create_directory(at("p"));
   OutputFolder first(at("p"), false, {"x"});
   write(first.temporaryPath() + "/x", "1");
@@ -123,7 +123,7 @@ TEST_F(Output, FolderInPlaceNeedsLeaveUnlessEmpty) {
   EXPECT_THAT(refusalOf([&] { OutputFolder(at("p"), false, {"x"}); }), testing::HasSubstr("--force"));
 }
 
-TEST_F(Output, NeverReplacesAFolderThatHoldsSomethingElse) {
+TEST_F(Output, NeverReplacesAFolderWithOtherContents) {
   fs::create_directory(at("p"));
   write(at("p/x"), "ours");
   write(at("p/thesis.tex"), "theirs");
@@ -131,12 +131,12 @@ TEST_F(Output, NeverReplacesAFolderThatHoldsSomethingElse) {
   EXPECT_EQ(read(at("p/thesis.tex")), "theirs");
 }
 
-/// As a killed program leaves it: nobody holds it, and it is older than what another may just have begun.
+/// As a killed program leaves it: unlocked, and older than one that was just created.
 void abandon(const fs::path& temporary) {
   fs::last_write_time(temporary, fs::file_time_type::clock::now() - std::chrono::minutes(2));
 }
 
-TEST_F(Output, ClearsWhatAKilledProgramLeftOfTheSameTarget) {
+TEST_F(Output, RemovesLeftoversOfTheSameTarget) {
   write(at(".part-abcdefgh-a.nrrd"), "half");
   fs::create_directory(at(".part-01234567-patient"));
   write(at(".part-01234567-patient/volume.vdb"), "half");
@@ -147,7 +147,7 @@ TEST_F(Output, ClearsWhatAKilledProgramLeftOfTheSameTarget) {
   EXPECT_EQ(entries(), 0);
 }
 
-TEST_F(Output, PutsBackTheFolderThatAKilledProgramHadSetAside) {
+TEST_F(Output, RestoresAFolderThatAKilledProgramSetAside) {
   fs::create_directory(at(".kept-patient"));
   write(at(".kept-patient/x"), "old");
   EXPECT_THAT(refusalOf([&] { OutputFolder(at("patient"), false, {"x"}); }), testing::HasSubstr("--force"));
@@ -158,7 +158,7 @@ TEST_F(Output, PutsBackTheFolderThatAKilledProgramHadSetAside) {
   EXPECT_EQ(entries(), 1);
 }
 
-TEST_F(Output, LeavesWhatIsBeingWrittenOrIsOfAnotherTarget) {
+TEST_F(Output, KeepsTemporariesInUseOrOfOtherTargets) {
   OutputFile at_work(at("a.nrrd"), false);
   OutputFolder folder_at_work(at("patient"), false, {});
   abandon(at_work.temporaryPath());
@@ -174,7 +174,7 @@ TEST_F(Output, LeavesWhatIsBeingWrittenOrIsOfAnotherTarget) {
   EXPECT_EQ(entries(), 7);
 }
 
-TEST(TemporaryMarks, AreTakenOutOfMessages) {
+TEST(TemporaryNames, AreRemovedFromMessages) {
   EXPECT_EQ(calibration::withoutTemporaryNames("image out/.part-q2dm741g-o.png: no room, .part-00000000-x"),
             "image out/o.png: no room, x");
   EXPECT_EQ(calibration::withoutTemporaryNames(".part-q2dm741g"), ".part-q2dm741g");

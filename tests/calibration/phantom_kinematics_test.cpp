@@ -28,7 +28,7 @@ struct AnyJoints {
   }
 };
 
-TEST(PhantomKinematics, PutsTheOmniAtZeroWhereItsMakerDoes) {
+TEST(PhantomKinematics, HasTheOmnisPublishedZeroPosition) {
   EXPECT_LT(glm::distance(wristPosition(kOmniGeometry, glm::dvec3(0.0)).mm, glm::dvec3(0.0, -110.0, -35.0)), 1e-12);
   EXPECT_LT(glm::length(wristPosition(kPremium15Geometry, glm::dvec3(0.0)).mm), 1e-12);
 }
@@ -42,7 +42,7 @@ TEST(PhantomKinematics, ReachesTheInkwellWithTheArmUpright) {
   EXPECT_LT(glm::distance(wristPosition(kOmniGeometry, *arm_rad).mm, kOmniInkwell_D.mm), 1e-9);
 }
 
-TEST(PhantomKinematics, NeedsMoreTorqueThanTheOmniHasToPushUpAtTheInkwell) {
+TEST(PhantomKinematics, HasTheKnownTorqueAtTheInkwell) {
   const glm::dvec3 torque_Nmm =
       armTorque_Nmm(kOmniGeometry, armAnglesFor(kOmniGeometry, kOmniInkwell_D).value(), {{0.0, 3.3, 0.0}});
   EXPECT_NEAR(torque_Nmm.x, 0.0, 1e-9);
@@ -50,7 +50,7 @@ TEST(PhantomKinematics, NeedsMoreTorqueThanTheOmniHasToPushUpAtTheInkwell) {
   EXPECT_NEAR(torque_Nmm.z, -160.0, 1.0);
 }
 
-TEST(PhantomKinematics, MovesAsTheHandSays) {
+TEST(PhantomKinematics, MovesInTheDocumentedDirections) {
   // Right, up and towards the user, turret to the left, thigh up, shin out.
   const glm::dmat3 J = armJacobian_mm(kOmniGeometry, glm::dvec3(0.0));
   EXPECT_LT(glm::distance(J[0], glm::dvec3(-133.35, 0.0, 0.0)), 1e-12);
@@ -58,7 +58,7 @@ TEST(PhantomKinematics, MovesAsTheHandSays) {
   EXPECT_LT(glm::distance(J[2], glm::dvec3(0.0, 0.0, 133.35)), 1e-12);
 }
 
-TEST(PhantomKinematics, DifferentiatesItself) {
+TEST(PhantomKinematics, HasTheJacobianOfDifferences) {
   AnyJoints any;
   for (const PhantomGeometry& g : kGeometries)
     for (int n = 0; n < 500; ++n) {
@@ -77,7 +77,7 @@ TEST(PhantomKinematics, DifferentiatesItself) {
     }
 }
 
-TEST(PhantomKinematics, ComesBackFromWhereItWent) {
+TEST(PhantomKinematics, InvertsItsForwardKinematics) {
   AnyJoints any;
   for (const PhantomGeometry& g : kGeometries)
     for (int n = 0; n < 2000; ++n) {
@@ -96,7 +96,7 @@ TEST(PhantomKinematics, ComesBackFromWhereItWent) {
     }
 }
 
-TEST(PhantomKinematics, BendsItsElbowTheWayItsStopsLetIt) {
+TEST(PhantomKinematics, SelectsTheElbowWithinTheLimits) {
   PhantomGeometry down = kOmniGeometry;
   down.arm = {};
   down.elbow = {radFromDegrees(91.0), radFromDegrees(269.0)};
@@ -108,7 +108,7 @@ TEST(PhantomKinematics, BendsItsElbowTheWayItsStopsLetIt) {
   }
 }
 
-TEST(PhantomKinematics, TurnsWithoutStretching) {
+TEST(PhantomKinematics, HasOrthonormalRotations) {
   AnyJoints any;
   for (const PhantomGeometry& g : kGeometries)
     for (int n = 0; n < 500; ++n) {
@@ -126,7 +126,7 @@ TEST(PhantomKinematics, TurnsWithoutStretching) {
     }
 }
 
-TEST(PhantomKinematics, WorksAsMuchAtTheJointsAsAtTheHand) {
+TEST(PhantomKinematics, ConservesVirtualWork) {
   AnyJoints any;
   for (const PhantomGeometry& g : kGeometries)
     for (int n = 0; n < 200; ++n) {
@@ -136,13 +136,13 @@ TEST(PhantomKinematics, WorksAsMuchAtTheJointsAsAtTheHand) {
     }
 }
 
-TEST(PhantomKinematics, ReachesNothingBeyondItsArm) {
+TEST(PhantomKinematics, ReachesNothingBeyondItsLinks) {
   for (const PhantomGeometry& g : kGeometries) {
     EXPECT_FALSE(armAnglesFor(g, {g.shoulder_D.mm + glm::dvec3(0.0, 0.0, 1.001 * (g.thigh_mm + g.shin_mm))}));
     EXPECT_FALSE(armAnglesFor(g, {{std::nan(""), 0.0, 0.0}}));
     EXPECT_FALSE(armAnglesFor(g, {g.shoulder_D.mm + glm::dvec3(0.0, -g.shin_mm, -g.thigh_mm)})) << "behind its back";
   }
-  // Thrown back behind its upper stop.
+  // Beyond its upper stop.
   EXPECT_FALSE(jointsReaching(kOmniGeometry, {glm::angleAxis(3.0, glm::dvec3(1, 0, 0)), {0.0, 0.0, 0.0}}));
 }
 

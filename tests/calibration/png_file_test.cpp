@@ -9,7 +9,7 @@
 namespace calibration {
 namespace {
 
-TEST(PictureFile, WritesAPngOfTheSizeAsked) {
+TEST(PngFile, WritesAPngOfTheSizeAsked) {
   const std::string path = testing::TempDir() + "png_file_test.tmp";
   writePng(path, {3, 2}, std::vector<std::uint8_t>(24, 200));
   std::ifstream file(path, std::ios::binary);
@@ -21,7 +21,7 @@ TEST(PictureFile, WritesAPngOfTheSizeAsked) {
   std::filesystem::remove(path);
 }
 
-TEST(PictureFile, SaysWhereItCanNotWrite) {
+TEST(PngFile, NamesAPathItCannotWrite) {
   EXPECT_THROW(writePng("/nonexistent/a.png", {1, 1}, std::vector<std::uint8_t>(4)), CalibrationError);
 }
 

@@ -77,7 +77,7 @@ TEST_F(RigFile, ScalesOffsetWithAnUnnormalisedMirrorNormal) {
   EXPECT_NEAR(rig.mirror->offset_mm, 12.5 / std::sqrt(8.0), 1e-9);
 }
 
-TEST_F(RigFile, RefusesWhatIsNoRig) {
+TEST_F(RigFile, RefusesWhatIsNotARig) {
   const std::string good = rigText(mirroredRig());
   EXPECT_NE(refusal(""), "accepted");
   EXPECT_NE(refusal("hello"), "accepted");
@@ -107,7 +107,7 @@ TEST_F(RigFile, RefusesAPoseThatScalesOrFlips) {
   EXPECT_NE(refusal(replaced(good, data, "data: [ -1., 0., 0., 0., 0., 1.")), "accepted");
 }
 
-TEST_F(RigFile, RefusesAMatrixOfAnotherSizeWithoutMakingRoomForIt) {
+TEST_F(RigFile, RefusesAMatrixOfAnotherSizeWithoutAllocating) {
   const std::string good = rigText(mirroredRig());
   for (const char* rows : {"rows: 3", "rows: -4", "rows: 2000000000", "rows: four"})
     EXPECT_THAT(refusal(replaced(good, "rows: 4", rows)), testing::HasSubstr("4x4")) << rows;

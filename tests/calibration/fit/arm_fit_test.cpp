@@ -19,7 +19,7 @@ using Kind = FitWarning::Kind;
 
 constexpr glm::dvec3 kHalf_mm{65.0, 45.0, 32.5};
 
-/// Touches of a synthetic workstation and others to assess the fit by.
+/// Touches of a synthetic workstation, and held-out touches for verification.
 struct Trial {
   TouchSet set;
   std::vector<Touch> held_out;
@@ -33,7 +33,7 @@ struct Trial {
   }
 };
 
-/// A unit of any model whose errors a correction can express, standing anywhere, turned round too.
+/// A unit of any model with correctable errors only, at any pose.
 struct ExactUnit {
   PerturbedArm arm;
   Pose<World, Device> X_WD;
@@ -92,7 +92,7 @@ TouchSet flipped(TouchSet set, int axis) {
   return set;
 }
 
-TEST(ArmFit, FindsAnArmWithoutNoiseOfEveryModelWhereverItStands) {
+TEST(ArmFit, FindsEveryModelWithoutNoiseAtAnyPose) {
   for (const PhantomModel& model : kPhantomModels) {
     ExactUnit unit(model, 3);
     const TouchSet set{.device_model = std::string(model.key),
@@ -108,7 +108,7 @@ TEST(ArmFit, FindsAnArmWithoutNoiseOfEveryModelWhereverItStands) {
   }
 }
 
-TEST(ArmFit, EstimatesWhatTheModelCanNotExplain) {
+TEST(ArmFit, EstimatesTheModelError) {
   ExactUnit unit(kPhantomModels[0], 5);
   const TouchSet set{.device_model = "omni",
                      .serial = {},
@@ -122,7 +122,7 @@ TEST(ArmFit, EstimatesWhatTheModelCanNotExplain) {
   EXPECT_GT(fit.sigma[9], 0.0);
 }
 
-TEST(ArmFit, IsTwiceAsGoodAsARigidLay) {
+TEST(ArmFit, IsTwiceAsGoodAsARigidFit) {
   std::vector<double> full, rigid, honest;
   for (std::uint32_t seed = 1; seed <= 9; ++seed) {
     const Trial trial(Scenario::d, seed, "jig27", 0.02);
@@ -138,7 +138,7 @@ TEST(ArmFit, IsTwiceAsGoodAsARigidLay) {
   EXPECT_LT(median(honest), 1.4);
 }
 
-TEST(ArmFit, MakesMuchOfEightTouchesAndOfCrossesAimedAtByEye) {
+TEST(ArmFit, IsGoodWithEightTouchesAndWithCrosses) {
   std::vector<double> eight, by_eye;
   for (std::uint32_t seed = 1; seed <= 9; ++seed) {
     const Trial few(Scenario::d, seed, "jig8"), crosses(Scenario::f, seed, "visual25");
@@ -149,7 +149,7 @@ TEST(ArmFit, MakesMuchOfEightTouchesAndOfCrossesAimedAtByEye) {
   EXPECT_LT(median(by_eye), 0.7);
 }
 
-TEST(ArmFit, NamesAWildTouchAndIsNotMovedByIt) {
+TEST(ArmFit, NamesAnOutlierAndIsNotChangedByIt) {
   for (std::uint32_t seed = 1; seed <= 4; ++seed) {
     const Trial trial(Scenario::d, seed, "jig27");
     TouchSet spoilt = trial.set;
@@ -163,7 +163,7 @@ TEST(ArmFit, NamesAWildTouchAndIsNotMovedByIt) {
   }
 }
 
-TEST(ArmFit, LeavesTouchesSetAsideAlone) {
+TEST(ArmFit, IgnoresUnusedTouches) {
   Trial trial(Scenario::b, 2, "jig27");
   trial.set.touches[4].used = false;
   trial.set.touches[4].target_W.mm.x += 30.0;
@@ -187,7 +187,7 @@ TEST(ArmFit, ReportsEveryModelItTried) {
   EXPECT_FALSE(armModelNamed("affine"));
 }
 
-TEST(ArmFit, ChoosesNoFullModelWhereTiltsDoNotVaryAndSaysSo) {
+TEST(ArmFit, SelectsNoFullModelWithoutTiltVarietyAndWarns) {
   for (std::uint32_t seed = 1; seed <= 6; ++seed) {
     const ArmFit fit = fitArm(Trial(Scenario::e, seed, "jig27").set);
     EXPECT_NE(fit.model, ArmModel::full);
@@ -197,7 +197,7 @@ TEST(ArmFit, ChoosesNoFullModelWhereTiltsDoNotVaryAndSaysSo) {
   }
 }
 
-TEST(ArmFit, SaysThatFewTouchesAreFew) {
+TEST(ArmFit, WarnsOfFewTouches) {
   Trial trial(Scenario::d, 3, "jig27");
   EXPECT_TRUE(fitArm(trial.set).warnings.empty());
   trial.set.touches.resize(15);
@@ -207,7 +207,7 @@ TEST(ArmFit, SaysThatFewTouchesAreFew) {
   EXPECT_NE(fit.model, ArmModel::full);
 }
 
-TEST(ArmFit, SaysThatTheTouchesSpanLittleOfTheCase) {
+TEST(ArmFit, WarnsOfASmallVolume) {
   const Trial trial(Scenario::d, 3, "jig27");
   const double hull_mm3 = fitArm(trial.set).hull_mm3;
   EXPECT_NEAR(hull_mm3, 130.0 * 90.0 * 65.0, 0.05 * hull_mm3);
@@ -215,7 +215,7 @@ TEST(ArmFit, SaysThatTheTouchesSpanLittleOfTheCase) {
   EXPECT_TRUE(warnsOf(fitArm(trial.set, {.model = {}, .region_mm3 = 1.8 * hull_mm3}), Kind::small_volume));
 }
 
-TEST(ArmFit, SaysThatManyTouchesWereWild) {
+TEST(ArmFit, WarnsOfManyOutliers) {
   Trial trial(Scenario::d, 4, "jig27");
   for (const std::size_t i : {2u, 9u, 20u}) trial.set.touches[i].target_W.mm.y += 12.0;
   const ArmFit fit = fitArm(trial.set);
@@ -223,15 +223,15 @@ TEST(ArmFit, SaysThatManyTouchesWereWild) {
   EXPECT_TRUE(warnsOf(fit, Kind::many_outliers));
 }
 
-TEST(ArmFit, RefusesAMirroredPictureEveryTime) {
+TEST(ArmFit, RefusesAMirroredImage) {
   for (std::uint32_t seed = 1; seed <= 6; ++seed)
     for (const char* method : {"jig27", "jig8"})
       for (const int axis : {0, 1, 2})
         EXPECT_THAT(refusal(flipped(Trial(Scenario::c, seed, method, 0.05).set, axis)), HasSubstr("mirror"));
 }
 
-TEST(ArmFit, WarnsOfAMirroredPictureWhoseTargetsLieInItsPlane) {
-  // Turned half round the touches fit as well: only that the stylus comes from behind the screen gives it away.
+TEST(ArmFit, WarnsOfAMirroredImageWithPlanarTargets) {
+  // Rotated by half a turn the touches fit as well: only the stylus direction gives it away.
   for (std::uint32_t seed = 1; seed <= 4; ++seed) {
     const Trial trial(Scenario::f, seed, "visual15");
     EXPECT_FALSE(warnsOf(fitArm(trial.set), Kind::mirrored));
@@ -250,7 +250,7 @@ TEST(ArmFit, RefusesTouchesThatNoPoseExplains) {
   EXPECT_THAT(refusal(trial.set), HasSubstr("order"));
 }
 
-TEST(ArmFit, TakesWhatPeopleHave) {
+TEST(ArmFit, AcceptsNominalTouches) {
   for (const std::size_t n : {4u, 5u, 6u, 7u}) {
     Trial trial(Scenario::a, 7, "jig8");
     trial.set.touches.resize(n);

@@ -32,7 +32,7 @@ struct AnyArm {
   }
 };
 
-TEST(ArmParameters, AreTheModelWhereItStandsWhenAllAreZero) {
+TEST(ArmParameters, GiveTheStartArmAtZero) {
   AnyArm any;
   const ArmStart start = any.start(kPhantomModels[3]);
   const MeasuredArm arm = armOf(start, {});
@@ -41,7 +41,7 @@ TEST(ArmParameters, AreTheModelWhereItStandsWhenAllAreZero) {
   EXPECT_LT(glm::distance(arm.tip_W(raw).mm, model.tip_W(raw).mm), 1e-12);
 }
 
-TEST(ArmParameters, KnowTheirSlopes) {
+TEST(ArmParameters, HaveTheJacobianOfDifferences) {
   AnyArm any;
   for (int round = 0; round < 40; ++round) {
     const ArmStart start = any.start(kPhantomModels[static_cast<std::size_t>(round % 4)]);

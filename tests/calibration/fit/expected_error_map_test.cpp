@@ -18,13 +18,13 @@ std::vector<Point<World>> corners() {
   return corners;
 }
 
-TEST(ExpectedErrorMap, IsSmallestInTheMiddle) {
+TEST(ExpectedErrorMap, IsSmallestAtTheCentre) {
   const ExpectedErrorMap map(corners(), 0.5);
   EXPECT_NEAR(map.at_mm({{10.0, 0.0, 0.0}}), 0.5 / std::sqrt(8.0), 1e-12);
   EXPECT_GT(map.at_mm({{75.0, 45.0, 30.0}}), map.at_mm({{10.0, 45.0, 0.0}}));
 }
 
-TEST(ExpectedErrorMap, IsWhatRigidFitsOfNoisyTouchesDo) {
+TEST(ExpectedErrorMap, AgreesWithRigidFitsOfNoisyTouches) {
   std::mt19937 rng(9);
   std::normal_distribution<double> noise(0.0, 0.3);
   std::vector<glm::dvec3> from, to(8);

@@ -11,7 +11,6 @@
 namespace calibration {
 namespace {
 
-/// y = a + b t at ten places, read with sigma 0.1.
 /// With the Jacobian by central differences.
 LeastSquaresResult solvedByDifferences(LeastSquares problem) {
   problem.jacobian_at = [&problem](std::span<const double> x, std::span<double> J) {
@@ -29,6 +28,7 @@ LeastSquaresResult solvedByDifferences(LeastSquares problem) {
   return solved(problem);
 }
 
+/// y = a + b t at ten points, measured with sigma 0.1.
 struct Line {
   std::array<double, 10> t{}, y{};
 
@@ -57,7 +57,7 @@ LeastSquares rosenbrock() {
   return valley;
 }
 
-/// A sum of two decays and a rest, noisy. From afar OpenCV's solver ends elsewhere: both start near.
+/// A sum of two decays and a constant, noisy. OpenCV's solver needs a near start.
 struct Decays {
   std::vector<double> y;
   Decays() {
@@ -98,7 +98,7 @@ struct DecaysForOpenCv : cv::LMSolver::Callback {
   }
 };
 
-TEST(LeastSquares, FindsALineAndHowSureItIs) {
+TEST(LeastSquares, FindsALineAndItsCovariance) {
   const Line line;
   const LeastSquaresResult found = solvedByDifferences(line.problem());
   EXPECT_TRUE(found.converged);
@@ -111,7 +111,7 @@ TEST(LeastSquares, FindsALineAndHowSureItIs) {
   EXPECT_NEAR(found.effective_parameters, 2.0, 1e-6);
 }
 
-TEST(LeastSquares, TakesTheSayFromAWildResidual) {
+TEST(LeastSquares, DownWeightsAnOutlier) {
   Line line;
   line.y[7] += 15.0;
   LeastSquares problem = line.problem();
@@ -124,8 +124,8 @@ TEST(LeastSquares, TakesTheSayFromAWildResidual) {
   EXPECT_GT(found.weights[2], 0.9);
 }
 
-TEST(LeastSquares, WeighsAGroupAsOne) {
-  // Two residuals of a group: the clean one is doubted with its wild neighbour.
+TEST(LeastSquares, WeightsAGroupTogether) {
+  // Two residuals of a group: the good one is down-weighted with the outlier.
   Line line;
   line.y[7] += 15.0;
   LeastSquares problem = line.problem();
@@ -136,7 +136,7 @@ TEST(LeastSquares, WeighsAGroupAsOne) {
   EXPECT_NEAR(found.parameters[1], 0.5, 0.005);
 }
 
-TEST(LeastSquares, CrossesRosenbrocksValley) {
+TEST(LeastSquares, SolvesRosenbrock) {
   const LeastSquaresResult found = solvedByDifferences(rosenbrock());
   EXPECT_TRUE(found.converged);
   EXPECT_LT(found.iterations, 40);
@@ -144,7 +144,7 @@ TEST(LeastSquares, CrossesRosenbrocksValley) {
   EXPECT_NEAR(found.parameters[1], 1.0, 1e-6);
 }
 
-TEST(LeastSquares, PutsANumberBetweenPriorAndMeasurementByTheirSigmas) {
+TEST(LeastSquares, WeightsPriorAndMeasurementByTheirSigmas) {
   // One measurement 1.0 of sigma 0.5, prior 0 of sigma 0.25: 0.2, sigma of 1 / sqrt(4 + 16).
   LeastSquares one;
   one.start = {0.0};
@@ -157,7 +157,7 @@ TEST(LeastSquares, PutsANumberBetweenPriorAndMeasurementByTheirSigmas) {
   EXPECT_NEAR(found.effective_parameters, 0.2, 1e-9);
 }
 
-TEST(LeastSquares, LeavesANumberThatNothingTellsOfAtItsPriorAndSaysWhenThereIsNone) {
+TEST(LeastSquares, LeavesAnUnobservedParameterAtItsPrior) {
   LeastSquares two = Line{}.problem();
   two.start = {0.0, 0.0};
   two.residuals = 1;
@@ -171,7 +171,7 @@ TEST(LeastSquares, LeavesANumberThatNothingTellsOfAtItsPriorAndSaysWhenThereIsNo
   EXPECT_NEAR(found.parameters[1], 7.0, 1e-9);
 }
 
-TEST(LeastSquares, ShortensAStepThatLeavesWhereItCanBeEvaluated) {
+TEST(LeastSquares, ShortensAStepOutOfTheDomain) {
   LeastSquares root;
   root.start = {100.0};
   root.residuals = 1;

@@ -16,7 +16,7 @@ using testing::HasSubstr;
 
 constexpr glm::dvec3 kBur_H_mm{1.5, -2.0, -57.0};
 
-/// The bur's end in a pit, the handle swung to both sides by so much; the arm finds itself what its angles are.
+/// The bur's end in a pit, the handle swung to both sides by this much; the arm is computed from its angles.
 std::vector<RawJoints> swung(double side_rad, double up_rad, int n = 20, double slip_mm = 0.0) {
   std::mt19937 rng(6);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -45,14 +45,14 @@ TEST(Pivot, FindsTheEndOfABur) {
   EXPECT_GT(pivot.tilt_spread_deg, 40.0);
 }
 
-TEST(Pivot, IsAsSureAsItSays) {
+TEST(Pivot, HasTheStatedUncertainty) {
   const Pivot pivot = fitPivot(kOmniGeometry, {}, swung(0.6, 0.5, 40, 0.2));
   EXPECT_GT(pivot.rms_mm, 0.1);
   EXPECT_LT(glm::distance(pivot.tip_H_mm, kBur_H_mm), 4.0 * pivot.sigma_mm);
   EXPECT_LT(pivot.sigma_mm, 0.15);
 }
 
-TEST(Pivot, IsRefusedWhereItCanNotBeKnown) {
+TEST(Pivot, IsRefusedWhereItIsUndetermined) {
   EXPECT_THAT(refusal(swung(0.6, 0.5, 11)), HasSubstr("too few"));
   EXPECT_THAT(refusal(swung(0.2, 0.2)), HasSubstr("swing it wider"));
   EXPECT_THAT(refusal(swung(0.7, 0.01)), HasSubstr("one plane only"));

@@ -22,7 +22,7 @@ TouchSet touchesOf(Scenario scenario, std::uint32_t seed, const char* method = "
   return simulatedTouches(rig, *targetPlan(method), rng);
 }
 
-TEST(QuickFit, BringsATypicalArmWithinTwoMillimetresWithEightTouches) {
+TEST(QuickFit, FitsATypicalArmWithinTwoMillimetresFromEightTouches) {
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
     const SyntheticRig rig = syntheticRig(Scenario::d, seed);
     const QuickFit quick = quickFit(believed(rig), touchesOf(Scenario::d, seed, "jig8"));
@@ -36,7 +36,7 @@ TEST(QuickFit, BringsATypicalArmWithinTwoMillimetresWithEightTouches) {
   }
 }
 
-TEST(QuickFit, DoubtsATouchOfTheWrongPlaceAndNoOther) {
+TEST(QuickFit, FlagsATouchOfTheWrongTargetOnly) {
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
     TouchSet set = touchesOf(Scenario::d, seed);
     const std::size_t wrong = seed % set.touches.size();
@@ -47,7 +47,7 @@ TEST(QuickFit, DoubtsATouchOfTheWrongPlaceAndNoOther) {
   }
 }
 
-TEST(QuickFit, SeldomDoubtsTouchesThatAreRight) {
+TEST(QuickFit, SeldomFlagsGoodTouches) {
   int doubted = 0, all = 0;
   for (const Scenario scenario : {Scenario::a, Scenario::b, Scenario::c, Scenario::d, Scenario::g})
     for (std::uint32_t seed = 1; seed <= 10; ++seed) {
@@ -59,9 +59,9 @@ TEST(QuickFit, SeldomDoubtsTouchesThatAreRight) {
   EXPECT_LT(doubted, all / 50);
 }
 
-/// The linear form against fits that were truly made without the touch.
-TEST(QuickFit, ForetellsWhatAFitWithoutTheTouchLeavesThere) {
-  const TouchSet set = touchesOf(Scenario::d, 5, "jig8");  // so few that each has much to say
+/// Linearised leave-one-out against real refits.
+TEST(QuickFit, PredictsTheLeaveOneOutResidual) {
+  const TouchSet set = touchesOf(Scenario::d, 5, "jig8");  // so few that each has much influence
   const MeasuredArm start = believed(syntheticRig(Scenario::d, 5));
   const QuickFit quick = quickFit(start, set);
   for (std::size_t i = 0; i < set.touches.size(); ++i) {
@@ -73,7 +73,7 @@ TEST(QuickFit, ForetellsWhatAFitWithoutTheTouchLeavesThere) {
   }
 }
 
-TEST(QuickFit, LeavesTheArmAsItIsForFewerThanFourTouches) {
+TEST(QuickFit, KeepsTheArmForFewerThanFourTouches) {
   TouchSet set = touchesOf(Scenario::d, 1);
   set.touches.resize(3);
   const MeasuredArm start = believed(syntheticRig(Scenario::d, 1));

@@ -26,7 +26,7 @@ std::vector<MarkTouch> touches(std::size_t first, const glm::dquat& turn, const 
   return made;
 }
 
-TEST(RestRegistration, FindsTheRestWhereItStands) {
+TEST(RestRegistration, FindsThePoseOfTheRest) {
   std::mt19937 rng(7);
   std::normal_distribution<double> any(0.0, 1.0);
   for (int n = 0; n < 200; ++n) {
@@ -49,7 +49,7 @@ TEST(RestRegistration, StaysWithinTwoMillimetresForAnOrdinaryArm) {
   }
 }
 
-TEST(RestRegistration, SaysByItsProofThatTheRestHasMoved) {
+TEST(RestRegistration, ShowsByVerificationThatTheRestHasMoved) {
   const glm::dquat turn(1, 0, 0, 0);
   const auto rest = registerRest(touches(0, turn, {0, 0, 0}), touches(3, turn, {3, 0, 0}));
   EXPECT_NEAR(rest.worst_mm, 3.0, 1e-9);
@@ -61,7 +61,7 @@ TEST(RestRegistration, RefusesMarksInAnotherOrder) {
   EXPECT_THROW(registerRest(made_of, {}), CalibrationError);
 }
 
-TEST(RestRegistration, RefusesTooFewOnALineOrNoNumbers) {
+TEST(RestRegistration, RefusesTooFewOnALineOrNotFinite) {
   auto made_of = touches(0, glm::dquat(1, 0, 0, 0), {0, 0, 0});
   EXPECT_THROW(registerRest({made_of[0], made_of[1]}, {}), CalibrationError);
   auto line = made_of;

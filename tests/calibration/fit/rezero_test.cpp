@@ -12,7 +12,7 @@ namespace {
 
 constexpr glm::dvec3 kRegion_mm{70.0, 50.0, 35.0};
 
-/// As if the calibration had found everything that a correction can express.
+/// As if calibration had found every correctable error.
 MeasuredArm perfectly(const SyntheticRig& rig) { return {rig.arm.geometry, rig.arm.truth, rig.X_WD}; }
 
 double tre_mm(const MeasuredArm& arm, const SyntheticRig& rig, std::uint32_t seed) {
@@ -23,7 +23,7 @@ double tre_mm(const MeasuredArm& arm, const SyntheticRig& rig, std::uint32_t see
   return std::sqrt(sum / static_cast<double>(judges.size()));
 }
 
-/// No noise, no slips, nothing that a correction can not express.
+/// No noise, no outliers, no uncorrectable errors.
 SyntheticRig exact(std::uint32_t seed) {
   SyntheticRig rig = syntheticRig(Scenario::b, seed);
   rig.arm.ripple = {};
@@ -42,7 +42,7 @@ SyntheticRig nightLater(const SyntheticRig& rig, std::uint32_t seed) {
   return drifted(rig, 0.3, 1.0, rng);
 }
 
-TEST(Rezero, LeavesAnArmAloneThatHasNotMoved) {
+TEST(Rezero, KeepsAnArmThatHasNotMoved) {
   for (std::uint32_t seed = 1; seed <= 10; ++seed) {
     const SyntheticRig rig = exact(seed);
     const Rezero result = rezeroed(perfectly(rig), fiveTouches(rig, seed));
@@ -67,7 +67,7 @@ TEST(Rezero, FindsAPushedBase) {
   }
 }
 
-TEST(Rezero, FindsJointsThatWereHomedAnew) {
+TEST(Rezero, FindsNewJointOffsets) {
   for (std::uint32_t seed = 1; seed <= 10; ++seed) {
     const SyntheticRig rig = exact(seed);
     SyntheticRig homed = rig;
@@ -82,7 +82,7 @@ TEST(Rezero, FindsJointsThatWereHomedAnew) {
   }
 }
 
-TEST(Rezero, BringsATypicalArmBackAfterANight) {
+TEST(Rezero, RestoresATypicalArmAfterOvernightDrift) {
   std::vector<double> before, after;
   for (std::uint32_t seed = 1; seed <= 60; ++seed) {
     const SyntheticRig rig = syntheticRig(Scenario::d, seed), now = nightLater(rig, seed);
@@ -96,7 +96,7 @@ TEST(Rezero, BringsATypicalArmBackAfterANight) {
   EXPECT_LT(after[57], 0.42) << "95 of 100";
 }
 
-TEST(Rezero, NamesATouchThatSlipped) {
+TEST(Rezero, NamesAnOutlier) {
   for (std::uint32_t seed = 1; seed <= 60; ++seed) {
     SyntheticRig rig = syntheticRig(Scenario::d, seed);
     rig.technician.outlier_share = 0.0;
@@ -116,7 +116,7 @@ TEST(Rezero, NamesATouchThatSlipped) {
   }
 }
 
-TEST(Rezero, SaysByWhatIsLeftThatTwoSlipped) {
+TEST(Rezero, ShowsTwoOutliersInTheResidual) {
   for (std::uint32_t seed = 1; seed <= 40; ++seed) {
     SyntheticRig rig = syntheticRig(Scenario::d, seed);
     rig.technician.outlier_share = 0.0;
@@ -129,7 +129,7 @@ TEST(Rezero, SaysByWhatIsLeftThatTwoSlipped) {
   }
 }
 
-TEST(Rezero, ListensToNoTouchThatWasSetAside) {
+TEST(Rezero, IgnoresUnusedTouches) {
   const SyntheticRig rig = exact(4), now = nightLater(rig, 4);
   TouchSet set = fiveTouches(now, 4);
   set.touches[2].target_W.mm.x += 100.0;
@@ -142,7 +142,7 @@ TEST(Rezero, ListensToNoTouchThatWasSetAside) {
   EXPECT_LT(tre_mm(result.arm, now, 4), 0.05);
 }
 
-TEST(Rezero, RefusesTouchesThatSayNothing) {
+TEST(Rezero, RefusesInsufficientTouches) {
   const SyntheticRig rig = exact(5);
   const MeasuredArm arm = perfectly(rig);
   const TouchSet good = fiveTouches(rig, 5);

@@ -9,7 +9,7 @@
 namespace calibration {
 namespace {
 
-/// Places in a block, turned and moved; `mirrored`: their first coordinate turned over before.
+/// Points in a block, rotated and moved; `mirrored`: the first coordinate negated before.
 struct Laid {
   std::vector<glm::dvec3> from, to;
   std::vector<std::size_t> all;
@@ -32,7 +32,7 @@ struct Laid {
   }
 };
 
-TEST(RigidFit, FindsTurnAndShift) {
+TEST(RigidFit, FindsRotationAndTranslation) {
   const Laid laid(6);
   const auto map = rigidFit(laid.pairs());
   ASSERT_TRUE(map);
@@ -40,7 +40,7 @@ TEST(RigidFit, FindsTurnAndShift) {
   EXPECT_LT(glm::distance((*map)({1.0, 2.0, 3.0}), laid.turn * glm::dvec3(1.0, 2.0, 3.0) + laid.shift), 1e-9);
 }
 
-TEST(RigidFit, KeepsTheHandednessItIsAskedFor) {
+TEST(RigidFit, KeepsTheRequestedHandedness) {
   const Laid laid(6, true);
   const auto kept = rigidFit(laid.pairs()), mirrored = rigidFit(laid.pairs(), Handedness::mirrored);
   ASSERT_TRUE(kept && mirrored);
@@ -49,7 +49,7 @@ TEST(RigidFit, KeepsTheHandednessItIsAskedFor) {
   EXPECT_LT(glm::distance((*mirrored)(laid.from[2]), laid.to[2]), 1e-9);
 }
 
-TEST(RigidFit, TakesThreePlacesButNotALine) {
+TEST(RigidFit, AcceptsThreePointsButNotALine) {
   const Laid laid(3);
   EXPECT_TRUE(rigidFit(laid.pairs()));
   Laid line = laid;
@@ -57,7 +57,7 @@ TEST(RigidFit, TakesThreePlacesButNotALine) {
   EXPECT_FALSE(rigidFit(line.pairs()));
 }
 
-TEST(RigidFit, RecoversAnyRotationAndShift) {
+TEST(RigidFit, RecoversAnyRotationAndTranslation) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
   for (int round = 0; round < 200; ++round) {
@@ -82,13 +82,13 @@ TEST(RigidFit, NeverMirrors) {
   EXPECT_NEAR(glm::determinant(rigidFit(pairs)->turn), 1.0, 1e-12);
 }
 
-TEST(RigidFit, WeighsItsPairs) {
+TEST(RigidFit, WeightsItsPairs) {
   const std::vector<PointPair> pairs = {
       {{0, 0, 0}, {0, 0, 0}, 1000.0}, {{11, 0, 0}, {10, 0, 0}}, {{0, 11, 0}, {0, 10, 0}}};
   EXPECT_LT(glm::length(rigidFit(pairs)->shift_mm), 0.05);
 }
 
-TEST(RigidAgreement, FindsWhoAgrees) {
+TEST(RigidAgreement, FindsTheAgreeingPoints) {
   for (const std::size_t n : {std::size_t{8}, std::size_t{27}, std::size_t{64}}) {
     Laid laid(n);
     laid.to[1] += glm::dvec3(5.0, 0.0, 0.0);
@@ -112,7 +112,7 @@ TEST(RigidAgreement, IsNoneWhereNothingFits) {
   EXPECT_TRUE(rigidAgreement(mirrored.from, mirrored.to, Handedness::mirrored, 2.5, 13.0));
 }
 
-TEST(RigidAgreement, WidensItsLimitForAnUntrueArm) {
+TEST(RigidAgreement, WidensItsLimitForAPerturbedArm) {
   Laid laid(27);
   std::normal_distribution<double> bent(0.0, 2.5);
   for (glm::dvec3& p : laid.to) p += glm::dvec3(bent(laid.rng), bent(laid.rng), bent(laid.rng));

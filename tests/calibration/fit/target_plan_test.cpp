@@ -18,7 +18,7 @@ double between_deg(const Vector<World>& a, const Vector<World>& b) {
   return degreesFromRad(std::acos(std::clamp(glm::dot(a.xyz, b.xyz), -1.0, 1.0)));
 }
 
-TEST(TargetPlan, HasAsManyTargetsAsItsNameSays) {
+TEST(TargetPlan, HasTheNumberOfTargetsInItsName) {
   EXPECT_EQ(targetPlan("jig27")->targets.size(), 27u);
   EXPECT_EQ(targetPlan("jig8")->targets.size(), 8u);
   EXPECT_EQ(targetPlan("visual15")->targets.size(), 15u);
@@ -62,8 +62,8 @@ TEST(TargetPlan, GoesShortWays) {
   }
 }
 
-TEST(TargetPlan, TiltsAlikeInEveryPartOfTheJig) {
-  // No tilt is tied to a direction of the place: each product sums to nothing.
+TEST(TargetPlan, HasUncorrelatedTiltsAndPositions) {
+  // No correlation of tilt and position.
   const TargetPlan plan = planned("jig27");
   glm::dmat3 tied(0.0);
   for (const Target& target : plan.targets)
@@ -73,7 +73,7 @@ TEST(TargetPlan, TiltsAlikeInEveryPartOfTheJig) {
     for (int along = 0; along < 3; ++along) EXPECT_NEAR(tied[along][axis], 0.0, 20.0);
 }
 
-TEST(TargetPlan, ProvesAtPlacesAndTiltsThatTheFitHasNotSeen) {
+TEST(TargetPlan, VerifiesAtUnseenPositionsAndTilts) {
   const auto fit = targetPlan("jig27"), verification = targetPlan("verify8");
   for (const Target& seen : verification->targets)
     for (const Target& used : fit->targets) {
@@ -92,7 +92,7 @@ TEST(TargetPlan, GivesEveryTargetItsOwnNumber) {
   }
 }
 
-TEST(TargetPlan, StandsOnTheJigWhereverThatIs) {
+TEST(TargetPlan, FollowsTheJigsPose) {
   const JigPose jig{{glm::angleAxis(0.4, glm::normalize(glm::dvec3(1, 2, 3))), {10.0, -20.0, 5.0}}};
   const auto plain = targetPlan("jig27"), moved = targetPlan("jig27", jig);
   for (std::size_t i = 0; i < plain->targets.size(); ++i) {

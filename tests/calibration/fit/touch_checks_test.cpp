@@ -28,9 +28,9 @@ std::string refusalOfTouches(const TouchSet& set) {
   return tests::refusalOf<CalibrationError>([&] { checkTouches(set); });
 }
 
-TEST(TouchChecks, LetGoodTouchesPass) { EXPECT_EQ(refusalOfTouches(fiveTouches()), "accepted"); }
+TEST(TouchChecks, AcceptGoodTouches) { EXPECT_EQ(refusalOfTouches(fiveTouches()), "accepted"); }
 
-TEST(TouchChecks, NameTheTouchThatIsNoNumber) {
+TEST(TouchChecks, NameTheTouchThatIsNotFinite) {
   TouchSet set = fiveTouches();
   set.touches[2].joints_rad[4] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(refusalOfTouches(set), HasSubstr("touch 3 holds a value that is not finite"));
@@ -48,7 +48,7 @@ TEST(TouchChecks, NameTheTouchThatWasTakenTwice) {
   EXPECT_EQ(refusalOfTouches(set), "accepted") << "what was set aside does not count";
 }
 
-TEST(TouchChecks, RefuseAProofByTouchesOfTheFitOrOfAnotherDevice) {
+TEST(TouchChecks, RefuseVerificationTouchesOfTheFitOrAnotherDevice) {
   const auto refusalOf = [](const TouchSet& verification) -> std::string {
     TouchSet fitted = fiveTouches();
     fitted.serial = "7";
@@ -70,7 +70,7 @@ TEST(TouchChecks, RefuseAProofByTouchesOfTheFitOrOfAnotherDevice) {
   EXPECT_THAT(refusalOf(verification), HasSubstr("serial '7', the verification touches with '8'"));
 }
 
-TEST(TouchChecks, RefuseTooFewALineAndOnePlace) {
+TEST(TouchChecks, RefuseTooFewALineAndOnePosition) {
   TouchSet set = fiveTouches();
   set.touches.resize(3);
   EXPECT_THAT(refusalOfTouches(set), HasSubstr("at least 4 are needed"));
@@ -81,7 +81,7 @@ TEST(TouchChecks, RefuseTooFewALineAndOnePlace) {
   EXPECT_THAT(refusalOfTouches(set), HasSubstr("at one position"));
 }
 
-TEST(TouchChecks, RefuseAModelOrPrecisionThatIsNone) {
+TEST(TouchChecks, RefuseAnInvalidModelOrPrecision) {
   TouchSet set = fiveTouches();
   set.device_model = "novint";
   EXPECT_THAT(refusalOfTouches(set), HasSubstr("novint"));
@@ -90,7 +90,7 @@ TEST(TouchChecks, RefuseAModelOrPrecisionThatIsNone) {
   EXPECT_THAT(refusalOfTouches(set), HasSubstr("precision"));
 }
 
-TEST(TiltSpread, IsTheSmallerOfThatInTheRoomAndThatOfTheGimbal) {
+TEST(TiltSpread, IsTheSmallerOfRoomAndGimbal) {
   std::mt19937 rng(2);
   std::uniform_real_distribution<double> wide(-0.5, 0.5), narrow(-0.02, 0.02);
   std::vector<Touch> varied, stiff_gimbal, one_direction;
@@ -108,7 +108,7 @@ TEST(TiltSpread, IsTheSmallerOfThatInTheRoomAndThatOfTheGimbal) {
   EXPECT_LT(tiltSpread_deg(kOmniGeometry, one_direction, all), 1.0);
 }
 
-TEST(HullVolume, IsThatOfABlockWhateverLiesInside) {
+TEST(HullVolume, IsThatOfABlockForAnyInteriorPoints) {
   std::vector<glm::dvec3> grid;
   for (const double x : {-65.0, 0.0, 65.0})
     for (const double y : {-45.0, 0.0, 45.0})
@@ -128,7 +128,7 @@ TEST(HullVolume, IsThatOfABallNearly) {
   EXPECT_NEAR(hullVolume_mm3(positions) / (4.0 / 3.0 * kPi * 1000.0), 1.0, 0.01);
 }
 
-TEST(TouchChecks, SayHowFarDirectionsAreApart) {
+TEST(TouchChecks, MeasureTheSpreadOfDirections) {
   std::vector<glm::dvec3> all(10, {0.0, 0.0, 1.0});
   EXPECT_EQ(pairSpread_deg(all), 0.0);
   for (std::size_t i = 0; i < 5; ++i) all[i] = {1.0, 0.0, 0.0};

@@ -62,7 +62,7 @@ TouchSet anySet(std::uint32_t seed) {
   return set;
 }
 
-TEST_F(TouchesFile, ReadsWhatAPersonWrites) {
+TEST_F(TouchesFile, ReadsAFileTypedByHand) {
   const TouchSet set = readTouches(write(kByHand));
   EXPECT_EQ(set.device_model, "omni");
   EXPECT_TRUE(set.serial.empty() && set.mount.empty() && set.method.empty());
@@ -94,14 +94,14 @@ TEST_F(TouchesFile, ReadsBackEveryBitOfWhatItWrites) {
   }
 }
 
-TEST_F(TouchesFile, LeavesOutWhatIsNotKnown) {
+TEST_F(TouchesFile, OmitsUnknownFields) {
   TouchSet set = anySet(1);
   set.serial = set.mount = set.method = "";
   EXPECT_THAT(touchesText(set), testing::Not(testing::ContainsRegex("serial|mount|method")));
   EXPECT_TRUE(readTouches(write(touchesText(set))).serial.empty());
 }
 
-TEST_F(TouchesFile, SaysWhichTouchIsWrongAndHow) {
+TEST_F(TouchesFile, NamesTheWrongTouchAndWhy) {
   EXPECT_THAT(refusalWith("id: 4,", ""), AllOf(HasSubstr("observation 2"), HasSubstr("'id'")));
   EXPECT_THAT(refusalWith("id: 4", "id: -4"), HasSubstr("'id'"));
   EXPECT_THAT(refusalWith("used: 0", "used: 2"), AllOf(HasSubstr("observation 1"), HasSubstr("'used'")));
@@ -117,7 +117,7 @@ TEST_F(TouchesFile, SaysWhichTouchIsWrongAndHow) {
               AllOf(HasSubstr("observation 2"), HasSubstr("not a map")));
 }
 
-TEST_F(TouchesFile, SaysWhatIsWrongWithTheWhole) {
+TEST_F(TouchesFile, NamesWhatIsWrongWithTheFile) {
   EXPECT_THAT(refusalWith("omni", "novint"), AllOf(HasSubstr("novint"), HasSubstr("omni, touch, desktop, premium")));
   EXPECT_THAT(refusalWith("device_model", "device"), HasSubstr("device_model"));
   EXPECT_THAT(refusalWith("observations", "touches"), HasSubstr("'observations' is missing"));
@@ -137,7 +137,7 @@ TEST_F(TouchesFile, RefusesMoreTouchesThanAnyProcedureHas) {
   EXPECT_THAT(refusal(touchesText(set)), testing::AnyOf(HasSubstr("more than 10000"), HasSubstr("its size")));
 }
 
-TEST_F(TouchesFile, ReadsOrRefusesWhateverIsInAFile) {
+TEST_F(TouchesFile, ReadsOrRefusesAnyFile) {
   TouchSet small = anySet(2);
   small.touches.resize(4);
   int read = 0;

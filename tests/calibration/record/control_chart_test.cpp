@@ -29,7 +29,7 @@ TEST(ControlLimits, AreMeanAndMovingRange) {
   EXPECT_FALSE(controlLimits(std::span(values).first(1), 0, 0.0));
 }
 
-TEST(ControlLimits, AreNeverFinerThanTheInstrument) {
+TEST(ControlLimits, AreNeverFinerThanTheResolution) {
   EXPECT_EQ(controlLimits(std::vector<double>(8, 0.3), 8, 0.02)->sigma, 0.02);
 }
 
@@ -69,7 +69,7 @@ TEST(ControlAlarms, EightOnOneSide) {
   EXPECT_TRUE(of({0.1, 0.2, 0.1, 0.3, 0.1, 0.2, 0.1}).empty());
 }
 
-TEST(ControlAlarms, NameTheRuleThatTellsMost) {
+TEST(ControlAlarms, NameTheStrongestRule) {
   expectOne(of({2.5, 3.5}), one_beyond_3, 1, true);  // two of three as well
 }
 

@@ -41,7 +41,7 @@ const DriftEntry kCheck{"2026-11-21T08:20:00Z", DriftKind::check, 4, 0.1 + 0.2, 
 const std::string kHead = "utc,kind,n,rms_mm,bias_x_mm,bias_y_mm,bias_z_mm\n";
 const std::string kLine = "2026-11-21T08:20:00Z,check,4,0.5,0.1,0.2,-0.3\n";
 
-TEST_F(History, GivesBackWhatWasAppended) {
+TEST_F(History, ReadsBackWhatWasAppended) {
   EXPECT_TRUE(readHistory(path_).empty());
   appendHistory(path_, kCheck);
   appendHistory(path_, {"2026-11-22T08:20:00Z", DriftKind::rezero, 5, 1.25, {}});
@@ -55,7 +55,7 @@ TEST_F(History, GivesBackWhatWasAppended) {
   EXPECT_EQ(history[2].n, 16);
 }
 
-TEST_F(History, LeavesOutATornLineAndTakesItAwayAtTheNext) {
+TEST_F(History, IgnoresAnIncompleteLineAndRemovesItAtTheNextAppend) {
   const std::string whole = kHead + kLine;
   for (std::size_t size = 0; size <= whole.size(); ++size) {
     write(whole.substr(0, size));
@@ -66,7 +66,7 @@ TEST_F(History, LeavesOutATornLineAndTakesItAwayAtTheNext) {
   }
 }
 
-TEST_F(History, RefusesALineThatIsNone) {
+TEST_F(History, RefusesAnInvalidLine) {
   for (const char* line :
        {"", "x", "2026-11-21T08:20:00Z,check,4,0.5,0.1,0.2", "2026-11-21T08:20:00Z,check,4,0.5,0.1,0.2,0,0",
         "yesterday,check,4,0.5,0.1,0.2,0", "2026-11-21T08:20:00Z,guess,4,0.5,0.1,0.2,0",
@@ -87,7 +87,7 @@ TEST_F(History, RefusesALineThatIsNone) {
   EXPECT_EQ(text(), "something else\n");
 }
 
-TEST_F(History, TakesNoEntryThatItCouldNotRead) {
+TEST_F(History, RefusesAnEntryThatCouldNotBeRead) {
   DriftEntry bad = kCheck;
   bad.rms_mm = std::nan("");
   EXPECT_THROW(appendHistory(path_, bad), CalibrationError);

@@ -12,7 +12,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A day each: RMS about 0.3 mm, no bias, noise as given.
+/// One a day: RMS about 0.3 mm, no bias, with this noise.
 std::vector<DriftEntry> steadyDays(int n, double noise_mm = 0.03) {
   std::vector<DriftEntry> history;
   for (int day = 0; day < n; ++day) {
@@ -22,7 +22,7 @@ std::vector<DriftEntry> steadyDays(int n, double noise_mm = 0.03) {
   return history;
 }
 
-TEST(DriftReview, SaysThatNothingWasMeasured) {
+TEST(DriftReview, ReportsAnEmptyHistory) {
   EXPECT_THAT(reviewOf({}).sentence, HasSubstr("No check"));
   EXPECT_FALSE(reviewOf({}).alarmed);
 }
@@ -42,7 +42,7 @@ TEST(DriftReview, IsSteadyWhereNothingChanges) {
   EXPECT_EQ(review.limits[0]->n, kMaxBaseline);
 }
 
-TEST(DriftReview, TellsAPushWithItsNumbersAndWhatToDo) {
+TEST(DriftReview, ReportsAPushWithFiguresAndRemedy) {
   auto history = steadyDays(12);
   history.back().rms_mm = 1.42;
   const DriftReview review = reviewOf(history);
@@ -54,7 +54,7 @@ TEST(DriftReview, TellsAPushWithItsNumbersAndWhatToDo) {
   EXPECT_THAT(review.sentence, HasSubstr("Re-zero"));
 }
 
-TEST(DriftReview, TellsOnWhichSideItCreeps) {
+TEST(DriftReview, ReportsTheDirectionOfACreep) {
   auto history = steadyDays(12);
   for (int day = 12; day < 17; ++day) {
     history.push_back(history[static_cast<std::size_t>(day % 2)]);
@@ -85,8 +85,8 @@ TEST(DriftReview, BeginsAnewWithACalibration) {
   EXPECT_THAT(review.sentence, HasSubstr("since the last calibration"));
 }
 
-TEST(DriftReview, IsNotMovedByWhatItJudges) {
-  // Limits come from the first twenty: a slow creep after them can not carry its limits along.
+TEST(DriftReview, LimitsDoNotFollowTheCheckedValues) {
+  // Limits come from the first twenty: a later creep does not move them.
   auto history = steadyDays(60);
   for (std::size_t day = 20; day < 60; ++day) history[day].rms_mm += 0.004 * static_cast<double>(day - 20);
   EXPECT_NEAR(reviewOf(history).limits[0]->centre, 0.3, 1e-12);

@@ -1,4 +1,4 @@
-// A rig file with every block in it, its numbers seeded and awkward.
+// A rig file with every block, its values seeded and full of digits.
 #pragma once
 
 #include <random>

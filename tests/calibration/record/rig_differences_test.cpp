@@ -13,12 +13,12 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-TEST(Differences, AreNoneOfTheSame) {
+TEST(Differences, AreEmptyForEqualRigs) {
   EXPECT_TRUE(differences(fullRecord(), fullRecord()).empty());
   EXPECT_TRUE(differences(RigRecord{}, RigRecord{}).empty());
 }
 
-TEST(Differences, SayWhatWentWhereInItsUnit) {
+TEST(Differences, StateBothValuesWithUnit) {
   const RigRecord before = fullRecord();
   RigRecord after = before;
   after.rig.X_WD.translation_mm += glm::dvec3(0.3, 0.0, 0.4);
@@ -37,7 +37,7 @@ TEST(Differences, SayWhatWentWhereInItsUnit) {
   EXPECT_THAT(lines[4], HasSubstr("\u2192 1.500 \u00b0"));
 }
 
-TEST(Differences, SayWhatIsOnlyInOne) {
+TEST(Differences, StateWhatOnlyOneHas) {
   const RigRecord full = fullRecord();
   RigRecord bare;
   bare.rig = full.rig;
@@ -50,7 +50,7 @@ TEST(Differences, SayWhatIsOnlyInOne) {
   EXPECT_THAT(lines, Contains("hand rest: none \u2192 registered"));
 }
 
-TEST(Differences, LeaveOutWhatNobodyCouldMeasure) {
+TEST(Differences, OmitImmeasurableDifferences) {
   RigRecord after = fullRecord();
   after.rig.X_WD.translation_mm += 1e-7;
   after.rig.arm->gain[0] += 1e-9;

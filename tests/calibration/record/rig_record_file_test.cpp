@@ -37,12 +37,12 @@ class RigRecordFile : public testing::Test {
     EXPECT_NE(at, std::string::npos) << from;
     return text.replace(at, from.size(), to);
   }
-  /// As somebody would who knows how the hash is made.
+  /// With a recomputed hash.
   static std::string resealed(std::string text) {
     text.resize(text.rfind("sha256:"));
     return text + "sha256: \"" + sha256Of(text) + "\"\n";
   }
-  /// A list or value of a key, whatever it was.
+  /// A list or value of a key.
   static std::string with(const std::string& text, const std::string& key, const std::string& value) {
     const auto at = text.find(" " + key + ":");
     EXPECT_NE(at, std::string::npos) << key;
@@ -53,7 +53,7 @@ class RigRecordFile : public testing::Test {
   }
 };
 
-TEST_F(RigRecordFile, GivesBackEveryBitOfEveryBlock) {
+TEST_F(RigRecordFile, RestoresEveryBlockBitForBit) {
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
     const RigRecord record = fullRecord(seed);
     const RigRecord back = read(rigRecordText(record));
@@ -79,13 +79,13 @@ TEST_F(RigRecordFile, GivesBackEveryBitOfEveryBlock) {
       EXPECT_EQ(back.residuals[i].error_mm.xyz, record.residuals[i].error_mm.xyz);
       EXPECT_EQ(back.residuals[i].used, record.residuals[i].used);
     }
-    // Whatever else is in it: the same record makes the same bytes.
+    // Deterministic: the same record makes the same bytes.
     EXPECT_EQ(rigRecordText(back), rigRecordText(record));
     EXPECT_EQ(back.hash.size(), 64u);
   }
 }
 
-TEST_F(RigRecordFile, SaysHowARigIsKnown) {
+TEST_F(RigRecordFile, HoldsTheMetadata) {
   const RigRecord back = read(rigRecordText(fullRecord()));
   EXPECT_EQ(back.rig.device->serial, "60623200012");
   EXPECT_EQ(back.rig.device->mount, "right");
@@ -157,7 +157,7 @@ TEST_F(RigRecordFile, RefusesAQuaternionThatIsNotItsMatrix) {
   EXPECT_THAT(refusal(resealed(replaced(good, line(good), line(theirs)))), HasSubstr("remove 'X_WD_wxyz'"));
 }
 
-TEST_F(RigRecordFile, RefusesAnArmThatCanNotBe) {
+TEST_F(RigRecordFile, RefusesAnImplausibleArm) {
   const std::string good = rigRecordText(fullRecord());
   const std::pair<const char*, const char*> absurd[] = {{"gain", "[ 0.11, 0, 0, 0, 0, 0 ]"},
                                                         {"k", "[ 1, 1, 1, 1, 1, 1.2 ]"},
@@ -181,7 +181,7 @@ TEST_F(RigRecordFile, RefusesAnArmThatCanNotBe) {
   }
 }
 
-TEST_F(RigRecordFile, RefusesWhatSaysNothingItKnows) {
+TEST_F(RigRecordFile, RefusesUnknownNames) {
   const std::string good = rigRecordText(fullRecord());
   const std::pair<const char*, const char*> wrong[] = {
       {"verdict", "\"blue\""}, {"verdict", "1"},    {"kind", "\"partial\""}, {"n", "-1"},
@@ -197,7 +197,7 @@ TEST_F(RigRecordFile, RefusesWhatSaysNothingItKnows) {
   }
 }
 
-TEST_F(RigRecordFile, WantsAKnownDeviceAndNoNames) {
+TEST_F(RigRecordFile, RequiresAKnownDeviceAndNoPersonalNames) {
   RigRecord record = fullRecord();
   const std::string good = rigRecordText(record);
   EXPECT_THAT(refusal(resealed(replaced(good, "model: omni", "model: falcon"))), HasSubstr("'device.model'"));
@@ -210,7 +210,7 @@ TEST_F(RigRecordFile, WantsAKnownDeviceAndNoNames) {
   EXPECT_THROW(rigRecordText(record), CalibrationError);
 }
 
-TEST_F(RigRecordFile, KeepsTextsAsTheyAre) {
+TEST_F(RigRecordFile, KeepsTextsUnchanged) {
   for (const char* serial :
        {"", "007", "1e3", "yes", "~", "a: b # c", "q\"uo'te\\x", "[1, 2]", "- x", ".Nan", "null"}) {
     RigRecord record = fullRecord();
@@ -231,7 +231,7 @@ TEST_F(RigRecordFile, IsRefusedOrEqualHoweverItIsDamaged) {
 }
 
 TEST_F(RigRecordFile, SurvivesDamageUnderAFittingHash) {
-  // The hash finds nearly all; the blocks behind it must hold on their own.
+  // The hash finds nearly all damage; the blocks behind it must be robust too.
   const std::string good = rigRecordText(fullRecord());
   std::mt19937 rng(8);
   for (int i = 0; i < 300; ++i) {
@@ -250,18 +250,18 @@ TEST_F(RigRecordFile, SurvivesDamageUnderAFittingHash) {
   }
 }
 
-// OpenCV's reader stays for ever at a zero byte after a line.
-TEST_F(RigRecordFile, RefusesBytesThatAreNoText) {
+// OpenCV's reader hangs on a zero byte after a line.
+TEST_F(RigRecordFile, RefusesBytesThatAreNotText) {
   const std::string good = rigRecordText(fullRecord());
   const auto after_a_line = static_cast<std::ptrdiff_t>(good.find('\n', good.find("px:")) + 1);
   for (const char byte : {'\0', '\1', '\x7f'}) {
     std::string spoilt = good;
     spoilt.insert(spoilt.begin() + after_a_line, byte);
-    EXPECT_THAT(refusal(spoilt), HasSubstr("bytes that are no text"));
+    EXPECT_THAT(refusal(spoilt), HasSubstr("bytes that are not text"));
   }
 }
 
-TEST_F(RigRecordFile, RefusesListsInListsWithoutEnd) {
+TEST_F(RigRecordFile, RefusesDeeplyNestedLists) {
   for (const char* bracket : {"[", "{a:", "- ", "[ \"]\", ", "[ ']', "}) {
     std::string hostile = "%YAML:1.0\n---\nkind: ";
     for (int i = 0; i < 500000; ++i) hostile += bracket;

@@ -84,7 +84,7 @@ TEST_F(Store, LeavesTheOldOneCurrentUnlessAsked) {
   EXPECT_EQ(store_.names(place_).size(), 2u);
 }
 
-TEST_F(Store, DoesNotSeeWhatIsNotItsOwn) {
+TEST_F(Store, IgnoresOtherFiles) {
   keep(0);
   for (const char* name : {"2026-11-21T08-20-00Z.touches.yaml", "notes.yaml", "2026-11-21T08-20-00Z.yaml~",
                            ".part-2026-11-21T08-20-09Z.yaml", "2026-13-21T08-20-00Z.yaml",
@@ -105,7 +105,7 @@ TEST_F(Store, RollsBackStepByStep) {
   EXPECT_EQ(store_.currentName(place_), a);
 }
 
-TEST_F(Store, RollsBackToWhatWasInForceNotToWhatWasDiscarded) {
+TEST_F(Store, RollsBackToTheParentNotToADiscardedRig) {
   const std::string good = keep(0), bad = keep(60);
   store_.rollBack(place_);
   const std::string next = keep(120);
@@ -118,14 +118,14 @@ TEST_F(Store, RollsBackThoughTheClockWasWrong) {
   EXPECT_EQ(store_.rollBack(place_), first);
 }
 
-TEST_F(Store, RollsBackFromASpoiltRigOrPointer) {
+TEST_F(Store, RollsBackFromADamagedRigOrPointer) {
   const std::string a = keep(0), b = keep(60);
   write(folder_ / b, "spoilt");
   EXPECT_NE(refusal([&] { store_.current(place_); }), "accepted");
   EXPECT_EQ(store_.rollBack(place_), a);
   write(folder_ / "current", "../../elsewhere.yaml\n");
   EXPECT_THAT(refusal([&] { store_.current(place_); }), HasSubstr("names no rig"));
-  EXPECT_THAT(refusal([&] { store_.rollBack(place_); }), HasSubstr(b));  // the newest, and it is spoilt
+  EXPECT_THAT(refusal([&] { store_.rollBack(place_); }), HasSubstr(b));  // the newest, damaged
   fs::remove(folder_ / b);
   EXPECT_EQ(store_.rollBack(place_), a);
 }
@@ -143,7 +143,7 @@ TEST_F(Store, RefusesARigOfAnotherDevice) {
   EXPECT_THAT(refusal([&] { store_.keep(place_, other, "", true); }), HasSubstr("no device"));
   EXPECT_TRUE(store_.names(place_).empty());
 
-  // Put there by hand.
+  // Created by hand.
   const std::string name = keep(0);
   other = record(0);
   other.rig.device->serial = "4711";
@@ -151,7 +151,7 @@ TEST_F(Store, RefusesARigOfAnotherDevice) {
   EXPECT_THAT(refusal([&] { store_.current(place_); }), HasSubstr("4711"));
 }
 
-TEST_F(Store, KeepsNothingThatCanNotBeReadAgain) {
+TEST_F(Store, KeepsNothingThatCannotBeReadBack) {
   const std::string first = keep(0);
   RigRecord bad = record(60);
   bad.rig.arm->gain[2] = 0.5;
@@ -166,15 +166,15 @@ TEST_F(Store, KeepsNothingThatCanNotBeReadAgain) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 3);
 }
 
-TEST_F(Store, TakesNoWayOutOfItsFolder) {
+TEST_F(Store, StaysInsideItsFolder) {
   for (const char* name : {"", "..", ".", "a/b", "../x", "a b", ".hidden", "a\nb"}) {
     RigLocation away = place_;
     away.rig_id = name;
-    EXPECT_THAT(refusal([&] { store_.names(away); }), HasSubstr("is no name")) << name;
+    EXPECT_THAT(refusal([&] { store_.names(away); }), HasSubstr("is not a valid name")) << name;
     away = place_;
     away.mount = name;
-    EXPECT_THAT(refusal([&] { store_.names(away); }), HasSubstr("is no name")) << name;
-    EXPECT_THAT(refusal([&] { store_.pathOf(place_, name); }), HasSubstr("is no rig")) << name;
+    EXPECT_THAT(refusal([&] { store_.names(away); }), HasSubstr("is not a valid name")) << name;
+    EXPECT_THAT(refusal([&] { store_.pathOf(place_, name); }), HasSubstr("is not a rig")) << name;
   }
 }
 
@@ -203,7 +203,7 @@ TEST_F(Store, RefusesASecondWriter) {
   keep(60);
 }
 
-TEST_F(Store, ClearsAwayWhatAKilledWriterLeft) {
+TEST_F(Store, RemovesLeftoversOfAKilledWriter) {
   const std::string first = keep(0);
   write(folder_ / ".part-2026-11-21T08-21-00Z.yaml", "half");
   write(folder_ / ".part-current", "2026-11-21T08-21");
@@ -213,7 +213,7 @@ TEST_F(Store, ClearsAwayWhatAKilledWriterLeft) {
   EXPECT_FALSE(fs::exists(folder_ / ".part-current"));
 }
 
-TEST_F(Store, HasAWholeRigInForceWheneverItIsKilled) {
+TEST_F(Store, HasACompleteCurrentRigWheneverItIsKilled) {
   std::mt19937 rng(3);
   keep(0);
   std::int64_t next_s = 60;
@@ -230,7 +230,7 @@ TEST_F(Store, HasAWholeRigInForceWheneverItIsKilled) {
       }
     }
     ::close(pipe_ends[1]);
-    // Every other round only once it has kept one, however busy the machine.
+    // Every other round only after one was stored, however busy the machine.
     std::int64_t told = 0, confirmed = 0;
     if (round % 2 == 1 && ::read(pipe_ends[0], &told, sizeof told) == sizeof told) confirmed = told, ++confirmed_in_all;
     std::this_thread::sleep_for(std::chrono::microseconds(500 + rng() % 30000));
@@ -253,7 +253,7 @@ TEST_F(Store, HasAWholeRigInForceWheneverItIsKilled) {
   keep(next_s + 60);
 }
 
-TEST_F(Store, LiesWhereItIsTold) {
+TEST_F(Store, HasTheConfiguredRoot) {
   ::setenv("MOLAR_CALIBRATION", "/a/b", 1);
   EXPECT_EQ(RigStore::usualRoot(), "/a/b");
   ::unsetenv("MOLAR_CALIBRATION");
@@ -264,7 +264,7 @@ TEST_F(Store, LiesWhereItIsTold) {
   EXPECT_EQ(RigStore::usualRoot(), "/me/.local/share/molar/calibration");
 }
 
-TEST(WhyNotFor, NamesWhatDiffers) {
+TEST(MismatchWith, NamesWhatDiffers) {
   const RigRecord record = fullRecord();
   EXPECT_EQ(mismatchWith(record, "omni", "60623200012", "right"), "");
   EXPECT_EQ(mismatchWith(record, "omni", "", "right"), "");

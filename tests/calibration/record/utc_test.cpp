@@ -5,7 +5,7 @@
 namespace calibration {
 namespace {
 
-TEST(Utc, CountsSecondsAndBack) {
+TEST(Utc, ConvertsToSecondsAndBack) {
   EXPECT_EQ(secondsOfUtc("1970-01-01T00:00:00Z"), 0);
   EXPECT_EQ(secondsOfUtc("2000-03-01T00:00:00Z"), 951868800);
   EXPECT_EQ(secondsOfUtc("2026-11-21T08:20:00Z"), 1795249200);
@@ -18,7 +18,7 @@ TEST(Utc, KnowsLeapYears) {
   EXPECT_FALSE(secondsOfUtc("2100-02-29T00:00:00Z"));
 }
 
-TEST(Utc, RefusesWhatIsNoTime) {
+TEST(Utc, RefusesInvalidTimes) {
   for (const char* text : {"", "2026-11-21", "2026-11-21 08:20:00Z", "2026-11-21T08:20:00", "2026-11-21T08:20:00+01:00",
                            "2026-13-01T00:00:00Z", "2026-11-21T24:00:00Z", "2026-11-21T08:60:00Z",
                            "-026-11-21T08:20:00Z", "2026-11-21T08:20:00Zx"})

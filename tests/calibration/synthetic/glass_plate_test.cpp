@@ -13,7 +13,7 @@ namespace {
 
 const glm::dvec3 kSlanted = glm::normalize(glm::dvec3(0, 1, 1));
 
-TEST(GlassPlate, ShiftsALineByTheTextbooksFigures) {
+TEST(GlassPlate, ShiftsARayByTheTextbookFigures) {
   const double angle = radFromDegrees(45.0);
   EXPECT_NEAR(plateShift_mm({{kSlanted, 0.0}, 3.0}, angle), 1.01, 0.01);
   EXPECT_NEAR(plateShift_mm({{kSlanted, 0.0}, 2.0}, angle), 0.67, 0.01);
@@ -21,7 +21,7 @@ TEST(GlassPlate, ShiftsALineByTheTextbooksFigures) {
   EXPECT_NEAR(ghostSpacing_mm({{kSlanted, 0.0}, 3.0}, angle), 2.2, 0.05);
 }
 
-TEST(GlassPlate, MovesALineOfSightAsTheFormulaSaysAndTurnsItNot) {
+TEST(GlassPlate, ShiftsARayByTheFormulaWithoutRotation) {
   std::mt19937 rng(5);
   std::normal_distribution<double> any;
   for (int i = 0; i < 1000; ++i) {
@@ -37,12 +37,12 @@ TEST(GlassPlate, MovesALineOfSightAsTheFormulaSaysAndTurnsItNot) {
   }
 }
 
-TEST(GlassPlate, MovesNothingThatMeetsItSquarely) {
+TEST(GlassPlate, DoesNotShiftAPerpendicularRay) {
   const Ray ray{{{1, 2, 300}}, {{0, 0, -1}}};
   EXPECT_EQ(seenThrough({{{0, 0, 1}, 100.0}, 5.0}, ray).from_W.mm, ray.from_W.mm);
 }
 
-TEST(GlassPlate, MirrorsAsThePlaneReflects) {
+TEST(GlassPlate, ReflectsLikeThePlane) {
   const Plane<World> face{kSlanted, 141.4};
   const Ray ray{{{10, 20, 450}}, {glm::normalize(glm::dvec3(0.1, -0.05, -1))}};
   const Ray out = mirrored(face, ray);
@@ -52,7 +52,7 @@ TEST(GlassPlate, MirrorsAsThePlaneReflects) {
   EXPECT_NEAR(glm::length(glm::cross(glm::normalize(along_out), out.along_W.xyz)), 0.0, 1e-12);
 }
 
-TEST(GlassPlate, ItsFarFaceMirrorsAGhostBesideThePicture) {
+TEST(GlassPlate, TheFarFaceGivesAShiftedGhost) {
   const GlassPlate plate{{kSlanted, 141.4}, 3.0};
   const Ray ray{{{0, 0, 450}}, {{0, 0, -1}}};
   const Ray first = mirrored(plate.face, ray), ghost = mirroredByFarFace(plate, ray);

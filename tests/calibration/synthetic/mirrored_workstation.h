@@ -1,6 +1,6 @@
-// A workstation for images in tests: the virtual screen in the plane z = 0, a mirror at 45 degrees 200 mm before it,
-// the panel face down above the hand as monitors hang, a webcam at the eye. And a image of every kind as PNG, to be
-// looked at, where MOLAR_PICTURES names a folder.
+// A workstation for images in tests: the virtual screen in the plane z = 0, a mirror at 45 degrees 200 mm in front of
+// it, the panel face down above the hand, a webcam at the eye. Writes its images as PNG where MOLAR_PICTURES names a
+// folder.
 #pragma once
 
 #include <cstdlib>
@@ -25,8 +25,8 @@ inline ScreenCorners inTheMirror(ScreenCorners corners) {
   return corners;
 }
 
-/// A monitor as it is sold, face down over the hand, its upper edge away from the surgeon: in the mirror its left is
-/// on the right, and what it shows plainly reads mirrored.
+/// A monitor face down over the hand, its upper edge away from the surgeon: in the mirror its left is on the right, and
+/// its plain content reads mirrored.
 inline ScreenCorners hangingMonitor(glm::ivec2 px = {1920, 1080}, double width_mm = 531.0) {
   const ScreenCorners seen = uprightScreen(px, width_mm);
   return inTheMirror(

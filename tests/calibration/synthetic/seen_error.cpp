@@ -10,7 +10,7 @@
 namespace calibration {
 namespace {
 
-/// Where the line of sight to a place meets the screen, in I.
+/// Where the line of sight to a point meets the screen, in I.
 Point<ScreenImage> drawnOnScreen(const Viewing& viewing, const Point<World>& eye_W, const Point<World>& position_W) {
   const auto X_IW = viewing.X_WI.inverse();
   const glm::dvec3 eye = (X_IW * eye_W).mm, position = (X_IW * position_W).mm;
@@ -47,7 +47,7 @@ Viewing actualViewing(const Viewing& believed, const ViewingCare& care, std::mt1
   actual.left_eye.mm += head_mm - wider_mm;
   actual.right_eye.mm += head_mm + wider_mm;
 
-  // The screen turns about the origin of W, where the case is.
+  // The screen rotates about the origin of W, where the case is.
   const glm::dquat turn = rotationFromVector(gaussianVector(rng, radFromDegrees(care.screen_turn_sd_deg)));
   actual.X_WI = {turn * believed.X_WI.rotation,
                  turn * believed.X_WI.translation_mm + gaussianVector(rng, care.screen_shift_sd_mm)};

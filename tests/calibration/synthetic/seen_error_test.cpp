@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kPupils_mm = 63.0, kEye_mm = 500.0;  ///< D
 
-/// A screen of the desk: the plane z = 0, eyes at D in front of it.
+/// The desktop screen: the plane z = 0, eyes at D in front of it.
 Viewing desk() { return believedViewing(desktopRig({1920, 1080}, 531.0, kEye_mm)); }
 
 Viewing headMoved(const glm::dvec3& by_mm) {
@@ -19,7 +19,7 @@ Viewing headMoved(const glm::dvec3& by_mm) {
   return moved;
 }
 
-TEST(SeenError, IsNoneWhenEyesAndScreenAreWhereTheyWereMeasured) {
+TEST(SeenError, IsZeroForEyesAndScreenAsMeasured) {
   std::mt19937 rng(1);
   for (const Rig& rig : {desktopRig({1920, 1080}), mirroredWorkstationRig()})
     for (int n = 0; n < 200; ++n) {
@@ -29,7 +29,7 @@ TEST(SeenError, IsNoneWhenEyesAndScreenAreWhereTheyWereMeasured) {
     }
 }
 
-TEST(SeenError, IsNoneOnTheScreenWhereverTheHeadIs) {
+TEST(SeenError, IsZeroOnTheScreenForAnyHeadPosition) {
   std::mt19937 rng(2);
   for (int n = 0; n < 200; ++n) {
     const Point<World> position_W{uniformVector(rng, {70.0, 50.0, 0.0})};
@@ -39,7 +39,7 @@ TEST(SeenError, IsNoneOnTheScreenWhereverTheHeadIs) {
   }
 }
 
-TEST(SeenError, MovesAPointWithTheHeadByItsShareOfTheWay) {
+TEST(SeenError, FollowsTheHeadInProportionToDepth) {
   for (const double z : {-100.0, -50.0, -30.0, -10.0, 10.0, 30.0, 50.0, 100.0}) {
     const Point<World> position_W{{15.0, 10.0, z}};
     const double share = 10.0 * z / kEye_mm;  // e z / D
@@ -52,7 +52,7 @@ TEST(SeenError, MovesAPointWithTheHeadByItsShareOfTheWay) {
   }
 }
 
-TEST(SeenError, PressesDepthTogetherForWiderPupils) {
+TEST(SeenError, CompressesDepthForWiderPupils) {
   // b z (D - z) / (B D + b (D - z)): b/B z (D - z) / D for small b.
   for (const double z : {-100.0, -50.0, -30.0, 30.0}) {
     Viewing wider = desk();
@@ -89,7 +89,7 @@ TEST(SeenError, AgreesWithTheTableOfHeadAndPupils) {
   }
 }
 
-TEST(SeenError, IsTheArmsOwnWhereNothingElseIsWrong) {
+TEST(SeenError, IsTheArmsErrorWhereNothingElseIsWrong) {
   const SyntheticRig rig = syntheticRig(Scenario::d, 3);
   const MeasuredArm model{rig.arm.geometry, {}, rig.X_WD};
   const ViewingCare none{0.0, 0.0, 0.0, 0.0};

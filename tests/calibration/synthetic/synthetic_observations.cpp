@@ -43,7 +43,7 @@ WebcamCare coarseWebcam() {
 
 WebcamObservations syntheticObservations(const SyntheticRig& rig, const TargetPlan& plan, const WebcamCare& care,
                                          std::mt19937& rng) {
-  // The camera says where the tip is: how exactly a place is held is of no importance.
+  // The tip's position is measured by the camera: the touch precision does not matter.
   SyntheticRig held = rig;
   held.technician.precision = {0.0, 0.0};
   held.technician.outlier_share = 0.0;

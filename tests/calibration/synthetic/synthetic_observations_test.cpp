@@ -29,7 +29,7 @@ TEST(WebcamObservations, SeesScreenAndTipsFromThreePositions) {
     }
 }
 
-TEST(WebcamObservations, AreOfThatRigAndOfThatSeed) {
+TEST(WebcamObservations, DependOnRigAndSeed) {
   const SyntheticRig rig = syntheticRig(Scenario::d, 4);
   std::mt19937 a(1), b(1), c(2);
   const WebcamObservations one = syntheticObservations(rig, positions(), fineWebcam(), a);
@@ -40,7 +40,7 @@ TEST(WebcamObservations, AreOfThatRigAndOfThatSeed) {
   EXPECT_EQ(one.device_model, "omni");
 }
 
-TEST(WebcamObservations, PutsThePictureUprightBeforeTheCamera) {
+TEST(WebcamObservations, AreUprightInTheImage) {
   // Without noise the corner at the screen's lower left is at the image's lower left, for all positions.
   WebcamCare exact = fineWebcam();
   exact.screen_noise_px = exact.tip_noise_px = exact.focal_error = exact.centre_error_px = exact.outlier_share = 0.0;

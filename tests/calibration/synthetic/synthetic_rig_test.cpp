@@ -17,7 +17,7 @@ double rms(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-/// Of the stylus, in W, as the arm truly holds it.
+/// True stylus direction in W.
 glm::dvec3 stylus_W(const SyntheticRig& rig, const RawJoints& raw_rad) {
   return (rig.X_WD.rotation * rig.arm.X_DH(raw_rad).rotation) * glm::dvec3(0.0, 0.0, 1.0);
 }
@@ -31,8 +31,8 @@ double tiltSpread_deg(const SyntheticRig& rig, const std::vector<Touch>& touches
   return degreesFromRad(most);
 }
 
-TEST(SyntheticRig, TouchesWhereItsTipIs) {
-  // Without any noise, from the place to what the sensors read and back.
+TEST(SyntheticRig, TouchesWithItsTrueTip) {
+  // Without noise: from position to sensor readings and back.
   for (const Scenario scenario : kScenarios)
     for (std::uint32_t seed = 1; seed <= 40; ++seed) {
       SyntheticRig rig = syntheticRig(scenario, seed);
@@ -64,7 +64,7 @@ TEST(SyntheticRig, DrawsTheSameNumbersOnEveryMachine) {
   EXPECT_NEAR(rig.X_WD.translation_mm.x, 4.139276222326, 1e-9);
 }
 
-TEST(SyntheticRig, IsAsWrongAsItsScenarioSays) {
+TEST(SyntheticRig, HasTheErrorSizesOfItsScenario) {
   struct Sizes {
     Scenario scenario;
     double link_mm, offset_deg, gimbal_deg, tip_mm;
@@ -83,7 +83,7 @@ TEST(SyntheticRig, IsAsWrongAsItsScenarioSays) {
         tip.push_back((truth.tip_H_mm - kNominalTip_H_mm)[static_cast<int>(i)]);
       }
     }
-    // Five sigma of a root mean square of so many.
+    // Five sigma of the RMS of this many.
     EXPECT_NEAR(rms(link) / sizes.link_mm, 1.0, 0.13);
     EXPECT_NEAR(rms(offset) / sizes.offset_deg, 1.0, 0.11);
     EXPECT_NEAR(rms(gimbal) / sizes.gimbal_deg, 1.0, 0.11);
@@ -91,7 +91,7 @@ TEST(SyntheticRig, IsAsWrongAsItsScenarioSays) {
   }
 }
 
-TEST(SyntheticRig, BendsAsItsScenarioSays) {
+TEST(SyntheticRig, BendsByTheSizeOfItsScenario) {
   const auto bent_mm = [](Scenario scenario) {
     std::vector<double> bent;
     for (std::uint32_t seed = 1; seed <= 200; ++seed) {
@@ -109,8 +109,8 @@ TEST(SyntheticRig, BendsAsItsScenarioSays) {
   EXPECT_NEAR(bent_mm(Scenario::g), 0.5, 0.05);
 }
 
-TEST(SyntheticRig, IsAsFarOffWithoutCalibrationAsWasSimulatedBefore) {
-  // Device where it truly is, arm as its model: 2.1 mm in the middle of the rigs.
+TEST(SyntheticRig, HasTheKnownErrorWithoutCalibration) {
+  // True device pose, nominal arm: 2.1 mm, median over rigs.
   std::vector<double> of_rigs;
   for (std::uint32_t seed = 1; seed <= 60; ++seed) {
     const SyntheticRig rig = syntheticRig(Scenario::d, seed);
@@ -126,7 +126,7 @@ TEST(SyntheticRig, IsAsFarOffWithoutCalibrationAsWasSimulatedBefore) {
   EXPECT_NEAR(of_rigs[30], 2.1, 0.4);
 }
 
-TEST(SyntheticRig, ReachesItsTargetsAsTheyAre) {
+TEST(SyntheticRig, ReachesItsTargetsUnmoved) {
   int moved = 0, all = 0;
   for (const char* method : {"jig27", "jig8", "visual25", "webcam27", "rezero5", "check4", "verify8", "pivot12"})
     for (std::uint32_t seed = 1; seed <= 60; ++seed) {
@@ -142,7 +142,7 @@ TEST(SyntheticRig, ReachesItsTargetsAsTheyAre) {
   EXPECT_LE(moved, all / 100) << "of " << all;
 }
 
-TEST(SyntheticRig, TiltsTheStylusAsTheCueAsksUnlessItIsHeldOneWay) {
+TEST(SyntheticRig, TiltsTheStylusAsRequestedExceptInScenarioE) {
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
     const SyntheticRig many = syntheticRig(Scenario::d, seed), one = syntheticRig(Scenario::e, seed);
     std::mt19937 a(seed), b(seed);
@@ -153,7 +153,7 @@ TEST(SyntheticRig, TiltsTheStylusAsTheCueAsksUnlessItIsHeldOneWay) {
   }
 }
 
-TEST(SyntheticRig, IsTouchedAsExactlyAsPeopleCan) {
+TEST(SyntheticRig, TouchesWithTheStatedPrecision) {
   const SyntheticRig rig = [] {
     SyntheticRig it = syntheticRig(Scenario::f, 3);
     it.technician.outlier_share = it.technician.arm_noise_rad = it.technician.gimbal_noise_rad = 0.0;
@@ -171,7 +171,7 @@ TEST(SyntheticRig, IsTouchedAsExactlyAsPeopleCan) {
   EXPECT_NEAR(rms(along), 1.0, 0.1);
 }
 
-TEST(SyntheticRig, SlipsNowAndThen) {
+TEST(SyntheticRig, HasTheStatedShareOfOutliers) {
   int slipped = 0, all = 0;
   for (std::uint32_t seed = 1; seed <= 60; ++seed) {
     const SyntheticRig rig = syntheticRig(Scenario::d, seed);
@@ -186,7 +186,7 @@ TEST(SyntheticRig, SlipsNowAndThen) {
   EXPECT_NEAR(slipped / static_cast<double>(all), 0.02, 0.015);
 }
 
-TEST(SyntheticRig, DriftsAsMuchAsItIsTold) {
+TEST(SyntheticRig, DriftsByTheRequestedSigmas) {
   std::vector<double> turned, shifted;
   std::mt19937 rng(9);
   const SyntheticRig rig = syntheticRig(Scenario::d, 1);
@@ -203,7 +203,7 @@ TEST(SyntheticRig, DriftsAsMuchAsItIsTold) {
   EXPECT_NEAR(rms(shifted), 1.0, 0.12);
 }
 
-TEST(SyntheticRig, KnowsItsScenariosByTheirLetter) {
+TEST(SyntheticRig, NamesScenariosByLetter) {
   for (const Scenario scenario : kScenarios)
     EXPECT_EQ(scenarioNamed(std::string(1, static_cast<char>(scenario))), scenario);
   for (const char* none : {"", "H", "d", "DD", "@"}) EXPECT_FALSE(scenarioNamed(none)) << none;

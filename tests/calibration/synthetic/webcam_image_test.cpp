@@ -27,7 +27,7 @@ void fill(GreyImage& image, glm::ivec2 low, glm::ivec2 high, std::uint8_t grey) 
     for (int x = low.x; x < high.x; ++x) at(image, x, y) = grey;
 }
 
-/// Middle of what is brighter than the dark, weighed by its light.
+/// Centroid of the light above the dark level.
 glm::dvec2 middleOfLight(const GreyImage& image, double dark_grey = 5.0) {
   glm::dvec2 sum(0.0);
   double weight = 0.0;
@@ -42,12 +42,12 @@ glm::dvec2 middleOfLight(const GreyImage& image, double dark_grey = 5.0) {
   return sum / weight;
 }
 
-/// Where a place of the virtual screen falls.
+/// Pixel of a point on the virtual screen.
 glm::dvec2 seenPlace(const Webcam& webcam, const glm::dvec3& position_W) {
   return webcam.model.pixelOf(webcam.X_WC.inverse() * Point<World>{position_W});
 }
 
-/// 24 x 24 px of the framebuffer, its middle this far across and down.
+/// 24 x 24 px of the framebuffer, centred there.
 GreyImage squareAt(glm::ivec2 size, glm::ivec2 middle) {
   GreyImage shown = plain(size, 0);
   fill(shown, middle - 12, middle + 12, 255);
@@ -56,7 +56,7 @@ GreyImage squareAt(glm::ivec2 size, glm::ivec2 middle) {
 
 WebcamScene mirroredScene() { return {.panel = hangingMonitor(), .mirror = slantedMirror(), .room_light = 0.0}; }
 
-TEST(WebcamPicture, UndistortsWhatTheCameraDistorts) {
+TEST(WebcamImage, UndistortsWhatTheCameraDistorts) {
   const CameraModel model = webcamAtEye().model;
   std::mt19937 rng(1);
   std::uniform_real_distribution<double> x(0.0, 1919.0), y(0.0, 1079.0);
@@ -66,7 +66,7 @@ TEST(WebcamPicture, UndistortsWhatTheCameraDistorts) {
   }
 }
 
-TEST(WebcamPicture, APlaceOnThePanelFallsWhereTheCameraModelSays) {
+TEST(WebcamImage, APanelPointProjectsByTheCameraModel) {
   const ScreenCorners panel = uprightScreen();
   for (const glm::dvec3 from : {glm::dvec3(0, 0, 450), glm::dvec3(180, 60, 420), glm::dvec3(-150, 120, 500)}) {
     const Webcam webcam = perfect(webcamAtEye({1280, 720}, {from}));
@@ -79,7 +79,7 @@ TEST(WebcamPicture, APlaceOnThePanelFallsWhereTheCameraModelSays) {
   }
 }
 
-TEST(WebcamPicture, AMonitorInTheMirrorShowsItsLeftOnTheRight) {
+TEST(WebcamImage, AMonitorInTheMirrorIsSwappedLeftToRight) {
   const Webcam webcam = perfect(webcamAtEye());
   const WebcamRenderer view(mirroredScene(), webcam);
   const GreyImage shown = squareAt({1920, 1080}, {500, 300});
@@ -87,7 +87,7 @@ TEST(WebcamPicture, AMonitorInTheMirrorShowsItsLeftOnTheRight) {
   EXPECT_LT(glm::distance(middleOfLight(view.image(&shown, {}, 1)), seenPlace(webcam, position)), 0.05);
 }
 
-TEST(WebcamPicture, APixelHasTheMeanLightOfItsArea) {
+TEST(WebcamImage, APixelHasTheMeanLightOfItsArea) {
   // Stripes of one pixel of the panel, seven to a pixel of the camera: half of white's light, or four sevenths.
   const Webcam webcam = perfect(webcamAtEye({320, 180}));
   const WebcamRenderer view({.panel = uprightScreen(), .room_light = 0.0}, webcam);
@@ -98,7 +98,7 @@ TEST(WebcamPicture, APixelHasTheMeanLightOfItsArea) {
   for (int x = 100; x < 220; ++x) EXPECT_NEAR(at(seen, x, 90), expected, 12.0);
 }
 
-TEST(WebcamPicture, TheFarFaceOfTheGlassShowsAGhost) {
+TEST(WebcamImage, TheFarFaceOfTheGlassShowsAGhost) {
   WebcamScene scene = mirroredScene();
   scene.plate_mm = 3.0;
   scene.ghost = 0.05;
@@ -115,7 +115,7 @@ TEST(WebcamPicture, TheFarFaceOfTheGlassShowsAGhost) {
   EXPECT_NEAR(std::abs(row - 539.5), 2.2 * 1400.0 / 450.0, 1.5);
 }
 
-TEST(WebcamPicture, ALitTipFallsWhereTheCameraModelSays) {
+TEST(WebcamImage, ALitTipProjectsByTheCameraModel) {
   const Webcam webcam = perfect(webcamAtEye({1920, 1080}, {{120, 40, 430}}));
   const WebcamRenderer view(mirroredScene(), webcam);
   std::mt19937 rng(3);
@@ -126,7 +126,7 @@ TEST(WebcamPicture, ALitTipFallsWhereTheCameraModelSays) {
   }
 }
 
-TEST(WebcamPicture, ATipBehindTheGlassIsShiftedByTheFormula) {
+TEST(WebcamImage, ATipBehindTheGlassIsShiftedByTheFormula) {
   const Webcam webcam = perfect(webcamAtEye());
   WebcamScene scene = mirroredScene();
   const LitTip tip{.middle_W = {{0, 0, 0}}};
@@ -137,7 +137,7 @@ TEST(WebcamPicture, ATipBehindTheGlassIsShiftedByTheFormula) {
   EXPECT_NEAR(glm::distance(plain, shifted), shift_mm * 1400.0 / 450.0, 0.03);
 }
 
-TEST(WebcamPicture, ATipThatMovesIsSmearedAboutItsMiddle) {
+TEST(WebcamImage, AMovingTipIsBlurredAboutItsCentre) {
   const Webcam webcam = perfect(webcamAtEye());
   const WebcamRenderer view(mirroredScene(), webcam);
   LitTip tip{.middle_W = {{5, 5, 10}}};
@@ -149,7 +149,7 @@ TEST(WebcamPicture, ATipThatMovesIsSmearedAboutItsMiddle) {
   EXPECT_GT(lit(smeared), 3 * lit(still) / 2);
 }
 
-TEST(WebcamPicture, ALampFromOneSideShiftsTheMiddleByLessThanTheRadius) {
+TEST(WebcamImage, ASideLampShiftsTheCentreByLessThanTheRadius) {
   const Webcam webcam = perfect(webcamAtEye());
   const WebcamRenderer view(mirroredScene(), webcam);
   LitTip tip{.middle_W = {{0, 0, 0}}};
@@ -160,7 +160,7 @@ TEST(WebcamPicture, ALampFromOneSideShiftsTheMiddleByLessThanTheRadius) {
   EXPECT_LT(glm::distance(even, lit), 0.5 * 1.5 * 1400.0 / 450.0);
 }
 
-TEST(WebcamPicture, IsTheSameForTheSameSeedAlone) {
+TEST(WebcamImage, DependsOnTheSeed) {
   const WebcamRenderer view(mirroredScene(), webcamAtEye({640, 360}));
   const GreyImage shown = squareAt({1920, 1080}, {900, 500});
   const LitTip tip{.middle_W = {{0, 0, 0}}};
@@ -168,7 +168,7 @@ TEST(WebcamPicture, IsTheSameForTheSameSeedAlone) {
   EXPECT_NE(view.image(&shown, tip, 7).grey, view.image(&shown, tip, 8).grey);
 }
 
-TEST(WebcamPicture, ItsNoiseHasTheSizeAsked) {
+TEST(WebcamImage, HasTheRequestedNoise) {
   Webcam webcam = webcamAtEye({640, 360});
   webcam.vignetting = 0.0;
   webcam.noise_grey = 3.0;

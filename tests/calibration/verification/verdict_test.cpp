@@ -18,7 +18,7 @@ std::vector<Residual> residualsWith(const std::vector<glm::dvec3>& errors_mm) {
   return residuals;
 }
 
-/// Sixteen errors of one length, to all sides.
+/// Sixteen errors of equal length in all directions.
 TargetErrors evenErrors(double length_mm, int n = 16) {
   std::vector<glm::dvec3> errors;
   for (int i = 0; i < n; ++i) {
@@ -29,7 +29,7 @@ TargetErrors evenErrors(double length_mm, int n = 16) {
   return targetErrors(residualsWith(errors));
 }
 
-TEST(TargetErrors, AreTheTextbooks) {
+TEST(TargetErrors, AreTheTextbookFigures) {
   auto residuals = residualsWith({{3, 4, 0}, {0, 0, 1}, {0, 0, -2}, {1, 0, 0}});
   residuals.push_back({9, {}, {{100, 0, 0}}, false});
   const TargetErrors errors = targetErrors(residuals);
@@ -44,7 +44,7 @@ TEST(TargetErrors, AreTheTextbooks) {
   EXPECT_EQ(targetErrors({}).n, 0);
 }
 
-TEST(Verdict, AllowsForHowSureSoFewTouchesCanBe) {
+TEST(Verdict, AllowsForTheUncertaintyOfFewTouches) {
   // 16 touches: 1 + 1.65 / sqrt(96) = 1.168; 4 touches: 1.337.
   EXPECT_NEAR(assess(evenErrors(0.4), VerificationKind::full).rms_upper_bound_mm, 0.4 * 1.1684, 1e-4);
   EXPECT_EQ(assess(evenErrors(0.42), VerificationKind::full).verdict, Verdict::green);
@@ -53,7 +53,7 @@ TEST(Verdict, AllowsForHowSureSoFewTouchesCanBe) {
   EXPECT_EQ(assess(evenErrors(0.87), VerificationKind::full).verdict, Verdict::red);
 }
 
-TEST(Verdict, IsGentlerToEyesAndToTheCheckOfASession) {
+TEST(Verdict, HasWiderLimitsByEyeAndForASessionCheck) {
   EXPECT_EQ(assess(evenErrors(0.66), VerificationKind::by_eyes).verdict, Verdict::green);
   EXPECT_EQ(assess(evenErrors(1.3), VerificationKind::by_eyes).verdict, Verdict::red);
   // Opposite pairs: no bias.
@@ -62,7 +62,7 @@ TEST(Verdict, IsGentlerToEyesAndToTheCheckOfASession) {
   EXPECT_EQ(assess(evenErrors(1.0, 4), VerificationKind::session_check).verdict, Verdict::red);
 }
 
-TEST(Verdict, IsDecidedByTheWorstOfAllAndSaysWhich) {
+TEST(Verdict, IsDecidedByTheWorstQuantityAndNamesIt) {
   TargetErrors errors = evenErrors(0.2);
   EXPECT_EQ(assess(errors, VerificationKind::full).verdict, Verdict::green);
   errors.max_mm = 1.3;
@@ -77,14 +77,14 @@ TEST(Verdict, IsDecidedByTheWorstOfAllAndSaysWhich) {
   EXPECT_THAT(assess(errors, VerificationKind::full).reason, HasSubstr("in one direction by 0.40 mm"));
 }
 
-TEST(Verdict, IsNeverGreenOfLessThanFourTouches) {
+TEST(Verdict, IsNeverGreenForFewerThanFourTouches) {
   EXPECT_EQ(assess(evenErrors(0.01, 3), VerificationKind::full).verdict, Verdict::amber);
   EXPECT_EQ(assess(evenErrors(0.01, 4), VerificationKind::full).verdict, Verdict::green);
   EXPECT_EQ(assess(evenErrors(5.0, 3), VerificationKind::full).verdict, Verdict::red);
   EXPECT_EQ(assess({}, VerificationKind::full).verdict, Verdict::red);
 }
 
-TEST(Verdict, IsRedOfWhatIsNoNumber) {
+TEST(Verdict, IsRedForNan) {
   TargetErrors errors = evenErrors(0.1);
   errors.rms_mm = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(assess(errors, VerificationKind::full).verdict, Verdict::red);
@@ -93,7 +93,7 @@ TEST(Verdict, IsRedOfWhatIsNoNumber) {
   EXPECT_EQ(assess(errors, VerificationKind::full).verdict, Verdict::red);
 }
 
-TEST(WorstPlace, IsSaidAsTheSurgeonSeesIt) {
+TEST(WorstError, IsDescribedAsTheSurgeonSeesIt) {
   std::vector<Residual> residuals;
   for (const double x : {-60.0, 0.0, 60.0})
     for (const double y : {-40.0, 0.0, 40.0})
@@ -111,7 +111,7 @@ TEST(WorstPlace, IsSaidAsTheSurgeonSeesIt) {
   EXPECT_EQ(worstErrorSentence({}, {}), "no touches");
 }
 
-TEST(WorstPlace, LeavesOutTouchesSetAsideAndAxesThatAreNotSpanned) {
+TEST(WorstError, IgnoresUnusedTouchesAndUnspannedAxes) {
   std::vector<Residual> flat = {{1, {{-50, 10, 0}}, {{9, 0, 0}}, false},
                                 {2, {{50, 30, 0.1}}, {{0.3, 0, 0}}, true},
                                 {3, {{-50, -30, -0.1}}, {{0.2, 0, 0}}, true}};

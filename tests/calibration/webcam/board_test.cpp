@@ -23,7 +23,7 @@ std::optional<BoardTrouble> troubleWith(const GreyImage& image) {
   return detection.trouble;
 }
 
-TEST(Board, IsFoundWithEveryCornerWhereTheLensPutsIt) {
+TEST(Board, IsFoundWithEveryCornerAtItsProjection) {
   const ShownBoard board = boardFor(kScreen.size_px);
   const glm::dvec3 eyes[] = {{0, 0, 520}, {200, 60, 480}, {-220, -40, 470}, {30, 220, 500}};
   for (const glm::dvec3& eye : eyes) {
@@ -43,7 +43,7 @@ TEST(Board, IsFoundWithEveryCornerWhereTheLensPutsIt) {
   }
 }
 
-TEST(Board, ReadsRightWhicheverWayTheCameraIsTurned) {
+TEST(Board, ReadsRightForAnyCameraRotation) {
   const ShownBoard board = boardFor(kScreen.size_px);
   for (const double roll : {0.0, 3.14159, 1.5708 * 0.3, -2.9}) {
     const Pose<World, Camera> X_WC = cameraTowards({40, 30, 640}, {0, 0, 0}, roll);
@@ -55,7 +55,7 @@ TEST(Board, ReadsRightWhicheverWayTheCameraIsTurned) {
   }
 }
 
-TEST(Board, KnowsAMirroredPictureEveryTime) {
+TEST(Board, DetectsAMirroredImage) {
   std::mt19937 rng(3);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   for (int i = 0; i < 4; ++i) {
@@ -68,7 +68,7 @@ TEST(Board, KnowsAMirroredPictureEveryTime) {
   }
 }
 
-TEST(Board, RefusesABlurredPicture) {
+TEST(Board, RefusesABlurredImage) {
   const GreyImage sharp = seenFrom({30, 20, 520});
   EXPECT_EQ(troubleWith(sharp), std::nullopt);
   EXPECT_EQ(troubleWith(blurred(sharp, 9, 9)), BoardTrouble::blurred);
@@ -76,7 +76,7 @@ TEST(Board, RefusesABlurredPicture) {
   EXPECT_EQ(troubleWith(blurred(sharp, 25, 25)), BoardTrouble::blurred) << "not even found";
 }
 
-TEST(Board, RefusesACroppedPicture) {
+TEST(Board, RefusesACroppedImage) {
   EXPECT_EQ(troubleWith(seenFrom({0, 0, 520}, 0.0, {150, 20, 0})), BoardTrouble::cropped);
   EXPECT_EQ(troubleWith(seenFrom({0, 0, 260})), BoardTrouble::cropped);
 }
@@ -86,7 +86,7 @@ TEST(Board, RefusesWhatIsTooFarOrTooOblique) {
   EXPECT_EQ(troubleWith(seenFrom({620, 0, 300})), BoardTrouble::too_oblique);
 }
 
-TEST(Board, RefusesAPictureWithoutIt) {
+TEST(Board, RefusesAnImageWithoutIt) {
   EXPECT_EQ(troubleWith({{640, 480}, std::vector<std::uint8_t>(640 * 480, 90)}), BoardTrouble::not_found);
   EXPECT_EQ(troubleWith(noisy({{640, 480}, std::vector<std::uint8_t>(640 * 480, 90)}, 40.0, 1)),
             BoardTrouble::not_found);
@@ -107,7 +107,7 @@ TEST(Board, RefusesAChessboardWithoutTheF) {
   EXPECT_FALSE(findChessboard(seen, board.corners()).trouble);
 }
 
-TEST(Board, IsDrawnWithOddByEvenSquaresAndAnFThatReadsOneWayOnly) {
+TEST(Board, HasOddByEvenSquaresAndAUniqueF) {
   const ShownBoard board = boardFor({1920, 1080});
   EXPECT_EQ(board.squares.x % 2, 1);
   EXPECT_EQ(board.squares.y % 2, 0);
@@ -123,7 +123,7 @@ TEST(Board, IsDrawnWithOddByEvenSquaresAndAnFThatReadsOneWayOnly) {
   EXPECT_THROW(boardFor({200, 150}), CalibrationError);
 }
 
-TEST(BoardPicture, RefusesWhatIsNoPicture) {
+TEST(BoardImage, RefusesAnInvalidImage) {
   EXPECT_THROW(readGreyImage("/nowhere/left01.jpg"), CalibrationError);
   EXPECT_THROW(readGreyImage(__FILE__), CalibrationError);
 }

@@ -19,7 +19,7 @@ GreyImage numbered(glm::ivec2 size) {
   return image;
 }
 
-/// A webcam somewhere before the screen, as level as people clamp one, blurred and noisy as cheap ones are.
+/// A webcam in front of the screen with realistic roll, blur and noise.
 Webcam someWebcam(std::mt19937& rng) {
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   const double roll = 0.5 * any(rng);
@@ -31,7 +31,7 @@ Webcam someWebcam(std::mt19937& rng) {
   return webcam;
 }
 
-TEST(FlipCheck, WhatReachesTheEyeIsUndoneByTheOpposite) {
+TEST(FlipCheck, TheInverseRestoresTheImage) {
   const GreyImage image = numbered({5, 3});
   for (const ImageOrientation& reading : kImageOrientations) {
     const GreyImage back = oriented(inverseOf(reading), oriented(reading, image));
@@ -40,20 +40,20 @@ TEST(FlipCheck, WhatReachesTheEyeIsUndoneByTheOpposite) {
   }
 }
 
-TEST(FlipCheck, AQuarterTurnPutsTheUpperLeftToTheUpperRight) {
+TEST(FlipCheck, AQuarterTurnMovesTheUpperLeftToTheUpperRight) {
   const GreyImage seen = oriented({false, 1}, numbered({3, 2}));
   EXPECT_EQ(seen.size_px, glm::ivec2(2, 3));
   EXPECT_THAT(seen.grey, testing::ElementsAre(3, 0, 4, 1, 5, 2));
   EXPECT_THAT(oriented({true, 0}, numbered({3, 2})).grey, testing::ElementsAre(2, 1, 0, 5, 4, 3));
 }
 
-TEST(FlipCheck, EveryReadingOfAnFIsToldEveryTime) {
+TEST(FlipCheck, EveryOrientationOfAnFIsRecognised) {
   std::mt19937 rng(41);
   int told = 0;
   for (int pose = 0; pose < 20; ++pose) {
     const WebcamRenderer view({.panel = uprightScreen(kScreen_px)}, someWebcam(rng));
     for (const ImageOrientation& reading : kImageOrientations) {
-      // A turned image is drawn so that it fits the screen again.
+      // A rotated image is drawn so that it fits the screen again.
       const bool on_its_side = reading.quarters % 2 == 1;
       const GreyImage letter = letterF(on_its_side ? glm::ivec2(kScreen_px.y, kScreen_px.x) : kScreen_px);
       const GreyImage shown = oriented(reading, letter);
@@ -67,7 +67,7 @@ TEST(FlipCheck, EveryReadingOfAnFIsToldEveryTime) {
   EXPECT_EQ(told, 160);
 }
 
-TEST(FlipCheck, AMonitorInTheMirrorReadsRightOnceTheRigTurnsIt) {
+TEST(FlipCheck, AMonitorInTheMirrorReadsRightWithTheRigsFlip) {
   Rig rig = desktopRig(kScreen_px);
   rig.mirror = slantedMirror();
   const ScreenCorners seen = rig.screen;
@@ -93,7 +93,7 @@ TEST(FlipCheck, AMonitorInTheMirrorReadsRightOnceTheRigTurnsIt) {
   }
 }
 
-TEST(FlipCheck, APixelAsSeenHasItsPlaceOnTheVirtualScreen) {
+TEST(FlipCheck, APixelAsSeenHasItsPositionOnTheVirtualScreen) {
   const ScreenCorners seen = seenScreen(desktopRig({1000, 500}, 500.0));
   EXPECT_LT(glm::distance(positionOn(seen, {499.5, 249.5}).mm, glm::dvec3(0.0)), 1e-9);
   EXPECT_LT(glm::distance(positionOn(seen, {-0.5, -0.5}).mm, glm::dvec3(-250, 125, 0)), 1e-9);
@@ -101,7 +101,7 @@ TEST(FlipCheck, APixelAsSeenHasItsPlaceOnTheVirtualScreen) {
 }
 
 TEST(FlipCheck, AWrongCornerInTheRigFileIsFound) {
-  // The file has left and right exchanged: what should read right reads mirrored.
+  // The file has left and right exchanged.
   Rig rig = desktopRig(kScreen_px);
   rig.mirror = slantedMirror();
   const ScreenCorners truth = hangingMonitor(kScreen_px);
@@ -114,7 +114,7 @@ TEST(FlipCheck, AWrongCornerInTheRigFileIsFound) {
   EXPECT_THAT(remedyFor(*read), testing::HasSubstr("flip"));
 }
 
-TEST(FlipCheck, WhereThereIsNoFItSaysNothing) {
+TEST(FlipCheck, NoOrientationWithoutAnF) {
   const WebcamRenderer view({.panel = uprightScreen(kScreen_px)}, webcamAtEye({640, 360}));
   GreyImage white = letterF(kScreen_px);
   for (std::uint8_t& grey : white.grey) grey = grey > 0 || &grey - white.grey.data() > 300000 ? 255 : 0;

@@ -25,7 +25,7 @@ std::vector<GreyImage> flippedAll(std::vector<GreyImage> images, bool left_right
   return images;
 }
 
-TEST(GrayCode, FindsWhereTheCameraSeesEveryCell) {
+TEST(GrayCode, LocatesEveryCell) {
   const Pose<World, Camera> X_WC = cameraTowards({150, 60, 520}, {0, 0, 0}, 0.1);
   const CodeDetection detection = decoded(kCode, sweep(X_WC));
   ASSERT_FALSE(detection.trouble) << detection.line;
@@ -41,7 +41,7 @@ TEST(GrayCode, FindsWhereTheCameraSeesEveryCell) {
   EXPECT_LT(std::sqrt(sum / double(detection.correspondences.size())), 0.2);
 }
 
-TEST(GrayCode, KnowsEveryFlip) {
+TEST(GrayCode, DetectsEveryFlip) {
   const auto images = sweep(cameraTowards({-120, 40, 540}, {10, 0, 0}, -0.1));
   EXPECT_FALSE(decoded(kCode, images).trouble);
   const auto sideways = decoded(kCode, flippedAll(images, true, false));
@@ -54,7 +54,7 @@ TEST(GrayCode, KnowsEveryFlip) {
   EXPECT_TRUE(sideways.correspondences.empty());
 }
 
-TEST(GrayCode, IgnoresWhatDoesNotFollowTheScreen) {
+TEST(GrayCode, IgnoresPixelsThatDoNotFollowTheScreen) {
   auto images = sweep(cameraTowards({0, 0, 700}, {0, 0, 0}));
   // A lamp's reflection: always bright.
   for (GreyImage& image : images)
@@ -67,7 +67,7 @@ TEST(GrayCode, IgnoresWhatDoesNotFollowTheScreen) {
                  observation.camera_px.y < 199);
 }
 
-TEST(GrayCode, RefusesASweepThatShowsNothingOrWasMixedUp) {
+TEST(GrayCode, RefusesAnEmptyOrInconsistentSweep) {
   const std::vector<GreyImage> dark(static_cast<std::size_t>(kCode.images()),
                                     {{640, 360}, std::vector<std::uint8_t>(640 * 360, 20)});
   EXPECT_EQ(decoded(kCode, dark).trouble, CodeTrouble::not_seen);

@@ -17,9 +17,9 @@ namespace {
 using testing::HasSubstr;
 using Bytes = std::vector<std::uint8_t>;
 
-class PictureReader : public testing::Test {
+class ImageReader : public testing::Test {
  protected:
-  PictureReader() {
+  ImageReader() {
     for (int y = 0; y < 48; ++y)
       for (int x = 0; x < 64; ++x) grey_.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(3 * x + y);
   }
@@ -44,7 +44,7 @@ class PictureReader : public testing::Test {
   cv::Mat grey_ = cv::Mat(48, 64, CV_8U);
 };
 
-TEST_F(PictureReader, ReadsPngExactlyAndJpegClosely) {
+TEST_F(ImageReader, ReadsPngExactlyAndJpegClosely) {
   const GreyImage png = read(encoded(".png"));
   EXPECT_EQ(png.size_px, glm::ivec2(64, 48));
   EXPECT_EQ(0, std::memcmp(png.grey.data(), grey_.data, png.grey.size()));
@@ -56,7 +56,7 @@ TEST_F(PictureReader, ReadsPngExactlyAndJpegClosely) {
   }
 }
 
-TEST_F(PictureReader, RefusesEveryFileThatIsCutOff) {
+TEST_F(ImageReader, RefusesEveryTruncatedFile) {
   for (const char* ending : {".png", ".jpg"}) {
     const Bytes whole = encoded(ending);
     for (std::size_t length = 0; length < whole.size(); length += 7)
@@ -66,8 +66,8 @@ TEST_F(PictureReader, RefusesEveryFileThatIsCutOff) {
   }
 }
 
-TEST_F(PictureReader, BelievesNoHeaderThatAsksForTheWorld) {
-  // Where the frame header of a JPEG holds height and width.
+TEST_F(ImageReader, RefusesHugeDeclaredSizes) {
+  // Offset of height and width in a JPEG's frame header.
   const Bytes whole = encoded(".jpg");
   const auto frame = std::ranges::search(whole, Bytes{0xff, 0xc0}).begin() - whole.begin();
   Bytes tall = whole;
@@ -78,20 +78,20 @@ TEST_F(PictureReader, BelievesNoHeaderThatAsksForTheWorld) {
   EXPECT_THAT(refusal(wide), HasSubstr("64 megapixels"));
   Bytes png = encoded(".png");
   png[17] = 0x40;
-  EXPECT_THAT(refusal(png), HasSubstr("no whole PNG")) << "its checksum is wrong";
+  EXPECT_THAT(refusal(png), HasSubstr("not a complete PNG")) << "its checksum is wrong";
   grey_ = cv::Mat(8, 64, CV_8U, cv::Scalar(9));
   EXPECT_THAT(refusal(encoded(".png")), HasSubstr("under 16"));
 }
 
-TEST_F(PictureReader, RefusesWhatIsNoPicture) {
+TEST_F(ImageReader, RefusesWhatIsNotAnImage) {
   EXPECT_THAT(refusal({}), HasSubstr("empty"));
-  EXPECT_THAT(refusal(Bytes(2000, 'a')), HasSubstr("no whole PNG or JPEG"));
-  EXPECT_THAT(refusal(encoded(".bmp")), HasSubstr("no whole PNG or JPEG"));
+  EXPECT_THAT(refusal(Bytes(2000, 'a')), HasSubstr("not a complete PNG or JPEG"));
+  EXPECT_THAT(refusal(encoded(".bmp")), HasSubstr("not a complete PNG or JPEG"));
   EXPECT_THROW(readGreyImage(testing::TempDir()), CalibrationError);
   EXPECT_THROW(readGreyImage("/nonexistent.png"), CalibrationError);
 }
 
-TEST_F(PictureReader, SpoiltBytesAreRefusedOrReadAtTheirSize) {
+TEST_F(ImageReader, DamagedBytesAreRefusedOrReadAtTheirSize) {
   std::vector<std::string> whole;
   for (const char* ending : {".png", ".jpg"}) {
     const Bytes bytes = encoded(ending);

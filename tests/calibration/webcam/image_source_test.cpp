@@ -14,7 +14,7 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST(PictureFolder, GivesItsPicturesByTheirNumbers) {
+TEST(ImageFolder, ReturnsImagesInNumericOrder) {
   const std::string folder = testing::TempDir() + "image_folder_test";
   std::filesystem::create_directories(folder);
   for (const int number : {10, 2, 1, 33})
@@ -31,7 +31,7 @@ TEST(PictureFolder, GivesItsPicturesByTheirNumbers) {
   std::filesystem::remove_all(folder);
 }
 
-TEST(WebcamSource, SaysInOneLineThatThereIsNoCamera) {
+TEST(WebcamSource, ReportsAMissingCameraInOneLine) {
   EXPECT_THAT(
       tests::refusalOf<CalibrationError>([] { openImageSource({.device = "97", .exposure_ms = {}, .focus = {}}); }),
       testing::AllOf(HasSubstr("webcam /dev/video97"), HasSubstr("not there")));

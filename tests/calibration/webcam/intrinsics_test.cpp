@@ -60,7 +60,7 @@ TEST(Intrinsics, FindTheLensThatTookTheViews) {
   EXPECT_TRUE(found.left_out.empty());
   EXPECT_LT(glm::distance(found.camera.focal_px, kWebcam.focal_px), 2.5);
   EXPECT_LT(glm::distance(found.camera.centre_px, kWebcam.centre_px), 2.0);
-  // What counts: where points fall, over the whole image.
+  // The criterion: projections over the whole image.
   for (const double x : {-0.55, 0.0, 0.55})
     for (const double y : {-0.3, 0.0, 0.3})
       EXPECT_LT(
@@ -78,7 +78,7 @@ TEST(Intrinsics, NameAViewThatDoesNotFitTheOthers) {
   EXPECT_NEAR(found.rms_px, 0.15 * std::sqrt(2.0), 0.03);
 }
 
-TEST(Intrinsics, RefuseSetsThatLookGoodAndAreWrong) {
+TEST(Intrinsics, RefuseDegenerateSets) {
   EXPECT_THAT(refusal(views(7, 0.6, 0.15)), HasSubstr("too few"));
   EXPECT_THAT(refusal(views(12, 0.0, 0.15)), HasSubstr("squarely"));
   auto given = views(12, 0.6, 0.15);
@@ -95,8 +95,8 @@ TEST(Intrinsics, RefuseSetsThatLookGoodAndAreWrong) {
   EXPECT_THAT(refusal(given), HasSubstr("fit together"));
 }
 
-TEST(Intrinsics, RefuseViewsInOnePartOfThePicture) {
-  // Far away: the board fills the middle alone.
+TEST(Intrinsics, RefuseViewsInOnePartOfTheImage) {
+  // Far away: the board covers the centre only.
   std::vector<BoardView> given;
   for (int i = 0; i < 12; ++i) {
     const Pose<World, Camera> X_WC =
@@ -109,7 +109,7 @@ TEST(Intrinsics, RefuseViewsInOnePartOfThePicture) {
   EXPECT_THAT(refusal(given), HasSubstr("cover"));
 }
 
-/// Real images: a 9 x 6 chessboard before two cameras, 640 x 480, as Debian's opencv-doc brings them.
+/// Real images: a 9 x 6 chessboard before two cameras, 640 x 480, from Debian's opencv-doc.
 class OpenCvChessboards : public testing::Test {
  protected:
   static std::vector<BoardView> sightings(const std::string& side) {
@@ -126,7 +126,7 @@ class OpenCvChessboards : public testing::Test {
   static inline const std::string kFolder = "/usr/share/doc/opencv-doc/examples/data/";
 };
 
-/// What the two lenses as they are leave over, their cameras standing still to each other.
+/// Stereo residual of the two lenses with fixed relative pose.
 double stereoRms_px(const Intrinsics& left, const Intrinsics& right, const std::vector<glm::dvec2>& positions_mm,
                     const std::vector<BoardView>& left_views, const std::vector<BoardView>& right_views) {
   const auto pixels = [](const std::vector<BoardView>& views) {

@@ -13,10 +13,10 @@ namespace {
 using namespace std::chrono_literals;
 using testing::HasSubstr;
 
-/// What a test sees and says of the camera behind the frames.
+/// Controls and observes the camera behind the frames.
 struct PlayedCamera {
   std::atomic<int> frames{0}, last{1'000'000'000};
-  std::atomic<bool> waits_with_frames{false}, waits_in_decoding{false};  ///< until told otherwise
+  std::atomic<bool> waits_with_frames{false}, waits_in_decoding{false};  ///< until changed
   std::atomic<bool> is_decoding{false};
 };
 
@@ -45,17 +45,17 @@ class NumberedFrames final : public FrameGrabber {
   PlayedCamera& camera_;
 };
 
-LiveImageSource patternImages(PlayedCamera& camera, std::chrono::milliseconds frame_patience = 250s) {
-  return {"webcam", [&] { return std::make_unique<NumberedFrames>(camera); }, {250s, frame_patience}};
+LiveImageSource liveImages(PlayedCamera& camera, std::chrono::milliseconds frame_timeout = 250s) {
+  return {"webcam", [&] { return std::make_unique<NumberedFrames>(camera); }, {250s, frame_timeout}};
 }
 
 std::string refusal(const std::function<void()>& act) {
   return tests::refusalOf<CalibrationError>([&] { act(); });
 }
 
-TEST(LiveImageSource, GiveAPictureThatBeganAfterTheCall) {
+TEST(LiveImageSource, ReturnsAnImageExposedAfterTheCall) {
   PlayedCamera camera;
-  LiveImageSource live = patternImages(camera);
+  LiveImageSource live = liveImages(camera);
   EXPECT_EQ(live.remarks(), "no focus");
   for (int i = 0; i < 3; ++i) {
     const int before = camera.frames;
@@ -63,27 +63,27 @@ TEST(LiveImageSource, GiveAPictureThatBeganAfterTheCall) {
   }
 }
 
-TEST(LiveImageSource, WaitNoLongerThanTold) {
+TEST(LiveImageSource, WaitsNoLongerThanItsTimeout) {
   PlayedCamera camera;
   camera.waits_with_frames = true;
-  LiveImageSource live = patternImages(camera, 50ms);
+  LiveImageSource live = liveImages(camera, 50ms);
   EXPECT_THAT(refusal([&] { live.take(); }), HasSubstr("in time"));
   camera.waits_with_frames = false;
 }
 
-TEST(LiveImageSource, SayThatTheCameraIsGone) {
+TEST(LiveImageSource, ReportsALostCamera) {
   PlayedCamera camera;
   camera.last = 1;
-  LiveImageSource live = patternImages(camera);
+  LiveImageSource live = liveImages(camera);
   for (int i = 0; i < 2; ++i) EXPECT_THAT(refusal([&] { live.take(); }), HasSubstr("no more images"));
 }
 
-TEST(LiveImageSource, SayWhyTheCameraDoesNotOpen) {
+TEST(LiveImageSource, ReportsWhyTheCameraDoesNotOpen) {
   const auto fails = []() -> std::unique_ptr<FrameGrabber> { throw CalibrationError("webcam: busy"); };
   EXPECT_EQ(refusal([&] { LiveImageSource("webcam", fails, {250s, 250s}); }), "webcam: busy");
   const auto runs_out = []() -> std::unique_ptr<FrameGrabber> { throw std::bad_alloc(); };
   EXPECT_THAT(refusal([&] { LiveImageSource("webcam", runs_out, {250s, 250s}); }), HasSubstr("does not answer"));
-  // Longer than anybody waits; on a busy machine it may have come back by then, with nothing.
+  // Longer than the timeout; on a busy machine it may return empty by then.
   const auto sleeps = []() -> std::unique_ptr<FrameGrabber> {
     std::this_thread::sleep_for(200ms);
     return nullptr;
@@ -91,11 +91,11 @@ TEST(LiveImageSource, SayWhyTheCameraDoesNotOpen) {
   EXPECT_THAT(refusal([&] { LiveImageSource("webcam", sleeps, {20ms, 250s}); }), HasSubstr("does not answer"));
 }
 
-TEST(LiveImageSource, NeverHandOutOneThatIsOlderThanTheCall) {
+TEST(LiveImageSource, NeverReturnsAnImageOlderThanTheCall) {
   PlayedCamera camera;
   camera.waits_in_decoding = true;
-  LiveImageSource live = patternImages(camera, 200ms);
-  // Nobody waits any more for the image that is still being decoded.
+  LiveImageSource live = liveImages(camera, 200ms);
+  // The waiting call has ended while the image is still being decoded.
   while (!camera.is_decoding) EXPECT_THROW(live.take(), CalibrationError);
 
   std::thread release([&] {
@@ -108,7 +108,7 @@ TEST(LiveImageSource, NeverHandOutOneThatIsOlderThanTheCall) {
       EXPECT_GT(live.take().size_px.x, before);
       has_one = true;
     } catch (const CalibrationError&) {
-      // The machine was busy for longer than anybody waits: the next one.
+      // The machine was busy for longer than the timeout: use the next one.
     }
   }
   release.join();

@@ -16,9 +16,9 @@ namespace {
 
 constexpr double kOverNoise = 6.0, kMinGrey = 12.0;
 constexpr double kOfBrightest =
-    0.4;  ///< below it lies the glass's ghost: a twentieth of the light is a quarter of the grey
+    0.4;  ///< below it is the glass's ghost: a twentieth of the light is a quarter of the grey level
 constexpr int kSectors = 72;
-constexpr double kWholeRing = 0.9;  ///< of the sectors that must hold some of it
+constexpr double kWholeRing = 0.9;  ///< of the sectors that must contain some
 
 /// What is brighter than before.
 cv::Mat1f brighter(const GreyImage& dark, const GreyImage& bright) {
@@ -60,7 +60,7 @@ std::vector<Blob> blobsOf(const cv::Mat1f& light, double least, cv::Mat1i& label
   return blobs;
 }
 
-/// Middle and radius of a hollow blob: the ellipse through the middles of its line, sector by sector.
+/// Centre and radius of a ring-shaped blob: an ellipse through its line's centroids by sector.
 std::optional<std::pair<glm::dvec2, double>> ringIn(const Blob& blob, const cv::Mat1f& light, const cv::Mat1i& labels,
                                                     double least) {
   const glm::dvec2 inside =

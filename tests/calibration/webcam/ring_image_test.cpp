@@ -14,7 +14,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A mirrored workstation and a webcam at its eye; the ring is drawn where the arm believes its tip to be.
+/// A mirrored workstation and a webcam at its eye; the ring is drawn at the arm's tip.
 class RingCheckAtAWebcam : public testing::Test {
  protected:
   RingCheckAtAWebcam() {
@@ -51,7 +51,7 @@ TEST_F(RingCheckAtAWebcam, FindsATipInItsRing) {
   }
 }
 
-TEST_F(RingCheckAtAWebcam, MeasuresHowFarTheyAreApart) {
+TEST_F(RingCheckAtAWebcam, MeasuresTheirDistance) {
   std::mt19937 rng(4);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   std::vector<Vector<Camera>> offsets;
@@ -68,14 +68,14 @@ TEST_F(RingCheckAtAWebcam, MeasuresHowFarTheyAreApart) {
   EXPECT_NEAR(judgedRing(offsets).mean_mm, mean_mm, 0.05);
 }
 
-TEST_F(RingCheckAtAWebcam, SeesWhatTheGlassShifts) {
+TEST_F(RingCheckAtAWebcam, SeesTheShiftOfTheGlass) {
   look(3.0);
   const glm::dvec3 tip(0, 0, 0);
   const double shift_mm = plateShift_mm({*rig_.mirror, 3.0}, std::acos(std::sqrt(0.5)));
   EXPECT_NEAR(glm::length(offset_mm(detection(tip, {.middle_W = {tip}}), tip).xyz), shift_mm, 0.05);
 }
 
-TEST_F(RingCheckAtAWebcam, SaysWhatIsMissing) {
+TEST_F(RingCheckAtAWebcam, ReportsWhatIsMissing) {
   const glm::dvec3 tip(0, 0, 0);
   const GreyImage dark = view_->image(nullptr, {}, 1);
   const GreyImage ring = ringImage(rig_, {webcam_.X_WC.translation_mm}, {tip});

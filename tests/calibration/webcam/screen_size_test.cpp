@@ -16,13 +16,13 @@ std::string refusal(const MeasuredBars& bars) {
   return tests::refusalOf<CalibrationError>([&] { checkedSize(kBelieved, bars); });
 }
 
-TEST(ScreenSize, LeavesAScreenAloneThatARulerFindsRight) {
+TEST(ScreenSize, KeepsAScreenWithinARulersAccuracy) {
   const SizeCheck check = checkedSize(kBelieved, {100.0, 100.2, 99.8});
   EXPECT_TRUE(check.agrees);
   EXPECT_EQ(check.corners.lower_left.mm, kBelieved.lower_left.mm);
 }
 
-TEST(ScreenSize, MakesTheScreenAsLargeAsTheBarSays) {
+TEST(ScreenSize, ScalesTheScreenByTheBars) {
   const SizeCheck check = checkedSize(kBelieved, {100.0, 103.0, 102.0});
   EXPECT_FALSE(check.agrees);
   const glm::dvec3 right = check.corners.lower_right.mm - check.corners.lower_left.mm;
@@ -33,7 +33,7 @@ TEST(ScreenSize, MakesTheScreenAsLargeAsTheBarSays) {
   EXPECT_THAT(check.line, HasSubstr("+3.0 %"));
 }
 
-TEST(ScreenSize, RefusesWhatIsNoMeasurement) {
+TEST(ScreenSize, RefusesInvalidMeasurements) {
   EXPECT_THAT(refusal({100.0, 10.2, 10.2}), HasSubstr("20 %"));
   EXPECT_THAT(refusal({100.0, 105.0, 100.0}), HasSubstr("stretched"));
   EXPECT_THAT(refusal({20.0, 20.0, 20.0}), HasSubstr("50 mm"));

@@ -1,5 +1,5 @@
-// Pictures of a lit screen as a camera in front of it takes them: rays through the lens to the plane z = 0 of W.
-// For tests of what finds patterns in images; slow and obvious.
+// Renders a lit screen as a camera sees it: rays through the lens to the plane z = 0 of W. For tests of pattern
+// detection; slow and simple.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace calibration {
 
-/// The virtual screen: its image's middle is the origin of W, x right, y up.
+/// The virtual screen: centre at the origin of W, x right, y up.
 struct ShownScreen {
   glm::ivec2 size_px{1920, 1080};
   glm::dvec2 size_mm{531.0, 298.7};
@@ -21,7 +21,7 @@ struct ShownScreen {
   }
 };
 
-/// From `eye_W`, towards `at_W`, its image turned by `roll_rad`.
+/// From `eye_W`, towards `at_W`, its image rotated by `roll_rad`.
 inline Pose<World, Camera> cameraTowards(const glm::dvec3& eye_W, const glm::dvec3& at_W, double roll_rad = 0.0) {
   const glm::dvec3 ahead = glm::normalize(at_W - eye_W);
   const glm::dvec3 right = glm::normalize(glm::cross(ahead, glm::dvec3(0, 1, 0)));
@@ -40,7 +40,7 @@ class SeenScreen {
           places_.push_back(hit(camera, X_WC, glm::dvec2(x, y) + 0.5 * glm::dvec2(ray % 2, ray / 2) - 0.25));
   }
 
-  /// `around`: grey of what is not the screen.
+  /// `around`: grey level outside the screen.
   GreyImage of(const GreyImage& shown, int around = 8) const {
     GreyImage seen{size_px_, {}};
     for (std::size_t i = 0; i < places_.size(); i += kRays) {
@@ -55,7 +55,7 @@ class SeenScreen {
   static constexpr int kRays = 4;
 
   glm::vec2 hit(const CameraModel& camera, const Pose<World, Camera>& X_WC, const glm::dvec2& px) const {
-    // The lens backwards, by iteration.
+    // Inverse of the lens by iteration.
     glm::dvec2 slope = (px - camera.centre_px) / camera.focal_px;
     for (int step = 0; step < 8; ++step) slope += (px - camera.pixelOf({glm::dvec3(slope, 1.0)})) / camera.focal_px;
     const glm::dvec3 ray_W = X_WC.rotation * glm::dvec3(slope, 1.0);
@@ -100,7 +100,7 @@ inline GreyImage noisy(const GreyImage& image, double sigma, unsigned seed) {
   return out;
 }
 
-/// Three passes of a mean over `width` (odd) px across and down: nearly a Gaussian; `down` 1: moved sideways alone.
+/// Three box filters of `width` (odd) px across and down: nearly a Gaussian; `down` 1: horizontal motion blur.
 inline GreyImage blurred(const GreyImage& image, int across, int down) {
   GreyImage out = image;
   const glm::ivec2 size = image.size_px;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr glm::ivec2 kSize{640, 360};
 
-/// A disc with a soft edge, its light added to a image.
+/// A disc with a soft edge, its light added to an image.
 void light(GreyImage& image, const glm::dvec2& at, double radius_px, double height, double soft_px = 0.7,
            double smear_px = 0.0) {
   for (int y = 0; y < image.size_px.y; ++y)
@@ -62,9 +62,9 @@ TEST(TipSpot, IsFoundWhileLightDriftsAndAShadowMoves) {
   GreyImage with = bench();
   for (int y = 0; y < kSize.y; ++y)
     for (int x = 0; x < kSize.x; ++x) {
-      int change = 12 + x / 60;                                   // a cloud went by
-      if (x > 80 && x < 260 && y > 200) change -= 35;             // a hand's shadow came
-      if (x > 300 && x < 385 && y > 60 && y < 330) change += 25;  // and another went
+      int change = 12 + x / 60;                                   // cloud
+      if (x > 80 && x < 260 && y > 200) change -= 35;             // a hand's shadow appeared
+      if (x > 300 && x < 385 && y > 60 && y < 330) change += 25;  // another disappeared
       std::uint8_t& grey = with.grey[static_cast<std::size_t>(y * kSize.x + x)];
       grey = static_cast<std::uint8_t>(std::clamp(grey + change, 0, 255));
     }
@@ -75,7 +75,7 @@ TEST(TipSpot, IsFoundWhileLightDriftsAndAShadowMoves) {
   EXPECT_LT(glm::distance(spot.centre_px, at), 0.25);
 }
 
-TEST(TipSpot, RefusesWhereThereIsNone) {
+TEST(TipSpot, RefusesAnImageWithoutTip) {
   const Taken images = taken(bench(), bench(), 1, 4.0);
   EXPECT_EQ(findTipSpot(images.before, images.with).trouble, SpotTrouble::nothing);
   EXPECT_EQ(findTipSpot(bench(), bench()).trouble, SpotTrouble::nothing);
@@ -92,7 +92,7 @@ TEST(TipSpot, RefusesTwoOfThem) {
   EXPECT_EQ(findTipSpot(images.before, images.with).trouble, SpotTrouble::several);
 }
 
-TEST(TipSpot, ForgivesAFaintReflection) {
+TEST(TipSpot, AcceptsAFaintReflection) {
   GreyImage with = bench();
   light(with, {200, 100}, 3.0, 180.0);
   light(with, {204, 122}, 3.0, 30.0);
@@ -128,7 +128,7 @@ TEST(TipSpot, RefusesOneThatMovedOrIsOutOfFocus) {
   EXPECT_EQ(findTipSpot(noisy(bench(), 2.0, 1), noisy(soft, 2.0, 2)).trouble, SpotTrouble::blurred);
 }
 
-TEST(TipSpot, WantsTwoPicturesOfOneSize) {
+TEST(TipSpot, RequiresTwoImagesOfOneSize) {
   EXPECT_THROW(findTipSpot(bench(), {{320, 180}, std::vector<std::uint8_t>(320 * 180)}), CalibrationError);
   EXPECT_THROW(findTipSpot({}, {}), CalibrationError);
 }

@@ -83,7 +83,7 @@ TEST_F(WebcamFile, ReadsBackEveryBitOfWhatItWrites) {
   }
 }
 
-TEST_F(WebcamFile, IsToldFromOtherFiles) {
+TEST_F(WebcamFile, IsRecognisedByItsKind) {
   EXPECT_TRUE(isWebcamFile(write(text_)));
   EXPECT_FALSE(isWebcamFile(write("%YAML:1.0\n---\nkind: \"molar_rig\"\n")));
   EXPECT_FALSE(isWebcamFile("/nonexistent.yaml"));
@@ -109,7 +109,7 @@ TEST_F(WebcamFile, RefusesWithTheReason) {
   EXPECT_THAT(refusal(webcamFileText(crowd)), HasSubstr("more than 12"));
 }
 
-TEST_F(WebcamFile, SpoiltTextIsRefusedOrReadAsNumbers) {
+TEST_F(WebcamFile, DamagedTextIsRefusedOrReadAsNumbers) {
   mutants::forEachMutant({text_}, 600, [&](const std::string& spoilt, std::size_t, std::uint64_t) {
     try {
       for (const CameraPosition& position : readWebcamFile(write(spoilt)).positions)

@@ -55,7 +55,7 @@ Figures heldOutOf(const WebcamCare& care, ArmModel model) {
   return figures(errors_mm);
 }
 
-TEST(WebcamFit, MeasuresAnArmAsWellAsAJigNearly) {
+TEST(WebcamFit, IsNearlyAsAccurateAsAJig) {
   const Figures fine = heldOutOf(fineWebcam(), ArmModel::full), coarse = heldOutOf(coarseWebcam(), ArmModel::full);
   std::cout << "held out, 12 rigs: 1080p " << fine.median_mm << " (worst " << fine.worst_mm << "), 720p "
             << coarse.median_mm << " (" << coarse.worst_mm << ") mm RMS\n";
@@ -64,12 +64,12 @@ TEST(WebcamFit, MeasuresAnArmAsWellAsAJigNearly) {
   EXPECT_LE(fine.worst_mm, 0.6);
 }
 
-TEST(WebcamFit, GainsFromTheArmsNumbers) {
+TEST(WebcamFit, GainsFromTheArmsParameters) {
   EXPECT_GT(heldOutOf(fineWebcam(), ArmModel::rigid).median_mm,
             1.6 * heldOutOf(fineWebcam(), ArmModel::full).median_mm);
 }
 
-TEST(WebcamFit, FindsTheTruthWhereNothingIsUncertain) {
+TEST(WebcamFit, FindsTheTruthWithoutNoise) {
   WebcamCare exact = fineWebcam();
   exact.screen_noise_px = exact.tip_noise_px = 1e-3;
   exact.focal_error = exact.centre_error_px = exact.outlier_share = 0.0;
@@ -85,7 +85,7 @@ TEST(WebcamFit, FindsTheTruthWhereNothingIsUncertain) {
   EXPECT_EQ(fit.outliers, 0);
 }
 
-TEST(WebcamFit, IsNotMovedByTipsThatAreTakenForSomethingElse) {
+TEST(WebcamFit, IsRobustToWrongTips) {
   WebcamCare care = fineWebcam();
   care.outlier_share = 0.0;
   Judged charted(4, care);
@@ -103,7 +103,7 @@ TEST(WebcamFit, IsNotMovedByTipsThatAreTakenForSomethingElse) {
   EXPECT_LT(std::abs(charted.error_mm(wild.arm) - charted.error_mm(clean.arm)), 0.05);
 }
 
-TEST(WebcamFit, SaysHowWellItForetellsPlacesNotTouched) {
+TEST(WebcamFit, CrossValidatesItsError) {
   for (const WebcamCare& care : {fineWebcam(), coarseWebcam()}) {
     std::vector<double> ratios;
     for (std::uint32_t seed = 1; seed <= 9; ++seed) {
@@ -117,7 +117,7 @@ TEST(WebcamFit, SaysHowWellItForetellsPlacesNotTouched) {
   }
 }
 
-TEST(WebcamFit, FindsWhereTheCameraStood) {
+TEST(WebcamFit, FindsTheCameraPoses) {
   const Judged charted(2, fineWebcam());
   const WebcamFit fit = fitWebcam(charted.observations);
   ASSERT_EQ(fit.X_WC.size(), 3U);
@@ -151,7 +151,7 @@ std::string refusal(const WebcamObservations& observations) {
   return tests::refusalOf<CalibrationError>([&] { fitWebcam(observations); });
 }
 
-TEST(WebcamFit, RefusesWhatWouldLookGoodAndBeWrong) {
+TEST(WebcamFit, RefusesInsufficientObservations) {
   const WebcamObservations good = Judged(3, fineWebcam()).observations;
   EXPECT_EQ(refusal(good), "accepted");
 
@@ -189,7 +189,7 @@ TEST(WebcamFit, RefusesAMirroredScreen) {
   }
 }
 
-TEST(WebcamFit, RefusesTouchesThatBelongToOtherPictures) {
+TEST(WebcamFit, RefusesTouchesOfOtherImages) {
   WebcamObservations observations = Judged(6, fineWebcam()).observations;
   for (CameraPosition& position : observations.positions) {
     std::vector<TipObservation>& tips = position.tips;
