@@ -18,7 +18,7 @@ TEST(DeadlineGrid, StaysOnItsGridHoweverLateATickWakes) {
   }
 }
 
-TEST(DeadlineGrid, PassesOverDeadlinesThatWentByAndSaysHowMany) {
+TEST(DeadlineGrid, SkipsMissedDeadlinesAndCountsThem) {
   DeadlineGrid grid(1000.0, 0);
   grid.beginTick(1 * kMillisecond_ns);
   grid.endTick(4 * kMillisecond_ns + 500'000);  // 2, 3 and 4 ms went by

@@ -36,7 +36,7 @@ TEST(VirtualHand, MovesTheSameAtEveryRate) {
   EXPECT_NEAR(glm::length(fine.velocity_mm_per_s - coarse.velocity_mm_per_s), 0.0, 1e-7);
 }
 
-TEST(MouseDevice, GoesSmoothlyWhereItIsPutAndGivesWay) {
+TEST(MouseDevice, MovesSmoothlyToItsTargetAndYieldsToForce) {
   MouseDevice device;
   MouseTarget target;
   target.X_DH.translation_mm = {10.0, 0.0, 0.0};
@@ -56,7 +56,7 @@ TEST(MouseDevice, GoesSmoothlyWhereItIsPutAndGivesWay) {
   EXPECT_TRUE(state.pedal);
 }
 
-TEST(MouseDevice, IgnoresATargetThatIsNoPose) {
+TEST(MouseDevice, IgnoresAnInvalidTarget) {
   MouseDevice device;
   MouseTarget target;
   target.X_DH.translation_mm.x = std::numeric_limits<double>::quiet_NaN();
@@ -101,7 +101,7 @@ TEST(ScriptedDevice, HoldsTheShaftOutOfTheMouth) {
   EXPECT_GT(shaft.x, 0.1);
 }
 
-TEST(ScriptedDevice, GivesWayToForce) {
+TEST(ScriptedDevice, YieldsToForce) {
   ScriptedDevice pushed(plan()), free(plan());
   HandleState a, b;
   for (int i = 0; i < 1500; ++i) {

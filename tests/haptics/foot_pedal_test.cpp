@@ -28,7 +28,7 @@ bool eventually(Condition condition) {
 
 const FakeTraits kThreeSwitches{"Foot pedal", {BTN_0, BTN_1, BTN_2}, {ABS_GAS}};
 
-TEST(FootPedal, HoldsWhatTheFootHoldsAndCountsPresses) {
+TEST(FootPedal, HoldsActionsAndCountsPresses) {
   const FakeInputFolder folder("holds");
   FakeInputDevice device(folder, 4, kThreeSwitches);
   const FootPedal pedal({}, folder.folders());
@@ -75,7 +75,7 @@ TEST(FootPedal, CountsNoPedalThatWasDownWhenItWasFound) {
   EXPECT_FALSE(pedal.held().has(HandAction::drill));
 }
 
-TEST(FootPedal, KeepsWhatAFootSwitchTypesToItself) {
+TEST(FootPedal, GrabsAFootSwitchThatTypes) {
   const FakeInputFolder folder("grab");
   FakeInputDevice typing(folder, 1, {"FootSwitch", {KEY_A, KEY_B}});
   const FootPedal pedal({}, folder.folders());
@@ -108,7 +108,7 @@ TEST(FootPedal, ReadsAnAxisAsAPedal) {
   EXPECT_TRUE(eventually([&] { return pedal.held() == HandActions{}; }));
 }
 
-TEST(FootPedal, LetsGoOfADeviceThatSpeaksGarbage) {
+TEST(FootPedal, ReleasesADeviceThatSendsGarbage) {
   const FakeInputFolder folder("garbage");
   FakeInputDevice device(folder, 1, kThreeSwitches);
   const FootPedal pedal({}, folder.folders());
@@ -119,7 +119,7 @@ TEST(FootPedal, LetsGoOfADeviceThatSpeaksGarbage) {
   EXPECT_TRUE(eventually([&] { return pedal.held() == HandActions{}; }));
 }
 
-TEST(FootPedal, LetsGoWhenItCanNotBeWaitedForAnyMore) {
+TEST(FootPedal, ReleasesEverythingWhenPollFails) {
   const FakeInputFolder folder("poll");
   FakeInputDevice device(folder, 1, kThreeSwitches);
   const FootPedal pedal({}, folder.folders());
@@ -136,7 +136,7 @@ TEST(FootPedal, LetsGoWhenItCanNotBeWaitedForAnyMore) {
   EXPECT_NE(pedal.described().find("read no more"), std::string::npos);
 }
 
-TEST(FootPedal, SaysWhyThereIsNone) {
+TEST(FootPedal, ReportsWhyThereIsNone) {
   const FakeInputFolder folder("none");
   const FootPedal nobody({}, folder.folders());
   EXPECT_EQ(nobody.described(), "no pedal found yet");

@@ -62,9 +62,7 @@ TEST(FoundPedal, IsWhatItsOwnerNames) {
   EXPECT_TRUE(pedalsMeant("drum", folder.folders()).empty());
 }
 
-TEST(FoundPedal, IsNowhereOnAMachineWithoutInputDevices) {
-  EXPECT_TRUE(findPedals({"/nowhere/class", "/nowhere/dev"}).empty());
-}
+TEST(FoundPedal, IsNotFoundWithoutInputDevices) { EXPECT_TRUE(findPedals({"/nowhere/class", "/nowhere/dev"}).empty()); }
 
 TEST(InputTraits, ReadBitMapsAsTheKernelWritesThem) {
   EXPECT_EQ(bitsInText("3"), (std::vector<std::uint16_t>{0, 1}));

@@ -5,7 +5,7 @@
 namespace haptics {
 namespace {
 
-TEST(HandAction, HasANameEachThatReadsBack) {
+TEST(HandAction, HasNamesThatParseBack) {
   for (std::size_t i = 0; i < kHandActions; ++i) {
     const auto action = static_cast<HandAction>(i);
     EXPECT_EQ(handActionNamed(nameOf(action)), action);
@@ -27,7 +27,7 @@ TEST(ButtonMeanings, MakeEveryCombinationOfButtonsTheUnionOfTheirActions) {
   EXPECT_TRUE(meanings.actionsOf(1u << 31).has(HandAction::irrigation));
 }
 
-TEST(PressCount, CountsBeginningsNotLooks) {
+TEST(PressCount, CountsBeginningsNotCalls) {
   PressCount count;
   const HandActions drill = HandActions{}.with(HandAction::drill), both = drill.with(HandAction::undo);
   EXPECT_EQ(count.look(drill), drill);

@@ -31,7 +31,7 @@ HdFunctions library(std::deque<unsigned> errors) {
   return hd;
 }
 
-TEST(HdError, EveryCodeOfTheInterfaceHasWordsAndANextStep) {
+TEST(HdError, EveryCodeOfTheInterfaceHasAMeaningAndANextStep) {
   // reference/devices 2, Errors: 5 + 5 + 5 + 3 + 2 + 1.
   constexpr unsigned kLast[] = {0x0104, 0x0204, 0x0304, 0x0402, 0x0501, 0x0600};
   std::size_t codes = 0;
@@ -45,14 +45,14 @@ TEST(HdError, EveryCodeOfTheInterfaceHasWordsAndANextStep) {
   EXPECT_EQ(hdErrorMeanings().size(), codes);
 }
 
-TEST(HdError, WhatALimitCausesPassesAndWhatADeviceSuffersIsFatal) {
+TEST(HdError, ExceededLimitsPassAndDeviceFaultsAreFatal) {
   for (unsigned passing : {0x0100u, 0x0102u, 0x0200u, 0x0201u, 0x0202u, 0x0203u, 0x0400u, 0x0402u})
     EXPECT_EQ(meaningOf(passing).kind, HdErrorKind::passing) << passing;
   for (unsigned fatal : {0x0104u, 0x0204u, 0x0300u, 0x0301u, 0x0302u, 0x0303u, 0x0304u, 0x0500u, 0x0600u, 0x7777u})
     EXPECT_EQ(meaningOf(fatal).kind, HdErrorKind::fatal) << fatal;
 }
 
-TEST(HdError, ALeftOverDeviceIsToBeReplugged) {
+TEST(HdError, ADeviceLeftOpenIsToBeReplugged) {
   const std::string words = errorText({0x0303, 12, 0});
   EXPECT_THAT(words, HasSubstr("HD 0x0303 (internal 12): "));
   EXPECT_THAT(words, HasSubstr("unplug it for ten seconds"));
@@ -76,7 +76,7 @@ TEST(HdErrors, EmptyTheStackAndKeepTheFirstFatalOne) {
   EXPECT_EQ(errors.drain(library({})).count, 0);
 }
 
-TEST(HdErrors, TakeNoMoreThanTheirShareOfAFullStack) {
+TEST(HdErrors, DrainAFullStackInBoundedPortions) {
   HdErrors errors;
   const HdFunctions hd = library(std::deque<unsigned>(100, 0x0201));
   EXPECT_EQ(errors.drain(hd).count, HdErrors::kMaxPerDrain);
@@ -88,7 +88,7 @@ TEST(HdErrors, TakeNoMoreThanTheirShareOfAFullStack) {
   EXPECT_EQ(errors.firstFatal().code, 0x1234u);
 }
 
-TEST(HdErrors, AreThrownInWordsWhereSomebodyMayCatchThem) {
+TEST(HdErrors, AreThrownWithTheirMeaning) {
   EXPECT_NO_THROW(throwOnHdError(library({}), "OpenHaptics"));
   try {
     throwOnHdError(library({0x0600}), "OpenHaptics, left arm");

@@ -58,7 +58,7 @@ int copiesLoaded() {
 
 // Those that load nothing, or something broken, come first: what is loaded stays for the process.
 
-TEST(HdLibrary, SaysWhatToInstallWhenThereIsNone) {
+TEST(HdLibrary, ReportsWhatToInstallWhenThereIsNone) {
   Surroundings none;
   EXPECT_THAT(HdLibrary::whyUnavailable(), HasSubstr("libHD.so is not installed: install OpenHaptics"));
   EXPECT_THAT(HdLibrary::whyUnavailable("/nowhere/libHD.so"), HasSubstr("/nowhere/libHD.so: there is no such library"));
@@ -72,13 +72,13 @@ TEST(HdLibrary, NamesEveryFunctionThatIsMissing) {
   EXPECT_THAT(why, HasSubstr("lacks hdEndFrame, hdGetError:"));
 }
 
-TEST(HdLibrary, NamesThePartThatItNeedsAndThatIsNotThere) {
+TEST(HdLibrary, NamesAMissingDependency) {
   Surroundings none;
   const std::string why = HdLibrary::whyUnavailable(kFolder + "/lacking_part/lacking_part.so");
   EXPECT_THAT(why, HasSubstr("lacking_part.so needs libStandInPart.so.5, which is not there"));
 }
 
-TEST(HdLibrary, TellsABrokenFileFromAMissingOne) {
+TEST(HdLibrary, DistinguishesABrokenFileFromAMissingOne) {
   Surroundings place;
   place.write("libHD.so.3.4", "this is no library");
   EXPECT_THAT(HdLibrary::whyUnavailable(place.folder().string()), HasSubstr("cannot be loaded, the linker says \""));
@@ -97,7 +97,7 @@ TEST(HdLibrary, KnowsThePackageOfEachPart) {
   EXPECT_THAT(loadFailureText("libHD.so", "libHD.so: wrong ELF class: ELFCLASS32"), HasSubstr("64-bit"));
 }
 
-TEST(FindOpenHaptics, ReadsTheConfigurationsAndSaysWhyTheyCanNotBeOpened) {
+TEST(FindOpenHaptics, ReadsTheConfigurationsAndReportsWhyTheyCannotBeOpened) {
   Surroundings home;
   EXPECT_TRUE(findOpenHaptics("/nowhere/libHD.so").empty());
   home.write("config/Default Device.config", "[Device]\n Channel = 3 \nSerial=1\n");
@@ -115,7 +115,7 @@ TEST(FindOpenHaptics, ReadsTheConfigurationsAndSaysWhyTheyCanNotBeOpened) {
   }
 }
 
-TEST(FindOpenHaptics, FindsUnderHomeWhereNothingElseIsSaid) {
+TEST(FindOpenHaptics, SearchesHomeByDefault) {
   Surroundings home;
   unsetenv("GTDD_HOME");
   const std::string before = std::getenv("HOME") ? std::getenv("HOME") : "";
@@ -127,7 +127,7 @@ TEST(FindOpenHaptics, FindsUnderHomeWhereNothingElseIsSaid) {
   EXPECT_EQ(found[0].name, "Phantom or Touch \"Right\"");
 }
 
-TEST(HdLibraryLoaded, IsFoundWhereTheVariablesSay) {
+TEST(HdLibraryLoaded, IsFoundThroughTheEnvironment) {
   Surroundings place;
   // What is loaded is remembered by this name, so it stays.
   const fs::path sdk = fs::path(kFolder) / "sdk", library = sdk / "lib/lin-x86_64/libHD.so.3.4";

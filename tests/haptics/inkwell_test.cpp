@@ -19,7 +19,7 @@ bool travel(Inkwell& inkwell, bool value, double from_mm, double to_mm, bool sur
   return docked;
 }
 
-TEST(Inkwell, CountsAsDockedUntilTheHandHasShownWhichWayRoundItIs) {
+TEST(Inkwell, CountsAsDockedUntilItsPolarityIsLearned) {
   for (bool docked_value : {false, true}) {
     Inkwell inkwell;
     EXPECT_EQ(inkwell.dockedValue(), std::nullopt);
@@ -33,7 +33,7 @@ TEST(Inkwell, CountsAsDockedUntilTheHandHasShownWhichWayRoundItIs) {
   }
 }
 
-TEST(Inkwell, BelievesWhatWasSetUntilTheHandShowsOtherwise) {
+TEST(Inkwell, UsesTheSettingUntilMovementContradictsIt) {
   Inkwell inkwell(true);
   EXPECT_FALSE(inkwell.isDocked(false, {}, true));
   EXPECT_TRUE(inkwell.isDocked(true, {}, true));
@@ -41,7 +41,7 @@ TEST(Inkwell, BelievesWhatWasSetUntilTheHandShowsOtherwise) {
   EXPECT_EQ(inkwell.dockedValue(), false);
 }
 
-TEST(Inkwell, LearnsNothingFromJumpsAndPlacesThatAreNotSure) {
+TEST(Inkwell, LearnsNothingFromJumpsAndInvalidPositions) {
   Inkwell inkwell;
   EXPECT_TRUE(travel(inkwell, false, 0.0, 300.0, false));
   EXPECT_TRUE(inkwell.isDocked(false, {0.0, 300.0, 0.0}, true));
@@ -51,7 +51,7 @@ TEST(Inkwell, LearnsNothingFromJumpsAndPlacesThatAreNotSure) {
   EXPECT_EQ(inkwell.dockedValue(), std::nullopt);
 }
 
-TEST(Inkwell, AStylusThatRattlesInItsWellNeverTeachesIt) {
+TEST(Inkwell, LearnsNothingFromAStylusThatRattlesInItsInkwell) {
   std::mt19937 seed(7);
   std::uniform_real_distribution<double> rattle(-11.0, 11.0);
   Inkwell inkwell;
@@ -64,7 +64,7 @@ TEST(Inkwell, AStylusThatRattlesInItsWellNeverTeachesIt) {
   EXPECT_EQ(inkwell.dockedValue(), std::nullopt);
 }
 
-TEST(CallbackTiming, TellsHowLateACallIsAndWhatItMissed) {
+TEST(CallbackTiming, ReportsLatenessAndMissedCalls) {
   CallbackTiming timing(1000.0);
   const auto expect = [&](std::int64_t at_us, double late_us, std::uint64_t missed) {
     const TickTiming told = timing.next(at_us * 1000);

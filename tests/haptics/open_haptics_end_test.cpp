@@ -18,7 +18,7 @@ std::string refusal(const std::function<void()>& attempt) {
   return tests::refusalOf<DeviceError>([&] { attempt(); });
 }
 
-TEST_F(OpenHapticsTrouble, SaysWhyADeviceDoesNotStart) {
+TEST_F(OpenHapticsTrouble, ReportsWhyADeviceDoesNotStart) {
   for (const HdErrorMeaning& meaning : hdErrorMeanings()) {
     door.script.init_error = meaning.code;
     const std::string words = refusal([&] { OpenHaptics device(library, {.configuration = "Left"}); });
@@ -27,7 +27,7 @@ TEST_F(OpenHapticsTrouble, SaysWhyADeviceDoesNotStart) {
   }
 }
 
-TEST_F(OpenHapticsTrouble, GoesOnAfterErrorsThatPassAndStopsPushingAfterOthers) {
+TEST_F(OpenHapticsTrouble, ContinuesAfterPassingErrorsAndEndsTheForceAfterFatalOnes) {
   for (const HdErrorMeaning& meaning : hdErrorMeanings()) {
     door.reset();
     Pusher servo({0.0, 1.0, 0.0});
@@ -61,7 +61,7 @@ TEST_F(OpenHapticsTrouble, DrainsAFloodOfErrorsInBoundedPortions) {
   device.stop();
 }
 
-TEST_F(OpenHapticsTrouble, CountsAForceBeyondTheDevicesAndGoesOn) {
+TEST_F(OpenHapticsTrouble, CountsExcessiveForceAndContinues) {
   Pusher servo({0.0, 5.0, 0.0});
   OpenHaptics device(library);
   device.start(servo, 1000.0);
@@ -70,7 +70,7 @@ TEST_F(OpenHapticsTrouble, CountsAForceBeyondTheDevicesAndGoesOn) {
   device.stop();
 }
 
-TEST_F(OpenHapticsTrouble, SurvivesThePlugBeingPulledInMidStroke) {
+TEST_F(OpenHapticsTrouble, SurvivesBeingUnpluggedWhilePushing) {
   Pusher servo({0.0, 1.0, 0.0});
   OpenHaptics device(library);
   device.start(servo, 1000.0);
@@ -142,7 +142,7 @@ TEST_F(OpenHapticsTrouble, CountsTheTicksThatASlowServoOrSchedulerMissed) {
   device.stop();
 }
 
-TEST_F(OpenHapticsTrouble, EndsTidilyBesideASchedulerThatHangs) {
+TEST_F(OpenHapticsTrouble, StopsCleanlyWhileTheSchedulerHangs) {
   Pusher servo({0.0, 1.0, 0.0});
   OpenHaptics device(library);
   device.start(servo, 1000.0);
@@ -159,7 +159,7 @@ TEST_F(OpenHapticsTrouble, EndsTidilyBesideASchedulerThatHangs) {
   EXPECT_THAT(tail, testing::ElementsAre("stop", "force ends", "disable 0x4000", "unschedule", "disable device"));
 }
 
-TEST_F(OpenHapticsTrouble, RefusesRatesThatCanNotBeServed) {
+TEST_F(OpenHapticsTrouble, RefusesUnsupportedRates) {
   Pusher servo;
   for (double rate_Hz : {2000.0, 100.0, std::numeric_limits<double>::quiet_NaN()}) {
     OpenHaptics device(library);

@@ -42,7 +42,7 @@ TEST_F(OpenHapticsLoop, GivesNothingAfterAnEmergencyStop) {
   EXPECT_EQ(std::ranges::count(door.seen.events, "force begins"), 1);
 }
 
-TEST_F(OpenHapticsLoop, NoticesAHangingSchedulerAndIsCutOffWhenItComesBack) {
+TEST_F(OpenHapticsLoop, DetectsAHangingSchedulerAndStaysOffWhenItReturns) {
   OpenHaptics device(library);
   PushingLoop loop(device);
   loop.start();

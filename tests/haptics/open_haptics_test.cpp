@@ -13,7 +13,7 @@ using testing::HasSubstr;
 
 class OpenHapticsDevice : public OpenHapticsBench {};
 
-TEST_F(OpenHapticsDevice, TellsWhatItIsAndWhatItCan) {
+TEST_F(OpenHapticsDevice, ReportsItsCapabilities) {
   OpenHaptics device(library);
   const DeviceCapabilities& can = device.capabilities();
   EXPECT_EQ(can.model, "PHANTOM Omni");
@@ -32,7 +32,7 @@ TEST_F(OpenHapticsDevice, TellsWhatItIsAndWhatItCan) {
   EXPECT_FALSE(door.seen.motors_on);
 }
 
-TEST_F(OpenHapticsDevice, RefusesADeviceThatDoesNotTellItsStrength) {
+TEST_F(OpenHapticsDevice, RefusesADeviceThatDoesNotReportItsForce) {
   for (double told : {0.0, -1.0, 1e9, std::numeric_limits<double>::quiet_NaN()}) {
     door.script.max_force_N = told;
     EXPECT_THROW(OpenHaptics{library}, DeviceError);
@@ -40,7 +40,7 @@ TEST_F(OpenHapticsDevice, RefusesADeviceThatDoesNotTellItsStrength) {
   }
 }
 
-TEST_F(OpenHapticsDevice, ServesNewtonsAlongItsOwnAxesAndThePushedHandGivesWay) {
+TEST_F(OpenHapticsDevice, AppliesNewtonsAlongItsAxesAndTheHandYields) {
   const glm::dvec3 force_N(0.6, -0.3, 0.2);
   Pusher servo(force_N);
   OpenHaptics device(library);
@@ -55,7 +55,7 @@ TEST_F(OpenHapticsDevice, ServesNewtonsAlongItsOwnAxesAndThePushedHandGivesWay) 
   EXPECT_EQ(servo.begun, 1);
 }
 
-TEST_F(OpenHapticsDevice, KeepsTheOrderThatTheVendorAsksFor) {
+TEST_F(OpenHapticsDevice, KeepsTheOrderThatTheVendorRequires) {
   Pusher servo({0.0, 1.0, 0.0});
   {
     OpenHaptics device(library, {.configuration = "Left"});
@@ -74,7 +74,7 @@ TEST_F(OpenHapticsDevice, KeepsTheOrderThatTheVendorAsksFor) {
   EXPECT_EQ(forceNow_N(), 0.0);
 }
 
-TEST_F(OpenHapticsDevice, KeepsItsMotorsOffUntilACommandSaysOtherwise) {
+TEST_F(OpenHapticsDevice, KeepsItsMotorsOffUntilACommandTurnsThemOn) {
   Pusher servo({0.0, 1.0, 0.0});
   servo.pushes = false;
   OpenHaptics device(library);
@@ -149,7 +149,7 @@ TEST_F(OpenHapticsDevice, KnowsTheJacobianOfThePhantomsWhoseGeometryIsPublic) {
   }
 }
 
-TEST_F(OpenHapticsDevice, FeelsTheHandOnlyWhereThereIsAConductiveStylus) {
+TEST_F(OpenHapticsDevice, SensesTheHandOnlyWithAConductiveStylus) {
   for (const char* model : {"PHANTOM Desktop", "PHANTOM Omni"}) {
     door.reset();
     door.script.model = model;
@@ -165,7 +165,7 @@ TEST_F(OpenHapticsDevice, FeelsTheHandOnlyWhereThereIsAConductiveStylus) {
   }
 }
 
-TEST_F(OpenHapticsDevice, LearnsWhichWayRoundTheInkwellsSwitchIs) {
+TEST_F(OpenHapticsDevice, LearnsThePolarityOfTheInkwellSwitch) {
   for (bool docked_value : {false, true}) {
     door.reset();
     door.script.docked_value = docked_value;
@@ -186,7 +186,7 @@ TEST_F(OpenHapticsDevice, LearnsWhichWayRoundTheInkwellsSwitchIs) {
   }
 }
 
-TEST_F(OpenHapticsDevice, BelievesTheInkwellThatWasSet) {
+TEST_F(OpenHapticsDevice, UsesTheConfiguredPolarityOfTheInkwell) {
   door.script.docked_value = false;
   Pusher servo;
   OpenHaptics device(library, {.docked_value = false});
@@ -224,7 +224,7 @@ TEST_F(OpenHapticsDevice, ReportsTheHeatOfItsWarmestMotor) {
   device.stop();
 }
 
-TEST_F(OpenHapticsDevice, CalibratesAsItsStyleAsksAndGivesNoForceBefore) {
+TEST_F(OpenHapticsDevice, CalibratesByItsStyleAndGivesNoForceBefore) {
   struct Style {
     int bits;
     const char* asks;
@@ -263,7 +263,7 @@ TEST_F(OpenHapticsDevice, CalibratesAsItsStyleAsksAndGivesNoForceBefore) {
   }
 }
 
-TEST_F(OpenHapticsDevice, DoesNotAskAgainForWhatADeviceHasNot) {
+TEST_F(OpenHapticsDevice, DoesNotReadMissingPropertiesAgain) {
   door.script.model = "PHANTOM Premium 3.0 6DOF";
   door.script.unknown_properties[0] = hd::kCurrentInkwellSwitch;
   door.script.unknown_properties[1] = hd::kCurrentGimbalAngles;
@@ -289,7 +289,7 @@ TEST_F(OpenHapticsDevice, AllocatesNothingOnTheSchedulersThread) {
   EXPECT_EQ(servo.allocations_at_500 - servo.allocations_at_100, 0u);
 }
 
-TEST_F(OpenHapticsDevice, HoldsTheLastPlaceOverGarbage) {
+TEST_F(OpenHapticsDevice, HoldsTheLastPoseDuringInvalidReadings) {
   Pusher servo;
   OpenHaptics device(library);
   device.start(servo, 1000.0);

@@ -16,7 +16,7 @@ PedalSwitches axisPedal(AxisRest rest = AxisRest::unknown, int least = 0, int mo
       {.is_axis = true, .code = ABS_Z, .threshold = 0.5, .rest = rest, .min = least, .max = most}});
 }
 
-TEST(PedalSwitches, AreHeldFromDownToUpAndDeafToOtherKeys) {
+TEST(PedalSwitches, AreHeldFromDownToUpAndIgnoreOtherKeys) {
   PedalSwitches pedal(std::vector<PedalSwitch>{{.code = KEY_B}, {.code = KEY_C, .action = HandAction::undo}});
   pedal.takeKey(KEY_A, true);
   EXPECT_EQ(pedal.held(), HandActions{});
@@ -37,7 +37,7 @@ TEST(PedalSwitches, CountAKeyThatWasDownAtFirstOnlyAfterItCameUp) {
   EXPECT_EQ(pedal.held(), kDrill);
 }
 
-TEST(PedalSwitches, PressAnAxisBeyondItsThresholdAndLetGoATenthBelow) {
+TEST(PedalSwitches, PressAnAxisBeyondItsThresholdAndReleaseItATenthBelow) {
   PedalSwitches pedal = axisPedal();
   for (const auto& [value, held] :
        {std::pair{2, false}, {49, false}, {50, true}, {45, true}, {40, true}, {39, false}}) {
@@ -56,7 +56,7 @@ TEST(PedalSwitches, TakeAnAxisThatRestsAtItsHighEndTheOtherWayRound) {
   EXPECT_EQ(pedal.held(), HandActions{});
 }
 
-TEST(PedalSwitches, HoldNothingOfAnAxisBeforeItWasSeenUp) {
+TEST(PedalSwitches, IgnoreAnAxisUntilItWasUp) {
   PedalSwitches between = axisPedal();
   between.takeAxis(ABS_Z, 60);
   EXPECT_EQ(between.held(), HandActions{}) << "no end seen yet";

@@ -47,7 +47,7 @@ TEST(DryFriction, StopsASlidingBlockWhereItsEnergyIsSpent) {
   }
 }
 
-TEST(DryFriction, TakesTheSameFromEverySwing) {
+TEST(DryFriction, TakesTheSameEnergyFromEverySwing) {
   // A spring's turning points come nearer by 2 F / k each.
   VirtualHand hand = block(0.3, 0.0);
   hand.position_mm.x = 10.0;
@@ -99,7 +99,7 @@ TEST(MotorHeat, SettlesAtTheSquareOfItsLoad) {
   EXPECT_NEAR(heat.warmest(), 4.0, 1e-12);
 }
 
-TEST(Tremor, ShakesWithItsAmplitudeBetweenEightAndTwelveHertz) {
+TEST(Tremor, HasItsAmplitudeBetweenEightAndTwelveHertz) {
   for (std::uint32_t seed : {1u, 2u, 3u}) {
     const Tremor tremor(0.05, seed);
     constexpr int kSamples = 2000;  // 20 s
@@ -144,7 +144,7 @@ TEST(PhantomSensors, CountAtTheJoints) {
   EXPECT_NEAR(count_rad * 133.35, 0.055, 0.0005);
 }
 
-TEST(PhantomSensors, ShakeTheGimbalByOneOfItsLevels) {
+TEST(PhantomSensors, AddNoiseOfOneLevelToTheGimbal) {
   PhantomSensors sensors(kOmniGeometry, {0.0, 2048.0, 0.0}, 1);
   const double level_rad = 2.0 * calibration::kPi / 2048.0;
   PhantomJoints truth;
@@ -164,7 +164,7 @@ TEST(PhantomSensors, ShakeTheGimbalByOneOfItsLevels) {
   EXPECT_NEAR(mean, 0.0, 0.05 * level_rad) << "noise as wide as a level leaves no bias";
 }
 
-TEST(PhantomSensors, SmoothTheVelocityTheyDifference) {
+TEST(PhantomSensors, FilterTheDifferencedVelocity) {
   PhantomSensors sensors(kOmniGeometry, {15'200.0, 0.0, 50.0}, 1);
   double last = 0.0, roughest = 0.0;
   for (int tick = 0; tick < 400; ++tick) {

@@ -36,7 +36,7 @@ TEST(PoseListDevice, IsExactlyAtEachPoseAtItsTickWhateverPushesIt) {
   EXPECT_DOUBLE_EQ(hand.duration_s(), 2.73);
 }
 
-TEST(PoseListDevice, GoesStraightAndTurnsEvenlyBetweenTwo) {
+TEST(PoseListDevice, InterpolatesLinearlyBetweenTwoPoses) {
   PoseListDevice hand({hold(0.0, {0, 0, 0}), hold(1.0, {8, 4, -2}, false, 1.2)});
   int done = 0;
   const HandleState state = at(hand, done, 250);
@@ -45,7 +45,7 @@ TEST(PoseListDevice, GoesStraightAndTurnsEvenlyBetweenTwo) {
   EXPECT_LT(glm::distance(state.velocity_D_mm_per_s.xyz, glm::dvec3(8.0, 4.0, -2.0)), 1e-9);
 }
 
-TEST(PoseListDevice, WaitsAtTheFirstAndStaysAtTheLastWithThePedalUp) {
+TEST(PoseListDevice, HoldsTheFirstAndTheLastPoseWithThePedalUp) {
   PoseListDevice hand({hold(0.5, {1, 2, 3}, true), hold(0.6, {1, 2, 4}, true)});
   int done = 0;
   HandleState state = at(hand, done, 499);
@@ -60,7 +60,7 @@ TEST(PoseListDevice, WaitsAtTheFirstAndStaysAtTheLastWithThePedalUp) {
   EXPECT_EQ(state.velocity_D_mm_per_s.xyz, glm::dvec3(0.0));
 }
 
-TEST(PoseListDevice, RefusesWhatIsNoWay) {
+TEST(PoseListDevice, RefusesInvalidPoses) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(PoseListDevice({}), DeviceError);
   EXPECT_THROW(PoseListDevice({hold(-0.1, {0, 0, 0})}), DeviceError);

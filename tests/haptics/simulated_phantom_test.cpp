@@ -58,7 +58,7 @@ TroughPath trough() {
   return TroughPath(cut);
 }
 
-TEST(SimulatedPhantom, HasTheFiguresOfItsModel) {
+TEST(SimulatedPhantom, HasTheParametersOfItsModel) {
   const auto capabilities = [](std::string_view key) {
     return SimulatedPhantom(phantom(key), holdingAt(kMiddle_mm)).capabilities();
   };
@@ -96,13 +96,13 @@ TEST(SimulatedPhantom, LeavesItsInkwellInTheHandAndComesBack) {
   EXPECT_LT(glm::distance(state.X_DH.translation_mm, phantom("omni").rest_D.mm), 0.06);
 }
 
-TEST(SimulatedPhantom, KnowsItsPlaceOnlyFromTheInkwell) {
+TEST(SimulatedPhantom, IsCalibratedOnlyFromTheInkwell) {
   SimulatedPhantom omni(phantom("omni"), holdingAt(kMiddle_mm)), premium(phantom("premium"), holdingAt(kMiddle_mm));
   EXPECT_FALSE(stepped(omni, {}, 10).calibrated);
   EXPECT_TRUE(stepped(premium, {}, 10).calibrated);
 }
 
-TEST(SimulatedPhantom, FeelsTheHandOnItsHandleWhereItHasASwitchForIt) {
+TEST(SimulatedPhantom, SensesTheHandIfItHasADeadman) {
   for (const char* key : {"omni", "desktop"}) {
     SimulatedPhantom device(phantom(key), takingFrom(phantom(key).rest_D.mm), kSteady);
     EXPECT_EQ(stepped(device, {}, 50).held, std::string_view(key) == "omni");
@@ -110,7 +110,7 @@ TEST(SimulatedPhantom, FeelsTheHandOnItsHandleWhereItHasASwitchForIt) {
   }
 }
 
-TEST(SimulatedPhantom, PushesTheHandAsFarAsItsGripGivesWay) {
+TEST(SimulatedPhantom, PushesTheHandAsFarAsItsGripYields) {
   for (const PhantomMechanics& mechanics : simulatedPhantoms()) {
     SimulatedPhantom device(mechanics, holdingAt(kMiddle_mm), kSteady);
     const HandleState state = stepped(device, {0.0, 0.8, 0.0}, 2000);
@@ -120,7 +120,7 @@ TEST(SimulatedPhantom, PushesTheHandAsFarAsItsGripGivesWay) {
   }
 }
 
-TEST(SimulatedPhantom, DoesNotYieldToLessThanItsFriction) {
+TEST(SimulatedPhantom, DoesNotMoveBelowItsFriction) {
   SimulatedPhantom device(phantom("omni"), holdingAt(kMiddle_mm), kSteady);
   const PhantomJoints before = device.joints();
   stepped(device, {0.15, -0.15, 0.1}, 3000);
@@ -152,7 +152,7 @@ TEST(SimulatedPhantom, GivesNoMoreThanMotorsAndJointsCan) {
   EXPECT_NEAR(device.pushed_D_N().xyz.y, 3.3 * 350.0 / 424.0, 0.01);
 }
 
-TEST(SimulatedPhantom, ActsAsManyTicksLaterAsItIsSlow) {
+TEST(SimulatedPhantom, DelaysTheForceByItsLatency) {
   for (int latency : {0, 1, 2, SimulatedPhantom::kMaxLatency_ticks}) {
     PhantomMechanics mechanics = phantom("desktop");
     mechanics.latency_ticks = latency;
@@ -164,7 +164,7 @@ TEST(SimulatedPhantom, ActsAsManyTicksLaterAsItIsSlow) {
   }
 }
 
-TEST(SimulatedPhantom, WarmsUpAndThenGivesOnlyWhatItCanForEver) {
+TEST(SimulatedPhantom, WarmsUpAndThenGivesOnlyItsContinuousForce) {
   const PhantomMechanics& omni = phantom("omni");
   SimulatedPhantom device(omni, holdingAt(kMiddle_mm), {0.055, 3.0, 0.02, 0.0});
   const glm::dvec3 hard_N(0.0, 2.5, 0.0);
@@ -184,7 +184,7 @@ TEST(SimulatedPhantom, WarmsUpAndThenGivesOnlyWhatItCanForEver) {
   EXPECT_NEAR(stepped(device, {}, 3000).motor_heat, warm * std::exp(-3.0 / omni.heat_time_s), 1e-6);
 }
 
-TEST(SimulatedPhantom, StandsAtItsStopsWhateverTheHandWants) {
+TEST(SimulatedPhantom, StaysWithinItsStops) {
   std::mt19937 random(9);
   std::uniform_real_distribution<double> any(-400.0, 400.0);
   for (const PhantomMechanics& mechanics : simulatedPhantoms()) {
@@ -213,7 +213,7 @@ TEST(SimulatedPhantom, StandsAtItsStopsWhateverTheHandWants) {
   }
 }
 
-TEST(SimulatedPhantom, ShrugsOffWhatIsNoForce) {
+TEST(SimulatedPhantom, IgnoresAnInvalidForce) {
   const double nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
   SimulatedPhantom device(phantom("omni"), holdingAt(kMiddle_mm));
   for (const glm::dvec3& bad :
@@ -237,7 +237,7 @@ TEST(SimulatedPhantom, AllocatesNothingWhileItTicks) {
   EXPECT_EQ(allocation_count::now(), before);
 }
 
-TEST(SimulatedPhantom, IsTheSameTwice) {
+TEST(SimulatedPhantom, IsDeterministic) {
   const auto course = [](std::uint32_t seed) {
     SimulatedPhantom device(phantom("omni"), holdingAt(kMiddle_mm), {}, seed);
     std::vector<glm::dvec3> places;
@@ -273,7 +273,7 @@ TEST(SimulatedPhantom, MovesTheSameAtEveryRate) {
   EXPECT_LT(glm::distance(where(500.0), where(10'000.0)), 0.02);
 }
 
-TEST(SimulatedPhantom, RefusesWhatCannotBe) {
+TEST(SimulatedPhantom, RefusesImpossibleParameters) {
   const auto refused = [](auto change) {
     PhantomMechanics mechanics = phantom("omni");
     Grip grip;
@@ -290,7 +290,7 @@ TEST(SimulatedPhantom, RefusesWhatCannotBe) {
   refused([](auto&, auto&, auto& script) { script = holdingAt({0.0, 0.0, 500.0}); });
 }
 
-TEST(WorkCycle, TakesWorksAndPutsBack) {
+TEST(WorkCycle, TakesTheHandleWorksAndPutsItBack) {
   const PhantomMechanics& omni = phantom("omni");
   const HandTarget rest{omni.rest_D.mm, {1.0, 0.0, 0.0, 0.0}, false, 0, true};
   const WorkCycle round(trough(), rest, {{0.0, -60.0, 40.0}, {0.0, 20.0, 50.0}});

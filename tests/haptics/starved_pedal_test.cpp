@@ -11,7 +11,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-TEST(FootPedal, IsReadNoMoreWhenMemoryRunsOutAndSaysSo) {
+TEST(FootPedal, EndsWhenMemoryRunsOutAndReportsIt) {
   starve(true);
   {
     const FootPedal pedal({}, {"/sys/class", "/dev"});

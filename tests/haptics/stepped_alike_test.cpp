@@ -108,7 +108,7 @@ auto columns(const Tick& t) {
                     t.faults);
 }
 
-TEST(SteppedHand, MakesTheSameTicksTwiceHoweverManyAtOnce) {
+TEST(SteppedDevice, MakesTheSameTicksForAnyStepSize) {
   for (const Hand& hand : kHands) {
     SCOPED_TRACE(hand.name);
     const auto one = hand.make(), other = hand.make();
@@ -146,7 +146,7 @@ auto columns(const HandleState& s) {
                     s.has_joints, s.buttons, s.pedal, s.fresh, s.docked, s.held, s.calibrated, s.healthy, s.motor_heat);
 }
 
-TEST(SteppedHand, SensesWhatItDoesByItselfHoweverLate) {
+TEST(SteppedDevice, SensesTheSameOnItsOwnThreadAtAnyLateness) {
   constexpr std::size_t kTicks = 600;
   for (const Hand& hand : kHands) {
     SCOPED_TRACE(hand.name);
@@ -162,7 +162,7 @@ TEST(SteppedHand, SensesWhatItDoesByItselfHoweverLate) {
   }
 }
 
-TEST(SteppedHand, IsAnsweredTheSameWhoeverTicks) {
+TEST(SteppedDevice, GetsTheSameAnswersSteppedAndOnItsOwnThread) {
   for (const Hand& hand : kHands) {
     SCOPED_TRACE(hand.name);
     const auto by_itself = hand.make();

@@ -11,7 +11,7 @@ namespace {
 using haptics::DeviceError;
 using haptics::DeviceTrouble;
 
-TEST(DeviceTable, TellsPeopleAndProgramsWhichSearchesFailed) {
+TEST(DeviceTable, ReportsFailedSearchesAsTextAndJson) {
   haptics::DeviceCatalogue catalogue;
   catalogue.troubles = {DeviceError("USB: it can not be looked at, try again", DeviceTrouble::no_resources),
                         DeviceError("pedals: nobody lets me look, ask", DeviceTrouble::no_rights)};

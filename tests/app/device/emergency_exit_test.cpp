@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(EmergencyExit, EndsBadly,
                            return name;
                          });
 
-TEST(EmergencyExit, GivesBackTheHandlersThatWereThere) {
+TEST(EmergencyExit, RestoresThePreviousHandlers) {
   const Told told = endedBy("handler-comes-back");
   ASSERT_TRUE(WIFEXITED(told.status));
   EXPECT_EQ(WEXITSTATUS(told.status), 7);

@@ -45,13 +45,13 @@ TEST_F(FalconScaleFile, ComesBackAsItWasWritten) {
   }
 }
 
-TEST_F(FalconScaleFile, IsNotReplacedWithoutLeave) {
+TEST_F(FalconScaleFile, IsNotReplacedWithoutForce) {
   writeFalconScale(path, {10.0, 1.0, "A"}, false);
   EXPECT_THROW(writeFalconScale(path, {11.0, 1.0, "A"}, false), calibration::CalibrationError);
   EXPECT_EQ(readFalconScale(path).words_per_Nmm, 10.0);
 }
 
-TEST_F(FalconScaleFile, LiesWhereTheUserKeepsSettings) {
+TEST_F(FalconScaleFile, IsInTheSettingsFolderOfTheUser) {
   setenv("XDG_CONFIG_HOME", "/settings", 1);
   EXPECT_EQ(defaultFalconScaleFile(), "/settings/molar/falcon.toml");
   unsetenv("XDG_CONFIG_HOME");
@@ -59,7 +59,7 @@ TEST_F(FalconScaleFile, LiesWhereTheUserKeepsSettings) {
   EXPECT_EQ(defaultFalconScaleFile(), "/her/.config/molar/falcon.toml");
 }
 
-TEST_F(FalconScaleFile, RefusesWhatNobodyCouldHaveWeighed) {
+TEST_F(FalconScaleFile, RefusesImplausibleValues) {
   expectRefused("version = 2\nwords_per_Nmm = 10.0\nheaviest_N = 1.0\n", "version");
   expectRefused("words_per_Nmm = 10.0\nheaviest_N = 1.0\n", "version");
   expectRefused("version = 1\nwords_per_Nmm = 1000.0\nheaviest_N = 1.0\n", "words_per_Nmm");

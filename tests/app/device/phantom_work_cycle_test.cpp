@@ -31,7 +31,7 @@ struct Scene {
   }
 };
 
-TEST(PhantomAtWork, GoesRoundTheJawWithEveryPhantom) {
+TEST(PhantomWorkCycle, AvoidsTheJawWithEveryPhantom) {
   const Scene scene;
   ASSERT_TRUE(scene.cut);
   const auto X_PD = scene.rig.X_WP.inverse() * scene.rig.X_WD;
@@ -53,7 +53,7 @@ TEST(PhantomAtWork, GoesRoundTheJawWithEveryPhantom) {
   }
 }
 
-TEST(PhantomAtWork, RefusesARigWhoseDeviceStandsTooFar) {
+TEST(PhantomWorkCycle, RefusesARigWhoseDeviceStandsTooFar) {
   Scene scene;
   scene.rig.X_WD.translation_mm = {0.0, 0.0, 300.0};
   try {

@@ -62,7 +62,7 @@ TEST_F(PoseCsv, RefusesWithLineAndColumn) {
   EXPECT_NE(refusal(h.substr(0, h.size() - 1) + ",drill\n0,0,0,0,1,0,0,0,0.5\n"), "accepted");
 }
 
-TEST_F(PoseCsv, ReadsWhatARowAsksForAsItIsWritten) {
+TEST_F(PoseCsv, ReadsRequestsAsWritten) {
   const auto poses =
       readPoses(write("t_s,px_mm,py_mm,pz_mm,qw,qx,qy,qz,drill,tool,action\n0,1,2,3,1,0,0,0,1,,\n0.5,4,5,6,0,1,0,0,0, "
                       "sphere:1 ,undo\n"));
@@ -95,7 +95,7 @@ TEST_F(PoseCsv, RefusesALineWithoutEnd) {
   EXPECT_NE(refusal(std::string(kHeader) + std::string(100'000, '1')).find("longer"), std::string::npos);
 }
 
-TEST_F(PoseCsv, SaysWhichRowAsksForWhatNobodyObeys) {
+TEST_F(PoseCsv, NamesTheRowWithARequestThatIsNotSupported) {
   const auto poses =
       readPoses(write("t_s,px_mm,py_mm,pz_mm,qw,qx,qy,qz,tool,action\n0,1,2,3,1,0,0,0,,\n1,1,2,3,1,0,0,0,,undo\n"));
   try {

@@ -54,7 +54,7 @@ TEST(ScriptedHold, TurnsTheGlassSoThatTheEyeWouldSeeTheToothInIt) {
   EXPECT_LT(glm::length(-glass - glm::dot(-glass, seen) * seen), 4.0) << "past the middle of the tooth";
 }
 
-TEST(SecondHand, HoldsItsInstrumentBesideTheToothWhereverThePatientLies) {
+TEST(SecondHand, HoldsItsInstrumentNextToTheToothForAnyPoseOfThePatient) {
   for (const bool right_side : {true, false}) {
     const assets::Patient jaw = patient(right_side);
     const calibration::Rig rig = rigAround(jaw);
@@ -74,7 +74,7 @@ TEST(SecondHand, HoldsItsInstrumentBesideTheToothWhereverThePatientLies) {
   }
 }
 
-TEST(SecondHand, RefusesWhatCanNotHoldAnInstrument) {
+TEST(SecondHand, RefusesASourceThatCannotHoldAnInstrument) {
   for (const char* device : {"mouse", "simulated", "simulated:omni", "nonsense"})
     EXPECT_THROW(refuseUnlessSecondHand({device, SecondTool::mirror}, "scripted"), UsageError) << device;
   EXPECT_THROW(refuseUnlessSecondHand({"wooden:1-2", SecondTool::mirror}, "wooden:1-2"), UsageError);
@@ -88,7 +88,7 @@ TEST(SecondHand, RefusesWhatCanNotHoldAnInstrument) {
     EXPECT_NO_THROW(refuseUnlessSecondHand({device, SecondTool::retractor}, "wooden:1-3")) << device;
 }
 
-TEST(SecondHand, IsHeldWhereOneLooksWithoutASite) {
+TEST(SecondHand, IsHeldAtTheCentreOfTheViewWithoutASite) {
   assets::Patient nowhere = patient(true);
   nowhere.jaw_P_mm = nowhere.site->centre_P_mm;
   nowhere.site.reset();

@@ -79,7 +79,7 @@ TEST(DoctorPermissions, FindEveryNodeOfEveryUnit) {
   }
 }
 
-TEST(DoctorModemManager, MattersToSerialUnitsThatNoRuleProtects) {
+TEST(DoctorModemManager, IsMissingForSerialUnitsWithoutAUdevRule) {
   PaperMachine paper("modem");
   paper.write("proc/812/comm", "ModemManagerX");
   paper.write("proc/driver/comm", "ModemManager");
@@ -108,7 +108,7 @@ TEST(DoctorOpenHaptics, IsNeededByOwnersOfAPhantomAlone) {
   EXPECT_THAT(finding.sentence, HasSubstr("libHD.so is not there."));
 }
 
-TEST(DoctorClock, MustBeFineAndShouldBeQuick) {
+TEST(DoctorClock, NeedsHighResolutionAndAFastSource) {
   PaperMachine paper("clock");
   const std::string file = "sys/devices/system/clocksource/clocksource0/current_clocksource";
   EXPECT_EQ(checkClock(paper.machine(), 1.0).health, Health::ok);
@@ -120,7 +120,7 @@ TEST(DoctorClock, MustBeFineAndShouldBeQuick) {
   EXPECT_GT(clockResolution_ns(), 0.0);
 }
 
-TEST(DoctorWakeUps, AreMeasuredInOrderAndJudgedAtNinetyNinePerCent) {
+TEST(DoctorWakeUps, AreSortedAndEvaluatedAtNinetyNinePerCent) {
   const WakeUps measured = measureWakeUps();
   EXPECT_LE(0.0, measured.median_us);
   EXPECT_LE(measured.median_us, measured.p99_us);
@@ -129,7 +129,7 @@ TEST(DoctorWakeUps, AreMeasuredInOrderAndJudgedAtNinetyNinePerCent) {
   EXPECT_EQ(checkWakeUps({4.0, 900.0, 3000.0}).health, Health::warn);
 }
 
-TEST(DoctorLimits, GiveTheLinesForWhoeverIsHeldBack) {
+TEST(DoctorLimits, PrintTheLinesForAUserWithoutTheRights) {
   PaperMachine paper("limits");
   const char* limits = "Limit                     Soft Limit           Hard Limit           Units\n";
   paper.write("proc/self/status", "Name:\tmolar\nCapEff:\t0000000000000000");
@@ -151,7 +151,7 @@ TEST(DoctorLimits, GiveTheLinesForWhoeverIsHeldBack) {
   EXPECT_EQ(checkMemoryLimit(paper.machine()).health, Health::ok);
 }
 
-TEST(DoctorLimits, CallNoFiniteLockOfMemoryEnoughForAProgramThatGrows) {
+TEST(DoctorLimits, WarnOfAnyFiniteMemlockLimit) {
   PaperMachine paper("finite");
   paper.write("proc/self/limits", "Max locked memory         8589934592           8589934592           bytes\n");
   const Finding memory = checkMemoryLimit(paper.machine());
@@ -159,7 +159,7 @@ TEST(DoctorLimits, CallNoFiniteLockOfMemoryEnoughForAProgramThatGrows) {
   EXPECT_THAT(memory.sentence, HasSubstr("Only 8192 MB may be kept"));
 }
 
-TEST(DoctorLimits, WantNoMorePriorityThanTheServoAndItsUsbThreadTake) {
+TEST(DoctorLimits, RequireNoMorePriorityThanServoAndUsbThreadTake) {
   PaperMachine paper("priorities");
   paper.write("proc/self/limits", "Max realtime priority     45                   45");
   EXPECT_EQ(checkPriorityLimit(paper.machine()).health, Health::warn);
@@ -173,7 +173,7 @@ TEST(DoctorLimits, WantNoMorePriorityThanTheServoAndItsUsbThreadTake) {
   EXPECT_THAT(checkMemoryLimit(paper.machine(), 60).next_step, HasSubstr("eva - rtprio 61\\n"));
 }
 
-TEST(DoctorLimits, WantTheInterruptsAboveTheServoThatWaitsForThem) {
+TEST(DoctorLimits, RequireTheInterruptsAboveTheServo) {
   PaperMachine paper("interrupts");
   paper.write("proc/self/limits", "Max realtime priority     95                   95");
   const auto put = [&](const std::string& process, const std::string& name, int priority) {
@@ -200,7 +200,7 @@ TEST(DoctorLimits, WantTheInterruptsAboveTheServoThatWaitsForThem) {
   EXPECT_THAT(low.next_step, HasSubstr("chrt -f -p 50 73"));
 }
 
-TEST(DoctorLimits, HoldNobodyBackWhoHasTheCapability) {
+TEST(DoctorLimits, AreIgnoredWithTheCapability) {
   PaperMachine paper("capabilities");
   paper.write("proc/self/status", "CapEff:\t0000000000804000");
   EXPECT_EQ(checkPriorityLimit(paper.machine()).health, Health::ok);
@@ -209,7 +209,7 @@ TEST(DoctorLimits, HoldNobodyBackWhoHasTheCapability) {
   EXPECT_EQ(checkPriorityLimit(paper.machine()).health, Health::warn);
 }
 
-TEST(DoctorProcessors, WantMoreThanOneCoreAndAllAwake) {
+TEST(DoctorProcessors, NeedMoreThanOneCoreAtFullSpeed) {
   PaperMachine paper("processors");
   paper.write("sys/devices/system/cpu/cpu0/online", "1");
   paper.write("sys/devices/system/cpu/cpufreq/policy0", "");

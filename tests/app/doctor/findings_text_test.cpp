@@ -59,7 +59,7 @@ TEST(WrappedText, KeepsItsMarginsAndEveryWord) {
   EXPECT_EQ(wrappedText("", 4, 80), "");
 }
 
-TEST(UdevRules, LetTheOwnerInAndModemManagerOut) {
+TEST(UdevRules, GiveAccessToTheUserAndKeepModemManagerOut) {
   std::istringstream rules(udevRules());
   int for_usb = 0, for_modems = 0;
   for (std::string line; std::getline(rules, line);) {

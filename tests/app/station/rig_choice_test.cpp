@@ -71,7 +71,7 @@ class RigChoice : public Test {
   const DeviceIdentity practice_ = deviceIdentity("practice:D:7", nullptr), mouse_ = deviceIdentity("mouse", nullptr);
 };
 
-TEST_F(RigChoice, SaysThatTheCurrentOneHasGoneBetweenTwoLooks) {
+TEST_F(RigChoice, ReportsThatTheCurrentRigChangedMeanwhile) {
   const RigRecord record = measured("rig-02", "2026-11-19T08:00:00Z");
   keep(record);
   const RigStore store(folder_.file("store"));
@@ -90,7 +90,7 @@ TEST_F(RigChoice, SaysThatTheCurrentOneHasGoneBetweenTwoLooks) {
   writer.join();
 }
 
-TEST_F(RigChoice, TakesTheOnlyCurrentOneOfTheDeviceAndSaysHowGoodItIs) {
+TEST_F(RigChoice, TakesTheOnlyCurrentRigOfTheDeviceAndReportsItsQuality) {
   EXPECT_FALSE(choose("", practice_));
   keep(measured("rig-02", "2026-11-19T08:00:00Z"));
   const auto chosen = choose("", practice_);
@@ -130,7 +130,7 @@ TEST_F(RigChoice, RefusesTheRigOfAnotherDevice) {
   EXPECT_NE(refusal("--rig " + file, deviceIdentity("falcon", &falcon)).find("Falcon"), std::string::npos);
 }
 
-TEST_F(RigChoice, LeavesTheArmAsideForAHandWithoutHardware) {
+TEST_F(RigChoice, IgnoresTheArmWithoutHardware) {
   const auto chosen = choose("--rig " + fileOf(measured("rig-02", "2026-11-19T08:00:00Z", Verdict::red)), mouse_);
   ASSERT_TRUE(chosen);
   EXPECT_FALSE(chosen->record.rig.arm);
@@ -138,7 +138,7 @@ TEST_F(RigChoice, LeavesTheArmAsideForAHandWithoutHardware) {
   EXPECT_NE(chosen->remarks[0].find("left aside"), std::string::npos);
 }
 
-TEST_F(RigChoice, IsLockedWhenRedUntilAWordIsGiven) {
+TEST_F(RigChoice, IsRefusedWhenRedUntilAReasonIsGiven) {
   const std::string file = "--rig " + fileOf(measured("rig-02", "2026-11-19T08:00:00Z", Verdict::red));
   const std::string locked = refusal(file, practice_);
   EXPECT_NE(locked.find("red, 0.24 mm RMS of 16"), std::string::npos) << locked;
@@ -155,7 +155,7 @@ TEST_F(RigChoice, IsLockedWhenRedUntilAWordIsGiven) {
   EXPECT_EQ(choose(good + " --despite-calibration why", practice_)->calibration.despite, "");
 }
 
-TEST_F(RigChoice, SaysAmberOldAndUnverified) {
+TEST_F(RigChoice, ReportsAmberOldAndUnverified) {
   const auto remarkOn = [&](const RigRecord& record) {
     const auto chosen = choose("--rig " + fileOf(record), practice_);
     return chosen->remarks.size() == 1 ? chosen->remarks[0] : std::to_string(chosen->remarks.size()) + " remarks";

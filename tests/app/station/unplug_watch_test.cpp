@@ -29,7 +29,7 @@ struct Usb {
   }
 };
 
-TEST(UnplugWatch, StopsTheMotorsAtOnceAndSaysSoOnce) {
+TEST(UnplugWatch, StopsTheMotorsAtOnceAndReportsItOnce) {
   Usb usb;
   const auto watch = usb.watch();
   EXPECT_EQ(watch->takeNews(), std::nullopt);
@@ -39,7 +39,7 @@ TEST(UnplugWatch, StopsTheMotorsAtOnceAndSaysSoOnce) {
   EXPECT_EQ(watch->takeNews(), std::nullopt);
 }
 
-TEST(UnplugWatch, LeavesToTheirDriversWhatMolarDrivesOverUsbItself) {
+TEST(UnplugWatch, IgnoresDevicesThatMolarDrivesOverUsb) {
   Usb usb;
   const auto watch = usb.watch();
   usb.leaves(KnownDevice::falcon);
@@ -56,7 +56,7 @@ TEST(UnplugWatch, StopsAgainWhateverLeavesNext) {
   EXPECT_EQ(usb.stops, 2);
 }
 
-TEST(UnplugWatch, SaysWhenItCanNotWatchOrNoLongerCan) {
+TEST(UnplugWatch, ReportsThatMonitoringFailedOrEnded) {
   UnplugWatch none([] {},
                    [](haptics::PresenceListener) -> std::unique_ptr<haptics::PresenceMonitor> {
                      throw haptics::DeviceError("USB: nobody tells", haptics::DeviceTrouble::no_resources);

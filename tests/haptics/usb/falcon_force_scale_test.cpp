@@ -17,7 +17,7 @@ std::vector<ForceReading> readings(double gain) {
   return all;
 }
 
-TEST(FalconForceScale, IsAGuessHeldToATenthOfTheMotorsUntilWeighed) {
+TEST(FalconForceScale, IsATenthOfTheMotorRangeUntilMeasured) {
   const FalconForceScale guess;
   EXPECT_FALSE(guess.isWeighed());
   EXPECT_EQ(falconMaxWord(guess), 409);
@@ -26,7 +26,7 @@ TEST(FalconForceScale, IsAGuessHeldToATenthOfTheMotorsUntilWeighed) {
   EXPECT_THAT(falconForceAdvice(guess), testing::HasSubstr("weigh it"));
 }
 
-TEST(FalconForceScale, AWeighingMakesAskedAndShownTheSame) {
+TEST(FalconForceScale, MeasuringMakesRequestedAndShownForceEqual) {
   // It showed 0.8 of what was asked, so every torque needs 1/0.8 of the words.
   const FalconForceScale scale = weighed({}, readings(0.8));
   EXPECT_NEAR(scale.words_per_Nmm, 12.5, 1e-12);
@@ -43,7 +43,7 @@ TEST(FalconForceScale, NeverAllowsMoreThanItsMakerDoes) {
   EXPECT_DOUBLE_EQ(falconPeakForce_N(scale), 8.0);
 }
 
-TEST(FalconForceScale, RefusesReadingsThatMakeNoSense) {
+TEST(FalconForceScale, RefusesInconsistentReadings) {
   EXPECT_THROW(weighed({}, std::vector<ForceReading>{{0.5, 0.5}, {1.0, 1.0}}), DeviceError);
   EXPECT_THROW(weighed({}, readings(-1.0)), DeviceError);
   EXPECT_THROW(weighed({}, readings(0.0)), DeviceError);
@@ -55,7 +55,7 @@ TEST(FalconForceScale, RefusesReadingsThatMakeNoSense) {
   EXPECT_NO_THROW(weighed({}, readings(0.7)));
 }
 
-TEST(FalconForceScale, RefusesNumbersThatNobodyCouldHaveWeighed) {
+TEST(FalconForceScale, RefusesImplausibleValues) {
   for (double words : {0.0, 1.9, 51.0, -10.0, double(NAN), double(INFINITY)})
     EXPECT_THROW(check({words, 1.0, ""}), DeviceError) << words;
   for (double heaviest : {-1.0, 0.1, 11.0, double(NAN)})

@@ -29,7 +29,7 @@ class Places {
   std::uniform_real_distribution<double> unit_{0.0, 1.0};
 };
 
-TEST(FalconKinematics, EncodersTurnAsTheirWheelAndDrumSay) {
+TEST(FalconKinematics, EncodersFollowWheelAndDrum) {
   // 1280 counts are a turn of the 14.25 mm shaft, which is 14.25/110 of a turn of the arm: 46.636 degrees.
   const FalconLegs legs = falconLegs_rad({0, 1280, -1280});
   EXPECT_NEAR(calibration::degreesFromRad(legs.x), 35.0, 1e-12);
@@ -115,7 +115,7 @@ TEST(FalconKinematics, ForceAndTorqueDoTheSameWork) {
   }
 }
 
-TEST(FalconKinematics, APushTowardsTheHandAsksAllLegsAlikeInTheMiddle) {
+TEST(FalconKinematics, AForceTowardsTheHandLoadsAllLegsEquallyInTheMiddle) {
   const Point<Device> grip = falconMiddle();
   const glm::dvec3 torque = glm::transpose(falconJacobian_mm(*falconLegsAt_rad(grip), grip)) * glm::dvec3(0, 0, 1);
   EXPECT_GT(torque.x, 10.0);
@@ -123,7 +123,7 @@ TEST(FalconKinematics, APushTowardsTheHandAsksAllLegsAlikeInTheMiddle) {
   EXPECT_NEAR(torque.x, torque.z, 1e-9);
 }
 
-TEST(FalconKinematics, SaysNothingOfPlacesOutOfReachAndComesBackFromAnyEncoders) {
+TEST(FalconKinematics, HasNoSolutionOutOfReachAndTerminatesForAnyEncoders) {
   EXPECT_FALSE(falconLegsAt_rad({{0.0, 0.0, 400.0}}));
   EXPECT_FALSE(falconLegsAt_rad({{200.0, 0.0, 100.0}}));
   EXPECT_FALSE(falconLegsAt_rad({{std::nan(""), 0.0, 100.0}}));

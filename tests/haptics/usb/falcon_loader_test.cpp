@@ -64,7 +64,7 @@ struct Conversation {
   }
 };
 
-TEST(FalconLoader, BringsTheWholeProgramOverInPiecesThatFitAPacket) {
+TEST(FalconLoader, SendsTheWholeProgramInPiecesThatFitAPacket) {
   for (std::size_t size : {1u, 61u, 62u, 63u, 124u, 8492u}) {
     const Bytes wanted = program(size);
     FalconLoader loader(wanted);
@@ -97,7 +97,7 @@ TEST(FalconLoader, SetsTheBridgeAsThePublicProgramsDo) {
   }
 }
 
-TEST(FalconLoader, GreetsAgainUntilItIsAnsweredAndTakesAZeroBeforeTheAnswer) {
+TEST(FalconLoader, RepeatsTheGreetingUntilAnsweredAndAcceptsAZeroBeforeTheAnswer) {
   const Bytes wanted = program(10);
   FalconLoader loader(wanted);
   Conversation talk;
@@ -108,7 +108,7 @@ TEST(FalconLoader, GreetsAgainUntilItIsAnsweredAndTakesAZeroBeforeTheAnswer) {
   EXPECT_EQ(talk.greetings, 100);
 }
 
-TEST(FalconLoader, GivesUpAGreetingThatNobodyAnswersAndSendsNothingMore) {
+TEST(FalconLoader, GivesUpWithoutAnAnswerToTheGreetingAndSendsNothingMore) {
   for (const Bytes& answer :
        {Bytes{}, Bytes{0x0A, 0x44, 0x2C}, Bytes{0x0A, 0x43, 0x0D}, Bytes{0xFF, 0x0A, 0x44, 0x2C, 0x0D}}) {
     const Bytes wanted = program(10);
@@ -123,7 +123,7 @@ TEST(FalconLoader, GivesUpAGreetingThatNobodyAnswersAndSendsNothingMore) {
   }
 }
 
-TEST(FalconLoader, AByteThatComesBackWrongStopsIt) {
+TEST(FalconLoader, AWrongEchoStopsIt) {
   const Bytes wanted = program(500);
   FalconLoader loader(wanted);
   Conversation talk;
@@ -137,7 +137,7 @@ TEST(FalconLoader, AByteThatComesBackWrongStopsIt) {
   EXPECT_EQ(sent, 248u);
 }
 
-TEST(FalconLoader, SilenceInTheMiddleStopsIt) {
+TEST(FalconLoader, ATimeoutDuringLoadingStopsIt) {
   const Bytes wanted = program(500);
   FalconLoader loader(wanted);
   Conversation talk;
@@ -147,7 +147,7 @@ TEST(FalconLoader, SilenceInTheMiddleStopsIt) {
   EXPECT_EQ(loader.trouble(), "it fell silent after 100 of 500 bytes");
 }
 
-TEST(FalconLoader, AWrongAnswerToTheKnockStopsItBeforeTheProgram) {
+TEST(FalconLoader, AWrongAnswerToTheProbeStopsItBeforeTheProgram) {
   for (const Bytes& answer : {Bytes{0x42}, Bytes{}}) {
     const Bytes wanted = program(500);
     FalconLoader loader(wanted);
@@ -159,7 +159,7 @@ TEST(FalconLoader, AWrongAnswerToTheKnockStopsItBeforeTheProgram) {
   }
 }
 
-TEST(FalconLoader, ComesToAnEndWhateverTheDeviceSays) {
+TEST(FalconLoader, TerminatesForAnyAnswersOfTheDevice) {
   // Two million random bytes and silences: it never hangs, never reads beyond its program, never claims success unless
   // every byte came back.
   std::mt19937 random(6);

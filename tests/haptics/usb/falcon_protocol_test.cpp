@@ -33,7 +33,7 @@ TEST(FalconProtocol, WritesWordsLeastNibbleFirst) {
   EXPECT_EQ(textOf(encoded({{0x0123, -1, -4096}, false, FalconLights::green})), "<DCBAPPPPAAAPCA>");
 }
 
-TEST(FalconProtocol, HoldsMotorWordsWithinTheirRange) {
+TEST(FalconProtocol, ClampsMotorWordsToTheirRange) {
   EXPECT_EQ(encoded({{5000, -70000, 4096}, true, FalconLights::blue}),
             encoded({{4096, -4096, 4096}, true, FalconLights::blue}));
 }
@@ -54,7 +54,7 @@ TEST(FalconProtocol, ReadsEveryReportAUnitCanWrite) {
   }
 }
 
-TEST(FalconProtocol, TakesNothingThatIsNotExactlyAPacket) {
+TEST(FalconProtocol, RejectsEverythingThatIsNotExactlyAPacket) {
   const auto good = written({1, -2, 3}, 5, 7);
   ASSERT_TRUE(decodeFalconReport(good));
   for (std::size_t size = 0; size < 16; ++size) EXPECT_FALSE(decodeFalconReport(std::span(good).first(size))) << size;
@@ -122,7 +122,7 @@ TEST(FalconStream, FindsTheVeryNextPacketAfterGarbageOrATruncatedOne) {
   }
 }
 
-TEST(FalconProtocol, AMillionMutatedReportsAreReadRightOrNotAtAll) {
+TEST(FalconProtocol, AMillionMutatedReportsAreReadCorrectlyOrRejected) {
   std::mt19937 random(4);
   FalconStream stream;
   std::uint64_t taken = 0, refused = 0;

@@ -108,7 +108,7 @@ class FalconOnTheBus : public testing::Test {
   int files_ = 0;
 };
 
-TEST_F(FalconOnTheBus, LoadsItsProgramIntoAUnitThatForgotIt) {
+TEST_F(FalconOnTheBus, LoadsItsProgramIntoAUnitThatLostIt) {
   FalconSettings settings;
   settings.program = programFile();
   int prompts = 0;
@@ -129,7 +129,7 @@ TEST_F(FalconOnTheBus, AUnitThatStillRunsNeedsNoFile) {
   EXPECT_EQ(now([&] { return unit.loads_begun; }), 0);
 }
 
-TEST_F(FalconOnTheBus, SaysWhatIsWrongWithItsProgramFile) {
+TEST_F(FalconOnTheBus, ReportsWhatIsWrongWithItsProgramFile) {
   FalconSettings settings;
   has(refusal(settings), "no file is named");
   settings.program = "/nowhere/falcon.bin";
@@ -147,7 +147,7 @@ TEST_F(FalconOnTheBus, SaysWhatIsWrongWithItsProgramFile) {
   EXPECT_EQ(now([&] { return unit.packets.size(); }), 0u);
 }
 
-TEST_F(FalconOnTheBus, LoadsAgainAfterAByteCameBackWrong) {
+TEST_F(FalconOnTheBus, LoadsAgainAfterAWrongEcho) {
   unit.echo_mistakes = 2;
   FalconSettings settings;
   settings.program = programFile();
@@ -156,7 +156,7 @@ TEST_F(FalconOnTheBus, LoadsAgainAfterAByteCameBackWrong) {
   EXPECT_EQ(now([&] { return unit.program; }), program);
 }
 
-TEST_F(FalconOnTheBus, GivesUpWhenBytesKeepComingBackWrong) {
+TEST_F(FalconOnTheBus, GivesUpAfterRepeatedWrongEchoes) {
   unit.echo_mistakes = 99;
   FalconSettings settings;
   settings.program = programFile();
@@ -172,12 +172,12 @@ TEST_F(FalconOnTheBus, GivesUpAUnitThatIsSilent) {
   has(refusal(settings), "does not answer the greeting");
 }
 
-TEST_F(FalconOnTheBus, SaysWhenItIsNotOnTheBus) {
+TEST_F(FalconOnTheBus, ReportsWhenItIsNotOnTheBus) {
   bus->unplug();
   has(refusal({}), "not on the bus");
 }
 
-TEST_F(FalconOnTheBus, WaitsInWordsUntilItIsHomed) {
+TEST_F(FalconOnTheBus, PromptsUntilItIsHomed) {
   unit.runs = true;
   unit.homed = 1;
   FalconSettings settings;
@@ -193,7 +193,7 @@ TEST_F(FalconOnTheBus, WaitsInWordsUntilItIsHomed) {
   EXPECT_EQ(now([&] { return unit.flags; }), 9u);
 }
 
-TEST_F(FalconOnTheBus, GivesUpHomingAfterItsPatienceOrWhenTold) {
+TEST_F(FalconOnTheBus, GivesUpHomingAfterItsTimeoutOrWhenCancelled) {
   unit.runs = true;
   unit.homed = 3;
   FalconSettings settings;
@@ -210,7 +210,7 @@ TEST_F(FalconOnTheBus, GivesUpHomingAfterItsPatienceOrWhenTold) {
   has(refusal(settings), "given up");
 }
 
-TEST_F(FalconOnTheBus, KnowsItsPlaceAndItsButtons) {
+TEST_F(FalconOnTheBus, ReportsItsPositionAndItsButtons) {
   unit.runs = true;
   unit.buttons = 5;
   unit.grip_mm = {12.0, -20.0, 120.0};
@@ -243,7 +243,7 @@ TEST_F(FalconOnTheBus, PushesTheHandWhereTheForcePoints) {
   falcon.stop();
 }
 
-TEST_F(FalconOnTheBus, HoldsASpringTowardsAPlaceInAClosedLoop) {
+TEST_F(FalconOnTheBus, ASpringToAPointConvergesInAClosedLoop) {
   // A spring of 0.3 N/mm to a point 10 mm away brings the grip there, in the real loop over the bus.
   class Spring final : public DeviceServo {
    public:
@@ -286,7 +286,7 @@ TEST_F(FalconOnTheBus, ItsThreadAllocatesNothing) {
   falcon.stop();
 }
 
-TEST_F(FalconOnTheBus, AnUnweighedUnitGetsATenthOfItsMotorsAtMost) {
+TEST_F(FalconOnTheBus, AnUnmeasuredUnitGetsATenthOfItsMotorRangeAtMost) {
   unit.runs = true;
   Falcon falcon({});
   EXPECT_FALSE(falcon.capabilities().force_is_calibrated);
@@ -304,7 +304,7 @@ TEST_F(FalconOnTheBus, AnUnweighedUnitGetsATenthOfItsMotorsAtMost) {
   EXPECT_LE(now([&] { return unit.largest_word; }), 409);
 }
 
-TEST_F(FalconOnTheBus, AWeighedScaleChangesTheWordsAndTheWordCalibrated) {
+TEST_F(FalconOnTheBus, AMeasuredScaleChangesTheWordsAndCountsAsCalibrated) {
   unit.runs = true;
   FalconSettings settings;
   settings.scale = {20.0, 1.5, "FH000001"};
@@ -322,7 +322,7 @@ TEST_F(FalconOnTheBus, AWeighedScaleChangesTheWordsAndTheWordCalibrated) {
   falcon.stop();
 }
 
-TEST_F(FalconOnTheBus, RefusesAScaleNobodyCouldHaveWeighed) {
+TEST_F(FalconOnTheBus, RefusesAnImplausibleScale) {
   unit.runs = true;
   FalconSettings settings;
   settings.scale = {500.0, 1.0, ""};
@@ -336,7 +336,7 @@ TEST_F(FalconOnTheBus, RefusesTheScaleOfAnotherUnit) {
   has(refusal(settings), "weighed on unit FH000002 and this is FH000001");
 }
 
-TEST_F(FalconOnTheBus, GarbageIsNeitherAPlaceNorAReasonToPush) {
+TEST_F(FalconOnTheBus, GarbageGivesNeitherAPositionNorAForce) {
   unit.runs = true;
   Falcon falcon({});
   SteadyHand hand(falcon.capabilities());
@@ -391,7 +391,7 @@ TEST_F(FalconOnTheBus, LosingItsHomeStopsTheForce) {
   falcon.stop();
 }
 
-TEST_F(FalconOnTheBus, UnpluggedInMidStrokeItIsNotHealthyAndStopsInPeace) {
+TEST_F(FalconOnTheBus, UnpluggedWhilePushingItIsUnhealthyAndStopsCleanly) {
   unit.runs = true;
   Falcon falcon({});
   SteadyHand hand(falcon.capabilities());
@@ -422,7 +422,7 @@ TEST_F(FalconOnTheBus, AGoneUnitDoesNotStart) {
   EXPECT_EQ(hand.ticks.load(), 0);
 }
 
-TEST_F(FalconOnTheBus, TheLastPacketLetsGoAndNothingFollowsIt) {
+TEST_F(FalconOnTheBus, TheLastPacketHasNoForceAndNothingFollowsIt) {
   unit.runs = true;
   {
     Falcon falcon({});
@@ -441,7 +441,7 @@ TEST_F(FalconOnTheBus, TheLastPacketLetsGoAndNothingFollowsIt) {
   EXPECT_EQ(now([&] { return unit.refused; }), 0);
 }
 
-TEST_F(FalconOnTheBus, MotorsOffLetsGoAtOnceAndALaterCommandIsObeyed) {
+TEST_F(FalconOnTheBus, MotorsOffActsAtOnceAndALaterCommandIsExecuted) {
   unit.runs = true;
   Falcon falcon({});
   SteadyHand hand(falcon.capabilities());
@@ -475,7 +475,7 @@ class HangingServo final : public DeviceServo {
   MotorGate gate_;
 };
 
-TEST_F(FalconOnTheBus, MotorsOffWhileTheServoHangsIsTheLastWordUntilItTicksAgain) {
+TEST_F(FalconOnTheBus, MotorsOffWhileTheServoHangsHoldsUntilItTicksAgain) {
   unit.runs = true;
   Falcon falcon({});
   HangingServo servo(falcon.capabilities());
@@ -489,7 +489,7 @@ TEST_F(FalconOnTheBus, MotorsOffWhileTheServoHangsIsTheLastWordUntilItTicksAgain
   falcon.stop();
 }
 
-TEST_F(FalconOnTheBus, AServoThatHangsIsLetGoByTheUsbItself) {
+TEST_F(FalconOnTheBus, TheUsbThreadEndsTheForceOfAHangingServo) {
   unit.runs = true;
   Falcon falcon({});
   HangingServo servo(falcon.capabilities());

@@ -29,7 +29,7 @@ UsbDevice usb(std::uint16_t vendor, std::uint16_t product, std::uint8_t device_c
 
 bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-TEST(KnownDevices, TellsTheKindsOfTouchApartByTheirClasses) {
+TEST(KnownDevices, DistinguishesTheKindsOfTouchByTheirClasses) {
   EXPECT_EQ(knownAs(usb(0x2988, 0x0302, 2)), KnownDevice::touch_serial);
   EXPECT_EQ(knownAs(usb(0x2988, 0x0302, 0, {2, 10})), KnownDevice::touch_serial);
   EXPECT_EQ(knownAs(usb(0x2988, 0x0304, 0, {3})), KnownDevice::touch_hid);
@@ -47,7 +47,7 @@ TEST(KnownDevices, KnowsAnEarlyTouchWithSwappedIds) {
   EXPECT_FALSE(knownAs(usb(0x0302, 0x2988)));
 }
 
-TEST(KnownDevices, SaysWhichDriverAndNeverPromisesToDriveAClosedOne) {
+TEST(KnownDevices, NamesTheDriverAndNoAddressOfAClosedDevice) {
   for (const KnownDevice kind : {KnownDevice::touch_serial, KnownDevice::touch_hid, KnownDevice::touch_of_another_kind,
                                  KnownDevice::force_dimension}) {
     EXPECT_TRUE(isClosed(kind));
@@ -62,7 +62,7 @@ TEST(KnownDevices, SaysWhichDriverAndNeverPromisesToDriveAClosedOne) {
   EXPECT_TRUE(says(described(KnownDevice::force_dimension, usb(0x1451, 0x0402)).driver, "SDK would be needed"));
 }
 
-TEST(KnownDevices, KnowsTheOthersAndNobodyElse) {
+TEST(KnownDevices, KnowsTheOthersAndNothingElse) {
   EXPECT_EQ(knownAs(usb(0x1451, 0x0402)), KnownDevice::force_dimension);
   EXPECT_EQ(knownAs(usb(0x0403, 0xCB48)), KnownDevice::falcon);
   EXPECT_EQ(knownAs(usb(0x1234, 0x0006)), KnownDevice::wooden_haptics);
@@ -144,7 +144,7 @@ class PresenceOnTheBus : public testing::Test {
   Heard heard;
 };
 
-TEST_F(PresenceOnTheBus, TellsWhatIsThereAlreadyWhatComesAndWhatGoes) {
+TEST_F(PresenceOnTheBus, ReportsWhatIsPresentWhatArrivesAndWhatLeaves) {
   bus->plug(touch("1", 2, false), inside);
   const PresenceMonitor monitor(heard.listener());
   ASSERT_TRUE(heard.soon(1));
@@ -160,7 +160,7 @@ TEST_F(PresenceOnTheBus, TellsWhatIsThereAlreadyWhatComesAndWhatGoes) {
   EXPECT_EQ(heard.devices()[3].kind, KnownDevice::touch_hid);
 }
 
-TEST_F(PresenceOnTheBus, SeesAUnitThatIsPulledAndPutBackAtOnce) {
+TEST_F(PresenceOnTheBus, ReportsAUnitThatIsReplugged) {
   bus->plug(touch("1", 2, false), inside);
   const PresenceMonitor monitor(heard.listener());
   ASSERT_TRUE(heard.soon(1));
@@ -171,7 +171,7 @@ TEST_F(PresenceOnTheBus, SeesAUnitThatIsPulledAndPutBackAtOnce) {
   EXPECT_EQ(heard.all()[2].front(), '+');
 }
 
-TEST_F(PresenceOnTheBus, NeverSpeaksToAnyDeviceNorMindsOthers) {
+TEST_F(PresenceOnTheBus, SendsNothingToAnyDeviceAndIgnoresOthers) {
   simulated_usb::Description mouse = touch("5", 9, true);
   mouse.vendor = 0x046D;
   mouse.product = 0xC077;
@@ -188,7 +188,7 @@ TEST_F(PresenceOnTheBus, NeverSpeaksToAnyDeviceNorMindsOthers) {
   for (const std::string& said : heard.all()) EXPECT_TRUE(says(said, "1-1")) << said;
 }
 
-TEST_F(PresenceOnTheBus, BeginsAndEndsInPeaceWhateverHappensAndIsSilentAfterwards) {
+TEST_F(PresenceOnTheBus, StartsAndStopsCleanlyAndIsSilentAfterwards) {
   for (int i = 0; i < 10; ++i) {
     bus->plug(touch("1", 2 + i, i % 2 == 0), inside);
     {

@@ -23,7 +23,7 @@ class Mute final : public simulated_usb::Device {
   }
 };
 
-TEST(StarvedPresence, WatchesNoMoreAndSaysSo) {
+TEST(StarvedPresence, EndsAndReportsIt) {
   if (!simulated_usb::Bus::available()) GTEST_SKIP() << "umockdev is not there: run under umockdev-wrapper";
   Mute inside;
   simulated_usb::Bus bus;

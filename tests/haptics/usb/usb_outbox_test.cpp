@@ -34,7 +34,7 @@ Note read(const UsbReport& report) {
 }
 
 /// Random senders, resters, clocks that jump, and a line that takes or refuses; every report that goes out is judged.
-TEST(UsbOutbox, NoPushGoesOutAfterARestNorAfterTheLastReport) {
+TEST(UsbOutbox, NoForceIsSentAfterARestOrAfterTheLastReport) {
   std::mt19937 generator(17);
   const auto dice = [&](unsigned sides) { return static_cast<unsigned>(generator()) % sides; };
   std::size_t pushes = 0, rests = 0, lasts = 0;

@@ -78,7 +78,7 @@ TEST(UsbRecording, ListsWhatWentOutAndWhatCameIn) {
     }
 }
 
-TEST(UsbRecording, ShowsHowOftenAnEndpointSpeaksAndWhichOfItsBytesChange) {
+TEST(UsbRecording, ShowsTheIntervalOfAnEndpointAndWhichOfItsBytesChange) {
   Recorder recorder;
   for (int i = 0; i < 101; ++i) {
     recorder.transfer(0x81, 10.0 + 1e-3 * i, {7, static_cast<std::uint8_t>(i), 7, static_cast<std::uint8_t>(i / 50)});
@@ -119,7 +119,7 @@ TEST(UsbRecording, AFalconsTrafficIsReadByItsDriversOwnDecoder) {
   EXPECT_EQ(answers, 50);
 }
 
-TEST(UsbRecording, WhateverTheFileHoldsItIsReadOrRefused) {
+TEST(UsbRecording, AnyFileIsReadOrRefused) {
   Recorder recorder;
   for (int i = 0; i < 20; ++i) recorder.transfer(i % 2 == 0 ? 0x02 : 0x81, 1.0 + 1e-3 * i, Bytes(16, 7));
   EXPECT_FALSE(readRecording({}));

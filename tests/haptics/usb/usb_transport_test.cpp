@@ -120,7 +120,7 @@ TEST_F(UsbTransportOnTheBus, CarriesReportsBothWays) {
   EXPECT_EQ(usb.counters().reports_out, 100u);
 }
 
-TEST_F(UsbTransportOnTheBus, SaysInOneLineWhyItCanNotOpen) {
+TEST_F(UsbTransportOnTheBus, ReportsInOneLineWhyItCannotOpen) {
   const auto reason = [](const UsbAddress& address) -> std::string {
     try {
       UsbTransport usb(address);
@@ -136,7 +136,7 @@ TEST_F(UsbTransportOnTheBus, SaysInOneLineWhyItCanNotOpen) {
   EXPECT_THAT(reason({0x1234, 6}), testing::HasSubstr("in use by another program or driver"));
 }
 
-TEST_F(UsbTransportOnTheBus, ClaimsWhereDetachingIsNotServed) {
+TEST_F(UsbTransportOnTheBus, ClaimsWithoutSupportForDetaching) {
   bus->set({.detach_unserved = true});
   UsbTransport usb({0x1234, 6});
   usb.run(echoStream());
@@ -160,7 +160,7 @@ TEST_F(UsbTransportOnTheBus, ChoosesAmongTwinsByPathAndServesBulkPipes) {
   EXPECT_TRUE(now(echo.told).empty());
 }
 
-TEST_F(UsbTransportOnTheBus, AsksAndAnswersWithADeadlineBeforeItRuns) {
+TEST_F(UsbTransportOnTheBus, RequestsHaveADeadlineBeforeItRuns) {
   UsbTransport usb({0x1234, 6});
   Bytes three{1, 2, 3}, room(8);
   EXPECT_TRUE(usb.control({0x40, 5, 0x1234, 0}, three, 60s).done());
@@ -188,7 +188,7 @@ TEST_F(UsbTransportOnTheBus, AsksAndAnswersWithADeadlineBeforeItRuns) {
   EXPECT_FALSE(usb.control({0x40, 5, 0, 0}, three, 20ms).done());
 }
 
-TEST_F(UsbTransportOnTheBus, GivesUpAHandleThatNeverGivesBack) {
+TEST_F(UsbTransportOnTheBus, GivesUpAHandleThatNeverCompletesATransfer) {
   UsbTransport usb({0x1234, 6});
   bus->set({.stuck = true});
   Bytes packet(64);
@@ -214,7 +214,7 @@ TEST_F(UsbTransportOnTheBus, WaitsForAReportUntilTheDeadlineOnly) {
   }));
 }
 
-TEST_F(UsbTransportOnTheBus, IsLateWhileNothingComesAndWellAgainAfter) {
+TEST_F(UsbTransportOnTheBus, IsLateWithoutReportsAndOkAgainAfterwards) {
   UsbTransport usb({0x1234, 6});
   UsbStream stream = echoStream();
   stream.in_deadline = 30ms;
@@ -227,7 +227,7 @@ TEST_F(UsbTransportOnTheBus, IsLateWhileNothingComesAndWellAgainAfter) {
   EXPECT_TRUE(soon([&] { return usb.state() == UsbState::ok; }));
 }
 
-TEST_F(UsbTransportOnTheBus, TakesBackAReportNobodyTookAndSendsTheNewest) {
+TEST_F(UsbTransportOnTheBus, CancelsAReportThatIsNotAcceptedAndSendsTheNewest) {
   UsbTransport usb({0x1234, 6}, time.clock());
   usb.run(echoStream());
   ASSERT_TRUE(soon([&] { return usb.state() == UsbState::ok; }));
@@ -300,7 +300,7 @@ TEST_F(UsbTransportOnTheBus, NeverShowsAReportOfTheWrongLength) {
   EXPECT_TRUE(soon([&] { return usb.newestReport().serial > 0 && usb.state() == UsbState::ok; }));
 }
 
-TEST_F(UsbTransportOnTheBus, HearsReportsInTheOrderTheyWereSaid) {
+TEST_F(UsbTransportOnTheBus, ReceivesReportsInTheirOrder) {
   UsbTransport usb({0x1234, 6}, time.clock());
   UsbStream stream = echoStream();
   std::vector<std::uint8_t> heard;
@@ -315,7 +315,7 @@ TEST_F(UsbTransportOnTheBus, HearsReportsInTheOrderTheyWereSaid) {
   for (std::size_t i = 1; i < heard.size(); ++i) ASSERT_EQ(heard[i], static_cast<std::uint8_t>(heard[i - 1] + 1)) << i;
 }
 
-TEST_F(UsbTransportOnTheBus, LetsAReaderPutReportsTogether) {
+TEST_F(UsbTransportOnTheBus, AReaderAssemblesReports) {
   UsbTransport usb({0x1234, 6}, time.clock());
   UsbStream stream = echoStream();
   int pieces = 0;
@@ -330,7 +330,7 @@ TEST_F(UsbTransportOnTheBus, LetsAReaderPutReportsTogether) {
   EXPECT_EQ(usb.counters().reports_in, static_cast<std::uint64_t>(pieces / 3));
 }
 
-TEST_F(UsbTransportOnTheBus, ARestMakesVoidWhatWasMadeBefore) {
+TEST_F(UsbTransportOnTheBus, ARestVoidsEarlierReports) {
   UsbTransport usb({0x1234, 6}, time.clock());
   usb.run(echoStream());
   const std::uint32_t before = usb.rests();
@@ -349,7 +349,7 @@ TEST_F(UsbTransportOnTheBus, ARestMakesVoidWhatWasMadeBefore) {
   EXPECT_EQ(told[2][0], 7);
 }
 
-TEST_F(UsbTransportOnTheBus, ARestIsSentUntilItIsTaken) {
+TEST_F(UsbTransportOnTheBus, ARestIsSentUntilItIsAccepted) {
   UsbTransport usb({0x1234, 6});
   usb.run(echoStream());
   bus->set({.out_refused = true});
@@ -360,7 +360,7 @@ TEST_F(UsbTransportOnTheBus, ARestIsSentUntilItIsTaken) {
   EXPECT_TRUE(soon([&] { return now(echo.told).size() == 1; }));
 }
 
-TEST_F(UsbTransportOnTheBus, RestsByItselfWhenNobodySendsAnything) {
+TEST_F(UsbTransportOnTheBus, RestsByItselfWithoutReports) {
   UsbTransport usb({0x1234, 6}, time.clock());
   UsbStream stream = echoStream();
   stream.rest_after = 10ms;
@@ -383,7 +383,7 @@ TEST_F(UsbTransportOnTheBus, RestsByItselfWhenNobodySendsAnything) {
   EXPECT_EQ(now(echo.told)[2][0], 6);
 }
 
-TEST_F(UsbTransportOnTheBus, SendsTheLastReportAndThenNothingEver) {
+TEST_F(UsbTransportOnTheBus, SendsTheLastReportAndNothingAfterIt) {
   UsbTransport usb({0x1234, 6}, time.clock());
   usb.run(echoStream());
   std::atomic<bool> over{false};
@@ -435,7 +435,7 @@ TEST_F(UsbTransportOnTheBus, TheLastReportOvertakesOneThatHangs) {
   EXPECT_EQ(now(echo.told).back()[0], 200);
 }
 
-TEST_F(UsbTransportOnTheBus, AfterALastReportNobodyTookNothingFollows) {
+TEST_F(UsbTransportOnTheBus, NothingFollowsALastReportThatWasNotAccepted) {
   UsbTransport usb({0x1234, 6}, time.clock());
   usb.run(echoStream());
   bus->set({.out_refused = true});
@@ -483,7 +483,7 @@ TEST_F(UsbTransportOnTheBus, IsGoneWhenTheHandleIsDead) {
   EXPECT_TRUE(soon([&] { return usb.state() == UsbState::gone; }));
 }
 
-TEST_F(UsbTransportOnTheBus, IsGoneWhenTransfersNeverComeBack) {
+TEST_F(UsbTransportOnTheBus, IsGoneWhenTransfersNeverComplete) {
   UsbTransport usb({0x1234, 6});
   UsbStream stream = echoStream();
   stream.in_deadline = 30ms;
@@ -502,7 +502,7 @@ TEST_F(UsbTransportOnTheBus, IsGoneWhenEverythingFails) {
   EXPECT_LT(usb.counters().errors, 200u) << "it pauses between";
 }
 
-TEST_F(UsbTransportOnTheBus, MayBeAskedBeforeItRunsAndAfterItStopped) {
+TEST_F(UsbTransportOnTheBus, CanBeQueriedBeforeItRunsAndAfterItStopped) {
   UsbTransport usb({0x1234, 6});
   usb.rest();
   EXPECT_FALSE(usb.sendLast(report(0), 10ms));

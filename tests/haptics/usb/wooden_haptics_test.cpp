@@ -148,7 +148,7 @@ TEST(WoodenAddress, NamesAPlaceAndABuild) {
     EXPECT_FALSE(woodenAddressed(wrong)) << wrong;
 }
 
-TEST_F(WoodenOnTheBus, IsWokenHomedAndThenKnowsWhereItIs) {
+TEST_F(WoodenOnTheBus, IsWokenHomedAndThenReportsItsPosition) {
   WoodenHaptics wooden(obedient());
   EXPECT_GE(now([&] { return unit.presets; }), 1);
   EXPECT_EQ(wooden.capabilities().serial, "0123456789");
@@ -169,7 +169,7 @@ TEST_F(WoodenOnTheBus, IsWokenHomedAndThenKnowsWhereItIs) {
   EXPECT_TRUE(soon([&] { return idle.seen.read().buttons == 1; }));
 }
 
-TEST_F(WoodenOnTheBus, KnowsHowFastItIsLed) {
+TEST_F(WoodenOnTheBus, ReportsItsVelocity) {
   WoodenHaptics wooden(obedient());
   Pusher idle(wooden, always(glm::dvec3(0.0)));
   wooden.start(idle, 1000.0);
@@ -189,7 +189,7 @@ TEST_F(WoodenOnTheBus, KnowsHowFastItIsLed) {
   }));
 }
 
-TEST_F(WoodenOnTheBus, PushesTheWayItIsTold) {
+TEST_F(WoodenOnTheBus, PushesInTheCommandedDirection) {
   WoodenHaptics wooden(obedient());
   Latest<glm::dvec3> wish(glm::dvec3(0.0));
   Pusher pusher(wooden, [&](const HandleState&) { return wish.read(); });
@@ -247,7 +247,7 @@ TEST_F(WoodenOnTheBus, ATickAllocatesNothing) {
   EXPECT_EQ(allocations, 0u);
 }
 
-TEST_F(WoodenOnTheBus, NoMotorIsToldMoreThanTheClamp) {
+TEST_F(WoodenOnTheBus, NoCurrentExceedsTheClamp) {
   WoodenSettings settings = obedient();
   settings.model = woodenHaptics2015();
   WoodenHaptics wooden(settings);
@@ -260,7 +260,7 @@ TEST_F(WoodenOnTheBus, NoMotorIsToldMoreThanTheClamp) {
   EXPECT_LE(now([&] { return unit.largest_mA; }), 2000);
 }
 
-TEST_F(WoodenOnTheBus, IsNotPushedBeforeItIsHomed) {
+TEST_F(WoodenOnTheBus, HasNoForceBeforeItIsHomed) {
   WoodenHaptics wooden(unattended());
   holdInTheMiddle();
   Pusher pusher(wooden, always({0.5, 0.5, 0.5}));
@@ -274,7 +274,7 @@ TEST_F(WoodenOnTheBus, IsNotPushedBeforeItIsHomed) {
   EXPECT_NEAR(pusher.seen.read().X_DH.translation_mm.z, 205.0, 0.1);
 }
 
-TEST_F(WoodenOnTheBus, ASwitchPressedLongAgoIsNotBelieved) {
+TEST_F(WoodenOnTheBus, ASwitchPressedBeforeTheStartIsIgnored) {
   bus->locked([&] { unit.pressSwitch(); });
   WoodenHaptics wooden(unattended());
   Pusher pusher(wooden, always({0.5, 0.5, 0.5}));
@@ -286,7 +286,7 @@ TEST_F(WoodenOnTheBus, ASwitchPressedLongAgoIsNotBelieved) {
   EXPECT_EQ(now([&] { return unit.largest_mA; }), 0);
 }
 
-TEST_F(WoodenOnTheBus, SaysWhyItCanNotBegin) {
+TEST_F(WoodenOnTheBus, ReportsWhyItCannotStart) {
   WoodenSettings impatient;
   impatient.prompt = [](const std::string&) { return false; };
   EXPECT_THAT(reasonOf([&] { WoodenHaptics wooden(impatient); }), testing::HasSubstr("not homed, given up"));
@@ -302,12 +302,12 @@ TEST_F(WoodenOnTheBus, SaysWhyItCanNotBegin) {
   EXPECT_EQ(now([&] { return unit.largest_mA; }), 0);
 }
 
-TEST_F(WoodenOnTheBus, SaysThatItDoesNotAnswer) {
+TEST_F(WoodenOnTheBus, ReportsThatItDoesNotAnswer) {
   bus->set({.in_silent = true});
   EXPECT_THAT(reasonOf([&] { WoodenHaptics wooden(unattended()); }), testing::HasSubstr("it does not answer"));
 }
 
-TEST_F(WoodenOnTheBus, MotorsOffBesideAHangingServoLetsGo) {
+TEST_F(WoodenOnTheBus, MotorsOffWorksWhileTheServoHangs) {
   // Time stands: no rest comes by itself after a silence.
   WoodenSettings settings = obedient();
   settings.clock = time.clock();
@@ -329,7 +329,7 @@ TEST_F(WoodenOnTheBus, MotorsOffBesideAHangingServoLetsGo) {
   EXPECT_TRUE(soon([&] { return pushes(); })) << "a later tick is obeyed";
 }
 
-TEST_F(WoodenOnTheBus, AHangingServoIsRestedWithoutAnybodyAsking) {
+TEST_F(WoodenOnTheBus, AHangingServoIsRestedAutomatically) {
   WoodenSettings settings = obedient();
   settings.clock = time.clock();
   WoodenHaptics wooden(settings);
@@ -352,7 +352,7 @@ TEST_F(WoodenOnTheBus, AHangingServoIsRestedWithoutAnybodyAsking) {
   EXPECT_TRUE(soon([&] { return pushes(); }));
 }
 
-TEST_F(WoodenOnTheBus, EndsWithNoForceAndThenNothingEver) {
+TEST_F(WoodenOnTheBus, EndsWithZeroForceAndNothingAfterIt) {
   // Also while the servo hangs: stop() waits for it, the motors do not, nor for the rest that follows a silence.
   WoodenSettings settings = obedient();
   settings.clock = time.clock();
@@ -378,7 +378,7 @@ TEST_F(WoodenOnTheBus, EndsWithNoForceAndThenNothingEver) {
   EXPECT_FALSE(now([&] { return unit.enabled; }));
 }
 
-TEST_F(WoodenOnTheBus, OutlivesALineThatIsSilentAndTheDevicesOwnWatchdog) {
+TEST_F(WoodenOnTheBus, SurvivesASilentLineAndTheDevicesWatchdog) {
   WoodenHaptics wooden(obedient());
   holdInTheMiddle();
   Pusher pusher(wooden, always({0.0, 0.0, 0.5}));
@@ -396,7 +396,7 @@ TEST_F(WoodenOnTheBus, OutlivesALineThatIsSilentAndTheDevicesOwnWatchdog) {
   EXPECT_TRUE(soon([&] { return pusher.seen.read().healthy && pushes(); }));
 }
 
-TEST_F(WoodenOnTheBus, OutlivesHaltsShortReportsAndGarbage) {
+TEST_F(WoodenOnTheBus, SurvivesHaltsShortReportsAndGarbage) {
   WoodenHaptics wooden(obedient());
   holdInTheMiddle();
   Pusher pusher(wooden, always({0.2, -0.3, 0.4}));
@@ -425,7 +425,7 @@ TEST_F(WoodenOnTheBus, OutlivesHaltsShortReportsAndGarbage) {
   }));
 }
 
-TEST_F(WoodenOnTheBus, OutlivesBeingUnpluggedInMidStroke) {
+TEST_F(WoodenOnTheBus, SurvivesBeingUnpluggedWhilePushing) {
   WoodenHaptics wooden(obedient());
   holdInTheMiddle();
   Pusher pusher(wooden, always({0.0, 0.0, 0.5}));
@@ -460,7 +460,7 @@ TEST_F(WoodenOnTheBus, IsServedAgainAfterItWasClosed) {
   EXPECT_FALSE(pushes());
 }
 
-TEST_F(WoodenOnTheBus, RefusesARateItCanNotBeServedAt) {
+TEST_F(WoodenOnTheBus, RefusesAnUnsupportedRate) {
   WoodenHaptics wooden(unattended());
   Pusher idle(wooden, always(glm::dvec3(0.0)));
   EXPECT_THROW(wooden.start(idle, 4000.0), DeviceError);

@@ -26,7 +26,7 @@ TEST(WoodenHoming, IsHomeOnceThePresetIsReadBack) {
   EXPECT_FALSE(homing.wantsPreset());
 }
 
-TEST(WoodenHoming, APressBeforeAnybodyLookedIsForgottenNotBelieved) {
+TEST(WoodenHoming, APressBeforeTheStartIsCleared) {
   WoodenHoming homing(kHome, true);
   homing.take(reads({5, 6, 7, 0, 0, 0}, true), false);
   EXPECT_TRUE(homing.wantsPreset());
@@ -81,7 +81,7 @@ TEST(WoodenHoming, LooksAtAGimbalOnlyWhereThereIsOne) {
   }
 }
 
-TEST(WoodenHoming, GoesOnPresettingUntilTheEncodersObey) {
+TEST(WoodenHoming, RepeatsThePresetUntilTheEncodersReadBack) {
   WoodenHoming homing(kHome, true);
   homing.ask();
   for (int i = 0; i < 1000; ++i) {

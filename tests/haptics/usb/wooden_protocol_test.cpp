@@ -53,7 +53,7 @@ TEST(WoodenProtocol, WritesNoCurrentThatIsNotANumber) {
   EXPECT_EQ(Bytes(report.content().begin(), report.content().end()), expected);
 }
 
-TEST(WoodenProtocol, PresetsThreeByAttributesAndThreeWhereTheCurrentsStand) {
+TEST(WoodenProtocol, PresetsThreeByAttributesAndThreeInPlaceOfTheCurrents) {
   const UsbReport report = encodeWoodenPreset({1, 2, 6000, 4, 5, -6});
   const Bytes expected{4, 0, 5, 0, 0xfa, 0xff, 1, 0, 1, 0, 2, 0, 0x70, 0x17};
   EXPECT_EQ(Bytes(report.content().begin(), report.content().end()), expected);

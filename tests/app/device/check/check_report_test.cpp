@@ -57,7 +57,7 @@ TEST(CheckReport, IsGoodOnlyToTheEndAndWithNothingWrong) {
   EXPECT_THAT(pageOf(report), HasSubstr("| rate | 1000 Hz | 700 Hz | **WRONG** |"));
 }
 
-TEST(CheckReport, KeepsATableATableWhateverADeviceCallsItself) {
+TEST(CheckReport, EscapesNamesThatWouldBreakTheTable) {
   CheckReport report = goodReport();
   report.device.model = "a|b\n# c";
   report.lines[0].found = "x|y\nz";

@@ -48,7 +48,7 @@ bool eventually(ConstantForceLoop& hand, Condition condition) {
   return condition();
 }
 
-TEST(ConstantForceLoop, PushesAsAskedWithinEveryLimitAndEndsMotorsOff) {
+TEST(ConstantForceLoop, DeliversTheRequestedForceWithinEveryLimitAndEndsWithMotorsOff) {
   StillDevice device;
   {
     ConstantForceLoop hand(haptics::ServedDevice::steppedManually(device), 1000.0);
@@ -68,7 +68,7 @@ TEST(ConstantForceLoop, PushesAsAskedWithinEveryLimitAndEndsMotorsOff) {
   EXPECT_FALSE(device.motors_on);
 }
 
-TEST(ConstantForceLoop, PushesNobodyWhileTheHandleIsInItsInkwell) {
+TEST(ConstantForceLoop, HasNoForceWhileTheHandleIsInItsInkwell) {
   StillDevice device;
   device.docked = true;
   ConstantForceLoop hand(haptics::ServedDevice::steppedManually(device), 1000.0);
@@ -81,7 +81,7 @@ TEST(ConstantForceLoop, PushesNobodyWhileTheHandleIsInItsInkwell) {
   EXPECT_TRUE(eventually(hand, [&] { return hand.newest().pushed_D_N.y > 0.8; }));
 }
 
-TEST(SimulatedOwner, DoesWhatItIsToldNoFasterThanItMay) {
+TEST(SimulatedOwner, PerformsItsTasksWithinTheSpeedLimit) {
   const haptics::PhantomMechanics& omni = *haptics::findSimulatedPhantom("omni");
   SimulatedOwner hand(omni);
   const haptics::HandScript script = hand.script();

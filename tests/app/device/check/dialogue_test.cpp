@@ -38,7 +38,7 @@ TEST(Dialogue, IsOverAtTheEndOfTheInput) {
   EXPECT_TRUE(dialogue.isOver());
 }
 
-TEST(Dialogue, TakesNoNumberThatIsNone) {
+TEST(Dialogue, AcceptsOnlyNumbersInRange) {
   std::istringstream answers("nan\ninf\n-inf\n0x10\n1 2 3x\n\n--1\n7\n");
   std::ostringstream words;
   EXPECT_EQ(Dialogue(answers, words).number("How much?", -2000.0, 2000.0), 7.0);

@@ -18,7 +18,7 @@ TEST(ForceScaleFit, FindsALineExactly) {
   EXPECT_NEAR(fit.worst_N, 0.0, 1e-12);
 }
 
-TEST(ForceScaleFit, KnowsItsOwnError) {
+TEST(ForceScaleFit, ReportsItsStandardError) {
   // Of many noisy weighings the scales scatter as the fits say.
   std::mt19937 random(3);
   std::normal_distribution<double> noise(0.0, 0.02);
