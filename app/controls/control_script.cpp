@@ -40,7 +40,7 @@ ControlScript::ControlScript(const std::vector<TimedRequest>& rows, const std::v
   int held = 0;
   for (const TimedRequest& row : rows) try {
       const std::uint64_t tick = tickAt(row.t_s, rate_Hz);
-      const auto add = [&](const ControlRequest& request) { requests_.push_back({tick, {request, row.where}}); };
+      const auto add = [&](const ControlRequest& request) { requests_.push_back({tick, request, row.where}); };
       if (!row.tool.empty())
         if (const int wanted = toolIn(tray, row.tool); std::exchange(held, wanted) != wanted)
           add({Control::tool, wanted});
@@ -57,8 +57,7 @@ ControlScript::ControlScript(const std::vector<TimedRequest>& rows, const std::v
 
 std::vector<ScriptedRequest> ControlScript::takeDue(std::uint64_t next_tick) {
   std::vector<ScriptedRequest> due;
-  for (; taken_ < requests_.size() && requests_[taken_].tick <= next_tick; ++taken_)
-    due.push_back(requests_[taken_].scripted);
+  for (; taken_ < requests_.size() && requests_[taken_].tick <= next_tick; ++taken_) due.push_back(requests_[taken_]);
   return due;
 }
 

@@ -14,6 +14,7 @@
 namespace app {
 
 struct ScriptedRequest {
+  std::uint64_t tick = 0;
   ControlRequest request;
   std::string where;  ///< file and row, for messages
   bool operator==(const ScriptedRequest&) const = default;
@@ -32,11 +33,7 @@ class ControlScript {
   std::optional<std::uint64_t> nextTick() const;
 
  private:
-  struct Due {
-    std::uint64_t tick;
-    ScriptedRequest scripted;
-  };
-  std::vector<Due> requests_;  ///< in order
+  std::vector<ScriptedRequest> requests_;  ///< in order
   std::size_t taken_ = 0;
 };
 

@@ -52,10 +52,4 @@ StationHealth Equipment::health() {
   return health;
 }
 
-void Equipment::describe(RehearsalStatus& status) const {
-  status.device = source_.name;
-  status.servo = workstation_->figures();
-  status.servo_rate_Hz = rate_Hz_;
-}
-
 }  // namespace app

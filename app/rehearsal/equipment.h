@@ -4,10 +4,10 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/controls/control.h"
-#include "app/instructor/rehearsal_status.h"
 #include "app/rehearsal/rehearsal_plan.h"
 #include "app/rehearsal/run_monitor.h"
 #include "app/station/unplug_watch.h"
@@ -19,6 +19,7 @@ class Equipment {
   /// Takes over the plan's open device. Throws as openPoseSource does.
   explicit Equipment(RehearsalPlan& plan);
 
+  const std::string& deviceName() const { return source_.name; }
   double rate_Hz() const { return rate_Hz_; }
   /// Of a pose source with an end.
   std::optional<double> duration_s() const { return source_.duration_s; }
@@ -37,7 +38,6 @@ class Equipment {
   /// From buttons and pedal, since the last call.
   std::vector<ControlRequest> takeRequests();
   StationHealth health();
-  void describe(RehearsalStatus& status) const;
 
  private:
   PoseSource source_;

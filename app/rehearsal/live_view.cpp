@@ -11,10 +11,6 @@ namespace {
 constexpr int kSnapshotSamples = 2;
 constexpr double kUsualRefresh_Hz = 60.0;
 
-double secondsBetween(LiveView::Clock::time_point from, LiveView::Clock::time_point to) {
-  return std::chrono::duration<double>(to - from).count();
-}
-
 SurgeonDisplay::Options displayOf(const RehearsalPlan& plan) {
   return {.windows = {.mode = plan.display,
                       .screen_px = plan.rig.screen.px,
@@ -40,8 +36,12 @@ LiveView::LiveView(const RehearsalPlan& plan, const haptics::Command& in_force, 
 }
 
 void LiveView::open() {
-  display_.emplace(
-      displayOf(plan_), [this](render::Backend backend) { return newRenderer(backend); }, report_);
+  const auto renderer_of_current_bone = [this](render::Backend backend) {
+    auto renderer = newRenderer({.backend = backend}, plan_.patient.ct.solid);
+    if (bone_ != nullptr) uploader_.uploadAllAgain(*bone_, *renderer);
+    return renderer;
+  };
+  display_.emplace(displayOf(plan_), renderer_of_current_bone, report_);
   quality_.emplace(*display_, plan_.quality_step);
   latency_ = MotionToPhoton(display_->refresh_Hz(), servo_rate_Hz_);
 }
@@ -51,12 +51,10 @@ SurgeonDisplay& LiveView::display() {
   return *display_;
 }
 
-/// In the current context, from the bone as it is.
-std::unique_ptr<render::FrameRenderer> LiveView::newRenderer(render::Backend backend) {
-  auto renderer =
-      patientRenderer(plan_.patient, in_force_.tool, plan_.cut, plan_.patient.ct.solid, {.backend = backend});
+std::unique_ptr<render::FrameRenderer> LiveView::newRenderer(const render::RenderOptions& options,
+                                                             std::span<const std::uint8_t> solid) const {
+  auto renderer = patientRenderer(plan_.patient, in_force_.tool, plan_.cut, solid, options);
   if (second_hand_ != nullptr) second_hand_->dress(*renderer);
-  if (bone_ != nullptr) uploader_.uploadAllAgain(*bone_, *renderer);
   return renderer;
 }
 
@@ -70,7 +68,8 @@ void LiveView::show(const render::Frame& frame) {
 
 void LiveView::waitUntilShown() {
   display_->waitUntilShown();
-  if (display_->window() != nullptr && pose_read_) latency_.add(secondsBetween(*pose_read_, display_->presentedAt()));
+  if (display_->window() != nullptr && pose_read_)
+    latency_.add(std::chrono::duration<double>(display_->presentedAt() - *pose_read_).count());
   pose_read_ = Clock::now();
 }
 
@@ -83,11 +82,8 @@ void LiveView::showInstrument() {
 }
 
 void LiveView::takeSnapshot(StereoSnapshot& snapshot, render::Frame frame, std::span<const std::uint8_t> solid) {
-  const auto renderer = display().newRenderer([&](render::Backend backend) {
-    return patientRenderer(plan_.patient, in_force_.tool, plan_.cut, solid,
-                           {.backend = backend, .samples = kSnapshotSamples});
-  });
-  if (second_hand_ != nullptr) second_hand_->dress(*renderer);
+  const auto renderer = display().newRenderer(
+      [&](render::Backend backend) { return newRenderer({.backend = backend, .samples = kSnapshotSamples}, solid); });
   frame.quality = {};
   frame.rig.screen.px = plan_.snapshot_px;
   snapshot.take(*renderer, frame);
@@ -103,13 +99,6 @@ void LiveView::describe(RehearsalStatus& status) {
   status.latency = latency_.now();
   status.quality_step = quality_->step();
   status.quality_is_held = quality_->isHeld();
-}
-
-void LiveView::describe(RehearsalFigures& figures) const {
-  figures.frames = frames_;
-  if (latency_.frames() == 0) return;
-  figures.latency = latency_.median();
-  figures.slow_latency = latency_.slow();
 }
 
 }  // namespace app

@@ -10,7 +10,6 @@
 #include "app/device/second_hand.h"
 #include "app/instructor/rehearsal_status.h"
 #include "app/rehearsal/rehearsal_plan.h"
-#include "app/rehearsal/rehearsal_summary.h"
 #include "app/view/brick_upload.h"
 #include "app/view/motion_to_photon.h"
 #include "app/view/quality_choice.h"
@@ -56,11 +55,11 @@ class LiveView {
   const MotionToPhoton& latency() const { return latency_; }
   std::uint64_t frames() const { return frames_; }
   void describe(RehearsalStatus& status);
-  void describe(RehearsalFigures& figures) const;
 
  private:
   void open();
-  std::unique_ptr<render::FrameRenderer> newRenderer(render::Backend backend);
+  std::unique_ptr<render::FrameRenderer> newRenderer(const render::RenderOptions& options,
+                                                     std::span<const std::uint8_t> solid) const;
 
   const RehearsalPlan& plan_;
   const haptics::Command& in_force_;

@@ -37,7 +37,9 @@ RehearsalStatus StatusReporter::status(const FrameState& state) {
     s.to_surgeon = messages.to_surgeon;
     s.to_instructor = messages.to_instructor;
   }
-  equipment_.describe(s);
+  s.device = equipment_.deviceName();
+  s.servo = equipment_.workstation().figures();
+  s.servo_rate_Hz = equipment_.rate_Hz();
   s.frames_per_s = frames_per_s_;
   view_.describe(s);
   monitor_.describe(s);
@@ -82,7 +84,11 @@ RehearsalFigures StatusReporter::figures(const FrameState& state) {
   figures.last = status(state);
   figures.last.trips = equipment_.workstation().trips();
   figures.removed_mm3 = equipment_.workstation().bone().removedByTissue_mm3();
-  view_.describe(figures);
+  figures.frames = view_.frames();
+  if (view_.latency().frames() > 0) {
+    figures.latency = view_.latency().median();
+    figures.slow_latency = view_.latency().slow();
+  }
   return figures;
 }
 

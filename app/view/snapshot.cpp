@@ -35,16 +35,12 @@ std::string saveNextSnapshot(const render::Image& image) {
 StereoSnapshot::StereoSnapshot(const std::string& path, bool overwrite)
     : left_(withWord(path, "left"), overwrite), right_(withWord(path, "right"), overwrite) {}
 
-void StereoSnapshot::save(const render::Image& left, const render::Image& right) {
-  savePng(left, left_);
-  savePng(right, right_);
-}
-
 void StereoSnapshot::take(render::FrameRenderer& renderer, const render::Frame& frame) {
   renderer.renderEye(frame, render::Eye::left);
   renderer.renderEye(frame, render::Eye::right);
   renderer.throwIfError();
-  save(renderer.readEye(render::Eye::left), renderer.readEye(render::Eye::right));
+  savePng(renderer.readEye(render::Eye::left), left_);
+  savePng(renderer.readEye(render::Eye::right), right_);
 }
 
 }  // namespace app

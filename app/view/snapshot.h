@@ -19,7 +19,6 @@ class StereoSnapshot {
  public:
   /// Throws CalibrationError if a file exists, unless `overwrite`.
   StereoSnapshot(const std::string& path, bool overwrite);
-  void save(const render::Image& left, const render::Image& right);
   /// Draws both eyes of the frame and saves them.
   void take(render::FrameRenderer& renderer, const render::Frame& frame);
 
