@@ -10,7 +10,7 @@
 #include "app/text/command_line.h"
 #include "app/text/list.h"
 #include "app/text/usage_error.h"
-#include "calibration/record/later_check.h"
+#include "calibration/record/drift_review.h"
 #include "calibration/record/rig_file.h"
 #include "calibration/record/rig_store.h"
 #include "calibration/rig.h"

@@ -9,7 +9,7 @@
 #include <type_traits>
 
 #include "assets/load_error.h"
-#include "calibration/geometry/finite.h"
+#include "calibration/geometry/pose.h"
 
 namespace assets {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "calibration/fit/rigid_fit.h"
-#include "calibration/geometry/finite.h"
+#include "calibration/geometry/pose.h"
 
 namespace calibration {
 namespace {

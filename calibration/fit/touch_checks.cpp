@@ -8,7 +8,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "calibration/arm/phantom_models.h"
-#include "calibration/geometry/finite.h"
+#include "calibration/geometry/pose.h"
 #include "calibration/geometry/units.h"
 
 namespace calibration {

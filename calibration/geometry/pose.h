@@ -3,10 +3,15 @@
 // allocation; any thread. No scale or shear: the workstation is 1:1.
 #pragma once
 
+#include <cmath>
+
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 
 namespace calibration {
+
+inline bool isFinite(const glm::dvec2& v) noexcept { return std::isfinite(v.x) && std::isfinite(v.y); }
+inline bool isFinite(const glm::dvec3& v) noexcept { return isFinite(glm::dvec2(v)) && std::isfinite(v.z); }
 
 /// A position in frame A, mm.
 template <class A>

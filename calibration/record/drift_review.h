@@ -10,6 +10,7 @@
 
 #include "calibration/record/control_chart.h"
 #include "calibration/record/drift_history.h"
+#include "calibration/record/rig_record.h"
 
 namespace calibration {
 
@@ -38,5 +39,9 @@ struct DriftReview {
   bool alarmed = false;                                ///< the newest entry has an alarm
 };
 DriftReview reviewOf(const std::vector<DriftEntry>& history);
+
+/// `record` with the latest check as its verification if that was worse: a base that was pushed later is not green. The
+/// history has RMS and bias only: the 95 % and largest errors are set to the RMS, their lower bound.
+RigRecord withLaterCheck(RigRecord record, const std::vector<DriftEntry>& history);
 
 }  // namespace calibration

@@ -169,7 +169,7 @@ Rig rigIn(const CheckedYaml& yaml, double rotation_tolerance) {
   if (yaml.has(yaml.root(), "X_WD2")) rig.second_X_WD = poseIn<World, Device>(yaml, "X_WD2", rotation_tolerance);
   if (yaml.has(yaml.root(), "device")) rig.device = deviceIn(yaml);
   if (yaml.has(yaml.root(), "kinematics")) {
-    if (!rig.device) yaml.refuse("'kinematics' without 'device'", "say whose arm it is");
+    if (!rig.device) yaml.refuse("'kinematics' without 'device'", "name its device");
     rig.arm = correctionIn(yaml, findPhantomModel(rig.device->model)->geometry);
   }
   return rig;

@@ -37,7 +37,7 @@ std::string_view implausibleParameter(const CameraModel& camera) {
 CameraModel cameraIn(const CheckedYaml& yaml, const cv::FileNode& node) {
   const auto size = yaml.numbers(node["size_px"], "size_px", 2);
   if (std::ranges::any_of(size, [](double v) { return v != std::floor(v) || !isWithin(v, kSmallest_px, kLargest_px); }))
-    yaml.refuse("'size_px' is not a image size", "give whole pixels between 16 and 16384");
+    yaml.refuse("'size_px' is not an image size", "give whole pixels between 16 and 16384");
   const auto focal = yaml.numbers(node["focal_px"], "focal_px", 2);
   const auto centre = yaml.numbers(node["centre_px"], "centre_px", 2);
   const auto bent = yaml.numbers(node["distortion"], "distortion", 4);

@@ -19,7 +19,7 @@ std::string percent(double ratio) { return fmt::format("{:+.1f} %", 100.0 * (rat
 
 }  // namespace
 
-SizeCheck checkedSize(const ScreenCorners& believed, const MeasuredBars& bars) {
+SizeCheck checkedSize(const ScreenCorners& nominal, const MeasuredBars& bars) {
   if (!std::isfinite(bars.drawn_mm + bars.across_mm + bars.up_mm))
     refuseScreenSize("a length is not finite", "type it again");
   if (bars.drawn_mm < kShortestBar_mm) refuseScreenSize("the bar is shorter than 50 mm", "draw one of 100 mm or more");
@@ -31,13 +31,13 @@ SizeCheck checkedSize(const ScreenCorners& believed, const MeasuredBars& bars) {
     refuseScreenSize("the picture is stretched by " + percent(across / up),
                      "set the monitor to its own resolution, no overscan");
 
-  SizeCheck check{.across = across, .up = up, .agrees = true, .corners = believed, .line = ""};
+  SizeCheck check{.across = across, .up = up, .agrees = true, .corners = nominal, .line = ""};
   check.agrees = std::max(std::abs(across - 1.0), std::abs(up - 1.0)) * bars.drawn_mm <= kRuler_mm;
   if (check.agrees) {
     check.line = "the screen's size is right within what a ruler reads (0.3 mm)";
     return check;
   }
-  check.corners = screenAround(believed.centre_mm(), across * believed.across_mm(), up * believed.up_mm(), believed.px);
+  check.corners = screenAround(nominal.centre_mm(), across * nominal.across_mm(), up * nominal.up_mm(), nominal.px);
   check.line = "the screen's size was corrected by " + percent(across) + " across and " + percent(up) + " up";
   return check;
 }

@@ -25,6 +25,6 @@ struct SizeCheck {
 
 /// Throws CalibrationError with the remedy: bars under 50 mm, more than 20 % off (another unit, another monitor, a
 /// cropped image), or stretched by more than 3 % one way (not the native resolution).
-SizeCheck checkedSize(const ScreenCorners& believed, const MeasuredBars& bars);
+SizeCheck checkedSize(const ScreenCorners& nominal, const MeasuredBars& bars);
 
 }  // namespace calibration

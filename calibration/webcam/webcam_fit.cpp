@@ -27,8 +27,6 @@ constexpr double kMinPredictedShare = 0.3;  ///< lower bound after noise subtrac
   throw CalibrationError("webcam: " + what + ", " + mend);
 }
 
-bool isFinite(const glm::dvec2& v) { return std::isfinite(v.x) && std::isfinite(v.y); }
-
 void checkPosition(const WebcamObservations& observations, std::size_t c) {
   const std::string where = "camera position " + std::to_string(c + 1);
   const CameraPosition& position = observations.positions[c];
@@ -196,12 +194,12 @@ Residual residualOf(const WebcamBundle& bundle, std::size_t c, const TipObservat
 }
 
 void measure(const WebcamObservations& observations, const WebcamBundle& bundle, WebcamFit& fit) {
-  double screen_px2 = 0.0, places = 0.0, tip_px2 = 0.0, tip_mm2 = 0.0;
+  double screen_px2 = 0.0, points = 0.0, tip_px2 = 0.0, tip_mm2 = 0.0;
   for (std::size_t c = 0; c < observations.positions.size(); ++c)
     for (const ScreenObservation& observation : observations.positions[c].screen) {
       const glm::dvec2 off = bundle.camera.pixelOf(bundle.X_CW[c] * observation.position_W) - observation.camera_px;
       screen_px2 += glm::dot(off, off);
-      places += 1.0;
+      points += 1.0;
     }
   std::vector<Touch> touches;
   eachTip(observations, [&](std::size_t c, std::size_t i, const TipObservation& observation) {
@@ -214,7 +212,7 @@ void measure(const WebcamObservations& observations, const WebcamBundle& bundle,
     tip_px2 += glm::dot(error.off_px, error.off_px);
     tip_mm2 += glm::dot(fit.residuals.back().error_mm.xyz, fit.residuals.back().error_mm.xyz);
   });
-  fit.screen_rms_px = std::sqrt(screen_px2 / places);
+  fit.screen_rms_px = std::sqrt(screen_px2 / points);
   fit.tip_rms_px = std::sqrt(tip_px2 / std::max(1, fit.used));
   fit.fre_rms_mm = upToThreeAxes(tip_mm2, fit.used);
   std::vector<std::size_t> all(touches.size());

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibration/geometry/finite.h"
+#include "calibration/geometry/pose.h"
 #include "haptics/bone/face_share_body.h"
 #include "haptics/bone/voxel_sphere.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibration/geometry/finite.h"
+#include "calibration/geometry/pose.h"
 
 namespace haptics {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "calibration/geometry/finite.h"
+#include "calibration/geometry/pose.h"
 #include "haptics/safety/joint_torques.h"
 
 namespace haptics {

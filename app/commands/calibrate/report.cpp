@@ -6,7 +6,7 @@
 #include "app/commands/calibrate/calibrate.h"
 #include "app/text/command_line.h"
 #include "calibration/output_file.h"
-#include "calibration/record/later_check.h"
+#include "calibration/record/drift_review.h"
 #include "calibration/record/utc.h"
 
 namespace app {
