@@ -126,7 +126,7 @@ int carve(const CarveOptions& options) {
   Cut cut;
   cut.head = headFrom(options.tool);
   cut.erosion.kind = *haptics::erosionOfKey(options.erosion);
-  std::map<std::string, Setting> settings = parametersOf(cut.erosion);
+  SettingMap settings = parametersOf(cut.erosion);
   settings.merge(parametersOf(cut.spindle));
   if (cut.erosion.kind != haptics::ErosionKind::time)
     settings["normal_force_N"] = {&cut.normal_force_N, 0.0, 100.0, "N"};

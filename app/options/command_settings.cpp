@@ -15,14 +15,14 @@
 namespace app {
 namespace {
 
-std::map<std::string, Setting> limitsOf(haptics::SafetyLimits& safety) {
+SettingMap limitsOf(haptics::SafetyLimits& safety) {
   return {{"peak_force_N", {&safety.peak_force_N, 0.1, 40.0, "N"}},
           {"slew_N_per_s", {&safety.slew_N_per_s, 1.0, 1e5, "N/s"}},
           {"peak_torque_Nmm", {&safety.peak_torque_Nmm, 0.0, 2000.0, "Nmm"}},
           {"slew_Nmm_per_s", {&safety.slew_Nmm_per_s, 1.0, 1e6, "Nmm/s"}}};
 }
 
-void readNumbers(assets::TomlReader& keys, const std::string& table, const std::map<std::string, Setting>& settings) {
+void readNumbers(assets::TomlReader& keys, const std::string& table, const SettingMap& settings) {
   for (const auto& [name, setting] : settings) {
     const std::string former(formerKey(name));
     const std::string& key = !former.empty() && keys.has(table, former) ? former : name;
@@ -31,7 +31,7 @@ void readNumbers(assets::TomlReader& keys, const std::string& table, const std::
 }
 
 /// Without `worn`, which is the erosion's.
-std::map<std::string, Setting> lawParametersOf(haptics::LawSettings& law) {
+SettingMap lawParametersOf(haptics::LawSettings& law) {
   auto settings = parametersOf(law);
   settings.erase("worn");
   return settings;
@@ -49,8 +49,8 @@ auto madeOf(assets::TomlReader& keys, const std::string& table, const std::strin
 }
 
 /// A line per difference.
-void compare(const std::string& table, const std::map<std::string, Setting>& before,
-             const std::map<std::string, Setting>& after, std::vector<std::string>& lines) {
+void compare(const std::string& table, const SettingMap& before, const SettingMap& after,
+             std::vector<std::string>& lines) {
   for (const auto& [key, setting] : after) {
     const auto was = before.find(key);
     if (was == before.end() || *was->second.value == *setting.value) continue;
@@ -66,8 +66,8 @@ std::string shaftText(const haptics::Shaft& shaft) {
 
 }  // namespace
 
-std::map<std::string, Setting> settingsOf(haptics::Command& command) {
-  std::map<std::string, Setting> settings = lawParametersOf(command.law);
+SettingMap settingsOf(haptics::Command& command) {
+  SettingMap settings = lawParametersOf(command.law);
   settings.merge(parametersOf(command.erosion));
   settings.merge(parametersOf(command.spindle));
   settings.merge(limitsOf(command.safety));

@@ -3,7 +3,6 @@
 // again; a stability check costs up to a millisecond.
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
@@ -17,7 +16,7 @@ class TomlReader;
 namespace app {
 
 /// Of the command's force law, erosion law, spindle and safety limits.
-std::map<std::string, Setting> settingsOf(haptics::Command& command);
+SettingMap settingsOf(haptics::Command& command);
 
 /// Applies `key=value` texts. `worn` sets force law and erosion alike, as both describe the same bur.
 void applyTo(haptics::Command& command, const std::vector<std::string>& texts);

@@ -19,9 +19,8 @@ std::string nameIn(const Table& table, Kind kind) {
 
 /// Rows of the current law and of every law.
 template <class Settings, class Kind>
-std::map<std::string, Setting> settingsIn(std::span<const haptics::Parameter<Settings, Kind>> table,
-                                          Settings& settings) {
-  std::map<std::string, Setting> found;
+SettingMap settingsIn(std::span<const haptics::Parameter<Settings, Kind>> table, Settings& settings) {
+  SettingMap found;
   for (const haptics::Parameter<Settings, Kind>& row : table) {
     if constexpr (requires { settings.kind; })
       if (row.law.value_or(settings.kind) != settings.kind) continue;
@@ -52,17 +51,9 @@ std::vector<std::string> erosionNames() {
   return names;
 }
 
-std::map<std::string, Setting> parametersOf(haptics::LawSettings& law) {
-  return settingsIn(haptics::lawParameters(), law);
-}
-
-std::map<std::string, Setting> parametersOf(haptics::ErosionSettings& erosion) {
-  return settingsIn(haptics::erosionParameters(), erosion);
-}
-
-std::map<std::string, Setting> parametersOf(haptics::SpindleSettings& spindle) {
-  return settingsIn(haptics::spindleParameters(), spindle);
-}
+SettingMap parametersOf(haptics::LawSettings& law) { return settingsIn(haptics::lawParameters(), law); }
+SettingMap parametersOf(haptics::ErosionSettings& law) { return settingsIn(haptics::erosionParameters(), law); }
+SettingMap parametersOf(haptics::SpindleSettings& spindle) { return settingsIn(haptics::spindleParameters(), spindle); }
 
 std::string erosionHelp() {
   std::string text = "Erosion laws and their --set keys:\n";

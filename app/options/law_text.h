@@ -2,7 +2,6 @@
 // haptics/bone/erosion and haptics/tool/spindle. Main thread.
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
@@ -23,9 +22,9 @@ std::string erosionName(haptics::ErosionKind law);
 haptics::LawKind lawNamed(const std::string& name, const std::string& where = "--law ");
 
 /// Settings of the current law, those of every law included.
-std::map<std::string, Setting> parametersOf(haptics::LawSettings& law);
-std::map<std::string, Setting> parametersOf(haptics::ErosionSettings& erosion);
-std::map<std::string, Setting> parametersOf(haptics::SpindleSettings& spindle);
+SettingMap parametersOf(haptics::LawSettings& law);
+SettingMap parametersOf(haptics::ErosionSettings& erosion);
+SettingMap parametersOf(haptics::SpindleSettings& spindle);
 
 /// For --help: erosion laws with formulae, keys with units.
 std::string erosionHelp();

@@ -14,8 +14,7 @@ namespace app {
 namespace {
 
 /// By key or by its former name.
-std::map<std::string, Setting>::const_iterator settingOf(const std::string& key,
-                                                         const std::map<std::string, Setting>& settings) {
+SettingMap::const_iterator settingOf(const std::string& key, const SettingMap& settings) {
   const auto found = settings.find(key);
   if (found != settings.end() || key.empty()) return found;
   return std::find_if(settings.begin(), settings.end(), [&](const auto& one) { return formerKey(one.first) == key; });
@@ -29,7 +28,7 @@ std::string_view formerKey(std::string_view key) {
   return {};
 }
 
-void applySettings(const std::vector<std::string>& texts, const std::map<std::string, Setting>& settings) {
+void applySettings(const std::vector<std::string>& texts, const SettingMap& settings) {
   std::set<std::string> seen;
   for (const std::string& text : texts) {
     const std::size_t equals = text.find('=');

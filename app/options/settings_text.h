@@ -16,11 +16,13 @@ struct Setting {
   std::string_view unit = "";
 };
 
+using SettingMap = std::map<std::string, Setting>;
+
 /// Former name of a key, still accepted from files and scripts; empty if it never changed.
 std::string_view formerKey(std::string_view key);
 
 /// Applies every `key=value`; unknown keys, duplicates and values out of range are refused.
-void applySettings(const std::vector<std::string>& texts, const std::map<std::string, Setting>& settings);
+void applySettings(const std::vector<std::string>& texts, const SettingMap& settings);
 
 /// Refuses an output that is one of the inputs: --force must not overwrite what is being read.
 void refuseSameFile(const std::string& output, std::initializer_list<std::string> inputs);

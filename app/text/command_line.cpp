@@ -51,68 +51,21 @@ OptionHelp helpOn(const CLI::Option& option) {
 
 }  // namespace
 
-Option& Option::required() {
-  option_->required();
-  return *this;
-}
-
-Option& Option::valueNamed(const std::string& name) {
-  option_->type_name(name);
-  return *this;
-}
-
-Option& Option::showsDefault() {
-  option_->capture_default_str();
-  return *this;
-}
-
-Option& Option::oneOf(const std::vector<std::string>& values) {
-  option_->check(CLI::IsMember(values));
-  return *this;
-}
-
-Option& Option::from(double low, double high) {
-  option_->check(numberRange(low, high));
-  return *this;
-}
-
-Option& Option::wholeFrom(int low, int high) {
-  option_->check(CLI::Range(low, high));
-  return *this;
-}
-
-Option& Option::existingFolder() {
-  option_->check(CLI::ExistingDirectory);
-  return *this;
-}
-
-Option& Option::numbers(int count) {
-  option_->expected(count);
-  return separatedByCommas();
-}
-
-Option& Option::separatedByCommas() {
-  option_->delimiter(',');
-  return *this;
-}
+Option& Option::required() { return chained(option_->required()); }
+Option& Option::valueNamed(const std::string& name) { return chained(option_->type_name(name)); }
+Option& Option::showsDefault() { return chained(option_->capture_default_str()); }
+Option& Option::oneOf(const std::vector<std::string>& values) { return chained(option_->check(CLI::IsMember(values))); }
+Option& Option::from(double low, double high) { return chained(option_->check(numberRange(low, high))); }
+Option& Option::wholeFrom(int low, int high) { return chained(option_->check(CLI::Range(low, high))); }
+Option& Option::existingFolder() { return chained(option_->check(CLI::ExistingDirectory)); }
+Option& Option::numbers(int count) { return chained(option_->expected(count)->delimiter(',')); }
+Option& Option::separatedByCommas() { return chained(option_->delimiter(',')); }
+Option& Option::hidden() { return chained(option_->group("")); }
+Option& Option::needs(const Option& other) { return chained(option_->needs(other.option_)); }
+Option& Option::excludes(const Option& other) { return chained(option_->excludes(other.option_)); }
 
 Option& Option::repeated() {
   option_->type_size(1)->expected(1)->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  return *this;
-}
-
-Option& Option::hidden() {
-  option_->group("");
-  return *this;
-}
-
-Option& Option::needs(const Option& other) {
-  option_->needs(other.option_);
-  return *this;
-}
-
-Option& Option::excludes(const Option& other) {
-  option_->excludes(other.option_);
   return *this;
 }
 

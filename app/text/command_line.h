@@ -42,6 +42,8 @@ class Option {
   Option& excludes(const Option& other);
 
  private:
+  Option& chained(const CLI::Option*) { return *this; }
+
   CLI::Option* option_;
 };
 

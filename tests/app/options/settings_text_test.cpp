@@ -17,7 +17,7 @@ TEST(SettingsText, SetsTheGivenKeys) {
 
 TEST(SettingsText, RefusesUnknownDuplicateAndOutOfRange) {
   double k = 1.0;
-  const std::map<std::string, Setting> settings{{"k", {&k, 0, 10, "N/mm"}}};
+  const SettingMap settings{{"k", {&k, 0, 10, "N/mm"}}};
   for (const std::vector<std::string>& bad : std::vector<std::vector<std::string>>{
            {"q=1"}, {"k"}, {"k="}, {"k=1x"}, {"k=nan"}, {"k=-1"}, {"k=11"}, {"k=1", "k=2"}, {""}, {"=1"}})
     EXPECT_THROW(applySettings(bad, settings), UsageError);
@@ -25,7 +25,7 @@ TEST(SettingsText, RefusesUnknownDuplicateAndOutOfRange) {
 
 TEST(SettingsText, AcceptsAFormerKeyButNotTogetherWithTheNewOne) {
   double factor = 0.1;
-  const std::map<std::string, Setting> settings{{"factor_mandibular_canal", {&factor, 0, 10}}};
+  const SettingMap settings{{"factor_mandibular_canal", {&factor, 0, 10}}};
   applySettings({"factor_canal=2"}, settings);
   EXPECT_EQ(factor, 2.0);
   EXPECT_THROW(applySettings({"factor_canal=2", "factor_mandibular_canal=3"}, settings), UsageError);
