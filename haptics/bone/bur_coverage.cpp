@@ -93,19 +93,12 @@ BurCoverage::BurCoverage(const assets::VolumeGrid& grid, const BurShape& shape,
   eta = kVoxelSphereRadius / parts;
   voxel_reach = eta + 0.5 * std::sqrt(3.0) * (1.0 - 1.0 / parts);
 
-  // Clipped as doubles: an extreme pose must not overflow an index.
+  glm::dvec3 low, high;
   for (int axis = 0; axis < 3; ++axis) {
-    const double cos = to_P[2][axis];
-    const double low = std::max(static_cast<double>(-margin), centre[axis] - touchedReach(*this, -cos));
-    const double high =
-        std::min(static_cast<double>(grid.size[axis] - 1 + margin), centre[axis] + touchedReach(*this, cos));
-    if (!(low <= high)) {
-      last = first - 1;
-      return;
-    }
-    first[axis] = static_cast<int>(std::ceil(low));
-    last[axis] = static_cast<int>(std::floor(high));
+    low[axis] = centre[axis] - touchedReach(*this, -to_P[2][axis]);
+    high[axis] = centre[axis] + touchedReach(*this, to_P[2][axis]);
   }
+  box = {grid, low, high, margin};
 }
 
 double BurCoverage::beyondFaces(const glm::dvec3& p_T) const {

@@ -11,6 +11,7 @@
 #include "calibration/geometry/frames.h"
 #include "calibration/geometry/pose.h"
 #include "haptics/bone/head_kernels.h"
+#include "haptics/bone/solid_field.h"
 #include "haptics/tool/bur_shape.h"
 
 namespace haptics {
@@ -27,8 +28,6 @@ class BurCoverage {
   BurCoverage(const assets::VolumeGrid& grid, const BurShape& shape,
               const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT, int margin = 0) noexcept;
 
-  bool empty() const { return first.x > last.x || first.y > last.y || first.z > last.z; }
-
   /// Of a voxel's centre; voxels.
   glm::dvec3 positionInTool(glm::ivec3 ijk) const { return to_T * (glm::dvec3(ijk) - centre); }
 
@@ -42,9 +41,9 @@ class BurCoverage {
   bool hasKernel() const { return parts == 1 && !(kind == ShapeKind::sphere && radius < 2.0); }
   HeadShape kernelShape() const;
 
-  glm::ivec3 first{0}, last{-1};  ///< inclusive box of the voxels touched, clipped
-  glm::dvec3 centre{0.0};         ///< T's origin, continuous index
-  glm::dmat3 to_T{1.0};           ///< rotates an index difference into T
+  VoxelBox box;            ///< of the voxels touched
+  glm::dvec3 centre{0.0};  ///< T's origin, continuous index
+  glm::dmat3 to_T{1.0};    ///< rotates an index difference into T
   ShapeKind kind = ShapeKind::sphere;
   double radius = 0.0, half = 0.0;        ///< voxels; half the length
   double side_sin = 0.0, side_cos = 1.0;  ///< of the cone's half angle

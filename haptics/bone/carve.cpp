@@ -133,7 +133,8 @@ class Cutter {
   }
 
   template <class Coverage>
-  void cut(Coverage& shape, glm::ivec3 first, glm::ivec3 last) {
+  void cut(Coverage& shape, const VoxelBox& box) {
+    const glm::ivec3 first = box.first / kBlockEdge, last = box.last / kBlockEdge;
     const SolidField field = bone_.field();
     for (int z = first.z; z <= last.z; ++z)
       for (int y = first.y; y <= last.y; ++y) {
@@ -166,19 +167,6 @@ class Cutter {
   std::array<std::int64_t, assets::kTissueCount> steps_{};
 };
 
-/// Blocks of a box of voxels, clipped as doubles: an extreme pose must not overflow an index.
-bool blocksOf(const SolidField& field, const glm::dvec3& low, const glm::dvec3& high, glm::ivec3& first,
-              glm::ivec3& last) {
-  for (int axis = 0; axis < 3; ++axis) {
-    const double from = std::max(0.0, low[axis]),
-                 to = std::min(static_cast<double>(field.grid.size[axis] - 1), high[axis]);
-    if (!(from <= to)) return false;
-    first[axis] = static_cast<int>(from) / kBlockEdge;
-    last[axis] = static_cast<int>(to) / kBlockEdge;
-  }
-  return true;
-}
-
 }  // namespace
 
 CarveResult& CarveResult::operator+=(const CarveResult& part) noexcept {
@@ -207,10 +195,10 @@ CarveResult carveSphere(CarvedBone& bone, const Point<Patient>& centre_P, double
   const glm::dvec3 centre = bone.grid().indexFromPoint(centre_P.mm);
   if (!(radius > 0.0) || !std::isfinite(radius) || !std::isfinite(glm::length(centre))) return {};
   RoundCoverage shape(centre, radius, bone.grid().spacing_mm, step);
-  glm::ivec3 first, last;
-  if (!blocksOf(bone.field(), centre - shape.outer(), centre + shape.outer(), first, last)) return {};
+  const VoxelBox box(bone.grid(), centre - shape.outer(), centre + shape.outer());
+  if (box.empty()) return {};
   Cutter cutter(bone, step, tick, std::max(interleave, 1), strokes);
-  cutter.cut(shape, first, last);
+  cutter.cut(shape, box);
   return cutter.result();
 }
 
@@ -219,10 +207,10 @@ CarveResult carveTool(CarvedBone& bone, const BurShape& head, const calibration:
   if (head.kind == ShapeKind::sphere)
     return carveSphere(bone, {X_PT.translation_mm}, head.radius_mm, step, tick, interleave, strokes);
   const BurCoverage bur(bone.grid(), head, X_PT);
-  if (bur.empty()) return {};
+  if (bur.box.empty()) return {};
   HeadCoverage shape(bur, bone.grid().spacing_mm, step);
   Cutter cutter(bone, step, tick, std::max(interleave, 1), strokes);
-  cutter.cut(shape, bur.first / kBlockEdge, bur.last / kBlockEdge);
+  cutter.cut(shape, bur.box);
   return cutter.result();
 }
 

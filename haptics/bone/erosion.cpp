@@ -27,19 +27,10 @@ constexpr auto kTable = withTissueFactors<kFactor, &ErosionSettings::tissue_fact
 
 }  // namespace
 
-std::optional<ErosionKind> erosionOfKey(std::string_view key) {
-  for (const ErosionName& law : kErosions)
-    if (law.key == key) return law.kind;
-  return std::nullopt;
-}
+std::optional<ErosionKind> erosionOfKey(std::string_view key) { return kindOfKey(kErosions, key); }
 
 std::span<const ErosionParameter> erosionParameters() { return kTable; }
 
-ErosionSettings sanitised(const ErosionSettings& settings) {
-  ErosionSettings safe = settings;
-  if (static_cast<std::size_t>(safe.kind) >= kErosions.size()) safe.kind = ErosionSettings{}.kind;
-  clampToTable<kTable>(safe);
-  return safe;
-}
+ErosionSettings sanitised(const ErosionSettings& settings) { return sanitisedBy<kTable>(settings, kErosions.size()); }
 
 }  // namespace haptics

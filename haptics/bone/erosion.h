@@ -47,11 +47,7 @@ struct ErosionSettings {
   }();
 };
 
-struct ErosionName {
-  ErosionKind kind;
-  std::string_view key;  ///< in files and on the command line
-  std::string_view formula, good_for;
-};
+using ErosionName = LawEntry<ErosionKind>;
 inline constexpr std::array<ErosionName, 3> kErosions = {{
     {ErosionKind::time, "time", "dV/dt = k f V w/w_rated", "a steady rate that needs no force: teaching, comparison"},
     {ErosionKind::dose, "dose", "dV/dt = alpha f mu F_n v_c", "pressing harder cuts faster, the tip of a bur hardly"},

@@ -3,6 +3,7 @@
 // copyable.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "assets/volume_grid.h"
@@ -35,6 +36,27 @@ struct SolidField {
   }
   std::uint8_t solidAt(glm::ivec3 ijk) const { return solid[offsetOf(ijk)]; }
   std::uint8_t labelAt(glm::ivec3 ijk) const { return label == nullptr ? std::uint8_t{0} : label[offsetOf(ijk)]; }
+};
+
+/// Inclusive box of voxels, clipped to the grid and a margin around it. Clipped as doubles: an extreme pose must not
+/// overflow an index.
+struct VoxelBox {
+  glm::ivec3 first{0}, last{-1};
+
+  VoxelBox() = default;
+  /// The voxels with centres in low..high, continuous indices; empty also for NaN.
+  VoxelBox(const assets::VolumeGrid& grid, const glm::dvec3& low, const glm::dvec3& high, int margin = 0) {
+    VoxelBox box;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double from = low[axis] > -margin ? low[axis] : -margin, end = grid.size[axis] - 1 + margin;
+      const double to = high[axis] < end ? high[axis] : end;
+      if (!(from <= to)) return;
+      box.first[axis] = static_cast<int>(std::ceil(from));
+      box.last[axis] = static_cast<int>(std::floor(to));
+    }
+    *this = box;
+  }
+  bool empty() const { return first.x > last.x || first.y > last.y || first.z > last.z; }
 };
 
 }  // namespace haptics

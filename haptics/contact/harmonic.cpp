@@ -30,11 +30,11 @@ constexpr Within kWithin = [] {
   return within;
 }();
 
-/// The bur in voxels, and the blocks it may touch.
+/// The bur in voxels, and the voxels it may touch.
 struct Reach {
   glm::dvec3 centre{0.0};
   double radius = 0.0;
-  glm::ivec3 first{0}, last{-1};  ///< blocks, inclusive
+  VoxelBox box;
 };
 
 Reach reachOf(const ToolInBone& at) {
@@ -42,17 +42,7 @@ Reach reachOf(const ToolInBone& at) {
   reach.centre = at.field.grid.indexFromPoint(at.X_PT.translation_mm);
   reach.radius = at.head.radius_mm / at.field.grid.spacing_mm;
   const double outer = reach.radius + kVoxelChargeRadius;
-  if (!std::isfinite(glm::length(reach.centre)) || !std::isfinite(outer)) return reach;
-  glm::ivec3 first{0}, last{-1};
-  for (int axis = 0; axis < 3; ++axis) {
-    const double low = std::max(0.0, reach.centre[axis] - outer);
-    const double high = std::min(at.field.grid.size[axis] - 1.0, reach.centre[axis] + outer);
-    if (!(low <= high)) return reach;
-    first[axis] = static_cast<int>(low) / kBlockEdge;
-    last[axis] = static_cast<int>(high) / kBlockEdge;
-  }
-  reach.first = first;
-  reach.last = last;
+  reach.box = {at.field.grid, reach.centre - outer, reach.centre + outer};
   return reach;
 }
 
@@ -130,9 +120,11 @@ class HarmonicSum {
 
   glm::dvec3 sum() {
     const double outer = reach_.radius + kVoxelChargeRadius, inner = reach_.radius - kVoxelChargeRadius;
-    for (int k = reach_.first.z; k <= reach_.last.z; ++k)
-      for (int j = reach_.first.y; j <= reach_.last.y; ++j)
-        for (int i = reach_.first.x; i <= reach_.last.x; ++i) {
+    if (reach_.box.empty()) return {};
+    const glm::ivec3 first = reach_.box.first / kBlockEdge, last = reach_.box.last / kBlockEdge;
+    for (int k = first.z; k <= last.z; ++k)
+      for (int j = first.y; j <= last.y; ++j)
+        for (int i = first.x; i <= last.x; ++i) {
           const glm::ivec3 block(i, j, k);
           const std::size_t at = field_.blockAt(block);
           if (field_.weight[at] == 0) continue;
@@ -211,12 +203,10 @@ calibration::Vector<calibration::Patient> harmonicForce_mm(const ToolInBone& at)
 calibration::Vector<calibration::Patient> harmonicForceVoxelByVoxel_mm(const ToolInBone& at) noexcept {
   constexpr double kB = kVoxelChargeRadius;
   const Reach reach = reachOf(at);
-  const glm::ivec3 first = kBlockEdge * reach.first;
-  const glm::ivec3 last = glm::min(kBlockEdge * reach.last + 3, at.field.grid.size - 1);
   glm::dvec3 force(0.0);
-  for (int k = first.z; k <= last.z; ++k)
-    for (int j = first.y; j <= last.y; ++j)
-      for (int i = first.x; i <= last.x; ++i) {
+  for (int k = reach.box.first.z; k <= reach.box.last.z; ++k)
+    for (int j = reach.box.first.y; j <= reach.box.last.y; ++j)
+      for (int i = reach.box.first.x; i <= reach.box.last.x; ++i) {
         const glm::dvec3 from = glm::dvec3(i, j, k) - reach.centre;
         const double d = glm::length(from);
         if (d <= 0.0) continue;

@@ -27,8 +27,6 @@ Contact contactOf(const LawSettings& law, const ToolInBone& at, const LawState& 
   return {};
 }
 
-Contact contactOf(const LawSettings& law, const ToolInBone& at) noexcept { return contactOf(law, at, LawState{}); }
-
 void updateLawState(const LawSettings& law, const ToolInBone& at, const Contact& contact, LawState& state) noexcept {
   if (law.kind == LawKind::forssim) updateForssimState(law.forssim, at, contact, state);
   if (law.kind == LawKind::points) updatePointsState(contact, state);

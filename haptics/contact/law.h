@@ -9,9 +9,7 @@
 namespace haptics {
 
 /// Reads `state` only, so that a proxy may evaluate several times a tick.
-Contact contactOf(const LawSettings& law, const ToolInBone& at, const LawState& state) noexcept;
-/// With a new state.
-Contact contactOf(const LawSettings& law, const ToolInBone& at) noexcept;
+Contact contactOf(const LawSettings& law, const ToolInBone& at, const LawState& state = {}) noexcept;
 
 /// From the last evaluation of a tick. Out of contact it only ends a hold.
 void updateLawState(const LawSettings& law, const ToolInBone& at, const Contact& contact, LawState& state) noexcept;

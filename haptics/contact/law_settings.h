@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <string_view>
 
 #include "haptics/contact/agus.h"
 #include "haptics/contact/contact.h"
@@ -14,6 +13,7 @@
 #include "haptics/contact/machining.h"
 #include "haptics/contact/points.h"
 #include "haptics/contact/shell.h"
+#include "haptics/tool/parameter_table.h"
 
 namespace haptics {
 
@@ -32,13 +32,7 @@ struct LawSettings {
   HarmonicParameters harmonic;
 };
 
-struct LawName {
-  LawKind kind;
-  std::string_view key;      ///< in files and on the command line
-  std::string_view formula;  ///< on flat bone, or the law itself
-  std::string_view good_for;
-};
-
+using LawName = LawEntry<LawKind>;
 inline constexpr std::array<LawName, 7> kLaws = {{
     {LawKind::agus, "agus", "F = k h", "the default: one stiffness for every bur and depth"},
     {LawKind::forssim, "forssim", "F = P V / R^3",

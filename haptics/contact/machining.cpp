@@ -40,18 +40,12 @@ void visitEngaged(const ToolInBone& at, const Engagement& where, Visit&& visit) 
   });
 }
 
-/// A force and its torque about T's origin, in T.
-struct Wrench {
+/// Force and torque about T's origin, in T.
+struct Load {
   glm::dvec3 force{0.0}, torque{0.0};
   void add(const glm::dvec3& position, const glm::dvec3& part) {
     force += part;
     torque += glm::cross(position, part);
-  }
-  Wrench scaled(double s) const { return {s * force, s * torque}; }
-  Wrench& operator+=(const Wrench& other) {
-    force += other.force;
-    torque += other.torque;
-    return *this;
   }
 };
 
@@ -139,7 +133,7 @@ Contact machiningContact(const MachiningParameters& parameters, const ToolInBone
   const Flutes flutes(parameters, at);
   const double cutting = cuttingShare(parameters, at.motion.spindle_rad_per_s);
   const double pressure = wallPressure_N_per_mm2(parameters, at.head);
-  Wrench turning, wall;
+  Load turning, wall;
   double area = 0.0, hardness = 0.0;
   visitEngaged(at, where, [&](const Patch& patch, double solid, std::uint8_t label) {
     const double hard = solid * at.tissue.factor[label];
@@ -148,19 +142,18 @@ Contact machiningContact(const MachiningParameters& parameters, const ToolInBone
     area += solid * patch.area_mm2;
     hardness += hard * patch.area_mm2;
   });
-  Wrench mean = turning.scaled(cutting);
-  mean += wall.scaled(1.0 - cutting);
-  contact.force_P_N.xyz = at.X_PT.rotation * mean.force;
-  contact.torque_P_Nmm.xyz = at.X_PT.rotation * mean.torque;
+  const glm::dvec3 mean_N = cutting * turning.force + (1.0 - cutting) * wall.force;
+  contact.force_P_N.xyz = at.X_PT.rotation * mean_N;
+  contact.torque_P_Nmm.xyz = at.X_PT.rotation * (cutting * turning.torque + (1.0 - cutting) * wall.torque);
   if (at.head.kind != ShapeKind::sphere)
-    contact.stiffness_N_per_mm = glm::length(mean.force) / contact.depth_mm;  // the secant: no steeper than at touch
+    contact.stiffness_N_per_mm = glm::length(mean_N) / contact.depth_mm;  // the secant: no steeper than at touch
   else if (area > 0.0)
     contact.stiffness_N_per_mm =
         hardness / area * rimStiffness_N_per_mm(parameters, at, where.towards_T, contact.depth_mm, cutting);
 
   // The rotating part, limited for hand and device.
   const double share = std::clamp(parameters.vibration_share, 0.0, kMaxVibrationShare);
-  const double amplitude = cutting * std::min(kMaxVibration_N, share * glm::length(mean.force));
+  const double amplitude = cutting * std::min(kMaxVibration_N, share * glm::length(mean_N));
   contact.vibration_P_N.xyz = at.X_PT.rotation * (amplitude * glm::dvec3(std::cos(at.motion.vibration_phase_rad),
                                                                          std::sin(at.motion.vibration_phase_rad), 0.0));
   return contact;

@@ -28,23 +28,8 @@ const auto kSpiral = [] {
   return directions;
 }();
 
-/// Voxels a ball may touch, clipped to the volume as doubles: an extreme pose must not overflow an index.
-struct Box {
-  glm::ivec3 first{0}, last{-1};
-  bool empty() const { return first.x > last.x || first.y > last.y || first.z > last.z; }
-};
-Box boxOf(const SolidField& field, const glm::dvec3& centre, double outer) {
-  Box box;
-  if (!std::isfinite(glm::length(centre)) || !std::isfinite(outer)) return box;
-  glm::ivec3 first{0}, last{-1};
-  for (int axis = 0; axis < 3; ++axis) {
-    const double low = std::max(0.0, centre[axis] - outer);
-    const double high = std::min(static_cast<double>(field.grid.size[axis] - 1), centre[axis] + outer);
-    if (!(low <= high)) return box;
-    first[axis] = static_cast<int>(std::ceil(low));
-    last[axis] = static_cast<int>(std::floor(high));
-  }
-  return {first, last};
+VoxelBox boxOf(const SolidField& field, const glm::dvec3& centre, double outer) {
+  return {field.grid, centre - outer, centre + outer};
 }
 
 SphereOverlap scaled(double weight, const glm::dvec3& moment, double grey, double stiff, double spacing_mm) {
@@ -118,7 +103,7 @@ SphereOverlap sphereOverlapVoxelByVoxel(const SolidField& field, const Point<Pat
   const double radius = radius_mm / field.grid.spacing_mm;
   if (!(radius > 0.0)) return {};
   const glm::dvec3 centre = field.grid.indexFromPoint(centre_P.mm);
-  const Box box = boxOf(field, centre, radius + kVoxelSphereRadius);
+  const VoxelBox box = boxOf(field, centre, radius + kVoxelSphereRadius);
   double volume = 0.0, grey = 0.0, stiff = 0.0;
   glm::dvec3 moment{0.0};
   for (int k = box.first.z; k <= box.last.z; ++k)

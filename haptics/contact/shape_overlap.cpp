@@ -281,9 +281,10 @@ ShapeOverlap shapeOverlap(const SolidField& field, const BurShape& shape,
                           const calibration::Pose<calibration::Patient, calibration::Tool>& X_PT,
                           const TissueStiffness& tissue) noexcept {
   const BurCoverage bur(field.grid, shape, X_PT, kBeyond);
-  if (bur.empty()) return {};
+  if (bur.box.empty()) return {};
   BlockSums blocks(field, bur, tissue);
-  const glm::ivec3 first = (bur.first + kBlockEdge) / kBlockEdge - 1, last = (bur.last + kBlockEdge) / kBlockEdge - 1;
+  const glm::ivec3 first = (bur.box.first + kBlockEdge) / kBlockEdge - 1,
+                   last = (bur.box.last + kBlockEdge) / kBlockEdge - 1;
   const AxisSpans spans(bur);
   for (int k = first.z; k <= last.z; ++k) {
     const Span in_plane = spans.within({-bur.half, bur.half}, 2, k);

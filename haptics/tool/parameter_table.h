@@ -68,6 +68,21 @@ constexpr auto withTissueFactors(const std::array<Parameter<Settings, Kind>, kRo
   return all;
 }
 
+/// A law by its key, for files, command line and help.
+template <class Kind>
+struct LawEntry {
+  Kind kind;
+  std::string_view key;
+  std::string_view formula;  ///< on flat bone, or the law itself
+  std::string_view good_for;
+};
+template <class Kind, std::size_t kLawCount>
+std::optional<Kind> kindOfKey(const std::array<LawEntry<Kind>, kLawCount>& laws, std::string_view key) {
+  for (const LawEntry<Kind>& law : laws)
+    if (law.key == key) return law.kind;
+  return std::nullopt;
+}
+
 /// Clamps every value of kTable to its range; the default for a value that is not finite.
 template <const auto& kTable, class Settings>
 void clampToTable(Settings& safe) {
@@ -79,6 +94,15 @@ void clampToTable(Settings& safe) {
   };
   [&]<std::size_t... kRow>(std::index_sequence<kRow...>) { (clamp_row.template operator()<kRow>(), ...); }
   (std::make_index_sequence<kTable.size()>{});
+}
+
+/// The same; the default law for one of `kinds` or more.
+template <const auto& kTable, class Settings>
+Settings sanitisedBy(const Settings& settings, std::size_t kinds) {
+  Settings safe = settings;
+  if (static_cast<std::size_t>(safe.kind) >= kinds) safe.kind = Settings{}.kind;
+  clampToTable<kTable>(safe);
+  return safe;
 }
 
 }  // namespace haptics

@@ -45,9 +45,9 @@ ShapeOverlap slowShapeOverlap(const SolidField& field, const BurShape& shape, co
   const auto solidAt = [&](glm::ivec3 ijk) { return field.grid.contains(ijk) ? field.solidAt(ijk) / 255.0 : 0.0; };
   ShapeOverlap sum;
   glm::dvec3 moment_T(0.0), rise(0.0);
-  for (int k = bur.first.z; k <= bur.last.z; ++k)
-    for (int j = bur.first.y; j <= bur.last.y; ++j)
-      for (int i = bur.first.x; i <= bur.last.x; ++i) {
+  for (int k = bur.box.first.z; k <= bur.box.last.z; ++k)
+    for (int j = bur.box.first.y; j <= bur.box.last.y; ++j)
+      for (int i = bur.box.first.x; i <= bur.box.last.x; ++i) {
         const glm::ivec3 ijk{i, j, k};
         const VoxelShare share = bur.shareAt(ijk);
         for (int axis = 0; axis < 3; ++axis) {
