@@ -11,7 +11,7 @@ struct Machine {
   InstructionSet chosen = InstructionSet::portable;
 };
 
-Machine ask() {
+Machine detect() {
   Machine machine;
 #if defined(__x86_64__)
   machine.avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
@@ -19,15 +19,15 @@ Machine ask() {
                    __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
 #endif
   const char* name = std::getenv("MOLAR_INSTRUCTIONS");
-  const std::string_view wish = name == nullptr ? "" : name;
-  if (wish == "portable") return machine;
+  const std::string_view requested = name == nullptr ? "" : name;
+  if (requested == "portable") return machine;
   if (machine.avx2) machine.chosen = InstructionSet::avx2;
-  if (machine.avx512 && wish != "avx2") machine.chosen = InstructionSet::avx512;
+  if (machine.avx512 && requested != "avx2") machine.chosen = InstructionSet::avx512;
   return machine;
 }
 
-/// Asked before main, so that the servo finds the answer.
-const Machine kMachine = ask();
+/// Initialised before main, so that the servo only loads it.
+const Machine kMachine = detect();
 
 }  // namespace
 

@@ -1,6 +1,5 @@
-// The patient of a rehearsal: CT, mandibular canal, operative site, gingiva and face, all in frame P (LPS mm).
-// Contains no name, date or identifier of a person; the folder's name names the case. Immutable after loading; any
-// thread.
+// The patient of a rehearsal: CT, mandibular canal, operative site, gingiva and face, all in frame P (LPS mm). Contains
+// no name, date or identifier of a person; the folder's name names the case. Immutable after loading; any thread.
 #pragma once
 
 #include <optional>

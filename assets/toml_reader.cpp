@@ -23,19 +23,6 @@ std::string nameOf(const std::string& table, const std::string& key) {
   return key.empty() ? "[" + table + "]" : "[" + table + "] " + key;
 }
 
-bool isPrintable(std::string_view text) {
-  for (const char c : text)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) return false;
-  return true;
-}
-
-/// A name from the file as shown in a message: short, one line.
-std::string shown(std::string_view name) {
-  std::string text;
-  for (const char c : name.substr(0, 40)) text += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
-  return text;
-}
-
 std::string rangeText(const NumberRange& range) {
   const std::string unit = range.unit.empty() ? "" : " " + std::string(range.unit);
   return numberText(range.low) + " to " + numberText(range.high) + unit;
@@ -110,7 +97,7 @@ TomlReader::TomlReader(std::string_view text, std::string where) : document_(std
     document_->root = toml::parse(text);
   } catch (const toml::parse_error& error) {
     throw LoadError(document_->where + ": line " + std::to_string(error.source().begin.line) + ": not valid TOML (" +
-                    shown(error.description()) + "), correct it");
+                    printable(std::string(error.description()), 40) + "), correct it");
   }
 }
 
@@ -143,7 +130,7 @@ int TomlReader::lineOf(const std::string& table, const std::string& key) const {
 void TomlReader::refuse(const std::string& table, const std::string& key, const std::string& reason) const {
   const int line = lineOf(table, key);
   throw LoadError(document_->where + ": " + (line > 0 ? "line " + std::to_string(line) + ": " : "") +
-                  nameOf(shown(table), shown(key)) + ": " + reason);
+                  nameOf(printable(table, 40), printable(key, 40)) + ": " + reason);
 }
 
 double TomlReader::number(const std::string& table, const std::string& key, const NumberRange& range,
@@ -181,7 +168,7 @@ std::string TomlReader::text(const std::string& table, const std::string& key, s
   if (!node && fallback) return *fallback;
   if (!node) refuse(table, key, "it is missing, give a text in quotes");
   const std::optional<std::string> value = node->is_string() ? node->value<std::string>() : std::nullopt;
-  if (!value || value->size() > kMaxText || !isPrintable(*value))
+  if (!value || *value != printable(*value, kMaxText))
     refuse(table, key, "give one line of text in quotes, at most 300 bytes");
   return *value;
 }

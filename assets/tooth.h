@@ -1,7 +1,6 @@
-// FDI tooth numbers (ISO 3950): quadrant, then position from the midline. Permanent
-// teeth 11..18, 21..28, 31..38, 41..48; primary teeth 51..55, 61..65, 71..75, 81..85. Right and left are the patient's.
-// Directions in frame P (LPS), unit, are the mean tangents of a normal arch, not measurements. Pure functions; any
-// thread.
+// FDI tooth numbers (ISO 3950): quadrant, then position from the midline. Permanent teeth 11..18, 21..28, 31..38,
+// 41..48; primary teeth 51..55, 61..65, 71..75, 81..85. Right and left are the patient's. Directions in frame P (LPS),
+// unit, are the mean tangents of a normal arch, not measurements. Pure functions; any thread.
 #pragma once
 
 #include <array>

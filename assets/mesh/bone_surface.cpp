@@ -65,12 +65,6 @@ std::vector<glm::ivec3> BoneSurface::update(const SolidVoxels& solid, std::span<
   return rebuilt;
 }
 
-std::size_t BoneSurface::triangleCount() const {
-  std::size_t count = 0;
-  for (const SurfacePatch& patch : patches_) count += patch.triangles.size() / 3;
-  return count;
-}
-
 MeshPart BoneSurface::mergedMesh(std::string name) const {
   MeshPart part;
   part.name = std::move(name);

@@ -25,7 +25,6 @@ class BoneSurface {
   /// i fastest.
   std::size_t brickIndex(glm::ivec3 brick) const;
   const SurfacePatch& patch(glm::ivec3 brick) const { return patches_[brickIndex(brick)]; }
-  std::size_t triangleCount() const;
 
   /// All patches as one mesh, each vertex once, in lattice order; area-weighted normals.
   MeshPart mergedMesh(std::string name) const;

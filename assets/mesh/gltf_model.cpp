@@ -95,7 +95,7 @@ void checkAsset(const tinygltf::Model& model, const std::string& path) {
   }
   const auto foreign = std::ranges::find_if_not(model.extensionsRequired, isSupported);
   if (foreign != model.extensionsRequired.end()) {
-    throw LoadError(path + ": requires the extension '" + printable(*foreign) +
+    throw LoadError(path + ": requires the extension '" + printable(*foreign, 100) +
                     "', export without compression or custom extensions");
   }
 }
@@ -128,16 +128,10 @@ tinygltf::Model openGltfModel(const std::string& path) {
   }
   if (is_read || !model.asset.version.empty()) checkAsset(model, path);
   if (!is_read) {
-    throw LoadError(path + ": not read by tinygltf (" + printable(error) + "), check the file with a glTF validator");
+    throw LoadError(path + ": not read by tinygltf (" + printable(error, 100) +
+                    "), check the file with a glTF validator");
   }
   return model;
-}
-
-std::string printable(std::string text) {
-  text.resize(std::min<std::size_t>(text.size(), 100));
-  std::ranges::replace_if(
-      text, [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
-  return text;
 }
 
 }  // namespace assets

@@ -14,7 +14,4 @@ namespace assets {
 /// Throws LoadError (one line: what, where, what to do).
 tinygltf::Model openGltfModel(const std::string& path);
 
-/// Text from a file on one line: at most 100 characters, no control characters.
-std::string printable(std::string text);
-
 }  // namespace assets

@@ -202,7 +202,7 @@ class Scene {
 
   void add(int mesh_index, Placement placement) {
     const tinygltf::Mesh& mesh = model_.meshes.at(static_cast<std::size_t>(mesh_index));
-    placement.name = printable(placement.name);
+    placement.name = printable(placement.name, 100, ' ');
     if (placement.name.empty()) placement.name = "Part " + std::to_string(out_.parts.size() + 1);
     for (const tinygltf::Primitive& primitive : mesh.primitives) {
       const auto position = primitive.attributes.find("POSITION");

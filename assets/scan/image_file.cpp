@@ -22,85 +22,54 @@ namespace assets {
 
 namespace {
 
-/// Voxels of a file as integers of type `Value`; throws for the first that does not fit.
+/// Voxels of a file as integers of type `Value`. Throws LoadError for the first that does not fit, with `advice`.
 template <class Value>
-class IntegerVoxels {
- public:
-  IntegerVoxels(const ImageHeader& header, const char* advice) : header_(header), advice_(advice) {
-    values_.reserve(header.voxelCount());
-    forEachVoxelBlock(header, [this](std::span<const char> bytes) { append(bytes); });
-  }
-
-  std::vector<Value> take() { return std::move(values_); }
-
- private:
-  void append(std::span<const char> bytes) {
-    withVoxelType(header_.type, [&](auto stored) { appendStored<decltype(stored)>(bytes); });
-  }
-
-  template <class Stored>
-  void appendStored(std::span<const char> bytes) {
-    const bool is_reversed = header_.is_big_endian != (std::endian::native == std::endian::big);
-    const bool is_rescaled = header_.isRescaled();
+std::vector<Value> voxelsOf(const ImageHeader& header, const char* advice) {
+  constexpr Value kMin = std::numeric_limits<Value>::min(), kMax = std::numeric_limits<Value>::max();
+  const auto rounded = [&](auto number) {
+    if constexpr (std::is_floating_point_v<decltype(number)>) {
+      if (!std::isfinite(number))
+        refuseScan(header.path, "it holds values that are not finite; export the volume again");
+      const auto nearest = std::round(number);
+      if (nearest >= kMin && nearest <= kMax) return static_cast<Value>(nearest);
+    } else {
+      if (std::in_range<Value>(number)) return static_cast<Value>(number);
+    }
+    refuseScan(header.path, "the value " + std::to_string(number) + " lies outside " + std::to_string(kMin) + ".." +
+                                std::to_string(kMax) + "; " + advice);
+  };
+  const bool is_reversed = header.is_big_endian != (std::endian::native == std::endian::big);
+  const bool is_rescaled = header.isRescaled();
+  std::vector<Value> values;
+  const auto append = [&]<class Stored>(std::span<const char> bytes, Stored) {
     for (std::size_t at = 0; at < bytes.size(); at += sizeof(Stored)) {
       std::array<char, sizeof(Stored)> raw;
       std::memcpy(raw.data(), bytes.data() + at, raw.size());
       if (is_reversed) std::reverse(raw.begin(), raw.end());
       const auto stored = std::bit_cast<Stored>(raw);
-      values_.push_back(is_rescaled ? rounded(header_.slope * static_cast<double>(stored) + header_.intercept)
-                                    : rounded(stored));
+      values.push_back(is_rescaled ? rounded(header.slope * static_cast<double>(stored) + header.intercept)
+                                   : rounded(stored));
     }
+  };
+  try {
+    values.reserve(header.voxelCount());
+    forEachVoxelBlock(header, [&](std::span<const char> bytes) {
+      withVoxelType(header.type, [&](auto zero) { append(bytes, zero); });
+    });
+    return values;
+  } catch (const std::bad_alloc&) {
+    refuseScan(header.path, "there is not enough memory for it; crop it");
+  }
+}
+
+/// A file with its header read and its length checked; its voxels are not allocated yet.
+struct Scan {
+  explicit Scan(const std::string& path) : header(readImageHeader(path)), resampling(header.geometry, path) {
+    requireDataLength(header);
   }
 
-  template <class Number>
-  Value rounded(Number number) const {
-    if constexpr (std::is_floating_point_v<Number>) {
-      if (!std::isfinite(number))
-        refuseScan(header_.path, "it holds values that are not finite; export the volume again");
-      const Number nearest = std::round(number);
-      if (!(nearest >= static_cast<Number>(kMin) && nearest <= static_cast<Number>(kMax))) refuse(number);
-      return static_cast<Value>(nearest);
-    } else {
-      if (!std::in_range<Value>(number)) refuse(number);
-      return static_cast<Value>(number);
-    }
-  }
-
-  template <class Number>
-  [[noreturn]] void refuse(Number number) const {
-    refuseScan(header_.path, "the value " + std::to_string(number) + " lies outside " + std::to_string(kMin) + ".." +
-                                 std::to_string(kMax) + "; " + advice_);
-  }
-
-  static constexpr Value kMin = std::numeric_limits<Value>::min();
-  static constexpr Value kMax = std::numeric_limits<Value>::max();
-  const ImageHeader& header_;
-  const char* advice_;
-  std::vector<Value> values_;
-};
-
-/// A file with its header read; its voxels are not allocated yet.
-class Scan {
- public:
-  explicit Scan(const std::string& path) : header_(readImageHeader(path)), resampling_(header_.geometry, path) {
-    requireDataLength(header_);
-  }
-
-  const Resampling& resampling() const { return resampling_; }
-  bool orientationKnown() const { return header_.orientation_known; }
-
-  template <class Value>
-  std::vector<Value> values(const char* advice) const {
-    try {
-      return IntegerVoxels<Value>(header_, advice).take();
-    } catch (const std::bad_alloc&) {
-      refuseScan(header_.path, "there is not enough memory for it; crop it");
-    }
-  }
-
- private:
-  ImageHeader header_;
-  Resampling resampling_;
+  ImageHeader header;
+  Resampling resampling;
 };
 
 template <class Value>
@@ -117,20 +86,21 @@ NrrdArray arrayOf(const VolumeGrid& grid, VoxelType type, const std::vector<Valu
 
 HounsfieldImage readHounsfield(const std::string& path, const std::optional<GreyWindow>& window) {
   const Scan scan(path);
-  std::vector<std::int16_t> values = scan.values<std::int16_t>("rescale it to Hounsfield");
+  auto values = voxelsOf<std::int16_t>(scan.header, "rescale it to Hounsfield");
   applyGreyWindow(values, window, path);
-  return {scan.resampling().grid(), scan.resampling().linear(std::move(values), kAirHu), scan.orientationKnown()};
+  return {scan.resampling.grid(), scan.resampling.linear(std::move(values), kAirHu), scan.header.orientation_known};
 }
 
 ByteImage readSolid(const std::string& path) {
   const Scan scan(path);
-  return {scan.resampling().grid(),
-          scan.resampling().linear(scan.values<std::uint8_t>("store solid as 0..255, or read it as hu"), 0)};
+  auto values = voxelsOf<std::uint8_t>(scan.header, "store solid as 0..255, or read it as hu");
+  return {scan.resampling.grid(), scan.resampling.linear(std::move(values), 0)};
 }
 
 ByteImage readLabels(const std::string& path) {
   const Scan scan(path);
-  return {scan.resampling().grid(), scan.resampling().nearest(scan.values<std::uint8_t>("store labels as 0..255"), 0)};
+  auto values = voxelsOf<std::uint8_t>(scan.header, "store labels as 0..255");
+  return {scan.resampling.grid(), scan.resampling.nearest(std::move(values), 0)};
 }
 
 bool isSameGrid(const VolumeGrid& a, const VolumeGrid& b) {

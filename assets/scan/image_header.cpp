@@ -9,21 +9,16 @@
 
 namespace assets {
 
-namespace {
-
-ImageHeader readByExtension(const RegularFile& file) {
-  const std::string& path = file.path();
-  const std::string name = lowerCase(path);
-  if (name.ends_with(".nrrd") || name.ends_with(".nhdr")) return readNrrdHeader(file);
-  if (name.ends_with(".nii") || name.ends_with(".nii.gz")) return readNiftiHeader(file);
-  if (name.ends_with(".mha") || name.ends_with(".mhd")) return readMetaHeader(file);
-  throw LoadError(path + ": its extension is not known; give a .nrrd, .nhdr, .nii, .nii.gz, .mha or .mhd file");
-}
-
-}  // namespace
-
 ImageHeader readImageHeader(const std::string& path) {
-  ImageHeader header = readByExtension(RegularFile(path));
+  const std::string name = lowerCase(path);
+  const auto read = name.ends_with(".nrrd") || name.ends_with(".nhdr")    ? readNrrdHeader
+                    : name.ends_with(".nii") || name.ends_with(".nii.gz") ? readNiftiHeader
+                    : name.ends_with(".mha") || name.ends_with(".mhd")    ? readMetaHeader
+                                                                          : nullptr;
+  const RegularFile file(path);
+  if (!read)
+    throw LoadError(path + ": its extension is not known; give a .nrrd, .nhdr, .nii, .nii.gz, .mha or .mhd file");
+  ImageHeader header = read(file);
   requireValidGeometry(header.geometry, path);
   return header;
 }

@@ -176,12 +176,9 @@ CtVolume volumeFromAnswer(int answer_descriptor, int wait_status, const std::str
   if (WEXITSTATUS(wait_status) == kOutOfMemory)
     throw LoadError(path + ": there is not enough memory to read it; close other programs, or import the scan again");
   if (WEXITSTATUS(wait_status) == kRefused) {
-    constexpr std::uint64_t kLongest = 1 << 13;
-    std::string text(std::min(bytes, kLongest), ' ');
+    std::string text(std::min<std::uint64_t>(bytes, 1 << 13), ' ');
     if (text.empty() || !readAll(answer_descriptor, std::as_writable_bytes(std::span(text)), 0)) refuseFailure(path);
-    std::replace_if(
-        text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, '?');
-    throw LoadError(text);
+    throw LoadError(printable(text, text.size()));
   }
 
   Head head;

@@ -100,8 +100,8 @@ std::vector<VoxelFile> listedDataFiles(const std::string& header_path, const std
 }
 
 std::uint64_t NumberedNames::count() const {
-  constexpr std::int64_t kFarthest = 1'000'000'000;
-  if (std::max({std::abs(first), std::abs(last), std::abs(step)}) > kFarthest || step == 0) return 0;
+  constexpr std::int64_t kMaxNumber = 1'000'000'000;
+  if (std::max({std::abs(first), std::abs(last), std::abs(step)}) > kMaxNumber || step == 0) return 0;
   return static_cast<std::uint64_t>(std::max<std::int64_t>((last - first) / step + 1, 0));
 }
 

@@ -30,8 +30,6 @@ class DistanceLattice {
   /// One point of the zero surface per lattice edge that crosses it.
   std::vector<glm::dvec3> surfacePoints_mm() const;
 
-  const BoundingBox& box() const { return box_; }
-
  private:
   std::size_t index(int i, int j, int k) const;
   double clampToBox(const glm::dvec3& point_mm, glm::dvec3& lattice_coordinates) const;

@@ -35,7 +35,7 @@ double gingivalCuff_mm(const glm::dvec3& q, double tooth_mm) {
 
 [[noreturn]] void refuseMandibularCanal(double distance_mm) {
   std::ostringstream line;
-  line << "synthetic jaw: a canal " << distance_mm << " mm from the third molar does not fit into the bone beside it; "
+  line << "synthetic jaw: a canal " << distance_mm << " mm from the third molar does not fit into the bone next to it; "
        << "choose another depth, canal distance or Winter angle";
   throw LoadError(line.str());
 }

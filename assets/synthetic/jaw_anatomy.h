@@ -47,9 +47,7 @@ class JawAnatomy {
   TissueDistances at(const glm::dvec3& p_J, const NearbyStructures& nearby) const;
 
   const PlacedTooth& thirdMolar() const { return teeth_.back(); }
-  const std::vector<PlacedTooth>& teeth() const { return teeth_; }
   const MandibularCanalPath& mandibularCanal() const { return *mandibular_canal_; }
-  const DentalArch& arch() const { return arch_; }
 
  private:
   void placeMandibularCanal(double distance_mm);

@@ -22,8 +22,6 @@ class MandibleShape {
   /// Cortical thickness: large inferior and buccal, small lingual at the third molar.
   double cortex_mm(const glm::dvec3& p_J, const ArchCoordinates& arch) const;
 
-  const BoundingBox& box() const { return outer_.box(); }
-
  private:
   ArchStation anterior_cut_;
   DistanceLattice outer_;

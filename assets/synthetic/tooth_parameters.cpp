@@ -1,21 +1,8 @@
 #include "assets/synthetic/tooth_parameters.h"
 
-#include <algorithm>
 #include <array>
 
 namespace assets {
-double ToothParameters::crownHeight_mm() const {
-  double height_mm = 0.0;
-  for (const CuspParameters& cusp : cusps) height_mm = std::max(height_mm, cusp.height_mm);
-  return height_mm;
-}
-
-double ToothParameters::rootLength_mm() const {
-  double length_mm = 0.0;
-  for (const RootParameters& root : roots) length_mm = std::max(length_mm, root.length_mm);
-  return length_mm;
-}
-
 const ToothParameters& lowerToothParameters(int position) {
   static const std::array<ToothParameters, 5> kLowerTeeth = {{
       // First premolar.

@@ -56,9 +56,6 @@ struct ToothParameters {
   std::vector<GrooveParameters> grooves;
   std::vector<RootParameters> roots;
   double pulp = 1.0;  ///< size of chamber and canals, 1 = adult, larger when young
-
-  double crownHeight_mm() const;
-  double rootLength_mm() const;
 };
 
 /// The lower tooth at `position` 4..8 from the midline (first premolar .. third molar).

@@ -14,17 +14,17 @@ constexpr double kPulpLattice_mm = 0.25;
 constexpr double kMargin_mm = 1.6;
 
 /// Height of the occlusal surface: upper envelope of cusps and ridges; the valleys are the fissures.
-double occlusalHeight_mm(const ToothParameters& form, const glm::dvec2& p) {
+double occlusalHeight_mm(const ToothParameters& tooth, const glm::dvec2& p) {
   constexpr double kRounding_mm = 0.45, kFissure_mm = 0.16;
   double height_mm = -100.0;
-  for (const CuspParameters& cusp : form.cusps) {
+  for (const CuspParameters& cusp : tooth.cusps) {
     const glm::dvec2 d = p - cusp.tip_mm;
     const double r = std::sqrt(glm::dot(d, d) + kRounding_mm * kRounding_mm) - kRounding_mm;
     const double ridge = std::cos(4.0 * (std::atan2(d.y, d.x) - cusp.ridge_rad));
     const double slope = cusp.slope * (1.0 - 0.30 * ridge * smoothStep(0.0, 1.5, r));
     height_mm = smoothMax(height_mm, cusp.height_mm - slope * r, kFissure_mm);
   }
-  for (const RidgeParameters& ridge : form.ridges) {
+  for (const RidgeParameters& ridge : tooth.ridges) {
     const double t = nearestOnSegment(p, ridge.from_mm, ridge.to_mm);
     const double r = glm::distance(p, ridge.from_mm + t * (ridge.to_mm - ridge.from_mm));
     const double rounded = std::sqrt(r * r + 0.3 * 0.3) - 0.3;
@@ -33,17 +33,17 @@ double occlusalHeight_mm(const ToothParameters& form, const glm::dvec2& p) {
   return height_mm;
 }
 
-double crown_mm(const ToothParameters& form, const glm::dvec3& p) {
+double crown_mm(const ToothParameters& tooth, const glm::dvec3& p) {
   // Half widths at this height, quadrant by quadrant.
-  const double mesiodistal_mm = profile(p.x > 0.0 ? form.mesial_mm : form.distal_mm, p.z);
-  const double buccolingual_mm = profile(p.y > 0.0 ? form.buccal_mm : form.lingual_mm, p.z);
+  const double mesiodistal_mm = profile(p.x > 0.0 ? tooth.mesial_mm : tooth.distal_mm, p.z);
+  const double buccolingual_mm = profile(p.y > 0.0 ? tooth.buccal_mm : tooth.lingual_mm, p.z);
 
   // Side: superellipse, pinched along the developmental grooves.
   const double u = std::abs(p.x) / mesiodistal_mm, v = std::abs(p.y) / buccolingual_mm;
-  double radius = std::pow(std::pow(u, form.squareness) + std::pow(v, form.squareness), 1.0 / form.squareness);
+  double radius = std::pow(std::pow(u, tooth.squareness) + std::pow(v, tooth.squareness), 1.0 / tooth.squareness);
   const double direction_rad = std::atan2(p.y, p.x);
   double pinch = 0.0;
-  for (const GrooveParameters& groove : form.grooves) {
+  for (const GrooveParameters& groove : tooth.grooves) {
     const double turn = std::remainder(direction_rad - groove.direction_rad, 2.0 * calibration::kPi) / groove.width_rad;
     pinch += groove.depth * std::exp(-turn * turn);
   }
@@ -51,7 +51,7 @@ double crown_mm(const ToothParameters& form, const glm::dvec3& p) {
   const double side_mm = (radius - 1.0) * std::min(mesiodistal_mm, buccolingual_mm);
 
   // Below every fissure the occlusal surface is far.
-  const double top_mm = p.z < 2.5 ? -2.0 : 0.82 * (p.z - occlusalHeight_mm(form, {p.x, p.y}));
+  const double top_mm = p.z < 2.5 ? -2.0 : 0.82 * (p.z - occlusalHeight_mm(tooth, {p.x, p.y}));
   const double bottom_mm = -2.2 - p.z;
   return smoothMax(smoothMax(side_mm, top_mm, 0.8), bottom_mm, 0.5);
 }
@@ -75,37 +75,37 @@ double root_mm(const RootParameters& root, const glm::dvec3& p) {
   return smoothMax(smoothMax(side_mm, end_mm, 2.2), p.z - 1.5, 0.5);
 }
 
-double outerField_mm(const ToothParameters& form, const glm::dvec3& p) {
-  if (p.z < -4.0 && form.roots.size() == 1) return root_mm(form.roots[0], p);
-  const double distance_mm = p.z < -4.0 ? 1e3 : crown_mm(form, p);
+double outerField_mm(const ToothParameters& tooth, const glm::dvec3& p) {
+  if (p.z < -4.0 && tooth.roots.size() == 1) return root_mm(tooth.roots[0], p);
+  const double distance_mm = p.z < -4.0 ? 1e3 : crown_mm(tooth, p);
   if (p.z > 3.5) return distance_mm;
   double roots_mm = 1e3;
-  for (const RootParameters& root : form.roots) roots_mm = smoothMin(roots_mm, root_mm(root, p), 1.3);
+  for (const RootParameters& root : tooth.roots) roots_mm = smoothMin(roots_mm, root_mm(root, p), 1.3);
   return smoothMin(distance_mm, roots_mm, 1.0);
 }
 
 /// Chamber under the crown, horns towards the cusps, canals down the roots.
-double pulpField_mm(const ToothParameters& form, const glm::dvec3& p) {
-  const double width_mm = form.mesial_mm[1].value, depth_mm = form.buccal_mm[1].value;
-  const glm::dvec3 half(0.52 * width_mm * form.pulp, 0.46 * depth_mm * form.pulp, 1.25 * form.pulp);
+double pulpField_mm(const ToothParameters& tooth, const glm::dvec3& p) {
+  const double width_mm = tooth.mesial_mm[1].value, depth_mm = tooth.buccal_mm[1].value;
+  const glm::dvec3 half(0.52 * width_mm * tooth.pulp, 0.46 * depth_mm * tooth.pulp, 1.25 * tooth.pulp);
   const glm::dvec3 q = (p - glm::dvec3(0.0, 0.0, 0.4)) / half;
   double distance_mm =
       (std::pow(std::pow(std::abs(q.x), 3.0) + std::pow(std::abs(q.y), 3.0) + std::pow(std::abs(q.z), 3.0), 1.0 / 3.0) -
        1.0) *
       std::min({half.x, half.y, half.z});
 
-  for (const CuspParameters& cusp : form.cusps) {
+  for (const CuspParameters& cusp : tooth.cusps) {
     const glm::dvec3 from(0.3 * cusp.tip_mm, 0.6), to(0.66 * cusp.tip_mm, 0.42 * cusp.height_mm);
     const double t = nearestOnSegment(p, from, to);
-    const double radius_mm = form.pulp * (0.62 - 0.42 * t);
+    const double radius_mm = tooth.pulp * (0.62 - 0.42 * t);
     distance_mm = smoothMin(distance_mm, glm::distance(p, from + t * (to - from)) - radius_mm, 0.6);
   }
 
-  for (const RootParameters& root : form.roots) {
+  for (const RootParameters& root : tooth.roots) {
     const double t = std::clamp(-p.z / root.length_mm, 0.0, 0.985);
     const double spread_mm = root.canals == 2 ? 0.5 * glm::mix(root.neck_half_mm.y, root.apex_half_mm.y, t) : 0.0;
     const double outside_mm = std::max({0.0, -p.z - 0.985 * root.length_mm, p.z});
-    const double radius_mm = form.pulp * (0.62 * (1.0 - t) * (1.0 - 0.3 * t) + 0.16);
+    const double radius_mm = tooth.pulp * (0.62 * (1.0 - t) * (1.0 - 0.3 * t) + 0.16);
     for (int canal = 0; canal < root.canals; ++canal) {
       const glm::dvec2 d =
           glm::dvec2(p.x, p.y) - rootCentre_mm(root, t) - glm::dvec2(0.0, canal == 0 ? -spread_mm : spread_mm);
@@ -119,22 +119,21 @@ double pulpField_mm(const ToothParameters& form, const glm::dvec3& p) {
   return distance_mm;
 }
 
-BoundingBox boxOf(const ToothParameters& form) {
-  const auto widest = [](const std::vector<ProfileKnot>& knots) {
+BoundingBox boxOf(const ToothParameters& tooth) {
+  const auto largest = [](const auto& parts, auto member) {
     double value = 0.0;
-    for (const ProfileKnot& knot : knots) value = std::max(value, knot.value);
-    return value;
+    for (const auto& part : parts) value = std::max(value, part.*member);
+    return value + kMargin_mm;
   };
-  return {
-      {-widest(form.distal_mm) - kMargin_mm, -widest(form.lingual_mm) - kMargin_mm, -form.rootLength_mm() - kMargin_mm},
-      {widest(form.mesial_mm) + kMargin_mm, widest(form.buccal_mm) + kMargin_mm, form.crownHeight_mm() + kMargin_mm}};
+  const auto widest = [&](const std::vector<ProfileKnot>& knots) { return largest(knots, &ProfileKnot::value); };
+  return {{-widest(tooth.distal_mm), -widest(tooth.lingual_mm), -largest(tooth.roots, &RootParameters::length_mm)},
+          {widest(tooth.mesial_mm), widest(tooth.buccal_mm), largest(tooth.cusps, &CuspParameters::height_mm)}};
 }
 
 }  // namespace
 
 ToothShape::ToothShape(const ToothParameters& parameters)
-    : parameters_(parameters),
-      outer_(boxOf(parameters), kToothLattice_mm,
+    : outer_(boxOf(parameters), kToothLattice_mm,
              [&parameters](const glm::dvec3& p) { return outerField_mm(parameters, p); }),
       pulp_(boxOf(parameters), kPulpLattice_mm,
             [&parameters](const glm::dvec3& p) { return pulpField_mm(parameters, p); }) {

@@ -22,11 +22,8 @@ class ToothShape {
   double heightAboveCervix_mm(const glm::dvec3& p) const;
 
   std::vector<glm::dvec3> surfacePoints_mm() const { return outer_.surfacePoints_mm(); }
-  const BoundingBox& box() const { return outer_.box(); }
-  const ToothParameters& parameters() const { return parameters_; }
 
  private:
-  ToothParameters parameters_;
   DistanceLattice outer_;
   DistanceLattice pulp_;
 };

@@ -21,7 +21,7 @@
 
 namespace on_disk {
 
-/// A folder of this test's own, gone at its end.
+/// A temporary folder, removed at the end.
 class Folder {
  public:
   Folder() { std::filesystem::create_directory(path_); }
@@ -56,7 +56,7 @@ inline std::string packed(const std::string& bytes, int window = kGzip) {
   return out;
 }
 
-/// The first place of it; it must be there.
+/// First occurrence, which must exist.
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
@@ -71,7 +71,7 @@ inline std::string read(const std::string& path) {
   return bytes.str();
 }
 
-/// A scan in LPS: column a of `step` leads along the file's axis a.
+/// A scan in LPS: column a of `step` is the file's axis a.
 struct Scan {
   glm::ivec3 size{0};
   glm::dmat3 step{1.0};
@@ -83,7 +83,7 @@ std::string bytesOf(const std::vector<Value>& values) {
   return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value)};
 }
 
-/// `sign` turns LPS into the named space: {-1,-1,1} for RAS.
+/// `sign` maps LPS to the named space: {-1,-1,1} for RAS.
 inline std::string nrrd(const Scan& scan, const std::string& type, const std::string& data,
                         const std::string& space = "left-posterior-superior", const glm::dvec3& sign = {1, 1, 1}) {
   std::ostringstream text;
@@ -103,7 +103,7 @@ inline std::string nrrd(const Scan& scan, const std::string& type, const std::st
   return text.str();
 }
 
-/// MetaIO has directions and spacing apart.
+/// MetaIO separates directions and spacing.
 inline std::string meta(const Scan& scan, const std::string& type, const std::string& data) {
   std::ostringstream text;
   text.precision(17);

@@ -1,4 +1,4 @@
-// Damaged labels, teeth and grey values: refused in one line, or a patient that holds together.
+// Damaged labels, teeth and grey values: refused in one line, or a consistent patient.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -50,7 +50,7 @@ void expectWhole(const assets::ImportedScan& imported) {
 }
 
 /// Mutants of one of the files, the others as they are.
-void judge(const std::string& damaged) {
+void check(const std::string& damaged) {
   const on_disk::Folder folder;
   const Voxels voxels;
   const std::string head = on_disk::nrrd(kScan, "uchar", "");
@@ -68,8 +68,8 @@ void judge(const std::string& damaged) {
   mutants::forEachMutant({good}, 100, judge_one, kImportCosts);
 }
 
-TEST(ImportMutants, OfGreyValues) { judge("ct.nrrd"); }
-TEST(ImportMutants, OfLabels) { judge("labels.nrrd"); }
-TEST(ImportMutants, OfTeeth) { judge("teeth.nrrd"); }
+TEST(ImportMutants, OfGreyValues) { check("ct.nrrd"); }
+TEST(ImportMutants, OfLabels) { check("labels.nrrd"); }
+TEST(ImportMutants, OfTeeth) { check("teeth.nrrd"); }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A damaged scan is refused in one line, or what is read is what stands in the file: never a patient that is made up.
+// A damaged scan is refused in one line or read exactly as stored.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -27,7 +27,7 @@ std::string asText() {
   return text;
 }
 
-/// A good file: its header, how its voxels follow, and the files beside it.
+/// A valid file: its header, the coding of its voxels, and its data files.
 struct Seed {
   std::string name;
   std::string header;
@@ -94,7 +94,7 @@ std::vector<Seed> metaSeeds() {
           {"numbered.mhd", on_disk::replaced(head, "LOCAL", "s%d.raw 0 6 1"), "", false, slices}};
 }
 
-/// Is what was read what stands behind the unchanged header?
+/// Whether the voxels are those after the unchanged header.
 void expectTrue(const Seed& seed, const std::string& mutant, const assets::HounsfieldImage& image) {
   ASSERT_EQ(image.hounsfield.size(), image.grid.voxelCount());
   if (seed.header.empty() || !mutant.starts_with(seed.header) || seed.name == "rescaled.nii") return;
@@ -108,7 +108,7 @@ void expectTrue(const Seed& seed, const std::string& mutant, const assets::Houns
   EXPECT_EQ(image.hounsfield, expected) << seed.name;
 }
 
-void judge(const std::vector<Seed>& seeds) {
+void check(const std::vector<Seed>& seeds) {
   const on_disk::Folder folder;
   std::vector<std::string> good;
   for (const Seed& seed : seeds) {
@@ -134,12 +134,12 @@ void judge(const std::vector<Seed>& seeds) {
   }
 }
 
-TEST(ScanMutants, NrrdIsReadAsItStandsOrRefused) { judge(nrrdSeeds()); }
-TEST(ScanMutants, NiftiIsReadAsItStandsOrRefused) { judge(niftiSeeds()); }
-TEST(ScanMutants, MetaImageIsReadAsItStandsOrRefused) { judge(metaSeeds()); }
+TEST(ScanMutants, NrrdIsReadAsStoredOrRefused) { check(nrrdSeeds()); }
+TEST(ScanMutants, NiftiIsReadAsStoredOrRefused) { check(niftiSeeds()); }
+TEST(ScanMutants, MetaImageIsReadAsStoredOrRefused) { check(metaSeeds()); }
 
 // Damage in the file with the voxels, not in the header.
-TEST(ScanMutants, ADetachedDataFileIsReadAsItStandsOrRefused) {
+TEST(ScanMutants, ADetachedDataFileIsReadAsStoredOrRefused) {
   const on_disk::Folder folder;
   const std::string raw = on_disk::bytesOf(greys());
   on_disk::write(folder.at("a.mhd"), on_disk::replaced(on_disk::meta(kSmall, "MET_SHORT", ""), "LOCAL", "v.raw"));

@@ -1,4 +1,4 @@
-// The small texts that people write and pass on: read, or refused in one line.
+// Small text files: read, or refused in one line.
 #include <gtest/gtest.h>
 
 #include <functional>

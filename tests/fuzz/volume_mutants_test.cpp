@@ -1,4 +1,4 @@
-// A volume.vdb that was changed and sealed anew: OpenVDB may crash, hang or fill the memory on it, in its own process.
+// A volume.vdb changed with a new checksum: OpenVDB may crash, hang or exhaust memory, in the child process only.
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
@@ -26,7 +26,7 @@ assets::CtVolume smallVolume() {
   return volume;
 }
 
-/// Within narrower limits than a file of that size has, as some mutants run into them.
+/// With narrower limits than usual, which some mutants exceed.
 assets::CtVolume readWithinNarrowLimits(const std::string& path) {
   const int answer = ::memfd_create("answer", MFD_CLOEXEC);
   const pid_t reader = ::fork();
@@ -44,7 +44,7 @@ assets::CtVolume readWithinNarrowLimits(const std::string& path) {
   }
 }
 
-TEST(VolumeMutants, AForgedVolumeIsReadOrRefusedWhateverItDoesToItsReader) {
+TEST(VolumeMutants, AForgedVolumeIsReadOrRefusedForAnyFailureOfItsReader) {
   const on_disk::Folder folder;
   assets::writeVdb(smallVolume(), folder.at("v.vdb"));
   constexpr std::size_t kSealBytes = 24;
@@ -68,7 +68,7 @@ TEST(VolumeMutants, AForgedVolumeIsReadOrRefusedWhateverItDoesToItsReader) {
   }
 }
 
-// What a reader that was taken over might say.
+// Answers of a compromised reader.
 TEST(VolumeMutants, ADamagedAnswerOfTheReaderIsAVolumeOrRefused) {
   const on_disk::Folder folder;
   assets::writeVdb(smallVolume(), folder.at("v.vdb"));
@@ -109,7 +109,7 @@ TEST(VolumeMutants, ADamagedAnswerOfTheReaderIsAVolumeOrRefused) {
   }
 }
 
-TEST(VolumeMutants, AnUnsealedChangeIsAlwaysNoticed) {
+TEST(VolumeMutants, AChangeWithoutANewChecksumIsAlwaysDetected) {
   const on_disk::Folder folder;
   assets::writeVdb(smallVolume(), folder.at("v.vdb"));
   const std::string sealed = on_disk::read(folder.at("v.vdb"));

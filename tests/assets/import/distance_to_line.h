@@ -1,4 +1,4 @@
-// How far a point lies from a line of points.
+// Distance of a point from a polyline.
 #pragma once
 
 #include <algorithm>

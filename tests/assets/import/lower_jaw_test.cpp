@@ -50,14 +50,14 @@ TEST(LowerJaw, IsTheLowestArchOfTheFace) {
   EXPECT_LT(found->z, 66.0);
 }
 
-TEST(LowerJaw, IsNoneInASkullWithoutIt) {
+TEST(LowerJaw, IsNotFoundInASkullWithoutIt) {
   EXPECT_FALSE(lowerJawCentre_P_mm(volumeOf(kHead, [](auto& p) { return spine(p) || skull(p); }), {}));
   EXPECT_FALSE(lowerJawCentre_P_mm(volumeOf(kHead, [](auto&) { return false; }), {}));
   EXPECT_FALSE(lowerJawCentre_P_mm(volumeOf(kHead, [](auto& p) { return jaw(p) && p.x > 0.0; }), {}))
       << "one side of one";
 }
 
-TEST(LowerJaw, IsTakenFromLabelsWhereThereAre) {
+TEST(LowerJaw, ComesFromLabelsIfThereAreAny) {
   CtVolume ct = volumeOf(kHead, skull);
   const std::vector<glm::dvec3> canal{{-30, 60, 40}, {-32, 70, 42}, {-35, 80, 50}};
   EXPECT_EQ(lowerJawCentre_P_mm(ct, canal), canal[1]);
@@ -68,7 +68,7 @@ TEST(LowerJaw, IsTakenFromLabelsWhereThereAre) {
 }
 
 /// A real skull from its segmentation, with and without its mandible (2).
-TEST(LowerJawRealData, IsFoundInARealHeadAndNotMadeUp) {
+TEST(LowerJawRealData, IsFoundInARealHeadButNotWithoutItsMandible) {
   const std::string path = tests::sharedData("patients/cbct_segmentation/PostDentalSurgery_Segmentation.nii.gz");
   MOLAR_NEEDS(path);
   const auto labels = assets::readLabels(path);

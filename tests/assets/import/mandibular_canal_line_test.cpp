@@ -63,7 +63,7 @@ TEST(MandibularCanalLine, FollowsTheMiddleOfACurvedTube) {
   }
 }
 
-TEST(MandibularCanalLine, GoesOnAcrossAGap) {
+TEST(MandibularCanalLine, ContinuesAcrossAGap) {
   const VolumeGrid grid{glm::ivec3(56), 0.5, {0, 0, 0}};
   std::vector<std::uint8_t> label(grid.voxelCount(), 0);
   addTube(grid, label, 1.5, quarter, [](double t) { return std::abs(t - 0.5) > 0.07; });
@@ -75,10 +75,10 @@ TEST(MandibularCanalLine, GoesOnAcrossAGap) {
   EXPECT_NEAR(canal->radius_mm, 1.5, 0.15);
 }
 
-/// A root stands on the canal and takes the labels where it does: the canal passes beside it.
-TEST(MandibularCanalLine, PassesARootThatHidesItsLabels) {
+/// A root covers labels of the canal: the line passes next to it.
+TEST(MandibularCanalLine, PassesARootThatCoversItsLabels) {
   const VolumeGrid grid{{60, 100, 50}, 0.4, {0, 0, 0}};
-  // Straight, then a bow of 3 mm round the root, as a canal that a root displaces.
+  // Straight, then a 3 mm detour around the root, like a displaced canal.
   const auto course = [](double t) {
     const double y = 2.0 + 36.0 * t, bow = std::exp(-std::pow((y - 20.0) / 5.0, 2.0));
     return glm::dvec3(12.0 + 2.2 * bow, y, 10.0 - 1.5 * bow);
@@ -109,8 +109,8 @@ TEST(MandibularCanalLine, PassesARootThatHidesItsLabels) {
   }
 }
 
-/// Speckles all over the volume: bounded work, and the canal all the same.
-TEST(MandibularCanalLine, IsNotHeldUpBySpeckles) {
+/// Noise labels all over the volume: bounded time, same canal.
+TEST(MandibularCanalLine, HasBoundedTimeForNoisyLabels) {
   const VolumeGrid grid{glm::ivec3(160), 0.5, {0, 0, 0}};
   std::vector<std::uint8_t> label(grid.voxelCount(), 0);
   std::mt19937 random(3);
@@ -125,8 +125,8 @@ TEST(MandibularCanalLine, IsNotHeldUpBySpeckles) {
   EXPECT_LT(tests::distanceToLine(canal->line_P_mm, {40, 40, 40}), 1.5);
 }
 
-/// Oblique sheets, 9 mm apart: each box holds the next sheet, and no pair is near enough to be joined.
-TEST(MandibularCanalLine, IsNotHeldUpByLargeParts) {
+/// Oblique sheets 9 mm apart: their boxes overlap, but no pair is near enough to be joined.
+TEST(MandibularCanalLine, HasBoundedTimeForLargeParts) {
   const VolumeGrid grid{glm::ivec3(125), 0.8, {0, 0, 0}};
   std::vector<std::uint8_t> label(grid.voxelCount(), 0);
   for (int k = 0; k < 125; ++k)
@@ -137,7 +137,7 @@ TEST(MandibularCanalLine, IsNotHeldUpByLargeParts) {
   EXPECT_TRUE(mandibularCanalLine(grid, label, glm::dvec3(50, 50, 50)));
 }
 
-TEST(MandibularCanalLine, TakesTheCanalBesideTheTooth) {
+TEST(MandibularCanalLine, TakesTheCanalNextToTheTooth) {
   const VolumeGrid grid{{70, 40, 20}, 0.5, {0, 0, 0}};
   std::vector<std::uint8_t> label(grid.voxelCount(), 0);
   const auto left = [](double t) { return glm::dvec3(30, 1 + 18 * t, 5); };

@@ -42,7 +42,7 @@ class ScanImportRealData : public testing::Test {
   const std::string folder_ = tests::sharedData("patients/right_third_molar");
 };
 
-TEST_F(ScanImportRealData, HasItsThirdMolarAndCanalWhereTheTruthSays) {
+TEST_F(ScanImportRealData, HasItsThirdMolarAndCanalAtTheKnownPosition) {
   const auto truth = nlohmann::json::parse(on_disk::read(folder_ + "/truth.json"));
   const auto patient = importScan(folder_, {}).patient;
   EXPECT_EQ(patient.ct.grid.size, glm::ivec3(132, 169, 188));
@@ -92,7 +92,7 @@ void writeLabels(const std::string& path, const VolumeGrid& grid) {
 
 const VolumeGrid kBlock{{12, 12, 12}, 0.5, {0, 0, 0}};
 
-TEST(ScanImport, RefusesWhatItCanNotUse) {
+TEST(ScanImport, RefusesUnusableInput) {
   const on_disk::Folder folder;
   EXPECT_THAT(refusalOf(folder.at("none")), HasSubstr("no such scan"));
   EXPECT_THAT(refusalOf(folder.at("")), HasSubstr("no ct.nrrd"));
@@ -114,7 +114,7 @@ TEST(ScanImport, RefusesWhatItCanNotUse) {
   EXPECT_THAT(refusalOf(folder.at("")), HasSubstr("more than one volume"));
 }
 
-TEST(ScanImport, KeepsNothingThatTellsWho) {
+TEST(ScanImport, KeepsNoPersonalData) {
   const on_disk::Folder folder;
   on_disk::Scan scan{{12, 12, 12}, glm::dmat3(0.5), {0, 0, 0}};
   std::string bytes = on_disk::nrrd(scan, "short", on_disk::bytesOf(std::vector<std::int16_t>(1728, 1000)));
@@ -132,7 +132,7 @@ void writeGreys(const std::string& path, const VolumeGrid& grid, const std::vect
   assets::writeSolid(grid, values, file);
 }
 
-TEST(ScanImport, SaysWhenTheSidesAreNotStated) {
+TEST(ScanImport, WarnsOfAMissingOrientation) {
   const on_disk::Folder folder;
   const std::string head = "NRRD0001\ntype: short\ndimension: 3\nsizes: 12 12 12\nspacings: .5 .5 .5\n";
   on_disk::write(folder.at("a.nrrd"),
@@ -166,7 +166,7 @@ struct TwoTeeth {
   }
 };
 
-TEST(ScanImport, TakesTheToothAskedForAsTheSite) {
+TEST(ScanImport, TakesTheRequestedToothAsTheSite) {
   const on_disk::Folder folder;
   TwoTeeth scan;
   scan.writeTo(folder);
@@ -196,7 +196,7 @@ TEST(ScanImport, TakesTheToothAskedForAsTheSite) {
   EXPECT_THAT(refusalOf(folder.at("")), HasSubstr("its value 9 is not an FDI number"));
 }
 
-/// One tooth, 6 x 6 x 8 mm, enamel above dentine about a pulp; 12 mm in front of it bone, to its left.
+/// One tooth, 6 x 6 x 8 mm, enamel above dentine around a pulp; bone 12 mm in front of it, to its left.
 struct OneTooth {
   VolumeGrid grid{{48, 60, 40}, 0.5, {0, 0, 0}};
   std::vector<std::int16_t> hounsfield = std::vector<std::int16_t>(grid.voxelCount(), -1000);
@@ -232,7 +232,7 @@ struct OneTooth {
   }
 };
 
-TEST(ScanImport, TakesTheOneToothMarkedForAThirdMolar) {
+TEST(ScanImport, TakesASingleLabelledToothAsThirdMolar) {
   const on_disk::Folder folder;
   const OneTooth scan;
   writeGreys(folder.at("labels.nrrd"), scan.grid, scan.label);
@@ -242,7 +242,7 @@ TEST(ScanImport, TakesTheOneToothMarkedForAThirdMolar) {
   EXPECT_THAT(imported.remarks, testing::IsEmpty());
 }
 
-TEST(ScanImport, MakesNoThirdMolarOfTissuesGuessedFromGrey) {
+TEST(ScanImport, FindsNoThirdMolarInTissuesEstimatedFromGrey) {
   const on_disk::Folder folder;
   const OneTooth scan;
   writeGreys(folder.at("labels.nrrd"), scan.grid, std::vector<std::uint8_t>(scan.label.size(), 0));
@@ -252,7 +252,7 @@ TEST(ScanImport, MakesNoThirdMolarOfTissuesGuessedFromGrey) {
   EXPECT_THAT(imported.remarks, testing::Contains(HasSubstr("all are 0")));
 }
 
-TEST(ScanImport, MakesNoThirdMolarOfMoreThanOneTooth) {
+TEST(ScanImport, FindsNoThirdMolarInMoreThanOneTooth) {
   const on_disk::Folder folder;
   OneTooth scan;
   scan.grid.spacing_mm = 1.2;
@@ -264,7 +264,7 @@ TEST(ScanImport, MakesNoThirdMolarOfMoreThanOneTooth) {
   EXPECT_THAT(refusalOf(folder.at(""), {.tooth_fdi = 48}), HasSubstr("not labelled in it"));
 }
 
-TEST(ScanImport, MakesUpNoSide) {
+TEST(ScanImport, DoesNotGuessTheSide) {
   const on_disk::Folder folder;
   OneTooth scan;
   std::ranges::replace(scan.label, std::uint8_t{1}, std::uint8_t{0});
@@ -277,7 +277,7 @@ TEST(ScanImport, MakesUpNoSide) {
   EXPECT_EQ(told.patient.site->fdi, 38);
 }
 
-TEST(ScanImport, RefusesLabelsOfAnotherLegend) {
+TEST(ScanImport, RefusesUnknownLabels) {
   const on_disk::Folder folder;
   OneTooth scan;
   scan.imported(folder);
@@ -293,8 +293,8 @@ TEST(ScanImport, RefusesLabelsOfAnotherLegend) {
               HasSubstr("labels.nrrd: unknown label 44; use"));
 }
 
-/// Masks half a voxel tight, undivided teeth: the skin is the tooth's own.
-TEST(ScanImport, CountsAToothsSkinToTheTooth) {
+/// Masks that end half a voxel early, undivided teeth: the surface voxels belong to the tooth.
+TEST(ScanImport, AssignsSurfaceVoxelsToTheTooth) {
   const on_disk::Folder folder;
   OneTooth scan;
   scan.forVoxels([&](glm::ivec3 at, std::size_t v) {
@@ -310,10 +310,10 @@ TEST(ScanImport, CountsAToothsSkinToTheTooth) {
     if (ct.label[v] == 3) {
       ASSERT_EQ(ct.tooth[v], 48) << v;
     }
-  EXPECT_EQ(ct.tooth[ct.grid.index({10, 40, 20})], 48) << "skin";
+  EXPECT_EQ(ct.tooth[ct.grid.index({10, 40, 20})], 48) << "surface";
 }
 
-TEST(ScanImport, TellsTheTissuesOfNumberedTeethThatHaveNone) {
+TEST(ScanImport, LabelsTheTissuesOfNumberedTeeth) {
   const on_disk::Folder folder;
   OneTooth scan;
   scan.forVoxels([&](glm::ivec3, std::size_t v) {
@@ -333,19 +333,19 @@ TEST(ScanImport, TellsTheTissuesOfNumberedTeethThatHaveNone) {
 TEST(ScanImport, GivesTeethWithoutLabelsNoShellOfPulp) {
   const on_disk::Folder folder;
   OneTooth scan;
-  // A soft skin, as the scanner's blur makes one.
+  // A soft surface, as blurred by a scanner.
   scan.forVoxels([&](glm::ivec3 at, std::size_t v) {
     if (scan.tooth[v] != 0 && (at.x == 10 || at.x == 21 || at.y == 36 || at.y == 47 || at.z == 10))
       scan.hounsfield[v] = 500;
   });
   writeGreys(folder.at("teeth.nrrd"), scan.grid, scan.tooth);
   const auto label = scan.imported(folder).patient.ct.label;
-  EXPECT_EQ(label[scan.grid.index({10, 42, 14})], 5) << "skin";
+  EXPECT_EQ(label[scan.grid.index({10, 42, 14})], 5) << "surface";
   EXPECT_EQ(label[scan.grid.index({15, 42, 13})], 6) << "inside";
 }
 
-/// Too small to be a site: not offered as one.
-TEST(ScanImport, OffersNoToothThatCanNotBeTheSite) {
+/// Too small for a site.
+TEST(ScanImport, OffersOnlyTeethThatCanBeTheSite) {
   const on_disk::Folder folder;
   OneTooth scan;
   std::ranges::replace(scan.tooth, std::uint8_t{48}, std::uint8_t{46});
@@ -355,13 +355,13 @@ TEST(ScanImport, OffersNoToothThatCanNotBeTheSite) {
   EXPECT_THAT(refusalOf(folder.at(""), {.tooth_fdi = 31}), HasSubstr("these are: 46;"));
 }
 
-TEST(ScanImport, NeverMakesAnEmptyPictureOfEightBits) {
+TEST(ScanImport, RefusesEightBitGreysWithoutAWindow) {
   const on_disk::Folder folder;
   std::vector<std::uint8_t> greys(kBlock.voxelCount(), 30);
   for (std::size_t v = 400; v < 1300; ++v) greys[v] = 180;
   writeGreys(folder.at("u8.nrrd"), kBlock, greys);
   EXPECT_THAT(refusalOf(folder.at("u8.nrrd")), HasSubstr("--window"));
-  EXPECT_THAT(refusalOfReading(folder.at("u8.nrrd")), HasSubstr("8-bit greys")) << "whoever reads it";
+  EXPECT_THAT(refusalOfReading(folder.at("u8.nrrd")), HasSubstr("8-bit greys")) << "by any reader";
   const auto windowed = importScan(folder.at("u8.nrrd"), {.window = assets::GreyWindow{-1000.0, 3000.0}});
   EXPECT_EQ(windowed.patient.ct.hounsfield[500], 1824);
 }

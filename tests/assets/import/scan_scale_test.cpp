@@ -38,17 +38,17 @@ std::vector<std::int16_t> head(double air, double offset_hu) {
   return hounsfield;
 }
 
-TEST(ScanScale, SaysNothingOfHounsfieldWithOrWithoutAir) {
+TEST(ScanScale, AcceptsHounsfieldWithAndWithoutAir) {
   EXPECT_THAT(assets::scaleRemarks(kHeadGrid, head(0.4, 0.0)), IsEmpty());
   EXPECT_THAT(assets::scaleRemarks(kHeadGrid, head(0.0, 0.0)), IsEmpty());
 }
 
-TEST(ScanScale, NoticesAnOffsetOf1024) {
+TEST(ScanScale, WarnsOfAnOffsetOf1024) {
   for (const double air : {0.4, 0.6, 0.8})
     EXPECT_THAT(assets::scaleRemarks(kHeadGrid, head(air, 1024.0)), ElementsAre(HasSubstr("instead of -1000"))) << air;
 }
 
-TEST(ScanScale, NoticesMetal) {
+TEST(ScanScale, WarnsOfMetal) {
   auto hounsfield = head(0.4, 0.0);
   for (std::size_t v = 0; v < 200; ++v) hounsfield[v] = 3071;
   EXPECT_THAT(assets::scaleRemarks(kHeadGrid, hounsfield), ElementsAre(HasSubstr("25 mm3")));
@@ -56,7 +56,7 @@ TEST(ScanScale, NoticesMetal) {
   EXPECT_THAT(assets::scaleRemarks(kHeadGrid, hounsfield), IsEmpty()) << "a few bright voxels are noise";
 }
 
-TEST(ScanScale, TakesTheGreatestValuesThereAre) {
+TEST(ScanScale, AcceptsTheExtremeValues) {
   const std::vector<std::int16_t> hounsfield(kHeadGrid.voxelCount(), 32767);
   EXPECT_THAT(assets::scaleRemarks(kHeadGrid, hounsfield), testing::SizeIs(1));
 }

@@ -12,7 +12,7 @@ namespace {
 using assets::Tissue;
 using assets::VolumeGrid;
 
-TEST(TissueFromGrey, GoesByThresholds) {
+TEST(TissueFromGrey, FollowsTheThresholds) {
   using assets::tissueFromGrey;
   EXPECT_EQ(tissueFromGrey(2500), Tissue::enamel);
   EXPECT_EQ(tissueFromGrey(1650), Tissue::dentine);
@@ -25,7 +25,7 @@ TEST(TissueFromGrey, GoesByThresholds) {
 const VolumeGrid kBallGrid{{48, 48, 48}, 0.3, {0, 0, 0}};
 const glm::dvec3 kMiddle_mm = 0.5 * 0.3 * glm::dvec3(47.0);
 
-/// Balls within one another, each surface blurred in closed form as a scanner does (sd 0.2 mm): outermost first.
+/// Concentric balls, outermost first, each surface blurred in closed form (sd 0.2 mm).
 struct Shell {
   double radius_mm;
   double hounsfield;
@@ -47,7 +47,7 @@ std::vector<std::int16_t> ballsOf(double outside_hu, const std::vector<Shell>& s
   return hounsfield;
 }
 
-/// What share of the voxels that are solid and near the surface carries the tissue.
+/// Share of the solid voxels near the surface that have the tissue.
 double shareAtSurface(const std::vector<std::int16_t>& hounsfield, double radius_mm, Tissue tissue,
                       double deep_mm = 1.0) {
   const auto label = assets::labelsFromGrey(kBallGrid, hounsfield);
@@ -70,15 +70,15 @@ TEST(TissueFromGrey, GivesASurfaceTheTissueBehindIt) {
     EXPECT_EQ(shareAtSurface(ballsOf(outside_hu, {{5.0, 1350.0}}), 5.0, Tissue::cortical), 1.0) << outside_hu;
     EXPECT_GT(shareAtSurface(ballsOf(outside_hu, {{5.0, 2500.0}}), 5.0, Tissue::enamel), 0.99) << outside_hu;
     EXPECT_GT(shareAtSurface(ballsOf(outside_hu, {{5.0, 1700.0}}), 5.0, Tissue::dentine), 0.99) << outside_hu;
-    // Cortex of 1.2 mm round marrow.
+    // Cortex of 1.2 mm around marrow.
     EXPECT_GT(shareAtSurface(ballsOf(outside_hu, {{5.0, 1350.0}, {3.8, 420.0}}), 5.0, Tissue::cortical), 0.99)
         << outside_hu;
   }
-  // Bone too thin to reach its full grey wears a cortex all the same.
+  // Bone too thin to reach its full grey value has a cortex too.
   EXPECT_EQ(shareAtSurface(ballsOf(-1000.0, {{5.0, 600.0}}), 5.0, Tissue::cortical, 0.3), 1.0);
 }
 
-TEST(TissueFromGrey, LeavesTrabeculaeBesideMarrowSpacesAlone) {
+TEST(TissueFromGrey, KeepsTrabeculaeNextToMarrowSpaces) {
   // Struts a voxel wide every fourth voxel, marrow between them.
   std::vector<std::int16_t> hounsfield(kBallGrid.voxelCount(), 1350);
   const auto inside = [](int n) { return n > 8 && n < 40; };
@@ -97,7 +97,7 @@ TEST(TissueFromGrey, LeavesTrabeculaeBesideMarrowSpacesAlone) {
 TEST(PartialVoxels, TakeTheLabelOfTheDensestNeighbour) {
   assets::CtVolume ct{kBallGrid, ballsOf(-1000.0, {{5.0, 2500.0}}), {}, {}, {}};
   ct.solid = assets::classify(kBallGrid, ct.hounsfield, {});
-  // Labels that end half a voxel too early, as masks drawn by hand do.
+  // Labels that end half a voxel too early, as in hand-drawn masks.
   ct.label.assign(kBallGrid.voxelCount(), 0);
   for (int k = 0; k < kBallGrid.size.z; ++k)
     for (int j = 0; j < kBallGrid.size.y; ++j)
@@ -111,7 +111,7 @@ TEST(PartialVoxels, TakeTheLabelOfTheDensestNeighbour) {
     beyond += ct.solid[v] < 128 && ct.label[v] != 0 ? 1 : 0;
   }
   EXPECT_EQ(bare, 0u);
-  EXPECT_EQ(beyond, 0u) << "nothing that is not drawn is labelled";
+  EXPECT_EQ(beyond, 0u) << "only solid voxels are labelled";
 }
 
 }  // namespace

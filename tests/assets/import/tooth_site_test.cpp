@@ -48,7 +48,7 @@ void addOtherTeeth(CtVolume& ct, int first_i, int end_i, int j) {
     ct.label[ct.grid.index({i, j, 20})] = static_cast<std::uint8_t>(Tissue::other_teeth);
 }
 
-TEST(ToothNumber, TellsQuadrantSideJawAndName) {
+TEST(ToothNumber, HasQuadrantSideJawAndName) {
   EXPECT_TRUE(assets::isToothNumber(11) && assets::isToothNumber(48) && assets::isToothNumber(51) &&
               assets::isToothNumber(85));
   for (const int fdi : {-38, 0, 10, 19, 20, 49, 50, 56, 86, 91, 100}) EXPECT_FALSE(assets::isToothNumber(fdi)) << fdi;
@@ -61,7 +61,7 @@ TEST(ToothNumber, TellsQuadrantSideJawAndName) {
   for (const int fdi : {38, 41, 75, 85}) EXPECT_FALSE(assets::isUpper(fdi)) << fdi;
 }
 
-TEST(ToothSite, IsWhereItsHardTissueIsAndPointsToItsEnamel) {
+TEST(ToothSite, IsAtItsHardTissueAndPointsToItsEnamel) {
   std::mt19937 random(2);
   std::normal_distribution<double> component;
   for (int trial = 0; trial < 6; ++trial) {
@@ -84,7 +84,7 @@ TEST(ToothSite, TakesItsSideFromTheFrontTeeth) {
   addOtherTeeth(cropped_right, 45, 58, 2);
   addOtherTeeth(cropped_right, 0, 20, 40);  // a neighbour far back says nothing
   numberThirdMolar(cropped_right, 38);
-  EXPECT_TRUE(siteAtTooth(cropped_right, 48)) << "whatever is asked for";
+  EXPECT_TRUE(siteAtTooth(cropped_right, 48)) << "for any requested tooth";
   CtVolume cropped_left = ct;
   addOtherTeeth(cropped_left, 2, 12, 2);
   addOtherTeeth(cropped_left, 30, 59, 40);
@@ -100,8 +100,8 @@ TEST(ToothSite, IsNoneWithoutLabels) {
   EXPECT_TRUE(assets::toothVolumes_mm3(ct).empty());
 }
 
-/// A tooth of which only the number is known and grey values: enamel is told by them.
-TEST(ToothSite, IsAnyToothThatIsToldApart) {
+/// A tooth with a number only; its enamel is recognised by grey values.
+TEST(ToothSite, IsAnyNumberedTooth) {
   CtVolume ct = emptyVolume();
   addTooth(ct, {115, 35, -28}, {0, 0.6, -0.8});
   ct.tooth.assign(ct.label.size(), 0);
@@ -135,8 +135,8 @@ CtVolume cropped(const CtVolume& ct, glm::ivec3 low, glm::ivec3 end) {
   return piece;
 }
 
-/// Bowed roots, whole or cut off, crowns worn or cut by the scan's border.
-TEST(ToothAxis, IsTheCrownsWhateverIsLeftOfTheTooth) {
+/// Bent roots, complete or cut off, crowns worn or cut by the scan's border.
+TEST(ToothAxis, IsThatOfTheCrownForIncompleteTeeth) {
   for (const double angle_deg : {0.0, 45.0, 90.0}) {
     const auto patient =
         assets::syntheticJaw({.winter_angle_deg = angle_deg, .mandibular_canal_distance_mm = 1.0, .spacing_mm = 0.4});

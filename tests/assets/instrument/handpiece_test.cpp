@@ -13,7 +13,7 @@
 namespace assets {
 namespace {
 
-// Vertices of the head: those in front of the neck.
+// Vertices in front of the neck.
 std::vector<glm::dvec3> headVertices(const MeshPart& bur, double radius_mm) {
   std::vector<glm::dvec3> out;
   for (const glm::vec3& p : bur.position_mm) {
@@ -22,7 +22,7 @@ std::vector<glm::dvec3> headVertices(const MeshPart& bur, double radius_mm) {
   return out;
 }
 
-TEST(Instrument, BladesReachExactlyTheRadiusOfTheBur) {
+TEST(Handpiece, BladesReachExactlyTheRadiusOfTheBur) {
   for (const double radius_mm : {0.5, 1.0, 2.0, 4.0}) {
     const MeshModel model = surgicalHandpiece({.bur_radius_mm = radius_mm});
     double furthest_mm = 0.0;
@@ -33,10 +33,10 @@ TEST(Instrument, BladesReachExactlyTheRadiusOfTheBur) {
   }
 }
 
-TEST(Instrument, HasOneBladeAFlute) {
+TEST(Handpiece, HasOneBladeAFlute) {
   const double radius_mm = 2.0;
   const MeshModel model = surgicalHandpiece({.bur_radius_mm = radius_mm, .flutes = 12});
-  // Round the equator, count the rises from a gullet to a blade.
+  // Count the rises from gullet to blade around the equator.
   std::map<double, bool> on_blade;
   const std::vector<glm::dvec3> head = headVertices(tests::partNamed(model, "Bur"), radius_mm);
   const auto sine = [](const glm::dvec3& p) { return std::abs(p.z) / glm::length(p); };
@@ -53,7 +53,7 @@ TEST(Instrument, HasOneBladeAFlute) {
   EXPECT_EQ(rises, 12);
 }
 
-TEST(Instrument, LiesAlongTheShaft) {
+TEST(Handpiece, LiesAlongTheShaft) {
   const MeshModel model = surgicalHandpiece({});
   double low_mm = 1e9;
   double high_mm = -1e9;
@@ -68,7 +68,7 @@ TEST(Instrument, LiesAlongTheShaft) {
   EXPECT_NEAR(high_mm, 110.0, 1.0);
 }
 
-TEST(Instrument, FacesOutward) {
+TEST(Handpiece, FacesOutward) {
   // The signed volume of a surface wound outward is positive, and normals point away from the axis.
   std::vector<MeshPart> parts = surgicalHandpiece({}).parts;
   for (const BurForm form : {BurForm::capsule, BurForm::cylinder, BurForm::cone})
@@ -85,7 +85,7 @@ TEST(Instrument, FacesOutward) {
   }
 }
 
-TEST(Instrument, BladesFollowTheOutlineOfEveryForm) {
+TEST(Handpiece, BladesFollowTheOutlineOfEveryShape) {
   const double radius_mm = 0.8, length_mm = 4.0, half_mm = 0.5 * length_mm;
   for (const BurForm form : {BurForm::capsule, BurForm::cylinder, BurForm::cone}) {
     const MeshModel model = surgicalHandpiece(
@@ -110,7 +110,7 @@ TEST(Instrument, BladesFollowTheOutlineOfEveryForm) {
   }
 }
 
-TEST(Instrument, RefusesABurThatIsNotMade) {
+TEST(Handpiece, RefusesInvalidParameters) {
   EXPECT_THROW(surgicalHandpiece({.form = BurForm::cone, .bur_length_mm = 0.0}), LoadError);
   EXPECT_THROW(surgicalHandpiece({.form = BurForm::cylinder, .bur_length_mm = 30.0}), LoadError);
   EXPECT_THROW(surgicalHandpiece({.bur_radius_mm = 0.0}), LoadError);

@@ -80,7 +80,7 @@ TEST(SecondInstrument, IsMadeOfClosedSurfacesWithoutHandles) {
 }
 
 TEST(SecondInstrument, HasUnitNormalsThatFollowItsFaces) {
-  // But where another part covers them.
+  // Except where another part covers them.
   const std::vector<MeshPart> parts = allParts();
   for (const MeshPart& part : parts) {
     ASSERT_EQ(part.normal.size(), part.position_mm.size());
@@ -114,7 +114,7 @@ TEST(DentalMirror, IsAsWideAsANumberFive) {
   EXPECT_LE(high - low, 173.0);
 }
 
-TEST(DentalMirror, HasItsGlassAtTheOriginHalfARightAngleToTheHandle) {
+TEST(DentalMirror, HasItsGlassAtTheOriginAt45DegreesToTheHandle) {
   const MeshModel model = dentalMirror();
   const dvec3 out = glm::normalize(dvec3(0, -1, 1));
   // The face of the glass: flat, through the origin, all around it.
@@ -129,7 +129,7 @@ TEST(DentalMirror, HasItsGlassAtTheOriginHalfARightAngleToTheHandle) {
   EXPECT_NEAR(face_mm2, M_PI * 11.0 * 11.0, 5.0);
   for (const dvec3 p : glass.position_mm) EXPECT_LT(glm::dot(p, out), 1e-5);
 
-  // Nothing stands before it but the rim.
+  // Only the rim is in front of it.
   for (const char* name : {"Casing", "Stem", "Handle"})
     for (const dvec3 p : tests::partNamed(model, name).position_mm)
       EXPECT_TRUE(glm::length(p - glm::dot(p, out) * out) > 10.8 || glm::dot(p, out) < 0.0) << name;
@@ -142,9 +142,9 @@ TEST(DentalMirror, HasItsGlassAtTheOriginHalfARightAngleToTheHandle) {
   EXPECT_GT(high.z - low.z, 100.0);
 }
 
-TEST(DentalMirror, HangsTogether) {
+TEST(DentalMirror, IsConnected) {
   const MeshModel model = dentalMirror();
-  // A place of the stem lies in the casing, another one in the handle.
+  // One point of the stem lies in the casing, another in the handle.
   int in_casing = 0, in_handle = 0;
   const MeshPart& stem = tests::partNamed(model, "Stem");
   for (std::size_t v = 0; v < stem.position_mm.size(); v += 4) {
@@ -168,13 +168,13 @@ TEST(Retractor, HasItsTipAtTheOriginAndItsHandleAlongZ) {
   const auto [low, high] = rangeOf(model, [](const dvec3& p) { return p.z; });
   EXPECT_GT(low, -2.5);
   EXPECT_NEAR(high, 138.0, 2.0);
-  // From 50 to 100 mm it keeps to a line along z.
+  // Straight along z from 50 to 100 mm.
   for (const dvec3 p : part.position_mm) EXPECT_TRUE(p.z < 50.0 || p.z > 100.0 || std::abs(p.y - 30.5) < 2.5) << p.y;
 }
 
 TEST(Retractor, IsAThinBlade) {
   const MeshPart part = retractor().parts.front();
-  // Volume over half the surface is the mean thickness.
+  // Mean thickness: volume over half the surface.
   EXPECT_NEAR(test::volume(part) / (0.5 * test::area(part)), kRetractorThickness_mm, 0.2);
 }
 

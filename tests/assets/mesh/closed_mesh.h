@@ -1,4 +1,4 @@
-// What a closed triangle mesh must be, found the slow and obvious way. Test code only.
+// Checks of a closed triangle mesh by slow and obvious methods. Test code only.
 #pragma once
 
 #include <cmath>
@@ -17,7 +17,7 @@ namespace assets::test {
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-/// "" if every edge has exactly two triangles that walk it in opposite directions, else what is wrong.
+/// "" if every edge has exactly two triangles in opposite directions, else a message.
 inline std::string opennessOf(const std::vector<std::uint32_t>& triangles) {
   std::map<Edge, int> walked;
   for (std::size_t t = 0; t < triangles.size(); t += 3)
@@ -31,7 +31,7 @@ inline std::string opennessOf(const std::vector<std::uint32_t>& triangles) {
   return "";
 }
 
-/// Vertices - edges + triangles; only vertices that are used count.
+/// Used vertices - edges + triangles.
 inline int eulerCharacteristic(const std::vector<std::uint32_t>& triangles) {
   const std::set<std::uint32_t> vertices(triangles.begin(), triangles.end());
   const auto faces = static_cast<int>(triangles.size() / 3);
@@ -58,7 +58,7 @@ inline double area(const MeshPart& mesh) {
   return two_fold / 2.0;
 }
 
-/// How often the mesh goes round a point: the solid angle of its triangles (Van Oosterom & Strackee 1983) over 4 pi.
+/// Winding number of the mesh about a point: the solid angle of its triangles (Van Oosterom & Strackee 1983) over 4 pi.
 inline double windingNumber(const MeshPart& mesh, const glm::dvec3& point) {
   double angle = 0.0;
   for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {

@@ -26,8 +26,8 @@ TEST(CubeCases, CrossesExactlyTheEdgesBetweenSolidAndAir) {
   }
 }
 
-// The twin: eight voxels in air (or in bone), and round each voxel the surface must go once if it is solid, else never.
-TEST(CubeCases, PartsSolidFromAirInEveryCase) {
+// Eight voxels in air (or in bone): the surface has winding number 1 about each solid voxel, else 0.
+TEST(CubeCases, SeparatesSolidFromAirInEveryCase) {
   for (const std::uint8_t around : {std::uint8_t{0}, std::uint8_t{255}})
     for (int solid_corners = 0; solid_corners < 256; ++solid_corners) {
       const VolumeGrid grid{{4, 4, 4}, 1.0, {0.0, 0.0, 0.0}};

@@ -35,7 +35,7 @@ struct Refusal {
   std::string text;
 };
 
-// Reads, and gives the refusal if there is one. Every refusal must be one line.
+// Reads and returns the error, if any, which must be one line.
 Refusal refusalOf(const fs::path& path, MeshModel* out = nullptr) {
   try {
     MeshModel model = readGltf(path.string());
@@ -96,7 +96,7 @@ MeshPart triangle(const std::string& name) {
   return part;
 }
 
-TEST_F(GltfWrite, ComesBackAsItWas) {
+TEST_F(GltfWrite, RoundTrips) {
   const MeshModel written{{triangle("Gum"), triangle("Bur")}};
   writeGltf(written, (folder_ / "model.glb").string());
   const MeshModel read = readGltf((folder_ / "model.glb").string());
@@ -117,7 +117,7 @@ TEST_F(GltfWrite, ComesBackAsItWas) {
   }
 }
 
-TEST_F(GltfWrite, ReplacesNothingUnlessTold) {
+TEST_F(GltfWrite, ReplacesNothingUnlessRequested) {
   const std::string path = write("model.glb", "precious").string();
   const MeshModel model{{triangle("Gum")}};
   EXPECT_THROW(writeGltf(model, path), calibration::CalibrationError);
@@ -126,7 +126,7 @@ TEST_F(GltfWrite, ReplacesNothingUnlessTold) {
   EXPECT_EQ(triangleCount(readGltf(path)), 1u);
 }
 
-TEST_F(GltfWrite, LeavesNothingBehindWhenThePartIsNotWhole) {
+TEST_F(GltfWrite, LeavesNoFileForAnIncompletePart) {
   MeshModel model{{triangle("Gum")}};
   model.parts[0].normal.pop_back();
   EXPECT_THROW(writeGltf(model, (folder_ / "model.glb").string()), LoadError);
@@ -161,7 +161,7 @@ TEST_F(GltfRealData, AgreesWithTheTruthOfGeneratedFiles) {
   }
 }
 
-TEST_F(GltfRealData, TurnsTheWindingOfAMirroredNode) {
+TEST_F(GltfRealData, ReversesTheWindingOfAMirroredNode) {
   const fs::path file = tests::sharedData("gltf/generated/05_negative_scale_hierarchy.gltf");
   MOLAR_NEEDS(file);
   const MeshModel model = readGltf(file.string());
@@ -172,7 +172,7 @@ TEST_F(GltfRealData, TurnsTheWindingOfAMirroredNode) {
   }
 }
 
-// Files without errors that hold triangles load; the exceptions have nothing to draw.
+// Files without errors load; the exceptions have no triangles.
 TEST_F(GltfRealData, ReadsWhatTheValidatorAccepts) {
   const fs::path folder = tests::sharedData("gltf/validator");
   MOLAR_NEEDS(folder);
@@ -206,7 +206,7 @@ TEST_F(GltfRealData, ReadsWhatTheValidatorAccepts) {
   EXPECT_GE(read, 14);
 }
 
-TEST_F(GltfRead, RefusesWhatIsNotGltf) {
+TEST_F(GltfRead, RefusesOtherFiles) {
   EXPECT_TRUE(refusalOf(folder_ / "absent.glb").refused);
   EXPECT_TRUE(refusalOf(folder_).refused);
   EXPECT_TRUE(refusalOf(write("empty.glb", "")).refused);
@@ -226,7 +226,7 @@ TEST_F(GltfRead, RefusesABinaryChunkThatEndsPastTheFile) {
   EXPECT_THAT(refusalOf(write("cut.glb", bytes)).text, HasSubstr("cut short"));
 }
 
-TEST_F(GltfRead, RefusesACycleOfNodesAndANodeMetTwice) {
+TEST_F(GltfRead, RefusesACycleOfNodesAndANodeUsedTwice) {
   for (const std::string nodes :
        {R"("scenes":[{"nodes":[0]}],"nodes":[{"children":[1]},{"children":[0]}])",
         R"("nodes":[{"children":[2]},{"children":[2]},{}])", R"("scenes":[{"nodes":[0,0]}],"nodes":[{}])"}) {
@@ -235,7 +235,7 @@ TEST_F(GltfRead, RefusesACycleOfNodesAndANodeMetTwice) {
   }
 }
 
-TEST_F(GltfRead, NamesTheExtensionItLacks) {
+TEST_F(GltfRead, NamesTheUnsupportedExtension) {
   EXPECT_THAT(refusalOf(write("draco.gltf", R"({"asset":{"version":"2.0"},"extensionsRequired":[
       "KHR_draco_mesh_compression"],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],"accessors":[
       {"componentType":5126,"count":3,"type":"VEC3"},{"componentType":5125,"count":3,"type":"SCALAR"}]})"))
@@ -243,13 +243,13 @@ TEST_F(GltfRead, NamesTheExtensionItLacks) {
               HasSubstr("requires the extension 'KHR_draco_mesh_compression'"));
 }
 
-TEST_F(GltfRead, RefusesJsonNestedBeyondReason) {
+TEST_F(GltfRead, RefusesDeeplyNestedJson) {
   const std::string deep(100'000, '[');
   EXPECT_THAT(refusalOf(write("deep.gltf", R"({"asset":{"version":"2.0","extras":)" + deep)).text,
               HasSubstr("nested deeper"));
 }
 
-TEST_F(GltfRead, KeepsToItsOwnFolder) {
+TEST_F(GltfRead, StaysInItsOwnFolder) {
   fs::create_directory(folder_ / "inner");
   const std::string positions(36, '\0');
   write("secret.bin", positions);
@@ -270,8 +270,8 @@ TEST_F(GltfRead, KeepsToItsOwnFolder) {
   EXPECT_FALSE(refusalOf(write("model.gltf", file("secret%2Ebin"))).refused);
 }
 
-TEST_F(GltfRead, BoundsTheMemoryAShortFileCanAskFor) {
-  // Zeros without a buffer, and one mesh drawn many times.
+TEST_F(GltfRead, BoundsTheMemoryOfAShortFile) {
+  // Zeros without a buffer, and one mesh with many instances.
   EXPECT_TRUE(refusalOf(write("zeros.gltf", R"({"asset":{"version":"2.0"},"meshes":[{"primitives":[{"attributes":{
       "POSITION":0}}]}],"accessors":[{"componentType":5126,"count":4000000000,"type":"VEC3"}]})"))
                   .refused);
@@ -285,7 +285,7 @@ TEST_F(GltfRead, BoundsTheMemoryAShortFileCanAskFor) {
               HasSubstr("20 million"));
 }
 
-TEST_F(GltfRead, WalksADeepHierarchyWithoutRecursion) {
+TEST_F(GltfRead, ReadsADeepHierarchyWithoutRecursion) {
   std::string nodes;
   for (int i = 1; i <= 100'000; ++i) nodes += R"({"children":[)" + std::to_string(i) + "]},";
   MeshModel model;
@@ -297,8 +297,8 @@ TEST_F(GltfRead, WalksADeepHierarchyWithoutRecursion) {
   EXPECT_EQ(triangleCount(model), 1u);
 }
 
-// A seeded storm of small damage: each file either loads soundly or is refused in one line.
-TEST_F(GltfMutants, AreReadSoundlyOrRefused) {
+// Seeded small damage: each file either loads as a valid model or is refused in one line.
+TEST_F(GltfMutants, AreReadAsValidModelsOrRefused) {
   std::vector<std::string> seeds;
   MeshPart part = triangle("Gum");
   for (int i = 0; i < 40; ++i) {

@@ -46,7 +46,7 @@ TEST_F(StlFile, HoldsTheTrianglesAndTheirNormals) {
   }
 }
 
-TEST_F(StlFile, SaysUnitAndFrameAndNothingElseInItsHeader) {
+TEST_F(StlFile, StatesOnlyUnitAndFrameInItsHeader) {
   calibration::OutputFile out(path_, true);
   writeStl({{ball("someone's name")}}, out);
   std::string header = test::readStl(path_).header;

@@ -1,4 +1,4 @@
-// Reads a binary STL the plain way, as a stranger would. Test code only.
+// Independent reader of binary STL. Test code only.
 #pragma once
 
 #include <array>

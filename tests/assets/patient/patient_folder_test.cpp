@@ -47,7 +47,7 @@ Patient somebody() {
   return patient;
 }
 
-TEST(PatientFolder, GivesBackThePatient) {
+TEST(PatientFolder, RoundTrips) {
   const on_disk::Folder folder;
   const Patient saved = somebody();
   assets::savePatient(saved, folder.at("p"), false);
@@ -86,7 +86,7 @@ TEST(PatientFolder, KeepsGingivaAndFaceApartAndInPosition) {
   }
 }
 
-TEST(PatientFolder, GoesWithoutMeshes) {
+TEST(PatientFolder, IsValidWithoutMeshes) {
   const on_disk::Folder folder;
   Patient saved = somebody();
   saved.gingiva.parts.clear();
@@ -96,7 +96,7 @@ TEST(PatientFolder, GoesWithoutMeshes) {
   EXPECT_TRUE(assets::loadPatient(folder.at("p")).face.parts.empty());
 }
 
-TEST(PatientFolder, IsReplacedOnlyWithLeave) {
+TEST(PatientFolder, IsReplacedOnlyOnRequest) {
   const on_disk::Folder folder;
   Patient patient = somebody();
   assets::savePatient(patient, folder.at("p"), false);
@@ -106,7 +106,7 @@ TEST(PatientFolder, IsReplacedOnlyWithLeave) {
   EXPECT_EQ(assets::loadPatient(folder.at("p")).title, "second");
 }
 
-TEST(PatientFolder, RefusesWhatIsMissing) {
+TEST(PatientFolder, RefusesAMissingFile) {
   const on_disk::Folder folder;
   EXPECT_THAT(refusalOf([&] { assets::loadPatient(folder.at("none")); }), HasSubstr("no such patient folder"));
   assets::savePatient(somebody(), folder.at("p"), false);
@@ -154,8 +154,8 @@ TEST(PatientToml, ChecksEveryNumber) {
   EXPECT_THAT(with("centre_P_mm = [", "centre_P_mm = [nan, 1, 2] #"), HasSubstr("centre_P_mm"));
 }
 
-/// As the first folders were written, with words of the time.
-TEST(PatientToml, ReadsTheFormerSchema) {
+/// Schema 1, with its keys.
+TEST(PatientToml, ReadsSchema1) {
   const auto former = [](const char* known) {
     return std::string("schema = 1\ntitle = \"before\"\nframe = \"P: LPS, mm\"\n\n[site]\nknown = ") + known +
            "\ntooth_fdi = 48\nthird_molar_P_mm = [1.5, 2.0, -3.0]\ncrown_direction_P = [0.0, 0.6, 0.8]\n\n"
@@ -174,7 +174,7 @@ TEST(PatientToml, ReadsTheFormerSchema) {
   EXPECT_EQ(without.focus_P_mm(), glm::dvec3(1.5, 2.0, -3.0));
 }
 
-TEST(PatientFolder, NumbersTheToothAtTheSiteOfAFolderThatTellsNoneApart) {
+TEST(PatientFolder, NumbersTheToothAtTheSiteOfAFolderWithoutNumbers) {
   const on_disk::Folder folder;
   Patient saved = somebody();
   saved.ct.tooth.clear();
@@ -198,7 +198,7 @@ TEST(PatientFolder, HoldsAPatientWithoutASite) {
   EXPECT_EQ(loaded.focus_P_mm(), saved.jaw_P_mm);
 }
 
-TEST(FaceFrame, TurnsUpIntoSuperiorAndForwardIntoAnterior) {
+TEST(FaceFrame, MapsUpToSuperiorAndForwardToAnterior) {
   assets::MeshModel face_F;
   face_F.parts.emplace_back();
   face_F.parts[0].position_mm = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

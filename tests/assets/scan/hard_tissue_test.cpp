@@ -11,7 +11,7 @@
 namespace assets {
 namespace {
 
-/// A ball of tooth, 3 mm, stuck half way into a block of bone whose top is z = 0.
+/// A 3 mm ball of tooth half inside a block of bone whose top is z = 0.
 struct ToothInBone {
   VolumeGrid grid{{49, 50, 51}, 0.2, {-4.8, -4.9, -5.0}};
   std::vector<std::uint8_t> solid{std::vector<std::uint8_t>(grid.voxelCount())}, label = solid;
@@ -37,19 +37,19 @@ struct ToothInBone {
   }
 };
 
-TEST(HardTissue, GivesAToothItsWholeRoundness) {
+TEST(HardTissue, GivesAToothASmoothSurface) {
   const ToothInBone scene;
   const MeshPart tooth = scene.surfaceOf(HardTissue::tooth);
   EXPECT_EQ(test::opennessOf(tooth.triangles), "");
   EXPECT_EQ(test::eulerCharacteristic(tooth.triangles), 2);
-  // In the air as exactly as the whole; inside the bone as smoothly as labels allow.
+  // Exact in the air; inside the bone limited by the labels.
   for (const glm::vec3& p : tooth.position_mm) {
     ASSERT_NEAR(glm::length(p), 3.0f, p.z > 0.6f ? 0.03f : 0.16f) << p.z;
   }
   EXPECT_NEAR(test::volume(tooth), 113.1, 2.5);
 }
 
-TEST(HardTissue, LeavesTheSurfaceInTheAirWhereItIs) {
+TEST(HardTissue, KeepsTheSurfaceInTheAir) {
   const ToothInBone scene;
   const auto tooth = scene.of(HardTissue::tooth), bone = scene.of(HardTissue::bone);
   int compared = 0;
@@ -64,7 +64,7 @@ TEST(HardTissue, LeavesTheSurfaceInTheAirWhereItIs) {
   EXPECT_GT(compared, 1000);
 }
 
-TEST(HardTissue, SharesAllThatIsSolidBetweenBoneAndTooth) {
+TEST(HardTissue, DividesAllSolidBetweenBoneAndTooth) {
   const ToothInBone scene;
   const auto tooth = scene.of(HardTissue::tooth), bone = scene.of(HardTissue::bone);
   double whole = 0.0, parts = 0.0;

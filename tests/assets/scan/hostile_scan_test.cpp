@@ -1,4 +1,4 @@
-// The files that readers of scans have stumbled over, each with its one true answer (data/hostile/README.md).
+// Files on which scan readers have failed, each with the correct answer (data/hostile/README.md).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -49,7 +49,7 @@ const std::map<std::string, std::string> kRefusals = {
     {"units_m.nrrd", "a voxel spacing of 500.000000 mm is outside 0.001 to 50 mm"}};
 const std::set<std::string> kRead = {"u16_m1024.nii", "nibscaled.nii.gz"};
 
-TEST(HostileScanRealData, EachIsRefusedInOneTrueLineOrReadRight) {
+TEST(HostileScanRealData, EachIsRefusedInOneLineOrReadCorrectly) {
   const std::filesystem::path folder = tests::sharedData("hostile");
   MOLAR_NEEDS(folder);
   const std::set<std::string> voxels_of_others = {"empty.raw", "half.raw", "v.raw", "zr.zraw"};
@@ -60,7 +60,7 @@ TEST(HostileScanRealData, EachIsRefusedInOneTrueLineOrReadRight) {
       EXPECT_NO_THROW(assets::readHounsfield(entry.path().string())) << name;
       continue;
     }
-    ASSERT_TRUE(kRefusals.contains(name)) << name << ": say here what is right";
+    ASSERT_TRUE(kRefusals.contains(name)) << name << ": add the correct answer";
     try {
       assets::readHounsfield(entry.path().string());
       ADD_FAILURE() << name << " was read";

@@ -74,7 +74,7 @@ TEST(ImageFile, ReadsEveryFormatIntoTheSameVoxels) {
   }
 }
 
-TEST(ImageFile, PutsTurnedAxesInTheSamePlaceFromEveryFormat) {
+TEST(ImageFile, ReadsPermutedAxesAlikeFromEveryFormat) {
   const on_disk::Folder folder;
   for (const auto& [name, bytes] : inEveryFormat(turned())) {
     on_disk::write(folder.at(name), bytes);
@@ -108,8 +108,7 @@ TEST(ImageFile, ReadsObliqueAxesFromEveryFormat) {
   EXPECT_GT(images["a.mha"].hounsfield.size(), 60u);
 }
 
-// A scan with the gantry tilted: slices shifted against each other, axes not square. Read in place or refused, never
-// squared.
+// A scan with a tilted gantry: sheared axes, read as they are or refused.
 TEST(ImageFile, KeepsTheShearOfATiltedGantry) {
   on_disk::Scan scan{{20, 20, 20}, glm::dmat3(0.5), {10, -20, 30}};
   scan.step[2] = {0, 0.2, 0.5};
@@ -203,7 +202,7 @@ TEST(ImageFile, RefusesTruncatedFilesOfEveryFormat) {
   }
 }
 
-TEST(ImageFile, RefusesWhatIsNoVolumeOfNumbers) {
+TEST(ImageFile, RefusesWhatIsNotAScalarVolume) {
   const on_disk::Folder folder;
   const auto refusal = [&](const std::string& name, const std::string& bytes) {
     on_disk::write(folder.at(name), bytes);
@@ -251,7 +250,7 @@ TEST(ImageFile, RefusesWhatIsNoVolumeOfNumbers) {
   EXPECT_THAT(refusalOf([&] { assets::readSolid(folder.at("")); }), HasSubstr("not a file"));
 }
 
-TEST(ImageFile, SaysNothingOfItsOwnAboutBadFiles) {
+TEST(ImageFile, PrintsNothingAboutBadFiles) {
   const on_disk::Folder folder;
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
@@ -291,7 +290,7 @@ TEST(ImageFile, WritesTheSameBytesForTheSameVolume) {
   EXPECT_EQ(on_disk::read(folder.at("a.nrrd")), on_disk::read(folder.at("b.nrrd")));
 }
 
-TEST(ImageFile, WritesADepthPictureOfTwoAxes) {
+TEST(ImageFile, WritesADepthImageOfTwoAxes) {
   const on_disk::Folder folder;
   auto file = assets::nrrdOutput(folder.at("depth.nrrd"), false);
   assets::writeDepth(3, 2, {0, 1, 2, 3, 4, 5}, file);
@@ -303,7 +302,7 @@ TEST(ImageFile, WritesOnlyNrrd) {
   EXPECT_THAT(refusalOf([&] { assets::nrrdOutput(folder.at("a.nii.gz"), false); }), HasSubstr(".nrrd"));
 }
 
-TEST(ImageFile, TellsGridsApart) {
+TEST(ImageFile, DistinguishesGrids) {
   const VolumeGrid grid{{100, 100, 100}, 0.4, {1, 2, 3}};
   VolumeGrid other = grid;
   other.origin_P_mm.y += 0.003;
@@ -318,7 +317,7 @@ TEST(ImageFile, TellsGridsApart) {
   EXPECT_FALSE(assets::isSameGrid(grid, other));
 }
 
-TEST(ImageFile, NoticesAChangedByteInAPackedFile) {
+TEST(ImageFile, DetectsAChangedByteInACompressedFile) {
   const on_disk::Folder folder;
   auto file = assets::nrrdOutput(folder.at("packed.nrrd"), false);
   assets::writeHounsfield({{3, 4, 5}, 0.5, {10, -20, 30}}, noise(), file);

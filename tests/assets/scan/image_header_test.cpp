@@ -53,7 +53,7 @@ class ScanReading : public testing::Test {
       return refusal.what();
     }
   }
-  /// Slices beside the header: s0.raw …
+  /// Slices next to the header: s0.raw …
   void putSlices(int count) {
     for (int k = 0; k < count; ++k)
       put("s" + std::to_string(k) + ".raw", kRaw.substr(static_cast<std::size_t>(24 * k), 24));
@@ -87,7 +87,7 @@ std::string asText() {
   return text;
 }
 
-TEST_F(NrrdReading, TakesEveryCoding) {
+TEST_F(NrrdReading, ReadsEveryCoding) {
   EXPECT_EQ(answer("a.nrrd", nrrd_ + kRaw), "the voxels");
   EXPECT_EQ(answer("a.nrrd", replaced(nrrd_, "little", "big") + bigEndian(kRaw)), "the voxels");
   EXPECT_EQ(answer("a.nrrd", replaced(nrrd_, "raw", "gzip") + packed(kRaw)), "the voxels");
@@ -98,7 +98,7 @@ TEST_F(NrrdReading, TakesEveryCoding) {
   EXPECT_THAT(answer("a.nrrd", replaced(nrrd_, "raw", "zstd") + kRaw), HasSubstr("'zstd' is not supported"));
 }
 
-TEST_F(NrrdReading, TakesVoxelsOfOtherFilesInItsFolder) {
+TEST_F(NrrdReading, ReadsDataFilesInItsFolder) {
   put("v.raw", std::string(77, 'x') + kRaw);
   EXPECT_EQ(answer("a.nhdr", detached_ + "byte skip: 77\ndata file: v.raw\n"), "the voxels");
   EXPECT_EQ(answer("a.nhdr", detached_ + "byte skip: -1\ndata file: ./v.raw\n"), "the voxels");
@@ -120,7 +120,7 @@ TEST_F(NrrdReading, TakesVoxelsOfOtherFilesInItsFolder) {
   EXPECT_THAT(answer("a.nhdr", detached_ + "data file: s%d.raw 0 4 0\n"), HasSubstr("is not valid"));
 }
 
-TEST_F(NrrdReading, ObeysUnitsOfLength) {
+TEST_F(NrrdReading, AppliesUnitsOfLength) {
   const auto spacing_mm = [&](const std::string& line, double number) {
     on_disk::Scan scan = kScan;
     scan.step = glm::dmat3(number);
@@ -153,13 +153,13 @@ TEST_F(NrrdReading, RefusesUnitsOfAxesWithDirections) {
   EXPECT_THAT(with_units(R"("ell" "ell" "ell")"), HasSubstr("'ell'"));
 }
 
-TEST_F(NrrdReading, TakesAFileForAListOnlyIfItIsOne) {
+TEST_F(NrrdReading, RecognisesLists) {
   put("list_of_bone.raw", kRaw);
   EXPECT_EQ(answer("a.nhdr", detached_ + "data file: list_of_bone.raw\nkey:=value\n"), "the voxels");
   EXPECT_EQ(answer("a.mhd", replaced(meta_, "LOCAL", "list_of_bone.raw")), "the voxels");
 }
 
-TEST_F(ScanReading, SaysWhetherSidesAreStated) {
+TEST_F(ScanReading, ReportsWhetherTheOrientationIsStated) {
   const auto orientation_known = [&](const std::string& name, const std::string& bytes) {
     put(name, bytes + kRaw);
     return assets::readHounsfield(folder_.at(name)).orientation_known;
@@ -174,7 +174,7 @@ TEST_F(ScanReading, SaysWhetherSidesAreStated) {
   EXPECT_TRUE(orientation_known("a.nii", nifti_.substr(0, 352)));
 }
 
-TEST_F(NrrdReading, DropsAxesOfOneVoxelThatAreNoneOfSpace) {
+TEST_F(NrrdReading, DropsNonSpatialAxesOfOneVoxel) {
   const std::string end = "endian: little\nencoding: raw\n\n" + kRaw;
   EXPECT_EQ(answer("a.nrrd", "NRRD0001\ntype: short\ndimension: 4\nsizes: 1 3 4 5\nspacings: NaN .01 .01 .01\n" + end),
             "the voxels");
@@ -189,7 +189,7 @@ TEST_F(NrrdReading, DropsAxesOfOneVoxelThatAreNoneOfSpace) {
               HasSubstr("it has 4 axes"));
 }
 
-TEST_F(NrrdReading, RefusesSpacingsThatAreNone) {
+TEST_F(NrrdReading, RefusesInvalidSpacings) {
   const auto spaced = [&](const std::string& spacings) {
     return answer("a.nrrd", "NRRD0001\ntype: short\ndimension: 3\nsizes: 3 4 5\nspacings: " + spacings +
                                 "\nendian: little\nencoding: raw\n\n" + kRaw);
@@ -200,7 +200,7 @@ TEST_F(NrrdReading, RefusesSpacingsThatAreNone) {
     EXPECT_THAT(spaced(bad), HasSubstr("a.nrrd: ")) << bad;
 }
 
-TEST_F(NrrdReading, RefusesWhatIsLeftOutOrSaidTwice) {
+TEST_F(NrrdReading, RefusesMissingAndRepeatedFields) {
   for (const char* line : {"type: short\n", "dimension: 3\n", "sizes: 3 4 5\n", "encoding: raw\n", "endian: little\n"})
     EXPECT_THAT(answer("a.nrrd", replaced(nrrd_, line, "") + kRaw), HasSubstr("a.nrrd: ")) << line;
   EXPECT_THAT(answer("a.nrrd", replaced(nrrd_, "endian: little\n", "") + kRaw), HasSubstr("byte order"));
@@ -240,25 +240,25 @@ TEST_F(VoxelReading, NeverLeavesTheHeadersFolder) {
   std::filesystem::remove(outside);
 }
 
-TEST_F(VoxelReading, RefusesAPipeAndADeviceInPlaceOfTheFile) {
+TEST_F(VoxelReading, RefusesAPipeAndADevice) {
   ASSERT_EQ(::mkfifo(folder_.at("pipe.nrrd").c_str(), 0600), 0);
   std::filesystem::create_symlink("/dev/zero", folder_.at("zero.nrrd"));
   for (const char* name : {"pipe.nrrd", "zero.nrrd"})
     EXPECT_THROW(assets::readHounsfield(folder_.at(name)), assets::LoadError);
 }
 
-TEST_F(VoxelReading, TakesExactlyWhatTheHeaderPromises) {
+TEST_F(VoxelReading, ReadsExactlyWhatTheHeaderStates) {
   for (const auto& [name, head] :
        std::map<std::string, std::string>{{"a.nrrd", nrrd_}, {"a.mha", meta_}, {"a.nii", nifti_.substr(0, 352)}}) {
     EXPECT_EQ(answer(name, head + kRaw), "the voxels");
-    EXPECT_EQ(answer(name, head + kRaw + "\n"), "the voxels") << "a line's end behind them";
+    EXPECT_EQ(answer(name, head + kRaw + "\n"), "the voxels") << "a line end after them";
     EXPECT_THAT(answer(name, head + kRaw + "xx"), HasSubstr("more voxels than its header states"));
     EXPECT_THAT(answer(name, head + kRaw.substr(1)), HasSubstr("fewer voxels than its header states"));
     EXPECT_THAT(answer(name, head), HasSubstr("fewer voxels than its header states"));
   }
 }
 
-TEST_F(VoxelReading, ChecksAPackedStreamToItsEnd) {
+TEST_F(VoxelReading, ChecksACompressedStreamToItsEnd) {
   const std::string head = replaced(nrrd_, "raw", "gzip"), zipped = packed(kRaw);
   EXPECT_EQ(answer("a.nrrd", head + packed(kRaw.substr(0, 50)) + packed(kRaw.substr(50))), "the voxels")
       << "two members";
@@ -291,7 +291,7 @@ std::string niftiWith(std::string file, std::size_t at, auto value) {
   return file;
 }
 
-TEST_F(NiftiReading, RescalesAsTheHeaderSays) {
+TEST_F(NiftiReading, RescalesAsStated) {
   std::vector<std::uint16_t> raised;
   for (const auto value : countingUp()) raised.push_back(static_cast<std::uint16_t>(value + 1024));
   std::string file = on_disk::nifti(kScan, 512, 16, on_disk::bytesOf(raised));
@@ -307,7 +307,7 @@ TEST_F(NiftiReading, RescalesAsTheHeaderSays) {
   EXPECT_THAT(answer("a.nii", niftiWith(nifti_, 112, 1000.0F)), HasSubstr("lies outside -32768..32767"));
 }
 
-TEST_F(NiftiReading, ObeysUnitsAndVoxelOffset) {
+TEST_F(NiftiReading, AppliesUnitsAndVoxelOffset) {
   const auto unit = [&](char code) {
     std::string file = nifti_;
     file[123] = code;
@@ -327,7 +327,7 @@ TEST_F(NiftiReading, ObeysUnitsAndVoxelOffset) {
     EXPECT_THAT(answer("a.nii", niftiWith(nifti_, 108, bad)), HasSubstr("a.nii: ")) << bad;
 }
 
-TEST_F(NiftiReading, TakesEitherByteOrderAndPackedFiles) {
+TEST_F(NiftiReading, ReadsEitherByteOrderAndCompressedFiles) {
   std::string file = nifti_;
   const auto reverse = [&](std::size_t at, std::size_t width) {
     std::reverse(file.begin() + static_cast<long>(at), file.begin() + static_cast<long>(at + width));
@@ -339,16 +339,16 @@ TEST_F(NiftiReading, TakesEitherByteOrderAndPackedFiles) {
   for (std::size_t at = 256; at < 328; at += 4) reverse(at, 4);
   EXPECT_EQ(answer("a.nii", file.substr(0, 352) + bigEndian(kRaw)), "the voxels");
   EXPECT_EQ(answer("a.nii.gz", packed(nifti_)), "the voxels");
-  EXPECT_EQ(answer("b.nii.gz", nifti_), "the voxels") << "named so, but not packed";
+  EXPECT_EQ(answer("b.nii.gz", nifti_), "the voxels") << "the extension of a compressed file";
 }
 
-TEST_F(NiftiReading, RefusesAPlaceThatIsNone) {
+TEST_F(NiftiReading, RefusesInvalidGeometry) {
   for (const float bad : {0.0F, -0.5F, std::nanf(""), HUGE_VALF, 0.7F})
     EXPECT_THAT(answer("a.nii", niftiWith(nifti_, 80, bad)), HasSubstr("pixdim")) << bad;
   EXPECT_THAT(answer("a.nii", niftiWith(nifti_, 280, std::nanf(""))), HasSubstr("sform"));
   EXPECT_THAT(answer("a.nii", niftiWith(nifti_, 292, 3.0e38F)), HasSubstr("1 km"));
   std::string quaternion = niftiWith(niftiWith(nifti_, 254, std::int16_t{0}), 252, std::int16_t{1});
-  EXPECT_EQ(answer("a.nii", quaternion), "other voxels") << "turned: RAS";
+  EXPECT_EQ(answer("a.nii", quaternion), "other voxels") << "RAS";
   EXPECT_THAT(answer("a.nii", niftiWith(quaternion, 256, 1.5F)), HasSubstr("qform"));
   EXPECT_THAT(answer("a.nii", niftiWith(quaternion, 260, std::nanf(""))), HasSubstr("qform"));
   EXPECT_THAT(answer("a.nii", niftiWith(nifti_, 0, std::int32_t{540})), HasSubstr("NIfTI-2"));
@@ -357,7 +357,7 @@ TEST_F(NiftiReading, RefusesAPlaceThatIsNone) {
     EXPECT_THAT(answer("a.nii", niftiWith(nifti_, 40, dimensions)), HasSubstr("three axes"));
 }
 
-TEST_F(MetaReading, TakesEveryCoding) {
+TEST_F(MetaReading, ReadsEveryCoding) {
   EXPECT_EQ(answer("a.mha", meta_ + kRaw), "the voxels");
   EXPECT_EQ(answer("a.mha", replaced(meta_, "MSB = False", "MSB = True") + bigEndian(kRaw)), "the voxels");
   EXPECT_EQ(answer("a.mha",
@@ -368,7 +368,7 @@ TEST_F(MetaReading, TakesEveryCoding) {
   EXPECT_EQ(answer("a.mha", replaced(meta_, "BinaryData = True", "BinaryData = False") + asText()), "the voxels");
 }
 
-TEST_F(MetaReading, TakesVoxelsOfOtherFilesInItsFolder) {
+TEST_F(MetaReading, ReadsDataFilesInItsFolder) {
   put("v.raw", std::string(77, 'x') + kRaw);
   EXPECT_EQ(answer("a.mhd", replaced(meta_, "ElementDataFile = LOCAL", "HeaderSize = 77\nElementDataFile = v.raw")),
             "the voxels");
@@ -378,7 +378,7 @@ TEST_F(MetaReading, TakesVoxelsOfOtherFilesInItsFolder) {
   const std::string packed = replaced(meta_, "CompressedData = False", "CompressedData = True");
   EXPECT_EQ(answer("a.mhd", replaced(packed, "ElementDataFile = LOCAL", "HeaderSize = 77\nElementDataFile = v.zraw")),
             "the voxels")
-      << "bytes of the file as it is stored";
+      << "bytes of the stored file";
   putSlices(5);
   EXPECT_EQ(answer("a.mhd", replaced(meta_, "LOCAL", "LIST") + "s0.raw\ns1.raw\ns2.raw\ns3.raw\ns4.raw\n"),
             "the voxels");
@@ -393,7 +393,7 @@ TEST_F(MetaReading, TakesVoxelsOfOtherFilesInItsFolder) {
   EXPECT_THAT(answer("a.mhd", replaced(meta_, "LOCAL", "s%d%d.raw 0 4 1")), HasSubstr("needs one number"));
 }
 
-TEST_F(MetaReading, RefusesAPlaceThatIsNone) {
+TEST_F(MetaReading, RefusesInvalidGeometry) {
   const std::string spacing = "ElementSpacing = 0.5 0.5 0.5";
   for (const char* bad : {"0 1 1", "-1 1 1", "nan 1 1", "inf 1 1", "1 1", "1e999 1 1", "1 1 1 1", "none"})
     EXPECT_THAT(answer("a.mha", replaced(meta_, spacing, std::string("ElementSpacing = ") + bad) + kRaw),

@@ -1,4 +1,4 @@
-// ITK's readers as a twin: of right files they and ours see the same voxels in the same place.
+// ITK's readers as reference: same voxels and geometry for valid files.
 #include <gtest/gtest.h>
 #include <itkImageIOBase.h>
 #include <itkMetaImageIO.h>
@@ -67,7 +67,7 @@ void expectAsItk(const std::string& path, itk::ImageIOBase& itk_reader) {
   EXPECT_EQ(ours, theirs) << path;
 }
 
-TEST(ItkTwin, SeesTheSameVoxelsInTheSamePlace) {
+TEST(ItkTwin, ReadsTheSameVoxelsAndGeometry) {
   const on_disk::Folder folder;
   int nifti_compared = 0;
   for (std::uint32_t seed = 0; seed < 40; ++seed) {
@@ -90,7 +90,7 @@ TEST(ItkTwin, SeesTheSameVoxelsInTheSamePlace) {
   EXPECT_GE(nifti_compared, 20);
 }
 
-TEST(ItkTwin, SeesTheSameQform) {
+TEST(ItkTwin, ReadsTheSameQform) {
   const on_disk::Folder folder;
   std::mt19937 random(3);
   std::uniform_real_distribution<float> part(-0.55F, 0.55F);
@@ -107,7 +107,7 @@ TEST(ItkTwin, SeesTheSameQform) {
   }
 }
 
-TEST(ItkTwin, TakesWhatIsNotStatedAsItkDoes) {
+TEST(ItkTwin, HasTheDefaultsOfItk) {
   const on_disk::Folder folder;
   const on_disk::Scan scan{{3, 4, 5}, glm::dmat3(0.7), {0, 0, 0}};
   const std::string data = on_disk::bytesOf(noise(scan, 1));
@@ -126,7 +126,7 @@ TEST(ItkTwin, TakesWhatIsNotStatedAsItkDoes) {
   expectAsItk(folder.at("node.nrrd"), *itk::NrrdImageIO::New());
 }
 
-TEST(ItkTwinRealData, SeesTheSameJaws) {
+TEST(ItkTwinRealData, ReadsTheSameJaws) {
   const auto folder = tests::sharedData("patients");
   MOLAR_NEEDS(folder);
   expectAsItk((folder / "right_third_molar/ct.nrrd").string(), *itk::NrrdImageIO::New());

@@ -53,7 +53,7 @@ TEST(Resampling, CopiesEveryAxisOrderAndFlipExactly) {
     }
 }
 
-TEST(Resampling, TakesFloatRoundingForAligned) {
+TEST(Resampling, ToleratesFloatRounding) {
   ScanGeometry scan{{300, 300, 2}, glm::dmat3(0.4), {0, 0, 0}};
   scan.step_P_mm[0] = {0.4000000059604645, 1e-8, -2e-8};
   EXPECT_TRUE(Resampling(scan, "scan").isExact());
@@ -61,7 +61,7 @@ TEST(Resampling, TakesFloatRoundingForAligned) {
   EXPECT_FALSE(Resampling(scan, "scan").isExact());
 }
 
-TEST(Resampling, TakesTheSmallestSpacingAndKeepsThePlace) {
+TEST(Resampling, UsesTheSmallestSpacingAndKeepsThePosition) {
   ScanGeometry scan{{4, 3, 5}, glm::dmat3(1.0), {1, 2, 3}};
   scan.step_P_mm[0].x = 0.25;
   scan.step_P_mm[1].y = 0.5;
@@ -100,7 +100,7 @@ TEST(Resampling, InterpolatesALinearFieldExactlyAtAnyAngle) {
   }
 }
 
-TEST(Resampling, GivesLabelsOfTheNearestVoxelOnly) {
+TEST(Resampling, TakesLabelsOfTheNearestVoxel) {
   ScanGeometry scan{{2, 1, 1}, glm::dmat3(1.0), {0, 0, 0}};
   scan.step_P_mm[1].y = 0.25;
   scan.step_P_mm[2].z = 0.25;
@@ -108,7 +108,7 @@ TEST(Resampling, GivesLabelsOfTheNearestVoxelOnly) {
   EXPECT_EQ(labels, (std::vector<std::uint8_t>{3, 3, 3, 3, 9, 9, 9, 9}));
 }
 
-TEST(Resampling, RefusesWhatIsNoGeometry) {
+TEST(Resampling, RefusesInvalidGeometry) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto refusalOf = [](const ScanGeometry& scan) -> std::string {
     try {

@@ -17,7 +17,7 @@ using assets::classify;
 using assets::solidFromHounsfield;
 using assets::VolumeGrid;
 
-// A face square to `normal` through the middle: HU rises linearly over `width_voxels`, from 0 to 1000.
+// A face normal to `normal` through the middle: HU rises linearly over `width_voxels`, from 0 to 1000.
 std::vector<std::int16_t> faceOf(const VolumeGrid& grid, const glm::dvec3& normal, double width_voxels) {
   std::vector<std::int16_t> hounsfield(grid.voxelCount());
   const glm::dvec3 middle = glm::dvec3(grid.size - 1) / 2.0;
@@ -84,14 +84,14 @@ TEST(SolidFraction, WidensAStepToGreyValues) {
             std::lround(255.0 * 0.5 * std::erfc(0.5 * std::sqrt(std::numbers::pi))));  // Phi(-sqrt(2 pi)/2)
 }
 
-TEST(SolidFraction, LeavesTheSurfaceWhereGreyMeetsIso) {
+TEST(SolidFraction, KeepsTheSurfaceAtIso) {
   const VolumeGrid grid{{16, 16, 16}, 0.4};
   const auto hounsfield = faceOf(grid, glm::normalize(glm::dvec3(1, 2, 3)), 4.0);
   const auto solid = classify(grid, hounsfield, {300, 75});
   for (std::size_t v = 0; v < solid.size(); ++v) EXPECT_EQ(solid[v] >= 128, hounsfield[v] >= 300) << hounsfield[v];
 }
 
-TEST(SolidFraction, TakesAVolumeOfOneVoxel) {
+TEST(SolidFraction, AcceptsAVolumeOfOneVoxel) {
   EXPECT_EQ(classify({{1, 1, 1}, 0.1}, {300}, {300, 75}), std::vector<std::uint8_t>{128});
 }
 

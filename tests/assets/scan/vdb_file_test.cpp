@@ -24,7 +24,7 @@ std::string refusalOf(const std::string& path) {
   return tests::refusalOf<assets::LoadError>([&] { assets::readVdb(path); });
 }
 
-/// Air around a block of every grey value there is; sizes that leave the last leaves partly outside.
+/// Air around a block with every grey value; its size leaves the last leaves partly outside.
 CtVolume manyValued() {
   CtVolume volume;
   volume.grid = {{37, 45, 51}, 0.4, {41.95, -39.95, 19.95}};
@@ -47,7 +47,7 @@ void expectEqual(const CtVolume& a, const CtVolume& b) {
   EXPECT_EQ(a.solid, b.solid);
 }
 
-TEST(VdbFile, GivesBackEveryValueExactly) {
+TEST(VdbFile, RoundTripsEveryValueExactly) {
   const on_disk::Folder folder;
   const CtVolume volume = manyValued();
   assets::writeVdb(volume, folder.at("v.vdb"));
@@ -88,7 +88,7 @@ TEST(VdbFileRealData, RefusesFilesOfOtherPrograms) {
   EXPECT_GE(files, 8);
 }
 
-// Each writes a sealed file with one thing wrong in it.
+// Each writes a file with a valid checksum and one error.
 std::string refusalWith(const std::function<void(openvdb::GridPtrVec&, openvdb::MetaMap&)>& spoil) {
   const on_disk::Folder folder;
   assets::writeVdb(manyValued(), folder.at("v.vdb"));
@@ -109,7 +109,7 @@ openvdb::FloatTree& hu(const openvdb::GridPtrVec& grids) {
   return openvdb::gridPtrCast<openvdb::FloatGrid>(grids[0])->tree();
 }
 
-TEST(VdbFile, ChecksWhatItReads) {
+TEST(VdbFile, ValidatesItsContent) {
   using Grids = openvdb::GridPtrVec;
   using Meta = openvdb::MetaMap;
   EXPECT_EQ(refusalWith([](Grids&, Meta&) {}), "accepted");
@@ -193,7 +193,7 @@ TEST(VdbFile, ReadsTilesThatOtherToolsMake) {
   expectEqual(assets::readVdb(folder.at("pruned.vdb")), volume);
 }
 
-TEST(VdbFile, NoticesThatItIsNotThere) {
+TEST(VdbFile, RefusesAMissingFile) {
   const on_disk::Folder folder;
   EXPECT_THAT(refusalOf(folder.at("none.vdb")), HasSubstr("no such file"));
 }

@@ -24,7 +24,7 @@ std::string refusalToRead(const std::function<void()>& read) {
   return tests::refusalOf<assets::LoadError>([&] { read(); });
 }
 
-/// A process that answers so and ends so.
+/// A process with this answer and exit.
 std::string refusalOfAnswer(const std::string& bytes, const std::function<void()>& end) {
   const int answer = ::memfd_create("answer", MFD_CLOEXEC);
   EXPECT_EQ(::write(answer, bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
@@ -48,7 +48,7 @@ assets::CtVolume oneLeaf() {
           std::vector<std::uint8_t>(512, 48)};
 }
 
-/// The answer for `oneLeaf`: i32 size[3], 4 bytes of nothing, f64 spacing, f64 origin[3], then the voxels.
+/// The answer for `oneLeaf`: i32 size[3], 4 bytes of padding, f64 spacing, f64 origin[3], then the voxels.
 std::string goodAnswer() {
   std::string bytes(48, '\0');
   const std::int32_t size[] = {8, 8, 8};
@@ -58,7 +58,7 @@ std::string goodAnswer() {
   return bytes + std::string(4 * 512, '\1');
 }
 
-TEST(VolumeReader, AnswersAsTheFileStands) {
+TEST(VolumeReader, ReturnsTheFile) {
   const on_disk::Folder folder;
   const assets::CtVolume volume = oneLeaf();
   assets::writeVdb(volume, folder.at("v.vdb"));
@@ -70,15 +70,15 @@ TEST(VolumeReader, AnswersAsTheFileStands) {
   EXPECT_EQ(read.tooth, volume.tooth);
 }
 
-TEST(VolumeReader, ReadsThoughTheCallerHadChildrenForgotten) {
+TEST(VolumeReader, ReadsIfTheCallerIgnoresSigchld) {
   const on_disk::Folder folder;
   assets::writeVdb(oneLeaf(), folder.at("v.vdb"));
   const auto before = ::signal(SIGCHLD, SIG_IGN);
   EXPECT_EQ(refusalToRead([&] { assets::readVolumeInChild(folder.at("v.vdb")); }), "accepted");
-  EXPECT_EQ(::signal(SIGCHLD, before), SIG_IGN) << "as it was";
+  EXPECT_EQ(::signal(SIGCHLD, before), SIG_IGN) << "restored";
 }
 
-TEST(VolumeReader, SaysWhenMemoryIsWhatIsMissing) {
+TEST(VolumeReader, ReportsLackOfMemory) {
   const on_disk::Folder folder;
   assets::CtVolume large;
   large.grid = {{300, 300, 300}, 0.5, {0, 0, 0}};
@@ -98,24 +98,23 @@ TEST(VolumeReader, SaysWhenMemoryIsWhatIsMissing) {
   ::close(answer);
 }
 
-TEST(VolumeReader, RefusesWithTheReadersWords) {
+TEST(VolumeReader, ReportsTheReadersMessage) {
   const on_disk::Folder folder;
   on_disk::write(folder.at("v.vdb"), std::string(2000, 'x'));
   EXPECT_THAT(refusalToRead([&] { assets::readVolumeInChild(folder.at("v.vdb")); }),
               HasSubstr("it cannot be read as OpenVDB"));
 }
 
-TEST(VolumeReader, OutlivesAReaderThatCrashesOrIsCutOff) {
+TEST(VolumeReader, SurvivesAReaderThatCrashesOrIsKilled) {
   EXPECT_EQ(refusalOfAnswer(goodAnswer(), [] {}), "accepted");
   EXPECT_THAT(refusalOfAnswer(goodAnswer(), [] { ::raise(SIGKILL); }), HasSubstr("its reader failed on it"));
   EXPECT_THAT(refusalOfAnswer(goodAnswer(), [] { ::_exit(4); }), HasSubstr("its reader failed on it"));
   EXPECT_THAT(refusalOfAnswer("", [] { ::_exit(5); }), HasSubstr("not enough memory"));
   EXPECT_EQ(refusalOfAnswer("p/volume.vdb: told\nso", [] { ::_exit(3); }), "p/volume.vdb: told?so");
-  EXPECT_THAT(refusalOfAnswer("", [] { ::_exit(3); }), HasSubstr("its reader failed on it"))
-      << "a refusal without words";
+  EXPECT_THAT(refusalOfAnswer("", [] { ::_exit(3); }), HasSubstr("its reader failed on it")) << "an empty message";
 }
 
-TEST(VolumeReader, TrustsNoAnswer) {
+TEST(VolumeReader, ValidatesTheAnswer) {
   const std::string good = goodAnswer();
   const auto with = [&](std::size_t at, auto value) {
     std::string bytes = good;

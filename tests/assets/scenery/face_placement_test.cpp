@@ -72,7 +72,7 @@ TEST(FacePlacement, FindsTheKnownPoseOfAPhantom) {
   }
 }
 
-TEST(FacePlacement, FindsThePoseWithoutASiteToo) {
+TEST(FacePlacement, FindsThePoseWithoutASite) {
   Phantom p = phantom();
   p.site.reset();
   const FacePlacement placement = fitFace(p.ct, p.site, p.teeth);
@@ -80,7 +80,7 @@ TEST(FacePlacement, FindsThePoseWithoutASiteToo) {
   EXPECT_GT(std::abs(glm::dot(placement.X_PF.rotation, p.X_PF.rotation)), std::cos(0.5 * 0.02));
 }
 
-TEST(FacePlacement, SaysWhatIsMissing) {
+TEST(FacePlacement, ReportsWhatIsMissing) {
   const Phantom p = phantom();
   const auto refusal = [&](const CtVolume& ct, std::vector<FaceTooth> teeth) -> std::string {
     try {
@@ -113,7 +113,7 @@ TEST(FacePlacement, RefusesADamagedListOfTeeth) {
   EXPECT_THROW(readFaceTeeth(path.string()), LoadError);
 }
 
-// Does a ray from a point meet the model?
+// Whether a ray from a point hits the model.
 bool meets(const MeshModel& model, const glm::dvec3& from, const glm::dvec3& direction) {
   for (const MeshPart& part : model.parts) {
     for (std::size_t t = 0; t < part.triangles.size(); t += 3) {
@@ -129,7 +129,7 @@ bool meets(const MeshModel& model, const glm::dvec3& from, const glm::dvec3& dir
   return false;
 }
 
-TEST(FacePlacementRealData, PutsARealJawIntoTheMouth) {
+TEST(FacePlacementRealData, PlacesARealJawInTheMouth) {
   const fs::path patient = tests::sharedData("patients/right_third_molar"), face = tests::sharedData("faces/ict");
   MOLAR_NEEDS(patient);
   MOLAR_NEEDS(face);

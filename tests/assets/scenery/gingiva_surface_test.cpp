@@ -55,7 +55,7 @@ TEST(GingivaSurface, KeepsItsUndersideInsideTheBone) {
   }
 }
 
-TEST(GingivaSurface, LaysTheThirdMolarBareOnTheCheekSide) {
+TEST(GingivaSurface, ExposesTheThirdMolarOnTheBuccalSide) {
   const MeshModel model = gingivaSurface(ridge(), siteAt(kSite));
   double nearest_mm = 1e9;
   int tongue_side = 0;
@@ -89,7 +89,7 @@ TEST(GingivaSurface, IsEmptyWithoutGingiva) {
   EXPECT_TRUE(gingivaSurface(ct, siteAt(kSite)).parts.empty());
 }
 
-TEST(GingivaSurface, RefusesLabelsThatDoNotFitTheirGrid) {
+TEST(GingivaSurface, RefusesLabelsOfAnotherGrid) {
   CtVolume ct = ridge();
   ct.label.pop_back();
   EXPECT_THROW(gingivaSurface(ct, {}), LoadError);

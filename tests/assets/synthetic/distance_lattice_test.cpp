@@ -9,8 +9,8 @@ namespace {
 
 const BoundingBox kBox{{-6.0, -6.0, -6.0}, {6.0, 6.0, 6.0}};
 
-TEST(DistanceLattice, TurnsAnyFieldIntoDistances) {
-  // An ellipsoid's equation is no distance; along its axes the distance is plain to see.
+TEST(DistanceLattice, RedistancesAnyField) {
+  // An ellipsoid's equation is not a distance; along its axes the distance is known.
   DistanceLattice lattice(kBox, 0.2,
                           [](const glm::dvec3& p) { return glm::length(p / glm::dvec3(4.0, 3.0, 2.0)) - 1.0; });
   lattice.redistance();

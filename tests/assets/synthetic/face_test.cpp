@@ -41,7 +41,7 @@ double firstHit_mm(const MeshModel& model, const glm::dvec3& from, const glm::dv
   return nearest;
 }
 
-TEST(Face, LeavesTheSurgeonsSightOfTheThirdMolarFree) {
+TEST(Face, LeavesTheViewOfTheThirdMolarFree) {
   // A window of 8 mm around the crown, seen from the surgeon's eye.
   const glm::dvec3 to_eye = surgeonEyeDirection(38);
   const glm::dvec3 across = glm::normalize(glm::cross(to_eye, glm::dvec3(0, 0, 1)));
@@ -57,7 +57,7 @@ TEST(Face, LeavesTheSurgeonsSightOfTheThirdMolarFree) {
 }
 
 TEST(Face, HidesTheMolarBehindTheFreeCheek) {
-  // The same view to the side that is not held away is blocked: the test above can fail.
+  // The same view on the other side is blocked: the test above can fail.
   const glm::dvec3 eye = surgeonEyeDirection(48);
   const glm::dvec3 molar48(-kThirdMolar38_mm.x, kThirdMolar38_mm.y, kThirdMolar38_mm.z);
   EXPECT_TRUE(std::isfinite(firstHit_mm(leftFace(), molar48 + 6.0 * eye, eye)));
@@ -81,7 +81,7 @@ TEST(Face, KeepsOutOfTheBoneOfTheBuiltInJaw) {
   }
 }
 
-TEST(Face, IsSoundAndHasAllItsParts) {
+TEST(Face, IsValidAndHasAllItsParts) {
   std::set<std::string> names;
   for (const MeshPart& part : leftFace().parts) {
     names.insert(part.name);
@@ -126,7 +126,7 @@ TEST(Face, IsTheMirrorImageOnTheOtherSide) {
   }
 }
 
-TEST(Face, RefusesAToothThatIsNoLowerThirdMolar) {
+TEST(Face, RefusesOtherTeethThanLowerThirdMolars) {
   EXPECT_THROW(syntheticFace({.tooth_fdi = 18}), LoadError);
   EXPECT_THROW(syntheticFace({.voxel_mm = 0.0}), LoadError);
   EXPECT_THROW(syntheticFace({.voxel_mm = std::nan("")}), LoadError);

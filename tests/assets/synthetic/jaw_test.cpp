@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kTestSpacing_mm = 0.5;
 
-/// One jaw of each kind is made once and shared: making it is what costs.
+/// One jaw of each kind, made once and shared.
 const Patient& standardJaw() {
   static const Patient kPatient = syntheticJaw({.spacing_mm = kTestSpacing_mm});
   return kPatient;
@@ -80,7 +80,7 @@ glm::dvec3 longAxisOfThirdMolar(const CtVolume& ct) {
   return glm::dot(axis, enamel - mean) > 0.0 ? axis : -axis;
 }
 
-/// Angle in the sagittal plane of the arch at the third molar, crown to mesial positive; the second molar stands
+/// Angle in the sagittal plane of the arch at the third molar, crown to mesial positive; the second molar is
 /// upright.
 double measuredWinterAngle_deg(const Patient& patient) {
   const glm::dvec3 axis = longAxisOfThirdMolar(patient.ct);
@@ -138,7 +138,7 @@ TEST(SyntheticJaw, ShowsEachTissueInItsGreyValue) {
   }
 }
 
-TEST(SyntheticJaw, TurnsTheThirdMolarByTheWinterAngle) {
+TEST(SyntheticJaw, RotatesTheThirdMolarByTheWinterAngle) {
   EXPECT_NEAR(measuredWinterAngle_deg(standardJaw()), 45.0, 5.0);
   for (const double angle_deg : {0.0, 25.0, 70.0, 90.0, -30.0}) {
     const Patient patient =
@@ -159,7 +159,7 @@ TEST(SyntheticJaw, PutsTheCrownAtItsDepth) {
   }
 }
 
-TEST(SyntheticJaw, KeepsTheWantedDistanceToTheMandibularCanal) {
+TEST(SyntheticJaw, KeepsTheRequestedDistanceToTheMandibularCanal) {
   for (const double distance_mm : {0.5, 2.0, 3.5}) {
     const Patient patient = syntheticJaw({.mandibular_canal_distance_mm = distance_mm, .spacing_mm = 0.4});
     EXPECT_NEAR(thirdMolarToCanal_mm(patient), distance_mm, 0.4);
@@ -177,7 +177,7 @@ TEST(SyntheticJaw, RunsTheCanalLineInsideTheMandibularCanal) {
   }
 }
 
-TEST(SyntheticJaw, LeavesAirAllRoundTheBone) {
+TEST(SyntheticJaw, LeavesAirAroundTheBone) {
   const CtVolume& ct = standardJaw().ct;
   glm::ivec3 low = ct.grid.size, high(0);
   forEachVoxel(ct, [&](glm::ivec3 ijk, std::size_t n) {
@@ -227,7 +227,7 @@ TEST(SyntheticJaw, HasTheSameVolumesAtEveryVoxelSize) {
         << properties(static_cast<std::uint8_t>(tissue)).name;
 }
 
-TEST(SyntheticJaw, PointsTheSiteAtTheThirdMolar) {
+TEST(SyntheticJaw, HasItsSiteAtTheThirdMolar) {
   const Patient& patient = standardJaw();
   ASSERT_TRUE(patient.site);
   const glm::dvec3 axis = longAxisOfThirdMolar(patient.ct);
@@ -255,8 +255,7 @@ TEST(SyntheticJaw, NumbersEveryToothOfItsSide) {
   for (std::size_t place = 4; place <= 8; ++place) {
     EXPECT_GT(volume_mm3[place], 250.0) << place;
     if (place > 4) {
-      EXPECT_GT(sum[place].y / volume_mm3[place], sum[place - 1].y / volume_mm3[place - 1] + 4.0)
-          << "one behind another";
+      EXPECT_GT(sum[place].y / volume_mm3[place], sum[place - 1].y / volume_mm3[place - 1] + 4.0) << "in order";
     }
   }
 }

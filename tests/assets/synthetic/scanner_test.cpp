@@ -7,7 +7,7 @@
 namespace assets {
 namespace {
 
-TEST(Scanner, MakesNoiseOfTheStatedDeviationAndNoMean) {
+TEST(Scanner, HasNoiseOfTheStatedDeviationAndZeroMean) {
   constexpr int kVoxels = 200000;
   double sum = 0.0, squares = 0.0, neighbours = 0.0, before = 0.0;
   for (int n = 0; n < kVoxels; ++n) {

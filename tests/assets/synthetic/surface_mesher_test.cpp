@@ -45,7 +45,7 @@ TEST(SurfaceMesher, ClosesTheSurface) {
         return smoothMin(ballAtOrigin(p), ball(p, {14, 0, 0}, 6), 4.0);
       },
       {{-12, -12, -12}, {22, 12, 12}}, 1.0, 0.02);
-  // Each edge is walked once in each direction.
+  // Each edge is used once in each direction.
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> walked;
   for (std::size_t t = 0; t < part.triangles.size(); t += 3) {
     for (std::size_t i = 0; i < 3; ++i) ++walked[{part.triangles[t + i], part.triangles[t + (i + 1) % 3]}];
