@@ -158,7 +158,8 @@ int run(RehearseOptions& options) {
   } else {
     plan.pedal = pedalFrom(options.pedal);
   }
-  plan.second_hand.tool = options.second_tool == "mirror" ? SecondTool::mirror : SecondTool::retractor;
+  for (const assets::SecondInstrumentEntry& entry : assets::kSecondInstruments)
+    if (entry.name == options.second_tool) plan.second_hand.tool = entry.instrument;
   refuseUnlessSecondHand(plan.second_hand, plan.device);
   plan.device_options.falcon_program = options.falcon_firmware;
   plan.device_options.falcon_scale = [] { return savedFalconScale(defaultFalconScaleFile()); };
@@ -198,8 +199,8 @@ void addRehearse(CommandLine& molar) {
   command.option("--device", o->plan.device, poseSourceHelp()).showsDefault();
   command.option("--falcon-firmware", o->falcon_firmware, "Novint's firmware for a Falcon").valueNamed("FILE");
   Option second = command.option("--second-hand", o->plan.second_hand.device, kSecondHandHelp);
-  command.option("--second-tool", o->second_tool, "Instrument of the second hand: mirror or retractor")
-      .oneOf({"mirror", "retractor"})
+  command.option("--second-tool", o->second_tool, "Instrument of the second hand")
+      .oneOf(assets::secondInstrumentNames())
       .showsDefault()
       .needs(second);
   Option rig = o->rig.addTo(command, true);

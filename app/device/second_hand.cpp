@@ -6,8 +6,6 @@
 
 #include "app/device/pose_source_table.h"
 #include "app/text/usage_error.h"
-#include "assets/instrument/dental_mirror.h"
-#include "assets/instrument/retractor.h"
 #include "assets/tooth.h"
 #include "haptics/device/device_catalogue.h"
 #include "haptics/device/simulated/pose_list_device.h"
@@ -23,8 +21,6 @@ using calibration::World;
 
 /// Enough for any display, and the lowest rate of the devices.
 constexpr double kRate_Hz = 500.0;
-
-const char* nameOf(SecondTool tool) { return tool == SecondTool::mirror ? "mirror" : "retractor"; }
 
 /// The handle along `z_W`; the instrument's plane of symmetry, x = 0, through `y_W`.
 Pose<World, OtherTool> held(const glm::dvec3& y_W, const glm::dvec3& z_W, const glm::dvec3& position_W) {
@@ -80,7 +76,8 @@ void refuseUnlessSecondHand(const SecondHandPlan& plan, const std::string& first
   const bool is_device = haptics::isDeviceAddress(plan.device);
   const PoseSourceKind* const kind = poseSourceKindOf(plan.device);
   if (plan.device != "scripted" && !(kind && kind->holds_any_tool) && !is_device)
-    throw UsageError("--second-hand " + plan.device + ": it cannot hold a " + nameOf(plan.tool) +
+    throw UsageError("--second-hand " + plan.device + ": it cannot hold a " +
+                     std::string(assets::entryOf(plan.tool).name) +
                      ", choose scripted, replay:SESSION or a device of molar devices");
   if (plan.device == first_device && is_device)
     throw UsageError("--second-hand " + plan.device + ": the first hand holds this device, name another");
@@ -90,7 +87,7 @@ SecondHand::SecondHand(const SecondHandPlan& plan, const DeviceOptions& options,
                        const calibration::Rig& rig, Ticking ticking)
     : tool_(plan.tool), device_(deviceOf(plan, options, patient, rig)) {
   const haptics::DeviceCapabilities& can = device_.device->capabilities();
-  name_ = std::string(nameOf(tool_)) + ", " + device_.name;
+  name_ = std::string(assets::entryOf(tool_).name) + ", " + device_.name;
   rate_Hz_ = device_.rate_Hz.value_or(std::clamp(kRate_Hz, can.min_rate_Hz, can.max_rate_Hz));
   hand_ = std::make_unique<haptics::InstrumentTracker>(servedAs(*device_.device, ticking), rate_Hz_);
 }
@@ -101,7 +98,7 @@ void SecondHand::stepTo(double t_s) {
 }
 
 void SecondHand::dress(render::FrameRenderer& renderer) const {
-  renderer.setSecondInstrument(tool_ == SecondTool::mirror ? assets::dentalMirror() : assets::retractor());
+  renderer.setSecondInstrument(assets::entryOf(tool_).model());
 }
 
 void SecondHand::place(render::Frame& frame) {

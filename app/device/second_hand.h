@@ -8,12 +8,13 @@
 #include <string>
 
 #include "app/device/pose_source.h"
+#include "assets/instrument/second_instrument.h"
 #include "haptics/loop/instrument_tracker.h"
 #include "render/frame_renderer.h"
 
 namespace app {
 
-enum class SecondTool { mirror, retractor };
+using SecondTool = assets::SecondInstrument;
 
 struct SecondHandPlan {
   std::string device;  ///< its address; empty: no second hand

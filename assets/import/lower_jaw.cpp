@@ -10,7 +10,7 @@ namespace assets {
 namespace {
 
 constexpr double kCell_mm = 2.0;
-constexpr double kFace_mm = 25.0, kAside_mm = 18.0, kHollowFrom_mm = 22.0, kHollowTo_mm = 40.0, kHollowHalf_mm = 6.0;
+constexpr double kFace_mm = 25.0, kLateral_mm = 18.0, kHollowFrom_mm = 22.0, kHollowTo_mm = 40.0, kHollowHalf_mm = 6.0;
 constexpr double kArchHeight_mm = 26.0, kChin_mm = 16.0, kFront_mm = 20.0, kWall_mm = 60.0;
 constexpr int kMinFront = 3;  ///< cells of bone in the front row of a slice
 
@@ -60,7 +60,7 @@ Front frontOf(const Coarse& coarse, int k) {
 /// Bone on both sides behind the front, none in the middle behind the chin.
 bool isArch(const Coarse& coarse, int k, const Front& front) {
   const auto cells = [&](double mm) { return static_cast<int>(std::lround(mm / coarse.cell_mm)); };
-  const int middle = static_cast<int>(std::lround(front.middle)), aside = cells(kAside_mm);
+  const int middle = static_cast<int>(std::lround(front.middle)), aside = cells(kLateral_mm);
   bool right = false, left = false;
   for (int j = front.row; j <= front.row + cells(kWall_mm); ++j)
     for (int i = 0; i < coarse.size.x; ++i) {

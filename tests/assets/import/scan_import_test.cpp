@@ -106,7 +106,7 @@ TEST(ScanImport, RefusesUnusableInput) {
   VolumeGrid moved = kBlock;
   moved.origin_P_mm.z = 0.1;
   writeLabels(folder.at("labels.nrrd"), moved);
-  EXPECT_THAT(refusalOf(folder.at("")), HasSubstr("labels.nrrd: its voxels do not lie"));
+  EXPECT_THAT(refusalOf(folder.at("")), HasSubstr("labels.nrrd: its grid differs from that of"));
   writeLabels(folder.at("labels.nrrd"), kBlock);
   EXPECT_EQ(refusalOf(folder.at("")), "accepted");
   writeBlock(folder.at("ct2.nrrd"), kBlock, 1000);

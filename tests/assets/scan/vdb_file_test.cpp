@@ -123,7 +123,7 @@ TEST(VdbFile, ValidatesItsContent) {
   EXPECT_THAT(refusalWith([](Grids& grids, Meta&) {
                 grids[2]->setTransform(openvdb::math::Transform::createLinearTransform(0.5));
               }),
-              HasSubstr("one place"));
+              HasSubstr("different transforms"));
   EXPECT_THAT(refusalWith([](Grids& grids, Meta&) {
                 auto uneven = openvdb::math::Transform::createLinearTransform(0.4);
                 uneven->preScale(openvdb::Vec3d(1, 1, 2));

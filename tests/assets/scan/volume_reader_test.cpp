@@ -124,7 +124,7 @@ TEST(VolumeReader, ValidatesTheAnswer) {
   EXPECT_THAT(with(0, std::int32_t{9}), HasSubstr("its reader failed on it"));
   EXPECT_THAT(with(0, std::int32_t{-8}), HasSubstr("no voxels"));
   EXPECT_THAT(with(0, std::int32_t{2'000'000'000}), HasSubstr("too large"));
-  EXPECT_THAT(with(16, 0.0), HasSubstr("absurd"));
+  EXPECT_THAT(with(16, 0.0), HasSubstr("is outside 0.001 to 50 mm"));
   EXPECT_THAT(with(24, std::nan("")), HasSubstr("finite"));
   EXPECT_THAT(refusalOfAnswer(good.substr(0, 40), [] {}), HasSubstr("its reader failed on it"));
   EXPECT_THAT(refusalOfAnswer(good + "x", [] {}), HasSubstr("its reader failed on it"));
