@@ -48,8 +48,6 @@ void YamlWriter::openMap(const std::string& key) { storage_->file.startWriteStru
 void YamlWriter::openList(const std::string& key) { storage_->file.startWriteStruct(key, cv::FileNode::SEQ); }
 void YamlWriter::close() { storage_->file.endWriteStruct(); }
 
-void YamlWriter::entry(const Value& value) { put({}, value); }
-
 void YamlWriter::entry(Fields fields) {
   storage_->file.startWriteStruct({}, cv::FileNode::MAP | cv::FileNode::FLOW);
   put(fields);

@@ -50,8 +50,8 @@ class YamlWriter {
   void openMap(const std::string& key = {});  ///< without key: an entry of the open list
   void openList(const std::string& key);
   void close();
-  void entry(const Value& value);  ///< of the open list
-  void entry(Fields fields);       ///< the same: a map on one line
+  void entry(const Value& value) { put({}, value); }  ///< of the open list
+  void entry(Fields fields);                          ///< the same: a map on one line
 
   /// The complete text; call once.
   std::string text();

@@ -26,12 +26,12 @@ glm::dquat aboutX(double angle_rad) { return {std::cos(0.5 * angle_rad), std::si
 glm::dquat aboutY(double angle_rad) { return {std::cos(0.5 * angle_rad), 0.0, std::sin(0.5 * angle_rad), 0.0}; }
 glm::dquat aboutZ(double angle_rad) { return {std::cos(0.5 * angle_rad), 0.0, 0.0, std::sin(0.5 * angle_rad)}; }
 
-glm::dquat armTurn(const glm::dvec3& arm_rad) { return aboutY(-arm_rad.x) * aboutX(-arm_rad.z); }
+glm::dquat armRotation(const glm::dvec3& arm_rad) { return aboutY(-arm_rad.x) * aboutX(-arm_rad.z); }
 
 /// Shifted by whole turns into the range, if possible.
 double turnedInto(const AngleRange& range, double angle_rad) {
-  for (double turns : {0.0, -2.0 * kPi, 2.0 * kPi})
-    if (range.contains(angle_rad + turns)) return angle_rad + turns;
+  for (double rotations : {0.0, -2.0 * kPi, 2.0 * kPi})
+    if (range.contains(angle_rad + rotations)) return angle_rad + rotations;
   return angle_rad;
 }
 
@@ -45,7 +45,7 @@ Point<Device> wristPosition(const PhantomGeometry& geometry, const glm::dvec3& a
 
 Pose<Device, Handle> handlePose(const PhantomGeometry& geometry, const PhantomJoints& joints) {
   const glm::dvec3& g = joints.wrist_rad;
-  return {armTurn(joints.arm_rad) * aboutY(g.x) * aboutX(-g.y) * aboutZ(-g.z),
+  return {armRotation(joints.arm_rad) * aboutY(g.x) * aboutX(-g.y) * aboutZ(-g.z),
           wristPosition(geometry, joints.arm_rad).mm};
 }
 
@@ -87,7 +87,7 @@ std::optional<glm::dvec3> armAnglesFor(const PhantomGeometry& geometry, const Po
 
 glm::dvec3 wristAnglesFor(const glm::dvec3& arm_rad, const glm::dquat& R_DH) {
   // Ry(a) Rx(b) Rz(c), from its matrix; GLM is column-major.
-  const glm::dmat3 m = glm::mat3_cast(glm::conjugate(armTurn(arm_rad)) * R_DH);
+  const glm::dmat3 m = glm::mat3_cast(glm::conjugate(armRotation(arm_rad)) * R_DH);
   return {std::atan2(m[2][0], m[2][2]), std::asin(std::clamp(m[2][1], -1.0, 1.0)), -std::atan2(m[0][1], m[1][1])};
 }
 

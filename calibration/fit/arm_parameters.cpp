@@ -7,7 +7,7 @@
 namespace calibration {
 namespace {
 
-constexpr std::size_t kTurn = 0, kShift = 3, kTip = 6, kOffset = 9, kGain = 12, kQuadratic = 15, kThigh = 18,
+constexpr std::size_t kRotation = 0, kTranslation = 3, kTip = 6, kOffset = 9, kGain = 12, kQuadratic = 15, kThigh = 18,
                       kShin = 19, kGimbalOffset = 20, kGimbalGain = 23, kTilt = 26, kReach = 27;
 
 glm::dvec3 three(const ArmParameters& parameters, std::size_t first) {
@@ -15,10 +15,10 @@ glm::dvec3 three(const ArmParameters& parameters, std::size_t first) {
 }
 
 /// d exp(r) p / dr = -[exp(r) p]x times this: the left Jacobian of rotations.
-glm::dmat3 leftJacobian(const glm::dvec3& turn_rad) {
-  const double a = glm::length(turn_rad);
+glm::dmat3 leftJacobian(const glm::dvec3& rotation_rad) {
+  const double a = glm::length(rotation_rad);
   if (a < 1e-8) return glm::dmat3(1.0);
-  const glm::dvec3 u = turn_rad / a;
+  const glm::dvec3 u = rotation_rad / a;
   return std::sin(a) / a * glm::dmat3(1.0) + (1.0 - std::cos(a)) / a * crossMatrix(u) +
          (1.0 - std::sin(a) / a) * glm::outerProduct(u, u);
 }
@@ -90,12 +90,12 @@ std::vector<std::size_t> parametersOf(ArmModel model) {
 }
 
 MeasuredArm armOf(const ArmStart& start, const ArmParameters& parameters) {
-  const glm::dquat turn = rotationFromVector(three(parameters, kTurn));
+  const glm::dquat rotation = rotationFromVector(three(parameters, kRotation));
   const glm::dvec3 from_middle_mm = start.X_WD.translation_mm - start.middle_W.mm;
   return {start.geometry,
           corrected(start.correction, parameters),
-          {glm::normalize(turn * start.X_WD.rotation),
-           start.middle_W.mm + turn * from_middle_mm + three(parameters, kShift)}};
+          {glm::normalize(rotation * start.X_WD.rotation),
+           start.middle_W.mm + rotation * from_middle_mm + three(parameters, kTranslation)}};
 }
 
 TipJacobian tipJacobian(const ArmStart& start, const ArmParameters& parameters, const RawJoints& raw_rad) {
@@ -106,12 +106,12 @@ TipJacobian tipJacobian(const ArmStart& start, const ArmParameters& parameters, 
   slopes.tip_W_mm = R_WD * in_D.tip_D + arm.X_WD.translation_mm;
 
   // The rotation's lever: from the centre to the tip before the translation.
-  const glm::dvec3 from_middle_mm = slopes.tip_W_mm - three(parameters, kShift) - start.middle_W.mm;
-  const glm::dmat3 left = leftJacobian(three(parameters, kTurn));
+  const glm::dvec3 from_middle_mm = slopes.tip_W_mm - three(parameters, kTranslation) - start.middle_W.mm;
+  const glm::dmat3 left = leftJacobian(three(parameters, kRotation));
   for (std::size_t i = 0; i < 3; ++i) {
     const int axis = static_cast<int>(i);
-    slopes.by_parameter[kTurn + i] = glm::cross(left[axis], from_middle_mm);
-    slopes.by_parameter[kShift + i][axis] = 1.0;
+    slopes.by_parameter[kRotation + i] = glm::cross(left[axis], from_middle_mm);
+    slopes.by_parameter[kTranslation + i][axis] = 1.0;
     slopes.by_parameter[kTip + i] = R_WD * in_D.R_DH[axis];
     const glm::dvec3 by_arm = R_WD * in_D.by_angle[i], by_wrist = R_WD * in_D.by_angle[i + 3];
     slopes.by_parameter[kOffset + i] = by_arm;

@@ -48,8 +48,8 @@ Pivot fitPivot(const PhantomGeometry& geometry, const ArmCorrection& correction,
   Eigen::Matrix<double, kPivotNumbers, kPivotNumbers> normal = n * decltype(normal)::Identity();
   Six right = Six::Zero();
   for (const Pose<Device, Handle>& hold : holds) {
-    const glm::dmat3 turn = glm::mat3_cast(hold.rotation);
-    const Eigen::Map<const Eigen::Matrix3d> R(glm::value_ptr(turn));
+    const glm::dmat3 rotation = glm::mat3_cast(hold.rotation);
+    const Eigen::Map<const Eigen::Matrix3d> R(glm::value_ptr(rotation));
     const Eigen::Map<const Eigen::Vector3d> position(glm::value_ptr(hold.translation_mm));
     right += (Six() << -R.transpose() * position, position).finished();
     normal.bottomLeftCorner<3, 3>() -= R;

@@ -26,8 +26,8 @@ RestRegistration registerRest(const std::vector<MarkTouch>& made_of, const std::
   if (!laid) throw CalibrationError("hand rest: its marks lie on a line: choose three that make a triangle");
 
   RestRegistration found;
-  found.rotation = glm::normalize(glm::quat_cast(laid->turn));
-  found.translation_mm = laid->shift_mm;
+  found.rotation = glm::normalize(glm::quat_cast(laid->rotation));
+  found.translation_mm = laid->translation_mm;
   const double n = static_cast<double>(made_of.size());
   double sum_mm2 = 0.0, largest_mm = 0.0;
   for (const MarkTouch& touch : made_of) {

@@ -125,10 +125,11 @@ std::optional<RigidMap> rigidFit(std::span<const PointPair> pairs, Handedness ha
   if (!(w[1] > kOnALine * kOnALine * w[0]) || !std::isfinite(w[0])) return std::nullopt;
   const double wanted = handedness == Handedness::kept ? 1.0 : -1.0;
   const double sign = svd.matrixU().determinant() * svd.matrixV().determinant() * wanted < 0.0 ? -1.0 : 1.0;
-  const Eigen::Matrix3d turn = svd.matrixU() * Eigen::Vector3d(1.0, 1.0, sign).asDiagonal() * svd.matrixV().transpose();
+  const Eigen::Matrix3d rotation =
+      svd.matrixU() * Eigen::Vector3d(1.0, 1.0, sign).asDiagonal() * svd.matrixV().transpose();
   RigidMap map;
-  map.turn = glm::make_mat3(turn.data());
-  map.shift_mm = to_middle - map.turn * from_middle;
+  map.rotation = glm::make_mat3(rotation.data());
+  map.translation_mm = to_middle - map.rotation * from_middle;
   return map;
 }
 

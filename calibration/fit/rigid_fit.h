@@ -13,12 +13,12 @@
 
 namespace calibration {
 
-/// p -> turn p + shift. Determinant -1: mirrored.
+/// p -> rotation p + translation. Determinant -1: mirrored.
 struct RigidMap {
-  glm::dmat3 turn{1.0};
-  glm::dvec3 shift_mm{0.0};
+  glm::dmat3 rotation{1.0};
+  glm::dvec3 translation_mm{0.0};
 
-  glm::dvec3 operator()(const glm::dvec3& p_mm) const { return turn * p_mm + shift_mm; }
+  glm::dvec3 operator()(const glm::dvec3& p_mm) const { return rotation * p_mm + translation_mm; }
 };
 
 enum class Handedness { kept, mirrored };

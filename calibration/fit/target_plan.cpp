@@ -19,7 +19,7 @@ constexpr int kFirstProofId = 101;
 constexpr int kSwings = 12;
 
 /// The smallest rotation that takes z to `there`.
-glm::dquat turnOfZ(const glm::dvec3& there) {
+glm::dquat rotationOfZ(const glm::dvec3& there) {
   const double cosine = there.z;
   if (cosine < -1.0 + 1e-12) return {0.0, 1.0, 0.0, 0.0};
   return glm::normalize(glm::dquat(1.0 + cosine, -there.y, there.x, 0.0));
@@ -29,7 +29,7 @@ glm::dquat turnOfZ(const glm::dvec3& there) {
 Vector<World> tilted(double side_deg, double up_deg) {
   const double side = radFromDegrees(side_deg), up = radFromDegrees(up_deg);
   const glm::dvec3 from_rest(std::sin(side) * std::cos(up), std::sin(up), std::cos(side) * std::cos(up));
-  return {turnOfZ(kRestingStylus_W.xyz) * from_rest};
+  return {rotationOfZ(kRestingStylus_W.xyz) * from_rest};
 }
 
 /// From -1 to 1 in `count` steps.
@@ -150,8 +150,8 @@ std::optional<TargetPlan> targetPlan(std::string_view method, const JigPose& jig
 }
 
 Pose<World, Handle> handleHolding(const Target& target, const glm::dvec3& tip_H_mm) {
-  const glm::dquat turn = turnOfZ(target.stylus_W.xyz);
-  return {turn, target.position_W.mm - turn * tip_H_mm};
+  const glm::dquat rotation = rotationOfZ(target.stylus_W.xyz);
+  return {rotation, target.position_W.mm - rotation * tip_H_mm};
 }
 
 }  // namespace calibration

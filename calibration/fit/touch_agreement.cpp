@@ -1,7 +1,6 @@
 #include "calibration/fit/touch_agreement.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -120,7 +119,8 @@ TouchAgreement touchAgreement(const TouchSet& set) {
     agreement.which.push_back(positions.index[k]);
     middle_mm += positions.targets_W[k] / static_cast<double>(rigid.agreeing.size());
   }
-  agreement.start = {model.geometry, {glm::normalize(glm::quat_cast(rigid.map.turn)), rigid.map.shift_mm}, {middle_mm}};
+  agreement.start = {
+      model.geometry, {glm::normalize(glm::quat_cast(rigid.map.rotation)), rigid.map.translation_mm}, {middle_mm}};
 
   // Refine with larger models, as far as there are enough touches.
   for (const ArmModel finer : {ArmModel::joint_gains, ArmModel::full}) {

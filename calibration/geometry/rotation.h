@@ -8,9 +8,9 @@
 
 namespace calibration {
 
-inline glm::dquat rotationFromVector(const glm::dvec3& turn_rad) {
-  const double angle_rad = glm::length(turn_rad);
-  return angle_rad > 0.0 ? glm::angleAxis(angle_rad, turn_rad / angle_rad) : glm::dquat(1.0, 0.0, 0.0, 0.0);
+inline glm::dquat rotationFromVector(const glm::dvec3& rotation_rad) {
+  const double angle_rad = glm::length(rotation_rad);
+  return angle_rad > 0.0 ? glm::angleAxis(angle_rad, rotation_rad / angle_rad) : glm::dquat(1.0, 0.0, 0.0, 0.0);
 }
 
 /// [v]x: crossMatrix(v) * w = v x w.
@@ -18,8 +18,8 @@ inline glm::dmat3 crossMatrix(const glm::dvec3& v) { return {0.0, v.z, -v.y, -v.
 
 /// 0 to pi, accurate for small angles.
 inline double angleBetween_rad(const glm::dquat& a, const glm::dquat& b) {
-  const glm::dquat turn = glm::conjugate(a) * b;
-  return 2.0 * std::atan2(glm::length(glm::dvec3(turn.x, turn.y, turn.z)), std::abs(turn.w));
+  const glm::dquat rotation = glm::conjugate(a) * b;
+  return 2.0 * std::atan2(glm::length(glm::dvec3(rotation.x, rotation.y, rotation.z)), std::abs(rotation.w));
 }
 
 }  // namespace calibration

@@ -41,7 +41,7 @@ class Lines {
       lines_.push_back(what + ": " + from + " \u2192 " + to + " mm, " + written(glm::distance(before, after), 2) +
                        " mm apart");
   }
-  void turn(const std::string& what, const glm::dquat& before, const glm::dquat& after) {
+  void rotation(const std::string& what, const glm::dquat& before, const glm::dquat& after) {
     const double angle_deg = degreesFromRad(angleBetween_rad(before, after));
     if (angle_deg >= 0.005) lines_.push_back(what + ": turned by " + written(angle_deg, 2) + "\u00b0");
   }
@@ -54,7 +54,7 @@ class Lines {
 template <class A, class B>
 void comparePose(Lines& lines, const std::string& what, const Pose<A, B>& before, const Pose<A, B>& after) {
   lines.position(what, before.translation_mm, after.translation_mm);
-  lines.turn(what, before.rotation, after.rotation);
+  lines.rotation(what, before.rotation, after.rotation);
 }
 
 void compareSurroundings(Lines& lines, const RigRecord& before, const RigRecord& after) {
@@ -80,7 +80,7 @@ void compareSurroundings(Lines& lines, const RigRecord& before, const RigRecord&
   lines.text("hand rest", before.rest ? "registered" : "", after.rest ? "registered" : "");
   if (before.rest && after.rest) {
     lines.position("hand rest", before.rest->translation_mm, after.rest->translation_mm);
-    lines.turn("hand rest", before.rest->rotation, after.rest->rotation);
+    lines.rotation("hand rest", before.rest->rotation, after.rest->rotation);
   }
 }
 

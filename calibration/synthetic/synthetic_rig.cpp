@@ -1,8 +1,5 @@
 #include "calibration/synthetic/synthetic_rig.h"
 
-#include <array>
-#include <cmath>
-
 #include "calibration/arm/phantom_models.h"
 #include "calibration/geometry/rotation.h"
 #include "calibration/random.h"
@@ -42,7 +39,7 @@ const ErrorSizes& sizesOf(Scenario scenario) {
 }
 
 /// A stand placed by eye.
-constexpr double kStandTurn_deg = 3.0, kStandShift_mm = 12.0;  ///< maximum, an axis
+constexpr double kStandRotation_deg = 3.0, kStandTranslation_mm = 12.0;  ///< maximum, an axis
 /// Slipped touches, or touches of another pit.
 constexpr double kOutlierShare = 0.02, kMinOutlier_mm = 5.0, kMaxOutlier_mm = 20.0;
 /// Residual tilt of a hand that holds one way.
@@ -79,9 +76,9 @@ PerturbedArm drawnArm(const ErrorSizes& sizes, std::mt19937& rng) {
 }
 
 Pose<World, Device> putDown(const Pose<World, Device>& nominal, std::mt19937& rng) {
-  const glm::dvec3 turn_rad = uniformVector(rng, glm::dvec3(radFromDegrees(kStandTurn_deg)));
-  const glm::dvec3 shift_mm = uniformVector(rng, glm::dvec3(kStandShift_mm));
-  return {rotationFromVector(turn_rad) * nominal.rotation, nominal.translation_mm + shift_mm};
+  const glm::dvec3 rotation_rad = uniformVector(rng, glm::dvec3(radFromDegrees(kStandRotation_deg)));
+  const glm::dvec3 translation_mm = uniformVector(rng, glm::dvec3(kStandTranslation_mm));
+  return {rotationFromVector(rotation_rad) * nominal.rotation, nominal.translation_mm + translation_mm};
 }
 
 /// Sensor readings with noise; none: beyond the stops of arm or gimbal.
@@ -97,11 +94,11 @@ std::optional<RawJoints> readAt(const SyntheticRig& rig, const Pose<World, Handl
 
 /// Rotated about the handle's own axes with the tip fixed.
 Pose<World, Handle> turnedAboutTip(const Pose<World, Handle>& X_WH, const glm::dvec3& tip_H_mm,
-                                   const glm::dvec3& turn_rad) {
-  const glm::dquat turn = X_WH.rotation * glm::angleAxis(turn_rad.y, glm::dvec3(0.0, 1.0, 0.0)) *
-                          glm::angleAxis(turn_rad.x, glm::dvec3(1.0, 0.0, 0.0)) *
-                          glm::angleAxis(turn_rad.z, glm::dvec3(0.0, 0.0, 1.0));
-  return {turn, (X_WH * Point<Handle>{tip_H_mm}).mm - turn * tip_H_mm};
+                                   const glm::dvec3& rotation_rad) {
+  const glm::dquat rotation = X_WH.rotation * glm::angleAxis(rotation_rad.y, glm::dvec3(0.0, 1.0, 0.0)) *
+                              glm::angleAxis(rotation_rad.x, glm::dvec3(1.0, 0.0, 0.0)) *
+                              glm::angleAxis(rotation_rad.z, glm::dvec3(0.0, 0.0, 1.0));
+  return {rotation, (X_WH * Point<Handle>{tip_H_mm}).mm - rotation * tip_H_mm};
 }
 
 }  // namespace
@@ -146,10 +143,10 @@ std::optional<Touch> simulatedTouch(const SyntheticRig& rig, const Target& targe
     hold.position_W.mm += uniform(rng, kMinOutlier_mm, kMaxOutlier_mm) * glm::normalize(gaussianVector(rng, 1.0));
 
   if (technician.one_tilt) hold.stylus_W = kRestingStylus_W;
-  const glm::dvec3 turn_rad(gaussian(rng, technician.tilt_noise_rad), gaussian(rng, technician.tilt_noise_rad),
-                            uniform(rng, -technician.roll_rad, technician.roll_rad));
+  const glm::dvec3 rotation_rad(gaussian(rng, technician.tilt_noise_rad), gaussian(rng, technician.tilt_noise_rad),
+                                uniform(rng, -technician.roll_rad, technician.roll_rad));
   const glm::dvec3& tip_H_mm = rig.arm.truth.tip_H_mm;
-  const auto raw = readAt(rig, turnedAboutTip(handleHolding(hold, tip_H_mm), tip_H_mm, turn_rad), rng);
+  const auto raw = readAt(rig, turnedAboutTip(handleHolding(hold, tip_H_mm), tip_H_mm, rotation_rad), rng);
   if (!raw) return std::nullopt;
   return Touch{.id = target.id, .joints_rad = *raw, .target_W = target.position_W};
 }
@@ -178,17 +175,17 @@ std::vector<Touch> heldOutTouches(const SyntheticRig& rig, int n, const glm::dve
   const glm::dvec3& tip_H_mm = rig.arm.truth.tip_H_mm;
   while (static_cast<int>(touches.size()) < n) {
     const Target target{static_cast<int>(touches.size()) + 1, {uniformVector(rng, half_mm)}, kRestingStylus_W};
-    const glm::dvec3 turn_rad = uniformVector(rng, glm::dvec3(kHeldOutTilt_rad));
-    const auto raw = readAt(rig, turnedAboutTip(handleHolding(target, tip_H_mm), tip_H_mm, turn_rad), rng);
+    const glm::dvec3 rotation_rad = uniformVector(rng, glm::dvec3(kHeldOutTilt_rad));
+    const auto raw = readAt(rig, turnedAboutTip(handleHolding(target, tip_H_mm), tip_H_mm, rotation_rad), rng);
     if (raw) touches.push_back({.id = target.id, .joints_rad = *raw, .target_W = target.position_W});
   }
   return touches;
 }
 
-SyntheticRig drifted(const SyntheticRig& rig, double offset_deg, double shift_mm, std::mt19937& rng) {
+SyntheticRig drifted(const SyntheticRig& rig, double offset_deg, double translation_mm, std::mt19937& rng) {
   SyntheticRig moved = rig;
   for (std::size_t i = 0; i < 3; ++i) moved.arm.truth.offset_rad[i] += gaussian(rng, radFromDegrees(offset_deg));
-  moved.X_WD.translation_mm += gaussianVector(rng, shift_mm);
+  moved.X_WD.translation_mm += gaussianVector(rng, translation_mm);
   return moved;
 }
 

@@ -1,7 +1,5 @@
 #include "calibration/webcam/gray_code.h"
 
-#include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <utility>

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <set>
 #include <utility>
 
@@ -62,7 +61,7 @@ double coveredShare(const glm::ivec2& size_px, const std::vector<Pixels>& views)
 struct LensFit {
   cv::Matx33d K = cv::Matx33d::eye();
   cv::Mat distortion, view_rms_px;
-  std::vector<cv::Mat> turns;
+  std::vector<cv::Mat> rotations;
   double rms_px = 0.0;
 };
 LensFit fitted(const glm::ivec2& size_px, const Positions& positions, const std::vector<Pixels>& views) {
@@ -72,7 +71,7 @@ LensFit fitted(const glm::ivec2& size_px, const Positions& positions, const std:
   cv::Mat unused_lens, unused_poses;
   try {
     fit.rms_px = cv::calibrateCamera(std::vector<Positions>(views.size(), positions), views, {size_px.x, size_px.y}, K,
-                                     fit.distortion, fit.turns, moves, unused_lens, unused_poses, fit.view_rms_px,
+                                     fit.distortion, fit.rotations, moves, unused_lens, unused_poses, fit.view_rms_px,
                                      cv::CALIB_FIX_K3);
   } catch (const cv::Exception&) {
     refuseLens("no lens fits the views", "take them again, the board flat, sharp and slanted");
@@ -82,9 +81,9 @@ LensFit fitted(const glm::ivec2& size_px, const Positions& positions, const std:
 }
 
 /// Between board normal and optical axis.
-double slant_deg(const cv::Mat& turn) {
+double slant_deg(const cv::Mat& rotation) {
   cv::Matx33d R;
-  cv::Rodrigues(turn, R);
+  cv::Rodrigues(rotation, R);
   return degreesFromRad(std::acos(std::min(1.0, std::abs(R(2, 2)))));
 }
 
@@ -99,7 +98,7 @@ CameraModel modelOf(const glm::ivec2& size_px, const LensFit& fit) {
 
 void checkVariety(const LensFit& fit, double covered_share) {
   std::size_t slanted = 0;
-  for (const cv::Mat& turn : fit.turns) slanted += slant_deg(turn) >= kMinSlant_deg;
+  for (const cv::Mat& rotation : fit.rotations) slanted += slant_deg(rotation) >= kMinSlant_deg;
   if (slanted < kMinSlanted)
     refuseLens("the board was faced squarely in nearly all views", "slant it by 20 to 40 degrees, each way");
   if (covered_share < kMinCovered)
@@ -142,7 +141,8 @@ Intrinsics fitIntrinsics(const glm::ivec2& size_px, const std::vector<glm::dvec2
     if (!(fit.rms_px < kMaxRms_px))
       refuseLens("the views do not fit together", "hold camera and board still, lock the focus, keep the board flat");
     result.covered_share = coveredShare(size_px, pixels);
-    for (const cv::Mat& turn : fit.turns) result.max_slant_deg = std::max(result.max_slant_deg, slant_deg(turn));
+    for (const cv::Mat& rotation : fit.rotations)
+      result.max_slant_deg = std::max(result.max_slant_deg, slant_deg(rotation));
     checkVariety(fit, result.covered_share);
     result.camera = modelOf(size_px, fit);
     result.rms_px = fit.rms_px;

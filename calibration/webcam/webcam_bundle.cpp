@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "calibration/fit/least_squares.h"
 #include "calibration/geometry/rotation.h"

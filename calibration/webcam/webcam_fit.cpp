@@ -249,7 +249,7 @@ WebcamFit fitWebcam(const WebcamObservations& observations, ArmModel model) {
   checkObservations(observations);
   const WebcamBundle guess = firstGuess(observations);
   if (widestBaseline_deg(guess) < kMinBase_deg)
-    refuseWebcam("all camera positions are the same", "move it by 25° to each side");
+    refuseWebcam("all camera positions are the same", "move the camera by 25° to each side");
 
   const WebcamBundle bundle = fitted(observations, guess, model);
   WebcamFit fit;

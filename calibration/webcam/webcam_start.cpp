@@ -35,8 +35,8 @@ cv::Point2d pixelOf(const glm::dvec2& px) { return {px.x, px.y}; }
 
 /// X_C?: OpenCV's rotation and translation.
 template <class To>
-Pose<Camera, To> poseOf(const cv::Vec3d& turn, const cv::Vec3d& shift) {
-  return {rotationFromVector({turn[0], turn[1], turn[2]}), {shift[0], shift[1], shift[2]}};
+Pose<Camera, To> poseOf(const cv::Vec3d& rotation, const cv::Vec3d& shift) {
+  return {rotationFromVector({rotation[0], rotation[1], rotation[2]}), {shift[0], shift[1], shift[2]}};
 }
 
 }  // namespace
@@ -49,15 +49,15 @@ Pose<Camera, World> cameraSeeing(const WebcamObservations& observations, std::si
     positions.push_back(pointOf(observation.position_W.mm));
     pixels.push_back(pixelOf(observation.camera_px));
   }
-  cv::Vec3d turn, shift;
+  cv::Vec3d rotation, shift;
   try {
-    if (!cv::solvePnP(positions, pixels, lens.K, lens.bent, turn, shift, false, cv::SOLVEPNP_IPPE))
+    if (!cv::solvePnP(positions, pixels, lens.K, lens.bent, rotation, shift, false, cv::SOLVEPNP_IPPE))
       refusePosition(position, "no camera pose explains the screen", "take the images again");
-    cv::solvePnPRefineLM(positions, pixels, lens.K, lens.bent, turn, shift);
+    cv::solvePnPRefineLM(positions, pixels, lens.K, lens.bent, rotation, shift);
   } catch (const cv::Exception&) {
     refusePosition(position, "the screen points are not flat or lie on a line", "show the whole board");
   }
-  const auto X_CW = poseOf<World>(turn, shift);
+  const auto X_CW = poseOf<World>(rotation, shift);
   if (X_CW.inverse().translation_mm.z <= 0.0)
     refusePosition(position, "the screen is seen mirrored", "correct the screen's corners in the rig file");
 
@@ -86,12 +86,12 @@ Pose<World, Device> deviceSeen(const WebcamObservations& observations, std::size
   // Widen the limit until enough tips agree.
   const double px_per_mm = observations.camera.focal_px.x / glm::length(X_CW.translation_mm);
   for (const double wider : {1.0, 2.0, 4.0}) {
-    cv::Vec3d turn, shift;
+    cv::Vec3d rotation, shift;
     std::vector<int> agreeing;
     try {
       const double limit_px = 3.0 * observations.tip_noise_px + wider * kNominalArm_mm * px_per_mm;
-      if (!cv::solvePnPRansac(tips, pixels, lens.K, lens.bent, turn, shift, false, kTries, static_cast<float>(limit_px),
-                              0.999, agreeing, cv::SOLVEPNP_SQPNP))
+      if (!cv::solvePnPRansac(tips, pixels, lens.K, lens.bent, rotation, shift, false, kTries,
+                              static_cast<float>(limit_px), 0.999, agreeing, cv::SOLVEPNP_SQPNP))
         continue;
       if (3 * agreeing.size() < 2 * tips.size()) continue;
       std::vector<cv::Point3d> their_tips;
@@ -100,11 +100,11 @@ Pose<World, Device> deviceSeen(const WebcamObservations& observations, std::size
         their_tips.push_back(tips[static_cast<std::size_t>(i)]);
         their_pixels.push_back(pixels[static_cast<std::size_t>(i)]);
       }
-      cv::solvePnPRefineLM(their_tips, their_pixels, lens.K, lens.bent, turn, shift);
+      cv::solvePnPRefineLM(their_tips, their_pixels, lens.K, lens.bent, rotation, shift);
     } catch (const cv::Exception&) {
       continue;
     }
-    return X_CW.inverse() * poseOf<Device>(turn, shift);
+    return X_CW.inverse() * poseOf<Device>(rotation, shift);
   }
   refusePosition(position, "no device pose explains where the tip is seen",
                  "check that touches and images belong together and that the device is the right one");

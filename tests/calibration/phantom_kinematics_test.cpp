@@ -117,11 +117,11 @@ TEST(PhantomKinematics, HasOrthonormalRotations) {
       const glm::dmat3 off = glm::transpose(R) * R - glm::dmat3(1.0);
       for (int column = 0; column < 3; ++column) ASSERT_LT(glm::length(off[column]), 1e-12);
       // The published matrix, multiplied out from right-handed turns.
-      const auto turn = [](double angle, glm::dvec3 axis) { return glm::mat3_cast(glm::angleAxis(angle, axis)); };
+      const auto rotation = [](double angle, glm::dvec3 axis) { return glm::mat3_cast(glm::angleAxis(angle, axis)); };
       const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
-      const glm::dmat3 published = turn(-joints.arm_rad.x, y) * turn(-joints.arm_rad.z, x) *
-                                   turn(joints.wrist_rad.x, y) * turn(-joints.wrist_rad.y, x) *
-                                   turn(-joints.wrist_rad.z, z);
+      const glm::dmat3 published = rotation(-joints.arm_rad.x, y) * rotation(-joints.arm_rad.z, x) *
+                                   rotation(joints.wrist_rad.x, y) * rotation(-joints.wrist_rad.y, x) *
+                                   rotation(-joints.wrist_rad.z, z);
       for (int column = 0; column < 3; ++column) ASSERT_LT(glm::distance(R[column], published[column]), 1e-12);
     }
 }

@@ -195,7 +195,7 @@ TEST_F(CalibrateCommand, RefusesBadInputAndKeepsTheCurrentRig) {
 
   // Touches that the fit has seen prove nothing.
   expectRefusal("calibrate fit " + at("obs.yaml") + " --keep --store " + at("store") + " --held-out " + at("obs.yaml"),
-                "proves nothing");
+                "of the fit");
   expectRefusal("calibrate verify " + at("rig.yaml") + " " + at("obs.yaml"), "proves nothing");
   expectRefusal("calibrate simulate --scenario H --out " + at("x.yaml"));
   expectRefusal("calibrate simulate --method jig9 --out " + at("x.yaml"), "jig9");

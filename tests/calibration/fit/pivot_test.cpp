@@ -22,10 +22,10 @@ std::vector<RawJoints> swung(double side_rad, double up_rad, int n = 20, double 
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   std::vector<RawJoints> holds;
   while (static_cast<int>(holds.size()) < n) {
-    const glm::dquat turn = glm::angleAxis(side_rad * unit(rng), glm::dvec3(0, 1, 0)) *
-                            glm::angleAxis(up_rad * unit(rng), glm::dvec3(1, 0, 0));
+    const glm::dquat rotation = glm::angleAxis(side_rad * unit(rng), glm::dvec3(0, 1, 0)) *
+                                glm::angleAxis(up_rad * unit(rng), glm::dvec3(1, 0, 0));
     const glm::dvec3 pit = glm::dvec3(0.0, -60.0, -60.0) + slip_mm * glm::dvec3(unit(rng), unit(rng), unit(rng));
-    const auto joints = jointsReaching(kOmniGeometry, {turn, pit - turn * kBur_H_mm});
+    const auto joints = jointsReaching(kOmniGeometry, {rotation, pit - rotation * kBur_H_mm});
     if (joints)
       holds.push_back({joints->arm_rad.x, joints->arm_rad.y, joints->arm_rad.z, joints->wrist_rad.x,
                        joints->wrist_rad.y, joints->wrist_rad.z});

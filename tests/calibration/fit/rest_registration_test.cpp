@@ -14,14 +14,14 @@ using calibration::registerRest;
 
 const std::vector<glm::dvec3> kMarks = {{0, 0, 0}, {80, 0, 0}, {20, 60, 10}, {10, 50, 0}, {70, 40, 5}, {40, 10, 15}};
 
-std::vector<MarkTouch> touches(std::size_t first, const glm::dquat& turn, const glm::dvec3& shift_mm,
+std::vector<MarkTouch> touches(std::size_t first, const glm::dquat& rotation, const glm::dvec3& translation_mm,
                                double noise_mm = 0.0, std::uint32_t seed = 1) {
   std::mt19937 rng(seed);
   std::normal_distribution<double> noise(0.0, 1.0);
   std::vector<MarkTouch> made;
   for (std::size_t i = first; i < first + 3; ++i) {
     const glm::dvec3 off(noise(rng), noise(rng), noise(rng));
-    made.push_back({kMarks[i], {turn * kMarks[i] + shift_mm + noise_mm * off}});
+    made.push_back({kMarks[i], {rotation * kMarks[i] + translation_mm + noise_mm * off}});
   }
   return made;
 }
@@ -30,28 +30,28 @@ TEST(RestRegistration, FindsThePoseOfTheRest) {
   std::mt19937 rng(7);
   std::normal_distribution<double> any(0.0, 1.0);
   for (int n = 0; n < 200; ++n) {
-    const glm::dquat turn = glm::normalize(glm::dquat(any(rng), any(rng), any(rng), any(rng)));
-    const glm::dvec3 shift_mm = 100.0 * glm::dvec3(any(rng), any(rng), any(rng));
-    const auto rest = registerRest(touches(0, turn, shift_mm), touches(3, turn, shift_mm));
-    EXPECT_LT(glm::length(rest.translation_mm - shift_mm), 1e-9);
-    EXPECT_NEAR(std::abs(glm::dot(rest.rotation, turn)), 1.0, 1e-12);
+    const glm::dquat rotation = glm::normalize(glm::dquat(any(rng), any(rng), any(rng), any(rng)));
+    const glm::dvec3 translation_mm = 100.0 * glm::dvec3(any(rng), any(rng), any(rng));
+    const auto rest = registerRest(touches(0, rotation, translation_mm), touches(3, rotation, translation_mm));
+    EXPECT_LT(glm::length(rest.translation_mm - translation_mm), 1e-9);
+    EXPECT_NEAR(std::abs(glm::dot(rest.rotation, rotation)), 1.0, 1e-12);
     EXPECT_LT(rest.fre_rms_mm, 1e-9);
     EXPECT_LT(rest.worst_mm, 1e-9);
   }
 }
 
 TEST(RestRegistration, StaysWithinTwoMillimetresForAnOrdinaryArm) {
-  const glm::dquat turn = glm::angleAxis(0.4, glm::normalize(glm::dvec3(1, 2, 3)));
+  const glm::dquat rotation = glm::angleAxis(0.4, glm::normalize(glm::dvec3(1, 2, 3)));
   for (std::uint32_t seed = 1; seed <= 200; ++seed) {
-    const auto rest =
-        registerRest(touches(0, turn, {5, -60, 20}, 0.2, seed), touches(3, turn, {5, -60, 20}, 0.2, seed + 500));
+    const auto rest = registerRest(touches(0, rotation, {5, -60, 20}, 0.2, seed),
+                                   touches(3, rotation, {5, -60, 20}, 0.2, seed + 500));
     EXPECT_LT(rest.worst_mm, calibration::kMaxRestError_mm);
   }
 }
 
 TEST(RestRegistration, ShowsByVerificationThatTheRestHasMoved) {
-  const glm::dquat turn(1, 0, 0, 0);
-  const auto rest = registerRest(touches(0, turn, {0, 0, 0}), touches(3, turn, {3, 0, 0}));
+  const glm::dquat rotation(1, 0, 0, 0);
+  const auto rest = registerRest(touches(0, rotation, {0, 0, 0}), touches(3, rotation, {3, 0, 0}));
   EXPECT_NEAR(rest.worst_mm, 3.0, 1e-9);
 }
 

@@ -57,8 +57,8 @@ TEST(Rezero, FindsAPushedBase) {
   for (std::uint32_t seed = 1; seed <= 10; ++seed) {
     const SyntheticRig rig = exact(seed);
     SyntheticRig pushed = rig;
-    const glm::dquat turn = glm::angleAxis(radFromDegrees(3.0), glm::normalize(glm::dvec3(1.0, -2.0, 0.5)));
-    pushed.X_WD = {turn * rig.X_WD.rotation, rig.X_WD.translation_mm + glm::dvec3(8.0, -3.0, 2.0)};
+    const glm::dquat rotation = glm::angleAxis(radFromDegrees(3.0), glm::normalize(glm::dvec3(1.0, -2.0, 0.5)));
+    pushed.X_WD = {rotation * rig.X_WD.rotation, rig.X_WD.translation_mm + glm::dvec3(8.0, -3.0, 2.0)};
     const Rezero result = rezeroed(perfectly(rig), fiveTouches(pushed, seed));
     EXPECT_GT(result.before_rms_mm, 5.0);
     EXPECT_LT(result.after_rms_mm, 0.02);

@@ -13,7 +13,7 @@ namespace {
 struct Laid {
   std::vector<glm::dvec3> from, to;
   std::vector<std::size_t> all;
-  glm::dquat turn{glm::angleAxis(2.9, glm::normalize(glm::dvec3(1.0, 3.0, -2.0)))};
+  glm::dquat rotation{glm::angleAxis(2.9, glm::normalize(glm::dvec3(1.0, 3.0, -2.0)))};
   glm::dvec3 shift{12.0, -30.0, 7.0};
   std::mt19937 rng{8};
 
@@ -21,7 +21,7 @@ struct Laid {
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
     for (std::size_t i = 0; i < n; ++i) {
       from.push_back({65.0 * unit(rng), 45.0 * unit(rng), 30.0 * unit(rng)});
-      to.push_back(turn * (from[i] * glm::dvec3(mirrored ? -1.0 : 1.0, 1.0, 1.0)) + shift);
+      to.push_back(rotation * (from[i] * glm::dvec3(mirrored ? -1.0 : 1.0, 1.0, 1.0)) + shift);
       all.push_back(i);
     }
   }
@@ -36,16 +36,16 @@ TEST(RigidFit, FindsRotationAndTranslation) {
   const Laid laid(6);
   const auto map = rigidFit(laid.pairs());
   ASSERT_TRUE(map);
-  EXPECT_NEAR(glm::determinant(map->turn), 1.0, 1e-12);
-  EXPECT_LT(glm::distance((*map)({1.0, 2.0, 3.0}), laid.turn * glm::dvec3(1.0, 2.0, 3.0) + laid.shift), 1e-9);
+  EXPECT_NEAR(glm::determinant(map->rotation), 1.0, 1e-12);
+  EXPECT_LT(glm::distance((*map)({1.0, 2.0, 3.0}), laid.rotation * glm::dvec3(1.0, 2.0, 3.0) + laid.shift), 1e-9);
 }
 
 TEST(RigidFit, KeepsTheRequestedHandedness) {
   const Laid laid(6, true);
   const auto kept = rigidFit(laid.pairs()), mirrored = rigidFit(laid.pairs(), Handedness::mirrored);
   ASSERT_TRUE(kept && mirrored);
-  EXPECT_NEAR(glm::determinant(kept->turn), 1.0, 1e-12);
-  EXPECT_NEAR(glm::determinant(mirrored->turn), -1.0, 1e-12);
+  EXPECT_NEAR(glm::determinant(kept->rotation), 1.0, 1e-12);
+  EXPECT_NEAR(glm::determinant(mirrored->rotation), -1.0, 1e-12);
   EXPECT_LT(glm::distance((*mirrored)(laid.from[2]), laid.to[2]), 1e-9);
 }
 
@@ -70,8 +70,8 @@ TEST(RigidFit, RecoversAnyRotationAndTranslation) {
     }
     const auto map = rigidFit(pairs);
     ASSERT_TRUE(map);
-    EXPECT_GT(std::abs(glm::dot(glm::quat_cast(map->turn), R)), 1.0 - 1e-12);
-    EXPECT_LT(glm::distance(map->shift_mm, t), 1e-8);
+    EXPECT_GT(std::abs(glm::dot(glm::quat_cast(map->rotation), R)), 1.0 - 1e-12);
+    EXPECT_LT(glm::distance(map->translation_mm, t), 1e-8);
   }
 }
 
@@ -79,13 +79,13 @@ TEST(RigidFit, NeverMirrors) {
   // Points of a plane, mirrored: the best rotation is still a rotation.
   const std::vector<PointPair> pairs = {
       {{-1, 0, 0}, {1, 0, 0}}, {{0, 2, 0}, {0, 2, 0}}, {{0, 0, 3}, {0, 0, 3}}, {{-1, 1, 1}, {1, 1, 1}}};
-  EXPECT_NEAR(glm::determinant(rigidFit(pairs)->turn), 1.0, 1e-12);
+  EXPECT_NEAR(glm::determinant(rigidFit(pairs)->rotation), 1.0, 1e-12);
 }
 
 TEST(RigidFit, WeightsItsPairs) {
   const std::vector<PointPair> pairs = {
       {{0, 0, 0}, {0, 0, 0}, 1000.0}, {{11, 0, 0}, {10, 0, 0}}, {{0, 11, 0}, {0, 10, 0}}};
-  EXPECT_LT(glm::length(rigidFit(pairs)->shift_mm), 0.05);
+  EXPECT_LT(glm::length(rigidFit(pairs)->translation_mm), 0.05);
 }
 
 TEST(RigidAgreement, FindsTheAgreeingPoints) {

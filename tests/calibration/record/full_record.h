@@ -11,7 +11,7 @@ inline RigRecord fullRecord(std::uint32_t seed = 1) {
   std::mt19937 rng(seed);
   const auto number = [&](double size) { return std::uniform_real_distribution<double>(-size, size)(rng); };
   const auto vector = [&](double size) { return glm::dvec3(number(size), number(size), number(size)); };
-  const auto turn = [&] { return glm::angleAxis(number(3.0), glm::normalize(vector(1.0))); };
+  const auto rotation = [&] { return glm::angleAxis(number(3.0), glm::normalize(vector(1.0))); };
 
   RigRecord record;
   Rig& rig = record.rig;
@@ -21,9 +21,9 @@ inline RigRecord fullRecord(std::uint32_t seed = 1) {
     *p = rig.mirror->reflect(*p);
   rig.left_eye.mm += vector(2.0);
   rig.right_eye.mm += vector(2.0);
-  rig.X_WP = {turn(), vector(100.0)};
-  rig.X_WD = {turn(), vector(200.0)};
-  rig.second_X_WD = Pose<World, Device>{turn(), vector(200.0)};
+  rig.X_WP = {rotation(), vector(100.0)};
+  rig.X_WD = {rotation(), vector(200.0)};
+  rig.second_X_WD = Pose<World, Device>{rotation(), vector(200.0)};
   rig.device = RigDevice{"omni", "60623200012", "right", "burr-3mm-07"};
   ArmCorrection arm;
   for (double& v : arm.offset_rad) v = number(0.01);
@@ -46,7 +46,7 @@ inline RigRecord fullRecord(std::uint32_t seed = 1) {
   for (int id = 0; id < 16; ++id)
     record.verification->residuals.push_back({100 + id, {vector(60.0)}, {vector(0.25)}, true});
   for (int id = 0; id < 27; ++id) record.residuals.push_back({id, {vector(60.0)}, {vector(0.3)}, id != 13});
-  record.rest = RestRegistration{turn(), vector(80.0), 0.2, 0.4};
+  record.rest = RestRegistration{rotation(), vector(80.0), 0.2, 0.4};
   for (int i = 0; i < 28; ++i) record.sigma.push_back(std::abs(number(0.1)));
   return record;
 }

@@ -48,9 +48,9 @@ Viewing actualViewing(const Viewing& believed, const ViewingCare& care, std::mt1
   actual.right_eye.mm += head_mm + wider_mm;
 
   // The screen rotates about the origin of W, where the case is.
-  const glm::dquat turn = rotationFromVector(gaussianVector(rng, radFromDegrees(care.screen_turn_sd_deg)));
-  actual.X_WI = {turn * believed.X_WI.rotation,
-                 turn * believed.X_WI.translation_mm + gaussianVector(rng, care.screen_shift_sd_mm)};
+  const glm::dquat rotation = rotationFromVector(gaussianVector(rng, radFromDegrees(care.screen_turn_sd_deg)));
+  actual.X_WI = {rotation * believed.X_WI.rotation,
+                 rotation * believed.X_WI.translation_mm + gaussianVector(rng, care.screen_shift_sd_mm)};
   return actual;
 }
 

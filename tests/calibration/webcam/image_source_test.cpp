@@ -23,7 +23,7 @@ TEST(ImageFolder, ReturnsImagesInNumericOrder) {
   std::ofstream(folder + "/notes3.txt") << "not an image";
   const auto source = openImageSource({.device = folder, .exposure_ms = {}, .focus = {}}).images;
   for (const int number : {1, 2, 10, 33}) EXPECT_EQ(source->take().grey[0], number);
-  EXPECT_THAT(tests::refusalOf<CalibrationError>([&] { source->take(); }), HasSubstr("used up"));
+  EXPECT_THAT(tests::refusalOf<CalibrationError>([&] { source->take(); }), HasSubstr("all used"));
   std::filesystem::remove_all(folder);
   EXPECT_THAT(tests::refusalOf<CalibrationError>([&] { imageFolder(folder); }), HasSubstr("cannot be read"));
   std::filesystem::create_directories(folder);

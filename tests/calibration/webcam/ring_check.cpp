@@ -71,8 +71,8 @@ std::optional<std::pair<glm::dvec2, double>> ringIn(const Blob& blob, const cv::
     for (int x = blob.box.x; x < blob.box.br().x; ++x) {
       if (labels(y, x) != blob.label) continue;
       const glm::dvec2 out = glm::dvec2(x, y) - inside;
-      const double turn = (std::atan2(out.y, out.x) / (2.0 * CV_PI) + 0.5) * kSectors;
-      const std::size_t sector = static_cast<std::size_t>(turn) % kSectors;
+      const double rotation = (std::atan2(out.y, out.x) / (2.0 * CV_PI) + 0.5) * kSectors;
+      const std::size_t sector = static_cast<std::size_t>(rotation) % kSectors;
       const double w = static_cast<double>(light(y, x)) - least;
       weight[sector] += w;
       radius[sector] += w * glm::length(out);
@@ -82,8 +82,8 @@ std::optional<std::pair<glm::dvec2, double>> ringIn(const Blob& blob, const cv::
   double mean_px = 0.0;
   for (std::size_t s = 0; s < kSectors; ++s) {
     if (weight[s] <= 0.0) continue;
-    const double r = radius[s] / weight[s], turn = ((static_cast<double>(s) + 0.5) / kSectors - 0.5) * 2.0 * CV_PI;
-    line.emplace_back(static_cast<float>(r * std::cos(turn)), static_cast<float>(r * std::sin(turn)));
+    const double r = radius[s] / weight[s], rotation = ((static_cast<double>(s) + 0.5) / kSectors - 0.5) * 2.0 * CV_PI;
+    line.emplace_back(static_cast<float>(r * std::cos(rotation)), static_cast<float>(r * std::sin(rotation)));
     mean_px += r;
   }
   if (static_cast<double>(line.size()) < kWholeRing * kSectors) return std::nullopt;

@@ -165,7 +165,7 @@ TEST(WebcamFit, RefusesInsufficientObservations) {
 
   observations = good;
   observations.positions = {good.positions[0], good.positions[0]};
-  EXPECT_THAT(refusal(observations), HasSubstr("one place"));
+  EXPECT_THAT(refusal(observations), HasSubstr("positions are the same"));
 
   observations = good;
   observations.positions[1].tips[4].camera_px.x = std::nan("");
