@@ -164,7 +164,7 @@ void WebcamProcedure::see(const GreyImage& image, const calibration::RawJoints& 
 
 void WebcamProcedure::checkLetter(const GreyImage& image) {
   const auto reading = calibration::orientationOfF(image);
-  if (!reading || !reading->right()) {
+  if (!reading || !reading->isUpright()) {
     answer_ = reading ? calibration::remedyFor(*reading)
                       : "No F can be read: show all of the screen to the webcam, sharp, level within 40°.";
     return turnTo(WebcamStep::letter);

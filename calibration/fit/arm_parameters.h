@@ -17,13 +17,18 @@ enum class ArmModel { rigid, joint_gains, full };
 
 inline constexpr double kDegree = radFromDegrees(1.0);
 
-/// One sigma of the prior of each parameter; 0: no prior. In order: rotation about x, y, z (rad) and translation (mm)
-/// of the base; tip in H (mm); offsets (rad), gains and quadratic terms (1/rad) of turret, thigh and shin; lengths of
-/// thigh and shin (mm); offsets (rad) and gains of the gimbal; shoulder tilt (rad); reach (mm).
+/// One sigma of the prior of each parameter; 0: no prior.
 inline constexpr std::array<double, 28> kArmPriorSigma = {
-    0.0,           0.0,           0.0,           0.0,  0.0,  0.0,  1.0,           1.0,  1.0, kDegree,
-    kDegree,       kDegree,       0.01,          0.01, 0.01, 0.01, 0.01,          0.01, 0.7, 0.7,
-    2.0 * kDegree, 2.0 * kDegree, 2.0 * kDegree, 0.03, 0.03, 0.03, 0.3 * kDegree, 0.5};
+    // clang-format off
+    0.0, 0.0, 0.0, 0.0, 0.0, 0.0,                 // rotation about x, y, z (rad) and translation (mm) of the base
+    1.0, 1.0, 1.0,                                // tip in H, mm
+    kDegree, kDegree, kDegree,                    // offsets of turret, thigh and shin, rad
+    0.01, 0.01, 0.01, 0.01, 0.01, 0.01,           // their gains; their quadratic terms, 1/rad
+    0.7, 0.7,                                     // lengths of thigh and shin, mm
+    2.0 * kDegree, 2.0 * kDegree, 2.0 * kDegree,  // offsets of the gimbal, rad
+    0.03, 0.03, 0.03,                             // its gains
+    0.3 * kDegree, 0.5};                          // shoulder tilt, rad; reach, mm
+// clang-format on
 using ArmParameters = std::array<double, kArmPriorSigma.size()>;
 
 /// Parameters fitted by a model: rigid 6, joint gains and offsets with the tip 15, full 28.

@@ -66,11 +66,11 @@ struct Likeness {
 Likeness compared(const cv::Mat& square) {
   const GreyImage letter = squareWithF(kTemplate_px);
   Likeness found;
-  for (const ImageOrientation& reading : kImageOrientations) {
-    const GreyImage expected = oriented(reading, letter);
+  for (const ImageOrientation& orientation : kImageOrientations) {
+    const GreyImage expected = oriented(orientation, letter);
     const double alike = likeness(square, matrixOf(expected));
     if (alike > found.first) {
-      found = {reading, alike, found.first};
+      found = {orientation, alike, found.first};
     } else {
       found.second = std::max(found.second, alike);
     }
@@ -80,12 +80,12 @@ Likeness compared(const cv::Mat& square) {
 
 }  // namespace
 
-ImageOrientation inverseOf(const ImageOrientation& reading) {
+ImageOrientation inverseOf(const ImageOrientation& orientation) {
   // A mirrored and rotated image is its own inverse.
-  return reading.mirrored ? reading : ImageOrientation{false, (4 - reading.quarters) % 4};
+  return orientation.mirrored ? orientation : ImageOrientation{false, (4 - orientation.quarters) % 4};
 }
 
-std::string_view nameOf(const ImageOrientation& reading) {
+std::string_view nameOf(const ImageOrientation& orientation) {
   constexpr std::array<std::string_view, 8> kNames{"right",
                                                    "turned to the right",
                                                    "upside down",
@@ -94,29 +94,30 @@ std::string_view nameOf(const ImageOrientation& reading) {
                                                    "mirrored and turned to the right",
                                                    "mirrored and upside down",
                                                    "mirrored and turned to the left"};
-  return kNames[static_cast<std::size_t>((reading.mirrored ? 4 : 0) + reading.quarters)];
+  return kNames[static_cast<std::size_t>((orientation.mirrored ? 4 : 0) + orientation.quarters)];
 }
 
-std::string remedyFor(const ImageOrientation& reading) {
-  if (reading.right()) return "the picture reads right, go on";
-  if (reading.quarters % 2 == 1)
-    return "the picture is " + std::string(nameOf(reading)) + ", set the screen's rotation in the system's settings";
-  return "the picture is " + std::string(nameOf(reading)) +
+std::string remedyFor(const ImageOrientation& orientation) {
+  if (orientation.isUpright()) return "the picture reads right, go on";
+  if (orientation.quarters % 2 == 1)
+    return "the picture is " + std::string(nameOf(orientation)) +
+           ", set the screen's rotation in the system's settings";
+  return "the picture is " + std::string(nameOf(orientation)) +
          ", switch off any flip in the monitor's or system's settings, or correct the screen's corners in the rig file";
 }
 
-GreyImage oriented(const ImageOrientation& reading, const GreyImage& image) {
-  const glm::ivec2 in = image.size_px, out = reading.quarters % 2 == 0 ? in : glm::ivec2(in.y, in.x);
+GreyImage oriented(const ImageOrientation& orientation, const GreyImage& image) {
+  const glm::ivec2 in = image.size_px, out = orientation.quarters % 2 == 0 ? in : glm::ivec2(in.y, in.x);
   GreyImage seen{out, std::vector<std::uint8_t>(image.grey.size())};
   std::size_t at = 0;
   for (int y = 0; y < out.y; ++y)
     for (int x = 0; x < out.x; ++x) {
       // Undo the rotation, then the mirroring.
       glm::ivec2 from(x, y);
-      if (reading.quarters == 1) from = {y, in.y - 1 - x};
-      if (reading.quarters == 2) from = in - 1 - from;
-      if (reading.quarters == 3) from = {in.x - 1 - y, x};
-      if (reading.mirrored) from.x = in.x - 1 - from.x;
+      if (orientation.quarters == 1) from = {y, in.y - 1 - x};
+      if (orientation.quarters == 2) from = in - 1 - from;
+      if (orientation.quarters == 3) from = {in.x - 1 - y, x};
+      if (orientation.mirrored) from.x = in.x - 1 - from.x;
       seen.grey[at++] = image.at(from.x, from.y);
     }
   return seen;

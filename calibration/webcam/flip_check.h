@@ -8,7 +8,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "calibration/rig.h"
 #include "calibration/webcam/camera.h"
@@ -20,21 +19,21 @@ struct ImageOrientation {
   bool mirrored = false;
   int quarters = 0;  ///< 0 to 3
 
-  bool right() const { return !mirrored && quarters == 0; }
+  bool isUpright() const { return !mirrored && quarters == 0; }
   bool operator==(const ImageOrientation&) const = default;
 };
 
 inline constexpr std::array<ImageOrientation, 8> kImageOrientations{
     {{false, 0}, {false, 1}, {false, 2}, {false, 3}, {true, 0}, {true, 1}, {true, 2}, {true, 3}}};
 
-ImageOrientation inverseOf(const ImageOrientation& reading);
+ImageOrientation inverseOf(const ImageOrientation& orientation);
 /// "right", "mirrored", "upside down", "turned to the right", "mirrored and turned to the left", …
-std::string_view nameOf(const ImageOrientation& reading);
+std::string_view nameOf(const ImageOrientation& orientation);
 /// One sentence for the technician.
-std::string remedyFor(const ImageOrientation& reading);
+std::string remedyFor(const ImageOrientation& orientation);
 
 /// The image as it reaches the eye; an odd number of quarter turns swaps width and height.
-GreyImage oriented(const ImageOrientation& reading, const GreyImage& image);
+GreyImage oriented(const ImageOrientation& orientation, const GreyImage& image);
 
 /// Orientation of the rig's framebuffer as seen from the near side of its virtual screen.
 ImageOrientation framebufferOrientation(const Rig& rig);

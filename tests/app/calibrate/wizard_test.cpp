@@ -132,7 +132,7 @@ TEST(Wizard, RefusesEveryWrongFlipWithWhatToDo) {
     const Finished done = calibrated(rig, planFor(rig, CalibrationProcedure::full), habits);
     EXPECT_EQ(done.outcome.end, End::refused) << flip;
     ASSERT_TRUE(done.outcome.flip);
-    EXPECT_FALSE(done.outcome.flip->right());
+    EXPECT_FALSE(done.outcome.flip->isUpright());
     EXPECT_EQ(done.outcome.reason, calibration::remedyFor(*done.outcome.flip));
     EXPECT_FALSE(done.run.turnedTo("Touch the pits"));
   }
