@@ -77,7 +77,7 @@ EmergencyExit::EmergencyExit(haptics::DeviceLoop& loop, std::chrono::millisecond
     action.sa_handler = onEnd;
     action.sa_flags = SA_ONSTACK;
     sigaction(kEnds[i], &action, &former[i]);
-    // What nobody minds ends nothing.
+    // An ignored signal does not end the program.
     if (former[i].sa_handler == SIG_IGN) sigaction(kEnds[i], &former[i], nullptr);
   }
 }

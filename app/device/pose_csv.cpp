@@ -106,7 +106,7 @@ void refuseControls(const std::vector<TimedPose>& poses, const std::string& path
   for (const TimedPose& pose : poses)
     if (!pose.tool.empty() || !pose.action.empty())
       refuse(path, pose.line, "it requests a tool or an action",
-             "leave the column out; rehearse --device poses:FILE obeys it");
+             "leave the column out; rehearse --device poses:FILE executes it");
 }
 
 void refuseLongRun(const std::vector<TimedPose>& poses, const std::string& path) {

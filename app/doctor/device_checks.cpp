@@ -16,8 +16,8 @@ bool runs(const Machine& machine, std::string_view name) {
   return false;
 }
 
-/// Some rule tells it to leave 3D Systems' units alone.
-bool isToldOff(const Machine& machine) {
+/// A udev rule excludes 3D Systems' units.
+bool isExcludedByRule(const Machine& machine) {
   for (const auto& file : entriesOf(machine.etc / "udev/rules.d"))
     for (const std::string& line : linesOf(file))
       if (!line.starts_with("#") && line.find("2988") != std::string::npos &&
@@ -42,7 +42,7 @@ Finding checkPedal(const Machine& machine) {
 Finding checkPermissions(const Machine& machine) {
   const std::vector<HapticUnit> units = hapticUnits(machine);
   if (units.empty())
-    return {"permissions", Health::not_needed, "No haptic device hangs on the USB, so nobody must be let in."};
+    return {"permissions", Health::not_needed, "No haptic device is on the USB, so no permission is needed."};
   std::vector<std::string> closed;
   std::error_code none;
   for (const HapticUnit& unit : units)
@@ -58,8 +58,8 @@ Finding checkPermissions(const Machine& machine) {
 Finding checkModemManager(const Machine& machine) {
   if (!runs(machine, "ModemManager"))
     return {"modem-manager", Health::ok, "ModemManager does not run, so it takes no device's port."};
-  if (isToldOff(machine))
-    return {"modem-manager", Health::ok, "ModemManager runs and is told to leave 3D Systems units alone."};
+  if (isExcludedByRule(machine))
+    return {"modem-manager", Health::ok, "ModemManager runs and a udev rule keeps it off 3D Systems units."};
   const std::vector<HapticUnit> units = hapticUnits(machine);
   const bool would_take =
       std::ranges::any_of(units, [](const HapticUnit& unit) { return unit.isTouch() && unit.is_serial; });

@@ -1,5 +1,5 @@
-// An input device without a kernel behind it: its traits laid out as in /sys/class/input, its events through a pipe,
-// and an ioctl() of this program's own that answers what libevdev asks of such a pipe. For tests.
+// An input device without a kernel: its traits laid out as in /sys/class/input, its events through a pipe, and an
+// ioctl() of this program that answers libevdev's requests for that pipe. For tests.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct FakeTraits {
   std::vector<std::uint16_t> down = {};
 };
 
-/// A folder of its own with `classes` and `nodes`, removed in the end.
+/// A temporary folder with `classes` and `nodes`.
 class FakeInputFolder {
  public:
   explicit FakeInputFolder(const std::string& name);
@@ -44,7 +44,7 @@ class FakeInputDevice {
   FakeInputDevice& operator=(const FakeInputDevice&) = delete;
 
   void send(std::uint16_t type, std::uint16_t code, std::int32_t value);
-  /// Half an event, or anything else.
+  /// Raw bytes: half an event, or garbage.
   void sendBytes(const std::string& bytes);
   void unplug();
   bool isGrabbed() const;

@@ -1,5 +1,5 @@
-// A simulated Phantom and the servo, tick by tick without a thread; the device's frame is the patient's, handle and
-// tool are one.
+// A simulated Phantom and the servo, stepped without a thread; the device's frame is the patient's, handle and tool
+// coincide.
 #pragma once
 
 #include <utility>

@@ -1,4 +1,4 @@
-// What the tests of the OpenHaptics backend share: the stand-in library as new for each, and a servo that pushes.
+// Shared by the tests of the OpenHaptics back-end: a fresh stand-in library for each, and a servo that pushes.
 #pragma once
 
 #include <dlfcn.h>
@@ -18,7 +18,7 @@
 
 namespace haptics::open_haptics_bench {
 
-/// Pushes with a constant force and remembers what it was shown.
+/// Pushes with a constant force and keeps the states.
 class Pusher final : public DeviceServo {
  public:
   explicit Pusher(const glm::dvec3& force_N = {}) : gate_(strong()), force_N_(force_N) {}
@@ -80,7 +80,7 @@ class OpenHapticsBench : public testing::Test {
     return *reinterpret_cast<stand_in::StandIn* (*)()>(dlsym(loaded, "standIn"))();
   }
 
-  /// However busy the machine is.
+  /// Independent of the load of the machine.
   static void until(const std::function<bool()>& done) {
     for (int i = 0; i < 20'000 && !done(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     ASSERT_TRUE(done());

@@ -1,5 +1,5 @@
-// A process whose memory has run out for all threads but the first: operator new throws there while `starve(true)`. For
-// tests of services that must end with a word and not end the program.
+// A process whose memory runs out for all threads but the first: operator new throws there after `starve(true)`. For
+// tests of services that must report it and not end the program.
 #pragma once
 
 namespace haptics {

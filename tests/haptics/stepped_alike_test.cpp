@@ -1,4 +1,4 @@
-// A hand in numbers that is stepped: twice the same, and as it ticks by itself.
+// A stepped simulated device: the same twice, and the same as on its own thread.
 
 #include <gtest/gtest.h>
 

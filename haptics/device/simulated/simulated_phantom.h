@@ -1,4 +1,4 @@
-// A simulated Phantom in the hand of somebody who follows a script and is moved by its forces: the arm's kinematics,
+// A simulated Phantom in a hand that follows a script and is moved by its forces: the arm's kinematics,
 // mass and friction, motors with limits, delay and heat, stops, inkwell, encoders, gimbal noise. Servo and safety are
 // tested with it. Frame D; mm, N, s. The device's thread; a pure function of the steps and the seed; about 1.5 us a
 // tick, no allocation after construction. Its mass is the same in every direction; no gravity, no bending of the links,

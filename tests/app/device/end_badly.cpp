@@ -1,5 +1,5 @@
-// Ends in the way its first argument says while a device pushes, and writes what that device was told into the file of
-// its second argument as it is told: two doubles, force in N and motors on (1) or off (0). For emergency_exit_test.
+// Ends in the way named by its first argument while a device pushes, and writes the device's commands to the file of
+// its second argument: two doubles each, force in N and motors on (1) or off (0). For emergency_exit_test.
 
 #include <fcntl.h>
 #include <sys/mman.h>

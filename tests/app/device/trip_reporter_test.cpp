@@ -16,7 +16,7 @@ TEST(TripReporter, ReportsATripOnceEachTimeItHappens) {
   trips.add(7, Fault::buzz);
   const auto first = reporter.update(trips, SafetyState::active);
   ASSERT_EQ(first.size(), 1u);
-  EXPECT_NE(first[0].find("shook"), std::string::npos);
+  EXPECT_NE(first[0].find("oscillated"), std::string::npos);
   EXPECT_NE(first[0].find("(tick 7)"), std::string::npos);
   trips.add(8, Fault::buzz);
   EXPECT_TRUE(reporter.update(trips, SafetyState::active).empty()) << "it goes on";

@@ -1,4 +1,4 @@
-// A machine laid out by hand in a folder of its own, as /proc, /sys, /dev and /etc describe one. For tests.
+// A machine laid out in a temporary folder, with /proc, /sys, /dev and /etc. For tests.
 #pragma once
 
 #include <filesystem>

@@ -1,2 +1,2 @@
-// What another library needs and does not find.
+// The dependency that is missing.
 extern "C" int standInPart() { return 1; }

@@ -13,7 +13,7 @@ namespace hd = haptics::hd;
 
 Machine& machine() { return Machine::only(); }
 
-/// Before the first device there is nothing to judge.
+/// Before the first device there is nothing to check.
 bool isOfFrame(hd::Enum property) { return property >= 0x2000 && property < 0x2500; }
 
 void copyOut(const std::array<std::atomic<double>, 3>& from, double* to) {

@@ -1,5 +1,5 @@
-// The side door of the stand-in for the vendor's library: what it shall play, and what it saw. Found by
-// dlsym("standIn"). Numbers may be changed while it runs; texts are read after it has stopped. mm, N, ms.
+// Control of the stand-in for the vendor's library: its script, and what it recorded. Found by dlsym("standIn"). Values
+// may be changed while it runs; texts are read after it has stopped. mm, N, ms.
 #pragma once
 
 #include <array>
@@ -9,23 +9,23 @@
 
 namespace stand_in {
 
-/// What it plays. Ticks are counted from the start of the scheduler.
+/// The script. Ticks are counted from the start of the scheduler.
 struct Script {
   std::atomic<const char*> model{"PHANTOM Omni"};
-  std::atomic<unsigned> init_error{0};    ///< code that initialising ends with
+  std::atomic<unsigned> init_error{0};    ///< error code of the initialisation
   std::atomic<int> calibration_style{2};  ///< bits
   std::atomic<bool> calibrated{true};
   std::atomic<bool> docked{false}, docked_value{true};
   std::atomic<bool> held{true};
   std::atomic<int> buttons{0}, input_dof{6}, update_rate_Hz{1000};
   std::atomic<double> max_force_N{3.3}, heat{0.1};
-  std::array<std::atomic<double>, 3> hand_mm{0.0, -65.5, -88.1};  ///< where the hand goes, at 0.3 mm a tick
-  std::array<std::atomic<double>, 16> turn{};                     ///< the transform's rotation, as the library tells it
+  std::array<std::atomic<double>, 3> hand_mm{0.0, -65.5, -88.1};  ///< target of the hand, approached at 0.3 mm a tick
+  std::array<std::atomic<double>, 16> turn{};                     ///< rotation of the transform
   std::array<std::atomic<double>, 3> joints_rad{}, gimbal_rad{};
-  std::array<std::atomic<unsigned>, 4> unknown_properties{};  ///< are answered by an error
-  std::atomic<bool> garbage{false};                           ///< places are not a number
+  std::array<std::atomic<unsigned>, 4> unknown_properties{};  ///< answered with an error
+  std::atomic<bool> garbage{false};                           ///< positions are NaN
 
-  std::atomic<unsigned> error_code{0};  ///< is raised in the next frame, `error_times`, and then forgotten
+  std::atomic<unsigned> error_code{0};  ///< raised in the next frame, `error_times`, then cleared
   std::atomic<int> error_times{1};
   std::atomic<bool> unplugged{false};  ///< every frame ends in 0x0302
   std::atomic<unsigned> refused_rate_Hz{0};
@@ -35,7 +35,7 @@ struct Script {
   std::atomic<bool> hangs{false};  ///< the scheduler does not call
 };
 
-/// What it saw.
+/// The record.
 struct Seen {
   std::atomic<long> ticks{0}, frames{0}, calibration_updates{0};
   std::atomic<bool> motors_on{false}, hanging{false};
@@ -49,7 +49,7 @@ struct Seen {
 struct StandIn {
   Script script;
   Seen seen;
-  void (*reset)();  ///< as new; only while nothing runs
+  void (*reset)();  ///< to the initial state; only while nothing runs
   int (*open_devices)();
 };
 

@@ -1,5 +1,5 @@
-// The machine behind the stand-in: a mass that forces push, in a hand on a spring; an error stack; a scheduler with a
-// thread of its own; and the rules of the interface, each breach of which is written down. mm, N, s.
+// The machine behind the stand-in: a mass moved by forces, in a hand on a spring; an error stack; a scheduler with its
+// own thread; and the rules of the interface, each breach of which is recorded. mm, N, s.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ class Machine {
   void reset();
   int openDevices() const { return open_ ? 1 : 0; }
 
-  // The calls, each after `enter` has judged when and where from it comes.
+  // The calls, each after `enter` has checked its time and thread.
   void enter(const char* call, bool needs_frame = false);
   void note(const std::string& event);
   void breach(const std::string& what);

@@ -1,5 +1,4 @@
-// A clock for the USB that stands until the test moves it: what happens after a while happens when the test says so,
-// and what takes long on a busy machine takes no time.
+// A USB clock that only the test advances: timeouts happen when the test says so, and a busy machine changes nothing.
 #pragma once
 
 #include <atomic>
@@ -16,7 +15,7 @@ class HeldClock {
   haptics::UsbClock clock() const { return {&now_ns_}; }
   void pass(std::chrono::milliseconds time) { now_ns_.fetch_add(std::chrono::nanoseconds(time).count()); }
 
-  /// After `time`, when whoever serves the bus has looked at it some more times.
+  /// Advances by `time` and waits until the bus has been served a few times.
   void passAndSettle(std::chrono::milliseconds time, const Bus& bus) {
     pass(time);
     settle(bus);

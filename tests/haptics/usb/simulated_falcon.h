@@ -1,6 +1,6 @@
 // A Novint Falcon behind the simulated bus: the FTDI bridge, a boot loader that waits for its program, then run
-// packets, three motors on the real legs and a grip that drifts in a viscous hand. What a unit is said to do, written a
-// second time and apart from the driver; its scale and sign are set here. All of it under the bus's lock.
+// packets, three motors on the real legs and a grip in a viscous hand. Written from the published facts, independently
+// of the driver; scale and sign are set here. Everything under the bus's lock.
 #pragma once
 
 #include <array>
@@ -21,21 +21,21 @@ class SimulatedFalcon : public Device {
   std::optional<Bytes> onIn(std::uint8_t endpoint, double t_s) override;
   std::optional<Bytes> onControl(const Setup& setup, std::span<const std::uint8_t> data, double t_s) override;
 
-  // How it behaves.
-  std::size_t program_bytes = 2048;  ///< it runs once it has as many
-  bool runs = false;                 ///< the program is in it
+  // Behaviour.
+  std::size_t program_bytes = 2048;  ///< size at which it starts to run
+  bool runs = false;                 ///< the program is loaded
   bool answers_greeting = true, answers_packets = true, garbage = false;
-  int echo_mistakes = 0;  ///< so many loads get one byte wrong
+  int echo_mistakes = 0;  ///< loads with one wrong byte
   unsigned homed = 7;
-  double true_words_per_Nmm = 10.0;  ///< the motors turn against their words
+  double true_words_per_Nmm = 10.0;  ///< the motors turn against the sign of their words
   unsigned buttons = 0;
   glm::dvec3 grip_mm{0.0, 0.0, 125.0};
 
-  // What happened to it.
+  // Record.
   Bytes program;
   std::array<int, 3> words{};
   unsigned flags = 0;
-  std::vector<std::string> packets;  ///< every run packet, as it came
+  std::vector<std::string> packets;  ///< every run packet
   int largest_word = 0, refused = 0, loads_begun = 0;
 
  private:

@@ -1,7 +1,7 @@
 // A USB bus in this process: the real libusb talks to a device model in C++ through umockdev, without kernel USB. The
-// model answers packets when the host's transfers reach it, on umockdev's thread; the rig's lock is held then. Faults
-// are switched on from the test. Needs umockdev-wrapper (the preloaded half); without it available() is false.
-// One bus at a time. Proves protocol, states and safety; its timing (0.5 ms a round trip) proves nothing.
+// model answers when the host's transfers reach it, on umockdev's thread, with the bus locked. Tests switch faults on.
+// Needs umockdev-wrapper (the preloaded half); without it available() is false. One bus at a time. It tests protocol,
+// states and safety; its timing (0.5 ms a round trip) is not that of a real bus.
 #pragma once
 
 #include <cstdint>
@@ -21,16 +21,16 @@ struct Setup {
   std::uint16_t value = 0, index = 0;
 };
 
-/// What is inside the box. Times are seconds since the bus was made.
+/// The model of a device. Times are seconds since the bus was made.
 class Device {
  public:
   virtual ~Device() = default;
   virtual void onOut(std::uint8_t endpoint, std::span<const std::uint8_t> bytes, double t_s) = 0;
-  /// What it says now to a host that listens; nothing: NAK, asked again soon.
+  /// Data of an IN transfer now; none: NAK, repeated soon.
   virtual std::optional<Bytes> onIn(std::uint8_t endpoint, double t_s) = 0;
-  /// Now and then, as long as a host waits for anything.
+  /// Called repeatedly while a host waits.
   virtual void onTime(double) {}
-  /// Data of an IN request (empty for OUT); nothing: STALL.
+  /// Data of an IN request (empty for OUT); none: STALL.
   virtual std::optional<Bytes> onControl(const Setup&, std::span<const std::uint8_t>, double) { return {}; }
 };
 
@@ -46,20 +46,20 @@ struct Description {
   std::vector<Endpoint> endpoints = {{0x81, 3, 64}, {0x01, 3, 64}};
   std::string maker, name, serial;
   std::string port = "1";  ///< on bus 1: its path is "1-<port>"
-  int number = 2;          ///< on the bus, unlike any other's
+  int number = 2;          ///< unique on the bus
 };
 
-/// What the line does wrong, until told otherwise.
+/// Faults of the line, until changed.
 struct Faults {
-  bool in_silent = false;                      ///< IN is NAKed whatever the device says
+  bool in_silent = false;                      ///< IN is always NAKed
   bool out_refused = false;                    ///< OUT is NAKed
   bool in_halted = false, out_halted = false;  ///< STALL; a clear-halt ends it unless `halts_stay`
   bool halts_stay = false;
   bool claim_refused = false;    ///< EBUSY
   bool handle_dead = false;      ///< every request ENOTTY
   bool errors = false;           ///< every transfer fails with EPROTO
-  bool stuck = false;            ///< nothing is ever given back, cancelled or not
-  bool detach_unserved = false;  ///< ENOTTY for taking the interface from a driver
+  bool stuck = false;            ///< no transfer ever completes, cancelled or not
+  bool detach_unserved = false;  ///< ENOTTY for detaching a driver
 };
 
 class Bus {
@@ -71,22 +71,22 @@ class Bus {
   Bus(const Bus&) = delete;
   Bus& operator=(const Bus&) = delete;
 
-  /// On the bus from now on; `device` must outlive the bus.
+  /// Plugs it in; `device` must outlive the bus.
   void plug(const Description& description, Device& device);
-  /// Out of the bus, its open handles fail as the kernel's do.
+  /// Unplugs it; its open handles fail as the kernel's do.
   void unplug(const std::string& port = "1");
 
   void set(const Faults& faults, const std::string& port = "1");
-  /// For the models time stands, until it goes on from there.
+  /// Stops the models' time, or lets it continue.
   void holdTime();
   void letTimePass();
 
-  /// The test's look at a model, while nothing else touches it.
+  /// Runs a function of the test with the models locked.
   void locked(const std::function<void()>& look);
 
   int halts_cleared() const;
   int cancelled() const;
-  /// How often a host has asked for what came back.
+  /// How often a host has reaped transfers.
   int looks() const;
 
   struct Parts;

@@ -1,6 +1,6 @@
 // A WoodenHaptics behind the simulated bus: the mbed firmware's loop (a report for every report), its 0.5 s watchdog,
-// and an arm in a viscous hand that its currents push about. Written from the published facts a second time and apart
-// from the driver: joint angles, capstans, forward kinematics. All of it under the bus's lock.
+// and an arm in a viscous hand that its currents move. Written from the published facts, independently of the driver:
+// joint angles, capstans, forward kinematics. Everything under the bus's lock.
 #pragma once
 
 #include <array>
@@ -22,22 +22,22 @@ class SimulatedWooden : public Device {
 
   void onTime(double t_s) override { move(t_s); }
 
-  /// Joints held by somebody: they stay there until let go.
+  /// Holds the joints there until let go.
   void hold(const glm::dvec3& joints_rad) { joints_rad_ = joints_rad, held_ = true; }
   void holdAtHome();
-  /// The turret led round evenly by whoever holds it.
+  /// Rotates the held turret at a constant rate.
   void swing(double rad_per_s) { swing_rad_per_s_ = rad_per_s; }
   void letGo() { held_ = false; }
   void pressSwitch() { switch_pressed_ = true; }
   glm::dvec3 position_mm() const;
 
-  // How it is built and behaves. The powers-up offset: what its counters think of where the arm was.
+  // Build and behaviour. Power-up offset: of the counters against the true joints.
   glm::dvec3 motor_Nmm_per_A{321.0, 60.3, 60.3};
   std::array<int, 3> offset_counts{1234, -777, 345};
-  std::function<void(Bytes&)> spoil;  ///< what the line does to a report
+  std::function<void(Bytes&)> spoil;  ///< corrupts a report
   bool button = false;
 
-  // What happened to it.
+  // Record.
   std::vector<std::array<std::int16_t, 7>> told;
   int largest_mA = 0, watchdog_trips = 0, presets = 0;
   bool enabled = false;

@@ -1,7 +1,6 @@
-// A recording of what went over a USB, as usbmon gives it to tcpdump or Wireshark: pcap files of link type 220 (64-byte
-// head) or 189 (48-byte head), of either byte order of the file, little-endian heads. For those who record a device
-// nobody has described: lists its transfers; knows no device's protocol and guesses none. Source: Linux,
-// Documentation/usb/usbmon.rst; tcpdump.org, link types.
+// A recording of USB traffic, as usbmon gives it to tcpdump or Wireshark: pcap files of link type 220 (64-byte header)
+// or 189 (48-byte header), in either byte order of the file, with little-endian headers. Lists the transfers of a
+// device whose protocol is not known. Source: Linux, Documentation/usb/usbmon.rst; tcpdump.org, link types.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +12,7 @@
 namespace usb_recording {
 
 struct Transfer {
-  double t_s = 0.0;  ///< when it was over, from the first one on
+  double t_s = 0.0;  ///< of its completion, from the first one
   std::uint16_t bus = 0;
   std::uint8_t device = 0;
   std::uint8_t endpoint = 0;        ///< bit 7: in
@@ -22,15 +21,15 @@ struct Transfer {
   std::vector<std::uint8_t> bytes;  ///< as far as they were captured
 };
 
-/// Every finished transfer, what went out taken from its beginning. None when it is no such file; a truncated one gives
-/// what is whole.
+/// Every completed transfer, with outgoing data from its submission. None for another file; a truncated one gives its
+/// complete records.
 std::optional<std::vector<Transfer>> readRecording(std::span<const std::uint8_t> file);
 
-/// For a first look at one device: of an endpoint, how many, how long, how often.
+/// Summary of an endpoint: count, length, interval.
 struct Traffic {
   std::size_t transfers = 0, shortest = 0, longest = 0;
   double per_second = 0.0;
-  std::vector<std::size_t> changing;  ///< the bytes that were not the same in all
+  std::vector<std::size_t> changing;  ///< bytes that differ between transfers
 };
 std::map<std::uint8_t, Traffic> trafficOf(const std::vector<Transfer>& transfers, std::uint8_t device);
 

@@ -1,4 +1,4 @@
-// A first look at a recording: usb_recording_print FILE.pcap DEVICE, the device's number on its bus.
+// Prints a summary of a recording: usb_recording_print FILE.pcap DEVICE, the device's number on its bus.
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
