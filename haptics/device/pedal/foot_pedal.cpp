@@ -112,9 +112,7 @@ FootPedal::FootPedal(const PedalChoice& choice, InputFolders folders) : choice_(
 }
 
 FootPedal::~FootPedal() {
-  const std::uint64_t one = 1;
-  while (write(wake_fd_, &one, sizeof one) < 0 && errno == EINTR) {
-  }
+  eventfd_write(wake_fd_, 1);
   thread_.join();
   close(wake_fd_);
 }

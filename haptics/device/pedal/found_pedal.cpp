@@ -6,28 +6,25 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <utility>
 
 namespace haptics {
 namespace {
 
 constexpr int kLettersOfAKeyboard = 20;
 
-struct Identity {
-  std::uint16_t vendor, product;
-};
-constexpr std::array<Identity, 6> kFootSwitches = {
+constexpr std::array<std::pair<std::uint16_t, std::uint16_t>, 6> kFootSwitches = {
     {{0x0c45, 0x7403}, {0x0c45, 0x7404}, {0x413d, 0x2107}, {0x1a86, 0xe026}, {0x3553, 0xb001}, {0x05f3, 0x00ff}}};
 
-std::string inSmall(std::string text) {
+std::string lowerCase(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return text;
 }
 
 bool saysItIsAPedal(const InputTraits& traits) {
-  const std::string name = inSmall(traits.name);
+  const std::string name = lowerCase(traits.name);
   if (name.find("foot") != std::string::npos || name.find("pedal") != std::string::npos) return true;
-  return std::ranges::any_of(
-      kFootSwitches, [&](const Identity& one) { return one.vendor == traits.vendor && one.product == traits.product; });
+  return std::ranges::count(kFootSwitches, std::pair(traits.vendor, traits.product)) > 0;
 }
 
 bool isButtonOfAJoystick(std::uint16_t code) {
@@ -73,7 +70,7 @@ std::vector<FoundPedal> pedalsMeant(const std::string& wanted, const InputFolder
   const std::filesystem::path path = std::filesystem::weakly_canonical(wanted, none);
   std::erase_if(meant, [&](const FoundPedal& one) {
     if (wanted.find('/') != std::string::npos) return std::filesystem::weakly_canonical(one.path, none) != path;
-    return inSmall(one.traits.name).find(inSmall(wanted)) == std::string::npos;
+    return lowerCase(one.traits.name).find(lowerCase(wanted)) == std::string::npos;
   });
   std::ranges::stable_sort(meant, {}, &FoundPedal::kind);
   return meant;
