@@ -186,7 +186,7 @@ FacePlacement refined(Motion X, const Arch& arch, const std::vector<FaceTooth>& 
     }
     const auto map = calibration::rigidFit(held);
     if (!map) return {};
-    X = {glm::normalize(glm::quat_cast(map->turn)), map->shift_mm};
+    X = {glm::normalize(glm::quat_cast(map->rotation)), map->translation_mm};
   }
   double squares = 0.0;
   for (const PointPair& pair : kept) squares += std::pow(residual_mm(X, pair), 2.0);
