@@ -2,11 +2,9 @@
 // Any thread; monotonic_ns() makes no system call on Linux.
 #pragma once
 
-#include <time.h>
-
-#include <cerrno>
 #include <chrono>
 #include <cstdint>
+#include <ctime>
 
 namespace haptics {
 
@@ -20,10 +18,6 @@ inline timespec timespecOf(std::int64_t time_ns) {
   return {static_cast<time_t>(time_ns / kSecond_ns), static_cast<long>(time_ns % kSecond_ns)};
 }
 
-inline void sleepUntil(std::int64_t deadline_ns) {
-  const timespec deadline = timespecOf(deadline_ns);
-  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &deadline, nullptr) == EINTR) {
-  }
-}
+void sleepUntil(std::int64_t deadline_ns);
 
 }  // namespace haptics
