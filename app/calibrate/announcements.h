@@ -1,4 +1,4 @@
-// What the technician was told last, and the sounds since somebody looked. Plain data; one thread.
+// The current message to the technician, and the sounds since the last view. Plain data; one thread.
 #pragma once
 
 #include <string>

@@ -7,7 +7,7 @@ Press ButtonPress::update(double t_s, bool button) {
     read_ = button;
     changed_s_ = t_s;
   }
-  // A change that has lasted.
+  // Debounced change.
   if (read_ != down_ && t_s - changed_s_ >= kBounce_s) {
     down_ = read_;
     if (down_) {
@@ -19,7 +19,7 @@ Press ButtonPress::update(double t_s, bool button) {
     return spent_ ? Press::none : Press::short_press;
   }
 
-  // Held on, and not on its way up.
+  // Still held.
   if (!down_ || !read_ || t_s < next_s_) return Press::none;
   const bool first = !spent_;
   if (spent_ && next_s_ == 0.0) return Press::none;

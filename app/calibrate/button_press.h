@@ -1,16 +1,15 @@
-// One button, told apart by how long it is held: short, long (0.8 s, told while it is still down), and then again and
-// again while it stays down. A change counts once it has lasted 20 ms. s of any steady clock, in order. Plain values;
-// one thread; no allocation.
+// Recognises short and long presses (0.8 s, reported while held) of one button, and repeats while it is held. A change
+// counts after 20 ms. Times in s of any steady clock, ascending. Plain values; one thread; no allocation.
 #pragma once
 
 namespace app {
 
 enum class Press {
   none,
-  down,         ///< it was pressed: short or long is not known yet
-  short_press,  ///< it was let go before 0.8 s
+  down,         ///< pressed; short or long is not known yet
+  short_press,  ///< released before 0.8 s
   long_press,
-  repeated,  ///< held on, five times a second
+  repeated,  ///< still held, five times a second
 };
 
 class ButtonPress {
@@ -19,9 +18,9 @@ class ButtonPress {
 
   Press update(double t_s, bool button);
 
-  /// When it went down, before the bounce was waited for.
+  /// The time of the press, before debouncing.
   double downAt_s() const { return down_at_s_; }
-  /// What is held now counts no more; after a silence of the device.
+  /// Ignores the current press, after a silence of the device.
   void forget();
 
  private:

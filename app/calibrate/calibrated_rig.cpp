@@ -15,9 +15,9 @@ using namespace calibration;
 
 namespace {
 
-/// What no tip left out can show: a lens that is wrong for all of them. From simulated rigs, where tips are foretold to
-/// 0.1 mm and the truth is 0.25 mm off.
-constexpr double kUnseen_mm = 0.2;
+/// An error that tips left out cannot show: of the lens, common to all. From simulated rigs: cross-validated 0.1 mm,
+/// true error 0.25 mm.
+constexpr double kHidden_mm = 0.2;
 
 }  // namespace
 
@@ -32,8 +32,8 @@ RigRecord baseRig(const std::string& named) {
 MeasuredArm armOf(const RigRecord& record, const TouchSet& touches, const std::string& named) {
   const PhantomModel* const model = findPhantomModel(touches.device_model);
   if (model == nullptr)
-    throw CalibrationError("observations: device '" + touches.device_model + "' is not known, give omni, touch, " +
-                           "desktop or premium");
+    throw CalibrationError("observations: device '" + touches.device_model +
+                           "' is not known, give omni, touch, desktop or premium");
   if (record.rig.device) {
     const std::string why = mismatchWith(record, touches.device_model, touches.serial, touches.mount);
     if (!why.empty()) throw CalibrationError("rig file " + named + ": " + why);
@@ -99,11 +99,11 @@ void putWebcamFit(RigRecord& record, const WebcamFit& fit) {
                                   fit.cv_rms_mm,
                                   {}};
 
-  // As widely as tips left out lie and what leaves no trace in them, distributed as those that were fitted.
+  // The cross-validated error and the hidden one, distributed as the fitted residuals.
   std::vector<Residual> left_out = fit.residuals;
   const double fitted_mm = targetErrors(left_out).rms_mm;
   for (Residual& one : left_out)
-    one.error_mm.xyz *= fitted_mm > 0.0 ? std::hypot(fit.cv_rms_mm, kUnseen_mm) / fitted_mm : 1.0;
+    one.error_mm.xyz *= fitted_mm > 0.0 ? std::hypot(fit.cv_rms_mm, kHidden_mm) / fitted_mm : 1.0;
   putProof(record, left_out, VerificationKind::full);
 }
 

@@ -1,7 +1,5 @@
-// The rig that a calibration starts from or is proved with, as people name it, and a rig file's content from what was
-// measured: the blocks that a procedure found out are new, all others stay as the
-// base has them, and the chain to the base is written down. Frame W, mm. Plain functions; start-up and between
-// rehearsals only.
+// Rig records from measurements: a procedure replaces the blocks it has measured, all others stay as in the base, and
+// the hash of the base is stored as parent. Frame W, mm. Plain functions; start-up and between rehearsals only.
 #pragma once
 
 #include <string>
@@ -14,41 +12,41 @@
 
 namespace app {
 
-inline constexpr const char* kBaseRigHelp = "Rig file, or mirrored or desktop as they come with the program";
+inline constexpr const char* kBaseRigHelp = "Rig file, or one of the built-in rigs: mirrored, desktop";
 
 /// Throws CalibrationError as readRigRecord.
 calibration::RigRecord baseRig(const std::string& named);
 
-/// The arm of the rig, or the model's own where none was measured. Throws CalibrationError when the touches are of
-/// another device than the rig's.
+/// The arm of the rig, or that of the model if none was measured. Throws CalibrationError if the touches are of another
+/// device than the rig.
 calibration::MeasuredArm armOf(const calibration::RigRecord& record, const calibration::TouchSet& touches,
                                const std::string& named);
 
-/// Who measures, and where; nothing that names a person.
+/// Circumstances of a measurement; never a person's name.
 struct MeasurementInfo {
   std::string rig_id = "rig", serial, mount = "right", stylus_tip, operator_code;
 };
 
-/// `record`, measured now by these people and this program, as what comes after `base`.
+/// Sets time, program, operator code and parent of a record measured now.
 void stamp(calibration::RigRecord& record, const calibration::RigRecord& base, const MeasurementInfo& info);
 
-/// The fitted arm and how it was found. A verification is no longer one: that takes touches it has not seen.
+/// Stores the fitted arm and its fit; removes the verification, which needs touches that were not fitted.
 void putFit(calibration::RigRecord& record, const calibration::TouchSet& touches, const calibration::ArmFit& fit,
             double duration_s);
-/// The arm brought up to date. Tilts and cross-validation stay those of the calibration it comes of.
+/// Stores the re-zeroed arm; tilts and cross-validation stay those of the calibration.
 void putRezero(calibration::RigRecord& record, const calibration::TouchSet& touches, const calibration::Rezero& rezero,
                double duration_s);
-/// Another bur in its handle, as `arm` measured it; `name`: which, where it was said. Nothing is proved any more.
+/// Stores the tip of a new bur; `name`: of the bur, if given. Removes the verification.
 void putPivot(calibration::RigRecord& record, const calibration::MeasuredArm& arm, const calibration::Pivot& pivot,
               const std::string& name);
-/// The arm as a webcam measured it, proved by tips that were left out in turn: how far these lie off is known across
-/// the lines of sight, and taken up to three axes.
+/// Stores the arm measured by webcam, with a verification by tips that were left out in turn: their error is known
+/// across the lines of sight and extended to three axes.
 void putWebcamFit(calibration::RigRecord& record, const calibration::WebcamFit& fit);
-/// What touches it has not seen say of it.
+/// Stores the verification by touches that were not fitted.
 void putProof(calibration::RigRecord& record, const std::vector<calibration::Residual>& held_out,
               calibration::VerificationKind kind);
 
-/// By the method a rig was measured with: eyes alone are held to wider limits.
+/// Of the method of a calibration: wider limits by eyes alone.
 calibration::VerificationKind proofKindOf(const std::string& method);
 
 }  // namespace app

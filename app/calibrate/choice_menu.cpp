@@ -6,9 +6,9 @@
 
 namespace app {
 
-std::optional<std::size_t> ChoiceMenu::update(Press press, bool again) {
+std::optional<std::size_t> ChoiceMenu::update(Press press, bool repeats) {
   if (press == Press::short_press && !choices_.empty()) marked_ = (marked_ + 1) % choices_.size();
-  if (press == Press::long_press || (again && press == Press::repeated)) return marked_;
+  if (press == Press::long_press || (repeats && press == Press::repeated)) return marked_;
   return std::nullopt;
 }
 
@@ -20,16 +20,16 @@ void ChoiceMenu::show(WizardView& view) const {
 
 bool NumberDial::update(Press press) {
   const auto chosen = menu_.update(press, true);
-  // A held button turns the dial; it does not take the number.
+  // A held button changes the number but does not confirm it.
   if (chosen == 2) return press == Press::long_press;
-  if (chosen) value_ = std::clamp(value_ + (*chosen == 0 ? step_ : -step_), least_, most_);
+  if (chosen) value_ = std::clamp(value_ + (*chosen == 0 ? step_ : -step_), min_, max_);
   return false;
 }
 
 void NumberDial::show(WizardView& view, const char* unit) const {
   menu_.show(view);
-  view.button.long_press = "choose; held on, again and again";
-  view.value = numberText(value_, step_ < 1.0 ? 1 : 0) + " " + unit;
+  view.button.long_press = "choose; hold to repeat";
+  view.value = fixedText(value_, step_ < 1.0 ? 1 : 0) + " " + unit;
 }
 
 }  // namespace app

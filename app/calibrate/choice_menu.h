@@ -1,4 +1,4 @@
-// A few choices under one button: a short press marks the next, a long one chooses. Plain values; one thread.
+// A menu under one button: a short press marks the next choice, a long press chooses. Plain values; one thread.
 #pragma once
 
 #include <optional>
@@ -15,8 +15,8 @@ class ChoiceMenu {
   explicit ChoiceMenu(std::vector<std::string> choices, std::size_t marked = 0)
       : choices_(std::move(choices)), marked_(marked) {}
 
-  /// The choice that was made, if one was. `again`: held on, the marked one is chosen again and again.
-  std::optional<std::size_t> update(Press press, bool again = false);
+  /// The choice made, if any. `repeats`: a held button chooses repeatedly.
+  std::optional<std::size_t> update(Press press, bool repeats = false);
   void show(WizardView& view) const;
 
  private:
@@ -24,20 +24,19 @@ class ChoiceMenu {
   std::size_t marked_ = 0;
 };
 
-/// A number set by presses: more, less, that is it.
+/// A number set by presses.
 class NumberDial {
  public:
-  NumberDial(double value, double least, double most, double step)
-      : value_(value), least_(least), most_(most), step_(step) {}
+  NumberDial(double value, double min, double max, double step) : value_(value), min_(min), max_(max), step_(step) {}
 
-  /// True once it was taken.
+  /// True when the number is confirmed.
   bool update(Press press);
   void show(WizardView& view, const char* unit) const;
   double value() const { return value_; }
 
  private:
-  double value_, least_, most_, step_;
-  ChoiceMenu menu_{{"more", "less", "that is it"}};
+  double value_, min_, max_, step_;
+  ChoiceMenu menu_{{"more", "less", "confirm"}};
 };
 
 }  // namespace app

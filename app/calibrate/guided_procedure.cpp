@@ -6,11 +6,12 @@
 namespace app {
 
 GuidedProcedure::GuidedProcedure(const GuidedRun& run, glm::ivec2 screen_px, bool robot) : run_(run) {
-  if (run.device == nullptr && !run.practice) throw UsageError("calibrate: no device, give one or practise");
+  if (run.device == nullptr && !run.practice)
+    throw UsageError("calibrate: no device, give one or use --device practice:D");
   if (!run.windows && (!robot || run.device != nullptr))
-    throw UsageError("calibrate: without a window nobody sees what to do, let the robot practise");
-  if (run.sounds) sounds_.emplace(run.tell);
-  if (run.windows) screen_.emplace(run.display, screen_px, run.tell);
+    throw UsageError("calibrate: without a window only the robot can calibrate a practice stylus, add --robot");
+  if (run.sounds) sounds_.emplace(run.report);
+  if (run.windows) screen_.emplace(run.display, screen_px, run.report);
   if (run.device != nullptr)
     source_ = std::make_unique<DeviceSource>(*run.device);
   else if (!robot)
@@ -18,7 +19,7 @@ GuidedProcedure::GuidedProcedure(const GuidedRun& run, glm::ivec2 screen_px, boo
 }
 
 void GuidedProcedure::takeEvents(const calibration::Rig& rig) {
-  left_ = left_ || run_.given_up();
+  left_ = left_ || run_.interrupted();
   if (!screen_) return;
   const render::EyeView eye = render::eyeView(rig, render::Eye::cyclopean);
   const glm::dvec2 px = glm::max(screen_->window_px(), 1);

@@ -1,5 +1,4 @@
-// What leading somebody through a procedure on a display takes, whichever procedure it is: window, sounds, the stylus,
-// and ways to leave. Main thread.
+// Common parts of the guided procedures on a display: window, sounds, stylus, and ways to leave. Main thread.
 #pragma once
 
 #include <functional>
@@ -16,30 +15,30 @@
 namespace app {
 
 struct GuidedRun {
-  haptics::HapticDevice* device = nullptr;            ///< opened, not started; null: practice
-  std::optional<calibration::SyntheticRig> practice;  ///< what is practised on, where there is no device
-  bool windows = true;                                ///< false: nothing is shown; the robot's only
+  haptics::HapticDevice* device = nullptr;            ///< open, not started; null: practice
+  std::optional<calibration::SyntheticRig> practice;  ///< the simulated workstation, without a device
+  bool windows = true;                                ///< false: the robot runs without display
   WizardDisplay display;
   bool sounds = true;
-  std::function<void(const std::string& line)> tell = [](const std::string&) {};
-  std::function<bool()> given_up = [] { return false; };  ///< asked many times a second: an interrupt
+  std::function<void(const std::string& line)> report = [](const std::string&) {};
+  std::function<bool()> interrupted = [] { return false; };  ///< polled many times a second
 };
 
 class GuidedProcedure {
  protected:
   using Clock = std::chrono::steady_clock;
 
-  /// `robot`: it is led by itself. Throws UsageError where nobody could be led.
+  /// `robot`: a robot holds the stylus. Throws UsageError if nobody could follow.
   GuidedProcedure(const GuidedRun& run, glm::ivec2 screen_px, bool robot);
 
-  /// What a window tells, of a page seen through `rig`.
+  /// Handles window events of a page seen through `rig`.
   void takeEvents(const calibration::Rig& rig);
   std::optional<TrueStylus> trueStylus() { return source_ ? source_->seen() : std::nullopt; }
   double shownFor_s() const { return std::chrono::duration<double>(Clock::now() - began_).count(); }
 
   std::optional<Sounds> sounds_;
   std::optional<WizardScreen> screen_;
-  std::unique_ptr<StylusSource> source_;  ///< none yet, where a robot is led
+  std::unique_ptr<StylusSource> source_;  ///< none yet for a robot
   std::vector<StylusSample> samples_;
   WizardView view_;
   bool left_ = false;

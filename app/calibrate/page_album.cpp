@@ -9,7 +9,7 @@
 namespace app {
 namespace {
 
-/// What makes a page another one: not the number of the touch, not a sentence that says more of the same.
+/// Pages with the same text here count as the same page.
 std::string kindOf(const WizardView& view) {
   std::string kind = view.title + '|' + view.sentence;
   if (view.verdict) kind += "|verdict";
@@ -37,7 +37,7 @@ PageAlbum::PageAlbum(std::filesystem::path folder) : folder_(std::move(folder)) 
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
   if (error || !std::filesystem::is_directory(folder_, error))
-    throw UsageError("pages " + folder_.string() + ": no folder can be made there, choose another");
+    throw UsageError("pages " + folder_.string() + ": the folder cannot be created, choose another");
   if (!std::filesystem::is_empty(folder_, error) || error)
     throw UsageError("pages " + folder_.string() + ": the folder is not empty, choose another");
 }

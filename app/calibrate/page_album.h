@@ -1,5 +1,4 @@
-// Every page of a wizard that was shown, once, as numbered PNG pictures in a folder: for documentation and for whoever
-// wants to see a procedure without a display. Any one thread.
+// Saves every different page of a wizard once, as numbered PNG files in a folder, for documentation. Any one thread.
 #pragma once
 
 #include <filesystem>
@@ -14,10 +13,10 @@ namespace app {
 
 class PageAlbum {
  public:
-  /// Makes the folder. Throws UsageError when there is something in it already, or it can not be had.
+  /// Creates the folder. Throws UsageError if it is not empty or cannot be created.
   explicit PageAlbum(std::filesystem::path folder);
 
-  /// Draws and saves it where no page like this was saved before. Throws CalibrationError.
+  /// Draws and saves a page unless a similar one was saved. Throws CalibrationError.
   void keep(const WizardView& view, const std::function<render::Image()>& draw);
   int count() const { return count_; }
 

@@ -17,14 +17,14 @@ using render::Eye;
 constexpr double kCueLength_mm = 70.0, kDash_mm = 5.0, kGap_mm = 6.0;
 constexpr double kRing_mm = 15.0, kRingWidth_mm = 3.0;
 
-/// Space as an eye sees it on the page.
+/// Projection of W onto the page for one eye.
 struct Sight {
   const ScreenPage& page;
   const calibration::Rig& rig;
   Eye eye;
 
   glm::dvec2 at(const glm::dvec3& p_W) const { return page.seenAt(rig, eye, Point<World>{p_W}); }
-  /// How long a millimetre across the line of sight is there.
+  /// Length on the page of 1 mm across the line of sight.
   double scaleAt(const glm::dvec3& p_W) const {
     const glm::dvec3 across = glm::normalize(rig.right_eye.mm - rig.left_eye.mm);
     return glm::length(at(p_W + across) - at(p_W));
@@ -39,7 +39,7 @@ void drawCross(const Sight& sight, glm::dvec2 p, double arm_mm, double width_mm,
   sight.page.line(p - glm::dvec2(0.0, arm_mm), p + glm::dvec2(0.0, arm_mm), width_mm, ink);
 }
 
-/// A cone that opens towards the eye, its point where the tip has to go.
+/// A cone that opens towards the eye, with its apex at the target.
 void drawPit(const Sight& sight, const glm::dvec3& position_W, double radius_mm, double width_mm, const Ink& ink) {
   const glm::dvec3 out = glm::normalize(sight.rig.cyclopeanEye().mm - position_W);
   const glm::dvec3 x = glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), out)), y = glm::cross(out, x);
@@ -85,13 +85,13 @@ void drawTarget(const Sight& sight, const WizardView& view, const ShownTarget& t
     case TargetState::next:
       break;
   }
-  // From the outside in, brighter and brighter.
+  // Brighter towards the centre.
   for (const double ring : {11.0, 9.0, 7.0})
     sight.page.circle(p, ring * s, 1.0 * s, dimmed(kWantedInk, (0.15 + 0.35 * glow) * (12.5 - ring) / 5.5));
   drawMarker(sight, view, target, p, s, kWordInk, true);
 }
 
-/// Dashed where the stylus should be, solid where it is, both from the target.
+/// Wanted direction dashed, present one solid, both from the target.
 void drawTilt(const Sight& sight, const glm::dvec3& from_W, const TiltCue& tilt) {
   const glm::dvec3 wanted = tilt.wanted_W.xyz, present = tilt.present_W.xyz;
   const Ink ink = tilt.met ? kGoodInk : kWantedInk;
@@ -134,7 +134,7 @@ void drawStylus(const Sight& sight, const TrueStylus& stylus) {
   }
   std::vector<glm::dvec2> outline = left;
   outline.insert(outline.end(), right.rbegin(), right.rend());
-  // Its outline alone: words and targets behind it stay readable.
+  // An outline only: text and targets behind it stay readable.
   sight.page.path(outline, 0.7, kQuietInk, true);
   const double s = sight.scaleAt(tip);
   sight.page.disc(sight.at(tip), 1.3 * s, {0.85, 0.85, 0.85});

@@ -12,14 +12,14 @@
 namespace app {
 namespace {
 
-// Of a 24-inch screen, 531 x 299 mm, from its middle. A line of 13.5 mm has capitals of 8.4 mm.
+// Measures of a 24-inch screen, 531 x 299 mm, from its middle. A line of 13.5 mm has capitals of 8.4 mm.
 constexpr double kHalfWidth = 265.5, kHalfHeight = 149.4, kMargin = 10.0;
 constexpr double kLine = 13.5, kLarge = 17.0;
 constexpr double kTitleTop = -146.0, kSentenceBottom = -93.0, kMessageTop = -90.0, kFieldTop = -62.0,
                  kFieldBottom = 62.0;
 constexpr double kTiltTop = 64.0, kProgressTop = 83.0, kHelpBottom = 146.0, kHelpRow = 17.5, kHelpKey = 112.0;
 
-/// A page in the measures of a 24-inch screen.
+/// A page in the measures of a 24-inch screen; `u` mm of the page per mm there.
 struct Sheet {
   const ScreenPage& page;
   double u;
@@ -35,15 +35,15 @@ struct Sheet {
   double height(const std::string& text, double width, double line) const {
     return page.paragraphHeight(text, u * width, u * line) / u;
   }
-  /// One line, smaller where it would not fit.
+  /// One line, scaled down to fit.
   void line(const std::string& text, glm::dvec2 top, double width, double height, const Ink& ink, Align align) const {
     const double is = page.textWidth(text, u * height) / u, fits = is > width ? width / is : 1.0;
     words(text, {top.x, top.y + 0.5 * (1.0 - fits) * height}, width + 1.0, fits * height, ink, align);
   }
-  /// In as many lines, smaller where they would be more; `bottom`: of the last one, else `top` of the first.
+  /// At most `most` lines, scaled down to fit; `bottom`: of the last line, else `top` of the first.
   void lines(int most, const std::string& text, double top, double height, const Ink& ink,
              std::optional<double> bottom = std::nullopt) const {
-    // A line that is broken at a word is a little short.
+    // Lines broken at words are a little short.
     const double is = page.textWidth(text, u * height) / u, room = (most > 1 ? 0.93 : 1.0) * most * width();
     const double fits = is > room ? room / is : 1.0;
     const double count = std::ceil(std::max(is * fits, 1.0) / width());
@@ -105,18 +105,18 @@ void drawHelp(const Sheet& sheet, const ButtonHelp& help) {
   }
 }
 
-/// An F that can be told from its mirror images, 70 mm high.
+/// A letter that differs from its mirror images, 80 mm high.
 void drawF(const Sheet& sheet) {
   sheet.box({-22.0, -40.0}, {14.0, 80.0}, kWordInk);
   sheet.box({-22.0, -40.0}, {50.0, 14.0}, kWordInk);
   sheet.box({-22.0, -9.0}, {36.0, 14.0}, kWordInk);
 }
 
-/// In true millimetres: it is laid a ruler on.
+/// In true millimetres, to be measured with a ruler.
 void drawBar(const ScreenPage& page, double length_mm, bool upright) {
   const double half = 0.5 * length_mm;
-  const auto at = [&](double along, double beside) {
-    return upright ? glm::dvec2(beside, along) : glm::dvec2(along, beside);
+  const auto at = [&](double along, double across) {
+    return upright ? glm::dvec2(across, along) : glm::dvec2(along, across);
   };
   page.line(at(-half, 0.0), at(half, 0.0), 1.0, kWordInk);
   for (const double end : {-half, half}) page.line(at(end, -15.0), at(end, 15.0), 0.5, kWordInk);
@@ -153,7 +153,7 @@ void drawChoices(const Sheet& sheet, const WizardView& view, double top, double 
   }
 }
 
-/// Round and ticked, a triangle with a mark, a square that is crossed out.
+/// A ticked disc, a triangle with an exclamation mark, a crossed-out square.
 void drawVerdict(const Sheet& sheet, const ShownVerdict& shown, double middle) {
   const glm::dvec2 c{-195.0, middle};
   const auto at = [&](double x, double y) { return c + glm::dvec2(x, y); };
@@ -177,7 +177,7 @@ void drawVerdict(const Sheet& sheet, const ShownVerdict& shown, double middle) {
 }
 
 void drawNumbers(const Sheet& sheet, const std::vector<ShownValue>& numbers) {
-  // Between the sentence and the help; closer together where there are many.
+  // Between sentence and help; rows get closer if there are many.
   const double top = -89.0, room = 198.0;
   const double row = std::min(kLine + 3.0, room / static_cast<double>(numbers.size()));
   double y = top;
@@ -191,12 +191,8 @@ void drawNumbers(const Sheet& sheet, const std::vector<ShownValue>& numbers) {
 
 }  // namespace
 
-double scaleOf(const ScreenPage& page) {
-  return 0.5 * std::min(page.size_mm().x / kHalfWidth, page.size_mm().y / kHalfHeight);
-}
-
 void drawText(const ScreenPage& page, const WizardView& view) {
-  const Sheet sheet{page, scaleOf(page)};
+  const Sheet sheet{page, 0.5 * std::min(page.size_mm().x / kHalfWidth, page.size_mm().y / kHalfHeight)};
   page.fill(kGroundInk);
   drawHead(sheet, view);
   drawHelp(sheet, view.button);
@@ -206,7 +202,6 @@ void drawText(const ScreenPage& page, const WizardView& view) {
   if (view.progress) drawProgress(sheet, *view.progress);
   if (view.tilt) sheet.line(view.tilt->words, {0.0, kTiltTop}, sheet.width(), kLine, kWantedInk, Align::centre);
   if (view.verdict) {
-    // What there is to choose stands below it.
     drawVerdict(sheet, *view.verdict, view.choices.empty() ? 0.0 : -28.0);
     return drawChoices(sheet, view, 18.0, -0.3 * sheet.width(), 0.6 * sheet.width());
   }
@@ -214,15 +209,13 @@ void drawText(const ScreenPage& page, const WizardView& view) {
   if (view.figure == WizardFigure::length_bar) drawBar(page, view.bar_mm, false);
   if (view.figure == WizardFigure::upright_length_bar) drawBar(page, view.bar_mm, true);
 
-  // What is read to the left, what is chosen to the right; what stands alone, in the middle.
-  const bool stands_alone = view.figure == WizardFigure::none && view.targets.empty() &&
-                            (view.facts.empty() + view.value.empty() + view.choices.empty() == 2);
-  const double choices_left = stands_alone ? -0.3 * sheet.width() : 0.16 * sheet.width();
-  const double choices_width = stands_alone ? -2.0 * choices_left : sheet.right() - choices_left;
-  const double facts_left = stands_alone ? -0.4 * sheet.width() : sheet.left();
-  const double facts_right = stands_alone                        ? -facts_left
-                             : view.figure == WizardFigure::none ? choices_left - 8.0
-                                                                 : -56.0;
+  // Facts to the left, choices to the right; a single block is centred.
+  const bool is_single = view.figure == WizardFigure::none && view.targets.empty() &&
+                         (view.facts.empty() + view.value.empty() + view.choices.empty() == 2);
+  const double choices_left = is_single ? -0.3 * sheet.width() : 0.16 * sheet.width();
+  const double choices_width = is_single ? -2.0 * choices_left : sheet.right() - choices_left;
+  const double facts_left = is_single ? -0.4 * sheet.width() : sheet.left();
+  const double facts_right = is_single ? -facts_left : view.figure == WizardFigure::none ? choices_left - 8.0 : -56.0;
   drawFacts(sheet, view.facts, kFieldTop, facts_left, facts_right - facts_left);
   sheet.line(view.value, {0.5 * (facts_left + facts_right), view.facts.empty() ? -21.0 : 20.0},
              facts_right - facts_left, 42.0, kWordInk, Align::centre);

@@ -1,6 +1,6 @@
-// All of a wizard's page that does not move: words, choices, numbers, verdict, the F and the bar. In the plane of the
-// screen, so both eyes get the same. Letters are at least 8 mm high on a 24-inch screen and grow and shrink with it.
-// The middle, 110 mm high, is left to the targets where there are any. Any one thread; some milliseconds.
+// The static part of a wizard's page: text, choices, values, verdict, the letter F and the bar. In the plane of the
+// screen, so the same for both eyes. Letters are at least 8 mm high on a 24-inch screen and scale with the screen. The
+// middle 110 mm are left to the targets. Any one thread; some milliseconds.
 #pragma once
 
 #include <string>
@@ -10,12 +10,9 @@
 
 namespace app {
 
-/// How much larger than a 24-inch screen's a page is drawn.
-double scaleOf(const ScreenPage& page);
-
 void drawText(const ScreenPage& page, const WizardView& view);
 
-/// The same for two views: their words look the same.
+/// Everything drawText() draws of a view; equal for views that look the same.
 std::string textOf(const WizardView& view);
 
 }  // namespace app

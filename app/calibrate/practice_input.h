@@ -1,7 +1,6 @@
-// Mouse and keys as the hand on a practice stylus: drag moves its tip in the plane of the screen, the wheel 1 mm a
-// notch towards the person or away, arrows tilt it by 3 degrees, the space bar is its button, H puts it into the
-// inkwell or takes it out. A target that is near draws the tip into it, as a pit does, with what an eye or a pit leaves
-// of error. Frame W, mm. UI thread.
+// Mouse and keyboard as input for a practice stylus: drag moves the tip in the plane of the screen, the wheel moves it
+// by 1 mm in depth, arrows tilt it by 3 degrees, the space bar is its button, H puts it into the inkwell or takes it
+// out. A near target attracts the tip, with the error of a pit or an eye. Frame W, mm. UI thread.
 #pragma once
 
 #include <random>
@@ -14,19 +13,19 @@ namespace app {
 
 class PracticeInput {
  public:
-  PracticeInput(const PracticePose& start, std::uint32_t seed) : hold_(start), rng_(seed) {}
+  PracticeInput(const PracticePose& start, std::uint32_t seed) : pose_(start), rng_(seed) {}
 
-  /// `across_W`, `up_W`: what a pixel of the window to the right and one upwards is on the virtual screen.
+  /// `across_W`, `up_W`: a window pixel to the right and upwards, on the virtual screen.
   void take(const render::WindowEvent& event, const glm::dvec3& across_W, const glm::dvec3& up_W);
-  PracticePose hold(const WizardView& view);
+  PracticePose pose(const WizardView& view);
 
  private:
-  void tilt(const glm::dvec3& axis_W, double turn_rad);
+  void tilt(const glm::dvec3& axis_W, double angle_rad);
 
-  PracticePose hold_;
+  PracticePose pose_;
   glm::dvec3 towards_W_{0.0, 0.0, 1.0}, up_W_{0.0, 1.0, 0.0};
   std::mt19937 rng_;
-  // The target that holds the tip, and how far from its middle.
+  // The target that attracts the tip, and the error there.
   glm::dvec3 held_W_{0.0}, off_mm_{0.0};
   bool is_held_ = false;
 };

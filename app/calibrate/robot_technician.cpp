@@ -10,10 +10,10 @@
 namespace app {
 namespace {
 
-constexpr double kReads_s = 0.15;   // before anything new is answered
-constexpr double kSettles_s = 0.5;  // at a target before it is pressed
+constexpr double kReads_s = 0.15;   // before an answer
+constexpr double kSettles_s = 0.5;  // at a target before a press
 constexpr double kShort_s = 0.15, kLong_s = ButtonPress::kLong_s + 0.1;
-constexpr double kAgain_s = 1.2;  // when nothing came of a press
+constexpr double kAgain_s = 1.2;  // before a press is repeated
 constexpr double kTremor_Hz = 9.0;
 constexpr double kDockedTurn_deg = -20.0;
 constexpr int kHolds = 40;
@@ -37,10 +37,10 @@ StylusSample RobotTechnician::next(const WizardView& view, double t_s) {
   StylusSample sample;
   sample.t_s = t_s;
   sample.valid = true;
-  sample.docked = docked_ && t_s - left_s_ >= settings_.move_s;
-  const double gone = eased((t_s - left_s_) / settings_.move_s);
+  sample.docked = docked_ && t_s - start_s_ >= settings_.move_s;
+  const double gone = eased((t_s - start_s_) / settings_.move_s);
   for (std::size_t i = 0; i < 6; ++i) sample.raw_rad[i] = from_rad_[i] + gone * (to_rad_[i] - from_rad_[i]);
-  // A hand trembles; the inkwell does not.
+  // Tremor, except in the inkwell.
   const double reach_mm = rig_.arm.geometry.thigh_mm;
   if (!sample.docked && gone >= 1.0 && reach_mm > 0.0)
     sample.raw_rad[0] += settings_.tremor_mm / reach_mm * std::sin(2.0 * calibration::kPi * kTremor_Hz * t_s);
@@ -50,7 +50,6 @@ StylusSample RobotTechnician::next(const WizardView& view, double t_s) {
 }
 
 void RobotTechnician::decide(const WizardView& view, double t_s) {
-  // Whatever is new is read first.
   std::size_t target = view.targets.size();
   for (std::size_t i = 0; i < view.targets.size(); ++i)
     if (view.targets[i].state == TargetState::next) target = i;
@@ -74,19 +73,19 @@ void RobotTechnician::decide(const WizardView& view, double t_s) {
   if (press_to_s_ && t_s < *press_to_s_ + kReads_s) return;
   if (t_s - read_s_ < kReads_s) return;
 
-  // A page with choices: the next one, until it is the wanted one.
+  // Choices: step to the wanted one, then choose.
   if (view.marked) {
     const auto want = wanted(view);
     if (press_to_s_ && presses_here_ > 0 && t_s - *press_to_s_ < kAgain_s) return;
     press(t_s, want && *want == *view.marked ? kLong_s : kShort_s);
     return;
   }
-  // A target: come to rest, then press, or wait.
+  // A target: settle, then press or wait.
   if (target >= view.targets.size() || !view.choices.empty()) return;
-  const bool arrived = t_s - left_s_ > settings_.move_s + kSettles_s;
-  if (!arrived || (!settings_.presses && presses_here_ == 0 && t_s - left_s_ < settings_.move_s + 2.0)) return;
+  const bool arrived = t_s - start_s_ > settings_.move_s + kSettles_s;
+  if (!arrived || (!settings_.presses && presses_here_ == 0 && t_s - start_s_ < settings_.move_s + 2.0)) return;
   if (press_to_s_ && presses_here_ > 0 && t_s - *press_to_s_ < kAgain_s) return;
-  // What was objected to is touched anew.
+  // A rejected touch is repeated.
   if (presses_here_ > 0) {
     presses_here_ = 0;
     goToTarget(view, target, t_s);
@@ -117,7 +116,6 @@ std::optional<std::size_t> RobotTechnician::wanted(const WizardView& view) const
     if (const auto i = choice("done")) return i;
     return choice("leave");
   }
-  // "measure the eyes again" would find the same.
   if (const auto i = choice("go on"))
     return settings_.repeats_doubtful && view.marked == 1 && choice("touch the worst") ? 1 : *i;
   return view.marked ? std::optional<std::size_t>(0) : std::nullopt;
@@ -130,21 +128,21 @@ void RobotTechnician::press(double t_s, double seconds) {
 }
 
 void RobotTechnician::goTo(const calibration::RawJoints& raw_rad, double t_s) {
-  const double gone = set_out_ ? eased((t_s - left_s_) / settings_.move_s) : 1.0;
+  const double gone = has_moved_ ? eased((t_s - start_s_) / settings_.move_s) : 1.0;
   for (std::size_t i = 0; i < 6; ++i) from_rad_[i] += gone * (to_rad_[i] - from_rad_[i]);
-  if (!set_out_) from_rad_ = raw_rad;
-  set_out_ = true;
+  if (!has_moved_) from_rad_ = raw_rad;
+  has_moved_ = true;
   to_rad_ = raw_rad;
-  left_s_ = t_s;
+  start_s_ = t_s;
 }
 
 void RobotTechnician::goToTarget(const WizardView& view, std::size_t target, double t_s) {
-  calibration::Target wish{static_cast<int>(target) + 1, view.targets[target].position_W,
-                           view.targets[target].stylus_W};
-  // Out of reach as asked: a little nearer to how the hand likes it, until it is reached.
+  calibration::Target target_W{static_cast<int>(target) + 1, view.targets[target].position_W,
+                               view.targets[target].stylus_W};
+  // If the tilt is out of reach, approach the resting tilt until it is.
   for (int n = 0; n < kHolds; ++n) {
-    if (const auto touch = calibration::simulatedTouch(rig_, wish, rng_)) return goTo(touch->joints_rad, t_s);
-    wish.stylus_W.xyz = glm::normalize(0.9 * wish.stylus_W.xyz + 0.1 * calibration::kRestingStylus_W.xyz);
+    if (const auto touch = calibration::simulatedTouch(rig_, target_W, rng_)) return goTo(touch->joints_rad, t_s);
+    target_W.stylus_W.xyz = glm::normalize(0.9 * target_W.stylus_W.xyz + 0.1 * calibration::kRestingStylus_W.xyz);
   }
 }
 

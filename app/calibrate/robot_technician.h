@@ -1,7 +1,7 @@
-// Somebody who does what the wizard's pages say, at a workstation whose truth is known: reads what is shown, goes to
-// the glowing target, holds still, presses, answers. With it the whole calibration runs without hardware, in tests and
-// as a demonstration. Sees nothing but the view; its hand ends where the synthetic rig's would. Frame W, mm, s.
-// Deterministic for a seed. One thread; about a microsecond a tick, 50 where it turns to a new target.
+// A simulated technician who follows the wizard's pages at a workstation with known errors: reads the view, goes to the
+// glowing target, holds still, presses, answers. Runs the whole calibration without hardware, for tests and
+// demonstrations. Its only input is the view; its reach is that of the synthetic rig. Frame W, mm, s. Deterministic for
+// a seed. One thread; about a microsecond a tick, 50 for a new target.
 #pragma once
 
 #include <optional>
@@ -15,23 +15,23 @@
 namespace app {
 
 struct TechnicianSettings {
-  bool presses = true;                                        ///< takes touches by the button; false: by holding still
+  bool presses = true;                                        ///< false: takes touches by holding still
   double tremor_mm = 0.03;                                    ///< at the wrist, one axis, 9 Hz
   double move_s = 0.6;                                        ///< from one target to the next
-  std::string flip = "yes";                                   ///< how the F reads to them: the beginning of a choice
-  double bar_mm = 100.0, ipd_mm = 63.0, distance_mm = 450.0;  ///< what ruler and tape say
-  bool reversed = false;                                      ///< touches the targets in the opposite order
-  bool repeats_doubtful = true;                               ///< touches a doubtful one again, as the page offers
-  std::string final_choice = "take it";  ///< the beginning of what is chosen at the end; else what is marked
+  std::string flip = "yes";                                   ///< how the F reads: the beginning of a choice
+  double bar_mm = 100.0, ipd_mm = 63.0, distance_mm = 450.0;  ///< by ruler and tape
+  bool reversed = false;                                      ///< touches the targets in reverse order
+  bool repeats_doubtful = true;                               ///< repeats a doubtful touch when offered
+  std::string final_choice = "take it";                       ///< the beginning of the choice at the end
 };
 
 class RobotTechnician {
  public:
   RobotTechnician(const calibration::SyntheticRig& rig, const TechnicianSettings& habits, std::uint32_t seed);
 
-  /// The stylus at this time, by somebody who saw this view last.
+  /// The stylus at this time, after seeing this view.
   StylusSample next(const WizardView& view, double t_s);
-  /// Another morning: another homing, a base that was pushed.
+  /// Changes the workstation: another homing, a moved base.
   void moveTo(const calibration::SyntheticRig& rig) { rig_ = rig; }
 
  private:
@@ -46,9 +46,9 @@ class RobotTechnician {
   std::mt19937 rng_;
 
   calibration::RawJoints from_rad_{}, to_rad_{};
-  double left_s_ = 0.0;  ///< when the hand set out
-  bool docked_ = false, set_out_ = false;
-  std::string seen_;  ///< what was read last: title, count, what was said, the marked choice
+  double start_s_ = 0.0;  ///< start of the current movement
+  bool docked_ = false, has_moved_ = false;
+  std::string seen_;  ///< read last: title, count, message, marked choice
   double read_s_ = 0.0;
   std::optional<double> press_from_s_, press_to_s_;
   int presses_here_ = 0;

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kLoudest = 0.25, kEdge_s = 0.008;
 
-/// A note; `buzz`: odd overtones, so that it is told from the others without an ear for pitch.
+/// `buzz`: odd overtones, distinct from the other notes whatever the pitch.
 struct Note {
   double pitch_Hz = 0.0, length_s = 0.0;
   bool buzz = false;
@@ -29,7 +29,7 @@ constexpr std::array<std::array<Note, 4>, 4> kNotes{{{{{880.0, 0.09}}},
                                                      {{{587.0, 0.06}, {784.0, 0.07}}},
                                                      {{{523.0, 0.12}, {659.0, 0.12}, {784.0, 0.12}, {1047.0, 0.25}}}}};
 
-/// Sound libraries speak on stderr of every card they do not find; nobody who calibrates wants to read that.
+/// Suppresses stderr: sound libraries report every card they do not find.
 class SilentStderr {
  public:
   SilentStderr() {
@@ -73,7 +73,7 @@ std::vector<float> soundSamples(WizardSound sound, double rate_Hz) {
 struct Sounds::Player {
   static constexpr std::size_t kWaiting = 8;
 
-  explicit Player(const std::function<void(const std::string&)>& tell) {
+  explicit Player(const std::function<void(const std::string&)>& report) {
     const SilentStderr silent;
     PaError error = Pa_Initialize();
     is_initialised = error == paNoError;
@@ -88,8 +88,8 @@ struct Sounds::Player {
     if (error == paNoError) error = Pa_StartStream(stream);
     if (error == paNoError) return;
     end();
-    tell("sound: " + std::string(error == paDeviceUnavailable ? "no sound card" : Pa_GetErrorText(error)) +
-         "; the wizard is silent, watch the ring");
+    report("sound: " + std::string(error == paDeviceUnavailable ? "no sound card" : Pa_GetErrorText(error)) +
+           "; the wizard is silent, watch the ring");
   }
   ~Player() {
     const SilentStderr silent;
@@ -113,38 +113,38 @@ struct Sounds::Player {
 
   void fill(std::span<float> output) {
     for (float& sample : output) {
-      const std::size_t taken = taken_count.load(std::memory_order_relaxed);
-      if (taken == asked_count.load(std::memory_order_acquire)) {
+      const std::size_t played = played_count.load(std::memory_order_relaxed);
+      if (played == queued_count.load(std::memory_order_acquire)) {
         sample = 0.0F;
         continue;
       }
-      const std::vector<float>& wave = samples_of[static_cast<std::size_t>(asked[taken % kWaiting])];
+      const std::vector<float>& wave = samples_of[static_cast<std::size_t>(queued[played % kWaiting])];
       sample = wave[at++];
       if (at < wave.size()) continue;
       at = 0;
-      taken_count.store(taken + 1, std::memory_order_release);
+      played_count.store(played + 1, std::memory_order_release);
     }
   }
 
   std::array<std::vector<float>, 4> samples_of;
   PaStream* stream = nullptr;
   bool is_initialised = false;
-  std::array<WizardSound, kWaiting> asked{};  ///< a ring: asked by the loop, taken by the sound's thread
-  std::atomic<std::size_t> asked_count{0}, taken_count{0};
-  std::size_t at = 0;  ///< of the sound's thread
+  std::array<WizardSound, kWaiting> queued{};  ///< ring: written by the loop, read by the sound thread
+  std::atomic<std::size_t> queued_count{0}, played_count{0};
+  std::size_t at = 0;  ///< used by the sound thread
 };
 
-Sounds::Sounds(const std::function<void(const std::string&)>& tell) : player_(std::make_unique<Player>(tell)) {}
+Sounds::Sounds(const std::function<void(const std::string&)>& report) : player_(std::make_unique<Player>(report)) {}
 Sounds::~Sounds() = default;
 
 bool Sounds::isAvailable() const { return player_->stream != nullptr; }
 
 void Sounds::play(WizardSound sound) {
   if (!isAvailable()) return;
-  const std::size_t asked = player_->asked_count.load(std::memory_order_relaxed);
-  if (asked - player_->taken_count.load(std::memory_order_acquire) >= Player::kWaiting) return;
-  player_->asked[asked % Player::kWaiting] = sound;
-  player_->asked_count.store(asked + 1, std::memory_order_release);
+  const std::size_t queued = player_->queued_count.load(std::memory_order_relaxed);
+  if (queued - player_->played_count.load(std::memory_order_acquire) >= Player::kWaiting) return;
+  player_->queued[queued % Player::kWaiting] = sound;
+  player_->queued_count.store(queued + 1, std::memory_order_release);
 }
 
 }  // namespace app

@@ -1,7 +1,7 @@
-// What the technician hears while looking through the mirror: short tones for a touch that counts, one that does not,
-// the next target, the end. Through PortAudio; where there is no sound card it is silent and says so in one line.
-// Construction and destruction: start-up only, up to a second while sound cards are looked for; what libraries print on
-// stderr meanwhile is thrown away. play(): one thread, never waits, no allocation; the sound's own thread mixes.
+// Short tones for the technician, who looks through the mirror: touch taken, touch rejected, next target, end. Through
+// PortAudio; without a sound card it is silent and reports that in one line. Construction and destruction at start-up
+// only, up to a second while sound cards are searched; library output on stderr is suppressed. play(): one thread,
+// never waits, no allocation.
 #pragma once
 
 #include <functional>
@@ -13,19 +13,19 @@
 
 namespace app {
 
-/// Mono, -1..1; begins and ends in silence.
+/// Mono samples, -1..1, starting and ending at zero.
 std::vector<float> soundSamples(WizardSound sound, double rate_Hz);
 
 class Sounds {
  public:
-  /// `tell`: once, why nothing will be heard.
-  explicit Sounds(const std::function<void(const std::string& line)>& tell);
+  /// `report`: called once if there will be no sound.
+  explicit Sounds(const std::function<void(const std::string& line)>& report);
   ~Sounds();
   Sounds(const Sounds&) = delete;
   Sounds& operator=(const Sounds&) = delete;
 
   bool isAvailable() const;
-  /// After those that still sound; more than a few are dropped.
+  /// Queued after those still playing; dropped if more than a few wait.
   void play(WizardSound sound);
 
  private:

@@ -63,7 +63,7 @@ PracticeSource::PracticeSource(const calibration::SyntheticRig& rig)
     : stylus_(rig, {.tip_W = {kPracticeStart_mm}}), hand_({.tip_W = {kPracticeStart_mm}}, rig.seed), device_(stylus_) {}
 
 void PracticeSource::takeInto(std::vector<StylusSample>& out, const WizardView& view) {
-  stylus_.hold(hand_.hold(view));
+  stylus_.setPose(hand_.pose(view));
   device_.takeInto(out, view);
 }
 

@@ -28,9 +28,9 @@ std::string tiltText(const calibration::Vector<calibration::World>& present_W,
 
   std::string words;
   if (std::abs(right) >= kWorthSaying_deg)
-    words = numberText(std::abs(right), 0) + "° to the " + (right > 0.0 ? "right" : "left");
+    words = fixedText(std::abs(right), 0) + "° to the " + (right > 0.0 ? "right" : "left");
   if (std::abs(up) >= kWorthSaying_deg)
-    words += (words.empty() ? "" : " and ") + numberText(std::abs(up), 0) + (up > 0.0 ? "° up" : "° down");
+    words += (words.empty() ? "" : " and ") + fixedText(std::abs(up), 0) + (up > 0.0 ? "° up" : "° down");
   return words.empty() ? words : "lean the handle " + words;
 }
 

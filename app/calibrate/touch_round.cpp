@@ -124,7 +124,7 @@ std::string TouchRound::objection(std::size_t index, const calibration::RawJoint
   }
   if (!tilt_is_wrong) return {};
   const std::string words = tiltText(along_W, target.stylus_W);
-  return "Held " + numberText(off_deg, 0) + "° off the cue" + (words.empty() ? "" : ": " + words);
+  return "Held " + fixedText(off_deg, 0) + "° off the cue" + (words.empty() ? "" : ": " + words);
 }
 
 TouchRound::TouchEvent TouchRound::confirm(const StillReading& take) {

@@ -56,7 +56,7 @@ void addReplay(CommandLine& molar) {
 void addMetrics(CommandLine& molar) {
   auto session = std::make_shared<std::string>();
   auto json_only = std::make_shared<bool>(false);
-  CommandLine& command = molar.command("metrics", "Numbers of a recorded session, JSON");
+  CommandLine& command = molar.command("metrics", "Measures of a recorded session, JSON");
   command.option("SESSION", *session, "Session file").required();
   command.flag("--json", *json_only, "JSON only, without the text on stderr");
   command.does([session, json_only] {

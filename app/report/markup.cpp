@@ -29,6 +29,11 @@ std::string fixedText(double value, int digits) {
   return (text.find_first_not_of("0.", 1) == std::string::npos ? "" : "\u2212") + text.substr(1);
 }
 
+std::string signedText(double value, int digits) {
+  const std::string text = fixedText(value, digits);
+  return value > 0.0 && text.find_first_not_of("0.") != std::string::npos ? "+" + text : text;
+}
+
 std::string timeText(const std::string& utc) {
   return utc.size() == 20 && utc[10] == 'T' ? utc.substr(0, 10) + " " + utc.substr(11, 5) + " UTC" : utc;
 }

@@ -1,4 +1,4 @@
-// Text as HTML and SVG take it, numbers and times as in print. Pure; any thread.
+// Text for HTML and SVG, numbers and times for print. Pure; any thread.
 #pragma once
 
 #include <string>
@@ -6,11 +6,13 @@
 
 namespace app {
 
-/// For use in text and in attributes.
+/// Escaped for text and attributes.
 std::string escaped(std::string_view text);
-/// With so many digits after the point. A true minus, as in print, and none before a zero.
+/// `digits` after the point; a typographic minus, none before zero.
 std::string fixedText(double value, int digits);
-/// "2026-11-21T08:20:00Z" as people read it: "2026-11-21 08:20 UTC"; what is no time as it is.
+/// The same with a plus before positive values.
+std::string signedText(double value, int digits);
+/// "2026-11-21T08:20:00Z" as "2026-11-21 08:20 UTC"; other text unchanged.
 std::string timeText(const std::string& utc);
 
 }  // namespace app

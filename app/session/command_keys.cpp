@@ -24,17 +24,17 @@ std::string_view keyOf(haptics::ErosionKind kind) {
   return haptics::kErosions[static_cast<std::size_t>(kind) % haptics::kErosions.size()].key;
 }
 
-/// The kind of this key; as it was where another program had one more.
+/// Sets the kind of this key; unchanged if the key is unknown here.
 template <class Kind>
 void setByKey(Kind& kind, std::string_view key) {
-  constexpr std::size_t kMost = std::same_as<Kind, haptics::LawKind>       ? haptics::kLaws.size()
-                                : std::same_as<Kind, haptics::ErosionKind> ? haptics::kErosions.size()
-                                                                           : kShapes.size();
-  for (std::size_t i = 0; i < kMost; ++i)
+  constexpr std::size_t kCount = std::same_as<Kind, haptics::LawKind>       ? haptics::kLaws.size()
+                                 : std::same_as<Kind, haptics::ErosionKind> ? haptics::kErosions.size()
+                                                                            : kShapes.size();
+  for (std::size_t i = 0; i < kCount; ++i)
     if (keyOf(static_cast<Kind>(i)) == key) kind = static_cast<Kind>(i);
 }
 
-// Taken apart by structured bindings, so a member added to a command does not compile until it has a key.
+// Structured bindings: a member added to a command does not compile until it has a key.
 
 template <class Visit>
 void visitByTissue(const std::string& key, auto& factors, Visit&& visit) {
@@ -171,7 +171,7 @@ template <class Kind>
 requires std::is_enum_v<Kind> nlohmann::json jsonOf(Kind kind) { return keyOf(kind); }
 
 [[noreturn]] void refuse(const std::string& key) {
-  throw damagedSession("a command has no usable value of " + key.substr(0, 80));
+  throw damagedSession("a command has no valid value of " + key.substr(0, 80));
 }
 
 void setFrom(double& value, const nlohmann::json& json, const std::string& key) {
@@ -210,7 +210,7 @@ std::string commandText(const haptics::Command& command) {
 haptics::Command commandFromText(std::string_view text) {
   const nlohmann::json json =
       assets::isNestedTooDeep(text) ? nlohmann::json() : nlohmann::json::parse(text, nullptr, false);
-  if (!json.is_object()) throw damagedSession("a command can not be read");
+  if (!json.is_object()) throw damagedSession("a command cannot be read");
   haptics::Command command;
   forEachKey(command, [&](const std::string& key, auto& member) {
     if (const auto found = json.find(key); found != json.end()) setFrom(member, *found, key);

@@ -1,7 +1,6 @@
-// A command as text for the session: one JSON object, a key a member by its path ("law.agus.stiffness_N_per_mm", units
-// and frames as in the members' names), tissues and laws by their keys. Bit-exact both ways; what is no finite number
-// is written as "nan", "inf" or "-inf". Keys that a reader does not know it passes by; keys that are not there have
-// the value of a Command as it is made. Any thread; allocates.
+// A command as text: one JSON object with a key per member, named by its path ("law.agus.stiffness_N_per_mm"; units and
+// frames in the name); tissues and laws by their keys. Bit-exact both ways; non-finite numbers are "nan", "inf" or
+// "-inf". Unknown keys are ignored, missing ones have the default of a Command. Any thread; allocates.
 #pragma once
 
 #include <string>
@@ -13,7 +12,7 @@ namespace app {
 
 std::string commandText(const haptics::Command& command);
 
-/// Throws SessionError if the text is no object or a known key has a value of another kind.
+/// Throws SessionError if the text is not an object or a known key has a value of another type.
 haptics::Command commandFromText(std::string_view text);
 
 }  // namespace app

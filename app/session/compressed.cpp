@@ -11,7 +11,7 @@ namespace app {
 namespace {
 
 constexpr int kLevel = 3;
-/// A block of at most 128 KiB takes at least 4 bytes (RFC 8878, 3.1.1.2): no frame holds more for its length.
+/// A block of at most 128 KiB takes at least 4 bytes (RFC 8878, 3.1.1.2), which bounds the ratio.
 constexpr std::size_t kMaxRatio = 32'768;
 
 }  // namespace
@@ -31,7 +31,7 @@ std::vector<std::uint8_t> Compressor::compress(std::span<const std::uint8_t> byt
   const std::size_t size =
       ZSTD_compressCCtx(context_->zstd, out.data(), out.size(), bytes.data(), bytes.size(), kLevel);
   if (ZSTD_isError(size))
-    throw SessionError(std::string("can not compress: ") + ZSTD_getErrorName(size) + ": check the free memory",
+    throw SessionError(std::string("cannot compress: ") + ZSTD_getErrorName(size) + ": check the free memory",
                        SessionErrorKind::failed);
   out.resize(size);
   return out;
@@ -45,7 +45,7 @@ void refuseUnlessContentSize(std::span<const std::uint8_t> compressed, std::size
 
 void decompressInto(std::span<std::uint8_t> out, std::span<const std::uint8_t> compressed) {
   const std::size_t size = ZSTD_decompress(out.data(), out.size(), compressed.data(), compressed.size());
-  if (ZSTD_isError(size) || size != out.size()) throw damagedSession("a compressed part can not be read");
+  if (ZSTD_isError(size) || size != out.size()) throw damagedSession("a compressed part cannot be read");
 }
 
 std::vector<std::uint8_t> decompress(std::span<const std::uint8_t> compressed, std::size_t expected_bytes) {

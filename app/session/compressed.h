@@ -1,5 +1,5 @@
-// Bytes compressed with Zstandard for the session file, and back. Any thread, one Compressor a thread.
-// Level 3: a block of 50 ticks in about 0.1 ms, a 16-million-voxel bone in about 0.1 s.
+// Zstandard compression of the session file, level 3: a block of 50 ticks in about 0.1 ms, a bone of 16 million voxels
+// in about 0.1 s. Any thread; one Compressor per thread.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace app {
 
-/// Keeps its tables from one call to the next, which is half of the work for a block of ticks.
+/// Reuses its tables between calls, which halves the work for a block of ticks.
 class Compressor {
  public:
   Compressor();
@@ -22,13 +22,13 @@ class Compressor {
   std::unique_ptr<Context> context_;
 };
 
-/// The bytes again, which must be exactly as many as `out` has room for; throws SessionError otherwise.
+/// Fills `out` exactly; throws SessionError otherwise.
 void decompressInto(std::span<std::uint8_t> out, std::span<const std::uint8_t> compressed);
 
-/// Throws SessionError unless the frame says that it holds so many bytes and can do so: before they are allocated.
+/// Throws SessionError unless the frame states this size and can hold it. Call before allocating.
 void refuseUnlessContentSize(std::span<const std::uint8_t> compressed, std::size_t expected_bytes);
 
-/// Both: judged, allocated, filled.
+/// Checks the size, allocates and fills.
 std::vector<std::uint8_t> decompress(std::span<const std::uint8_t> compressed, std::size_t expected_bytes);
 
 }  // namespace app

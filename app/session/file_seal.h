@@ -1,29 +1,29 @@
-// The trailer of a closed session: a digest of every byte of the file behind its last page, where SQLite does not look.
-// The chain finds changed rows; this also finds a byte changed between them. Any thread; reads the whole file.
+// The trailer of a closed session: a digest of every byte of the file, behind the last page of the database. The chain
+// finds changed rows; the seal also finds bytes changed between them. Any thread; reads the whole file.
 #pragma once
 
 #include <string>
 
 namespace app {
 
-/// none: a file without trailer, as a killed program leaves it. incomplete: the beginning of the right one and nothing
-/// or zeros behind, as a power cut leaves it. broken: some byte of the file was changed, or its end was cut off.
+/// none: no trailer, as after a kill. incomplete: the beginning of the right one, then nothing or zeros, as after a
+/// power cut. broken: a byte of the file was changed, or its end was cut off.
 enum class FileSeal { none, incomplete, intact, broken };
 
-/// Appends the trailer to a file that is open for reading and writing, and waits until it is on the disk. `path` is
-/// what to call it. Throws SessionError if that can not be.
+/// Appends the trailer to a file open for reading and writing, and syncs it. `path` is for messages. Throws
+/// SessionError.
 void sealFile(int file, const std::string& path);
 
 FileSeal fileSeal(const std::string& path);
 
-/// Whether the file was written as a session, whatever became of it: the mark of its header or that of its trailer.
-/// False for what is no plain file.
+/// Whether the file was written as a session, even if damaged since: the mark of its header or of its trailer. False if
+/// it is not a regular file.
 bool hasSessionMark(const std::string& path);
 
-/// Whether it begins as an SQLite database does.
+/// Whether it starts like an SQLite database.
 bool isDatabase(const std::string& path);
 
-/// Whether the file says that a log belongs to it (SQLite's WAL mode): it was being recorded, and never closed.
+/// Whether the file is in SQLite's WAL mode, so that a log belongs to it: recorded, and never closed.
 bool needsLog(const std::string& path);
 
 }  // namespace app

@@ -16,15 +16,15 @@ namespace {
 
 using haptics::Fault;
 
-/// The value below which `fraction` of all lie; moves them about.
+/// The value below which `fraction` of all lie; reorders them.
 double quantile(std::vector<float>& values, double fraction) {
   if (values.empty()) return 0.0;
-  const auto place = static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + place, values.end());
-  return static_cast<double>(values[static_cast<std::size_t>(place)]);
+  const auto nth = static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + nth, values.end());
+  return static_cast<double>(values[static_cast<std::size_t>(nth)]);
 }
 
-/// Adds what one tick says; `before` is the tick before it.
+/// Adds one tick; `before` is the previous one.
 void addTick(SessionMetrics& sum, const haptics::Tick& tick, const std::optional<haptics::Tick>& before,
              bool irrigating) {
   const double force_N = glm::length(tick.commanded_force_P_N.xyz);
@@ -37,18 +37,18 @@ void addTick(SessionMetrics& sum, const haptics::Tick& tick, const std::optional
   if (tick.drilling && touches && !irrigating) sum.dry_drilling_s += tick.dt_s;
   sum.max_force_N = std::max(sum.max_force_N, force_N);
   sum.max_depth_mm = std::max(sum.max_depth_mm, tick.depth_mm);
-  sum.removed_mm3 += tick.removed_mm3;  // as far as no tick was lost
+  sum.removed_mm3 += tick.removed_mm3;  // without lost ticks
   if (tick.removed_mm3 < 0.0) sum.returned_mm3 -= tick.removed_mm3;
   if (has(tick.faults, Fault::clamped | Fault::slewed)) sum.limited_s += tick.dt_s;
   if (has(tick.faults, Fault::bad_pose | Fault::bad_force | Fault::device)) sum.faulty_s += tick.dt_s;
   if (before && !has(tick.faults, Fault::bad_pose) && !has(before->faults, Fault::bad_pose)) {
-    const double way_mm = glm::distance(tick.hand.X_PT.translation_mm, before->hand.X_PT.translation_mm);
-    sum.path_mm += way_mm;
-    if (tick.drilling) sum.drilling_path_mm += way_mm;
+    const double step_mm = glm::distance(tick.hand.X_PT.translation_mm, before->hand.X_PT.translation_mm);
+    sum.path_mm += step_mm;
+    if (tick.drilling) sum.drilling_path_mm += step_mm;
   }
 }
 
-/// None where what is left is another bone than the recorded one.
+/// None where the replay ends with another bone.
 std::optional<RemovedByTissue> removedByReplay(SessionReader& session) {
   const ReplayedState end = replayTo(session, std::numeric_limits<double>::infinity());
   if (end.divergence) return std::nullopt;
@@ -101,15 +101,15 @@ SessionMetrics metricsOf(const std::string& path) {
 
 std::string metricsText(const SessionMetrics& metrics) {
   std::string words =
-      fmt::format("{:.1f} s, of them {:.1f} s in contact and {:.1f} s drilling in bone; {:.1f} mm³ removed",
+      fmt::format("{:.1f} s, of which {:.1f} s in contact and {:.1f} s drilling in bone; {:.1f} mm³ removed",
                   metrics.duration_s, metrics.contact_s, metrics.drill_in_contact_s, metrics.removed_mm3);
-  if (metrics.returned_mm3 > 0.0) words += fmt::format(", {:.1f} mm³ more taken back", metrics.returned_mm3);
+  if (metrics.returned_mm3 > 0.0) words += fmt::format(", another {:.1f} mm³ undone", metrics.returned_mm3);
   words += metrics.drill_in_contact_s == 0.0 ? "\n"
            : metrics.dry_drilling_s > 0.0
                ? fmt::format("\ndry: {:.1f} s of drilling in bone without irrigation\n", metrics.dry_drilling_s)
-               : std::string("\nirrigated whenever it drilled in bone\n");
+               : std::string("\nalways irrigated while drilling in bone\n");
   if (metrics.missing_log)
-    words += "its log " + *metrics.missing_log + " is not beside it: what it holds is missing, copy both files\n";
+    words += "its log " + *metrics.missing_log + " is not next to it: its part is missing, copy both files\n";
   if (metrics.calibration) words += "calibration: " + calibrationText(*metrics.calibration) + "\n";
   return words;
 }
@@ -140,7 +140,7 @@ std::string metricsJson(const SessionMetrics& metrics) {
     by_label = nlohmann::ordered_json::object();
     for (const auto& [tissue, removed_mm3] : *metrics.removed_mm3_by_label) by_label[tissue] = removed_mm3;
   }
-  const nlohmann::ordered_json json = {
+  nlohmann::ordered_json json = {
       {"patient", metrics.patient_title},
       {"program_version", metrics.program_version},
       {"calibration", metrics.calibration ? calibrationMetrics(*metrics.calibration) : nlohmann::ordered_json()},
@@ -150,23 +150,10 @@ std::string metricsJson(const SessionMetrics& metrics) {
       {"lost", metrics.lost},
       {"commands", metrics.commands},
       {"events", metrics.events},
-      {"duration_s", metrics.duration_s},
-      {"contact_s", metrics.contact_s},
-      {"drill_on_s", metrics.drill_on_s},
-      {"drill_in_contact_s", metrics.drill_in_contact_s},
-      {"dry_drilling_s", metrics.dry_drilling_s},
-      {"path_mm", metrics.path_mm},
-      {"drilling_path_mm", metrics.drilling_path_mm},
-      {"max_force_N", metrics.max_force_N},
-      {"mean_contact_force_N", metrics.mean_contact_force_N},
-      {"max_depth_mm", metrics.max_depth_mm},
-      {"limited_s", metrics.limited_s},
-      {"faulty_s", metrics.faulty_s},
-      {"removed_mm3", metrics.removed_mm3},
-      {"returned_mm3", metrics.returned_mm3},
-      {"removed_mm3_by_label", by_label},
-      {"work_us", {{"p50", metrics.work_p50_us}, {"p99", metrics.work_p99_us}, {"max", metrics.work_max_us}}},
   };
+  for (const Measure& measure : kMeasures) json[measure.key] = metrics.*measure.value;
+  json["removed_mm3_by_label"] = by_label;
+  json["work_us"] = {{"p50", metrics.work_p50_us}, {"p99", metrics.work_p99_us}, {"max", metrics.work_max_us}};
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -1,11 +1,13 @@
-// What a session says about the hand: times, paths, forces, and what was taken of which tissue. All of it as recorded;
-// of schemas 3 and 4 what went by tissue is found by running them again, and none where that is another bone. Frame P;
-// mm, N, s. Any thread but the servo; a second for some minutes. Numbers only: what is good or bad is for a report.
+// Measures of a recorded session: times, paths, forces, removed volume. Values as recorded; for schemas 3 and 4 the
+// volume by tissue comes from a replay and is none if that differs. Frame P; mm, N, s. Any thread but the servo; about
+// a second for some minutes.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "app/session/session_calibration.h"
 #include "app/session/session_text.h"
@@ -14,35 +16,47 @@ namespace app {
 
 struct SessionMetrics {
   std::string patient_title, program_version;
-  std::optional<SessionCalibration> calibration;  ///< none: recorded before sessions told
-  bool closed = false;                            ///< ended by the program, not by a kill or a full disk
-  std::optional<std::string> missing_log;         ///< killed, and the second file of it is not there
+  std::optional<SessionCalibration> calibration;  ///< none: recorded before calibrations were stored
+  bool closed = false;                            ///< false: ended by a kill or a full disk
+  std::optional<std::string> missing_log;         ///< killed, and this log of it is missing
   std::uint64_t ticks = 0, lost = 0, commands = 0, events = 0;
-  double duration_s = 0.0;
-  double contact_s = 0.0;  ///< the bur shares volume with bone
-  double drill_on_s = 0.0;
-  double drill_in_contact_s = 0.0;
-  double dry_drilling_s = 0.0;  ///< of that, without irrigation
-  double path_mm = 0.0;         ///< way of the bur's centre
-  double drilling_path_mm = 0.0;
-  double max_force_N = 0.0;  ///< served
-  double mean_contact_force_N = 0.0;
-  double max_depth_mm = 0.0;                                       ///< equivalent depth of the law
-  double limited_s = 0.0;                                          ///< the force was clamped or slewed
-  double faulty_s = 0.0;                                           ///< the device or its poses could not be believed
-  double removed_mm3 = 0.0;                                        ///< without what was taken back
-  double returned_mm3 = 0.0;                                       ///< taken back by undoing strokes
+  double duration_s = 0.0, contact_s = 0.0, drill_on_s = 0.0, drill_in_contact_s = 0.0, dry_drilling_s = 0.0;
+  double path_mm = 0.0, drilling_path_mm = 0.0, max_force_N = 0.0, mean_contact_force_N = 0.0, max_depth_mm = 0.0;
+  double limited_s = 0.0, faulty_s = 0.0, removed_mm3 = 0.0, returned_mm3 = 0.0;
   std::optional<RemovedByTissue> removed_mm3_by_label;             ///< none: not recorded
-  double work_p50_us = 0.0, work_p99_us = 0.0, work_max_us = 0.0;  ///< CPU time of the servo step as recorded
+  double work_p50_us = 0.0, work_p99_us = 0.0, work_max_us = 0.0;  ///< recorded CPU time of the servo step
 };
 
-/// Throws SessionError if the file is missing, no session, or damaged.
+struct Measure {
+  std::string_view key, unit, meaning;
+  double SessionMetrics::*value;
+};
+
+/// The numeric measures, in the order of the JSON and of the help.
+inline constexpr std::array kMeasures = std::to_array<Measure>({
+    {"duration_s", "s", "length of the recording", &SessionMetrics::duration_s},
+    {"contact_s", "s", "time with the bur in the bone", &SessionMetrics::contact_s},
+    {"drill_on_s", "s", "time with the drill on", &SessionMetrics::drill_on_s},
+    {"drill_in_contact_s", "s", "time drilling in bone", &SessionMetrics::drill_in_contact_s},
+    {"dry_drilling_s", "s", "time drilling in bone without irrigation", &SessionMetrics::dry_drilling_s},
+    {"path_mm", "mm", "path length of the bur's centre", &SessionMetrics::path_mm},
+    {"drilling_path_mm", "mm", "path length with the drill on", &SessionMetrics::drilling_path_mm},
+    {"max_force_N", "N", "largest force on the hand", &SessionMetrics::max_force_N},
+    {"mean_contact_force_N", "N", "mean force in contact", &SessionMetrics::mean_contact_force_N},
+    {"max_depth_mm", "mm", "largest equivalent depth of the force law", &SessionMetrics::max_depth_mm},
+    {"limited_s", "s", "time with the force clamped or slew-limited", &SessionMetrics::limited_s},
+    {"faulty_s", "s", "time with an invalid pose or force or a device fault", &SessionMetrics::faulty_s},
+    {"removed_mm3", "mm3", "removed volume, without undone strokes", &SessionMetrics::removed_mm3},
+    {"returned_mm3", "mm3", "volume restored by undone strokes", &SessionMetrics::returned_mm3},
+});
+
+/// Throws SessionError if the file is missing, not a session, or damaged.
 SessionMetrics metricsOf(const std::string& path);
 
-/// What a person wants to know first, a few short lines.
+/// A summary for people, a few short lines.
 std::string metricsText(const SessionMetrics& metrics);
 
-/// One JSON object, keys as the fields; labels by the key of their tissue.
+/// One JSON object: the state of the recording, kMeasures by key, volumes by the key of the tissue.
 std::string metricsJson(const SessionMetrics& metrics);
 
 }  // namespace app

@@ -18,7 +18,7 @@ namespace app {
 struct Recorder::Impl {
   haptics::TickLog& log;
 
-  // Shared with the callers, under the mutex.
+  // Shared with the callers, guarded by the mutex.
   mutable std::mutex mutex;
   std::condition_variable wake;
   bool stopping = false;
@@ -29,7 +29,7 @@ struct Recorder::Impl {
 
   // The recording thread's own.
   SessionWriter writer;
-  const std::optional<std::string> beside;
+  const std::optional<std::string> temporary_file;
   SessionBatch batch;
   std::deque<haptics::Command> unconfirmed_commands;
   std::uint64_t serial_in_force, ticks_seen = 0, next_index = 0, gaps = 0;
@@ -41,7 +41,7 @@ struct Recorder::Impl {
   Impl(const std::string& path, bool overwrite, const SessionStart& start, haptics::TickLog& ticks)
       : log(ticks),
         writer(path, overwrite, start),
-        beside(writer.replaces() ? std::optional(writer.file()) : std::nullopt),
+        temporary_file(writer.replaces() ? std::optional(writer.file()) : std::nullopt),
         serial_in_force(start.command.serial) {}
 
   void run() {
@@ -57,11 +57,11 @@ struct Recorder::Impl {
 
   void drain() noexcept {
     if (writing) attempt([this] { take(), trackTicks(), write(); });
-    // Ended early, or something failed on the way: the rest is lost, and counted.
+    // After an early end the rest is counted as lost.
     if (!writing) ticks_seen += log.discard();
   }
 
-  /// Ticks first: a command in force in any of them was asked for before it was published.
+  /// Ticks first: the command of each was queued before it was published.
   void take() {
     const std::scoped_lock lock(mutex);
     if (out_of_memory) throw std::bad_alloc();
@@ -77,7 +77,7 @@ struct Recorder::Impl {
     events.clear();
   }
 
-  /// Finds where commands came into force and where ticks are missing.
+  /// Finds first ticks of commands, and gaps.
   void trackTicks() {
     for (const haptics::Tick& tick : batch.ticks) {
       if (tick.index > next_index) {
@@ -89,19 +89,20 @@ struct Recorder::Impl {
     }
   }
 
-  /// Earlier ones still waiting were overtaken before any tick saw them: newest wins.
+  /// Earlier commands were replaced before any tick used them.
   void trackCommand(const haptics::Tick& tick) {
     serial_in_force = tick.command_serial;
     const auto found = std::ranges::find(unconfirmed_commands, serial_in_force, &haptics::Command::serial);
     if (found == unconfirmed_commands.end()) {
-      batch.events.push_back({tick.index, "lost", "command " + std::to_string(serial_in_force) + " was never told"});
+      batch.events.push_back(
+          {tick.index, "lost", "command " + std::to_string(serial_in_force) + " was never recorded"});
       return;
     }
     batch.commands.push_back({*found, tick.index});
     unconfirmed_commands.erase(unconfirmed_commands.begin(), found + 1);
   }
 
-  /// Nothing before the first tick: until then the file has no name.
+  /// Nothing is written before the first tick.
   void write() {
     const bool begun = writer.ticks() > 0 || !batch.ticks.empty();
     if (!begun || (batch.ticks.empty() && batch.events.empty())) return;
@@ -109,7 +110,7 @@ struct Recorder::Impl {
     batch.commands.clear(), batch.ticks.clear(), batch.events.clear();
   }
 
-  /// Without a tick there is nothing to keep, and no file stays.
+  /// Without a tick no file is kept.
   void close(const haptics::CarvedBone* final_bone) noexcept {
     if (!writing) return;
     if (next_index == 0) return stopRecording("no tick came");
@@ -119,7 +120,7 @@ struct Recorder::Impl {
     });
   }
 
-  /// A gap that no later tick shows is known to the log alone.
+  /// Only the log knows a gap that no later tick shows.
   std::uint64_t lost() const { return std::max(gaps, log.dropped()) + ticks_seen - writer.ticks(); }
 
   template <class Work>
@@ -139,7 +140,7 @@ struct Recorder::Impl {
     try {
       trouble = std::string("the recording ended early: ") + why;
     } catch (const std::bad_alloc&) {
-      trouble = "ended early";  // no longer than a string holds by itself
+      trouble = "ended early";  // short enough to need no allocation
     }
   }
 };
@@ -152,14 +153,14 @@ Recorder::Recorder(const std::string& path, bool overwrite, const SessionStart& 
 
 Recorder::~Recorder() { stop(); }
 
-const std::optional<std::string>& Recorder::temporaryFile() const { return impl_->beside; }
+const std::optional<std::string>& Recorder::temporaryFile() const { return impl_->temporary_file; }
 
 void Recorder::command(const haptics::Command& command) noexcept {
   const std::scoped_lock lock(impl_->mutex);
   try {
     impl_->pending_commands.push_back(command);
   } catch (const std::bad_alloc&) {
-    impl_->out_of_memory = true;  // a recording without it could not be run again
+    impl_->out_of_memory = true;  // a recording without it could not be replayed
   }
 }
 

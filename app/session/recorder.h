@@ -1,9 +1,8 @@
-// Records a rehearsal: drains the servo's tick log and a queue of commands and events into a session file, on a thread
-// of its own every kBetweenWrites, so that a kill loses no more than came since, and what a write takes; or when its
-// owner says so, where the ticks themselves are made by hand. Never stops the rehearsal: when the file can not be
-// written any more or memory is out, recording ends, the file stays valid to its last write, and trouble() says so. The
-// servo knows nothing of this; ticks it could not log are counted as lost. Calls: any thread but the servo,
-// microseconds; the constructor writes the bone (0.1 s), stop() closes the file.
+// Records a rehearsal: moves the servo's tick log and a queue of commands and events into a session file every
+// kBetweenWrites, on a thread of its own or by drain(). A kill loses the time since the last write. Recording never
+// stops the rehearsal: when the file cannot be written or memory is out, recording ends, the file is valid to its last
+// write, and trouble() has one line. Ticks that did not fit into the log count as lost. Calls: any thread but the
+// servo, microseconds; the constructor writes the bone (0.1 s), stop() closes the file.
 #pragma once
 
 #include <chrono>
@@ -20,11 +19,11 @@ namespace app {
 
 struct RecordingSummary {
   std::uint64_t ticks = 0;             ///< in the file
-  std::uint64_t lost = 0;              ///< made by the servo, not in the file
+  std::uint64_t lost = 0;              ///< by the servo, not in the file
   std::optional<std::string> trouble;  ///< one line, if recording ended early
-  std::string file = {};               ///< as it is called now: where another was to be replaced, not always its name
+  std::string file = {};               ///< its current name, not the requested one if replacing another file failed
 
-  /// Everything that happened is in the file.
+  /// Nothing is missing.
   bool isWhole() const { return lost == 0 && !trouble; }
 };
 
@@ -34,28 +33,28 @@ enum class DrainMode { by_thread, by_hand };
 
 class Recorder {
  public:
-  /// Throws SessionError if the file exists and not `overwrite`, or can not be created. Borrows the log, of which this
-  /// becomes the one reader; construct it before the servo's first tick.
+  /// Throws SessionError if the file exists and not `overwrite`, or cannot be created. Borrows the log and is its only
+  /// reader; construct before the servo's first tick.
   Recorder(const std::string& path, bool overwrite, const SessionStart& start, haptics::TickLog& log,
            DrainMode drain_mode = DrainMode::by_thread);
   /// Stops, if stop() was not called.
   ~Recorder();
 
-  /// The file that is written until the close, where another bears the name until then; none: it soon has its name.
+  /// The temporary name of the file until it replaces another at the close; none: there is nothing to replace.
   const std::optional<std::string>& temporaryFile() const;
 
-  /// To be called before the command is published to the servo.
+  /// Call before the command is published to the servo.
   void command(const haptics::Command& command) noexcept;
   void event(const std::string& kind, const std::string& text) noexcept;
 
-  /// Writes what has come since the last time; for a recorder that is drained by hand.
+  /// Writes what is new; for DrainMode::by_hand.
   void drain() noexcept;
 
-  /// One line, once recording has ended early.
+  /// One line, if recording has ended early.
   std::optional<std::string> trouble() const;
 
-  /// After the servo's last tick: writes what is left and the bone that is left (null: it is not kept), seals and
-  /// closes the file. Again: the same answer.
+  /// After the servo's last tick: writes the rest and the final bone (null: not stored), seals and closes the file.
+  /// Repeated calls return the same summary.
   RecordingSummary stop(const haptics::CarvedBone* final_bone = nullptr);
 
  private:

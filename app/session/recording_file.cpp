@@ -23,11 +23,12 @@ namespace fs = std::filesystem;
 constexpr int kMaxTemporaries = 99;
 
 SessionError inUse(const std::string& path) {
-  return SessionError(path + ": another program is recording to it: choose another name, or wait for its end");
+  return SessionError(path + ": another program is recording to it: choose another name, or wait until it ends");
 }
 
 SessionError notMade(const std::string& path, int error) {
-  return SessionError(path + ": can not be created (" + std::strerror(error) + "): check the folder and its rights");
+  return SessionError(path + ": cannot be created (" + std::strerror(error) +
+                      "): check the folder and its permissions");
 }
 
 bool isSameFile(int file, const std::string& path) {
@@ -37,15 +38,14 @@ bool isSameFile(int file, const std::string& path) {
          ours.st_dev == named.st_dev;
 }
 
-/// The descriptor; -1: somebody else has it, or it is not the file of that name any more.
+/// The descriptor; -1: locked by another program, or no longer the file of that name.
 int locked(int file, const std::string& path) {
   if (::flock(file, LOCK_EX | LOCK_NB) == 0 && isSameFile(file, path)) return file;
   ::close(file);
   return -1;
 }
 
-/// What a program left that was killed before its first ticks were kept: nothing, a start that nothing follows, or one
-/// that was still being written, as the journal beside it says.
+/// Whether a killed program left no ticks: an empty file, a start only, or an unfinished start with its journal.
 bool holdsNothing(const std::string& path) {
   std::error_code failed;
   if (fs::file_size(path, failed) == 0) return !failed;
@@ -109,7 +109,7 @@ void RecordingFile::lockTarget(bool overwrite) {
     throw SessionError(path_ + ": is not a plain file: choose another name for the recording");
   for (const std::string& file : sessionFiles(path_)) {
     if (!fs::exists(file, failed)) continue;
-    if (!overwrite) throw SessionError(file + ": exists already: choose another name for the recording or use --force");
+    if (!overwrite) throw SessionError(file + ": already exists: choose another name for the recording or use --force");
     replaces_ = true;
   }
   if (!fs::exists(status)) return;
@@ -126,7 +126,7 @@ void RecordingFile::createTemporary() {
     const int made = ::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
     if (made < 0 && errno != EEXIST) throw notMade(path_, errno);
     const bool is_new = made >= 0;
-    // Left by a killed program: what holds ticks is kept.
+    // Left by a killed program: kept if it holds ticks.
     if (!is_new && isBeingRecorded(name)) throw inUse(path_);
     if (!is_new && !holdsNothing(name)) {
       ++n;
@@ -144,14 +144,14 @@ void RecordingFile::createTemporary() {
     removeFiles(sessionFiles(name));
     ::close(lock);
   }
-  throw SessionError(path_ + ": too many recordings that were never ended lie beside it: remove " + path_ + ".new*");
+  throw SessionError(path_ + ": too many unfinished recordings next to it: remove " + path_ + ".new*");
 }
 
 void RecordingFile::publish() {
   kept_ = true;
   if (replaces_ || file_ == path_) return;
   if (const int error = calibration::renameNoReplace(file_, path_); error != 0)
-    throw SessionError(path_ + ": can not be given to the recording (" + std::strerror(error) + "): it is " + file_,
+    throw SessionError(path_ + ": cannot be given to the recording (" + std::strerror(error) + "): it is " + file_,
                        SessionErrorKind::failed);
   file_ = path_;
   syncFolderOf(path_);
@@ -159,9 +159,8 @@ void RecordingFile::publish() {
 
 void RecordingFile::refuseIfReplaced() const {
   if (!isSameFile(own_, file_))
-    throw SessionError(
-        file_ + ": was replaced or removed by another program while it was recorded: what was in it is lost",
-        SessionErrorKind::failed);
+    throw SessionError(file_ + ": was replaced or removed by another program during recording: its content is lost",
+                       SessionErrorKind::failed);
 }
 
 void RecordingFile::unlock() {
@@ -174,12 +173,12 @@ void RecordingFile::finish() {
   refuseIfReplaced();
   sealFile(own_, file_);
   if (replaces_) {
-    // Nothing of the old one may be taken for the log of the new one.
+    // The old log must not be taken for the log of the new file.
     std::vector<std::string> logs = sessionFiles(path_);
     logs.erase(logs.begin());
     removeFiles(logs);
     if (::rename(file_.c_str(), path_.c_str()) != 0)
-      throw SessionError(path_ + ": can not be replaced (" + std::strerror(errno) + "): the new recording is " + file_,
+      throw SessionError(path_ + ": cannot be replaced (" + std::strerror(errno) + "): the new recording is " + file_,
                          SessionErrorKind::failed);
     file_ = path_;
   }

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -16,7 +17,7 @@ namespace {
 bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 bool same(const glm::dvec3& a, const glm::dvec3& b) { return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z); }
 
-/// Says in which quantity a tick run again first differs from the recorded one.
+/// The first quantity in which a replayed tick differs from the recorded one.
 std::optional<std::string> differenceOf(const haptics::Tick& recorded, const haptics::Tick& again) {
   if (recorded.index != again.index) return "the number of the tick differs";
   if (!same(recorded.t_s, again.t_s) || !same(recorded.dt_s, again.dt_s)) return "the time differs";
@@ -40,18 +41,20 @@ std::optional<std::string> differenceOf(const haptics::Tick& recorded, const hap
   return std::nullopt;
 }
 
-/// The servo on the bone of the start, fed with what was recorded.
+/// The servo on the initial bone, driven by the recorded hand and commands.
 class Rerun {
  public:
   Rerun(haptics::CarvedBone& bone, std::vector<SessionCommand> commands)
       : servo_(bone), commands_(std::move(commands)) {}
 
-  /// Moves on to the command recorded as in force at this tick; false if the session has none of that serial.
-  bool selectCommand(const haptics::Tick& recorded) {
-    while (next_ < commands_.size() && commands_[next_].first_tick <= recorded.index) {
+  /// Selects the command of this tick. Returns why the tick cannot be compared: lost ticks, or a missing command.
+  std::optional<std::string> prepare(const haptics::Tick& recorded) {
+    const std::uint64_t lost = recorded.index - std::exchange(next_index_, recorded.index + 1);
+    while (next_ < commands_.size() && commands_[next_].first_tick <= recorded.index)
       command_ = commands_[next_++].command;
-    }
-    return command_.serial == recorded.command_serial;
+    if (lost > 0) return std::to_string(lost) + " ticks before it were lost";
+    if (command_.serial != recorded.command_serial) return "its command was not recorded";
+    return std::nullopt;
   }
   haptics::Tick step(const haptics::Tick& recorded) { return servo_.step(recorded.hand, command_, recorded.dt_s); }
   const haptics::Command& command() const { return command_; }
@@ -61,17 +64,10 @@ class Rerun {
   std::vector<SessionCommand> commands_;
   haptics::Command command_;
   std::size_t next_ = 0;
+  std::uint64_t next_index_ = 0;
 };
 
-std::optional<std::string> stepDifference(Rerun& rerun, const haptics::Tick& recorded, std::uint64_t next_index,
-                                          haptics::Tick& again) {
-  if (recorded.index != next_index) return std::to_string(recorded.index - next_index) + " ticks before it were lost";
-  if (!rerun.selectCommand(recorded)) return "its command was not recorded";
-  again = rerun.step(recorded);
-  return differenceOf(recorded, again);
-}
-
-/// Of what was kept beside the ticks: what had gone by tissue after a block, and the bone at the close.
+/// Compares what is stored apart from the ticks: the removed volume by tissue after a block, and the final bone.
 std::optional<std::string> blockDifference(const TickBlock& block, const haptics::Tick& again) {
   if (block.removed_mm3 && *block.removed_mm3 != removedByKey(again.removed_total_mm3))
     return "the removed volume by tissue differs";
@@ -82,7 +78,7 @@ std::optional<std::string> finalBoneDifference(SessionReader& session, const Sto
                                                const haptics::CarvedBone& bone) {
   const auto left = session.finalBone(start);
   if (left && (left->digest != bone.digest() || left->solid != bone.solidInGridOrder()))
-    return "the bone that was left differs";
+    return "the final bone differs";
   return std::nullopt;
 }
 
@@ -96,7 +92,11 @@ void rerunAll(SessionReader& session, ReplayReport& report) {
       ++report.ticks;
       report.duration_s = recorded.t_s + recorded.dt_s;
       if (report.difference) continue;
-      auto what = stepDifference(rerun, recorded, report.replayed, again);
+      auto what = rerun.prepare(recorded);
+      if (!what) {
+        again = rerun.step(recorded);
+        what = differenceOf(recorded, again);
+      }
       if (!what && &recorded == &block.ticks.back()) what = blockDifference(block, again);
       if (what)
         report.difference = ReplayDifference{recorded.index, *what};
@@ -117,19 +117,18 @@ void readThrough(SessionReader& session, ReplayReport& report) {
   }
 }
 
-/// None: this program gives the same bits.
+/// None: this program computes the same bits.
 std::optional<std::string> whyNotComparable(const StoredStart& recorded) {
   const ServoBuild own = thisServo();
   if (recorded.servo.revision != own.revision)
     return fmt::format("recorded by another version ({} with servo revision {}, this is {} with {})",
                        recorded.program_version, recorded.servo.revision, programVersion(), own.revision);
   if (!recorded.servo.sumsIdentically(own))
-    return "recorded with another processor's instructions (" + recorded.servo.instruction_set + ", these are " +
+    return "recorded with another instruction set (" + recorded.servo.instruction_set + ", this is " +
            own.instruction_set + ", see MOLAR_INSTRUCTIONS)";
   return std::nullopt;
 }
 
-/// What there is to say of a session that can be opened.
 ReplayReport verifyReadable(const std::string& path) {
   SessionReader session(path);
   ReplayReport report;
@@ -145,12 +144,12 @@ ReplayReport verifyReadable(const std::string& path) {
   return report;
 }
 
-std::string divergenceText(const ReplayedState& moment) {
+std::string divergenceText(const ReplayedState& state) {
   return fmt::format(
-      "the re-run departs from the recording at tick {} ({}): its bone has lost {:.3f} mm³ {} than the "
-      "recorded one; the version that recorded it brings back the very one",
-      moment.divergence->tick, moment.divergence->what, std::abs(moment.removed_excess_mm3),
-      moment.removed_excess_mm3 < 0.0 ? "less" : "more");
+      "the replay differs from the recording from tick {} on ({}): {:.3f} mm³ {} of the bone is removed than recorded; "
+      "use the version that recorded it for the exact bone",
+      state.divergence->tick, state.divergence->what, std::abs(state.removed_excess_mm3),
+      state.removed_excess_mm3 < 0.0 ? "less" : "more");
 }
 
 }  // namespace
@@ -166,18 +165,18 @@ std::string ReplayReport::line() const {
   const std::string figures = fmt::format("{} ticks, {:.3f} s", ticks, duration_s);
   std::string ended;
   if (lost > 0) ended += "; " + std::to_string(lost) + " ticks were lost";
-  if (!closed) ended += "; the recording ended early (killed, or the disk was full) and is whole up to there";
-  if (unsealed) ended += "; its closing seal is missing, as after a power cut: every row was checked instead";
+  if (!closed) ended += "; the recording ended early (killed, or disk full) and is complete up to that point";
+  if (unsealed) ended += "; its seal is missing, as after a power cut: every row was checked instead";
   if (missing_log)
-    return "NOT verified: " + figures + "; it was being recorded when its program was killed, and its log " +
-           *missing_log + " is not beside it: copy both files";
+    return "NOT verified: " + figures + "; its program was killed while recording, and its log " + *missing_log +
+           " is not next to it: copy both files";
   if (difference) {
     return "NOT verified: at tick " + std::to_string(difference->tick) + " " + difference->what + " (of " + figures +
            ")" + ended;
   }
   if (not_comparable)
     return (lost > 0 ? "NOT verified: " : "checksums right: ") + figures + "; " + *not_comparable +
-           ": numbers are read, the re-run is not comparable" + ended;
+           ": values are read, a replay is not comparable" + ended;
   if (!verified()) return "NOT verified: " + figures + ", all of them bit-identical" + ended;
   const std::string digest = fmt::format("{:016x}", bone_digest);
   return "verified: " + figures + ", every force and the final bone (" + digest + ") bit-identical" + ended;
@@ -187,8 +186,8 @@ ReplayReport verify(const std::string& path) {
   try {
     return verifyReadable(path);
   } catch (const SessionError& refusal) {
-    // A session too damaged to be read is an answer; a file that never was one, or a disk that fails, is none.
-    if (refusal.trouble != SessionErrorKind::damaged) throw;
+    // Damage is a result; a file that is not a session, or a failing disk, is an error.
+    if (refusal.kind != SessionErrorKind::damaged) throw;
     ReplayReport report;
     report.damage = refusal.what();
     return report;
@@ -203,23 +202,18 @@ ReplayedState replayTo(SessionReader& session, double t_s) {
   haptics::Tick last, last_recorded;
   std::optional<ReplayDifference> divergence;
   double recorded_mm3 = 0.0, again_mm3 = 0.0;
-  std::uint64_t next_index = 0;
   for (TickBlock block = session.nextBlock(); !block.ticks.empty(); block = session.nextBlock()) {
     for (const haptics::Tick& recorded : block.ticks) {
       if (!(recorded.t_s < t_s)) break;
-      const auto lost = recorded.index - next_index;
-      const bool commanded = rerun.selectCommand(recorded);
+      auto what = rerun.prepare(recorded);
       last = rerun.step(recorded);
-      const auto what = lost > 0     ? std::optional(std::to_string(lost) + " ticks before it were lost")
-                        : !commanded ? std::optional<std::string>("its command was not recorded")
-                                     : differenceOf(recorded, last);
+      if (!what) what = differenceOf(recorded, last);
       if (what && !divergence) divergence = ReplayDifference{recorded.index, *what};
-      next_index = recorded.index + 1;
       recorded_mm3 += recorded.removed_mm3, again_mm3 += last.removed_mm3;
       last_recorded = recorded;
     }
   }
-  // A bone of the same digest is the recorded one, whatever a force was in its last bit.
+  // The same digest means the same bone, even if a force differed in its last bit.
   if (divergence && last_recorded.bone_digest == bone.digest()) divergence.reset();
   const haptics::Command command = rerun.command();
   return {std::move(start), std::move(bone), last, command, divergence, again_mm3 - recorded_mm3};
@@ -228,29 +222,28 @@ ReplayedState replayTo(SessionReader& session, double t_s) {
 BoneAtTime boneAtTime(const std::string& path, std::optional<double> t_s) {
   SessionReader session(path);
   refuseDamaged(session, path);
-  BoneAtTime then;
+  BoneAtTime bone;
   double end_s = 0.0;
   for (TickBlock block = session.nextBlock(); !block.ticks.empty(); block = session.nextBlock())
     end_s = block.ticks.back().t_s + block.ticks.back().dt_s;
   if (!t_s || *t_s >= end_s) {
     if (const auto log = session.missingLog()) throw missingLogError(path, *log);
-    then.start = session.start();
-    then.t_s = end_s;
-    if (auto left = session.finalBone(then.start)) {
-      then.solid = std::move(left->solid);
-      return then;
+    bone.start = session.start();
+    bone.t_s = end_s;
+    if (auto left = session.finalBone(bone.start)) {
+      bone.solid = std::move(left->solid);
+      return bone;
     }
-    then.remarks.push_back(
-        "the bone that was left is not in it, so it is run again, which needs the version that "
-        "recorded it (" +
-        then.start.program_version + ")");
+    bone.remarks.push_back(
+        "the final bone is not in it, so it is recomputed by a replay, which needs the version that recorded it (" +
+        bone.start.program_version + ")");
   }
-  ReplayedState moment = replayTo(session, t_s.value_or(std::numeric_limits<double>::infinity()));
-  if (moment.divergence) then.remarks.push_back(divergenceText(moment));
-  then.solid = moment.bone.solidInGridOrder();
-  then.t_s = moment.tick.t_s + moment.tick.dt_s;
-  then.start = std::move(moment.start);
-  return then;
+  ReplayedState state = replayTo(session, t_s.value_or(std::numeric_limits<double>::infinity()));
+  if (state.divergence) bone.remarks.push_back(divergenceText(state));
+  bone.solid = state.bone.solidInGridOrder();
+  bone.t_s = state.tick.t_s + state.tick.dt_s;
+  bone.start = std::move(state.start);
+  return bone;
 }
 
 }  // namespace app

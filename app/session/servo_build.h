@@ -1,5 +1,5 @@
-// What the bits of a tick depend on beside bone, hand and commands: which servo, and by which of the machine's
-// instructions its sums were made. Plain values; any thread.
+// What the bits of a tick depend on besides bone, hand and commands: the servo's revision and the instruction set of
+// its sums. Plain values; any thread.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 namespace app {
 
 struct ServoBuild {
-  std::int64_t revision = 0;    ///< haptics::kServoRevision; 0: recorded before sessions told
-  std::string instruction_set;  ///< assets::nameOf it; empty: the same
+  std::int64_t revision = 0;    ///< haptics::kServoRevision; 0: recorded before it was stored
+  std::string instruction_set;  ///< assets::nameOf; empty: not stored
 
-  /// AVX2 and AVX-512 sum alike, portable code does not (haptics/README).
+  /// AVX2 and AVX-512 sums are identical; those of portable code differ (haptics/README).
   bool sumsIdentically(const ServoBuild& other) const;
 };
 

@@ -10,7 +10,7 @@ namespace {
 std::string ageText(double days) {
   if (days < 0.0) return "dated in the future";
   const auto whole = static_cast<long>(std::floor(days));
-  if (whole < 1) return "of today";
+  if (whole < 1) return "measured today";
   return std::to_string(whole) + (whole == 1 ? " day old" : " days old");
 }
 
@@ -22,7 +22,7 @@ std::string calibrationText(const SessionCalibration& c) {
   if (!c.verdict.empty())
     words = c.verdict + fmt::format(", {:.2f} mm RMS of {}", c.rms_mm, c.touches);
   else
-    words = c.rig == "default" ? "a default rig, not measured" : "never proved";
+    words = c.rig == "default" ? "a default rig, not measured" : "never verified";
   if (c.age_days) words += ", " + ageText(*c.age_days);
   if (!c.despite.empty()) words += ", used despite that: " + c.despite;
   return words;

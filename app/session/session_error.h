@@ -1,5 +1,5 @@
-// The one exception of sessions: a file that can not be written, or one that is not a readable session.
-// The text is one line: what, where, what to do. What is to be concluded of the file stands beside it.
+// The exception of this folder: a session that cannot be written, or a file that is not a readable session. The text is
+// one line: what, where, what to do.
 #pragma once
 
 #include <stdexcept>
@@ -8,19 +8,18 @@
 namespace app {
 
 enum class SessionErrorKind {
-  refused,  ///< the name, or what lies there, is not what is needed
-  damaged,  ///< what is stored is not what was recorded
-  failed,   ///< disk, rights or memory: nothing is known of the file
+  refused,  ///< the name or the file is not usable
+  damaged,  ///< the stored bytes are not those recorded
+  failed,   ///< disk, permissions or memory: the state of the file is unknown
 };
 
 struct SessionError : std::runtime_error {
   explicit SessionError(const std::string& line, SessionErrorKind which = SessionErrorKind::refused)
-      : std::runtime_error(line), trouble(which) {}
-  SessionErrorKind trouble;
+      : std::runtime_error(line), kind(which) {}
+  SessionErrorKind kind;
 };
 
-/// "…: the session is damaged", as it is said of every stored part that can not be what was recorded. What it quotes of
-/// the file stays on the line.
+/// "WHAT: the session is damaged". Control characters quoted from the file are replaced, so the text stays one line.
 inline SessionError damagedSession(std::string what) {
   for (char& c : what)
     if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';

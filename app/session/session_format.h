@@ -1,32 +1,38 @@
-// What a session file is: one SQLite database, readable by any SQLite tool, with the tables below and, once closed, a
-// trailer of 40 bytes behind the last page: "MOLRSEAL" and the SHA-256 of every byte before it.
-// `row` numbers the rows of all tables in one sequence from 0; `digest` chains them (chain.h). Texts are JSON objects
-// (session_text.h, command_keys.h); blobs are Zstandard. A table may gain columns before `digest`, and there may be
-// more tables of this form: the chain holds them too, and a reader takes what it knows. Writer and readers only.
+// A session file: one SQLite database with the tables below. A closed file ends with a trailer of 40 bytes behind the
+// last page: "MOLRSEAL" and the SHA-256 of all bytes before it. `row` numbers the rows of all tables in one sequence
+// from 0; `digest` chains them (chain.h). Texts are JSON objects (session_text.h, command_keys.h); blobs are Zstandard.
+// Columns may be added before `digest`, and tables of this form may be added: the chain covers them, readers ignore
+// them.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 namespace app::session_format {
 
-/// 5: by keys and columns. 3 and 4, read by old_formats/: packed structs.
+/// 5: keys and columns. 3 and 4, read by old_formats/: packed structs.
 inline constexpr std::int64_t kSchema = 5, kOldestSchema = 3;
-inline constexpr std::int64_t kApplicationId = 0x4d4f4c52;    ///< in the database header, big-endian …
-inline constexpr std::string_view kApplicationMark = "MOLR";  ///< … so that it reads like this
+inline constexpr std::int64_t kApplicationId = 0x4d4f4c52;    ///< in the database header, big-endian: "MOLR"
+inline constexpr std::string_view kApplicationMark = "MOLR";  ///< the same as text
 inline constexpr std::size_t kTicksPerBlock = 50;             ///< 50 ms at 1 kHz: written and committed together
-inline constexpr std::size_t kBonePartBytes = 1 << 24;        ///< voxels a row: far below what a row may hold
+inline constexpr std::size_t kBonePartBytes = 1 << 24;        ///< voxels per row, far below SQLite's limit
 inline constexpr std::string_view kTrailerMark = "MOLRSEAL";
 inline constexpr std::size_t kTrailerBytes = kTrailerMark.size() + 32;
 
-/// Volumes, part by part in the order of the grid. The last is what has gone: the start's less the end's.
+/// Volumes, stored in parts in the order of the grid. The last is the removed part: initial minus final solid fraction.
 inline constexpr std::string_view kSolid = "solid", kLabel = "label", kRemoved = "gone";
 
 struct Table {
   std::string_view name, columns;  ///< between `row` and `digest`
 };
+
+inline std::string createStatement(std::string_view table, std::string_view columns) {
+  return "CREATE TABLE " + std::string(table) + "(row INTEGER PRIMARY KEY, " + std::string(columns) +
+         ", digest BLOB) STRICT";
+}
 
 inline constexpr std::array<Table, 7> kTables = {{
     {"meta", "schema INTEGER, about TEXT"},

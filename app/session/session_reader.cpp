@@ -23,18 +23,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum class Log { none, beside, missing };
+enum class Log { none, present, missing };
 
-/// What lies beside a closed file is another's.
+/// A log next to a closed file belongs to another recording.
 Log logOf(const std::string& path) {
   if (!needsLog(path)) return Log::none;
   std::error_code failed;
   const auto bytes = fs::file_size(path + "-wal", failed);
-  return !failed && bytes > 0 ? Log::beside : Log::missing;
+  return !failed && bytes > 0 ? Log::present : Log::missing;
 }
 
-/// A file without log is opened as what can not change. With one it is read without locks, which a read-only folder
-/// would not have: so no third file is made, and nothing is folded in.
+/// A file without log is opened as immutable. One with a log is read without locks, which works in a read-only folder,
+/// creates no third file and merges nothing.
 std::string address(const std::string& path) {
   std::string uri = "file:";
   for (const char c : fs::absolute(path).string()) {
@@ -45,19 +45,12 @@ std::string address(const std::string& path) {
       uri += c;
     }
   }
-  return uri + (logOf(path) == Log::beside ? "?vfs=unix-none" : "?immutable=1");
+  return uri + (logOf(path) == Log::present ? "?vfs=unix-none" : "?immutable=1");
 }
-
-std::span<const std::uint8_t> blobOf(const SQLite::Column& column) {
-  const auto* bytes = static_cast<const std::uint8_t*>(column.getBlob());
-  return {bytes, bytes == nullptr ? 0 : static_cast<std::size_t>(column.getBytes())};
-}
-
-std::string textOf(const SQLite::Column& column) { return column.getString(); }
 
 std::uint64_t countOf(const SQLite::Column& column) { return static_cast<std::uint64_t>(column.getInt64()); }
 
-/// What SQLite says of a file: that its bytes are not as they were, or that they can not be had.
+/// Whether a database error means changed bytes or a failure to read them.
 SessionErrorKind errorKindOf(const SQLite::Exception& exception) {
   const int code = exception.getErrorCode() & 0xff;
   const bool by_bytes = code == SQLITE_CORRUPT || code == SQLITE_NOTADB || code == SQLITE_ERROR ||
@@ -67,10 +60,10 @@ SessionErrorKind errorKindOf(const SQLite::Exception& exception) {
 }
 
 SessionError notRead(const std::string& path, const SQLite::Exception& exception) {
-  const SessionErrorKind trouble = errorKindOf(exception);
-  const std::string what = path + ": can not be read (" + exception.what() + "): ";
-  return SessionError(
-      what + (trouble == SessionErrorKind::damaged ? "the session is damaged" : "check disk and rights"), trouble);
+  const SessionErrorKind kind = errorKindOf(exception);
+  const std::string what = path + ": cannot be read (" + exception.what() + "): ";
+  return SessionError(what + (kind == SessionErrorKind::damaged ? "the session is damaged" : "check disk and rights"),
+                      kind);
 }
 
 }  // namespace
@@ -85,17 +78,17 @@ struct SessionReader::Impl {
   std::optional<FileSeal> trailer;
   std::optional<TickUnpacker> unpacker;
   std::optional<SQLite::Statement> blocks;
-  std::uint64_t next_index = 0, gaps = 0;  // in the numbers of the ticks that were read
+  std::uint64_t next_index = 0, gaps = 0;  // of the tick indices read so far
 
-  /// Does `work`, telling trouble with the database as one line about this file.
+  /// Runs `work` and reports database errors as one line on this file.
   template <class Work>
   auto reading(Work&& work) {
     try {
       return work();
-    } catch (const SQLite::Exception& trouble) {
-      throw notRead(path, trouble);
-    } catch (const SessionError& trouble) {
-      throw SessionError(path + ": " + trouble.what(), trouble.trouble);
+    } catch (const SQLite::Exception& error) {
+      throw notRead(path, error);
+    } catch (const SessionError& error) {
+      throw SessionError(path + ": " + error.what(), error.kind);
     }
   }
 
@@ -115,10 +108,10 @@ struct SessionReader::Impl {
       throw SessionError(path + ": " + why, changed ? SessionErrorKind::damaged : SessionErrorKind::refused);
     };
     if (database.execAndGet("PRAGMA application_id").getInt64() != session_format::kApplicationId)
-      refuse("is no session: name a file made by `molar rehearse`");
+      refuse("is not a session: name a file made by `molar rehearse`");
     if (!database.tableExists("meta")) {
       if (const auto log = missingLog()) throw missingLogError(path, *log);
-      refuse("is no session of this version of the program: name a file made by `molar rehearse`");
+      refuse("is not a session of this version of the program: name a file made by `molar rehearse`");
     }
     SQLite::Statement meta(database, "SELECT schema FROM meta");
     if (meta.executeStep()) schema = meta.getColumn(0).getInt64();
@@ -140,18 +133,18 @@ struct SessionReader::Impl {
   void readTables() {
     SQLite::Statement seal(database, "SELECT about FROM seal");
     closed = seal.executeStep();
-    if (closed) end = sealFromText(textOf(seal.getColumn(0)));
+    if (closed) end = sealFromText(seal.getColumn(0).getString());
     label = aboutWithLabels().label;
     SQLite::Statement rows(database, "SELECT name, type, unit, frame FROM tick_column ORDER BY row");
     std::vector<TickColumn> columns;
     while (rows.executeStep())
-      columns.push_back({textOf(rows.getColumn(0)), textOf(rows.getColumn(1)), textOf(rows.getColumn(2)),
-                         textOf(rows.getColumn(3)), ""});
+      columns.push_back({rows.getColumn(0).getString(), rows.getColumn(1).getString(), rows.getColumn(2).getString(),
+                         rows.getColumn(3).getString(), ""});
     unpacker.emplace(columns);
     blocks.emplace(database, "SELECT count, ticks, removed_mm3 FROM tick_block ORDER BY row");
   }
 
-  /// Hashes the file, once.
+  /// Hashes the file once.
   FileSeal seal() {
     if (!trailer) trailer = fileSeal(path);
     return *trailer;
@@ -164,24 +157,24 @@ struct SessionReader::Impl {
   SessionAbout aboutWithLabels() {
     SQLite::Statement meta(database, "SELECT about FROM meta");
     if (!meta.executeStep()) throw damagedSession("it has no start");
-    SessionAbout about = aboutFromText(textOf(meta.getColumn(0)));
+    SessionAbout about = aboutFromText(meta.getColumn(0).getString());
     refuseInvalidGrid(about.start.grid);
     return about;
   }
 
-  /// The parts of a volume, as many as make all voxels; empty: there is none. Judged before they are allocated.
+  /// All voxels of a volume; empty: it is not stored. The sizes are checked before anything is allocated.
   std::vector<std::uint8_t> volume(std::string_view name, std::size_t voxels) {
     SQLite::Statement parts(database, "SELECT voxels, bytes FROM bone_part WHERE volume = ? ORDER BY row");
     parts.bind(1, std::string(name));
-    std::size_t there = 0;
+    std::size_t found = 0;
     for (bool more = parts.executeStep(); more; more = parts.executeStep()) {
       const std::uint64_t in_part = countOf(parts.getColumn(0));
-      if (in_part < 1 || in_part > voxels - there) throw damagedSession("a volume has too many voxels");
+      if (in_part < 1 || in_part > voxels - found) throw damagedSession("a volume has too many voxels");
       refuseUnlessContentSize(blobOf(parts.getColumn(1)), in_part);
-      there += in_part;
+      found += in_part;
     }
-    if (there == 0) return {};
-    if (there != voxels) throw damagedSession("a part of a volume is missing");
+    if (found == 0) return {};
+    if (found != voxels) throw damagedSession("a part of a volume is missing");
     std::vector<std::uint8_t> values(voxels);
     parts.reset();
     for (std::size_t first = 0; first < voxels;) {
@@ -213,23 +206,23 @@ struct SessionReader::Impl {
 
 SessionError missingLogError(const std::string& path, const std::string& log) {
   return SessionError(path + ": was being recorded when its program was killed, and its log " + log +
-                      " is not beside it: copy both files");
+                      " is not next to it: copy both files");
 }
 
 SessionReader::SessionReader(const std::string& named) {
   const std::string path = resolvedLinks(named);
   std::error_code failed;
-  if (!fs::exists(path, failed)) throw SessionError(path + ": there is no such session file: check the name");
+  if (!fs::exists(path, failed)) throw SessionError(path + ": no such session file: check the name");
   if (!fs::is_regular_file(path, failed))
     throw SessionError(path + ": is not a plain file: name a file made by `molar rehearse`");
-  if (isBeingRecorded(path))
-    throw SessionError(path + ": is being recorded just now: read it when its rehearsal is over");
+  if (isBeingRecorded(path)) throw SessionError(path + ": is being recorded: read it after the rehearsal");
   try {
     impl_ = std::make_unique<Impl>(path);
-  } catch (const SQLite::Exception& trouble) {
-    if (errorKindOf(trouble) == SessionErrorKind::failed) throw notRead(path, trouble);
-    throw SessionError(path + ": is no readable session (" + trouble.what() + "): name a file made by `molar rehearse`",
-                       hasSessionMark(path) ? SessionErrorKind::damaged : SessionErrorKind::refused);
+  } catch (const SQLite::Exception& error) {
+    if (errorKindOf(error) == SessionErrorKind::failed) throw notRead(path, error);
+    throw SessionError(
+        path + ": is not a readable session (" + error.what() + "): name a file made by `molar rehearse`",
+        hasSessionMark(path) ? SessionErrorKind::damaged : SessionErrorKind::refused);
   }
 }
 
@@ -246,14 +239,14 @@ bool SessionReader::isUnsealed() const { return impl_->closed && impl_->seal() !
 std::optional<std::string> SessionReader::damage() {
   try {
     if (auto damaged = chainDamage(impl_->database)) return damaged;
-    const std::uint64_t there = countOf(impl_->database.execAndGet("SELECT total(count) FROM tick_block"));
-    if (impl_->closed && there != impl_->end.ticks)
-      return "it holds " + std::to_string(there) + " ticks, and its seal says " + std::to_string(impl_->end.ticks);
-  } catch (const SQLite::Exception& trouble) {
-    if (errorKindOf(trouble) == SessionErrorKind::failed) throw notRead(impl_->path, trouble);
-    return std::string("its rows can not be read (") + trouble.what() + ")";
+    const std::uint64_t count = countOf(impl_->database.execAndGet("SELECT total(count) FROM tick_block"));
+    if (impl_->closed && count != impl_->end.ticks)
+      return "it holds " + std::to_string(count) + " ticks, its seal says " + std::to_string(impl_->end.ticks);
+  } catch (const SQLite::Exception& error) {
+    if (errorKindOf(error) == SessionErrorKind::failed) throw notRead(impl_->path, error);
+    return std::string("its rows cannot be read (") + error.what() + ")";
   }
-  // While a log belongs to it the file is no whole database, and never has a trailer.
+  // A file with a log is not a whole database and has no trailer.
   if (!needsLog(impl_->path) && impl_->seal() == FileSeal::broken)
     return "a byte outside its rows was changed, or its end was cut off";
   return std::nullopt;
@@ -273,7 +266,7 @@ std::vector<SessionCommand> SessionReader::commands() {
     std::vector<SessionCommand> commands;
     SQLite::Statement rows(impl_->database, "SELECT first_tick, command FROM command ORDER BY row");
     while (rows.executeStep()) {
-      commands.push_back({commandFromText(textOf(rows.getColumn(1))), countOf(rows.getColumn(0))});
+      commands.push_back({commandFromText(rows.getColumn(1).getString()), countOf(rows.getColumn(0))});
     }
     return commands;
   });
@@ -284,7 +277,7 @@ std::vector<SessionEvent> SessionReader::events() {
     std::vector<SessionEvent> events;
     SQLite::Statement rows(impl_->database, "SELECT tick, kind, text FROM event ORDER BY row");
     while (rows.executeStep())
-      events.push_back({countOf(rows.getColumn(0)), textOf(rows.getColumn(1)), textOf(rows.getColumn(2))});
+      events.push_back({countOf(rows.getColumn(0)), rows.getColumn(1).getString(), rows.getColumn(2).getString()});
     return events;
   });
 }
@@ -299,7 +292,7 @@ TickBlock SessionReader::nextBlock() {
       throw damagedSession("a block says it holds " + std::to_string(count) + " ticks");
     block.ticks =
         impl_->unpacker->unpack(decompress(blobOf(rows.getColumn(1)), count * impl_->unpacker->bytesPerTick()));
-    if (!impl_->isPacked()) block.removed_mm3 = removedFromText(textOf(rows.getColumn(2)));
+    if (!impl_->isPacked()) block.removed_mm3 = removedFromText(rows.getColumn(2).getString());
     for (haptics::Tick& tick : block.ticks) {
       tick.contact_tissue = impl_->label[tick.contact_tissue];
       if (tick.index > impl_->next_index) impl_->gaps += tick.index - impl_->next_index;
@@ -318,7 +311,7 @@ std::optional<SessionReader::FinalBone> SessionReader::finalBone(const StoredSta
   return impl_->reading([&]() -> std::optional<FinalBone> {
     if (impl_->isPacked() || !impl_->closed || !impl_->end.bone_digest) return std::nullopt;
     FinalBone left{impl_->volume(session_format::kRemoved, start.grid.voxelCount()), *impl_->end.bone_digest};
-    if (left.solid.size() != start.solid.size()) throw damagedSession("the bone that was left is missing");
+    if (left.solid.size() != start.solid.size()) throw damagedSession("the final bone is missing");
     for (std::size_t v = 0; v < left.solid.size(); ++v)
       left.solid[v] = static_cast<std::uint8_t>(start.solid[v] - left.solid[v]);
     return left;

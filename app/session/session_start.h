@@ -1,5 +1,5 @@
-// What a recording begins with: enough to rebuild the bone and start the servo again, and what to call the case.
-// Frame P, mm. Plain values; any thread. Never carries a person's name or identifier.
+// The start of a recording: initial bone, servo settings, and the title of the case. Frame P, mm. Plain values; any
+// thread. Never a person's name or identifier.
 #pragma once
 
 #include <cstdint>
@@ -18,22 +18,22 @@ namespace app {
 struct SessionStart {
   std::string patient_title;  ///< assets::Patient::title
   std::string program_version;
-  double dt_s = 0.001;  ///< nominal length of a tick
+  double dt_s = 0.001;  ///< nominal tick length
   assets::VolumeGrid grid;
-  std::span<const std::uint8_t> solid;  ///< borrowed while the recording is opened, order of `grid`
-  std::span<const std::uint8_t> label;  ///< the same, or empty: unlabelled
-  haptics::Command command;             ///< in force from the first tick
+  std::span<const std::uint8_t> solid;  ///< borrowed by the constructor of the recorder; order of `grid`
+  std::span<const std::uint8_t> label;  ///< the same; empty: unlabelled
+  haptics::Command command;             ///< from the first tick on
   SessionCalibration calibration = {};
   ServoBuild servo = thisServo();
 };
 
-/// The same as stored, owning its voxels; labels are those of this program.
+/// The start as stored, with its voxels; labels are those of this program.
 struct StoredStart {
   std::string patient_title, program_version;
   double dt_s = 0.0;
   assets::VolumeGrid grid;
   std::vector<std::uint8_t> solid, label;
-  std::optional<SessionCalibration> calibration;  ///< none: recorded before it was
+  std::optional<SessionCalibration> calibration;  ///< none: recorded before it was stored
   ServoBuild servo;
 };
 

@@ -19,7 +19,7 @@ std::string dumped(const json& object) { return object.dump(-1, ' ', false, json
 
 json objectFrom(std::string_view text, const char* what) {
   json object = assets::isNestedTooDeep(text) ? json() : json::parse(text, nullptr, false);
-  if (!object.is_object()) throw damagedSession(std::string("what it says of ") + what + " can not be read");
+  if (!object.is_object()) throw damagedSession(std::string("the text on ") + what + " cannot be read");
   return object;
 }
 
@@ -31,7 +31,7 @@ T valueOf(const json& object, const char* key, T otherwise) {
   bool fits = found->is_string();
   if constexpr (std::is_same_v<T, double>) fits = found->is_number();
   if constexpr (std::is_integral_v<T>) fits = found->is_number_integer();
-  if (!fits) throw damagedSession(std::string("it has no usable value of ") + key);
+  if (!fits) throw damagedSession(std::string("it has no valid value of ") + key);
   return found->template get<T>();
 }
 
@@ -71,18 +71,19 @@ assets::VolumeGrid gridFrom(const json& about) {
   assets::VolumeGrid grid;
   const auto three = [&](const char* key) -> const json& {
     const auto at = found->find(key);
-    if (at == found->end() || !at->is_array() || at->size() != 3) throw damagedSession("its bone has no place");
+    if (at == found->end() || !at->is_array() || at->size() != 3)
+      throw damagedSession("its bone has no valid position");
     return *at;
   };
   if (found == about.end() || !found->is_object()) throw damagedSession("its bone has no grid");
   const json &size = three("size"), &origin = three("origin_P_mm");
   for (int axis = 0; axis < 3; ++axis) {
-    const auto place = static_cast<std::size_t>(axis);
-    if (!size[place].is_number_integer() || !origin[place].is_number()) throw damagedSession("its bone has no place");
-    // Judged later, with the spacing; only kept within an int here.
-    const auto voxels = size[place].get<std::int64_t>();
+    const auto i = static_cast<std::size_t>(axis);
+    if (!size[i].is_number_integer() || !origin[i].is_number()) throw damagedSession("its bone has no valid position");
+    // Checked by refuseInvalidGrid; here only limited to an int.
+    const auto voxels = size[i].get<std::int64_t>();
     grid.size[axis] = voxels < 0 || voxels > 1 << 20 ? 0 : static_cast<int>(voxels);
-    grid.origin_P_mm[axis] = origin[place].get<double>();
+    grid.origin_P_mm[axis] = origin[i].get<double>();
   }
   const auto spacing = found->find("spacing_mm");
   grid.spacing_mm = spacing != found->end() && spacing->is_number() ? spacing->get<double>() : 0.0;
@@ -118,7 +119,7 @@ RemovedByTissue removedFromText(std::string_view text) {
   RemovedByTissue removed;
   const json object = text.empty() ? json::object() : objectFrom(text, "the removed volume");
   for (const auto& [key, value] : object.items()) {
-    if (!value.is_number()) throw damagedSession("it has no usable removed volume");
+    if (!value.is_number()) throw damagedSession("it has no valid removed volume");
     removed[key] = value.get<double>();
   }
   return removed;
@@ -133,13 +134,13 @@ LabelTable labelsOfKeys(std::span<const std::string_view> keys) {
 }
 
 void refuseInvalidGrid(const assets::VolumeGrid& grid) {
-  constexpr int kMostVoxelsPerAxis = 4096;
-  constexpr std::size_t kMostVoxels = std::size_t{1} << 31;
+  constexpr int kMaxVoxelsPerAxis = 4096;
+  constexpr std::size_t kMaxVoxels = std::size_t{1} << 31;
   bool usable = std::isfinite(grid.spacing_mm) && grid.spacing_mm > 0.0;
   for (int axis = 0; axis < 3; ++axis)
-    usable = usable && grid.size[axis] >= 1 && grid.size[axis] <= kMostVoxelsPerAxis &&
-             std::isfinite(grid.origin_P_mm[axis]);
-  if (!usable || grid.voxelCount() > kMostVoxels) throw damagedSession("its bone has no size");
+    usable =
+        usable && grid.size[axis] >= 1 && grid.size[axis] <= kMaxVoxelsPerAxis && std::isfinite(grid.origin_P_mm[axis]);
+  if (!usable || grid.voxelCount() > kMaxVoxels) throw damagedSession("its bone has no valid size");
 }
 
 std::string aboutText(const SessionStart& start) {
@@ -154,7 +155,7 @@ std::string aboutText(const SessionStart& start) {
 }
 
 SessionAbout aboutFromText(std::string_view text) {
-  const json object = objectFrom(text, "itself");
+  const json object = objectFrom(text, "the session");
   SessionAbout about;
   about.start.program_version = valueOf(object, "program", std::string());
   about.start.patient_title = valueOf(object, "patient", std::string());
@@ -164,7 +165,7 @@ SessionAbout aboutFromText(std::string_view text) {
   about.start.grid = gridFrom(object);
   if (const auto found = object.find("labels"); found != object.end()) about.label = labelsFrom(*found);
   if (const auto found = object.find("calibration"); found != object.end()) {
-    if (!found->is_object()) throw damagedSession("it has no usable calibration");
+    if (!found->is_object()) throw damagedSession("it has no valid calibration");
     about.start.calibration = calibrationFrom(*found);
   }
   return about;
@@ -177,7 +178,7 @@ std::string sealText(const SessionEnd& end) {
 }
 
 SessionEnd sealFromText(std::string_view text) {
-  const json object = objectFrom(text, "its end");
+  const json object = objectFrom(text, "the end");
   SessionEnd end;
   end.ticks = valueOf(object, "ticks", std::uint64_t{0});
   end.lost = valueOf(object, "lost", std::uint64_t{0});

@@ -1,6 +1,6 @@
-// The JSON texts of a session file: what the session is about, what has gone of which tissue, what the seal says.
-// Tissues go by their keys, so a program with more, fewer or other numbers of them reads the same. A reader takes the
-// keys it knows and has defaults for the rest. Any thread; allocates. Throws SessionError for what can not be read.
+// The JSON texts of a session file: start, removed volumes, seal. Tissues are stored by key, so programs with other
+// tissues can read them. Unknown keys are ignored, missing ones have defaults. Any thread; allocates. Throws
+// SessionError for invalid text.
 #pragma once
 
 #include <array>
@@ -15,20 +15,20 @@
 
 namespace app {
 
-/// mm³ by the key of the tissue; what nothing is gone of is not listed.
+/// Removed mm³ by the key of the tissue; zeros are not listed.
 using RemovedByTissue = std::map<std::string, double>;
 
 RemovedByTissue removedByKey(std::span<const double> removed_mm3_by_tissue);
 std::string removedText(const RemovedByTissue& removed_mm3);
 RemovedByTissue removedFromText(std::string_view text);
 
-/// Own label by stored label.
+/// This program's label for each stored label.
 using LabelTable = std::array<std::uint8_t, 256>;
 
-/// For labels that were numbered so; one of another name here, or none, is unlabelled.
+/// For labels numbered in this order; unknown keys are unlabelled.
 LabelTable labelsOfKeys(std::span<const std::string_view> keys);
 
-/// Judges a stored grid before voxels are allocated by it.
+/// Call before allocating voxels. Throws SessionError.
 void refuseInvalidGrid(const assets::VolumeGrid& grid);
 
 struct SessionAbout {
@@ -42,7 +42,7 @@ SessionAbout aboutFromText(std::string_view text);
 /// How the recording ended.
 struct SessionEnd {
   std::uint64_t ticks = 0, lost = 0;
-  std::optional<std::uint64_t> bone_digest;  ///< of the bone that was left; none: it was not kept
+  std::optional<std::uint64_t> bone_digest;  ///< of the final bone; none: not stored
 };
 
 std::string sealText(const SessionEnd& end);

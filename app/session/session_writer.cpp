@@ -16,35 +16,37 @@
 #include "app/session/session_error.h"
 #include "app/session/session_format.h"
 #include "app/session/session_text.h"
+#include "app/session/tables.h"
 #include "app/session/tick_columns.h"
 
 namespace app {
 namespace {
 
+using session_format::createStatement;
 using session_format::kBonePartBytes;
 using session_format::kTicksPerBlock;
 
 std::int64_t sqlInteger(std::uint64_t value) { return static_cast<std::int64_t>(value); }
 
-void bind(SQLite::Statement& insert, int place, const ColumnValue& value) {
-  if (const auto* integer = std::get_if<std::int64_t>(&value)) insert.bind(place, *integer);
-  if (const auto* real = std::get_if<double>(&value)) insert.bind(place, *real);
-  if (const auto* text = std::get_if<std::string_view>(&value)) insert.bind(place, std::string(*text));
+void bind(SQLite::Statement& insert, int column, const ColumnValue& value) {
+  if (const auto* integer = std::get_if<std::int64_t>(&value)) insert.bind(column, *integer);
+  if (const auto* real = std::get_if<double>(&value)) insert.bind(column, *real);
+  if (const auto* text = std::get_if<std::string_view>(&value)) insert.bind(column, std::string(*text));
   if (const auto* blob = std::get_if<std::span<const std::uint8_t>>(&value)) {
-    static constexpr std::uint8_t kNothing = 0;  // a null pointer would be stored as NULL
-    insert.bindNoCopy(place, blob->empty() ? &kNothing : blob->data(), static_cast<int>(blob->size()));
+    static constexpr std::uint8_t kNothing = 0;  // SQLite stores a null pointer as NULL
+    insert.bindNoCopy(column, blob->empty() ? &kNothing : blob->data(), static_cast<int>(blob->size()));
   }
 }
 
-SessionError notWritten(const std::string& path, const std::exception& trouble) {
-  return SessionError(path + ": can not be written (" + trouble.what() + "): check the free space on the disk",
+SessionError notWritten(const std::string& path, const std::exception& error) {
+  return SessionError(path + ": cannot be written (" + error.what() + "): check the free space on the disk",
                       SessionErrorKind::failed);
 }
 
 }  // namespace
 
 struct SessionWriter::Impl {
-  RecordingFile place;
+  RecordingFile recording;
   assets::VolumeGrid grid;
   std::optional<SQLite::Database> database;
   std::map<std::string, SQLite::Statement, std::less<>> inserts;  // of the open database
@@ -54,9 +56,9 @@ struct SessionWriter::Impl {
   std::uint64_t ticks = 0;
 
   Impl(const std::string& name, bool overwrite, const assets::VolumeGrid& bone_grid)
-      : place(name, overwrite), grid(bone_grid) {}
+      : recording(name, overwrite), grid(bone_grid) {}
 
-  void open() { database.emplace(place.file(), SQLite::OPEN_READWRITE); }
+  void open() { database.emplace(recording.file(), SQLite::OPEN_READWRITE); }
   void close() {
     inserts.clear();
     database.reset();
@@ -78,7 +80,7 @@ struct SessionWriter::Impl {
     statement.bindNoCopy(column, digest.data(), static_cast<int>(digest.size()));
     statement.exec();
     statement.reset();
-    statement.clearBindings();  // they point to what goes now
+    statement.clearBindings();  // they point to temporaries
     last_digest = digest;
     ++next_row;
   }
@@ -93,7 +95,7 @@ struct SessionWriter::Impl {
     ticks += ticks_now.size();
   }
 
-  /// `fill` writes the voxels of a part, given its first.
+  /// `fill(first, part)` writes the voxels of a part.
   template <class Fill>
   void appendVolume(std::string_view volume, Fill&& fill) {
     const std::size_t voxels = grid.voxelCount();
@@ -118,7 +120,7 @@ struct SessionWriter::Impl {
     append("command", {sqlInteger(start.command.serial), std::int64_t{0}, commandText(start.command)});
   }
 
-  /// What has gone of the start, whose parts are read back one by one.
+  /// Initial minus final solid fraction; the initial parts are read back one by one.
   void appendRemoved(const haptics::CarvedBone& bone) {
     SQLite::Statement parts(*database, "SELECT bytes FROM bone_part WHERE volume = 'solid' ORDER BY row");
     std::vector<std::uint8_t> start;
@@ -126,10 +128,8 @@ struct SessionWriter::Impl {
     glm::ivec3 ijk(0);
     appendVolume(session_format::kRemoved, [&](std::size_t, std::span<std::uint8_t> part) {
       if (!parts.executeStep()) throw damagedSession("a part of its bone is missing");
-      const SQLite::Column stored = parts.getColumn(0);
       start.resize(part.size());
-      decompressInto(start,
-                     {static_cast<const std::uint8_t*>(stored.getBlob()), static_cast<std::size_t>(stored.getBytes())});
+      decompressInto(start, blobOf(parts.getColumn(0)));
       for (std::size_t n = 0; n < part.size(); ++n) {
         part[n] = static_cast<std::uint8_t>(start[n] - field.solidAt(ijk));
         if (++ijk.x == grid.size.x) ijk = {0, ijk.y + 1, ijk.z};
@@ -138,66 +138,62 @@ struct SessionWriter::Impl {
     });
   }
 
-  /// Does `work` in one transaction; when it fails, neither the file nor the chain has moved.
-  template <class Work>
-  void inTransaction(Work&& work) {
-    const auto row_before = next_row;
-    const auto digest_before = last_digest;
-    const auto ticks_before = ticks;
-    const auto restore = [&] {
-      next_row = row_before;
-      last_digest = digest_before;
-      ticks = ticks_before;
-    };
+  /// Runs `work`; if it throws, runs `restore` and reports a database error as one line on this file.
+  template <class Work, class Restore>
+  void attempt(Work&& work, Restore&& restore) {
     try {
-      SQLite::Transaction transaction(*database);
       work();
-      transaction.commit();
-    } catch (const SQLite::Exception& trouble) {
+    } catch (const SQLite::Exception& error) {
       restore();
-      throw notWritten(place.file(), trouble);
+      throw notWritten(recording.file(), error);
     } catch (...) {
       restore();
       throw;
     }
   }
 
-  /// All or nothing of it, as the journal beside it shows whoever finds it.
+  /// `work` in one transaction; if it fails, file and chain are unchanged.
+  template <class Work>
+  void inTransaction(Work&& work) {
+    attempt(
+        [&] {
+          SQLite::Transaction transaction(*database);
+          work();
+          transaction.commit();
+        },
+        [this, row = next_row, digest = last_digest, count = ticks] {
+          next_row = row, last_digest = digest, ticks = count;
+        });
+  }
+
+  /// All or nothing: an unfinished start is marked by its journal.
   void begin(const SessionStart& start) {
     open();
     inTransaction([&] {
       database->exec("PRAGMA application_id=" + std::to_string(session_format::kApplicationId));
       for (const session_format::Table& table : session_format::kTables)
-        database->exec("CREATE TABLE " + std::string(table.name) + "(row INTEGER PRIMARY KEY, " +
-                       std::string(table.columns) + ", digest BLOB) STRICT");
+        database->exec(createStatement(table.name, table.columns));
       appendStart(start);
     });
     close();
   }
 
-  /// What comes first is in the file before it takes the name; all that follows goes through the log. No second program
-  /// meets a file that is being written, and there is no -shm file.
+  /// The first batch is written before the file gets its name; later ones go through the WAL. The exclusive lock keeps
+  /// other programs out and avoids a -shm file.
   template <class Work>
-  void keep(Work&& work) {
-    place.refuseIfReplaced();
-    if (database) {
-      inTransaction(work);
-      return;
-    }
-    try {
-      open();
-      inTransaction(work);
-      close();
-      place.publish();
-      open();
-      database->exec("PRAGMA locking_mode=EXCLUSIVE; PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL;");
-    } catch (const SQLite::Exception& trouble) {
-      close();
-      throw notWritten(place.file(), trouble);
-    } catch (...) {
-      close();
-      throw;
-    }
+  void write(Work&& work) {
+    recording.refuseIfReplaced();
+    if (database) return inTransaction(work);
+    attempt(
+        [&] {
+          open();
+          inTransaction(work);
+          close();
+          recording.publish();
+          open();
+          database->exec("PRAGMA locking_mode=EXCLUSIVE; PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL;");
+        },
+        [this] { close(); });
   }
 };
 
@@ -205,32 +201,28 @@ SessionWriter::SessionWriter(const std::string& path, bool overwrite, const Sess
     : impl_(std::make_unique<Impl>(path, overwrite, start.grid)) {
   assert(start.solid.size() == start.grid.voxelCount());
   assert(start.label.empty() || start.label.size() == start.grid.voxelCount());
-  try {
-    impl_->begin(start);
-  } catch (const SQLite::Exception& trouble) {
-    throw notWritten(impl_->place.file(), trouble);
-  }
+  impl_->attempt([&] { impl_->begin(start); }, [] {});
 }
 
 SessionWriter::~SessionWriter() {
   if (!impl_->database) return;
   try {
-    // Ended early, but not killed: no log stays beside it.
+    // Ended early, but not killed: the log is merged into the file.
     impl_->inserts.clear();
     impl_->database->exec("PRAGMA journal_mode=DELETE");
   } catch (const std::exception&) {
-    // The log stays: it is read from there.
+    // The log stays and is read from there.
   }
 }
 
 std::uint64_t SessionWriter::ticks() const { return impl_->ticks; }
 
-const std::string& SessionWriter::file() const { return impl_->place.file(); }
+const std::string& SessionWriter::file() const { return impl_->recording.file(); }
 
-bool SessionWriter::replaces() const { return impl_->place.replaces(); }
+bool SessionWriter::replaces() const { return impl_->recording.replaces(); }
 
 void SessionWriter::write(const SessionBatch& batch) {
-  impl_->keep([&] {
+  impl_->write([&] {
     for (const SessionCommand& change : batch.commands)
       impl_->append("command",
                     {sqlInteger(change.command.serial), sqlInteger(change.first_tick), commandText(change.command)});
@@ -242,7 +234,7 @@ void SessionWriter::write(const SessionBatch& batch) {
 
 void SessionWriter::seal(std::uint64_t lost, const haptics::CarvedBone* bone) {
   SessionEnd end{impl_->ticks, lost, {}};
-  impl_->keep([&] {
+  impl_->write([&] {
     if (bone != nullptr) {
       impl_->appendRemoved(*bone);
       end.bone_digest = bone->digest();
@@ -250,15 +242,15 @@ void SessionWriter::seal(std::uint64_t lost, const haptics::CarvedBone* bone) {
     impl_->append("seal", {sealText(end)});
   });
   try {
-    // Everything into the one file: the log is folded in and goes, then the digest of the whole is put behind it.
+    // The log is merged into the file and removed, then the digest of the whole file is appended.
     impl_->inserts.clear();
     impl_->database->exec("PRAGMA wal_checkpoint(TRUNCATE); PRAGMA journal_mode=DELETE;");
     impl_->close();
-  } catch (const SQLite::Exception& trouble) {
-    throw SessionError(file() + ": can not be closed (" + trouble.what() + "): check the free space on the disk",
+  } catch (const SQLite::Exception& error) {
+    throw SessionError(file() + ": cannot be closed (" + error.what() + "): check the free space on the disk",
                        SessionErrorKind::failed);
   }
-  impl_->place.finish();
+  impl_->recording.finish();
 }
 
 }  // namespace app

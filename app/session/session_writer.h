@@ -1,7 +1,7 @@
-// Writes a session file: SQLite in WAL mode, this object its only user. Each write() is one transaction, on disk for
-// every process that opens the file later, whatever becomes of this one; after a power cut the last checkpoint stands.
-// Where the file lies until it has its name: recording_place. One thread, never the servo; 0.2 ms per write of 50
-// ticks, now and then 50 ms while the log is folded into the file. Not the queue in front of it (recorder.h).
+// Writes a session file: SQLite in WAL mode, with this object as its only user. Each write() is one transaction,
+// visible to every process that opens the file later, also after a kill; after a power cut the last checkpoint remains.
+// One thread, never the servo; 0.2 ms per write of 50 ticks, occasionally 50 ms for a checkpoint. Temporary name and
+// lock: recording_file.h; queue: recorder.h.
 #pragma once
 
 #include <cstdint>
@@ -23,10 +23,10 @@ struct SessionEvent {
 
 struct SessionCommand {
   haptics::Command command;
-  std::uint64_t first_tick = 0;  ///< from which it is in force
+  std::uint64_t first_tick = 0;  ///< the first tick with this command
 };
 
-/// What is written together.
+/// Written in one transaction.
 struct SessionBatch {
   std::vector<SessionCommand> commands;
   std::vector<haptics::Tick> ticks;
@@ -35,21 +35,21 @@ struct SessionBatch {
 
 class SessionWriter {
  public:
-  /// Writes the start. Throws SessionError if the file exists and not `overwrite`, is being recorded, or can not be
+  /// Writes the start. Throws SessionError if the file exists and not `overwrite`, is being recorded or cannot be
   /// written.
   SessionWriter(const std::string& path, bool overwrite, const SessionStart& start);
-  /// Without seal() the file stays as a killed program leaves it: valid to its last write; without ticks, none.
+  /// Without seal() the file is valid to its last write, as after a kill; without ticks it is removed.
   ~SessionWriter();
 
-  /// All of the batch or, with SessionError, nothing of it.
+  /// Writes all of the batch or throws SessionError.
   void write(const SessionBatch& batch);
 
-  /// Keeps the bone that is left, says how many ticks were written and lost, and leaves one single, closed file that
-  /// is on the disk. Last call. `bone` may be null: it is not kept. Cost: of the bone.
+  /// Stores the final bone (null: not stored) and the numbers of ticks written and lost, and leaves one closed file,
+  /// synced to the disk. The last call; takes as long as storing the bone.
   void seal(std::uint64_t lost, const haptics::CarvedBone* bone = nullptr);
 
   std::uint64_t ticks() const;
-  /// The file as it is called now, and whether it takes the place of another once it is closed.
+  /// The current file name, and whether the file replaces another when it is closed.
   const std::string& file() const;
   bool replaces() const;
 

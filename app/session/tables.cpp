@@ -16,8 +16,10 @@
 namespace app {
 namespace {
 
-constexpr std::string_view kBegin = "(row INTEGER PRIMARY KEY, ", kEnd = ", digest BLOB) STRICT";
-constexpr std::size_t kMostTables = 100;
+using session_format::createStatement;
+
+constexpr std::size_t kMaxTables = 100;
+constexpr const char *kUnknownTable = "it has a table that is not a session table", *kMissingTable = "it lacks a table";
 
 bool isName(std::string_view text) {
   return !text.empty() && text.size() < 64 && std::ranges::all_of(text, [](char c) {
@@ -25,7 +27,7 @@ bool isName(std::string_view text) {
   });
 }
 
-/// "name TYPE, name TYPE, …" and no more.
+/// "name TYPE, name TYPE, …" and nothing else.
 bool isPlainColumns(std::string_view columns) {
   constexpr std::array<std::string_view, 4> kTypes = {"INTEGER", "REAL", "TEXT", "BLOB"};
   while (!columns.empty()) {
@@ -41,13 +43,12 @@ bool isPlainColumns(std::string_view columns) {
   return false;
 }
 
-/// What stands between row and digest; none: it is no table of a session.
+/// The columns between row and digest; none: not a session table.
 std::optional<std::string> columnsOf(const std::string& name, const std::string& sql) {
-  const std::string begin = "CREATE TABLE " + name + std::string(kBegin);
-  if (!isName(name) || !sql.starts_with(begin) || !sql.ends_with(kEnd) || sql.size() <= begin.size() + kEnd.size())
-    return std::nullopt;
-  const std::string columns = sql.substr(begin.size(), sql.size() - begin.size() - kEnd.size());
-  return isPlainColumns(columns) ? std::optional(columns) : std::nullopt;
+  const std::string empty = createStatement(name, "");
+  if (!isName(name) || sql.size() <= empty.size()) return std::nullopt;
+  const std::string columns = sql.substr(empty.find(", digest"), sql.size() - empty.size());
+  return sql == createStatement(name, columns) && isPlainColumns(columns) ? std::optional(columns) : std::nullopt;
 }
 
 ColumnValue valueOf(const SQLite::Column& column) {
@@ -58,10 +59,8 @@ ColumnValue valueOf(const SQLite::Column& column) {
       return column.getDouble();
     case SQLITE_TEXT:
       return std::string_view(column.getText(), static_cast<std::size_t>(column.getBytes()));
-    case SQLITE_BLOB: {
-      const auto* bytes = static_cast<const std::uint8_t*>(column.getBlob());
-      return std::span(bytes, bytes == nullptr ? 0 : static_cast<std::size_t>(column.getBytes()));
-    }
+    case SQLITE_BLOB:
+      return blobOf(column);
     default:
       return std::monostate{};
   }
@@ -78,7 +77,7 @@ struct Cursor {
 
   std::int64_t row() const { return rows.getColumn(0).getInt64(); }
 
-  /// Whether the row carries the digest that follows from the row before; moves `last` on.
+  /// Whether the digest of the row follows from the row before; advances `last`.
   bool follows(Digest& last) const {
     std::vector<ColumnValue> values;
     const int digest_column = rows.getColumnCount() - 1;
@@ -87,12 +86,16 @@ struct Cursor {
     for (const SQLite::Column& column : columns) values.push_back(valueOf(column));
     last = chained(last, row(), table, values);
     const SQLite::Column digest = rows.getColumn(digest_column);
-    const auto* bytes = static_cast<const std::uint8_t*>(digest.getBlob());
-    return bytes != nullptr && std::ranges::equal(std::span(bytes, static_cast<std::size_t>(digest.getBytes())), last);
+    return std::ranges::equal(blobOf(digest), last);
   }
 };
 
 }  // namespace
+
+std::span<const std::uint8_t> blobOf(const SQLite::Column& column) {
+  const auto* bytes = static_cast<const std::uint8_t*>(column.getBlob());
+  return {bytes, bytes == nullptr ? 0 : static_cast<std::size_t>(column.getBytes())};
+}
 
 std::optional<std::string> tableError(SQLite::Database& database) {
   SQLite::Statement tables(database, "SELECT type, name, sql FROM sqlite_schema ORDER BY rowid");
@@ -100,27 +103,23 @@ std::optional<std::string> tableError(SQLite::Database& database) {
   while (tables.executeStep()) {
     const std::string name = tables.getColumn(1).getString();
     const auto columns = columnsOf(name, tables.getColumn(2).getString());
-    if (tables.getColumn(0).getString() != "table" || !columns || ++count > kMostTables)
-      return "it has a table that is none of a session's";
+    if (tables.getColumn(0).getString() != "table" || !columns || ++count > kMaxTables) return kUnknownTable;
     const auto* own = std::ranges::find(session_format::kTables, name, &session_format::Table::name);
     if (own == session_format::kTables.end()) continue;
-    // What a program after this one has more stands behind.
+    // A later program may have appended columns.
     if (!(*columns + ", ").starts_with(std::string(own->columns) + ", "))
       return "its table " + name + " lacks a column";
     ++known;
   }
-  if (known < session_format::kTables.size()) return "it lacks a table";
-  return std::nullopt;
+  return known < session_format::kTables.size() ? std::optional<std::string>(kMissingTable) : std::nullopt;
 }
 
 std::optional<std::string> packedTableError(SQLite::Database& database, std::int64_t schema) {
   SQLite::Statement tables(database, "SELECT name, sql FROM sqlite_schema ORDER BY rowid");
-  for (const old_formats::Table& table : old_formats::packedTables(schema))
-    if (!tables.executeStep() || tables.getColumn(0).getString() != table.name ||
-        tables.getColumn(1).getString() != table.create)
-      return "it lacks a table";
-  if (tables.executeStep()) return "it has a table that is none of a session's";
-  return std::nullopt;
+  for (const session_format::Table& table : old_formats::packedTables(schema))
+    if (!tables.executeStep() || tables.getColumn(1).getString() != createStatement(table.name, table.columns))
+      return kMissingTable;
+  return tables.executeStep() ? std::optional<std::string>(kUnknownTable) : std::nullopt;
 }
 
 std::optional<std::string> chainDamage(SQLite::Database& database) {

@@ -1,25 +1,30 @@
-// The tables of a session file as a stranger may have made them: judged before a row is read, and walked in the order
-// of the chain. Reading only; one thread.
+// Validates the tables of an untrusted session file before a row is read, and follows the checksum chain over all rows.
+// Read only; one thread.
 #pragma once
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace SQLite {
+class Column;
 class Database;
-}
+}  // namespace SQLite
 
 namespace app {
 
-/// One line on the first table that is not of the form of schema 5, or lacks what a session needs; plain tables of
-/// rows alone, with no expression that reading would run.
+/// The bytes of a column, valid while the column and its row are; empty for NULL.
+std::span<const std::uint8_t> blobOf(const SQLite::Column& column);
+
+/// One line on the first table that is not of schema 5's form, or on a missing one. Only plain tables are accepted:
+/// nothing that SQLite would evaluate on reading.
 std::optional<std::string> tableError(SQLite::Database& database);
 
-/// The same of schemas 3 and 4, which have exactly their tables.
+/// The same for schemas 3 and 4, which have a fixed set of tables.
 std::optional<std::string> packedTableError(SQLite::Database& database, std::int64_t schema);
 
-/// One line on the first row whose digest does not follow from the row before. Reads them all.
+/// One line on the first row whose digest does not follow from the row before. Reads all rows.
 std::optional<std::string> chainDamage(SQLite::Database& database);
 
 }  // namespace app

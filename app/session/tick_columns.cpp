@@ -10,7 +10,7 @@
 namespace app {
 namespace {
 
-/// What a column is called, in two parts, and what it is measured in.
+/// Name of a column in two parts, unit, frame, meaning.
 struct Text {
   std::string_view name, part = "", unit = "", frame = "", meaning = "";
 };
@@ -28,7 +28,7 @@ void visitXyz(Text text, auto& v, Visit&& visit) {
   text.part = ".z", visit(text, v.z);
 }
 
-// Taken apart by structured bindings, so a field added to Tick or HandSample does not compile until it is a column.
+// Structured bindings: a member added to Tick or HandSample does not compile until it is a column.
 
 template <class Visit>
 void visitHand(auto& hand, Visit&& visit) {
@@ -182,12 +182,12 @@ TickUnpacker::Type TickUnpacker::typeOf(const std::string& text) {
   for (const char kind : {'u', 'i', 'f'})
     for (const std::uint8_t bytes : {std::uint8_t{1}, std::uint8_t{2}, std::uint8_t{4}, std::uint8_t{8}})
       if ((kind != 'f' || bytes >= 4) && text == kind + std::to_string(8 * bytes)) return {kind, bytes};
-  throw damagedSession("a column of its ticks is of type '" + text.substr(0, 20) + "', which is none");
+  throw damagedSession("a column of its ticks is of type '" + text.substr(0, 20) + "', which is unknown");
 }
 
 TickUnpacker::TickUnpacker(std::span<const TickColumn> stored) {
-  constexpr std::size_t kMostColumns = 10'000;
-  if (stored.empty() || stored.size() > kMostColumns) throw damagedSession("its ticks have no columns");
+  constexpr std::size_t kMaxColumns = 10'000;
+  if (stored.empty() || stored.size() > kMaxColumns) throw damagedSession("its ticks have no columns");
   default_row_.resize(packedTickBytes());
   packInto(default_row_.data(), haptics::Tick{});
   static const std::vector<Type> kOwnTypes = [] {

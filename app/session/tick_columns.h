@@ -1,9 +1,8 @@
-// The ticks of a session as columns. A column says what it is called, how a value is stored, its unit and its frame;
-// the table of them goes into the file, so a program with more or fewer columns still reads it: what it does not know
-// it passes by, what is not there has the value of a Tick as it is made. A block holds column after column; a column
-// is stored plane by plane (the lowest byte of every tick, then the next …), little-endian, reals as their IEEE 754
-// bits: a round trip is bit-exact on every machine, and neighbouring ticks compress.
-// Not stored: removed_total_mm3, which each block has once. Any thread; O(bytes), allocates. Not the compression.
+// The ticks of a session as columns. A column has a name, a storage type, a unit and a frame; the table of columns is
+// stored in the file, so other versions can read it: unknown columns are ignored, missing ones have the default of a
+// Tick. A block stores column after column, each plane by plane (the lowest byte of every tick, then the next),
+// little-endian, reals as IEEE 754 bits: bit-exact on every machine, and easy to compress. removed_total_mm3 is stored
+// once per block, not per tick. Any thread; O(bytes), allocates.
 #pragma once
 
 #include <cstddef>
@@ -19,26 +18,26 @@ namespace app {
 struct TickColumn {
   std::string name;     ///< path of the member in haptics::Tick: "hand.X_PT.translation_mm.x"
   std::string type;     ///< u, i or f and its bits: "u8", "u64", "f32", "f64"
-  std::string unit;     ///< "mm", "N"; empty: a count, a number or a yes and no
+  std::string unit;     ///< "mm", "N"; empty: dimensionless, or a flag
   std::string frame;    ///< "P"; empty: none
-  std::string meaning;  ///< of the numbers of an enumeration: "off 0, calibrate 1, …"
+  std::string meaning;  ///< values of an enumeration: "off 0, calibrate 1, …"
 
   bool operator==(const TickColumn&) const = default;
 };
 
-/// As this program writes them.
+/// The columns this program writes.
 const std::vector<TickColumn>& tickColumns();
 std::vector<std::uint8_t> packTicks(std::span<const haptics::Tick> ticks);
 
-/// Reads blocks that were stored with the columns of a table.
+/// Reads blocks stored with the columns of a table.
 class TickUnpacker {
  public:
-  /// Throws SessionError for a type that is none.
+  /// Throws SessionError for an unknown type.
   explicit TickUnpacker(std::span<const TickColumn> stored);
 
-  /// Of all stored columns, known or not.
+  /// Of all stored columns, including unknown ones.
   std::size_t bytesPerTick() const { return bytes_per_tick_; }
-  /// Throws SessionError if `bytes` is no whole number of ticks.
+  /// Throws SessionError if `bytes` is not a whole number of ticks.
   std::vector<haptics::Tick> unpack(std::span<const std::uint8_t> bytes) const;
 
  private:
@@ -47,7 +46,7 @@ class TickUnpacker {
     std::uint8_t bytes = 1;
     bool operator==(const Type&) const = default;
   };
-  /// A stored column that a Tick has, and where in a packed tick it goes.
+  /// A stored column that a Tick has, and its place in a packed tick.
   struct Route {
     std::size_t from = 0, to = 0;
     Type stored, own;

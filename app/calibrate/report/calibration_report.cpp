@@ -19,7 +19,7 @@ using calibration::Residual;
 using calibration::RigRecord;
 using calibration::Verdict;
 
-constexpr std::size_t kMostAlarms = 10;
+constexpr std::size_t kMaxAlarms = 10;
 
 constexpr const char* kStyle = R"(
 body { font: 15px/1.45 "DejaVu Sans", Helvetica, Arial, sans-serif; color: #222; background: #fff;
@@ -62,7 +62,7 @@ std::string symbolOf(const std::optional<Verdict>& verdict) {
 std::string wordsOf(const std::optional<Verdict>& verdict) {
   if (!verdict) return "Not proven: verify it with touches that were not fitted";
   if (*verdict == Verdict::green) return "Green: use it";
-  if (*verdict == Verdict::amber) return "Amber: usable, with a larger error than it should have";
+  if (*verdict == Verdict::amber) return "Amber: usable, with a larger error than intended";
   return "Red: locked on a real device, calibrate again";
 }
 
@@ -89,11 +89,11 @@ std::string section(const char* title, const std::string& content) {
   return std::string("<section>\n<h2>") + title + "</h2>\n" + content + "</section>\n";
 }
 
-/// How exact one touch is, from what is left of the fit (reference/calibration 4.1).
+/// The error of one touch, from the residual of the fit (reference/calibration 4.1).
 double touchError_mm(const calibration::RigProcedure& procedure, double used) {
-  const double numbers = procedure.model == ArmModel::rigid ? 6.0 : procedure.model == ArmModel::full ? 28.0 : 15.0;
-  const double freedom = 1.0 - numbers / (3.0 * used);
-  // Where the numbers could explain nearly all, the fit says nothing of it.
+  const double parameters = procedure.model == ArmModel::rigid ? 6.0 : procedure.model == ArmModel::full ? 28.0 : 15.0;
+  const double freedom = 1.0 - parameters / (3.0 * used);
+  // With nearly as many parameters as data the residual is meaningless.
   return freedom > 0.3 ? procedure.fre_rms_mm / std::sqrt(freedom) : procedure.cv_rms_mm;
 }
 
@@ -107,34 +107,34 @@ std::string mapSection(const RigRecord& record) {
   const calibration::ExpectedErrorMap expected(touches_W, fle_mm);
   return section("Where more touches would help",
                  figure(errorMapView([&](const auto& position_W) { return expected.at_mm(position_W); }, touches_W),
-                        "Error to be expected over the plane through the site (z = 0) from where the touches lie and "
-                        "an error of " +
+                        "Expected error over the plane through the site (z = 0), from the positions of the touches and "
+                        "a random error of " +
                             fixedText(fle_mm, 2) +
-                            " mm of one touch (Fitzpatrick 1998). It knows of chance alone: what the arm's model can "
-                            "not express is in the figures above."));
+                            " mm per touch (Fitzpatrick 1998). Random errors only: errors that the model of the arm "
+                            "cannot express are in the figures above."));
 }
 
 std::string historySection(const std::vector<DriftEntry>& history) {
   const calibration::DriftReview review = calibration::reviewOf(history);
   std::string content = "<p>" + escaped(review.sentence) + "</p>\n";
-  if (history.empty()) return section("How it went", content);
+  if (history.empty()) return section("History", content);
   std::string drawings;
   for (const calibration::DriftQuantity quantity : calibration::kDriftQuantities)
     drawings += historyView(history, review, quantity);
   content +=
       figure(drawings,
-             "Error as it was found, before anything was put right: dots are checks, squares re-zeros, black dots "
-             "calibrations with their held-out error. Green: mean; dashed: 3 \u03c3; dotted: 2 \u03c3, of the "
-             "first twenty checks since the calibration at most. Ringed: Western Electric's rules.");
+             "Errors before any correction: dots are checks, squares re-zeros, black dots calibrations with their "
+             "held-out error. Green: mean; dashed: 3 \u03c3; dotted: 2 \u03c3, of at most the first twenty checks "
+             "since the calibration. Ringed: alarms by the Western Electric rules.");
   if (!review.alarms.empty()) {
     content += "<p>Alarms since the last calibration" +
-               std::string(review.alarms.size() > kMostAlarms ? ", the newest ten" : "") + ":</p>\n<ul>\n";
-    for (std::size_t i = review.alarms.size() - std::min(review.alarms.size(), kMostAlarms); i < review.alarms.size();
+               std::string(review.alarms.size() > kMaxAlarms ? ", the newest ten" : "") + ":</p>\n<ul>\n";
+    for (std::size_t i = review.alarms.size() - std::min(review.alarms.size(), kMaxAlarms); i < review.alarms.size();
          ++i)
       content += "<li>" + escaped(review.alarms[i].sentence) + "</li>\n";
     content += "</ul>\n";
   }
-  return section("How it went", content);
+  return section("History", content);
 }
 
 std::string subtitle(const RigRecord& record) {
@@ -171,21 +171,21 @@ std::string reportHtml(const RigRecord& record, const std::vector<DriftEntry>& h
   std::string page = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>" + title +
                      "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>\n";
   page += "<h1>" + title + "</h1>\n<p class=\"quiet\">" + subtitle(record) + "</p>\n" + verdictBox(record);
-  page += section("How good it is", figuresTable(record));
+  page += section("Accuracy", figuresTable(record));
   const std::vector<Residual> none;
   const std::vector<Residual>& held_out = record.verification ? record.verification->residuals : none;
   if (!record.residuals.empty() || !held_out.empty())
     page +=
         section("Where the error is",
                 figure(residualViews(record.residuals, held_out),
-                       "Each arrow goes from where the tip was towards where the arm says it was. Arrows that point "
-                       "one way mean a shift; arrows that turn mean a rotation; without order they are chance."));
+                       "Each arrow points from the touched target to the tip as computed by the arm. Parallel arrows "
+                       "mean a shift, arrows around a centre a rotation, unordered arrows random error."));
   page += mapSection(record);
   page += historySection(history);
   page += section("Touches set aside", outliersTable(record));
-  page += section("Where this comes from", originTable(record, now_utc));
+  page += section("Origin", originTable(record, now_utc));
   page +=
-      "<p class=\"quiet\">W is the surgeon's picture: origin in its middle, x to the right, y up, z towards the "
+      "<p class=\"quiet\">Frame W: origin in the middle of the virtual screen, x to the right, y up, z towards the "
       "viewer. A training device, not a clinical one.</p>\n";
   return page + "</body>\n</html>\n";
 }

@@ -1,7 +1,6 @@
-// A calibration as one HTML page, for the technician's binder and whoever asks how good the rig is: verdict and the one
-// sentence first, then figures against their limits, where the error is, how it went over the weeks, and where all this
-// comes from. No other file, no script, readable in print and without colours. Names no person: who measured is a code.
-// mm, frame W. Pure; any thread but the servo's; milliseconds.
+// A calibration as one HTML page for the records: verdict and largest error first, then figures against their limits,
+// where the error is, its history, and the origin of the data. No other file, no script; readable in print and without
+// colour. Names no person. mm, frame W. Pure; any thread but the servo; milliseconds.
 #pragma once
 
 #include <string>
@@ -12,7 +11,7 @@
 
 namespace app {
 
-/// `history`: of the record's place, oldest first; empty: none yet. `now_utc`: for the age, "2026-11-21T08:20:00Z".
+/// `history`: of this rig and device, oldest first; may be empty. `now_utc`: for the age, "2026-11-21T08:20:00Z".
 std::string reportHtml(const calibration::RigRecord& record, const std::vector<calibration::DriftEntry>& history,
                        const std::string& now_utc);
 

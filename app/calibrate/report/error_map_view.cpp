@@ -16,7 +16,7 @@ using calibration::World;
 constexpr glm::dvec2 kHalf_mm{80.0, 60.0};
 constexpr double kCell_mm = 2.0, kPxPerMm = 3.2, kLeft = 50.0, kTop = 26.0, kScale = 150.0, kDot = 3.2;
 
-/// Light is small; steps that stay apart in grey. After ColorBrewer's Blues (Brewer 2003).
+/// Light for small errors; distinct in grey. ColorBrewer's Blues (Brewer 2003).
 constexpr std::array kBands = {inkOf(0xeff3ff), inkOf(0xc6dbef), inkOf(0x9ecae1), inkOf(0x6baed6),
                                inkOf(0x4292c6), inkOf(0x2171b5), inkOf(0x084594)};
 
@@ -29,17 +29,17 @@ struct Bands {
   }
 };
 
-/// So that all that is there fits into the bands, with numbers that read well.
-Bands bandsFor(double least_mm, double most_mm) {
+/// The smallest round step whose bands cover the range.
+Bands bandsFor(double min_mm, double max_mm) {
   for (const double step_mm : {0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0}) {
-    const double low_mm = step_mm * std::floor(least_mm / step_mm + 1e-9);
-    if (low_mm + step_mm * static_cast<double>(kBands.size()) >= most_mm) return {low_mm, step_mm};
+    const double low_mm = step_mm * std::floor(min_mm / step_mm + 1e-9);
+    if (low_mm + step_mm * static_cast<double>(kBands.size()) >= max_mm) return {low_mm, step_mm};
   }
   return {0.0, 10.0};
 }
 
 void drawField(const Drawing& drawing, const Axes& axes, const ExpectedError& expected_mm, const Bands& bands) {
-  // Cells of one band in a row are one box.
+  // One box for neighbouring cells of a band.
   const int columns = static_cast<int>(2.0 * kHalf_mm.x / kCell_mm),
             rows = static_cast<int>(2.0 * kHalf_mm.y / kCell_mm);
   for (int row = 0; row < rows; ++row) {
@@ -50,7 +50,7 @@ void drawField(const Drawing& drawing, const Axes& axes, const ExpectedError& ex
     for (int from = 0, to = 0; from < columns; from = to) {
       const std::size_t band = band_at(from);
       for (to = from + 1; to < columns && band_at(to) == band; ++to) continue;
-      // A hair over, so that no white shows between.
+      // Slightly overlapping, so that no white shows between.
       drawing.box(axes.at({-kHalf_mm.x + from * kCell_mm, y_mm + 0.5 * kCell_mm}),
                   {kPxPerMm * kCell_mm * (to - from) + 0.4, kPxPerMm * kCell_mm + 0.4}, kBands[band]);
     }
@@ -81,14 +81,14 @@ void drawScale(const Drawing& drawing, const Bands& bands, std::size_t used, con
 }  // namespace
 
 std::string errorMapView(const ExpectedError& expected_mm, const std::vector<Point<World>>& touches_W) {
-  double least_mm = 1e9, most_mm = 0.0;
+  double min_mm = 1e9, max_mm = 0.0;
   for (double x_mm = -kHalf_mm.x; x_mm <= kHalf_mm.x; x_mm += 4.0)
     for (double y_mm = -kHalf_mm.y; y_mm <= kHalf_mm.y; y_mm += 4.0) {
       const double mm = expected_mm({{x_mm, y_mm, 0.0}});
-      least_mm = std::min(least_mm, mm);
-      most_mm = std::max(most_mm, mm);
+      min_mm = std::min(min_mm, mm);
+      max_mm = std::max(max_mm, mm);
     }
-  const Bands bands = bandsFor(least_mm, most_mm);
+  const Bands bands = bandsFor(min_mm, max_mm);
   const Axes axes{{kLeft, kTop},
                   2.0 * kPxPerMm * kHalf_mm,
                   axisOf(axisTicks(-kHalf_mm.x, kHalf_mm.x, 8, false), "x, to the right / mm"),
@@ -100,8 +100,8 @@ std::string errorMapView(const ExpectedError& expected_mm, const std::vector<Poi
   for (const Point<World>& touch : touches_W)
     if (std::abs(touch.mm.x) < kHalf_mm.x && std::abs(touch.mm.y) < kHalf_mm.y) drawTouch(drawing, axes.at(touch.mm));
   drawing.outline(axes.corner, axes.size, 1.0, paper::kQuiet);
-  drawScale(drawing, bands, bands.of(most_mm) + 1, {axes.foot().x + 30.0, axes.corner.y});
-  return drawing.markup("Error to be expected over the plane through the site");
+  drawScale(drawing, bands, bands.of(max_mm) + 1, {axes.foot().x + 30.0, axes.corner.y});
+  return drawing.markup("Expected error over the plane through the site");
 }
 
 }  // namespace app

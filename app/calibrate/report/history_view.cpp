@@ -16,7 +16,7 @@ using calibration::DriftReview;
 
 constexpr double kWidth = 760.0, kLeft = 52.0, kRight = 92.0, kTop = 30.0, kBelow = 30.0;
 constexpr double kTall = 190.0, kFlat = 110.0, kSmallLine = 12.3;
-constexpr std::size_t kMost = 60;
+constexpr std::size_t kMaxEntries = 60;
 
 /// One quantity of the newest entries.
 struct DriftChart {
@@ -32,7 +32,7 @@ struct DriftChart {
   }
 };
 
-/// Each entry has a place of its own along x.
+/// x: index of the entry.
 Axes axesOf(const DriftChart& chart) {
   const bool is_rms = chart.quantity == DriftQuantity::rms;
   double low_mm = is_rms ? 0.0 : -0.2, high_mm = is_rms ? 0.5 : 0.2;
@@ -78,16 +78,16 @@ void drawLimits(const Drawing& drawing, const DriftChart& chart) {
 
 void drawValues(const Drawing& drawing, const DriftChart& chart) {
   const std::vector<DriftEntry>& history = chart.history;
-  std::vector<glm::dvec2> way;
+  std::vector<glm::dvec2> line;
   for (std::size_t i = chart.from; i < history.size(); ++i) {
     const glm::dvec2 at = chart.at(i);
-    // A calibration begins anew.
-    way.push_back(history[i].kind == DriftKind::calibration ? glm::dvec2(NAN) : at);
+    // A calibration breaks the line.
+    line.push_back(history[i].kind == DriftKind::calibration ? glm::dvec2(NAN) : at);
     if (history[i].kind != DriftKind::calibration) continue;
     drawing.line({at.x, kTop}, {at.x, chart.axes.foot().y}, 1.2, paper::kInk, {1.0, 3.0});
     drawing.text("calibrated", {at.x, kTop - 8.0}, kSmallLine, paper::kInk);
   }
-  drawing.path(way, 1.2, paper::kBlue);
+  drawing.path(line, 1.2, paper::kBlue);
   for (std::size_t i = chart.from; i < history.size(); ++i) {
     const glm::dvec2 at = chart.at(i);
     if (history[i].kind == DriftKind::rezero) {
@@ -105,7 +105,7 @@ void drawValues(const Drawing& drawing, const DriftChart& chart) {
 }  // namespace
 
 std::string historyView(const std::vector<DriftEntry>& history, const DriftReview& review, DriftQuantity quantity) {
-  DriftChart chart{history, review, quantity, history.size() - std::min(history.size(), kMost), {}};
+  DriftChart chart{history, review, quantity, history.size() - std::min(history.size(), kMaxEntries), {}};
   chart.axes = axesOf(chart);
   Drawing drawing({kWidth, chart.axes.foot().y + kBelow});
   chart.axes.draw(drawing);

@@ -16,7 +16,7 @@ using calibration::VerificationLimit;
 
 std::string mm(double value_mm) { return fixedText(value_mm, 2) + " mm"; }
 
-/// A row of texts that are safe already.
+/// A row of escaped texts.
 std::string row(std::initializer_list<std::string> cells) {
   std::string text = "<tr>";
   for (const std::string& cell : cells) text += "<td>" + cell + "</td>";
@@ -29,7 +29,7 @@ std::string head(std::initializer_list<const char*> cells) {
   return text + "</tr>\n";
 }
 
-/// Word and shape, for colours alone say nothing in print.
+/// Word and shape: colours alone are lost in print.
 std::string standing(double value_mm, const VerificationLimit& limit) {
   if (value_mm <= limit.green_mm) return "<span class=\"green\">\u25cf green</span>";
   if (value_mm <= limit.amber_mm) return "<span class=\"amber\">\u25b2 amber</span>";
@@ -53,14 +53,14 @@ std::string proofRows(const calibration::RigVerification& verification) {
   std::string rows = plain("Touches held out (never fitted)", std::to_string(errors.n));
   rows += plain("Error there (TRE), mean", mm(errors.mean_mm));
   rows += plain("&emsp;RMS", mm(errors.rms_mm));
-  rows += limited("&emsp;RMS, 95 % sure it is no more", mm(judged.rms_upper_bound_mm), judged.rms_upper_bound_mm,
+  rows += limited("&emsp;RMS, upper 95 % confidence limit", mm(judged.rms_upper_bound_mm), judged.rms_upper_bound_mm,
                   limits.rms);
   rows += limited("&emsp;95 of 100 are within", mm(errors.p95_mm), errors.p95_mm, limits.p95);
   rows += limited("&emsp;largest", mm(errors.max_mm), errors.max_mm, limits.max);
   rows += limited("Bias: right, up, towards the viewer",
                   fixedText(bias_mm.x, 2) + ", " + fixedText(bias_mm.y, 2) + ", " + mm(bias_mm.z), worst_bias_mm,
                   limits.bias);
-  rows += plain("In the plane of the screen, along the sight; RMS",
+  rows += plain("In the plane of the screen, in depth; RMS",
                 fixedText(errors.in_plane_rms_mm, 2) + ", " + mm(errors.along_sight_rms_mm));
   return rows;
 }
@@ -74,18 +74,17 @@ std::string figuresTable(const RigRecord& record) {
   if (record.verification) table += proofRows(*record.verification);
   if (record.procedure) {
     const calibration::RigProcedure& procedure = *record.procedure;
-    table += plain("Error foretold by cross-validation (CV), RMS", mm(procedure.cv_rms_mm));
+    table += plain("Cross-validation error (CV), RMS", mm(procedure.cv_rms_mm));
     table += plain("Residual of the fit (FRE), RMS", mm(procedure.fre_rms_mm), "plausibility, no accuracy");
     table +=
         plain("Touches used, set aside", std::to_string(procedure.used) + ", " + std::to_string(procedure.outliers));
-    table +=
-        plain("Spread of the stylus's tilt", fixedText(procedure.tilt_spread_deg, 0) + "\u00b0",
-              procedure.tilt_spread_deg < calibration::kMinTilt_deg ? "too little: it hides errors of the gimbal" : "");
+    table += plain("Range of stylus tilts", fixedText(procedure.tilt_spread_deg, 0) + "\u00b0",
+                   procedure.tilt_spread_deg < calibration::kMinTilt_deg ? "too small: gimbal errors stay hidden" : "");
     table += plain("Time taken", fixedText(procedure.duration_s / 60.0, 1) + " min");
   }
   if (record.rest)
     table +=
-        plain("Hand rest, residual and largest proof",
+        plain("Hand rest, residual and largest held-out error",
               fixedText(record.rest->fre_rms_mm, 2) + ", " + mm(record.rest->worst_mm),
               record.rest->worst_mm > calibration::kMaxRestError_mm ? "more than 2 mm off: register it again" : "");
   return table + "</table>\n";
@@ -100,7 +99,7 @@ std::string outliersTable(const RigRecord& record) {
                        fixedText(one.target_W.mm.z, 1) + " mm",
                    mm(glm::length(one.error_mm.xyz))});
   if (rows.empty()) return "<p>None: every touch was used.</p>\n";
-  return "<table>\n" + head({"touch", "place in W (x, y, z)", "off by"}) + rows + "</table>\n";
+  return "<table>\n" + head({"touch", "position in W (x, y, z)", "error"}) + rows + "</table>\n";
 }
 
 std::string originTable(const RigRecord& record, const std::string& now_utc) {
@@ -122,13 +121,12 @@ std::string originTable(const RigRecord& record, const std::string& now_utc) {
   table += row({"Operator", described(from.operator_code)});
   if (record.procedure) table += row({"Procedure", described(record.procedure->method)});
   table += row({"Mirror", described(mirror) + (from.plate_mm > 0.0 ? ", plate " + mm(from.plate_mm) : "")});
-  table +=
-      row({"Distance of the pupils", fixedText(glm::distance(record.rig.left_eye.mm, record.rig.right_eye.mm), 1) +
-                                         " mm; head wanders " + fixedText(record.eye_sd_mm, 0) + " mm (1 \u03c3)"});
+  table += row({"Pupil distance", fixedText(glm::distance(record.rig.left_eye.mm, record.rig.right_eye.mm), 1) +
+                                      " mm; head moves by " + fixedText(record.eye_sd_mm, 0) + " mm (1 \u03c3)"});
   table += row({"Program, OpenCV", described(from.program) + ", " + described(from.opencv)});
-  table += row(
-      {"This file", record.hash.empty() ? "typed by hand, not sealed" : "<code>" + escaped(record.hash) + "</code>"});
-  table += row({"The one before", from.parent.empty() ? "none" : "<code>" + escaped(from.parent) + "</code>"});
+  table +=
+      row({"This file", record.hash.empty() ? "edited by hand, no hash" : "<code>" + escaped(record.hash) + "</code>"});
+  table += row({"Parent", from.parent.empty() ? "none" : "<code>" + escaped(from.parent) + "</code>"});
   return table + "</table>\n";
 }
 

@@ -11,11 +11,11 @@ namespace {
 
 using calibration::Residual;
 
-constexpr double kMostHeight = 280.0, kLeft = 46.0, kGap = 60.0, kLegend = 26.0, kPage = 760.0;
-constexpr double kUsual = 50.0, kForLarge = 10.0, kLarge_mm = 1.2, kLeastHalf_mm = 30.0;
+constexpr double kMaxHeight = 280.0, kLeft = 46.0, kGap = 60.0, kLegend = 26.0, kPage = 760.0;
+constexpr double kUsual = 50.0, kForLarge = 10.0, kLarge_mm = 1.2, kMinHalf_mm = 30.0;
 constexpr double kDot = 2.4, kArrow = 1.4, kCross = 5.0, kHeavy = 2.2;
 
-/// A coordinate of W across the paper, y upwards on it.
+/// One view: a coordinate of W across, y upwards.
 struct View {
   int across = 0;
   Axes axes;
@@ -31,9 +31,9 @@ double enlargement(const std::vector<Residual>& a, const std::vector<Residual>& 
   return longest_mm > kLarge_mm ? kForLarge : kUsual;
 }
 
-/// A millimetre is as long in both, so that lengths can be compared.
+/// The same scale in both views.
 std::array<View, 2> viewsOf(const std::vector<Residual>& fitted, const std::vector<Residual>& held_out, double times) {
-  glm::dvec3 low_mm(-kLeastHalf_mm), high_mm(kLeastHalf_mm);
+  glm::dvec3 low_mm(-kMinHalf_mm), high_mm(kMinHalf_mm);
   for (const auto* list : {&fitted, &held_out})
     for (const Residual& one : *list)
       for (const glm::dvec3& p : {one.target_W.mm, one.target_W.mm + (one.used ? times : 0.0) * one.error_mm.xyz}) {
@@ -42,7 +42,7 @@ std::array<View, 2> viewsOf(const std::vector<Residual>& fitted, const std::vect
       }
   low_mm -= 6.0, high_mm += 6.0;
   const glm::dvec3 size_mm = high_mm - low_mm;
-  const double scale = std::min(kMostHeight / size_mm.y, (kPage - 2.0 * kLeft - kGap) / (size_mm.x + size_mm.z));
+  const double scale = std::min(kMaxHeight / size_mm.y, (kPage - 2.0 * kLeft - kGap) / (size_mm.x + size_mm.z));
   const auto axis = [&](int n, const char* label) { return axisOf(axisTicks(low_mm[n], high_mm[n], 5, false), label); };
   const Axis up = axis(1, "y, upwards / mm");
   View front{

@@ -60,7 +60,7 @@ class CollectStep final : public WizardStep {
     if (!end_) return;
     view.tilt.reset();
     view.title = little_tilt_ ? "Held one way all the time" : "All are touched";
-    view.sentence = little_tilt_ ? "The directions of the stylus are only " + numberText(round_->tiltSpread_deg(), 0) +
+    view.sentence = little_tilt_ ? "The directions of the stylus are only " + fixedText(round_->tiltSpread_deg(), 0) +
                                        "° apart: 25° are needed."
                                  : "Go on, or make the worst touch again.";
     end_->show(view);

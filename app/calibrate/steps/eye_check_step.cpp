@@ -6,8 +6,7 @@
 
 #include "app/calibrate/choice_menu.h"
 #include "app/calibrate/number_text.h"
-#include "app/calibrate/steps/step.h"
-#include "app/calibrate/touch_round.h"
+#include "app/calibrate/steps/touch_step.h"
 
 namespace app {
 namespace {
@@ -25,13 +24,13 @@ calibration::TargetPlan eyeCheckPlan() {
   return plan;
 }
 
-class EyeCheckStep final : public WizardStep {
+class EyeCheckStep final : public TouchStep {
  public:
-  using WizardStep::WizardStep;
+  using TouchStep::TouchStep;
   void begin() override {
     const calibration::TargetPlan plan = eyeCheckPlan();
     context_.outcome.eye_check = emptySet(context_, plan);
-    round_.emplace(plan, context_.arm, 0.0, context_.announcements);
+    startRound(plan, 0.0);
     round_->ignoreTilt();
     doubt_.reset();
   }
@@ -42,8 +41,21 @@ class EyeCheckStep final : public WizardStep {
       if (!chosen) return {};
       return *chosen == 0 ? StepResult::goTo(StepName::eyes) : StepResult::next();
     }
-    if (round_->update(sample, press, pressed_s) == TouchRound::TouchEvent::left) return StepResult::declined();
-    if (!round_->isComplete()) return {};
+    return TouchStep::update(sample, press, pressed_s);
+  }
+
+  void show(WizardView& view) const override {
+    view.title = "Crosses in depth";
+    view.sentence = "Both eyes open, head in its rest: tip to the glowing cross where it floats.";
+    round_->show(view);
+    view.zero_parallax = false;
+    if (!doubt_) return;
+    view.sentence = finding_;
+    doubt_->show(view);
+  }
+
+ private:
+  StepResult completed() override {
     context_.outcome.eye_check.touches = round_->touches();
 
     // Nearer before the plane and further behind it: pupils or distance; all to one side: the head's place.
@@ -68,19 +80,6 @@ class EyeCheckStep final : public WizardStep {
     return {};
   }
 
-  void lost() override { round_->lost(); }
-  void show(WizardView& view) const override {
-    view.title = "Crosses in depth";
-    view.sentence = "Both eyes open, head in its rest: tip to the glowing cross where it floats.";
-    round_->show(view);
-    view.zero_parallax = false;
-    if (!doubt_) return;
-    view.sentence = finding_;
-    doubt_->show(view);
-  }
-
- private:
-  std::optional<TouchRound> round_;
   std::optional<ChoiceMenu> doubt_;
   std::string finding_;
 };

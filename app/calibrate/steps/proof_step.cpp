@@ -2,8 +2,7 @@
 // 4. They are judged; at a session what is not good is brought up to date, once, and checked again. One thread.
 
 #include "app/calibrate/number_text.h"
-#include "app/calibrate/steps/step.h"
-#include "app/calibrate/touch_round.h"
+#include "app/calibrate/steps/touch_step.h"
 
 namespace app {
 namespace {
@@ -19,10 +18,10 @@ void ontoTheScreen(calibration::TargetPlan& plan) {
   }
 }
 
-class ProofStep final : public WizardStep {
+class ProofStep final : public TouchStep {
  public:
   /// `method`: verify8 or check4.
-  ProofStep(WizardContext& context, const char* method) : WizardStep(context), method_(method) {}
+  ProofStep(WizardContext& context, const char* method) : TouchStep(context), method_(method) {}
   void begin() override {
     const bool by_eyes = !isCheck() && context_.byEyes();
     calibration::TargetPlan plan =
@@ -37,10 +36,15 @@ class ProofStep final : public WizardStep {
                    context_.announcements);
   }
 
-  StepResult update(const StylusSample& sample, Press press, double pressed_s) override {
-    if (round_->update(sample, press, pressed_s) == TouchRound::TouchEvent::left) return StepResult::declined();
-    if (!round_->isComplete()) return {};
+  void show(WizardView& view) const override {
+    view.title = isCheck() ? "Check" : "Prove it";
+    const std::string noun = !isCheck() && context_.byEyes() ? "cross" : "pit";
+    view.sentence = "Tip to the glowing " + noun + ", held as the cue shows: touches that nothing was fitted to.";
+    round_->show(view);
+  }
 
+ private:
+  StepResult completed() override {
     WizardOutcome& outcome = context_.outcome;
     outcome.verification.touches = round_->touches();
     outcome.proof_residuals = calibration::residualsOf(context_.arm, outcome.verification.touches);
@@ -55,19 +59,9 @@ class ProofStep final : public WizardStep {
     return StepResult::goTo(StepName::sign_off);
   }
 
-  void lost() override { round_->lost(); }
-  void show(WizardView& view) const override {
-    view.title = isCheck() ? "Check" : "Prove it";
-    const std::string noun = !isCheck() && context_.byEyes() ? "cross" : "pit";
-    view.sentence = "Tip to the glowing " + noun + ", held as the cue shows: touches that nothing was fitted to.";
-    round_->show(view);
-  }
-
- private:
   bool isCheck() const { return method_ == "check4"; }
 
   std::string method_;
-  std::optional<TouchRound> round_;
 };
 
 }  // namespace

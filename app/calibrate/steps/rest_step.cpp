@@ -1,82 +1,67 @@
-// Where the hand rest stands: three touches of its marks make its pose, three more prove it. One thread.
+// Position of the hand rest: three touches of its marks give its pose, three more verify it. One thread.
 
-#include "app/calibrate/number_text.h"
-#include "app/calibrate/steps/step.h"
-#include "app/calibrate/touch_round.h"
+#include <algorithm>
+
+#include "app/calibrate/steps/touch_step.h"
 
 namespace app {
 namespace {
 
 constexpr std::size_t kMarks = 3;
-constexpr double kFarRest_mm = 60.0;  // a rest that was never registered stands where it was put
+constexpr double kMaxRestShift_mm = 60.0;  // an unregistered rest may be anywhere near its place
 
-/// Marks of a rest in this pose; the stylus as it comes.
-calibration::TargetPlan marksPlan(const char* method, const calibration::RestRegistration& rest,
-                                  const std::vector<glm::dvec3>& marks_mm, std::size_t first) {
-  calibration::TargetPlan plan{method, calibration::TargetKind::pit, calibration::kPitPrecision, {}};
-  for (std::size_t i = first; i < first + kMarks; ++i)
-    plan.targets.push_back({static_cast<int>(i) + 1, rest.position_W(marks_mm[i]), calibration::kRestingStylus_W});
-  return plan;
-}
-
-class RestStep final : public WizardStep {
+class RestStep final : public TouchStep {
  public:
-  using WizardStep::WizardStep;
+  using TouchStep::TouchStep;
   void begin() override {
-    made_of_.clear();
+    fitted_.clear();
     context_.outcome.rest.reset();
-    const auto believed = context_.plan.record.rest.value_or(calibration::RestRegistration{});
-    round_.emplace(marksPlan("rest3", believed, context_.plan.rest_marks_mm, 0), context_.arm, kFarRest_mm,
-                   context_.announcements);
-    round_->ignoreTilt();
+    touchMarks("rest3", context_.plan.record.rest.value_or(calibration::RestRegistration{}), 0);
   }
 
   StepResult update(const StylusSample& sample, Press press, double pressed_s) override {
     if (context_.plan.rest_marks_mm.size() != 2 * kMarks)
-      return StepResult::refused("The hand rest has no six known marks: name them in the rig's settings.");
-    if (round_->update(sample, press, pressed_s) == TouchRound::TouchEvent::left) return StepResult::declined();
-    if (!round_->isComplete()) return {};
-
-    try {
-      if (made_of_.empty()) {
-        context_.outcome.rest = calibration::registerRest(touched(), {});
-        made_of_ = touched();
-        beginProof();
-        return {};
-      }
-      context_.outcome.rest = calibration::registerRest(made_of_, touched());
-      return StepResult::next();
-    } catch (const calibration::CalibrationError& error) {
-      begin();
-      context_.announcements.refuse(error.what());
-      return {};
-    }
+      return StepResult::refused("The hand rest needs six known marks: name them in the rig's settings.");
+    return TouchStep::update(sample, press, pressed_s);
   }
 
-  void lost() override { round_->lost(); }
   void show(WizardView& view) const override {
-    view.title = made_of_.empty() ? "Where the hand rests" : "Prove the hand rest";
-    view.sentence = "Touch the glowing mark on the rest; hold the stylus as it comes.";
+    view.title = fitted_.empty() ? "Position of the hand rest" : "Verify the hand rest";
+    view.sentence = "Touch the glowing mark on the rest; any tilt will do.";
     round_->show(view);
   }
 
  private:
-  std::vector<calibration::MarkTouch> touched() const {
-    std::vector<calibration::MarkTouch> marks;
+  StepResult completed() override {
+    const bool verified = !fitted_.empty();
+    context_.outcome.rest =
+        calibration::registerRest(verified ? fitted_ : touched(), verified ? touched() : MarkTouches{});
+    if (verified) return StepResult::next();
+    fitted_ = touched();
+    touchMarks("rest3proof", *context_.outcome.rest, kMarks);
+    return {};
+  }
+
+  /// Touches kMarks marks from `first` on, of a rest in this pose.
+  void touchMarks(const char* method, const calibration::RestRegistration& rest, std::size_t first) {
+    calibration::TargetPlan plan{method, calibration::TargetKind::pit, calibration::kPitPrecision, {}};
+    for (std::size_t i = first; i < std::min(first + kMarks, context_.plan.rest_marks_mm.size()); ++i)
+      plan.targets.push_back(
+          {static_cast<int>(i) + 1, rest.position_W(context_.plan.rest_marks_mm[i]), calibration::kRestingStylus_W});
+    startRound(std::move(plan), kMaxRestShift_mm);
+    round_->ignoreTilt();
+  }
+
+  using MarkTouches = std::vector<calibration::MarkTouch>;
+  MarkTouches touched() const {
+    MarkTouches marks;
     for (const calibration::Touch& touch : round_->touches())
       marks.push_back(
           {context_.plan.rest_marks_mm[static_cast<std::size_t>(touch.id - 1)], context_.arm.tip_W(touch.joints_rad)});
     return marks;
   }
 
-  void beginProof() {
-    round_.emplace(marksPlan("rest3proof", *context_.outcome.rest, context_.plan.rest_marks_mm, kMarks), context_.arm,
-                   kFarRest_mm, context_.announcements);
-    round_->ignoreTilt();
-  }
-
-  std::optional<TouchRound> round_;
-  std::vector<calibration::MarkTouch> made_of_;  ///< empty: they are being touched
+  MarkTouches fitted_;  ///< empty: being touched
 };
 
 }  // namespace

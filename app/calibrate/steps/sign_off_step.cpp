@@ -12,8 +12,6 @@ const char* judgedAs(calibration::Verdict verdict) {
   return verdict == calibration::Verdict::amber ? "Usable, not good" : "Not good enough";
 }
 
-std::string signedMm(double length_mm) { return (length_mm > 0.0 ? "+" : "") + numberText(length_mm, 2); }
-
 class SignOffStep final : public WizardStep {
  public:
   using WizardStep::WizardStep;
@@ -112,21 +110,21 @@ class SignOffStep final : public WizardStep {
       numbers.push_back({"error, root mean square", mmText(errors->rms_mm)});
       numbers.push_back({"error, 95 of 100", mmText(errors->p95_mm)});
       numbers.push_back({"error, largest", mmText(errors->max_mm)});
-      numbers.push_back({"all to one side: right, up, near", signedMm(errors->bias_mm.xyz.x) + ", " +
-                                                                 signedMm(errors->bias_mm.xyz.y) + ", " +
-                                                                 signedMm(errors->bias_mm.xyz.z) + " mm"});
+      numbers.push_back({"all to one side: right, up, near", signedText(errors->bias_mm.xyz.x, 2) + ", " +
+                                                                 signedText(errors->bias_mm.xyz.y, 2) + ", " +
+                                                                 signedText(errors->bias_mm.xyz.z, 2) + " mm"});
     }
     if (const auto& fit = outcome.fit) {
       numbers.push_back({"touches used, set aside", std::to_string(fit->used) + ", " + std::to_string(fit->outliers)});
       numbers.push_back({"error foretold by the touches", mmText(fit->cv_rms_mm)});
-      numbers.push_back({"directions of the stylus", numberText(fit->tilt_spread_deg, 0) + "° apart"});
+      numbers.push_back({"directions of the stylus", fixedText(fit->tilt_spread_deg, 0) + "° apart"});
     }
     if (const auto& rezero = outcome.rezero)
       numbers.push_back(
-          {"base moved, turned", mmText(rezero->moved_mm) + ", " + numberText(rezero->turned_deg, 2) + "°"});
+          {"base moved, turned", mmText(rezero->moved_mm) + ", " + fixedText(rezero->turned_deg, 2) + "°"});
     if (const auto& verification = context_.plan.record.verification)
       numbers.push_back({"error before", mmText(verification->errors.rms_mm)});
-    if (outcome.duration_s > 0.0) numbers.push_back({"time for the touches", numberText(outcome.duration_s, 0) + " s"});
+    if (outcome.duration_s > 0.0) numbers.push_back({"time for the touches", fixedText(outcome.duration_s, 0) + " s"});
     return numbers;
   }
 

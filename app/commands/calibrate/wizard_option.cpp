@@ -10,6 +10,7 @@
 #include "app/options/view_option.h"
 #include "app/station/rig_choice.h"
 #include "app/text/command_line.h"
+#include "app/text/message.h"
 #include "app/text/usage_error.h"
 #include "calibration/webcam/camera_file.h"
 #include "calibration/webcam/webcam_source.h"
@@ -21,8 +22,6 @@ namespace {
 using namespace calibration;
 
 volatile std::sig_atomic_t interrupted = 0;
-
-void tell(const std::string& line) { std::fprintf(stderr, "molar: %s\n", line.c_str()); }
 
 RigLocation placeOf(const MeasurementInfo& info) { return {info.rig_id, info.serial, info.mount}; }
 
@@ -61,7 +60,7 @@ WizardOption::Stylus WizardOption::stylus(MeasurementInfo& info) const {
     throw UsageError("--robot: it holds a practice stylus only, use --device practice:D");
   } else if (haptics::isDeviceAddress(device_)) {
     haptics::DeviceOptions options;
-    options.report = tell;
+    options.report = printMessage;
     options.is_cancelled = [] { return interrupted != 0; };
     stylus.opened = haptics::openDevice(device_, options);
     hand = deviceIdentity(device_, &stylus.opened.device->capabilities());
@@ -101,8 +100,8 @@ void WizardOption::prepare(GuidedRun& run, const Stylus& held) const {
   run.sounds = !quiet_ && !headless_;
   run.display = {display_.mode(), display_.swapped(), !windowed_,
                  monitor_ ? std::optional(*monitor_ - 1) : std::nullopt};
-  run.tell = tell;
-  run.given_up = [] { return interrupted != 0; };
+  run.report = printMessage;
+  run.interrupted = [] { return interrupted != 0; };
 }
 
 WizardOption::GuidedOutcome WizardOption::guide(CalibrationProcedure procedure, const std::string& method,
@@ -126,7 +125,7 @@ WizardOption::GuidedOutcome WizardOption::guide(CalibrationProcedure procedure, 
   run.hurried = hurried_;
   run.pages = pages_;
   GuidedOutcome led{run.plan, runWizard(run), info};
-  if (!led.outcome.reason.empty()) tell(led.outcome.reason);
+  if (!led.outcome.reason.empty()) printMessage(led.outcome.reason);
   return led;
 }
 
@@ -150,7 +149,7 @@ WizardOption::Seen WizardOption::guideWebcam(const std::string& rig, const RigSt
     wanted.device = camera_;
     wanted.size_px = size_px;
     webcam = openImageSource(wanted);
-    if (!webcam.remarks.empty()) tell(webcam.images->name() + ": " + webcam.remarks);
+    if (!webcam.remarks.empty()) printMessage(webcam.images->name() + ": " + webcam.remarks);
     run.images = webcam.images.get();
   }
   prepare(run, held);

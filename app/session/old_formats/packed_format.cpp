@@ -11,31 +11,24 @@
 #include "app/session/command_keys.h"
 #include "app/session/compressed.h"
 #include "app/session/session_error.h"
+#include "app/session/tables.h"
 
 namespace app::old_formats {
 namespace {
 
 constexpr std::array<Table, 8> kTables = {{
-    {"meta",
-     "CREATE TABLE meta(row INTEGER PRIMARY KEY, schema INTEGER, program TEXT, patient TEXT, dt_s REAL, digest BLOB) "
-     "STRICT"},
+    {"meta", "schema INTEGER, program TEXT, patient TEXT, dt_s REAL"},
     {"bone",
-     "CREATE TABLE bone(row INTEGER PRIMARY KEY, size_i INTEGER, size_j INTEGER, size_k INTEGER, spacing_mm REAL, "
-     "origin_x_P_mm REAL, origin_y_P_mm REAL, origin_z_P_mm REAL, solid BLOB, label BLOB, digest BLOB) STRICT"},
-    {"command",
-     "CREATE TABLE command(row INTEGER PRIMARY KEY, serial INTEGER, first_tick INTEGER, bytes BLOB, digest BLOB) "
-     "STRICT"},
-    {"tick_block",
-     "CREATE TABLE tick_block(row INTEGER PRIMARY KEY, first_tick INTEGER, count INTEGER, ticks BLOB, digest BLOB) "
-     "STRICT"},
-    {"event", "CREATE TABLE event(row INTEGER PRIMARY KEY, tick INTEGER, kind TEXT, text TEXT, digest BLOB) STRICT"},
-    {"picture",
-     "CREATE TABLE picture(row INTEGER PRIMARY KEY, tick INTEGER, name TEXT, bytes BLOB, digest BLOB) STRICT"},
-    {"seal", "CREATE TABLE seal(row INTEGER PRIMARY KEY, ticks INTEGER, lost INTEGER, digest BLOB) STRICT"},
+     "size_i INTEGER, size_j INTEGER, size_k INTEGER, spacing_mm REAL, origin_x_P_mm REAL, origin_y_P_mm REAL, "
+     "origin_z_P_mm REAL, solid BLOB, label BLOB"},
+    {"command", "serial INTEGER, first_tick INTEGER, bytes BLOB"},
+    {"tick_block", "first_tick INTEGER, count INTEGER, ticks BLOB"},
+    {"event", "tick INTEGER, kind TEXT, text TEXT"},
+    {"picture", "tick INTEGER, name TEXT, bytes BLOB"},
+    {"seal", "ticks INTEGER, lost INTEGER"},
     {"calibration",
-     "CREATE TABLE calibration(row INTEGER PRIMARY KEY, rig TEXT, rig_id TEXT, device_serial TEXT, verdict TEXT, "
-     "touches INTEGER, rms_mm REAL, p95_mm REAL, max_mm REAL, checked_utc TEXT, age_days REAL, despite TEXT, digest "
-     "BLOB) STRICT"},
+     "rig TEXT, rig_id TEXT, device_serial TEXT, verdict TEXT, touches INTEGER, rms_mm REAL, p95_mm REAL, max_mm REAL, "
+     "checked_utc TEXT, age_days REAL, despite TEXT"},
 }};
 
 struct Member {
@@ -177,7 +170,7 @@ constexpr auto kCommandKeys = std::to_array<Key>({
     {"rearm", Kind::whole},
 });
 
-/// Takes little-endian values from a packed struct.
+/// Reads little-endian values of a packed struct.
 class Unpacker {
  public:
   explicit Unpacker(std::span<const std::uint8_t> bytes) : left_(bytes) {}
@@ -191,9 +184,9 @@ class Unpacker {
   double real() { return std::bit_cast<double>(whole()); }
   template <std::size_t N>
   std::string oneOf(const std::array<std::string_view, N>& names) {
-    const std::uint64_t place = whole(1);
-    if (place >= N) throw damagedSession("a command has a kind that is none");
-    return std::string(names[place]);
+    const std::uint64_t index = whole(1);
+    if (index >= N) throw damagedSession("a command has an unknown kind");
+    return std::string(names[index]);
   }
   bool isEmpty() const { return left_.empty(); }
 
@@ -238,11 +231,6 @@ haptics::Command commandFrom(std::span<const std::uint8_t> bytes) {
   }
   if (!packed.isEmpty()) throw damagedSession("a command has a wrong length");
   return commandFromText(keys.dump());
-}
-
-std::span<const std::uint8_t> blobOf(const SQLite::Column& column) {
-  const auto* bytes = static_cast<const std::uint8_t*>(column.getBlob());
-  return {bytes, bytes == nullptr ? 0 : static_cast<std::size_t>(column.getBytes())};
 }
 
 void setFrom(std::string& value, const SQLite::Column& column) { value = column.getString(); }

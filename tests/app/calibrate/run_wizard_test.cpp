@@ -65,7 +65,7 @@ TEST(WizardShow, EveryPageIsAPictureOnce) {
 TEST(WizardShow, WhoeverGivesUpLeavesEverythingAsItWas) {
   WizardRun run = practice(CalibrationProcedure::full, "jig27", 7);
   int turns = 0;
-  run.given_up = [&] { return ++turns > 200; };
+  run.interrupted = [&] { return ++turns > 200; };
   const WizardOutcome outcome = runWizard(run);
   EXPECT_EQ(outcome.end, WizardOutcome::End::declined);
   EXPECT_FALSE(outcome.reason.empty());

@@ -199,8 +199,8 @@ TEST(RecordingFile, OfARunningRecordingIsNobodyElses) {
   EXPECT_THAT(refusalOf([&] { at.record(true, 5); }), HasSubstr("another program is recording to it"));
   running.write({{}, imaginedTicks(0, 7), {}});
   EXPECT_THAT(refusalOf([&] { at.record(true, 5); }), HasSubstr("another program is recording to it"));
-  EXPECT_THAT(refusalOf([&] { at.record(false, 5); }), HasSubstr("exists already"));
-  EXPECT_THAT(refusalOf([&] { SessionReader reader(at.path); }), HasSubstr("is being recorded just now"));
+  EXPECT_THAT(refusalOf([&] { at.record(false, 5); }), HasSubstr("already exists"));
+  EXPECT_THAT(refusalOf([&] { SessionReader reader(at.path); }), HasSubstr("is being recorded: "));
   running.seal(0);
   EXPECT_EQ(at.ticks(at.path), 7u);
 }
@@ -245,7 +245,7 @@ TEST(KilledRecording, WithoutItsLogIsNamedSo) {
   const ReplayReport report = verify(copy);
   EXPECT_FALSE(report.verified());
   EXPECT_EQ(report.damage, std::nullopt);
-  EXPECT_THAT(report.line(), HasSubstr("copy.molar-wal is not beside it: copy both files"));
+  EXPECT_THAT(report.line(), HasSubstr("copy.molar-wal is not next to it: copy both files"));
   EXPECT_THAT(at.folder.names(), UnorderedElementsAre("copy.molar", "live"));
 }
 
@@ -257,7 +257,7 @@ TEST(KilledRecording, WithoutItsLogHasNoBoneThatWasLeft) {
     for (std::uint64_t n = 0; n < 10; ++n) writer.write({{}, imaginedTicks(50 * n, 50), {}});
     std::filesystem::copy_file(at.folder.file("live"), copy);
   }
-  const std::string refusal = "its log " + copy + "-wal is not beside it: copy both files";
+  const std::string refusal = "its log " + copy + "-wal is not next to it: copy both files";
   EXPECT_THAT(refusalOf([&] { boneAtTime(copy, std::nullopt); }), HasSubstr(refusal));
   EXPECT_THAT(refusalOf([&] { boneAtTime(copy, 0.4); }), HasSubstr(refusal));
 }

@@ -96,11 +96,11 @@ TEST(SessionCalibration, IsSaidInOneLine) {
   c = {"5d41", "rig-02", "60623", "green", 16, 0.24, 0.41, 0.55, "2026-11-19T08:20:00Z", 1.9, ""};
   EXPECT_EQ(calibrationText(c), "green, 0.24 mm RMS of 16, 1 day old");
   c.age_days = 0.5;
-  EXPECT_EQ(calibrationText(c), "green, 0.24 mm RMS of 16, of today");
+  EXPECT_EQ(calibrationText(c), "green, 0.24 mm RMS of 16, measured today");
   c.age_days = -2.0;
   EXPECT_EQ(calibrationText(c), "green, 0.24 mm RMS of 16, dated in the future");
   c.verdict.clear(), c.age_days.reset();
-  EXPECT_EQ(calibrationText(c), "never proved");
+  EXPECT_EQ(calibrationText(c), "never verified");
 }
 
 TEST(SessionFile, IsOneSingleFileOnceClosed) {

@@ -140,7 +140,7 @@ TEST(TickColumns, RefuseBytesOfAnotherLengthAndTypesThatAreNone) {
               TickUnpacker(std::vector<TickColumn>{{"index", "f\n\x1b", "", "", ""}});
             }),
             "a column of its ticks is of type 'f?"
-            "?', which is none: the session is damaged");
+            "?', which is unknown: the session is damaged");
 }
 
 }  // namespace
