@@ -1,6 +1,6 @@
-// The webcam procedure at the workstation: what it asks is shown as a page, what the camera shall see as it is, one
-// image at a time; the stylus and its button lead through it, a long press takes the last tip again. Main thread.
-// Esc, a closed window or an interrupt leaves, with nothing. Saves nothing.
+// Runs the webcam procedure at the workstation: instructions as pages, patterns for the camera full screen, one image
+// at a time. The stylus button continues, a long press repeats the last tip. Main thread. Esc, a closed window or an
+// interrupt leaves without result. Saves nothing.
 #pragma once
 
 #include <optional>

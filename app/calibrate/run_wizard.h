@@ -1,6 +1,6 @@
-// The calibration wizard on the surgeon's display, from the first page to the outcome. Main thread. The stylus is a
-// device's, a practice stylus's held by mouse and keys, or the robot technician's; forces stay off. Esc, a closed
-// window or an interrupt leaves: nothing is changed then. Saves nothing: that is the caller's.
+// Runs the calibration wizard on the surgeon's display. Main thread. The stylus is a device, a practice stylus moved by
+// mouse and keys, or the robot technician's; forces stay off. Esc, a closed window or an interrupt leaves without
+// changes. The caller saves.
 //   WizardRun run;
 //   run.plan = {.procedure = …, .method = "jig27", .record = current, .device = {model, serial, mount, tip}};
 //   haptics::OpenedDevice opened = haptics::openDevice(address, options);    run.device = opened.device.get();

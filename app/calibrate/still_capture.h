@@ -1,8 +1,7 @@
-// When a stylus is held still enough to be believed, and what its sensors say then: the median of the last 0.2 s, 200
-// samples at 1 kHz, fewer where the device is slower. Still is, over 0.4 s, wrist and tip below 2 mm/s and within 0.03
-// mm, both of means over 0.1 s: a hand's tremor of 8 to 12 Hz goes out in such a mean, a drift does not.
-// Frame D, mm, s. 500 to 10,000 Hz: of faster devices every millisecond is looked at. Plain values; one thread; about
-// 10 us each 20 ms. Limits: reference/calibration 4.5; the wider ones for crosses, aimed at in free air, are ours.
+// Detects a stylus held still and returns the median of its sensors over the last 0.2 s. Still means: over 0.4 s, wrist
+// and tip below 2 mm/s and within 0.03 mm, both of 0.1 s means, which remove a tremor of 8 to 12 Hz but not a drift.
+// Frame D, mm, s. 500 to 10,000 Hz; of faster devices one sample per millisecond is used. Plain values; one thread;
+// about 10 us every 20 ms. Limits: reference/calibration 4.5; the wider ones for crosses in free air are ours.
 #pragma once
 
 #include <cstddef>

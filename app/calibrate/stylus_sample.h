@@ -1,5 +1,5 @@
-// What the device says of the stylus at one tick: all that the calibration is told of the world, time too. Frame D, mm,
-// rad, s of any steady clock. Plain data; any thread.
+// State of the stylus at one tick, the only input of the calibration, with its time. Frame D, mm, rad, s of any steady
+// clock. Plain data; any thread.
 #pragma once
 
 #include "calibration/arm/arm_correction.h"

@@ -1,5 +1,5 @@
-// Where the wizard's ticks come from: a device that is listened to, in true time, or the robot technician, as fast as
-// it is asked or in true time. mm, s. One thread.
+// Sources of the wizard's ticks: a device in real time, or the robot technician in real time or as fast as possible.
+// mm, s. One thread.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
-// How a stylus has to be leant, in words of who holds it: directions from the tip to the handle, frame W (x right, y
-// up, z to the viewer), unit. Pure; any thread.
+// Text on how to tilt a stylus. Unit directions from the tip to the handle, frame W (x right, y up, z to the viewer).
+// Pure; any thread.
 #pragma once
 
 #include <string>

@@ -47,7 +47,7 @@ TouchRound::TouchEvent TouchRound::update(const StylusSample& sample, Press pres
   now_ = sample;
   still_.update(sample);
 
-  // Put away is paused, taken up goes on.
+  // Putting the stylus away pauses, taking it up continues.
   if (sample.docked && !docked_) pause_ = pauseMenu();
   if (!sample.docked && docked_) pause_.reset();
   docked_ = sample.docked;
@@ -82,7 +82,7 @@ TouchRound::TouchEvent TouchRound::take(const StillReading& take, bool pressed) 
     if (never || !insisted) {
       objected_ = never ? std::nullopt : std::optional(index);
       objected_at_s_ = now_->t_s;
-      announcements_.refuse(why + (never ? "." : ". Press again to take it as it is."));
+      announcements_.refuse(why + (never ? "." : ". Press again to take it anyway."));
       return TouchEvent::nothing;
     }
   }
@@ -95,7 +95,7 @@ TouchRound::TouchEvent TouchRound::take(const StillReading& take, bool pressed) 
   intervals_s_.push_back(busy_s_ - taken_at_s_);
   taken_at_s_ = busy_s_;
   announcements_.praise("Taken: " + std::string(nounOf(plan_)) + " " + std::to_string(index + 1) +
-                            (tilt_is_wrong ? ", though not held as asked." : "."),
+                            (tilt_is_wrong ? ", with a wrong tilt." : "."),
                         isComplete() ? WizardSound::next : WizardSound::ok);
   return TouchEvent::taken;
 }
@@ -112,7 +112,7 @@ std::string TouchRound::objection(std::size_t index, const calibration::RawJoint
       angleBetween_deg(along_W.xyz, heldAlong_W(*last_rad_).xyz) < kSameTilt_deg)
     return "This is where the last touch was: go to the glowing " + noun;
 
-  // Further off than what is known of the arm explains.
+  // Further away than the uncertainty of the arm.
   const double off_mm = glm::length(tip_mm - target.position_W.mm);
   if (off_mm > (max_distance_mm_ > 0.0 ? max_distance_mm_ : kMostOffUnmeasured_mm)) {
     const auto nearest = std::ranges::min_element(
@@ -124,7 +124,7 @@ std::string TouchRound::objection(std::size_t index, const calibration::RawJoint
   }
   if (!tilt_is_wrong) return {};
   const std::string words = tiltText(along_W, target.stylus_W);
-  return "Held " + fixedText(off_deg, 0) + "° off the cue" + (words.empty() ? "" : ": " + words);
+  return "Tilted " + fixedText(off_deg, 0) + "° away from the shown direction" + (words.empty() ? "" : ": " + words);
 }
 
 TouchRound::TouchEvent TouchRound::confirm(const StillReading& take) {
@@ -133,7 +133,7 @@ TouchRound::TouchEvent TouchRound::confirm(const StillReading& take) {
   const auto along_W = heldAlong_W(take.raw_rad), along_before_W = heldAlong_W(before);
   if (!any_tilt_ && angleBetween_deg(along_W.xyz, along_before_W.xyz) > kMostTiltOff_deg) {
     const std::string words = tiltText(along_W, along_before_W);
-    announcements_.refuse("Hold it as before" + (words.empty() ? "." : ": " + words + "."));
+    announcements_.refuse("Tilt it as before" + (words.empty() ? "." : ": " + words + "."));
     return TouchEvent::nothing;
   }
   // Along the line of sight nobody aims at a cross exactly.
@@ -142,11 +142,11 @@ TouchRound::TouchEvent TouchRound::confirm(const StillReading& take) {
   confirming_.reset();
   if (glm::length(apart_mm) <= sameCount_mm(plan_.precision)) {
     last_rad_ = take.raw_rad;
-    announcements_.praise("The device still counts the same: go on.");
+    announcements_.praise("The zero of the device is unchanged: go on.");
     return TouchEvent::nothing;
   }
   retakeAll();
-  announcements_.refuse("The device counts otherwise since it was silent (" + mmText(glm::length(apart_mm)) +
+  announcements_.refuse("The zero of the device has changed since it was silent (" + mmText(glm::length(apart_mm)) +
                         " apart): these touches start again.");
   return TouchEvent::started_again;
 }
@@ -208,7 +208,6 @@ void TouchRound::show(WizardView& view) const {
     view.targets.push_back({plan_.targets[i].position_W, plan_.targets[i].stylus_W, state, std::to_string(i + 1)});
   }
 
-  // Where it is, and how it is held.
   if (now_ && !docked_) view.tip_W = arm_.tip_W(now_->raw_rad);
   if (now_ && glowing && !any_tilt_) {
     TiltCue cue{plan_.targets[*glowing].stylus_W, heldAlong_W(now_->raw_rad), 0.0, false, {}};
@@ -229,10 +228,10 @@ void TouchRound::show(WizardView& view) const {
     return;
   }
   view.capture = still_.progress();
-  view.button = {"take this " + noun, order_.empty() ? "pause" : "undo the last", "takes it by itself"};
+  view.button = {"take this " + noun, order_.empty() ? "pause" : "undo the last", "takes it automatically"};
   if (confirming_)
     view.sentence = "The device was silent. Touch " + noun + " " + std::to_string(*confirming_ + 1) +
-                    " once more, to see whether it counts as before.";
+                    " once more, to check the zero of the device.";
 }
 
 std::optional<std::size_t> TouchRound::next() const {

@@ -1,8 +1,8 @@
-// One round of touches: targets in their order, taken by a press or by holding still, the stylus held as the cue wants
-// it. What seems wrong is not taken but explained; a second press takes it anyway. Long press: the last one undone.
-// In the inkwell, or with nothing to undo, it pauses. After a silence of the device one touch is made again, to see
-// that the device still counts the same: else all start again. Frame W, mm, s. Plain logic; one thread; a few
-// microseconds a tick, allocates where something is taken. Knows nothing of what the touches are for.
+// One round of touches: targets in order, taken by a press or by holding still, with the stylus tilted as shown. A
+// doubtful touch is rejected with a reason; a second press takes it. Long press undoes the last; in the inkwell, or
+// with nothing to undo, the round pauses. After a silence of the device one touch is repeated to check its zero; if
+// that has changed, all start again. Frame W, mm, s. Plain logic; one thread; a few microseconds a tick, allocates when
+// a touch is taken.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@
 
 namespace app {
 
-/// What its targets are called: "pit", "cross", "mark".
+/// Name of a target: "pit", "cross", "mark".
 const char* nounOf(const calibration::TargetPlan& plan);
 
 class TouchRound {
@@ -30,9 +30,9 @@ class TouchRound {
 
   /// `pressed_s`: when the button went down.
   TouchEvent update(const StylusSample& sample, Press press, double pressed_s);
-  /// However the stylus is held.
+  /// Accepts any tilt.
   void ignoreTilt() { any_tilt_ = true; }
-  /// The device was silent.
+  /// Called after the device was silent.
   void lost();
   void show(WizardView& view) const;
 
@@ -41,15 +41,15 @@ class TouchRound {
   std::vector<calibration::Touch> touches() const;
   /// Of all taken ones.
   double tiltSpread_deg() const;
-  /// Indices of those that were taken although their tilt was wrong.
+  /// Indices of touches taken with a wrong tilt.
   std::vector<std::size_t> wronglyTilted() const;
   double duration_s() const { return busy_s_; }
 
-  /// The arm as it is known by now.
+  /// Updates the estimate of the arm.
   void setArm(const calibration::MeasuredArm& arm, double max_distance_mm);
   /// In the order of touches().
   void setDoubtful(const std::vector<bool>& doubtful);
-  /// Of those taken, by their place in touches(): it is the next again.
+  /// Repeats a touch, by its index in touches().
   void again(std::size_t touch);
   void retakeAll();
   std::string nameOf(std::size_t touch) const;
@@ -64,7 +64,7 @@ class TouchRound {
   std::optional<std::size_t> next() const;
   std::size_t planIndex(std::size_t touch) const;
   calibration::Vector<calibration::World> heldAlong_W(const calibration::RawJoints& raw_rad) const;
-  /// Why it should not be taken; empty: nothing speaks against it.
+  /// Why a touch is rejected; empty: accepted.
   std::string objection(std::size_t index, const calibration::RawJoints& raw_rad, bool& tilt_is_wrong) const;
   TouchEvent take(const StillReading& take, bool pressed);
   TouchEvent confirm(const StillReading& take);
@@ -80,10 +80,10 @@ class TouchRound {
   StillCapture still_;
   std::vector<std::optional<Taken>> taken_;  ///< one a target
   std::vector<std::size_t> order_;           ///< in which they were taken
-  std::optional<std::size_t> confirming_;    ///< was taken before the silence
+  std::optional<std::size_t> confirming_;    ///< touched again after a silence
   std::optional<std::size_t> objected_;      ///< a press that follows, once it was heard, takes it
   double objected_at_s_ = 0.0;
-  std::optional<double> dwelt_at_s_;  ///< a press in the same breath means the same touch
+  std::optional<double> dwelt_at_s_;  ///< a press right after counts as the same touch
   std::optional<calibration::RawJoints> last_rad_;
   std::optional<StylusSample> now_;
   std::optional<ChoiceMenu> pause_;

@@ -1,9 +1,8 @@
-// The calibration through a webcam, step by step, as whoever has the screen, the camera and the stylus drives it: the
-// screen's F must read right, the camera's lens is measured on the shown board, then from three places the board or a
-// Gray code and, with the screen dark, the lit tip at 27 places each. It says what the screen must show, what the
-// technician is asked, and whether it waits for a press or for a image; what was gathered comes out as observations.
-// No window, no camera, no clock. Frames W and C, mm, px, rad. One thread; a image takes 10 ms to 2 s to read.
-// Procedure: reference/calibration 2.3.
+// The calibration through a webcam, step by step, without window, camera or clock: the screen's F must read right, the
+// lens is measured on the shown board, then from three positions the board or a Gray code and, on a dark screen, the
+// lit tip at 27 places each. States what the screen must show, the instruction, and whether it expects a press or an
+// image; the result is a set of observations. Frames W and C, mm, px, rad. One thread; an image takes 10 ms to 2 s.
+// Source: reference/calibration 2.3.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
-// A technician with a webcam at a workstation whose truth is known: does what the webcam procedure asks, and takes the
-// images that its camera would take, through lens, mirror and glass. For practice, demonstration and tests. Frames W
-// and C, mm, px, rad. Deterministic for a seed. One thread; a image of 1080p takes 20 to 300 ms.
+// A simulated technician with a webcam at a workstation with known errors: follows the webcam procedure and renders its
+// camera images through lens, mirror and glass. For practice, demonstration and tests. Frames W and C, mm, px, rad.
+// Deterministic for a seed. One thread; an image of 1080p takes 20 to 300 ms.
 #pragma once
 
 #include <cstdint>

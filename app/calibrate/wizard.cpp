@@ -25,7 +25,7 @@ std::vector<StepName> pagesOf(CalibrationProcedure procedure) {
   return {};
 }
 
-/// The device as it is believed to stand before anything is measured.
+/// The arm before anything is measured.
 calibration::MeasuredArm armOf(const WizardPlan& plan) {
   if (plan.procedure != CalibrationProcedure::full)
     if (const auto measured = calibration::measuredArm(plan.record.rig)) return *measured;
@@ -57,7 +57,7 @@ Wizard::Wizard(WizardPlan plan) {
 
 void Wizard::update(const StylusSample& sample) {
   if (isOver()) return;
-  // A device that was silent is told of once it is there again.
+  // The step is informed when the device is back.
   if (sample.valid) {
     if (lost_) step().lost();
     lost_ = false;
@@ -68,7 +68,7 @@ void Wizard::update(const StylusSample& sample) {
       lost_ = true;
       ++context_.outcome.silences;
       button_.forget();
-      context_.announcements.refuse("The device has fallen silent.");
+      context_.announcements.refuse("The device sends no data.");
     }
     return;
   }
@@ -77,7 +77,7 @@ void Wizard::update(const StylusSample& sample) {
 }
 
 void Wizard::turnTo(std::size_t page) {
-  // What was said on this page is still to be read on the next one, what was said before it is not.
+  // A message of this page stays for the next page, an older one is cleared.
   if (context_.announcements.message.text == said_before_) context_.announcements.message = {};
   said_before_ = context_.announcements.message.text;
   at_ = page;
@@ -115,9 +115,8 @@ WizardView Wizard::takeView() {
   }
   step().show(view);
   if (!lost_) return view;
-  // Nothing on the page can be done now.
   view.title = "The device is silent";
-  view.sentence = "See to its cable and its lights. What was touched is kept.";
+  view.sentence = "Check its cable and its lights. The touches are kept.";
   view.button = {};
   view.choices.clear();
   view.marked.reset();

@@ -1,8 +1,7 @@
-// The technician's work, led page by page: identity, homing, flips, pixel size, eyes, touches, fit, verification,
-// sign-off; and the short ones. Told of the stylus tick by tick, it says what is to be seen and heard; it knows no
-// window, clock, file or device, and never pushes: the device is looked at with its forces off. The same ticks give the
-// same outcome. Frame W, mm, s. One thread; a tick is a few microseconds, the one that fits up to a second; takeView()
-// a few more.
+// The technician's procedure, page by page: identity, homing, flips, pixel size, eyes, touches, fit, proof, sign-off;
+// and the short procedures. Input: stylus samples tick by tick; output: the view and sounds. No window, clock, file or
+// device; forces are off. The same ticks give the same outcome. Frame W, mm, s. One thread; a tick takes a few
+// microseconds, the fit up to a second; takeView() a few more.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
-// What a technician's work came to: everything that was measured, and whether it was accepted. Until then the old
-// calibration stays; saving is the caller's. Frame W, mm. Plain data; any thread.
+// The result of a procedure: all measurements, and whether it was accepted. Until then the old calibration stays; the
+// caller saves. Frame W, mm. Plain data; any thread.
 #pragma once
 
 #include <optional>

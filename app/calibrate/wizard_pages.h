@@ -1,6 +1,6 @@
-// A WizardView as the display is given it: words in the screen's plane, targets in stereo where they are, upright and
-// readable however panel and mirror hang. Frame W, mm. Any one thread. A frame of 1080p, both eyes side by side, takes
-// 10 to 20 ms of one core: words that have not changed are drawn once. Not the window: wizard_show.
+// Draws a WizardView for a display: text in the screen's plane, targets in stereo at their positions, upright and
+// readable for every panel and mirror. Frame W, mm. Any one thread. 1080p for both eyes side by side takes 10 to 20 ms
+// of one core: unchanged text is drawn once. Window and loop: run_wizard.h.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// What a technician is to be led through, and what is known before. Plain data; any thread.
+// The requested procedure and what is known beforehand. Plain data; any thread.
 #pragma once
 
 #include <string>

@@ -1,6 +1,5 @@
-// The display that a calibration is shown on: windows of its mode, pictures made without OpenGL into them. What is
-// drawn is in the window's own pixels: lines of one pixel stay lines. Main thread. Throws GpuError where there is no
-// display.
+// The display of a calibration: windows in their display mode, filled with images drawn on the CPU at the window's own
+// pixels. Main thread. Throws GpuError without a display.
 #pragma once
 
 #include <functional>

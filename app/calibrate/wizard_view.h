@@ -1,7 +1,6 @@
-// What the technician sees and hears of the calibration at this moment, as plain data: all words are made here and need
-// only be drawn, upright in the mirror, and read aloud or sounded. The technician has nothing but the stylus and its
-// button, so every page says what a short press, a long press (0.8 s) and holding still do. Frame W, mm. Plain values;
-// any thread. Not how it looks: sizes, colours and places of words are whose who draws it; never colour alone.
+// What the technician sees and hears, as plain data: the text is complete and only has to be drawn, upright in the
+// mirror. The stylus and its button are the only input, so every page states what a short press, a long press (0.8 s)
+// and holding still do. Frame W, mm. Plain values; any thread. Sizes, colours and layout: page_text.h, page_scene.h.
 #pragma once
 
 #include <optional>

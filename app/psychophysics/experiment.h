@@ -1,5 +1,5 @@
-// An experiment trial by trial: the order says what comes, someone feels both intervals and answers, the order adapts,
-// and each answered trial is one record. The same for simulated and for real participants. One thread.
+// An experiment trial by trial: the order gives the next trial, a participant feels both intervals and answers, the
+// order adapts, and each answered trial is one record. The same for simulated and real participants. One thread.
 #pragma once
 
 #include <functional>

@@ -1,8 +1,7 @@
-// A participant made of numbers: judges which of two intervals felt harder from what the hand felt in each, with
-// Weber's law as noise and a lapse now and then. The noise of one interval is a share nu of what was felt; two of them
-// are compared, so the share nu = w / (0.6745 sqrt 2) gives a just noticeable difference (75 %) of w times the
-// standard. For tests and for planning an experiment. Not a model of a person: no bias, no memory, no learning. One
-// thread.
+// A simulated participant: chooses the harder of two intervals from their measures, with Weber's law as noise and
+// occasional lapses. The noise of one interval is a fraction nu of the measure; two intervals are compared, so nu = w /
+// (0.6745 sqrt 2) gives a just noticeable difference (75 %) of w times the standard. For tests and planning; no bias,
+// memory or learning. One thread.
 #pragma once
 
 #include <cstdint>

@@ -1,9 +1,8 @@
-// A simulated hand that probes the bone as people do when they judge its hardness: it taps, presses, strokes or
-// explores, on minimum-jerk ways (Flash & Hogan, J Neurosci 5:1688, 1985) that pull a hand of flesh
-// (haptics/device/simulated/virtual_hand), so the bone really pushes it back. Every interval runs the whole servo:
-// contact, proxy, limits. The drill is off: the bone stays as it is. Reach and place vary from one probing to the next
-// as hands do
-// (`spread`, `wander_mm`), seeded. Frame P, mm, s. One thread; 5..50 µs a tick, a thousand ticks a second felt.
+// A simulated hand that probes the bone as people do to compare hardness: it taps, presses, strokes or explores on
+// minimum-jerk paths (Flash & Hogan, J Neurosci 5:1688, 1985) that pull a compliant hand
+// (haptics/device/simulated/virtual_hand), which the bone pushes back. Every interval runs the whole servo; the drill
+// is off. Reach and position vary between probings (`spread`, `wander_mm`), seeded. Frame P, mm, s. One thread; 5 to 50
+// us a tick, 1000 ticks per second of probing.
 #pragma once
 
 #include <cstdint>

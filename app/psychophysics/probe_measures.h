@@ -1,6 +1,6 @@
-// What a hand felt while it probed a bone once, and what can be judged by: stiffness, peak force, work.
-// Depth is the hand's own way below the place where the bur first touches, along the outward direction; force is that
-// on the hand, outward. mm, N. Pure; any thread; linear in the samples.
+// Measures of one probing of a bone: stiffness, peak force, work. Depth is that of the hand below the position of first
+// contact, along the outward direction; force is that on the hand, outward. mm, N. Pure; any thread; linear in the
+// samples.
 #pragma once
 
 #include <span>

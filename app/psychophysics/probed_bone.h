@@ -1,6 +1,6 @@
-// The bone an experiment is made on, and where it is probed: a built-in phantom (flat cortical bone, or trabecular bone
-// under a flat cut), a volume file, or a patient's jaw at the place of the buccal trough. Frame P, mm. Start-up only: a
-// phantom takes milliseconds, a patient a second or, the first time, up to a minute.
+// The bone of an experiment and the probed site: a built-in phantom (flat cortical bone, or trabecular bone under a
+// flat cut), a volume file, or a patient's jaw at the buccal trough. Frame P, mm. Start-up only: a phantom takes
+// milliseconds, a patient a second or, the first time, up to a minute.
 #pragma once
 
 #include "app/psychophysics/protocol.h"

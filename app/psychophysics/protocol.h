@@ -1,6 +1,6 @@
-// An experiment as its TOML file says it: who (an anonymous id), which bone, which two laws, what varies, by which
-// method, how the hand probes. Strict: every refusal names file, line and key, and what is not known is refused. Keys,
-// units and ranges: app/README.md; an example: app/psychophysics/example.toml. Start-up only.
+// The protocol of an experiment, read from TOML: participant (an anonymous id), bone, two laws, what varies, method,
+// probing. Strict: unknown keys are refused; every refusal names file, line and key. Keys, units and ranges:
+// app/psychophysics/README.md; example: app/psychophysics/example.toml. Start-up only.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
-// The picture of an experiment: the psychometric function with what was answered, the tracks of a staircase trial by
-// trial, or the share so far of a comparison of two. Pure; drawn by chart/chart.
+// The chart of an experiment: the psychometric function with the answers, the tracks of a staircase by trial, or the
+// running fraction of a comparison of two. Pure; drawn by app/report/chart.h.
 #pragma once
 
 #include "app/psychophysics/summary.h"

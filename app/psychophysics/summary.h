@@ -1,6 +1,6 @@
-// What an experiment came to: answers level by level, the psychometric function with intervals, each track's threshold;
-// as JSON and as words for people. Weber fraction: JND over the standard's value of the parameter, or over the PSE
-// where the standard is another law. Pure but for the bootstrap's time (a second). Any thread.
+// The results of an experiment: answers by level, psychometric function with intervals, thresholds of the tracks; as
+// JSON and as text. Weber fraction: JND over the standard's value of the parameter, or over the PSE where the standard
+// is another law. Pure; the bootstrap takes about a second. Any thread.
 #pragma once
 
 #include <optional>

@@ -1,7 +1,6 @@
-// Which trial comes next: the comparison's level and whether it is felt first. Blind and balanced by chance from one
-// seed: constant stimuli in shuffled blocks that hold every level in both orders once; staircase tracks mixed at
-// random, the two orders in shuffled blocks of eight. Told each answer, so that tracks adapt. Pure state; any one
-// thread.
+// The order of trials: level of the comparison, and which stimulus comes first. Blind and balanced, from one seed:
+// constant stimuli in shuffled blocks with every level in both orders once; staircase tracks mixed at random, the two
+// orders in shuffled blocks of eight. Answers adapt the tracks. Pure state; any one thread.
 #pragma once
 
 #include <optional>

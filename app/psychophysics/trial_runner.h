@@ -1,7 +1,6 @@
-// The participant's side of an experiment at the window: keys 1 and 2 put the first or the second stimulus into the
-// hand, as often as wanted; A and B answer which was harder, once both were felt; then a pause, then the next trial.
-// Says nothing of law, force or value: blind. What is felt is kept from every tick under the stimulus' own command.
-// Main thread; no clock of its own: time is that of the ticks.
+// An experiment with a participant at the window: keys 1 and 2 apply the first or second stimulus, as often as wanted;
+// A and B answer which was harder, once both were felt; then a pause and the next trial. Blind: shows no law, force or
+// value. Measures use every tick under the command of the stimulus. Main thread; time is that of the ticks.
 #pragma once
 
 #include <cstdint>

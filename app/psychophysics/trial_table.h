@@ -1,6 +1,5 @@
-// The rows of an experiment on disk as they come: CSV, one row a trial, each on the disk before the next trial begins,
-// so that whatever happens loses no answered trial. Numbers as short as they read back. One thread; a row waits for the
-// disk (milliseconds).
+// The CSV of an experiment, one row per trial, on the disk before the next trial begins, so a crash loses no answered
+// trial. Numbers in their shortest exact form. One thread; a row waits for the disk (milliseconds).
 #pragma once
 
 #include <string>

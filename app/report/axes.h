@@ -1,5 +1,5 @@
-// The plot of a figure: its box with grid, numbers, labels and title, and the legend below; of charts and of the pages'
-// figures alike. Numbers stand at steps of 1, 2 or 5 times a power of ten, with just the digits the step needs.
+// The plot of a figure: box with grid, numbers, labels, title, and legend. Grid steps are 1, 2 or 5 times a power of
+// ten, with as many digits as the step needs.
 #pragma once
 
 #include <functional>

@@ -1,6 +1,6 @@
-// A figure for a report: panels side by side with curves, points with bars, reference lines, one legend below. A PNG
-// for print, 300 dpi. Colours of curves are Okabe and Ito's, told apart by colour-blind eyes and in grey; dashes help
-// where lines cross. Not the rehearsal's picture (render). Any one thread; a tenth of a second.
+// A figure for a report: panels side by side with curves, points with error bars, reference lines, one legend. PNG at
+// 300 dpi. Colours by Okabe and Ito, distinct for colour-blind readers and in grey; dashes help where lines cross. Any
+// one thread; a tenth of a second.
 #pragma once
 
 #include <glm/glm.hpp>

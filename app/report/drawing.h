@@ -1,7 +1,6 @@
-// Shapes and words drawn by Cairo and Pango, which stay in the .cpp: as a picture of pixels, or as SVG inside a page.
-// One set of calls for both; y downwards. Lines of letters are given by their height, 1.17 times the size of the font.
-// In SVG words stay words, which can be marked, searched and read aloud (Cairo alone would write outlines of letters,
-// with ids that clash on a page of several drawings). Any one thread.
+// Shapes and text by Cairo and Pango, as pixels or as SVG for a page, with the same calls; y downwards. The height of a
+// text line is 1.17 times the font size. SVG text stays text that can be selected and read aloud (Cairo alone writes
+// outlines with clashing ids). Any one thread.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
-// What a bur feels on its way into flat cortical bone, law by law: force and stiffness over depth, as the very laws of
-// the servo compute them on a fine grey phantom, not as formulas say. mm, N. Start-up only: a second for all laws.
+// Force and stiffness over depth of a bur pressed into flat cortical bone, computed by the servo's own laws on a fine
+// phantom. mm, N. Start-up only: a second for all laws.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -1,6 +1,6 @@
-// A page to draw on that is the screen as the person before it sees it: millimetres, x to the person's right, y down,
-// the middle of the screen in the middle. However panel and mirror hang, what is drawn reads the right way round, and
-// pixels that are not square (halved displays) change no shape. Letters are bold. Any one thread.
+// A page in the plane of the virtual screen: millimetres from its middle, x to the viewer's right, y down. Reads the
+// right way round for every panel and mirror, and is undistorted by non-square pixels (halved displays). Text is bold.
+// Any one thread.
 #pragma once
 
 #include <cstdint>

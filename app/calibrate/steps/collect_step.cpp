@@ -59,10 +59,10 @@ class CollectStep final : public WizardStep {
     round_->show(view);
     if (!end_) return;
     view.tilt.reset();
-    view.title = little_tilt_ ? "Held one way all the time" : "All are touched";
+    view.title = little_tilt_ ? "Always the same tilt" : "All targets touched";
     view.sentence = little_tilt_ ? "The directions of the stylus are only " + fixedText(round_->tiltSpread_deg(), 0) +
                                        "° apart: 25° are needed."
-                                 : "Go on, or make the worst touch again.";
+                                 : "Go on, or repeat the worst touch.";
     end_->show(view);
   }
 

@@ -70,11 +70,11 @@ class EyeCheckStep final : public TouchStep {
     if (across_mm <= kMostBias_mm && std::abs(bias_mm.z) <= kMostDepthBias_mm &&
         std::abs(stretch_mm) <= kMostDepthBias_mm)
       return StepResult::next();
-    finding_ =
-        std::abs(stretch_mm) > kMostDepthBias_mm
-            ? "Depth is seen " + mmText(std::abs(stretch_mm)) + (stretch_mm > 0.0 ? " too large" : " too small") +
-                  " at 25 mm: measure pupils and distance again."
-            : "The crosses seem " + mmText(glm::length(bias_mm)) + " off: sit as for work and measure the eyes again.";
+    finding_ = std::abs(stretch_mm) > kMostDepthBias_mm ? "Depth is seen " + mmText(std::abs(stretch_mm)) +
+                                                              (stretch_mm > 0.0 ? " too large" : " too small") +
+                                                              " at 25 mm: measure pupils and distance again."
+                                                        : "The crosses appear " + mmText(glm::length(bias_mm)) +
+                                                              " off: sit as for work and measure the eyes again.";
     doubt_ = ChoiceMenu({"measure the eyes again", "go on as it is"});
     context_.announcements.refuse(finding_);
     return {};

@@ -1,4 +1,4 @@
-// One page after the other: what every step of the calibration is given and what it answers. Plain logic; one thread.
+// The steps of the calibration: their shared context and their results. Plain logic; one thread.
 #pragma once
 
 #include <memory>
@@ -12,12 +12,12 @@
 
 namespace app {
 
-/// What all steps write into.
+/// Shared by all steps.
 struct WizardContext {
   WizardPlan plan;
   WizardOutcome outcome;
   Announcements announcements;
-  calibration::MeasuredArm arm;  ///< as it is believed by now
+  calibration::MeasuredArm arm;  ///< current estimate
   bool arm_is_measured = false;  ///< else: as its model, where it was put down
 
   bool byEyes() const { return plan.method.starts_with("visual"); }
@@ -41,7 +41,7 @@ enum class StepName {
   sign_off
 };
 
-/// On this page nothing has come to an end, unless one of these is said.
+/// Result of an update; by default the page stays.
 struct StepResult {
   bool next_page = false;
   std::optional<StepName> page{};  ///< to go to
@@ -61,16 +61,15 @@ struct StepResult {
 
 class WizardStep {
  public:
-  /// Borrows the context.
   explicit WizardStep(WizardContext& context) : context_(context) {}
   virtual ~WizardStep() = default;
-  /// Every time its page is turned to.
+  /// Called whenever its page is entered.
   virtual void begin() = 0;
-  /// `pressed_s`: when the button went down.
+  /// `pressed_s`: time of the press.
   virtual StepResult update(const StylusSample& sample, Press press, double pressed_s) = 0;
-  /// The device was silent, and is not any more.
+  /// Called after the device was silent and has returned.
   virtual void lost() {}
-  /// False: it can be read and answered without a device that is calibrated.
+  /// False: works without a calibrated device.
   virtual bool needsDevice() const { return true; }
   virtual void show(WizardView& view) const = 0;
 
@@ -78,7 +77,7 @@ class WizardStep {
   WizardContext& context_;
 };
 
-/// A touch set of the plan's device, ready for its touches.
+/// A touch set of the plan's device without touches.
 calibration::TouchSet emptySet(const WizardContext& context, const calibration::TargetPlan& plan);
 
 using StepMaker = std::unique_ptr<WizardStep>(WizardContext& context);

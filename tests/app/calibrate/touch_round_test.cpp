@@ -208,7 +208,7 @@ TEST(TouchRound, AsksForOneTouchAgainAfterASilence) {
   bench.t_s += 10.0;
   bench.wait(0.5);
   EXPECT_TRUE(bench.touch(bench.plan.targets[1]).empty());
-  EXPECT_TRUE(bench.said("still counts the same")) << bench.announcements.message.text;
+  EXPECT_TRUE(bench.said("zero of the device is unchanged")) << bench.announcements.message.text;
   EXPECT_EQ(bench.count(), 2u);
 }
 

@@ -159,7 +159,7 @@ TEST(Wizard, AsksForTheWorstTouchOnceMore) {
   SyntheticRig rig = rigOf(Scenario::b, 3);
   rig.technician.outlier_share = 0.15;
   const Finished done = calibrated(rig, planFor(rig, CalibrationProcedure::full));
-  EXPECT_TRUE(done.run.turnedTo("All are touched"));
+  EXPECT_TRUE(done.run.turnedTo("All targets touched"));
   ASSERT_EQ(done.outcome.end, End::accepted) << done.outcome.reason;
   EXPECT_LT(trueError_mm(rig, *done.outcome.arm), 0.4);
 }
@@ -178,7 +178,7 @@ TEST(Wizard, GoesOnAfterASilenceOfTheDevice) {
   const Finished done = calibrated(rig, planFor(rig, CalibrationProcedure::full), {}, silence);
   EXPECT_EQ(done.outcome.silences, 1);
   EXPECT_TRUE(done.run.turnedTo("The device is silent"));
-  EXPECT_TRUE(done.run.said("still counts the same"));
+  EXPECT_TRUE(done.run.said("zero of the device is unchanged"));
   EXPECT_EQ(done.outcome.end, End::accepted) << done.outcome.reason;
 }
 
@@ -200,7 +200,7 @@ TEST(Wizard, StartsTheTouchesAgainWhenTheDeviceCountsOtherwiseAfterASilence) {
   Wizard wizard(planFor(rig, CalibrationProcedure::full));
   RobotTechnician technician(rig, {}, 7);
   const RobotRun run = runWizard(wizard, technician, 500.0, rehomed);
-  EXPECT_TRUE(run.said("counts otherwise"));
+  EXPECT_TRUE(run.said("has changed since it was silent"));
   ASSERT_EQ(wizard.outcome().end, End::accepted) << wizard.outcome().reason;
   EXPECT_EQ(wizard.outcome().assessment->verdict, Verdict::green);
 }
