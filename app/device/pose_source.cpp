@@ -7,10 +7,6 @@
 namespace app {
 namespace {
 
-using calibration::Pose;
-using calibration::Tool;
-using calibration::World;
-
 PoseSource realDevice(OpenedDevice opened, const calibration::Rig& rig) {
   PoseSource source;
   source.library = std::move(opened.library);
@@ -25,7 +21,9 @@ PoseSource realDevice(OpenedDevice opened, const calibration::Rig& rig) {
 
 glm::dvec3 shaftDirection_W() { return glm::normalize(glm::dvec3(0.12, -0.38, 0.92)); }
 
-Pose<World, Tool> restingTool() { return {glm::dquat(glm::dvec3(0, 0, 1), shaftDirection_W()), {0.0, 6.0, 12.0}}; }
+calibration::Pose<calibration::World, calibration::Tool> restingTool() {
+  return {glm::dquat(glm::dvec3(0, 0, 1), shaftDirection_W()), {0.0, 6.0, 12.0}};
+}
 
 void standAsMeasured(PoseSource& source, const calibration::Rig& rig) {
   source.X_PD = rig.X_WP.inverse() * rig.X_WD;

@@ -164,11 +164,10 @@ std::string OpenHaptics::trouble() const {
 }
 
 OpenedDevice openPhantom(const std::string& rest, const DeviceOptions& options) {
-  OpenedDevice opened;
-  opened.library = std::make_unique<HdLibrary>();
-  opened.device = std::make_unique<OpenHaptics>(
-      *opened.library, OpenHapticsSettings{.configuration = rest, .docked_value = options.docked_value});
-  return opened;
+  auto library = std::make_unique<HdLibrary>();
+  const OpenHapticsSettings settings{.configuration = rest, .docked_value = options.docked_value};
+  auto device = std::make_unique<OpenHaptics>(*library, settings);
+  return {std::move(library), std::move(device), {}};
 }
 
 }  // namespace haptics

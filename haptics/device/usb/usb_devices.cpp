@@ -55,23 +55,19 @@ std::string usbAttribute(const std::string& path, const std::string& attribute) 
   return line;
 }
 
-struct UsbBus::Session {
-  libusb_context* context = nullptr;
-};
-
-UsbBus::UsbBus() : session_(std::make_unique<Session>()) {
-  if (const int error = libusb_init(&session_->context); error != 0)
+UsbBus::UsbBus() {
+  if (const int error = libusb_init(&context_); error != 0)
     throw DeviceError(std::string("USB: libusb does not start, ") + libusb_strerror(error) +
                           ", look whether this user may read /dev/bus/usb",
                       DeviceTrouble::no_resources);
 }
 
-UsbBus::~UsbBus() { libusb_exit(session_->context); }
+UsbBus::~UsbBus() { libusb_exit(context_); }
 
 std::vector<UsbDevice> UsbBus::devices() const {
   std::vector<UsbDevice> devices;
   libusb_device** list = nullptr;
-  const ssize_t count = libusb_get_device_list(session_->context, &list);
+  const ssize_t count = libusb_get_device_list(context_, &list);
   for (ssize_t i = 0; i < count; ++i) {
     libusb_device_descriptor d{};
     if (libusb_get_device_descriptor(list[i], &d) != 0) continue;

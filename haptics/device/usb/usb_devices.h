@@ -4,10 +4,10 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <vector>
 
+struct libusb_context;
 struct libusb_device;
 
 namespace haptics {
@@ -44,8 +44,7 @@ class UsbBus {
   std::vector<UsbDevice> devices() const;
 
  private:
-  struct Session;
-  std::unique_ptr<Session> session_;
+  libusb_context* context_ = nullptr;
 };
 
 }  // namespace haptics
