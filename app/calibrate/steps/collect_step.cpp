@@ -55,7 +55,7 @@ class CollectStep final : public WizardStep {
         context_.byEyes()
             ? "Tip to the glowing cross, one eye closed: sway the head, tip and cross must not slide. Hold it "
               "as the cue shows."
-            : "Tip into the glowing pit, held as the cue shows.";
+            : "Put the tip into the glowing pit, tilted as shown.";
     round_->show(view);
     if (!end_) return;
     view.tilt.reset();

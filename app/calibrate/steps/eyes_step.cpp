@@ -36,11 +36,11 @@ class EyesStep final : public WizardStep {
   void show(WizardView& view) const override {
     if (!has_pupils_) {
       view.title = "How far apart are the pupils?";
-      view.sentence = "Of who will look: a ruler held at the brow, eyes looking far away.";
+      view.sentence = "Of the surgeon: ruler at the brow, eyes looking into the distance.";
       pupils_.show(view, "mm");
       return;
     }
-    view.title = "How far is the eye from the picture?";
+    view.title = "How far is the eye from the screen?";
     view.sentence = "With a tape, head in the rest: from the eye to the mirror, and on from the mirror to the screen.";
     distance_.show(view, "mm");
   }

@@ -37,9 +37,9 @@ class FitStep final : public WizardStep {
 
   bool needsDevice() const override { return false; }
   void show(WizardView& view) const override {
-    view.title = !worked_ ? "One moment" : failed_ ? "It does not work out" : "The arm is worked out";
+    view.title = !worked_ ? "One moment" : failed_ ? "The fit failed" : "The arm is fitted";
     if (!worked_) {
-      view.sentence = "The arm is worked out from its touches.";
+      view.sentence = "The arm is being fitted to the touches.";
       return;
     }
     menu_.show(view);
@@ -48,7 +48,7 @@ class FitStep final : public WizardStep {
       return;
     }
     const calibration::ArmFit& fit = *context_.outcome.fit;
-    view.sentence = "Now it is proved with touches that it has not seen.";
+    view.sentence = "Next, it is verified with touches that were not fitted.";
     view.facts = {std::to_string(fit.used) + " touches used, " + std::to_string(fit.outliers) + " set aside",
                   "expected error " + mmText(fit.cv_rms_mm)};
     for (const calibration::FitWarning& warning : fit.warnings) view.facts.push_back(warning.line);
@@ -73,8 +73,8 @@ class FitStep final : public WizardStep {
       context_.outcome.arm = context_.outcome.fit->arm;
       context_.arm = context_.outcome.fit->arm;
       context_.arm_is_measured = true;
-      menu_ = ChoiceMenu({"go on to the proof", "touch all again", "leave; the old calibration stays"});
-      context_.announcements.praise("Worked out.", WizardSound::next);
+      menu_ = ChoiceMenu({"go on to the verification", "touch all again", "leave; the old calibration stays"});
+      context_.announcements.praise("Fitted.", WizardSound::next);
     } catch (const calibration::CalibrationError& error) {
       refuse(error.what());
     }

@@ -20,8 +20,7 @@ class HomeStep final : public WizardStep {
   }
 
   StepResult update(const StylusSample& sample, Press press, double) override {
-    if (press == Press::long_press)
-      return StepResult::refused("The device was not brought home: nothing can be measured with it.");
+    if (press == Press::long_press) return StepResult::refused("The device was not homed: it cannot be calibrated.");
     const double passed_s = seen_ ? std::max(0.0, sample.t_s - since_s_) : 0.0;
     seen_ = true;
 
@@ -31,7 +30,7 @@ class HomeStep final : public WizardStep {
         if (press == Press::short_press && context_.plan.has_inkwell && !sample.docked)
           context_.announcements.refuse("The stylus is not in its inkwell: push it home.");
         else if (press == Press::short_press && !sample.valid)
-          context_.announcements.refuse("The device does not know its zero yet.");
+          context_.announcements.refuse("The device is not homed yet.");
         // A device without an inkwell is told by a press.
         if (!is_home || (!context_.plan.has_inkwell && press != Press::short_press)) {
           since_s_ = sample.t_s;
@@ -71,14 +70,15 @@ class HomeStep final : public WizardStep {
     switch (phase_) {
       case Phase::to_inkwell:
         if (context_.plan.has_inkwell) {
-          view.sentence = "Push the stylus into its inkwell and let it go.";
+          view.sentence = "Push the stylus into its inkwell and release it.";
         } else {
-          view.sentence = "Bring the stylus where its maker says is home, then press.";
+          view.sentence = "Move the stylus to the home position given by its maker, then press.";
           view.button.short_press = "it is home";
         }
         break;
       case Phase::settling:
-        view.sentence = "Leave it: arm and motors settle. Lamp under the mirror on, arm supported, seat as for work.";
+        view.sentence =
+            "Do not touch it: arm and motors settle. Switch the lamp under the mirror on and sit as for work.";
         view.time_left_s = std::max(0.0, context_.plan.settle_s - settled_s_);
         view.progress = std::min(1.0, settled_s_ / std::max(1e-9, context_.plan.settle_s));
         break;

@@ -26,7 +26,7 @@ std::string whyNotBuiltOn(const calibration::Rig& rig, const calibration::RigDev
 class IdentityStep final : public WizardStep {
  public:
   using WizardStep::WizardStep;
-  void begin() override { menu_ = ChoiceMenu({"all of it is right", "something is wrong"}); }
+  void begin() override { menu_ = ChoiceMenu({"all correct", "something is wrong"}); }
 
   StepResult update(const StylusSample&, Press press, double) override {
     if (context_.plan.procedure != CalibrationProcedure::full)
@@ -40,14 +40,14 @@ class IdentityStep final : public WizardStep {
 
   bool needsDevice() const override { return false; }
   void show(WizardView& view) const override {
-    view.title = "Is this what stands before you?";
+    view.title = "Is this your equipment?";
     view.sentence = "Read the lines and compare them with rig, device and stylus. The forces are off.";
     const calibration::RigProvenance& known = context_.plan.record.provenance;
     const calibration::RigDevice& device = context_.plan.device;
-    view.facts = {
-        "rig " + orUnknown(known.rig_id), "device " + device.model + ", serial number " + orUnknown(device.serial),
-        "stands at the " + orUnknown(device.mount) + " of the surgeon", "stylus tip " + orUnknown(device.stylus_tip),
-        known.created_utc.empty() ? "never calibrated" : "calibrated " + known.created_utc};
+    view.facts = {"rig " + orUnknown(known.rig_id),
+                  "device " + device.model + ", serial number " + orUnknown(device.serial),
+                  "on the " + orUnknown(device.mount) + " of the surgeon", "stylus tip " + orUnknown(device.stylus_tip),
+                  known.created_utc.empty() ? "never calibrated" : "calibrated " + known.created_utc};
     menu_.show(view);
   }
 

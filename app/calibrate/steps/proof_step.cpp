@@ -37,9 +37,9 @@ class ProofStep final : public TouchStep {
   }
 
   void show(WizardView& view) const override {
-    view.title = isCheck() ? "Check" : "Prove it";
+    view.title = isCheck() ? "Check" : "Verify";
     const std::string noun = !isCheck() && context_.byEyes() ? "cross" : "pit";
-    view.sentence = "Tip to the glowing " + noun + ", held as the cue shows: touches that nothing was fitted to.";
+    view.sentence = "Put the tip to the glowing " + noun + ", tilted as shown. These touches are not fitted.";
     round_->show(view);
   }
 
@@ -53,7 +53,7 @@ class ProofStep final : public TouchStep {
     const bool good = outcome.assessment->verdict == calibration::Verdict::green;
     if (isCheck() && !good && !outcome.rezero) {
       context_.announcements.refuse("The arm is " + mmText(outcome.errors->rms_mm) +
-                                    " off: five touches bring it up to date.");
+                                    " off: five touches will update it.");
       return StepResult::goTo(StepName::rezero);
     }
     return StepResult::goTo(StepName::sign_off);

@@ -1,5 +1,7 @@
 // The end: one sentence, the numbers on a second page, and whether it is taken. What is red can not be. One thread.
 
+#include <cctype>
+
 #include "app/calibrate/choice_menu.h"
 #include "app/calibrate/number_text.h"
 #include "app/calibrate/steps/step.h"
@@ -26,7 +28,7 @@ class SignOffStep final : public WizardStep {
     const bool may = verdict() != calibration::Verdict::red;
     const bool changes = context_.outcome.arm || context_.outcome.rest;
     if (may) add(Choice::take, changes ? "take it" : "done");
-    add(Choice::numbers, "the numbers");
+    add(Choice::numbers, "details");
     // Nothing is mended by doing a short check once more: what is red after a re-zero wants all of it.
     if (context_.plan.procedure == CalibrationProcedure::full || context_.plan.procedure == CalibrationProcedure::rest)
       add(Choice::repeat, "touch all again");
@@ -62,14 +64,15 @@ class SignOffStep final : public WizardStep {
   void show(WizardView& view) const override {
     view.verdict = ShownVerdict{verdict(), sentence()};
     if (second_page_) {
-      view.title = "The numbers";
+      view.title = "Details";
       view.sentence = sentence();
       view.numbers = numbers();
       view.button = {"back", "back", ""};
       return;
     }
     view.title = judgedAs(verdict());
-    view.sentence = verdict() == calibration::Verdict::red ? "It can not be taken." : "Take it, or leave it as it was.";
+    view.sentence =
+        verdict() == calibration::Verdict::red ? "It cannot be accepted." : "Accept it, or keep the old calibration.";
     menu_.show(view);
   }
 
@@ -86,11 +89,13 @@ class SignOffStep final : public WizardStep {
   std::string sentence() const {
     std::string said = judgedAs(verdict());
     if (context_.plan.procedure == CalibrationProcedure::rest && context_.outcome.rest)
-      return said + ": the rest is known within " + mmText(context_.outcome.rest->worst_mm) +
-             (verdict() == calibration::Verdict::green ? "." : "; the hand would feel it: touch its marks again.");
+      return said + ": the position of the rest is known within " + mmText(context_.outcome.rest->worst_mm) +
+             (verdict() == calibration::Verdict::green ? "." : ", which is noticeable: touch its marks again.");
     if (!context_.outcome.assessment) return said + ".";
     // As the surgeon sees it; what decided it where it is not good.
-    said += ": " + calibration::worstErrorSentence(context_.outcome.proof_residuals, {});
+    std::string worst = calibration::worstErrorSentence(context_.outcome.proof_residuals, {});
+    worst[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(worst[0])));
+    said += ". " + worst;
     if (verdict() != calibration::Verdict::green) said += " (" + context_.outcome.assessment->reason + ")";
     if (verdict() == calibration::Verdict::red)
       said += context_.plan.procedure == CalibrationProcedure::full
@@ -103,21 +108,21 @@ class SignOffStep final : public WizardStep {
     std::vector<ShownValue> numbers;
     const WizardOutcome& outcome = context_.outcome;
     if (outcome.rest)
-      numbers = {{"rest, at the marks that made it", mmText(outcome.rest->fre_rms_mm)},
-                 {"rest, worst of three others", mmText(outcome.rest->worst_mm)}};
+      numbers = {{"rest, residual of its marks", mmText(outcome.rest->fre_rms_mm)},
+                 {"rest, largest error of three other marks", mmText(outcome.rest->worst_mm)}};
     if (const auto& errors = outcome.errors) {
-      numbers.push_back({"touches it had not seen", std::to_string(errors->n)});
+      numbers.push_back({"held-out touches", std::to_string(errors->n)});
       numbers.push_back({"error, root mean square", mmText(errors->rms_mm)});
       numbers.push_back({"error, 95 of 100", mmText(errors->p95_mm)});
       numbers.push_back({"error, largest", mmText(errors->max_mm)});
-      numbers.push_back({"all to one side: right, up, near", signedText(errors->bias_mm.xyz.x, 2) + ", " +
-                                                                 signedText(errors->bias_mm.xyz.y, 2) + ", " +
-                                                                 signedText(errors->bias_mm.xyz.z, 2) + " mm"});
+      numbers.push_back({"mean error: right, up, near", signedText(errors->bias_mm.xyz.x, 2) + ", " +
+                                                            signedText(errors->bias_mm.xyz.y, 2) + ", " +
+                                                            signedText(errors->bias_mm.xyz.z, 2) + " mm"});
     }
     if (const auto& fit = outcome.fit) {
       numbers.push_back({"touches used, set aside", std::to_string(fit->used) + ", " + std::to_string(fit->outliers)});
-      numbers.push_back({"error foretold by the touches", mmText(fit->cv_rms_mm)});
-      numbers.push_back({"directions of the stylus", fixedText(fit->tilt_spread_deg, 0) + "° apart"});
+      numbers.push_back({"cross-validation error", mmText(fit->cv_rms_mm)});
+      numbers.push_back({"range of stylus tilts", fixedText(fit->tilt_spread_deg, 0) + "°"});
     }
     if (const auto& rezero = outcome.rezero)
       numbers.push_back(

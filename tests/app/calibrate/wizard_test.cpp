@@ -215,7 +215,7 @@ TEST(Wizard, CanNotTakeWhatIsRedAndLeavesTheOldCalibration) {
   RobotTechnician technician(rig, {}, 8);
   bool moved = false;
   const RobotRun run = runWizard(wizard, technician, 500.0, [&](StylusSample&, const WizardView& view) {
-    if (!moved && view.title == "Prove it") technician.moveTo(pushed), moved = true;
+    if (!moved && view.title == "Verify") technician.moveTo(pushed), moved = true;
   });
   EXPECT_EQ(wizard.outcome().end, End::refused);
   EXPECT_EQ(wizard.outcome().assessment->verdict, Verdict::red);
