@@ -442,7 +442,7 @@ TEST(BoneAtTime, OfAKilledRecordingIsRunAgainAndSaysSo) {
   const BoneAtTime bone = boneAtTime(session.path, std::nullopt);
   EXPECT_EQ(bone.solid, session.bone.solidInGridOrder());
   ASSERT_EQ(bone.remarks.size(), 1u);
-  EXPECT_NE(bone.remarks[0].find("run again"), std::string::npos) << bone.remarks[0];
+  EXPECT_NE(bone.remarks[0].find("recomputed by a replay"), std::string::npos) << bone.remarks[0];
 }
 
 TEST(BoneAtTime, OfARerunThatDepartsSaysByHowMuch) {
@@ -453,7 +453,7 @@ TEST(BoneAtTime, OfARerunThatDepartsSaysByHowMuch) {
   const BoneAtTime bone = boneAtTime(session.path, std::nullopt);
   ASSERT_EQ(bone.remarks.size(), 2u);
   EXPECT_NE(bone.remarks[1].find("differs from the recording from tick 300"), std::string::npos) << bone.remarks[1];
-  EXPECT_NE(bone.remarks[1].find("less than the recorded one"), std::string::npos) << bone.remarks[1];
+  EXPECT_NE(bone.remarks[1].find("less of the bone is removed than recorded"), std::string::npos) << bone.remarks[1];
 }
 
 TEST(BoneAtTime, IsTheRecordedOneWhereForcesAloneDiffer) {
