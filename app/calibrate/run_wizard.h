@@ -25,7 +25,7 @@ struct WizardRun : GuidedRun {
   std::filesystem::path pages;              ///< a folder for a picture of each page; empty: none
 };
 
-/// Throws CalibrationError and UsageError for what can not be run, haptics::DeviceError for a device that can not be
+/// Throws CalibrationError and UsageError for what cannot be run, haptics::DeviceError for a device that cannot be
 /// listened to, render::GpuError without a display.
 WizardOutcome runWizard(const WizardRun& run);
 

@@ -80,7 +80,7 @@ struct WizardView {
   /// True: crosses of the screen's plane, drawn the same for both eyes. False: in stereo, where they are.
   bool zero_parallax = false;
   std::vector<ShownTarget> targets;
-  std::optional<calibration::Point<calibration::World>> tip_W;  ///< as it is believed now
+  std::optional<calibration::Point<calibration::World>> tip_W;  ///< estimated now
   std::optional<TiltCue> tilt;
   double capture = 0.0;            ///< 0 to 1 while it is held still
   std::string count;               ///< "12 of 27"; empty: nothing is counted

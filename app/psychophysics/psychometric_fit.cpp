@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kLargestLapse = 0.06;
 constexpr double kJndPerSigma = 0.6744897501960817;  ///< Phi^-1(3/4)
-/// A slope that the levels can not resolve: sigma stays above this share of their range, and below this many of it.
+/// A slope that the levels cannot resolve: sigma stays above this share of their range, and below this many of it.
 constexpr double kSteepest = 1e-3, kFlattest = 50.0;
 
 double density(double z) { return std::exp(-0.5 * z * z) / std::sqrt(2.0 * std::numbers::pi); }

@@ -41,7 +41,7 @@ struct Chart {
   glm::dvec2 size{816.0, 432.0};  ///< 120ths of an inch
 };
 
-/// Throws UsageError when the file can not be written. The file is committed.
+/// Throws UsageError when the file cannot be written. The file is committed.
 void drawChart(const Chart& chart, calibration::OutputFile& file);
 
 }  // namespace app

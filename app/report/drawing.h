@@ -76,7 +76,7 @@ class Drawing {
 
   /// Of SVG, once: an element to put into a page. `description`: what it shows, for those who do not see it.
   std::string markup(std::string_view description);
-  /// Of pixels, as PNG; the file is committed. Throws UsageError when it can not be written.
+  /// Of pixels, as PNG; the file is committed. Throws UsageError when it cannot be written.
   void save(calibration::OutputFile& file) const;
 
  protected:

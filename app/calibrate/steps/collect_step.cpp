@@ -1,5 +1,5 @@
 // The touches of the calibration, judged while they come in: after eight, each is compared with where the others
-// foretell it. At the end the worst can be made again; one stylus direction for all is not let through. One thread.
+// predict it. At the end the worst can be repeated; a single tilt for all touches is refused. One thread.
 
 #include "app/calibrate/number_text.h"
 #include "app/calibrate/steps/step.h"

@@ -8,7 +8,7 @@ namespace {
 
 std::string orUnknown(const std::string& name) { return name.empty() ? "unknown" : name; }
 
-/// Why a short procedure can not build on what is there; empty: it can.
+/// Why a short procedure cannot build on what is there; empty: it can.
 std::string whyNotBuiltOn(const calibration::Rig& rig, const calibration::RigDevice& device) {
   if (!rig.device || !rig.arm) return "This rig has never been calibrated with a device: calibrate it in full.";
   const auto differs = [](const char* what, const std::string& was, const std::string& is) {

@@ -1,4 +1,4 @@
-// The end: one sentence, the numbers on a second page, and whether it is taken. What is red can not be. One thread.
+// The last page: the result, details on a second page, and acceptance; a red result cannot be accepted. One thread.
 
 #include <cctype>
 

@@ -21,7 +21,7 @@ struct WizardContext {
   bool arm_is_measured = false;  ///< else: as its model, where it was put down
 
   bool byEyes() const { return plan.method.starts_with("visual"); }
-  /// Beyond which a touch can not be of its target.
+  /// Beyond which a touch cannot be of its target.
   double max_distance_mm() const { return !arm_is_measured ? 0.0 : byEyes() ? 5.0 : 4.0; }
 };
 

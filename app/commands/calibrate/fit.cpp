@@ -32,7 +32,7 @@ FitOptions fitOptions(const CalibrateFitOptions& options) {
   return fit;
 }
 
-/// Until it is proved: how well it foretells touches left out of it, as if these were all held out.
+/// The verdict until it is verified: from the cross-validation error, as if all touches were held out.
 Verdict predictedVerdict(const ArmFit& fit, VerificationKind kind) {
   TargetErrors errors;
   errors.n = fit.used;

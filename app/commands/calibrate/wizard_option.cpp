@@ -75,7 +75,7 @@ WizardOption::Stylus WizardOption::stylus(MeasurementInfo& info) const {
   return stylus;
 }
 
-/// What is believed before: as named, else the one in force of this device, else as the workstation is built.
+/// The rig to start from: as named, else the current one of this device, else the nominal workstation.
 RigRecord WizardOption::before(const Stylus& stylus, const std::string& rig, const RigStore& store,
                                const MeasurementInfo& info) const {
   RigRecord record;
