@@ -16,7 +16,6 @@
 #include "app/report/chart.h"
 #include "app/report/law_curves.h"
 #include "app/text/command_line.h"
-#include "app/text/usage_error.h"
 #include "assets/toml_reader.h"
 #include "calibration/output_file.h"
 #include "haptics/contact/law_parameters.h"

@@ -26,7 +26,6 @@
 #include "app/text/message.h"
 #include "app/text/usage_error.h"
 #include "assets/patient/patient_folder.h"
-#include "assets/synthetic/face.h"
 #include "assets/tooth.h"
 #include "calibration/record/utc.h"
 #include "haptics/device/device_catalogue.h"

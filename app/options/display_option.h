@@ -1,8 +1,6 @@
 // Options of the stereo display: `--display MODE`, `--swap-eyes`. Start-up only.
 #pragma once
 
-#include <string>
-
 #include "calibration/rig.h"
 #include "render/display/display_mode.h"
 

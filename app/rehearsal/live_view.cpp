@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "app/view/patient_renderer.h"
-#include "haptics/bone/carved_bone.h"
 
 namespace app {
 namespace {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "app/device/pose_source.h"
 #include "app/instructor/rehearsal_status.h"
-#include "app/rehearsal/rehearsal_plan.h"
 #include "app/session/recorder.h"
 #include "app/view/motion_to_photon.h"
 #include "assets/tissue.h"

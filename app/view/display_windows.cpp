@@ -1,31 +1,27 @@
 #include "app/view/display_windows.h"
 
+#include <fmt/core.h>
+
 #include "render/display/stereo_layout.h"
 #include "render/gpu/gpu_error.h"
 
 namespace app {
-namespace {
 
 using render::DisplayMode;
-
-std::string nameText(DisplayMode mode) { return std::string(render::nameOf(mode)); }
-
-std::string sizeText(glm::ivec2 px) { return std::to_string(px.x) + "x" + std::to_string(px.y); }
-
-}  // namespace
 
 DisplayWindows::DisplayWindows(const Options& options, const ReportLine& report) : mode_(options.mode) {
   const auto here = render::monitors();
   const auto wanted = static_cast<std::size_t>(options.monitor.value_or(0));
-  // Two full screens need two monitors; both eyes on one of them are halves.
+  // Two full-screen windows need two monitors.
   if (mode_ == DisplayMode::two_windows && options.full_screen && wanted + 1 >= here.size())
-    fallBack(DisplayMode::side_by_side, "there is one monitor only", report);
-  // A packed frame is a video mode of its own; scaled to another it is no frame. What unpacks it takes halves as well.
+    fallBack(DisplayMode::side_by_side, "there is only one monitor", report);
+  // A packed frame needs its own video mode. Displays that unpack it accept top-bottom as well.
   const glm::ivec2 output_px = render::outputSize(mode_, options.screen_px);
   if (mode_ == DisplayMode::frame_packing && options.full_screen && wanted < here.size() &&
       here[wanted].px != output_px)
     fallBack(DisplayMode::top_bottom,
-             "the monitor is set to " + sizeText(here[wanted].px) + ", not to the packed mode " + sizeText(output_px),
+             fmt::format("the monitor is set to {}x{}, not to the packed mode {}x{}", here[wanted].px.x,
+                         here[wanted].px.y, output_px.x, output_px.y),
              report);
 
   render::Window::Options first;
@@ -47,7 +43,7 @@ DisplayWindows::DisplayWindows(const Options& options, const ReportLine& report)
 DisplayWindows::~DisplayWindows() = default;
 
 void DisplayWindows::fallBack(DisplayMode mode, const std::string& because, const ReportLine& report) {
-  report("--display " + nameText(mode_) + ": " + because + "; showing " + nameText(mode));
+  report(fmt::format("--display {}: {}; showing {}", render::nameOf(mode_), because, render::nameOf(mode)));
   mode_ = mode;
 }
 

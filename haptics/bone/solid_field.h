@@ -44,10 +44,11 @@ struct VoxelBox {
   glm::ivec3 first{0}, last{-1};
 
   VoxelBox() = default;
-  /// The voxels with centres in low..high, continuous indices; empty also for NaN.
+  /// The voxels with centres in low..high, continuous indices; empty where one is not finite.
   VoxelBox(const assets::VolumeGrid& grid, const glm::dvec3& low, const glm::dvec3& high, int margin = 0) {
     VoxelBox box;
     for (int axis = 0; axis < 3; ++axis) {
+      if (!std::isfinite(low[axis]) || !std::isfinite(high[axis])) return;
       const double from = low[axis] > -margin ? low[axis] : -margin, end = grid.size[axis] - 1 + margin;
       const double to = high[axis] < end ? high[axis] : end;
       if (!(from <= to)) return;

@@ -22,7 +22,7 @@ TEST_F(DisplayCommand, RefusesInvalidOptions) {
   expectRefusal("display --pattern snow --out " + at("a.png"), "crosstalk");
   expectRefusal("display --display hologram --out " + at("a.png"), "row-interleaved");
   expectRefusal("display --display frame-packing --size 640x480 --out " + at("a.png"), "1280x720");
-  expectRefusal("display --display two-windows --size 320x200 --out " + at("a.png"), "two pictures");
+  expectRefusal("display --display two-windows --size 320x200 --out " + at("a.png"), "two outputs");
   expectRefusal("display --size 99999x99999 --out " + at("a.png"), "16384");
   expectRefusal("display --rig " + at("none.yaml") + " --out " + at("a.png"), "none.yaml");
 }

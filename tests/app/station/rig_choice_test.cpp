@@ -135,7 +135,7 @@ TEST_F(RigChoice, IgnoresTheArmWithoutHardware) {
   ASSERT_TRUE(chosen);
   EXPECT_FALSE(chosen->record.rig.arm);
   ASSERT_EQ(chosen->remarks.size(), 1u);
-  EXPECT_NE(chosen->remarks[0].find("left aside"), std::string::npos);
+  EXPECT_NE(chosen->remarks[0].find("ignored"), std::string::npos);
 }
 
 TEST_F(RigChoice, IsRefusedWhenRedUntilAReasonIsGiven) {
